@@ -79,12 +79,6 @@ static_assert(sizeof(Query) == 3 * query_points * sizeof(double));
 static_assert(std::is_trivially_copyable_v<Query> && std::is_standard_layout_v<Query> &&
               std::is_aggregate_v<Query>);
 
-/// Queries of one kind. Does not own them.
-struct QueryBatch {
-  Kind kind;
-  std::span<const Query> queries;
-};
-
 /// True if all numbers, or all coordinates, are finite.
 [[nodiscard]] inline bool is_finite(std::span<const double> numbers) {
   return std::ranges::all_of(numbers, [](double x) { return std::isfinite(x); });
@@ -116,27 +110,6 @@ inline constexpr std::array<Corner, 4> edge_edge_corners{
 [[nodiscard]] constexpr std::array<std::array<std::size_t, 2>, 3> affine_vectors(Kind kind) {
   if (kind == Kind::vertex_face) return {{{0, 1}, {2, 1}, {3, 1}}};
   return {{{0, 2}, {0, 1}, {3, 2}}};
-}
-
-/// F(t,u,v), evaluated with the operations of `Scalar` in the order of the formulas above: the
-/// value itself if they are exact (rationals), an unfiltered approximation if they are not.
-/// `Scalar` must be constructible from double and have +, − and *.
-template <class Scalar>
-[[nodiscard]] std::array<Scalar, 3> contact_function(Kind kind, const Query& query, const Scalar& t,
-                                                     const Scalar& u, const Scalar& v) {
-  const Scalar one(1.0);
-  std::array<Scalar, 3> value;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    const auto position = [&](std::size_t point) {
-      return Scalar((one - t) * Scalar(query.at(0, point, axis)) +
-                    t * Scalar(query.at(1, point, axis)));
-    };
-    const Scalar a = position(0), b = position(1), c = position(2), d = position(3);
-    value[axis] = kind == Kind::vertex_face
-                      ? Scalar(a - ((one - u - v) * b + u * c + v * d))
-                      : Scalar(((one - u) * a + u * b) - ((one - v) * c + v * d));
-  }
-  return value;
 }
 
 /// Norm of a distance: the greatest absolute component of the difference (linf), or the Euclidean

@@ -11,6 +11,7 @@
 #include <stdexcept>
 #include <string>
 #include <tuple>
+#include <utility>
 
 #include "fast/broad_phase/box_tree.hpp"
 #include "fast/broad_phase/float_bounds.hpp"
@@ -36,18 +37,18 @@ void require_valid(const BroadPhaseOptions& options) {
 }
 
 /// Decision in double whether swept boxes are within a distance.
-template <class First, class Second>
-struct ExactTest {
-  const MovingVertices& vertices;
-  std::span<const First> first;
-  std::span<const Second> second;
-  double distance;
+class ExactTest final : public PairQuestions {
+ public:
+  ExactTest(const MovingVertices& vertices, double distance)
+      : vertices_(vertices), distance_(distance) {}
 
-  [[nodiscard]] bool operator()(const IndexPair& pair) const {
-    const SweptBox a = swept_box(vertices, primitive_of(first[static_cast<std::size_t>(pair[0])]));
-    const SweptBox b = swept_box(vertices, primitive_of(second[static_cast<std::size_t>(pair[1])]));
-    return widened(a, distance).overlaps(b);
+  [[nodiscard]] bool confirms(const Primitive& a, const Primitive& b) const override {
+    return are_within_distance(vertices_, a, b, distance_);
   }
+
+ private:
+  const MovingVertices& vertices_;
+  double distance_;
 };
 
 /// Search for the pairs between two trees, or within one.
@@ -80,14 +81,10 @@ class Search {
   template <class Take>
   void for_each_part(std::size_t chunk, Take take) const {
     const StrictFloatingPoint strict;
-    PairBuffer buffer;
-    buffer.context = &take;
-    buffer.take = [](void* context, std::span<const IndexPair> pairs) {
-      (*static_cast<Take*>(context))(pairs);
-    };
+    PairSink buffer(std::move(take));
     const std::size_t first = chunk * groups_of_chunk;
     const std::size_t end = std::min(first + groups_of_chunk, input_.some->members().size());
-    best_search_kernel().find(input_, first, end, buffer);
+    search_kernels().back()->find(input_, first, end, buffer);
     buffer.flush();
   }
 
@@ -106,16 +103,10 @@ class Search {
 };
 
 /// The rules for all pairs of a kind within a distance, with a reference to `test`.
-template <class First, class Second>
-PairRules rules_of(const FloatBounds& bounds, const ExactTest<First, Second>& test,
-                   bool are_edges) {
+PairRules rules_of(const FloatBounds& bounds, const ExactTest& test, bool are_edges) {
   return {.of_edges = are_edges,
           .certainty = bounds.are_exact() ? Certainty::all : Certainty::unless_close,
-          .confirms =
-              [](const void* context, const IndexPair& pair) {
-                return (*static_cast<const ExactTest<First, Second>*>(context))(pair);
-              },
-          .context = &test};
+          .questions = &test};
 }
 
 }  // namespace
@@ -139,7 +130,7 @@ std::vector<IndexPair> vertex_face_candidates(const MovingVertices& vertices,
     BoxTree<1> point_tree(point_groups), face_tree(face_groups);
     point_tree.fit(bounds);
     face_tree.fit(bounds);
-    const ExactTest<std::int32_t, Face> test{vertices, points, faces, options.separation.distance};
+    const ExactTest test(vertices, options.separation.distance);
     const SearchInput<1> input{&point_tree, &face_tree, rules_of(bounds, test, false)};
     return Search(input).run(options.max_candidates);
   });
@@ -156,7 +147,7 @@ std::vector<IndexPair> edge_edge_candidates(const MovingVertices& vertices,
     const PrimitiveGroups groups(bounds, edges);
     BoxTree<1> tree(groups);
     tree.fit(bounds);
-    const ExactTest<Edge, Edge> test{vertices, edges, edges, options.separation.distance};
+    const ExactTest test(vertices, options.separation.distance);
     const SearchInput<1> input{&tree, &tree, rules_of(bounds, test, true)};
     return Search(input).run(options.max_candidates);
   });

@@ -5,10 +5,7 @@
 #include <oneapi/tbb/parallel_for.h>
 
 #include <algorithm>
-#include <atomic>
-#include <limits>
 #include <stdexcept>
-#include <string>
 
 #include "fast/certified/block.hpp"
 #include "fast/certified/kernel.hpp"
@@ -151,15 +148,6 @@ std::vector<Collision> collisions(const Batch& batch, const CertifiedOptions& op
   return all;
 }
 
-// ---- Earliest -----------------------------------------------------------------------------------
-
-/// Lowers the number to x if x is less.
-void lower_to(std::atomic<double>& number, double x) {
-  double known = number.load();
-  while (x < known && !number.compare_exchange_weak(known, x)) {
-  }
-}
-
 }  // namespace
 
 // ---- Interface ----------------------------------------------------------------------------------
@@ -191,11 +179,6 @@ void solve(Kind kind, std::span<const Query> queries, std::span<CertifiedResult>
   solve(batch_of(kind, queries), results, options);
 }
 
-void solve(const MovingVertices& vertices, const Candidates& candidates,
-           std::span<CertifiedResult> results, const CertifiedOptions& options) {
-  solve(batch_of(vertices, candidates), results, options);
-}
-
 std::vector<Collision> collisions(Kind kind, std::span<const Query> queries,
                                   const CertifiedOptions& options) {
   return collisions(batch_of(kind, queries), options);
@@ -204,29 +187,6 @@ std::vector<Collision> collisions(Kind kind, std::span<const Query> queries,
 std::vector<Collision> collisions(const MovingVertices& vertices, const Candidates& candidates,
                                   const CertifiedOptions& options) {
   return collisions(batch_of(vertices, candidates), options);
-}
-
-std::optional<EarliestImpact> earliest(const MovingVertices& vertices, const Candidates& candidates,
-                                       const CertifiedOptions& options) {
-  require_valid(options);
-  const Batch batch = batch_of(vertices, candidates);
-  constexpr double none = std::numeric_limits<double>::infinity();
-  std::atomic<double> lower = none, upper = none;
-  for_each_block(batch.size, options.max_threads, [&](std::size_t first) {
-    const double limit =
-        std::min(options.t_max, limit_after(std::min(upper.load(), 1.0), options.toi_tolerance));
-    decide(batch, first, limit, options, [&](std::size_t number, const CertifiedResult& result) {
-      if (result.verdict == Verdict::no) return;
-      if (result.verdict == Verdict::error) {
-        throw std::domain_error("certified: candidate " + std::to_string(number) +
-                                " has a coordinate that is not finite");
-      }
-      lower_to(lower, result.toi_lower);
-      lower_to(upper, result.toi_upper);
-    });
-  });
-  if (upper.load() == none) return std::nullopt;
-  return EarliestImpact{.toi_lower = lower.load(), .toi_upper = upper.load()};
 }
 
 namespace {

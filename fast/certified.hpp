@@ -22,7 +22,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
-#include <optional>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -86,11 +85,6 @@ struct CertifiedResult {
 void solve(Kind kind, std::span<const Query> queries, std::span<CertifiedResult> results,
            const CertifiedOptions& options = {});
 
-/// Decides candidates.pairs[i] in results[i].
-/// \throws as above; std::out_of_range for indices.
-void solve(const MovingVertices& vertices, const Candidates& candidates,
-           std::span<CertifiedResult> results, const CertifiedOptions& options = {});
-
 /// A candidate that collides, or that has a coordinate that is not finite.
 struct Collision {
   std::size_t candidate = 0;  ///< index of the query or the pair
@@ -108,21 +102,6 @@ struct Collision {
 [[nodiscard]] std::vector<Collision> collisions(const MovingVertices& vertices,
                                                 const Candidates& candidates,
                                                 const CertifiedOptions& options = {});
-
-/// An enclosure of the smallest time of impact. Its upper end may exceed t_max, as for a single
-/// query.
-struct EarliestImpact {
-  double toi_lower = 0.0;
-  double toi_upper = 0.0;
-};
-
-/// The smallest toi_lower and the smallest toi_upper of all candidates that collide; empty if none
-/// does. The result is the same for any number of threads. Faster than `solve`, because candidates
-/// that collide later than the best so far are not solved to the end.
-/// \throws as solve; std::domain_error if a coordinate is not finite.
-[[nodiscard]] std::optional<EarliestImpact> earliest(const MovingVertices& vertices,
-                                                     const Candidates& candidates,
-                                                     const CertifiedOptions& options = {});
 
 /// The description of the certified solver as a method: its name is `certified`, its promise exact.
 [[nodiscard]] const MethodInfo& certified_info();

@@ -16,7 +16,7 @@
 /// evaluated in numbers of 106 bits with error bounds (filters/ball.hpp), which decide nearly all
 /// queries; integers decide the others. Batches in L2 are evaluated on SIMD lanes
 /// (fast/distance/filter_on_lanes.hpp). For the least distance of a step, a test on lanes first
-/// excludes pairs that are farther apart than the nearest known pair (fast/distance/nearness.hpp).
+/// excludes pairs that are farther apart than the nearest known pair (fast/distance/proximity.hpp).
 /// All functions are thread-safe.
 
 #include <optional>

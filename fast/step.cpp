@@ -45,11 +45,7 @@ template <std::size_t instants, class Take>
 void for_each_block(const Scene& scene, const Trees<instants>& trees, const SearchPart& part,
                     Take take) {
   const StrictFloatingPoint strict;
-  PairBuffer buffer;
-  buffer.context = &take;
-  buffer.take = [](void* context, std::span<const IndexPair> pairs) {
-    (*static_cast<Take*>(context))(pairs);
-  };
+  PairSink buffer(std::move(take));
   scene.find(trees, part, buffer);
   buffer.flush();
 }
@@ -290,19 +286,7 @@ class StepSizeSearch {
 
 // ---- Interface ----------------------------------------------------------------------------------
 
-std::string_view to_string(PairKind kind) {
-  switch (kind) {
-    case PairKind::vertex_face:
-      return "vertex-face";
-    case PairKind::edge_edge:
-      return "edge-edge";
-    case PairKind::vertex_edge:
-      return "vertex-edge";
-    case PairKind::vertex_vertex:
-      break;
-  }
-  return "vertex-vertex";
-}
+std::string_view to_string(PairKind kind) { return record_of(kind).name; }
 
 Step::Step(MovingVertices vertices, const MeshElements& elements, const StepOptions& options) {
   if (options.max_threads < 0) {

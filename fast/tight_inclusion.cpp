@@ -212,7 +212,8 @@ double round_up_to_exact(double t) { return std::ceil(t * 0x1p53) * 0x1p-53; }
 
 const BoxKernel& kernel_of(const TightInclusionOptions& options) {
   if (options.kernel != nullptr) return *options.kernel;
-  return options.error_model == ErrorModel::released ? released_box_kernel() : best_box_kernel();
+  return options.error_model == ErrorModel::released ? released_box_kernel()
+                                                     : *box_kernels().back();
 }
 
 /// Solves one query by one search or more, as the options require.

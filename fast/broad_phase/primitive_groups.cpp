@@ -178,7 +178,7 @@ PrimitiveGroups::PrimitiveGroups(const FloatBounds& bounds, std::span<const Elem
   const auto take = [&](std::size_t group, std::span<const std::int32_t> seeds) {
     set_members(members_[group], elements, seeds);
   };
-  Splitting(kernel != nullptr ? *kernel : best_search_kernel(), take).run(all, 0);
+  Splitting(kernel != nullptr ? *kernel : *search_kernels().back(), take).run(all, 0);
 }
 
 template PrimitiveGroups::PrimitiveGroups(const FloatBounds&, std::span<const std::int32_t>,

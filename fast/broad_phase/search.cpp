@@ -23,10 +23,4 @@ std::span<const SearchKernel* const> search_kernels() {
   return kernels;
 }
 
-const SearchKernel& best_search_kernel() { return *search_kernels().back(); }
-
-const SearchKernel* find_search_kernel(InstructionSet instructions) {
-  return find_kernel(search_kernels(), instructions);
-}
-
 }  // namespace touchstone::fast

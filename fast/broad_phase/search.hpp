@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <utility>
 
 #include "fast/broad_phase/body_tree.hpp"
 #include "fast/broad_phase/box_tree.hpp"
@@ -27,20 +28,31 @@ enum class Certainty : std::uint8_t {
   all,
 };
 
+/// The questions of a search about the pairs that it finds.
+class PairQuestions {
+ public:
+  /// True if a pair that is not certain is one.
+  [[nodiscard]] virtual bool confirms(const Primitive& a, const Primitive& b) const = 0;
+  /// With bodies: true if two bodies meet; true if two primitives meet, one of which is mixed.
+  [[nodiscard]] virtual bool bodies_meet(std::int32_t, std::int32_t) const { return true; }
+  [[nodiscard]] virtual bool primitives_meet(const Primitive&, const Primitive&) const {
+    return true;
+  }
+
+ protected:
+  ~PairQuestions() = default;
+};
+
 /// The rules for one kind of pairs.
 struct PairRules {
   /// True if both primitives are edges; otherwise the first is a vertex.
   bool of_edges = false;
   Certainty certainty = Certainty::all;
-  /// Confirms a pair that is not certain, by the primitives' numbers.
-  bool (*confirms)(const void* context, const IndexPair& pair) = nullptr;
+  /// Null if all pairs are certain and all bodies meet.
+  const PairQuestions* questions = nullptr;
   /// The bodies of the searching and of the other primitives, unless all bodies meet.
   const BodyTree* some_bodies = nullptr;
   const BodyTree* all_bodies = nullptr;
-  /// With bodies: true if two bodies meet; true if two primitives meet, one of which is mixed.
-  bool (*bodies_meet)(const void* context, std::int32_t a, std::int32_t b) = nullptr;
-  bool (*primitives_meet)(const void* context, const IndexPair& pair) = nullptr;
-  const void* context = nullptr;
 };
 
 /// Buffer for the pairs found.
@@ -48,15 +60,30 @@ struct PairBuffer {
   static constexpr std::size_t capacity = 1024;
 
   std::size_t count = 0;
-  /// Called with the pairs when the next ones might not fit.
-  void (*take)(void* context, std::span<const IndexPair> pairs) = nullptr;
-  void* context = nullptr;
   alignas(64) std::array<IndexPair, capacity> pairs;
 
   void flush() {
-    if (count > 0) take(context, std::span(pairs).first(count));
+    if (count > 0) take(std::span(pairs).first(count));
     count = 0;
   }
+
+ protected:
+  PairBuffer() = default;
+  ~PairBuffer() = default;
+  /// Called with the pairs when the next ones might not fit.
+  virtual void take(std::span<const IndexPair> found) = 0;
+};
+
+/// A buffer that calls a function with its pairs.
+template <class Take>
+class PairSink final : public PairBuffer {
+ public:
+  explicit PairSink(Take take) : take_(std::move(take)) {}
+
+ private:
+  void take(std::span<const IndexPair> found) override { take_(found); }
+
+  Take take_;
 };
 
 /// The two trees of a search and its rules.
@@ -96,11 +123,5 @@ struct SearchKernel {
 
 /// The kernels that this processor can run, slowest first; scalar is always among them.
 [[nodiscard]] std::span<const SearchKernel* const> search_kernels();
-
-/// The fastest of search_kernels().
-[[nodiscard]] const SearchKernel& best_search_kernel();
-
-/// The kernel of an instruction set; nullptr if this processor cannot run it.
-[[nodiscard]] const SearchKernel* find_search_kernel(InstructionSet instructions);
 
 }  // namespace touchstone::fast

@@ -174,8 +174,8 @@ class Search {
     const IndexLanes& bodies = rules_.all_bodies->bodies(node.level, node.number);
     for (unsigned rest = children; rest != 0; rest &= rest - 1) {
       const auto lane = static_cast<std::size_t>(__builtin_ctz(rest));
-      const bool meets = bodies[lane] == BodyTree::mixed ||
-                         rules_.bodies_meet(rules_.context, own_body_, bodies[lane]);
+      const bool meets =
+          bodies[lane] == BodyTree::mixed || rules_.questions->bodies_meet(own_body_, bodies[lane]);
       if (!meets) children &= ~(1U << lane);
     }
     return children;
@@ -214,6 +214,10 @@ class Search {
     return result;
   }
 
+  static Primitive primitive(const GroupMembers& group, std::size_t lane) {
+    return {group.vertices[0][lane], group.vertices[1][lane], group.vertices[2][lane]};
+  }
+
   /// A primitive of a group.
   struct Row {
     std::size_t group;
@@ -227,11 +231,10 @@ class Search {
     for (unsigned rest = overlapping; rest != 0; rest &= rest - 1) {
       const auto lane = static_cast<std::size_t>(__builtin_ctz(rest));
       const bool is_mixed = body == BodyTree::mixed || bodies[lane] == BodyTree::mixed;
-      const bool meets = is_mixed
-                             ? rules_.primitives_meet(rules_.context,
-                                                      {some_.members()[row.group].numbers[row.lane],
-                                                       all_.members()[other].numbers[lane]})
-                             : rules_.bodies_meet(rules_.context, body, bodies[lane]);
+      const bool meets = is_mixed ? rules_.questions->primitives_meet(
+                                        primitive(some_.members()[row.group], row.lane),
+                                        primitive(all_.members()[other], lane))
+                                  : rules_.questions->bodies_meet(body, bodies[lane]);
       if (!meets) overlapping &= ~(1U << lane);
     }
     return overlapping;
@@ -245,8 +248,9 @@ class Search {
     unsigned result = overlapping & sure;
     for (unsigned rest = overlapping & ~sure; rest != 0; rest &= rest - 1) {
       const auto lane = static_cast<std::size_t>(__builtin_ctz(rest));
-      const IndexPair pair{own.numbers[row], others.numbers[lane]};
-      if (rules_.confirms(rules_.context, pair)) result |= 1U << lane;
+      if (rules_.questions->confirms(primitive(own, row), primitive(others, lane))) {
+        result |= 1U << lane;
+      }
     }
     return result;
   }

@@ -47,4 +47,9 @@ SweptBox widened(const SweptBox& box, double distance) {
   return result;
 }
 
+bool are_within_distance(const MovingVertices& vertices, const Primitive& a, const Primitive& b,
+                         double distance) {
+  return widened(swept_box(vertices, a), distance).overlaps(swept_box(vertices, b));
+}
+
 }  // namespace touchstone::fast

@@ -36,4 +36,8 @@ struct SweptBox {
 /// stays empty.
 [[nodiscard]] SweptBox widened(const SweptBox& box, double distance);
 
+/// True if the swept boxes of two primitives are within the distance.
+[[nodiscard]] bool are_within_distance(const MovingVertices& vertices, const Primitive& a,
+                                       const Primitive& b, double distance);
+
 }  // namespace touchstone::fast

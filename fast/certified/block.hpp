@@ -41,7 +41,7 @@ const KernelOutput& decide_block(KernelInput block, double t_limit, const Certif
   block.t_limit = t_limit;
   block.separation = options.separation;
   const CertifiedKernel& kernel =
-      options.kernel != nullptr ? *options.kernel : best_certified_kernel();
+      options.kernel != nullptr ? *options.kernel : *certified_kernels().back();
   kernel.decide(block, output);
   thread_local std::vector<Query> undecided;
   undecided.clear();

@@ -22,10 +22,4 @@ std::span<const CertifiedKernel* const> certified_kernels() {
   return kernels;
 }
 
-const CertifiedKernel& best_certified_kernel() { return *certified_kernels().back(); }
-
-const CertifiedKernel* find_certified_kernel(InstructionSet instructions) {
-  return find_kernel(certified_kernels(), instructions);
-}
-
 }  // namespace touchstone::fast

@@ -81,10 +81,4 @@ struct CertifiedKernel {
 /// \throws std::runtime_error if one was compiled so that products are contracted.
 [[nodiscard]] std::span<const CertifiedKernel* const> certified_kernels();
 
-/// The fastest of certified_kernels().
-[[nodiscard]] const CertifiedKernel& best_certified_kernel();
-
-/// The kernel of an instruction set; nullptr if this processor cannot run it.
-[[nodiscard]] const CertifiedKernel* find_certified_kernel(InstructionSet instructions);
-
 }  // namespace touchstone::fast

@@ -15,7 +15,7 @@ std::vector<std::uint32_t> perhaps_within(Kind kind, std::span<Query> queries,
   KernelInput block{.kind = kind, .count = queries.size(), .queries = queries.data()};
   block.separation = separation;
   block.t_limit = 0.0;
-  (kernel != nullptr ? *kernel : best_certified_kernel()).decide(block, output);
+  (kernel != nullptr ? kernel : certified_kernels().back())->decide(block, output);
   std::vector<std::uint32_t> result;
   result.reserve(output.impacts.count + output.undecided.count);
   for (std::size_t i = 0; i < output.impacts.count; ++i)

@@ -68,7 +68,7 @@ template <class Kernel>
   return kernel.product_then_sum(1.0 + epsilon, 1.0 - epsilon, -1.0) == 0.0;
 }
 
-/// The implementation for an instruction set; nullptr if there is none.
+/// The implementation for an instruction set; nullptr if it is not among the kernels.
 template <class Kernel>
 [[nodiscard]] const Kernel* find_kernel(std::span<const Kernel* const> kernels,
                                         InstructionSet instructions) {

@@ -15,6 +15,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <string_view>
 #include <vector>
 
 #include "fast/broad_phase/body_tree.hpp"
@@ -31,15 +32,39 @@
 
 namespace touchstone::fast {
 
-/// An item for each sort of primitives in a search.
-template <class Item>
-struct OfPrimitives {
-  Item vertices;  ///< all of the elements
-  Item edges;
-  Item faces;
-  Item points;      ///< codimensional ones
-  Item bare_edges;  ///< codimensional ones
+/// The sorts of primitives in a search, as indices.
+struct Sort {
+  enum : std::size_t {
+    vertices,  ///< all of the elements
+    edges,
+    faces,
+    points,      ///< codimensional ones
+    bare_edges,  ///< codimensional ones
+    count
+  };
 };
+
+/// An item for each sort of primitives.
+template <class Item>
+using OfPrimitives = std::array<Item, Sort::count>;
+
+/// The differences between the kinds of pairs.
+struct PairRecord {
+  std::string_view name;
+  Kind query_kind;   ///< the kind of the query that decides a pair
+  std::size_t some;  ///< the sort of the first primitive
+  std::size_t all;   ///< the sort of the second primitive
+  bool has_u;        ///< true if a collision has a parameter u, or v
+  bool has_v;
+};
+inline constexpr std::array<PairRecord, 4> pair_records{
+    {{"vertex-face", Kind::vertex_face, Sort::vertices, Sort::faces, true, true},
+     {"edge-edge", Kind::edge_edge, Sort::edges, Sort::edges, true, true},
+     {"vertex-edge", Kind::vertex_face, Sort::points, Sort::bare_edges, true, false},
+     {"vertex-vertex", Kind::vertex_face, Sort::points, Sort::points, false, false}}};
+[[nodiscard]] constexpr const PairRecord& record_of(PairKind kind) {
+  return pair_records[static_cast<std::size_t>(kind)];
+}
 
 /// The trees of a scene.
 template <std::size_t instants>
@@ -71,6 +96,10 @@ struct SceneMesh {
   /// The codimensional points and edges as input of the certified solver.
   std::vector<Face> points_as_faces;
   std::vector<Face> edges_as_faces;
+  /// The reported numbers of primitives, where they differ from the numbers in the groups.
+  OfPrimitives<std::span<const std::int32_t>> numbers;
+  /// The second primitives of pairs as input of the certified solver.
+  OfPrimitives<std::span<const Face>> as_faces;
   Bodies bodies;
   OfPrimitives<PrimitiveGroups> groups;
   std::optional<OfPrimitives<BodyTree>> bodies_of_groups;  ///< unless all meet
@@ -80,7 +109,7 @@ struct SceneMesh {
 [[nodiscard]] StepCollision collision_of(PairKind kind, const IndexPair& pair,
                                          const CertifiedResult& result);
 
-class Scene {
+class Scene final : private PairQuestions {
  public:
   /// Uses the threads of the caller's task arena. Keeps references to the elements.
   /// \throws as Step.
@@ -154,22 +183,13 @@ class Scene {
  private:
   using PairScratch = std::array<IndexPair, kernel_block>;
 
-  /// The context of the search's callbacks for pairs of a kind.
-  struct Asked {
-    const Scene* scene;
-    PairKind kind;
-  };
-
-  template <std::size_t instants>
-  [[nodiscard]] PairRules rules(const Asked& asked) const;
+  [[nodiscard]] bool confirms(const Primitive& a, const Primitive& b) const override;
+  [[nodiscard]] bool bodies_meet(std::int32_t a, std::int32_t b) const override;
+  [[nodiscard]] bool primitives_meet(const Primitive& a, const Primitive& b) const override;
 
   /// The pairs for the certified solver. \param scratch Memory for the numbers, if they differ.
   [[nodiscard]] Candidates candidates_of(PairKind kind, std::span<const IndexPair> pairs,
                                          PairScratch& scratch) const;
-  /// The primitives of a pair.
-  [[nodiscard]] std::array<Primitive, 2> primitives_of(PairKind kind, const IndexPair& pair) const;
-  /// True if the swept boxes are within the separation.
-  [[nodiscard]] bool are_within_separation(PairKind kind, const IndexPair& pair) const;
 
   MovingVertices vertices_;
   CertifiedOptions certified_;

@@ -36,12 +36,6 @@ std::span<const BoxKernel* const> box_kernels() {
   return kernels;
 }
 
-const BoxKernel& best_box_kernel() { return *box_kernels().back(); }
-
 const BoxKernel& released_box_kernel() { return scalar_released_box_kernel; }
-
-const BoxKernel* find_box_kernel(InstructionSet instructions) {
-  return find_kernel(box_kernels(), instructions);
-}
 
 }  // namespace touchstone::fast

@@ -66,14 +66,8 @@ struct BoxKernel {
 /// \throws std::runtime_error if one was compiled so that products are contracted.
 [[nodiscard]] std::span<const BoxKernel* const> box_kernels();
 
-/// The fastest of box_kernels().
-[[nodiscard]] const BoxKernel& best_box_kernel();
-
 /// The scalar kernel in the order of operations of the public Tight-Inclusion, with the bits of
 /// filters::ReleasedEdgeEdge and filters::ReleasedVertexFace: for comparisons only.
 [[nodiscard]] const BoxKernel& released_box_kernel();
-
-/// The kernel of an instruction set; nullptr if there is none or this processor cannot run it.
-[[nodiscard]] const BoxKernel* find_box_kernel(InstructionSet instructions);
 
 }  // namespace touchstone::fast

@@ -25,6 +25,7 @@
 #include <utility>
 #include <vector>
 
+#include "tests/support/contact_function.hpp"
 #include "tests/support/queries.hpp"
 #include "tests/support/random.hpp"
 #include "tests/support/trials.hpp"
@@ -76,7 +77,7 @@ std::vector<Affine> domain_sides(Kind kind) {
 
 std::vector<Affine> contact_equations(const PosedQuery& posed, const Rational& t) {
   const auto value = [&](int u, int v) {
-    return contact_function<Rational>(posed.kind, posed.query, t, Rational(u), Rational(v));
+    return tests::contact_function<Rational>(posed.kind, posed.query, t, Rational(u), Rational(v));
   };
   const auto origin = value(0, 0), along_u = value(1, 0), along_v = value(0, 1);
   std::vector<Affine> rows;
@@ -173,8 +174,8 @@ void expect_root_of_contact_function(const PosedQuery& posed, const Decision& ve
   const bool is_point = is_exact(time) && is_exact(u) && is_exact(v);
   const Rational bound =
       is_point ? Rational(0) : Rational(16 * greatest_coordinate(posed.query) * width);
-  for (const Rational& component :
-       contact_function<Rational>(posed.kind, posed.query, middle(time), middle(u), middle(v))) {
+  for (const Rational& component : tests::contact_function<Rational>(
+           posed.kind, posed.query, middle(time), middle(u), middle(v))) {
     EXPECT_LE(Rational(abs(component)), bound);
   }
 }

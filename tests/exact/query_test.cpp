@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "exact/algebra/number.hpp"
+#include "tests/support/contact_function.hpp"
 #include "tests/support/random.hpp"
 
 namespace touchstone::query_test {
@@ -62,14 +63,6 @@ TEST(Query, AnArrayOfDoublesIsASpanOfQueries) {
   for (std::size_t i = 0; i < values.size(); ++i) {
     EXPECT_EQ(&queries[i / 24].coordinates[i % 24], &values[i]);
   }
-}
-
-TEST(Query, ABatchRefersToTheQueriesThatItWasGiven) {
-  const std::vector<Query> queries(3, counting_query());
-  const QueryBatch batch{Kind::edge_edge, queries};
-  EXPECT_EQ(batch.kind, Kind::edge_edge);
-  EXPECT_EQ(batch.queries.data(), queries.data());
-  EXPECT_EQ(batch.queries.size(), 3U);
 }
 
 TEST(Query, CoordinatesStandInTheOrderEndPointAxis) {
@@ -184,7 +177,7 @@ TEST(ContactFunction, EqualsTheCornerAtEveryVertexOfTheDomain) {
       for (std::size_t i = 0; i < corners(kind).size(); ++i) {
         const Corner& corner = corners(kind)[i];
         const Rational u(corner.u), v(corner.v);
-        EXPECT_EQ(contact_function(kind, query, t, u, v), corner_at(query, corner, t))
+        EXPECT_EQ(tests::contact_function(kind, query, t, u, v), corner_at(query, corner, t))
             << to_string(kind) << " corner " << i;
       }
     }
@@ -202,7 +195,7 @@ TEST(ContactFunction, IsAffineBetweenTheCorners) {
       const auto along = [&](const Corner& corner) { return corner_at(query, corner, t); };
       const Vector origin = along(corners(kind).front()), first = along(corners(kind)[1]),
                    second = along(corners(kind).back());
-      const Vector value = contact_function(kind, query, t, u, v);
+      const Vector value = tests::contact_function(kind, query, t, u, v);
       for (std::size_t axis = 0; axis < 3; ++axis) {
         EXPECT_EQ(value[axis], Rational(origin[axis] + u * (first[axis] - origin[axis]) +
                                         v * (second[axis] - origin[axis])));
@@ -222,10 +215,10 @@ TEST(ContactFunction, HasTheValuesComputedByHand) {
   // At t=1/2 point k is at (k+2, k², 1−k).
   const Rational t(1, 2), u(1, 4), v(1, 3);
   // v = (2,0,1); the face at (5/12, 1/4, 1/3): (3,1,0)·5/12 + (4,4,−1)·1/4 + (5,9,−2)·1/3.
-  EXPECT_EQ(contact_function(Kind::vertex_face, query, t, u, v),
+  EXPECT_EQ(tests::contact_function(Kind::vertex_face, query, t, u, v),
             (Vector{Rational(-23, 12), Rational(-53, 12), Rational(23, 12)}));
   // ea: (2,0,1)·3/4 + (3,1,0)·1/4; eb: (4,4,−1)·2/3 + (5,9,−2)·1/3.
-  EXPECT_EQ(contact_function(Kind::edge_edge, query, t, u, v),
+  EXPECT_EQ(tests::contact_function(Kind::edge_edge, query, t, u, v),
             (Vector{Rational(-25, 12), Rational(-65, 12), Rational(25, 12)}));
 }
 
@@ -257,7 +250,8 @@ Recorded operator*(const Recorded& a, const Recorded& b) {
 TEST(ContactFunction, PerformsTheOperationsInTheOrderOfItsFormula) {
   const Recorded t(std::string("t")), u(std::string("u")), v(std::string("v"));
   const auto value = [&](Kind kind, int axis) {
-    return contact_function(kind, counting_query(), t, u, v)[static_cast<std::size_t>(axis)].text;
+    return tests::contact_function(kind, counting_query(), t, u, v)[static_cast<std::size_t>(axis)]
+        .text;
   };
   const auto position = [](int start, int end) {
     return join({"(((1-t)*", std::to_string(start), ")+(t*", std::to_string(end), "))"});

@@ -257,22 +257,20 @@ TEST(Certified, IndexPairsGiveWhatTheirQueriesGive) {
     for (const IndexPair& pair : candidates.pairs) {
       queries.push_back(query_of(vertices, candidates, pair));
     }
-    std::vector<CertifiedResult> of_queries(queries.size()), of_pairs(queries.size());
+    std::vector<CertifiedResult> of_queries(queries.size());
     for (const CertifiedKernel* const kernel : certified_kernels()) {
       for (const int threads : {1, 4}) {
         const CertifiedOptions options{.max_threads = threads, .kernel = kernel};
         solve(kind, queries, of_queries, options);
-        solve(vertices, candidates, of_pairs, options);
-        expect_same(of_queries, of_pairs);
         const std::vector<Collision> all = collisions(vertices, candidates, options);
-        std::vector<CertifiedResult> rebuilt(of_pairs);
+        std::vector<CertifiedResult> rebuilt(of_queries);
         std::size_t hits = 0;
-        for (const CertifiedResult& result : of_pairs)
+        for (const CertifiedResult& result : of_queries)
           hits += result.verdict == Verdict::yes ? 1U : 0U;
         EXPECT_GT(hits, 5U);
         ASSERT_EQ(all.size(), hits);
         for (const Collision& collision : all) rebuilt.at(collision.candidate) = collision.result;
-        expect_same(of_pairs, rebuilt);
+        expect_same(of_queries, rebuilt);
         EXPECT_TRUE(std::ranges::is_sorted(all, {}, &Collision::candidate));
 
         const std::vector<Collision> from_array = collisions(kind, queries, options);
@@ -286,66 +284,15 @@ TEST(Certified, IndexPairsGiveWhatTheirQueriesGive) {
   }
 }
 
-TEST(Certified, TheEarliestImpactIsTheLeastOfAll) {
-  const Sheets sheets(7);
-  const MovingVertices vertices(sheets.start, sheets.end);
-  for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
-    Candidates candidates = sheets.candidates(kind);
-    std::vector<IndexPair> reversed(candidates.pairs.rbegin(), candidates.pairs.rend());
-    for (const double tolerance : {0.0, 1e-12, 1e-3, 0.7, 2.0}) {
-      std::vector<CertifiedResult> results(candidates.pairs.size());
-      solve(vertices, candidates, results, {.toi_tolerance = tolerance});
-      double lower = infinity, upper = infinity;
-      for (const CertifiedResult& result : results) {
-        if (result.verdict != Verdict::yes) continue;
-        lower = std::min(lower, result.toi_lower);
-        upper = std::min(upper, result.toi_upper);
-      }
-      for (const int threads : {1, 2, 5}) {
-        for (const bool backwards : {false, true}) {
-          Candidates ordered = candidates;
-          if (backwards) ordered.pairs = reversed;
-          const auto first =
-              earliest(vertices, ordered, {.toi_tolerance = tolerance, .max_threads = threads});
-          ASSERT_TRUE(first);
-          EXPECT_EQ(first->toi_lower, lower) << tolerance;
-          EXPECT_EQ(first->toi_upper, upper) << tolerance;
-        }
-      }
-      EXPECT_FALSE(earliest(vertices, candidates, {.t_max = lower / 2}));
-    }
-  }
-}
-
-TEST(Certified, NothingIsEarliestWhereNothingCollides) {
-  const Sheets sheets(3);
-  const MovingVertices still(sheets.start, sheets.start);
-  Candidates candidates = sheets.candidates(Kind::vertex_face);
-  EXPECT_FALSE(earliest(still, {.kind = Kind::edge_edge, .pairs = {}, .edges = {}, .faces = {}}));
-  std::vector<CertifiedResult> results(candidates.pairs.size());
-  solve(still, candidates, results);
-  const bool any = std::ranges::any_of(
-      results, [](const CertifiedResult& result) { return result.verdict == Verdict::yes; });
-  EXPECT_EQ(earliest(still, candidates).has_value(), any);
-}
-
 TEST(Certified, RefusesInvalidCandidates) {
   const Sheets sheets(3);
   const MovingVertices vertices(sheets.start, sheets.end);
   Candidates candidates = sheets.candidates(Kind::vertex_face);
-  std::vector<CertifiedResult> results(1);
   for (const IndexPair& bad :
        std::initializer_list<IndexPair>{{-1, 0}, {18, 0}, {0, -1}, {0, 16}}) {
     candidates.pairs = std::span(&bad, 1);
-    EXPECT_THROW(solve(vertices, candidates, results), std::out_of_range);
-    EXPECT_THROW(static_cast<void>(earliest(vertices, candidates)), std::out_of_range);
     EXPECT_THROW(static_cast<void>(collisions(vertices, candidates)), std::out_of_range);
   }
-  Eigen::MatrixXd bad_start = sheets.start;
-  bad_start(0, 1) = infinity;
-  EXPECT_THROW(static_cast<void>(earliest(MovingVertices(bad_start, sheets.end),
-                                          sheets.candidates(Kind::vertex_face))),
-               std::domain_error);
 }
 
 // ---- As a method --------------------------------------------------------------------------------

@@ -21,6 +21,7 @@
 #include "fast/certified.hpp"
 #include "fast/primitive_pairs.hpp"
 #include "tests/support/certified.hpp"
+#include "tests/support/contact_function.hpp"
 #include "tests/support/public_data.hpp"
 #include "tests/support/queries.hpp"
 #include "tests/support/random.hpp"
@@ -245,8 +246,8 @@ Separation draw_separation(Random& random, const Query& query) {
 /// on by then: corners are differences of coordinates, at most 4 of these apart.
 void expect_contact_at_place(const PosedQuery& posed, const CertifiedResult& result) {
   const Rational upper(result.toi_upper);
-  const auto f = contact_function<Rational>(posed.kind, posed.query, upper, Rational(result.u),
-                                            Rational(result.v));
+  const auto f = tests::contact_function<Rational>(posed.kind, posed.query, upper,
+                                                   Rational(result.u), Rational(result.v));
   const Rational moved = 4 * (upper - Rational(result.toi_lower));
   for (std::size_t axis = 0; axis < 3; ++axis) {
     double largest = 0.0;

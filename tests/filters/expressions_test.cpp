@@ -6,6 +6,7 @@
 
 #include "exact/query.hpp"
 #include "tests/filters/support.hpp"
+#include "tests/support/contact_function.hpp"
 
 namespace touchstone::filters::expressions_test {
 namespace {
@@ -45,7 +46,7 @@ TYPED_TEST(EveryExpression, IsTheContactFunctionInRationals) {
     const bool edges = kind_of<TypeParam> == Kind::edge_edge;
     const mpq_class t(inputs.weights[1]), u(inputs.weights[3]), v(inputs.weights[edges ? 5 : 4]);
     mpq_class truth =
-        contact_function(kind_of<TypeParam>, query_of(inputs.coordinates), t, u, v).at(0);
+        tests::contact_function(kind_of<TypeParam>, query_of(inputs.coordinates), t, u, v).at(0);
     if (TypeParam::coordinates == 9) truth -= mpq_class(inputs.coordinates[8]);
     EXPECT_EQ(exact_value<TypeParam>(inputs), truth);
   }

@@ -65,7 +65,8 @@ const fast::CertifiedKernel* kernel_of(const std::string& name) {
   const InstructionSet instructions = name == "avx512" ? InstructionSet::avx512
                                       : name == "avx2" ? InstructionSet::avx2
                                                        : InstructionSet::scalar;
-  const fast::CertifiedKernel* const kernel = fast::find_certified_kernel(instructions);
+  const fast::CertifiedKernel* const kernel =
+      fast::find_kernel(fast::certified_kernels(), instructions);
   if (kernel == nullptr) throw std::invalid_argument("this processor cannot run kernel " + name);
   return kernel;
 }
@@ -157,7 +158,7 @@ class BenchRun {
   /// The options with the kernel of the chosen instruction set.
   [[nodiscard]] const fast::SearchKernel* search_kernel() const {
     if (certified_.kernel == nullptr) return nullptr;
-    return fast::find_search_kernel(certified_.kernel->instructions);
+    return fast::find_kernel(fast::search_kernels(), certified_.kernel->instructions);
   }
 
   /// Measures the queries below a path, one kind at a time, because both may not fit into memory.

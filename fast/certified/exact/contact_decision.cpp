@@ -618,7 +618,8 @@ class Decision {
       return divided(event.rounded_value_at(t).value, t, event.degree);
     };
     const double part = is_high ? 1.0 : secant(value(low), value(high));
-    impact_ = {cell, first_u + part * (last_u - first_u), first_v + part * (last_v - first_v)};
+    impact_ =
+        impact_at(cell, first_u + part * (last_u - first_u), first_v + part * (last_v - first_v));
     return Outcome::decided;
   }
 
@@ -683,7 +684,7 @@ class Decision {
 
   Outcome found(const Contact& contact, const Time& t, const BitInterval& cell) {
     const auto [u, v] = parameters(contact, t);
-    impact_ = {cell, std::isnan(u) ? 0.0 : u, std::isnan(v) ? 0.0 : v};
+    impact_ = impact_at(cell, std::isnan(u) ? 0.0 : u, std::isnan(v) ? 0.0 : v);
     return Outcome::decided;
   }
 
@@ -705,7 +706,7 @@ class Decision {
   SpaceEvent determinant_;
   std::array<std::optional<Filtered>, 3> n_;  ///< the computed components: see n_at
   std::array<Bounds<Filtered>, 3> bounds_{};  ///< the bounds of these components: see bounds_at
-  std::optional<Impact> impact_;
+  std::optional<ExactImpact> impact_;
 };
 
 }  // namespace

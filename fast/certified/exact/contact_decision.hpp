@@ -34,7 +34,7 @@ namespace touchstone::fast::exact_stage {
 /// The outcome of the decision.
 struct FixedSizeAnswer {
   bool decided = false;
-  std::optional<Impact> impact;  ///< if decided: the first contact, if there is one
+  std::optional<ExactImpact> impact;  ///< if decided: the first contact, if there is one
 };
 
 /// The first contact not later than the double in [0,1] of bits `latest`. Its enclosure is at most

@@ -102,8 +102,8 @@ ScaledDistance scaled_distance(double distance, int unit) {
   return {BigInteger(d.numerator) << std::max(exponent, 0), std::max(-exponent, 0)};
 }
 
-std::optional<Impact> first_impact_of(Kind kind, const Query& query, std::uint64_t latest,
-                                      std::uint64_t step) {
+std::optional<ExactImpact> first_impact_of(Kind kind, const Query& query, std::uint64_t latest,
+                                           std::uint64_t step) {
   const std::array<Axis, 3> axes{axis_of(query, 0), axis_of(query, 1), axis_of(query, 2)};
   int bits = 0;
   for (const Axis& axis : axes) bits = std::max(bits, axis.highest - axis.lowest);
@@ -125,17 +125,18 @@ std::optional<Impact> first_impact_of(Kind kind, const Query& query, std::uint64
 std::optional<BitInterval> first_approach_of(Kind kind, const Query& query,
                                              const Separation& separation, std::uint64_t latest,
                                              std::uint64_t step) {
-  const auto contact = first_impact_of(kind, query, latest, step);
-  if (contact && contact->time.upper == bits_of_zero) return contact->time;
+  const auto impact = first_impact_of(kind, query, latest, step);
+  const auto contact = impact ? std::optional(time_of(*impact)) : std::nullopt;
+  if (contact && contact->upper == bits_of_zero) return contact;
   const auto axes = axes_of_one_unit(query);
   const auto motion = motion_of<BigInteger, BigInteger>(kind, axes);
   const ScaledDistance distance = scaled_distance(separation.distance, axes[0].lowest);
   const auto approach_until = [&](std::uint64_t time) {
     return first_approach(motion, distance, separation.norm, time, step);
   };
-  if (!contact || contact->time.upper > latest) return approach_until(latest);
-  const auto before = approach_until(contact->time.lower);
-  return before ? before : contact->time;
+  if (!contact || contact->upper > latest) return approach_until(latest);
+  const auto before = approach_until(contact->lower);
+  return before ? before : contact;
 }
 
 /// The maximum width, in spacings of doubles, of an enclosure with the relative width `tolerance`:
@@ -162,12 +163,9 @@ void move_into_domain(Kind kind, double& u, double& v) {
 
 std::optional<ExactImpact> decide_exactly(Kind kind, const Query& query, double toi_tolerance,
                                           double t_max) {
-  const auto impact = first_impact_of(kind, query, unit_bits(t_max), step_of(toi_tolerance));
-  if (!impact) return std::nullopt;
-  ExactImpact result{std::bit_cast<double>(impact->time.lower),
-                     std::bit_cast<double>(impact->time.upper), impact->u, impact->v};
-  move_into_domain(kind, result.u, result.v);
-  return result;
+  auto impact = first_impact_of(kind, query, unit_bits(t_max), step_of(toi_tolerance));
+  if (impact) move_into_domain(kind, impact->u, impact->v);
+  return impact;
 }
 
 std::optional<ExactImpact> decide_exactly(Kind kind, const Query& query,
@@ -177,10 +175,9 @@ std::optional<ExactImpact> decide_exactly(Kind kind, const Query& query,
   const auto time =
       first_approach_of(kind, query, separation, unit_bits(t_max), step_of(toi_tolerance));
   if (!time) return std::nullopt;
-  ExactImpact result{std::bit_cast<double>(time->lower), std::bit_cast<double>(time->upper)};
-  const Parameters nearest = nearest_parameters(kind, query, result.toi_upper, separation.norm);
-  result.u = nearest.u;
-  result.v = nearest.v;
+  const double toi_upper = std::bit_cast<double>(time->upper);
+  const Parameters nearest = nearest_parameters(kind, query, toi_upper, separation.norm);
+  ExactImpact result = impact_at(*time, nearest.u, nearest.v);
   move_into_domain(kind, result.u, result.v);
   return result;
 }

@@ -19,13 +19,10 @@ struct Problem {
   Form<BigInteger, 3> determinant;
 };
 
-Impact impact_at(Instant& instant, const Contact& contact, const BitInterval& time) {
-  Impact impact{time};
-  if (instant.sign_of(contact.denominator) != 0) {
-    impact.u = instant.quotient_of(contact.u, contact.denominator);
-    impact.v = instant.quotient_of(contact.v, contact.denominator);
-  }
-  return impact;
+ExactImpact impact_at(Instant& instant, const Contact& contact, const BitInterval& time) {
+  if (instant.sign_of(contact.denominator) == 0) return exact_stage::impact_at(time, 0.0, 0.0);
+  return exact_stage::impact_at(time, instant.quotient_of(contact.u, contact.denominator),
+                                instant.quotient_of(contact.v, contact.denominator));
 }
 
 /// Contact at a time with D = 0.
@@ -37,7 +34,7 @@ std::optional<Contact> contact_at(const Problem& problem, Instant& instant) {
 /// Replaces `best` if the instant, a time > 0 with D = 0, is an earlier contact. Returns true if
 /// later instants need no examination.
 bool consider(const Problem& problem, Instant& instant, std::uint64_t& latest,
-              std::optional<Impact>& best) {
+              std::optional<ExactImpact>& best) {
   if (instant.is_above(latest)) return true;
   const auto contact = contact_at(problem, instant);
   if (!contact) return false;
@@ -75,7 +72,7 @@ bool is_vertex_beside_vertex(const BigMotion& motion) {
 
 }  // namespace
 
-std::optional<Impact> first_impact(const BigMotion& motion, std::uint64_t latest) {
+std::optional<ExactImpact> first_impact(const BigMotion& motion, std::uint64_t latest) {
   if (is_vertex_beside_vertex(motion)) return std::nullopt;
   Problem problem{motion, normal(motion), {}};
   problem.determinant = determinant(motion, problem.normal);
@@ -85,7 +82,7 @@ std::optional<Impact> first_impact(const BigMotion& motion, std::uint64_t latest
       return impact_at(start, *contact, {bits_of_zero, bits_of_zero});
     }
   }
-  std::optional<Impact> best;
+  std::optional<ExactImpact> best;
   for (const Polynomial& event : events(problem)) {
     visit_roots(event, [&](Instant& instant) { return consider(problem, instant, latest, best); });
   }

@@ -4,26 +4,31 @@
 /// The first contact of any motion with integer coordinates of any size, for the cases that
 /// contact_decision.hpp does not decide.
 
+#include <bit>
 #include <cstdint>
 #include <optional>
 
 #include "fast/certified/exact/big_integer.hpp"
 #include "fast/certified/exact/contact_conditions.hpp"
 #include "fast/certified/exact/enclosing_doubles.hpp"
+#include "fast/certified/exact/exact_stage.hpp"
 
 namespace touchstone::fast::exact_stage {
 
-/// A contact with its time.
-struct Impact {
-  /// Doubles: lower < time ≤ upper, or both 0 if the time is 0.
-  BitInterval time;
-  /// Approximate parameters of the contact; possibly outside of their domain, by rounding.
-  double u = 0.0, v = 0.0;
-};
+/// A contact at a time that is enclosed. u and v are possibly outside of their domain, by rounding.
+[[nodiscard]] inline ExactImpact impact_at(const BitInterval& time, double u, double v) {
+  return {std::bit_cast<double>(time.lower), std::bit_cast<double>(time.upper), u, v};
+}
+
+/// The bits of its time.
+[[nodiscard]] inline BitInterval time_of(const ExactImpact& impact) {
+  return {std::bit_cast<std::uint64_t>(impact.toi_lower),
+          std::bit_cast<std::uint64_t>(impact.toi_upper)};
+}
 
 /// The first contact not later than the double in [0,1] with these bits, between neighbouring
 /// doubles; empty if there is none.
-[[nodiscard]] std::optional<Impact> first_impact(const Motion<BigInteger>& motion,
-                                                 std::uint64_t latest);
+[[nodiscard]] std::optional<ExactImpact> first_impact(const Motion<BigInteger>& motion,
+                                                      std::uint64_t latest);
 
 }  // namespace touchstone::fast::exact_stage

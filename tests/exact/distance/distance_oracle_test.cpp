@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "exact/oracle.hpp"
+#include "tests/support/contact_function.hpp"
 #include "tests/support/distance_reference.hpp"
 #include "tests/support/queries.hpp"
 #include "tests/support/random.hpp"
@@ -289,7 +290,7 @@ TEST(DistanceOracle, FindsTheContactsOfAGrid) {
       for (int m = 0; m < 25; ++m) {
         const double t = k / 8.0, u = m % 5 / 4.0, v = std::floor(m / 5.0) / 4.0;
         if (posed.kind == Kind::vertex_face && u + v > 1) continue;
-        const auto f = contact_function<double>(posed.kind, posed.query, t, u, v);  // exact
+        const auto f = tests::contact_function<double>(posed.kind, posed.query, t, u, v);  // exact
         const double linf = std::max({std::abs(f[0]), std::abs(f[1]), std::abs(f[2])});
         const double squared = f[0] * f[0] + f[1] * f[1] + f[2] * f[2];
         if (!first[0] && linf <= distance) first[0] = t;

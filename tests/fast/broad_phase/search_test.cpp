@@ -11,7 +11,6 @@
 #include <cstddef>
 #include <functional>
 #include <map>
-#include <memory>
 #include <numeric>
 #include <span>
 #include <string>
@@ -99,16 +98,13 @@ struct Trees {
 template <std::size_t instants>
 Pairs found(const SearchKernel& kernel, const SearchInput<instants>& input) {
   Pairs result;
-  const auto buffer = std::make_unique<PairBuffer>();
-  buffer->context = &result;
-  buffer->take = [](void* context, std::span<const IndexPair> pairs) {
+  PairSink buffer([&](std::span<const IndexPair> pairs) {
     EXPECT_LE(pairs.size(), PairBuffer::capacity);
     EXPECT_GT(pairs.size(), 0U);
-    auto& all = *static_cast<Pairs*>(context);
-    all.insert(all.end(), pairs.begin(), pairs.end());
-  };
-  kernel.find(input, 0, input.some->members().size(), *buffer);
-  buffer->flush();
+    result.insert(result.end(), pairs.begin(), pairs.end());
+  });
+  kernel.find(input, 0, input.some->members().size(), buffer);
+  buffer.flush();
   return result;
 }
 
@@ -170,27 +166,18 @@ Pairs sorted(Pairs pairs) {
 }
 
 /// The confirmation of unsure pairs by the truth.
-template <std::size_t instants, class First, class Second>
-struct Truth {
-  const Scene& scene;
-  std::span<const First> first;
-  std::span<const Second> second;
-  double distance;
-  bool of_edges;
+template <std::size_t instants>
+class Truth final : public PairQuestions {
+ public:
+  Truth(const Scene& scene, double distance) : scene_(scene), distance_(distance) {}
 
-  static bool confirms(const void* context, const IndexPair& pair) {
-    const auto& truth = *static_cast<const Truth*>(context);
-    return !are_apart<instants>(
-        truth.scene, primitive_of(truth.first[static_cast<std::size_t>(pair[0])]),
-        primitive_of(truth.second[static_cast<std::size_t>(pair[1])]), truth.distance);
+  [[nodiscard]] bool confirms(const Primitive& a, const Primitive& b) const override {
+    return !are_apart<instants>(scene_, a, b, distance_);
   }
 
-  [[nodiscard]] PairRules rules(Certainty certainty) const {
-    return {.of_edges = of_edges,
-            .certainty = certainty,
-            .confirms = &Truth::confirms,
-            .context = this};
-  }
+ private:
+  const Scene& scene_;
+  double distance_;
 };
 
 /// The first fault of a search of a scene, or nothing.
@@ -198,11 +185,12 @@ template <std::size_t instants>
 std::string fault(const SearchKernel& kernel, const Scene& scene, double distance,
                   Certainty certainty) {
   const Trees<instants> trees(scene, distance);
-  const Truth<instants, std::int32_t, Face> of_faces{scene, scene.vertices, scene.faces, distance,
-                                                     false};
-  const Truth<instants, Edge, Edge> of_edges{scene, scene.edges, scene.edges, distance, true};
-  const SearchInput<instants> with_faces{&trees.vertices, &trees.faces, of_faces.rules(certainty)};
-  const SearchInput<instants> of_one_tree{&trees.edges, &trees.edges, of_edges.rules(certainty)};
+  const Truth<instants> truth(scene, distance);
+  const auto rules = [&](bool of_edges) {
+    return PairRules{.of_edges = of_edges, .certainty = certainty, .questions = &truth};
+  };
+  const SearchInput<instants> with_faces{&trees.vertices, &trees.faces, rules(false)};
+  const SearchInput<instants> of_one_tree{&trees.edges, &trees.edges, rules(true)};
   if (sorted(found(kernel, with_faces)) !=
       all_pairs<instants, std::int32_t, Face>(scene, scene.vertices, scene.faces, distance)) {
     return "vertices and faces";
@@ -311,15 +299,12 @@ TEST(Search, OfPartsIsThatOfTheWhole) {
   for (const SearchKernel* const kernel : all_kernels()) {
     const Pairs whole = found(*kernel, input);
     Pairs parts;
-    const auto buffer = std::make_unique<PairBuffer>();
-    buffer->context = &parts;
-    buffer->take = [](void* context, std::span<const IndexPair> pairs) {
-      auto& all = *static_cast<Pairs*>(context);
-      all.insert(all.end(), pairs.begin(), pairs.end());
-    };
+    PairSink buffer([&](std::span<const IndexPair> pairs) {
+      parts.insert(parts.end(), pairs.begin(), pairs.end());
+    });
     const std::size_t groups = trees.edges.members().size();
-    for (std::size_t i = 0; i < groups; ++i) kernel->find(input, i, i + 1, *buffer);
-    buffer->flush();
+    for (std::size_t i = 0; i < groups; ++i) kernel->find(input, i, i + 1, buffer);
+    buffer.flush();
     EXPECT_EQ(parts, whole);
   }
 }
@@ -476,14 +461,6 @@ TEST(Division, MakesTheSameGroupsWithAllKernels) {
 TEST(Division, PlantedFaultsAreFound) {
   for (const auto& fault : tests::planted_faults().division) {
     EXPECT_NE(first_wrong_division(*fault.part), "") << fault.name;
-  }
-}
-
-TEST(SearchKernels, AreFoundByTheirInstructions) {
-  EXPECT_EQ(search_kernels().front()->instructions, InstructionSet::scalar);
-  EXPECT_EQ(&best_search_kernel(), search_kernels().back());
-  for (const SearchKernel* const kernel : search_kernels()) {
-    EXPECT_EQ(find_search_kernel(kernel->instructions), kernel);
   }
 }
 

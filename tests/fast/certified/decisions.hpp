@@ -39,21 +39,21 @@ template <class Number>
 }
 
 /// Expects the query's first contact, enclosed within at most `step` spacings of doubles.
-inline void expect_truth(const PosedQuery& posed,
-                         const std::optional<fast::exact_stage::Impact>& impact,
+inline void expect_truth(const PosedQuery& posed, const std::optional<fast::ExactImpact>& impact,
                          std::uint64_t step) {
   const exact::Decision truth = exact::decide(posed.kind, posed.query);
   ASSERT_EQ(impact.has_value(), truth.collides()) << posed;
   if (!impact) return;
   const exact::AlgebraicNumber& toi = *truth.toi;
-  const exact::Rational lower(std::bit_cast<double>(impact->time.lower));
-  const exact::Rational upper(std::bit_cast<double>(impact->time.upper));
+  const exact::Rational lower(impact->toi_lower);
+  const exact::Rational upper(impact->toi_upper);
   EXPECT_TRUE(toi <= upper) << posed;
   if (toi == exact::Rational(0)) {
     EXPECT_TRUE(lower == 0 && upper == 0) << posed;
   } else {
     EXPECT_TRUE(toi > lower) << posed;
-    EXPECT_LE(impact->time.upper - impact->time.lower, step) << posed;
+    const auto [first, last] = fast::exact_stage::time_of(*impact);
+    EXPECT_LE(last - first, step) << posed;
   }
 }
 

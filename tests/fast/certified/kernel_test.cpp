@@ -150,14 +150,6 @@ TEST(CertifiedKernels, ReadNothingBehindTheLastQuery) {
   }
 }
 
-TEST(CertifiedKernels, AreFoundByTheirInstructions) {
-  EXPECT_EQ(certified_kernels().front()->instructions, InstructionSet::scalar);
-  EXPECT_EQ(&best_certified_kernel(), certified_kernels().back());
-  for (const CertifiedKernel* const kernel : certified_kernels()) {
-    EXPECT_EQ(find_certified_kernel(kernel->instructions), kernel);
-  }
-}
-
 // ---- Planted faults -----------------------------------------------------------------------------
 
 bool is_wrong(const verify::generate::KnownQuery& known, const CertifiedResult& result) {
@@ -236,7 +228,7 @@ int distances_that_find(const CertifiedKernel& kernel) {
 
 TEST(CertifiedKernels, DistancesFindNoFaultInTheKernels) {
   EXPECT_EQ(distances_that_find(*certified_kernels().front()), 0);
-  EXPECT_EQ(distances_that_find(best_certified_kernel()), 0);
+  EXPECT_EQ(distances_that_find(*certified_kernels().back()), 0);
 }
 
 TEST(CertifiedKernels, DistancesFindPlantedFaults) {

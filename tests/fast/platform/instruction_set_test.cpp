@@ -8,6 +8,11 @@
 #include <string>
 #include <vector>
 
+#include "fast/broad_phase/search.hpp"
+#include "fast/certified/kernel.hpp"
+#include "fast/distance/filter_kernel.hpp"
+#include "fast/tight_inclusion/box_kernel.hpp"
+
 namespace touchstone::fast::instruction_set_test {
 namespace {
 
@@ -55,6 +60,13 @@ TEST(InstructionSet, AKernelIsFoundByItsInstructions) {
   const std::span<const Kernel* const> all(kernels);
   EXPECT_EQ(find_kernel(all, InstructionSet::avx2), &avx2);
   EXPECT_EQ(find_kernel(all, InstructionSet::avx512), nullptr);
+}
+
+TEST(InstructionSet, ScalarKernelsAreFirst) {
+  EXPECT_EQ(certified_kernels().front()->instructions, InstructionSet::scalar);
+  EXPECT_EQ(search_kernels().front()->instructions, InstructionSet::scalar);
+  EXPECT_EQ(box_kernels().front()->instructions, InstructionSet::scalar);
+  EXPECT_EQ(distance_kernels().front()->instructions, InstructionSet::scalar);
 }
 
 }  // namespace

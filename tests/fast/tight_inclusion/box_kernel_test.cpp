@@ -9,7 +9,6 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
-#include <cstdio>
 #include <limits>
 #include <string>
 #include <vector>
@@ -83,21 +82,6 @@ Scalar expression(const BoxKernel& kernel, const BoxProblem& problem, const Box&
 }
 
 std::uint64_t bits(double x) { return std::bit_cast<std::uint64_t>(x); }
-
-TEST(BoxKernel, ScalarIsAlwaysThereAndFirst) {
-  ASSERT_FALSE(box_kernels().empty());
-  EXPECT_EQ(box_kernels().front()->instructions, InstructionSet::scalar);
-  EXPECT_EQ(&best_box_kernel(), box_kernels().back());
-  EXPECT_EQ(find_box_kernel(InstructionSet::avx512), nullptr);
-  for (const InstructionSet set : {InstructionSet::scalar, InstructionSet::avx2}) {
-    const BoxKernel* const kernel = find_box_kernel(set);
-    if (kernel == nullptr) {
-      std::printf("this processor has no %s\n", std::string(to_string(set)).c_str());
-    } else {
-      EXPECT_EQ(kernel->instructions, set);
-    }
-  }
-}
 
 class EachKernel : public testing::TestWithParam<const BoxKernel*> {};
 

@@ -99,8 +99,7 @@ TEST(Solvers, MayAllAnswerInThisProcessAndTheCertifiedOneWithAKernel) {
   const std::vector<Query> queries(1);
   std::vector<fast::Answer> answers(1);
   for (const fast::CertifiedKernel* kernel :
-       {static_cast<const fast::CertifiedKernel*>(nullptr),
-        fast::find_certified_kernel(fast::InstructionSet::scalar)}) {
+       {static_cast<const fast::CertifiedKernel*>(nullptr), fast::certified_kernels().front()}) {
     arguments.kernel = kernel;
     Files files;
     const Solvers solvers(files, arguments, MethodHost::this_process);

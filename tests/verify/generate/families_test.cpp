@@ -20,6 +20,7 @@
 
 #include "exact/algebra/number.hpp"
 #include "exact/query.hpp"
+#include "tests/support/contact_function.hpp"
 #include "tests/support/trials.hpp"
 
 namespace touchstone::verify::generate::families_test {
@@ -364,16 +365,16 @@ TEST(Families, HaveFullSignificandsInHalfOfTheQueries) {
 
 TEST(Families, HaveContactPointsThatAreRootsOfF) {
   std::size_t points = 0;
-  for_each_query(queries_a_family,
-                 [&](const Family&, Kind kind, std::uint64_t, const KnownQuery& known) {
-                   if (!known.contact) return;
-                   const auto& [u, v] = *known.contact;
-                   const auto f = contact_function<Rational>(kind, known.query, *known.toi, u, v);
-                   for (const Rational& component : f) EXPECT_EQ(component, 0);
-                   EXPECT_TRUE(u >= 0 && v >= 0);
-                   EXPECT_TRUE(kind == Kind::vertex_face ? u + v <= 1 : u <= 1 && v <= 1);
-                   ++points;
-                 });
+  for_each_query(
+      queries_a_family, [&](const Family&, Kind kind, std::uint64_t, const KnownQuery& known) {
+        if (!known.contact) return;
+        const auto& [u, v] = *known.contact;
+        const auto f = tests::contact_function<Rational>(kind, known.query, *known.toi, u, v);
+        for (const Rational& component : f) EXPECT_EQ(component, 0);
+        EXPECT_TRUE(u >= 0 && v >= 0);
+        EXPECT_TRUE(kind == Kind::vertex_face ? u + v <= 1 : u <= 1 && v <= 1);
+        ++points;
+      });
   EXPECT_GT(points, tests::trials(800U));
 }
 

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 
+#include "tests/support/contact_function.hpp"
 #include "tests/support/queries.hpp"
 
 namespace touchstone::fast::exact_stage::closest_point_parameters_test {
@@ -16,7 +17,7 @@ using tests::Random;
 
 /// ‖F(t,u,v)‖, up to rounding.
 double distance(const PosedQuery& posed, double t, const Parameters& x, Norm norm) {
-  const auto f = contact_function<double>(posed.kind, posed.query, t, x.u, x.v);
+  const auto f = tests::contact_function<double>(posed.kind, posed.query, t, x.u, x.v);
   if (norm == Norm::l2) return std::hypot(f[0], f[1], f[2]);
   return std::max({std::abs(f[0]), std::abs(f[1]), std::abs(f[2])});
 }

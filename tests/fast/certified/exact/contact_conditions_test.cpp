@@ -12,6 +12,7 @@
 #include "fast/certified/exact/big_integer.hpp"
 #include "fast/certified/exact/fixed_integer.hpp"
 #include "tests/fast/certified/decisions.hpp"
+#include "tests/support/contact_function.hpp"
 
 namespace touchstone::fast::exact_stage::contact_conditions_test {
 namespace {
@@ -64,7 +65,8 @@ void expect_truth_of_resting(const PosedQuery& posed) {
                                             : std::max(result.u, result.v),
             1)
       << posed;
-  const auto f = contact_function<exact::Rational>(posed.kind, posed.query, 0, result.u, result.v);
+  const auto f =
+      tests::contact_function<exact::Rational>(posed.kind, posed.query, 0, result.u, result.v);
   for (const exact::Rational& x : f) EXPECT_EQ(x, 0) << posed;
 }
 

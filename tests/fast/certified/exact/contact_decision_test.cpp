@@ -56,7 +56,7 @@ TEST(FixedSizeDecision, TakesTheLatestTimeExactly) {
   const PosedQuery posed = tests::over_edge(1, 1, 1, -2);  // at t = 1/3
   const FixedSizeAnswer answer = decide<FixedInteger<1>>(posed);
   ASSERT_TRUE(answer.decided && answer.impact);
-  const BitInterval time = answer.impact->time;
+  const BitInterval time = time_of(*answer.impact);
   const FixedSizeAnswer before = decide<FixedInteger<1>>(posed, 1, time.lower),
                         after = decide<FixedInteger<1>>(posed, 1, time.upper);
   EXPECT_TRUE(before.decided && !before.impact);

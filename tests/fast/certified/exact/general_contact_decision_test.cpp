@@ -11,7 +11,7 @@ using tests::integer_motion;
 using tests::PosedQuery;
 using tests::Random;
 
-std::optional<Impact> decide(const PosedQuery& posed, std::uint64_t latest = bits_of_one) {
+std::optional<ExactImpact> decide(const PosedQuery& posed, std::uint64_t latest = bits_of_one) {
   return first_impact(integer_motion<BigInteger>(posed), latest);
 }
 
@@ -39,9 +39,9 @@ TEST(GeneralDecision, TakesTheLatestTimeExactly) {
   const PosedQuery third = tests::over_triangle(1, 1, 1, -2);
   const auto impact = decide(third);
   ASSERT_TRUE(impact.has_value());
-  EXPECT_EQ(impact->time.upper - impact->time.lower, 1U);
-  EXPECT_FALSE(decide(third, impact->time.lower).has_value());
-  EXPECT_TRUE(decide(third, impact->time.upper).has_value());
+  EXPECT_EQ(time_of(*impact).upper - time_of(*impact).lower, 1U);
+  EXPECT_FALSE(decide(third, time_of(*impact).lower).has_value());
+  EXPECT_TRUE(decide(third, time_of(*impact).upper).has_value());
   EXPECT_EQ(impact->u, 0.25);
   EXPECT_EQ(impact->v, 0.25);
 }
