@@ -7,7 +7,8 @@ add_library(touchstone_build_options INTERFACE)
 target_compile_features(touchstone_build_options INTERFACE cxx_std_20)
 target_compile_options(touchstone_build_options INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wsign-conversion -Wcast-qual -Wold-style-cast
-  -Wnon-virtual-dtor -Woverloaded-virtual -Wdouble-promotion -Wformat=2 -Wimplicit-fallthrough -Werror
+  -Wnon-virtual-dtor -Woverloaded-virtual -Wdouble-promotion -Wformat=2 -Wimplicit-fallthrough
+  $<$<BOOL:${TOUCHSTONE_WERROR}>:-Werror>
   # The compiler collects its garbage only above 4 GB, which no source reaches: 7 % less time.
   $<$<CXX_COMPILER_ID:GNU>:--param=ggc-min-heapsize=4000000>
   # A filter's bound holds for the operations as they are written.
@@ -34,9 +35,22 @@ function(touchstone_compile_together target)
   endif()
 endfunction()
 
+# touchstone_install(TARGET [FILE_SET …]): installs the library and its headers as a component of the package,
+# touchstone-NAME-targets.cmake.
+function(touchstone_install target)
+  if(NOT TOUCHSTONE_INSTALL)
+    return()
+  endif()
+  get_target_property(name ${target} EXPORT_NAME)
+  install(TARGETS ${target} EXPORT touchstone-${name} FILE_SET HEADERS ${ARGN})
+  install(EXPORT touchstone-${name} NAMESPACE touchstone:: DESTINATION ${touchstone_config_folder}
+    FILE touchstone-${name}-targets.cmake)
+endfunction()
+
 # touchstone_module(NAME [INTERFACE] HEADERS … SOURCES … PUBLIC … PRIVATE … PRECOMPILED …): the library
 # touchstone_NAME, alias touchstone::NAME, with the packages and modules that it may use. HEADERS are the public
-# headers. They are installed, and each is checked to compile by itself (target all_verify_interface_header_sets).
+# headers, in include/touchstone/ of the module: a user includes <touchstone/HEADER>, and nothing else is on the user's
+# include path. They are installed, and each is checked to compile by itself (target all_verify_interface_header_sets).
 # PRECOMPILED are foreign headers that most sources read; a source still includes the headers that it uses. A module
 # with headers is a component of the installed package, touchstone-NAME-targets.cmake.
 function(touchstone_module name)
@@ -49,20 +63,16 @@ function(touchstone_module name)
     add_library(${target} STATIC ${MODULE_SOURCES})
     set(scope PUBLIC)
     target_link_libraries(${target} PRIVATE $<BUILD_INTERFACE:touchstone_build_options> ${MODULE_PRIVATE})
+    target_include_directories(${target} PRIVATE ${PROJECT_SOURCE_DIR})
   endif()
   add_library(touchstone::${name} ALIAS ${target})
   set_target_properties(${target} PROPERTIES EXPORT_NAME ${name} VERIFY_INTERFACE_HEADER_SETS ON)
   target_compile_features(${target} ${scope} cxx_std_20)
-  target_include_directories(${target} ${scope}
-    $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/touchstone>)
   target_link_libraries(${target} ${scope} ${MODULE_PUBLIC})
   target_precompile_headers(${target} PRIVATE ${MODULE_PRECOMPILED})
   if(MODULE_HEADERS)
-    target_sources(${target} ${scope}
-      FILE_SET HEADERS BASE_DIRS ${PROJECT_SOURCE_DIR} FILES ${MODULE_HEADERS})
-    install(TARGETS ${target} EXPORT touchstone-${name}
-      FILE_SET HEADERS DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/touchstone)
-    install(EXPORT touchstone-${name} NAMESPACE touchstone:: DESTINATION ${touchstone_config_folder}
-      FILE touchstone-${name}-targets.cmake)
+    list(TRANSFORM MODULE_HEADERS PREPEND include/touchstone/)
+    target_sources(${target} ${scope} FILE_SET HEADERS BASE_DIRS include FILES ${MODULE_HEADERS})
+    touchstone_install(${target})
   endif()
 endfunction()

@@ -1,14 +1,14 @@
-#include "exact/certificate.hpp"
+#include "touchstone/certificate.hpp"
 
 #include <algorithm>
 #include <stdexcept>
 #include <utility>
 
-#include "exact/algebra/algebraic_number.hpp"
 #include "exact/algebra/positivity.hpp"
 #include "exact/certificate/separation_intervals.hpp"
 #include "exact/contact/contact_conditions.hpp"
 #include "exact/contact/corner_motion.hpp"
+#include "touchstone/algebraic_number.hpp"
 
 namespace touchstone::exact {
 namespace {

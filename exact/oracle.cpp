@@ -1,4 +1,4 @@
-#include "exact/oracle.hpp"
+#include "touchstone/oracle.hpp"
 
 #include <stdexcept>
 

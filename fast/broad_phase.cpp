@@ -1,4 +1,4 @@
-#include "fast/broad_phase.hpp"
+#include "touchstone/broad_phase.hpp"
 
 #include <oneapi/tbb/parallel_for.h>
 

@@ -1,4 +1,4 @@
-#include "fast/certified.hpp"
+#include "touchstone/certified.hpp"
 
 #include <oneapi/tbb/blocked_range.h>
 #include <oneapi/tbb/enumerable_thread_specific.h>

@@ -1,4 +1,4 @@
-#include "fast/distance.hpp"
+#include "touchstone/distance.hpp"
 
 #include <oneapi/tbb/blocked_range.h>
 #include <oneapi/tbb/parallel_for.h>
@@ -20,8 +20,8 @@
 #include "fast/distance/proximity.hpp"
 #include "fast/platform/floating_point_state.hpp"
 #include "fast/platform/threads.hpp"
-#include "filters/error_bounds.hpp"
-#include "filters/expressions.hpp"
+#include "touchstone/filters/error_bounds.hpp"
+#include "touchstone/filters/expressions.hpp"
 
 namespace touchstone::fast {
 namespace {

@@ -1,9 +1,9 @@
-#include "fast/filter.hpp"
+#include "touchstone/filter.hpp"
 
 #include <algorithm>
 #include <limits>
 
-#include "filters/error_bounds.hpp"
+#include "touchstone/filters/error_bounds.hpp"
 
 namespace touchstone::fast {
 namespace {

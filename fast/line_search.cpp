@@ -1,4 +1,4 @@
-#include "fast/line_search.hpp"
+#include "touchstone/line_search.hpp"
 
 #include <algorithm>
 #include <atomic>
@@ -12,10 +12,10 @@
 #include <utility>
 #include <vector>
 
-#include "fast/certified.hpp"
 #include "fast/distance/proximity.hpp"
 #include "fast/platform/floating_point_state.hpp"
 #include "fast/step/scene.hpp"
+#include "touchstone/certified.hpp"
 
 namespace touchstone::fast {
 namespace {

@@ -1,4 +1,4 @@
-#include "fast/mesh.hpp"
+#include "touchstone/mesh.hpp"
 
 #include <algorithm>
 #include <array>

@@ -12,8 +12,8 @@
 #include <string_view>
 #include <vector>
 
-#include "exact/query.hpp"
-#include "fast/filter.hpp"
+#include "touchstone/filter.hpp"
+#include "touchstone/query.hpp"
 
 namespace touchstone::fast {
 

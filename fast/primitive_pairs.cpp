@@ -1,4 +1,4 @@
-#include "fast/primitive_pairs.hpp"
+#include "touchstone/primitive_pairs.hpp"
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include "fast/step.hpp"
+#include "touchstone/step.hpp"
 
 #include <oneapi/tbb/enumerable_thread_specific.h>
 #include <oneapi/tbb/parallel_for.h>

@@ -1,4 +1,4 @@
-#include "fast/tight_inclusion.hpp"
+#include "touchstone/tight_inclusion.hpp"
 
 #include <algorithm>
 #include <cmath>

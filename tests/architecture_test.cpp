@@ -22,7 +22,8 @@
 namespace touchstone::tests::architecture_test {
 namespace {
 
-/// Files by their path from the project root, with '/' between the parts.
+/// Files by their path from the project root, with '/' between the parts, and without the folders
+/// of public headers: fast/include/touchstone/step.hpp is fast/step.hpp.
 using Tree = std::map<std::string, std::string, std::less<>>;
 using Violations = std::vector<std::string>;
 
@@ -80,16 +81,15 @@ constexpr auto permissions = std::to_array<Permission>({
     {"adapters/", "fast/"},
     {"adapters/", "exact/query.hpp"},
     {"adapters/", "Eigen/"},
-    {"adapters/ipc_toolkit/", "adapters/"},
-    {"adapters/ipc_toolkit/", "fast/"},
-    {"adapters/ipc_toolkit/", "exact/query.hpp"},
-    {"adapters/ipc_toolkit/", "ipc/ccd/narrow_phase_ccd.hpp"},
+    {"adapters/ipc_toolkit.hpp", "fast/"},
+    {"adapters/ipc_toolkit.hpp", "exact/query.hpp"},
+    {"adapters/ipc_toolkit.hpp", "ipc/ccd/narrow_phase_ccd.hpp"},
 
     {"adapters/tight_inclusion/logger.hpp", "spdlog/"},
 
     // C programs that include this header need no other header of ours.
-    {"adapters/c/touchstone.h", "stddef.h"},
-    {"adapters/c/touchstone.h", "stdint.h"},
+    {"adapters/touchstone.h", "stddef.h"},
+    {"adapters/touchstone.h", "stdint.h"},
 
     // The published methods use packages that simulators do not need.
     {"verify/baselines/", "verify/baselines/"},
@@ -173,7 +173,7 @@ struct Exception {
 /// Headers under an extension that this project does not use.
 constexpr auto foreign_headers = std::to_array<Exception>({
     {"verify/plugin.h", "included by plugins, which may be written in C"},
-    {"adapters/c/touchstone.h", "included by programs in C"},
+    {"adapters/touchstone.h", "included by programs in C"},
     {"tests/adapters/tight_inclusion/public/spdlog/spdlog.h",
      "stands for another library's header, under its name"},
 });
@@ -262,15 +262,24 @@ bool is_standard_library(const Include& include) {
          include.name.find_first_of("/.") == std::string::npos;
 }
 
+const std::map<std::string, std::string, std::less<>>& public_headers();
+
+/// The path in the tree of an included file.
+std::string included_path(const Include& include) {
+  const auto header = public_headers().find(include.name);
+  return header != public_headers().end() ? header->second : include.name;
+}
+
 bool is_permitted(std::string_view path, const Include& include) {
   if (is_standard_library(include)) return true;
   if (include.name.find("..") != std::string::npos) return false;
+  const std::string target = included_path(include);
   const std::string_view rule = rule_for(path);
   return std::ranges::any_of(permissions, [&](const Permission& permission) {
     const bool is_closed = std::ranges::any_of(closed_parts, [&](std::string_view part) {
-      return include.name.starts_with(part) && !permission.target.starts_with(part);
+      return target.starts_with(part) && !permission.target.starts_with(part);
     });
-    return !is_closed && permission.from == rule && fits(include.name, permission.target);
+    return !is_closed && permission.from == rule && fits(target, permission.target);
   });
 }
 
@@ -422,6 +431,20 @@ std::string read(const std::filesystem::path& path) {
   return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
 }
 
+/// The folders of public headers: include/touchstone/ in every module, and others that stand for
+/// other libraries.
+constexpr std::array<std::string_view, 3> public_folders{
+    "include/touchstone/filters/", "include/touchstone/", "include/tight_inclusion/"};
+
+/// The path without the folder of public headers, if it has one.
+std::string tree_path(std::string path) {
+  for (const std::string_view folder : public_folders) {
+    const std::size_t at = path.find(folder);
+    if (at != std::string::npos) return path.erase(at, folder.size());
+  }
+  return path;
+}
+
 Tree read_source_tree() {
   const std::filesystem::path root = tests::source_folder();
   std::vector<std::string> folders(modules.begin(), modules.end());
@@ -430,7 +453,8 @@ Tree read_source_tree() {
   for (const std::string& folder : folders) {
     for (const auto& entry : std::filesystem::recursive_directory_iterator(root / folder)) {
       if (!entry.is_regular_file()) continue;
-      tree.emplace(entry.path().lexically_relative(root).generic_string(), read(entry.path()));
+      tree.emplace(tree_path(entry.path().lexically_relative(root).generic_string()),
+                   read(entry.path()));
     }
   }
   return tree;
@@ -439,6 +463,26 @@ Tree read_source_tree() {
 const Tree& source_tree() {
   static const Tree tree = read_source_tree();
   return tree;
+}
+
+/// The public headers: their paths in the tree, by the names under which they are included.
+std::map<std::string, std::string, std::less<>> read_public_headers() {
+  const std::filesystem::path root = tests::source_folder();
+  std::map<std::string, std::string, std::less<>> result;
+  for (const std::string_view module : modules) {
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(root / module)) {
+      const std::string path = entry.path().lexically_relative(root).generic_string();
+      const std::size_t at = path.find("/include/");
+      if (at == std::string::npos || !is_header(path) || !is_in_a_module(path)) continue;
+      result.emplace(path.substr(at + std::string_view("/include/").size()), tree_path(path));
+    }
+  }
+  return result;
+}
+
+const std::map<std::string, std::string, std::less<>>& public_headers() {
+  static const auto headers = read_public_headers();
+  return headers;
 }
 
 TEST(SourceTree, HasAHeaderInEveryModule) {

@@ -1,4 +1,4 @@
-#include "adapters/c/touchstone.h"
+#include "touchstone/touchstone.h"
 
 #include <array>
 #include <cstring>
@@ -12,8 +12,8 @@
 #include <utility>
 #include <vector>
 
-#include "fast/certified.hpp"
-#include "fast/step.hpp"
+#include "touchstone/certified.hpp"
+#include "touchstone/step.hpp"
 
 // The inputs and outputs of a step.
 struct TouchstoneStep {

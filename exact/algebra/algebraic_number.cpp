@@ -1,4 +1,4 @@
-#include "exact/algebra/algebraic_number.hpp"
+#include "touchstone/algebraic_number.hpp"
 
 #include <algorithm>
 #include <cmath>

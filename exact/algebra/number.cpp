@@ -1,4 +1,4 @@
-#include "exact/algebra/number.hpp"
+#include "touchstone/number.hpp"
 
 #include <CGAL/Exact_integer.h>
 #include <CGAL/Exact_rational.h>

@@ -1,4 +1,4 @@
-#include "exact/algebra/polynomial.hpp"
+#include "touchstone/polynomial.hpp"
 
 #include <algorithm>
 #include <cstdint>

@@ -11,8 +11,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "exact/algebra/number.hpp"
-#include "exact/algebra/polynomial.hpp"
+#include "touchstone/number.hpp"
+#include "touchstone/polynomial.hpp"
 
 namespace touchstone::exact {
 

@@ -1,4 +1,4 @@
-#include "exact/certificate/certificate_text.hpp"
+#include "touchstone/certificate_text.hpp"
 
 #include <algorithm>
 #include <array>

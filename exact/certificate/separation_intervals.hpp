@@ -12,9 +12,9 @@
 
 #include <vector>
 
-#include "exact/algebra/number.hpp"
-#include "exact/certificate.hpp"
 #include "exact/contact/corner_motion.hpp"
+#include "touchstone/certificate.hpp"
+#include "touchstone/number.hpp"
 
 namespace touchstone::exact {
 

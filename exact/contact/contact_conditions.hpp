@@ -23,10 +23,10 @@
 #include <optional>
 #include <vector>
 
-#include "exact/algebra/algebraic_number.hpp"
-#include "exact/algebra/polynomial.hpp"
-#include "exact/certificate.hpp"
 #include "exact/contact/corner_motion.hpp"
+#include "touchstone/algebraic_number.hpp"
+#include "touchstone/certificate.hpp"
+#include "touchstone/polynomial.hpp"
 
 namespace touchstone::exact {
 

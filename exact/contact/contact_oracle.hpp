@@ -33,7 +33,7 @@
 /// docs/theory.md, section 2.
 
 #include "exact/contact/corner_motion.hpp"
-#include "exact/oracle.hpp"
+#include "touchstone/oracle.hpp"
 
 namespace touchstone::exact {
 

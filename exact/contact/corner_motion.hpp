@@ -18,10 +18,10 @@
 #include <utility>
 #include <vector>
 
-#include "exact/algebra/algebraic_number.hpp"
-#include "exact/algebra/number.hpp"
-#include "exact/algebra/polynomial.hpp"
-#include "exact/query.hpp"
+#include "touchstone/algebraic_number.hpp"
+#include "touchstone/number.hpp"
+#include "touchstone/polynomial.hpp"
+#include "touchstone/query.hpp"
 
 namespace touchstone::exact {
 

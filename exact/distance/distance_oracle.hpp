@@ -15,7 +15,7 @@
 /// docs/theory.md, section 3.
 
 #include "exact/contact/corner_motion.hpp"
-#include "exact/oracle.hpp"
+#include "touchstone/oracle.hpp"
 
 namespace touchstone::exact {
 

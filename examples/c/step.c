@@ -1,7 +1,7 @@
 /* A step of a mesh from C99: a triangle falls through a resting one. */
 
 #include <stdio.h>
-#include <touchstone.h>
+#include <touchstone/touchstone.h>
 
 int main(void) {
   const double before[18] = {0, 0, 0, 4, 0, 0, 0, 4, 0, 1, 1, 1, 3, 1, 1, 1, 3, 1};

@@ -7,7 +7,7 @@
 # SOURCE: a folder with the CMakeLists.txt of the plugin (such as examples/plugin); LIBRARY: its file in the build folder,
 # such as box_overlap.so. Variables:
 #   TOUCHSTONE          the program touchstone (found in the path)
-#   TOUCHSTONE_INCLUDE  the folder that contains verify/plugin.h (this project's)
+#   TOUCHSTONE_INCLUDE  the folder that contains touchstone/plugin.h (this project's)
 #   FINDINGS            a folder, new or empty, for the findings (findings)
 #   BUILD               the build folder (build-plugin)
 #   FUZZ_LIMIT          the length of the search (--seconds 120)
@@ -21,7 +21,7 @@ if [ $# -ne 2 ]; then
   exit 2
 fi
 touchstone=${TOUCHSTONE:-touchstone}
-include=${TOUCHSTONE_INCLUDE:-$(cd "$(dirname "$0")/../.." && pwd)}
+include=${TOUCHSTONE_INCLUDE:-$(cd "$(dirname "$0")/../../verify/include" && pwd)}
 findings=${FINDINGS:-findings}
 build=${BUILD:-build-plugin}
 plugin=$build/$2

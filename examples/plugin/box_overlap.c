@@ -12,7 +12,7 @@
 
 #include <math.h>
 
-#include "verify/plugin.h"
+#include "touchstone/plugin.h"
 
 /* Range of the points first, …, first + count − 1 along an axis, at both ends of their motion. */
 struct range {

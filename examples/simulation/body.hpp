@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "fast/mesh.hpp"
+#include "touchstone/mesh.hpp"
 
 namespace touchstone::simulation {
 

@@ -12,7 +12,7 @@
 #include <utility>
 
 #include "examples/simulation/stopwatch.hpp"
-#include "fast/distance.hpp"
+#include "touchstone/distance.hpp"
 #include "verify/solvers/registry.hpp"
 
 namespace touchstone::simulation {

@@ -17,9 +17,9 @@
 #include <vector>
 
 #include "examples/simulation/recorder.hpp"
-#include "fast/active_set.hpp"
-#include "fast/line_search.hpp"
-#include "fast/step.hpp"
+#include "touchstone/active_set.hpp"
+#include "touchstone/line_search.hpp"
+#include "touchstone/step.hpp"
 #include "verify/solvers/solver.hpp"
 
 namespace touchstone::simulation {

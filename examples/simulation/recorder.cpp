@@ -7,7 +7,7 @@
 #include <string_view>
 #include <utility>
 
-#include "exact/oracle.hpp"
+#include "touchstone/oracle.hpp"
 #include "verify/data/csv_dataset.hpp"
 #include "verify/data/npy.hpp"
 #include "verify/io/output_file.hpp"

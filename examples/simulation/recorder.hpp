@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "exact/query.hpp"
+#include "touchstone/query.hpp"
 
 namespace touchstone::simulation {
 

@@ -26,7 +26,7 @@
 #include <vector>
 
 #include "examples/simulation/scene.hpp"
-#include "fast/step.hpp"
+#include "touchstone/step.hpp"
 
 namespace touchstone::simulation {
 

@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file
-/// The bodies of a tree's primitives. The vertices of one collision group (fast/step.hpp) are
+/// The bodies of a tree's primitives. The vertices of one collision group (touchstone/step.hpp) are
 /// a body.
 ///
 /// A primitive belongs to the common body of its vertices, or is *mixed*; likewise a group of

@@ -14,8 +14,8 @@
 #include <vector>
 
 #include "fast/platform/floating_point_state.hpp"
-#include "filters/error_bounds.hpp"
-#include "filters/expressions.hpp"
+#include "touchstone/filters/error_bounds.hpp"
+#include "touchstone/filters/expressions.hpp"
 
 namespace touchstone::fast {
 namespace {

@@ -39,7 +39,7 @@
 #include <limits>
 #include <memory>
 
-#include "fast/mesh.hpp"
+#include "touchstone/mesh.hpp"
 
 namespace touchstone::fast {
 

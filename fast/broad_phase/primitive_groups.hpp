@@ -19,7 +19,7 @@
 #include <span>
 
 #include "fast/broad_phase/float_bounds.hpp"
-#include "fast/mesh.hpp"
+#include "touchstone/mesh.hpp"
 
 namespace touchstone::fast {
 

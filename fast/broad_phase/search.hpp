@@ -13,8 +13,8 @@
 #include "fast/broad_phase/body_tree.hpp"
 #include "fast/broad_phase/box_tree.hpp"
 #include "fast/broad_phase/seeds.hpp"
-#include "fast/mesh.hpp"
 #include "fast/platform/instruction_set.hpp"
+#include "touchstone/mesh.hpp"
 
 namespace touchstone::fast {
 

@@ -10,7 +10,7 @@
 #include <limits>
 
 #include "fast/broad_phase/primitive_groups.hpp"
-#include "fast/mesh.hpp"
+#include "touchstone/mesh.hpp"
 
 namespace touchstone::fast {
 

@@ -9,10 +9,10 @@
 #include <optional>
 #include <vector>
 
-#include "exact/query.hpp"
-#include "fast/certified.hpp"
 #include "fast/certified/kernel.hpp"
 #include "fast/certified/rescaling.hpp"
+#include "touchstone/certified.hpp"
+#include "touchstone/query.hpp"
 
 namespace touchstone::fast {
 

@@ -9,9 +9,9 @@
 #include <cstdint>
 #include <span>
 
-#include "exact/query.hpp"
-#include "fast/mesh.hpp"
 #include "fast/platform/instruction_set.hpp"
+#include "touchstone/mesh.hpp"
+#include "touchstone/query.hpp"
 
 namespace touchstone::fast {
 

@@ -5,9 +5,9 @@
 /// in each lane. Only the kernels include this file, one file for each instruction set
 /// (kernel_*.cpp).
 ///
-/// F = r − u p − v q (filters/polynomial_expressions.hpp), the corners w_i are F at the vertices of
-/// its domain, and there is contact at a time t iff 0 ∈ conv{w_i(t)}. Each stage decides the
-/// queries for which its theorem applies. Its file begins with the theorem:
+/// F = r − u p − v q (touchstone/filters/polynomial_expressions.hpp), the corners w_i are F at the
+/// vertices of its domain, and there is contact at a time t iff 0 ∈ conv{w_i(t)}. Each stage
+/// decides the queries for which its theorem applies. Its file begins with the theorem:
 ///
 /// 1. **Axis** (stages/axis.hpp): a coordinate axis separates the primitives at all times.
 /// 2. **Direction** (stages/direction.hpp): the direction of the sum of the corners separates them

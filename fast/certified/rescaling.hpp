@@ -16,8 +16,8 @@
 
 #include <span>
 
-#include "exact/query.hpp"
 #include "fast/certified/kernel.hpp"
+#include "touchstone/query.hpp"
 
 namespace touchstone::fast {
 

@@ -7,8 +7,8 @@
 /// corners, multiplied by 2^k, are integers too. Theorem 1 and theorem 3 of polygon_features.hpp
 /// then give the distance, or its square, as a fraction, which is compared with doubles.
 
-#include "exact/query.hpp"
-#include "fast/distance.hpp"
+#include "touchstone/distance.hpp"
+#include "touchstone/query.hpp"
 
 namespace touchstone::fast {
 

@@ -7,9 +7,9 @@
 #include <cstddef>
 #include <span>
 
-#include "exact/query.hpp"
-#include "fast/distance.hpp"
 #include "fast/platform/instruction_set.hpp"
+#include "touchstone/distance.hpp"
+#include "touchstone/query.hpp"
 
 namespace touchstone::fast {
 

@@ -21,7 +21,7 @@
 
 #include "fast/distance/filter_kernel.hpp"
 #include "fast/distance/polygon_features.hpp"
-#include "filters/ball.hpp"
+#include "touchstone/filters/ball.hpp"
 
 namespace touchstone::fast::distance_filter {
 

@@ -9,7 +9,7 @@
 
 #include "fast/distance/neighbouring_doubles.hpp"
 #include "fast/distance/polygon_features.hpp"
-#include "filters/ball.hpp"
+#include "touchstone/filters/ball.hpp"
 
 namespace touchstone::fast {
 namespace {

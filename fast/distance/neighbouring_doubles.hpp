@@ -10,7 +10,7 @@
 #include <limits>
 #include <optional>
 
-#include "fast/distance.hpp"
+#include "touchstone/distance.hpp"
 
 namespace touchstone::fast {
 

@@ -4,9 +4,9 @@
 /// The distance of two primitives at one time, in sums and products of numbers of any type.
 ///
 /// P is the convex hull of the differences of the primitives' points, the corners w_i
-/// (exact/query.hpp). The distance is that of P from the origin. Corners that coincide at all times
-/// are taken once, so P is a segment for a vertex and an edge, and a point for two vertices. Let ij
-/// be a side of P, e = w_j − w_i, m = w_i × w_j, and N = (w_1 − w_0) × (w_last − w_0).
+/// (touchstone/query.hpp). The distance is that of P from the origin. Corners that coincide at all
+/// times are taken once, so P is a segment for a vertex and an edge, and a point for two vertices.
+/// Let ij be a side of P, e = w_j − w_i, m = w_i × w_j, and N = (w_1 − w_0) × (w_last − w_0).
 ///
 /// **Theorem 1** (L2, upper bounds). The square of the distance is the least of
 ///   - vertex: |w_i|²;
@@ -33,8 +33,8 @@
 #include <array>
 #include <cstddef>
 
-#include "exact/query.hpp"
-#include "filters/polynomial_expressions.hpp"
+#include "touchstone/filters/polynomial_expressions.hpp"
+#include "touchstone/query.hpp"
 
 namespace touchstone::fast::polygon {
 

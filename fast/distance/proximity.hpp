@@ -11,9 +11,9 @@
 #include <span>
 #include <vector>
 
-#include "exact/query.hpp"
 #include "fast/certified/kernel.hpp"
-#include "fast/step.hpp"
+#include "touchstone/query.hpp"
+#include "touchstone/step.hpp"
 
 namespace touchstone::fast {
 

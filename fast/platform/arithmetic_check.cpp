@@ -4,7 +4,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "filters/strict_arithmetic.hpp"
+#include "touchstone/filters/strict_arithmetic.hpp"
 
 #ifdef __SSE2__
 #include <xmmintrin.h>

@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file
-/// The collision groups of a scene (fast/step.hpp). The search calls a collision group a
+/// The collision groups of a scene (touchstone/step.hpp). The search calls a collision group a
 /// body, because "group" means sixteen primitives there. Two bodies *meet* if they can collide.
 
 #include <array>
@@ -10,7 +10,7 @@
 #include <span>
 #include <vector>
 
-#include "fast/step.hpp"
+#include "touchstone/step.hpp"
 
 namespace touchstone::fast {
 

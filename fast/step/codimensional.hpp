@@ -7,8 +7,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "fast/mesh.hpp"
-#include "fast/step.hpp"
+#include "touchstone/mesh.hpp"
+#include "touchstone/step.hpp"
 
 namespace touchstone::fast {
 

@@ -5,8 +5,8 @@
 #include <stdexcept>
 #include <utility>
 
-#include "fast/broad_phase.hpp"
 #include "fast/broad_phase/swept_box.hpp"
+#include "touchstone/broad_phase.hpp"
 
 namespace touchstone::fast {
 namespace {

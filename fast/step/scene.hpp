@@ -25,10 +25,10 @@
 #include "fast/broad_phase/search.hpp"
 #include "fast/certified/block.hpp"
 #include "fast/certified/kernel.hpp"
-#include "fast/mesh.hpp"
-#include "fast/step.hpp"
 #include "fast/step/bodies.hpp"
 #include "fast/step/codimensional.hpp"
+#include "touchstone/mesh.hpp"
+#include "touchstone/step.hpp"
 
 namespace touchstone::fast {
 

@@ -6,7 +6,7 @@
 ///
 /// F is affine in each of t, u and v, so over a box it stays within the bounding box of its eight
 /// corner values ([wang2021], section 4.2). Both are computed on lanes, one for each corner, with
-/// the steps of filters/expressions.hpp in their order. So a lane has the same bits as
+/// the steps of touchstone/filters/expressions.hpp in their order. So a lane has the same bits as
 /// EdgeEdge::evaluate or VertexFace::evaluate for every instruction set.
 
 #include <array>
@@ -14,8 +14,8 @@
 #include <limits>
 #include <span>
 
-#include "exact/query.hpp"
 #include "fast/platform/instruction_set.hpp"
+#include "touchstone/query.hpp"
 
 namespace touchstone::fast {
 

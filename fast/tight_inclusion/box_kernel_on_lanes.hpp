@@ -17,7 +17,7 @@
 /// set.
 
 #include "fast/tight_inclusion/box_kernel.hpp"
-#include "filters/expressions.hpp"
+#include "touchstone/filters/expressions.hpp"
 
 namespace touchstone::fast {
 

@@ -1,4 +1,4 @@
-#include "filters/derivation/bound_table.hpp"
+#include "touchstone/derivation/bound_table.hpp"
 
 #include <fmt/format.h>
 
@@ -10,9 +10,9 @@
 #include <string_view>
 #include <thread>
 
-#include "filters/derivation/catalogue.hpp"
-#include "filters/derivation/gappa.hpp"
-#include "filters/derivation/published_model.hpp"
+#include "touchstone/derivation/catalogue.hpp"
+#include "touchstone/derivation/gappa.hpp"
+#include "touchstone/derivation/published_model.hpp"
 
 namespace touchstone::filters {
 namespace {

@@ -1,12 +1,12 @@
-#include "filters/derivation/catalogue.hpp"
+#include "touchstone/derivation/catalogue.hpp"
 
 #include <algorithm>
 #include <stdexcept>
 
-#include "filters/derivation/shipped_bound.hpp"
-#include "filters/expressions.hpp"
-#include "filters/polynomial_expressions.hpp"
-#include "filters/separation_expressions.hpp"
+#include "touchstone/derivation/shipped_bound.hpp"
+#include "touchstone/filters/expressions.hpp"
+#include "touchstone/filters/polynomial_expressions.hpp"
+#include "touchstone/filters/separation_expressions.hpp"
 
 namespace touchstone::filters {
 namespace {

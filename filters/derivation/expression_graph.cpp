@@ -1,4 +1,4 @@
-#include "filters/derivation/expression_graph.hpp"
+#include "touchstone/derivation/expression_graph.hpp"
 
 #include <algorithm>
 #include <numeric>

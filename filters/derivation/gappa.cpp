@@ -1,4 +1,4 @@
-#include "filters/derivation/gappa.hpp"
+#include "touchstone/derivation/gappa.hpp"
 
 #include <fmt/format.h>
 #include <spawn.h>

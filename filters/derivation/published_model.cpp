@@ -1,8 +1,8 @@
-#include "filters/derivation/published_model.hpp"
+#include "touchstone/derivation/published_model.hpp"
 
 #include <vector>
 
-#include "filters/derivation/rounding_model.hpp"
+#include "touchstone/derivation/rounding_model.hpp"
 
 namespace touchstone::filters {
 namespace {

@@ -1,4 +1,4 @@
-#include "filters/derivation/rounding_model.hpp"
+#include "touchstone/derivation/rounding_model.hpp"
 
 #include <algorithm>
 #include <map>

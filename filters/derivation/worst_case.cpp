@@ -1,4 +1,4 @@
-#include "filters/derivation/worst_case.hpp"
+#include "touchstone/derivation/worst_case.hpp"
 
 #include <algorithm>
 #include <cmath>

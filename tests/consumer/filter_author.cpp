@@ -1,7 +1,7 @@
 // The author of a filtered predicate derives the bound of its error from the predicate's own text.
 
-#include <filters/derivation/rounding_model.hpp>
-#include <filters/derivation/shipped_bound.hpp>
+#include <touchstone/derivation/rounding_model.hpp>
+#include <touchstone/derivation/shipped_bound.hpp>
 
 #include <array>
 #include <cstddef>

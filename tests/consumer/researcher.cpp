@@ -1,6 +1,6 @@
 // The README's example of the oracle as a library.
 
-#include <exact/oracle.hpp>
+#include <touchstone/oracle.hpp>
 
 #include <cstdio>
 

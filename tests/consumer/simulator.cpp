@@ -1,14 +1,14 @@
 // The includes of a simulator: single queries by both solvers, and a whole step.
 
-#include <exact/query.hpp>
-#include <fast/active_set.hpp>
-#include <fast/certified.hpp>
-#include <fast/distance.hpp>
-#include <fast/line_search.hpp>
 #include <fast/platform/arithmetic_check.hpp>
-#include <fast/primitive_pairs.hpp>
-#include <fast/step.hpp>
-#include <fast/tight_inclusion.hpp>
+#include <touchstone/active_set.hpp>
+#include <touchstone/certified.hpp>
+#include <touchstone/distance.hpp>
+#include <touchstone/line_search.hpp>
+#include <touchstone/primitive_pairs.hpp>
+#include <touchstone/query.hpp>
+#include <touchstone/step.hpp>
+#include <touchstone/tight_inclusion.hpp>
 
 #include <Eigen/Core>
 

@@ -13,15 +13,15 @@
 #include <utility>
 #include <vector>
 
-#include "exact/certificate.hpp"
 #include "tests/support/certificates.hpp"
 #include "tests/support/queries.hpp"
 #include "tests/support/random.hpp"
 #include "tests/support/trials.hpp"
+#include "touchstone/certificate.hpp"
 #include "verify/generate/families.hpp"
 
-// Certificates (exact/certificate.hpp) altered in every field: all that the checker still accepts
-// must be true, by the oracle's answer about the altered query.
+// Certificates (touchstone/certificate.hpp) altered in every field: all that the checker still
+// accepts must be true, by the oracle's answer about the altered query.
 
 namespace touchstone::exact::certificate_mutation_test {
 namespace {

@@ -1,4 +1,4 @@
-#include "exact/certificate.hpp"
+#include "touchstone/certificate.hpp"
 
 #include <gtest/gtest.h>
 
@@ -12,12 +12,12 @@
 
 #include "exact/contact/corner_motion.hpp"
 #include "exact/distance/distance_oracle.hpp"
-#include "exact/oracle.hpp"
 #include "tests/support/certificates.hpp"
 #include "tests/support/public_data.hpp"
 #include "tests/support/queries.hpp"
 #include "tests/support/random.hpp"
 #include "tests/support/trials.hpp"
+#include "touchstone/oracle.hpp"
 #include "verify/data/dataset.hpp"
 #include "verify/generate/families.hpp"
 

@@ -14,10 +14,10 @@
 #include <utility>
 #include <vector>
 
-#include "exact/oracle.hpp"
 #include "tests/support/public_data.hpp"
 #include "tests/support/queries.hpp"
 #include "tests/support/random.hpp"
+#include "touchstone/oracle.hpp"
 #include "verify/data/dataset.hpp"
 
 namespace touchstone::exact {

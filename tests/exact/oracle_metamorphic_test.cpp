@@ -16,10 +16,10 @@
 #include <stdexcept>
 #include <vector>
 
-#include "exact/oracle.hpp"
 #include "tests/support/queries.hpp"
 #include "tests/support/random.hpp"
 #include "tests/support/trials.hpp"
+#include "touchstone/oracle.hpp"
 
 namespace touchstone::exact::oracle_metamorphic_test {
 namespace {

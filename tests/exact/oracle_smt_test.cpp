@@ -20,9 +20,9 @@
 #include <optional>
 #include <vector>
 
-#include "exact/oracle.hpp"
 #include "tests/support/queries.hpp"
 #include "tests/support/random.hpp"
+#include "touchstone/oracle.hpp"
 
 namespace touchstone::exact::oracle_smt_test {
 namespace {

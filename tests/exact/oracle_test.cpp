@@ -6,7 +6,7 @@
 /// there is no solution; the remainder is clipped against the domain. This must find contact at the
 /// time of impact, and at no time before.
 
-#include "exact/oracle.hpp"
+#include "touchstone/oracle.hpp"
 
 #include <gtest/gtest.h>
 

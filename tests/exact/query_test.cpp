@@ -1,4 +1,4 @@
-#include "exact/query.hpp"
+#include "touchstone/query.hpp"
 
 #include <gtest/gtest.h>
 
@@ -13,9 +13,9 @@
 #include <utility>
 #include <vector>
 
-#include "exact/algebra/number.hpp"
 #include "tests/support/contact_function.hpp"
 #include "tests/support/random.hpp"
+#include "touchstone/number.hpp"
 
 namespace touchstone::query_test {
 namespace {

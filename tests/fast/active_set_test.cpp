@@ -1,4 +1,4 @@
-#include "fast/active_set.hpp"
+#include "touchstone/active_set.hpp"
 
 #include <gtest/gtest.h>
 

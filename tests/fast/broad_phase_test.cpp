@@ -1,4 +1,4 @@
-#include "fast/broad_phase.hpp"
+#include "touchstone/broad_phase.hpp"
 
 #include <gtest/gtest.h>
 #include <oneapi/tbb/parallel_for.h>
@@ -18,11 +18,11 @@
 #include <utility>
 #include <vector>
 
-#include "exact/algebra/number.hpp"
-#include "exact/oracle.hpp"
 #include "tests/support/random.hpp"
 #include "tests/support/simulation_steps.hpp"
 #include "tests/support/trials.hpp"
+#include "touchstone/number.hpp"
+#include "touchstone/oracle.hpp"
 
 namespace touchstone::fast::broad_phase_test {
 namespace {

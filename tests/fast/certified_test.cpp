@@ -2,7 +2,7 @@
 /// The certified solver by hand, in batches and as a method. (deciders_test.cpp compares it with
 /// the oracle.)
 
-#include "fast/certified.hpp"
+#include "touchstone/certified.hpp"
 
 #include <gtest/gtest.h>
 

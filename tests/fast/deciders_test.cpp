@@ -18,14 +18,14 @@
 #include <string_view>
 #include <vector>
 
-#include "fast/certified.hpp"
-#include "fast/primitive_pairs.hpp"
 #include "tests/support/certified.hpp"
 #include "tests/support/contact_function.hpp"
 #include "tests/support/public_data.hpp"
 #include "tests/support/queries.hpp"
 #include "tests/support/random.hpp"
 #include "tests/support/trials.hpp"
+#include "touchstone/certified.hpp"
+#include "touchstone/primitive_pairs.hpp"
 #include "verify/data/dataset.hpp"
 #include "verify/generate/families.hpp"
 

@@ -1,4 +1,4 @@
-#include "fast/distance.hpp"
+#include "touchstone/distance.hpp"
 
 #include <gtest/gtest.h>
 
@@ -12,7 +12,6 @@
 #include <utility>
 #include <vector>
 
-#include "fast/broad_phase.hpp"
 #include "fast/distance/exact_distance.hpp"
 #include "fast/distance/filter_kernel.hpp"
 #include "fast/distance/filtered_distance.hpp"
@@ -23,6 +22,7 @@
 #include "tests/support/random.hpp"
 #include "tests/support/scenes.hpp"
 #include "tests/support/trials.hpp"
+#include "touchstone/broad_phase.hpp"
 
 namespace touchstone::fast::distance_test {
 namespace {

@@ -1,11 +1,11 @@
-#include "fast/filter.hpp"
+#include "touchstone/filter.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
 
-#include "filters/error_bounds.hpp"
+#include "touchstone/filters/error_bounds.hpp"
 
 namespace touchstone::fast::filter_test {
 namespace {

@@ -18,19 +18,19 @@
 #include <utility>
 #include <vector>
 
-#include "exact/certificate.hpp"
-#include "exact/certificate/certificate_text.hpp"
-#include "exact/oracle.hpp"
-#include "fast/active_set.hpp"
-#include "fast/broad_phase.hpp"
-#include "fast/certified.hpp"
-#include "fast/distance.hpp"
-#include "fast/line_search.hpp"
-#include "fast/primitive_pairs.hpp"
-#include "fast/step.hpp"
 #include "tests/support/queries.hpp"
 #include "tests/support/random.hpp"
 #include "tests/support/scenes.hpp"
+#include "touchstone/active_set.hpp"
+#include "touchstone/broad_phase.hpp"
+#include "touchstone/certificate.hpp"
+#include "touchstone/certificate_text.hpp"
+#include "touchstone/certified.hpp"
+#include "touchstone/distance.hpp"
+#include "touchstone/line_search.hpp"
+#include "touchstone/oracle.hpp"
+#include "touchstone/primitive_pairs.hpp"
+#include "touchstone/step.hpp"
 
 #ifdef __SSE2__
 #include <xmmintrin.h>

@@ -1,4 +1,4 @@
-#include "fast/line_search.hpp"
+#include "touchstone/line_search.hpp"
 
 #include <gtest/gtest.h>
 
@@ -12,15 +12,15 @@
 #include <string>
 #include <vector>
 
-#include "exact/algebra/number.hpp"
-#include "exact/oracle.hpp"
 #include "fast/distance/exact_distance.hpp"
-#include "fast/filter.hpp"
-#include "fast/tight_inclusion.hpp"
 #include "tests/faults/planted_faults.hpp"
 #include "tests/support/random.hpp"
 #include "tests/support/scenes.hpp"
 #include "tests/support/trials.hpp"
+#include "touchstone/filter.hpp"
+#include "touchstone/number.hpp"
+#include "touchstone/oracle.hpp"
+#include "touchstone/tight_inclusion.hpp"
 
 namespace touchstone::fast::line_search_test {
 namespace {

@@ -1,4 +1,4 @@
-#include "fast/mesh.hpp"
+#include "touchstone/mesh.hpp"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "exact/query.hpp"
+#include "touchstone/query.hpp"
 
 #ifdef __SSE2__
 #include <xmmintrin.h>

@@ -1,11 +1,11 @@
-#include "fast/primitive_pairs.hpp"
+#include "touchstone/primitive_pairs.hpp"
 
 #include <gtest/gtest.h>
 
 #include <stdexcept>
 #include <vector>
 
-#include "fast/certified.hpp"
+#include "touchstone/certified.hpp"
 
 namespace touchstone::fast::primitive_pairs_test {
 namespace {

@@ -12,14 +12,14 @@
 #include <string>
 #include <vector>
 
-#include "fast/active_set.hpp"
-#include "fast/broad_phase.hpp"
-#include "fast/certified.hpp"
-#include "fast/distance.hpp"
-#include "fast/line_search.hpp"
-#include "fast/primitive_pairs.hpp"
-#include "fast/step.hpp"
 #include "tests/support/queries.hpp"
+#include "touchstone/active_set.hpp"
+#include "touchstone/broad_phase.hpp"
+#include "touchstone/certified.hpp"
+#include "touchstone/distance.hpp"
+#include "touchstone/line_search.hpp"
+#include "touchstone/primitive_pairs.hpp"
+#include "touchstone/step.hpp"
 
 namespace touchstone::fast::refusals_test {
 namespace {

@@ -9,10 +9,10 @@
 #include <string>
 #include <vector>
 
-#include "fast/broad_phase.hpp"
-#include "fast/certified.hpp"
-#include "fast/step.hpp"
 #include "tests/support/simulation_steps.hpp"
+#include "touchstone/broad_phase.hpp"
+#include "touchstone/certified.hpp"
+#include "touchstone/step.hpp"
 
 namespace touchstone::fast::simulation_steps_test {
 namespace {

@@ -1,4 +1,4 @@
-#include "fast/step.hpp"
+#include "touchstone/step.hpp"
 
 #include <gtest/gtest.h>
 #include <sys/resource.h>
@@ -18,8 +18,6 @@
 #include <utility>
 #include <vector>
 
-#include "exact/oracle.hpp"
-#include "fast/broad_phase.hpp"
 #include "fast/broad_phase/search.hpp"
 #include "fast/certified/kernel.hpp"
 #include "tests/faults/planted_faults.hpp"
@@ -27,6 +25,8 @@
 #include "tests/support/random.hpp"
 #include "tests/support/scenes.hpp"
 #include "tests/support/trials.hpp"
+#include "touchstone/broad_phase.hpp"
+#include "touchstone/oracle.hpp"
 #include "verify/mesh/self_intersection.hpp"
 
 namespace touchstone::fast::step_test {

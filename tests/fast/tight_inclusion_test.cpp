@@ -2,7 +2,7 @@
 /// Tight-Inclusion against known truth and against a direct implementation of its description, and
 /// with planted faults, each of which the built-in families must find.
 
-#include "fast/tight_inclusion.hpp"
+#include "touchstone/tight_inclusion.hpp"
 
 #include <gtest/gtest.h>
 #include <xmmintrin.h>
@@ -22,13 +22,13 @@
 #include <tuple>
 #include <vector>
 
-#include "exact/algebra/number.hpp"
-#include "exact/oracle.hpp"
 #include "tests/faults/planted_faults.hpp"
 #include "tests/support/public_data.hpp"
 #include "tests/support/queries.hpp"
 #include "tests/support/random.hpp"
 #include "tests/support/trials.hpp"
+#include "touchstone/number.hpp"
+#include "touchstone/oracle.hpp"
 #include "verify/data/dataset.hpp"
 #include "verify/generate/families.hpp"
 #include "verify/generate/workload.hpp"

@@ -16,8 +16,8 @@
 #include <utility>
 #include <vector>
 
-#include "exact/oracle.hpp"
 #include "tests/faults/hunt.hpp"
+#include "touchstone/oracle.hpp"
 #include "verify/data/csv_dataset.hpp"
 #include "verify/data/separation_file.hpp"
 #include "verify/fuzz/reproduce.hpp"

@@ -13,19 +13,19 @@
 #include <vector>
 
 #include "exact/checker/checker.hpp"
-#include "exact/query.hpp"
-#include "fast/active_set.hpp"
 #include "fast/broad_phase/float_bounds.hpp"
 #include "fast/broad_phase/search.hpp"
-#include "fast/certified.hpp"
 #include "fast/certified/exact/exact_stage.hpp"
 #include "fast/certified/kernel.hpp"
-#include "fast/distance.hpp"
-#include "fast/line_search.hpp"
-#include "fast/mesh.hpp"
 #include "fast/method.hpp"
-#include "fast/tight_inclusion.hpp"
 #include "fast/tight_inclusion/box_kernel.hpp"
+#include "touchstone/active_set.hpp"
+#include "touchstone/certified.hpp"
+#include "touchstone/distance.hpp"
+#include "touchstone/line_search.hpp"
+#include "touchstone/mesh.hpp"
+#include "touchstone/query.hpp"
+#include "touchstone/tight_inclusion.hpp"
 
 namespace touchstone::tests {
 

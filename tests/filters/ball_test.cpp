@@ -1,4 +1,4 @@
-#include "filters/ball.hpp"
+#include "touchstone/filters/ball.hpp"
 
 #include <gmpxx.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "filters/double_double.hpp"
+#include "touchstone/filters/double_double.hpp"
 
 #include <gmpxx.h>
 #include <gtest/gtest.h>
@@ -9,8 +9,8 @@
 #include <functional>
 #include <random>
 
-#include "filters/derivation/mpfr_number.hpp"
 #include "tests/support/trials.hpp"
+#include "touchstone/derivation/mpfr_number.hpp"
 
 namespace touchstone::filters::double_double_test {
 namespace {

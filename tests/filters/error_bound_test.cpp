@@ -1,4 +1,4 @@
-#include "filters/error_bound.hpp"
+#include "touchstone/filters/error_bound.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "filters/error_bounds.hpp"
+#include "touchstone/filters/error_bounds.hpp"
 #include "tests/support/built_files.hpp"
 
 #include <gtest/gtest.h>
@@ -9,11 +9,11 @@
 #include <string>
 #include <utility>
 
-#include "filters/derivation/catalogue.hpp"
-#include "filters/derivation/gappa.hpp"
-#include "filters/polynomial_expressions.hpp"
-#include "filters/separation_expressions.hpp"
 #include "tests/filters/support.hpp"
+#include "touchstone/derivation/catalogue.hpp"
+#include "touchstone/derivation/gappa.hpp"
+#include "touchstone/filters/polynomial_expressions.hpp"
+#include "touchstone/filters/separation_expressions.hpp"
 
 namespace touchstone::filters::error_bounds_test {
 namespace {
@@ -22,7 +22,7 @@ TEST(ErrorBounds, StandAsTheDerivationGivesThem) {
   std::ifstream file(tests::source_folder() + "/filters/error_bounds.hpp", std::ios::binary);
   const std::string text{std::istreambuf_iterator<char>(file), {}};
   EXPECT_EQ(text, error_bounds_header())
-      << "write it anew: touchstone derive --emit filters/error_bounds.hpp";
+      << "write it anew: touchstone derive --emit touchstone/filters/error_bounds.hpp";
 }
 
 /// A shipped bound, with its expression and precision.

@@ -1,12 +1,12 @@
-#include "filters/expressions.hpp"
+#include "touchstone/filters/expressions.hpp"
 
 #include <gtest/gtest.h>
 
 #include <limits>
 
-#include "exact/query.hpp"
 #include "tests/filters/support.hpp"
 #include "tests/support/contact_function.hpp"
+#include "touchstone/query.hpp"
 
 namespace touchstone::filters::expressions_test {
 namespace {

@@ -1,4 +1,4 @@
-#include "filters/polynomial_expressions.hpp"
+#include "touchstone/filters/polynomial_expressions.hpp"
 
 #include <gmpxx.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "filters/separation_expressions.hpp"
+#include "touchstone/filters/separation_expressions.hpp"
 
 #include <gmpxx.h>
 #include <gtest/gtest.h>

@@ -14,8 +14,8 @@
 #include <string_view>
 #include <vector>
 
-#include "filters/derivation/worst_case.hpp"
-#include "filters/expressions.hpp"
+#include "touchstone/derivation/worst_case.hpp"
+#include "touchstone/filters/expressions.hpp"
 
 namespace touchstone::filters {
 

@@ -7,11 +7,11 @@
 #include <string>
 #include <vector>
 
-#include "filters/derivation/gappa.hpp"
-#include "filters/derivation/shipped_bound.hpp"
 #include "tests/filters/support.hpp"
 #include "tests/filters/worked_example/orientation.hpp"
 #include "tests/support/built_files.hpp"
+#include "touchstone/derivation/gappa.hpp"
+#include "touchstone/derivation/shipped_bound.hpp"
 
 namespace touchstone::filters::worked_example_test {
 namespace {

@@ -5,10 +5,10 @@
 #include <memory>
 #include <vector>
 
-#include "exact/oracle.hpp"
 #include "examples/simulation/collision_detector.hpp"
 #include "examples/simulation/world.hpp"
 #include "tests/support/folder_test.hpp"
+#include "touchstone/oracle.hpp"
 #include "verify/data/dataset.hpp"
 
 namespace touchstone::simulation::recorder_test {

@@ -14,12 +14,12 @@
 #include <string_view>
 #include <vector>
 
-#include "exact/algebra/number.hpp"
-#include "exact/oracle.hpp"
 #include "fast/method.hpp"
 #include "tests/support/public_data.hpp"
 #include "tests/support/queries.hpp"
 #include "tests/support/random.hpp"
+#include "touchstone/number.hpp"
+#include "touchstone/oracle.hpp"
 #include "verify/data/dataset.hpp"
 #include "verify/generate/families.hpp"
 

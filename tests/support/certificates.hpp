@@ -11,12 +11,12 @@
 #include <string_view>
 #include <vector>
 
-#include "exact/algebra/number.hpp"
-#include "exact/certificate.hpp"
-#include "exact/certificate/certificate_text.hpp"
 #include "exact/checker/checker.hpp"
-#include "exact/oracle.hpp"
 #include "tests/support/queries.hpp"
+#include "touchstone/certificate.hpp"
+#include "touchstone/certificate_text.hpp"
+#include "touchstone/number.hpp"
+#include "touchstone/oracle.hpp"
 
 namespace touchstone::tests {
 

@@ -9,10 +9,10 @@
 #include <optional>
 #include <string>
 
-#include "exact/algebra/number.hpp"
-#include "exact/oracle.hpp"
-#include "fast/certified.hpp"
 #include "fast/certified/exact/exact_stage.hpp"
+#include "touchstone/certified.hpp"
+#include "touchstone/number.hpp"
+#include "touchstone/oracle.hpp"
 
 namespace touchstone::tests {
 

@@ -1,11 +1,11 @@
 #pragma once
 
-/// \file F (exact/query.hpp) from its definition, in any numbers.
+/// \file F (touchstone/query.hpp) from its definition, in any numbers.
 
 #include <array>
 #include <cstddef>
 
-#include "exact/query.hpp"
+#include "touchstone/query.hpp"
 
 namespace touchstone::tests {
 

@@ -16,8 +16,8 @@
 #include <optional>
 #include <vector>
 
-#include "exact/algebra/number.hpp"
-#include "exact/query.hpp"
+#include "touchstone/number.hpp"
+#include "touchstone/query.hpp"
 
 namespace touchstone::tests {
 

@@ -16,9 +16,9 @@
 #include <string>
 #include <vector>
 
-#include "exact/algebra/algebraic_number.hpp"
-#include "exact/algebra/polynomial.hpp"
 #include "tests/support/queries.hpp"
+#include "touchstone/algebraic_number.hpp"
+#include "touchstone/polynomial.hpp"
 
 namespace touchstone::tests {
 

@@ -9,9 +9,9 @@
 #include <string_view>
 #include <utility>
 
-#include "exact/oracle.hpp"
-#include "exact/query.hpp"
 #include "fast/method.hpp"
+#include "touchstone/oracle.hpp"
+#include "touchstone/query.hpp"
 
 namespace touchstone::tests {
 

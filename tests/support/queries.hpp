@@ -16,8 +16,8 @@
 #include <ios>
 #include <ostream>
 
-#include "exact/query.hpp"
 #include "tests/support/random.hpp"
+#include "touchstone/query.hpp"
 
 namespace touchstone::tests {
 

@@ -16,10 +16,10 @@
 #include <utility>
 #include <vector>
 
-#include "exact/algebra/number.hpp"
-#include "fast/broad_phase.hpp"
-#include "fast/step.hpp"
 #include "tests/support/random.hpp"
+#include "touchstone/broad_phase.hpp"
+#include "touchstone/number.hpp"
+#include "touchstone/step.hpp"
 
 namespace touchstone::tests {
 

@@ -20,9 +20,9 @@
 #include <utility>
 #include <vector>
 
-#include "exact/query.hpp"
-#include "fast/mesh.hpp"
 #include "tests/support/public_data.hpp"
+#include "touchstone/mesh.hpp"
+#include "touchstone/query.hpp"
 #include "verify/mesh/mesh.hpp"
 
 namespace touchstone::tests {

@@ -6,10 +6,10 @@
 #include <cmath>
 #include <cstdint>
 
-#include "exact/oracle.hpp"
 #include "fast/method.hpp"
 #include "tests/support/baselines.hpp"
 #include "tests/support/queries.hpp"
+#include "touchstone/oracle.hpp"
 
 namespace touchstone::tests {
 

@@ -1,4 +1,4 @@
-#include "verify/plugin.h"
+#include "touchstone/plugin.h"
 
 #include <gtest/gtest.h>
 

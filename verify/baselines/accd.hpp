@@ -29,8 +29,8 @@
 
 #include <memory>
 
-#include "exact/query.hpp"
 #include "fast/method.hpp"
+#include "touchstone/query.hpp"
 
 namespace touchstone::baselines {
 

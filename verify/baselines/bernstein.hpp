@@ -26,7 +26,7 @@
 #include <array>
 #include <cstddef>
 
-#include "exact/query.hpp"
+#include "touchstone/query.hpp"
 
 namespace touchstone::baselines {
 

@@ -18,7 +18,7 @@
 #include <boost/numeric/interval.hpp>
 #include <cstddef>
 
-#include "exact/query.hpp"
+#include "touchstone/query.hpp"
 
 namespace touchstone::baselines {
 

@@ -12,8 +12,8 @@
 #include <cstdint>
 #include <memory>
 
-#include "exact/query.hpp"
 #include "fast/method.hpp"
+#include "touchstone/query.hpp"
 
 namespace touchstone::baselines {
 

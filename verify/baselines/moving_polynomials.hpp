@@ -9,7 +9,7 @@
 #include <cstddef>
 #include <span>
 
-#include "exact/query.hpp"
+#include "touchstone/query.hpp"
 
 namespace touchstone::baselines {
 

@@ -37,8 +37,8 @@
 #include <memory>
 #include <span>
 
-#include "exact/query.hpp"
 #include "fast/method.hpp"
+#include "touchstone/query.hpp"
 
 namespace touchstone::baselines {
 

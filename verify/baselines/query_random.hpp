@@ -7,7 +7,7 @@
 #include <bit>
 #include <cstdint>
 
-#include "exact/query.hpp"
+#include "touchstone/query.hpp"
 #include "verify/generate/random.hpp"
 
 namespace touchstone::baselines {

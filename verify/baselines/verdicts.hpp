@@ -13,9 +13,9 @@
 #include <span>
 #include <string_view>
 
-#include "exact/query.hpp"
 #include "fast/method.hpp"
 #include "fast/platform/floating_point_state.hpp"
+#include "touchstone/query.hpp"
 #include "verify/baselines/method_support.hpp"
 
 namespace touchstone::baselines {

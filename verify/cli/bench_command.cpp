@@ -18,8 +18,8 @@
 #include <vector>
 
 #include "fast/broad_phase/search.hpp"
-#include "fast/certified.hpp"
 #include "fast/certified/kernel.hpp"
+#include "touchstone/certified.hpp"
 #include "verify/cli/commands.hpp"
 #include "verify/cli/files.hpp"
 #include "verify/cli/help.hpp"

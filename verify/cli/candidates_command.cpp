@@ -17,8 +17,8 @@
 #include <string_view>
 #include <vector>
 
-#include "fast/broad_phase.hpp"
-#include "fast/mesh.hpp"
+#include "touchstone/broad_phase.hpp"
+#include "touchstone/mesh.hpp"
 #include "verify/cli/commands.hpp"
 #include "verify/cli/files.hpp"
 #include "verify/cli/help.hpp"

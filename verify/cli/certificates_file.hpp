@@ -8,7 +8,7 @@
 #include <string>
 #include <string_view>
 
-#include "exact/certificate/certificate_text.hpp"
+#include "touchstone/certificate_text.hpp"
 #include "verify/cli/files.hpp"
 #include "verify/io/compressor.hpp"
 #include "verify/jobs/prove.hpp"

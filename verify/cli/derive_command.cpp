@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
-#include "filters/derivation/bound_table.hpp"
-#include "filters/derivation/catalogue.hpp"
+#include "touchstone/derivation/bound_table.hpp"
+#include "touchstone/derivation/catalogue.hpp"
 #include "verify/cli/commands.hpp"
 #include "verify/cli/files.hpp"
 #include "verify/cli/help.hpp"
@@ -151,7 +151,7 @@ void add_derive_command(CLI::App& app, Status& status) {
   command->option_defaults()->group("Output");
   command
       ->add_option("--emit", arguments->header_file,
-                   "Write the header of bounds (filters/error_bounds.hpp)")
+                   "Write the header of bounds (touchstone/filters/error_bounds.hpp)")
       ->type_name("FILE");
   add_json_option(*command, arguments->json_file);
   set_help(*command, "touchstone derive --model published --model rigorous --precision double",

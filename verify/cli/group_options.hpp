@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "fast/step.hpp"
+#include "touchstone/step.hpp"
 #include "verify/cli/files.hpp"
 #include "verify/mesh/mesh.hpp"
 

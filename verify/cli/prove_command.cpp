@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "exact/algebra/number.hpp"
+#include "touchstone/number.hpp"
 #include "verify/cli/certificates_file.hpp"
 #include "verify/cli/commands.hpp"
 #include "verify/cli/files.hpp"

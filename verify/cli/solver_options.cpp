@@ -9,8 +9,8 @@
 #include <string_view>
 #include <utility>
 
-#include "exact/query.hpp"
-#include "fast/certified.hpp"
+#include "touchstone/certified.hpp"
+#include "touchstone/query.hpp"
 #include "verify/cli/options.hpp"
 #include "verify/io/printable.hpp"
 #include "verify/io/terminal.hpp"
@@ -84,7 +84,7 @@ void add_solver_options(CLI::App& command, SolverArguments& arguments) {
 void add_plugin_option(CLI::App& command, SolverArguments& arguments) {
   command
       .add_option("--plugin", arguments.plugins,
-                  "Your solver: a shared library (verify/plugin.h); repeatable")
+                  "Your solver: a shared library (touchstone/plugin.h); repeatable")
       ->type_name("LIB.so")
       ->allow_extra_args(false);
 }

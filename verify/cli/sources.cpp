@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "exact/query.hpp"
+#include "touchstone/query.hpp"
 #include "verify/data/dataset.hpp"
 #include "verify/generate/families.hpp"
 #include "verify/io/terminal.hpp"

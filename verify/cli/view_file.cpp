@@ -7,7 +7,7 @@
 #include <span>
 #include <utility>
 
-#include "fast/certified.hpp"
+#include "touchstone/certified.hpp"
 #include "verify/cli/options.hpp"
 #include "verify/io/printable.hpp"
 #include "verify/judge/separation_inference.hpp"

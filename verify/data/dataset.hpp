@@ -16,7 +16,7 @@
 #include <span>
 #include <vector>
 
-#include "exact/query.hpp"
+#include "touchstone/query.hpp"
 #include "verify/data/query_source.hpp"
 #include "verify/io/dataset_error.hpp"
 

@@ -17,7 +17,7 @@
 #include <string>
 #include <vector>
 
-#include "exact/algebra/number.hpp"
+#include "touchstone/number.hpp"
 #include "verify/io/dataset_error.hpp"
 #include "verify/io/input_file.hpp"
 

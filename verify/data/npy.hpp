@@ -11,7 +11,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "exact/query.hpp"
+#include "touchstone/query.hpp"
 #include "verify/io/input_file.hpp"
 #include "verify/io/output_file.hpp"
 

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "exact/query.hpp"
+#include "touchstone/query.hpp"
 #include "verify/data/query_source.hpp"
 
 namespace touchstone::verify::data {

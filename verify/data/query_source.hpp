@@ -7,8 +7,8 @@
 #include <optional>
 #include <string>
 
-#include "exact/algebra/number.hpp"
-#include "exact/query.hpp"
+#include "touchstone/number.hpp"
+#include "touchstone/query.hpp"
 
 namespace touchstone::verify::data {
 

@@ -10,7 +10,7 @@
 #include <string>
 #include <string_view>
 
-#include "exact/query.hpp"
+#include "touchstone/query.hpp"
 
 namespace touchstone::verify::data {
 

@@ -9,7 +9,7 @@
 #include <optional>
 #include <string>
 
-#include "exact/algebra/number.hpp"
+#include "touchstone/number.hpp"
 #include "verify/io/output_file.hpp"
 
 namespace touchstone::verify::data {

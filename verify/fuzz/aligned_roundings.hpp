@@ -8,7 +8,7 @@
 /// rounded up nearly as much as possible, and those of edge b down: the error is more than a third
 /// of Tight-Inclusion's filter for edges.
 
-#include "exact/query.hpp"
+#include "touchstone/query.hpp"
 #include "verify/generate/random.hpp"
 
 namespace touchstone::verify::fuzz {

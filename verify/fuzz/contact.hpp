@@ -15,7 +15,7 @@
 ///
 /// An exact symmetry is then applied (symmetry.hpp).
 
-#include "exact/query.hpp"
+#include "touchstone/query.hpp"
 #include "verify/generate/random.hpp"
 
 namespace touchstone::verify::fuzz {

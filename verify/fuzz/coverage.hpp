@@ -5,9 +5,9 @@
 
 #include <cstdint>
 
-#include "exact/query.hpp"
-#include "fast/certified.hpp"
 #include "fast/method.hpp"
+#include "touchstone/certified.hpp"
+#include "touchstone/query.hpp"
 
 namespace touchstone::verify::fuzz {
 

@@ -12,8 +12,8 @@
 #include <optional>
 #include <string>
 
-#include "fast/certified.hpp"
 #include "fast/method.hpp"
+#include "touchstone/certified.hpp"
 #include "verify/judge/judge.hpp"
 
 namespace touchstone::verify::fuzz {

@@ -9,9 +9,9 @@
 #include <string>
 #include <string_view>
 
-#include "exact/algebra/number.hpp"
-#include "exact/query.hpp"
 #include "fast/method.hpp"
+#include "touchstone/number.hpp"
+#include "touchstone/query.hpp"
 #include "verify/judge/fault.hpp"
 
 namespace touchstone::verify::fuzz {

@@ -11,7 +11,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "fast/certified.hpp"
+#include "touchstone/certified.hpp"
 #include "verify/base/deadline.hpp"
 #include "verify/fuzz/coverage.hpp"
 #include "verify/fuzz/diagnosis.hpp"

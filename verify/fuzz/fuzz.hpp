@@ -22,8 +22,8 @@
 #include <string_view>
 #include <vector>
 
-#include "exact/query.hpp"
 #include "fast/method.hpp"
+#include "touchstone/query.hpp"
 #include "verify/base/deadline.hpp"
 #include "verify/fuzz/finding.hpp"
 #include "verify/solvers/child_process.hpp"

@@ -11,7 +11,7 @@
 #include <string_view>
 #include <vector>
 
-#include "exact/query.hpp"
+#include "touchstone/query.hpp"
 #include "verify/generate/families.hpp"
 #include "verify/generate/random.hpp"
 

@@ -30,7 +30,7 @@
 #include <span>
 #include <vector>
 
-#include "exact/query.hpp"
+#include "touchstone/query.hpp"
 
 namespace touchstone::verify::fuzz {
 

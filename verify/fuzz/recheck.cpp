@@ -5,8 +5,8 @@
 #include <cstddef>
 #include <utility>
 
-#include "exact/certificate.hpp"
-#include "exact/certificate/certificate_text.hpp"
+#include "touchstone/certificate.hpp"
+#include "touchstone/certificate_text.hpp"
 #include "verify/base/deadline.hpp"
 #include "verify/fuzz/shrink.hpp"
 

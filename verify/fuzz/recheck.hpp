@@ -9,9 +9,9 @@
 #include <string>
 #include <string_view>
 
-#include "exact/query.hpp"
-#include "fast/certified.hpp"
 #include "fast/method.hpp"
+#include "touchstone/certified.hpp"
+#include "touchstone/query.hpp"
 #include "verify/base/deadline.hpp"
 #include "verify/fuzz/diagnosis.hpp"
 #include "verify/fuzz/finding.hpp"

@@ -9,8 +9,8 @@
 #include <string>
 #include <string_view>
 
-#include "exact/query.hpp"
 #include "fast/method.hpp"
+#include "touchstone/query.hpp"
 #include "verify/fuzz/finding.hpp"
 #include "verify/solvers/child_process.hpp"
 

@@ -26,7 +26,7 @@
 #include <cstdint>
 #include <functional>
 
-#include "exact/query.hpp"
+#include "touchstone/query.hpp"
 
 namespace touchstone::verify::fuzz {
 

@@ -19,8 +19,8 @@
 #include <optional>
 #include <string>
 
-#include "exact/query.hpp"
 #include "fast/method.hpp"
+#include "touchstone/query.hpp"
 #include "verify/base/deadline.hpp"
 #include "verify/fuzz/finding.hpp"
 #include "verify/fuzz/fuzz.hpp"

@@ -14,7 +14,7 @@ namespace touchstone::verify::fuzz {
 
 /// The interface with which such a program calls the solver.
 enum class CallInterface : std::uint8_t {
-  plugin,      ///< verify/plugin.h, of a loaded library
+  plugin,      ///< touchstone/plugin.h, of a loaded library
   ticcd,       ///< the public Tight-Inclusion: ticcd::vertexFaceCCD, edgeEdgeCCD
   ipc_toolkit  ///< the public IPC Toolkit: ipc::AdditiveCCD
 };

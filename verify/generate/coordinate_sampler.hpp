@@ -13,8 +13,8 @@
 #include <cstddef>
 #include <optional>
 
-#include "exact/algebra/number.hpp"
-#include "exact/query.hpp"
+#include "touchstone/number.hpp"
+#include "touchstone/query.hpp"
 #include "verify/generate/family_builder.hpp"
 
 namespace touchstone::verify::generate {

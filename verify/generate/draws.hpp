@@ -8,7 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "exact/query.hpp"
+#include "touchstone/query.hpp"
 #include "verify/generate/random.hpp"
 
 namespace touchstone::verify::generate::draws {

@@ -14,7 +14,7 @@
 
 #include <cstdint>
 
-#include "exact/query.hpp"
+#include "touchstone/query.hpp"
 #include "verify/generate/random.hpp"
 
 namespace touchstone::verify::generate {

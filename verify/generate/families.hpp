@@ -28,8 +28,8 @@
 #include <string_view>
 #include <vector>
 
-#include "exact/algebra/number.hpp"
-#include "exact/query.hpp"
+#include "touchstone/number.hpp"
+#include "touchstone/query.hpp"
 #include "verify/data/query_source.hpp"
 
 namespace touchstone::verify::generate {

@@ -9,8 +9,8 @@
 #include <optional>
 #include <span>
 
-#include "exact/algebra/number.hpp"
-#include "exact/query.hpp"
+#include "touchstone/number.hpp"
+#include "touchstone/query.hpp"
 #include "verify/generate/families.hpp"
 #include "verify/generate/random.hpp"
 

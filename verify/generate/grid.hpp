@@ -17,8 +17,8 @@
 #include <array>
 #include <cstdint>
 
-#include "exact/algebra/number.hpp"
-#include "exact/query.hpp"
+#include "touchstone/number.hpp"
+#include "touchstone/query.hpp"
 #include "verify/generate/family_builder.hpp"
 
 namespace touchstone::verify::generate {

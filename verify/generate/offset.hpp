@@ -12,8 +12,8 @@
 #include <array>
 #include <optional>
 
-#include "exact/algebra/number.hpp"
-#include "exact/query.hpp"
+#include "touchstone/number.hpp"
+#include "touchstone/query.hpp"
 
 namespace touchstone::verify::generate {
 

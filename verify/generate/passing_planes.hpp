@@ -11,7 +11,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "exact/query.hpp"
+#include "touchstone/query.hpp"
 #include "verify/generate/coordinate_sampler.hpp"
 #include "verify/generate/family_builder.hpp"
 

@@ -16,7 +16,7 @@
 #include <optional>
 #include <string>
 
-#include "exact/query.hpp"
+#include "touchstone/query.hpp"
 #include "verify/generate/random.hpp"
 
 namespace touchstone::verify::generate {

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "fast/broad_phase.hpp"
+#include "touchstone/broad_phase.hpp"
 #include "verify/generate/families.hpp"
 #include "verify/generate/random.hpp"
 

@@ -14,7 +14,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "exact/query.hpp"
+#include "touchstone/query.hpp"
 #include "verify/data/query_group.hpp"
 #include "verify/mesh/moving_mesh.hpp"
 

@@ -8,7 +8,7 @@
 #include <limits>
 #include <optional>
 
-#include "exact/algebra/number.hpp"
+#include "touchstone/number.hpp"
 #include "verify/io/dataset_error.hpp"
 
 namespace touchstone::verify::io {

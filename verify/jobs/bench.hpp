@@ -22,8 +22,8 @@
 #include <string>
 #include <vector>
 
-#include "exact/query.hpp"
 #include "fast/method.hpp"
+#include "touchstone/query.hpp"
 #include "verify/data/query_group.hpp"
 #include "verify/jobs/timing.hpp"
 #include "verify/judge/judgement.hpp"

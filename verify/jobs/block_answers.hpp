@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-#include "exact/query.hpp"
+#include "touchstone/query.hpp"
 #include "verify/jobs/stream.hpp"
 #include "verify/judge/ground_truth.hpp"
 #include "verify/judge/judgement.hpp"

@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "exact/oracle.hpp"
-#include "exact/query.hpp"
+#include "touchstone/oracle.hpp"
+#include "touchstone/query.hpp"
 #include "verify/jobs/prove.hpp"
 #include "verify/jobs/stream.hpp"
 #include "verify/judge/ground_truth.hpp"

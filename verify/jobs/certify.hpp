@@ -16,8 +16,8 @@
 #include <string_view>
 #include <vector>
 
-#include "exact/algebra/number.hpp"
-#include "exact/query.hpp"
+#include "touchstone/number.hpp"
+#include "touchstone/query.hpp"
 #include "verify/data/query_source.hpp"
 #include "verify/jobs/prove.hpp"
 #include "verify/judge/judgement.hpp"
@@ -36,7 +36,7 @@ struct CertifyOptions {
   exact::Rational toi_tolerance = default_toi_tolerance();
   /// Called for every query, in order, never from two threads at once.
   std::function<void(const judge::GroundTruth&)> on_truth = nullptr;
-  /// Called with the certificates of queries (exact/certificate.hpp), whole ones and in order,
+  /// Called with the certificates of queries (touchstone/certificate.hpp), whole ones and in order,
   /// never from two threads at once. Without it none are made.
   std::function<void(std::string_view)> on_certificates = nullptr;
   /// Called with each query that a solver answered wrongly (an answer that breaks its promise), or

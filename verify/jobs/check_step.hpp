@@ -14,7 +14,7 @@
 #include <optional>
 #include <vector>
 
-#include "fast/step.hpp"
+#include "touchstone/step.hpp"
 #include "verify/jobs/prove_step.hpp"
 #include "verify/jobs/work_time.hpp"
 #include "verify/mesh/mesh.hpp"

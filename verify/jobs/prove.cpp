@@ -4,7 +4,7 @@
 
 #include <utility>
 
-#include "exact/certificate/certificate_text.hpp"
+#include "touchstone/certificate_text.hpp"
 #include "verify/base/thread_clock.hpp"
 #include "verify/io/printable.hpp"
 #include "verify/io/text_table.hpp"

@@ -14,9 +14,9 @@
 #include <string_view>
 #include <vector>
 
-#include "exact/certificate.hpp"
-#include "exact/oracle.hpp"
-#include "exact/query.hpp"
+#include "touchstone/certificate.hpp"
+#include "touchstone/oracle.hpp"
+#include "touchstone/query.hpp"
 #include "verify/data/query_source.hpp"
 
 namespace touchstone::verify::jobs {

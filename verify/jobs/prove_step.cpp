@@ -12,12 +12,12 @@
 #include <tuple>
 #include <utility>
 
-#include "exact/certificate.hpp"
-#include "exact/certificate/certificate_text.hpp"
 #include "exact/certificate/separation_intervals.hpp"
 #include "exact/contact/corner_motion.hpp"
-#include "exact/oracle.hpp"
-#include "fast/broad_phase.hpp"
+#include "touchstone/broad_phase.hpp"
+#include "touchstone/certificate.hpp"
+#include "touchstone/certificate_text.hpp"
+#include "touchstone/oracle.hpp"
 #include "verify/base/cores.hpp"
 #include "verify/base/deadline.hpp"
 #include "verify/jobs/step_places.hpp"

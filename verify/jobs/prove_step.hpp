@@ -15,7 +15,7 @@
 #include <string_view>
 #include <vector>
 
-#include "fast/step.hpp"
+#include "touchstone/step.hpp"
 
 namespace touchstone::verify::jobs {
 

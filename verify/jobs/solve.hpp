@@ -10,8 +10,8 @@
 #include <optional>
 #include <string>
 
-#include "exact/query.hpp"
 #include "fast/method.hpp"
+#include "touchstone/query.hpp"
 #include "verify/data/query_source.hpp"
 #include "verify/solvers/solver.hpp"
 

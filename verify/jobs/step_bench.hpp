@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file
-/// The time of a whole step of a scene (fast/step.hpp) and of its parts, and for comparison
+/// The time of a whole step of a scene (touchstone/step.hpp) and of its parts, and for comparison
 /// that of reading the mesh once.
 
 #include <atomic>
@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "fast/step.hpp"
+#include "touchstone/step.hpp"
 #include "verify/jobs/work_time.hpp"
 #include "verify/mesh/moving_mesh.hpp"
 

@@ -17,8 +17,8 @@
 #include <span>
 #include <vector>
 
-#include "exact/algebra/number.hpp"
-#include "fast/mesh.hpp"
+#include "touchstone/mesh.hpp"
+#include "touchstone/number.hpp"
 
 namespace touchstone::verify::jobs {
 

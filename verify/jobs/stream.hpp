@@ -18,7 +18,7 @@
 #include <type_traits>
 #include <vector>
 
-#include "exact/query.hpp"
+#include "touchstone/query.hpp"
 #include "verify/data/query_source.hpp"
 #include "verify/judge/label.hpp"
 #include "verify/solvers/solver.hpp"

@@ -23,8 +23,8 @@
 #include <span>
 #include <vector>
 
-#include "exact/query.hpp"
 #include "fast/method.hpp"
+#include "touchstone/query.hpp"
 #include "verify/base/thread_clock.hpp"
 #include "verify/data/query_group.hpp"
 #include "verify/judge/judgement.hpp"

@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "fast/certified/exact/closest_point_parameters.hpp"
-#include "filters/expressions.hpp"
+#include "touchstone/filters/expressions.hpp"
 
 namespace touchstone::verify::judge {
 namespace {

@@ -3,8 +3,8 @@
 /// \file
 /// The check of the distance claimed by a yes with a tolerance.
 ///
-/// In general (verify/plugin.h), a yes with tolerance τ for the separation d in a norm claims that
-/// the primitives come within d + τ of each other in that norm at some time.
+/// In general (touchstone/plugin.h), a yes with tolerance τ for the separation d in a norm claims
+/// that the primitives come within d + τ of each other in that norm at some time.
 ///
 /// **Claim of Tight-Inclusion,** which works in L∞ and leaves rounding errors out of its tolerance.
 /// A yes with tolerance τ for the separation d means that the primitives come within τ + d + 2ε of
@@ -17,9 +17,9 @@
 
 #include <optional>
 
-#include "exact/query.hpp"
-#include "fast/filter.hpp"
 #include "fast/method.hpp"
+#include "touchstone/filter.hpp"
+#include "touchstone/query.hpp"
 
 namespace touchstone::verify::judge {
 

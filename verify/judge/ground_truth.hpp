@@ -2,14 +2,14 @@
 
 /// \file
 /// The truth about a query for comparisons with answers: the oracle's verdict
-/// (exact/oracle.hpp) in doubles.
+/// (touchstone/oracle.hpp) in doubles.
 
 #include <cstdint>
 #include <optional>
 #include <string>
 
-#include "exact/algebra/number.hpp"
-#include "exact/oracle.hpp"
+#include "touchstone/number.hpp"
+#include "touchstone/oracle.hpp"
 
 namespace touchstone::verify::judge {
 

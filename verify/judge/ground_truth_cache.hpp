@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "exact/query.hpp"
+#include "touchstone/query.hpp"
 #include "verify/data/query_group.hpp"
 #include "verify/judge/judgement.hpp"
 

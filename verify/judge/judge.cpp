@@ -1,6 +1,6 @@
 #include "verify/judge/judge.hpp"
 
-#include "exact/oracle.hpp"
+#include "touchstone/oracle.hpp"
 #include "verify/judge/claimed_distance.hpp"
 
 namespace touchstone::verify::judge {

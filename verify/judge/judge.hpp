@@ -18,8 +18,8 @@
 #include <optional>
 #include <vector>
 
-#include "exact/query.hpp"
 #include "fast/method.hpp"
+#include "touchstone/query.hpp"
 #include "verify/judge/fault.hpp"
 #include "verify/judge/ground_truth.hpp"
 

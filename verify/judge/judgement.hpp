@@ -12,8 +12,8 @@
 #include <string>
 #include <vector>
 
-#include "exact/algebra/number.hpp"
 #include "fast/method.hpp"
+#include "touchstone/number.hpp"
 #include "verify/judge/fault.hpp"
 #include "verify/judge/ground_truth.hpp"
 #include "verify/judge/judge.hpp"

@@ -12,8 +12,8 @@
 #include <string>
 #include <vector>
 
-#include "exact/algebra/number.hpp"
-#include "exact/oracle.hpp"
+#include "touchstone/number.hpp"
+#include "touchstone/oracle.hpp"
 #include "verify/judge/separation_inference.hpp"
 
 namespace touchstone::verify::judge {

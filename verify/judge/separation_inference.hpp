@@ -15,7 +15,7 @@
 #include <span>
 #include <string>
 
-#include "exact/query.hpp"
+#include "touchstone/query.hpp"
 
 namespace touchstone::verify::judge {
 

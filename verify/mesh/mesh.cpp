@@ -4,7 +4,7 @@
 #include <string>
 #include <utility>
 
-#include "fast/broad_phase.hpp"
+#include "touchstone/broad_phase.hpp"
 #include "verify/io/dataset_error.hpp"
 #include "verify/mesh/obj.hpp"
 #include "verify/mesh/ply.hpp"

@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "fast/mesh.hpp"
+#include "touchstone/mesh.hpp"
 
 namespace touchstone::verify::mesh {
 

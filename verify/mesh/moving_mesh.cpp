@@ -1,6 +1,6 @@
 #include "verify/mesh/moving_mesh.hpp"
 
-#include "fast/broad_phase.hpp"
+#include "touchstone/broad_phase.hpp"
 #include "verify/io/dataset_error.hpp"
 #include "verify/mesh/mesh.hpp"
 

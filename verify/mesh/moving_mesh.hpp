@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "exact/query.hpp"
-#include "fast/mesh.hpp"
+#include "touchstone/mesh.hpp"
+#include "touchstone/query.hpp"
 
 namespace touchstone::verify::mesh {
 

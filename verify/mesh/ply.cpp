@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include "exact/query.hpp"
+#include "touchstone/query.hpp"
 #include "verify/io/dataset_error.hpp"
 #include "verify/io/input_file.hpp"
 #include "verify/io/output_file.hpp"

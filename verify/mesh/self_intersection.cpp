@@ -10,7 +10,7 @@
 #include <mutex>
 #include <numeric>
 
-#include "fast/step.hpp"
+#include "touchstone/step.hpp"
 
 namespace touchstone::verify::mesh {
 namespace {

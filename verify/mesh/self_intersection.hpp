@@ -15,13 +15,13 @@
 /// An edge of the face itself never counts.
 ///
 /// **Exactness.** The signs of orientations come from CGAL's kernel of exact predicates. The pairs
-/// come from the broad phase (fast/step.hpp): exactly those whose boxes overlap.
+/// come from the broad phase (touchstone/step.hpp): exactly those whose boxes overlap.
 
 #include <functional>
 #include <span>
 #include <vector>
 
-#include "fast/mesh.hpp"
+#include "touchstone/mesh.hpp"
 #include "verify/mesh/mesh.hpp"
 
 namespace touchstone::verify::mesh {

@@ -11,7 +11,7 @@
 #include <optional>
 #include <utility>
 
-#include "fast/certified.hpp"
+#include "touchstone/certified.hpp"
 #include "verify/base/deadline.hpp"
 #include "verify/generate/families.hpp"
 #include "verify/generate/workload.hpp"

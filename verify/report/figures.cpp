@@ -12,7 +12,7 @@
 #include <string_view>
 #include <utility>
 
-#include "fast/certified.hpp"
+#include "touchstone/certified.hpp"
 #include "verify/report/stability_figures.hpp"
 #include "verify/report/tables.hpp"
 #include "verify/solvers/registry.hpp"

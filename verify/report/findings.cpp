@@ -10,7 +10,7 @@
 #include <string_view>
 #include <utility>
 
-#include "fast/certified.hpp"
+#include "touchstone/certified.hpp"
 #include "verify/report/tables.hpp"
 
 namespace touchstone::verify::report {

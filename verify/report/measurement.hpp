@@ -12,8 +12,8 @@
 #include <string_view>
 #include <vector>
 
-#include "exact/query.hpp"
 #include "fast/method.hpp"
+#include "touchstone/query.hpp"
 #include "verify/judge/fault.hpp"
 
 namespace touchstone::verify::report {

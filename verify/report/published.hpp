@@ -11,7 +11,7 @@
 #include <optional>
 #include <string_view>
 
-#include "exact/query.hpp"
+#include "touchstone/query.hpp"
 
 namespace touchstone::verify::report {
 

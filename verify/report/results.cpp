@@ -12,7 +12,7 @@
 #include <string_view>
 #include <vector>
 
-#include "fast/certified.hpp"
+#include "touchstone/certified.hpp"
 #include "verify/io/printable.hpp"
 #include "verify/report/figures.hpp"
 #include "verify/report/tables.hpp"

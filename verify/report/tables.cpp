@@ -9,7 +9,7 @@
 #include <optional>
 #include <utility>
 
-#include "fast/certified.hpp"
+#include "touchstone/certified.hpp"
 #include "verify/io/csv.hpp"
 #include "verify/io/printable.hpp"
 #include "verify/report/published.hpp"

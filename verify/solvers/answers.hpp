@@ -22,8 +22,8 @@
 #include <utility>
 #include <vector>
 
-#include "exact/query.hpp"
 #include "fast/method.hpp"
+#include "touchstone/query.hpp"
 #include "verify/judge/fault.hpp"
 
 namespace touchstone::verify::solvers {

@@ -13,11 +13,11 @@
 #include <string_view>
 #include <utility>
 
+#include "touchstone/plugin.h"
 #include "verify/base/deadline.hpp"
 #include "verify/io/dataset_error.hpp"
 #include "verify/io/printable.hpp"
 #include "verify/io/terminal.hpp"
-#include "verify/plugin.h"
 
 namespace touchstone::verify::solvers {
 namespace {

@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file
-/// Anyone's solver as a Method: a shared library that speaks the interface of verify/plugin.h.
+/// Anyone's solver as a Method: a shared library that speaks the interface of touchstone/plugin.h.
 ///
 /// The library is never loaded in this process, unless this process calls solve(): it is asked for
 /// its version and its name in a child process, and solve() loads it where it is first called,

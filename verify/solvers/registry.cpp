@@ -6,8 +6,8 @@
 #include <array>
 #include <stdexcept>
 
-#include "fast/certified.hpp"
-#include "fast/tight_inclusion.hpp"
+#include "touchstone/certified.hpp"
+#include "touchstone/tight_inclusion.hpp"
 #include "verify/baselines/accd.hpp"
 #include "verify/baselines/bsc.hpp"
 #include "verify/baselines/fprf.hpp"

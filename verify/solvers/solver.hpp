@@ -15,9 +15,9 @@
 #include <string_view>
 #include <vector>
 
-#include "exact/query.hpp"
-#include "fast/certified.hpp"
 #include "fast/method.hpp"
+#include "touchstone/certified.hpp"
+#include "touchstone/query.hpp"
 #include "verify/judge/fault.hpp"
 #include "verify/judge/judge.hpp"
 #include "verify/solvers/answers.hpp"

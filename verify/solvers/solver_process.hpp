@@ -20,8 +20,8 @@
 #include <span>
 #include <vector>
 
-#include "exact/query.hpp"
 #include "fast/method.hpp"
+#include "touchstone/query.hpp"
 #include "verify/base/deadline.hpp"
 #include "verify/judge/fault.hpp"
 #include "verify/solvers/child_process.hpp"

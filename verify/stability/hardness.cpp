@@ -9,7 +9,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "fast/certified.hpp"
+#include "touchstone/certified.hpp"
 #include "verify/generate/decimal.hpp"
 #include "verify/generate/everyday.hpp"
 #include "verify/generate/family_builder.hpp"

@@ -37,7 +37,7 @@
 #include <string>
 #include <string_view>
 
-#include "exact/query.hpp"
+#include "touchstone/query.hpp"
 #include "verify/data/query_source.hpp"
 
 namespace touchstone::verify::stability {

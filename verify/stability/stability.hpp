@@ -15,7 +15,7 @@
 #include <optional>
 #include <vector>
 
-#include "exact/query.hpp"
+#include "touchstone/query.hpp"
 #include "verify/jobs/certify.hpp"
 #include "verify/judge/judgement.hpp"
 #include "verify/solvers/solver.hpp"

@@ -6,10 +6,10 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "exact/algebra/number.hpp"
-#include "exact/certificate/certificate_text.hpp"
 #include "exact/checker/certificate.hpp"
 #include "exact/checker/checker.hpp"
+#include "touchstone/certificate_text.hpp"
+#include "touchstone/number.hpp"
 
 namespace touchstone::verify::view {
 namespace {

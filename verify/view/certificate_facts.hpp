@@ -9,7 +9,7 @@
 #include <string>
 #include <string_view>
 
-#include "exact/query.hpp"
+#include "touchstone/query.hpp"
 
 namespace touchstone::verify::view {
 

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <limits>
 
-#include "exact/oracle.hpp"
+#include "touchstone/oracle.hpp"
 
 namespace touchstone::verify::view {
 namespace {

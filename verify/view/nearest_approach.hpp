@@ -9,8 +9,8 @@
 
 #include <optional>
 
-#include "exact/algebra/algebraic_number.hpp"
-#include "exact/query.hpp"
+#include "touchstone/algebraic_number.hpp"
+#include "touchstone/query.hpp"
 
 namespace touchstone::verify::view {
 

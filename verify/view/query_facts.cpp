@@ -7,10 +7,10 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "exact/algebra/algebraic_number.hpp"
-#include "exact/certificate.hpp"
-#include "exact/certificate/certificate_text.hpp"
-#include "exact/oracle.hpp"
+#include "touchstone/algebraic_number.hpp"
+#include "touchstone/certificate.hpp"
+#include "touchstone/certificate_text.hpp"
+#include "touchstone/oracle.hpp"
 #include "verify/io/printable.hpp"
 #include "verify/jobs/prove.hpp"
 #include "verify/judge/ground_truth.hpp"

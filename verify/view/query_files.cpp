@@ -12,7 +12,7 @@
 #include <string>
 #include <utility>
 
-#include "exact/certificate/certificate_text.hpp"
+#include "touchstone/certificate_text.hpp"
 #include "verify/data/dataset.hpp"
 #include "verify/io/coordinate_text.hpp"
 #include "verify/io/dataset_error.hpp"

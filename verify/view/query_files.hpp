@@ -20,7 +20,7 @@
 #include <string_view>
 #include <vector>
 
-#include "exact/query.hpp"
+#include "touchstone/query.hpp"
 #include "verify/view/query_facts.hpp"
 
 namespace touchstone::verify::view {

@@ -13,7 +13,7 @@
 #include <tuple>
 #include <utility>
 
-#include "fast/broad_phase.hpp"
+#include "touchstone/broad_phase.hpp"
 #include "verify/io/html.hpp"
 #include "verify/io/printable.hpp"
 

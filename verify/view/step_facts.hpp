@@ -12,8 +12,8 @@
 #include <string>
 #include <vector>
 
-#include "exact/query.hpp"
-#include "fast/step.hpp"
+#include "touchstone/query.hpp"
+#include "touchstone/step.hpp"
 #include "verify/mesh/mesh.hpp"
 #include "verify/view/query_facts.hpp"
 

@@ -15,7 +15,7 @@
 
 #include <array>
 
-#include "exact/query.hpp"
+#include "touchstone/query.hpp"
 
 namespace touchstone::fast::exact_stage {
 

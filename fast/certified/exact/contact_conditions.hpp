@@ -46,7 +46,7 @@
 #include <span>
 #include <vector>
 
-#include "exact/query.hpp"
+#include "touchstone/query.hpp"
 
 namespace touchstone::fast::exact_stage {
 

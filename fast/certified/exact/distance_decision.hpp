@@ -51,10 +51,10 @@
 #include <cstdint>
 #include <optional>
 
-#include "exact/query.hpp"
 #include "fast/certified/exact/big_integer.hpp"
 #include "fast/certified/exact/contact_conditions.hpp"
 #include "fast/certified/exact/enclosing_doubles.hpp"
+#include "touchstone/query.hpp"
 
 namespace touchstone::fast::exact_stage {
 

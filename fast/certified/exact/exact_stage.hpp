@@ -10,7 +10,7 @@
 
 #include <optional>
 
-#include "exact/query.hpp"
+#include "touchstone/query.hpp"
 
 namespace touchstone::fast {
 

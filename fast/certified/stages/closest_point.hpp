@@ -18,11 +18,11 @@
 #include <array>
 #include <cstddef>
 
-#include "exact/query.hpp"
 #include "fast/certified/stages/lanes.hpp"
-#include "filters/error_bounds.hpp"
-#include "filters/polynomial_expressions.hpp"
-#include "filters/separation_expressions.hpp"
+#include "touchstone/filters/error_bounds.hpp"
+#include "touchstone/filters/polynomial_expressions.hpp"
+#include "touchstone/filters/separation_expressions.hpp"
+#include "touchstone/query.hpp"
 
 namespace touchstone::fast::kernel {
 

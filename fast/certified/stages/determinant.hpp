@@ -17,7 +17,7 @@
 #include "fast/certified/stages/direction.hpp"
 #include "fast/certified/stages/lanes.hpp"
 #include "fast/certified/stages/moving_vectors.hpp"
-#include "filters/error_bounds.hpp"
+#include "touchstone/filters/error_bounds.hpp"
 
 namespace touchstone::fast::kernel {
 

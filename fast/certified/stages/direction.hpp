@@ -14,7 +14,7 @@
 #include <cstddef>
 
 #include "fast/certified/stages/lanes.hpp"
-#include "filters/error_bounds.hpp"
+#include "touchstone/filters/error_bounds.hpp"
 
 namespace touchstone::fast::kernel {
 

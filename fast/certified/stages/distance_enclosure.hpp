@@ -19,9 +19,9 @@
 #include "fast/certified/stages/closest_point.hpp"
 #include "fast/certified/stages/lanes.hpp"
 #include "fast/certified/stages/moving_polygon.hpp"
-#include "filters/double_double.hpp"
-#include "filters/error_bounds.hpp"
-#include "filters/separation_expressions.hpp"
+#include "touchstone/filters/double_double.hpp"
+#include "touchstone/filters/error_bounds.hpp"
+#include "touchstone/filters/separation_expressions.hpp"
 
 namespace touchstone::fast::kernel {
 
@@ -119,7 +119,7 @@ class PreciseProof {
       return std::array<Pair, 4>{{{0, 2}, {1, 2}, {1, 3}, {0, 3}}};
     }
   }();
-  /// r, p, q of filters/polynomial_expressions.hpp.
+  /// r, p, q of touchstone/filters/polynomial_expressions.hpp.
   static constexpr std::array<Pair, 3> vectors =
       kind == Kind::vertex_face ? std::array<Pair, 3>{{{0, 1}, {2, 1}, {3, 1}}}
                                 : std::array<Pair, 3>{{{0, 2}, {0, 1}, {3, 2}}};

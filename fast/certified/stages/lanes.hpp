@@ -20,7 +20,7 @@
 #include <utility>
 
 #include "fast/certified/kernel.hpp"
-#include "filters/polynomial_expressions.hpp"
+#include "touchstone/filters/polynomial_expressions.hpp"
 
 namespace touchstone::fast::kernel {
 

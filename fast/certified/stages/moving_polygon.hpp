@@ -22,8 +22,8 @@
 #include "fast/certified/stages/closest_point.hpp"
 #include "fast/certified/stages/direction.hpp"
 #include "fast/certified/stages/lanes.hpp"
-#include "filters/error_bounds.hpp"
-#include "filters/polynomial_expressions.hpp"
+#include "touchstone/filters/error_bounds.hpp"
+#include "touchstone/filters/polynomial_expressions.hpp"
 
 namespace touchstone::fast::kernel {
 

@@ -4,8 +4,8 @@
 /// The vectors in determinant and orientations, in lanes, and their bounds with a minimum
 /// separation.
 ///
-/// F = r − u p − v q (filters/polynomial_expressions.hpp): r, p, q and, for the orientations of
-/// corners, two more. They move linearly on each interval of times.
+/// F = r − u p − v q (touchstone/filters/polynomial_expressions.hpp): r, p, q and, for the
+/// orientations of corners, two more. They move linearly on each interval of times.
 ///
 /// **With a minimum separation** D, "no contact" must be proved for the polygon shifted by every x
 /// with ‖x‖ ≤ D: r becomes r − x, as does the corresponding vector in an orientation. Let |·| be

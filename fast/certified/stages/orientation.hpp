@@ -23,7 +23,7 @@
 #include "fast/certified/stages/determinant.hpp"
 #include "fast/certified/stages/lanes.hpp"
 #include "fast/certified/stages/moving_vectors.hpp"
-#include "filters/error_bounds.hpp"
+#include "touchstone/filters/error_bounds.hpp"
 
 namespace touchstone::fast::kernel {
 

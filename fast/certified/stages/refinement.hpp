@@ -27,8 +27,8 @@
 #include "fast/certified/stages/lanes.hpp"
 #include "fast/certified/stages/moving_vectors.hpp"
 #include "fast/certified/stages/orientation.hpp"
-#include "filters/double_double.hpp"
-#include "filters/error_bounds.hpp"
+#include "touchstone/filters/double_double.hpp"
+#include "touchstone/filters/error_bounds.hpp"
 
 namespace touchstone::fast::kernel {
 

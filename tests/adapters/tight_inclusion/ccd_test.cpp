@@ -6,8 +6,8 @@
 
 #include <tight_inclusion/ccd.hpp>
 
-#include "fast/certified.hpp"
 #include "tests/support/random.hpp"
+#include "touchstone/certified.hpp"
 
 namespace touchstone::adapters::ccd_test {
 namespace {

@@ -1,10 +1,10 @@
-#include "adapters/tight_inclusion/interval_root_finder.hpp"
+#include "tight_inclusion/interval_root_finder.hpp"
 
 #include <gtest/gtest.h>
 
 #include <tight_inclusion/interval_root_finder.hpp>
 
-#include "fast/filter.hpp"
+#include "touchstone/filter.hpp"
 
 namespace touchstone::adapters::interval_root_finder_test {
 namespace {

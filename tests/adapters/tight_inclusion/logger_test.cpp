@@ -1,4 +1,4 @@
-#include "adapters/tight_inclusion/logger.hpp"
+#include "tight_inclusion/logger.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "adapters/tight_inclusion/timer.hpp"
+#include "tight_inclusion/timer.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // Types in single precision.
 #define TOUCHSTONE_TICCD_FLOAT
-#include "adapters/tight_inclusion/types.hpp"
+#include "tight_inclusion/types.hpp"
 
 #include <gtest/gtest.h>
 

@@ -9,10 +9,10 @@
 #include <vector>
 
 #include "exact/algebra/positivity.hpp"
-#include "exact/oracle.hpp"
 #include "tests/support/queries.hpp"
 #include "tests/support/random.hpp"
 #include "tests/support/trials.hpp"
+#include "touchstone/oracle.hpp"
 
 namespace touchstone::exact {
 

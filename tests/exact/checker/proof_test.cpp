@@ -20,9 +20,9 @@
 
 #include "exact/checker/checker.hpp"
 #include "exact/contact/corner_motion.hpp"
-#include "exact/oracle.hpp"
 #include "tests/support/checker_outcome.hpp"
 #include "tests/support/trials.hpp"
+#include "touchstone/oracle.hpp"
 
 namespace touchstone::checker::proof_test {
 namespace {

@@ -13,11 +13,11 @@
 #include <stdexcept>
 #include <vector>
 
-#include "exact/oracle.hpp"
 #include "tests/support/contact_function.hpp"
 #include "tests/support/distance_reference.hpp"
 #include "tests/support/queries.hpp"
 #include "tests/support/random.hpp"
+#include "touchstone/oracle.hpp"
 
 namespace touchstone::exact::distance_oracle_test {
 namespace {

@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
-#include "exact/algebra/number.hpp"
 #include "tests/faults/planted_faults.hpp"
 #include "tests/support/random.hpp"
+#include "touchstone/number.hpp"
 
 namespace touchstone::fast::float_bounds_test {
 namespace {

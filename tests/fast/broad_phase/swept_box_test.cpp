@@ -6,8 +6,8 @@
 #include <cstddef>
 #include <limits>
 
-#include "exact/algebra/number.hpp"
 #include "tests/support/random.hpp"
+#include "touchstone/number.hpp"
 
 namespace touchstone::fast::swept_box_test {
 namespace {

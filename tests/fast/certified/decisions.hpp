@@ -10,10 +10,10 @@
 #include <cstdint>
 #include <optional>
 
-#include "exact/oracle.hpp"
 #include "fast/certified/exact/contact_conditions.hpp"
 #include "fast/certified/exact/general_contact_decision.hpp"
 #include "tests/support/queries.hpp"
+#include "touchstone/oracle.hpp"
 
 namespace touchstone::tests {
 

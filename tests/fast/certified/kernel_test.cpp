@@ -17,12 +17,12 @@
 #include <string>
 #include <vector>
 
-#include "exact/algebra/number.hpp"
-#include "fast/certified.hpp"
 #include "tests/faults/planted_faults.hpp"
 #include "tests/support/certified.hpp"
 #include "tests/support/queries.hpp"
 #include "tests/support/random.hpp"
+#include "touchstone/certified.hpp"
+#include "touchstone/number.hpp"
 #include "verify/fuzz/contact.hpp"
 #include "verify/generate/families.hpp"
 #include "verify/generate/random.hpp"

@@ -13,11 +13,11 @@
 #include <string>
 #include <vector>
 
-#include "exact/algebra/number.hpp"
-#include "fast/filter.hpp"
-#include "filters/expressions.hpp"
 #include "tests/support/queries.hpp"
 #include "tests/support/random.hpp"
+#include "touchstone/filter.hpp"
+#include "touchstone/filters/expressions.hpp"
+#include "touchstone/number.hpp"
 
 namespace touchstone::fast {
 namespace {

@@ -1,11 +1,11 @@
-#include "filters/derivation/bound_table.hpp"
+#include "touchstone/derivation/bound_table.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <string>
 
-#include "filters/derivation/catalogue.hpp"
+#include "touchstone/derivation/catalogue.hpp"
 
 namespace touchstone::filters::bound_table_test {
 namespace {

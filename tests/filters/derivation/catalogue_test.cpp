@@ -1,4 +1,4 @@
-#include "filters/derivation/catalogue.hpp"
+#include "touchstone/derivation/catalogue.hpp"
 
 #include <gtest/gtest.h>
 

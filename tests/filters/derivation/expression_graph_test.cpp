@@ -1,12 +1,12 @@
-#include "filters/derivation/expression_graph.hpp"
+#include "touchstone/derivation/expression_graph.hpp"
 
 #include <gtest/gtest.h>
 
 #include <array>
 #include <stdexcept>
 
-#include "filters/polynomial_expressions.hpp"
 #include "tests/filters/support.hpp"
+#include "touchstone/filters/polynomial_expressions.hpp"
 
 namespace touchstone::filters::expression_graph_test {
 namespace {

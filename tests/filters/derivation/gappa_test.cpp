@@ -1,4 +1,4 @@
-#include "filters/derivation/gappa.hpp"
+#include "touchstone/derivation/gappa.hpp"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -10,10 +10,10 @@
 #include <string>
 #include <utility>
 
-#include "filters/derivation/shipped_bound.hpp"
-#include "filters/polynomial_expressions.hpp"
 #include "tests/filters/support.hpp"
 #include "tests/filters/worked_example/orientation.hpp"
+#include "touchstone/derivation/shipped_bound.hpp"
+#include "touchstone/filters/polynomial_expressions.hpp"
 
 namespace touchstone::filters::gappa_test {
 namespace {

@@ -1,4 +1,4 @@
-#include "filters/derivation/mpfr_number.hpp"
+#include "touchstone/derivation/mpfr_number.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,10 +1,10 @@
-#include "filters/derivation/published_model.hpp"
+#include "touchstone/derivation/published_model.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "filters/derivation/rounding_model.hpp"
 #include "tests/filters/support.hpp"
+#include "touchstone/derivation/rounding_model.hpp"
 
 namespace touchstone::filters::published_model_test {
 namespace {

@@ -1,4 +1,4 @@
-#include "filters/derivation/rounding_model.hpp"
+#include "touchstone/derivation/rounding_model.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,10 +6,10 @@
 #include <stdexcept>
 #include <string_view>
 
-#include "filters/polynomial_expressions.hpp"
-#include "filters/separation_expressions.hpp"
 #include "tests/filters/support.hpp"
 #include "tests/filters/worked_example/orientation.hpp"
+#include "touchstone/filters/polynomial_expressions.hpp"
+#include "touchstone/filters/separation_expressions.hpp"
 
 namespace touchstone::filters::rounding_model_test {
 namespace {

@@ -1,14 +1,14 @@
-#include "filters/derivation/shipped_bound.hpp"
+#include "touchstone/derivation/shipped_bound.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <array>
 
-#include "filters/error_bound.hpp"
-#include "filters/polynomial_expressions.hpp"
 #include "tests/filters/support.hpp"
 #include "tests/filters/worked_example/orientation.hpp"
+#include "touchstone/filters/error_bound.hpp"
+#include "touchstone/filters/polynomial_expressions.hpp"
 
 namespace touchstone::filters::shipped_bound_test {
 namespace {

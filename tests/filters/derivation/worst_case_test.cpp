@@ -1,10 +1,10 @@
-#include "filters/derivation/worst_case.hpp"
+#include "touchstone/derivation/worst_case.hpp"
 
 #include <gtest/gtest.h>
 
-#include "filters/polynomial_expressions.hpp"
 #include "tests/filters/support.hpp"
 #include "tests/filters/worked_example/orientation.hpp"
+#include "touchstone/filters/polynomial_expressions.hpp"
 
 namespace touchstone::filters::worst_case_test {
 namespace {

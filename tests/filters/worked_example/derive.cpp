@@ -3,10 +3,10 @@
 // README: the derivation
 #include <cstdio>
 
-#include "filters/derivation/gappa.hpp"
-#include "filters/derivation/shipped_bound.hpp"
-#include "filters/derivation/worst_case.hpp"
 #include "tests/filters/worked_example/orientation.hpp"
+#include "touchstone/derivation/gappa.hpp"
+#include "touchstone/derivation/shipped_bound.hpp"
+#include "touchstone/derivation/worst_case.hpp"
 
 using namespace touchstone::filters;
 

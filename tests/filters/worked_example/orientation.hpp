@@ -7,8 +7,8 @@
 #include <cmath>
 #include <optional>
 
-#include "filters/error_bound.hpp"
-#include "filters/expressions.hpp"
+#include "touchstone/filters/error_bound.hpp"
+#include "touchstone/filters/expressions.hpp"
 
 namespace researcher {
 

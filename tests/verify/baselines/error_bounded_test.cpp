@@ -7,9 +7,9 @@
 
 #include <limits>
 
-#include "exact/algebra/number.hpp"
 #include "tests/support/random.hpp"
 #include "tests/support/trials.hpp"
+#include "touchstone/number.hpp"
 
 namespace touchstone::baselines::error_bounded_test {
 namespace {

@@ -8,9 +8,9 @@
 #include <array>
 #include <cmath>
 
-#include "exact/algebra/number.hpp"
 #include "tests/support/random.hpp"
 #include "tests/support/trials.hpp"
+#include "touchstone/number.hpp"
 
 namespace touchstone::baselines::exact_number_test {
 namespace {

@@ -7,10 +7,10 @@
 #include <cmath>
 #include <limits>
 
-#include "exact/algebra/number.hpp"
-#include "exact/query.hpp"
 #include "tests/support/queries.hpp"
 #include "tests/support/random.hpp"
+#include "touchstone/number.hpp"
+#include "touchstone/query.hpp"
 
 namespace touchstone::baselines::intervals_test {
 namespace {

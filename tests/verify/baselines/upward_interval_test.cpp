@@ -10,9 +10,9 @@
 #include <cmath>
 #include <limits>
 
-#include "exact/algebra/number.hpp"
 #include "tests/support/random.hpp"
 #include "tests/support/trials.hpp"
+#include "touchstone/number.hpp"
 #include "verify/baselines/upward_rounding.hpp"
 
 namespace touchstone::baselines::upward_interval_test {

@@ -14,8 +14,8 @@
 #include <string>
 #include <vector>
 
-#include "exact/oracle.hpp"
 #include "tests/support/tool_test.hpp"
+#include "touchstone/oracle.hpp"
 #include "verify/data/npy.hpp"
 
 // Tests of `touchstone candidates` that run the tool.

@@ -15,7 +15,7 @@
 #include <string_view>
 #include <vector>
 
-#include "exact/query.hpp"
+#include "touchstone/query.hpp"
 #include "verify/cli/commands.hpp"
 #include "verify/cli/options.hpp"
 #include "verify/cli/solver_options.hpp"

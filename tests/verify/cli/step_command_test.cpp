@@ -11,10 +11,10 @@
 #include <string>
 #include <vector>
 
-#include "fast/step.hpp"
 #include "tests/support/built_files.hpp"
 #include "tests/support/simulation_steps.hpp"
 #include "tests/support/tool_test.hpp"
+#include "touchstone/step.hpp"
 
 // Tests of `touchstone step` that run the tool.
 

@@ -22,7 +22,7 @@
 #include <system_error>
 #include <vector>
 
-#include "exact/query.hpp"
+#include "touchstone/query.hpp"
 #include "verify/data/dataset.hpp"
 #include "verify/data/npy.hpp"
 

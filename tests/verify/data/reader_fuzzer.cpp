@@ -20,8 +20,8 @@
 #include <string>
 #include <string_view>
 
-#include "exact/algebra/number.hpp"
-#include "exact/query.hpp"
+#include "touchstone/number.hpp"
+#include "touchstone/query.hpp"
 #include "verify/data/csv_dataset.hpp"
 #include "verify/data/dataset.hpp"
 #include "verify/data/ground_truth_files.hpp"

@@ -7,9 +7,9 @@
 #include <cmath>
 #include <cstddef>
 
-#include "exact/algebra/number.hpp"
-#include "exact/oracle.hpp"
 #include "tests/support/trials.hpp"
+#include "touchstone/number.hpp"
+#include "touchstone/oracle.hpp"
 
 namespace touchstone::verify::fuzz::aligned_roundings_test {
 namespace {

@@ -7,9 +7,9 @@
 #include <cstddef>
 #include <set>
 
-#include "exact/algebra/number.hpp"
-#include "exact/oracle.hpp"
 #include "tests/support/trials.hpp"
+#include "touchstone/number.hpp"
+#include "touchstone/oracle.hpp"
 #include "verify/generate/family_builder.hpp"
 #include "verify/generate/random.hpp"
 

@@ -6,9 +6,9 @@
 #include <limits>
 #include <optional>
 
-#include "exact/query.hpp"
-#include "fast/tight_inclusion.hpp"
 #include "tests/support/queries.hpp"
+#include "touchstone/query.hpp"
+#include "touchstone/tight_inclusion.hpp"
 #include "verify/judge/ground_truth.hpp"
 #include "verify/solvers/registry.hpp"
 

@@ -16,13 +16,13 @@
 #include <utility>
 #include <vector>
 
-#include "exact/oracle.hpp"
-#include "fast/certified.hpp"
-#include "fast/tight_inclusion.hpp"
 #include "tests/support/methods.hpp"
 #include "tests/support/queries.hpp"
 #include "tests/support/shared_counter.hpp"
 #include "tests/support/trials.hpp"
+#include "touchstone/certified.hpp"
+#include "touchstone/oracle.hpp"
+#include "touchstone/tight_inclusion.hpp"
 #include "verify/fuzz/plainness.hpp"
 #include "verify/fuzz/recheck.hpp"
 #include "verify/solvers/registry.hpp"

@@ -9,8 +9,8 @@
 #include <string_view>
 #include <vector>
 
-#include "fast/certified.hpp"
 #include "tests/support/trials.hpp"
+#include "touchstone/certified.hpp"
 #include "verify/generate/random.hpp"
 
 namespace touchstone::verify::fuzz::generators_test {

@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <limits>
 
-#include "exact/query.hpp"
+#include "touchstone/query.hpp"
 #include "verify/generate/random.hpp"
 
 namespace touchstone::verify::fuzz::mutation_test {

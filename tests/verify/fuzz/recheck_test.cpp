@@ -12,11 +12,11 @@
 #include <string>
 #include <thread>
 
-#include "fast/certified.hpp"
 #include "tests/support/certificates.hpp"
 #include "tests/support/methods.hpp"
 #include "tests/support/queries.hpp"
 #include "tests/support/shared_counter.hpp"
+#include "touchstone/certified.hpp"
 #include "verify/fuzz/fuzz.hpp"
 #include "verify/judge/ground_truth.hpp"
 

@@ -13,11 +13,11 @@
 #include <utility>
 #include <vector>
 
-#include "exact/oracle.hpp"
-#include "fast/certified.hpp"
 #include "tests/support/queries.hpp"
 #include "tests/support/random.hpp"
 #include "tests/support/trials.hpp"
+#include "touchstone/certified.hpp"
+#include "touchstone/oracle.hpp"
 #include "verify/fuzz/plainness.hpp"
 #include "verify/generate/decimal.hpp"
 

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <string>
 
-#include "fast/certified.hpp"
 #include "tests/support/methods.hpp"
 #include "tests/support/queries.hpp"
+#include "touchstone/certified.hpp"
 #include "verify/fuzz/plainness.hpp"
 #include "verify/fuzz/recheck.hpp"
 

@@ -7,8 +7,8 @@
 #include <cmath>
 #include <cstddef>
 
-#include "exact/oracle.hpp"
 #include "tests/support/trials.hpp"
+#include "touchstone/oracle.hpp"
 #include "verify/fuzz/plainness.hpp"
 #include "verify/generate/decimal.hpp"
 

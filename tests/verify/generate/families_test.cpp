@@ -18,10 +18,10 @@
 #include <string>
 #include <vector>
 
-#include "exact/algebra/number.hpp"
-#include "exact/query.hpp"
 #include "tests/support/contact_function.hpp"
 #include "tests/support/trials.hpp"
+#include "touchstone/number.hpp"
+#include "touchstone/query.hpp"
 
 namespace touchstone::verify::generate::families_test {
 namespace {

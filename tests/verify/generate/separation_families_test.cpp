@@ -10,7 +10,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "exact/oracle.hpp"
+#include "touchstone/oracle.hpp"
 #include "verify/generate/families.hpp"
 #include "verify/judge/separation_inference.hpp"
 

@@ -9,10 +9,10 @@
 #include <string>
 #include <vector>
 
-#include "exact/algebra/number.hpp"
-#include "exact/oracle.hpp"
-#include "exact/query.hpp"
 #include "tests/support/trials.hpp"
+#include "touchstone/number.hpp"
+#include "touchstone/oracle.hpp"
+#include "touchstone/query.hpp"
 #include "verify/fuzz/generators.hpp"
 #include "verify/generate/random.hpp"
 

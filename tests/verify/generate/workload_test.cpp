@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "exact/oracle.hpp"
+#include "touchstone/oracle.hpp"
 #include "verify/generate/families.hpp"
 #include "verify/jobs/statistics.hpp"
 

@@ -10,8 +10,8 @@
 #include <string>
 #include <string_view>
 
-#include "exact/algebra/number.hpp"
 #include "tests/verify/data/dataset_fixture.hpp"
+#include "touchstone/number.hpp"
 
 namespace touchstone::verify::io::coordinate_text_test {
 namespace {

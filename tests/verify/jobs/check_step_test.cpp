@@ -11,7 +11,7 @@
 #include <optional>
 #include <vector>
 
-#include "exact/oracle.hpp"
+#include "touchstone/oracle.hpp"
 #include "verify/generate/workload.hpp"
 #include "verify/mesh/moving_mesh.hpp"
 

@@ -7,8 +7,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "exact/query.hpp"
 #include "tests/support/random.hpp"
+#include "touchstone/query.hpp"
 
 namespace touchstone::verify::jobs::memory_pass_test {
 namespace {

@@ -16,11 +16,11 @@
 #include <vector>
 
 #include "exact/checker/checker.hpp"
-#include "exact/oracle.hpp"
-#include "fast/broad_phase.hpp"
 #include "tests/support/certificates.hpp"
 #include "tests/support/random.hpp"
 #include "tests/support/scenes.hpp"
+#include "touchstone/broad_phase.hpp"
+#include "touchstone/oracle.hpp"
 
 // Proofs of steps: the checker accepts each, its claim agrees with the oracle on all pairs one by
 // one, and no proof with an omission or a later claim is accepted.

@@ -8,10 +8,10 @@
 #include <utility>
 #include <vector>
 
-#include "exact/certificate/certificate_text.hpp"
 #include "tests/support/certificates.hpp"
 #include "tests/support/memory_source.hpp"
 #include "tests/support/queries.hpp"
+#include "touchstone/certificate_text.hpp"
 #include "verify/jobs/certify.hpp"
 
 namespace touchstone::verify::jobs::prove_test {

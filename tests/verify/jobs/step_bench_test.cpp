@@ -10,8 +10,8 @@
 #include <stdexcept>
 #include <vector>
 
-#include "exact/oracle.hpp"
-#include "fast/broad_phase.hpp"
+#include "touchstone/broad_phase.hpp"
+#include "touchstone/oracle.hpp"
 #include "verify/generate/workload.hpp"
 
 namespace touchstone::verify::jobs::step_bench_test {

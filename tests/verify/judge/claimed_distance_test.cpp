@@ -6,9 +6,9 @@
 #include <cmath>
 #include <limits>
 
-#include "exact/algebra/number.hpp"
-#include "exact/oracle.hpp"
-#include "fast/tight_inclusion.hpp"
+#include "touchstone/number.hpp"
+#include "touchstone/oracle.hpp"
+#include "touchstone/tight_inclusion.hpp"
 #include "verify/generate/families.hpp"
 
 namespace touchstone::verify::judge::claimed_distance_test {

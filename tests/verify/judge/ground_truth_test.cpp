@@ -4,8 +4,8 @@
 
 #include <optional>
 
-#include "exact/oracle.hpp"
 #include "tests/support/queries.hpp"
+#include "touchstone/oracle.hpp"
 
 namespace touchstone::verify::judge::ground_truth_test {
 namespace {

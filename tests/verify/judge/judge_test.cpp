@@ -9,10 +9,10 @@
 #include <utility>
 #include <vector>
 
-#include "exact/algebra/algebraic_number.hpp"
-#include "exact/oracle.hpp"
 #include "tests/support/queries.hpp"
 #include "tests/support/random.hpp"
+#include "touchstone/algebraic_number.hpp"
+#include "touchstone/oracle.hpp"
 
 namespace touchstone::verify::judge::judge_test {
 namespace {

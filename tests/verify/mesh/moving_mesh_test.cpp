@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "fast/broad_phase.hpp"
+#include "touchstone/broad_phase.hpp"
 #include "verify/io/dataset_error.hpp"
 
 namespace touchstone::verify::mesh::moving_mesh_test {

@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
-#include "exact/oracle.hpp"
 #include "tests/support/random.hpp"
+#include "touchstone/oracle.hpp"
 
 namespace touchstone::verify::mesh::self_intersection_test {
 namespace {

@@ -11,9 +11,9 @@
 #include <utility>
 #include <vector>
 
-#include "fast/certified.hpp"
 #include "tests/support/methods.hpp"
 #include "tests/support/queries.hpp"
+#include "touchstone/certified.hpp"
 #include "verify/base/thread_clock.hpp"
 
 namespace touchstone::verify::report::measure_test {

@@ -13,10 +13,10 @@
 #include <string_view>
 #include <vector>
 
-#include "exact/oracle.hpp"
 #include "tests/support/queries.hpp"
 #include "tests/verify/data/dataset_fixture.hpp"
 #include "tests/verify/solvers/plugins/misbehaviour.hpp"
+#include "touchstone/oracle.hpp"
 #include "verify/solvers/solver_process.hpp"
 
 namespace touchstone::verify::solvers::plugin_test {

@@ -16,9 +16,9 @@
 #include <utility>
 #include <vector>
 
-#include "exact/algebra/number.hpp"
-#include "exact/oracle.hpp"
 #include "tests/support/trials.hpp"
+#include "touchstone/number.hpp"
+#include "touchstone/oracle.hpp"
 #include "verify/fuzz/plainness.hpp"
 #include "verify/generate/decimal.hpp"
 #include "verify/generate/family_builder.hpp"

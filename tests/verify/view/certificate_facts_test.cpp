@@ -6,10 +6,10 @@
 #include <stdexcept>
 #include <string>
 
-#include "exact/certificate.hpp"
-#include "exact/certificate/certificate_text.hpp"
-#include "exact/oracle.hpp"
 #include "tests/support/queries.hpp"
+#include "touchstone/certificate.hpp"
+#include "touchstone/certificate_text.hpp"
+#include "touchstone/oracle.hpp"
 
 namespace touchstone::verify::view::certificate_facts_test {
 namespace {

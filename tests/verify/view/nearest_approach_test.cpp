@@ -5,9 +5,9 @@
 #include <cmath>
 #include <limits>
 
-#include "exact/oracle.hpp"
 #include "tests/support/queries.hpp"
 #include "tests/support/random.hpp"
+#include "touchstone/oracle.hpp"
 
 namespace touchstone::verify::view::nearest_approach_test {
 namespace {

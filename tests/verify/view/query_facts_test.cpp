@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "exact/algebra/number.hpp"
 #include "tests/support/queries.hpp"
+#include "touchstone/number.hpp"
 #include "verify/solvers/registry.hpp"
 
 namespace touchstone::verify::view::query_facts_test {

@@ -7,11 +7,11 @@
 #include <string>
 #include <vector>
 
-#include "exact/certificate.hpp"
-#include "exact/certificate/certificate_text.hpp"
-#include "exact/oracle.hpp"
 #include "tests/support/folder_test.hpp"
 #include "tests/support/queries.hpp"
+#include "touchstone/certificate.hpp"
+#include "touchstone/certificate_text.hpp"
+#include "touchstone/oracle.hpp"
 #include "verify/data/csv_dataset.hpp"
 #include "verify/io/dataset_error.hpp"
 

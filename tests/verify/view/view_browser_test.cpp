@@ -11,10 +11,10 @@
 #include <string_view>
 #include <vector>
 
-#include "exact/algebra/number.hpp"
 #include "tests/support/browser_test.hpp"
 #include "tests/support/queries.hpp"
 #include "tests/support/random.hpp"
+#include "touchstone/number.hpp"
 #include "verify/mesh/mesh.hpp"
 #include "verify/solvers/registry.hpp"
 #include "verify/view/page.hpp"

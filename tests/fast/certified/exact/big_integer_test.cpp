@@ -7,8 +7,8 @@
 #include <limits>
 #include <utility>
 
-#include "exact/algebra/number.hpp"
 #include "tests/support/random.hpp"
+#include "touchstone/number.hpp"
 
 namespace touchstone::fast::exact_stage::big_integer_test {
 namespace {

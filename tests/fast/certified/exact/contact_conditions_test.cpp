@@ -8,11 +8,11 @@
 #include <cstdint>
 #include <type_traits>
 
-#include "exact/oracle.hpp"
 #include "fast/certified/exact/big_integer.hpp"
 #include "fast/certified/exact/fixed_integer.hpp"
 #include "tests/fast/certified/decisions.hpp"
 #include "tests/support/contact_function.hpp"
+#include "touchstone/oracle.hpp"
 
 namespace touchstone::fast::exact_stage::contact_conditions_test {
 namespace {

@@ -13,7 +13,6 @@
 #include <optional>
 #include <string>
 
-#include "exact/oracle.hpp"
 #include "fast/certified/exact/exact_stage.hpp"
 #include "fast/certified/exact/general_contact_decision.hpp"
 #include "tests/fast/certified/decisions.hpp"
@@ -21,6 +20,7 @@
 #include "tests/faults/planted_faults.hpp"
 #include "tests/support/certified.hpp"
 #include "tests/support/queries.hpp"
+#include "touchstone/oracle.hpp"
 
 namespace touchstone::fast::exact_stage::distance_decision_test {
 namespace {

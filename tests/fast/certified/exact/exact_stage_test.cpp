@@ -13,11 +13,11 @@
 #include <string>
 #include <vector>
 
-#include "exact/oracle.hpp"
 #include "tests/faults/planted_faults.hpp"
 #include "tests/support/certified.hpp"
 #include "tests/support/queries.hpp"
 #include "tests/support/trials.hpp"
+#include "touchstone/oracle.hpp"
 #include "verify/generate/families.hpp"
 
 namespace touchstone::fast {

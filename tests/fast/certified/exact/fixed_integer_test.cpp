@@ -6,8 +6,8 @@
 #include <cmath>
 #include <cstdint>
 
-#include "exact/algebra/number.hpp"
 #include "tests/support/random.hpp"
+#include "touchstone/number.hpp"
 
 namespace touchstone::fast::exact_stage::fixed_integer_test {
 namespace {

@@ -8,8 +8,8 @@
 #include <cstdlib>
 #include <vector>
 
-#include "exact/algebra/number.hpp"
 #include "tests/support/random.hpp"
+#include "touchstone/number.hpp"
 
 namespace touchstone::fast::exact_stage::fixed_point_filter_test {
 namespace {

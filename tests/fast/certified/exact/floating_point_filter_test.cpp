@@ -9,8 +9,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "exact/algebra/number.hpp"
 #include "tests/support/random.hpp"
+#include "touchstone/number.hpp"
 
 namespace touchstone::fast::exact_stage::floating_point_filter_test {
 namespace {

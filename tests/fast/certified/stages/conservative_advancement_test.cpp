@@ -13,10 +13,10 @@
 #include <limits>
 #include <vector>
 
-#include "fast/certified.hpp"
 #include "fast/certified/kernel.hpp"
 #include "tests/support/queries.hpp"
 #include "tests/support/random.hpp"
+#include "touchstone/certified.hpp"
 
 namespace touchstone::fast::conservative_advancement_test {
 namespace {

@@ -10,7 +10,7 @@
 #include <stdexcept>
 #include <string_view>
 
-#include "verify/plugin.h"
+#include "touchstone/plugin.h"
 
 namespace {
 

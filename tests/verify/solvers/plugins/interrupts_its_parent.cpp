@@ -10,7 +10,7 @@
 #include <cstdint>
 #include <cstdlib>
 
-#include "verify/plugin.h"
+#include "touchstone/plugin.h"
 
 std::int32_t touchstone_plugin_version() { return touchstone_interface_version; }
 

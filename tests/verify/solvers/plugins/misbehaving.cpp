@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "tests/verify/solvers/plugins/misbehaviour.hpp"
-#include "verify/plugin.h"
+#include "touchstone/plugin.h"
 
 namespace {
 

@@ -3,7 +3,7 @@
 /// \file
 /// The same adapter as in tight_inclusion_ccd.hpp.
 
-#include "adapters/ipc_toolkit/narrow_phase_ccd.hpp"
+#include "touchstone/ipc_toolkit.hpp"
 
 namespace ipc {
 

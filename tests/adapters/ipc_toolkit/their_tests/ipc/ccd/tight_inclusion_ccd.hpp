@@ -4,7 +4,7 @@
 /// Our adapter under the names of the IPC Toolkit's own classes, so that the toolkit's tests of
 /// these classes test the adapter.
 
-#include "adapters/ipc_toolkit/narrow_phase_ccd.hpp"
+#include "touchstone/ipc_toolkit.hpp"
 
 namespace ipc {
 

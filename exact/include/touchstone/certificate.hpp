@@ -1,0 +1,176 @@
+#pragma once
+
+/// \file
+/// Verdicts with their proof, for a checker that does not trust the oracle.
+///
+/// A certificate states a query, a separation, a claim and the proof of the claim:
+///   - no collision: subintervals of [0,1], each with a feature whose direction separates
+///   throughout;
+///   - collision: a contact;
+///   - time of impact in (lower, upper]: a contact there, and subintervals of [0,lower].
+///
+/// **A contact** is a time t* and a place with its sign conditions. The time is a rational number,
+/// or a root of an integer polynomial g in an interval at whose ends g has opposite signs. Then g
+/// divides every polynomial of the conditions that is zero at t*, and every other one has one sign
+/// on the whole interval: the conditions hold at every root of g in the interval. Hence g is the
+/// greatest common divisor of the polynomials that vanish, and the interval is so small that the
+/// others do not.
+///
+/// exact/CERTIFICATES.md defines the format, the directions of features and the conditions of
+/// places; touchstone/certificate_text.hpp writes it. docs/theory.md, section 5.
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <stdexcept>
+#include <variant>
+#include <vector>
+
+#include "touchstone/number.hpp"
+#include "touchstone/oracle.hpp"
+#include "touchstone/polynomial.hpp"
+#include "touchstone/query.hpp"
+
+namespace touchstone::exact {
+
+// ---- No collision -------------------------------------------------------------------------------
+
+/// The name of a direction, which is a polynomial in time (docs/theory.md, sections 3.2 and 3.3).
+struct Feature {
+  enum class Sort : std::uint8_t {
+    vertex,
+    edge,
+    positive_face,
+    negative_face,
+    positive_axis,
+    negative_axis,
+    cross
+  };
+
+  Sort sort = Sort::vertex;
+  std::size_t i = 0;     ///< corner, of a vertex, edge or cross
+  std::size_t j = 0;     ///< corner, of an edge or cross
+  std::size_t axis = 0;  ///< of an axis or cross
+
+  friend bool operator==(const Feature&, const Feature&) = default;
+};
+
+/// The feature separates on all of [from, to].
+struct Subinterval {
+  Rational from;
+  Rational to;
+  Feature feature;
+
+  friend bool operator==(const Subinterval&, const Subinterval&) = default;
+};
+
+// ---- Contact ------------------------------------------------------------------------------------
+
+/// The origin is in the triangle of three corners; their normal's component `axis` is not zero.
+struct TriangleContact {
+  std::array<std::size_t, 3> corners;
+  std::size_t axis;
+
+  friend bool operator==(const TriangleContact&, const TriangleContact&) = default;
+};
+
+/// The origin is on the segment between two corners.
+struct SegmentContact {
+  std::array<std::size_t, 2> corners;
+
+  friend bool operator==(const SegmentContact&, const SegmentContact&) = default;
+};
+
+/// In l2: this corner is within the distance.
+struct VertexContact {
+  std::size_t corner;
+
+  friend bool operator==(const VertexContact&, const VertexContact&) = default;
+};
+
+/// In l2: a point between two corners is within the distance.
+struct EdgeContact {
+  std::array<std::size_t, 2> corners;
+
+  friend bool operator==(const EdgeContact&, const EdgeContact&) = default;
+};
+
+/// In l2: a point of the face is within the distance.
+struct FaceContact {
+  friend bool operator==(const FaceContact&, const FaceContact&) = default;
+};
+
+/// In linf: no axis separates.
+struct AxesContact {
+  friend bool operator==(const AxesContact&, const AxesContact&) = default;
+};
+
+using ContactPlace = std::variant<TriangleContact, SegmentContact, VertexContact, EdgeContact,
+                                  FaceContact, AxesContact>;
+
+/// A root of the polynomial strictly inside the interval, where its ends' signs are opposite.
+struct RootTime {
+  RationalInterval interval;
+  Polynomial polynomial;
+};
+
+/// The time and the place of a contact.
+struct ContactProof {
+  std::variant<Rational, RootTime> time;
+  ContactPlace place;
+};
+
+// ---- The certificate ----------------------------------------------------------------------------
+
+/// The kinds of claims about a query.
+enum class Claim : std::uint8_t { no_collision, collision, time_of_impact };
+
+/// A claim about a query with its proof.
+struct Certificate {
+  Kind kind = Kind::vertex_face;
+  Query query{};
+  Separation separation{};
+  Claim claim = Claim::no_collision;
+  /// For a time of impact: lower < toi ≤ upper, or both are 0 and so is the toi.
+  RationalInterval toi;
+  /// They cover [0,1] or, for a time of impact, [0, toi.lower]. Empty for a collision and for a toi
+  /// of 0.
+  std::vector<Subinterval> subintervals;
+  /// Present for a collision and a time of impact.
+  std::optional<ContactProof> contact;
+};
+
+/// The maximum number of subintervals of a certificate.
+inline constexpr std::size_t subinterval_limit = 4096;
+
+/// The maximum number of bits of the numerator and the denominator of a number in a certificate.
+inline constexpr std::size_t number_limit = 16384;
+
+/// A certificate would exceed the limits of the format.
+class CertificateLimitError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+struct ProveOptions {
+  /// The claim about a query that collides: `collision` or `time_of_impact`.
+  Claim collision_claim = Claim::time_of_impact;
+  /// The maximum width, > 0, of the interval of a time of impact. Without it the ends are
+  /// neighbouring doubles; the upper one is the toi itself if that is a double.
+  std::optional<Rational> width = std::nullopt;
+};
+
+/// The proof of the oracle's verdict on a query. It always exists, and is the same on every machine
+/// and in every floating-point environment. Thread-safe.
+/// \param verdict decide(kind, query, verdict.separation)
+/// \throws std::invalid_argument if a coordinate is NaN or infinite, the separation is not valid, the
+/// width is not positive, or the claim asked for is `no_collision`.
+/// \throws std::logic_error if the verdict is not the query's.
+/// \throws CertificateLimitError if the certificate would exceed number_limit or subinterval_limit.
+/// exact/certificate/separation_intervals.hpp states for which queries the break points stay within
+/// it; the interval of a contact needs no more bits.
+[[nodiscard]] Certificate prove(Kind kind, const Query& query, const Decision& verdict,
+                                const ProveOptions& options = {});
+
+}  // namespace touchstone::exact

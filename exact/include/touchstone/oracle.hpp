@@ -1,0 +1,64 @@
+#pragma once
+
+/// \file
+/// The oracle: whether and when a query collides, decided exactly.
+///
+/// At distance 0 the rules of exact/contact/contact_oracle.hpp decide, which also give the place of
+/// contact; at a greater distance those of exact/distance/distance_oracle.hpp. Both are integer
+/// arithmetic on scaled coordinates, without rounding and without filters. docs/theory.md, sections
+/// 2 and 3.
+
+#include <optional>
+
+#include "touchstone/algebraic_number.hpp"
+#include "touchstone/number.hpp"
+#include "touchstone/polynomial.hpp"
+#include "touchstone/query.hpp"
+
+namespace touchstone::exact {
+
+/// The place of contact: u = u_numerator(toi) / denominator(toi), likewise v, each a polynomial in
+/// t of degree at most 2. If the primitives have several common points, it is one of them.
+struct Contact {
+  Polynomial u_numerator;
+  Polynomial v_numerator;
+  /// Positive at the toi.
+  Polynomial denominator;
+};
+
+/// The truth about a query at a separation.
+///
+/// | the query             | toi   | contact |
+/// |-----------------------|-------|---------|
+/// | does not collide      | empty | empty   |
+/// | collides, distance 0  | known | known   |
+/// | collides, distance > 0 | known | empty   |
+struct Decision {
+  /// The separation that was asked for.
+  Separation separation{};
+  /// The exact time of impact, in [0,1]: an algebraic number, at distance 0 of degree at most 3,
+  /// else of degree at most 8. Empty iff the query does not collide at the separation.
+  std::optional<AlgebraicNumber> toi = std::nullopt;
+  /// The place of contact at the toi; not computed for a distance above 0.
+  std::optional<Contact> contact = std::nullopt;
+
+  [[nodiscard]] bool collides() const { return toi.has_value(); }
+};
+
+/// Decides a query exactly. Thread-safe, and independent of the floating-point environment
+/// (rounding mode, flushed subnormals).
+/// \throws std::invalid_argument if a coordinate is NaN or infinite, or the separation is not valid.
+[[nodiscard]] Decision decide(Kind kind, const Query& query, const Separation& separation = {});
+
+/// The parameters (u,v) of a contact, as the query's F defines them.
+struct ContactParameters {
+  RationalInterval u;
+  RationalInterval v;
+};
+
+/// (u,v) of the earliest contact, each within `width` > 0; exact (both ends equal) where the toi is
+/// known to be rational.
+/// \throws std::invalid_argument if the verdict has no contact.
+[[nodiscard]] ContactParameters contact_parameters(const Decision& verdict, const Rational& width);
+
+}  // namespace touchstone::exact

@@ -1,0 +1,106 @@
+#pragma once
+
+/// \file
+/// A moving mesh in the form that simulators use: vertices at the start and at the end of a
+/// step, edges and faces as indices, and candidates as pairs of these. Pairs take an eighth of the
+/// memory of queries, and the vertices stay in the cache.
+
+#include <Eigen/Core>
+
+#include <array>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <stdexcept>
+#include <vector>
+
+#include "touchstone/query.hpp"
+
+namespace touchstone::fast {
+
+/// The two vertices of an edge.
+using Edge = std::array<std::int32_t, 2>;
+/// The three vertices of a face.
+using Face = std::array<std::int32_t, 3>;
+/// The two indices of a pair. vertex_face: a vertex and a face; edge_edge: two edges.
+using IndexPair = std::array<std::int32_t, 2>;
+
+/// The positions of a vertex at t=0 and t=1, in one cache line.
+struct alignas(64) MovingVertex {
+  std::array<double, 4> start;  ///< x, y, z and 0
+  std::array<double, 4> end;    ///< x, y, z and 0
+};
+
+/// A coordinate in double, where it is the same number. Subnormal floats too: where the caller's
+/// floating-point state takes subnormals for 0, a conversion would lose them.
+[[nodiscard]] constexpr double to_double(double x) { return x; }
+[[nodiscard]] constexpr double to_double(float x) {
+  constexpr std::uint32_t exponent = 0x7F80'0000, significand = 0x007F'FFFF;
+  const auto bits = std::bit_cast<std::uint32_t>(x);
+  if ((bits & exponent) != 0) return static_cast<double>(x);
+  const double magnitude = static_cast<double>(bits & significand) * 0x1p-149;
+  return bits > significand ? -magnitude : magnitude;
+}
+
+/// The vertices of a step.
+class MovingVertices {
+ public:
+  /// From two matrices of float or double in any storage order, a row for each vertex. Copies
+  /// them, which takes about as long as reading an equal number of candidates.
+  /// \throws std::invalid_argument unless both are n×3.
+  template <class Start, class End>
+  MovingVertices(const Eigen::MatrixBase<Start>& start, const Eigen::MatrixBase<End>& end)
+      : vertices_(static_cast<std::size_t>(start.rows())) {
+    if (start.cols() != 3 || end.cols() != 3 || start.rows() != end.rows()) {
+      throw std::invalid_argument(
+          "vertices: both matrices must have three columns and as many rows");
+    }
+    for (Eigen::Index i = 0; i < start.rows(); ++i) {
+      MovingVertex& vertex = vertices_[static_cast<std::size_t>(i)];
+      for (Eigen::Index k = 0; k < 3; ++k) {
+        vertex.start[static_cast<std::size_t>(k)] = to_double(start(i, k));
+        vertex.end[static_cast<std::size_t>(k)] = to_double(end(i, k));
+      }
+    }
+  }
+
+  [[nodiscard]] std::size_t size() const { return vertices_.size(); }
+  [[nodiscard]] const MovingVertex& operator[](std::size_t i) const { return vertices_[i]; }
+  [[nodiscard]] const MovingVertex* data() const { return vertices_.data(); }
+
+ private:
+  std::vector<MovingVertex> vertices_;
+};
+
+/// Pairs of one kind with the arrays that their indices refer to. Owns nothing.
+struct Candidates {
+  Kind kind = Kind::vertex_face;
+  std::span<const IndexPair> pairs;
+  std::span<const Edge> edges;  ///< needed for edge_edge
+  std::span<const Face> faces;  ///< needed for vertex_face
+};
+
+/// The vertices of a pair, in the order of a query's points. \pre its indices are in range.
+[[nodiscard]] std::array<std::int32_t, moving_points> vertices_of(const Candidates& candidates,
+                                                                  const IndexPair& pair);
+
+/// A pair as a query. \pre its indices are in range.
+[[nodiscard]] Query query_of(const MovingVertices& vertices, const Candidates& candidates,
+                             const IndexPair& pair);
+
+/// \throws std::out_of_range, naming the first pair (or edge or face of a pair) with an index that
+/// is out of range.
+void require_in_range(const MovingVertices& vertices, const Candidates& candidates);
+
+/// \throws std::domain_error naming the first vertex with a coordinate that is NaN or infinite;
+/// std::length_error if there are more than 2^31−1 vertices.
+void require_finite(const MovingVertices& vertices);
+
+/// \throws std::out_of_range naming the first edge, face or codimensional point with an index that is no
+/// vertex's; std::length_error if there are more than 2^31−1.
+void require_in_range(const MovingVertices& vertices, std::span<const Edge> edges);
+void require_in_range(const MovingVertices& vertices, std::span<const Face> faces);
+void require_in_range(const MovingVertices& vertices, std::span<const std::int32_t> points);
+
+}  // namespace touchstone::fast

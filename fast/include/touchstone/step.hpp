@@ -1,0 +1,249 @@
+#pragma once
+
+/// \file
+/// A whole step of a scene: freedom from collisions, the earliest impact, and all collisions.
+///
+/// A scene is a mesh before and after the step, and rules for the pairs that can collide. Its
+/// *primitives* are faces, edges and vertices. All vertices move on straight lines from t=0 to t=1.
+/// Two primitives *collide* if they have a common point at some time, or come within the
+/// separation.
+///
+/// **Pairs in the search.** The pairs without a common vertex, of groups that can collide, that are
+/// - a vertex and a face,
+/// - two edges,
+/// - a codimensional point (a vertex without an edge) and a codimensional edge (of no face),
+/// - two codimensional points.
+///
+/// **Theorem** (docs/theory.md, section 8.3): if at t=0 no edge meets a face except at a shared
+/// vertex, then at the first contact of two primitives without a common vertex one of these pairs
+/// is in contact, too. The theorem does not cover contact of a vertex with a vertex or an edge of
+/// its own 2-ring: the elements around a vertex may fold onto each other, and collapse. (An edge
+/// that pierces a face at t=0 may do so until t=1 without a collision.)
+///
+/// **Method.** Trees hold boxes in float at both ends of the step (fast/broad_phase/). An axis that
+/// separates a pair at both ends, in the same order, excludes a contact; a search finds the pairs
+/// without such an axis. The broad phase thereby does the work of the certified solver's first
+/// stage, for sixteen pairs at a time, before any pair is written. The certified solver decides the
+/// remaining pairs in blocks as they are found. No list of candidates is kept: memory is
+/// proportional to the mesh and the collisions. As soon as an impact is known, `earliest` searches
+/// only up to its time.
+///
+/// Answers are as exact as the certified solver's (touchstone/certified.hpp), and the same for any
+/// number of threads and any instruction set.
+
+#include <Eigen/Core>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <span>
+#include <stdexcept>
+#include <string_view>
+#include <vector>
+
+#include "touchstone/certified.hpp"
+#include "touchstone/mesh.hpp"
+#include "touchstone/query.hpp"
+
+namespace touchstone::fast {
+
+class Scene;
+struct SearchKernel;
+
+/// The primitives of a pair, and the meaning of its two numbers.
+enum class PairKind : std::uint8_t {
+  vertex_face,    ///< a vertex and a face
+  edge_edge,      ///< two edges, the smaller number first
+  vertex_edge,    ///< a codimensional point and a codimensional edge
+  vertex_vertex,  ///< two codimensional points, the smaller number first
+};
+
+/// "vertex-face", "edge-edge", "vertex-edge", "vertex-vertex".
+[[nodiscard]] std::string_view to_string(PairKind kind);
+
+/// The elements of a scene, by vertex numbers. A vertex that no element names is not part of the
+/// scene.
+struct MeshElements {
+  /// All edges: those of the faces and codimensional ones. By default the edges of the faces,
+  /// numbered as by edges_of (touchstone/broad_phase.hpp). An edge from a vertex to itself collides
+  /// like the vertex.
+  std::span<const Edge> edges;
+  std::span<const Face> faces;
+  /// Vertices that are part of the scene in any case, with or without an edge or a face.
+  std::span<const std::int32_t> points;
+};
+
+/// Rules for the pairs that can collide: two primitives can if a vertex of one and a vertex of the
+/// other are in groups that can collide. By default everything collides with everything.
+struct CollisionGroups {
+  /// The group of each vertex, from 0 on; empty: all are in group 0.
+  std::span<const std::int32_t> of_vertices;
+  /// Pairs of groups that cannot collide, in either order. The same group twice: no collisions
+  /// within it, for example within an obstacle. All other pairs can collide.
+  std::span<const std::array<std::int32_t, 2>> apart;
+};
+
+struct StepOptions {
+  /// Primitives within this distance are in contact.
+  Separation separation = {};
+  /// As CertifiedOptions.
+  double toi_tolerance = 1e-12;
+  /// Only contacts up to this time count, in [0,1]. (`candidates` covers the whole step.)
+  double t_max = 1.0;
+  /// 0: as many as there are cores.
+  int max_threads = 0;
+  CollisionGroups groups = {};
+  /// For tests: replacements of the best kernels for this processor.
+  const CertifiedKernel* kernel = nullptr;
+  const SearchKernel* search = nullptr;
+};
+
+/// Two primitives that collide.
+struct StepCollision {
+  PairKind kind = PairKind::vertex_face;
+  IndexPair pair{};
+  /// Enclosure of the time of impact, as in CertifiedResult.
+  double toi_lower = 0.0;
+  double toi_upper = 0.0;
+  /// The place, as in CertifiedResult. For a vertex and an edge, u is the place on the edge and v
+  /// is 0; for two vertices, both are 0.
+  double u = 0.0;
+  double v = 0.0;
+
+  friend bool operator==(const StepCollision&, const StepCollision&) = default;
+};
+
+/// The earliest impact of a step.
+struct StepImpact {
+  /// The smallest toi_lower and the smallest toi_upper of all collisions.
+  double toi_lower = 0.0;
+  double toi_upper = 0.0;
+  /// All collisions with a toi_lower up to that toi_upper, in order. The first one is among them;
+  /// the enclosures of several do not tell which it is.
+  std::vector<StepCollision> pairs;
+
+  friend bool operator==(const StepImpact&, const StepImpact&) = default;
+};
+
+/// Some of a step's candidates.
+struct StepCandidates {
+  PairKind kind;
+  std::span<const IndexPair> pairs;  ///< at most about a thousand
+};
+
+class Step {
+ public:
+  /// From the vertices before and after: matrices of float or double in any storage order, a row
+  /// for each vertex, which are copied. Keeps references to the elements, not to the groups.
+  /// \pre If edges are given, those of all faces are among them.
+  /// \throws std::invalid_argument unless both are n×3, or for invalid options; std::domain_error
+  /// naming the first vertex with a coordinate that is NaN or infinite; std::out_of_range naming
+  /// the first element with an index out of range; std::length_error if there are more than 2^31−1
+  /// elements of a kind.
+  template <class Before, class After>
+  Step(const Eigen::MatrixBase<Before>& before, const Eigen::MatrixBase<After>& after,
+       const MeshElements& elements, const StepOptions& options = {})
+      : Step(MovingVertices(before, after), elements, options) {}
+
+  /// From x, y, z of each vertex in turn, float or double.
+  template <class Scalar>
+  Step(std::span<const Scalar> before, std::span<const Scalar> after, const MeshElements& elements,
+       const StepOptions& options = {})
+      : Step(rows(before), rows(after), elements, options) {}
+
+  Step(MovingVertices vertices, const MeshElements& elements, const StepOptions& options = {});
+
+  ~Step();
+  Step(Step&& other) noexcept;
+  Step& operator=(Step&& other) noexcept;
+  Step(const Step&) = delete;
+  Step& operator=(const Step&) = delete;
+
+  /// The same mesh at other places, with the same options except the separation. The steps share
+  /// the data that do not depend on places; this step may be destroyed first.
+  /// \throws std::invalid_argument for another number of vertices or an invalid separation;
+  /// std::domain_error as above.
+  [[nodiscard]] Step with_places(MovingVertices vertices, const Separation& separation) const;
+  [[nodiscard]] Step with_separation(const Separation& separation) const {
+    return with_places(vertices(), separation);
+  }
+
+  // ---- Impacts ----
+
+  /// The earliest impact; nullopt if there is no collision.
+  [[nodiscard]] std::optional<StepImpact> earliest() const;
+
+  /// All collisions, by kinds. The order depends only on the step; pairs that are close in space
+  /// are mostly close in the list.
+  [[nodiscard]] std::vector<StepCollision> collisions() const;
+
+  /// True if there is no collision.
+  [[nodiscard]] bool is_free() const;
+
+  // ---- The step that is taken ----
+
+  /// The step from x0 to the places that a simulator computes with a step size α in doubles,
+  ///
+  ///     fl(x0 + fl(α fl(x1 − x0))),   fl: rounded to the nearest double,
+  ///
+  /// which in general are not on the straight line to x1. It has the same mesh and options, except
+  /// t_max, which is 1: the whole scaled step counts. It keeps no reference to this step.
+  /// \throws std::invalid_argument unless 0 ≤ α ≤ 1; std::domain_error, which names the vertex, if
+  /// fl(x1 − x0) overflows, for any α.
+  [[nodiscard]] Step scaled(double alpha) const;
+
+  /// A maximal step size: a double α in [0,1] such that scaled(α) is free and, unless α = 1, scaled
+  /// of the next double is not. Both are decided exactly. nullopt if scaled(0), which is at rest,
+  /// is not free.
+  ///
+  /// The search begins at the time of the earliest impact. It tries only some of the doubles from
+  /// there. Because of rounding, a step with a larger α may avoid a contact of one with a smaller
+  /// α. Therefore the result is not always the largest α with a free step, nor is the step of every
+  /// smaller α free. The search calls is_free some dozens of times.
+  /// \throws std::domain_error as `scaled`.
+  [[nodiscard]] std::optional<double> free_step_size() const;
+
+  // ---- Pairs ----
+
+  /// Calls take(candidates) for all pairs in the search whose swept boxes are within the separation
+  /// on every axis (exactly these: touchstone/broad_phase.hpp), some at a time, each once. Does not
+  /// store them. Several threads call `take` concurrently, in any order. An exception from `take`
+  /// ends the search and is rethrown.
+  void candidates(const std::function<void(const StepCandidates&)>& take) const;
+
+  /// The vertices of a pair as input of the certified solver: a vertex and an edge as vertex and
+  /// face (e0, e1, e0), two vertices as vertex and face (w, w, w). \pre Its numbers are in range.
+  [[nodiscard]] std::array<std::int32_t, moving_points> vertices_of(PairKind kind,
+                                                                    const IndexPair& pair) const;
+  /// A pair as a query, whose points are these vertices. \pre Its numbers are in range.
+  [[nodiscard]] Query query_of(PairKind kind, const IndexPair& pair) const;
+  [[nodiscard]] static Kind kind_of(PairKind kind) {
+    return kind == PairKind::edge_edge ? Kind::edge_edge : Kind::vertex_face;
+  }
+
+  [[nodiscard]] const MovingVertices& vertices() const;
+  /// The options of the decisions on pairs.
+  [[nodiscard]] const CertifiedOptions& certified() const;
+  /// All edges in the search.
+  [[nodiscard]] std::span<const Edge> edges() const;
+
+ private:
+  explicit Step(std::unique_ptr<const Scene> scene);
+
+  template <class Scalar>
+  static auto rows(std::span<const Scalar> coordinates) {
+    if (coordinates.size() % 3 != 0) {
+      throw std::invalid_argument("vertices: each must have three coordinates");
+    }
+    using Rows = Eigen::Matrix<Scalar, Eigen::Dynamic, 3, Eigen::RowMajor>;
+    return Eigen::Map<const Rows>(coordinates.data(),
+                                  static_cast<Eigen::Index>(coordinates.size() / 3), 3);
+  }
+
+  std::unique_ptr<const Scene> scene_;
+};
+
+}  // namespace touchstone::fast

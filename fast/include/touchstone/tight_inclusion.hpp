@@ -1,0 +1,110 @@
+#pragma once
+
+/// \file
+/// Tight-Inclusion: conservative continuous collision detection by bisection of (t,u,v).
+/// ([wang2021], section 4, algorithm 2; section 5 for the minimum separation. docs/theory.md,
+/// section 7; docs/methods.md, section 2.)
+///
+/// **Why no collision is missed.** F is affine in each of t, u and v, so over a box of parameters
+/// it stays within the bounding box of its values at the eight corners. These are computed in
+/// floating point with an error of at most the filter (touchstone/filters/error_bounds.hpp); the
+/// parameters are dyadic and exact. A box is dropped only if on some axis all corner values are
+/// beyond separation plus filter on one side; then it contains no contact. All other boxes are
+/// split until they are small, and every other point of the domain stays in some box.
+///
+/// **Why the time is conservative.** Boxes are examined level by level (number of splits), within a
+/// level by their lower t. All boxes of a level have the same size, because the axis to split
+/// depends on the size alone. The remaining boxes of a level cover all contacts, so the lower t of
+/// the level's first remaining box is not above the time of impact. The search returns this t
+/// whenever it ends: at a first box that is small (its image within δ, or wholly inside the
+/// filter), or at the limit of checks. A small box that is not the first is not split but
+/// remembered: boxes that begin no earlier need no examination, and if all others are dropped it is
+/// the answer.
+///
+/// **Order without a heap.** Splitting u or v keeps the order of t. Splitting t sends the lower
+/// halves of boxes with equal t first, then their upper halves; the next box begins no earlier than
+/// these end. Thus each level is a sorted array, and a search holds two of them.
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string_view>
+
+#include "fast/method.hpp"
+#include "fast/tight_inclusion/box_kernel.hpp"
+#include "touchstone/filter.hpp"
+#include "touchstone/query.hpp"
+
+namespace touchstone::fast {
+
+struct TightInclusionOptions {
+  /// δ: a box is small if its image is at most this wide on each axis, in units of the coordinates;
+  /// positive and finite.
+  double tolerance = 1e-6;
+  /// m_I: after this many boxes the answer is a conservative yes with the tolerance reached. Not
+  /// positive: no limit.
+  std::int64_t max_checks = 1'000'000;
+  /// The maximum number of boxes in a level, of 24 bytes in each of two arrays; beyond it the
+  /// search ends as beyond max_checks.
+  std::size_t max_boxes = std::size_t{1} << 22U;
+  /// d: the distance, measured in L∞, at which primitives are in contact; finite, not negative. The
+  /// answer is conservative for the same distance in L2.
+  Separation separation = {};
+  /// Only contacts up to this time, in [0,1], count; it is rounded up to a multiple of 2^-53.
+  double t_max = 1.0;
+  /// If the time of impact is 0, search again with less separation, a smaller tolerance or a
+  /// shorter time, until it is positive or max_refinements is reached. For line searches that have
+  /// to advance.
+  bool no_zero_toi = false;
+  /// The maximum number of further searches of no_zero_toi.
+  int max_refinements = 32;
+  /// The origin of the filter. With `released`, which misses contacts, the order of operations is
+  /// also that of the public Tight-Inclusion, without vector instructions.
+  ErrorModel error_model = ErrorModel::derived;
+  /// The filter of a scene on each axis (touchstone/filter.hpp), which replaces the filter of each
+  /// query. It must be at least the filter of this kind and of the separation; the filter of
+  /// vertex_face holds for both kinds.
+  std::optional<std::array<double, 3>> scene_filter = std::nullopt;
+  /// For tests: a kernel that replaces the best one for this processor.
+  const BoxKernel* kernel = nullptr;
+};
+
+struct TightInclusionResult {
+  /// no: certainly no contact (except with the released filter). yes: contact, or nearly so. error:
+  /// see `error`. Never undecided.
+  Verdict verdict = Verdict::error;
+  /// With yes: not above the time of impact, in [0, t_max].
+  double toi = Answer::none;
+  /// With yes: the tolerance achieved. At some time the distance is at most this tolerance plus the
+  /// requested separation plus twice the filter. It is δ, more if the search ended early, or less
+  /// if no_zero_toi lowered it.
+  double tolerance = Answer::none;
+  /// The separation of `toi`: there is no contact at this separation before `toi`. Below the
+  /// requested one only if no_zero_toi lowered it.
+  Separation separation = {};
+  /// Boxes examined, over all searches.
+  std::int64_t checks = 0;
+  /// The number of further searches of no_zero_toi.
+  int refinements = 0;
+  /// With error: the reason.
+  std::string_view error;
+};
+
+/// Solves one query. Thread-safe. Each thread keeps its memory, bounded by max_boxes, until it
+/// ends.
+/// \throws std::runtime_error if the arithmetic is not strict (fast/platform/arithmetic_check.hpp);
+/// std::bad_alloc, which does not affect later calls.
+[[nodiscard]] TightInclusionResult tight_inclusion(Kind kind, const Query& query,
+                                                   const TightInclusionOptions& options = {});
+
+/// Tight-Inclusion as a method. Its name is `tight_inclusion`, with the published filter
+/// `tight_inclusion_published`, with the released one `tight_inclusion_released`, which promises
+/// nothing. Options that MethodOptions lack are taken from `base`. A scene's filter must hold for
+/// both kinds. With no_zero_toi the method promises nothing.
+[[nodiscard]] std::unique_ptr<Method> tight_inclusion_method(
+    const TightInclusionOptions& base = {});
+
+}  // namespace touchstone::fast

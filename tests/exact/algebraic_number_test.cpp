@@ -1,0 +1,939 @@
+#include "touchstone/algebraic_number.hpp"
+
+#include <CGAL/Algebraic_kernel_d_1.h>
+#include <CGAL/Gmpq.h>
+#include <CGAL/Gmpz.h>
+#include <gtest/gtest.h>
+#include <mpfi.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <iterator>
+#include <limits>
+#include <numbers>
+#include <optional>
+#include <stdexcept>
+#include <utility>
+#include <vector>
+
+#include "tests/support/random.hpp"
+
+namespace touchstone::exact::algebraic_number_test {
+namespace {
+
+using tests::Random;
+using Coefficients = std::vector<Integer>;
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double least_subnormal = std::numeric_limits<double>::denorm_min();
+
+/// Σ c_i t^i.
+Polynomial polynomial(const Coefficients& c) { return Polynomial(c); }
+
+Rational power(const Rational& x, int exponent) {
+  Rational result = 1;
+  for (int i = 0; i < exponent; ++i) result *= x;
+  return result;
+}
+
+Polynomial power(const Polynomial& p, int exponent) {
+  Polynomial result(Integer(1));
+  for (int i = 0; i < exponent; ++i) result = result * p;
+  return result;
+}
+
+Rational fraction(long numerator, long denominator) { return Rational(numerator) / denominator; }
+
+/// A random polynomial of this degree, with an odd leading coefficient.
+Polynomial random_polynomial(Random& random, int degree, unsigned bits) {
+  Coefficients c;
+  for (int i = 0; i <= degree; ++i) c.push_back(random.integer<Integer>(bits));
+  if (mpz_even_p(c.back().get_mpz_t()) != 0) ++c.back();
+  return polynomial(c);
+}
+
+const Polynomial& without_real_roots() {
+  static const Polynomial result = polynomial({1, 1, 1});
+  return result;
+}
+
+// ---- Numbers that are known exactly -------------------------------------------------------------
+//
+// Roots α ≥ 0 of rational numbers. The rationals α⁶, the keys, have the same order.
+
+/// A polynomial with exactly one root α ≥ 0, which is simple; it is negative below α and positive
+/// above.
+struct Factor {
+  Polynomial p;
+  Rational key;
+};
+
+Factor linear(const Rational& r) { return {polynomial({-r.get_num(), r.get_den()}), power(r, 6)}; }
+/// \pre r > 0, as −√r would be another root otherwise.
+Factor square_root(const Rational& r) {
+  return {polynomial({-r.get_num(), 0, r.get_den()}), power(r, 3)};
+}
+Factor cube_root(const Rational& r) {
+  return {polynomial({-r.get_num(), 0, 0, r.get_den()}), power(r, 2)};
+}
+
+/// A factor of few values, so that equal numbers come from different factors; some are squares and
+/// cubes.
+Factor random_factor(Random& random) {
+  static const std::array radicands{fraction(1, 64), fraction(1, 8), fraction(1, 4),
+                                    fraction(4, 9),  fraction(1, 2), fraction(8, 27),
+                                    fraction(3, 7),  fraction(1, 1), fraction(5, 4)};
+  const Rational& r = radicands[static_cast<std::size_t>(random.between(0, 8))];
+  switch (random.between(0, 3)) {
+    case 0:
+      return linear(fraction(random.between(0, 12), random.between(9, 12)));
+    case 1:
+      return linear(r);
+    case 2:
+      return square_root(r);
+    default:
+      return cube_root(r);
+  }
+}
+
+struct Known {
+  AlgebraicNumber number;
+  Rational key;
+};
+
+/// True if the isolating interval of `number` isolates the number with this key.
+bool isolates(const AlgebraicNumber& number, const Rational& key) {
+  const auto [lower, upper] = number.interval();
+  if (lower == upper) return power(lower, 6) == key;
+  return power(lower, 6) < key && key < power(upper, 6);
+}
+
+/// The roots in [0,1] of a product of random factors, with their known keys.
+std::vector<Known> random_known_roots(Random& random) {
+  Polynomial p(Integer(-random.between(1, 9)));
+  std::vector<Rational> keys;
+  for (int factors = random.between(1, 4); factors > 0; --factors) {
+    const Factor factor = random_factor(random);
+    p = p * (power(factor.p, random.between(1, 3)));
+    if (factor.key <= 1) keys.push_back(factor.key);
+  }
+  if (random.coin()) p = p * (without_real_roots());
+  if (random.coin()) p = p * (polynomial({1, 2}) * polynomial({-4, 3}));  // −1/2 and 4/3
+  std::ranges::sort(keys);
+  keys.erase(std::unique(keys.begin(), keys.end()), keys.end());
+  const std::vector<AlgebraicNumber> roots = roots_in_unit_interval(p);
+  EXPECT_EQ(roots.size(), keys.size()) << p;
+  std::vector<Known> result;
+  for (std::size_t i = 0; i < std::min(roots.size(), keys.size()); ++i) {
+    result.push_back({roots[i], keys[i]});
+  }
+  return result;
+}
+
+std::vector<Known> pool(std::uint64_t seed, std::size_t least_size) {
+  Random random(seed);
+  std::vector<Known> result;
+  while (result.size() < least_size) {
+    for (Known& known : random_known_roots(random)) result.push_back(std::move(known));
+  }
+  return result;
+}
+
+/// The one root in [0,1] of factor · (t² + t + 1), not yet known to be rational.
+Known hidden(const Factor& factor) {
+  std::vector<AlgebraicNumber> roots = roots_in_unit_interval(factor.p * without_real_roots());
+  EXPECT_EQ(roots.size(), 1U);
+  return {roots.at(0), factor.key};
+}
+
+TEST(RootsInUnitInterval, AreTheKnownRootsInOrderEachOnce) {
+  Random random(41);
+  std::size_t found = 0;
+  for (int round = 0; round < 400; ++round) {
+    const std::vector<Known> roots = random_known_roots(random);
+    found += roots.size();
+    for (const Known& root : roots) {
+      EXPECT_TRUE(isolates(root.number, root.key));
+      // Isolating intervals may hold rational roots that were split off; narrow ones do not.
+      AlgebraicNumber narrow = root.number;
+      narrow.refine_to_level(60);
+      const auto others = std::ranges::count_if(
+          roots, [&](const Known& other) { return isolates(narrow, other.key); });
+      EXPECT_EQ(others, 1);
+    }
+  }
+  EXPECT_GT(found, 400U);
+}
+
+TEST(RootsInUnitInterval, EveryRootIsARootOfItsSquarefreePolynomial) {
+  for (const auto& [number, key] : pool(42, 100)) {
+    EXPECT_EQ(squarefree_part(number.polynomial()), primitive_part(number.polynomial()));
+    const auto [lower, upper] = number.interval();
+    const int below = sign_at(number.polynomial(), lower),
+              above = sign_at(number.polynomial(), upper);
+    if (number.rational()) {
+      EXPECT_EQ(below, 0);
+      EXPECT_EQ(*number.rational(), lower);
+      EXPECT_EQ(lower, upper);
+    } else {
+      EXPECT_EQ(below * above, -1);
+    }
+  }
+}
+
+TEST(RootsInUnitInterval, EndsCountAndAreKnownToBeRational) {
+  for (int multiplicity = 1; multiplicity < 4; ++multiplicity) {
+    const Polynomial p = power(polynomial({0, 1, -1}), multiplicity) * polynomial({-1, 0, 2});
+    const std::vector<AlgebraicNumber> roots = roots_in_unit_interval(p);
+    ASSERT_EQ(roots.size(), 3U);
+    EXPECT_EQ(roots[0].rational(), Rational(0));
+    EXPECT_FALSE(roots[1].rational());
+    EXPECT_EQ(roots[2].rational(), Rational(1));
+  }
+}
+
+TEST(RootsInUnitInterval, NothingOutsideCounts) {
+  const Rational just = power_of_two(-300);
+  for (const Polynomial& p :
+       {polynomial({1}), polynomial({-7}), linear(-just).p, linear(1 + just).p,
+        linear(-just).p * linear(1 + just).p, without_real_roots(), polynomial({1, 0, 1}),
+        polynomial({-3, 0, 2}), polynomial({1, 3, 2})}) {
+    EXPECT_TRUE(roots_in_unit_interval(p).empty()) << p;
+  }
+  EXPECT_EQ(roots_in_unit_interval(linear(just).p * linear(1 - just).p).size(), 2U);
+}
+
+TEST(RootsInUnitInterval, OfTheZeroPolynomialAreAnError) {
+  EXPECT_THROW(static_cast<void>(roots_in_unit_interval(Polynomial(Integer(0)))),
+               std::invalid_argument);
+}
+
+TEST(RootsInUnitInterval, ManyEquidistantRoots) {
+  Polynomial p(Integer(1));
+  for (int i = 0; i <= 20; ++i) p = p * (polynomial({-i, 20}));
+  const std::vector<AlgebraicNumber> roots = roots_in_unit_interval(p);
+  ASSERT_EQ(roots.size(), 21U);
+  for (int i = 0; i <= 20; ++i) EXPECT_EQ(roots[static_cast<std::size_t>(i)], fraction(i, 20));
+}
+
+TEST(RootsInUnitInterval, OfACubicAreItsCosines) {
+  // cos 3θ = −1/2 with x = cos θ: 8x³ − 6x + 1 = 0 for θ = 40°, 80°, 160°.
+  const std::vector<AlgebraicNumber> roots = roots_in_unit_interval(polynomial({1, -6, 0, 8}));
+  ASSERT_EQ(roots.size(), 2U);
+  EXPECT_NEAR(roots[0].enclosure().lower, std::cos(std::numbers::pi * 80 / 180), 1e-15);
+  EXPECT_NEAR(roots[1].enclosure().lower, std::cos(std::numbers::pi * 40 / 180), 1e-15);
+}
+
+TEST(RootsInUnitInterval, AreFoundInClustersHoweverNear) {
+  // ((3t−1)² − ε²)((3t−2)² + δ²)(2t−5): two roots at 1/3 ± ε/3, and two that are not real near 2/3.
+  for (const unsigned bits : {10U, 100U, 1000U, 5000U}) {
+    const Integer whole = Integer(1) << bits;
+    const auto pair = [&](long root, long sign) {
+      const Polynomial linear(Integer(-root * whole), Integer(3 * whole));
+      return linear * linear + Polynomial(Integer(sign));
+    };
+    const Polynomial p = pair(1, -1) * pair(2, 1) * Polynomial(Integer(-5), Integer(2));
+    const auto roots = roots_in_unit_interval(p);
+    ASSERT_EQ(roots.size(), 2U) << bits;
+    const Rational distance(Integer(1), Integer(3 * whole));
+    EXPECT_TRUE(roots[0] == Rational(Rational(1, 3) - distance));
+    EXPECT_TRUE(roots[1] == Rational(Rational(1, 3) + distance));
+  }
+}
+
+TEST(RootsInUnitInterval, AreFoundInClustersOfThree) {
+  // (3t−1)³ = ±ε²(3t−1) has three roots or one; so does the same equation about 1/2, a midpoint.
+  const Integer whole = Integer(1) << 300U;
+  for (const long denominator : {2L, 3L, 7L}) {
+    const Polynomial linear(Integer(-whole), Integer(denominator * whole));
+    const Polynomial square = linear * linear;
+    EXPECT_EQ(roots_in_unit_interval(linear * (square - Polynomial(Integer(1)))).size(), 3U);
+    EXPECT_EQ(roots_in_unit_interval(linear * (square + Polynomial(Integer(1)))).size(), 1U);
+  }
+}
+
+TEST(AlgebraicNumber, IsConstructedFromARational) {
+  EXPECT_EQ(AlgebraicNumber().rational(), Rational(0));
+  const Rational value(3, 7);
+  const AlgebraicNumber number(value);
+  EXPECT_EQ(number.rational(), value);
+  EXPECT_EQ(sign_at(number.polynomial(), value), 0);
+  EXPECT_EQ(number.interval().lower, value);
+  EXPECT_EQ(number.interval().upper, value);
+}
+
+TEST(AlgebraicNumber, IsConstructedFromAPolynomialAndACell) {
+  // Both roots of 9t² − 9t + 1 in [0,1]: t = 1/2 ± √5/6.
+  const Polynomial p = polynomial({1, -9, 9});
+  const AlgebraicNumber low(p, {.index = 0, .level = 1}), high(p, {.index = 1, .level = 1});
+  EXPECT_EQ(low.interval().lower, 0);
+  EXPECT_EQ(low.interval().upper, Rational(1, 2));
+  EXPECT_EQ(high.interval().lower, Rational(1, 2));
+  EXPECT_TRUE(low < fraction(1, 7) && low > fraction(1, 8));
+  EXPECT_TRUE(high > fraction(6, 7) && high < fraction(7, 8));
+  EXPECT_EQ(AlgebraicNumber(polynomial({-2, 6}), DyadicCell{}).rational(), Rational(1, 3));
+}
+
+TEST(AlgebraicNumber, CopiesAreIndependent) {
+  const AlgebraicNumber number = hidden(square_root(fraction(1, 2))).number;
+  const Rational width = number.interval().upper - number.interval().lower;
+  AlgebraicNumber copy = number;
+  copy.refine_to_level(500);
+  EXPECT_EQ(Rational(number.interval().upper - number.interval().lower), width);
+}
+
+// ---- Refinement ---------------------------------------------------------------------------------
+
+TEST(Refine, ReachesTheWidthAndKeepsTheRoot) {
+  Random random(43);
+  for (auto& [number, key] : pool(44, 60)) {
+    int level = 0;
+    for (int round = 0; round < 8; ++round) {
+      level += random.between(0, 150);
+      const Rational width = power_of_two(-level) * fraction(random.between(1, 99), 50);
+      const RationalInterval before = number.interval();
+      number.refine(width);
+      const auto [lower, upper] = number.interval();
+      EXPECT_LE(Rational(upper - lower), width);
+      EXPECT_TRUE(isolates(number, key));
+      EXPECT_TRUE(before.lower <= lower && upper <= before.upper);
+      if (!number.rational()) {
+        EXPECT_EQ(sign_at(number.polynomial(), lower) * sign_at(number.polynomial(), upper), -1);
+      }
+    }
+  }
+}
+
+TEST(Refine, ReachesTheLevel) {
+  for (auto& [number, key] : pool(45, 40)) {
+    for (const unsigned long level : {0UL, 1UL, 2UL, 3UL, 17UL, 64UL, 1000UL, 5UL}) {
+      number.refine_to_level(level);
+      const auto [lower, upper] = number.interval();
+      EXPECT_LE(Rational(upper - lower), power_of_two(-static_cast<long>(level)));
+      EXPECT_TRUE(isolates(number, key));
+    }
+  }
+}
+
+TEST(Refine, TakesAnyPositiveWidthAndNoOther) {
+  for (AlgebraicNumber number :
+       {hidden(square_root(fraction(1, 2))).number, AlgebraicNumber(Rational(1, 3))}) {
+    number.refine(1);
+    number.refine(Rational("123456789123456789/7"));
+    number.refine(fraction(1, 3));
+    EXPECT_TRUE(number.interval().upper - number.interval().lower <= fraction(1, 3));
+    EXPECT_THROW(number.refine(0), std::invalid_argument);
+    EXPECT_THROW(number.refine(-1), std::invalid_argument);
+    EXPECT_THROW(number.refine(-power_of_two(-100)), std::invalid_argument);
+  }
+}
+
+TEST(Refine, RecognisesEveryDyadicNumber) {
+  for (const int level : {1, 2, 3, 5, 10, 53, 64, 200, 1074}) {
+    for (const Rational& value :
+         {Rational(power_of_two(-level)), Rational(1 - power_of_two(-level))}) {
+      AlgebraicNumber number = hidden(linear(value)).number;
+      number.refine_to_level(static_cast<unsigned long>(level) + 2);
+      EXPECT_EQ(number.rational(), value) << level;
+    }
+  }
+}
+
+TEST(Refine, IsNotDeceivedByNearlyMultipleRoots) {
+  // (3t − 1)³ − 2^−300: one root, just above 1/3 + 2^−102, where the secant guesses badly.
+  const Polynomial p =
+      polynomial({Integer(1) << 300}) * power(linear(fraction(1, 3)).p, 3) - polynomial({1});
+  std::vector<AlgebraicNumber> roots = roots_in_unit_interval(p);
+  ASSERT_EQ(roots.size(), 1U);
+  const Rational root = fraction(1, 3) + power_of_two(-100) / 3;
+  EXPECT_EQ(sign_at(p, root), 0);
+  roots[0].refine(power_of_two(-700));
+  EXPECT_TRUE(roots[0].interval().lower < root && root < roots[0].interval().upper);
+  EXPECT_EQ(roots[0], root);
+}
+
+// ---- Signs and comparison against keys ----------------------------------------------------------
+
+TEST(SignOf, TellsWhichSideOfAKnownRootANumberIs) {
+  Random random(46);
+  int zeros = 0;
+  for (const auto& [number, key] : pool(47, 80)) {
+    for (int round = 0; round < 30; ++round) {
+      const Factor factor = random_factor(random);
+      const int expected = cmp(key, factor.key);
+      AlgebraicNumber copy = number;
+      EXPECT_EQ(copy.sign_of(factor.p), expected);
+      EXPECT_EQ(copy.sign_of(-factor.p * without_real_roots()), -expected);
+      EXPECT_TRUE(isolates(copy, key));
+      EXPECT_EQ(number.is_root_of(factor.p), expected == 0);
+      EXPECT_EQ(number.is_root_of(factor.p * factor.p), expected == 0);
+      zeros += expected == 0 ? 1 : 0;
+    }
+  }
+  EXPECT_GT(zeros, 50);
+}
+
+TEST(SignOf, ConstantsAndZero) {
+  for (auto& [number, key] : pool(48, 10)) {
+    EXPECT_EQ(number.sign_of(Polynomial(Integer(0))), 0);
+    EXPECT_EQ(number.sign_of(polynomial({5})), 1);
+    EXPECT_EQ(number.sign_of(polynomial({-5})), -1);
+    EXPECT_TRUE(number.is_root_of(Polynomial(Integer(0))));
+    EXPECT_FALSE(number.is_root_of(polynomial({5})));
+    EXPECT_EQ(number.sign_of(number.polynomial()), 0);
+    EXPECT_TRUE(number.is_root_of(number.polynomial()));
+  }
+}
+
+TEST(Comparison, IsTheOrderOfTheNumbers) {
+  const std::vector<Known> numbers = pool(49, 70);
+  int equal = 0;
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    for (std::size_t j = 0; j < numbers.size(); ++j) {
+      const auto& [a, a_key] = numbers[i];
+      const auto& [b, b_key] = numbers[j];
+      const int expected = cmp(a_key, b_key);
+      EXPECT_TRUE((a <=> b) == (expected <=> 0)) << i << ' ' << j;
+      EXPECT_EQ(a == b, expected == 0);
+      EXPECT_EQ(a < b, expected < 0);
+      equal += i != j && expected == 0 ? 1 : 0;
+    }
+  }
+  EXPECT_GT(equal, 100);
+}
+
+TEST(Comparison, InPlaceIsTheSameAndKeepsWhatItRefined) {
+  const auto roots = [](long constant) {
+    return roots_in_unit_interval(Polynomial(Integer(-constant), Integer(0), Integer(2000000)));
+  };
+  AlgebraicNumber a = roots(1000000).front(), b = roots(1000001).front(), c = a;
+  const Rational width = a.interval().upper - a.interval().lower;
+  EXPECT_TRUE(compare(a, b) < 0);
+  EXPECT_TRUE(compare(b, a) > 0);
+  EXPECT_LT(a.interval().upper - a.interval().lower, width);
+  EXPECT_TRUE(a.interval().upper <= b.interval().lower);
+  EXPECT_TRUE(compare(a, c) == 0);
+  AlgebraicNumber half(Rational(1, 2));
+  EXPECT_TRUE(compare(half, a) < 0);
+  EXPECT_TRUE(compare(a, half) > 0);
+}
+
+TEST(Comparison, AgainstRationals) {
+  for (const auto& [number, key] : pool(50, 70)) {
+    std::vector<Rational> others{-3, 0, 1, 2, number.interval().lower, number.interval().upper};
+    for (int n = 1; n < 12; ++n) others.push_back(fraction(n, 12));
+    for (const Rational& r : {fraction(1, 64), fraction(2, 3), fraction(4, 9), fraction(3, 7)}) {
+      others.push_back(r);
+      others.emplace_back(r + power_of_two(-200));
+    }
+    for (const Rational& other : others) {
+      const int expected = sgn(other) < 0 ? 1 : cmp(key, power(other, 6));
+      EXPECT_TRUE((number <=> other) == (expected <=> 0)) << other;
+      EXPECT_TRUE((other <=> number) == (0 <=> expected)) << other;
+      EXPECT_EQ(number == other, expected == 0);
+    }
+  }
+}
+
+TEST(Comparison, SeparatesNumbersThatAreVeryNear) {
+  for (const int distance : {10, 60, 200, 1000}) {
+    const Rational r = fraction(1, 2);
+    const Known a = hidden(square_root(r)), b = hidden(square_root(r + power_of_two(-distance)));
+    EXPECT_TRUE(a.number < b.number) << distance;
+    EXPECT_TRUE(b.number > a.number) << distance;
+    EXPECT_FALSE(a.number == b.number) << distance;
+  }
+}
+
+// ---- Against CGAL's algebraic kernel ------------------------------------------------------------
+
+using Kernel = CGAL::Algebraic_kernel_d_1<CGAL::Gmpz>;
+using CgalRoot = Kernel::Algebraic_real_1;
+
+Kernel::Polynomial_1 to_cgal(const Polynomial& p) {
+  std::vector<CGAL::Gmpz> c;
+  for (const Integer& x : p.coefficients()) c.emplace_back(x.get_mpz_t());
+  return {c.begin(), c.end()};
+}
+
+CGAL::Gmpq to_cgal(const Rational& x) { return {x.get_mpq_t()}; }
+
+/// CGAL's roots in [0,1], ascending.
+std::vector<CgalRoot> cgal_roots(const Polynomial& p) {
+  std::vector<std::pair<CgalRoot, Kernel::Multiplicity_type>> roots;
+  Kernel().solve_1_object()(to_cgal(p), CGAL::Gmpq(0), CGAL::Gmpq(1), std::back_inserter(roots));
+  std::vector<CgalRoot> result;
+  result.reserve(roots.size());
+  for (const auto& [root, multiplicity] : roots) result.push_back(root);
+  return result;
+}
+
+/// True if CGAL's root is in the isolating interval, and so is the number.
+bool isolates(const AlgebraicNumber& number, const CgalRoot& root) {
+  const auto compare = Kernel().compare_1_object();
+  const auto [lower, upper] = number.interval();
+  const auto below = compare(root, to_cgal(lower)), above = compare(root, to_cgal(upper));
+  if (lower == upper) return below == CGAL::EQUAL;
+  return below == CGAL::LARGER && above == CGAL::SMALLER;
+}
+
+struct Pair {
+  AlgebraicNumber number;
+  CgalRoot expected;
+};
+
+std::vector<Pair> paired_roots(const Polynomial& p) {
+  const std::vector<AlgebraicNumber> roots = roots_in_unit_interval(p);
+  const std::vector<CgalRoot> expected = cgal_roots(p);
+  EXPECT_EQ(roots.size(), expected.size()) << p;
+  std::vector<Pair> result;
+  for (std::size_t i = 0; i < std::min(roots.size(), expected.size()); ++i) {
+    EXPECT_TRUE(isolates(roots[i], expected[i])) << p;
+    result.push_back({roots[i], expected[i]});
+  }
+  return result;
+}
+
+TEST(AgainstCgal, RootsOfRandomPolynomials) {
+  Random random(51);
+  std::size_t found = 0;
+  for (int round = 0; round < 300; ++round) {
+    const Polynomial p = random_polynomial(random, random.between(1, 6), 12);
+    for (auto& [number, expected] : paired_roots(round % 3 == 0 ? p * p : p)) {
+      ++found;
+      number.refine(power_of_two(-200));
+      EXPECT_TRUE(isolates(number, expected)) << p;
+    }
+  }
+  EXPECT_GT(found, 100U);
+}
+
+TEST(AgainstCgal, RootsThatLieCloseTogether) {
+  // Mignotte's polynomials t^n − 2(at − 1)²: two roots next to 1/a, about a^(−n/2) apart.
+  for (int degree = 3; degree <= 6; ++degree) {
+    for (const int a : {3, 100, 1001}) {
+      const Polynomial p =
+          power(polynomial({0, 1}), degree) - polynomial({2}) * power(polynomial({-1, a}), 2);
+      EXPECT_GE(paired_roots(p).size(), 2U);
+    }
+  }
+}
+
+TEST(AgainstCgal, Signs) {
+  Random random(52);
+  int zeros = 0;
+  for (int round = 0; round < 150; ++round) {
+    const Polynomial common = random_polynomial(random, random.between(0, 3), 6);
+    const Polynomial p = common * random_polynomial(random, random.between(1, 3), 6),
+                     q = common * random_polynomial(random, random.between(1, 3), 6);
+    for (auto& [number, expected] : paired_roots(p)) {
+      const int sign = Kernel().sign_at_1_object()(to_cgal(q), expected);
+      EXPECT_EQ(number.is_root_of(q), sign == 0);
+      EXPECT_EQ(number.sign_of(q), sign) << p << q;
+      zeros += sign == 0 ? 1 : 0;
+    }
+  }
+  EXPECT_GT(zeros, 10);
+}
+
+TEST(AgainstCgal, Comparisons) {
+  Random random(53);
+  std::vector<Pair> numbers;
+  for (int round = 0; round < 25; ++round) {
+    const Polynomial common = random_polynomial(random, 2, 4);
+    for (int partner = 0; partner < 2; ++partner) {
+      for (Pair& pair : paired_roots(common * random_polynomial(random, 2, 4))) {
+        numbers.push_back(std::move(pair));
+      }
+    }
+  }
+  const auto compare = Kernel().compare_1_object();
+  int equal = 0;
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      const int expected = compare(numbers[i].expected, numbers[j].expected);
+      EXPECT_TRUE((numbers[i].number <=> numbers[j].number) == (expected <=> 0));
+      equal += expected == 0 ? 1 : 0;
+    }
+  }
+  EXPECT_GT(equal, 5);
+}
+
+// ---- Against interval refinement with MPFI ------------------------------------------------------
+
+/// An interval of MPFI with ends of 6000 bits.
+class Interval {
+ public:
+  Interval() { mpfi_init2(value_, 6000); }
+  explicit Interval(const RationalInterval& x) : Interval() {
+    const Interval upper(x.upper);
+    mpfi_set_q(value_, x.lower.get_mpq_t());
+    mpfi_union(value_, value_, upper.value_);
+  }
+  Interval(const Interval&) = delete;
+  Interval& operator=(const Interval&) = delete;
+  Interval(Interval&&) = delete;
+  Interval& operator=(Interval&&) = delete;
+  ~Interval() { mpfi_clear(value_); }
+
+  [[nodiscard]] mpfi_ptr get() { return value_; }
+
+ private:
+  explicit Interval(const Rational& x) : Interval() { mpfi_set_q(value_, x.get_mpq_t()); }
+
+  mpfi_t value_;
+};
+
+/// The sign of p on all of an interval by Horner's rule in MPFI's intervals; nothing if the result
+/// contains both signs.
+std::optional<int> interval_sign(const Polynomial& p, const RationalInterval& x) {
+  Interval argument(x), value(RationalInterval{0, 0});
+  Coefficients descending = p.coefficients();
+  std::ranges::reverse(descending);
+  for (const Integer& c : descending) {
+    mpfi_mul(value.get(), value.get(), argument.get());
+    mpfi_add_z(value.get(), value.get(), c.get_mpz_t());
+  }
+  if (mpfi_is_strictly_pos(value.get()) > 0) return 1;
+  if (mpfi_is_strictly_neg(value.get()) > 0) return -1;
+  if (mpfi_is_zero(value.get()) > 0) return 0;
+  return std::nullopt;
+}
+
+/// The sign of p at a dyadic number that is not a root of it.
+int point_sign(const Polynomial& p, const Rational& x) {
+  const std::optional<int> sign = interval_sign(p, {x, x});
+  EXPECT_TRUE(sign.has_value() && *sign != 0);
+  return sign.value_or(0);
+}
+
+/// An interval in which p is monotone and changes sign: exactly one root, which is simple.
+struct Bracket {
+  Polynomial p;
+  RationalInterval x;
+
+  void bisect(int level) {
+    const int below = point_sign(p, x.lower);
+    while (x.upper - x.lower > power_of_two(-level)) {
+      const Rational middle = (x.lower + x.upper) / 2;
+      (point_sign(p, middle) == below ? x.lower : x.upper) = middle;
+    }
+  }
+};
+
+void bracket_roots(const Polynomial& p, const Polynomial& derivative, const RationalInterval& x,
+                   std::vector<Bracket>& brackets) {
+  ASSERT_GT(Rational(x.upper - x.lower), power_of_two(-300)) << p;
+  if (interval_sign(p, x)) return;
+  if (interval_sign(derivative, x)) {
+    if (point_sign(p, x.lower) != point_sign(p, x.upper)) brackets.push_back({p, x});
+    return;
+  }
+  const Rational middle = (x.lower + x.upper) / 2;
+  bracket_roots(p, derivative, {x.lower, middle}, brackets);
+  bracket_roots(p, derivative, {middle, x.upper}, brackets);
+}
+
+/// Brackets of all roots in [0,1], ascending.
+/// \pre p is squarefree, has an odd leading coefficient, so that no dyadic number but an integer
+/// is a root, and neither 0 nor 1 is one.
+std::vector<Bracket> bracket_roots(const Polynomial& p) {
+  std::vector<Bracket> brackets;
+  bracket_roots(p, derivative(p), {0, 1}, brackets);
+  return brackets;
+}
+
+bool can_be_bracketed(const Polynomial& p) {
+  return sign_at(p, Rational(0)) != 0 && sign_at(p, Rational(1)) != 0 &&
+         CGAL::is_square_free(to_cgal(p));
+}
+
+struct Bracketed {
+  AlgebraicNumber number;
+  Bracket bracket;
+};
+
+std::vector<Bracketed> bracketed_roots(const Polynomial& p) {
+  if (!can_be_bracketed(p)) return {};
+  const std::vector<AlgebraicNumber> roots = roots_in_unit_interval(p);
+  const std::vector<Bracket> brackets = bracket_roots(p);
+  EXPECT_EQ(roots.size(), brackets.size()) << p;
+  std::vector<Bracketed> result;
+  for (std::size_t i = 0; i < std::min(roots.size(), brackets.size()); ++i) {
+    result.push_back({roots[i], brackets[i]});
+  }
+  return result;
+}
+
+/// The sign of q at the bracketed root by bisection, if a width of 2^−greatest_level shows it.
+std::optional<int> refined_sign(const Polynomial& q, Bracket bracket, int greatest_level) {
+  for (int level = 32; level <= greatest_level; level *= 2) {
+    bracket.bisect(level);
+    if (const std::optional<int> sign = interval_sign(q, bracket.x)) return sign;
+  }
+  return std::nullopt;
+}
+
+TEST(AgainstMpfi, SignsNextToARootThatIsAlmostShared) {
+  Random random(56);
+  const Polynomial scale = polynomial({Integer(1) << 200});
+  int unseen_at_100_bits = 0;
+  for (int round = 0; round < 200; ++round) {
+    const Polynomial p = random_polynomial(random, random.between(1, 4), 16);
+    const Polynomial rest = round % 2 == 0 ? polynomial({random.coin() ? 1 : -1})
+                                           : random_polynomial(random, random.between(1, 3), 8);
+    const Polynomial q = scale * p * random_polynomial(random, random.between(0, 2), 8) + rest;
+    for (auto& [number, bracket] : bracketed_roots(p)) {
+      const std::optional<int> expected = refined_sign(q, bracket, 2048);
+      ASSERT_TRUE(expected.has_value());
+      EXPECT_EQ(number.sign_of(q), *expected) << p << q;
+      EXPECT_FALSE(number.is_root_of(q));
+      unseen_at_100_bits += refined_sign(q, bracket, 100) ? 0 : 1;
+    }
+  }
+  EXPECT_GT(unseen_at_100_bits, 50);
+}
+
+TEST(AgainstMpfi, ASharedFactorDoesNotMakeAnAlmostSharedRootAZero) {
+  Random random(62);
+  const Polynomial scale = polynomial({Integer(1) << 200});
+  int signs = 0;
+  for (int round = 0; round < 150; ++round) {
+    const Polynomial shared = random_polynomial(random, random.between(1, 2), 12),
+                     own = random_polynomial(random, random.between(2, 3), 12);
+    const Polynomial p = shared * own, q = shared * (scale * own + polynomial({1}));
+    for (auto& [number, bracket] : bracketed_roots(p)) {
+      bracket.bisect(64);
+      if (point_sign(own, bracket.x.lower) == point_sign(own, bracket.x.upper)) continue;
+      const std::optional<int> expected = refined_sign(q, bracket, 2048);
+      ASSERT_TRUE(expected.has_value());
+      EXPECT_FALSE(number.is_root_of(q));
+      EXPECT_EQ(number.sign_of(q), *expected) << p << q;
+      ++signs;
+    }
+  }
+  EXPECT_GT(signs, 30);
+}
+
+TEST(AgainstMpfi, OrderOfRootsThatAlmostCoincide) {
+  Random random(57);
+  int compared = 0;
+  for (int round = 0; round < 300; ++round) {
+    const Polynomial p = random_polynomial(random, random.between(2, 4), 16);
+    const Polynomial other = polynomial({(Integer(1) << 200) + 1}) * p + polynomial({2});
+    if (!can_be_bracketed(p) || !can_be_bracketed(other)) continue;
+    std::vector<Bracketed> roots = bracketed_roots(p);
+    for (auto& [number, bracket] : roots) {
+      bracket.bisect(400);
+      // p = −2/(2^200+1) at the other root: it lies where p is negative.
+      const bool falls = point_sign(p, bracket.x.lower) > 0;
+      const Rational step = power_of_two(-160);
+      for (const AlgebraicNumber& near : roots_in_unit_interval(other)) {
+        if (near < Rational(bracket.x.lower - step) || near > Rational(bracket.x.upper + step))
+          continue;
+        EXPECT_EQ(number < near, falls) << p;
+        EXPECT_EQ(number > near, !falls) << p;
+        ++compared;
+      }
+    }
+  }
+  EXPECT_GT(compared, 60);
+}
+
+// ---- Enclosures ---------------------------------------------------------------------------------
+
+/// Expects the double itself if the number is one, and its two neighbours if not.
+void expect_tight(const Known& known) {
+  const auto [lower, upper] = known.number.enclosure();
+  if (lower == upper) {
+    EXPECT_EQ(power(Rational(lower), 6), known.key);
+    return;
+  }
+  EXPECT_EQ(upper, std::nextafter(lower, infinity));
+  EXPECT_LT(power(Rational(lower), 6), known.key);
+  EXPECT_GT(power(Rational(upper), 6), known.key);
+}
+
+TEST(Enclosure, IsTightForKnownNumbers) {
+  for (const Known& known : pool(58, 150)) expect_tight(known);
+}
+
+TEST(Enclosure, OfDoublesIsTheDouble) {
+  Random random(59);
+  std::vector<double> samples{1.0,
+                              0.5,
+                              std::nextafter(1.0, 0.0),
+                              0x1p-1070,
+                              least_subnormal,
+                              std::ldexp(1.0 + 0x1p-30, -600),
+                              0x1p-1022,
+                              0.1};
+  for (int i = 0; i < 60; ++i) samples.push_back(random.uniform());
+  while (samples.size() < 120) {
+    const double x = std::abs(random.finite_double());
+    if (x <= 1.0) samples.push_back(x);
+  }
+  for (const double x : samples) {
+    EXPECT_EQ(AlgebraicNumber(Rational(x)).enclosure(), (DoubleInterval{x, x}));
+    EXPECT_EQ(hidden(linear(Rational(x))).number.enclosure(), (DoubleInterval{x, x})) << x;
+  }
+  EXPECT_EQ(AlgebraicNumber(Rational(0)).enclosure(), (DoubleInterval{0.0, 0.0}));
+}
+
+TEST(Enclosure, WhereOneDoubleLiesInsideTheCell) {
+  // Cells are refined to the levels 64, 128, …: these magnitudes are where such a cell is about as
+  // wide as two or four steps between doubles.
+  Random random(63);
+  for (const int level : {64, 128, 256, 512, 1024}) {
+    for (int binade = 50 - level; binade <= 56 - level; ++binade) {
+      for (int round = 0; round < 6; ++round) {
+        const double x = std::ldexp(random.uniform(1.0, 2.0), binade);
+        const Rational a(x), step = Rational(std::nextafter(x, 1.0)) - a;
+        EXPECT_EQ(hidden(linear(a)).number.enclosure(), (DoubleInterval{x, x}));
+        expect_tight(hidden(linear(a + step / 3)));
+        expect_tight(hidden(linear(a - step / 3)));
+        expect_tight(hidden(square_root(a * a + step * a)));
+        expect_tight(hidden(square_root(a * a - step * a)));
+      }
+    }
+  }
+}
+
+TEST(Enclosure, OfTinyNumbers) {
+  for (const Factor& factor : {linear(power_of_two(-1100)), square_root(power_of_two(-3000)),
+                               linear(power_of_two(-1075)), cube_root(power_of_two(-4000))}) {
+    EXPECT_EQ(hidden(factor).number.enclosure(), (DoubleInterval{0.0, least_subnormal}));
+  }
+  // Numbers between subnormal numbers, and between normal ones far below 1.
+  for (const Factor& factor : {square_root(power_of_two(-2139)), square_root(power_of_two(-2045)),
+                               linear(3 * power_of_two(-1075)), cube_root(power_of_two(-3100)),
+                               square_root(power_of_two(-1200) * (1 + power_of_two(-30))),
+                               linear(power_of_two(-600) * (1 + power_of_two(-53)))}) {
+    const Known known = hidden(factor);
+    EXPECT_NE(known.number.enclosure().lower, known.number.enclosure().upper);
+    expect_tight(known);
+  }
+}
+
+TEST(Enclosure, NextToZeroOneAndDoubles) {
+  EXPECT_EQ(hidden(linear(1 - power_of_two(-60))).number.enclosure(),
+            (DoubleInterval{std::nextafter(1.0, 0.0), 1.0}));
+  for (const double x : {0.5, 0.1, 0x1p-1022, 0x1.8p-1060, 0x1.fffffffffffffp-1}) {
+    for (const long distance : {1100L, 3000L}) {
+      const Rational offset = power_of_two(-distance);
+      EXPECT_EQ(hidden(linear(Rational(x) - offset)).number.enclosure(),
+                (DoubleInterval{std::nextafter(x, 0.0), x}));
+      EXPECT_EQ(hidden(linear(Rational(x) + offset)).number.enclosure(),
+                (DoubleInterval{x, std::nextafter(x, 1.0)}));
+    }
+  }
+}
+
+TEST(Enclosure, OfRootsOneUlpFromEachOther) {
+  for (const double x : {0.3, 0.5, 0x1p-600, 0x1p-1060}) {
+    const double next = std::nextafter(x, 1.0);
+    const Rational a(x), b(next), step = b - a;
+    const Polynomial p = linear(a).p * linear(a + step / 4).p * linear(a + step / 2).p *
+                         linear(b).p * without_real_roots();
+    const std::vector<AlgebraicNumber> roots = roots_in_unit_interval(p);
+    ASSERT_EQ(roots.size(), 4U);
+    EXPECT_EQ(roots[0].enclosure(), (DoubleInterval{x, x}));
+    EXPECT_EQ(roots[1].enclosure(), (DoubleInterval{x, next}));
+    EXPECT_EQ(roots[2].enclosure(), (DoubleInterval{x, next}));
+    EXPECT_EQ(roots[3].enclosure(), (DoubleInterval{next, next}));
+  }
+}
+
+// ---- Quotients ----------------------------------------------------------------------------------
+
+/// a + b√r.
+struct Surd {
+  Rational a, b;
+};
+
+Surd surd_value(const Polynomial& p, const Rational& r) {
+  Surd value{0, 0};
+  Rational term = 1;
+  bool odd = false;
+  for (const Integer& c : p.coefficients()) {
+    (odd ? value.b : value.a) += c * term;
+    if (odd) term *= r;
+    odd = !odd;
+  }
+  return value;
+}
+
+/// Sign of a + b√r for r > 0.
+int sign(const Surd& x, const Rational& r) {
+  if (sgn(x.a) * sgn(x.b) >= 0) return sgn(x.a) != 0 ? sgn(x.a) : sgn(x.b);
+  return sgn(x.a) * cmp(Rational(x.a * x.a), Rational(x.b * x.b * r));
+}
+
+/// Sign of numerator/denominator − value.
+int compare_quotient(const Surd& numerator, const Surd& denominator, const Rational& value,
+                     const Rational& r) {
+  const Surd difference{numerator.a - value * denominator.a, numerator.b - value * denominator.b};
+  return sign(difference, r) * sign(denominator, r);
+}
+
+TEST(EncloseQuotient, ContainsTheValueAtIrrationalNumbers) {
+  Random random(60);
+  for (int round = 0; round < 200; ++round) {
+    const Rational r = fraction(random.between(1, 30), 31);
+    const AlgebraicNumber alpha = hidden(square_root(r)).number;
+    const Polynomial numerator = random_polynomial(random, random.between(0, 4), 20);
+    const Polynomial denominator = random_polynomial(random, random.between(0, 4), 20);
+    const Surd above = surd_value(numerator, r), below = surd_value(denominator, r);
+    if (sign(below, r) == 0) continue;
+    const Rational width = power_of_two(-random.between(-10, 300));
+    const auto [lower, upper] = enclose_quotient(numerator, denominator, alpha, width);
+    EXPECT_LE(Rational(upper - lower), width);
+    EXPECT_GE(compare_quotient(above, below, lower, r), 0);
+    EXPECT_LE(compare_quotient(above, below, upper, r), 0);
+  }
+}
+
+TEST(EncloseQuotient, WaitsForADenominatorToShowItsSign) {
+  // The denominator is ±1 at α but vanishes 2^−300 from it.
+  const Rational r = fraction(1, 2);
+  const AlgebraicNumber alpha = hidden(square_root(r)).number;
+  const Polynomial large = polynomial({Integer(1) << 300}) * square_root(r).p;
+  for (const int one : {1, -1}) {
+    const Polynomial denominator = large + polynomial({one});
+    const auto [lower, upper] =
+        enclose_quotient(polynomial({0, 1}), denominator, alpha, power_of_two(-40));
+    EXPECT_LE(Rational(upper - lower), power_of_two(-40));
+    EXPECT_GE(compare_quotient({0, 1}, {one, 0}, lower, r), 0);
+    EXPECT_LE(compare_quotient({0, 1}, {one, 0}, upper, r), 0);
+  }
+}
+
+TEST(EncloseQuotient, IsExactAtRationalNumbers) {
+  Random random(61);
+  for (int round = 0; round < 100; ++round) {
+    const Rational t = fraction(random.between(0, 50), 50);
+    const Polynomial numerator = random_polynomial(random, random.between(0, 3), 20);
+    const Polynomial denominator = random_polynomial(random, random.between(0, 3), 20);
+    const auto value = [&](const Polynomial& p) {
+      Rational sum = 0, term = 1;
+      for (const Integer& c : p.coefficients()) {
+        sum += c * term;
+        term *= t;
+      }
+      return sum;
+    };
+    if (sgn(value(denominator)) == 0) continue;
+    const Rational expected = value(numerator) / value(denominator);
+    const auto known = enclose_quotient(numerator, denominator, AlgebraicNumber(t), 1);
+    EXPECT_EQ(known.lower, expected);
+    EXPECT_EQ(known.upper, expected);
+    const Rational width = power_of_two(-100);
+    const auto unknown = enclose_quotient(numerator, denominator, hidden(linear(t)).number, width);
+    EXPECT_TRUE(unknown.lower <= expected && expected <= unknown.upper);
+    EXPECT_LE(Rational(unknown.upper - unknown.lower), width);
+  }
+}
+
+}  // namespace
+}  // namespace touchstone::exact::algebraic_number_test

@@ -1,0 +1,184 @@
+#include "touchstone/certificate_text.hpp"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cstdio>
+#include <limits>
+#include <string>
+#include <utility>
+
+#include "tests/support/certificates.hpp"
+#include "tests/support/random.hpp"
+
+namespace touchstone::exact::certificate_text_test {
+namespace {
+
+using Limits = std::numeric_limits<double>;
+
+std::string hexadecimal(double value) {
+  std::string text;
+  write_hexadecimal(text, value);
+  return text;
+}
+
+std::string number(const Rational& value) {
+  std::string text;
+  write_number(text, value);
+  return text;
+}
+
+std::string printf_a(double value) {
+  std::array<char, 64> buffer{};
+  // NOLINTNEXTLINE(cppcoreguidelines-pro-type-vararg)
+  const int length = std::snprintf(buffer.data(), buffer.size(), "%a", value);
+  return {buffer.data(), static_cast<std::size_t>(length)};
+}
+
+TEST(WriteHexadecimal, IsWhatPrintfWrites) {
+  for (const double x :
+       {0.0, -0.0, 1.0, -1.5, 0.1, 1e300, Limits::max(), Limits::lowest(), Limits::min(),
+        Limits::denorm_min(), -3 * Limits::denorm_min(), 0x1p-1023}) {
+    EXPECT_EQ(hexadecimal(x), printf_a(x));
+  }
+  tests::Random random(1);
+  for (int repetition = 0; repetition < 20000; ++repetition) {
+    const double x = random.finite_double();
+    ASSERT_EQ(hexadecimal(x), printf_a(x));
+  }
+}
+
+TEST(WriteNumber, TakesTheShortestForm) {
+  EXPECT_EQ(number(0), "0");
+  EXPECT_EQ(number(-7), "-7");
+  EXPECT_EQ(number(Rational(1, 2)), "1/2");
+  EXPECT_EQ(number(Rational(1, 3)), "1/3");
+  EXPECT_EQ(number(Rational(0.1)), "0x1.999999999999ap-4");
+  EXPECT_EQ(number(power_of_two(-1074)), "0x0.0000000000001p-1022");
+  EXPECT_EQ(number(power_of_two(1023)), "0x1p+1023");
+  // Numbers that are not doubles: too many bits, or too small.
+  EXPECT_EQ(number(power_of_two(-60) + 1), "1152921504606846977/1152921504606846976");
+  EXPECT_EQ(number(power_of_two(-1075)), "1/" + Integer(Integer(1) << 1075U).get_str());
+}
+
+TEST(WriteNumber, LosesNothing) {
+  tests::Random random(2);
+  for (int repetition = 0; repetition < 5000; ++repetition) {
+    const Rational x(std::abs(random.finite_double()));
+    ASSERT_EQ(tests::read_number(number(x)), x);
+  }
+}
+
+TEST(WriteCertificate, IsTheFormatLineByLine) {
+  std::string text;
+  write(text, tests::prove(tests::over_triangle(1, 1, 1, -2)), "folder/file.csv:17");
+  EXPECT_EQ(text,
+            "query vertex_face\n"
+            "label folder/file.csv:17\n"
+            "point 0x1p+0 0x1p+0 0x1p+0\n"
+            "point 0x0p+0 0x0p+0 0x0p+0\n"
+            "point 0x1p+2 0x0p+0 0x0p+0\n"
+            "point 0x0p+0 0x1p+2 0x0p+0\n"
+            "point 0x1p+0 0x1p+0 -0x1p+1\n"
+            "point 0x0p+0 0x0p+0 0x0p+0\n"
+            "point 0x1p+2 0x0p+0 0x0p+0\n"
+            "point 0x0p+0 0x1p+2 0x0p+0\n"
+            "claim time_of_impact 0x1.5555555555555p-2 0x1.5555555555556p-2\n"
+            "separate 0 0x1.5555555555555p-2 face +\n"
+            "contact time 1/3\n"
+            "at triangle 0 1 2 z\n"
+            "end\n");
+}
+
+TEST(WriteCertificate, WritesEveryFeatureAndContact) {
+  Certificate certificate;
+  certificate.kind = Kind::edge_edge;
+  using Sort = Feature::Sort;
+  certificate.subintervals = {
+      {0, Rational(1, 4), {.sort = Sort::vertex, .i = 3}},
+      {Rational(1, 4), Rational(1, 2), {.sort = Sort::edge, .i = 2, .j = 3}},
+      {Rational(1, 2), 1, {.sort = Sort::negative_face}}};
+  std::string text;
+  write(text, certificate);
+  EXPECT_TRUE(text.starts_with("query edge_edge\npoint "));
+  EXPECT_TRUE(
+      text.ends_with("claim no_collision\nseparate 0 1/4 vertex 3\nseparate 1/4 1/2 edge 2 3\n"
+                     "separate 1/2 1 face -\nend\n"));
+  certificate.claim = Claim::collision;
+  certificate.subintervals.clear();
+  certificate.contact = {
+      RootTime{{Rational(1, 2), 1}, Polynomial(Integer(-1), Integer(0), Integer(2))},
+      SegmentContact{{1, 2}}};
+  text.clear();
+  write(text, certificate);
+  EXPECT_TRUE(text.ends_with("claim collision\ncontact root 1/2 1 -1 0 2\nat segment 1 2\nend\n"));
+}
+
+TEST(WriteCertificate, NamesADistanceAndWhatBelongsToIt) {
+  using Sort = Feature::Sort;
+  Certificate certificate;
+  certificate.separation = {.distance = 0.125, .norm = Norm::linf};
+  certificate.subintervals = {
+      {0, Rational(1, 4), {.sort = Sort::positive_axis, .axis = 0}},
+      {Rational(1, 4), Rational(1, 2), {.sort = Sort::negative_axis, .axis = 2}},
+      {Rational(1, 2), 1, {.sort = Sort::cross, .i = 2, .j = 0, .axis = 1}}};
+  std::string text;
+  write(text, certificate);
+  EXPECT_TRUE(text.ends_with(
+      "point 0x0p+0 0x0p+0 0x0p+0\nseparation 0x1p-3 linf\nclaim no_collision\n"
+      "separate 0 1/4 axis x +\nseparate 1/4 1/2 axis z -\nseparate 1/2 1 cross y 2 0\nend\n"));
+  certificate.separation.norm = Norm::l2;
+  certificate.claim = Claim::collision;
+  certificate.subintervals.clear();
+  for (const auto& [place, line] :
+       {std::pair<ContactPlace, const char*>(VertexContact{2}, "at vertex 2"),
+        {EdgeContact{{1, 2}}, "at edge 1 2"},
+        {FaceContact{}, "at face"},
+        {AxesContact{}, "at axes"}}) {
+    certificate.contact = {Rational(1, 2), place};
+    text.clear();
+    write(text, certificate);
+    EXPECT_TRUE(text.ends_with(std::string("\nseparation 0x1p-3 l2\nclaim collision\n"
+                                           "contact time 1/2\n") +
+                               line + "\nend\n"))
+        << text;
+  }
+}
+
+TEST(WriteCertificate, NamesTheLeastDistanceButNotZero) {
+  Certificate certificate;
+  for (const auto& [distance, line] :
+       {std::pair(0x1p-1074, "\nseparation 0x0.0000000000001p-1022 linf\n"), std::pair(0.0, ""),
+        std::pair(-0.0, "")}) {
+    certificate.separation.distance = distance;
+    std::string text;
+    write(text, certificate);
+    EXPECT_EQ(text.find("separation") != std::string::npos, *line != '\0');
+    EXPECT_NE(text.find(line), std::string::npos);
+  }
+}
+
+TEST(CertificateStream, BeginsWithItsHeaderAndEndsWithItsCount) {
+  Certificate certificate;
+  certificate.subintervals = {{0, 1, {.sort = Feature::Sort::positive_face}}};
+  std::string text;
+  write(text, certificate, "x:1");
+  EXPECT_EQ(certificate_stream(certificate, "x:1"),
+            std::string(certificates_header()) + text + "certificates 1\n");
+  EXPECT_EQ(certificates_closing_line(18446744073709551615U),
+            "certificates 18446744073709551615\n");
+  EXPECT_TRUE(tests::check(std::string(certificates_header()) + certificates_closing_line(0))
+                  .all_accepted());
+}
+
+TEST(WriteCertificate, KeepsLabelsToOneLineAndTheirLimit) {
+  std::string text;
+  write(text, Certificate{}, "a\nquery b\r\x7f");
+  EXPECT_NE(text.find("\nlabel a?query b??\npoint"), std::string::npos);
+  text.clear();
+  write(text, Certificate{}, std::string(2000, 'x') + "end");
+  EXPECT_NE(text.find("\nlabel " + std::string(label_limit - 3, 'x') + "end\n"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace touchstone::exact::certificate_text_test

@@ -1,0 +1,329 @@
+#include "touchstone/number.hpp"
+
+#include <gtest/gtest.h>
+#include <mpfr.h>
+
+#include <array>
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "tests/support/random.hpp"
+
+namespace touchstone::exact::number_test {
+namespace {
+
+using tests::Random;
+using Limits = std::numeric_limits<double>;
+
+constexpr double infinity = Limits::infinity();
+constexpr double least_subnormal = Limits::denorm_min();
+
+/// MPFR as an emulation of binary64, with its range and its subnormals.
+class Binary64 {
+ public:
+  Binary64() : saved_least_(mpfr_get_emin()), saved_greatest_(mpfr_get_emax()) {
+    // MPFR's significands are in [1/2, 1).
+    mpfr_set_emin(-1073);
+    mpfr_set_emax(1024);
+    mpfr_init2(value_, Limits::digits);
+  }
+  Binary64(const Binary64&) = delete;
+  Binary64& operator=(const Binary64&) = delete;
+  Binary64(Binary64&&) = delete;
+  Binary64& operator=(Binary64&&) = delete;
+  ~Binary64() {
+    mpfr_clear(value_);
+    mpfr_set_emin(saved_least_);
+    mpfr_set_emax(saved_greatest_);
+  }
+
+  double round(const Rational& x, mpfr_rnd_t mode) {
+    const int inexact = mpfr_set_q(value_, x.get_mpq_t(), mode);
+    mpfr_subnormalize(value_, inexact, mode);
+    return mpfr_get_d(value_, MPFR_RNDN);
+  }
+
+ private:
+  mpfr_t value_;
+  mpfr_exp_t saved_least_, saved_greatest_;
+};
+
+/// Compares all three roundings of x with MPFR's.
+void expect_roundings(Binary64& binary64, const Rational& x) {
+  EXPECT_EQ(round_down(x), binary64.round(x, MPFR_RNDD)) << x;
+  EXPECT_EQ(round_up(x), binary64.round(x, MPFR_RNDU)) << x;
+  EXPECT_EQ(round_to_nearest(x), binary64.round(x, MPFR_RNDN)) << x;
+}
+
+Rational random_rational(Random& random, int least_exponent, int greatest_exponent) {
+  const auto bits = [&] { return static_cast<unsigned>(random.between(1, 200)); };
+  Rational x(random.integer<Integer>(bits()), abs(random.integer<Integer>(bits())) + 1);
+  x.canonicalize();
+  return x * power_of_two(random.between(least_exponent, greatest_exponent));
+}
+
+/// The rational halfway between two doubles.
+Rational middle(double a, double b) { return (Rational(a) + Rational(b)) / 2; }
+
+bool is_positive_zero(double x) { return x == 0.0 && !std::signbit(x); }
+
+TEST(Rounding, AgreesWithMpfrAtAllMagnitudes) {
+  Random random(11);
+  Binary64 binary64;
+  for (int round = 0; round < 5000; ++round) {
+    expect_roundings(binary64, random_rational(random, -1300, 1200));
+  }
+}
+
+TEST(Rounding, AgreesWithMpfrAroundTheEndsOfTheRange) {
+  Random random(12);
+  Binary64 binary64;
+  for (int round = 0; round < 3000; ++round) {
+    expect_roundings(binary64, random_rational(random, -1100, -1000));
+    expect_roundings(binary64, random_rational(random, 960, 1060));
+  }
+}
+
+TEST(Rounding, AgreesWithMpfrVeryNearDoublesAndHalfwayPoints) {
+  Random random(13);
+  Binary64 binary64;
+  for (int round = 0; round < 2000; ++round) {
+    const double x = random.finite_double();
+    const double y = std::nextafter(x, random.coin() ? Limits::max() : Limits::lowest());
+    const Rational offset = power_of_two(-random.between(1, 3000)) * random.between(-1, 1);
+    expect_roundings(binary64, Rational(x) + offset);
+    expect_roundings(binary64, middle(x, y) + offset);
+  }
+}
+
+TEST(Rounding, DoublesAreFixpoints) {
+  Random random(14);
+  std::vector<double> samples{1.0,
+                              -1.0,
+                              Limits::max(),
+                              Limits::lowest(),
+                              Limits::min(),
+                              -Limits::min(),
+                              0x1p53,
+                              0x1.fffffffffffffp-1,
+                              least_subnormal,
+                              -least_subnormal};
+  for (int round = 0; round < 3000; ++round) samples.push_back(random.finite_double());
+  for (int round = 0; round < 1000; ++round) {
+    samples.push_back(random.few_bit_double(52, -1074, -1074));
+  }
+  for (const double x : samples) {
+    EXPECT_EQ(round_down(Rational(x)), x);
+    EXPECT_EQ(round_up(Rational(x)), x);
+    EXPECT_EQ(round_to_nearest(Rational(x)), x);
+  }
+}
+
+TEST(Rounding, DirectedRoundingsAreTheNeighboursOfWhatLiesBetween) {
+  Random random(15);
+  for (int round = 0; round < 2000; ++round) {
+    const double x = random.finite_double();
+    const double y = std::nextafter(x, infinity);
+    if (y == infinity) continue;
+    const Rational part = Rational(random.between(1, 999)) / 1000;
+    const Rational between = Rational(x) + (Rational(y) - Rational(x)) * part;
+    EXPECT_EQ(round_down(between), x);
+    EXPECT_EQ(round_up(between), y);
+    if (part != Rational(1, 2)) {
+      EXPECT_EQ(round_to_nearest(between), part < Rational(1, 2) ? x : y);
+    }
+  }
+}
+
+TEST(Rounding, TiesGoToTheEvenSignificand) {
+  const double even = 1.0, odd = std::nextafter(even, 2.0), next = std::nextafter(odd, 2.0);
+  EXPECT_EQ(round_to_nearest(middle(even, odd)), even);
+  EXPECT_EQ(round_to_nearest(middle(odd, next)), next);
+  EXPECT_EQ(round_to_nearest(-middle(even, odd)), -even);
+  EXPECT_EQ(round_to_nearest(-middle(odd, next)), -next);
+  // The spacing changes at a power of two, and the power is the even double.
+  const double below = std::nextafter(even, 0.0);
+  EXPECT_EQ(round_to_nearest(middle(below, even)), even);
+  // Numbers between subnormals, and between the greatest subnormal and the least normal number.
+  EXPECT_EQ(round_to_nearest(3 * power_of_two(-1075)), 2 * least_subnormal);
+  EXPECT_EQ(round_to_nearest(5 * power_of_two(-1075)), 2 * least_subnormal);
+  EXPECT_EQ(round_to_nearest(middle(std::nextafter(Limits::min(), 0.0), Limits::min())),
+            Limits::min());
+}
+
+TEST(Rounding, NumbersBelowTheLeastSubnormal) {
+  const Rational half = power_of_two(-1075), tiny = power_of_two(-5000);
+  for (const Rational& x : {half, tiny}) {
+    EXPECT_TRUE(is_positive_zero(round_down(x)));
+    EXPECT_EQ(round_up(x), least_subnormal);
+    EXPECT_TRUE(is_positive_zero(round_to_nearest(x)));
+    EXPECT_EQ(round_down(-x), -least_subnormal);
+    EXPECT_TRUE(is_positive_zero(round_up(-x)));
+    EXPECT_TRUE(is_positive_zero(round_to_nearest(-x)));
+  }
+  EXPECT_EQ(round_to_nearest(half + tiny), least_subnormal);
+  EXPECT_EQ(round_to_nearest(-half - tiny), -least_subnormal);
+}
+
+TEST(Rounding, ZeroIsPositiveZero) {
+  EXPECT_TRUE(is_positive_zero(round_down(0)));
+  EXPECT_TRUE(is_positive_zero(round_up(0)));
+  EXPECT_TRUE(is_positive_zero(round_to_nearest(0)));
+}
+
+TEST(Rounding, NumbersPastTheFiniteRange) {
+  const Rational greatest(Limits::max());
+  const Rational half_step = power_of_two(970);
+  for (const Rational& beyond :
+       {Rational(greatest + power_of_two(-9000)), Rational(greatest + half_step),
+        power_of_two(1024), power_of_two(5000)}) {
+    EXPECT_EQ(round_down(beyond), Limits::max());
+    EXPECT_EQ(round_up(beyond), infinity);
+    EXPECT_EQ(round_down(-beyond), -infinity);
+    EXPECT_EQ(round_up(-beyond), Limits::lowest());
+  }
+  EXPECT_EQ(round_to_nearest(greatest + half_step - power_of_two(-9000)), Limits::max());
+  EXPECT_EQ(round_to_nearest(greatest + half_step), infinity);
+  EXPECT_EQ(round_to_nearest(-greatest - half_step + power_of_two(-9000)), Limits::lowest());
+  EXPECT_EQ(round_to_nearest(-greatest - half_step), -infinity);
+  EXPECT_EQ(round_to_nearest(power_of_two(100000)), infinity);
+}
+
+/// GMP's own reading of "numerator/denominator".
+Rational fraction(const std::string& text) {
+  Rational x(text, 10);
+  x.canonicalize();
+  return x;
+}
+
+struct DecimalCase {
+  std::string_view text;
+  Rational value;
+};
+
+TEST(RationalFromDecimal, HasTheValueWritten) {
+  const std::array cases{
+      DecimalCase{"0", 0},
+      DecimalCase{"-0", 0},
+      DecimalCase{"-0.000e-7", 0},
+      DecimalCase{"7", 7},
+      DecimalCase{"+7", 7},
+      DecimalCase{"-7", -7},
+      DecimalCase{"007", 7},
+      DecimalCase{"12.", 12},
+      DecimalCase{".5", Rational(1, 2)},
+      DecimalCase{"-.25", Rational(-1, 4)},
+      DecimalCase{"0.1", Rational(1, 10)},
+      DecimalCase{"-1.25E-3", Rational(-1, 800)},
+      DecimalCase{"1.25e+3", 1250},
+      DecimalCase{"+1.25e3", 1250},
+      DecimalCase{"5.e1", 50},
+      DecimalCase{"1e0", 1},
+      DecimalCase{"1e-0", 1},
+      DecimalCase{"1e007", 10000000},
+      DecimalCase{"123.456e-2", fraction("123456/100000")},
+      DecimalCase{"100e-2", 1},
+  };
+  for (const auto& [text, value] : cases) EXPECT_EQ(rational_from_decimal(text), value) << text;
+}
+
+TEST(RationalFromDecimal, KeepsAllOf45Digits) {
+  const std::string unit = "/1" + std::string(45, '0');
+  for (const std::string digits : {"707106781186547524400844362104849039284835938",
+                                   "000000000000000000003333333333333333333333333",
+                                   "142857142857142857142857142857142857142857143"}) {
+    EXPECT_EQ(rational_from_decimal("0." + digits), fraction(digits + unit));
+    EXPECT_EQ(rational_from_decimal("-" + digits + "e-45"), -fraction(digits + unit));
+    EXPECT_EQ(rational_from_decimal("0." + digits + "E45"), Rational(Integer(digits, 10)));
+  }
+  EXPECT_NE(rational_from_decimal("0.707106781186547524400844362104849039284835938"),
+            rational_from_decimal("0.707106781186547524400844362104849039284835939"));
+}
+
+TEST(RationalFromDecimal, IsCanonical) {
+  const Rational x = rational_from_decimal("2.500e-1");
+  EXPECT_EQ(x.get_num(), 1);
+  EXPECT_EQ(x.get_den(), 4);
+}
+
+TEST(RationalFromDecimal, AgreesWithStrtodAfterRounding) {
+  Random random(16);
+  for (int round = 0; round < 2000; ++round) {
+    std::string text = random.coin() ? "-" : "";
+    const int before = random.between(0, 30), after = random.between(1, 60);
+    for (int i = 0; i < before; ++i) text += static_cast<char>('0' + random.between(0, 9));
+    text += '.';
+    for (int i = 0; i < after; ++i) text += static_cast<char>('0' + random.between(0, 9));
+    text += 'e' + std::to_string(random.between(-345, 320));
+    EXPECT_EQ(round_to_nearest(rational_from_decimal(text)), std::strtod(text.c_str(), nullptr))
+        << text;
+  }
+}
+
+TEST(RationalFromDecimal, OtherTextsAreErrors) {
+  for (const std::string_view text :
+       {"",    " ",   "1 ",    " 1",   "+",     "-",     ".",   "-.",   "e5",   ".e5",
+        "1e",  "1e+", "1e-",   "--1",  "+-1",   "1.2.3", "1,5", "0x10", "1/2",  "nan",
+        "NaN", "inf", "-inf",  "1e5.", "1e5e5", "1d5",   "1_0", "1e 5", "1 e5", "1.5f",
+        "1\n", "１",  "1e--5", "1'0",  "$1",    "1e1e",  "0b1", "- 1"}) {
+    EXPECT_THROW(static_cast<void>(rational_from_decimal(text)), std::invalid_argument) << text;
+  }
+  using namespace std::string_view_literals;
+  EXPECT_THROW(static_cast<void>(rational_from_decimal("1\0"sv)), std::invalid_argument);
+  EXPECT_THROW(static_cast<void>(rational_from_decimal("1\0002"sv)), std::invalid_argument);
+}
+
+TEST(RationalFromDecimal, ReadsNoFurtherThanTheView) {
+  const std::string_view text = "12345e3";
+  EXPECT_EQ(rational_from_decimal(text.substr(0, 2)), 12);
+  EXPECT_EQ(rational_from_decimal(text.substr(1, 4)), 2345);
+}
+
+TEST(RationalFromDecimal, ExponentsGoToTenThousand) {
+  Integer power;
+  mpz_ui_pow_ui(power.get_mpz_t(), 10, 10000);
+  EXPECT_EQ(rational_from_decimal("1e10000"), Rational(power));
+  EXPECT_EQ(rational_from_decimal("1e-10000"), Rational(Integer(1), power));
+}
+
+TEST(RationalFromDecimal, AnExponentMayHaveLeadingZeros) {
+  EXPECT_EQ(rational_from_decimal("-3e00000000000000002"), -300);
+  EXPECT_EQ(rational_from_decimal("-3e-00000000000000002"), Rational(-3, 100));
+}
+
+TEST(RationalFromDecimal, GreaterExponentsAreErrors) {
+  for (const std::string_view text :
+       {"1e10001", "1e-10001", "123456789e10001", "0e10001", "1e20000", "1e999999999",
+        "1e9999999999", "1e-99999999999999999999", "1e18446744073709551617"}) {
+    EXPECT_THROW(static_cast<void>(rational_from_decimal(text)), std::invalid_argument) << text;
+  }
+}
+
+TEST(RationalFromDecimal, AnyNumberOfDigits) {
+  const std::string nines(20000, '9');
+  const Rational x = rational_from_decimal("0." + nines);
+  Integer power;
+  mpz_ui_pow_ui(power.get_mpz_t(), 10, 20000);
+  EXPECT_EQ(x, Rational(Integer(power - 1), power));
+  EXPECT_EQ(rational_from_decimal(nines + "." + nines), Rational(power - 1) + x);
+}
+
+TEST(PowerOfTwo, IsExactForBothSigns) {
+  EXPECT_EQ(power_of_two(0), 1);
+  EXPECT_EQ(power_of_two(1), 2);
+  EXPECT_EQ(power_of_two(-1), Rational(1, 2));
+  for (const int exponent : {-1074, -1022, -64, -63, -32, 31, 32, 63, 64, 1023}) {
+    EXPECT_EQ(power_of_two(exponent), Rational(std::ldexp(1.0, exponent))) << exponent;
+  }
+  for (const long exponent : {2000L, 5000L, 100000L}) {
+    EXPECT_EQ(Rational(power_of_two(exponent) * power_of_two(-exponent)), 1) << exponent;
+    EXPECT_EQ(power_of_two(exponent), Rational(power_of_two(exponent - 1) * 2)) << exponent;
+  }
+}
+
+}  // namespace
+}  // namespace touchstone::exact::number_test
