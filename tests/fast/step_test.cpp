@@ -590,10 +590,15 @@ struct Work {
 };
 Work work_done;
 
-/// The best kernel, with a count of its work.
+/// The best kernel, with a count of its work. Undecided pairs may come a second time, scaled, as
+/// queries.
 void decide_and_count(const KernelInput& input, KernelOutput& output) {
   certified_kernels().back()->decide(input, output);
-  work_done.pairs += input.count;
+  if (input.queries != nullptr) {
+    work_done.exact -= input.count;
+  } else {
+    work_done.pairs += input.count;
+  }
   work_done.exact += output.undecided.count;
 }
 

@@ -169,7 +169,7 @@ TEST(SeparatedDecision, AtDistanceZeroItIsThePlainDecision) {
       const auto walked = first_approach(motion, {}, norm, bits_of_one, 1);
       ASSERT_EQ(walked.has_value(), plain.has_value()) << posed;
       if (!plain) continue;
-      EXPECT_EQ(walked->upper, plain->time.upper) << posed;
+      EXPECT_EQ(std::bit_cast<double>(walked->upper), plain->toi_upper) << posed;
     }
   }
 }
