@@ -5,6 +5,8 @@ set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
 
 add_library(touchstone_build_options INTERFACE)
 target_compile_features(touchstone_build_options INTERFACE cxx_std_20)
+# Internal headers are included by their paths from the root.
+target_include_directories(touchstone_build_options INTERFACE ${PROJECT_SOURCE_DIR})
 target_compile_options(touchstone_build_options INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wsign-conversion -Wcast-qual -Wold-style-cast
   -Wnon-virtual-dtor -Woverloaded-virtual -Wdouble-promotion -Wformat=2 -Wimplicit-fallthrough
@@ -63,7 +65,6 @@ function(touchstone_module name)
     add_library(${target} STATIC ${MODULE_SOURCES})
     set(scope PUBLIC)
     target_link_libraries(${target} PRIVATE $<BUILD_INTERFACE:touchstone_build_options> ${MODULE_PRIVATE})
-    target_include_directories(${target} PRIVATE ${PROJECT_SOURCE_DIR})
   endif()
   add_library(touchstone::${name} ALIAS ${target})
   set_target_properties(${target} PROPERTIES EXPORT_NAME ${name} VERIFY_INTERFACE_HEADER_SETS ON)

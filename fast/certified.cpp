@@ -8,7 +8,8 @@
 #include <stdexcept>
 
 #include "fast/certified/block.hpp"
-#include "fast/certified/kernel.hpp"
+#include "fast/kernels.hpp"
+#include "fast/method.hpp"
 #include "fast/platform/floating_point_state.hpp"
 #include "fast/platform/threads.hpp"
 
@@ -24,6 +25,7 @@ struct Batch {
   std::span<const Query> queries;            ///< either queries
   const MovingVertices* vertices = nullptr;  ///< or vertices
   Candidates candidates;                     ///< with candidates
+  const CertifiedKernel& kernel = certified_kernel(chosen_kernels());
 
   [[nodiscard]] KernelInput block(std::size_t first) const {
     KernelInput input{.kind = kind, .count = std::min(kernel_block, size - first)};
@@ -64,7 +66,7 @@ template <class Report>
 const KernelOutput& decide(const Batch& batch, std::size_t first, double t_limit,
                            const CertifiedOptions& options, const Report& report) {
   return decide_block(
-      batch.block(first), t_limit, options,
+      batch.block(first), t_limit, options, batch.kernel,
       [&](std::size_t index) { return batch.query(first + index); },
       [&](std::size_t index, const CertifiedResult& result) { report(first + index, result); });
 }
@@ -217,6 +219,7 @@ class CertifiedMethod : public Method {
       return;
     }
     require_valid(of_call);
+    const UseKernels use(kernels_);
     const Batch batch = batch_of(kind, queries);
     for_each_block(batch.size, of_call.max_threads, [&](std::size_t first) {
       const std::size_t count = std::min(kernel_block, batch.size - first);
@@ -238,6 +241,7 @@ class CertifiedMethod : public Method {
 
  private:
   CertifiedOptions base_;
+  Kernels kernels_ = chosen_kernels();
 };
 
 }  // namespace

@@ -6,28 +6,23 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <limits>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string_view>
 #include <vector>
 
+#include "touchstone/certified.hpp"
 #include "touchstone/filter.hpp"
 #include "touchstone/query.hpp"
+#include "touchstone/tight_inclusion.hpp"
+#include "touchstone/verdict.hpp"
 
 namespace touchstone::fast {
 
-/// A solver's answer to "do they collide?".
-enum class Verdict : std::uint8_t {
-  no,
-  yes,
-  undecided,  ///< no decision; to be treated as a conservative yes
-  error,      ///< invalid query or options (NaN, infinities, …)
-};
-
 /// An answer with its uncertainty. A field that the method does not provide is NaN.
 struct Answer {
-  static constexpr double none = std::numeric_limits<double>::quiet_NaN();
+  static constexpr double none = no_number;
 
   Verdict verdict = Verdict::undecided;
   /// The number of steps that the method counts: boxes, or the stages of MethodInfo::stages that
@@ -109,5 +104,18 @@ class Method {
   virtual void solve(Kind kind, std::span<const Query> queries, std::span<Answer> answers,
                      const MethodOptions& options) const = 0;
 };
+
+/// The description of the certified solver as a method: its name is `certified`, its promise exact.
+[[nodiscard]] const MethodInfo& certified_info();
+
+/// The certified solver as a method.
+[[nodiscard]] std::unique_ptr<Method> certified_method(const CertifiedOptions& base = {});
+
+/// Tight-Inclusion as a method. Its name is `tight_inclusion`, with the published filter
+/// `tight_inclusion_published`, with the released one `tight_inclusion_released`, which promises
+/// nothing. Options that MethodOptions lack are taken from `base`. A scene's filter must hold for
+/// both kinds. With no_zero_toi the method promises nothing.
+[[nodiscard]] std::unique_ptr<Method> tight_inclusion_method(
+    const TightInclusionOptions& base = {});
 
 }  // namespace touchstone::fast

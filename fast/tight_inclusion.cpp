@@ -6,6 +6,8 @@
 #include <utility>
 #include <vector>
 
+#include "fast/kernels.hpp"
+#include "fast/method.hpp"
 #include "fast/platform/arithmetic_check.hpp"
 
 namespace touchstone::fast {
@@ -211,7 +213,7 @@ std::string_view fault_of(const TightInclusionOptions& options) {
 double round_up_to_exact(double t) { return std::ceil(t * 0x1p53) * 0x1p-53; }
 
 const BoxKernel& kernel_of(const TightInclusionOptions& options) {
-  if (options.kernel != nullptr) return *options.kernel;
+  if (chosen_kernels().box != nullptr) return *chosen_kernels().box;
   return options.error_model == ErrorModel::released ? released_box_kernel()
                                                      : *box_kernels().back();
 }
@@ -361,6 +363,7 @@ class TightInclusionMethod final : public Method {
 
   void solve(Kind kind, std::span<const Query> queries, std::span<Answer> answers,
              const MethodOptions& options) const override {
+    const UseKernels use(kernels_);
     TightInclusionOptions all = base_;
     all.tolerance = options.tolerance;
     all.max_checks = options.max_checks;
@@ -379,6 +382,7 @@ class TightInclusionMethod final : public Method {
  private:
   TightInclusionOptions base_;
   MethodInfo info_;
+  Kernels kernels_ = chosen_kernels();
 };
 
 }  // namespace

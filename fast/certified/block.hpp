@@ -35,13 +35,12 @@ void require_valid(const CertifiedOptions& options);
 /// query_of(index) a query of the block
 template <class QueryOf, class Report>
 const KernelOutput& decide_block(KernelInput block, double t_limit, const CertifiedOptions& options,
-                                 const QueryOf& query_of, const Report& report) {
+                                 const CertifiedKernel& kernel, const QueryOf& query_of,
+                                 const Report& report) {
   thread_local KernelOutput output;
   block.toi_tolerance = std::max(options.toi_tolerance, least_kernel_tolerance);
   block.t_limit = t_limit;
   block.separation = options.separation;
-  const CertifiedKernel& kernel =
-      options.kernel != nullptr ? *options.kernel : *certified_kernels().back();
   kernel.decide(block, output);
   thread_local std::vector<Query> undecided;
   undecided.clear();

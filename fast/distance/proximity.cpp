@@ -6,7 +6,7 @@ namespace touchstone::fast {
 
 std::vector<std::uint32_t> perhaps_within(Kind kind, std::span<Query> queries,
                                           const Separation& separation,
-                                          const CertifiedKernel* kernel) {
+                                          const CertifiedKernel& kernel) {
   thread_local KernelOutput output;
   for (Query& query : queries) {
     const auto start = std::span(query.coordinates).first<3 * moving_points>();
@@ -15,7 +15,7 @@ std::vector<std::uint32_t> perhaps_within(Kind kind, std::span<Query> queries,
   KernelInput block{.kind = kind, .count = queries.size(), .queries = queries.data()};
   block.separation = separation;
   block.t_limit = 0.0;
-  (kernel != nullptr ? kernel : certified_kernels().back())->decide(block, output);
+  kernel.decide(block, output);
   std::vector<std::uint32_t> result;
   result.reserve(output.impacts.count + output.undecided.count);
   for (std::size_t i = 0; i < output.impacts.count; ++i)
@@ -33,8 +33,7 @@ std::vector<std::uint32_t> perhaps_within(const Step& step, const StepCandidates
   for (const IndexPair& pair : candidates.pairs) {
     queries.push_back(step.query_of(candidates.kind, pair));
   }
-  return perhaps_within(Step::kind_of(candidates.kind), queries, separation,
-                        step.certified().kernel);
+  return perhaps_within(Step::kind_of(candidates.kind), queries, separation);
 }
 
 }  // namespace touchstone::fast

@@ -11,7 +11,7 @@
 #include <span>
 #include <vector>
 
-#include "fast/certified/kernel.hpp"
+#include "fast/kernels.hpp"
 #include "touchstone/query.hpp"
 #include "touchstone/step.hpp"
 
@@ -20,12 +20,11 @@ namespace touchstone::fast {
 /// The indices of the queries that may be within the distance at t=0: all that are, and possibly
 /// others. Replaces their ends by their starts.
 /// \pre Strict floating point; all coordinates are finite; at most kernel_block queries.
-/// \param kernel nullptr: the best one.
-[[nodiscard]] std::vector<std::uint32_t> perhaps_within(Kind kind, std::span<Query> queries,
-                                                        const Separation& separation,
-                                                        const CertifiedKernel* kernel = nullptr);
+[[nodiscard]] std::vector<std::uint32_t> perhaps_within(
+    Kind kind, std::span<Query> queries, const Separation& separation,
+    const CertifiedKernel& kernel = certified_kernel({}));
 
-/// The same for some of a step's candidates, by the step's kernel.
+/// The same for some of a step's candidates.
 [[nodiscard]] std::vector<std::uint32_t> perhaps_within(const Step& step,
                                                         const StepCandidates& candidates,
                                                         const Separation& separation);

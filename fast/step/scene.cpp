@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "fast/broad_phase/swept_box.hpp"
+#include "fast/kernels.hpp"
 #include "touchstone/broad_phase.hpp"
 
 namespace touchstone::fast {
@@ -15,8 +16,7 @@ CertifiedOptions certified_options(const StepOptions& options) {
   const CertifiedOptions result{.toi_tolerance = options.toi_tolerance,
                                 .t_max = options.t_max,
                                 .separation = options.separation,
-                                .max_threads = options.max_threads,
-                                .kernel = options.kernel};
+                                .max_threads = options.max_threads};
   require_valid(result);
   return result;
 }
@@ -110,7 +110,8 @@ SceneMesh::SceneMesh(std::size_t vertex_count, const FloatBounds& bounds, const 
 Scene::Scene(MovingVertices vertices, const MeshElements& elements, const StepOptions& options)
     : vertices_(checked(std::move(vertices), elements)),
       certified_(certified_options(options)),
-      search_(options.search != nullptr ? *options.search : *search_kernels().back()),
+      kernel_(certified_kernel(chosen_kernels())),
+      search_(search_kernel(chosen_kernels())),
       bounds_(vertices_, 1.0, certified_.separation.distance),
       mesh_(
           std::make_shared<const SceneMesh>(vertices_.size(), bounds_, elements, options.groups)) {}
@@ -123,6 +124,7 @@ Scene::Scene(MovingVertices vertices, const Scene& other)
 Scene::Scene(MovingVertices vertices, const Scene& other, const Separation& separation)
     : vertices_(checked(std::move(vertices), other)),
       certified_(with_separation(other.certified_, separation)),
+      kernel_(other.kernel_),
       search_(other.search_),
       bounds_(vertices_, 1.0, separation.distance),
       mesh_(other.mesh_) {}

@@ -166,7 +166,7 @@ class Scene final : private PairQuestions {
                             .pairs = candidates.pairs.data(),
                             .axis_is_done = true};
     decide_block(
-        block, t_limit, certified_,
+        block, t_limit, certified_, kernel_,
         [&](std::size_t i) { return fast::query_of(vertices_, candidates, candidates.pairs[i]); },
         [&](std::size_t i, const CertifiedResult& result) {
           if (result.verdict != Verdict::yes) return;
@@ -193,6 +193,7 @@ class Scene final : private PairQuestions {
 
   MovingVertices vertices_;
   CertifiedOptions certified_;
+  const CertifiedKernel& kernel_;
   const SearchKernel& search_;
   FloatBounds bounds_;
   std::shared_ptr<const SceneMesh> mesh_;

@@ -1,6 +1,6 @@
 // The README's example of the oracle as a library.
 
-#include <touchstone/oracle.hpp>
+#include <touchstone/exact.hpp>
 
 #include <cstdio>
 

@@ -17,6 +17,8 @@
 #include <vector>
 
 #include "fast/certified/kernel.hpp"
+#include "fast/kernels.hpp"
+#include "fast/method.hpp"
 #include "tests/support/certified.hpp"
 #include "tests/support/queries.hpp"
 #include "tests/support/random.hpp"
@@ -260,7 +262,8 @@ TEST(Certified, IndexPairsGiveWhatTheirQueriesGive) {
     std::vector<CertifiedResult> of_queries(queries.size());
     for (const CertifiedKernel* const kernel : certified_kernels()) {
       for (const int threads : {1, 4}) {
-        const CertifiedOptions options{.max_threads = threads, .kernel = kernel};
+        const UseKernels use({.certified = kernel});
+        const CertifiedOptions options{.max_threads = threads};
         solve(kind, queries, of_queries, options);
         const std::vector<Collision> all = collisions(vertices, candidates, options);
         std::vector<CertifiedResult> rebuilt(of_queries);

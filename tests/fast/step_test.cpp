@@ -20,6 +20,7 @@
 
 #include "fast/broad_phase/search.hpp"
 #include "fast/certified/kernel.hpp"
+#include "fast/kernels.hpp"
 #include "tests/faults/planted_faults.hpp"
 #include "tests/support/certified.hpp"
 #include "tests/support/random.hpp"
@@ -377,8 +378,7 @@ TEST(Step, IsTheSameForAllInstructionSetsAndThreads) {
       for (const SearchKernel* const search : search_kernels()) {
         for (const CertifiedKernel* const kernel : certified_kernels()) {
           for (const int threads : {1, 2, 0}) {
-            options.search = search;
-            options.kernel = kernel;
+            const UseKernels use({.certified = kernel, .search = search});
             options.max_threads = threads;
             EXPECT_EQ(Answers(scene.step(options)), expected)
                 << to_string(search->instructions) << ' ' << to_string(kernel->instructions);
@@ -607,7 +607,8 @@ Work work_of(const Scene& scene, const Separation& separation = {}) {
                                         .decide = decide_and_count,
                                         .product_then_sum = nullptr};
   work_done = {};
-  const Step step = scene.step({.separation = separation, .max_threads = 1, .kernel = &counting});
+  const UseKernels use({.certified = &counting});
+  const Step step = scene.step({.separation = separation, .max_threads = 1});
   static_cast<void>(step.collisions());
   return work_done;
 }
@@ -752,8 +753,9 @@ TEST(PairKind, HasAName) {
 TEST(Step, PlantedFaultsInTheFusedStageAreFound) {
   const auto expect_found = [](const auto& planted) {
     Random random(191);
-    std::string what = first_fault(random, {.search = planted.part}, 40);
-    if (what.empty()) what = fault(soup(random, 40, 0.3), {.search = planted.part});
+    const UseKernels use({.search = planted.part});
+    std::string what = first_fault(random, {}, 40);
+    if (what.empty()) what = fault(soup(random, 40, 0.3), {});
     EXPECT_NE(what, "") << planted.name;
   };
   for (const auto& planted : tests::planted_faults().search) {

@@ -22,6 +22,8 @@
 #include <tuple>
 #include <vector>
 
+#include "fast/kernels.hpp"
+#include "fast/method.hpp"
 #include "tests/faults/planted_faults.hpp"
 #include "tests/support/public_data.hpp"
 #include "tests/support/queries.hpp"
@@ -131,25 +133,27 @@ TEST_P(Conservative, OnAllFamilies) {
 }
 
 TEST(TightInclusion, GivesTheSameResultOnAllKernels) {
-  for_each_family_query(tests::trials(12U), [&](const verify::generate::Family& family, Kind kind,
-                                                const auto& known) {
-    for (const double d : {0.0, 1e-3}) {
-      TightInclusionOptions options;
-      options.max_checks = some_checks;
-      options.separation.distance = d;
-      options.kernel = box_kernels().front();
-      const TightInclusionResult expected = tight_inclusion(kind, known.query, options);
-      for (const BoxKernel* const kernel : box_kernels()) {
-        options.kernel = kernel;
-        const TightInclusionResult result = tight_inclusion(kind, known.query, options);
-        EXPECT_EQ(result.verdict, expected.verdict) << family.name;
-        EXPECT_EQ(result.checks, expected.checks) << family.name;
-        if (result.verdict != Verdict::yes) continue;
-        EXPECT_EQ(result.toi, expected.toi) << family.name;
-        EXPECT_EQ(result.tolerance, expected.tolerance) << family.name;
-      }
-    }
-  });
+  for_each_family_query(tests::trials(12U),
+                        [&](const verify::generate::Family& family, Kind kind, const auto& known) {
+                          for (const double d : {0.0, 1e-3}) {
+                            TightInclusionOptions options;
+                            options.max_checks = some_checks;
+                            options.separation.distance = d;
+                            const auto result_on = [&](const BoxKernel* kernel) {
+                              const UseKernels use({.box = kernel});
+                              return tight_inclusion(kind, known.query, options);
+                            };
+                            const TightInclusionResult expected = result_on(box_kernels().front());
+                            for (const BoxKernel* const kernel : box_kernels()) {
+                              const TightInclusionResult result = result_on(kernel);
+                              EXPECT_EQ(result.verdict, expected.verdict) << family.name;
+                              EXPECT_EQ(result.checks, expected.checks) << family.name;
+                              if (result.verdict != Verdict::yes) continue;
+                              EXPECT_EQ(result.toi, expected.toi) << family.name;
+                              EXPECT_EQ(result.tolerance, expected.tolerance) << family.name;
+                            }
+                          }
+                        });
 }
 
 TEST(TightInclusion, MissesNothingOnThePublicData) {
@@ -805,7 +809,8 @@ TEST(TightInclusion, FamiliesFindPlantedFaults) {
     EXPECT_GT(found, 0U) << fault.name;
   };
   for (const auto& fault : tests::planted_faults().box_kernel) {
-    expect_found(fault, *tight_inclusion_method({.kernel = fault.part}));
+    const UseKernels use({.box = fault.part});
+    expect_found(fault, *tight_inclusion_method());
   }
   for (const auto& fault : tests::planted_faults().tight_inclusion) {
     expect_found(fault, *fault.part({}));

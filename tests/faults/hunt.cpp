@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "fast/kernels.hpp"
 #include "verify/fuzz/recheck.hpp"
 
 namespace touchstone::tests {
@@ -44,15 +45,19 @@ std::vector<FaultySolver> all_faulty_solvers() {
   const PlantedFaults& planted = planted_faults();
   std::vector<FaultySolver> all;
   for (const auto& fault : planted.box_kernel) {
-    all.push_back({fault, tight_inclusion,
-                   [part = fault.part] { return fast::tight_inclusion_method({.kernel = part}); }});
+    all.push_back({fault, tight_inclusion, [part = fault.part] {
+                     const fast::UseKernels use({.box = part});
+                     return fast::tight_inclusion_method();
+                   }});
   }
   for (const auto& fault : planted.tight_inclusion) {
     all.push_back({fault, tight_inclusion, [part = fault.part] { return part({}); }});
   }
   for (const auto& fault : planted.certified_kernel) {
-    all.push_back({fault, certified,
-                   [part = fault.part] { return fast::certified_method({.kernel = part}); }});
+    all.push_back({fault, certified, [part = fault.part] {
+                     const fast::UseKernels use({.certified = part});
+                     return fast::certified_method();
+                   }});
   }
   for (const auto& fault : planted.exact_stage) {
     all.push_back(

@@ -19,6 +19,7 @@
 
 #include "fast/broad_phase/search.hpp"
 #include "fast/certified/kernel.hpp"
+#include "fast/kernels.hpp"
 #include "touchstone/certified.hpp"
 #include "verify/cli/commands.hpp"
 #include "verify/cli/files.hpp"
@@ -80,7 +81,6 @@ class BenchRun {
         solvers_(files_, arguments.solvers, MethodHost::this_process),
         json_(files_, arguments.json_file) {
     files_.add_inputs(arguments.step);
-    certified_.kernel = arguments.solvers.kernel;
     certified_.separation = separation_;
     report_.options = arguments.bench;
     report_.options.threads = arguments.sources.threads;
@@ -148,17 +148,16 @@ class BenchRun {
     report_.step =
         jobs::bench_step(mesh, {.repetitions = report_.options.repetitions,
                                 .threads = arguments_.sources.threads,
-                                .step = {.separation = separation_,
-                                         .kernel = certified_.kernel,
-                                         .search = search_kernel()},
+                                .step = {.separation = separation_},
                                 .on_progress = [&bar](double fraction) { bar.update(fraction); },
                                 .stop = &io::interrupted()});
   }
 
   /// The options with the kernel of the chosen instruction set.
   [[nodiscard]] const fast::SearchKernel* search_kernel() const {
-    if (certified_.kernel == nullptr) return nullptr;
-    return fast::find_kernel(fast::search_kernels(), certified_.kernel->instructions);
+    const fast::CertifiedKernel* const kernel = arguments_.solvers.kernel;
+    if (kernel == nullptr) return nullptr;
+    return fast::find_kernel(fast::search_kernels(), kernel->instructions);
   }
 
   /// Measures the queries below a path, one kind at a time, because both may not fit into memory.
@@ -223,6 +222,8 @@ class BenchRun {
   Solvers solvers_;
   Output json_;
   fast::CertifiedOptions certified_;
+  /// For the timed solvers of this thread.
+  fast::UseKernels kernels_{{.certified = arguments_.solvers.kernel, .search = search_kernel()}};
   report::BenchReport report_;
   std::set<std::string> errors_;
   std::uint64_t skipped_ = 0;

@@ -9,6 +9,8 @@
 #include <string_view>
 #include <utility>
 
+#include "fast/kernels.hpp"
+#include "fast/method.hpp"
 #include "touchstone/certified.hpp"
 #include "touchstone/query.hpp"
 #include "verify/cli/options.hpp"
@@ -184,7 +186,8 @@ Solvers::Solvers(Files& files, const SolverArguments& arguments, MethodHost host
 const fast::Method& Solvers::method_named(std::string_view name, const SolverArguments& arguments) {
   const fast::Method& method = solvers::find_method(name);
   if (arguments.kernel == nullptr || name != fast::certified_info().name) return method;
-  methods_.push_back(fast::certified_method({.kernel = arguments.kernel}));
+  const fast::UseKernels use({.certified = arguments.kernel});
+  methods_.push_back(fast::certified_method());
   return *methods_.back();
 }
 

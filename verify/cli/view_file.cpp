@@ -7,6 +7,7 @@
 #include <span>
 #include <utility>
 
+#include "fast/method.hpp"
 #include "touchstone/certified.hpp"
 #include "verify/cli/options.hpp"
 #include "verify/io/printable.hpp"

@@ -11,6 +11,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "fast/method.hpp"
 #include "touchstone/certified.hpp"
 #include "verify/base/deadline.hpp"
 #include "verify/fuzz/coverage.hpp"

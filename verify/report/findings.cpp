@@ -10,6 +10,7 @@
 #include <string_view>
 #include <utility>
 
+#include "fast/method.hpp"
 #include "touchstone/certified.hpp"
 #include "verify/report/tables.hpp"
 

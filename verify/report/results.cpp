@@ -12,6 +12,7 @@
 #include <string_view>
 #include <vector>
 
+#include "fast/method.hpp"
 #include "touchstone/certified.hpp"
 #include "verify/io/printable.hpp"
 #include "verify/report/figures.hpp"

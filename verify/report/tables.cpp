@@ -9,6 +9,7 @@
 #include <optional>
 #include <utility>
 
+#include "fast/method.hpp"
 #include "touchstone/certified.hpp"
 #include "verify/io/csv.hpp"
 #include "verify/io/printable.hpp"

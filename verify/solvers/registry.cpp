@@ -6,6 +6,7 @@
 #include <array>
 #include <stdexcept>
 
+#include "fast/method.hpp"
 #include "touchstone/certified.hpp"
 #include "touchstone/tight_inclusion.hpp"
 #include "verify/baselines/accd.hpp"

@@ -22,18 +22,15 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <memory>
 #include <span>
 #include <string_view>
 #include <vector>
 
-#include "fast/method.hpp"
 #include "touchstone/mesh.hpp"
 #include "touchstone/query.hpp"
+#include "touchstone/verdict.hpp"
 
 namespace touchstone::fast {
-
-struct CertifiedKernel;
 
 /// The stages, cheapest first. Each decides a query or passes it to the next.
 enum class Stage : std::uint8_t {
@@ -60,20 +57,18 @@ struct CertifiedOptions {
   Separation separation = {};
   /// Maximum number of threads for a batch; 0: the default of oneTBB.
   int max_threads = 0;
-  /// For tests: a kernel that replaces the best one for this processor.
-  const CertifiedKernel* kernel = nullptr;
 };
 
 struct CertifiedResult {
   /// yes or no, always right; error if a coordinate is not finite. Never undecided.
   Verdict verdict = Verdict::error;
-  Stage stage = Stage::axis;        ///< the stage that decided
-  double toi_lower = Answer::none;  ///< with yes: below the time of impact; 0 if that is 0
-  double toi_upper = Answer::none;  ///< with yes: not below the time of impact; may be above t_max
+  Stage stage = Stage::axis;     ///< the stage that decided
+  double toi_lower = no_number;  ///< with yes: below the time of impact; 0 if that is 0
+  double toi_upper = no_number;  ///< with yes: not below the time of impact; may be above t_max
   /// With yes: the parameters in F's domain of the contact, or of the nearest points at that time.
   /// An approximation without an error bound.
-  double u = Answer::none;
-  double v = Answer::none;
+  double u = no_number;
+  double v = no_number;
 };
 
 /// Decides one query.
@@ -103,11 +98,5 @@ struct Collision {
 [[nodiscard]] std::vector<Collision> collisions(const MovingVertices& vertices,
                                                 const Candidates& candidates,
                                                 const CertifiedOptions& options = {});
-
-/// The description of the certified solver as a method: its name is `certified`, its promise exact.
-[[nodiscard]] const MethodInfo& certified_info();
-
-/// The certified solver as a method.
-[[nodiscard]] std::unique_ptr<Method> certified_method(const CertifiedOptions& base = {});
 
 }  // namespace touchstone::fast

@@ -51,7 +51,6 @@
 namespace touchstone::fast {
 
 class Scene;
-struct SearchKernel;
 
 /// The primitives of a pair, and the meaning of its two numbers.
 enum class PairKind : std::uint8_t {
@@ -70,20 +69,20 @@ struct MeshElements {
   /// All edges: those of the faces and codimensional ones. By default the edges of the faces,
   /// numbered as by edges_of (touchstone/broad_phase.hpp). An edge from a vertex to itself collides
   /// like the vertex.
-  std::span<const Edge> edges;
-  std::span<const Face> faces;
+  std::span<const Edge> edges = {};
+  std::span<const Face> faces = {};
   /// Vertices that are part of the scene in any case, with or without an edge or a face.
-  std::span<const std::int32_t> points;
+  std::span<const std::int32_t> points = {};
 };
 
 /// Rules for the pairs that can collide: two primitives can if a vertex of one and a vertex of the
 /// other are in groups that can collide. By default everything collides with everything.
 struct CollisionGroups {
   /// The group of each vertex, from 0 on; empty: all are in group 0.
-  std::span<const std::int32_t> of_vertices;
+  std::span<const std::int32_t> of_vertices = {};
   /// Pairs of groups that cannot collide, in either order. The same group twice: no collisions
   /// within it, for example within an obstacle. All other pairs can collide.
-  std::span<const std::array<std::int32_t, 2>> apart;
+  std::span<const std::array<std::int32_t, 2>> apart = {};
 };
 
 struct StepOptions {
@@ -96,9 +95,6 @@ struct StepOptions {
   /// 0: as many as there are cores.
   int max_threads = 0;
   CollisionGroups groups = {};
-  /// For tests: replacements of the best kernels for this processor.
-  const CertifiedKernel* kernel = nullptr;
-  const SearchKernel* search = nullptr;
 };
 
 /// Two primitives that collide.

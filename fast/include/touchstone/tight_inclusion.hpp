@@ -28,15 +28,13 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <memory>
 #include <optional>
 #include <span>
 #include <string_view>
 
-#include "fast/method.hpp"
-#include "fast/tight_inclusion/box_kernel.hpp"
 #include "touchstone/filter.hpp"
 #include "touchstone/query.hpp"
+#include "touchstone/verdict.hpp"
 
 namespace touchstone::fast {
 
@@ -68,8 +66,6 @@ struct TightInclusionOptions {
   /// query. It must be at least the filter of this kind and of the separation; the filter of
   /// vertex_face holds for both kinds.
   std::optional<std::array<double, 3>> scene_filter = std::nullopt;
-  /// For tests: a kernel that replaces the best one for this processor.
-  const BoxKernel* kernel = nullptr;
 };
 
 struct TightInclusionResult {
@@ -77,11 +73,11 @@ struct TightInclusionResult {
   /// see `error`. Never undecided.
   Verdict verdict = Verdict::error;
   /// With yes: not above the time of impact, in [0, t_max].
-  double toi = Answer::none;
+  double toi = no_number;
   /// With yes: the tolerance achieved. At some time the distance is at most this tolerance plus the
   /// requested separation plus twice the filter. It is δ, more if the search ended early, or less
   /// if no_zero_toi lowered it.
-  double tolerance = Answer::none;
+  double tolerance = no_number;
   /// The separation of `toi`: there is no contact at this separation before `toi`. Below the
   /// requested one only if no_zero_toi lowered it.
   Separation separation = {};
@@ -99,12 +95,5 @@ struct TightInclusionResult {
 /// std::bad_alloc, which does not affect later calls.
 [[nodiscard]] TightInclusionResult tight_inclusion(Kind kind, const Query& query,
                                                    const TightInclusionOptions& options = {});
-
-/// Tight-Inclusion as a method. Its name is `tight_inclusion`, with the published filter
-/// `tight_inclusion_published`, with the released one `tight_inclusion_released`, which promises
-/// nothing. Options that MethodOptions lack are taken from `base`. A scene's filter must hold for
-/// both kinds. With no_zero_toi the method promises nothing.
-[[nodiscard]] std::unique_ptr<Method> tight_inclusion_method(
-    const TightInclusionOptions& base = {});
 
 }  // namespace touchstone::fast

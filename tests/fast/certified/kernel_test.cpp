@@ -17,6 +17,7 @@
 #include <string>
 #include <vector>
 
+#include "fast/kernels.hpp"
 #include "tests/faults/planted_faults.hpp"
 #include "tests/support/certified.hpp"
 #include "tests/support/queries.hpp"
@@ -163,6 +164,7 @@ bool is_wrong(const verify::generate::KnownQuery& known, const CertifiedResult& 
 /// The families in which the kernel's answers are wrong.
 std::vector<std::string> families_that_find(const CertifiedKernel& kernel) {
   constexpr std::uint64_t count = 120;
+  const UseKernels use({.certified = &kernel});
   std::vector<std::string> found;
   for (const verify::generate::Family& family : verify::generate::families()) {
     bool wrong = false;
@@ -170,7 +172,7 @@ std::vector<std::string> families_that_find(const CertifiedKernel& kernel) {
       if (!verify::generate::supports(family, kind)) continue;
       for (std::uint64_t i = 0; i < count && !wrong; ++i) {
         const verify::generate::KnownQuery known = verify::generate::make_query(family, kind, 5, i);
-        wrong = is_wrong(known, fast::solve(kind, known.query, {.kernel = &kernel}));
+        wrong = is_wrong(known, fast::solve(kind, known.query));
       }
     }
     if (wrong) found.emplace_back(family.name);
@@ -207,6 +209,7 @@ Query query_near(Random& random, Kind kind, double distance, int i) {
 
 /// The number of distances with a wrong answer.
 int distances_that_find(const CertifiedKernel& kernel) {
+  const UseKernels use({.certified = &kernel});
   int found = 0;
   for (const double distance : {0.25, 1e-2, 1e-8, 1e-15, 1e-16}) {
     bool is_found = false;
@@ -214,8 +217,7 @@ int distances_that_find(const CertifiedKernel& kernel) {
       Random random(41);
       for (int i = 0; i < 400 && !is_found; ++i) {
         const Norm norm = i % 2 == 0 ? Norm::linf : Norm::l2;
-        const CertifiedOptions options{.separation = {.distance = distance, .norm = norm},
-                                       .kernel = &kernel};
+        const CertifiedOptions options{.separation = {.distance = distance, .norm = norm}};
         const Query query = query_near(random, kind, distance, i);
         is_found =
             tests::fault(kind, query, fast::solve(kind, query, options), options).has_value();

@@ -6,6 +6,7 @@
 #include <limits>
 #include <optional>
 
+#include "fast/method.hpp"
 #include "tests/support/queries.hpp"
 #include "touchstone/query.hpp"
 #include "touchstone/tight_inclusion.hpp"

@@ -16,6 +16,7 @@
 #include <utility>
 #include <vector>
 
+#include "fast/method.hpp"
 #include "tests/support/methods.hpp"
 #include "tests/support/queries.hpp"
 #include "tests/support/shared_counter.hpp"

@@ -12,6 +12,7 @@
 #include <string>
 #include <thread>
 
+#include "fast/method.hpp"
 #include "tests/support/certificates.hpp"
 #include "tests/support/methods.hpp"
 #include "tests/support/queries.hpp"

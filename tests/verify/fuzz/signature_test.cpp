@@ -5,6 +5,7 @@
 #include <cmath>
 #include <string>
 
+#include "fast/method.hpp"
 #include "tests/support/methods.hpp"
 #include "tests/support/queries.hpp"
 #include "touchstone/certified.hpp"

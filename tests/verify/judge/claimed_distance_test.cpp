@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "fast/method.hpp"
 #include "touchstone/number.hpp"
 #include "touchstone/oracle.hpp"
 #include "touchstone/tight_inclusion.hpp"

@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "fast/method.hpp"
 #include "tests/support/methods.hpp"
 #include "tests/support/queries.hpp"
 #include "touchstone/certified.hpp"

@@ -1,0 +1,46 @@
+#pragma once
+
+/// \file
+/// The kernels of the solvers: the best ones for this processor, or the ones that a test or a
+/// benchmark chooses for what it makes and solves in its thread.
+
+#include "fast/broad_phase/search.hpp"
+#include "fast/certified/kernel.hpp"
+#include "fast/tight_inclusion/box_kernel.hpp"
+
+namespace touchstone::fast {
+
+/// nullptr: the best kernel, of Tight-Inclusion for its filter.
+struct Kernels {
+  const CertifiedKernel* certified = nullptr;
+  const SearchKernel* search = nullptr;
+  const BoxKernel* box = nullptr;
+};
+
+/// The choice of this thread. Steps and methods keep the choice of the thread that makes them.
+[[nodiscard]] Kernels& chosen_kernels();
+
+[[nodiscard]] inline const CertifiedKernel& certified_kernel(const Kernels& chosen) {
+  return chosen.certified != nullptr ? *chosen.certified : *certified_kernels().back();
+}
+[[nodiscard]] inline const SearchKernel& search_kernel(const Kernels& chosen) {
+  return chosen.search != nullptr ? *chosen.search : *search_kernels().back();
+}
+
+/// The choice of this thread as long as the object lives.
+class UseKernels {
+ public:
+  explicit UseKernels(const Kernels& kernels) : before_(chosen_kernels()) {
+    chosen_kernels() = kernels;
+  }
+  UseKernels(const UseKernels&) = delete;
+  UseKernels& operator=(const UseKernels&) = delete;
+  UseKernels(UseKernels&&) = delete;
+  UseKernels& operator=(UseKernels&&) = delete;
+  ~UseKernels() { chosen_kernels() = before_; }
+
+ private:
+  Kernels before_;
+};
+
+}  // namespace touchstone::fast
