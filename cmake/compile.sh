@@ -2,7 +2,7 @@
 # compile.sh SOURCE_FOLDER COMPILER ARGUMENT…: the compiler behind ccache, set up so that a clean clone in another folder
 # finds what an earlier one compiled, precompiled headers included:
 #   - paths below SOURCE_FOLDER count as relative;
-#   - a header's time says nothing in a fresh clone, its text is compared;
+#   - the text of a header counts, not its time, which is new in a clone;
 #   - without the mode "depend" a precompiled header of other definitions would be taken for this one;
 #   - a precompiled header stands for the text that it was made of (in a file beside it, ending in .sum): its own bytes
 #     differ from one compilation to the next;
@@ -23,7 +23,7 @@ for argument; do
   set -- "$@" "$argument"
 done
 
-# hash_of_text COMPILER ARGUMENT…: of what the command would compile, whatever it writes.
+# hash_of_text COMPILER ARGUMENT…: the hash of the text that the command would compile.
 hash_of_text() {
   remaining=$#
   while [ "$remaining" -gt 0 ]; do

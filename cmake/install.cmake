@@ -1,5 +1,5 @@
-# find_package(touchstone COMPONENTS fast) for simulators, exact for researchers, derivation for authors of filters; each
-# component needs its own packages only.
+# find_package(touchstone COMPONENTS fast) for simulators, exact for researchers, derivation for authors of filters;
+# each component requires only its own packages.
 include(CMakePackageConfigHelpers)
 
 configure_package_config_file(cmake/touchstone-config.cmake.in touchstone-config.cmake

@@ -1,4 +1,4 @@
-# How every target of the project is compiled.
+# The compilation of every target of the project.
 
 set(CMAKE_CXX_EXTENSIONS OFF)
 set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
@@ -10,7 +10,7 @@ target_compile_options(touchstone_build_options INTERFACE
   -Wnon-virtual-dtor -Woverloaded-virtual -Wdouble-promotion -Wformat=2 -Wimplicit-fallthrough -Werror
   # The compiler collects its garbage only above 4 GB, which no source reaches: 7 % less time.
   $<$<CXX_COMPILER_ID:GNU>:--param=ggc-min-heapsize=4000000>
-  # A filter's bound belongs to the operations as they are written.
+  # A filter's bound holds for the operations as they are written.
   -ffp-contract=off
   # GCC 12 raises a false alarm on std::string's operator+ (its bug 105651).
   $<$<AND:$<CXX_COMPILER_ID:GNU>,$<VERSION_LESS:$<CXX_COMPILER_VERSION>,13>>:-Wno-restrict>)
@@ -22,24 +22,23 @@ if(TOUCHSTONE_SANITIZE)
   target_link_options(touchstone_build_options INTERFACE -fsanitize=${TOUCHSTONE_SANITIZE})
 endif()
 
-# GCC 12 raises false alarms on std::string where its header is precompiled, or at -O1. For the targets that meet them.
+# GCC 12 raises false alarms on std::string if its header is precompiled, or at -O1. For the affected targets.
 set(touchstone_false_alarms
   "$<$<AND:$<CXX_COMPILER_ID:GNU>,$<VERSION_LESS:$<CXX_COMPILER_VERSION>,13>>:-Wno-array-bounds;-Wno-stringop-overflow;-Wno-stringop-overread>")
 
-# touchstone_compile_together(TARGET): several sources of the target as one unit, which reads their headers once, where
-# TOUCHSTONE_UNITY_BUILD asks for it. (CMAKE_UNITY_BUILD asks for it everywhere: preset lint.)
+# touchstone_compile_together(TARGET): several sources of the target as one unit, which reads their headers once, if
+# TOUCHSTONE_UNITY_BUILD is on. (CMAKE_UNITY_BUILD does so everywhere: preset lint.)
 function(touchstone_compile_together target)
   if(TOUCHSTONE_UNITY_BUILD)
     set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 6)
   endif()
 endfunction()
 
-# touchstone_module(NAME [INTERFACE] HEADERS … SOURCES … PUBLIC … PRIVATE … PRECOMPILED …): the library touchstone_NAME,
-# alias touchstone::NAME, with the packages and modules it may use and no others.
-# HEADERS are the public ones: what a user of the library includes. They are installed, and each is checked to compile
-# by itself (target all_verify_interface_header_sets). PRECOMPILED are headers of others that most sources read; a
-# source still includes what it uses.
-# A module with headers is a component of the installed package, touchstone-NAME-targets.cmake.
+# touchstone_module(NAME [INTERFACE] HEADERS … SOURCES … PUBLIC … PRIVATE … PRECOMPILED …): the library
+# touchstone_NAME, alias touchstone::NAME, with the packages and modules that it may use. HEADERS are the public
+# headers. They are installed, and each is checked to compile by itself (target all_verify_interface_header_sets).
+# PRECOMPILED are foreign headers that most sources read; a source still includes the headers that it uses. A module
+# with headers is a component of the installed package, touchstone-NAME-targets.cmake.
 function(touchstone_module name)
   cmake_parse_arguments(MODULE "INTERFACE" "" "HEADERS;SOURCES;PUBLIC;PRIVATE;PRECOMPILED" ${ARGN})
   set(target touchstone_${name})

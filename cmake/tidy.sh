@@ -1,13 +1,13 @@
 #!/usr/bin/env bash
-# tidy.sh BUILD_FOLDER FILE: clang-tidy of a file of BUILD_FOLDER's compile_commands.json, unless the same text was clean
-# before under the same checks. "The same" is its preprocessed text, comments included, so a file that did not change, in any
-# folder, costs a second.
+# tidy.sh BUILD_FOLDER FILE: clang-tidy of a file of BUILD_FOLDER's compile_commands.json, unless the same text passed
+# the same checks before. The text is preprocessed, comments included, so an unchanged file, in any folder, costs a
+# second.
 set -euo pipefail
 build=$1 file=$2
 cache=${XDG_CACHE_HOME:-$HOME/.cache}/touchstone/tidy
 mkdir -p "$cache"
 
-# A command as CMake writes it, a line each: "command": "…", "file": "…".
+# A command in CMake's format, with a line each: "command": "…", "file": "…".
 command=$(awk -v file="$file" '
   /^  "command": / { command = $0 }
   /^  "file": / && index($0, "\"" file "\"") { print command; exit }' "$build/compile_commands.json" |
@@ -15,8 +15,8 @@ command=$(awk -v file="$file" '
     -e 's/ -o [^ ]* / /')
 [ -n "$command" ] || { echo "tidy.sh: $build does not compile $file" >&2; exit 1; }
 
-# A unit of several sources (*.cxx, made by CMake) includes them, which a check would find suspicious, and a local name of
-# one may hide a global one of another; the compiler looks for that in each source.
+# A unit of several sources (*.cxx, made by CMake) includes them, which a check would report, and a local name of one
+# may hide a global one of another; the compiler checks that in each source.
 checks=() configuration=.clang-tidy
 [[ $file == *.cxx ]] && checks=(--checks=-bugprone-suspicious-include --extra-arg=-Wno-shadow)
 [[ $file == "$PWD"/tests/* ]] && configuration=tests/.clang-tidy

@@ -1,8 +1,8 @@
 /// \file
 /// The rules of the project that a compiler does not check: which module may include which, that
 /// every header has a test, how a header begins, and that a folder of verify is a namespace. Each
-/// rule is a function of paths and texts, so that the same function that reads the source tree is
-/// shown to find planted faults.
+/// rule is a function of paths and texts. The same function reads the source tree and finds planted
+/// faults.
 
 #include <gtest/gtest.h>
 
@@ -26,7 +26,7 @@ namespace {
 using Tree = std::map<std::string, std::string, std::less<>>;
 using Violations = std::vector<std::string>;
 
-/// What may be included from where. Both are beginnings of paths if they end with '/', and whole
+/// A permission to include. Both texts are beginnings of paths if they end with '/', and whole
 /// paths if not. The standard library is allowed everywhere and not listed.
 struct Permission {
   std::string_view from;
@@ -47,7 +47,7 @@ constexpr auto permissions = std::to_array<Permission>({
     {"exact/", "gmpxx.h"},
     {"exact/", "mpfr.h"},
 
-    // The checker trusts nothing that decides queries.
+    // The checker shares no code with anything that decides queries.
     {"exact/checker/", "exact/checker/"},
     {"exact/checker/", "gmp.h"},
     {"exact/checker/", "gmpxx.h"},
@@ -87,11 +87,11 @@ constexpr auto permissions = std::to_array<Permission>({
 
     {"adapters/tight_inclusion/logger.hpp", "spdlog/"},
 
-    // What speakers of C include is to need nothing of ours.
+    // C programs that include this header need no other header of ours.
     {"adapters/c/touchstone.h", "stddef.h"},
     {"adapters/c/touchstone.h", "stdint.h"},
 
-    // The published methods use packages that simulators need not have.
+    // The published methods use packages that simulators do not need.
     {"verify/baselines/", "verify/baselines/"},
     {"verify/baselines/", "verify/generate/random.hpp"},
     {"verify/baselines/", "fast/"},
@@ -109,7 +109,7 @@ constexpr auto permissions = std::to_array<Permission>({
     {"verify/", "filters/derivation/"},
     {"verify/", "fast/"},
     {"verify/", "verify/"},
-    // Exact predicates, of meshes at rest.
+    // Exact predicates of meshes at rest.
     {"verify/", "CGAL/"},
     {"verify/", "CLI/"},
     {"verify/", "Eigen/"},
@@ -130,12 +130,12 @@ constexpr auto permissions = std::to_array<Permission>({
     {"verify/", "time.h"},
     {"verify/", "unistd.h"},
 
-    // What strangers include is to need nothing of ours.
+    // Plugins that include this header need no other header of ours.
     {"verify/plugin.h", "stdint.h"},
 });
 
-/// The folders of verify, and the folders that each may include besides itself: only some of those
-/// above it, so that there are no circles. All lines for verify above hold as well.
+/// The folders of verify, and the folders that each may include besides itself: only folders above
+/// it, so that there are no circles. All permissions of verify above hold as well.
 struct Layer {
   std::string_view folder;
   std::vector<std::string_view> includes;
@@ -164,7 +164,7 @@ const std::vector<Layer>& verify_layers() {
   return layers;
 }
 
-/// A file that a rule does not hold for, with the reason.
+/// A file that is exempt from a rule, with the reason.
 struct Exception {
   std::string_view header;
   std::string_view reason;
@@ -229,8 +229,7 @@ constexpr auto headers_without_test = std::to_array<Exception>({
      "a part of the families, tested through their queries"},
 });
 
-/// Parts of a module that a permission for the whole module does not include: only lines that name
-/// them do.
+/// Parts of a module that only permissions which name them include, not one for the whole module.
 constexpr std::array<std::string_view, 2> closed_parts{"exact/checker/", "filters/derivation/"};
 
 constexpr std::array<std::string_view, 5> modules{"exact", "filters", "fast", "adapters", "verify"};
@@ -243,7 +242,7 @@ bool fits(std::string_view path, std::string_view pattern) {
 
 bool is_header(std::string_view path) { return path.ends_with(".hpp") || path.ends_with(".h"); }
 
-/// The longest `from` that fits the path; empty where no line is about it.
+/// The longest `from` that fits the path; empty if there is no permission for it.
 std::string_view rule_for(std::string_view path) {
   std::string_view longest;
   for (const auto& [from, target] : permissions) {
@@ -252,7 +251,7 @@ std::string_view rule_for(std::string_view path) {
   return longest;
 }
 
-/// An include: the name between the brackets or quotes, or nothing where it is neither.
+/// An include: the name between the brackets or quotes; empty if there are neither.
 struct Include {
   std::string name;
   bool angle = false;
@@ -283,7 +282,7 @@ std::string_view verify_folder(std::string_view path) {
   return path.substr(0, path.find('/') == std::string_view::npos ? 0 : path.find('/'));
 }
 
-/// Does the include obey verify_layers()?
+/// True if the include obeys verify_layers().
 bool is_in_layers(std::string_view path, const Include& include) {
   const std::string_view from = verify_folder(path), target = verify_folder(include.name);
   if (from.empty() || target.empty() || from == target) return true;
@@ -311,7 +310,7 @@ std::string_view take_directive(std::string_view& line) {
   return word;
 }
 
-/// What stands behind #include.
+/// Parses the text after #include.
 Include parse_target(std::string_view text) {
   if (!text.starts_with('<') && !text.starts_with('"')) return {};
   const bool angle = text.front() == '<';
@@ -354,7 +353,7 @@ bool is_one_of(std::string_view header, const Exceptions& exceptions) {
 
 bool is_in_a_module(std::string_view path) { return !rule_for(path).empty(); }
 
-/// The headers of the modules that have no test file, and no reason for it.
+/// The headers of the modules that have neither a test file nor an exemption.
 Violations untested_headers(const Tree& tree) {
   Violations result;
   for (const auto& [path, text] : tree) {
@@ -366,7 +365,7 @@ Violations untested_headers(const Tree& tree) {
   return result;
 }
 
-/// The headers, of modules and tests, that do not begin as they should.
+/// The headers, of modules and tests, that do not begin as the rule says.
 Violations malformed_headers(const Tree& tree) {
   Violations result;
   for (const auto& [path, text] : tree) {
@@ -454,14 +453,14 @@ TEST(SourceTree, HasAHeaderInEveryModule) {
 
 TEST(SourceTree, ModulesIncludeOnlyWhatTheyMay) {
   for (const auto& [path, text] : source_tree()) {
-    // A manual may show what a user's program includes.
+    // Manuals may show the includes of a user's program.
     if (is_in_a_module(path) && !path.ends_with(".md")) {
       EXPECT_EQ(forbidden_includes(path, text), Violations{}) << path;
     }
   }
 }
 
-/// Nor does a line permit an include that nobody needs.
+/// The includes obey the layers, and each permission of a layer is used.
 TEST(SourceTree, FoldersOfVerifyAreInLayers) {
   std::vector<std::string_view> above;
   for (const auto& [folder, includes] : verify_layers()) {
@@ -515,25 +514,25 @@ struct Planted {
 
 TEST(PlantedFault, EachForbiddenIncludeIsFound) {
   const std::vector<Planted> faults{
-      // Another module, a package of another module, one of the system, the tests.
+      // Another module, a package of another module, a header of the system, the tests.
       {"exact/oracle.cpp", "#include \"fast/solver.hpp\"\n"},
       {"fast/solver.cpp", "#include <gmpxx.h>\n"},
       {"verify/dataset.cpp", "#include <stdio.h>\n"},
       {"filters/bound.hpp", "#include \"tests/support/random.hpp\"\n"},
-      // A whole path is not the beginning of one, nor one header of a package the package.
+      // A longer path than the permitted one, and another header of a permitted package.
       {"fast/deep/er.hpp", "#include \"exact/query.hpp.in\"\n"},
       {"verify/baselines/solver.cpp", "#include <boost/multiprecision/cpp_int.hpp>\n"},
-      // A file and a folder with lines of their own have no others.
+      // Files and folders with their own permissions have no others.
       {"exact/query.hpp", "#include <CGAL/Polynomial.h>\n"},
       {"verify/plugin.h", "#include \"verify/data/query_source.hpp\"\n"},
       {"exact/checker/proof.cpp", "#include \"exact/query.hpp\"\n"},
-      // The folders of verify: an arrow against their order, a generator of another folder, a
+      // The folders of verify: an include against their order, a generator of another folder, a
       // folder without a rule.
       {"verify/io/csv.cpp", "#include \"verify/data/dataset.hpp\"\n"},
       {"verify/judge/judge.cpp", "#include \"verify/solvers/solver.hpp\"\n"},
       {"verify/stability/new.cpp", "#include \"verify/fuzz/fuzz.hpp\"\n"},
       {"verify/unknown/new.cpp", "#include \"verify/io/csv.hpp\"\n"},
-      // A part that is closed to its own module, and to another.
+      // A closed part, included by its own module and by another.
       {"exact/oracle.cpp", "#include \"exact/checker/checker.hpp\"\n"},
       {"filters/bound.hpp", "#include \"filters/derivation/rounding_model.hpp\"\n"},
       {"fast/solver.cpp", "#include \"filters/derivation/rounding_model.hpp\"\n"},
@@ -562,7 +561,7 @@ TEST(PlantedFault, IsReportedWithItsLine) {
             (Violations{"fast/solver.cpp:4: gmp.h", "fast/solver.cpp:6: exact/oracle.hpp"}));
 }
 
-TEST(PlantedFault, PermittedIncludesAreNone) {
+TEST(PlantedFault, PermittedIncludesAreNotFaults) {
   const std::vector<Planted> files{
       {"exact/query.hpp", "#include <Eigen/Core>\n#include <span>\n"},
       {"exact/checker/proof.cpp", "#include \"exact/checker/proof.hpp\"\n#include <gmpxx.h>\n"},

@@ -1,5 +1,5 @@
 /// \file
-/// The documents have the numbers of their data: `./run results --check`, which is
+/// Tests that the documents have the numbers of their data: `./run results --check`, which is
 /// docs/documents.py.
 
 #include <gtest/gtest.h>
@@ -28,7 +28,7 @@ int run(const std::string& command) {
   return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
 }
 
-/// Skipped, and said to be, without Python or Chromium, which draws the picture.
+/// Tests that are skipped, with a message, without Python or Chromium, which draws the picture.
 class Documents : public BrowserTest {
  protected:
   void SetUp() override {
@@ -38,7 +38,7 @@ class Documents : public BrowserTest {
     GTEST_SKIP() << "python3 is not installed";
   }
 
-  /// Checks the documents of a folder; what is said goes to "out".
+  /// Checks the documents of a folder; writes the output to "out".
   [[nodiscard]] int check(const fs::path& root) const {
     return run("python3 '" + source_folder() + "/docs/documents.py' --check --tool '" +
                touchstone_program() + "' --root '" + root.string() + "' >'" + path("out") +
@@ -53,7 +53,7 @@ class Documents : public BrowserTest {
     return folder();
   }
 
-  /// Replaces the first digit behind the last `mark` of a copy; "NAME:LINE:", where that stands.
+  /// Replaces the first digit after the last `mark` of a copy; returns its place, "NAME:LINE:".
   [[nodiscard]] std::string falsify(const std::string& name, const std::string& mark) const {
     std::string text = read(name);
     const auto begin = text.begin() + static_cast<std::ptrdiff_t>(text.rfind(mark) + mark.size());
@@ -71,7 +71,7 @@ TEST_F(Documents, ADifferenceIsNamedWithItsLine) {
   const fs::path root = copies();
   const std::string expected[] = {
       falsify("README.md", "| `tccd` | "),
-      falsify("docs/benchmarks.md", "| built-in, hard on purpose | "),
+      falsify("docs/benchmarks.md", "| built-in set | "),
       falsify("docs/results.md", "| certified | "),
       falsify("docs/results.svg", "translate("),
   };
@@ -81,7 +81,7 @@ TEST_F(Documents, ADifferenceIsNamedWithItsLine) {
   }
 }
 
-/// As one reads the picture: of the names, only a point's own curve may be behind them.
+/// The picture as a reader sees it: behind a name there may only be its point's own curve.
 TEST_F(Documents, NamesInThePictureDoNotOverlap) {
   const std::string dom =
       load(read_file(fs::path(source_folder()) / "docs/results.svg") + R"(<p id="names"></p><script>

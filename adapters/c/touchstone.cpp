@@ -15,7 +15,7 @@
 #include "fast/certified.hpp"
 #include "fast/step.hpp"
 
-// What the step refers to, and what it gives out.
+// The inputs and outputs of a step.
 struct TouchstoneStep {
   std::vector<touchstone::fast::Edge> edges;
   std::vector<touchstone::fast::Face> faces;
@@ -32,7 +32,7 @@ constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
 static_assert(sizeof(Query) == 24 * sizeof(double), "queries are 24 doubles, as in C");
 
-/// Of this thread.
+/// The last error of this thread.
 std::string& last_error() {
   thread_local std::string text;
   return text;
@@ -58,7 +58,7 @@ T& required(T* pointer, const char* name) {
   return *pointer;
 }
 
-/// An array of `count` · `size` numbers as elements.
+/// Converts `count` · `size` numbers to elements.
 template <class Element, class Number>
 std::vector<Element> copied(const Number* numbers, std::size_t count, const char* name) {
   if (count == 0) return {};

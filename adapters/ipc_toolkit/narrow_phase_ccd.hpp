@@ -4,33 +4,33 @@
 /// The certified solver as an `ipc::NarrowPhaseCCD` of the IPC Toolkit (its
 /// `ipc/ccd/narrow_phase_ccd.hpp`, version 1.6).
 ///
-/// Hand an object of this class to whatever takes a narrow phase:
+/// Pass an object of this class to any function that takes a narrow phase:
 /// `compute_collision_free_stepsize`, `is_step_collision_free`, `Candidates`,
 /// `CollisionStencil::ccd`. The toolkit is found by the program that includes this header; link
 /// `touchstone::fast`.
 ///
-/// **What an answer is.** Let d be the distance of the primitives at t=0, in L2, and d_min
-/// `min_distance`.
+/// **Answers.** Let d be the distance of the primitives at t=0, in L2, and d_min `min_distance`.
 /// - d ≤ d_min: true, with toi = 0. (Decided exactly.)
 /// - Else the primitives may come as near as
 ///
 ///       d_e = d_min + (1 − conservative_rescaling) (d − d_min),
 ///
-///   rounded, and below d. True if they come that near up to `tmax`: then toi is before they do, by
-///   at most 1e-12 of the time of impact, and **positive**, but where that time is below the least
-///   double. False if they do not: then toi is infinity, and all up to tmax is free.
+///   rounded, and below d. True if they come that near up to `tmax`: then toi is before that time,
+///   by at most 1e-12 of it, and **positive** unless that time is below the least double. False if
+///   they do not: then toi is infinity, and the step is free up to tmax.
 ///
-/// So a step of size toi leaves at least 1 − conservative_rescaling of the distance that was there,
-/// and is never 0. There is no limit for d_e, no tolerance, no number of iterations, and nothing is
-/// asked twice. conservative_rescaling is in [0,1]; at 1, d_e is d_min.
+/// So a step of size toi leaves at least 1 − conservative_rescaling of the distance, and is never
+/// 0. There is no limit for d_e, no tolerance, no number of iterations and no repetition.
+/// conservative_rescaling is in [0,1]; at 1, d_e is d_min.
 ///
-/// In two dimensions the third coordinate is 0. A coordinate that is NaN or infinite is a collision
-/// at 0: nothing may move. All functions may be called from several threads at once.
+/// In two dimensions the third coordinate is 0. A query with a coordinate that is NaN or infinite
+/// is a collision at 0, so that nothing moves. All functions may be called from several threads at
+/// once.
 ///
 /// **Bad arguments.** A `min_distance` that is negative, NaN or infinite, a `tmax` outside [0,1],
-/// and points of which some have two coordinates and others three throw std::invalid_argument,
-/// whatever the points, and leave toi as it was. (The toolkit has no rule of its own: its classes
-/// take a negative distance as its magnitude or as none, and only assert the rest.)
+/// and points of which some have two coordinates and others three throw std::invalid_argument, for
+/// all points, and leave toi unchanged. (The toolkit has no rule: its classes take a negative
+/// distance as its magnitude or as 0, and only assert the rest.)
 
 #include <algorithm>
 #include <cmath>

@@ -4,9 +4,8 @@
 /// The interface of Tight-Inclusion (its `tight_inclusion/ccd.hpp`), answered by the certified
 /// solver.
 ///
-/// A program that includes that header finds this one instead once it links
-/// `touchstone::tight_inclusion_adapter`, and needs no change. Answers are exact, so some arguments
-/// have no meaning here:
+/// A program that includes that header and links `touchstone::tight_inclusion_adapter` finds this
+/// one instead, without a change. Answers are exact, so some arguments have no meaning here:
 ///
 /// | argument | here |
 /// |---|---|
@@ -21,11 +20,11 @@
 /// | `no_zero_toi` | no meaning: it always holds (see `toi`) |
 /// | `ccd_method` | no meaning |
 ///
-/// The tolerances of the parameters, which that library's search works to, are computed as in
-/// [wang2021], section 4.2; the two functions above do not need them.
+/// The tolerances of the parameters in that library's search are computed as in [wang2021], section
+/// 4.2; the functions that decide queries do not need them.
 ///
-/// A query with a coordinate that is NaN or infinite is a collision at 0: nothing can be said of
-/// it, so nothing may move. All functions may be called from several threads at once.
+/// A query with a coordinate that is NaN or infinite is a collision at 0, so that nothing moves.
+/// All functions may be called from several threads at once.
 
 #include <algorithm>
 #include <array>
@@ -77,9 +76,9 @@ inline bool take(const touchstone::fast::CertifiedResult& result, Scalar& toi, S
 /// F at the corners of the domain, numbered by the binary digits t, u, v.
 using Corners = std::array<Vector3, 8>;
 
-/// How wide an interval of t, of u and of v may be for F to vary by no more than the tolerance over
-/// a box of three such intervals: a third of it each. F is affine in each, so its greatest rate of
-/// change is that along an edge of the domain.
+/// The widths of intervals of t, of u and of v such that F varies by at most the tolerance over a
+/// box of three such intervals: by a third of it for each. F is affine in each, so its greatest
+/// rate of change is that along an edge of the domain.
 inline Array3 tolerances(const Corners& corners, Scalar distance_tolerance) {
   Array3 result;
   for (std::size_t parameter = 0; parameter < 3; ++parameter) {
@@ -99,7 +98,8 @@ inline Array3 tolerances(const Corners& corners, Scalar distance_tolerance) {
 
 }  // namespace touchstone_adapter
 
-/// Do two edges collide? \throws std::invalid_argument if `ms` or `t_max` is out of range.
+/// Decides whether two edges collide. \throws std::invalid_argument if `ms` or `t_max` is out of
+/// range.
 inline bool edgeEdgeCCD(
     const Vector3& ea0_t0, const Vector3& ea1_t0, const Vector3& eb0_t0, const Vector3& eb1_t0,
     const Vector3& ea0_t1, const Vector3& ea1_t1, const Vector3& eb0_t1, const Vector3& eb1_t1,
@@ -112,8 +112,8 @@ inline bool edgeEdgeCCD(
       toi, tolerance, output_tolerance);
 }
 
-/// Do a vertex and a face collide? \throws std::invalid_argument if `ms` or `t_max` is out of
-/// range.
+/// Decides whether a vertex and a face collide. \throws std::invalid_argument if `ms` or `t_max` is
+/// out of range.
 inline bool vertexFaceCCD(
     const Vector3& v_t0, const Vector3& f0_t0, const Vector3& f1_t0, const Vector3& f2_t0,
     const Vector3& v_t1, const Vector3& f0_t1, const Vector3& f1_t1, const Vector3& f2_t1,
@@ -127,7 +127,7 @@ inline bool vertexFaceCCD(
 }
 
 /// The widths of intervals of t, u and v over which F varies by at most `distance_tolerance`;
-/// infinity for what F does not depend on.
+/// infinity for parameters without influence on F.
 inline Array3 compute_edge_edge_tolerances(
     const Vector3& ea0_t0, const Vector3& ea1_t0, const Vector3& eb0_t0, const Vector3& eb1_t0,
     const Vector3& ea0_t1, const Vector3& ea1_t1, const Vector3& eb0_t1, const Vector3& eb1_t1,
@@ -138,7 +138,7 @@ inline Array3 compute_edge_edge_tolerances(
       distance_tolerance);
 }
 
-/// The same of a vertex and a face.
+/// The same for a vertex and a face.
 inline Array3 compute_vertex_face_tolerances(
     const Vector3& v_t0, const Vector3& f0_t0, const Vector3& f1_t0, const Vector3& f2_t0,
     const Vector3& v_t1, const Vector3& f0_t1, const Vector3& f1_t1, const Vector3& f2_t1,
@@ -149,7 +149,7 @@ inline Array3 compute_vertex_face_tolerances(
       distance_tolerance);
 }
 
-/// Its name before version 1.0.4.
+/// The name before version 1.0.4.
 inline Array3 compute_face_vertex_tolerances(
     const Vector3& v_t0, const Vector3& f0_t0, const Vector3& f1_t0, const Vector3& f2_t0,
     const Vector3& v_t1, const Vector3& f0_t1, const Vector3& f1_t1, const Vector3& f2_t1,
@@ -158,7 +158,7 @@ inline Array3 compute_face_vertex_tolerances(
                                         distance_tolerance);
 }
 
-/// 0: there is no queue.
+/// The size of the queue: 0, because there is none.
 inline long return_queue_size() { return 0; }
 
 }  // namespace ticcd

@@ -1,8 +1,8 @@
 #pragma once
 
 /// \file
-/// What programs call of Tight-Inclusion's `tight_inclusion/interval_root_finder.hpp`: the filter
-/// of a scene. The searches themselves are not here.
+/// The function of Tight-Inclusion's `tight_inclusion/interval_root_finder.hpp` that programs call:
+/// the filter of a scene. The searches themselves are omitted.
 
 #include <algorithm>
 #include <array>
@@ -18,7 +18,7 @@
 namespace ticcd {
 
 /// The filter of a scene (fast/filter.hpp), for the argument `err` of vertexFaceCCD and
-/// edgeEdgeCCD, which are exact here and do not look at it.
+/// edgeEdgeCCD, which are exact here and ignore it.
 /// \param vertices no coordinate and no separation of a query is greater than theirs
 inline Array3 get_numerical_error(const std::vector<Vector3>& vertices, const bool is_vertex_face,
                                   const bool using_minimum_separation) {

@@ -1,8 +1,8 @@
 #pragma once
 
 /// \file
-/// The logger of Tight-Inclusion's `tight_inclusion/logger.hpp`, for programs that write to it:
-/// nothing here does. The program finds and links spdlog itself.
+/// The logger of Tight-Inclusion's `tight_inclusion/logger.hpp`, for programs that write to it; the
+/// adapter does not. The program finds and links spdlog itself.
 
 #include <spdlog/spdlog.h>
 
@@ -22,7 +22,7 @@ inline std::shared_ptr<spdlog::logger>& shared_logger() {
 
 inline spdlog::logger& logger() { return *touchstone_adapter::shared_logger(); }
 
-/// Puts another logger in its place; not while other threads use it.
+/// Replaces the logger; not while other threads use it.
 inline void set_logger(std::shared_ptr<spdlog::logger> logger) {
   touchstone_adapter::shared_logger() = std::move(logger);
 }

@@ -10,7 +10,7 @@
 
 namespace ticcd {
 
-/// The time from start() to stop(), or to now while it runs.
+/// The time from start() to stop(), or to now if it is running.
 class Timer {
  public:
   void start() {
@@ -23,7 +23,7 @@ class Timer {
     runs_ = false;
   }
 
-  /// In seconds.
+  /// The time in seconds.
   [[nodiscard]] double getElapsedTime() const { return elapsed<std::ratio<1>>(); }
   [[nodiscard]] double getElapsedTimeInSec() const { return elapsed<std::ratio<1>>(); }
   [[nodiscard]] double getElapsedTimeInMilliSec() const { return elapsed<std::milli>(); }
@@ -41,7 +41,7 @@ class Timer {
   bool runs_ = false;
 };
 
-/// Adds its life time to a sum, in microseconds.
+/// Adds its lifetime to a sum, in microseconds.
 class ScopedTimer {
  public:
   ScopedTimer() { start(); }
@@ -57,7 +57,7 @@ class ScopedTimer {
     runs_ = true;
   }
 
-  /// The time since start() is added once, here or at the end of life.
+  /// Adds the time since start(), once, here or at the end of life.
   void stop() {
     timer_.stop();
     if (runs_ && total_time_ != nullptr) *total_time_ += getElapsedTimeInMicroSec();

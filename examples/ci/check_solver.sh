@@ -1,16 +1,16 @@
 #!/bin/sh
-# Builds a solver as a plugin, judges it on queries of known truth, then searches for false negatives. What is found stays
-# in the folder of findings, a page for each cause. Exit status: 0 nothing is wrong, 1 wrong answers, 2 something else.
+# Builds a solver as a plugin, judges it on queries of known truth, then searches for false negatives. The findings
+# stay in their folder, a page for each cause. Exit status: 0 no fault, 1 wrong answers, 2 another error.
 #
 #   check_solver.sh SOURCE LIBRARY
 #
 # SOURCE: a folder with the CMakeLists.txt of the plugin (such as examples/plugin); LIBRARY: its file in the build folder,
 # such as box_overlap.so. Variables:
 #   TOUCHSTONE          the program touchstone (found in the path)
-#   TOUCHSTONE_INCLUDE  the folder that verify/plugin.h is in (this project's)
-#   FINDINGS            a folder, new or empty, for what is found (findings)
+#   TOUCHSTONE_INCLUDE  the folder that contains verify/plugin.h (this project's)
+#   FINDINGS            a folder, new or empty, for the findings (findings)
 #   BUILD               the build folder (build-plugin)
-#   FUZZ_LIMIT          how long to search (--seconds 120)
+#   FUZZ_LIMIT          the length of the search (--seconds 120)
 #   FUZZ_ONLY           the kinds of findings that fail the check (false_negative); see touchstone fuzz --help
 #   SOLVER_OPTIONS      for certify and fuzz, such as "--exact --max-checks 100000"
 #   CERTIFY_OPTIONS     for certify, such as a folder of datasets
@@ -28,9 +28,9 @@ plugin=$build/$2
 
 cmake -S "$1" -B "$build" -DCMAKE_BUILD_TYPE=Release -DTOUCHSTONE_INCLUDE="$include" && cmake --build "$build" || exit 2
 
-# Both are run, whatever the first one finds: the folder is to hold all.
+# Both run whatever the result of the first, so that the folder holds all findings.
 mkdir -p "$findings/fuzz" || exit 2
-# (The words of these variables are options.)
+# The words of these variables are options.
 # shellcheck disable=SC2086
 "$touchstone" certify --plugin "$plugin" ${SOLVER_OPTIONS:-} --json "$findings/certify.json" ${CERTIFY_OPTIONS:-}
 certified=$?

@@ -1,4 +1,4 @@
-# Installs the build into a folder of its own, builds the consumer against it and runs its programs.
+# Installs the build into a separate folder, builds the consumer against it and runs its programs.
 #   cmake -DBUILD=<build folder> -DWORK=<scratch folder> -P install_and_use.cmake
 function(step)
   execute_process(COMMAND ${ARGV} COMMAND_ECHO STDOUT COMMAND_ERROR_IS_FATAL ANY)

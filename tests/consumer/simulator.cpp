@@ -1,4 +1,4 @@
-// What a simulator includes: single queries by both solvers, and a whole step.
+// The includes of a simulator: single queries by both solvers, and a whole step.
 
 #include <exact/query.hpp>
 #include <fast/active_set.hpp>

@@ -20,8 +20,8 @@
 #include "tests/support/trials.hpp"
 #include "verify/generate/families.hpp"
 
-// Certificates (exact/certificate.hpp) altered in every field: whatever the checker still accepts
-// has to be true, by the oracle asked about the altered query.
+// Certificates (exact/certificate.hpp) altered in every field: all that the checker still accepts
+// must be true, by the oracle's answer about the altered query.
 
 namespace touchstone::exact::certificate_mutation_test {
 namespace {
@@ -29,7 +29,7 @@ namespace {
 using tests::PosedQuery;
 using Lines = std::vector<std::string>;
 
-/// An altered certificate as the text of a stream, and which field was altered.
+/// An altered certificate as the text of a stream, and the field that was altered.
 struct Mutant {
   std::string field;
   std::string text;
@@ -112,7 +112,7 @@ class Mutations {
     }
   }
 
-  /// The words from number `first` to before `last`, each altered in several ways.
+  /// Alters the words from number `first` to before `last`, each in several ways.
   void alter_numbers(const std::string& field, std::size_t line, std::size_t first,
                      std::size_t last) {
     const Lines words = split(lines_[line], ' ');
@@ -155,7 +155,7 @@ class Mutations {
       replace("claim", line, std::string("claim time_of_impact ").append(from + ' ').append(to));
     }
     alter_numbers("claim", line, 2, 4);
-    // The claim with or without the lines that the other claims have.
+    // The claim with and without the lines of the other claims.
     for (const char* const claim : {"claim no_collision", "claim collision"}) {
       for (const char* const part : {"separate", "contact", "at "}) {
         Lines lines = lines_;
@@ -186,7 +186,7 @@ class Mutations {
     const Lines words = split(lines_[line], ' ');
     const std::string times = "separate " + words[1] + " " + words[2] + " ";
     for (const std::string& feature : features()) replace("feature", line, times + feature);
-    // Moved together with its neighbour's end.
+    // The end moves together with the end of its neighbour.
     if (line + 1 < lines_.size() && lines_[line + 1].starts_with("separate")) {
       for (const Rational& by :
            {Rational(1, 64), Rational(-1, 64), Rational(1, 4), Rational(-1, 4)}) {
@@ -311,7 +311,7 @@ class Mutations {
   std::vector<Mutant> mutants_;
 };
 
-/// The stream of one certificate with an altered closing line, and cut in or before it.
+/// The stream of one certificate with an altered closing line, or cut in or before it.
 Lines with_other_endings(const std::string& stream) {
   const std::string closing = certificates_closing_line(1);
   const std::string before = stream.substr(0, stream.size() - closing.size());
@@ -341,7 +341,7 @@ class MutationTest : public ::testing::Test {
     }
     ASSERT_EQ(report.accepted(), 1U) << mutant.text;
     const auto claim = tests::read_claim(mutant.text);
-    // Not a query of doubles: no oracle.
+    // The oracle accepts only queries of doubles.
     if (!claim) return;
     ++counts.accepted_and_true;
     EXPECT_TRUE(tests::is_true(*claim)) << "wrongly accepted: " << mutant.text;
@@ -367,7 +367,7 @@ class MutationTest : public ::testing::Test {
       std::printf("%-14s rejected %8llu  accepted and true %8llu\n", field.c_str(),
                   static_cast<unsigned long long>(counts.rejected),
                   static_cast<unsigned long long>(counts.accepted_and_true));
-      // A field that no mutant of is rejected would not be checked at all.
+      // A field without any rejected mutant would not be checked at all.
       EXPECT_GT(counts.rejected, 0U) << field;
     }
   }

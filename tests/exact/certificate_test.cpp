@@ -111,7 +111,7 @@ TEST(Prove, AnIrrationalToiIsARootInTheClaimedInterval) {
 }
 
 TEST(Prove, WhatVanishesWithTheDeterminantIsDividedByTheSamePolynomial) {
-  // The same at height 0: on the triangle's side, so that a weight vanishes at the toi as well.
+  // The same at height 0: on the triangle's side, so that a weight is also 0 at the toi.
   PosedQuery posed = tests::turning_triangle(4, 0, 1, 0.5);
   posed.query.at(0, 0, 2) = posed.query.at(1, 0, 2) = 0.0;
   const Certificate certificate = tests::prove(posed);
@@ -131,7 +131,7 @@ TEST(Prove, ContactAtTheStartNeedsNoSubintervals) {
 }
 
 TEST(Prove, BetweenZeroAndTheLeastDoubleAPointIsAPiece) {
-  // At 2^-1024/(2^-1024 + 2^1000), far below the least double.
+  // The toi 2^-1024/(2^-1024 + 2^1000) is far below the least double.
   const Certificate certificate = tests::prove(over_triangle(1, 1, 0x1p-1024, -0x1p1000));
   EXPECT_EQ(certificate.toi.lower, 0);
   EXPECT_EQ(certificate.toi.upper, power_of_two(-1074));
@@ -142,7 +142,7 @@ TEST(Prove, BetweenZeroAndTheLeastDoubleAPointIsAPiece) {
 }
 
 TEST(Prove, DegenerateContactsAreSegments) {
-  // All in one point.
+  // All points are one.
   const Certificate point = tests::prove({Kind::vertex_face, Query{}});
   EXPECT_EQ(segment_of(point), (SegmentContact{{0, 1}}));
   EXPECT_EQ(rejection(point), "");
@@ -161,7 +161,7 @@ TEST(Prove, DegenerateContactsAreSegments) {
 }
 
 TEST(Prove, MotionInACommonPlane) {
-  // Into the triangle's side x = 0 from the left, where the determinant vanishes at all times.
+  // A vertex enters the triangle's side x = 0 from the left; the determinant is always 0.
   const std::array<double, 9> face{0, 0, 0, 4, 0, 0, 0, 4, 0};
   const Certificate certificate = tests::prove(
       vertex_face(tests::with_vertex(-1, 1, 0, face), tests::with_vertex(2, 1, 0, face)));
@@ -325,8 +325,8 @@ TEST(Prove, AnyFiniteDoublesHaveACertificate) {
   }
 }
 
-TEST(Prove, MissesByAHairHaveACertificate) {
-  // A vertex flies past a triangle that is a point, a segment or a face, so near.
+TEST(Prove, NearMissesHaveACertificate) {
+  // A vertex passes a triangle that is a point, a segment or a face, at this distance.
   for (const double gap : {0x1p-50, 0x1p-200, 0x1p-500, 0x1p-1000}) {
     for (const std::array<double, 9>& face :
          {std::array<double, 9>{}, std::array<double, 9>{-3, 0, 0, 5, 0, 0, 1, 0, 0},
@@ -409,7 +409,8 @@ TEST(RoundTrip, RandomQueriesAreAccepted) {
 TEST(RoundTrip, AllFamiliesAtADistanceAreAccepted) {
   const std::uint64_t count = soak() ? 100 : 1;
   for (const verify::generate::Family& family : verify::generate::families()) {
-    // Distances that are as far from the coordinates as those from each other: numbers too long.
+    // Distances that differ from the coordinates as much as these differ among themselves make the
+    // numbers too long.
     if (family.name == "extreme-range") continue;
     for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
       if (!verify::generate::supports(family, kind)) continue;

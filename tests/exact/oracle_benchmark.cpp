@@ -26,12 +26,12 @@ namespace {
 constexpr std::size_t queries_per_class = 256;
 constexpr std::size_t queries_per_file = 2000;
 
-/// What the queries of a benchmark have in common.
+/// The common property of a benchmark's queries.
 struct QueryClass {
   std::string name;
   /// Draws a query that may belong to the class.
   std::function<Query(tests::Random&, Kind)> draw;
-  /// The verdict that makes it belong; without one all do.
+  /// The verdict of the class; if empty, all queries belong to it.
   std::optional<bool> collides;
 };
 
@@ -62,7 +62,7 @@ std::vector<Query> draw_queries(const QueryClass& query_class, Kind kind) {
   return queries;
 }
 
-/// One iteration decides one query.
+/// Measures decisions: one query in each iteration.
 void decide_in_turn(benchmark::State& state, Kind kind, std::span<const Query> queries) {
   std::size_t next = 0;
   for ([[maybe_unused]] const auto& iteration : state) {

@@ -1,10 +1,10 @@
 /// \file
-/// Changes of a query that leave its truth as it is, or change it in a known way.
+/// Changes of a query that keep its truth, or change it in a known way.
 ///
 /// Renaming points, invertible linear maps of space and a common motion of all points change no
 /// root of F: verdict and toi stay. Reversing time keeps the verdict. Cutting time at τ maps
-/// contact at t to contact at t/τ or (t−τ)/(1−τ). None of this needs to know the answer. Every
-/// change is made exactly; where that is impossible in doubles, the query is left out, and counted.
+/// contact at t to contact at t/τ or (t−τ)/(1−τ). None of this requires the answer. Every change is
+/// exact; if that is impossible in doubles, the query is left out and counted.
 
 #include <gtest/gtest.h>
 
@@ -70,7 +70,7 @@ Query with_axes(const Query& query, const std::array<std::size_t, 3>& order) {
   });
 }
 
-/// Each axis times 2^exponent, or nothing if a coordinate would lose bits.
+/// Multiplies each axis by 2^exponent; nothing if a coordinate would lose bits.
 std::optional<Query> scaled(const Query& query, const std::array<int, 3>& exponents) {
   bool exact = true;
   const Query result = with_coordinates([&](std::size_t end, std::size_t point, std::size_t axis) {
@@ -88,14 +88,14 @@ Query flipped(const Query& query, std::size_t flipped_axis) {
   });
 }
 
-/// All points move along with a frame that goes from `start` to `end`. \pre integer coordinates.
+/// Moves all points along with a frame that goes from `start` to `end`. \pre integer coordinates.
 Query carried(const Query& query, const std::array<int, 3>& start, const std::array<int, 3>& end) {
   return with_coordinates([&](std::size_t time, std::size_t point, std::size_t axis) {
     return query.at(time, point, axis) + (time == 0 ? start : end).at(axis);
   });
 }
 
-/// One axis plus a multiple of another. \pre integer coordinates.
+/// Adds a multiple of one axis to another. \pre integer coordinates.
 Query sheared(const Query& query, std::size_t to, std::size_t from, int factor) {
   return with_coordinates([&](std::size_t end, std::size_t point, std::size_t axis) {
     const double x = query.at(end, point, axis);
@@ -109,7 +109,7 @@ Query reversed(const Query& query) {
   });
 }
 
-/// The motion between the times `from` and `to`, or nothing if a position then is no double.
+/// The motion between the times `from` and `to`; nothing if a position then is not a double.
 std::optional<Query> cut(const Query& query, const Rational& from, const Rational& to) {
   bool exact = true;
   const Query result = with_coordinates([&](std::size_t end, std::size_t point, std::size_t axis) {
@@ -149,7 +149,7 @@ AlgebraicNumber one_minus(const AlgebraicNumber& alpha) {
   throw std::logic_error("the mirrored polynomial has no root in the mirrored interval");
 }
 
-/// Is part = (toi − from)/(to − from)? Exactly if it is known as a rational number, else to 2^-200.
+/// Expects that part = (toi − from)/(to − from): exactly if rational, otherwise to 2^-200.
 void expect_toi_of_part(AlgebraicNumber part, AlgebraicNumber toi, const Rational& from,
                         const Rational& to) {
   const Rational width = power_of_two(-200);
@@ -170,8 +170,7 @@ struct Tally {
 
 using Check = std::function<void(Random&, const PosedQuery&, const Decision&, Tally&)>;
 
-/// Applies the check to the same random queries in every test, and requires both verdicts in
-/// numbers.
+/// Applies the check to the same random queries in every test, and requires many of both verdicts.
 Tally check_families(const std::vector<Family>& families, const Check& check) {
   Tally total;
   for (const Family family : families) {
@@ -352,7 +351,7 @@ TEST(OracleMetamorphic, CollidesIffOneOfItsHalvesDoes) {
   int in_first = 0, in_second = 0;
   check_families(integer_families, [&](Random&, const PosedQuery& original,
                                        const Decision& original_verdict, Tally&) {
-    // Even coordinates: a midpoint is an integer again.
+    // Even coordinates have integer midpoints.
     const Query even = *scaled(original.query, {1, 1, 1});
     const Decision first = decide({original.kind, *cut(even, 0, half)});
     const Decision second = decide({original.kind, *cut(even, half, 1)});

@@ -1,11 +1,10 @@
 /// \file
 /// The oracle against an SMT solver (Z3, nonlinear real arithmetic).
 ///
-/// The solver gets the definition and nothing else: unknown reals t, u, v in the domain and the
-/// three equations F = 0 with the coordinates as exact rationals. It answers whether there is a
-/// solution, and whether there is one before the oracle's time of impact. It is asked the hard
-/// queries first. The environment variable TOUCHSTONE_SOAK asks for fifty times as
-/// many random ones.
+/// The solver gets only the definition: unknown reals t, u, v in the domain and the three equations
+/// F = 0 with the coordinates as exact rationals. It answers whether there is a solution, and
+/// whether there is one before the oracle's time of impact. Hard queries come first. The
+/// environment variable TOUCHSTONE_SOAK multiplies the number of random queries by fifty.
 
 #include <gtest/gtest.h>
 #include <z3++.h>
@@ -44,7 +43,7 @@ constexpr double least = std::numeric_limits<double>::denorm_min();
 
 // ------------------------------------------------------------------ the solver
 
-/// The query's definition, as the solver reads it.
+/// The query's definition in the language of the solver.
 class Definition {
  public:
   explicit Definition(const PosedQuery& posed)
@@ -61,8 +60,8 @@ class Definition {
     }
   }
 
-  /// Is there a solution with t < bound? Without a bound: is there one at all? Nothing if the
-  /// solver gives up.
+  /// Asks whether there is a solution, with t < bound if there is a bound. The result is empty if
+  /// the solver gives up.
   std::optional<bool> has_solution(const std::optional<Rational>& bound) {
     if (bound) solver_.add(t_ < number(*bound));
     const z3::check_result result = solver_.check();
@@ -102,7 +101,8 @@ class Definition {
 
 // ------------------------------------------------------------------ the queries
 
-/// What chance does not find: double roots and their neighbours, published traps, misses by a hair.
+/// Queries that chance does not find: double roots and their neighbours, published cases, near
+/// misses.
 std::vector<PosedQuery> constructed_queries() {
   std::vector<PosedQuery> queries{
       vertex_face({0.1, 0.1, 0.1, 0, 0, 1, 1, 0, 1, 0, 1, 1},  //
@@ -110,7 +110,7 @@ std::vector<PosedQuery> constructed_queries() {
       vertex_face({1, 1, 0, 0, 0, 5, 2, 0, 2, 0, 1, 0}, {1, 1, 0, 0, 0, -1, 0, 0, -2, 0, 7, 0}),
       vertex_face({1, 0.5, 1, 0, 0.57, 1, 1, 0.57, 1, 1, 1.57, 1},
                   {1, 0.5, 1, 0, 0.28, 1, 1, 0.28, 1, 1, 1.28, 1}),
-      // Edges in one line, edges in one plane that meet in an instant only, and with a gap.
+      // Collinear edges, coplanar edges that meet only for an instant, and edges with a gap.
       edge_edge({0, 0, 0, 1, 2, -3, 3, 6, -9, 4, 8, -12},
                 {0, 0, 0, 1, 2, -3, -3, -6, 9, -2, -4, 6}),
       edge_edge({0, 0, 0, 0, 2, 0, -1, 0, 0, -1, -2, 0}, {0, 0, 0, 0, 2, 0, 2, 0, 0, 2, -2, 0}),
@@ -134,7 +134,7 @@ std::vector<PosedQuery> constructed_queries() {
   return queries;
 }
 
-/// Hard ones first: degenerate, then near contact, then generic.
+/// Queries in order: degenerate, then near contact, then generic.
 std::vector<PosedQuery> queries_to_ask(int scale) {
   std::vector<PosedQuery> queries = constructed_queries();
   Random random(99);
@@ -158,9 +158,9 @@ struct Tally {
   std::size_t unknown = 0;
   std::size_t tois = 0;
   std::size_t unknown_tois = 0;
-  /// By kind and verdict, those that the solver decided.
+  /// The queries that the solver decided, by kind and verdict.
   std::array<std::array<std::size_t, 2>, 2> agreed{};
-  /// Seconds, one entry a question.
+  /// Seconds for each question.
   std::vector<double> times;
 };
 
@@ -185,7 +185,7 @@ void compare_verdict(const PosedQuery& posed, bool collides, Tally& tally) {
   ++tally.agreed.at(static_cast<std::size_t>(posed.kind)).at(collides ? 1 : 0);
 }
 
-/// No solution before the toi's lower bound.
+/// Expects no solution before the toi's lower bound.
 void compare_toi(const PosedQuery& posed, const AlgebraicNumber& toi, Tally& tally) {
   const Rational lower(toi.enclosure().lower);
   if (sgn(lower) == 0) return;

@@ -1,10 +1,10 @@
 /// \file
-/// The oracle against answers known beforehand, and against a second way to decide a moment.
+/// The oracle against known answers, and against a second way to decide contact at one time.
 ///
-/// The second way knows nothing of corners, normals and signs. For a fixed rational t, F(t,u,v) = 0
-/// is three linear equations in (u,v). Elimination leaves a point, a line or the whole plane, or
-/// shows that there is no solution; what is left is clipped against the domain. At the time of
-/// impact this must find contact, and at no time before.
+/// The second way uses no corners, normals or signs. For a fixed rational t, F(t,u,v) = 0 is three
+/// linear equations in (u,v). Elimination leaves a point, a line or the whole plane, or shows that
+/// there is no solution; the remainder is clipped against the domain. This must find contact at the
+/// time of impact, and at no time before.
 
 #include "exact/oracle.hpp"
 
@@ -60,7 +60,7 @@ Decision decide(const PosedQuery& posed) { return exact::decide(posed.kind, pose
 
 // ------------------------------------------------------------------ contact at a fixed time
 
-/// a u + b v + c: required to be zero (a row of F) or not negative (a side of the domain).
+/// a u + b v + c: must be 0 (a row of F) or not negative (a side of the domain).
 struct Affine {
   Rational a, b, c;
 
@@ -96,7 +96,7 @@ bool in_domain(Kind kind, const Rational& u, const Rational& v) {
   return std::ranges::all_of(sides, [&](const Affine& side) { return sgn(side.at(u, v)) >= 0; });
 }
 
-/// Does the line through (u,v) in direction (du,dv) meet the domain?
+/// True if the line through (u,v) in direction (du,dv) meets the domain.
 bool line_meets_domain(Kind kind, const Rational& u, const Rational& v, const Rational& du,
                        const Rational& dv) {
   std::optional<Rational> low, high;
@@ -113,7 +113,7 @@ bool line_meets_domain(Kind kind, const Rational& u, const Rational& v, const Ra
   return *low <= *high;
 }
 
-/// Do the primitives touch at the time t?
+/// True if the primitives are in contact at the time t.
 bool touches_at(const PosedQuery& posed, const Rational& t) {
   const std::vector<Affine> rows = contact_equations(posed, t);
   for (std::size_t i = 0; i < 3; ++i) {
@@ -144,7 +144,7 @@ Rational greatest_coordinate(const Query& query) {
   return result;
 }
 
-/// (u,v) at the exact toi lies in the domain, whatever is known of it numerically.
+/// Expects that (u,v) at the exact toi lies in the domain.
 void expect_parameters_in_domain(Kind kind, const Decision& verdict) {
   AlgebraicNumber t = *verdict.toi;
   const auto& [u, v, denominator] = *verdict.contact;
@@ -157,9 +157,9 @@ void expect_parameters_in_domain(Kind kind, const Decision& verdict) {
   }
 }
 
-/// F in the middle of the box of width 2^-bits: zero if the box is a point, and otherwise at most
-/// the width times a bound on the sum of F's derivatives (4M, 2M and 2M for coordinates up to M,
-/// doubled because the box may reach out of the domain).
+/// Expects F in the middle of the box of width 2^-bits to be zero if the box is a point, and
+/// otherwise at most the width times a bound on the sum of F's derivatives (4M, 2M and 2M for
+/// coordinates up to M, doubled because the box may reach out of the domain).
 void expect_root_of_contact_function(const PosedQuery& posed, const Decision& verdict, long bits) {
   const Rational width = power_of_two(-bits);
   AlgebraicNumber t = *verdict.toi;
@@ -209,7 +209,7 @@ void expect_no_collision(const PosedQuery& posed) {
   EXPECT_FALSE(decide(posed).collides());
 }
 
-/// A hit at a rational time.
+/// Expects a collision at a rational time.
 void expect_toi(const PosedQuery& posed, const Rational& toi) {
   SCOPED_TRACE(posed);
   const Decision verdict = decide(posed);
@@ -219,7 +219,7 @@ void expect_toi(const PosedQuery& posed, const Rational& toi) {
   check_contact(posed, verdict);
 }
 
-/// A hit at a rational time where contact is a single point.
+/// Expects a collision at a rational time with contact at a single point.
 void expect_contact(const PosedQuery& posed, const Rational& toi, const Rational& u,
                     const Rational& v) {
   expect_toi(posed, toi);
@@ -239,7 +239,7 @@ void expect_contact(const PosedQuery& posed, const Rational& toi, const Rational
   expect_encloses(parameters.v, v);
 }
 
-/// A hit at the irrational root of `polynomial` that has this decimal value.
+/// Expects a collision at the irrational root of `polynomial` that has this decimal value.
 void expect_irrational_toi(const PosedQuery& posed, const Polynomial& polynomial,
                            std::string_view decimal) {
   SCOPED_TRACE(posed);
@@ -336,7 +336,7 @@ TEST(Oracle, FindsIrrationalTimesOfDegreeTwo) {
   // t·2t = 1, u = t, v = 1/4.
   expect_irrational_toi(turning_triangle(2, 0, 2, 1), polynomial({-1, 0, 2}),
                         "0.70710678118654752440");
-  // t(1 + t) = 1: the golden ratio's inverse, u = (1+t)/2.
+  // t(1 + t) = 1 at the inverse of the golden ratio, u = (1+t)/2.
   expect_irrational_toi(turning_triangle(4, 1, 2, 1), polynomial({-1, 1, 1}),
                         "0.61803398874989484820");
 }
@@ -345,8 +345,8 @@ TEST(Oracle, FindsIrrationalTimesOfDegreeThree) {
   // (3/4) t − 1/8 = t³, that is 8t³ − 6t + 1 = 0: cos 80°, cos 40° and −cos 20°.
   expect_irrational_toi(twisting_triangle({0.75, 0.125, 0}, {0.75, 0.125, 1}),
                         polynomial({1, -6, 0, 8}), "0.17364817766693034885");
-  // u = 3/4 − t² and v = t − 1/4 are inside the domain at cos 40° and not at cos 80°. The term
-  // −t²·(−1/4) of the plane's equation is cancelled by moving x, which gives u = 3/4 − t².
+  // u = 3/4 − t² and v = t − 1/4 are inside the domain at cos 40° and not at cos 80°. The motion of
+  // x cancels the term −t²·(−1/4) of the plane's equation, which gives u = 3/4 − t².
   expect_irrational_toi(twisting_triangle({0.75, 0.125, -0.25}, {0.5, 0.125, 0.75}),
                         polynomial({1, -6, 0, 8}), "0.76604444311897803520");
 }
@@ -398,8 +398,8 @@ TEST(Oracle, DecidesPointOnPoint) {
 }
 
 TEST(Oracle, DecidesPointOnEdge) {
-  // The edge from (0,0,0) to (4,0,0), the point over (1,0,0), once as a second edge of no length,
-  // once under a triangle of no area whose points lie on one line.
+  // The edge from (0,0,0) to (4,0,0) and the point over (1,0,0), once as an edge of length 0, once
+  // under a triangle of area 0 whose points are collinear.
   const PosedQuery on_edge =
       edge_edge({1, 0, 1, 1, 0, 1, 0, 0, 0, 4, 0, 0}, {1, 0, -2, 1, 0, -2, 0, 0, 0, 4, 0, 0});
   expect_toi(on_edge, ratio(1, 3));
@@ -421,7 +421,7 @@ TEST(Oracle, DecidesPointOnEdge) {
 }
 
 TEST(Oracle, DecidesAZeroAreaTriangleThatOpensLater) {
-  // The triangle is the segment x ∈ [0,4] at t=0; f2 rises so that it is never degenerate after.
+  // The triangle is the segment x ∈ [0,4] at t=0; f2 rises so that it is not degenerate later.
   expect_contact(
       vertex_face({2, 0.5, 0, 0, 0, 0, 4, 0, 0, 2, 0, 0}, {2, 0.5, 0, 0, 0, 0, 4, 0, 0, 2, 2, 0}),
       ratio(1, 4), 0, 1);
@@ -430,11 +430,11 @@ TEST(Oracle, DecidesAZeroAreaTriangleThatOpensLater) {
 }
 
 TEST(Oracle, DecidesParallelEdges) {
-  // They overlap on [2,4] (u from 1/2 on) when the second comes down to z=0.
+  // The edges overlap on [2,4] (u from 1/2 on) when the second comes down to z=0.
   expect_toi(
       edge_edge({0, 0, 0, 4, 0, 0, 2, 0, 1, 6, 0, 1}, {0, 0, 0, 4, 0, 0, 2, 0, -2, 6, 0, -2}),
       ratio(1, 3));
-  // They share the point (4,0,0) alone.
+  // The edges share only the point (4,0,0).
   expect_contact(
       edge_edge({0, 0, 0, 4, 0, 0, 4, 0, 1, 6, 0, 1}, {0, 0, 0, 4, 0, 0, 4, 0, -2, 6, 0, -2}),
       ratio(1, 3), 1, 0);
@@ -446,7 +446,7 @@ TEST(Oracle, DecidesParallelEdges) {
 }
 
 TEST(Oracle, DecidesCollinearEdges) {
-  // [0,1] at rest, [3,4] moving to [3−s, 4−s] on the same line.
+  // The edges [0,1] at rest and [3,4] moving to [3−s, 4−s] on the same line.
   const FourPoints start{0, 0, 0, 1, 0, 0, 3, 0, 0, 4, 0, 0};
   expect_contact(edge_edge(start, {0, 0, 0, 1, 0, 0, -3, 0, 0, -2, 0, 0}), ratio(1, 3), 1, 0);
   expect_contact(edge_edge(start, {0, 0, 0, 1, 0, 0, 1, 0, 0, 2, 0, 0}), 1, 1, 0);
@@ -466,7 +466,7 @@ TEST(Oracle, DecidesCoincidentPoints) {
     expect_toi(vertex_face(here, end), 0);
     expect_toi(edge_edge(here, end), 0);
   }
-  // They meet at the end and not before.
+  // The primitives meet only at the end.
   expect_toi(vertex_face({5, 0, 0, 0, 1, 0, 0, 0, 1, 0, 2, 2}, here), 1);
   expect_toi(edge_edge({5, 0, 0, 5, 1, 0, 0, 0, 1, 0, 2, 2}, here), 1);
 }
@@ -495,20 +495,20 @@ TEST(Oracle, FindsTheFirstInstantOfAnIntervalOfCoplanarContact) {
   expect_contact(vertex_face(with_vertex(-1, 0, 0, face), with_vertex(2, 0, 0, face)), ratio(1, 3),
                  0, 0);
   expect_no_collision(vertex_face(with_vertex(-1, 1, 0, face), with_vertex(-least, 1, 0, face)));
-  // Crossed edges in one plane, the second arriving from the right: they meet at (4,0).
+  // Crossed edges in one plane, the second from the right: they meet at (4,0).
   expect_contact(
       edge_edge({0, 0, 0, 4, 0, 0, 6, -1, 0, 6, 1, 0}, {0, 0, 0, 4, 0, 0, 0, -1, 0, 0, 1, 0}),
       ratio(1, 3), 1, ratio(1, 2));
 }
 
 TEST(Oracle, FindsAnIsolatedInstantOfCoplanarContact) {
-  // Past the tip (0,0) of a triangle, below it.
+  // A path past the tip (0,0) of a triangle, below it.
   const std::array<double, 9> face{0, 0, 0, 1, 1, 0, -1, 1, 0};
   expect_contact(vertex_face(with_vertex(-1, 0, 0, face), with_vertex(2, 0, 0, face)), ratio(1, 3),
                  0, 0);
   expect_no_collision(
       vertex_face(with_vertex(-1, -least, 0, face), with_vertex(2, -least, 0, face)));
-  // A hanging edge slides along below the lower end of a standing one.
+  // A hanging edge moves along below the lower end of a standing one.
   expect_contact(
       edge_edge({0, 0, 0, 0, 2, 0, -1, 0, 0, -1, -2, 0}, {0, 0, 0, 0, 2, 0, 2, 0, 0, 2, -2, 0}),
       ratio(1, 3), 0, 0);
@@ -526,7 +526,7 @@ TEST(Oracle, FindsIrrationalTimesOfCoplanarMotion) {
 
 // ------------------------------------------------------------------ the limits of doubles
 
-/// A triangle as wide as doubles go, with one side on x=0, and a vertex over (x,0).
+/// A triangle of the greatest width in doubles, with one side on x=0, and a vertex over (x,0).
 PosedQuery over_greatest_triangle(double x, double z0, double z1) {
   constexpr std::array<double, 9> face{0, -greatest, 0, greatest, 0, 0, 0, greatest, 0};
   return vertex_face(with_vertex(x, 0, z0, face), with_vertex(x, 0, z1, face));
@@ -593,8 +593,8 @@ TEST(Oracle, EnclosesTimesThatAreTinyOrNextToADouble) {
     EXPECT_LT(verdict.toi->enclosure().upper, std::sqrt(y));
     check_contact(query, verdict);
   }
-  // A toi of a few thousandths or less, where cells of dyadic ends fall between doubles otherwise
-  // than near 1.
+  // The toi is at most a few thousandths, where the ends of dyadic cells lie between doubles in
+  // another way than near 1.
   for (int i = 0; i < 200; ++i) {
     const PosedQuery query = turning_triangle(2, 0, 2, std::ldexp(17 + 2 * (i % 8), -12 - i / 8));
     SCOPED_TRACE(query);
@@ -602,7 +602,7 @@ TEST(Oracle, EnclosesTimesThatAreTinyOrNextToADouble) {
     ASSERT_TRUE(verdict.collides());
     check_contact(query, verdict);
   }
-  // t(ε(1−t) + t) = 1/4: about 1/2 − ε/4, on the side of the double that ε says.
+  // t(ε(1−t) + t) = 1/4 at about 1/2 − ε/4; the sign of ε determines the side of the double.
   for (const double epsilon : {0x1p-100, 0x1p-601, -0x1p-100, -0x1p-601}) {
     const PosedQuery query = turning_triangle(1, epsilon, 1, 0.25);
     SCOPED_TRACE(query);
@@ -706,8 +706,7 @@ TEST(Oracle, GivesTheSameAnswersInFourThreadsAsInOne) {
 }
 
 TEST(Oracle, GivesVerdictsWhoseCopiesCanBeUsedByDistinctThreads) {
-  // Each thread has a copy of its own and makes copies of that. Whatever the copies still have in
-  // common must survive it.
+  // Each thread copies its own copy. Parts that the copies still share must survive this.
   const PosedQuery query = twisting_triangle({0.75, 0.125, 0}, {0.75, 0.125, 1});
   const Decision original = decide(query);
   ASSERT_TRUE(original.collides());
@@ -735,7 +734,7 @@ TEST(Oracle, GivesVerdictsWhoseCopiesCanBeUsedByDistinctThreads) {
 
 // ------------------------------------------------------------------ the second way to decide
 
-/// Random times: none of the queries below is special at them.
+/// A random time at which no query below is special.
 Rational random_time(Random& random) { return ratio(random.between(1, 9972), 9973); }
 
 struct Tally {
@@ -745,7 +744,7 @@ struct Tally {
   int no_collisions = 0;
 };
 
-/// No contact at the times k/60, nor at random ones, as far as they lie before the toi.
+/// Expects no contact at those times k/60, and random times, that lie before the toi.
 void expect_no_contact_before(const PosedQuery& posed, Random& random, const AlgebraicNumber* toi) {
   const auto check = [&](const Rational& t) {
     if (toi != nullptr && *toi <= t) return;

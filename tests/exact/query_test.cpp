@@ -40,7 +40,7 @@ Query random_query(Random& random) {
 
 Rational random_fraction(Random& random) { return {Rational(random.between(0, 1000)) / 1000}; }
 
-/// The corner w_i(t) from the documented pairs of points, written without contact_function.
+/// The corner w_i(t) from the documented pairs of points, without contact_function.
 Vector corner_at(const Query& query, const Corner& corner, const Rational& t) {
   Vector w;
   for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -235,7 +235,7 @@ std::string join(std::initializer_list<std::string_view> parts) {
   return result;
 }
 
-/// A scalar that writes down the operations made on it.
+/// A scalar that records the operations on it.
 struct Recorded {
   Recorded() = default;
   explicit Recorded(double value) : text(std::to_string(static_cast<int>(value))) {}

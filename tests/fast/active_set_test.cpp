@@ -63,7 +63,7 @@ TEST(ActiveSet, HasTheNormalOfTheSideThatAPrimitiveComesFrom) {
     Scene scene = falling_point();
     EXPECT_EQ(active_set(scene.step(), {.distance = eta, .norm = Norm::l2})[0].normal,
               Vector3d(0, 0, 1));
-    // From below, and with the face turned round.
+    // A vertex from below, and one above the reversed face.
     scene.start(3, 2) = -1;
     scene.end(3, 2) = 1;
     EXPECT_EQ(active_set(scene.step(), {.distance = eta, .norm = Norm::l2})[0].normal,
@@ -74,7 +74,7 @@ TEST(ActiveSet, HasTheNormalOfTheSideThatAPrimitiveComesFrom) {
   }
 }
 
-/// Two edges without a face, the second one at rest.
+/// Two edges without a face, the second at rest.
 Scene edges(const Places& start, const Vector3d& motion) {
   Scene scene = scene_of(start, start);
   scene.edges = {{0, 1}, {2, 3}};
@@ -104,11 +104,11 @@ TEST(ActiveSet, HasADefinedNormalForParallelEdges) {
   };
   const double root = std::sqrt(0.5);
   EXPECT_TRUE(normal(start, {0, 0, -2}, 0.25).isApprox(Vector3d(0, 0, 1)));
-  // Touching: against the motion, upright on the edge.
+  // Edges in contact: the normal is against the motion, upright on the edge.
   EXPECT_TRUE(normal(start, {0.5, 0, -2}, 0.0).isApprox(Vector3d(0, 0, 1)));
   start.topRows(2).col(1).array() += 1.0;
   EXPECT_TRUE(normal(start, {0.5, -2, -2}, 0.0).isApprox(Vector3d(0, root, root)));
-  // Touching all the time: upright on the edge.
+  // Edges always in contact: the normal is upright on the edge.
   start.topRows(2) = start.bottomRows(2);
   const Vector3d any = normal(start, {0, 0, 0}, 0.0);
   EXPECT_NEAR(any.norm(), 1.0, 1e-15);
@@ -150,7 +150,7 @@ TEST(ActiveSet, IsTheCollisionsAtThatSeparationInOrder) {
       const Scene scene = tests::random_scene(random, shape, random.between(2, 10));
       const Norm norm = random.coin() ? Norm::l2 : Norm::linf;
       const double eta = random.coin() ? shape.separation : 0.0;
-      // The separation that a step is made with is of no matter.
+      // The separation of the step does not matter.
       const auto contacts =
           active_set(scene.step({.separation = {.distance = 3 * shape.separation}}),
                      {.distance = eta, .norm = norm});
@@ -193,7 +193,8 @@ TEST(ActiveSet, NormalsAreTheSameAtAllScales) {
   for (int round = 0; round < tests::trials(8); ++round) {
     const Scene scene = tests::soup(random, 30, 0.2);
     std::map<std::pair<PairKind, IndexPair>, Vector3d> expected;
-    for (const ActiveContact& one : active_set(scene.step(), 0.05)) {
+    for (const ActiveContact& one :
+         active_set(scene.step(), {.distance = 0.05, .norm = Norm::l2})) {
       expected[{one.kind, one.pair}] = one.normal;
     }
     for (const int exponent : {-1000, -600, 300, 1000}) {
@@ -201,7 +202,8 @@ TEST(ActiveSet, NormalsAreTheSameAtAllScales) {
       for (Places* const places : {&scaled.start, &scaled.end}) {
         *places = places->unaryExpr([&](double x) { return std::ldexp(x, exponent); });
       }
-      const auto contacts = active_set(scaled.step(), std::ldexp(0.05, exponent));
+      const auto contacts =
+          active_set(scaled.step(), {.distance = std::ldexp(0.05, exponent), .norm = Norm::l2});
       EXPECT_EQ(contacts.size(), expected.size());
       for (const ActiveContact& one : contacts) {
         const Vector3d normal = expected.at({one.kind, one.pair});
@@ -222,7 +224,7 @@ TEST(ActiveSet, ContactsAtTheirTimesAreThose) {
       const ActiveContact again = contact_at(step, one.kind, one.pair, one.toi_upper);
       EXPECT_EQ(again.toi_lower, one.toi_upper);
       EXPECT_EQ(again.toi_upper, one.toi_upper);
-      // Where they are nearest may be more than one place; how near they are there is not.
+      // The nearest points need not be unique; their distance is.
       EXPECT_NEAR((again.first - again.second).norm(), (one.first - one.second).norm(), 1e-9);
       ++seen;
     }
@@ -255,9 +257,7 @@ TEST(ActiveSet, PlantedFaultsAreFound) {
   const Scene scene = falling_point();
   const Step step = scene.step();
   for (const auto& fault : tests::planted_faults().active_set) {
-    EXPECT_NE(fault.part(step, 0.0, Norm::l2),
-              active_set(step, {.distance = 0.0, .norm = Norm::l2}))
-        << fault.name;
+    EXPECT_NE(fault.part(step, {}), active_set(step, {})) << fault.name;
   }
 }
 

@@ -45,7 +45,7 @@ struct Scene {
   [[nodiscard]] std::vector<Edge> edges() const { return edges_of(faces); }
 };
 
-/// Triangles anywhere, each moving by itself; some share vertices.
+/// Triangles at any place, each with its own motion; some share vertices.
 Scene soup(Random& random, int faces, const std::function<double(std::size_t)>& centre,
            const std::function<double(std::size_t)>& offset) {
   Scene scene{.start = Places(3 * faces, 3), .end = Places(3 * faces, 3), .faces = {}};
@@ -125,7 +125,7 @@ std::vector<Shape> shapes() {
   };
 }
 
-/// Separations that make a difference to a scene of that shape.
+/// Separations that matter to a scene of this shape.
 std::vector<double> separations() { return {0.0, 0.125, 0.1, 5 * tiniest, 1e-16, 1e308, greatest}; }
 
 /// Least and greatest coordinate on an axis of some vertices.
@@ -141,7 +141,7 @@ std::pair<double, double> range(const Scene& scene, std::span<const std::int32_t
   return {least, most};
 }
 
-/// Are the swept boxes within a distance on every axis, exactly?
+/// True if the swept boxes are within a distance on every axis, exactly.
 bool near(const Scene& scene, std::span<const std::int32_t> a, std::span<const std::int32_t> b,
           double distance) {
   for (Eigen::Index axis = 0; axis < 3; ++axis) {
@@ -239,7 +239,7 @@ Scene vertex_beside_triangle(double x) {
   return scene;
 }
 
-TEST(BroadPhase, TouchingBoxesAreCandidatesAndTheNextDoubleIsNot) {
+TEST(BroadPhase, BoxesInContactAreCandidatesAndTheNextDoubleIsNot) {
   EXPECT_EQ(found_vertex_face(vertex_beside_triangle(1)), (Pairs{{0, 0}}));
   EXPECT_EQ(found_vertex_face(vertex_beside_triangle(std::nextafter(1, 2))), Pairs{});
   EXPECT_EQ(found_vertex_face(vertex_beside_triangle(-tiniest)), Pairs{});
@@ -285,7 +285,7 @@ TEST(BroadPhase, LeavesOutPairsThatShareAVertex) {
             (Pairs{{0, 2}, {0, 3}, {0, 4}, {1, 3}, {1, 4}, {2, 4}}));
 }
 
-// (In units of the huge one all others are 0 in float, so that each pair is compared in doubles.)
+// In units of the huge primitive all others are 0 in float, so that doubles decide each pair.
 TEST(BroadPhase, AHugePrimitiveAmongTinyOnesIsFoundWithEachOfThem) {
   static constexpr int tiny = tests::trials(2'000);
   Scene scene{.start = Places::Zero(3 * tiny + 3, 3), .end = {}, .faces = {}};
@@ -471,7 +471,7 @@ TEST(BroadPhase, CountsCandidatesThatDoNotFitIntoMemory) {
     }
     _exit(2);
   };
-  // A process of its own from the beginning: a fork of this one would have other tests' locks.
+  // A process that does not fork this one, which would inherit the locks of other tests.
   GTEST_FLAG_SET(death_test_style, "threadsafe");
   EXPECT_EXIT(search(), ::testing::ExitedWithCode(0), "");
 }
@@ -504,7 +504,7 @@ constexpr auto published = std::to_array<Published>({
     {"cloth-funnel", Kind::edge_edge, 33'770, 107},
 });
 
-/// Every so many-th label is held against the oracle.
+/// Compares the label of one query in `stride` with the oracle.
 constexpr std::size_t stride = 97;
 
 void expect_as_published(const tests::SimulationStep& step, const Published& expected) {

@@ -1,6 +1,6 @@
 /// \file
-/// The certified solver by hand, in batches and as a method. (Against the oracle:
-/// deciders_test.cpp.)
+/// The certified solver by hand, in batches and as a method. (deciders_test.cpp compares it with
+/// the oracle.)
 
 #include "fast/certified.hpp"
 
@@ -51,8 +51,8 @@ TEST(Certified, FindsAnImpactAndItsPlace) {
 }
 
 TEST(Certified, EndsEachSortOfQueryInItsStage) {
-  // Far above; beyond the slanted side; crossing its plane beside the triangle at no time (above it
-  // all the time, in a tilted frame); crossing it beside the triangle; touching an edge.
+  // Far above; beyond the slanted side; never crossing the plane of the triangle (always above it,
+  // in a tilted frame); crossing it beside the triangle; in contact with an edge.
   EXPECT_EQ(solve(over_triangle(1, 1, 3, 1)).stage, Stage::axis);
   EXPECT_EQ(solve(over_triangle(3, 3, 1, -1)).stage, Stage::direction);
   EXPECT_EQ(solve(over_triangle(1, 1, 1, -1)).stage, Stage::bisection);
@@ -61,8 +61,8 @@ TEST(Certified, EndsEachSortOfQueryInItsStage) {
 }
 
 TEST(Certified, WhatCrossesThePlaneNearAnEdgeIsDecidedInFloatingPoint) {
-  // A vertex that moves along x too, over the triangle (0,0,0), (1,0,0), (0,1,0): at t = 0.4, where
-  // it is in its plane, it is so far inside of the edge x = 0.
+  // A vertex that also moves along x, over the triangle (0,0,0), (1,0,0), (0,1,0): at t = 0.4 it is
+  // in the plane, at this distance inside the edge x = 0.
   const auto beside_edge = [](double inside) {
     Query query{};
     for (std::size_t end = 0; end < 2; ++end) {
@@ -110,8 +110,8 @@ TEST(Certified, EveryStageIsReachedAndNamed) {
   EXPECT_EQ(to_string(Stage::exact), "exact");
 }
 
-TEST(Certified, AStepToTheLowerEndNeverTouches) {
-  // The toi is a double: the lower end is below it all the same, however narrow the enclosure.
+TEST(Certified, AStepToTheLowerEndIsFree) {
+  // The toi is a double, but the lower end is below it, however narrow the enclosure.
   for (const double tolerance : {1e-12, 1e-15, 0.0, 0.1}) {
     const CertifiedResult result = solve(over_triangle(1, 1, 1, -1), {.toi_tolerance = tolerance});
     EXPECT_LT(result.toi_lower, 0.5);
@@ -140,7 +140,7 @@ TEST(Certified, CountsOnlyWhatIsUpToTMax) {
   EXPECT_EQ(solve(over_triangle(1, 1, 0, 1), {.t_max = 0.0}).verdict, Verdict::yes);
 }
 
-/// As certified.hpp says: contact at t_max counts, though the enclosure ends beyond it.
+/// Contact at t_max counts, though the enclosure ends beyond it (certified.hpp).
 TEST(Certified, TheUpperEndMayLieBeyondTMax) {
   const CertifiedResult result =
       solve(over_triangle(1, 1, 1, -1), {.toi_tolerance = 0.1, .t_max = 0.5});
@@ -154,11 +154,11 @@ TEST(Certified, TheUpperEndMayLieBeyondTMax) {
 
 // ---- Errors -------------------------------------------------------------------------------------
 
-TEST(Certified, WhatIsNoNumberIsAnErrorOfItsQueryAlone) {
+TEST(Certified, CoordinatesThatAreNotFiniteAreAnErrorOfTheirQueryAlone) {
   for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
     for (const double bad : {infinity, -infinity, std::numeric_limits<double>::quiet_NaN()}) {
       for (std::size_t place = 0; place < 24; ++place) {
-        // One that any axis separates, one that collides.
+        // One query that any axis separates, and one that collides.
         for (const double height : {5.0, -1.0}) {
           std::vector<Query> queries(3, kind == Kind::vertex_face
                                             ? over_triangle(1, 1, 7, height).query
@@ -329,7 +329,7 @@ TEST(Certified, NothingIsEarliestWhereNothingCollides) {
   EXPECT_EQ(earliest(still, candidates).has_value(), any);
 }
 
-TEST(Certified, RefusesCandidatesThatAreNone) {
+TEST(Certified, RefusesInvalidCandidates) {
   const Sheets sheets(3);
   const MovingVertices vertices(sheets.start, sheets.end);
   Candidates candidates = sheets.candidates(Kind::vertex_face);
@@ -375,7 +375,7 @@ TEST(CertifiedMethod, HeedsTMaxAndTheSeparation) {
   certified_method()->solve(Kind::vertex_face, std::span(&query, 1), std::span(&answer, 1),
                             {.t_max = 0.25});
   EXPECT_EQ(answer.verdict, Verdict::no);
-  // At a distance of a half it is at t = 1/4.
+  // Contact at a distance of 1/2 is at t = 1/4.
   certified_method()->solve(Kind::vertex_face, std::span(&query, 1), std::span(&answer, 1),
                             {.separation = {.distance = 0.5, .norm = Norm::l2}, .t_max = 0.25});
   EXPECT_EQ(answer.verdict, Verdict::yes);

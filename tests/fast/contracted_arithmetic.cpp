@@ -1,4 +1,5 @@
-// Built with contraction on: succeeds iff the self-check refuses this build and says why.
+// A program built with contraction on. It succeeds iff the self-check refuses this build with its
+// reason.
 
 #include <iostream>
 #include <stdexcept>

@@ -1,5 +1,5 @@
 /// \file
-/// The deciders of the certified solver against the oracle: each of them on each family of queries,
+/// The deciders of the certified solver against the oracle: each decider on each family of queries,
 /// at contact and at separations of all magnitudes in both norms, for all tolerances and times.
 
 #include <gtest/gtest.h>
@@ -42,7 +42,7 @@ constexpr double tiniest = std::numeric_limits<double>::denorm_min();
 struct Decider {
   std::string_view name;
   void (*solve)(Kind, std::span<const Query>, std::span<CertifiedResult>, const CertifiedOptions&);
-  bool knows_the_place;  ///< F is 0 at its (u,v), but for rounding
+  bool knows_the_place;  ///< F is 0 at its (u,v), up to rounding
 
   [[nodiscard]] CertifiedResult operator()(const PosedQuery& posed,
                                            const CertifiedOptions& options) const {
@@ -63,7 +63,7 @@ void solve_points(Kind kind, std::span<const Query> queries, std::span<Certified
                   const CertifiedOptions& options) {
   for (std::size_t i = 0; i < queries.size(); ++i) {
     const auto p = [&](std::size_t end, std::size_t k) { return queries[i].point(end, k); };
-    const auto solve = kind == Kind::vertex_face ? &point_triangle : &edge_edge;
+    const auto solve = kind == Kind::vertex_face ? &solve_vertex_face : &solve_edge_edge;
     results[i] =
         solve(p(0, 0), p(0, 1), p(0, 2), p(0, 3), p(1, 0), p(1, 1), p(1, 2), p(1, 3), options);
   }
@@ -77,7 +77,7 @@ constexpr std::array<Decider, 3> deciders{{{"certified", &solve, false},
 
 struct QueryFamily {
   std::string name;
-  std::size_t count;  ///< for each kind, but of public data all; 0: they are missing
+  std::size_t count;  ///< for each kind; public data: all, or 0 if missing
   std::function<Query(Random&, Kind, std::size_t)> draw;
 
   friend std::ostream& operator<<(std::ostream& out, const QueryFamily& one) {
@@ -90,7 +90,8 @@ Query scaled(Query query, int exponent) {
   return query;
 }
 
-/// A hit or a miss by a hair, with the coordinates that `is_chosen(axis, point)` far out of scale.
+/// A query near the border of contact, with the coordinates that `is_chosen(axis, point)` far out
+/// of scale.
 template <class IsChosen>
 Query out_of_scale(Random& random, Kind kind, const IsChosen& is_chosen) {
   Query query = tests::near_contact_query(random, kind);
@@ -131,7 +132,7 @@ Query perturbed(Random& random) {
   return query;
 }
 
-/// Small primitives at a distance: differences cancel, and round.
+/// Small primitives far away: differences cancel, and round.
 Query far_from_the_origin(Random& random, Kind kind) {
   Query query = tests::near_contact_query(random, kind);
   const double offset = std::ldexp(random.uniform(1.0, 2.0), random.between(0, 52));
@@ -139,7 +140,7 @@ Query far_from_the_origin(Random& random, Kind kind) {
   return query;
 }
 
-/// Each of the families of verify/generate in turn.
+/// A query of each of the families of verify/generate in turn.
 Query built_in(Kind kind, std::size_t i) {
   const auto families = verify::generate::families();
   std::size_t number = i % families.size();
@@ -206,7 +207,7 @@ std::vector<QueryFamily> query_families() {
 
 // ---- The suite ----------------------------------------------------------------------------------
 
-/// A thousand times as many in the soak.
+/// A thousand times the count in the soak.
 std::size_t scaled(std::size_t count) {
   const bool soak = std::getenv("TOUCHSTONE_SOAK") != nullptr;  // NOLINT(concurrency-mt-unsafe)
   return tests::trials(soak ? 1000 * count : count);
@@ -226,7 +227,7 @@ constexpr std::array<CertifiedOptions, 12> options_in_turn{{{},
                                                             {.toi_tolerance = 1e300},
                                                             {.t_max = 0.0}}};
 
-/// From beyond the query's size to far below rounding, and at the ends of the range.
+/// Separations from beyond the query's size to far below rounding, and at the ends of the range.
 Separation draw_separation(Random& random, const Query& query) {
   constexpr std::array<double, 12> fixed{
       1e-2, 1e-8, 1e-16, 1e-30,   1e-100, 0.5,
@@ -240,8 +241,8 @@ Separation draw_separation(Random& random, const Query& query) {
   return {.distance = std::max(distance, tiniest), .norm = norm};
 }
 
-/// Is F near 0 on every axis at toi_upper and (u,v), relative to its coordinates? By then F has
-/// moved on: corners are differences of coordinates, at most 4 of these apart.
+/// Expects F near 0 on every axis at toi_upper and (u,v), relative to its coordinates. F has moved
+/// on by then: corners are differences of coordinates, at most 4 of these apart.
 void expect_contact_at_place(const PosedQuery& posed, const CertifiedResult& result) {
   const Rational upper(result.toi_upper);
   const auto f = contact_function<Rational>(posed.kind, posed.query, upper, Rational(result.u),
@@ -256,7 +257,7 @@ void expect_contact_at_place(const PosedQuery& posed, const CertifiedResult& res
   }
 }
 
-/// Is the result what the oracle says? And does a contact count up to its time exactly?
+/// Expects the oracle's result, and that a contact counts exactly from its time on.
 void expect_truth(const Decider& decider, const PosedQuery& posed, const exact::Decision& truth,
                   const CertifiedResult& result, const CertifiedOptions& options) {
   const auto wrong = tests::fault(posed.kind, truth, result, options);
@@ -336,7 +337,7 @@ TEST_P(Deciders, AreRightAtSeparations) {
 }
 
 INSTANTIATE_TEST_SUITE_P(On, Deciders, testing::ValuesIn(query_families()),
-                         [](const auto& info) { return info.param.name; });
+                         [](const auto& tested) { return tested.param.name; });
 
 }  // namespace
 }  // namespace touchstone::fast::deciders_test

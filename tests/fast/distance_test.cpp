@@ -39,7 +39,7 @@ constexpr auto norms = std::to_array<Norm>({Norm::l2, Norm::linf});
 
 // ---- The truth ----------------------------------------------------------------------------------
 
-/// The distance, about, whether or not its square is a double.
+/// The approximate distance, also if its square is not a double.
 double approximately(const Rational& measure, Norm norm) {
   if (measure == 0) return 0.0;
   long above = 0, below = 0;
@@ -51,7 +51,7 @@ double approximately(const Rational& measure, Norm norm) {
   return std::ldexp(std::sqrt(std::ldexp(ratio, odd)), (exponent - odd) / 2);
 }
 
-/// The doubles that belong around the distance.
+/// The doubles around the true distance.
 Distance truth(const PosedQuery& posed, double t, Norm norm) {
   const Rational measure = tests::DistanceAtTime(posed.kind, posed.query, t).measure(norm);
   const auto sign_of = [&](double x) -> std::optional<int> {
@@ -60,7 +60,7 @@ Distance truth(const PosedQuery& posed, double t, Norm norm) {
   return *neighbouring_doubles(approximately(measure, norm), sign_of);
 }
 
-/// Is that what is said of the query? The text names it otherwise.
+/// The fault of the answer about the query as text, or nothing.
 std::string fault(const PosedQuery& posed, double t, Norm norm) {
   const Distance expected = truth(posed, t, norm);
   const auto difference = [&](const char* who, const Distance& found) -> std::string {
@@ -118,7 +118,7 @@ TEST(Distance, IsThatOfRationalsAtAllScales) {
       const int exponent = random.between(-1070, 1021);
       for (double& x : posed.query.coordinates) x = std::ldexp(x, exponent);
       for (double& x : mixed.query.coordinates) x = random.finite_double();
-      // A size of 1 but for one axis.
+      // All sizes are 1, but on one axis.
       for (std::size_t i = 2; i < flat.query.coordinates.size(); i += 3) {
         flat.query.coordinates[i] = std::ldexp(flat.query.coordinates[i], -std::abs(exponent));
       }
@@ -137,7 +137,7 @@ TEST(Distance, OfDegeneratePrimitivesIsThatOfRationals) {
   for (int round = 0; round < tests::trials(300); ++round) {
     for (const Kind kind : kinds) {
       PosedQuery posed = tests::random_query(random, kind, tests::Family::full_significands);
-      // Some points are others, or on a line with two others, at one end or at both.
+      // Some points equal others or are collinear with two others, at one end or at both.
       for (int i = random.between(1, 3); i > 0; --i) {
         const auto from = static_cast<std::size_t>(random.between(0, 3));
         const auto to = static_cast<std::size_t>(random.between(0, 3));
@@ -205,7 +205,7 @@ TEST(Distance, IsFilteredAsARule) {
       const Query query = tests::random_query(random, kind, tests::Family::full_significands).query;
       filtered += filtered_distance(kind, query, random.uniform(0, 1), norm) ? 1 : 0;
     }
-    // Those that touch are not.
+    // Queries in contact are not filtered.
     EXPECT_GT(filtered, count * 9 / 10) << to_string(norm);
   }
 }
@@ -236,7 +236,7 @@ TEST(Distance, OfAllInstructionSetsIsTheSameAndAsARuleFiltered) {
   Random random(2011);
   for (const Kind kind : kinds) {
     for (const double t : {0.0, 0.3}) {
-      // No multiple of the width of any lanes.
+      // A count that is not a multiple of any number of lanes.
       std::vector<Query> queries;
       for (int i = 0; i < 501; ++i) {
         queries.push_back(
@@ -261,7 +261,7 @@ TEST(Distance, OfAllInstructionSetsIsTheSameAndAsARuleFiltered) {
 
 // ---- Faults -------------------------------------------------------------------------------------
 
-/// Does an answer differ from the truth, in a few hundred queries of all families?
+/// True if an answer differs from the truth in a few hundred queries of all families.
 template <class DistanceOf>
 bool is_found(const DistanceOf& distance_of) {
   Random random(2010);
@@ -269,7 +269,7 @@ bool is_found(const DistanceOf& distance_of) {
     for (const Kind kind : kinds) {
       for (const tests::Family family : tests::all_families) {
         const PosedQuery posed = tests::random_query(random, kind, family);
-        // Where they have just begun to touch they are hardly apart.
+        // At the impact the distance is almost 0.
         const CertifiedResult impact = fast::solve(kind, posed.query);
         const double t = impact.verdict == Verdict::yes ? impact.toi_lower : random_time(random);
         for (const Norm norm : norms) {
@@ -294,7 +294,7 @@ TEST(Distance, PlantedFaultsAreFound) {
 
 // ---- The least of a step ------------------------------------------------------------------------
 
-/// From all pairs, one by one.
+/// The least distance of all pairs, one by one.
 std::optional<LeastDistance> least_of(const tests::Scene& scene, double t, Norm norm) {
   std::optional<LeastDistance> result;
   const tests::AllPairs all(scene);
@@ -344,7 +344,7 @@ TEST(LeastDistance, OfLargerScenesIsThatOfAllPairs) {
   }
 }
 
-/// Two triangles in parallel planes, so far apart.
+/// Two triangles in parallel planes at this distance.
 tests::Scene two_triangles(double distance) {
   tests::Scene scene{.start = tests::Places(6, 3),
                      .end = {},
@@ -369,7 +369,7 @@ TEST(LeastDistance, IsAsExactForPrimitivesFarFromEachOther) {
   }
 }
 
-TEST(LeastDistance, OfNoPairIsNone) {
+TEST(LeastDistance, OfNoPairIsEmpty) {
   tests::Scene scene = two_triangles(1.0);
   scene.groups = std::vector<std::int32_t>(6, 0);
   scene.apart = {{0, 0}};

@@ -1,8 +1,8 @@
 #pragma once
 
 /// \file
-/// AVX-512 in portable C++ (SIMDe), standing in for <immintrin.h>: so the AVX-512 kernels are
-/// tested on processors without it too, from their own sources.
+/// AVX-512 in portable C++ (SIMDe) in place of <immintrin.h>: the AVX-512 kernels are tested on any
+/// processor, from their own sources.
 
 #define SIMDE_ENABLE_NATIVE_ALIASES
 #include <simde/x86/avx2.h>
@@ -14,7 +14,8 @@
 using __mmask8 = simde__mmask8;
 using __mmask16 = simde__mmask16;
 
-/// What this version of SIMDe lacks, from Intel's description: lanes move within halves.
+/// The intrinsics that this version of SIMDe lacks, by Intel's description: lanes move within
+/// halves.
 template <int order>
 simde__m512d permutex_pd(simde__m512d x) {
   const simde__m256d low = simde_mm512_castpd512_pd256(x), high = simde_mm512_extractf64x4_pd(x, 1);
@@ -24,7 +25,6 @@ simde__m512d permutex_pd(simde__m512d x) {
 }
 #define _mm512_permutex_pd(x, order) permutex_pd<(order)>(x)
 
-/// Likewise.
 inline simde__m512i widened_to_64(simde__m256i x) {
   const simde__m256i_private from = simde__m256i_to_private(x);
   simde__m512i_private result;
@@ -37,7 +37,7 @@ inline simde__m512i widened_to_64(simde__m256i x) {
 #define _mm512_mask_cmp_ps_mask(mask, a, b, relation) \
   static_cast<simde__mmask16>((mask)&simde_mm512_cmp_ps_mask(a, b, relation))
 
-/// SIMDe rounds the product where the processor cannot fuse.
+/// Fused arithmetic: SIMDe rounds the product if the processor cannot fuse.
 inline simde__m512d fused_multiply_subtract(simde__m512d a, simde__m512d b, simde__m512d c) {
   const simde__m512d_private x = simde__m512d_to_private(a), y = simde__m512d_to_private(b);
   const simde__m512d_private z = simde__m512d_to_private(c);

@@ -78,8 +78,8 @@ TEST(ErrorFilter, ReleasedHasTheLeastOfOneAndXMaxForTheGreatest) {
             6.217248937900877e-15 * 0x1p-60);
 }
 
-/// It is no bound: below what F's values err by at least, half a unit in the last place, for
-/// coordinates that are small or large.
+/// The released bound is not one: it is below half a unit in the last place, an error that F's
+/// values have at least, for small or large coordinates.
 TEST(ErrorFilter, ReleasedIsBelowHalfAUnitInTheLastPlaceAtMostScales) {
   for (const double x_max : {1e-3, 1e-2, 1e3}) {
     EXPECT_LT(on_first_axis(Kind::vertex_face, x_max, 0.0, ErrorModel::released), 0x1p-53 * x_max);

@@ -1,6 +1,6 @@
 /// \file
-/// Whatever the caller's floating-point state is, answers have the bits that they have in the usual
-/// one, and the caller's state stays.
+/// Answers have the same bits in every floating-point state of the caller as in the usual one, and
+/// the caller's state stays.
 
 #include <gtest/gtest.h>
 
@@ -24,7 +24,6 @@
 #include "fast/active_set.hpp"
 #include "fast/broad_phase.hpp"
 #include "fast/certified.hpp"
-#include "fast/certified/exact/exact_stage.hpp"
 #include "fast/distance.hpp"
 #include "fast/line_search.hpp"
 #include "fast/primitive_pairs.hpp"
@@ -68,7 +67,7 @@ std::vector<State> states() {
   return result;
 }
 
-/// The state of this thread: all that is to stay.
+/// The state of this thread that must stay.
 unsigned current_state() {
 #ifdef __SSE2__
   return _mm_getcsr();
@@ -105,8 +104,8 @@ void put(Bits& bits, const std::vector<IndexPair>& pairs) {
   for (const IndexPair& pair : pairs) put(bits, pair[0], pair[1]);
 }
 
-/// Hits and misses by a hair, degenerate ones, and subnormals, which a caller that flushes them
-/// would lose.
+/// Queries near the border of contact, degenerate ones, and subnormals, which a caller that flushes
+/// them would lose.
 std::vector<Query> queries(Kind kind, std::size_t count = 300) {
   Random random(29);
   std::vector<Query> result(count);
@@ -119,7 +118,8 @@ std::vector<Query> queries(Kind kind, std::size_t count = 300) {
   return result;
 }
 
-/// Calls ask(kind, query, separation) for them at contact and at separations in both norms.
+/// Calls ask(kind, query, separation) for these queries at contact and at separations in both
+/// norms.
 template <class Ask>
 std::function<Bits()> of_queries(const Ask& ask, std::size_t count) {
   return [ask, faces = queries(Kind::vertex_face, count), edges = queries(Kind::edge_edge, count)] {
@@ -150,12 +150,6 @@ void ask_prover(Bits& bits, Kind kind, const Query& query, const Separation& sep
   put(bits, std::hash<std::string>()(text));
 }
 
-void ask_exact_stage(Bits& bits, Kind kind, const Query& query, const Separation& separation) {
-  const auto impact = decide_exactly(kind, query, separation, 0.0, 1.0);
-  put(bits, std::size_t{impact.has_value()});
-  if (impact) put(bits, impact->toi_lower, impact->toi_upper);
-}
-
 std::function<Bits()> of_batches() {
   return [faces = queries(Kind::vertex_face), edges = queries(Kind::edge_edge)] {
     Bits bits;
@@ -179,7 +173,7 @@ std::function<Bits()> of_batches() {
   };
 }
 
-/// All that a step tells, of vertices in double or of the same in float.
+/// Asks a step for all its results, of vertices in double or of the same in float.
 void ask_step(Bits& bits, const Step& step) {
   for (const StepCollision& one : step.collisions()) put(bits, one);
   if (const auto impact = step.earliest()) put(bits, impact->toi_lower, impact->toi_upper);
@@ -189,7 +183,7 @@ void ask_step(Bits& bits, const Step& step) {
     const auto limit = line_search_limit(step, 0.5, {.start_distance = start});
     put(bits, limit.status, limit.step_size, limit.distance);
   }
-  for (const ActiveContact& one : active_set(step, 0x1p-130)) {
+  for (const ActiveContact& one : active_set(step, {.distance = 0x1p-130, .norm = Norm::l2})) {
     put(bits, static_cast<const StepCollision&>(one));
     for (const Eigen::Vector3d& x : {one.first, one.second, one.normal}) {
       put(bits, x[0], x[1], x[2]);
@@ -210,7 +204,7 @@ std::function<Bits()> of_steps() {
   };
 }
 
-/// Of subnormal floats, which are no subnormals in double.
+/// Asks about subnormal floats, which are normal in double.
 std::function<Bits()> of_floats() {
   Random random(31);
   std::vector<std::pair<tests::Scene, std::array<Eigen::MatrixX3f, 2>>> scenes;
@@ -225,8 +219,8 @@ std::function<Bits()> of_floats() {
     for (const auto& [scene, places] : scenes) {
       const auto& [start, end] = places;
       ask_step(bits, Step(start, end, scene.elements()));
-      put(bits, edge_edge(start.row(0), start.row(1), start.row(2), start.row(3), end.row(0),
-                          end.row(1), end.row(2), end.row(3)));
+      put(bits, solve_edge_edge(start.row(0), start.row(1), start.row(2), start.row(3), end.row(0),
+                                end.row(1), end.row(2), end.row(3)));
     }
     return bits;
   };
@@ -262,7 +256,6 @@ struct Answers {
 std::vector<Answers> all_answers() {
   return {{"oracle", of_queries(ask_oracle, 40)},
           {"prover", of_queries(ask_prover, 15)},
-          {"exact_stage", of_queries(ask_exact_stage, 300)},
           {"batches", of_batches()},
           {"steps", of_steps()},
           {"floats", of_floats()},
@@ -283,16 +276,16 @@ TEST_P(FloatingPointEnvironment, DoesNotMatterAndStays) {
   const unsigned after = current_state();
   std::fesetenv(&callers);
   EXPECT_TRUE(other == usual);
-  constexpr unsigned flags = 0x3F;  // which arithmetic of the caller's own may raise
+  constexpr unsigned flags = 0x3F;  // flags that the caller's own arithmetic may raise
   EXPECT_EQ(after & ~flags, before & ~flags);
 }
 
 INSTANTIATE_TEST_SUITE_P(Of, FloatingPointEnvironment,
                          testing::Combine(testing::ValuesIn(all_answers()),
                                           testing::ValuesIn(states())),
-                         [](const auto& info) {
-                           return std::get<0>(info.param).name + "_with_" +
-                                  std::get<1>(info.param).name;
+                         [](const auto& tested) {
+                           return std::get<0>(tested.param).name + "_with_" +
+                                  std::get<1>(tested.param).name;
                          });
 
 }  // namespace

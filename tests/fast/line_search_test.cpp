@@ -33,7 +33,7 @@ using tests::Scene;
 constexpr double tiniest = std::numeric_limits<double>::denorm_min();
 constexpr auto norms = std::to_array<Norm>({Norm::l2, Norm::linf});
 
-/// A triangle over the origin of one that is larger, at that height, and where it is at t=1.
+/// A triangle at a height over the origin of a larger one, and its place at t=1.
 Scene falling_triangle(double height, double end) {
   Scene scene{.start = Places(6, 3),
               .end = {},
@@ -61,7 +61,7 @@ TEST(LineSearch, StopsAtTheShareOfTheDistance) {
             line_search_limit(scene.step(), p, {.norm = norm, .start_distance = start});
         EXPECT_EQ(limit.status, LineSearchStatus::limited);
         EXPECT_EQ(limit.distance, (Distance{1.0, 1.0}));
-        // From 1 to p at a speed of 2.
+        // The height falls from 1 to p at a speed of 2.
         EXPECT_LE(limit.step_size, (1.0 - p) / 2.0);
         EXPECT_GT(limit.step_size, (1.0 - p) / 2.0 * (1.0 - 1e-11));
         ASSERT_EQ(limit.pairs.size(), 1U);
@@ -89,7 +89,7 @@ TEST(LineSearch, IsWholeIfNothingComesNear) {
   }
 }
 
-TEST(LineSearch, SaysWhatTouchesAtTheStart) {
+TEST(LineSearch, NamesPairsInContactAtTheStart) {
   for (const StartDistance start : {StartDistance::of_scene, StartDistance::of_pair}) {
     const auto limit =
         line_search_limit(falling_triangle(0.0, 1.0).step(), 0.5, {.start_distance = start});
@@ -104,12 +104,12 @@ TEST(LineSearch, SaysWhatTouchesAtTheStart) {
 TEST(LineSearch, SaysWhatIsTooSmallForDoubles) {
   for (const StartDistance start : {StartDistance::of_scene, StartDistance::of_pair}) {
     const LineSearchOptions options{.start_distance = start};
-    // Nothing is left between half of the least double and itself.
+    // No double lies between half of the least double and itself.
     const auto near = line_search_limit(falling_triangle(tiniest, -1.0).step(), 0.5, options);
     EXPECT_EQ(near.status, LineSearchStatus::too_small);
     EXPECT_EQ(near.step_size, 0.0);
     EXPECT_EQ(near.pairs.size(), 1U);
-    // The least double is half of the second one. It takes a time of 2^-1073 2^-10 to get there.
+    // The least double is half of the second one; the time to get there is 2^-1073 2^-10.
     const auto early =
         line_search_limit(falling_triangle(4 * tiniest, -0x1p10).step(), 0.5, options);
     EXPECT_EQ(early.status, LineSearchStatus::too_small);
@@ -123,17 +123,17 @@ TEST(LineSearch, SaysWhatIsTooSmallForDoubles) {
 
 // ---- What it promises ---------------------------------------------------------------------------
 
-/// Is a pair, up to that time, nearer than p times its distance or that of the scene? By the
+/// True if a pair, up to that time, comes nearer than p times its distance or the scene's, by the
 /// oracle.
 bool comes_nearer(Kind kind, const Query& query, double time, Norm norm, double p,
                   double distance) {
-  // Nearer than p d is within what is less than it.
+  // A pair is nearer than p d if it is within the next lower double.
   const double less = std::nextafter(exact::round_down(Rational(p) * Rational(distance)), 0.0);
   const exact::Decision verdict = exact::decide(kind, query, {.distance = less, .norm = norm});
   return verdict.collides() && *verdict.toi <= exact::AlgebraicNumber(Rational(time));
 }
 
-/// What is wrong with a limit by the scene's distance, or nothing.
+/// The fault of a limit by the scene's distance, or nothing.
 std::string fault(const Scene& scene, const LineSearchLimit& limit, double p, Norm norm) {
   const auto least = least_distance(scene.step(), 0.0, norm);
   const bool is_in_contact = least && least->distance.upper == 0.0;
@@ -147,7 +147,7 @@ std::string fault(const Scene& scene, const LineSearchLimit& limit, double p, No
     if (comes_nearer(kind, all.query(named), limit.step_size, norm, p, distance)) return "too far";
   }
   if (limit.status == LineSearchStatus::whole) return "";
-  // The first pair is as near as that, about, up to the upper end of its enclosure.
+  // The first pair comes to about this distance up to the upper end of its enclosure.
   const StepCollision& first = limit.pairs.at(0);
   const double kept = p * least->distance.upper * (1.0 + 0x1p-40) + 2 * tiniest;
   const auto verdict =
@@ -183,7 +183,7 @@ TEST(LineSearch, KeepsAllApartAndGoesAsFarAsThatAllows) {
   EXPECT_GT(seen[LineSearchStatus::whole], tests::trials(20));
 }
 
-/// What the rule for pairs says, from all pairs one by one.
+/// The limit by the rule for pairs, from all pairs one by one.
 std::optional<double> limit_of_pairs(const Scene& scene, double p, Norm norm) {
   const tests::AllPairs all(scene);
   double result = 1.0;
@@ -200,8 +200,7 @@ std::optional<double> limit_of_pairs(const Scene& scene, double p, Norm norm) {
   return result;
 }
 
-/// In how many of random scenes is the limit by the pairs' distances another, and how many have
-/// one?
+/// The numbers of random scenes whose limit by the pairs' distances differs, and that have a limit.
 struct Compared {
   int different = 0;
   int limited = 0;
@@ -257,12 +256,12 @@ TEST(LineSearch, IsTheSameForAllNumbersOfThreads) {
 
 // ---- Again and again ----------------------------------------------------------------------------
 
-/// Where all is after a step of that size, in doubles as simulators compute it.
+/// The places after a step of that size, in doubles as simulators compute them.
 Places advanced(const Scene& scene, double step_size) {
   return scene.start + step_size * (scene.end - scene.start);
 }
 
-/// Scenes in which something at height 1 falls onto something in the plane z=0, to −1.
+/// Scenes in which a primitive falls from height 1 to −1 onto another in the plane z=0.
 std::vector<Scene> falls() {
   const Scene blank = falling_triangle(1.0, -1.0);
   std::vector<Scene> result{blank};
@@ -289,15 +288,15 @@ std::vector<Scene> falls() {
   return result;
 }
 
-/// What became of a line search that was repeated along one direction.
+/// The result of a line search that was repeated along one direction.
 struct Repetition {
-  long steps = 0;        ///< that were not 0
+  long steps = 0;        ///< not 0
   double least = 1.0;    ///< distance
   bool stalled = false;  ///< the last step was 0
 };
 
-/// Repeats ours until the distance is below that, and checks each step: what is left of the
-/// distance is p, to the tolerance of the time and the rounding of places.
+/// Repeats our line search until the distance is below `until`, and checks each step: it keeps the
+/// share p of the distance, to the tolerance of the time and the rounding of places.
 Repetition repeat(Scene scene, double p, StartDistance start_distance, double until) {
   Repetition result;
   while (result.least > until) {
@@ -339,9 +338,9 @@ TEST(LineSearch, RepeatedGoesOnToTheLeastDistances) {
 
 // ---- The published line search ------------------------------------------------------------------
 
-/// Algorithm 4 of [wang2021] up to its backtracking, as its text means it: p is halved until
-/// p < (d_i − δ − ε − ρ) / d_i, the distance is kept at p d_i, but at δ at least, and where the
-/// search for impacts ends with a greater δ, all of it is repeated with that.
+/// Algorithm 4 of [wang2021] up to its backtracking, as its text means it: p is halved until p <
+/// (d_i − δ − ε − ρ) / d_i, and the distance is kept at p d_i, but at least at δ. If the search for
+/// impacts ends with a greater δ, all is repeated with that δ.
 class PublishedLineSearch {
  public:
   explicit PublishedLineSearch(double delta) : delta_(delta) {}
@@ -408,7 +407,7 @@ TEST(LineSearch, PublishedStallsWhereOursGoesOn) {
         scene.start = advanced(scene, step_size);
         least = least_distance(scene.step())->distance.lower;
       }
-      // A little below δ.
+      // The search stops at a distance slightly below δ.
       EXPECT_LT(steps, 100);
       EXPECT_GT(least, delta / 100);
       const auto ours = line_search_limit(scene.step(), p);

@@ -1,5 +1,5 @@
 /// \file
-/// Time a query of each solver, beside one pass that only reads the queries: the physical limit.
+/// Time per query of each solver, beside one pass that only reads the queries: the physical limit.
 ///
 /// Sets: the handcrafted and the simulation part of TOUCHSTONE_DATA (by default ../shared/datasets
 /// beside the project), each kind by itself, and each .npy file named in TOUCHSTONE_BENCH (names
@@ -58,7 +58,7 @@ QuerySets read_sets() {
   return sets;
 }
 
-/// Reads every coordinate once. Eight sums, so that reading and not adding is the limit.
+/// Reads every coordinate once, into eight sums, so that reading is the limit, not addition.
 void read_all(const std::vector<Query>& queries) {
   std::array<double, 8> sums{};
   for (const Query& query : queries) {

@@ -1,5 +1,5 @@
 /// \file
-/// Numbers out of range: every function that takes one refuses it.
+/// Every function that takes a number refuses one out of range.
 
 #include <gtest/gtest.h>
 
@@ -27,7 +27,7 @@ namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
-/// What is no distance or tolerance, no time or share of a step, no number of threads.
+/// Invalid distances and tolerances; times and shares of a step; numbers of threads.
 const std::vector<double> no_distance{-1.0, -1e-300, infinity, nan},
     no_time{-0.5, -1e-300, 1.5, nan}, no_count{-1.0};
 
@@ -39,7 +39,7 @@ struct Refusal {
   friend std::ostream& operator<<(std::ostream& out, const Refusal& one) { return out << one.name; }
 };
 
-/// A vertex that falls onto a triangle, as all functions take it.
+/// A vertex that falls onto a triangle, in the form of each function.
 const tests::PosedQuery posed = tests::over_triangle(1, 1, 1, -1);
 
 Step step(const StepOptions& options = {}) {
@@ -57,7 +57,7 @@ void solve_one(const CertifiedOptions& options) {
   solve(posed.kind, std::span(&posed.query, 1), std::span(&result, 1), options);
 }
 
-/// All that takes the options of the certified solver, with one of them changed.
+/// All functions that take the options of the certified solver, with one option changed.
 template <class Change>
 std::vector<Refusal> of_solver(const std::string& name, const std::vector<double>& bad,
                                const Change& change) {
@@ -72,7 +72,7 @@ std::vector<Refusal> of_solver(const std::string& name, const std::vector<double
            })},
           {name + "_of_points", bad, with([](const auto& o) {
              const Eigen::Vector3d at(1, 2, 3);
-             (void)point_point(at, at, at, at, o);
+             (void)solve_vertex_vertex(at, at, at, at, o);
            })},
           {name + "_of_step", bad, with([](const auto& o) {
              (void)step({.separation = o.separation,
@@ -86,7 +86,8 @@ std::vector<Refusal> refusals() {
   std::vector<Refusal> all{
       {"separation_of_another_step", no_distance,
        [](double x) { (void)step().with_separation({.distance = x}); }},
-      {"eta_of_active_set", no_distance, [](double x) { (void)active_set(step(), x); }},
+      {"distance_of_active_set", no_distance,
+       [](double x) { (void)active_set(step(), {.distance = x}); }},
       {"separation_of_broad_phase", no_distance,
        [](double x) {
          (void)edge_edge_candidates(step().vertices(), step().edges(),
@@ -144,7 +145,7 @@ TEST_P(Refused, OutOfRange) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Is, Refused, testing::ValuesIn(refusals()),
-                         [](const auto& info) { return info.param.name; });
+                         [](const auto& tested) { return tested.param.name; });
 
 /// Spans of results that do not fit the queries.
 TEST(Refusals, OfSpansOfOtherLengths) {

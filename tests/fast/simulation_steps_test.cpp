@@ -1,6 +1,6 @@
 /// \file
 /// Whole steps of public simulations: the collisions, found in one or among all candidates of the
-/// broad phase, are exactly those that the published labels call true, pair by pair.
+/// broad phase, are exactly the pairs that the published labels call true.
 
 #include <gtest/gtest.h>
 

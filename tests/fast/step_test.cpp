@@ -63,7 +63,7 @@ std::vector<StepCollision> in_order(std::vector<StepCollision> collisions) {
   return collisions;
 }
 
-/// What of `earliest` follows from all collisions.
+/// The value of `earliest` that follows from all collisions.
 std::optional<StepImpact> earliest_of(const std::vector<StepCollision>& collisions) {
   if (collisions.empty()) return std::nullopt;
   StepImpact impact{
@@ -80,7 +80,7 @@ std::string named(const NumberedPair& pair) {
          std::to_string(pair.second[1]);
 }
 
-/// What a step says of its scene that the oracle does not, or nothing.
+/// The first difference between a step of the scene and the oracle, or nothing.
 std::string fault(const Scene& scene, const StepOptions& options) {
   const AllPairs all(scene);
   const Step step = scene.step(options);
@@ -219,7 +219,7 @@ TEST(Step, HasTheEdgesOfItsFacesIfNoneAreGiven) {
   const Step step = scene.step();
   EXPECT_TRUE(std::ranges::equal(step.edges(), edges));
   EXPECT_EQ(step.collisions(), expected);
-  // A scaled step outlives the one that it is from.
+  // A scaled step outlives the step that it comes from.
   std::optional<Step> whole(scene.step());
   const Step part = whole->scaled(0.5);
   whole.reset();
@@ -308,7 +308,7 @@ TEST(Step, RefusesWhatMakesNoSense) {
             "vertex 1: a coordinate is not finite");
 }
 
-TEST(Step, HandsOnWhatATakerThrows) {
+TEST(Step, PassesOnExceptionsOfATaker) {
   Random random(185);
   const Scene scene = soup(random, 30, 0.4);
   const Step step = scene.step();
@@ -320,7 +320,7 @@ TEST(Step, HandsOnWhatATakerThrows) {
 
 // ---- The theorem --------------------------------------------------------------------------------
 
-/// Does an edge meet a face without a common vertex?
+/// True if an edge meets a face without a common vertex.
 bool intersects_itself(const Scene& scene, const Places& places) {
   const auto shares_no_vertex = [&](std::int32_t edge, std::int32_t face) {
     const Face& corners = scene.faces[static_cast<std::size_t>(face)];
@@ -490,7 +490,7 @@ TEST(FreeStepSize, IsFreeAndTheNextDoubleIsNot) {
         ++some;
         EXPECT_TRUE(step.scaled(*alpha).is_free());
         EXPECT_FALSE(step.scaled(std::nextafter(*alpha, 1.0)).is_free());
-        // As near to the impact of the exact step as rounding lets it be.
+        // The impact of the exact step, up to rounding.
         EXPECT_NEAR(*alpha, step.earliest()->toi_lower, 1e-12);
       }
     }
@@ -518,7 +518,7 @@ Scene falling_vertex(double height, double floor = 0.0) {
 
 TEST(FreeStepSize, IsTheLargestWhereRoundingIsMonotone) {
   // One coordinate moves, and its rounded place falls with α. So the largest α is the last whose
-  // rounded place is above 0. Of height 3, with a motion of 4: fl(3 − 4 α) > 0 iff α < 3/4.
+  // rounded place is above 0. At height 3, with a motion of 4: fl(3 − 4 α) > 0 iff α < 3/4.
   EXPECT_EQ(falling_vertex(3.0).step().free_step_size(), std::nextafter(0.75, 0.0));
   // 1 − 2 α, α < 1/2: the double before it gives 2^-53, which is exact.
   EXPECT_EQ(falling_vertex(1.0).step().free_step_size(), std::nextafter(0.5, 0.0));
@@ -528,7 +528,7 @@ TEST(FreeStepSize, IsTheLargestWhereRoundingIsMonotone) {
   EXPECT_EQ(falling_vertex(-0.5).step().free_step_size(), 1.0);
 }
 
-// The coordinates are finite, their difference is not.
+// The coordinates are finite, but their difference is not.
 TEST(FreeStepSize, NamesTheVertexWhoseMotionOverflows) {
   Eigen::MatrixX3d before = Eigen::MatrixX3d::Identity(3, 3), after = before;
   before(1, 0) = 1.5e308;
@@ -549,7 +549,8 @@ TEST(FreeStepSize, NamesTheVertexWhoseMotionOverflows) {
 }
 
 TEST(FreeStepSize, IsThatOfTheRoundedStepAndNotOfTheExactOne) {
-  // From 0.1 by −1.1 (rounded): the exact time of impact is not where the rounded place reaches 0.
+  // The height falls from 0.1 by 1.1 (rounded): the exact time of impact is not where the rounded
+  // place reaches 0.
   const Scene scene = falling_vertex(0.1);
   const Step step = scene.step();
   const std::optional<double> alpha = step.free_step_size();
@@ -564,8 +565,8 @@ TEST(FreeStepSize, IsThatOfTheRoundedStepAndNotOfTheExactOne) {
 }
 
 TEST(FreeStepSize, IsFoundBelowTheTimeOfImpactToo) {
-  // From 2^52 + 1 down to the floor at 2^52, where doubles are integers: the time of impact is 1/2,
-  // but the rounded place is the floor from 1/4 on, where it is half way (and 2^52 is even).
+  // The height falls from 2^52 + 1 to the floor at 2^52, where doubles are integers: the time of
+  // impact is 1/2, but the rounded place is the floor from 1/4 on, the midpoint (and 2^52 is even).
   const Scene scene = falling_vertex(0x1p52 + 1.0, 0x1p52);
   const Step step = scene.step();
   EXPECT_GT(step.earliest()->toi_lower, 0.25);
@@ -581,15 +582,15 @@ TEST(Step, IsMovedWithItsScene) {
 
 // ---- Ranges of coordinates ----------------------------------------------------------------------
 
-/// The work of steps: pairs that the broad phase leaves, and those that floating point leaves of
-/// them.
+/// The work of steps: the pairs after the broad phase, and those that floating point does not
+/// decide.
 struct Work {
   std::size_t pairs = 0;
   std::size_t exact = 0;
 };
 Work work_done;
 
-/// The best kernel, which also counts.
+/// The best kernel, with a count of its work.
 void decide_and_count(const KernelInput& input, KernelOutput& output) {
   best_certified_kernel().decide(input, output);
   work_done.pairs += input.count;
@@ -622,7 +623,7 @@ Scene points_in_cube(Random& random, int count) {
   return scene;
 }
 
-/// How far away vertices of a scene are, and how large the scene is.
+/// The distance of vertices from the origin, and the size of the scene.
 struct Range {
   double far;
   double size;
@@ -750,7 +751,8 @@ TEST(Step, PlantedFaultsInTheFusedStageAreFound) {
     EXPECT_NE(what, "") << planted.name;
   };
   for (const auto& planted : tests::planted_faults().search) {
-    // Pairs that these two let through are decided in the next stage; search_test.cpp finds them.
+    // The next stage decides the pairs that these two let through; search_test.cpp finds these
+    // faults.
     if (planted.name == "search_without_axis" || planted.name == "search_too_sure") continue;
     expect_found(planted);
   }
@@ -768,7 +770,7 @@ std::uint64_t address_space() {
 }
 
 TEST(Step, DoesNotStoreCandidates) {
-  // Edges beside each other along a diagonal: all boxes overlap, and none touch. Four and a half
+  // Edges beside each other along a diagonal: all boxes overlap without contact. Four and a half
   // million pairs of eight bytes each, and room for 24 MiB.
   const auto search = [] {
     static constexpr std::int32_t count = 3000;
@@ -790,7 +792,7 @@ TEST(Step, DoesNotStoreCandidates) {
     if (found != std::uint64_t{count} * (count - 1) / 2) _exit(1);
     _exit(step.is_free() ? 0 : 2);
   };
-  // A process of its own from the beginning: a fork of this one would have other tests' locks.
+  // A process that does not fork this one, which would inherit the locks of other tests.
   GTEST_FLAG_SET(death_test_style, "threadsafe");
   EXPECT_EXIT(search(), ::testing::ExitedWithCode(0), "");
 }

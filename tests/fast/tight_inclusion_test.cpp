@@ -1,6 +1,6 @@
 /// \file
-/// Tight-Inclusion against known truth, against a plain reading of its description, and with faults
-/// planted in it, each of which the built-in families must find.
+/// Tight-Inclusion against known truth and against a direct implementation of its description, and
+/// with planted faults, each of which the built-in families must find.
 
 #include "fast/tight_inclusion.hpp"
 
@@ -45,7 +45,7 @@ using tests::Random;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr std::uint64_t seed = 3;
 
-/// Enough checks for nearly all queries of the families, few enough for a test.
+/// Enough checks for nearly all queries of the families, and few enough for a test.
 constexpr std::int64_t some_checks = 20000;
 
 TightInclusionResult solve(const PosedQuery& posed, const TightInclusionOptions& options = {}) {
@@ -119,7 +119,7 @@ TEST_P(Conservative, OnAllFamilies) {
       24, [&](const verify::generate::Family& family, Kind kind, const auto& known) {
         const TightInclusionResult result = tight_inclusion(kind, known.query, options);
         EXPECT_FALSE(is_missed(known, result)) << family.name << ' ' << to_string(kind);
-        // Lowering the separation may advance into contact, which is what no_zero_toi asks for.
+        // Lowering the separation may advance into contact, as no_zero_toi requests.
         if (!options.no_zero_toi || options.separation.distance == 0.0) {
           EXPECT_FALSE(is_late(known, result)) << family.name << ' ' << to_string(kind);
         }
@@ -180,8 +180,8 @@ TEST(TightInclusion, MissesNothingOnThePublicData) {
 
 // ---- Minimum separation, by construction --------------------------------------------------------
 
-/// A miss whose points of least L∞ distance are `gap` apart along an axis, at t=1: the vertex or
-/// edge comes straight down and stops there.
+/// A query without a collision whose points of least L∞ distance are `gap` apart along an axis, at
+/// t=1: the vertex or edge comes straight down and stops there.
 PosedQuery stops_above(Kind kind, double height, double gap) {
   return kind == Kind::vertex_face ? over_triangle(1.0, 1.0, height, gap)
                                    : over_edge(1.0, 2.0, height, gap);
@@ -205,7 +205,7 @@ TEST(MinimumSeparation, ReachesExactlyAsFarAsItSays) {
 }
 
 TEST(MinimumSeparation, IsReachedAtTheTimeItSays) {
-  // From height 1 to −1: at distance d at t = (1 − d)/2.
+  // The height falls from 1 to −1, and is d at t = (1 − d)/2.
   for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
     for (const double d : {0x1p-1, 0x1p-3, 0x1p-10, 0x1p-30}) {
       TightInclusionOptions options;
@@ -229,7 +229,7 @@ std::array<double, 3> offset(Random& random, double d) {
 }
 
 TEST(MinimumSeparation, FindsContactsMovedApartByIt) {
-  // If F has a root, then with one primitive moved by a vector of norm d, ‖F‖ = d there.
+  // If F has a root, then ‖F‖ = d there after one primitive is moved by a vector of norm d.
   Random random(11);
   int moved = 0;
   for_each_family_query(
@@ -264,8 +264,8 @@ TEST(MinimumSeparation, FindsContactsMovedApartByIt) {
 
 // ---- A plain reading of the description ---------------------------------------------------------
 
-/// Algorithm 2 of [wang2021] with a priority queue, as it is described (docs/methods.md, section
-/// 2).
+/// Algorithm 2 of [wang2021] with a priority queue, directly from its description (docs/methods.md,
+/// section 2).
 struct PlainReading {
   struct Item {
     int level;
@@ -364,7 +364,7 @@ TEST(TightInclusion, AgreesWithAPlainReadingOfItsDescription) {
         const auto result = tight_inclusion(kind, known.query, options);
         if (result.checks > some_checks) return;
         const PlainReading reading = plain_reading(kind, known.query, options.tolerance);
-        // It knows neither scaling nor a last bit of parameters.
+        // The algorithm has no scaling, and no last bit of parameters.
         if (std::ranges::min(reading.widths_tolerated) < 0x1p-50) return;
         const auto toi = reading.toi();
         ASSERT_EQ(result.verdict == Verdict::yes, toi.has_value()) << family.name;
@@ -406,7 +406,7 @@ TEST(Input, InfiniteOrNaNIsAnErrorNeverAMiss) {
   for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
     for (std::size_t i = 0; i < 24; ++i) {
       for (const double bad : {infinity, -infinity, Answer::none}) {
-        Query query = over_triangle(1, 1, 5, 6).query;  // a miss otherwise
+        Query query = over_triangle(1, 1, 5, 6).query;  // no collision otherwise
         query.coordinates[i] = bad;
         const auto result = tight_inclusion(kind, query);
         EXPECT_EQ(result.verdict, Verdict::error) << i << ' ' << bad;
@@ -417,7 +417,7 @@ TEST(Input, InfiniteOrNaNIsAnErrorNeverAMiss) {
 }
 
 TEST(Tolerance, BoundsTheErrorOfTheTime) {
-  // The vertex falls from 1 to −2 at a third: within δ of contact not before (1 − δ)/3.
+  // The vertex falls from 1 to −2, in contact at 1/3: within δ of contact not before (1 − δ)/3.
   for (const double tolerance : {1e-1, 1e-3, 1e-6, 1e-9}) {
     const auto result = solve(over_triangle(1, 1, 1, -2), {.tolerance = tolerance});
     ASSERT_EQ(result.verdict, Verdict::yes);
@@ -428,7 +428,7 @@ TEST(Tolerance, BoundsTheErrorOfTheTime) {
 }
 
 TEST(MaxChecks, EndsEarlyWithTheToleranceReached) {
-  // An edge sliding along another: contact for an interval of time and of parameters.
+  // An edge that slides along another: contact for an interval of time and of parameters.
   const PosedQuery sliding =
       tests::edge_edge({0, 0, 0, 4, 0, 0, 1, 0, 0, 5, 0, 0}, {0, 0, 0, 4, 0, 0, 2, 0, 0, 6, 0, 0});
   double last_tolerance = infinity;
@@ -459,13 +459,13 @@ TEST(MaxBoxes, BoundsTheWaitingBoxes) {
   EXPECT_EQ(result.verdict, Verdict::yes);
   EXPECT_GT(result.tolerance, 1e-6);
   EXPECT_LT(result.checks, 4000);
-  // The next search starts afresh.
+  // The next search is independent.
   EXPECT_EQ(solve(over_triangle(1, 1, 5, 6)).verdict, Verdict::no);
   EXPECT_EQ(solve(sliding, {.max_checks = 0, .max_boxes = 1000}).checks, result.checks);
 }
 
 TEST(TMax, CountsContactsUpToItOnly) {
-  const PosedQuery falling = over_triangle(1, 1, 1, -2);  // at a third
+  const PosedQuery falling = over_triangle(1, 1, 1, -2);  // at 1/3
   for (const double t_max : {1.0, 0.5, 0.34, 0.3334}) {
     const auto result = solve(falling, {.t_max = t_max});
     EXPECT_EQ(result.verdict, Verdict::yes) << t_max;
@@ -477,7 +477,7 @@ TEST(TMax, CountsContactsUpToItOnly) {
 }
 
 TEST(TMax, KeepsContactAtItselfAndGivesNoLaterTime) {
-  const PosedQuery falling = over_triangle(1, 1, 1, -1);  // at a half
+  const PosedQuery falling = over_triangle(1, 1, 1, -1);  // at 1/2
   EXPECT_EQ(solve(falling, {.t_max = 0.5}).verdict, Verdict::yes);
   const PosedQuery colliding = over_triangle(1, 1, 0, 1);  // at 0
   for (const double t_max : {0.0, 1e-300, 0.1}) {
@@ -504,7 +504,7 @@ TEST(TMax, MissesNothingBeforeIt) {
 }
 
 TEST(NoZeroToi, AdvancesWherePossible) {
-  // 2^-24 above the triangle: nearer than δ, so that 0 is the first answer.
+  // The vertex is 2^-24 above the triangle: nearer than δ, so that 0 is the first answer.
   const PosedQuery near_start = over_triangle(1, 1, 0x1p-24, -1);
   EXPECT_EQ(solve(near_start).toi, 0.0);
   const auto refined = solve(near_start, {.no_zero_toi = true});
@@ -513,7 +513,7 @@ TEST(NoZeroToi, AdvancesWherePossible) {
   EXPECT_LT(refined.toi, 0x1p-24);
   EXPECT_GT(refined.refinements, 0);
 
-  // Within the separation from the start.
+  // The query starts within the separation.
   const PosedQuery within = over_triangle(1, 1, 0x1p-4, -1);
   const auto lowered = solve(within, {.separation = {.distance = 0x1p-3}, .no_zero_toi = true});
   EXPECT_EQ(lowered.verdict, Verdict::yes);
@@ -589,7 +589,7 @@ TEST(Range, HugeAndTinyQueriesKeepTheirVerdict) {
   }
 }
 
-/// Coordinates of some least subnormals on two axes and huge ones on the third; two points, one of
+/// Coordinates of a few least subnormals on two axes and huge ones on the third; two points, one of
 /// each primitive, meet exactly at t=½.
 Query huge_and_tiny(Random& random, Kind kind) {
   Query query{};
@@ -631,7 +631,7 @@ TEST(Range, ASceneFilterCoversUnderflowOfHugeQueriesToo) {
 }
 
 TEST(Range, ParametersReachTheirLastBitAndStop) {
-  // A point, and a triangle 2^1000 across: parameters would have to be split a thousand times.
+  // A point, and a triangle of width 2^1000: parameters would have to be split a thousand times.
   const double far = 0x1p1000;
   const PosedQuery posed = tests::vertex_face({1, 1, 1, 0, 0, 0, far, 0, 0, 0, far, 0},
                                               {1, 1, -1, 0, 0, 0, far, 0, 0, 0, far, 0});
@@ -662,8 +662,8 @@ TEST(Published, RegressionQueries) {
   EXPECT_NEAR(sliding.toi, 0.2414, 1e-3);
 }
 
-/// Two contacts, exactly at t=½, which the released implementation denies: its filter takes the
-/// smaller of x_max and 1 where the paper takes the larger.
+/// Two contacts, exactly at t=½, that the released implementation denies: its filter takes the
+/// smaller of x_max and 1 instead of the larger one, as in the paper.
 std::vector<Query> contacts_denied_by_the_release() {
   return {Query{{0.0041648000000000006,
                  0.0033933,
@@ -733,7 +733,7 @@ TEST(Published, ContactsDeniedByTheReleaseAreFound) {
   }
 }
 
-/// The plainest contact that the release denies (verify/report/results.cpp): a vertex flies along
+/// The simplest contact that the release denies (verify/report/results.cpp): a vertex flies along
 /// the x axis, onto a resting triangle in a plane across it. All coordinates have two decimals.
 TEST(Published, TheReleaseDeniesAVertexThatLandsOnATriangle) {
   const PosedQuery posed =
@@ -750,7 +750,7 @@ TEST(Published, TheReleaseDeniesAVertexThatLandsOnATriangle) {
   }
 }
 
-/// How many of the contacts are denied.
+/// The number of denied contacts.
 std::size_t denied_at(double scale, bool two_decimals, Kind kind, ErrorModel model) {
   const verify::data::QueryGroup contacts = verify::generate::end_contacts(
       kind, {.scale = scale, .two_decimals = two_decimals, .count = 500});
@@ -759,7 +759,7 @@ std::size_t denied_at(double scale, bool two_decimals, Kind kind, ErrorModel mod
       [&](const Query& query) { return solve_with(model, kind, query).verdict == Verdict::no; }));
 }
 
-/// In per cent what was seen on the release itself: 5 to 12, at all scales but those near 1.
+/// The range observed with the release itself: 5 to 12 per cent, at all scales but those near 1.
 TEST(Published, TheReleaseDeniesSomeContactsAtScalesFarFromOne) {
   for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
     for (const bool two_decimals : {false, true}) {
@@ -779,7 +779,8 @@ TEST(Published, TheReleaseDeniesSomeContactsAtScalesFarFromOne) {
 
 // ---- Planted faults -----------------------------------------------------------------------------
 
-/// How many families find a fault, by a miss or a late time, among 100 queries of each kind?
+/// The number of families that find a fault, by a miss or a late time, among 100 queries of each
+/// kind.
 std::size_t families_that_find(const Method& method) {
   std::set<std::string_view> result;
   for_each_family_query(100,

@@ -1,6 +1,6 @@
 /// \file
-/// The table of planted faults in solvers: each hunted by the fuzzer, with the time and the queries
-/// it took. Exit status 1 if one is not found that should be, or one that should be harmless is.
+/// The table of planted faults in solvers: the fuzzer hunts each, with its time and number of
+/// queries. Exit status 1 if a fault that should be found is not, or if a harmless one is.
 
 #include <fmt/format.h>
 
@@ -35,7 +35,7 @@ std::string outcome(const FaultySolver& solver, const Hunt& hunt) {
   return solver.fault.harmless.empty() ? "NOT FOUND" : "harmless";
 }
 
-/// Is it as it should be?
+/// Prints the hunt. True if its result is as it should be.
 bool print(const FaultySolver& solver, const Hunt& hunt) {
   fmt::print("{:<30} {:<16} {:>8.2f} {:>10}  {:<46} {}\n", solver.fault.name, solver.of,
              hunt.seconds, hunt.queries, outcome(solver, hunt), solver.fault.what);
@@ -47,7 +47,7 @@ bool print(const FaultySolver& solver, const Hunt& hunt) {
   return !why.empty();
 }
 
-/// Findings as datasets: a folder for each separation, in it a file for each kind.
+/// Findings as datasets: a folder for each separation, with a file for each kind.
 class Corpus {
  public:
   void add(const FaultySolver& solver, const verify::fuzz::Finding& finding) {

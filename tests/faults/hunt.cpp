@@ -11,7 +11,7 @@
 namespace touchstone::tests {
 namespace {
 
-/// Enough boxes a query to go wrong in.
+/// Enough boxes in each query to go wrong.
 constexpr std::int64_t most_checks = 1000;
 
 /// The certified solver with another exact stage.
@@ -64,8 +64,8 @@ std::vector<FaultySolver> all_faulty_solvers() {
   return all;
 }
 
-/// A faulty solver under the name of its fault: what calls itself certified is not judged by the
-/// certified solver.
+/// A faulty solver under the name of its fault: the certified solver does not judge a method that
+/// is named as itself.
 class Named final : public fast::Method {
  public:
   explicit Named(const FaultySolver& solver) : method_(solver.make()), info_(method_->info()) {

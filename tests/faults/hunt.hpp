@@ -1,8 +1,8 @@
 #pragma once
 
 /// \file
-/// The fuzzer against solvers with a planted fault (planted_faults.hpp), until it has found what is
-/// wrong: who tests the tester.
+/// The fuzzer against solvers with a planted fault (planted_faults.hpp), until it has found the
+/// fault: a test of the tester.
 
 #include <cstdint>
 #include <functional>
@@ -19,15 +19,15 @@ namespace touchstone::tests {
 
 struct FaultySolver {
   FaultInfo fault;
-  /// The method that the fault is planted in.
+  /// The method with the planted fault.
   std::string_view of;
   std::function<std::unique_ptr<fast::Method>()> make;
 };
 
-/// One for each fault in a solver that this build plants.
+/// One solver for each fault in a solver that this build plants.
 [[nodiscard]] const std::vector<FaultySolver>& faulty_solvers();
 
-/// \throws std::invalid_argument if none has a fault of that name.
+/// \throws std::invalid_argument if no fault has that name.
 [[nodiscard]] const FaultySolver& find_faulty_solver(std::string_view fault);
 
 struct HuntOptions {
@@ -39,14 +39,13 @@ struct HuntOptions {
 struct Hunt {
   std::optional<verify::fuzz::Finding> finding;  ///< the first
   double seconds = 0.0;                          ///< wall clock, to the end of the run
-  std::uint64_t queries = 0;                     ///< asked until then
+  std::uint64_t queries = 0;                     ///< asked until the end
 };
 
-/// Hunts one fault: the fuzzer as anyone runs it, with its default generators and no queries to
-/// begin with.
+/// Hunts one fault by a fuzzer with its default generators and without initial queries.
 [[nodiscard]] Hunt hunt(const FaultySolver& solver, const HuntOptions& options);
 
-/// The simplest query in which the solver does the same wrong (verify/fuzz/recheck.hpp).
+/// The simplest query with the same fault of the solver (verify/fuzz/recheck.hpp).
 [[nodiscard]] Query simplest(const FaultySolver& solver, const verify::fuzz::Finding& finding);
 
 }  // namespace touchstone::tests

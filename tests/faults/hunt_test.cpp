@@ -66,8 +66,8 @@ TEST(FaultHunt, EndsInASimpleQuery) {
 
 bool is_everyday(double x) { return x == 0.0 || (std::abs(x) >= 1e-4 && std::abs(x) <= 1e4); }
 
-/// The public Tight-Inclusion's filter and order of operations: soon, by a query that its users
-/// could have met, and what is shown of it is one of few short numbers.
+/// The public Tight-Inclusion's filter and order of operations: the fuzzer finds the fault soon, by
+/// a query that its users could have met, of few short numbers.
 TEST(ReleasedFilter, IsFoundByAQueryOfEverydaySize) {
   for (const std::uint64_t seed : {1U, 2U, 3U}) {
     bool found = false;
@@ -93,7 +93,7 @@ TEST(ReleasedFilter, IsFoundByAQueryOfEverydaySize) {
   }
 }
 
-/// In seconds, by the command line as anyone runs it.
+/// Found in seconds by the usual command line.
 TEST(Plugin, WithMinForMaxInItsFilterIsFound) {
   const std::string command = std::string("\"") + tests::touchstone_program() +
                               "\" fuzz --plugin \"" + tests::plugin_library("min_for_max") +

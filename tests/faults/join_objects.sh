@@ -1,6 +1,6 @@
-# join_objects.sh MODULE FUNCTION NAME OUTPUT OBJECT… LIBRARY: the objects and what they need of the library as one object, in
-# which only touchstone::MODULE::FUNCTION can be linked, as touchstone::MODULE::NAME. (The groups that several objects may share
-# are dissolved, so that a fault in a template stays in this object.)
+# join_objects.sh MODULE FUNCTION NAME OUTPUT OBJECT… LIBRARY: the objects and their dependencies in the library as
+# one object, in which only touchstone::MODULE::FUNCTION can be linked, as touchstone::MODULE::NAME. (Groups that
+# several objects may share are dissolved, so that a fault in a template stays in this object.)
 set -eu
 module=$1 function=$2 name=$3 output=$4
 shift 4
@@ -15,7 +15,7 @@ for symbol in $symbols; do
 done
 # shellcheck disable=SC2086
 ld -r --force-group-allocation $wanted -o "$output" "$@"
-# (objcopy makes a unique symbol, of an inline variable, local only once it is weak.)
+# objcopy makes a unique symbol, of an inline variable, local only if it is weak.
 for symbol in $(nm "$output" | awk '$2 == "u" { print $3 }'); do
   objcopy --weaken-symbol="$symbol" "$output"
 done

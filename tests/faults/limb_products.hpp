@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file
-/// The work of exact_that_counts, decide_exactly as it is but for this count.
+/// The work of exact_that_counts, which is decide_exactly with this count.
 
 #include <cstdint>
 

@@ -1,11 +1,10 @@
 /// \file
 /// A plugin with a known fault: an inclusion-based solver of the usual sort, whose numerical filter
-/// is a constant times γ³ with γ = min(x_max, 1) where max belongs. (The public Tight-Inclusion has
-/// it so since 2022: fast/filter.hpp, ErrorModel::released.)
+/// is a constant times γ³ with γ = min(x_max, 1) instead of max. (The public Tight-Inclusion has
+/// had this fault since 2022: fast/filter.hpp, ErrorModel::released.)
 ///
-/// Otherwise right: it halves boxes of (t,u,v), earliest time first, drops those whose corner
-/// values are all beyond the filter on one side of an axis, and says yes at the first that is
-/// small.
+/// The rest is right: it halves boxes of (t,u,v), earliest time first, drops those whose corner
+/// values are all beyond the filter on one side of an axis, and says yes at the first small box.
 
 #include <algorithm>
 #include <array>

@@ -2,7 +2,7 @@
 
 /// \file
 /// The planted faults of faults.txt: copies of parts of the project with one fault each, for the
-/// tests of the parts and for the fuzzer (hunt.hpp). TOUCHSTONE_FAULTS says which of them a build
+/// tests of the parts and for the fuzzer (hunt.hpp). TOUCHSTONE_FAULTS names those that a build
 /// plants.
 
 #include <istream>
@@ -31,15 +31,15 @@ namespace touchstone::tests {
 struct FaultInfo {
   std::string_view name;
   std::string_view what;
-  /// Where it shows.
+  /// The separation of queries that show the fault.
   Separation separation = {};
-  /// Why it is no fault; empty if it is one.
+  /// The reason why it is not a fault; empty if it is one.
   std::string_view harmless = {};
-  /// Which queries show it, where they are so rare that neither hunter is expected to meet one;
-  /// else empty.
+  /// The queries that show it, if they are so rare that neither hunter is expected to find one;
+  /// otherwise empty.
   std::string_view rare = {};
 
-  /// Does the fuzzer alone have to find it, and not the tests of the part?
+  /// True if only the fuzzer has to find it, not the tests of the part.
   bool is_for_fuzzer = false;
 
   [[nodiscard]] bool is_to_be_found() const { return harmless.empty() && rare.empty(); }
@@ -54,12 +54,12 @@ struct Fault : FaultInfo {
 template <class Part>
 using Faults = std::vector<Fault<Part>>;
 
-// What the parts are: functions and constants.
+// The types of the parts: functions and constants.
 using MakeBounds = std::vector<fast::VertexBounds>(const fast::MovingVertices&, double end,
                                                    double distance);
 using ExactDistance = fast::Distance(Kind, const Query&, double, Norm);
 using FilteredDistance = std::optional<fast::Distance>(Kind, const Query&, double, Norm);
-using FindActive = std::vector<fast::ActiveContact>(const fast::Step&, double, Norm);
+using FindActive = std::vector<fast::ActiveContact>(const fast::Step&, const Separation&);
 using LimitStep = fast::LineSearchLimit(const fast::Step&, double, const fast::LineSearchOptions&);
 using Check = checker::Report(std::istream&, const checker::Options&);
 using DecideExactly = std::optional<fast::ExactImpact>(Kind, const Query&, const Separation&,
@@ -67,7 +67,7 @@ using DecideExactly = std::optional<fast::ExactImpact>(Kind, const Query&, const
 using MakeTightInclusion = std::unique_ptr<fast::Method>(const fast::TightInclusionOptions&);
 using MakeCertified = std::unique_ptr<fast::Method>(const fast::CertifiedOptions&);
 
-/// All that this build plants, in the order of faults.txt.
+/// All faults that this build plants, in the order of faults.txt.
 struct PlantedFaults {
   Faults<MakeBounds> float_bounds;
   Faults<const fast::SearchKernel> search, search_of_bodies, division;
@@ -81,7 +81,7 @@ struct PlantedFaults {
   Faults<const fast::CertifiedKernel> certified_kernel;
   Faults<DecideExactly> exact_stage;
   Faults<MakeCertified> certified;
-  /// Without a fault: it counts its work (limb_products.hpp).
+  /// The part without a fault, with a count of its work (limb_products.hpp).
   Faults<DecideExactly> counting;
 };
 

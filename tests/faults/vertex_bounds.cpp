@@ -1,4 +1,4 @@
-// FloatBounds as a function, which a fault in its source can be planted in.
+// FloatBounds as a function, so that a fault in its source can be planted.
 
 #include "fast/broad_phase/float_bounds.cpp"
 

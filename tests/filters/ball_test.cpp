@@ -52,7 +52,7 @@ bool holds(const Ball& ball, const mpq_class& number) {
 TEST(Ball, HoldsSumsDifferencesAndProductsOfItsNumbers) {
   Random random(2100);
   for (int i = 0; i < tests::trials(100'000); ++i) {
-    // Magnitudes alike, so that sums cancel; and all of them, subnormal ones too.
+    // Similar magnitudes, so that sums cancel; and all magnitudes, subnormal ones too.
     const int exponent = random.coin() ? random.between(-4, 4) : random.between(-1070, 480);
     const Member a = random_member(random, exponent, exponent + 2);
     Member b = random_member(random, exponent, exponent + 2);

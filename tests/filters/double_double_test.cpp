@@ -19,7 +19,7 @@ using Pair = DoubleDouble<double>;
 
 constexpr double u = 0x1p-53;
 
-/// Ten times as many trials where TOUCHSTONE_SOAK asks for them.
+/// Ten times as many trials if TOUCHSTONE_SOAK is set.
 int trials(int usual) {
   return std::getenv("TOUCHSTONE_SOAK") == nullptr ? tests::trials(usual) : 10 * usual;
 }
@@ -50,7 +50,7 @@ class Numbers {
   }
   double sign() { return one_in(2) ? 1 : -1; }
 
-  /// A significand in [1,2): full of bits, of few bits, or next to a power of two.
+  /// A significand in [1,2): of all bits, of few bits, or next to a power of two.
   double significand() {
     const auto all = static_cast<double>(random_() >> 12U);
     switch (below(4)) {
@@ -76,12 +76,12 @@ class Numbers {
     return exact_sum(high, low);
   }
 
-  /// A pair near −a: what is left of their sum starts at a random place, below the high part or
-  /// below the low part.
+  /// A pair near −a: the first bit of their sum is at a random place, below the high part or below
+  /// the low part.
   Pair nearly_opposite(const Pair& a) {
     const int exponent = std::ilogb(a.high);
     if (one_in(3)) {
-      // High parts apart by some last places: the low parts decide what is left.
+      // The high parts differ by at most three last places, so that the low parts matter.
       const double high = -a.high + std::ldexp(static_cast<double>(between(-3, 3)), exponent - 52);
       return exact_sum(high, std::ldexp(number(0), exponent - 54));
     }
@@ -98,7 +98,7 @@ class Numbers {
 
 mpq_class value(const Pair& a) { return mpq_class(a.high) + mpq_class(a.low); }
 
-/// Two numbers of all sorts: near each other, opposite, ties, hugely apart, subnormal.
+/// Two numbers of all sorts: near each other, opposite, ties, of very different size, subnormal.
 std::pair<double, double> two_numbers(Numbers& numbers) {
   const int exponent = numbers.one_in(4) ? numbers.between(-1074, 900) : numbers.between(-30, 30);
   const double a = numbers.number(exponent);
@@ -135,7 +135,7 @@ TEST(DoubleDouble, SumsOfOrderedDoublesAreExact) {
     auto [a, b] = two_numbers(numbers);
     if (std::abs(a) < std::abs(b)) std::swap(a, b);
     ASSERT_EQ(value(sum_of_ordered(a, b)), mpq_class(a) + mpq_class(b)) << a << " " << b;
-    // The smaller first, but a multiple of the other's last place.
+    // The smaller comes first, but is a multiple of the other's last place.
     const double larger = numbers.number(0);
     const double multiple = std::ldexp(static_cast<double>(numbers.below(1U << 30U)), -52);
     ASSERT_EQ(value(sum_of_ordered(multiple, larger)), mpq_class(multiple) + mpq_class(larger));
@@ -144,7 +144,7 @@ TEST(DoubleDouble, SumsOfOrderedDoublesAreExact) {
       << "a test of nothing: the order does not matter";
 }
 
-/// Two numbers whose product neither over- nor underflows with all its bits.
+/// Two numbers whose product neither overflows nor loses bits by underflow.
 std::pair<double, double> two_factors(Numbers& numbers) {
   const int exponent = numbers.between(-480, 490);
   return {numbers.number(exponent), numbers.number(numbers.one_in(2) ? -exponent : exponent)};
@@ -170,7 +170,7 @@ TEST(DoubleDouble, ErrorsOfProductsAreExact) {
 
 // ---- Relative errors ----------------------------------------------------------------------------
 
-/// The sloppy sum: the low parts are added in one rounding. Wrong where the high parts cancel.
+/// The sloppy sum: the low parts are added in one rounding. Wrong if the high parts cancel.
 Pair sloppy_sum(const Pair& a, const Pair& b) {
   const Pair high = exact_sum(a.high, b.high);
   return sum_of_ordered(high.high, high.low + (a.low + b.low));
@@ -188,14 +188,14 @@ Pair fused_product(const Pair& a, const Pair& b) {
   return {product.high.x, product.low.x};
 }
 
-/// The sum of random inputs needs no more bits than this.
+/// The number of bits that suffices for the sum of random inputs.
 constexpr mpfr_prec_t exact_bits = 800;
 
 MpfrNumber exact(const Pair& a) {
   return MpfrNumber(a.high, exact_bits) + MpfrNumber(a.low, exact_bits);
 }
 
-/// The greatest relative error found, in units of u². Fails unless results are normalised, and the
+/// The greatest relative error found, in units of u². Fails unless results are normalised and the
 /// truth is computed without rounding.
 template <class Operation, class GroundTruth>
 double worst_error(const Operation& operation, const GroundTruth& truth, bool cancels) {
@@ -228,7 +228,7 @@ TEST(DoubleDouble, SumsAreNearTheTruthWhateverCancels) {
 }
 
 TEST(DoubleDouble, DifferencesAreNearTheTruthWhateverCancels) {
-  // Of a and −b: it is the sums that cancel.
+  // The difference of a and −b, because sums cancel.
   const auto difference = [](const Pair& a, const Pair& b) { return a - Pair{-b.high, -b.low}; };
   const double worst = worst_error(difference, std::plus<>(), true);
   RecordProperty("worst_in_u2", std::to_string(worst));
@@ -304,7 +304,7 @@ double worst_underflow(const Product& product, int least, int greatest) {
 
 TEST(DoubleDouble, ProductsLoseNoMoreByUnderflowThanTheDerivationCounts) {
   const auto by_halves = [](const Pair& a, const Pair& b) { return a * b; };
-  // The ranges of the argument: around and below the subnormals, halves with lost bits, none lost.
+  // The ranges of the argument: near and below the subnormals, halves with lost bits, no lost bits.
   for (const auto& [least, greatest] : {std::pair(-1090, -1020), {-1025, -990}, {-1000, -960}}) {
     const double halves = worst_underflow(by_halves, least, greatest);
     const double fused = worst_underflow(fused_product, least, greatest);

@@ -25,7 +25,7 @@ TEST(ErrorBounds, StandAsTheDerivationGivesThem) {
       << "write it anew: touchstone derive --emit filters/error_bounds.hpp";
 }
 
-/// A bound that ships, with the expression and precision that it is for.
+/// A shipped bound, with its expression and precision.
 template <class Tested, class Number, const ErrorBound<Number, 1>& constant>
 struct Shipped {
   using Expression = Tested;
@@ -42,7 +42,7 @@ class EveryBound : public ::testing::Test {
   using Scalar = typename T::Scalar;
   using Limits = std::numeric_limits<Scalar>;
 
-  /// Fails unless the computed value is finite and as near to the truth as the bound says.
+  /// Fails unless the computed value is finite and within the bound of the truth.
   static void expect_within_bound(const Inputs& inputs) {
     const Scalar computed = computed_value<Expression, Scalar>(inputs);
     ASSERT_TRUE(std::isfinite(computed)) << ::testing::PrintToString(inputs.coordinates);
@@ -54,7 +54,7 @@ class EveryBound : public ::testing::Test {
         << ::testing::PrintToString(inputs.coordinates) << ::testing::PrintToString(inputs.weights);
   }
 
-  /// Runs the test on inputs whose coordinates a function of a random number gives.
+  /// Runs the test on inputs whose coordinates are a function of a random number.
   template <class Coordinate>
   static void expect_within_bound_for(const Coordinate& coordinate) {
     std::mt19937_64 random(5);
@@ -136,9 +136,9 @@ TYPED_TEST(EveryBound, TakesZerosOfBothSigns) {
   });
 }
 
-// ---- Bounds of differences of coordinates, and of products, by classes where there are any -------
+// ---- Bounds of differences of coordinates and of products, by classes if there are any ----------
 
-/// A difference of two doubles: exactly, rounded, and as a pair.
+/// A difference of two doubles: exact, rounded, and as a pair.
 struct Difference {
   mpq_class exact;
   DoubleDouble<double> pair;
@@ -157,7 +157,7 @@ struct InDouble {
   static double high(double x) { return x; }
 };
 
-/// Doubles that are no differences: what is rounded is the truth.
+/// Doubles that are not differences: the rounded value is the truth.
 struct InDoubleItself : InDouble {
   static mpq_class truth(const Difference& x) { return {x.pair.high}; }
 };
@@ -172,7 +172,7 @@ struct InDoubleDouble {
   static double high(const Number& x) { return x.high; }
 };
 
-/// A bound that ships: what it is of, what the solvers run, and in which arithmetic.
+/// A shipped bound: its expression, the expression that the solvers run, and its arithmetic.
 template <class Of, class Run, class Computing, std::size_t of_degree,
           const ErrorBound<double, of_degree>& constant>
 struct ShippedByClasses {
@@ -183,11 +183,11 @@ struct ShippedByClasses {
   static constexpr const ErrorBound<double, of_degree>& bound = constant;
   static constexpr bool is_double = std::is_base_of_v<InDouble, Computing>;
   static constexpr const Format& format = is_double ? double_format : double_double_format;
-  /// Of the bound, that errors of random inputs reach.
+  /// The part of the bound that errors of random inputs reach.
   static constexpr double least_part = is_double ? 1.0 / 50 : 1.0 / 200;
 };
 
-/// How large the numbers are whose differences are taken: random exponents for each class.
+/// The sizes of the numbers before subtraction: random exponents for each class.
 struct Sizes {
   std::array<int, 3> least;
   std::array<int, 3> greatest;
@@ -201,10 +201,10 @@ class EveryBoundByClasses : public ::testing::Test {
   using Arithmetic = typename T::Arithmetic;
   static constexpr std::size_t count = Expression::coordinates;
 
-  /// What was found in one test.
+  /// The results of one test.
   struct Found {
     double worst = 0;  ///< the greatest error, as a part of the bound
-    int rounded = 0;   ///< differences that are no doubles
+    int rounded = 0;   ///< differences that are not doubles
   };
 
   /// ± 1.… · 2^exponent, with a random number of bits.
@@ -218,13 +218,13 @@ class EveryBoundByClasses : public ::testing::Test {
     return least + static_cast<int>(random_() % static_cast<unsigned>(greatest - least + 1));
   }
 
-  /// The class of a coordinate; the first for all where there are none.
+  /// The class of a coordinate; the first for all if there are no classes.
   static std::size_t class_of([[maybe_unused]] std::size_t coordinate) {
     if constexpr (requires { Expression::classes; }) return Expression::classes.at(coordinate);
     return 0;
   }
 
-  /// Numbers and their differences, of the sizes of the class that each coordinate is in.
+  /// Numbers and their differences, of the sizes of each coordinate's class.
   std::vector<Difference> differences(const Sizes& sizes) {
     std::array<int, 3> scale{};
     for (std::size_t i = 0; i < 3; ++i)
@@ -290,7 +290,7 @@ class EveryBoundByClasses : public ::testing::Test {
       const double bound = leading + T::bound.underflow(greatest_magnitude(x));
       ASSERT_TRUE(std::isfinite(bound));
       ASSERT_LE(error, mpq_class(bound));
-      // What solvers see of a pair is its high part: beyond the bound it has the sign of the truth.
+      // Solvers see only the high part of a pair: beyond the bound it has the sign of the truth.
       const double high = Arithmetic::high(computed);
       ASSERT_TRUE(std::abs(high) <= bound || sgn(exact) == (high > 0 ? 1 : -1));
       if (bound > 0) found.worst = std::max(found.worst, mpq_class(error / bound).get_d());
@@ -344,7 +344,7 @@ TYPED_TEST(EveryBoundByClasses, HoldsForMixedMagnitudes) {
 }
 
 TYPED_TEST(EveryBoundByClasses, HoldsFarFromTheOriginAndIsNotFarFromTheError) {
-  // Of one magnitude: what comes nearest to the bound.
+  // Inputs of one magnitude come nearest to the bound.
   const auto found = this->expect_within_bound_for({{0, 0, 0}, {0, 0, 0}});
   EXPECT_GT(found.worst, TypeParam::least_part) << "a bound so much smaller would pass";
   const auto near = this->expect_within_bound_for({{20, 20, 20}, {22, 22, 22}, -10});
@@ -365,7 +365,7 @@ TYPED_TEST(EveryBoundByClasses, HoldsAmongSubnormals) {
 }
 
 TYPED_TEST(EveryBoundByClasses, HoldsWhereProductsUnderflow) {
-  // Products of two underflow, products of three, and of one subnormal class with a large one.
+  // Products of two underflow, of three, and of one subnormal class with a large one.
   const auto pairs = this->expect_within_bound_for({{-545, -545, -545}, {-480, -480, -480}});
   EXPECT_GT(pairs.worst, 0.0);
   const auto triples = this->expect_within_bound_for({{-370, -370, -370}, {-310, -310, -310}});

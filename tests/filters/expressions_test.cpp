@@ -10,7 +10,7 @@
 namespace touchstone::filters::expressions_test {
 namespace {
 
-/// The axis 0 of a query whose coordinates there are these.
+/// A query with these coordinates on axis 0.
 Query query_of(const std::vector<double>& x) {
   Query query{};
   for (std::size_t i = 0; i < 8; ++i) query.at(i / 4, i % 4, 0) = x[i];
@@ -64,7 +64,7 @@ TYPED_TEST(EveryExpression, HasGroupsWhoseWeightsAddUpToOne) {
 using DoubleLanes [[gnu::vector_size(16)]] = double;
 using FloatLanes [[gnu::vector_size(16)]] = float;
 
-/// Runs an expression on lanes; each must equal the scalar's value, bit by bit.
+/// Evaluates an expression on lanes; each must equal the scalar's value, bit by bit.
 template <class Expression, class Lanes, class Scalar>
 void expect_lanes_equal_scalars(std::mt19937_64& random) {
   constexpr std::size_t lanes = sizeof(Lanes) / sizeof(Scalar);

@@ -9,13 +9,13 @@
 namespace touchstone::filters::polynomial_expressions_test {
 namespace {
 
-/// A random integer, small enough that no expression of a few of them rounds in double.
+/// A random integer, so small that expressions of a few of them do not round in double.
 template <class Scalar>
 Scalar small_integer(std::mt19937_64& random) {
   return Scalar(static_cast<double>(random() % 31) - 15);
 }
 
-/// Some k/8 of [0,1].
+/// A random multiple of 1/8 in [0,1].
 template <class Scalar>
 Scalar small_fraction(std::mt19937_64& random) {
   return Scalar(static_cast<double>(random() % 9) / 8);
@@ -128,7 +128,7 @@ struct Oriented {
   }
 };
 
-/// In rationals, and in double on inputs where nothing rounds.
+/// Tests in rationals, and in double on inputs without rounding.
 template <class Scalar>
 class PolynomialExpressions : public ::testing::Test {
  protected:
@@ -183,7 +183,7 @@ TYPED_TEST(PolynomialExpressions, MiddleOfAPointOfTimeIsAMultipleOfTheEnd) {
   }
 }
 
-/// The polynomial on [0,1] the other way round: motions from end to start.
+/// The polynomial on [0,1] with time reversed: motions from end to start.
 TYPED_TEST(PolynomialExpressions, WhatIsLastIsFirstWithTheEndsExchanged) {
   for (int i = 0; i < this->trials; ++i) {
     const auto [r, p, q] = this->random_three();
@@ -251,7 +251,7 @@ TYPED_TEST(PolynomialExpressions, GapIsTheProjectionOfTheDifference) {
   }
 }
 
-/// The measured expression at weights 1, and one coordinate measured wrong by a factor.
+/// The measured expression at weights 1, with one coordinate wrong by a factor.
 template <class Expression, class Scalar, std::size_t count, std::size_t weights>
 void expect_measures(std::array<Scalar, count> x, const std::array<Scalar, weights>& w) {
   std::array<Scalar, weights + count> with_ones;

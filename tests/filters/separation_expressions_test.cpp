@@ -13,7 +13,7 @@ namespace {
 
 using Vector = Vector3<mpq_class>;
 
-/// Small rationals: all is exact.
+/// Tests with small rationals: all is exact.
 class SeparationExpressions : public ::testing::Test {
  protected:
   static constexpr int trials = 200;

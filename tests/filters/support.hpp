@@ -38,7 +38,7 @@ inline double greatest_coordinate(const Inputs& inputs) {
 }
 
 /// Random weights of an expression's groups: t, u, v are multiples of 2^-bits. With two vertices a
-/// group is (1−t, t), with four (1−u−v, u, v); a group of one weight is that.
+/// group is (1−t, t), with four (1−u−v, u, v); a group of one weight is that weight.
 template <class Expression>
 std::vector<double> random_weights(std::mt19937_64& random, int bits) {
   const auto fraction = [&] {
@@ -63,7 +63,7 @@ std::vector<double> random_weights(std::mt19937_64& random, int bits) {
   return weights;
 }
 
-/// (a, b) blended once: small enough to follow by hand.
+/// (a, b) blended once: small enough to check by hand.
 struct Blend {
   static constexpr std::string_view name = "blend";
   static constexpr std::size_t coordinates = 2;
@@ -80,7 +80,7 @@ struct Blend {
   }
 };
 
-/// a w0 − a w2: zero where both weights are 1, computed with two errors of their own.
+/// a w0 − a w2: zero where both weights are 1, with a separate error of each.
 struct TwoErrors {
   static constexpr std::string_view name = "two_errors";
   static constexpr std::size_t coordinates = 1;

@@ -1,4 +1,4 @@
-// The example of filters/README.md: what it shows is compiled, derived, proved and right.
+// The example of filters/README.md: its text is compiled, derived, proved and right.
 
 #include <gtest/gtest.h>
 

@@ -13,7 +13,7 @@
 namespace touchstone::simulation::collision_detector_test {
 namespace {
 
-/// A box over a spike, and all of it a tenth of a metre lower.
+/// A box over a spike, and the box a tenth of a metre lower.
 class FallingBox : public testing::Test {
  protected:
   FallingBox() : end_(world_.start()) {
@@ -48,7 +48,7 @@ TEST_F(FallingBox, MayMoveAsFarAsTheTip) {
     EXPECT_EQ(detector.statistics().steps_of_zero, 0) << method;
   }
   CollisionDetector certified({.p = 0.25});
-  // Of the 5 mm that are left, a quarter stays.
+  // A quarter of the initial 5 mm stays.
   EXPECT_NEAR(certified.step_size(step()), 0.75 * 0.05, 1e-9);
 }
 
@@ -81,8 +81,8 @@ TEST_F(FallingBox, IsStoppedByAnotherPairIfOneIsMissedOnce) {
   CollisionDetector all({.missed_one_in = 1'000'000'000'000}), second({.missed_limit = 2});
   const double limit = all.step_size(step());
   EXPECT_EQ(second.step_size(step()), limit);
-  // The tip touches an inner vertex of the box's mesh first, or one of many faces around it:
-  // another pair is later or at the same time, and none is missed any more.
+  // The tip meets an inner vertex of the box's mesh first, or one of many faces around it: another
+  // pair is later or at the same time, and none is missed.
   EXPECT_GE(second.step_size(step()), limit);
   EXPECT_EQ(second.statistics().missed, 1);
   EXPECT_EQ(second.step_size(step()), limit);
@@ -90,7 +90,7 @@ TEST_F(FallingBox, IsStoppedByAnotherPairIfOneIsMissedOnce) {
   EXPECT_EQ(second.statistics().limited, 3);
 }
 
-// Two points on their way to each other are neither a vertex and a face nor two edges.
+// Two points that approach each other are neither a vertex and a face nor two edges.
 TEST(CollisionDetector, LooksAtPointsToo) {
   const Eigen::RowVector3d away(1, 0, 0);
   Eigen::Matrix<double, 2, 3> before, after;

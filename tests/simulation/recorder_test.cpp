@@ -48,7 +48,7 @@ TEST_P(Recorded, QueriesComeBackWithTheTruth) {
   }
 }
 
-/// The queries of two motions: all, or so many of each motion and kind.
+/// The queries of two motions: all, or at most `limit` of each motion and kind.
 std::vector<Query> recorded(const std::string& folder, Kind kind, std::size_t limit) {
   const World world(make_scene("wedge"));
   Eigen::VectorXd end = world.start();

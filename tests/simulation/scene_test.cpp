@@ -44,7 +44,7 @@ TEST_P(Scenes, HaveNoFlatElements) {
 TEST_P(Scenes, HaveClosedSurfacesAroundElasticBodies) {
   for (const Body& body : GetParam().make().bodies) {
     if (body.kind != BodyKind::elastic) continue;
-    // Each edge is passed as often in one direction as in the other.
+    // Each edge has two faces.
     std::map<std::array<std::int32_t, 2>, int> passed;
     for (const fast::Face& face : body.faces) {
       for (std::size_t i = 0; i < 3; ++i) {
@@ -56,7 +56,7 @@ TEST_P(Scenes, HaveClosedSurfacesAroundElasticBodies) {
   }
 }
 
-TEST(SceneNames, ThatAreNoneAreToldWithThoseThereAre) {
+TEST(SceneNames, UnknownOnesAreReportedWithAllNames) {
   try {
     (void)make_scene("nowhere");
     FAIL();

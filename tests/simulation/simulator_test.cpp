@@ -11,12 +11,12 @@ namespace {
 
 using Eigen::VectorXd;
 
-/// What became of a scene.
+/// The result of a scene.
 struct Outcome {
   std::vector<VectorXd> frames;
   SimulatorStatistics simulator;
   DetectorStatistics detector;
-  bool is_free = true;  ///< Does nothing touch from any frame to the next?
+  bool is_free = true;  ///< no contact from any frame to the next
 };
 
 template <class OfSimulator>
@@ -59,7 +59,7 @@ TEST_P(BarrierScenes, AreFreeOfContact) {
   EXPECT_EQ(result.detector.steps_of_zero, 0);
 }
 
-// (On the rim of the hole the barrier alone is enough.)
+// At the rim of the hole the barrier alone suffices, so that scene is not tested.
 TEST_P(BarrierScenes, AreNotIfCollisionsAreMissed) {
   if (GetParam() == "hole") return;
   const Outcome result = run<BarrierSimulator>(make_scene(GetParam()), 10, {.missed_one_in = 1});
@@ -71,7 +71,7 @@ TEST(BarrierSimulator, FallsFreelyWhereNothingIsNear) {
   Scene scene = make_scene("spike");
   scene.bodies.pop_back();
   const Outcome result = run<BarrierSimulator>(scene, 5);
-  // Implicit Euler: after n steps the way is g h² n (n + 1) / 2.
+  // Implicit Euler: the path after n steps is g h² n (n + 1) / 2.
   const double way = 9.81 * scene.time_step * scene.time_step * 15.0;
   EXPECT_NEAR((result.frames.front() - result.frames.back())(2), way, 1e-9);
   EXPECT_NEAR((result.frames.front() - result.frames.back())(0), 0.0, 1e-9);

@@ -62,8 +62,8 @@ TEST_P(Energies, AreNothingAtRestAndAfterARotation) {
   }
 }
 
-/// Along a line the energy is a polynomial of degree 6 at most, whose derivatives seven values give
-/// exactly.
+/// The energy along a line is a polynomial of degree at most 6, and seven values determine its
+/// derivatives exactly.
 TEST_P(Energies, HaveTheDerivativesOfThePolynomialsThatTheyAre) {
   for (const unsigned seed : {1U, 2U, 3U}) {
     const VectorXd x = world.start() + 0.1 * random_vector(world.coordinates(), seed);
@@ -87,7 +87,7 @@ TEST_P(Energies, HaveTheDerivativesOfThePolynomialsThatTheyAre) {
     hessian.setFromTriplets(derivatives.hessian.begin(), derivatives.hessian.end());
     EXPECT_LT((hessian - Eigen::SparseMatrix<double>(hessian.transpose())).norm(),
               1e-9 * hessian.norm());
-    // Dropping negative eigenvalues can only add.
+    // Omitting negative eigenvalues can only add.
     EXPECT_GE(direction.dot(hessian * direction), curvature - 1e-8 * values[6]);
   }
 }
@@ -118,7 +118,7 @@ TEST(World, HasTheMassOfItsBodies) {
 }
 
 TEST(World, BendsClothThatIsFoldedOnly) {
-  // Moved by an affine map, cloth stays plane: a hinge's weights sum up to nothing for it.
+  // Cloth stays plane under an affine map: the weights of a hinge add up to zero.
   Scene scene = scene_of(small_cloth());
   scene.bodies[0].youngs_modulus = 0.0;
   const World world(scene);

@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file
-/// A result of the certified solver held against the oracle: everything that it promises.
+/// Comparison of a result of the certified solver with the oracle: all that the solver promises.
 
 #include <algorithm>
 #include <cmath>
@@ -22,7 +22,7 @@ namespace touchstone::tests {
   return toi.sign_of(exact::Polynomial(exact::Integer(-value.get_num()), value.get_den()));
 }
 
-/// What is wrong with the enclosure of an exact time of impact, or nothing.
+/// The fault of an enclosure of an exact time of impact, or nothing.
 [[nodiscard]] inline std::optional<std::string> enclosure_fault(const exact::AlgebraicNumber& toi,
                                                                 double lower, double upper,
                                                                 double tolerance) {
@@ -38,7 +38,7 @@ namespace touchstone::tests {
   return std::nullopt;
 }
 
-/// What is wrong with a result about a query whose truth is known, or nothing.
+/// The fault of a result about a query whose truth is known, or nothing.
 [[nodiscard]] inline std::optional<std::string> fault(Kind kind, const exact::Decision& truth,
                                                       const fast::CertifiedResult& result,
                                                       const fast::CertifiedOptions& options) {
@@ -55,14 +55,14 @@ namespace touchstone::tests {
   return enclosure_fault(*truth.toi, result.toi_lower, result.toi_upper, options.toi_tolerance);
 }
 
-/// What is wrong with a result, or nothing.
+/// The fault of a result, or nothing.
 [[nodiscard]] inline std::optional<std::string> fault(Kind kind, const Query& query,
                                                       const fast::CertifiedResult& result,
                                                       const fast::CertifiedOptions& options = {}) {
   return fault(kind, exact::decide(kind, query, options.separation), result, options);
 }
 
-/// What the exact stage says, as a result.
+/// The exact stage's decision, as a result.
 [[nodiscard]] inline fast::CertifiedResult exact_result(
     Kind kind, const Query& query, const fast::CertifiedOptions& options = {}) {
   const auto& [tolerance, t_max, separation, threads, kernel] = options;

@@ -8,8 +8,7 @@
 /// - the square of the length is least where its gradient is 0 inside, or on one of the lines that
 ///   bound the triangle, or at a corner;
 /// - the greatest component is least where two of these numbers are 0: a, b, 1 − a − b, the
-/// components of the
-///   point, and their sums and differences (a linear program's vertex).
+///   components of the point, and their sums and differences (a linear program's vertex).
 /// All such points in the triangle are tried. It shares nothing with fast/distance/.
 
 #include <array>

@@ -5,9 +5,8 @@
 /// (docs/theory.md, section 3.6).
 ///
 /// At the time of impact the distance is d or the time is 0. So a polynomial of the conditions is
-/// zero there: all of them are listed, their roots in [0,1] and 0 tried, and the least at which the
-/// conditions hold is the answer. It shares only polynomials and algebraic numbers with the oracle.
-/// Slow.
+/// zero there: their roots in [0,1] and 0 are tried in turn, and the least at which the conditions
+/// hold is the answer. It shares only polynomials and algebraic numbers with the oracle. Slow.
 
 #include <array>
 #include <cmath>

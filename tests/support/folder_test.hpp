@@ -19,7 +19,7 @@ namespace touchstone::tests {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-/// The folder is created before the test and removed after it.
+/// A folder that is created before the test and removed after it.
 class FolderTest : public ::testing::Test {
  public:
   FolderTest(const FolderTest&) = delete;

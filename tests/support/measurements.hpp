@@ -34,7 +34,7 @@ namespace touchstone::tests {
   return m;
 }
 
-/// The same over a parameter of an experiment.
+/// The same measurement over a parameter of an experiment.
 [[nodiscard]] inline verify::report::Measurement measured_in(verify::report::Experiment experiment,
                                                              const std::string& method,
                                                              double nanoseconds) {
@@ -45,8 +45,8 @@ namespace touchstone::tests {
 
 /// A report with an example of everything: on "handcrafted", vertex-face, certified,
 /// tight_inclusion and msrf; certified is exact, tight_inclusion has 8 false positives, msrf 1 and
-/// 2 false negatives. Of the filters of Tight-Inclusion, the released one misses 2 of 20 contacts
-/// at t=1, and of a family's.
+/// 2 false negatives. The released filter of Tight-Inclusion misses 2 of 20 contacts at t=1, and of
+/// a family's.
 [[nodiscard]] inline verify::report::Measurements small_report() {
   using verify::report::Experiment;
   verify::report::Measurements report;
@@ -97,7 +97,7 @@ namespace touchstone::tests {
                               .collisions = 10,
                               .false_positives = 0,
                               .false_negatives = 4,
-                              .worst = "false negative",
+                              .worst = verify::judge::Fault::false_negative,
                               .worst_rate = 0.4,
                               .nanoseconds = 7.0});
   return report;

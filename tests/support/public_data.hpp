@@ -26,7 +26,7 @@ namespace touchstone::tests {
   return {};
 }
 
-/// All its files of queries; none if it is missing.
+/// All files of queries of the public data; empty if it is missing.
 [[nodiscard]] inline std::vector<std::filesystem::path> public_datasets() {
   const std::filesystem::path folder = public_data_folder();
   if (folder.empty()) return {};

@@ -61,14 +61,14 @@ using FourPoints = std::array<double, 3 * moving_points>;
 }
 
 /// A vertex that moves from height z0 to z1 over (x,y), and the triangle x, y ≥ 0, x + y ≤ 4 in the
-/// plane z=0: they touch at z0/(z0 − z1), u = x/4, v = y/4.
+/// plane z=0: contact at z0/(z0 − z1), u = x/4, v = y/4.
 [[nodiscard]] inline PosedQuery over_triangle(double x, double y, double z0, double z1) {
   constexpr std::array<double, 9> face{0, 0, 0, 4, 0, 0, 0, 4, 0};
   return vertex_face(with_vertex(x, y, z0, face), with_vertex(x, y, z1, face));
 }
 
 /// The edge from (0,0,0) to (4,0,0), and one parallel to the y axis from (x,−y) to (x,4−y) that
-/// moves from height z0 to z1: they touch at z0/(z0 − z1), u = x/4, v = y/4.
+/// moves from height z0 to z1: contact at z0/(z0 − z1), u = x/4, v = y/4.
 [[nodiscard]] inline PosedQuery over_edge(double x, double y, double z0, double z1) {
   return edge_edge({0, 0, 0, 4, 0, 0, x, -y, z0, x, 4 - y, z0},
                    {0, 0, 0, 4, 0, 0, x, -y, z1, x, 4 - y, z1});
@@ -98,8 +98,8 @@ enum class Family {
   small_integers,
   /// Coordinates in (−2, 2) with 53 random bits: generic position.
   full_significands,
-  /// As full_significands, then one point aimed so that the primitives touch up to rounding, half
-  /// of the time on the boundary of a primitive: barely or barely not.
+  /// As full_significands, but with one point moved so that there is contact up to rounding, half
+  /// of the time on the boundary of a primitive.
   near_contact
 };
 
@@ -164,7 +164,7 @@ inline void degenerate(Random& random, Query& query) {
   }
 }
 
-/// Every coordinate an integer in [−bound, bound] (twice that for points that move together).
+/// A query of integer coordinates in [−bound, bound] (twice that for points that move together).
 [[nodiscard]] inline Query integer_query(Random& random, int bound) {
   Query query{};
   for (double& x : query.coordinates) x = random.between(-bound, bound);

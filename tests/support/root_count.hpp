@@ -65,7 +65,8 @@ using Vector = std::array<Polynomial, 3>;
   return count;
 }
 
-/// Every coordinate an integer in [−1000, 1000], independent: general position, large deformation.
+/// A query of independent integer coordinates in [−1000, 1000]: general position, large
+/// deformation.
 [[nodiscard]] inline PosedQuery deforming_query(Random& random, Kind kind) {
   PosedQuery posed{kind, {}};
   for (double& x : posed.query.coordinates) x = random.between(-1000, 1000);

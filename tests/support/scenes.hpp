@@ -2,7 +2,7 @@
 
 /// \file
 /// Scenes for tests of steps: meshes of a few random elements in any position, and all pairs that a
-/// step of them looks at, listed one by one.
+/// step examines, listed one by one.
 
 #include <Eigen/Core>
 #include <algorithm>
@@ -33,7 +33,7 @@ using Pairs = std::vector<NumberedPair>;
 
 // ---- Scenes -------------------------------------------------------------------------------------
 
-/// A step with what it is made of.
+/// A step with its parts.
 struct Scene {
   Places start;
   Places end;
@@ -52,13 +52,13 @@ struct Scene {
   }
 };
 
-/// Where vertices are: a coordinate of a vertex at an end of the step.
+/// The places of vertices: a coordinate of a vertex at an end of the step.
 struct Shape {
   std::string name;
   std::function<double(Random&)> coordinate;
-  /// Does the end have coordinates of its own, or the start's and this added?
+  /// The motion to be added to the start; empty if the end has independent coordinates.
   std::function<double(Random&)> motion;
-  double separation;  ///< one that makes a difference
+  double separation;  ///< a separation that matters at this size
 };
 
 [[nodiscard]] inline std::vector<Shape> shapes() {
@@ -91,7 +91,8 @@ struct Shape {
   return {std::min(a, b), std::max(a, b)};
 }
 
-/// A mesh of few vertices: faces and edges of any of them, also of the same one twice, and points.
+/// A mesh of few vertices: faces and edges of any of them, even with the same one twice, and
+/// points.
 [[nodiscard]] inline Scene random_scene(Random& random, const Shape& shape, int vertices) {
   Scene scene{.start = Places(vertices, 3),
               .end = Places(vertices, 3),
@@ -124,7 +125,7 @@ struct Shape {
   return scene;
 }
 
-/// Triangles, edges and points anywhere in a cube, each about so large, moving by as much.
+/// Triangles, edges and points at random places in a cube, each of about this size and motion.
 [[nodiscard]] inline Scene soup(Random& random, int count, double size) {
   Scene scene{.start = Places(6 * count, 3),
               .end = Places(6 * count, 3),
@@ -152,7 +153,7 @@ struct Shape {
 
 // ---- All pairs one by one -----------------------------------------------------------------------
 
-/// Everything that a step looks at, from its definition.
+/// All pairs that a step examines, from its definition.
 class AllPairs {
  public:
   explicit AllPairs(const Scene& scene) : scene_(scene) {
@@ -212,7 +213,7 @@ class AllPairs {
     return query;
   }
 
-  /// Are the swept boxes within the distance?
+  /// True if the swept boxes are within the distance.
   [[nodiscard]] bool are_near(const NumberedPair& pair, double distance) const {
     for (Eigen::Index axis = 0; axis < 3; ++axis) {
       const auto [least_a, most_a] = range(first(pair), axis);

@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file
-/// Tests that run the program `touchstone` as its users do, in a folder of their own.
+/// Tests that run the program `touchstone` as its users do, in a separate folder.
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
@@ -35,7 +35,7 @@ struct Outcome {
   return text.find(part) != std::string::npos;
 }
 
-/// Waits until the condition holds; false only where something hangs.
+/// Waits until the condition holds; false only if something hangs.
 [[nodiscard]] inline bool comes_true(const std::function<bool()>& condition) {
   for (int i = 0; i < 12'000; ++i) {
     if (condition()) return true;
@@ -44,7 +44,7 @@ struct Outcome {
   return false;
 }
 
-/// Does the process handle the signal itself? The tool does so before it opens its first file.
+/// True if the process handles the signal itself. The tool does so before it opens its first file.
 [[nodiscard]] inline bool handles(pid_t process, int signal) {
   std::ifstream file("/proc/" + std::to_string(process) + "/status");
   for (std::string line; std::getline(file, line);) {
@@ -85,7 +85,7 @@ class ToolTest : public FolderTest {
     return process;
   }
 
-  /// Waits for the end, with a bound for what would hang.
+  /// Waits for the end, with a limit in case of a hang.
   [[nodiscard]] Outcome finish(pid_t process) const {
     int status = 0;
     const auto has_ended = [&] { return waitpid(process, &status, WNOHANG) == process; };
@@ -102,7 +102,7 @@ class ToolTest : public FolderTest {
     return finish(start(words, output));
   }
 
-  /// Runs it, and interrupts it once it handles interrupts and the condition holds.
+  /// Runs the program, and interrupts it when it handles interrupts and the condition holds.
   [[nodiscard]] Outcome run_interrupted(
       const std::vector<std::string>& words,
       const std::function<bool()>& condition = [] { return true; }) const {
@@ -112,7 +112,8 @@ class ToolTest : public FolderTest {
     return finish(process);
   }
 
-  /// Has some file been written to whose name begins so? (It has a temporary name to the end.)
+  /// True if a file with this beginning of its name has contents. (The name is temporary until the
+  /// end.)
   [[nodiscard]] bool has_grown(const std::string& name) const {
     for (const auto& entry : std::filesystem::directory_iterator(folder())) {
       if (entry.path().filename().string().starts_with(name) && entry.file_size() != 0) return true;
@@ -136,7 +137,7 @@ class ToolTest : public FolderTest {
 template <const char* subcommand>
 class ShellTest : public ToolTest {
  protected:
-  /// Runs the subcommand, after shell words such as a limit of time; its exit status.
+  /// Runs the subcommand, after shell words such as a limit of time; returns its exit status.
   [[nodiscard]] int run(const std::string& arguments, const std::string& before = "") const {
     const std::string command = before + " '" + touchstone_program() + "' " + subcommand + " " +
                                 arguments + " >" + quoted("out") + " 2>" + quoted("err");

@@ -1,7 +1,7 @@
 #!/bin/sh
-# build_tbb.sh FOLDER: oneTBB from Debian's sources, compiled for ThreadSanitizer, installed in FOLDER/installed. Debian's own
-# library is not compiled for it: its scheduler hands tasks from thread to thread by atomics that the sanitizer would not
-# see, and everything that a task touches would look unsynchronised.
+# build_tbb.sh FOLDER: oneTBB from Debian's sources, compiled for ThreadSanitizer, installed in FOLDER/installed. The
+# sanitizer does not see the atomics by which the scheduler of Debian's own library hands tasks from thread to thread,
+# so all memory of a task would look unsynchronised.
 set -eu
 folder=$1
 [ -e "$folder/installed/done" ] && exit
@@ -15,7 +15,7 @@ Suites: $(. /etc/os-release && echo "$VERSION_CODENAME")
 Components: main
 Signed-By: /usr/share/keyrings/debian-archive-keyring.gpg
 END
-# A list of its own, since a machine's own list may name no sources.
+# A separate list, because the machine's list may name no sources.
 as_here="-o Dir::Etc::sourcelist=$PWD/debian.sources -o Dir::Etc::sourceparts=/dev/null -o Dir::State::lists=$PWD/lists"
 apt-get $as_here update -qq
 (cd source && apt-get $as_here source -qq --only-source onetbb)

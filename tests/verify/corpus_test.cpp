@@ -1,6 +1,6 @@
 /// \file
-/// Queries that some solver once answered wrongly, found by the fuzzer and made as simple as they get
-/// (tests/corpus/README.md): no solver of ours is to answer one wrongly again.
+/// Queries that a solver once answered wrongly, found by the fuzzer and simplified
+/// (tests/corpus/README.md): none of our solvers answers one wrongly.
 
 #include <gtest/gtest.h>
 
@@ -32,7 +32,7 @@ std::vector<std::unique_ptr<solvers::Solver>> solvers() {
   return result;
 }
 
-TEST(Corpus, is_answered_rightly_by_the_oracle_and_by_every_solver) {
+TEST(Corpus, IsAnsweredRightlyByTheOracleAndByEverySolver) {
   const auto asked = solvers();
   ASSERT_GE(asked.size(), 2U);
   std::uint64_t queries = 0;
@@ -53,7 +53,7 @@ TEST(Corpus, is_answered_rightly_by_the_oracle_and_by_every_solver) {
   EXPECT_GE(queries, 20U);
 }
 
-TEST(Corpus, has_both_kinds_and_a_separation) {
+TEST(Corpus, HasBothKindsAndASeparation) {
   bool has_faces = false, has_edges = false, is_separated = false;
   for (const std::filesystem::path& path : corpus()) {
     const Kind kind = data::open_dataset(path)->kind();

@@ -8,8 +8,8 @@
 namespace touchstone::verify::plugin_test {
 namespace {
 
-// Libraries that are out there were compiled with these numbers. To change one of them is to change
-// the version of the interface.
+// Existing libraries were compiled with these numbers. A change of one is a new version of the
+// interface.
 
 TEST(PluginInterface, KindsAndVerdictsHaveTheirNumbers) {
   EXPECT_EQ(touchstone_vertex_face, 0);

@@ -260,9 +260,10 @@ class FuzzRun {
   /// The folder appears when it is complete, as files do.
   [[nodiscard]] std::vector<fs::path> write_pages(const fuzz::FuzzReport& report) const {
     if (arguments_.page_folder.empty()) return {};
-    const fs::path folder = fs::weakly_canonical(arguments_.page_folder / "").parent_path();
+    fs::path folder = fs::weakly_canonical(arguments_.page_folder);
+    if (!folder.has_filename()) folder = folder.parent_path();  // a slash at the end
     const fs::path partial = folder.string() + ".touchstone.partial";
-    fs::remove_all(partial);  // what a killed run has left
+    fs::remove_all(partial);  // of a killed run
     const auto interface = arguments_.calls.empty()
                                ? fuzz::usual_interface(asked_)
                                : fuzz::call_interface_from_string(arguments_.calls).value();
@@ -354,6 +355,7 @@ class FuzzRun {
 
 std::vector<std::string> finding_kind_names() {
   std::vector<std::string> names;
+  names.reserve(judge::fault_count);
   for (const judge::Fault fault : judge::all_faults) names.emplace_back(judge::to_string(fault));
   return names;
 }

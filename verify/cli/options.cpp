@@ -73,7 +73,7 @@ CLI::Option* add_distance_option(CLI::App& command, std::optional<double>& dista
 
 void add_separation_options(CLI::App& command, SeparationArguments& arguments) {
   add_distance_option(command, arguments.distance,
-                      "Contact: distance ≤ D, decimal or 0x1p-10 (default: 0 or separation.json)");
+                      "Contact: distance ≤ D, 0.5 or 0x1p-1 (default: separation.json, or 0)");
   command
       .add_option_function<std::string>(
           "--norm",

@@ -1,6 +1,7 @@
 #pragma once
 
-/// \file Decimals as people write them, and the doubles nearest to them.
+/// \file
+/// Decimals as people write them, and the doubles nearest to them.
 
 #include <cstdint>
 

@@ -1,6 +1,7 @@
 #pragma once
 
-/// \file A figure of a report as data: the drawn numbers, their places, and in words what they show.
+/// \file
+/// A figure of a report as data: the drawn numbers, their places, and in words what they show.
 
 #include <cstddef>
 #include <cstdint>

@@ -1,6 +1,7 @@
 #pragma once
 
-/// \file The figures of a report. page.js draws them; each has its numbers as a table too.
+/// \file
+/// The figures of a report. page.js draws them; each has its numbers as a table too.
 
 #include <vector>
 

@@ -1,6 +1,7 @@
 #pragma once
 
-/// \file The maps of stability: for each hardness a grid with a cell for each level, by its worst
+/// \file
+/// The maps of stability: for each hardness a grid with a cell for each level, by its worst
 /// fault and by its numbers.
 
 #include <span>

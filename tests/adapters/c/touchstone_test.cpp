@@ -22,7 +22,7 @@ using tests::Random;
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
-/// Small integers, so that about all sorts of contact occur.
+/// Queries of small integers, among which all sorts of contact occur.
 std::vector<Query> random_queries(std::size_t count) {
   Random random(77);
   std::vector<Query> queries(count);
@@ -184,7 +184,7 @@ TEST(CInterface, SaysWhatIsWrong) {
   expect_error("before is null");
 }
 
-/// A step, or an output, that is null: the outputs that are there stay as they were.
+/// A null step or a null output: the other outputs stay as they were.
 TEST(CInterface, WritesNothingWithAnError) {
   const Scene scene;
   const TouchstoneMesh mesh = scene.mesh();

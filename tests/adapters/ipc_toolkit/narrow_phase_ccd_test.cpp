@@ -58,7 +58,7 @@ TEST(IpcAdapter, IsInContactAtZeroExactlyWhereItIs) {
   EXPECT_EQ(ask(ccd, Kind::vertex_face, falling(0)).toi, 0.0);
   EXPECT_EQ(ask(ccd, Kind::vertex_face, falling(0.5), 0.5).toi, 0.0);
   EXPECT_GT(ask(ccd, Kind::vertex_face, falling(std::nextafter(0.5, 1.0)), 0.5).toi, 0.0);
-  // The distance is sqrt(2), between neighbouring doubles.
+  // The distance sqrt(2) is between two neighbouring doubles.
   const Query away{{-1, -1, 0, 0, 0, 0, 4, 0, 0, 0, 4, 0, 1, 1, 0, 0, 0, 0, 4, 0, 0, 0, 4, 0}};
   const double below =
       std::sqrt(2.0) * std::sqrt(2.0) > 2.0 ? std::nextafter(std::sqrt(2.0), 0.0) : std::sqrt(2.0);
@@ -66,7 +66,7 @@ TEST(IpcAdapter, IsInContactAtZeroExactlyWhereItIs) {
   EXPECT_EQ(ask(ccd, Kind::vertex_face, away, std::nextafter(below, 2.0)).toi, 0.0);
 }
 
-/// Positive for every start without contact, and before the exact impact.
+/// The time is positive for every start without contact, and before the exact impact.
 TEST(IpcAdapter, NeverStalls) {
   const NarrowPhaseCCD ccd;
   for (double height = 1.0; height > 1e-300; height *= 0x1p-20) {
@@ -118,7 +118,7 @@ TEST(IpcAdapter, StopsWhatIsNotFinite) {
   EXPECT_EQ(ask(NarrowPhaseCCD(), Kind::vertex_face, query).toi, 0.0);
 }
 
-/// Whatever the points: also where they are apart by 0, in contact, or not finite.
+/// Bad arguments are refused for all points: also at distance 0, in contact, or not finite.
 TEST(IpcAdapter, RefusesBadArgumentsAndLeavesTheTime) {
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   EXPECT_THROW(static_cast<void>(NarrowPhaseCCD(2.0)), std::invalid_argument);

@@ -15,7 +15,7 @@ namespace {
 using tests::Random;
 using ticcd::Vector3;
 
-/// What a call says.
+/// The results of a call.
 struct Said {
   bool collision = false;
   double toi = -1.0;
@@ -76,7 +76,7 @@ TEST(TightInclusionAdapter, ATimeOfZeroIsAContactAtZero) {
   EXPECT_EQ(ask(Kind::vertex_face, query).toi, 0.0);
 }
 
-// As a program asks that knows both libraries.
+// The usage of a program that knows both libraries.
 #if !defined(TIGHT_INCLUSION_WITH_DOUBLE_PRECISION) || !defined(TIGHT_INCLUSION_VER)
 #error "the macros of config.hpp are not there"
 #endif

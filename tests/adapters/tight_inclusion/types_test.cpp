@@ -1,4 +1,4 @@
-// In single precision.
+// Types in single precision.
 #define TOUCHSTONE_TICCD_FLOAT
 #include "adapters/tight_inclusion/types.hpp"
 
@@ -20,7 +20,7 @@ static_assert(std::is_same_v<ticcd::Array3, Eigen::Array3f>);
 TEST(TightInclusionAdapterInFloat, RoundsTheTimeOfImpactDown) {
   const Eigen::Vector3f a(0, 0, 0), b(4, 0, 0), c(0, 4, 0);
   for (int n = 1; n < 200; ++n) {
-    // From 1 down to -n/64: the contact is at 64 / (64 + n).
+    // The height falls from 1 to -n/64: the contact is at 64 / (64 + n).
     const float end = -static_cast<float>(n) / 64.0F;
     float toi = -1.0F, tolerance = -1.0F;
     ASSERT_TRUE(ticcd::vertexFaceCCD({1, 1, 1}, a, b, c, {1, 1, end}, a, b, c, {-1, -1, -1}, 0.0F,

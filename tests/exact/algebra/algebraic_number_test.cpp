@@ -45,7 +45,7 @@ Polynomial power(const Polynomial& p, int exponent) {
 
 Rational fraction(long numerator, long denominator) { return Rational(numerator) / denominator; }
 
-/// Of this degree, with an odd leading coefficient.
+/// A random polynomial of this degree, with an odd leading coefficient.
 Polynomial random_polynomial(Random& random, int degree, unsigned bits) {
   Coefficients c;
   for (int i = 0; i <= degree; ++i) c.push_back(random.integer<Integer>(bits));
@@ -60,9 +60,9 @@ const Polynomial& without_real_roots() {
 
 // ---- Numbers that are known exactly -------------------------------------------------------------
 //
-// Roots α ≥ 0 of rational numbers: their order is that of the rationals α⁶, the keys.
+// Roots α ≥ 0 of rational numbers. The rationals α⁶, the keys, have the same order.
 
-/// A polynomial with exactly one root α ≥ 0, simple, of which it is negative below and positive
+/// A polynomial with exactly one root α ≥ 0, which is simple; it is negative below α and positive
 /// above.
 struct Factor {
   Polynomial p;
@@ -70,7 +70,7 @@ struct Factor {
 };
 
 Factor linear(const Rational& r) { return {polynomial({-r.get_num(), r.get_den()}), power(r, 6)}; }
-/// \pre r > 0, or −√r would not be another root.
+/// \pre r > 0, as −√r would be another root otherwise.
 Factor square_root(const Rational& r) {
   return {polynomial({-r.get_num(), 0, r.get_den()}), power(r, 3)};
 }
@@ -78,7 +78,8 @@ Factor cube_root(const Rational& r) {
   return {polynomial({-r.get_num(), 0, 0, r.get_den()}), power(r, 2)};
 }
 
-/// Few values, so that equal numbers come from different factors; squares and cubes among them.
+/// A factor of few values, so that equal numbers come from different factors; some are squares and
+/// cubes.
 Factor random_factor(Random& random) {
   static const std::array radicands{fraction(1, 64), fraction(1, 8), fraction(1, 4),
                                     fraction(4, 9),  fraction(1, 2), fraction(8, 27),
@@ -101,14 +102,14 @@ struct Known {
   Rational key;
 };
 
-/// Is the isolating interval of `number` one of the number with this key?
+/// True if the isolating interval of `number` isolates the number with this key.
 bool isolates(const AlgebraicNumber& number, const Rational& key) {
   const auto [lower, upper] = number.interval();
   if (lower == upper) return power(lower, 6) == key;
   return power(lower, 6) < key && key < power(upper, 6);
 }
 
-/// The roots in [0,1] of a product of random factors, with the keys that they must have.
+/// The roots in [0,1] of a product of random factors, with their known keys.
 std::vector<Known> random_known_roots(Random& random) {
   Polynomial p(Integer(-random.between(1, 9)));
   std::vector<Rational> keys;
@@ -139,7 +140,7 @@ std::vector<Known> pool(std::uint64_t seed, std::size_t least_size) {
   return result;
 }
 
-/// The one root in [0,1] of factor · (t² + t + 1): not known to be rational at first.
+/// The one root in [0,1] of factor · (t² + t + 1), not yet known to be rational.
 Known hidden(const Factor& factor) {
   std::vector<AlgebraicNumber> roots = roots_in_unit_interval(factor.p * without_real_roots());
   EXPECT_EQ(roots.size(), 1U);
@@ -154,7 +155,7 @@ TEST(RootsInUnitInterval, AreTheKnownRootsInOrderEachOnce) {
     found += roots.size();
     for (const Known& root : roots) {
       EXPECT_TRUE(isolates(root.number, root.key));
-      // An isolating interval may hold rational roots that were split off; a narrow one does not.
+      // Isolating intervals may hold rational roots that were split off; narrow ones do not.
       AlgebraicNumber narrow = root.number;
       narrow.refine_to_level(60);
       const auto others = std::ranges::count_if(
@@ -242,7 +243,7 @@ TEST(RootsInUnitInterval, AreFoundInClustersHoweverNear) {
 }
 
 TEST(RootsInUnitInterval, AreFoundInClustersOfThree) {
-  // (3t−1)³ = ±ε²(3t−1), so three roots or one, and the same about 1/2, where a midpoint is one.
+  // (3t−1)³ = ±ε²(3t−1) has three roots or one; so does the same equation about 1/2, a midpoint.
   const Integer whole = Integer(1) << 300U;
   for (const long denominator : {2L, 3L, 7L}) {
     const Polynomial linear(Integer(-whole), Integer(denominator * whole));
@@ -468,7 +469,7 @@ std::vector<CgalRoot> cgal_roots(const Polynomial& p) {
   return result;
 }
 
-/// Is CGAL's root in the isolating interval, and so the number?
+/// True if CGAL's root is in the isolating interval, and so is the number.
 bool isolates(const AlgebraicNumber& number, const CgalRoot& root) {
   const auto compare = Kernel().compare_1_object();
   const auto [lower, upper] = number.interval();
@@ -509,7 +510,7 @@ TEST(AgainstCgal, RootsOfRandomPolynomials) {
 }
 
 TEST(AgainstCgal, RootsThatLieCloseTogether) {
-  // Mignotte's polynomials t^n − 2(at − 1)²: two roots next to 1/a, some a^(−n/2) apart.
+  // Mignotte's polynomials t^n − 2(at − 1)²: two roots next to 1/a, about a^(−n/2) apart.
   for (int degree = 3; degree <= 6; ++degree) {
     for (const int a : {3, 100, 1001}) {
       const Polynomial p =
@@ -584,8 +585,8 @@ class Interval {
   mpfi_t value_;
 };
 
-/// The sign of p on all of an interval by Horner's rule in MPFI's intervals: nothing if that finds
-/// numbers of both signs.
+/// The sign of p on all of an interval by Horner's rule in MPFI's intervals; nothing if the result
+/// contains both signs.
 std::optional<int> interval_sign(const Polynomial& p, const RationalInterval& x) {
   Interval argument(x), value(RationalInterval{0, 0});
   Coefficients descending = p.coefficients();
@@ -600,7 +601,7 @@ std::optional<int> interval_sign(const Polynomial& p, const RationalInterval& x)
   return std::nullopt;
 }
 
-/// The sign of p at a dyadic number that is no root of it.
+/// The sign of p at a dyadic number that is not a root of it.
 int point_sign(const Polynomial& p, const Rational& x) {
   const std::optional<int> sign = interval_sign(p, {x, x});
   EXPECT_TRUE(sign.has_value() && *sign != 0);
@@ -742,7 +743,7 @@ TEST(AgainstMpfi, OrderOfRootsThatAlmostCoincide) {
 
 // ---- Enclosures ---------------------------------------------------------------------------------
 
-/// The double itself where the number is one, its two neighbours where it is not.
+/// Expects the double itself if the number is one, and its two neighbours if not.
 void expect_tight(const Known& known) {
   const auto [lower, upper] = known.number.enclosure();
   if (lower == upper) {
@@ -781,8 +782,8 @@ TEST(Enclosure, OfDoublesIsTheDouble) {
 }
 
 TEST(Enclosure, WhereOneDoubleLiesInsideTheCell) {
-  // Cells are refined to the levels 64, 128, …: around the magnitudes where such a cell is about
-  // as wide as two or four steps between doubles.
+  // Cells are refined to the levels 64, 128, …: these magnitudes are where such a cell is about as
+  // wide as two or four steps between doubles.
   Random random(63);
   for (const int level : {64, 128, 256, 512, 1024}) {
     for (int binade = 50 - level; binade <= 56 - level; ++binade) {
@@ -804,7 +805,7 @@ TEST(Enclosure, OfTinyNumbers) {
                                linear(power_of_two(-1075)), cube_root(power_of_two(-4000))}) {
     EXPECT_EQ(hidden(factor).number.enclosure(), (DoubleInterval{0.0, least_subnormal}));
   }
-  // Between subnormal numbers, and far below 1 among normal ones.
+  // Numbers between subnormal numbers, and between normal ones far below 1.
   for (const Factor& factor : {square_root(power_of_two(-2139)), square_root(power_of_two(-2045)),
                                linear(3 * power_of_two(-1075)), cube_root(power_of_two(-3100)),
                                square_root(power_of_two(-1200) * (1 + power_of_two(-30))),

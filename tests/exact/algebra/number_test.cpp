@@ -52,7 +52,7 @@ class Binary64 {
   mpfr_exp_t saved_least_, saved_greatest_;
 };
 
-/// All three roundings of x against MPFR's.
+/// Compares all three roundings of x with MPFR's.
 void expect_roundings(Binary64& binary64, const Rational& x) {
   EXPECT_EQ(round_down(x), binary64.round(x, MPFR_RNDD)) << x;
   EXPECT_EQ(round_up(x), binary64.round(x, MPFR_RNDU)) << x;
@@ -145,10 +145,10 @@ TEST(Rounding, TiesGoToTheEvenSignificand) {
   EXPECT_EQ(round_to_nearest(middle(odd, next)), next);
   EXPECT_EQ(round_to_nearest(-middle(even, odd)), -even);
   EXPECT_EQ(round_to_nearest(-middle(odd, next)), -next);
-  // Across a power of two the spacing changes; the power is the even one.
+  // The spacing changes at a power of two, and the power is the even double.
   const double below = std::nextafter(even, 0.0);
   EXPECT_EQ(round_to_nearest(middle(below, even)), even);
-  // Among subnormals, and between the greatest of them and the least normal number.
+  // Numbers between subnormals, and between the greatest subnormal and the least normal number.
   EXPECT_EQ(round_to_nearest(3 * power_of_two(-1075)), 2 * least_subnormal);
   EXPECT_EQ(round_to_nearest(5 * power_of_two(-1075)), 2 * least_subnormal);
   EXPECT_EQ(round_to_nearest(middle(std::nextafter(Limits::min(), 0.0), Limits::min())),

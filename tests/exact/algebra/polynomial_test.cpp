@@ -37,7 +37,7 @@ Polynomial power(const Polynomial& p, int exponent) {
 /// A primitive polynomial of degree 1 with this root.
 Polynomial factor(const Rational& root) { return polynomial({-root.get_num(), root.get_den()}); }
 
-/// Of exactly this degree.
+/// A random polynomial of exactly this degree.
 Polynomial random_polynomial(Random& random, int degree, unsigned bits) {
   Coefficients c;
   for (int i = 0; i <= degree; ++i) c.push_back(random.integer<Integer>(bits));
@@ -102,7 +102,7 @@ bool divides(const Polynomial& q, const Polynomial& p) {
                              [](const Rational& c) { return sgn(c) == 0; });
 }
 
-/// Content 1 and a positive leading coefficient.
+/// True if the content is 1 and the leading coefficient positive.
 bool is_normal(const Polynomial& p) {
   Integer content = 0;
   for (const Integer& c : p.coefficients()) content = gcd(content, c);
@@ -144,7 +144,7 @@ TEST(Polynomial, HasADerivative) {
   EXPECT_TRUE(derivative(polynomial({7})).is_zero());
 }
 
-/// Arithmetic is that of the values.
+/// Arithmetic on polynomials agrees with arithmetic on their values.
 TEST(Polynomial, AddsMultipliesAndDerivesAsValuesDo) {
   Random random(20);
   for (int round = 0; round < 500; ++round) {
@@ -212,7 +212,7 @@ TEST(BernsteinForm, IsThePolynomialTimesOnePositiveNumber) {
     const DyadicCell cell = random_cell(random, 40);
     const Coefficients c = bernstein_form(p, cell);
     ASSERT_EQ(c.size(), p.degree() + 1);
-    // Two polynomials of degree n with a common ratio at n+1 points have it everywhere.
+    // Two polynomials of degree n with a common ratio at n+1 points have it at all points.
     Rational ratio = 0;
     for (std::size_t k = 0; k <= p.degree(); ++k) {
       const Rational y = Rational(k) / (p.degree() + 1);
@@ -238,10 +238,10 @@ TEST(SignChanges, LeavesZerosOut) {
   }
 }
 
-/// A polynomial with known roots. No root outside `roots` is real.
+/// A polynomial with known roots, which has no other real root.
 struct Factored {
   Polynomial p;
-  std::vector<Rational> roots;  // each as often as it counts
+  std::vector<Rational> roots;  // each repeated by its multiplicity
 };
 
 Factored random_factored(Random& random) {
@@ -376,7 +376,7 @@ TEST(GreatestCommonDivisor, OfZeroAndOfConstants) {
 }
 
 TEST(GreatestCommonDivisor, IsRightWhereItsPrimeFails) {
-  // Modulo 2^31 − 1 these lose their leading coefficients, or all of them, or gain a common root.
+  // These lose their leading coefficients, or all, modulo 2^31 − 1, or gain a common root.
   const Integer prime = 2147483647;
   const Polynomial loses_degree = polynomial({1, prime});
   const Polynomial shared = polynomial({-1, 2}), other = polynomial({5, 7});

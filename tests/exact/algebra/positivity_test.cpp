@@ -11,7 +11,7 @@ namespace {
 
 using Outcome = BisectionProof::Outcome;
 
-/// (den t − num)² + epsilon: its least value is at num/den.
+/// (den t − num)² + epsilon, with its least value at num/den.
 Polynomial near_double_root(long num, long den, const Rational& epsilon) {
   const Polynomial factor(Integer(-num), Integer(den));
   std::vector<Integer> c = (factor * factor).coefficients();
@@ -25,7 +25,7 @@ BisectionProof on_unit_interval(const Polynomial& p, unsigned long limit = bisec
 }
 
 TEST(BernsteinCoefficients, AreThoseOfTheInterval) {
-  // t² on [1/2, 1]: 1/4, 1/2, 1.
+  // t² on [1/2, 1] has the coefficients 1/4, 1/2, 1.
   const Polynomial square(Integer(0), Integer(0), Integer(1));
   const auto c = bernstein_coefficients(square, {Rational(1, 2), 1});
   EXPECT_EQ(c.at(1), 2 * c.at(0));
@@ -47,7 +47,7 @@ TEST(BernsteinCoefficients, EndAtTheValuesAndSumToThePolynomial) {
     EXPECT_EQ(sgn(c.front()), sign_at(p, lower));
     EXPECT_EQ(sgn(c.back()), sign_at(p, upper));
     if (p.degree() != 1) continue;
-    // A line keeps its ratio of values at the ends.
+    // A linear function keeps the ratio of its values at the ends.
     const Rational at_lower = p[0] + p[1] * lower, at_upper = p[0] + p[1] * upper;
     EXPECT_EQ(Rational(c.front()) * at_upper, Rational(c.back()) * at_lower);
   }
@@ -70,7 +70,7 @@ TEST(ProvePositive, TakesNoBisectionWhereAllCoefficientsArePositive) {
 TEST(ProvePositive, RefutesAtEndsAndInside) {
   EXPECT_EQ(prove_positive({Integer(0), Integer(1)}).outcome, Outcome::refuted);
   EXPECT_EQ(prove_positive({Integer(1), Integer(0)}).outcome, Outcome::refuted);
-  // A double root at 1/2, met by the first bisection; one at 3/8; a dip below zero about 1/3.
+  // A double root at 1/2, found by the first bisection; one at 3/8; negative values near 1/3.
   EXPECT_EQ(on_unit_interval(near_double_root(1, 2, 0)).outcome, Outcome::refuted);
   EXPECT_EQ(on_unit_interval(near_double_root(3, 8, 0)).outcome, Outcome::refuted);
   EXPECT_EQ(on_unit_interval(near_double_root(1, 3, -power_of_two(-60))).outcome, Outcome::refuted);

@@ -56,7 +56,7 @@ TEST(WriteNumber, TakesTheShortestForm) {
   EXPECT_EQ(number(Rational(0.1)), "0x1.999999999999ap-4");
   EXPECT_EQ(number(power_of_two(-1074)), "0x0.0000000000001p-1022");
   EXPECT_EQ(number(power_of_two(1023)), "0x1p+1023");
-  // No double: too many bits, or too small.
+  // Numbers that are not doubles: too many bits, or too small.
   EXPECT_EQ(number(power_of_two(-60) + 1), "1152921504606846977/1152921504606846976");
   EXPECT_EQ(number(power_of_two(-1075)), "1/" + Integer(Integer(1) << 1075U).get_str());
 }
@@ -145,7 +145,7 @@ TEST(WriteCertificate, NamesADistanceAndWhatBelongsToIt) {
   }
 }
 
-TEST(WriteCertificate, NamesTheLeastDistanceAndNoneOfZero) {
+TEST(WriteCertificate, NamesTheLeastDistanceButNotZero) {
   Certificate certificate;
   for (const auto& [distance, line] :
        {std::pair(0x1p-1074, "\nseparation 0x0.0000000000001p-1022 linf\n"), std::pair(0.0, ""),

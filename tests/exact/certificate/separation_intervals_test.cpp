@@ -16,7 +16,7 @@
 
 namespace touchstone::exact {
 
-/// For messages of failed expectations.
+/// Prints a subinterval in messages of failed expectations.
 void PrintTo(const Subinterval& subinterval, std::ostream* out) {
   const auto& [from, to, feature] = subinterval;
   *out << '[' << from << ", " << to << "] " << static_cast<int>(feature.sort) << ' ' << feature.i
@@ -70,7 +70,7 @@ std::vector<Vector> corner_polynomials(const Motion& motion) {
   return corners;
 }
 
-/// The directions of all features, as the format defines them, diagonals and all.
+/// The directions of all features, diagonals included, as the format defines them.
 std::vector<Vector> directions(const std::vector<Vector>& w) {
   std::vector<Vector> result = w;
   const Vector normal = outer(minus(w[1], w[0]), minus(w[2], w[0]));
@@ -89,7 +89,7 @@ std::vector<Vector> directions(const std::vector<Vector>& w) {
   return result;
 }
 
-/// Does the direction of one feature separate on all of [0,1]?
+/// True if the direction of one feature separates on all of [0,1].
 bool some_direction_separates(const Motion& motion) {
   static constexpr unsigned long deep = 4000;
   const std::vector<Vector> w = corner_polynomials(motion);
@@ -113,12 +113,12 @@ void expect_cover(const std::vector<Subinterval>& subintervals, const Rational& 
 TEST(Separate, TakesEachFeatureForWhatItIs) {
   EXPECT_EQ(separate_all(over_triangle(1, 1, 3, 1)), one(face_above));
   EXPECT_EQ(separate_all(over_triangle(1, 1, -3, -1)), one(face_below));
-  // Through the triangle's plane, beside a corner and beside a side.
+  // Paths through the triangle's plane, beside a corner and beside a side.
   EXPECT_EQ(separate_all(over_triangle(-1, -1, 1, -1)), one({.sort = Sort::vertex, .i = 0}));
   EXPECT_EQ(separate_all(over_triangle(2, -0.5, 1, -1)), one({.sort = Sort::edge, .i = 0, .j = 1}));
   EXPECT_EQ(separate_all(over_triangle(-0.5, 2, 1, -1)), one({.sort = Sort::edge, .i = 2, .j = 0}));
   EXPECT_EQ(separate_all(tests::over_edge(1, 2, 3, 1)).size(), 1U);
-  // Parallel edges beside each other: no area, so a side of the parallelogram.
+  // Parallel edges beside each other: the area is 0, so that a side of the parallelogram separates.
   const auto parallel = tests::edge_edge({0, 0, 0, 4, 0, 0, -1, 1, 0, 3, 1, 0},
                                          {0, 0, 0, 4, 0, 0, -1, 2, 0, 3, 2, 0});
   const auto subintervals = separate_all(parallel);
@@ -127,8 +127,8 @@ TEST(Separate, TakesEachFeatureForWhatItIs) {
 }
 
 TEST(Separate, BreaksAtAShortNumberBetweenTwoFeatures) {
-  // From above the triangle out over its side x = 0 at 2/9, down through its plane at 1/3. The side
-  // separates from a little before 2/9.
+  // A path from above the triangle over its side x = 0 at 2/9, then down through its plane at 1/3.
+  // The side separates from shortly before 2/9.
   const auto posed = tests::vertex_face({1, 1, 0.125, 0, 0, 0, 4, 0, 0, 0, 4, 0},
                                         {-3.5, 1, -0.25, 0, 0, 0, 4, 0, 0, 0, 4, 0});
   const Rational quarter(1, 4);
@@ -137,8 +137,8 @@ TEST(Separate, BreaksAtAShortNumberBetweenTwoFeatures) {
   EXPECT_EQ(separate_all(posed), expected);
 }
 
-TEST(Separate, EndsWhereItIsToldTo) {
-  const auto falling = over_triangle(1, 1, 3, -1);  // touches at 3/4
+TEST(Separate, EndsAtTheGivenTime) {
+  const auto falling = over_triangle(1, 1, 3, -1);  // contact at 3/4
   const Motion motion = scale_uniformly(falling.kind, falling.query);
   const Rational until = Rational(3, 4) - power_of_two(-300);
   EXPECT_EQ(separate(motion, until), (std::vector<Subinterval>{{0, until, face_above}}));
@@ -148,7 +148,7 @@ TEST(Separate, EndsWhereItIsToldTo) {
 }
 
 TEST(Separate, KeepsADistance) {
-  // Down to height 1 at t=1/2.
+  // The height is 1 at t=1/2.
   const auto falling = over_triangle(1, 1, 3, -1);
   const auto subintervals_until = [&](const Separation& separation, const Rational& until) {
     return separate(scale_uniformly(falling.kind, falling.query, separation), until);
@@ -185,12 +185,12 @@ TEST(Separate, BreaksWhatACheckerDoesNotReach) {
   ASSERT_EQ(subintervals.size(), 3U);
   EXPECT_LT(subintervals[1].from, Rational(1, 3));
   EXPECT_GT(subintervals[1].to, Rational(1, 3));
-  // At a time that a bisection meets nothing is deep.
+  // Nothing is deep at a time that a bisection reaches.
   EXPECT_EQ(separate(passing_point(far, far, 1), 1).size(), 1U);
 }
 
 TEST(Separate, SaysSoWhereTheLimitsCannotBeKept) {
-  // Half a minute, most of it for the isolation of roots so near to each other.
+  // This takes half a minute, mostly for the isolation of roots so close together.
   if (std::getenv("TOUCHSTONE_SOAK") == nullptr) {  // NOLINT(concurrency-mt-unsafe)
     GTEST_SKIP() << "in the soak only";
   }

@@ -47,7 +47,8 @@ TEST(FindNearContact, TheNearestPartInL2) {
   expect_place(near_at(over_triangle(1, 1, 1, 1), one, 0), FaceContact{});
   EXPECT_FALSE(near_at(over_triangle(2, -3, 4.5, 4), five, 0));
   EXPECT_FALSE(near_at(over_triangle(1, 1, 1.5, 1), one, 0));
-  // At the distance, near the face's plane and outside of its side; near a side's line, and beyond.
+  // At the distance, near the face's plane and outside its side; near a side's line and beyond its
+  // end.
   EXPECT_FALSE(near_at(over_triangle(2, -3, 0.5, 0), one, 0));
   EXPECT_FALSE(near_at(over_triangle(-3, 0, 0.5, 0), one, 0));
 }
@@ -60,7 +61,7 @@ TEST(FindNearContact, ACubeInLinf) {
 }
 
 TEST(FindNearContact, ItsConditionsAreSplitBySign) {
-  // Height 3 − 4t, at distance 1 where t = 1/2.
+  // The height 3 − 4t is the distance 1 at t = 1/2.
   const PosedQuery falling = over_triangle(1, 1, 3, -1);
   for (const Norm norm : {Norm::linf, Norm::l2}) {
     AlgebraicNumber half(Rational(1, 2));

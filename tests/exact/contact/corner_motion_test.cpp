@@ -48,7 +48,7 @@ Rational value(const Polynomial& p, const Rational& t) {
   return sum;
 }
 
-/// A time that is not restricted to [0,1]: identities of polynomials hold everywhere.
+/// A time that may be outside [0,1]: identities of polynomials hold everywhere.
 Rational random_time(Random& random) { return Rational(random.between(-50, 150)) / 101; }
 
 // ---- Forms --------------------------------------------------------------------------------------
@@ -154,15 +154,15 @@ TEST(Form, ToPolynomialLosesLeadingZeros) {
 
 // ---- Signs of forms -----------------------------------------------------------------------------
 
-/// The number `value`, not known to be rational unless it is 0 or 1: the only root in [0,1] of
-/// (den·t − num)(t² + t + 1).
+/// The number `value` as the only root in [0,1] of (den·t − num)(t² + t + 1); not known to be
+/// rational unless it is 0 or 1.
 AlgebraicNumber hidden(const Rational& value) {
   const Polynomial p = Polynomial(Integer(-value.get_num()), value.get_den()) *
                        Polynomial(Integer(1), Integer(1), Integer(1));
   return roots_in_unit_interval(p).at(0);
 }
 
-/// Random coefficients, zero or few, so that every pattern of signs and zeros occurs.
+/// Random coefficients, zero or small, so that every pattern of signs and zeros occurs.
 Form<3> random_sparse_form(Random& random) {
   Form<3> form;
   for (Integer& c : form.c) c = random.between(-2, 2);
@@ -240,7 +240,7 @@ TEST(SignOfForm, IsZeroWhereTheFormHasTheSameIrrationalRoot) {
 
 // ---- Motions ------------------------------------------------------------------------------------
 
-/// Coordinates of every size, zeros and equal ones.
+/// Random coordinates of every size, some zero and some equal.
 Query random_query(Random& random, int flavour) {
   Query query{};
   for (double& x : query.coordinates) {
@@ -266,7 +266,7 @@ bool is_power_of_two(const Rational& x) {
   return sgn(x) > 0 && mpz_popcount(x.get_num_mpz_t()) == 1 && mpz_popcount(x.get_den_mpz_t()) == 1;
 }
 
-/// The scaled coordinate over the original one; zero where both are zero.
+/// The scaled coordinate over the original one; zero if both are zero.
 Rational ratio(const Integer& scaled, double original) {
   if (original == 0.0) {
     EXPECT_EQ(scaled, 0);
@@ -275,8 +275,8 @@ Rational ratio(const Integer& scaled, double original) {
   return Rational(scaled) / Rational(original);
 }
 
-/// Checks that each axis is multiplied by one power of two, and returns the three (1 for an axis
-/// of zeros).
+/// Checks that each axis is multiplied by one power of two, and returns the three (1 for an axis of
+/// zeros).
 Vector scales(const Query& query, const Motion& motion) {
   Vector result{1, 1, 1};
   for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -495,7 +495,7 @@ TEST(Determinant, IsTheTripleProductOfTheFirstTwoCornersAndTheLast) {
   for (const auto& [motion, t, w] : samples(83)) {
     const Rational expected = inner(cross(w[0], w[1]), w.back());
     EXPECT_EQ(value(determinant(motion), t), expected);
-    // The origin's plane: the same number from the normal and any corner.
+    // The origin's plane gives the same number by the normal and any corner.
     for (const Vector& corner : w) {
       EXPECT_EQ(inner(cross(minus(w[1], w[0]), minus(w.back(), w[0])), corner), expected);
     }

@@ -45,7 +45,7 @@ void expect_toi(const PosedQuery& posed, double distance, Norm norm, const Ratio
   EXPECT_TRUE(*found == expected) << to_string(norm) << ' ' << distance << ' ' << posed;
 }
 
-/// Contact at the distance itself, from `time` on, and at no smaller distance before.
+/// Expects contact at this distance from `time` on, and at no smaller distance before.
 void expect_from(const PosedQuery& posed, double distance, Norm norm, const Rational& time) {
   expect_toi(posed, distance, norm, time);
   const auto later = toi(posed, std::nextafter(distance, 0.0), norm);
@@ -54,7 +54,7 @@ void expect_from(const PosedQuery& posed, double distance, Norm norm, const Rati
   EXPECT_TRUE(earlier && (*earlier < time || *earlier == Rational(0))) << posed;
 }
 
-/// a is no later than b: it is, if b is.
+/// Expects that a is no later than b, if b exists.
 void expect_no_later(const std::optional<AlgebraicNumber>& a,
                      const std::optional<AlgebraicNumber>& b, const PosedQuery& posed) {
   if (!b) return;
@@ -73,7 +73,7 @@ void expect_same(const std::optional<AlgebraicNumber>& a, const std::optional<Al
 // ---- Known answers ------------------------------------------------------------------------------
 
 TEST(DistanceOracle, OverAFaceAndBetweenCrossingEdges) {
-  // At height 3 − 4t.
+  // The height is 3 − 4t.
   for (const PosedQuery& posed : {over_triangle(1, 1, 3, -1), over_edge(1, 2, 3, -1)}) {
     for (const Norm norm : both_norms) {
       expect_from(posed, 1, norm, Rational(1, 2));
@@ -107,7 +107,7 @@ TEST(DistanceOracle, BesideAParallelEdge) {
 }
 
 TEST(DistanceOracle, AnIrrationalTime) {
-  // From (s,s,s) to a triangle that is the origin, s = 3 − 2t: |(s,s,s)|² = 3s² = 4.
+  // From (s,s,s), s = 3 − 2t, to a triangle that is the origin: |(s,s,s)|² = 3s² = 4.
   const PosedQuery posed =
       vertex_face({3, 3, 3, 0, 0, 0, 0, 0, 0, 0, 0, 0}, {1, 1, 1, 0, 0, 0, 0, 0, 0, 0, 0, 0});
   expect_from(posed, 2, Norm::linf, Rational(1, 2));
@@ -118,8 +118,8 @@ TEST(DistanceOracle, AnIrrationalTime) {
 }
 
 TEST(DistanceOracle, ACubesEdgeAgainstASide) {
-  // The triangle's side lies in x = y, z = 0 and the cube about the vertex meets it by an edge:
-  // where the vertex is at (1 + s, 1 − s, 0), at distance s in linf and √2 s in l2.
+  // The triangle's side lies in x = y, z = 0, and an edge of the cube about the vertex meets it
+  // when the vertex is at (1 + s, 1 − s, 0), at distance s in linf and √2 s in l2.
   const std::array<double, 9> face{0, 0, 0, 8, 8, 0, 4, 4, -8};
   const PosedQuery posed =
       vertex_face(tests::with_vertex(5, -3, 0, face), tests::with_vertex(1, 1, 0, face));
@@ -144,7 +144,7 @@ TEST(DistanceOracle, PrimitivesThatArePointsOrSegments) {
     EXPECT_FALSE(toi(posed, 12.999, Norm::l2));
     EXPECT_FALSE(toi(posed, 11.999, Norm::linf));
   }
-  // Inside of a segment: (2,3,4) beside one along x.
+  // Inside a segment: (2,3,4) beside one along x.
   for (const PosedQuery& posed : {at_rest(Kind::vertex_face, {2, 3, 4, 0, 0, 0, 4, 0, 0, 1, 0, 0}),
                                   at_rest(Kind::edge_edge, {2, 3, 4, 2, 3, 4, 0, 0, 0, 4, 0, 0})}) {
     expect_from(posed, 5, Norm::l2, 0);
@@ -153,7 +153,7 @@ TEST(DistanceOracle, PrimitivesThatArePointsOrSegments) {
 }
 
 TEST(DistanceOracle, APassThatOnlyJustReaches) {
-  // Past a point, nearest at t=1/2 with 3 and 4 to the sides.
+  // A path past a point, nearest at t=1/2 with sides of 3 and 4.
   const PosedQuery posed =
       vertex_face({-1, 3, 4, 0, 0, 0, 0, 0, 0, 0, 0, 0}, {1, 3, 4, 0, 0, 0, 0, 0, 0, 0, 0, 0});
   expect_from(posed, 5, Norm::l2, Rational(1, 2));
@@ -162,7 +162,7 @@ TEST(DistanceOracle, APassThatOnlyJustReaches) {
 
 TEST(DistanceOracle, AnyMagnitude) {
   for (const Norm norm : both_norms) {
-    // Height 3u − 4ut at distance u, the least double.
+    // The height 3u − 4ut at distance u, the least double.
     const double u = Limits::denorm_min();
     expect_toi(over_triangle(1, 1, 3 * u, -u), u, norm, Rational(1, 2));
     expect_toi(over_triangle(1, 1, 3, 1), Limits::max(), norm, 0);
@@ -234,12 +234,13 @@ TEST(DistanceOracle, TheSearchAtDistanceZeroAgreesWithTheContactOracle) {
 
 // ---- Against other ways to the answer -----------------------------------------------------------
 
-/// Small integers are rich in degeneracies; halves and thirds of a unit hardly ever are contacts.
+/// A query of small integers, which is often degenerate; halves and thirds of a unit hardly ever
+/// are contacts.
 PosedQuery small_query(Random& random) {
   const Kind kind = random.coin() ? Kind::vertex_face : Kind::edge_edge;
   PosedQuery posed = tests::random_query(
       random, kind, random.coin() ? tests::Family::tiny_integers : tests::Family::small_integers);
-  // Apart from each other, or nearly all would be near at once.
+  // Primitives moved apart: otherwise almost all would be near from the start.
   if (random.coin()) {
     const auto axis = static_cast<std::size_t>(random.between(0, 2));
     const double shift = random.between(2, 5);
@@ -306,7 +307,7 @@ TEST(DistanceOracle, FindsTheContactsOfAGrid) {
 
 // ---- Relations ----------------------------------------------------------------------------------
 
-/// Some queries of every family, with distances of their size.
+/// Applies a check to some queries of every family, with distances of their size.
 template <class Check>
 void for_random_queries(unsigned seed, int count, const Check& check) {
   Random random(seed);
@@ -387,7 +388,7 @@ TEST(DistanceOracle, ReversedTimeHasTheSameVerdict) {
     for (const Norm norm : both_norms) {
       const auto first = toi(posed, distance, norm), last = toi(reversed, distance, norm);
       ASSERT_EQ(first.has_value(), last.has_value()) << posed;
-      // The last contact of the one is the first of the other.
+      // The last contact of one is the first of the other.
       if (first && first->rational() && last->rational()) {
         EXPECT_LE(Rational(*first->rational() + *last->rational()), 1) << posed;
       }

@@ -39,7 +39,7 @@ std::vector<Vector> corners_at(const Motion& motion, const Rational& t) {
   return result;
 }
 
-/// A feature's direction as the format defines it.
+/// The direction of a feature as the format defines it.
 Vector direction(const Feature& feature, const std::vector<Vector>& w) {
   Vector normal = cross(minus(w[1], w[0]), minus(w[2], w[0]));
   Vector unit{0, 0, 0};
@@ -117,7 +117,7 @@ TEST(Separators, NoneIsLeftOutThatSeparatesSomewhere) {
         const Feature feature{.sort = Sort::cross, .i = i, .j = j, .axis = axis};
         const auto w = corners_at(motion, Rational(1, 3));
         if (!separates(motion, direction(feature, w), w)) continue;
-        // It, or a parallel one.
+        // The separator, or a parallel one.
         const bool is_listed = std::ranges::any_of(all, [&](const Separator& other) {
           const Vector a = direction(other.feature(), w), b = direction(feature, w);
           return cross(a, b) == Vector{0, 0, 0} && dot(a, b) > 0;

@@ -11,7 +11,7 @@
 namespace touchstone::fast::body_tree_test {
 namespace {
 
-/// The bodies that primitives of a group on a level have, from their vertices.
+/// The bodies of primitives in a group of a level, from their vertices.
 std::set<std::int32_t> bodies_below(const PrimitiveGroups& groups,
                                     const std::vector<std::int32_t>& of_vertices, std::size_t level,
                                     std::size_t group, std::size_t lane) {
@@ -35,7 +35,7 @@ TEST(BodyTree, NamesTheOneBodyOfEachNodeOrThatItIsMixed) {
   std::vector<Edge> edges;
   for (int i = 0; i < vertices; ++i) {
     for (Eigen::Index axis = 0; axis < 3; ++axis) places(i, axis) = random.uniform(-1, 1);
-    // One body for each half of the space, and now and then a third.
+    // One body for each half of space, and a few vertices of a third.
     of_vertices.push_back(random.between(0, 200) == 0 ? 2 : places(i, 0) > 0 ? 1 : 0);
     edges.push_back({i, random.between(0, 3) == 0 ? random.between(0, i) : i});
   }

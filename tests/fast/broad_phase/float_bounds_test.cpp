@@ -37,7 +37,7 @@ TEST(FloatAfter, IsTheNextOne) {
   }
 }
 
-/// Points whose coordinates a function gives.
+/// Points whose coordinates are the values of a function.
 template <class Coordinate>
 Eigen::MatrixX3d places(int count, const Coordinate& coordinate) {
   Eigen::MatrixX3d result(count, 3);
@@ -45,8 +45,8 @@ Eigen::MatrixX3d places(int count, const Coordinate& coordinate) {
   return result;
 }
 
-/// Holds the bounds of any two places on any axis against their coordinates: do they overlap where
-/// these are within the distance, and nowhere else for sure?
+/// Compares the bounds of any two places on any axis with their coordinates: the bounds must
+/// overlap if these are within the distance, and surely only then.
 void expect_ordered_as_coordinates(const Eigen::MatrixX3d& start, const Eigen::MatrixX3d& end,
                                    double distance) {
   const FloatBounds bounds(MovingVertices(start, end), 1.0, distance);
@@ -65,7 +65,7 @@ void expect_ordered_as_coordinates(const Eigen::MatrixX3d& start, const Eigen::M
   }
   for (const Place& a : all) {
     ASSERT_LE(a.lower, a.upper);
-    // Sums of boxes' centres do not overflow.
+    // The sums of boxes' centres do not overflow.
     ASSERT_LT(std::abs(a.lower), 0x1p100F);
     ASSERT_LT(std::abs(a.upper), 0x1p100F);
     if (distance == 0.0) {
@@ -102,7 +102,7 @@ TEST(FloatBounds, AreOrderedAsTheCoordinatesAtEveryScale) {
 TEST(FloatBounds, AreOrderedAsTheCoordinatesOfAllScalesAtOnce) {
   Random random(4);
   for (int i = 0; i < 20; ++i) {
-    // Also about where the rounding changes: the ends of the window of most coordinates.
+    // Some values are near a change of rounding: the ends of the window of most coordinates.
     const auto coordinate = [&] {
       switch (random.between(0, 7)) {
         case 0:
@@ -138,8 +138,8 @@ std::vector<VertexBounds> bounds_of(const MovingVertices& vertices, double end, 
   return result;
 }
 
-/// Are bounds at both ends of [0, time] apart only if the exact places there are, by more than the
-/// distance?
+/// True if bounds at both ends of [0, time] are apart only if the exact places there are apart by
+/// more than the distance.
 bool are_around_places(tests::MakeBounds& make, const Eigen::MatrixX3d& start,
                        const Eigen::MatrixX3d& end, double time, double distance) {
   const std::vector<VertexBounds> bounds = make(MovingVertices(start, end), time, distance);
@@ -164,7 +164,7 @@ bool are_around_places(tests::MakeBounds& make, const Eigen::MatrixX3d& start,
   });
 }
 
-/// What is wrong with such bounds, or nothing.
+/// The first fault of such bounds, or nothing.
 std::string first_fault(tests::MakeBounds& make) {
   Random random(6);
   for (const double time : {1.0, 0.5, 0x1p-3, 0x1p-20, 0x1p-40, 0x1p-52}) {
@@ -189,8 +189,8 @@ std::string first_fault(tests::MakeBounds& make) {
       return "coordinates of all sizes at " + std::to_string(time);
     }
   }
-  // Places near zero of vertices that come from far away: there, floats are nearer to each other
-  // than the rounding errors of places are large. And vertices that rest there.
+  // Places near zero of vertices that come from far away, where the spacing of floats is less than
+  // the rounding errors of places; and vertices that rest there.
   for (const double time : {0.5, 0x1p-3, 0x1p-20}) {
     Eigen::MatrixX3d start = places(24, [&] { return random.uniform(-1, 1); });
     Eigen::MatrixX3d end = start * (1.0 - 1.0 / time);
@@ -249,7 +249,7 @@ TEST(FloatBounds, AreExactForFloats) {
 }
 
 TEST(FloatBounds, TellCoordinatesOfAllSizesApart) {
-  // A few vertices of other sizes do not take digits from the rest: of 24 or, out of the
+  // A few vertices of other sizes take no digits from the rest, which keep 24 or, out of the
   // window, 18.
   for (const double size : {0x1p-1000, 0x1p-500, 1.0, 0x1p500, 0x1p1000}) {
     for (const double other : {0x1p-1030, 0x1p-700, 1.0, 0x1p700, 0x1p1020}) {
@@ -265,7 +265,7 @@ TEST(FloatBounds, TellCoordinatesOfAllSizesApart) {
   }
 }
 
-TEST(FloatBounds, OfNothingAreNone) {
+TEST(FloatBounds, OfNoVerticesAreEmpty) {
   const Eigen::MatrixX3d none(0, 3);
   EXPECT_EQ(FloatBounds(MovingVertices(none, none)).size(), 0U);
 }

@@ -28,7 +28,8 @@ FloatBounds bounds_of(const Eigen::MatrixX3d& points) {
   return FloatBounds(MovingVertices(points, points));
 }
 
-/// Every primitive is in one place, with its vertices, and the lanes behind the last repeat it.
+/// Expects each primitive in one place, with its vertices, and repeated in the lanes after the
+/// last.
 template <class Element>
 void expect_all_members(const PrimitiveGroups& groups, std::span<const Element> elements) {
   ASSERT_EQ(groups.size(), elements.size());
@@ -85,8 +86,8 @@ TEST(PrimitiveGroups, HoldEveryPrimitiveOnce) {
 }
 
 TEST(PrimitiveGroups, AreSixteenNeighboursEach) {
-  // Points on a line, in any order: a group is sixteen in a row, and groups are in order. So are
-  // points whose distances grow without end: what counts is the rank.
+  // Points on a line, in any order: a group is sixteen in a row, and groups are in order. The same
+  // holds for points whose distances grow without limit: only the rank counts.
   for (const int count : {16, 100, 256, 300, 5000}) {
     for (const bool is_exponential : {false, true}) {
       Random random(7);
@@ -118,7 +119,7 @@ TEST(PrimitiveGroups, OfEqualPrimitivesAreAnyAndTakeNoLongerToFind) {
   std::iota(vertices.begin(), vertices.end(), 0);
   expect_all_members<std::int32_t>(
       PrimitiveGroups(bounds_of(points), std::span<const std::int32_t>(vertices)), vertices);
-  // Nearly all equal, and sorted either way.
+  // Points that are almost all equal, sorted either way.
   for (const double step : {1.0, -1.0}) {
     Eigen::MatrixX3d others = points;
     for (int i = 0; i < count; ++i) others(i, i % 3) += step * (i / 30'000);

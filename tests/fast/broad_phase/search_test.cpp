@@ -114,15 +114,15 @@ Pairs found(const SearchKernel& kernel, const SearchInput<instants>& input) {
 
 // ---- All pairs one by one -----------------------------------------------------------------------
 
-/// Is x − y > d? Exactly: the rounded difference and its error are together the true one.
+/// True if x − y > d, exactly: the rounded difference and its error add up to the true one.
 bool exceeds(double x, double y, double distance) {
   const double difference = x - y, part = difference - x;
   const double error = (x - (difference - part)) - (y + part);
   return difference > distance || (difference == distance && error > 0.0);
 }
 
-/// Are two primitives apart by more than d, on some axis, at both ends the same way round (two
-/// instants), or all the time (one)? Exact.
+/// True if two primitives are apart by more than d on some axis: at both ends in the same order
+/// (two instants), or always (one). Exact.
 template <std::size_t instants>
 bool are_apart(const Scene& scene, const Primitive& a, const Primitive& b, double distance) {
   for (Eigen::Index axis = 0; axis < 3; ++axis) {
@@ -169,7 +169,7 @@ Pairs sorted(Pairs pairs) {
   return pairs;
 }
 
-/// A pair that is not sure is confirmed by the truth.
+/// The confirmation of unsure pairs by the truth.
 template <std::size_t instants, class First, class Second>
 struct Truth {
   const Scene& scene;
@@ -193,7 +193,7 @@ struct Truth {
   }
 };
 
-/// What a search of a scene says that is not so, or nothing.
+/// The first fault of a search of a scene, or nothing.
 template <std::size_t instants>
 std::string fault(const SearchKernel& kernel, const Scene& scene, double distance,
                   Certainty certainty) {
@@ -224,7 +224,7 @@ std::string first_fault(const SearchKernel& kernel) {
   };
   for (int round = 0; round < 6; ++round) {
     for (const double size : {0.03, 0.2, 1.0}) {
-      // Floats, and multiples of 0.1, which are none.
+      // Coordinates that are floats, and multiples of 0.1, which are not.
       for (const double grain : {0.0625, 0.1, 0.0}) {
         const Scene scene = random_scene(random, 10 + 12 * round, size, grain);
         const Certainty certainty = grain == 0.0625 ? Certainty::all : Certainty::unless_close;
@@ -235,7 +235,7 @@ std::string first_fault(const SearchKernel& kernel) {
           if (!at_ends.empty()) return name(at_ends + " at both ends", grain, 0);
         }
       }
-      // Apart, or overlapping, by less than floats can tell.
+      // Gaps and overlaps that are too small for floats.
       constexpr double jitter = 0x1p-30;
       const Scene near = random_scene(random, 10 + 12 * round, size, 0.0625, jitter);
       const std::string confirmed = fault<1>(kernel, near, 0.0, Certainty::unless_close);
@@ -261,7 +261,7 @@ TEST(Search, FindsExactlyThePairsThatAreNotApart) {
 }
 
 TEST(Search, MissesNothingWithoutConfirmation) {
-  // What is sure where nothing is asked may be more than the truth, and never less.
+  // Without confirmation all pairs of the truth are found, and a few others.
   Random random(22);
   for (const double distance : {0.0, 0.1, 1e-10}) {
     for (const double grain : {0.1, 0.0}) {
@@ -339,7 +339,7 @@ TEST(Search, OfNothingFindsNothing) {
 
 // ---- The division into groups -------------------------------------------------------------------
 
-/// Seeds in arrays of their own, with what is behind them.
+/// Seeds in their own arrays, with the values behind them.
 class SomeSeeds {
  public:
   explicit SomeSeeds(std::size_t count)
@@ -371,7 +371,7 @@ class SomeSeeds {
 
 using Centres = std::vector<std::array<float, 3>>;
 
-/// The numbers of the least ones, and of the others, as they come out.
+/// The numbers of the least centres and of the others, in the order of the output.
 std::array<std::vector<std::int32_t>, 2> divided(const SearchKernel& kernel, const Centres& centres,
                                                  std::size_t rank) {
   SomeSeeds seeds(centres.size());
@@ -397,7 +397,7 @@ std::array<std::vector<std::int32_t>, 2> divided(const SearchKernel& kernel, con
   return result;
 }
 
-/// What has to come out: a stable sort on the widest axis tells which come first.
+/// The expected output: a stable sort on the widest axis determines which come first.
 std::array<std::vector<std::int32_t>, 2> expected_of(const Centres& centres, std::size_t rank) {
   std::array<float, 3> widths{};
   for (std::size_t axis = 0; axis < 3; ++axis) {

@@ -28,7 +28,7 @@ TEST(SweptBox, IsMadeEmpty) {
   EXPECT_FALSE(box.overlaps(cube(-greatest, greatest)));
 }
 
-TEST(SweptBox, OverlapsWhatTouchesItAndNothingBeyond) {
+TEST(SweptBox, OverlapsBoxesInContactAndNoOthers) {
   for (std::size_t axis = 0; axis < 3; ++axis) {
     SweptBox other = cube(0, 1);
     other.lower[axis] = 1;

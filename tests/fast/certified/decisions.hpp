@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file
-/// Impacts of integer motions held against the oracle: for the tests of both decisions.
+/// Comparison of impacts of integer motions with the oracle, for the tests of both decisions.
 
 #include <gtest/gtest.h>
 
@@ -38,7 +38,7 @@ template <class Number>
   return motion;
 }
 
-/// Is it the query's first contact, `step` spacings of doubles at most around?
+/// Expects the query's first contact, enclosed within at most `step` spacings of doubles.
 inline void expect_truth(const PosedQuery& posed,
                          const std::optional<fast::exact_stage::Impact>& impact,
                          std::uint64_t step) {

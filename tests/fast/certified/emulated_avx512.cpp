@@ -1,4 +1,4 @@
-// The AVX-512 kernel from its own source, with its intrinsics emulated and under another name.
+// The AVX-512 kernel from its own source, with emulated intrinsics and under another name.
 
 #include "tests/fast/emulated_immintrin.hpp"
 

@@ -97,7 +97,7 @@ std::vector<const CertifiedKernel*> all_kernels() {
   return kernels;
 }
 
-/// None, and from beyond rounding to far below it, in both norms.
+/// Separations: zero, and from beyond rounding to far below it, in both norms.
 Separation separation_of(int round) {
   constexpr std::array<double, 6> distances{0.0, 0.05, 1e-8, 1e-15, 1e-30, 1e300};
   return {.distance = distances.at(static_cast<std::size_t>(round) % distances.size()),
@@ -137,7 +137,7 @@ TEST(CertifiedKernels, TakeNoQueries) {
 }
 
 TEST(CertifiedKernels, ReadNothingBehindTheLastQuery) {
-  // On the heap: the address sanitizer sees what is behind.
+  // Inputs on the heap: the address sanitizer detects reads beyond them.
   for (std::size_t count : {1U, 3U, 4U, 5U, 8U, 9U}) {
     Random random(count);
     std::vector<Query> queries(count);
@@ -186,7 +186,7 @@ std::vector<std::string> families_that_find(const CertifiedKernel& kernel) {
   return found;
 }
 
-TEST(CertifiedKernels, FamiliesFindNoFaultWhereThereIsNone) {
+TEST(CertifiedKernels, FamiliesFindNoFaultInTheKernels) {
   for (const CertifiedKernel* const kernel : all_kernels()) {
     EXPECT_TRUE(families_that_find(*kernel).empty()) << to_string(kernel->instructions);
   }
@@ -203,7 +203,7 @@ TEST(CertifiedKernels, FamiliesFindPlantedFaults) {
 
 // ---- With a separation --------------------------------------------------------------------------
 
-/// Nothing moves by more than the points' distances here and there; or hardly at all.
+/// A query whose motions are at most about the distance of its points, or tiny.
 Query query_near(Random& random, Kind kind, double distance, int i) {
   if (i % 5 == 0) {
     verify::generate::Random drawn(random.bits());
@@ -213,7 +213,7 @@ Query query_near(Random& random, Kind kind, double distance, int i) {
                     : tests::near_contact_query(random, kind);
 }
 
-/// At how many of the distances some answer is wrong.
+/// The number of distances with a wrong answer.
 int distances_that_find(const CertifiedKernel& kernel) {
   int found = 0;
   for (const double distance : {0.25, 1e-2, 1e-8, 1e-15, 1e-16}) {
@@ -234,7 +234,7 @@ int distances_that_find(const CertifiedKernel& kernel) {
   return found;
 }
 
-TEST(CertifiedKernels, DistancesFindNoFaultWhereThereIsNone) {
+TEST(CertifiedKernels, DistancesFindNoFaultInTheKernels) {
   EXPECT_EQ(distances_that_find(*certified_kernels().front()), 0);
   EXPECT_EQ(distances_that_find(best_certified_kernel()), 0);
 }

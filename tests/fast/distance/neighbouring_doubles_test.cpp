@@ -45,7 +45,7 @@ TEST(NeighbouringDoubles, NeedFewComparisonsNearby) {
   }
 }
 
-TEST(NeighbouringDoubles, AreNoneWhereASignIsUnknown) {
+TEST(NeighbouringDoubles, AreUnknownIfASignIs) {
   for (const double guess : {0.5, 1.0, 2.0}) {
     const auto knows_not = [](double s) -> std::optional<int> {
       if (s == 1.0) return std::nullopt;

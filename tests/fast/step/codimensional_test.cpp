@@ -9,7 +9,7 @@ namespace {
 
 using Numbers = std::vector<std::int32_t>;
 
-/// A triangle 0 1 2, an edge 3 4, an edge from 5 to itself, points 6 and 2; 7 is in nothing.
+/// A triangle 0 1 2, an edge 3 4, an edge from 5 to itself, points 6 and 2, and an unused vertex 7.
 struct Mesh {
   std::vector<Edge> edges{{1, 0}, {0, 2}, {4, 3}, {2, 1}, {5, 5}};
   std::vector<Face> faces{{0, 1, 2}};

@@ -1,5 +1,5 @@
 /// \file
-/// The kernels against the expressions they claim to be, bit for bit, and against each other.
+/// The kernels against the expressions that they state, bit for bit, and against each other.
 
 #include "fast/tight_inclusion/box_kernel.hpp"
 
@@ -26,7 +26,7 @@ namespace {
 using exact::Rational;
 using tests::Random;
 
-/// A dyadic interval within [0,1] of up to 2^-53.
+/// A dyadic interval within [0,1], of a width down to 2^-53.
 std::array<double, 2> random_interval(Random& random) {
   const int depth = random.between(0, 53);
   const double width = std::ldexp(1.0, -depth);
@@ -63,8 +63,7 @@ Case random_case(Random& random) {
 
 bool is_released(const BoxKernel& kernel) { return &kernel == &released_box_kernel(); }
 
-/// F at corner number `corner` (binary digits t, u, v), from the expressions that the kernel
-/// claims.
+/// F at corner number `corner` (binary digits t, u, v), from the kernel's stated expressions.
 template <class Scalar>
 Scalar expression(const BoxKernel& kernel, const BoxProblem& problem, const Box& box,
                   std::size_t axis, std::size_t corner) {
@@ -179,7 +178,7 @@ TEST_P(EachKernel, StaysWithinTheFilterOfTheExactValue) {
     BoxProblem problem;
     problem.kind = kind;
     const Extent extent = GetParam()->load(query, problem);
-    // (The released one is no bound; the published one is.)
+    // The released filter is not a bound, so the published one is used.
     const auto filter =
         error_filter(kind, extent.x_max, 0.0,
                      is_released(*GetParam()) ? ErrorModel::published : ErrorModel::derived);

@@ -23,7 +23,7 @@ TEST(ExpressionGraph, RecordsEachOperationOnce) {
 }
 
 TEST(ExpressionGraph, EvaluatesLikeTheTemplate) {
-  // Run the recorded operations in double: bit by bit what the template computes.
+  // The recorded operations in double give the bits of the template.
   std::mt19937_64 random(1);
   const ExpressionGraph graph = record<VertexFace>();
   for (int i = 0; i < 100; ++i) {
@@ -64,7 +64,7 @@ TEST(ExpressionGraph, KnowsGroupsAndTheirVertices) {
   EXPECT_EQ(record<EdgeEdge>().weight_vertices().size(), 8U);
 }
 
-/// x w0 w1, both weights of one group: not affine in it.
+/// x w0 w1, with both weights of one group: not affine in it.
 struct Square : Blend {
   static constexpr std::string_view name = "square";
   template <class Scalar>
@@ -82,7 +82,7 @@ struct HiddenSquare : Blend {
   }
 };
 
-/// Says that it has three weights, and has groups of two.
+/// An expression that declares three weights but has groups of two.
 struct Miscounted : Blend {
   static constexpr std::string_view name = "miscounted";
   static constexpr std::size_t weights = 3;
@@ -92,7 +92,7 @@ struct Miscounted : Blend {
   }
 };
 
-/// The area of a parallelogram, its sides' coordinates in classes as given.
+/// The area of a parallelogram whose sides' coordinates have the given classes.
 template <std::size_t... classes_of_coordinates>
 struct Area {
   static constexpr std::string_view name = "area";

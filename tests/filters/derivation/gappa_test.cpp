@@ -26,7 +26,7 @@ mpq_class dyadic_below(const mpq_class& x) {
   return mpq_class(scaled.get_num() / scaled.get_den()) >> 200U;
 }
 
-/// Gappa's bound over ours, less 1.
+/// Gappa's bound divided by ours, less 1.
 mpq_class excess(const ExpressionGraph& graph, const Format& format, GappaGoal goal) {
   const std::optional<mpq_class> found = gappa_bound(graph, format, goal);
   if (!found) return -1;
@@ -58,7 +58,7 @@ TEST(Gappa, ProvesNoBoundThatIsTooSmall) {
   EXPECT_FALSE(gappa_proves(graph, double_format, GappaGoal::underflow, less_units));
 }
 
-/// EdgeEdge with one operation more: + 0·x.
+/// EdgeEdge with one more operation: + 0·x.
 struct OneOperationMore : EdgeEdge {
   static constexpr std::string_view name = "one_operation_more";
   template <class Scalar>
@@ -85,7 +85,7 @@ TEST(Gappa, TakesOperationsThatAgreeOnlyAtAVertexForDifferentOnes) {
 TEST(Gappa, ScriptsSayWhatIsComputedAndWhatIsExact) {
   const std::string script =
       gappa_script(record<Blend>(), float_format, GappaGoal::rounding, {0, 1}, mpq_class(3, 1024));
-  // x1 and w1, the first that are met; the other product is 0 and comes last.
+  // The inputs have numbers in the order of their use; the other product is 0 and comes last.
   EXPECT_TRUE(
       script.ends_with("n2 = mul_rel<24>(x0, w1);\n"
                        "N2 = x0 * (1);\n"
@@ -126,7 +126,7 @@ TEST(Gappa, AsksOnceWhatIsAlikeAtManyVertices) {
       << "there products with 0 underflow too";
 }
 
-/// Two sums that share a term and differ in one that vanishes at a vertex.
+/// Two sums that share a term and differ in one that is 0 at a vertex.
 struct TwoSums : Blend {
   static constexpr std::string_view name = "two_sums";
   template <class Scalar>
@@ -137,7 +137,7 @@ struct TwoSums : Blend {
 };
 
 TEST(Gappa, TakesZerosForDifferentOnes) {
-  // At (1, 0) both sums are fl(shared + 0), with a rounding error each.
+  // At (1, 0) both sums are fl(shared + 0), each with its rounding error.
   const std::optional<mpq_class> found =
       gappa_bound(record<TwoSums>(), double_format, GappaGoal::rounding);
   ASSERT_TRUE(found);
@@ -149,7 +149,7 @@ TEST(Gappa, TakesZerosForDifferentOnes) {
 }
 
 TEST(Gappa, AcceptsEveryRuleOfAScript) {
-  // It would warn of rules that are no identities, and of variables that are not bounded.
+  // Gappa would warn of rules that are not identities, and of variables without bounds.
   const ExpressionGraph graph = record<PaperVertexFace>();
   for (const std::vector<int>& weights : graph.weight_vertices()) {
     const GappaAnswer answer =
@@ -181,7 +181,7 @@ TEST(Gappa, RefusesGoalsThatItsModelDoesNotHave) {
                std::invalid_argument);
 }
 
-/// Another PATH as long as it lives.
+/// Another PATH during the life of this object.
 class OtherPath {
  public:
   explicit OtherPath(const std::string& path) {
@@ -198,7 +198,7 @@ class OtherPath {
   std::string before_;
 };
 
-/// A program called gappa in a folder of its own.
+/// A program called gappa in a separate folder.
 class FakeGappa {
  public:
   explicit FakeGappa(const std::string& body)

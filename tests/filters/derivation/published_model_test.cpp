@@ -21,7 +21,7 @@ TEST(PublishedModel, GivesThePublishedDoubleConstantsToTheLastDigit) {
   EXPECT_EQ(constant<PaperVertexFaceSeparated>(double_format), mpq_class(7.549516567451064e-15));
 }
 
-/// Seven digits of a number in [1e-6, 1e-5), rounded up as the published ones are.
+/// Seven digits of a number in [1e-6, 1e-5), rounded up as in the publication.
 std::string seven_digits_up(const mpq_class& x) {
   const mpq_class scaled = x * 1'000'000 * 1'000'000;
   mpz_class up;
@@ -43,7 +43,7 @@ TEST(PublishedModel, DependsOnTheOrderOfOperations) {
 }
 
 TEST(PublishedModel, FollowsABlendByHand) {
-  // Two products below 1, wrong by u each; a sum below 2 whose half ulp is 2u.
+  // Two products below 1, each with an error of u; a sum below 2 with half an ulp of 2u.
   EXPECT_EQ(published_model_units(record<Blend>()), 4);
 }
 

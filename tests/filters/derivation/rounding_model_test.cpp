@@ -14,13 +14,13 @@
 namespace touchstone::filters::rounding_model_test {
 namespace {
 
-/// The bound on the rounding error in units of u, second-order terms left out.
+/// The bound on the rounding error in units of u, without second-order terms.
 template <class Expression>
 mpq_class first_order_units(const Format& format = double_format) {
   const mpq_class units =
       derive_bound(record<Expression>(), format).rounding() / format.unit_roundoff();
   const mpz_class whole = units.get_num() / units.get_den();
-  // What is left must be of second order: up to half the square of the units.
+  // The remainder must be of second order: up to half the square of the units.
   EXPECT_LT(units - whole, whole * whole * format.unit_roundoff());
   return whole;
 }
@@ -41,8 +41,8 @@ TEST(RoundingModel, FollowsDegreeTwoByHand) {
   const mpq_class u = double_format.unit_roundoff(), eta = power_of_two(-1075);
   const DerivedBound bound = derive_bound(record<researcher::Orientation>(), double_format);
   ASSERT_EQ(bound.coefficients.size(), 3U);
-  // Differences are 2x large and 2u x wrong; products inherit 8u + 4u² and round 4 + 8u + 4u²;
-  // the last difference has six terms left, for cx cy cancels.
+  // Differences are 2x large with an error of 2u x; products inherit 8u + 4u² and round 4 + 8u +
+  // 4u²; the last difference has six terms left, because cx cy cancels.
   EXPECT_EQ(bound.rounding(), 30 * u + 48 * u * u + 32 * u * u * u + 8 * u * u * u * u);
   EXPECT_EQ(bound.coefficients[1], 0);
   EXPECT_EQ(bound.coefficients[0], 2 * eta * (1 + u));
@@ -103,7 +103,7 @@ TEST(RoundingModel, FollowsUnderflowThroughDegreeThreeByHand) {
   const mpq_class u = double_format.unit_roundoff(), eta = power_of_two(-1075);
   const DerivedBound bound = derive_bound(record<TripleProduct>(), double_format);
   ASSERT_EQ(bound.coefficients.size(), 4U);
-  // a b is wrong by u x² + η; times c that is u x³ + η x, rounded by u (x³ + u x³ + η x) + η.
+  // a b has the error u x² + η; times c that is u x³ + η x, rounded by u (x³ + u x³ + η x) + η.
   EXPECT_EQ(bound.coefficients[3], 2 * u + u * u);
   EXPECT_EQ(bound.coefficients[2], 0);
   EXPECT_EQ(bound.coefficients[1], eta * (1 + u));
@@ -124,7 +124,7 @@ TEST(RoundingModel, GivesTheKnownBoundsOfTheReleasedOrder) {
 }
 
 TEST(RoundingModel, KeepsTheErrorsOfValuesThatCancel) {
-  // Each product is wrong by u, the difference rounds what is left: the errors 2u.
+  // Each product has an error of u, and the difference rounds the sum of the errors, 2u.
   const mpq_class u = double_format.unit_roundoff();
   EXPECT_EQ(derive_bound(record<TwoErrors>(), double_format).rounding(), 2 * u + 2 * u * u);
 }
@@ -142,7 +142,7 @@ TEST(RoundingModel, ExpandsValuesAtAVertex) {
   EXPECT_EQ(result.degree(), 1U);
 }
 
-/// x + x y: its error is no multiple of a power of x.
+/// x + x y: its error is not a multiple of a power of x.
 struct Mixed : Blend {
   static constexpr std::string_view name = "mixed";
   template <class Scalar>

@@ -19,7 +19,7 @@ mpq_class value(const std::vector<mpq_class>& coefficients, const mpq_class& x) 
   return result;
 }
 
-/// The bound as it ships: its coefficients are numbers of Scalar.
+/// The bound as it ships: its coefficients are of type Scalar.
 template <class Scalar, std::size_t degree>
 ErrorBound<Scalar, degree> shipped(const DerivedBound& proved, const Format& format) {
   const std::vector<mpq_class> coefficients = shipped_coefficients(proved, format);
@@ -32,7 +32,7 @@ ErrorBound<Scalar, degree> shipped(const DerivedBound& proved, const Format& for
   return bound;
 }
 
-/// The bound as it runs, in Scalar, is nowhere below the one that is proved.
+/// Expects the shipped bound, in Scalar, to be nowhere below the proved one.
 template <class Scalar, std::size_t degree>
 void expect_covers(const DerivedBound& proved, const Format& format) {
   const auto bound = shipped<Scalar, degree>(proved, format);
@@ -63,15 +63,15 @@ TEST(ShippedBound, CoversTheProvedOneInItsOwnArithmetic) {
                            double_double_format);
 }
 
-/// What is proved for three classes of exact magnitudes.
+/// The proved bound for three classes of exact magnitudes.
 mpq_class value(const DerivedBound& proved, const std::array<mpq_class, 3>& x) {
   std::vector<mpq_class> lower = proved.coefficients;
   lower.back() = 0;
   return proved.rounding() * x[0] * x[1] * x[2] + value(lower, *std::ranges::max_element(x));
 }
 
-/// How often the bound, as it runs with classes in double, is below the proved one, of many random
-/// magnitudes. These are of coordinates whose exact values are greater by as much as they can be.
+/// The number of random magnitudes at which the bound, with classes in double, is below the proved
+/// one. The exact values of the coordinates are greater by the largest possible amount.
 int failures_by_classes(const ErrorBound<double, 3>& bound, const DerivedBound& proved) {
   std::mt19937_64 random(2);
   const auto magnitude = [&] {
@@ -121,7 +121,7 @@ TEST(ShippedBound, IsHardlyLargerThanTheProvedOne) {
   }
 }
 
-/// A coordinate as it is: no error at all.
+/// A coordinate itself: no error.
 struct Nothing : Blend {
   static constexpr std::string_view name = "nothing";
   template <class Scalar>

@@ -9,7 +9,8 @@
 namespace touchstone::filters::worst_case_test {
 namespace {
 
-/// Checks in rationals what the search says of its worst input; its constant in units of u.
+/// Checks the result of the search about its worst input in rationals; returns its constant in
+/// units of u.
 template <class Expression, class Scalar>
 double checked_worst_case(const Format& format, int degree, std::uint64_t evaluations) {
   const ExpressionGraph graph = record<Expression>();
@@ -48,7 +49,7 @@ TEST(WorstCase, FindsMoreThanHalfOfTheTightestBounds) {
 }
 
 TEST(WorstCase, MeasuresCoordinatesToo) {
-  // Their weights are just below 1, so that a coordinate times its weight is rounded.
+  // The weights are just below 1, so that a coordinate times its weight is rounded.
   const double units = checked_worst_case<MeasuredProjectedGap, double>(double_format, 2, 40'000);
   EXPECT_GT(units, 34.0 / 6);
   const WorstCase worst =
@@ -75,7 +76,7 @@ TEST(WorstCase, SearchesInPairsOfDoubles) {
   EXPECT_LT(worst.units, 64);
 }
 
-/// Searches with an evaluator that fails the test where MPFR rounds anything.
+/// Searches with an evaluator that fails the test if MPFR rounds.
 template <class Expression>
 void expect_exact_truth(const Format& format) {
   Evaluators watched = evaluators<Expression>();
@@ -124,7 +125,7 @@ TEST(WorstCase, IsAFunctionOfTheSeed) {
   EXPECT_NE(search(1).inputs.coordinates, search(2).inputs.coordinates);
 }
 
-/// Evaluators that count.
+/// Evaluators that count their calls.
 std::uint64_t counted = 0;
 TEST(WorstCase, KeepsToItsBudget) {
   Evaluators counting = evaluators<EdgeEdge>();

@@ -19,8 +19,8 @@ using tests::Score;
 const std::unique_ptr<fast::Method> method = baselines::accd_method();
 
 TEST(Accd, StepsAsDescribed) {
-  // The vertex comes down by 1/2 and the face up by 1/2, whose mean is up by 1/4: ℓ = 3/4 + 1/4,
-  // and d = 1 − t. The first step, to 0.9, is taken untested; the next would leave a gap of 0.01 <
+  // The vertex comes down by 1/2 and the face up by 1/2, with a mean motion up by 1/4: ℓ = 3/4 +
+  // 1/4, and d = 1 − t. The first step, to 0.9, is not tested; the next would leave a gap of 0.01 <
   // 0.1.
   const auto posed = tests::vertex_face({1, 1, 0.5, 0, 0, -0.5, 4, 0, -0.5, 0, 4, -0.5},
                                         {1, 1, 0, 0, 0, 0, 4, 0, 0, 0, 4, 0});
@@ -61,7 +61,7 @@ TEST(Accd, KeepsTheSeparation) {
       return answer_to(*method, is_face ? over_triangle(1, 1, from, to) : over_edge(1, 2, from, to),
                        options);
     };
-    // 0.25 is reached at t=3/4.
+    // The distance 0.25 is reached at t=3/4.
     const fast::Answer collision = comes_down(1, 0);
     EXPECT_EQ(collision.verdict, fast::Verdict::yes);
     EXPECT_LT(collision.toi_lower, 0.75);
@@ -84,7 +84,7 @@ TEST(Accd, WithoutRelativeMotionOnlyTheStartCounts) {
 }
 
 TEST(Accd, StopsAtMaxChecks) {
-  // Grazing: the vertex moves along the face, above it by 2^-20.
+  // The vertex moves along the face, above it by 2^-20.
   const auto grazing = tests::vertex_face({1, 1, 0x1p-20, 0, 0, 0, 4, 0, 0, 0, 4, 0},
                                           {2, 1, 0x1p-20, 0, 0, 0, 4, 0, 0, 0, 4, 0});
   const fast::Answer answer = answer_to(*method, grazing, {.max_checks = 1000});

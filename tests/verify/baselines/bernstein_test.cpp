@@ -1,5 +1,5 @@
 /// \file
-/// The forms against their definitions and the theorems as identities, in exact numbers: forms are
+/// The forms against their definitions, and the theorems as identities, in exact numbers: forms are
 /// evaluated at t : s with integers, so both sides are integers.
 
 #include "verify/baselines/bernstein.hpp"
@@ -40,7 +40,7 @@ Bernstein<Number, degree> random_form(tests::Random& random) {
 Number value(const Bernstein<Number, 1>& q, const Time& at) { return q[0] * at.s + q[1] * at.t; }
 Number value(const Bernstein<Number, 2>& q, const Time& at) { return value_at(q, at.t, at.s); }
 Number value(const Bernstein<Number, 3>& q, const Time& at) { return value_at(q, at.t, at.s); }
-/// By de Casteljau, not by the binomial theorem.
+/// The value by de Casteljau's steps, not by the binomial theorem.
 template <std::size_t degree>
 Number casteljau(Bernstein<Number, degree> q, const Time& at) {
   for (std::size_t step = degree; step > 0; --step) {
@@ -134,7 +134,7 @@ TEST(Course, IsReadFromTheCoefficients) {
   const auto course = [&](const Bernstein<double, 3>& k) {
     return course_of(k, opposite, opposite);
   };
-  EXPECT_EQ(course({1, -1, -2, -1}), Course::monotone);  // a lone end
+  EXPECT_EQ(course({1, -1, -2, -1}), Course::monotone);  // only an end has the other sign
   EXPECT_EQ(course({-1, -1, -3, 1}), Course::monotone);
   EXPECT_EQ(course({4, 3, 2, 1}), Course::monotone);
   EXPECT_EQ(course({3, 1, 1, 3}), Course::one_extremum);

@@ -1,6 +1,6 @@
 /// \file
-/// BSC is right where there is no inflection and no common plane, and wrong where its header says
-/// so and in that way.
+/// BSC is right without inflections and common planes, and wrong in the cases and the way that its
+/// header states.
 
 #include "verify/baselines/bsc.hpp"
 
@@ -56,7 +56,7 @@ TEST(Bsc, IsRightInGeneralPositionButForInflections) {
   }
 }
 
-TEST(Bsc, ThrowsForAboutHalfOfAllHits) {
+TEST(Bsc, ThrowsForAboutHalfOfAllCollisions) {
   Random random(2);
   const int count = tests::trials(1000);
   for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
@@ -85,13 +85,13 @@ TEST(Bsc, MissesEveryContactInACommonPlane) {
 }
 
 TEST(Bsc, MissesByItsThresholdAtLargeScales) {
-  // Contact at t=0, where Y is 0 and is computed as some rounding error: below the threshold at
-  // scale 1, far above it at scale 2^40. If the others have its sign, that is a quick no.
+  // Contact at t=0, where Y is 0 and is computed as a rounding error: below the threshold at scale
+  // 1, far above it at scale 2^40. If the others have its sign, that is a quick no.
   Random random(4);
   int missed_at_1 = 0, missed_at_large = 0;
   for (int i = 0; i < 2000; ++i) {
     PosedQuery posed{Kind::vertex_face, tests::full_significand_query(random)};
-    // The vertex starts on the middle of the edge from f0 to f1 where that is a double.
+    // The vertex starts on the middle of the edge from f0 to f1 if that is a double.
     for (std::size_t axis = 0; axis < 3; ++axis) {
       double& f1 = posed.query.at(0, 2, axis);
       const double f0 = posed.query.at(0, 1, axis);

@@ -51,7 +51,7 @@ TEST(SegmentDistance, OfEveryPairOfFeatures) {
 TEST(SegmentDistance, OfShortSegments) {
   const Segment along_x{{0, 0, 0}, {4, 0, 0}};
   const Segment short_edge{{1, 1e-5, 0}, {1, 9e-5, 0}};
-  // Of a squared length of at most 1e-8 the start counts, or the whole.
+  // A segment of squared length of at most 1e-8 counts by its start; two of them coincide.
   EXPECT_NEAR(closest_points_squared_distance(along_x, {{1, 9e-5, 0}, {1, 1e-5, 0}}), 8.1e-9,
               1e-20);
   EXPECT_NEAR(closest_points_squared_distance({{1, 9e-5, 0}, {1, 1e-5, 0}}, along_x), 8.1e-9,
@@ -63,7 +63,7 @@ TEST(SegmentDistance, OfShortSegments) {
   expect_both(along_x, {{1, 2, 0}, {1, 2, 0}}, 4.0);
 }
 
-/// The least squared distance over a grid of points of both, and how far the grid can be off.
+/// The least squared distance over a grid of points of both, and the error of the grid.
 template <class Distance>
 double least_on_grid(const Distance& distance, int steps, bool triangle) {
   double least = std::numeric_limits<double>::infinity();
@@ -79,7 +79,7 @@ double least_on_grid(const Distance& distance, int steps, bool triangle) {
 TEST(Distances, AreTheLeastOnAGrid) {
   Random random(6);
   constexpr int steps = 60;
-  constexpr double off = 4.0 * 2.0 / steps;  // of the distance: two parameters, edges of up to 4
+  constexpr double off = 4.0 * 2.0 / steps;  // in the distance: two parameters, edges of up to 4
   const auto draw = [&] {
     return Vector(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1));
   };

@@ -1,5 +1,5 @@
 /// \file
-/// The bound holds against rationals; and what is left of it when numbers underflow.
+/// The bound holds against rationals, except after underflow.
 
 #include "verify/baselines/error_bounded.hpp"
 
@@ -16,7 +16,7 @@ namespace {
 
 using exact::Rational;
 
-/// A number and what it stands for.
+/// A number and its exact value.
 struct Pair {
   ErrorBounded number;
   Rational truth;
@@ -75,13 +75,13 @@ TEST(ErrorBounded, ExactInputHasNoBoundAndAnOperationHas) {
 }
 
 TEST(ErrorBounded, LosesItsBoundBeforeItsValueWhenItUnderflows) {
-  // 1 ± 2^-1 is of no certain sign beside 3/4; scaled down, that is forgotten.
+  // The sign of 1 ± 2^-1 less 3/4 is uncertain; after scaling down, it seems certain.
   const ErrorBounded about(1.0, 0.5), tiny(0x1p-1074);
   EXPECT_EQ((about - ErrorBounded(0.75)).sign(), 0);
   const ErrorBounded scaled = (about - ErrorBounded(0.75)) * ErrorBounded(0x1p-1072);
   EXPECT_GT(scaled.value, 0.0);
-  EXPECT_LT(scaled.bound, 0x1p-1072);  // half of what it should be
-  // A product of numbers that are not zero is exactly zero, with no doubt about it.
+  EXPECT_LT(scaled.bound, 0x1p-1072);  // half of the right bound
+  // A product of numbers other than zero is exactly zero, with bound 0.
   EXPECT_EQ((tiny * tiny).value, 0.0);
   EXPECT_EQ((tiny * tiny).bound, 0.0);
 }

@@ -40,7 +40,7 @@ TEST(Fprf, MissesByChanceWithoutASeparation) {
 }
 
 TEST(Fprf, MissesParallelEdges) {
-  // They meet all along, at t=1/2; and so they do with a separation.
+  // The edges meet along a segment at t=1/2; so they do with a separation.
   const auto parallel = tests::edge_edge({0, 0, 0, 4, 0, 0, 1, 0, 1, 3, 0, 1},  //
                                          {0, 0, 0, 4, 0, 0, 1, 0, -1, 3, 0, -1});
   EXPECT_EQ(answer_to(*method, parallel).verdict, fast::Verdict::no);
@@ -58,7 +58,7 @@ TEST(Fprf, SeparatesInteriorsOnly) {
     const fast::MethodOptions options{.separation = {.distance = 0.5, .norm = Norm::l2}};
     EXPECT_EQ(answer_to(*method, over_triangle(1, 1, 2, gap), options).verdict, expected);
     EXPECT_EQ(answer_to(*method, over_edge(1, 2, 2, gap), options).verdict, expected);
-    // Beside the primitives at that distance: not seen.
+    // Contacts beside the primitives at that distance are not found.
     EXPECT_EQ(answer_to(*method, over_triangle(-gap, 1, 2, -2), options).verdict,
               fast::Verdict::no);
     EXPECT_EQ(answer_to(*method, over_edge(4 + gap, 2, 2, -2), options).verdict, fast::Verdict::no);
@@ -66,7 +66,7 @@ TEST(Fprf, SeparatesInteriorsOnly) {
 }
 
 TEST(Fprf, AgreesWithTheTruthElsewhere) {
-  // Clear misses: none of the families' queries that a direction separates by far is a hit.
+  // Primitives that a direction separates by far do not collide.
   EXPECT_EQ(answer_to(*method, over_triangle(1, 1, 3, 1)).verdict, fast::Verdict::no);
   EXPECT_EQ(answer_to(*method, over_triangle(3, 3, 1, -1)).verdict, fast::Verdict::no);
   EXPECT_EQ(answer_to(*method, over_edge(5, 2, 1, -1)).verdict, fast::Verdict::no);

@@ -12,7 +12,7 @@ namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 const Interval unit(0.0, 1.0);
 
-/// A problem of functions.
+/// A problem given by functions.
 template <std::size_t Dimensions>
 struct Posed {
   using Box = ParameterBox<Dimensions>;
@@ -39,7 +39,7 @@ TEST(IntervalSearch, FindsARootInOneDimension) {
 }
 
 TEST(IntervalSearch, ProvesThatThereIsNoRoot) {
-  // (x − 0.3)² + 1e-6 is nowhere 0; the product of an interval with itself tells once it is narrow.
+  // (x − 0.3)² + 1e-6 is nowhere 0; the product of narrow intervals shows it.
   const Posed<1> problem{.vanish = [](const auto& box) {
     const Interval x = box[0] - Interval(0.3);
     return may_be_zero(x * x + Interval(1e-6));
@@ -100,7 +100,7 @@ TEST(IntervalSearch, SaysWhenItsChecksAreSpent) {
   const auto found = search_box<1>(problem, {unit}, {1e-9}, 100);
   EXPECT_EQ(found.verdict, fast::Verdict::undecided);
   EXPECT_EQ(found.checks, 100);
-  // One interval, two halves, and all are known.
+  // Three intervals are checked: one, and its two halves.
   EXPECT_EQ(search_box<1>(problem, {unit}, {0.5}, 3).verdict, fast::Verdict::no);
   EXPECT_EQ(search_box<1>(problem, {unit}, {0.5}, 2).verdict, fast::Verdict::undecided);
 }

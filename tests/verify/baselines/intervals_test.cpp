@@ -24,7 +24,7 @@ bool holds(const Interval& interval, const Rational& value) {
   return Rational(interval.lower()) <= value && value <= Rational(interval.upper());
 }
 
-/// Is it the narrowest interval of doubles that holds the value?
+/// True if it is the narrowest interval of doubles that holds the value.
 bool is_tight(const Interval& interval, const Rational& value) {
   if (!holds(interval, value)) return false;
   if (interval.lower() == interval.upper()) return true;

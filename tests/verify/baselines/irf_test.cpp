@@ -16,7 +16,7 @@ using tests::over_triangle;
 
 const std::unique_ptr<fast::Method> method = baselines::irf_method();
 
-TEST(Irf, MissesNoCentreHits) {
+TEST(Irf, MissesNoCollisionsInTheCentre) {
   for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
     for (const auto motion : {tests::Motion::independent, tests::Motion::translation}) {
       EXPECT_EQ(tests::missed_centre_hits(*method, kind, motion, {}, 40), 0);
@@ -31,8 +31,8 @@ TEST(Irf, GivesNoTimes) {
 }
 
 TEST(Irf, TakesNearMissesForCollisionsWithinItsToleranceOnly) {
-  // Past the side u + v = 1 of the face; and past an edge, along the diagonal, an end of another
-  // that stops short of it.
+  // A path past the side u + v = 1 of the face; and an edge whose end stops short of the other,
+  // diagonal one.
   const auto near_edges = [](double gap) {
     return tests::edge_edge({0, 0, 0, 4, 4, 0, 2.6, 0, 1, 1.3 + gap, 1.3 - gap, 1},
                             {0, 0, 0, 4, 4, 0, 2.6, 0, -1, 1.3 + gap, 1.3 - gap, -1});

@@ -12,7 +12,7 @@ namespace {
 
 using tests::Random;
 
-/// Integer coefficients, so that sums and products are exact.
+/// Polynomials of integer coefficients, so that sums and products are exact.
 template <std::size_t Degree>
 Polynomial<Degree> draw(Random& random) {
   Polynomial<Degree> result;

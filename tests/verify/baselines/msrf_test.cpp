@@ -52,14 +52,14 @@ TEST(Msrf, MissesTheMoreTheSmallerItsSeparation) {
   }
 }
 
-TEST(Msrf, HasASeparationWhereNoneIsAskedFor) {
+TEST(Msrf, UsesItsDefaultSeparation) {
   EXPECT_EQ(missed_centre_hits(*method, Kind::vertex_face, Motion::independent, {}, collisions),
             missed_centre_hits(*method, Kind::vertex_face, Motion::independent,
                                within(msrf_default_separation), collisions));
 }
 
 TEST(Msrf, ReachesTheRootOfItsSeparation) {
-  // √(h² + 0.1 h) = 3.16e-5 for h = 1e-8: where a vertex just misses an edge.
+  // √(h² + 0.1 h) = 3.16e-5 for h = 1e-8: the distance at which a vertex just misses an edge.
   const auto passes_at = [](double distance) {
     return answer_to(*method, over_triangle(-distance, 1, 1, -1), within(1e-8)).verdict;
   };
@@ -68,7 +68,7 @@ TEST(Msrf, ReachesTheRootOfItsSeparation) {
 }
 
 TEST(Msrf, MissesWhatIsWithinItsSeparationFromTheStart) {
-  // Within 0.5 all the time, and moving.
+  // A moving vertex that is always within 0.5.
   const auto near = tests::vertex_face({1, 1, 0.25, 0, 0, 0, 4, 0, 0, 0, 4, 0},
                                        {1.5, 1, 0.125, 0, 0, 0, 4, 0, 0, 0, 4, 0});
   EXPECT_EQ(answer_to(*method, near, within(0.5)).verdict, fast::Verdict::no);
@@ -77,7 +77,7 @@ TEST(Msrf, MissesWhatIsWithinItsSeparationFromTheStart) {
 }
 
 TEST(Msrf, MissesEndsOfEdgesAndParallelEdges) {
-  // An end 0.25 beside the other edge's end, where the lines pass at 0.
+  // An end is 0.25 beside the other edge's end, where the distance of the lines is 0.
   EXPECT_EQ(answer_to(*method, over_edge(4.25, 2, 1, -1), within(0.25)).verdict, fast::Verdict::no);
   const auto parallel = tests::edge_edge({0, 0, 0, 4, 0, 0, 1, 0, 1, 3, 0, 1},  //
                                          {0, 0, 0, 4, 0, 0, 1, 0, -1, 3, 0, -1});
@@ -119,7 +119,7 @@ TEST(Msrf, AgreesWithTheTruthElsewhere) {
   EXPECT_NEAR(edge.toi_lower, 0.25, 1e-7);
   EXPECT_EQ(answer_to(*method, over_triangle(1, 1, 3, 1)).verdict, fast::Verdict::no);
   EXPECT_EQ(answer_to(*method, over_edge(5, 2, 1, -1)).verdict, fast::Verdict::no);
-  // All at rest: every polynomial is constant or 0.
+  // All points rest: every polynomial is constant or 0.
   EXPECT_EQ(answer_to(*method, over_triangle(1, 1, 0, 0)).verdict, fast::Verdict::no);
   EXPECT_EQ(answer_to(*method, {Kind::vertex_face, Query{}}).verdict, fast::Verdict::no);
   const Score score = tests::score_on_random(*method, {}, 500);

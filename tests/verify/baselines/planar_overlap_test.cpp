@@ -1,5 +1,5 @@
 /// \file
-/// Overlaps in planes of every orientation, degenerate ones too, and the defect that it is to have.
+/// Overlaps in planes of every orientation, degenerate ones too, and the published defect.
 
 #include "verify/baselines/planar_overlap.hpp"
 
@@ -17,7 +17,7 @@ namespace {
 
 using Flat = std::array<int, 2>;
 
-/// Places a point of the plane z = 0 in some other plane: an integer matrix of rank 2.
+/// Places a point of the plane z = 0 in another plane, by an integer matrix of rank 2.
 ExactPoint placed(const Flat& p, int plane) {
   static constexpr std::array<std::array<int, 6>, 4> maps{
       {{1, 0, 0, 1, 0, 0}, {0, 0, 1, 0, 0, 1}, {0, 1, 0, 0, 1, 0}, {2, 1, -1, 3, 1, 1}}};
@@ -68,7 +68,7 @@ TEST(PlanarOverlap, TakesDegenerateOnes) {
 }
 
 TEST(PlanarOverlap, AgreesWithAllPointsOfSmallGrids) {
-  // Lattice points of a triangle have weights that are multiples of 1/area.
+  // The weights of lattice points in a triangle are multiples of 1/area.
   tests::Random random(1);
   const auto draw = [&] { return Flat{random.between(0, 3), random.between(0, 3)}; };
   int inside = 0, outside = 0;
@@ -100,11 +100,11 @@ TEST(PlanarOverlap, GivesTheWeightsOfAPointInside) {
 }
 
 TEST(PlanarOverlap, DoesNotNoticeACrossingOfTheFirstEdge) {
-  // Into the edge of points 1 and 2: the weight of point 0 is 0.
+  // A segment into the edge of points 1 and 2: the weight of point 0 is 0.
   const auto noticed = overlap({{{-2, 4}, {10, 4}}}, {{{8, 0}, {0, 0}, {0, 8}}});
   ASSERT_TRUE(noticed.overlaps);
   EXPECT_EQ(noticed.triangle_weights, (std::array{0.0, 0.5, 0.5}));
-  // Into the edge of points 0 and 1: the weight of point 2 is left at its preset.
+  // A segment into the edge of points 0 and 1: the weight of point 2 keeps its initial value.
   const auto unnoticed = overlap({{{-2, 2}, {10, 2}}}, {{{0, 0}, {0, 8}, {8, 0}}});
   ASSERT_TRUE(unnoticed.overlaps);
   EXPECT_EQ(unnoticed.triangle_weights, (std::array{0.75, 0.25, 0.5}));

@@ -1,6 +1,6 @@
 /// \file
-/// RP is right where the number of roots is odd or 0, and wrong where its header says so and in
-/// that way.
+/// RP is right if the number of roots is odd or 0, and wrong in the cases and the way that its
+/// header states.
 
 #include "verify/baselines/rp.hpp"
 
@@ -46,7 +46,8 @@ TEST(Rp, SaysYesExactlyToOddNumbersOfRoots) {
 }
 
 TEST(Rp, FindsContactsThatItsRayStartsOn) {
-  // On the face at t=0 and at t=1; on the edge's end, at rest, and in a plane through the ray.
+  // Contact at t=0 and at t=1, at a corner and an edge's end, at rest, and in a plane through the
+  // ray.
   EXPECT_TRUE(says_yes(rp(), tests::over_triangle(1, 1, 0, 1)));
   EXPECT_TRUE(says_yes(rp(), tests::over_triangle(1, 1, 1, 0)));
   EXPECT_TRUE(says_yes(rp(), tests::over_triangle(0, 0, 1, -1)));
@@ -57,8 +58,8 @@ TEST(Rp, FindsContactsThatItsRayStartsOn) {
   EXPECT_FALSE(says_yes(rp(), tests::over_edge(5, 2, 1, -1)));
 }
 
-/// The edge f0 f1 turns over in the plane z=0 while f2 stays below: its patch is an hourglass about
-/// (1/2, 0) in units of F, whose hull holds 0 and which does not.
+/// A query whose edge f0 f1 turns over in the plane z=0 while f2 stays below: its patch is an
+/// hourglass about (1/2, 0) in units of F, whose hull holds 0 although the patch does not.
 PosedQuery hourglass_beside_origin() {
   return tests::vertex_face({0, 0, 0, 0.5, 1, 0, -1.5, 1, 0, 0, 0, -5},
                             {0, 0, 0, -1.5, -1, 0, 0.5, -1, 0, 0, 0, -5});
@@ -89,7 +90,7 @@ TEST(Rp, AnswersAlikeInAnyOrderAndAnyRounding) {
 }
 
 TEST(Rp, KeepsItsAnswersAtOtherScales) {
-  // 10 more than the greatest coordinate is another ray, but a crossing is a crossing.
+  // Ten more than the greatest coordinate gives another ray, but the same crossings.
   Random random(3);
   for (int i = 0; i < tests::trials(200); ++i) {
     for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {

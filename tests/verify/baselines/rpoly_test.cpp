@@ -17,7 +17,7 @@ namespace {
 using Complex = std::complex<double>;
 using tests::Random;
 
-/// The coefficients of c Π (x − z), the highest power's first. \pre conjugates come in pairs.
+/// The coefficients of c Π (x − z), from the highest power down. \pre conjugates come in pairs.
 std::vector<double> with_zeros(const std::vector<Complex>& zeros, double c = 1.0) {
   std::vector<Complex> product{c};
   for (const Complex& zero : zeros) {
@@ -29,7 +29,7 @@ std::vector<double> with_zeros(const std::vector<Complex>& zeros, double c = 1.0
   return result;
 }
 
-/// The greatest distance of an expected zero and the found one that is left nearest to it.
+/// The greatest distance of an expected zero from the nearest remaining zero found.
 double worst_distance(const std::vector<Complex>& expected, const Zeros& found) {
   std::vector<Complex> left;
   for (const Zero& zero : found) left.emplace_back(zero.re, zero.im);

@@ -1,6 +1,6 @@
 /// \file
-/// RRP is right where the number of roots is odd or 0 and nothing is degenerate, and wrong where
-/// its header says so and in that way.
+/// RRP is right if the number of roots is odd or 0 and nothing is degenerate, and wrong in the
+/// cases and the way that its header states.
 
 #include "verify/baselines/rrp.hpp"
 
@@ -56,7 +56,7 @@ TEST(Rrp, MissesContactAtRestOrUnderACommonTranslation) {
 }
 
 TEST(Rrp, MissesContactWithATriangleThatIsDegenerateAtAnEnd) {
-  // The triangle unfolds from a segment while the vertex falls onto it, or folds up.
+  // The triangle unfolds from a segment while the vertex falls onto it, or folds into one.
   const tests::FourPoints open{1, 1, -2, 0, 0, 0, 4, 0, 0, 0, 4, 0};
   const tests::FourPoints folded{1, 1, 1, 0, 0, 0, 4, 0, 0, 2, 0, 0};
   for (const PosedQuery& posed :
@@ -64,7 +64,7 @@ TEST(Rrp, MissesContactWithATriangleThatIsDegenerateAtAnEnd) {
     EXPECT_TRUE(tests::truly_collides(posed));
     EXPECT_FALSE(says_yes(rrp(), posed));
   }
-  // Of some area, however little, it is found.
+  // A triangle of a small area is found.
   tests::FourPoints narrow = folded;
   narrow[10] = 0x1p-40;
   EXPECT_TRUE(says_yes(rrp(), tests::vertex_face(narrow, open)));

@@ -1,5 +1,5 @@
 /// \file
-/// TCCD is right in general position, and wrong where its header says so and in that way.
+/// TCCD is right in general position, and wrong in the cases and the way that its header states.
 
 #include "verify/baselines/tccd.hpp"
 
@@ -43,7 +43,7 @@ TEST(Tccd, FindsContactsOnBoundaries) {
     const auto score = score_on(tccd(), kind, tests::Family::near_contact, 1, tests::trials(4000));
     EXPECT_GT(score.collisions, tests::trials(2000));
     EXPECT_EQ(score.false_negatives, 0);
-    // Misses by a hair are not told from hits.
+    // Near misses are not distinguished from collisions.
     EXPECT_GT(score.false_positives, score.no_collisions / 2);
   }
 }
@@ -117,7 +117,7 @@ bool has_inflection(const PosedQuery& posed) {
 }
 
 TEST(Tccd, MissesByUnderflowBesideAnInflection) {
-  // The same hits at every scale: exact scalings of queries that are found at scale 1.
+  // The same collisions at every scale: exact scalings of queries that are found at scale 1.
   Random random(6);
   for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
     std::vector<PosedQuery> collisions(tests::trials(2000U));
@@ -138,14 +138,14 @@ TEST(Tccd, MissesByUnderflowBesideAnInflection) {
       EXPECT_TRUE(std::ranges::all_of(missed, has_inflection)) << exponent;
     }
     EXPECT_GE(most, tests::trials(20U)) << to_string(kind);
-    // All numbers are 0 at last: nothing can be rejected.
+    // All numbers underflow to 0 in the end: nothing can be rejected.
     EXPECT_EQ(missed_at(-400).size(), 0U);
   }
 }
 
 TEST(Tccd, MissesAGrazingContactAtACornerOfBothEdges) {
-  // Y is a square: a double root at t = 1/2. The place where one constraint vanishes is that root,
-  // so are those of the others: each is believed to be negative at one of the "two".
+  // Y is a square with a double root at t = 1/2. Each constraint vanishes at that root, and is
+  // taken for negative at one of the "two" roots.
   const PosedQuery edges = tests::edge_edge({0, -1, -1, -1, -1, -1, -1, 0, 0, -1, 0, -1},
                                             {0, -1, -1, 0, 1, 0, -1, 0, 0, 0, 0, 0});
   EXPECT_TRUE(tests::truly_collides(edges));

@@ -32,7 +32,7 @@ TEST(Uirf, GivesTimesThatAreNotLate) {
 }
 
 TEST(Uirf, PassesAllThatIsOnOneLine) {
-  // Two edges on one line, far from each other, at rest; and such a triangle with its vertex.
+  // Two edges on one line, far from each other, at rest; and a triangle on a line with its vertex.
   const auto edges = tests::edge_edge({0, 0, 0, 1, 0, 0, 8, 0, 0, 9, 0, 0},  //
                                       {0, 0, 0, 1, 0, 0, 8, 0, 0, 9, 0, 0});
   EXPECT_EQ(answer_to(*method, edges).verdict, fast::Verdict::yes);
@@ -51,7 +51,7 @@ TEST(Uirf, PassesThePlaneOutsideTheFace) {
 }
 
 TEST(Uirf, StopsAtMaxChecks) {
-  // In one plane all the time, apart.
+  // Primitives that are always in one plane, and apart.
   const auto plane = tests::vertex_face({3, 3, 0, 0, 0, 0, 4, 0, 0, 0, 4, 0},  //
                                         {3, 4, 0, 0, 0, 0, 4, 0, 0, 0, 4, 0});
   const fast::Answer few = answer_to(*method, plane, {.max_checks = 100});

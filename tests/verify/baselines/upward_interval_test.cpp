@@ -1,5 +1,5 @@
 /// \file
-/// Intervals hold the results of rationals, over the whole range of doubles.
+/// Intervals contain the results of rationals, over the whole range of doubles.
 
 #include "verify/baselines/upward_interval.hpp"
 
@@ -28,7 +28,7 @@ bool holds(const UpwardInterval& interval, const Rational& x) {
          (interval.upper == infinity || x <= Rational(interval.upper));
 }
 
-/// The three operations, computed where the mode is upward.
+/// The three operations, computed in the upward mode.
 [[gnu::noinline]] std::array<UpwardInterval, 4> operations(const UpwardInterval& a,
                                                            const UpwardInterval& b) {
   return {a + b, a - b, a * b, half(a)};

@@ -1,5 +1,5 @@
 /// \file
-/// What baselines do with bad input and with exceptions.
+/// The answers of baselines to bad input, and after exceptions.
 
 #include "verify/baselines/verdicts.hpp"
 

@@ -11,7 +11,7 @@
 #include "tests/support/tool_test.hpp"
 #include "tests/verify/solvers/plugins/misbehaviour.hpp"
 
-// `touchstone bench` as users meet it: by running the tool.
+// Tests of `touchstone bench` that run the tool.
 
 namespace touchstone::verify::cli::bench_command_test {
 namespace {
@@ -24,7 +24,7 @@ constexpr char subcommand[] = "bench";
 
 using Bench = tests::ShellTest<subcommand>;
 
-/// A vertex over a resting triangle that falls to a height, as rows without labels.
+/// A vertex that falls to a height over a resting triangle, as rows without labels.
 std::string falling_vertex(const std::string& end_height) {
   const auto rows = [](const std::string& height) {
     return "1,1,1,1," + height + ",1\n0,1,0,1,0,1\n4,1,0,1,0,1\n0,1,4,1,0,1\n";
@@ -32,7 +32,7 @@ std::string falling_vertex(const std::string& end_height) {
   return rows("1") + rows(end_height);
 }
 
-/// Few and short: tests ask what is done, not how fast.
+/// Options for a short run: the tests measure no speed.
 const std::string quick = " --repetitions 2 --seconds 0.01 ";
 
 TEST_F(Bench, TimesAndJudgesTheGivenQueries) {
@@ -107,7 +107,7 @@ TEST_F(Bench, ABrokenPromiseExitsWithOne) {
       << read("out");
 }
 
-/// It is conservative, but claims to be in contact where there is none.
+/// The plugin is conservative, but claims contact in queries without it.
 TEST_F(Bench, APluginThatBreaksItsToleranceExitsWithOne) {
   const std::string file = write("a_vf.csv", falling_vertex("-3") + falling_vertex("0.5"));
   EXPECT_EQ(run(file + quick + "--plugin '" + tests::plugin_library("always_yes") + "' --json " +
@@ -221,7 +221,7 @@ TEST_F(Bench, BadInputExitsWithTwoAndIsNamedOnce) {
 
 TEST_F(Bench, AnInterruptKeepsWhatIsDone) {
   const std::string file = write("a_vf.csv", falling_vertex("-3"));
-  // Late enough for the solver to be measured, not only tried.
+  // The interrupt is so late that the solver is measured, not only tried.
   ASSERT_EQ(run(file + " --plugin '" + tests::plugin_library("interrupts_its_parent") +
                     "' --repetitions 1000000 --json " + quoted("json"),
                 "TOUCHSTONE_TEST_CALL=10000"),

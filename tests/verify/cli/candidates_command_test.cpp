@@ -18,7 +18,7 @@
 #include "tests/support/tool_test.hpp"
 #include "verify/data/npy.hpp"
 
-// `touchstone candidates` as users meet it: by running the tool.
+// Tests of `touchstone candidates` that run the tool.
 
 namespace touchstone::verify::cli::candidates_command_test {
 namespace {
@@ -52,14 +52,14 @@ class CandidatesCommand : public tests::ToolTest {
     static constexpr std::size_t header = 128;
     EXPECT_TRUE(bytes.size() >= header && bytes.size() % 8 == 0) << name;
     Pairs result((bytes.size() - header) / 8);
-    // Not where there are none: memcpy wants addresses.
+    // memcpy needs addresses even for no bytes.
     if (!result.empty()) std::memcpy(result.data(), bytes.data() + header, bytes.size() - header);
     EXPECT_TRUE(contains(bytes.substr(0, header), "'<i4', 'fortran_order': False, 'shape': (" +
                                                       std::to_string(result.size()) + ", 2)"));
     return result;
   }
 
-  /// Files in the folder whose names begin so.
+  /// The number of files in the folder whose names begin with this text.
   [[nodiscard]] std::size_t files(const std::string& beginning) const {
     return static_cast<std::size_t>(
         std::ranges::count_if(fs::directory_iterator(folder()), [&](const auto& entry) {
@@ -92,8 +92,8 @@ TEST_F(CandidatesCommand, WritesQueriesThatTheirPairsName) {
            path("step"), "--json", path("summary.json")});
   EXPECT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_EQ(outcome.err, "");
-  // The vertices of the small triangle meet the large one; its edges meet the three of the other,
-  // as far as their boxes are concerned.
+  // The vertices of the small triangle meet the large one; the boxes of its edges overlap those of
+  // the other's edges.
   EXPECT_EQ(pairs("step_vf_pairs.npy"), (Pairs{{3, 0}, {4, 0}, {5, 0}}));
   EXPECT_EQ(pairs("step_edges.npy"), (Pairs{{0, 1}, {0, 2}, {1, 2}, {3, 4}, {3, 5}, {4, 5}}));
   EXPECT_EQ(pairs("step_ee_pairs.npy"), (Pairs{{2, 3}, {2, 4}, {2, 5}}));

@@ -7,8 +7,7 @@
 
 #include "tests/support/tool_test.hpp"
 
-// The script that authors of solvers run in their CI (examples/ci/), as they run it, but with
-// little to do.
+// The script that authors of solvers run in their CI (examples/ci/), with little work.
 
 namespace touchstone::verify::cli::ci_example_test {
 namespace {
@@ -18,7 +17,7 @@ using tests::Outcome;
 
 class CiExample : public tests::ToolTest {
  protected:
-  /// Checks the plugin that a folder builds.
+  /// Checks the plugin that is built in a folder.
   [[nodiscard]] Outcome check(const std::string& source, const std::string& library,
                               const std::string& settings = "") const {
     const std::string script = tests::source_folder() + "/examples/ci/check_solver.sh";
@@ -43,7 +42,7 @@ TEST_F(CiExample, IsContentWithAPluginThatMissesNothing) {
   EXPECT_FALSE(exists("findings/fuzz/1-false_negative.md"));
 }
 
-/// The plugin with min for max in its filter.
+/// A plugin whose filter has min instead of max.
 TEST_F(CiExample, FailsOnFalseNegativesAndKeepsThem) {
   const std::string root = tests::source_folder();
   write("plugin/CMakeLists.txt",

@@ -1,6 +1,6 @@
 /// \file
-/// libFuzzer on the command line: no words make the parsing of it crash, hang, or throw anything
-/// but what ends in an exit status; and what the shared options accept is what they promise.
+/// libFuzzer on the command line: no words make its parser crash, hang, or throw anything but
+/// errors with an exit status; and the shared options accept only the values that they promise.
 ///
 /// The words are the lines of the input. The commands themselves are not run.
 
@@ -22,7 +22,7 @@
 #include "verify/cli/sources.hpp"
 #include "verify/cli/version.hpp"
 
-/// The build of the tool writes its own.
+/// The build of the tool has a different definition.
 std::string_view touchstone::verify::cli::version() { return "fuzzed"; }
 
 namespace {
@@ -33,7 +33,7 @@ void require(bool holds) {
   if (!holds) std::abort();
 }
 
-/// As CLI11 wants them: the last word first.
+/// The words in the order of CLI11: the last one first.
 std::vector<std::string> words_of(std::string_view text) {
   std::vector<std::string> words;
   while (!text.empty()) {
@@ -44,7 +44,7 @@ std::vector<std::string> words_of(std::string_view text) {
   return {words.rbegin(), words.rend()};
 }
 
-/// Is it a command line that makes sense?
+/// Parses a command line. True if it is valid.
 bool parse(CLI::App& app, std::vector<std::string> words) {
   try {
     app.parse(words);
@@ -55,7 +55,7 @@ bool parse(CLI::App& app, std::vector<std::string> words) {
   }
 }
 
-/// Ends where the subcommand would run.
+/// A command that ends before its subcommand runs.
 class ParsedOnly : public CLI::App {
  public:
   using CLI::App::App;
@@ -64,7 +64,7 @@ class ParsedOnly : public CLI::App {
   void pre_callback() override { throw CLI::Success(); }
 };
 
-/// All subcommands. (Their callbacks stay: what the options write to belongs to them.)
+/// Parses all subcommands. (Their callbacks stay, because they own the variables of the options.)
 void parse_commands(const std::vector<std::string>& words) {
   ParsedOnly app{"fuzzed"};
   app.require_subcommand(1);
@@ -78,7 +78,7 @@ void parse_commands(const std::vector<std::string>& words) {
   parse(app, words);
 }
 
-/// The options that commands share, and what becomes of them.
+/// Parses the options that commands share, and checks their values.
 void parse_shared_options(const std::vector<std::string>& words) {
   CLI::App app{"fuzzed"};
   SourceArguments sources;

@@ -23,7 +23,7 @@
 #include "tests/verify/solvers/plugins/misbehaviour.hpp"
 #include "verify/data/npy.hpp"
 
-// The commands (verify/cli/commands.hpp) are tested as users meet them: by running the tool.
+// Tests of the commands (verify/cli/commands.hpp) that run the tool.
 
 namespace touchstone::verify::cli::commands_test {
 namespace {
@@ -35,7 +35,7 @@ using tests::read_file;
 
 class Tool : public tests::ToolTest {
  protected:
-  /// Until one of the tool's threads has a child: the process that the solver runs in.
+  /// Waits until a thread of the tool has a child: the process in which the solver runs.
   static void wait_for_child(pid_t process) {
     const auto has_child = [&] {
       const fs::path threads = "/proc/" + std::to_string(process) + "/task";
@@ -68,14 +68,14 @@ std::vector<std::string> subcommands_in(const std::string& help) {
   return names;
 }
 
-/// Lines of a help text, of which none is wider than a screen.
+/// The number of lines of a help text, none wider than a screen.
 std::ptrdiff_t lines_of(const std::string& help) {
   std::istringstream lines(help);
   for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 102U) << line;
   return std::ranges::count(help, '\n');
 }
 
-/// What a command says of bad input.
+/// Each command names the fault of bad input.
 TEST_F(Tool, RefusesBadInputWithItsReason) {
   fs::create_directories(folder() / "frames");
   for (const char* const name : {"frames/1.obj", "frames/2.obj"}) {
@@ -275,8 +275,8 @@ TEST_F(Tool, AnArrayThatBecomesShorterIsNamedAndWhatIsDoneIsWritten) {
   ASSERT_EQ(::mkfifo(path("truth").c_str(), 0600), 0);
   const pid_t process = start({"certify", array.string(), "--threads", "1", "--truth",
                                path("truth"), "--json", path("result.json")});
-  // Two blocks of 2,048 queries are under way at most, and the pipe holds the truth of some
-  // thousand: when its first bytes are there, the array is being read, and not near the cut.
+  // At most two blocks of 2,048 queries are in progress, and the pipe holds the truth of a few
+  // thousand: when its first bytes arrive, the array is being read, and not near the cut.
   const int truth = ::open(path("truth").c_str(), O_RDONLY);
   std::array<char, 4096> buffer{};
   ssize_t count = ::read(truth, buffer.data(), buffer.size());
@@ -528,11 +528,11 @@ TEST_F(Tool, AnInterruptKeepsWhatIsDone) {
 
 // ---- Solvers ------------------------------------------------------------------------------------
 
-/// What solve writes; files may do without the last column.
+/// The header of solve; files may omit the last column.
 const std::string full_header = "file,index,kind,verdict,toi_lower,toi_upper,tolerance,failure\n";
 const std::string answers_header = "file,index,kind,verdict,toi_lower,toi_upper,tolerance\n";
 
-/// A vertex-face file of a hit at t=1/4, and a miss that the boxes do not tell from a hit.
+/// A vertex-face file of a collision at t=1/4, and of a query without one whose boxes overlap too.
 std::string hit_and_miss() {
   std::string no_collision = falling_vertex("0", "-3");
   for (std::size_t at = no_collision.find("1,1,1,1,"); at != std::string::npos;
@@ -610,13 +610,13 @@ TEST_F(Tool, AnswersMustNotBeOutputs) {
   EXPECT_EQ(read_file(answers), answers_header);
 }
 
-/// A query that tells the plugin what to do: the first coordinate does, and puts the vertex beside
-/// the triangle.
+/// A query whose first coordinate tells the plugin its action, and puts the vertex beside the
+/// triangle.
 std::string misbehave(tests::Misbehaviour what) {
   return falling_vertex("0").replace(0, 1, std::to_string(static_cast<int>(what)));
 }
 
-TEST_F(Tool, KindsOfFailureAreToldApart) {
+TEST_F(Tool, KindsOfFailureAreDistinguished) {
   using tests::Misbehaviour;
   std::string text;
   for (const auto what :
@@ -646,7 +646,7 @@ TEST_F(Tool, KindsOfFailureAreToldApart) {
                        "no answer: misbehaving: 1 crash, 1 exit, 1 exception, 1 no_verdict, 1 "
                        "not_finite, 1 hang, 1 undecided\n"))
       << certify.out;
-  // A hang is taken for a collision, and no wrong answer.
+  // A hang counts as a collision, and not as a wrong answer.
   for (std::size_t i = 0; i < 5; ++i) {
     EXPECT_TRUE(contains(certify.out, "answer " + failures[i] + ", truth")) << certify.out;
   }
@@ -655,7 +655,7 @@ TEST_F(Tool, KindsOfFailureAreToldApart) {
   EXPECT_EQ(json("summary.json").at("failures"), counts);
   EXPECT_EQ(json("result.json").at("methods")[0].at("failures"), counts);
   EXPECT_EQ(json("result.json").at("methods")[0].at("errors"), 5);
-  // And as a file of answers.
+  // The same as a file of answers.
   const Outcome again =
       run({"certify", file, "--results", path("answers.csv"), "--json", path("again.json")});
   EXPECT_EQ(again.status, 1);
@@ -681,7 +681,7 @@ TEST_F(Tool, APluginThatEndsItsProcessOnLoadingIsBadInput) {
   ::unsetenv("TOUCHSTONE_TEST_LOADING");
 }
 
-TEST_F(Tool, WhatAPluginPrintsIsNoneOfOurs) {
+TEST_F(Tool, OutputOfAPluginIsKeptApart) {
   const std::string file = write("queries_vf.csv", misbehave(tests::Misbehaviour::prints));
   const std::vector<std::string> certify{"certify", file, "--plugin",
                                          tests::plugin_library("misbehaving")};
@@ -707,7 +707,7 @@ TEST_F(Tool, APluginWritesIntoAFolderOfItsOwn) {
   EXPECT_FALSE(std::filesystem::exists("written_by_a_plugin"));
 }
 
-/// Bounded: what is not refused makes few, and allocates little.
+/// The plugin's work is bounded: without a limit it makes few processes and allocates little.
 TEST_F(Tool, APluginThatForksOrAllocatesWithoutEndCostsAQuery) {
   using tests::Misbehaviour;
   const std::string file =
@@ -731,8 +731,8 @@ TEST_F(Tool, APluginThatForksOrAllocatesWithoutEndCostsAQuery) {
   EXPECT_FALSE(contains(read_file(path("answers.csv")), "error"));
 }
 
-/// A yes beyond its tolerance: the plugin says yes with tolerance 0 to what never touches.
-TEST_F(Tool, AYesIsHeldToItsTolerance) {
+/// The plugin says yes with tolerance 0 to a query that never is in contact.
+TEST_F(Tool, AYesIsJudgedByItsTolerance) {
   const std::string file =
       write("queries_vf.csv", misbehave(tests::Misbehaviour::yes_with_tolerance_0));
   const Outcome certify = run({"certify", file, "--plugin", tests::plugin_library("misbehaving"),
@@ -741,7 +741,7 @@ TEST_F(Tool, AYesIsHeldToItsTolerance) {
   EXPECT_EQ(json("result.json").at("methods")[0].at("beyond_tolerance"), 1);
   EXPECT_TRUE(contains(certify.out, "beyond tolerance: misbehaving: ")) << certify.out;
   EXPECT_TRUE(contains(certify.out, "answer yes, tolerance 0, truth no collision")) << certify.out;
-  // So is a file of answers.
+  // A file of answers is judged in the same way.
   write("answers.csv", answers_header + file + ",0,vertex-face,yes,0,,0\n");
   EXPECT_EQ(run({"certify", file, "--results", path("answers.csv")}).status, 1);
   write("far.csv", answers_header + file + ",0,vertex-face,yes,0,,1000\n");
@@ -754,7 +754,7 @@ TEST_F(Tool, ACrashThatDoesNotRepeatIsReportedAndIsAnError) {
   for (int i = 0; i < 2048; ++i) text += misbehave(Misbehaviour::dies_at_call_1500);
   const std::string file = write("queries_vf.csv", text);
   const std::string said = "misbehaving ended its process 1 times, not at a particular query";
-  // One thread, hence one process.
+  // One thread, so that there is one process.
   const Outcome solve =
       run({"solve", file, "--plugin", tests::plugin_library("misbehaving"), "--threads", "1",
            "--out", path("answers.csv"), "--json", path("summary.json")});
@@ -780,7 +780,7 @@ TEST_F(Tool, OurOwnAnswersCanBeReadBack) {
   EXPECT_EQ(certify.err, "");
 }
 
-TEST_F(Tool, SolversOfOneNameAreToldApartAndNamedEvenWithoutQueries) {
+TEST_F(Tool, SolversOfOneNameAreDistinguishedAndNamedEvenWithoutQueries) {
   const Outcome certify =
       run({"certify", path("missing"), "--plugin", tests::plugin_library("box_overlap"), "--plugin",
            tests::plugin_library("box_overlap"), "--json", path("result.json")});
@@ -867,7 +867,7 @@ TEST_F(Tool, AnInterruptIsObeyedWhileASolverHangs) {
                                    "--json",   path("result.json")};
     if (command == "solve") words.insert(words.end(), {"--out", path("answers.csv")});
     const pid_t process = start(words);
-    // The plugin is loaded in a child, too, but before the outputs are opened.
+    // The plugin is loaded in a child too, but before the outputs are opened.
     EXPECT_TRUE(tests::comes_true([&] {
       return std::ranges::any_of(fs::directory_iterator(folder()), [](const auto& entry) {
         return entry.path().filename().string().starts_with("result.json");

@@ -9,7 +9,7 @@
 #include "tests/support/built_files.hpp"
 #include "tests/support/tool_test.hpp"
 
-// `touchstone derive` as users meet it: by running the tool.
+// Tests of `touchstone derive` that run the tool.
 
 namespace touchstone::verify::cli::derive_command_test {
 namespace {
@@ -63,7 +63,7 @@ TEST_F(Derive, PrintsTheRowsOfPairsOfDoubles) {
 }
 
 TEST_F(Derive, TakesGappasAnswersFromGappa) {
-  // One that answers 3/2^25 to everything; what the real one says, error_bounds_test.cpp asks it.
+  // A program that answers 3/2^25 to everything. (error_bounds_test.cpp asks the real one.)
   std::ofstream(path("gappa")) << "#!/bin/sh\n"
                                   "echo 'Results:'\n"
                                   "echo '  |n - N| in [0, 3b-25 {8.9407e-08, 2^(-23.4)}]'\n";

@@ -16,8 +16,8 @@
 
 #include "tests/support/tool_test.hpp"
 
-// `touchstone fuzz` as users meet it: by running the tool. The plugin is the example, which
-// compares swept boxes and is conservative, but nothing near exact.
+// Tests of `touchstone fuzz` that run the tool. The plugin is the example, which compares swept
+// boxes and is conservative, but far from exact.
 
 namespace touchstone::verify::cli::fuzz_command_test {
 namespace {
@@ -80,7 +80,8 @@ TEST_F(FuzzTool, HoldsAPluginToExactnessAndWritesWhatItFinds) {
     EXPECT_EQ(finding.at("original").at("collides"), false);
     EXPECT_EQ(finding.at("coordinates").size(), 24U);
   }
-  // The dataset holds them with their truth: its labels are right and the plugin's answers are not.
+  // The dataset holds the queries with their truth: its labels are right, and the plugin's answers
+  // wrong.
   const auto certify = [&](const std::string& exact) {
     std::vector<std::string> arguments{"certify"};
     for (const auto& entry : fs::directory_iterator(folder())) {
@@ -92,7 +93,8 @@ TEST_F(FuzzTool, HoldsAPluginToExactnessAndWritesWhatItFinds) {
     if (!exact.empty()) arguments.push_back(exact);
     return finish(start(arguments));
   };
-  EXPECT_EQ(certify("").status, 0);
+  const Outcome judged = certify("");
+  EXPECT_EQ(judged.status, 0) << judged.out << judged.err;
   EXPECT_GE(json("c").at("labels"), 3);
   EXPECT_EQ(certify("--exact").status, 1);
 }
@@ -111,7 +113,7 @@ TEST_F(FuzzTool, FindsTheSameForTheSameSeed) {
   EXPECT_NE(reports[0], reports[2]);
 }
 
-/// As it stands in the report: of the query that is shown, and of the original.
+/// The report contains a certificate of the query that it shows, and one of the original.
 TEST_F(FuzzTool, WritesCertificatesThatTheCheckerAccepts) {
   const Outcome outcome = run({"--plugin", tests::plugin_library("box_overlap"), "--exact",
                                "--queries", "5000", "--most-findings", "2", "--json", path("j")});
@@ -128,7 +130,7 @@ TEST_F(FuzzTool, WritesCertificatesThatTheCheckerAccepts) {
   }
 }
 
-/// A fault that shows only with the options that the solver was asked with.
+/// The fault shows only with the options of the solver's call.
 TEST_F(FuzzTool, PrintsACommandThatFindsTheSame) {
   const Outcome outcome =
       run({"--plugin", tests::plugin_library("wrong_with_options"), "--tolerance", "0.125",
@@ -149,14 +151,14 @@ TEST_F(FuzzTool, PrintsACommandThatFindsTheSame) {
   EXPECT_EQ(run_in_shell(other).status, 0);
 }
 
-/// What a maintainer gets: its certificate is accepted, and the command in it finds the same.
+/// The page for a maintainer: its certificate is accepted, and its command finds the same.
 TEST_F(FuzzTool, WritesPagesForAnIssueTracker) {
   const std::string folder = path("pages");
   const std::vector<std::string> arguments{"--plugin",        tests::plugin_library("always_no"),
                                            "--queries",       "1000",
                                            "--most-findings", "1",
                                            "--write",         folder};
-  // A run that was killed has left some of its pages.
+  // A run that was killed left some of its pages.
   write("pages.touchstone.partial/7-false_negative.md", "# al");
   const Outcome outcome = run(arguments);
   EXPECT_EQ(outcome.status, 1) << outcome.err;
@@ -176,7 +178,7 @@ TEST_F(FuzzTool, WritesPagesForAnIssueTracker) {
   EXPECT_EQ(run_in_shell(best.at("command")).status, 1);
   // The answer does not depend on the scale.
   EXPECT_EQ(report.at("groups").at(0).at("scale"), "any scale");
-  // What is there stays.
+  // The existing folder stays.
   const Outcome again = run(arguments);
   EXPECT_EQ(again.status, 2);
   EXPECT_TRUE(contains(again.err, "is not an empty folder")) << again.err;
@@ -212,7 +214,7 @@ TEST_F(FuzzTool, SeeksFindingsOfOneKindOnly) {
   EXPECT_EQ(run({"--plugin", plugin, "--queries", "1000", "--only", "wrong"}).status, 2);
 }
 
-/// A plugin is held to the tolerance that it states.
+/// The tolerance is the one that the plugin states.
 TEST_F(FuzzTool, FindsAYesBeyondAPluginsTolerance) {
   const Outcome outcome = run({"--plugin", tests::plugin_library("always_yes"), "--queries", "500",
                                "--most-findings", "1", "--json", path("j")});
@@ -227,7 +229,7 @@ TEST_F(FuzzTool, SaysIfTheTimeWasTooShortForTheQueries) {
   EXPECT_TRUE(contains(outcome.out, " of 1000000000000 queries judged in 0.5 s")) << outcome.out;
 }
 
-/// The dataset says the distance that its truth is about.
+/// The dataset records the distance of its truth.
 TEST_F(FuzzTool, SearchesAtASeparation) {
   const std::string out = path("near-vertex-face.csv");
   const Outcome outcome = run({"--plugin", tests::plugin_library("box_overlap"), "--exact",
@@ -239,7 +241,7 @@ TEST_F(FuzzTool, SearchesAtASeparation) {
   const Outcome certified = finish(start({"certify", out}));
   EXPECT_EQ(certified.status, 0) << certified.out;
   EXPECT_TRUE(contains(certified.out, "0.25 (l2)")) << certified.out;
-  // Another truth does not go beside it.
+  // A folder of datasets has one separation only.
   const Outcome other = run({"--method", "certified", "--queries", "10", "--out",
                              path("contact-vertex-face.csv"), "--kind", "vertex-face"});
   EXPECT_EQ(other.status, 2);

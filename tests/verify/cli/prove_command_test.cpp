@@ -17,8 +17,8 @@
 #include "tests/support/certificates.hpp"
 #include "tests/support/tool_test.hpp"
 
-// The command touchstone prove (verify/cli/prove_command.cpp), and certify --prove, as users run
-// them.
+// Tests of `touchstone prove` (verify/cli/prove_command.cpp) and `certify --prove` that run the
+// tool.
 
 namespace touchstone::verify::cli::prove_command_test {
 namespace {
@@ -47,8 +47,7 @@ class ProveCommand : public tests::ToolTest {
   [[nodiscard]] std::string err() const { return read("err"); }
 };
 
-/// A vertex that falls from height 1 to `end` on a resting triangle, and meets it in the middle of
-/// its face.
+/// A vertex that falls from height 1 to `end` on a resting triangle, onto the middle of its face.
 std::string falling_vertex(const std::string& end) {
   const std::string triangle = "0,1,0,1,0,1\n4,1,0,1,0,1\n0,1,4,1,0,1\n";
   return "1,1,1,1,1,1\n" + triangle + "1,1,1,1," + end + ",1\n" + triangle;
@@ -141,7 +140,7 @@ TEST_F(ProveCommand, StandardOutputIsNothingButCertificates) {
   EXPECT_TRUE(contains(err(), "total                       1\n"));
 }
 
-// What is done is kept under another name, and no checker takes it for all.
+// The finished part has another name, and no checker accepts it as the whole.
 TEST_F(ProveCommand, AnInterruptKeepsWholeCertificates) {
   for (const std::string name : {"i.cert", "i.cert.zst"}) {
     write(name, "an older proof");

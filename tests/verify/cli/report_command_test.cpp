@@ -10,7 +10,7 @@
 
 #include "tests/support/tool_test.hpp"
 
-// `touchstone report` as users meet it: by running the tool.
+// Tests of `touchstone report` that run the tool.
 
 namespace touchstone::verify::cli::report_command_test {
 namespace {
@@ -34,7 +34,7 @@ class Report : public tests::ShellTest<subcommand> {
   }
 };
 
-/// Short: tests ask what is done, not how fast.
+/// Options for a short run: the tests measure no speed.
 const std::string quick =
     " --method certified --method tight_inclusion --repetitions 1 --seconds 0.01 --stability 0 ";
 
@@ -71,7 +71,7 @@ TEST_F(Report, MakesTheSamePageFromAnEarlierRunsMeasurements) {
   EXPECT_GT(read("two.html").size(), 100'000U);
 }
 
-/// It is conservative, but claims to be in contact where there is none.
+/// The plugin is conservative, but claims contact in queries without it.
 TEST_F(Report, SeesAPluginBreakItsTolerance) {
   EXPECT_EQ(
       run(data() + quick + "--experiment field --plugin " + tests::plugin_library("always_yes") +
@@ -109,7 +109,7 @@ TEST_F(Report, HasOnesOwnSolverBesideTheOthers) {
   const nlohmann::json result = json();
   for (const nlohmann::json& m : result.at("measurements")) of_method[m.at("method")] = m;
   ASSERT_EQ(of_method.size(), 4U);
-  // A vertex at half the height of its way is in no face's box: the example is right here.
+  // A vertex that falls to half its height is not in the face's box, so that the example is right.
   EXPECT_EQ(of_method.at("box_overlap").at("false_negatives"), 0);
   EXPECT_GT(of_method.at("box_overlap").at("ns_per_query"), 0.0);
   EXPECT_EQ(of_method.at("answers").at("asked"), 2);

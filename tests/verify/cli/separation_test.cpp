@@ -11,7 +11,7 @@
 #include "tests/support/built_files.hpp"
 #include "tests/support/tool_test.hpp"
 
-// --min-separation and --norm as users meet them: by running the tool.
+// Tests of --min-separation and --norm that run the tool.
 
 namespace touchstone::verify::cli::separation_test {
 namespace {
@@ -27,7 +27,7 @@ class SeparationOptions : public tests::ShellTest<subcommand> {
 };
 
 /// A vertex over (or at the corner of) the resting triangle (0,0,0), (-4,0,0), (0,-4,0), from one
-/// place to another, "x,1,y,1,z,1" each, with a label or none.
+/// place to another, "x,1,y,1,z,1" each, with or without a label.
 std::string vertex_moves(const std::string& from, const std::string& to,
                          const std::string& label = "") {
   const std::string end = (label.empty() ? "" : "," + label) + "\n";
@@ -35,17 +35,17 @@ std::string vertex_moves(const std::string& from, const std::string& to,
   return from + end + face + to + end + face;
 }
 
-/// Falls from height 1 to the face: within ½ from t = ½ on.
+/// A fall from height 1 to the face: within ½ from t = ½ on.
 std::string falls(const std::string& label = "") {
   return vertex_moves("-1,1,-1,1,1,1", "-1,1,-1,1,0,1", label);
 }
 
-/// Falls from height 1 to ¾: never within ½.
+/// A fall from height 1 to ¾: never within ½.
 std::string stays_away(const std::string& label = "") {
   return vertex_moves("-1,1,-1,1,1,1", "-1,1,-1,1,3,4", label);
 }
 
-/// Rests at (⅜, ⅜, 0) beside the corner: within ½ on every axis, but not in L2.
+/// A vertex at rest at (⅜, ⅜, 0) beside the corner: within ½ on every axis, but not in L2.
 std::string beside_corner() { return vertex_moves("3,8,3,8,0,1", "3,8,3,8,0,1"); }
 
 const std::string half = " --min-separation 0x1p-1";
@@ -132,7 +132,7 @@ TEST_F(SeparationOptions, PlantedWrongAnswersAreCaught) {
 }
 
 TEST_F(SeparationOptions, OfAnswersAboutContactOnlyWhatFollowsIsCompared) {
-  // A true miss that comes within ½, and a true hit.
+  // A query without contact that comes within ½, and one with contact.
   const std::string near_miss = vertex_moves("-1,1,-1,1,1,1", "-1,1,-1,1,1,4", "0");
   const std::string file = write("data/a_vf.csv", near_miss + falls("1"));
   const auto with_toi = [&](const std::string& toi) {
@@ -211,7 +211,7 @@ TEST_F(SeparationOptions, AFalseLabelOfASetIsFound) {
   EXPECT_EQ(json().at("mismatches")[0].at("index"), 1);
 }
 
-TEST_F(SeparationOptions, TightInclusionIsHeldToItsTolerance) {
+TEST_F(SeparationOptions, TightInclusionIsJudgedByItsTolerance) {
   for (const char* norm : {"linf", "l2"}) {
     EXPECT_EQ(run("certify --count 3 --max-checks 1000 --method tight_inclusion --min-separation "
                   "1e-8 --norm " +

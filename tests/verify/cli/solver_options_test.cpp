@@ -80,7 +80,7 @@ TEST(Solvers, AreThoseNamedInOrder) {
   }
 }
 
-TEST(Solvers, OfOneNameAreToldApart) {
+TEST(Solvers, OfOneNameAreDistinguished) {
   const std::string name(solvers::methods().front()->name());
   SolverArguments arguments;
   arguments.methods = {name, name, name};
@@ -124,7 +124,7 @@ SolverArguments settled(std::vector<std::string> words, bool built_in_set) {
   return arguments;
 }
 
-TEST(SolverOptions, TheBuiltInSetHasFewerChecksUnlessToldOtherwise) {
+TEST(SolverOptions, TheBuiltInSetHasFewerChecksByDefault) {
   const std::int64_t otherwise = fast::MethodOptions().max_checks;
   EXPECT_EQ(settled({}, true).options.max_checks, 100'000);
   EXPECT_EQ(settled({"--max-checks", std::to_string(otherwise)}, true).options.max_checks,

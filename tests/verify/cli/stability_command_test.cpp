@@ -7,7 +7,7 @@
 #include "tests/support/built_files.hpp"
 #include "tests/support/tool_test.hpp"
 
-// `touchstone stability` as users meet it: by running the tool.
+// Tests of `touchstone stability` that run the tool.
 
 namespace touchstone::verify::cli::stability_command_test {
 namespace {

@@ -16,7 +16,7 @@
 #include "tests/support/simulation_steps.hpp"
 #include "tests/support/tool_test.hpp"
 
-// `touchstone step` as users meet it: by running the tool.
+// Tests of `touchstone step` that run the tool.
 
 namespace touchstone::verify::cli::step_command_test {
 namespace {
@@ -39,7 +39,7 @@ class StepCommand : public tests::ToolTest {
     return run(arguments);
   }
 
-  /// Is the time of impact of a step in its enclosure, and that a small one?
+  /// Expects the time of impact of a step in its enclosure, which is small.
   static void expect_toi(const Json& step, double toi) {
     EXPECT_LE(step["toi_lower"], toi);
     EXPECT_GE(step["toi_upper"], toi);
@@ -59,7 +59,7 @@ class StepCommand : public tests::ToolTest {
   }
 };
 
-TEST_F(StepCommand, FindsWhatTouchesAndWhen) {
+TEST_F(StepCommand, FindsContactsAndTheirTimes) {
   const std::string before = above("0.obj", "1"), after = above("1.obj", "-3");
   const Outcome outcome = step({before, after, "--csv", path("pairs.csv")});
   EXPECT_EQ(outcome.status, 1) << outcome.err;
@@ -71,8 +71,8 @@ TEST_F(StepCommand, FindsWhatTouchesAndWhen) {
   EXPECT_EQ(row, "step,frame0,frame1,kind,first,second,toi_lower,toi_upper,u,v");
   std::vector<std::string> found;
   while (std::getline(rows, row)) found.push_back(row);
-  // The three vertices fall through the face; the edge between two of them ends on the floor's
-  // edge.
+  // The three vertices fall through the face; the edge between two of them ends on an edge of the
+  // floor.
   ASSERT_GE(found.size(), 3U);
   EXPECT_TRUE(found[0].starts_with("0,0.obj,1.obj,vertex-face,3,0,0.2")) << found[0];
   EXPECT_TRUE(found[0].ends_with(",0.25,0.25")) << found[0];
@@ -119,7 +119,7 @@ TEST_F(StepCommand, AnswersWhatIsAsked) {
   EXPECT_EQ(step({before, after, "--free", "--earliest"}).status, 2);
 }
 
-// The face is at z=0, the triangle at 1 - 4 alpha, which doubles hold exactly.
+// The face is at z=0 and the triangle at 1 - 4 alpha, which is exact in doubles.
 TEST_F(StepCommand, JudgesTheStepThatIsTaken) {
   const std::string before = above("0.obj", "1"), after = above("1.obj", "-3");
   const Json free = result({before, after, "--alpha", "0.2"}, 0);
@@ -132,7 +132,7 @@ TEST_F(StepCommand, JudgesTheStepThatIsTaken) {
   EXPECT_EQ(step({before, after, "--alpha", "1.5"}).status, 2);
 }
 
-// A face of one vertex is a point of the mesh, an edge from a vertex to itself is one too.
+// A face of one vertex, or an edge from a vertex to itself, is a point of the mesh.
 TEST_F(StepCommand, FacesAndEdgesOfOneVertexArePoints) {
   const std::string face = write("face.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 1 1\nl 1 2\n");
   EXPECT_EQ(step({face, face}).status, 0);
@@ -146,7 +146,7 @@ TEST_F(StepCommand, FacesAndEdgesOfOneVertexArePoints) {
                0.25);
     EXPECT_EQ(finish(start({proof}, to_file, tests::checker_program())).status, 0) << point;
   }
-  // The library sees the contact whether the vertex is named as an edge or as a point.
+  // The library finds the contact of the vertex as an edge and as a point.
   const std::array<double, 12> before{0, 0, 0, 1, 0, 0, 0, 1, 0, 0.25, 0.25, 1};
   std::array<double, 12> after = before;
   after.back() = -3;
@@ -162,7 +162,7 @@ TEST_F(StepCommand, FacesAndEdgesOfOneVertexArePoints) {
   EXPECT_EQ(by_edge, earliest({.edges = {}, .faces = faces, .points = points}));
 }
 
-// The names are looked up, not searched for.
+// Names are looked up, not searched for.
 TEST_F(StepCommand, ReadsManyGroups) {
   std::string text = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
   for (int i = 0; i < 100'000; ++i) text += "g n" + std::to_string(i) + "\n";
@@ -182,7 +182,7 @@ TEST_F(StepCommand, LeavesOutGroupsThatAreApart) {
       << unknown.err;
 }
 
-// The edge is in the face from the start to the end: nothing touches on the way.
+// The edge is in the face from the start to the end: no contact begins on the way.
 TEST_F(StepCommand, FindsAnEdgeThatPiercesAFaceInTheFrames) {
   const auto pierced = [](const std::string& x) {
     return "v 0 0 0\nv 4 0 0\nv 0 4 0\nf 1 2 3\nv " + x + " 1 -1\nv " + x + " 1 1\nl 4 5\n";
@@ -245,7 +245,7 @@ TEST_F(StepCommand, ProvesItsStepsToTheChecker) {
                        "0.obj 1.obj\n6 vertices, 6 edges, 2 faces\nseparation "
                        "0\nclaim no_contact 1\n"))
       << accepted.out;
-  // A proof is of its step: of no other.
+  // A proof holds for its step only.
   const std::string text = read_file(proof);
   const std::size_t vertices = text.find("vertices"), separation = text.find("separation");
   const std::string scene = write("scene", text.substr(vertices, separation - vertices));
@@ -257,7 +257,7 @@ TEST_F(StepCommand, ProvesItsStepsToTheChecker) {
   EXPECT_EQ(checked({proof, scene}).status, 1);
 }
 
-// Interrupted before its first step, a proof would be one of nothing.
+// A proof that is interrupted before its first step would prove nothing.
 TEST_F(StepCommand, AnInterruptedProofReplacesNone) {
   std::string points;
   for (int i = 0; i < 200'000; ++i)
@@ -288,8 +288,7 @@ TEST_F(StepCommand, ProvesAtASeparationAndBetweenGroups) {
   EXPECT_EQ(step({before, after, "--prove", proof, "--csv", proof}).status, 2);
 }
 
-// The published labels settle the whole step: every pair that they do not call colliding does not
-// collide.
+// The published labels determine the whole step: no other pair collides.
 TEST_F(StepCommand, FindsExactlyThePublishedCollisions) {
   const std::filesystem::path data = tests::simulation_folder();
   if (data.empty()) GTEST_SKIP() << "public data are missing";

@@ -19,8 +19,8 @@
 
 #include "tests/support/tool_test.hpp"
 
-// What the tool does when its user or its reader has gone, or its input never comes, and what names
-// from outside look like on a terminal (verify/io/terminal.hpp, verify/io/printable.hpp).
+// The tool after its user or its reader has gone, or without its input; and names from outside on a
+// terminal (verify/io/terminal.hpp, verify/io/printable.hpp).
 
 namespace touchstone::verify::cli::terminal_test {
 namespace {
@@ -53,7 +53,7 @@ TEST_F(TerminalTool, TheFirstInterruptEndsAReadThatBlocks) {
   const std::string pipe = make_pipe("queries_vf.csv");
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
     const pid_t process = start({"certify", pipe, "--json", path("result.json")});
-    // This end can be opened when the tool has opened the other; from then on its reads block.
+    // The opening succeeds when the tool has opened the other end; from then on its reads block.
     int writer = -1;
     ASSERT_TRUE(comes_true([&] {
       writer = ::open(pipe.c_str(), O_WRONLY | O_NONBLOCK);
@@ -84,7 +84,7 @@ TEST_F(TerminalTool, AnInterruptedProofHasAnotherName) {
 TEST_F(TerminalTool, APipeIsReadToItsEnd) {
   const std::string pipe = make_pipe("queries_vf.csv");
   const pid_t process = start({"certify", pipe, "--json", path("result.json")});
-  // Opens when the tool has opened its end.
+  // The pipe opens when the tool has opened its end.
   std::ofstream(pipe) << falling_vertex() << std::flush << falling_vertex();
   const Outcome outcome = finish(process);
   EXPECT_EQ(outcome.status, 0) << outcome.err;
@@ -101,7 +101,7 @@ TEST_F(TerminalTool, AFileWithoutLineEndsIsAnError) {
   }
 }
 
-// ---- Output that nobody reads -------------------------------------------------------------------
+// ---- Output without a reader --------------------------------------------------------------------
 
 /// A pipe whose reader has gone.
 class ClosedPipe {
@@ -126,7 +126,7 @@ class ClosedPipe {
 
 TEST_F(TerminalTool, AClosedStandardOutputEndsThePrintingOnly) {
   const ClosedPipe pipe;
-  // Findings are printed while the search goes on.
+  // Findings are printed during the search.
   const Outcome fuzz =
       run({"fuzz", "--plugin", tests::plugin_library("box_overlap"), "--exact", "--queries", "3000",
            "--most-findings", "2", "--out", path("found.csv"), "--json", path("fuzz.json")},
@@ -169,7 +169,7 @@ TEST_F(TerminalTool, WhatIsPrintedGoesIntoNoFile) {
 
 // ---- Names from outside -------------------------------------------------------------------------
 
-/// Has it control characters, or others than ASCII?
+/// True if the text is ASCII without control characters.
 bool is_plain(const std::string& text) {
   return std::ranges::all_of(text, [](char c) { return c == '\n' || (c >= ' ' && c <= '~'); });
 }
@@ -197,7 +197,7 @@ TEST_F(TerminalTool, NamesOfFilesAreShownAndNotObeyed) {
   EXPECT_TRUE(contains(json("result.json").at("files")[0].at("file"), "\x1b[2Ja\ntotal 9"))
       << "to whoever parses it the name is itself";
   EXPECT_EQ(std::ranges::count(read("truth.csv"), '\n'), 2);
-  // What is written under the shown name is found again.
+  // The answers under the shown name are found again.
   EXPECT_EQ(run({"solve", data, "--method", "certified", "--out", path("answers.csv")}).status, 0);
   const Outcome judged = run({"certify", data, "--results", path("answers.csv")});
   EXPECT_EQ(judged.status, 0) << judged.err;

@@ -1,4 +1,4 @@
-// The command touchstone view (verify/cli/view_command.cpp), as users run it.
+// Tests of `touchstone view` (verify/cli/view_command.cpp) that run the tool.
 
 #include <gtest/gtest.h>
 
@@ -17,7 +17,7 @@ using tests::contains;
 
 const std::string falling = "1 1 1 0 0 0 4 0 0 0 4 0  1 1 -2 0 0 0 4 0 0 0 4 0";
 
-/// The same as a row of a dataset; the vertex ends at `end`.
+/// The falling vertex as a row of a dataset; it ends at `end`.
 std::string row(const std::string& end) {
   const std::string triangle = "0,1,0,1,0,1\n4,1,0,1,0,1\n0,1,4,1,0,1\n";
   return "1,1,1,1,1,1\n" + triangle + "1,1,1,1," + end + ",1\n" + triangle;
@@ -130,8 +130,7 @@ TEST_F(ViewCommand, AFindingOfTheFuzzerComesWithItsAnswer) {
   EXPECT_EQ(of_fuzz[0].at("answers").at(1).at("solver"), "certified");
 }
 
-/// Falling, falling and at rest below, falling: all but the second touch. The label of the last is
-/// wrong.
+/// Rows of four queries, of which all but the second collide. The label of the last is wrong.
 std::string labelled_rows() {
   std::string text;
   for (const auto& [end, label] : {std::pair("-2", "1"), {"2", "0"}, {"-3", "0"}}) {
@@ -231,7 +230,7 @@ TEST_F(ViewCommand, ReportShowsWhatItsMethodsAnsweredWrongly) {
   EXPECT_EQ(page[1].at("answers")[1].at("solver"), "certified");
 }
 
-TEST_F(ViewCommand, StepShowsTheFirstStepInWhichSomethingTouches) {
+TEST_F(ViewCommand, StepShowsTheFirstStepThatCollides) {
   const std::string triangle = "v 0 0 0\nv 4 0 0\nv 0 4 0\n", rest = "f 1 2 3\np 4\n";
   const auto frame = [&](const std::string& name, const std::string& height) {
     return write(name, triangle + "v 1 1 " + height + "\n" + rest);
@@ -274,7 +273,7 @@ TEST_F(ViewCommand, AStepWithItsFirstPairs) {
   EXPECT_TRUE(contains(read("page.html"), R"("name":"vertex 3, face 0")"));
 }
 
-TEST_F(ViewCommand, GroupsOfAStepThatAreApartDoNotTouch) {
+TEST_F(ViewCommand, GroupsOfAStepThatAreApartDoNotCollide) {
   const auto frame = [&](const std::string& name, const std::string& height) {
     return write(
         name, "o floor\nv 0 0 0\nv 4 0 0\nv 0 4 0\nf 1 2 3\no ball\nv 1 1 " + height + "\np 4\n");

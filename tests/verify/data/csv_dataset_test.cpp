@@ -48,7 +48,7 @@ Survivors survivors(const std::string& text) {
   return read_survivors(folder.file("a.csv", text), folder.path(), vertex_face());
 }
 
-/// What replaces line 12, the fourth of query 1 of three, and the error it must give.
+/// The replacement of line 12, the fourth of query 1 of three, and its error.
 struct Fault {
   std::string line;
   std::string error;
@@ -88,9 +88,8 @@ const std::string rest_is_left_out =
     "; the rest of the file is left out, since it is unknown from here on which eight rows are a "
     "query: mend this line";
 
-/// A line after which rows cannot be counted. Instead of line 12, or in addition to it, it must be
-/// that no query from there on is read, neither the one that it stands in nor one put together of
-/// the rows behind it.
+/// A line after which rows cannot be counted, instead of line 12 or in addition to it. From there
+/// on no query is read: neither the query of that line nor one made of later rows.
 class CsvLineThatIsNoRow : public ::testing::TestWithParam<Fault> {};
 
 TEST_P(CsvLineThatIsNoRow, EndsTheFile) {
@@ -160,7 +159,7 @@ TEST(CsvDataset, BlankLinesAndHeadersMayStandBetweenQueries) {
       const Survivors kept = survivors(joined(lines, line_end));
       expect_numbered(kept.records, {0, 1, 2, 3});
       EXPECT_EQ(kept.messages, std::vector<std::string>{});
-      EXPECT_EQ(strict_error(joined(lines, line_end)), "no io::DatasetError");
+      EXPECT_EQ(strict_error(joined(lines, line_end)), "no DatasetError");
     }
   }
 }
@@ -170,7 +169,7 @@ TEST(CsvDataset, ALineThatIsNoHeaderBeginsNoFile) {
   const auto error = [&](const std::string& first_line) {
     return strict_error(first_line + "\n" + joined(rows));
   };
-  EXPECT_EQ(error("a,b,c,d,e,f"), "no io::DatasetError");
+  EXPECT_EQ(error("a,b,c,d,e,f"), "no DatasetError");
   EXPECT_EQ(error("a,b,c"), "2: 6 columns, expected 3 as before" + rest_is_left_out);
   EXPECT_EQ(error("queries"), "1: 1 columns, expected 3, 4, 6 or 7" + rest_is_left_out);
   EXPECT_EQ(error("a,b,c,d,e,"), "1: no number in the line" + rest_is_left_out);
@@ -337,7 +336,7 @@ TEST(CsvDataset, RoundsOnlyWhereAskedAndCounts) {
 }
 
 TEST(CsvDataset, RoundsDecimalsOf17DigitsToTheDoubleThatTheyWere) {
-  // As newer public data writes coordinates: a decimal over 1, to 17 digits.
+  // Coordinates as in newer public data: a decimal over 1, to 17 digits.
   const Query query = [] {
     Query result{};
     std::mt19937_64 random(3);

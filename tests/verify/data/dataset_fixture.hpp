@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file
-/// What the tests of dataset readers and writers share.
+/// Common parts of the tests of dataset readers and writers.
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -52,7 +52,7 @@ class TemporaryFolder {
 
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }
 
-  /// Makes a file with this text, and its folders, and returns its path.
+  /// Makes a file with this text, and its folders; returns its path.
   [[nodiscard]] std::filesystem::path file(const std::filesystem::path& name,
                                            std::string_view text) const {
     std::filesystem::create_directories((path_ / name).parent_path());
@@ -61,7 +61,7 @@ class TemporaryFolder {
     return path_ / name;
   }
 
-  /// Names in the folder itself.
+  /// The names in the folder itself.
   [[nodiscard]] std::vector<std::string> names() const {
     std::vector<std::string> names;
     for (const auto& entry : std::filesystem::directory_iterator(path_)) {
@@ -94,7 +94,7 @@ class TemporaryFolder {
   return records;
 }
 
-/// what() of the DatasetError that the action throws, with `folder` (if any) cut off its front.
+/// The text of the DatasetError that the action throws, without `folder` (if given) at its front.
 template <class Action>
 [[nodiscard]] std::string error_of(const std::filesystem::path& folder, const Action& action) {
   try {
@@ -104,14 +104,14 @@ template <class Action>
     const std::string prefix = folder.empty() ? "" : folder.string() + "/";
     return text.starts_with(prefix) ? text.substr(prefix.size()) : text;
   }
-  return "no io::DatasetError";
+  return "no DatasetError";
 }
 
 /// A stream read with keep_going.
 struct Survivors {
   std::vector<RecordedQuery> records;
   std::uint64_t skipped;
-  /// what() of each error, without the folder.
+  /// The text of each error, without the folder.
   std::vector<std::string> messages;
 };
 
@@ -129,7 +129,7 @@ struct Survivors {
   return survivors;
 }
 
-/// Coordinates all different from query to query, point to point and axis to axis.
+/// A query whose coordinates all differ from query to query, point to point and axis to axis.
 [[nodiscard]] inline Query numbered_query(std::size_t index) {
   Query query{};
   for (std::size_t i = 0; i < query.coordinates.size(); ++i) {
@@ -138,7 +138,7 @@ struct Survivors {
   return query;
 }
 
-/// The eight lines of numbered_query(index) without line ends; labelled: odd ones collide.
+/// The eight lines of numbered_query(index) without line ends; labelled so that odd ones collide.
 [[nodiscard]] inline std::vector<std::string> numbered_rows(std::size_t index, bool labelled) {
   std::vector<std::string> rows;
   for (std::size_t row = 0; row < query_points; ++row) {
@@ -179,7 +179,7 @@ inline void expect_numbered(const std::vector<RecordedQuery>& records,
   }
 }
 
-/// Finite doubles of all exponents, subnormals and zeros among them.
+/// A query of finite doubles of all exponents, with subnormals and zeros.
 [[nodiscard]] inline Query random_query(std::mt19937_64& random) {
   Query query{};
   for (double& x : query.coordinates) {
@@ -192,7 +192,7 @@ inline void expect_numbered(const std::vector<RecordedQuery>& records,
   return query;
 }
 
-/// Most bytes that were resident since the last call of reset_peak_resident().
+/// The peak of resident bytes since the last call of reset_peak_resident().
 [[nodiscard]] inline std::size_t peak_resident() {
   std::ifstream status("/proc/self/status");
   for (std::string line; std::getline(status, line);) {
@@ -203,7 +203,7 @@ inline void expect_numbered(const std::vector<RecordedQuery>& records,
 
 inline void reset_peak_resident() { std::ofstream("/proc/self/clear_refs") << "5"; }
 
-/// How far the peak of resident memory rises above its present height, in bytes, while this runs.
+/// The rise of the peak of resident memory above its present height, in bytes, during a call.
 /// getrusage's peak never falls, so an earlier test could hide the rise; this one is reset.
 template <class Action>
 [[nodiscard]] std::size_t resident_growth(const Action& action) {

@@ -36,13 +36,13 @@ struct Scene {
     return folder.file("s/queries/7vf.csv", joined(lines));
   }
 
-  /// Error and survivors; the error must be the first message.
+  /// The error and the survivors; the error must be the first message.
   [[nodiscard]] Survivors read() const {
     const auto path = make();
     const std::string error = error_of(folder.path(), [&] { (void)read_all(*open_dataset(path)); });
     Survivors kept = read_survivors(path, folder.path());
     EXPECT_EQ(kept.messages.size(), kept.skipped);
-    EXPECT_EQ(error, kept.messages.empty() ? "no io::DatasetError" : kept.messages.front());
+    EXPECT_EQ(error, kept.messages.empty() ? "no DatasetError" : kept.messages.front());
     for (std::string& message : kept.messages) {
       const std::string detour = "s/queries/../";
       if (message.starts_with(detour)) message = message.substr(detour.size());

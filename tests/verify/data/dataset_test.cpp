@@ -69,7 +69,7 @@ TEST(FindDatasets, NamesWhatIsNotThereAndFoldersWithoutDatasets) {
             "empty: no dataset (.csv, .npy) in this folder");
 }
 
-/// What is left out below a folder, without the folder.
+/// The files that are left out below a folder, by their paths in it.
 std::vector<std::string> left_out_in(const TemporaryFolder& folder) {
   std::vector<std::string> messages;
   (void)find_datasets(std::vector<fs::path>{folder.path()}, [&](const io::DatasetError& error) {

@@ -14,7 +14,7 @@ using exact::Rational;
 using test::error_of;
 using test::TemporaryFolder;
 
-/// What a reader says of queries 0 to count−1 and behind them: "1", "0", a toi, "-" or the error.
+/// The truths of queries 0 to count−1 and after them: "1", "0", a toi, "-" or the error.
 template <class Reader>
 std::vector<std::string> answers(const std::string& text, std::uint64_t count) {
   const TemporaryFolder folder;
@@ -31,14 +31,14 @@ std::vector<std::string> answers(const std::string& text, std::uint64_t count) {
           result.push_back(toi ? toi->get_str() : "-");
         }
       });
-      if (error != "no io::DatasetError") result.push_back(error);
+      if (error != "no DatasetError") result.push_back(error);
     }
     if (const auto fault = reader.beyond(count)) {
       result.push_back("behind " +
                        error_of(folder.path(), [&] { throw io::DatasetError(*fault); }));
     }
   });
-  if (opening != "no io::DatasetError") result.push_back("opening " + opening);
+  if (opening != "no DatasetError") result.push_back("opening " + opening);
   return result;
 }
 
@@ -68,7 +68,7 @@ TEST(LabelReader, ReadsMoreThanItsBuffer) {
   EXPECT_EQ(labels(text + "]", 20000), expected);
 }
 
-TEST(LabelReader, PassesOverTheLabelsOfQueriesThatNobodyAsksFor) {
+TEST(LabelReader, SkipsTheLabelsOfOmittedQueries) {
   const TemporaryFolder folder;
   LabelReader reader(folder.file("f", "[false,null,true,false,true]"));
   EXPECT_TRUE(reader.at(2));

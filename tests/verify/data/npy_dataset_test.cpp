@@ -23,7 +23,7 @@ using test::read_survivors;
 using test::resident_growth;
 using test::TemporaryFolder;
 
-/// Writes numbered queries and then spoils one double; NpyWriter itself would refuse it.
+/// Writes numbered queries and then corrupts one double; NpyWriter itself would refuse it.
 std::filesystem::path spoiled_file(const TemporaryFolder& folder, std::size_t query,
                                    std::size_t coordinate, double value) {
   std::filesystem::path path = folder.path() / "a_vf.npy";
@@ -108,7 +108,7 @@ TEST(NpyDataset, ThatBecomesShorterGivesWhatIsThereAndThenOneError) {
     expect_numbered(records, there);
     const std::string reason =
         "has become shorter while it was read: query 2000 of 3000 is missing";
-    EXPECT_EQ(error, keep_going ? "no io::DatasetError" : "a_vf.npy: " + reason);
+    EXPECT_EQ(error, keep_going ? "no DatasetError" : "a_vf.npy: " + reason);
     EXPECT_EQ(messages, std::vector<std::string>(keep_going ? 1 : 0, reason));
     EXPECT_EQ(source.skipped(), keep_going ? 1U : 0U);
     EXPECT_FALSE(source.next().has_value()) << "it has ended";

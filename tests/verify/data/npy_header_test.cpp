@@ -9,7 +9,7 @@
 namespace touchstone::verify::data::npy_header_test {
 namespace {
 
-/// Reads from a text.
+/// A reader of a text.
 ReadBytes reader(std::string_view& text) {
   return [&text](std::span<char> buffer) {
     const std::size_t count = std::min(buffer.size(), text.size());
@@ -45,7 +45,7 @@ TEST(NpyHeader, OfColumnsIsRefusedWhereRowsAreAsked) {
                NpyHeaderError);
 }
 
-TEST(NpyHeader, EndsWithTheReasonWhereItIsNone) {
+TEST(NpyHeader, EndsWithTheReasonIfItIsInvalid) {
   const std::string whole = npy_header_text("<i4", 5, {});
   for (std::size_t size = 0; size < whole.size(); ++size) {
     std::string_view rest = std::string_view(whole).substr(0, size);

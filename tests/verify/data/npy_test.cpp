@@ -28,7 +28,8 @@ using Limits = std::numeric_limits<double>;
 constexpr const char* good_dictionary =
     "{'descr': '<f8', 'fortran_order': False, 'shape': (2, 8, 3), }";
 
-/// Magic, version, length and dictionary padded so that the data begins at a multiple of `align`.
+/// The magic, version, length and dictionary, padded so that the data begins at a multiple of
+/// `align`.
 std::string header(const std::string& dictionary, char version = 1, std::size_t align = 64) {
   const std::size_t prefix = version == 1 ? 10 : 12;
   const std::size_t total = (prefix + dictionary.size() + 1 + align - 1) / align * align;
@@ -208,7 +209,7 @@ TEST(NpyReader, AFileThatBecomesShorterEndsWithAnError) {
     for (std::size_t i = 0; i < 2000; ++i) writer.write(numbered_query(i));
     writer.close();
     NpyReader npy(path);
-    // A block is read ahead.
+    // One block is read in advance.
     EXPECT_EQ(npy.next(), numbered_query(0));
     std::filesystem::resize_file(path, 128 + 192 * left + 191);
     const std::size_t last = std::max<std::size_t>(left, 512);

@@ -90,7 +90,7 @@ TEST(QueryGroup, HasADigestOfItsQueriesInTheirOrder) {
   const auto digest = [](std::vector<Query> queries) {
     return QueryGroup("a", Kind::vertex_face, std::move(queries)).digest();
   };
-  // The published offset basis of FNV-1a is what it makes of nothing.
+  // The digest of no data is the published offset basis of FNV-1a.
   EXPECT_EQ(digest({}), 0xcbf29ce484222325U);
   EXPECT_EQ(digest({zero, one}), digest({zero, one}));
   EXPECT_NE(digest({zero, one}), digest({one, zero}));

@@ -1,11 +1,10 @@
 /// \file
-/// libFuzzer on everything that reads foreign bytes: no file makes a reader crash, hang, read or
-/// write where it must not, or throw anything but the errors it announces. What it accepts must be
-/// what it promises: finite coordinates, indices in range, and text that reads back as the same
-/// numbers.
+/// libFuzzer on all readers of foreign bytes: no file makes a reader crash, hang, access other
+/// memory, or throw anything but its documented errors. Accepted data must be valid: finite
+/// coordinates, indices in range, and text that reads back as the same numbers.
 ///
-/// Which reader is fuzzed stands in the environment: TOUCHSTONE_READER is one of the names below,
-/// each with its corpus in corpus/NAME. The bytes lie in a file that exists in memory only.
+/// The environment variable TOUCHSTONE_READER selects the reader by one of the names below, each
+/// with its corpus in corpus/NAME. The bytes are in a file that exists only in memory.
 
 #include <sys/mman.h>
 #include <unistd.h>
@@ -61,7 +60,7 @@ class MemoryFile {
   int descriptor_;
 };
 
-/// Finite, and written as text the same again.
+/// Checks that a query is finite and reads back from its text.
 void check_query(const Query& query) {
   for (const double x : query.coordinates) {
     require(std::isfinite(x));
@@ -74,7 +73,7 @@ void check_query(const Query& query) {
   }
 }
 
-/// Reads a dataset to its end. One that keeps going has no error on the way.
+/// Reads a dataset to its end. With keep_going there is no error on the way.
 template <class Dataset>
 void read_dataset(const fs::path& path, bool keep_going) {
   touchstone::verify::data::DatasetOptions options;
@@ -153,7 +152,7 @@ void read_labels(const fs::path& path) {
   for (; index < 100; index += 1 + index % 3) {
     try {
       static_cast<void>(labels.at(index));
-    } catch (const io::DatasetError&) {  // One label may be at fault and the next one not.
+    } catch (const io::DatasetError&) {  // A label may be faulty and the next one valid.
     }
   }
   static_cast<void>(labels.beyond(index));
@@ -165,7 +164,7 @@ void read_tois(const fs::path& path) {
   for (; index < 100; index += 1 + index % 3) {
     try {
       static_cast<void>(tois.at(index));
-    } catch (const io::DatasetError&) {  // As above.
+    } catch (const io::DatasetError&) {  // The same as above.
     }
   }
   static_cast<void>(tois.beyond(index));

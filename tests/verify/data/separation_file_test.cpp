@@ -104,7 +104,7 @@ TEST_F(SeparationFile, MessagesAndFilesAreBounded) {
   EXPECT_EQ(error("/dev/zero"), "has more than 65536 bytes");
 }
 
-TEST_F(SeparationFile, WhatIsNoneIsAnErrorThatNamesTheFile) {
+TEST_F(SeparationFile, AnInvalidOneIsAnErrorThatNamesTheFile) {
   for (const char* bad :
        {"", "[]", "{}", R"({"min_separation": 0.5, "norm": "l2"})", R"({"min_separation": "0.5"})",
         R"({"min_separation": "-1", "norm": "l2"})",

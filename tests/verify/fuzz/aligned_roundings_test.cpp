@@ -16,14 +16,14 @@ namespace {
 
 using exact::Rational;
 
-/// A coordinate at time t as solvers compute it, less the true one.
+/// The error of a coordinate at time t as solvers compute it.
 Rational error_at(double t, double start, double end) {
   const double computed = start * (1.0 - t) + end * t;
   return Rational(computed) - (Rational(start) * (1 - Rational(t)) + Rational(end) * Rational(t));
 }
 
-/// How far a's points at that time are computed to be too far from b's on that axis, at the least,
-/// in units of u x.
+/// The least error by which the computed distance of a's points from b's on that axis at that time
+/// is too large, in units of u x.
 double worst_case(const Query& query, double t, std::size_t axis) {
   std::array<Rational, moving_points> errors;
   double greatest = 0.0;

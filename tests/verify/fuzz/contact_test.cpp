@@ -21,7 +21,7 @@ using Maker = Query (*)(Kind, Random&);
 
 constexpr std::array<Kind, 2> both_kinds{Kind::vertex_face, Kind::edge_edge};
 
-/// Half of them drawn of each kind.
+/// Calls use(kind, query) for drawn queries, half of each kind.
 template <class Use>
 void for_each_query(Maker make, int count, const Use& use) {
   Random random(1);
@@ -38,7 +38,7 @@ TEST(Contact, OnAGridIsContactAlways) {
     ASSERT_TRUE(verdict.collides());
     tois.insert(verdict.toi->enclosure().lower);
   });
-  // Eighths, and earlier contacts where the construction happens to have one.
+  // The times are eighths, and earlier contacts of some constructions.
   for (const double eighth : {0.0, 0.125, 0.5, 0.875, 1.0}) EXPECT_TRUE(tois.contains(eighth));
 }
 
@@ -70,8 +70,8 @@ TEST(Contact, AtOneLevelIsContactAlwaysWithFullSignificands) {
   EXPECT_GT(at_one, tests::trials(100));
 }
 
-/// A rounding decides, so both verdicts abound.
-TEST(Contact, RoundedIsAHitOrAMissByAHair) {
+/// A rounding decides, so that both verdicts are frequent.
+TEST(Contact, RoundedIsBarelyACollisionOrBarelyNot) {
   int collisions = 0;
   for_each_query(rounded_contact, tests::trials(800), [&](Kind kind, const Query& query) {
     const bool collides = exact::decide(kind, query).collides();
@@ -106,7 +106,7 @@ TEST(Contact, ApartIsAboutAtTheDistance) {
   }
 }
 
-TEST(Contact, SlidingComesNearAndHitsNowAndThen) {
+TEST(Contact, SlidingComesNearAndSometimesCollides) {
   int collisions = 0, near = 0;
   for_each_query(sliding, tests::trials(400), [&](Kind kind, const Query& query) {
     double greatest = 0.0;

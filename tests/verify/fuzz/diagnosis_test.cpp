@@ -22,12 +22,12 @@ using fast::Verdict;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// Touches at 1/3, at 1/2, and never.
+/// Queries with contact at 1/3, at 1/2, and never.
 const tests::PosedQuery at_third = tests::over_triangle(1, 1, 1, -2);
 const tests::PosedQuery at_half = tests::over_triangle(1, 1, 1, -1);
 const tests::PosedQuery never = tests::over_triangle(1, 1, 2, 1);
 
-/// What the oracle says, after a check that the quick look does not excuse what is wrong.
+/// The oracle's fault, after a check that the quick look does not excuse a wrong answer.
 std::optional<judge::Fault> fault(const tests::PosedQuery& posed, const Answer& answer,
                                   const judge::Standard& standard = {},
                                   const Separation& separation = {}) {
@@ -59,7 +59,7 @@ TEST(Diagnose, KnowsEveryFaultOfACollision) {
   EXPECT_EQ(fault(at_half, yes(0.0, 1.0, -1.0)), judge::Fault::not_finite);
 }
 
-/// 1/3 is no double: its neighbours are the tightest right bounds.
+/// 1/3 is not a double: its neighbours are the tightest right bounds.
 TEST(Diagnose, IsExactAboutTimesThatAreNoDoubles) {
   const double third = 1.0 / 3.0;  // rounded down
   const double above = std::nextafter(third, 1.0);
@@ -78,7 +78,7 @@ TEST(Diagnose, HoldsOnlyWhatIsExactToMisses) {
   EXPECT_EQ(fault(at_half, {.verdict = Verdict::undecided}, exact), std::nullopt);
 }
 
-/// The primitives come within 1, and no nearer.
+/// The primitives come within 1, but no nearer.
 TEST(Diagnose, HoldsAYesToItsTolerance) {
   const judge::Standard standard{.promise = Promise::conservative,
                                  .filter = fast::ErrorModel::derived};
@@ -89,7 +89,7 @@ TEST(Diagnose, HoldsAYesToItsTolerance) {
             std::nullopt);
 }
 
-/// In the norm of the separation, for a solver of which no more is known.
+/// A tolerance in the norm of the separation, for a solver without further promises.
 TEST(Diagnose, HoldsAYesToItsToleranceBeyondTheSeparation) {
   const Separation separation{.distance = 0.5, .norm = Norm::l2};
   const auto claims = [&](double tolerance) {

@@ -34,7 +34,7 @@ FuzzReport sample() {
   return report;
 }
 
-TEST(FindingPage, says_all_that_a_stranger_needs) {
+TEST(FindingPage, SaysAllThatAMaintainerNeeds) {
   const FuzzReport report = sample();
   const std::string page =
       as_page(report, report.result.groups.front(), CallInterface::ticcd, "1-false_negative");
@@ -50,7 +50,7 @@ TEST(FindingPage, says_all_that_a_stranger_needs) {
   }
 }
 
-TEST(FindingPage, does_without_a_certificate) {
+TEST(FindingPage, DoesWithoutACertificate) {
   FuzzReport report = sample();
   report.result.findings.front().simplest.certificate.clear();
   const std::string page =
@@ -61,7 +61,7 @@ TEST(FindingPage, does_without_a_certificate) {
 
 class Pages : public tests::FolderTest {};
 
-TEST_F(Pages, are_files_of_a_folder) {
+TEST_F(Pages, AreFilesOfAFolder) {
   const FuzzReport report = sample();
   const std::filesystem::path folder = path("a/b");
   const auto pages = write_pages(report, CallInterface::plugin, folder);
@@ -82,7 +82,7 @@ TEST_F(Pages, are_files_of_a_folder) {
   EXPECT_TRUE(json.at("findings").at(0).at("wrong_until").at("below").is_null());
 }
 
-TEST_F(Pages, are_none_without_findings) {
+TEST_F(Pages, AreNotWrittenWithoutFindings) {
   EXPECT_TRUE(
       write_pages({.solver = {.method = "mine"}, .result = {}}, CallInterface::plugin, path("none"))
           .empty());

@@ -69,7 +69,7 @@ TEST(FuzzReport, SaysAFindingInALine) {
             "late_toi of mine, vertex-face at minimum separation 0.5 (l2): toi_lower 0.75 is late");
 }
 
-/// Of each group the best example, with its own truth, in ten lines; how to ask again is in files.
+/// The best example of each group, with its own truth, in ten lines; the commands are in files.
 TEST(FuzzReport, ShowsAGroupByItsBestExample) {
   FuzzReport report = sample();
   const std::string text = to_text(report);

@@ -36,7 +36,7 @@ using fast::Verdict;
 using tests::FunctionMethod;
 using namespace std::chrono_literals;
 
-/// The right answer, quickly.
+/// The right answer, by the fast solver.
 Answer honest(Kind kind, const Query& query) { return answer_of(fast::solve(kind, query)); }
 
 constexpr std::uint64_t enough = 20'000;
@@ -54,7 +54,7 @@ FuzzResult search(const FunctionMethod::Function& function, Promise promise,
   return search(function, {.name = "function", .promise = promise}, options);
 }
 
-/// Expects a finding of that kind, soon, that is what it says.
+/// Expects an early finding of this fault, with true contents.
 void expect_found(judge::Fault what, const FuzzResult& result) {
   ASSERT_FALSE(result.findings.empty()) << to_string(what);
   const Finding& finding = result.findings.front();
@@ -64,7 +64,7 @@ void expect_found(judge::Fault what, const FuzzResult& result) {
   EXPECT_FALSE(finding.generator.empty());
   EXPECT_EQ(finding.original.collides,
             exact::decide(finding.kind, finding.original.query, finding.separation).collides());
-  // It was not to be made simpler.
+  // Simplification was not requested.
   EXPECT_EQ(finding.simplest.query, finding.original.query);
   EXPECT_EQ(finding.shrinking, Shrinking::not_tried);
   EXPECT_EQ(result.queries, finding.queries);
@@ -98,7 +98,7 @@ TEST(Fuzz, FindsAnUpperBoundThatIsEarly) {
   expect_found(judge::Fault::early_toi_upper, search(early, Promise::conservative));
 }
 
-TEST(Fuzz, FindsFalsePositivesOfWhatPromisesNone) {
+TEST(Fuzz, FindsFalsePositivesOfExactSolvers) {
   const auto yes = [](Kind, const Query&) { return Answer{.verdict = Verdict::yes}; };
   expect_found(judge::Fault::false_positive, search(yes, Promise::exact));
   expect_found(judge::Fault::false_positive,
@@ -109,7 +109,8 @@ TEST(Fuzz, FindsFalsePositivesOfWhatPromisesNone) {
   EXPECT_EQ(lenient.all_findings, 0U);
 }
 
-/// It says yes to all, which claims to be as near as the tolerance: of any solver that gives one.
+/// A method that says yes to all queries, and so claims that their distance is within its
+/// tolerance.
 TEST(Fuzz, FindsAYesBeyondItsTolerance) {
   const auto yes = [](double tolerance) {
     return [tolerance](Kind, const Query&) {
@@ -128,7 +129,8 @@ TEST(Fuzz, FindsAYesBeyondItsTolerance) {
   EXPECT_EQ(search(yes(HUGE_VAL), Promise::conservative, {.most_queries = some}).all_findings, 0U);
 }
 
-/// Wrong only where the first point is on the left: the image of a query on the right.
+/// A method that is wrong only if the first point is on the left: the image of a query on the
+/// right.
 TEST(Fuzz, FindsWhatIsWrongInAMirror) {
   const auto one_sided = [](Kind kind, const Query& query) {
     Answer answer = honest(kind, query);
@@ -145,13 +147,13 @@ TEST(Fuzz, FindsWhatIsWrongInAMirror) {
   ASSERT_NE(found, result.findings.end());
   EXPECT_LT(found->original.query.at(0, 0, 0), 0.0);
   EXPECT_NE(found->original.detail.find("exact image"), std::string::npos);
-  // Of what does not call itself exact only the wrong answer counts.
+  // Without the promise exact only the wrong answer counts.
   const FuzzResult lenient = search(one_sided, Promise::conservative, options);
   EXPECT_TRUE(std::ranges::none_of(lenient.findings, is_asymmetry));
   EXPECT_FALSE(lenient.findings.empty());
 }
 
-TEST(Fuzz, FindsNumbersThatAreNone) {
+TEST(Fuzz, FindsInvalidNumbers) {
   const auto infinite = [](Kind kind, const Query& query) {
     Answer answer = honest(kind, query);
     if (query.at(0, 0, 0) == query.at(1, 0, 0)) answer.toi_lower = -HUGE_VAL;
@@ -166,7 +168,7 @@ TEST(Fuzz, FindsNumbersThatAreNone) {
   expect_found(judge::Fault::not_finite, search(negative, Promise::conservative));
 }
 
-/// A bound that is there with every other collision.
+/// The method omits the bound of some collisions.
 TEST(Fuzz, FindsABoundThatIsMissing) {
   const auto forgetful = [](Kind kind, const Query& query) {
     Answer answer = honest(kind, query);
@@ -181,7 +183,7 @@ TEST(Fuzz, FindsABoundThatIsMissing) {
                   .findings.empty());
 }
 
-/// Each a kind of its own.
+/// Each failure is a fault of a separate kind.
 TEST(Fuzz, FindsFailuresOfEverySort) {
   const auto with = [](const std::function<void()>& act) {
     return [act](Kind kind, const Query& query) {
@@ -208,7 +210,7 @@ TEST(Fuzz, FindsFailuresOfEverySort) {
   expect_found(judge::Fault::undecided, search(says_undecided, Promise::exact));
 }
 
-/// Yes at an infinite time to most that collides, and no to some: as a public solver does.
+/// A method like a public solver: yes at an infinite time to most collisions, and no to some.
 TEST(Fuzz, SeeksOnlyTheKindsOfFindingsOfItsOptions) {
   const auto ill = [](Kind kind, const Query& query) {
     Answer answer = honest(kind, query);
@@ -247,7 +249,7 @@ TEST(Fuzz, FindsAHang) {
 }
 
 TEST(Fuzz, FindsNothingWhereNothingIsWrong) {
-  // The oracle takes a hundred times as long at a distance.
+  // The oracle takes a hundred times as long with a distance.
   const std::vector<std::pair<Separation, std::uint64_t>> searches{
       {{}, 6000}, {{.distance = 1e-3, .norm = Norm::l2}, 160}};
   for (const auto& [separation, queries] : searches) {
@@ -269,7 +271,7 @@ TEST(Fuzz, FindsNothingInTightInclusion) {
   EXPECT_LT(result.judged_by_oracle, result.queries);
 }
 
-/// What is asked for another distance than the separation misses what is nearer.
+/// A method that ignores the separation misses collisions at it.
 TEST(Fuzz, TellsTheMethodTheSeparation) {
   const auto contact_only = [](Kind kind, const Query& query) { return honest(kind, query); };
   for (const Norm norm : {Norm::linf, Norm::l2}) {
@@ -320,8 +322,7 @@ TEST(Fuzz, KeepsAFewOfEachClassAndCountsAll) {
   EXPECT_EQ(queries, result.queries);
 }
 
-/// A bound that is too small for small coordinates is one cause, whatever generator, kind and stage
-/// show it.
+/// A bound that is too small for small coordinates is one cause, for any generator, kind and stage.
 TEST(Fuzz, PutsFindingsOfOneCauseInOneGroup) {
   const auto blind = [](Kind kind, const Query& query) {
     if (size_exponent(query) < -3) return Answer{.verdict = Verdict::no};
@@ -343,7 +344,7 @@ TEST(Fuzz, PutsFindingsOfOneCauseInOneGroup) {
   }
 }
 
-/// Contacts missed at t=0 and hangs are not.
+/// Contacts missed at t=0 and hangs have two causes.
 TEST(Fuzz, PutsFindingsOfTwoCausesInTwoGroups) {
   const auto ill = [](Kind kind, const Query& query) {
     const Answer answer = honest(kind, query);
@@ -374,7 +375,7 @@ TEST(Fuzz, AsksOnlyTheKindsOfItsOptions) {
   EXPECT_EQ(kinds, std::set<Kind>{Kind::edge_edge});
 }
 
-/// Wrong at one coordinate that no generator makes but from the corpus.
+/// The method is wrong at one coordinate that only the corpus contains.
 TEST(Fuzz, MutatesTheCorpus) {
   static constexpr double rare = 0x1.23456789abcdep+5;
   const auto wrong = [](Kind kind, const Query& query) {
@@ -391,7 +392,7 @@ TEST(Fuzz, MutatesTheCorpus) {
   expect_found(judge::Fault::false_negative, search(wrong, Promise::none, options));
 }
 
-TEST(Fuzz, StopsWhenTold) {
+TEST(Fuzz, StopsOnRequest) {
   std::atomic<bool> stop = false;
   FuzzOptions options{.stop = &stop};
   options.on_progress = [&stop](const FuzzProgress& progress) {
@@ -415,14 +416,14 @@ TEST(Fuzz, EndsByTheClock) {
 
 // ---- The time -----------------------------------------------------------------------------------
 
-/// Asked and judged, or said to be not judged: whenever the time is over.
+/// Answers are judged, or counted as not judged, whenever the time is over.
 TEST(Fuzz, JudgesWhatIsAnsweredWhenTheTimeIsOver) {
   bool judged_some = false, left_some = false;
   for (std::uint64_t last_look = 1; last_look < 1200; last_look += 1 + last_look / 4) {
     tests::SharedCounter answered;
     std::uint64_t looks = 0;
     FuzzOptions options{.seconds = 10.0};
-    // The time is over from some look at the clock on.
+    // The time is over from the given reading of the clock on.
     options.clock = [&] { return ++looks > last_look ? 1000.0 + static_cast<double>(looks) : 0.0; };
     const FunctionMethod method([&answered](Kind kind, const Query& query) {
       answered.add();
@@ -430,7 +431,7 @@ TEST(Fuzz, JudgesWhatIsAnsweredWhenTheTimeIsOver) {
     });
     const FuzzResult result = fuzz(method, options);
     EXPECT_EQ(result.ended_by, FuzzEnd::time);
-    // Some answers may still be on their way from the solver's process.
+    // Other answers may still be on their way from the solver's process.
     const std::uint64_t received = result.queries + result.unjudged;
     EXPECT_LE(received, answered.value()) << last_look;
     EXPECT_GE(received + result.unanswered, answered.value()) << last_look;
@@ -442,8 +443,7 @@ TEST(Fuzz, JudgesWhatIsAnsweredWhenTheTimeIsOver) {
   EXPECT_TRUE(left_some);
 }
 
-/// A solver that hangs takes the whole time: what it answered before is judged, and the hang is
-/// found.
+/// A solver that hangs uses the whole time: its earlier answers are judged, and the hang is found.
 TEST(Fuzz, ReportsAHangThatTakesTheRestOfTheTime) {
   tests::SharedCounter hung;
   const FunctionMethod method(
@@ -477,7 +477,7 @@ TEST(Fuzz, SaysHowMuchWasNotAnswered) {
 }
 
 TEST(Fuzz, CountsTheTimeOfFindingsAsTheRuns) {
-  // A clock that goes on by a hundredth of a second whenever somebody looks.
+  // A clock that advances by a hundredth of a second at each reading.
   double now = 0.0;
   FuzzOptions options{.seconds = 10.0, .shrink_seconds = 5.0};
   options.clock = [&now] { return now += 0.01; };
@@ -491,7 +491,7 @@ TEST(Fuzz, CountsTheTimeOfFindingsAsTheRuns) {
   EXPECT_LT(result.shrink_seconds, result.seconds);
   EXPECT_NEAR(result.method_seconds + result.shrink_seconds + result.other_seconds, result.seconds,
               1e-9);
-  // No finding takes all of the time from the others.
+  // No finding uses up the time of the others.
   EXPECT_LT(ends.at(0), 2.0);
   EXPECT_LT(ends.at(3), 9.0);
 }

@@ -28,7 +28,7 @@ std::vector<Query> make_queries(const Generator& generator, Kind kind, const Sep
   Random random(7);
   std::vector<Query> queries;
   for (int i = 0; i < count; ++i) {
-    // Something to mutate, of each generator that needs nothing in turn.
+    // A query to mutate, from each generator without inputs in turn.
     const Generator& other = generators()[1 + static_cast<std::size_t>(i % 7)];
     context.pool(kind).add(other.make(kind, context, random));
     queries.push_back(generator.make(kind, context, random));
@@ -62,7 +62,7 @@ TEST(Generators, MakeFiniteQueriesTheSameEveryTime) {
   }
 }
 
-/// What they make is worth asking: both verdicts, and queries that are decided late.
+/// The queries are useful: both verdicts, and some that are decided late.
 TEST(Generators, MakeCollisionsAndMissesThatAreHard) {
   constexpr int count = 160;
   for (const Separation& separation : separations) {
@@ -78,7 +78,7 @@ TEST(Generators, MakeCollisionsAndMissesThatAreHard) {
         const std::string_view name = generator.name;
         EXPECT_GT(collisions, 0) << name << ' ' << to_string(kind);
         EXPECT_GT(late, 3) << name << ' ' << to_string(kind);
-        // A distance leaves few misses, and what is aligned crosses far from any end.
+        // With a distance most queries collide, and aligned queries cross far from any end.
         if (separation.distance > 0.0 || name == "contact_aligned") continue;
         EXPECT_LT(collisions, count) << name << ' ' << to_string(kind);
       }

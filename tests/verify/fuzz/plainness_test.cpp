@@ -36,8 +36,8 @@ Query scaled(const Query& query, int exponent) {
   return result;
 }
 
-TEST(Plainness, counts_what_it_takes_to_write_numbers) {
-  constexpr std::uint64_t rest = 8 + 2 + 1;  // a magnitude, not 0, moves
+TEST(Plainness, CountsTheLengthOfWrittenNumbers) {
+  constexpr std::uint64_t rest = 8 + 2 + 1;  // a magnitude other than 0, in motion
   const auto length = [](double x) { return alone(x).length; };
   EXPECT_EQ(of_itself(Query{}).length, 0U);
   EXPECT_EQ(length(1.0), rest + 3);
@@ -50,7 +50,7 @@ TEST(Plainness, counts_what_it_takes_to_write_numbers) {
   EXPECT_EQ(length(-0.0), 1U);
 }
 
-TEST(Plainness, counts_a_magnitude_once_and_motion) {
+TEST(Plainness, CountsAMagnitudeOnceAndMotion) {
   const auto length = [](const Query& query) { return of_itself(query).length; };
   const std::uint64_t one = length(with_coordinates({{0, 5.0}}));
   EXPECT_EQ(length(with_coordinates({{0, 5.0}, {12, 5.0}})), one + 2 - 1);   // at rest
@@ -59,7 +59,7 @@ TEST(Plainness, counts_a_magnitude_once_and_motion) {
   EXPECT_GT(length(with_coordinates({{0, 5.0}, {12, 4.0}})), one + 8);
 }
 
-TEST(Plainness, puts_everyday_numbers_first) {
+TEST(Plainness, PutsEverydayNumbersFirst) {
   EXPECT_EQ(alone(0x1p-10).beyond, 0U);
   EXPECT_EQ(alone(1023.9).beyond, 0U);
   EXPECT_EQ(alone(0x1p10).beyond, 1U);
@@ -69,7 +69,7 @@ TEST(Plainness, puts_everyday_numbers_first) {
   EXPECT_LT(alone(123.456789), alone(1e4));
 }
 
-TEST(Plainness, prefers_elements_that_are_some_to_short_numbers) {
+TEST(Plainness, PrefersElementsWithSizeToShortNumbers) {
   Query flat = tests::over_triangle(1, 1, 1, -1).query;
   const Query whole = flat;
   for (const std::size_t end : {0U, 1U}) flat.point(end, 3) = flat.point(end, 1);
@@ -77,7 +77,7 @@ TEST(Plainness, prefers_elements_that_are_some_to_short_numbers) {
   EXPECT_LT(of_itself(whole), of_itself(flat));
 }
 
-TEST(Plainness, measures_the_drift_from_the_originals_size) {
+TEST(Plainness, MeasuresTheDriftFromTheOriginalsSize) {
   const Query query = tests::over_triangle(1, 1, 1, -1).query;  // up to 4
   const auto drift = [&](int exponent, const Query& original) {
     return plainness(Kind::vertex_face, scaled(query, exponent), original).drift;
@@ -87,18 +87,18 @@ TEST(Plainness, measures_the_drift_from_the_originals_size) {
   EXPECT_EQ(drift(-3, query), 0U);
   EXPECT_EQ(drift(5, query), 2U);
   EXPECT_EQ(drift(-7, query), 4U);
-  // Of one that is not of everyday size any such size will do.
+  // For a query far from everyday size, any such size is allowed.
   EXPECT_EQ(drift(7, scaled(query, 300)), 0U);
   EXPECT_EQ(drift(-12, scaled(query, 300)), 0U);
   EXPECT_EQ(drift(9, scaled(query, 300)), 2U);
 }
 
-TEST(Plainness, prefers_the_less_of_equally_long_numbers) {
+TEST(Plainness, PrefersTheLessOfEquallyLongNumbers) {
   EXPECT_EQ(alone(5.0).length, alone(7.0).length);
   EXPECT_LT(alone(5.0), alone(7.0));
 }
 
-TEST(Plainness, knows_which_points_may_be_exchanged) {
+TEST(Plainness, KnowsWhichPointsMayBeExchanged) {
   const auto disorder = [](Kind kind, std::size_t place) {
     return of_itself(with_coordinates({{place, 1.0}}), kind).disorder;
   };
@@ -110,7 +110,7 @@ TEST(Plainness, knows_which_points_may_be_exchanged) {
   EXPECT_EQ(disorder(Kind::edge_edge, 3), disorder(Kind::edge_edge, 9));
 }
 
-TEST(Plainness, is_worse_somewhere_by_any_of_four_numbers) {
+TEST(Plainness, IsWorseSomewhereByAnyOfFourNumbers) {
   const Plainness a{.beyond = 1, .degenerate = 1, .drift = 1, .length = 1};
   EXPECT_FALSE(a.is_worse_somewhere(a));
   for (std::uint64_t Plainness::*number :
@@ -123,7 +123,7 @@ TEST(Plainness, is_worse_somewhere_by_any_of_four_numbers) {
   EXPECT_FALSE((Plainness{.size = 9, .disorder = 9}).is_worse_somewhere(a));
 }
 
-TEST(Degeneracy, is_none_of_a_triangle_and_edges_that_are_some) {
+TEST(Degeneracy, IsZeroForElementsWithSize) {
   EXPECT_EQ(degeneracy(Kind::vertex_face, tests::over_triangle(1, 1, 1, -1).query), 0U);
   EXPECT_EQ(degeneracy(Kind::edge_edge, tests::over_edge(1, 1, -1, -0.5).query), 0U);
   Random random(1);
@@ -136,7 +136,7 @@ TEST(Degeneracy, is_none_of_a_triangle_and_edges_that_are_some) {
   }
 }
 
-TEST(Degeneracy, counts_collapsed_elements_by_end) {
+TEST(Degeneracy, CountsCollapsedElementsByEnd) {
   Query face = tests::over_triangle(1, 1, 1, -1).query;
   face.point(0, 2) = face.point(0, 3);
   EXPECT_EQ(collapsed_elements(Kind::vertex_face, face), 1U);
@@ -153,14 +153,14 @@ TEST(Degeneracy, counts_collapsed_elements_by_end) {
   EXPECT_EQ(degeneracy(Kind::vertex_face, Query{}), 5U);
 }
 
-TEST(Degeneracy, counts_points_that_stay_in_one_plane) {
+TEST(Degeneracy, CountsPointsThatStayInOnePlane) {
   Query query = tests::over_triangle(1, 1, 0, 0).query;
   EXPECT_EQ(degeneracy(Kind::vertex_face, query), 1U);
   query.at(1, 0, 2) = 0.5;
   EXPECT_EQ(degeneracy(Kind::vertex_face, query), 0U);
 }
 
-TEST(Plainness, takes_any_finite_coordinates) {
+TEST(Plainness, TakesAnyFiniteCoordinates) {
   Random random(3);
   for (int i = 0; i < 200; ++i) {
     Query query;

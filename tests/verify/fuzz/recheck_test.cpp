@@ -37,7 +37,7 @@ Answer sometimes_wrong(Kind kind, const Query& query) {
   return answer;
 }
 
-/// Late by a tenth of the time that is left.
+/// An answer that is late by a tenth of the remaining time.
 Answer late(Kind kind, const Query& query) {
   Answer answer = honest(kind, query);
   answer.toi_lower += 0.1 * (1.0 - answer.toi_lower);
@@ -45,7 +45,7 @@ Answer late(Kind kind, const Query& query) {
   return answer;
 }
 
-/// The first finding of that sort in a run whose queries stay as they are.
+/// The first finding of this fault in a run without simplification.
 Finding find(const FunctionMethod& method, const FuzzOptions& options = {}) {
   FuzzOptions search = options;
   search.most_queries = 20'000;
@@ -62,7 +62,7 @@ TEST(Recheck, AsksAgainAboutAnyQuery) {
   const Finding finding = find(method);
   Recheck recheck(method, finding, {});
   EXPECT_TRUE(recheck.ask(finding.original.query));
-  // Raised first, the first point is never below what the method compares it with.
+  // The first point is raised first, and so never below the point that the method compares it with.
   EXPECT_FALSE(recheck.ask(tests::over_triangle(8, 8, 1, -1).query));
   Query infinite = finding.original.query;
   infinite.coordinates.front() = HUGE_VAL;
@@ -101,7 +101,7 @@ TEST(Recheck, KnowsCrashesHangsAndMissingBounds) {
 
 // ---- Making simpler -----------------------------------------------------------------------------
 
-/// Is all of the case about its query, as the method and the oracle see that?
+/// Expects that all parts of the case agree with its query, by the method and the oracle.
 void expect_consistent(const Finding& finding, const FailingCase& failing,
                        const FunctionMethod::Function& function) {
   const Answer answer = function(finding.kind, failing.query);
@@ -120,7 +120,7 @@ void expect_consistent(const Finding& finding, const FailingCase& failing,
   EXPECT_TRUE(tests::is_true(*claim));
 }
 
-TEST(Simplify, keeps_answer_truth_and_certificate_with_their_query) {
+TEST(Simplify, KeepsAnswerTruthAndCertificateWithTheirQuery) {
   const FunctionMethod method(late, Promise::conservative);
   Finding finding = find(method);
   EXPECT_EQ(finding.what, judge::Fault::late_toi);
@@ -135,10 +135,10 @@ TEST(Simplify, keeps_answer_truth_and_certificate_with_their_query) {
   EXPECT_NE(finding.simplest.certificate, finding.original.certificate);
 }
 
-TEST(Simplify, says_if_the_time_was_too_short) {
+TEST(Simplify, SaysIfTheTimeWasTooShort) {
   const FunctionMethod method(late, Promise::conservative);
   const Finding found = find(method);
-  // A clock that goes on whenever somebody looks.
+  // A clock that advances at each reading.
   for (const double step : {1.0, 0.2, 0.05}) {
     double now = 0.0;
     const base::Deadline deadline(1.0, [&now, step] { return now += step; });
@@ -150,7 +150,7 @@ TEST(Simplify, says_if_the_time_was_too_short) {
   }
 }
 
-TEST(Simplify, ends_when_the_run_is_stopped) {
+TEST(Simplify, EndsWhenTheRunIsStopped) {
   const FunctionMethod method(late, Promise::conservative);
   Finding finding = find(method);
   const std::atomic<bool> stop = true;
@@ -159,7 +159,7 @@ TEST(Simplify, ends_when_the_run_is_stopped) {
   EXPECT_EQ(finding.simplest.query, finding.original.query);
 }
 
-TEST(Simplify, says_if_the_method_is_not_wrong_alone) {
+TEST(Simplify, SaysIfTheMethodIsNotWrongAlone) {
   const FunctionMethod wrong(late, Promise::conservative), right(honest, Promise::conservative);
   Finding finding = find(wrong);
   simplify(right, {}, {}, finding);
@@ -167,8 +167,8 @@ TEST(Simplify, says_if_the_method_is_not_wrong_alone) {
   EXPECT_EQ(finding.simplest.query, finding.original.query);
 }
 
-/// It was asked twice before it was a finding, which takes as long as a hang does.
-TEST(Simplify, does_not_ask_again_about_what_crashed) {
+/// The method was asked twice before the finding, and a repetition may cost as much as a hang.
+TEST(Simplify, DoesNotRepeatACrash) {
   tests::SharedCounter asked;
   Query crashing = tests::over_triangle(1, 1, 1, -1).query;
   const FunctionMethod method([&](Kind kind, const Query& query) {
@@ -186,7 +186,7 @@ TEST(Simplify, does_not_ask_again_about_what_crashed) {
   EXPECT_EQ(finding.simplest.query, crashing);
 }
 
-TEST(Simplify, leaves_a_hang_alone_that_takes_longer_than_there_is_time) {
+TEST(Simplify, DoesNotRepeatAHangLongerThanTheTime) {
   const FunctionMethod method([](Kind, const Query&) -> Answer { std::abort(); });
   Finding finding;
   finding.what = judge::Fault::hang;

@@ -21,7 +21,7 @@ namespace {
 
 using fast::Promise;
 
-/// A vertex that falls through a triangle: they touch at t = 1/3.
+/// A vertex that falls through a triangle, with contact at t = 1/3.
 Reproduction miss() {
   return {.what = judge::Fault::false_negative,
           .kind = Kind::vertex_face,
@@ -33,7 +33,7 @@ Reproduction miss() {
                      .query_limit_seconds = 10.0}};
 }
 
-/// Two edges that come within 0.1 of each other, and are asked for 0.09.
+/// Two edges that come within 0.1 of each other, with a tolerance of 0.09.
 Reproduction claim() {
   return {.what = judge::Fault::false_positive,
           .kind = Kind::edge_edge,
@@ -53,7 +53,7 @@ std::vector<std::string> lines_of(const std::string& text) {
 
 // ---- As points ----------------------------------------------------------------------------------
 
-TEST(AsPoints, names_the_points_of_the_kind) {
+TEST(AsPoints, NamesThePointsOfTheKind) {
   Query query{};
   for (std::size_t i = 0; i < 24; ++i) query.coordinates[i] = static_cast<double>(i) / 4;
   const auto lines = lines_of(as_points(Kind::vertex_face, query));
@@ -65,7 +65,7 @@ TEST(AsPoints, names_the_points_of_the_kind) {
   EXPECT_EQ(of_edges[6], "eb0 at t=1  (4.5, 4.75, 5) = (0x1.2p+2, 0x1.3p+2, 0x1.4p+2)");
 }
 
-TEST(AsPoints, gives_the_very_doubles_twice) {
+TEST(AsPoints, GivesTheExactDoublesTwice) {
   tests::Random random(1);
   for (int i = 0; i < 50; ++i) {
     Query query;
@@ -88,7 +88,7 @@ TEST(AsPoints, gives_the_very_doubles_twice) {
 
 // ---- As CSV -------------------------------------------------------------------------------------
 
-TEST(AsCsv, reads_back_as_it_was) {
+TEST(AsCsv, ReadsBackUnchanged) {
   const data::test::TemporaryFolder folder;
   tests::Random random(2);
   std::vector<Query> queries{tests::over_edge(1, 1, 1, -1).query};
@@ -107,7 +107,7 @@ TEST(AsCsv, reads_back_as_it_was) {
   }
 }
 
-TEST(AsCsv, has_eight_rows_of_the_format) {
+TEST(AsCsv, HasEightRowsOfTheFormat) {
   const auto lines = lines_of(as_csv(tests::over_triangle(0.5, 1, 1, -2).query, true));
   ASSERT_EQ(lines.size(), 8U);
   EXPECT_EQ(lines[0], "1,2,1,1,1,1,1");
@@ -120,7 +120,7 @@ TEST(AsCsv, has_eight_rows_of_the_format) {
 
 // ---- As a command -------------------------------------------------------------------------------
 
-TEST(AsCommand, names_all_that_the_solver_was_asked_with) {
+TEST(AsCommand, NamesAllOptionsOfTheSolver) {
   const std::vector<std::string> lines = lines_of(as_command(miss()));
   ASSERT_EQ(lines.size(), 11U);
   const std::string file = lines[0].substr(6, lines[0].find(" <<") - 6);
@@ -133,21 +133,21 @@ TEST(AsCommand, names_all_that_the_solver_was_asked_with) {
                            " --min-separation 0 --norm linf --query-limit 10");
 }
 
-/// A dataset's labels are about contact itself, unless more is said.
-TEST(AsCommand, writes_no_label_with_a_separation) {
+/// A dataset's labels are about contact without separation.
+TEST(AsCommand, WritesNoLabelWithASeparation) {
   const std::vector<std::string> lines = lines_of(as_command(claim()));
   EXPECT_EQ(lines[1], "0,1,0,1,0,1");
   EXPECT_TRUE(lines[10].ends_with("--min-separation 0.09 --norm l2 --query-limit 0 --exact"));
 }
 
-TEST(AsCommand, names_limits_that_are_not_the_defaults) {
+TEST(AsCommand, NamesLimitsThatAreNotTheDefaults) {
   Reproduction found = miss();
   found.solver.limits = {.memory_bytes = std::uint64_t{1} << 29U, .may_fork = true};
   EXPECT_NE(as_command(found).find("--query-limit 10 --memory-limit 0.5 --allow-processes\n"),
             std::string::npos);
 }
 
-TEST(AsCommand, quotes_the_plugin_for_the_shell) {
+TEST(AsCommand, QuotesThePluginForTheShell) {
   Reproduction found = miss();
   found.solver.plugin = "/tmp/it's $HOME.so";
   const std::string command = as_command(found);
@@ -156,7 +156,7 @@ TEST(AsCommand, quotes_the_plugin_for_the_shell) {
 }
 
 /// Different findings have different files.
-TEST(AsCommand, tells_findings_apart) {
+TEST(AsCommand, TellsFindingsApart) {
   const auto name_of = [](const Reproduction& found) { return lines_of(as_command(found)).at(0); };
   Reproduction other = miss();
   EXPECT_EQ(name_of(other), name_of(miss()));
@@ -170,9 +170,9 @@ TEST(AsCommand, tells_findings_apart) {
   EXPECT_NE(name_of(other), name_of(miss()));
 }
 
-// ---- Of a finding -------------------------------------------------------------------------------
+// ---- Reproductions of findings ------------------------------------------------------------------
 
-TEST(ReproductionOf, is_about_the_simplest_query_and_who_is_wrong) {
+TEST(ReproductionOf, ShowsTheSimplestQueryAndTheSolver) {
   Finding finding;
   finding.method = "mine";
   finding.original.query = tests::over_triangle(1, 1, 1, -3).query;

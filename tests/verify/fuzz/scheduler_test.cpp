@@ -39,7 +39,7 @@ TEST(Scheduler, FindsTheArmThatPaysRarely) {
     scheduler.learn(arm, pays ? 50.0 : 0.0, 1.0);
   }
   EXPECT_GT(plays[3], rounds / 3);
-  // All others get their share of what is explored.
+  // All other arms get a share of the exploration.
   for (const int count : plays) EXPECT_GT(count, rounds / 8 / 8);
 }
 

@@ -52,7 +52,7 @@ std::vector<PosedQuery> random_queries(std::uint64_t seed, int count) {
 
 // ---- Known ends ---------------------------------------------------------------------------------
 
-/// Only these numbers, 0 and 1, and elements that are some.
+/// Expects only these numbers, 0 and 1, and no degenerate primitives.
 void expect_plain(Kind kind, const Query& query, std::vector<double> numbers = {}) {
   EXPECT_EQ(degeneracy(kind, query), 0U) << PosedQuery{kind, query};
   numbers.push_back(1.0);
@@ -61,7 +61,7 @@ void expect_plain(Kind kind, const Query& query, std::vector<double> numbers = {
   }
 }
 
-TEST(Shrink, leaves_the_plainest_there_is_where_everything_fails) {
+TEST(Shrink, LeavesThePlainestQueryIfAllFail) {
   for (const auto& [kind, query] : random_queries(1, 20)) {
     const Query least = shrink(kind, query, [](const Query&) { return true; });
     expect_plain(kind, least);
@@ -69,13 +69,13 @@ TEST(Shrink, leaves_the_plainest_there_is_where_everything_fails) {
   }
 }
 
-TEST(Shrink, leaves_the_query_where_nothing_else_fails) {
+TEST(Shrink, LeavesTheQueryIfNoOtherFails) {
   for (const auto& [kind, query] : random_queries(2, 20)) {
     EXPECT_EQ(shrink(kind, query, [](const Query&) { return false; }), query);
   }
 }
 
-TEST(Shrink, finds_the_least_number_that_a_condition_allows) {
+TEST(Shrink, FindsTheLeastNumberThatAConditionAllows) {
   Query query{};
   query.coordinates.fill(4.1);
   const Query least =
@@ -85,7 +85,7 @@ TEST(Shrink, finds_the_least_number_that_a_condition_allows) {
   EXPECT_LT(degeneracy(Kind::edge_edge, least), degeneracy(Kind::edge_edge, query));
 }
 
-TEST(Shrink, finds_a_number_of_the_digits_that_a_condition_needs) {
+TEST(Shrink, FindsANumberOfTheDigitsThatAConditionNeeds) {
   const auto is_inside = [](const Query& some) {
     return some.coordinates[20] > 1.0123 && some.coordinates[20] < 1.0178;
   };
@@ -95,7 +95,7 @@ TEST(Shrink, finds_a_number_of_the_digits_that_a_condition_needs) {
   expect_plain(Kind::edge_edge, least, {least.coordinates[20]});
 }
 
-TEST(Shrink, keeps_one_difference_where_only_that_matters) {
+TEST(Shrink, KeepsOneDifferenceIfOnlyThatMatters) {
   for (const auto& [kind, query] : random_queries(3, 20)) {
     const auto differs = [](const Query& some) { return some.at(0, 1, 0) != some.at(0, 2, 0); };
     const Query least = shrink(kind, query, differs);
@@ -104,7 +104,7 @@ TEST(Shrink, keeps_one_difference_where_only_that_matters) {
   }
 }
 
-TEST(Shrink, keeps_coordinates_equal_that_must_be) {
+TEST(Shrink, KeepsCoordinatesEqualIfNecessary) {
   Random random(4);
   Query query = tests::full_significand_query(random);
   query.at(0, 2, 1) = query.at(1, 3, 0) = query.at(0, 0, 2) = 0.7318;
@@ -117,8 +117,8 @@ TEST(Shrink, keeps_coordinates_equal_that_must_be) {
   expect_plain(Kind::vertex_face, least);
 }
 
-/// A fault that shows at one scale only is shown there, and one that shows at all where it was met.
-TEST(Shrink, stays_at_the_originals_scale) {
+/// A fault of one scale is shown at that scale, and a fault of all scales at the original one.
+TEST(Shrink, StaysAtTheOriginalsScale) {
   const Query base = tests::over_triangle(1, 1, 1, -2).query;
   for (const double scale : {0.013, 1.0, 87.0}) {
     Query query = base;
@@ -133,7 +133,7 @@ TEST(Shrink, stays_at_the_originals_scale) {
   }
 }
 
-TEST(Shrink, orders_points_where_their_order_does_not_matter) {
+TEST(Shrink, OrdersPointsIfTheirOrderDoesNotMatter) {
   const auto has_1_2_4 = [](const Query& some) {
     std::array<double, 3> x{some.at(0, 1, 0), some.at(0, 2, 0), some.at(0, 3, 0)};
     std::ranges::sort(x);
@@ -146,7 +146,7 @@ TEST(Shrink, orders_points_where_their_order_does_not_matter) {
   EXPECT_EQ(least.at(0, 3, 0), 4.0);
 }
 
-TEST(Shrink, comes_back_from_the_ends_of_the_range) {
+TEST(Shrink, ComesBackFromTheEndsOfTheRange) {
   for (const int exponent : {-1070, -1000, -500, 500, 960}) {
     Query query = tests::over_triangle(1, 1, 1, -2).query;
     for (double& x : query.coordinates) x = std::ldexp(x, exponent);
@@ -161,7 +161,7 @@ TEST(Shrink, comes_back_from_the_ends_of_the_range) {
 
 // ---- Faults of methods --------------------------------------------------------------------------
 
-/// The certified solver as if floats were enough.
+/// True if the certified solver misses the query after rounding to floats.
 bool is_missed_in_float(Kind kind, const Query& query) {
   Query rounded = query;
   for (double& x : rounded.coordinates) x = static_cast<double>(static_cast<float>(x));
@@ -169,7 +169,7 @@ bool is_missed_in_float(Kind kind, const Query& query) {
          exact::decide(kind, query).collides();
 }
 
-TEST(Shrink, makes_findings_of_a_method_short) {
+TEST(Shrink, MakesFindingsOfAMethodShort) {
   Random random(9);
   int missed = 0;
   for (int i = 0; i < tests::trials(48); ++i) {
@@ -180,16 +180,15 @@ TEST(Shrink, makes_findings_of_a_method_short) {
     const auto is_missed = [&](const Query& other) { return is_missed_in_float(kind, other); };
     const Query least = shrink(kind, query, is_missed);
     EXPECT_TRUE(is_missed(least)) << PosedQuery{kind, least};
-    // Contact by a hair, which hardly any change of one coordinate leaves.
+    // Narrow contact, which hardly any change of one coordinate preserves.
     EXPECT_LE(length_of(kind, least), 600U) << PosedQuery{kind, least};
     EXPECT_GE(length_of(kind, query), 1400U);
   }
   EXPECT_GE(missed, tests::trials(48) / 16);
 }
 
-TEST(Shrink, leaves_little_of_a_missed_start) {
-  // A fault of all solvers that look for a sign to change: who touches from the beginning is
-  // missed.
+TEST(Shrink, LeavesLittleOfAMissedStart) {
+  // A fault of all solvers that search for a change of sign: contact from the start is missed.
   const auto is_missed = [](const Query& query) {
     const exact::Decision truth = exact::decide(Kind::vertex_face, query);
     return truth.collides() && truth.toi->enclosure().upper == 0.0;
@@ -202,7 +201,7 @@ TEST(Shrink, leaves_little_of_a_missed_start) {
   expect_plain(Kind::vertex_face, least);
 }
 
-TEST(Shrink, finds_small_integers_for_a_time_of_impact) {
+TEST(Shrink, FindsSmallIntegersForATimeOfImpact) {
   const auto is_late = [](const Query& query) {
     const exact::Decision truth = exact::decide(Kind::vertex_face, query);
     return truth.collides() && truth.toi->enclosure().lower > 0.6;
@@ -220,9 +219,9 @@ TEST(Shrink, finds_small_integers_for_a_time_of_impact) {
   }
 }
 
-// ---- What holds of every run --------------------------------------------------------------------
+// ---- Properties of every run --------------------------------------------------------------------
 
-/// Some condition that depends on many coordinates: a hash of the rounded differences.
+/// A condition that depends on many coordinates: a hash of the rounded differences.
 Predicate fickle(std::uint64_t seed) {
   return [seed](const Query& query) {
     double sum = static_cast<double>(seed % 7U);
@@ -233,7 +232,7 @@ Predicate fickle(std::uint64_t seed) {
   };
 }
 
-TEST(Shrink, asks_only_plainer_queries_and_none_twice) {
+TEST(Shrink, AsksOnlyPlainerQueriesAndNoneTwice) {
   for (const auto& [kind, query] : random_queries(5, tests::trials(16))) {
     const Predicate fails = fickle(query.coordinates[0] > 0 ? 1 : 2);
     Query best = query;
@@ -251,14 +250,14 @@ TEST(Shrink, asks_only_plainer_queries_and_none_twice) {
   }
 }
 
-TEST(Shrink, ends_the_same_every_time) {
+TEST(Shrink, IsDeterministic) {
   for (const auto& [kind, query] : random_queries(6, tests::trials(16))) {
     const Predicate fails = fickle(query.coordinates[1] > 0 ? 1 : 2);
     EXPECT_EQ(shrink(kind, query, fails), shrink(kind, query, fails));
   }
 }
 
-TEST(Shrink, keeps_its_limits) {
+TEST(Shrink, KeepsItsLimits) {
   for (const auto& [kind, query] : random_queries(7, 2)) {
     for (const std::uint64_t limit : {0U, 1U, 10U, 100U}) {
       std::uint64_t calls = 0;
@@ -277,7 +276,7 @@ TEST(Shrink, keeps_its_limits) {
   }
 }
 
-TEST(Shrink, ends_between_two_calls_when_it_must) {
+TEST(Shrink, EndsBetweenTwoCallsWhenStopped) {
   for (const auto& [kind, query] : random_queries(8, 2)) {
     std::uint64_t calls = 0;
     const auto count = [&](const Query&) { return ++calls % 3 == 0; };

@@ -34,7 +34,8 @@ Finding finding_of(Kind kind, const Query& query) {
 
 const Query falling = tests::over_triangle(1, 1, 1, -2).query;  // its size is 2^2
 
-/// Misses everything whose greatest coordinate is in a range of binary exponents.
+/// The range of a method that misses all queries whose greatest coordinate is in a range of binary
+/// exponents.
 ScaleRange range_of_misses(int from, int to, const FuzzOptions& options = {}) {
   const FunctionMethod method(
       [from, to](Kind kind, const Query& query) {
@@ -46,7 +47,7 @@ ScaleRange range_of_misses(int from, int to, const FuzzOptions& options = {}) {
   return scale_range(method, options, {}, finding_of(Kind::vertex_face, falling));
 }
 
-TEST(ScaleRange, ends_where_the_fault_does) {
+TEST(ScaleRange, EndsWhereTheFaultDoes) {
   const ScaleRange small = range_of_misses(-1000, 5);
   EXPECT_FALSE(small.end_below);
   EXPECT_EQ(small.end_above, 6);
@@ -58,7 +59,7 @@ TEST(ScaleRange, ends_where_the_fault_does) {
   EXPECT_EQ(both.end_above, 3);
 }
 
-TEST(ScaleRange, does_not_ask_below_the_tolerance) {
+TEST(ScaleRange, DoesNotAskBelowTheTolerance) {
   EXPECT_EQ(least_scale(0x1p-20), -16);
   EXPECT_EQ(least_scale(0.0), -40);
   EXPECT_EQ(least_scale(std::nan("")), -40);
@@ -71,7 +72,7 @@ TEST(ScaleRange, does_not_ask_below_the_tolerance) {
   EXPECT_EQ(range_of_misses(-18, 1000, options).end_below, -20);
 }
 
-TEST(ScaleRange, is_not_known_of_hangs_and_separations) {
+TEST(ScaleRange, IsUnknownForHangsAndSeparations) {
   const FunctionMethod method([](Kind, const Query&) { return Answer{.verdict = Verdict::no}; });
   Finding finding = finding_of(Kind::vertex_face, falling);
   finding.separation = {.distance = 0.5, .norm = Norm::l2};
@@ -81,7 +82,7 @@ TEST(ScaleRange, is_not_known_of_hangs_and_separations) {
   EXPECT_FALSE(scale_range(method, {}, {}, finding).end_above);
 }
 
-TEST(ScaleRange, is_not_known_when_the_time_is_over) {
+TEST(ScaleRange, IsUnknownWhenTheTimeIsOver) {
   const FunctionMethod method(
       [](Kind kind, const Query& query) { return answer_of(fast::solve(kind, query)); });
   const ScaleRange range =
@@ -89,7 +90,7 @@ TEST(ScaleRange, is_not_known_when_the_time_is_over) {
   EXPECT_FALSE(range.end_below || range.end_above);
 }
 
-TEST(Signature, of_a_fault_of_scale_is_its_ends) {
+TEST(Signature, OfAFaultOfScaleIsItsEnds) {
   Finding finding = finding_of(Kind::vertex_face, falling);
   finding.scales = {.end_above = 1};
   const Signature small = signature_of(finding);
@@ -106,7 +107,7 @@ TEST(Signature, of_a_fault_of_scale_is_its_ends) {
   EXPECT_NE(signature_of(other), small);
 }
 
-TEST(Signature, of_a_fault_of_logic_is_kind_shape_and_time) {
+TEST(Signature, OfAFaultOfLogicIsKindShapeAndTime) {
   const Signature between = signature_of(finding_of(Kind::vertex_face, falling));
   EXPECT_EQ(to_text(between.ends), "any scale");
   EXPECT_EQ(to_text(between.shape), "general");
@@ -125,7 +126,7 @@ TEST(Signature, of_a_fault_of_logic_is_kind_shape_and_time) {
   EXPECT_EQ(to_text(signature_of(finding_of(Kind::vertex_face, flat)).shape), "collapsed");
 }
 
-TEST(Signature, tells_crashes_apart_by_their_reason) {
+TEST(Signature, TellsCrashesApartByTheirReason) {
   Finding finding = finding_of(Kind::vertex_face, falling);
   finding.what = judge::Fault::crash;
   finding.simplest.detail = "crash: SIGSEGV";

@@ -10,13 +10,13 @@
 #include "tests/support/tool_test.hpp"
 #include "tests/verify/data/dataset_fixture.hpp"
 
-// The golden files are compiled here as they would be by others: standalone_plugin.cpp as a
-// program, the other two against declarations of the public interfaces (public/).
+// Tests that compile the golden files as users do: standalone_plugin.cpp as a program, the other
+// two against declarations of the public interfaces (public/).
 
 namespace touchstone::verify::fuzz::standalone_test {
 namespace {
 
-/// A vertex that falls through a triangle: they touch at t = 1/3.
+/// A vertex that falls through a triangle, with contact at t = 1/3.
 Reproduction miss() {
   return {.what = judge::Fault::false_negative,
           .kind = Kind::vertex_face,
@@ -38,21 +38,21 @@ Reproduction miss_of_edges() {
   return result;
 }
 
-/// The file, behind its first line, which keeps it from being formatted.
+/// The file after its first line, which turns formatting off.
 std::string golden(const std::string& name) {
   const std::string text =
       data::test::contents(tests::source_folder() + "/tests/verify/fuzz/" + name);
   return text.substr(text.find('\n') + 1);
 }
 
-TEST(AsMain, is_what_is_compiled_here) {
+TEST(AsMain, IsTheProgramThatIsCompiledHere) {
   EXPECT_EQ(as_main(miss(), CallInterface::plugin), golden("standalone_plugin.cpp"));
   EXPECT_EQ(as_main(miss_of_edges(), CallInterface::ticcd), golden("standalone_ticcd.cpp"));
   EXPECT_EQ(as_main(miss_of_edges(), CallInterface::ipc_toolkit),
             golden("standalone_ipc_toolkit.cpp"));
 }
 
-TEST(AsMain, includes_nothing_of_ours_and_is_short) {
+TEST(AsMain, IncludesNothingOfOursAndIsShort) {
   for (const CallInterface interface :
        {CallInterface::plugin, CallInterface::ticcd, CallInterface::ipc_toolkit}) {
     const std::string text = as_main(miss(), interface);
@@ -63,7 +63,7 @@ TEST(AsMain, includes_nothing_of_ours_and_is_short) {
   }
 }
 
-TEST(AsMain, ends_with_one_for_what_was_found) {
+TEST(AsMain, EndsWithOneForTheFinding) {
   const auto has = [](judge::Fault what, const std::string& part) {
     Reproduction found = miss();
     found.what = what;
@@ -84,7 +84,7 @@ TEST(AsMain, ends_with_one_for_what_was_found) {
   has(judge::Fault::crash, "  return 0;\n");
 }
 
-TEST(CallInterface, has_a_name_and_follows_from_the_solver) {
+TEST(CallInterface, HasANameAndFollowsFromTheSolver) {
   for (const CallInterface interface :
        {CallInterface::plugin, CallInterface::ticcd, CallInterface::ipc_toolkit}) {
     EXPECT_EQ(call_interface_from_string(to_string(interface)), interface);
@@ -98,8 +98,8 @@ TEST(CallInterface, has_a_name_and_follows_from_the_solver) {
 
 class Standalone : public tests::ToolTest {};
 
-/// As their authors run it: with a plugin that says yes and misses nothing, and without one.
-TEST_F(Standalone, asks_a_plugin) {
+/// The program runs with a plugin that always says yes, which misses no collision, and without one.
+TEST_F(Standalone, AsksAPlugin) {
   const std::filesystem::path beside = tests::plugin_library("always_yes");
   const std::string program = (beside.parent_path() / "standalone_plugin").string();
   const tests::Outcome right =
@@ -115,8 +115,8 @@ TEST_F(Standalone, asks_a_plugin) {
   EXPECT_EQ(finish(start({path("none.so")}, to_file, program)).status, 2);
 }
 
-/// Linked with our adapter, which is right.
-TEST_F(Standalone, asks_through_the_interface_of_tight_inclusion) {
+/// The program is linked with our adapter, which is right.
+TEST_F(Standalone, AsksThroughTheInterfaceOfTightInclusion) {
   const std::filesystem::path folder =
       std::filesystem::path(tests::plugin_library("always_yes")).parent_path();
   const tests::Outcome right = finish(start({}, to_file, (folder / "standalone_ticcd").string()));

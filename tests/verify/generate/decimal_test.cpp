@@ -7,7 +7,7 @@
 namespace touchstone::verify::generate::decimal_test {
 namespace {
 
-TEST(ShortestDecimal, is_what_people_write) {
+TEST(ShortestDecimal, IsTheUsualNotation) {
   const auto expect = [](double x, std::uint64_t digits, int count, int exponent) {
     const Decimal decimal = shortest_decimal(x);
     EXPECT_EQ(decimal.digits, digits) << x;

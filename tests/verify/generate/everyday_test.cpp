@@ -26,7 +26,7 @@ void for_each_query(Query (*make)(Kind, Random&), int count, const Use& use) {
   }
 }
 
-/// Decimal digits of the number, or of the float that it is.
+/// The decimal digits of the number, or of the float that it equals.
 int digits_of(double x) {
   const auto as_float = static_cast<float>(x);
   const int as_double = shortest_decimal(x).count;
@@ -43,7 +43,7 @@ int digits_of(double x) {
   return std::min(as_double, digits);
 }
 
-TEST(EverydayContact, is_contact_always) {
+TEST(EverydayContact, IsContactAlways) {
   int at_start = 0, at_end = 0, shared = 0, count = 0;
   for_each_query(everyday_contact, tests::trials(4000), [&](Kind kind, const Query& query) {
     const exact::Decision verdict = exact::decide(kind, query);
@@ -66,7 +66,7 @@ TEST(EverydayContact, is_contact_always) {
   EXPECT_GT(shared, count / 16);
 }
 
-TEST(EverydayContact, has_short_decimals_of_everyday_size) {
+TEST(EverydayContact, HasShortDecimalsOfEverydaySize) {
   std::array<int, 3> by_size{};
   for_each_query(everyday_contact, tests::trials(1000), [&](Kind, const Query& query) {
     double greatest = 0.0;
@@ -82,7 +82,7 @@ TEST(EverydayContact, has_short_decimals_of_everyday_size) {
   for (const int count : by_size) EXPECT_GT(count, tests::trials(1000) / 6);
 }
 
-TEST(EverydayNearContact, is_a_miss_mostly_and_a_unit_away) {
+TEST(EverydayNearContact, MostlyDoesNotCollideByAUnit) {
   int no_collisions = 0;
   for_each_query(everyday_near_contact, tests::trials(1000), [&](Kind kind, const Query& query) {
     no_collisions += exact::decide(kind, query).collides() ? 0 : 1;
@@ -91,7 +91,7 @@ TEST(EverydayNearContact, is_a_miss_mostly_and_a_unit_away) {
   EXPECT_LT(no_collisions, tests::trials(1000));
 }
 
-TEST(EverydayQuery, is_of_its_scene) {
+TEST(EverydayQuery, IsOfItsScene) {
   Random random(2);
   for (const Kind kind : both_kinds) {
     for (int i = 0; i < tests::trials(100); ++i) {

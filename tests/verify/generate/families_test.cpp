@@ -1,9 +1,8 @@
 /// \file
-/// The built-in families are checked against rational arithmetic written here, not against an
-/// oracle: at chosen rational times the hull of the corners contains zero or it does not, by the
-/// three sign rules for a triangle. Those times are random ones, ones just before the claimed time
-/// of impact, and every rational time at which a coordinate of a corner vanishes, where degenerate
-/// contacts are.
+/// Checks of the built-in families by rational arithmetic written here, not by an oracle: at chosen
+/// rational times the hull of the corners contains zero or not, by the three sign rules for a
+/// triangle. The times are random, just before the claimed time of impact, and all rational times
+/// at which a coordinate of a corner vanishes, where degenerate contacts are.
 
 #include "verify/generate/families.hpp"
 
@@ -100,7 +99,7 @@ class Corners {
  public:
   Corners(Kind kind, const Query& query) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      // Of any double, 2^1074 times its value is an integer; the common power is divided out.
+      // 2^1074 times a double is an integer; the common power is divided out.
       std::vector<Integer> values;
       Integer common = 0;
       for (std::size_t i = 0; i < query_points; ++i) {
@@ -178,14 +177,14 @@ std::vector<Rational> probe_times(const Corners& corners_of_query, std::mt19937_
   return times;
 }
 
-/// Zero is in the projection of the corners along an axis.
+/// True if the projection of the corners along an axis contains zero.
 bool projection_contains_zero(std::vector<Vector> w, std::size_t axis) {
   for (Vector& corner : w) corner.at(axis) = 0;
   return hull_contains_zero(w);
 }
 
-/// The projection along some axis contains zero at all sixteenths (so the primitives overlap
-/// there), and the determinant of three corners has both signs at sixteenths.
+/// True if the projection along some axis contains zero at all sixteenths (so that the primitives
+/// overlap there), and the determinant of three corners has both signs at sixteenths.
 bool passes_through(const Corners& c) {
   std::array<bool, 3> overlaps{true, true, true};
   std::set<int> signs;
@@ -209,7 +208,7 @@ std::string check_open_toi(const Corners& c) {
   return passes_through(c) ? "" : "no sign of the claimed collision";
 }
 
-/// What is wrong with the claim, or nothing.
+/// The fault of the claim, or nothing.
 std::string check_claim(Kind kind, const KnownQuery& known, std::mt19937_64& random) {
   const Corners c(kind, known.query);
   if (known.collides && !known.toi) return check_open_toi(c);
@@ -300,8 +299,8 @@ TEST(Families, HaveNoQueryTwice) {
   });
 }
 
-/// FNV-1a over the bits of the coordinates: a change of any generator is noticed, and so is a
-/// machine that draws other bits.
+/// FNV-1a over the bits of the coordinates, to notice a change of a generator or different bits on
+/// another machine.
 TEST(Families, DrawTheSameBitsEverywhere) {
   std::uint64_t digest = 0xcbf29ce484222325ULL;
   for_each_query(120, [&](const Family&, Kind, std::uint64_t, const KnownQuery& known) {

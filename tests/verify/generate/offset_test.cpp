@@ -42,12 +42,12 @@ TEST(Offset, AnIrrationalTimeIsLeftOpen) {
 }
 
 TEST(Offset, ItMustComeWithinTheTime) {
-  // On the line it would come, at t = 2.
+  // The line comes near enough at t = 2.
   EXPECT_FALSE(arrival({.start = {15, 0, 0}, .end = {10, 0, 0}}, five_l2).comes);
   EXPECT_FALSE(arrival({.start = {15, 0, 0}, .end = {10, 0, 0}}, five_linf).comes);
-  // Each axis comes near enough, at different times.
+  // Each axis comes near enough, but at different times.
   EXPECT_FALSE(arrival({.start = {10, 0, 0}, .end = {0, 20, 0}}, five_linf).comes);
-  // It passes by at a distance that is barely too much.
+  // The point passes at a distance that is slightly too large.
   EXPECT_FALSE(arrival({.start = {-9, 5, 1}, .end = {9, 5, 1}}, five_l2).comes);
   EXPECT_EQ(arrival({.start = {-9, 5, 0}, .end = {9, 5, 0}}, five_l2).time, Rational(1, 2));
 }

@@ -1,7 +1,6 @@
 /// \file
-/// The families about a separation (verify/generate/families.hpp) against the oracle for distances:
-/// what their construction knows is compared with what the oracle finds, for all kinds, norms and
-/// magnitudes of d. The two share no argument.
+/// The families about a separation (verify/generate/families.hpp) against the oracle for distances,
+/// for all kinds, norms and magnitudes of d. The construction and the oracle share no argument.
 
 #include <gtest/gtest.h>
 
@@ -23,7 +22,7 @@ constexpr std::uint64_t queries_a_family = 16;
 constexpr std::array<Kind, 2> kinds{Kind::vertex_face, Kind::edge_edge};
 constexpr std::array<double, 8> distances{1e-2, 1e-8, 1e-16, 1e-30, 1e-100, 1.25, 5.0, 21.0};
 
-/// Calls function(family, kind, separation) for all of them.
+/// Calls function(family, kind, separation) for all combinations.
 template <class Function>
 void for_each_stream(const Function& function) {
   for (const double distance : distances) {
@@ -58,7 +57,7 @@ TEST(SeparationFamilies, TheOracleAgreesWithTheConstruction) {
 }
 
 TEST(SeparationFamilies, TheOracleSeesAnyOtherDistance) {
-  // So that the agreement above is not one of queries that no distance matters to.
+  // A check that the distance matters to the queries of the agreement above.
   std::size_t changed = 0;
   for_each_query([&](Kind kind, const Separation& separation, const KnownQuery& known) {
     const Separation less{.distance = std::nextafter(separation.distance, 0.0),
@@ -97,7 +96,7 @@ TEST(SeparationFamilies, OddQueriesHaveFullSignificands) {
       EXPECT_LE(known.full_significands, index % 2 == 1);
       full += known.full_significands ? 1U : 0U;
     }
-    // Points and segments that are placed by the distance alone have the digits of its multiples.
+    // Points and segments that only the distance places have the digits of its multiples.
     EXPECT_GE(full, 4U) << family.name;
   }
 }

@@ -69,11 +69,11 @@ TEST(Symmetry, HasNoImageThatIsRounded) {
 
 TEST(Symmetry, DrawsEveryIngredientAndOnlyExactImages) {
   Random random(1);
-  const GeneratorContext context({});
+  const fuzz::GeneratorContext context({});
   std::set<std::string> seen;
   for (int i = 0; i < 2000; ++i) {
     const Kind kind = both_kinds.at(static_cast<std::size_t>(i % 2));
-    const Query query = generators()[1].make(kind, context, random);
+    const Query query = fuzz::generators()[1].make(kind, context, random);
     const Symmetry symmetry = draw_symmetry(kind, query, {}, random);
     ASSERT_TRUE(image(symmetry, query)) << to_text(symmetry);
     const std::string text = to_text(symmetry);
@@ -84,7 +84,7 @@ TEST(Symmetry, DrawsEveryIngredientAndOnlyExactImages) {
   EXPECT_EQ(seen.size(), 6U);
 }
 
-/// Edges change places whole; a face keeps its vertex.
+/// Edges are exchanged as a whole; a face keeps its vertex.
 TEST(Symmetry, KeepsPrimitivesTogether) {
   Random random(2);
   bool exchanged = false;
@@ -116,10 +116,10 @@ TEST(Symmetry, KeepsTheOraclesVerdictAndTime) {
   Random random(3);
   int collisions = 0, others = 0;
   for (const Separation& separation : separations) {
-    const GeneratorContext context(separation);
+    const fuzz::GeneratorContext context(separation);
     for (int i = 0; i < tests::trials(160); ++i) {
       const Kind kind = both_kinds.at(static_cast<std::size_t>(i % 2));
-      const auto& generator = generators()[1 + static_cast<std::size_t>(i % 7)];
+      const auto& generator = fuzz::generators()[1 + static_cast<std::size_t>(i % 7)];
       const Query query = generator.make(kind, context, random);
       const Symmetry symmetry = draw_symmetry(kind, query, separation, random);
       expect_same_truth(kind, query, separation, symmetry);

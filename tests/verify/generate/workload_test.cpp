@@ -45,7 +45,7 @@ TEST(Workload, PatchesAreTwoGridsOfTriangles) {
   const mesh::MovingMesh mesh = moving_patches({.seed = 5, .cells = 3});
   EXPECT_EQ(mesh.vertices.size(), 2U * 16);
   EXPECT_EQ(mesh.faces.size(), 2U * 18);
-  // Of each grid: 3·4 along either axis, and a diagonal a cell.
+  // Edges of each grid: 3·4 along either axis, and a diagonal in each cell.
   EXPECT_EQ(mesh.edges.size(), 2U * (24 + 9));
   for (const fast::Face& face : mesh.faces) {
     const auto [least, greatest] = std::ranges::minmax(face);
@@ -110,7 +110,7 @@ TEST(Workload, RefusesPatchesWithoutACell) {
   EXPECT_THROW(static_cast<void>(moving_patches({.cells = 0})), std::invalid_argument);
 }
 
-TEST(Workload, EndContactsTouchAtOne) {
+TEST(Workload, EndContactsAreAtTheEnd) {
   for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
     for (const double scale : {0.01, 1.0, 1000.0}) {
       for (const bool two_decimals : {false, true}) {

@@ -12,7 +12,7 @@
 namespace touchstone::verify::io::compressor_test {
 namespace {
 
-/// By the library's other interface, the one for whole buffers and known sizes.
+/// Decompresses by the library's other interface, for whole buffers of known sizes.
 std::string decompress(const std::string& bytes, std::size_t size) {
   std::string result(size + 1, '\0');
   const std::size_t length =
@@ -41,7 +41,7 @@ TEST(Compressor, GivesBackWhatItTook) {
   }
 }
 
-/// All that a stream stands for, in small rooms and pieces of so many bytes.
+/// The contents of a stream, read through small buffers in parts of `piece` bytes.
 std::string read_back(std::string_view bytes, std::size_t piece, bool& is_complete) {
   Decompressor decompressor;
   std::string text, buffer(977, '\0');

@@ -21,7 +21,7 @@ using Limits = std::numeric_limits<double>;
 std::string text_of(const exact::Integer& n) { return n.get_str(); }
 exact::Integer power(unsigned long exponent) { return exact::Integer(1) << exponent; }
 
-/// Compares with the definition: the nearest double of the rational, exact if it is the rational.
+/// Expects the double by its definition: the nearest to the rational, and exact iff equal to it.
 void expect_correct(const exact::Integer& numerator, const exact::Integer& denominator) {
   exact::Rational quotient(numerator, denominator);
   quotient.canonicalize();

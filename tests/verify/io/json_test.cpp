@@ -9,7 +9,7 @@
 #include <string_view>
 
 #include "tests/support/folder_test.hpp"
-#include "verify/data/dataset_error.hpp"
+#include "verify/io/dataset_error.hpp"
 
 namespace touchstone::verify::io::json_test {
 namespace {
@@ -17,7 +17,7 @@ namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
-TEST(Json, HasWordsForInfiniteNumbersAndNullForNone) {
+TEST(Json, HasWordsForInfiniteNumbersAndNullForMissingOnes) {
   EXPECT_EQ(number_to_json(0.1), 0.1);
   EXPECT_EQ(number_to_json(infinity), "Infinity");
   EXPECT_EQ(number_to_json(-infinity), "-Infinity");
@@ -40,7 +40,7 @@ TEST_F(JsonFile, IsReadUpToADepthAndASize) {
     std::ofstream(path("a.json")) << text;
     try {
       static_cast<void>(read_json(path("a.json"), most_bytes));
-    } catch (const data::DatasetError& error) {
+    } catch (const DatasetError& error) {
       return std::string(error.what()).substr(path("").size());
     }
     return std::string();

@@ -23,7 +23,7 @@ using data::test::contents;
 using data::test::error_of;
 using data::test::TemporaryFolder;
 
-/// Writing a file beyond this size fails as on a full disk while this object lives.
+/// A limit of file sizes: writes beyond it fail as on a full disk during the life of this object.
 class FileSizeLimit {
  public:
   explicit FileSizeLimit(rlim_t bytes) : handler_(std::signal(SIGXFSZ, SIG_IGN)) {

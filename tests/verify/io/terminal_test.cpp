@@ -110,7 +110,7 @@ TEST(WaitForInput, EndsWithAnInterrupt) {
   const auto interrupt = [] {
     static_cast<void>(interrupted());
     const Pipe pipe;
-    std::thread(std::raise, SIGINT).detach();  // before the wait or within, in another thread
+    std::thread(std::raise, SIGINT).detach();  // before or during the wait, in another thread
     try {
       wait_for_input(pipe.reader());
     } catch (const Interrupted&) {
@@ -123,7 +123,7 @@ TEST(WaitForInput, EndsWithAnInterrupt) {
 
 // ---- Printing -----------------------------------------------------------------------------------
 
-/// Prints with this as standard output, and exits with 0 if finish_printing() finds no fault.
+/// Prints to this descriptor as standard output; exits with 0 if finish_printing() finds no fault.
 [[noreturn]] void print_on(int descriptor) {
   std::signal(SIGPIPE, SIG_IGN);
   ::dup2(descriptor, STDOUT_FILENO);

@@ -40,7 +40,7 @@ TEST(Joined, PutsListsOneBehindTheOther) {
   EXPECT_EQ(joined<std::string>({{"a", "b"}, {}, {"c"}}), (TextRow{"a", "b", "c"}));
 }
 
-TEST(NumberText, IsADashWhereThereIsNone) {
+TEST(NumberText, IsADashWithoutANumber) {
   EXPECT_EQ(number_text(12.34, "{:.1f}"), "12.3");
   EXPECT_EQ(number_text(std::nullopt, "{:.1f}"), "-");
   EXPECT_EQ(number_text(std::numeric_limits<double>::quiet_NaN(), "{:.1f}"), "-");

@@ -34,8 +34,8 @@ constexpr int hit_every = 10;
 
 bool collides(std::size_t position) { return position % hit_every == 0; }
 
-/// Vertices over a triangle, of which those at multiples of ten fall through it, each at a time of
-/// its own. The first coordinate of the face's first point numbers them.
+/// Vertices over a triangle; those at multiples of ten fall through it, each at a different time.
+/// The first coordinate of the face's first point is their number.
 data::QueryGroup falling_vertices(std::size_t count) {
   std::vector<Query> queries;
   for (std::size_t i = 0; i < count; ++i) {
@@ -219,7 +219,7 @@ TEST(Bench, CountsStagesOfSolversThatHaveThem) {
   EXPECT_EQ(result.solvers[0].stages,
             (std::vector<solvers::StageCount>{{"first", 39}, {"second", 1}}));
   EXPECT_TRUE(result.solvers[1].stages.empty());
-  EXPECT_EQ(result.solvers[0].judgement.undecided, 40U);
+  EXPECT_EQ(result.solvers[0].judgement.undecided(), 40U);
 }
 
 // ---- Speed --------------------------------------------------------------------------------------
@@ -230,7 +230,7 @@ void burn(double nanoseconds) {
   }
 }
 
-/// Takes its time for each query, notes every call, and answers yes.
+/// A solver that spends time on each query, records every call, and answers yes.
 class Burner final : public solvers::Solver {
  public:
   using Log = std::vector<std::pair<std::string, std::size_t>>;
@@ -261,7 +261,7 @@ class Burner final : public solvers::Solver {
 TEST(Bench, InterleavesTheSolvers) {
   Burner::Log log;
   Field field;
-  // Long enough that one call is a repetition.
+  // The time makes one call a repetition.
   field.add(std::make_unique<Burner>("a", 1e6, log));
   field.add(std::make_unique<Burner>("b", 1e6, log));
   BenchOptions options = quick();

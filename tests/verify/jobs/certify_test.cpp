@@ -32,7 +32,7 @@ Query falling_vertex(double above, double below) {
            1, 1, -below, 0, 0, 0, 4, 0, 0, 0, 4, 0}};
 }
 
-/// Hits at t=1/4, and misses where the index is divisible by 3, all recorded truly.
+/// Collisions at t=1/4, and none if the index is divisible by 3, all with true records.
 std::vector<data::RecordedQuery> true_records(std::uint64_t count) {
   std::vector<data::RecordedQuery> records;
   for (std::uint64_t i = 0; i < count; ++i) {
@@ -174,7 +174,7 @@ TEST(CertifySeparation, RecordedContactMustBeNoEarlierThanNearness) {
   EXPECT_EQ(certify_records(records, options).label_mismatches, 1U);
 }
 
-/// What the built-in families about a separation record is compared in full.
+/// Records of the built-in families about a separation are compared in full.
 TEST(CertifySeparation, WhatIsAboutTheSameSeparationIsComparedInFull) {
   const Separation separation{.distance = 0.75, .norm = Norm::l2};
   const auto certified = [&](const Separation& asked) {
@@ -195,7 +195,8 @@ TEST(CertifySeparation, WhatIsAboutTheSameSeparationIsComparedInFull) {
 }
 
 TEST(Certify, ShowsFortyFiveDigitsOfATrueTimeHoweverSmall) {
-  // The vertex rises from 2^-1000 below the sinking face: toi = 2^-1000 / (2^-1000 + 3), no dyadic.
+  // The vertex rises from 2^-1000 below the sinking face: toi = 2^-1000 / (2^-1000 + 3), not
+  // dyadic.
   auto records = true_records(2);
   records[1].query = falling_vertex(0x1p-1000, 3);
   const CertifyResult result = certify_records(std::move(records));
@@ -290,8 +291,8 @@ using fast::Promise;
 using tests::FunctionMethod;
 using tests::true_answer;
 
-/// Hits by falling vertices at times that are no doubles, but for every third query, a miss. The
-/// height of the vertex tells the query's number.
+/// Falling vertices that collide at times which are not doubles, but every third query does not.
+/// The height of the vertex is the query's number.
 std::vector<data::RecordedQuery> numbered_records(std::uint64_t count) {
   std::vector<data::RecordedQuery> records;
   for (std::uint64_t i = 0; i < count; ++i) {
@@ -309,7 +310,7 @@ std::uint64_t number_of(const Query& query) {
   return static_cast<std::uint64_t>(query.at(0, 0, 2)) - 1;
 }
 
-/// A method that is right but for the query of that number, to which it answers otherwise.
+/// A method that is right except for the query of that number, which it answers by `otherwise`.
 FunctionMethod right_but_for(std::uint64_t number, const FunctionMethod::Function& otherwise) {
   return FunctionMethod([number, otherwise](Kind kind, const Query& query) {
     return number_of(query) == number ? otherwise(kind, query) : true_answer(kind, query);
@@ -364,12 +365,13 @@ TEST(CertifyMethods, ThePerfectMethodIsPerfectOnTheBuiltInSet) {
 }
 
 TEST(CertifyMethods, AYesThatClaimsMoreNearnessThanThereIsIsCaught) {
-  // The misses end ½ above the face; their yes claims to be within its tolerance and the distance.
+  // The vertices of false positives end ½ above the face; their yes claims a distance within the
+  // tolerance.
   const auto judged_with = [](double tolerance, double distance) {
     const FunctionMethod method([tolerance](Kind, const Query&) -> fast::Answer {
       return {.verdict = fast::Verdict::yes, .toi_lower = 0.0, .tolerance = tolerance};
     });
-    // Nobody says what a tolerance of this method claims: it is held to it as all are.
+    // The meaning of this method's tolerance is unknown, so that the usual one applies.
     const auto solver = solvers::solver_in_process(method, {});
     CertifyOptions options;
     options.separation.distance = distance;
@@ -407,7 +409,7 @@ TEST(CertifyMethods, EachFaultIsCountedInItsColumnAndListed) {
        judge::Fault::no_verdict},
       {8, [](Kind, const Query&) -> Answer { throw std::runtime_error("thrown"); },
        judge::Fault::exception},
-      // By the last bit, at a time that is no double.
+      // A fault of the last bit, at a time that is not a double.
       {8,
        [](Kind kind, const Query& query) {
          Answer answer = true_answer(kind, query);
@@ -472,7 +474,7 @@ TEST(CertifyMethods, FaultsAreFoundWhereverTheyAreInALongSource) {
     options.solvers = {solver.get()};
     const CertifyResult result = certify_records(numbered_records(9000), options);
     const judge::Judgement& judgement = result.methods.at(0).judgement;
-    // Numbers divisible by 3 are misses, where no is right.
+    // Queries whose numbers are divisible by 3 do not collide, so that no is right.
     std::vector<std::uint64_t> expected, found;
     for (std::uint64_t i = 1; i < 9000; i += 1000) {
       if (i % 3 != 0) expected.push_back(i);
@@ -531,8 +533,9 @@ TEST(CertifyMethods, AStopInSlowAnswersIsObeyedSoonAndLeavesAPrefix) {
   EXPECT_EQ(truths.back() + 1, result.queries);
 }
 
-/// Every family's truth is known without the oracle; here the two meet. Times of impact must be
-/// equal, not near, and the oracle's contact must agree where the construction knows a unique one.
+/// The truth of every family is known without the oracle; here the two are compared. Times of
+/// impact must be equal, not near, and the oracle's contact must agree if the construction knows a
+/// unique one.
 class BuiltInSet : public ::testing::TestWithParam<generate::Family> {};
 
 TEST_P(BuiltInSet, AgreesWithTheOracle) {
@@ -566,7 +569,7 @@ INSTANTIATE_TEST_SUITE_P(Families, BuiltInSet,
                                              generate::families().end()),
                          family_name);
 
-/// The public data, or nothing where they are missing.
+/// The public data; empty if it is missing.
 std::vector<CertifyResult> certify_public(const std::string& folder) {
   const std::filesystem::path root = tests::public_data_folder();
   if (root.empty()) return {};

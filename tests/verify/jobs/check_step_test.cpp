@@ -45,7 +45,7 @@ struct Frames {
   mesh::Vertices after;
 };
 
-/// The pairs of a kind that touch by the oracle.
+/// The pairs of a kind in contact, by the oracle.
 std::vector<fast::IndexPair> touching_pairs(const mesh::MovingMesh& mesh, Kind kind) {
   const auto pairs = mesh::find_candidates(mesh, kind);
   const auto queries = mesh::queries_of(mesh, mesh::candidates_of(mesh, kind, pairs));

@@ -23,8 +23,8 @@
 #include "tests/support/random.hpp"
 #include "tests/support/scenes.hpp"
 
-// Proofs of steps: the checker accepts each, its claim is what the oracle says of all pairs one by
-// one, and no proof with something left out or a later claim is accepted.
+// Proofs of steps: the checker accepts each, its claim agrees with the oracle on all pairs one by
+// one, and no proof with an omission or a later claim is accepted.
 
 namespace touchstone::verify::jobs::prove_step_test {
 namespace {
@@ -32,7 +32,7 @@ namespace {
 using tests::Random;
 using tests::Scene;
 
-/// The scene with edges as a mesh has them: those of the faces too, in order, each once.
+/// The scene with the edges of a mesh: those of the faces too, in order, each once.
 Scene with_ordered_edges(Scene scene) {
   std::vector<fast::Face> all = scene.faces;
   for (const auto& [a, b] : scene.edges) all.push_back({a, b, b});
@@ -61,7 +61,7 @@ Proved prove(const Scene& scene, const fast::StepOptions& step_options,
   return result;
 }
 
-/// Why the checker refuses; empty if it does not.
+/// The checker's reason to refuse; empty if it accepts.
 std::string refusal(const std::string& text, const checker::Options& options = {}) {
   std::istringstream in(text);
   const checker::Report report = checker::check(in, options);
@@ -108,7 +108,8 @@ void expect_true(const Scene& scene, const fast::StepOptions& options, const Ste
   EXPECT_EQ(std::nextafter(times[0], 2.0), times[1]) << proof.claim;
 }
 
-/// Is this claim at this separation what the checker finds proved, and at another not?
+/// Expects that the checker accepts the proof with this claim and separation demanded, and not with
+/// others.
 void expect_demand_kept(const std::string& text, const fast::StepOptions& options,
                         const StepProof& proof) {
   std::ostringstream distance;
@@ -184,7 +185,7 @@ TEST(ProveStep, ProvesWhatTheOracleSaysOfAllPairs) {
   RecordProperty("with_distance", with_distance);
 }
 
-/// Lines, and those that begin an argument.
+/// The lines of a text, and those that begin an argument.
 struct Lines {
   explicit Lines(const std::string& text) {
     std::istringstream in(text);
@@ -196,7 +197,7 @@ struct Lines {
     }
   }
 
-  /// All but the argument that begins there.
+  /// All lines but the argument that begins at this line.
   [[nodiscard]] std::string without(std::size_t argument) const {
     std::string text;
     bool is_left_out = false;
@@ -275,7 +276,7 @@ TEST(ProveStep, EndsWhenStopped) {
   EXPECT_NE(refusal(text), "");
 }
 
-TEST(ProveStep, HandsOnWhatItsReaderThrows) {
+TEST(ProveStep, PassesOnExceptionsOfItsReader) {
   Random random(9);
   const Scene scene = with_ordered_edges(tests::soup(random, 3, 0.3));
   const fast::Step step = scene.step();

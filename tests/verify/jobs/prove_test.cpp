@@ -19,7 +19,7 @@ namespace {
 
 using tests::MemorySource;
 
-/// Every third query collides at 0, at 1/3 or at 3/4.
+/// Queries of which every third collides, at 0, at 1/3 or at 3/4.
 std::vector<data::RecordedQuery> falling_vertices(std::uint64_t count) {
   std::vector<data::RecordedQuery> records;
   for (std::uint64_t i = 0; i < count; ++i) {
@@ -36,7 +36,7 @@ struct ProofRun {
   SourceProof proof;
   std::string text{exact::certificates_header()};
 
-  /// The text with the closing line for what was counted.
+  /// The text with the closing line for its counts.
   [[nodiscard]] std::string stream() const {
     return text + exact::certificates_closing_line(proof.counts.certificates());
   }
@@ -91,7 +91,7 @@ TEST(Prove, ClaimsWhatItIsAskedTo) {
 TEST(Prove, ProvesAtADistanceInEitherNorm) {
   for (const Norm norm : {Norm::linf, Norm::l2}) {
     MemorySource source(Kind::vertex_face, falling_vertices(90));
-    // Of each nine, the six that end ½ above the face come within it there.
+    // Six of each nine end ½ above the face, within the separation.
     const ProofRun result = run(source, {.separation = {.distance = 0.5, .norm = norm}});
     EXPECT_EQ(result.proof.counts.time_of_impact, 90U);
     MemorySource again(Kind::vertex_face, falling_vertices(90));

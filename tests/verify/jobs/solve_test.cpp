@@ -17,7 +17,7 @@ using fast::Answer;
 using fast::Verdict;
 using tests::MemorySource;
 
-/// Queries that say what to answer: verdict number `index` mod 5, of which 4 is no as 0 is.
+/// Queries that determine their answers: verdict number `index` mod 5, of which 4 is no, like 0.
 std::vector<data::RecordedQuery> scripted(std::uint64_t count) {
   std::vector<data::RecordedQuery> records;
   for (std::uint64_t i = 0; i < count; ++i) {

@@ -70,7 +70,7 @@ TEST(SpreadSample, LeavesNoPartOfTheQueriesOut) {
 }
 
 TEST(SpreadSample, FallsIntoStepWithNoPeriod) {
-  // The built-in set has queries of one sort at the odd places, and families of 1000 in a row.
+  // The built-in set has queries of one sort at odd places, and families of 1000 in a row.
   for (const std::size_t period : {2U, 4U, 8U, 10U, 1000U}) {
     std::vector<int> collisions(period);
     const Positions sample = spread_sample(31'000, 8000);

@@ -17,7 +17,7 @@
 namespace touchstone::verify::jobs::step_bench_test {
 namespace {
 
-/// What the oracle says of the candidates of a kind.
+/// The oracle's results for the candidates of a kind.
 struct Expected {
   std::size_t candidates = 0;
   std::size_t collisions = 0;

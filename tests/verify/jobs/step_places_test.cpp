@@ -14,7 +14,7 @@
 #include "exact/checker/places.hpp"
 #include "tests/support/random.hpp"
 
-// The writer's integers are those of the checker, though the two share no code.
+// The writer's integers equal those of the checker, though the two share no code.
 
 namespace touchstone::verify::jobs::step_places_test {
 namespace {
@@ -68,7 +68,8 @@ TEST(StepPlaces, AgreeWithTheCheckers) {
   EXPECT_GT(needed, found);
 }
 
-// Two triangles near each other, in planes of any position: a direction of small integers is found.
+// Two triangles near each other, in planes of any position, have a separating direction of small
+// integers.
 TEST(StepPlaces, FindADirectionBetweenWhatIsNear) {
   tests::Random random(2);
   int found = 0;

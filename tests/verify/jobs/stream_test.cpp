@@ -31,7 +31,7 @@ std::vector<data::RecordedQuery> numbered(std::uint64_t count) {
   return records;
 }
 
-/// Streams numbered queries; collects their numbers in the order they come out.
+/// A stream of numbered queries; collects their numbers in the order of output.
 struct Collected {
   std::vector<std::uint64_t> indices;
   StreamResult result;
@@ -71,8 +71,8 @@ TEST(Stream, ABlockHoldsWhatTheSourceSays) {
     for (std::size_t i = 0; i < 3; ++i) {
       EXPECT_EQ(block.queries[i].coordinates[0], static_cast<double>(i));
       EXPECT_EQ(block.indices[i], i);
-      EXPECT_EQ(block.claims[i].collides, i % 2 == 0);
-      EXPECT_EQ(block.claims[i].toi, exact::Rational(static_cast<unsigned long>(i)));
+      EXPECT_EQ(block.labels[i].collides, i % 2 == 0);
+      EXPECT_EQ(block.labels[i].toi, exact::Rational(static_cast<unsigned long>(i)));
     }
     return {.in_order = [&] { ++blocks; }};
   };
@@ -89,7 +89,7 @@ TEST(Stream, AnErrorOfTheSourceLosesNothingBeforeIt) {
   EXPECT_FALSE(collected.result.interrupted);
 }
 
-/// A source whose wait for query number 5 an interrupt ends.
+/// A source in which an interrupt ends the wait for query number 5.
 class InterruptedSource final : public data::QuerySource {
  public:
   [[nodiscard]] const std::string& name() const override { return name_; }
@@ -117,7 +117,7 @@ TEST(Stream, AnInterruptOfTheSourceIsNoErrorAndLosesNothingBeforeIt) {
   EXPECT_EQ(queries, 5U);
 }
 
-TEST(Stream, AnExceptionOfTheWorkEndsItAndIsTold) {
+TEST(Stream, AnExceptionOfTheWorkEndsItAndIsReported) {
   MemorySource source(Kind::edge_edge, numbered(20 * Block::size));
   std::size_t blocks = 0;
   const auto work = [&](const Block& block) -> BlockResult {

@@ -22,7 +22,7 @@ using fast::Answer;
 using fast::Verdict;
 using tests::FunctionMethod;
 
-/// Vertices over a triangle, each from a height of its own, of which every tenth falls through it.
+/// Vertices over a triangle at different heights, of which every tenth falls through it.
 data::QueryGroup falling(std::size_t count) {
   std::vector<Query> queries;
   for (std::size_t i = 0; i < count; ++i) {

@@ -9,7 +9,7 @@ TEST(WorkTime, IsOfTheWorkThatIsDone) {
   bool is_done = false;
   const WorkTime time = work_time_of([&] {
     is_done = true;
-    // Until the clocks of both have moved.
+    // Waits until the clocks of both have advanced.
     const double start = base::process_seconds();
     while (base::process_seconds() == start) {
     }

@@ -22,7 +22,7 @@ using fast::Verdict;
 constexpr Query falling{{1, 1, 2, 0, 0, 0, 4, 0, 0, 0, 4, 0,  //
                          1, 1, 1, 0, 0, 0, 4, 0, 0, 0, 4, 0}};
 
-/// What a yes of Tight-Inclusion claims.
+/// The distance that a yes of Tight-Inclusion claims.
 double claimed_with_filter(double tolerance, const Query& query, double distance,
                            ErrorModel filter = ErrorModel::derived) {
   return claimed_distance(filter, Kind::vertex_face, query,
@@ -61,7 +61,7 @@ TEST(ClaimedDistance, IsTheSumRoundedUpAndHardlyMore) {
   EXPECT_LT(claimed, sum + Rational(0x1p-52));
 }
 
-/// The published filter bounds the released order of operations too.
+/// The published filter also bounds the released order of operations.
 TEST(ClaimedDistance, WithTheReleasedFilterIsThatWithThePublishedOne) {
   const double published = claimed_with_filter(0.1, falling, 0.0, ErrorModel::published);
   EXPECT_EQ(claimed_with_filter(0.1, falling, 0.0, ErrorModel::released), published);
@@ -77,7 +77,7 @@ TEST(ClaimedDistance, WithoutAToleranceOrBeyondTheScaleNothingIsClaimed) {
   EXPECT_FALSE(std::isinf(claimed_with_filter(1.0, falling, 0.0)));
 }
 
-/// The claim itself, held against the oracle.
+/// The oracle confirms the claim.
 TEST(ClaimedDistance, TightInclusionKeepsItOnWhatItCannotTellFromContact) {
   std::size_t claims = 0;
   for (const double distance : {0.0, 1e-8, 1e-30}) {

@@ -23,7 +23,7 @@ TEST(Fault, HasANameOfItsOwnAndATextAndALetter) {
     texts.insert(to_text(fault));
     phrases.insert(to_phrase(fault));
     EXPECT_EQ(fault_from_name(to_string(fault)), fault);
-    // All errors are one in tables and maps.
+    // Tables and maps count all errors as one.
     const std::optional<Fault> found = fault_from_text(to_text(fault));
     EXPECT_EQ(found, is_error(fault) ? Fault::crash : fault);
     EXPECT_EQ(letter_of(fault), letter_of(*found));

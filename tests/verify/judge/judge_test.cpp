@@ -68,7 +68,7 @@ TEST(JudgeVerdict, UndecidedAndHangAreAConservativeYes) {
 }
 
 TEST(JudgeVerdict, ATimeIsLateByTheLastBit) {
-  // The exact time is strictly between neighbouring doubles, or one.
+  // The exact time is strictly between neighbouring doubles, or is a double.
   const GroundTruth between = collision(0.1, above(0.1)), quarter = collision(0.25, 0.25);
   EXPECT_EQ(judge_verdict(between, yes(0.1, above(0.1))), Faults{});
   EXPECT_EQ(judge_verdict(between, yes(above(0.1), above(0.1))), Faults{Fault::late_toi});
@@ -88,7 +88,7 @@ TEST(JudgeVerdict, TimesOfOtherVerdictsAndOfMissesAreNotJudged) {
   EXPECT_EQ(judge_verdict(no_collision, yes(1.0, 0.0)), Faults{Fault::false_positive});
 }
 
-/// The comparisons with the enclosure against those with the algebraic number itself.
+/// Compares judgements by the enclosure with those by the algebraic number itself.
 TEST(JudgeVerdict, AgreesWithExactComparison) {
   tests::Random random(41);
   int compared = 0, between_doubles = 0;
@@ -112,7 +112,7 @@ TEST(JudgeVerdict, AgreesWithExactComparison) {
   EXPECT_GT(between_doubles, 100);
 }
 
-/// The primitives come within 1 in L∞, at the end, and no nearer.
+/// The primitives come within 1 in L∞ at the end, but no nearer.
 TEST(Judge, HoldsAYesToItsTolerance) {
   const tests::PosedQuery never = tests::over_triangle(1, 1, 2, 1);
   const auto faults = [&](const Answer& answer, const Separation& separation = {},
@@ -120,7 +120,7 @@ TEST(Judge, HoldsAYesToItsTolerance) {
     return judge({never.kind, never.query, separation}, no_collision, answer, {}, failure);
   };
   const Faults only{Fault::false_positive}, beyond{Fault::false_positive, Fault::beyond_tolerance};
-  // Seen at a glance, or by the oracle alone.
+  // The distance at this time suffices, or only the oracle decides.
   for (const double toi : {1.0, 0.0, Answer::none}) {
     EXPECT_EQ(faults(yes(toi, 1.0, 1.0)), only);
     EXPECT_EQ(faults(yes(toi, 1.0, below(1.0))), beyond);

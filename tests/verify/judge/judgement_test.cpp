@@ -39,7 +39,8 @@ TEST(Judgement, CountsAndListsFaults) {
   add(judgement, no_collision, {.verdict = Verdict::undecided});
   add(judgement, collision(0.5, 0.5), {.verdict = Verdict::undecided});
   add(judgement, no_collision, {.verdict = Verdict::error});
-  // Late by less than a spacing of doubles: the printed end of the enclosure is not the time.
+  // The answer is late by less than a spacing of doubles: the printed end of the enclosure is not
+  // the time.
   add(judgement, collision(0.3333333333333333, 0.33333333333333337),
       {.verdict = Verdict::yes, .toi_lower = 0.33333333333333337});
   EXPECT_EQ(judgement.queries, 6U);
@@ -66,14 +67,14 @@ TEST(Judgement, CountsFailuresByTheirKind) {
     const Failure failure{.kind = kind, .number = 3};
     add(judgement, truth, {.verdict = verdict_of(kind)}, &failure);
   }
-  // Without a failure the answer shows it.
+  // Without a failure the verdict determines the fault.
   add(judgement, truth, {.verdict = Verdict::error});
   add(judgement, truth, {.verdict = Verdict::undecided});
   for (const Fault kind : all_failures) {
     const bool is_shown = kind == Fault::no_verdict || kind == Fault::undecided;
     EXPECT_EQ(judgement.count(kind), is_shown ? 2U : 1U) << to_string(kind);
   }
-  // A hang is no answer of the solver's, and taken for one that it is undecided.
+  // A hang is not an answer, and counts as undecided.
   EXPECT_EQ(judgement.undecided(), 3U);
   EXPECT_EQ(judgement.errors(), 6U);
   EXPECT_EQ(judgement.wrong_answers.at(1).answer, "exit: status 3");

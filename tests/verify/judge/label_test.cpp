@@ -41,7 +41,7 @@ TEST(JudgeLabel, ComparesVerdictAndTime) {
                    "recorded time of impact: 5E-1, the truth is no collision"}));
 }
 
-/// A claim about less separation: it collides, no later.
+/// A claim about a smaller separation: the query collides, no later.
 TEST(JudgeLabel, ComparesWhatFollows) {
   const LabelComparison collisions{.inference = Inference::collisions, .tolerance = 0};
   EXPECT_EQ(judged(true, {.collides = true, .toi = Rational(1)}, collisions), Texts{});

@@ -27,7 +27,7 @@ TEST(Separation, OnlyWhatFollowsIsInferred) {
   EXPECT_EQ(infer(one_linf, two_linf), Inference::collisions);
   EXPECT_EQ(infer(one_l2, one_linf), Inference::collisions);
   EXPECT_EQ(infer(one_l2, two_linf), Inference::collisions);
-  // Within 1 of each other on every axis may be farther than 1.
+  // Points within 1 of each other on every axis may be farther apart than 1.
   EXPECT_EQ(infer(one_linf, one_l2), Inference::nothing);
   EXPECT_EQ(infer(two_linf, one_linf), Inference::nothing);
   EXPECT_EQ(infer(one_linf, contact), Inference::nothing);

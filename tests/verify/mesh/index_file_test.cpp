@@ -22,7 +22,7 @@ std::string written(const std::vector<std::array<std::int32_t, 2>>& pairs) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-/// As NumPy writes it.
+/// The header in NumPy's format.
 std::string header(const std::string& shape) {
   std::string text("\x93NUMPY\x01\x00\x76\x00", 10);
   text += "{'descr': '<i4', 'fortran_order': False, 'shape': " + shape + ", }";

@@ -52,7 +52,7 @@ const std::string ascii = "ply\nformat ascii 1.0\n";
 const std::string xyz = "property double x\nproperty double y\nproperty double z\n";
 const std::string triangle = "property list uchar int vertex_indices\n";
 
-/// A header in text with four vertices in lines 10 to 13, and so many faces.
+/// A header in text with four vertices in lines 10 to 13, and this number of faces.
 std::string four_vertices(int faces) {
   return ascii + "element vertex 4\n" + xyz + "element face " + std::to_string(faces) + "\n" +
          triangle + "end_header\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n";
@@ -112,7 +112,7 @@ TEST(ReadPly, ReadsCoordinatesOfEveryTypeUnderBothNames) {
       std::string header = format(big_endian) + "element vertex 3\n";
       for (std::size_t axis = 0; axis < 3; ++axis) {
         for (std::size_t i = 0; i < 8; ++i) {
-          // x, y and z are of another type for each of three files' worth of properties.
+          // Each axis has a property of each type; a file below uses those of one type.
           header += "property " + names[i][name] + " " + std::string(1, "abc"[axis]) +
                     std::to_string(i) + "\n";
         }

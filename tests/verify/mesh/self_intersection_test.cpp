@@ -23,13 +23,14 @@ Vertices rows(std::initializer_list<std::array<double, 3>> points) {
   return vertices;
 }
 
-/// Does the edge a–b pierce the triangle (0,0,0), (4,0,0), (0,4,0) that shares no vertex with it?
+/// True if the edge a–b pierces the triangle (0,0,0), (4,0,0), (0,4,0), with which it shares no
+/// vertex.
 bool pierces_triangle(const std::array<double, 3>& a, const std::array<double, 3>& b) {
   const Vertices vertices = rows({{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, a, b});
   return !find_piercings(vertices, std::vector<Edge>{{3, 4}}, std::vector<Face>{{0, 1, 2}}).empty();
 }
 
-/// Does the edge from the triangle's corner (0,0,0) to w pierce it?
+/// True if the edge from the triangle's corner (0,0,0) to w pierces it.
 bool enters_triangle(const std::array<double, 3>& w) {
   const Vertices vertices = rows({{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, w});
   return !find_piercings(vertices, std::vector<Edge>{{0, 3}}, std::vector<Face>{{1, 2, 0}}).empty();
@@ -64,7 +65,7 @@ TEST(Piercings, OfAnEdgeAtACornerAreOverlapsBeyondTheCorner) {
   EXPECT_TRUE(enters_triangle({2, 0, 0})) << "along an edge";
 }
 
-TEST(Piercings, OfAFacesOwnEdgesAreNone) {
+TEST(Piercings, OfAFacesOwnEdgesDoNotExist) {
   const Vertices vertices = rows({{0, 0, 0}, {4, 0, 0}, {0, 4, 0}});
   EXPECT_TRUE(find_piercings(vertices, std::vector<Edge>{{0, 1}, {2, 1}, {0, 2}},
                              std::vector<Face>{{0, 1, 2}})
@@ -117,10 +118,9 @@ TEST(Piercings, CountThePairsAskedForInOrder) {
   EXPECT_TRUE(find_piercings(vertices, edges, {}).empty());
 }
 
-/// A segment that moves from the start to the end of time sweeps nothing new: an edge and a face
-/// meet iff an end of the edge is in the face, the edge meets an edge of the face, or it goes
-/// through the inside. On a grid of few points all cases occur; the oracle tells the first two of
-/// resting primitives, Cramer's rule in integers the last.
+/// An edge and a face meet iff an end of the edge is in the face, the edge meets an edge of the
+/// face, or it goes through the inside. All cases occur on a grid of few points. The oracle decides
+/// the first two for resting primitives, Cramer's rule in integers the last.
 TEST(Piercings, AreThoseOfTheOracleOnAGrid) {
   tests::Random random(18);
   const auto coordinate = [&] { return static_cast<double>(random.between(0, 2)); };

@@ -34,7 +34,7 @@ jobs::SolverResult careful() {
   return careful;
 }
 
-/// Wrong in each way, and not timed to the end.
+/// A solver that is wrong in each way, and not timed to the end.
 jobs::SolverResult hasty() {
   jobs::SolverResult hasty;
   hasty.name = "hasty";

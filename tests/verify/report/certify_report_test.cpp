@@ -131,7 +131,7 @@ using fast::Verdict;
 constexpr judge::GroundTruth miss{.index = 3, .collides = false, .toi = std::nullopt};
 const judge::GroundTruth hit{.index = 4, .collides = true, .toi = exact::DoubleInterval{0.5, 0.5}};
 
-/// A source where `careful` is right and `hasty` is wrong in each way, and one where both are
+/// A source for which `careful` is right and `hasty` wrong in each way, and one for which both are
 /// right.
 std::vector<jobs::CertifyResult> judged_results(Promise promise_of_hasty) {
   jobs::MethodResult careful{
@@ -186,7 +186,7 @@ TEST(CertifyReport, TextHasTheTotalOfEachMethodAndWhereItBrokeItsPromise) {
   EXPECT_EQ(lines[28], "false negative: hasty: b,c/edge-edge.csv: and 3 more");
 }
 
-TEST(CertifyReport, NobodyJudgedNoTable) {
+TEST(CertifyReport, WithoutSolversThereIsNoTable) {
   EXPECT_TRUE(method_lines(results()).empty());
   EXPECT_EQ(to_json(results()).at("methods"), nlohmann::json::array());
 }

@@ -122,7 +122,7 @@ TEST(Experiments, MeasuresEveryTrialAndTheMapOfStability) {
     EXPECT_EQ(mark.queries, 2U);
     EXPECT_EQ(mark.collisions, 1U);
     if (mark.method == "certified") {
-      EXPECT_EQ(mark.worst, "");
+      EXPECT_EQ(mark.worst, std::nullopt);
     }
   }
 }

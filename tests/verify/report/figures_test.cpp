@@ -76,7 +76,7 @@ TEST(Figures, SpeedAgainstErrorHasPointsCurvesAndTheFront) {
   EXPECT_EQ(speed.data.rows.size(), 5U);
 }
 
-TEST(Figures, WhoWasAskedLessIsNamed) {
+TEST(Figures, MethodsWithFewerQueriesAreNamed) {
   Measurements measurements = tests::small_report();
   measurements.all[1].asked = 16;
   const std::vector<Figure> figures = figures_of(measurements);
@@ -87,14 +87,14 @@ TEST(Figures, WhoWasAskedLessIsNamed) {
             "Queries along a curve: tight_inclusion 100.");
 }
 
-TEST(Figures, WhoGivesNoTimeIsNotAmongTheErrorsOfTimes) {
+TEST(Figures, MethodsWithoutTimesAreNotAmongTheErrorsOfTimes) {
   const std::vector<Figure> figures = figures_of(tests::small_report());
   const FigurePanel& panel = figure(figures, "speed_toi_max").panels.at(0);
   EXPECT_THROW(static_cast<void>(series(panel, "msrf", "point")), std::invalid_argument);
   EXPECT_EQ(series(panel, "certified", "point").points[0].y, 1e-13);
 }
 
-TEST(Figures, HistogramsAreSharesOfHitsAndMisses) {
+TEST(Figures, HistogramsAreSharesOfBothVerdicts) {
   const std::vector<Figure> figures = figures_of(tests::small_report());
   const FigurePanel& panel = figure(figures, "running_times").panels.at(0);
   const FigureSeries& hits = series(panel, "msrf", "collisions");

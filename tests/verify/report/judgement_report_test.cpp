@@ -92,6 +92,7 @@ TEST(JudgementReport, IsJson) {
                 {"false_positives", 1},
                 {"late_toi", 1},
                 {"early_toi_upper", 1},
+                {"beyond_tolerance", 0},
                 {"undecided", 1},
                 {"errors", 1},
                 {"toi_error",

@@ -24,7 +24,8 @@ using fast::Promise;
 using fast::Verdict;
 using tests::FunctionMethod;
 
-/// Every tenth vertex falls through the triangle, at ½, the others to half their height.
+/// Vertices of which every tenth falls through the triangle, at ½, and the others to half their
+/// height.
 data::QueryGroup falling(std::size_t count) {
   std::vector<Query> queries;
   for (std::size_t i = 0; i < count; ++i) {
@@ -151,7 +152,7 @@ TEST(Measure, LargerGroupsAreSampledAndItIsSaid) {
   EXPECT_EQ(all.at(0).experiment, Experiment::checks);
 }
 
-/// Burns so much processor time.
+/// An answer that takes processor time.
 Answer slow_no(Kind, const Query&) {
   const double start = base::thread_nanoseconds();
   while (base::thread_nanoseconds() - start < 1e6) continue;

@@ -95,7 +95,7 @@ TEST(MeasurementJson, ComesBackWithoutLoss) {
 
 TEST(MeasurementJson, WritesTheDocumentedFields) {
   const nlohmann::json json = to_json(example()).at("measurements")[0];
-  EXPECT_EQ(json.size(), 28U);
+  EXPECT_EQ(json.size(), 29U);
   EXPECT_EQ(json.at("experiment"), "separation");
   EXPECT_EQ(json.at("kind"), "edge-edge");
   EXPECT_EQ(json.at("separation").at("norm"), "l2");
@@ -138,7 +138,7 @@ TEST(MeasurementJson, ReadsMapsFromBeforeTheyHadAllCounts) {
   EXPECT_TRUE(std::isnan(mark.checks));
 }
 
-TEST(MeasurementJson, WhatIsNoneIsRefused) {
+TEST(MeasurementJson, InvalidTextIsRefused) {
   nlohmann::json other_version = to_json(example());
   other_version["format"] = "touchstone measurements 0";
   nlohmann::json without_asked = to_json(example());

@@ -1,6 +1,6 @@
 /// \file
 /// The page of a report in a real browser: headless Chromium loads it from a file, runs its script
-/// and hands back what became of it.
+/// and returns the resulting document.
 
 #include <gtest/gtest.h>
 
@@ -77,7 +77,7 @@ TEST_F(Browser, FitsATelephone) {
   EXPECT_GE(std::stod(size[1]), 280.0);
 }
 
-/// A click on a column's name sorts by it, numbers as numbers; what is no number stays last.
+/// A click on a column's name sorts by it, numbers by value and other texts last.
 TEST_F(Browser, SortsATableByAColumn) {
   std::string page = report_page(tests::small_report());
   page.insert(page.rfind("</body>"), R"(<p id="orders"></p><script>
@@ -102,7 +102,7 @@ document.getElementById("orders").textContent = orders.join("; ");
   EXPECT_EQ(count(dom, expected), 1U) << dom.substr(dom.find("<p id=\"orders\""), 600);
 }
 
-/// On a telephone the name and the false negatives stay where they are while the rest is moved.
+/// On a telephone the name and the false negatives stay in place while the rest moves.
 TEST_F(Browser, KeepsTheNameAndTheMissesInView) {
   std::string page = report_page(tests::small_report());
   page.insert(page.rfind("</body>"), R"(<p id="places"></p><script>
@@ -120,7 +120,7 @@ document.getElementById("places").textContent = `moved by ${moved.join(" ")} of 
       << dom.substr(dom.find("<p id=\"places\""), 200);
 }
 
-/// The links to pictures give files of their own, which a parser of XML reads.
+/// The links to pictures give separate files, which an XML parser reads.
 TEST_F(Browser, GivesEveryFigureAsAPicture) {
   const Measurements measurements = tests::small_report();
   std::string page = report_page(measurements);
@@ -150,7 +150,7 @@ document.getElementById("pictures").textContent =
   }
 }
 
-/// The tolerances that a method is said to have achieved.
+/// The tolerances that a method states as achieved.
 Spread& achieved(Measurements& measurements) {
   for (Measurement& m : measurements.all) {
     if (m.achieved_tolerance) return *m.achieved_tolerance;
@@ -158,7 +158,7 @@ Spread& achieved(Measurements& measurements) {
   throw std::invalid_argument("nobody achieves a tolerance");
 }
 
-/// The heights of the marks of a drawn figure whose description ends so.
+/// The heights of the marks of a drawn figure with this end of its description.
 std::vector<double> heights(const std::string& drawn, const std::string& end) {
   const std::regex mark("translate\\([0-9.]+,([0-9.]+)\\)[^>]*><title>[^<]*" + end + "</title>");
   std::vector<double> result;
@@ -195,7 +195,7 @@ TEST_F(Browser, DrawsNumbersAtTheEndsOfTheRange) {
 // ---- The map of stability -----------------------------------------------------------------------
 
 /// A level for each number, as the error of the time of impact, as time in nanoseconds, and as
-/// checks; each second one has a false negative.
+/// checks; every other one has a false negative.
 stability::StabilityResult map_of(const std::vector<double>& numbers) {
   stability::StabilityResult result;
   result.count = 1;
@@ -225,7 +225,7 @@ const std::vector<double> numbers_of_any_size{
     0.0,     4.9e-324, 2.3e-308, 3e-100, 3.2e-13, 0.0123, 0.999,   1.5,   99.9,    999.6,   8.88e5,
     9.996e5, 1e6,      1.2e8,    8.88e8, 9.996e8, 2.5e12, 8.88e99, 1e100, 1.7e308, infinity};
 
-/// The page, with a line that says how many texts stand in cells and which are wider than these.
+/// The page, with a line that counts the texts in cells and lists those wider than their cells.
 /// \param planted put into every cell instead of its text, if not empty
 std::string page_that_measures(const stability::StabilityResult& result,
                                const std::string& planted = "") {
@@ -241,7 +241,7 @@ document.getElementById("wide").textContent =
   return page.replace(page.rfind("</body>"), 7, script);
 }
 
-/// What the line says.
+/// The text of that line.
 std::string measured(const std::string& dom) {
   const std::string start = R"(<p id="wide">)";
   const std::size_t said = dom.find(start);
@@ -275,14 +275,14 @@ TEST_F(Browser, NumbersOfAnySizeFitIntoTheirCells) {
   }
 }
 
-/// The script sees what is too wide.
+/// The script finds texts that are too wide.
 TEST_F(Browser, ATextThatIsTooWideIsSeen) {
   EXPECT_NE(measured(load(page_that_measures(map_of(numbers_of_any_size), "much too wide")))
                 .find("too wide: much too wide"),
             std::string::npos);
 }
 
-/// The test sees a page that does load something, or fails.
+/// The test finds a page that loads something, or fails.
 TEST_F(Browser, APlantedFaultIsSeen) {
   const auto planted = [](const std::string& fault) {
     std::string page = report_page(tests::small_report());

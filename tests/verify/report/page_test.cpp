@@ -18,7 +18,7 @@ bool contains(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;
 }
 
-/// What stands between two texts; empty if they are not there.
+/// The text between two others; empty if they are missing.
 std::string between(const std::string& text, const std::string& before, const std::string& after) {
   const std::size_t start = text.find(before);
   if (start == std::string::npos) return {};
@@ -26,7 +26,7 @@ std::string between(const std::string& text, const std::string& before, const st
   return text.substr(first, text.find(after, first) - first);
 }
 
-/// The page without the library, in which comments and namespaces name addresses.
+/// The page without the library, in which comments and namespaces contain addresses.
 std::string without_d3(std::string page) {
   const std::size_t start = page.find(d3_script());
   return page.erase(start, d3_script().size());

@@ -26,7 +26,7 @@ TEST(Results, HaveTheTablesWithThePublishedNumbers) {
   EXPECT_FALSE(contains(text, "## Table 3"));
 }
 
-/// Names and commands may come from folders and from the JSON of strangers.
+/// Names and commands may come from folders and from JSON of other authors.
 TEST(Results, HoldNoMarkupOfNames) {
   Measurements measurements = tests::small_report();
   measurements.command = "touchstone report x\n```\n# forged";
@@ -34,8 +34,8 @@ TEST(Results, HoldNoMarkupOfNames) {
   for (Measurement& measurement : measurements.all) measurement.group = "a\n# b <b>\u202e";
   const std::string text = results_document(measurements);
   EXPECT_TRUE(contains(text,
-                       "Made on \\<script\\>, 2026-01-31 by\n\n````\n"
-                       "touchstone report x\\x0a```\\x0a# forged\n````\n"))
+                       "Made on \\<script\\>, 2026-01-31 by\n\n```\n"
+                       "touchstone report x\\x0a```\\x0a# forged\n```\n"))
       << text;
   EXPECT_TRUE(contains(text, "### a\\\\x0a# b \\<b\\>\\\\xe2\\\\x80\\\\xae, vertex-face\n"))
       << text;

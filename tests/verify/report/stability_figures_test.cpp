@@ -113,7 +113,9 @@ TEST(StabilityFigures, StabilityHasTheRowsOfAMethodSideBySide) {
   EXPECT_EQ(rows, "first vf; first ee; second vf; second ee; ");
 }
 
-TEST(StabilityFigures, AreNoneWithoutMarks) { EXPECT_TRUE(stability_figures({}, slots).empty()); }
+TEST(StabilityFigures, AreOmittedWithoutMarks) {
+  EXPECT_TRUE(stability_figures({}, slots).empty());
+}
 
 }  // namespace
 }  // namespace touchstone::verify::report::stability_figures_test

@@ -14,7 +14,7 @@ namespace {
 
 using fast::Verdict;
 
-/// One cell of ten queries, half of them collisions, as judged.
+/// One cell of ten judged queries, half of which collide.
 stability::StabilityCell cell(const std::string& hardness, int level,
                               const judge::Judgement& judgement) {
   stability::StabilityCell result{.hardness = &stability::hardness_from_name(hardness),
@@ -69,7 +69,7 @@ TEST(StabilityText, HasALineAHardnessAndACharacterALevel) {
   EXPECT_TRUE(contains(text, "     123.4        2.5          -          -\n")) << text;
 }
 
-/// Behind what is worse.
+/// Errors and hangs come after worse faults.
 TEST(StabilityText, ShowsErrorsAndHangsBesideTheWorst) {
   judge::Judgement both = faults(1, 0);
   both.faults[static_cast<std::size_t>(judge::Fault::crash)] = 1;

@@ -23,7 +23,7 @@ fast::StepCollision collision(fast::PairKind kind, fast::IndexPair pair, double 
   return {.kind = kind, .pair = pair, .toi_lower = lower, .toi_upper = lower, .u = 0.25, .v = 0.5};
 }
 
-/// A step with so many collisions, the last one first, and one piercing at its end.
+/// A step with this number of collisions, the last one first, and one piercing at its end.
 StepReport report_of(std::size_t collisions) {
   StepReport report{.vertices = 5, .edges = edges(), .faces = faces(), .frames = {}, .steps = {}};
   report.frames = {{.name = "a\n", .piercings = {}, .time = {}},

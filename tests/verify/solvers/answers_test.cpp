@@ -24,7 +24,7 @@ using fast::Verdict;
 
 constexpr auto vf = Kind::vertex_face;
 constexpr auto ee = Kind::edge_edge;
-/// Files may do without the last column.
+/// The header without the last column, which files may omit.
 const std::string header = "file,index,kind,verdict,toi_lower,toi_upper,tolerance\n";
 const std::string full_header = "file,index,kind,verdict,toi_lower,toi_upper,tolerance,failure\n";
 
@@ -38,7 +38,7 @@ RecordedAnswers load_rows(const std::string& text) {
   return load(folder, header + text);
 }
 
-/// The same of text that was written here.
+/// The answers of a file with the writer's header and this text.
 RecordedAnswers load_written(const std::string& text) {
   const TemporaryFolder folder;
   return load(folder, answers_header() + text);
@@ -97,7 +97,7 @@ TEST(AnswerRow, SaysWhyThereIsNoAnswer) {
             "a,0,edge-edge,undecided,,,,hang\n");
   EXPECT_EQ(row({.verdict = Verdict::error}, {.kind = judge::Fault::exception, .what = "a,b"}),
             "a,0,edge-edge,error,,,,\"exception: a,b\"\n");
-  // No reader takes an infinite time.
+  // Readers refuse an infinite time.
   const double infinity = std::numeric_limits<double>::infinity();
   EXPECT_EQ(answer_row("a", 0, ee, {.verdict = Verdict::yes, .toi_lower = infinity}),
             "a,0,edge-edge,error,,,,not_finite: toi_lower inf\n");
@@ -141,7 +141,7 @@ TEST(Answers, AreFoundUnderNamesThatAreWrittenOut) {
     ASSERT_TRUE(answers.answer_to(name, vf, 0)) << row;
     EXPECT_EQ(answers.unasked(), 0U);
   }
-  // As others may write them.
+  // Rows as other programs may write them.
   EXPECT_TRUE(load_rows("=1+1.csv,0,vertex-face,no,,,\n").answer_to("=1+1.csv", vf, 0));
 }
 
@@ -268,7 +268,7 @@ TEST(LoadAnswers, TakesAFileWithoutAnswers) {
   EXPECT_TRUE(load_rows("").groups().empty());
 }
 
-// ---- What was asked for -------------------------------------------------------------------------
+// ---- Requests -----------------------------------------------------------------------------------
 
 TEST(RecordedAnswers, SayWhatWasNeverAskedFor) {
   const RecordedAnswers answers = load_rows(

@@ -11,8 +11,8 @@
 #include <string>
 #include <thread>
 
-// A program of its own: it makes processes, which copy no threads. What a child may take is tested
-// in solver_process_test.cpp, where somebody takes it.
+// A separate program, because it makes processes, which copy no threads. The limits of a child are
+// tested in solver_process_test.cpp, where a solver exceeds them.
 
 namespace touchstone::verify::solvers::child_process_test {
 namespace {
@@ -68,7 +68,7 @@ TEST(ChildProcess, SaysHowItEnded) {
   }
 }
 
-TEST(ChildProcess, EndsWhenTold) {
+TEST(ChildProcess, EndsOnRequest) {
   const TemporaryFolder folder;
   ChildProcess child(
       [](const ChildChannel&) {
@@ -96,11 +96,11 @@ TEST(ChildProcess, TellsWorkFromSleep) {
   ASSERT_EQ(next(busy, message, output), Event::message);
   EXPECT_TRUE(busy.is_runnable());
   while (busy.processor_seconds() < 0.01) std::this_thread::yield();
-  // It falls asleep as soon as it gets there.
+  // The child sleeps as soon as it gets there.
   while (idle.is_runnable()) std::this_thread::yield();
 }
 
-/// What the child sees of the world, as text.
+/// The environment of the child, as text.
 std::string world_of_child(const ChildLimits& limits, const std::filesystem::path& folder) {
   ChildProcess child(
       [](const ChildChannel& channel) {
@@ -125,7 +125,7 @@ std::string world_of_child(const ChildLimits& limits, const std::filesystem::pat
 TEST(ChildProcess, HasAWorldOfItsOwn) {
   const TemporaryFolder folder;
   const std::ifstream of_parent("/proc/self/stat");
-  // Standard ones, connection, lifeline, and the folder that is listed.
+  // Standard descriptors, connection, lifeline, and the listed folder.
   EXPECT_EQ(world_of_child({}, folder.path()), folder.path().string() + " 6 0 no input leads");
 }
 

@@ -65,7 +65,7 @@ std::string load_error(const std::filesystem::path& path) {
   return error_of(path.parent_path(), [&] { static_cast<void>(load_plugin(path)); });
 }
 
-/// Goes back to the old working directory at the end.
+/// A change of the working directory until the end of this object.
 class WorkingDirectory {
  public:
   explicit WorkingDirectory(const std::filesystem::path& path)
@@ -94,7 +94,7 @@ TEST(BoxOverlap, HasItsNameAndPromise) {
 
 TEST(BoxOverlap, SaysYesFromTheStartWhereBoxesOverlap) {
   const auto method = load_plugin(box_overlap);
-  // The last one is a false positive: the boxes overlap, the primitives do not.
+  // The last answer is a false positive: the boxes overlap, the primitives do not.
   for (const PosedQuery& posed :
        {tests::over_triangle(1, 1, 1, -2), tests::over_edge(1, 1, 1, -2),
         tests::over_triangle(1, 1, 1, 0), tests::over_triangle(3, 3, 1, -2)}) {
@@ -183,7 +183,7 @@ TEST(LoadPlugin, NamesFileAndReason) {
             "without_name.so: name is not one line of text: \"two?lines\"");
 }
 
-/// Each would end this process, or never come back.
+/// Each library would end this process, or never return.
 TEST(LoadPlugin, SurvivesWhatALibraryDoesOnTheWay) {
   const auto error = [](const char* how) {
     ::setenv("TOUCHSTONE_TEST_LOADING", how, 1);
@@ -202,12 +202,12 @@ TEST(LoadPlugin, SurvivesWhatALibraryDoesOnTheWay) {
   EXPECT_EQ(error("name exits"), prefix + "touchstone_plugin_name(): exit: status 0");
   EXPECT_EQ(error("name crashes"), prefix + "touchstone_plugin_name(): crash: SIGSEGV");
   EXPECT_EQ(error("name hangs"), prefix + "touchstone_plugin_name(): hang");
-  // Forks without end, but for the child that may not.
+  // A child that may not fork reports an error.
   EXPECT_EQ(error("constructor forks"), prefix + "its constructors: exit: status 11");
   EXPECT_EQ(load_plugin(tests::plugin_library("bad_loading"))->name(), "bad_loading");
 }
 
-/// Nothing of it runs in this process before somebody solves here.
+/// No code of the library runs in this process before a call solves here.
 TEST(LoadPlugin, LoadsNothingIntoThisProcess) {
   const auto is_loaded = [] {
     void* const handle =
@@ -300,7 +300,7 @@ TEST(Plugin, HasTimesOfImpactOnlyWithYes) {
   EXPECT_EQ(answer.tolerance, 1e-9);
 }
 
-TEST(Plugin, WhatIsNoToleranceIsDropped) {
+TEST(Plugin, InvalidTolerancesAreDropped) {
   for (const Misbehaviour what : {Misbehaviour::negative_tolerance, Misbehaviour::nan_tolerance}) {
     const Answer answer = ask_misbehaving(what);
     EXPECT_EQ(answer.verdict, Verdict::yes);
@@ -311,7 +311,7 @@ TEST(Plugin, WhatIsNoToleranceIsDropped) {
             std::numeric_limits<double>::infinity());
 }
 
-TEST(Plugin, AVerdictThatIsNoneIsAnError) {
+TEST(Plugin, AnInvalidVerdictIsAnError) {
   for (const Misbehaviour what : {Misbehaviour::verdict_too_large, Misbehaviour::verdict_negative,
                                   Misbehaviour::leaves_answer_alone}) {
     SCOPED_TRACE(static_cast<int>(what));

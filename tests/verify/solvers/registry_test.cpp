@@ -45,7 +45,7 @@ TEST(Registry, AnUnknownNameIsAnErrorThatListsTheKnownOnes) {
   }
 }
 
-TEST(Registry, EveryMethodTellsAHitFromAWideMiss) {
+TEST(Registry, EveryMethodTellsACollisionFromAWideGap) {
   const tests::PosedQuery collision = tests::over_triangle(1, 1, 1, -3);
   const tests::PosedQuery no_collision = tests::over_triangle(1, 1, 3, 1);
   const std::vector<Query> queries{collision.query, no_collision.query};
@@ -94,7 +94,7 @@ TEST(Registry, DescriptionsHold) {
   EXPECT_EQ(method_names().substr(0, 27), "certified, tight_inclusion,");
 }
 
-/// What measures a distance finds contact within it that contact alone misses.
+/// Methods that measure a distance find contact within it that they miss without it.
 TEST(Registry, MethodsHeedTheDistancesThatTheySayTheyMeasure) {
   const Query query = tests::over_triangle(1, 1, 3, 1).query;
   for (const auto& method : methods()) {

@@ -28,7 +28,7 @@
 #include <thread>
 #include <vector>
 
-// A program of its own: it makes processes, which copy no threads.
+// A separate program, because it makes processes, which copy no threads.
 
 namespace touchstone::verify::solvers::solver_process_test {
 namespace {
@@ -37,25 +37,25 @@ using namespace std::chrono_literals;
 using fast::Answer;
 using fast::Verdict;
 
-/// What the scripted method does with a query; its first coordinate says it.
+/// The actions of the scripted method, which the first coordinate of a query selects.
 enum class Act {
   answer,  ///< yes; times: the second coordinate and the kind; tolerance: length of the span
   dies,
   segfaults,
   throws,
   throws_a_number,
-  exits,           ///< with status 0, as if all were well
+  exits,           ///< with status 0
   exits_as_usual,  ///< with status 3, by exit()
   hangs,           ///< asleep
-  burns,           ///< for ever
+  burns,           ///< without end
   works,           ///< 50 ms of processor time, then answers
-  dies_in_spans,   ///< alone it answers
-  dies_once,       ///< in the first process that is asked
-  closes,          ///< all descriptors but the standard ones, then is asleep
-  forks,           ///< a process that sleeps for ever, then answers
-  forks_for_ever,  ///< as long as it can, then answers; tolerance: how many it made
-  allocates,       ///< as much as it can, then answers; tolerance: GiB
-  writes_a_file,   ///< without end, into its working directory
+  dies_in_spans,   ///< answers if it is asked alone
+  dies_once,       ///< in the first process
+  closes,          ///< all descriptors but the standard ones, then sleeps
+  forks,           ///< a process that sleeps without end, then answers
+  forks_for_ever,  ///< as long as possible, then answers; tolerance: the number of processes
+  allocates,       ///< as much as possible, then answers; tolerance: GiB
+  writes_a_file,   ///< without end, in its working directory
   prints,
   is_infinite,  ///< yes from -inf on
   is_undecided
@@ -88,7 +88,7 @@ void work() {
   for (;;) ::pause();
 }
 
-/// Memory that all processes made later share with this one.
+/// Memory that this process shares with all later ones.
 template <class Value>
 class SharedValue {
  public:
@@ -172,7 +172,7 @@ class ScriptedMethod final : public fast::Method {
       constexpr std::size_t gibibyte = std::size_t{1} << 30U;
       constexpr int enough = 64;
       int count = 0;
-      // Never touched: the limit is on what is asked for.
+      // The memory is never used: the limit applies to requests.
       while (count < enough && std::malloc(gibibyte) != nullptr) ++count;  // NOLINT
       answer.tolerance = count;
     }
@@ -247,8 +247,8 @@ void expect_failures(const Outcome& outcome, const judge::Failure& failure,
 void expect_all_answered(const Outcome& outcome) { expect_failures(outcome, {}, {}); }
 
 constexpr double long_limit = 60.0;
-/// What a hang costs. Queries that do not hang take microseconds, and may wait for a processor five
-/// times as long.
+/// The cost of a hang in seconds. Queries that do not hang take microseconds, and may wait for a
+/// processor five times as long.
 constexpr double hang_limit = 0.5;
 const judge::Failure killed{.kind = judge::Fault::crash, .number = SIGKILL};
 
@@ -267,7 +267,7 @@ TEST(SolverProcess, AnswersAsTheMethodDoes) {
   }
 }
 
-/// What is measured is then the same: a limit costs no time.
+/// A limit does not change the spans, and so costs no time.
 TEST(SolverProcess, ShowsTheMethodLongSpansWithALimitAndWithout) {
   for (const double limit : {0.0, long_limit}) {
     const std::vector<Answer> answers = run(numbered(3000), limit).answers;
@@ -276,7 +276,7 @@ TEST(SolverProcess, ShowsTheMethodLongSpansWithALimitAndWithout) {
   }
 }
 
-/// One process lives on: what the method remembers shows it.
+/// The same process stays, as the method's memory shows.
 TEST(SolverProcess, AsksOneProcessThatIsNotThisOne) {
   class Counting final : public fast::Method {
    public:
@@ -361,7 +361,7 @@ TEST(SolverProcess, AnEndThatDoesNotRepeatCostsNoAnswerButIsCounted) {
   EXPECT_EQ(outcome.answers[2000].tolerance, 512.0);
 }
 
-/// The first query is a step of its own.
+/// The first query is a separate step.
 TEST(SolverProcess, AQueryThatFailsOnceAloneIsInnocent) {
   std::vector<Query> queries = numbered(20);
   plant(queries, Act::dies_once, {0});
@@ -405,7 +405,7 @@ TEST(SolverProcess, AStepThatTakesTooLongIsSearchedAndNotCharged) {
     }
     void solve(Kind, std::span<const Query> queries, std::span<Answer> answers,
                const fast::MethodOptions&) const override {
-      // A span of these never ends, one of them takes no time: as sure as no clock could be.
+      // A span of these never ends, and one of them takes no time, for certain.
       if (queries.size() > 1 && queries.back().coordinates[1] > 100.0) sleep_for_ever();
       for (std::size_t i = 0; i < queries.size(); ++i) {
         answers[i] = {.verdict = Verdict::yes, .toi_lower = queries[i].coordinates[1] + 0.5};
@@ -425,7 +425,7 @@ TEST(SolverProcess, LeavesTheRestBehindManyLostChildren) {
   const Outcome outcome = run(queries, {.most_failures = 3});
   EXPECT_EQ(outcome.run.answered, 3U);
   EXPECT_EQ(outcome.run.failures.size(), 3U);
-  // Exceptions cost nothing.
+  // Exceptions do not count.
   EXPECT_EQ(run(all_of(Act::throws, 50), {.most_failures = 3}).run.answered, 50U);
 }
 
@@ -455,7 +455,7 @@ TEST(SolverProcess, StopsAtItsTime) {
   const SolverRun cut = process.solve(Kind::vertex_face, queries, answers, {}, base::Deadline(0.1));
   EXPECT_LE(cut.answered, 5U);
   EXPECT_TRUE(cut.failures.empty());
-  // The next call has all the time.
+  // The next call has its full time.
   EXPECT_EQ(process.solve(Kind::vertex_face, numbered(10), answers, {}).answered, 10U);
 }
 
@@ -464,7 +464,7 @@ TEST(SolverProcess, StopsAtItsTime) {
 TEST(SolverProcess, MakesNoProcessesUnlessItMay) {
   const std::vector<Query> queries = all_of(Act::forks_for_ever, 1);
   EXPECT_EQ(run(queries).answers.front().tolerance, 0.0);
-  // What it made is killed with it; that nothing is left is for another test to see.
+  // The processes that it made are killed with it; another test shows that none is left.
   EXPECT_EQ(run(queries, {.limits = {.may_fork = true}}).answers.front().tolerance, 20.0);
 }
 
@@ -509,7 +509,7 @@ TEST(SolverProcess, AFileThatIsTooLargeEndsIt) {
                   {.kind = judge::Fault::crash, .number = SIGXFSZ}, {1});
 }
 
-/// Answers with whether it could write into its working directory, and says where that is.
+/// A method that answers whether it could write into its working directory, and prints its path.
 class WritingMethod final : public fast::Method {
  public:
   [[nodiscard]] const fast::MethodInfo& info() const override {
@@ -542,7 +542,7 @@ TEST(SolverProcess, WorksInAFolderThatGoesWithIt) {
   EXPECT_FALSE(std::filesystem::exists("written"));
 }
 
-// ---- What it prints -----------------------------------------------------------------------------
+// ---- Output -------------------------------------------------------------------------------------
 
 TEST(SolverProcess, CatchesWhatIsPrinted) {
   std::vector<Query> queries = numbered(3);
@@ -584,7 +584,7 @@ TEST(SolverProcess, CountsProcessorTimeOfEveryQueryOnce) {
 TEST(SolverProcess, DoesNotCountWhatItHadToSearch) {
   std::vector<Query> queries = all_of(Act::works, 8);
   plant(queries, Act::dies, {7});
-  // Steps of 1, 2, 4 and the last one.
+  // Steps of 1, 2, 4, and the last one.
   const SolverRun solved = run(queries, long_limit).run;
   EXPECT_GE(solved.processor_seconds, 7 * work_seconds);
   EXPECT_LT(solved.processor_seconds, 10 * work_seconds);
@@ -630,8 +630,8 @@ TEST(SolverProcess, NeitherWaitsForGrandchildrenNorLeavesThem) {
 }
 
 TEST(SolverProcess, ThereMayBeOneInEachThread) {
-  // The sanitizers' allocator, unlike the system's, is not made ready for a fork() beside other
-  // threads: the child may wait for a lock that nobody holds there.
+  // The sanitizers' allocator, unlike the system's, is not prepared for a fork() beside other
+  // threads: the child may wait for a lock that no thread of it holds.
   constexpr std::size_t count = tests::sanitizer_divisor > 1 ? 1 : 4;
   std::atomic<unsigned> right = 0;
   {
@@ -652,7 +652,7 @@ TEST(SolverProcess, ThereMayBeOneInEachThread) {
   EXPECT_EQ(right, 5 * count);
 }
 
-/// The child is about this process, and not about the thread that made it.
+/// The life of the child depends on this process, not on the thread that made it.
 TEST(SolverProcess, OutlivesTheThreadThatFirstAsked) {
   const ScriptedMethod method;
   SolverProcess process(method);
@@ -691,11 +691,11 @@ TEST(SolverProcess, WorksWhereTheSystemReapsChildren) {
   plant(queries, Act::dies, {4});
   const Outcome outcome = run(queries);
   std::signal(SIGCHLD, before);
-  // The signal is not known then.
+  // The signal is then unknown.
   expect_failures(outcome, {.kind = judge::Fault::crash}, {4});
 }
 
-/// Writes down its process and sleeps for ever.
+/// A method that records its process and sleeps without end.
 class LoggingMethod final : public fast::Method {
  public:
   explicit LoggingMethod(std::atomic<pid_t>& process) : process_(process) {}
@@ -718,7 +718,7 @@ TEST(SolverProcess, DiesWithItsParent) {
   ASSERT_EQ(::prctl(PR_SET_CHILD_SUBREAPER, 1), 0);
   const SharedValue<std::atomic<pid_t>> shared;
   std::atomic<pid_t>& grandchild = *shared;
-  // What is killed leaves its temporary folder behind.
+  // A killed process leaves its temporary folder behind.
   const TemporaryFolder folder;
   const pid_t parent = ::fork();
   if (parent == 0) {

@@ -23,7 +23,7 @@
 #include "verify/jobs/stream.hpp"
 #include "verify/mesh/moving_mesh.hpp"
 
-// A program of its own: it makes processes, which copy no threads.
+// A separate program, because it makes processes, which copy no threads.
 
 namespace touchstone::verify::solvers::solver_test {
 namespace {
@@ -33,7 +33,7 @@ using fast::Promise;
 using fast::Verdict;
 using tests::FunctionMethod;
 
-/// Queries whose first coordinate is their number in the source, which is 100 and up.
+/// Queries whose first coordinate is their number in the source, from 100 on.
 struct Numbered {
   std::string source = "a,file";
   std::vector<Query> queries;
@@ -51,7 +51,7 @@ struct Numbered {
   }
 };
 
-/// Yes, the number as the time.
+/// The answer yes, with the number as the time.
 Answer echo(Kind, const Query& query) {
   return {.verdict = Verdict::yes, .toi_lower = query.coordinates[0]};
 }
@@ -98,7 +98,7 @@ TEST(Solver, TimeIsTheProcessorTimeOfTheMethod) {
   EXPECT_GE(ask(*solver_in_children(burner, {}, {}), 10).nanoseconds(), 20e6);
 }
 
-TEST(Solver, ItIsHeldToWhatItIsToldTo) {
+TEST(Solver, ItIsJudgedByItsStatedPromise) {
   const FunctionMethod method(echo);
   const auto solver = solver_in_process(method, {});
   solver->hold_to(Promise::exact);
@@ -181,7 +181,7 @@ TEST(Solver, SpansAreShortForSlowAndLongForFastSolvers) {
 TEST(Solver, TheMakingOfChildProcessesDoesNotShortenSpans) {
   const FunctionMethod method(echo);
   const auto in_children = solver_in_children(method, {}, {});
-  // What fork() costs grows with the memory of the process.
+  // The cost of fork() grows with the memory of the process.
   const std::vector<char> ballast(std::size_t{1} << 29U, 1);
   EXPECT_EQ(ballast.back(), 1);
   static_cast<void>(ask(*in_children, 16));
@@ -213,7 +213,7 @@ TEST(Solver, KeepsWhatItsProcessesPrint) {
 
 TEST(Solver, SaysWhatItsChildProcessesDid) {
   const pid_t parent = getpid();
-  int calls = 0;  // of each process
+  int calls = 0;  // in each process
   const FunctionMethod dies_late([&calls, parent](Kind kind, const Query& query) {
     if (getpid() != parent && ++calls == 1500) std::raise(SIGKILL);
     return echo(kind, query);
@@ -271,7 +271,7 @@ TEST(Solver, GivesItsOptionsToTheMethodButTheSeparationOfTheRequest) {
 
 constexpr auto vf = Kind::vertex_face;
 
-/// Vertices that fall onto a triangle, each from a height of its own.
+/// Vertices that fall onto a triangle from different heights.
 std::vector<Query> falling(std::size_t count) {
   std::vector<Query> queries;
   for (std::size_t i = 0; i < count; ++i) {
@@ -283,7 +283,7 @@ std::vector<Query> falling(std::size_t count) {
 double height(const Query& query) { return query.at(0, 0, 2); }
 
 TEST(Solver, AsksNoQueryAgainThatEndedItsProcess) {
-  // A file remembers the processes that ended.
+  // A file records the processes that ended.
   const TemporaryFolder folder;
   const std::string log = (folder.path() / "log").string();
   const FunctionMethod method([&log](Kind kind, const Query& query) {
@@ -311,7 +311,7 @@ TEST(Solver, AsksNoQueryAgainThatEndedItsProcess) {
     if (round == 0) ends = std::filesystem::file_size(log);
   }
   EXPECT_EQ(std::filesystem::file_size(log), ends);
-  // About another distance it is another query.
+  // The same points with another distance are another query.
   const SolveReply other = solver->solve(
       {.kind = vf, .queries = queries, .separation = {.distance = 0.25, .norm = Norm::l2}},
       answers);
@@ -319,7 +319,7 @@ TEST(Solver, AsksNoQueryAgainThatEndedItsProcess) {
   EXPECT_GT(std::filesystem::file_size(log), ends);
 }
 
-/// The whole benchmark survives it.
+/// The whole benchmark survives the crash.
 TEST(Solver, ACrashInABenchmarkCostsAQuery) {
   const FunctionMethod method([](Kind kind, const Query& query) {
     if (height(query) == 3.0) std::raise(SIGSEGV);
@@ -333,7 +333,7 @@ TEST(Solver, ACrashInABenchmarkCostsAQuery) {
   const jobs::SolverResult& said = result.solvers.at(0);
   EXPECT_EQ(said.queries, 8U);
   EXPECT_EQ(said.judgement.count(judge::Fault::crash), 1U);
-  EXPECT_EQ(said.judgement.count(judge::Fault::error), 1U);
+  EXPECT_EQ(said.judgement.errors(), 1U);
   ASSERT_EQ(said.judgement.wrong_answers.size(), 1U);
   EXPECT_EQ(said.judgement.wrong_answers[0].answer, "crash: SIGSEGV");
   EXPECT_GT(said.times.median(), 0.0);

@@ -32,7 +32,7 @@ using tests::trials;
 
 constexpr std::array kinds{Kind::vertex_face, Kind::edge_edge};
 constexpr std::uint64_t seed = 7;
-/// The size of every scene that is not scaled, in its coordinates.
+/// The size of every scene without scaling, in its coordinates.
 constexpr double size = 3.0;
 
 /// Calls use(level, kind, query, collides) for some queries of every level.
@@ -56,10 +56,10 @@ void expect_between(double value, double low, double high) {
   EXPECT_LE(value, high);
 }
 
-/// Points of the second primitive begin here.
+/// The number of the second primitive's first point.
 std::size_t second(Kind kind) { return kind == Kind::vertex_face ? 1 : 2; }
 
-/// Motion of the first primitive relative to the second one's first point.
+/// The motion of the first primitive relative to the second one's first point.
 Eigen::Vector3d relative_motion(Kind kind, const Query& query) {
   const std::size_t other = second(kind);
   return (query.point(1, 0) - query.point(0, 0)) - (query.point(1, other) - query.point(0, other));
@@ -123,7 +123,7 @@ TEST(HardQueries, CollideIfTheirNumberIsEvenSaysTheOracle) {
   }
 }
 
-/// What misses comes as near as the level says, to the last bit.
+/// The least distance is that of the level, to the last bit.
 TEST(HardQueries, MissByExactlyTheDistance) {
   for_each_query("distance", 16, [](int exponent, Kind kind, const Query& query, bool collides) {
     if (collides) return;
@@ -134,8 +134,8 @@ TEST(HardQueries, MissByExactlyTheDistance) {
   });
 }
 
-/// What collides overlaps by as much: across the plane at the end, or across a side within the
-/// plane.
+/// The overlap of collisions is the distance: across the plane at the end, or across a side within
+/// the plane.
 TEST(HardQueries, OverlapByExactlyTheDistance) {
   for_each_query("distance", 16, [](int exponent, Kind kind, const Query& query, bool collides) {
     if (!collides) return;
@@ -165,7 +165,7 @@ TEST(HardQueries, HaveTheAspect) {
     const double level = std::ldexp(1.0, exponent);
     if (kind == Kind::edge_edge) {
       const double a = side(0, 1).norm(), b = side(2, 3).norm();
-      // Which of the edges is the shorter one is the symmetry's choice; at level 1 they are alike.
+      // The symmetry chooses the shorter edge; at level 1 the lengths are equal.
       expect_between(std::min(a, b) / std::max(a, b) / level, 0.65, 1.5);
       return;
     }
@@ -216,7 +216,7 @@ TEST(HardQueries, HaveTheScale) {
   });
 }
 
-/// A filter is tested only by what is rounded.
+/// Only rounded values test a filter.
 TEST(HardQueries, HaveFullSignificands) {
   for (const std::string_view name : {"distance", "aspect", "angle", "scale"}) {
     for_each_query(name, 8, [](int, Kind, const Query& query, bool) {
@@ -233,9 +233,9 @@ bool is_at_an_end(Kind kind, const Query& query) {
   return upper == 0.0 || lower == 1.0;
 }
 
-/// Contacts are exactly at t=0 or t=1, whatever the level: or earlier than at t=1, since all of a
-/// motion may touch.
-TEST(HardQueries, OfDecimalsTouchAtTheEndsMostly) {
+/// Contacts are exactly at t=0 or t=1 at all levels, or earlier than at t=1, because a whole motion
+/// may be in contact.
+TEST(HardQueries, OfDecimalsCollideMostlyAtTheEnds) {
   for (const std::string_view name : {"everyday-scale", "digits", "frame"}) {
     int collisions = 0, at_ends = 0;
     for_each_query(name, 16, [&](int, Kind kind, const Query& query, bool collides) {
@@ -261,7 +261,7 @@ TEST(HardQueries, OfDecimalsHaveTheDigits) {
   for_each_query("digits", 16, [](int level, Kind, const Query& query, bool) {
     int most = 0;
     for (const double x : fuzz::magnitudes(query)) {
-      // A miss may be some sizes away.
+      // The distance without contact may be several times the size.
       const generate::Decimal decimal = generate::shortest_decimal(x);
       EXPECT_GE(decimal.exponent, -level - 1) << x;
       most = std::max(most, decimal.count);
@@ -284,7 +284,7 @@ TEST(HardQueries, HaveTheShareOfContactsAtTheEnds) {
       at_ends += is_at_an_end(kind, made.query) ? 1 : 0;
     }
     EXPECT_TRUE(level != 0 || at_ends == 0) << at_ends;
-    // Some that touch at t=1 touch before.
+    // Some queries with contact at t=1 have contact earlier.
     EXPECT_LE(at_ends, count * (level + 10) / 100) << level;
     EXPECT_GE(at_ends, count * (level - 20) / 200) << level;
   }

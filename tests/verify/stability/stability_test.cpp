@@ -24,7 +24,7 @@ using tests::true_answer;
 
 constexpr std::uint64_t count = 8;
 
-/// Queries of one hardness by one method that is a function.
+/// Measures queries of one hardness by a function as the method.
 StabilityResult measure(const FunctionMethod& method, const StabilityOptions& base = {}) {
   const auto solver = solvers::solver_in_process(method, {});
   StabilityOptions options = base;
@@ -34,7 +34,7 @@ StabilityResult measure(const FunctionMethod& method, const StabilityOptions& ba
   return measure_stability({&hardness_from_name("distance")}, options);
 }
 
-/// A coin for a query that depends on nothing else.
+/// A random bit that depends only on the query.
 bool coin(const Query& query) {
   return generate::mix(std::bit_cast<std::uint64_t>(query.coordinates[0])) % 2 == 0;
 }
@@ -83,7 +83,7 @@ TEST(MeasureStability, PlantedMethodsHaveExactlyTheirRates) {
   }
 }
 
-/// Wrong on a known half of the queries, where it is counted one by one.
+/// The method is wrong on a known half of the queries, counted one by one.
 TEST(MeasureStability, CountsWhatIsWrongInEachCell) {
   const FunctionMethod method([](Kind kind, const Query& query) {
     const Answer right = true_answer(kind, query);
@@ -146,7 +146,7 @@ TEST(MeasureStability, CountsChecksWhereTheMethodDoes) {
   EXPECT_FALSE(checks_per_query(measure(silent).total.methods.at(0)));
 }
 
-/// The queries are about the distance that was asked for, and so is the truth.
+/// The queries and their truth are about the requested distance.
 TEST(MeasureStability, TakesASeparation) {
   const auto certified = solvers::solver_in_process(solvers::find_method("certified"), {});
   const StabilityResult result = measure_stability(
@@ -176,7 +176,7 @@ TEST(MeasureStability, IsTheSameForAnyNumberOfThreads) {
     const judge::Judgement& a = one.cells[i].judged.methods.at(0).judgement;
     const judge::Judgement& b = three.cells[i].judged.methods.at(0).judgement;
     EXPECT_EQ(a.faults, b.faults);
-    EXPECT_EQ(a.undecided, b.undecided);
+    EXPECT_EQ(a.undecided(), b.undecided());
     ASSERT_EQ(a.toi_errors.count(), b.toi_errors.count());
     if (a.toi_errors.count() != 0) {
       EXPECT_EQ(a.toi_errors.max(), b.toi_errors.max());

@@ -63,7 +63,7 @@ TEST(CertificateFacts, TheQueryBitForBit) {
   EXPECT_EQ(read.label, "a label");
 }
 
-TEST(CertificateFacts, WhatIsNoneIsAnError) {
+TEST(CertificateFacts, InvalidTextIsAnError) {
   EXPECT_THROW(static_cast<void>(certified_query("")), std::invalid_argument);
   EXPECT_THROW(static_cast<void>(certified_query("touchstone-certificates 1\n")),
                std::invalid_argument);

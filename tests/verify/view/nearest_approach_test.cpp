@@ -16,13 +16,13 @@ using tests::PosedQuery;
 
 constexpr double least = std::numeric_limits<double>::denorm_min();
 
-/// A vertex above the middle of a triangle, which it approaches from 1 to the height.
+/// A vertex above the middle of a triangle, which moves from height 1 to the given one.
 PosedQuery falling_to(double height) {
   return tests::vertex_face({1, 1, 1, 0, 0, 0, 4, 0, 0, 0, 4, 0},
                             {1, 1, height, 0, 0, 0, 4, 0, 0, 0, 4, 0});
 }
 
-TEST(NearestApproach, OfWhatTouchesThereIsNone) {
+TEST(NearestApproach, OfCollidingQueriesDoesNotExist) {
   const PosedQuery colliding = falling_to(-2.0);
   EXPECT_FALSE(nearest_approach(colliding.kind, colliding.query));
 }
@@ -38,15 +38,15 @@ TEST(NearestApproach, IsBetweenNeighbouringDoubles) {
   }
 }
 
-/// Two edges that cross in projection, one at height 3, pass one another: nearest where they are
-/// above one another, all the time.
+/// Two edges that pass each other, one at height 3: their distance is least while they cross in
+/// projection.
 TEST(NearestApproach, IsTheFirstTimeOfTheLeastDistance) {
   const PosedQuery passing = tests::edge_edge({-1, 0, 3, 1, 0, 3, 0, 3, 0, 0, 5, 0},
                                               {-1, 0, 3, 1, 0, 3, 0, -5, 0, 0, -3, 0});
   const auto approach = nearest_approach(passing.kind, passing.query);
   ASSERT_TRUE(approach);
   EXPECT_EQ(approach->at_most, 3.0);
-  // Its nearer end is at y = 3 - 8t, 0 at t = 3/8.
+  // The nearer end is at y = 3 - 8t, 0 at t = 3/8.
   EXPECT_EQ(approach->time, exact::AlgebraicNumber(exact::Rational(3, 8)));
 }
 
@@ -70,7 +70,7 @@ TEST(NearestApproach, AgreesWithTheOracleOnBothSides) {
   EXPECT_GT(asked, 50);
 }
 
-TEST(NearestApproach, OfWhatIsFartherThanEveryDoubleThereIsNone) {
+TEST(NearestApproach, BeyondEveryDoubleDoesNotExist) {
   constexpr double greatest = std::numeric_limits<double>::max();
   const PosedQuery far =
       tests::vertex_face({greatest, 0, 0, -greatest, 0, 0, -greatest, 1, 0, -greatest, 0, 1},

@@ -57,7 +57,7 @@ TEST(QueryFacts, AnIrrationalOneIsNearTheTimeGiven) {
   EXPECT_LT(abs(time * time - exact::Rational(1, 2)), exact::power_of_two(-250));
 }
 
-TEST(QueryFacts, HowNearTheyComeThatDoNotTouch) {
+TEST(QueryFacts, TheNearestApproachOfQueriesWithoutCollision) {
   ViewedQuery query = falling();
   query.query.at(1, 0, 2) = 0x1p-60;
   const nlohmann::json facts = query_facts(query, {});

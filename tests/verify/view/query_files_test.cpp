@@ -34,7 +34,7 @@ class QueryFiles : public tests::FolderTest {
                                                  const QueryFileOptions& options = {}) const {
     return read_queries(path(name), options);
   }
-  /// What is wrong with the file.
+  /// The reason why the file is refused.
   [[nodiscard]] std::string reason(const std::string& name,
                                    const QueryFileOptions& options = {}) const {
     try {

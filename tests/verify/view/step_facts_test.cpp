@@ -64,7 +64,7 @@ TEST(StepFacts, ArraysAreGivenByteForByte) {
 
 /// The points of a pair are those of its query.
 TEST(StepFacts, EveryKindOfPairByItsPoints) {
-  // Edge 0-1 passes down through edge 2-3, point 4 through edge 2-3 too, and onto point 5.
+  // Edge 0-1 and point 4 pass down through edge 2-3, and point 6 through point 5.
   const std::vector<std::array<double, 3>> coordinates{
       {-1, 0, 1}, {1, 0, 1}, {0, -1, 0}, {0, 1, 0}, {0, 0.5, 3}, {5, 5, 5}, {5, 5, 6}};
   mesh::Mesh mesh = mesh::make_mesh(coordinates, {}, std::vector<fast::Edge>{{0, 1}, {2, 3}});

@@ -1,6 +1,6 @@
 /// \file
-/// The page of a view in a real browser: a script that is added to it moves its controls and writes
-/// what they show, and what it writes is compared with exact numbers.
+/// The page of a view in a real browser: an added script moves its controls and writes their
+/// results, which are compared with exact numbers.
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -27,7 +27,7 @@ namespace {
 using exact::Rational;
 using tests::PosedQuery;
 
-/// What a script of a test has at hand. It leaves its results in an element, as JSON.
+/// Helpers of the tests' scripts. The results are written to an element, as JSON.
 constexpr std::string_view tools = R"(
 const find = (id) => document.getElementById(id);
 const all = (selector) => Array.from(document.querySelectorAll(selector));
@@ -54,7 +54,7 @@ const say = (result) => {
 
 class ViewBrowser : public tests::BrowserTest {
  protected:
-  /// What the script says on a page of these queries.
+  /// The result of the script on a page of these queries.
   /// \param before a script that runs before the page's
   [[nodiscard]] nlohmann::json result_of(const std::vector<PosedQuery>& posed,
                                          const std::string& script, int width = 1200,
@@ -62,7 +62,7 @@ class ViewBrowser : public tests::BrowserTest {
     return result_on(page_of(posed), script, width, before);
   }
 
-  /// The same of any page.
+  /// The result of the script on any page.
   [[nodiscard]] nlohmann::json result_on(std::string page, const std::string& script,
                                          int width = 1200, const std::string& before = "") const {
     page.insert(page.rfind("</body>"),
@@ -100,7 +100,7 @@ PosedQuery falling(double end = -2.0) {
                             {1, 1, end, 0, 0, 0, 4, 0, 0, 0, 4, 0});
 }
 
-/// Coordinates of every exponent.
+/// A query with coordinates of every exponent.
 PosedQuery of_any_size(Kind kind) {
   tests::Random random(7);
   PosedQuery posed{kind, {}};
@@ -226,7 +226,7 @@ TEST_F(ViewBrowser, DrawsWhatIsPastedWithoutAVerdict) {
       `{"coordinates": ${list(1)}, "separation": {"min_separation": -1}}`,
       `{"coordinates": ${list(1)}, "separation": {"min_separation": {}, "norm": "l2"}}`,
       `{"coordinates": ${list("null")}}`, `{"coordinates": ${list('"<img src=x onerror=say(1)>"')}}`,
-      "<script>say(1)</script>", `NaN 0 0 ${rest}`, `1/0 0 0 ${rest}`, "1".repeat(900000) + "g", "0x" + "f".repeat(900000) + "g",
+      "<script>say(1)<\/script>", `NaN 0 0 ${rest}`, `1/0 0 0 ${rest}`, "1".repeat(900000) + "g", "0x" + "f".repeat(900000) + "g",
       "/*".repeat(400000), "v " + "1".repeat(900000) + "x", "1 ".repeat(600000),
     ].map(paste);
     const images = all("main img").length;
@@ -271,7 +271,7 @@ TEST_F(ViewBrowser, DrawsEveryScale) {
     posed.push_back(falling());
     for (double& x : posed.back().query.coordinates) x *= scale;
   }
-  // All points in one place, at rest.
+  // Points in one place, at rest.
   posed.push_back(tests::edge_edge({}, {}));
   const nlohmann::json result = result_of(posed, R"(
     say(all("#list button").map((_, i) => {
@@ -292,7 +292,7 @@ TEST_F(ViewBrowser, DrawsEveryScale) {
   ASSERT_EQ(result.size(), posed.size());
   for (std::size_t i = 0; i < posed.size(); ++i) {
     for (const nlohmann::json& zoom : result.at(i)) {
-      // The smallest thing that is drawn is one point, a disc of nine pixels across.
+      // The smallest drawing is one point, a disc of nine pixels across.
       EXPECT_GT(zoom.at("followed").at(0), 30) << i;
       EXPECT_GT(zoom.at("followed").at(1), 30) << i;
       EXPECT_GT(zoom.at("drawn").at(1), 30) << i << ": the origin is always seen";
@@ -312,7 +312,7 @@ TEST_F(ViewBrowser, DrawsAtTheSizeOfThePageFromTheFirst) {
   )");
   ASSERT_EQ(result.size(), 2);
   for (const nlohmann::json& canvas : result) {
-    // What has been written below since may have brought a scroll bar.
+    // The results at the end of the page may have added a scroll bar.
     EXPECT_NEAR(canvas.at(0).get<double>(), canvas.at(1).get<double>(), 20);
     EXPECT_NEAR(canvas.at(2).get<double>(), canvas.at(3).get<double>(), 1);
   }
@@ -371,8 +371,8 @@ TEST_F(ViewBrowser, FitsATelephone) {
   EXPECT_EQ(result.at(3), 0) << "rows of the list cover each other";
 }
 
-/// Styles the page as it is printed: the rules for paper hold, those for screens do not. Says what
-/// is seen, what a reader of a grey copy needs, and what is cut off.
+/// A script that applies the rules for paper instead of those for screens, and finds the visible
+/// parts, the parts that a grey copy needs, and the parts that are cut off.
 constexpr std::string_view on_paper = R"(
   for (const sheet of document.styleSheets) {
     for (const { media } of sheet.cssRules) {
@@ -419,7 +419,7 @@ TEST_F(ViewBrowser, PrintsWhatIsShownWithoutTheControls) {
   EXPECT_EQ(result.at("cut"), 0) << "numbers of a thousand digits are printed whole";
   EXPECT_EQ(result.at("wide"), true);
   for (const nlohmann::json& count : result.at("drawn")) EXPECT_GT(count, 30);
-  // Told apart by shape and word: a diamond is turned, a circle is round.
+  // Shapes and words differ: a diamond is turned, a circle is round.
   EXPECT_EQ(result.at("first").at("mark"), nlohmann::json::array({true, "0px"}));
   const nlohmann::json& second = result.at("second");
   EXPECT_EQ(second.at("mark"), nlohmann::json::array({false, "50%"}));
@@ -429,7 +429,7 @@ TEST_F(ViewBrowser, PrintsWhatIsShownWithoutTheControls) {
   EXPECT_GT(second.at("names"), 3.0);
 }
 
-// Browsers print a canvas of WebGL as an empty one.
+// Browsers print an empty canvas for WebGL.
 TEST_F(ViewBrowser, PrintsImagesOfItsPictures) {
   const nlohmann::json result = result_of({falling()}, R"(
     const empty = document.createElement("canvas");
@@ -460,7 +460,7 @@ TEST_F(ViewBrowser, WithoutWebGlTheNumbersAreThere) {
 
 // ---- A step -------------------------------------------------------------------------------------
 
-/// A pyramid rises from y = −2 to y = 2; at rest, two points above it, each as a vertex of no
+/// A pyramid that rises from y = −2 to y = 2, and two points at rest above it, each a vertex of no
 /// element.
 std::string page_of_a_step(bool is_hit) {
   const double x = is_hit ? 0.0 : 9.0;
@@ -478,7 +478,7 @@ std::string page_of_a_step(bool is_hit) {
   return view_page(facts, "touchstone view", step_facts(step));
 }
 
-/// The height of the middle of what is drawn of the mesh, from the top, in pixels; and its size.
+/// The height of the middle of the drawn mesh, from the top, in pixels; and its size.
 constexpr std::string_view height_of_mesh = R"(
   const height = () => {
     const canvas = document.querySelector("#mesh canvas");

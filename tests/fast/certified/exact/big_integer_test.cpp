@@ -27,7 +27,7 @@ BigInteger big(const Integer& value) {
   return value < 0 ? -result : result;
 }
 
-/// Of any size from nothing to beyond the inline limbs; often with long runs of equal bits.
+/// An integer of any size from zero to beyond the inline limbs; often with long runs of equal bits.
 Integer draw(Random& random) {
   const auto bits = static_cast<unsigned>(random.between(0, 1500));
   if (random.coin()) return random.integer<Integer>(bits);

@@ -46,7 +46,7 @@ AtStart at_start(const PosedQuery& posed) {
   return {true, number(contact->u[0]) / denominator, number(contact->v[0]) / denominator};
 }
 
-/// The points rest: contact at all times or never.
+/// A query whose points rest: contact at all times or never.
 PosedQuery resting(Random& random, Kind kind, int bound) {
   PosedQuery posed{kind, tests::integer_query(random, bound)};
   for (std::size_t i = 0; i < moving_points; ++i) posed.query.point(1, i) = posed.query.point(0, i);

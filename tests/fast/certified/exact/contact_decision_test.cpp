@@ -21,7 +21,7 @@ FixedSizeAnswer decide(const PosedQuery& posed, std::uint64_t step = 1,
   return fixed_size_first_impact(integer_motion<Number>(posed, scale), latest, step);
 }
 
-/// All that are decided must be true, and nearly all must be decided.
+/// Expects all decided queries to be right, and almost all to be decided.
 template <class Number>
 void expect_truth_of_small_integers(std::uint64_t seed, double scale) {
   Random random(seed);
@@ -71,7 +71,7 @@ TEST(FixedSizeDecision, FindsATinyTimeThatIsNoSmallFraction) {
 }
 
 TEST(FixedSizeDecision, DecidesSignsFarBelowTheWidthOfItsEnclosure) {
-  // Over the triangle's side x + y = 4 and one part in 2^52 beside it, to either side and not.
+  // A vertex over the triangle's side x + y = 4, and one part in 2^52 beside it on either side.
   for (const double x : {1.0, std::nextafter(1.0, 2.0), std::nextafter(1.0, 0.0)}) {
     PosedQuery posed = tests::over_triangle(0x1p53 * x, 0x1p53 * 3, 0x1p20 + 1, -0x1p21);
     for (double& coordinate : std::span(posed.query.coordinates).subspan(3, 9))

@@ -40,7 +40,7 @@ std::optional<ExactImpact> decide(const PosedQuery& posed, const Separation& sep
   return decide_exactly(posed.kind, posed.query, separation, 0.0, t_max);
 }
 
-/// Within the separation for the first time, between neighbouring doubles.
+/// Expects the first time within the separation between neighbouring doubles.
 void expect_truth(const PosedQuery& posed, const CertifiedResult& result,
                   const Separation& separation) {
   const CertifiedOptions options{.toi_tolerance = 0.0, .separation = separation};
@@ -49,7 +49,7 @@ void expect_truth(const PosedQuery& posed, const CertifiedResult& result,
 
 // ---- Known by construction ----------------------------------------------------------------------
 
-/// Expects the first time within the distance to be just `toi`, a double.
+/// Expects the first time within the distance to be the double `toi`.
 void expect_time(const PosedQuery& posed, const Separation& separation, double toi) {
   const auto impact = decide(posed, separation);
   ASSERT_TRUE(impact.has_value()) << posed;
@@ -83,7 +83,7 @@ PosedQuery beside(Kind kind, bool as_points, double z0, double z1) {
   return tests::edge_edge(at(z0), at(z1));
 }
 
-TEST(SeparatedDecision, TouchingAtTheDistanceCounts) {
+TEST(SeparatedDecision, ContactAtTheDistanceCounts) {
   for (const Kind kind : kinds) {
     for (const Norm norm : norms) {
       expect_time(over(kind, 3, -1), {1.0, norm}, 0.5);
@@ -130,7 +130,7 @@ TEST(SeparatedDecision, DistancesOfTheWholeRangeCount) {
       expect_time(over(kind, 1, denorm_min), {denorm_min, norm}, 1.0);
       EXPECT_FALSE(decide(over(kind, 1, 2 * denorm_min), {denorm_min, norm}).has_value());
       expect_time(over(kind, largest, denorm_min), {denorm_min, norm}, 1.0);
-      // From height 2 to −2 it is within the least distance a little before 1/2.
+      // Between heights 2 and −2 the least distance is reached shortly before 1/2.
       const auto impact = decide(over(kind, 2, -2), {denorm_min, norm});
       ASSERT_TRUE(impact.has_value());
       EXPECT_EQ(impact->toi_upper, 0.5);
@@ -140,8 +140,8 @@ TEST(SeparatedDecision, DistancesOfTheWholeRangeCount) {
   }
 }
 
-/// From height 1 + k 2^-52 down by about 2^1000, within 1 at about k 2^-1052: the enclosure is as
-/// narrow as documented where the time is subnormal too.
+/// The height falls from 1 + k 2^-52 by about 2^1000, to 1 at about k 2^-1052: the enclosure has
+/// the documented width also if the time is subnormal.
 TEST(SeparatedDecision, SubnormalTimesAreEnclosedByOneSpacing) {
   for (const Kind kind : kinds) {
     for (const Norm norm : norms) {
@@ -174,8 +174,8 @@ TEST(SeparatedDecision, AtDistanceZeroItIsThePlainDecision) {
   }
 }
 
-/// A separator's first form has a root just before t=1; a later one is negative for a while before
-/// it.
+/// A query whose first form has a root just before t=1; a later form is negative for a while before
+/// that.
 PosedQuery dipping_query() {
   return tests::edge_edge({0, 3, -3, -8, 7, 9, 0, 0, 0, 1, -1, -5},
                           {0x1.8000000002316p+0, -0x1.800000000694p+0, -0x1.c000000001764p+2,
@@ -194,13 +194,12 @@ TEST(SeparatedDecision, DipsBeforeASeparatorsEndCount) {
 
 // ---- Work ---------------------------------------------------------------------------------------
 
-/// Queries in which roots are hardly apart: coordinates next to nothing among those that nearly
-/// overflow make roots that differ by parts of 2^-2000, 2^-4000 and so on. Each took some seconds
-/// or more once.
+/// Queries whose roots are almost equal: tiny coordinates among those that nearly overflow make
+/// roots that differ by parts of 2^-2000, 2^-4000 and so on. Each once took seconds or more.
 struct Slow {
   PosedQuery posed;
   Separation separation;
-  std::optional<double> toi_upper;  ///< as it was found then, by bisection in integers
+  std::optional<double> toi_upper;  ///< from an earlier bisection in integers
 };
 
 std::vector<Slow> slow_queries() {
@@ -257,8 +256,8 @@ TEST(SeparatedDecision, RootsThatAreHardlyApartTakeFewSteps) {
 
 // ---- Planted faults -----------------------------------------------------------------------------
 
-/// How many answers about small integers, where contact is near the distance or it is tiny, are
-/// wrong.
+/// The number of wrong answers about small integers, at tiny distances and with contact near the
+/// distance.
 int wrong_answers(tests::DecideExactly& decide_so) {
   Random random(8);
   int wrong = 0;

@@ -18,7 +18,7 @@ using tests::Random;
 
 std::uint64_t bits_of(double x) { return std::bit_cast<std::uint64_t>(x); }
 
-/// A number α given by the smallest double that is not below it.
+/// Finds a number α given by the smallest double that is not below it.
 BitInterval found(std::uint64_t ceiling, double guess, std::uint64_t step, int& questions) {
   return enclose(guess, step, [&](std::uint64_t bits) {
     ++questions;

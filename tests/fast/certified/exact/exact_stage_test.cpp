@@ -54,7 +54,7 @@ TEST(ExactStage, KnowsTheTruthOfTheFamiliesByConstruction) {
 }
 
 TEST(ExactStage, EnclosesATinyTimeOfImpact) {
-  // From height 5e-324 down by 1e308: far below the least double.
+  // The height falls from 5e-324 by 1e308: the toi is far below the least double.
   const PosedQuery least = tests::over_triangle(1, 1, 5e-324, -1e308);
   const auto impact = decide_exactly(least.kind, least.query, 1e-12, 1.0);
   ASSERT_TRUE(impact.has_value());
@@ -63,7 +63,7 @@ TEST(ExactStage, EnclosesATinyTimeOfImpact) {
   EXPECT_EQ(impact->u, 0.25);
   EXPECT_EQ(impact->v, 0.25);
   EXPECT_FALSE(decide_exactly(least.kind, least.query, 0.0, 0.0).has_value());
-  // 2^-1000 + 2^-1040, subnormal tolerances included.
+  // The toi 2^-1000 + 2^-1040, with subnormal tolerances.
   const PosedQuery small = tests::over_triangle(1, 1, 0x1p-500, 0x1p-500 - 0x1p500);
   expect_truth(small, 0.0);
   expect_truth(small, 1e-12);
@@ -71,7 +71,7 @@ TEST(ExactStage, EnclosesATinyTimeOfImpact) {
 }
 
 TEST(ExactStage, AnIrrationalTimeOfImpactIsBetweenNeighbours) {
-  // The triangle turns by t x = y and the vertex is at x = 1 − t, y = 1/8: 8 t (1 − t) = 1; at the
+  // The triangle turns by t x = y and the vertex is at x = 1 − t, y = 1/8: 8 t (1 − t) = 1. At the
   // first root the vertex is still beside the triangle.
   const PosedQuery posed = tests::turning_triangle(1, 1, 0, 0.125);
   const auto impact = decide_exactly(posed.kind, posed.query, 0.0, 1.0);
@@ -93,8 +93,8 @@ bool is_wrong(tests::DecideExactly& decide, Kind kind, const Query& query) {
          (impact->toi_upper != 0 && toi <= Rational(impact->toi_lower));
 }
 
-/// The determinant has a root at t=1/2 or 3/4, outside the domain, and another one just before it,
-/// nearer with each of these nudges. Found by the fuzzer.
+/// Queries whose determinant has a root at t=1/2 or 3/4, outside the domain, and another just
+/// before it, nearer with each of these nudges. Found by the fuzzer.
 std::vector<PosedQuery> neighbouring_roots() {
   const Query edges{{0.0,    0.0,    -0.875, 0.125,  -1.125, 0.0,    -1.125, -2.375,
                      -0.875, 3.4375, 5.25,   2.375,  0.125,  0.0,    0.875,  0.0,
@@ -122,7 +122,7 @@ TEST(ExactStage, SeparatesARootFromOneBesideIt) {
   EXPECT_GT(collisions, 64U);
 }
 
-/// How many families have an answer that is wrong.
+/// The number of families with a wrong answer.
 std::size_t families_that_find(tests::DecideExactly& decide) {
   return static_cast<std::size_t>(std::ranges::count_if(
       verify::generate::families(), [&](const verify::generate::Family& family) {

@@ -15,7 +15,7 @@ namespace {
 using exact::Integer;
 using tests::Random;
 
-/// The low bits of a value that fits, put together from small pieces.
+/// The low bits of a value that fits, assembled from small parts.
 template <std::size_t size>
 FixedInteger<size> fixed(const Integer& value) {
   FixedInteger<size> result{}, power(std::int64_t{1});

@@ -23,7 +23,7 @@ using Time = BasicTime<std::int64_t>;
 
 constexpr std::array<int, 4> rounding_modes{FE_TONEAREST, FE_UPWARD, FE_DOWNWARD, FE_TOWARDZERO};
 
-/// In a rounding mode, as long as it lives.
+/// A rounding mode for the time of its life.
 class Rounding {
  public:
   explicit Rounding(int mode) { std::fesetround(mode); }
@@ -57,14 +57,14 @@ Integer blossom_of(const std::vector<Integer>& c, const std::vector<Time>& times
   return b[0];
 }
 
-/// Coefficients of up to so many bits, which nearly vanish at the time in one case of two.
+/// Coefficients of at most `bits` bits, which nearly vanish at the time in one case of two.
 std::vector<std::int64_t> draw_form(Random& random, std::size_t degree, const Time& t) {
   std::vector<std::int64_t> c(degree + 1);
   if (random.coin()) {
     for (std::int64_t& x : c) x = random.integer<std::int64_t>(58);
     return c;
   }
-  // (y₀ x − x₀ y) times a form of a degree less, and a little more or less.
+  // (y₀ x − x₀ y) times a form of a lower degree, with small changes.
   const auto small = [](std::int64_t x) { return x >> 33U; };
   for (std::size_t i = 0; i < degree; ++i) {
     const auto factor = random.integer<std::int64_t>(24);

@@ -26,7 +26,7 @@ TEST(GeneralDecision, AgreesWithTheOracleOnSmallIntegers) {
 }
 
 TEST(GeneralDecision, FindsATangentialContact) {
-  // A vertex that would have to turn back: the triangle follows it and leaves again.
+  // A vertex that would have to turn back: the triangle follows and leaves it again.
   const PosedQuery posed = tests::twisting_triangle({0, 0, 0.0}, {1, 0, 0.0});
   tests::expect_truth(posed, decide(posed), 1);
 }

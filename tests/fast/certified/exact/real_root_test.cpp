@@ -99,7 +99,7 @@ TEST(AlgebraicInstant, KnowsSignsAndZerosOfOtherForms) {
 }
 
 TEST(AlgebraicInstant, TellsARootFromTheOtherOfTheSameDivisor) {
-  // f = (1−3t)(2−3t); q = (2−3t)(1+t) shares the other root only.
+  // f = (1−3t)(2−3t); q = (2−3t)(1+t) shares only the other root.
   Instant first(cubic(2, -9, 9, 0), {0, 0}, {1, 1});
   EXPECT_EQ(first.sign_of(in_time(2, -1, -3)), 1);
   EXPECT_EQ(first.sign_of(in_time(1, -2, -3)), 0);  // (1−3t)(1+t)
@@ -143,7 +143,7 @@ TEST(AlgebraicInstant, HandlesDegreeEight) {
 }
 
 TEST(AlgebraicInstant, TellsRootsThatAreHardlyApart) {
-  // (3t − 1)² = 2^-400, and a double root where they nearly are.
+  // (3t − 1)² = 2^-400, and a double root near both.
   const BigInteger large = BigInteger(1) << 400;
   const Quadratic square = in_time(1, -6, 9);
   const Polynomial pair = polynomial(square) * large - polynomial(in_time(1, 0, 0));
@@ -159,7 +159,8 @@ TEST(AlgebraicInstant, TellsRootsThatAreHardlyApart) {
   expect_roots(polynomial(square), {1.0 / 3.0});
 }
 
-/// Found by the fuzzer: what doubles cannot reach was guessed as 0, and narrowing took minutes.
+/// Numbers out of the range of doubles were guessed as 0, and narrowing took minutes. Found by the
+/// fuzzer.
 TEST(AlgebraicInstant, NarrowsQuicklyBesideAnEnd) {
   // (2t − 1)² = 2^-1080: roots 2^-541 from 1/2.
   const BigInteger large = BigInteger(1) << 1080;
@@ -207,8 +208,7 @@ TEST(AlgebraicInstant, ComparesRootsThatAreHardlyApart) {
 }
 
 TEST(AlgebraicInstant, NarrowsQuicklyBesideAnyTime) {
-  // (3t − 1)² 2^20000 = t: a root some 2^-10000 after 1/3, from a lower end that is just before
-  // 1/3.
+  // (3t − 1)² 2^20000 = t: a root about 2^-10000 after 1/3, from a lower end just before 1/3.
   const BigInteger large = BigInteger(1) << 20000;
   const Polynomial pair = polynomial(in_time(1, -6, 9)) * large - polynomial(in_time(0, 1, 0));
   const long exponent = 12000;

@@ -12,7 +12,7 @@
 namespace touchstone::fast::kernel::closest_point_test {
 namespace {
 
-/// One lane, as plain as can be.
+/// A vector of one lane.
 struct Lanes {
   struct Mask {
     bool set;
@@ -44,7 +44,7 @@ using Point = std::array<double, 3>;
 template <Kind kind>
 using Polygon = std::array<Point, kind == Kind::vertex_face ? 3 : 4>;
 
-/// What was found, in plain numbers.
+/// The found direction and point, in plain numbers.
 struct Found {
   Point direction;
   double u;
@@ -79,7 +79,8 @@ double dual_length(Norm norm, const Point& x) {
   return norm == Norm::l2 ? length(norm, x) : std::abs(x[0]) + std::abs(x[1]) + std::abs(x[2]);
 }
 
-/// How far the direction separates: at most the distance, and the distance if it is the best one.
+/// The distance that the direction separates: at most the true distance, and equal to it for the
+/// best direction.
 template <Kind kind>
 double separation(const Polygon<kind>& polygon, const Point& direction) {
   double least = 1e300;
@@ -89,7 +90,7 @@ double separation(const Polygon<kind>& polygon, const Point& direction) {
   return least;
 }
 
-/// Of a polygon whose distance from the origin is not 0: the direction and the point prove the same
+/// Expects, for a polygon away from the origin, that the direction and the point prove the same
 /// distance from both sides.
 template <Kind kind, Norm norm>
 void expect_distance(const Polygon<kind>& polygon, double tolerance) {
@@ -110,7 +111,7 @@ void expect_distance(const Polygon<kind>& polygon, double tolerance) {
 template <Kind kind>
 Polygon<kind> random_polygon(tests::Random& random) {
   Polygon<kind> w;
-  // Off the origin in some direction, mostly.
+  // An offset that mostly moves the polygon off the origin.
   const Point offset{random.uniform(-2, 2), random.uniform(-2, 2), random.uniform(-2, 2)};
   for (std::size_t i = 0; i < 3; ++i) {
     for (std::size_t k = 0; k < 3; ++k) w[i][k] = offset[k] + random.uniform(-1, 1);
@@ -121,7 +122,7 @@ Polygon<kind> random_polygon(tests::Random& random) {
   return w;
 }
 
-/// By brute force: the least length on a grid of parameters.
+/// The least length on a grid of parameters, by brute force.
 template <Kind kind>
 double least_on_grid(const Polygon<kind>& polygon, Norm norm) {
   constexpr int steps = 60;
@@ -173,7 +174,8 @@ TEST(NearestPoint, IsInsideOnASideOrAtACorner) {
 }
 
 TEST(NearestPoint, ADirectionOfAShortDistanceIsUprightOnItsSide) {
-  // Past the origin at 1e-9: tilted by its rounding, the far ends would come nearer than that.
+  // The side passes the origin at 1e-9; along a direction tilted by rounding its far ends would
+  // come nearer.
   const Polygon<Kind::edge_edge> polygon{
       {{-1.0 / 3, 1e-9, 0.1}, {2.0 / 3, 1e-9, -0.2}, {2.0 / 3, 1, -0.2}, {-1.0 / 3, 1, 0.1}}};
   const Found found = nearest<Kind::edge_edge, Norm::l2>(polygon);

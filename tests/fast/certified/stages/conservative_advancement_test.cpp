@@ -1,6 +1,7 @@
 /// \file
-/// The certified solver with a minimum separation, in both norms, by hand and in batches. (Against
-/// the oracle: tests/fast/deciders_test.cpp. Its kernels among each other: kernel_test.cpp.)
+/// The certified solver with a minimum separation, in both norms, by hand and in batches.
+/// (tests/fast/deciders_test.cpp compares it with the oracle, kernel_test.cpp its kernels with each
+/// other.)
 
 #include "fast/certified/stages/conservative_advancement.hpp"
 
@@ -31,7 +32,7 @@ constexpr std::array norms{Norm::linf, Norm::l2};
 // ---- By hand ------------------------------------------------------------------------------------
 
 TEST(Separated, ContactIsAtTheDistance) {
-  // From height 1 down to −1, over the inside: at height d at the time (1 − d)/2.
+  // The height over the inside falls from 1 to −1, and is d at the time (1 − d)/2.
   for (const PosedQuery& posed : {over_triangle(1, 1, 1, -1), over_edge(1, 1, 1, -1)}) {
     for (const Norm norm : norms) {
       for (const double distance : {0.5, 0.25, 0x1p-20, 0x1p-40}) {
@@ -49,7 +50,7 @@ TEST(Separated, ContactIsAtTheDistance) {
   }
 }
 
-TEST(Separated, TouchingAtTheDistanceCountsAndBeyondDoesNot) {
+TEST(Separated, ContactAtTheDistanceCountsAndBeyondDoesNot) {
   for (const Norm norm : norms) {
     const auto verdict = [&](double height, double distance) {
       const PosedQuery posed = over_triangle(1, 1, height, height);
@@ -64,7 +65,8 @@ TEST(Separated, TouchingAtTheDistanceCountsAndBeyondDoesNot) {
 }
 
 TEST(Separated, NormsDifferBesideACorner) {
-  // Beside the corner (0,0) of the triangle by 0.3 along x and 0.4 along z: 0.5 in L2, 0.4 in L∞.
+  // Primitives beside the triangle's corner (0,0) by 0.3 along x and 0.4 along z: 0.5 in L2, 0.4 in
+  // L∞.
   const PosedQuery posed = over_triangle(-0.3, 0.0, 0.4, 0.4);
   const auto verdict = [&](double distance, Norm norm) {
     return fast::solve(posed.kind, posed.query, {.separation = {distance, norm}}).verdict;
@@ -97,7 +99,7 @@ TEST(Separated, EveryStageIsReached) {
   }
 }
 
-TEST(Separated, WhatIsNoNumberIsAnErrorOfItsQueryAlone) {
+TEST(Separated, CoordinatesThatAreNotFiniteAreAnErrorOfTheirQueryAlone) {
   for (const Norm norm : norms) {
     for (std::size_t place = 0; place < 24; ++place) {
       std::vector<Query> queries(3, over_triangle(1, 1, 7, -1).query);
@@ -142,7 +144,7 @@ TEST(Separated, BatchesFindTheSameAndTheEarliest) {
       std::vector<CertifiedResult> results(rain.pairs.size());
       solve(vertices, candidates, results, options);
       for (std::size_t i = 0; i < results.size(); ++i) {
-        // From height h = i+1 to ½.
+        // The height falls from h = i+1 to ½.
         const auto height = static_cast<double>(i + 1);
         ASSERT_EQ(results[i].verdict, Verdict::yes);
         EXPECT_NEAR(results[i].toi_upper, (height - 0.5) / (height + 1.0), 1e-11);

@@ -1,5 +1,5 @@
 /// \file
-/// A plugin that says yes to everything, and that it is as near to contact as can be.
+/// A plugin that says yes to everything, with tolerance 0.
 
 #include <cstdint>
 

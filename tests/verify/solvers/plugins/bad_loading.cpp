@@ -1,5 +1,5 @@
 /// \file
-/// A plugin that does what the environment says while it is loaded and asked for its name.
+/// A plugin that acts as the environment says while it is loaded and asked for its name.
 
 #include <unistd.h>
 
@@ -19,8 +19,8 @@ bool is_told(std::string_view what) {
   return told != nullptr && what == told;
 }
 
-/// Makes processes until it may not. At most so many: where that is not forbidden the test is to
-/// fail, and the machine to live.
+/// Makes processes until that is refused. At most eight: without a limit the test fails, but the
+/// machine is not overloaded.
 void fork_without_end() {
   for (int i = 0; i < 8; ++i) {
     const pid_t child = ::fork();

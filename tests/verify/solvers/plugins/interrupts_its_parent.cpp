@@ -1,7 +1,7 @@
 /// \file
-/// A plugin that says yes to everything, and at the call that TOUCHSTONE_TEST_CALL names, of each
-/// process, interrupts the process that asks it: an interrupt while the work is under way, whatever
-/// the machine's load.
+/// A plugin that says yes to everything. At the call that TOUCHSTONE_TEST_CALL names, of each
+/// process, it interrupts its parent process: an interrupt during the work, whatever the machine's
+/// load.
 
 #include <sys/types.h>
 #include <unistd.h>

@@ -1,5 +1,5 @@
 /// \file
-/// A plugin whose name is that of the environment's TOUCHSTONE_PLUGIN_NAME, or else no UTF-8.
+/// A plugin whose name is the environment variable TOUCHSTONE_PLUGIN_NAME, or otherwise not UTF-8.
 
 #include <cstdint>
 #include <cstdlib>

@@ -1,5 +1,5 @@
 /// \file
-/// A plugin that does what the first coordinate says: from good answers to the worst.
+/// A plugin whose first coordinate selects its action, from right answers to the worst failures.
 
 #include <sys/types.h>
 #include <unistd.h>
@@ -22,7 +22,7 @@ using touchstone::tests::Misbehaviour;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// Not for a sanitizer to stop before it happens.
+/// The sanitizer must not stop this before it happens.
 [[gnu::no_sanitize("undefined")]] void write_to_null() {
   volatile int* volatile nowhere = nullptr;
   *nowhere = 1;  // NOLINT(clang-analyzer-core.NullDereference): meant
@@ -41,16 +41,16 @@ void fork_often() {
   }
 }
 
-/// Allocates a lot, and touches none of it.
+/// Allocates much memory without using it.
 void allocate_much() {
   std::vector<std::unique_ptr<char[]>> blocks;
   for (int i = 0; i < 32; ++i) blocks.push_back(std::make_unique_for_overwrite<char[]>(1U << 26U));
 }
 
-/// Calls of what is to die after so many.
+/// The number of calls, for the action that dies at one of them.
 int calls = 0;
 
-/// Those that end without an answer.
+/// Acts that end without an answer.
 void fail(Misbehaviour what) {
   if (what == Misbehaviour::dies_at_call_1500 && ++calls == 1500) std::abort();
   if (what == Misbehaviour::throws) throw std::runtime_error("thrown by a plugin");

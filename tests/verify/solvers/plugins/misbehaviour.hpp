@@ -1,13 +1,13 @@
 #pragma once
 
 /// \file
-/// What the misbehaving plugin does: the first coordinate of a query says it.
+/// The actions of the misbehaving plugin, which the first coordinate of a query selects.
 
 namespace touchstone::tests {
 
 enum class Misbehaviour {
   says_no,
-  says_no_with_toi,  ///< from 1/4 to 1/2, tolerance 1e-9, as have all with a wrong verdict
+  says_no_with_toi,  ///< from 1/4 to 1/2, tolerance 1e-9, as all with a wrong verdict
   is_undecided,
   verdict_too_large,
   verdict_negative,
@@ -20,14 +20,14 @@ enum class Misbehaviour {
   negative_tolerance,
   nan_tolerance,
   infinite_tolerance,
-  dies_at_call_1500,  ///< of one process; until then it says no
+  dies_at_call_1500,  ///< in one process; until then it says no
   leaves_answer_alone,
   throws,
   exits_with_3,
-  prints,         ///< on both streams, then says no
-  writes_a_file,  ///< into its working directory; no if it can
-  forks,          ///< eight children, each for a moment, then says no; throws if it is refused
-  allocates,      ///< 2 GiB in blocks, then says no
+  prints,                ///< on both streams, then says no
+  writes_a_file,         ///< into its working directory; no if it can
+  forks,                 ///< eight children, each for a moment, then says no; throws if refused
+  allocates,             ///< 2 GiB in blocks, then says no
   yes_with_tolerance_0,  ///< from time 0 on
   aborts,
   writes_to_null,

@@ -1,4 +1,4 @@
 /// \file
-/// A library that is no plugin.
+/// A library that is not a plugin.
 
 extern "C" int answer_to_everything() { return 42; }

@@ -1,5 +1,5 @@
 /// \file
-/// A plugin whose name is none.
+/// A plugin whose name is null.
 
 #include <cstdint>
 

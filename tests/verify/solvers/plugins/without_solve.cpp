@@ -1,5 +1,5 @@
 /// \file
-/// A plugin that lacks the function that solves.
+/// A plugin without the function that solves.
 
 #include <cstdint>
 

@@ -1,5 +1,5 @@
 /// \file
-/// A plugin that misses everything, but only where it is asked with certain options.
+/// A plugin that misses everything, but only if it is called with certain options.
 
 #include <cstdint>
 

@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file
-/// As tight_inclusion_ccd.hpp.
+/// The same adapter as in tight_inclusion_ccd.hpp.
 
 #include "adapters/ipc_toolkit/narrow_phase_ccd.hpp"
 

@@ -1,8 +1,8 @@
 #pragma once
 
 /// \file
-/// Our adapter by the names of the IPC Toolkit's own classes, so that the toolkit's tests of these
-/// test the adapter.
+/// Our adapter under the names of the IPC Toolkit's own classes, so that the toolkit's tests of
+/// these classes test the adapter.
 
 #include "adapters/ipc_toolkit/narrow_phase_ccd.hpp"
 
@@ -12,8 +12,7 @@ class TightInclusionCCD : public touchstone::adapters::NarrowPhaseCCD {
  public:
   static constexpr double DEFAULT_TOLERANCE = 1e-6;
   static constexpr long DEFAULT_MAX_ITERATIONS = 10'000'000L;
-  /// The toolkit has 0.8, and a cap of 1e-4 for the distance that is left, which its tests count
-  /// on.
+  /// The toolkit has 0.8, and limits the remaining distance to 1e-4, on which its tests rely.
   static constexpr double DEFAULT_CONSERVATIVE_RESCALING = 0.9999;
 
   explicit TightInclusionCCD(double /*tolerance*/ = DEFAULT_TOLERANCE,

@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file
-/// The public IPC Toolkit as far as a standalone program calls it: declarations of the same
+/// Declarations of the public IPC Toolkit that a standalone program calls, with the same
 /// signatures, to compile against.
 
 #include <Eigen/Core>
