@@ -61,15 +61,7 @@ void write_kind(std::string& text, Kind kind) {
 }
 
 void write_label(std::string& text, std::string_view label) {
-  if (label.empty()) return;
-  if (label.size() > label_limit) label.remove_prefix(label.size() - label_limit);
-  static constexpr unsigned char first_printable = 0x20, last_control = 0x7F;
-  text += "label ";
-  for (const char c : label) {
-    const auto byte = static_cast<unsigned char>(c);
-    text += byte < first_printable || byte == last_control ? '?' : c;
-  }
-  text += '\n';
+  if (!label.empty()) text.append("label ").append(label_text(label)).append("\n");
 }
 
 void write_points(std::string& text, const Query& query) {
@@ -161,7 +153,27 @@ struct PlaceWriter {
   void operator()(const AxesContact&) const { text += "axes"; }
 };
 
+/// Is it a byte of a character of UTF-8 behind its first?
+bool is_continuation(char c) { return (static_cast<unsigned char>(c) & 0xC0U) == 0x80U; }
+
 }  // namespace
+
+std::string label_text(std::string_view label) {
+  if (label.size() > label_limit) {
+    label.remove_prefix(label.size() - label_limit);
+    static constexpr std::size_t most_continuations = 3;
+    for (std::size_t n = 0; n < most_continuations && is_continuation(label.front()); ++n) {
+      label.remove_prefix(1);
+    }
+  }
+  static constexpr unsigned char first_printable = 0x20, last_control = 0x7F;
+  std::string text(label);
+  for (char& c : text) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (byte < first_printable || byte == last_control) c = '?';
+  }
+  return text;
+}
 
 std::string_view certificates_header() { return "touchstone-certificates 2\n"; }
 

@@ -8,12 +8,13 @@
 namespace touchstone::checker {
 namespace {
 
-// ---- Numbers --------------------------------------------------------------------------------------
+// ---- Numbers ------------------------------------------------------------------------------------
 
 mpz_class parse_digits(std::string_view digits, int base) {
   const auto known = std::string_view("0123456789abcdef").substr(0, std::size_t(base));
-  if (digits.empty() || digits.find_first_not_of(known) != std::string_view::npos)
+  if (digits.empty() || digits.find_first_not_of(known) != std::string_view::npos) {
     reject("not a number");
+  }
   // 2^16384 has 4933 decimal digits; a longer text is not worth its conversion.
   require_at_most(base == 10 ? 4'933 : max_number_bits / 4, digits.size(), "digits in a number");
   mpz_class number(std::string(digits), base);
@@ -28,7 +29,7 @@ mpz_class parse_decimal(std::string_view digits) {
   return number;
 }
 
-/// The parts of a text before and behind a separator, which may be missing.
+/// The parts of a text before and behind a separator, or `behind` where it is missing.
 std::array<std::string_view, 2> parted(std::string_view text, char separator,
                                        std::string_view behind) {
   const std::size_t place = text.find(separator);
@@ -36,24 +37,32 @@ std::array<std::string_view, 2> parted(std::string_view text, char separator,
   return {text.substr(0, place), text.substr(place + 1)};
 }
 
+/// [±]D, decimal digits.
+long parse_power_of_two(std::string_view text) {
+  const bool is_negative = text.starts_with('-');
+  const bool is_signed = is_negative || text.starts_with('+');
+  const std::string_view digits = text.substr(is_signed ? 1 : 0);
+  require_at_most(6, digits.size(), "digits in a power of two");
+  const long power = parse_digits(digits, 10).get_si();
+  return is_negative ? -power : power;
+}
+
 /// The text after 0x: H[.H]p[±]D, H hexadecimal and D decimal digits.
 mpq_class parse_hexadecimal(std::string_view text) {
-  const auto [digits, signed_power] = parted(text, 'p', "");
+  const auto [digits, power] = parted(text, 'p', "");
   const auto [whole, fraction] = parted(digits, '.', "");
-  std::string_view power = signed_power;
-  const bool is_signed = power.starts_with('-') || power.starts_with('+');
-  power.remove_prefix(is_signed ? 1 : 0);
   if (whole.empty() || digits.ends_with('.')) reject("not a number");
-  require_at_most(6, power.size(), "digits in a power of two");
-  long exponent = long(parse_digits(power, 10).get_si());
-  if (signed_power.starts_with('-')) exponent = -exponent;
-  exponent -= 4 * std::ssize(fraction);
+  const long exponent = parse_power_of_two(power) - 4 * std::ssize(fraction);
   mpq_class number(parse_digits(std::string(whole).append(fraction), 16));
   // The integers of the fraction: number · 2^exponent / 1 or number / 2^−exponent.
   constexpr long limit = max_number_bits;
   const long margin = limit - static_cast<long>(mpz_sizeinbase(number.get_num_mpz_t(), 2));
   if (exponent > margin || 1 - exponent > limit) reject("too large or small a power of two");
-  exponent > 0 ? number <<= mp_bitcnt_t(exponent) : number >>= mp_bitcnt_t(-exponent);
+  if (exponent > 0) {
+    number <<= static_cast<mp_bitcnt_t>(exponent);
+  } else {
+    number >>= static_cast<mp_bitcnt_t>(-exponent);
+  }
   return number;
 }
 
@@ -80,38 +89,63 @@ auto signed_number(std::string_view word, const Parse& parse) try {
 
 // ---- The parts of a certificate -----------------------------------------------------------------
 
-void read_query(Reader& reader, Certificate& certificate) {
-  reader.begin("query");
-  certificate.is_edge_edge = reader.one_of({"vertex_face", "edge_edge"}) == 1;
-  reader.end();
-  if (reader.first_word() == "label") {
-    reader.begin();
-    const std::string_view text = reader.text();
-    certificate.label = text.substr(std::min<std::size_t>(6, text.size()));
-    require_at_most(max_label_bytes, certificate.label.size(), "bytes in a label");
-    reader.advance();
-  }
-  for (std::size_t n = 0; n < certificate.coordinates.size(); ++n) {
-    if (n % 3 == 0) reader.begin("point");
-    certificate.coordinates[n] = read_number(reader);
-    if (n % 3 == 2) reader.end();
-  }
-  if (reader.first_word() == "separation") read_separation(reader, certificate);
-}
-
 void read_claim(Reader& reader, Certificate& certificate) {
   certificate.line = reader.begin("claim");
-  certificate.claim = Claim(reader.one_of({"no_collision", "collision", "time_of_impact"}));
+  // The words are in the order of the enumeration, here and below.
+  certificate.claim =
+      static_cast<Claim>(reader.one_of({"no_collision", "collision", "time_of_impact"}));
   if (certificate.claim == Claim::no_collision) certificate.lower = 1;
-  if (certificate.claim == Claim::time_of_impact) read_time_of_impact(reader, certificate);
+  if (certificate.claim == Claim::time_of_impact) {
+    take_time_of_impact(reader, certificate.lower, certificate.upper);
+  }
   reader.end();
 }
 
-void read_corners(Reader& reader, const Certificate& certificate, std::size_t count, Part& part) {
+std::size_t take_axis(Reader& reader) { return reader.one_of({"x", "y", "z"}); }
+
+void take_corners(Reader& reader, const Query& query, std::size_t count, Part& part) {
   for (std::size_t n = 0; n < count; ++n) {
-    const std::size_t corner = part.corners.at(n) = reader.one_of({"0", "1", "2", "3"});
-    if (corner == 3 && !certificate.is_edge_edge) reject("a vertex_face has no corner 3");
+    const std::size_t corner = reader.one_of({"0", "1", "2", "3"});
+    if (corner == 3 && !query.is_edge_edge) reject("a vertex_face has no corner 3");
+    part.corners.at(n) = corner;
   }
+}
+
+void take_feature(Reader& reader, const Query& query, Subinterval& subinterval) {
+  using enum Feature;
+  const Feature feature =
+      static_cast<Feature>(reader.one_of({"vertex", "edge", "face", "axis", "cross"}));
+  subinterval.feature = feature;
+  if (feature == axis || feature == cross) subinterval.axis = take_axis(reader);
+  if (feature == vertex) take_corners(reader, query, 1, subinterval);
+  if (feature == edge || feature == cross) take_corners(reader, query, 2, subinterval);
+  if (feature == face || feature == axis) subinterval.is_negative = reader.one_of({"+", "-"}) == 1;
+}
+
+/// Takes `time T` or `root LO HI G0 … Gn`.
+void take_time(Reader& reader, Contact& contact) {
+  contact.is_root = reader.one_of({"time", "root"}) == 1;
+  contact.from = take_number(reader);
+  contact.to = contact.from;
+  if (!contact.is_root) return;
+  contact.to = take_number(reader);
+  while (reader.has_word()) {
+    contact.g.push_back(signed_number(reader.word(), parse_decimal));
+    require_at_most(max_root_degree + 1, contact.g.size(), "coefficients in a polynomial");
+  }
+  if (contact.g.size() < 2) reject("a polynomial of a degree below 1");
+  if (contact.g.back() == 0) reject("a polynomial whose leading coefficient is 0");
+}
+
+void take_place(Reader& reader, const Query& query, Contact& contact) {
+  using enum Place;
+  const Place place =
+      static_cast<Place>(reader.one_of({"vertex", "segment", "triangle", "edge", "face", "axes"}));
+  contact.place = place;
+  if (place == vertex) take_corners(reader, query, 1, contact);
+  if (place == segment || place == edge) take_corners(reader, query, 2, contact);
+  if (place == triangle) take_corners(reader, query, 3, contact);
+  if (place == triangle) contact.axis = take_axis(reader);
 }
 
 }  // namespace
@@ -124,11 +158,20 @@ std::string printable(std::string_view text) {
   static constexpr std::string_view digits = "0123456789abcdef";
   std::string result;
   for (const char c : text) {
+    if (c >= ' ' && c <= '~') {
+      result += c;
+      continue;
+    }
     const auto byte = static_cast<unsigned char>(c);
-    const std::array escaped{'\\', 'x', digits[byte / 16U], digits[byte % 16U]};
-    c >= ' ' && c <= '~' ? result += c : result.append(escaped.begin(), escaped.end());
+    result += "\\x";
+    result += digits[byte / 16U];
+    result += digits[byte % 16U];
   }
   return result;
+}
+
+std::string quoted(std::string_view word) {
+  return "'" + printable(word.substr(0, 40)) + (word.size() > 40 ? "...'" : "'");
 }
 
 mpq_class parse_number(std::string_view word) {
@@ -138,7 +181,7 @@ mpq_class parse_number(std::string_view word) {
 }
 
 std::string to_text(const mpq_class& number) {
-  std::string fraction = number.get_str();
+  const std::string fraction = number.get_str();
   const bool is_dyadic = mpz_popcount(number.get_den_mpz_t()) == 1;
   if (number == 0 || !is_dyadic) return fraction;
   // ± 1.H · 2^power; `digits` are those of 1H.
@@ -156,43 +199,48 @@ std::string to_text(const mpq_class& number) {
 }
 
 std::string to_text(const Certificate& certificate) {
-  static constexpr std::array names{"no_collision", "collision", "time_of_impact"};
-  std::string name = names.at(std::size_t(certificate.claim));
-  if (certificate.claim != Claim::time_of_impact) return name;
-  return name + ' ' + to_text(certificate.lower) + ' ' + to_text(certificate.upper);
+  if (certificate.claim == Claim::no_collision) return "no_collision";
+  if (certificate.claim == Claim::collision) return "collision";
+  return "time_of_impact " + to_text(certificate.lower) + ' ' + to_text(certificate.upper);
 }
 
-std::string separation_text(const Certificate& certificate) {
-  const std::string distance = to_text(certificate.distance);
-  return certificate.distance == 0 ? distance : distance + (certificate.is_l2 ? " l2" : " linf");
+std::string to_text(const Separation& separation) {
+  const std::string distance = to_text(separation.distance);
+  if (separation.distance == 0) return distance;
+  return distance + (separation.is_l2 ? " l2" : " linf");
 }
 
-std::string quoted(std::string_view word) {
-  return "'" + printable(word.substr(0, 40)) + (word.size() > 40 ? "...'" : "'");
+// ---- Lines and words ----------------------------------------------------------------------------
+
+void Reader::read_line() {
+  stream_->getline(buffer_.data() + 1, std::ssize(buffer_) - 1);
+  auto length = static_cast<std::size_t>(stream_->gcount());
+  bytes_ += static_cast<std::int64_t>(length);
+  at_end_ = stream_->eof() && length == 0;
+  fault_ = nullptr;
+  if (at_end_) {
+    fault_ = "the stream ends within a certificate";
+  } else if (stream_->eof()) {
+    fault_ = "the last line is not ended by a newline";
+  } else if (stream_->fail()) {
+    fault_ = "the line is too long";
+    stream_->clear(stream_->rdstate() & ~std::ios::failbit);
+    stream_->ignore(std::numeric_limits<std::streamsize>::max(), '\n');
+  } else {
+    --length;  // getline counts the newline but does not store it
+  }
+  if (stream_->bad()) throw std::runtime_error("the stream cannot be read");
+  if (!at_end_) ++number_;
+  text_ = {buffer_.data() + 1, length};
 }
 
 void Reader::advance() {
-  do {
-    stream_->getline(buffer_.data() + 1, std::ssize(buffer_) - 1);
-    auto length = static_cast<std::size_t>(stream_->gcount());
-    bytes_ += std::int64_t(length);
-    at_end_ = stream_->eof() && length == 0;
-    fault_ = nullptr;
-    if (at_end_) {
-      fault_ = "the stream ends within a certificate";
-    } else if (stream_->eof()) {
-      fault_ = "the last line is not ended by a newline";
-    } else if (stream_->fail()) {
-      fault_ = "the line is too long";
-      stream_->clear(stream_->rdstate() & ~std::ios::failbit);
-      stream_->ignore(std::numeric_limits<std::streamsize>::max(), '\n');
-    } else {
-      --length;  // getline counts the newline but does not store it
-    }
-    if (stream_->bad()) throw std::runtime_error("the stream cannot be read");
-    if (!at_end_) ++number_;
-    text_ = {buffer_.data() + 1, length};
-  } while (number_ > 1 && fault_ == nullptr && (text_.empty() || text_.front() == '#'));
+  bool is_skipped = true;
+  while (is_skipped) {
+    read_line();
+    const bool is_comment = text_.empty() || text_.front() == '#';
+    is_skipped = is_comment && fault_ == nullptr && number_ > 1;
+  }
 }
 
 std::size_t Reader::begin(std::string_view keyword) {
@@ -224,67 +272,82 @@ void Reader::end() {
   advance();
 }
 
-mpq_class read_number(Reader& reader) { return parse_number(reader.word()); }
+// ---- Certificates -------------------------------------------------------------------------------
 
-void read_separation(Reader& reader, Certificate& certificate) {
-  reader.begin("separation");
-  certificate.distance = read_number(reader);
-  if (certificate.distance < 0) reject("a distance below 0");
-  certificate.is_l2 = reader.one_of({"linf", "l2"}) == 1;
-  reader.end();
+mpq_class take_number(Reader& reader) { return parse_number(reader.word()); }
+
+std::string read_label(Reader& reader, std::string_view keyword) {
+  reader.begin(keyword);
+  const std::string_view line = reader.text();
+  const std::size_t place = keyword.size() + 1;
+  const std::string label(line.substr(std::min(place, line.size())));
+  require_at_most(max_label_bytes, label.size(), "bytes in a label");
+  reader.advance();
+  return label;
 }
 
-void read_time_of_impact(Reader& reader, Certificate& certificate) {
-  const mpq_class& lower = certificate.lower = read_number(reader);
-  const mpq_class& upper = certificate.upper = read_number(reader);
-  if ((lower != 0 || upper != 0) && (lower < 0 || lower >= upper || upper > 1)) {
+Separation read_separation(Reader& reader) {
+  Separation separation;
+  reader.begin("separation");
+  separation.distance = take_number(reader);
+  if (separation.distance < 0) reject("a distance below 0");
+  separation.is_l2 = reader.one_of({"linf", "l2"}) == 1;
+  reader.end();
+  return separation;
+}
+
+void take_time_of_impact(Reader& reader, mpq_class& lower, mpq_class& upper) {
+  lower = take_number(reader);
+  upper = take_number(reader);
+  const bool is_at_start = lower == 0 && upper == 0;
+  const bool is_interval = 0 <= lower && lower < upper && upper <= 1;
+  if (!is_at_start && !is_interval) {
     reject("a time of impact is 0 0, or LO HI with 0 <= LO < HI <= 1");
   }
 }
 
-void read_subintervals(Reader& reader, Certificate& certificate) {
-  for (certificate.subintervals.clear(); reader.first_word() == "separate"; reader.end()) {
-    Subinterval& subinterval = certificate.subintervals.emplace_back();
-    require_at_most(max_subintervals, certificate.subintervals.size(), "subintervals");
+std::vector<Subinterval> read_subintervals(Reader& reader, const Query& query) {
+  std::vector<Subinterval> subintervals;
+  while (reader.first_word() == "separate") {
+    Subinterval& subinterval = subintervals.emplace_back();
+    require_at_most(max_subintervals, subintervals.size(), "subintervals");
     subinterval.line = reader.begin("separate");
-    subinterval.from = read_number(reader);
-    subinterval.to = read_number(reader);
-    subinterval.feature = Feature(reader.one_of({"vertex", "edge", "face", "axis", "cross"}));
-    if (subinterval.feature >= Feature::axis) subinterval.axis = reader.one_of({"x", "y", "z"});
-    static constexpr std::array<std::size_t, 5> counts{1, 2, 0, 0, 2};
-    const std::size_t count = counts.at(std::size_t(subinterval.feature));
-    read_corners(reader, certificate, count, subinterval);
-    if (count == 0) subinterval.is_negative = reader.one_of({"+", "-"}) == 1;
+    subinterval.from = take_number(reader);
+    subinterval.to = take_number(reader);
+    take_feature(reader, query, subinterval);
+    reader.end();
   }
+  return subintervals;
 }
 
-void read_contact(Reader& reader, Certificate& certificate) {
-  Contact& contact = certificate.contact;
+Contact read_contact(Reader& reader, const Query& query) {
+  Contact contact;
   contact.line = reader.begin("contact");
-  contact.is_root = reader.one_of({"time", "root"}) == 1;
-  contact.from = read_number(reader);
-  contact.to = contact.is_root ? read_number(reader) : contact.from;
-  while (contact.is_root && reader.has_word()) {
-    contact.g.push_back(signed_number(reader.word(), parse_decimal));
-    require_at_most(max_root_degree + 1, contact.g.size(), "coefficients in a polynomial");
-  }
-  if (contact.is_root && contact.g.size() < 2) reject("a polynomial of a degree below 1");
-  if (contact.is_root && contact.g.back() == 0)
-    reject("a polynomial whose leading coefficient is 0");
+  take_time(reader, contact);
   reader.end();
   reader.begin("at");
-  contact.place = Place(reader.one_of({"vertex", "segment", "triangle", "edge", "face", "axes"}));
-  static constexpr std::array<std::size_t, 6> counts{1, 2, 3, 2, 0, 0};
-  read_corners(reader, certificate, counts.at(std::size_t(contact.place)), contact);
-  if (contact.place == Place::triangle) contact.axis = reader.one_of({"x", "y", "z"});
+  take_place(reader, query, contact);
   reader.end();
+  return contact;
 }
 
 void read_certificate(Reader& reader, Certificate& certificate) {
-  read_query(reader, certificate);
+  Query& query = certificate.query;
+  reader.begin("query");
+  query.is_edge_edge = reader.one_of({"vertex_face", "edge_edge"}) == 1;
+  reader.end();
+  if (reader.first_word() == "label") certificate.label = read_label(reader, "label");
+  for (Points& points : query.points) {
+    for (Point& point : points) {
+      reader.begin("point");
+      for (mpq_class& coordinate : point) coordinate = take_number(reader);
+      reader.end();
+    }
+  }
+  if (reader.first_word() == "separation") certificate.separation = read_separation(reader);
   read_claim(reader, certificate);
-  if (certificate.has_subintervals()) read_subintervals(reader, certificate);
-  if (certificate.claim != Claim::no_collision) read_contact(reader, certificate);
+  if (certificate.has_subintervals()) certificate.subintervals = read_subintervals(reader, query);
+  if (certificate.has_contact()) certificate.contact = read_contact(reader, query);
   reader.begin("end");
   reader.end();
 }

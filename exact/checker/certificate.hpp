@@ -35,6 +35,13 @@ inline constexpr std::size_t max_root_degree = 8;
 /// Rejects more of something than the limit.
 void require_at_most(std::size_t limit, std::size_t count, std::string_view what);
 
+/// The text with every byte that is not printable ASCII as \xHH.
+[[nodiscard]] std::string printable(std::string_view text);
+/// The beginning of a word, for a message.
+[[nodiscard]] std::string quoted(std::string_view word);
+
+// ---- Numbers ------------------------------------------------------------------------------------
+
 /// The number that a word is: a decimal integer, a fraction or a hexadecimal float.
 /// \throws Rejection if it is none, or beyond the limits.
 [[nodiscard]] mpq_class parse_number(std::string_view word);
@@ -43,17 +50,32 @@ void require_at_most(std::size_t limit, std::size_t count, std::string_view what
 /// terms and, where there is one, the hexadecimal float whose first digit is 1.
 [[nodiscard]] std::string to_text(const mpq_class& number);
 
-/// The text with every byte that is not printable ASCII as \xHH.
-[[nodiscard]] std::string printable(std::string_view text);
-/// The beginning of a word, for a message.
-[[nodiscard]] std::string quoted(std::string_view word);
+// ---- The parts of a certificate -----------------------------------------------------------------
+
+/// x y z.
+using Point = std::array<mpq_class, 3>;
+/// Of a vertex and a face, or of two edges, as listed.
+using Points = std::array<Point, 4>;
+
+struct Query {
+  bool is_edge_edge = false;
+  /// At t=0 and at t=1.
+  std::array<Points, 2> points;
+};
+
+/// The minimum separation and its norm: l2, or else linf.
+struct Separation {
+  mpq_class distance = 0;
+  bool is_l2 = false;
+};
 
 enum class Claim : std::uint8_t { no_collision, collision, time_of_impact };
 
 /// A statement about [from, to] on a line of its own.
 struct Part {
   std::size_t line = 0;
-  mpq_class from, to;
+  mpq_class from;
+  mpq_class to;
   /// As many as its feature or place has.
   std::array<std::size_t, 3> corners{};
   /// Of an axis, a cross or a triangle.
@@ -84,31 +106,31 @@ struct Contact : Part {
 struct Certificate {
   /// That of the claim.
   std::size_t line = 0;
-  bool is_edge_edge = false;
   std::string label;
-  /// The eight points of the query, x y z each, as listed.
-  std::array<mpq_class, 24> coordinates;
-  /// The minimum separation and its norm: l2, or else linf.
-  mpq_class distance = 0;
-  bool is_l2 = false;
+  Query query;
+  Separation separation;
   Claim claim = Claim::no_collision;
   /// The subintervals cover [0,lower], the contact is in [lower,upper]. If upper is 0 there are no
   /// subintervals.
-  mpq_class lower = 0, upper = 1;
+  mpq_class lower = 0;
+  mpq_class upper = 1;
   std::vector<Subinterval> subintervals;
   Contact contact;
 
   [[nodiscard]] bool has_subintervals() const { return claim != Claim::collision && upper != 0; }
+  [[nodiscard]] bool has_contact() const { return claim != Claim::no_collision; }
 };
 
 /// The claim and the separation in one form, whatever form they were read in: a demand is the same
 /// text (checker.hpp). At distance 0 both norms are the same, and none is named.
 [[nodiscard]] std::string to_text(const Certificate& certificate);
-[[nodiscard]] std::string separation_text(const Certificate& certificate);
+[[nodiscard]] std::string to_text(const Separation& separation);
 
 /// \throws Rejection, with that line, unless the options demand this claim and separation, or any.
 void require_demanded(const Options& options, const std::string& claim,
                       const std::string& separation, std::size_t line);
+
+// ---- Reading ------------------------------------------------------------------------------------
 
 /// The lines of a stream without those that are empty or comments, and the words of the line at
 /// hand.
@@ -122,7 +144,7 @@ class Reader {
   void advance();
 
   [[nodiscard]] bool at_end() const { return at_end_; }
-  /// The bytes of the stream up to here.
+  /// The bytes of the stream up to the end of the line.
   [[nodiscard]] std::int64_t bytes() const { return bytes_; }
   /// The number of the line, from 1; at the end that of the last line.
   [[nodiscard]] std::size_t number() const { return number_; }
@@ -136,35 +158,43 @@ class Reader {
   [[nodiscard]] bool has_word() const { return !rest_.empty(); }
   /// Takes the next word; words are separated by single spaces. \throws Rejection if there is none.
   std::string_view word();
-  /// Takes one of these words, and tells which. \throws Rejection if it is another.
+  /// Takes one of these words. \returns its place among them. \throws Rejection if it is another.
   std::size_t one_of(std::initializer_list<std::string_view> words);
-  /// Leaves the line. \throws Rejection if it has more words.
+  /// Leaves the line and advances. \throws Rejection if the line has more words.
   void end();
 
  private:
+  /// Goes to the next line, whatever it is.
+  void read_line();
+
   std::istream* stream_;
   /// A space and the line.
   std::vector<char> buffer_;
   std::size_t number_ = 0;
   std::int64_t bytes_ = 0;
   bool at_end_ = false;
+  /// Why the line cannot be read; null if it can.
   const char* fault_ = nullptr;
   std::string_view text_;
   /// The rest of the line: nothing, or a space and the words after it.
   std::string_view rest_;
 };
 
-/// The parts of a certificate. They throw as read_certificate.
-[[nodiscard]] mpq_class read_number(Reader& reader);
-void read_separation(Reader& reader, Certificate& certificate);
-void read_time_of_impact(Reader& reader, Certificate& certificate);
-void read_subintervals(Reader& reader, Certificate& certificate);
-void read_contact(Reader& reader, Certificate& certificate);
-
 /// Reads the certificate that begins at the present line and goes behind its `end`. Where it
 /// throws, the reader stands at the line at fault, and the certificate has its label if that came
 /// before.
 /// \throws Rejection where the text is no certificate, std::runtime_error as Reader::advance.
 void read_certificate(Reader& reader, Certificate& certificate);
+
+// What certificates of queries and of steps share. These throw as read_certificate.
+
+[[nodiscard]] mpq_class take_number(Reader& reader);
+/// Reads a line of the keyword and a label, which is the rest of the line.
+[[nodiscard]] std::string read_label(Reader& reader, std::string_view keyword);
+[[nodiscard]] Separation read_separation(Reader& reader);
+/// Takes LO and HI, between which the first contact is.
+void take_time_of_impact(Reader& reader, mpq_class& lower, mpq_class& upper);
+[[nodiscard]] std::vector<Subinterval> read_subintervals(Reader& reader, const Query& query);
+[[nodiscard]] Contact read_contact(Reader& reader, const Query& query);
 
 }  // namespace touchstone::checker

@@ -36,12 +36,15 @@ class StreamCheck {
   Report run() {
     attempt("", [&] {
       reader_.advance();
-      if (reader_.text() == steps_header) return check_steps();
-      if (options_.scenes != nullptr) {
+      if (reader_.text() == steps_header) {
+        check_steps();
+      } else if (options_.scenes != nullptr) {
         reject("the first line is not '" + std::string(steps_header) + "', as for scenes", 1);
+      } else if (reader_.text() == header) {
+        check_certificates();
+      } else {
+        reject("the first line is not '" + std::string(header) + "'", 1);
       }
-      if (reader_.text() == header) return check_certificates();
-      reject("the first line is not '" + std::string(header) + "'", 1);
     });
     return std::move(report_);
   }
@@ -53,16 +56,17 @@ class StreamCheck {
     try {
       work();
     } catch (const Rejection& thrown) {
+      ++report_.rejected;
+      if (report_.rejections.size() == options_.max_rejections) return;
       const std::size_t line = thrown.line != 0 ? thrown.line : reader_.number();
-      if (report_.rejected++ < options_.max_rejections) {
-        report_.rejections.push_back({line, printable(label), thrown.reason});
-      }
+      report_.rejections.push_back({line, printable(label), thrown.reason});
     }
   }
 
   void check_certificates() {
     std::uint64_t queries = 0;
-    for (reader_.advance(); !reader_.at_end() && reader_.first_word() != closing_word;) {
+    reader_.advance();
+    while (!reader_.at_end() && reader_.first_word() != closing_word) {
       if (reader_.first_word() == "query") ++queries;
       check_one();
     }
@@ -75,16 +79,14 @@ class StreamCheck {
     const std::size_t first = reader_.number();
     Certificate certificate;
     bool is_read = false;
-    std::int64_t work_bits_left = options_.max_work_bits;
     attempt(certificate.label, [&] {
       read_certificate(reader_, certificate);
       is_read = true;
-      require_demanded(options_, to_text(certificate), separation_text(certificate),
+      require_demanded(options_, to_text(certificate), to_text(certificate.separation),
                        certificate.line);
+      std::int64_t work_bits_left = options_.max_work_bits;
       verify(certificate, work_bits_left);
-      static constexpr std::array counts{&Report::no_collision, &Report::collision,
-                                         &Report::time_of_impact};
-      ++(report_.*counts.at(std::size_t(certificate.claim)));
+      count(certificate.claim);
     });
     if (is_read) return;
     const auto may_begin = [&] {
@@ -93,11 +95,21 @@ class StreamCheck {
     while (!reader_.at_end() && (reader_.number() == first || !may_begin())) reader_.advance();
   }
 
+  void count(Claim claim) {
+    if (claim == Claim::no_collision) ++report_.no_collision;
+    if (claim == Claim::collision) ++report_.collision;
+    if (claim == Claim::time_of_impact) ++report_.time_of_impact;
+  }
+
   /// Checks the certificates of steps to the first that is rejected.
   void check_steps() {
     std::optional<Reader> scenes;
-    if (options_.scenes != nullptr) scenes.emplace(*options_.scenes).advance();
-    for (reader_.advance(); reader_.first_word() == "step";) {
+    if (options_.scenes != nullptr) {
+      scenes.emplace(*options_.scenes);
+      scenes->advance();
+    }
+    reader_.advance();
+    while (reader_.first_word() == "step") {
       report_.steps.push_back(check_step(reader_, scenes ? &*scenes : nullptr, options_));
     }
     check_end("steps", report_.steps.size());
@@ -149,17 +161,16 @@ std::string demanded_claim(std::string_view words) {
 }
 
 std::string demanded_separation(std::string_view distance, std::string_view norm) {
-  Certificate certificate;
   if (norm != "linf" && norm != "l2") reject("not a norm: " + quoted(norm));
-  certificate.is_l2 = norm == "l2";
   double decimal = 0.0;
-  const auto [end, error] =
-      std::from_chars(distance.data(), distance.data() + distance.size(), decimal);
-  const bool is_decimal =
-      error == std::errc() && end == distance.data() + distance.size() && std::isfinite(decimal);
-  certificate.distance = is_decimal ? mpq_class(decimal) : parse_number(distance);
-  if (certificate.distance < 0) reject("a distance below 0");
-  return separation_text(certificate);
+  const char* const last = distance.data() + distance.size();
+  const auto [end, error] = std::from_chars(distance.data(), last, decimal);
+  const bool is_decimal = error == std::errc() && end == last && std::isfinite(decimal);
+  Separation separation;
+  separation.distance = is_decimal ? mpq_class(decimal) : parse_number(distance);
+  separation.is_l2 = norm == "l2";
+  if (separation.distance < 0) reject("a distance below 0");
+  return to_text(separation);
 }
 
 void require_demanded(const Options& options, const std::string& claim,
@@ -170,8 +181,9 @@ void require_demanded(const Options& options, const std::string& claim,
   if (!is_demanded(options.claim, claim)) {
     reject("the claim is not the one demanded: " + claim, line);
   }
-  if (options.separation.empty() || options.separation == separation) return;
-  reject("the separation is not the one demanded: " + separation, line);
+  if (!options.separation.empty() && options.separation != separation) {
+    reject("the separation is not the one demanded: " + separation, line);
+  }
 }
 
 Report check(std::istream& certificates, const Options& options) {

@@ -6,7 +6,7 @@
 /// It shares nothing with the rest of the project: the standard library and GMP are all it needs.
 /// To be read in this order: certificate.hpp/.cpp turn text into what it says
 /// (exact/CERTIFICATES.md is the format), proof.hpp/.cpp are the mathematics, checker.cpp counts.
-/// For certificates of whole steps also places.hpp, which pairs need an argument, and
+/// For certificates of whole steps also places.hpp/.cpp, which pairs need an argument, and
 /// step.hpp/.cpp, what is said of them.
 ///
 /// Four points move on straight lines. The *corners* are
@@ -62,12 +62,19 @@ struct Options {
   std::string claim = {};
   /// Its separation, in the form of `demanded_separation`; empty: any.
   std::string separation = {};
-  /// How often boxes are compared in the search for the pairs of a step, at most: so many times a
-  /// byte that was read up to its end.
-  std::int64_t max_comparisons_per_byte = 256;
   /// The sizes of all polynomials that the proof of one certificate looks at, halves included, in
-  /// sum: of a query, and of all pairs of a step.
-  std::int64_t max_work_bits = std::int64_t{1} << 28U, max_step_work_bits = std::int64_t{1} << 35U;
+  /// sum.
+  std::int64_t max_work_bits = std::int64_t{1} << 28U;
+  /// What the polynomials of a step may have besides, for each byte of the certificate that was
+  /// read up to their line.
+  std::int64_t max_step_work_bits_per_byte = std::int64_t{1} << 14U;
+  /// How often boxes may be compared in the search for the pairs of a step, for each byte of the
+  /// certificate.
+  std::int64_t max_comparisons_per_byte = 256;
+  /// The items of all lists of a step's scene, in sum.
+  std::size_t max_items = std::size_t{1} << 22U;
+  /// The arguments of a step.
+  std::size_t max_arguments = std::size_t{1} << 24U;
 };
 
 /// Why a certificate was not accepted. The texts are printable ASCII whatever the bytes read: any

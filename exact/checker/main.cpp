@@ -45,7 +45,8 @@ struct Arguments {
 /// Nothing if the words are no command.
 std::optional<Arguments> parsed(std::span<char*> words) {
   Arguments arguments;
-  std::string separation, norm;
+  std::string separation;
+  std::string norm;
   std::vector<std::string> files;
   for (std::size_t i = 0; i < words.size(); ++i) {
     const std::string word = words[i];
@@ -98,7 +99,8 @@ void print(const touchstone::checker::Report& report) {
 
 /// Checks a file, and says what comes of it. \returns whether all was accepted.
 bool check(Arguments arguments) {
-  std::ifstream file, scenes;
+  std::ifstream file;
+  std::ifstream scenes;
   if (arguments.path != "-") file.open(arguments.path, std::ios::binary);
   if (!arguments.scenes.empty()) {
     scenes.open(arguments.scenes, std::ios::binary);

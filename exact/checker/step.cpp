@@ -1,9 +1,10 @@
 #include "exact/checker/step.hpp"
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <limits>
-#include <set>
+#include <vector>
 
 #include "exact/checker/places.hpp"
 #include "exact/checker/proof.hpp"
@@ -11,251 +12,400 @@
 namespace touchstone::checker {
 namespace {
 
-using Numbers = std::array<std::int32_t, 2>;
+// ---- The scene ----------------------------------------------------------------------------------
+
+using Face = std::array<std::int32_t, 3>;
+/// The numbers of two vertices, two groups or two primitives.
+using Two = std::array<std::int32_t, 2>;
+
+/// What is said of the scene, as it is written.
+struct Scene {
+  std::vector<Motion> vertices;
+  std::vector<Face> faces;
+  std::vector<Two> edges;
+  std::vector<std::int32_t> points;
+  std::vector<std::int32_t> groups;
+  std::vector<Two> apart;
+
+  friend bool operator==(const Scene&, const Scene&) = default;
+};
 
 /// Takes a word that is a decimal integer from `least` to below `limit`, in its only form.
 std::int32_t take_integer(Reader& reader, std::int32_t least, std::size_t limit) {
   const std::string_view word = reader.word();
   std::int32_t x = 0;
-  const auto [end, error] = std::from_chars(word.begin(), word.end(), x);
-  const bool is_integer = error == std::errc() && end == word.end() && std::to_string(x) == word;
-  const bool is_in_range = x >= least && x < std::int64_t(limit);
+  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), x);
+  const bool is_integer = error == std::errc() && std::to_string(x) == word;
+  const bool is_in_range = x >= least && x < static_cast<std::int64_t>(limit);
   if (!is_integer || !is_in_range) reject("not an integer, or out of range: " + quoted(word));
   return x;
 }
 
+/// Takes any integer that is not below 0.
+std::int32_t take_count(Reader& reader) {
+  return take_integer(reader, 0, std::numeric_limits<std::int32_t>::max());
+}
+
 double to_double(const mpq_class& number) {
-  if (abs(number) > std::numeric_limits<double>::max() || number != number.get_d())
-    reject("a number that is not a double");
+  const bool is_in_range = abs(number) <= std::numeric_limits<double>::max();
+  if (!is_in_range || number != number.get_d()) reject("a number that is not a double");
   return number.get_d();
 }
 
-/// A line of a keyword and a number, and so many lines: each an item, of whose numbers take() takes
-/// the first `columns`. The others are as the first.
+/// A line of a keyword and a number, and as many lines: take() makes an item of each.
 template <class Item, class Take>
-std::vector<Item> read_list(Reader& reader, std::string_view keyword, std::size_t columns,
+std::vector<Item> read_list(Reader& reader, std::string_view keyword, std::size_t& items_left,
                             const Take& take) {
-  std::vector<Item> list;
   reader.begin(keyword);
-  std::int32_t count = take_integer(reader, 0, max_items);
-  for (reader.end(); count > 0; --count) {
+  const auto count = static_cast<std::size_t>(take_count(reader));
+  if (count > items_left) reject("the scene has too many items");
+  items_left -= count;
+  reader.end();
+  std::vector<Item> list;
+  for (std::size_t n = 0; n < count; ++n) {
     reader.begin();
-    Item& item = list.emplace_back();
-    for (std::size_t k = 0; k < item.size(); ++k) item[k] = k < columns ? take() : item[0];
+    list.push_back(take());
     reader.end();
   }
   return list;
 }
 
-/// What is said of the scene, as it is written.
-struct Scene {
-  std::vector<Motion> vertices;
-  std::vector<Primitive> faces, edges, points, groups, apart;
-
-  friend bool operator==(const Scene&, const Scene&) = default;
-};
-
-Scene read_scene(Reader& reader) {
+Scene read_scene(Reader& reader, const Options& options) {
+  std::size_t items_left = options.max_items;
   Scene scene;
-  const auto coordinate = [&] { return to_double(read_number(reader)); };
-  scene.vertices = read_list<Motion>(reader, "vertices", 6, coordinate);
-  const auto integers = [&](std::string_view keyword, std::size_t columns, std::size_t limit) {
-    const auto integer = [&] { return take_integer(reader, 0, limit); };
-    return read_list<Primitive>(reader, keyword, columns, integer);
-  };
+  scene.vertices = read_list<Motion>(reader, "vertices", items_left, [&] {
+    Motion motion;
+    for (double& x : motion.start) x = to_double(take_number(reader));
+    for (double& x : motion.end) x = to_double(take_number(reader));
+    return motion;
+  });
   const std::size_t count = scene.vertices.size();
-  scene.faces = integers("faces", 3, count);
-  scene.edges = integers("edges", 2, count);
-  scene.points = integers("points", 1, count);
-  scene.groups = integers("groups", 1, max_items);
+  const auto vertex = [&] { return take_integer(reader, 0, count); };
+  const auto group = [&] { return take_count(reader); };
+  // The numbers in braces are taken from the left to the right.
+  const auto three_vertices = [&] { return Face{vertex(), vertex(), vertex()}; };
+  const auto two_vertices = [&] { return Two{vertex(), vertex()}; };
+  const auto two_groups = [&] { return Two{group(), group()}; };
+  scene.faces = read_list<Face>(reader, "faces", items_left, three_vertices);
+  scene.edges = read_list<Two>(reader, "edges", items_left, two_vertices);
+  scene.points = read_list<std::int32_t>(reader, "points", items_left, vertex);
+  scene.groups = read_list<std::int32_t>(reader, "groups", items_left, group);
   if (!scene.groups.empty() && scene.groups.size() != count) reject("not a group for each vertex");
-  scene.apart = integers("apart", 2, max_items);
+  scene.apart = read_list<Two>(reader, "apart", items_left, two_groups);
   return scene;
 }
 
-/// A kind of pairs, and those that have an argument.
+// ---- Its primitives -----------------------------------------------------------------------------
+
+/// All that take part.
+struct Elements {
+  Primitives vertices;
+  Primitives edges;
+  Primitives faces;
+  /// The vertices without an edge.
+  Primitives points;
+  /// The edges of no face.
+  Primitives bare_edges;
+};
+
+/// The next number of a list.
+std::int32_t next_number(const Primitives& primitives) {
+  return static_cast<std::int32_t>(primitives.size());
+}
+
+/// An edge by its vertices. Edges are numbered in the order of these.
+struct Edge {
+  std::int32_t larger;
+  std::int32_t smaller;
+  /// Is it an edge of no face?
+  bool is_bare;
+
+  friend auto operator<=>(const Edge&, const Edge&) = default;
+};
+
+/// All edges of the scene, each once, in the order of their numbers.
+std::vector<Edge> find_edges(const Scene& scene) {
+  std::vector<Edge> edges;
+  const auto add = [&](std::int32_t a, std::int32_t b, bool is_bare) {
+    edges.push_back({std::max(a, b), std::min(a, b), is_bare});
+  };
+  for (const auto& [a, b, c] : scene.faces) {
+    add(a, b, false);
+    add(b, c, false);
+    add(c, a, false);
+  }
+  for (const auto& [a, b] : scene.edges) add(a, b, true);
+  // Of several with the same vertices the first is that of a face, if there is one.
+  std::ranges::sort(edges);
+  const auto repeated = std::ranges::unique(edges, [](const Edge& a, const Edge& b) {
+    return a.larger == b.larger && a.smaller == b.smaller;
+  });
+  edges.erase(repeated.begin(), repeated.end());
+  return edges;
+}
+
+Elements find_elements(const Scene& scene) {
+  Elements elements;
+  for (const Face& face : scene.faces) {
+    elements.faces.push_back({next_number(elements.faces), face});
+  }
+  std::vector<bool> takes_part(scene.vertices.size());
+  std::vector<bool> has_edge(scene.vertices.size());
+  for (const auto& [larger, smaller, is_bare] : find_edges(scene)) {
+    takes_part[static_cast<std::size_t>(larger)] = true;
+    takes_part[static_cast<std::size_t>(smaller)] = true;
+    // From a vertex to itself there is no edge.
+    if (larger == smaller) continue;
+    has_edge[static_cast<std::size_t>(larger)] = true;
+    has_edge[static_cast<std::size_t>(smaller)] = true;
+    const Primitive edge{next_number(elements.edges), {smaller, larger, smaller}};
+    elements.edges.push_back(edge);
+    if (is_bare) elements.bare_edges.push_back(edge);
+  }
+  for (const std::int32_t vertex : scene.points) {
+    takes_part[static_cast<std::size_t>(vertex)] = true;
+  }
+  for (std::size_t n = 0; n < scene.vertices.size(); ++n) {
+    const auto number = static_cast<std::int32_t>(n);
+    const Primitive vertex{number, {number, number, number}};
+    if (takes_part[n]) elements.vertices.push_back(vertex);
+    if (takes_part[n] && !has_edge[n]) elements.points.push_back(vertex);
+  }
+  return elements;
+}
+
+/// \throws Rejection if there is none of this number.
+const Primitive& find(const Primitives& primitives, std::int32_t number) {
+  const auto place = std::ranges::lower_bound(primitives, number, {}, &Primitive::number);
+  if (place == primitives.end() || place->number != number) reject("there is no such element");
+  return *place;
+}
+
+/// A kind of pairs.
 struct PairKind {
   const char* name;
-  const Elements &some, &others;
-  std::set<Numbers> proved = {};
+  const Primitives& some;
+  const Primitives& others;
+  /// The numbers of those that have an argument, in order.
+  std::vector<Two> proved = {};
 };
+
+struct Pair {
+  const Primitive& a;
+  const Primitive& b;
+};
+
+// ---- The certificate ----------------------------------------------------------------------------
 
 class StepCheck {
  public:
   StepCheck(Reader& reader, const Options& options)
-      : reader_(reader), options_(options), work_bits_left_(options.max_step_work_bits) {}
+      : reader_(reader), options_(options), first_byte_(reader.bytes()) {}
 
   std::string run(Reader* scenes) {
-    read_label();
-    scene_ = read_scene(reader_);
-    const bool is_another = scenes != nullptr && read_scene(*scenes) != scene_;
-    if (is_another) reject("the scene is not the one given");
-    find_elements();
-    read_separation(reader_, pair_);
-    to_double(pair_.distance);
-    const std::string separation = separation_text(pair_);
-    text_ += "separation " + separation + '\n';
-    const std::size_t line = reader_.number();
-    const std::string claim = read_claim();
-    text_ += "claim " + claim + '\n';
-    require_demanded(options_, claim, separation, line);
-    if (pair_.claim == Claim::time_of_impact) read_earliest();
-    pair_.claim = Claim::no_collision;
-    if (pair_.has_subintervals()) prove_no_contact();
+    text_ = "step " + printable(read_label(reader_, "step")) + '\n';
+    scene_ = read_scene(reader_, options_);
+    if (scenes != nullptr && read_scene(*scenes, options_) != scene_) {
+      reject("the scene is not the one given");
+    }
+    find_what_can_collide();
+    separation_ = read_separation(reader_);
+    distance_ = to_double(separation_.distance);
+    read_claim();
+    if (is_earliest_) prove_contact();
+    const bool is_contact_at_start = is_earliest_ && upper_ == 0;
+    if (!is_contact_at_start) prove_no_contact();
     reader_.begin("end");
     reader_.end();
     return text_;
   }
 
  private:
-  void read_label() {
-    reader_.begin("step");
-    require_at_most(max_label_bytes, reader_.text().size(), "bytes in a label");
-    text_ += printable(reader_.text()) + '\n';
-    reader_.advance();
+  void find_what_can_collide() {
+    elements_ = find_elements(scene_);
+    for (const auto& [one, other] : scene_.apart) {
+      apart_.push_back({one, other});
+      apart_.push_back({other, one});
+    }
+    std::ranges::sort(apart_);
+    text_ += std::to_string(elements_.vertices.size()) + " vertices, " +
+             std::to_string(elements_.edges.size()) + " edges, " +
+             std::to_string(elements_.faces.size()) + " faces\n";
   }
 
-  void find_elements() {
-    scene_.groups.resize(scene_.vertices.size());
-    const auto side = [](std::int32_t a, std::int32_t b) -> Numbers {
-      return {std::max(a, b), std::min(a, b)};
-    };
-    std::map<Numbers, bool> all;  // is it the side of a face?
-    for (const auto& [a, b, c] : scene_.faces) {
-      faces_[std::int32_t(faces_.size())] = {a, b, c};
-      all[side(a, b)] = all[side(b, c)] = all[side(c, a)] = true;
-    }
-    for (const Primitive& edge : scene_.edges) all.emplace(side(edge[0], edge[1]), false);
-    for (const auto& [ends, is_side] : all) {
-      const auto& [a, b] = ends;
-      vertices_[a] = {a, a, a}, vertices_[b] = {b, b, b};
-      const Element edge{std::int32_t(edges_.size()), {b, a, b}};
-      if (a != b) edges_.insert(edge);
-      if (a != b && !is_side) bare_edges_.insert(edge);
-    }
-    for (const Primitive& point : scene_.points) vertices_[point[0]] = point;
-    points_ = vertices_;
-    for (const auto& [number, edge] : edges_) points_.erase(edge[0]), points_.erase(edge[1]);
-    for (const auto& [a, b, c] : scene_.apart) apart_.insert({{a, b}, {b, a}});
-    text_ += std::to_string(vertices_.size()) + " vertices, " + std::to_string(edges_.size()) +
-             " edges, " + std::to_string(faces_.size()) + " faces\n";
-  }
-
-  /// Takes the claim. \returns it, with its numbers in one form.
-  std::string read_claim() {
-    reader_.begin("claim");
-    const bool is_no_contact = reader_.one_of({"no_contact", "earliest"}) == 0;
-    pair_.claim = is_no_contact ? Claim::no_collision : Claim::time_of_impact;
-    if (is_no_contact) {
-      pair_.lower = read_number(reader_);
-      if (pair_.lower < 0 || pair_.lower > 1) reject("a time is from 0 to 1");
+  void read_claim() {
+    std::string claim;
+    const std::size_t line = reader_.begin("claim");
+    is_earliest_ = reader_.one_of({"no_contact", "earliest"}) == 1;
+    if (is_earliest_) {
+      take_time_of_impact(reader_, lower_, upper_);
+      claim = "earliest " + to_text(lower_) + ' ' + to_text(upper_);
     } else {
-      read_time_of_impact(reader_, pair_);
+      lower_ = take_number(reader_);
+      if (lower_ < 0 || lower_ > 1) reject("a time is from 0 to 1");
+      claim = "no_contact " + to_text(lower_);
     }
     reader_.end();
-    if (is_no_contact) return "no_contact " + to_text(pair_.lower);
-    return "earliest " + to_text(pair_.lower) + ' ' + to_text(pair_.upper);
+    const std::string separation = to_text(separation_);
+    require_demanded(options_, claim, separation, line);
+    text_ += "separation " + separation + "\nclaim " + claim + '\n';
   }
 
-  /// Takes the pair of the earliest contact and verifies the contact.
-  void read_earliest() {
+  /// Reads the pair of the earliest contact and its contact, and verifies both.
+  void prove_contact() {
     text_ += printable(reader_.text()) + '\n';
     reader_.begin("pair");
-    const PairKind& kind =
-        kinds_.at(reader_.one_of({"vertex_face", "edge_edge", "vertex_edge", "vertex_vertex"}));
-    if (!can_collide(take_pair(kind))) reject("these two cannot collide");
+    const std::size_t kind =
+        reader_.one_of({"vertex_face", "edge_edge", "vertex_edge", "vertex_vertex"});
+    const Pair pair = take_pair(kinds_.at(kind));
+    if (!can_collide(pair.a, pair.b)) reject("these two cannot collide");
     reader_.end();
-    read_contact(reader_, pair_);
-    pair_.claim = Claim::collision;
-    verify(pair_, work_bits_left_);
+    Certificate certificate = certificate_of(pair, Claim::collision);
+    certificate.contact = read_contact(reader_, certificate.query);
+    verify_within_limits(certificate);
   }
 
   /// Finds all pairs that no axis keeps apart, and requires that they have an argument.
   void prove_no_contact() {
-    const Places places(scene_.vertices, pair_.distance.get_d(), pair_.lower);
-    reader_.begin("sweep");
-    static_cast<void>(reader_.one_of({"x", "y", "z"}));
-    reader_.end();
+    const Places places(scene_.vertices, distance_, lower_);
+    read_sweep();
     for (PairKind& kind : kinds_) read_arguments(kind, places);
-    std::int64_t comparisons_left = options_.max_comparisons_per_byte * reader_.bytes();
+    std::int64_t comparisons_left = options_.max_comparisons_per_byte * bytes_read();
     for (const PairKind& kind : kinds_) {
-      const auto require_argument = [&](const Element& a, const Element& b) {
-        if (kind.proved.contains({a.first, b.first}) || !can_collide({&a, &b})) return;
-        reject("no argument for " + std::string(kind.name) + ' ' + std::to_string(a.first) + ' ' +
-               std::to_string(b.first));
+      const auto require_argument = [&](const Primitive& a, const Primitive& b) {
+        const Two numbers{a.number, b.number};
+        if (std::ranges::binary_search(kind.proved, numbers) || !can_collide(a, b)) return;
+        reject("no argument for " + std::string(kind.name) + ' ' + std::to_string(a.number) + ' ' +
+               std::to_string(b.number));
       };
       places.find_near(kind.some, kind.others, comparisons_left, require_argument);
     }
   }
 
-  /// The arguments of a kind: a pair and its direction, or a pair and lines of subintervals.
+  /// Reads the axis for checkers that sort boxes along one.
+  void read_sweep() {
+    reader_.begin("sweep");
+    reader_.one_of({"x", "y", "z"});
+    reader_.end();
+  }
+
+  /// Reads the arguments of a kind, and verifies each.
   void read_arguments(PairKind& kind, const Places& places) {
     reader_.begin(kind.name);
     reader_.end();
     while (reader_.first_word().find_first_not_of("0123456789") == std::string_view::npos) {
-      pair_.line = reader_.begin();
-      const auto [a, b] = take_pair(kind);
-      kind.proved.insert({a->first, b->first});
-      if (reader_.has_word()) {
-        Direction d{};
-        for (auto& x : d) x = take_integer(reader_, 1 - max_direction, max_direction);
-        if (!places.is_above(a->second, b->second, d)) reject("the direction separates not");
-        reader_.end();
-      } else {
-        reader_.end();
-        read_subintervals(reader_, pair_);
-        verify(pair_, work_bits_left_);
-      }
+      require_at_most(options_.max_arguments, ++arguments_, "arguments");
+      read_argument(kind, places);
     }
+    std::ranges::sort(kind.proved);
   }
 
-  using Pair = std::array<const Element*, 2>;
+  /// An argument: a pair and its direction, or a pair and lines of subintervals.
+  void read_argument(PairKind& kind, const Places& places) {
+    const std::size_t line = reader_.begin();
+    const Pair pair = take_pair(kind);
+    kind.proved.push_back({pair.a.number, pair.b.number});
+    if (reader_.has_word()) {
+      const Direction direction = take_direction();
+      if (!places.is_above(pair.a, pair.b, direction)) reject("the direction separates not");
+      reader_.end();
+      return;
+    }
+    reader_.end();
+    Certificate certificate = certificate_of(pair, Claim::no_collision);
+    certificate.line = line;
+    certificate.subintervals = read_subintervals(reader_, certificate.query);
+    verify_within_limits(certificate);
+  }
 
-  /// Takes the numbers of a pair, whose points are then those of pair_.
+  Direction take_direction() {
+    Direction direction{};
+    for (auto& x : direction) x = take_integer(reader_, 1 - max_direction, max_direction);
+    return direction;
+  }
+
+  /// Takes the numbers of a pair.
   Pair take_pair(const PairKind& kind) {
-    const auto take = [&](const Elements& elements) {
-      const auto place = elements.find(take_integer(reader_, 0, max_items));
-      if (place == elements.end()) reject("there is no such element");
-      return &*place;
-    };
-    const Pair pair{take(kind.some), take(kind.others)};
-    pair_.is_edge_edge = &kind.some == &edges_;
-    const Primitive &a = pair[0]->second, &b = pair[1]->second;
-    const std::array points = pair_.is_edge_edge ? std::array{a[0], a[1], b[0], b[1]}
-                                                 : std::array{a[0], b[0], b[1], b[2]};
-    for (std::size_t k = 0; k < 24; ++k) {
-      pair_.coordinates[k] = scene_.vertices[std::size_t(points[k / 3 % 4])][k / 12 * 3 + k % 3];
-    }
-    return pair;
+    const Primitive& a = find(kind.some, take_count(reader_));
+    const Primitive& b = find(kind.others, take_count(reader_));
+    return {a, b};
   }
 
-  [[nodiscard]] bool can_collide(const Pair& pair) const {
-    bool meet = false;
-    for (const std::int32_t v : pair[0]->second) {
-      for (const std::int32_t w : pair[1]->second) {
+  /// A certificate of two primitives, without its proof.
+  [[nodiscard]] Certificate certificate_of(const Pair& pair, Claim claim) const {
+    const Face& a = pair.a.vertices;
+    const Face& b = pair.b.vertices;
+    Certificate certificate;
+    certificate.separation = separation_;
+    certificate.claim = claim;
+    certificate.lower = lower_;
+    certificate.upper = upper_;
+    // The first of two is a vertex, all of whose numbers are the same, or an edge.
+    const bool is_edge_edge = a[0] != a[1];
+    const std::array<std::int32_t, 4> of_vertex_and_face{a[0], b[0], b[1], b[2]};
+    const std::array<std::int32_t, 4> of_edges{a[0], a[1], b[0], b[1]};
+    certificate.query.is_edge_edge = is_edge_edge;
+    for (std::size_t n = 0; n < 4; ++n) {
+      const std::int32_t number = is_edge_edge ? of_edges[n] : of_vertex_and_face[n];
+      const Motion& vertex = scene_.vertices[static_cast<std::size_t>(number)];
+      std::ranges::copy(vertex.start, certificate.query.points[0][n].begin());
+      std::ranges::copy(vertex.end, certificate.query.points[1][n].begin());
+    }
+    return certificate;
+  }
+
+  void verify_within_limits(const Certificate& certificate) {
+    const std::int64_t allowed =
+        options_.max_work_bits + options_.max_step_work_bits_per_byte * bytes_read();
+    std::int64_t work_bits_left = allowed - work_bits_used_;
+    verify(certificate, work_bits_left);
+    work_bits_used_ = allowed - work_bits_left;
+  }
+
+  /// The bytes of the certificate so far.
+  [[nodiscard]] std::int64_t bytes_read() const { return reader_.bytes() - first_byte_; }
+
+  [[nodiscard]] bool can_collide(const Primitive& a, const Primitive& b) const {
+    bool do_groups_meet = false;
+    for (const std::int32_t v : a.vertices) {
+      for (const std::int32_t w : b.vertices) {
         if (v == w) return false;
-        const Numbers groups{scene_.groups[std::size_t(v)][0], scene_.groups[std::size_t(w)][0]};
-        meet = meet || !apart_.contains(groups);
+        const Two groups{group_of(v), group_of(w)};
+        if (!std::ranges::binary_search(apart_, groups)) do_groups_meet = true;
       }
     }
-    return meet;
+    return do_groups_meet;
+  }
+
+  /// Without groups all vertices are in group 0.
+  [[nodiscard]] std::int32_t group_of(std::int32_t vertex) const {
+    return scene_.groups.empty() ? 0 : scene_.groups[static_cast<std::size_t>(vertex)];
   }
 
   Reader& reader_;
+  const Options& options_;
+  /// Where the certificate begins.
+  std::int64_t first_byte_;
+  /// What is proved, for a reader.
   std::string text_;
   Scene scene_;
-  /// The vertices that take part, and so on.
-  Elements vertices_, edges_, faces_, points_, bare_edges_;
-  /// The groups that are held apart, each two in both orders.
-  std::set<Numbers> apart_;
-  std::array<PairKind, 4> kinds_{{{"vertex_face", vertices_, faces_},
-                                  {"edge_edge", edges_, edges_},
-                                  {"vertex_edge", points_, bare_edges_},
-                                  {"vertex_vertex", points_, points_}}};
-  /// The pair at hand, with the step's separation and times.
-  Certificate pair_;
-  const Options& options_;
-  std::int64_t work_bits_left_;
+  Elements elements_;
+  /// The groups that are held apart, each two in both orders; sorted.
+  std::vector<Two> apart_;
+  Separation separation_;
+  double distance_ = 0.0;
+  /// No contact in [0,lower]; if the claim is `earliest`, one in [lower,upper].
+  bool is_earliest_ = false;
+  mpq_class lower_ = 0;
+  mpq_class upper_ = 1;
+  std::array<PairKind, 4> kinds_{{
+      {"vertex_face", elements_.vertices, elements_.faces},
+      {"edge_edge", elements_.edges, elements_.edges},
+      {"vertex_edge", elements_.points, elements_.bare_edges},
+      {"vertex_vertex", elements_.points, elements_.points},
+  }};
+  std::size_t arguments_ = 0;
+  std::int64_t work_bits_used_ = 0;
 };
 
 }  // namespace

@@ -27,9 +27,6 @@
 
 namespace touchstone::checker {
 
-/// The greatest number of items of a list.
-inline constexpr std::int32_t max_items = 1 << 26;
-
 /// Reads and verifies the certificate that begins at the present line, and goes behind its `end`.
 /// \param scenes if not null, the scene (its lines from `vertices` to `apart`) has to be the one read there
 /// \param options the limits

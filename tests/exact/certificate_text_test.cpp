@@ -180,5 +180,22 @@ TEST(WriteCertificate, KeepsLabelsToOneLineAndTheirLimit) {
   EXPECT_NE(text.find("\nlabel " + std::string(label_limit - 3, 'x') + "end\n"), std::string::npos);
 }
 
+TEST(WriteCertificate, CutsALabelBetweenCharacters) {
+  // Characters of two, three and four bytes.
+  for (const std::string character : {"\u00e9", "\u20ac", "\U0001d11e"}) {
+    std::string label;
+    while (label.size() <= label_limit) label += character;
+    for (const std::string end : {"", "a", "ab", "abc"}) {
+      const std::string text = label_text(label + end);
+      EXPECT_LE(text.size(), label_limit);
+      EXPECT_GT(text.size() + character.size(), label_limit);
+      EXPECT_EQ((text.size() - end.size()) % character.size(), 0U);
+      EXPECT_TRUE(text.starts_with(character));
+      EXPECT_TRUE(text.ends_with(end));
+    }
+  }
+  EXPECT_EQ(label_text(std::string(2000, '\x80')).size(), label_limit - 3) << "no UTF-8";
+}
+
 }  // namespace
 }  // namespace touchstone::exact::certificate_text_test

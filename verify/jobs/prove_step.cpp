@@ -143,7 +143,17 @@ class StepProver {
 
   void write_scene() {
     const fast::MovingVertices& vertices = step_.vertices();
-    std::string text = fmt::format("step {}\nvertices {}\n", options_.label, vertices.size());
+    const std::vector<fast::Edge> edges = bare_edges();
+    const bool all_meet = parts_.groups.apart.empty();
+    const auto groups = all_meet ? std::span<const std::int32_t>() : parts_.groups.of_vertices;
+    const std::size_t items = vertices.size() + parts_.faces.size() + edges.size() +
+                              parts_.points.size() + groups.size() + parts_.groups.apart.size();
+    if (items > proof_item_limit) {
+      throw exact::CertificateLimitError(
+          fmt::format("the scene has more than {} items", proof_item_limit));
+    }
+    std::string text =
+        fmt::format("step {}\nvertices {}\n", exact::label_text(options_.label), vertices.size());
     for (std::size_t i = 0; i < vertices.size(); ++i) {
       for (std::size_t k = 0; k < 6; ++k) {
         const auto& place = k < 3 ? vertices[i].start : vertices[i].end;
@@ -153,11 +163,9 @@ class StepProver {
     }
     put(text);
     write_list("faces", parts_.faces);
-    write_list("edges", bare_edges());
+    write_list("edges", edges);
     write_list("points", as_items(parts_.points));
-    const bool all_meet = parts_.groups.apart.empty();
-    write_list("groups",
-               as_items(all_meet ? std::span<const std::int32_t>() : parts_.groups.of_vertices));
+    write_list("groups", as_items(groups));
     write_list("apart", parts_.groups.apart);
   }
 
@@ -203,6 +211,10 @@ class StepProver {
     places_.emplace(step_.vertices(), step_.certified().separation.distance, end_);
     put(fmt::format("sweep {}\n", "xyz"[longest_axis()]));
     const std::vector<Pair> pairs = needed_pairs();
+    if (pairs.size() > proof_argument_limit) {
+      throw exact::CertificateLimitError(
+          fmt::format("more than {} pairs need an argument", proof_argument_limit));
+    }
     static constexpr std::size_t block = 32'768;
     std::size_t done = 0;
     for (std::size_t kind = 0; kind < kind_names.size(); ++kind) {

@@ -8,6 +8,7 @@
 /// direction of small integers (step_places.hpp), the others the subintervals of the oracle.
 
 #include <atomic>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <span>
@@ -24,8 +25,12 @@ namespace touchstone::verify::jobs {
 /// The last line of a stream with this number of certificates. A stream without it is incomplete.
 [[nodiscard]] std::string step_proofs_closing_line(std::uint64_t steps);
 
+/// The limits of the checker (exact/CERTIFICATES.md).
+inline constexpr std::size_t proof_item_limit = std::size_t{1} << 22U;
+inline constexpr std::size_t proof_argument_limit = std::size_t{1} << 24U;
+
 struct StepProofOptions {
-  /// A line of text, of printable characters.
+  /// A line of text, of which the certificate keeps what its format admits (exact::label_text).
   std::string label = {};
   /// Cores to use; 0: all of them.
   unsigned threads = 0;

@@ -72,13 +72,20 @@ std::string_view claim_text(checker::Claim claim) {
 
 CertifiedQuery certified_query(std::string_view stream) {
   const checker::Certificate certificate = parsed(stream);
-  CertifiedQuery result{.kind = certificate.is_edge_edge ? Kind::edge_edge : Kind::vertex_face,
-                        .label = checker::printable(certificate.label)};
-  for (std::size_t i = 0; i < certificate.coordinates.size(); ++i) {
-    result.query.coordinates.at(i) = as_double(certificate.coordinates.at(i), "a coordinate");
+  CertifiedQuery result{
+      .kind = certificate.query.is_edge_edge ? Kind::edge_edge : Kind::vertex_face,
+      .label = checker::printable(certificate.label)};
+  std::size_t number = 0;
+  for (const checker::Points& points : certificate.query.points) {
+    for (const checker::Point& point : points) {
+      for (const mpq_class& coordinate : point) {
+        result.query.coordinates.at(number++) = as_double(coordinate, "a coordinate");
+      }
+    }
   }
-  result.separation = {.distance = as_double(certificate.distance, "the distance"),
-                       .norm = certificate.is_l2 ? Norm::l2 : Norm::linf};
+  const auto& [distance, is_l2] = certificate.separation;
+  result.separation = {.distance = as_double(distance, "the distance"),
+                       .norm = is_l2 ? Norm::l2 : Norm::linf};
   return result;
 }
 

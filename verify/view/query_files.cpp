@@ -30,6 +30,8 @@ namespace fs = std::filesystem;
 constexpr std::size_t coordinate_count = 3 * query_points;
 /// Bytes that a file may have that is read as a whole.
 constexpr std::size_t file_limit = std::size_t{256} << 20U;
+/// Bytes that a certificate may have that is shown.
+constexpr std::size_t certificate_limit = std::size_t{16} << 20U;
 
 /// What the options ask for of the queries of a file, which are offered one after the other.
 class Selection {
@@ -207,6 +209,10 @@ std::vector<ViewedQuery> read_certificates(const fs::path& path, const QueryFile
       continue;
     }
     text.append(line->text).append("\n");
+    if (text.size() > certificate_limit) {
+      throw io::DatasetError(path, {.line = line->number},
+                             "a certificate of more than 16 MiB; is its line 'end' missing?");
+    }
     if (line->text != "end") continue;
     if (selection.wants(index)) {
       text += exact::certificates_closing_line(1);

@@ -16,6 +16,10 @@ namespace touchstone::exact {
 /// The maximum length of a label in bytes.
 inline constexpr std::size_t label_limit = 1024;
 
+/// A label of one line within the limit: control characters become question marks, and of a label
+/// that is too long the last characters remain.
+[[nodiscard]] std::string label_text(std::string_view label);
+
 /// The first line of a stream of certificates.
 [[nodiscard]] std::string_view certificates_header();
 
@@ -23,8 +27,8 @@ inline constexpr std::size_t label_limit = 1024;
 [[nodiscard]] std::string certificates_closing_line(std::uint64_t certificates);
 
 /// Appends the lines of a certificate.
-/// \param label A text for messages, such as the file of the query. Control characters become
-/// question marks, and only the last label_limit bytes remain. An empty label has no line.
+/// \param label A text for messages, such as the file of the query; written as label_text(). An
+/// empty label has no line.
 void write(std::string& text, const Certificate& certificate, std::string_view label = {});
 
 /// A stream of one certificate, from the first line to the closing line. \param label as for

@@ -22,7 +22,7 @@ using tests::Random;
 using Pairs = std::set<std::pair<std::int32_t, std::int32_t>>;
 
 mpq_class place(const Motion& x, std::size_t axis, const mpq_class& t) {
-  return x[axis] + t * (mpq_class(x[axis + 3]) - x[axis]);
+  return x.start.at(axis) + t * (mpq_class(x.end.at(axis)) - x.start.at(axis));
 }
 
 /// By how much d keeps a above b, less the distance.
@@ -31,8 +31,8 @@ mpq_class gap(const std::vector<Motion>& vertices, double distance, const mpq_cl
   mpq_class least = 1;
   bool is_first = true;
   for (const mpq_class& t : {mpq_class(0), end}) {
-    for (const std::int32_t v : a) {
-      for (const std::int32_t w : b) {
+    for (const std::int32_t v : a.vertices) {
+      for (const std::int32_t w : b.vertices) {
         mpq_class value = 0;
         for (std::size_t axis = 0; axis < 3; ++axis) {
           const mpq_class difference =
@@ -50,18 +50,21 @@ mpq_class gap(const std::vector<Motion>& vertices, double distance, const mpq_cl
 
 std::vector<Motion> random_vertices(Random& random, std::size_t count, double size) {
   std::vector<Motion> vertices(count);
+  const auto coordinate = [&] {
+    return random.coin() ? size * random.between(-4, 4) : random.uniform(-size, size);
+  };
   for (Motion& x : vertices) {
-    for (double& c : x)
-      c = random.coin() ? size * random.between(-4, 4) : random.uniform(-size, size);
+    for (double& c : x.start) c = coordinate();
+    for (double& c : x.end) c = coordinate();
   }
   return vertices;
 }
 
-Elements random_elements(Random& random, int count, int vertices) {
-  Elements elements;
+Primitives random_primitives(Random& random, int count, int vertices) {
+  Primitives primitives;
   const auto vertex = [&] { return random.between(0, vertices - 1); };
-  for (int i = 0; i < count; ++i) elements[3 * i] = {vertex(), vertex(), vertex()};
-  return elements;
+  for (int i = 0; i < count; ++i) primitives.push_back({3 * i, {vertex(), vertex(), vertex()}});
+  return primitives;
 }
 
 TEST(Places, SeesADirectionOnlyWhereItSeparates) {
@@ -73,7 +76,7 @@ TEST(Places, SeesADirectionOnlyWhereItSeparates) {
     const double distance = random.coin() ? 0.0 : 0.125 * size;
     const mpq_class end = random.coin() ? mpq_class(1) : mpq_class(random.uniform(0, 1));
     const Places places(vertices, distance, end);
-    const Primitive a{0, 1, 2}, b{3, 4, 5};
+    const Primitive a{0, {0, 1, 2}}, b{0, {3, 4, 5}};
     Direction d{};
     for (auto& x : d) x = random.between(-1023, 1023);
     const mpq_class exact = gap(vertices, distance, end, a, b, d);
@@ -96,13 +99,14 @@ TEST(Places, IsExactForSmallIntegers) {
   for (int trial = 0; trial < 4'000; ++trial) {
     std::vector<Motion> vertices(6);
     for (Motion& x : vertices) {
-      for (double& c : x) c = random.between(-3, 3);
+      for (double& c : x.start) c = random.between(-3, 3);
+      for (double& c : x.end) c = random.between(-3, 3);
     }
     const double distance = random.between(0, 1);
     const Places places(vertices, distance, 1);
     Direction d{};
     for (auto& x : d) x = random.between(-2, 2);
-    const Primitive a{0, 1, 0}, b{2, 3, 4};
+    const Primitive a{0, {0, 1, 0}}, b{0, {2, 3, 4}};
     EXPECT_EQ(places.is_above(a, b, d), gap(vertices, distance, 1, a, b, d) > 0);
   }
 }
@@ -114,27 +118,28 @@ TEST(Places, FindsEveryPairThatNoAxisKeepsApart) {
     const double distance = 0.25 * random.between(0, 1);
     const mpq_class end = random.coin() ? mpq_class(1) : mpq_class(1, 3);
     const Places places(vertices, distance, end);
-    const Elements some = random_elements(random, 7, 12), others = random_elements(random, 9, 12);
+    const Primitives some = random_primitives(random, 7, 12);
+    const Primitives others = random_primitives(random, 9, 12);
     const bool is_same = random.coin();
     Pairs expected;
-    for (const auto& [i, a] : some) {
-      for (const auto& [j, b] : is_same ? some : others) {
-        if (is_same && j <= i) continue;
+    for (const Primitive& a : some) {
+      for (const Primitive& b : is_same ? some : others) {
+        if (is_same && b.number <= a.number) continue;
         bool is_apart = false;
         for (std::size_t axis = 0; axis < 3; ++axis) {
           Direction d{};
           d.at(axis) = 1;
           is_apart = is_apart || places.is_above(a, b, d) || places.is_above(b, a, d);
         }
-        if (!is_apart) expected.emplace(i, j);
+        if (!is_apart) expected.emplace(a.number, b.number);
       }
     }
     Pairs found;
     // No more than the pairs of all nodes.
     std::int64_t comparisons_left = 17 * 17;
     places.find_near(some, is_same ? some : others, comparisons_left,
-                     [&](const Element& a, const Element& b) {
-                       EXPECT_TRUE(found.emplace(a.first, b.first).second);
+                     [&](const Primitive& a, const Primitive& b) {
+                       EXPECT_TRUE(found.emplace(a.number, b.number).second);
                      });
     EXPECT_EQ(found, expected);
   }
@@ -146,21 +151,21 @@ TEST(Places, ComparesNotAllWithAllWherePointsShareACoordinate) {
   constexpr std::int32_t count = 20'000;
   for (const unsigned shared : {0U, 1U, 2U, 3U, 4U, 5U, 6U}) {
     std::vector<Motion> vertices(count);
-    Elements points;
+    Primitives points;
     for (std::int32_t i = 0; i < count; ++i) {
       Motion& x = vertices[std::size_t(i)];
       for (std::size_t axis = 0; axis < 3; ++axis) {
         const bool is_shared = ((shared >> axis) & 1U) != 0;
-        x.at(axis) = is_shared ? 1.0 : random.uniform(-1, 1);
-        x.at(axis + 3) = x.at(axis);
+        x.start.at(axis) = is_shared ? 1.0 : random.uniform(-1, 1);
+        x.end.at(axis) = x.start.at(axis);
       }
-      points[i] = {i, i, i};
+      points.push_back({i, {i, i, i}});
     }
     std::int64_t comparisons_left = std::int64_t{200} * count;
     int met = 0;
     Places(vertices, 0.0, 1)
         .find_near(points, points, comparisons_left,
-                   [&](const Element&, const Element&) { ++met; });
+                   [&](const Primitive&, const Primitive&) { ++met; });
     EXPECT_EQ(met, 0) << shared;
   }
 }

@@ -805,7 +805,7 @@ class RandomCertificate {
   explicit RandomCertificate(unsigned seed) : random_(seed) { draw_points(); }
 
   [[nodiscard]] Kind kind() const { return kind_; }
-  [[nodiscard]] const Query& points() const { return points_; }
+  [[nodiscard]] const touchstone::Query& points() const { return points_; }
   /// The bounds of a time of impact, in eighths.
   [[nodiscard]] std::array<int, 2> bounds() const { return bounds_; }
 
@@ -920,7 +920,7 @@ class RandomCertificate {
 
   std::mt19937 random_;
   Kind kind_ = Kind::vertex_face;
-  Query points_{};
+  touchstone::Query points_{};
   std::array<int, 2> bounds_{};
 };
 

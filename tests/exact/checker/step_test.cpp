@@ -124,7 +124,8 @@ const std::vector<Falsehood>& falsehoods() {
       {"2 3 1 0 -1", "2 3 1 0 -1 0", "the line has too many words"},
       {"vertices 6", "vertices 7", "not a number: 'faces'"},
       {"vertices 6", "vertices 99999999999", off_range},
-      {"faces 2", "faces 67108865", off_range},
+      {"faces 2", "faces 4194299", "the scene has too many items"},
+      {"vertices 6", "vertices 4194304", "not a number: 'faces'"},
       {"0x1.4p+1", "1/3", no_double},
       {"0x1.4p+1", "0x1p+2000", no_double},
       // The order of the parts.
@@ -169,6 +170,9 @@ std::vector<std::string> false_streams() {
   for (const auto& [truth, lie, reason] : falsehoods()) {
     streams.push_back(replaced(stream(step()), truth, lie));
   }
+  for (const std::string_view argument : {"3 0 -1 0 1\n", "2 3 1 0 -1\n", "2 4 1 0 -1\n"}) {
+    streams.push_back(replaced(stream(step()), argument, ""));
+  }
   for (const std::string_view end : {"0", "-1"}) {
     streams.push_back(of_falling_vertex(end, ""));
     streams.push_back(of_falling_vertex(end, "3 0 1 0 0\n"));
@@ -192,7 +196,7 @@ TEST(Step, HoldsGroupsApart) {
   const std::string none = "sweep x\nvertex_face\nedge_edge\nvertex_edge\nvertex_vertex\nend\n";
   const std::string groups = "groups 6\n4\n4\n4\n7\n7\n7\napart 1\n7 4\n";
   const std::string apart = replaced(scene, "groups 0\napart 0\n", groups);
-  EXPECT_EQ(refusal(stream(step(scene, none))), "no argument for vertex_face 4 0");
+  EXPECT_EQ(refusal(stream(step(scene, none))), "no argument for vertex_face 3 0");
   EXPECT_EQ(refusal(stream(step(apart, none))), "");
   EXPECT_NE(refusal(stream(step(replaced(apart, "7 4\n", "7 7\n"), none))), "");
 }
@@ -276,25 +280,74 @@ TEST(Step, OfWhichALineIsAlteredIsRefused) {
   }
 }
 
-TEST(Step, IsBounded) {
-  const auto refusal_within = [](const std::string& text, std::int64_t comparisons_per_byte,
-                                 std::int64_t bits) {
-    std::istringstream in(text);
-    const Report report =
-        check(in, {.max_comparisons_per_byte = comparisons_per_byte, .max_step_work_bits = bits});
-    return report.all_accepted() ? "" : report.rejections.at(0).reason;
-  };
-  constexpr std::int64_t many = 1 << 20;
+/// Why the stream is refused within limits.
+std::string refusal_within(const Options& limits, const std::string& text) {
+  std::istringstream in(text);
+  const Report report = check(in, limits);
+  return report.all_accepted() ? "" : report.rejections.at(0).reason;
+}
+
+TEST(Step, LimitsTheComparisonsByItsBytes) {
   const std::string text = stream(step());
-  EXPECT_EQ(refusal_within(text, 1, many), "") << "fewer comparisons than bytes";
-  EXPECT_EQ(refusal_within(text, 0, many), "the search for pairs takes too many comparisons");
+  EXPECT_EQ(refusal_within({.max_comparisons_per_byte = 1}, text), "");
+  const std::string too_many = "the search for pairs takes too many comparisons";
+  EXPECT_EQ(refusal_within({.max_comparisons_per_byte = 0}, text), too_many);
+  // 60 points in one place, of groups that are held apart: 60 · 59 / 2 pairs are met, and more
+  // nodes.
+  std::string vertices, points, groups;
+  for (int n = 0; n < 60; ++n) {
+    vertices += "0 0 0 0 0 0\n";
+    points += std::to_string(n) + '\n';
+    groups += "0\n";
+  }
+  const std::string crowd = "step crowd\nvertices 60\n" + vertices +
+                            "faces 0\nedges 0\npoints 60\n" + points + "groups 60\n" + groups +
+                            "apart 1\n0 0\nseparation 0 linf\nclaim no_contact 1\nsweep x\n"
+                            "vertex_face\nedge_edge\nvertex_edge\nvertex_vertex\nend\n";
+  EXPECT_EQ(refusal_within({.max_comparisons_per_byte = 3}, stream(crowd)), "");
+  EXPECT_EQ(refusal_within({.max_comparisons_per_byte = 1}, stream(crowd)), too_many);
+  // Bytes before the certificate are no bytes of it.
+  const std::string before = "# " + std::string(10'000, ' ') + '\n';
+  EXPECT_EQ(refusal_within({.max_comparisons_per_byte = 1}, stream(before + crowd)), too_many);
+}
+
+TEST(Step, LimitsTheWorkByItsBytes) {
+  const std::string too_much = "the proof takes too much work";
+  const auto refusal_of = [](const std::string& text, std::int64_t bits, std::int64_t per_byte) {
+    return refusal_within({.max_work_bits = bits, .max_step_work_bits_per_byte = per_byte}, text);
+  };
+  const std::string text = stream(step());
   // The least limit within which the step is accepted.
   std::int64_t bits = 0;
-  while (!refusal_within(text, 1, bits).empty()) ++bits;
+  while (!refusal_of(text, bits, 0).empty()) ++bits;
   EXPECT_GT(bits, 0);
-  EXPECT_EQ(refusal_within(text, 1, bits - 1), "the proof takes too much work");
-  EXPECT_EQ(refusal_within(stream(step() + step(), 2), 1, bits), "")
+  EXPECT_EQ(refusal_of(text, bits - 1, 0), too_much);
+  EXPECT_EQ(refusal_of(stream(step() + step(), 2), bits, 0), "")
       << "the limit is of a step, not of a stream";
+  EXPECT_EQ(refusal_of(text, 0, 1), "");
+  // The same argument again and again takes work by the same measure as it takes bytes.
+  const std::string argument = "4 0\nseparate 0 1 face +\n";
+  std::string repeated;
+  for (int n = 0; n < 1'000; ++n) repeated += argument;
+  const std::string longer = replaced(text, argument, repeated);
+  EXPECT_EQ(refusal_of(longer, 10 * bits, 0), too_much);
+  EXPECT_EQ(refusal_of(longer, 0, bits), "");
+}
+
+TEST(Step, LimitsTheItemsOfAScene) {
+  // 6 vertices and 2 faces.
+  const std::string text = stream(step());
+  EXPECT_EQ(refusal_within({.max_items = 8}, text), "");
+  EXPECT_EQ(refusal_within({.max_items = 7}, text), "the scene has too many items");
+  const std::string more = replaced(text, "points 0", "points 1\n0");
+  EXPECT_EQ(refusal_within({.max_items = 9}, more), "");
+  EXPECT_EQ(refusal_within({.max_items = 8}, more), "the scene has too many items");
+}
+
+TEST(Step, LimitsItsArguments) {
+  const std::string text = stream(step());
+  EXPECT_EQ(refusal_within({.max_arguments = 6}, text), "");
+  EXPECT_EQ(refusal_within({.max_arguments = 5}, text), "more than 5 arguments");
 }
 
 // ---- Demands ------------------------------------------------------------------------------------
@@ -318,8 +371,16 @@ TEST(Step, IsPrintedInOneForm) {
   EXPECT_NE(printed(with("claim no_contact 1", "claim no_contact 0x1." + zeros + "p+0"))
                 .find("\nclaim no_contact 1\n"),
             std::string::npos);
-  EXPECT_EQ(printed(with("step a label", "step " + std::string(1'100, 'a'))),
-            "more than 1024 bytes in a label");
+}
+
+// The word `step` is no part of it.
+TEST(Step, HasALabelOfTheSameLimitAsAQuery) {
+  const auto with_label = [](std::size_t bytes) {
+    return refusal(replaced(stream(step()), "step a label", "step " + std::string(bytes, 'a')));
+  };
+  EXPECT_EQ(with_label(1'024), "");
+  EXPECT_EQ(with_label(1'025), "more than 1024 bytes in a label");
+  EXPECT_EQ(refusal(replaced(stream(step()), "step a label", "step")), "");
 }
 
 TEST(Step, ProvesWhatIsDemandedAndNothingElse) {

@@ -15,6 +15,7 @@
 #include <string_view>
 #include <vector>
 
+#include "exact/certificate/certificate_text.hpp"
 #include "exact/checker/checker.hpp"
 #include "tests/support/certificates.hpp"
 #include "tests/support/random.hpp"
@@ -50,7 +51,7 @@ Proved prove(const Scene& scene, const fast::StepOptions& step_options,
   Proved result;
   result.text = step_proofs_header();
   options.on_text = [&](std::string_view text) { result.text += text; };
-  options.label = "a step";
+  if (options.label.empty()) options.label = "a step";
   result.proof = prove_step(step,
                             {.faces = scene.faces,
                              .points = scene.points,
@@ -125,6 +126,29 @@ void expect_demand_kept(const std::string& text, const fast::StepOptions& option
   checker::Options other = demand(is_l2 ? "l2" : "linf");
   other.separation = checker::demanded_separation("0x1p-1030", "l2");
   EXPECT_NE(refusal(text, other), "");
+}
+
+// A name of any length makes a label that the checker reads.
+TEST(ProveStep, KeepsTheLimitOfALabel) {
+  Random random(1);
+  const Scene scene = with_ordered_edges(tests::random_scene(random, tests::shapes().front(), 6));
+  for (const std::size_t bytes : {1U, 1'019U, 1'024U, 1'025U, 5'000U}) {
+    const auto [proof, text] = prove(scene, {}, {.label = std::string(bytes, 'x')});
+    ASSERT_EQ(proof.failure, "");
+    EXPECT_EQ(refusal(text), "") << bytes;
+    const std::size_t kept = std::min<std::size_t>(bytes, exact::label_limit);
+    EXPECT_NE(text.find("\nstep " + std::string(kept, 'x') + "\nvertices "), std::string::npos);
+  }
+}
+
+TEST(ProveStep, KeepsTheLimitOfAScene) {
+  Random random(1);
+  const Scene scene = with_ordered_edges(tests::random_scene(random, tests::shapes().front(), 6));
+  const std::vector<std::int32_t> points(proof_item_limit);
+  const StepProof proof =
+      prove_step(scene.step({}), {.faces = scene.faces, .points = points}, StepProofOptions{});
+  EXPECT_EQ(proof.failure, "the scene has more than 4194304 items");
+  EXPECT_EQ(proof.bytes, 0U);
 }
 
 TEST(ProveStep, ProvesWhatTheOracleSaysOfAllPairs) {

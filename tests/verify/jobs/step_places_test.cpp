@@ -32,8 +32,9 @@ TEST(StepPlaces, AgreeWithTheCheckers) {
         const double shift = i < 3 && random.coin() ? drift * size : 0.0;
         start(i, k) = random.uniform(-size, size) + shift;
         end(i, k) = random.uniform(-size, size) + shift;
-        motions[static_cast<std::size_t>(i)].at(static_cast<std::size_t>(k)) = start(i, k);
-        motions[static_cast<std::size_t>(i)].at(static_cast<std::size_t>(k + 3)) = end(i, k);
+        checker::Motion& motion = motions[static_cast<std::size_t>(i)];
+        motion.start.at(static_cast<std::size_t>(k)) = start(i, k);
+        motion.end.at(static_cast<std::size_t>(k)) = end(i, k);
       }
     }
     const fast::MovingVertices vertices(start, end);
@@ -46,8 +47,8 @@ TEST(StepPlaces, AgreeWithTheCheckers) {
     const auto first =
         is_vertex_face ? StepPlaces::Vertices(v).first(1) : StepPlaces::Vertices(a).first(2);
     const auto second = is_vertex_face ? StepPlaces::Vertices(b) : StepPlaces::Vertices(b).first(2);
-    const checker::Primitive some = is_vertex_face ? v : a;
-    const checker::Primitive other = is_vertex_face ? b : checker::Primitive{3, 4, 3};
+    const checker::Primitive some{0, is_vertex_face ? v : a};
+    const checker::Primitive other{0, is_vertex_face ? b : std::array{3, 4, 3}};
     for (int n = 0; n < 4; ++n) {
       const StepPlaces::Direction d{random.between(-3, 3), random.between(-3, 3),
                                     random.between(-3, 3)};

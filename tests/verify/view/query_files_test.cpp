@@ -13,6 +13,7 @@
 #include "touchstone/certificate_text.hpp"
 #include "touchstone/oracle.hpp"
 #include "verify/data/csv_dataset.hpp"
+#include "verify/io/compressor.hpp"
 #include "verify/io/dataset_error.hpp"
 
 namespace touchstone::verify::view::query_files_test {
@@ -117,6 +118,26 @@ TEST_F(QueryFiles, Certificates) {
   EXPECT_EQ(queries("proofs.cert", {.indices = {1}}).at(0).query, numbered(1));
   write("text.cert", "no certificate\n");
   EXPECT_EQ(reason("text.cert"), "this is no stream of certificates");
+}
+
+// A small compressed file may hold a text of any length: the memory does not follow it.
+TEST_F(QueryFiles, ACertificateIsBounded) {
+  const auto write_compressed = [this](const std::string& name, const std::string& beginning,
+                                       const std::string& block, int count) {
+    io::Compressor compressor;
+    std::ofstream file(path(name), std::ios::binary);
+    file << compressor.compress(beginning);
+    for (int n = 0; n < count; ++n) file << compressor.compress(block);
+    file << compressor.finish();
+  };
+  std::string mebibyte;
+  for (int n = 0; n < 1'024; ++n) mebibyte += '#' + std::string(1'022, ' ') + '\n';
+  const std::string header(exact::certificates_header());
+  write_compressed("endless.cert.zst", header + "query vertex_face\n", mebibyte, 17);
+  EXPECT_EQ(reason("endless.cert.zst"),
+            "a certificate of more than 16 MiB; is its line 'end' missing?");
+  write_compressed("comments.cert.zst", header, mebibyte, 17);
+  EXPECT_EQ(reason("comments.cert.zst"), "there is no query in it");
 }
 
 TEST_F(QueryFiles, LinesOfVertices) {
