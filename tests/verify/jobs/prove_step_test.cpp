@@ -15,12 +15,12 @@
 #include <string_view>
 #include <vector>
 
-#include "exact/certificate/certificate_text.hpp"
 #include "exact/checker/checker.hpp"
 #include "tests/support/certificates.hpp"
 #include "tests/support/random.hpp"
 #include "tests/support/scenes.hpp"
 #include "touchstone/broad_phase.hpp"
+#include "touchstone/certificate_text.hpp"
 #include "touchstone/oracle.hpp"
 
 // Proofs of steps: the checker accepts each, its claim agrees with the oracle on all pairs one by
