@@ -9,6 +9,12 @@ extern const SearchKernel avx2_search_kernel;
 extern const SearchKernel avx512_search_kernel;
 #endif
 
+// Not inline: kernels for other processors must hold no function that another file could link.
+bool PairQuestions::bodies_meet(std::int32_t /*a*/, std::int32_t /*b*/) const { return true; }
+bool PairQuestions::primitives_meet(const Primitive& /*a*/, const Primitive& /*b*/) const {
+  return true;
+}
+
 std::span<const SearchKernel* const> search_kernels() {
   // It multiplies nothing.
   static const auto kernels = runnable_kernels<SearchKernel>(
