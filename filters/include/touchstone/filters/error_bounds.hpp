@@ -3,9 +3,11 @@
 /// \file
 /// The error bounds of the filtered expressions, derived from the expressions themselves.
 ///
-/// Written by `touchstone derive --emit touchstone/filters/error_bounds.hpp`; not to be edited. A
-/// test fails if it differs from what the derivation gives, another has Gappa prove each bound. (u:
-/// half the distance of 1 and the next number; x: the greatest magnitude of a coordinate.)
+/// Written by `touchstone derive --emit filters/include/touchstone/filters/error_bounds.hpp`; not
+/// to be edited. A test fails if it differs from what the derivation gives, another has Gappa prove
+/// each bound.
+///
+/// (u: half the distance of 1 and the next number; x: the greatest magnitude of a coordinate.)
 
 #include "touchstone/filters/error_bound.hpp"
 
