@@ -23,7 +23,8 @@ using Derive = tests::ShellTest<subcommand>;
 
 TEST_F(Derive, EmitsTheHeaderThatIsInTheTree) {
   ASSERT_EQ(run("--model rigorous --emit '" + path("bounds.hpp") + "'"), 0) << read("err");
-  EXPECT_EQ(read("bounds.hpp"), read_file(tests::source_folder() + "/filters/error_bounds.hpp"));
+  EXPECT_EQ(read("bounds.hpp"), read_file(tests::source_folder() +
+                                          "/filters/include/touchstone/filters/error_bounds.hpp"));
 }
 
 TEST_F(Derive, PrintsAndWritesTheTable) {
