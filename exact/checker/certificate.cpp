@@ -181,7 +181,7 @@ mpq_class parse_number(std::string_view word) {
 }
 
 std::string to_text(const mpq_class& number) {
-  const std::string fraction = number.get_str();
+  std::string fraction = number.get_str();
   const bool is_dyadic = mpz_popcount(number.get_den_mpz_t()) == 1;
   if (number == 0 || !is_dyadic) return fraction;
   // ± 1.H · 2^power; `digits` are those of 1H.
@@ -205,7 +205,7 @@ std::string to_text(const Certificate& certificate) {
 }
 
 std::string to_text(const Separation& separation) {
-  const std::string distance = to_text(separation.distance);
+  std::string distance = to_text(separation.distance);
   if (separation.distance == 0) return distance;
   return distance + (separation.is_l2 ? " l2" : " linf");
 }
@@ -280,7 +280,7 @@ std::string read_label(Reader& reader, std::string_view keyword) {
   reader.begin(keyword);
   const std::string_view line = reader.text();
   const std::size_t place = keyword.size() + 1;
-  const std::string label(line.substr(std::min(place, line.size())));
+  std::string label(line.substr(std::min(place, line.size())));
   require_at_most(max_label_bytes, label.size(), "bytes in a label");
   reader.advance();
   return label;

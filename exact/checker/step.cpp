@@ -4,6 +4,7 @@
 #include <array>
 #include <charconv>
 #include <limits>
+#include <tuple>
 #include <vector>
 
 #include "exact/checker/places.hpp"
@@ -119,8 +120,6 @@ struct Edge {
   std::int32_t smaller;
   /// Is it an edge of no face?
   bool is_bare;
-
-  friend auto operator<=>(const Edge&, const Edge&) = default;
 };
 
 /// All edges of the scene, each once, in the order of their numbers.
@@ -136,11 +135,13 @@ std::vector<Edge> find_edges(const Scene& scene) {
   }
   for (const auto& [a, b] : scene.edges) add(a, b, true);
   // Of several with the same vertices the first is that of a face, if there is one.
-  std::ranges::sort(edges);
-  const auto repeated = std::ranges::unique(edges, [](const Edge& a, const Edge& b) {
+  std::sort(edges.begin(), edges.end(), [](const Edge& a, const Edge& b) {
+    return std::tie(a.larger, a.smaller, a.is_bare) < std::tie(b.larger, b.smaller, b.is_bare);
+  });
+  const auto repeated = std::unique(edges.begin(), edges.end(), [](const Edge& a, const Edge& b) {
     return a.larger == b.larger && a.smaller == b.smaller;
   });
-  edges.erase(repeated.begin(), repeated.end());
+  edges.erase(repeated, edges.end());
   return edges;
 }
 

@@ -175,7 +175,7 @@ std::optional<ExactImpact> decide_exactly(Kind kind, const Query& query,
   const auto time =
       first_approach_of(kind, query, separation, unit_bits(t_max), step_of(toi_tolerance));
   if (!time) return std::nullopt;
-  const double toi_upper = std::bit_cast<double>(time->upper);
+  const auto toi_upper = std::bit_cast<double>(time->upper);
   const Parameters nearest = nearest_parameters(kind, query, toi_upper, separation.norm);
   ExactImpact result = impact_at(*time, nearest.u, nearest.v);
   move_into_domain(kind, result.u, result.v);
