@@ -1,7 +1,5 @@
 #include "fast/broad_phase.hpp"
 
-#include <oneapi/tbb/parallel_for.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -22,8 +20,6 @@
 
 namespace touchstone::fast {
 namespace {
-
-namespace tbb = oneapi::tbb;
 
 /// Groups per task.
 constexpr std::size_t groups_of_chunk = 16;

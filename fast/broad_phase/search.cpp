@@ -8,6 +8,9 @@ extern const SearchKernel scalar_search_kernel;
 extern const SearchKernel avx2_search_kernel;
 extern const SearchKernel avx512_search_kernel;
 #endif
+#ifdef TOUCHSTONE_NEON
+extern const SearchKernel neon_search_kernel;
+#endif
 
 std::span<const SearchKernel* const> search_kernels() {
   // It multiplies nothing.
@@ -17,6 +20,9 @@ std::span<const SearchKernel* const> search_kernels() {
 #ifdef TOUCHSTONE_X86_64
           &avx2_search_kernel,
           &avx512_search_kernel,
+#endif
+#ifdef TOUCHSTONE_NEON
+          &neon_search_kernel,
 #endif
       },
       "search", [](const SearchKernel& /*kernel*/) { return true; });
