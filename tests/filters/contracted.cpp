@@ -1,0 +1,5 @@
+// Compiled with contraction, this program must end before main begins.
+
+#include "filters/expressions.hpp"
+
+int main() { return 0; }
