@@ -88,9 +88,11 @@ class Search {
   }
 
   static std::vector<IndexPair> room_for(std::uint64_t count, std::uint64_t most) {
-    if (count > most) throw TooManyCandidates(count);
+    if (count > std::min<std::uint64_t>(most, std::numeric_limits<std::size_t>::max())) {
+      throw TooManyCandidates(count);
+    }
     try {
-      return std::vector<IndexPair>(count);
+      return std::vector<IndexPair>(static_cast<std::size_t>(count));
     } catch (const std::bad_alloc&) {
       throw TooManyCandidates(count);
     } catch (const std::length_error&) {

@@ -8,78 +8,86 @@
 namespace touchstone::fast {
 namespace {
 
-/// Sixteen lanes, four to a vector.
-template <class Vector>
-struct Four {
-  std::array<Vector, 4> part;
+// GCC 12 loses stores to arrays of vectors.
 
-  /// The lanes that function(i) returns for the vectors.
-  template <class Function>
-  static Four each(const Function& function) {
-    return {{function(std::size_t{0}), function(std::size_t{1}), function(std::size_t{2}),
-             function(std::size_t{3})}};
-  }
+struct Numbers {
+  float32x4_t first, second, third, fourth;
 };
 
-struct Mask : Four<uint32x4_t> {
-  friend Mask operator|(const Mask& a, const Mask& b) {
-    return {each([&](std::size_t i) { return vorrq_u32(a.part[i], b.part[i]); })};
-  }
+struct Mask {
+  uint32x4_t first, second, third, fourth;
 };
+
+/// Applies an operation on vectors to sixteen lanes.
+template <class Result, class Operation, class... Sixteen>
+Result each(const Operation& operation, const Sixteen&... lanes) {
+  return {operation(lanes.first...), operation(lanes.second...), operation(lanes.third...),
+          operation(lanes.fourth...)};
+}
+
+Mask operator|(const Mask& a, const Mask& b) {
+  return each<Mask>([](uint32x4_t x, uint32x4_t y) { return vorrq_u32(x, y); }, a, b);
+}
 
 struct Lanes : WordsOneByOne {
-  using Numbers = Four<float32x4_t>;
+  using Numbers = touchstone::fast::Numbers;
   using Mask = touchstone::fast::Mask;
 
   static Numbers load(const float* from) {
-    return Numbers::each([&](std::size_t i) { return vld1q_f32(from + 4 * i); });
+    return {vld1q_f32(from), vld1q_f32(from + 4), vld1q_f32(from + 8), vld1q_f32(from + 12)};
   }
   static Numbers load_unaligned(const float* from) { return load(from); }
   static Numbers broadcast(float x) {
-    return Numbers::each([&](std::size_t) { return vdupq_n_f32(x); });
+    const float32x4_t all = vdupq_n_f32(x);
+    return {all, all, all, all};
   }
   static void store(float* to, const Numbers& numbers) {
-    for (std::size_t i = 0; i < 4; ++i) vst1q_f32(to + 4 * i, numbers.part[i]);
+    vst1q_f32(to, numbers.first);
+    vst1q_f32(to + 4, numbers.second);
+    vst1q_f32(to + 8, numbers.third);
+    vst1q_f32(to + 12, numbers.fourth);
   }
   static Numbers least(const Numbers& a, const Numbers& b) {
-    return Numbers::each([&](std::size_t i) {
-      return vbslq_f32(vcltq_f32(a.part[i], b.part[i]), a.part[i], b.part[i]);
-    });
+    const auto lesser = [](float32x4_t x, float32x4_t y) {
+      return vbslq_f32(vcltq_f32(x, y), x, y);
+    };
+    return each<Numbers>(lesser, a, b);
   }
   static Numbers greatest(const Numbers& a, const Numbers& b) {
-    return Numbers::each([&](std::size_t i) {
-      return vbslq_f32(vcgtq_f32(a.part[i], b.part[i]), a.part[i], b.part[i]);
-    });
+    const auto larger = [](float32x4_t x, float32x4_t y) {
+      return vbslq_f32(vcgtq_f32(x, y), x, y);
+    };
+    return each<Numbers>(larger, a, b);
   }
   static Mask none() {
-    return {Mask::each([](std::size_t) { return vdupq_n_u32(0); })};
+    const uint32x4_t zero = vdupq_n_u32(0);
+    return {zero, zero, zero, zero};
   }
   static Mask greater(const Numbers& a, const Numbers& b) {
-    return {Mask::each([&](std::size_t i) { return vcgtq_f32(a.part[i], b.part[i]); })};
+    return each<Mask>([](float32x4_t x, float32x4_t y) { return vcgtq_f32(x, y); }, a, b);
   }
   static Mask equal(const Numbers& a, const Numbers& b) {
-    return {Mask::each([&](std::size_t i) { return vceqq_f32(a.part[i], b.part[i]); })};
+    return each<Mask>([](float32x4_t x, float32x4_t y) { return vceqq_f32(x, y); }, a, b);
   }
   static Mask greater_where(const Mask& mask, const Numbers& a, const Numbers& b) {
-    return {Mask::each(
-        [&](std::size_t i) { return vandq_u32(mask.part[i], vcgtq_f32(a.part[i], b.part[i])); })};
+    return each<Mask>([](uint32x4_t x, uint32x4_t y) { return vandq_u32(x, y); }, mask,
+                      greater(a, b));
   }
   static unsigned bits(const Mask& mask) {
-    // A byte for each lane, then a bit of its own in each byte of a half, then their sums.
-    const auto half = [&](std::size_t i) {
-      return vcombine_u16(vmovn_u32(mask.part[i]), vmovn_u32(mask.part[i + 1]));
-    };
-    const uint8x8_t places = vcreate_u8(0x8040201008040201);
-    const auto sum = [&](std::size_t i) {
-      return static_cast<unsigned>(vaddv_u8(vand_u8(vmovn_u16(half(i)), places)));
-    };
-    return sum(0) | sum(2) << 8U;
+    return eight_bits(mask.first, mask.second) | eight_bits(mask.third, mask.fourth) << 8U;
   }
 
   static unsigned equal_bits(const std::int32_t* values, std::int32_t value) {
     const int32x4_t all = vdupq_n_s32(value);
-    return bits(
-        {Mask::each([&](std::size_t i) { return vceqq_s32(vld1q_s32(values + 4 * i), all); })});
+    const auto equal = [&](std::size_t first) { return vceqq_s32(vld1q_s32(values + first), all); };
+    return bits({equal(0), equal(4), equal(8), equal(12)});
+  }
+
+ private:
+  static unsigned eight_bits(uint32x4_t low, uint32x4_t high) {
+    // A byte for each lane, then a bit of its own in each byte, then their sum.
+    const uint8x8_t bytes = vmovn_u16(vcombine_u16(vmovn_u32(low), vmovn_u32(high)));
+    return vaddv_u8(vand_u8(bytes, vcreate_u8(0x8040201008040201)));
   }
 };
 

@@ -110,7 +110,8 @@ std::vector<Query> queries_of(const std::filesystem::path& path) {
     throw std::runtime_error(path.string() + " is no .npy file");
   const std::size_t header = static_cast<unsigned char>(begin[8]) +
                              256U * static_cast<unsigned char>(begin[9]) + begin.size();
-  std::vector<Query> queries((std::filesystem::file_size(path) - header) / sizeof(Query));
+  const auto size = static_cast<std::size_t>(std::filesystem::file_size(path));
+  std::vector<Query> queries((size - header) / sizeof(Query));
   file.seekg(static_cast<std::streamoff>(header));
   file.read(reinterpret_cast<char*>(queries.data()),
             static_cast<std::streamsize>(queries.size() * sizeof(Query)));

@@ -48,8 +48,8 @@ constexpr void sort(Range&& range, Less less = {}, Projection projection = {}) {
   std::sort(std::begin(range), std::end(range), ProjectedLess<Less, Projection>{less, projection});
 }
 template <class Iterator, class Less = std::less<>, class Projection>
-constexpr void sort(Iterator begin, Iterator end, Less less, Projection projection) {
-  std::sort(begin, end, ProjectedLess<Less, Projection>{less, projection});
+constexpr void sort(Iterator first, Iterator last, Less less, Projection projection) {
+  std::sort(first, last, ProjectedLess<Less, Projection>{less, projection});
 }
 template <class Range, class Iterator>
 constexpr void nth_element(Range&& range, Iterator nth) {
