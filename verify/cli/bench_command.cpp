@@ -244,9 +244,8 @@ void add_bench_options(CLI::App& command, Arguments& arguments) {
       ->capture_default_str()
       ->check(whole_number(1, 1'000'000));
   command
-      .add_option(
-          "--seconds", arguments.bench.seconds,
-          "Seconds for a method and repetition; slower methods are timed on a sample")
+      .add_option("--seconds", arguments.bench.seconds,
+                  "Seconds for a method and repetition; slower methods are timed on a sample")
       ->type_name("S")
       ->capture_default_str()
       ->check(real_number(1e-6, 1e6));

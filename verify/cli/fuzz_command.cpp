@@ -355,6 +355,7 @@ class FuzzRun {
 
 std::vector<std::string> finding_kind_names() {
   std::vector<std::string> names;
+  names.reserve(judge::fault_count);
   for (const judge::Fault fault : judge::all_faults) names.emplace_back(judge::to_string(fault));
   return names;
 }

@@ -53,18 +53,15 @@ void add_solver_options(CLI::App& command, SolverArguments& arguments) {
       ->capture_default_str()
       ->check(real_number(DBL_TRUE_MIN, DBL_MAX));
   command
-      .add_option(
-          "--max-checks", arguments.options.max_checks,
-          fmt::format(
-              "Maximum steps per query (0: no limit; built-in set: {})",
-              built_in_max_checks))
+      .add_option("--max-checks", arguments.options.max_checks,
+                  fmt::format("Maximum steps per query (0: no limit; built-in set: {})",
+                              built_in_max_checks))
       ->type_name("N")
       ->capture_default_str()
       ->check(whole_number(0, INT64_MAX));
   command
-      .add_option(
-          "--query-limit", arguments.query_limit,
-          "Seconds for a query in a child process, then undecided (0: no limit)")
+      .add_option("--query-limit", arguments.query_limit,
+                  "Seconds for a query in a child process, then undecided (0: no limit)")
       ->type_name("S")
       ->capture_default_str()
       ->check(real_number(0.0, longest_limit));

@@ -15,7 +15,7 @@
 namespace touchstone::verify::generate {
 namespace {
 
-using Points = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>;
+using PointRows = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>;
 
 // Lengths in units of a cell's side.
 constexpr double jitter = 0.2;        // of a vertex in the patch, on each axis
@@ -132,7 +132,7 @@ mesh::MovingMesh moving_patches(const PatchOptions& options) {
   const Side side(options);
   const int row = options.cells + 1;
   Random random(mix(options.seed ^ hash("moving patches")));
-  Points start(2 * row * row, 3), end(2 * row * row, 3);
+  PointRows start(2 * row * row, 3), end(2 * row * row, 3);
   std::vector<fast::Face> faces;
   int vertex = 0;
   for (const bool is_upper : {false, true}) {

@@ -1,13 +1,15 @@
 #include "verify/jobs/block_truth.hpp"
 
+#include <utility>
+
 #include "verify/base/thread_clock.hpp"
 #include "verify/jobs/certify.hpp"
 
 namespace touchstone::verify::jobs {
 
-BlockTruth::BlockTruth(const Block& block, const BlockTruthOptions& options, Passes& passes)
+BlockTruth::BlockTruth(const Block& block, BlockTruthOptions options, Passes& passes)
     : block_(block),
-      options_(options),
+      options_(std::move(options)),
       truths_(block.queries.size()),
       parts_(Passes::units(block.queries.size())) {
   passes.run(Passes::unit, [this](std::size_t first, std::size_t count) {

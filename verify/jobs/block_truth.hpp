@@ -39,7 +39,7 @@ struct DecidedPart {
 class BlockTruth {
  public:
   /// Decides all queries in one of the passes. The block must live as long as this.
-  BlockTruth(const Block& block, const BlockTruthOptions& options, Passes& passes);
+  BlockTruth(const Block& block, BlockTruthOptions options, Passes& passes);
 
   /// By query, without times where these are not needed.
   [[nodiscard]] std::span<const judge::GroundTruth> truths() const { return truths_; }
