@@ -8,7 +8,7 @@ from conan.tools.build import check_min_cppstd
 from conan.tools.cmake import CMake, CMakeDeps, CMakeToolchain, cmake_layout
 from conan.tools.files import copy, load
 
-modules = ["adapters", "cmake", "exact", "fast", "filters", "verify"]
+folders = ["cmake", "exact", "fast", "filters", "tests/portability"]
 
 
 class Touchstone(ConanFile):
@@ -31,8 +31,8 @@ class Touchstone(ConanFile):
     def export_sources(self):
         copy(self, "CMakeLists.txt", self._root, self.export_sources_folder)
         copy(self, "LICENSE", self._root, self.export_sources_folder)
-        for module in modules:
-            copy(self, f"{module}/*", self._root, self.export_sources_folder)
+        for folder in folders:
+            copy(self, f"{folder}/*", self._root, self.export_sources_folder)
 
     def layout(self):
         cmake_layout(self)
