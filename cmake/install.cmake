@@ -7,4 +7,25 @@ configure_package_config_file(cmake/touchstone-config.cmake.in touchstone-config
 write_basic_package_version_file(touchstone-config-version.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/touchstone-config.cmake
               ${PROJECT_BINARY_DIR}/touchstone-config-version.cmake
+              cmake/gmp.cmake
         DESTINATION ${touchstone_config_folder})
+
+# touchstone_pkg_config(NAME DESCRIPTION REQUIRED_PACKAGE…): touchstone-NAME.pc, for builds that use pkg-config. The
+# libraries but that of C are static, so what they need is linked with them.
+file(RELATIVE_PATH touchstone_include_from_pc ${CMAKE_INSTALL_FULL_LIBDIR}/pkgconfig ${CMAKE_INSTALL_FULL_INCLUDEDIR})
+function(touchstone_pkg_config name description)
+  list(JOIN ARGN ", " requires)
+  configure_file(cmake/touchstone.pc.in touchstone-${name}.pc @ONLY)
+  install(FILES ${PROJECT_BINARY_DIR}/touchstone-${name}.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
+endfunction()
+set(tbb)
+if(TOUCHSTONE_HAS_TBB)
+  set(tbb tbb)
+endif()
+touchstone_pkg_config(fast "Certified continuous collision detection" "eigen3 >= 3.4" ${tbb})
+if(TOUCHSTONE_BUILD_EXACT)
+  touchstone_pkg_config(exact "Exact continuous collision detection, with certificates" "eigen3 >= 3.4" gmpxx)
+endif()
+if(TOUCHSTONE_BUILD_ADAPTERS)
+  touchstone_pkg_config(c "Certified continuous collision detection in C")
+endif()

@@ -228,7 +228,7 @@ TEST(CInterface, KeepsTheErrorsOfThreadsApart) {
   EXPECT_EQ(touchstone_step_new(nullptr, nullptr), nullptr);
   std::thread([] { EXPECT_STREQ(touchstone_last_error(), ""); }).join();
   expect_error("mesh is null");
-  EXPECT_STREQ(touchstone_version(), "0.1.0");
+  EXPECT_STREQ(touchstone_version(), "0.2.0");
 }
 
 }  // namespace
