@@ -1,7 +1,5 @@
 #include "touchstone/broad_phase.hpp"
 
-#include <oneapi/tbb/parallel_for.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -23,8 +21,6 @@
 
 namespace touchstone::fast {
 namespace {
-
-namespace tbb = oneapi::tbb;
 
 /// Groups per task.
 constexpr std::size_t groups_of_chunk = 16;
@@ -89,9 +85,11 @@ class Search {
   }
 
   static std::vector<IndexPair> room_for(std::uint64_t count, std::uint64_t most) {
-    if (count > most) throw TooManyCandidates(count);
+    if (count > std::min<std::uint64_t>(most, std::numeric_limits<std::size_t>::max())) {
+      throw TooManyCandidates(count);
+    }
     try {
-      return std::vector<IndexPair>(count);
+      return std::vector<IndexPair>(static_cast<std::size_t>(count));
     } catch (const std::bad_alloc&) {
       throw TooManyCandidates(count);
     } catch (const std::length_error&) {

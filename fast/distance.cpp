@@ -1,8 +1,5 @@
 #include "touchstone/distance.hpp"
 
-#include <oneapi/tbb/blocked_range.h>
-#include <oneapi/tbb/parallel_for.h>
-
 #include <algorithm>
 #include <array>
 #include <atomic>
@@ -26,8 +23,6 @@
 
 namespace touchstone::fast {
 namespace {
-
-namespace tbb = oneapi::tbb;
 
 void require_time(double t) {
   // Written so that NaN fails too.

@@ -1,8 +1,5 @@
 #include "touchstone/step.hpp"
 
-#include <oneapi/tbb/enumerable_thread_specific.h>
-#include <oneapi/tbb/parallel_for.h>
-
 #include <algorithm>
 #include <atomic>
 #include <bit>
@@ -21,8 +18,6 @@
 
 namespace touchstone::fast {
 namespace {
-
-namespace tbb = oneapi::tbb;
 
 static_assert(PairBuffer::capacity <= kernel_block);
 

@@ -1,18 +1,14 @@
 #include "fast/broad_phase/box_tree.hpp"
 
-#include <oneapi/tbb/blocked_range.h>
-#include <oneapi/tbb/parallel_for.h>
-
 #include <algorithm>
 #include <cstring>
 #include <limits>
 
 #include "fast/platform/floating_point_state.hpp"
+#include "fast/platform/threads.hpp"
 
 namespace touchstone::fast {
 namespace {
-
-namespace tbb = oneapi::tbb;
 
 /// Nodes of level 1 per task when boxes are fitted.
 constexpr std::size_t nodes_of_task = 4;

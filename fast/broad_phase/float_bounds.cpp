@@ -1,8 +1,5 @@
 #include "fast/broad_phase/float_bounds.hpp"
 
-#include <oneapi/tbb/blocked_range.h>
-#include <oneapi/tbb/parallel_reduce.h>
-
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -14,13 +11,12 @@
 #include <vector>
 
 #include "fast/platform/floating_point_state.hpp"
+#include "fast/platform/threads.hpp"
 #include "touchstone/filters/error_bounds.hpp"
 #include "touchstone/filters/expressions.hpp"
 
 namespace touchstone::fast {
 namespace {
-
-namespace tbb = oneapi::tbb;
 
 /// Vertices per task.
 constexpr std::size_t vertices_of_task = 4096;

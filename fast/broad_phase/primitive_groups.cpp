@@ -1,9 +1,5 @@
 #include "fast/broad_phase/primitive_groups.hpp"
 
-#include <oneapi/tbb/blocked_range.h>
-#include <oneapi/tbb/parallel_for.h>
-#include <oneapi/tbb/parallel_invoke.h>
-
 #include <algorithm>
 #include <array>
 #include <cstdint>
@@ -13,11 +9,10 @@
 #include "fast/broad_phase/search.hpp"
 #include "fast/broad_phase/seeds.hpp"
 #include "fast/platform/floating_point_state.hpp"
+#include "fast/platform/threads.hpp"
 
 namespace touchstone::fast {
 namespace {
-
-namespace tbb = oneapi::tbb;
 
 /// Groups of a subtree that one task splits.
 constexpr std::size_t groups_of_task = 64;

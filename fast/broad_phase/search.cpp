@@ -8,6 +8,15 @@ extern const SearchKernel scalar_search_kernel;
 extern const SearchKernel avx2_search_kernel;
 extern const SearchKernel avx512_search_kernel;
 #endif
+#ifdef TOUCHSTONE_NEON
+extern const SearchKernel neon_search_kernel;
+#endif
+
+// Not inline: kernels for other processors must hold no function that another file could link.
+bool PairQuestions::bodies_meet(std::int32_t /*a*/, std::int32_t /*b*/) const { return true; }
+bool PairQuestions::primitives_meet(const Primitive& /*a*/, const Primitive& /*b*/) const {
+  return true;
+}
 
 std::span<const SearchKernel* const> search_kernels() {
   // It multiplies nothing.
@@ -17,6 +26,9 @@ std::span<const SearchKernel* const> search_kernels() {
 #ifdef TOUCHSTONE_X86_64
           &avx2_search_kernel,
           &avx512_search_kernel,
+#endif
+#ifdef TOUCHSTONE_NEON
+          &neon_search_kernel,
 #endif
       },
       "search", [](const SearchKernel& /*kernel*/) { return true; });

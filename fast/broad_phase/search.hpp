@@ -34,10 +34,8 @@ class PairQuestions {
   /// True if a pair that is not certain is one.
   [[nodiscard]] virtual bool confirms(const Primitive& a, const Primitive& b) const = 0;
   /// With bodies: true if two bodies meet; true if two primitives meet, one of which is mixed.
-  [[nodiscard]] virtual bool bodies_meet(std::int32_t, std::int32_t) const { return true; }
-  [[nodiscard]] virtual bool primitives_meet(const Primitive&, const Primitive&) const {
-    return true;
-  }
+  [[nodiscard]] virtual bool bodies_meet(std::int32_t a, std::int32_t b) const;
+  [[nodiscard]] virtual bool primitives_meet(const Primitive& a, const Primitive& b) const;
 
  protected:
   ~PairQuestions() = default;

@@ -1,6 +1,7 @@
 // The search in plain C++: loops over sixteen boxes, which compilers can vectorise.
 
 #include "fast/broad_phase/search_on_lanes.hpp"
+#include "fast/broad_phase/words_one_by_one.hpp"
 
 namespace touchstone::fast {
 namespace {
@@ -16,7 +17,7 @@ struct Mask {
   }
 };
 
-struct Lanes {
+struct Lanes : WordsOneByOne {
   using Numbers = FloatLanes;
   using Mask = touchstone::fast::Mask;
 
@@ -70,30 +71,6 @@ struct Lanes {
     Mask equal;
     for (std::size_t i = 0; i < group_size; ++i) equal.set[i] = values[i] == value ? -1 : 0;
     return bits(equal);
-  }
-
-  template <class Word>
-  static std::array<Word, group_size> load_words(const Word* from) {
-    std::array<Word, group_size> result;
-    for (std::size_t i = 0; i < group_size; ++i) result[i] = from[i];
-    return result;
-  }
-  template <class Word>
-  static void write(Word* to, const std::array<Word, group_size>& words, unsigned bits) {
-    for (std::size_t i = 0; i < group_size; ++i) {
-      *to = words[i];
-      to += bits >> i & 1U;
-    }
-  }
-
-  template <bool is_ordered>
-  static IndexPair* append(IndexPair* to, std::int32_t number, const std::int32_t* numbers,
-                           unsigned bits) {
-    for (unsigned rest = bits; rest != 0; rest &= rest - 1) {
-      const std::int32_t other = numbers[__builtin_ctz(rest)];
-      *to++ = is_ordered && other < number ? IndexPair{other, number} : IndexPair{number, other};
-    }
-    return to;
   }
 };
 

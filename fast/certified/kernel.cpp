@@ -8,6 +8,9 @@ extern const CertifiedKernel scalar_certified_kernel;
 extern const CertifiedKernel avx2_certified_kernel;
 extern const CertifiedKernel avx512_certified_kernel;
 #endif
+#ifdef TOUCHSTONE_NEON
+extern const CertifiedKernel neon_certified_kernel;
+#endif
 
 std::span<const CertifiedKernel* const> certified_kernels() {
   static const auto kernels = runnable_kernels<CertifiedKernel>(
@@ -16,6 +19,9 @@ std::span<const CertifiedKernel* const> certified_kernels() {
 #ifdef TOUCHSTONE_X86_64
           &avx2_certified_kernel,
           &avx512_certified_kernel,
+#endif
+#ifdef TOUCHSTONE_NEON
+          &neon_certified_kernel,
 #endif
       },
       "certified kernel", rounds_its_products<CertifiedKernel>);

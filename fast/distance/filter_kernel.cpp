@@ -9,6 +9,9 @@ namespace touchstone::fast {
 extern const DistanceKernel avx2_distance_kernel;
 extern const DistanceKernel avx512_distance_kernel;
 #endif
+#ifdef TOUCHSTONE_NEON
+extern const DistanceKernel neon_distance_kernel;
+#endif
 
 namespace {
 
@@ -33,6 +36,9 @@ std::span<const DistanceKernel* const> distance_kernels() {
 #ifdef TOUCHSTONE_X86_64
           &avx2_distance_kernel,
           &avx512_distance_kernel,
+#endif
+#ifdef TOUCHSTONE_NEON
+          &neon_distance_kernel,
 #endif
       },
       "distance kernel", rounds_its_products<DistanceKernel>);

@@ -9,18 +9,21 @@ std::string_view to_string(InstructionSet instructions) {
     case InstructionSet::avx2:
       return "avx2";
     case InstructionSet::avx512:
+      return "avx512";
+    case InstructionSet::neon:
       break;
   }
-  return "avx512";
+  return "neon";
 }
 
 bool is_supported(InstructionSet instructions) {
   if (instructions == InstructionSet::scalar) return true;
-#ifdef TOUCHSTONE_X86_64
+#ifdef TOUCHSTONE_NEON
+  return instructions == InstructionSet::neon;
+#elif defined(TOUCHSTONE_X86_64)
   if (!static_cast<bool>(__builtin_cpu_supports("fma"))) return false;
-  return instructions == InstructionSet::avx2
-             ? static_cast<bool>(__builtin_cpu_supports("avx2"))
-             : static_cast<bool>(__builtin_cpu_supports("avx512f"));
+  if (instructions == InstructionSet::avx2) return __builtin_cpu_supports("avx2") != 0;
+  return instructions == InstructionSet::avx512 && __builtin_cpu_supports("avx512f") != 0;
 #else
   return false;
 #endif

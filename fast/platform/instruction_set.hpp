@@ -18,11 +18,12 @@ namespace touchstone::fast {
 
 enum class InstructionSet : std::uint8_t {
   scalar,
-  avx2,   ///< AVX2 and FMA
-  avx512  ///< AVX-512 Foundation and FMA
+  avx2,    ///< AVX2 and FMA
+  avx512,  ///< AVX-512 Foundation and FMA
+  neon     ///< the vectors that every AArch64 has
 };
 
-/// "scalar", "avx2" or "avx512".
+/// "scalar", "avx2", "avx512" or "neon".
 [[nodiscard]] std::string_view to_string(InstructionSet instructions);
 
 /// True if this processor supports it.

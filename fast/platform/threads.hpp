@@ -1,29 +1,102 @@
 #pragma once
 
 /// \file
-/// Work in a limited number of threads.
-
-#include <oneapi/tbb/info.h>
-#include <oneapi/tbb/task_arena.h>
+/// Work in a limited number of threads, through oneTBB.
+///
+/// Without oneTBB (TOUCHSTONE_TBB is not defined) everything runs in the caller's thread, in order,
+/// by functions of the same names. Answers do not depend on the number of threads, so they are the
+/// same.
 
 #include <algorithm>
 
 #include "fast/platform/floating_point_state.hpp"
 
+#ifdef TOUCHSTONE_TBB
+#include <oneapi/tbb/blocked_range.h>
+#include <oneapi/tbb/enumerable_thread_specific.h>
+#include <oneapi/tbb/info.h>
+#include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/parallel_invoke.h>
+#include <oneapi/tbb/parallel_reduce.h>
+#include <oneapi/tbb/task_arena.h>
+#else
+#include <array>
+#include <cstddef>
+#endif
+
 namespace touchstone::fast {
+
+#ifdef TOUCHSTONE_TBB
+namespace tbb = oneapi::tbb;
+#else
+/// The part of oneTBB that this module uses, in one thread.
+namespace tbb {
+
+template <class Index>
+class blocked_range {
+ public:
+  blocked_range(Index begin, Index end, std::size_t /*grain*/) : begin_(begin), end_(end) {}
+  [[nodiscard]] Index begin() const { return begin_; }
+  [[nodiscard]] Index end() const { return end_; }
+  [[nodiscard]] std::size_t size() const { return static_cast<std::size_t>(end_ - begin_); }
+
+ private:
+  Index begin_, end_;
+};
+
+template <class Index, class Body>
+void parallel_for(const blocked_range<Index>& range, const Body& body) {
+  body(range);
+}
+
+template <class Index, class Body>
+void parallel_for(Index begin, Index end, const Body& body) {
+  for (Index i = begin; i < end; ++i) body(i);
+}
+
+template <class Index, class Value, class Body, class Join>
+Value parallel_reduce(const blocked_range<Index>& range, const Value& identity, const Body& body,
+                      const Join& /*join*/) {
+  return body(range, identity);
+}
+
+template <class First, class Second>
+void parallel_invoke(const First& first, const Second& second) {
+  first();
+  second();
+}
+
+template <class Value>
+class enumerable_thread_specific {
+ public:
+  [[nodiscard]] Value& local() { return only_[0]; }
+  [[nodiscard]] auto begin() { return only_.begin(); }
+  [[nodiscard]] auto end() { return only_.end(); }
+
+ private:
+  std::array<Value, 1> only_;
+};
+
+}  // namespace tbb
+#endif
 
 /// Calls work() in an arena of at most this number of threads (0: all cores), under strict floating
 /// point, and returns its result. It may run in another thread than the caller's. Its tasks have to
 /// establish strict floating point themselves.
 template <class Work>
-auto with_threads(int max_threads, const Work& work) {
-  // oneTBB would not start more threads than cores.
-  const int cores = oneapi::tbb::info::default_concurrency();
-  oneapi::tbb::task_arena arena(max_threads == 0 ? cores : std::min(max_threads, cores));
-  return arena.execute([&work] {
+auto with_threads([[maybe_unused]] int max_threads, const Work& work) {
+  const auto strictly = [&work] {
     const StrictFloatingPoint strict;
     return work();
-  });
+  };
+#ifdef TOUCHSTONE_TBB
+  // oneTBB would not start more threads than cores.
+  const int cores = tbb::info::default_concurrency();
+  tbb::task_arena arena(max_threads == 0 ? cores : std::min(max_threads, cores));
+  return arena.execute(strictly);
+#else
+  return strictly();
+#endif
 }
 
 }  // namespace touchstone::fast

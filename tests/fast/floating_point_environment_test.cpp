@@ -18,6 +18,7 @@
 #include <utility>
 #include <vector>
 
+#include "tests/support/floating_point_modes.hpp"
 #include "tests/support/queries.hpp"
 #include "tests/support/random.hpp"
 #include "tests/support/scenes.hpp"
@@ -32,14 +33,16 @@
 #include "touchstone/primitive_pairs.hpp"
 #include "touchstone/step.hpp"
 
-#ifdef __SSE2__
-#include <xmmintrin.h>
-#endif
-
 namespace touchstone::fast::floating_point_environment_test {
 namespace {
 
+using tests::default_modes;
+using tests::floating_point_modes;
+using tests::flush_to_zero;
 using tests::Random;
+using tests::round_up;
+using tests::set_floating_point_modes;
+using tests::subnormals_are_zero;
 
 // ---- States -------------------------------------------------------------------------------------
 
@@ -54,27 +57,22 @@ std::vector<State> states() {
   std::vector<State> result{{"upward", [] { std::fesetround(FE_UPWARD); }},
                             {"downward", [] { std::fesetround(FE_DOWNWARD); }},
                             {"towards_zero", [] { std::fesetround(FE_TOWARDZERO); }}};
-#ifdef __SSE2__
-  const auto add = [&](const char* name, unsigned bits) {
-    result.push_back({name, [bits] { _mm_setcsr(0x1F80U | bits); }});
+  const auto add = [&](const char* name, std::uint64_t bits) {
+    result.push_back({name, [bits] { set_floating_point_modes(default_modes | bits); }});
   };
-  add("flush_to_zero", 0x8000);
-  add("subnormals_are_zero", 0x0040);
-  add("both", 0x8040);
-  add("both_upward", 0xC040);
-  add("both_with_a_flag_raised", 0x8041);
+  add("flush_to_zero", flush_to_zero);
+  add("subnormals_are_zero", subnormals_are_zero);
+  add("both", flush_to_zero | subnormals_are_zero);
+  add("both_upward", flush_to_zero | subnormals_are_zero | round_up);
+#ifdef __SSE2__
+  // On AArch64 the flags are in another register.
+  add("both_with_a_flag_raised", flush_to_zero | subnormals_are_zero | 1U);
 #endif
   return result;
 }
 
 /// The state of this thread that must stay.
-unsigned current_state() {
-#ifdef __SSE2__
-  return _mm_getcsr();
-#else
-  return static_cast<unsigned>(std::fegetround());
-#endif
-}
+std::uint64_t current_state() { return floating_point_modes(); }
 
 // ---- Answers ------------------------------------------------------------------------------------
 
@@ -271,12 +269,12 @@ TEST_P(FloatingPointEnvironment, DoesNotMatterAndStays) {
   std::fenv_t callers;
   std::fegetenv(&callers);
   state.set();
-  const unsigned before = current_state();
+  const std::uint64_t before = current_state();
   const Bits other = answers.ask();
-  const unsigned after = current_state();
+  const std::uint64_t after = current_state();
   std::fesetenv(&callers);
   EXPECT_TRUE(other == usual);
-  constexpr unsigned flags = 0x3F;  // flags that the caller's own arithmetic may raise
+  constexpr std::uint64_t flags = 0x3F;  // flags that the caller's own arithmetic may raise
   EXPECT_EQ(after & ~flags, before & ~flags);
 }
 

@@ -10,11 +10,8 @@
 #include <string>
 #include <vector>
 
+#include "tests/support/floating_point_modes.hpp"
 #include "touchstone/query.hpp"
-
-#ifdef __SSE2__
-#include <xmmintrin.h>
-#endif
 
 namespace touchstone::fast::mesh_test {
 namespace {
@@ -59,16 +56,15 @@ TEST(MovingVertices, HoldsWhatItIsMadeFromWhateverTheStorage) {
   EXPECT_EQ(MovingVertices(places(0, 0), places(0, 0)).size(), 0U);
 }
 
-#ifdef __SSE2__
 TEST(MovingVertices, KeepSubnormalFloatsThatTheCallerTakesForZero) {
   Eigen::Matrix<float, 2, 3> floats;
   floats << 0x1p-149F, -0x1p-149F, 0x1.8p-127F, -0x1.fffffcp-127F, -0.0F, 0x1p-126F;
   Eigen::Matrix<double, 2, 3> expected;
   expected << 0x1p-149, -0x1p-149, 0x1.8p-127, -0x1.fffffcp-127, -0.0, 0x1p-126;
-  const unsigned before = _mm_getcsr();
-  _mm_setcsr(before | 0x8040U);
-  const MovingVertices vertices(floats, floats);
-  _mm_setcsr(before);
+  const MovingVertices vertices = [&floats] {
+    const tests::ChangedModes changed(tests::flush_to_zero | tests::subnormals_are_zero);
+    return MovingVertices(floats, floats);
+  }();
   for (Eigen::Index i = 0; i < 2; ++i) {
     const auto& [start, end] = vertices[static_cast<std::size_t>(i)];
     for (Eigen::Index k = 0; k < 3; ++k) {
@@ -77,7 +73,6 @@ TEST(MovingVertices, KeepSubnormalFloatsThatTheCallerTakesForZero) {
     }
   }
 }
-#endif
 
 TEST(MovingVertices, RefusesMatricesOfOtherShapes) {
   const Eigen::MatrixXd two_columns = Eigen::MatrixXd::Zero(5, 2);

@@ -19,10 +19,10 @@ namespace touchstone::filters::error_bounds_test {
 namespace {
 
 TEST(ErrorBounds, StandAsTheDerivationGivesThem) {
-  std::ifstream file(tests::source_folder() + "/filters/error_bounds.hpp", std::ios::binary);
+  std::ifstream file(tests::source_folder() + "/filters/include/touchstone/filters/error_bounds.hpp", std::ios::binary);
   const std::string text{std::istreambuf_iterator<char>(file), {}};
   EXPECT_EQ(text, error_bounds_header())
-      << "write it anew: touchstone derive --emit touchstone/filters/error_bounds.hpp";
+      << "write it anew: touchstone derive --emit filters/include/touchstone/filters/error_bounds.hpp";
 }
 
 /// A shipped bound, with its expression and precision.

@@ -65,7 +65,7 @@ namespace touchstone::tests {
 /// The exact stage's decision, as a result.
 [[nodiscard]] inline fast::CertifiedResult exact_result(
     Kind kind, const Query& query, const fast::CertifiedOptions& options = {}) {
-  const auto& [tolerance, t_max, separation, threads, kernel] = options;
+  const auto& [tolerance, t_max, separation, threads] = options;
   const auto impact = is_zero(separation)
                           ? fast::decide_exactly(kind, query, tolerance, t_max)
                           : fast::decide_exactly(kind, query, separation, tolerance, t_max);

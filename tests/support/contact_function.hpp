@@ -1,6 +1,7 @@
 #pragma once
 
-/// \file F (touchstone/query.hpp) from its definition, in any numbers.
+/// \file
+/// F (touchstone/query.hpp) from its definition, in any numbers.
 
 #include <array>
 #include <cstddef>

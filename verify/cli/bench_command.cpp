@@ -61,15 +61,11 @@ struct Arguments {
 
 /// \throws std::invalid_argument if this processor cannot run it.
 const fast::CertifiedKernel* kernel_of(const std::string& name) {
-  using fast::InstructionSet;
   if (name == best_kernel) return nullptr;
-  const InstructionSet instructions = name == "avx512" ? InstructionSet::avx512
-                                      : name == "avx2" ? InstructionSet::avx2
-                                                       : InstructionSet::scalar;
-  const fast::CertifiedKernel* const kernel =
-      fast::find_kernel(fast::certified_kernels(), instructions);
-  if (kernel == nullptr) throw std::invalid_argument("this processor cannot run kernel " + name);
-  return kernel;
+  for (const fast::CertifiedKernel* const kernel : fast::certified_kernels()) {
+    if (fast::to_string(kernel->instructions) == name) return kernel;
+  }
+  throw std::invalid_argument("this processor cannot run kernel " + name);
 }
 
 /// A run: the groups in order, then the reports.
@@ -239,10 +235,10 @@ void add_bench_options(CLI::App& command, Arguments& arguments) {
       ->excludes(command.get_option("PATH"));
   command
       .add_option("--kernel", arguments.kernel,
-                  "Kernel of the certified solver and of steps: scalar, avx2, avx512 or best")
+                  "Kernel of the certified solver and of steps: scalar, avx2, avx512, neon or best")
       ->type_name("NAME")
       ->capture_default_str()
-      ->check(CLI::IsMember({"scalar", "avx2", "avx512", "best"}).description(""));
+      ->check(CLI::IsMember({"scalar", "avx2", "avx512", "neon", "best"}).description(""));
   command
       .add_option("--repetitions", arguments.bench.repetitions, "Repetitions; times are medians")
       ->type_name("N")

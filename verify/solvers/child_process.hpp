@@ -14,6 +14,8 @@
 ///
 /// In the child there are no other threads: fork() copies only the one that calls it. Code that
 /// hands work to threads of a pool that existed before waits for ever.
+///
+/// The implementation is Linux's alone (linux/child_process.cpp).
 
 #include <sys/types.h>
 

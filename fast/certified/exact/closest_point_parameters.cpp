@@ -12,6 +12,19 @@
 namespace touchstone::fast::exact_stage {
 namespace {
 
+/// a·b. Eigen's order of addition depends on the processor.
+double dot(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+/// Does not underflow.
+double length(const Eigen::Vector3d& a) {
+  const double greatest = a.cwiseAbs().maxCoeff();
+  if (greatest == 0.0) return 0.0;
+  const Eigen::Vector3d scaled = a / greatest;
+  return greatest * std::sqrt(dot(scaled, scaled));
+}
+
 /// r − u p − v q.
 struct Polygon {
   Kind kind;
@@ -38,7 +51,7 @@ class Search {
     const double farthest = polygon_.kind == Kind::vertex_face ? x.u + x.v : std::max(x.u, x.v);
     if (!(std::min(x.u, x.v) >= -slack && farthest <= 1.0 + slack)) return;
     const Eigen::Vector3d f = polygon_.at(x);
-    const double distance = norm_ == Norm::l2 ? f.stableNorm() : f.cwiseAbs().maxCoeff();
+    const double distance = norm_ == Norm::l2 ? length(f) : f.cwiseAbs().maxCoeff();
     if (distance >= least_) return;
     least_ = distance;
     best_ = x;
@@ -89,11 +102,11 @@ Parameters solve(const std::array<Eigen::Vector3d, 2>& rows) {
 void search_euclidean(const Polygon& polygon, Search& search) {
   const Eigen::Vector3d &r = polygon.r, &p = polygon.p, &q = polygon.q;
   const Eigen::Vector3d n = p.cross(q);
-  const double square = n.squaredNorm();
-  search.consider({n.dot(r.cross(q)) / square, n.dot(p.cross(r)) / square});
+  const double square = dot(n, n);
+  search.consider({dot(n, r.cross(q)) / square, dot(n, p.cross(r)) / square});
   for (const DomainSide& side : sides(polygon.kind)) {
     const Eigen::Vector3d start = polygon.at(side.from), step = polygon.at(side.to) - start;
-    const double s = -start.dot(step) / step.squaredNorm();
+    const double s = -dot(start, step) / dot(step, step);
     search.consider(side.at(s >= 0.0 ? std::min(s, 1.0) : 0.0));
   }
 }

@@ -1,12 +1,12 @@
 #include "exact/distance/distance_oracle.hpp"
 
 #include <gtest/gtest.h>
-#include <immintrin.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <cstdlib>
 #include <limits>
 #include <optional>
@@ -15,6 +15,7 @@
 
 #include "tests/support/contact_function.hpp"
 #include "tests/support/distance_reference.hpp"
+#include "tests/support/floating_point_modes.hpp"
 #include "tests/support/queries.hpp"
 #include "tests/support/random.hpp"
 #include "touchstone/oracle.hpp"
@@ -174,11 +175,10 @@ TEST(DistanceOracle, AnyMagnitude) {
 }
 
 TEST(DistanceOracle, FlushedSubnormalsChangeNothing) {
-  static constexpr unsigned flush_to_zero = 0x8000, denormals_are_zero = 0x0040;
   const double u = Limits::denorm_min();
   const PosedQuery posed = over_triangle(1, 1, 3 * u, 2 * u);
-  const unsigned control = _mm_getcsr();
-  _mm_setcsr(control | flush_to_zero | denormals_are_zero);
+  const std::uint64_t modes = tests::floating_point_modes();
+  tests::set_floating_point_modes(modes | tests::flush_to_zero | tests::subnormals_are_zero);
   std::vector<bool> collisions;
   for (const Norm norm : both_norms) {
     collisions.push_back(decide(posed.kind, posed.query, {u, norm}).collides());
@@ -190,7 +190,7 @@ TEST(DistanceOracle, FlushedSubnormalsChangeNothing) {
   } catch (const std::invalid_argument&) {
     is_refused = true;
   }
-  _mm_setcsr(control);
+  tests::set_floating_point_modes(modes);
   EXPECT_EQ(collisions, (std::vector<bool>{false, true, false, true}));
   EXPECT_TRUE(is_refused);
   expect_toi(posed, 2 * u, Norm::l2, 1);

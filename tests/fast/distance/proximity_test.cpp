@@ -33,7 +33,7 @@ TEST(Proximity, LeavesOutNoneThatIsNearAndMostThatAreNot) {
           const auto found = perhaps_within(kind, at_rest, separation);
           for (const CertifiedKernel* const kernel : certified_kernels()) {
             at_rest = queries;
-            auto same = perhaps_within(kind, at_rest, separation, kernel);
+            auto same = perhaps_within(kind, at_rest, separation, *kernel);
             EXPECT_TRUE(std::ranges::is_permutation(same, found));
           }
           for (std::size_t i = 0; i < queries.size(); ++i) {

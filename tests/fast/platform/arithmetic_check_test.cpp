@@ -1,9 +1,11 @@
 #include "fast/platform/arithmetic_check.hpp"
 
 #include <gtest/gtest.h>
-#include <xmmintrin.h>
 
 #include <cfenv>
+#include <cstdint>
+
+#include "tests/support/floating_point_modes.hpp"
 
 namespace touchstone::fast::arithmetic_check_test {
 namespace {
@@ -38,12 +40,11 @@ TEST_F(ArithmeticCheck, FindsEveryOtherRoundingMode) {
 }
 
 TEST_F(ArithmeticCheck, FindsFlushToZeroAndDenormalsAreZero) {
-  static constexpr unsigned flush_to_zero = 0x8000, denormals_are_zero = 0x0040;
-  const unsigned control = _mm_getcsr();
-  for (const unsigned flag : {flush_to_zero, denormals_are_zero}) {
-    _mm_setcsr(control | flag);
-    const ArithmeticReport report = check_arithmetic();
-    _mm_setcsr(control);
+  for (const std::uint64_t flag : {tests::flush_to_zero, tests::subnormals_are_zero}) {
+    const ArithmeticReport report = [flag] {
+      const tests::ChangedModes changed(flag);
+      return check_arithmetic();
+    }();
     EXPECT_FALSE(report.gradual_underflow) << flag;
     EXPECT_TRUE(report.rounds_to_nearest) << flag;
   }
@@ -60,13 +61,10 @@ TEST_F(ArithmeticCheck, SaysWhatIsWrong) {
 }
 
 TEST_F(ArithmeticCheck, SeesTheEnvironmentChangeAfterItsFirstCall) {
-  static constexpr unsigned flush_to_zero = 0x8000, denormals_are_zero = 0x0040;
   EXPECT_NO_THROW(require_strict_environment());
-  const unsigned control = _mm_getcsr();
-  for (const unsigned flag : {flush_to_zero, denormals_are_zero}) {
-    _mm_setcsr(control | flag);
+  for (const std::uint64_t flag : {tests::flush_to_zero, tests::subnormals_are_zero}) {
+    const tests::ChangedModes changed(flag);
     EXPECT_THROW(require_strict_environment(), std::runtime_error) << flag;
-    _mm_setcsr(control);
   }
   for (const int mode : {FE_UPWARD, FE_DOWNWARD, FE_TOWARDZERO}) {
     std::fesetround(mode);

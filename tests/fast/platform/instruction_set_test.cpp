@@ -27,6 +27,7 @@ TEST(InstructionSet, IsNamed) {
   EXPECT_EQ(to_string(InstructionSet::scalar), "scalar");
   EXPECT_EQ(to_string(InstructionSet::avx2), "avx2");
   EXPECT_EQ(to_string(InstructionSet::avx512), "avx512");
+  EXPECT_EQ(to_string(InstructionSet::neon), "neon");
 }
 
 TEST(InstructionSet, EveryProcessorRunsTheScalarOne) {
@@ -35,11 +36,13 @@ TEST(InstructionSet, EveryProcessorRunsTheScalarOne) {
 
 TEST(InstructionSet, OnlySupportedKernelsAreRunnableInTheirOrder) {
   static constexpr Kernel scalar{InstructionSet::scalar}, avx2{InstructionSet::avx2},
-      avx512{InstructionSet::avx512};
-  const auto kernels = runnable_kernels<Kernel>({&scalar, &avx2, &avx512}, "k", rounds_products);
+      avx512{InstructionSet::avx512}, neon{InstructionSet::neon};
+  const auto kernels =
+      runnable_kernels<Kernel>({&scalar, &avx2, &avx512, &neon}, "k", rounds_products);
   std::vector<const Kernel*> expected{&scalar};
   if (is_supported(InstructionSet::avx2)) expected.push_back(&avx2);
   if (is_supported(InstructionSet::avx512)) expected.push_back(&avx512);
+  if (is_supported(InstructionSet::neon)) expected.push_back(&neon);
   EXPECT_EQ(kernels, expected);
 }
 

@@ -67,9 +67,10 @@ std::uint64_t data_bytes() {
   return file ? pages * static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE)) : 0;
 }
 
-void limit_resource(int resource, std::uint64_t value) {
+/// The type of a resource depends on the C library.
+void limit_resource(auto resource, std::uint64_t value) {
   const rlimit limit{.rlim_cur = value, .rlim_max = value};
-  ::setrlimit(static_cast<__rlimit_resource>(resource), &limit);
+  ::setrlimit(resource, &limit);
 }
 
 /// Has the system refuse to make processes, but not threads. What makes a thread is known by the
