@@ -197,8 +197,8 @@ class Search {
 };
 
 void require_valid(const TightInclusionOptions& options) {
-  const auto require = [](bool is_valid, const char* rule) {
-    if (!is_valid) throw std::invalid_argument(std::string("tight_inclusion: ") + rule);
+  const auto require = [](bool holds, const char* rule) {
+    if (!holds) throw std::invalid_argument(std::string("tight_inclusion: ") + rule);
   };
   // Written so that NaN fails too.
   const auto is_filter = [](double x) { return x >= 0.0; };

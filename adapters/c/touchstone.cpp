@@ -1,5 +1,7 @@
 #include "touchstone/touchstone.h"
 
+#include <Eigen/Core>
+
 #include <algorithm>
 #include <array>
 #include <cstddef>
@@ -50,7 +52,7 @@ std::string& last_error() {
 
 /// The status for the exception that is being handled. Its message becomes the last error.
 std::int32_t status_of_exception() {
-  const auto failed = [](TouchstoneStatus status, const char* reason) {
+  const auto failed = [](std::int32_t status, const char* reason) {
     last_error() = reason;
     return status;
   };
@@ -188,16 +190,16 @@ TouchstoneCollision collision_of(const fast::StepCollision& collision) {
 }
 
 TouchstoneActiveContact active_contact_of(const fast::ActiveContact& contact) {
-  TouchstoneActiveContact result{.collision = collision_of(contact)};
-  std::ranges::copy(contact.first, result.first);
-  std::ranges::copy(contact.second, result.second);
-  std::ranges::copy(contact.normal, result.normal);
+  TouchstoneActiveContact result{collision_of(contact), {}, {}, {}};
+  Eigen::Vector3d::Map(result.first) = contact.first;
+  Eigen::Vector3d::Map(result.second) = contact.second;
+  Eigen::Vector3d::Map(result.normal) = contact.normal;
   return result;
 }
 
 /// Fills an array that a step hands out; `convert` makes its items.
 template <class Item, class Given, class Convert>
-void fill(std::vector<Item>& array, const std::vector<Given>& given, const Convert& convert) {
+void refill(std::vector<Item>& array, const std::vector<Given>& given, const Convert& convert) {
   std::vector<Item> items;
   items.reserve(given.size());
   for (const Given& one : given) items.push_back(convert(one));
@@ -287,7 +289,7 @@ std::int32_t touchstone_step_collisions(TouchstoneStep* step,
     TouchstoneStep& asked = required(step, "step");
     const TouchstoneCollision*& first = required(collisions, "collisions");
     std::size_t& number = required(count, "count");
-    fill(asked.collisions, asked.step->collisions(), collision_of);
+    refill(asked.collisions, asked.step->collisions(), collision_of);
     first = asked.collisions.data();
     number = asked.collisions.size();
   });
@@ -310,7 +312,7 @@ std::int32_t touchstone_step_least_distance(TouchstoneStep* step, double t, std:
     constexpr double infinity = std::numeric_limits<double>::infinity();
     const auto found = fast::least_distance(*asked.step, t, norm_of(norm))
                            .value_or(fast::LeastDistance{{infinity, infinity}, {}});
-    fill(asked.nearest, found.pairs, [](const auto& one) { return pair_of(one.kind, one.pair); });
+    refill(asked.nearest, found.pairs, [](const auto& one) { return pair_of(one.kind, one.pair); });
     least = distance_of(found.distance);
     first = asked.nearest.data();
     number = asked.nearest.size();
@@ -324,8 +326,8 @@ std::int32_t touchstone_step_active_set(TouchstoneStep* step, double eta, std::i
     TouchstoneStep& asked = required(step, "step");
     const TouchstoneActiveContact*& first = required(contacts, "contacts");
     std::size_t& number = required(count, "count");
-    fill(asked.active, fast::active_set(*asked.step, {.distance = eta, .norm = norm_of(norm)}),
-         active_contact_of);
+    refill(asked.active, fast::active_set(*asked.step, {.distance = eta, .norm = norm_of(norm)}),
+           active_contact_of);
     first = asked.active.data();
     number = asked.active.size();
   });
@@ -345,7 +347,7 @@ std::int32_t touchstone_step_line_search_limit(TouchstoneStep* step, double p,
         *asked.step, p,
         line_search_options_of(options != nullptr ? *options
                                                   : touchstone_default_line_search_options()));
-    fill(asked.limiting, found.pairs, collision_of);
+    refill(asked.limiting, found.pairs, collision_of);
     written = {static_cast<std::int32_t>(found.status), found.step_size,
                distance_of(found.distance), asked.limiting.data(), asked.limiting.size()};
   });

@@ -10,6 +10,7 @@
 #include <span>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "tests/support/queries.hpp"
@@ -174,13 +175,10 @@ TEST(Refusals, OfDistancesOfWhatIsNotFinite) {
 /// The scene has 4 vertices, 1 face and 3 edges.
 TEST(Refusals, OfPairsOutOfRange) {
   const Step asked = step();
-  const struct {
-    PairKind kind;
-    IndexPair last;
-  } kinds[] = {{PairKind::vertex_face, {3, 0}},
-               {PairKind::edge_edge, {2, 2}},
-               {PairKind::vertex_edge, {3, 2}},
-               {PairKind::vertex_vertex, {3, 3}}};
+  const std::vector<std::pair<PairKind, IndexPair>> kinds{{PairKind::vertex_face, {3, 0}},
+                                                          {PairKind::edge_edge, {2, 2}},
+                                                          {PairKind::vertex_edge, {3, 2}},
+                                                          {PairKind::vertex_vertex, {3, 3}}};
   for (const auto& [kind, last] : kinds) {
     EXPECT_NO_THROW((void)asked.query_of(kind, last));
     for (const std::size_t which : {0U, 1U}) {
