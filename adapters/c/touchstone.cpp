@@ -310,8 +310,8 @@ std::int32_t touchstone_step_least_distance(TouchstoneStep* step, double t, std:
     const TouchstonePair*& first = required(pairs, "pairs");
     std::size_t& number = required(count, "count");
     constexpr double infinity = std::numeric_limits<double>::infinity();
-    const auto found = fast::least_distance(*asked.step, t, norm_of(norm))
-                           .value_or(fast::LeastDistance{{infinity, infinity}, {}});
+    const auto found = touchstone::fast::least_distance(*asked.step, t, norm_of(norm))
+                           .value_or(touchstone::fast::LeastDistance{{infinity, infinity}, {}});
     refill(asked.nearest, found.pairs, [](const auto& one) { return pair_of(one.kind, one.pair); });
     least = distance_of(found.distance);
     first = asked.nearest.data();
@@ -326,7 +326,8 @@ std::int32_t touchstone_step_active_set(TouchstoneStep* step, double eta, std::i
     TouchstoneStep& asked = required(step, "step");
     const TouchstoneActiveContact*& first = required(contacts, "contacts");
     std::size_t& number = required(count, "count");
-    refill(asked.active, fast::active_set(*asked.step, {.distance = eta, .norm = norm_of(norm)}),
+    refill(asked.active,
+           touchstone::fast::active_set(*asked.step, {.distance = eta, .norm = norm_of(norm)}),
            active_contact_of);
     first = asked.active.data();
     number = asked.active.size();
@@ -343,7 +344,7 @@ std::int32_t touchstone_step_line_search_limit(TouchstoneStep* step, double p,
   return guarded([&] {
     TouchstoneStep& asked = required(step, "step");
     TouchstoneLineSearchLimit& written = required(limit, "limit");
-    const fast::LineSearchLimit found = fast::line_search_limit(
+    const touchstone::fast::LineSearchLimit found = touchstone::fast::line_search_limit(
         *asked.step, p,
         line_search_options_of(options != nullptr ? *options
                                                   : touchstone_default_line_search_options()));
