@@ -8,6 +8,7 @@
 #include <limits>
 #include <mutex>
 #include <stdexcept>
+#include <string>
 #include <tuple>
 #include <utility>
 
@@ -28,10 +29,6 @@ void require_time(double t) {
   if (!(t >= 0.0 && t <= 1.0)) throw std::invalid_argument("distance: the time must be in [0,1]");
 }
 
-void require_finite(const Query& query) {
-  if (!is_finite(query)) throw std::domain_error("distance: a coordinate is not finite");
-}
-
 /// \pre strict floating point
 Distance distance_at(Kind kind, const Query& query, double t, Norm norm) {
   if (const auto result = filtered_distance(kind, query, t, norm)) return *result;
@@ -39,10 +36,15 @@ Distance distance_at(Kind kind, const Query& query, double t, Norm norm) {
 }
 
 /// Answers query i in results[i].
+/// \param first the number of query 0 in messages
 void answer(Kind kind, std::span<const Query> queries, double t, Norm norm,
-            std::span<Distance> results) {
+            std::span<Distance> results, std::size_t first) {
   const StrictFloatingPoint strict;
-  std::ranges::for_each(queries, require_finite);
+  for (std::size_t i = 0; i < queries.size(); ++i) {
+    if (is_finite(queries[i])) continue;
+    throw std::domain_error("distances: query " + std::to_string(first + i) +
+                            ": a coordinate is not finite");
+  }
   if (norm == Norm::l2) {
     const DistanceKernel& kernel = *distance_kernels().back();
     kernel.filter(kind, queries.data(), queries.size(), t, results.data());
@@ -173,7 +175,7 @@ class LeastDistanceSearch {
 
 Distance distance(Kind kind, const Query& query, double t, Norm norm) {
   require_time(t);
-  require_finite(query);
+  if (!is_finite(query)) throw std::domain_error("distance: a coordinate is not finite");
   const StrictFloatingPoint strict;
   return distance_at(kind, query, t, norm);
 }
@@ -194,7 +196,7 @@ void distances(Kind kind, std::span<const Query> queries, double t, Norm norm,
                         const auto part = [&](auto all) {
                           return all.subspan(range.begin(), range.size());
                         };
-                        answer(kind, part(queries), t, norm, part(results));
+                        answer(kind, part(queries), t, norm, part(results), range.begin());
                       });
   });
 }

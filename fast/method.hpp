@@ -99,8 +99,8 @@ class Method {
 
   /// Answers query i in answers[i], in this thread.
   /// \pre both spans have the same length.
-  /// \throws std::runtime_error if the arithmetic violates the assumptions of the method;
-  /// std::bad_alloc.
+  /// \throws std::invalid_argument for options that the method refuses; std::runtime_error if the
+  /// arithmetic violates its assumptions; std::bad_alloc.
   virtual void solve(Kind kind, std::span<const Query> queries, std::span<Answer> answers,
                      const MethodOptions& options) const = 0;
 };

@@ -277,6 +277,23 @@ class StepSizeSearch {
   std::uint64_t high_ = std::bit_cast<std::uint64_t>(1.0);
 };
 
+// ---- Pairs --------------------------------------------------------------------------------------
+
+void require_in_range(const Scene& scene, PairKind kind, const IndexPair& pair) {
+  const auto count_of = [&](std::size_t sort) {
+    if (sort == Sort::faces) return scene.elements().faces.size();
+    const bool is_edge = sort == Sort::edges || sort == Sort::bare_edges;
+    return is_edge ? scene.elements().edges.size() : scene.vertices().size();
+  };
+  const PairRecord& record = record_of(kind);
+  if (std::cmp_less_equal(0, pair[0]) && std::cmp_less(pair[0], count_of(record.some)) &&
+      std::cmp_less_equal(0, pair[1]) && std::cmp_less(pair[1], count_of(record.all))) {
+    return;
+  }
+  throw std::out_of_range("step: there is no pair " + std::string(record.name) + " of " +
+                          std::to_string(pair[0]) + " and " + std::to_string(pair[1]));
+}
+
 }  // namespace
 
 // ---- Interface ----------------------------------------------------------------------------------
@@ -351,10 +368,12 @@ void Step::candidates(const std::function<void(const StepCandidates&)>& take) co
 
 std::array<std::int32_t, moving_points> Step::vertices_of(PairKind kind,
                                                           const IndexPair& pair) const {
+  require_in_range(*scene_, kind, pair);
   return scene_->vertices_of(kind, pair);
 }
 
 Query Step::query_of(PairKind kind, const IndexPair& pair) const {
+  require_in_range(*scene_, kind, pair);
   return scene_->query_of(kind, pair);
 }
 

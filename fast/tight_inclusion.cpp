@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <stdexcept>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -194,19 +196,19 @@ class Search {
   std::int64_t checks_ = 0;
 };
 
-std::string_view fault_of(const TightInclusionOptions& options) {
+void require_valid(const TightInclusionOptions& options) {
+  const auto require = [](bool holds, const char* rule) {
+    if (!holds) throw std::invalid_argument(std::string("tight_inclusion: ") + rule);
+  };
+  // Written so that NaN fails too.
   const auto is_filter = [](double x) { return x >= 0.0; };
-  if (!(options.tolerance > 0.0 && options.tolerance < infinity)) {
-    return "the tolerance must be positive and finite";
-  }
-  if (!(options.separation.distance >= 0.0 && options.separation.distance < infinity)) {
-    return "the minimum separation must be finite and not negative";
-  }
-  if (!(options.t_max >= 0.0 && options.t_max <= 1.0)) return "t_max must be in [0,1]";
-  if (options.scene_filter && !std::ranges::all_of(*options.scene_filter, is_filter)) {
-    return "a scene's filter must not be negative";
-  }
-  return {};
+  require(options.tolerance > 0.0 && options.tolerance < infinity,
+          "the tolerance must be positive and finite");
+  require(is_valid(options.separation), "the separation must be finite and not negative");
+  require(options.t_max >= 0.0 && options.t_max <= 1.0, "t_max must be in [0,1]");
+  require(options.max_refinements >= 0, "max_refinements must not be negative");
+  require(!options.scene_filter || std::ranges::all_of(*options.scene_filter, is_filter),
+          "the filter of a scene must not be negative");
 }
 
 /// The least number of at most 53 fractional bits that is not below t ∈ [0,1].
@@ -226,14 +228,9 @@ class QuerySolver {
 
   TightInclusionResult solve(Kind kind, const Query& query) {
     TightInclusionResult result;
-    result.error = fault_of(options_);
-    if (!result.error.empty()) return result;
     workspace_.problem.kind = kind;
     const Extent extent = kernel_.load(query, workspace_.problem);
-    if (!extent.finite) {
-      result.error = "a coordinate is infinite or NaN";
-      return result;
-    }
+    if (!extent.finite) return result;
     prepare(kind, query, extent);
     search(result);
     if (options_.no_zero_toi) refine(result);
@@ -390,6 +387,7 @@ class TightInclusionMethod final : public Method {
 TightInclusionResult tight_inclusion(Kind kind, const Query& query,
                                      const TightInclusionOptions& options) {
   require_strict_environment();
+  require_valid(options);
   return QuerySolver(workspace_of_this_thread(), options).solve(kind, query);
 }
 

@@ -566,6 +566,18 @@ TEST(SourceTree, HasNoSourceOfAnotherExtension) {
   EXPECT_EQ(foreign_extensions(source_tree()), Violations{});
 }
 
+/// The C headers can be included alone or together: their types in common are the same text.
+TEST(SourceTree, CHeadersHaveTheirTypesInCommon) {
+  const auto types_of = [](std::string_view header) {
+    const std::string& text = source_tree().find(header)->second;
+    const std::size_t first = text.find("#ifndef TOUCHSTONE_TYPES\n");
+    const std::size_t end = text.find("#endif  // TOUCHSTONE_TYPES\n", first);
+    return end == std::string::npos ? std::string() : text.substr(first, end - first);
+  };
+  EXPECT_EQ(types_of("verify/plugin.h"), types_of("adapters/touchstone.h"));
+  EXPECT_NE(types_of("verify/plugin.h").find("TOUCHSTONE_VERTEX_FACE"), std::string::npos);
+}
+
 // ---- Planted faults -----------------------------------------------------------------------------
 
 struct Planted {

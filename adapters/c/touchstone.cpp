@@ -1,10 +1,16 @@
 #include "touchstone/touchstone.h"
 
+#include <Eigen/Core>
+
+#include <algorithm>
 #include <array>
+#include <cstddef>
+#include <cstdint>
 #include <cstring>
 #include <exception>
 #include <limits>
 #include <memory>
+#include <new>
 #include <optional>
 #include <span>
 #include <stdexcept>
@@ -12,7 +18,10 @@
 #include <utility>
 #include <vector>
 
+#include "touchstone/active_set.hpp"
 #include "touchstone/certified.hpp"
+#include "touchstone/distance.hpp"
+#include "touchstone/line_search.hpp"
 #include "touchstone/step.hpp"
 
 // The inputs and outputs of a step.
@@ -21,13 +30,16 @@ struct TouchstoneStep {
   std::vector<touchstone::fast::Face> faces;
   std::vector<std::int32_t> points;
   std::optional<touchstone::fast::Step> step;
+  // The arrays that are handed out.
   std::vector<TouchstoneCollision> collisions;
+  std::vector<TouchstonePair> nearest;
+  std::vector<TouchstoneActiveContact> active;
+  std::vector<TouchstoneCollision> limiting;
 };
 
 namespace touchstone::adapters {
 namespace {
 
-constexpr std::int32_t well = 0, bad_input = 2;
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
 static_assert(sizeof(Query) == 24 * sizeof(double), "queries are 24 doubles, as in C");
@@ -38,18 +50,40 @@ std::string& last_error() {
   return text;
 }
 
+/// The status for the exception that is being handled. Its message becomes the last error.
+std::int32_t status_of_exception() {
+  const auto failed = [](std::int32_t status, const char* reason) {
+    last_error() = reason;
+    return status;
+  };
+  try {
+    throw;
+  } catch (const std::invalid_argument& error) {
+    return failed(TOUCHSTONE_INVALID_ARGUMENT, error.what());
+  } catch (const std::out_of_range& error) {
+    return failed(TOUCHSTONE_OUT_OF_RANGE, error.what());
+  } catch (const std::domain_error& error) {
+    return failed(TOUCHSTONE_NOT_FINITE, error.what());
+  } catch (const std::length_error& error) {
+    return failed(TOUCHSTONE_TOO_MANY, error.what());
+  } catch (const std::bad_alloc&) {
+    return failed(TOUCHSTONE_TOO_MANY, "not enough memory");
+  } catch (const std::exception& error) {
+    return failed(TOUCHSTONE_FAILURE, error.what());
+  } catch (...) {
+    return failed(TOUCHSTONE_FAILURE, "an error without a name");
+  }
+}
+
 /// Runs the work; no exception leaves the library.
 template <class Work>
 std::int32_t guarded(const Work& work) {
   try {
     work();
-    return well;
-  } catch (const std::exception& error) {
-    last_error() = error.what();
+    return TOUCHSTONE_OK;
   } catch (...) {
-    last_error() = "an error without a name";
+    return status_of_exception();
   }
-  return bad_input;
 }
 
 template <class T>
@@ -91,12 +125,8 @@ Separation separation_of(const TouchstoneOptions& options) {
 }
 
 TouchstoneImpact impact_of(const fast::CertifiedResult& result) {
-  TouchstoneImpact impact{TOUCHSTONE_NO, none, none, none, none};
-  if (result.verdict == fast::Verdict::error) impact.verdict = TOUCHSTONE_ERROR;
-  if (result.verdict == fast::Verdict::yes) {
-    impact = {TOUCHSTONE_YES, result.toi_lower, result.toi_upper, result.u, result.v};
-  }
-  return impact;
+  return {static_cast<std::int32_t>(result.verdict), result.toi_lower, result.toi_upper, result.u,
+          result.v};
 }
 
 void solve(std::int32_t kind, std::size_t count, const double* coordinates,
@@ -108,8 +138,19 @@ void solve(std::int32_t kind, std::size_t count, const double* coordinates,
                .t_max = options.t_max,
                .separation = separation_of(options),
                .max_threads = options.max_threads});
-  for (std::size_t i = 0; i < count; ++i)
-    (&required(impacts, "impacts"))[i] = impact_of(results[i]);
+  if (count > 0) std::ranges::transform(results, &required(impacts, "impacts"), impact_of);
+}
+
+TouchstoneDistance distance_of(const fast::Distance& distance) {
+  return {distance.lower, distance.upper};
+}
+
+void measure(std::int32_t kind, std::size_t count, const double* coordinates, double t,
+             std::int32_t norm, std::int32_t max_threads, TouchstoneDistance* distances) {
+  const auto queries = copied<Query>(coordinates, count, "coordinates");
+  std::vector<fast::Distance> results(count);
+  fast::distances(kind_of(kind), queries, t, norm_of(norm), results, max_threads);
+  if (count > 0) std::ranges::transform(results, &required(distances, "distances"), distance_of);
 }
 
 std::unique_ptr<TouchstoneStep> step_of(const TouchstoneMesh& mesh,
@@ -139,15 +180,51 @@ std::unique_ptr<TouchstoneStep> step_of(const TouchstoneMesh& mesh,
   return result;
 }
 
-TouchstoneCollision collision_of(const fast::StepCollision& collision) {
-  return {static_cast<std::int32_t>(collision.kind),
-          collision.pair[0],
-          collision.pair[1],
-          collision.toi_lower,
-          collision.toi_upper,
-          collision.u,
-          collision.v};
+TouchstonePair pair_of(fast::PairKind kind, const fast::IndexPair& pair) {
+  return {static_cast<std::int32_t>(kind), pair[0], pair[1]};
 }
+
+TouchstoneCollision collision_of(const fast::StepCollision& collision) {
+  return {pair_of(collision.kind, collision.pair), collision.toi_lower, collision.toi_upper,
+          collision.u, collision.v};
+}
+
+TouchstoneActiveContact active_contact_of(const fast::ActiveContact& contact) {
+  TouchstoneActiveContact result{collision_of(contact), {}, {}, {}};
+  Eigen::Vector3d::Map(result.first) = contact.first;
+  Eigen::Vector3d::Map(result.second) = contact.second;
+  Eigen::Vector3d::Map(result.normal) = contact.normal;
+  return result;
+}
+
+/// Fills an array that a step hands out; `convert` makes its items.
+template <class Item, class Given, class Convert>
+void refill(std::vector<Item>& array, const std::vector<Given>& given, const Convert& convert) {
+  std::vector<Item> items;
+  items.reserve(given.size());
+  for (const Given& one : given) items.push_back(convert(one));
+  array = std::move(items);
+}
+
+fast::LineSearchOptions line_search_options_of(const TouchstoneLineSearchOptions& options) {
+  if (options.start_distance != TOUCHSTONE_OF_SCENE &&
+      options.start_distance != TOUCHSTONE_OF_PAIR) {
+    throw std::invalid_argument(
+        "start_distance is neither TOUCHSTONE_OF_SCENE nor TOUCHSTONE_OF_PAIR");
+  }
+  return {.norm = norm_of(options.norm),
+          .start_distance = static_cast<fast::StartDistance>(options.start_distance)};
+}
+
+static_assert(static_cast<int>(fast::Verdict::no) == TOUCHSTONE_NO);
+static_assert(static_cast<int>(fast::Verdict::yes) == TOUCHSTONE_YES);
+static_assert(static_cast<int>(fast::Verdict::error) == TOUCHSTONE_ERROR);
+static_assert(static_cast<int>(fast::StartDistance::of_scene) == TOUCHSTONE_OF_SCENE);
+static_assert(static_cast<int>(fast::StartDistance::of_pair) == TOUCHSTONE_OF_PAIR);
+static_assert(static_cast<int>(fast::LineSearchStatus::whole) == TOUCHSTONE_WHOLE);
+static_assert(static_cast<int>(fast::LineSearchStatus::limited) == TOUCHSTONE_LIMITED);
+static_assert(static_cast<int>(fast::LineSearchStatus::in_contact) == TOUCHSTONE_IN_CONTACT);
+static_assert(static_cast<int>(fast::LineSearchStatus::too_small) == TOUCHSTONE_TOO_SMALL);
 
 static_assert(static_cast<int>(fast::PairKind::vertex_face) == TOUCHSTONE_VERTEX_FACE);
 static_assert(static_cast<int>(fast::PairKind::edge_edge) == TOUCHSTONE_EDGE_EDGE);
@@ -175,10 +252,18 @@ std::int32_t touchstone_solve(std::int32_t kind, std::size_t count, const double
   return guarded([&] { solve(kind, count, coordinates, given(options), impacts); });
 }
 
-TouchstoneStep* touchstone_step_new(const TouchstoneMesh* mesh, const TouchstoneOptions* options) {
-  std::unique_ptr<TouchstoneStep> step;
-  static_cast<void>(guarded([&] { step = step_of(required(mesh, "mesh"), given(options)); }));
-  return step.release();
+std::int32_t touchstone_distances(std::int32_t kind, std::size_t count, const double* coordinates,
+                                  double t, std::int32_t norm, std::int32_t max_threads,
+                                  TouchstoneDistance* distances) {
+  return guarded([&] { measure(kind, count, coordinates, t, norm, max_threads, distances); });
+}
+
+std::int32_t touchstone_step_new(const TouchstoneMesh* mesh, const TouchstoneOptions* options,
+                                 TouchstoneStep** step) {
+  return guarded([&] {
+    TouchstoneStep*& written = required(step, "step");
+    written = step_of(required(mesh, "mesh"), given(options)).release();
+  });
 }
 
 void touchstone_step_free(TouchstoneStep* step) { delete step; }
@@ -204,9 +289,7 @@ std::int32_t touchstone_step_collisions(TouchstoneStep* step,
     TouchstoneStep& asked = required(step, "step");
     const TouchstoneCollision*& first = required(collisions, "collisions");
     std::size_t& number = required(count, "count");
-    std::vector<TouchstoneCollision> found;
-    for (const auto& collision : asked.step->collisions()) found.push_back(collision_of(collision));
-    asked.collisions = std::move(found);
+    refill(asked.collisions, asked.step->collisions(), collision_of);
     first = asked.collisions.data();
     number = asked.collisions.size();
   });
@@ -215,5 +298,58 @@ std::int32_t touchstone_step_collisions(TouchstoneStep* step,
 std::int32_t touchstone_step_free_step_size(const TouchstoneStep* step, double* alpha) {
   return guarded([&] {
     required(alpha, "alpha") = required(step, "step").step->free_step_size().value_or(-1.0);
+  });
+}
+
+std::int32_t touchstone_step_least_distance(TouchstoneStep* step, double t, std::int32_t norm,
+                                            TouchstoneDistance* distance,
+                                            const TouchstonePair** pairs, std::size_t* count) {
+  return guarded([&] {
+    TouchstoneStep& asked = required(step, "step");
+    TouchstoneDistance& least = required(distance, "distance");
+    const TouchstonePair*& first = required(pairs, "pairs");
+    std::size_t& number = required(count, "count");
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    const auto found = touchstone::fast::least_distance(*asked.step, t, norm_of(norm))
+                           .value_or(touchstone::fast::LeastDistance{{infinity, infinity}, {}});
+    refill(asked.nearest, found.pairs, [](const auto& one) { return pair_of(one.kind, one.pair); });
+    least = distance_of(found.distance);
+    first = asked.nearest.data();
+    number = asked.nearest.size();
+  });
+}
+
+std::int32_t touchstone_step_active_set(TouchstoneStep* step, double eta, std::int32_t norm,
+                                        const TouchstoneActiveContact** contacts,
+                                        std::size_t* count) {
+  return guarded([&] {
+    TouchstoneStep& asked = required(step, "step");
+    const TouchstoneActiveContact*& first = required(contacts, "contacts");
+    std::size_t& number = required(count, "count");
+    refill(asked.active,
+           touchstone::fast::active_set(*asked.step, {.distance = eta, .norm = norm_of(norm)}),
+           active_contact_of);
+    first = asked.active.data();
+    number = asked.active.size();
+  });
+}
+
+TouchstoneLineSearchOptions touchstone_default_line_search_options() {
+  return {TOUCHSTONE_L2, TOUCHSTONE_OF_SCENE};
+}
+
+std::int32_t touchstone_step_line_search_limit(TouchstoneStep* step, double p,
+                                               const TouchstoneLineSearchOptions* options,
+                                               TouchstoneLineSearchLimit* limit) {
+  return guarded([&] {
+    TouchstoneStep& asked = required(step, "step");
+    TouchstoneLineSearchLimit& written = required(limit, "limit");
+    const touchstone::fast::LineSearchLimit found = touchstone::fast::line_search_limit(
+        *asked.step, p,
+        line_search_options_of(options != nullptr ? *options
+                                                  : touchstone_default_line_search_options()));
+    refill(asked.limiting, found.pairs, collision_of);
+    written = {static_cast<std::int32_t>(found.status), found.step_size,
+               distance_of(found.distance), asked.limiting.data(), asked.limiting.size()};
   });
 }

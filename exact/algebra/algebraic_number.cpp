@@ -314,6 +314,7 @@ std::vector<AlgebraicNumber> roots_in_unit_interval(const Polynomial& p) {
 
 RationalInterval enclose_quotient(const Polynomial& numerator, const Polynomial& denominator,
                                   AlgebraicNumber alpha, const Rational& width) {
+  if (sgn(width) <= 0) throw std::invalid_argument("the width of a quotient must be positive");
   for (unsigned long level = 64;; level *= 2) {
     const RationalInterval t = alpha.interval();
     const RationalInterval below = evaluate(denominator, t);

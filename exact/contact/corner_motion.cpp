@@ -24,7 +24,7 @@ Decomposed decompose(double x) {
   const auto bits = std::bit_cast<std::uint64_t>(x);
   const int field = static_cast<int>((bits >> fraction_bits) & special_exponent);
   if (field == special_exponent)
-    throw std::invalid_argument("a query's coordinates must be finite");
+    throw std::domain_error("a query's coordinates must be finite");
   std::uint64_t significand = bits & ((std::uint64_t{1} << fraction_bits) - 1);
   if (field != 0) significand |= std::uint64_t{1} << fraction_bits;
   if (significand == 0) return {};

@@ -137,12 +137,13 @@ struct Motion {
 };
 
 /// Scales each axis by its own power of two.
-/// \throws std::invalid_argument if a coordinate is NaN or infinite.
+/// \throws std::domain_error if a coordinate is NaN or infinite.
 [[nodiscard]] Motion scale_to_integers(Kind kind, const Query& query);
 
 /// Scales all axes and the distance by one power of two, which keeps angles and ratios of lengths.
 /// Exact for all finite doubles, in every floating-point environment.
-/// \throws std::invalid_argument if a coordinate is NaN or infinite, or the separation is not valid.
+/// \throws std::domain_error if a coordinate is NaN or infinite; std::invalid_argument if the
+/// separation is not valid.
 [[nodiscard]] Motion scale_uniformly(Kind kind, const Query& query,
                                      const Separation& separation = {.distance = 0.0,
                                                                      .norm = Norm::l2});

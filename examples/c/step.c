@@ -1,4 +1,5 @@
-/* A step of a mesh from C99: a triangle falls through a resting one. */
+/* A step of a mesh from C99: a triangle falls through a resting one. Its collisions, and the step
+ * size of a line search. */
 
 #include <stdio.h>
 #include <touchstone/touchstone.h>
@@ -14,17 +15,24 @@ int main(void) {
   mesh.faces = 2;
   mesh.face_vertices = faces;
 
-  TouchstoneStep* step = touchstone_step_new(&mesh, NULL);
+  TouchstoneStep* step = NULL;
   const TouchstoneCollision* collisions = NULL;
   size_t count = 0;
-  if (step == NULL || touchstone_step_collisions(step, &collisions, &count) != 0) {
+  TouchstoneLineSearchLimit limit;
+  if (touchstone_step_new(&mesh, NULL, &step) != TOUCHSTONE_OK ||
+      touchstone_step_collisions(step, &collisions, &count) != TOUCHSTONE_OK ||
+      touchstone_step_line_search_limit(step, 0.5, NULL, &limit) != TOUCHSTONE_OK) {
     fprintf(stderr, "%s\n", touchstone_last_error());
+    touchstone_step_free(step);
     return 2;
   }
   for (size_t i = 0; i < count; ++i) {
-    printf("kind %d: %d and %d from t = %.17g\n", (int)collisions[i].kind, (int)collisions[i].first,
-           (int)collisions[i].second, collisions[i].toi_lower);
+    const TouchstonePair pair = collisions[i].pair;
+    printf("kind %d: %d and %d from t = %.17g\n", (int)pair.kind, (int)pair.first, (int)pair.second,
+           collisions[i].toi_lower);
   }
+  printf("half of the distance %.17g is left at the step size %.17g\n", limit.distance.lower,
+         limit.step_size);
   touchstone_step_free(step);
   return count > 0 ? 1 : 0;
 }

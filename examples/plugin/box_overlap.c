@@ -43,25 +43,25 @@ static int all_finite(const double* coordinates) {
   return 1;
 }
 
-int32_t touchstone_plugin_version(void) { return touchstone_interface_version; }
+int32_t touchstone_plugin_version(void) { return TOUCHSTONE_PLUGIN_VERSION; }
 
 const char* touchstone_plugin_name(void) { return "box_overlap"; }
 
 void touchstone_plugin_solve(int32_t kind, const double* coordinates,
-                             const struct touchstone_options* options,
-                             struct touchstone_answer* answer) {
+                             const TouchstonePluginOptions* options,
+                             TouchstonePluginAnswer* answer) {
   /* Points of the first primitive: a vertex, or an edge. The verdict is an error until set. */
-  const int first = kind == touchstone_vertex_face ? 1 : 2;
+  const int first = kind == TOUCHSTONE_VERTEX_FACE ? 1 : 2;
   if (!all_finite(coordinates) || !(options->min_separation >= 0.0)) return;
   for (int axis = 0; axis < 3; ++axis) {
     const struct range a = swept_range(coordinates, 0, first, axis);
     const struct range b = swept_range(coordinates, first, 4 - first, axis);
     if (b.lower - a.upper > options->min_separation ||
         a.lower - b.upper > options->min_separation) {
-      answer->verdict = touchstone_no;
+      answer->verdict = TOUCHSTONE_NO;
       return;
     }
   }
-  answer->verdict = touchstone_yes;
+  answer->verdict = TOUCHSTONE_YES;
   answer->toi_lower = 0.0;
 }

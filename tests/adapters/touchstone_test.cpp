@@ -7,13 +7,18 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <span>
 #include <string>
 #include <thread>
 #include <vector>
 
 #include "tests/support/certified.hpp"
 #include "tests/support/random.hpp"
+#include "touchstone/active_set.hpp"
 #include "touchstone/certified.hpp"
+#include "touchstone/distance.hpp"
+#include "touchstone/line_search.hpp"
+#include "touchstone/step.hpp"
 
 namespace touchstone::adapters::touchstone_test {
 namespace {
@@ -88,11 +93,31 @@ struct Scene {
   }
 };
 
+/// A step that ends with the test.
+class StepOf {
+ public:
+  explicit StepOf(const TouchstoneMesh& mesh) {
+    EXPECT_EQ(touchstone_step_new(&mesh, nullptr, &step_), TOUCHSTONE_OK)
+        << touchstone_last_error();
+  }
+  StepOf(const StepOf&) = delete;
+  StepOf& operator=(const StepOf&) = delete;
+  StepOf(StepOf&&) = delete;
+  StepOf& operator=(StepOf&&) = delete;
+  ~StepOf() { touchstone_step_free(step_); }
+
+  [[nodiscard]] TouchstoneStep* get() const { return step_; }
+
+ private:
+  TouchstoneStep* step_ = nullptr;
+};
+
 TEST(CInterface, DecidesAStep) {
   const Scene scene;
   const TouchstoneMesh mesh = scene.mesh();
-  TouchstoneStep* const step = touchstone_step_new(&mesh, nullptr);
-  ASSERT_NE(step, nullptr) << touchstone_last_error();
+  const StepOf owner(mesh);
+  TouchstoneStep* const step = owner.get();
+  ASSERT_NE(step, nullptr);
   std::int32_t is_free = -1;
   EXPECT_EQ(touchstone_step_is_free(step, &is_free), 0);
   EXPECT_EQ(is_free, 0);
@@ -107,15 +132,14 @@ TEST(CInterface, DecidesAStep) {
   bool has_point = false;
   for (std::size_t i = 0; i < count; ++i) {
     EXPECT_GT(collisions[i].toi_lower, 0.0);
-    has_point =
-        has_point || (collisions[i].kind == TOUCHSTONE_VERTEX_FACE && collisions[i].first == 6);
+    has_point = has_point || (collisions[i].pair.kind == TOUCHSTONE_VERTEX_FACE &&
+                              collisions[i].pair.first == 6);
   }
   EXPECT_TRUE(has_point) << "the point meets both triangles";
   double alpha = 0.0;
   EXPECT_EQ(touchstone_step_free_step_size(step, &alpha), 0);
   EXPECT_GT(alpha, 0.33);
   EXPECT_LT(alpha, 1.0 / 3.0);
-  touchstone_step_free(step);
   touchstone_step_free(nullptr);
 }
 
@@ -127,8 +151,9 @@ TEST(CInterface, LeavesOutGroupsThatDoNotMeet) {
   mesh.groups = groups.data();
   mesh.apart = 2;
   mesh.apart_groups = apart.data();
-  TouchstoneStep* const step = touchstone_step_new(&mesh, nullptr);
-  ASSERT_NE(step, nullptr) << touchstone_last_error();
+  const StepOf owner(mesh);
+  TouchstoneStep* const step = owner.get();
+  ASSERT_NE(step, nullptr);
   std::int32_t is_free = 0;
   EXPECT_EQ(touchstone_step_is_free(step, &is_free), 0);
   EXPECT_EQ(is_free, 1);
@@ -136,7 +161,117 @@ TEST(CInterface, LeavesOutGroupsThatDoNotMeet) {
   EXPECT_EQ(touchstone_step_earliest(step, &earliest), 0);
   EXPECT_EQ(earliest.verdict, TOUCHSTONE_NO);
   EXPECT_TRUE(std::isnan(earliest.toi_lower));
-  touchstone_step_free(step);
+}
+
+TEST(CInterface, MeasuresDistances) {
+  const std::vector<Query> queries = random_queries(1000);
+  for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
+    for (const Norm norm : {Norm::linf, Norm::l2}) {
+      std::vector<fast::Distance> expected(queries.size());
+      fast::distances(kind, queries, 0.375, norm, expected);
+      std::vector<TouchstoneDistance> found(queries.size());
+      ASSERT_EQ(touchstone_distances(static_cast<std::int32_t>(kind), queries.size(),
+                                     queries[0].coordinates.data(), 0.375,
+                                     static_cast<std::int32_t>(norm), 0, found.data()),
+                TOUCHSTONE_OK)
+          << touchstone_last_error();
+      for (std::size_t i = 0; i < queries.size(); ++i) {
+        EXPECT_EQ((fast::Distance{found[i].lower, found[i].upper}), expected[i]);
+      }
+    }
+  }
+  EXPECT_EQ(touchstone_distances(0, 0, nullptr, 0.0, 0, 0, nullptr), TOUCHSTONE_OK);
+}
+
+fast::StepCollision converted(const TouchstoneCollision& one) {
+  return {static_cast<fast::PairKind>(one.pair.kind),
+          {one.pair.first, one.pair.second},
+          one.toi_lower,
+          one.toi_upper,
+          one.u,
+          one.v};
+}
+
+std::vector<fast::StepCollision> converted(const TouchstoneCollision* some, std::size_t count) {
+  std::vector<fast::StepCollision> result;
+  for (std::size_t i = 0; i < count; ++i) result.push_back(converted(some[i]));
+  return result;
+}
+
+/// The functions of a step give what those of C++ give, for the scene with a point and without.
+TEST(CInterface, GivesDistancesActiveSetsAndLineSearchesOfAStep) {
+  const Scene scene;
+  const std::vector<fast::Face> faces{{0, 1, 2}, {3, 4, 5}};
+  for (const std::size_t points : {0U, 1U}) {
+    TouchstoneMesh mesh = scene.mesh();
+    mesh.points = points;
+    const StepOf owner(mesh);
+    const fast::Step step(std::span<const double>(scene.before),
+                          std::span<const double>(scene.after),
+                          {.faces = faces, .points = std::span(scene.points).first(points)});
+
+    TouchstoneDistance distance{};
+    const TouchstonePair* pairs = nullptr;
+    std::size_t count = 0;
+    ASSERT_EQ(touchstone_step_least_distance(owner.get(), 0.125, TOUCHSTONE_LINF, &distance, &pairs,
+                                             &count),
+              TOUCHSTONE_OK);
+    const auto least = fast::least_distance(step, 0.125, Norm::linf);
+    ASSERT_TRUE(least);
+    EXPECT_EQ((fast::Distance{distance.lower, distance.upper}), least->distance);
+    ASSERT_EQ(count, least->pairs.size());
+    for (std::size_t i = 0; i < count; ++i) {
+      EXPECT_EQ(pairs[i].kind, static_cast<std::int32_t>(least->pairs[i].kind));
+      EXPECT_EQ((fast::IndexPair{pairs[i].first, pairs[i].second}), least->pairs[i].pair);
+    }
+
+    const TouchstoneActiveContact* contacts = nullptr;
+    ASSERT_EQ(touchstone_step_active_set(owner.get(), 0.25, TOUCHSTONE_L2, &contacts, &count),
+              TOUCHSTONE_OK);
+    const auto active = fast::active_set(step, {.distance = 0.25, .norm = Norm::l2});
+    ASSERT_EQ(count, active.size());
+    EXPECT_GT(count, 3U);
+    for (std::size_t i = 0; i < count; ++i) {
+      EXPECT_EQ(converted(contacts[i].collision), active[i]);
+      EXPECT_TRUE(Eigen::Vector3d::Map(contacts[i].first) == active[i].first);
+      EXPECT_TRUE(Eigen::Vector3d::Map(contacts[i].second) == active[i].second);
+      EXPECT_TRUE(Eigen::Vector3d::Map(contacts[i].normal) == active[i].normal);
+    }
+
+    const TouchstoneLineSearchOptions of_pair{TOUCHSTONE_LINF, TOUCHSTONE_OF_PAIR};
+    for (const TouchstoneLineSearchOptions* const options :
+         {&of_pair, static_cast<const TouchstoneLineSearchOptions*>(nullptr)}) {
+      TouchstoneLineSearchLimit limit{};
+      ASSERT_EQ(touchstone_step_line_search_limit(owner.get(), 0.5, options, &limit),
+                TOUCHSTONE_OK);
+      fast::LineSearchOptions expected;
+      if (options != nullptr) expected = {Norm::linf, fast::StartDistance::of_pair};
+      const fast::LineSearchLimit found = fast::line_search_limit(step, 0.5, expected);
+      EXPECT_EQ(limit.reason, static_cast<std::int32_t>(found.status));
+      EXPECT_EQ(limit.reason, TOUCHSTONE_LIMITED);
+      EXPECT_EQ(limit.step_size, found.step_size);
+      EXPECT_EQ((fast::Distance{limit.distance.lower, limit.distance.upper}), found.distance);
+      EXPECT_EQ(converted(limit.pairs, limit.count), found.pairs);
+    }
+  }
+}
+
+TEST(CInterface, HasAnInfiniteDistanceWithoutPairs) {
+  const Scene scene;
+  TouchstoneMesh mesh = scene.mesh();
+  mesh.faces = 0;
+  mesh.points = 0;
+  const StepOf owner(mesh);
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  TouchstoneDistance distance{};
+  const TouchstonePair* pairs = nullptr;
+  std::size_t count = 77;
+  ASSERT_EQ(
+      touchstone_step_least_distance(owner.get(), 0.0, TOUCHSTONE_L2, &distance, &pairs, &count),
+      TOUCHSTONE_OK);
+  EXPECT_EQ(distance.lower, infinity);
+  EXPECT_EQ(distance.upper, infinity);
+  EXPECT_EQ(count, 0U);
 }
 
 void expect_error(const std::string& part) {
@@ -148,48 +283,94 @@ TEST(CInterface, SaysWhatIsWrong) {
   const std::vector<Query> queries = random_queries(1);
   const double* const coordinates = queries[0].coordinates.data();
   TouchstoneImpact impact{};
-  EXPECT_EQ(touchstone_solve(2, 1, coordinates, nullptr, &impact), 2);
+  const auto solve = [&](std::int32_t kind, const double* given, const TouchstoneOptions* options,
+                         TouchstoneImpact* impacts) {
+    return touchstone_solve(kind, 1, given, options, impacts);
+  };
+  EXPECT_EQ(solve(2, coordinates, nullptr, &impact), TOUCHSTONE_INVALID_ARGUMENT);
   expect_error("kind");
-  EXPECT_EQ(touchstone_solve(0, 1, nullptr, nullptr, &impact), 2);
+  EXPECT_EQ(solve(0, nullptr, nullptr, &impact), TOUCHSTONE_INVALID_ARGUMENT);
   expect_error("coordinates is null");
-  EXPECT_EQ(touchstone_solve(0, 1, coordinates, nullptr, nullptr), 2);
+  EXPECT_EQ(solve(0, coordinates, nullptr, nullptr), TOUCHSTONE_INVALID_ARGUMENT);
   expect_error("impacts is null");
-  EXPECT_EQ(touchstone_solve(0, 0, nullptr, nullptr, nullptr), 0);
+  EXPECT_EQ(touchstone_solve(0, 0, nullptr, nullptr, nullptr), TOUCHSTONE_OK);
   TouchstoneOptions options = touchstone_default_options();
   options.norm = 5;
-  EXPECT_EQ(touchstone_solve(0, 1, coordinates, &options, &impact), 2);
+  EXPECT_EQ(solve(0, coordinates, &options, &impact), TOUCHSTONE_INVALID_ARGUMENT);
   expect_error("norm");
   options = touchstone_default_options();
   options.t_max = 2.0;
-  EXPECT_EQ(touchstone_solve(0, 1, coordinates, &options, &impact), 2);
+  EXPECT_EQ(solve(0, coordinates, &options, &impact), TOUCHSTONE_INVALID_ARGUMENT);
   options = touchstone_default_options();
   options.min_separation = -1.0;
-  EXPECT_EQ(touchstone_solve(0, 1, coordinates, &options, &impact), 2);
+  EXPECT_EQ(solve(0, coordinates, &options, &impact), TOUCHSTONE_INVALID_ARGUMENT);
   EXPECT_EQ(impact.verdict, 0) << "nothing is written";
 
-  EXPECT_EQ(touchstone_step_new(nullptr, nullptr), nullptr);
+  TouchstoneDistance distance{77.0, 77.0};
+  const auto distances = [&](std::int32_t kind, const double* given, double t, std::int32_t norm) {
+    return touchstone_distances(kind, 1, given, t, norm, 1, &distance);
+  };
+  EXPECT_EQ(distances(3, coordinates, 0.0, 0), TOUCHSTONE_INVALID_ARGUMENT);
+  EXPECT_EQ(distances(0, coordinates, 2.0, 0), TOUCHSTONE_INVALID_ARGUMENT);
+  EXPECT_EQ(distances(0, coordinates, 0.0, 2), TOUCHSTONE_INVALID_ARGUMENT);
+  EXPECT_EQ(distances(0, nullptr, 0.0, 0), TOUCHSTONE_INVALID_ARGUMENT);
+  EXPECT_EQ(touchstone_distances(0, 1, coordinates, 0.0, 0, -1, &distance),
+            TOUCHSTONE_INVALID_ARGUMENT);
+  EXPECT_EQ(touchstone_distances(0, 1, coordinates, 0.0, 0, 1, nullptr),
+            TOUCHSTONE_INVALID_ARGUMENT);
+  Query infinite = queries[0];
+  infinite.coordinates[11] = std::numeric_limits<double>::infinity();
+  EXPECT_EQ(distances(0, infinite.coordinates.data(), 0.0, 0), TOUCHSTONE_NOT_FINITE);
+  expect_error("query 0: a coordinate is not finite");
+  EXPECT_EQ(distance.upper, 77.0) << "nothing is written";
+}
+
+TEST(CInterface, RefusesMeshesByStatus) {
+  TouchstoneStep* step = nullptr;
+  const auto made = [&](const TouchstoneMesh* mesh) {
+    return touchstone_step_new(mesh, nullptr, &step);
+  };
+  EXPECT_EQ(made(nullptr), TOUCHSTONE_INVALID_ARGUMENT);
   expect_error("mesh is null");
   Scene scene;
   scene.faces[2] = 9;
   TouchstoneMesh mesh = scene.mesh();
-  EXPECT_EQ(touchstone_step_new(&mesh, nullptr), nullptr);
+  EXPECT_EQ(made(&mesh), TOUCHSTONE_OUT_OF_RANGE);
   expect_error("face 0");
   scene = {};
   scene.after[4] = nan;
   mesh = scene.mesh();
-  EXPECT_EQ(touchstone_step_new(&mesh, nullptr), nullptr);
+  EXPECT_EQ(made(&mesh), TOUCHSTONE_NOT_FINITE);
   expect_error("vertex 1");
   mesh.before = nullptr;
-  EXPECT_EQ(touchstone_step_new(&mesh, nullptr), nullptr);
+  EXPECT_EQ(made(&mesh), TOUCHSTONE_INVALID_ARGUMENT);
   expect_error("before is null");
+  scene = {};
+  mesh = scene.mesh();
+  mesh.faces = std::numeric_limits<std::size_t>::max();
+  EXPECT_EQ(made(&mesh), TOUCHSTONE_TOO_MANY);
+  expect_error("face_vertices");
+  EXPECT_EQ(step, nullptr) << "nothing is written";
+  mesh = scene.mesh();
+  EXPECT_EQ(touchstone_step_new(&mesh, nullptr, nullptr), TOUCHSTONE_INVALID_ARGUMENT);
+  expect_error("step is null");
+  scene.before[0] = -std::numeric_limits<double>::max();
+  scene.after[0] = std::numeric_limits<double>::max();
+  mesh = scene.mesh();
+  const StepOf owner(mesh);
+  double alpha = 77.0;
+  EXPECT_EQ(touchstone_step_free_step_size(owner.get(), &alpha), TOUCHSTONE_NOT_FINITE);
+  expect_error("vertex 0");
+  EXPECT_EQ(alpha, 77.0);
 }
 
 /// A null step or a null output: the other outputs stay as they were.
 TEST(CInterface, WritesNothingWithAnError) {
   const Scene scene;
   const TouchstoneMesh mesh = scene.mesh();
-  TouchstoneStep* const step = touchstone_step_new(&mesh, nullptr);
-  ASSERT_NE(step, nullptr) << touchstone_last_error();
+  const StepOf owner(mesh);
+  TouchstoneStep* const step = owner.get();
+  ASSERT_NE(step, nullptr);
   const TouchstoneCollision* collisions = nullptr;
   std::size_t count = 0;
   ASSERT_EQ(touchstone_step_collisions(step, &collisions, &count), 0);
@@ -198,34 +379,65 @@ TEST(CInterface, WritesNothingWithAnError) {
   const TouchstoneCollision untouched{};
   const TouchstoneCollision* written = &untouched;
   std::size_t number = 77;
-  EXPECT_EQ(touchstone_step_collisions(step, &written, nullptr), 2);
+  EXPECT_EQ(touchstone_step_collisions(step, &written, nullptr), TOUCHSTONE_INVALID_ARGUMENT);
   expect_error("count is null");
-  EXPECT_EQ(touchstone_step_collisions(step, nullptr, &number), 2);
+  EXPECT_EQ(touchstone_step_collisions(step, nullptr, &number), TOUCHSTONE_INVALID_ARGUMENT);
   expect_error("collisions is null");
-  EXPECT_EQ(touchstone_step_collisions(nullptr, &written, &number), 2);
+  EXPECT_EQ(touchstone_step_collisions(nullptr, &written, &number), TOUCHSTONE_INVALID_ARGUMENT);
   expect_error("step is null");
   EXPECT_EQ(written, &untouched);
   EXPECT_EQ(number, 77U);
   EXPECT_EQ(collisions[0].toi_lower, first.toi_lower) << "what was handed out is valid still";
 
   std::int32_t is_free = 77;
-  EXPECT_EQ(touchstone_step_is_free(nullptr, &is_free), 2);
-  EXPECT_EQ(touchstone_step_is_free(step, nullptr), 2);
+  EXPECT_EQ(touchstone_step_is_free(nullptr, &is_free), TOUCHSTONE_INVALID_ARGUMENT);
+  EXPECT_EQ(touchstone_step_is_free(step, nullptr), TOUCHSTONE_INVALID_ARGUMENT);
   EXPECT_EQ(is_free, 77);
   TouchstoneImpact impact{};
   impact.verdict = 77;
-  EXPECT_EQ(touchstone_step_earliest(nullptr, &impact), 2);
-  EXPECT_EQ(touchstone_step_earliest(step, nullptr), 2);
+  EXPECT_EQ(touchstone_step_earliest(nullptr, &impact), TOUCHSTONE_INVALID_ARGUMENT);
+  EXPECT_EQ(touchstone_step_earliest(step, nullptr), TOUCHSTONE_INVALID_ARGUMENT);
   EXPECT_EQ(impact.verdict, 77);
   double alpha = 77.0;
-  EXPECT_EQ(touchstone_step_free_step_size(nullptr, &alpha), 2);
-  EXPECT_EQ(touchstone_step_free_step_size(step, nullptr), 2);
+  EXPECT_EQ(touchstone_step_free_step_size(nullptr, &alpha), TOUCHSTONE_INVALID_ARGUMENT);
+  EXPECT_EQ(touchstone_step_free_step_size(step, nullptr), TOUCHSTONE_INVALID_ARGUMENT);
   EXPECT_EQ(alpha, 77.0);
-  touchstone_step_free(step);
+
+  TouchstoneDistance distance{77.0, 77.0};
+  const TouchstonePair* pairs = nullptr;
+  const TouchstoneActiveContact* contacts = nullptr;
+  TouchstoneLineSearchLimit limit{};
+  limit.reason = 77;
+  const TouchstoneLineSearchOptions bad_norm{2, TOUCHSTONE_OF_PAIR}, bad_start{TOUCHSTONE_L2, 2};
+  for (const std::int32_t status :
+       {touchstone_step_least_distance(nullptr, 0.0, TOUCHSTONE_L2, &distance, &pairs, &number),
+        touchstone_step_least_distance(step, 0.0, TOUCHSTONE_L2, nullptr, &pairs, &number),
+        touchstone_step_least_distance(step, 0.0, TOUCHSTONE_L2, &distance, nullptr, &number),
+        touchstone_step_least_distance(step, 0.0, TOUCHSTONE_L2, &distance, &pairs, nullptr),
+        touchstone_step_least_distance(step, nan, TOUCHSTONE_L2, &distance, &pairs, &number),
+        touchstone_step_least_distance(step, 0.0, 2, &distance, &pairs, &number),
+        touchstone_step_active_set(nullptr, 0.5, TOUCHSTONE_L2, &contacts, &number),
+        touchstone_step_active_set(step, 0.5, TOUCHSTONE_L2, nullptr, &number),
+        touchstone_step_active_set(step, 0.5, TOUCHSTONE_L2, &contacts, nullptr),
+        touchstone_step_active_set(step, -0.5, TOUCHSTONE_L2, &contacts, &number),
+        touchstone_step_active_set(step, 0.5, 2, &contacts, &number),
+        touchstone_step_line_search_limit(nullptr, 0.5, nullptr, &limit),
+        touchstone_step_line_search_limit(step, 0.5, nullptr, nullptr),
+        touchstone_step_line_search_limit(step, 1.0, nullptr, &limit),
+        touchstone_step_line_search_limit(step, 0.5, &bad_norm, &limit),
+        touchstone_step_line_search_limit(step, 0.5, &bad_start, &limit)}) {
+    EXPECT_EQ(status, TOUCHSTONE_INVALID_ARGUMENT);
+  }
+  EXPECT_EQ(distance.lower, 77.0);
+  EXPECT_EQ(pairs, nullptr);
+  EXPECT_EQ(contacts, nullptr);
+  EXPECT_EQ(number, 77U);
+  EXPECT_EQ(limit.reason, 77);
 }
 
 TEST(CInterface, KeepsTheErrorsOfThreadsApart) {
-  EXPECT_EQ(touchstone_step_new(nullptr, nullptr), nullptr);
+  TouchstoneStep* step = nullptr;
+  EXPECT_EQ(touchstone_step_new(nullptr, nullptr, &step), TOUCHSTONE_INVALID_ARGUMENT);
   std::thread([] { EXPECT_STREQ(touchstone_last_error(), ""); }).join();
   expect_error("mesh is null");
   EXPECT_STREQ(touchstone_version(), "0.2.0");

@@ -281,7 +281,7 @@ TEST(Prove, RefusesWhatMakesNoSense) {
                std::invalid_argument);
   Query bad = posed.query;
   bad.coordinates[5] = std::numeric_limits<double>::infinity();
-  EXPECT_THROW(static_cast<void>(prove(posed.kind, bad, Decision{})), std::invalid_argument);
+  EXPECT_THROW(static_cast<void>(prove(posed.kind, bad, Decision{})), std::domain_error);
 }
 
 TEST(Prove, CannotProveAWrongVerdict) {

@@ -637,6 +637,10 @@ TEST(Oracle, KnowsThePlaceOfContactAtDistanceZeroOnly) {
   const Decision no_collision = decide(over_triangle(1, 1, 2, 1));
   EXPECT_FALSE(no_collision.collides() || no_collision.contact);
   EXPECT_THROW(static_cast<void>(contact_parameters(no_collision, 1)), std::invalid_argument);
+  const Decision touching = decide(over_triangle(1, 1, 1, -1));
+  for (const int width : {0, -1}) {
+    EXPECT_THROW(static_cast<void>(contact_parameters(touching, width)), std::invalid_argument);
+  }
 }
 
 TEST(Oracle, RejectsEveryCoordinateThatIsNotFinite) {
@@ -646,7 +650,7 @@ TEST(Oracle, RejectsEveryCoordinateThatIsNotFinite) {
       for (const double bad : {std::numeric_limits<double>::quiet_NaN(), infinity, -infinity}) {
         PosedQuery query = good;
         query.query.coordinates.at(i) = bad;
-        EXPECT_THROW(static_cast<void>(decide(query)), std::invalid_argument) << i << ' ' << bad;
+        EXPECT_THROW(static_cast<void>(decide(query)), std::domain_error) << i << ' ' << bad;
       }
     }
   }

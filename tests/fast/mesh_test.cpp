@@ -82,6 +82,44 @@ TEST(MovingVertices, RefusesMatricesOfOtherShapes) {
   EXPECT_THROW(MovingVertices(places(5, 0), four_rows), std::invalid_argument);
 }
 
+/// The same elements from matrices of all types, sizes and orders of storage.
+TEST(Elements, AreMadeFromMatrices) {
+  Eigen::Matrix<int, 2, 3> faces;
+  faces << 0, 1, 2, 4, 3, 1;
+  Eigen::MatrixXi edges(2, 2);
+  edges << 0, 1, 4, 2;
+  using Rows64 = Eigen::Matrix<std::int64_t, Eigen::Dynamic, 3, Eigen::RowMajor>;
+  EXPECT_EQ(elements_from<Face>(faces), some_faces);
+  EXPECT_EQ(elements_from<Face>(Rows64(faces.cast<std::int64_t>())), some_faces);
+  EXPECT_EQ(elements_from<Face>(faces.cast<unsigned>().array()), some_faces);
+  EXPECT_EQ(elements_from<Face>((faces.array() + 1).matrix().topRows(1)),
+            (std::vector<Face>{{1, 2, 3}}));
+  EXPECT_EQ(elements_from<Edge>(edges), some_edges);
+  EXPECT_EQ(elements_from<Edge>(edges.cast<std::int64_t>()), some_edges);
+  EXPECT_EQ(elements_from<Face>(Eigen::MatrixXi()), std::vector<Face>{});
+  EXPECT_EQ(elements_from<Edge>(Eigen::MatrixX3i(0, 3)), std::vector<Edge>{});
+}
+
+TEST(Elements, AreRefusedInOtherShapesAndOutOfRange) {
+  EXPECT_THROW((void)elements_from<Face>(Eigen::MatrixXi::Zero(3, 2)), std::invalid_argument);
+  EXPECT_THROW((void)elements_from<Edge>(Eigen::MatrixXi::Zero(2, 3)), std::invalid_argument);
+  using Rows64 = Eigen::Matrix<std::int64_t, Eigen::Dynamic, 2, Eigen::RowMajor>;
+  Rows64 edges = Rows64::Zero(3, 2);
+  edges(1, 0) = std::numeric_limits<std::int32_t>::max();
+  EXPECT_EQ(elements_from<Edge>(edges)[1][0], std::numeric_limits<std::int32_t>::max());
+  for (const std::int64_t bad : {std::int64_t{-1}, std::int64_t{1} << 31U, std::int64_t{1} << 32U,
+                                 std::numeric_limits<std::int64_t>::min()}) {
+    edges(2, 1) = bad;
+    try {
+      (void)elements_from<Edge>(edges);
+      ADD_FAILURE() << bad;
+    } catch (const std::out_of_range& error) {
+      EXPECT_EQ(std::string(error.what()),
+                "element 2: vertex " + std::to_string(bad) + " is not in [0, 2^31-1]");
+    }
+  }
+}
+
 TEST(Candidates, HaveTheirVerticesInTheOrderOfAQuery) {
   EXPECT_EQ(vertices_of(candidates(Kind::vertex_face, {}), {0, 1}),
             (std::array<std::int32_t, 4>{0, 4, 3, 1}));

@@ -10,6 +10,7 @@
 #include <span>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "tests/support/queries.hpp"
@@ -49,7 +50,7 @@ Step step(const StepOptions& options = {}) {
   after(3, 2) = -1;
   static const std::vector<Face> faces{{0, 1, 2}};
   static const std::vector<std::int32_t> points{3};
-  return {before, after, {.edges = {}, .faces = faces, .points = points}, options};
+  return {before, after, {.faces = faces, .points = points}, options};
 }
 
 void solve_one(const CertifiedOptions& options) {
@@ -159,10 +160,37 @@ TEST(Refusals, OfSpansOfOtherLengths) {
 TEST(Refusals, OfDistancesOfWhatIsNotFinite) {
   Query query = posed.query;
   query.coordinates[5] = infinity;
-  Distance apart;
   EXPECT_THROW((void)distance(posed.kind, query, 0.5), std::domain_error);
-  EXPECT_THROW(distances(posed.kind, std::span(&query, 1), 0.0, Norm::l2, std::span(&apart, 1)),
-               std::domain_error);
+  std::vector<Query> queries(1000, posed.query);
+  queries[777] = query;
+  std::vector<Distance> apart(queries.size());
+  try {
+    distances(posed.kind, queries, 0.0, Norm::l2, apart);
+    FAIL() << "is not refused";
+  } catch (const std::domain_error& error) {
+    EXPECT_STREQ(error.what(), "distances: query 777: a coordinate is not finite");
+  }
+}
+
+/// The scene has 4 vertices, 1 face and 3 edges.
+TEST(Refusals, OfPairsOutOfRange) {
+  const Step asked = step();
+  const std::vector<std::pair<PairKind, IndexPair>> kinds{{PairKind::vertex_face, {3, 0}},
+                                                          {PairKind::edge_edge, {2, 2}},
+                                                          {PairKind::vertex_edge, {3, 2}},
+                                                          {PairKind::vertex_vertex, {3, 3}}};
+  for (const auto& [kind, last] : kinds) {
+    EXPECT_NO_THROW((void)asked.query_of(kind, last));
+    for (const std::size_t which : {0U, 1U}) {
+      for (const std::int32_t beyond : {last[which] + 1, -1}) {
+        IndexPair bad = last;
+        bad[which] = beyond;
+        EXPECT_THROW((void)asked.query_of(kind, bad), std::out_of_range);
+        EXPECT_THROW((void)asked.vertices_of(kind, bad), std::out_of_range);
+        EXPECT_THROW((void)contact_at(asked, kind, bad, 0.5), std::out_of_range);
+      }
+    }
+  }
 }
 
 }  // namespace

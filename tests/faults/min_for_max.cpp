@@ -41,8 +41,8 @@ struct Bounds {
 
 class Solver {
  public:
-  Solver(std::int32_t kind, const double* coordinates, const touchstone_options& options)
-      : is_vertex_face_(kind == touchstone_vertex_face), x_(coordinates), options_(options) {
+  Solver(std::int32_t kind, const double* coordinates, const TouchstonePluginOptions& options)
+      : is_vertex_face_(kind == TOUCHSTONE_VERTEX_FACE), x_(coordinates), options_(options) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
       double greatest = options.min_separation;
       for (std::size_t i = axis; i < 24; i += 3) greatest = std::max(greatest, std::abs(x_[i]));
@@ -51,10 +51,10 @@ class Solver {
     }
   }
 
-  void solve(touchstone_answer& answer) {
+  void solve(TouchstonePluginAnswer& answer) {
     std::priority_queue<Box, std::vector<Box>, Later> boxes;
     boxes.push({});
-    answer.verdict = touchstone_no;
+    answer.verdict = TOUCHSTONE_NO;
     for (std::int64_t checks = 0; !boxes.empty(); ++checks) {
       const Box box = boxes.top();
       boxes.pop();
@@ -63,7 +63,7 @@ class Solver {
       const std::size_t axis = widest_axis(box);
       const bool is_over = checks >= most_checks || box.upper[axis] - box.lower[axis] < 0x1p-45;
       if (width <= options_.tolerance || is_over) {
-        answer.verdict = touchstone_yes;
+        answer.verdict = TOUCHSTONE_YES;
         answer.toi_lower = box.lower[0];
         return;
       }
@@ -127,17 +127,18 @@ class Solver {
 
   bool is_vertex_face_;
   const double* x_;
-  const touchstone_options& options_;
+  const TouchstonePluginOptions& options_;
   PerAxis filter_{};
 };
 
 }  // namespace
 
-std::int32_t touchstone_plugin_version() { return touchstone_interface_version; }
+std::int32_t touchstone_plugin_version() { return TOUCHSTONE_PLUGIN_VERSION; }
 
 const char* touchstone_plugin_name() { return "min_for_max"; }
 
 void touchstone_plugin_solve(std::int32_t kind, const double* coordinates,
-                             const touchstone_options* options, touchstone_answer* answer) {
+                             const TouchstonePluginOptions* options,
+                             TouchstonePluginAnswer* answer) {
   Solver(kind, coordinates, *options).solve(*answer);
 }

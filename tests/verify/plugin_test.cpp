@@ -12,38 +12,38 @@ namespace {
 // interface.
 
 TEST(PluginInterface, KindsAndVerdictsHaveTheirNumbers) {
-  EXPECT_EQ(touchstone_vertex_face, 0);
-  EXPECT_EQ(touchstone_edge_edge, 1);
-  EXPECT_EQ(touchstone_no, 0);
-  EXPECT_EQ(touchstone_yes, 1);
-  EXPECT_EQ(touchstone_undecided, 2);
-  EXPECT_EQ(touchstone_error, 3);
-  EXPECT_EQ(touchstone_linf, 0);
-  EXPECT_EQ(touchstone_l2, 1);
-  EXPECT_EQ(touchstone_interface_version, 2);
+  EXPECT_EQ(TOUCHSTONE_VERTEX_FACE, 0);
+  EXPECT_EQ(TOUCHSTONE_EDGE_EDGE, 1);
+  EXPECT_EQ(TOUCHSTONE_NO, 0);
+  EXPECT_EQ(TOUCHSTONE_YES, 1);
+  EXPECT_EQ(TOUCHSTONE_UNDECIDED, 2);
+  EXPECT_EQ(TOUCHSTONE_ERROR, 3);
+  EXPECT_EQ(TOUCHSTONE_LINF, 0);
+  EXPECT_EQ(TOUCHSTONE_L2, 1);
+  EXPECT_EQ(TOUCHSTONE_PLUGIN_VERSION, 2);
 }
 
 TEST(PluginInterface, StructsHaveTheirLayout) {
-  EXPECT_EQ(sizeof(touchstone_options), 40U);
-  EXPECT_EQ(offsetof(touchstone_options, tolerance), 0U);
-  EXPECT_EQ(offsetof(touchstone_options, max_checks), 8U);
-  EXPECT_EQ(offsetof(touchstone_options, min_separation), 16U);
-  EXPECT_EQ(offsetof(touchstone_options, t_max), 24U);
-  EXPECT_EQ(offsetof(touchstone_options, norm), 32U);
+  EXPECT_EQ(sizeof(TouchstonePluginOptions), 40U);
+  EXPECT_EQ(offsetof(TouchstonePluginOptions, tolerance), 0U);
+  EXPECT_EQ(offsetof(TouchstonePluginOptions, max_checks), 8U);
+  EXPECT_EQ(offsetof(TouchstonePluginOptions, min_separation), 16U);
+  EXPECT_EQ(offsetof(TouchstonePluginOptions, t_max), 24U);
+  EXPECT_EQ(offsetof(TouchstonePluginOptions, norm), 32U);
 
-  EXPECT_EQ(sizeof(touchstone_answer), 32U);
-  EXPECT_EQ(offsetof(touchstone_answer, verdict), 0U);
-  EXPECT_EQ(offsetof(touchstone_answer, toi_lower), 8U);
-  EXPECT_EQ(offsetof(touchstone_answer, toi_upper), 16U);
-  EXPECT_EQ(offsetof(touchstone_answer, tolerance), 24U);
+  EXPECT_EQ(sizeof(TouchstonePluginAnswer), 32U);
+  EXPECT_EQ(offsetof(TouchstonePluginAnswer, verdict), 0U);
+  EXPECT_EQ(offsetof(TouchstonePluginAnswer, toi_lower), 8U);
+  EXPECT_EQ(offsetof(TouchstonePluginAnswer, toi_upper), 16U);
+  EXPECT_EQ(offsetof(TouchstonePluginAnswer, tolerance), 24U);
 }
 
 TEST(PluginInterface, FunctionsHaveTheirTypes) {
   EXPECT_TRUE((std::is_same_v<decltype(touchstone_plugin_version), int32_t()>));
   EXPECT_TRUE((std::is_same_v<decltype(touchstone_plugin_name), const char*()>));
-  EXPECT_TRUE((
-      std::is_same_v<decltype(touchstone_plugin_solve),
-                     void(int32_t, const double*, const touchstone_options*, touchstone_answer*)>));
+  EXPECT_TRUE((std::is_same_v<decltype(touchstone_plugin_solve),
+                              void(int32_t, const double*, const TouchstonePluginOptions*,
+                                   TouchstonePluginAnswer*)>));
 }
 
 }  // namespace

@@ -22,14 +22,14 @@
 namespace touchstone::verify::solvers {
 namespace {
 
-static_assert(static_cast<int>(Kind::vertex_face) == touchstone_vertex_face &&
-              static_cast<int>(Kind::edge_edge) == touchstone_edge_edge);
-static_assert(static_cast<int>(Norm::linf) == touchstone_linf &&
-              static_cast<int>(Norm::l2) == touchstone_l2);
-static_assert(static_cast<int>(fast::Verdict::no) == touchstone_no &&
-              static_cast<int>(fast::Verdict::yes) == touchstone_yes &&
-              static_cast<int>(fast::Verdict::undecided) == touchstone_undecided &&
-              static_cast<int>(fast::Verdict::error) == touchstone_error);
+static_assert(static_cast<int>(Kind::vertex_face) == TOUCHSTONE_VERTEX_FACE &&
+              static_cast<int>(Kind::edge_edge) == TOUCHSTONE_EDGE_EDGE);
+static_assert(static_cast<int>(Norm::linf) == TOUCHSTONE_LINF &&
+              static_cast<int>(Norm::l2) == TOUCHSTONE_L2);
+static_assert(static_cast<int>(fast::Verdict::no) == TOUCHSTONE_NO &&
+              static_cast<int>(fast::Verdict::yes) == TOUCHSTONE_YES &&
+              static_cast<int>(fast::Verdict::undecided) == TOUCHSTONE_UNDECIDED &&
+              static_cast<int>(fast::Verdict::error) == TOUCHSTONE_ERROR);
 
 struct CloseLibrary {
   void operator()(void* handle) const { ::dlclose(handle); }
@@ -66,11 +66,11 @@ constexpr std::int32_t oldest_version = 1;
 void check_version(const Library& library, const std::filesystem::path& path) {
   const auto version = find_function<decltype(touchstone_plugin_version)>(
       library, path, "touchstone_plugin_version")();
-  if (version >= oldest_version && version <= touchstone_interface_version) return;
+  if (version >= oldest_version && version <= TOUCHSTONE_PLUGIN_VERSION) return;
   throw io::DatasetError(path, {},
                          "made for version " + std::to_string(version) +
                              " of the plugin interface, this program has version " +
-                             std::to_string(touchstone_interface_version));
+                             std::to_string(TOUCHSTONE_PLUGIN_VERSION));
 }
 
 std::string read_name(const Library& library, const std::filesystem::path& path) {
@@ -85,8 +85,8 @@ std::string read_name(const Library& library, const std::filesystem::path& path)
 }
 
 /// The answer, with an error in place of an invalid verdict.
-fast::Answer checked(const touchstone_answer& answer) {
-  if (answer.verdict < touchstone_no || answer.verdict > touchstone_error) {
+fast::Answer checked(const TouchstonePluginAnswer& answer) {
+  if (answer.verdict < TOUCHSTONE_NO || answer.verdict > TOUCHSTONE_ERROR) {
     return {.verdict = fast::Verdict::error};
   }
   const auto verdict = static_cast<fast::Verdict>(answer.verdict);
@@ -118,7 +118,7 @@ class PluginMethod final : public fast::Method {
       library_ = open_library(path_);
       solve_ = find_solve(library_, path_);
     });
-    const touchstone_options plugin_options{
+    const TouchstonePluginOptions plugin_options{
         .tolerance = options.tolerance,
         .max_checks = options.max_checks,
         .min_separation = options.separation.distance,
@@ -131,11 +131,11 @@ class PluginMethod final : public fast::Method {
 
  private:
   [[nodiscard]] fast::Answer ask(Kind kind, const Query& query,
-                                 const touchstone_options& options) const {
-    touchstone_answer answer{.verdict = touchstone_error,
-                             .toi_lower = fast::Answer::none,
-                             .toi_upper = fast::Answer::none,
-                             .tolerance = fast::Answer::none};
+                                 const TouchstonePluginOptions& options) const {
+    TouchstonePluginAnswer answer{.verdict = TOUCHSTONE_ERROR,
+                                  .toi_lower = fast::Answer::none,
+                                  .toi_upper = fast::Answer::none,
+                                  .tolerance = fast::Answer::none};
     solve_(static_cast<std::int32_t>(kind), query.coordinates.data(), &options, &answer);
     return checked(answer);
   }

@@ -23,7 +23,7 @@ struct NearestApproach {
 };
 
 /// Empty if the query collides, or the distance is greater than every double.
-/// \throws std::invalid_argument if a coordinate is NaN or infinite.
+/// \throws std::domain_error if a coordinate is NaN or infinite.
 [[nodiscard]] std::optional<NearestApproach> nearest_approach(Kind kind, const Query& query);
 
 }  // namespace touchstone::verify::view

@@ -36,8 +36,8 @@ struct ViewedQuery {
 
 /// As the script of a page reads it, see verify/view/page/facts.js. Doubles are texts, in
 /// hexadecimal, and rationals "P/Q".
-/// \throws std::invalid_argument if a coordinate is NaN or infinite, the separation is not valid, or the
-/// certificate is none.
+/// \throws std::domain_error if a coordinate is NaN or infinite; std::invalid_argument if the
+/// separation is not valid, or the text not a certificate.
 [[nodiscard]] nlohmann::json query_facts(const ViewedQuery& viewed,
                                          std::span<const solvers::Solver* const> solvers);
 

@@ -6,9 +6,16 @@
 /// shared.
 ///
 /// All points move on straight lines from t=0 to t=1. Coordinates are doubles, x, y, z of each
-/// point in turn. Functions that can fail return 0, or 2 for bad input: then
-/// touchstone_last_error() describes the error, and nothing else was written. All functions may be
-/// called from several threads at once, except touchstone_step_collisions of one step.
+/// point in turn.
+///
+/// **Errors.** Functions that can fail return a TouchstoneStatus. If it is not TOUCHSTONE_OK,
+/// touchstone_last_error() describes the error, and nothing else was written.
+///
+/// **Memory.** Arrays that a function of a step hands out are valid until the next call of this
+/// function that returns TOUCHSTONE_OK with this step, or until the end of the step.
+///
+/// **Threads.** All functions are thread-safe, but of the functions that take a step without
+/// `const`, only one at a time may use the same step.
 
 #include <stddef.h>
 #include <stdint.h>
@@ -16,44 +23,74 @@
 #ifdef __cplusplus
 extern "C" {
 #endif
+
+// ---- Types in common: the same text in touchstone/touchstone.h and touchstone/plugin.h ----------
+#ifndef TOUCHSTONE_TYPES
+#define TOUCHSTONE_TYPES
+
 #if defined(__GNUC__)
 #define TOUCHSTONE_API __attribute__((visibility("default")))
 #else
 #define TOUCHSTONE_API
 #endif
 
-/// The primitives of a pair. Their points, in the order of a query:
-enum {
-  TOUCHSTONE_VERTEX_FACE = 0,  ///< v, f0, f1, f2; of a mesh: a vertex and a face
-  TOUCHSTONE_EDGE_EDGE = 1,  ///< ea0, ea1, eb0, eb1; of a mesh: two edges, the smaller number first
-  TOUCHSTONE_VERTEX_EDGE = 2,  ///< of a mesh only: a codimensional point and a codimensional edge
-  TOUCHSTONE_VERTEX_VERTEX =
-      3  ///< of a mesh only: two codimensional points, the smaller number first
+/// The primitives of a query, with its points in their order, or of a pair of a mesh.
+enum TouchstoneKind {
+  TOUCHSTONE_VERTEX_FACE = 0,   ///< v, f0, f1, f2; of a mesh: a vertex and a face
+  TOUCHSTONE_EDGE_EDGE = 1,     ///< ea0, ea1, eb0, eb1; of a mesh: the smaller number first
+  TOUCHSTONE_VERTEX_EDGE = 2,   ///< of a mesh only: a codimensional point and edge
+  TOUCHSTONE_VERTEX_VERTEX = 3  ///< of a mesh only: codimensional points, the smaller number first
 };
 
 /// Norm of the distance of two points.
-enum {
+enum TouchstoneNorm {
   TOUCHSTONE_LINF = 0,  ///< the greatest of its components
   TOUCHSTONE_L2 = 1     ///< Euclid's
 };
 
-/// An answer to the question of contact, which is the truth.
-enum {
+/// An answer to "do they collide?".
+enum TouchstoneVerdict {
   TOUCHSTONE_NO = 0,
   TOUCHSTONE_YES = 1,
-  TOUCHSTONE_ERROR = 3  ///< a coordinate is NaN or infinite
+  TOUCHSTONE_UNDECIDED = 2,  ///< of plugins only: no decision; treated as a conservative yes
+  TOUCHSTONE_ERROR = 3       ///< a coordinate is NaN or infinite; of plugins also: invalid options
+};
+
+#endif  // TOUCHSTONE_TYPES
+// ---- End of the types in common -----------------------------------------------------------------
+
+// ---- Errors and options -------------------------------------------------------------------------
+
+enum TouchstoneStatus {
+  TOUCHSTONE_OK = 0,
+  TOUCHSTONE_INVALID_ARGUMENT = 1,  ///< an invalid option, a null pointer
+  TOUCHSTONE_OUT_OF_RANGE = 2,      ///< an index that is no vertex
+  TOUCHSTONE_NOT_FINITE = 3,        ///< a coordinate, or the motion of one, is NaN or infinite
+  TOUCHSTONE_TOO_MANY = 4,          ///< more than 2^31 − 1 elements, or than fit into memory
+  TOUCHSTONE_FAILURE = 5            ///< any other reason: arithmetic that is not IEEE 754
 };
 
 typedef struct TouchstoneOptions {
   double min_separation;  ///< a distance up to this is contact; finite, 0 or more
   double t_max;           ///< only contacts up to this time count, in [0,1]
   double toi_tolerance;   ///< greatest relative width of times of impact; finite, 0 or more
-  int32_t norm;           ///< TOUCHSTONE_LINF or TOUCHSTONE_L2: of min_separation
+  int32_t norm;           ///< one of TouchstoneNorm: of min_separation
   int32_t max_threads;    ///< 0: the number of cores
 } TouchstoneOptions;
 
+/// The version, such as "1.2.3".
+TOUCHSTONE_API const char* touchstone_version(void);
+
+/// The message of the last call of this thread that failed; valid until its next call.
+TOUCHSTONE_API const char* touchstone_last_error(void);
+
+/// The default options: 0, 1, 1e-12, TOUCHSTONE_LINF, 0.
+TOUCHSTONE_API TouchstoneOptions touchstone_default_options(void);
+
+// ---- Queries ------------------------------------------------------------------------------------
+
 typedef struct TouchstoneImpact {
-  int32_t verdict;   ///< TOUCHSTONE_NO, _YES or _ERROR
+  int32_t verdict;   ///< TOUCHSTONE_NO, _YES or _ERROR: the truth
   double toi_lower;  ///< with yes: before the time of impact, or 0 if that is 0; else NaN, as all
                      ///< that follow
   double toi_upper;  ///< with yes: not before the time of impact
@@ -61,16 +98,32 @@ typedef struct TouchstoneImpact {
   double v;          ///< or u on the first edge and v on the second, from their first points
 } TouchstoneImpact;
 
-/// Two primitives of a mesh in contact.
-typedef struct TouchstoneCollision {
-  int32_t kind;      ///< TOUCHSTONE_VERTEX_FACE and so on
-  int32_t first;     ///< number of a vertex or an edge
-  int32_t second;    ///< number of a face, an edge or a vertex
-  double toi_lower;  ///< as in TouchstoneImpact
-  double toi_upper;
-  double u;
-  double v;
-} TouchstoneCollision;
+/// A distance, enclosed by doubles that are equal or neighbours.
+typedef struct TouchstoneDistance {
+  double lower;
+  double upper;  ///< infinity for distances beyond the greatest double
+} TouchstoneDistance;
+
+/// Decides `count` queries. A query with a coordinate that is NaN or infinite has the verdict
+/// TOUCHSTONE_ERROR; the others are decided.
+/// \param kind TOUCHSTONE_VERTEX_FACE or TOUCHSTONE_EDGE_EDGE, of all queries
+/// \param coordinates 24 for each query: its four points at t=0, then the same at t=1
+/// \param options null for the default ones
+/// \param impacts `count` of them, for the results
+TOUCHSTONE_API int32_t touchstone_solve(int32_t kind, size_t count, const double* coordinates,
+                                        const TouchstoneOptions* options,
+                                        TouchstoneImpact* impacts);
+
+/// The distances of the primitives of `count` queries at the time t, in [0,1]. 0 iff they have a
+/// common point.
+/// \param kind and coordinates as above; all finite, else the status is TOUCHSTONE_NOT_FINITE
+/// \param max_threads 0: the number of cores
+/// \param distances `count` of them, for the results
+TOUCHSTONE_API int32_t touchstone_distances(int32_t kind, size_t count, const double* coordinates,
+                                            double t, int32_t norm, int32_t max_threads,
+                                            TouchstoneDistance* distances);
+
+// ---- Steps --------------------------------------------------------------------------------------
 
 /// A mesh before and after a step. Unused members are 0 (null pointers).
 typedef struct TouchstoneMesh {
@@ -83,37 +136,35 @@ typedef struct TouchstoneMesh {
   const int32_t* face_vertices;  ///< 3 · faces
   size_t points;                 ///< vertices that are part of the scene without an edge or a face
   const int32_t* point_vertices;
-  const int32_t* groups;  ///< a group, from 0, for each vertex; or null: all may meet
-  size_t apart;  ///< the number of pairs of groups that do not meet; a group twice does not meet
-                 ///< itself
+  const int32_t* groups;  ///< a group, from 0, for each vertex; or null: all can collide
+  size_t
+      apart;  ///< the number of pairs of groups that cannot collide; a group twice: not within it
   const int32_t* apart_groups;  ///< 2 · apart
 } TouchstoneMesh;
 
 /// A step of a mesh, made by touchstone_step_new.
 typedef struct TouchstoneStep TouchstoneStep;
 
-/// The version, such as "1.2.3".
-TOUCHSTONE_API const char* touchstone_version(void);
+/// Two primitives of a mesh.
+typedef struct TouchstonePair {
+  int32_t kind;    ///< one of TouchstoneKind
+  int32_t first;   ///< number of a vertex or an edge
+  int32_t second;  ///< number of a face, an edge or a vertex
+} TouchstonePair;
 
-/// The message of the last call of this thread that returned 2 (or null); valid until its next
-/// call.
-TOUCHSTONE_API const char* touchstone_last_error(void);
+/// Two primitives in contact.
+typedef struct TouchstoneCollision {
+  TouchstonePair pair;
+  double toi_lower;  ///< as in TouchstoneImpact
+  double toi_upper;
+  double u;
+  double v;
+} TouchstoneCollision;
 
-/// The default options: 0, 1, 1e-12, TOUCHSTONE_LINF, 0.
-TOUCHSTONE_API TouchstoneOptions touchstone_default_options(void);
-
-/// Decides `count` queries of one kind, vertex-face or edge-edge.
-/// \param coordinates 24 for each query: its four points at t=0, then the same at t=1
+/// A new step of a mesh, to be freed by touchstone_step_free. Everything is copied.
 /// \param options null for the default ones
-/// \param impacts `count` of them, for the results
-TOUCHSTONE_API int32_t touchstone_solve(int32_t kind, size_t count, const double* coordinates,
-                                        const TouchstoneOptions* options,
-                                        TouchstoneImpact* impacts);
-
-/// A step of a mesh; null for bad input. Everything is copied.
-/// \param options null for the default ones
-TOUCHSTONE_API TouchstoneStep* touchstone_step_new(const TouchstoneMesh* mesh,
-                                                   const TouchstoneOptions* options);
+TOUCHSTONE_API int32_t touchstone_step_new(const TouchstoneMesh* mesh,
+                                           const TouchstoneOptions* options, TouchstoneStep** step);
 
 /// \param step may be null
 TOUCHSTONE_API void touchstone_step_free(TouchstoneStep* step);
@@ -126,16 +177,79 @@ TOUCHSTONE_API int32_t touchstone_step_is_free(const TouchstoneStep* step, int32
 TOUCHSTONE_API int32_t touchstone_step_earliest(const TouchstoneStep* step,
                                                 TouchstoneImpact* impact);
 
-/// All pairs in contact. They are valid until the next call of this function that returns 0 with
-/// this step, or until its end.
+/// All pairs in contact.
 TOUCHSTONE_API int32_t touchstone_step_collisions(TouchstoneStep* step,
                                                   const TouchstoneCollision** collisions,
                                                   size_t* count);
 
 /// The largest step size: the step from x0 to fl(x0 + alpha (x1 − x0)) is free, and that of the
-/// next double is not. Writes −1 if not even a step of size 0 is free. Status 2 if x1 − x0 of a
-/// coordinate is greater than any double; the message names the vertex.
+/// next double is not. Writes −1 if not even a step of size 0 is free. TOUCHSTONE_NOT_FINITE if
+/// x1 − x0 of a coordinate is greater than any double; the message names the vertex.
 TOUCHSTONE_API int32_t touchstone_step_free_step_size(const TouchstoneStep* step, double* alpha);
+
+/// The least distance of all pairs of the step at the time t, in [0,1], and all pairs with this
+/// enclosure. Infinity and no pairs if the step has none. The separation of the step has no effect.
+TOUCHSTONE_API int32_t touchstone_step_least_distance(TouchstoneStep* step, double t, int32_t norm,
+                                                      TouchstoneDistance* distance,
+                                                      const TouchstonePair** pairs, size_t* count);
+
+// ---- Active sets --------------------------------------------------------------------------------
+
+/// Two primitives that come within a distance η, with the place of contact.
+typedef struct TouchstoneActiveContact {
+  TouchstoneCollision collision;
+  double first[3];   ///< the contact point on the first primitive, at toi_upper
+  double second[3];  ///< and on the second
+  double normal[3];  ///< a unit vector, from the second primitive to the first
+} TouchstoneActiveContact;
+
+/// Every pair that comes within `eta` up to the step's t_max, exactly these, in the order of their
+/// times. The separation of the step has no effect.
+/// \param eta η, finite, 0 or more
+TOUCHSTONE_API int32_t touchstone_step_active_set(TouchstoneStep* step, double eta, int32_t norm,
+                                                  const TouchstoneActiveContact** contacts,
+                                                  size_t* count);
+
+// ---- Line searches ------------------------------------------------------------------------------
+
+/// The reference distance at the start of a line search.
+enum TouchstoneStartDistance {
+  TOUCHSTONE_OF_SCENE = 0,  ///< the least distance of the scene
+  TOUCHSTONE_OF_PAIR = 1    ///< of each pair its own, for pairs whose swept boxes meet
+};
+
+/// The reason for a step size.
+enum TouchstoneLimitReason {
+  TOUCHSTONE_WHOLE = 0,       ///< the whole step is allowed
+  TOUCHSTONE_LIMITED = 1,     ///< a pair limits the step
+  TOUCHSTONE_IN_CONTACT = 2,  ///< a pair is in contact at the start; the step size is 0
+  TOUCHSTONE_TOO_SMALL = 3    ///< the step size would be below the least doubles; it is 0
+};
+
+typedef struct TouchstoneLineSearchOptions {
+  int32_t norm;            ///< one of TouchstoneNorm
+  int32_t start_distance;  ///< one of TouchstoneStartDistance
+} TouchstoneLineSearchOptions;
+
+typedef struct TouchstoneLineSearchLimit {
+  int32_t reason;               ///< one of TouchstoneLimitReason
+  double step_size;             ///< in [0, t_max] of the step
+  TouchstoneDistance distance;  ///< the least distance at the start; infinity if there are no pairs
+  const TouchstoneCollision* pairs;  ///< the pairs that limit the step
+  size_t count;                      ///< the number of pairs
+} TouchstoneLineSearchLimit;
+
+/// The default options: TOUCHSTONE_L2, TOUCHSTONE_OF_SCENE.
+TOUCHSTONE_API TouchstoneLineSearchOptions touchstone_default_line_search_options(void);
+
+/// The greatest step size, rounded down by at most the step's toi_tolerance, up to which all
+/// primitives stay at least p times as far apart as at the start. The separation of the step has no
+/// effect.
+/// \param p more than 0 and at most 1 − 2^-50
+/// \param options null for the default ones
+TOUCHSTONE_API int32_t touchstone_step_line_search_limit(TouchstoneStep* step, double p,
+                                                         const TouchstoneLineSearchOptions* options,
+                                                         TouchstoneLineSearchLimit* limit);
 
 #ifdef __cplusplus
 }

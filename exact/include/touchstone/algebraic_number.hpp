@@ -24,8 +24,9 @@
 
 namespace touchstone::exact {
 
-/// A real algebraic number, by default 0. Copies are independent; distinct objects can be used by
-/// distinct threads.
+/// A real algebraic number, by default 0. Copies are independent. Thread-safe as standard types
+/// are: several threads can call const functions of an object, or any functions of distinct
+/// objects.
 class AlgebraicNumber {
  public:
   /// A rational number, known as such.
@@ -47,6 +48,7 @@ class AlgebraicNumber {
   [[nodiscard]] RationalInterval interval() const;
 
   /// Narrows the isolating interval to at most `width` > 0.
+  /// \throws std::invalid_argument if it is not positive.
   void refine(const Rational& width);
 
   /// Narrows the isolating interval to at most 2^-level.
@@ -88,7 +90,7 @@ class AlgebraicNumber {
 
 /// An interval of at most `width` > 0 around numerator(α)/denominator(α); both ends equal and exact
 /// where α is known to be rational.
-/// \pre denominator(α) ≠ 0.
+/// \pre denominator(α) ≠ 0. \throws std::invalid_argument if the width is not positive.
 [[nodiscard]] RationalInterval enclose_quotient(const Polynomial& numerator,
                                                 const Polynomial& denominator,
                                                 AlgebraicNumber alpha, const Rational& width);

@@ -17,7 +17,8 @@
 /// others do not.
 ///
 /// exact/CERTIFICATES.md defines the format, the directions of features and the conditions of
-/// places; touchstone/certificate_text.hpp writes it. docs/theory.md, section 5.
+/// places; touchstone/certificate_text.hpp writes it. docs/theory.md, section 5. All functions are
+/// thread-safe.
 
 #include <array>
 #include <cstddef>
@@ -162,10 +163,10 @@ struct ProveOptions {
 };
 
 /// The proof of the oracle's verdict on a query. It always exists, and is the same on every machine
-/// and in every floating-point environment. Thread-safe.
+/// and in every floating-point environment.
 /// \param verdict decide(kind, query, verdict.separation)
-/// \throws std::invalid_argument if a coordinate is NaN or infinite, the separation is not valid, the
-/// width is not positive, or the claim asked for is `no_collision`.
+/// \throws std::domain_error if a coordinate is NaN or infinite; std::invalid_argument if the
+/// separation is not valid, the width is not positive, or the claim asked for is `no_collision`.
 /// \throws std::logic_error if the verdict is not the query's.
 /// \throws CertificateLimitError if the certificate would exceed number_limit or subinterval_limit.
 /// exact/certificate/separation_intervals.hpp states for which queries the break points stay within

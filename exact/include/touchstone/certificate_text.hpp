@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file
-/// Certificates as text: exact/CERTIFICATES.md, version 2.
+/// Certificates as text: exact/CERTIFICATES.md, version 2. All functions are thread-safe.
 
 #include <cstddef>
 #include <cstdint>

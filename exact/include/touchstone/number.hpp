@@ -5,7 +5,7 @@
 ///
 /// They are CGAL's number types, with CGAL's algebraic traits once CGAL's headers are included.
 /// CGAL chooses their classes by its configuration. This project needs GMP's C++ classes, which
-/// CGAL takes where libgmpxx is installed (CGAL_USE_GMPXX).
+/// CGAL takes where libgmpxx is installed (CGAL_USE_GMPXX). The functions are thread-safe.
 
 #include <gmpxx.h>
 

@@ -6,7 +6,7 @@
 /// At distance 0 the rules of exact/contact/contact_oracle.hpp decide, which also give the place of
 /// contact; at a greater distance those of exact/distance/distance_oracle.hpp. Both are integer
 /// arithmetic on scaled coordinates, without rounding and without filters. docs/theory.md, sections
-/// 2 and 3.
+/// 2 and 3. All functions are thread-safe.
 
 #include <optional>
 
@@ -45,9 +45,10 @@ struct Decision {
   [[nodiscard]] bool collides() const { return toi.has_value(); }
 };
 
-/// Decides a query exactly. Thread-safe, and independent of the floating-point environment
-/// (rounding mode, flushed subnormals).
-/// \throws std::invalid_argument if a coordinate is NaN or infinite, or the separation is not valid.
+/// Decides a query exactly, independent of the floating-point environment (rounding mode, flushed
+/// subnormals).
+/// \throws std::domain_error if a coordinate is NaN or infinite; std::invalid_argument if the
+/// separation is not valid.
 [[nodiscard]] Decision decide(Kind kind, const Query& query, const Separation& separation = {});
 
 /// The parameters (u,v) of a contact, as the query's F defines them.
@@ -58,7 +59,7 @@ struct ContactParameters {
 
 /// (u,v) of the earliest contact, each within `width` > 0; exact (both ends equal) where the toi is
 /// known to be rational.
-/// \throws std::invalid_argument if the verdict has no contact.
+/// \throws std::invalid_argument if the verdict has no contact, or the width is not positive.
 [[nodiscard]] ContactParameters contact_parameters(const Decision& verdict, const Rational& width);
 
 }  // namespace touchstone::exact

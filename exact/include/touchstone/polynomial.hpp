@@ -8,6 +8,8 @@
 /// are binomial multiples of the Bernstein coefficients, so (Descartes, Bernstein) the number of
 /// sign changes among them bounds the number of roots in the open cell and has its parity; no
 /// change means no root and the sign of the c_j throughout, one change means exactly one root.
+///
+/// All functions are thread-safe; a polynomial that no thread changes can be read by several.
 
 #include <concepts>
 #include <cstddef>

@@ -18,7 +18,8 @@
 /// of the domain: the *corners* w_i(t), three for vertex_face, four (a parallelogram, in cyclic
 /// order) for edge_edge. Hence a query collides iff 0 ∈ conv{w_i(t)} for some t ∈ [0,1].
 ///
-/// This is the only header of exact/ that fast/ includes. It needs Eigen alone.
+/// All functions are thread-safe. This is the only header of exact/ that fast/ includes. It needs
+/// Eigen alone.
 
 #include <Eigen/Core>
 

@@ -22,7 +22,7 @@
 /// Edges are treated as parallel, and a face as one without an area, if the sine of the angle is
 /// below 2^-20: about half of a normal's digits are right then. Points are treated as coincident if
 /// F is below 2^-40 of the size of the pair, or below the motion of the pair within the enclosure
-/// of the time of impact.
+/// of the time of impact. The functions are thread-safe.
 
 #include <Eigen/Core>
 
@@ -44,14 +44,13 @@ struct ActiveContact : StepCollision {
 
 /// Every pair of the step that comes within `eta` up to the step's t_max, exactly these, in the
 /// order of toi_lower, toi_upper, kind and pair. The separation of the step itself has no effect.
-/// Thread-safe.
 /// \param eta η, finite and not negative, in units of the coordinates; 0: the pairs that collide.
 /// \throws std::invalid_argument for another η.
 [[nodiscard]] std::vector<ActiveContact> active_set(const Step& step, const Separation& separation);
 
 /// The contact of a pair at a given time, at any distance: for pairs and times that another solver
 /// has found. Its toi_lower and toi_upper are t; u and v are the parameters of the nearest points.
-/// \pre The pair's numbers are in range. \throws std::invalid_argument unless 0 ≤ t ≤ 1.
+/// \throws std::invalid_argument unless 0 ≤ t ≤ 1; std::out_of_range for numbers out of range.
 [[nodiscard]] ActiveContact contact_at(const Step& step, PairKind kind, const IndexPair& pair,
                                        double t, Norm norm = Norm::l2);
 

@@ -27,7 +27,8 @@
 /// same depth, and memory proportional to the number of primitives, for any sizes and clusters of
 /// boxes.
 ///
-/// Pairs that share a vertex are excluded, because they are always in contact.
+/// Pairs that share a vertex are excluded, because they are always in contact. The functions are
+/// thread-safe.
 
 #include <cstdint>
 #include <limits>

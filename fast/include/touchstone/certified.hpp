@@ -94,7 +94,7 @@ struct Collision {
                                                 const CertifiedOptions& options = {});
 
 /// The same for candidates.
-/// \throws as solve.
+/// \throws as solve; std::out_of_range naming the first pair with an index out of range.
 [[nodiscard]] std::vector<Collision> collisions(const MovingVertices& vertices,
                                                 const Candidates& candidates,
                                                 const CertifiedOptions& options = {});

@@ -42,10 +42,10 @@ struct Distance {
 /// \throws std::invalid_argument unless 0 ≤ t ≤ 1; std::domain_error if a coordinate is not finite.
 [[nodiscard]] Distance distance(Kind kind, const Query& query, double t, Norm norm = Norm::l2);
 
-/// Writes the distance of query i into distances[i].
+/// Writes the distance of query i into results[i].
 /// \param max_threads 0: one for each core.
-/// \throws as above; std::invalid_argument for spans of different lengths or a negative number of
-/// threads.
+/// \throws as above, the std::domain_error naming a query; std::invalid_argument for spans of
+/// different lengths or a negative number of threads.
 void distances(Kind kind, std::span<const Query> queries, double t, Norm norm,
                std::span<Distance> results, int max_threads = 0);
 

@@ -2,7 +2,7 @@
 
 /// \file
 /// The filter of inclusion-based methods: a bound, on each axis, of the error of computed
-/// values of F.
+/// values of F. The function is thread-safe.
 
 #include <array>
 #include <cstdint>

@@ -3,7 +3,8 @@
 /// \file
 /// A moving mesh in the form that simulators use: vertices at the start and at the end of a
 /// step, edges and faces as indices, and candidates as pairs of these. Pairs take an eighth of the
-/// memory of queries, and the vertices stay in the cache.
+/// memory of queries, and the vertices stay in the cache. The functions are thread-safe, and so are
+/// const member functions.
 
 #include <Eigen/Core>
 
@@ -13,6 +14,9 @@
 #include <cstdint>
 #include <span>
 #include <stdexcept>
+#include <string>
+#include <tuple>
+#include <utility>
 #include <vector>
 
 #include "touchstone/query.hpp"
@@ -25,6 +29,34 @@ using Edge = std::array<std::int32_t, 2>;
 using Face = std::array<std::int32_t, 3>;
 /// The two indices of a pair. vertex_face: a vertex and a face; edge_edge: two edges.
 using IndexPair = std::array<std::int32_t, 2>;
+
+/// Elements from a matrix of integers, such as int32 or int64, in any storage order: faces from
+/// n×3, edges from n×2. An empty matrix of any shape: none.
+/// \tparam Element Face or Edge
+/// \throws std::invalid_argument for another number of columns; std::out_of_range naming the first
+/// row with a number that is negative or above 2^31−1.
+template <class Element, class Matrix>
+[[nodiscard]] std::vector<Element> elements_from(const Eigen::DenseBase<Matrix>& matrix) {
+  constexpr std::size_t count = std::tuple_size_v<Element>;
+  if (matrix.size() == 0) return {};
+  if (static_cast<std::size_t>(matrix.cols()) != count) {
+    throw std::invalid_argument("elements: the matrix must have " + std::to_string(count) +
+                                " columns");
+  }
+  const auto& values = matrix.derived().eval();
+  std::vector<Element> result(static_cast<std::size_t>(values.rows()));
+  for (std::size_t i = 0; i < result.size(); ++i) {
+    for (std::size_t k = 0; k < count; ++k) {
+      const auto vertex = values(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(k));
+      if (std::cmp_less(vertex, 0) || !std::in_range<std::int32_t>(vertex)) {
+        throw std::out_of_range("element " + std::to_string(i) + ": vertex " +
+                                std::to_string(vertex) + " is not in [0, 2^31-1]");
+      }
+      result[i][k] = static_cast<std::int32_t>(vertex);
+    }
+  }
+  return result;
+}
 
 /// The positions of a vertex at t=0 and t=1, in one cache line.
 struct alignas(64) MovingVertex {

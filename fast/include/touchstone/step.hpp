@@ -29,7 +29,8 @@
 /// only up to its time.
 ///
 /// Answers are as exact as the certified solver's (touchstone/certified.hpp), and the same for any
-/// number of threads and any instruction set.
+/// number of threads and any instruction set. Functions and const member functions are thread-safe,
+/// as long as the elements that a step refers to do not change.
 
 #include <Eigen/Core>
 
@@ -211,10 +212,12 @@ class Step {
   void candidates(const std::function<void(const StepCandidates&)>& take) const;
 
   /// The vertices of a pair as input of the certified solver: a vertex and an edge as vertex and
-  /// face (e0, e1, e0), two vertices as vertex and face (w, w, w). \pre Its numbers are in range.
+  /// face (e0, e1, e0), two vertices as vertex and face (w, w, w).
+  /// \throws std::out_of_range for numbers out of range.
   [[nodiscard]] std::array<std::int32_t, moving_points> vertices_of(PairKind kind,
                                                                     const IndexPair& pair) const;
-  /// A pair as a query, whose points are these vertices. \pre Its numbers are in range.
+  /// A pair as a query, whose points are these vertices.
+  /// \throws std::out_of_range for numbers out of range.
   [[nodiscard]] Query query_of(PairKind kind, const IndexPair& pair) const;
   [[nodiscard]] static Kind kind_of(PairKind kind) {
     return kind == PairKind::edge_edge ? Kind::edge_edge : Kind::vertex_face;

@@ -30,7 +30,6 @@
 #include <cstdint>
 #include <optional>
 #include <span>
-#include <string_view>
 
 #include "touchstone/filter.hpp"
 #include "touchstone/query.hpp"
@@ -70,7 +69,7 @@ struct TightInclusionOptions {
 
 struct TightInclusionResult {
   /// no: certainly no contact (except with the released filter). yes: contact, or nearly so. error:
-  /// see `error`. Never undecided.
+  /// a coordinate is NaN or infinite. Never undecided.
   Verdict verdict = Verdict::error;
   /// With yes: not above the time of impact, in [0, t_max].
   double toi = no_number;
@@ -85,14 +84,13 @@ struct TightInclusionResult {
   std::int64_t checks = 0;
   /// The number of further searches of no_zero_toi.
   int refinements = 0;
-  /// With error: the reason.
-  std::string_view error;
 };
 
 /// Solves one query. Thread-safe. Each thread keeps its memory, bounded by max_boxes, until it
 /// ends.
-/// \throws std::runtime_error if the arithmetic is not strict (fast/platform/arithmetic_check.hpp);
-/// std::bad_alloc, which does not affect later calls.
+/// \throws std::invalid_argument for options out of range; std::runtime_error if the arithmetic is
+/// not strict (fast/platform/arithmetic_check.hpp); std::bad_alloc, which does not affect later
+/// calls.
 [[nodiscard]] TightInclusionResult tight_inclusion(Kind kind, const Query& query,
                                                    const TightInclusionOptions& options = {});
 

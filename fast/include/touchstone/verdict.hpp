@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file
-/// The answer of a solver to "do they collide?".
+/// The answer of a solver to "do they collide?". Constants alone, so every thread can use them.
 
 #include <cstdint>
 #include <limits>
@@ -12,7 +12,7 @@ enum class Verdict : std::uint8_t {
   no,
   yes,
   undecided,  ///< no decision; to be treated as a conservative yes
-  error,      ///< invalid query or options (NaN, infinities, …)
+  error,      ///< a coordinate is NaN or infinite
 };
 
 /// The value of a number that an answer does not have: NaN.

@@ -203,8 +203,8 @@ TEST(DistanceOracle, RefusesInvalidQueriesAndSeparations) {
     EXPECT_THROW(static_cast<void>(toi(posed, distance, Norm::l2)), std::invalid_argument);
   }
   posed.query.coordinates[7] = Limits::quiet_NaN();
-  EXPECT_THROW(static_cast<void>(toi(posed, 1, Norm::l2)), std::invalid_argument);
-  EXPECT_THROW(static_cast<void>(toi(posed, 0, Norm::linf)), std::invalid_argument);
+  EXPECT_THROW(static_cast<void>(toi(posed, 1, Norm::l2)), std::domain_error);
+  EXPECT_THROW(static_cast<void>(toi(posed, 0, Norm::linf)), std::domain_error);
 }
 
 // ---- Distance 0 ---------------------------------------------------------------------------------

@@ -12,66 +12,80 @@
 /// boundary of the primitives counts. With a minimum separation, contact is a distance of at most
 /// that separation.
 ///
-/// Version 2 added touchstone_options::norm at the end. Plugins of version 1 are still accepted:
-/// they receive the distance but not the norm, and are judged in the requested norm.
+/// Version 2 added TouchstonePluginOptions::norm at the end. Plugins of version 1 are still
+/// accepted: they receive the distance but not the norm, and are judged in the requested norm.
 
 #include <stdint.h>
 
 #ifdef __cplusplus
 extern "C" {
 #endif
-#pragma GCC visibility push(default)
 
-/// The version of this interface; touchstone_plugin_version returns it.
-enum { touchstone_interface_version = 2 };
+// ---- Types in common: the same text in touchstone/touchstone.h and touchstone/plugin.h ----------
+#ifndef TOUCHSTONE_TYPES
+#define TOUCHSTONE_TYPES
 
-/// The two primitives of a query.
-enum touchstone_kind {
-  touchstone_vertex_face = 0,  ///< a vertex v and the triangle f0, f1, f2
-  touchstone_edge_edge = 1     ///< the edge ea0, ea1 and the edge eb0, eb1
+#if defined(__GNUC__)
+#define TOUCHSTONE_API __attribute__((visibility("default")))
+#else
+#define TOUCHSTONE_API
+#endif
+
+/// The primitives of a query, with its points in their order, or of a pair of a mesh.
+enum TouchstoneKind {
+  TOUCHSTONE_VERTEX_FACE = 0,   ///< v, f0, f1, f2; of a mesh: a vertex and a face
+  TOUCHSTONE_EDGE_EDGE = 1,     ///< ea0, ea1, eb0, eb1; of a mesh: the smaller number first
+  TOUCHSTONE_VERTEX_EDGE = 2,   ///< of a mesh only: a codimensional point and edge
+  TOUCHSTONE_VERTEX_VERTEX = 3  ///< of a mesh only: codimensional points, the smaller number first
 };
 
 /// Norm of the distance of two points.
-enum touchstone_norm {
-  touchstone_linf = 0,  ///< the greatest of its components
-  touchstone_l2 = 1     ///< Euclid's
+enum TouchstoneNorm {
+  TOUCHSTONE_LINF = 0,  ///< the greatest of its components
+  TOUCHSTONE_L2 = 1     ///< Euclid's
 };
 
 /// An answer to "do they collide?".
-enum touchstone_verdict {
-  touchstone_no = 0,
-  touchstone_yes = 1,
-  touchstone_undecided = 2,  ///< no decision; treated as a conservative yes
-  touchstone_error = 3       ///< the solver does not accept the query or the options
+enum TouchstoneVerdict {
+  TOUCHSTONE_NO = 0,
+  TOUCHSTONE_YES = 1,
+  TOUCHSTONE_UNDECIDED = 2,  ///< of plugins only: no decision; treated as a conservative yes
+  TOUCHSTONE_ERROR = 3       ///< a coordinate is NaN or infinite; of plugins also: invalid options
 };
 
+#endif  // TOUCHSTONE_TYPES
+// ---- End of the types in common -----------------------------------------------------------------
+
+/// The version of this interface; touchstone_plugin_version returns it.
+enum { TOUCHSTONE_PLUGIN_VERSION = 2 };
+
 /// The common options of solvers. A solver ignores the options that do not apply to it.
-struct touchstone_options {
+typedef struct TouchstonePluginOptions {
   double tolerance;    ///< of tolerance-driven solvers, in units of the coordinates; default 1e-6
   int64_t max_checks;  ///< of iterative solvers: steps for a query; 0 or less: no limit
   double min_separation;  ///< distance that counts as contact, 0 or more
   double t_max;           ///< only impacts up to this time count, 0 to 1
-  int32_t norm;           ///< one of touchstone_norm: of min_separation; since version 2
-};
+  int32_t norm;           ///< one of TouchstoneNorm: of min_separation; since version 2
+} TouchstonePluginOptions;
 
-/// The answer, which the solver fills in. Initially the verdict is touchstone_error and every other
+/// The answer, which the solver fills in. Initially the verdict is TOUCHSTONE_ERROR and every other
 /// field NaN; the solver does not change fields for which it has no value. Times matter only with
-/// touchstone_yes, and must then be finite or NaN.
-struct touchstone_answer {
-  int32_t verdict;   ///< one of touchstone_verdict
+/// TOUCHSTONE_YES, and must then be finite or NaN.
+typedef struct TouchstonePluginAnswer {
+  int32_t verdict;   ///< one of TouchstoneVerdict
   double toi_lower;  ///< claimed: not above the exact time of first contact
   double toi_upper;  ///< claimed: not below the exact time of first contact
   double tolerance;  ///< with yes, in units of the coordinates: claims that at some time the
                      ///< distance, in the requested norm, is at most min_separation + tolerance. A
                      ///< yes beyond that is a fault.
-};
+} TouchstonePluginAnswer;
 
-/// Defined by the plugin: returns touchstone_interface_version.
-int32_t touchstone_plugin_version(void);
+/// Defined by the plugin: returns TOUCHSTONE_PLUGIN_VERSION.
+TOUCHSTONE_API int32_t touchstone_plugin_version(void);
 
 /// Defined by the plugin: the solver's name in reports, one line of UTF-8 text without control
 /// characters or invisible ones, that stays valid.
-const char* touchstone_plugin_name(void);
+TOUCHSTONE_API const char* touchstone_plugin_name(void);
 
 /// Defined by the plugin: answers one query. Must be thread-safe.
 ///
@@ -79,16 +93,15 @@ const char* touchstone_plugin_name(void);
 /// file size are limited, and which may create threads but no processes (options of the command
 /// line change both), in a temporary working directory. Its output is captured.
 ///
-/// \param kind one of touchstone_kind.
+/// \param kind TOUCHSTONE_VERTEX_FACE or TOUCHSTONE_EDGE_EDGE.
 /// \param coordinates 24 finite doubles: x, y, z of the four points at t=0, then of the same four
 ///        at t=1. Vertex-face: v, f0, f1, f2. Edge-edge: ea0, ea1, eb0, eb1.
 /// \param options the user's options.
 /// \param answer to be filled in.
-void touchstone_plugin_solve(int32_t kind, const double* coordinates,
-                             const struct touchstone_options* options,
-                             struct touchstone_answer* answer);
+TOUCHSTONE_API void touchstone_plugin_solve(int32_t kind, const double* coordinates,
+                                            const TouchstonePluginOptions* options,
+                                            TouchstonePluginAnswer* answer);
 
-#pragma GCC visibility pop
 #ifdef __cplusplus
 }
 #endif

@@ -5,11 +5,11 @@
 
 #include "touchstone/plugin.h"
 
-std::int32_t touchstone_plugin_version() { return touchstone_interface_version; }
+std::int32_t touchstone_plugin_version() { return TOUCHSTONE_PLUGIN_VERSION; }
 
 const char* touchstone_plugin_name() { return "always_no"; }
 
-void touchstone_plugin_solve(std::int32_t, const double*, const touchstone_options*,
-                             touchstone_answer* answer) {
-  answer->verdict = touchstone_no;
+void touchstone_plugin_solve(std::int32_t, const double*, const TouchstonePluginOptions*,
+                             TouchstonePluginAnswer* answer) {
+  answer->verdict = TOUCHSTONE_NO;
 }

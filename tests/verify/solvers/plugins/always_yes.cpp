@@ -5,13 +5,13 @@
 
 #include "touchstone/plugin.h"
 
-std::int32_t touchstone_plugin_version() { return touchstone_interface_version; }
+std::int32_t touchstone_plugin_version() { return TOUCHSTONE_PLUGIN_VERSION; }
 
 const char* touchstone_plugin_name() { return "always_yes"; }
 
-void touchstone_plugin_solve(std::int32_t, const double*, const touchstone_options*,
-                             touchstone_answer* answer) {
-  answer->verdict = touchstone_yes;
+void touchstone_plugin_solve(std::int32_t, const double*, const TouchstonePluginOptions*,
+                             TouchstonePluginAnswer* answer) {
+  answer->verdict = TOUCHSTONE_YES;
   answer->toi_lower = 0.0;
   answer->tolerance = 0.0;
 }

@@ -45,7 +45,7 @@ const bool is_constructed = [] {
 std::int32_t touchstone_plugin_version() {
   if (is_told("version exits")) std::exit(0);
   if (is_told("version throws")) throw std::runtime_error("no version");
-  return touchstone_interface_version;
+  return TOUCHSTONE_PLUGIN_VERSION;
 }
 
 const char* touchstone_plugin_name() {
@@ -55,7 +55,7 @@ const char* touchstone_plugin_name() {
   return is_constructed ? "bad_loading" : "";
 }
 
-void touchstone_plugin_solve(std::int32_t, const double*, const touchstone_options*,
-                             touchstone_answer* answer) {
-  answer->verdict = touchstone_no;
+void touchstone_plugin_solve(std::int32_t, const double*, const TouchstonePluginOptions*,
+                             TouchstonePluginAnswer* answer) {
+  answer->verdict = TOUCHSTONE_NO;
 }

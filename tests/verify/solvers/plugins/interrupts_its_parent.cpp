@@ -12,14 +12,14 @@
 
 #include "touchstone/plugin.h"
 
-std::int32_t touchstone_plugin_version() { return touchstone_interface_version; }
+std::int32_t touchstone_plugin_version() { return TOUCHSTONE_PLUGIN_VERSION; }
 
 const char* touchstone_plugin_name() { return "interrupts_its_parent"; }
 
-void touchstone_plugin_solve(std::int32_t, const double*, const touchstone_options*,
-                             touchstone_answer* answer) {
+void touchstone_plugin_solve(std::int32_t, const double*, const TouchstonePluginOptions*,
+                             TouchstonePluginAnswer* answer) {
   static long calls = 0;
   const char* const call = std::getenv("TOUCHSTONE_TEST_CALL");
   if (++calls == (call == nullptr ? 1 : std::atol(call))) kill(getppid(), SIGINT);
-  answer->verdict = touchstone_undecided;
+  answer->verdict = TOUCHSTONE_UNDECIDED;
 }

@@ -62,80 +62,81 @@ void fail(Misbehaviour what) {
 
 }  // namespace
 
-std::int32_t touchstone_plugin_version() { return touchstone_interface_version; }
+std::int32_t touchstone_plugin_version() { return TOUCHSTONE_PLUGIN_VERSION; }
 
 const char* touchstone_plugin_name() { return "misbehaving"; }
 
 void touchstone_plugin_solve(std::int32_t kind, const double* coordinates,
-                             const touchstone_options* options, touchstone_answer* answer) {
+                             const TouchstonePluginOptions* options,
+                             TouchstonePluginAnswer* answer) {
   const auto what = static_cast<Misbehaviour>(static_cast<int>(coordinates[0]));
   fail(what);
   switch (what) {
     case Misbehaviour::forks:
       fork_often();
-      answer->verdict = touchstone_no;
+      answer->verdict = TOUCHSTONE_NO;
       return;
     case Misbehaviour::allocates:
       allocate_much();
-      answer->verdict = touchstone_no;
+      answer->verdict = TOUCHSTONE_NO;
       return;
     case Misbehaviour::prints:
       std::puts("printed by a plugin\x1b[31m");
       std::fputs("and as error\n", stderr);
-      answer->verdict = touchstone_no;
+      answer->verdict = TOUCHSTONE_NO;
       return;
     case Misbehaviour::writes_a_file:
       answer->verdict =
-          std::ofstream("written_by_a_plugin") << "x" ? touchstone_no : touchstone_yes;
+          std::ofstream("written_by_a_plugin") << "x" ? TOUCHSTONE_NO : TOUCHSTONE_YES;
       return;
     case Misbehaviour::yes_with_tolerance_0:
-      answer->verdict = touchstone_yes;
+      answer->verdict = TOUCHSTONE_YES;
       answer->toi_lower = 0.0;
       answer->tolerance = 0.0;
       return;
     case Misbehaviour::says_no:
     case Misbehaviour::dies_at_call_1500:
-      answer->verdict = touchstone_no;
+      answer->verdict = TOUCHSTONE_NO;
       return;
     case Misbehaviour::says_no_with_toi:
-      *answer = {touchstone_no, 0.25, 0.5, 1e-9};
+      *answer = {TOUCHSTONE_NO, 0.25, 0.5, 1e-9};
       return;
     case Misbehaviour::is_undecided:
-      answer->verdict = touchstone_undecided;
+      answer->verdict = TOUCHSTONE_UNDECIDED;
       return;
     case Misbehaviour::verdict_too_large:
-      *answer = {touchstone_error + 1, 0.25, 0.5, 1e-9};
+      *answer = {TOUCHSTONE_ERROR + 1, 0.25, 0.5, 1e-9};
       return;
     case Misbehaviour::verdict_negative:
       *answer = {-1, 0.25, 0.5, 1e-9};
       return;
     case Misbehaviour::infinite_toi_lower:
-      *answer = {touchstone_yes, -infinity, 0.5, 1e-9};
+      *answer = {TOUCHSTONE_YES, -infinity, 0.5, 1e-9};
       return;
     case Misbehaviour::infinite_toi_upper:
-      *answer = {touchstone_yes, 0.25, infinity, 1e-9};
+      *answer = {TOUCHSTONE_YES, 0.25, infinity, 1e-9};
       return;
     case Misbehaviour::yes_without_toi:
-      answer->verdict = touchstone_yes;
+      answer->verdict = TOUCHSTONE_YES;
       return;
     case Misbehaviour::negative_tolerance:
-      *answer = {touchstone_yes, 0.25, 0.5, -1e-9};
+      *answer = {TOUCHSTONE_YES, 0.25, 0.5, -1e-9};
       return;
     case Misbehaviour::nan_tolerance:
-      *answer = {touchstone_yes, 0.25, 0.5, std::numeric_limits<double>::quiet_NaN()};
+      *answer = {TOUCHSTONE_YES, 0.25, 0.5, std::numeric_limits<double>::quiet_NaN()};
       return;
     case Misbehaviour::infinite_tolerance:
-      *answer = {touchstone_yes, 0.25, 0.5, infinity};
+      *answer = {TOUCHSTONE_YES, 0.25, 0.5, infinity};
       return;
     case Misbehaviour::repeats_query:
-      *answer = {touchstone_yes, coordinates[1], coordinates[23], static_cast<double>(kind)};
+      *answer = {TOUCHSTONE_YES, coordinates[1], coordinates[23], static_cast<double>(kind)};
       return;
     case Misbehaviour::repeats_norm:
-      answer->verdict = touchstone_yes;
+      answer->verdict = TOUCHSTONE_YES;
       answer->toi_lower = static_cast<double>(options->norm);
       return;
     case Misbehaviour::repeats_options:
-      *answer = {options->max_checks == 77 ? touchstone_yes : touchstone_no, options->tolerance,
+      *answer = {options->max_checks == 77 ? TOUCHSTONE_YES : TOUCHSTONE_NO, options->tolerance,
                  options->min_separation, options->t_max};
       return;
     default:

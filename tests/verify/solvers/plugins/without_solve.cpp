@@ -5,6 +5,6 @@
 
 #include "touchstone/plugin.h"
 
-std::int32_t touchstone_plugin_version() { return touchstone_interface_version; }
+std::int32_t touchstone_plugin_version() { return TOUCHSTONE_PLUGIN_VERSION; }
 
 const char* touchstone_plugin_name() { return "without_solve"; }
