@@ -34,6 +34,9 @@ constexpr std::size_t longest_step = 512;
 constexpr double step_share = 0.02;
 /// So many times the limit may pass for what waits for a processor.
 constexpr double patience = 5.0;
+/// The number of children in a row that may end before their first query without it being a failure
+/// of the solver. A copy of a process whose other threads hold locks may wait for one of them.
+constexpr int most_lost_starts = 2;
 /// The interval at which this process looks for an interrupt without being notified.
 constexpr Seconds longest_sleep(0.25);
 
@@ -243,6 +246,7 @@ class SolverProcess::Impl {
     std::size_t begin = 0;  ///< of the step that it was at
     std::size_t end = 0;
     judge::Failure failure = {};
+    bool has_begun = false;          ///< a step
     double processor_seconds = 0.0;  ///< of that step
     double wall_seconds = 0.0;
   };
@@ -275,6 +279,7 @@ class SolverProcess::Impl {
       if (is_stopped() && !stop.done) return;
       leave_behind(stop.begin);
       if (stop.done) return;
+      if (!stop.has_begun && lost_starts_++ < most_lost_starts) continue;
       first = go_on(stop, answers, offset);
     }
   }
@@ -365,6 +370,7 @@ class SolverProcess::Impl {
     const Event event = wait(first);
     Shared& shared = *memory_;
     if (event == Event::message) {
+      lost_starts_ = 0;
       return {.done = true, .begin = shared.last, .end = shared.last};
     }
     Stop stop{.hang = event == Event::none};
@@ -373,7 +379,9 @@ class SolverProcess::Impl {
     stop.begin = std::clamp(shared.begin.load(), first, shared.last - 1);
     stop.end = std::clamp(shared.end.load(), stop.begin + 1, shared.last);
     stop.failure = stop.hang ? judge::Failure{.kind = judge::Fault::hang} : end.failure;
-    if (shared.step_started_at > 0.0) {
+    stop.has_begun = shared.step_started_at > 0.0;
+    if (stop.has_begun) {
+      lost_starts_ = 0;
       stop.processor_seconds = std::max(0.0, end.processor_seconds - shared.step_started);
       stop.wall_seconds = std::max(0.0, wall_seconds() - shared.step_started_at);
     }
@@ -418,6 +426,8 @@ class SolverProcess::Impl {
   SolverRun run_;
   /// Failures of this call that ended a child.
   std::size_t lost_children_ = 0;
+  /// Children in a row that ended before their first query.
+  int lost_starts_ = 0;
   /// Solved one by one up to here, since a step that ends here ended a child; 0: not.
   std::size_t searched_until_ = 0;
   /// The same, since the step took too long.

@@ -20,6 +20,7 @@
 #include <fstream>
 #include <functional>
 #include <iostream>
+#include <limits>
 #include <memory>
 #include <new>
 #include <stdexcept>
@@ -110,6 +111,9 @@ class SharedValue {
 
 class ScriptedMethod final : public fast::Method {
  public:
+  /// The first processes that load it, as many as this, end before their first query.
+  explicit ScriptedMethod(int lost_starts = 0) : lost_starts_(lost_starts) {}
+
   [[nodiscard]] const fast::MethodInfo& info() const override {
     static const fast::MethodInfo info{.name = "scripted"};
     return info;
@@ -117,6 +121,7 @@ class ScriptedMethod final : public fast::Method {
 
   void solve(Kind kind, std::span<const Query> queries, std::span<Answer> answers,
              const fast::MethodOptions& options) const override {
+    if (queries.empty() && (*starts_)++ < lost_starts_) std::raise(SIGKILL);
     for (std::size_t i = 0; i < queries.size(); ++i) {
       const auto what = static_cast<Act>(static_cast<int>(queries[i].coordinates[0]));
       answers[i] = {.verdict = what == Act::is_undecided ? Verdict::undecided : Verdict::yes,
@@ -178,6 +183,8 @@ class ScriptedMethod final : public fast::Method {
     }
   }
 
+  int lost_starts_;
+  SharedValue<std::atomic<int>> starts_;
   SharedValue<std::atomic<int>> processes_;
 };
 
@@ -204,8 +211,7 @@ struct Outcome {
 };
 
 Outcome run(const std::vector<Query>& queries, const SolverProcessOptions& options = {},
-            Kind kind = Kind::vertex_face) {
-  const ScriptedMethod method;
+            Kind kind = Kind::vertex_face, const ScriptedMethod& method = ScriptedMethod()) {
   SolverProcess process(method, options);
   Outcome outcome{.answers = std::vector<Answer>(queries.size()), .run = {}, .output = {}};
   outcome.run = process.solve(kind, queries, outcome.answers, {.t_max = 0.5});
@@ -368,6 +374,20 @@ TEST(SolverProcess, AQueryThatFailsOnceAloneIsInnocent) {
   const Outcome outcome = run(queries);
   expect_all_answered(outcome);
   EXPECT_EQ(outcome.run.unplaced_crashes, 1U);
+}
+
+TEST(SolverProcess, MakesAProcessAgainThatEndsBeforeItsFirstQuery) {
+  constexpr std::size_t count = 20;
+  for (const int lost : {1, 2}) {
+    const ScriptedMethod method(lost);
+    const Outcome outcome = run(numbered(count), {}, Kind::vertex_face, method);
+    expect_all_answered(outcome);
+    EXPECT_EQ(outcome.run.unplaced_crashes, 0U);
+  }
+  std::vector<std::size_t> all;
+  for (std::size_t i = 0; i < count; ++i) all.push_back(i);
+  const ScriptedMethod never_starts(std::numeric_limits<int>::max());
+  expect_failures(run(numbered(count), {}, Kind::vertex_face, never_starts), killed, all);
 }
 
 TEST(SolverProcess, TellsEndsThatRepeatFromThoseThatDoNot) {

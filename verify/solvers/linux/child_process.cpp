@@ -128,7 +128,7 @@ void die_with(int lifeline) {
   ::fcntl(lifeline, F_SETSIG, SIGKILL);
   ::fcntl(lifeline, F_SETFL, O_ASYNC | O_NONBLOCK);
   pollfd event{.fd = lifeline, .events = POLLIN, .revents = 0};
-  if (::poll(&event, 1, 0) != 0) ::_exit(1);
+  if (::poll(&event, 1, 0) > 0) ::_exit(1);
 }
 
 /// The child's ends of what connects it with its parent.
