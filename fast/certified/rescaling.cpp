@@ -12,7 +12,7 @@
 namespace touchstone::fast {
 namespace {
 
-constexpr std::size_t axes = 3;
+constexpr std::size_t axis_count = 3;
 
 /// Exponents of the greatest coordinates of queries that the kernel decides as they are.
 constexpr int least_usual = -64, greatest_usual = 96, usual_difference = 20;
@@ -20,16 +20,16 @@ constexpr int least_usual = -64, greatest_usual = 96, usual_difference = 20;
 constexpr int wanted = 90;
 /// The scale of queries with a distance is a multiple of this, so that few kernel calls have them
 /// all.
-constexpr int step = 64;
+constexpr int scale_step = 64;
 constexpr int greatest_scale = 1000;
 
 /// Powers of two for the axes.
-using Scale = std::array<int, axes>;
+using Scale = std::array<int, axis_count>;
 
 /// The exponent of the greatest coordinate of an axis; empty if all are 0.
 std::optional<int> exponent_of(const Query& query, std::size_t axis) {
   double greatest = 0.0;
-  for (std::size_t i = axis; i < query.coordinates.size(); i += axes) {
+  for (std::size_t i = axis; i < query.coordinates.size(); i += axis_count) {
     greatest = std::max(greatest, std::abs(query.coordinates[i]));
   }
   if (greatest == 0.0 || !std::isfinite(greatest)) return std::nullopt;
@@ -40,7 +40,7 @@ std::optional<int> exponent_of(const Query& query, std::size_t axis) {
 std::optional<Scale> scale_for(const Query& query, double distance) {
   int least = std::numeric_limits<int>::max(), most = std::numeric_limits<int>::min();
   Scale exponents{};
-  for (std::size_t axis = 0; axis < axes; ++axis) {
+  for (std::size_t axis = 0; axis < axis_count; ++axis) {
     const std::optional<int> exponent = exponent_of(query, axis);
     exponents[axis] = exponent.value_or(wanted);
     if (!exponent) continue;
@@ -53,7 +53,7 @@ std::optional<Scale> scale_for(const Query& query, double distance) {
   Scale result;
   if (distance > 0.0) {
     if (is_usual) return std::nullopt;
-    const int exponent = (wanted - most) & ~(step - 1);  // a multiple of the step, not above that
+    const int exponent = (wanted - most) & ~(scale_step - 1);  // a multiple, not above that
     result.fill(std::min(exponent, greatest_scale));
     return result;
   }
@@ -73,7 +73,7 @@ bool scale(double& x, int exponent) {
 bool scale(Query& query, const Scale& exponents) {
   bool is_exact = true;
   for (std::size_t i = 0; i < query.coordinates.size(); ++i) {
-    is_exact &= scale(query.coordinates[i], exponents[i % axes]);
+    is_exact &= scale(query.coordinates[i], exponents[i % axis_count]);
   }
   return is_exact;
 }

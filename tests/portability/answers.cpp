@@ -21,9 +21,7 @@
 #include <string_view>
 #include <vector>
 
-#include "fast/broad_phase/search.hpp"
-#include "fast/certified/kernel.hpp"
-#include "fast/distance/filter_kernel.hpp"
+#include "fast/kernels.hpp"
 #include "touchstone/broad_phase.hpp"
 #include "touchstone/certified.hpp"
 #include "touchstone/distance.hpp"
@@ -122,9 +120,9 @@ std::vector<Query> queries_of(const std::filesystem::path& path) {
 std::uint64_t hash_of_certified(Kind kind, std::span<const Query> queries,
                                 const Separation& separation) {
   return common_hash(fast::certified_kernels(), [&](const fast::CertifiedKernel* kernel) {
+    const fast::UseKernels use({.certified = kernel});
     std::vector<fast::CertifiedResult> results(queries.size());
-    fast::solve(kind, queries, results,
-                {.separation = separation, .max_threads = 1, .kernel = kernel});
+    fast::solve(kind, queries, results, {.separation = separation, .max_threads = 1});
     Hash hash;
     hash.add(results);
     return hash.value();
@@ -207,9 +205,9 @@ void add_impact(Hash& hash, const std::optional<Impact>& impact) {
   if (impact) hash.add(impact->pairs);
 }
 
-std::uint64_t hash_of_step(const Sheets& sheets, fast::StepOptions options) {
-  const fast::Step step(std::span(sheets.before), std::span(sheets.after),
-                        {.edges = {}, .faces = sheets.faces, .points = {}}, options);
+std::uint64_t hash_of_step(const Sheets& sheets, const fast::StepOptions& options) {
+  const fast::Step step(std::span(sheets.before), std::span(sheets.after), {.faces = sheets.faces},
+                        options);
   Hash hash;
   add_impact(hash, step.earliest());
   hash.add(step.collisions());
@@ -233,9 +231,8 @@ void print_steps() {
       const Sheets sheets(cells, seed);
       hash.add(common_hash(fast::certified_kernels(), [&](const fast::CertifiedKernel* kernel) {
         return common_hash(fast::search_kernels(), [&](const fast::SearchKernel* search) {
-          return hash_of_step(
-              sheets,
-              {.separation = separation, .max_threads = 1, .kernel = kernel, .search = search});
+          const fast::UseKernels use({.certified = kernel, .search = search});
+          return hash_of_step(sheets, {.separation = separation, .max_threads = 1});
         });
       }));
     }

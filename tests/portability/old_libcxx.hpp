@@ -103,6 +103,10 @@ template <class Range, class Iterator, class Condition>
 constexpr void copy_if(Range&& range, Iterator to, Condition condition) {
   std::copy_if(std::begin(range), std::end(range), to, condition);
 }
+template <class Range, class Iterator, class Function>
+constexpr void transform(Range&& range, Iterator to, Function function) {
+  std::transform(std::begin(range), std::end(range), to, function);
+}
 template <class Range, class Function>
 constexpr void for_each(Range&& range, Function function) {
   for (auto&& item : range) function(item);
