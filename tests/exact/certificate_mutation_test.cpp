@@ -6,7 +6,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>
-#include <cstdlib>
 #include <map>
 #include <sstream>
 #include <string>
@@ -380,9 +379,8 @@ class MutationTest : public ::testing::Test {
 };
 
 TEST_F(MutationTest, WhatIsAcceptedIsTrue) {
-  const bool soak = std::getenv("TOUCHSTONE_SOAK") != nullptr;  // NOLINT(concurrency-mt-unsafe)
-  const std::uint64_t wanted = soak ? 100000U : tests::trials(5000U);
-  const unsigned stride = soak ? 2 : 12;
+  const std::uint64_t wanted = tests::is_soak() ? 100000U : tests::trials(5000U);
+  const unsigned stride = tests::is_soak() ? 2 : 12;
   tests::Random random(23);
   for (std::uint64_t index = 0; judged() < wanted; ++index) {
     for (const verify::generate::Family& family : verify::generate::families()) {
@@ -403,9 +401,8 @@ TEST_F(MutationTest, WhatIsAcceptedIsTrue) {
 }
 
 TEST_F(MutationTest, WhatIsAcceptedAtADistanceIsTrue) {
-  const bool soak = std::getenv("TOUCHSTONE_SOAK") != nullptr;  // NOLINT(concurrency-mt-unsafe)
-  const std::uint64_t wanted = soak ? 100000 : 3000;
-  const unsigned stride = soak ? 2 : 20;
+  const std::uint64_t wanted = tests::is_soak() ? 100000 : 3000;
+  const unsigned stride = tests::is_soak() ? 2 : 20;
   tests::Random random(29);
   while (judged() < wanted) {
     for (const tests::Family family : tests::all_families) {

@@ -4,7 +4,6 @@
 
 #include <cmath>
 #include <cstdint>
-#include <cstdlib>
 #include <limits>
 #include <set>
 #include <string>
@@ -30,10 +29,6 @@ using tests::over_triangle;
 using tests::PosedQuery;
 using tests::rejection;
 using tests::vertex_face;
-
-bool soak() {
-  return std::getenv("TOUCHSTONE_SOAK") != nullptr;  // NOLINT(concurrency-mt-unsafe)
-}
 
 Rational time_of(const Certificate& certificate) {
   return std::get<Rational>(certificate.contact.value().time);
@@ -317,7 +312,7 @@ TEST(Prove, ScalesDoNotMatter) {
 
 TEST(Prove, AnyFiniteDoublesHaveACertificate) {
   tests::Random random(3);
-  const int count = soak() ? 3000 : tests::trials(60);
+  const int count = tests::is_soak() ? 3000 : tests::trials(60);
   for (int repetition = 0; repetition < count; ++repetition) {
     PosedQuery posed{random.coin() ? Kind::vertex_face : Kind::edge_edge, {}};
     for (double& x : posed.query.coordinates) x = random.finite_double();
@@ -381,7 +376,7 @@ class RoundTrip {
 };
 
 TEST(RoundTrip, AllFamiliesAreAccepted) {
-  const std::uint64_t count = soak() ? 1000U : tests::trials(20U);
+  const std::uint64_t count = tests::is_soak() ? 1000U : tests::trials(20U);
   for (const verify::generate::Family& family : verify::generate::families()) {
     for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
       if (!verify::generate::supports(family, kind)) continue;
@@ -397,7 +392,7 @@ TEST(RoundTrip, AllFamiliesAreAccepted) {
 TEST(RoundTrip, RandomQueriesAreAccepted) {
   tests::Random random(6);
   RoundTrip trip;
-  const std::size_t count = soak() ? 100000U : tests::trials(1000U);
+  const std::size_t count = tests::is_soak() ? 100000U : tests::trials(1000U);
   for (std::size_t i = 0; i < count; ++i) {
     const Kind kind = random.coin() ? Kind::vertex_face : Kind::edge_edge;
     trip.add(
@@ -407,7 +402,7 @@ TEST(RoundTrip, RandomQueriesAreAccepted) {
 }
 
 TEST(RoundTrip, AllFamiliesAtADistanceAreAccepted) {
-  const std::uint64_t count = soak() ? 100 : 1;
+  const std::uint64_t count = tests::is_soak() ? 100 : 1;
   for (const verify::generate::Family& family : verify::generate::families()) {
     // Distances that differ from the coordinates as much as these differ among themselves make the
     // numbers too long.
@@ -436,7 +431,7 @@ TEST(RoundTrip, AllFamiliesAtADistanceAreAccepted) {
 TEST(RoundTrip, RandomQueriesAtADistanceAreAccepted) {
   tests::Random random(9);
   RoundTrip trip;
-  const std::size_t count = soak() ? 30000 : 200;
+  const std::size_t count = tests::is_soak() ? 30000 : 200;
   for (std::size_t i = 0; i < count; ++i) {
     const Kind kind = random.coin() ? Kind::vertex_face : Kind::edge_edge;
     const PosedQuery posed =
@@ -449,7 +444,7 @@ TEST(RoundTrip, RandomQueriesAtADistanceAreAccepted) {
 }
 
 TEST(RoundTrip, PublicDataAtADistanceAreAccepted) {
-  const std::uint64_t stride = soak() ? 1 : 140;
+  const std::uint64_t stride = tests::is_soak() ? 1 : 140;
   const auto files = tests::public_datasets();
   if (files.empty()) GTEST_SKIP() << "public data missing";
   RoundTrip trip;
@@ -469,7 +464,7 @@ TEST(RoundTrip, PublicDataAtADistanceAreAccepted) {
 }
 
 TEST(RoundTrip, PublicDataAreAccepted) {
-  const std::uint64_t stride = soak() ? 1 : 10;
+  const std::uint64_t stride = tests::is_soak() ? 1 : 10;
   const auto files = tests::public_datasets();
   if (files.empty()) GTEST_SKIP() << "public data missing";
   std::uint64_t queries = 0;

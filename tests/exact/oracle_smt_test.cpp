@@ -14,7 +14,6 @@
 #include <chrono>
 #include <cmath>
 #include <cstddef>
-#include <cstdlib>
 #include <iostream>
 #include <limits>
 #include <optional>
@@ -22,6 +21,7 @@
 
 #include "tests/support/queries.hpp"
 #include "tests/support/random.hpp"
+#include "tests/support/trials.hpp"
 #include "touchstone/oracle.hpp"
 
 namespace touchstone::exact::oracle_smt_test {
@@ -224,7 +224,7 @@ TEST(OracleSmt, TheSolverWouldFindAContactBeforeAToiThatIsTooLate) {
 }
 
 TEST(OracleSmt, AgreesWithAnSmtSolver) {
-  const int scale = std::getenv("TOUCHSTONE_SOAK") == nullptr ? 1 : 50;
+  const int scale = tests::is_soak() ? 50 : 1;
   Tally tally;
   for (const PosedQuery& posed : queries_to_ask(scale)) {
     SCOPED_TRACE(posed);

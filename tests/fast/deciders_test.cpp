@@ -9,7 +9,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <cstdlib>
 #include <functional>
 #include <limits>
 #include <ostream>
@@ -209,10 +208,7 @@ std::vector<QueryFamily> query_families() {
 // ---- The suite ----------------------------------------------------------------------------------
 
 /// A thousand times the count in the soak.
-std::size_t scaled(std::size_t count) {
-  const bool soak = std::getenv("TOUCHSTONE_SOAK") != nullptr;  // NOLINT(concurrency-mt-unsafe)
-  return tests::trials(soak ? 1000 * count : count);
-}
+std::size_t scaled(std::size_t count) { return tests::soak_trials(count, std::size_t{1000}); }
 
 /// Tolerances and times that queries have in turn.
 constexpr std::array<CertifiedOptions, 12> options_in_turn{{{},

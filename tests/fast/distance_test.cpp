@@ -98,7 +98,7 @@ double random_time(Random& random) {
 
 TEST(Distance, IsThatOfRationalsForEveryFamily) {
   Random random(2001);
-  for (int round = 0; round < tests::trials(150); ++round) {
+  for (int round = 0; round < tests::soak_trials(150, 20); ++round) {
     for (const Kind kind : kinds) {
       for (const tests::Family family : tests::all_families) {
         const PosedQuery posed = tests::random_query(random, kind, family);
@@ -111,7 +111,7 @@ TEST(Distance, IsThatOfRationalsForEveryFamily) {
 
 TEST(Distance, IsThatOfRationalsAtAllScales) {
   Random random(2002);
-  for (int round = 0; round < tests::trials(60); ++round) {
+  for (int round = 0; round < tests::soak_trials(60, 20); ++round) {
     for (const Kind kind : kinds) {
       PosedQuery posed = tests::random_query(random, kind, tests::Family::full_significands);
       PosedQuery mixed = posed, flat = posed;
@@ -134,7 +134,7 @@ TEST(Distance, IsThatOfRationalsAtAllScales) {
 
 TEST(Distance, OfDegeneratePrimitivesIsThatOfRationals) {
   Random random(2003);
-  for (int round = 0; round < tests::trials(300); ++round) {
+  for (int round = 0; round < tests::soak_trials(300, 20); ++round) {
     for (const Kind kind : kinds) {
       PosedQuery posed = tests::random_query(random, kind, tests::Family::full_significands);
       // Some points equal others or are collinear with two others, at one end or at both.

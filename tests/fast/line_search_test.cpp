@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdlib>
 #include <limits>
 #include <map>
 #include <optional>
@@ -318,12 +317,11 @@ Repetition repeat(Scene scene, double p, StartDistance start_distance, double un
 }
 
 TEST(LineSearch, RepeatedGoesOnToTheLeastDistances) {
-  const bool soak = std::getenv("TOUCHSTONE_SOAK") != nullptr;  // NOLINT(concurrency-mt-unsafe)
   long steps = 0;
   for (const Scene& scene : falls()) {
     for (const StartDistance start : {StartDistance::of_scene, StartDistance::of_pair}) {
       for (const double p : {0.25, 0.5, 0.9, 0.98}) {
-        if (p > 0.25 && !soak) continue;
+        if (p > 0.25 && !tests::is_soak()) continue;
         const Repetition run = repeat(scene, p, start, 1e-300);
         EXPECT_FALSE(run.stalled);
         EXPECT_LE(run.least, 1e-300);

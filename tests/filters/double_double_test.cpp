@@ -5,7 +5,6 @@
 
 #include <cmath>
 #include <cstdint>
-#include <cstdlib>
 #include <functional>
 #include <random>
 
@@ -19,10 +18,8 @@ using Pair = DoubleDouble<double>;
 
 constexpr double u = 0x1p-53;
 
-/// Ten times as many trials if TOUCHSTONE_SOAK is set.
-int trials(int usual) {
-  return std::getenv("TOUCHSTONE_SOAK") == nullptr ? tests::trials(usual) : 10 * usual;
-}
+/// Ten times as many trials in the soak.
+int trials(int usual) { return tests::soak_trials(usual, 10); }
 
 /// A double whose product_error is a fused operation.
 struct Fused {

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdlib>
 #include <ostream>
 #include <vector>
 
@@ -191,7 +190,7 @@ TEST(Separate, BreaksWhatACheckerDoesNotReach) {
 
 TEST(Separate, SaysSoWhereTheLimitsCannotBeKept) {
   // This takes half a minute, mostly for the isolation of roots so close together.
-  if (std::getenv("TOUCHSTONE_SOAK") == nullptr) {  // NOLINT(concurrency-mt-unsafe)
+  if (!tests::is_soak()) {
     GTEST_SKIP() << "in the soak only";
   }
   const Integer far = Integer(1) << 17000U;

@@ -10,7 +10,6 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
-#include <cstdlib>
 #include <map>
 #include <random>
 #include <string>
@@ -940,8 +939,7 @@ bool is_true(const std::string& claim, const RandomCertificate& certificate) {
 }
 
 TEST(AtRandom, NoFalseClaimIsAccepted) {
-  const bool soak = std::getenv("TOUCHSTONE_SOAK") != nullptr;  // NOLINT(concurrency-mt-unsafe)
-  const unsigned trials = soak ? 2'000'000 : tests::trials(120'000U);
+  const unsigned trials = tests::is_soak() ? 2'000'000 : tests::trials(120'000U);
   std::map<std::string, int> accepted;
   for (unsigned seed = 0; seed < trials; ++seed) {
     RandomCertificate certificate(seed);

@@ -7,7 +7,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <cstdlib>
 #include <limits>
 #include <optional>
 #include <stdexcept>
@@ -18,6 +17,7 @@
 #include "tests/support/floating_point_modes.hpp"
 #include "tests/support/queries.hpp"
 #include "tests/support/random.hpp"
+#include "tests/support/trials.hpp"
 #include "touchstone/oracle.hpp"
 
 namespace touchstone::exact::distance_oracle_test {
@@ -32,10 +32,6 @@ using tests::vertex_face;
 
 constexpr std::array<Norm, 2> both_norms{Norm::linf, Norm::l2};
 using Limits = std::numeric_limits<double>;
-
-bool soak() {
-  return std::getenv("TOUCHSTONE_SOAK") != nullptr;  // NOLINT(concurrency-mt-unsafe)
-}
 
 std::optional<AlgebraicNumber> toi(const PosedQuery& posed, double distance, Norm norm) {
   return decide(posed.kind, posed.query, {distance, norm}).toi;
@@ -220,7 +216,7 @@ TEST(DistanceOracle, AtDistanceZeroTheNormDoesNotMatter) {
 
 TEST(DistanceOracle, TheSearchAtDistanceZeroAgreesWithTheContactOracle) {
   Random random(11);
-  const int count = soak() ? 100000 : 1000;
+  const int count = tests::is_soak() ? 100000 : 1000;
   for (int i = 0; i < count; ++i) {
     const Kind kind = random.coin() ? Kind::vertex_face : Kind::edge_edge;
     const PosedQuery posed =
@@ -261,7 +257,7 @@ double small_distance(Random& random) {
 
 TEST(DistanceOracle, AgreesWithTheEvaluationOfAllCandidates) {
   Random random(12);
-  const int count = soak() ? 30000 : 150;
+  const int count = tests::is_soak() ? 30000 : 150;
   int later = 0, no_collisions = 0;
   for (int i = 0; i < count; ++i) {
     const PosedQuery posed = small_query(random);

@@ -5,7 +5,6 @@
 #include <chrono>
 #include <cmath>
 #include <csignal>
-#include <cstdlib>
 #include <filesystem>
 #include <stdexcept>
 #include <string>
@@ -539,8 +538,7 @@ TEST(CertifyMethods, AStopInSlowAnswersIsObeyedSoonAndLeavesAPrefix) {
 class BuiltInSet : public ::testing::TestWithParam<generate::Family> {};
 
 TEST_P(BuiltInSet, AgreesWithTheOracle) {
-  const char* soak = std::getenv("TOUCHSTONE_SOAK");
-  const std::uint64_t count = soak != nullptr ? 50000U : tests::trials(1000U);
+  const std::uint64_t count = tests::soak_trials(1000U, 50U);
   CertifyOptions options;
   options.toi_tolerance = 0;
   for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {

@@ -7,7 +7,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <cstdlib>
 #include <optional>
 #include <sstream>
 #include <stdexcept>
@@ -19,6 +18,7 @@
 #include "tests/support/certificates.hpp"
 #include "tests/support/random.hpp"
 #include "tests/support/scenes.hpp"
+#include "tests/support/trials.hpp"
 #include "touchstone/broad_phase.hpp"
 #include "touchstone/certificate_text.hpp"
 #include "touchstone/oracle.hpp"
@@ -152,8 +152,7 @@ TEST(ProveStep, KeepsTheLimitOfAScene) {
 }
 
 TEST(ProveStep, ProvesWhatTheOracleSaysOfAllPairs) {
-  const bool is_soak = std::getenv("TOUCHSTONE_SOAK") != nullptr;  // NOLINT(concurrency-mt-unsafe)
-  const std::uint64_t seeds = is_soak ? 400 : 25;
+  const std::uint64_t seeds = tests::is_soak() ? 400 : 25;
   int proved = 0, free = 0, failed = 0, with_distance = 0;
   for (const tests::Shape& shape : tests::shapes()) {
     for (std::uint64_t seed = 0; seed < seeds; ++seed) {
@@ -180,7 +179,7 @@ TEST(ProveStep, ProvesWhatTheOracleSaysOfAllPairs) {
   }
   EXPECT_GT(proved, 200);
   EXPECT_GT(free, 20);
-  EXPECT_LT(failed, is_soak ? 320 : 20);
+  EXPECT_LT(failed, tests::is_soak() ? 320 : 20);
   EXPECT_GT(with_distance, proved / 4);
   RecordProperty("with_distance", with_distance);
 }
