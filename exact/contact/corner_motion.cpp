@@ -23,8 +23,7 @@ Decomposed decompose(double x) {
   static constexpr int fraction_bits = 52, exponent_bias = 1075, special_exponent = 0x7FF;
   const auto bits = std::bit_cast<std::uint64_t>(x);
   const int field = static_cast<int>((bits >> fraction_bits) & special_exponent);
-  if (field == special_exponent)
-    throw std::domain_error("a query's coordinates must be finite");
+  if (field == special_exponent) throw std::domain_error("a query's coordinates must be finite");
   std::uint64_t significand = bits & ((std::uint64_t{1} << fraction_bits) - 1);
   if (field != 0) significand |= std::uint64_t{1} << fraction_bits;
   if (significand == 0) return {};

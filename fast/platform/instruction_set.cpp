@@ -22,8 +22,10 @@ bool is_supported(InstructionSet instructions) {
   return instructions == InstructionSet::neon;
 #elif defined(TOUCHSTONE_X86_64)
   if (!static_cast<bool>(__builtin_cpu_supports("fma"))) return false;
-  if (instructions == InstructionSet::avx2) return __builtin_cpu_supports("avx2") != 0;
-  return instructions == InstructionSet::avx512 && __builtin_cpu_supports("avx512f") != 0;
+  if (instructions == InstructionSet::avx2)
+    return static_cast<bool>(__builtin_cpu_supports("avx2"));
+  return instructions == InstructionSet::avx512 &&
+         static_cast<bool>(__builtin_cpu_supports("avx512f"));
 #else
   return false;
 #endif

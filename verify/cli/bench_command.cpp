@@ -235,7 +235,7 @@ void add_bench_options(CLI::App& command, Arguments& arguments) {
       ->excludes(command.get_option("PATH"));
   command
       .add_option("--kernel", arguments.kernel,
-                  "Kernel of the certified solver and of steps: scalar, avx2, avx512, neon or best")
+                  "Kernel of certified and steps: scalar, avx2, avx512, neon or best")
       ->type_name("NAME")
       ->capture_default_str()
       ->check(CLI::IsMember({"scalar", "avx2", "avx512", "neon", "best"}).description(""));
