@@ -331,7 +331,7 @@ TEST(LineSearch, RepeatedGoesOnToTheLeastDistances) {
       }
     }
   }
-  EXPECT_GT(steps, soak ? 300'000 : 3'900);
+  EXPECT_GT(steps, tests::is_soak() ? 300'000 : 3'900);
 }
 
 // ---- The published line search ------------------------------------------------------------------
