@@ -1,8 +1,5 @@
 #include "touchstone/number.hpp"
 
-#include <CGAL/Exact_integer.h>
-#include <CGAL/Exact_rational.h>
-
 #include <algorithm>
 #include <cctype>
 #include <cmath>

@@ -39,7 +39,7 @@
 #include "verify/solvers/registry.hpp"
 #include "verify/solvers/solver.hpp"
 
-namespace touchstone::verify::cli {
+namespace touchstone::verify::cli::bench_command {
 namespace {
 
 namespace fs = std::filesystem;
@@ -269,7 +269,7 @@ void settle(const CLI::App& command, Arguments& arguments) {
 
 }  // namespace
 
-void add_bench_command(CLI::App& app, Status& status) {
+void add(CLI::App& app, Status& status) {
   const auto arguments = std::make_shared<Arguments>();
   CLI::App* command =
       app.add_subcommand("bench", "Measure speed and error of solvers, also on whole steps");
@@ -292,4 +292,4 @@ void add_bench_command(CLI::App& app, Status& status) {
   });
 }
 
-}  // namespace touchstone::verify::cli
+}  // namespace touchstone::verify::cli::bench_command

@@ -30,7 +30,7 @@
 #include "verify/mesh/index_file.hpp"
 #include "verify/mesh/moving_mesh.hpp"
 
-namespace touchstone::verify::cli {
+namespace touchstone::verify::cli::candidates_command {
 namespace {
 
 namespace fs = std::filesystem;
@@ -204,7 +204,7 @@ void add_options(CLI::App& command, Arguments& arguments) {
 
 }  // namespace
 
-void add_candidates_command(CLI::App& app, Status& status) {
+void add(CLI::App& app, Status& status) {
   const auto arguments = std::make_shared<Arguments>();
   CLI::App* command = app.add_subcommand(
       "candidates", "Write the pairs of a moving mesh whose swept boxes overlap");
@@ -221,4 +221,4 @@ void add_candidates_command(CLI::App& app, Status& status) {
   });
 }
 
-}  // namespace touchstone::verify::cli
+}  // namespace touchstone::verify::cli::candidates_command

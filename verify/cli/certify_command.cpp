@@ -29,7 +29,7 @@
 #include "verify/report/certify_report.hpp"
 #include "verify/solvers/registry.hpp"
 
-namespace touchstone::verify::cli {
+namespace touchstone::verify::cli::certify_command {
 namespace {
 
 namespace fs = std::filesystem;
@@ -211,7 +211,7 @@ void add_judged_options(CLI::App& command, SolverArguments& judged) {
 
 }  // namespace
 
-void add_certify_command(CLI::App& app, Status& status) {
+void add(CLI::App& app, Status& status) {
   const auto arguments = std::make_shared<Arguments>();
   CLI::App* command = app.add_subcommand(
       "certify", "Decide queries exactly; compare answers and solvers with the truth");
@@ -241,4 +241,4 @@ void add_certify_command(CLI::App& app, Status& status) {
   });
 }
 
-}  // namespace touchstone::verify::cli
+}  // namespace touchstone::verify::cli::certify_command

@@ -17,40 +17,42 @@ enum class Status : int {
   interrupted = 130,  ///< by a signal; the results so far are reported
 };
 
-/// `touchstone certify`
-void add_certify_command(CLI::App& app, Status& status);
-
-/// `touchstone solve`
-void add_solve_command(CLI::App& app, Status& status);
-
-/// `touchstone prove`
-void add_prove_command(CLI::App& app, Status& status);
-
-/// `touchstone generate`
-void add_generate_command(CLI::App& app, Status& status);
-
-/// `touchstone bench`
-void add_bench_command(CLI::App& app, Status& status);
-
-/// `touchstone fuzz`
-void add_fuzz_command(CLI::App& app, Status& status);
-
-/// `touchstone stability`
-void add_stability_command(CLI::App& app, Status& status);
-
-/// `touchstone report`
-void add_report_command(CLI::App& app, Status& status);
-
-/// `touchstone candidates`
-void add_candidates_command(CLI::App& app, Status& status);
-
-/// `touchstone step`
-void add_step_command(CLI::App& app, Status& status);
-
-/// `touchstone view`
-void add_view_command(CLI::App& app, Status& status);
-
-/// `touchstone derive`
-void add_derive_command(CLI::App& app, Status& status);
+// The command `touchstone certify`, and so on with the other commands.
+namespace certify_command {
+void add(CLI::App& app, Status& status);
+}
+namespace solve_command {
+void add(CLI::App& app, Status& status);
+}
+namespace prove_command {
+void add(CLI::App& app, Status& status);
+}
+namespace generate_command {
+void add(CLI::App& app, Status& status);
+}
+namespace bench_command {
+void add(CLI::App& app, Status& status);
+}
+namespace fuzz_command {
+void add(CLI::App& app, Status& status);
+}
+namespace stability_command {
+void add(CLI::App& app, Status& status);
+}
+namespace report_command {
+void add(CLI::App& app, Status& status);
+}
+namespace candidates_command {
+void add(CLI::App& app, Status& status);
+}
+namespace step_command {
+void add(CLI::App& app, Status& status);
+}
+namespace view_command {
+void add(CLI::App& app, Status& status);
+}
+namespace derive_command {
+void add(CLI::App& app, Status& status);
+}
 
 }  // namespace touchstone::verify::cli

@@ -19,7 +19,7 @@
 #include "verify/io/json.hpp"
 #include "verify/io/terminal.hpp"
 
-namespace touchstone::verify::cli {
+namespace touchstone::verify::cli::derive_command {
 namespace {
 
 using filters::DeriveOptions;
@@ -125,7 +125,7 @@ Status derive(const Arguments& arguments) {
 
 }  // namespace
 
-void add_derive_command(CLI::App& app, Status& status) {
+void add(CLI::App& app, Status& status) {
   const auto arguments = std::make_shared<Arguments>();
   CLI::App* command =
       app.add_subcommand("derive", "Derive the error bounds of filtered expressions");
@@ -161,4 +161,4 @@ void add_derive_command(CLI::App& app, Status& status) {
   command->callback([arguments, &status] { status = derive(*arguments); });
 }
 
-}  // namespace touchstone::verify::cli
+}  // namespace touchstone::verify::cli::derive_command

@@ -38,7 +38,7 @@
 #include "verify/solvers/solver.hpp"
 #include "verify/view/query_files.hpp"
 
-namespace touchstone::verify::cli {
+namespace touchstone::verify::cli::fuzz_command {
 namespace {
 
 namespace fs = std::filesystem;
@@ -413,7 +413,7 @@ void add_output_options(CLI::App& command, Arguments& arguments) {
 
 }  // namespace
 
-void add_fuzz_command(CLI::App& app, Status& status) {
+void add(CLI::App& app, Status& status) {
   const auto arguments = std::make_shared<Arguments>();
   CLI::App* command =
       app.add_subcommand("fuzz", "Search for queries that a solver answers wrongly");
@@ -436,4 +436,4 @@ void add_fuzz_command(CLI::App& app, Status& status) {
   });
 }
 
-}  // namespace touchstone::verify::cli
+}  // namespace touchstone::verify::cli::fuzz_command

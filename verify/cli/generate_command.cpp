@@ -26,7 +26,7 @@
 #include "verify/judge/separation_inference.hpp"
 #include "verify/mesh/ply.hpp"
 
-namespace touchstone::verify::cli {
+namespace touchstone::verify::cli::generate_command {
 namespace {
 
 namespace fs = std::filesystem;
@@ -218,7 +218,7 @@ Status generate(const Arguments& arguments) {
 
 }  // namespace
 
-void add_generate_command(CLI::App& app, Status& status) {
+void add(CLI::App& app, Status& status) {
   const auto arguments = std::make_shared<Arguments>();
   CLI::App* command =
       app.add_subcommand("generate", "Write the built-in set: degenerate queries of known truth");
@@ -262,4 +262,4 @@ void add_generate_command(CLI::App& app, Status& status) {
   command->callback([arguments, &status] { status = generate(*arguments); });
 }
 
-}  // namespace touchstone::verify::cli
+}  // namespace touchstone::verify::cli::generate_command

@@ -69,18 +69,18 @@ int run(int argc, char** argv) {
   });
   app.require_subcommand(0, 1);
   Status status = Status::all_well;
-  touchstone::verify::cli::add_certify_command(app, status);
-  touchstone::verify::cli::add_solve_command(app, status);
-  touchstone::verify::cli::add_prove_command(app, status);
-  touchstone::verify::cli::add_generate_command(app, status);
-  touchstone::verify::cli::add_candidates_command(app, status);
-  touchstone::verify::cli::add_step_command(app, status);
-  touchstone::verify::cli::add_bench_command(app, status);
-  touchstone::verify::cli::add_fuzz_command(app, status);
-  touchstone::verify::cli::add_stability_command(app, status);
-  touchstone::verify::cli::add_report_command(app, status);
-  touchstone::verify::cli::add_view_command(app, status);
-  touchstone::verify::cli::add_derive_command(app, status);
+  touchstone::verify::cli::certify_command::add(app, status);
+  touchstone::verify::cli::solve_command::add(app, status);
+  touchstone::verify::cli::prove_command::add(app, status);
+  touchstone::verify::cli::generate_command::add(app, status);
+  touchstone::verify::cli::candidates_command::add(app, status);
+  touchstone::verify::cli::step_command::add(app, status);
+  touchstone::verify::cli::bench_command::add(app, status);
+  touchstone::verify::cli::fuzz_command::add(app, status);
+  touchstone::verify::cli::stability_command::add(app, status);
+  touchstone::verify::cli::report_command::add(app, status);
+  touchstone::verify::cli::view_command::add(app, status);
+  touchstone::verify::cli::derive_command::add(app, status);
   if (argc > 1 && argv[1][0] != '-' && report_unknown(app, argv[1])) {
     return static_cast<int>(Status::bad_input);
   }

@@ -25,7 +25,7 @@
 #include "verify/judge/separation_inference.hpp"
 #include "verify/report/judgement_report.hpp"
 
-namespace touchstone::verify::cli {
+namespace touchstone::verify::cli::prove_command {
 namespace {
 
 namespace fs = std::filesystem;
@@ -159,7 +159,7 @@ class ProveRun {
 
 }  // namespace
 
-void add_prove_command(CLI::App& app, Status& status) {
+void add(CLI::App& app, Status& status) {
   const auto arguments = std::make_shared<Arguments>();
   CLI::App* command =
       app.add_subcommand("prove", "Write a proof of each verdict, for touchstone-check");
@@ -191,4 +191,4 @@ void add_prove_command(CLI::App& app, Status& status) {
   command->callback([arguments, &status] { status = ProveRun(*arguments).run(); });
 }
 
-}  // namespace touchstone::verify::cli
+}  // namespace touchstone::verify::cli::prove_command

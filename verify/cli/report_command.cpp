@@ -44,7 +44,7 @@
 #include "verify/solvers/registry.hpp"
 #include "verify/solvers/solver.hpp"
 
-namespace touchstone::verify::cli {
+namespace touchstone::verify::cli::report_command {
 namespace {
 
 namespace fs = std::filesystem;
@@ -387,7 +387,7 @@ void add_output_options(CLI::App& command, Arguments& arguments) {
 
 }  // namespace
 
-void add_report_command(CLI::App& app, Status& status) {
+void add(CLI::App& app, Status& status) {
   const auto arguments = std::make_shared<Arguments>();
   CLI::App* command =
       app.add_subcommand("report", "Measure all solvers, and write a page of speed against error");
@@ -404,4 +404,4 @@ void add_report_command(CLI::App& app, Status& status) {
   command->callback([arguments, &status] { status = ReportRun(*arguments).run(); });
 }
 
-}  // namespace touchstone::verify::cli
+}  // namespace touchstone::verify::cli::report_command

@@ -26,7 +26,7 @@
 #include "verify/report/judgement_report.hpp"
 #include "verify/solvers/answers.hpp"
 
-namespace touchstone::verify::cli {
+namespace touchstone::verify::cli::solve_command {
 namespace {
 
 namespace fs = std::filesystem;
@@ -166,7 +166,7 @@ class SolveRun {
 
 }  // namespace
 
-void add_solve_command(CLI::App& app, Status& status) {
+void add(CLI::App& app, Status& status) {
   const auto arguments = std::make_shared<Arguments>();
   CLI::App* command =
       app.add_subcommand("solve", "Write the answers of a solver to all queries as CSV");
@@ -194,4 +194,4 @@ void add_solve_command(CLI::App& app, Status& status) {
   });
 }
 
-}  // namespace touchstone::verify::cli
+}  // namespace touchstone::verify::cli::solve_command

@@ -23,7 +23,7 @@
 #include "verify/stability/hardness.hpp"
 #include "verify/stability/stability.hpp"
 
-namespace touchstone::verify::cli {
+namespace touchstone::verify::cli::stability_command {
 namespace {
 
 struct Arguments {
@@ -119,7 +119,7 @@ void add_options(CLI::App& command, Arguments& arguments) {
 
 }  // namespace
 
-void add_stability_command(CLI::App& app, Status& status) {
+void add(CLI::App& app, Status& status) {
   const auto arguments = std::make_shared<Arguments>();
   CLI::App* command =
       app.add_subcommand("stability", "Judge solvers on queries of growing difficulty");
@@ -141,4 +141,4 @@ void add_stability_command(CLI::App& app, Status& status) {
   });
 }
 
-}  // namespace touchstone::verify::cli
+}  // namespace touchstone::verify::cli::stability_command

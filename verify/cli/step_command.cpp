@@ -34,7 +34,7 @@
 #include "verify/mesh/self_intersection.hpp"
 #include "verify/report/step_report.hpp"
 
-namespace touchstone::verify::cli {
+namespace touchstone::verify::cli::step_command {
 namespace {
 
 namespace fs = std::filesystem;
@@ -236,7 +236,7 @@ void add_step_options(CLI::App& command, Arguments& arguments) {
 
 }  // namespace
 
-void add_step_command(CLI::App& app, Status& status) {
+void add(CLI::App& app, Status& status) {
   const auto arguments = std::make_shared<Arguments>();
   CLI::App* command =
       app.add_subcommand("step", "Find the collisions in the steps of a simulation, exactly");
@@ -255,4 +255,4 @@ void add_step_command(CLI::App& app, Status& status) {
   command->callback([arguments, &status] { status = StepRun(*arguments).run(); });
 }
 
-}  // namespace touchstone::verify::cli
+}  // namespace touchstone::verify::cli::step_command

@@ -29,7 +29,7 @@
 #include "verify/view/query_files.hpp"
 #include "verify/view/step_facts.hpp"
 
-namespace touchstone::verify::cli {
+namespace touchstone::verify::cli::view_command {
 namespace {
 
 namespace fs = std::filesystem;
@@ -176,7 +176,7 @@ void add_options(CLI::App& command, Arguments& arguments) {
 
 }  // namespace
 
-void add_view_command(CLI::App& app, Status& status) {
+void add(CLI::App& app, Status& status) {
   const auto arguments = std::make_shared<Arguments>();
   CLI::App* command = app.add_subcommand("view", "Write an HTML viewer of queries");
   add_options(*command, *arguments);
@@ -196,4 +196,4 @@ void add_view_command(CLI::App& app, Status& status) {
   });
 }
 
-}  // namespace touchstone::verify::cli
+}  // namespace touchstone::verify::cli::view_command

@@ -70,9 +70,9 @@ void parse_commands(const std::vector<std::string>& words) {
   app.require_subcommand(1);
   Status status = Status::all_well;
   for (const auto add :
-       {add_certify_command, add_solve_command, add_prove_command, add_generate_command,
-        add_candidates_command, add_bench_command, add_stability_command, add_step_command,
-        add_report_command, add_derive_command}) {
+       {certify_command::add, solve_command::add, prove_command::add, generate_command::add,
+        candidates_command::add, bench_command::add, stability_command::add, step_command::add,
+        report_command::add, derive_command::add}) {
     add(app, status);
   }
   parse(app, words);
