@@ -7,8 +7,8 @@
 /// needs GMP's C++ classes, which CGAL takes where libgmpxx is installed (CGAL_USE_GMPXX). The
 /// functions are thread-safe.
 ///
-/// CGAL's headers take 4 s to compile, and 0.6 s from a precompiled header, which the modules that
-/// read this header have.
+/// CGAL's headers take 4 s to compile. The sources of this module are compiled together, and verify
+/// has a precompiled header.
 
 #include <CGAL/Exact_integer.h>
 #include <CGAL/Exact_rational.h>
