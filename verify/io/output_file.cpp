@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t buffer_size = std::size_t{1} << 16U;
+constexpr std::size_t output_buffer_size = std::size_t{1} << 16U;
 /// The maximum number of consecutive symbolic links, as in the system; more are treated as a cycle.
 constexpr int most_links = 40;
 
@@ -71,7 +71,7 @@ OutputFile::OutputFile(fs::path path) : path_(std::move(path)) {
     open_temporary();
   }
   if (descriptor_ < 0) fail();
-  buffer_.reserve(buffer_size);
+  buffer_.reserve(output_buffer_size);
 }
 
 void OutputFile::open_temporary() {
@@ -89,7 +89,7 @@ OutputFile::~OutputFile() {
 }
 
 void OutputFile::write(std::string_view bytes) {
-  if (buffer_.size() + bytes.size() > buffer_size) flush();
+  if (buffer_.size() + bytes.size() > output_buffer_size) flush();
   buffer_ += bytes;
 }
 

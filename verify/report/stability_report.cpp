@@ -49,10 +49,10 @@ char failures_of(const jobs::CertifyResult& judged, std::size_t method) {
 }
 
 /// The cells of one hardness and kind.
-using Row = std::vector<const stability::StabilityCell*>;
+using CellRow = std::vector<const stability::StabilityCell*>;
 
-std::vector<Row> rows_of(const stability::StabilityResult& result) {
-  std::vector<Row> rows;
+std::vector<CellRow> rows_of(const stability::StabilityResult& result) {
+  std::vector<CellRow> rows;
   for (const stability::StabilityCell& cell : result.cells) {
     const bool is_new = rows.empty() || rows.back().front()->hardness != cell.hardness ||
                         rows.back().front()->kind != cell.kind;
@@ -74,7 +74,7 @@ std::vector<io::TextColumn> columns() {
        {{"ns/query", 10}, {"checks", 9}, {"error p50", 9}, {"error max", 9}}});
 }
 
-io::TextRow text_row(const Row& row, std::size_t method) {
+io::TextRow text_row(const CellRow& row, std::size_t method) {
   jobs::CertifyResult sum;
   std::string marks, failures;
   for (const stability::StabilityCell* cell : row) {
@@ -98,7 +98,7 @@ io::TextRow text_row(const Row& row, std::size_t method) {
 
 std::string method_text(const stability::StabilityResult& result, std::size_t method) {
   io::TextTable table(columns());
-  for (const Row& row : rows_of(result)) table.add(text_row(row, method));
+  for (const CellRow& row : rows_of(result)) table.add(text_row(row, method));
   return fmt::format("{}\n{}\n", promise_text(result.total.methods.at(method)), table.text());
 }
 
