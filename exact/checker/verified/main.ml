@@ -57,7 +57,7 @@ let check_one report options r =
      is_read := true;
      require_demanded options c;
      require_small_numbers c;
-     if not (Checker.check c.query c.separation c.claim c.subintervals c.contact) then
+     if not (Elaborate.check c) then
        reject ~line:c.claim_line "the claim is not proved";
      match c.claim with
      | Checker.No_collision -> report.no_collision <- report.no_collision + 1
