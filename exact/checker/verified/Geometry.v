@@ -367,6 +367,46 @@ Proof.
   - clearbody u v n. rewrite Ef. clear. by_components. f_equal; ring.
 Qed.
 
+(** ** The corner theorem
+
+    The differences F(t,·,·) are the convex combinations of the corners. *)
+
+Fixpoint combination (weights : list R) (ws : list vector) : vector :=
+  match weights, ws with
+  | k :: weights', w :: ws' => plus (times k w) (combination weights' ws')
+  | _, _ => origin
+  end.
+
+Definition is_convex_combination (x : vector) (ws : list vector) : Prop :=
+  exists weights, length weights = length ws /\ Forall (Rle 0) weights /\
+    fold_right Rplus 0 weights = 1 /\ combination weights ws = x.
+
+Theorem corner_theorem q t x : in_hull q t x <-> is_convex_combination x (corners q t).
+Proof.
+  split.
+  - intros (u & v & D & <-). unfold F, corners, is_convex_combination in *.
+    destruct (kind_of q); cbn [in_domain] in D;
+      [exists [1 - u - v; u; v] | exists [(1 - u) * (1 - v); u * (1 - v); u * v; (1 - u) * v]];
+      (split; [reflexivity |]; split; [repeat (apply Forall_cons; [nra |]); apply Forall_nil |]; split; [cbn [fold_right]; ring |]);
+      cbn [combination]; unfold plus, minus, times, origin; cbn [x_of y_of z_of]; f_equal; ring.
+  - intros (weights & L & P & S & <-). pose proof (hull_is_convex q t) as C.
+    pose proof (corners_are_in_hull q t) as I. unfold corners in *.
+    destruct (kind_of q) eqn:K; cbn [length] in L.
+    + destruct weights as [| i [| j [| k [|]]]]; try discriminate.
+      cbn [fold_right] in S. inversion_clear P as [| ? ? Hi P']. inversion_clear P' as [| ? ? Hj P].
+      inversion_clear P as [| ? ? Hk _].
+      match goal with |- in_hull _ _ (combination _ [?a; ?b; ?c]) =>
+        replace (combination _ _) with (plus (plus (times i a) (times j b)) (times k c))
+          by (cbn [combination]; clear; by_components; f_equal; ring);
+        apply three_in_hull; auto; try (apply I; cbn [In]; tauto) end. lra.
+    + destruct weights as [| i [| j [| k [| m [|]]]]]; try discriminate.
+      cbn [fold_right] in S. inversion_clear P as [| ? ? Hi P']. inversion_clear P' as [| ? ? Hj P].
+      inversion_clear P as [| ? ? Hk P']. inversion_clear P' as [| ? ? Hm _].
+      exists (j + k), (k + m). split; [rewrite K; cbn [in_domain]; lra |].
+      assert (i = 1 - j - k - m) as -> by lra. unfold F. rewrite K.
+      cbn [combination]. unfold plus, minus, times, origin. cbn [x_of y_of z_of]. f_equal; ring.
+Qed.
+
 (** A point of a norm of at most D in linf, as the polygon's point a + (p e + q f) / m. *)
 Lemma point_of_quotients a e f m p q : 0 < m ->
   times m (plus (plus a (times (p / m) e)) (times (q / m) f)) =
