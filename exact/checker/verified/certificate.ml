@@ -208,7 +208,8 @@ type certificate = {
   query : query;
   separation : separation;
   claim : claim;
-  subintervals : subinterval list;
+  subintervals : (int * subinterval) list;  (* with their lines *)
+  contact_line : int;
   contact : contact_proof option;
 }
 
@@ -321,12 +322,13 @@ let rec read_subintervals r kind count =
   if first_word r <> "separate" then []
   else begin
     require_at_most max_subintervals (count + 1) "subintervals";
+    let line = r.number in
     begin_keyword r "separate";
     let from = to_coq (take_number r) in
     let to0 = to_coq (take_number r) in
     let feature_of = take_feature r kind in
     end_line r;
-    let subinterval = { from; to0; feature_of } in
+    let subinterval = (line, { from; to0; feature_of }) in
     subinterval :: read_subintervals r kind (count + 1)
   end
 
@@ -370,10 +372,11 @@ let read_certificate r take_label =
   let subintervals =
     if claim = Collision || is_at_start then [] else read_subintervals r kind 0
   in
+  let contact_line = r.number in
   let contact = if claim = No_collision then None else Some (read_contact r kind) in
   begin_keyword r "end";
   end_line r;
-  { claim_line; label; query; separation; claim; subintervals; contact }
+  { claim_line; label; query; separation; claim; subintervals; contact_line; contact }
 
 (* Rejects coordinates and times that are too large over their common denominator. *)
 let require_small numbers line =
@@ -394,9 +397,9 @@ let require_small_numbers c =
     (c.separation.distance_of
     :: List.concat_map of_motion [ q.point0; q.point1; q.point2; q.point3 ])
     c.claim_line;
-  List.iter (fun s -> require_small [ s.from; s.to0 ] c.claim_line) c.subintervals;
+  List.iter (fun (line, s) -> require_small [ s.from; s.to0 ] line) c.subintervals;
   match c.contact with
-  | Some { time_of = At_root (lower, upper, _); _ } -> require_small [ lower; upper ] c.claim_line
+  | Some { time_of = At_root (lower, upper, _); _ } -> require_small [ lower; upper ] c.contact_line
   | _ -> ()
 
 (* ---- Demands ---- *)

@@ -1,7 +1,7 @@
-(* A shorter interval around the root of a contact. Nothing here is to be believed: the proved checker
-   checks the certificate that comes out as it does any other, against the same query and claim.
+(* Nothing here is to be believed: a certificate counts as accepted only if the proved checker accepts it,
+   or one with a shorter interval around the root of its contact, for the same query and claim.
 
-   Its witness of `at axes` needs the signs of other polynomials than the axes of the format, and these
+   The checker's witness of `at axes` needs the signs of other polynomials than the axes of the format, and these
    may be seen on a shorter interval only. *)
 
 open Checker
@@ -23,9 +23,17 @@ let rec halved g lower upper halvings =
 
 let halvings = [ 16; 64; 256 ]
 
+(* Is the interval within the claim's, and has g opposite signs at its ends, as the format demands? *)
+let is_interval (c : Certificate.certificate) lower upper g =
+  let first, last =
+    match c.claim with Time_of_impact (a, b) -> (number a, number b) | _ -> (Q.zero, Q.one)
+  in
+  Q.leq first lower && Q.lt lower upper && Q.leq upper last && sign_of g lower * sign_of g upper < 0
+
 (* Is the certificate accepted, as it stands or with a shorter interval? *)
 let check (c : Certificate.certificate) =
-  let accepts contact = Checker.check c.query c.separation c.claim c.subintervals contact in
+  let subintervals = List.map snd c.subintervals in
+  let accepts contact = Checker.check c.query c.separation c.claim subintervals contact in
   let accepts_halved contact lower upper g count =
     accepts (Some { contact with time_of = halved g (number lower) (number upper) count })
   in
@@ -33,7 +41,31 @@ let check (c : Certificate.certificate) =
   ||
   match c.contact with
   | Some ({ place_of = Near_axes; time_of = At_root (lower, upper, g) } as contact)
-    when c.separation.norm_of = Linf && Q.lt (number lower) (number upper)
-         && sign_of g (number lower) * sign_of g (number upper) < 0 ->
+    when c.separation.norm_of = Linf && is_interval c (number lower) (number upper) g ->
       List.exists (accepts_halved contact lower upper g) halvings
   | _ -> false
+
+(* The line and the reason of a certificate that was not accepted. *)
+let fault (c : Certificate.certificate) =
+  let separates (_, subinterval) =
+    match Checker.scene_of c.query c.separation with
+    | Some scene -> Checker.separates scene subinterval
+    | None -> false
+  in
+  let rec first_gap reached = function
+    | [] -> None
+    | (line, s) :: rest ->
+        let is_next = Q.equal (number s.from) reached && Q.leq (number s.from) (number s.to0) in
+        if is_next then first_gap (number s.to0) rest else Some line
+  in
+  let separated_end =
+    match c.claim with No_collision -> Q.one | Collision -> Q.zero | Time_of_impact (lower, _) -> number lower
+  in
+  let gap = first_gap Q.zero c.subintervals in
+  match List.find_opt (fun s -> not (separates s)) c.subintervals, List.rev c.subintervals with
+  | Some (line, _), _ when gap = None || gap >= Some line -> (line, "the subinterval is not proved")
+  | _ when gap <> None -> (Option.get gap, "the subinterval does not begin where it should")
+  | _, [] when c.contact = None -> (c.claim_line, "there is no subinterval")
+  | _, (line, last) :: _ when not (Q.equal (number last.to0) separated_end) ->
+      (line, "the last subinterval does not end where it should")
+  | _ -> (c.contact_line, "the contact is not proved")

@@ -57,8 +57,10 @@ let check_one report options r =
      is_read := true;
      require_demanded options c;
      require_small_numbers c;
-     if not (Elaborate.check c) then
-       reject ~line:c.claim_line "the claim is not proved";
+     if not (Elaborate.check c) then begin
+       let line, reason = Elaborate.fault c in
+       reject ~line reason
+     end;
      match c.claim with
      | Checker.No_collision -> report.no_collision <- report.no_collision + 1
      | Checker.Collision -> report.collision <- report.collision + 1
