@@ -59,13 +59,16 @@ let fault (c : Certificate.certificate) =
         if is_next then first_gap (number s.to0) rest else Some line
   in
   let separated_end =
-    match c.claim with No_collision -> Q.one | Collision -> Q.zero | Time_of_impact (lower, _) -> number lower
+    match c.claim with
+    | No_collision -> Some Q.one
+    | Time_of_impact (lower, upper) when Q.sign (number upper) > 0 -> Some (number lower)
+    | _ -> None
   in
   let gap = first_gap Q.zero c.subintervals in
   match List.find_opt (fun s -> not (separates s)) c.subintervals, List.rev c.subintervals with
   | Some (line, _), _ when gap = None || gap >= Some line -> (line, "the subinterval is not proved")
   | _ when gap <> None -> (Option.get gap, "the subinterval does not begin where it should")
-  | _, [] when c.contact = None -> (c.claim_line, "there is no subinterval")
-  | _, (line, last) :: _ when not (Q.equal (number last.to0) separated_end) ->
+  | _, [] when separated_end <> None -> (c.claim_line, "there is no subinterval")
+  | _, (line, last) :: _ when not (Q.equal (number last.to0) (Option.get separated_end)) ->
       (line, "the last subinterval does not end where it should")
   | _ -> (c.contact_line, "the contact is not proved")
