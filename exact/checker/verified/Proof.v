@@ -48,7 +48,7 @@ Definition is_scene_of (sc : scene) (q : query) (s : separation) : Prop :=
   forall t, map (fun w => plus (times (1 - t) (to_R (fst w))) (times t (to_R (snd w)))) (ends sc) =
             map (times (IZR (factor sc))) (corners q t).
 
-Lemma difference_value m a b : 
+Lemma difference_value m a b :
   forallb (is_multiple m) [x_of a; y_of a; z_of a] = true ->
   forallb (is_multiple m) [x_of b; y_of b; z_of b] = true ->
   to_R (difference m a b) = times (IZR m) (minus (to_vector a) (to_vector b)).
@@ -235,7 +235,7 @@ Proof.
       pose proof (is_positive_sound _ _ u E2 Hu) as P2. rewrite at_u_sub, !at_u_mul, !at_dot in P2. lra.
 Qed.
 
-Lemma checked_corners_suffice f y : 
+Lemma checked_corners_suffice f y :
   (forall w, In w (corners_to_check ws f) -> is_beyond (norm_of s) D (direction ws f) w = true) ->
   In y (corners q t) ->
   exists w, is_beyond (norm_of s) D (direction ws f) w = true /\
@@ -526,7 +526,7 @@ Lemma Q2R_0 : Q2R 0 = 0. Proof. unfold Q2R. cbn. lra. Qed.
 Lemma Q2R_1 : Q2R 1 = 1. Proof. unfold Q2R. cbn. lra. Qed.
 
 (** What the checker accepts is true. *)
-Theorem check_sound q s c subintervals contact : 
+Theorem check_sound q s c subintervals contact :
   check q s c subintervals contact = true -> holds q s c.
 Proof.
   unfold check. destruct (scene_of q s) as [sc |] eqn:E; [| discriminate].
@@ -553,6 +553,16 @@ Corollary contact_at_distance_0 q n t :
 Proof.
   unfold contact. cbn [distance_of norm_of]. rewrite Q2R_0.
   split; intros (u & v & D & E); exists u, v; (split; [exact D | apply (length_zero n); exact E]).
+Qed.
+
+(** The first claim in full. *)
+Corollary no_collision_sound q s subintervals contact :
+  check q s no_collision subintervals contact = true ->
+  forall t u v, 0 <= t <= 1 -> in_domain (kind_of q) u v ->
+  Q2R (distance_of s) < length_of (norm_of s) (F q t u v).
+Proof.
+  intros E t u v Ht D. apply Rnot_le_lt. intros L.
+  apply (check_sound _ _ _ _ _ E t Ht). exists u, v. split; assumption.
 Qed.
 
 Print Assumptions check_sound.
