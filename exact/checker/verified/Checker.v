@@ -1,0 +1,356 @@
+(** The checker of certificates of queries, and the theorem that what it accepts is true. *)
+
+Require Import ZArith QArith Qreals Reals List Lia Lra Psatz Bool.
+Import ListNotations.
+Require Import Verified.Problem Verified.Form Verified.Geometry.
+Open Scope Z_scope.
+
+(** * Definitions *)
+
+(** ** Certificates *)
+
+(** The name of the direction that separates. Corners are numbered from 0. *)
+Inductive feature :=
+| of_vertex (i : nat)
+| of_edge (i j : nat)
+| of_face (negative : bool)
+| of_axis (k : axis) (negative : bool)
+| of_cross (k : axis) (i j : nat).
+
+(** No contact in [from,to]. *)
+Record subinterval := Subinterval { from : Q; to : Q; feature_of : feature }.
+
+(** The time of a contact: a number, or a root of g_0 + g_1 t + … in (lower,upper). *)
+Inductive time := at_time (t : Q) | at_root (lower upper : Q) (g : list Z).
+
+(** Where the contact is. *)
+Inductive place :=
+| in_triangle (i j l : nat) (k : axis)
+| on_segment (i j : nat)
+| near_vertex (i : nat)
+| near_edge (i j : nat)
+| near_face
+| near_axes.
+
+Record contact_proof := ContactProof { time_of : time; place_of : place }.
+
+(** ** Vectors of forms *)
+
+Definition vector_form := triple form.
+
+Definition f_minus (a b : vector_form) : vector_form :=
+  Triple (sub (x_of a) (x_of b)) (sub (y_of a) (y_of b)) (sub (z_of a) (z_of b)).
+Definition f_plus (a b : vector_form) : vector_form :=
+  Triple (add (x_of a) (x_of b)) (add (y_of a) (y_of b)) (add (z_of a) (z_of b)).
+Definition f_times (k : form) (a : vector_form) : vector_form :=
+  Triple (mul k (x_of a)) (mul k (y_of a)) (mul k (z_of a)).
+Definition f_opposite (a : vector_form) : vector_form :=
+  Triple (scale (-1) (x_of a)) (scale (-1) (y_of a)) (scale (-1) (z_of a)).
+Definition f_dot (a b : vector_form) : form :=
+  add (add (mul (x_of a) (x_of b)) (mul (y_of a) (y_of b))) (mul (z_of a) (z_of b)).
+Definition f_cross (a b : vector_form) : vector_form :=
+  Triple (sub (mul (y_of a) (z_of b)) (mul (z_of a) (y_of b)))
+    (sub (mul (z_of a) (x_of b)) (mul (x_of a) (z_of b)))
+    (sub (mul (x_of a) (y_of b)) (mul (y_of a) (x_of b))).
+Definition f_unit (k : axis) : vector_form :=
+  match k with
+  | x_axis => Triple [1] [] []
+  | y_axis => Triple [] [1] []
+  | z_axis => Triple [] [] [1]
+  end.
+Definition f_origin : vector_form := Triple [] [] [].
+
+(** ** Integers
+
+    Coordinates and distance are multiplied by a common multiple of their denominators, times by one
+    of theirs. That it is a common multiple is seen, not assumed. *)
+
+Definition scaled (m : Z) (x : Q) : Z := Qnum x * (m / Zpos (Qden x)).
+Definition is_multiple (m : Z) (x : Q) : bool := m / Zpos (Qden x) * Zpos (Qden x) =? m.
+Definition common_multiple (xs : list Q) : Z := fold_left (fun m x => Z.lcm m (Zpos (Qden x))) xs 1.
+
+Definition coordinates (q : query) : list Q :=
+  flat_map (fun p => [x_of (at_start p); y_of (at_start p); z_of (at_start p);
+                      x_of (at_end p); y_of (at_end p); z_of (at_end p)])
+    [point0 q; point1 q; point2 q; point3 q].
+
+(** What is known of all subintervals: the factor of space, the corners at t=0 and at t=1, and the
+    distance. *)
+Record scene := Scene { factor : Z; ends : list (triple Z * triple Z); reach : Z; norm_in : norm }.
+
+Definition difference (m : Z) (a b : triple Q) : triple Z :=
+  Triple (scaled m (x_of a) - scaled m (x_of b)) (scaled m (y_of a) - scaled m (y_of b))
+    (scaled m (z_of a) - scaled m (z_of b)).
+Definition corner_ends (m : Z) (a b : motion) : triple Z * triple Z :=
+  (difference m (at_start a) (at_start b), difference m (at_end a) (at_end b)).
+
+Definition scene_of (q : query) (s : separation) : option scene :=
+  let numbers := distance_of s :: coordinates q in
+  let m := common_multiple numbers in
+  if (0 <? m) && forallb (is_multiple m) numbers && Qle_bool 0 (distance_of s) then
+    let w := fun a b => corner_ends m (a q) (b q) in
+    Some (Scene m
+      (match kind_of q with
+       | vertex_face => [w point0 point1; w point0 point2; w point0 point3]
+       | edge_edge => [w point0 point2; w point1 point2; w point1 point3; w point0 point3]
+       end)
+      (scaled m (distance_of s)) (norm_of s))
+  else None.
+
+(** A time a/m stands as (m-a, a): the corner is there (m-a) w(0) + a w(1), divided by m. The ends of
+    an interval are two moments, a single time is one. *)
+Definition moment := (Z * Z)%type.
+
+Definition moments (times : list Q) : option (list moment) :=
+  let m := common_multiple times in
+  if (0 <? m) && forallb (is_multiple m) times then
+    Some (map (fun t => (m - scaled m t, scaled m t)) times)
+  else None.
+
+(** The form of x(t) from x(0) and x(1). *)
+Definition moving (ms : list moment) (a b : Z) : form := map (fun p => fst p * a + snd p * b) ms.
+
+Definition corner (ms : list moment) (w : triple Z * triple Z) : vector_form :=
+  Triple (moving ms (x_of (fst w)) (x_of (snd w))) (moving ms (y_of (fst w)) (y_of (snd w)))
+    (moving ms (z_of (fst w)) (z_of (snd w))).
+
+Definition corner_forms (sc : scene) (ms : list moment) : list vector_form := map (corner ms) (ends sc).
+Definition reach_form (sc : scene) (ms : list moment) : form := moving ms (reach sc) (reach sc).
+
+Definition get (ws : list vector_form) (i : nat) : vector_form := nth i ws (hd f_origin ws).
+
+Definition normal (ws : list vector_form) : vector_form :=
+  match ws with
+  | a :: b :: c :: _ => f_cross (f_minus b a) (f_minus c a)
+  | _ => f_origin
+  end.
+
+(** ** Separation *)
+
+Definition bisections : nat := 128.
+
+Definition with_sign (negative : bool) (d : vector_form) : vector_form :=
+  if negative then f_opposite d else d.
+
+Definition direction (ws : list vector_form) (f : feature) : vector_form :=
+  match f with
+  | of_vertex i => get ws i
+  | of_edge i j =>
+      let w := get ws i in
+      let e := f_minus (get ws j) w in
+      f_minus (f_times (f_dot e e) w) (f_times (f_dot w e) e)
+  | of_face negative => with_sign negative (normal ws)
+  | of_axis k negative => with_sign negative (f_unit k)
+  | of_cross k i j => f_cross (f_unit k) (f_minus (get ws j) (get ws i))
+  end.
+
+(** D (σ·d) for every vector σ of signs; the greatest is D‖d‖₁. *)
+Definition with_both_signs (D x : form) (sums : list form) : list form :=
+  if is_zero x then sums
+  else let y := mul D x in flat_map (fun s => [add s y; sub s y]) sums.
+Definition reaches (D : form) (d : vector_form) : list form :=
+  if is_zero D then [[]]
+  else with_both_signs D (x_of d) (with_both_signs D (y_of d) (with_both_signs D (z_of d) [[]])).
+
+(** Is d·w > D‖d‖* on the interval? *)
+Definition is_beyond (n : norm) (D : form) (d w : vector_form) : bool :=
+  let p := f_dot d w in
+  match n with
+  | linf => forallb (fun s => is_positive bisections (sub p s)) (reaches D d)
+  | l2 =>
+      is_positive bisections p &&
+      (is_zero D || is_positive bisections (sub (mul p p) (mul (mul D D) (f_dot d d))))
+  end.
+
+(** Of a face one corner is enough: the normal's product is the same with all. *)
+Definition corners_to_check (ws : list vector_form) (f : feature) : list vector_form :=
+  match f, ws with
+  | of_face _, w :: _ => [w]
+  | _, _ => ws
+  end.
+
+Definition separates (sc : scene) (s : subinterval) : bool :=
+  match moments [from s; to s] with
+  | None => false
+  | Some ms =>
+      let ws := corner_forms sc ms in
+      let d := direction ws (feature_of s) in
+      forallb (is_beyond (norm_in sc) (reach_form sc ms) d) (corners_to_check ws (feature_of s))
+  end.
+
+(** The subintervals follow one another from a to b without a gap. *)
+Fixpoint separates_all (sc : scene) (a b : Q) (subintervals : list subinterval) : bool :=
+  match subintervals with
+  | [] => false
+  | s :: rest =>
+      Qeq_bool (from s) a && Qle_bool (from s) (to s) && separates sc s &&
+      match rest with
+      | [] => Qeq_bool (to s) b
+      | _ => separates_all sc (to s) b rest
+      end
+  end.
+
+(** ** Contact *)
+
+(** The sign of p at the root of g, or at the start. *)
+Definition sign_at (g : option form) (p : form) : option comparison :=
+  match g with
+  | None => Some (hd 0 p ?= 0)
+  | Some g =>
+      if divides p g p then Some Eq
+      else if is_positive bisections p then Some Gt
+      else if is_positive bisections (scale (-1) p) then Some Lt
+      else None
+  end.
+
+Definition is_zero_at g p := match sign_at g p with Some Eq => true | _ => false end.
+Definition is_positive_at g p := match sign_at g p with Some Gt => true | _ => false end.
+Definition is_negative_at g p := match sign_at g p with Some Lt => true | _ => false end.
+Definition is_not_negative_at g p := match sign_at g p with Some Gt | Some Eq => true | _ => false end.
+Definition is_not_positive_at g p := match sign_at g p with Some Lt | Some Eq => true | _ => false end.
+
+Definition proves_triangle g (a b c : vector_form) (k : axis) : bool :=
+  let bc := f_cross b c in
+  let i := component k bc in
+  let j := component k (f_cross c a) in
+  let l := component k (f_cross a b) in
+  let sum := add (add i j) l in
+  is_zero_at g (f_dot a bc) &&
+  match sign_at g sum with
+  | Some Gt => is_not_negative_at g i && is_not_negative_at g j && is_not_negative_at g l
+  | Some Lt => is_not_positive_at g i && is_not_positive_at g j && is_not_positive_at g l
+  | _ => false
+  end.
+
+Definition proves_segment g (a b : vector_form) : bool :=
+  let n := f_cross a b in
+  is_zero_at g (x_of n) && is_zero_at g (y_of n) && is_zero_at g (z_of n) &&
+  is_not_positive_at g (f_dot a b).
+
+(** square ≤ D² |base|² *)
+Definition is_near g (D square base : form) : bool :=
+  is_not_negative_at g (sub (mul (mul D D) base) square).
+
+Definition proves_edge g (D : form) (a b : vector_form) : bool :=
+  let e := f_minus b a in
+  let n := f_cross a b in
+  is_positive_at g (f_dot e e) && is_not_positive_at g (f_dot a e) &&
+  is_not_negative_at g (f_dot b e) && is_near g D (f_dot n n) (f_dot e e).
+
+Definition is_inwards g (n a b : vector_form) : bool := is_not_negative_at g (f_dot n (f_cross a b)).
+
+Definition proves_face g (D : form) (ws : list vector_form) : bool :=
+  let n := normal ws in
+  match ws with
+  | a :: b :: c :: rest =>
+      let h := f_dot n a in
+      is_positive_at g (f_dot n n) && is_near g D (mul h h) (f_dot n n) &&
+      is_inwards g n a b && is_inwards g n b c &&
+      match rest with
+      | [] => is_inwards g n c a
+      | f :: _ => is_inwards g n c f && is_inwards g n f a
+      end
+  | _ => false
+  end.
+
+(** A contact in linf, by a witness. The points a + u e + v f of the polygon that are within D on
+    every axis are a polygon in the plane of (u,v), which has a vertex: where two lines meet of those
+    of the polygon's sides and of the planes at ±D. A line is (α,β,γ): α u + β v + γ = 0. *)
+Definition is_witness g (D : form) (is_triangle : bool) (a e f line other : vector_form) : bool :=
+  let n := f_cross line other in
+  let is_in (n : vector_form) :=
+    let p := x_of n in
+    let q := y_of n in
+    let m := z_of n in
+    is_positive_at g m && is_not_negative_at g p && is_not_negative_at g q &&
+    (if is_triangle then is_not_negative_at g (sub m (add p q))
+     else is_not_negative_at g (sub m p) && is_not_negative_at g (sub m q)) &&
+    let x := f_plus (f_plus (f_times m a) (f_times p e)) (f_times q f) in
+    let r := mul D m in
+    let is_within (y : form) := is_not_negative_at g (sub r y) && is_not_negative_at g (add r y) in
+    is_within (x_of x) && is_within (y_of x) && is_within (z_of x) in
+  is_in n || is_in (f_opposite n).
+
+Definition lines (D : form) (is_triangle : bool) (a e f : vector_form) : list vector_form :=
+  let slab (k : axis) (D : form) := Triple (component k e) (component k f) (sub (component k a) D) in
+  let minus_D := scale (-1) D in
+  [Triple [1] [] []; Triple [] [1] []] ++
+  (if is_triangle then [Triple [1] [1] [-1]] else [Triple [1] [] [-1]; Triple [] [1] [-1]]) ++
+  [slab x_axis D; slab x_axis minus_D; slab y_axis D; slab y_axis minus_D; slab z_axis D;
+   slab z_axis minus_D].
+
+Fixpoint some_pair {A} (p : A -> A -> bool) (xs : list A) : bool :=
+  match xs with
+  | [] => false
+  | x :: rest => existsb (p x) rest || some_pair p rest
+  end.
+
+Definition proves_axes g (D : form) (ws : list vector_form) : bool :=
+  match ws with
+  | a :: b :: c :: rest =>
+      let is_triangle := match rest with [] => true | _ => false end in
+      let e := f_minus b a in
+      let f := f_minus (match rest with [] => c | f :: _ => f end) a in
+      some_pair (is_witness g D is_triangle a e f) (lines D is_triangle a e f)
+  | _ => false
+  end.
+
+Definition proves_place g (sc : scene) (D : form) (ws : list vector_form) (p : place) : bool :=
+  match p with
+  | in_triangle i j l k => proves_triangle g (get ws i) (get ws j) (get ws l) k
+  | on_segment i j => proves_segment g (get ws i) (get ws j)
+  | near_vertex i => is_near g D (f_dot (get ws i) (get ws i)) [1]
+  | near_edge i j => proves_edge g D (get ws i) (get ws j)
+  | near_face => proves_face g D ws
+  | near_axes => match norm_in sc with linf => proves_axes g D ws | l2 => false end
+  end.
+
+(** g_0 + g_1 t + … as a form: t = (a r + b s) / m, times m^n. What it says of t is of no account: any
+    form that changes its sign will do. *)
+Fixpoint on_interval (ms : list moment) (g : list Z) : form :=
+  match g with
+  | [] => []
+  | c :: g' =>
+      let power := fold_left (fun x _ => mul x (moving ms 1 1)) g' [1] in
+      add (scale c power) (mul (moving ms 0 1) (on_interval ms g'))
+  end.
+
+(** A contact in [a,b]. *)
+Definition proves_contact (sc : scene) (a b : Q) (c : contact_proof) : bool :=
+  match time_of c with
+  | at_time t =>
+      Qle_bool a t && Qle_bool t b &&
+      match moments [t] with
+      | None => false
+      | Some ms => proves_place None sc (reach_form sc ms) (corner_forms sc ms) (place_of c)
+      end
+  | at_root lower upper g =>
+      Qle_bool a lower && Qle_bool lower upper && Qle_bool upper b &&
+      match moments [lower; upper] with
+      | None => false
+      | Some ms =>
+          let g := on_interval ms g in
+          changes_sign g &&
+          proves_place (Some g) sc (reach_form sc ms) (corner_forms sc ms) (place_of c)
+      end
+  end.
+
+(** ** The checker *)
+
+Definition check (q : query) (s : separation) (c : claim) (subintervals : list subinterval)
+    (contact : option contact_proof) : bool :=
+  match scene_of q s with
+  | None => false
+  | Some sc =>
+      let contact_in (a b : Q) :=
+        match contact with Some p => proves_contact sc a b p | None => false end in
+      match c with
+      | no_collision => separates_all sc 0 1 subintervals
+      | collision => contact_in 0 1
+      | time_of_impact lower upper =>
+          if Qeq_bool lower 0 && Qeq_bool upper 0 then contact_in 0 0
+          else
+            Qle_bool 0 lower && Qle_bool upper 1 && negb (Qle_bool upper lower) &&
+            separates_all sc 0 lower subintervals && contact_in lower upper
+      end
+  end%Q.

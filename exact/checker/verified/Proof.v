@@ -1,0 +1,569 @@
+(** The proof that what the checker accepts is true. *)
+
+Require Import ZArith QArith Qreals Reals List Lia Lra Psatz Bool.
+Import ListNotations.
+Require Import Verified.Problem Verified.Form Verified.Geometry Verified.Checker.
+Open Scope R_scope.
+
+(** ** Vectors of forms are vectors, at every u *)
+
+Definition vector_at (u : R) (a : vector_form) : vector :=
+  Triple (at_u u (x_of a)) (at_u u (y_of a)) (at_u u (z_of a)).
+
+Ltac forms := rewrite ?at_u_add, ?at_u_sub, ?at_u_mul, ?at_u_scale, ?at_u_constant.
+
+Section AtU.
+Variable u : R.
+
+Lemma at_minus a b : vector_at u (f_minus a b) = minus (vector_at u a) (vector_at u b).
+Proof. unfold vector_at, f_minus, minus. cbn [x_of y_of z_of]. f_equal; forms; ring. Qed.
+Lemma at_plus a b : vector_at u (f_plus a b) = plus (vector_at u a) (vector_at u b).
+Proof. unfold vector_at, f_plus, plus. cbn [x_of y_of z_of]. f_equal; forms; ring. Qed.
+Lemma at_times k a : vector_at u (f_times k a) = times (at_u u k) (vector_at u a).
+Proof. unfold vector_at, f_times, times. cbn [x_of y_of z_of]. f_equal; forms; ring. Qed.
+Lemma at_opposite a : vector_at u (f_opposite a) = times (-1) (vector_at u a).
+Proof. unfold vector_at, f_opposite, times. cbn [x_of y_of z_of]. f_equal; forms; simpl; ring. Qed.
+Lemma at_dot a b : at_u u (f_dot a b) = dot (vector_at u a) (vector_at u b).
+Proof. unfold vector_at, f_dot, dot. cbn [x_of y_of z_of]. forms. ring. Qed.
+Lemma at_cross a b : vector_at u (f_cross a b) = cross (vector_at u a) (vector_at u b).
+Proof. unfold vector_at, f_cross, cross. cbn [x_of y_of z_of]. f_equal; forms; ring. Qed.
+Lemma at_component k a : at_u u (component k a) = component k (vector_at u a).
+Proof. destruct k; reflexivity. Qed.
+End AtU.
+
+(** ** Integers *)
+
+Lemma scaled_is_multiple m x : is_multiple m x = true -> IZR (scaled m x) = IZR m * Q2R x.
+Proof.
+  unfold is_multiple, scaled, Q2R. intros E. apply Z.eqb_eq in E.
+  rewrite <- E at 2. rewrite !mult_IZR. field. apply not_0_IZR. lia.
+Qed.
+
+Definition to_R (a : triple Z) : vector := Triple (IZR (x_of a)) (IZR (y_of a)) (IZR (z_of a)).
+
+(** A scene stands for a query and a separation, enlarged. *)
+Definition is_scene_of (sc : scene) (q : query) (s : separation) : Prop :=
+  (0 < factor sc)%Z /\ norm_in sc = norm_of s /\ 0 <= Q2R (distance_of s) /\
+  IZR (reach sc) = IZR (factor sc) * Q2R (distance_of s) /\
+  forall t, map (fun w => plus (times (1 - t) (to_R (fst w))) (times t (to_R (snd w)))) (ends sc) =
+            map (times (IZR (factor sc))) (corners q t).
+
+Lemma difference_value m a b :
+  forallb (is_multiple m) [x_of a; y_of a; z_of a] = true ->
+  forallb (is_multiple m) [x_of b; y_of b; z_of b] = true ->
+  to_R (difference m a b) = times (IZR m) (minus (to_vector a) (to_vector b)).
+Proof.
+  cbn [forallb]. rewrite !andb_true_iff. intros (A1 & A2 & A3 & _) (B1 & B2 & B3 & _).
+  unfold to_R, difference, to_vector, times, minus. cbn [x_of y_of z_of].
+  rewrite !minus_IZR, !scaled_is_multiple by assumption. f_equal; ring.
+Qed.
+
+Lemma corner_ends_value m a b t :
+  forallb (is_multiple m) [x_of (at_start a); y_of (at_start a); z_of (at_start a);
+    x_of (at_end a); y_of (at_end a); z_of (at_end a)] = true ->
+  forallb (is_multiple m) [x_of (at_start b); y_of (at_start b); z_of (at_start b);
+    x_of (at_end b); y_of (at_end b); z_of (at_end b)] = true ->
+  let w := corner_ends m a b in
+  plus (times (1 - t) (to_R (fst w))) (times t (to_R (snd w))) =
+  times (IZR m) (minus (position a t) (position b t)).
+Proof.
+  intros A B. cbn [forallb] in A, B. rewrite !andb_true_iff in A, B.
+  unfold corner_ends. cbn [fst snd]. rewrite !difference_value by (cbn [forallb]; rewrite !andb_true_iff; tauto).
+  unfold position, plus, minus, times. cbn [x_of y_of z_of]. f_equal; ring.
+Qed.
+
+Lemma scene_of_sound q s sc : scene_of q s = Some sc -> is_scene_of sc q s.
+Proof.
+  unfold scene_of. generalize (common_multiple (distance_of s :: coordinates q)). intros m. destruct (_ && _ && _) eqn:E; [| discriminate].
+  apply andb_prop in E as [E Ed]. apply andb_prop in E as [Em E]. apply Z.ltb_lt in Em.
+  cbn [forallb] in E. apply andb_prop in E as [Es E]. unfold coordinates in E.
+  cbn [flat_map] in E. rewrite !forallb_app, !andb_true_iff in E.
+  destruct E as (E0 & E1 & E2 & E3 & _).
+  intros H. inversion H; subst sc; clear H. unfold is_scene_of.
+  cbn [factor ends reach norm_in].
+  apply Qle_bool_iff, Qle_Rle in Ed. replace (Q2R 0) with 0 in Ed by (unfold Q2R; cbn; lra).
+  repeat split; auto.
+  - apply scaled_is_multiple. exact Es.
+  - intros t. unfold corners. destruct (kind_of q); cbn [map];
+      rewrite !corner_ends_value by assumption; reflexivity.
+Qed.
+
+(** Moments stand for the time t at u, enlarged by k. *)
+Definition is_moment (ms : list moment) (u k t : R) : Prop :=
+  0 < k /\ forall a b, at_u u (moving ms a b) = k * ((1 - t) * IZR a + t * IZR b).
+
+Lemma moments_of_interval a b ms t : moments [a; b] = Some ms -> Q2R a <= t <= Q2R b ->
+  exists u k, 0 <= u <= 1 /\ is_moment ms u k t.
+Proof.
+  unfold moments. generalize (common_multiple [a; b]). intros m. destruct (_ && _) eqn:E; [| discriminate].
+  cbn [forallb] in E. rewrite !andb_true_iff in E. destruct E as (Em & Ea & Eb & _).
+  apply Z.ltb_lt, IZR_lt in Em. intros H. inversion H; subst ms; clear H. intros Ht.
+  assert (exists u, 0 <= u <= 1 /\ t = (1 - u) * Q2R a + u * Q2R b) as (u & Hu & ->).
+  { destruct (Req_dec (Q2R a) (Q2R b)) as [E | N]; [exists 0; split; [lra |]; lra |].
+    exists ((t - Q2R a) / (Q2R b - Q2R a)). split; [| field; lra].
+    apply quotient_in_unit with (Q2R b - t); lra. }
+  exists u, (IZR m). split; [exact Hu |]. split; [exact Em |]. intros x y. cbn [map moving fst snd].
+  rewrite at_u_linear, !plus_IZR, !mult_IZR, !minus_IZR, !scaled_is_multiple by assumption. ring.
+Qed.
+
+Lemma moments_at_u a b ms u : moments [a; b] = Some ms -> 0 <= u <= 1 -> Q2R a <= Q2R b ->
+  exists k t, is_moment ms u k t /\ Q2R a <= t <= Q2R b.
+Proof.
+  unfold moments. generalize (common_multiple [a; b]). intros m. destruct (_ && _) eqn:E; [| discriminate].
+  cbn [forallb] in E. rewrite !andb_true_iff in E. destruct E as (Em & Ea & Eb & _).
+  apply Z.ltb_lt, IZR_lt in Em. intros H. inversion H; subst ms; clear H. intros Hu Hab.
+  exists (IZR m), ((1 - u) * Q2R a + u * Q2R b). split; [| nra].
+  split; [exact Em |]. intros x y. cbn [map moving fst snd].
+  rewrite at_u_linear, !plus_IZR, !mult_IZR, !minus_IZR, !scaled_is_multiple by assumption. ring.
+Qed.
+
+Lemma moments_of_time a ms : moments [a] = Some ms -> exists k, is_moment ms 0 k (Q2R a).
+Proof.
+  unfold moments. generalize (common_multiple [a]). intros m. destruct (_ && _) eqn:E; [| discriminate].
+  cbn [forallb] in E. rewrite !andb_true_iff in E. destruct E as (Em & Ea & _).
+  apply Z.ltb_lt, IZR_lt in Em. intros H. inversion H; subst ms; clear H.
+  exists (IZR m). split; [exact Em |]. intros x y. cbn [map moving fst snd].
+  rewrite at_u_constant, !plus_IZR, !mult_IZR, !minus_IZR, !scaled_is_multiple by assumption. ring.
+Qed.
+
+(** ** What a scene is at a moment *)
+
+Section Moment.
+Variables (q : query) (s : separation) (sc : scene) (ms : list moment) (u k t : R).
+Hypothesis Hsc : is_scene_of sc q s.
+Hypothesis Hms : is_moment ms u k t.
+
+Let ws := corner_forms sc ms.
+Let D := reach_form sc ms.
+(** By this all is enlarged. *)
+Let size := k * IZR (factor sc).
+
+Lemma size_positive : 0 < size.
+Proof.
+  unfold size. destruct Hsc as (H & _), Hms as (Hk & _). apply IZR_lt in H.
+  apply Rmult_lt_0_compat; assumption.
+Qed.
+
+Lemma reach_value : at_u u D = size * Q2R (distance_of s).
+Proof.
+  unfold D, reach_form, size. destruct Hsc as (_ & _ & _ & E & _), Hms as (_ & M).
+  rewrite M. replace ((1 - t) * IZR (reach sc) + t * IZR (reach sc)) with (IZR (reach sc)) by ring.
+  rewrite E. ring.
+Qed.
+
+Lemma corner_values : map (vector_at u) ws = map (times size) (corners q t).
+Proof.
+  destruct Hsc as (_ & _ & _ & _ & E), Hms as (_ & M). specialize (E t).
+  unfold ws, corner_forms. rewrite map_map.
+  assert (map (times size) (corners q t) = map (times k) (map (times (IZR (factor sc))) (corners q t))) as ->.
+  { rewrite map_map. apply map_ext. intros a. unfold size. clear. by_components. f_equal; ring. }
+  rewrite <- E, map_map. apply map_ext. intros [a b]. unfold vector_at, corner, to_R, plus, times.
+  cbn [x_of y_of z_of fst snd]. rewrite !M. f_equal; ring.
+Qed.
+
+Lemma corner_of_form w : In w ws -> exists y, In y (corners q t) /\ vector_at u w = times size y.
+Proof.
+  intros I. apply (in_map (vector_at u)) in I. rewrite corner_values in I.
+  apply in_map_iff in I as (y & E & Iy). eauto.
+Qed.
+
+Lemma form_of_corner y : In y (corners q t) -> exists w, In w ws /\ vector_at u w = times size y.
+Proof.
+  intros I. apply (in_map (times size)) in I. rewrite <- corner_values in I.
+  apply in_map_iff in I as (w & E & Iw). eauto.
+Qed.
+
+Lemma form_is_in_hull w : In w ws -> enlarged size q t (vector_at u w).
+Proof.
+  intros I. apply enlarged_has_corners. rewrite <- corner_values. apply in_map. exact I.
+Qed.
+
+Lemma forms_are_polygon : is_polygon (map (vector_at u) ws).
+Proof. rewrite corner_values. apply enlarged_polygon, corners_are_polygon. Qed.
+
+Lemma get_is_in_hull i : enlarged size q t (vector_at u (get ws i)).
+Proof.
+  apply form_is_in_hull. unfold get. pose proof forms_are_polygon as P.
+  destruct ws as [| a rest]; [contradiction |].
+  destruct (nth_in_or_default i (a :: rest) a) as [I | E]; [exact I |].
+  cbn [hd]. rewrite E. left. reflexivity.
+Qed.
+
+(** ** Separation *)
+
+Lemma is_zero_at_u f : is_zero f = true -> at_u u f = 0.
+Proof. apply is_zero_value. Qed.
+
+Lemma with_both_signs_sound x sums m : (exists y, In y sums /\ at_u u y = m) ->
+  exists y, In y (with_both_signs D x sums) /\ at_u u y = m + at_u u D * Rabs (at_u u x).
+Proof.
+  intros (y & I & E). unfold with_both_signs. destruct (is_zero x) eqn:Z.
+  - exists y. split; [exact I |]. rewrite (is_zero_at_u _ Z), Rabs_R0, E. ring.
+  - destruct (Rle_dec 0 (at_u u x)) as [P | N].
+    + exists (add y (mul D x)). split; [apply in_flat_map; exists y; cbn; auto |].
+      forms. rewrite E, Rabs_right by lra. ring.
+    + exists (sub y (mul D x)). split; [apply in_flat_map; exists y; cbn; auto |].
+      forms. rewrite E, Rabs_left by lra. ring.
+Qed.
+
+Lemma reaches_sound d : exists y, In y (reaches D d) /\
+  at_u u y = at_u u D * dual_length linf (vector_at u d).
+Proof.
+  unfold reaches, vector_at. cbn [dual_length x_of y_of z_of]. destruct (is_zero D) eqn:Z.
+  - exists []. split; [left; reflexivity |]. rewrite (is_zero_at_u _ Z). unfold at_u. simpl. ring.
+  - destruct (with_both_signs_sound (z_of d) [[]] 0) as (z & Iz & Ez);
+      [exists []; split; [left; reflexivity | reflexivity] |].
+    destruct (with_both_signs_sound (y_of d) _ _ (ex_intro _ z (conj Iz Ez))) as (y & Iy & Ey).
+    destruct (with_both_signs_sound (x_of d) _ _ (ex_intro _ y (conj Iy Ey))) as (x & Ix & Ex).
+    exists x. split; [exact Ix |]. rewrite Ex. ring.
+Qed.
+
+Hypothesis Hu : 0 <= u <= 1.
+
+Lemma is_beyond_sound d w : is_beyond (norm_of s) D d w = true ->
+  at_u u D * dual_length (norm_of s) (vector_at u d) < dot (vector_at u d) (vector_at u w).
+Proof.
+  unfold is_beyond. destruct (norm_of s).
+  - intros E. destruct (reaches_sound d) as (y & I & V). rewrite <- V.
+    rewrite forallb_forall in E. pose proof (is_positive_sound _ _ u (E _ I) Hu) as P.
+    rewrite at_u_sub, at_dot in P. lra.
+  - intros E. apply andb_prop in E as [E1 E2].
+    pose proof (is_positive_sound _ _ u E1 Hu) as P. rewrite at_dot in P.
+    apply orb_prop in E2 as [E2 | E2].
+    + rewrite (is_zero_at_u _ E2). lra.
+    + apply l2_separation; [exact P |].
+      pose proof (is_positive_sound _ _ u E2 Hu) as P2. rewrite at_u_sub, !at_u_mul, !at_dot in P2. lra.
+Qed.
+
+Lemma checked_corners_suffice f y :
+  (forall w, In w (corners_to_check ws f) -> is_beyond (norm_of s) D (direction ws f) w = true) ->
+  In y (corners q t) ->
+  exists w, is_beyond (norm_of s) D (direction ws f) w = true /\
+    dot (vector_at u (direction ws f)) (vector_at u w) =
+    dot (vector_at u (direction ws f)) (times size y).
+Proof.
+  intros E I. destruct (form_of_corner y I) as (w & Iw & Ew). rewrite <- Ew.
+  destruct f as [i | i j | negative | c negative | c i j];
+    try (exists w; split; [apply E; exact Iw | reflexivity]).
+  pose proof forms_are_polygon as P.
+  destruct ws as [| a [| b [| c rest]]]; cbn [map is_polygon] in P; try contradiction.
+  exists a. split; [apply E; left; reflexivity |].
+  pose proof (normal_is_common (map (vector_at u) (a :: b :: c :: rest)) (vector_at u a) (vector_at u b) (vector_at u c)
+    (map (vector_at u) rest) P eq_refl _ (in_map (vector_at u) _ _ Iw)) as N.
+  cbn [direction normal].
+  assert (Ed : forall x, dot (vector_at u (with_sign negative
+      (f_cross (f_minus b a) (f_minus c a)))) x =
+    (if negative then -1 else 1) * dot (cross (minus (vector_at u b) (vector_at u a))
+      (minus (vector_at u c) (vector_at u a))) x).
+  { intros x. unfold with_sign. destruct negative; rewrite ?at_opposite, at_cross, !at_minus;
+      generalize (cross (minus (vector_at u b) (vector_at u a)) (minus (vector_at u c) (vector_at u a)));
+      intros; clear; by_components; ring. }
+  rewrite !Ed, N. reflexivity.
+Qed.
+
+Lemma beyond_corners_no_contact f :
+  forallb (is_beyond (norm_of s) D (direction ws f)) (corners_to_check ws f) = true ->
+  ~ contact q s t.
+Proof.
+  intros E. rewrite forallb_forall in E.
+  apply direction_separates with (d := vector_at u (direction ws f)). intros y Iy.
+  destruct (checked_corners_suffice f y E Iy) as (w & B & Ed).
+  apply is_beyond_sound in B. rewrite Ed, reach_value in B.
+  apply Rmult_lt_reg_l with size; [apply size_positive |].
+  replace (size * dot (vector_at u (direction ws f)) y)
+    with (dot (vector_at u (direction ws f)) (times size y))
+    by (generalize (vector_at u (direction ws f)); intros; clear; by_components; ring).
+  lra.
+Qed.
+
+(** ** Contact *)
+
+Variable g : option form.
+(** The time of the contact is that of the form g, or the start. *)
+Hypothesis Hg : match g with None => u = 0 | Some g => hd 0%Z g <> 0%Z /\ at_u u g = 0 end.
+
+Lemma sign_at_sound p : match sign_at g p with
+  | Some Eq => at_u u p = 0 | Some Gt => 0 < at_u u p | Some Lt => at_u u p < 0 | None => True end.
+Proof.
+  unfold sign_at. destruct g as [h |].
+  - destruct Hg as [H0 Hr]. destruct (divides p h p) eqn:E.
+    + eapply divides_sound; eassumption.
+    + destruct (is_positive _ p) eqn:E1; [eapply is_positive_sound; eassumption |].
+      destruct (is_positive _ (scale (-1) p)) eqn:E2; [| exact I].
+      pose proof (is_positive_sound _ _ u E2 Hu) as P. rewrite at_u_scale in P. lra.
+  - rewrite Hg. assert (at_u 0 p = IZR (hd 0%Z p)) as ->.
+    { unfold at_u. destruct p as [| c p]; cbn [value hd]; [reflexivity |].
+      rewrite Rminus_0_r, pow1. ring. }
+    destruct (Z.compare_spec (hd 0%Z p) 0) as [-> | L | L]; [reflexivity | |]; apply IZR_lt in L; exact L.
+Qed.
+
+Ltac sign_of p := pose proof (sign_at_sound p); destruct (sign_at g p) as [[] |]; try discriminate; lra.
+Lemma zero_at p : is_zero_at g p = true -> at_u u p = 0.
+Proof. unfold is_zero_at. intros. sign_of p. Qed.
+Lemma positive_at p : is_positive_at g p = true -> 0 < at_u u p.
+Proof. unfold is_positive_at. intros. sign_of p. Qed.
+Lemma not_negative_at p : is_not_negative_at g p = true -> 0 <= at_u u p.
+Proof. unfold is_not_negative_at. intros. sign_of p. Qed.
+Lemma not_positive_at p : is_not_positive_at g p = true -> at_u u p <= 0.
+Proof. unfold is_not_positive_at. intros. sign_of p. Qed.
+
+Let H := enlarged size q t.
+
+(** Something of the hull is within the distance. *)
+Definition is_contact_seen : Prop := exists x, H x /\ length_of (norm_of s) x <= at_u u D.
+
+Lemma distance_not_negative : 0 <= at_u u D.
+Proof.
+  rewrite reach_value. destruct Hsc as (_ & _ & Hd & _). pose proof size_positive.
+  apply Rmult_le_pos; lra.
+Qed.
+
+Lemma seen_by_square : (exists x, H x /\ dot x x <= at_u u D * at_u u D) -> is_contact_seen.
+Proof.
+  intros (x & Hx & L). exists x. split; [exact Hx |].
+  apply length_le_of_square; [apply distance_not_negative | exact L].
+Qed.
+
+Lemma seen_by_zero : (exists x, H x /\ dot x x <= 0 * 0) -> is_contact_seen.
+Proof.
+  intros (x & Hx & L). apply seen_by_square. exists x. split; [exact Hx |].
+  pose proof distance_not_negative. nra.
+Qed.
+
+Lemma seen_contact : is_contact_seen -> contact q s t.
+Proof.
+  intros (x & Hx & L). rewrite reach_value in L.
+  exact (enlarged_contact size q s t x size_positive Hx L).
+Qed.
+
+Lemma triangle_sound a b c i : H (vector_at u a) -> H (vector_at u b) -> H (vector_at u c) ->
+  proves_triangle g a b c i = true -> is_contact_seen.
+Proof.
+  intros Ha Hb Hc E. unfold proves_triangle in E. apply andb_prop in E as [Ed E].
+  apply zero_at in Ed. rewrite at_dot, at_cross in Ed.
+  apply seen_by_zero. exists origin. split; [| unfold dot, origin; cbn [x_of y_of z_of]; lra].
+  apply (triangle_contact H _ _ _ i (enlarged_is_convex _ _ _) Ha Hb Hc Ed).
+  rewrite <- !at_cross, <- !at_component, <- !at_u_add.
+  set (sum := add _ _) in *. pose proof (sign_at_sound sum) as S.
+  destruct (sign_at g sum) as [[] |]; try discriminate;
+    apply andb_prop in E as [E E3]; apply andb_prop in E as [E1 E2]; [right | left]; (split; [exact S |]).
+  - repeat split; apply not_positive_at; assumption.
+  - repeat split; apply not_negative_at; assumption.
+Qed.
+
+Lemma segment_sound a b : H (vector_at u a) -> H (vector_at u b) ->
+  proves_segment g a b = true -> is_contact_seen.
+Proof.
+  intros Ha Hb E. unfold proves_segment in E. rewrite !andb_true_iff in E.
+  destruct E as (((E1 & E2) & E3) & E4). apply zero_at in E1, E2, E3. apply not_positive_at in E4.
+  rewrite at_dot in E4. apply seen_by_zero.
+  apply (segment_contact H _ _ (enlarged_is_convex _ _ _) Ha Hb); [| exact E4].
+  rewrite <- at_cross. unfold vector_at, origin. rewrite E1, E2, E3. reflexivity.
+Qed.
+
+Lemma near_sound square base : is_near g D square base = true ->
+  at_u u square <= at_u u D * at_u u D * at_u u base.
+Proof. unfold is_near. intros E. apply not_negative_at in E. revert E. forms. lra. Qed.
+
+Lemma vertex_sound a : H (vector_at u a) -> is_near g D (f_dot a a) [1%Z] = true -> is_contact_seen.
+Proof.
+  intros Ha E. apply near_sound in E. rewrite at_dot, at_u_constant in E.
+  apply seen_by_square. exists (vector_at u a). split; [exact Ha | lra].
+Qed.
+
+Lemma edge_sound a b : H (vector_at u a) -> H (vector_at u b) ->
+  proves_edge g D a b = true -> is_contact_seen.
+Proof.
+  intros Ha Hb E. unfold proves_edge in E. rewrite !andb_true_iff in E.
+  destruct E as (((E1 & E2) & E3) & E4). apply positive_at in E1. apply not_positive_at in E2.
+  apply not_negative_at in E3. apply near_sound in E4.
+  rewrite !at_dot, ?at_cross, ?at_minus in *. apply seen_by_square.
+  exact (edge_contact H _ _ _ (enlarged_is_convex _ _ _) Ha Hb E1 E2 E3 E4).
+Qed.
+
+Lemma inwards_sound n a b : is_inwards g n a b = true ->
+  0 <= dot (vector_at u n) (cross (vector_at u a) (vector_at u b)).
+Proof. intros E. apply not_negative_at in E. rewrite at_dot, at_cross in E. exact E. Qed.
+
+Lemma face_sound : proves_face g D ws = true -> is_contact_seen.
+Proof.
+  pose proof forms_are_polygon as P. pose proof form_is_in_hull as I. fold H in I.
+  destruct ws as [| a [| b [| c rest]]]; cbn [map is_polygon] in P; try contradiction.
+  intros E. unfold proves_face in E. cbv zeta in E. rewrite !andb_true_iff in E.
+  destruct E as ((((E1 & E2) & E3) & E4) & E5). apply positive_at in E1. apply near_sound in E2.
+  rewrite at_u_mul, !at_dot in E2. rewrite at_dot in E1. apply inwards_sound in E3, E4.
+  assert (En : vector_at u (normal (a :: b :: c :: rest)) =
+    cross (minus (vector_at u b) (vector_at u a)) (minus (vector_at u c) (vector_at u a))).
+  { cbn [normal]. rewrite at_cross, !at_minus. reflexivity. }
+  apply seen_by_square.
+  destruct rest as [| f [| ? ?]]; cbn [map] in P; [| | contradiction].
+  - apply inwards_sound in E5. rewrite En in *.
+    apply (triangle_face_contact H (vector_at u a) (vector_at u b) (vector_at u c));
+      try (apply I; cbn [In]; tauto); try apply enlarged_is_convex; assumption.
+  - apply andb_prop in E5 as [E5 E6]. apply inwards_sound in E5, E6. rewrite En in *.
+    apply (parallelogram_face_contact H (vector_at u a) (vector_at u b) (vector_at u c) (vector_at u f));
+      try (apply I; cbn [In]; tauto); try apply enlarged_is_convex; assumption.
+Qed.
+
+(** A witness in linf. *)
+
+Lemma some_pair_sound {A} (p : A -> A -> bool) xs : some_pair p xs = true -> exists x y, p x y = true.
+Proof.
+  induction xs as [| x xs IH]; cbn [some_pair]; [discriminate |]. intros E.
+  apply orb_prop in E as [E | E]; [| auto]. apply existsb_exists in E as (y & _ & E). eauto.
+Qed.
+
+Lemma within_all_axes x m : 0 < m -> norm_of s = linf ->
+  - (at_u u D * m) <= m * x_of x <= at_u u D * m -> - (at_u u D * m) <= m * y_of x <= at_u u D * m ->
+  - (at_u u D * m) <= m * z_of x <= at_u u D * m -> length_of (norm_of s) x <= at_u u D.
+Proof.
+  intros Hm -> Ex Ey Ez. cbn [length_of].
+  repeat apply Rmax_lub; apply Rabs_le; split; apply Rmult_le_reg_l with m; lra.
+Qed.
+
+Lemma axes_sound : norm_of s = linf -> proves_axes g D ws = true -> is_contact_seen.
+Proof.
+  intros Hn. pose proof forms_are_polygon as P. pose proof form_is_in_hull as I. fold H in I.
+  destruct ws as [| a [| b [| c rest]]]; cbn [map is_polygon] in P; try contradiction.
+  unfold proves_axes. cbv zeta. set (is_triangle := match rest with [] => true | _ => false end).
+  set (f := match rest with [] => c | f :: _ => f end).
+  intros E. apply some_pair_sound in E as (line & other & E). unfold is_witness in E.
+  set (e := f_minus b a) in *. set (f' := f_minus f a) in *.
+  assert (exists p q m, is_positive_at g m = true /\ is_not_negative_at g p = true /\
+    is_not_negative_at g q = true /\
+    (if is_triangle then is_not_negative_at g (sub m (add p q))
+     else is_not_negative_at g (sub m p) && is_not_negative_at g (sub m q)) = true /\
+    let x := f_plus (f_plus (f_times m a) (f_times p e)) (f_times q f') in
+    forall y, In y [x_of x; y_of x; z_of x] -> is_not_negative_at g (sub (mul D m) y) = true /\
+      is_not_negative_at g (add (mul D m) y) = true) as (p & r & m & Em & Ep & Er & Et & Ex).
+  { apply orb_prop in E as [E | E]; cbv zeta in E; rewrite !andb_true_iff in E;
+      destruct E as ((((E1 & E2) & E3) & E4) & ((Ex & Ey) & Ez)); eexists _, _, _;
+      (split; [exact E1 |]; split; [exact E2 |]; split; [exact E3 |]; split; [exact E4 |]);
+      intros x y [<- | [<- | [<- | []]]]; assumption. }
+  clear E. cbv zeta in Ex. set (x := f_plus _ _) in Ex.
+  apply positive_at in Em. apply not_negative_at in Ep, Er.
+  set (point := plus (plus (vector_at u a) (times (at_u u p / at_u u m) (vector_at u e)))
+    (times (at_u u r / at_u u m) (vector_at u f'))).
+  assert (Epoint : vector_at u x = times (at_u u m) point).
+  { unfold x, point. rewrite !at_plus, !at_times. symmetry. apply point_of_quotients. exact Em. }
+  exists point. split.
+  - unfold point, e, f'. rewrite !at_minus. unfold is_triangle, f in Et |- *.
+    destruct rest as [| h [| ? ?]]; cbn [map] in P; [| | contradiction].
+    + apply not_negative_at in Et. rewrite at_u_sub, at_u_add in Et.
+      apply triangle_point; try (apply I; cbn [In]; tauto); try apply enlarged_is_convex; lra.
+    + apply andb_prop in Et as [Et1 Et2]. apply not_negative_at in Et1, Et2.
+      rewrite at_u_sub in Et1, Et2.
+      apply (parallelogram_point H (vector_at u a) (vector_at u b) (vector_at u c) (vector_at u h));
+        try (apply I; cbn [In]; tauto); try apply enlarged_is_convex; try assumption; lra.
+  - assert (W : forall y, In y [x_of x; y_of x; z_of x] ->
+      - (at_u u D * at_u u m) <= at_u u y <= at_u u D * at_u u m).
+    { intros y Iy. destruct (Ex y Iy) as [E1 E2]. apply not_negative_at in E1, E2.
+      rewrite at_u_sub, at_u_mul in E1. rewrite at_u_add, at_u_mul in E2. lra. }
+    pose proof (f_equal x_of Epoint : at_u u (x_of x) = at_u u m * x_of point) as X.
+    pose proof (f_equal y_of Epoint : at_u u (y_of x) = at_u u m * y_of point) as Y.
+    pose proof (f_equal z_of Epoint : at_u u (z_of x) = at_u u m * z_of point) as Z.
+    apply within_all_axes with (at_u u m); auto; [rewrite <- X | rewrite <- Y | rewrite <- Z];
+      apply W; cbn [In]; tauto.
+Qed.
+
+Theorem place_sound p : proves_place g sc D ws p = true -> contact q s t.
+Proof.
+  intros E. apply seen_contact. pose proof get_is_in_hull as G. fold H in G.
+  destruct p as [i j l c | i j | i | i j | |]; cbn [proves_place] in E.
+  - eapply triangle_sound; [apply G .. | exact E].
+  - eapply segment_sound; [apply G .. | exact E].
+  - eapply vertex_sound; [apply G | exact E].
+  - eapply edge_sound; [apply G .. | exact E].
+  - apply face_sound. exact E.
+  - destruct Hsc as (_ & Hn & _). rewrite Hn in E. apply axes_sound; destruct (norm_of s); auto; discriminate.
+Qed.
+End Moment.
+
+(** ** The claims *)
+
+Lemma separates_sound q s sc x : is_scene_of sc q s -> separates sc x = true ->
+  forall t, Q2R (from x) <= t <= Q2R (to x) -> ~ contact q s t.
+Proof.
+  intros Hsc E t Ht. unfold separates in E.
+  destruct (moments [from x; to x]) as [ms |] eqn:Em; [| discriminate].
+  destruct (moments_of_interval _ _ _ _ Em Ht) as (u & k & Hu & Hms).
+  pose proof Hsc as (_ & Hn & _). rewrite Hn in E.
+  exact (beyond_corners_no_contact q s sc ms u k t Hsc Hms Hu _ E).
+Qed.
+
+Lemma separates_all_sound q s sc : is_scene_of sc q s -> forall xs a b,
+  separates_all sc a b xs = true -> forall t, Q2R a <= t <= Q2R b -> ~ contact q s t.
+Proof.
+  intros Hsc. induction xs as [| x xs IH]; intros a b E t Ht; [discriminate |].
+  cbn [separates_all] in E. apply andb_prop in E as [E Er]. rewrite !andb_true_iff in E.
+  destruct E as ((Ea & _) & Es). apply Qeq_bool_eq, Qeq_eqR in Ea.
+  destruct (Rle_dec t (Q2R (to x))) as [Hle | Hgt].
+  - apply (separates_sound q s sc x Hsc Es). lra.
+  - destruct xs as [| y xs].
+    + apply Qeq_bool_eq, Qeq_eqR in Er. lra.
+    + apply (IH _ _ Er). lra.
+Qed.
+
+Lemma contact_sound q s sc a b c : is_scene_of sc q s -> proves_contact sc a b c = true ->
+  contact_between q s (Q2R a) (Q2R b).
+Proof.
+  intros Hsc E. unfold proves_contact in E. destruct (time_of c) as [t | lower upper g].
+  - destruct (moments [t]) as [ms |] eqn:Em; [| rewrite andb_false_r in E; discriminate].
+    rewrite !andb_true_iff in E. destruct E as ((Ea & Eb) & Ep).
+    apply Qle_bool_iff, Qle_Rle in Ea, Eb. destruct (moments_of_time _ _ Em) as (k & Hms).
+    exists (Q2R t). split; [lra |].
+    apply (place_sound q s sc ms 0 k (Q2R t) Hsc Hms ltac:(lra) None eq_refl _ Ep).
+  - destruct (moments [lower; upper]) as [ms |] eqn:Em; [| rewrite andb_false_r in E; discriminate].
+    rewrite !andb_true_iff in E. destruct E as (((Ea & Eab) & Eb) & Eg & Ep).
+    apply Qle_bool_iff, Qle_Rle in Ea, Eb, Eab.
+    destruct (changes_sign_sound _ Eg) as (H0 & u & Hu & Hr).
+    destruct (moments_at_u _ _ _ u Em Hu Eab) as (k & t & Hms & Ht).
+    exists t. split; [lra |].
+    apply (place_sound q s sc ms u k t Hsc Hms Hu (Some (on_interval ms g)) (conj H0 Hr) _ Ep).
+Qed.
+
+Lemma Q2R_0 : Q2R 0 = 0. Proof. unfold Q2R. cbn. lra. Qed.
+Lemma Q2R_1 : Q2R 1 = 1. Proof. unfold Q2R. cbn. lra. Qed.
+
+(** What the checker accepts is true. *)
+Theorem check_sound q s c subintervals contact :
+  check q s c subintervals contact = true -> holds q s c.
+Proof.
+  unfold check. destruct (scene_of q s) as [sc |] eqn:E; [| discriminate].
+  apply scene_of_sound in E.
+  assert (C : forall a b, match contact with Some p => proves_contact sc a b p | None => false end = true ->
+    contact_between q s (Q2R a) (Q2R b)).
+  { intros a b Ec. destruct contact as [p |]; [| discriminate]. eapply contact_sound; eassumption. }
+  destruct c as [| | lower upper]; cbv zeta; intros Ec; cbn [holds].
+  - unfold no_contact_until. rewrite <- Q2R_0, <- Q2R_1. exact (separates_all_sound q s sc E _ _ _ Ec).
+  - rewrite <- Q2R_0, <- Q2R_1. exact (C _ _ Ec).
+  - destruct (Qeq_bool lower 0 && Qeq_bool upper 0) eqn:E0.
+    + apply andb_prop in E0 as [El Eu]. apply Qeq_bool_eq, Qeq_eqR in El, Eu.
+      rewrite El, Eu, Q2R_0. apply C in Ec. rewrite Q2R_0 in Ec. repeat split; auto; lra.
+    + rewrite !andb_true_iff in Ec. destruct Ec as ((((E1 & E2) & E3) & E4) & E5).
+      apply Qle_bool_iff, Qle_Rle in E1, E2. rewrite Q2R_0 in E1. rewrite Q2R_1 in E2.
+      repeat split; [exact (C _ _ E5) | exact E1 | exact E2 |]. right. split.
+      * apply Rnot_le_lt. intros L. apply Rle_Qle in L. apply Qle_bool_iff in L. rewrite L in E3. discriminate.
+      * unfold no_contact_until. rewrite <- Q2R_0. exact (separates_all_sound q s sc E _ _ _ E4).
+Qed.
+
+(** Without a separation: the two primitives have a point in common, F = 0. *)
+Corollary contact_at_distance_0 q n t :
+  contact q (Separation 0 n) t <-> exists u v, in_domain (kind_of q) u v /\ F q t u v = origin.
+Proof.
+  unfold contact. cbn [distance_of norm_of]. rewrite Q2R_0.
+  split; intros (u & v & D & E); exists u, v; (split; [exact D | apply (length_zero n); exact E]).
+Qed.
+
+(** The first claim in full. *)
+Corollary no_collision_sound q s subintervals contact :
+  check q s no_collision subintervals contact = true ->
+  forall t u v, 0 <= t <= 1 -> in_domain (kind_of q) u v ->
+  Q2R (distance_of s) < length_of (norm_of s) (F q t u v).
+Proof.
+  intros E t u v Ht D. apply Rnot_le_lt. intros L.
+  apply (check_sound _ _ _ _ _ E t Ht). exists u, v. split; assumption.
+Qed.
+
+Print Assumptions check_sound.
+Print Assumptions contact_at_distance_0.

@@ -1,0 +1,74 @@
+(* Nothing here is to be believed: a certificate counts as accepted only if the proved checker accepts it,
+   or one with a shorter interval around the root of its contact, for the same query and claim.
+
+   The checker's witness of `at axes` needs the signs of other polynomials than the axes of the format, and these
+   may be seen on a shorter interval only. *)
+
+open Checker
+module Z = Certificate.Zarith
+
+let number q = Q.make q.qnum q.qden
+let sign_of g x = Q.sign (List.fold_right (fun c sum -> Q.add (Q.of_bigint c) (Q.mul x sum)) g Q.zero)
+let half = Q.of_ints 1 2
+
+(* The interval [lower,upper], halved so many times. *)
+let rec halved g lower upper halvings =
+  if halvings = 0 then At_root (Certificate.to_coq lower, Certificate.to_coq upper, g)
+  else
+    let middle = Q.mul half (Q.add lower upper) in
+    let sign = sign_of g middle in
+    if sign = 0 then At_time (Certificate.to_coq middle)
+    else if sign = sign_of g lower then halved g middle upper (halvings - 1)
+    else halved g lower middle (halvings - 1)
+
+let halvings = [ 16; 64; 256 ]
+
+(* Is the interval within the claim's, and has g opposite signs at its ends, as the format demands? *)
+let is_interval (c : Certificate.certificate) lower upper g =
+  let first, last =
+    match c.claim with Time_of_impact (a, b) -> (number a, number b) | _ -> (Q.zero, Q.one)
+  in
+  Q.leq first lower && Q.lt lower upper && Q.leq upper last && sign_of g lower * sign_of g upper < 0
+
+(* Is the certificate accepted, as it stands or with a shorter interval? *)
+let check (c : Certificate.certificate) =
+  let subintervals = List.map snd c.subintervals in
+  let accepts contact = Checker.check c.query c.separation c.claim subintervals contact in
+  let accepts_halved contact lower upper g count =
+    accepts (Some { contact with time_of = halved g (number lower) (number upper) count })
+  in
+  accepts c.contact
+  ||
+  match c.contact with
+  | Some ({ place_of = Near_axes; time_of = At_root (lower, upper, g) } as contact)
+    when c.separation.norm_of = Linf && is_interval c (number lower) (number upper) g ->
+      List.exists (accepts_halved contact lower upper g) halvings
+  | _ -> false
+
+(* The line and the reason of a certificate that was not accepted. *)
+let fault (c : Certificate.certificate) =
+  let separates (_, subinterval) =
+    match Checker.scene_of c.query c.separation with
+    | Some scene -> Checker.separates scene subinterval
+    | None -> false
+  in
+  let rec first_gap reached = function
+    | [] -> None
+    | (line, s) :: rest ->
+        let is_next = Q.equal (number s.from) reached && Q.leq (number s.from) (number s.to0) in
+        if is_next then first_gap (number s.to0) rest else Some line
+  in
+  let separated_end =
+    match c.claim with
+    | No_collision -> Some Q.one
+    | Time_of_impact (lower, upper) when Q.sign (number upper) > 0 -> Some (number lower)
+    | _ -> None
+  in
+  let gap = first_gap Q.zero c.subintervals in
+  match List.find_opt (fun s -> not (separates s)) c.subintervals, List.rev c.subintervals with
+  | Some (line, _), _ when gap = None || gap >= Some line -> (line, "the subinterval is not proved")
+  | _ when gap <> None -> (Option.get gap, "the subinterval does not begin where it should")
+  | _, [] when separated_end <> None -> (c.claim_line, "there is no subinterval")
+  | _, (line, last) :: _ when not (Q.equal (number last.to0) (Option.get separated_end)) ->
+      (line, "the last subinterval does not end where it should")
+  | _ -> (c.contact_line, "the contact is not proved")
