@@ -42,9 +42,9 @@ RECORDINGS = [f"simulate {scene} --record {RECORDED} --record-limit 2500 --npy"
 
 # The commands of each file of data. They run in the folder of the public data.
 COMMANDS = {
-    "results": ["report handcrafted simulation --count 1000000 --seconds 12 --experiment field "
+    "results": ["report handcrafted simulation --count 1000000 --method-seconds 12 --experiment field "
                 "--experiment separation --experiment filter --stability 0",
-                f"report {RECORDED} --count 12000000 --seconds 12 --experiment field --stability 0"],
+                f"report {RECORDED} --count 12000000 --method-seconds 12 --experiment field --stability 0"],
     "certify": [f"certify {data} --method certified --method tight_inclusion --method tight_inclusion_published "
                 "--method tight_inclusion_released" if data else "certify" for data in DATA],
     "files": ["bench handcrafted/*/*/*.csv simulation/*/queries/*.csv --method certified --method tccd "
@@ -154,7 +154,7 @@ def measure_one(name, command, options, folder):
     if RECORDED in command:
         record(options)
     if options.quick:
-        command = re.sub(r"--repetitions \d+", "--repetitions 1", re.sub(r"--seconds \d+", "--seconds 0.1", command))
+        command = re.sub(r"--repetitions \d+", "--repetitions 1", re.sub(r"--(method-)?seconds \d+", r"--\1seconds 0.1", command))
     print(f"touchstone {command}", flush=True)
     out, proofs = folder / "run.json", folder / "proofs.cert.zst"
     words = [path for word in command.replace(RECORDED, str(options.recorded)).split()
