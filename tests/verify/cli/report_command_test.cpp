@@ -36,7 +36,8 @@ class Report : public tests::ShellTest<subcommand> {
 
 /// Options for a short run: the tests measure no speed.
 const std::string quick =
-    " --method certified --method tight_inclusion --repetitions 1 --method-seconds 0.01 --stability 0 ";
+    " --method certified --method tight_inclusion --repetitions 1 --method-seconds 0.01 "
+    "--stability 0 ";
 
 TEST_F(Report, WritesPageMeasurementsAndTablesOfTheGivenQueries) {
   ASSERT_EQ(run(data() + quick + "--out " + quoted("page.html") + " --json " + quoted("json") +
@@ -124,10 +125,11 @@ TEST_F(Report, HasOnesOwnSolverBesideTheOthers) {
 }
 
 TEST_F(Report, WithoutAPathTheQueriesAreTheBuiltInOnes) {
-  ASSERT_EQ(run(" --method certified --repetitions 1 --method-seconds 0.01 --stability 2 --count 50 "
-                "--experiment field --json " +
-                quoted("json")),
-            0)
+  ASSERT_EQ(
+      run(" --method certified --repetitions 1 --method-seconds 0.01 --stability 2 --count 50 "
+          "--experiment field --json " +
+          quoted("json")),
+      0)
       << read("err");
   std::set<std::string> groups;
   const nlohmann::json result = json();
