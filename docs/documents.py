@@ -42,9 +42,9 @@ RECORDINGS = [f"simulate {scene} --record {RECORDED} --record-limit 2500 --npy"
 
 # The commands of each file of data. They run in the folder of the public data.
 COMMANDS = {
-    "results": ["report handcrafted simulation --count 1000000 --seconds 12 --experiment field "
+    "results": ["report handcrafted simulation --count 1000000 --method-seconds 12 --experiment field "
                 "--experiment separation --experiment filter --stability 0",
-                f"report {RECORDED} --count 12000000 --seconds 12 --experiment field --stability 0"],
+                f"report {RECORDED} --count 12000000 --method-seconds 12 --experiment field --stability 0"],
     "certify": [f"certify {data} --method certified --method tight_inclusion --method tight_inclusion_published "
                 "--method tight_inclusion_released" if data else "certify" for data in DATA],
     "files": ["bench handcrafted/*/*/*.csv simulation/*/queries/*.csv --method certified --method tccd "
@@ -154,7 +154,7 @@ def measure_one(name, command, options, folder):
     if RECORDED in command:
         record(options)
     if options.quick:
-        command = re.sub(r"--repetitions \d+", "--repetitions 1", re.sub(r"--seconds \d+", "--seconds 0.1", command))
+        command = re.sub(r"--repetitions \d+", "--repetitions 1", re.sub(r"--(method-)?seconds \d+", r"--\1seconds 0.1", command))
     print(f"touchstone {command}", flush=True)
     out, proofs = folder / "run.json", folder / "proofs.cert.zst"
     words = [path for word in command.replace(RECORDED, str(options.recorded)).split()
@@ -413,6 +413,33 @@ def one_miss(data):
         ["N", "queries", "motions", "that collide"], rows)
 
 
+def field_2026(data):
+    """The section of docs/results.md on solvers of others: measured elsewhere, once, with no command here."""
+    def cell(value):
+        return "–" if value is None else f"{value:,}" if isinstance(value, int) else f"{value:g}"
+
+    def name(row):
+        return [f"{row['project']} {row['function']}", f"`{row['commit']}`", row["options"]]
+
+    public, samples = data["public"], data["samples"]
+    late = [[*name(row), f"{cell(row['misses_at_start'])} / {cell(row['misses_later'])}", cell(row["false_positives"]),
+             "–" if row["late"] is None else
+             f"{cell(row['late'])} ({cell(row['late_by_at_most_1e-9'])}; {cell(row['latest'])})",
+             " / ".join(cell(row[f"built_in_{of}"]) for of in ("misses", "false_positives", "late")) +
+             f" of {cell(row['built_in_queries'])}", row["caveat"]] for row in public["rows"]]
+    sets = [[*name(row), *(f"{cell(row[f'{of}_misses'])} / {cell(row[f'{of}_false_positives'])}"
+                           for of in ("built_in", "handcrafted", "simulation")), row["caveat"]] for row in samples["rows"]]
+    return ["## The field in 2026, measured elsewhere", "",
+            f"Not made by `./run results`. {data['date']}, {data['measured']}. Of the promise: {data['promise']}.", "",
+            f"{public['queries']:,} public queries, of which {public['collisions']:,} collide:", "",
+            *table(["solver", "version", "options", "misses at t = 0 / later", "false positives",
+                    "late (of these ≤ 1e-9; greatest)", "built-in set: misses / false positives / late", "note"], late), "",
+            "An earlier measurement on other samples, misses / false positives: the built-in set of "
+            f"{samples['built_in_queries']:,} queries, `handcrafted` ({samples['handcrafted_queries']:,}) and `simulation` "
+            f"({samples['simulation_queries']:,}):", "",
+            *table(["solver", "version", "options", "built-in set", "handcrafted", "simulation", "note"], sets), ""]
+
+
 # The marked parts of the documents, in their order, each with its file of data.
 PARTS = {"README.md": [(printed, "certify"), (results, "results")],
          "docs/benchmarks.md": [(judged, "certify"), (files, "files"), (patches, "patches"), (steps, "steps"),
@@ -461,7 +488,8 @@ def documents(options, folder):
     made = {document: with_parts(document, (options.root / document).read_text(), options.root) for document in PARTS}
     page, text = folder / "page.html", folder / "results.md"
     run([options.tool, "report", "--from", options.root / "docs/data/results.json", "--out", page, "--markdown", text])
-    return made | {"docs/results.md": text.read_text(), "docs/results.svg": picture(page, folder)}
+    field = "\n".join(field_2026(json.loads((options.root / "docs/data/field_2026.json").read_text())))
+    return made | {"docs/results.md": text.read_text() + "\n" + field, "docs/results.svg": picture(page, folder)}
 
 
 def differences(root, made):

@@ -42,6 +42,31 @@ enum class Promise : std::uint8_t {
   exact,         ///< no wrong answer at all
 };
 
+/// The meaning of a method's times of impact.
+enum class Times : std::uint8_t {
+  bounds,     ///< toi_lower and toi_upper enclose the exact time
+  estimates,  ///< the exact time is within Terms::time_error of toi_lower (or of toi_upper alone)
+  none,       ///< the verdict alone counts
+};
+
+/// The terms of a promise: the queries that it is about, and what it says of times. A query outside
+/// of them is not asked, and its answer is no fault.
+struct Terms {
+  bool vertex_face = true;  ///< It answers vertex-face queries.
+  bool edge_edge = true;    ///< It answers edge-edge queries.
+  /// At t=0 the distance must be more than the minimum separation plus this; nothing: any distance.
+  std::optional<double> starts_apart = std::nullopt;
+  /// It takes coordinates in single precision: queries are rounded first.
+  bool float_coordinates = false;
+  Times times = Times::bounds;
+  double time_error = 1e-6;  ///< of estimates, in units of the step; not negative
+
+  [[nodiscard]] bool answers(Kind kind) const {
+    return kind == Kind::vertex_face ? vertex_face : edge_edge;
+  }
+  friend bool operator==(const Terms&, const Terms&) = default;
+};
+
 /// The common options of methods. A method ignores the options that do not apply to it.
 struct MethodOptions {
   double tolerance = 1e-6;              ///< of tolerance-driven methods: Tight-Inclusion's δ
@@ -57,6 +82,7 @@ struct MethodInfo {
   /// Its name on the command line: unique, snake_case.
   std::string_view name;
   Promise promise = Promise::none;
+  Terms terms = {};
   /// The key in docs/references.bib of the work that describes it; empty if there is none.
   std::string_view reference = {};
   /// True for a published method that is here for comparison, with its known errors.

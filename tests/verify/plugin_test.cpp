@@ -20,6 +20,12 @@ TEST(PluginInterface, KindsAndVerdictsHaveTheirNumbers) {
   EXPECT_EQ(TOUCHSTONE_ERROR, 3);
   EXPECT_EQ(TOUCHSTONE_LINF, 0);
   EXPECT_EQ(TOUCHSTONE_L2, 1);
+  EXPECT_EQ(TOUCHSTONE_PROMISES_NOTHING, 0);
+  EXPECT_EQ(TOUCHSTONE_PROMISES_CONSERVATIVE, 1);
+  EXPECT_EQ(TOUCHSTONE_PROMISES_EXACT, 2);
+  EXPECT_EQ(TOUCHSTONE_TIMES_BOUNDS, 0);
+  EXPECT_EQ(TOUCHSTONE_TIMES_ESTIMATES, 1);
+  EXPECT_EQ(TOUCHSTONE_TIMES_NONE, 2);
   EXPECT_EQ(TOUCHSTONE_PLUGIN_VERSION, 2);
 }
 
@@ -36,6 +42,15 @@ TEST(PluginInterface, StructsHaveTheirLayout) {
   EXPECT_EQ(offsetof(TouchstonePluginAnswer, toi_lower), 8U);
   EXPECT_EQ(offsetof(TouchstonePluginAnswer, toi_upper), 16U);
   EXPECT_EQ(offsetof(TouchstonePluginAnswer, tolerance), 24U);
+
+  EXPECT_EQ(sizeof(TouchstonePluginPromise), 40U);
+  EXPECT_EQ(offsetof(TouchstonePluginPromise, size), 0U);
+  EXPECT_EQ(offsetof(TouchstonePluginPromise, promise), 4U);
+  EXPECT_EQ(offsetof(TouchstonePluginPromise, kinds), 8U);
+  EXPECT_EQ(offsetof(TouchstonePluginPromise, is_float), 16U);
+  EXPECT_EQ(offsetof(TouchstonePluginPromise, times), 20U);
+  EXPECT_EQ(offsetof(TouchstonePluginPromise, starts_apart), 24U);
+  EXPECT_EQ(offsetof(TouchstonePluginPromise, time_error), 32U);
 }
 
 TEST(PluginInterface, FunctionsHaveTheirTypes) {

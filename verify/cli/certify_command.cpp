@@ -24,7 +24,9 @@
 #include "verify/cli/sources.hpp"
 #include "verify/cli/view_file.hpp"
 #include "verify/io/json.hpp"
+#include "verify/io/printable.hpp"
 #include "verify/io/terminal.hpp"
+#include "verify/jobs/budget.hpp"
 #include "verify/jobs/certify.hpp"
 #include "verify/report/certify_report.hpp"
 #include "verify/solvers/registry.hpp"
@@ -38,6 +40,7 @@ using Progress = std::function<void(double)>;
 struct Arguments {
   SourceArguments sources;
   SolverArguments judged;
+  double seconds = 0.0;
   std::string json_file;
   std::string truth_file;
   std::string proof_file;
@@ -64,6 +67,9 @@ class CertifyRun {
         proof_(files_, arguments.proof_file),
         view_(files_, arguments.view_file) {
     if (truth_) truth_.write(report::truth_header());
+    if (arguments.seconds > 0.0) {
+      budget_ = jobs::Budget(arguments.seconds, solvers_.all(), arguments.sources.threads);
+    }
   }
 
   Status run() {
@@ -73,7 +79,12 @@ class CertifyRun {
          .use = [this](data::QuerySource& source,
                        const Progress& progress) { certify_source(source, progress); },
          .fail = [this](const fs::path& path, const io::DatasetError& error) { fail(path, error); },
-         .stopped = [this] { return stopped(); }});
+         .stopped = [this] { return stopped(); },
+         .begin =
+             [this](std::size_t left) {
+               deadline_ = budget_.begin_source(left);
+               unjudged_ = left - 1;
+             }});
     report_answers();
     solvers_.report_output(arguments_.judged.show_output);
     // Files first, so that they are complete even if standard output is closed.
@@ -93,8 +104,22 @@ class CertifyRun {
     std::FILE* const stream = files_.summary_stream();
     io::print(stream, report::to_text(results_));
     if (proof_) io::print(stream, fmt::format("\n{}", jobs::to_text(sum_.proofs)));
+    print_unjudged(stream);
     report_beyond_limits(sum_.proofs);
     io::print(stream, view_.summary(allowed_false_positives()));
+  }
+
+  /// The sources whose queries were not all judged in the time of the run.
+  void print_unjudged(std::FILE* stream) const {
+    if (!budget_.is_limited()) return;
+    for (const jobs::CertifyResult& result : results_) {
+      if (!result.interrupted) continue;
+      io::print(stream, fmt::format("not judged in time: {}: what follows the first {} queries\n",
+                                    io::printable(result.name), result.queries));
+    }
+    if (budget_.is_over() && unjudged_ != 0) {
+      io::print(stream, fmt::format("not judged in time: {} sources more\n", unjudged_));
+    }
   }
 
   [[nodiscard]] std::uint64_t allowed_false_positives() const {
@@ -113,6 +138,8 @@ class CertifyRun {
     if (arguments_.sources.built_in_set()) options.toi_tolerance = 0;
     options.threads = arguments_.sources.threads;
     options.stop = &io::interrupted();
+    options.deadline = deadline_;
+    options.is_short_of_time = budget_.is_limited();
     options.solvers = solvers_.all();
     options.on_progress = progress;
     if (truth_) {
@@ -140,8 +167,7 @@ class CertifyRun {
     result.separation = arguments_.sources.separation.given();
     result.fail(error.what());
     for (const solvers::Solver* solver : solvers_.all()) {
-      result.methods.push_back(
-          {solver->name(), solver->promise(), solver->is_timed(), judge::Judgement{}});
+      result.methods.push_back(jobs::result_of(*solver));
     }
     add(std::move(result));
   }
@@ -166,12 +192,13 @@ class CertifyRun {
                                first->methods[i].judgement.first_missing.value(), first->name));
     }
     // A run that ended early did not solve all queries.
-    if (sum_.interrupted || sum_.errors != 0) return;
+    if (sum_.interrupted || sum_.errors != 0 || budget_.is_over()) return;
     for (const std::string& warning : solvers_.warnings()) report_warning(warning);
   }
 
   [[nodiscard]] bool stopped() const {
-    return io::interrupted() || (sum_.errors != 0 && !arguments_.sources.keep_going);
+    return io::interrupted() || budget_.is_over() ||
+           (sum_.errors != 0 && !arguments_.sources.keep_going);
   }
 
   [[nodiscard]] Status status() const {
@@ -199,6 +226,9 @@ class CertifyRun {
   Output truth_;
   CertificatesFile proof_;
   ViewFile view_;
+  jobs::Budget budget_;
+  base::Deadline deadline_;
+  std::size_t unjudged_ = 0;  ///< sources behind the latest one
   std::vector<jobs::CertifyResult> results_;
   jobs::CertifyResult sum_;
 };
@@ -217,6 +247,7 @@ void add(CLI::App& app, Status& status) {
       "certify", "Decide queries exactly; compare answers and solvers with the truth");
   add_source_options(*command, arguments->sources);
   add_judged_options(*command, arguments->judged);
+  add_seconds_option(*command, arguments->seconds);
   command->option_defaults()->group("Output");
   add_json_option(*command, arguments->json_file);
   command
@@ -237,6 +268,7 @@ void add(CLI::App& app, Status& status) {
                std::string(judging_statuses));
   command->callback([arguments, command, &status] {
     settle_solver_options(*command, arguments->sources.built_in_set(), arguments->judged);
+    settle_query_limit(*command, arguments->seconds, arguments->judged);
     status = CertifyRun(*arguments).run();
   });
 }

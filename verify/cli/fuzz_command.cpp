@@ -64,6 +64,11 @@ struct Arguments {
   std::string calls;
   std::string view_file;
 
+  /// Seconds of the run; 0: no limit.
+  [[nodiscard]] double run_seconds() const {
+    return seconds == 0.0 && queries == 0 ? default_seconds : seconds;
+  }
+
   [[nodiscard]] std::vector<Kind> kinds() const {
     if (kind.empty()) return {Kind::vertex_face, Kind::edge_edge};
     return {kind_from_string(kind)};
@@ -209,8 +214,7 @@ class FuzzRun {
     }
     files_.add_inputs(arguments.solver.files());
     load_method();
-    options_.seconds = arguments.seconds;
-    if (arguments.seconds == 0.0 && arguments.queries == 0) options_.seconds = default_seconds;
+    options_.seconds = arguments.run_seconds();
     options_.most_queries = arguments.queries;
     options_.seed = arguments.seed;
     options_.separation = arguments.separation.given();
@@ -229,6 +233,7 @@ class FuzzRun {
     asked_ = {.method = std::string(method_->name()),
               .plugin = plugin_ ? fs::absolute(arguments.solver.plugins.front()) : fs::path(),
               .promise = options_.promise.value_or(method_->promise()),
+              .terms = method_->info().terms,
               .options = fuzz::method_options(options_),
               .query_limit_seconds = options_.query_limit_seconds,
               .limits = options_.limits};
@@ -432,6 +437,7 @@ void add(CLI::App& app, Status& status) {
       "judged.");
   command->callback([arguments, command, &status] {
     settle_solver_options(*command, true, arguments->solver);
+    settle_query_limit(*command, arguments->run_seconds(), arguments->solver);
     status = FuzzRun(*arguments).run();
   });
 }

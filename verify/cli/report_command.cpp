@@ -40,6 +40,7 @@
 #include "verify/report/measurement_json.hpp"
 #include "verify/report/page.hpp"
 #include "verify/report/results.hpp"
+#include "verify/report/tables.hpp"
 #include "verify/solvers/answers.hpp"
 #include "verify/solvers/registry.hpp"
 #include "verify/solvers/solver.hpp"
@@ -49,10 +50,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// The usual time of a report on plugins.
+constexpr double plugin_seconds = 60.0;
+
 struct Arguments {
   SourceArguments sources;
   report::ExperimentOptions experiments;
   SolverArguments solvers;
+  bool field = false;
   std::string from_file;
   std::string compare_file;
   std::string page_file;
@@ -147,6 +152,11 @@ class ReportRun {
   [[nodiscard]] report::Measurements measured(const std::vector<data::QueryGroup>& groups) {
     io::ProgressBar bar("report");
     report::ExperimentOptions options = arguments_.experiments;
+    // A chart of one's own solver.
+    if (!arguments_.solvers.plugins.empty() && options.methods.empty() && !arguments_.field) {
+      options.methods = {"certified", "tight_inclusion"};
+      if (options.experiments.empty()) options.experiments = {report::Experiment::field};
+    }
     const std::vector<std::unique_ptr<fast::Method>> plugins = loaded_plugins();
     std::ranges::transform(plugins, std::back_inserter(options.plugins),
                            [](const auto& plugin) { return plugin.get(); });
@@ -186,7 +196,8 @@ class ReportRun {
     std::vector<Recording> recordings;
     for (const fs::path& path : arguments_.solvers.results) {
       auto answers = std::make_unique<solvers::RecordedAnswers>(solvers::load_answers(path));
-      auto solver = solvers::recorded_solver(path.stem().string(), *answers);
+      auto solver = solvers::recorded_solver(path.stem().string(), *answers,
+                                             solvers::changed({}, arguments_.solvers.terms));
       recordings.push_back({.answers = std::move(answers), .solver = std::move(solver)});
     }
     return recordings;
@@ -288,11 +299,12 @@ class ReportRun {
     for (const report::Measurement& m : measurements.all) {
       if (m.keeps_promise) continue;
       report_error(fmt::format(
-          "{} ({}) breaks its promise on {} {}, {}: false negatives {}, late toi {}, early "
-          "toi_upper {}, errors {}, false positives {}",
+          "{} ({}) breaks its promise on {} {}, {}: false negatives {}, late toi {} (at most by {} "
+          "of the step), early toi_upper {}, errors {}, false positives {}",
           m.method, solvers::to_string(m.promise), m.group, to_string(m.kind),
-          report::to_string(m.experiment), m.false_negatives, m.late_tois, m.early_upper_tois,
-          m.errors, m.false_positives));
+          report::to_string(m.experiment), m.false_negatives, m.late_tois,
+          report::short_number(m.late.greatest.step), m.early_upper_tois, m.errors,
+          m.false_positives));
     }
   }
 
@@ -320,6 +332,9 @@ void add_measuring_options(CLI::App& command, Arguments& arguments) {
       ->type_name("NAME")
       ->allow_extra_args(false);
   add_plugin_option(command, arguments.solvers);
+  command.add_flag("--field", arguments.field,
+                   "With --plugin: all methods and experiments; else certified and tight_inclusion "
+                   "alone");
   add_recorded_option(command, arguments.solvers);
   command
       .add_option("--count", arguments.experiments.count,
@@ -329,11 +344,18 @@ void add_measuring_options(CLI::App& command, Arguments& arguments) {
       ->check(whole_number(1, UINT32_MAX));
   command
       .add_option(
-          "--seconds", arguments.experiments.seconds,
+          "--method-seconds", arguments.experiments.seconds,
           "Processor seconds per method, group and setting; slower methods get fewer queries")
       ->type_name("S")
       ->capture_default_str()
       ->check(real_number(1e-6, 1e6));
+  command
+      .add_option("--seconds", arguments.experiments.budget,
+                  fmt::format("Seconds of the whole run (0: no limit; default {} with --plugin and "
+                              "without --field, else 0)",
+                              plugin_seconds))
+      ->type_name("S")
+      ->check(real_number(0.0, 1e7));
   command
       .add_option("--repetitions", arguments.experiments.repetitions,
                   "Repetitions; times are medians")
@@ -401,7 +423,13 @@ void add(CLI::App& app, Status& status) {
       "The page needs no "
       "network; its path is printed. Times are those of one thread.\n" +
           std::string(judging_statuses));
-  command->callback([arguments, &status] { status = ReportRun(*arguments).run(); });
+  command->callback([arguments, command, &status] {
+    report::ExperimentOptions& options = arguments->experiments;
+    const bool is_plugin_alone = !arguments->solvers.plugins.empty() && !arguments->field;
+    if (is_plugin_alone && command->count("--seconds") == 0) options.budget = plugin_seconds;
+    settle_query_limit(*command, options.budget, arguments->solvers);
+    status = ReportRun(*arguments).run();
+  });
 }
 
 }  // namespace touchstone::verify::cli::report_command

@@ -23,6 +23,7 @@
 #include "verify/io/terminal.hpp"
 #include "verify/jobs/solve.hpp"
 #include "verify/judge/separation_inference.hpp"
+#include "verify/judge/terms.hpp"
 #include "verify/report/judgement_report.hpp"
 #include "verify/solvers/answers.hpp"
 
@@ -90,6 +91,11 @@ class SolveRun {
         fmt::format("{}: {} queries, {} yes, {} no, {} undecided, {} errors, {:.1f} ns/query\n",
                     solver_.name(), sum_.queries, sum_.yes, sum_.no, sum_.undecided, sum_.errors,
                     sum_.nanoseconds_per_query()));
+    if (sum_.unasked != 0) {
+      io::print(stream, fmt::format("not asked: {} queries outside its terms{}, or like those at "
+                                    "which it hangs\n",
+                                    sum_.unasked, judge::to_text(solver_.terms())));
+    }
     const std::string failures = report::to_text(sum_.failures);
     if (!failures.empty()) io::print(stream, fmt::format("no answer: {}\n", failures));
     io::print(stream, report::reading_text(sum_.skipped, sum_.rounded));
@@ -130,6 +136,7 @@ class SolveRun {
                         {"no", sum_.no},
                         {"undecided", sum_.undecided},
                         {"errors", sum_.errors},
+                        {"unasked", sum_.unasked},
                         {"unplaced_crashes", sum_.unplaced_crashes},
                         {"ns_per_query", sum_.nanoseconds_per_query()},
                         {"skipped", sum_.skipped},

@@ -6,6 +6,7 @@
 #include <cfloat>
 #include <cstdint>
 #include <stdexcept>
+#include <string>
 #include <string_view>
 #include <utility>
 
@@ -89,6 +90,60 @@ void add_plugin_option(CLI::App& command, SolverArguments& arguments) {
                   "Your solver: a shared library (touchstone/plugin.h); repeatable")
       ->type_name("LIB.so")
       ->allow_extra_args(false);
+  solvers::TermsChanges& terms = arguments.terms;
+  command
+      .add_option_function<std::string>(
+          "--kinds",
+          [&terms](const std::string& name) {
+            terms.vertex_face = kind_from_string(name) == Kind::vertex_face;
+            terms.edge_edge = !*terms.vertex_face;
+          },
+          "The plugin answers only vertex-face or edge-edge queries")
+      ->type_name("KIND")
+      ->check(CLI::IsMember({"vertex-face", "edge-edge"}).description(""));
+  command.add_flag_callback(
+      "--float-coordinates", [&terms] { terms.float_coordinates = true; },
+      "The plugin takes float: queries are rounded first, and the truth is of these");
+  command
+      .add_flag("--starts-apart{0}", arguments.starts_apart,
+                "The plugin needs primitives that are apart at t=0; with =D, by more than the "
+                "minimum separation plus D")
+      ->each([&terms](const std::string& number) { terms.starts_apart = std::stod(number); })
+      ->check(real_number(0.0, DBL_MAX));
+  command
+      .add_option_function<std::string>(
+          "--times",
+          [&terms](const std::string& name) {
+            terms.times = name == "bounds" ? fast::Times::bounds
+                          : name == "none" ? fast::Times::none
+                                           : fast::Times::estimates;
+          },
+          "The plugin's times of impact: bounds, estimates or none")
+      ->type_name("WHAT")
+      ->check(CLI::IsMember({"bounds", "estimates", "none"}).description(""));
+  command
+      .add_option("--time-error", terms.time_error,
+                  "Error of estimates that is no fault, in units of the step (default 1e-6)")
+      ->type_name("E")
+      ->check(real_number(0.0, 1.0));
+}
+
+void add_seconds_option(CLI::App& command, double& seconds) {
+  constexpr double longest_run = 1e7;
+  command
+      .add_option("--seconds", seconds,
+                  "Seconds of the whole run, shared over sources and solvers (0: no limit)")
+      ->type_name("S")
+      ->capture_default_str()
+      ->check(real_number(0.0, longest_run));
+}
+
+void settle_query_limit(const CLI::App& command, double seconds, SolverArguments& arguments) {
+  constexpr double least_limit = 0.1, part = 1.0 / 60.0;
+  const CLI::Option* option = command.get_option_no_throw("--query-limit");
+  const bool is_given = option != nullptr && option->count() != 0;
+  if (is_given || !(seconds > 0.0)) return;
+  arguments.query_limit = std::min(arguments.query_limit, std::max(least_limit, part * seconds));
 }
 
 void add_recorded_option(CLI::App& command, SolverArguments& arguments) {
@@ -115,7 +170,8 @@ solvers::ChildLimits SolverArguments::limits() const {
 }
 
 std::unique_ptr<fast::Method> SolverArguments::load(const std::filesystem::path& plugin) const {
-  return solvers::load_plugin(plugin, {.limits = limits(), .stop = &io::interrupted()});
+  return solvers::load_plugin(plugin,
+                              {.terms = terms, .limits = limits(), .stop = &io::interrupted()});
 }
 
 solvers::SolverProcessOptions SolverArguments::process() const {
@@ -179,7 +235,9 @@ Solvers::Solvers(Files& files, const SolverArguments& arguments, MethodHost host
   }
   for (const std::filesystem::path& path : arguments.results) {
     results_.push_back({path, solvers::load_answers(path)});
-    add(solvers::recorded_solver(path.string(), results_.back().answers), arguments.exact);
+    add(solvers::recorded_solver(path.string(), results_.back().answers,
+                                 solvers::changed({}, arguments.terms)),
+        arguments.exact);
   }
 }
 

@@ -17,6 +17,7 @@
 #include "verify/cli/files.hpp"
 #include "verify/fuzz/fuzz.hpp"
 #include "verify/solvers/answers.hpp"
+#include "verify/solvers/plugin.hpp"
 #include "verify/solvers/solver.hpp"
 
 namespace touchstone::verify::cli {
@@ -29,6 +30,10 @@ struct SolverArguments {
   /// Wall-clock seconds for a query; 0: no limit.
   double query_limit = fuzz::FuzzOptions{}.query_limit_seconds;
   bool exact = false;
+  /// The terms of plugins and of recorded answers, where they differ from what these say.
+  solvers::TermsChanges terms = {};
+  /// Of --starts-apart, before it is in the terms.
+  std::string starts_apart = {};
   /// Memory limit of a solver's process in bytes; 0: no limit.
   std::uint64_t memory_limit = solvers::ChildLimits{}.memory_bytes;
   bool allow_processes = false;
@@ -57,7 +62,8 @@ struct SolverArguments {
 /// until the command line is parsed.
 void add_solver_options(CLI::App& command, SolverArguments& arguments);
 
-/// Adds --plugin alone.
+/// Adds --plugin, and the terms of the promises of plugins: --kinds, --starts-apart,
+/// --float-coordinates, --times, --time-error.
 void add_plugin_option(CLI::App& command, SolverArguments& arguments);
 
 /// Adds --results.
@@ -65,6 +71,13 @@ void add_recorded_option(CLI::App& command, SolverArguments& arguments);
 
 /// Adds --exact.
 void add_exact_flag(CLI::App& command, SolverArguments& arguments);
+
+/// Adds --seconds, the wall-clock time of the whole run; 0: no limit.
+void add_seconds_option(CLI::App& command, double& seconds);
+
+/// Without --query-limit, a query may take no more than a sixtieth of the run if that is less than
+/// the usual limit. \param seconds of the run; 0: no limit
+void settle_query_limit(const CLI::App& command, double seconds, SolverArguments& arguments);
 
 /// Adjusts the arguments of a parsed command line: on the built-in set, which has the most
 /// difficult queries, methods take fewer steps unless --max-checks is given.

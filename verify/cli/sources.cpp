@@ -47,6 +47,7 @@ void for_each_family(const SourceArguments& arguments, const SourceHandlers& han
   TotalProgress progress(handlers.title, sources.size());
   for (std::size_t i = 0; i < sources.size() && !handlers.stopped(); ++i) {
     const auto& [family, kind] = sources[i];
+    if (handlers.begin) handlers.begin(sources.size() - i);
     handlers.use(*generate::open_family(family, kind, arguments.seed, arguments.count, separation),
                  progress.of(i));
   }
@@ -101,6 +102,7 @@ void for_each_file(const SourceArguments& arguments, Files& record,
   const std::vector<fs::path> files = find_files(arguments, record, handlers);
   TotalProgress progress(handlers.title, files.size());
   for (std::size_t i = 0; i < files.size() && !handlers.stopped(); ++i) {
+    if (handlers.begin) handlers.begin(files.size() - i);
     try {
       handlers.use(*data::open_dataset(files[i], options), progress.of(i));
     } catch (const io::DatasetError& error) {

@@ -5,6 +5,7 @@
 /// a mesh.
 
 #include <CLI/CLI.hpp>
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
@@ -49,6 +50,9 @@ struct SourceHandlers {
   std::function<void(const std::filesystem::path&, const io::DatasetError&)> fail;
   /// True to skip the rest; called before each source and after each failure.
   std::function<bool()> stopped;
+  /// Called before each source with the number of those that are left, this one included; may be
+  /// null.
+  std::function<void(std::size_t)> begin = nullptr;
 };
 
 /// The separation of a source: from the options, or recorded with the source.

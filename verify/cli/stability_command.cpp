@@ -33,6 +33,7 @@ struct Arguments {
   std::uint64_t seed = default_seed;
   std::uint64_t count = stability::StabilityOptions{}.count;
   unsigned threads = 0;
+  double seconds = 0.0;
   std::string json_file;
   std::string picture_file;
 };
@@ -68,7 +69,8 @@ stability::StabilityResult measure(const Arguments& arguments, const Solvers& so
        .threads = arguments.threads,
        .solvers = solvers.all(),
        .on_progress = [&bar](double fraction) { bar.update(fraction); },
-       .stop = &io::interrupted()});
+       .stop = &io::interrupted(),
+       .seconds = arguments.seconds});
 }
 
 Status run(const Arguments& arguments) {
@@ -94,6 +96,7 @@ Status run(const Arguments& arguments) {
 void add_options(CLI::App& command, Arguments& arguments) {
   add_solver_options(command, arguments.judged);
   add_exact_flag(command, arguments.judged);
+  add_seconds_option(command, arguments.seconds);
   std::string names;
   for (const stability::Hardness& hardness : stability::hardnesses()) {
     names += fmt::format("{}{}", names.empty() ? "" : ", ", hardness.name);
@@ -137,6 +140,7 @@ void add(CLI::App& app, Status& status) {
                std::string(judging_statuses));
   command->callback([arguments, command, &status] {
     settle_solver_options(*command, true, arguments->judged);
+    settle_query_limit(*command, arguments->seconds, arguments->judged);
     status = run(*arguments);
   });
 }

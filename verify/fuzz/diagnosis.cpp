@@ -27,17 +27,27 @@ std::optional<Fault> broken(const std::vector<Fault>& faults, fast::Promise prom
   return is_undecided ? Fault::undecided : *first;
 }
 
-std::string detail_of(Fault what, const judge::Question& question, const Answer& answer,
-                      const judge::Standard& standard) {
+std::string late_text(const judge::GroundTruth& truth, const Answer& answer,
+                      const fast::Terms& terms) {
+  const judge::Lateness late = judge::lateness_of(truth, answer, terms).value_or(judge::Lateness{});
+  return fmt::format("{} {} is late by {:.1e} of the step, {:.0f} ulp",
+                     terms.times == fast::Times::estimates ? "estimate" : "toi_lower",
+                     answer.toi_lower, late.step, late.ulps);
+}
+
+std::string detail_of(Fault what, const judge::Question& question, const judge::GroundTruth& truth,
+                      const Answer& answer, const judge::Standard& standard) {
   switch (what) {
     case Fault::no_verdict:
       return "error or no verdict, of a valid query";
     case Fault::false_negative:
       return "no, but they collide";
     case Fault::late_toi:
-      return fmt::format("toi_lower {} is late", answer.toi_lower);
+      return late_text(truth, answer, standard.terms);
     case Fault::early_toi_upper:
-      return fmt::format("toi_upper {} is early", answer.toi_upper);
+      return standard.terms.times == fast::Times::estimates
+                 ? fmt::format("estimate {} is early", answer.toi_lower)
+                 : fmt::format("toi_upper {} is early", answer.toi_upper);
     case Fault::false_positive:
     case Fault::undecided:
       return to_text(answer) + ", but they do not collide, and it promises exactness";
@@ -56,7 +66,7 @@ bool is_beyond_doubt(const judge::Question& question, const CertifiedResult& jud
   if (judged.verdict == Verdict::error) return false;
   judge::GroundTruth truth{.index = 0, .collides = judged.verdict == Verdict::yes, .toi = {}};
   if (truth.collides) truth.toi = exact::DoubleInterval{judged.toi_lower, judged.toi_upper};
-  if (broken(judge::judge_verdict(truth, answer), standard.promise)) return false;
+  if (broken(judge::judge_verdict(truth, answer, standard.terms), standard.promise)) return false;
   if (truth.collides) return true;
   const auto claimed = judge::claim_of(question, answer, standard);
   const auto& [kind, query, separation] = question;
@@ -70,7 +80,7 @@ std::optional<Diagnosis> diagnose(const judge::Question& question, const judge::
                                   const Answer& answer, const judge::Standard& standard) {
   const auto what = broken(judge::judge(question, truth, answer, standard), standard.promise);
   if (!what) return std::nullopt;
-  return Diagnosis{*what, detail_of(*what, question, answer, standard)};
+  return Diagnosis{*what, detail_of(*what, question, truth, answer, standard)};
 }
 
 Diagnosis diagnose_failure(const judge::Failure& failure, double limit_seconds) {

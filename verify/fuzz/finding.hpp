@@ -69,6 +69,8 @@ struct Finding {
   Shrinking shrinking = Shrinking::not_tried;
   /// Of what is wrong only in that.
   MissingBounds missing = {};
+  /// Of a late time: is it late slightly (judge::slight_lateness)?
+  bool is_slight = false;
   /// Of the simplest query.
   ScaleRange scales = {};
   std::size_t group = 0;      ///< in FuzzResult::groups

@@ -7,6 +7,7 @@
 #include <compare>
 #include <limits>
 #include <map>
+#include <numeric>
 #include <span>
 #include <stdexcept>
 #include <utility>
@@ -24,6 +25,8 @@
 #include "verify/generate/draws.hpp"
 #include "verify/generate/symmetry.hpp"
 #include "verify/judge/ground_truth.hpp"
+#include "verify/judge/terms.hpp"
+#include "verify/solvers/hang_limits.hpp"
 #include "verify/solvers/solver_process.hpp"
 
 namespace touchstone::verify::fuzz {
@@ -41,6 +44,8 @@ using generate::Random;
 constexpr std::size_t block_queries = 256;
 /// Queries that one draw of the scheduler stands for.
 constexpr std::size_t slice_queries = 16;
+/// After so many slices a block is asked though it is not full, since most queries are not asked.
+constexpr std::size_t most_slices = 16 * block_queries / slice_queries;
 /// Queries that are judged together: enough for the kernel, and few enough to end in time.
 constexpr std::size_t judged_together = 64;
 /// The time left to judge answers that were given before the time was over.
@@ -104,8 +109,11 @@ std::vector<double> explored_parts(const std::vector<Generator>& generators) {
 /// Makes blocks, one kind after the other.
 class BlockMaker {
  public:
-  BlockMaker(const FuzzOptions& options, const std::vector<Generator>& generators)
-      : kinds_(options.kinds),
+  BlockMaker(const fast::Terms& terms, const FuzzOptions& options,
+             const std::vector<Generator>& generators)
+      : kinds_(answered(options.kinds, terms)),
+        terms_(terms),
+        hangs_(options.query_limit_seconds),
         generators_(generators),
         context_(options.separation),
         scheduler_(explored_parts(generators), generate::mix(options.seed) + 1),
@@ -116,12 +124,12 @@ class BlockMaker {
   [[nodiscard]] Block make() {
     Block block;
     block.kind = kinds_[count_++ % kinds_.size()];
-    while (block.queries.size() < block_queries) {
-      const std::size_t arm = scheduler_.choose();
-      for (std::size_t i = 0; i < slice_queries; ++i) {
-        block.queries.push_back(generators_[arm].make(block.kind, context_, random_));
-        block.arms.push_back(arm);
+    for (std::size_t slices = 0; block.queries.size() < block_queries; ++slices) {
+      if (slices == most_slices && block.queries.empty()) {
+        throw std::runtime_error("fuzz: no generator makes queries within the solver's terms");
       }
+      if (slices >= most_slices) break;
+      add_slice(scheduler_.choose(), block);
     }
     add_images(block);
     return block;
@@ -132,28 +140,71 @@ class BlockMaker {
     scheduler_.learn(arm, reward, generators_[arm].work + work);
   }
 
+  /// Notes a hang at a query of the block.
+  void note_hang(Kind kind, std::size_t arm) { hangs_.add(sort_of(kind, arm)); }
+
+  /// Seconds that a query may take now.
+  [[nodiscard]] double query_limit() const { return hangs_.seconds(); }
+  /// Queries that were made and not asked.
+  [[nodiscard]] std::uint64_t outside() const { return outside_; }
+  [[nodiscard]] std::uint64_t left_out() const { return left_out_; }
+
   /// Keeps a query as one to mutate.
   void remember(Kind kind, const Query& query) { context_.pool(kind).add(query); }
 
  private:
+  static std::vector<Kind> answered(std::vector<Kind> kinds, const fast::Terms& terms) {
+    std::erase_if(kinds, [&](Kind kind) { return !terms.answers(kind); });
+    if (kinds.empty()) throw std::invalid_argument("fuzz: the solver answers none of the kinds");
+    return kinds;
+  }
+
+  [[nodiscard]] std::string sort_of(Kind kind, std::size_t arm) const {
+    return fmt::format("{} {}", generators_[arm].name, to_string(kind));
+  }
+
+  /// A slice of a generator's queries. What is not asked teaches that the generator brings less.
+  void add_slice(std::size_t arm, Block& block) {
+    for (std::size_t i = 0; i < slice_queries; ++i) {
+      const Query query =
+          judge::as_asked(terms_, generators_[arm].make(block.kind, context_, random_));
+      const bool is_outside = !judge::admits(terms_, block.kind, query, context_.separation());
+      const bool is_left_out = !is_outside && hangs_.leaves_out(sort_of(block.kind, arm));
+      outside_ += is_outside ? 1U : 0U;
+      left_out_ += is_left_out ? 1U : 0U;
+      if (is_outside || is_left_out) {
+        learn(arm, 0.0, 0.0);
+        continue;
+      }
+      block.queries.push_back(query);
+      block.arms.push_back(arm);
+    }
+  }
+
   void add_images(Block& block) {
     const std::size_t made = block.queries.size();
     for (std::size_t i = 0; i < made; ++i) {
       if (!one_in(random_, queries_an_image)) continue;
       const generate::Symmetry symmetry =
           generate::draw_symmetry(block.kind, block.queries[i], context_.separation(), random_);
-      block.queries.push_back(image(symmetry, block.queries[i]).value_or(block.queries[i]));
+      const Query changed = image(symmetry, block.queries[i]).value_or(block.queries[i]);
+      if (!judge::admits(terms_, block.kind, changed, context_.separation())) continue;
+      block.queries.push_back(changed);
       block.arms.push_back(block.arms[i]);
       block.images.push_back({.origin = i, .symmetry = symmetry});
     }
   }
 
-  const std::vector<Kind>& kinds_;
+  std::vector<Kind> kinds_;
+  const fast::Terms& terms_;
+  solvers::HangLimits hangs_;
   const std::vector<Generator>& generators_;
   GeneratorContext context_;
   Scheduler scheduler_;
   Random random_;
   std::size_t count_ = 0;
+  std::uint64_t outside_ = 0;
+  std::uint64_t left_out_ = 0;
 };
 
 // ---- Judging ------------------------------------------------------------------------------------
@@ -201,7 +252,7 @@ class Run {
         standard_(standard_of(method, options)),
         oracle_share_(name_ == judge_name() ? 1.0 : options.oracle_share),
         generators_(generators(options.separation)),
-        maker_(options, generators_),
+        maker_(method.info().terms, options, generators_),
         solver_(method, process_options(options)),
         method_options_(method_options(options)),
         random_(generate::mix(options.seed) + 2) {
@@ -213,6 +264,10 @@ class Run {
   FuzzResult run() {
     while (!is_over()) run_block();
     result_.ended_by = ended_by();
+    result_.outside = maker_.outside();
+    result_.left_out = maker_.left_out();
+    result_.query_limit_seconds = maker_.query_limit();
+    sort_groups();
     result_.output = solver_.take_output();
     result_.seconds = seconds();
     result_.other_seconds = result_.seconds - result_.method_seconds - result_.shrink_seconds;
@@ -251,11 +306,17 @@ class Run {
     }
     answers_.assign(block_.queries.size(), Answer{});
     const double asked = seconds();
+    solver_.set_query_limit(maker_.query_limit());
     // A block of a slow method may take minutes.
     const solvers::SolverRun run = solver_.solve(block_.kind, block_.queries, answers_,
                                                  method_options_, solver_deadline(end_));
     result_.method_seconds += seconds() - asked;
     result_.unplaced_crashes += run.unplaced_crashes;
+    limit_ = maker_.query_limit();
+    for (const auto& [position, failure] : run.failures) {
+      if (failure.kind != judge::Fault::hang) continue;
+      maker_.note_hang(block_.kind, block_.arms[position]);
+    }
     if (end_.is_over() || is_stopped()) result_.unanswered = block_.queries.size() - run.answered;
     judge(run);
     if (options_.on_progress) {
@@ -391,7 +452,7 @@ class Run {
 
   double report_failure(std::size_t i, const judge::Failure& failure) {
     ++result_.judged_by_oracle;
-    return report(i, {diagnose_failure(failure, options_.query_limit_seconds), name_},
+    return report(i, {diagnose_failure(failure, limit_), name_},
                   exact::decide(block_.kind, block_.queries[i], options_.separation));
   }
 
@@ -402,6 +463,36 @@ class Run {
     MissingBounds missing = {};
   };
 
+  /// Is the finding a time that is late slightly?
+  [[nodiscard]] bool is_slight(const Charge& charge, const Answer& answer,
+                               const exact::Decision& verdict) const {
+    return judge::is_slight(charge.diagnosis.what, judge::lateness_of(judge::truth_of(0, verdict),
+                                                                      answer, standard_.terms));
+  }
+
+  /// The most harmful group first, then that with the plainest example.
+  void sort_groups() {
+    const auto harm = [this](const FindingGroup& group) {
+      const Finding& best = result_.findings[group.best];
+      return judge::harm_of(best.what, best.is_slight, standard_.promise);
+    };
+    std::vector<std::size_t> order(result_.groups.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::ranges::stable_sort(order, [&](std::size_t a, std::size_t b) {
+      const FindingGroup &first = result_.groups[a], &second = result_.groups[b];
+      if (harm(first) != harm(second)) return harm(first) < harm(second);
+      return is_plainer(result_.findings[first.best], result_.findings[second.best]);
+    });
+    std::vector<FindingGroup> sorted;
+    std::vector<std::size_t> place(order.size());
+    for (const std::size_t group : order) {
+      place[group] = sorted.size();
+      sorted.push_back(result_.groups[group]);
+    }
+    result_.groups = std::move(sorted);
+    for (Finding& finding : result_.findings) finding.group = place[finding.group];
+  }
+
   /// Counts a finding, keeps the first of a class. Returns the reward, less for what is not new.
   double report(std::size_t i, const Charge& charge, const exact::Decision& verdict) {
     if (!seeks(options_, charge.diagnosis.what)) {
@@ -410,8 +501,9 @@ class Run {
     }
     ++result_.all_findings;
     ++result_.generators[block_.arms[i]].findings;
-    const Class what{std::string(charge.method), charge.diagnosis.what, block_.kind,
-                     judged_[i].stage, block_.arms[i]};
+    const Class what{
+        std::string(charge.method), charge.diagnosis.what, block_.kind,
+        judged_[i].stage,           block_.arms[i],        is_slight(charge, answers_[i], verdict)};
     const auto [known, is_new] = classes_.try_emplace(what);
     Class::Seen& seen = known->second;
     if (!is_new) {
@@ -434,6 +526,7 @@ class Run {
                                              of_judge ? answer_of(judged_[i]) : answers_[i],
                                              verdict, charge.diagnosis.detail, generator),
                     .missing = charge.missing,
+                    .is_slight = is_slight(charge, answers_[i], verdict),
                     .seconds = seconds(),
                     .queries = result_.queries,
                     .generator = generator};
@@ -475,6 +568,7 @@ class Run {
     Kind kind;
     fast::Stage stage;
     std::size_t arm;
+    bool is_slight;
 
     friend auto operator<=>(const Class&, const Class&) = default;
 
@@ -509,6 +603,7 @@ class Run {
   std::vector<Answer> answers_;
   std::vector<CertifiedResult> judged_;
   std::vector<judge::QueryFailure> failures_;
+  double limit_ = 0.0;  ///< of a query
   base::Deadline judging_end_;
 };
 

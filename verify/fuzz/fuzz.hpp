@@ -117,6 +117,9 @@ struct FindingGroup {
 struct FuzzResult {
   std::uint64_t queries = 0;           ///< asked and judged, images included
   std::uint64_t unjudged = 0;          ///< answered, but the run was over before they were judged
+  std::uint64_t outside = 0;           ///< made, not asked: outside the terms of the promise
+  std::uint64_t left_out = 0;          ///< made, not asked: of generators whose queries hang
+  double query_limit_seconds = 0.0;    ///< at the end: hangs shorten it (solvers/hang_limits.hpp)
   std::uint64_t unanswered = 0;        ///< asked, but the run was over before they were answered
   std::uint64_t images = 0;            ///< of those judged
   std::uint64_t collisions = 0;        ///< of these, by the judge
@@ -126,9 +129,9 @@ struct FuzzResult {
   double shrink_seconds = 0.0;         ///< of these, making findings simpler
   double other_seconds = 0.0;          ///< generating and judging: the rest
   std::vector<Finding> findings;       ///< in order; those that were kept
-  std::vector<FindingGroup> groups;    ///< in the order of their first findings
-  std::uint64_t all_findings = 0;      ///< kept or not
-  std::uint64_t other_findings = 0;    ///< of kinds that were not sought, beside all these
+  std::vector<FindingGroup> groups;  ///< the most harmful first (judge::harm_of), then the plainest
+  std::uint64_t all_findings = 0;    ///< kept or not
+  std::uint64_t other_findings = 0;  ///< of kinds that were not sought, beside all these
   /// Times the method ended its process at queries none of which does it alone.
   std::uint64_t unplaced_crashes = 0;
   solvers::CapturedOutput output;  ///< what the method printed

@@ -13,6 +13,7 @@
 #include "verify/io/printable.hpp"
 #include "verify/io/text_table.hpp"
 #include "verify/judge/separation_inference.hpp"
+#include "verify/judge/terms.hpp"
 #include "verify/solvers/answers.hpp"
 #include "verify/solvers/registry.hpp"
 
@@ -43,7 +44,7 @@ std::string kind_text(const std::optional<Kind>& kind) {
 
 std::string group_table(const FuzzResult& result) {
   io::TextTable table({{"group", 5},
-                       io::word_column("finding", 14),
+                       io::word_column("finding", 17),
                        {"count", 6},
                        io::word_column("scale", 9),
                        io::word_column("kind", 11),
@@ -54,7 +55,8 @@ std::string group_table(const FuzzResult& result) {
     const FindingGroup& group = result.groups[i];
     const Signature signature = signature_of(result.findings.at(group.best));
     const auto first = std::ranges::find(result.findings, i, &Finding::group);
-    table.add({std::to_string(i + 1), std::string(to_string(signature.what)),
+    table.add({std::to_string(i + 1),
+               (signature.is_slight ? "slightly " : "") + std::string(to_string(signature.what)),
                std::to_string(group.count), to_text(signature.ends), kind_text(signature.kind),
                to_text(signature.shape), to_text(signature.time), std::to_string(first->queries)});
   }
@@ -106,6 +108,7 @@ nlohmann::json number_or_null(const std::optional<int>& number) {
 nlohmann::json group_json(const FuzzResult& result, const FindingGroup& group) {
   const Signature signature = signature_of(result.findings.at(group.best));
   return {{"what", to_string(signature.what)},
+          {"is_slight", signature.is_slight},
           {"method", signature.method},
           {"count", group.count},
           {"best", group.best},
@@ -135,6 +138,7 @@ nlohmann::json solver_json(const SolverCall& solver) {
   return {{"method", solver.method},
           {"plugin", io::text_or_null(solver.plugin.string())},
           {"promise", solvers::to_string(solver.promise)},
+          {"terms", judge::as_options(solver.terms)},
           {"tolerance", solver.options.tolerance},
           {"max_checks", solver.options.max_checks},
           {"min_separation", solver.options.separation.distance},
@@ -175,14 +179,25 @@ std::string to_text(const FuzzReport& report) {
   const FuzzResult& result = report.result;
   const Separation separation = report.solver.options.separation;
   std::string text = fmt::format(
-      "{} ({}), seed {}{}: {} queries in {:.1f} s, {} of them images, {} collisions\n"
+      "{} ({}{}), seed {}{}: {} queries in {:.1f} s, {} of them images, {} collisions\n"
       "{:.0f} queries a second, {:.0f} without the method's own time; {} judged by the oracle\n",
-      report.solver.method, solvers::to_string(report.solver.promise), report.seed,
+      report.solver.method, solvers::to_string(report.solver.promise),
+      judge::to_text(report.solver.terms), report.seed,
       is_zero(separation) ? "" : ", minimum separation " + judge::to_text(separation),
       result.queries, result.seconds, result.images, result.collisions, result.queries_per_second(),
       result.judged_per_second(), result.judged_by_oracle);
   text += end_text(report);
   text += findings_text(report);
+  if (result.outside != 0) {
+    text += fmt::format("{} queries outside its terms{}: not asked\n", result.outside,
+                        judge::to_text(report.solver.terms));
+  }
+  if (result.left_out != 0) {
+    text += fmt::format(
+        "{} queries of generators at whose queries it hangs: not asked; at last a query might "
+        "take {} s\n",
+        result.left_out, result.query_limit_seconds);
+  }
   if (result.other_findings != 0) {
     text += fmt::format("{} of kinds that were not sought\n", result.other_findings);
   }
@@ -240,6 +255,8 @@ nlohmann::json to_json(const FuzzReport& report) {
           {"queries", result.queries},
           {"unjudged", result.unjudged},
           {"unanswered", result.unanswered},
+          {"outside", result.outside},
+          {"left_out", result.left_out},
           {"images", result.images},
           {"collisions", result.collisions},
           {"judged_by_oracle", result.judged_by_oracle},

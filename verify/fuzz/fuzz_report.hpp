@@ -49,16 +49,16 @@ struct FuzzReport {
 [[nodiscard]] nlohmann::json to_json(const Finding& finding, const SolverCall& asked);
 
 /// An object of `solver` (`method`, `plugin` or null, `promise`, `tolerance`, `max_checks`,
-/// `min_separation`, `norm`, `t_max`, `query_limit`, `memory_limit` in bytes, `allow_processes`),
-/// `method`, `promise`, `seed`, `separation`, `asked` (`seconds` and `queries`, null without a
-/// limit, and `only`, a list of kinds, empty for all), `ended_by` ("time", "queries", "findings" or
-/// "interrupt"), `queries`, `unjudged`, `unanswered`, `images`, `collisions`, `judged_by_oracle`,
-/// `seconds`, `method_seconds`, `shrink_seconds`, `other_seconds`, `queries_per_second`,
-/// `judged_per_second`, `all_findings`, `other_findings`, `unplaced_crashes`, `interrupted`,
-/// `generators` (a list of `name`, `queries`, `collisions`, `coverage_keys`, `findings`),
-/// `findings`, a list as above, and `groups`, a list of `what`, `method`, `count`, `best` (a number
-/// in `findings`), `scale`, `kind`, `shape` and `time` (signature.hpp, in words; `kind` null where
-/// it does not matter).
+/// `min_separation`, `plugin` or null, `promise`, `terms` (as options of the command line),,
+/// `memory_limit` in bytes, `allow_processes`), `method`, `promise`, `seed`, `separation`, `asked`
+/// (`seconds` and `queries`, null without a limit, and `only`, a list of kinds, empty for all),
+/// `ended_by` ("time", "queries", "findings" or "interrupt"), `queries`, `unjudged`, `unanswered`,
+/// `outside` and `left_out` (not asked), `images`, `collisions`, `judged_by_oracle`, `seconds`,
+/// `method_seconds`, `shrink_seconds`, `other_seconds`, `queries_per_second`, `judged_per_second`,
+/// `all_findings`, `other_findings`, `unplaced_crashes`, `interrupted`, `generators` (a list of
+/// `name`, `queries`, `collisions`, `coverage_keys`, `findings`), `findings`, a list as above, and
+/// `groups`, a list of `what`, `method`, `count`, `best` (a number in `findings`), `scale`, `kind`,
+/// `shape` and `time` (signature.hpp, in words; `kind` null where it does not matter).
 [[nodiscard]] nlohmann::json to_json(const FuzzReport& report);
 
 }  // namespace touchstone::verify::fuzz

@@ -9,6 +9,7 @@
 #include "touchstone/certificate_text.hpp"
 #include "verify/base/deadline.hpp"
 #include "verify/fuzz/shrink.hpp"
+#include "verify/judge/terms.hpp"
 
 namespace touchstone::verify::fuzz {
 namespace {
@@ -88,11 +89,16 @@ Recheck::Recheck(const fast::Method& method, const Finding& finding, const FuzzO
 
 std::optional<FailingCase> Recheck::ask(const Query& query, const base::Deadline& deadline) {
   if (!is_finite(query) || deadline.is_over()) return std::nullopt;
+  if (!judge::admits(standard_.terms, finding_.kind, query, separation_)) return std::nullopt;
   const std::optional<Reply> reply = reply_to(query, deadline);
   if (!reply) return std::nullopt;
   const exact::Decision verdict = exact::decide(finding_.kind, query, separation_);
   const auto diagnosis = diagnose_reply(query, judge::truth_of(0, verdict), *reply);
   if (!diagnosis || !is_same(*diagnosis)) return std::nullopt;
+  const bool is_slight = judge::is_slight(
+      diagnosis->what,
+      judge::lateness_of(judge::truth_of(0, verdict), reply->answer, standard_.terms));
+  if (is_slight != finding_.is_slight) return std::nullopt;
   return failing_case(finding_.kind, query, reply->answer, verdict, diagnosis->detail,
                       finding_.generator);
 }

@@ -12,6 +12,7 @@
 #include "verify/data/csv_dataset.hpp"
 #include "verify/generate/random.hpp"
 #include "verify/io/printable.hpp"
+#include "verify/judge/terms.hpp"
 
 namespace touchstone::verify::fuzz {
 namespace {
@@ -50,6 +51,7 @@ std::string options_as_words(const SolverCall& solver) {
     words += fmt::format(" --memory-limit {}", gibibytes(solver.limits));
   }
   if (solver.limits.may_fork) words += " --allow-processes";
+  if (!solver.plugin.empty()) words += judge::as_options(solver.terms);
   return solver.promise == fast::Promise::exact ? words + " --exact" : words;
 }
 
@@ -99,6 +101,7 @@ Reproduction reproduction_of(const Finding& finding, const SolverCall& asked) {
   if (finding.method != asked.method) {
     result.solver.method = finding.method;
     result.solver.plugin.clear();
+    result.solver.terms = {};
     result.solver.promise = fast::Promise::exact;
   }
   return result;

@@ -38,6 +38,8 @@ struct SolverCall {
   std::filesystem::path plugin = {};
   /// The promise it is judged by.
   fast::Promise promise = fast::Promise::conservative;
+  /// The terms of the promise, stated by the solver or on the command line.
+  fast::Terms terms = {};
   /// With the separation that counts as contact.
   fast::MethodOptions options = {};
   /// Wall-clock seconds that a query may take; 0: no limit.

@@ -101,12 +101,14 @@ ScaleRange scale_range(const fast::Method& method, const FuzzOptions& options,
 
 Signature signature_of(const Finding& finding) {
   const FailingCase& simplest = finding.simplest;
-  Signature result{.method = finding.method, .what = finding.what};
+  Signature result{.method = finding.method, .what = finding.what, .is_slight = finding.is_slight};
   if (has_reason(finding.what)) result.reason = simplest.detail;
   add_end(finding.scales.end_below, result.ends);
   add_end(finding.scales.end_above, result.ends);
   if (result.ends.any()) return result;
   result.kind = finding.kind;
+  // Its query is as it was found, and says nothing of a cause.
+  if (finding.what == judge::Fault::hang) return result;
   result.shape = shape_of(finding.kind, simplest.query);
   result.time = time_of(simplest);
   return result;

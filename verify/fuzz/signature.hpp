@@ -10,7 +10,7 @@
 /// are of one group if they are of one solver and kind of finding, and
 ///
 /// - the fault ends in the same ranges of scale, if it ends anywhere, or else
-/// - kind, degeneracy (plainness.hpp) and time of contact are the same.
+/// - kind, degeneracy (plainness.hpp) and time of contact are the same; of hangs the kind alone.
 ///
 /// This is no proof: two faults may have one signature, and one fault two.
 
@@ -48,6 +48,7 @@ struct ScaleEnds {
 struct Signature {
   std::string method;
   judge::Fault what = judge::Fault::false_negative;
+  bool is_slight = false;  ///< Is it a time that is late slightly?
   /// The reason of a crash, an exit or an exception; else empty.
   std::string reason = {};
   ScaleEnds ends = {};

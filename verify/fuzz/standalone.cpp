@@ -32,7 +32,11 @@ std::string wrong_as_found(const Reproduction& found, const Names& names) {
     case judge::Fault::asymmetry:
       return std::string(failing.collides ? names.is_no : names.is_yes);
     case judge::Fault::late_toi:
-      return fmt::format("{} && {} > {}", names.is_yes, names.lower, failing.toi->lower);
+      return fmt::format("{} && {}{} > {}", names.is_yes, names.lower,
+                         found.solver.terms.times == fast::Times::estimates
+                             ? fmt::format(" - {}", found.solver.terms.time_error)
+                             : "",
+                         failing.toi->lower);
     default:
       return {};
   }
@@ -44,7 +48,11 @@ std::string wrong_as_found_of_plugin(const Reproduction& found) {
       .is_yes = "answer.verdict == 1", .is_no = "answer.verdict == 0", .lower = "answer.toi_lower"};
   switch (found.what) {
     case judge::Fault::early_toi_upper:
-      return fmt::format("{} && answer.toi_upper < {}", names.is_yes, found.failing.toi->upper);
+      return found.solver.terms.times == fast::Times::estimates
+                 ? fmt::format("{} && answer.toi_lower + {} < {}", names.is_yes,
+                               found.solver.terms.time_error, found.failing.toi->upper)
+                 : fmt::format("{} && answer.toi_upper < {}", names.is_yes,
+                               found.failing.toi->upper);
     case judge::Fault::no_verdict:
       return "answer.verdict == 3";
     case judge::Fault::undecided:

@@ -82,11 +82,13 @@ void ProgressBar::clear() {
 void ProgressBar::update(double fraction) {
   using namespace std::chrono_literals;
   const Clock::time_point now = Clock::now();
-  if (now - start_ < 1s || now - last_draw_ < 100ms || isatty(STDERR_FILENO) == 0) return;
+  const bool is_terminal = isatty(STDERR_FILENO) != 0;
+  if (now - start_ < 1s || now - last_draw_ < (is_terminal ? 100ms : 10s)) return;
   const double seconds = std::chrono::duration<double>(now - start_).count();
-  print(stderr, fmt::format("\r{}\x1b[K", progress_line(title_, fraction, seconds)));
+  const std::string line = progress_line(title_, fraction, seconds);
+  print(stderr, is_terminal ? fmt::format("\r{}\x1b[K", line) : line + '\n');
   last_draw_ = now;
-  drawn_ = true;
+  drawn_ = is_terminal;
 }
 
 std::string progress_line(const std::string& title, double fraction, double seconds) {

@@ -23,8 +23,8 @@ void print(std::FILE* stream, std::string_view text);
 /// by head) is not an error.
 void finish_printing();
 
-/// A progress line on standard error: only on a terminal, only after a second, redrawn at most ten
-/// times a second, removed with the object.
+/// Progress on standard error. On a terminal a line, only after a second, redrawn at most ten times
+/// a second, removed with the object; elsewhere a line of its own every ten seconds.
 class ProgressBar {
  public:
   /// \param title made printable (printable.hpp)

@@ -1,6 +1,7 @@
 #include "verify/jobs/bench.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <stdexcept>
 #include <utility>
@@ -160,7 +161,8 @@ class Run {
   }
 
   [[nodiscard]] std::optional<SingleTimes> singles_of(const TimedSolver& timed) const {
-    const auto times = timed.time_singles(options_.singles, options_.seconds, options_.stop);
+    auto times = timed.time_singles(options_.singles, options_.seconds, options_.stop);
+    if (times) std::erase_if(*times, [](double time) { return std::isinf(time); });
     if (!times || times->empty()) return std::nullopt;
     return SingleTimes{.queries = times->size(),
                        .p50 = quantile(*times, 0.5),

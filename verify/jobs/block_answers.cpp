@@ -29,13 +29,13 @@ const judge::Failure* BlockAnswers::failure(std::size_t i) const {
   return judge::failure_at(calls_[first / Passes::unit].reply.failures, i - first);
 }
 
-bool BlockAnswers::is_missing(std::size_t i) const {
+std::optional<judge::Unasked> BlockAnswers::why_unasked(std::size_t i) const {
   const std::size_t first = begins_[i / Passes::unit];
-  return std::ranges::binary_search(calls_[first / Passes::unit].reply.missing, i - first);
+  return calls_[first / Passes::unit].reply.why_unasked(i - first);
 }
 
 std::optional<judge::GivenAnswer> BlockAnswers::given(std::size_t i) const {
-  if (is_missing(i)) return std::nullopt;
+  if (why_unasked(i)) return std::nullopt;
   judge::GivenAnswer given{
       .solver = solver_.name(), .answer = answers_[i], .standard = solver_.standard()};
   if (const judge::Failure* const failed = failure(i)) given.failure = *failed;
@@ -45,8 +45,8 @@ std::optional<judge::GivenAnswer> BlockAnswers::given(std::size_t i) const {
 judge::Judgement BlockAnswers::judge(std::span<const judge::GroundTruth> truths) const {
   judge::Judgement judgement;
   for (std::size_t i = 0; i < truths.size(); ++i) {
-    if (is_missing(i)) {
-      judgement.add_missing(block_.indices[i]);
+    if (const auto why = why_unasked(i)) {
+      judgement.add_unasked(*why, block_.indices[i]);
     } else {
       judgement.add({block_.kind, block_.queries[i], separation_}, truths[i], answers_[i],
                     solver_.standard(), failure(i));

@@ -30,6 +30,8 @@ class BlockAnswers {
   [[nodiscard]] std::span<const fast::Answer> answers() const { return answers_; }
   /// The failure at query i that the solver reports with the answers, or null.
   [[nodiscard]] const judge::Failure* failure(std::size_t i) const;
+  /// Why query i was not asked; nothing if it was.
+  [[nodiscard]] std::optional<judge::Unasked> why_unasked(std::size_t i) const;
   /// The answer to query i as a person is shown it, unless the solver has none.
   [[nodiscard]] std::optional<judge::GivenAnswer> given(std::size_t i) const;
 
@@ -45,8 +47,6 @@ class BlockAnswers {
     std::size_t count = 0;  ///< of queries; 0: no call begins here
     solvers::SolveReply reply;
   };
-
-  [[nodiscard]] bool is_missing(std::size_t i) const;
 
   const Block& block_;
   const solvers::Solver& solver_;

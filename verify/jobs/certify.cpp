@@ -101,10 +101,14 @@ class BlockJudgement {
   std::size_t complete_ = 0;
 };
 
+/// Queries of a block if time is short.
+constexpr std::size_t short_block = 256;
+
 void add_methods(std::vector<MethodResult>& sum, const std::vector<MethodResult>& methods) {
   for (std::size_t i = 0; i < methods.size(); ++i) {
     const MethodResult& method = methods[i];
-    if (i == sum.size()) sum.push_back({method.name, method.promise, method.timed, {}});
+    if (i == sum.size())
+      sum.push_back({method.name, method.promise, method.terms, method.timed, {}});
     judge::Judgement counts = method.judgement;
     counts.wrong_answers.clear();
     counts.first_missing.reset();
@@ -113,6 +117,14 @@ void add_methods(std::vector<MethodResult>& sum, const std::vector<MethodResult>
 }
 
 }  // namespace
+
+MethodResult result_of(const solvers::Solver& solver) {
+  return {.name = solver.name(),
+          .promise = solver.promise(),
+          .terms = solver.terms(),
+          .timed = solver.is_timed(),
+          .judgement = {}};
+}
 
 exact::Rational CertifyOptions::default_toi_tolerance() {
   return exact::rational_from_decimal("1e-40");
@@ -154,13 +166,16 @@ CertifyResult certify(data::QuerySource& source, const CertifyOptions& options) 
   result.name = source.name();
   result.kind = source.kind();
   for (const solvers::Solver* solver : options.solvers) {
-    result.methods.push_back(
-        {solver->name(), solver->promise(), solver->is_timed(), judge::Judgement{}});
+    result.methods.push_back(result_of(*solver));
   }
   const StreamResult ended = stream(
       source, [&](const Block& block) { return BlockJudgement(block, options, comparison); },
       [&](const BlockJudgement& judgement) { judgement.add_to(result); },
-      {.threads = options.threads, .on_progress = options.on_progress, .stop = options.stop});
+      {.threads = options.threads,
+       .on_progress = options.on_progress,
+       .stop = options.stop,
+       .deadline = options.deadline,
+       .block = options.is_short_of_time ? short_block : Block::size});
   result.skipped = ended.skipped;
   result.rounded = ended.rounded;
   result.interrupted = ended.interrupted;

@@ -18,6 +18,7 @@
 
 #include "touchstone/number.hpp"
 #include "touchstone/query.hpp"
+#include "verify/base/deadline.hpp"
 #include "verify/data/query_source.hpp"
 #include "verify/jobs/prove.hpp"
 #include "verify/judge/judgement.hpp"
@@ -48,6 +49,10 @@ struct CertifyOptions {
   std::function<void(double)> on_progress = nullptr;
   /// Once true, no further queries are read and the result is that of those read so far.
   const std::atomic<bool>* stop = nullptr;
+  /// Behind it no further queries are read (Budget::begin_source).
+  base::Deadline deadline = {};
+  /// Is time short? Then queries are decided in smaller blocks.
+  bool is_short_of_time = false;
   /// Judged on every query; not null.
   std::vector<const solvers::Solver*> solvers = {};
 
@@ -59,9 +64,13 @@ struct CertifyOptions {
 struct MethodResult {
   std::string name;
   fast::Promise promise = fast::Promise::none;  ///< what it is held to
+  fast::Terms terms = {};                       ///< the terms of that
   bool timed = false;                           ///< Is its processor time known?
   judge::Judgement judgement;
 };
+
+/// The result of a solver that was asked nothing.
+[[nodiscard]] MethodResult result_of(const solvers::Solver& solver);
 
 /// The judgement on one source.
 struct CertifyResult {
@@ -86,7 +95,7 @@ struct CertifyResult {
   std::vector<MethodResult> methods;
   /// The error that ended the reading before the source's end; all of the above holds up to there.
   std::optional<std::string> error;
-  bool interrupted = false;
+  bool interrupted = false;  ///< by the stop, or by the deadline: queries are left
 
   /// Mean time of the oracle; 0 if there are no queries.
   [[nodiscard]] double microseconds_per_query() const;

@@ -34,6 +34,10 @@ class SolvedBlock {
   void add_to(SolveResult& result, const SolveOptions& options) const {
     const std::size_t complete = passes_.complete();
     for (std::size_t i = 0; i < complete; ++i) {
+      if (answers_.why_unasked(i)) {
+        ++result.unasked;
+        continue;
+      }
       const fast::Answer& answer = answers_.answers()[i];
       add(answer, answers_.failure(i), result);
       if (options.on_answer) options.on_answer(block_.indices[i], answer, answers_.failure(i));
@@ -60,6 +64,7 @@ SolveResult& SolveResult::operator+=(const SolveResult& other) {
   no += other.no;
   undecided += other.undecided;
   errors += other.errors;
+  unasked += other.unasked;
   for (std::size_t i = 0; i < failures.size(); ++i) failures[i] += other.failures[i];
   unplaced_crashes += other.unplaced_crashes;
   nanoseconds += other.nanoseconds;

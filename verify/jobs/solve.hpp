@@ -39,6 +39,8 @@ struct SolveResult {
   std::uint64_t yes = 0;
   std::uint64_t no = 0;
   std::uint64_t undecided = 0;
+  /// Queries that were not asked (judge::Unasked): they are in no other count, nor handed out.
+  std::uint64_t unasked = 0;
   std::uint64_t errors = 0;  ///< answers that are errors, or yes with times that are not finite
   /// Queries without an answer by their failure (verify/judge/fault.hpp): undecided ones and
   /// errors.

@@ -38,7 +38,7 @@ class Stream {
     token = {};
     token.block.source = &source_.name();
     token.block.kind = source_.kind();
-    while (!ended_ && token.block.queries.size() < Block::size) read_query(token.block);
+    while (!ended_ && token.block.queries.size() < options_.block) read_query(token.block);
     token.progress = source_.progress();
     return token.block.queries.empty() ? nullptr : &token;
   }
@@ -61,7 +61,8 @@ class Stream {
 
  private:
   void read_query(Block& block) {
-    if (base::is_stopped(options_.stop)) {
+    const bool is_late = block.queries.empty() && options_.deadline.is_over();
+    if (base::is_stopped(options_.stop) || is_late) {
       ended_ = result_.interrupted = true;
       return;
     }
@@ -102,7 +103,7 @@ void Passes::run(std::size_t span, const std::function<bool(std::size_t, std::si
       std::clamp<std::size_t>(span / unit, 1, std::max<std::size_t>(done_.size(), 1));
   const std::size_t steps = (done_.size() + step - 1) / step;
   const auto part = [&](std::size_t i) {
-    if (stop_ != nullptr && stop_->load()) return;
+    if (base::is_stopped(stop_)) return;
     const std::size_t first = i * step, last = std::min(first + step, done_.size());
     if (!work(first * unit, std::min(last * unit, queries_) - first * unit)) return;
     for (std::size_t u = first; u < last; ++u) ++done_[u];

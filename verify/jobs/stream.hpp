@@ -19,6 +19,7 @@
 #include <vector>
 
 #include "touchstone/query.hpp"
+#include "verify/base/deadline.hpp"
 #include "verify/data/query_source.hpp"
 #include "verify/judge/label.hpp"
 #include "verify/solvers/solver.hpp"
@@ -96,6 +97,10 @@ struct StreamOptions {
   std::function<void(double)> on_progress = nullptr;
   /// Once true, no further queries are read.
   const std::atomic<bool>* stop = nullptr;
+  /// Behind it no further block is begun.
+  base::Deadline deadline = {};
+  /// Queries of a block, at most Block::size; fewer end sooner.
+  std::size_t block = Block::size;
 };
 
 /// Outcome of a stream.
@@ -104,7 +109,7 @@ struct StreamResult {
   std::uint64_t rounded = 0;  ///< coordinates rounded to double
   /// The error that ended the stream before the source's end.
   std::optional<std::string> error;
-  bool interrupted = false;
+  bool interrupted = false;  ///< by the stop, or by the deadline
 };
 
 /// Sends all queries of the source through the work. Errors of the source, and exceptions of the

@@ -68,6 +68,7 @@ void TimedSolver::choose_sample(const SampleLimits& limits) {
   for (;;) {
     take(count);
     double growth = possible_growth(limits);
+    if (!(solver_->allowance() > 0.0)) return;
     if (count == most || base::is_stopped(limits.stop)) return;
     // The first run of a sample also accesses its memory for the first time.
     if (growth < 2.0) growth = possible_growth(limits);
@@ -96,14 +97,25 @@ double TimedSolver::time_calls(const solvers::Solver& solver, std::size_t calls)
     unplaced_crashes_ += reply_.unplaced_crashes;
     own += reply_.time.value_or(solvers::SolverTime{}).processor_nanoseconds;
   });
-  return reply_.time ? own / static_cast<double>(calls) : here;
+  const double nanoseconds = reply_.time ? own / static_cast<double>(calls) : here;
+  if (&solver == solver_) latest_ = nanoseconds;
+  return nanoseconds;
+}
+
+double TimedSolver::asked() const {
+  return static_cast<double>(std::max<std::size_t>(1, queries().size() - reply_.unasked.size()));
 }
 
 void TimedSolver::repeat() {
+  if (calls_ != 0 && !(solver_->allowance() > 0.0)) {
+    // The time is over. The answers are those of the latest call, and its time has to do.
+    if (times_.repetitions.empty()) times_.repetitions.push_back(latest_ / asked());
+    return;
+  }
   if (calls_ == 0) calls_ = calls_for(time_calls(*solver_, 1));
   const double nanoseconds = time_calls(*solver_, calls_);
   seconds_spent_ += 1e-9 * nanoseconds * static_cast<double>(calls_);
-  times_.repetitions.push_back(nanoseconds / static_cast<double>(queries().size()));
+  times_.repetitions.push_back(nanoseconds / asked());
 }
 
 std::optional<std::vector<double>> TimedSolver::time_singles(std::size_t count, double seconds,
@@ -122,7 +134,7 @@ std::optional<std::vector<double>> TimedSolver::time_singles(std::size_t count, 
       const solvers::SolveReply reply = solver_->solve(request, {&answer, 1});
       const double here = nanoseconds_since(before);
       const double time = reply.time ? reply.time.value().processor_nanoseconds : here;
-      times[i] = std::min(times[i], time);
+      if (reply.unasked.empty()) times[i] = std::min(times[i], time);
     }
   }
   const double clock = clock_nanoseconds();
@@ -138,6 +150,10 @@ judge::Judgement TimedSolver::judge(std::span<const judge::GroundTruth> truths) 
     while (i < places.size() && places[i] < truth.index) ++i;
     if (i == places.size()) break;
     if (places[i] != truth.index) continue;
+    if (const auto why = reply_.why_unasked(i)) {
+      judgement.add_unasked(*why, truth.index);
+      continue;
+    }
     judgement.add({samples_->group().kind(), queries()[i], separation_}, truth, answers_[i],
                   solver_->standard(), judge::failure_at(reply_.failures, i));
   }

@@ -93,11 +93,11 @@ class TimedSolver {
   void take(std::size_t count);
   /// Solves larger and larger samples, and keeps the last one.
   void choose_sample(const SampleLimits& limits);
-  /// Times the sample once more.
+  /// Times the sample once more, unless the solver may take no more time (Solver::allow).
   void repeat();
   /// Nanoseconds of each of `count` queries that are evenly spread over the sample, each solved
-  /// alone, without what the clock itself takes. After `seconds` no further sweep is begun. Nothing
-  /// once *stop is true (it may be null).
+  /// alone, without what the clock itself takes, infinite if it was not asked. After `seconds` no
+  /// further sweep is begun. Nothing once *stop is true (it may be null).
   [[nodiscard]] std::optional<std::vector<double>> time_singles(
       std::size_t count, double seconds, const std::atomic<bool>* stop) const;
   /// Judges the latest answers to those queries whose truth is given, by their positions in the
@@ -113,6 +113,10 @@ class TimedSolver {
   [[nodiscard]] const std::vector<std::size_t>& positions() const { return sample_->positions; }
   /// Of the latest call, query by query.
   [[nodiscard]] std::span<const fast::Answer> answers() const { return answers_; }
+  /// Why the query at a position of the sample was not asked; nothing if it was.
+  [[nodiscard]] std::optional<judge::Unasked> why_unasked(std::size_t i) const {
+    return reply_.why_unasked(i);
+  }
   [[nodiscard]] const Times& times() const { return times_; }
   /// Processor time of all repetitions.
   [[nodiscard]] double seconds_spent() const { return seconds_spent_; }
@@ -120,6 +124,8 @@ class TimedSolver {
  private:
   /// Processor time in nanoseconds, the mean of so many calls.
   double time_calls(const solvers::Solver& solver, std::size_t calls);
+  /// Queries of the latest call that were asked, at least 1.
+  [[nodiscard]] double asked() const;
   /// The factor by which a sample may grow within the time allowed, at the pace of these queries.
   double possible_growth(const SampleLimits& limits);
 
@@ -135,6 +141,7 @@ class TimedSolver {
   /// In a repetition; 0: not known yet.
   std::size_t calls_ = 0;
   Times times_;
+  double latest_ = 0.0;  ///< nanoseconds of the latest call
   double seconds_spent_ = 0.0;
 };
 

@@ -93,7 +93,7 @@ std::string_view to_text(Fault fault) { return words_of(fault).text; }
 
 std::optional<Fault> fault_from_text(std::string_view text) { return found_by(&Words::text, text); }
 
-char letter_of(Fault fault) { return words_of(fault).letter; }
+char letter_of(Fault fault, bool is_slight) { return is_slight ? 't' : words_of(fault).letter; }
 
 std::string_view to_phrase(Fault fault) { return words_of(fault).phrase; }
 

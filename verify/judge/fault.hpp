@@ -69,8 +69,9 @@ inline constexpr std::span all_failures = std::span(all_faults).subspan<4, 7>();
 /// The first fault of that text, if there is one.
 [[nodiscard]] std::optional<Fault> fault_from_text(std::string_view text);
 
-/// The letter, for maps: N, P, B, A, H or U, T for both times, E for every error.
-[[nodiscard]] char letter_of(Fault fault);
+/// The letter, for maps: N, P, B, A, H or U, T for both times, t for one that is late slightly, E
+/// for every error.
+[[nodiscard]] char letter_of(Fault fault, bool is_slight = false);
 
 /// The verb and object behind a solver's name: "misses a collision".
 [[nodiscard]] std::string_view to_phrase(Fault fault);

@@ -9,9 +9,12 @@
 /// - Truth is about the separation that was asked for, in the norm that was asked for.
 /// - A failure that is an error is an answer to nothing, and has no other fault; a hang counts as
 /// undecided.
+/// - The truth is that of the query as the solver is asked it (terms.hpp); queries outside of its
+///   terms are not judged.
 /// - Times of impact are judged for a yes to a query that does collide, and only where the solver
-///   gives them. All comparisons are exact: the truth is enclosed by neighbouring doubles, or is
-///   one, so a double t is above it iff t > lower, and below it iff t < upper.
+///   gives them. An estimate t of the time with an error e claims the bounds t − e and t + e. All
+///   comparisons are exact: the truth is enclosed by neighbouring doubles, or is one, so a double t
+///   is above it iff t > lower, and below it iff t < upper.
 /// - The tolerance is judged for a yes to a query that does not collide: what collides is near
 /// enough for any claim.
 
@@ -37,6 +40,7 @@ struct Standard {
   fast::Promise promise = fast::Promise::conservative;
   /// The filter that its tolerances do not include (fast::MethodInfo::filter).
   std::optional<fast::ErrorModel> filter = std::nullopt;
+  fast::Terms terms = {};
 };
 
 /// The standard of a method that makes this promise of itself.
@@ -54,7 +58,30 @@ struct Standard {
 /// enough. The truth may also be known less closely; then faults of times may be seen where there
 /// are none.
 [[nodiscard]] std::vector<Fault> judge_verdict(const GroundTruth& truth, const fast::Answer& answer,
+                                               const fast::Terms& terms = {},
                                                const Failure* failure = nullptr);
+
+/// The answer with the bounds of the time that it claims under the terms.
+[[nodiscard]] fast::Answer with_claimed_bounds(const fast::Answer& answer,
+                                               const fast::Terms& terms);
+
+/// How much later than the exact time of impact a time is.
+struct Lateness {
+  double step = 0.0;  ///< in units of the step
+  double ulps = 0.0;  ///< doubles from the exact time to it
+};
+
+/// A lateness up to this, in units of the step, is *slight*: rounding errors, not wrong contacts.
+inline constexpr double slight_lateness = 1e-9;
+
+/// The lateness of the time that an answer gives, bound or estimate; nothing if it is not late, or
+/// not given, or there is no collision, or no yes. \pre truth.toi is there if it collides
+[[nodiscard]] std::optional<Lateness> lateness_of(const GroundTruth& truth,
+                                                  const fast::Answer& answer,
+                                                  const fast::Terms& terms);
+
+/// Is the fault a late time, and only slightly?
+[[nodiscard]] bool is_slight(Fault fault, const std::optional<Lateness>& lateness);
 
 /// The separation within which a yes claims that the primitives come, if it claims one: beyond it,
 /// the answer is beyond_tolerance.
@@ -66,5 +93,10 @@ struct Standard {
 /// negatives, of times of impact that exclude the true one, of errors, and of a yes that claims
 /// more nearness than there is; one that promises exactness also of false positives.
 [[nodiscard]] bool breaks(Fault fault, fast::Promise promise);
+
+/// The order of faults by what they do to a simulation, the worst first: those that break the
+/// promise before the others; a miss; a late time; an early upper bound; a yes beyond its
+/// tolerance; a false positive; an asymmetry; a time that is late slightly; no answer.
+[[nodiscard]] int harm_of(Fault fault, bool is_slight, fast::Promise promise);
 
 }  // namespace touchstone::verify::judge

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <limits>
 
+#include "verify/judge/terms.hpp"
+
 namespace touchstone::verify::judge {
 namespace {
 
@@ -70,6 +72,23 @@ double ToiErrors::max() const {
   return count_ == 0 ? std::numeric_limits<double>::quiet_NaN() : max_;
 }
 
+void LateTimes::add(const Lateness& lateness) {
+  ++count;
+  for (std::size_t i = 0; i < thresholds.size(); ++i) {
+    if (lateness.step > thresholds.at(i)) ++beyond.at(i);
+  }
+  greatest.step = std::max(greatest.step, lateness.step);
+  greatest.ulps = std::max(greatest.ulps, lateness.ulps);
+}
+
+LateTimes& LateTimes::operator+=(const LateTimes& other) {
+  count += other.count;
+  for (std::size_t i = 0; i < thresholds.size(); ++i) beyond.at(i) += other.beyond.at(i);
+  greatest.step = std::max(greatest.step, other.greatest.step);
+  greatest.ulps = std::max(greatest.ulps, other.greatest.ulps);
+  return *this;
+}
+
 std::uint64_t Judgement::errors() const {
   std::uint64_t sum = unplaced_crashes;
   for (const Fault fault : all_failures) sum += is_error(fault) ? count(fault) : 0;
@@ -80,48 +99,97 @@ double Judgement::nanoseconds_per_query() const {
   return queries == 0 ? 0.0 : nanoseconds / static_cast<double>(queries);
 }
 
-void Judgement::add(const Question& question, const GroundTruth& truth, const fast::Answer& answer,
+void Judgement::add(const Question& question, const GroundTruth& known, const fast::Answer& answer,
                     const Standard& standard, const Failure* failure) {
+  const Query asked = as_asked(standard.terms, question.query);
+  const auto& [kind, query, separation] = question;
+  const GroundTruth truth =
+      asked == query ? known : truth_of(known.index, exact::decide(kind, asked, separation));
   ++queries;
+  collisions += truth.collides ? 1U : 0U;
   checks += answer.checks;
   const auto why = failure != nullptr ? std::optional(*failure) : failure_of(answer);
-  for (const Fault fault : judge(question, truth, answer, standard, failure)) {
-    auto& count = faults[static_cast<std::size_t>(fault)];
-    if (++count > most_kept || !is_wrong(fault)) continue;
-    wrong_answers.push_back({fault, truth.index,
-                             is_error(fault) ? to_text(*why) : answer_text(fault, answer),
-                             to_text(truth), answer, why});
+  const auto lateness = why ? std::nullopt : lateness_of(truth, answer, standard.terms);
+  if (lateness) late.add(*lateness);
+  for (const Fault fault : judge({kind, asked, separation}, truth, answer, standard, failure)) {
+    const bool is_kept = count_kept(fault, is_slight(fault, lateness));
+    if (!is_kept || !is_wrong(fault)) continue;
+    wrong_answers.push_back(
+        {fault, truth.index, is_error(fault) ? to_text(*why) : answer_text(fault, answer),
+         to_text(truth), answer, why, fault == Fault::late_toi ? lateness : std::nullopt});
   }
-  if (!truth.collides || why || answer.verdict != fast::Verdict::yes ||
-      std::isnan(answer.toi_lower)) {
+  const double time = answer.toi_lower;
+  if (!truth.collides || why || answer.verdict != fast::Verdict::yes || std::isnan(time) ||
+      standard.terms.times == fast::Times::none) {
     return;
   }
   // The farther of the two ends of the truth, so that no error is understated.
   const auto [lower, upper] = truth.toi.value();
-  toi_errors.add(std::max(upper - answer.toi_lower, answer.toi_lower - lower));
+  toi_errors.add(std::max(upper - time, time - lower));
 }
 
-void Judgement::add_missing(std::uint64_t index) {
-  if (!first_missing) first_missing = index;
-  ++missing;
+bool Judgement::count_kept(Fault fault, bool is_slight) {
+  const std::uint64_t all = ++faults[static_cast<std::size_t>(fault)];
+  if (is_slight) return ++slightly_late <= most_kept;
+  return (fault == Fault::late_toi ? all - slightly_late : all) <= most_kept;
+}
+
+void Judgement::add_unasked(Unasked why, std::uint64_t index) {
+  switch (why) {
+    case Unasked::outside:
+      ++outside;
+      break;
+    case Unasked::left_out:
+      ++left_out;
+      break;
+    default:
+      if (!first_missing) first_missing = index;
+      ++missing;
+  }
 }
 
 Judgement& Judgement::operator+=(const Judgement& next) {
-  std::array<std::uint64_t, fault_count> so_far = faults;
+  const auto so_far = faults;
+  const std::uint64_t slightly_late_so_far = slightly_late;
   for (const WrongAnswer& wrong : next.wrong_answers) {
-    if (++so_far[static_cast<std::size_t>(wrong.fault)] <= most_kept) {
+    if (count_kept(wrong.fault, is_slight(wrong.fault, wrong.lateness))) {
       wrong_answers.push_back(wrong);
     }
   }
-  for (std::size_t i = 0; i < faults.size(); ++i) faults[i] += next.faults[i];
+  for (std::size_t i = 0; i < faults.size(); ++i) faults[i] = so_far[i] + next.faults[i];
+  slightly_late = slightly_late_so_far + next.slightly_late;
   queries += next.queries;
+  collisions += next.collisions;
+  outside += next.outside;
+  left_out += next.left_out;
   missing += next.missing;
   if (!first_missing) first_missing = next.first_missing;
   unplaced_crashes += next.unplaced_crashes;
   checks += next.checks;
   nanoseconds += next.nanoseconds;
   toi_errors += next.toi_errors;
+  late += next.late;
   return *this;
+}
+
+std::optional<WorstFault> worst_of(const Judgement& judgement, fast::Promise promise) {
+  std::optional<WorstFault> worst;
+  const auto consider = [&](Fault fault, bool is_slight, std::uint64_t count) {
+    if (count == 0) return;
+    if (!worst ||
+        harm_of(fault, is_slight, promise) < harm_of(worst->fault, worst->is_slight, promise)) {
+      worst = WorstFault{.fault = fault, .is_slight = is_slight};
+    }
+  };
+  for (const Fault fault : all_faults) {
+    if (fault == Fault::hang || fault == Fault::undecided || fault == Fault::late_toi) continue;
+    if (is_error(fault) && fault != Fault::crash) continue;
+    consider(fault, false, judgement.total(fault));
+  }
+  const std::uint64_t late = judgement.count(Fault::late_toi);
+  consider(Fault::late_toi, false, late - judgement.slightly_late);
+  consider(Fault::late_toi, true, judgement.slightly_late);
+  return worst;
 }
 
 bool keeps(const Judgement& judgement, fast::Promise promise) {

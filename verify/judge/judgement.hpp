@@ -44,6 +44,20 @@ class ToiErrors {
   double max_ = 0.0;
 };
 
+/// The times of impact that are later than the exact ones, bounds and estimates, of many answers.
+struct LateTimes {
+  /// Of the step: how many are later than each.
+  static constexpr std::array<double, 4> thresholds{1e-12, 1e-9, 1e-6, 1e-3};
+
+  std::uint64_t count = 0;
+  std::array<std::uint64_t, thresholds.size()> beyond{};
+  Lateness greatest = {};  ///< each of the two
+
+  void add(const Lateness& lateness);
+  LateTimes& operator+=(const LateTimes& other);
+  [[nodiscard]] bool are_slight() const { return greatest.step <= slight_lateness; }
+};
+
 /// An answer that is not the truth.
 struct WrongAnswer {
   Fault fault;
@@ -53,10 +67,19 @@ struct WrongAnswer {
   fast::Answer given = {};  ///< the answer itself
   /// Why it is none, where that is known.
   std::optional<Failure> failure = std::nullopt;
+  /// Of a late time.
+  std::optional<Lateness> lateness = std::nullopt;
 };
 
 /// "SOLVER: false negative: no, the truth is collision at 0.5".
 [[nodiscard]] std::string to_text(const std::string& solver, const WrongAnswer& wrong);
+
+/// Why a solver was not asked a query, or has no answer on record.
+enum class Unasked : std::uint8_t {
+  missing,   ///< a file of answers has none
+  outside,   ///< outside the terms of its promise (terms.hpp)
+  left_out,  ///< for lack of time, or as one of many like those at which it hangs
+};
 
 /// What a solver said to a query.
 struct GivenAnswer {
@@ -83,8 +106,12 @@ struct Judgement {
   /// So many wrong answers of each fault are kept; the counts count them all.
   static constexpr std::size_t most_kept = 1000;
 
-  std::uint64_t queries = 0;  ///< answered
-  std::uint64_t missing = 0;  ///< not answered (in recorded answers), and not in `queries`
+  std::uint64_t queries = 0;     ///< answered
+  std::uint64_t collisions = 0;  ///< of these, by the truth
+  /// Not asked, because the terms of the promise leave them out, and not in `queries`.
+  std::uint64_t outside = 0;
+  std::uint64_t left_out = 0;  ///< not asked for lack of time, and not in `queries`
+  std::uint64_t missing = 0;   ///< not answered (in recorded answers), and not in `queries`
   std::optional<std::uint64_t> first_missing;       ///< index of the first of these
   std::array<std::uint64_t, fault_count> faults{};  ///< answers with each fault
   /// Processes that the method ended at no particular query (solver_process.hpp): errors, but in no
@@ -93,7 +120,10 @@ struct Judgement {
   std::uint64_t checks = 0;  ///< steps of the method, summed over the queries, where it counts them
   double nanoseconds = 0.0;  ///< processor time of the method, summed over the queries
   ToiErrors toi_errors;
-  /// In the order of the queries. A hang or an undecided alone is none.
+  LateTimes late;
+  std::uint64_t slightly_late = 0;  ///< of the faults late_toi
+  /// In the order of the queries; of late times those that are slightly late and the others are
+  /// counted apart. A hang or an undecided alone is none.
   std::vector<WrongAnswer> wrong_answers;
 
   /// Answers with that fault.
@@ -114,16 +144,28 @@ struct Judgement {
   /// Mean time of the method; 0 if there are no queries.
   [[nodiscard]] double nanoseconds_per_query() const;
 
-  /// Judges an answer; the parameters are those of judge().
-  void add(const Question& question, const GroundTruth& truth, const fast::Answer& answer,
+  /// Judges an answer to a query within the terms of the standard. The parameters are those of
+  /// judge(), but query and truth those before they are rounded for the solver.
+  void add(const Question& question, const GroundTruth& known, const fast::Answer& answer,
            const Standard& standard, const Failure* failure = nullptr);
 
   /// Notes that there is no answer to that query.
-  void add_missing(std::uint64_t index);
+  void add_unasked(Unasked why, std::uint64_t index);
 
   /// Adds the counts of the queries that follow, with the wrong answers.
   Judgement& operator+=(const Judgement& next);
+
+ private:
+  /// Counts a fault, and says whether its answer is one of those that are kept.
+  [[nodiscard]] bool count_kept(Fault fault, bool is_slight);
 };
+
+/// The worst fault (harm_of) of a judgement, and whether it is a late time, and only slightly.
+struct WorstFault {
+  Fault fault = Fault::false_negative;  ///< a crash stands for all errors
+  bool is_slight = false;
+};
+[[nodiscard]] std::optional<WorstFault> worst_of(const Judgement& judgement, fast::Promise promise);
 
 /// Is there no fault that breaks the promise?
 [[nodiscard]] bool keeps(const Judgement& judgement, fast::Promise promise);

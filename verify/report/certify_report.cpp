@@ -12,6 +12,7 @@
 #include "verify/io/json.hpp"
 #include "verify/io/printable.hpp"
 #include "verify/io/text_table.hpp"
+#include "verify/judge/terms.hpp"
 #include "verify/report/judgement_report.hpp"
 #include "verify/solvers/registry.hpp"
 
@@ -136,6 +137,21 @@ std::string failures_text(const jobs::MethodResult& method) {
   return fmt::format("no answer: {}: {}\n", method.name, to_text(judged.faults));
 }
 
+/// Missing answers, late times, and queries that were not asked, a line each.
+std::string notes_text(const jobs::MethodResult& method) {
+  std::string text = failures_text(method);
+  if (const std::string late = late_text(method.judgement.late); !late.empty()) {
+    text += fmt::format("times of impact: {}: {}\n", method.name, late);
+  }
+  return text;
+}
+
+/// What the promise is not about, last.
+std::string outside_text(const jobs::MethodResult& method) {
+  const std::string unasked = unasked_text(method.judgement, method.terms);
+  return unasked.empty() ? "" : fmt::format("not asked: {}: {}\n", method.name, unasked);
+}
+
 std::string methods_text(std::size_t width, const std::vector<jobs::CertifyResult>& results,
                          const jobs::CertifyResult& sum) {
   const bool shows_tolerances =
@@ -165,8 +181,10 @@ std::string methods_text(std::size_t width, const std::vector<jobs::CertifyResul
     }
   }
   std::string text = '\n' + table.text();
-  for (const jobs::MethodResult& method : sum.methods) text += failures_text(method);
-  return text + wrong_answers;
+  for (const jobs::MethodResult& method : sum.methods) text += notes_text(method);
+  text += wrong_answers;
+  for (const jobs::MethodResult& method : sum.methods) text += outside_text(method);
+  return text;
 }
 
 nlohmann::json counts(const jobs::MethodResult& method) {
@@ -176,6 +194,7 @@ nlohmann::json counts(const jobs::MethodResult& method) {
   nlohmann::json json = to_json(judged);
   json.update({{"name", method.name},
                {"promise", solvers::to_string(method.promise)},
+               {"terms", judge::as_options(method.terms)},
                {"queries", judged.queries},
                {"failures", to_json(judged.faults)},
                {"unplaced_crashes", judged.unplaced_crashes},

@@ -31,12 +31,12 @@ namespace touchstone::verify::report {
 /// "collisions" (recorded about another separation, so only these are compared) or "nothing".
 ///
 /// `methods`, in the total and in each file, is a list of `name`, `promise` (what it was held to:
-/// "none", "conservative", "exact"), `queries`, the fields of a judgement (judgement_report.hpp),
-/// `missing`, `failures` (an object of the number of queries without an answer by the name of the
-/// failure), `unplaced_crashes` (errors at no particular query), `beyond_tolerance` and
-/// `ns_per_query` (null where no time was taken). In the total each has `wrong_answers`, a list of
-/// `file`, `index`, `kind`, `fault`, `answer` and `truth`, of each source and fault the first
-/// Judgement::most_kept.
+/// "none", "conservative", "exact"), its `terms` (as options of the command line), `queries`, the
+/// fields of a judgement (judgement_report.hpp), `missing`, `failures` (an object of the number of
+/// queries without an answer by the name of the failure), `unplaced_crashes` (errors at no
+/// particular query), `beyond_tolerance` and `ns_per_query` (null where no time was taken). In the
+/// total each has `wrong_answers`, a list of `file`, `index`, `kind`, `fault`, `answer` and
+/// `truth`, of each source and fault the first Judgement::most_kept.
 [[nodiscard]] nlohmann::json to_json(const std::vector<jobs::CertifyResult>& results);
 
 /// The header of the truth as CSV: `file,index,kind,collides,toi_lower,toi_upper`.

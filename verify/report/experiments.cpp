@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <cmath>
 #include <fstream>
 #include <iterator>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -39,6 +41,10 @@ constexpr std::int64_t stability_limit = 10'000;
 /// The experiment on filters: checks a query, and queries of a family and of a scale.
 constexpr std::int64_t filter_limit = 100'000;
 constexpr std::size_t most_of_family = 500, most_of_scale = 10'000;
+
+/// Of a budget: the part of the trials on groups; of that, the part that is the plugins'; and how
+/// many times the seconds of a setting a setting takes.
+constexpr double trials_budget = 0.65, plugins_budget = 0.6, cost_of_setting = 8.0;
 
 /// The shares of the experiments on groups and on filters in the whole run; the rest is the map of
 /// stability's.
@@ -139,6 +145,7 @@ class Run {
  public:
   Run(std::span<const data::QueryGroup> groups, const ExperimentOptions& options)
       : groups_(groups), options_(options), methods_(find_methods(options.methods)) {
+    if (options.budget > 0.0) deadline_ = base::Deadline(options.budget);
     if (!methods_.empty()) return;
     for (const auto& method : solvers::methods()) methods_.push_back(method.get());
   }
@@ -153,26 +160,47 @@ class Run {
                                 .digest = group.digest()});
     }
     const std::vector<Trial> trials = chosen_trials();
+    const double seconds = seconds_of_setting(trials);
     for (std::size_t group = 0; group < groups_.size(); ++group) {
       judge::GroundTruthCache truths(groups_[group], options_.threads);
       for (std::size_t trial = 0; trial < trials.size() && !stopped(); ++trial) {
         const auto place = static_cast<double>(group * trials.size() + trial);
         const auto all = static_cast<double>(groups_.size() * trials.size());
-        measure_trial(groups_[group], truths, trials[trial],
+        measure_trial(groups_[group], truths, trials[trial], seconds,
                       [&](double fraction) { tell(part_of_trials * (place + fraction) / all); });
       }
     }
     judge_filters();
     if (options_.stability_count > 0 && !stopped()) map_stability();
-    result_.interrupted = stopped();
+    result_.interrupted = result_.interrupted || stopped();
     return std::move(result_);
   }
 
  private:
-  [[nodiscard]] bool stopped() const { return base::is_stopped(options_.stop); }
+  [[nodiscard]] bool stopped() const {
+    return base::is_stopped(options_.stop) || deadline_.is_over();
+  }
 
   void tell(double fraction) const {
     if (options_.on_progress) options_.on_progress(fraction);
+  }
+
+  /// The seconds of a setting of our own methods: with a budget, those that fit into it.
+  [[nodiscard]] double seconds_of_setting(const std::vector<Trial>& trials) const {
+    if (options_.budget == 0.0) return options_.seconds;
+    std::size_t settings = 0;
+    for (const Trial& trial : trials) settings += trial.settings.size() + 1;
+    const auto all = static_cast<double>(settings * std::max<std::size_t>(1, groups_.size()));
+    const double ours = options_.plugins.empty() ? 1.0 : 1.0 - plugins_budget;
+    return std::min(options_.seconds,
+                    trials_budget * ours * options_.budget / cost_of_setting / all);
+  }
+
+  /// The wall-clock seconds that a plugin may take on a group.
+  [[nodiscard]] double allowance_of_plugin() const {
+    if (options_.budget == 0.0) return std::numeric_limits<double>::infinity();
+    return trials_budget * plugins_budget * options_.budget /
+           static_cast<double>(options_.plugins.size() * std::max<std::size_t>(1, groups_.size()));
   }
 
   [[nodiscard]] std::vector<Trial> chosen_trials() const {
@@ -180,7 +208,7 @@ class Run {
     for (Trial& trial : trials) {
       if (trial.experiment != Experiment::field) continue;
       for (const fast::Method* const plugin : options_.plugins) {
-        trial.settings.push_back({plugin, {}, true});
+        trial.settings.push_back({plugin, {}, true, allowance_of_plugin()});
       }
     }
     std::erase_if(trials, [this](const Trial& trial) { return !is_chosen(trial.experiment); });
@@ -197,12 +225,13 @@ class Run {
   }
 
   void measure_trial(const data::QueryGroup& group, judge::GroundTruthCache& truths,
-                     const Trial& trial, const std::function<void(double)>& on_progress) {
+                     const Trial& trial, double seconds,
+                     const std::function<void(double)>& on_progress) {
     std::vector<Measurement> measured =
         measure(group, truths, trial.settings, solvers::find_method(fast::certified_info().name),
                 {.experiment = trial.experiment,
                  .count = count_of(trial),
-                 .seconds = options_.seconds,
+                 .seconds = seconds,
                  .repetitions = options_.repetitions,
                  .process = options_.process,
                  .same_sample = trial.experiment != Experiment::field,
@@ -289,6 +318,8 @@ class Run {
       solvers.push_back(solvers::solver_in_children(*plugin, method_options, options_.process));
       asked.push_back(solvers.back().get());
     }
+    // The rest is for the page.
+    const double left = 0.85 * deadline_.seconds_left();
     std::vector<const stability::Hardness*> sorts;
     for (const stability::Hardness& hardness : stability::hardnesses()) sorts.push_back(&hardness);
     const stability::StabilityResult map = stability::measure_stability(
@@ -301,13 +332,16 @@ class Run {
                       constexpr double before = part_of_trials + part_of_filters;
                       tell(before + (1.0 - before) * fraction);
                     },
-                .stop = options_.stop});
+                .stop = options_.stop,
+                .seconds = std::isinf(left) ? 0.0 : left});
     result_.stability = marks_of(map);
+    result_.interrupted = result_.interrupted || map.unjudged_cells != 0;
   }
 
   std::span<const data::QueryGroup> groups_;
   const ExperimentOptions& options_;
   std::vector<const fast::Method*> methods_;
+  base::Deadline deadline_;
   Measurements result_;
 };
 

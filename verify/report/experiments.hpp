@@ -71,6 +71,9 @@ struct ExperimentOptions {
   std::uint64_t seed = 2021;
   /// Cores that the oracle may use; 0: all. Methods are timed in one thread.
   unsigned threads = 0;
+  /// Wall-clock seconds of the whole run; 0: no limit. With a limit the seconds of above are those
+  /// that fit, plugins have an equal part each, and what is over is left out.
+  double budget = 0.0;
   std::function<void(double)> on_progress = nullptr;
   /// MeasureOptions::on_wrong, in the experiments on groups and on filters.
   OnWrong on_wrong = nullptr;

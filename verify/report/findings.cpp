@@ -8,6 +8,7 @@
 #include <limits>
 #include <map>
 #include <string_view>
+#include <tuple>
 #include <utility>
 
 #include "fast/method.hpp"
@@ -135,14 +136,75 @@ std::string fronts_sentence(const std::vector<Figure>& figures) {
       panels);
 }
 
-std::string promises_sentence(const Measurements& measurements) {
-  std::vector<std::string> broken;
-  for (const Measurement& m : measurements.all) {
-    if (m.keeps_promise || std::ranges::find(broken, m.method) != broken.end()) continue;
-    broken.push_back(m.method);
+/// What a method did that breaks its promise, in all measurements, the worst first.
+struct Broken {
+  std::string method;
+  fast::Promise promise = fast::Promise::none;
+  std::uint64_t misses = 0;
+  std::uint64_t early = 0;
+  std::uint64_t beyond = 0;
+  std::uint64_t false_positives = 0;
+  std::uint64_t late = 0;
+  std::uint64_t errors = 0;
+  double latest = 0.0;
+
+  [[nodiscard]] std::string text() const {
+    std::vector<std::string> texts;
+    const auto add = [&](std::uint64_t count, const std::string& words) {
+      if (count != 0) texts.push_back(fmt::format("{} {}", count, words));
+    };
+    add(misses, "missed collisions");
+    add(late, latest > 0.0
+                  ? fmt::format("late times, at most by {} of the step", short_number(latest))
+                  : "late times");
+    add(early, "early upper times");
+    add(beyond, "beyond the tolerance");
+    if (promise == fast::Promise::exact) add(false_positives, "false positives");
+    add(errors, "errors");
+    return fmt::format("{} ({})", method, fmt::join(texts, ", "));
   }
-  return broken.empty() ? "Every method kept its promise."
-                        : fmt::format("Broke its promise: {}.", fmt::join(broken, ", "));
+};
+
+std::string promises_sentence(const Measurements& measurements) {
+  std::vector<Broken> all;
+  for (const Measurement& m : measurements.all) {
+    if (m.keeps_promise) continue;
+    auto broken = std::ranges::find(all, m.method, &Broken::method);
+    if (broken == all.end()) {
+      broken = all.insert(broken, {.method = m.method, .promise = m.promise});
+    }
+    broken->misses += m.false_negatives;
+    broken->early += m.early_upper_tois;
+    broken->beyond += m.beyond_tolerance;
+    broken->false_positives += m.false_positives;
+    broken->late += m.late_tois;
+    broken->errors += m.errors;
+    broken->latest = std::max(broken->latest, m.late.greatest.step);
+  }
+  if (all.empty()) return "Every method kept its promise.";
+  const auto harm = [](const Broken& broken) {
+    return std::tuple(broken.misses == 0, -broken.latest, broken.false_positives == 0);
+  };
+  std::ranges::stable_sort(all, {}, harm);
+  return fmt::format("Broke its promise: {}.",
+                     list(all, [](const Broken& broken) { return broken.text(); }));
+}
+
+/// Nothing if every method was asked all queries of its samples.
+std::string unasked_sentence(const Measurements& measurements) {
+  std::map<std::string, std::pair<std::uint64_t, std::uint64_t>> counts;
+  for (const Measurement& m : measurements.all) {
+    if (m.outside + m.left_out == 0) continue;
+    counts[m.method].first += m.outside;
+    counts[m.method].second += m.left_out;
+  }
+  if (counts.empty()) return {};
+  return fmt::format("Not asked: {}.", list(counts, [](const auto& of) {
+                       const auto& [outside, left_out] = of.second;
+                       return fmt::format(
+                           "{} ({} queries outside its promise, {} for lack of time)", of.first,
+                           outside, left_out);
+                     }));
 }
 
 }  // namespace
@@ -153,10 +215,15 @@ std::vector<std::string> findings_of(const Measurements& measurements,
   std::vector<std::string> findings;
   const std::vector<Sum> sums = sums_of(measurements);
   if (!sums.empty()) {
-    findings = {queries_sentence(measurements, sums.size()), misses_sentence(sums),
-                right_sentence(sums), time_sentence(sums), fronts_sentence(figures)};
+    findings = {promises_sentence(measurements),
+                queries_sentence(measurements, sums.size()),
+                misses_sentence(sums),
+                right_sentence(sums),
+                time_sentence(sums),
+                fronts_sentence(figures)};
   }
-  findings.push_back(promises_sentence(measurements));
+  if (sums.empty()) findings.push_back(promises_sentence(measurements));
+  findings.push_back(unasked_sentence(measurements));
   std::erase(findings, "");
   return findings;
 }

@@ -2,9 +2,14 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <map>
+#include <numeric>
+#include <utility>
 
+#include "verify/io/json.hpp"
 #include "verify/io/printable.hpp"
+#include "verify/judge/terms.hpp"
 
 namespace touchstone::verify::report {
 namespace {
@@ -19,6 +24,21 @@ nlohmann::json to_json(const judge::ToiErrors& errors) {
           {"p90", errors.quantile(0.9)},
           {"p99", errors.quantile(0.99)},
           {"max", errors.max()}};
+}
+
+/// The positions of answers in the order of harm, later times first, else as they are.
+std::vector<std::size_t> by_harm(const std::vector<judge::WrongAnswer>& wrong,
+                                 fast::Promise promise) {
+  const auto key = [&](std::size_t i) {
+    const judge::WrongAnswer& answer = wrong[i];
+    return std::pair(
+        judge::harm_of(answer.fault, judge::is_slight(answer.fault, answer.lateness), promise),
+        answer.lateness ? -answer.lateness->step : 0.0);
+  };
+  std::vector<std::size_t> order(wrong.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::ranges::stable_sort(order, {}, key);
+  return order;
 }
 
 }  // namespace
@@ -61,6 +81,28 @@ io::TextRow toi_error_cells(const judge::ToiErrors& errors) {
           io::error_text(errors.max())};
 }
 
+std::string late_text(const judge::LateTimes& late) {
+  if (late.count == 0) return {};
+  std::string text = fmt::format("{} late", late.count);
+  for (std::size_t i = 0; i < late.beyond.size(); ++i) {
+    text += fmt::format(", {} by more than {:.0e}", late.beyond.at(i), late.thresholds.at(i));
+  }
+  return fmt::format("{}; at most by {} of the step, {:.0f} ulp", text,
+                     io::error_text(late.greatest.step), late.greatest.ulps);
+}
+
+std::string unasked_text(const judge::Judgement& judgement, const fast::Terms& terms) {
+  std::string text;
+  if (judgement.outside != 0) {
+    text += fmt::format("{} queries outside its terms{}", judgement.outside, judge::to_text(terms));
+  }
+  if (judgement.left_out != 0) {
+    text += fmt::format("{}{} queries left out, for lack of time or for hangs at others like them",
+                        text.empty() ? "" : "; ", judgement.left_out);
+  }
+  return text;
+}
+
 std::string wrong_answers_text(const NamedJudgement& named,
                                const std::function<data::QueryPlace(std::size_t)>& place_of) {
   const judge::Judgement& judgement = named.judgement;
@@ -68,7 +110,7 @@ std::string wrong_answers_text(const NamedJudgement& named,
   std::string text;
   // By text: all errors together.
   std::map<std::string_view, std::uint64_t> printed;
-  for (std::size_t i = 0; i < judgement.wrong_answers.size(); ++i) {
+  for (const std::size_t i : by_harm(judgement.wrong_answers, named.promise)) {
     const judge::WrongAnswer& wrong = judgement.wrong_answers[i];
     std::uint64_t& count = printed[judge::to_text(wrong.fault)];
     if (!judge::breaks(wrong.fault, named.promise) || count == most_printed) continue;
@@ -77,6 +119,10 @@ std::string wrong_answers_text(const NamedJudgement& named,
     text += fmt::format("{}: {}: {}: {} query {}: answer {}, truth {}\n",
                         judge::to_text(wrong.fault), method, io::printable(place.source),
                         named.kind, place.index, wrong.answer, wrong.truth);
+    if (wrong.lateness) {
+      text.insert(text.size() - 1, fmt::format(", late by {:.1e}, {:.0f} ulp", wrong.lateness->step,
+                                               wrong.lateness->ulps));
+    }
   }
   for (const judge::Fault fault : judge::all_faults) {
     const auto count = printed.extract(judge::to_text(fault));
@@ -113,7 +159,17 @@ nlohmann::json to_json(const judge::Judgement& judgement) {
           {"beyond_tolerance", judgement.count(judge::Fault::beyond_tolerance)},
           {"undecided", judgement.undecided()},
           {"errors", judgement.errors()},
-          {"toi_error", to_json(judgement.toi_errors)}};
+          {"outside", judgement.outside},
+          {"left_out", judgement.left_out},
+          {"toi_error", to_json(judgement.toi_errors)},
+          {"late", to_json(judgement.late)}};
+}
+
+nlohmann::json to_json(const judge::LateTimes& late) {
+  return {{"count", late.count},
+          {"beyond", late.beyond},
+          {"greatest", io::number_to_json(late.greatest.step)},
+          {"greatest_ulps", io::number_to_json(late.greatest.ulps)}};
 }
 
 nlohmann::json to_json(const judge::WrongAnswer& wrong) {

@@ -53,9 +53,15 @@ struct NamedJudgement {
   std::string_view kind;   ///< of the queries
 };
 
-/// The answers that broke the promise, a line each: "false negative: METHOD: SOURCE: vertex-face
-/// query 4: answer no, truth collision at 0.5"; of a fault the first twenty, then how many more
-/// there are.
+/// "12 late, 5 by more than 1e-12, …; at most by 0.3 of the step, 7 ulp"; empty if none is.
+[[nodiscard]] std::string late_text(const judge::LateTimes& late);
+
+/// The queries that were not asked because of the terms, and for lack of time; empty if all were.
+[[nodiscard]] std::string unasked_text(const judge::Judgement& judgement, const fast::Terms& terms);
+
+/// The answers that broke the promise, the worst first, a line each: "false negative: METHOD:
+/// SOURCE: vertex-face query 4: answer no, truth collision at 0.5"; of a fault the first twenty,
+/// then how many more there are.
 /// \param place_of where the query of a wrong answer comes from, by the answer's position in
 /// Judgement::wrong_answers.
 [[nodiscard]] std::string wrong_answers_text(
@@ -73,10 +79,15 @@ using FailureCounts = std::array<std::uint64_t, judge::fault_count>;
 // ---- JSON ---------------------------------------------------------------------------------------
 
 /// `false_negatives`, `false_positives` (undecided answers among them), `late_toi`,
-/// `early_toi_upper`, `beyond_tolerance`, `undecided`, `errors`, and `toi_error`: null where no
+/// `early_toi_upper`, `beyond_tolerance`, `undecided`, `errors`, `outside` and `left_out` (queries
+/// that were not asked: Judgement), `late` (see below), and `toi_error`: null where no
 /// time of impact was given, else `count`, `p50`, `p90`, `p99` and `max` of the distance from
 /// toi_lower to the exact time of impact, quantiles to 1.6%.
 [[nodiscard]] nlohmann::json to_json(const judge::Judgement& judgement);
+
+/// Of times later than the exact ones: their `count`, `beyond` (how many are later by more than
+/// 1e-12, 1e-9, 1e-6 and 1e-3 of the step), `greatest` in units of the step, and `greatest_ulps`.
+[[nodiscard]] nlohmann::json to_json(const judge::LateTimes& late);
 
 /// `index`, `fault` (its text, verify/judge/fault.hpp), `answer` and `truth`.
 [[nodiscard]] nlohmann::json to_json(const judge::WrongAnswer& wrong);

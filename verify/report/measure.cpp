@@ -1,6 +1,7 @@
 #include "verify/report/measure.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <map>
 #include <memory>
@@ -48,6 +49,7 @@ void set_counts(const judge::Judgement& judgement, Measurement& said) {
   said.beyond_tolerance = judgement.count(judge::Fault::beyond_tolerance);
   said.errors = judgement.errors();
   said.undecided = judgement.undecided();
+  said.late = judgement.late;
   said.keeps_promise = said.promise == fast::Promise::none || judge::keeps(judgement, said.promise);
   said.toi_error = spread_of(judgement.toi_errors);
 }
@@ -89,6 +91,7 @@ class Run {
           setting.in_children
               ? solvers::solver_in_children(*setting.method, setting.options, options.process)
               : solvers::solver_in_process(*setting.method, setting.options));
+      solvers_.back()->allow(setting.allowance);
       timed_.emplace_back(*solvers_.back(), samples_, setting.options.separation);
     }
   }
@@ -197,7 +200,11 @@ class Run {
   [[nodiscard]] Measurement report(std::size_t index) const {
     const jobs::TimedSolver& timed = timed_[index];
     Measurement said = of_separation(group_, options_.experiment, settings_[index]);
-    said.asked = timed.queries().size();
+    const judge::Judgement judgement = timed.judge(known_of(timed));
+    said.asked = judgement.queries;
+    said.outside = judgement.outside;
+    said.left_out = judgement.left_out;
+    said.collisions = judgement.collisions;
     said.nanoseconds = timed.times().median();
     said.repetitions = timed.times().repetitions.size();
     said.certified_nanoseconds = reference_for(timed).times().median();
@@ -205,7 +212,6 @@ class Run {
          solvers::count_stages(timed.solver().info(), timed.answers())) {
       said.stages.push_back({std::string(stage.stage), stage.queries});
     }
-    const judge::Judgement judgement = timed.judge(known_of(timed));
     set_counts(judgement, said);
     tell_wrong(group_, said, timed.solver().standard(), judgement, options_.on_wrong);
     describe_queries(index, said);
@@ -217,10 +223,11 @@ class Run {
     judge::ToiErrors tolerances;
     const std::vector<judge::GroundTruth>& known = known_of(timed_[index]);
     for (std::size_t i = 0; i < known.size(); ++i) {
+      if (timed_[index].why_unasked(i)) continue;
       const bool collides = known[i].collides;
       const fast::Answer& answer = timed_[index].answers()[i];
-      said.collisions += collides ? 1U : 0U;
       said.at_limit += is_at_limit(answer, said.max_checks) ? 1U : 0U;
+      if (std::isinf(single_times_[index][i])) continue;
       (collides ? said.collision_times : said.no_collision_times).add(single_times_[index][i]);
       const bool is_yes = answer.verdict == fast::Verdict::yes;
       if (is_yes && answer.tolerance >= 0.0) tolerances.add(answer.tolerance);
@@ -290,6 +297,7 @@ std::optional<Measurement> judge_recorded(const data::QueryGroup& group,
   std::vector<std::size_t> positions;
   std::vector<fast::Answer> answers;
   std::vector<judge::QueryFailure> failures;
+  std::uint64_t outside = 0;
   for (std::size_t i = 0; i < group.queries().size(); ++i) {
     const data::QueryPlace place = group.place_of(i);
     const std::uint64_t index = place.index;
@@ -299,7 +307,10 @@ std::optional<Measurement> judge_recorded(const data::QueryGroup& group,
                                                       .source = place.source,
                                                       .indices = {&index, 1}},
                                                      {&answer, 1});
-    if (!reply.missing.empty()) continue;
+    if (const auto why = reply.why_unasked(0)) {
+      if (*why == judge::Unasked::outside) ++outside;
+      continue;
+    }
     if (!reply.failures.empty()) {
       failures.push_back({.position = answers.size(), .failure = reply.failures.front().failure});
     }
@@ -315,6 +326,7 @@ std::optional<Measurement> judge_recorded(const data::QueryGroup& group,
   said.promise = recorded.promise();
   said.group_queries = group.queries().size();
   said.asked = positions.size();
+  said.outside = outside;
   const judge::Standard standard = recorded.standard();
   judge::Judgement judgement;
   for (std::size_t i = 0; i < known.size(); ++i) {

@@ -17,6 +17,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <optional>
 #include <span>
 #include <vector>
@@ -36,6 +37,8 @@ struct Setting {
   fast::MethodOptions options;
   /// In child processes, under MeasureOptions::process; else in this process.
   bool in_children = false;
+  /// Wall-clock seconds that it may take, behind which it is asked no more queries.
+  double allowance = std::numeric_limits<double>::infinity();
 };
 
 /// Called with each query that a method answered wrongly, and that answer: one that breaks the

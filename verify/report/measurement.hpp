@@ -15,6 +15,7 @@
 #include "fast/method.hpp"
 #include "touchstone/query.hpp"
 #include "verify/judge/fault.hpp"
+#include "verify/judge/judgement.hpp"
 
 namespace touchstone::verify::report {
 
@@ -83,6 +84,8 @@ struct Measurement {
 
   std::uint64_t group_queries = 0;  ///< in the group
   std::uint64_t asked = 0;          ///< of these, an evenly spread sample; all below is about them
+  std::uint64_t outside = 0;        ///< of the sample, not asked: outside the terms of its promise
+  std::uint64_t left_out = 0;       ///< of the sample, not asked for lack of time
   std::uint64_t collisions = 0;     ///< by the oracle
   std::uint64_t false_positives = 0;
   std::uint64_t false_negatives = 0;
@@ -93,6 +96,7 @@ struct Measurement {
   std::uint64_t undecided = 0;
   std::uint64_t at_limit = 0;  ///< queries that took max_checks or more, or were given up
   bool keeps_promise = true;
+  judge::LateTimes late = {};  ///< the late times, bounds and estimates
 
   /// Processor time a query, all of them in one call, in one thread; the median of `repetitions`.
   double nanoseconds = unknown;
@@ -135,6 +139,7 @@ struct StabilityMark {
   std::uint64_t hangs = 0;  ///< of those undecided
   std::uint64_t undecided = 0;
   std::optional<judge::Fault> worst = {};     ///< nothing if nothing is wrong
+  bool is_slight = false;                     ///< Is the worst a time that is late slightly?
   double worst_rate = 0.0;                    ///< how often, of those that it can happen to
   std::optional<Spread> toi_error = {};       ///< as Measurement::toi_error
   double nanoseconds = Measurement::unknown;  ///< processor time a query

@@ -9,6 +9,7 @@
 
 #include "verify/io/json.hpp"
 #include "verify/judge/separation_inference.hpp"
+#include "verify/report/judgement_report.hpp"
 #include "verify/solvers/registry.hpp"
 
 namespace touchstone::verify::report {
@@ -30,6 +31,16 @@ std::optional<Spread> spread_from(const Json& json) {
   return Spread{.count = json.at("count").get<std::uint64_t>(),
                 .median = io::number_from_json(json.at("median")),
                 .max = io::number_from_json(json.at("max"))};
+}
+
+judge::LateTimes late_times_from(const Json& json) {
+  judge::LateTimes late;
+  if (json.is_null()) return late;
+  json.at("count").get_to(late.count);
+  json.at("beyond").get_to(late.beyond);
+  late.greatest = {.step = io::number_from_json(json.at("greatest")),
+                   .ulps = io::number_from_json(json.at("greatest_ulps"))};
+  return late;
 }
 
 Json json_of(const TimeHistogram& times) {
@@ -71,10 +82,13 @@ Json json_of(const Measurement& measurement) {
           {"scale", io::number_to_json(m.scale)},
           {"group_queries", m.group_queries},
           {"asked", m.asked},
+          {"outside", m.outside},
+          {"left_out", m.left_out},
           {"collisions", m.collisions},
           {"false_positives", m.false_positives},
           {"false_negatives", m.false_negatives},
           {"late_tois", m.late_tois},
+          {"late", to_json(m.late)},
           {"early_upper_tois", m.early_upper_tois},
           {"beyond_tolerance", m.beyond_tolerance},
           {"errors", m.errors},
@@ -111,6 +125,9 @@ void read_question(const Json& json, Measurement& m) {
   if (!scale.is_null()) m.scale = io::number_from_json(scale);
   json.at("group_queries").get_to(m.group_queries);
   json.at("asked").get_to(m.asked);
+  // (Earlier files were made by solvers that answered all.)
+  m.outside = json.value("outside", m.outside);
+  m.left_out = json.value("left_out", m.left_out);
 }
 
 void read_faults(const Json& json, Measurement& m) {
@@ -121,6 +138,7 @@ void read_faults(const Json& json, Measurement& m) {
   json.at("early_upper_tois").get_to(m.early_upper_tois);
   // (Earlier files do not count them.)
   m.beyond_tolerance = json.value("beyond_tolerance", m.beyond_tolerance);
+  m.late = late_times_from(json.value("late", Json()));
   json.at("errors").get_to(m.errors);
   json.at("undecided").get_to(m.undecided);
   json.at("at_limit").get_to(m.at_limit);

@@ -83,7 +83,9 @@ class Writer {
     text_ += fmt::format("<header>\n<h1>{}</h1>\n<p>{}</p>\n", contents_.title,
                          io::html_escaped(contents_.about));
     if (contents_.interrupted) {
-      text_ += "<p class=\"warning\">Interrupted: not all that was asked for is here.</p>\n";
+      text_ +=
+          "<p class=\"warning\">Not all that was asked for is here: the time was over, or "
+          "the run was interrupted.</p>\n";
     }
     text_ += "<ul class=\"findings\">\n";
     for (const std::string& finding : contents_.findings) {

@@ -50,7 +50,7 @@ std::string row_of(const StabilityMark& mark) {
 /// The letter of the worst fault if there is one, and "!" where there are errors or hangs besides.
 std::string mark_text(const StabilityMark& mark) {
   std::string text;
-  if (mark.worst) text += judge::letter_of(*mark.worst);
+  if (mark.worst) text += judge::letter_of(*mark.worst, mark.is_slight);
   const bool is_error = mark.worst && judge::is_error(*mark.worst);
   if (mark.hangs != 0 || (mark.errors != 0 && !is_error)) text += '!';
   return text;

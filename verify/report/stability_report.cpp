@@ -14,6 +14,7 @@
 #include "verify/io/printable.hpp"
 #include "verify/io/text_table.hpp"
 #include "verify/judge/separation_inference.hpp"
+#include "verify/judge/terms.hpp"
 #include "verify/report/judgement_report.hpp"
 #include "verify/solvers/registry.hpp"
 
@@ -21,22 +22,28 @@ namespace touchstone::verify::report {
 namespace {
 
 constexpr std::string_view legend =
-    "worst by level, a character each: . every answer is right; 0 to 9 false positives, up to so "
+    "worst by level, a character each: . every answer is right; - nothing was asked; 0 to 9 false "
+    "positives, up to so "
     "many tenths of "
     "the misses\nand more (9 with all); N false negatives, T a time of impact excludes the true "
-    "one, "
+    "one (t: late by at most 1e-9), "
     "E errors, B a yes beyond its tolerance\nfailures by level, whatever is worse: E errors, H "
     "hangs, "
     "# both, . none\n";
 
 std::string_view name_of(const stability::Outcome& outcome) {
+  if (outcome.is_slight) return "slightly late toi";
   return outcome.worst ? judge::to_text(*outcome.worst) : std::string_view();
 }
 
 /// A level's cell in one character.
-char character_of(const stability::Outcome& outcome) {
+char character_of(const jobs::CertifyResult& judged, std::size_t method) {
+  if (judged.methods.at(method).judgement.queries == 0) return '-';
+  const stability::Outcome outcome = stability::outcome_of(judged, method);
   if (!outcome.worst) return '.';
-  if (*outcome.worst != judge::Fault::false_positive) return judge::letter_of(*outcome.worst);
+  if (*outcome.worst != judge::Fault::false_positive) {
+    return judge::letter_of(*outcome.worst, outcome.is_slight);
+  }
   return static_cast<char>('0' + std::min(9, static_cast<int>(10.0 * outcome.rate)));
 }
 
@@ -79,7 +86,7 @@ io::TextRow text_row(const CellRow& row, std::size_t method) {
   std::string marks, failures;
   for (const stability::StabilityCell* cell : row) {
     sum += cell->judged;
-    marks += character_of(stability::outcome_of(cell->judged, method));
+    marks += character_of(cell->judged, method);
     failures += failures_of(cell->judged, method);
   }
   const jobs::MethodResult& all = sum.methods.at(method);
@@ -99,7 +106,15 @@ io::TextRow text_row(const CellRow& row, std::size_t method) {
 std::string method_text(const stability::StabilityResult& result, std::size_t method) {
   io::TextTable table(columns());
   for (const CellRow& row : rows_of(result)) table.add(text_row(row, method));
-  return fmt::format("{}\n{}\n", promise_text(result.total.methods.at(method)), table.text());
+  const jobs::MethodResult& total = result.total.methods.at(method);
+  std::string notes;
+  if (const std::string late = late_text(total.judgement.late); !late.empty()) {
+    notes += "times of impact: " + late + '\n';
+  }
+  if (const std::string unasked = unasked_text(total.judgement, total.terms); !unasked.empty()) {
+    notes += "not asked: " + unasked + '\n';
+  }
+  return fmt::format("{}\n{}{}\n", promise_text(total), table.text(), notes);
 }
 
 nlohmann::json json_of(const stability::StabilityCell& cell, std::size_t method) {
@@ -144,6 +159,7 @@ StabilityMark mark_of(const stability::StabilityCell& cell, std::size_t method) 
           .hangs = judged.count(judge::Fault::hang),
           .undecided = judged.undecided(),
           .worst = outcome.worst,
+          .is_slight = outcome.is_slight,
           .worst_rate = outcome.rate,
           .toi_error = spread_of(judged.toi_errors),
           .nanoseconds = stability::nanoseconds_per_query(result).value_or(Measurement::unknown),
@@ -159,8 +175,8 @@ std::string promise_text(const jobs::MethodResult& method) {
     return fmt::format("{}: promises nothing; {} worse than false positives", name,
                        keeps ? "nothing" : "answers");
   }
-  return fmt::format("{} ({}): {} its promise", name, solvers::to_string(method.promise),
-                     keeps ? "keeps" : "breaks");
+  return fmt::format("{} ({}{}): {} its promise", name, solvers::to_string(method.promise),
+                     judge::to_text(method.terms), keeps ? "keeps" : "breaks");
 }
 
 std::string to_text(const stability::StabilityResult& result) {
@@ -170,6 +186,9 @@ std::string to_text(const stability::StabilityResult& result) {
   }
   for (std::size_t i = 0; i < result.total.methods.size(); ++i) text += method_text(result, i);
   text += legend;
+  if (result.unjudged_cells != 0) {
+    text += fmt::format("{} cells were not judged\n", result.unjudged_cells);
+  }
   for (const stability::StabilityCell& cell : result.cells) {
     for (const judge::Mismatch& mismatch : cell.judged.mismatches) {
       text += fmt::format("disagreement: {}: {} query {}: certified solver {}, oracle {}\n",
@@ -185,6 +204,7 @@ nlohmann::json to_json(const stability::StabilityResult& result) {
                       {"count", result.count},
                       {"separation", nlohmann::json()},
                       {"interrupted", result.total.interrupted},
+                      {"unjudged_cells", result.unjudged_cells},
                       {"disagreements", result.total.label_mismatches},
                       {"hardnesses", nlohmann::json::array()},
                       {"methods", nlohmann::json::array()}};

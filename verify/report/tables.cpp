@@ -40,7 +40,7 @@ constexpr auto meanings = std::to_array<Meaning>({
     {"FN, FP",
      "false negatives (collisions that it missed) and false positives (with their share of the "
      "queries that do not collide)."},
-    {"late", "times of impact above the exact one."},
+    {"late", "times of impact above the exact one, and by how much of the step at most."},
     {"asked",
      "queries that the method was asked; where they are not all, an evenly spread sample, as large "
      "as the time allowed. Nothing is extrapolated. A method with * was asked fewer than the "
@@ -95,12 +95,18 @@ std::string counted_share(std::uint64_t count, double share) {
   return count == 0 ? "0" : fmt::format("{} ({:.2g} %)", count, 100.0 * share);
 }
 
+/// "12, ≤ 0.3": how many, and by how much of the step at most, where that is known.
+std::string late_text(const Measurement& m) {
+  if (m.late.count == 0) return fmt::format("{}", m.late_tois);
+  return fmt::format("{}, ≤ {}", m.late.count, short_number(m.late.greatest.step));
+}
+
 void append_ours(Texts& row, const Measurement& m) {
   append(row,
          {fmt::format("{}", m.false_negatives),
           counted_share(m.false_positives, false_positive_rate(m)), microseconds(m.nanoseconds),
-          short_number(m.nanoseconds / m.certified_nanoseconds), fmt::format("{}", m.late_tois),
-          asked_text(m), fmt::format("{}", m.collisions), fmt::format("{}", m.at_limit)});
+          short_number(m.nanoseconds / m.certified_nanoseconds), late_text(m), asked_text(m),
+          fmt::format("{}", m.collisions), fmt::format("{}", m.at_limit)});
 }
 
 const Texts& columns_of_ours() {

@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstdint>
+#include <cstring>
 #include <exception>
 #include <mutex>
 #include <optional>
@@ -24,6 +25,12 @@ namespace {
 
 static_assert(static_cast<int>(Kind::vertex_face) == TOUCHSTONE_VERTEX_FACE &&
               static_cast<int>(Kind::edge_edge) == TOUCHSTONE_EDGE_EDGE);
+static_assert(static_cast<int>(fast::Promise::none) == TOUCHSTONE_PROMISES_NOTHING &&
+              static_cast<int>(fast::Promise::conservative) == TOUCHSTONE_PROMISES_CONSERVATIVE &&
+              static_cast<int>(fast::Promise::exact) == TOUCHSTONE_PROMISES_EXACT);
+static_assert(static_cast<int>(fast::Times::bounds) == TOUCHSTONE_TIMES_BOUNDS &&
+              static_cast<int>(fast::Times::estimates) == TOUCHSTONE_TIMES_ESTIMATES &&
+              static_cast<int>(fast::Times::none) == TOUCHSTONE_TIMES_NONE);
 static_assert(static_cast<int>(Norm::linf) == TOUCHSTONE_LINF &&
               static_cast<int>(Norm::l2) == TOUCHSTONE_L2);
 static_assert(static_cast<int>(fast::Verdict::no) == TOUCHSTONE_NO &&
@@ -84,6 +91,58 @@ std::string read_name(const Library& library, const std::filesystem::path& path)
   return std::string(text);
 }
 
+/// A promise and its terms.
+struct Stated {
+  fast::Promise promise = fast::Promise::conservative;
+  fast::Terms terms = {};
+};
+
+Stated checked(const TouchstonePluginPromise& stated, const std::filesystem::path& path) {
+  const auto require = [&](bool is_valid, const char* field) {
+    if (!is_valid) {
+      throw io::DatasetError(path, {},
+                             std::string("touchstone_plugin_promise() sets ") + field +
+                                 " out of range; touchstone/plugin.h names the values");
+    }
+  };
+  const auto is_flag = [](std::int32_t value) { return value == 0 || value == 1; };
+  require(
+      stated.promise >= TOUCHSTONE_PROMISES_NOTHING && stated.promise <= TOUCHSTONE_PROMISES_EXACT,
+      "promise");
+  require(is_flag(stated.kinds[0]) && is_flag(stated.kinds[1]) &&
+              stated.kinds[0] + stated.kinds[1] != 0,
+          "kinds");
+  require(is_flag(stated.is_float), "is_float");
+  require(stated.times >= TOUCHSTONE_TIMES_BOUNDS && stated.times <= TOUCHSTONE_TIMES_NONE,
+          "times");
+  require(std::isfinite(stated.starts_apart), "starts_apart");
+  require(std::isfinite(stated.time_error) && stated.time_error >= 0.0, "time_error");
+  Stated result{.promise = static_cast<fast::Promise>(stated.promise),
+                .terms = {.vertex_face = stated.kinds[TOUCHSTONE_VERTEX_FACE] == 1,
+                          .edge_edge = stated.kinds[TOUCHSTONE_EDGE_EDGE] == 1,
+                          .float_coordinates = stated.is_float == 1,
+                          .times = static_cast<fast::Times>(stated.times),
+                          .time_error = stated.time_error}};
+  if (stated.starts_apart >= 0.0) result.terms.starts_apart = stated.starts_apart;
+  return result;
+}
+
+/// The promise that the library states, before it is checked; the usual one if it has no function.
+TouchstonePluginPromise read_promise(const Library& library) {
+  TouchstonePluginPromise promise{.size = sizeof(TouchstonePluginPromise),
+                                  .promise = TOUCHSTONE_PROMISES_CONSERVATIVE,
+                                  .kinds = {1, 1},
+                                  .is_float = 0,
+                                  .times = TOUCHSTONE_TIMES_BOUNDS,
+                                  .starts_apart = -1.0,
+                                  .time_error = fast::Terms{}.time_error};
+  void* const address = ::dlsym(library.get(), "touchstone_plugin_promise");
+  if (address != nullptr) {
+    reinterpret_cast<decltype(touchstone_plugin_promise)*>(address)(&promise);
+  }
+  return promise;
+}
+
 /// The answer, with an error in place of an invalid verdict.
 fast::Answer checked(const TouchstonePluginAnswer& answer) {
   if (answer.verdict < TOUCHSTONE_NO || answer.verdict > TOUCHSTONE_ERROR) {
@@ -107,8 +166,10 @@ Solve* find_solve(const Library& library, const std::filesystem::path& path) {
 
 class PluginMethod final : public fast::Method {
  public:
-  PluginMethod(std::filesystem::path path, std::string name, fast::Promise promise)
-      : path_(std::move(path)), name_(std::move(name)), info_{.name = name_, .promise = promise} {}
+  PluginMethod(std::filesystem::path path, std::string name, const Stated& stated)
+      : path_(std::move(path)),
+        name_(std::move(name)),
+        info_{.name = name_, .promise = stated.promise, .terms = stated.terms} {}
 
   [[nodiscard]] const fast::MethodInfo& info() const override { return info_; }
 
@@ -155,6 +216,7 @@ constexpr std::string_view calls = "calls ";    // what runs from now on
 constexpr std::string_view named = "named ";    // the name: all is well
 constexpr std::string_view refused = "error ";  // why it is no plugin
 constexpr std::string_view threw = "threw ";
+constexpr std::string_view vowed = "vowed ";  // the bytes of the promise
 
 void tell(const ChildChannel& channel, std::string_view word, std::string_view text) {
   const std::string message = std::string(word) + std::string(text);
@@ -168,6 +230,9 @@ void load_and_ask(const std::filesystem::path& path, const ChildChannel& channel
   check_version(library, path);
   tell(channel, calls, "touchstone_plugin_name()");
   const std::string name = read_name(library, path);
+  tell(channel, calls, "touchstone_plugin_promise()");
+  const TouchstonePluginPromise promise = read_promise(library);
+  tell(channel, vowed, {reinterpret_cast<const char*>(&promise), sizeof promise});
   static_cast<void>(find_solve(library, path));
   // Its destructors need not run.
   static_cast<void>(library.release());
@@ -216,6 +281,9 @@ class Loading {
     }
   }
 
+  /// Its promise. \pre name() has returned.
+  [[nodiscard]] const Stated& stated() const { return stated_; }
+
  private:
   using Clock = std::chrono::steady_clock;
 
@@ -224,6 +292,11 @@ class Loading {
     const auto is_about = [&](std::string_view word) { return message.starts_with(word); };
     const std::string text = message.substr(std::min(message.size(), calls.size()));
     if (is_about(named)) return text;
+    if (is_about(vowed)) {
+      TouchstonePluginPromise promise{};
+      std::memcpy(&promise, text.data(), std::min(sizeof promise, text.size()));
+      stated_ = checked(promise, path_);
+    }
     if (is_about(refused)) throw io::DatasetError(path_, {}, text);
     if (is_about(threw)) fail({.kind = judge::Fault::exception, .what = text});
     if (is_about(calls)) at_ = text;
@@ -239,18 +312,32 @@ class Loading {
   TemporaryFolder folder_;
   ChildProcess child_;
   std::string at_ = "before its constructors";
+  Stated stated_;
 };
 static_assert(calls.size() == named.size() && named.size() == refused.size() &&
-              refused.size() == threw.size());
+              refused.size() == threw.size() && threw.size() == vowed.size());
 
 }  // namespace
+
+fast::Terms changed(fast::Terms terms, const TermsChanges& changes) {
+  terms.vertex_face = changes.vertex_face.value_or(terms.vertex_face);
+  terms.edge_edge = changes.edge_edge.value_or(terms.edge_edge);
+  if (changes.starts_apart) terms.starts_apart = changes.starts_apart;
+  terms.float_coordinates = changes.float_coordinates.value_or(terms.float_coordinates);
+  terms.times = changes.times.value_or(terms.times);
+  terms.time_error = changes.time_error.value_or(terms.time_error);
+  return terms;
+}
 
 std::unique_ptr<fast::Method> load_plugin(const std::filesystem::path& library,
                                           const PluginOptions& options) {
   // A child works in another folder.
   std::filesystem::path absolute = std::filesystem::absolute(library);
-  std::string name = Loading(library, absolute, options).name();
-  return std::make_unique<PluginMethod>(std::move(absolute), std::move(name), options.promise);
+  Loading loading(library, absolute, options);
+  std::string name = loading.name();
+  Stated stated = loading.stated();
+  stated.terms = changed(stated.terms, options.terms);
+  return std::make_unique<PluginMethod>(std::move(absolute), std::move(name), stated);
 }
 
 }  // namespace touchstone::verify::solvers

@@ -10,15 +10,29 @@
 #include <atomic>
 #include <filesystem>
 #include <memory>
+#include <optional>
 
 #include "fast/method.hpp"
 #include "verify/solvers/child_process.hpp"
 
 namespace touchstone::verify::solvers {
 
+/// Terms in place of those that a solver states itself.
+struct TermsChanges {
+  std::optional<bool> vertex_face = std::nullopt;
+  std::optional<bool> edge_edge = std::nullopt;
+  std::optional<double> starts_apart = std::nullopt;
+  std::optional<bool> float_coordinates = std::nullopt;
+  std::optional<fast::Times> times = std::nullopt;
+  std::optional<double> time_error = std::nullopt;
+};
+
+/// The terms with the changes made.
+[[nodiscard]] fast::Terms changed(fast::Terms terms, const TermsChanges& changes);
+
 struct PluginOptions {
-  /// The promise to judge the library by; the interface does not state one.
-  fast::Promise promise = fast::Promise::conservative;
+  /// Terms in place of those that the library states.
+  TermsChanges terms = {};
   /// Limits of the child process that asks for the name.
   ChildLimits limits = {};
   /// Wall-clock seconds that it may take.
@@ -30,13 +44,15 @@ struct PluginOptions {
 /// Loads a plugin, in a child process. A path without a slash is a file in the working directory:
 /// no search takes place.
 ///
-/// The method's name is what the library calls itself. solve() loads the library into the process
-/// that calls it, where it stays as long as the method lives. It throws what the library throws,
-/// and answers Verdict::error for a verdict that is none. Times of impact with any other verdict
-/// than yes are dropped, and so is a tolerance that is none (negative or NaN); infinite times of
-/// impact are not: judge::failure_of() tells of them.
+/// The method's name is what the library calls itself, its promise and terms what the library
+/// states (touchstone_plugin_promise), else conservative. solve() loads the library into the
+/// process that calls it, where it stays as long as the method lives. It throws what the library
+/// throws, and answers Verdict::error for a verdict that is none. Times of impact with any other
+/// verdict than yes are dropped, and so is a tolerance that is none (negative or NaN); infinite
+/// times of impact are not: judge::failure_of() tells of them.
 /// \throws DatasetError naming the file and the reason if it cannot be loaded, lacks a function, is
-/// made for a version of the interface that this program does not know, has no printable name, or
+/// made for a version of the interface that this program does not know, has no printable name,
+/// states a promise out of range, or
 /// ends its process, throws or takes too long on the way; Interrupted if the options' stop turns
 /// true; std::system_error if no process can be made.
 [[nodiscard]] std::unique_ptr<fast::Method> load_plugin(const std::filesystem::path& library,

@@ -1,9 +1,12 @@
 #include "verify/solvers/solver.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <bit>
 #include <chrono>
+#include <cmath>
 #include <exception>
 #include <functional>
 #include <map>
@@ -13,6 +16,8 @@
 #include <utility>
 
 #include "verify/base/thread_clock.hpp"
+#include "verify/judge/terms.hpp"
+#include "verify/solvers/hang_limits.hpp"
 
 namespace touchstone::verify::solvers {
 namespace {
@@ -63,8 +68,8 @@ class InProcess final : public Solver {
   InProcess(const fast::Method& method, const fast::MethodOptions& options)
       : Solver(method.info()), method_(method), options_(options) {}
 
-  [[nodiscard]] SolveReply solve(const SolveRequest& request,
-                                 std::span<fast::Answer> answers) const override {
+  [[nodiscard]] SolveReply answer(const SolveRequest& request,
+                                  std::span<fast::Answer> answers) const override {
     const fast::MethodOptions options = with_separation(options_, request);
     try {
       method_.solve(request.kind, request.queries, answers, options);
@@ -86,10 +91,17 @@ class InChildren final : public Solver {
  public:
   InChildren(const fast::Method& method, const fast::MethodOptions& options,
              const SolverProcessOptions& process)
-      : Solver(method.info()), method_(method), options_(options), process_(process) {}
+      : Solver(method.info()),
+        method_(method),
+        options_(options),
+        process_(process),
+        hangs_(process.query_limit_seconds) {
+    // Behind each the limits and the time are looked at.
+    process_.most_failures = 1;
+  }
 
-  [[nodiscard]] SolveReply solve(const SolveRequest& request,
-                                 std::span<fast::Answer> answers) const override {
+  [[nodiscard]] SolveReply answer(const SolveRequest& request,
+                                  std::span<fast::Answer> answers) const override {
     SolveReply reply{.time = SolverTime{}};
     std::unique_ptr<SolverProcess> process = take();
     std::size_t first = 0;
@@ -129,28 +141,65 @@ class InChildren final : public Solver {
   /// Asks for the answers from number `first` to before `last`.
   void ask(SolverProcess& process, const SolveRequest& request, std::span<fast::Answer> answers,
            std::size_t first, std::size_t last, SolveReply& reply) const {
-    if (reply.stopped) return;
+    const std::string sort = fmt::format("{} {}", request.source, to_string(request.kind));
+    double allowed = allowance();
+    std::size_t step = std::isinf(allowed) ? answers.size() : 1;
+    while (first < last && !reply.stopped) {
+      bool asks_all = true;
+      if (!(allowed > 0.0) || is_left_out(sort, process, asks_all)) {
+        reply.unasked.push_back({.position = first++, .why = judge::Unasked::left_out});
+        continue;
+      }
+      const std::size_t count = asks_all ? std::min(step, last - first) : 1;
+      const double seconds = ask_some(process, request, answers, first, count, sort, reply);
+      allowed -= seconds;
+      // No step takes more than a small part of what is left.
+      if (!std::isinf(allowed)) step = seconds < 0.02 * allowed ? 2 * step : 1;
+    }
+  }
+
+  /// Is the next query of the sort left out? If not, the process has its limit.
+  [[nodiscard]] bool is_left_out(const std::string& sort, SolverProcess& process,
+                                 bool& asks_all) const {
+    const std::scoped_lock lock(mutex_);
+    process.set_query_limit(hangs_.seconds());
+    asks_all = hangs_.asks_all(sort);
+    return !asks_all && hangs_.leaves_out(sort);
+  }
+
+  /// Asks some queries from number `first` on, up to the first at which the process ends, and moves
+  /// `first` behind them. Returns the wall-clock seconds that it took.
+  double ask_some(SolverProcess& process, const SolveRequest& request,
+                  std::span<fast::Answer> answers, std::size_t& first, std::size_t count,
+                  const std::string& sort, SolveReply& reply) const {
+    const WallClock::time_point start = WallClock::now();
     SolverTime& time = reply.time.value();
     SolverRun run =
-        process.solve(request.kind, request.queries.subspan(first, last - first),
-                      answers.subspan(first, last - first), with_separation(options_, request));
+        process.solve(request.kind, request.queries.subspan(first, count),
+                      answers.subspan(first, count), with_separation(options_, request));
     time.processor_nanoseconds += 1e9 * run.processor_seconds;
     time.wall_seconds += run.wall_seconds;
     reply.unplaced_crashes += run.unplaced_crashes;
-    reply.stopped = run.answered < last - first;
+    bool has_ended = false;
     for (judge::QueryFailure& failure : run.failures) {
       failure.position += first;
       if (failure.failure.kind != judge::Fault::exception) {
-        remember(bits_of(request, failure.position), failure.failure);
+        has_ended = true;
+        remember(bits_of(request, failure.position), failure.failure, sort);
       }
       reply.failures.push_back(std::move(failure));
     }
+    reply.stopped = run.answered < count && !has_ended;
+    first += run.answered;
+    return std::chrono::duration<double>(WallClock::now() - start).count();
   }
 
   // ---- Queries that ended a process or took too long
 
-  void remember(const QueryBits& query, const judge::Failure& failure) const {
+  void remember(const QueryBits& query, const judge::Failure& failure,
+                const std::string& sort) const {
     const std::scoped_lock lock(mutex_);
+    if (failure.kind == judge::Fault::hang) hangs_.add(sort);
     lost_.emplace(query, failure);
   }
 
@@ -185,24 +234,25 @@ class InChildren final : public Solver {
   mutable std::mutex mutex_;
   mutable std::vector<std::unique_ptr<SolverProcess>> idle_;
   mutable std::map<QueryBits, judge::Failure> lost_;
+  mutable HangLimits hangs_;
 };
 
 // ---- Recorded -----------------------------------------------------------------------------------
 
 class Recorded final : public Solver {
  public:
-  Recorded(std::string_view name, const RecordedAnswers& answers)
-      : Solver(fast::MethodInfo{.name = name}), answers_(answers) {}
+  Recorded(std::string_view name, const RecordedAnswers& answers, const fast::Terms& terms)
+      : Solver(fast::MethodInfo{.name = name, .terms = terms}), answers_(answers) {}
 
   [[nodiscard]] bool is_timed() const override { return false; }
 
-  [[nodiscard]] SolveReply solve(const SolveRequest& request,
-                                 std::span<fast::Answer> answers) const override {
+  [[nodiscard]] SolveReply answer(const SolveRequest& request,
+                                  std::span<fast::Answer> answers) const override {
     SolveReply reply;
     for (std::size_t i = 0; i < answers.size(); ++i) {
       const auto answer = answers_.answer_to(request.source, request.kind, request.indices[i]);
       if (!answer) {
-        reply.missing.push_back(i);
+        reply.unasked.push_back({.position = i, .why = judge::Unasked::missing});
         continue;
       }
       answers[i] = answer->answer;
@@ -237,8 +287,8 @@ class Collisions final : public Solver {
 
   /// Times the finding of collisions alone; writing the answers is not part of the interface. One
   /// answer is written faster than the thread's clock is read.
-  [[nodiscard]] SolveReply solve(const SolveRequest& request,
-                                 std::span<fast::Answer> answers) const override {
+  [[nodiscard]] SolveReply answer(const SolveRequest& request,
+                                  std::span<fast::Answer> answers) const override {
     fast::CertifiedOptions options = options_;
     options.separation = request.separation;
     std::vector<fast::Collision> collisions;
@@ -274,6 +324,68 @@ void Solver::rename(std::string name) {
   info_.name = name_;
 }
 
+std::optional<judge::Unasked> SolveReply::why_unasked(std::size_t position) const {
+  const auto found = std::ranges::lower_bound(unasked, position, {}, &UnaskedQuery::position);
+  if (found == unasked.end() || found->position != position) return std::nullopt;
+  return found->why;
+}
+
+SolveReply Solver::solve(const SolveRequest& request, std::span<fast::Answer> answers) const {
+  if (!judge::select_queries(terms())) return answer_in_time(request, answers);
+  SolveReply reply;
+  std::vector<std::size_t> positions;
+  std::vector<Query> queries;
+  std::vector<std::uint64_t> indices;
+  for (std::size_t i = 0; i < answers.size(); ++i) {
+    const Query query = judge::as_asked(terms(), request.queries[i]);
+    answers[i] = {};
+    if (!judge::admits(terms(), request.kind, query, request.separation)) {
+      reply.unasked.push_back({.position = i, .why = judge::Unasked::outside});
+      continue;
+    }
+    positions.push_back(i);
+    queries.push_back(query);
+    if (!request.indices.empty()) indices.push_back(request.indices[i]);
+  }
+  std::vector<fast::Answer> given(queries.size());
+  SolveRequest within = request;
+  within.queries = queries;
+  within.indices = indices;
+  SolveReply of_within;
+  const SolverTime time = time_of([&] { of_within = answer_in_time(within, given); });
+  for (std::size_t i = 0; i < given.size(); ++i) answers[positions[i]] = given[i];
+  for (UnaskedQuery& unasked : of_within.unasked) {
+    unasked.position = positions[unasked.position];
+    reply.unasked.push_back(unasked);
+  }
+  std::ranges::sort(reply.unasked, {}, &UnaskedQuery::position);
+  for (judge::QueryFailure& failure : of_within.failures) {
+    failure.position = positions[failure.position];
+    reply.failures.push_back(std::move(failure));
+  }
+  reply.time = of_within.time.value_or(time);
+  reply.unplaced_crashes = of_within.unplaced_crashes;
+  reply.stopped = of_within.stopped;
+  return reply;
+}
+
+SolveReply Solver::answer_in_time(const SolveRequest& request,
+                                  std::span<fast::Answer> answers) const {
+  if (std::isinf(allowance())) return answer(request, answers);
+  SolveReply reply;
+  if (allowance() > 0.0) {
+    const WallClock::time_point start = WallClock::now();
+    reply = answer(request, answers);
+    allowance_ = allowance_ - std::chrono::duration<double>(WallClock::now() - start).count();
+    return reply;
+  }
+  for (std::size_t i = 0; i < answers.size(); ++i) {
+    reply.unasked.push_back({.position = i, .why = judge::Unasked::left_out});
+  }
+  reply.time = SolverTime{};
+  return reply;
+}
+
 SolveReply Solver::solve_timed(const SolveRequest& request, std::span<fast::Answer> answers) const {
   SolveReply reply;
   SolverTime time = time_of([&] { reply = solve(request, answers); });
@@ -301,8 +413,9 @@ std::unique_ptr<Solver> solver_in_children(const fast::Method& method,
   return std::make_unique<InChildren>(method, options, process);
 }
 
-std::unique_ptr<Solver> recorded_solver(std::string_view name, const RecordedAnswers& answers) {
-  return std::make_unique<Recorded>(name, answers);
+std::unique_ptr<Solver> recorded_solver(std::string_view name, const RecordedAnswers& answers,
+                                        const fast::Terms& terms) {
+  return std::make_unique<Recorded>(name, answers, terms);
 }
 
 std::unique_ptr<Solver> certified_queries(const fast::CertifiedOptions& certified) {

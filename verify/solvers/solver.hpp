@@ -8,6 +8,7 @@
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <span>
@@ -20,6 +21,7 @@
 #include "touchstone/query.hpp"
 #include "verify/judge/fault.hpp"
 #include "verify/judge/judge.hpp"
+#include "verify/judge/judgement.hpp"
 #include "verify/solvers/answers.hpp"
 #include "verify/solvers/solver_process.hpp"
 
@@ -42,13 +44,21 @@ struct SolverTime {
   double wall_seconds = 0.0;
 };
 
+/// A query that was not asked.
+struct UnaskedQuery {
+  std::size_t position = 0;
+  judge::Unasked why = judge::Unasked::missing;
+
+  friend bool operator==(const UnaskedQuery&, const UnaskedQuery&) = default;
+};
+
 /// Data that comes with the answers.
 struct SolveReply {
   /// Where that is not the time of the whole call in this thread: what the solver itself took,
   /// without the making of child processes.
   std::optional<SolverTime> time = std::nullopt;
-  /// Positions in the span of the queries without an answer, ascending.
-  std::vector<std::size_t> missing = {};
+  /// The queries that were not asked, by ascending position.
+  std::vector<UnaskedQuery> unasked = {};
   /// Of queries without an answer, ascending, where more is known than the answers show: those
   /// without a failure here may have one that judge::failure_of() tells of.
   std::vector<judge::QueryFailure> failures = {};
@@ -56,6 +66,9 @@ struct SolveReply {
   std::uint64_t unplaced_crashes = 0;
   /// Was it stopped? Then the answers are incomplete.
   bool stopped = false;
+
+  /// The reason why the query at a position was not asked; nothing if it was.
+  [[nodiscard]] std::optional<judge::Unasked> why_unasked(std::size_t position) const;
 };
 
 /// Answers queries. Safe to use from several threads at once.
@@ -75,6 +88,7 @@ class Solver {
   /// The promise its answers are judged by: its own unless hold_to() sets another.
   [[nodiscard]] fast::Promise promise() const { return info_.promise; }
   void hold_to(fast::Promise promise) { info_.promise = promise; }
+  [[nodiscard]] const fast::Terms& terms() const { return info_.terms; }
   [[nodiscard]] judge::Standard standard() const { return judge::standard_of(info_); }
 
   /// Is its processor time known?
@@ -82,10 +96,18 @@ class Solver {
   /// Does it take its queries from elsewhere, so that it can be asked for all of them only?
   [[nodiscard]] virtual bool only_as_a_whole() const { return false; }
 
-  /// Answers query i in answers[i], in this thread or in a child process that it waits for.
+  /// Answers query i in answers[i], in this thread or in a child process that it waits for. Queries
+  /// outside the terms of its promise are not asked, and the others in the form that the terms
+  /// name.
   /// \pre both spans have the same length.
-  [[nodiscard]] virtual SolveReply solve(const SolveRequest& request,
-                                         std::span<fast::Answer> answers) const = 0;
+  [[nodiscard]] SolveReply solve(const SolveRequest& request,
+                                 std::span<fast::Answer> answers) const;
+
+  /// From now on it may take so many wall-clock seconds, in all threads together; no query is begun
+  /// behind them, and the rest is left out. Infinite: no limit.
+  void allow(double seconds) const { allowance_ = seconds; }
+  /// What is left of them; below 0 if the latest query took longer.
+  [[nodiscard]] double allowance() const { return allowance_; }
 
   /// The same, with the time in any case; the processor time is 0 where it is not known.
   [[nodiscard]] SolveReply solve_timed(const SolveRequest& request,
@@ -101,10 +123,17 @@ class Solver {
   [[nodiscard]] virtual CapturedOutput take_output() const { return {}; }
 
  private:
+  /// solve() for queries within the terms, as they are. \pre as solve()
+  [[nodiscard]] virtual SolveReply answer(const SolveRequest& request,
+                                          std::span<fast::Answer> answers) const = 0;
+  [[nodiscard]] SolveReply answer_in_time(const SolveRequest& request,
+                                          std::span<fast::Answer> answers) const;
+
   std::string name_;
   fast::MethodInfo info_;
   /// Wall-clock seconds a query, of the latest call; a guess before there is one.
   mutable std::atomic<double> pace_ = 1.0;
+  mutable std::atomic<double> allowance_ = std::numeric_limits<double>::infinity();
 };
 
 /// A method in this process. A query where it throws an exception is answered Verdict::error.
@@ -113,14 +142,16 @@ class Solver {
                                                         const fast::MethodOptions& options);
 
 /// A method in child processes, one for each thread that asks at the same time. A crash or a hang
-/// costs one query, which is not asked again.
+/// costs one query, which is not asked again; hangs have the limits of hang_limits.hpp, a kind of
+/// one source being a sort.
 [[nodiscard]] std::unique_ptr<Solver> solver_in_children(const fast::Method& method,
                                                          const fast::MethodOptions& options,
                                                          const SolverProcessOptions& process);
 
 /// Recorded answers, looked up by source, kind and index. They promise nothing.
 [[nodiscard]] std::unique_ptr<Solver> recorded_solver(std::string_view name,
-                                                      const RecordedAnswers& answers);
+                                                      const RecordedAnswers& answers,
+                                                      const fast::Terms& terms = {});
 
 /// The certified solver by its own interface, fast::collisions, as `certified_queries`: on the
 /// array of queries, in one thread. Its separation is that of the request.

@@ -234,6 +234,8 @@ class SolverProcess::Impl {
     return std::move(run_);
   }
 
+  void set_query_limit(double seconds) { options_.query_limit_seconds = seconds; }
+
   CapturedOutput take_output() { return std::exchange(output_, {}); }
 
  private:
@@ -447,6 +449,8 @@ SolverRun SolverProcess::solve(Kind kind, std::span<const Query> queries,
                                const base::Deadline& deadline) {
   return impl_->solve(kind, queries, answers, method_options, deadline);
 }
+
+void SolverProcess::set_query_limit(double seconds) { impl_->set_query_limit(seconds); }
 
 CapturedOutput SolverProcess::take_output() { return impl_->take_output(); }
 

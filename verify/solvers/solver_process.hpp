@@ -78,6 +78,9 @@ class SolverProcess {
                                 const fast::MethodOptions& method_options,
                                 const base::Deadline& deadline = {});
 
+  /// The limit of the queries asked from now on, in place of that of the options.
+  void set_query_limit(double seconds);
+
   /// The output of its child processes since the last call, which clears it.
   [[nodiscard]] CapturedOutput take_output();
 

@@ -6,16 +6,12 @@
 #include <stdexcept>
 
 #include "verify/base/deadline.hpp"
+#include "verify/jobs/budget.hpp"
 
 namespace touchstone::verify::stability {
 namespace {
 
 constexpr std::array kinds{Kind::vertex_face, Kind::edge_edge};
-
-/// Worst first; the crash stands for all errors.
-constexpr std::array by_weight{judge::Fault::false_negative,   judge::Fault::late_toi,
-                               judge::Fault::early_toi_upper,  judge::Fault::crash,
-                               judge::Fault::beyond_tolerance, judge::Fault::false_positive};
 
 std::vector<StabilityCell> cells_of(const std::vector<const Hardness*>& sorts) {
   std::vector<StabilityCell> cells;
@@ -30,6 +26,7 @@ std::vector<StabilityCell> cells_of(const std::vector<const Hardness*>& sorts) {
 }
 
 jobs::CertifyResult judge(const StabilityCell& cell, const StabilityOptions& options,
+                          const base::Deadline& deadline, bool is_short_of_time,
                           const std::function<void(double)>& on_progress) {
   const std::unique_ptr<data::QuerySource> source =
       open_hard_queries({.hardness = cell.hardness,
@@ -43,6 +40,8 @@ jobs::CertifyResult judge(const StabilityCell& cell, const StabilityOptions& opt
   certify_options.solvers = options.solvers;
   certify_options.on_progress = on_progress;
   certify_options.stop = options.stop;
+  certify_options.deadline = deadline;
+  certify_options.is_short_of_time = is_short_of_time;
   jobs::CertifyResult judged = jobs::certify(*source, certify_options);
   if (judged.error) throw std::runtime_error(source->name() + ": " + *judged.error);
   return judged;
@@ -58,7 +57,11 @@ StabilityResult measure_stability(const std::vector<const Hardness*>& sorts,
                          .total = {},
                          .cells = cells_of(sorts)};
   result.total.name = "total";
-  const auto stopped = [&] { return base::is_stopped(options.stop); };
+  jobs::Budget budget;
+  if (options.seconds > 0.0) {
+    budget = jobs::Budget(options.seconds, options.solvers, options.threads);
+  }
+  const auto stopped = [&] { return base::is_stopped(options.stop) || budget.is_over(); };
   std::size_t done = 0;
   for (; done < result.cells.size() && !stopped(); ++done) {
     const auto on_progress = [&](double fraction) {
@@ -66,32 +69,37 @@ StabilityResult measure_stability(const std::vector<const Hardness*>& sorts,
       options.on_progress((static_cast<double>(done) + fraction) /
                           static_cast<double>(result.cells.size()));
     };
-    result.cells[done].judged = judge(result.cells[done], options, on_progress);
+    const base::Deadline deadline = budget.begin_source(result.cells.size() - done);
+    result.cells[done].judged =
+        judge(result.cells[done], options, deadline, budget.is_limited(), on_progress);
     result.total += result.cells[done].judged;
     on_progress(1.0);
   }
   result.total.interrupted = result.total.interrupted || done < result.cells.size();
+  result.unjudged_cells = result.cells.size() - done;
   result.cells.resize(done);
   return result;
 }
 
 double rate_of(judge::Fault fault, const jobs::CertifyResult& judged, std::size_t method) {
-  const std::uint64_t misses = judged.queries - judged.collisions;
+  const judge::Judgement& judgement = judged.methods.at(method).judgement;
+  const std::uint64_t misses = judgement.queries - judgement.collisions;
   const bool about_misses =
       fault == judge::Fault::false_positive || fault == judge::Fault::beyond_tolerance;
-  const std::uint64_t among = judge::is_error(fault) ? judged.queries
+  const std::uint64_t among = judge::is_error(fault) ? judgement.queries
                               : about_misses         ? misses
-                                                     : judged.collisions;
-  const std::uint64_t count = judged.methods.at(method).judgement.total(fault);
+                                                     : judgement.collisions;
+  const std::uint64_t count = judgement.total(fault);
   return among == 0 ? 0.0 : static_cast<double>(count) / static_cast<double>(among);
 }
 
 Outcome outcome_of(const jobs::CertifyResult& judged, std::size_t method) {
-  const judge::Judgement& judgement = judged.methods.at(method).judgement;
-  const auto* const worst = std::ranges::find_if(
-      by_weight, [&](judge::Fault fault) { return judgement.total(fault) != 0; });
-  if (worst == by_weight.end()) return {};
-  return {.worst = *worst, .rate = rate_of(*worst, judged, method)};
+  const jobs::MethodResult& of_method = judged.methods.at(method);
+  const auto worst = judge::worst_of(of_method.judgement, of_method.promise);
+  if (!worst) return {};
+  return {.worst = worst->fault,
+          .is_slight = worst->is_slight,
+          .rate = rate_of(worst->fault, judged, method)};
 }
 
 std::optional<double> checks_per_query(const jobs::MethodResult& method) {

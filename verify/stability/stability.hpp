@@ -37,6 +37,8 @@ struct StabilityOptions {
   std::function<void(double)> on_progress = nullptr;
   /// May be null. Once true, the result is that of what was judged so far.
   const std::atomic<bool>* stop = nullptr;
+  /// Wall-clock time, shared over cells and solvers (jobs/budget.hpp); 0: no limit.
+  double seconds = 0.0;
 };
 
 /// The judgement on the queries of one sort.
@@ -55,6 +57,7 @@ struct StabilityResult {
   jobs::CertifyResult total;
   /// By hardness, then kind, then level, each in its order.
   std::vector<StabilityCell> cells;
+  std::size_t unjudged_cells = 0;  ///< of those asked for, for lack of time or a stop
 };
 
 /// Judges the solvers on the hard queries of the given sorts.
@@ -64,10 +67,9 @@ struct StabilityResult {
 
 /// Faults of a method in some queries.
 struct Outcome {
-  /// The worst of it, nothing if nothing is wrong: a false negative is worse than a time of impact
-  /// that excludes the true one, that than an error, that than a claim of too much nearness, that
-  /// than a false positive. An error of any kind is a crash here.
+  /// The worst of it (judge::worst_of), nothing if nothing is wrong.
   std::optional<judge::Fault> worst = std::nullopt;
+  bool is_slight = false;  ///< Is it a time that is late slightly?
   /// The rate of a fault as a fraction of the queries where it is possible: of those that collide
   /// (false negatives, times of impact), of those that do not (false positives, nearness), or of
   /// all.

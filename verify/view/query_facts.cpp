@@ -13,6 +13,7 @@
 #include "touchstone/oracle.hpp"
 #include "verify/io/printable.hpp"
 #include "verify/jobs/prove.hpp"
+#include "verify/judge/terms.hpp"
 #include "verify/judge/ground_truth.hpp"
 #include "verify/judge/judgement.hpp"
 #include "verify/solvers/answers.hpp"
@@ -115,8 +116,12 @@ nlohmann::json answer_facts(const judge::GivenAnswer& given, const judge::Standa
                             bool is_recorded, const Judged& judged) {
   nlohmann::json faults = nlohmann::json::array();
   bool is_broken = false;
+  const auto& [kind, original, separation] = judged.question;
+  const Query asked = judge::as_asked(standard.terms, original);
+  const judge::GroundTruth truth =
+      asked == original ? judged.truth : judge::truth_of(0, exact::decide(kind, asked, separation));
   for (const judge::Fault fault :
-       judge::judge(judged.question, judged.truth, given.answer, standard,
+       judge::judge({kind, asked, separation}, truth, given.answer, standard,
                     given.failure ? &*given.failure : nullptr)) {
     is_broken = is_broken || judge::breaks(fault, standard.promise);
     // A failure that is no error has a text of its own below.
@@ -136,7 +141,8 @@ nlohmann::json answer_facts(const judge::GivenAnswer& given, const judge::Standa
           {"breaks_promise", is_broken}};
 }
 
-judge::GivenAnswer ask(const solvers::Solver& solver, const ViewedQuery& viewed) {
+/// Nothing if the query is outside the terms of the solver.
+std::optional<judge::GivenAnswer> ask(const solvers::Solver& solver, const ViewedQuery& viewed) {
   judge::GivenAnswer result{.solver = solver.name()};
   const std::array<std::uint64_t, 1> index{0};
   const solvers::SolveReply reply = solver.solve({.kind = viewed.kind,
@@ -145,6 +151,7 @@ judge::GivenAnswer ask(const solvers::Solver& solver, const ViewedQuery& viewed)
                                                   .source = viewed.label,
                                                   .indices = index},
                                                  {&result.answer, 1});
+  if (!reply.unasked.empty()) return std::nullopt;
   if (!reply.failures.empty()) result.failure = reply.failures.front().failure;
   return result;
 }
@@ -164,7 +171,8 @@ nlohmann::json answers_of(const ViewedQuery& viewed, const Judged& judged,
     answers.push_back(answer_facts(recorded, standard, true, judged));
   }
   for (const solvers::Solver* solver : solvers) {
-    answers.push_back(answer_facts(ask(*solver, viewed), solver->standard(), false, judged));
+    const auto given = ask(*solver, viewed);
+    if (given) answers.push_back(answer_facts(*given, solver->standard(), false, judged));
   }
   return answers;
 }

@@ -36,7 +36,8 @@ class Report : public tests::ShellTest<subcommand> {
 
 /// Options for a short run: the tests measure no speed.
 const std::string quick =
-    " --method certified --method tight_inclusion --repetitions 1 --seconds 0.01 --stability 0 ";
+    " --method certified --method tight_inclusion --repetitions 1 --method-seconds 0.01 "
+    "--stability 0 ";
 
 TEST_F(Report, WritesPageMeasurementsAndTablesOfTheGivenQueries) {
   ASSERT_EQ(run(data() + quick + "--out " + quoted("page.html") + " --json " + quoted("json") +
@@ -124,10 +125,11 @@ TEST_F(Report, HasOnesOwnSolverBesideTheOthers) {
 }
 
 TEST_F(Report, WithoutAPathTheQueriesAreTheBuiltInOnes) {
-  ASSERT_EQ(run(" --method certified --repetitions 1 --seconds 0.01 --stability 2 --count 50 "
-                "--experiment field --json " +
-                quoted("json")),
-            0)
+  ASSERT_EQ(
+      run(" --method certified --repetitions 1 --method-seconds 0.01 --stability 2 --count 50 "
+          "--experiment field --json " +
+          quoted("json")),
+      0)
       << read("err");
   std::set<std::string> groups;
   const nlohmann::json result = json();
@@ -160,7 +162,7 @@ TEST_F(Report, BadUsageExitsWithTwo) {
   for (const std::string& arguments :
        {data(), data() + quick + " --out '/nonexistent/page.html'",
         data() + out + " --method nonsense", data() + out + " --count 0",
-        data() + out + " --seconds 0", data() + out + " --experiment guess",
+        data() + out + " --method-seconds 0", data() + out + " --experiment guess",
         quoted("missing") + out, "--from " + quoted("missing") + out,
         data() + " --from " + quoted("json") + out, data() + out + " --json " + quoted("page.html"),
         data() + " --json " + quoted("handcrafted/a_vf.csv")}) {
@@ -176,11 +178,11 @@ TEST_F(Report, BadUsageExitsWithTwo) {
 TEST_F(Report, AnInterruptLeavesWhatIsMeasured) {
   static_cast<void>(data());
   const tests::Outcome report =
-      run_interrupted({"report", path("handcrafted"), "--seconds", "100", "--repetitions",
+      run_interrupted({"report", path("handcrafted"), "--method-seconds", "100", "--repetitions",
                        "1000000", "--json", path("json"), "--out", path("page.html")});
   EXPECT_EQ(report.status, 130) << report.err;
   EXPECT_EQ(json().at("interrupted"), true);
-  EXPECT_TRUE(contains(read("page.html"), "Interrupted: not all"));
+  EXPECT_TRUE(contains(read("page.html"), "Not all that was asked"));
 }
 
 }  // namespace

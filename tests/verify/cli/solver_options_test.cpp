@@ -187,7 +187,7 @@ TEST(Solvers, AnswersNeverAskedForAreAWarning) {
     const solvers::SolveReply reply = solvers.all().front()->solve(
         {.kind = Kind::edge_edge, .queries = queries, .source = source, .indices = indices},
         answers);
-    EXPECT_TRUE(reply.missing.empty());
+    EXPECT_TRUE(reply.unasked.empty());
   };
   ask(a, 0);
   const std::vector<std::string> warnings = solvers.warnings();

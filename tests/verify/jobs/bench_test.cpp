@@ -239,8 +239,8 @@ class Burner final : public solvers::Solver {
       : solvers::Solver(fast::MethodInfo{.name = name}), nanoseconds_(nanoseconds), log_(log) {}
 
   [[nodiscard]] bool only_as_a_whole() const override { return whole; }
-  [[nodiscard]] solvers::SolveReply solve(const solvers::SolveRequest& request,
-                                          std::span<Answer> answers) const override {
+  [[nodiscard]] solvers::SolveReply answer(const solvers::SolveRequest& request,
+                                           std::span<Answer> answers) const override {
     log_.emplace_back(name(), request.queries.size());
     latest.assign(request.queries.begin(), request.queries.end());
     std::ranges::fill(answers, Answer{.verdict = Verdict::yes});

@@ -37,6 +37,54 @@ Answer yes(double lower, double upper, double tolerance = Answer::none) {
   return {.verdict = Verdict::yes, .toi_lower = lower, .toi_upper = upper, .tolerance = tolerance};
 }
 
+/// An estimate is judged by its error, on both sides; a time that does not count is not judged.
+TEST(JudgeVerdict, TimesAreJudgedByWhatTheyAre) {
+  const GroundTruth half = collision(0.5, 0.5);
+  const fast::Terms estimates{.times = fast::Times::estimates, .time_error = 0.125};
+  const fast::Terms none{.times = fast::Times::none};
+  EXPECT_EQ(judge_verdict(half, yes(0.625, Answer::none), estimates), Faults{});
+  EXPECT_EQ(judge_verdict(half, yes(0.75, Answer::none), estimates), Faults{Fault::late_toi});
+  EXPECT_EQ(judge_verdict(half, yes(0.375, Answer::none), estimates), Faults{});
+  EXPECT_EQ(judge_verdict(half, yes(0.25, Answer::none), estimates),
+            Faults{Fault::early_toi_upper});
+  EXPECT_EQ(judge_verdict(half, yes(Answer::none, 0.75), estimates), Faults{Fault::late_toi});
+  EXPECT_EQ(judge_verdict(half, yes(Answer::none, Answer::none), estimates), Faults{});
+  EXPECT_EQ(judge_verdict(half, yes(0.75, 0.25), none), Faults{});
+}
+
+TEST(Lateness, IsInUnitsOfTheStepAndInUlps) {
+  const GroundTruth half = collision(0.5, 0.5);
+  EXPECT_FALSE(lateness_of(half, yes(0.5, 1.0), {}));
+  EXPECT_FALSE(lateness_of(no_collision, yes(0.5, 1.0), {}));
+  EXPECT_FALSE(lateness_of(half, {.verdict = Verdict::no, .toi_lower = 1.0}, {}));
+  EXPECT_FALSE(lateness_of(half, yes(1.0, 1.0), {.times = fast::Times::none}));
+  const auto ulp = lateness_of(half, yes(above(0.5), 1.0), {});
+  ASSERT_TRUE(ulp);
+  EXPECT_EQ(ulp->step, 0x1p-53);
+  EXPECT_EQ(ulp->ulps, 1.0);
+  EXPECT_TRUE(is_slight(Fault::late_toi, ulp));
+  EXPECT_FALSE(is_slight(Fault::false_negative, ulp));
+  const auto much = lateness_of(half, yes(0.75, 1.0), {});
+  ASSERT_TRUE(much);
+  EXPECT_EQ(much->step, 0.25);
+  EXPECT_FALSE(is_slight(Fault::late_toi, much));
+}
+
+TEST(Harm, IsInTheOrderOfWhatHurtsASimulation) {
+  const auto harm = [](Fault fault, bool is_slight = false) {
+    return harm_of(fault, is_slight, fast::Promise::exact);
+  };
+  EXPECT_LT(harm(Fault::false_negative), harm(Fault::late_toi));
+  EXPECT_LT(harm(Fault::late_toi), harm(Fault::early_toi_upper));
+  EXPECT_LT(harm(Fault::early_toi_upper), harm(Fault::false_positive));
+  EXPECT_LT(harm(Fault::asymmetry), harm(Fault::late_toi, true));
+  EXPECT_LT(harm(Fault::late_toi, true), harm(Fault::crash));
+  EXPECT_LT(harm(Fault::crash), harm(Fault::undecided));
+  // What the promise allows comes behind all that it excludes.
+  EXPECT_LT(harm_of(Fault::crash, false, fast::Promise::conservative),
+            harm_of(Fault::false_positive, false, fast::Promise::conservative));
+}
+
 TEST(JudgeVerdict, NamesEveryFault) {
   const GroundTruth half = collision(0.5, 0.5);
   EXPECT_EQ(judge_verdict(half, {.verdict = Verdict::yes}), Faults{});
@@ -58,13 +106,14 @@ TEST(JudgeVerdict, UndecidedAndHangAreAConservativeYes) {
   const Failure hang{.kind = Fault::hang};
   const Answer undecided{.verdict = Verdict::undecided};
   EXPECT_EQ(judge_verdict(collision(0.5, 0.5), undecided), Faults{Fault::undecided});
-  EXPECT_EQ(judge_verdict(collision(0.5, 0.5), undecided, &hang), Faults{Fault::hang});
+  EXPECT_EQ(judge_verdict(collision(0.5, 0.5), undecided, {}, &hang), Faults{Fault::hang});
   EXPECT_EQ(judge_verdict(no_collision, undecided),
             (Faults{Fault::undecided, Fault::false_positive}));
-  EXPECT_EQ(judge_verdict(no_collision, undecided, &hang),
+  EXPECT_EQ(judge_verdict(no_collision, undecided, {}, &hang),
             (Faults{Fault::hang, Fault::false_positive}));
   const Failure crash{.kind = Fault::crash};
-  EXPECT_EQ(judge_verdict(no_collision, {.verdict = Verdict::error}, &crash), Faults{Fault::crash});
+  EXPECT_EQ(judge_verdict(no_collision, {.verdict = Verdict::error}, {}, &crash),
+            Faults{Fault::crash});
 }
 
 TEST(JudgeVerdict, ATimeIsLateByTheLastBit) {

@@ -145,8 +145,8 @@ TEST(Judgement, AddsUpInOrder) {
   sum.nanoseconds = 10;
   Judgement next = judged(no_collision, {.verdict = Verdict::undecided, .checks = 4});
   next.nanoseconds = 30;
-  next.add_missing(11);
-  next.add_missing(12);
+  next.add_unasked(Unasked::missing, 11);
+  next.add_unasked(Unasked::missing, 12);
   sum += next;
   EXPECT_EQ(sum.queries, 2U);
   EXPECT_EQ(sum.undecided(), 1U);

@@ -149,7 +149,7 @@ std::vector<jobs::CertifyResult> judged_results(Promise promise_of_hasty) {
   tests::add(hasty.judgement, hit, {.verdict = Verdict::yes, .toi_upper = 0.25});
   tests::add(hasty.judgement, hit, {.verdict = Verdict::undecided});
   tests::add(hasty.judgement, hit, {.verdict = Verdict::error});
-  hasty.judgement.add_missing(9);
+  hasty.judgement.add_unasked(judge::Unasked::missing, 9);
   all[1].methods = {careful, hasty};
   return all;
 }
@@ -168,7 +168,7 @@ std::vector<std::string> method_lines(const std::vector<jobs::CertifyResult>& ju
 TEST(CertifyReport, TextHasTheTotalOfEachMethodAndWhereItBrokeItsPromise) {
   using Words = std::vector<std::string>;
   const auto lines = method_lines(judged_results(Promise::conservative));
-  ASSERT_EQ(lines.size(), 5U + 20 + 1 + 3);
+  ASSERT_EQ(lines.size(), 6U + 20 + 1 + 3);
   EXPECT_EQ(words(lines[1]), (Words{"careful", "2", "0", "0", "0", "0", "0", "0", "12.5",
                                     "2.50e-01", "2.50e-01", "2.50e-01"}));
   EXPECT_EQ(words(lines[2]), (Words{"hasty", "30", "23", "1", "1", "1", "1", "1", "-", "2.50e-01",
@@ -177,13 +177,17 @@ TEST(CertifyReport, TextHasTheTotalOfEachMethodAndWhereItBrokeItsPromise) {
                                     "1", "1", "-", "2.50e-01", "2.50e-01", "2.50e-01"}));
   EXPECT_EQ(lines[4], "no answer: hasty: 1 no_verdict, 1 undecided");
   EXPECT_EQ(lines[5],
+            "times of impact: hasty: 1 late, 1 by more than 1e-12, 1 by more than 1e-09, 1 by more "
+            "than 1e-06, 1 by more than 1e-03; at most by 2.50e-01 of the step, 2251799813685248 "
+            "ulp");
+  EXPECT_EQ(lines[6],
             "false negative: hasty: b,c/edge-edge.csv: edge-edge query 4: answer no, truth "
             "collision at 0.5");
-  EXPECT_EQ(lines[24], lines[5]);
-  EXPECT_EQ(lines[25],
+  EXPECT_EQ(lines[25], lines[6]);
+  EXPECT_EQ(lines[26],
             "late toi: hasty: b,c/edge-edge.csv: edge-edge query 4: answer toi_lower 0.75, truth "
-            "collision at 0.5");
-  EXPECT_EQ(lines[28], "false negative: hasty: b,c/edge-edge.csv: and 3 more");
+            "collision at 0.5, late by 2.5e-01, 2251799813685248 ulp");
+  EXPECT_EQ(lines[29], "false negative: hasty: b,c/edge-edge.csv: and 3 more");
 }
 
 TEST(CertifyReport, WithoutSolversThereIsNoTable) {
@@ -202,7 +206,12 @@ TEST(CertifyReport, JsonHasTheMethodsOfTheTotalAndOfEachFile) {
       (nlohmann::json{
           {"name", "careful"},
           {"promise", "exact"},
+          {"terms", ""},
           {"queries", 2},
+          {"outside", 0},
+          {"left_out", 0},
+          {"late",
+           {{"count", 0}, {"beyond", {0, 0, 0, 0}}, {"greatest", 0.0}, {"greatest_ulps", 0.0}}},
           {"false_negatives", 0},
           {"false_positives", 0},
           {"late_toi", 0},

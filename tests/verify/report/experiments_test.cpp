@@ -69,7 +69,7 @@ TEST(Experiments, EachMeasuresDistanceInItsOwnNorm) {
     if (trial.experiment != Experiment::separation) continue;
     for (const double distance : separation_distances()) {
       std::map<Norm, std::set<std::string>> names;
-      for (const auto& [method, options, in_children] : trial.settings) {
+      for (const auto& [method, options, in_children, allowance] : trial.settings) {
         if (options.separation.distance != distance) continue;
         names[options.separation.norm].insert(std::string(method->name()));
       }

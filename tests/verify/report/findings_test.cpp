@@ -20,6 +20,7 @@ TEST(Findings, SayWhatTheMeasurementsSay) {
   EXPECT_EQ(
       findings(tests::small_report()),
       (Findings{
+          "Every method kept its promise.",
           "3 methods were asked up to 100 queries, 20 of which collide.",
           "No missed collision and no time of impact after the exact one: certified, "
           "tight_inclusion. Some: msrf (2 of 100).",
@@ -27,8 +28,7 @@ TEST(Findings, SayWhatTheMeasurementsSay) {
           "certified takes 10 ns a query. As a multiple of that, the others that miss nothing: "
           "tight_inclusion 250.",
           "On the Pareto front of time against error, among those that miss nothing: certified "
-          "in 3 of 3 panels.",
-          "Every method kept its promise."}));
+          "in 3 of 3 panels."}));
 }
 
 TEST(Findings, SumOverGroups) {
@@ -37,16 +37,19 @@ TEST(Findings, SumOverGroups) {
                       tests::measured("b", "certified", 20.0), tests::measured("b", "msrf", 40.0)};
   measurements.all[3].late_tois = 1;
   measurements.all[3].keeps_promise = false;
+  measurements.all[3].late.add({.step = 0.25, .ulps = 7.0});
+  measurements.all[3].outside = 3;
   measurements.all[2].asked = 50;
   const Findings said = findings(measurements);
-  ASSERT_EQ(said.size(), 6U);
-  EXPECT_EQ(said[0], "2 methods were asked up to 200 queries, 40 of which collide.");
-  EXPECT_TRUE(said[1].ends_with("Some: msrf (1 of 200).")) << said[1];
+  ASSERT_EQ(said.size(), 7U);
+  EXPECT_EQ(said[0], "Broke its promise: msrf (1 late times, at most by 0.25 of the step).");
+  EXPECT_EQ(said[1], "2 methods were asked up to 200 queries, 40 of which collide.");
+  EXPECT_TRUE(said[2].ends_with("Some: msrf (1 of 200).")) << said[2];
   EXPECT_EQ(
-      said[3],
+      said[4],
       "certified takes 10 to 20 ns a query. As a multiple of that, the others that miss nothing: "
       "none.");
-  EXPECT_EQ(said[5], "Broke its promise: msrf.");
+  EXPECT_EQ(said[6], "Not asked: msrf (3 queries outside its promise, 0 for lack of time).");
 }
 
 TEST(Findings, WithoutTheFieldAreThePromisesAlone) {

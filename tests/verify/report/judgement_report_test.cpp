@@ -86,17 +86,22 @@ TEST(JudgementReport, SaysWhatWasNotReadAsItStands) {
 
 TEST(JudgementReport, IsJson) {
   const nlohmann::json json = to_json(wrong_in_each_way());
-  EXPECT_EQ(json,
-            (nlohmann::json{
-                {"false_negatives", 22},
-                {"false_positives", 1},
-                {"late_toi", 1},
-                {"early_toi_upper", 1},
-                {"beyond_tolerance", 0},
-                {"undecided", 1},
-                {"errors", 1},
-                {"toi_error",
-                 {{"count", 2}, {"p50", 0.25}, {"p90", 0.25}, {"p99", 0.25}, {"max", 0.25}}}}));
+  EXPECT_EQ(
+      json,
+      (nlohmann::json{
+          {"false_negatives", 22},
+          {"false_positives", 1},
+          {"late_toi", 1},
+          {"early_toi_upper", 1},
+          {"beyond_tolerance", 0},
+          {"undecided", 1},
+          {"errors", 1},
+          {"outside", 0},
+          {"left_out", 0},
+          {"late",
+           {{"count", 1}, {"beyond", {1, 1, 1, 1}}, {"greatest", 0.25}, {"greatest_ulps", 0x1p51}}},
+          {"toi_error",
+           {{"count", 2}, {"p50", 0.25}, {"p90", 0.25}, {"p99", 0.25}, {"max", 0.25}}}}));
   EXPECT_TRUE(to_json(judge::Judgement()).at("toi_error").is_null());
   EXPECT_EQ(to_json(wrong_in_each_way().wrong_answers.front()),
             (nlohmann::json{{"index", 4},

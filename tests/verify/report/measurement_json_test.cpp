@@ -95,7 +95,7 @@ TEST(MeasurementJson, ComesBackWithoutLoss) {
 
 TEST(MeasurementJson, WritesTheDocumentedFields) {
   const nlohmann::json json = to_json(example()).at("measurements")[0];
-  EXPECT_EQ(json.size(), 29U);
+  EXPECT_EQ(json.size(), 32U);
   EXPECT_EQ(json.at("experiment"), "separation");
   EXPECT_EQ(json.at("kind"), "edge-edge");
   EXPECT_EQ(json.at("separation").at("norm"), "l2");

@@ -33,6 +33,7 @@ stability::StabilityCell cell(const std::string& hardness, int level,
 judge::Judgement faults(std::uint64_t false_negatives, std::uint64_t false_positives) {
   judge::Judgement result;
   result.queries = 10;
+  result.collisions = 5;
   result.nanoseconds = 1234.0;
   result.checks = 25;
   result.faults[static_cast<std::size_t>(judge::Fault::false_negative)] = false_negatives;
@@ -67,6 +68,20 @@ TEST(StabilityText, HasALineAHardnessAndACharacterALevel) {
   EXPECT_TRUE(contains(text, "planted (conservative): breaks its promise\n")) << text;
   EXPECT_TRUE(contains(text, "  edge-edge    .49NTEB         .....E.           70 ")) << text;
   EXPECT_TRUE(contains(text, "     123.4        2.5          -          -\n")) << text;
+}
+
+TEST(StabilityText, TellsAnUlpFromATimeThatIsMuchTooLate) {
+  judge::Judgement slight = faults(0, 3);
+  slight.faults[static_cast<std::size_t>(judge::Fault::late_toi)] = 2;
+  slight.slightly_late = 2;
+  judge::Judgement much = slight;
+  much.slightly_late = 1;
+  judge::Judgement unasked;
+  unasked.left_out = 4;
+  const std::string text = to_text(result_of(
+      {cell("distance", -1, slight), cell("distance", -5, much), cell("distance", -10, unasked)}));
+  EXPECT_TRUE(contains(text, "  edge-edge    tT-             ...")) << text;
+  EXPECT_TRUE(contains(text, "not asked: 4 queries left out")) << text;
 }
 
 /// Errors and hangs come after worse faults.

@@ -88,8 +88,42 @@ TEST(BoxOverlap, HasItsNameAndPromise) {
   const auto method = load_plugin(box_overlap);
   EXPECT_EQ(method->name(), "box_overlap");
   EXPECT_EQ(method->promise(), fast::Promise::conservative);
-  EXPECT_EQ(load_plugin(box_overlap, {.promise = fast::Promise::exact})->promise(),
-            fast::Promise::exact);
+  EXPECT_EQ(method->info().terms, fast::Terms{});
+}
+
+// ---- Promises -----------------------------------------------------------------------------------
+
+TEST(PluginPromise, IsWhatTheLibraryStates) {
+  const auto method = load_plugin(tests::plugin_library("states_terms"));
+  EXPECT_EQ(method->promise(), fast::Promise::exact);
+  const fast::Terms stated{.edge_edge = false,
+                           .starts_apart = 0.5,
+                           .float_coordinates = true,
+                           .times = fast::Times::estimates,
+                           .time_error = 0.25};
+  EXPECT_EQ(method->info().terms, stated);
+}
+
+TEST(PluginPromise, ChangesReplaceWhatItStates) {
+  const TermsChanges changes{.vertex_face = false,
+                             .edge_edge = true,
+                             .starts_apart = 0.0,
+                             .float_coordinates = false,
+                             .times = fast::Times::none,
+                             .time_error = 0.125};
+  for (const char* const name : {"states_terms", "box_overlap"}) {
+    const fast::Terms terms =
+        load_plugin(tests::plugin_library(name), {.terms = changes})->info().terms;
+    const fast::Terms expected{
+        .vertex_face = false, .starts_apart = 0.0, .times = fast::Times::none, .time_error = 0.125};
+    EXPECT_EQ(terms, expected) << name;
+  }
+}
+
+TEST(PluginPromise, OutOfRangeIsRefused) {
+  EXPECT_EQ(load_error(tests::plugin_library("states_nonsense")),
+            "states_nonsense.so: touchstone_plugin_promise() sets kinds out of range; "
+            "touchstone/plugin.h names the values");
 }
 
 TEST(BoxOverlap, SaysYesFromTheStartWhereBoxesOverlap) {

@@ -79,7 +79,7 @@ TEST(Solver, InThisAndInChildProcessesGivesTheMethodsAnswers) {
     EXPECT_EQ(solver->promise(), Promise::conservative);
     EXPECT_TRUE(solver->is_timed());
     const Outcome outcome = ask(*solver, 50);
-    EXPECT_TRUE(outcome.reply.missing.empty());
+    EXPECT_TRUE(outcome.reply.unasked.empty());
     EXPECT_GT(outcome.nanoseconds(), 0.0);
     for (std::size_t i = 0; i < 50; ++i) {
       EXPECT_EQ(outcome.answers[i].verdict, Verdict::yes);
@@ -153,7 +153,8 @@ TEST(Solver, RecordedAnswersAreLookedUpBySourceKindAndIndex) {
   EXPECT_EQ(solver->promise(), Promise::none);
   EXPECT_FALSE(solver->is_timed());
   const Outcome outcome = ask(*solver, 4);
-  EXPECT_EQ(outcome.reply.missing, (std::vector<std::size_t>{1, 3}));
+  EXPECT_EQ(outcome.reply.unasked, (std::vector<UnaskedQuery>{{1, judge::Unasked::missing},
+                                                              {3, judge::Unasked::missing}}));
   EXPECT_EQ(outcome.nanoseconds(), 0.0);
   EXPECT_EQ(outcome.answers[0].verdict, Verdict::yes);
   EXPECT_EQ(outcome.answers[0].toi_lower, 0.25);

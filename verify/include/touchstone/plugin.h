@@ -3,8 +3,9 @@
 /// \file
 /// The interface for solvers under test, for C99 and C++.
 ///
-/// A plugin is a shared library that defines the three functions at the end of this header; it
-/// needs no other header of Touchstone. `touchstone certify --plugin ./libsolver.so` loads it and
+/// A plugin is a shared library that defines the first three functions at the end of this header,
+/// and the fourth if its promise is another than the usual one; it needs no other header of
+/// Touchstone. `touchstone certify --plugin ./libsolver.so` loads it and
 /// calls it for each query. `examples/plugin/` is a complete one.
 ///
 /// The problem: four points move on straight lines from t=0 to t=1. Do a vertex and a triangle, or
@@ -80,6 +81,34 @@ typedef struct TouchstonePluginAnswer {
                      ///< yes beyond that is a fault.
 } TouchstonePluginAnswer;
 
+/// What a solver promises of its answers.
+enum TouchstonePromise {
+  TOUCHSTONE_PROMISES_NOTHING = 0,       ///< wrong answers of all kinds occur
+  TOUCHSTONE_PROMISES_CONSERVATIVE = 1,  ///< no missed collision, no late time; false positives
+  TOUCHSTONE_PROMISES_EXACT = 2          ///< no wrong answer at all
+};
+
+/// The meaning of a solver's times of impact.
+enum TouchstoneTimes {
+  TOUCHSTONE_TIMES_BOUNDS = 0,     ///< toi_lower and toi_upper enclose the exact time
+  TOUCHSTONE_TIMES_ESTIMATES = 1,  ///< the exact time is within time_error of toi_lower
+  TOUCHSTONE_TIMES_NONE = 2        ///< the verdict alone counts
+};
+
+/// The promise of a solver, by which it is judged. It arrives with the values named below; the
+/// plugin changes those that differ.
+typedef struct TouchstonePluginPromise {
+  uint32_t size;        ///< bytes of this struct that the caller knows; do not change it
+  int32_t promise;      ///< one of TouchstonePromise; conservative
+  int32_t kinds[2];     ///< by TouchstoneKind: 1 if it answers these queries, else 0; 1, 1
+  int32_t is_float;     ///< 1 if it takes coordinates in single precision: queries are rounded to
+                        ///< float before it is asked, and the truth is that of the rounded query; 0
+  int32_t times;        ///< one of TouchstoneTimes; bounds
+  double starts_apart;  ///< the distance at t=0 must be more than min_separation plus this;
+                        ///< negative: any distance; -1
+  double time_error;  ///< of estimates, in units of the step: an error up to this is no fault; 1e-6
+} TouchstonePluginPromise;
+
 /// Defined by the plugin: returns TOUCHSTONE_PLUGIN_VERSION.
 TOUCHSTONE_API int32_t touchstone_plugin_version(void);
 
@@ -89,7 +118,7 @@ TOUCHSTONE_API const char* touchstone_plugin_name(void);
 
 /// Defined by the plugin: answers one query. Must be thread-safe.
 ///
-/// All three functions, and the library's constructors, run in a child process whose memory and
+/// All functions, and the library's constructors, run in a child process whose memory and
 /// file size are limited, and which may create threads but no processes (options of the command
 /// line change both), in a temporary working directory. Its output is captured.
 ///
@@ -101,6 +130,11 @@ TOUCHSTONE_API const char* touchstone_plugin_name(void);
 TOUCHSTONE_API void touchstone_plugin_solve(int32_t kind, const double* coordinates,
                                             const TouchstonePluginOptions* options,
                                             TouchstonePluginAnswer* answer);
+
+/// Defined by the plugin if its promise is not: conservative, both kinds, any start, double
+/// precision, bounds of the time. Queries outside of the promise are not asked, and are no faults.
+/// \param promise to be changed where it differs.
+TOUCHSTONE_API void touchstone_plugin_promise(TouchstonePluginPromise* promise);
 
 #ifdef __cplusplus
 }

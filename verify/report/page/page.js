@@ -461,7 +461,12 @@
       .style("fill", tone).style("opacity", opacity || 1);
   }
 
+  /// True if every point of the figure has its name beside it.
+  const isNamed = (figure) =>
+    figure.panels.every((panel) => panel.series.every((series) => series.role === "point"));
+
   function drawLegend(figure, element) {
+    if (isNamed(figure)) return;
     for (const [tone, name, shape, opacity] of legendOf(figure)) {
       const item = d3.select(element).append("span");
       const svg = item.append("svg").attr("width", 16).attr("height", 14).attr("aria-hidden", "true");
@@ -476,8 +481,7 @@
 
   /// Draws a legend into a picture; returns its height.
   function drawPictureLegend(svg, figure, width) {
-    const isNamed = figure.panels.every((panel) => panel.series.every((series) => series.role === "point"));
-    if (isNamed) return 0;
+    if (isNamed(figure)) return 0;
     let x = 8;
     let y = 10;
     for (const [tone, name, shape, opacity] of legendOf(figure)) {
@@ -604,9 +608,16 @@
   const tables = Array.from(document.querySelectorAll("table"));
   tables.forEach(makeSortable);
 
+  /// Marks a table that is wider than its place.
+  function markWide(table) {
+    const place = table.parentElement;
+    place.classList.toggle("wide", place.scrollWidth > place.clientWidth + 1);
+  }
+
   function drawAll() {
     figures.forEach(drawFigure);
     tables.forEach(keepColumns);
+    tables.forEach(markWide);
   }
   drawAll();
   figures.forEach(addPictureLink);

@@ -64,7 +64,8 @@ function controls() {
 
 function page() {
   find("view").append(
-    make("header", {}, make("h1", {}, "Touchstone view"), make("nav", { id: "list", "aria-label": "Queries" })),
+    make("header", {}, make("h1", {}, "Touchstone view"), make("p", { id: "common", hidden: true }),
+      make("nav", { id: "list", "aria-label": "Queries" })),
     make("p", { id: "nothing", hidden: step !== null || queries.length > 0 }, "Nothing was found: this page has no query."),
     make("section", { id: "step", hidden: step === null }),
     make("section", { id: "query", hidden: true },
@@ -72,9 +73,7 @@ function page() {
       make("div", { class: "pictures" },
         figure("motion", "The primitives, and their traces"),
         figure("corners", "The corners: contact where the origin is in their hull")),
-      make("p", { id: "scale" }),
-      controls(),
-      make("div", { class: "timeline" },
+      make("div", { class: "timeline", id: "moment" },
         make("label", { class: "name", for: "time" }, "time t"),
         make("div", { class: "slider" }, make("input", { type: "range", id: "time", min: 0, max: steps, step: 1,
           oninput: (event) => {
@@ -83,7 +82,9 @@ function page() {
           } })),
         make("output", { id: "now", for: "time", class: "said" })),
       make("div", { class: "timeline", id: "rows" }),
-      make("p", { id: "readout" })),
+      make("p", { id: "readout" }),
+      controls(),
+      make("p", { id: "scale" })),
     make("section", { id: "numbers", hidden: true },
       make("h2", {}, "Coordinates"),
       make("div", { class: "choice", role: "radiogroup", "aria-label": "Format of coordinates" },
@@ -104,6 +105,15 @@ function page() {
         button("draw", "Draw this text", "", draw), make("output", { id: "drawn" }))));
 }
 
+/// The folder that all queries of the page are from, with a slash at its end; empty if there is none.
+const commonFolder = queries.map((facts) => facts.label).reduce((common, label) => {
+  let length = 0;
+  while (length < common.length && common[length] === label[length]) length += 1;
+  return common.slice(0, common.lastIndexOf("/", length - 1) + 1);
+}, queries.length > 1 ? queries[0].label : "");
+
+const shortName = (facts) => (facts.label.startsWith(commonFolder) ? facts.label.slice(commonFolder.length) : facts.label);
+
 // ---- The query that is shown --------------------------------------------------------------------
 
 function show(index) {
@@ -113,7 +123,8 @@ function show(index) {
   const { facts } = look;
   for (const part of ["query", "numbers"]) find(part).hidden = false;
   find("nothing").hidden = true;
-  find("label").textContent = facts.label;
+  find("label").textContent = shortName(facts);
+  find("label").title = facts.label;
   find("notes").replaceChildren(...facts.notes.map((note) => make("li", {}, note)));
   find("star").textContent = facts.truth && facts.truth.toi ? "To contact" : "To the nearest";
   find("enlarge").disabled = find("zoom").disabled = !look.canZoom;
@@ -133,8 +144,10 @@ function writeVerdict(facts) {
 function writeList() {
   const list = find("list");
   list.hidden = queries.length < 2 || step !== null;
+  find("common").textContent = `Queries of ${commonFolder}`;
+  find("common").hidden = list.hidden || commonFolder === "";
   list.replaceChildren(...queries.map((facts, i) => make("button", { type: "button", "aria-current": i === look.index && "true",
-    onclick: () => show(i) }, make("b", {}, String(i)), ` ${facts.label} `, make("em", {}, badge(facts)))));
+    onclick: () => show(i) }, make("b", {}, String(i)), ` ${shortName(facts)} `, make("em", {}, badge(facts)))));
   const current = list.querySelector("[aria-current]");
   if (current && !list.hidden) list.scrollTop = current.offsetTop - list.offsetTop - 40;
 }

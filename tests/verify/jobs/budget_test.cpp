@@ -1,0 +1,68 @@
+#include "verify/jobs/budget.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <memory>
+#include <vector>
+
+#include "tests/support/methods.hpp"
+
+namespace touchstone::verify::jobs::budget_test {
+namespace {
+
+using tests::FunctionMethod;
+using tests::true_answer;
+
+struct Solvers {
+  FunctionMethod method{true_answer};
+  std::unique_ptr<solvers::Solver> first = solvers::solver_in_process(method, {});
+  std::unique_ptr<solvers::Solver> second = solvers::solver_in_process(method, {});
+  std::vector<const solvers::Solver*> all{first.get(), second.get()};
+};
+
+TEST(Budget, WithoutOneNothingIsLimited) {
+  Solvers solvers;
+  Budget budget;
+  EXPECT_FALSE(budget.is_limited());
+  EXPECT_FALSE(budget.is_over());
+  EXPECT_FALSE(budget.begin_source(1).is_over());
+  EXPECT_TRUE(std::isinf(solvers.first->allowance()));
+}
+
+TEST(Budget, SharesWhatIsLeftOverSourcesAndSolvers) {
+  Solvers solvers;
+  double now = 0.0;
+  Budget budget(100.0, solvers.all, 1, [&] { return now; });
+  EXPECT_EQ(budget.begin_source(4).seconds_left(), 25.0);
+  EXPECT_DOUBLE_EQ(solvers.first->allowance(), 10.0);
+  EXPECT_DOUBLE_EQ(solvers.second->allowance(), 10.0);
+  // The first solver takes twice its part, the second nothing.
+  solvers.first->allow(-10.0);
+  now = 40.0;
+  EXPECT_EQ(budget.begin_source(3).seconds_left(), 20.0);
+  EXPECT_DOUBLE_EQ(solvers.first->allowance(), 20.0 / 3.0);
+  EXPECT_DOUBLE_EQ(solvers.second->allowance(), 40.0 / 3.0);
+  // It takes more than all.
+  solvers.first->allow(-1000.0);
+  static_cast<void>(budget.begin_source(2));
+  EXPECT_EQ(solvers.first->allowance(), 0.0);
+  EXPECT_DOUBLE_EQ(solvers.second->allowance(), 20.0);
+  now = 100.0;
+  EXPECT_TRUE(budget.is_over());
+  EXPECT_TRUE(budget.begin_source(1).is_over());
+}
+
+TEST(Budget, AnEmptyAccountLeavesQueriesOut) {
+  Solvers solvers;
+  solvers.first->allow(0.0);
+  const std::vector<Query> queries(3);
+  std::vector<fast::Answer> answers(3);
+  const auto reply = solvers.first->solve({.queries = queries}, answers);
+  ASSERT_EQ(reply.unasked.size(), 3U);
+  EXPECT_EQ(reply.unasked.front().why, judge::Unasked::left_out);
+  EXPECT_FALSE(reply.stopped);
+}
+
+}  // namespace
+}  // namespace touchstone::verify::jobs::budget_test

@@ -1,0 +1,79 @@
+#include "verify/judge/terms.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "touchstone/certified.hpp"
+
+namespace touchstone::verify::judge {
+namespace {
+
+double nearest_float(double x) {
+  constexpr double greatest = std::numeric_limits<float>::max();
+  // A conversion beyond the range of float is undefined.
+  if (std::abs(x) > greatest) return std::copysign(std::numeric_limits<double>::infinity(), x);
+  return static_cast<double>(static_cast<float>(x));
+}
+
+/// The distance at t=0 is that at all times of a query that does not move.
+bool starts_within(Kind kind, const Query& query, Separation distance) {
+  Query at_rest = query;
+  constexpr std::size_t half = std::tuple_size_v<decltype(Query::coordinates)> / 2;
+  std::copy_n(query.coordinates.begin(), half, at_rest.coordinates.begin() + half);
+  return fast::solve(kind, at_rest, {.separation = distance}).verdict == fast::Verdict::yes;
+}
+
+}  // namespace
+
+bool select_queries(const fast::Terms& terms) {
+  return !terms.vertex_face || !terms.edge_edge || terms.starts_apart || terms.float_coordinates;
+}
+
+Query as_asked(const fast::Terms& terms, const Query& query) {
+  Query asked = query;
+  if (terms.float_coordinates)
+    std::ranges::transform(asked.coordinates, asked.coordinates.begin(), nearest_float);
+  return asked;
+}
+
+bool admits(const fast::Terms& terms, Kind kind, const Query& query, const Separation& separation) {
+  if (!terms.answers(kind)) return false;
+  if (terms.float_coordinates && !(is_finite(query) && as_asked(terms, query) == query))
+    return false;
+  if (!terms.starts_apart || !is_finite(query)) return true;
+  return !starts_within(kind, query, {separation.distance + *terms.starts_apart, separation.norm});
+}
+
+std::string to_text(const fast::Terms& terms) {
+  std::string text;
+  if (!terms.edge_edge) text += ", vertex-face alone";
+  if (!terms.vertex_face) text += ", edge-edge alone";
+  if (terms.starts_apart) {
+    text += *terms.starts_apart == 0.0 ? ", starts apart"
+                                       : fmt::format(", starts apart by {}", *terms.starts_apart);
+  }
+  if (terms.float_coordinates) text += ", float coordinates";
+  if (terms.times == fast::Times::none) text += ", without times";
+  if (terms.times == fast::Times::estimates) {
+    text += fmt::format(", times are estimates to {}", terms.time_error);
+  }
+  return text;
+}
+
+std::string as_options(const fast::Terms& terms) {
+  std::string words;
+  if (!terms.edge_edge) words += " --kinds vertex-face";
+  if (!terms.vertex_face) words += " --kinds edge-edge";
+  if (terms.starts_apart) words += fmt::format(" --starts-apart={}", *terms.starts_apart);
+  if (terms.float_coordinates) words += " --float-coordinates";
+  if (terms.times == fast::Times::none) words += " --times none";
+  if (terms.times == fast::Times::estimates) {
+    words += fmt::format(" --times estimates --time-error {}", terms.time_error);
+  }
+  return words;
+}
+
+}  // namespace touchstone::verify::judge

@@ -1,0 +1,34 @@
+#pragma once
+
+/// \file
+/// The queries that the terms of a promise are about (fast::Terms), and the form in which a solver
+/// is asked them.
+
+#include <string>
+
+#include "fast/method.hpp"
+#include "touchstone/query.hpp"
+
+namespace touchstone::verify::judge {
+
+/// True if the terms leave some queries out, or change them.
+[[nodiscard]] bool select_queries(const fast::Terms& terms);
+
+/// The query as a solver with these terms is asked it: rounded to float if it takes no more. A
+/// coordinate beyond all floats becomes infinite.
+[[nodiscard]] Query as_asked(const fast::Terms& terms, const Query& query);
+
+/// Is that query, as_asked already, one that the promise is about: of a kind that the solver
+/// answers, finite in the solver's precision, and far enough apart at t=0? The certified solver
+/// decides the latter, exactly, in the norm of the separation.
+[[nodiscard]] bool admits(const fast::Terms& terms, Kind kind, const Query& query,
+                          const Separation& separation);
+
+/// ", vertex-face alone, starts apart, float coordinates, times are estimates": the terms that
+/// differ from the usual ones, each behind a comma; empty if none does.
+[[nodiscard]] std::string to_text(const fast::Terms& terms);
+
+/// The same as words of a command line: " --kinds vertex-face --starts-apart=0".
+[[nodiscard]] std::string as_options(const fast::Terms& terms);
+
+}  // namespace touchstone::verify::judge
