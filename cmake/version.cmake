@@ -10,7 +10,10 @@ else()
   string(APPEND text " (${commit})")
 endif()
 if(OUTPUT MATCHES "\\.py$")
-  file(CONFIGURE OUTPUT ${OUTPUT} CONTENT "version = \"@VERSION@\"\ncommit = \"@commit@\"\n" @ONLY)
+  file(CONFIGURE OUTPUT ${OUTPUT} CONTENT [[
+version = "@VERSION@"
+commit = "@commit@"
+]] @ONLY)
   return()
 endif()
 file(CONFIGURE OUTPUT ${OUTPUT} CONTENT [[

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import importlib
+from types import ModuleType
 from typing import Any, Literal, Tuple, TypeVar
 
 import numpy as np
@@ -91,6 +93,24 @@ def as_indices(values: npt.ArrayLike | None, name: str, columns: int | None) -> 
     return np.ascontiguousarray(array, dtype=np.int32)
 
 
+def load(name: str) -> ModuleType:
+    """Return an extension module that not every build has.
+
+    Raises
+    ------
+    ImportError
+        If this build does not have it, or a library that it needs is missing, with the way out.
+    """
+    try:
+        return importlib.import_module(f".{name}", __package__)
+    except ImportError as error:
+        raise ImportError(
+            f"{error}\ntouchstone: this needs the module {name}. A package that pip builds has the fast"
+            " part alone: for all of it use ./run python in the sources. If the error above names a"
+            " library, install that: on Debian 12 libgmpxx4ldbl, libtbb12, libfmt9, libzip4, libzstd1."
+        ) from error
+
+
 Result = TypeVar("Result", bound="BatchResult")
 
 
@@ -109,7 +129,8 @@ class BatchResult:
         self.array = array
 
     def _field(self, name: str) -> Any:
-        return self.array[name][()]
+        value = self.array[name]
+        return value[()] if isinstance(value, np.ndarray) else value
 
     def __len__(self) -> int:
         """Return the number of queries."""
