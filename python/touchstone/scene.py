@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from dataclasses import dataclass
 from enum import IntEnum
 from typing import Any, Callable, Literal, Tuple, TypeVar
@@ -11,6 +12,7 @@ import numpy.typing as npt
 
 from . import _fast
 from ._input import Doubles, Interrupted, Norm, as_indices, as_vertices
+from ._tool import Run
 
 Value = TypeVar("Value")
 
@@ -325,3 +327,50 @@ class Step:
         """
         found = _ending_with_interrupts(lambda: self._step.least_distance(t, norm))
         return None if found is None else LeastDistance(*found)
+
+    def prove(self, path: str | os.PathLike[str]) -> str:
+        """Write a proof: the step is free up to t_max, or the time of its earliest contact.
+
+        Parameters
+        ----------
+        path : path
+            The file to write, which `check` reads; compressed if its name ends in ".zst".
+
+        Returns
+        -------
+        str
+            The claim that is proved: "no_contact T" or "earliest LO HI".
+
+        Raises
+        ------
+        ValueError
+            For a step with points, which the command line tool cannot read, or if there is no proof
+            within the limits of the format.
+        FileNotFoundError
+            Without the command line tool.
+        Interrupted
+            At Ctrl-C.
+        """
+        faces, edges, points, groups, apart = self._elements
+        if len(points):
+            raise ValueError("prove: a step with points cannot be proved from Python")
+        with Run() as run:
+            frames = run.folder / "frames.npz"
+            elements = {"F": faces, **({"E": edges} if len(edges) else {})}
+            np.savez(frames, V=np.stack(self._vertices), **elements)
+            separation, norm = self._separation
+            command: list[Any] = ["step", frames, "--earliest", "--prove", os.path.abspath(path)]
+            command += ["--min-separation", float(separation).hex(), "--norm", norm]
+            command += ["--t-max", repr(float(self._options[0])), "--threads", self._options[2]]
+            if len(groups):
+                names = run.folder / "groups.txt"
+                names.write_text("".join(f"{group}\n" for group in groups))
+                command += ["--groups", names]
+            command += [word for pair in apart for word in ("--apart", *pair)]
+            text, _, interrupted = run.call(command, title="prove")
+        if interrupted:
+            raise Interrupted()
+        for line in text.splitlines():
+            if ": proved: " in line:
+                return line.split(": proved: ")[1].split(";")[0]
+        raise ValueError("prove: no proof: " + text)
