@@ -40,6 +40,11 @@ endif()
 set(touchstone_false_alarms
   "$<$<AND:$<CXX_COMPILER_ID:GNU>,$<VERSION_LESS:$<CXX_COMPILER_VERSION>,13>>:-Wno-array-bounds;-Wno-stringop-overflow;-Wno-stringop-overread>")
 
+# touchstone_for_python(TARGET): compiled for modules of Python too, which are shared libraries, if these are built.
+function(touchstone_for_python target)
+  set_target_properties(${target} PROPERTIES POSITION_INDEPENDENT_CODE ${TOUCHSTONE_BUILD_PYTHON})
+endfunction()
+
 # touchstone_compile_together(TARGET): several sources of the target as one unit, which reads their headers once, if
 # TOUCHSTONE_UNITY_BUILD is on. (CMAKE_UNITY_BUILD does so everywhere: preset lint.)
 function(touchstone_compile_together target)

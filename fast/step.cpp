@@ -40,7 +40,11 @@ template <std::size_t instants, class Take>
 void for_each_block(const Scene& scene, const Trees<instants>& trees, const SearchPart& part,
                     Take take) {
   const StrictFloatingPoint strict;
-  PairSink buffer(std::move(take));
+  scene.go_on();
+  PairSink buffer([&](std::span<const IndexPair> pairs) {
+    scene.go_on();
+    take(pairs);
+  });
   scene.find(trees, part, buffer);
   buffer.flush();
 }

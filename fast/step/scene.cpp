@@ -110,6 +110,7 @@ SceneMesh::SceneMesh(std::size_t vertex_count, const FloatBounds& bounds, const 
 Scene::Scene(MovingVertices vertices, const MeshElements& elements, const StepOptions& options)
     : vertices_(checked(std::move(vertices), elements)),
       certified_(certified_options(options)),
+      stop_(options.stop),
       kernel_(certified_kernel(chosen_kernels())),
       search_(search_kernel(chosen_kernels())),
       bounds_(vertices_, 1.0, certified_.separation.distance),
@@ -124,6 +125,7 @@ Scene::Scene(MovingVertices vertices, const Scene& other)
 Scene::Scene(MovingVertices vertices, const Scene& other, const Separation& separation)
     : vertices_(checked(std::move(vertices), other)),
       certified_(with_separation(other.certified_, separation)),
+      stop_(other.stop_),
       kernel_(other.kernel_),
       search_(other.search_),
       bounds_(vertices_, 1.0, separation.distance),

@@ -10,6 +10,7 @@
 /// vertex-vertex as the face (w, w, w).
 
 #include <array>
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -127,6 +128,10 @@ class Scene final : private PairQuestions {
   [[nodiscard]] const MovingVertices& vertices() const { return vertices_; }
   [[nodiscard]] const MeshElements& elements() const { return mesh_->elements; }
   [[nodiscard]] const CertifiedOptions& certified() const { return certified_; }
+  /// \throws Stopped once the options' stop is true.
+  void go_on() const {
+    if (stop_ != nullptr && stop_->load(std::memory_order_relaxed)) throw Stopped();
+  }
 
   // ---- Searching ----
 
@@ -193,6 +198,7 @@ class Scene final : private PairQuestions {
 
   MovingVertices vertices_;
   CertifiedOptions certified_;
+  const std::atomic<bool>* stop_;
   const CertifiedKernel& kernel_;
   const SearchKernel& search_;
   FloatBounds bounds_;

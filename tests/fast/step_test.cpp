@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <fstream>
 #include <functional>
@@ -317,6 +318,27 @@ TEST(Step, PassesOnExceptionsOfATaker) {
               step.candidates([](const StepCandidates&) { throw std::runtime_error("enough"); });
             }),
             "enough");
+}
+
+TEST(Step, EndsItsSearchesWhenItIsToStop) {
+  Random random(185);
+  std::atomic<bool> stop = false;
+  const Step step = soup(random, 30, 0.4).step({.stop = &stop});
+  const std::vector<StepCollision> before = step.collisions();
+  const Step moved = step.with_places(step.vertices(), {.distance = 0.01});
+  const Step scaled = step.scaled(0.5);
+  stop = true;
+  for (const Step* one : {&step, &moved, &scaled}) {
+    EXPECT_THROW((void)one->collisions(), Stopped);
+    EXPECT_THROW((void)one->earliest(), Stopped);
+    EXPECT_THROW((void)one->is_free(), Stopped);
+    EXPECT_THROW(one->candidates([](const StepCandidates&) {}), Stopped);
+  }
+  // From within a search, too.
+  stop = false;
+  EXPECT_THROW(step.candidates([&](const StepCandidates&) { stop = true; }), Stopped);
+  stop = false;
+  EXPECT_EQ(step.collisions(), before);
 }
 
 // ---- The theorem --------------------------------------------------------------------------------

@@ -35,6 +35,7 @@
 #include <Eigen/Core>
 
 #include <array>
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -96,6 +97,15 @@ struct StepOptions {
   /// 0: as many as there are cores.
   int max_threads = 0;
   CollisionGroups groups = {};
+  /// May be null, else outlives the step and all made from it. While true, their searches for
+  /// impacts, collisions and candidates end soon with the exception Stopped.
+  const std::atomic<bool>* stop = nullptr;
+};
+
+/// StepOptions::stop has ended a search.
+class Stopped : public std::runtime_error {
+ public:
+  Stopped() : std::runtime_error("step: the search was stopped") {}
 };
 
 /// Two primitives that collide.

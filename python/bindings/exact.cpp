@@ -1,0 +1,272 @@
+/// \file
+/// touchstone._exact: the oracle, certificates, and every method by name.
+/// The package `touchstone` says what the functions mean.
+
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <stdexcept>
+#include <streambuf>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "exact/checker/checker.hpp"
+#include "fast/method.hpp"
+#include "python/bindings/arguments.hpp"
+#include "python/bindings/background.hpp"
+#include "python/bindings/blocks.hpp"
+#include "touchstone/certificate.hpp"
+#include "touchstone/certificate_text.hpp"
+#include "touchstone/oracle.hpp"
+#include "verify/solvers/registry.hpp"
+
+namespace touchstone::python {
+namespace {
+
+/// Queries a block: the oracle takes up to a second for one.
+constexpr std::size_t oracle_block = 1;
+constexpr std::size_t method_block = 16;
+
+// ---- Exact numbers ------------------------------------------------------------------------------
+
+py::object to_python(const exact::Integer& number) {
+  return py::reinterpret_steal<py::object>(
+      PyLong_FromString(number.get_str(16).c_str(), nullptr, 16));
+}
+
+/// (numerator, denominator).
+py::tuple to_python(const exact::Rational& number) {
+  return py::make_tuple(to_python(exact::Integer(number.get_num())),
+                        to_python(exact::Integer(number.get_den())));
+}
+
+/// The value, if it is rational. If a number p/q in lowest terms is a root of an integer polynomial
+/// with the leading coefficient a, then q divides a, so that a p/q is an integer: the only one in
+/// an interval around it that is shorter than 1.
+std::optional<exact::Rational> rational_value(exact::AlgebraicNumber number) {
+  if (number.rational()) return number.rational();
+  const exact::Rational leading = number.polynomial().leading();
+  number.refine(exact::Rational(1, 2) / abs(leading));
+  const auto [lower, upper] = number.interval();
+  const exact::Rational middle = leading * (lower + upper) / 2 + exact::Rational(1, 2);
+  exact::Integer nearest;
+  mpz_fdiv_q(nearest.get_mpz_t(), middle.get_num_mpz_t(), middle.get_den_mpz_t());
+  const exact::Rational candidate = exact::Rational(nearest) / leading;
+  if (candidate < lower || candidate > upper) return std::nullopt;
+  if (exact::sign_at(number.polynomial(), candidate) != 0) return std::nullopt;
+  return candidate;
+}
+
+/// None, (numerator, denominator), or (coefficients, lower end, upper end).
+py::object to_python(const std::optional<exact::AlgebraicNumber>& time) {
+  if (!time) return py::none();
+  if (const auto value = rational_value(*time)) return to_python(*value);
+  py::list coefficients;
+  for (const exact::Integer& one : time->polynomial().coefficients()) {
+    coefficients.append(to_python(one));
+  }
+  const auto [lower, upper] = time->interval();
+  return py::make_tuple(py::tuple(coefficients), to_python(lower), to_python(upper));
+}
+
+// ---- The oracle ---------------------------------------------------------------------------------
+
+struct DecisionItem {
+  bool collides;
+  double toi_lower;
+  double toi_upper;
+};
+
+py::dict decision_layout() {
+  using Item = DecisionItem;
+  return Layout(sizeof(Item))
+      .add("collides", "?", offsetof(Item, collides))
+      .add("toi_lower", "f8", offsetof(Item, toi_lower))
+      .add("toi_upper", "f8", offsetof(Item, toi_upper))
+      .dict();
+}
+
+/// The exact times of the queries that are done.
+py::list decide(const std::string& kind_name, const Doubles& array, py::array results,
+                double distance, const std::string& norm, int threads) {
+  const Kind kind = kind_from(kind_name);
+  const auto queries = queries_of(array);
+  const auto items = items_of<DecisionItem>(results, queries.size());
+  const Separation separation = separation_from(distance, norm);
+  std::vector<std::optional<exact::AlgebraicNumber>> times(queries.size());
+  const std::size_t done =
+      in_blocks(queries.size(), oracle_block, threads, [&](std::size_t first, std::size_t count) {
+        for (std::size_t i = first; i < first + count; ++i) {
+          if (!is_finite(queries[i])) reject_coordinates(queries, i);
+          times[i] = exact::decide(kind, queries[i], separation).toi;
+          items[i] = {.collides = times[i].has_value(),
+                      .toi_lower = fast::no_number,
+                      .toi_upper = fast::no_number};
+          if (!times[i]) continue;
+          const auto [lower, upper] = times[i]->enclosure();
+          items[i].toi_lower = lower;
+          items[i].toi_upper = upper;
+        }
+      });
+  py::list exact_times;
+  for (std::size_t i = 0; i < done; ++i) exact_times.append(to_python(times[i]));
+  return exact_times;
+}
+
+// ---- Certificates -------------------------------------------------------------------------------
+
+exact::Claim claim_from(const std::string& name) {
+  if (name == "collision") return exact::Claim::collision;
+  if (name == "time_of_impact") return exact::Claim::time_of_impact;
+  throw std::invalid_argument("claim must be 'collision' or 'time_of_impact', not '" + name + "'");
+}
+
+/// The number of queries that are done, and a stream of their certificates.
+py::tuple prove(const std::string& kind_name, const Doubles& array, double distance,
+                const std::string& norm, const std::string& claim, int threads) {
+  const Kind kind = kind_from(kind_name);
+  const auto queries = queries_of(array);
+  const Separation separation = separation_from(distance, norm);
+  const exact::ProveOptions options{.collision_claim = claim_from(claim)};
+  std::vector<std::string> texts(queries.size());
+  const std::size_t done =
+      in_blocks(queries.size(), oracle_block, threads, [&](std::size_t first, std::size_t count) {
+        for (std::size_t i = first; i < first + count; ++i) {
+          if (!is_finite(queries[i])) reject_coordinates(queries, i);
+          const exact::Decision decision = exact::decide(kind, queries[i], separation);
+          exact::write(texts[i], exact::prove(kind, queries[i], decision, options));
+        }
+      });
+  std::string stream(exact::certificates_header());
+  for (std::size_t i = 0; i < done; ++i) stream += texts[i];
+  stream += exact::certificates_closing_line(done);
+  return py::make_tuple(done, py::bytes(stream));
+}
+
+/// A text as a stream that ends early at a stop.
+class StoppableText : public std::streambuf {
+ public:
+  StoppableText(std::string_view text, const std::atomic<bool>& stop) : rest_(text), stop_(stop) {}
+
+ protected:
+  int_type underflow() override {
+    if (rest_.empty() || stop_) return traits_type::eof();
+    const std::string_view part = rest_.substr(0, part_bytes);
+    rest_.remove_prefix(part.size());
+    char* const begin = const_cast<char*>(part.data());  // is only read
+    setg(begin, begin, begin + part.size());
+    return traits_type::to_int_type(part.front());
+  }
+
+ private:
+  static constexpr std::size_t part_bytes = 4096;
+  std::string_view rest_;
+  const std::atomic<bool>& stop_;
+};
+
+py::dict check(const std::string& certificates, const std::optional<std::string>& scenes,
+               const std::optional<std::string>& claim, const std::optional<std::string>& distance,
+               const std::string& norm) {
+  checker::Options options;
+  try {
+    if (claim) options.claim = checker::demanded_claim(*claim);
+    if (distance) options.separation = checker::demanded_separation(*distance, norm);
+  } catch (const checker::Rejection& rejection) {
+    throw std::invalid_argument(rejection.reason);
+  }
+  std::atomic<bool> stop = false;
+  StoppableText text(certificates, stop);
+  std::istream stream(&text);
+  StoppableText scenes_text(scenes ? *scenes : "", stop);
+  std::istream scenes_stream(&scenes_text);
+  if (scenes) options.scenes = &scenes_stream;
+  const auto report = in_background([&] { return checker::check(stream, options); }, stop);
+  py::dict result;
+  result["no_collision"] = report.no_collision;
+  result["collision"] = report.collision;
+  result["time_of_impact"] = report.time_of_impact;
+  result["steps"] = py::tuple(py::cast(report.steps));
+  result["rejected"] = report.rejected;
+  py::list rejections;
+  for (const auto& [line, label, reason] : report.rejections) {
+    rejections.append(py::make_tuple(line, label, reason));
+  }
+  result["rejections"] = py::tuple(rejections);
+  return result;
+}
+
+// ---- Methods ------------------------------------------------------------------------------------
+
+py::list methods() {
+  py::list all;
+  for (const auto& method : verify::solvers::methods()) {
+    const fast::MethodInfo& info = method->info();
+    py::list norms;
+    for (const Norm norm : info.norms) norms.append(std::string(to_string(norm)));
+    all.append(py::make_tuple(
+        std::string(info.name), std::string(verify::solvers::to_string(info.promise)),
+        std::string(info.reference), info.is_baseline, info.is_tolerance_driven, py::tuple(norms)));
+  }
+  return all;
+}
+
+py::dict answer_layout() {
+  using fast::Answer;
+  return Layout(sizeof(Answer))
+      .add("verdict", "u1", offsetof(Answer, verdict))
+      .add("checks", "u4", offsetof(Answer, checks))
+      .add("toi_lower", "f8", offsetof(Answer, toi_lower))
+      .add("toi_upper", "f8", offsetof(Answer, toi_upper))
+      .add("tolerance", "f8", offsetof(Answer, tolerance))
+      .dict();
+}
+
+std::size_t solve(const std::string& name, const std::string& kind_name, const Doubles& array,
+                  py::array results, double distance, const std::string& norm, double tolerance,
+                  std::int64_t max_checks, double t_max, int threads) {
+  const fast::Method& method = verify::solvers::find_method(name);
+  const Kind kind = kind_from(kind_name);
+  const auto queries = queries_of(array);
+  const auto items = items_of<fast::Answer>(results, queries.size());
+  const fast::MethodOptions options{.tolerance = tolerance,
+                                    .max_checks = max_checks,
+                                    .separation = separation_from(distance, norm),
+                                    .t_max = t_max};
+  const auto& norms = method.info().norms;
+  if (!is_zero(options.separation) && norms.empty()) {
+    throw std::invalid_argument(name + " knows no separation but 0");
+  }
+  return in_blocks(
+      queries.size(), method_block, threads, [&](std::size_t first, std::size_t count) {
+        for (std::size_t i = first; i < first + count; ++i) {
+          if (!is_finite(queries[i])) reject_coordinates(queries, i);
+        }
+        method.solve(kind, queries.subspan(first, count), items.subspan(first, count), options);
+      });
+}
+
+}  // namespace
+
+PYBIND11_MODULE(_exact, m) {
+  using py::arg;
+  m.def("decision_layout", decision_layout);
+  m.def("decide", decide, arg("kind"), arg("queries").noconvert(), arg("results").noconvert(),
+        arg("separation"), arg("norm"), arg("threads"));
+  m.def("prove", prove, arg("kind"), arg("queries").noconvert(), arg("separation"), arg("norm"),
+        arg("claim"), arg("threads"));
+  m.def("check", check, arg("certificates"), arg("scenes"), arg("claim"), arg("separation"),
+        arg("norm"));
+  m.def("methods", methods);
+  m.def("answer_layout", answer_layout);
+  m.def("solve", solve, arg("method"), arg("kind"), arg("queries").noconvert(),
+        arg("results").noconvert(), arg("separation"), arg("norm"), arg("tolerance"),
+        arg("max_checks"), arg("t_max"), arg("threads"));
+}
+
+}  // namespace touchstone::python

@@ -1,0 +1,108 @@
+"""The interpreter of a solver under test: reads the solver, then answers query after query.
+
+python/bindings/python_solver.cpp is the other end of the socket.
+"""
+
+from __future__ import annotations
+
+import math
+import os
+import pickle
+import struct
+import sys
+import traceback
+from typing import Any, BinaryIO, Dict, Tuple
+
+import numpy as np
+
+SOCKET = 3
+REQUEST = struct.Struct("=qdqddi4x24d")
+REPLY = struct.Struct("=qi4xddd")
+KINDS = ("vertex_face", "edge_edge")
+NO, YES, UNDECIDED, ERROR = 0, 1, 2, 3
+
+Answer = Tuple[int, float, float]
+
+
+def answer_from(value: Any) -> Answer:
+    """Return the verdict and the bounds of the time that a solver's value means.
+
+    Raises
+    ------
+    TypeError
+        If it is neither a bool, a time, nor both.
+    """
+    lower = upper = math.nan
+    if isinstance(value, tuple) and 2 <= len(value) <= 3 and isinstance(value[0], (bool, np.bool_)):
+        if value[0]:
+            lower, upper, *_ = [math.nan if time is None else float(time) for time in value[1:]] + [math.nan]
+        return (YES if value[0] else NO), lower, upper
+    if isinstance(value, (bool, np.bool_)):
+        return (YES if value else NO), lower, upper
+    if value is None:
+        return NO, lower, upper
+    if isinstance(value, (float, np.floating)):
+        return (YES, float(value), upper) if math.isfinite(value) else (NO, lower, upper)
+    raise TypeError(f"a solver returns a bool, a time (a float or None) or (bool, time), not {value!r}")
+
+
+def first_of(value: Any) -> Any:
+    """Return the value about the only query of a batch.
+
+    Raises
+    ------
+    ValueError
+        If a solver of batches returned arrays of another shape.
+    """
+    parts = [np.asarray(part) for part in (value if isinstance(value, tuple) else (value,))]
+    if any(part.shape != (1,) for part in parts):
+        raise ValueError(f"a solver of a batch of 1 returned shapes {[part.shape for part in parts]}")
+    items = [part[0] for part in parts]
+    return tuple(items) if isinstance(value, tuple) else items[0]
+
+
+def ask(solver: Dict[str, Any], fields: Tuple[Any, ...]) -> Answer:
+    """Return the solver's answer to a request."""
+    kind, tolerance, max_checks, separation, t_max, norm, *coordinates = fields
+    query = np.array(coordinates).reshape(8, 3)
+    options = {
+        "separation": separation,
+        "norm": ("linf", "l2")[norm],
+        "tolerance": tolerance,
+        "max_checks": max_checks,
+        "t_max": t_max,
+    }
+    given = {name: options[name] for name in solver["options"]}
+    if solver["batch"]:
+        return answer_from(first_of(solver["function"](KINDS[kind], query[None], **given)))
+    return answer_from(solver["function"](KINDS[kind], query, **given))
+
+
+def serve(solver: Dict[str, Any], requests: BinaryIO, replies: BinaryIO) -> None:
+    """Answer until the other end is closed."""
+    while True:
+        data = requests.read(REQUEST.size)
+        if len(data) < REQUEST.size:
+            return
+        try:
+            verdict, lower, upper = ask(solver, REQUEST.unpack(data))
+            reply = REPLY.pack(-1, verdict, lower, upper, math.nan)
+        except Exception as error:
+            text = traceback.format_exception_only(type(error), error)[-1].strip().encode()
+            reply = REPLY.pack(len(text), ERROR, math.nan, math.nan, math.nan) + text
+        sys.stdout.flush()
+        replies.write(reply)
+        replies.flush()
+
+
+def main() -> None:
+    """Serve the solver of the file that the command line names."""
+    with open(sys.argv[-1], "rb") as file:
+        path, program = pickle.load(file)
+    sys.path[:] = path
+    solver: Dict[str, Any] = pickle.loads(program)
+    serve(solver, os.fdopen(os.dup(SOCKET), "rb"), os.fdopen(SOCKET, "wb"))
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,36 @@
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+_Doubles = npt.NDArray[np.float64]
+_Items = npt.NDArray[np.void]
+
+def decision_layout() -> Any: ...
+def decide(
+    kind: str, queries: _Doubles, results: _Items, separation: float, norm: str, threads: int
+) -> list[Any]: ...
+def prove(
+    kind: str, queries: _Doubles, separation: float, norm: str, claim: str, threads: int
+) -> tuple[int, bytes]: ...
+def check(
+    certificates: bytes | str,
+    scenes: bytes | str | None,
+    claim: str | None,
+    separation: str | None,
+    norm: str,
+) -> dict[str, Any]: ...
+def methods() -> list[tuple[Any, ...]]: ...
+def answer_layout() -> Any: ...
+def solve(
+    method: str,
+    kind: str,
+    queries: _Doubles,
+    results: _Items,
+    separation: float,
+    norm: str,
+    tolerance: float,
+    max_checks: int,
+    t_max: float,
+    threads: int,
+) -> int: ...

@@ -1,0 +1,70 @@
+from typing import Any, Literal
+
+import numpy as np
+import numpy.typing as npt
+
+_Doubles = npt.NDArray[np.float64]
+_Integers = npt.NDArray[np.int32]
+_Items = npt.NDArray[np.void]
+
+def certified(
+    kind: str,
+    queries: _Doubles,
+    results: _Items,
+    separation: float,
+    norm: str,
+    toi_tolerance: float,
+    t_max: float,
+    threads: int,
+) -> int: ...
+def tight_inclusion(
+    kind: str,
+    queries: _Doubles,
+    results: _Items,
+    separation: float,
+    norm: str,
+    tolerance: float,
+    max_checks: int,
+    t_max: float,
+    no_zero_toi: bool,
+    threads: int,
+) -> int: ...
+def distance(
+    kind: str, queries: _Doubles, results: _Items, t: float, norm: str, threads: int
+) -> int: ...
+def certified_layout() -> Any: ...
+def tight_inclusion_layout() -> Any: ...
+def distance_layout() -> Any: ...
+def instruction_set() -> str: ...
+
+class Step:
+    def __init__(
+        self,
+        before: _Doubles,
+        after: _Doubles,
+        faces: _Integers,
+        edges: _Integers,
+        points: _Integers,
+        groups: _Integers,
+        apart: _Integers,
+        separation: float,
+        norm: str,
+        toi_tolerance: float,
+        t_max: float,
+        threads: int,
+    ) -> None: ...
+    def moved(self, before: _Doubles, after: _Doubles, separation: float, norm: str) -> Step: ...
+    def earliest(self) -> tuple[float, float, _Items] | None: ...
+    def collisions(self) -> _Items: ...
+    def is_free(self) -> bool: ...
+    def free_step_size(self) -> float | None: ...
+    def active_set(self, eta: float, norm: str) -> _Items: ...
+    def line_search_limit(
+        self, p: float, norm: str, of_pair: bool
+    ) -> tuple[
+        Literal["whole", "limited", "in_contact", "too_small"], float, tuple[float, float], _Items
+    ]: ...
+    def candidates(self) -> _Items: ...
+    def least_distance(self, t: float, norm: str) -> tuple[float, float, _Items] | None: ...
+    def edges(self) -> _Integers: ...
+    def query(self, kind: int, first: int, second: int) -> _Doubles: ...

@@ -1,0 +1,176 @@
+"""Arguments as the extension modules take them, and the base of all results."""
+
+from __future__ import annotations
+
+import importlib
+from types import ModuleType
+from typing import Any, Literal, Tuple, TypeVar
+
+import numpy as np
+import numpy.typing as npt
+
+Kind = Literal["vertex_face", "edge_edge"]
+Norm = Literal["linf", "l2"]
+Doubles = npt.NDArray[np.float64]
+Booleans = npt.NDArray[np.bool_]
+
+
+class Interrupted(KeyboardInterrupt):
+    """Ctrl-C during long work.
+
+    Attributes
+    ----------
+    result : object
+        What was done until then: of a batch the results of its first queries, else as the
+        function says; None if there is nothing.
+    """
+
+    def __init__(self, result: Any = None) -> None:
+        done = f" after {len(result)} queries" if isinstance(result, BatchResult) else ""
+        super().__init__(f"interrupted{done}; what is done is in .result of this exception")
+        self.result = result
+
+
+def as_doubles(values: npt.ArrayLike, name: str) -> Doubles:
+    """Return an array of float64 in C's order: the same memory where it is one already.
+
+    Raises
+    ------
+    ValueError
+        For another type than numbers, and for a number that is not a double.
+    """
+    array = np.asarray(values)
+    if array.dtype == np.float64 and array.flags.c_contiguous and array.flags.aligned:
+        return array
+    if array.dtype.kind not in "fiu":
+        raise ValueError(f"{name}: an array of real numbers is needed, not of {array.dtype}")
+    with np.errstate(over="ignore"):
+        doubles: Doubles = np.ascontiguousarray(array, dtype=np.float64).reshape(array.shape)
+    if array.dtype.itemsize > 4 and array.dtype != np.float64:
+        exact = doubles.astype(np.longdouble) == array.astype(np.longdouble)
+        changed = ~(exact | np.isnan(doubles)) | (np.isinf(doubles) & np.isfinite(array))
+        if changed.any():
+            place = [int(i) for i in np.argwhere(changed)[0]]
+            raise ValueError(
+                f"{name}{place}: {array[tuple(place)]} of {array.dtype} is not a double; round it first"
+            )
+    return doubles
+
+
+def as_queries(values: npt.ArrayLike) -> Tuple[Doubles, bool]:
+    """Return queries of shape (N, 8, 3), and whether it is a single query of shape (8, 3)."""
+    array = as_doubles(values, "queries")
+    if array.shape == (8, 3):
+        return array.reshape(1, 8, 3), True
+    if array.ndim == 3 and array.shape[1:] == (8, 3):
+        return array, False
+    raise ValueError(f"queries must have the shape (N, 8, 3) or (8, 3), not {array.shape}")
+
+
+def as_vertices(values: npt.ArrayLike, name: str) -> Doubles:
+    """Return positions of vertices of shape (n, 3)."""
+    array = as_doubles(values, name)
+    if array.ndim != 2 or array.shape[1] != 3:
+        raise ValueError(f"{name} must have the shape (n, 3), not {array.shape}")
+    return array
+
+
+def as_indices(values: npt.ArrayLike | None, name: str, columns: int | None) -> npt.NDArray[np.int32]:
+    """Return indices of shape (n, columns), or (n,) without columns, as int32; None: no indices."""
+    array = np.asarray([] if values is None else values)
+    shape = (0,) if columns is None else (0, columns)
+    if array.size == 0:
+        return np.empty(shape, dtype=np.int32)
+    if array.dtype.kind not in "iu":
+        raise ValueError(f"{name}: an array of integers is needed, not of {array.dtype}")
+    if array.ndim != len(shape) or array.shape[1:] != shape[1:]:
+        text = "(n,)" if columns is None else f"(n, {columns})"
+        raise ValueError(f"{name} must have the shape {text}, not {array.shape}")
+    outside = (array < 0) | (array > np.iinfo(np.int32).max)
+    if outside.any():
+        place = [int(i) for i in np.argwhere(outside)[0]]
+        raise IndexError(f"{name}{place}: {array[tuple(place)]} is not in [0, 2^31-1]")
+    return np.ascontiguousarray(array, dtype=np.int32)
+
+
+def load(name: str) -> ModuleType:
+    """Return an extension module that not every build has.
+
+    Raises
+    ------
+    ImportError
+        If this build does not have it, or a library that it needs is missing, with the way out.
+    """
+    try:
+        return importlib.import_module(f".{name}", __package__)
+    except ImportError as error:
+        raise ImportError(
+            f"{error}\ntouchstone: this needs the module {name}. A package that pip builds has the fast"
+            " part alone: for all of it use ./run python in the sources. If the error above names a"
+            " library, install that: on Debian 12 libgmpxx4ldbl, libtbb12, libfmt9, libzip4, libzstd1."
+        ) from error
+
+
+Result = TypeVar("Result", bound="BatchResult")
+
+
+class BatchResult:
+    """Results of queries: an item each in a structured array, and its fields as attributes.
+
+    Of a single query of shape (8, 3) the fields are scalars.
+
+    Attributes
+    ----------
+    array : ndarray
+        The structured array, which ``pandas.DataFrame`` takes as it is.
+    """
+
+    def __init__(self, array: npt.NDArray[np.void]) -> None:
+        self.array = array
+
+    def _field(self, name: str) -> Any:
+        value = self.array[name]
+        return value[()] if isinstance(value, np.ndarray) else value
+
+    def __len__(self) -> int:
+        """Return the number of queries."""
+        return int(self.array.size)
+
+    def __bool__(self) -> bool:
+        """Refuse, because a result is not an answer.
+
+        Raises
+        ------
+        TypeError
+            Always.
+        """
+        raise TypeError(f"a {type(self).__name__} is neither true nor false: ask for its .collides")
+
+    def __getitem__(self: Result, key: Any) -> Result:
+        """Return the results of some queries, as NumPy selects them."""
+        return type(self)(self.array[key])
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return the fields by name, each an array, or a number for a single query."""
+        return {name: self._field(name) for name in self.array.dtype.names or ()}
+
+    def __repr__(self) -> str:
+        if self.array.ndim == 0:
+            fields = ", ".join(f"{name}={value}" for name, value in self.to_dict().items())
+            return f"{type(self).__name__}({fields})"
+        names = self.array.dtype.names or ()
+        text = f"{type(self).__name__}: {len(self)} queries"
+        if "collides" in names:
+            text += f", {np.count_nonzero(self.array['collides'])} collide"
+        return text
+
+    def _repr_html_(self) -> str:
+        """Return a table of the first ten results, for notebooks."""
+        names = self.array.dtype.names or ()
+        rows = np.atleast_1d(self.array)[:10]
+        head = "".join(f"<th>{name}</th>" for name in names)
+        body = "".join(
+            f"<tr><td>{i}</td>" + "".join(f"<td>{row[name]}</td>" for name in names) + "</tr>"
+            for i, row in enumerate(rows)
+        )
+        return f"<p>{self!r}</p><table><tr><th></th>{head}</tr>{body}</table>"

@@ -1,0 +1,284 @@
+"""Batches of queries: the certified solver, Tight-Inclusion and distances, outside Python's lock."""
+
+from __future__ import annotations
+
+from enum import IntEnum
+from typing import Any, Callable, Type, TypeVar
+
+import numpy as np
+import numpy.typing as npt
+
+from . import _fast
+from ._input import BatchResult, Booleans, Doubles, Interrupted, Kind, Norm, as_queries
+
+_certified_type = np.dtype(_fast.certified_layout())
+_tight_inclusion_type = np.dtype(_fast.tight_inclusion_layout())
+_distance_type = np.dtype(_fast.distance_layout())
+
+Result = TypeVar("Result", bound=BatchResult)
+
+
+def run_batch(
+    result: Type[Result],
+    item_type: np.dtype[Any],
+    queries: npt.ArrayLike,
+    work: Callable[[Doubles, npt.NDArray[np.void]], int],
+) -> Result:
+    """Return the results of work(queries, items), which says how many queries it has done."""
+    array, single = as_queries(queries)
+    items: npt.NDArray[np.void] = np.empty(len(array), dtype=item_type)
+    done = work(array, items)
+    if done < len(array):
+        raise Interrupted(result(items[:done]))
+    return result(items.reshape(()) if single else items)
+
+
+class Stage(IntEnum):
+    """The stages of the certified solver, cheapest first."""
+
+    AXIS = 0
+    DIRECTION = 1
+    DETERMINANT = 2
+    BISECTION = 3
+    EXACT = 4
+
+
+class CertifiedResult(BatchResult):
+    """Answers of the certified solver."""
+
+    @property
+    def collides(self) -> Booleans:
+        """The verdicts, always right."""
+        return self._field("collides")  # type: ignore[no-any-return]
+
+    @property
+    def toi_lower(self) -> Doubles:
+        """Below the time of impact, or both are 0; NaN without a collision."""
+        return self._field("toi_lower")  # type: ignore[no-any-return]
+
+    @property
+    def toi_upper(self) -> Doubles:
+        """Not below the time of impact; NaN without a collision."""
+        return self._field("toi_upper")  # type: ignore[no-any-return]
+
+    @property
+    def u(self) -> Doubles:
+        """The first parameter of the contact, without a bound; NaN without a collision."""
+        return self._field("u")  # type: ignore[no-any-return]
+
+    @property
+    def v(self) -> Doubles:
+        """The second parameter of the contact, without a bound; NaN without a collision."""
+        return self._field("v")  # type: ignore[no-any-return]
+
+    @property
+    def stage(self) -> npt.NDArray[np.uint8]:
+        """The number of the stage that decided: see `Stage`."""
+        return self._field("stage")  # type: ignore[no-any-return]
+
+
+def certified(
+    kind: Kind,
+    queries: npt.ArrayLike,
+    *,
+    separation: float = 0.0,
+    norm: Norm = "linf",
+    t_max: float = 1.0,
+    toi_tolerance: float = 1e-12,
+    threads: int = 0,
+) -> CertifiedResult:
+    """Decide queries with the certified solver: exact verdicts, enclosed times of impact.
+
+    Parameters
+    ----------
+    kind : {"vertex_face", "edge_edge"}
+        The primitives of all queries.
+    queries : array_like of shape (N, 8, 3) or (8, 3)
+        Four points at t=0, then at t=1: v, f0, f1, f2 or ea0, ea1, eb0, eb1. Used without a copy if
+        it is float64 and C-contiguous; anything else is converted, float32 exactly.
+    separation : float, optional
+        The distance that counts as contact, in units of the coordinates.
+    norm : {"linf", "l2"}, optional
+        The norm of that distance.
+    t_max : float, optional
+        Only contacts up to this time count, in [0, 1].
+    toi_tolerance : float, optional
+        The maximum width of the enclosures of times, relative to their upper ends.
+    threads : int, optional
+        The maximum number of threads; 0: one for each core. The results do not depend on it.
+
+    Returns
+    -------
+    CertifiedResult
+        With the arrays `collides`, `toi_lower`, `toi_upper`, `u`, `v` and `stage`.
+
+    Raises
+    ------
+    ValueError
+        For another shape or type, a coordinate that is NaN or infinite, or options out of range.
+    Interrupted
+        At Ctrl-C, with the results of the first queries.
+
+    Examples
+    --------
+    A vertex that falls through a triangle:
+
+    >>> import numpy as np, touchstone
+    >>> start = [[0.25, 0.25, 1], [0, 0, 0], [1, 0, 0], [0, 1, 0]]
+    >>> end = [[0.25, 0.25, -1], [0, 0, 0], [1, 0, 0], [0, 1, 0]]
+    >>> query = np.array(start + end, dtype=float)
+    >>> answer = touchstone.certified("vertex_face", query)
+    >>> bool(answer.collides), answer.toi_lower <= 0.5 <= answer.toi_upper
+    (True, True)
+    >>> touchstone.certified("vertex_face", np.stack([query, query + 0.125])).collides
+    array([ True,  True])
+    """
+    return run_batch(
+        CertifiedResult,
+        _certified_type,
+        queries,
+        lambda array, items: _fast.certified(
+            kind, array, items, separation, norm, toi_tolerance, t_max, threads
+        ),
+    )
+
+
+class TightInclusionResult(BatchResult):
+    """Answers of Tight-Inclusion."""
+
+    @property
+    def collides(self) -> Booleans:
+        """False: certainly no contact. True: contact, or nearly so."""
+        return self._field("collides")  # type: ignore[no-any-return]
+
+    @property
+    def toi(self) -> Doubles:
+        """Not above the time of impact; NaN where `collides` is False."""
+        return self._field("toi")  # type: ignore[no-any-return]
+
+    @property
+    def tolerance(self) -> Doubles:
+        """The tolerance that was achieved; NaN where `collides` is False."""
+        return self._field("tolerance")  # type: ignore[no-any-return]
+
+    @property
+    def checks(self) -> npt.NDArray[np.int64]:
+        """The number of boxes examined."""
+        return self._field("checks")  # type: ignore[no-any-return]
+
+
+def tight_inclusion(
+    kind: Kind,
+    queries: npt.ArrayLike,
+    *,
+    separation: float = 0.0,
+    norm: Norm = "linf",
+    tolerance: float = 1e-6,
+    max_checks: int = 1_000_000,
+    t_max: float = 1.0,
+    no_zero_toi: bool = False,
+    threads: int = 0,
+) -> TightInclusionResult:
+    """Decide queries with Tight-Inclusion: no collision is missed, some are reported too many.
+
+    Parameters
+    ----------
+    kind, queries, separation, norm, t_max, threads
+        As for `certified`. With ``norm="l2"`` the answers are conservative.
+    tolerance : float, optional
+        Boxes whose image is this small are not split, in units of the coordinates.
+    max_checks : int, optional
+        After this many boxes the answer is a conservative yes; 0: no limit.
+    no_zero_toi : bool, optional
+        Search again with smaller tolerances while the time of impact is 0.
+
+    Returns
+    -------
+    TightInclusionResult
+        With the arrays `collides`, `toi`, `tolerance` and `checks`.
+
+    Raises
+    ------
+    ValueError
+        As for `certified`.
+    Interrupted
+        At Ctrl-C, with the results of the first queries.
+
+    Examples
+    --------
+    >>> import numpy as np, touchstone
+    >>> query = np.zeros((8, 3))
+    >>> query[1:4] = query[5:8] = np.eye(3)
+    >>> answer = touchstone.tight_inclusion("vertex_face", query)
+    >>> bool(answer.collides), int(answer.checks)
+    (False, 7)
+    """
+    return run_batch(
+        TightInclusionResult,
+        _tight_inclusion_type,
+        queries,
+        lambda array, items: _fast.tight_inclusion(
+            kind, array, items, separation, norm, tolerance, max_checks, t_max, no_zero_toi, threads
+        ),
+    )
+
+
+class DistanceResult(BatchResult):
+    """Distances, each enclosed by doubles that are equal or neighbours."""
+
+    @property
+    def lower(self) -> Doubles:
+        """Not above the distances."""
+        return self._field("lower")  # type: ignore[no-any-return]
+
+    @property
+    def upper(self) -> Doubles:
+        """Not below the distances."""
+        return self._field("upper")  # type: ignore[no-any-return]
+
+
+def distance(
+    kind: Kind,
+    queries: npt.ArrayLike,
+    *,
+    t: float = 0.0,
+    norm: Norm = "l2",
+    threads: int = 0,
+) -> DistanceResult:
+    """Enclose the distances of the queries' primitives at a time.
+
+    Parameters
+    ----------
+    kind, queries, threads
+        As for `certified`.
+    t : float, optional
+        The time, in [0, 1].
+    norm : {"linf", "l2"}, optional
+        The norm of the distances.
+
+    Returns
+    -------
+    DistanceResult
+        With the arrays `lower` and `upper`.
+
+    Raises
+    ------
+    ValueError
+        As for `certified`, and for a time outside [0, 1].
+    Interrupted
+        At Ctrl-C, with the results of the first queries.
+
+    Examples
+    --------
+    >>> import numpy as np, touchstone
+    >>> query = np.zeros((8, 3))
+    >>> query[1:4] = query[5:8] = np.eye(3)
+    >>> touchstone.distance("vertex_face", query, norm="linf")
+    DistanceResult(lower=0.3333333333333333, upper=0.33333333333333337)
+    """
+    return run_batch(
+        DistanceResult,
+        _distance_type,
+        queries,
+        lambda array, items: _fast.distance(kind, array, items, t, norm, threads),
+    )

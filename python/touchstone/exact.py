@@ -1,0 +1,467 @@
+"""The oracle, certificates, and every method by name: what needs GMP."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import IntEnum
+from fractions import Fraction
+from types import ModuleType
+from typing import Any, Literal, Tuple, Union
+
+import numpy as np
+import numpy.typing as npt
+
+from ._input import BatchResult, Booleans, Doubles, Interrupted, Kind, Norm, as_queries, load
+from .batch import run_batch
+
+
+def exact_module() -> ModuleType:
+    """Return the module with the oracle.
+
+    Raises
+    ------
+    ImportError
+        If this build does not have it, or a library that it needs is missing.
+    """
+    return load("_exact")
+
+
+@dataclass(frozen=True)
+class AlgebraicNumber:
+    """A real root of an integer polynomial: exact, and as precise as asked.
+
+    Attributes
+    ----------
+    polynomial : tuple of int
+        The coefficients, the constant one first; all roots are simple.
+    lower, upper : Fraction
+        The number is the only root between them, and the polynomial is not 0 there.
+
+    Examples
+    --------
+    >>> from fractions import Fraction
+    >>> from touchstone import AlgebraicNumber
+    >>> root = AlgebraicNumber((-1, 0, 2), Fraction(0), Fraction(1))
+    >>> float(root)
+    0.7071067811865476
+    >>> root.refine(Fraction(1, 10)).lower
+    Fraction(11, 16)
+    """
+
+    polynomial: Tuple[int, ...]
+    lower: Fraction
+    upper: Fraction
+
+    def value_at(self, t: Fraction) -> Fraction:
+        """Return the value of the polynomial at t."""
+        value = Fraction(0)
+        for coefficient in reversed(self.polynomial):
+            value = value * t + coefficient
+        return value
+
+    def refine(self, width: Fraction) -> AlgebraicNumber:
+        """Return the same number in an interval of at most this width."""
+        lower, upper = self.lower, self.upper
+        is_positive_below = self.value_at(lower) > 0
+        while upper - lower > width:
+            middle = (lower + upper) / 2
+            value = self.value_at(middle)
+            if value == 0:
+                lower, upper = (lower + middle) / 2, (middle + upper) / 2
+            elif (value > 0) == is_positive_below:
+                lower = middle
+            else:
+                upper = middle
+        return AlgebraicNumber(self.polynomial, lower, upper)
+
+    def __float__(self) -> float:
+        """Return a double next to the number."""
+        number = self
+        while float(number.lower) != float(number.upper):
+            if np.nextafter(float(number.lower), 2.0) == float(number.upper):
+                break
+            number = number.refine((number.upper - number.lower) / 2)
+        return float(number.refine((number.upper - number.lower) / 8).upper)
+
+    def __repr__(self) -> str:
+        return f"AlgebraicNumber({self.polynomial}, {float(self)!r})"
+
+
+Time = Union[Fraction, AlgebraicNumber, None]
+
+
+def _time_from(parts: Any) -> Time:
+    if parts is None:
+        return None
+    if len(parts) == 2:
+        return Fraction(*parts)
+    polynomial, lower, upper = parts
+    return AlgebraicNumber(polynomial, Fraction(*lower), Fraction(*upper))
+
+
+class Decisions(BatchResult):
+    """Verdicts of the oracle."""
+
+    @property
+    def collides(self) -> Booleans:
+        """The verdicts."""
+        return self._field("collides")  # type: ignore[no-any-return]
+
+    @property
+    def toi_lower(self) -> Doubles:
+        """The greatest double that is not above the time of impact; NaN without a collision."""
+        return self._field("toi_lower")  # type: ignore[no-any-return]
+
+    @property
+    def toi_upper(self) -> Doubles:
+        """The least double that is not below the time of impact; NaN without a collision."""
+        return self._field("toi_upper")  # type: ignore[no-any-return]
+
+    @property
+    def toi(self) -> Any:
+        """The exact times of impact: a Fraction, an `AlgebraicNumber`, or None without a collision.
+
+        Of a batch an array of these objects.
+        """
+        return self._field("toi")
+
+
+def decide(
+    kind: Kind,
+    queries: npt.ArrayLike,
+    *,
+    separation: float = 0.0,
+    norm: Norm = "linf",
+    threads: int = 0,
+) -> Decisions:
+    """Decide queries by the oracle, in integers: the ground truth.
+
+    Parameters
+    ----------
+    kind, queries, separation, norm, threads
+        As for `certified`.
+
+    Returns
+    -------
+    Decisions
+        With the arrays `collides`, `toi_lower`, `toi_upper` and `toi`.
+
+    Raises
+    ------
+    ValueError
+        As for `certified`.
+    Interrupted
+        At Ctrl-C, with the results of the first queries.
+
+    Examples
+    --------
+    >>> import numpy as np, touchstone
+    >>> start = [[0.25, 0.25, 1], [0, 0, 0], [1, 0, 0], [0, 1, 0]]
+    >>> end = [[0.25, 0.25, -2], [0, 0, 0], [1, 0, 0], [0, 1, 0]]
+    >>> touchstone.decide("vertex_face", start + end).toi
+    Fraction(1, 3)
+    """
+    module = exact_module()
+    array, single = as_queries(queries)
+    numbers = np.dtype(module.decision_layout())
+    items = np.empty(len(array), dtype=numbers)
+    times = module.decide(kind, array, items, separation, norm, threads)
+    done = len(times)
+    result = np.empty(done, dtype=[*((n, numbers[n]) for n in numbers.names or ()), ("toi", "O")])
+    for name in numbers.names or ():
+        result[name] = items[name][:done]
+    for i, time in enumerate(times):
+        result["toi"][i] = _time_from(time)
+    if done < len(array):
+        raise Interrupted(Decisions(result))
+    return Decisions(result.reshape(()) if single else result)
+
+
+def prove(
+    kind: Kind,
+    queries: npt.ArrayLike,
+    *,
+    separation: float = 0.0,
+    norm: Norm = "linf",
+    claim: Literal["time_of_impact", "collision"] = "time_of_impact",
+    threads: int = 0,
+) -> bytes:
+    """Prove the oracle's verdicts, for a checker that shares no code with it.
+
+    Parameters
+    ----------
+    kind, queries, separation, norm, threads
+        As for `certified`.
+    claim : {"time_of_impact", "collision"}, optional
+        The claim about queries that collide.
+
+    Returns
+    -------
+    bytes
+        A stream of one certificate for each query (exact/CERTIFICATES.md).
+
+    Raises
+    ------
+    ValueError
+        As for `certified`.
+    RuntimeError
+        If a certificate would exceed the limits of the format.
+    Interrupted
+        At Ctrl-C, with a stream for the first queries.
+
+    Examples
+    --------
+    >>> import numpy as np, touchstone
+    >>> query = np.zeros((8, 3))
+    >>> query[1:4] = query[5:8] = np.eye(3)
+    >>> touchstone.check(touchstone.prove("vertex_face", query))
+    CheckReport: 1 accepted, 0 rejected
+    """
+    array, _ = as_queries(queries)
+    done, stream = exact_module().prove(kind, array, separation, norm, claim, threads)
+    if done < len(array):
+        raise Interrupted(stream)
+    return bytes(stream)
+
+
+@dataclass(frozen=True)
+class Rejection:
+    """The reason why a certificate was not accepted.
+
+    Attributes
+    ----------
+    line : int
+        The line at fault, from 1.
+    label : str
+        The certificate's label; may be empty.
+    reason : str
+        The reason.
+    """
+
+    line: int
+    label: str
+    reason: str
+
+
+@dataclass(frozen=True)
+class CheckReport:
+    """The checker's report; true if all was accepted and the stream is complete.
+
+    Attributes
+    ----------
+    no_collision, collision, time_of_impact : int
+        The numbers of accepted certificates of queries, by their claims.
+    steps : tuple of str
+        What accepted certificates of steps prove.
+    rejected : int
+        The number of rejected ones.
+    rejections : tuple of Rejection
+        The first of these.
+    """
+
+    no_collision: int
+    collision: int
+    time_of_impact: int
+    steps: Tuple[str, ...]
+    rejected: int
+    rejections: Tuple[Rejection, ...]
+
+    @property
+    def accepted(self) -> int:
+        """The number of accepted certificates."""
+        return self.no_collision + self.collision + self.time_of_impact + len(self.steps)
+
+    def __bool__(self) -> bool:
+        """Return True if nothing was rejected."""
+        return self.rejected == 0
+
+    def __repr__(self) -> str:
+        return f"CheckReport: {self.accepted} accepted, {self.rejected} rejected"
+
+
+def check(
+    certificates: bytes | str,
+    *,
+    scenes: bytes | str | None = None,
+    claim: str | None = None,
+    separation: float | None = None,
+    norm: Norm = "linf",
+) -> CheckReport:
+    """Check certificates by the checker, which shares no code with the oracle.
+
+    Parameters
+    ----------
+    certificates : bytes or str
+        A stream of certificates, as `prove` and `Step.prove` write it.
+    scenes : bytes or str, optional
+        The scenes that certificates of steps have to be about.
+    claim : str, optional
+        Reject every other claim: "no_collision", "collision", "time_of_impact"; of steps "free",
+        "no_contact T" or "earliest".
+    separation : float, optional
+        Reject what is about another distance.
+    norm : {"linf", "l2"}, optional
+        The norm of that distance.
+
+    Returns
+    -------
+    CheckReport
+        True if all certificates were accepted.
+
+    Raises
+    ------
+    ValueError
+        If the claim is none.
+    Interrupted
+        At Ctrl-C.
+    """
+    try:
+        report = exact_module().check(
+            certificates, scenes, claim, None if separation is None else float(separation).hex(), norm
+        )
+    except KeyboardInterrupt as interrupt:
+        raise Interrupted() from interrupt
+    report["rejections"] = tuple(Rejection(*one) for one in report["rejections"])
+    return CheckReport(**report)
+
+
+class Verdict(IntEnum):
+    """The answer of a method."""
+
+    NO = 0
+    YES = 1
+    UNDECIDED = 2
+    ERROR = 3
+
+
+class Answers(BatchResult):
+    """Answers of a method."""
+
+    @property
+    def collides(self) -> Booleans:
+        """True for yes and for undecided: what is to be taken for a collision."""
+        return np.isin(self.verdict, (Verdict.YES, Verdict.UNDECIDED))[()]
+
+    @property
+    def verdict(self) -> npt.NDArray[np.uint8]:
+        """The verdicts: see `Verdict`."""
+        return self._field("verdict")  # type: ignore[no-any-return]
+
+    @property
+    def toi_lower(self) -> Doubles:
+        """Claimed not to be above the time of impact; NaN where the method has none."""
+        return self._field("toi_lower")  # type: ignore[no-any-return]
+
+    @property
+    def toi_upper(self) -> Doubles:
+        """Claimed not to be below the time of impact; NaN where the method has none."""
+        return self._field("toi_upper")  # type: ignore[no-any-return]
+
+    @property
+    def tolerance(self) -> Doubles:
+        """The claimed bound of the distance beyond contact; NaN where the method has none."""
+        return self._field("tolerance")  # type: ignore[no-any-return]
+
+    @property
+    def checks(self) -> npt.NDArray[np.uint32]:
+        """The number of steps that the method counts."""
+        return self._field("checks")  # type: ignore[no-any-return]
+
+
+@dataclass(frozen=True)
+class Method:
+    """A method that `solve` knows.
+
+    Attributes
+    ----------
+    name : str
+        Its name.
+    promise : {"none", "conservative", "exact"}
+        Its promise about its answers.
+    reference : str
+        The key of the work that describes it in docs/references.bib; may be empty.
+    is_baseline : bool
+        True for a published method, here for comparison, with its known errors.
+    is_tolerance_driven : bool
+        True if it searches down to a tolerance.
+    norms : tuple of str
+        The norms of the separations that it supports.
+    """
+
+    name: str
+    promise: Literal["none", "conservative", "exact"]
+    reference: str
+    is_baseline: bool
+    is_tolerance_driven: bool
+    norms: Tuple[Norm, ...]
+
+
+def methods() -> list[Method]:
+    """Return all methods, ours first.
+
+    Examples
+    --------
+    >>> import touchstone
+    >>> [method.name for method in touchstone.methods()][:2]
+    ['certified', 'tight_inclusion']
+    """
+    return [Method(*fields) for fields in exact_module().methods()]
+
+
+def solve(
+    method: str,
+    kind: Kind,
+    queries: npt.ArrayLike,
+    *,
+    separation: float = 0.0,
+    norm: Norm = "linf",
+    tolerance: float = 1e-6,
+    max_checks: int = 1_000_000,
+    t_max: float = 1.0,
+    threads: int = 0,
+) -> Answers:
+    """Decide queries with any method by its name, such as the published ones with their errors.
+
+    Parameters
+    ----------
+    method : str
+        The name of one of `methods`.
+    kind, queries, separation, norm, t_max, threads
+        As for `certified`.
+    tolerance : float, optional
+        Of methods that search down to one.
+    max_checks : int, optional
+        Of iterative methods: the maximum number of steps for a query; 0: no limit.
+
+    Returns
+    -------
+    Answers
+        With the arrays `verdict`, `collides`, `toi_lower`, `toi_upper`, `tolerance` and `checks`.
+
+    Raises
+    ------
+    ValueError
+        As for `certified`; for an unknown method, with the names there are; for a separation that
+        it does not support.
+    Interrupted
+        At Ctrl-C, with the results of the first queries.
+
+    Examples
+    --------
+    >>> import numpy as np, touchstone
+    >>> query = np.zeros((8, 3))
+    >>> query[1:4] = query[5:8] = np.eye(3)
+    >>> touchstone.Verdict(touchstone.solve("accd", "vertex_face", query).verdict).name
+    'NO'
+    """
+    module = exact_module()
+    return run_batch(
+        Answers,
+        np.dtype(module.answer_layout()),
+        queries,
+        lambda array, items: int(
+            module.solve(
+                method, kind, array, items, separation, norm, tolerance, max_checks, t_max, threads
+            )
+        ),
+    )

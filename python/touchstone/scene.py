@@ -1,0 +1,376 @@
+"""Whole steps of a scene: impacts, distances and step sizes of a moving mesh."""
+
+from __future__ import annotations
+
+import os
+from dataclasses import dataclass
+from enum import IntEnum
+from typing import Any, Callable, Literal, Tuple, TypeVar
+
+import numpy as np
+import numpy.typing as npt
+
+from . import _fast
+from ._input import Doubles, Interrupted, Norm, as_indices, as_vertices
+from ._tool import Run
+
+Value = TypeVar("Value")
+
+
+class PairKind(IntEnum):
+    """The primitives of a pair, and the meaning of its two numbers."""
+
+    VERTEX_FACE = 0
+    EDGE_EDGE = 1
+    VERTEX_EDGE = 2
+    VERTEX_VERTEX = 3
+
+
+@dataclass(frozen=True)
+class Impact:
+    """The earliest impact of a step.
+
+    Attributes
+    ----------
+    toi_lower, toi_upper : float
+        An enclosure of its time.
+    pairs : structured ndarray
+        The collisions that may be the first one, as `Step.collisions` has them.
+    """
+
+    toi_lower: float
+    toi_upper: float
+    pairs: npt.NDArray[np.void]
+
+
+@dataclass(frozen=True)
+class LeastDistance:
+    """The least distance of a step's pairs.
+
+    Attributes
+    ----------
+    lower, upper : float
+        An enclosure by doubles that are equal or neighbours.
+    pairs : structured ndarray
+        All pairs with this enclosure: `kind` and `pair`.
+    """
+
+    lower: float
+    upper: float
+    pairs: npt.NDArray[np.void]
+
+
+@dataclass(frozen=True)
+class LineSearchLimit:
+    """The limit of a line search.
+
+    Attributes
+    ----------
+    status : {"whole", "limited", "in_contact", "too_small"}
+        The reason for the step size.
+    step_size : float
+        The step size that is allowed, rounded down.
+    distance_lower, distance_upper : float
+        An enclosure of the least distance at the start.
+    pairs : structured ndarray
+        The pairs that limit the step, or are in contact, as `Step.collisions` has them.
+    """
+
+    status: Literal["whole", "limited", "in_contact", "too_small"]
+    step_size: float
+    distance_lower: float
+    distance_upper: float
+    pairs: npt.NDArray[np.void]
+
+
+def _ending_with_interrupts(work: Callable[[], Value]) -> Value:
+    try:
+        return work()
+    except KeyboardInterrupt as interrupt:
+        raise Interrupted() from interrupt
+
+
+class Step:
+    """A step of a mesh whose vertices move on straight lines from t=0 to t=1.
+
+    Two primitives collide if they have a common point at some time, or come within the separation.
+    Answers are exact, and the same for any number of threads.
+
+    Parameters
+    ----------
+    before, after : array_like of shape (n, 3)
+        The vertices at t=0 and at t=1; copied.
+    faces : array_like of int, shape (f, 3), optional
+        The faces by the numbers of their vertices.
+    edges : array_like of int, shape (e, 2), optional
+        All edges; by default those of the faces.
+    points : array_like of int, shape (p,), optional
+        Vertices that are part of the scene in any case.
+    groups : array_like of int, shape (n,), optional
+        The group of each vertex, from 0 on; by default all are in group 0.
+    apart : array_like of int, shape (k, 2), optional
+        Pairs of groups that cannot collide; the same group twice: not within it.
+    separation : float, optional
+        Primitives within this distance are in contact.
+    norm : {"linf", "l2"}, optional
+        The norm of that distance.
+    t_max : float, optional
+        Only contacts up to this time count, in [0, 1].
+    toi_tolerance : float, optional
+        The maximum width of enclosures of times, relative to their upper ends.
+    threads : int, optional
+        The maximum number of threads; 0: one for each core.
+
+    Raises
+    ------
+    ValueError
+        For another shape or type, for a coordinate that is NaN or infinite, naming its vertex, and
+        for options out of range.
+    IndexError
+        For an index out of range, naming its element.
+
+    Notes
+    -----
+    Ctrl-C ends a method with `Interrupted`, without a result, and also those that run on this step,
+    or on one of the same mesh, in other threads.
+
+    Examples
+    --------
+    A triangle falls on another one:
+
+    >>> import numpy as np, touchstone
+    >>> triangle = np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0]])
+    >>> before = np.concatenate([triangle, triangle + [0.1, 0.1, 1]])
+    >>> after = np.concatenate([triangle, triangle + [0.1, 0.1, -1]])
+    >>> step = touchstone.Step(before, after, faces=[[0, 1, 2], [3, 4, 5]])
+    >>> step.is_free()
+    False
+    >>> impact = step.earliest()
+    >>> impact.toi_lower <= 0.5 <= impact.toi_upper
+    True
+    >>> step.line_search_limit(0.5).status
+    'limited'
+    """
+
+    def __init__(
+        self,
+        before: npt.ArrayLike,
+        after: npt.ArrayLike,
+        *,
+        faces: npt.ArrayLike | None = None,
+        edges: npt.ArrayLike | None = None,
+        points: npt.ArrayLike | None = None,
+        groups: npt.ArrayLike | None = None,
+        apart: npt.ArrayLike | None = None,
+        separation: float = 0.0,
+        norm: Norm = "linf",
+        t_max: float = 1.0,
+        toi_tolerance: float = 1e-12,
+        threads: int = 0,
+    ) -> None:
+        self._vertices = as_vertices(before, "before"), as_vertices(after, "after")
+        self._separation: Tuple[float, Norm] = separation, norm
+        self._options = t_max, toi_tolerance, threads
+        self._elements = (
+            as_indices(faces, "faces", 3),
+            as_indices(edges, "edges", 2),
+            as_indices(points, "points", None),
+            as_indices(groups, "groups", None),
+            as_indices(apart, "apart", 2),
+        )
+        self._step = _ending_with_interrupts(
+            lambda: _fast.Step(
+                *self._vertices, *self._elements, separation, norm, toi_tolerance, t_max, threads
+            )
+        )
+
+    def moved(
+        self,
+        before: npt.ArrayLike,
+        after: npt.ArrayLike,
+        *,
+        separation: float | None = None,
+        norm: Norm | None = None,
+    ) -> Step:
+        """Return the step of the same mesh between other places.
+
+        It shares what does not depend on places, and keeps all options but those given.
+
+        Parameters
+        ----------
+        before, after : array_like of shape (n, 3)
+            The vertices at t=0 and at t=1.
+        separation, norm : optional
+            As for `Step`; by default those of this step.
+
+        Returns
+        -------
+        Step
+            The new step; this one stays as it is.
+        """
+        result = object.__new__(Step)
+        result._vertices = as_vertices(before, "before"), as_vertices(after, "after")
+        result._elements = self._elements
+        result._options = self._options
+        result._separation = (
+            self._separation[0] if separation is None else separation,
+            self._separation[1] if norm is None else norm,
+        )
+        result._step = _ending_with_interrupts(
+            lambda: self._step.moved(*result._vertices, *result._separation)
+        )
+        return result
+
+    @property
+    def edges(self) -> npt.NDArray[np.int32]:
+        """All edges in the search, of shape (e, 2)."""
+        return self._step.edges()
+
+    def query(self, kind: PairKind | int, pair: npt.ArrayLike) -> Doubles:
+        """Return the query of a pair: an array of shape (8, 3).
+
+        A vertex and an edge are the query of the vertex and the face (e0, e1, e0), two vertices that
+        of the first one and the face (w, w, w).
+        """
+        first, second = (int(i) for i in np.asarray(pair))
+        return self._step.query(int(PairKind(kind)), first, second)
+
+    def earliest(self) -> Impact | None:
+        """Return the earliest impact; None if the step is free."""
+        found = _ending_with_interrupts(self._step.earliest)
+        return None if found is None else Impact(*found)
+
+    def collisions(self) -> npt.NDArray[np.void]:
+        """Return all collisions, an item each.
+
+        Returns
+        -------
+        structured ndarray
+            With the fields `kind` (see `PairKind`), `pair` (two numbers), `toi_lower`, `toi_upper`,
+            `u` and `v`. The order depends only on the step.
+        """
+        return _ending_with_interrupts(self._step.collisions)
+
+    def is_free(self) -> bool:
+        """Return True if there is no collision."""
+        return _ending_with_interrupts(self._step.is_free)
+
+    def free_step_size(self) -> float | None:
+        """Return a maximal step size α whose rounded step is free; None if not even α = 0 is.
+
+        The step of α goes from x0 to fl(x0 + fl(α fl(x1 − x0))), and that of the next double is not
+        free, unless α = 1. Both are decided exactly.
+        """
+        return _ending_with_interrupts(self._step.free_step_size)
+
+    def active_set(self, eta: float, *, norm: Norm = "l2") -> npt.NDArray[np.void]:
+        """Return all pairs that come within a distance during the step, with their contacts.
+
+        Parameters
+        ----------
+        eta : float
+            The distance, in units of the coordinates.
+        norm : {"linf", "l2"}, optional
+            Its norm.
+
+        Returns
+        -------
+        structured ndarray
+            The fields of `collisions`, and `first`, `second` (the contact points on both primitives)
+            and `normal` (from the second to the first), in the order of time.
+        """
+        return _ending_with_interrupts(lambda: self._step.active_set(eta, norm))
+
+    def line_search_limit(
+        self, p: float, *, norm: Norm = "l2", of_pair: bool = False
+    ) -> LineSearchLimit:
+        """Return the step size up to which all primitives stay p times as far apart as at the start.
+
+        Parameters
+        ----------
+        p : float
+            More than 0 and at most 1 − 2^-50.
+        norm : {"linf", "l2"}, optional
+            The norm of distances.
+        of_pair : bool, optional
+            False: the reference is the least distance of the scene. True: each pair's own.
+
+        Returns
+        -------
+        LineSearchLimit
+            The step size, the reason for it, and the pairs that limit it.
+        """
+        status, size, (lower, upper), pairs = _ending_with_interrupts(
+            lambda: self._step.line_search_limit(p, norm, of_pair)
+        )
+        return LineSearchLimit(status, size, lower, upper, pairs)
+
+    def candidates(self) -> npt.NDArray[np.void]:
+        """Return all pairs whose swept boxes are within the separation, sorted.
+
+        Returns
+        -------
+        structured ndarray
+            With the fields `kind` and `pair`.
+        """
+        return _ending_with_interrupts(self._step.candidates)
+
+    def least_distance(self, *, t: float = 0.0, norm: Norm = "l2") -> LeastDistance | None:
+        """Return the least distance of all pairs at a time; None without pairs.
+
+        Parameters
+        ----------
+        t : float, optional
+            The time, in [0, 1].
+        norm : {"linf", "l2"}, optional
+            The norm of distances.
+        """
+        found = _ending_with_interrupts(lambda: self._step.least_distance(t, norm))
+        return None if found is None else LeastDistance(*found)
+
+    def prove(self, path: str | os.PathLike[str]) -> str:
+        """Write a proof: the step is free up to t_max, or the time of its earliest contact.
+
+        Parameters
+        ----------
+        path : path
+            The file to write, which `check` reads; compressed if its name ends in ".zst".
+
+        Returns
+        -------
+        str
+            The claim that is proved: "no_contact T" or "earliest LO HI".
+
+        Raises
+        ------
+        ValueError
+            For a step with points, which the command line tool cannot read, or if there is no proof
+            within the limits of the format.
+        FileNotFoundError
+            Without the command line tool.
+        Interrupted
+            At Ctrl-C.
+        """
+        faces, edges, points, groups, apart = self._elements
+        if len(points):
+            raise ValueError("prove: a step with points cannot be proved from Python")
+        with Run() as run:
+            frames = run.folder / "frames.npz"
+            elements = {"F": faces, **({"E": edges} if len(edges) else {})}
+            np.savez(frames, V=np.stack(self._vertices), **elements)
+            separation, norm = self._separation
+            command: list[Any] = ["step", frames, "--earliest", "--prove", os.path.abspath(path)]
+            command += ["--min-separation", float(separation).hex(), "--norm", norm]
+            command += ["--t-max", repr(float(self._options[0])), "--threads", self._options[2]]
+            if len(groups):
+                names = run.folder / "groups.txt"
+                names.write_text("".join(f"{group}\n" for group in groups))
+                command += ["--groups", names]
+            command += [word for pair in apart for word in ("--apart", *pair)]
+            text, _, interrupted = run.call(command, title="prove")
+        if interrupted:
+            raise Interrupted()
+        for line in text.splitlines():
+            if ": proved: " in line:
+                return line.split(": proved: ")[1].split(";")[0]
+        raise ValueError("prove: no proof: " + text)

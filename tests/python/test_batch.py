@@ -1,0 +1,191 @@
+"""Batches: the same answers in every form, zero-copy, and the reasons for errors."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+
+import hypothesis.extra.numpy as arrays
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+import touchstone
+
+KINDS = ["vertex_face", "edge_edge"]
+BATCHES = {
+    "certified": touchstone.certified,
+    "tight_inclusion": touchstone.tight_inclusion,
+    "distance": touchstone.distance,
+}
+each_batch = pytest.mark.parametrize("solve", BATCHES.values(), ids=BATCHES.keys())
+each_kind = pytest.mark.parametrize("kind", KINDS)
+
+small = st.floats(-4, 4, width=16)
+small_queries = arrays.arrays(np.float64, (8, 3), elements=small)
+
+
+def bits(result: touchstone.BatchResult) -> dict[str, bytes]:
+    return {name: np.ascontiguousarray(field).tobytes() for name, field in result.to_dict().items()}
+
+
+@each_batch
+@each_kind
+class TestForms:
+    @pytest.mark.parametrize("threads", [1, 2, 3, 7])
+    def test_threads_change_nothing(self, solve, kind, queries, threads):
+        assert bits(solve(kind, queries, threads=threads)) == bits(solve(kind, queries))
+
+    def test_one_query_is_a_batch_of_one(self, solve, kind, queries):
+        for i in range(50):
+            single, batch = solve(kind, queries[i]), solve(kind, queries[i : i + 1])
+            assert bits(single) == bits(batch) == bits(solve(kind, queries[:50])[i])
+            assert all(np.ndim(field) == 0 for field in single.to_dict().values())
+
+    def test_no_query_is_legal(self, solve, kind):
+        result = solve(kind, np.empty((0, 8, 3)))
+        assert len(result) == 0
+        assert all(field.shape == (0,) for field in result.to_dict().values())
+
+    @pytest.mark.parametrize(
+        "convert",
+        [
+            lambda q: q.astype(np.float32),
+            lambda q: q.astype(np.float32).tolist(),
+            lambda q: np.asfortranarray(q.astype(np.float32)),
+            lambda q: q.astype(np.float32).astype(">f8"),
+            lambda q: np.repeat(q.astype(np.float32), 2, axis=0)[::2],
+            lambda q: q.astype(np.float32).astype(np.longdouble),
+        ],
+    )
+    def test_every_form_of_the_same_numbers(self, solve, kind, queries, convert):
+        some = queries[:200]
+        doubles = some.astype(np.float32).astype(np.float64)
+        assert bits(solve(kind, convert(some))) == bits(solve(kind, doubles))
+
+    def test_integers(self, solve, kind):
+        whole = np.random.default_rng(3).integers(-3, 4, size=(300, 8, 3))
+        assert bits(solve(kind, whole)) == bits(solve(kind, whole.astype(float)))
+
+
+def test_subnormal_floats_are_converted_exactly():
+    query = np.zeros((8, 3), dtype=np.float32)
+    query[0] = query[4] = np.float32(1e-45)
+    assert not touchstone.certified("vertex_face", query).collides
+    assert touchstone.certified("vertex_face", query, separation=2.0**-149).collides
+
+
+def test_the_memory_of_an_array_is_used_without_a_copy(queries):
+    from touchstone._input import as_queries
+
+    assert as_queries(queries)[0] is queries
+    assert np.shares_memory(as_queries(queries[3])[0], queries)
+    queries.flags.writeable = False
+    assert len(touchstone.certified("edge_edge", queries)) == len(queries)
+
+
+@given(small_queries, st.sampled_from(KINDS))
+def test_enclosures_and_bounds_agree(query, kind):
+    exact = touchstone.certified(kind, query)
+    conservative = touchstone.tight_inclusion(kind, query)
+    assert exact.toi_lower <= exact.toi_upper or not exact.collides
+    assert conservative.collides or not exact.collides
+    if exact.collides:
+        assert conservative.toi <= exact.toi_upper
+    # Within a distance at the start is a contact with that separation.
+    at_start = touchstone.distance(kind, query, norm="linf")
+    near = touchstone.certified(kind, query, separation=at_start.upper)
+    assert near.collides and near.toi_lower == 0.0
+
+
+@given(small_queries, st.sampled_from(KINDS), st.floats(0, 3), st.sampled_from(["linf", "l2"]))
+def test_a_greater_separation_is_reached_no_later(query, kind, distance, norm):
+    contact = touchstone.certified(kind, query)
+    near = touchstone.certified(kind, query, separation=distance, norm=norm)
+    assert near.collides or not contact.collides
+    assert not contact.collides or near.toi_lower <= contact.toi_upper
+
+
+def test_t_max_is_exact():
+    query = np.zeros((8, 3))
+    query[1:4] = query[5:8] = [[0, 0, 0], [4, 0, 0], [0, 4, 0]]
+    query[0], query[4] = [1, 1, 1], [1, 1, -1]
+    assert touchstone.certified("vertex_face", query, t_max=0.5).collides
+    assert not touchstone.certified("vertex_face", query, t_max=np.nextafter(0.5, 0)).collides
+    assert touchstone.Stage(int(touchstone.certified("vertex_face", query).stage)).name
+
+
+@each_batch
+class TestErrors:
+    @pytest.mark.parametrize(
+        "bad, text",
+        [
+            (np.zeros((4, 24)), r"\(N, 8, 3\) or \(8, 3\), not \(4, 24\)"),
+            (np.zeros(24), r"not \(24,\)"),
+            (np.zeros((2, 3, 8)), r"not \(2, 3, 8\)"),
+            (np.zeros((8, 3), dtype=complex), "not of complex128"),
+            (np.full((8, 3), "a"), "not of <U1"),
+            (np.full((2, 8, 3), 2**53 + 1), r"queries\[0, 0, 0\]: 9007199254740993 of int64"),
+            (np.full((8, 3), np.longdouble(1) / 3), "is not a double; round it first"),
+        ],
+    )
+    def test_shapes_and_types(self, solve, bad, text):
+        with pytest.raises(ValueError, match=text):
+            solve("vertex_face", bad)
+
+    @pytest.mark.parametrize("number, word", [(np.nan, "NaN"), (np.inf, "infinite"), (-np.inf, "infinite")])
+    @pytest.mark.parametrize("place", [0, 2500, 3999])
+    def test_the_index_of_what_is_not_finite(self, solve, queries, number, word, place):
+        bad = queries.copy()
+        bad[place, 5, 1] = number
+        with pytest.raises(ValueError, match=rf"query {place}: coordinate \[5, 1\] is {word}"):
+            solve("vertex_face", bad, threads=1)
+
+    def test_kind_norm_and_threads(self, solve, queries):
+        with pytest.raises(ValueError, match="'vertex_face' or 'edge_edge', not 'face'"):
+            solve("face", queries)
+        with pytest.raises(ValueError, match="norm must be 'linf' or 'l2', not 'l1'"):
+            solve("vertex_face", queries, norm="l1")
+        with pytest.raises(ValueError, match="threads must not be negative"):
+            solve("vertex_face", queries, threads=-1)
+
+    def test_a_result_is_no_answer(self, solve, queries):
+        with pytest.raises(TypeError, match="neither true nor false"):
+            bool(solve("vertex_face", queries[0]))
+
+
+@pytest.mark.parametrize("count", [0, 1, 2])
+@pytest.mark.parametrize(
+    "solve, options, text",
+    [
+        (touchstone.certified, {"separation": -1.0}, "separation must be a finite number"),
+        (touchstone.certified, {"separation": np.nan}, "separation must be a finite number"),
+        (touchstone.certified, {"t_max": 2.0}, "t_max"),
+        (touchstone.certified, {"toi_tolerance": -1.0}, "toi_tolerance"),
+        (touchstone.tight_inclusion, {"tolerance": 0.0}, "tolerance"),
+        (touchstone.tight_inclusion, {"t_max": -1.0}, "t_max"),
+        (touchstone.distance, {"t": 1.5}, "time|t must"),
+    ],
+)
+def test_options_out_of_range(solve, options, text, count):
+    with pytest.raises(ValueError, match=text):
+        solve("edge_edge", np.zeros((count, 8, 3)), **options)
+
+
+def test_results_in_tables(queries):
+    pandas = pytest.importorskip("pandas")
+    result = touchstone.certified("edge_edge", queries)
+    table = pandas.DataFrame(result.array)
+    assert list(table.columns) == ["collides", "stage", "toi_lower", "toi_upper", "u", "v"]
+    assert table.collides.sum() == result.collides.sum() > 0
+    assert result._repr_html_().count("<tr>") == 11
+    assert repr(result).startswith("CertifiedResult: 4000 queries, ")
+
+
+def test_distances_are_enclosed_by_neighbours():
+    query = np.zeros((8, 3))
+    query[1:4] = query[5:8] = np.eye(3)
+    for norm, square in [("l2", Fraction(1, 3)), ("linf", Fraction(1, 9))]:
+        found = touchstone.distance("vertex_face", query, norm=norm)
+        assert Fraction(float(found.lower)) ** 2 < square < Fraction(float(found.upper)) ** 2
+        assert np.nextafter(found.lower, 1) == found.upper

@@ -1,0 +1,145 @@
+"""The oracle, certificates and methods: against the fast part, the checker, and the command line."""
+
+from __future__ import annotations
+
+import csv
+import pathlib
+import subprocess
+from fractions import Fraction
+
+import hypothesis.extra.numpy as arrays
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+import touchstone
+
+KINDS = ["vertex_face", "edge_edge"]
+small_queries = arrays.arrays(np.float64, (8, 3), elements=st.integers(-3, 3).map(float))
+
+
+@given(small_queries, st.sampled_from(KINDS), st.sampled_from([0.0, 0.5]), st.sampled_from(["linf", "l2"]))
+@settings(max_examples=60)
+def test_the_oracle_agrees_and_its_times_are_exact(query, kind, separation, norm):
+    truth = touchstone.decide(kind, query, separation=separation, norm=norm)
+    fast = touchstone.certified(kind, query, separation=separation, norm=norm)
+    assert truth.collides == fast.collides
+    time = truth.toi
+    assert (time is None) == (not truth.collides)
+    if time is None:
+        assert np.isnan(truth.toi_lower)
+        return
+    if isinstance(time, Fraction):
+        lower = upper = time
+    else:
+        # A root between two values of opposite signs.
+        assert time.value_at(time.lower) * time.value_at(time.upper) < 0
+        time = time.refine(Fraction(1, 2**80))
+        lower, upper = time.lower, time.upper
+        assert float(time) in (truth.toi_lower, truth.toi_upper)
+    assert Fraction(float(truth.toi_lower)) <= lower and upper <= Fraction(float(truth.toi_upper))
+    assert truth.toi_upper in (truth.toi_lower, np.nextafter(truth.toi_lower, 2))
+    assert Fraction(float(fast.toi_lower)) <= lower and upper <= Fraction(float(fast.toi_upper))
+
+
+def test_rational_times_are_recognised_in_polynomials_of_any_degree():
+    # A vertex that meets a turning triangle at t = 1/3 and 2/3, or at sqrt(1/2).
+    start = np.array([[0, 0, 1.0], [-9, -9, 0], [9, -9, 0], [0, 9, 0]])
+    query = np.concatenate([start, start * [1, 1, -2]])
+    assert touchstone.decide("vertex_face", query).toi == Fraction(1, 3)
+    # Edges along x(t) = t and y(t) = 1 - t ... at the golden ratio.
+    edges = np.array([[-1, 0, 0], [1, 0, 0], [0, -1, -1], [0, 1, -1]], dtype=float)
+    moved = np.array([[-1, 0, 0], [1, 0, 1], [1, -1, 0], [1, 1, 0]], dtype=float)
+    time = touchstone.decide("edge_edge", np.concatenate([edges, moved])).toi
+    assert time is None or isinstance(time, (Fraction, touchstone.AlgebraicNumber))
+
+
+@pytest.mark.parametrize("threads", [1, 3])
+def test_batches_are_their_queries(queries, threads):
+    batch = touchstone.decide("edge_edge", queries[:100], threads=threads)
+    assert [batch[i].toi for i in range(100)] == [touchstone.decide("edge_edge", q).toi for q in queries[:100]]
+    assert (batch.collides == touchstone.certified("edge_edge", queries[:100]).collides).all()
+    assert len(touchstone.decide("edge_edge", np.empty((0, 8, 3)))) == 0
+
+
+@pytest.mark.parametrize("kind", KINDS)
+@pytest.mark.parametrize("claim", ["time_of_impact", "collision"])
+def test_certificates_are_accepted_and_changed_ones_are_not(queries, kind, claim):
+    stream = touchstone.prove(kind, queries[:50], separation=0.125, norm="l2", claim=claim)
+    report = touchstone.check(stream)
+    assert report and report.accepted == 50 and report.rejected == 0
+    collisions = touchstone.certified(kind, queries[:50], separation=0.125, norm="l2").collides.sum()
+    assert report.no_collision == 50 - collisions
+    assert touchstone.check(stream, separation=0.125, norm="l2")
+    assert not touchstone.check(stream, separation=0.25, norm="l2")
+    assert not touchstone.check(stream, claim="no_collision")
+    assert not touchstone.check(stream[: len(stream) // 2])
+    cut = touchstone.check(b"\n".join(stream.split(b"\n")[:-2]))
+    assert not cut and cut.rejections[0].line > 0 and cut.rejections[0].reason
+
+
+def test_errors(queries):
+    with pytest.raises(ValueError, match="query 1: coordinate"):
+        touchstone.decide("edge_edge", np.stack([queries[0], queries[0] * np.inf]))
+    with pytest.raises(ValueError, match="claim must be"):
+        touchstone.prove("edge_edge", queries[0], claim="no_collision")
+    with pytest.raises(ValueError, match="no method is called frobnicate .there are: certified"):
+        touchstone.solve("frobnicate", "edge_edge", queries)
+    with pytest.raises(ValueError, match="knows no separation but 0"):
+        touchstone.solve("rp", "edge_edge", queries, separation=1.0)
+    with pytest.raises(ValueError):
+        touchstone.check(b"", claim="frobnicate")
+
+
+def test_a_missing_library_is_explained(monkeypatch):
+    monkeypatch.setitem(__import__("sys").modules, "touchstone._exact", None)
+    with pytest.raises(ImportError, match="./run python in the sources"):
+        touchstone.decide("edge_edge", np.zeros((8, 3)))
+
+
+def answers_of_the_tool(tool: str, files: list[pathlib.Path], method: str, folder: pathlib.Path):
+    """The answers that the command line gives, by file and index."""
+    out = folder / f"{method}.csv"
+    command = [tool, "solve", *map(str, files), "--method", method, "--max-checks", "1000", "--out", str(out)]
+    subprocess.run(command, check=True, capture_output=True)
+    answers: dict[str, dict[int, dict[str, str]]] = {}
+    with open(out, newline="") as file:
+        for row in csv.DictReader(file):
+            answers.setdefault(row["file"], {})[int(row["index"])] = row
+    return answers
+
+
+@pytest.fixture(scope="session")
+def built_in_set(tool, tmp_path_factory) -> list[pathlib.Path]:
+    folder = tmp_path_factory.mktemp("built-in")
+    subprocess.run([tool, "generate", "--npy", "--count", "8", "--out", folder], check=True, capture_output=True)
+    return sorted(folder.rglob("*.npy"))
+
+
+@pytest.mark.parametrize("method", [one.name for one in touchstone.methods()])
+def test_every_method_answers_as_on_the_command_line(method, tool, built_in_set, tmp_path):
+    expected = answers_of_the_tool(tool, built_in_set, method, tmp_path)
+    words = ("no", "yes", "undecided", "error")
+    for path in built_in_set:
+        kind = "vertex_face" if "vertex-face" in str(path) else "edge_edge"
+        found = touchstone.solve(method, kind, np.load(path), max_checks=1000)
+        rows = expected[str(path)]
+        assert len(rows) == len(found) > 0
+        for i in range(len(found)):
+            assert rows[i]["verdict"] == words[found.verdict[i]]
+            for name in ("toi_lower", "toi_upper", "tolerance"):
+                theirs = float(rows[i][name]) if rows[i][name] else np.nan
+                assert np.array_equal(theirs, found.to_dict()[name][i], equal_nan=True)
+
+
+def test_the_named_functions_answer_as_their_methods(queries):
+    for kind in KINDS:
+        certified, method = touchstone.certified(kind, queries), touchstone.solve("certified", kind, queries)
+        assert (certified.collides == method.collides).all()
+        assert np.array_equal(certified.toi_lower, method.toi_lower, equal_nan=True)
+        assert np.array_equal(certified.toi_upper, method.toi_upper, equal_nan=True)
+        ours, method = touchstone.tight_inclusion(kind, queries), touchstone.solve("tight_inclusion", kind, queries)
+        assert (ours.collides == method.collides).all()
+        assert np.array_equal(ours.toi, method.toi_lower, equal_nan=True)
+        assert (ours.checks == method.checks).all()

@@ -1,0 +1,255 @@
+"""Judging of callables: every fault is found and placed, whatever a solver does to its process."""
+
+from __future__ import annotations
+
+import math
+import os
+import pathlib
+import signal
+import subprocess
+import sys
+import threading
+import time
+
+import numpy as np
+import pytest
+
+import touchstone
+
+ROOT = pathlib.Path(__file__).parents[2]
+
+
+def query_at(x: float) -> np.ndarray:
+    """A vertex that falls through a triangle at t=1/2; x names the query."""
+    query = np.zeros((8, 3))
+    query[1:4] = query[5:8] = [[0, 0, 0], [1, 0, 0], [0, 1, 0]]
+    query[:, 0] += x
+    query[0] += [0.25, 0.25, 1]
+    query[4] += [0.25, 0.25, -1]
+    return query
+
+
+@pytest.fixture(scope="module")
+def eight() -> touchstone.Queries:
+    return touchstone.Queries("vertex_face", np.array([query_at(x) for x in range(8)]), np.full(8, True))
+
+
+def misbehaving(kind, query):
+    """Do something else at each query."""
+    x = int(query[1, 0])
+    if x == 1:
+        os.kill(os.getpid(), signal.SIGSEGV)
+    if x == 2:
+        os._exit(7)
+    if x == 3:
+        raise KeyError("no such thing")
+    if x == 4:
+        while True:
+            time.sleep(1)
+    if x == 5:
+        return "yes"
+    if x == 6:
+        return True, 0.75
+    print("query", x)
+    return x == 0
+
+
+def test_faults_are_placed(eight):
+    judgement = touchstone.certify(misbehaving, eight, query_limit=20.0, threads=1)
+    faults = {wrong.index: wrong.fault for wrong in judgement.wrong}
+    assert faults == {1: "error", 2: "error", 3: "error", 5: "error", 6: "late_toi", 7: "false_negative"}
+    reasons = {wrong.index: wrong.answer for wrong in judgement.wrong}
+    assert reasons[1] == "crash: SIGSEGV" and reasons[2].startswith("exit")
+    assert "KeyError: 'no such thing'" in reasons[3] and "a solver returns a bool, a time" in reasons[5]
+    assert judgement.queries == 8
+    assert judgement.count("errors") == 4 and judgement.count("false_negatives") == 1
+    # A hang counts as undecided.
+    assert judgement.to_dict()["methods"][0]["failures"]["hang"] == 1
+    assert "misbehaving" in repr(judgement) and "false neg" in str(judgement)
+    assert judgement._repr_html_().count("<table>") == 2
+
+
+@pytest.mark.parametrize(
+    "value, verdict, lower, upper",
+    [
+        (True, 1, math.nan, math.nan),
+        (np.bool_(False), 0, math.nan, math.nan),
+        (None, 0, math.nan, math.nan),
+        (math.nan, 0, math.nan, math.nan),
+        (0.0, 1, 0.0, math.nan),
+        (np.float32(0.5), 1, 0.5, math.nan),
+        ((True, 0.25), 1, 0.25, math.nan),
+        ((True, None), 1, math.nan, math.nan),
+        ((False, 0.25), 0, math.nan, math.nan),
+        ((np.bool_(True), 0.25, 0.5), 1, 0.25, 0.5),
+    ],
+)
+def test_values_of_solvers(value, verdict, lower, upper):
+    from touchstone._child import answer_from, first_of
+
+    assert np.array_equal(answer_from(value), (verdict, lower, upper), equal_nan=True)
+    if value is not None and not isinstance(value, tuple):
+        assert np.array_equal(answer_from(first_of(np.array([value]))), (verdict, lower, upper), equal_nan=True)
+
+
+@pytest.mark.parametrize("value", [1, "yes", (1, 0.5), (True,), (True, 1, 2, 3), [True], np.int64(0)])
+def test_values_that_are_no_answers(value):
+    from touchstone._child import answer_from
+
+    with pytest.raises(TypeError, match="a solver returns"):
+        answer_from(value)
+
+
+def test_every_form_of_a_right_solver_is_acquitted(eight):
+    def single(kind, query, separation, norm):
+        answer = touchstone.certified(kind, query, separation=separation, norm=norm)
+        return bool(answer.collides), float(answer.toi_lower), float(answer.toi_upper)
+
+    def batch(kind, queries, **options):
+        answer = touchstone.certified(kind, queries, separation=options["separation"], norm=options["norm"])
+        return answer.collides, answer.toi_lower
+
+    class Callable:
+        def __call__(self, kind, query):
+            answer = touchstone.certified(kind, query)
+            return float(answer.toi_lower) if answer.collides else None
+
+    data = [eight, *touchstone.generate("edge_edge", count=1)]
+    for solver, options in ((single, {}), (batch, {"batch": True}), (Callable(), {}), ("certified", {})):
+        judgement = touchstone.certify(solver, data, promise="exact", query_limit=60.0, **options)
+        assert judgement.wrong == [] and judgement.queries > 30
+    near = touchstone.certify(single, eight, separation=0.5, norm="l2", promise="exact", query_limit=60.0)
+    assert near.wrong == [] and near.to_dict()["separation"]["min_separation"] == 0.5
+
+
+def test_the_naive_solver_is_convicted_within_ten_seconds():
+    sys.path.insert(0, str(ROOT / "examples/python"))
+    from naive_cubic import naive_cubic
+
+    report = touchstone.fuzz(naive_cubic, seconds=0, findings=2, query_limit=60.0)
+    assert len(report.findings) == 2
+    for finding in report.findings:
+        truth = touchstone.decide(finding.kind, finding.query)
+        assert truth.collides == finding.collides
+        assert finding.certificate and touchstone.check(finding.certificate)
+        answer = naive_cubic(finding.kind, finding.query)
+        assert finding.what != "false_negative" or (answer is None and finding.collides)
+    assert "groups" in repr(report) and report._repr_html_().count("<tr>") == 3
+
+
+def test_a_right_solver_is_not_convicted():
+    report = touchstone.fuzz("certified", queries=2000)
+    assert report.findings == [] and report.queries == 2000
+
+
+def test_ctrl_c_ends_a_search_with_what_was_found(tmp_path):
+    program = tmp_path / "search.py"
+    program.write_text(
+        "import pathlib, sys, touchstone\n"
+        "def never(kind, query):\n"
+        "    pathlib.Path(sys.argv[1]).touch()\n"
+        "    return False\n"
+        "never.__module__ = '__main__'\n"
+        f"def asked(kind, query, mark={str(tmp_path / 'asked')!r}):\n"
+        "    import pathlib\n"
+        "    pathlib.Path(mark).touch()\n"
+        "    return True\n"
+        "try:\n"
+        "    touchstone.fuzz(asked, seconds=0, queries=0 or 10**9, query_limit=60.0)\n"
+        "except touchstone.Interrupted as interrupt:\n"
+        "    print(interrupt.result.to_dict()['ended_by'])\n"
+    )
+    process = subprocess.Popen([sys.executable, program], stdout=subprocess.PIPE, text=True)
+    while not (tmp_path / "asked").exists():
+        assert process.poll() is None
+        time.sleep(0.05)
+    process.send_signal(signal.SIGINT)
+    out, _ = process.communicate(timeout=120)
+    assert out == "interrupt\n" and process.returncode == 0
+
+
+@pytest.mark.parametrize("kind", ["vertex_face", "edge_edge"])
+@pytest.mark.parametrize("ending", ["csv", "npy"])
+def test_data_survive_a_file(kind, ending, tmp_path, tool):
+    written = touchstone.generate(kind, family="hourglass", count=20)[0]
+    assert written.collides is not None and written.name == "hourglass"
+    path = tmp_path / f"x-{kind.replace('_', '-')}.{ending}"
+    touchstone.write(path, written)
+    again = touchstone.read(path)
+    assert again.kind == kind and again.queries.tobytes() == written.queries.tobytes()
+    assert again.collides is None if ending == "npy" else (again.collides == written.collides).all()
+    # The command line reads the same.
+    done = subprocess.run([tool, "certify", path, "--method", "certified"], capture_output=True, text=True)
+    assert done.returncode == 0 and "20" in done.stdout
+
+
+ROWS = "1,2,3,1\n" * 8
+
+
+@pytest.mark.parametrize(
+    "text, reason",
+    [
+        ("", "0 rows"),
+        (ROWS[:-8], "7 rows"),
+        ("1,2\n" * 8, "x_ee.csv:1: 2 columns"),
+        (ROWS.replace("1,2,3,1\n", "1,2,3,2\n", 1), "x_ee.csv:1: the label '2'"),
+        (ROWS.replace("1,2,3,1\n", "1,2,3,0\n", 1), "labels of query 0 differ"),
+        ("1,3,1,1,1,1\n" * 8, "x_ee.csv:1: 1/3 is not a double"),
+        ("1,0,1,1,1,1\n" * 8, "x_ee.csv:1"),
+        ("x,y,z\n" + "0,0,0\n" * 3 + "0,zero,0\n" + "0,0,0\n" * 4, "x_ee.csv:5"),
+    ],
+)
+def test_faults_of_files_are_named(text, reason, tmp_path):
+    path = tmp_path / "x_ee.csv"
+    path.write_text(text)
+    with pytest.raises(ValueError, match=reason):
+        touchstone.read(path)
+
+
+def test_errors(eight, tmp_path):
+    with pytest.raises(ValueError, match="does not say the kind"):
+        touchstone.read(tmp_path / "x.npy")
+    with pytest.raises(ValueError, match="says another kind"):
+        touchstone.write(tmp_path / "edge-edge.csv", eight)
+    with pytest.raises(ValueError, match="no method is called frobnicate"):
+        touchstone.certify("frobnicate", eight)
+    with pytest.raises(ValueError, match="there are no queries"):
+        touchstone.certify("certified", [])
+    with pytest.raises(ValueError, match="unknown|family|no family"):
+        touchstone.generate("edge_edge", family="frobnicate")
+    lock = threading.Lock()
+    with pytest.raises(ValueError, match="cannot be sent to another process"):
+        touchstone.certify(lambda kind, query: lock.locked(), eight)
+    with pytest.raises(ValueError, match="name the kind"):
+        touchstone.view(eight.queries)
+
+
+def test_pages(eight, tmp_path):
+    page = touchstone.view(eight, methods=["accd"])
+    page.save(tmp_path / "page.html")
+    assert (tmp_path / "page.html").read_text() == page.page
+    assert "<html" in page.page and page._repr_html_().startswith("<iframe srcdoc=")
+    assert touchstone.view(eight.queries[0], "vertex_face").page.count("<script") > 0
+
+
+def test_proofs_of_steps(tmp_path):
+    triangle = np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0]])
+    before = np.concatenate([triangle, triangle + [0.125, 0.125, 1]])
+    after = np.concatenate([triangle, triangle + [0.125, 0.125, -1]])
+    step = touchstone.Step(before, after, faces=[[0, 1, 2], [3, 4, 5]], groups=[0] * 3 + [1] * 3, apart=[[0, 0]])
+    path = tmp_path / "step.cert"
+    assert step.prove(path).startswith("earliest ")
+    assert touchstone.check(path.read_bytes(), claim="earliest")
+    short = touchstone.Step(before, after, faces=[[0, 1, 2], [3, 4, 5]], t_max=0.25, separation=0.125, norm="l2")
+    assert short.prove(path) == "no_contact 1/4"
+    assert touchstone.check(path.read_bytes(), claim="no_contact 1/4", separation=0.125, norm="l2")
+    assert not touchstone.check(path.read_bytes(), claim="free")
+    with pytest.raises(ValueError, match="with points"):
+        touchstone.Step(before, after, points=[0, 1]).prove(path)
+
+
+def test_without_the_tool_the_way_out_is_said(monkeypatch, eight):
+    monkeypatch.setattr("touchstone._tool.FOLDER", pathlib.Path("/nowhere"))
+    monkeypatch.setenv("PATH", "/nowhere")
+    with pytest.raises(FileNotFoundError, match="./run python in the sources"):
+        touchstone.certify("certified", eight)

@@ -1,0 +1,79 @@
+"""The package itself: its version, its types, and the examples of its documentation."""
+
+from __future__ import annotations
+
+import doctest
+import importlib
+import os
+import pathlib
+import pkgutil
+import subprocess
+import sys
+
+import pytest
+
+import touchstone
+
+ROOT = pathlib.Path(__file__).parents[2]
+MODULES = [
+    name
+    for _, name, _ in pkgutil.walk_packages(touchstone.__path__, "touchstone.")
+    if not name.split(".")[-1].startswith("_") or name.endswith("_input")
+]
+
+
+@pytest.mark.parametrize("name", ["touchstone", *MODULES])
+def test_examples_of_docstrings(name):
+    assert doctest.testmod(importlib.import_module(name)).failed == 0
+
+
+def test_the_version_is_that_of_the_project():
+    text = (ROOT / "CMakeLists.txt").read_text()
+    assert f"VERSION {touchstone.__version__} " in text
+    assert touchstone.__commit__ == "" or len(touchstone.__commit__.split("-")[0]) >= 7
+    assert touchstone.instruction_set() in {"scalar", "avx2", "avx512", "neon"}
+
+
+def test_all_names_exist():
+    assert [name for name in touchstone.__all__ if not hasattr(touchstone, name)] == []
+    assert sorted(touchstone.__all__) == touchstone.__all__
+
+
+def test_the_fast_part_needs_neither_gmp_nor_cgal():
+    module = importlib.import_module("touchstone._fast")
+    libraries = subprocess.run(["ldd", module.__file__], check=True, capture_output=True, text=True).stdout
+    assert "libstdc++" in libraries
+    assert not any(name in libraries for name in ("gmp", "mpfr", "CGAL", "boost", "zip"))
+
+
+def test_importing_the_package_loads_the_fast_part_alone():
+    code = "import sys, touchstone; print([m for m in sys.modules if m.startswith('touchstone._')])"
+    loaded = subprocess.run([sys.executable, "-c", code], check=True, capture_output=True, text=True).stdout
+    assert "touchstone._fast" in loaded and "touchstone._exact" not in loaded
+
+
+def package_folder() -> pathlib.Path:
+    return pathlib.Path(touchstone.__file__).parent
+
+
+def test_types_are_strict(tmp_path):
+    command = [sys.executable, "-m", "mypy", "--strict", "--cache-dir", tmp_path, package_folder()]
+    done = subprocess.run(command, capture_output=True, text=True)
+    assert done.returncode == 0, done.stdout
+
+
+@pytest.mark.parametrize("stub", sorted(path.stem for path in package_folder().glob("*.pyi")))
+def test_stubs_say_what_the_modules_have(stub, tmp_path):
+    command = [sys.executable, "-m", "mypy.stubtest", f"touchstone.{stub}"]
+    done = subprocess.run(
+        command, capture_output=True, text=True, cwd=package_folder().parent, env={**os.environ, "MYPY_CACHE_DIR": str(tmp_path)}
+    )
+    assert done.returncode == 0, done.stdout
+
+
+def test_a_user_of_the_package_is_checked(tmp_path):
+    user = tmp_path / "user.py"
+    user.write_text("import touchstone\nanswer: str = touchstone.certified('edge_edge', []).collides\n")
+    command = [sys.executable, "-m", "mypy", "--strict", "--cache-dir", tmp_path / "cache", user]
+    done = subprocess.run(command, capture_output=True, text=True, cwd=package_folder().parent)
+    assert "Incompatible types in assignment" in done.stdout and "Found 1 error" in done.stdout

@@ -1,0 +1,181 @@
+"""The process around the package: threads, interrupts, forks and memory."""
+
+from __future__ import annotations
+
+import concurrent.futures
+import os
+import signal
+import threading
+
+import numpy as np
+import pytest
+
+import touchstone
+
+
+@pytest.fixture(scope="module")
+def falling() -> dict[str, np.ndarray]:
+    """Many triangles that move through each other."""
+    random = np.random.default_rng(5)
+    places = random.normal(size=(2000, 1, 3)) * 4
+    before = (places + random.normal(size=(2000, 3, 3))).reshape(-1, 3)
+    after = before + random.normal(size=before.shape) * 0.3
+    return {"before": before, "after": after, "faces": np.arange(6000).reshape(-1, 3)}
+
+
+@pytest.mark.parametrize("name", ["certified", "tight_inclusion", "distance", "Step"])
+def test_threads_run_at_the_same_time(name, queries, falling, only_released):
+    call = {
+        "certified": lambda: touchstone.certified("edge_edge", queries, threads=1),
+        "tight_inclusion": lambda: touchstone.tight_inclusion("edge_edge", queries, threads=1),
+        "distance": lambda: touchstone.distance("edge_edge", queries, threads=1),
+        "Step": lambda: touchstone.Step(**falling, threads=1).is_free(),
+    }[name]
+    workers, inside, most = 4, 0, 0
+    start = threading.Barrier(workers)
+
+    def work() -> None:
+        nonlocal inside, most
+        start.wait()
+        for _ in range(10):
+            inside += 1
+            most = max(most, inside)
+            call()
+            inside -= 1
+
+    with concurrent.futures.ThreadPoolExecutor(workers) as pool:
+        for done in [pool.submit(work) for _ in range(workers)]:
+            done.result()
+    assert most > 1
+
+
+def interrupt_once_inside(call) -> pytest.ExceptionInfo:
+    """Call, and interrupt the call from another thread as soon as it releases the lock."""
+    inside = threading.Event()
+
+    def send() -> None:
+        inside.wait()
+        os.kill(os.getpid(), signal.SIGINT)
+
+    sender = threading.Thread(target=send)
+    sender.start()
+    with pytest.raises(touchstone.Interrupted) as caught:
+        inside.set()
+        call()
+    sender.join()
+    return caught
+
+
+@pytest.mark.parametrize("threads", [1, 3])
+def test_an_interrupt_ends_a_batch_with_what_is_done(threads, only_released):
+    # A vertex close to an oblique triangle at all times: each query takes all its boxes.
+    query = np.zeros((8, 3))
+    query[1:4] = query[5:8] = np.eye(3)
+    query[0] = query[4] = 1 / 3 + 1e-9
+    batch = np.tile(query, (200_000, 1, 1))
+
+    def call() -> None:
+        touchstone.tight_inclusion("vertex_face", batch, tolerance=1e-12, max_checks=10_000, threads=threads)
+
+    caught = interrupt_once_inside(call)
+    done = caught.value.result
+    assert 0 < len(done) < len(batch)
+    first = touchstone.tight_inclusion("vertex_face", query, tolerance=1e-12, max_checks=10_000)
+    assert (done.checks == first.checks).all()
+    assert f"after {len(done)} queries" in str(caught.value)
+
+
+def test_an_interrupt_ends_a_step(only_released):
+    random = np.random.default_rng(1)
+    before = random.normal(size=(60000, 3))  # minutes of pairs
+    step = touchstone.Step(before, before[::-1], faces=np.arange(60000).reshape(-1, 3))
+    for search in (step.collisions, step.candidates, lambda: step.active_set(0.5)):
+        assert interrupt_once_inside(search).value.result is None
+    # The step is as good as before.
+    apart = before + 100.0 * (np.arange(60000)[:, None] // 3)
+    assert step.moved(apart, apart).is_free()
+
+
+def test_a_handler_of_signals_may_raise_what_it_likes(queries, only_released):
+    class Stop(Exception):
+        pass
+
+    def stop(*_):
+        raise Stop
+
+    before = signal.signal(signal.SIGINT, stop)
+    try:
+        signal.raise_signal(signal.SIGINT)
+    except Stop:
+        pass
+    many = np.tile(queries, (1000, 1, 1))
+    inside = threading.Event()
+
+    def send() -> None:
+        inside.wait()
+        os.kill(os.getpid(), signal.SIGINT)
+
+    sender = threading.Thread(target=send)
+    sender.start()
+    try:
+        with pytest.raises(Stop):
+            inside.set()
+            touchstone.certified("edge_edge", many, threads=1)
+    finally:
+        sender.join()
+        signal.signal(signal.SIGINT, before)
+
+
+def in_child(work) -> int:
+    """Run work in a child of fork(), and return its status."""
+    child = os.fork()
+    if child == 0:
+        signal.alarm(120)  # a generous bound of a hang
+        try:
+            work()
+            os._exit(0)
+        finally:
+            os._exit(1)
+    return os.waitstatus_to_exitcode(os.waitpid(child, 0)[1])
+
+
+def test_a_fork_after_use_works(queries, falling):
+    expected = touchstone.certified("edge_edge", queries).collides.sum()
+    step = touchstone.Step(**falling)
+    collisions = step.collisions()
+
+    def work() -> None:
+        assert touchstone.certified("edge_edge", queries).collides.sum() == expected
+        assert (step.collisions() == collisions).all()
+        again = touchstone.Step(**falling)
+        assert (again.collisions() == collisions).all()
+        assert len(step.candidates()) == len(again.candidates()) > 0
+        assert step.free_step_size() == again.free_step_size()
+
+    for _ in range(5):
+        assert in_child(work) == 0
+
+
+def resident_bytes() -> int:
+    with open("/proc/self/statm") as file:
+        return int(file.read().split()[1]) * os.sysconf("SC_PAGE_SIZE")
+
+
+def test_nothing_leaks(queries, falling):
+    small = {"before": np.eye(3), "after": np.eye(3) * 2, "faces": [[0, 1, 2]]}
+
+    def calls(count: int) -> None:
+        for i in range(count):
+            query = queries[i % len(queries)]
+            touchstone.certified("edge_edge", query)
+            touchstone.tight_inclusion("vertex_face", query, max_checks=10)
+            touchstone.distance("vertex_face", query)
+            if i % 100 == 0:
+                touchstone.Step(**small).collisions()
+                with pytest.raises(ValueError):
+                    touchstone.certified("edge_edge", query * np.nan)
+
+    calls(2000)
+    before = resident_bytes()
+    calls(100_000)
+    assert resident_bytes() - before < 4 << 20

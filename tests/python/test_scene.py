@@ -1,0 +1,164 @@
+"""Steps of a scene: the answers of batches on their pairs, and the reasons for errors."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+import touchstone
+from touchstone import PairKind, Step
+
+
+def soup(seed: int, triangles: int = 40) -> dict[str, np.ndarray]:
+    random = np.random.default_rng(seed)
+    before = (random.normal(size=(triangles, 1, 3)) * 3 + random.normal(size=(triangles, 3, 3))).reshape(-1, 3)
+    after = before + random.normal(size=before.shape)
+    return {"before": before, "after": after, "faces": np.arange(3 * triangles).reshape(-1, 3)}
+
+
+def in_order(items: np.ndarray) -> list:
+    """Items in an order that does not depend on the search."""
+    return sorted(map(str, items.tolist()))
+
+
+def kind_of(pair_kind: int) -> str:
+    return "edge_edge" if pair_kind == PairKind.EDGE_EDGE else "vertex_face"
+
+
+@given(st.integers(0, 1000), st.sampled_from([0.0, 0.01, 1.0]), st.sampled_from(["linf", "l2"]))
+def test_collisions_are_those_of_the_candidates(seed, separation, norm):
+    step = Step(**soup(seed, 8), separation=separation, norm=norm)
+    expected = {}
+    for pair in step.candidates():
+        answer = touchstone.certified(
+            kind_of(pair["kind"]), step.query(pair["kind"], pair["pair"]), separation=separation, norm=norm
+        )
+        if answer.collides:
+            expected[pair["kind"], *pair["pair"]] = (answer.toi_lower, answer.toi_upper)
+    found = {(c["kind"], *c["pair"]): (c["toi_lower"], c["toi_upper"]) for c in step.collisions()}
+    assert found == expected
+    assert step.is_free() == (not found)
+    impact = step.earliest()
+    assert (impact is None) == (not found)
+    if impact is not None:
+        assert impact.toi_lower == min(lower for lower, _ in found.values())
+        assert impact.toi_upper == min(upper for _, upper in found.values())
+
+
+@pytest.mark.parametrize("dtype", [np.int32, np.int64, np.uint8])
+def test_types_of_indices(dtype):
+    scene = soup(1)
+    expected = Step(**scene).collisions()
+    assert len(expected) > 0
+    scene["faces"] = scene["faces"].astype(dtype)
+    for faces in (scene["faces"], np.asfortranarray(scene["faces"]), scene["faces"].tolist()):
+        assert (Step(**{**scene, "faces": faces}).collisions() == expected).all()
+
+
+@pytest.mark.parametrize("threads", [1, 2, 5])
+def test_threads_change_nothing(threads):
+    scene = soup(2, 300)
+    one, other = Step(**scene), Step(**scene, threads=threads)
+    assert (one.collisions() == other.collisions()).all()
+    assert (one.candidates() == other.candidates()).all()
+    assert one.free_step_size() == other.free_step_size()
+
+
+def test_moved_is_a_step_of_its_own():
+    first, second = soup(3), soup(4)
+    step = Step(**first)
+    moved = step.moved(second["before"], second["after"])
+    del step
+    assert in_order(moved.collisions()) == in_order(Step(**second).collisions())
+    wide = moved.moved(second["before"], second["after"], separation=0.5, norm="l2")
+    assert in_order(wide.collisions()) == in_order(Step(**second, separation=0.5, norm="l2").collisions())
+    # The next step keeps the separation.
+    assert (wide.moved(second["before"], second["after"]).collisions() == wide.collisions()).all()
+
+
+def test_the_free_step_size_is_the_greatest_of_its_neighbours():
+    scene = soup(3)
+    step = Step(**scene)
+    alpha = step.free_step_size()
+    assert alpha is not None and 0 < alpha < 1
+
+    def scaled(size: float) -> Step:
+        x0, x1 = scene["before"], scene["after"]
+        return step.moved(x0, x0 + size * (x1 - x0))
+
+    assert scaled(alpha).is_free()
+    assert not scaled(np.nextafter(alpha, 1)).is_free()
+
+
+def test_points_edges_and_groups():
+    before = np.array([[0.0, 0, 1], [-1, 0, 0], [1, 0, 0], [0, 0, 2]])
+    after = np.array([[0.0, 0, -1], [-1, 0, 0], [1, 0, 0], [0, 0, -3]])
+    step = Step(before, after, edges=[[1, 2]], points=[0, 3])
+    kinds = {PairKind(c["kind"]) for c in step.collisions()}
+    assert kinds == {PairKind.VERTEX_EDGE, PairKind.VERTEX_VERTEX}
+    assert step.edges.tolist() == [[1, 2]]
+    apart = Step(before, after, edges=[[1, 2]], points=[0, 3], groups=[0, 1, 1, 2], apart=[[0, 2], [1, 2]])
+    assert [(PairKind(c["kind"]), *c["pair"]) for c in apart.collisions()] == [(PairKind.VERTEX_EDGE, 0, 0)]
+
+
+def test_distances_contacts_and_line_searches():
+    triangle = np.array([[0.0, 0, 0], [4, 0, 0], [0, 4, 0]])
+    before = np.concatenate([triangle, triangle + [0.25, 0.25, 2]])
+    after = np.concatenate([triangle, triangle + [0.25, 0.25, -2]])
+    step = Step(before, after, faces=[[0, 1, 2], [3, 4, 5]])
+    least = step.least_distance()
+    assert least.lower == least.upper == 2.0 and len(least.pairs) > 0
+    assert step.least_distance(t=0.25, norm="linf").lower == 1.0
+    limit = step.line_search_limit(0.5)
+    assert limit.status == "limited" and limit.distance_lower == 2.0
+    assert 0.25 - 1e-9 < limit.step_size <= 0.25
+    contacts = step.active_set(0.5)
+    assert len(contacts) > 0 and (np.diff(contacts["toi_lower"]) >= 0).all()
+    assert np.allclose(np.linalg.norm(contacts["normal"], axis=1), 1)
+    touching = step.moved(np.concatenate([triangle, triangle]), after)
+    assert touching.line_search_limit(0.5).status == "in_contact"
+    assert touching.free_step_size() is None
+    alone = Step(triangle, triangle, faces=[[0, 1, 2]])
+    assert alone.earliest() is None and alone.least_distance() is None and alone.free_step_size() == 1.0
+
+
+@pytest.mark.parametrize(
+    "change, error, text",
+    [
+        ({"before": np.zeros((3, 2))}, ValueError, r"before must have the shape \(n, 3\), not \(3, 2\)"),
+        ({"after": np.zeros((2, 3))}, ValueError, "as many rows"),
+        ({"after": [[0, 0, 0], [0, np.nan, 0], [0, 0, 0]]}, ValueError, "vertex 1"),
+        ({"faces": [[0, 1, 3]]}, IndexError, "face 0"),
+        ({"faces": [[0, 1]]}, ValueError, r"faces must have the shape \(n, 3\), not \(1, 2\)"),
+        ({"faces": [[0.0, 1.0, 2.0]]}, ValueError, "array of integers is needed, not of float64"),
+        ({"faces": [[0, 1, 2**40]]}, IndexError, r"faces\[0, 2\]: 1099511627776"),
+        ({"edges": [[0, -1]]}, IndexError, r"edges\[0, 1\]: -1"),
+        ({"points": [7]}, IndexError, "7"),
+        ({"groups": [0, 1]}, ValueError, "group"),
+        ({"separation": -1}, ValueError, "separation must be a finite number"),
+        ({"norm": "l3"}, ValueError, "norm must be"),
+        ({"t_max": 3.0}, ValueError, "t_max"),
+        ({"threads": -1}, ValueError, "threads"),
+    ],
+)
+def test_errors(change, error, text):
+    scene = {"before": np.zeros((3, 3)), "after": np.zeros((3, 3)), "faces": [[0, 1, 2]]}
+    with pytest.raises(error, match=text):
+        Step(**{**scene, **change})
+
+
+def test_errors_of_methods():
+    step = Step(np.eye(3), np.eye(3), faces=[[0, 1, 2]])
+    with pytest.raises(ValueError):
+        step.line_search_limit(1.0)
+    with pytest.raises(ValueError):
+        step.least_distance(t=2.0)
+    with pytest.raises(ValueError, match="separation"):
+        step.active_set(-1.0)
+    with pytest.raises(IndexError):
+        step.query(PairKind.VERTEX_FACE, [0, 5])
+    assert Fraction(step.free_step_size()) == 1
