@@ -323,7 +323,8 @@ TEST(Step, PassesOnExceptionsOfATaker) {
 TEST(Step, EndsItsSearchesWhenItIsToStop) {
   Random random(185);
   std::atomic<bool> stop = false;
-  const Step step = soup(random, 30, 0.4).step({.stop = &stop});
+  const Scene scene = soup(random, 30, 0.4);
+  const Step step = scene.step({.stop = &stop});
   const std::vector<StepCollision> before = step.collisions();
   const Step moved = step.with_places(step.vertices(), {.distance = 0.01});
   const Step scaled = step.scaled(0.5);
