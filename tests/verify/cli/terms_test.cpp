@@ -34,13 +34,13 @@ class Terms : public tests::ToolTest {
     return judged;
   }
 
-  /// A dataset of a vertex that falls onto a triangle from x = `x`, after half of the step.
-  [[nodiscard]] std::string falling_from(int x) const {
+  /// A dataset of a vertex that falls onto a triangle at x = `x`, from that height to below it.
+  [[nodiscard]] std::string falling_from(int x, int height = 1) const {
     const std::string face = "0,1,0,1,0,1\n32,1,0,1,0,1\n0,1,32,1,0,1\n";
     const auto vertex = [x](int z) {
       return std::to_string(x) + ",1,1,1," + std::to_string(z) + ",1\n";
     };
-    return write("vertex-face.csv", vertex(1) + face + vertex(-1) + face);
+    return write("vertex-face.csv", vertex(height) + face + vertex(-1) + face);
   }
 
   mutable std::string out;
@@ -103,7 +103,7 @@ TEST_F(Terms, OfTheTemplatesAreThoseOfTheirSolvers) {
 }
 
 TEST_F(Terms, AnUlpIsToldFromATimeThatIsMuchTooLate) {
-  const Json slight = certify("nearest_time", {}, {falling_from(1)});
+  const Json slight = certify("nearest_time", {}, {falling_from(1, 0)});
   EXPECT_EQ(slight.at("late_toi"), 1);
   EXPECT_EQ(slight.at("late").at("beyond"), Json({0, 0, 0, 0}));
   EXPECT_EQ(slight.at("late").at("greatest_ulps"), 1.0);
