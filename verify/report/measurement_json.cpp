@@ -88,7 +88,7 @@ Json json_of(const Measurement& measurement) {
           {"false_positives", m.false_positives},
           {"false_negatives", m.false_negatives},
           {"late_tois", m.late_tois},
-          {"late", to_json(m.late)},
+          {"late", report::to_json(m.late)},
           {"early_upper_tois", m.early_upper_tois},
           {"beyond_tolerance", m.beyond_tolerance},
           {"errors", m.errors},
