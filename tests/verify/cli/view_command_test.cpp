@@ -207,13 +207,13 @@ TEST_F(ViewCommand, CertifyShowsAtMostAHundred) {
 
 TEST_F(ViewCommand, ReportShowsWhatItsMethodsAnsweredWrongly) {
   const std::string data = write("vertex-face.csv", row("-2") + row("2") + row("-3"));
-  const std::vector<std::string> report{"report",        data,
-                                        "--method",      "certified",
-                                        "--experiment",  "field",
-                                        "--repetitions", "1",
-                                        "--seconds",     "0.01",
-                                        "--stability",   "0",
-                                        "--view",        path("page.html")};
+  const std::vector<std::string> report{"report",           data,
+                                        "--method",         "certified",
+                                        "--experiment",     "field",
+                                        "--repetitions",    "1",
+                                        "--method-seconds", "0.01",
+                                        "--stability",      "0",
+                                        "--view",           path("page.html")};
   const tests::Outcome right = run(report);
   EXPECT_EQ(right.status, 0) << right.err;
   EXPECT_EQ(right.out, path("page.html") + ": nothing was found to look at\n");

@@ -75,7 +75,7 @@ TEST(FuzzReport, ShowsAGroupByItsBestExample) {
   const std::string text = to_text(report);
   const std::vector<std::string> order{"12 findings, in 1 groups",
                                        "group  finding",
-                                       "    1  late_toi            12  any scale",
+                                       "    1  late_toi               12  any scale",
                                        "group 1: late_toi of mine, vertex-face",
                                        "truth: collision at 0.5",
                                        "not asked at other scales",

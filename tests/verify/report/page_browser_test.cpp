@@ -208,7 +208,7 @@ stability::StabilityResult map_of(const std::vector<double>& numbers) {
         .judged = {}};
     cell.judged.queries = cell.judged.collisions = 1;
     jobs::MethodResult judged{.name = "planted", .timed = true, .judgement = {}};
-    judged.judgement.queries = 1;
+    judged.judgement.queries = judged.judgement.collisions = 1;
     judged.judgement.toi_errors.add(numbers[i]);
     judged.judgement.nanoseconds = numbers[i];
     judged.judgement.checks = static_cast<std::uint64_t>(std::min(numbers[i], 1e15));
