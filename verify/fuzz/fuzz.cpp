@@ -570,6 +570,8 @@ class Run {
     std::size_t arm;
     bool is_slight;
 
+    // clang-tidy 14 takes the comparison of the bool for a conversion.
+    // NOLINTNEXTLINE(readability-implicit-bool-conversion)
     friend auto operator<=>(const Class&, const Class&) = default;
 
     struct Seen {

@@ -56,6 +56,8 @@ struct Signature {
   std::optional<Shape> shape = std::nullopt;
   std::optional<ContactTime> time = std::nullopt;
 
+  // clang-tidy 14 takes the comparison of the bool for a conversion.
+  // NOLINTNEXTLINE(readability-implicit-bool-conversion)
   friend auto operator<=>(const Signature&, const Signature&) = default;
 };
 

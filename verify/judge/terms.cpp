@@ -12,7 +12,7 @@ namespace touchstone::verify::judge {
 namespace {
 
 double nearest_float(double x) {
-  constexpr double greatest = std::numeric_limits<float>::max();
+  constexpr auto greatest = static_cast<double>(std::numeric_limits<float>::max());
   // A conversion beyond the range of float is undefined.
   if (std::abs(x) > greatest) return std::copysign(std::numeric_limits<double>::infinity(), x);
   return static_cast<double>(static_cast<float>(x));

@@ -85,7 +85,8 @@ std::string late_text(const judge::LateTimes& late) {
   if (late.count == 0) return {};
   std::string text = fmt::format("{} late", late.count);
   for (std::size_t i = 0; i < late.beyond.size(); ++i) {
-    text += fmt::format(", {} by more than {:.0e}", late.beyond.at(i), late.thresholds.at(i));
+    text += fmt::format(", {} by more than {:.0e}", late.beyond.at(i),
+                        judge::LateTimes::thresholds.at(i));
   }
   return fmt::format("{}; at most by {} of the step, {:.0f} ulp", text,
                      io::error_text(late.greatest.step), late.greatest.ulps);

@@ -121,7 +121,7 @@ nlohmann::json json_of(const stability::StabilityCell& cell, std::size_t method)
   const jobs::MethodResult& of_method = cell.judged.methods.at(method);
   const judge::Judgement& judged = of_method.judgement;
   const stability::Outcome outcome = stability::outcome_of(cell.judged, method);
-  nlohmann::json json = to_json(judged);
+  nlohmann::json json = report::to_json(judged);
   json.update({{"hardness", cell.hardness->name},
                {"level", stability::level_value(*cell.hardness, cell.level)},
                {"kind", to_string(cell.kind)},
