@@ -68,6 +68,28 @@ TEST(ChildProcess, SaysHowItEnded) {
   }
 }
 
+/// Each round wakes the parent by the first of two texts, and sends its message at once after the
+/// second.
+TEST(ChildProcess, WhatIsPrintedBeforeAMessageIsReadWithIt) {
+  const TemporaryFolder folder;
+  ChildProcess child(
+      [](const ChildChannel& channel) {
+        while (const auto message = channel.receive()) {
+          if (::write(STDERR_FILENO, "first ", 6) != 6) return;
+          if (::write(STDOUT_FILENO, "second", 6) != 6) return;
+          if (!channel.send(*message)) return;
+        }
+      },
+      {}, folder.path());
+  std::string message;
+  for (int round = 0; round < 5000; ++round) {
+    CapturedOutput output;
+    child.send("go");
+    ASSERT_EQ(next(child, message, output), Event::message);
+    ASSERT_EQ(output.text, "first second") << round;
+  }
+}
+
 TEST(ChildProcess, EndsOnRequest) {
   const TemporaryFolder folder;
   ChildProcess child(

@@ -300,15 +300,17 @@ ChildProcess::Event ChildProcess::wait(Seconds longest, std::string& message,
   // A signal to this process cuts the sleep short, which does no harm.
   ::poll(events.data(), events.size(), static_cast<int>(sleep.count() * 1e3) + 1);
   const bool has_ended = this->has_ended();
-  take_output(output);
+  message.clear();
   if (socket_ >= 0) {
     message.resize(ChildChannel::most_bytes);
     const ssize_t received = ::recv(socket_, message.data(), message.size(), MSG_DONTWAIT);
     message.resize(static_cast<std::size_t>(std::max<ssize_t>(received, 0)));
-    if (received > 0) return Event::message;
     // The child may have closed its end, and live on.
     if (received == 0) ::close(std::exchange(socket_, -1));
   }
+  // After the message: what the child prints before it sends is read with it.
+  take_output(output);
+  if (!message.empty()) return Event::message;
   return has_ended ? Event::ended : Event::none;
 }
 
