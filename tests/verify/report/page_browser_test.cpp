@@ -277,7 +277,8 @@ TEST_F(Browser, NumbersOfAnySizeFitIntoTheirCells) {
 
 /// The script finds texts that are too wide.
 TEST_F(Browser, ATextThatIsTooWideIsSeen) {
-  EXPECT_NE(measured(load(page_that_measures(map_of(numbers_of_any_size), "a text that is wider than every cell of a page")))
+  EXPECT_NE(measured(load(page_that_measures(map_of(numbers_of_any_size),
+                                             "a text that is wider than every cell of a page")))
                 .find("too wide: a text that is wider"),
             std::string::npos);
 }
