@@ -31,6 +31,9 @@ constexpr auto factories = std::to_array<std::unique_ptr<fast::Method> (*)()>({
     [] { return fast::tight_inclusion_method(); },
     [] { return fast::tight_inclusion_method({.error_model = fast::ErrorModel::published}); },
     [] { return fast::tight_inclusion_method({.error_model = fast::ErrorModel::released}); },
+    [] {
+      return fast::tight_inclusion_method({.error_model = fast::ErrorModel::single_precision});
+    },
     baselines::irf_method,
     baselines::uirf_method,
     baselines::fprf_method,
