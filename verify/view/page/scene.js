@@ -11,7 +11,7 @@ const distance = 1.02 / Math.sin((fieldOfView / 2) * (Math.PI / 180));
 
 /// The object fills this part of the picture, but is not enlarged more than this.
 const filledPart = 0.8;
-const mostEnlarged = 2.5;
+const mostEnlarged = 5;
 
 /// The common viewpoint of all pictures, and their upward axis.
 export class Viewpoint {
