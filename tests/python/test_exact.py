@@ -117,6 +117,10 @@ def built_in_set(tool, tmp_path_factory) -> list[pathlib.Path]:
     return sorted(folder.rglob("*.npy"))
 
 
+# The command line asks these only the queries within their terms.
+WITH_TERMS = ("tight_inclusion_float", "accd_limited")
+
+
 @pytest.mark.parametrize("method", [one.name for one in touchstone.methods()])
 def test_every_method_answers_as_on_the_command_line(method, tool, built_in_set, tmp_path):
     expected = answers_of_the_tool(tool, built_in_set, method, tmp_path)
@@ -124,13 +128,14 @@ def test_every_method_answers_as_on_the_command_line(method, tool, built_in_set,
     for path in built_in_set:
         kind = "vertex_face" if "vertex-face" in str(path) else "edge_edge"
         found = touchstone.solve(method, kind, np.load(path), max_checks=1000)
-        rows = expected[str(path)]
-        assert len(rows) == len(found) > 0
-        for i in range(len(found)):
-            assert rows[i]["verdict"] == words[found.verdict[i]]
+        rows = expected.get(str(path), {})
+        assert len(found) > 0 and (len(rows) == len(found) or method in WITH_TERMS)
+        for i, row in rows.items():
+            assert row["verdict"] == words[found.verdict[i]]
             for name in ("toi_lower", "toi_upper", "tolerance"):
-                theirs = float(rows[i][name]) if rows[i][name] else np.nan
+                theirs = float(row[name]) if row[name] else np.nan
                 assert np.array_equal(theirs, found.to_dict()[name][i], equal_nan=True)
+    assert expected
 
 
 def test_the_named_functions_answer_as_their_methods(queries):
