@@ -10,7 +10,7 @@ import os
 import pathlib
 import pickle
 import sys
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from typing import Any, Callable, Dict, Iterable, List, Literal, Sequence, Tuple, Union
 
@@ -43,12 +43,15 @@ class Queries:
         The recorded verdicts, if there are any.
     name : str
         The file or the family that they are from.
+    toi : dict of int to Fraction
+        The recorded times of impact, by the number of the query.
     """
 
     kind: Kind
     queries: Doubles
     collides: Booleans | None = None
     name: str = "queries"
+    toi: Dict[int, Fraction] = field(default_factory=dict)
 
     def __len__(self) -> int:
         """Return the number of queries."""
@@ -113,6 +116,66 @@ def _read_csv(path: pathlib.Path, round: bool) -> Tuple[Doubles, Booleans | None
     return np.array(points).reshape(-1, 8, 3), by_query[:, 0] if labels else None
 
 
+def _companion(path: pathlib.Path, folder: str, ending: str) -> pathlib.Path | None:
+    """Return the file of recorded truth beside a dataset, where the command line looks for it."""
+    name = path.stem + ending
+    for one in (path.parent / ".." / folder / name, path.parent / folder / name, path.parent / name):
+        if one.exists():
+            return one
+    return None
+
+
+def _read_labels(path: pathlib.Path, count: int) -> Booleans:
+    """Return the labels of a JSON array of true, false, 1 and 0, one for each query."""
+    try:
+        labels = json.loads(path.read_text())
+    except ValueError as error:
+        raise ValueError(f"{path}: {error}") from None
+    if not isinstance(labels, list) or len(labels) != count:
+        raise ValueError(f"{path}: not an array of {count} labels, one for each query")
+    for i, label in enumerate(labels):
+        if not isinstance(label, (bool, int)) or label not in (0, 1):
+            raise ValueError(f"{path}: the label of query {i} is not a boolean: {json.dumps(label)}")
+    return np.array(labels, dtype=bool)
+
+
+def _read_times(path: pathlib.Path, count: int) -> Dict[int, Fraction]:
+    """Return the times of lines "query,toi" below that header; query numbers ascend."""
+    times: Dict[int, Fraction] = {}
+    with open(path, newline="") as file:
+        rows = csv.reader(file)
+        if [word.strip() for word in next(rows, [])] != ["query", "toi"]:
+            raise ValueError(f"{path}:1: expected the header query,toi")
+        last = -1
+        for row in rows:
+            try:
+                if len(row) != 2 or "/" in row[1]:
+                    raise ValueError("expected two columns, a query and a decimal")
+                query, time = int(row[0]), Fraction(row[1].strip())
+                if not last < query < count:
+                    raise ValueError(f"query {query} after {last}, of {count} queries")
+            except ValueError as error:
+                raise ValueError(f"{path}:{rows.line_num}: {error}") from None
+            last = query
+            times[query] = time
+    return times
+
+
+def _with_companions(queries: Queries, path: pathlib.Path) -> Queries:
+    """Return queries with the truth that files beside their dataset record."""
+    labels = _companion(path, "mma_bool", "_mma_bool.json")
+    times = _companion(path, "toi", "_toi.csv")
+    collides = queries.collides
+    if labels is not None:
+        recorded = _read_labels(labels, len(queries))
+        if collides is not None and (collides != recorded).any():
+            first = np.flatnonzero(collides != recorded)[0]
+            raise ValueError(f"{labels}: the label of query {first} is not that of {path}")
+        collides = recorded
+    toi = {} if times is None else _read_times(times, len(queries))
+    return replace(queries, collides=collides, toi=toi)
+
+
 def read(path: PathLike, *, kind: Kind | None = None, round: bool = False) -> Queries:
     """Read a dataset: .csv in the formats of the public benchmarks, or .npy of shape (N, 8, 3).
 
@@ -128,7 +191,8 @@ def read(path: PathLike, *, kind: Kind | None = None, round: bool = False) -> Qu
     Returns
     -------
     Queries
-        The queries with the labels that the file has.
+        The queries with the labels that the file has, and the labels and times of impact in files
+        beside it (mma_bool/NAME_mma_bool.json, toi/NAME_toi.csv).
 
     Raises
     ------
@@ -138,14 +202,16 @@ def read(path: PathLike, *, kind: Kind | None = None, round: bool = False) -> Qu
     path = pathlib.Path(path)
     kind = kind or _kind_of(path)
     if path.suffix == ".npy":
-        return Queries(kind, as_queries(np.load(path))[0], None, str(path))
+        return _with_companions(Queries(kind, as_queries(np.load(path))[0], None, str(path)), path)
     if path.suffix == ".csv":
-        return Queries(kind, *_read_csv(path, round), str(path))
+        return _with_companions(Queries(kind, *_read_csv(path, round), str(path)), path)
     raise ValueError(f"{path}: the name must end in .csv or .npy")
 
 
 def write(path: PathLike, queries: Queries) -> None:
     """Write a dataset that `read` and the command line read: .csv with labels, or .npy without.
+
+    Times of impact are not written.
 
     Raises
     ------
@@ -203,7 +269,7 @@ def generate(
     Returns
     -------
     list of Queries
-        One for each family that has this kind.
+        One for each family that has this kind, with verdicts and rational times of impact.
 
     Raises
     ------
@@ -214,7 +280,7 @@ def generate(
         command = ["generate", "--out", run.folder / "set", "--count", count, "--seed", seed]
         run.call(command + ([] if family is None else ["--family", family]))
         files = sorted((run.folder / "set" / kind.replace("_", "-")).glob("*.csv"))
-        return [Queries(kind, *_read_csv(file, False), file.stem) for file in files]
+        return [replace(read(file, kind=kind), name=file.stem) for file in files]
 
 
 # ---- Solvers --------------------------------------------------------------------------------------

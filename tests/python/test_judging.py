@@ -10,6 +10,7 @@ import subprocess
 import sys
 import threading
 import time
+from fractions import Fraction
 
 import numpy as np
 import pytest
@@ -181,6 +182,51 @@ def test_data_survive_a_file(kind, ending, tmp_path, tool):
     # The command line reads the same.
     done = subprocess.run([tool, "certify", path, "--method", "certified"], capture_output=True, text=True)
     assert done.returncode == 0 and "20" in done.stdout
+
+
+@pytest.mark.parametrize("kind", ["vertex_face", "edge_edge"])
+def test_every_family_is_generated_with_its_truth(kind):
+    """The verdicts are those of the certified solver, and it encloses the recorded times."""
+    found = touchstone.generate(kind, count=4)
+    assert {one.name for one in found} <= set(touchstone.families()) and len(found) > 20
+    times = 0
+    for one in found:
+        answers = touchstone.certified(kind, one.queries)
+        assert one.collides is not None and (one.collides == answers.collides).all()
+        assert all(one.collides[i] for i in one.toi)
+        for i, time in one.toi.items():
+            assert answers.toi_lower[i] <= time <= answers.toi_upper[i]
+        times += len(one.toi)
+    assert times > 20
+
+
+@pytest.mark.parametrize("where", ["..", "."])
+@pytest.mark.parametrize(
+    "labels, tois, reason",
+    [
+        ("[true, 0]", "query,toi\n0,2.5E-1\n", None),
+        ("[true]", "query,toi\n", "not an array of 2 labels"),
+        ("[true, null]", "query,toi\n", "the label of query 1 is not a boolean: null"),
+        ("[true, false", "query,toi\n", "x_ee_mma_bool.json: "),
+        ("[0, 0]", "toi\n", "x_ee_toi.csv:1: expected the header"),
+        ("[0, 0]", "query,toi\n1,0.5\n0,0.5\n", "x_ee_toi.csv:3: query 0 after 1"),
+        ("[0, 0]", "query,toi\n2,0.5\n", "x_ee_toi.csv:2: query 2"),
+        ("[0, 0]", "query,toi\n1,half\n", "x_ee_toi.csv:2: "),
+        ("[0, 0]", "query,toi\n1,1/2\n", "x_ee_toi.csv:2: expected two columns"),
+    ],
+)
+def test_recorded_truth_beside_a_dataset_is_read(where, labels, tois, reason, tmp_path):
+    folder = tmp_path / "queries"
+    for name, text in (("mma_bool/x_ee_mma_bool.json", labels), ("toi/x_ee_toi.csv", tois)):
+        (folder / where / name).parent.mkdir(parents=True, exist_ok=True)
+        (folder / where / name).write_text(text)
+    (folder / "x_ee.csv").write_text("1,2,3\n" * 16)
+    if reason is None:
+        data = touchstone.read(folder / "x_ee.csv")
+        assert data.collides.tolist() == [True, False] and data.toi == {0: Fraction(1, 4)}
+    else:
+        with pytest.raises(ValueError, match=reason):
+            touchstone.read(folder / "x_ee.csv")
 
 
 ROWS = "1,2,3,1\n" * 8

@@ -34,6 +34,34 @@ def test_the_version_is_that_of_the_project():
     assert touchstone.instruction_set() in {"scalar", "avx2", "avx512", "neon"}
 
 
+def project_file() -> dict:
+    tomllib = pytest.importorskip("tomllib")  # of Python 3.11
+    return tomllib.loads((ROOT / "pyproject.toml").read_text())
+
+
+@pytest.mark.parametrize("extra, valid", [({}, True), ({"licence": "none"}, False), ({"version": 2}, False)])
+def test_the_project_file_is_valid(extra, valid):
+    """By the schemas of setuptools, and by packaging for the requirements."""
+    validate = pytest.importorskip("setuptools.config._validate_pyproject")
+    packaging = pytest.importorskip("packaging.requirements")
+    data = project_file()
+    data["project"].update(extra)
+    try:
+        assert validate.validate({name: data[name] for name in ("project", "build-system")}) == valid
+    except validate.ValidationError:
+        assert not valid
+    for one in data["build-system"]["requires"] + data["project"]["dependencies"]:
+        packaging.Requirement(one)
+
+
+def test_the_project_file_says_what_cmake_says():
+    data = project_file()
+    options = "".join(path.read_text() for path in (ROOT / "CMakeLists.txt", *(ROOT / "cmake").glob("*.cmake")))
+    assert data["project"]["version"] == touchstone.__version__
+    assert [one for one in data["tool"]["scikit-build"]["cmake"]["define"] if f"option({one} " not in options] == []
+    assert [one for one in data["tool"]["scikit-build"]["sdist"]["include"] if not (ROOT / one).exists()] == []
+
+
 def test_all_names_exist():
     assert [name for name in touchstone.__all__ if not hasattr(touchstone, name)] == []
     assert sorted(touchstone.__all__) == touchstone.__all__
