@@ -28,6 +28,7 @@ function load(page, width) {
     frame.height = 900;
     frame.src = page;
     frame.onload = () => setTimeout(() => done(frame), page.includes("search.html") ? 3000 : 200);
+    setTimeout(() => { if (frame.isConnected) { console.error(page + " does not load"); done(frame); } }, 20000);
     document.body.append(frame);
   });
 }
