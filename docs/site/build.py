@@ -210,7 +210,7 @@ def check(site):
                 if urllib.parse.unquote(address.fragment) not in pages[target].ids:
                     faults.append(f"{name}: {link}: no such anchor")
     for file in site.rglob("*.css"):
-        for link in re.findall(r"url\(\s*[\"']?(https?:)?//[^)]*", file.read_text()):
+        if re.search(r"(url\(|@import)\s*[\"']?(https?:|/)", file.read_text()):
             faults.append(f"{file.relative_to(site)}: loads from elsewhere")
     return faults, outside, len(pages)
 
@@ -253,6 +253,10 @@ def build(options):
     # Debian's Furo has the script of the theme as a module, which no browser loads from a file.
     script = site / "_static/scripts/furo.js"
     run(["esbuild", script, "--bundle", "--minify", "--allow-overwrite", f"--outfile={script}"])
+    # Its style imports another from the folder of Debian's web servers.
+    style = site / "_static/styles/furo.css"
+    style.write_text(re.sub(r'@import\s*(?:url\()?["\']?/javascript/([^"\')]+)["\']?\)?;?',
+                            lambda found: pathlib.Path("/usr/share/javascript", found[1]).read_text(), style.read_text()))
     for rest in (".buildinfo", "objects.inv"):
         (site / rest).unlink(missing_ok=True)
     return site
