@@ -28,6 +28,7 @@ function load(page, width) {
     frame.height = 900;
     frame.src = page;
     frame.onload = () => setTimeout(() => done(frame), page.includes("search.html") ? 3000 : 200);
+    setTimeout(() => { if (frame.isConnected) { console.error(page + " does not load"); done(frame); } }, 20000);
     document.body.append(frame);
   });
 }
@@ -76,7 +77,7 @@ def main():
     parser.add_argument("--tool", type=pathlib.Path, default=ROOT / "build/release/touchstone")
     parser.add_argument("--site", type=pathlib.Path, help="a site that is built already")
     options = parser.parse_args()
-    with tempfile.TemporaryDirectory() as name:
+    with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as name:
         folder, site = pathlib.Path(name), options.site
         if not site:
             if subprocess.run(["/usr/bin/python3", "-c", "import sphinx, myst_parser, breathe, furo"], check=False,

@@ -56,7 +56,8 @@ def follow(page, folder, options):
     environment = os.environ | {"TERM": "dumb"}
     if not options.clone:
         environment |= {"TOUCHSTONE_SOURCE": str(ROOT), "TOUCHSTONE_BUILD": str(options.tool.parent),
-                        "PATH": f"{options.tool.parent}:{pathlib.Path(sys.executable).parent}:{os.environ['PATH']}",
+                        # The python3 of Debian, which has NumPy.
+                        "PATH": f"{options.tool.parent}:/usr/bin:{os.environ['PATH']}",
                         "PYTHONPATH": str(options.tool.parent / "python"), "PYTHONDONTWRITEBYTECODE": "1"}
     done = subprocess.run(["bash", "-c", "\n".join(script)], cwd=folder, env=environment, text=True, stdin=subprocess.DEVNULL,
                           stdout=subprocess.PIPE, stderr=subprocess.STDOUT, check=False)

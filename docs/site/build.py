@@ -58,15 +58,24 @@ def links_of(text):
             yield link.split("#")[0]
 
 
+def with_languages(text):
+    """The text with a language that Sphinx knows for each fence; it would take one without for Python."""
+    lines, is_open = text.split("\n"), False
+    for i, line in enumerate(lines):
+        if line.startswith("```"):
+            lines[i] = "```text" if line in ("```", "```csv") and not is_open else line
+            is_open = not is_open
+    return "\n".join(lines)
+
+
 def stage(source):
     """Copies the pages, and the files that they link to."""
-    # Sphinx takes a fence without a language for Python.
     for pattern in PAGES:
         for page in ROOT.glob(pattern):
             name = page.relative_to(ROOT)
             if name.parts[:2] == ("docs", "site"):
                 continue
-            text = re.sub(r"^```\n(.*?)^```$", r"```text\n\1```", page.read_text(), flags=re.DOTALL | re.MULTILINE)
+            text = with_languages(page.read_text())
             copy = source / name
             copy.parent.mkdir(parents=True, exist_ok=True)
             copy.write_text(text)
@@ -201,7 +210,7 @@ def check(site):
                 if urllib.parse.unquote(address.fragment) not in pages[target].ids:
                     faults.append(f"{name}: {link}: no such anchor")
     for file in site.rglob("*.css"):
-        for link in re.findall(r"url\(\s*[\"']?(https?:)?//[^)]*", file.read_text()):
+        if re.search(r"(url\(|@import)\s*[\"']?(https?:|/)", file.read_text()):
             faults.append(f"{file.relative_to(site)}: loads from elsewhere")
     return faults, outside, len(pages)
 
@@ -241,6 +250,13 @@ def build(options):
     said = re.sub(r".*(Duplicate (C(\+\+)? declaration|ID|explicit target name)|Doxygen .exception commands).*\n(Declaration is .*\n)?", "", said).strip()
     if said:
         raise Problem(said)
+    # Debian's Furo has the script of the theme as a module, which no browser loads from a file.
+    script = site / "_static/scripts/furo.js"
+    run(["esbuild", script, "--bundle", "--minify", "--allow-overwrite", f"--outfile={script}"])
+    # Its style imports another from the folder of Debian's web servers.
+    style = site / "_static/styles/furo.css"
+    style.write_text(re.sub(r'@import\s*(?:url\()?["\']?/javascript/([^"\')]+)["\']?\)?;?',
+                            lambda found: pathlib.Path("/usr/share/javascript", found[1]).read_text(), style.read_text()))
     for rest in (".buildinfo", "objects.inv"):
         (site / rest).unlink(missing_ok=True)
     return site
@@ -272,7 +288,10 @@ def picture(options, folder, work):
     found = re.findall(r"data:image/png;base64,([A-Za-z0-9+/=]+)", dom)
     if len(found) < 2:
         raise Problem("the view's page has no moving picture")
-    frames = [Image.open(io.BytesIO(base64.b64decode(frame))).convert("RGB") for frame in found]
+    frames = []
+    for frame in found:
+        drawn = Image.open(io.BytesIO(base64.b64decode(frame))).convert("RGBA")
+        frames.append(Image.alpha_composite(Image.new("RGBA", drawn.size, "white"), drawn).convert("RGB"))
     frames[0].save(folder / "contact.webp", save_all=True, append_images=frames[1:],
                    duration=[700, *[90] * (len(frames) - 2), 1200], loop=0, quality=80)
 
