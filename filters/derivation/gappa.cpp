@@ -255,6 +255,10 @@ std::string contents(std::FILE* file) {
   return text;
 }
 
+[[noreturn]] void miss_gappa() {
+  throw GappaMissing("gappa: not found; install the Debian package gappa");
+}
+
 pid_t start_gappa(std::FILE* input, std::FILE* output) {
   std::string program = "gappa", precision = "-Eprecision=256";
   const std::array<char*, 3> arguments{program.data(), precision.data(), nullptr};
@@ -267,9 +271,7 @@ pid_t start_gappa(std::FILE* input, std::FILE* output) {
   const int error =
       posix_spawnp(&process, program.c_str(), &actions, nullptr, arguments.data(), environ);
   posix_spawn_file_actions_destroy(&actions);
-  if (error == ENOENT) {
-    throw GappaMissing("gappa: not found; install the Debian package gappa");
-  }
+  if (error == ENOENT) miss_gappa();
   if (error != 0) fail(error, "gappa: cannot be started");
   return process;
 }
@@ -289,6 +291,9 @@ std::optional<int> exit_status(pid_t process) {
   while (waitpid(process, &status, 0) < 0) {
     if (errno != EINTR) fail(errno, "gappa: lost");
   }
+  // Where posix_spawnp() cannot report that there is no such program (POSIX), the child exits so.
+  constexpr int not_found = 127;
+  if (WIFEXITED(status) && WEXITSTATUS(status) == not_found) miss_gappa();
   if (WIFEXITED(status)) return WEXITSTATUS(status);
   if (WIFSIGNALED(status) && WTERMSIG(status) == SIGXCPU) return std::nullopt;
   throw std::runtime_error("gappa: ended by a signal");
