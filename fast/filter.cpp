@@ -17,6 +17,19 @@ const filters::ErrorBound<double, 1>& derived_bound(Kind kind, bool separated) {
   return separated ? filters::vertex_face_separated_double : filters::vertex_face_double;
 }
 
+const filters::ErrorBound<float, 1>& bound_in_float(Kind kind, bool separated) {
+  if (kind == Kind::edge_edge) {
+    return separated ? filters::edge_edge_separated_float : filters::edge_edge_float;
+  }
+  return separated ? filters::vertex_face_separated_float : filters::vertex_face_float;
+}
+
+/// The derived bound, in the precision of x. Infinite if overflow could occur.
+template <class Scalar>
+double evaluate(const filters::ErrorBound<Scalar, 1>& bound, Scalar x) {
+  return x > bound.greatest_x ? infinity : static_cast<double>(bound(x));
+}
+
 /// The published constants ([wang2021], section 4.2 and appendix; docs/theory.md, section 4.10).
 double published_constant(Kind kind, bool separated) {
   if (kind == Kind::edge_edge) return separated ? 7.105427357601002e-15 : 6.217248937900877e-15;
@@ -25,10 +38,12 @@ double published_constant(Kind kind, bool separated) {
 
 double filter_on_axis(Kind kind, double x_max, double separation, ErrorModel model) {
   const bool separated = separation > 0.0;
-  const auto& bound = derived_bound(kind, separated);
   const double x = std::max(x_max, separation);
-  if (x > bound.greatest_x) return infinity;
-  if (model == ErrorModel::derived) return bound(x);
+  if (model == ErrorModel::single_precision) {
+    return evaluate(bound_in_float(kind, separated), static_cast<float>(x));
+  }
+  const double derived = evaluate(derived_bound(kind, separated), x);
+  if (model == ErrorModel::derived || derived == infinity) return derived;
   // The released filter ignores the separation here.
   const double gamma = model == ErrorModel::published ? std::max(x, 1.0) : std::min(x_max, 1.0);
   return published_constant(kind, separated) * gamma * gamma * gamma;

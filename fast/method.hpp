@@ -139,8 +139,9 @@ class Method {
 
 /// Tight-Inclusion as a method. Its name is `tight_inclusion`, with the published filter
 /// `tight_inclusion_published`, with the released one `tight_inclusion_released`, which promises
-/// nothing. Options that MethodOptions lack are taken from `base`. A scene's filter must hold for
-/// both kinds. With no_zero_toi the method promises nothing.
+/// nothing; in single precision `tight_inclusion_float`. Options that MethodOptions lack are taken
+/// from `base`. A scene's filter must hold for both kinds. With no_zero_toi the method promises
+/// nothing.
 [[nodiscard]] std::unique_ptr<Method> tight_inclusion_method(
     const TightInclusionOptions& base = {});
 

@@ -17,13 +17,25 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// The maximum number of splits of one axis for which parameters and their complements to 1 are
-/// exact.
-constexpr int most_splits = std::numeric_limits<double>::digits;
+constexpr double scale_down = 0x1p-16;
+
+bool is_single_precision(const BoxKernel& kernel) {
+  return kernel.digits == std::numeric_limits<float>::digits;
+}
 
 /// Coordinates beyond this are scaled down before the search, so that nothing overflows in it.
-constexpr double greatest_unscaled = 0x1p1016;
-constexpr double scale_down = 0x1p-16;
+double greatest_unscaled(const BoxKernel& kernel) {
+  return is_single_precision(kernel) ? 0x1p120 : 0x1p1016;
+}
+
+/// The least number of the kernel's precision that is not below x ≥ 0.
+double rounded_up(const BoxKernel& kernel, double x) {
+  if (!is_single_precision(kernel)) return x;
+  const auto rounded = static_cast<float>(x);
+  const bool is_below = static_cast<double>(rounded) < x;
+  return static_cast<double>(is_below ? std::nextafter(rounded, static_cast<float>(infinity))
+                                      : rounded);
+}
 
 /// The lower ends of a box; its widths are those of its level.
 using LowerCorner = std::array<double, 3>;
@@ -43,7 +55,7 @@ struct SearchOptions {
   double tolerance;
   std::int64_t max_checks;
   std::size_t max_boxes;
-  double t_end;  ///< of at most 53 fractional bits
+  double t_end;  ///< of at most BoxKernel::digits fractional bits
 };
 
 /// The result of a search.
@@ -108,7 +120,8 @@ class Search {
     double greatest_ratio = 0.0;
     for (const Axis axis : {t_axis, u_axis, v_axis}) {
       const double ratio = widths_[axis] / parameter_tolerances_[axis];
-      if (widths_[axis] > parameter_tolerances_[axis] && splits_[axis] < most_splits &&
+      // With as many splits as digits, parameters and their complements to 1 are exact.
+      if (widths_[axis] > parameter_tolerances_[axis] && splits_[axis] < kernel_.digits &&
           ratio > greatest_ratio) {
         widest = axis;
         greatest_ratio = ratio;
@@ -211,10 +224,15 @@ void require_valid(const TightInclusionOptions& options) {
           "the filter of a scene must not be negative");
 }
 
-/// The least number of at most 53 fractional bits that is not below t ∈ [0,1].
-double round_up_to_exact(double t) { return std::ceil(t * 0x1p53) * 0x1p-53; }
+/// The least number of so many fractional bits that is not below t ∈ [0,1].
+double round_up_to_exact(double t, int digits) {
+  return std::ldexp(std::ceil(std::ldexp(t, digits)), -digits);
+}
 
 const BoxKernel& kernel_of(const TightInclusionOptions& options) {
+  if (options.error_model == ErrorModel::single_precision) {
+    return *single_precision_box_kernels().back();
+  }
   if (chosen_kernels().box != nullptr) return *chosen_kernels().box;
   return options.error_model == ErrorModel::released ? released_box_kernel()
                                                      : *box_kernels().back();
@@ -243,7 +261,7 @@ class QuerySolver {
   /// Sets scale, separation and filter.
   void prepare(Kind kind, const Query& query, Extent extent) {
     const double greatest = std::max(std::ranges::max(extent.x_max), options_.separation.distance);
-    if (greatest > greatest_unscaled) {
+    if (greatest > greatest_unscaled(kernel_)) {
       scale_ = scale_down;
       Query scaled = query;
       for (double& x : scaled.coordinates) x *= scale_;
@@ -251,8 +269,11 @@ class QuerySolver {
     }
     tolerance_ = std::max(options_.tolerance * scale_, std::numeric_limits<double>::denorm_min());
     t_max_ = options_.t_max;
-    workspace_.problem.separation = options_.separation.distance * scale_;
-    std::ranges::copy(filter(kind, extent.x_max), workspace_.problem.filter.begin());
+    workspace_.problem.separation = rounded_up(kernel_, options_.separation.distance * scale_);
+    const std::array<double, 3> exact = filter(kind, extent.x_max);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      workspace_.problem.filter[axis] = rounded_up(kernel_, exact[axis]);
+    }
   }
 
   [[nodiscard]] std::array<double, 3> filter(Kind kind, const std::array<double, 3>& x_max) const {
@@ -262,7 +283,9 @@ class QuerySolver {
             : error_filter(kind, x_max, workspace_.problem.separation, options_.error_model);
     if (scale_ == 1.0) return result;
     // Scaling does not reduce underflow, and truncates coordinates by as much again.
-    const std::array<double, 3> underflow = error_filter(kind, {0.0, 0.0, 0.0}, 0.0);
+    const std::array<double, 3> underflow = error_filter(
+        kind, {0.0, 0.0, 0.0}, 0.0,
+        is_single_precision(kernel_) ? ErrorModel::single_precision : ErrorModel::derived);
     for (std::size_t axis = 0; axis < 3; ++axis) {
       if (options_.scene_filter) result[axis] *= scale_;
       result[axis] = std::nextafter(result[axis] + 2.0 * underflow[axis], infinity);
@@ -271,10 +294,10 @@ class QuerySolver {
   }
 
   void search(TightInclusionResult& result) {
-    const SearchResult found =
-        Search(kernel_, workspace_,
-               {tolerance_, options_.max_checks, options_.max_boxes, round_up_to_exact(t_max_)})
-            .run();
+    const SearchResult found = Search(kernel_, workspace_,
+                                      {tolerance_, options_.max_checks, options_.max_boxes,
+                                       round_up_to_exact(t_max_, kernel_.digits)})
+                                   .run();
     result.checks += found.checks;
     result.verdict = found.collides ? Verdict::yes : Verdict::no;
     result.toi = found.collides ? std::min(found.toi, t_max_) : Answer::none;
@@ -292,7 +315,7 @@ class QuerySolver {
       if (ran_out) {
         t_max_ *= 0.9;
       } else if (10.0 * tolerance_ < separation) {
-        separation /= 2.0;
+        separation = rounded_up(kernel_, separation / 2.0);
       } else {
         tolerance_ /= 2.0;
       }
@@ -344,6 +367,11 @@ MethodInfo info_of(const TightInclusionOptions& options) {
     info.name = "tight_inclusion_released";
     info.promise = Promise::none;
     info.is_baseline = true;
+    info.variant_of = "tight_inclusion";
+  }
+  if (options.error_model == ErrorModel::single_precision) {
+    info.name = "tight_inclusion_float";
+    info.terms.float_coordinates = true;
     info.variant_of = "tight_inclusion";
   }
   // An answer has no field for a lower separation.

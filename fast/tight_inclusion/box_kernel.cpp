@@ -1,19 +1,24 @@
 #include "fast/tight_inclusion/box_kernel.hpp"
 
+#include <limits>
+
 namespace touchstone::fast {
 
 // One definition a file, each compiled for its instruction set (box_kernel_*.cpp).
 extern const BoxKernel scalar_box_kernel;
 extern const BoxKernel scalar_released_box_kernel;
+extern const BoxKernel scalar_single_precision_box_kernel;
 #ifdef TOUCHSTONE_X86_64
 extern const BoxKernel avx2_box_kernel;
+extern const BoxKernel avx2_single_precision_box_kernel;
 #endif
 
 namespace {
 
 bool rounds_products(const BoxKernel& kernel) {
-  // ea0 at t0 and ea1 at t1 are (1+ε)(1−ε) − 1 for ε = 2^-30: 0 if the product rounds to 1.
-  constexpr double epsilon = 0x1p-30;
+  // ea0 at t0 and ea1 at t1 are (1+ε)(1−ε) − 1 for ε = 2^-30, or 2^-15 in float: 0 if the product
+  // rounds to 1.
+  const double epsilon = kernel.digits == std::numeric_limits<double>::digits ? 0x1p-30 : 0x1p-15;
   BoxProblem problem;
   problem.kind = Kind::edge_edge;
   problem.coordinates[0] = {1.0 + epsilon,  -1.0 / epsilon, 0, 0,
@@ -30,6 +35,18 @@ std::span<const BoxKernel* const> box_kernels() {
           &scalar_box_kernel,
 #ifdef TOUCHSTONE_X86_64
           &avx2_box_kernel,
+#endif
+      },
+      "kernel", rounds_products);
+  return kernels;
+}
+
+std::span<const BoxKernel* const> single_precision_box_kernels() {
+  static const auto kernels = runnable_kernels<BoxKernel>(
+      {
+          &scalar_single_precision_box_kernel,
+#ifdef TOUCHSTONE_X86_64
+          &avx2_single_precision_box_kernel,
 #endif
       },
       "kernel", rounds_products);

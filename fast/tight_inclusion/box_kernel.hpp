@@ -19,7 +19,7 @@
 
 namespace touchstone::fast {
 
-/// A query in the layout of the kernel.
+/// A query in the layout of the kernel. A kernel in single precision takes floats alone.
 struct BoxProblem {
   /// For each axis, the coordinates of the four points at t=0, then at t=1.
   alignas(64) std::array<std::array<double, query_points>, 3> coordinates{};
@@ -30,8 +30,8 @@ struct BoxProblem {
   Kind kind = Kind::vertex_face;
 };
 
-/// A box [t0,t1] × [u0,u1] × [v0,v1]. Its ends are dyadic numbers of at most 53 fractional bits, so
-/// that they and their complements to 1 are exact.
+/// A box [t0,t1] × [u0,u1] × [v0,v1]. Its ends are dyadic numbers of at most BoxKernel::digits
+/// fractional bits, so that they and their complements to 1 are exact.
 struct Box {
   std::array<double, 6> ends;  ///< t0, t1, u0, u1, v0, v1
 };
@@ -52,10 +52,12 @@ struct Extent {
 /// Corner values on one axis, in the order of (t,u,v) as binary digits.
 using CornerValues = std::array<double, 8>;
 
-/// The functions of one instruction set. All sets give the same bits.
+/// The functions of one instruction set. All sets give the same bits, in each precision.
 struct BoxKernel {
   InstructionSet instructions;
-  /// Sorts the query's coordinates by axis. Does not change filter and separation.
+  int digits;  ///< of its arithmetic: 53, or 24 in single precision
+  /// Sorts the query's coordinates by axis, rounded to its precision. Does not change filter and
+  /// separation.
   Extent (*load)(const Query& query, BoxProblem& problem);
   BoxTest (*test)(const BoxProblem& problem, const Box& box);
   /// The corner values on an axis.
@@ -65,6 +67,9 @@ struct BoxKernel {
 /// The kernels that this processor can run, slowest first; scalar is always among them.
 /// \throws std::runtime_error if one was compiled so that products are contracted.
 [[nodiscard]] std::span<const BoxKernel* const> box_kernels();
+
+/// The same for kernels in single precision.
+[[nodiscard]] std::span<const BoxKernel* const> single_precision_box_kernels();
 
 /// The scalar kernel in the order of operations of the public Tight-Inclusion, with the bits of
 /// filters::ReleasedEdgeEdge and filters::ReleasedVertexFace: for comparisons only.

@@ -96,6 +96,8 @@ struct AxisBounds {
 
 /// Eight lanes in two registers, one half in each.
 struct Lanes {
+  static constexpr int digits = 53;
+
   __m256d low;
   __m256d high;
 
@@ -150,9 +152,116 @@ struct Lanes {
   }
 };
 
+// ---- In single precision ------------------------------------------------------------------------
+
+/// AxisBounds of floats.
+struct FloatAxisBounds {
+  __m128 least;     ///< on x, y, z, z
+  __m128 greatest;  ///< likewise
+
+  [[nodiscard]] bool are_beyond(const double* filter, double separation) const {
+    const __m128 f = rounded(filter), d = _mm_set1_ps(static_cast<float>(separation));
+    const __m128 above = _mm_cmpgt_ps(_mm_sub_ps(least, d), f);
+    const __m128 below = _mm_cmplt_ps(_mm_add_ps(greatest, d), negated(f));
+    return _mm_movemask_ps(_mm_or_ps(above, below)) != 0;
+  }
+
+  [[nodiscard]] bool are_within(const double* filter, double separation) const {
+    const __m128 f = rounded(filter), d = _mm_set1_ps(static_cast<float>(separation));
+    const __m128 not_above = _mm_cmple_ps(_mm_sub_ps(greatest, d), f);
+    const __m128 not_below = _mm_cmpge_ps(_mm_add_ps(least, d), negated(f));
+    return _mm_movemask_ps(_mm_and_ps(not_above, not_below)) == 0b1111;
+  }
+
+  [[nodiscard]] double width() const {
+    const __m128 widths = _mm_sub_ps(greatest, least);
+    const __m128 two = _mm_max_ps(widths, _mm_movehl_ps(widths, widths));
+    return static_cast<double>(_mm_cvtss_f32(_mm_max_ss(two, _mm_movehdup_ps(two))));
+  }
+
+  static __m128 rounded(const double* four) { return _mm256_cvtpd_ps(_mm256_loadu_pd(four)); }
+  static __m128 negated(__m128 x) { return _mm_xor_ps(x, _mm_set1_ps(-0.0F)); }
+};
+
+/// Eight lanes in one register.
+struct FloatLanes {
+  static constexpr int digits = 24;
+
+  __m256 all;
+
+  static FloatLanes both(__m128 low, __m128 high) { return {_mm256_set_m128(high, low)}; }
+  static FloatLanes twice(double a, double b, double c, double d) {
+    const __m128 four = _mm256_cvtpd_ps(_mm256_setr_pd(a, b, c, d));
+    return both(four, four);
+  }
+  static FloatLanes twice(const double* values) {
+    const __m128 four = FloatAxisBounds::rounded(values);
+    return both(four, four);
+  }
+  static FloatLanes halves(double a, double b) {
+    return both(_mm_set1_ps(static_cast<float>(a)), _mm_set1_ps(static_cast<float>(b)));
+  }
+  template <std::size_t axis>
+  static FloatLanes coordinate(const double* points) {
+    return both(_mm256_cvtpd_ps(of_axis<axis>(points)),
+                _mm256_cvtpd_ps(of_axis<axis>(points + 12)));
+  }
+
+  friend FloatLanes operator+(const FloatLanes& a, const FloatLanes& b) {
+    return {_mm256_add_ps(a.all, b.all)};
+  }
+  friend FloatLanes operator-(const FloatLanes& a, const FloatLanes& b) {
+    return {_mm256_sub_ps(a.all, b.all)};
+  }
+  friend FloatLanes operator*(const FloatLanes& a, const FloatLanes& b) {
+    return {_mm256_mul_ps(a.all, b.all)};
+  }
+
+  template <int a, int b, int c, int d>
+  [[nodiscard]] FloatLanes shuffled() const {
+    return {_mm256_permute_ps(all, a | b << 2 | c << 4 | d << 6)};
+  }
+
+  void store(double* values) const {
+    _mm256_storeu_pd(values, _mm256_cvtps_pd(low()));
+    _mm256_storeu_pd(values + 4, _mm256_cvtps_pd(high()));
+  }
+
+  [[nodiscard]] bool are_finite() const {
+    const __m256 is_zero = _mm256_cmp_ps(_mm256_sub_ps(all, all), _mm256_setzero_ps(), _CMP_EQ_OQ);
+    return _mm256_movemask_ps(is_zero) == 0xff;
+  }
+  [[nodiscard]] double magnitude() const {
+    return greatest_magnitude(_mm256_cvtps_pd(low()), _mm256_cvtps_pd(high()));
+  }
+
+  static FloatAxisBounds bounds(const FloatLanes& x, const FloatLanes& y, const FloatLanes& z) {
+    return {across(x, y, z, [](__m128 a, __m128 b) { return _mm_min_ps(a, b); }),
+            across(x, y, z, [](__m128 a, __m128 b) { return _mm_max_ps(a, b); })};
+  }
+
+ private:
+  [[nodiscard]] __m128 low() const { return _mm256_castps256_ps128(all); }
+  [[nodiscard]] __m128 high() const { return _mm256_extractf128_ps(all, 1); }
+
+  /// `extreme` over the lanes of x, of y and of z.
+  template <class Extreme>
+  static __m128 across(const FloatLanes& x, const FloatLanes& y, const FloatLanes& z,
+                       const Extreme& extreme) {
+    const __m128 of_x = extreme(x.low(), x.high()), of_y = extreme(y.low(), y.high()),
+                 of_z = extreme(z.low(), z.high());
+    const __m128 xy = extreme(_mm_unpacklo_ps(of_x, of_y), _mm_unpackhi_ps(of_x, of_y));
+    const __m128 zz = extreme(_mm_unpacklo_ps(of_z, of_z), _mm_unpackhi_ps(of_z, of_z));
+    return extreme(_mm_movelh_ps(xy, zz), _mm_movehl_ps(zz, xy));
+  }
+};
+
 }  // namespace
 
 extern const BoxKernel avx2_box_kernel;
 const BoxKernel avx2_box_kernel = BoxKernelOnLanes<Lanes>::kernel(InstructionSet::avx2);
+extern const BoxKernel avx2_single_precision_box_kernel;
+const BoxKernel avx2_single_precision_box_kernel =
+    BoxKernelOnLanes<FloatLanes>::kernel(InstructionSet::avx2);
 
 }  // namespace touchstone::fast

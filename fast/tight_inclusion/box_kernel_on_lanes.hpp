@@ -12,9 +12,10 @@
 /// `Lanes` has: twice(a, b, c, d) and twice(pointer) — the same four in both halves; halves(a, b) —
 /// all of a half equal; coordinate<axis>(pointer) — of eight points; +, −, *; shuffled<a,b,c,d>()
 /// within halves; store(pointer); are_finite(); magnitude(), the greatest of eight finite values;
-/// and bounds(x, y, z), the bounding box of corner values. Such a type, and hence every instance of
-/// these templates, must be local to its file, so that no other file links code for its instruction
-/// set.
+/// bounds(x, y, z), the bounding box of corner values; and `digits`, those of its arithmetic. Its
+/// functions take and give doubles; lanes of float round them. Such a type, and hence every
+/// instance of these templates, must be local to its file, so that no other file links code for its
+/// instruction set.
 
 #include "fast/tight_inclusion/box_kernel.hpp"
 #include "touchstone/filters/expressions.hpp"
@@ -144,7 +145,11 @@ struct BoxKernelOnLanes {
   }
 
   static constexpr BoxKernel kernel(InstructionSet instructions) {
-    return {.instructions = instructions, .load = load, .test = test, .corners = corners};
+    return {.instructions = instructions,
+            .digits = Lanes::digits,
+            .load = load,
+            .test = test,
+            .corners = corners};
   }
 };
 

@@ -1,64 +1,77 @@
 // The kernel without explicit vector instructions, for every processor.
 
 #include <cstddef>
+#include <limits>
 
 #include "fast/tight_inclusion/box_kernel_on_lanes.hpp"
 
 namespace touchstone::fast {
 namespace {
 
-/// The bounding box of corner values.
+/// The bounding box of corner values. `Number` is double or float.
+template <class Number>
 struct AxisBounds {
   static constexpr std::size_t axes = 3;
 
-  double least[axes];     // NOLINT(modernize-avoid-c-arrays): no function of another file
-  double greatest[axes];  // NOLINT(modernize-avoid-c-arrays)
+  Number least[axes];     // NOLINT(modernize-avoid-c-arrays): no function of another file
+  Number greatest[axes];  // NOLINT(modernize-avoid-c-arrays)
 
   /// True if the box is beyond separation and filter on some axis.
   [[nodiscard]] bool are_beyond(const double* filter, double separation) const {
+    const auto d = static_cast<Number>(separation);
     bool result = false;
     for (std::size_t axis = 0; axis < axes; ++axis) {
-      result = result || least[axis] - separation > filter[axis] ||
-               greatest[axis] + separation < -filter[axis];
+      const auto f = static_cast<Number>(filter[axis]);
+      result = result || least[axis] - d > f || greatest[axis] + d < -f;
     }
     return result;
   }
 
   /// True if the box is within separation and filter on all axes.
   [[nodiscard]] bool are_within(const double* filter, double separation) const {
+    const auto d = static_cast<Number>(separation);
     bool result = true;
     for (std::size_t axis = 0; axis < axes; ++axis) {
-      result = result && greatest[axis] - separation <= filter[axis] &&
-               least[axis] + separation >= -filter[axis];
+      const auto f = static_cast<Number>(filter[axis]);
+      result = result && greatest[axis] - d <= f && least[axis] + d >= -f;
     }
     return result;
   }
 
   /// The longest side.
   [[nodiscard]] double width() const {
-    double result = 0.0;
+    Number result = 0;
     for (std::size_t axis = 0; axis < axes; ++axis) {
-      const double side = greatest[axis] - least[axis];
+      const Number side = greatest[axis] - least[axis];
       result = side > result ? side : result;
     }
-    return result;
+    return static_cast<double>(result);
   }
 };
 
 /// Eight lanes, one after the other.
+template <class Number>
 struct Lanes {
+  static constexpr int digits = std::numeric_limits<Number>::digits;
   static constexpr std::size_t size = 8;
   static constexpr std::size_t half = 4;
 
-  double lane[size];  // NOLINT(modernize-avoid-c-arrays): no function of another file
+  Number lane[size];  // NOLINT(modernize-avoid-c-arrays): no function of another file
 
-  static Lanes twice(double a, double b, double c, double d) { return {{a, b, c, d, a, b, c, d}}; }
+  static Number rounded(double x) { return static_cast<Number>(x); }
+  static Lanes twice(double a, double b, double c, double d) {
+    return {{rounded(a), rounded(b), rounded(c), rounded(d), rounded(a), rounded(b), rounded(c),
+             rounded(d)}};
+  }
   static Lanes twice(const double* four) { return twice(four[0], four[1], four[2], four[3]); }
-  static Lanes halves(double a, double b) { return {{a, a, a, a, b, b, b, b}}; }
+  static Lanes halves(double a, double b) {
+    return {{rounded(a), rounded(a), rounded(a), rounded(a), rounded(b), rounded(b), rounded(b),
+             rounded(b)}};
+  }
   template <std::size_t axis>
   static Lanes coordinate(const double* points) {
     Lanes result;
-    for (std::size_t i = 0; i < size; ++i) result.lane[i] = points[3 * i + axis];
+    for (std::size_t i = 0; i < size; ++i) result.lane[i] = rounded(points[3 * i + axis]);
     return result;
   }
 
@@ -85,30 +98,30 @@ struct Lanes {
   }
 
   void store(double* values) const {
-    for (std::size_t i = 0; i < size; ++i) values[i] = lane[i];
+    for (std::size_t i = 0; i < size; ++i) values[i] = static_cast<double>(lane[i]);
   }
 
   [[nodiscard]] bool are_finite() const {
     bool result = true;
-    for (const double x : lane) result = result && x - x == 0.0;
+    for (const Number x : lane) result = result && x - x == 0;
     return result;
   }
-  [[nodiscard]] double least() const {
-    double result = lane[0];
-    for (const double x : lane) result = x < result ? x : result;
+  [[nodiscard]] Number least() const {
+    Number result = lane[0];
+    for (const Number x : lane) result = x < result ? x : result;
     return result;
   }
-  [[nodiscard]] double greatest() const {
-    double result = lane[0];
-    for (const double x : lane) result = x > result ? x : result;
+  [[nodiscard]] Number greatest() const {
+    Number result = lane[0];
+    for (const Number x : lane) result = x > result ? x : result;
     return result;
   }
   [[nodiscard]] double magnitude() const {
-    const double lower = -least(), upper = greatest();
-    return upper > lower ? upper : lower;
+    const Number lower = -least(), upper = greatest();
+    return static_cast<double>(upper > lower ? upper : lower);
   }
 
-  static AxisBounds bounds(const Lanes& x, const Lanes& y, const Lanes& z) {
+  static AxisBounds<Number> bounds(const Lanes& x, const Lanes& y, const Lanes& z) {
     return {{x.least(), y.least(), z.least()}, {x.greatest(), y.greatest(), z.greatest()}};
   }
 };
@@ -116,9 +129,12 @@ struct Lanes {
 }  // namespace
 
 extern const BoxKernel scalar_box_kernel;
-const BoxKernel scalar_box_kernel = BoxKernelOnLanes<Lanes>::kernel(InstructionSet::scalar);
+const BoxKernel scalar_box_kernel = BoxKernelOnLanes<Lanes<double>>::kernel(InstructionSet::scalar);
 extern const BoxKernel scalar_released_box_kernel;
 const BoxKernel scalar_released_box_kernel =
-    BoxKernelOnLanes<Lanes, ReleasedSteps>::kernel(InstructionSet::scalar);
+    BoxKernelOnLanes<Lanes<double>, ReleasedSteps>::kernel(InstructionSet::scalar);
+extern const BoxKernel scalar_single_precision_box_kernel;
+const BoxKernel scalar_single_precision_box_kernel =
+    BoxKernelOnLanes<Lanes<float>>::kernel(InstructionSet::scalar);
 
 }  // namespace touchstone::fast

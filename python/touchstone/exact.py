@@ -422,6 +422,8 @@ def solve(
 ) -> Answers:
     """Decide queries with any method by its name, such as the published ones with their errors.
 
+    All queries are asked, also those outside of a method's terms.
+
     Parameters
     ----------
     method : str

@@ -86,6 +86,18 @@ TEST(ErrorFilter, ReleasedIsBelowHalfAUnitInTheLastPlaceAtMostScales) {
   }
 }
 
+TEST(ErrorFilter, OfSinglePrecisionIsTheDerivedBoundInFloat) {
+  const auto on_axis = [](Kind kind, double x_max, double d) {
+    return on_first_axis(kind, x_max, d, ErrorModel::single_precision);
+  };
+  EXPECT_EQ(on_axis(Kind::edge_edge, 3.0, 0.0), filters::edge_edge_float(3.0F));
+  EXPECT_EQ(on_axis(Kind::vertex_face, 0.0, 0.0), filters::vertex_face_float(0.0F));
+  EXPECT_EQ(on_axis(Kind::edge_edge, 3.0, 5.0), filters::edge_edge_separated_float(5.0F));
+  EXPECT_EQ(on_axis(Kind::vertex_face, 3.0, 1.0), filters::vertex_face_separated_float(3.0F));
+  EXPECT_LT(on_axis(Kind::vertex_face, 0x1p120, 0.0), infinity);
+  EXPECT_EQ(on_axis(Kind::vertex_face, 0x1p126, 0.0), infinity);
+}
+
 TEST(ErrorFilter, IsPositiveWithNothingButUnderflow) {
   EXPECT_GT(on_first_axis(Kind::edge_edge, 0.0, 0.0), 0.0);
   EXPECT_GT(on_first_axis(Kind::vertex_face, least, 0.0), least);

@@ -34,6 +34,7 @@
 #include "verify/data/dataset.hpp"
 #include "verify/generate/families.hpp"
 #include "verify/generate/workload.hpp"
+#include "verify/judge/terms.hpp"
 
 namespace touchstone::fast::tight_inclusion_test {
 namespace {
@@ -131,6 +132,41 @@ TEST_P(Conservative, OnAllFamilies) {
       });
 }
 
+/// The query that is decided: rounded to float in single precision.
+Query as_decided(ErrorModel model, const Query& query) {
+  return verify::judge::as_asked({.float_coordinates = model == ErrorModel::single_precision},
+                                 query);
+}
+
+/// Of all families, among them coordinates that no float holds, and subnormal ones.
+TEST(TightInclusion, MissesNothingInSinglePrecision) {
+  std::size_t unheld = 0;
+  for_each_family_query(24, [&](const verify::generate::Family& family, Kind kind,
+                                const auto& known) {
+    const Query query = as_decided(ErrorModel::single_precision, known.query);
+    for (const Separation& separation :
+         {Separation{}, Separation{.distance = 1e-2}, Separation{.distance = 1e-44}}) {
+      TightInclusionOptions options;
+      options.max_checks = some_checks;
+      options.error_model = ErrorModel::single_precision;
+      options.separation = separation;
+      const TightInclusionResult result = tight_inclusion(kind, known.query, options);
+      if (!is_finite(query)) {
+        EXPECT_EQ(result.verdict, Verdict::error) << family.name;
+        ++unheld;
+        continue;
+      }
+      const exact::Decision truth = exact::decide(kind, query, separation);
+      const bool yes = result.verdict == Verdict::yes;
+      EXPECT_TRUE(yes || !truth.collides()) << family.name << ' ' << to_string(kind);
+      if (yes && truth.collides()) {
+        EXPECT_FALSE(*truth.toi < Rational(result.toi)) << family.name << ' ' << to_string(kind);
+      }
+    }
+  });
+  EXPECT_GT(unheld, 0U);
+}
+
 TEST(TightInclusion, GivesTheSameResultOnAllKernels) {
   for_each_family_query(tests::trials(12U),
                         [&](const verify::generate::Family& family, Kind kind, const auto& known) {
@@ -162,8 +198,10 @@ TEST(TightInclusion, MissesNothingOnThePublicData) {
   for (const auto& file : files) {
     const auto source = verify::data::open_dataset(file);
     while (const auto recorded = source->next()) {
-      const exact::Decision truth = exact::decide(source->kind(), recorded->query);
-      for (const ErrorModel model : {ErrorModel::derived, ErrorModel::published}) {
+      for (const ErrorModel model :
+           {ErrorModel::derived, ErrorModel::published, ErrorModel::single_precision}) {
+        const Query query = as_decided(model, recorded->query);
+        const exact::Decision truth = exact::decide(source->kind(), query);
         TightInclusionOptions options;
         options.max_checks = some_checks;
         options.error_model = model;
@@ -178,6 +216,7 @@ TEST(TightInclusion, MissesNothingOnThePublicData) {
     }
   }
   EXPECT_LE(false_positives[ErrorModel::derived], false_positives[ErrorModel::published]);
+  EXPECT_GT(false_positives[ErrorModel::single_precision], 0);
   EXPECT_GT(false_positives[ErrorModel::derived], 0);  // conservative, not exact
 }
 
@@ -821,6 +860,10 @@ TEST(Method, SaysWhoItIs) {
   EXPECT_EQ(tight_inclusion_method({.error_model = ErrorModel::published})->name(),
             "tight_inclusion_published");
   EXPECT_EQ(tight_inclusion_method()->promise(), Promise::conservative);
+  const auto in_float = tight_inclusion_method({.error_model = ErrorModel::single_precision});
+  EXPECT_EQ(in_float->name(), "tight_inclusion_float");
+  EXPECT_EQ(in_float->promise(), Promise::conservative);
+  EXPECT_TRUE(in_float->info().terms.float_coordinates);
   const auto released = tight_inclusion_method({.error_model = ErrorModel::released});
   EXPECT_EQ(released->name(), "tight_inclusion_released");
   EXPECT_EQ(released->promise(), Promise::none) << "it misses contacts";

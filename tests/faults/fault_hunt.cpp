@@ -27,7 +27,7 @@ namespace {
 
 std::string outcome(const FaultySolver& solver, const Hunt& hunt) {
   if (hunt.finding) {
-    return fmt::format("{} by {}{}", verify::fuzz::to_string(hunt.finding->what),
+    return fmt::format("{} by {}{}", verify::judge::to_string(hunt.finding->what),
                        hunt.finding->generator,
                        solver.fault.harmless.empty() ? "" : " (SHOULD BE HARMLESS)");
   }

@@ -12,7 +12,12 @@
 namespace touchstone::baselines {
 namespace {
 
-constexpr double step_share = 0.9;
+/// The differences of the variants.
+struct Rules {
+  double step_share;        ///< s
+  std::int64_t most_steps;  ///< not positive: no limit
+  fast::Verdict at_limit;
+};
 
 using Points = std::array<Eigen::Vector3d, moving_points>;
 
@@ -49,9 +54,8 @@ double greatest_approach(Kind kind, const Points& displacement) {
              : std::max(length(0), length(1)) + std::max(length(2), length(3));
 }
 
-}  // namespace
-
-fast::Answer accd(Kind kind, const Query& query, const fast::MethodOptions& options) {
+fast::Answer advance(Kind kind, const Query& query, const fast::MethodOptions& options,
+                     const Rules& rules) {
   const double separation = options.separation.distance;
   Points x;
   for (std::size_t i = 0; i < moving_points; ++i) x[i] = query.point(0, i);
@@ -67,10 +71,10 @@ fast::Answer accd(Kind kind, const Query& query, const fast::MethodOptions& opti
     return (square - separation * separation) / (std::sqrt(square) + separation);
   };
   double gap = gap_of();
-  const double enough = (1.0 - step_share) * gap;
+  const double enough = (1.0 - rules.step_share) * gap;
   double toi = 0.0;
-  for (std::int64_t steps = 1; options.max_checks <= 0 || steps <= options.max_checks; ++steps) {
-    const double step = step_share * gap / approach;
+  for (std::int64_t steps = 1; rules.most_steps <= 0 || steps <= rules.most_steps; ++steps) {
+    const double step = rules.step_share * gap / approach;
     for (std::size_t i = 0; i < moving_points; ++i) x[i] += step * displacement[i];
     gap = gap_of();
     if (toi > 0.0 && gap < enough) {
@@ -79,11 +83,36 @@ fast::Answer accd(Kind kind, const Query& query, const fast::MethodOptions& opti
     toi += step;
     if (toi > options.t_max) return {.verdict = fast::Verdict::no, .checks = to_checks(steps)};
   }
-  return {.verdict = fast::Verdict::yes, .checks = to_checks(options.max_checks), .toi_lower = toi};
+  const bool yes = rules.at_limit == fast::Verdict::yes;
+  return {.verdict = rules.at_limit,
+          .checks = to_checks(rules.most_steps),
+          .toi_lower = yes ? toi : fast::Answer::none};
+}
+
+}  // namespace
+
+fast::Answer accd(Kind kind, const Query& query, const fast::MethodOptions& options) {
+  return advance(
+      kind, query, options,
+      {.step_share = 0.9, .most_steps = options.max_checks, .at_limit = fast::Verdict::yes});
+}
+
+fast::Answer accd_limited(Kind kind, const Query& query, const fast::MethodOptions& options) {
+  return advance(kind, query, options,
+                 {.step_share = 0.8, .most_steps = 32, .at_limit = fast::Verdict::no});
 }
 
 std::unique_ptr<fast::Method> accd_method() {
   return baseline_method({.name = "accd", .reference = "li2021", .norms = {Norm::l2}}, accd);
+}
+
+std::unique_ptr<fast::Method> accd_limited_method() {
+  return baseline_method({.name = "accd_limited",
+                          .terms = {.starts_apart = 0.0},
+                          .reference = "li2021",
+                          .variant_of = "accd",
+                          .norms = {Norm::l2}},
+                         accd_limited);
 }
 
 }  // namespace touchstone::baselines

@@ -26,6 +26,11 @@
 ///     yes, with max_checks as `checks`.
 ///   - Degenerate triangles can have a distance that is not a number: then it steps in place, up to
 ///     max_checks.
+///
+/// **The limited variant** runs on graphics processors and in simulators with a bound of the time:
+/// s = 0.8, at most 32 steps, and then *no*. It requires primitives that are farther apart than ξ
+/// at t=0. A contact that takes more steps is a false negative within these terms: an approach that
+/// is slow beside the motion along the primitives.
 
 #include <memory>
 
@@ -40,7 +45,12 @@ namespace touchstone::baselines {
 /// steps.
 [[nodiscard]] fast::Answer accd(Kind kind, const Query& query, const fast::MethodOptions& options);
 
-/// The method `accd`, which promises nothing.
+/// The same with 32 steps at most. \pre as accd.
+[[nodiscard]] fast::Answer accd_limited(Kind kind, const Query& query,
+                                        const fast::MethodOptions& options);
+
+/// The methods `accd` and `accd_limited`, which promise nothing.
 [[nodiscard]] std::unique_ptr<fast::Method> accd_method();
+[[nodiscard]] std::unique_ptr<fast::Method> accd_limited_method();
 
 }  // namespace touchstone::baselines

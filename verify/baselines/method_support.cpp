@@ -5,6 +5,8 @@
 #include <limits>
 #include <utility>
 
+#include "verify/baselines/closest_features.hpp"
+
 namespace touchstone::baselines {
 namespace {
 
@@ -66,6 +68,13 @@ std::uint32_t to_checks(std::int64_t steps) {
 
 Eigen::Vector3d position_at(const Query& query, std::size_t point, double t) {
   return query.point(0, point) + t * (query.point(1, point) - query.point(0, point));
+}
+
+double squared_distance_at(Kind kind, const Query& query, double t) {
+  const auto at = [&](std::size_t point) { return position_at(query, point, t); };
+  return kind == Kind::vertex_face
+             ? closest_point_squared_distance(at(0), {at(1), at(2), at(3)})
+             : closest_points_squared_distance({at(0), at(1)}, {at(2), at(3)});
 }
 
 std::unique_ptr<fast::Method> baseline_method(fast::MethodInfo info, AnswerFunction answer) {

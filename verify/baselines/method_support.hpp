@@ -50,6 +50,10 @@ using AnswerFunction = fast::Answer (*)(Kind kind, const Query& query,
 /// start).
 [[nodiscard]] Eigen::Vector3d position_at(const Query& query, std::size_t point, double t);
 
+/// The squared distance of a query's primitives at time t, from their closest points
+/// (closest_features.hpp).
+[[nodiscard]] double squared_distance_at(Kind kind, const Query& query, double t);
+
 /// The baseline of that description (is_baseline is set) as a fast::Method. Its answer is
 /// fast::Verdict::error for coordinates that are not finite and options that are not valid, and
 /// yes, without times, if the function throws.

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <vector>
 
-#include "verify/baselines/closest_features.hpp"
 #include "verify/baselines/method_support.hpp"
 #include "verify/baselines/moving_polynomials.hpp"
 #include "verify/baselines/rpoly.hpp"
@@ -62,13 +61,6 @@ Candidates edge_edge_candidates(const Query& query, double h) {
   Candidates candidates;
   candidates.add_plane(b1 - a0, a1 - a0, b1 - b0, h);
   return candidates;
-}
-
-double squared_distance_at(Kind kind, const Query& query, double t) {
-  const auto at = [&](std::size_t point) { return position_at(query, point, t); };
-  return kind == Kind::vertex_face
-             ? closest_point_squared_distance(at(0), {at(1), at(2), at(3)})
-             : closest_points_squared_distance({at(0), at(1)}, {at(2), at(3)});
 }
 
 }  // namespace

@@ -20,18 +20,19 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "queries are read as they are stored");
 
-constexpr std::string_view descr = "<f8";
-constexpr std::array<std::uint64_t, 2> extents{query_points, 3};
+constexpr std::string_view query_descr = "<f8";
+constexpr std::array<std::uint64_t, 2> query_extents{query_points, 3};
 
 /// Number of queries that the header announces. \throws NpyHeaderError if it is that of another
 /// array.
 std::uint64_t query_count(const NpyHeader& header) {
-  if (header.descr != descr) {
+  if (header.descr != query_descr) {
     throw NpyHeaderError("dtype " + io::quote(header.descr) +
                          ", expected \"<f8\" (little-endian float64)");
   }
   require_c_order(header);
-  if (header.shape.size() != 3 || header.shape[1] != extents[0] || header.shape[2] != extents[1]) {
+  if (header.shape.size() != 3 || header.shape[1] != query_extents[0] ||
+      header.shape[2] != query_extents[1]) {
     throw NpyHeaderError("shape " + shape_text(header) + ", expected (N, 8, 3)");
   }
   return header.shape[0];
@@ -94,7 +95,7 @@ void NpyReader::fill() {
 }
 
 NpyWriter::NpyWriter(std::filesystem::path path) : file_(std::move(path)) {
-  file_.write(npy_header_text(descr, 0, extents));
+  file_.write(npy_header_text(query_descr, 0, query_extents));
 }
 
 void NpyWriter::write(const Query& query) {
@@ -105,7 +106,7 @@ void NpyWriter::write(const Query& query) {
 }
 
 void NpyWriter::close() {
-  file_.overwrite(0, npy_header_text(descr, count_, extents));
+  file_.overwrite(0, npy_header_text(query_descr, count_, query_extents));
   file_.close();
 }
 

@@ -274,17 +274,23 @@ std::optional<Measurement> judge_all(const data::QueryGroup& group, judge::Groun
   const std::vector<judge::GroundTruth> known = truths.of(options.separation, positions, stop);
   if (known.size() < queries.size()) return std::nullopt;
   std::vector<fast::Answer> answers(queries.size());
-  method.solve(group.kind(), queries, answers, options);
+  const auto solver = solvers::solver_in_process(method, options);
+  const solvers::SolveReply reply = solver->solve(
+      {.kind = group.kind(), .queries = queries, .separation = options.separation}, answers);
   Measurement said = of_separation(group, experiment, {.method = &method, .options = options});
-  said.asked = queries.size();
-  const judge::Standard standard = judge::standard_of(method.info());
+  const judge::Standard standard = solver->standard();
   judge::Judgement judgement;
   for (const judge::GroundTruth& truth : known) {
+    if (reply.why_unasked(truth.index)) {
+      ++said.outside;
+      continue;
+    }
     judgement.add({group.kind(), queries[truth.index], options.separation}, truth,
-                  answers[truth.index], standard);
-    said.collisions += truth.collides ? 1U : 0U;
+                  answers[truth.index], standard, judge::failure_at(reply.failures, truth.index));
     said.at_limit += is_at_limit(answers[truth.index], said.max_checks) ? 1U : 0U;
   }
+  said.asked = judgement.queries;
+  said.collisions = judgement.collisions;
   set_counts(judgement, said);
   tell_wrong(group, said, standard, judgement, on_wrong);
   return said;

@@ -11,6 +11,7 @@
 #include "touchstone/tight_inclusion.hpp"
 #include "verify/baselines/accd.hpp"
 #include "verify/baselines/bsc.hpp"
+#include "verify/baselines/cubic.hpp"
 #include "verify/baselines/fprf.hpp"
 #include "verify/baselines/irf.hpp"
 #include "verify/baselines/msrf.hpp"
@@ -30,6 +31,9 @@ constexpr auto factories = std::to_array<std::unique_ptr<fast::Method> (*)()>({
     [] { return fast::certified_method(); },
     [] { return fast::tight_inclusion_method(); },
     [] { return fast::tight_inclusion_method({.error_model = fast::ErrorModel::published}); },
+    [] {
+      return fast::tight_inclusion_method({.error_model = fast::ErrorModel::single_precision});
+    },
     [] { return fast::tight_inclusion_method({.error_model = fast::ErrorModel::released}); },
     baselines::irf_method,
     baselines::uirf_method,
@@ -40,6 +44,8 @@ constexpr auto factories = std::to_array<std::unique_ptr<fast::Method> (*)()>({
     baselines::bsc_method,
     baselines::msrf_method,
     baselines::accd_method,
+    baselines::accd_limited_method,
+    baselines::cubic_method,
 });
 
 Methods make_methods() {

@@ -1,5 +1,5 @@
 (** The problem, and what a certificate claims of it: all that has to be read to understand the
-    theorem of Checker.v.
+    theorem of Proof.v.
 
     Four points move on straight lines, x(t) = (1-t) x(0) + t x(1) for t in [0,1]; their coordinates
     are rational. [F] is the difference of a point of the one primitive and a point of the other, as

@@ -42,9 +42,11 @@ struct ActiveContact : StepCollision {
   Eigen::Vector3d normal = Eigen::Vector3d::UnitX();
 };
 
-/// Every pair of the step that comes within `eta` up to the step's t_max, exactly these, in the
-/// order of toi_lower, toi_upper, kind and pair. The separation of the step itself has no effect.
-/// \param eta η, finite and not negative, in units of the coordinates; 0: the pairs that collide.
+/// Every pair of the step that comes within η, the distance of `separation`, up to the step's
+/// t_max, exactly these, in the order of toi_lower, toi_upper, kind and pair. The separation of the
+/// step itself has no effect.
+/// \param separation Its distance η is finite and not negative, in units of the coordinates; 0: the
+/// pairs that collide.
 /// \throws std::invalid_argument for another η.
 [[nodiscard]] std::vector<ActiveContact> active_set(const Step& step, const Separation& separation);
 

@@ -50,7 +50,8 @@ struct TightInclusionOptions {
   /// d: the distance, measured in L∞, at which primitives are in contact; finite, not negative. The
   /// answer is conservative for the same distance in L2.
   Separation separation = {};
-  /// Only contacts up to this time, in [0,1], count; it is rounded up to a multiple of 2^-53.
+  /// Only contacts up to this time, in [0,1], count; it is rounded up to a multiple of 2^-53
+  /// (2^-24 in single precision).
   double t_max = 1.0;
   /// If the time of impact is 0, search again with less separation, a smaller tolerance or a
   /// shorter time, until it is positive or max_refinements is reached. For line searches that have
@@ -59,7 +60,9 @@ struct TightInclusionOptions {
   /// The maximum number of further searches of no_zero_toi.
   int max_refinements = 32;
   /// The origin of the filter. With `released`, which misses contacts, the order of operations is
-  /// also that of the public Tight-Inclusion, without vector instructions.
+  /// also that of the public Tight-Inclusion, without vector instructions. With `single_precision`
+  /// the query is rounded to float and decided in float; a coordinate greater than any float is an
+  /// error.
   ErrorModel error_model = ErrorModel::derived;
   /// The filter of a scene on each axis (touchstone/filter.hpp), which replaces the filter of each
   /// query. It must be at least the filter of this kind and of the separation; the filter of

@@ -25,25 +25,34 @@ namespace {
 using exact::Rational;
 using tests::Random;
 
-/// A dyadic interval within [0,1], of a width down to 2^-53.
-std::array<double, 2> random_interval(Random& random) {
-  const int depth = random.between(0, 53);
+bool is_single_precision(const BoxKernel& kernel) { return kernel.digits == 24; }
+
+double rounded(const BoxKernel& kernel, double x) {
+  return is_single_precision(kernel) ? static_cast<double>(static_cast<float>(x)) : x;
+}
+
+/// A dyadic interval within [0,1], of a width down to 2^-digits.
+std::array<double, 2> random_interval(Random& random, int digits) {
+  const int depth = random.between(0, digits);
   const double width = std::ldexp(1.0, -depth);
   const double lower = std::floor(random.uniform() / width) * width;
   return {lower, lower + width};
 }
 
-Box random_box(Random& random) {
-  const auto t = random_interval(random), u = random_interval(random), v = random_interval(random);
+Box random_box(Random& random, int digits) {
+  const auto t = random_interval(random, digits), u = random_interval(random, digits),
+             v = random_interval(random, digits);
   return {{t[0], t[1], u[0], u[1], v[0], v[1]}};
 }
 
-Query random_query(Random& random) {
-  static const std::array<int, 6> exponents{-1060, -30, 0, 1, 40, 1000};
+Query random_query(Random& random, const BoxKernel& kernel) {
+  const std::array<int, 6> exponents = is_single_precision(kernel)
+                                           ? std::array{-135, -30, 0, 1, 40, 110}
+                                           : std::array{-1060, -30, 0, 1, 40, 1000};
   const int exponent = exponents[static_cast<std::size_t>(random.between(0, 5))];
   Query query{};
   for (double& x : query.coordinates) {
-    x = std::ldexp(random.uniform(-1.0, 1.0), exponent - random.between(0, 3));
+    x = rounded(kernel, std::ldexp(random.uniform(-1.0, 1.0), exponent - random.between(0, 3)));
     if (random.between(0, 20) == 0) x = random.coin() ? 0.0 : -0.0;
   }
   return query;
@@ -55,9 +64,9 @@ struct Case {
   Box box;
 };
 
-Case random_case(Random& random) {
-  return {random.coin() ? Kind::edge_edge : Kind::vertex_face, random_query(random),
-          random_box(random)};
+Case random_case(Random& random, const BoxKernel& kernel) {
+  return {random.coin() ? Kind::edge_edge : Kind::vertex_face, random_query(random, kernel),
+          random_box(random, kernel.digits)};
 }
 
 bool is_released(const BoxKernel& kernel) { return &kernel == &released_box_kernel(); }
@@ -69,7 +78,8 @@ Scalar expression(const BoxKernel& kernel, const BoxProblem& problem, const Box&
   std::array<Scalar, 8> x;
   for (std::size_t i = 0; i < 8; ++i) x[i] = Scalar(problem.coordinates[axis][i]);
   const std::size_t late = corner / 4, far_u = corner / 2 % 2, far_v = corner % 2;
-  const Scalar one(1), t(box.ends[late]), u(box.ends[2 + far_u]), v(box.ends[4 + far_v]);
+  const auto end = [&box](std::size_t i) { return static_cast<Scalar>(box.ends[i]); };
+  const Scalar one(1), t(end(late)), u(end(2 + far_u)), v(end(4 + far_v));
   const Scalar s(one - t), complement_u(one - u), complement_v(one - v), w(complement_u - v);
   if (problem.kind == Kind::edge_edge) {
     const std::array<Scalar, 6> weights{s, t, complement_u, u, complement_v, v};
@@ -90,6 +100,11 @@ INSTANTIATE_TEST_SUITE_P(BoxKernel, EachKernel, testing::ValuesIn(box_kernels())
                            return std::string(to_string(kernel.param->instructions));
                          });
 
+INSTANTIATE_TEST_SUITE_P(SinglePrecision, EachKernel,
+                         testing::ValuesIn(single_precision_box_kernels()), [](const auto& kernel) {
+                           return std::string(to_string(kernel.param->instructions));
+                         });
+
 INSTANTIATE_TEST_SUITE_P(Released, EachKernel, testing::Values(&released_box_kernel()),
                          [](const auto& kernel) {
                            return std::string(to_string(kernel.param->instructions));
@@ -97,7 +112,7 @@ INSTANTIATE_TEST_SUITE_P(Released, EachKernel, testing::Values(&released_box_ker
 
 TEST_P(EachKernel, SortsCoordinatesByAxis) {
   Random random(1);
-  const Query query = random_query(random);
+  const Query query = random_query(random, *GetParam());
   BoxProblem problem;
   const Extent extent = GetParam()->load(query, problem);
   EXPECT_TRUE(extent.finite);
@@ -140,15 +155,18 @@ TEST_P(EachKernel, SeesTheGreatestCoordinateWhereverItIs) {
 TEST_P(EachKernel, ComputesTheExpressionsBitForBit) {
   Random random(2);
   for (int i = 0; i < 20000; ++i) {
-    const auto [kind, query, box] = random_case(random);
+    const auto [kind, query, box] = random_case(random, *GetParam());
     BoxProblem problem;
     problem.kind = kind;
     static_cast<void>(GetParam()->load(query, problem));
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const CornerValues values = GetParam()->corners(problem, box, axis);
       for (std::size_t corner = 0; corner < 8; ++corner) {
-        ASSERT_EQ(bits(values[corner]),
-                  bits(expression<double>(*GetParam(), problem, box, axis, corner)))
+        const double expected =
+            is_single_precision(*GetParam())
+                ? static_cast<double>(expression<float>(*GetParam(), problem, box, axis, corner))
+                : expression<double>(*GetParam(), problem, box, axis, corner);
+        ASSERT_EQ(bits(values[corner]), bits(expected))
             << to_string(kind) << " case " << i << " axis " << axis << " corner " << corner;
       }
     }
@@ -158,14 +176,14 @@ TEST_P(EachKernel, ComputesTheExpressionsBitForBit) {
 TEST_P(EachKernel, StaysWithinTheFilterOfTheExactValue) {
   Random random(3);
   for (int i = 0; i < 500; ++i) {
-    const auto [kind, query, box] = random_case(random);
+    const auto [kind, query, box] = random_case(random, *GetParam());
     BoxProblem problem;
     problem.kind = kind;
     const Extent extent = GetParam()->load(query, problem);
     // The released filter is not a bound, so the published one is used.
-    const auto filter =
-        error_filter(kind, extent.x_max, 0.0,
-                     is_released(*GetParam()) ? ErrorModel::published : ErrorModel::derived);
+    ErrorModel model = is_released(*GetParam()) ? ErrorModel::published : ErrorModel::derived;
+    if (is_single_precision(*GetParam())) model = ErrorModel::single_precision;
+    const auto filter = error_filter(kind, extent.x_max, 0.0, model);
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const CornerValues values = GetParam()->corners(problem, box, axis);
       for (std::size_t corner = 0; corner < 8; ++corner) {
@@ -182,15 +200,16 @@ TEST_P(EachKernel, TestsTheBoxOfItsCorners) {
   Random random(4);
   int rejections = 0, insides = 0;
   for (int i = 0; i < 20000; ++i) {
-    const auto [kind, query, box] = random_case(random);
+    const auto [kind, query, box] = random_case(random, *GetParam());
     BoxProblem problem;
     problem.kind = kind;
     static_cast<void>(GetParam()->load(query, problem));
     const double scale = std::abs(query.coordinates[0]);
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      problem.filter[axis] = scale * random.uniform(0.0, 4.0);
+      problem.filter[axis] = rounded(*GetParam(), scale * random.uniform(0.0, 4.0));
     }
-    problem.separation = random.coin() ? 0.0 : scale * random.uniform(0.0, 4.0);
+    problem.separation =
+        random.coin() ? 0.0 : rounded(*GetParam(), scale * random.uniform(0.0, 4.0));
 
     bool rejected = false, inside = true;
     double width = 0.0;
@@ -198,9 +217,11 @@ TEST_P(EachKernel, TestsTheBoxOfItsCorners) {
       const CornerValues values = GetParam()->corners(problem, box, axis);
       const auto [least, greatest] = std::ranges::minmax(values);
       const double filter = problem.filter[axis], d = problem.separation;
-      rejected = rejected || least - d > filter || greatest + d < -filter;
-      inside = inside && greatest - d <= filter && least + d >= -filter;
-      width = std::max(width, greatest - least);
+      // (A sum of two floats that is rounded to double and then to float is rounded correctly.)
+      const auto round = [](double x) { return rounded(*GetParam(), x); };
+      rejected = rejected || round(least - d) > filter || round(greatest + d) < -filter;
+      inside = inside && round(greatest - d) <= filter && round(least + d) >= -filter;
+      width = std::max(width, round(greatest - least));
     }
     const BoxTest test = GetParam()->test(problem, box);
     ASSERT_EQ(test.rejected, rejected) << i;

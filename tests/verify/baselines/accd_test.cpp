@@ -95,6 +95,38 @@ TEST(Accd, StopsAtMaxChecks) {
   EXPECT_GT(all.checks, 1000000U / 2);
 }
 
+/// The vertex comes down from 1 to −1 and moves along the face, `along` in all.
+tests::PosedQuery comes_down_along(double along) {
+  const double wide = 2.0 * along + 4.0;
+  return tests::vertex_face({1, 1, 1, -wide, -wide, 0, wide, -wide, 0, 0, wide, 0},
+                            {1 + along, 1, -1, -wide, -wide, 0, wide, -wide, 0, 0, wide, 0});
+}
+
+/// Each step covers a share of 0.8 · 2/√(along² + 4) of the gap, at most.
+TEST(Accd, LimitedMissesContactsThatTakeMoreSteps) {
+  const auto limited = baselines::accd_limited_method();
+  EXPECT_EQ(limited->info().terms.starts_apart, 0.0);
+  EXPECT_EQ(limited->promise(), fast::Promise::none);
+  for (const double along : {0.0, 8.0}) {
+    const fast::Answer found = answer_to(*limited, comes_down_along(along));
+    EXPECT_EQ(found.verdict, fast::Verdict::yes);
+    EXPECT_LT(found.toi_lower, 0.5);
+  }
+  const fast::Answer missed = answer_to(*limited, comes_down_along(100.0));
+  EXPECT_EQ(missed.verdict, fast::Verdict::no) << "a false negative";
+  EXPECT_EQ(missed.checks, 32U);
+  EXPECT_TRUE(std::isnan(missed.toi_lower));
+  EXPECT_EQ(answer_to(*method, comes_down_along(100.0)).verdict, fast::Verdict::yes);
+}
+
+TEST(Accd, LimitedLeavesAFifthOfTheGap) {
+  const auto limited = baselines::accd_limited_method();
+  EXPECT_EQ(answer_to(*limited, over_triangle(1, 1, 1, 0.15)).verdict, fast::Verdict::yes)
+      << "a false positive";
+  EXPECT_EQ(answer_to(*method, over_triangle(1, 1, 1, 0.15)).verdict, fast::Verdict::no);
+  EXPECT_EQ(answer_to(*limited, over_triangle(1, 1, 1, 0.3)).verdict, fast::Verdict::no);
+}
+
 TEST(Accd, AgreesWithTheTruthElsewhere) {
   const Score random = tests::score_on_random(*method, {.max_checks = 10000}, 500);
   EXPECT_EQ(random.errors + random.undecided, 0);

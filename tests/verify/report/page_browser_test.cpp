@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <limits>
 #include <regex>
+#include <set>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -27,6 +28,16 @@ std::size_t count(const std::string& text, const std::string& part) {
   std::size_t result = 0;
   for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) {
     ++result;
+  }
+  return result;
+}
+
+/// The widths that a section's pictures are drawn for.
+std::set<std::string> widths(const std::string& drawn) {
+  const std::regex width("viewBox=\"0 0 ([0-9.]+) ");
+  std::set<std::string> result;
+  for (std::sregex_iterator at(drawn.begin(), drawn.end(), width), end; at != end; ++at) {
+    result.insert((*at)[1]);
   }
   return result;
 }
@@ -54,6 +65,14 @@ TEST_F(Browser, DrawsEveryFigureWithoutAComplaint) {
     EXPECT_EQ(count(drawn, "NaN"), 0U) << figure.id;
     EXPECT_EQ(count(drawn, "undefined"), 0U) << figure.id;
   }
+}
+
+TEST_F(Browser, PanelsSideBySideHaveOneScale) {
+  Measurements measurements = tests::small_report();
+  measurements.all.push_back(tests::measured("simulation", "certified", 10.0));
+  const std::string drawn = section(load(report_page(measurements), 1400), "speed_false_positives");
+  EXPECT_EQ(count(drawn, "role=\"img\""), 2U);
+  EXPECT_EQ(widths(drawn).size(), 1U);
 }
 
 TEST_F(Browser, DrawsThePointsTheFrontAndTheNames) {
@@ -277,7 +296,8 @@ TEST_F(Browser, NumbersOfAnySizeFitIntoTheirCells) {
 
 /// The script finds texts that are too wide.
 TEST_F(Browser, ATextThatIsTooWideIsSeen) {
-  EXPECT_NE(measured(load(page_that_measures(map_of(numbers_of_any_size), "a text that is wider than every cell of a page")))
+  EXPECT_NE(measured(load(page_that_measures(map_of(numbers_of_any_size),
+                                             "a text that is wider than every cell of a page")))
                 .find("too wide: a text that is wider"),
             std::string::npos);
 }

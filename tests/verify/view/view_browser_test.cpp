@@ -318,6 +318,40 @@ TEST_F(ViewBrowser, DrawsAtTheSizeOfThePageFromTheFirst) {
   }
 }
 
+/// Of a query whose points are far from their common ball: two long edges that are nearly parallel.
+TEST_F(ViewBrowser, TheObjectFillsItsPicture) {
+  const PosedQuery posed{Kind::edge_edge, {{1,  0, 0.1, 9, 0.1, 0, 1,  0,   0.2, 9, -0.1, 0.2,
+                                            1., 0, 0.1, 9, 0.1, 0, 1., 0.1, 0,   9, -0.1, 0}}};
+  const nlohmann::json result = result_of({posed}, R"(
+    const filled = () => {
+      const canvas = document.querySelector("#motion canvas");
+      const copy = document.createElement("canvas");
+      [copy.width, copy.height] = [canvas.width, canvas.height];
+      copy.getContext("2d").drawImage(canvas, 0, 0);
+      const data = copy.getContext("2d").getImageData(0, 0, copy.width, copy.height).data;
+      const drawn = Array.from({ length: data.length / 4 }, (_, i) => i).filter((i) => data[4 * i + 3] > 0);
+      const range = (all) => all.reduce(([a, b], x) => [Math.min(a, x), Math.max(b, x)], [Infinity, 0]);
+      const [left, right] = range(drawn.map((i) => i % copy.width));
+      const [top, bottom] = range(drawn.map((i) => Math.floor(i / copy.width)));
+      return Math.max((right - left) / copy.width, (bottom - top) / copy.height);
+    };
+    const canvas = document.querySelector("#motion canvas");
+    const parts = [filled()];
+    for (let i = 0; i < 3; ++i) {
+      for (let k = 0; k < 5; ++k) canvas.dispatchEvent(new KeyboardEvent("keydown", { key: "ArrowRight" }));
+      parts.push(filled());
+    }
+    say(parts);
+  )");
+  ASSERT_EQ(result.size(), 4U);
+  for (const auto& part : result) {
+    // (Seen along the edges, they are not enlarged without a limit.)
+    EXPECT_GT(part.get<double>(), 0.45);
+    EXPECT_LT(part.get<double>(), 1.0);
+  }
+  EXPECT_GT(result.at(0).get<double>(), 0.7);
+}
+
 TEST_F(ViewBrowser, KeysMoveTimeZoomAndList) {
   const nlohmann::json result = result_of({falling(), falling(0.5)}, R"(
     choose("format", "rational");

@@ -585,9 +585,10 @@
     legend.textContent = "";
     panels.textContent = "";
     drawLegend(figure, legend);
-    for (const panel of figure.panels) {
-      const element = document.createElement("figure");
-      panels.appendChild(element);
+    // All have their places before the first is drawn, as their number decides the widths.
+    const places = figure.panels.map(() => panels.appendChild(document.createElement("figure")));
+    for (const [i, panel] of figure.panels.entries()) {
+      const element = places[i];
       const heading = document.createElement("h3");
       heading.textContent = panel.title;
       element.appendChild(heading);

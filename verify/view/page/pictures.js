@@ -39,6 +39,7 @@ function traces(frames) {
 
 function drawTraces(scene, all) {
   scene.begin(scene.still);
+  scene.setExtent(all.flatMap(({ paths, ends }) => [...paths, ...ends.flat()].flat()));
   all.forEach((trace, k) => {
     const { color } = looks[k % 2];
     scene.surfaces(trace.strips, color, 0.05);
@@ -55,8 +56,8 @@ function drawArrow(scene, path, color) {
   const [from, to] = path;
   const step = to.map((x, k) => x - from[k]);
   const length = Math.hypot(...step);
-  if (length < 0.08) return;
-  scene.arrow(to.map((x, k) => x - (0.06 * step[k]) / length), to, color, 0.006);
+  if (length < 0.08 * scene.part) return;
+  scene.arrow(to.map((x, k) => x - (0.06 * scene.part * step[k]) / length), to, color, 0.006);
 }
 
 /// A surface, with thin lines where the picture cuts it.
@@ -72,7 +73,7 @@ function drawPlane(scene, place, normal, color) {
   const turn = (a, b) => [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
   const long = turn(normal, other);
   const size = Math.hypot(...long);
-  const p = long.map((x) => (0.75 * x) / size);
+  const p = long.map((x) => (0.75 * scene.part * x) / size);
   const q = turn(normal, p);
   const corner = (s, t) => place.map((x, k) => x + s * p[k] + t * q[k]);
   const square = [corner(-1, -1), corner(1, -1), corner(1, 1), corner(-1, 1)];
@@ -166,7 +167,7 @@ export class CornerPicture {
     scene.name([0, 0, 0], isInside ? "0: contact" : "0", "toi");
     if (direction !== null) {
       drawPlane(scene, [0, 0, 0], direction, "s5");
-      scene.arrow([0, 0, 0], direction.map((x) => 0.6 * x), "s5");
+      scene.arrow([0, 0, 0], direction.map((x) => 0.6 * scene.part * x), "s5");
     }
     if (separation !== null && separation.radius > 1e-3 && separation.radius < 20) {
       scene.neighbourhood([0, 0, 0], separation.radius, separation.isBall, "s5");

@@ -9,6 +9,10 @@ import * as THREE from "three";
 const fieldOfView = 28;
 const distance = 1.02 / Math.sin((fieldOfView / 2) * (Math.PI / 180));
 
+/// The object fills this part of the picture, but is not enlarged more than this.
+const filledPart = 0.8;
+const mostEnlarged = 5;
+
 /// The common viewpoint of all pictures, and their upward axis.
 export class Viewpoint {
   constructor(up) {
@@ -78,6 +82,9 @@ export class Scene {
     this.scene.add(this.still, this.moving);
     this.content = this.moving;
     this.labels = [];
+    this.extent = [];
+    // The size of the part that is shown, of the whole picture.
+    this.part = 1;
     this.zoom = zoom;
     viewpoint.listeners.push(() => this.render());
     new ResizeObserver(() => this.render()).observe(this.canvas);
@@ -116,7 +123,7 @@ export class Scene {
     const mesh = this.add(tube, new THREE.MeshLambertMaterial({ color: styleColor(color) }));
     mesh.position.copy(from).add(to).multiplyScalar(0.5);
     mesh.quaternion.setFromUnitVectors(up, to.sub(from).divideScalar(length));
-    mesh.scale.set(radius, length, radius);
+    mesh.userData.resize = (part) => mesh.scale.set(part * radius, length, part * radius);
   }
 
   arrow(a, b, color, radius = 0.01) {
@@ -124,13 +131,13 @@ export class Scene {
     const head = this.add(arrowHead, new THREE.MeshLambertMaterial({ color: styleColor(color) }));
     head.position.copy(vector(b));
     head.quaternion.setFromUnitVectors(up, vector(b).sub(vector(a)).normalize());
-    head.scale.setScalar(radius * 2.6);
+    head.userData.resize = (part) => head.scale.setScalar(part * radius * 2.6);
   }
 
   dot(point, color, shape = "ball", size = 0.028) {
     const mesh = this.add(dots[shape], new THREE.MeshLambertMaterial({ color: styleColor(color) }));
     mesh.position.set(...point);
-    mesh.scale.setScalar(size);
+    mesh.userData.resize = (part) => mesh.scale.setScalar(part * size);
   }
 
   /// Thin lines, each a list of points.
@@ -175,6 +182,12 @@ export class Scene {
     this.labels.push({ span, point: vector(point) });
   }
 
+  /// The points of the object, which is to fill the picture.
+  setExtent(points) {
+    this.extent = points.map(vector);
+    this.aim();
+  }
+
   // ---- Drawing ----------------------------------------------------------------------------------
 
   /// Adapts the picture to its size on the page. Called for every drawing, because an observer
@@ -192,10 +205,36 @@ export class Scene {
   }
 
   render() {
-    this.fit();
-    this.viewpoint.place(this.camera);
+    this.aim();
     this.renderer.render(this.scene, this.camera);
     this.placeNames();
+  }
+
+  /// Shows the part of the picture that the object is in. Rods and dots keep their size on the page.
+  aim() {
+    const { camera } = this;
+    this.fit();
+    this.viewpoint.place(camera);
+    camera.clearViewOffset();
+    camera.updateMatrixWorld();
+    if (this.extent.length > 0) this.enlarge();
+    this.scene.traverse(({ userData: { resize } }) => resize && resize(this.part));
+  }
+
+  enlarge() {
+    const { camera } = this;
+    const seen = this.extent.map((point) => point.clone().project(camera));
+    const [across, up] = ["x", "y"].map((axis) => {
+      const places = seen.map((point) => point[axis]);
+      return { from: Math.min(...places), to: Math.max(...places) };
+    });
+    const size = Math.max(across.to - across.from, up.to - up.from) / (2 * filledPart);
+    const part = Math.max(size, 1 / mostEnlarged);
+    this.part = part;
+    const { clientWidth: width, clientHeight: height } = this.canvas;
+    const x = (1 + (across.from + across.to) / 2 - part) * (width / 2);
+    const y = (1 - (up.from + up.to) / 2 - part) * (height / 2);
+    camera.setViewOffset(width, height, x, y, part * width, part * height);
   }
 
   /// Names are placed beside their points, away from the centre of all, or below one another if

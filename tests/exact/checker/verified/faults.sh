@@ -13,7 +13,7 @@ compile() { coqc -q -Q . Verified "$1" >output.txt 2>&1; }
 # The theorem in whose proof the last compilation failed; nothing if it failed elsewhere.
 failed_proof() {
   local line
-  line=$(sed -n 's/^File "[^"]*", line \([0-9]*\).*/\1/p' output.txt | head -1)
+  line=$(sed -n 's/^File "[^"]*", line \([0-9]*\).*/\1/p' output.txt | tail -1)
   head -n "${line:-0}" "$1" |
     sed -nE 's/^ *(Lemma|Theorem|Corollary) ([A-Za-z0-9_]+).*/\2/p; s/^(Fixpoint|Definition|Inductive|Record) .*/definition/p' |
     tail -1 | grep -v definition

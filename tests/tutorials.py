@@ -1,0 +1,94 @@
+#!/usr/bin/env python3
+"""Follows tutorials: runs what their pages print, and compares what they print with what happens.
+
+    tests/tutorials.py --tool build/release/touchstone docs/tutorials/prove_a_step.md
+    tests/tutorials.py --clone CLONE docs/tutorials/prove_a_step.md       # by its text alone, in a clean clone
+
+Of the blocks of a page, in their order:
+- `sh` is run by bash; the first failure ends the page. In front of it, `<!-- not run: REASON -->` leaves it out, and
+  `<!-- clone -->` leaves it out unless --clone is given: it builds what a test has already.
+- A block that begins with the comment `NAME: …`, NAME with a full stop, is written to the file NAME; if NAME begins with
+  examples/, that file of the repository must have this text.
+- `text` must be printed by the `sh` block before: its lines in their order, blanks compared loosely, … for anything.
+"""
+
+import argparse
+import os
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+
+ROOT = pathlib.Path(__file__).resolve().parents[1]
+BLOCK = re.compile(r"(?:<!-- (not run: [^>]+|clone) -->\n)?^```(\w*)\n(.*?)^```$", re.DOTALL | re.MULTILINE)
+
+
+def faults_of(expected, printed):
+    """The expected lines that are not printed, in this order."""
+    lines = [" ".join(line.split()) for line in printed.splitlines()]
+    for line in expected.splitlines():
+        words = " ".join(line.split())
+        pattern = re.compile(".*".join(map(re.escape, words.split("…"))))
+        found = next((i for i, candidate in enumerate(lines) if pattern.fullmatch(candidate)), None)
+        if found is None:
+            yield line
+        elif words != "…":
+            lines = lines[found + 1:]
+
+
+def follow(page, folder, options):
+    """The faults of a page."""
+    text = page.read_text()
+    script, expected, blocks = ["set -e"], [], 0
+    for mark, language, body in BLOCK.findall(text):
+        name = re.match(r"(?://|#) ([\w./-]+\.\w+)(?::.*)?\n", body)
+        if name and name[1].startswith("examples/"):
+            if (ROOT / name[1]).read_text() != body.split("\n", 1)[1]:
+                yield f"{page}: this is not {name[1]}"
+        elif name:
+            script.append(f"cat >'{name[1]}' <<'END_OF_FILE'\n{body}END_OF_FILE")
+        elif language == "sh" and not mark.startswith("not run") and (mark != "clone" or options.clone):
+            blocks += 1
+            script.append(f"echo '@@ {blocks}'\n{body}")
+        elif language == "text":
+            expected.append((blocks, body))
+    environment = os.environ | {"TERM": "dumb"}
+    if not options.clone:
+        environment |= {"TOUCHSTONE_SOURCE": str(ROOT), "TOUCHSTONE_BUILD": str(options.tool.parent),
+                        # The python3 of Debian, which has NumPy.
+                        "PATH": f"{options.tool.parent}:/usr/bin:{os.environ['PATH']}",
+                        "PYTHONPATH": str(options.tool.parent / "python"), "PYTHONDONTWRITEBYTECODE": "1"}
+    done = subprocess.run(["bash", "-c", "\n".join(script)], cwd=folder, env=environment, text=True, stdin=subprocess.DEVNULL,
+                          stdout=subprocess.PIPE, stderr=subprocess.STDOUT, check=False)
+    printed = dict(re.findall(r"^@@ (\d+)\n(.*?)(?=^@@ \d+\n|\Z)", done.stdout, re.DOTALL | re.MULTILINE))
+    if options.verbose:
+        print(done.stdout)
+    if done.returncode != 0 or len(printed) != blocks or blocks == 0:
+        yield f"{page}: block {len(printed)} of {blocks} ended with {done.returncode}\n{done.stdout[-2000:]}"
+        return
+    for block, body in expected:
+        for line in faults_of(body, printed[str(block)]):
+            yield f"{page}: block {block} does not print: {line}\nbut:\n{printed[str(block)][-1500:]}"
+
+
+def main():
+    parser = argparse.ArgumentParser(description="Follows the tutorials.")
+    parser.add_argument("pages", nargs="+", type=pathlib.Path)
+    parser.add_argument("--tool", type=pathlib.Path, default=ROOT / "build/release/touchstone")
+    parser.add_argument("--clone", type=pathlib.Path, help="a clone, in which the page begins")
+    parser.add_argument("--verbose", action="store_true")
+    options = parser.parse_args()
+    options.tool = options.tool.resolve()
+    faults = []
+    for page in options.pages:
+        with tempfile.TemporaryDirectory() as folder:
+            found = list(follow(page, options.clone or folder, options))
+        print(f"{page}: {'followed' if not found else 'FAULTS'}", flush=True)
+        faults += found
+    print("\n".join(faults))
+    return 1 if faults else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
