@@ -26,12 +26,16 @@ void watch_forks();
 [[nodiscard]] bool run_in_background(const std::function<void()>& work, std::atomic<bool>& stop,
                                      const std::function<void()>& while_waiting = nullptr);
 
-/// The result of work().
+/// The result of work(); `progress`, unless None, is called now and then.
 /// \throws what it throws; KeyboardInterrupt. \pre the caller holds the lock.
 template <class Work>
-[[nodiscard]] auto in_background(const Work& work, std::atomic<bool>& stop) {
+[[nodiscard]] auto in_background(const Work& work, std::atomic<bool>& stop,
+                                 const pybind11::object& progress = pybind11::none()) {
   std::optional<decltype(work())> result;
-  if (run_in_background([&] { result.emplace(work()); }, stop)) return *std::move(result);
+  std::function<void()> while_waiting;
+  if (!progress.is_none()) while_waiting = [&] { progress(); };
+  const auto run = [&] { result.emplace(work()); };
+  if (run_in_background(run, stop, while_waiting)) return *std::move(result);
   PyErr_SetNone(PyExc_KeyboardInterrupt);
   throw pybind11::error_already_set();
 }

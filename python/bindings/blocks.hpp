@@ -47,13 +47,16 @@ inline constexpr std::chrono::milliseconds signal_period{50};
 
 /// Calls work(first, count) for blocks of a batch, from several threads at once.
 /// \param block the maximum number of queries in a block
+/// \param progress None, or what the calling thread calls now and then with the number of queries
+/// that have been taken
 /// \returns the number of queries that are done, from the first on: `size`, or fewer if Python is
 /// interrupted. \throws what work throws. \pre the caller holds the lock.
 template <class Work>
 [[nodiscard]] std::size_t in_blocks(std::size_t size, std::size_t block, int threads,
-                                    const Work& work) {
+                                    const pybind11::object& progress, const Work& work) {
   const std::size_t blocks = (size + block - 1) / block;
   const std::size_t team = team_size(threads, blocks);
+  const bool has_progress = !progress.is_none();
   const pybind11::gil_scoped_release unlocked;
   std::atomic<std::size_t> next = 0;
   std::atomic<bool> stop = false;
@@ -82,7 +85,12 @@ template <class Work>
       const auto now = std::chrono::steady_clock::now();
       if (now - looked < signal_period) return false;
       looked = now;
-      return is_interrupted();
+      if (is_interrupted()) return true;
+      if (has_progress) {
+        const pybind11::gil_scoped_acquire lock;
+        progress(std::min(size, next * block));
+      }
+      return false;
     });
   }
   if (error) std::rethrow_exception(error);

@@ -31,7 +31,7 @@ namespace {
 
 /// Queries a block: the oracle takes up to a second for one.
 constexpr std::size_t oracle_block = 1;
-constexpr std::size_t method_block = 16;
+constexpr std::size_t method_block = 16;  ///< of methods that take microseconds a query
 
 // ---- Exact numbers ------------------------------------------------------------------------------
 
@@ -94,26 +94,26 @@ py::dict decision_layout() {
 
 /// The exact times of the queries that are done.
 py::list decide(const std::string& kind_name, const Doubles& array, py::array results,
-                double distance, const std::string& norm, int threads) {
+                double distance, const std::string& norm, int threads, const py::object& progress) {
   const Kind kind = kind_from(kind_name);
   const auto queries = queries_of(array);
   const auto items = items_of<DecisionItem>(results, queries.size());
   const Separation separation = separation_from(distance, norm);
   std::vector<std::optional<exact::AlgebraicNumber>> times(queries.size());
-  const std::size_t done =
-      in_blocks(queries.size(), oracle_block, threads, [&](std::size_t first, std::size_t count) {
-        for (std::size_t i = first; i < first + count; ++i) {
-          if (!is_finite(queries[i])) reject_coordinates(queries, i);
-          times[i] = exact::decide(kind, queries[i], separation).toi;
-          items[i] = {.collides = times[i].has_value(),
-                      .toi_lower = fast::no_number,
-                      .toi_upper = fast::no_number};
-          if (!times[i]) continue;
-          const auto [lower, upper] = times[i]->enclosure();
-          items[i].toi_lower = lower;
-          items[i].toi_upper = upper;
-        }
-      });
+  const auto decide_some = [&](std::size_t first, std::size_t count) {
+    for (std::size_t i = first; i < first + count; ++i) {
+      if (!is_finite(queries[i])) reject_coordinates(queries, i);
+      times[i] = exact::decide(kind, queries[i], separation).toi;
+      items[i] = {.collides = times[i].has_value(),
+                  .toi_lower = fast::no_number,
+                  .toi_upper = fast::no_number};
+      if (!times[i]) continue;
+      const auto [lower, upper] = times[i]->enclosure();
+      items[i].toi_lower = lower;
+      items[i].toi_upper = upper;
+    }
+  };
+  const std::size_t done = in_blocks(queries.size(), oracle_block, threads, progress, decide_some);
   py::list exact_times;
   for (std::size_t i = 0; i < done; ++i) exact_times.append(to_python(times[i]));
   return exact_times;
@@ -129,14 +129,15 @@ exact::Claim claim_from(const std::string& name) {
 
 /// The number of queries that are done, and a stream of their certificates.
 py::tuple prove(const std::string& kind_name, const Doubles& array, double distance,
-                const std::string& norm, const std::string& claim, int threads) {
+                const std::string& norm, const std::string& claim, int threads,
+                const py::object& progress) {
   const Kind kind = kind_from(kind_name);
   const auto queries = queries_of(array);
   const Separation separation = separation_from(distance, norm);
   const exact::ProveOptions options{.collision_claim = claim_from(claim)};
   std::vector<std::string> texts(queries.size());
-  const std::size_t done =
-      in_blocks(queries.size(), oracle_block, threads, [&](std::size_t first, std::size_t count) {
+  const std::size_t done = in_blocks(
+      queries.size(), oracle_block, threads, progress, [&](std::size_t first, std::size_t count) {
         for (std::size_t i = first; i < first + count; ++i) {
           if (!is_finite(queries[i])) reject_coordinates(queries, i);
           const exact::Decision decision = exact::decide(kind, queries[i], separation);
@@ -229,7 +230,7 @@ py::dict answer_layout() {
 
 std::size_t solve(const std::string& name, const std::string& kind_name, const Doubles& array,
                   py::array results, double distance, const std::string& norm, double tolerance,
-                  std::int64_t max_checks, double t_max, int threads) {
+                  std::int64_t max_checks, double t_max, int threads, const py::object& progress) {
   const fast::Method& method = verify::solvers::find_method(name);
   const Kind kind = kind_from(kind_name);
   const auto queries = queries_of(array);
@@ -242,8 +243,10 @@ std::size_t solve(const std::string& name, const std::string& kind_name, const D
   if (!is_zero(options.separation) && norms.empty()) {
     throw std::invalid_argument(name + " knows no separation but 0");
   }
+  // A query with a tolerance can take a second.
+  const std::size_t block = method.info().is_tolerance_driven ? 1 : method_block;
   return in_blocks(
-      queries.size(), method_block, threads, [&](std::size_t first, std::size_t count) {
+      queries.size(), block, threads, progress, [&](std::size_t first, std::size_t count) {
         for (std::size_t i = first; i < first + count; ++i) {
           if (!is_finite(queries[i])) reject_coordinates(queries, i);
         }
@@ -257,16 +260,16 @@ PYBIND11_MODULE(_exact, m) {
   using py::arg;
   m.def("decision_layout", decision_layout);
   m.def("decide", decide, arg("kind"), arg("queries").noconvert(), arg("results").noconvert(),
-        arg("separation"), arg("norm"), arg("threads"));
+        arg("separation"), arg("norm"), arg("threads"), arg("progress"));
   m.def("prove", prove, arg("kind"), arg("queries").noconvert(), arg("separation"), arg("norm"),
-        arg("claim"), arg("threads"));
+        arg("claim"), arg("threads"), arg("progress"));
   m.def("check", check, arg("certificates"), arg("scenes"), arg("claim"), arg("separation"),
         arg("norm"));
   m.def("methods", methods);
   m.def("answer_layout", answer_layout);
   m.def("solve", solve, arg("method"), arg("kind"), arg("queries").noconvert(),
         arg("results").noconvert(), arg("separation"), arg("norm"), arg("tolerance"),
-        arg("max_checks"), arg("t_max"), arg("threads"));
+        arg("max_checks"), arg("t_max"), arg("threads"), arg("progress"));
 }
 
 }  // namespace touchstone::python

@@ -28,7 +28,7 @@ constexpr std::size_t search_block = 4;
 
 std::size_t certified(const std::string& kind_name, const Doubles& array, py::array results,
                       double separation, const std::string& norm, double toi_tolerance,
-                      double t_max, int threads) {
+                      double t_max, int threads, const py::object& progress) {
   const Kind kind = kind_from(kind_name);
   const auto queries = queries_of(array);
   const auto items = items_of<fast::CertifiedResult>(results, queries.size());
@@ -37,7 +37,7 @@ std::size_t certified(const std::string& kind_name, const Doubles& array, py::ar
                                        .separation = separation_from(separation, norm),
                                        .max_threads = 1};
   fast::solve(kind, std::span<const Query>{}, {}, options);  // checks the options of no query too
-  return in_blocks(queries.size(), certified_block, threads,
+  return in_blocks(queries.size(), certified_block, threads, progress,
                    [&](std::size_t first, std::size_t count) {
                      const auto part = items.subspan(first, count);
                      fast::solve(kind, queries.subspan(first, count), part, options);
@@ -70,7 +70,8 @@ struct TightInclusionItem {
 
 std::size_t tight_inclusion(const std::string& kind_name, const Doubles& array, py::array results,
                             double separation, const std::string& norm, double tolerance,
-                            std::int64_t max_checks, double t_max, bool no_zero_toi, int threads) {
+                            std::int64_t max_checks, double t_max, bool no_zero_toi, int threads,
+                            const py::object& progress) {
   const Kind kind = kind_from(kind_name);
   const auto queries = queries_of(array);
   const auto items = items_of<TightInclusionItem>(results, queries.size());
@@ -84,7 +85,7 @@ std::size_t tight_inclusion(const std::string& kind_name, const Doubles& array, 
                                .max_checks = 1,
                                .separation = options.separation,
                                .t_max = t_max});  // checks them
-  return in_blocks(queries.size(), search_block, threads,
+  return in_blocks(queries.size(), search_block, threads, progress,
                    [&](std::size_t first, std::size_t count) {
                      for (std::size_t i = first; i < first + count; ++i) {
                        const auto result = fast::tight_inclusion(kind, queries[i], options);
@@ -108,13 +109,13 @@ py::dict tight_inclusion_layout() {
 }
 
 std::size_t distance(const std::string& kind_name, const Doubles& array, py::array results,
-                     double t, const std::string& norm, int threads) {
+                     double t, const std::string& norm, int threads, const py::object& progress) {
   const Kind kind = kind_from(kind_name);
   const auto queries = queries_of(array);
   const auto items = items_of<fast::Distance>(results, queries.size());
   const Norm of_distance = separation_from(0.0, norm).norm;
   fast::distances(kind, {}, t, of_distance, {}, 1);  // checks the time
-  return in_blocks(queries.size(), search_block, threads,
+  return in_blocks(queries.size(), search_block, threads, progress,
                    [&](std::size_t first, std::size_t count) {
                      for (std::size_t i = first; i < first + count; ++i) {
                        if (!is_finite(queries[i])) reject_coordinates(queries, i);
@@ -140,12 +141,13 @@ std::string instruction_set() {
 PYBIND11_MODULE(_fast, m) {
   using py::arg;
   m.def("certified", certified, arg("kind"), arg("queries").noconvert(), arg("results").noconvert(),
-        arg("separation"), arg("norm"), arg("toi_tolerance"), arg("t_max"), arg("threads"));
+        arg("separation"), arg("norm"), arg("toi_tolerance"), arg("t_max"), arg("threads"),
+        arg("progress"));
   m.def("tight_inclusion", tight_inclusion, arg("kind"), arg("queries").noconvert(),
         arg("results").noconvert(), arg("separation"), arg("norm"), arg("tolerance"),
-        arg("max_checks"), arg("t_max"), arg("no_zero_toi"), arg("threads"));
+        arg("max_checks"), arg("t_max"), arg("no_zero_toi"), arg("threads"), arg("progress"));
   m.def("distance", distance, arg("kind"), arg("queries").noconvert(), arg("results").noconvert(),
-        arg("t"), arg("norm"), arg("threads"));
+        arg("t"), arg("norm"), arg("threads"), arg("progress"));
   m.def("certified_layout", certified_layout);
   m.def("tight_inclusion_layout", tight_inclusion_layout);
   m.def("distance_layout", distance_layout);

@@ -2,7 +2,7 @@
 /// A solver written in Python as a plugin of the command line (touchstone/plugin.h).
 ///
 /// The process that asks starts an interpreter of its own, which reads the solver from a file and
-/// then answers query after query through a socket (touchstone/_child.py). What the interpreter
+/// then answers batch after batch through a socket (touchstone/_child.py). What the interpreter
 /// does, this process does too: where it is ended by a signal, or ends itself, the process ends in
 /// the same way, and whoever asked it sees that as the end of any other solver. The interpreter is
 /// killed with the group of the process.
@@ -17,7 +17,6 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <csignal>
@@ -38,17 +37,15 @@ namespace {
 /// The interpreter's end of the socket.
 constexpr int interpreter_socket = 3;
 
+/// The coordinates of the queries follow.
 struct Request {
   std::int64_t kind;
+  std::int64_t count;
   TouchstonePluginOptions options;
-  std::array<double, 24> coordinates;
 };
 
-/// An answer follows, or so many bytes of the text of an exception.
-struct Reply {
-  std::int64_t text_bytes;  ///< −1: an answer
-  TouchstonePluginAnswer answer;
-};
+/// Before the answers: −1; else the number of bytes of an exception's text, which follows.
+using Reply = std::int64_t;
 
 std::string setting(const char* name) {
   const char* const value = std::getenv(name);
@@ -81,15 +78,17 @@ class Interpreter {
     if (error != 0) throw std::system_error(error, std::generic_category(), program);
   }
 
-  void solve(const Request& request, TouchstonePluginAnswer& answer) {
+  void solve(const Request& request, const double* coordinates, TouchstonePluginAnswer* answers) {
+    const auto count = std::size_t(request.count);
     transfer(::send, &request, sizeof request);
+    transfer(::send, coordinates, count * sizeof(double) * 24);
     Reply reply{};
     transfer(::recv, &reply, sizeof reply);
-    if (reply.text_bytes < 0) {
-      answer = reply.answer;
+    if (reply < 0) {
+      transfer(::recv, answers, count * sizeof *answers);
       return;
     }
-    std::string text(std::size_t(reply.text_bytes), ' ');
+    std::string text(std::size_t(reply), ' ');
     transfer(::recv, text.data(), text.size());
     throw std::runtime_error(text);
   }
@@ -131,13 +130,17 @@ const char* touchstone_plugin_name(void) {
   return name.c_str();
 }
 
-void touchstone_plugin_solve(int32_t kind, const double* coordinates,
-                             const TouchstonePluginOptions* options,
-                             TouchstonePluginAnswer* answer) {
+void touchstone_plugin_solve_batch(int32_t kind, int64_t count, const double* coordinates,
+                                   const TouchstonePluginOptions* options,
+                                   TouchstonePluginAnswer* answers) {
   static std::mutex guard;
   static Interpreter interpreter;
   const std::scoped_lock lock(guard);
-  Request request{.kind = kind, .options = *options, .coordinates = {}};
-  std::copy_n(coordinates, request.coordinates.size(), request.coordinates.begin());
-  interpreter.solve(request, *answer);
+  interpreter.solve({.kind = kind, .count = count, .options = *options}, coordinates, answers);
+}
+
+void touchstone_plugin_solve(int32_t kind, const double* coordinates,
+                             const TouchstonePluginOptions* options,
+                             TouchstonePluginAnswer* answer) {
+  touchstone_plugin_solve_batch(kind, 1, coordinates, options, answer);
 }

@@ -135,15 +135,16 @@ struct Elements {
 
 /// A step with the elements that it refers to.
 class OwningStep {
-  /// The result of work(step). \throws as in_background().
+  /// The result of work(step); `progress`, unless None, is called now and then.
+  /// \throws as in_background().
   template <class Work>
-  [[nodiscard]] auto search(const Work& work) const {
+  [[nodiscard]] auto search(const py::object& progress, const Work& work) const {
     if (is_forked()) {
       // The threads of the pool that the step uses are in the parent.
       const py::gil_scoped_release unlocked;
       return work(*step_);
     }
-    return in_background([&] { return work(*step_); }, elements_->stop);
+    return in_background([&] { return work(*step_); }, elements_->stop, progress);
   }
 
  public:
@@ -180,25 +181,26 @@ class OwningStep {
   }
 
   /// (toi_lower, toi_upper, collisions), or None.
-  [[nodiscard]] py::object earliest() const {
-    const auto impact = search([](const fast::Step& step) { return step.earliest(); });
+  [[nodiscard]] py::object earliest(const py::object& progress) const {
+    const auto impact = search(progress, [](const fast::Step& step) { return step.earliest(); });
     if (!impact) return py::none();
     return py::make_tuple(impact->toi_lower, impact->toi_upper,
                           array_of(impact->pairs, collision_layout()));
   }
-  [[nodiscard]] py::array collisions() const {
-    return array_of(search([](const fast::Step& step) { return step.collisions(); }),
+  [[nodiscard]] py::array collisions(const py::object& progress) const {
+    return array_of(search(progress, [](const fast::Step& step) { return step.collisions(); }),
                     collision_layout());
   }
-  [[nodiscard]] bool is_free() const {
-    return search([](const fast::Step& step) { return step.is_free(); });
+  [[nodiscard]] bool is_free(const py::object& progress) const {
+    return search(progress, [](const fast::Step& step) { return step.is_free(); });
   }
-  [[nodiscard]] std::optional<double> free_step_size() const {
-    return search([](const fast::Step& step) { return step.free_step_size(); });
+  [[nodiscard]] std::optional<double> free_step_size(const py::object& progress) const {
+    return search(progress, [](const fast::Step& step) { return step.free_step_size(); });
   }
-  [[nodiscard]] py::array active_set(double eta, const std::string& norm) const {
+  [[nodiscard]] py::array active_set(double eta, const std::string& norm,
+                                     const py::object& progress) const {
     const Separation separation = separation_from(eta, norm);
-    const auto contacts = search([separation](const fast::Step& step) {
+    const auto contacts = search(progress, [separation](const fast::Step& step) {
       std::vector<Contact> result;
       for (const auto& contact : fast::active_set(step, separation)) {
         result.push_back(contact_from(contact));
@@ -208,19 +210,21 @@ class OwningStep {
     return array_of(contacts, contact_layout());
   }
   /// (status, step size, (lower, upper) of the distance, pairs).
-  [[nodiscard]] py::tuple line_search_limit(double p, const std::string& norm, bool of_pair) const {
+  [[nodiscard]] py::tuple line_search_limit(double p, const std::string& norm, bool of_pair,
+                                            const py::object& progress) const {
     const fast::LineSearchOptions options{
         .norm = separation_from(0.0, norm).norm,
         .start_distance = of_pair ? fast::StartDistance::of_pair : fast::StartDistance::of_scene};
-    const auto limit = search(
-        [p, options](const fast::Step& step) { return fast::line_search_limit(step, p, options); });
+    const auto limit = search(progress, [p, options](const fast::Step& step) {
+      return fast::line_search_limit(step, p, options);
+    });
     constexpr std::array statuses{"whole", "limited", "in_contact", "too_small"};
     return py::make_tuple(statuses.at(static_cast<std::size_t>(limit.status)), limit.step_size,
                           py::make_tuple(limit.distance.lower, limit.distance.upper),
                           array_of(limit.pairs, collision_layout()));
   }
-  [[nodiscard]] py::array candidates() const {
-    const auto pairs = search([](const fast::Step& step) {
+  [[nodiscard]] py::array candidates(const py::object& progress) const {
+    const auto pairs = search(progress, [](const fast::Step& step) {
       std::vector<Pair> all;
       std::mutex guard;
       step.candidates([&](const fast::StepCandidates& some) {
@@ -234,9 +238,10 @@ class OwningStep {
     return array_of(pairs, pair_layout());
   }
   /// (lower, upper, pairs), or None.
-  [[nodiscard]] py::object least_distance(double t, const std::string& norm) const {
+  [[nodiscard]] py::object least_distance(double t, const std::string& norm,
+                                          const py::object& progress) const {
     const Norm of_distance = separation_from(0.0, norm).norm;
-    const auto least = search([t, of_distance](const fast::Step& step) {
+    const auto least = search(progress, [t, of_distance](const fast::Step& step) {
       return fast::least_distance(step, t, of_distance);
     });
     if (!least) return py::none();
@@ -280,15 +285,15 @@ void define_step(py::module_& m) {
            arg("t_max"), arg("threads"))
       .def("moved", &OwningStep::moved, arg("before").noconvert(), arg("after").noconvert(),
            arg("separation"), arg("norm"))
-      .def("earliest", &OwningStep::earliest)
-      .def("collisions", &OwningStep::collisions)
-      .def("is_free", &OwningStep::is_free)
-      .def("free_step_size", &OwningStep::free_step_size)
-      .def("active_set", &OwningStep::active_set, arg("eta"), arg("norm"))
+      .def("earliest", &OwningStep::earliest, arg("progress"))
+      .def("collisions", &OwningStep::collisions, arg("progress"))
+      .def("is_free", &OwningStep::is_free, arg("progress"))
+      .def("free_step_size", &OwningStep::free_step_size, arg("progress"))
+      .def("active_set", &OwningStep::active_set, arg("eta"), arg("norm"), arg("progress"))
       .def("line_search_limit", &OwningStep::line_search_limit, arg("p"), arg("norm"),
-           arg("of_pair"))
-      .def("candidates", &OwningStep::candidates)
-      .def("least_distance", &OwningStep::least_distance, arg("t"), arg("norm"))
+           arg("of_pair"), arg("progress"))
+      .def("candidates", &OwningStep::candidates, arg("progress"))
+      .def("least_distance", &OwningStep::least_distance, arg("t"), arg("norm"), arg("progress"))
       .def("edges", &OwningStep::edges)
       .def("query", &OwningStep::query, arg("kind"), arg("first"), arg("second"));
 }

@@ -1,4 +1,4 @@
-"""The interpreter of a solver under test: reads the solver, then answers query after query.
+"""The interpreter of a solver under test: reads the solver, then answers batch after batch.
 
 python/bindings/python_solver.cpp is the other end of the socket.
 """
@@ -11,13 +11,15 @@ import pickle
 import struct
 import sys
 import traceback
-from typing import Any, BinaryIO, Dict, Tuple
+from typing import Any, BinaryIO, Dict, List, Tuple
 
 import numpy as np
 
 SOCKET = 3
-REQUEST = struct.Struct("=qdqddi4x24d")
-REPLY = struct.Struct("=qi4xddd")
+REQUEST = struct.Struct("=qqdqddi4x")
+REPLY = struct.Struct("=q")
+ANSWER = struct.Struct("=i4xddd")
+QUERY_BYTES = 24 * 8
 KINDS = ("vertex_face", "edge_edge")
 NO, YES, UNDECIDED, ERROR = 0, 1, 2, 3
 
@@ -46,8 +48,8 @@ def answer_from(value: Any) -> Answer:
     raise TypeError(f"a solver returns a bool, a time (a float or None) or (bool, time), not {value!r}")
 
 
-def first_of(value: Any) -> Any:
-    """Return the value about the only query of a batch.
+def items_of(value: Any, count: int) -> List[Any]:
+    """Return the values about the queries of a batch.
 
     Raises
     ------
@@ -55,16 +57,15 @@ def first_of(value: Any) -> Any:
         If a solver of batches returned arrays of another shape.
     """
     parts = [np.asarray(part) for part in (value if isinstance(value, tuple) else (value,))]
-    if any(part.shape != (1,) for part in parts):
-        raise ValueError(f"a solver of a batch of 1 returned shapes {[part.shape for part in parts]}")
-    items = [part[0] for part in parts]
-    return tuple(items) if isinstance(value, tuple) else items[0]
+    if any(part.shape != (count,) for part in parts):
+        raise ValueError(f"a solver of a batch of {count} returned shapes {[part.shape for part in parts]}")
+    return list(zip(*parts)) if isinstance(value, tuple) else list(parts[0])
 
 
-def ask(solver: Dict[str, Any], fields: Tuple[Any, ...]) -> Answer:
-    """Return the solver's answer to a request."""
-    kind, tolerance, max_checks, separation, t_max, norm, *coordinates = fields
-    query = np.array(coordinates).reshape(8, 3)
+def ask(solver: Dict[str, Any], fields: Tuple[Any, ...], data: bytes) -> List[Answer]:
+    """Return the solver's answers to a request about queries."""
+    kind, count, tolerance, max_checks, separation, t_max, norm = fields
+    queries = np.frombuffer(bytearray(data)).reshape(count, 8, 3)
     options = {
         "separation": separation,
         "norm": ("linf", "l2")[norm],
@@ -73,23 +74,26 @@ def ask(solver: Dict[str, Any], fields: Tuple[Any, ...]) -> Answer:
         "t_max": t_max,
     }
     given = {name: options[name] for name in solver["options"]}
+    function = solver["function"]
     if solver["batch"]:
-        return answer_from(first_of(solver["function"](KINDS[kind], query[None], **given)))
-    return answer_from(solver["function"](KINDS[kind], query, **given))
+        return [answer_from(item) for item in items_of(function(KINDS[kind], queries, **given), count)]
+    return [answer_from(function(KINDS[kind], query, **given)) for query in queries]
 
 
 def serve(solver: Dict[str, Any], requests: BinaryIO, replies: BinaryIO) -> None:
     """Answer until the other end is closed."""
     while True:
-        data = requests.read(REQUEST.size)
-        if len(data) < REQUEST.size:
+        head = requests.read(REQUEST.size)
+        if len(head) < REQUEST.size:
             return
+        fields = REQUEST.unpack(head)
+        data = requests.read(fields[1] * QUERY_BYTES)
         try:
-            verdict, lower, upper = ask(solver, REQUEST.unpack(data))
-            reply = REPLY.pack(-1, verdict, lower, upper, math.nan)
+            answers = ask(solver, fields, data)
+            reply = REPLY.pack(-1) + b"".join(ANSWER.pack(*answer, math.nan) for answer in answers)
         except Exception as error:
             text = traceback.format_exception_only(type(error), error)[-1].strip().encode()
-            reply = REPLY.pack(len(text), ERROR, math.nan, math.nan, math.nan) + text
+            reply = REPLY.pack(len(text)) + text
         sys.stdout.flush()
         replies.write(reply)
         replies.flush()

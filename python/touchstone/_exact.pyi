@@ -1,17 +1,30 @@
-from typing import Any
+from typing import Any, Callable
 
 import numpy as np
 import numpy.typing as npt
 
 _Doubles = npt.NDArray[np.float64]
 _Items = npt.NDArray[np.void]
+_Progress = Callable[[int], None]
 
 def decision_layout() -> Any: ...
 def decide(
-    kind: str, queries: _Doubles, results: _Items, separation: float, norm: str, threads: int
+    kind: str,
+    queries: _Doubles,
+    results: _Items,
+    separation: float,
+    norm: str,
+    threads: int,
+    progress: _Progress | None,
 ) -> list[Any]: ...
 def prove(
-    kind: str, queries: _Doubles, separation: float, norm: str, claim: str, threads: int
+    kind: str,
+    queries: _Doubles,
+    separation: float,
+    norm: str,
+    claim: str,
+    threads: int,
+    progress: _Progress | None,
 ) -> tuple[int, bytes]: ...
 def check(
     certificates: bytes | str,
@@ -33,4 +46,5 @@ def solve(
     max_checks: int,
     t_max: float,
     threads: int,
+    progress: _Progress | None,
 ) -> int: ...

@@ -34,30 +34,42 @@ def tool() -> str:
 
 
 class Progress:
-    """A bar on standard error, from the first second on, as tqdm draws it."""
+    """A bar on standard error, from the first second on, as tqdm draws it.
 
-    def __init__(self, title: str, seconds: float, show: bool | None) -> None:
-        self._title, self._seconds = title, seconds
+    The whole is a number of queries, of seconds, or unknown.
+    """
+
+    def __init__(self, title: str, show: bool | None, *, seconds: float = 0.0, queries: int = 0) -> None:
+        self._title, self._seconds, self._queries = title, seconds, queries
         self._started = time.monotonic()
         in_notebook = "ipykernel" in sys.modules
         self._show = (sys.stderr.isatty() or in_notebook) if show is None else show
         self._drawn = False
 
-    def draw(self) -> None:
-        """Draw the time that has passed, and of how much if that is known."""
+    @property
+    def callback(self) -> Callable[..., None] | None:
+        """The function that draws; None if nothing is shown."""
+        return self.draw if self._show else None
+
+    def draw(self, done: int = 0) -> None:
+        """Draw the time that has passed, and the part that is done if that is known."""
         passed = time.monotonic() - self._started
         if not self._show or passed < 1.0:
             return
         line = f"{self._title}: {passed:.0f}s"
-        if self._seconds:
-            part = min(passed / self._seconds, 1.0)
+        part = done / self._queries if self._queries else 0.0
+        part = min(passed / self._seconds, 1.0) if self._seconds else part
+        if part > 0.0:
             bar = ("#" * int(30 * part)).ljust(30)
-            left = max(self._seconds - passed, 0.0)
+            left = max(passed / part - passed, 0.0)
             line = f"{self._title}: {100 * part:3.0f}%|{bar}| [{passed:.0f}s<{left:.0f}s]"
         print(f"\r{line}", end="", file=sys.stderr, flush=True)
         self._drawn = True
 
-    def close(self) -> None:
+    def __enter__(self) -> Progress:
+        return self
+
+    def __exit__(self, *_: Any) -> None:
         """End the line."""
         if self._drawn:
             print(file=sys.stderr, flush=True)
@@ -87,7 +99,6 @@ class Run:
         ValueError
             If the tool refuses its input, with its reason.
         """
-        progress = Progress(title or str(arguments[0]), seconds, show)
         out, errors = self.folder / "out.txt", self.folder / "errors.txt"
         with open(out, "wb") as out_file, open(errors, "wb") as error_file:
             # A session of its own: Ctrl-C reaches it by this process alone, once.
@@ -99,8 +110,8 @@ class Run:
                 env=self.environment,
                 start_new_session=True,
             )
-            interrupted = self._wait(process, progress.draw)
-        progress.close()
+            with Progress(title or str(arguments[0]), show, seconds=seconds) as progress:
+                interrupted = self._wait(process, progress.draw)
         texts = out.read_text(errors="replace"), errors.read_text(errors="replace")
         if process.returncode not in (0, 1, 130):
             reasons = [line for line in texts[1].splitlines() if line.strip()]

@@ -10,6 +10,7 @@ import numpy.typing as npt
 
 from . import _fast
 from ._input import BatchResult, Booleans, Doubles, Interrupted, Kind, Norm, as_queries
+from ._tool import Progress
 
 _certified_type = np.dtype(_fast.certified_layout())
 _tight_inclusion_type = np.dtype(_fast.tight_inclusion_layout())
@@ -22,12 +23,17 @@ def run_batch(
     result: Type[Result],
     item_type: np.dtype[Any],
     queries: npt.ArrayLike,
-    work: Callable[[Doubles, npt.NDArray[np.void]], int],
+    progress: bool | None,
+    work: Callable[[Doubles, npt.NDArray[np.void], Callable[..., None] | None], int],
 ) -> Result:
-    """Return the results of work(queries, items), which says how many queries it has done."""
+    """Return the results of work(queries, items, callback), which says how many queries it has done."""
     array, single = as_queries(queries)
     items: npt.NDArray[np.void] = np.empty(len(array), dtype=item_type)
-    done = work(array, items)
+    if single:
+        done = work(array, items, None)
+    else:
+        with Progress(result.__name__, progress, queries=len(array)) as bar:
+            done = work(array, items, bar.callback)
     if done < len(array):
         raise Interrupted(result(items[:done]))
     return result(items.reshape(()) if single else items)
@@ -86,6 +92,7 @@ def certified(
     t_max: float = 1.0,
     toi_tolerance: float = 1e-12,
     threads: int = 0,
+    progress: bool | None = None,
 ) -> CertifiedResult:
     """Decide queries with the certified solver: exact verdicts, enclosed times of impact.
 
@@ -106,6 +113,8 @@ def certified(
         The maximum width of the enclosures of times, relative to their upper ends.
     threads : int, optional
         The maximum number of threads; 0: one for each core. The results do not depend on it.
+    progress : bool, optional
+        Show a bar from the first second on; by default in terminals and notebooks.
 
     Returns
     -------
@@ -137,8 +146,9 @@ def certified(
         CertifiedResult,
         _certified_type,
         queries,
-        lambda array, items: _fast.certified(
-            kind, array, items, separation, norm, toi_tolerance, t_max, threads
+        progress,
+        lambda array, items, callback: _fast.certified(
+            kind, array, items, separation, norm, toi_tolerance, t_max, threads, callback
         ),
     )
 
@@ -178,12 +188,13 @@ def tight_inclusion(
     t_max: float = 1.0,
     no_zero_toi: bool = False,
     threads: int = 0,
+    progress: bool | None = None,
 ) -> TightInclusionResult:
     """Decide queries with Tight-Inclusion: no collision is missed, some are reported too many.
 
     Parameters
     ----------
-    kind, queries, separation, norm, t_max, threads
+    kind, queries, separation, norm, t_max, threads, progress
         As for `certified`. With ``norm="l2"`` the answers are conservative.
     tolerance : float, optional
         Boxes whose image is this small are not split, in units of the coordinates.
@@ -217,8 +228,9 @@ def tight_inclusion(
         TightInclusionResult,
         _tight_inclusion_type,
         queries,
-        lambda array, items: _fast.tight_inclusion(
-            kind, array, items, separation, norm, tolerance, max_checks, t_max, no_zero_toi, threads
+        progress,
+        lambda array, items, callback: _fast.tight_inclusion(
+            kind, array, items, separation, norm, tolerance, max_checks, t_max, no_zero_toi, threads, callback
         ),
     )
 
@@ -244,12 +256,13 @@ def distance(
     t: float = 0.0,
     norm: Norm = "l2",
     threads: int = 0,
+    progress: bool | None = None,
 ) -> DistanceResult:
     """Enclose the distances of the queries' primitives at a time.
 
     Parameters
     ----------
-    kind, queries, threads
+    kind, queries, threads, progress
         As for `certified`.
     t : float, optional
         The time, in [0, 1].
@@ -280,5 +293,6 @@ def distance(
         DistanceResult,
         _distance_type,
         queries,
-        lambda array, items: _fast.distance(kind, array, items, t, norm, threads),
+        progress,
+        lambda array, items, callback: _fast.distance(kind, array, items, t, norm, threads, callback),
     )

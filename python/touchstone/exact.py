@@ -12,6 +12,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ._input import BatchResult, Booleans, Doubles, Interrupted, Kind, Norm, as_queries, load
+from ._tool import Progress
 from .batch import run_batch
 
 
@@ -133,12 +134,13 @@ def decide(
     separation: float = 0.0,
     norm: Norm = "linf",
     threads: int = 0,
+    progress: bool | None = None,
 ) -> Decisions:
     """Decide queries by the oracle, in integers: the ground truth.
 
     Parameters
     ----------
-    kind, queries, separation, norm, threads
+    kind, queries, separation, norm, threads, progress
         As for `certified`.
 
     Returns
@@ -165,7 +167,8 @@ def decide(
     array, single = as_queries(queries)
     numbers = np.dtype(module.decision_layout())
     items = np.empty(len(array), dtype=numbers)
-    times = module.decide(kind, array, items, separation, norm, threads)
+    with Progress("decide", progress, queries=len(array)) as bar:
+        times = module.decide(kind, array, items, separation, norm, threads, bar.callback)
     done = len(times)
     result = np.empty(done, dtype=[*((n, numbers[n]) for n in numbers.names or ()), ("toi", "O")])
     for name in numbers.names or ():
@@ -185,12 +188,13 @@ def prove(
     norm: Norm = "linf",
     claim: Literal["time_of_impact", "collision"] = "time_of_impact",
     threads: int = 0,
+    progress: bool | None = None,
 ) -> bytes:
     """Prove the oracle's verdicts, for a checker that shares no code with it.
 
     Parameters
     ----------
-    kind, queries, separation, norm, threads
+    kind, queries, separation, norm, threads, progress
         As for `certified`.
     claim : {"time_of_impact", "collision"}, optional
         The claim about queries that collide.
@@ -218,7 +222,8 @@ def prove(
     CheckReport: 1 accepted, 0 rejected
     """
     array, _ = as_queries(queries)
-    done, stream = exact_module().prove(kind, array, separation, norm, claim, threads)
+    with Progress("prove", progress, queries=len(array)) as bar:
+        done, stream = exact_module().prove(kind, array, separation, norm, claim, threads, bar.callback)
     if done < len(array):
         raise Interrupted(stream)
     return bytes(stream)
@@ -419,6 +424,7 @@ def solve(
     max_checks: int = 1_000_000,
     t_max: float = 1.0,
     threads: int = 0,
+    progress: bool | None = None,
 ) -> Answers:
     """Decide queries with any method by its name, such as the published ones with their errors.
 
@@ -428,7 +434,7 @@ def solve(
     ----------
     method : str
         The name of one of `methods`.
-    kind, queries, separation, norm, t_max, threads
+    kind, queries, separation, norm, t_max, threads, progress
         As for `certified`.
     tolerance : float, optional
         Of methods that search down to one.
@@ -461,9 +467,10 @@ def solve(
         Answers,
         np.dtype(module.answer_layout()),
         queries,
-        lambda array, items: int(
+        progress,
+        lambda array, items, callback: int(
             module.solve(
-                method, kind, array, items, separation, norm, tolerance, max_checks, t_max, threads
+                method, kind, array, items, separation, norm, tolerance, max_checks, t_max, threads, callback
             )
         ),
     )

@@ -252,6 +252,8 @@ def generate(
     family: str | None = None,
     count: int = 100,
     seed: int = 2021,
+    separation: float = 0.0,
+    norm: Norm = "linf",
 ) -> List[Queries]:
     """Return queries of the built-in set, whose truth is known by construction.
 
@@ -265,6 +267,9 @@ def generate(
         The number of queries of each family.
     seed : int, optional
         The same seed gives the same queries on every machine.
+    separation, norm : optional
+        The distance that counts as contact. With one there are families more, with contact at exactly
+        that distance; the truth of the others is not recorded then.
 
     Returns
     -------
@@ -278,6 +283,8 @@ def generate(
     """
     with Run() as run:
         command = ["generate", "--out", run.folder / "set", "--count", count, "--seed", seed]
+        if separation:
+            command += ["--min-separation", float(separation).hex(), "--norm", norm]
         run.call(command + ([] if family is None else ["--family", family]))
         files = sorted((run.folder / "set" / kind.replace("_", "-")).glob("*.csv"))
         return [replace(read(file, kind=kind), name=file.stem) for file in files]
@@ -486,7 +493,8 @@ def certify(
     data : path, Queries or list of Queries, optional
         The queries: a file or a folder of datasets, or arrays; by default the built-in set.
     batch : bool, optional
-        True if the solver takes arrays of shape (N, 8, 3) and returns arrays; it is asked with N=1.
+        True if the solver takes arrays of shape (N, 8, 3) and returns arrays of shape (N,). N grows from
+        1 to 512 as the solver proves to be fast; after a failure its queries are asked with N=1.
     name : str, optional
         The name of the solver in the report.
     promise : {"conservative", "exact"}, optional

@@ -12,7 +12,7 @@ import numpy.typing as npt
 
 from . import _fast
 from ._input import Doubles, Interrupted, Norm, as_indices, as_vertices
-from ._tool import Run
+from ._tool import Progress, Run
 
 Value = TypeVar("Value")
 
@@ -120,6 +120,8 @@ class Step:
         The maximum width of enclosures of times, relative to their upper ends.
     threads : int, optional
         The maximum number of threads; 0: one for each core.
+    progress : bool, optional
+        Show the time of a search from the first second on; by default in terminals and notebooks.
 
     Raises
     ------
@@ -167,7 +169,9 @@ class Step:
         t_max: float = 1.0,
         toi_tolerance: float = 1e-12,
         threads: int = 0,
+        progress: bool | None = None,
     ) -> None:
+        self._progress = progress
         self._vertices = as_vertices(before, "before"), as_vertices(after, "after")
         self._separation: Tuple[float, Norm] = separation, norm
         self._options = t_max, toi_tolerance, threads
@@ -212,6 +216,7 @@ class Step:
         result._vertices = as_vertices(before, "before"), as_vertices(after, "after")
         result._elements = self._elements
         result._options = self._options
+        result._progress = self._progress
         result._separation = (
             self._separation[0] if separation is None else separation,
             self._separation[1] if norm is None else norm,
@@ -220,6 +225,10 @@ class Step:
             lambda: self._step.moved(*result._vertices, *result._separation)
         )
         return result
+
+    def _search(self, search: Callable[[Callable[..., None] | None], Value]) -> Value:
+        with Progress("Step", self._progress) as bar:
+            return _ending_with_interrupts(lambda: search(bar.callback))
 
     @property
     def edges(self) -> npt.NDArray[np.int32]:
@@ -237,7 +246,7 @@ class Step:
 
     def earliest(self) -> Impact | None:
         """Return the earliest impact; None if the step is free."""
-        found = _ending_with_interrupts(self._step.earliest)
+        found = self._search(self._step.earliest)
         return None if found is None else Impact(*found)
 
     def collisions(self) -> npt.NDArray[np.void]:
@@ -249,11 +258,11 @@ class Step:
             With the fields `kind` (see `PairKind`), `pair` (two numbers), `toi_lower`, `toi_upper`,
             `u` and `v`. The order depends only on the step.
         """
-        return _ending_with_interrupts(self._step.collisions)
+        return self._search(self._step.collisions)
 
     def is_free(self) -> bool:
         """Return True if there is no collision."""
-        return _ending_with_interrupts(self._step.is_free)
+        return self._search(self._step.is_free)
 
     def free_step_size(self) -> float | None:
         """Return a maximal step size α whose rounded step is free; None if not even α = 0 is.
@@ -261,7 +270,7 @@ class Step:
         The step of α goes from x0 to fl(x0 + fl(α fl(x1 − x0))), and that of the next double is not
         free, unless α = 1. Both are decided exactly.
         """
-        return _ending_with_interrupts(self._step.free_step_size)
+        return self._search(self._step.free_step_size)
 
     def active_set(self, eta: float, *, norm: Norm = "l2") -> npt.NDArray[np.void]:
         """Return all pairs that come within a distance during the step, with their contacts.
@@ -279,7 +288,7 @@ class Step:
             The fields of `collisions`, and `first`, `second` (the contact points on both primitives)
             and `normal` (from the second to the first), in the order of time.
         """
-        return _ending_with_interrupts(lambda: self._step.active_set(eta, norm))
+        return self._search(lambda progress: self._step.active_set(eta, norm, progress))
 
     def line_search_limit(
         self, p: float, *, norm: Norm = "l2", of_pair: bool = False
@@ -300,8 +309,8 @@ class Step:
         LineSearchLimit
             The step size, the reason for it, and the pairs that limit it.
         """
-        status, size, (lower, upper), pairs = _ending_with_interrupts(
-            lambda: self._step.line_search_limit(p, norm, of_pair)
+        status, size, (lower, upper), pairs = self._search(
+            lambda progress: self._step.line_search_limit(p, norm, of_pair, progress)
         )
         return LineSearchLimit(status, size, lower, upper, pairs)
 
@@ -313,7 +322,7 @@ class Step:
         structured ndarray
             With the fields `kind` and `pair`.
         """
-        return _ending_with_interrupts(self._step.candidates)
+        return self._search(self._step.candidates)
 
     def least_distance(self, *, t: float = 0.0, norm: Norm = "l2") -> LeastDistance | None:
         """Return the least distance of all pairs at a time; None without pairs.
@@ -325,7 +334,7 @@ class Step:
         norm : {"linf", "l2"}, optional
             The norm of distances.
         """
-        found = _ending_with_interrupts(lambda: self._step.least_distance(t, norm))
+        found = self._search(lambda progress: self._step.least_distance(t, norm, progress))
         return None if found is None else LeastDistance(*found)
 
     def prove(self, path: str | os.PathLike[str]) -> str:
@@ -344,19 +353,16 @@ class Step:
         Raises
         ------
         ValueError
-            For a step with points, which the command line tool cannot read, or if there is no proof
-            within the limits of the format.
+            If there is no proof within the limits of the format.
         FileNotFoundError
             Without the command line tool.
         Interrupted
             At Ctrl-C.
         """
         faces, edges, points, groups, apart = self._elements
-        if len(points):
-            raise ValueError("prove: a step with points cannot be proved from Python")
         with Run() as run:
             frames = run.folder / "frames.npz"
-            elements = {"F": faces, **({"E": edges} if len(edges) else {})}
+            elements = {"F": faces, **({"E": edges} if len(edges) else {}), "P": points}
             np.savez(frames, V=np.stack(self._vertices), **elements)
             separation, norm = self._separation
             command: list[Any] = ["step", frames, "--earliest", "--prove", os.path.abspath(path)]
@@ -367,7 +373,7 @@ class Step:
                 names.write_text("".join(f"{group}\n" for group in groups))
                 command += ["--groups", names]
             command += [word for pair in apart for word in ("--apart", *pair)]
-            text, _, interrupted = run.call(command, title="prove")
+            text, _, interrupted = run.call(command, title="Step.prove", show=self._progress)
         if interrupted:
             raise Interrupted()
         for line in text.splitlines():

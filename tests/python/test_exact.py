@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+import os
 import pathlib
 import subprocess
 from fractions import Fraction
@@ -98,6 +99,10 @@ def test_a_missing_library_is_explained(monkeypatch):
         touchstone.decide("edge_edge", np.zeros((8, 3)))
 
 
+# Queries of each file and family; empty: all.
+SAMPLE = os.environ.get("TOUCHSTONE_AGREEMENT_SAMPLE", "8")
+
+
 def answers_of_the_tool(tool: str, files: list[pathlib.Path], method: str, folder: pathlib.Path):
     """The answers that the command line gives, by file and index."""
     out = folder / f"{method}.csv"
@@ -110,11 +115,34 @@ def answers_of_the_tool(tool: str, files: list[pathlib.Path], method: str, folde
     return answers
 
 
-@pytest.fixture(scope="session")
-def built_in_set(tool, tmp_path_factory) -> list[pathlib.Path]:
-    folder = tmp_path_factory.mktemp("built-in")
-    subprocess.run([tool, "generate", "--npy", "--count", "8", "--out", folder], check=True, capture_output=True)
+def built_in_set(tool: str, folder: pathlib.Path) -> list[pathlib.Path]:
+    command = [tool, "generate", "--npy", "--count", SAMPLE or "1000", "--out", folder]
+    subprocess.run(command, check=True, capture_output=True)
     return sorted(folder.rglob("*.npy"))
+
+
+def public_data(tool: str, folder: pathlib.Path) -> list[pathlib.Path]:
+    """Of each public dataset as many queries, evenly spread."""
+    if "TOUCHSTONE_DATA" not in os.environ:
+        pytest.skip("TOUCHSTONE_DATA is not set")
+    root = pathlib.Path(os.environ["TOUCHSTONE_DATA"])
+    paths = []
+    for source in sorted(root.rglob("*.csv")):
+        if source.name.endswith("_toi.csv"):
+            continue
+        data = touchstone.read(source)
+        some = data.queries[:: -(-len(data) // int(SAMPLE or len(data)))]
+        name = "-".join(source.relative_to(root).with_suffix("").parts)
+        paths.append(folder / data.kind.replace("_", "-") / f"{name}.npy")
+        paths[-1].parent.mkdir(exist_ok=True)
+        np.save(paths[-1], some)
+    assert paths, f"no dataset below {root}"
+    return paths
+
+
+@pytest.fixture(scope="session", params=[built_in_set, public_data])
+def datasets(request, tool, tmp_path_factory) -> list[pathlib.Path]:
+    return request.param(tool, tmp_path_factory.mktemp("data"))
 
 
 # The command line asks these only the queries within their terms.
@@ -122,20 +150,23 @@ WITH_TERMS = ("tight_inclusion_float", "accd_limited")
 
 
 @pytest.mark.parametrize("method", [one.name for one in touchstone.methods()])
-def test_every_method_answers_as_on_the_command_line(method, tool, built_in_set, tmp_path):
-    expected = answers_of_the_tool(tool, built_in_set, method, tmp_path)
+def test_every_method_answers_as_on_the_command_line(method, tool, datasets, tmp_path):
+    """Bit for bit. Every query instead of some: TOUCHSTONE_AGREEMENT_SAMPLE= (empty)."""
+    expected = answers_of_the_tool(tool, datasets, method, tmp_path)
     words = ("no", "yes", "undecided", "error")
-    for path in built_in_set:
-        kind = "vertex_face" if "vertex-face" in str(path) else "edge_edge"
-        found = touchstone.solve(method, kind, np.load(path), max_checks=1000)
-        rows = expected.get(str(path), {})
-        assert len(found) > 0 and (len(rows) == len(found) or method in WITH_TERMS)
+    assert any(expected.values())
+    for path in datasets:
+        kind = "vertex_face" if path.parent.name == "vertex-face" else "edge_edge"
+        queries = np.load(path)
+        found = touchstone.solve(method, kind, queries, max_checks=1000)
+        rows, columns = expected.get(str(path), {}), found.to_dict()
+        assert len(found) == len(queries) > 0
+        assert len(rows) == len(found) or method in WITH_TERMS
         for i, row in rows.items():
             assert row["verdict"] == words[found.verdict[i]]
             for name in ("toi_lower", "toi_upper", "tolerance"):
                 theirs = float(row[name]) if row[name] else np.nan
-                assert np.array_equal(theirs, found.to_dict()[name][i], equal_nan=True)
-    assert expected
+                assert np.array_equal(theirs, columns[name][i], equal_nan=True)
 
 
 def test_the_named_functions_answer_as_their_methods(queries):

@@ -86,11 +86,11 @@ def test_faults_are_placed(eight):
     ],
 )
 def test_values_of_solvers(value, verdict, lower, upper):
-    from touchstone._child import answer_from, first_of
+    from touchstone._child import answer_from, items_of
 
     assert np.array_equal(answer_from(value), (verdict, lower, upper), equal_nan=True)
     if value is not None and not isinstance(value, tuple):
-        assert np.array_equal(answer_from(first_of(np.array([value]))), (verdict, lower, upper), equal_nan=True)
+        assert np.array_equal(answer_from(items_of(np.array([value]), 1)[0]), (verdict, lower, upper), equal_nan=True)
 
 
 @pytest.mark.parametrize("value", [1, "yes", (1, 0.5), (True,), (True, 1, 2, 3), [True], np.int64(0)])
@@ -121,6 +121,38 @@ def test_every_form_of_a_right_solver_is_acquitted(eight):
         assert judgement.wrong == [] and judgement.queries > 30
     near = touchstone.certify(single, eight, separation=0.5, norm="l2", promise="exact", query_limit=60.0)
     assert near.wrong == [] and near.to_dict()["separation"]["min_separation"] == 0.5
+
+
+def test_a_batch_is_many_queries_and_a_failure_costs_one():
+    data = touchstone.Queries("edge_edge", np.random.default_rng(3).normal(size=(300, 8, 3)))
+    unwanted = data.queries[200].copy()
+
+    def batch(kind, queries):
+        if len(queries) == 1:
+            assert not (queries[0] == unwanted).all(), "unwanted"
+        elif (queries == unwanted).all(axis=(1, 2)).any():
+            raise ValueError("one of these")
+        return touchstone.certified(kind, queries).collides if len(queries) > 1 else np.zeros(1, bool)
+
+    # This solver misses what it is asked alone: the first query, and a batch that fails.
+    collides = touchstone.certified("edge_edge", data.queries).collides
+    judgement = touchstone.certify(batch, data, batch=True, threads=1, query_limit=60.0)
+    failed = [one for one in judgement.wrong if "unwanted" in one.answer]
+    assert [one.index for one in failed] == [200]
+    missed = {one.index for one in judgement.wrong if one.fault == "false_negative"}
+    colliding = set(np.flatnonzero(collides).tolist())
+    assert missed < colliding and 2 * len(missed) < len(colliding)
+
+
+@pytest.mark.parametrize("norm", ["linf", "l2"])
+def test_families_with_a_separation(norm):
+    plain = {one.name for one in touchstone.generate("edge_edge", count=2)}
+    near = touchstone.generate("edge_edge", count=2, separation=0.125, norm=norm)
+    more = [one for one in near if one.name not in plain]
+    assert more and any(one.collides is not None for one in more)
+    for one in more:
+        answers = touchstone.certified("edge_edge", one.queries, separation=0.125, norm=norm)
+        assert one.collides is None or (one.collides == answers.collides).all()
 
 
 def test_the_naive_solver_is_convicted_within_ten_seconds():
@@ -290,8 +322,10 @@ def test_proofs_of_steps(tmp_path):
     assert short.prove(path) == "no_contact 1/4"
     assert touchstone.check(path.read_bytes(), claim="no_contact 1/4", separation=0.125, norm="l2")
     assert not touchstone.check(path.read_bytes(), claim="free")
-    with pytest.raises(ValueError, match="with points"):
-        touchstone.Step(before, after, points=[0, 1]).prove(path)
+    wire = np.array([[0.0, 0, 1], [-1, 0, 0], [1, 0, 0], [0, 0, 2]])
+    with_points = touchstone.Step(wire, wire * [1, 1, -1], edges=[[1, 2]], points=[0, 3])
+    assert with_points.prove(path).startswith("earliest ")
+    assert touchstone.check(path.read_bytes(), claim="earliest")
 
 
 def test_without_the_tool_the_way_out_is_said(monkeypatch, eight):

@@ -23,13 +23,14 @@ def falling() -> dict[str, np.ndarray]:
     return {"before": before, "after": after, "faces": np.arange(6000).reshape(-1, 3)}
 
 
-@pytest.mark.parametrize("name", ["certified", "tight_inclusion", "distance", "Step"])
+@pytest.mark.parametrize("name", ["certified", "tight_inclusion", "distance", "Step", "holds_the_lock"])
 def test_threads_run_at_the_same_time(name, queries, falling, only_released):
     call = {
         "certified": lambda: touchstone.certified("edge_edge", queries, threads=1),
         "tight_inclusion": lambda: touchstone.tight_inclusion("edge_edge", queries, threads=1),
         "distance": lambda: touchstone.distance("edge_edge", queries, threads=1),
         "Step": lambda: touchstone.Step(**falling, threads=1).is_free(),
+        "holds_the_lock": lambda: sum(range(1000)),  # a planted fault
     }[name]
     workers, inside, most = 4, 0, 0
     start = threading.Barrier(workers)
@@ -46,7 +47,7 @@ def test_threads_run_at_the_same_time(name, queries, falling, only_released):
     with concurrent.futures.ThreadPoolExecutor(workers) as pool:
         for done in [pool.submit(work) for _ in range(workers)]:
             done.result()
-    assert most > 1
+    assert (most > 1) == (name != "holds_the_lock")
 
 
 def interrupt_once_inside(call) -> pytest.ExceptionInfo:
@@ -89,11 +90,22 @@ def test_an_interrupt_ends_a_step(only_released):
     random = np.random.default_rng(1)
     before = random.normal(size=(60000, 3))  # minutes of pairs
     step = touchstone.Step(before, before[::-1], faces=np.arange(60000).reshape(-1, 3))
-    for search in (step.collisions, step.candidates, lambda: step.active_set(0.5)):
+    for search in (step.collisions, step.candidates, lambda: step.active_set(0.5), step.least_distance):
         assert interrupt_once_inside(search).value.result is None
     # The step is as good as before.
     apart = before + 100.0 * (np.arange(60000)[:, None] // 3)
     assert step.moved(apart, apart).is_free()
+
+
+@pytest.mark.parametrize("shown", [True, False])
+def test_a_bar_shows_the_part_that_is_done(shown, queries, capsys, monkeypatch, only_released):
+    clock = iter(range(10**9))
+    monkeypatch.setattr("touchstone._tool.time.monotonic", lambda: float(next(clock)))
+    touchstone.tight_inclusion("edge_edge", np.tile(queries, (20, 1, 1)), threads=1, progress=shown)
+    step = touchstone.Step(*np.random.default_rng(1).normal(size=(2, 12000, 3)), faces=np.arange(12000).reshape(-1, 3), progress=shown)
+    step.collisions()
+    drawn = capsys.readouterr().err
+    assert ("%|#" in drawn) == ("Step: " in drawn) == shown
 
 
 def test_a_handler_of_signals_may_raise_what_it_likes(queries, only_released):
@@ -126,11 +138,11 @@ def test_a_handler_of_signals_may_raise_what_it_likes(queries, only_released):
         signal.signal(signal.SIGINT, before)
 
 
-def in_child(work) -> int:
-    """Run work in a child of fork(), and return its status."""
+def in_child(work, seconds: int = 120) -> int:
+    """Run work in a child of fork(), and return its status; after some seconds it is ended."""
     child = os.fork()
     if child == 0:
-        signal.alarm(120)  # a generous bound of a hang
+        signal.alarm(seconds)
         try:
             work()
             os._exit(0)
@@ -154,6 +166,8 @@ def test_a_fork_after_use_works(queries, falling):
 
     for _ in range(5):
         assert in_child(work) == 0
+    # A planted fault: a child that waits for a thread of its parent.
+    assert in_child(threading.Event().wait, seconds=1) == -signal.SIGALRM
 
 
 def resident_bytes() -> int:
@@ -161,12 +175,16 @@ def resident_bytes() -> int:
         return int(file.read().split()[1]) * os.sysconf("SC_PAGE_SIZE")
 
 
-def test_nothing_leaks(queries, falling):
+@pytest.mark.parametrize("leaked_bytes", [0, 100])
+def test_nothing_leaks(leaked_bytes, queries):
+    """With a planted leak, memory grows."""
+    leaked = []
     small = {"before": np.eye(3), "after": np.eye(3) * 2, "faces": [[0, 1, 2]]}
 
     def calls(count: int) -> None:
         for i in range(count):
             query = queries[i % len(queries)]
+            leaked.append(bytes(leaked_bytes) if leaked_bytes else None)
             touchstone.certified("edge_edge", query)
             touchstone.tight_inclusion("vertex_face", query, max_checks=10)
             touchstone.distance("vertex_face", query)
@@ -178,4 +196,4 @@ def test_nothing_leaks(queries, falling):
     calls(2000)
     before = resident_bytes()
     calls(100_000)
-    assert resident_bytes() - before < 4 << 20
+    assert (resident_bytes() - before < 4 << 20) == (leaked_bytes == 0)

@@ -10,9 +10,11 @@
 #include <exception>
 #include <mutex>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include "touchstone/plugin.h"
 #include "verify/base/deadline.hpp"
@@ -127,6 +129,12 @@ Stated checked(const TouchstonePluginPromise& stated, const std::filesystem::pat
   return result;
 }
 
+/// Null if the library does not define it.
+template <class Function>
+Function* find_optional(const Library& library, const char* name) {
+  return reinterpret_cast<Function*>(::dlsym(library.get(), name));
+}
+
 /// The promise that the library states, before it is checked; the usual one if it has no function.
 TouchstonePluginPromise read_promise(const Library& library) {
   TouchstonePluginPromise promise{.size = sizeof(TouchstonePluginPromise),
@@ -136,10 +144,9 @@ TouchstonePluginPromise read_promise(const Library& library) {
                                   .times = TOUCHSTONE_TIMES_BOUNDS,
                                   .starts_apart = -1.0,
                                   .time_error = fast::Terms{}.time_error};
-  void* const address = ::dlsym(library.get(), "touchstone_plugin_promise");
-  if (address != nullptr) {
-    reinterpret_cast<decltype(touchstone_plugin_promise)*>(address)(&promise);
-  }
+  const auto state =
+      find_optional<decltype(touchstone_plugin_promise)>(library, "touchstone_plugin_promise");
+  if (state != nullptr) state(&promise);
   return promise;
 }
 
@@ -159,6 +166,8 @@ fast::Answer checked(const TouchstonePluginAnswer& answer) {
 }
 
 using Solve = decltype(touchstone_plugin_solve);
+using SolveBatch = decltype(touchstone_plugin_solve_batch);
+static_assert(sizeof(Query) == 24 * sizeof(double));
 
 Solve* find_solve(const Library& library, const std::filesystem::path& path) {
   return find_function<Solve>(library, path, "touchstone_plugin_solve");
@@ -178,27 +187,35 @@ class PluginMethod final : public fast::Method {
     std::call_once(is_loaded_, [this] {
       library_ = open_library(path_);
       solve_ = find_solve(library_, path_);
+      solve_batch_ = find_optional<SolveBatch>(library_, "touchstone_plugin_solve_batch");
     });
+    if (queries.empty()) return;
     const TouchstonePluginOptions plugin_options{
         .tolerance = options.tolerance,
         .max_checks = options.max_checks,
         .min_separation = options.separation.distance,
         .t_max = options.t_max,
         .norm = static_cast<std::int32_t>(options.separation.norm)};
-    for (std::size_t i = 0; i < queries.size(); ++i) {
-      answers[i] = ask(kind, queries[i], plugin_options);
-    }
+    std::vector<TouchstonePluginAnswer> found(queries.size(), {.verdict = TOUCHSTONE_ERROR,
+                                                               .toi_lower = fast::Answer::none,
+                                                               .toi_upper = fast::Answer::none,
+                                                               .tolerance = fast::Answer::none});
+    ask(static_cast<std::int32_t>(kind), queries, plugin_options, found);
+    std::ranges::transform(found, answers.begin(),
+                           [](const TouchstonePluginAnswer& answer) { return checked(answer); });
   }
 
  private:
-  [[nodiscard]] fast::Answer ask(Kind kind, const Query& query,
-                                 const TouchstonePluginOptions& options) const {
-    TouchstonePluginAnswer answer{.verdict = TOUCHSTONE_ERROR,
-                                  .toi_lower = fast::Answer::none,
-                                  .toi_upper = fast::Answer::none,
-                                  .tolerance = fast::Answer::none};
-    solve_(static_cast<std::int32_t>(kind), query.coordinates.data(), &options, &answer);
-    return checked(answer);
+  void ask(std::int32_t kind, std::span<const Query> queries,
+           const TouchstonePluginOptions& options, std::span<TouchstonePluginAnswer> found) const {
+    if (solve_batch_ != nullptr) {
+      solve_batch_(kind, std::ssize(queries), queries.front().coordinates.data(), &options,
+                   found.data());
+      return;
+    }
+    for (std::size_t i = 0; i < queries.size(); ++i) {
+      solve_(kind, queries[i].coordinates.data(), &options, &found[i]);
+    }
   }
 
   std::filesystem::path path_;
@@ -207,6 +224,7 @@ class PluginMethod final : public fast::Method {
   mutable std::once_flag is_loaded_;
   mutable Library library_;
   mutable Solve* solve_ = nullptr;
+  mutable SolveBatch* solve_batch_ = nullptr;
 };
 
 // ---- In a child process -------------------------------------------------------------------------

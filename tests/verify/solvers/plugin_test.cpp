@@ -364,30 +364,43 @@ TEST(Plugin, HandsOnTimesThatAreNotFinite) {
   }
 }
 
-TEST(Plugin, InAProcessOfItsOwnItsWorstCostsOneQueryEach) {
-  const auto method = load_plugin(misbehaving);
-  const std::vector<Query> queries{
-      query_for(Misbehaviour::aborts), query_for(Misbehaviour::says_no),
-      query_for(Misbehaviour::hangs),  query_for(Misbehaviour::yes_without_toi),
-      query_for(Misbehaviour::throws), query_for(Misbehaviour::writes_to_null),
-      query_for(Misbehaviour::says_no)};
-  const std::vector<Verdict> expected{Verdict::error, Verdict::no,    Verdict::undecided,
-                                      Verdict::yes,   Verdict::error, Verdict::error,
-                                      Verdict::no};
+/// By single calls, and in batches.
+class WorstPlugin : public ::testing::TestWithParam<const char*> {};
+
+TEST_P(WorstPlugin, CostsOneQueryEachInAProcessOfItsOwn) {
+  const auto method = load_plugin(tests::plugin_library(GetParam()));
+  std::vector<Query> queries(40, query_for(Misbehaviour::says_no));
+  std::vector<Verdict> expected(queries.size(), Verdict::no);
+  const auto add = [&](Misbehaviour what, Verdict verdict) {
+    queries.push_back(query_for(what));
+    expected.push_back(verdict);
+  };
+  add(Misbehaviour::aborts, Verdict::error);
+  add(Misbehaviour::says_no, Verdict::no);
+  add(Misbehaviour::hangs, Verdict::undecided);
+  add(Misbehaviour::yes_without_toi, Verdict::yes);
+  add(Misbehaviour::throws, Verdict::error);
+  add(Misbehaviour::writes_to_null, Verdict::error);
+  add(Misbehaviour::says_no, Verdict::no);
   std::vector<Answer> answers(queries.size());
   SolverProcess process(*method, {.query_limit_seconds = 0.5});
   const SolverRun run = process.solve(Kind::vertex_face, queries, answers, {});
+  double most_at_once = 1.0;
   for (std::size_t i = 0; i < queries.size(); ++i) {
     SCOPED_TRACE(i);
-    expect_nothing_but(answers[i], expected[i]);
+    EXPECT_EQ(answers[i].verdict, expected[i]);
+    most_at_once = std::fmax(most_at_once, answers[i].tolerance);
   }
+  EXPECT_EQ(most_at_once > 1.0, std::string_view(GetParam()) == "misbehaving_batch");
   std::string failures;
   for (const judge::QueryFailure& failure : run.failures) {
     failures += std::to_string(failure.position) + " " + to_text(failure.failure) + "\n";
   }
   EXPECT_EQ(failures,
-            "0 crash: SIGABRT\n2 hang\n4 exception: thrown by a plugin\n5 crash: SIGSEGV\n");
+            "40 crash: SIGABRT\n42 hang\n44 exception: thrown by a plugin\n45 crash: SIGSEGV\n");
 }
+
+INSTANTIATE_TEST_SUITE_P(Calls, WorstPlugin, ::testing::Values("misbehaving", "misbehaving_batch"));
 
 }  // namespace
 }  // namespace touchstone::verify::solvers::plugin_test

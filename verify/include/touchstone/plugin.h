@@ -3,10 +3,10 @@
 /// \file
 /// The interface for solvers under test, for C99 and C++.
 ///
-/// A plugin is a shared library that defines the first three functions at the end of this header,
-/// and the fourth if its promise is another than the usual one; it needs no other header of
-/// Touchstone. `touchstone certify --plugin ./libsolver.so` loads it and
-/// calls it for each query. `examples/plugin/` is a complete one.
+/// A plugin is a shared library that defines the first three functions at the end of this header;
+/// the fourth if its promise is another than the usual one; and the fifth if it is faster with many
+/// queries at once. It needs no other header of Touchstone. `touchstone certify --plugin
+/// ./libsolver.so` loads it and calls it for each query. `examples/plugin/` is a complete one.
 ///
 /// The problem: four points move on straight lines from t=0 to t=1. Do a vertex and a triangle, or
 /// two edges, collide at some t in [0,1], and when first? Contact at t=0, at t=1 and on the
@@ -135,6 +135,16 @@ TOUCHSTONE_API void touchstone_plugin_solve(int32_t kind, const double* coordina
 /// precision, bounds of the time. Queries outside of the promise are not asked, and are no faults.
 /// \param promise to be changed where it differs.
 TOUCHSTONE_API void touchstone_plugin_promise(TouchstonePluginPromise* promise);
+
+/// Defined by the plugin if it solves many queries at once: called in place of
+/// touchstone_plugin_solve. After a crash, an exception or a hang the same queries are asked one by
+/// one, with count = 1, so one of them costs no other.
+/// \param count the number of queries, at least 1 and at most 512; as many answers, and 24 doubles
+///        of coordinates for each query, one after the other.
+TOUCHSTONE_API void touchstone_plugin_solve_batch(int32_t kind, int64_t count,
+                                                  const double* coordinates,
+                                                  const TouchstonePluginOptions* options,
+                                                  TouchstonePluginAnswer* answers);
 
 #ifdef __cplusplus
 }

@@ -1,5 +1,6 @@
 /// \file
 /// A plugin whose first coordinate selects its action, from right answers to the worst failures.
+/// With BATCH it takes many queries at once, and says by the tolerance of a no how many.
 
 #include <sys/types.h>
 #include <unistd.h>
@@ -143,3 +144,14 @@ void touchstone_plugin_solve(std::int32_t kind, const double* coordinates,
       return;
   }
 }
+
+#ifdef BATCH
+void touchstone_plugin_solve_batch(std::int32_t kind, std::int64_t count, const double* coordinates,
+                                   const TouchstonePluginOptions* options,
+                                   TouchstonePluginAnswer* answers) {
+  for (std::int64_t i = 0; i < count; ++i) {
+    touchstone_plugin_solve(kind, coordinates + 24 * i, options, &answers[i]);
+    if (answers[i].verdict == TOUCHSTONE_NO) answers[i].tolerance = static_cast<double>(count);
+  }
+}
+#endif
