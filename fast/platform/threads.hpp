@@ -12,6 +12,13 @@
 #include "fast/platform/floating_point_state.hpp"
 
 #ifdef TOUCHSTONE_TBB
+#include <map>
+#include <memory>
+#include <mutex>
+#include <new>
+#include <utility>
+#include <vector>
+
 #include <oneapi/tbb/blocked_range.h>
 #include <oneapi/tbb/enumerable_thread_specific.h>
 #include <oneapi/tbb/info.h>
@@ -80,6 +87,52 @@ class enumerable_thread_specific {
 }  // namespace tbb
 #endif
 
+#ifdef TOUCHSTONE_TBB
+/// An arena that no other call uses. oneTBB (2021.8) loses 7 kB with each arena that it destroys,
+/// so arenas are kept for later calls: as many as there are calls at the same time. A fork can
+/// leave the lock taken for ever; whoever does not get it at once does without.
+class BorrowedArena {
+ public:
+  explicit BorrowedArena(int threads) : threads_(threads) {
+    const std::unique_lock lock(idle().guard, std::try_to_lock);
+    auto& arenas = idle().by_threads;
+    if (lock && !arenas[threads].empty()) {
+      arena_ = std::move(arenas[threads].back());
+      arenas[threads].pop_back();
+    } else {
+      arena_ = std::make_unique<tbb::task_arena>(threads);
+    }
+  }
+  ~BorrowedArena() {
+    const std::unique_lock lock(idle().guard, std::try_to_lock);
+    if (!lock) return;
+    try {
+      idle().by_threads[threads_].push_back(std::move(arena_));
+    } catch (const std::bad_alloc&) {
+      // Without memory the arena is destroyed.
+    }
+  }
+  BorrowedArena(const BorrowedArena&) = delete;
+  BorrowedArena& operator=(const BorrowedArena&) = delete;
+
+  [[nodiscard]] tbb::task_arena& operator*() { return *arena_; }
+
+ private:
+  struct Idle {
+    std::mutex guard;
+    std::map<int, std::vector<std::unique_ptr<tbb::task_arena>>> by_threads;
+  };
+  /// Never destroyed: threads may search until the program has ended.
+  static Idle& idle() {
+    static Idle* const all = new Idle;
+    return *all;
+  }
+
+  int threads_;
+  std::unique_ptr<tbb::task_arena> arena_;
+};
+#endif
+
 /// Calls work() in an arena of at most this number of threads (0: all cores), under strict floating
 /// point, and returns its result. It may run in another thread than the caller's. Its tasks have to
 /// establish strict floating point themselves.
@@ -92,8 +145,8 @@ auto with_threads([[maybe_unused]] int max_threads, const Work& work) {
 #ifdef TOUCHSTONE_TBB
   // oneTBB would not start more threads than cores.
   const int cores = tbb::info::default_concurrency();
-  tbb::task_arena arena(max_threads == 0 ? cores : std::min(max_threads, cores));
-  return arena.execute(strictly);
+  BorrowedArena arena(max_threads == 0 ? cores : std::min(max_threads, cores));
+  return (*arena).execute(strictly);
 #else
   return strictly();
 #endif

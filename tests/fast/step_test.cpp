@@ -16,6 +16,7 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <thread>
 #include <utility>
 #include <vector>
 
@@ -793,11 +794,33 @@ TEST(Step, PlantedFaultsInTheFusedStageAreFound) {
 #ifndef TOUCHSTONE_SANITIZED
 // ---- Memory -------------------------------------------------------------------------------------
 
-/// Bytes of address space that this process has.
-std::uint64_t address_space() {
-  std::uint64_t pages = 0;
-  std::ifstream("/proc/self/statm") >> pages;
-  return pages * static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE));
+struct Memory {
+  std::uint64_t address_space, resident;
+};
+
+/// Bytes that this process has.
+Memory memory() {
+  Memory pages{};
+  std::ifstream("/proc/self/statm") >> pages.address_space >> pages.resident;
+  const auto page = static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE));
+  return {.address_space = pages.address_space * page, .resident = pages.resident * page};
+}
+
+/// oneTBB loses memory with each arena, and with each thread of the caller's outside of one.
+TEST(Step, SearchesTakeNoMemoryThatTheyKeep) {
+  const Places places = Places::Identity(3, 3);
+  const std::vector<Face> faces{{0, 1, 2}};
+  const Step step(places, places, {.edges = {}, .faces = faces, .points = {}}, {.max_threads = 2});
+  const auto search = [&](int count) {
+    for (int i = 0; i < count; ++i) {
+      EXPECT_TRUE(step.is_free());
+      std::thread([&] { EXPECT_TRUE(step.collisions().empty()); }).join();
+    }
+  };
+  search(200);
+  const std::uint64_t before = memory().resident;
+  search(2000);
+  EXPECT_LT(memory().resident, before + (std::uint64_t{6} << 20U));
 }
 
 TEST(Step, DoesNotStoreCandidates) {
@@ -813,7 +836,7 @@ TEST(Step, DoesNotStoreCandidates) {
       places.row(2 * i + 1) << 1 + offset, 1 - offset, 1;
       edges.push_back({2 * i, 2 * i + 1});
     }
-    const rlim_t limit = address_space() + (std::uint64_t{24} << 20U);
+    const rlim_t limit = memory().address_space + (std::uint64_t{24} << 20U);
     const rlimit limits{.rlim_cur = limit, .rlim_max = limit};
     ::setrlimit(RLIMIT_AS, &limits);
     const Step step(places, places, {.edges = edges, .faces = {}, .points = {}},
