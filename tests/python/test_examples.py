@@ -20,7 +20,7 @@ SAYS = {
 
 
 def test_every_example_is_tested():
-    assert {path.name for path in FOLDER.glob("*.py")} == {*SAYS, "naive_cubic.py"}
+    assert {path.name for path in FOLDER.glob("*.py")} == {*SAYS, "naive_cubic.py", "to_notebooks.py"}
 
 
 @pytest.mark.parametrize("name", SAYS)
@@ -32,20 +32,29 @@ def test_scripts(name, tmp_path):
         assert "<svg" in (tmp_path / "time_and_error.svg").read_text()
 
 
+@pytest.fixture(scope="module")
+def notebooks(tmp_path_factory):
+    """The folder of the examples as notebooks."""
+    for name in ("nbformat", "nbconvert", "ipykernel"):
+        pytest.importorskip(name)
+    folder = tmp_path_factory.mktemp("notebooks")
+    subprocess.run([sys.executable, FOLDER / "to_notebooks.py", folder], check=True)
+    assert {path.stem for path in folder.iterdir()} == {pathlib.Path(name).stem for name in SAYS}
+    return folder
+
+
 @pytest.mark.parametrize("name", SAYS)
-def test_notebooks(name, tmp_path):
-    """Each script as the cell of a notebook, executed by nbconvert."""
-    nbformat = pytest.importorskip("nbformat")
-    pytest.importorskip("nbconvert")
-    pytest.importorskip("ipykernel")
-    code = (FOLDER / name).read_text().replace("sys.argv", "['example']").replace("__file__", repr(str(FOLDER / name)))
-    nbformat.write(nbformat.v4.new_notebook(cells=[nbformat.v4.new_code_cell(code)]), tmp_path / "example.ipynb")
-    command = [sys.executable, "-m", "nbconvert", "--execute", "--to", "notebook", "--output", "executed"]
-    command += ["--ExecutePreprocessor.timeout=300", "example.ipynb"]
-    done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True)
+def test_notebooks(name, notebooks):
+    """Executed by nbconvert."""
+    import nbformat
+
+    stem = pathlib.Path(name).stem
+    command = [sys.executable, "-m", "nbconvert", "--execute", "--to", "notebook", "--output", f"{stem}_executed"]
+    command += ["--ExecutePreprocessor.timeout=300", f"{stem}.ipynb"]
+    done = subprocess.run(command, cwd=notebooks, capture_output=True, text=True)
     assert done.returncode == 0, done.stderr
-    executed = nbformat.read(tmp_path / "executed.ipynb", as_version=4)
-    printed = "".join(output.get("text", "") for output in executed.cells[0].outputs)
+    executed = nbformat.read(notebooks / f"{stem}_executed.ipynb", as_version=4)
+    printed = "".join(output.get("text", "") for cell in executed.cells[1:] for output in cell.outputs)
     assert [text for text in SAYS[name] if text not in printed] == []
 
 
