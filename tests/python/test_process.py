@@ -26,10 +26,10 @@ def falling() -> dict[str, np.ndarray]:
 @pytest.mark.parametrize("name", ["certified", "tight_inclusion", "distance", "Step", "holds_the_lock"])
 def test_threads_run_at_the_same_time(name, queries, falling, only_released):
     call = {
-        "certified": lambda: touchstone.certified("edge_edge", queries, threads=1),
-        "tight_inclusion": lambda: touchstone.tight_inclusion("edge_edge", queries, threads=1),
-        "distance": lambda: touchstone.distance("edge_edge", queries, threads=1),
-        "Step": lambda: touchstone.Step(**falling, threads=1).is_free(),
+        "certified": lambda: touchstone.certified("edge_edge", queries, threads=1, progress=False),
+        "tight_inclusion": lambda: touchstone.tight_inclusion("edge_edge", queries, threads=1, progress=False),
+        "distance": lambda: touchstone.distance("edge_edge", queries, threads=1, progress=False),
+        "Step": lambda: touchstone.Step(**falling, threads=1, progress=False).is_free(),
         "holds_the_lock": lambda: sum(range(1000)),  # a planted fault
     }[name]
     workers, inside, most = 4, 0, 0
@@ -51,7 +51,10 @@ def test_threads_run_at_the_same_time(name, queries, falling, only_released):
 
 
 def interrupt_once_inside(call) -> pytest.ExceptionInfo:
-    """Call, and interrupt the call from another thread as soon as it releases the lock."""
+    """Call, and interrupt the call from another thread as soon as it releases the lock.
+
+    The call shows no progress: isatty() of standard error releases the lock, too.
+    """
     inside = threading.Event()
 
     def send() -> None:
@@ -76,7 +79,9 @@ def test_an_interrupt_ends_a_batch_with_what_is_done(threads, only_released):
     batch = np.tile(query, (200_000, 1, 1))
 
     def call() -> None:
-        touchstone.tight_inclusion("vertex_face", batch, tolerance=1e-12, max_checks=10_000, threads=threads)
+        touchstone.tight_inclusion(
+            "vertex_face", batch, tolerance=1e-12, max_checks=10_000, threads=threads, progress=False
+        )
 
     caught = interrupt_once_inside(call)
     done = caught.value.result
@@ -89,7 +94,8 @@ def test_an_interrupt_ends_a_batch_with_what_is_done(threads, only_released):
 def test_an_interrupt_ends_a_step(only_released):
     random = np.random.default_rng(1)
     before = random.normal(size=(60000, 3))  # minutes of pairs
-    step = touchstone.Step(before, before[::-1], faces=np.arange(60000).reshape(-1, 3))
+    faces = np.arange(60000).reshape(-1, 3)
+    step = touchstone.Step(before, before[::-1], faces=faces, progress=False)
     for search in (step.collisions, step.candidates, lambda: step.active_set(0.5), step.least_distance):
         assert interrupt_once_inside(search).value.result is None
     # The step is as good as before.
@@ -132,7 +138,7 @@ def test_a_handler_of_signals_may_raise_what_it_likes(queries, only_released):
     try:
         with pytest.raises(Stop):
             inside.set()
-            touchstone.certified("edge_edge", many, threads=1)
+            touchstone.certified("edge_edge", many, threads=1, progress=False)
     finally:
         sender.join()
         signal.signal(signal.SIGINT, before)
