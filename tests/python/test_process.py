@@ -108,7 +108,7 @@ def test_a_bar_shows_the_part_that_is_done(shown, queries, capsys, monkeypatch, 
     clock = iter(range(10**9))
     monkeypatch.setattr("touchstone._tool.time.monotonic", lambda: float(next(clock)))
     touchstone.tight_inclusion("edge_edge", np.tile(queries, (20, 1, 1)), threads=1, progress=shown)
-    step = touchstone.Step(*np.random.default_rng(1).normal(size=(2, 12000, 3)), faces=np.arange(12000).reshape(-1, 3), progress=shown)
+    step = touchstone.Step(*np.random.default_rng(1).normal(size=(2, 4500, 3)), faces=np.arange(4500).reshape(-1, 3), progress=shown)
     step.collisions()
     drawn = capsys.readouterr().err
     assert ("%|#" in drawn) == ("Step: " in drawn) == shown
