@@ -154,6 +154,21 @@ class TestErrors:
             bool(solve("vertex_face", queries[0]))
 
 
+@pytest.mark.parametrize("solve", [touchstone.certified, touchstone.tight_inclusion, touchstone.distance])
+def test_out_is_overwritten_and_returned(solve, queries):
+    for of, other in ((queries, -queries), (queries[3], queries[4])):
+        expected, out = bits(solve("edge_edge", of)), solve("vertex_face", other)
+        assert bits(out) != expected
+        memory = out.array
+        assert solve("edge_edge", of, out=out) is out
+        assert out.array is memory and bits(out) == expected
+        for bad in (out.array, out[()] if out.array.ndim == 0 else out[:7], touchstone.decide("edge_edge", of)):
+            with pytest.raises(ValueError, match=f"out must be an earlier {type(out).__name__}"):
+                solve("edge_edge", queries[:8], out=bad)
+    with pytest.raises(ValueError, match="their own layout"):
+        solve("edge_edge", queries[::2], out=solve("edge_edge", queries)[::2])
+
+
 @pytest.mark.parametrize("count", [0, 1, 2])
 @pytest.mark.parametrize(
     "solve, options, text",
