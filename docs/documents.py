@@ -58,7 +58,7 @@ COMMANDS = {
               f"--repetitions 7{separation}" for step, separations in STEPS.items() for separation in separations],
     "bounds": ["derive"],
     "certificates": [f"prove {data} --threads 1".replace("  ", " ") for data in DATA],
-    "step_proofs": [f"step simulation/{step}/frames/*.ply --earliest --threads 1" for step in STEPS],
+    "step_proofs": [f"step simulation/{step}/frames/*.ply --earliest --candidates --threads 1" for step in STEPS],
     "simulations": [f"simulate {simulation}" for simulation in SIMULATIONS],
 }
 

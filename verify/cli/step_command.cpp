@@ -206,6 +206,8 @@ void add_step_options(CLI::App& command, Arguments& arguments) {
       "Find only whether there is a collision");
   earliest->excludes(all);
   free->excludes(all)->excludes(earliest);
+  command.add_flag("--candidates", arguments.check.count_candidates,
+                   "Count the candidate pairs also with --earliest and --free");
   command
       .add_option("--t-max", arguments.check.step.t_max, "Only contacts up to this time of a step")
       ->type_name("T")

@@ -79,7 +79,9 @@ StepCheck check_step(const mesh::Mesh& mesh, const mesh::Vertices& before,
         fast::MeshElements{.edges = mesh.edges, .faces = mesh.faces, .points = mesh.points},
         options.step);
     if (options.alpha) part.emplace(whole->scaled(*options.alpha));
-    check.candidates = count_candidates(part ? *part : *whole);
+    if (options.question == StepQuestion::all || options.count_candidates) {
+      check.candidates = count_candidates(part ? *part : *whole);
+    }
   });
   check.narrow_phase =
       work_time_of([&] { answer(part ? *part : *whole, options.question, check); });

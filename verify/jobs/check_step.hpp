@@ -34,6 +34,8 @@ struct StepCheckOptions {
   /// Replaces the whole step by the one with this step size: to the rounded positions x0 + α (x1 −
   /// x0) (fast::Step::scaled).
   std::optional<double> alpha = std::nullopt;
+  /// Count the candidates also if the question is not `all`: this takes longer than the answer.
+  bool count_candidates = false;
   /// If set, receives the text of a certificate of the step.
   StepProofOptions proof = {};
 };
@@ -46,8 +48,8 @@ inline constexpr std::array pair_kinds{fast::PairKind::vertex_face, fast::PairKi
 using PairCounts = std::array<std::uint64_t, pair_kinds.size()>;
 
 struct StepCheck {
-  /// Pairs whose swept boxes are within the separation.
-  PairCounts candidates{};
+  /// Pairs whose swept boxes are within the separation, if they were counted.
+  std::optional<PairCounts> candidates;
   bool is_free = true;
   /// Empty if the question was `free`, or there is no collision.
   std::optional<fast::StepImpact> earliest;
@@ -58,7 +60,7 @@ struct StepCheck {
   std::optional<double> free_alpha;
   /// The proof, if requested.
   std::optional<StepProof> proof;
-  /// Time of boxes, trees and the count of all candidates.
+  /// Time of boxes and groups, and of the count of all candidates.
   WorkTime broad_phase;
   /// Time of the answer, given the trees.
   WorkTime narrow_phase;

@@ -53,13 +53,16 @@ std::string_view name_of(jobs::StepQuestion question) {
 
 // ---- Text ---------------------------------------------------------------------------------------
 
-/// Kinds that have a candidate in some step, and the two of every mesh.
+/// Kinds that have a candidate in some step, and the two of every mesh; none if candidates were not
+/// counted.
 std::vector<fast::PairKind> kinds_in(const StepReport& report) {
   std::vector<fast::PairKind> kinds;
+  const auto is_counted = [](const StepRecord& step) { return step.candidates.has_value(); };
+  if (!std::ranges::all_of(report.steps, is_counted)) return kinds;
   std::ranges::copy_if(jobs::pair_kinds, std::back_inserter(kinds), [&](fast::PairKind kind) {
     return kind == fast::PairKind::vertex_face || kind == fast::PairKind::edge_edge ||
            std::ranges::any_of(report.steps, [kind](const StepRecord& step) {
-             return count_of(step.candidates, kind) != 0;
+             return count_of(*step.candidates, kind) != 0;
            });
   });
   return kinds;
@@ -95,7 +98,7 @@ io::TextTable table_of(const StepReport& report) {
     const jobs::PairCounts colliding =
         has_counts ? jobs::counts_of(*step.collisions) : jobs::PairCounts{};
     for (const fast::PairKind kind : kinds) {
-      row.push_back(std::to_string(count_of(step.candidates, kind)));
+      row.push_back(std::to_string(count_of(*step.candidates, kind)));
       if (has_counts) row.push_back(std::to_string(count_of(colliding, kind)));
     }
     row.push_back(earliest_text(report, step));
@@ -242,7 +245,7 @@ nlohmann::json json_of(const StepReport& report, std::size_t i) {
   nlohmann::json json{
       {"frames",
        {io::printable(report.frames.at(i).name), io::printable(report.frames.at(i + 1).name)}},
-      {"candidates", json_of(step.candidates)},
+      {"candidates", step.candidates ? json_of(*step.candidates) : nlohmann::json()},
       {"collisions",
        step.collisions ? json_of(jobs::counts_of(*step.collisions)) : nlohmann::json()},
       {"toi_lower", toi(&fast::StepImpact::toi_lower)},

@@ -51,13 +51,13 @@ struct StepReport {
 /// earliest or free), `vertices`, `edges`, `faces`, `interrupted`; `frames`, a list of `name`,
 /// `pierced` (how many edges pierce faces) and `piercings` (pairs of an edge and a face); and
 /// `steps`, a list of `frames` (two names), `candidates` and `collisions`
-/// (`vertex_face`, `edge_edge`, `vertex_edge`, `vertex_vertex`; `collisions` is null unless all
-/// were asked for), `toi_lower` and `toi_upper` (null if nothing touches, or only freedom was asked
-/// for), `earliest` (the pairs of the earliest impact, as below), `free`, `pierced` (how many pairs
-/// pierce in one of the two frames or both), `free_alpha` (with alpha), `proof` (if a certificate
-/// was written: `claim`, `directions` and `certificates`, the pairs that are argued by each,
-/// `bytes`, and `complete`), and `seconds` and `processor_seconds` (`broad_phase`, `narrow_phase`,
-/// `total`).
+/// (`vertex_face`, `edge_edge`, `vertex_edge`, `vertex_vertex`; null where they were not
+/// counted or not all asked for), `toi_lower` and `toi_upper` (null if nothing touches, or only
+/// freedom was asked for), `earliest` (the pairs of the earliest impact, as below), `free`,
+/// `pierced` (how many pairs pierce in one of the two frames or both), `free_alpha` (with alpha),
+/// `proof` (if a certificate was written: `claim`, `directions` and `certificates`, the pairs that
+/// are argued by each, `bytes`, and `complete`), and `seconds` and `processor_seconds`
+/// (`broad_phase`, `narrow_phase`, `total`).
 ///
 /// A pair has `kind`, `first`, `second` (numbers from 0), `toi_lower`, `toi_upper`, `u` and `v`.
 [[nodiscard]] nlohmann::json to_json(const StepReport& report);

@@ -108,6 +108,9 @@ TEST_F(StepCommand, AnswersWhatIsAsked) {
   const Json earliest = result({before, after, "--earliest"}, 1)["steps"][0];
   expect_toi(earliest, 0.25);
   EXPECT_TRUE(earliest["collisions"].is_null());
+  EXPECT_TRUE(earliest["candidates"].is_null());
+  const Json counted = result({before, after, "--earliest", "--candidates"}, 1)["steps"][0];
+  EXPECT_EQ(counted["candidates"]["vertex_face"], 3);
   EXPECT_GE(earliest["earliest"].size(), 3U);
   const Json free = result({before, after, "--free"}, 1)["steps"][0];
   EXPECT_EQ(free["free"], false);

@@ -29,7 +29,7 @@ StepReport report_of(std::size_t collisions) {
   report.frames = {{.name = "a\n", .piercings = {}, .time = {}},
                    {.name = "b", .piercings = {{.edge = 3, .face = 0}}, .time = {}}};
   StepRecord step;
-  step.candidates = {7, 8, 0, 0};
+  step.candidates = jobs::PairCounts{7, 8, 0, 0};
   step.is_free = collisions == 0;
   step.collisions.emplace();
   for (std::size_t i = collisions; i > 0; --i) {
