@@ -85,6 +85,18 @@ std::optional<Line> LineReader::next() {
   return std::exchange(ahead_, std::nullopt);
 }
 
+std::string_view LineReader::peek(std::size_t bytes) {
+  if (ahead_) return {};
+  while (end_ - begin_ < bytes && fill()) {
+  }
+  return {buffer_.get() + begin_, end_ - begin_};
+}
+
+void LineReader::skip(std::size_t bytes, std::uint64_t lines) {
+  begin_ += bytes;
+  line_number_ += lines;
+}
+
 std::optional<Line> LineReader::read_line() {
   std::size_t searched = 0;
   for (;;) {
