@@ -98,7 +98,7 @@ double scaled(double whole, int exponent) {
 }
 
 /// A number ±m·10^e as a text has it.
-struct Decimal {
+struct WrittenNumber {
   std::uint64_t digits;  ///< below 10^19
   int exponent;          ///< of ten
   bool is_negative;
@@ -113,7 +113,7 @@ struct Dyadic {
 enum class Exactness : std::uint8_t { exact, inexact, unknown };
 
 /// Tells whether the magnitude of a number is dyadic with at most 53 significant bits, and sets it.
-Exactness make_dyadic(const Decimal& number, Dyadic& dyadic) {
+Exactness make_dyadic(const WrittenNumber& number, Dyadic& dyadic) {
   const int exponent = number.exponent;
   std::uint64_t whole = number.digits;
   if (exponent < 0 && whole != 0) {
@@ -136,7 +136,7 @@ Exactness make_dyadic(const Decimal& number, Dyadic& dyadic) {
 
 /// Reads digits with an optional point and an optional exponent. Returns false if there are none,
 /// or too many.
-bool take_decimal(Cursor& cursor, Decimal& number) {
+bool take_decimal(Cursor& cursor, WrittenNumber& number) {
   cursor.skip_spaces();
   number = {.digits = 0, .exponent = 0, .is_negative = cursor.take('-')};
   std::size_t count = 0;
@@ -248,7 +248,7 @@ class Reader {
  private:
   bool take_coordinate(double& value, PlainRows& rows) {
     const char* const begin = cursor_.at;
-    Decimal number{};
+    WrittenNumber number{};
     if (!take_decimal(cursor_, number)) return false;
     const char* const end = cursor_.at;
     int of_two = 0;
