@@ -40,14 +40,14 @@ void add(CLI::App& app, Status& status) {
   command->option_defaults()->group("Output");
   add_json_option(*command, arguments->json_file);
   set_help(*command,
-           "touchstone certify data --shard 0/2 --resume run --json all.json\n"
-           "touchstone certify data --shard 1/2 --resume run --json all.json\n"
-           "touchstone merge run",
+           "touchstone merge run   # of touchstone certify data --shard 0/2 --resume run --json "
+           "all.json",
            "Writes the files that the command line of the run named. The result has no times and "
            "is the same however the pieces were done. A piece that is missing, damaged, of another "
            "run or version, or whose input has changed is an error that names it. Run it where the "
            "pieces ran: their inputs are checked again.\n"
-           "Exit status: that of the run; 2 if the pieces are not all there and valid.");
+           "Exit status: 0 success, 1 wrong answers or collisions in a piece, 2 the pieces are not "
+           "all there and valid.");
   command->callback([arguments, &status] { status = run(*arguments); });
 }
 

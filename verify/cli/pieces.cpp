@@ -1,15 +1,9 @@
 #include "verify/cli/pieces.hpp"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <spawn.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <charconv>
-#include <csignal>
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -27,6 +21,7 @@
 #include "verify/generate/families.hpp"
 #include "verify/io/json.hpp"
 #include "verify/io/terminal.hpp"
+#include "verify/solvers/own_program.hpp"
 
 namespace touchstone::verify::cli {
 namespace {
@@ -70,29 +65,6 @@ Shard shard_of_environment() {
       "and _SIZE, PARALLEL_SEQ and PARALLEL_COUNT are set");
 }
 
-// ---- A process for each piece -------------------------------------------------------------------
-
-/// Runs this program with other arguments, without standard output, and returns its exit status;
-/// 128 and more if a signal ended it. An interrupt is passed on.
-int run_program(std::vector<std::string> arguments) {
-  std::vector<char*> pointers;
-  for (std::string& argument : arguments) pointers.push_back(argument.data());
-  pointers.push_back(nullptr);
-  posix_spawn_file_actions_t actions;
-  ::posix_spawn_file_actions_init(&actions);
-  ::posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
-  pid_t process = 0;
-  const int error =
-      ::posix_spawn(&process, "/proc/self/exe", &actions, nullptr, pointers.data(), environ);
-  ::posix_spawn_file_actions_destroy(&actions);
-  if (error != 0) throw std::system_error(error, std::generic_category(), "cannot run a piece");
-  int status = 0;
-  while (::waitpid(process, &status, 0) < 0 && errno == EINTR) {
-    if (io::interrupted()) ::kill(process, SIGINT);
-  }
-  return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
-}
-
 // ---- The plan -----------------------------------------------------------------------------------
 
 /// The options of the command line that results depend on, in the order of the help, and the files
@@ -132,7 +104,7 @@ int do_piece(const jobs::PieceFolder& folder, std::size_t number, const std::str
   }
   const jobs::Piece& piece = plan.pieces[number];
   arguments.insert(arguments.end(), piece.arguments.begin(), piece.arguments.end());
-  const int status = run_program(std::move(arguments));
+  const int status = solvers::run_own_program(std::move(arguments));
   if (status == static_cast<int>(Status::all_well) ||
       status == static_cast<int>(Status::wrong_answers)) {
     folder.finish(number, status);

@@ -165,10 +165,12 @@ std::size_t LineReader::read(std::span<char> space) {
       compressed_left_ = compressed_;
     }
     const bool is_at_end = compressed_left_.empty();
-    if (is_at_end && decompressor_->is_complete()) return 0;
+    if (has_failed_ || (is_at_end && decompressor_->is_complete())) return 0;
     const std::size_t count = decompress(space);
     if (count > 0) return count;
-    if (is_at_end) throw DatasetError(path(), {}, "its compressed stream is cut");
+    if (!is_at_end) continue;
+    has_failed_ = true;
+    throw DatasetError(path(), {}, "its compressed stream is cut");
   }
 }
 
@@ -176,6 +178,7 @@ std::size_t LineReader::decompress(std::span<char> space) {
   try {
     return decompressor_->decompress(compressed_left_, space);
   } catch (const std::runtime_error& error) {
+    has_failed_ = true;
     throw DatasetError(path(), {}, error.what());
   }
 }

@@ -112,6 +112,7 @@ class LineReader {
   std::optional<Decompressor> decompressor_;
   std::string compressed_;            ///< the last chunk read
   std::string_view compressed_left_;  ///< the unread part of it
+  bool has_failed_ = false;           ///< the compressed stream is treated as ended
   std::unique_ptr<char[]> buffer_;    // NOLINT(modernize-avoid-c-arrays): std::vector would fill it
   std::size_t begin_ = 0;
   std::size_t end_ = 0;
