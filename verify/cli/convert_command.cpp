@@ -62,12 +62,15 @@ struct Origin {
   std::string name;
 };
 
-/// The file's name below the path that led to it, in one word.
+/// The file's name below the path that led to it, in one word without that of a kind.
 std::string shard_name(const fs::path& file, const fs::path& path) {
   const fs::path inside = fs::is_directory(path) ? file.lexically_relative(path) : file.filename();
-  std::string name = (inside.parent_path() / data::dataset_stem(file)).string();
-  std::ranges::replace(name, '/', '_');
-  return name;
+  std::string name;
+  for (const fs::path& part : inside.parent_path()) {
+    const bool is_kind = part == to_string(Kind::vertex_face) || part == to_string(Kind::edge_edge);
+    if (!is_kind) name += part.string() + "_";
+  }
+  return name + data::dataset_stem(file);
 }
 
 /// A shard that is being written.
@@ -132,11 +135,13 @@ class ConvertRun {
     if (fs::exists(arguments.folder) && !fs::is_empty(arguments.folder)) {
       throw std::runtime_error(arguments.folder.string() + ": is not empty; choose another folder");
     }
-    std::set<std::string> names;
+    std::set<std::pair<std::string, Kind>> names;
     for (const fs::path& path : arguments.paths) {
       for (const fs::path& file : data::find_datasets({&path, 1})) {
         origins_.push_back({file, shard_name(file, path)});
-        if (!names.insert(origins_.back().name).second) {
+        const Kind kind =
+            arguments.kind.empty() ? data::kind_from_path(file) : kind_from_string(arguments.kind);
+        if (!names.emplace(origins_.back().name, kind).second) {
           throw std::runtime_error(file.string() + ": another input has the name " +
                                    origins_.back().name + " too");
         }
