@@ -425,6 +425,7 @@ def solve(
     t_max: float = 1.0,
     threads: int = 0,
     progress: bool | None = None,
+    out: Answers | None = None,
 ) -> Answers:
     """Decide queries with any method by its name, such as the published ones with their errors.
 
@@ -434,7 +435,7 @@ def solve(
     ----------
     method : str
         The name of one of `methods`.
-    kind, queries, separation, norm, t_max, threads, progress
+    kind, queries, separation, norm, t_max, threads, progress, out
         As for `certified`.
     tolerance : float, optional
         Of methods that search down to one.
@@ -468,6 +469,7 @@ def solve(
         np.dtype(module.answer_layout()),
         queries,
         progress,
+        out,
         lambda array, items, callback: int(
             module.solve(
                 method, kind, array, items, separation, norm, tolerance, max_checks, t_max, threads, callback

@@ -154,7 +154,15 @@ class TestErrors:
             bool(solve("vertex_face", queries[0]))
 
 
-@pytest.mark.parametrize("solve", [touchstone.certified, touchstone.tight_inclusion, touchstone.distance])
+@pytest.mark.parametrize(
+    "solve",
+    [
+        touchstone.certified,
+        touchstone.tight_inclusion,
+        touchstone.distance,
+        lambda *queries, **out: touchstone.solve("certified", *queries, **out),
+    ],
+)
 def test_out_is_overwritten_and_returned(solve, queries):
     for of, other in ((queries, -queries), (queries[3], queries[4])):
         expected, out = bits(solve("edge_edge", of)), solve("vertex_face", other)
