@@ -138,6 +138,7 @@ constexpr auto permissions = std::to_array<Permission>({
     {"verify/solvers/linux/", "linux/"},
     {"verify/solvers/linux/", "poll.h"},
     {"verify/solvers/linux/", "sched.h"},
+    {"verify/solvers/linux/", "spawn.h"},
     {"verify/solvers/linux/", "sys/"},
     {"verify/solvers/linux/", "unistd.h"},
 
@@ -169,8 +170,8 @@ const std::vector<Layer>& verify_layers() {
        {"base", "data", "generate", "io", "jobs", "judge", "mesh", "solvers", "stability"}},
       {"view", {"data", "io", "jobs", "judge", "mesh", "report", "solvers"}},
       {"cli",
-       {"data", "fuzz", "generate", "io", "jobs", "judge", "mesh", "report", "solvers", "stability",
-        "view"}},
+       {"base", "data", "fuzz", "generate", "io", "jobs", "judge", "mesh", "report", "solvers",
+        "stability", "view"}},
   };
   return layers;
 }

@@ -20,6 +20,7 @@
 #include "verify/cli/files.hpp"
 #include "verify/cli/help.hpp"
 #include "verify/cli/options.hpp"
+#include "verify/cli/pieces.hpp"
 #include "verify/cli/solver_options.hpp"
 #include "verify/cli/sources.hpp"
 #include "verify/cli/view_file.hpp"
@@ -39,6 +40,7 @@ using Progress = std::function<void(double)>;
 
 struct Arguments {
   SourceArguments sources;
+  PieceArguments pieces;
   SolverArguments judged;
   double seconds = 0.0;
   std::string json_file;
@@ -246,6 +248,7 @@ void add(CLI::App& app, Status& status) {
   CLI::App* command = app.add_subcommand(
       "certify", "Decide queries exactly; compare answers and solvers with the truth");
   add_source_options(*command, arguments->sources);
+  add_piece_options(*command, arguments->pieces);
   add_judged_options(*command, arguments->judged);
   add_seconds_option(*command, arguments->seconds);
   command->option_defaults()->group("Output");
@@ -269,7 +272,10 @@ void add(CLI::App& app, Status& status) {
   command->callback([arguments, command, &status] {
     settle_solver_options(*command, arguments->sources.built_in_set(), arguments->judged);
     settle_query_limit(*command, arguments->seconds, arguments->judged);
-    status = CertifyRun(*arguments).run();
+    status = run_in_pieces(
+        *command, arguments->pieces, arguments->sources,
+        {.files = {"--json", "--truth", "--prove"}, .refused = {"--view", "--seconds"}},
+        [&] { return CertifyRun(*arguments).run(); });
   });
 }
 

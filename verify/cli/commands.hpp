@@ -51,6 +51,12 @@ void add(CLI::App& app, Status& status);
 namespace view_command {
 void add(CLI::App& app, Status& status);
 }
+namespace convert_command {
+void add(CLI::App& app, Status& status);
+}
+namespace merge_command {
+void add(CLI::App& app, Status& status);
+}
 namespace derive_command {
 void add(CLI::App& app, Status& status);
 }

@@ -20,6 +20,7 @@
 #include "verify/cli/files.hpp"
 #include "verify/cli/help.hpp"
 #include "verify/cli/options.hpp"
+#include "verify/cli/pieces.hpp"
 #include "verify/cli/solver_options.hpp"
 #include "verify/cli/view_file.hpp"
 #include "verify/data/csv_dataset.hpp"
@@ -54,6 +55,7 @@ struct Arguments {
   double seconds = 0.0;
   std::uint64_t queries = 0;
   std::uint64_t seed = default_seed;
+  PieceArguments pieces;
   std::uint64_t most_findings = 20;
   std::string kind;
   std::vector<std::string> only;
@@ -365,6 +367,16 @@ std::vector<std::string> finding_kind_names() {
   return names;
 }
 
+/// A piece for each shard, with a seed of its own.
+std::vector<jobs::Piece> pieces_of_seeds(const Arguments& arguments) {
+  std::vector<jobs::Piece> pieces;
+  for (std::size_t i = 0; i < shard_of(arguments.pieces).count; ++i) {
+    const std::string seed = std::to_string(arguments.seed + i);
+    pieces.push_back({.name = "seed " + seed, .files = {}, .arguments = {"--seed=" + seed}});
+  }
+  return pieces;
+}
+
 void add_search_options(CLI::App& command, Arguments& arguments) {
   command.option_defaults()->group("Search");
   command
@@ -376,7 +388,8 @@ void add_search_options(CLI::App& command, Arguments& arguments) {
   command.add_option("--queries", arguments.queries, "Number of queries")
       ->type_name("N")
       ->check(whole_number(1, UINT64_MAX));
-  add_seed_option(command, arguments.seed, "Seed of all queries");
+  add_seed_option(command, arguments.seed, "Seed of all queries; --shard I/N adds I");
+  add_piece_options(command, arguments.pieces);
   command
       .add_option("--most-findings", arguments.most_findings,
                   "End after this number of groups of findings (0: never)")
@@ -438,6 +451,15 @@ void add(CLI::App& app, Status& status) {
   command->callback([arguments, command, &status] {
     settle_solver_options(*command, true, arguments->solver);
     settle_query_limit(*command, arguments->run_seconds(), arguments->solver);
+    if (!arguments->pieces.folder.empty()) {
+      status = run_pieces(*command, arguments->pieces,
+                          {.pieces = pieces_of_seeds(*arguments),
+                           .input = "--seed",
+                           .outputs = {"--json"},
+                           .refused = {"--out", "--write", "--view"}});
+      return;
+    }
+    arguments->seed += shard_of(arguments->pieces).index;
     status = FuzzRun(*arguments).run();
   });
 }

@@ -50,8 +50,9 @@ class HelpFormatter : public CLI::Formatter {
     return line.substr(line.find_first_not_of('\n'));
   }
 
-  /// A subcommand's help omits the help option itself.
+  /// A subcommand's help omits the help option itself, and options without a group.
   [[nodiscard]] std::string options_of(const CLI::App& app, const std::string& group) const {
+    if (group.empty()) return {};
     std::string lines;
     for (const CLI::Option* option : app.get_options()) {
       if (option->get_group() != group) continue;

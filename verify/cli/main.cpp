@@ -77,6 +77,8 @@ int run(int argc, char** argv) {
   touchstone::verify::cli::step_command::add(app, status);
   touchstone::verify::cli::bench_command::add(app, status);
   touchstone::verify::cli::fuzz_command::add(app, status);
+  touchstone::verify::cli::convert_command::add(app, status);
+  touchstone::verify::cli::merge_command::add(app, status);
   touchstone::verify::cli::stability_command::add(app, status);
   touchstone::verify::cli::report_command::add(app, status);
   touchstone::verify::cli::view_command::add(app, status);

@@ -18,6 +18,7 @@
 #include "verify/cli/files.hpp"
 #include "verify/cli/help.hpp"
 #include "verify/cli/options.hpp"
+#include "verify/cli/pieces.hpp"
 #include "verify/cli/sources.hpp"
 #include "verify/io/json.hpp"
 #include "verify/io/terminal.hpp"
@@ -33,6 +34,7 @@ using Progress = std::function<void(double)>;
 
 struct Arguments {
   SourceArguments sources;
+  PieceArguments pieces;
   std::string out_file;
   std::string json_file;
   std::string claim = "time_of_impact";
@@ -164,6 +166,7 @@ void add(CLI::App& app, Status& status) {
   CLI::App* command =
       app.add_subcommand("prove", "Write a proof of each verdict, for touchstone-check");
   add_source_options(*command, arguments->sources);
+  add_piece_options(*command, arguments->pieces);
   command->option_defaults()->group("Output");
   command
       ->add_option("--out", arguments->out_file,
@@ -188,7 +191,11 @@ void add(CLI::App& app, Status& status) {
            "zstdcat handcrafted.cert.zst | touchstone-check -",
            "A query whose proof exceeds the limits of the format is bad input.\n" +
                std::string(writing_statuses));
-  command->callback([arguments, &status] { status = ProveRun(*arguments).run(); });
+  command->callback([arguments, command, &status] {
+    status = run_in_pieces(*command, arguments->pieces, arguments->sources,
+                           {.files = {"--json", "--out"}, .refused = {}},
+                           [&] { return ProveRun(*arguments).run(); });
+  });
 }
 
 }  // namespace touchstone::verify::cli::prove_command

@@ -17,6 +17,7 @@
 #include "verify/cli/files.hpp"
 #include "verify/cli/help.hpp"
 #include "verify/cli/options.hpp"
+#include "verify/cli/pieces.hpp"
 #include "verify/cli/solver_options.hpp"
 #include "verify/cli/sources.hpp"
 #include "verify/io/json.hpp"
@@ -35,6 +36,7 @@ using Progress = std::function<void(double)>;
 
 struct Arguments {
   SourceArguments sources;
+  PieceArguments pieces;
   SolverArguments solver;
   std::string out_file;
   std::string json_file;
@@ -178,6 +180,7 @@ void add(CLI::App& app, Status& status) {
   CLI::App* command =
       app.add_subcommand("solve", "Write the answers of a solver to all queries as CSV");
   add_source_options(*command, arguments->sources);
+  add_piece_options(*command, arguments->pieces);
   add_solver_options(*command, arguments->solver);
   command
       ->add_option("--t-max", arguments->solver.options.t_max,
@@ -197,7 +200,9 @@ void add(CLI::App& app, Status& status) {
       "A method that supports only linf is conservative for l2.\n" + std::string(writing_statuses));
   command->callback([arguments, command, &status] {
     settle_solver_options(*command, arguments->sources.built_in_set(), arguments->solver);
-    status = SolveRun(*arguments).run();
+    status = run_in_pieces(*command, arguments->pieces, arguments->sources,
+                           {.files = {"--json", "--out"}, .refused = {}},
+                           [&] { return SolveRun(*arguments).run(); });
   });
 }
 

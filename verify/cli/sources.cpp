@@ -38,10 +38,11 @@ class TotalProgress {
 
 void for_each_family(const SourceArguments& arguments, const SourceHandlers& handlers) {
   const Separation separation = arguments.separation.given();
-  std::vector<std::pair<generate::Family, Kind>> sources;
-  for (const generate::Family& family : generate::families(separation)) {
-    for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
-      if (generate::supports(family, kind)) sources.emplace_back(family, kind);
+  const std::vector<BuiltInSource> all = built_in_sources(separation);
+  std::vector<BuiltInSource> sources;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (arguments.shard.contains(i) && arguments.only_source.value_or(i) == i) {
+      sources.push_back(all[i]);
     }
   }
   TotalProgress progress(handlers.title, sources.size());
@@ -113,6 +114,16 @@ void for_each_file(const SourceArguments& arguments, Files& record,
 
 }  // namespace
 
+std::vector<BuiltInSource> built_in_sources(const Separation& separation) {
+  std::vector<BuiltInSource> sources;
+  for (const generate::Family& family : generate::families(separation)) {
+    for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
+      if (generate::supports(family, kind)) sources.push_back({family, kind});
+    }
+  }
+  return sources;
+}
+
 void add_source_options(CLI::App& command, SourceArguments& arguments) {
   command.option_defaults()->group("Input");
   command
@@ -134,6 +145,8 @@ void add_source_options(CLI::App& command, SourceArguments& arguments) {
       ->capture_default_str()
       ->check(whole_number(1, UINT64_MAX));
   add_separation_options(command, arguments.separation);
+  // For pieces.hpp; not in the help.
+  command.add_option("--only-source", arguments.only_source)->group("");
 }
 
 Separation separation_for(const SourceArguments& arguments, const data::QuerySource& source) {

@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -17,10 +18,19 @@
 #include "verify/cli/files.hpp"
 #include "verify/cli/options.hpp"
 #include "verify/data/query_source.hpp"
+#include "verify/generate/families.hpp"
 #include "verify/io/dataset_error.hpp"
 #include "verify/mesh/frames.hpp"
 
 namespace touchstone::verify::cli {
+
+/// Part `index` of `count` of a list, from 0 on.
+struct Shard {
+  std::size_t index = 0;
+  std::size_t count = 1;
+
+  [[nodiscard]] bool contains(std::size_t number) const { return number % count == index; }
+};
 
 /// The queries of the command line, and the number of cores.
 struct SourceArguments {
@@ -32,10 +42,21 @@ struct SourceArguments {
   std::uint64_t seed = default_seed;
   std::uint64_t count = 1000;
   SeparationArguments separation = {};
+  /// The part of the sources that is used.
+  Shard shard = {};
+  /// Of the built-in set only the source of that number (built_in_sources).
+  std::optional<std::size_t> only_source = std::nullopt;
 
   /// Without a path the built-in set is used.
   [[nodiscard]] bool built_in_set() const { return paths.empty(); }
 };
+
+/// A family of the built-in set, and a kind of query that it has.
+struct BuiltInSource {
+  generate::Family family;
+  Kind kind;
+};
+[[nodiscard]] std::vector<BuiltInSource> built_in_sources(const Separation& separation);
 
 /// Adds the options that fill the arguments; these must live until the command line is parsed.
 void add_source_options(CLI::App& command, SourceArguments& arguments);

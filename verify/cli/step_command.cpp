@@ -24,6 +24,7 @@
 #include "verify/cli/group_options.hpp"
 #include "verify/cli/help.hpp"
 #include "verify/cli/options.hpp"
+#include "verify/cli/pieces.hpp"
 #include "verify/cli/sources.hpp"
 #include "verify/cli/view_file.hpp"
 #include "verify/io/json.hpp"
@@ -41,6 +42,7 @@ namespace fs = std::filesystem;
 
 struct Arguments {
   std::vector<fs::path> frames;
+  PieceArguments pieces;
   SeparationArguments separation;
   jobs::StepCheckOptions check;
   GroupArguments groups;
@@ -180,6 +182,22 @@ class StepRun {
   report::StepReport report_;
 };
 
+/// A piece for each step between two files.
+std::vector<jobs::Piece> pieces_of_frames(const Arguments& arguments) {
+  const std::vector<fs::path> files = mesh::frame_files(arguments.frames);
+  if (files.size() < 2) {
+    throw std::runtime_error("step: --resume needs each frame in a file of its own");
+  }
+  std::vector<jobs::Piece> pieces;
+  for (std::size_t i = 0; i + 1 < files.size(); ++i) {
+    const std::vector<fs::path> step{files[i], files[i + 1]};
+    pieces.push_back({.name = files[i].string() + " to " + files[i + 1].filename().string(),
+                      .files = step,
+                      .arguments = {step.front().string(), step.back().string()}});
+  }
+  return pieces;
+}
+
 void add_input_options(CLI::App& command, Arguments& arguments) {
   command.option_defaults()->group("Input");
   command
@@ -188,6 +206,7 @@ void add_input_options(CLI::App& command, Arguments& arguments) {
                   "(T,n,3), F and E")
       ->type_name("FRAME")
       ->required();
+  add_piece_options(command, arguments.pieces);
   add_separation_options(command, arguments.separation);
   add_group_options(command, arguments.groups);
 }
@@ -254,7 +273,20 @@ void add(CLI::App& app, Status& status) {
            "edges are numbered by their larger vertex, then by the smaller.\n"
            "Exit status: 0 free of collisions, 1 a collision or a frame that intersects itself, 2 "
            "bad input or usage, 130 interrupted (results so far are written).");
-  command->callback([arguments, &status] { status = StepRun(*arguments).run(); });
+  command->callback([arguments, command, &status] {
+    if (arguments->pieces.folder.empty()) {
+      if (!arguments->pieces.shard.empty()) {
+        throw std::invalid_argument("step: --shard needs --resume");
+      }
+      status = StepRun(*arguments).run();
+      return;
+    }
+    status = run_pieces(*command, arguments->pieces,
+                        {.pieces = pieces_of_frames(*arguments),
+                         .input = "frames",
+                         .outputs = {"--json", "--csv", "--prove"},
+                         .refused = {"--view"}});
+  });
 }
 
 }  // namespace touchstone::verify::cli::step_command

@@ -7,6 +7,7 @@
 #include <string>
 #include <utility>
 
+#include "verify/data/plain_rows.hpp"
 #include "verify/io/coordinate_text.hpp"
 #include "verify/io/csv.hpp"
 
@@ -15,6 +16,14 @@ namespace {
 
 bool is_format(std::size_t columns) {
   return columns == 3 || columns == 4 || columns == 6 || columns == 7;
+}
+
+/// Bytes to look for plain rows in: more than eight of them have, as a rule.
+constexpr std::size_t plain_bytes = 4096;
+
+/// True if a line certainly is neither blank nor a header.
+bool begins_like_a_row(std::string_view text) {
+  return !text.empty() && (text.front() == '-' || (text.front() >= '0' && text.front() <= '9'));
 }
 
 /// True if it can be the name of a column.
@@ -33,6 +42,7 @@ CsvDataset::CsvDataset(const std::filesystem::path& path, const DatasetOptions& 
 
 /// Skips blank lines and headers between two queries.
 bool CsvDataset::at_end() {
+  if (!ahead_ && begins_like_a_row(lines_.peek(plain_bytes))) return false;
   while (!ahead_) {
     ahead_ = lines_.next();
     if (!ahead_) return true;
@@ -56,6 +66,14 @@ bool CsvDataset::is_header(std::string_view line) {
 }
 
 DatasetSource::StoredQuery CsvDataset::read(std::uint64_t) {
+  if (columns_ && !ahead_) {
+    if (const auto plain = read_plain_rows(lines_.peek(plain_bytes), *columns_, options().round)) {
+      const io::FilePosition first{.line = lines_.line_number() + 1, .column = *columns_};
+      lines_.skip(plain->bytes, query_points);
+      rounded_ += plain->rounded;
+      return {.query = plain->query, .label = plain->label, .label_position = first};
+    }
+  }
   Rows rows{.query = {}, .rounded = 0};
   std::optional<io::DatasetError> fault;
   std::uint64_t last_line = 0;

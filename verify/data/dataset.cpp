@@ -13,6 +13,7 @@
 
 #include "verify/data/csv_dataset.hpp"
 #include "verify/data/npy_dataset.hpp"
+#include "verify/data/obj_dataset.hpp"
 
 namespace touchstone::verify::data {
 namespace {
@@ -26,13 +27,14 @@ bool is_ground_truth_folder(const fs::path& path) {
 
 bool is_dataset_name(const fs::path& path) {
   const std::string name = path.filename().string();
-  return path.extension() == ".npy" || (path.extension() == ".csv" && !name.ends_with("_toi.csv"));
+  const bool is_csv = name.ends_with(".csv") || name.ends_with(".csv.zst");
+  return path.extension() == ".npy" || (is_csv && !dataset_stem(path).ends_with("_toi"));
 }
 
 bool is_ground_truth_name(const fs::path& path) {
   const std::string name = path.filename().string();
   return name.ends_with("_toi.csv") || name.ends_with("_mma_bool.json") ||
-         name == "separation.json";
+         name == "separation.json" || name == "manifest.json";
 }
 
 /// A folder with all below it. Links to folders are followed when all folders that are there
@@ -186,7 +188,7 @@ std::vector<fs::path> find_datasets(std::span<const fs::path> paths, const LeftO
 
 Kind kind_from_path(const fs::path& path) {
   if (const auto kind = kind_from_parts(path)) return *kind;
-  const std::string stem = path.stem().string();
+  const std::string stem = dataset_stem(path);
   if (ends_in_word(stem, "vf")) return Kind::vertex_face;
   if (ends_in_word(stem, "ee")) return Kind::edge_edge;
   if (const auto kind = kind_from_parts(fs::absolute(path).lexically_normal())) return *kind;
@@ -197,9 +199,12 @@ Kind kind_from_path(const fs::path& path) {
 
 std::unique_ptr<QuerySource> open_dataset(const fs::path& path, const DatasetOptions& options) {
   const fs::path extension = path.extension();
-  if (extension == ".csv") return std::make_unique<CsvDataset>(path, options);
+  if (extension == ".csv" || path.string().ends_with(".csv.zst"))
+    return std::make_unique<CsvDataset>(path, options);
   if (extension == ".npy") return std::make_unique<NpyDataset>(path, options);
-  throw io::DatasetError(path, {}, "unknown format: only .csv and .npy are datasets");
+  if (extension == ".obj") return std::make_unique<ObjDataset>(path, options);
+  throw io::DatasetError(path, {},
+                         "unknown format: only .csv, .csv.zst, .npy and .obj are datasets");
 }
 
 }  // namespace touchstone::verify::data

@@ -4,9 +4,9 @@
 /// Recorded queries on disk: finding the files, determining their kind, opening them as
 /// streams.
 ///
-/// Formats: CSV with eight rows for each query, each x, y and z as numbers or as numerator and
+/// Formats: CSV, also compressed by zstd, with eight rows for each query, each x, y and z as numbers or as numerator and
 /// denominator, and optionally a label (csv_dataset.hpp); NumPy arrays of shape (N, 8, 3)
-/// (npy_dataset.hpp). Labels and times of impact may be in separate files beside either
+/// (npy_dataset.hpp); eight vertices of an OBJ file for each query (obj_dataset.hpp). Labels and times of impact may be in separate files beside either
 /// (ground_truth_files.hpp).
 
 #include <filesystem>
@@ -39,7 +39,7 @@ struct DatasetOptions {
 /// Called with each file, folder or link that a search skips, and the reason.
 using LeftOut = std::function<void(const io::DatasetError&)>;
 
-/// The dataset files of the paths: a file itself, or all files *.csv and *.npy below a folder, in
+/// The dataset files of the paths: a file itself, or all files *.csv, *.csv.zst and *.npy below a folder, in
 /// the order of their names. Symbolic links are followed, but no folder below a path is searched
 /// twice. Companions of datasets are skipped: folders called toi, mma_bool, boxes or frames, and
 /// files named *_toi.csv.
@@ -57,7 +57,7 @@ using LeftOut = std::function<void(const io::DatasetError&)>;
 /// \throws DatasetError if the path determines no kind, or both in one part.
 [[nodiscard]] Kind kind_from_path(const std::filesystem::path& path);
 
-/// Opens a .csv or .npy file.
+/// Opens a .csv, .csv.zst, .npy or .obj file.
 /// \throws DatasetError, with and without keep_going, if the file cannot be read, its kind or its
 /// format is unknown, a CSV file has no queries, or a companion file cannot be read.
 [[nodiscard]] std::unique_ptr<QuerySource> open_dataset(const std::filesystem::path& path,

@@ -39,7 +39,7 @@ std::optional<std::filesystem::path> find_companion(const std::filesystem::path&
                                                     const std::string& folder,
                                                     const std::string& ending) {
   const std::filesystem::path directory = dataset.parent_path();
-  const std::string name = dataset.stem().string() + ending;
+  const std::string name = dataset_stem(dataset) + ending;
   for (const auto& candidate :
        {directory / ".." / folder / name, directory / folder / name, directory / name}) {
     std::error_code error;
@@ -223,6 +223,11 @@ std::optional<ToiReader::Entry> ToiReader::next_entry() {
 
 void ToiReader::fail(io::FilePosition position, const std::string& reason) const {
   throw io::DatasetError(lines_.path(), position, reason);
+}
+
+std::string dataset_stem(const std::filesystem::path& dataset) {
+  const std::filesystem::path stem = dataset.stem();
+  return (dataset.extension() == ".zst" ? stem.stem() : stem).string();
 }
 
 std::vector<std::filesystem::path> find_ground_truth_files(const std::filesystem::path& dataset) {

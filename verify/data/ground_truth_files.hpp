@@ -105,6 +105,9 @@ struct RecordedTruth {
   std::optional<exact::Rational> toi;
 };
 
+/// The name of a dataset without its extension, also without that of a compressed one.
+[[nodiscard]] std::string dataset_stem(const std::filesystem::path& dataset);
+
 /// The existing companion files of a dataset, including that of its separation.
 [[nodiscard]] std::vector<std::filesystem::path> find_ground_truth_files(
     const std::filesystem::path& dataset);

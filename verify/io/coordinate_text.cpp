@@ -1,7 +1,6 @@
 #include "verify/io/coordinate_text.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <charconv>
 #include <cmath>
 #include <cstdint>
@@ -15,36 +14,6 @@ namespace touchstone::verify::io {
 namespace {
 
 using Part = CoordinateError::Part;
-constexpr int double_bits = std::numeric_limits<double>::digits;
-
-/// The text as a machine integer; empty if it is none or does not fit.
-template <class Number>
-std::optional<Number> machine_integer(std::string_view text) {
-  if (text.starts_with('+')) {
-    text.remove_prefix(1);
-    if (text.starts_with('-')) return std::nullopt;
-  }
-  Number number{};
-  const char* const end = text.data() + text.size();
-  const auto [stop, error] = std::from_chars(text.data(), end, number);
-  if (error != std::errc() || stop != end) return std::nullopt;
-  return number;
-}
-
-/// The quotient by machine arithmetic; empty for pairs that the comment of the header does not
-/// cover.
-std::optional<double> machine_quotient(std::string_view numerator, std::string_view denominator) {
-  const auto n = machine_integer<std::int64_t>(numerator);
-  const auto d = machine_integer<std::uint64_t>(denominator);
-  if (!n || !d || !std::has_single_bit(*d)) return std::nullopt;
-  if (*n == 0) return 0.0;
-  const auto magnitude =
-      *n < 0 ? std::uint64_t{0} - static_cast<std::uint64_t>(*n) : static_cast<std::uint64_t>(*n);
-  const int significant_bits =
-      static_cast<int>(std::bit_width(magnitude)) - std::countr_zero(magnitude);
-  if (significant_bits > double_bits) return std::nullopt;
-  return std::ldexp(static_cast<double>(*n), -std::countr_zero(*d));
-}
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
@@ -98,9 +67,6 @@ std::optional<double> dyadic_quotient(const exact::Integer& n, const exact::Inte
 }  // namespace
 
 ParsedCoordinate parse_coordinate(std::string_view numerator, std::string_view denominator) {
-  if (const auto value = machine_quotient(numerator, denominator)) {
-    return {.value = *value, .exact = true};
-  }
   const std::optional<exact::Integer> n = any_integer(numerator), d = any_integer(denominator);
   if (n && d && *d != 0) {
     if (const auto value = dyadic_quotient(*n, *d)) return {.value = *value, .exact = true};

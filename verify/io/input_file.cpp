@@ -85,6 +85,18 @@ std::optional<Line> LineReader::next() {
   return std::exchange(ahead_, std::nullopt);
 }
 
+std::string_view LineReader::peek(std::size_t bytes) {
+  if (ahead_) return {};
+  while (end_ - begin_ < bytes && fill()) {
+  }
+  return {buffer_.get() + begin_, end_ - begin_};
+}
+
+void LineReader::skip(std::size_t bytes, std::uint64_t lines) {
+  begin_ += bytes;
+  line_number_ += lines;
+}
+
 std::optional<Line> LineReader::read_line() {
   std::size_t searched = 0;
   for (;;) {
@@ -153,10 +165,12 @@ std::size_t LineReader::read(std::span<char> space) {
       compressed_left_ = compressed_;
     }
     const bool is_at_end = compressed_left_.empty();
-    if (is_at_end && decompressor_->is_complete()) return 0;
+    if (has_failed_ || (is_at_end && decompressor_->is_complete())) return 0;
     const std::size_t count = decompress(space);
     if (count > 0) return count;
-    if (is_at_end) throw DatasetError(path(), {}, "its compressed stream is cut");
+    if (!is_at_end) continue;
+    has_failed_ = true;
+    throw DatasetError(path(), {}, "its compressed stream is cut");
   }
 }
 
@@ -164,6 +178,7 @@ std::size_t LineReader::decompress(std::span<char> space) {
   try {
     return decompressor_->decompress(compressed_left_, space);
   } catch (const std::runtime_error& error) {
+    has_failed_ = true;
     throw DatasetError(path(), {}, error.what());
   }
 }

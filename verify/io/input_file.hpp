@@ -85,6 +85,17 @@ class LineReader {
   /// than longest_passed_line. Interrupted as InputFile::read.
   [[nodiscard]] bool at_end();
 
+  /// The bytes in front of next(): at least so many, or all that are left; none if at_end() has
+  /// already looked for a line. Valid until the reader's next call. \pre bytes ≤ longest_line
+  /// \throws DatasetError if the system reports an error on reading. Interrupted as InputFile::read.
+  [[nodiscard]] std::string_view peek(std::size_t bytes);
+
+  /// Skips bytes that peek() has returned, which are whole lines.
+  void skip(std::size_t bytes, std::uint64_t lines);
+
+  /// The number of the last line that was read or skipped; 0 at the beginning.
+  [[nodiscard]] std::uint64_t line_number() const { return line_number_; }
+
   [[nodiscard]] const std::filesystem::path& path() const { return file_.path(); }
   /// Fraction read so far, 0 to 1.
   [[nodiscard]] double progress() const { return file_.progress(); }
@@ -101,6 +112,7 @@ class LineReader {
   std::optional<Decompressor> decompressor_;
   std::string compressed_;            ///< the last chunk read
   std::string_view compressed_left_;  ///< the unread part of it
+  bool has_failed_ = false;           ///< the compressed stream is treated as ended
   std::unique_ptr<char[]> buffer_;    // NOLINT(modernize-avoid-c-arrays): std::vector would fill it
   std::size_t begin_ = 0;
   std::size_t end_ = 0;

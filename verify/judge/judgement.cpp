@@ -6,7 +6,9 @@
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <nlohmann/json.hpp>
 
+#include "verify/io/json.hpp"
 #include "verify/judge/terms.hpp"
 
 namespace touchstone::verify::judge {
@@ -70,6 +72,29 @@ double ToiErrors::quantile(double fraction) const {
 
 double ToiErrors::max() const {
   return count_ == 0 ? std::numeric_limits<double>::quiet_NaN() : max_;
+}
+
+nlohmann::json to_json(const ToiErrors& errors) {
+  if (errors.count_ == 0) return {};
+  nlohmann::json histogram = nlohmann::json::array();
+  for (const auto& [bucket, count] : errors.buckets_) histogram.push_back({bucket, count});
+  return {{"count", errors.count_},
+          {"p50", io::number_to_json(errors.quantile(0.5))},
+          {"p90", io::number_to_json(errors.quantile(0.9))},
+          {"p99", io::number_to_json(errors.quantile(0.99))},
+          {"max", io::number_to_json(errors.max_)},
+          {"histogram", std::move(histogram)}};
+}
+
+ToiErrors toi_errors_from_json(const nlohmann::json& json) {
+  ToiErrors errors;
+  if (json.is_null()) return errors;
+  for (const nlohmann::json& item : json.at("histogram")) {
+    errors.buckets_[item.at(0)] = item.at(1);
+    errors.count_ += item.at(1).get<std::uint64_t>();
+  }
+  errors.max_ = io::number_from_json(json.at("max"));
+  return errors;
 }
 
 void LateTimes::add(const Lateness& lateness) {

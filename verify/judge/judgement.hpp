@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -39,10 +40,19 @@ class ToiErrors {
   [[nodiscard]] double max() const;
 
  private:
+  friend nlohmann::json to_json(const ToiErrors& errors);
+  friend ToiErrors toi_errors_from_json(const nlohmann::json& json);
+
   std::map<std::uint32_t, std::uint64_t> buckets_;
   std::uint64_t count_ = 0;
   double max_ = 0.0;
 };
+
+/// `count`, `p50`, `p90`, `p99`, `max`, and `histogram`, a list of the number of each bucket that
+/// is not empty and its count; null if there are no errors.
+[[nodiscard]] nlohmann::json to_json(const ToiErrors& errors);
+/// The reverse. \throws nlohmann::json::exception if it is nothing of the kind.
+[[nodiscard]] ToiErrors toi_errors_from_json(const nlohmann::json& json);
 
 /// The times of impact that are later than the exact ones, bounds and estimates, of many answers.
 struct LateTimes {

@@ -17,15 +17,6 @@ namespace {
 /// Of a group and fault so many answers are printed.
 constexpr std::size_t most_printed = 20;
 
-nlohmann::json to_json(const judge::ToiErrors& errors) {
-  if (errors.count() == 0) return {};
-  return {{"count", errors.count()},
-          {"p50", errors.quantile(0.5)},
-          {"p90", errors.quantile(0.9)},
-          {"p99", errors.quantile(0.99)},
-          {"max", errors.max()}};
-}
-
 /// The positions of answers in the order of harm, later times first, else as they are.
 std::vector<std::size_t> by_harm(const std::vector<judge::WrongAnswer>& wrong,
                                  fast::Promise promise) {
@@ -162,7 +153,7 @@ nlohmann::json to_json(const judge::Judgement& judgement) {
           {"errors", judgement.errors()},
           {"outside", judgement.outside},
           {"left_out", judgement.left_out},
-          {"toi_error", to_json(judgement.toi_errors)},
+          {"toi_error", judge::to_json(judgement.toi_errors)},
           {"late", to_json(judgement.late)}};
 }
 

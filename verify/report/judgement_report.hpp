@@ -81,8 +81,9 @@ using FailureCounts = std::array<std::uint64_t, judge::fault_count>;
 /// `false_negatives`, `false_positives` (undecided answers among them), `late_toi`,
 /// `early_toi_upper`, `beyond_tolerance`, `undecided`, `errors`, `outside` and `left_out` (queries
 /// that were not asked: Judgement), `late` (see below), and `toi_error`: null where no
-/// time of impact was given, else `count`, `p50`, `p90`, `p99` and `max` of the distance from
-/// toi_lower to the exact time of impact, quantiles to 1.6%.
+/// time of impact was given, else `count`, `p50`, `p90`, `p99`, `max` and `histogram`
+/// (judge::ToiErrors) of the distance from toi_lower to the exact time of impact, quantiles to
+/// 1.6%.
 [[nodiscard]] nlohmann::json to_json(const judge::Judgement& judgement);
 
 /// Of times later than the exact ones: their `count`, `beyond` (how many are later by more than

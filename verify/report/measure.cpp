@@ -75,11 +75,11 @@ void tell_wrong(const data::QueryGroup& group, const Measurement& said,
   }
 }
 
-class Run {
+class MeasureRun {
  public:
-  Run(const data::QueryGroup& group, judge::GroundTruthCache& truths,
-      std::span<const Setting> settings, const fast::Method& reference,
-      const MeasureOptions& options)
+  MeasureRun(const data::QueryGroup& group, judge::GroundTruthCache& truths,
+             std::span<const Setting> settings, const fast::Method& reference,
+             const MeasureOptions& options)
       : group_(group),
         samples_(group),
         truths_(truths),
@@ -220,7 +220,7 @@ class Run {
 
   /// Counts and times that are about each query.
   void describe_queries(std::size_t index, Measurement& said) const {
-    judge::ToiErrors tolerances;
+    judge::ToiErrors achieved_tolerances;
     const std::vector<judge::GroundTruth>& known = known_of(timed_[index]);
     for (std::size_t i = 0; i < known.size(); ++i) {
       if (timed_[index].why_unasked(i)) continue;
@@ -230,9 +230,9 @@ class Run {
       if (std::isinf(single_times_[index][i])) continue;
       (collides ? said.collision_times : said.no_collision_times).add(single_times_[index][i]);
       const bool is_yes = answer.verdict == fast::Verdict::yes;
-      if (is_yes && answer.tolerance >= 0.0) tolerances.add(answer.tolerance);
+      if (is_yes && answer.tolerance >= 0.0) achieved_tolerances.add(answer.tolerance);
     }
-    said.achieved_tolerance = spread_of(tolerances);
+    said.achieved_tolerance = spread_of(achieved_tolerances);
   }
 
   const data::QueryGroup& group_;
@@ -261,7 +261,7 @@ std::vector<Measurement> measure(const data::QueryGroup& group, judge::GroundTru
   if (options.count == 0) throw std::invalid_argument("count must be at least 1");
   if (options.repetitions == 0) throw std::invalid_argument("repetitions must be at least 1");
   if (!(options.seconds > 0.0)) throw std::invalid_argument("seconds must be positive");
-  return Run(group, truths, settings, reference, options).measurements();
+  return MeasureRun(group, truths, settings, reference, options).measurements();
 }
 
 std::optional<Measurement> judge_all(const data::QueryGroup& group, judge::GroundTruthCache& truths,

@@ -1,0 +1,227 @@
+#include "verify/jobs/pieces.hpp"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "tests/support/tool_test.hpp"
+
+namespace touchstone::verify::jobs::pieces_test {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::json;
+
+/// A run of three pieces whose outputs are written by hand.
+class Pieces : public tests::ToolTest {
+ protected:
+  void SetUp() override {
+    ToolTest::SetUp();
+    plan_ = {.program = "1",
+             .command = "certify",
+             .options = {"--method=x"},
+             .uses = {},
+             .outputs = {{"--json", "a.json"}, {"--truth", "a.csv"}},
+             .pieces = {}};
+    for (int i = 0; i < 3; ++i) {
+      const std::string name = "input" + std::to_string(i);
+      const std::string file = write(name, name);
+      plan_.pieces.push_back({.name = name, .files = {file}, .arguments = {file}});
+    }
+  }
+
+  [[nodiscard]] PieceFolder open() const { return {path("run"), plan_}; }
+
+  void do_piece(const PieceFolder& run, std::size_t i, int status = 0) const {
+    Json result{{"queries", 10 + i},
+                {"us_per_query", 0.5 * static_cast<double>(i)},
+                {"interrupted", false},
+                {"late", {{"greatest", 0.25 * static_cast<double>(i)}, {"beyond", {1, i}}}},
+                {"files", {{{"file", plan_.pieces[i].name}}}}};
+    write(run.output(i, "--json").lexically_relative(folder()).string(), result.dump());
+    write(run.output(i, "--truth").lexically_relative(folder()).string(),
+          "header\nrow " + std::to_string(i) + "\n");
+    run.finish(i, status);
+  }
+
+  [[nodiscard]] PieceFolder all_done() const {
+    const PieceFolder run = open();
+    for (const std::size_t i : {2U, 0U, 1U}) do_piece(run, i, i == 1 ? 1 : 0);
+    return run;
+  }
+
+  [[nodiscard]] static std::string text_of(const PieceFolder& run) {
+    std::string text;
+    run.merged_text("--truth", [&](std::string_view part) { text += part; });
+    return text;
+  }
+
+  [[nodiscard]] std::string in_run(const std::string& name) const { return path("run/" + name); }
+
+  Plan plan_;
+};
+
+TEST_F(Pieces, AreMergedInTheOrderOfThePlan) {
+  const PieceFolder run = all_done();
+  EXPECT_TRUE(run.faults().empty());
+  EXPECT_EQ(run.status(), 1);
+  EXPECT_EQ(text_of(run), "header\nrow 0\nrow 1\nrow 2\n");
+  const Json total = run.merged_json();
+  EXPECT_EQ(total["queries"], 33);
+  EXPECT_EQ(total["late"], (Json{{"greatest", 0.5}, {"beyond", {3, 3}}}));
+  EXPECT_EQ(total["files"].size(), 3U);
+  EXPECT_FALSE(total.contains("us_per_query"));
+  const PieceFolder again(path("run"));
+  EXPECT_EQ(again.merged_json(), total);
+}
+
+TEST_F(Pieces, ThatAreDoneAreKnownToANewProcess) {
+  const PieceFolder run = open();
+  do_piece(run, 1);
+  const PieceFolder again = open();
+  EXPECT_FALSE(again.is_done(0));
+  EXPECT_TRUE(again.is_done(1));
+  EXPECT_EQ(again.faults().size(), 2U);
+}
+
+TEST_F(Pieces, OfAnotherPlanAreRefused) {
+  (void)open();
+  const auto error_with = [&](const std::function<void(Plan&)>& change) -> std::string {
+    Plan other = plan_;
+    change(other);
+    try {
+      const PieceFolder run(path("run"), other);
+    } catch (const std::runtime_error& error) {
+      return error.what();
+    }
+    return "no error";
+  };
+  const std::string begin = path("run") + ": has the pieces of a run ";
+  const std::string end = "; choose another folder";
+  EXPECT_EQ(error_with([](Plan& plan) { plan.program = "2"; }),
+            begin + "of version 1, not 2" + end);
+  EXPECT_EQ(error_with([](Plan& plan) { plan.command = "solve"; }),
+            begin + "of certify, not solve" + end);
+  EXPECT_EQ(error_with([](Plan& plan) { plan.options.emplace_back("--exact"); }),
+            begin + "with the options '--method=x', not '--method=x --exact'" + end);
+  EXPECT_EQ(error_with([](Plan& plan) { plan.pieces.pop_back(); }),
+            begin + "of other inputs" + end);
+  EXPECT_EQ(error_with([](Plan& plan) { plan.outputs.erase("--truth"); }),
+            begin + "with other output files" + end);
+  EXPECT_EQ(error_with([](Plan& plan) { plan.uses["x.so"] = "0"; }),
+            begin + "with another content of a file that an option names" + end);
+  EXPECT_EQ(error_with([](Plan&) {}), "no error");
+}
+
+/// What is done to a complete run, and the faults that the merge then names.
+struct Damage {
+  std::string what;
+  std::function<void(const std::string& folder, const std::string& inputs)> act;
+  std::vector<std::string> faults;
+};
+
+class DamagedPieces : public Pieces, public ::testing::WithParamInterface<Damage> {};
+
+TEST_P(DamagedPieces, AreNamed) {
+  const PieceFolder run = all_done();
+  GetParam().act(path("run"), path("input"));
+  const std::vector<std::string> faults = run.faults();
+  ASSERT_EQ(faults.size(), GetParam().faults.size());
+  for (std::size_t i = 0; i < faults.size(); ++i) {
+    EXPECT_TRUE(tests::contains(faults[i], GetParam().faults[i])) << faults[i];
+  }
+}
+
+/// Changes a byte of a file.
+void flip(const fs::path& file, std::size_t place) {
+  std::string text = tests::read_file(file);
+  text.at(place) = static_cast<char>(text.at(place) ^ 1);
+  std::ofstream(file, std::ios::binary) << text;
+}
+
+/// Replaces a text in a file.
+void replace(const fs::path& file, const std::string& from, const std::string& to) {
+  std::string text = tests::read_file(file);
+  text.replace(text.find(from), from.size(), to);
+  std::ofstream(file, std::ios::binary) << text;
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Table, DamagedPieces,
+    ::testing::Values(
+        Damage{
+            "missing",
+            [](const std::string& run, const std::string&) { fs::remove(run + "/000001.piece"); },
+            {"000001.piece: piece 1, input1: missing"}},
+        Damage{"twice",
+               [](const std::string& run, const std::string&) {
+                 fs::copy_file(run + "/000002.piece", run + "/000001.piece",
+                               fs::copy_options::overwrite_existing);
+               },
+               {"input1: piece 2 is there under this number too"}},
+        Damage{"beyond the plan",
+               [](const std::string& run, const std::string&) {
+                 fs::copy_file(run + "/000002.piece", run + "/000003.piece");
+               },
+               {"000003.piece: no piece of this run has that name"}},
+        Damage{"a bit of a record",
+               [](const std::string& run, const std::string&) { flip(run + "/000000.piece", 30); },
+               {"piece 0, input0: its record is damaged"}},
+        Damage{"a count in a record",
+               [](const std::string& run, const std::string&) {
+                 replace(run + "/000001.piece", "\"status\": 1", "\"status\": 0");
+               },
+               {"piece 1, input1: its record is damaged"}},
+        Damage{"a bit of a result",
+               [](const std::string& run, const std::string&) { flip(run + "/000000.truth", 9); },
+               {"piece 0, input0: its results have changed since"}},
+        Damage{"no result",
+               [](const std::string& run, const std::string&) { fs::remove(run + "/000002.json"); },
+               {"No such file or directory"}},
+        Damage{"another input",
+               [](const std::string&, const std::string& input) { flip(input + "2", 0); },
+               {"piece 2, input2: its input has changed since"}}),
+    [](const auto& damage) {
+      std::string name = damage.param.what;
+      std::ranges::replace(name, ' ', '_');
+      return name;
+    });
+
+TEST_F(Pieces, OfAnotherRunOrVersionAreNamed) {
+  const PieceFolder run = all_done();
+  Plan other = plan_;
+  other.options.clear();
+  const PieceFolder foreign(path("other"), other);
+  do_piece(foreign, 0);
+  fs::copy_file(path("other/000000.piece"), in_run("000000.piece"),
+                fs::copy_options::overwrite_existing);
+  other = plan_;
+  other.program = "0.9";
+  const PieceFolder old(path("old"), other);
+  do_piece(old, 1);
+  fs::copy_file(path("old/000001.piece"), in_run("000001.piece"),
+                fs::copy_options::overwrite_existing);
+  const std::vector<std::string> faults = run.faults();
+  ASSERT_EQ(faults.size(), 2U);
+  EXPECT_TRUE(faults[0].ends_with("input0: of another run")) << faults[0];
+  EXPECT_TRUE(faults[1].ends_with("input1: made by version \"0.9\", not 1")) << faults[1];
+}
+
+TEST_F(Pieces, ThatContradictEachOtherAreNotAdded) {
+  const PieceFolder run = all_done();
+  write("run/000002.json", R"({"queries": 1, "interrupted": true})");
+  try {
+    (void)run.merged_json();
+    FAIL();
+  } catch (const std::runtime_error& error) {
+    EXPECT_TRUE(tests::contains(error.what(), "interrupted is true, elsewhere false"))
+        << error.what();
+  }
+}
+
+}  // namespace
+}  // namespace touchstone::verify::jobs::pieces_test

@@ -1,0 +1,54 @@
+// touchstone merge: the results of pieces as one.
+
+#include <memory>
+#include <string>
+
+#include "verify/cli/commands.hpp"
+#include "verify/cli/help.hpp"
+#include "verify/cli/options.hpp"
+#include "verify/cli/pieces.hpp"
+#include "verify/cli/version.hpp"
+
+namespace touchstone::verify::cli::merge_command {
+namespace {
+
+struct Arguments {
+  std::string folder;
+  std::string json_file;
+};
+
+Status run(const Arguments& arguments) {
+  const jobs::PieceFolder folder(arguments.folder);
+  if (folder.plan().program != version()) {
+    report_error(arguments.folder + ": made by version " + folder.plan().program +
+                 ", this is version " + std::string(version()));
+    return Status::bad_input;
+  }
+  return merge_pieces(folder, arguments.json_file);
+}
+
+}  // namespace
+
+void add(CLI::App& app, Status& status) {
+  const auto arguments = std::make_shared<Arguments>();
+  CLI::App* command =
+      app.add_subcommand("merge", "Join the results of a run in pieces (--resume) into one");
+  command->option_defaults()->group("Input");
+  command->add_option("FOLDER", arguments->folder, "The folder of the pieces, as --resume named it")
+      ->type_name("")
+      ->required();
+  command->option_defaults()->group("Output");
+  add_json_option(*command, arguments->json_file);
+  set_help(*command,
+           "touchstone merge run   # of touchstone certify data --shard 0/2 --resume run --json "
+           "all.json",
+           "Writes the files that the command line of the run named. The result has no times and "
+           "is the same however the pieces were done. A piece that is missing, damaged, of another "
+           "run or version, or whose input has changed is an error that names it. Run it where the "
+           "pieces ran: their inputs are checked again.\n"
+           "Exit status: 0 success, 1 wrong answers or collisions in a piece, 2 the pieces are not "
+           "all there and valid.");
+  command->callback([arguments, &status] { status = run(*arguments); });
+}
+
+}  // namespace touchstone::verify::cli::merge_command

@@ -1,0 +1,310 @@
+#include "verify/cli/pieces.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cstdlib>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <stdexcept>
+#include <string_view>
+#include <system_error>
+#include <utility>
+
+#include "verify/cli/certificates_file.hpp"
+#include "verify/cli/files.hpp"
+#include "verify/cli/options.hpp"
+#include "verify/cli/version.hpp"
+#include "verify/data/dataset.hpp"
+#include "verify/data/ground_truth_files.hpp"
+#include "verify/generate/families.hpp"
+#include "verify/io/json.hpp"
+#include "verify/io/terminal.hpp"
+#include "verify/solvers/own_program.hpp"
+
+namespace touchstone::verify::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* shard_option = "--shard";
+constexpr const char* resume_option = "--resume";
+
+// ---- Shards -------------------------------------------------------------------------------------
+
+std::optional<std::size_t> whole(std::string_view text) {
+  std::size_t number = 0;
+  const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  if (error != std::errc() || stop != text.data() + text.size()) return std::nullopt;
+  return number;
+}
+
+std::optional<std::size_t> variable(const char* name) {
+  const char* const value = std::getenv(name);  // NOLINT(concurrency-mt-unsafe): one thread
+  return value == nullptr ? std::nullopt : whole(value);
+}
+
+Shard checked(std::size_t index, std::size_t count) {
+  if (index < count) return {index, count};
+  throw std::invalid_argument(
+      fmt::format("--shard: there is no part {} of {}; parts are counted from 0", index, count));
+}
+
+Shard shard_of_environment() {
+  if (const auto id = variable("SLURM_ARRAY_TASK_ID")) {
+    const std::size_t first = variable("SLURM_ARRAY_TASK_MIN").value_or(0);
+    if (const auto count = variable("SLURM_ARRAY_TASK_COUNT")) return checked(*id - first, *count);
+  }
+  const auto rank = variable("OMPI_COMM_WORLD_RANK"), size = variable("OMPI_COMM_WORLD_SIZE");
+  if (rank && size) return checked(*rank, *size);
+  const auto job = variable("PARALLEL_SEQ"), jobs = variable("PARALLEL_COUNT");
+  if (job && jobs) return checked(*job - 1, *jobs);
+  throw std::invalid_argument(
+      "--shard auto: none of SLURM_ARRAY_TASK_ID and SLURM_ARRAY_TASK_COUNT, OMPI_COMM_WORLD_RANK "
+      "and _SIZE, PARALLEL_SEQ and PARALLEL_COUNT are set");
+}
+
+// ---- The plan -----------------------------------------------------------------------------------
+
+/// The options of the command line that results depend on, in the order of the help, and the files
+/// that they name.
+void set_options(const CLI::App& command, const PieceRun& run, jobs::Plan& plan) {
+  std::set<std::string> left_out{shard_option, resume_option, "--threads", run.input};
+  left_out.insert(run.outputs.begin(), run.outputs.end());
+  for (const CLI::Option* option : command.get_options()) {
+    const std::string name = option->get_name();
+    if (option->count() == 0 || left_out.contains(name)) continue;
+    if (std::ranges::count(run.refused, name) != 0) {
+      throw std::invalid_argument(name + " does not work with --resume");
+    }
+    const std::vector<std::string> values = option->results();
+    for (const std::string& value : values) {
+      const bool is_flag = option->get_expected_min() == 0;
+      plan.options.push_back(is_flag && value == "true" ? name : name + "=" + value);
+      if (fs::is_regular_file(value)) plan.uses[value] = jobs::digest_of(value);
+    }
+  }
+  for (const std::string& output : run.outputs) {
+    const CLI::Option* const option = command.get_option(output);
+    if (option->count() != 0) plan.outputs[output] = option->as<std::string>();
+  }
+  // The counts of a piece are always needed.
+  plan.outputs.try_emplace(std::string(jobs::json_option), "");
+}
+
+/// Does a piece. Returns its exit status.
+int do_piece(const jobs::PieceFolder& folder, std::size_t number, const std::string& threads) {
+  const jobs::Plan& plan = folder.plan();
+  std::vector<std::string> arguments{"touchstone", plan.command};
+  arguments.insert(arguments.end(), plan.options.begin(), plan.options.end());
+  if (!threads.empty()) arguments.push_back("--threads=" + threads);
+  for (const auto& [option, file] : plan.outputs) {
+    arguments.insert(arguments.end(), {option, folder.output(number, option).string()});
+  }
+  const jobs::Piece& piece = plan.pieces[number];
+  arguments.insert(arguments.end(), piece.arguments.begin(), piece.arguments.end());
+  const int status = solvers::run_own_program(std::move(arguments));
+  if (status == static_cast<int>(Status::all_well) ||
+      status == static_cast<int>(Status::wrong_answers)) {
+    folder.finish(number, status);
+  }
+  return status;
+}
+
+void report_unfinished(const jobs::PieceFolder& folder, const fs::path& path) {
+  const std::size_t count = folder.plan().pieces.size();
+  std::size_t done = 0;
+  for (std::size_t i = 0; i < count; ++i) done += folder.is_done(i) ? 1U : 0U;
+  if (done == count) return;
+  io::print(stdout, fmt::format("{} of {} pieces are done; when all are: touchstone merge {}\n",
+                                done, count, path.string()));
+}
+
+// ---- The merged result --------------------------------------------------------------------------
+
+std::string number_text(const nlohmann::json& json, const char* key) {
+  return json.contains(key) ? json.at(key).dump() : "0";
+}
+
+/// The counts that everyone asks for, a line a method.
+std::string summary_text(const nlohmann::json& total) {
+  if (total.contains("pieces")) return {};
+  std::string text = fmt::format("{} queries", number_text(total, "queries"));
+  if (total.contains("collisions")) {
+    text += fmt::format(", {} collisions", number_text(total, "collisions"));
+  }
+  if (total.contains("labels")) {
+    text += total.at("labels") == 0
+                ? ", no recorded labels"
+                : fmt::format(", {} wrong labels of {}", number_text(total, "label_mismatches"),
+                              number_text(total, "labels"));
+  } else {
+    text += "; no truth: nothing was judged";
+  }
+  text += '\n';
+  if (!total.contains("methods")) return text;
+  for (const nlohmann::json& method : total.at("methods")) {
+    text += fmt::format(
+        "{}: {} judged, {} false negatives, {} false positives, {} late toi, {} early upper, {} "
+        "undecided, {} errors\n",
+        method.at("name").get<std::string>(), number_text(method, "queries"),
+        number_text(method, "false_negatives"), number_text(method, "false_positives"),
+        number_text(method, "late_toi"), number_text(method, "early_toi_upper"),
+        number_text(method, "undecided"), number_text(method, "errors"));
+  }
+  return text;
+}
+
+void write_merged_text(const jobs::PieceFolder& folder, const std::string& option,
+                       const std::string& name, Files& files) {
+  const bool is_compressed = name.ends_with(".zst");
+  std::optional<io::Compressor> compressor;
+  if (is_compressed) compressor.emplace();
+  Output output(files, name);
+  folder.merged_text(option, [&](std::string_view text) {
+    if (compressor) {
+      output.write(compressor->compress(text));
+    } else {
+      output.write(text);
+    }
+  });
+  if (compressor) output.write(compressor->finish());
+  output.close();
+}
+
+}  // namespace
+
+void add_piece_options(CLI::App& command, PieceArguments& arguments) {
+  command
+      .add_option(shard_option, arguments.shard,
+                  "Do part I of N, from 0 on; auto: as Slurm, mpirun or GNU parallel say")
+      ->type_name("I/N");
+  command
+      .add_option(resume_option, arguments.folder,
+                  "Keep finished pieces there and go on with them (touchstone merge)")
+      ->type_name("FOLDER");
+}
+
+Shard shard_of(const PieceArguments& arguments) {
+  if (arguments.shard.empty()) return {};
+  if (arguments.shard == "auto") return shard_of_environment();
+  const std::string_view text = arguments.shard;
+  const std::size_t slash = std::min(text.find('/'), text.size());
+  const auto index = whole(text.substr(0, slash));
+  const auto count = whole(text.substr(std::min(slash + 1, text.size())));
+  if (!index || !count) {
+    throw std::invalid_argument("--shard: '" + arguments.shard + "' is not I/N, as 0/4 or 3/4");
+  }
+  return checked(*index, *count);
+}
+
+std::vector<jobs::Piece> pieces_of(const SourceArguments& sources) {
+  std::vector<jobs::Piece> pieces;
+  if (sources.built_in_set()) {
+    const std::vector<BuiltInSource> families = built_in_sources(sources.separation.given());
+    for (std::size_t i = 0; i < families.size(); ++i) {
+      pieces.push_back(
+          {.name = fmt::format("{} {}", families[i].family.name, to_string(families[i].kind)),
+           .files = {},
+           .arguments = {fmt::format("--only-source={}", i)}});
+    }
+    return pieces;
+  }
+  std::set<fs::path> seen;
+  for (const fs::path& file : data::find_datasets(sources.paths)) {
+    if (!seen.insert(fs::weakly_canonical(file)).second) continue;
+    jobs::Piece piece{.name = file.string(), .files = {file}, .arguments = {file.string()}};
+    for (const fs::path& companion : data::find_ground_truth_files(file)) {
+      piece.files.push_back(companion);
+    }
+    pieces.push_back(std::move(piece));
+  }
+  return pieces;
+}
+
+Status run_pieces(const CLI::App& command, const PieceArguments& arguments, const PieceRun& run) {
+  jobs::Plan plan{.program = std::string(version()),
+                  .command = command.get_name(),
+                  .options = {},
+                  .uses = {},
+                  .outputs = {},
+                  .pieces = run.pieces};
+  set_options(command, run, plan);
+  const Shard shard = shard_of(arguments);
+  const jobs::PieceFolder folder(arguments.folder, std::move(plan));
+  const CLI::Option* const threads = command.get_option_no_throw("--threads");
+  const std::string thread_count =
+      threads != nullptr && threads->count() != 0 ? threads->as<std::string>() : "";
+  io::ProgressBar bar(command.get_name());
+  int worst = 0;
+  const std::size_t count = run.pieces.size();
+  for (std::size_t i = 0; i < count && !io::interrupted(); ++i) {
+    bar.update(static_cast<double>(i) / static_cast<double>(count));
+    if (!shard.contains(i) || folder.is_done(i)) continue;
+    const int status = do_piece(folder, i, thread_count);
+    if (status > static_cast<int>(Status::wrong_answers) && !io::interrupted()) {
+      report_error(fmt::format("piece {}, {}: ended with status {}; it is not done", i,
+                               run.pieces[i].name, status));
+    }
+    worst = std::max(worst, status);
+  }
+  bar.clear();
+  if (io::interrupted()) return Status::interrupted;
+  if (worst > static_cast<int>(Status::wrong_answers)) return Status::bad_input;
+  if (folder.faults().empty()) return merge_pieces(folder, "");
+  report_unfinished(folder, arguments.folder);
+  return static_cast<Status>(worst);
+}
+
+Status run_in_pieces(const CLI::App& command, const PieceArguments& arguments,
+                     SourceArguments& sources, const PieceOutputs& outputs,
+                     const std::function<Status()>& run) {
+  if (!arguments.folder.empty()) {
+    return run_pieces(command, arguments,
+                      {.pieces = pieces_of(sources),
+                       .input = "PATH",
+                       .outputs = outputs.files,
+                       .refused = outputs.refused});
+  }
+  sources.shard = shard_of(arguments);
+  if (sources.shard.count == 1 || sources.built_in_set()) return run();
+  const std::vector<jobs::Piece> pieces = pieces_of(sources);
+  sources.paths.clear();
+  for (std::size_t i = 0; i < pieces.size(); ++i) {
+    if (sources.shard.contains(i)) sources.paths.push_back(pieces[i].files.front());
+  }
+  if (sources.paths.empty()) {
+    report_warning(
+        fmt::format("--shard: {} files, none for part {}", pieces.size(), sources.shard.index));
+    return Status::all_well;
+  }
+  sources.shard = {};
+  return run();
+}
+
+Status merge_pieces(const jobs::PieceFolder& folder, const std::string& json_file) {
+  const std::vector<std::string> faults = folder.faults();
+  for (const std::string& fault : faults) report_error(fault);
+  if (!faults.empty()) {
+    report_error(fmt::format("{} of {} pieces: nothing is merged", faults.size(),
+                             folder.plan().pieces.size()));
+    return Status::bad_input;
+  }
+  Files files;
+  const nlohmann::json total = folder.merged_json();
+  for (const auto& [option, name] : folder.plan().outputs) {
+    if (option == jobs::json_option) {
+      Output output(files, json_file.empty() ? name : json_file);
+      output.write(io::json_document(total));
+      output.close();
+    } else {
+      write_merged_text(folder, option, name, files);
+    }
+  }
+  io::print(files.summary_stream(),
+            fmt::format("{} pieces\n{}", folder.plan().pieces.size(), summary_text(total)));
+  return files.has_failed() ? Status::bad_input : static_cast<Status>(folder.status());
+}
+
+}  // namespace touchstone::verify::cli

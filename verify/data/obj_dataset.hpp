@@ -1,0 +1,38 @@
+#pragma once
+
+/// \file
+/// Queries as the vertices of a Wavefront OBJ file: of the lines "v x y z", which may go on with
+/// more numbers, each eight are the points of a query, in the order of Query. Other lines are
+/// ignored.
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+
+#include "verify/data/dataset_source.hpp"
+#include "verify/io/input_file.hpp"
+
+namespace touchstone::verify::data {
+
+/// The queries of an OBJ file as a stream.
+class ObjDataset final : public DatasetSource {
+ public:
+  /// \throws DatasetError as open_dataset does.
+  ObjDataset(const std::filesystem::path& path, const DatasetOptions& options);
+
+  [[nodiscard]] double progress() const override { return lines_.progress(); }
+  [[nodiscard]] std::uint64_t rounded() const override { return rounded_; }
+
+ private:
+  [[nodiscard]] bool at_end() override;
+  [[nodiscard]] StoredQuery read(std::uint64_t index) override;
+  /// Sets a point. \throws DatasetError if the line has no three numbers.
+  void read_point(const io::Line& line, std::size_t row, Query& query);
+
+  io::LineReader lines_;
+  /// The first vertex of the next query, if at_end() has read it.
+  std::optional<io::Line> ahead_;
+  std::uint64_t rounded_ = 0;
+};
+
+}  // namespace touchstone::verify::data

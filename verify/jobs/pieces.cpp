@@ -1,0 +1,334 @@
+#include "verify/jobs/pieces.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <optional>
+#include <set>
+#include <stdexcept>
+#include <utility>
+
+#include "verify/base/sha256.hpp"
+#include "verify/io/dataset_error.hpp"
+#include "verify/io/input_file.hpp"
+#include "verify/io/json.hpp"
+#include "verify/io/output_file.hpp"
+#include "verify/judge/judgement.hpp"
+
+namespace touchstone::verify::jobs {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+constexpr const char* plan_format = "touchstone plan 1";
+constexpr const char* record_format = "touchstone piece 1";
+constexpr const char* plan_name = "plan.json";
+constexpr std::size_t most_bytes = std::size_t{1} << 31U;
+
+void write_file(const fs::path& path, std::string_view text) {
+  io::OutputFile file(path);
+  file.write(text);
+  file.close();
+}
+
+json described(const fs::path& file) {
+  return {{"file", file.string()}, {"bytes", fs::file_size(file)}, {"sha256", digest_of(file)}};
+}
+
+// ---- The plan -----------------------------------------------------------------------------------
+
+json to_json(const Plan& plan) {
+  json pieces = json::array();
+  for (const Piece& piece : plan.pieces) {
+    json files = json::array();
+    for (const fs::path& file : piece.files) files.push_back(file.string());
+    pieces.push_back({{"name", piece.name}, {"files", files}, {"arguments", piece.arguments}});
+  }
+  return {{"format", plan_format},   {"program", plan.program}, {"command", plan.command},
+          {"options", plan.options}, {"uses", plan.uses},       {"outputs", plan.outputs},
+          {"pieces", pieces}};
+}
+
+Plan plan_from_json(const json& source) {
+  if (source.at("format") != plan_format) throw std::invalid_argument("unknown format");
+  Plan plan{.program = source.at("program"),
+            .command = source.at("command"),
+            .options = source.at("options"),
+            .uses = source.at("uses"),
+            .outputs = source.at("outputs"),
+            .pieces = {}};
+  for (const json& piece : source.at("pieces")) {
+    const std::vector<std::string> files = piece.at("files");
+    plan.pieces.push_back({.name = piece.at("name"),
+                           .files = {files.begin(), files.end()},
+                           .arguments = piece.at("arguments")});
+  }
+  return plan;
+}
+
+/// The plan of a folder; none if it has no plan. \throws std::runtime_error if it cannot be read.
+std::optional<Plan> read_plan(const fs::path& folder) {
+  const fs::path file = folder / plan_name;
+  if (!fs::exists(file)) return std::nullopt;
+  try {
+    return plan_from_json(io::read_json(file, most_bytes));
+  } catch (const std::exception& error) {
+    throw std::runtime_error(file.string() + ": not the plan of a run: " + error.what());
+  }
+}
+
+/// How a plan differs from another, in the words of its user.
+std::string difference(const Plan& given, const Plan& there) {
+  const auto join = [](const auto& texts) { return fmt::format("{}", fmt::join(texts, " ")); };
+  if (given.program != there.program)
+    return "of version " + there.program + ", not " + given.program;
+  if (given.command != there.command) return "of " + there.command + ", not " + given.command;
+  if (given.options != there.options) {
+    return fmt::format("with the options '{}', not '{}'", join(there.options), join(given.options));
+  }
+  if (given.uses != there.uses) return "with another content of a file that an option names";
+  if (given.outputs != there.outputs) return "with other output files";
+  return "of other inputs";
+}
+
+// ---- Merging ------------------------------------------------------------------------------------
+
+/// Numbers that cannot be added, as times and means.
+bool is_left_out(std::string_view key) {
+  return key.find("_per_") != std::string_view::npos || key.ends_with("seconds") ||
+         key == "file_bytes";
+}
+bool is_greatest(std::string_view key) { return key == "max" || key.starts_with("greatest"); }
+bool is_list(std::string_view key) {
+  static constexpr std::array<std::string_view, 4> lists{"files", "mismatches", "wrong_answers",
+                                                         "beyond_limits"};
+  return std::ranges::find(lists, key) != lists.end();
+}
+
+json without_means(const json& source) {
+  if (source.is_array()) {
+    json result = json::array();
+    for (const json& item : source) result.push_back(without_means(item));
+    return result;
+  }
+  if (!source.is_object()) return source;
+  json result = json::object();
+  for (const auto& [key, value] : source.items()) {
+    if (!is_left_out(key)) result[key] = without_means(value);
+  }
+  return result;
+}
+
+/// Adds the result of the next piece. Counts add up, greatest values stay the greatest, lists
+/// follow one another, and all else has to agree.
+/// \throws std::invalid_argument naming what does not.
+void add(json& sum, const json& next, const std::string& key) {
+  if (sum.is_object() && sum.contains("histogram")) {
+    judge::ToiErrors errors = judge::toi_errors_from_json(sum);
+    sum = judge::to_json(errors += judge::toi_errors_from_json(next));
+  } else if (key == "toi_error" && (sum.is_null() || next.is_null())) {
+    if (sum.is_null()) sum = next;
+  } else if (sum.is_object() && next.is_object()) {
+    for (const auto& [name, value] : next.items()) {
+      if (sum.contains(name)) {
+        add(sum[name], value, name);
+      } else {
+        sum[name] = value;
+      }
+    }
+  } else if (sum.is_array() && next.is_array() && is_list(key)) {
+    sum.insert(sum.end(), next.begin(), next.end());
+  } else if (sum.is_array() && next.is_array() && sum.size() == next.size()) {
+    for (std::size_t i = 0; i < sum.size(); ++i) add(sum[i], next[i], key);
+  } else if (is_greatest(key)) {
+    if (io::number_from_json(sum) < io::number_from_json(next)) sum = next;
+  } else if (sum.is_number_integer() && next.is_number_integer()) {
+    sum = sum.get<std::int64_t>() + next.get<std::int64_t>();
+  } else if (sum != next) {
+    throw std::invalid_argument(key + " is " + next.dump() + ", elsewhere " + sum.dump());
+  }
+}
+
+/// The commands whose results are counts of queries; those of the others stay apart.
+bool is_additive(const std::string& command) {
+  return command == "certify" || command == "solve" || command == "prove";
+}
+
+/// The word that begins the closing line of a text; none for CSV.
+std::string_view closing_word(std::string_view header) {
+  if (header.starts_with("touchstone-certificates")) return "certificates ";
+  if (header.starts_with("touchstone-steps")) return "steps ";
+  return {};
+}
+
+}  // namespace
+
+std::string digest_of(const fs::path& path) {
+  io::InputFile file(path);
+  base::Sha256 digest;
+  std::string chunk(std::size_t{1} << 16U, '\0');
+  while (const std::size_t count = file.read(chunk)) digest.add({chunk.data(), count});
+  return digest.hexadecimal();
+}
+
+PieceFolder::PieceFolder(fs::path folder, Plan plan)
+    : folder_(std::move(folder)), plan_(std::move(plan)) {
+  const std::string text = io::json_document(to_json(plan_));
+  if (const auto there = read_plan(folder_)) {
+    if (io::json_document(to_json(*there)) != text) {
+      throw std::runtime_error(fmt::format("{}: has the pieces of a run {}; choose another folder",
+                                           folder_.string(), difference(plan_, *there)));
+    }
+  } else {
+    fs::create_directories(folder_);
+    write_file(folder_ / plan_name, text);
+  }
+  digest_ = base::sha256(text);
+}
+
+PieceFolder::PieceFolder(fs::path folder) : folder_(std::move(folder)) {
+  auto plan = read_plan(folder_);
+  if (!plan) throw std::runtime_error(folder_.string() + ": no pieces (there is no plan.json)");
+  plan_ = std::move(*plan);
+  digest_ = base::sha256(io::json_document(to_json(plan_)));
+}
+
+fs::path PieceFolder::record_file(std::size_t piece) const {
+  return folder_ / fmt::format("{:06}.piece", piece);
+}
+
+fs::path PieceFolder::output(std::size_t piece, std::string_view option) const {
+  return folder_ / fmt::format("{:06}.{}", piece, option.substr(option.find_first_not_of('-')));
+}
+
+json PieceFolder::record_of(std::size_t piece, int status) const {
+  json inputs = json::array(), outputs = json::object();
+  for (const fs::path& file : plan_.pieces[piece].files) inputs.push_back(described(file));
+  for (const auto& [option, name] : plan_.outputs) {
+    const fs::path file = output(piece, option);
+    outputs[option] = described(file);
+    outputs[option]["file"] = file.filename().string();
+  }
+  return {{"format", record_format},
+          {"program", plan_.program},
+          {"plan", digest_},
+          {"piece", piece},
+          {"name", plan_.pieces[piece].name},
+          {"status", status},
+          {"inputs", inputs},
+          {"outputs", outputs}};
+}
+
+void PieceFolder::finish(std::size_t piece, int status) const {
+  json record = record_of(piece, status);
+  record["sha256"] = base::sha256(record.dump());
+  write_file(record_file(piece), io::json_document(record));
+}
+
+std::string PieceFolder::fault_of(const std::string& text, std::size_t piece) const {
+  json record;
+  try {
+    record = json::parse(text);
+    const std::string digest = record.at("sha256");
+    record.erase("sha256");
+    if (base::sha256(record.dump()) != digest) return "its record is damaged";
+    if (record.at("program") != plan_.program) {
+      return fmt::format("made by version {}, not {}", record.at("program").dump(), plan_.program);
+    }
+    if (record.at("plan") != digest_) return "of another run";
+    if (record.at("piece") != piece) {
+      return fmt::format("piece {} is there under this number too", record.at("piece").dump());
+    }
+    const json expected = record_of(piece, record.at("status"));
+    if (record.at("inputs") != expected.at("inputs")) return "its input has changed since";
+    if (record != expected) return "its results have changed since";
+  } catch (const json::exception&) {
+    return "its record is damaged";
+  } catch (const std::exception& error) {
+    return error.what();
+  }
+  return {};
+}
+
+bool PieceFolder::is_done(std::size_t piece) const {
+  const fs::path file = record_file(piece);
+  return fs::exists(file) && fault_of(io::read_file(file, most_bytes), piece).empty();
+}
+
+std::vector<std::string> PieceFolder::faults() const {
+  std::vector<std::string> result;
+  std::set<fs::path> expected;
+  for (std::size_t piece = 0; piece < plan_.pieces.size(); ++piece) {
+    const fs::path file = record_file(piece);
+    expected.insert(file);
+    const std::string reason =
+        fs::exists(file) ? fault_of(io::read_file(file, most_bytes), piece) : "missing";
+    if (reason.empty()) continue;
+    result.push_back(fmt::format("{}: piece {}, {}: {}", file.string(), piece,
+                                 plan_.pieces[piece].name, reason));
+  }
+  for (const auto& entry : fs::directory_iterator(folder_)) {
+    if (entry.path().extension() != ".piece" || expected.contains(entry.path())) continue;
+    result.push_back(entry.path().string() + ": no piece of this run has that name");
+  }
+  return result;
+}
+
+int PieceFolder::status() const {
+  int result = 0;
+  for (std::size_t piece = 0; piece < plan_.pieces.size(); ++piece) {
+    const json record = io::read_json(record_file(piece), most_bytes);
+    result = std::max(result, record.at("status").get<int>());
+  }
+  return result;
+}
+
+json PieceFolder::merged_json() const {
+  json sum = is_additive(plan_.command) ? json() : json{{"pieces", json::array()}};
+  for (std::size_t piece = 0; piece < plan_.pieces.size(); ++piece) {
+    const json next = io::read_json(output(piece, json_option), most_bytes);
+    if (!is_additive(plan_.command)) {
+      sum["pieces"].push_back({{"name", plan_.pieces[piece].name}, {"result", next}});
+    } else if (sum.is_null()) {
+      sum = without_means(next);
+    } else {
+      try {
+        add(sum, without_means(next), "");
+      } catch (const std::exception& error) {
+        throw std::runtime_error(
+            fmt::format("piece {}, {}: {}", piece, plan_.pieces[piece].name, error.what()));
+      }
+    }
+  }
+  return sum;
+}
+
+void PieceFolder::merged_text(std::string_view option,
+                              const std::function<void(std::string_view)>& take) const {
+  std::uint64_t closed = 0;
+  std::string_view closing;
+  for (std::size_t piece = 0; piece < plan_.pieces.size(); ++piece) {
+    const std::string text = io::read_file(output(piece, option), most_bytes);
+    std::string_view body = text;
+    const std::size_t header_end = body.find('\n') + 1;
+    closing = closing_word(body.substr(0, header_end));
+    if (piece > 0) body.remove_prefix(header_end);
+    if (!closing.empty()) {
+      const std::size_t last = body.rfind('\n', body.size() - 2) + 1;
+      std::uint64_t count = 0;
+      const std::string_view line = body.substr(std::min(last, body.size()));
+      if (line.starts_with(closing)) {
+        std::from_chars(line.data() + closing.size(), line.data() + line.size(), count);
+      }
+      closed += count;
+      body.remove_suffix(line.size());
+    }
+    take(body);
+  }
+  if (!closing.empty()) take(fmt::format("{}{}\n", closing, closed));
+}
+
+}  // namespace touchstone::verify::jobs

@@ -1,0 +1,95 @@
+#pragma once
+
+/// \file
+/// A run in pieces, which any processes may do in any order, be killed, and go on.
+///
+/// The **plan** of a run is a file that all processes write alike: program, command, options, the
+/// digests of the files that options name, and the pieces, each an input. A finished piece has a
+/// **record**: the plan's digest, the piece's number, the digests of its inputs and of its outputs,
+/// its exit status, and a digest of all this. Plan, outputs and records get their names when they
+/// are complete, a record last. So a process that is killed at any moment loses only the piece in
+/// work.
+///
+/// The results of all pieces are merged only if the records prove that they are of this plan, that
+/// each piece is there exactly once, and that inputs and outputs are what they were; everything
+/// else is an error that names the piece (the rule by which verified merges of proofs account for
+/// separate runs: Tan, Heule and Myreen 2021, "cake_lpr: Verified Propagation Redundancy Checking
+/// in CakeML", TACAS). The merged result is made of the outputs in the order of the plan, without
+/// times, and therefore the same whoever did the pieces.
+
+#include <cstddef>
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace touchstone::verify::jobs {
+
+/// An input of its own.
+struct Piece {
+  std::string name;
+  /// All files that its results depend on.
+  std::vector<std::filesystem::path> files;
+  /// What selects this input on the command line.
+  std::vector<std::string> arguments;
+};
+
+struct Plan {
+  std::string program;                         ///< the version that makes the results
+  std::string command;                         ///< the subcommand
+  std::vector<std::string> options;            ///< all that results may depend on
+  std::map<std::string, std::string> uses;     ///< digests of the files that options name
+  std::map<std::string, std::string> outputs;  ///< the merged files, by their options
+  std::vector<Piece> pieces;
+};
+
+/// The option whose output is JSON.
+inline constexpr std::string_view json_option = "--json";
+
+/// The SHA-256 of a file. \throws DatasetError if it cannot be read.
+[[nodiscard]] std::string digest_of(const std::filesystem::path& file);
+
+/// The results of a run, in a folder.
+class PieceFolder {
+ public:
+  /// Begins the run, or goes on with it.
+  /// \throws std::runtime_error if the folder has the results of another run.
+  PieceFolder(std::filesystem::path folder, Plan plan);
+  /// The run that a folder has. \throws std::runtime_error if it has none.
+  explicit PieceFolder(std::filesystem::path folder);
+
+  [[nodiscard]] const Plan& plan() const { return plan_; }
+  /// The file for an output of a piece.
+  [[nodiscard]] std::filesystem::path output(std::size_t piece, std::string_view option) const;
+
+  /// True if the piece has a valid record; a record that is not valid counts for nothing.
+  [[nodiscard]] bool is_done(std::size_t piece) const;
+  /// Writes the record of a piece whose outputs are complete.
+  void finish(std::size_t piece, int status) const;
+
+  /// The reasons why the pieces cannot be merged, a line each that names the piece or file.
+  [[nodiscard]] std::vector<std::string> faults() const;
+  /// The greatest exit status of all pieces. \pre faults() is empty.
+  [[nodiscard]] int status() const;
+  /// The results of all pieces as one. \pre faults() is empty.
+  [[nodiscard]] nlohmann::json merged_json() const;
+  /// Passes on the merged text of an output: CSV with one header, certificates with one closing
+  /// line. \pre faults() is empty.
+  void merged_text(std::string_view option,
+                   const std::function<void(std::string_view)>& take) const;
+
+ private:
+  [[nodiscard]] std::filesystem::path record_file(std::size_t piece) const;
+  [[nodiscard]] nlohmann::json record_of(std::size_t piece, int status) const;
+  /// What is wrong with a record; empty if nothing is. \param text of the file
+  [[nodiscard]] std::string fault_of(const std::string& text, std::size_t piece) const;
+
+  std::filesystem::path folder_;
+  Plan plan_;
+  std::string digest_;
+};
+
+}  // namespace touchstone::verify::jobs
