@@ -81,7 +81,7 @@ void set_options(const CLI::App& command, const PieceRun& run, jobs::Plan& plan)
     const std::vector<std::string> values = option->results();
     for (const std::string& value : values) {
       const bool is_flag = option->get_expected_min() == 0;
-      plan.options.push_back(is_flag && value == "true" ? name : name + "=" + value);
+      plan.options.push_back(is_flag && value == "true" ? name : fmt::format("{}={}", name, value));
       if (fs::is_regular_file(value)) plan.uses[value] = jobs::digest_of(value);
     }
   }

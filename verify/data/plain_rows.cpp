@@ -142,7 +142,7 @@ bool take_decimal(Cursor& cursor, WrittenNumber& number) {
   std::size_t count = 0;
   const char* const first = cursor.at;
   if (!cursor.take_digits(number.digits, count)) return false;
-  std::size_t characters = static_cast<std::size_t>(cursor.at - first);
+  auto characters = static_cast<std::size_t>(cursor.at - first);
   if (cursor.take('.')) {
     const char* const fraction = cursor.at;
     if (!cursor.take_digits(number.digits, count)) return false;

@@ -166,11 +166,11 @@ std::string_view closing_word(std::string_view header) {
 
 }  // namespace
 
-std::string digest_of(const fs::path& path) {
-  io::InputFile file(path);
+std::string digest_of(const fs::path& file) {
+  io::InputFile input(file);
   base::Sha256 digest;
   std::string chunk(std::size_t{1} << 16U, '\0');
-  while (const std::size_t count = file.read(chunk)) digest.add({chunk.data(), count});
+  while (const std::size_t count = input.read(chunk)) digest.add({chunk.data(), count});
   return digest.hexadecimal();
 }
 
