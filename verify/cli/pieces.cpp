@@ -158,19 +158,27 @@ std::string summary_text(const nlohmann::json& total) {
 
 void write_merged_text(const jobs::PieceFolder& folder, const std::string& option,
                        const std::string& name, Files& files) {
-  const bool is_compressed = name.ends_with(".zst");
-  std::optional<io::Compressor> compressor;
-  if (is_compressed) compressor.emplace();
-  Output output(files, name);
-  folder.merged_text(option, [&](std::string_view text) {
-    if (compressor) {
-      output.write(compressor->compress(text));
+  CertificatesFile output(files, name, "");
+  folder.merged_text(option, [&](std::string_view text) { output.write(text); });
+  output.close(std::string_view());
+}
+
+/// Writes the merged files, and prints a summary. \pre the folder has no faults
+Status write_merged(const jobs::PieceFolder& folder, const std::string& json_file) {
+  Files files;
+  const nlohmann::json total = folder.merged_json();
+  for (const auto& [option, name] : folder.plan().outputs) {
+    if (option == jobs::json_option) {
+      Output output(files, json_file.empty() ? name : json_file);
+      output.write(io::json_document(total));
+      output.close();
     } else {
-      output.write(text);
+      write_merged_text(folder, option, name, files);
     }
-  });
-  if (compressor) output.write(compressor->finish());
-  output.close();
+  }
+  io::print(files.summary_stream(),
+            fmt::format("{} pieces\n{}", folder.plan().pieces.size(), summary_text(total)));
+  return files.has_failed() ? Status::bad_input : static_cast<Status>(folder.status());
 }
 
 }  // namespace
@@ -252,7 +260,7 @@ Status run_pieces(const CLI::App& command, const PieceArguments& arguments, cons
   bar.clear();
   if (io::interrupted()) return Status::interrupted;
   if (worst > static_cast<int>(Status::wrong_answers)) return Status::bad_input;
-  if (folder.faults().empty()) return merge_pieces(folder, "");
+  if (folder.faults().empty()) return write_merged(folder, "");
   report_unfinished(folder, arguments.folder);
   return static_cast<Status>(worst);
 }
@@ -291,20 +299,7 @@ Status merge_pieces(const jobs::PieceFolder& folder, const std::string& json_fil
                              folder.plan().pieces.size()));
     return Status::bad_input;
   }
-  Files files;
-  const nlohmann::json total = folder.merged_json();
-  for (const auto& [option, name] : folder.plan().outputs) {
-    if (option == jobs::json_option) {
-      Output output(files, json_file.empty() ? name : json_file);
-      output.write(io::json_document(total));
-      output.close();
-    } else {
-      write_merged_text(folder, option, name, files);
-    }
-  }
-  io::print(files.summary_stream(),
-            fmt::format("{} pieces\n{}", folder.plan().pieces.size(), summary_text(total)));
-  return files.has_failed() ? Status::bad_input : static_cast<Status>(folder.status());
+  return write_merged(folder, json_file);
 }
 
 }  // namespace touchstone::verify::cli
