@@ -18,6 +18,8 @@ import sys
 import tempfile
 import urllib.parse
 
+import large_run
+
 DATA = ["handcrafted", "simulation", ""]  # "": the built-in set
 STEPS = {"cloth-ball": ["", *(f" --min-separation {d} --norm {norm}" for d in ("1e-8", "1e-2") for norm in ("linf", "l2"))],
          "armadillo-rollers": [""], "cloth-funnel": [""]}
@@ -60,6 +62,7 @@ COMMANDS = {
     "certificates": [f"prove {data} --threads 1".replace("  ", " ") for data in DATA],
     "step_proofs": [f"step simulation/{step}/frames/*.ply --earliest --candidates --threads 1" for step in STEPS],
     "simulations": [f"simulate {simulation}" for simulation in SIMULATIONS],
+    "large": [],  # large_run.py
 }
 
 # Fields that no document shows.
@@ -176,7 +179,8 @@ def measure_one(name, command, options, folder):
 
 def measure(name, options, folder):
     """Writes docs/data/NAME.json anew, with a line for each run or each measurement."""
-    rows = [measure_one(name, command, options, folder) for command in COMMANDS[name]]
+    rows = (large_run.measure(options, run) if name == "large"
+            else [measure_one(name, command, options, folder) for command in COMMANDS[name]])
     key, data = "runs", {"date": datetime.datetime.now(datetime.timezone.utc).date().isoformat()}
     if name == "results":  # as `touchstone report --from` reads it
         key, data = "measurements", rows[0]["result"] | {
@@ -448,6 +452,30 @@ def field_2026(data):
             *table(["solver", "version", "options", "built-in set", "handcrafted", "simulation", "note"], sets), ""]
 
 
+def large(data):
+    """The section of docs/results.md on the large run."""
+    of, stepped = data["runs"]
+    judged_, exact_ns = of["result"], of["methods_ns"]["certified"]
+    minutes = [f"{seconds / 60:.0f}" for seconds in (of["recording_seconds"], of["seconds"], of["processor_seconds"])]
+    rows = [["oracle", f"{judged_['queries']:,}", "–", "–", "–", rounded(of["oracle_ns"] / exact_ns)]]
+    for m in judged_["methods"]:
+        rows.append([f"`{m['name']}`" + "\\*" * (m["queries"] < judged_["queries"]), f"{m['queries']:,}",
+                     m["false_negatives"], f"{m['false_positives']:,}", f"{m['late_toi']:,}",
+                     rounded(of["methods_ns"][m["name"]] / exact_ns) if m["queries"] else "–"])
+    return ["## A large run", "",
+            f"Not part of the tables above. Made by `./run results large`, {data['date']}: the queries of "
+            f"{len(large_run.SCENES)} simulations (`./run simulate SCENE --record`; {', '.join(large_run.SCENES)}), "
+            f"{judged_['queries']:,} of them, of which {judged_['collisions']:,} collide; {of['bytes'] / 1e9:.1f} GB in "
+            f"{of['pieces']} shards. Recorded in {minutes[0]} minutes, judged in {minutes[1]} ({minutes[2]} of processor time) by "
+            f"{large_run.WORKERS} workers of `examples/cluster/parallel.sh`, {of['kills']} times killed by SIGKILL; a process has at "
+            f"most {of['greatest_memory_bytes'] / 1e6:.0f} MB.", "",
+            "```", of["command"], "```", "",
+            *table(["method", "asked", "false negatives", "false positives", "late", "time, in that of certified"], rows), "",
+            f"\\* As many of each shard as {large_run.SECONDS_OF_A_PIECE} seconds for all methods allow.", "",
+            f"And `{stepped['command']}`: the {stepped['result']['steps']:,} steps of the last simulation, each a piece, in "
+            f"{rounded(stepped['seconds'])} s ({stepped['kills']} kills): {stepped['result']['colliding']} collide.", ""]
+
+
 # The marked parts of the documents, in their order, each with its file of data.
 PARTS = {"README.md": [(printed, "certify"), (results, "results")],
          "docs/benchmarks.md": [(judged, "certify"), (files, "files"), (patches, "patches"), (steps, "steps"),
@@ -496,8 +524,9 @@ def documents(options, folder):
     made = {document: with_parts(document, (options.root / document).read_text(), options.root) for document in PARTS}
     page, text = folder / "page.html", folder / "results.md"
     run([options.tool, "report", "--from", options.root / "docs/data/results.json", "--out", page, "--markdown", text])
-    field = "\n".join(field_2026(json.loads((options.root / "docs/data/field_2026.json").read_text())))
-    return made | {"docs/results.md": text.read_text() + "\n" + field, "docs/results.svg": picture(page, folder)}
+    sections = [line for part in (large, field_2026)
+                for line in part(json.loads((options.root / f"docs/data/{part.__name__}.json").read_text()))]
+    return made | {"docs/results.md": "\n".join([text.read_text(), *sections]), "docs/results.svg": picture(page, folder)}
 
 
 def differences(root, made):
@@ -514,7 +543,7 @@ def differences(root, made):
 def main():
     here = pathlib.Path(__file__).resolve().parent.parent
     parser = argparse.ArgumentParser(prog="./run results", description="Measures, and writes the documents' numbers.")
-    parser.add_argument("names", nargs="*", metavar="NAME", help=f"measure only: {' '.join(COMMANDS)} (default: all)")
+    parser.add_argument("names", nargs="*", metavar="NAME", help=f"measure only: {' '.join(COMMANDS)} (default: all but large)")
     parser.add_argument("--check", action="store_true", help="only check that data and documents agree")
     parser.add_argument("--write", action="store_true", help="write the documents from docs/data, without measuring")
     parser.add_argument("--quick", action="store_true", help="measure times briefly, for a test of this program")
@@ -528,7 +557,7 @@ def main():
         parser.error(f"NAME is one of {' '.join(COMMANDS)}")
     with tempfile.TemporaryDirectory() as name:
         if not options.check and not options.write:
-            for data in options.names or COMMANDS:
+            for data in options.names or [name for name in COMMANDS if name != "large"]:
                 measure(data, options, pathlib.Path(name))
         made = documents(options, pathlib.Path(name))
     if options.check:

@@ -31,6 +31,7 @@
 #include "verify/data/ground_truth_files.hpp"
 #include "verify/data/npy.hpp"
 #include "verify/data/separation_file.hpp"
+#include "verify/data/store.hpp"
 #include "verify/data/toi_writer.hpp"
 #include "verify/io/json.hpp"
 #include "verify/io/output_file.hpp"
@@ -253,8 +254,8 @@ class ConvertRun {
         shards.push_back(shard);
       }
     }
-    io::OutputFile file(arguments_.folder / "manifest.json");
-    file.write(io::json_document({{"format", "touchstone store 1"},
+    io::OutputFile file(arguments_.folder / data::manifest_name);
+    file.write(io::json_document({{"format", data::store_format},
                                   {"program", version()},
                                   {"source", io::text_or_null(arguments_.source)},
                                   {"licence", io::text_or_null(arguments_.licence)},
@@ -280,8 +281,10 @@ void add(CLI::App& app, Status& status) {
       app.add_subcommand("convert", "Write datasets as a store of arrays, for large runs");
   command->option_defaults()->group("Input");
   command
-      ->add_option("PATH", arguments->paths,
-                   "Files (.csv, .csv.zst, .npy; .obj with eight vertices a query) or folders")
+      ->add_option(
+          "PATH", arguments->paths,
+          "Files (.csv, .csv.zst, .npy; .npz with an array queries; .obj with eight vertices "
+          "a query) or folders")
       ->type_name("")
       ->required();
   add_kind_option(*command, arguments->kind, "vertex-face or edge-edge, if the path does not tell");

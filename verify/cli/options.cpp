@@ -2,12 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <charconv>
 #include <cstdio>
 #include <fstream>
 #include <stdexcept>
-#include <system_error>
 
+#include "verify/base/number_text.hpp"
 #include "verify/data/separation_file.hpp"
 #include "verify/io/printable.hpp"
 #include "verify/io/terminal.hpp"
@@ -17,10 +16,8 @@ namespace touchstone::verify::cli {
 
 CLI::Validator whole_number(std::uint64_t least, std::uint64_t greatest) {
   const auto check = [least, greatest](const std::string& text) -> std::string {
-    std::uint64_t value = 0;
-    const char* end = text.data() + text.size();
-    const auto [stopped, error] = std::from_chars(text.data(), end, value);
-    if (error == std::errc() && stopped == end && value >= least && value <= greatest) return {};
+    const auto value = base::number_from_text<std::uint64_t>(text);
+    if (value && *value >= least && *value <= greatest) return {};
     return fmt::format("{} is not a whole number from {} to {}", text, least, greatest);
   };
   return {check, ""};
@@ -28,10 +25,8 @@ CLI::Validator whole_number(std::uint64_t least, std::uint64_t greatest) {
 
 CLI::Validator real_number(double least, double greatest) {
   const auto check = [least, greatest](const std::string& text) -> std::string {
-    double value = 0.0;
-    const char* end = text.data() + text.size();
-    const auto [stopped, error] = std::from_chars(text.data(), end, value);
-    if (error == std::errc() && stopped == end && value >= least && value <= greatest) return {};
+    const auto value = base::number_from_text<double>(text);
+    if (value && *value >= least && *value <= greatest) return {};
     return fmt::format("{} is not a number from {} to {}", text, least, greatest);
   };
   return {check, ""};

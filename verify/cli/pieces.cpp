@@ -3,21 +3,22 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cstdlib>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <stdexcept>
 #include <string_view>
-#include <system_error>
 #include <utility>
 
+#include "verify/base/number_text.hpp"
 #include "verify/cli/certificates_file.hpp"
 #include "verify/cli/files.hpp"
 #include "verify/cli/options.hpp"
 #include "verify/cli/version.hpp"
 #include "verify/data/dataset.hpp"
 #include "verify/data/ground_truth_files.hpp"
+#include "verify/data/store.hpp"
 #include "verify/generate/families.hpp"
 #include "verify/io/json.hpp"
 #include "verify/io/terminal.hpp"
@@ -33,16 +34,9 @@ constexpr const char* resume_option = "--resume";
 
 // ---- Shards -------------------------------------------------------------------------------------
 
-std::optional<std::size_t> whole(std::string_view text) {
-  std::size_t number = 0;
-  const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-  if (error != std::errc() || stop != text.data() + text.size()) return std::nullopt;
-  return number;
-}
-
 std::optional<std::size_t> variable(const char* name) {
   const char* const value = std::getenv(name);  // NOLINT(concurrency-mt-unsafe): one thread
-  return value == nullptr ? std::nullopt : whole(value);
+  return value == nullptr ? std::nullopt : base::number_from_text<std::size_t>(value);
 }
 
 Shard checked(std::size_t index, std::size_t count) {
@@ -108,17 +102,17 @@ int do_piece(const jobs::PieceFolder& folder, std::size_t number, const std::str
   if (status == static_cast<int>(Status::all_well) ||
       status == static_cast<int>(Status::wrong_answers)) {
     folder.finish(number, status);
+    const std::string fault = folder.fault(number);
+    if (!fault.empty()) report_error(fault);
+    if (!fault.empty()) return static_cast<int>(Status::bad_input);
   }
   return status;
 }
 
-void report_unfinished(const jobs::PieceFolder& folder, const fs::path& path) {
+void report_unfinished(const jobs::PieceFolder& folder, const fs::path& path, std::size_t faults) {
   const std::size_t count = folder.plan().pieces.size();
-  std::size_t done = 0;
-  for (std::size_t i = 0; i < count; ++i) done += folder.is_done(i) ? 1U : 0U;
-  if (done == count) return;
   io::print(stdout, fmt::format("{} of {} pieces are done; when all are: touchstone merge {}\n",
-                                done, count, path.string()));
+                                count - std::min(faults, count), count, path.string()));
 }
 
 // ---- The merged result --------------------------------------------------------------------------
@@ -199,8 +193,9 @@ Shard shard_of(const PieceArguments& arguments) {
   if (arguments.shard == "auto") return shard_of_environment();
   const std::string_view text = arguments.shard;
   const std::size_t slash = std::min(text.find('/'), text.size());
-  const auto index = whole(text.substr(0, slash));
-  const auto count = whole(text.substr(std::min(slash + 1, text.size())));
+  const auto index = base::number_from_text<std::size_t>(text.substr(0, slash));
+  const auto count =
+      base::number_from_text<std::size_t>(text.substr(std::min(slash + 1, text.size())));
   if (!index || !count) {
     throw std::invalid_argument("--shard: '" + arguments.shard + "' is not I/N, as 0/4 or 3/4");
   }
@@ -220,13 +215,22 @@ std::vector<jobs::Piece> pieces_of(const SourceArguments& sources) {
     return pieces;
   }
   std::set<fs::path> seen;
-  for (const fs::path& file : data::find_datasets(sources.paths)) {
-    if (!seen.insert(fs::weakly_canonical(file)).second) continue;
-    jobs::Piece piece{.name = file.string(), .files = {file}, .arguments = {file.string()}};
-    for (const fs::path& companion : data::find_ground_truth_files(file)) {
-      piece.files.push_back(companion);
+  for (const fs::path& path : sources.paths) {
+    const std::vector<fs::path> datasets = data::find_datasets({&path, 1});
+    const auto digests = fs::is_directory(path) ? data::store_digests(path, datasets)
+                                                : std::map<fs::path, std::string>();
+    for (const fs::path& file : datasets) {
+      if (!seen.insert(fs::weakly_canonical(file)).second) continue;
+      jobs::Piece piece{.name = file.string(), .files = {file}, .arguments = {file.string()}};
+      for (const fs::path& companion : data::find_ground_truth_files(file)) {
+        piece.files.push_back(companion);
+      }
+      for (const fs::path& used : piece.files) {
+        const auto known = digests.find(used.lexically_normal());
+        if (known != digests.end()) piece.digests[used.string()] = known->second;
+      }
+      pieces.push_back(std::move(piece));
     }
-    pieces.push_back(std::move(piece));
   }
   return pieces;
 }
@@ -249,7 +253,7 @@ Status run_pieces(const CLI::App& command, const PieceArguments& arguments, cons
   const std::size_t count = run.pieces.size();
   for (std::size_t i = 0; i < count && !io::interrupted(); ++i) {
     bar.update(static_cast<double>(i) / static_cast<double>(count));
-    if (!shard.contains(i) || folder.is_done(i)) continue;
+    if (!shard.contains(i) || folder.fault(i).empty()) continue;
     const int status = do_piece(folder, i, thread_count);
     if (status > static_cast<int>(Status::wrong_answers) && !io::interrupted()) {
       report_error(fmt::format("piece {}, {}: ended with status {}; it is not done", i,
@@ -260,8 +264,9 @@ Status run_pieces(const CLI::App& command, const PieceArguments& arguments, cons
   bar.clear();
   if (io::interrupted()) return Status::interrupted;
   if (worst > static_cast<int>(Status::wrong_answers)) return Status::bad_input;
-  if (folder.faults().empty()) return write_merged(folder, "");
-  report_unfinished(folder, arguments.folder);
+  const std::size_t faults = folder.faults().size();
+  if (faults == 0) return write_merged(folder, "");
+  report_unfinished(folder, arguments.folder, faults);
   return static_cast<Status>(worst);
 }
 

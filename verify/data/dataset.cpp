@@ -13,7 +13,9 @@
 
 #include "verify/data/csv_dataset.hpp"
 #include "verify/data/npy_dataset.hpp"
+#include "verify/data/npz_dataset.hpp"
 #include "verify/data/obj_dataset.hpp"
+#include "verify/data/store.hpp"
 
 namespace touchstone::verify::data {
 namespace {
@@ -34,7 +36,7 @@ bool is_dataset_name(const fs::path& path) {
 bool is_ground_truth_name(const fs::path& path) {
   const std::string name = path.filename().string();
   return name.ends_with("_toi.csv") || name.ends_with("_mma_bool.json") ||
-         name == "separation.json" || name == "manifest.json";
+         name == "separation.json" || name == manifest_name;
 }
 
 /// A folder with all below it. Links to folders are followed when all folders that are there
@@ -124,6 +126,7 @@ std::vector<fs::path> datasets_below(const fs::path& folder, const LeftOut& on_l
     throw io::DatasetError(where, {}, "cannot read: " + error.code().message());
   }
   if (found.empty()) throw io::DatasetError(folder, {}, "no dataset (.csv, .npy) in this folder");
+  static_cast<void>(store_digests(folder, found));
   return found;
 }
 
@@ -202,9 +205,10 @@ std::unique_ptr<QuerySource> open_dataset(const fs::path& path, const DatasetOpt
   if (extension == ".csv" || path.string().ends_with(".csv.zst"))
     return std::make_unique<CsvDataset>(path, options);
   if (extension == ".npy") return std::make_unique<NpyDataset>(path, options);
+  if (extension == ".npz") return std::make_unique<NpzDataset>(path, options);
   if (extension == ".obj") return std::make_unique<ObjDataset>(path, options);
   throw io::DatasetError(path, {},
-                         "unknown format: only .csv, .csv.zst, .npy and .obj are datasets");
+                         "unknown format: only .csv, .csv.zst, .npy, .npz and .obj are datasets");
 }
 
 }  // namespace touchstone::verify::data

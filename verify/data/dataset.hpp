@@ -46,8 +46,8 @@ using LeftOut = std::function<void(const io::DatasetError&)>;
 /// frames, and files named *_toi.csv.
 /// \param on_left_out called for everything else that is skipped, and for files in those folders
 /// that have a dataset's name
-/// \throws DatasetError for a path that does not exist or cannot be read, or a folder without any
-/// dataset.
+/// \throws DatasetError for a path that does not exist or cannot be read, a folder without any
+/// dataset, or a store that is not complete (store.hpp).
 [[nodiscard]] std::vector<std::filesystem::path> find_datasets(
     std::span<const std::filesystem::path> paths, const LeftOut& on_left_out = nullptr);
 
@@ -58,7 +58,7 @@ using LeftOut = std::function<void(const io::DatasetError&)>;
 /// \throws DatasetError if the path determines no kind, or both in one part.
 [[nodiscard]] Kind kind_from_path(const std::filesystem::path& path);
 
-/// Opens a .csv, .csv.zst, .npy or .obj file.
+/// Opens a .csv, .csv.zst, .npy, .npz or .obj file.
 /// \throws DatasetError, with and without keep_going, if the file cannot be read, its kind or its
 /// format is unknown, a CSV file has no queries, or a companion file cannot be read.
 [[nodiscard]] std::unique_ptr<QuerySource> open_dataset(const std::filesystem::path& path,

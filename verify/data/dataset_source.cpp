@@ -1,5 +1,9 @@
 #include "verify/data/dataset_source.hpp"
 
+#include <fmt/core.h>
+
+#include <cmath>
+#include <string_view>
 #include <utility>
 
 #include "verify/data/separation_file.hpp"
@@ -47,6 +51,17 @@ std::optional<RecordedQuery> DatasetSource::read_record() {
                        .index = index,
                        .collides = stored.label ? stored.label : truth.collides,
                        .toi = std::move(truth.toi)};
+}
+
+void DatasetSource::require_finite(const Query& query, std::uint64_t index) const {
+  for (std::size_t row = 0; row < query_points; ++row) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      if (std::isfinite(query.coordinates.at(3 * row + axis))) continue;
+      static constexpr std::string_view axes = "xyz";
+      throw io::DatasetError(
+          path_, {}, fmt::format("query {}, point {}, {}: not finite", index, row, axes[axis]));
+    }
+  }
 }
 
 void DatasetSource::give_up(const io::DatasetError& fault) {

@@ -44,6 +44,9 @@ class DatasetSource : public QuerySource {
   /// place of the next query is unknown. The rest of the companions is ignored.
   [[noreturn]] void give_up(const io::DatasetError& fault);
 
+  /// \throws DatasetError naming the first coordinate of query `index` that is not finite.
+  void require_finite(const Query& query, std::uint64_t index) const;
+
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }
   [[nodiscard]] const DatasetOptions& options() const { return options_; }
 

@@ -2,12 +2,12 @@
 
 #include <fmt/core.h>
 
-#include <charconv>
 #include <stdexcept>
 #include <string_view>
 #include <system_error>
 #include <utility>
 
+#include "verify/base/number_text.hpp"
 #include "verify/data/separation_file.hpp"
 #include "verify/io/csv.hpp"
 
@@ -25,14 +25,6 @@ bool is_word_character(int c) {
 bool split_fields(std::string_view line, std::array<std::string, 2>& fields) {
   const io::CsvSplit split = io::split_csv(line, fields);
   return split.count == fields.size() && split.fault == io::CsvSplit::Fault::none;
-}
-
-std::optional<std::uint64_t> parse_number(std::string_view text) {
-  std::uint64_t number = 0;
-  const char* const end = text.data() + text.size();
-  const auto [stop, error] = std::from_chars(text.data(), end, number);
-  if (error != std::errc() || stop != end) return std::nullopt;
-  return number;
 }
 
 std::optional<std::filesystem::path> find_companion(const std::filesystem::path& dataset,
@@ -213,7 +205,7 @@ std::optional<ToiReader::Entry> ToiReader::next_entry() {
     fail({.line = line->number}, "expected two columns, query and toi");
   }
   const std::string_view query_text = io::trimmed(fields[0]);
-  const std::optional<std::uint64_t> query = parse_number(query_text);
+  const std::optional<std::uint64_t> query = base::number_from_text<std::uint64_t>(query_text);
   const io::FilePosition position{.line = line->number, .column = 1};
   if (!query) fail(position, "not a query number: " + io::quote(query_text));
   if (entry_ && *query <= entry_->query) fail(position, "query numbers do not ascend");

@@ -1,10 +1,5 @@
 #include "verify/data/npy_dataset.hpp"
 
-#include <fmt/core.h>
-
-#include <cmath>
-#include <string_view>
-
 namespace touchstone::verify::data {
 NpyDataset::NpyDataset(const std::filesystem::path& path, const DatasetOptions& options)
     : DatasetSource(path, options), file_(path) {}
@@ -16,14 +11,7 @@ double NpyDataset::progress() const {
 
 DatasetSource::StoredQuery NpyDataset::read(std::uint64_t index) {
   const Query& query = read_query();
-  for (std::size_t row = 0; row < query_points; ++row) {
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      if (std::isfinite(query.coordinates.at(3 * row + axis))) continue;
-      static constexpr std::string_view axes = "xyz";
-      throw io::DatasetError(
-          path(), {}, fmt::format("query {}, point {}, {}: not finite", index, row, axes[axis]));
-    }
-  }
+  require_finite(query, index);
   return {.query = query, .label = std::nullopt, .label_position = {}};
 }
 

@@ -100,10 +100,10 @@ struct Block {
 };
 
 std::vector<double> explored_parts(const std::vector<Generator>& generators) {
-  std::vector<double> parts;
-  parts.reserve(generators.size());
-  for (const Generator& generator : generators) parts.push_back(generator.explored);
-  return parts;
+  std::vector<double> result;
+  result.reserve(generators.size());
+  for (const Generator& generator : generators) result.push_back(generator.explored);
+  return result;
 }
 
 /// Makes blocks, one kind after the other.

@@ -1,13 +1,13 @@
 #include "verify/io/coordinate_text.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <cstdint>
 #include <limits>
 #include <optional>
 
 #include "touchstone/number.hpp"
+#include "verify/base/number_text.hpp"
 #include "verify/io/dataset_error.hpp"
 
 namespace touchstone::verify::io {
@@ -29,10 +29,8 @@ std::optional<exact::Integer> any_integer(std::string_view text) {
 /// True for NaN or infinity as the standard library and NumPy write them.
 bool is_not_finite(std::string_view text) {
   if (text.starts_with('+')) text.remove_prefix(1);
-  double value = 0.0;
-  const char* const end = text.data() + text.size();
-  const auto [stop, error] = std::from_chars(text.data(), end, value);
-  return error == std::errc() && stop == end && !std::isfinite(value);
+  const auto value = base::number_from_text<double>(text);
+  return value && !std::isfinite(*value);
 }
 
 exact::Rational any_number(std::string_view text, Part part) {

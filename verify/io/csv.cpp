@@ -3,10 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
-#include <system_error>
 
+#include "verify/base/number_text.hpp"
 #include "verify/io/printable.hpp"
 
 namespace touchstone::verify::io {
@@ -16,9 +15,7 @@ constexpr char apostrophe = '\'';
 
 bool is_number(std::string_view text) {
   if (text.starts_with('+')) text.remove_prefix(1);
-  double value = 0.0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  return error == std::errc() && end == text.data() + text.size();
+  return base::number_from_text<double>(text).has_value();
 }
 
 /// Would a spreadsheet compute the text, but for apostrophes in front?

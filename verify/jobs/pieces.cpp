@@ -45,7 +45,10 @@ json to_json(const Plan& plan) {
   for (const Piece& piece : plan.pieces) {
     json files = json::array();
     for (const fs::path& file : piece.files) files.push_back(file.string());
-    pieces.push_back({{"name", piece.name}, {"files", files}, {"arguments", piece.arguments}});
+    pieces.push_back({{"name", piece.name},
+                      {"files", files},
+                      {"arguments", piece.arguments},
+                      {"digests", piece.digests}});
   }
   return {{"format", plan_format},   {"program", plan.program}, {"command", plan.command},
           {"options", plan.options}, {"uses", plan.uses},       {"outputs", plan.outputs},
@@ -64,7 +67,8 @@ Plan plan_from_json(const json& source) {
     const std::vector<std::string> files = piece.at("files");
     plan.pieces.push_back({.name = piece.at("name"),
                            .files = {files.begin(), files.end()},
-                           .arguments = piece.at("arguments")});
+                           .arguments = piece.at("arguments"),
+                           .digests = piece.at("digests")});
   }
   return plan;
 }
@@ -245,6 +249,12 @@ std::string PieceFolder::fault_of(const std::string& text, std::size_t piece) co
     const json expected = record_of(piece, record.at("status"));
     if (record.at("inputs") != expected.at("inputs")) return "its input has changed since";
     if (record != expected) return "its results have changed since";
+    for (const json& input : record.at("inputs")) {
+      const auto known = plan_.pieces[piece].digests.find(input.at("file"));
+      if (known != plan_.pieces[piece].digests.end() && known->second != input.at("sha256")) {
+        return known->first + " is not as the manifest of its store says";
+      }
+    }
   } catch (const json::exception&) {
     return "its record is damaged";
   } catch (const std::exception& error) {
@@ -253,9 +263,9 @@ std::string PieceFolder::fault_of(const std::string& text, std::size_t piece) co
   return {};
 }
 
-bool PieceFolder::is_done(std::size_t piece) const {
+std::string PieceFolder::fault(std::size_t piece) const {
   const fs::path file = record_file(piece);
-  return fs::exists(file) && fault_of(io::read_file(file, most_bytes), piece).empty();
+  return fs::exists(file) ? fault_of(io::read_file(file, most_bytes), piece) : "missing";
 }
 
 std::vector<std::string> PieceFolder::faults() const {
@@ -264,8 +274,7 @@ std::vector<std::string> PieceFolder::faults() const {
   for (std::size_t piece = 0; piece < plan_.pieces.size(); ++piece) {
     const fs::path file = record_file(piece);
     expected.insert(file);
-    const std::string reason =
-        fs::exists(file) ? fault_of(io::read_file(file, most_bytes), piece) : "missing";
+    const std::string reason = fault(piece);
     if (reason.empty()) continue;
     result.push_back(fmt::format("{}: piece {}, {}: {}", file.string(), piece,
                                  plan_.pieces[piece].name, reason));

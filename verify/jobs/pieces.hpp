@@ -35,6 +35,8 @@ struct Piece {
   std::vector<std::filesystem::path> files;
   /// What selects this input on the command line.
   std::vector<std::string> arguments;
+  /// The digests that files must have, as far as they are known before.
+  std::map<std::string, std::string> digests = {};
 };
 
 struct Plan {
@@ -65,12 +67,14 @@ class PieceFolder {
   /// The file for an output of a piece.
   [[nodiscard]] std::filesystem::path output(std::size_t piece, std::string_view option) const;
 
-  /// True if the piece has a valid record; a record that is not valid counts for nothing.
-  [[nodiscard]] bool is_done(std::size_t piece) const;
+  /// Why the piece is not done; empty if it has a valid record. A record that is not valid counts
+  /// for nothing.
+  [[nodiscard]] std::string fault(std::size_t piece) const;
   /// Writes the record of a piece whose outputs are complete.
   void finish(std::size_t piece, int status) const;
 
-  /// The reasons why the pieces cannot be merged, a line each that names the piece or file.
+  /// The reasons why the pieces cannot be merged, a line each that names the piece or file; the
+  /// pieces before the files that are none.
   [[nodiscard]] std::vector<std::string> faults() const;
   /// The greatest exit status of all pieces. \pre faults() is empty.
   [[nodiscard]] int status() const;

@@ -3,12 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <csignal>
 #include <cstring>
 #include <stdexcept>
 
+#include "verify/base/number_text.hpp"
 #include "verify/io/printable.hpp"
 
 namespace touchstone::verify::judge {
@@ -70,10 +70,7 @@ std::string detail(const Failure& failure) {
 std::optional<int> number_behind(std::string_view prefix, std::string_view text) {
   if (!text.starts_with(prefix)) return std::nullopt;
   text.remove_prefix(prefix.size());
-  int number = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
-  return number;
+  return base::number_from_text<int>(text);
 }
 
 int signal_from_text(std::string_view text) {

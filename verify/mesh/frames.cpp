@@ -1,28 +1,23 @@
 #include "verify/mesh/frames.hpp"
 
 #include <fmt/format.h>
-#include <zip.h>
 
 #include <algorithm>
-#include <bit>
 #include <cctype>
 #include <cmath>
-#include <cstring>
 #include <limits>
 #include <optional>
 #include <system_error>
 #include <utility>
 #include <vector>
 
-#include "verify/data/npy_header.hpp"
+#include "verify/data/npz.hpp"
 #include "verify/io/dataset_error.hpp"
 
 namespace touchstone::verify::mesh {
 namespace {
 
 namespace fs = std::filesystem;
-
-static_assert(std::endian::native == std::endian::little, "arrays are read as they are stored");
 
 // ---- Files ----
 
@@ -98,99 +93,13 @@ class FileFrames : public Frames {
 
 // ---- Archives ----
 
-struct CloseArchive {
-  void operator()(zip_t* archive) const { zip_discard(archive); }
-};
-struct CloseMember {
-  void operator()(zip_file_t* member) const { zip_fclose(member); }
-};
-using Archive = std::unique_ptr<zip_t, CloseArchive>;
-
-/// One array of an archive, read front to back.
-class ArchivedArray {
- public:
-  /// \throws io::DatasetError if it is no array of numbers in C order.
-  ArchivedArray(zip_t& archive, fs::path path, std::string name)
-      : path_(std::move(path)),
-        name_(std::move(name)),
-        member_(zip_fopen(&archive, (name_ + ".npy").c_str(), 0)) {
-    if (!member_) fail(zip_strerror(&archive));
-    try {
-      header_ = data::read_npy_header([this](std::span<char> buffer) { return read(buffer); });
-      data::require_c_order(header_);
-    } catch (const data::NpyHeaderError& error) {
-      fail(error.what());
-    }
-  }
-
-  [[nodiscard]] const std::vector<std::uint64_t>& shape() const { return header_.shape; }
-
-  /// The next numbers, of the type that the header names: one of `Stored`.
-  /// \throws io::DatasetError if the type is another, or the array ends before.
-  template <class Number, class... Stored>
-  void take(std::span<Number> numbers,
-            const std::array<std::string_view, sizeof...(Stored)>& names) {
-    std::size_t i = 0;
-    const bool found =
-        ((header_.descr == names[i++] && (take_stored<Stored>(numbers), true)) || ...);
-    if (!found) {
-      fail(
-          fmt::format("dtype {}, expected {}", io::quote(header_.descr), fmt::join(names, " or ")));
-    }
-  }
-
-  /// \throws io::DatasetError unless the shape has so many extents, the last ones as given.
-  void require_shape(std::size_t extents, std::span<const std::uint64_t> last,
-                     std::string_view expected) const {
-    const std::vector<std::uint64_t>& shape = header_.shape;
-    if (shape.size() == extents &&
-        std::equal(last.begin(), last.end(),
-                   shape.end() - static_cast<std::ptrdiff_t>(last.size()))) {
-      return;
-    }
-    fail("shape " + data::shape_text(header_) + ", expected " + std::string(expected));
-  }
-
-  [[noreturn]] void fail(const std::string& reason) const {
-    throw io::DatasetError(path_, {}, name_ + ": " + reason);
-  }
-
- private:
-  std::size_t read(std::span<char> buffer) {
-    const zip_int64_t count = zip_fread(member_.get(), buffer.data(), buffer.size());
-    if (count < 0) fail(zip_file_strerror(member_.get()));
-    return static_cast<std::size_t>(count);
-  }
-
-  template <class Stored, class Number>
-  void take_stored(std::span<Number> numbers) {
-    // A bounded part at a time: what the header announces is believed as far as data follows.
-    std::array<Stored, 4096> part{};
-    while (!numbers.empty()) {
-      const std::size_t count = std::min(part.size(), numbers.size());
-      std::span<char> bytes(static_cast<char*>(static_cast<void*>(part.data())),
-                            count * sizeof(Stored));
-      while (!bytes.empty()) {
-        const std::size_t got = read(bytes);
-        if (got == 0) fail("the array ends early");
-        bytes = bytes.subspan(got);
-      }
-      for (std::size_t i = 0; i < count; ++i) numbers[i] = static_cast<Number>(part[i]);
-      numbers = numbers.subspan(count);
-    }
-  }
-
-  fs::path path_;
-  std::string name_;
-  std::unique_ptr<zip_file_t, CloseMember> member_;
-  data::NpyHeader header_;
-};
-
 class ArchivedFrames : public Frames {
  public:
-  explicit ArchivedFrames(fs::path path) : path_(std::move(path)), archive_(open(path_)) {
-    if (!has("V")) throw io::DatasetError(path_, {}, "no array V of positions, of shape (T, n, 3)");
-    vertices_.emplace(*archive_, path_, "V");
+  explicit ArchivedFrames(const fs::path& path) : archive_(path) {
+    if (!archive_.has("V")) {
+      throw io::DatasetError(path, {}, "no array V of positions, of shape (T, n, 3)");
+    }
+    vertices_.emplace(archive_, "V");
     constexpr std::array<std::uint64_t, 1> axes{3};
     vertices_->require_shape(3, axes, "(T, n, 3)");
     count_ = vertices_->shape()[0];
@@ -211,21 +120,6 @@ class ArchivedFrames : public Frames {
   }
 
  private:
-  static Archive open(const fs::path& path) {
-    int error = 0;
-    Archive archive(zip_open(path.c_str(), ZIP_RDONLY, &error));
-    if (archive) return archive;
-    zip_error_t reason;
-    zip_error_init_with_code(&reason, error);
-    const std::string text = zip_error_strerror(&reason);
-    zip_error_fini(&reason);
-    throw io::DatasetError(path, {}, "cannot open: " + text);
-  }
-
-  [[nodiscard]] bool has(const std::string& name) const {
-    return zip_name_locate(archive_.get(), (name + ".npy").c_str(), 0) >= 0;
-  }
-
   Vertices read_frame(std::size_t number) {
     // Grown as data follows, not as the header says.
     std::vector<double> numbers;
@@ -246,8 +140,8 @@ class ArchivedFrames : public Frames {
   std::vector<std::array<std::int32_t, corners>> elements(const std::string& name,
                                                           std::string_view expected) {
     std::vector<std::array<std::int32_t, corners>> result;
-    if (!has(name)) return result;
-    ArchivedArray array(*archive_, path_, name);
+    if (!archive_.has(name)) return result;
+    data::NpzArray array(archive_, name);
     constexpr std::array<std::uint64_t, 1> last{corners};
     array.require_shape(corners == 1 ? 1 : 2, std::span(last).first(corners == 1 ? 0 : 1),
                         expected);
@@ -267,9 +161,8 @@ class ArchivedFrames : public Frames {
     return result;
   }
 
-  fs::path path_;
-  Archive archive_;
-  std::optional<ArchivedArray> vertices_;
+  data::Npz archive_;
+  std::optional<data::NpzArray> vertices_;
   std::size_t count_ = 0;
   std::size_t vertex_count_ = 0;
   std::size_t next_ = 0;

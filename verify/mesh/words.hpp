@@ -3,10 +3,10 @@
 /// \file
 /// Lines of text in mesh formats: words between blanks, some of them numbers.
 
-#include <charconv>
 #include <optional>
 #include <string_view>
-#include <system_error>
+
+#include "verify/base/number_text.hpp"
 
 namespace touchstone::verify::mesh {
 
@@ -20,11 +20,7 @@ namespace touchstone::verify::mesh {
 template <class Number>
 [[nodiscard]] std::optional<Number> parse_number(std::string_view text) {
   if (text.starts_with('+') && !text.starts_with("+-")) text.remove_prefix(1);
-  Number value{};
-  const char* const end = text.data() + text.size();
-  const auto [stop, error] = std::from_chars(text.data(), end, value);
-  if (error != std::errc() || stop != end) return std::nullopt;
-  return value;
+  return base::number_from_text<Number>(text);
 }
 
 }  // namespace touchstone::verify::mesh

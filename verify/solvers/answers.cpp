@@ -5,13 +5,12 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
-#include <charconv>
 #include <cmath>
 #include <limits>
 #include <span>
 #include <stdexcept>
-#include <system_error>
 
+#include "verify/base/number_text.hpp"
 #include "verify/io/csv.hpp"
 #include "verify/io/dataset_error.hpp"
 #include "verify/io/input_file.hpp"
@@ -159,12 +158,9 @@ class AnswersReader {
 
   [[nodiscard]] std::uint64_t read_index() const {
     const std::string_view text = field(Column::index);
-    std::uint64_t value = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (error != std::errc() || end != text.data() + text.size()) {
-      fail(Column::index, "index must be a whole number from 0 on: " + io::quote(text));
-    }
-    return value;
+    const auto value = base::number_from_text<std::uint64_t>(text);
+    if (!value) fail(Column::index, "index must be a whole number from 0 on: " + io::quote(text));
+    return *value;
   }
 
   [[nodiscard]] Kind read_kind() const {
@@ -185,11 +181,7 @@ class AnswersReader {
 
   /// The number in a field, if it is one: infinities and NaN are.
   [[nodiscard]] std::optional<double> read_number(Column column) const {
-    const std::string_view text = field(column);
-    double value = 0.0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
-    return value;
+    return base::number_from_text<double>(field(column));
   }
 
   /// NaN where the field is empty or the time is none that counts.

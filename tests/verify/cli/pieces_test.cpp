@@ -82,12 +82,18 @@ class PieceRuns : public tests::ToolTest {
     ASSERT_EQ(run(words).status, 0);
   }
 
+  /// The data as a store of many shards.
+  void make_store() const {
+    ASSERT_EQ(run({"convert", path("data"), "--out", path("store"), "--shard-size", "8"}).status,
+              0);
+  }
+
   [[nodiscard]] bool exists(const std::string& name) const { return fs::exists(path(name)); }
 
   /// The words of a run in pieces of a command.
-  [[nodiscard]] std::vector<std::string> words(const std::string& command,
-                                               const std::string& name) const {
-    std::vector<std::string> result{command, path("data"), "--resume", path(name)};
+  [[nodiscard]] std::vector<std::string> words(const std::string& command, const std::string& name,
+                                               const std::string& data = "data") const {
+    std::vector<std::string> result{command, path(data), "--resume", path(name)};
     if (command != "prove") result.insert(result.end(), {"--method", "cubic"});
     result.insert(result.end(), {"--json", path(name + ".json")});
     if (command == "certify") {
@@ -176,10 +182,11 @@ TEST_F(PieceRuns, ByShardsInAnyOrderGiveTheSame) {
 }
 
 TEST_F(PieceRuns, ThatAreKilledGoOn) {
-  ASSERT_EQ(run(words("certify", "one")).status, 1);
+  make_store();
+  ASSERT_EQ(run(words("certify", "one", "store")).status, 1);
   const std::string expected = results("one");
-  std::mt19937 random(20);
-  std::size_t most = 0;
+  const std::size_t all = json("one/plan.json")["pieces"].size();
+  ASSERT_EQ(all, 104U);
   const auto done = [&] {
     std::size_t count = 0;
     if (!exists("killed")) return count;
@@ -188,22 +195,39 @@ TEST_F(PieceRuns, ThatAreKilledGoOn) {
     }
     return count;
   };
-  // At twenty random moments, each some pieces after the start.
+  // At twenty random moments, each up to some pieces after the start and in the work.
+  std::mt19937 random(20);
+  std::size_t most = 0;
   for (int i = 0; i < 20; ++i) {
-    const std::size_t pieces = done() + random() % 2;
-    const pid_t process = start(words("certify", "killed"));
-    ASSERT_TRUE(tests::comes_true([&] { return done() >= std::min<std::size_t>(pieces, 7); }));
-    ::usleep(static_cast<useconds_t>(random() % 30'000));
+    const std::size_t pieces = most + random() % 3;
+    const pid_t process = start(words("certify", "killed", "store"));
+    ASSERT_TRUE(tests::comes_true([&] { return done() >= pieces; }));
+    ::usleep(static_cast<useconds_t>(random() % 20'000));
     ::kill(process, SIGKILL);
     static_cast<void>(finish(process));
     EXPECT_GE(done(), most);  // none is lost
     most = done();
+    ASSERT_LT(most, all);
   }
-  EXPECT_EQ(run(words("certify", "killed")).status, 1);
+  EXPECT_EQ(run(words("certify", "killed", "store")).status, 1);
   EXPECT_EQ(results("killed"), expected);
   fs::remove(path("killed.json"));
   EXPECT_EQ(run({"merge", path("killed"), "--json", path("again.json")}).status, 1);
   EXPECT_EQ(read("again.json"), read("one.json"));
+}
+
+TEST_F(PieceRuns, OfAStoreProveThatTheyCoverItsManifest) {
+  make_store();
+  const std::string shard = path("store/edge-edge/hourglass-00003.npy");
+  std::string text = tests::read_file(shard);
+  text.back() = static_cast<char>(text.back() ^ 1);
+  std::ofstream(shard, std::ios::binary) << text;
+  EXPECT_EQ(run(words("certify", "a", "store")).status, 2);
+  EXPECT_TRUE(contains(read("err"), shard + " is not as the manifest of its store says"));
+  EXPECT_TRUE(contains(read("out"), "103 of 104 pieces are done"));
+  fs::remove(shard);
+  EXPECT_EQ(run(words("certify", "b", "store")).status, 2);
+  EXPECT_TRUE(contains(read("err"), shard + ": missing, but the manifest of its store names it"));
 }
 
 TEST_F(PieceRuns, AreRefusedWhereTheyMakeNoSense) {

@@ -83,8 +83,8 @@ TEST_F(Pieces, ThatAreDoneAreKnownToANewProcess) {
   const PieceFolder run = open();
   do_piece(run, 1);
   const PieceFolder again = open();
-  EXPECT_FALSE(again.is_done(0));
-  EXPECT_TRUE(again.is_done(1));
+  EXPECT_EQ(again.fault(0), "missing");
+  EXPECT_EQ(again.fault(1), "");
   EXPECT_EQ(again.faults().size(), 2U);
 }
 
@@ -209,6 +209,17 @@ TEST_F(Pieces, OfAnotherRunOrVersionAreNamed) {
   ASSERT_EQ(faults.size(), 2U);
   EXPECT_TRUE(faults[0].ends_with("input0: of another run")) << faults[0];
   EXPECT_TRUE(faults[1].ends_with("input1: made by version \"0.9\", not 1")) << faults[1];
+}
+
+TEST_F(Pieces, OfAStoreHaveTheInputsOfItsManifest) {
+  for (Piece& piece : plan_.pieces) {
+    piece.digests[piece.files.front().string()] = digest_of(piece.files.front());
+  }
+  plan_.pieces[1].digests.begin()->second.front() ^= 1;
+  const std::vector<std::string> faults = all_done().faults();
+  ASSERT_EQ(faults.size(), 1U);
+  EXPECT_TRUE(tests::contains(faults[0], "piece 1, input1: ")) << faults[0];
+  EXPECT_TRUE(faults[0].ends_with("is not as the manifest of its store says")) << faults[0];
 }
 
 TEST_F(Pieces, ThatContradictEachOtherAreNotAdded) {

@@ -1,0 +1,124 @@
+"""The large run of docs/results.md: at least sixty million recorded queries, and all steps of a simulation, in pieces.
+
+`./run results large` records what `./run simulate` asks of collision detection, converts it into a store of shards, and judges
+it and the steps by the recipe for GNU parallel of examples/cluster, whose workers are killed on the way. It takes about an hour
+on two cores, and 40 GB in build/large.
+"""
+
+import json
+import os
+import pathlib
+import random
+import resource
+import signal
+import subprocess
+import threading
+import time
+
+SCENES = ["two-heads", "chain-of-rings", "dimpled-ball", "draped-cloth", "twisting-mat --steps 200"]
+LIMIT = 40000  # of queries of a kind in a motion
+FEWEST = 60_000_000
+# The methods that answer all queries; the others answer as many as the seconds of a piece allow.
+ON_ALL = ["certified", "tight_inclusion", "tccd"]
+SAMPLED = ["irf", "uirf", "fprf", "rp", "rrp", "bsc", "msrf", "accd"]
+SECONDS_OF_A_PIECE = 20
+WORKERS = 2
+KILLS = 6
+
+
+def kill_workers(folder, pieces, kills, stop):
+    """Kill a process of a shard at moments spread over the run; the list `kills` counts them."""
+    moments = sorted(random.Random(60).sample(range(1, pieces), min(KILLS, pieces - 1)))
+    while moments and not stop.wait(0.05):
+        if len(list(folder.glob("*.piece"))) < moments[0]:
+            continue
+        for process in pathlib.Path("/proc").glob("[0-9]*/cmdline"):
+            try:
+                words = process.read_bytes().split(b"\0")
+            except OSError:
+                continue
+            if b"--shard" in words and str(folder).encode() in words and words[0].endswith(b"touchstone"):
+                os.kill(int(process.parent.name), signal.SIGKILL)
+                kills.append(moments.pop(0))
+                break
+
+
+def in_pieces(command, pieces, folder, options):
+    """The merged result of a command in pieces, with its cost. The runs of an interrupted measurement go on."""
+    kills, stop, begin = [], threading.Event(), time.monotonic()
+    before = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime
+    killer = threading.Thread(target=kill_workers, args=(folder, pieces, kills, stop))
+    killer.start()
+    recipe = pathlib.Path(__file__).resolve().parents[1] / "examples/cluster/parallel.sh"
+    done = subprocess.run([recipe, folder, str(WORKERS), options.tool, *command, "--json", folder.with_suffix(".json")],
+                          capture_output=True, text=True, check=False)
+    stop.set()
+    killer.join()
+    if done.returncode not in (0, 1):
+        raise RuntimeError(f"{' '.join(map(str, command))}: exit status {done.returncode}\n{done.stdout}{done.stderr}")
+    usage = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return {"result": json.loads(folder.with_suffix(".json").read_text()), "kills": len(kills),
+            "seconds": time.monotonic() - begin, "processor_seconds": usage.ru_utime - before,
+            "greatest_memory_bytes": 1024 * usage.ru_maxrss}
+
+
+def cost_by_method(folder):
+    """The time of the oracle and of each method a query, from the results of the pieces, which the merged one leaves out."""
+    oracle, queries, methods = 0.0, 0, {}
+    for piece in sorted(folder.glob("*.json")):
+        if piece.stem == "plan":
+            continue
+        of = json.loads(piece.read_text())
+        oracle += of["us_per_query"] * of["queries"]
+        queries += of["queries"]
+        for method in of["methods"]:
+            if method["queries"]:
+                sums = methods.setdefault(method["name"], [0.0, 0])
+                sums[0] += method["ns_per_query"] * method["queries"]
+                sums[1] += method["queries"]
+    return {"oracle_ns": 1e3 * oracle / queries, "methods_ns": {name: time_ / count for name, (time_, count) in methods.items()}}
+
+
+def measure(options, run):
+    """The rows of docs/data/large.json. \\param run: runs a command, and raises if it fails"""
+    place = options.recorded.with_name("large")
+    recorded, store, frames = place / "recorded", place / "store", place / "frames"
+    place.mkdir(parents=True, exist_ok=True)
+    simulator = options.tool.with_name("touchstone-simulate")
+    begin = time.monotonic()
+    for scene in SCENES:
+        words = scene.split() + (["--steps", "3"] if options.quick else [])
+        done = place / f"{words[0]}.json"
+        if not done.exists():
+            print(f"./run simulate {scene} --record {recorded} --record-limit {LIMIT} --npy", flush=True)
+            out = ["--out", frames] if "twisting-mat" in words else []
+            run([simulator, *words, "--record", recorded, "--record-limit", str(LIMIT), "--npy", *out, "--json",
+                 done.with_suffix(".part")])
+            done.with_suffix(".part").rename(done)
+    recording = time.monotonic() - begin
+    if not (store / "manifest.json").exists():
+        print(f"touchstone convert {recorded} --out {store}", flush=True)
+        run([options.tool, "convert", recorded, "--out", store, "--source", "simulate " + ", ".join(SCENES), "--licence", "MIT"])
+    manifest = json.loads((store / "manifest.json").read_text())
+    if manifest["queries"] < FEWEST and not options.quick:
+        raise RuntimeError(f"only {manifest['queries']:,} queries were recorded")
+    methods = [word for name in ON_ALL + SAMPLED for word in ("--method", name)]
+    judging = ["certify", store, *methods, "--seconds", str(SECONDS_OF_A_PIECE)]
+    stepping = ["step", frames, "--earliest"]
+    runs = []
+    for name, command, pieces in (("judged", judging, len(manifest["shards"])),
+                                  ("stepped", stepping, len(list(frames.glob("*.ply"))) - 1)):
+        print(f"touchstone {' '.join(map(str, command))} in {pieces} pieces", flush=True)
+        row = in_pieces(command, pieces, place / name, options)
+        row["pieces"] = pieces
+        if name == "judged":
+            row |= cost_by_method(place / name) | {"bytes": sum(file["bytes"] for shard in manifest["shards"]
+                                                                for file in shard["files"])}
+        else:
+            steps = [piece["result"]["steps"][0] for piece in row.pop("result")["pieces"]]
+            row["result"] = {"steps": len(steps), "colliding": sum(not step["free"] for step in steps)}
+        row["command"] = "touchstone " + " ".join(
+            str(word).replace(str(place), "build/large") for word in command)
+        runs.append(row)
+    runs[0]["recording_seconds"] = recording
+    return runs
