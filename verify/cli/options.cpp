@@ -6,8 +6,8 @@
 #include <fstream>
 #include <stdexcept>
 
-#include "verify/base/number_text.hpp"
 #include "verify/data/separation_file.hpp"
+#include "verify/io/number_text.hpp"
 #include "verify/io/printable.hpp"
 #include "verify/io/terminal.hpp"
 #include "verify/judge/separation_inference.hpp"
@@ -16,7 +16,7 @@ namespace touchstone::verify::cli {
 
 CLI::Validator whole_number(std::uint64_t least, std::uint64_t greatest) {
   const auto check = [least, greatest](const std::string& text) -> std::string {
-    const auto value = base::number_from_text<std::uint64_t>(text);
+    const auto value = io::number_from_text<std::uint64_t>(text);
     if (value && *value >= least && *value <= greatest) return {};
     return fmt::format("{} is not a whole number from {} to {}", text, least, greatest);
   };
@@ -25,7 +25,7 @@ CLI::Validator whole_number(std::uint64_t least, std::uint64_t greatest) {
 
 CLI::Validator real_number(double least, double greatest) {
   const auto check = [least, greatest](const std::string& text) -> std::string {
-    const auto value = base::number_from_text<double>(text);
+    const auto value = io::number_from_text<double>(text);
     if (value && *value >= least && *value <= greatest) return {};
     return fmt::format("{} is not a number from {} to {}", text, least, greatest);
   };

@@ -11,7 +11,6 @@
 #include <string_view>
 #include <utility>
 
-#include "verify/base/number_text.hpp"
 #include "verify/cli/certificates_file.hpp"
 #include "verify/cli/files.hpp"
 #include "verify/cli/options.hpp"
@@ -21,6 +20,7 @@
 #include "verify/data/store.hpp"
 #include "verify/generate/families.hpp"
 #include "verify/io/json.hpp"
+#include "verify/io/number_text.hpp"
 #include "verify/io/terminal.hpp"
 #include "verify/solvers/own_program.hpp"
 
@@ -36,7 +36,7 @@ constexpr const char* resume_option = "--resume";
 
 std::optional<std::size_t> variable(const char* name) {
   const char* const value = std::getenv(name);  // NOLINT(concurrency-mt-unsafe): one thread
-  return value == nullptr ? std::nullopt : base::number_from_text<std::size_t>(value);
+  return value == nullptr ? std::nullopt : io::number_from_text<std::size_t>(value);
 }
 
 Shard checked(std::size_t index, std::size_t count) {
@@ -193,9 +193,9 @@ Shard shard_of(const PieceArguments& arguments) {
   if (arguments.shard == "auto") return shard_of_environment();
   const std::string_view text = arguments.shard;
   const std::size_t slash = std::min(text.find('/'), text.size());
-  const auto index = base::number_from_text<std::size_t>(text.substr(0, slash));
+  const auto index = io::number_from_text<std::size_t>(text.substr(0, slash));
   const auto count =
-      base::number_from_text<std::size_t>(text.substr(std::min(slash + 1, text.size())));
+      io::number_from_text<std::size_t>(text.substr(std::min(slash + 1, text.size())));
   if (!index || !count) {
     throw std::invalid_argument("--shard: '" + arguments.shard + "' is not I/N, as 0/4 or 3/4");
   }

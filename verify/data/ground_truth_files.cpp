@@ -7,9 +7,9 @@
 #include <system_error>
 #include <utility>
 
-#include "verify/base/number_text.hpp"
 #include "verify/data/separation_file.hpp"
 #include "verify/io/csv.hpp"
+#include "verify/io/number_text.hpp"
 
 namespace touchstone::verify::data {
 namespace {
@@ -205,7 +205,7 @@ std::optional<ToiReader::Entry> ToiReader::next_entry() {
     fail({.line = line->number}, "expected two columns, query and toi");
   }
   const std::string_view query_text = io::trimmed(fields[0]);
-  const std::optional<std::uint64_t> query = base::number_from_text<std::uint64_t>(query_text);
+  const std::optional<std::uint64_t> query = io::number_from_text<std::uint64_t>(query_text);
   const io::FilePosition position{.line = line->number, .column = 1};
   if (!query) fail(position, "not a query number: " + io::quote(query_text));
   if (entry_ && *query <= entry_->query) fail(position, "query numbers do not ascend");

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "verify/base/number_text.hpp"
+#include "verify/io/number_text.hpp"
 #include "verify/io/printable.hpp"
 
 namespace touchstone::verify::io {
@@ -15,7 +15,7 @@ constexpr char apostrophe = '\'';
 
 bool is_number(std::string_view text) {
   if (text.starts_with('+')) text.remove_prefix(1);
-  return base::number_from_text<double>(text).has_value();
+  return io::number_from_text<double>(text).has_value();
 }
 
 /// Would a spreadsheet compute the text, but for apostrophes in front?

@@ -8,7 +8,7 @@
 #include <cstring>
 #include <stdexcept>
 
-#include "verify/base/number_text.hpp"
+#include "verify/io/number_text.hpp"
 #include "verify/io/printable.hpp"
 
 namespace touchstone::verify::judge {
@@ -70,7 +70,7 @@ std::string detail(const Failure& failure) {
 std::optional<int> number_behind(std::string_view prefix, std::string_view text) {
   if (!text.starts_with(prefix)) return std::nullopt;
   text.remove_prefix(prefix.size());
-  return base::number_from_text<int>(text);
+  return io::number_from_text<int>(text);
 }
 
 int signal_from_text(std::string_view text) {

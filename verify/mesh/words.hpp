@@ -6,7 +6,7 @@
 #include <optional>
 #include <string_view>
 
-#include "verify/base/number_text.hpp"
+#include "verify/io/number_text.hpp"
 
 namespace touchstone::verify::mesh {
 
@@ -20,7 +20,7 @@ namespace touchstone::verify::mesh {
 template <class Number>
 [[nodiscard]] std::optional<Number> parse_number(std::string_view text) {
   if (text.starts_with('+') && !text.starts_with("+-")) text.remove_prefix(1);
-  return base::number_from_text<Number>(text);
+  return io::number_from_text<Number>(text);
 }
 
 }  // namespace touchstone::verify::mesh

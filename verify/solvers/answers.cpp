@@ -10,10 +10,10 @@
 #include <span>
 #include <stdexcept>
 
-#include "verify/base/number_text.hpp"
 #include "verify/io/csv.hpp"
 #include "verify/io/dataset_error.hpp"
 #include "verify/io/input_file.hpp"
+#include "verify/io/number_text.hpp"
 #include "verify/io/printable.hpp"
 
 namespace touchstone::verify::solvers {
@@ -158,7 +158,7 @@ class AnswersReader {
 
   [[nodiscard]] std::uint64_t read_index() const {
     const std::string_view text = field(Column::index);
-    const auto value = base::number_from_text<std::uint64_t>(text);
+    const auto value = io::number_from_text<std::uint64_t>(text);
     if (!value) fail(Column::index, "index must be a whole number from 0 on: " + io::quote(text));
     return *value;
   }
@@ -181,7 +181,7 @@ class AnswersReader {
 
   /// The number in a field, if it is one: infinities and NaN are.
   [[nodiscard]] std::optional<double> read_number(Column column) const {
-    return base::number_from_text<double>(field(column));
+    return io::number_from_text<double>(field(column));
   }
 
   /// NaN where the field is empty or the time is none that counts.

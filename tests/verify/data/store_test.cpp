@@ -35,7 +35,7 @@ TEST_F(Store, HasTheFilesOfItsManifest) {
   EXPECT_TRUE(store_digests(folder_.path(), {}).empty());
   const std::string a = R"({"file": "edge-edge/a.npy", "bytes": 4, "sha256": "00"})";
   manifest(a);
-  EXPECT_EQ(error(), "");
+  EXPECT_EQ(error(), "no DatasetError");
   const std::map<fs::path, std::string> expected{{shard_.lexically_normal(), "00"}};
   EXPECT_EQ(store_digests(folder_.path() / ".", std::vector{shard_}), expected);
   manifest(a + R"(, {"file": "edge-edge/b.npy", "bytes": 4, "sha256": "00"})");
@@ -52,9 +52,9 @@ TEST_F(Store, HasTheFilesOfItsManifest) {
 
 TEST_F(Store, IsNotWhatHasAnotherManifest) {
   static_cast<void>(folder_.file("manifest.json", R"({"name": "a page"})"));
-  EXPECT_EQ(error(), "");
+  EXPECT_EQ(error(), "no DatasetError");
   static_cast<void>(folder_.file("manifest.json", "[1]"));
-  EXPECT_EQ(error(), "");
+  EXPECT_EQ(error(), "no DatasetError");
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-#include "verify/base/number_text.hpp"
+#include "verify/io/number_text.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <limits>
 
-namespace touchstone::verify::base::number_text_test {
+namespace touchstone::verify::io::number_text_test {
 namespace {
 
 TEST(NumberFromText, TakesTheWholeTextOrNothing) {
@@ -24,4 +24,4 @@ TEST(NumberFromText, TakesTheWholeTextOrNothing) {
 }
 
 }  // namespace
-}  // namespace touchstone::verify::base::number_text_test
+}  // namespace touchstone::verify::io::number_text_test

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <system_error>
 
-namespace touchstone::verify::base {
+namespace touchstone::verify::io {
 
 /// The number that the whole text is; empty if it is none, is not whole for an integer type, or is
 /// out of range of `Number`. Decimal, optionally with an exponent and a '-', without a '+'; "nan"
@@ -22,4 +22,4 @@ template <class Number>
   return value;
 }
 
-}  // namespace touchstone::verify::base
+}  // namespace touchstone::verify::io
