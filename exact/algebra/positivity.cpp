@@ -9,8 +9,8 @@ namespace touchstone::exact {
 namespace {
 
 /// Row n of Pascal's triangle.
-std::vector<std::uint64_t> binomials(std::size_t n) {
-  std::vector<std::uint64_t> row(n + 1, 1);
+std::vector<unsigned long> binomials(std::size_t n) {
+  std::vector<unsigned long> row(n + 1, 1);
   for (std::size_t k = 1; k <= n; ++k) row[k] = row[k - 1] * (n - k + 1) / k;
   return row;
 }
@@ -54,8 +54,8 @@ bool is_positive_at_ends(const std::vector<Integer>& bernstein) {
 
 std::vector<Integer> bernstein_coefficients(std::vector<Integer> form) {
   const auto row = binomials(form.size() - 1);
-  std::uint64_t multiple = 1;
-  for (const std::uint64_t x : row) multiple = std::lcm(multiple, x);
+  unsigned long multiple = 1;  // GMP knows no std::uint64_t of 32-bit processors
+  for (const unsigned long x : row) multiple = std::lcm(multiple, x);
   for (std::size_t k = 0; k < form.size(); ++k) form[k] *= multiple / row[k];
   return form;
 }

@@ -30,7 +30,7 @@ std::optional<std::uint64_t> double_bits(const Rational& value) {
   if (bits > fraction_bits + 1 || exponent < least_exponent || leading > greatest_exponent) {
     return std::nullopt;
   }
-  const std::uint64_t significand = odd.get_ui();
+  const auto significand = static_cast<std::uint64_t>(odd.get_d());
   if (leading < 1 - exponent_bias) return significand << (exponent - least_exponent);
   const auto field = static_cast<std::uint64_t>(leading + exponent_bias);
   return (field << fraction_bits) |

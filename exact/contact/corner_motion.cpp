@@ -13,7 +13,7 @@ namespace {
 
 /// A finite double as significand · 2^exponent with an odd significand (0 · 2^0 for zero).
 struct Decomposed {
-  long significand = 0;
+  std::int64_t significand = 0;
   int exponent = 0;
 };
 
@@ -28,7 +28,7 @@ Decomposed decompose(double x) {
   if (field != 0) significand |= std::uint64_t{1} << fraction_bits;
   if (significand == 0) return {};
   const int zeros = std::countr_zero(significand);
-  const auto magnitude = static_cast<long>(significand >> zeros);
+  const auto magnitude = static_cast<std::int64_t>(significand >> zeros);
   return {(bits >> 63U) != 0 ? -magnitude : magnitude, std::max(field, 1) - exponent_bias + zeros};
 }
 
@@ -37,9 +37,16 @@ constexpr int no_exponent = std::numeric_limits<int>::max();
 /// The exponent of the last bit; no_exponent for zero.
 int last_exponent(const Decomposed& x) { return x.significand == 0 ? no_exponent : x.exponent; }
 
+/// GMP's integers are made of long, which has 32 bits on some processors, or of a double, which
+/// takes longer.
+Integer significand_of(const Decomposed& x) {
+  if constexpr (sizeof(long) >= sizeof(x.significand)) return static_cast<long>(x.significand);
+  return Integer(static_cast<double>(x.significand));
+}
+
 /// x as a multiple of 2^unit. \pre unit ≤ its last exponent
 Integer in_units(const Decomposed& x, int unit) {
-  Integer value = x.significand;
+  Integer value = significand_of(x);
   if (x.significand != 0) value <<= static_cast<unsigned long>(x.exponent - unit);
   return value;
 }

@@ -10,10 +10,14 @@
 #if defined(_LIBCPP_VERSION) && _LIBCPP_VERSION < 16000
 
 #include <algorithm>
+#include <charconv>
 #include <cstddef>
+#include <cstdlib>
 #include <functional>
 #include <iterator>
 #include <memory>
+#include <string>
+#include <system_error>
 #include <type_traits>
 #include <utility>
 
@@ -27,6 +31,16 @@ template <class To, class From>
 template <class Array>
 [[nodiscard]] unique_ptr<Array> make_unique_for_overwrite(size_t size) {
   return unique_ptr<Array>(new remove_extent_t<Array>[size]);
+}
+
+/// Numbers in C's format, which has more of them than C++'s: for texts that end with a zero.
+inline from_chars_result from_chars(const char* first, const char* last, double& value) {
+  const string text(first, last);
+  char* end = nullptr;
+  const double read = strtod(text.c_str(), &end);
+  if (end == text.c_str()) return {first, errc::invalid_argument};
+  value = read;
+  return {first + (end - text.c_str()), errc()};
 }
 
 namespace ranges {
@@ -82,6 +96,52 @@ template <class Range, class Value, class Projection = identity>
   return std::find_if(std::begin(range), std::end(range),
                       [&](const auto& item) { return invoke(projection, item) == value; });
 }
+template <class Range, class Value, class Less = std::less<>, class Projection = identity>
+[[nodiscard]] constexpr auto lower_bound(Range&& range, const Value& value, Less less = {},
+                                         Projection projection = {}) {
+  return std::lower_bound(
+      std::begin(range), std::end(range), value,
+      [&](const auto& item, const Value& x) { return invoke(less, invoke(projection, item), x); });
+}
+template <class Iterator, class Less = std::less<>, class Projection>
+constexpr void nth_element(Iterator first, Iterator nth, Iterator last, Less less,
+                           Projection projection) {
+  std::nth_element(first, nth, last, ProjectedLess<Less, Projection>{less, projection});
+}
+template <class Range, class Value>
+constexpr void replace(Range&& range, const Value& from, const Value& to) {
+  std::replace(std::begin(range), std::end(range), from, to);
+}
+template <class Range, class Same = std::equal_to<>>
+[[nodiscard]] constexpr auto adjacent_find(Range&& range, Same same = {}) {
+  return std::adjacent_find(std::begin(range), std::end(range), same);
+}
+template <class Range, class Value>
+[[nodiscard]] constexpr auto count(Range&& range, const Value& value) {
+  return std::count(std::begin(range), std::end(range), value);
+}
+template <class Range>
+[[nodiscard]] constexpr bool is_sorted(Range&& range) {
+  return std::is_sorted(std::begin(range), std::end(range));
+}
+template <class A, class B>
+[[nodiscard]] constexpr bool is_permutation(A&& a, B&& b) {
+  return std::is_permutation(std::begin(a), std::end(a), std::begin(b), std::end(b));
+}
+template <class Range, class Less = std::less<>, class Projection = identity>
+constexpr void stable_sort(Range&& range, Less less = {}, Projection projection = {}) {
+  std::stable_sort(std::begin(range), std::end(range),
+                   ProjectedLess<Less, Projection>{less, projection});
+}
+template <class Range, class Iterator>
+constexpr void move(Range&& range, Iterator to) {
+  std::move(std::begin(range), std::end(range), to);
+}
+template <class A, class B, class Iterator>
+constexpr void set_difference(A&& a, B&& b, Iterator to) {
+  std::set_difference(std::begin(a), std::end(a), std::begin(b), std::end(b), to);
+}
+
 template <class Range, class Value>
 [[nodiscard]] constexpr bool binary_search(Range&& range, const Value& value) {
   return std::binary_search(std::begin(range), std::end(range), value);

@@ -20,10 +20,12 @@
 #include "verify/cli/solver_options.hpp"
 #include "verify/cli/sources.hpp"
 #include "verify/data/dataset.hpp"
+#include "verify/io/input_file.hpp"
 #include "verify/io/printable.hpp"
 #include "verify/io/terminal.hpp"
 #include "verify/mesh/frames.hpp"
 #include "verify/solvers/registry.hpp"
+#include "verify/view/asked_solvers.hpp"
 #include "verify/view/page.hpp"
 #include "verify/view/query_facts.hpp"
 #include "verify/view/query_files.hpp"
@@ -36,6 +38,7 @@ namespace fs = std::filesystem;
 
 /// The maximum number of queries on a page.
 constexpr std::size_t most_queries = 1000;
+constexpr std::size_t longest_script = std::size_t{64} << 20U;
 
 struct Arguments {
   std::vector<fs::path> paths;
@@ -46,6 +49,7 @@ struct Arguments {
   view::QueryFileOptions files;
   SeparationArguments separation;
   SolverArguments solvers;
+  std::string live_file;
   std::string out_file;
 };
 
@@ -113,6 +117,8 @@ Status run(const Arguments& arguments) {
   if (arguments.out_file.empty()) throw std::invalid_argument("--out has no file name");
   Files files;
   Output out(files, arguments.out_file);
+  const std::string live =
+      arguments.live_file.empty() ? "" : io::read_file(arguments.live_file, longest_script);
   const Solvers solvers(files, asked_by(arguments));
   const std::optional<view::ViewedStep> step = read_step(arguments, files);
   const std::vector<view::ViewedQuery> queries = all_queries(arguments, step, files);
@@ -120,14 +126,14 @@ Status run(const Arguments& arguments) {
   std::vector<nlohmann::json> facts;
   for (const view::ViewedQuery& query : queries) {
     if (io::interrupted()) break;
-    facts.push_back(view::query_facts(query, solvers.all()));
+    facts.push_back(view::query_facts(query, view::answers_of(solvers.all(), query)));
     bar.update(static_cast<double>(facts.size()) / static_cast<double>(queries.size()));
   }
   bar.clear();
   solvers.report_output(arguments.solvers.show_output);
   if (facts.empty() && io::interrupted()) return Status::interrupted;
-  out.write(
-      view::view_page(facts, command_line(), step ? view::step_facts(*step) : nlohmann::json()));
+  out.write(view::view_page(facts, command_line(),
+                            step ? view::step_facts(*step) : nlohmann::json(), live));
   out.close();
   if (files.has_failed()) return Status::bad_input;
   if (files.summary_stream() == stdout) {
@@ -171,6 +177,10 @@ void add_options(CLI::App& command, Arguments& arguments) {
   add_solver_options(command, arguments.solvers);
   add_exact_flag(command, arguments.solvers);
   command.option_defaults()->group("Output");
+  command
+      .add_option("--live", arguments.live_file,
+                  "The solvers in WebAssembly (./run playground): the page decides other queries, too")
+      ->type_name("FILE.js");
   command.add_option("--out", arguments.out_file, "The page")->type_name("FILE.html")->required();
 }
 

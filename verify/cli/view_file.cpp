@@ -14,6 +14,7 @@
 #include "verify/judge/separation_inference.hpp"
 #include "verify/solvers/registry.hpp"
 #include "verify/solvers/solver.hpp"
+#include "verify/view/asked_solvers.hpp"
 #include "verify/view/page.hpp"
 
 namespace touchstone::verify::cli {
@@ -60,7 +61,8 @@ void ViewFile::write(const fast::MethodOptions& options) {
   for (const view::ViewedQuery& query : queries_) {
     const bool has_answered = std::ranges::find(query.answers, certified->name(),
                                                 &judge::GivenAnswer::solver) != query.answers.end();
-    facts.push_back(view::query_facts(query, {&certified, has_answered ? 0U : 1U}));
+    facts.push_back(
+        view::query_facts(query, view::answers_of({&certified, has_answered ? 0U : 1U}, query)));
   }
   output_.write(view::view_page(facts, command_line(), step_));
   output_.close();

@@ -12,18 +12,19 @@ namespace {
 
 /// Nothing may be loaded from anywhere.
 constexpr std::string_view policy =
-    "default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data:";
+    "default-src 'none'; script-src 'unsafe-inline'{}; style-src 'unsafe-inline'; img-src data:";
 
 }  // namespace
 
-std::string html_beginning(std::string_view title, std::string_view style) {
+std::string html_beginning(std::string_view title, std::string_view style, bool has_webassembly) {
+  const std::string allowed = fmt::format(policy, has_webassembly ? " 'wasm-unsafe-eval'" : "");
   return fmt::format(
       "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
       "<meta http-equiv=\"Content-Security-Policy\" content=\"{}\">\n"
       "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
       "<meta name=\"color-scheme\" content=\"light dark\">\n"
       "<title>{}</title>\n<style>\n{}</style>\n</head>\n<body>\n",
-      policy, title, style);
+      allowed, title, style);
 }
 
 std::string script_element(std::string_view script) {

@@ -15,7 +15,9 @@ namespace touchstone::verify::io {
 /// From the beginning of a page to the beginning of its body, <body> included.
 /// \param title as it stands in HTML
 /// \param style the rules of its style sheet
-[[nodiscard]] std::string html_beginning(std::string_view title, std::string_view style);
+/// \param has_webassembly the policy allows the page's own scripts to compile WebAssembly
+[[nodiscard]] std::string html_beginning(std::string_view title, std::string_view style,
+                                         bool has_webassembly = false);
 
 /// A script element of that text, or an element of JSON with an id, as a script reads it. In JSON
 /// no "<" ends the element, and what is no UTF-8 becomes U+FFFD.

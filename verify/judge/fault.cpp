@@ -52,8 +52,10 @@ constexpr std::string_view status_prefix = "status ";
 constexpr std::string_view signal_prefix = "signal ";
 
 std::string signal_text(int number) {
-  const char* const name = ::sigabbrev_np(number);
-  return name == nullptr ? fmt::format("{}{}", signal_prefix, number) : fmt::format("SIG{}", name);
+#ifdef __GLIBC__
+  if (const char* const name = ::sigabbrev_np(number)) return fmt::format("SIG{}", name);
+#endif
+  return fmt::format("{}{}", signal_prefix, number);
 }
 
 std::string detail(const Failure& failure) {

@@ -12,9 +12,10 @@
 namespace touchstone::verify::view {
 
 std::string view_page(const std::vector<nlohmann::json>& queries, const std::string& command,
-                      const nlohmann::json& step) {
+                      const nlohmann::json& step, const std::string& solvers) {
   const std::string style = std::string(report::page_style()) + std::string(view_style());
-  std::string page = io::html_beginning("Touchstone view", style);
+  std::string page = io::html_beginning(
+      solvers.empty() ? "Touchstone view" : "Touchstone playground", style, !solvers.empty());
   page +=
       "<noscript><p class=\"warning\">The pictures are drawn by a script.</p></noscript>\n"
       "<main id=\"view\"></main>\n";
@@ -22,6 +23,7 @@ std::string view_page(const std::vector<nlohmann::json>& queries, const std::str
                       io::html_escaped(io::printable(command)));
   page += io::json_element("queries", queries);
   if (!step.is_null()) page += io::json_element("step_facts", step);
+  if (!solvers.empty()) page += io::script_element(solvers);
   page += io::script_element(view_script());
   return page + "</body>\n</html>\n";
 }

@@ -23,7 +23,10 @@ namespace touchstone::verify::view {
 /// \param queries from query_facts()
 /// \param command the command line of this run
 /// \param step from step_facts(), whose first pairs are the queries; null: none
+/// \param solvers the script of verify/playground, by which the page decides other queries; empty:
+/// it does not
 [[nodiscard]] std::string view_page(const std::vector<nlohmann::json>& queries,
-                                    const std::string& command, const nlohmann::json& step = {});
+                                    const std::string& command, const nlohmann::json& step = {},
+                                    const std::string& solvers = {});
 
 }  // namespace touchstone::verify::view

@@ -2,21 +2,17 @@
 
 #include <fmt/format.h>
 
-#include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
-#include <utility>
 
 #include "touchstone/algebraic_number.hpp"
 #include "touchstone/certificate.hpp"
 #include "touchstone/certificate_text.hpp"
 #include "touchstone/oracle.hpp"
 #include "verify/io/printable.hpp"
-#include "verify/jobs/prove.hpp"
 #include "verify/judge/ground_truth.hpp"
 #include "verify/judge/judgement.hpp"
 #include "verify/judge/terms.hpp"
-#include "verify/solvers/answers.hpp"
 #include "verify/solvers/registry.hpp"
 #include "verify/view/certificate_facts.hpp"
 #include "verify/view/nearest_approach.hpp"
@@ -76,6 +72,7 @@ nlohmann::json truth_facts(const exact::Decision& verdict) {
 }
 
 nlohmann::json approach_facts(const ViewedQuery& viewed) {
+  if (!viewed.with_approach) return {};
   const auto approach = nearest_approach(viewed.kind, viewed.query);
   if (!approach) return {};
   nlohmann::json facts = moment(approach->time);
@@ -141,21 +138,6 @@ nlohmann::json answer_facts(const judge::GivenAnswer& given, const judge::Standa
           {"breaks_promise", is_broken}};
 }
 
-/// Nothing if the query is outside the terms of the solver.
-std::optional<judge::GivenAnswer> ask(const solvers::Solver& solver, const ViewedQuery& viewed) {
-  judge::GivenAnswer result{.solver = solver.name()};
-  const std::array<std::uint64_t, 1> index{0};
-  const solvers::SolveReply reply = solver.solve({.kind = viewed.kind,
-                                                  .queries = {&viewed.query, 1},
-                                                  .separation = viewed.separation,
-                                                  .source = viewed.label,
-                                                  .indices = index},
-                                                 {&result.answer, 1});
-  if (!reply.unasked.empty()) return std::nullopt;
-  if (!reply.failures.empty()) result.failure = reply.failures.front().failure;
-  return result;
-}
-
 /// The standard of a solver by its name: it promises nothing where it is not known.
 judge::Standard standard_of(const std::string& solver) {
   const fast::MethodInfo* info = solvers::find_info(solver);
@@ -164,32 +146,21 @@ judge::Standard standard_of(const std::string& solver) {
 }
 
 nlohmann::json answers_of(const ViewedQuery& viewed, const Judged& judged,
-                          std::span<const solvers::Solver* const> solvers) {
+                          std::span<const judge::GivenAnswer> asked) {
   nlohmann::json answers = nlohmann::json::array();
-  for (const judge::GivenAnswer& recorded : viewed.answers) {
-    const judge::Standard standard = recorded.standard.value_or(standard_of(recorded.solver));
-    answers.push_back(answer_facts(recorded, standard, true, judged));
-  }
-  for (const solvers::Solver* solver : solvers) {
-    const auto given = ask(*solver, viewed);
-    if (given) answers.push_back(answer_facts(*given, solver->standard(), false, judged));
-  }
+  const auto add = [&](const judge::GivenAnswer& given, bool is_recorded) {
+    const judge::Standard standard = given.standard.value_or(standard_of(given.solver));
+    answers.push_back(answer_facts(given, standard, is_recorded, judged));
+  };
+  for (const judge::GivenAnswer& given : viewed.answers) add(given, true);
+  for (const judge::GivenAnswer& given : asked) add(given, false);
   return answers;
 }
 
 }  // namespace
 
-ViewedQuery viewed_query(judge::WrongQuery wrong) {
-  return {.label = jobs::certificate_label(wrong.source, wrong.index),
-          .kind = wrong.kind,
-          .query = wrong.query,
-          .separation = wrong.separation,
-          .notes = std::move(wrong.faults),
-          .answers = std::move(wrong.answers)};
-}
-
 nlohmann::json query_facts(const ViewedQuery& viewed,
-                           std::span<const solvers::Solver* const> solvers) {
+                           std::span<const judge::GivenAnswer> asked) {
   const exact::Decision verdict = exact::decide(viewed.kind, viewed.query, viewed.separation);
   nlohmann::json coordinates = nlohmann::json::array(), notes = nlohmann::json::array();
   for (const double x : viewed.query.coordinates) coordinates.push_back(number(x));
@@ -206,7 +177,7 @@ nlohmann::json query_facts(const ViewedQuery& viewed,
           {"answers", answers_of(viewed,
                                  {.question = {viewed.kind, viewed.query, viewed.separation},
                                   .truth = judge::truth_of(0, verdict)},
-                                 solvers)}};
+                                 asked)}};
 }
 
 }  // namespace touchstone::verify::view

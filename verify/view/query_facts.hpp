@@ -15,7 +15,6 @@
 #include "fast/method.hpp"
 #include "touchstone/query.hpp"
 #include "verify/judge/judgement.hpp"
-#include "verify/solvers/solver.hpp"
 
 namespace touchstone::verify::view {
 
@@ -27,18 +26,18 @@ struct ViewedQuery {
   Separation separation = {};
   std::vector<std::string> notes = {};  ///< what is recorded of it, a sentence each
   std::vector<judge::GivenAnswer> answers = {};
+  /// False: how near the primitives come without a collision, which takes longest, is left out.
+  bool with_approach = true;
   /// A stream of one certificate; where it is empty, the oracle's own is shown.
   std::string certificate = {};
 };
 
-/// A query that the judge found a fault in: its faults are the notes.
-[[nodiscard]] ViewedQuery viewed_query(judge::WrongQuery wrong);
-
 /// As the script of a page reads it, see verify/view/page/facts.js. Doubles are texts, in
 /// hexadecimal, and rationals "P/Q".
+/// \param asked answers that were given now, to be shown behind the recorded ones
 /// \throws std::domain_error if a coordinate is NaN or infinite; std::invalid_argument if the
 /// separation is not valid, or the text not a certificate.
 [[nodiscard]] nlohmann::json query_facts(const ViewedQuery& viewed,
-                                         std::span<const solvers::Solver* const> solvers);
+                                         std::span<const judge::GivenAnswer> asked);
 
 }  // namespace touchstone::verify::view

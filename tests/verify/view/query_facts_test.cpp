@@ -11,6 +11,7 @@
 #include "tests/support/queries.hpp"
 #include "touchstone/number.hpp"
 #include "verify/solvers/registry.hpp"
+#include "verify/view/asked_solvers.hpp"
 
 namespace touchstone::verify::view::query_facts_test {
 namespace {
@@ -89,7 +90,7 @@ TEST(QueryFacts, AnswersAreHeldAgainstTheTruth) {
                     .failure = judge::Failure{.kind = judge::Fault::crash, .number = 11}}};
   const auto method = solvers::solver_in_process(solvers::find_method("certified"), {});
   const std::array<const solvers::Solver*, 1> asked{method.get()};
-  const nlohmann::json answers = query_facts(query, asked).at("answers");
+  const nlohmann::json answers = query_facts(query, answers_of(asked, query)).at("answers");
   ASSERT_EQ(answers.size(), 4U);
   EXPECT_EQ(answers[0].at("solver"), "mine");
   EXPECT_EQ(answers[0].at("recorded"), true);

@@ -86,8 +86,8 @@ class ViewBrowser : public tests::BrowserTest {
   [[nodiscard]] std::string page_of(const std::vector<PosedQuery>& posed) const {
     std::vector<nlohmann::json> facts;
     for (const PosedQuery& query : posed) {
-      facts.push_back(
-          query_facts({.label = "query", .kind = query.kind, .query = query.query}, asked_));
+      const ViewedQuery viewed{.label = "query", .kind = query.kind, .query = query.query};
+      facts.push_back(query_facts(viewed, answers_of(asked_, viewed)));
     }
     return view_page(facts, "touchstone view");
   }

@@ -54,11 +54,10 @@ export function placeText({ u, v }) {
   return `(u, v) ${isExact ? "=" : "≈"} (${first}, ${second})`;
 }
 
-/// The verdict in few words.
-export function verdictText({ truth, min_separation }) {
+/// The verdict in a word. Contact means distance ≤ the minimum separation.
+export function verdictText({ truth }) {
   if (truth === null) return "not decided";
-  if (min_separation > 0) return truth.collides ? "comes within the distance" : "stays farther";
-  return truth.collides ? "collides" : "no collision";
+  return truth.collides ? "collides" : "free";
 }
 
 export const distanceText = ({ above, at_most }) =>

@@ -1,5 +1,5 @@
 // A query as text, and text as a query: C++, the CSV rows of datasets, JSON, and the lines `v x y z` of OBJ
-// that ipc-toolkit writes.
+// that ipc-toolkit writes; and the part of an address that holds a query.
 
 import { hexadecimalText, parseDouble, rational, rationalText } from "./exact.js";
 
@@ -23,6 +23,11 @@ export const writers = {
   })}\n`,
   OBJ: ({ coordinates }) => rows(coordinates).map((row) => `v ${row.map(exactDecimal).join(" ")}\n`).join(""),
 };
+
+/// "#q=edge_edge,0,0,…": kind and 24 coordinates, and "&d=0.5&norm=l2" with a minimum separation.
+export const linkOf = ({ kind, coordinates, min_separation, norm }) =>
+  `#q=${[kind.replace("-", "_"), ...coordinates.map(exactDecimal)].join(",")}` +
+  (min_separation > 0 ? `&d=${min_separation}&norm=${norm}` : "");
 
 const isKind = (kind) => kind === "vertex-face" || kind === "edge-edge";
 
@@ -52,10 +57,26 @@ function fromJson(text) {
   const numbers = list.flat(2);
   if (numbers.some((x) => typeof x === "object")) throw new Error("“coordinates” holds more than numbers");
   const { min_separation: distance = 0, norm = "linf" } = one.separation || {};
-  const value = parseDouble(typeof distance === "object" ? "" : String(distance));
-  if (!(value >= 0) || !["l2", "linf"].includes(norm)) throw new Error("the separation is not a finite distance from 0 with norm linf or l2");
   return { kind: isKind(one.kind) ? one.kind : null, coordinates: doubles(numbers.map(String)),
-    min_separation: value, norm };
+    ...separation(typeof distance === "object" ? "" : String(distance), norm) };
+}
+
+/// A minimum separation. \throws Error if it is none
+function separation(distance, norm) {
+  const value = parseDouble(distance);
+  if (!(value >= 0) || !["l2", "linf"].includes(norm)) throw new Error("the separation is not a finite distance from 0 with norm linf or l2");
+  return { min_separation: value, norm };
+}
+
+/// The query in an address; null if it has none. Numbers as parseDouble() takes them.
+/// \throws Error with the reason if it is not a query.
+export function readLink(hash) {
+  const parts = new Map(decodeURIComponent(hash.replace(/^#/, "")).split("&").map((part) => part.split("=")));
+  if (!parts.has("q")) return null;
+  const [name, ...texts] = parts.get("q").split(",");
+  const kind = kindOf(name);
+  if (kind === null) throw new Error("the link begins with neither vertex_face nor edge_edge");
+  return { kind, coordinates: doubles(texts), ...separation(parts.get("d") || "0", parts.get("norm") || "linf") };
 }
 
 /// Rows of numbers with commas: x, y, z, or numerator and denominator of each, and optionally a

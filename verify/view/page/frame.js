@@ -5,6 +5,8 @@
 // ball before they are rounded. So a primitive that is 1e300 times larger than the visible part is
 // as sharp as a small one.
 
+import { nearest } from "./exact.js";
+
 const fractionBits = 72n;
 const limit = 1n << fractionBits;
 const unit = 2 ** 72;
@@ -28,6 +30,16 @@ export class Frame {
     const bottom = d * this.d * this.down;
     return vector.map((x, k) => (((x * this.d - this.center[k] * d) * this.up) << fractionBits) / bottom);
   }
+}
+
+/// Coordinates of a frame as those of the world, rounded to what a screen shows of them.
+export function worldOf(frame, point) {
+  const radius = 2 ** frame.lgRadius;
+  const step = 2 ** (Math.floor(frame.lgRadius) - 12);
+  return point.map((x, k) => {
+    const center = nearest({ n: frame.center[k], d: frame.d });
+    return Math.round((center + x * radius) / step) * step;
+  });
 }
 
 export const toNumbers = (point) => point.map((x) => Number(x) / unit);

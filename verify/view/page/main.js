@@ -1,9 +1,11 @@
 // The page: a list of queries, of which one is shown.
 
-import { hexadecimalText, log2, nearest, rational, rationalText, shortText } from "./exact.js";
+import { add, compare, hexadecimalText, log2, nearest, one, parseDouble, rational, rationalText, shortText, zero } from "./exact.js";
 import { find, make } from "./elements.js";
 import { momentText, placeText, readFacts, verdictText, withoutAnswer } from "./facts.js";
-import { readQuery, writers } from "./formats.js";
+import { linkOf, readLink, readQuery, writers } from "./formats.js";
+import { worldOf } from "./frame.js";
+import { isLive, startLive } from "./live.js";
 import { Look, steps } from "./look.js";
 import { axes, directionOf } from "./motion.js";
 import { CornerPicture, MotionPicture } from "./pictures.js";
@@ -13,6 +15,8 @@ import { drawTimeline } from "./timeline.js";
 
 const zoomSteps = 1000;
 const secondsOfPlay = 4;
+/// Powers of two between the coordinates of a query whose least distance is computed here, and a pause in ms before.
+const widestRange = 60, pauseBeforeApproach = 150;
 /// log2 of the smallest visible gap, in units of the radius.
 const lgSmallest = -5;
 
@@ -23,6 +27,10 @@ const viewpoint = new Viewpoint(step ? 1 : 2);
 let look = null;
 let pictures = [];
 let isPlaying = false;
+/// Decides a query in this page; null as long as it cannot.
+let decide = null;
+/// The number of the query that the user made.
+let edited = null;
 let format = "decimal";
 
 // ---- The parts of the page ----------------------------------------------------------------------
@@ -62,14 +70,27 @@ function controls() {
     button("tilt", "Other axis up", "u", () => viewpoint.tilt()));
 }
 
+/// What changes the query, on a page that decides it at once.
+function editor() {
+  return make("section", { id: "edit", hidden: true },
+    make("div", { class: "choice", role: "radiogroup", "aria-label": "Kind" },
+      ...radios("asked_kind", ["vertex-face", "edge-edge"], "vertex-face", (kind) => edit({ kind })),
+      make("label", {}, "Minimum separation ", make("input", { id: "distance", type: "text", size: 12, inputmode: "decimal",
+        onchange: changeSeparation })),
+      ...radios("asked_norm", ["linf", "l2"], "linf", changeSeparation),
+      make("label", {}, make("input", { type: "checkbox", id: "move" }), "Drag points in the first picture"),
+      button("link", "Copy a link to this query", "", copyLink), make("output", { id: "linked" })),
+    make("p", {}, "Points are dragged at t = 0 or t = 1; numbers can be typed into the table below."));
+}
+
 function page() {
   find("view").append(
-    make("header", {}, make("h1", {}, "Touchstone view"), make("p", { id: "common", hidden: true }),
+    make("header", {}, make("h1", {}, isLive ? "Touchstone playground" : "Touchstone view"), make("p", { id: "common", hidden: true }),
       make("nav", { id: "list", "aria-label": "Queries" })),
     make("p", { id: "nothing", hidden: step !== null || queries.length > 0 }, "Nothing was found: this page has no query."),
     make("section", { id: "step", hidden: step === null }),
     make("section", { id: "query", hidden: true },
-      make("h2", { id: "label" }), make("p", { id: "verdict" }), make("ul", { id: "notes", class: "findings" }),
+      make("h2", { id: "label" }), make("p", { id: "sentence" }), make("ul", { id: "notes", class: "findings" }),
       make("div", { class: "pictures" },
         figure("motion", "The primitives, and their traces"),
         figure("corners", "The corners: contact where the origin is in their hull")),
@@ -84,7 +105,8 @@ function page() {
       make("div", { class: "timeline", id: "rows" }),
       make("p", { id: "readout" }),
       controls(),
-      make("p", { id: "scale" })),
+      make("p", { id: "scale" }),
+      editor()),
     make("section", { id: "numbers", hidden: true },
       make("h2", {}, "Coordinates"),
       make("div", { class: "choice", role: "radiogroup", "aria-label": "Format of coordinates" },
@@ -129,6 +151,7 @@ function show(index) {
   find("star").textContent = facts.truth && facts.truth.toi ? "To contact" : "To the nearest";
   find("enlarge").disabled = find("zoom").disabled = !look.canZoom;
   writeVerdict(facts);
+  writeEditor(facts);
   writeList();
   update(true);
 }
@@ -138,7 +161,8 @@ function writeVerdict(facts) {
   const separation = facts.min_separation > 0 ? `, minimum separation ${facts.min_separation} (${facts.norm})` : "";
   const place = truth && truth.u ? `, ${placeText(truth)}` : "";
   const impact = truth && truth.toi ? ` Time of impact: ${momentText(truth.toi)}${place}.` : "";
-  find("verdict").replaceChildren(make("strong", {}, `${facts.kind}${separation}: ${verdictText(facts)}.`), impact);
+  find("sentence").replaceChildren(make("strong", {}, `${facts.kind}${separation}: `,
+    make("span", { id: "verdict" }, verdictText(facts)), "."), impact);
 }
 
 function writeList() {
@@ -215,12 +239,19 @@ function numberText(value) {
 
 function writeTable(state = look.motion.at(look.t)) {
   const { motion } = look;
-  const one = 1n << motion.shift;
-  const groups = [["t = 0", motion.start, one], ["t = 1", motion.end, one], ["now", state.points, state.d]];
-  const body = groups.map(([title, points, d]) => make("tbody", { id: `at_${title.replace(/[^a-z0-9]+/g, "_")}` },
+  const isTyping = document.activeElement && document.activeElement.matches("#points input");
+  if (isTyping) return;
+  const isInput = decide !== null && format !== "rational";
+  const cell = (x, d, end, i, k) => (isInput && end >= 0
+    ? make("input", { type: "text", value: numberText({ n: x, d }), "aria-label": `${axes[k]} of ${motion.names[i]} at t = ${end}`,
+      onchange: (event) => typeCoordinate(12 * end + 3 * i + k, event.target) })
+    : make("code", {}, numberText({ n: x, d })));
+  const unit = 1n << motion.shift;
+  const groups = [["t = 0", motion.start, unit, 0], ["t = 1", motion.end, unit, 1], ["now", state.points, state.d, -1]];
+  const body = groups.map(([title, points, d, end]) => make("tbody", { id: `at_${title.replace(/[^a-z0-9]+/g, "_")}` },
     make("tr", {}, make("th", { scope: "rowgroup", colspan: "4" }, title)),
     ...points.map((point, i) => make("tr", {}, make("th", { scope: "row" }, motion.names[i]),
-      ...point.map((x) => make("td", {}, make("code", {}, numberText({ n: x, d }))))))));
+      ...point.map((x, k) => make("td", {}, cell(x, d, end, i, k)))))));
   find("points").replaceChildren(
     make("thead", {}, make("tr", {}, make("th", { scope: "col" }, "point"), ...axes.map((name) => make("th", { scope: "col" }, name)))),
     ...body);
@@ -254,13 +285,133 @@ function draw() {
   try {
     const read = readQuery(find("text").value);
     const kind = read.kind || document.querySelector("input[name=kind]:checked").value;
-    const query = withoutAnswer({ ...read, kind }, "pasted");
-    show(indexOf(query));
-    said.textContent = look.facts.truth ? "This page holds its answer." : "Drawn. This page holds no answer to it.";
+    show(indexOf(decided({ ...read, kind }, "pasted")));
+    rememberLink();
+    said.textContent = decide ? "Decided." : look.facts.truth ? "This page holds its answer." : "Drawn. This page holds no answer to it.";
     find("query").scrollIntoView();
   } catch (error) {
     said.textContent = `Not drawn: ${error.message}.`;
   }
+}
+
+// ---- Another query, on a page that decides it ---------------------------------------------------
+
+/// The query with its answers, if this page decides. The distance of one that is free follows, if its numbers are
+/// of a size that does not take seconds.
+function decided(query, label) {
+  if (decide === null) return withoutAnswer(query, label);
+  const facts = decide({ ...query, label });
+  const sizes = facts.coordinates.filter((x) => x !== 0).map((x) => Math.log2(Math.abs(x)));
+  if (!facts.truth.collides && Math.max(...sizes) - Math.min(...sizes) < widestRange) {
+    setTimeout(() => {
+      if (look === null || look.facts !== facts) return;
+      facts.approach = decide(facts, true).approach;
+      update(false);
+    }, pauseBeforeApproach);
+  }
+  return facts;
+}
+
+function writeEditor({ kind, min_separation, norm }) {
+  for (const radio of document.getElementsByName("asked_kind")) radio.checked = radio.value === kind;
+  for (const radio of document.getElementsByName("asked_norm")) radio.checked = radio.value === norm;
+  find("distance").value = String(min_separation);
+  find("linked").textContent = "";
+}
+
+/// Shows the query with this change. \param isKept the pictures keep their place, scale and time
+function edit(change, isKept = false) {
+  const { kind, coordinates, min_separation, norm } = look.facts;
+  const before = look;
+  const facts = decided({ kind, coordinates, min_separation, norm, ...change }, "your query");
+  if (edited === null) edited = queries.push(facts) - 1;
+  else queries[edited] = facts;
+  if (isKept) {
+    look = new Look(facts);
+    look.index = edited;
+    for (const part of ["t", "zoom", "frame", "cornerFrame", "window"]) look[part] = before[part];
+    writeVerdict(facts);
+    update(true);
+  } else {
+    show(edited);
+    rememberLink();
+  }
+}
+
+function changeSeparation() {
+  const min_separation = parseDouble(find("distance").value);
+  const chosen = document.querySelector("input[name=asked_norm]:checked");
+  if (min_separation >= 0) edit({ min_separation, norm: chosen.value });
+  else find("distance").value = String(look.facts.min_separation);
+}
+
+function typeCoordinate(at, input) {
+  const value = parseDouble(input.value.replace("≈", ""));
+  input.blur();
+  if (Number.isNaN(value)) writeTable();
+  else edit({ coordinates: look.facts.coordinates.map((x, i) => (i === at ? value : x)) });
+}
+
+/// Dragging moves the points of the end of the motion that is shown.
+const drag = {
+  begin() {
+    if (decide === null || !find("move").checked) return false;
+    isPlaying = false;
+    const end = compare(add(look.t, look.t), one) < 0 ? zero : one;
+    look.window = { from: zero, to: one };
+    look.t = end;
+    update(true);
+    return true;
+  },
+  move(point, place) {
+    const first = (look.t.n === 0n ? 0 : 12) + 3 * point;
+    const coordinates = [...look.facts.coordinates];
+    coordinates.splice(first, 3, ...worldOf(look.frame, place));
+    edit({ coordinates }, true);
+  },
+  end() {
+    const { t } = look;
+    edit({});
+    look.window = { from: zero, to: one };
+    look.t = t;
+    update(true);
+  },
+};
+
+const rememberLink = () => decide && history.replaceState(null, "", linkOf(look.facts));
+
+function copyLink() {
+  const said = find("linked");
+  rememberLink();
+  said.textContent = "The link is in the address bar.";
+  if (navigator.clipboard) navigator.clipboard.writeText(location.href).then(() => { said.textContent = "Copied."; }, () => {});
+}
+
+/// Shows the query of the address. Returns whether there is one.
+function openLink() {
+  const said = find("nothing");
+  try {
+    const query = readLink(location.hash);
+    if (query === null) return false;
+    show(indexOf(decided(query, "from the link")));
+  } catch (error) {
+    said.textContent = `The link holds no query: ${error.message}.`;
+    said.hidden = false;
+    find("query").hidden = find("numbers").hidden = true;
+  }
+  return true;
+}
+
+async function goLive() {
+  try {
+    decide = await startLive();
+    find("edit").hidden = false;
+  } catch (error) {
+    find("nothing").textContent = `This browser cannot decide queries: ${error.message}.`;
+    find("nothing").hidden = false;
+  }
+  if (!openLink() && queries.length > 0) show(0);
+  window.addEventListener("hashchange", openLink);
 }
 
 // ---- Time, zoom and keys ------------------------------------------------------------------------
@@ -338,6 +489,7 @@ function makePictures() {
   };
   pictures = [new MotionPicture(new Scene(find("motion"), viewpoint, zoom)),
     new CornerPicture(new Scene(find("corners"), viewpoint, zoom))];
+  pictures[0].scene.drag = drag;
   for (const query of ["(prefers-color-scheme: dark)", "print"]) {
     matchMedia(query).addEventListener("change", () => update(true));
   }
@@ -354,4 +506,5 @@ page();
 makePictures();
 document.addEventListener("keydown", onKey);
 if (step) new StepPart(step, viewpoint, canDraw(), showPair);
-if (queries.length > 0) show(0);
+if (isLive) goLive();
+else if (!openLink() && queries.length > 0) show(0);

@@ -109,7 +109,7 @@ export class MotionPicture {
         const seen = seenPoint(point);
         if (seen === null) return;
         scene.dot(seen, color, shape, points.length === 1 ? 0.04 : 0.026);
-        scene.name(seen, motion.names[indices[i]], color);
+        scene.name(seen, motion.names[indices[i]], color, indices[i]);
       });
     });
     this.drawGap(near, frame, direction);

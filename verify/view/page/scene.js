@@ -13,6 +13,9 @@ const distance = 1.02 / Math.sin((fieldOfView / 2) * (Math.PI / 180));
 const filledPart = 0.8;
 const mostEnlarged = 5;
 
+/// A point is grabbed within so many pixels.
+const grabDistance = 18;
+
 /// The common viewpoint of all pictures, and their upward axis.
 export class Viewpoint {
   constructor(up) {
@@ -86,6 +89,8 @@ export class Scene {
     // The size of the part that is shown, of the whole picture.
     this.part = 1;
     this.zoom = zoom;
+    // What drags points: begin() says whether it may begin, move(handle, point) moves, end() ends.
+    this.drag = null;
     viewpoint.listeners.push(() => this.render());
     new ResizeObserver(() => this.render()).observe(this.canvas);
     this.listen();
@@ -174,12 +179,13 @@ export class Scene {
     this.add(geometry, material, true).position.set(...center);
   }
 
-  name(point, text, color) {
+  /// \param handle what move() is called with if the user drags the point; nothing if it stays
+  name(point, text, color, handle = null) {
     const span = document.createElement("span");
     span.textContent = text;
     span.style.color = `var(--${color})`;
     this.names.append(span);
-    this.labels.push({ span, point: vector(point) });
+    this.labels.push({ span, point: vector(point), handle });
   }
 
   /// The points of the object, which is to fill the picture.
@@ -281,9 +287,37 @@ export class Scene {
 
   // ---- Input ------------------------------------------------------------------------------------
 
+  /// A point where the canvas shows it, and its depth.
+  seen(point) {
+    const { x, y, z } = point.clone().project(this.camera);
+    return { x: ((x + 1) / 2) * this.canvas.clientWidth, y: ((1 - y) / 2) * this.canvas.clientHeight, depth: z };
+  }
+
+  /// The point with a handle next to a place of the canvas; null if none is near.
+  grabbed(event) {
+    if (this.drag === null || !this.drag.begin()) return null;
+    const { left, top } = this.canvas.getBoundingClientRect();
+    const [x, y] = [event.clientX - left, event.clientY - top];
+    const near = this.labels.filter(({ handle }) => handle !== null)
+      .map(({ handle, point }) => ({ handle, ...this.seen(point) }))
+      .map((one) => ({ ...one, away: Math.hypot(one.x - x, one.y - y) }))
+      .filter(({ away }) => away < grabDistance);
+    return near.length === 0 ? null : near.reduce((a, b) => (b.away < a.away ? b : a));
+  }
+
+  /// Moves a grabbed point to a place of the canvas, in the plane that faces the viewer.
+  moveTo(grabbed, event) {
+    const { canvas } = this;
+    const { left, top } = canvas.getBoundingClientRect();
+    const [x, y] = [event.clientX - left, event.clientY - top];
+    const place = new THREE.Vector3((2 * x) / canvas.clientWidth - 1, 1 - (2 * y) / canvas.clientHeight, grabbed.depth);
+    this.drag.move(grabbed.handle, place.unproject(this.camera).toArray());
+  }
+
   listen() {
     const pointers = new Map();
     const { canvas, viewpoint } = this;
+    let grabbed = null;
     const spread = () => {
       const [a, b] = [...pointers.values()];
       return Math.hypot(a.x - b.x, a.y - b.y);
@@ -291,17 +325,26 @@ export class Scene {
     canvas.addEventListener("pointerdown", (event) => {
       canvas.setPointerCapture(event.pointerId);
       pointers.set(event.pointerId, { x: event.clientX, y: event.clientY });
+      grabbed = pointers.size === 1 ? this.grabbed(event) : null;
     });
     canvas.addEventListener("pointermove", (event) => {
       const last = pointers.get(event.pointerId);
       if (last === undefined) return;
+      if (grabbed !== null) {
+        this.moveTo(grabbed, event);
+        return;
+      }
       const before = pointers.size === 2 ? spread() : 0;
       pointers.set(event.pointerId, { x: event.clientX, y: event.clientY });
       if (pointers.size === 1) viewpoint.turn((last.x - event.clientX) / 150, (event.clientY - last.y) / 150);
       if (pointers.size === 2 && before > 0) this.zoom(spread() / before);
     });
     for (const end of ["pointerup", "pointercancel"]) {
-      canvas.addEventListener(end, (event) => pointers.delete(event.pointerId));
+      canvas.addEventListener(end, (event) => {
+        pointers.delete(event.pointerId);
+        if (grabbed !== null) this.drag.end();
+        grabbed = null;
+      });
     }
     canvas.addEventListener("wheel", (event) => {
       // Only with the keyboard's focus, so that a page can be scrolled over its pictures.

@@ -1,0 +1,91 @@
+// The facts of a view (verify/view/query_facts.hpp) as functions of WebAssembly, for pages that
+// decide a query in the browser. One thread. The methods are those that need no rounding mode,
+// which WebAssembly has not.
+
+#include <emscripten/emscripten.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <exception>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "fast/method.hpp"
+#include "fast/platform/arithmetic_check.hpp"
+#include "verify/solvers/registry.hpp"
+#include "verify/view/query_facts.hpp"
+
+namespace touchstone::verify::playground {
+namespace {
+
+/// A page answers within a moment: a search stops earlier than usual.
+constexpr std::int64_t most_checks = 20'000;
+
+judge::GivenAnswer answer_of(const fast::Method& method, const view::ViewedQuery& viewed) {
+  judge::GivenAnswer given{.solver = std::string(method.name()),
+                           .standard = judge::standard_of(method.info())};
+  const fast::MethodOptions options{
+      .max_checks = std::min(most_checks, method.info().usual_max_checks),
+      .separation = viewed.separation};
+  try {
+    method.solve(viewed.kind, {&viewed.query, 1}, {&given.answer, 1}, options);
+  } catch (const std::exception&) {
+    given.answer = {.verdict = fast::Verdict::error};
+  }
+  return given;
+}
+
+std::vector<judge::GivenAnswer> answers_to(const view::ViewedQuery& viewed) {
+  std::vector<judge::GivenAnswer> answers;
+  for (const auto& method : solvers::methods()) {
+    const bool is_norm_known = is_zero(viewed.separation) || !method->info().norms.empty();
+    if (method->info().terms.answers(viewed.kind) && is_norm_known) {
+      answers.push_back(answer_of(*method, viewed));
+    }
+  }
+  return answers;
+}
+
+nlohmann::json facts_of(const view::ViewedQuery& viewed) {
+  return view::query_facts(viewed, answers_to(viewed));
+}
+
+}  // namespace
+}  // namespace touchstone::verify::playground
+
+extern "C" {
+
+/// The facts of a query as JSON, valid until the next call; {"error": REASON} if there are none.
+/// \param coordinates 24
+/// \param with_approach the distance of queries without a collision, too, which takes longest
+EMSCRIPTEN_KEEPALIVE const char* touchstone_facts(int is_edge_edge, const double* coordinates,
+                                                  double distance, int is_l2, int with_approach) {
+  using namespace touchstone;
+  static std::string text;
+  try {
+    verify::view::ViewedQuery viewed{
+        .label = "",
+        .kind = is_edge_edge != 0 ? Kind::edge_edge : Kind::vertex_face,
+        .separation = {.distance = distance, .norm = is_l2 != 0 ? Norm::l2 : Norm::linf},
+        .with_approach = with_approach != 0};
+    std::copy_n(coordinates, viewed.query.coordinates.size(), viewed.query.coordinates.begin());
+    text = verify::playground::facts_of(viewed).dump();
+  } catch (const std::exception& error) {
+    text = nlohmann::json{{"error", error.what()}}.dump();
+  }
+  return text.c_str();
+}
+
+/// Why this machine's arithmetic is not what the solvers need; empty if it is.
+EMSCRIPTEN_KEEPALIVE const char* touchstone_arithmetic_fault() {
+  static std::string text;
+  try {
+    text.clear();
+    touchstone::fast::require_strict_arithmetic();
+  } catch (const std::exception& error) {
+    text = error.what();
+  }
+  return text.c_str();
+}
+}
