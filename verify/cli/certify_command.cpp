@@ -31,6 +31,7 @@
 #include "verify/jobs/certify.hpp"
 #include "verify/report/certify_report.hpp"
 #include "verify/solvers/registry.hpp"
+#include "verify/view/asked_solvers.hpp"
 
 namespace touchstone::verify::cli::certify_command {
 namespace {

@@ -44,6 +44,7 @@
 #include "verify/solvers/answers.hpp"
 #include "verify/solvers/registry.hpp"
 #include "verify/solvers/solver.hpp"
+#include "verify/view/asked_solvers.hpp"
 
 namespace touchstone::verify::cli::report_command {
 namespace {

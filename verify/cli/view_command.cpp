@@ -178,8 +178,9 @@ void add_options(CLI::App& command, Arguments& arguments) {
   add_exact_flag(command, arguments.solvers);
   command.option_defaults()->group("Output");
   command
-      .add_option("--live", arguments.live_file,
-                  "The solvers in WebAssembly (./run playground): the page decides other queries, too")
+      .add_option(
+          "--live", arguments.live_file,
+          "The solvers in WebAssembly (./run playground): the page decides other queries, too")
       ->type_name("FILE.js");
   command.add_option("--out", arguments.out_file, "The page")->type_name("FILE.html")->required();
 }

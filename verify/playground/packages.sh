@@ -12,6 +12,9 @@ curl --fail --silent --show-error --location --output "$work/gmp.tar.xz" "$sourc
 echo "$digest  $work/gmp.tar.xz" | sha256sum --check --quiet
 tar --extract --file "$work/gmp.tar.xz" --directory "$work"
 cd "$work"/gmp-*
+# Debian's source has no documents, which configure asks for.
+mkdir doc
+echo 'all install install-exec install-data:' >doc/Makefile.in
 # Where node is not Debian's, it does not look for the modules of Debian's emscripten.
 export NODE_PATH=/usr/share/nodejs
 emconfigure ./configure --host=none --build="$(gcc -dumpmachine)" --disable-assembly --disable-shared \

@@ -8,11 +8,14 @@
 #include <cstdint>
 #include <exception>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "fast/method.hpp"
 #include "fast/platform/arithmetic_check.hpp"
+#include "verify/judge/terms.hpp"
 #include "verify/solvers/registry.hpp"
 #include "verify/view/query_facts.hpp"
 
@@ -22,33 +25,30 @@ namespace {
 /// A page answers within a moment: a search stops earlier than usual.
 constexpr std::int64_t most_checks = 20'000;
 
-judge::GivenAnswer answer_of(const fast::Method& method, const view::ViewedQuery& viewed) {
-  judge::GivenAnswer given{.solver = std::string(method.name()),
-                           .standard = judge::standard_of(method.info())};
-  const fast::MethodOptions options{
-      .max_checks = std::min(most_checks, method.info().usual_max_checks),
-      .separation = viewed.separation};
+/// Nothing if the query is outside the terms of the method.
+std::optional<judge::GivenAnswer> answer_of(const fast::Method& method,
+                                            const view::ViewedQuery& viewed) {
+  const fast::MethodInfo& info = method.info();
+  const Query asked = judge::as_asked(info.terms, viewed.query);
+  if (!judge::admits(info.terms, viewed.kind, asked, viewed.separation)) return std::nullopt;
+  if (!is_zero(viewed.separation) && info.norms.empty()) return std::nullopt;
+  judge::GivenAnswer given{.solver = std::string(info.name), .standard = judge::standard_of(info)};
+  const fast::MethodOptions options{.max_checks = std::min(most_checks, info.usual_max_checks),
+                                    .separation = viewed.separation};
   try {
-    method.solve(viewed.kind, {&viewed.query, 1}, {&given.answer, 1}, options);
+    method.solve(viewed.kind, {&asked, 1}, {&given.answer, 1}, options);
   } catch (const std::exception&) {
     given.answer = {.verdict = fast::Verdict::error};
   }
   return given;
 }
 
-std::vector<judge::GivenAnswer> answers_to(const view::ViewedQuery& viewed) {
+nlohmann::json facts_of(const view::ViewedQuery& viewed) {
   std::vector<judge::GivenAnswer> answers;
   for (const auto& method : solvers::methods()) {
-    const bool is_norm_known = is_zero(viewed.separation) || !method->info().norms.empty();
-    if (method->info().terms.answers(viewed.kind) && is_norm_known) {
-      answers.push_back(answer_of(*method, viewed));
-    }
+    if (auto given = answer_of(*method, viewed)) answers.push_back(*std::move(given));
   }
-  return answers;
-}
-
-nlohmann::json facts_of(const view::ViewedQuery& viewed) {
-  return view::query_facts(viewed, answers_to(viewed));
+  return view::query_facts(viewed, answers);
 }
 
 }  // namespace

@@ -159,8 +159,7 @@ nlohmann::json answers_of(const ViewedQuery& viewed, const Judged& judged,
 
 }  // namespace
 
-nlohmann::json query_facts(const ViewedQuery& viewed,
-                           std::span<const judge::GivenAnswer> asked) {
+nlohmann::json query_facts(const ViewedQuery& viewed, std::span<const judge::GivenAnswer> asked) {
   const exact::Decision verdict = exact::decide(viewed.kind, viewed.query, viewed.separation);
   nlohmann::json coordinates = nlohmann::json::array(), notes = nlohmann::json::array();
   for (const double x : viewed.query.coordinates) coordinates.push_back(number(x));

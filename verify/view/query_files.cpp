@@ -271,6 +271,8 @@ ViewedQuery query_from_json(const nlohmann::json& json, std::string label,
   }
   query.query = query_of(json.at("coordinates"));
   query.separation = separation_of(json);
+  if (json.contains("label")) query.label = json.at("label").get<std::string>();
+  if (json.contains("note")) query.notes.push_back(json.at("note").get<std::string>());
   if (json.contains("what") && json.contains("answer")) add_finding(json, query);
   return query;
 }

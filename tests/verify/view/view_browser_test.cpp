@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
@@ -17,6 +18,7 @@
 #include "touchstone/number.hpp"
 #include "verify/mesh/mesh.hpp"
 #include "verify/solvers/registry.hpp"
+#include "verify/view/asked_solvers.hpp"
 #include "verify/view/page.hpp"
 #include "verify/view/query_facts.hpp"
 #include "verify/view/step_facts.hpp"
@@ -89,9 +91,14 @@ class ViewBrowser : public tests::BrowserTest {
       const ViewedQuery viewed{.label = "query", .kind = query.kind, .query = query.query};
       facts.push_back(query_facts(viewed, answers_of(asked_, viewed)));
     }
-    return view_page(facts, "touchstone view");
+    return view_page(facts, "touchstone view", {}, solvers_);
   }
 
+ protected:
+  /// The script of solvers in WebAssembly, if the page has any.
+  std::string solvers_ = {};
+
+ private:
   std::vector<const solvers::Solver*> asked_;
 };
 
@@ -143,7 +150,7 @@ TEST_F(ViewBrowser, ShowsContactTimeAndSolvers) {
   ask(*inclusion);
   const nlohmann::json result = result_of({falling(), falling(0x1p-52)}, R"(
     const look = () => ({
-      verdict: find("verdict").textContent, names: text("#rows .name"), said: text("#rows .said"),
+      verdict: find("sentence").textContent, names: text("#rows .name"), said: text("#rows .said"),
       marks: all("#rows .mark.toi, #rows .mark.approach").map((mark) => mark.style.left),
       subintervals: all("#rows .subinterval").map((bar) => bar.textContent + bar.title),
       cursor: document.querySelector("#rows .cursor").style.left, now: find("now").textContent,
@@ -170,7 +177,7 @@ TEST_F(ViewBrowser, ShowsContactTimeAndSolvers) {
   EXPECT_EQ(first.at("names_there"), nlohmann::json::array({"v", "f0", "f1", "f2", "contact"}));
   EXPECT_EQ(result.at(1), positions(falling().query, Rational(1, 3)));
   const nlohmann::json& second = result.at(2);
-  EXPECT_EQ(second.at("verdict"), "vertex-face: no collision.");
+  EXPECT_EQ(second.at("verdict"), "vertex-face: free.");
   EXPECT_EQ(second.at("subintervals"), nlohmann::json::array({"face +separated by face +"}));
   EXPECT_EQ(second.at("said").at(3).get<std::string>().substr(0, 3), "yes");
   EXPECT_NE(second.at("said").at(3).get<std::string>().find("✗ false positive"), std::string::npos);
@@ -208,7 +215,7 @@ TEST_F(ViewBrowser, WhatIsCopiedIsTheSameQueryWhenPasted) {
 TEST_F(ViewBrowser, DrawsWhatIsPastedWithoutAVerdict) {
   const nlohmann::json result = result_of({falling()}, R"(
     choose("format", "hexadecimal");
-    const start = () => text("#at_t_0 code").slice(0, 3).concat(find("verdict").textContent.split(".")[0]);
+    const start = () => text("#at_t_0 code").slice(0, 3).concat(find("sentence").textContent.split(".")[0]);
     const rest = "0 0 0 4 0 0 0 4 0  1 1 -3 0 0 0 4 0 0 0 4 0";
     const results = [
       `0.1 1/3 -0x1.8p-3 ${rest}`,
@@ -436,15 +443,15 @@ TEST_F(ViewBrowser, PrintsWhatIsShownWithoutTheControls) {
       const { transform, borderRadius } = getComputedStyle(document.querySelector(`#rows .mark.${kind}`), "::after");
       return [transform !== "none", borderRadius];
     };
-    const shown = ["h1", "#label", "#verdict", "#motion canvas", "#corners canvas", "#motion .names span", "#scale",
+    const shown = ["h1", "#label", "#sentence", "#motion canvas", "#corners canvas", "#motion .names span", "#scale",
       "#now", "#rows .name", "#rows .said", "#rows .track", "#readout", "#points td", "footer"];
     const first = { unseen: unseen(shown), mark: mark("toi") };
     press("n");
     const second = { mark: mark("approach"), said: text("#rows .said.wrong"), paper: getComputedStyle(document.body).backgroundColor,
-      contrast: contrast("#verdict *, #rows .said *, #rows .name, #readout, figcaption, #scale, #points code"),
+      contrast: contrast("#sentence *, #rows .said *, #rows .name, #readout, figcaption, #scale, #points code"),
       names: contrast(".names span") };
     press("n");
-    say({ first, second, controls: controls(), cut: cut("#points code, .said, #verdict"),
+    say({ first, second, controls: controls(), cut: cut("#points code, .said, #sentence"),
       wide: document.documentElement.scrollWidth <= window.innerWidth, drawn: [pixels("motion"), pixels("corners")] });
   )",
       718);
@@ -549,7 +556,7 @@ TEST_F(ViewBrowser, TheSliderMovesTheMesh) {
 TEST_F(ViewBrowser, PairsOfAStepLeadToTheirQueries) {
   const nlohmann::json result = result_on(page_of_a_step(true), std::string(height_of_mesh) + R"(
     choose("format", "rational");
-    const look = () => ({ label: find("label").textContent, verdict: find("verdict").textContent.split(".")[0],
+    const look = () => ({ label: find("label").textContent, verdict: find("sentence").textContent.split(".")[0],
       start: text("#at_t_0 code").slice(0, 3), chosen: text("#pairs .chosen span"), past: text("#pairs .past span").length });
     const marks = [0, 1, 4096].map((step) => { const [, count, now] = at(step); return now; });
     const names = text("#pairs span");
@@ -588,6 +595,151 @@ TEST_F(ViewBrowser, PrintsAStepWithItsTime) {
   EXPECT_EQ(result.at("named").size(), 1) << "the first pair is pointed out";
   EXPECT_EQ(result.at("named"), result.at("first"));
   EXPECT_GT(result.at("drawn"), 200);
+}
+
+// ---- A page that decides ------------------------------------------------------------------------
+
+/// In the place of the solvers in WebAssembly: what it is asked is kept, and a query collides if
+/// its first point ends below 0.
+constexpr const char* fake_solvers = R"(
+const asked = [];
+async function createTouchstone() {
+  const memory = new Float64Array(40);
+  let text = "";
+  return { HEAPF64: memory, _malloc: () => 8, _touchstone_arithmetic_fault: () => 0,
+    UTF8ToString: (place) => (place === 0 ? "" : text),
+    _touchstone_facts: (edge, place, distance, l2, near) => {
+      const coordinates = Array.from(memory.slice(place / 8, place / 8 + 24));
+      asked.push({ edge, coordinates, distance, l2, near });
+      text = JSON.stringify({ label: "", kind: edge ? "edge-edge" : "vertex-face", coordinates: coordinates.map(String),
+        min_separation: String(distance), norm: l2 ? "l2" : "linf", notes: [], approach: null, certificate: null,
+        answers: [], truth: { collides: coordinates[14] < 0, text: "" } });
+      return 1;
+    } };
+}
+)";
+
+class LivePage : public ViewBrowser {
+ protected:
+  void SetUp() override {
+    ViewBrowser::SetUp();
+    solvers_ = fake_solvers;
+  }
+
+  static std::string with_hash(const std::string& hash) {
+    return "history.replaceState(null, '', '#" + hash + "');";
+  }
+};
+
+constexpr const char* link = "q=vertex_face,1,1,0x1p-1,0,0,0,4,0,0,0,4,0,1,1,-2,0,0,0,4,0,0,0,4,0";
+
+TEST_F(LivePage, DecidesTheQueryOfALink) {
+  const nlohmann::json result = result_of({falling(1)}, R"(
+    say({ verdict: find("verdict").textContent, asked, label: find("label").textContent, title: text("h1") });
+  )",
+                                          1200, with_hash(link));
+  EXPECT_EQ(result.at("verdict"), "collides");
+  EXPECT_EQ(result.at("title").at(0), "Touchstone playground");
+  const nlohmann::json& asked = result.at("asked").at(0);
+  EXPECT_EQ(asked.at("edge"), 0);
+  EXPECT_EQ(asked.at("coordinates").at(2), 0.5);
+  EXPECT_EQ(asked.at("coordinates").at(14), -2);
+  EXPECT_EQ(asked.at("distance"), 0);
+  std::string free = link;
+  free.replace(free.find("-2"), 2, "1e-3");
+  free.replace(free.find("vertex_face"), 11, "edge_edge");
+  const nlohmann::json other = result_of({}, R"(
+    say({ verdict: find("verdict").textContent, asked });
+  )",
+                                         1200, with_hash(free + "&d=0.25&norm=l2"));
+  EXPECT_EQ(other.at("verdict"), "free");
+  EXPECT_EQ(other.at("asked").at(0).at("edge"), 1);
+  EXPECT_EQ(other.at("asked").at(0).at("distance"), 0.25);
+  EXPECT_EQ(other.at("asked").at(0).at("l2"), 1);
+}
+
+TEST_F(LivePage, NamesWhatIsWrongWithALink) {
+  for (const auto& [hash, reason] : std::map<std::string, std::string>{
+           {"q=vertex_face,1,2", "there are 2 numbers, not the 24 of a query"},
+           {"q=face_face", "the link begins with neither vertex_face nor edge_edge"},
+           {std::string(link) + "&d=-1", "the separation is not a finite distance from 0"}}) {
+    const nlohmann::json result = result_of({falling(1)}, R"(
+      say({ said: find("nothing").textContent, verdict: find("verdict") === null });
+    )",
+                                            1200, with_hash(hash));
+    EXPECT_TRUE(
+        result.at("said").get<std::string>().starts_with("The link holds no query: " + reason))
+        << result.at("said");
+    EXPECT_EQ(result.at("verdict"), true);
+  }
+}
+
+TEST_F(LivePage, DecidesAfterEachChange) {
+  const nlohmann::json result = result_of({falling(1)}, R"(
+    const seen = () => [find("verdict").textContent, asked.length];
+    const change = (element, value) => { element.value = value; element.dispatchEvent(new Event("change")); };
+    const input = (label) => document.querySelector(`#points input[aria-label="${label}"]`);
+    const results = [seen()];
+    change(input("z of v at t = 1"), "-0x1p-3");
+    results.push(seen());
+    change(find("distance"), "0.5");
+    choose("asked_norm", "l2");
+    choose("asked_kind", "edge-edge");
+    results.push(seen());
+    change(input("x of ea1 at t = 0"), "nonsense");
+    results.push(seen());
+    results.push([paste("edge-edge 0 0 1 0 0 0 1 0 0 2 0 0  0 0 3 0 0 0 1 0 0 2 0 0"), find("verdict").textContent]);
+    say({ results, asked, hash: location.hash });
+  )");
+  const nlohmann::json& results = result.at("results");
+  EXPECT_EQ(results.at(0), (nlohmann::json{"free", 0}));
+  EXPECT_EQ(results.at(1), (nlohmann::json{"collides", 1}));
+  EXPECT_EQ(results.at(2), (nlohmann::json{"collides", 4}));
+  EXPECT_EQ(results.at(3), (nlohmann::json{"collides", 4}));
+  EXPECT_EQ(results.at(4), (nlohmann::json{"Decided.", "free"}));
+  const nlohmann::json& last = result.at("asked").at(3);
+  EXPECT_EQ(last.at("coordinates").at(14), -0.125);
+  EXPECT_EQ(last.at("distance"), 0.5);
+  EXPECT_EQ(last.at("l2"), 1);
+  EXPECT_EQ(last.at("edge"), 1);
+  EXPECT_EQ(result.at("hash"), "#q=edge_edge,0,0,1,0,0,0,1,0,0,2,0,0,0,0,3,0,0,0,1,0,0,2,0,0");
+}
+
+TEST_F(LivePage, DragsAPointOfTheShownEnd) {
+  const nlohmann::json result = result_of({falling(1)}, R"(
+    find("move").click();
+    move("time", 4096);
+    const canvas = document.querySelector("#motion canvas"), { left, top } = canvas.getBoundingClientRect();
+    // Names stand beside their points: some place around the name of v grabs it.
+    const name = all("#motion .names span").find((one) => one.textContent === "v").getBoundingClientRect();
+    const send = (kind, x, y) => canvas.dispatchEvent(new PointerEvent(kind, { pointerId: 1, clientX: x, clientY: y, bubbles: true }));
+    canvas.setPointerCapture = () => {};
+    const before = text("#at_t_1 th").length;
+    let at = null;
+    for (let dx = -30; dx <= name.width + 30 && at === null; dx += 6) {
+      for (let dy = -10; dy <= 40 && at === null; dy += 6) {
+        const count = asked.length;
+        send("pointerdown", name.left + dx, name.top + dy);
+        send("pointermove", name.left + dx, name.top + dy + 40);
+        if (asked.length > count) at = [dx, dy];
+        send("pointerup", name.left + dx, name.top + dy + 40);
+      }
+    }
+    say({ at, asked, edited: find("label").textContent, hash: location.hash.length });
+  )");
+  ASSERT_FALSE(result.at("at").is_null()) << "no point was grabbed";
+  const Query original = falling(1).query;
+  const nlohmann::json& moved = result.at("asked").back().at("coordinates");
+  int changed = 0;
+  for (std::size_t i = 0; i < original.coordinates.size(); ++i) {
+    const bool is_moved = moved.at(i) != original.coordinates.at(i);
+    changed += is_moved ? 1 : 0;
+    EXPECT_TRUE(!is_moved || i / 12 == 1) << "only points of t = 1 move: " << i;
+  }
+  EXPECT_GE(changed, 1);
+  EXPECT_LE(changed, 3) << "one point moves";
+  EXPECT_LT(moved.at(14), 1.0) << "downwards, as the pointer";
+  EXPECT_EQ(result.at("edited"), "your query");
 }
 
 }  // namespace
