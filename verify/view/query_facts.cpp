@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "touchstone/algebraic_number.hpp"
 #include "touchstone/certificate.hpp"
@@ -63,6 +64,9 @@ nlohmann::json truth_facts(const exact::Decision& verdict) {
                        {"text", judge::to_text(judge::truth_of(0, verdict))}};
   if (!verdict.toi) return truth;
   truth["toi"] = moment(*verdict.toi);
+  std::ostringstream polynomial;
+  polynomial << verdict.toi->polynomial();
+  truth["toi"]["polynomial"] = polynomial.str();
   if (!verdict.contact) return truth;
   const exact::ContactParameters place =
       exact::contact_parameters(verdict, exact::power_of_two(-static_cast<long>(time_bits)));

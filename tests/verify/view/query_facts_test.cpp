@@ -52,6 +52,7 @@ TEST(QueryFacts, ARationalTimeOfImpactIsGivenExactly) {
 TEST(QueryFacts, AnIrrationalOneIsNearTheTimeGiven) {
   const nlohmann::json toi = query_facts(at_root_of_a_half(), {}).at("truth").at("toi");
   EXPECT_TRUE(toi.at("exact").is_null());
+  EXPECT_EQ(toi.at("polynomial"), "2 t^2 - 1");
   EXPECT_EQ(toi.at("lower"), "0x1.6a09e667f3bccp-1");
   EXPECT_EQ(toi.at("upper"), "0x1.6a09e667f3bcdp-1");
   const exact::Rational time(toi.at("time").get<std::string>());

@@ -1,9 +1,10 @@
 // The data of the page's queries. The tool writes for each (verify/view/query_facts.cpp):
 //
-//   label, kind, coordinates, min_separation, norm, notes truth collides, text, toi, u, v approach
-//   the least distance without a collision: above, at_most, and the time certificate claim,
-//   accepted, reason, subintervals, text, given answers solver, promise, recorded, verdict, failure,
-//   toi_lower, toi_upper, tolerance, faults, breaks_promise
+//   label, kind, coordinates, min_separation, norm, notes
+//   truth        collides, text, toi (with its polynomial), u, v
+//   approach     the least distance without a collision: above, at_most, and the time
+//   certificate  claim, accepted, reason, subintervals, text, given
+//   answers      solver, promise, recorded, verdict, failure, toi_lower, toi_upper, tolerance, faults, breaks_promise
 //
 // A toi and an approach are lower and upper (doubles), exact (a rational, or null) and time (a rational near
 // it). Here texts of doubles become doubles, and texts of rationals rationals.

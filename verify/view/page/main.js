@@ -1,6 +1,6 @@
 // The page: a list of queries, of which one is shown.
 
-import { add, compare, hexadecimalText, log2, nearest, one, parseDouble, rational, rationalText, shortText, zero } from "./exact.js";
+import { add, compare, doubleText, hexadecimalText, log2, nearest, one, parseDouble, rational, rationalText, shortText, zero } from "./exact.js";
 import { find, make } from "./elements.js";
 import { momentText, placeText, readFacts, verdictText, withoutAnswer } from "./facts.js";
 import { linkOf, readLink, readQuery, writers } from "./formats.js";
@@ -90,7 +90,7 @@ function page() {
     make("p", { id: "nothing", hidden: step !== null || queries.length > 0 }, "Nothing was found: this page has no query."),
     make("section", { id: "step", hidden: step === null }),
     make("section", { id: "query", hidden: true },
-      make("h2", { id: "label" }), make("p", { id: "sentence" }), make("ul", { id: "notes", class: "findings" }),
+      make("h2", { id: "label" }), make("p", { id: "sentence" }), make("p", { id: "root", hidden: true }), make("ul", { id: "notes", class: "findings" }),
       make("div", { class: "pictures" },
         figure("motion", "The primitives, and their traces"),
         figure("corners", "The corners: contact where the origin is in their hull")),
@@ -119,7 +119,8 @@ function page() {
       make("h2", {}, "Copy and paste"),
       make("p", {}, "Text of another query (C++, rows of CSV, JSON, OBJ v lines, or 24 numbers), pasted here, is drawn."),
       make("div", { class: "choice" },
-        ...Object.keys(writers).map((name) => button(`copy_${name.replace(/\+/g, "p")}`, `Copy as ${name}`, "", () => copy(name)))),
+        ...Object.keys(writers).map((name) => button(`copy_${name.replace(/\+/g, "p")}`, `Copy as ${name}`, "", () => copy(name))),
+        button("copy_certificate", "Copy the certificate", "For touchstone-check", () => copyText(look.facts.certificate.text))),
       make("textarea", { id: "text", rows: 10, spellcheck: "false", "aria-label": "A query as text",
         onpaste: () => setTimeout(draw) }),
       make("div", { class: "choice" },
@@ -163,6 +164,13 @@ function writeVerdict(facts) {
   const impact = truth && truth.toi ? ` Time of impact: ${momentText(truth.toi)}${place}.` : "";
   find("sentence").replaceChildren(make("strong", {}, `${facts.kind}${separation}: `,
     make("span", { id: "verdict" }, verdictText(facts)), "."), impact);
+  const toi = truth && truth.toi;
+  find("root").hidden = !toi || typeof toi.exact === "string";
+  if (!find("root").hidden) {
+    find("root").replaceChildren("The time is the only root of ", make("code", {}, toi.polynomial),
+      ` between ${doubleText(toi.lower)} and ${doubleText(toi.upper)}.`);
+  }
+  find("copy_certificate").disabled = !facts.certificate;
 }
 
 function writeList() {
@@ -260,9 +268,12 @@ function writeTable(state = look.motion.at(look.t)) {
 // ---- Copy and paste -----------------------------------------------------------------------------
 
 function copy(name) {
-  if (look === null) return;
+  if (look !== null) copyText(writers[name](look.facts));
+}
+
+function copyText(text) {
   const area = find("text");
-  area.value = writers[name](look.facts);
+  area.value = text;
   area.select();
   for (const radio of document.getElementsByName("kind")) radio.checked = radio.value === look.facts.kind;
   const said = find("drawn");
