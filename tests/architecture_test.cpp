@@ -133,6 +133,10 @@ constexpr auto permissions = std::to_array<Permission>({
     {"verify/", "unistd.h"},
 
     // Everything that needs Linux.
+    {"verify/playground/", "emscripten/emscripten.h"},
+    {"verify/playground/", "fast/"},
+    {"verify/playground/", "nlohmann/"},
+    {"verify/playground/", "verify/"},
     {"verify/solvers/linux/", "verify/"},
     {"verify/solvers/linux/", "fcntl.h"},
     {"verify/solvers/linux/", "linux/"},
@@ -169,6 +173,7 @@ const std::vector<Layer>& verify_layers() {
       {"report",
        {"base", "data", "generate", "io", "jobs", "judge", "mesh", "solvers", "stability"}},
       {"view", {"data", "io", "jobs", "judge", "mesh", "report", "solvers"}},
+      {"playground", {"judge", "solvers", "view"}},
       {"cli",
        {"base", "data", "fuzz", "generate", "io", "jobs", "judge", "mesh", "report", "solvers",
         "stability", "view"}},

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# packages.sh FOLDER: the packages of the playground for WebAssembly: GMP, built from Debian's source, and the headers of
-# fmt and JSON for Modern C++ of this machine. Takes some minutes.
+# packages.sh FOLDER: the packages of the playground for WebAssembly: GMP, built from Debian's source, and headers: of fmt
+# and of JSON for Modern C++, this machine's; of CGAL's numbers, which are GMP's. Takes some minutes.
 set -euo pipefail
 readonly folder=$1
 readonly source='http://deb.debian.org/debian/pool/main/g/gmp/gmp_6.2.1+dfsg1.orig.tar.xz'
@@ -25,5 +25,11 @@ emconfigure ./configure --host=none --build="$(gcc -dumpmachine)" --disable-asse
 mkdir -p "$folder.new"
 cp -r "$work/out/include" "$work/out/lib" "$folder.new"
 cp -r /usr/include/gmpxx.h /usr/include/fmt /usr/include/nlohmann "$folder.new/include"
+# CGAL's own ask for rounding modes, which WebAssembly has not.
+mkdir "$folder.new/include/CGAL"
+for number in integer:mpz_class rational:mpq_class; do
+  printf '#pragma once\n#include <gmpxx.h>\nnamespace CGAL {\nusing Exact_%s = %s;\n}\n' "${number%:*}" "${number#*:}" \
+    >"$folder.new/include/CGAL/Exact_${number%:*}.h"
+done
 rm -rf "$folder"
 mv "$folder.new" "$folder"

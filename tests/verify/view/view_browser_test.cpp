@@ -709,21 +709,22 @@ TEST_F(LivePage, DragsAPointOfTheShownEnd) {
   const nlohmann::json result = result_of({falling(1)}, R"(
     find("move").click();
     move("time", 4096);
-    const canvas = document.querySelector("#motion canvas"), { left, top } = canvas.getBoundingClientRect();
-    // Names stand beside their points: some place around the name of v grabs it.
-    const name = all("#motion .names span").find((one) => one.textContent === "v").getBoundingClientRect();
+    const canvas = document.querySelector("#motion canvas");
+    // A name stands beside its point, to the left or to the right, and a little above.
+    const { left, right, top } = all("#motion .names span").find((one) => one.textContent === "v").getBoundingClientRect();
     const send = (kind, x, y) => canvas.dispatchEvent(new PointerEvent(kind, { pointerId: 1, clientX: x, clientY: y, bubbles: true }));
     canvas.setPointerCapture = () => {};
-    const before = text("#at_t_1 th").length;
     let at = null;
-    for (let dx = -30; dx <= name.width + 30 && at === null; dx += 6) {
-      for (let dy = -10; dy <= 40 && at === null; dy += 6) {
-        const count = asked.length;
-        send("pointerdown", name.left + dx, name.top + dy);
-        send("pointermove", name.left + dx, name.top + dy + 40);
-        if (asked.length > count) at = [dx, dy];
-        send("pointerup", name.left + dx, name.top + dy + 40);
+    for (const x of [right + 9, left - 9]) {
+      const count = asked.length;
+      send("pointerdown", x, top + 20);
+      send("pointermove", x, top + 21);
+      if (asked.length > count) {
+        at = x;
+        send("pointermove", x, top + 60);
       }
+      send("pointerup", x, top + 60);
+      if (at !== null) break;
     }
     say({ at, asked, edited: find("label").textContent, hash: location.hash.length });
   )");
