@@ -2,7 +2,7 @@
 
 `./run results large` records what `./run simulate` asks of collision detection, converts it into a store of shards, and judges
 it and the steps by the recipe for GNU parallel of examples/cluster, whose workers are killed on the way. It takes about an hour
-on two cores, and 40 GB in build/large.
+on two cores, and 50 GB in build/large.
 """
 
 import json
@@ -18,10 +18,10 @@ import time
 SCENES = ["two-heads", "chain-of-rings", "dimpled-ball", "draped-cloth", "twisting-mat --steps 200"]
 LIMIT = 40000  # of queries of a kind in a motion
 FEWEST = 60_000_000
-# The methods that answer all queries; the others answer as many as the seconds of a piece allow.
+# The methods that answer all queries; the others answer as many of each shard as these seconds for all of them allow.
 ON_ALL = ["certified", "tight_inclusion", "tccd"]
 SAMPLED = ["irf", "uirf", "fprf", "rp", "rrp", "bsc", "msrf", "accd"]
-SECONDS_OF_A_PIECE = 20
+SECONDS_OF_SAMPLES = 480
 WORKERS = 2
 KILLS = 6
 
@@ -62,21 +62,23 @@ def in_pieces(command, pieces, folder, options):
             "greatest_memory_bytes": 1024 * usage.ru_maxrss}
 
 
-def cost_by_method(folder):
-    """The time of the oracle and of each method a query, from the results of the pieces, which the merged one leaves out."""
-    oracle, queries, methods = 0.0, 0, {}
-    for piece in sorted(folder.glob("*.json")):
-        if piece.stem == "plan":
-            continue
-        of = json.loads(piece.read_text())
-        oracle += of["us_per_query"] * of["queries"]
-        queries += of["queries"]
-        for method in of["methods"]:
-            if method["queries"]:
-                sums = methods.setdefault(method["name"], [0.0, 0])
-                sums[0] += method["ns_per_query"] * method["queries"]
-                sums[1] += method["queries"]
-    return {"oracle_ns": 1e3 * oracle / queries, "methods_ns": {name: time_ / count for name, (time_, count) in methods.items()}}
+def oracle_and_methods(results):
+    """The time of the oracle and of each method a query, from results that have it, as those of pieces."""
+    sums = {}
+    for of in results:
+        for name, queries, ns in [("oracle", of["queries"], 1e3 * of["us_per_query"]),
+                                  *((m["name"], m["queries"], m["ns_per_query"]) for m in of["methods"] if m["queries"])]:
+            time_, count = sums.get(name, (0.0, 0))
+            sums[name] = time_ + ns * queries, count + queries
+    return {name: time_ / count for name, (time_, count) in sums.items()}
+
+
+def in_one_run(command, options, out):
+    """The result of a command, which may end with wrong answers."""
+    done = subprocess.run([options.tool, *command, "--json", out], capture_output=True, text=True, check=False)
+    if done.returncode not in (0, 1):
+        raise RuntimeError(f"{' '.join(map(str, command))}: exit status {done.returncode}\n{done.stderr}")
+    return json.loads(out.read_text())
 
 
 def measure(options, run):
@@ -85,7 +87,6 @@ def measure(options, run):
     recorded, store, frames = place / "recorded", place / "store", place / "frames"
     place.mkdir(parents=True, exist_ok=True)
     simulator = options.tool.with_name("touchstone-simulate")
-    begin = time.monotonic()
     for scene in SCENES:
         words = scene.split() + (["--steps", "3"] if options.quick else [])
         done = place / f"{words[0]}.json"
@@ -95,15 +96,15 @@ def measure(options, run):
             run([simulator, *words, "--record", recorded, "--record-limit", str(LIMIT), "--npy", *out, "--json",
                  done.with_suffix(".part")])
             done.with_suffix(".part").rename(done)
-    recording = time.monotonic() - begin
     if not (store / "manifest.json").exists():
         print(f"touchstone convert {recorded} --out {store}", flush=True)
         run([options.tool, "convert", recorded, "--out", store, "--source", "simulate " + ", ".join(SCENES), "--licence", "MIT"])
     manifest = json.loads((store / "manifest.json").read_text())
     if manifest["queries"] < FEWEST and not options.quick:
         raise RuntimeError(f"only {manifest['queries']:,} queries were recorded")
-    methods = [word for name in ON_ALL + SAMPLED for word in ("--method", name)]
-    judging = ["certify", store, *methods, "--seconds", str(SECONDS_OF_A_PIECE)]
+    judging = ["certify", store, *(word for name in ON_ALL for word in ("--method", name))]
+    sampling = ["certify", store, *(word for name in SAMPLED for word in ("--method", name)), "--seconds",
+                str(2 if options.quick else SECONDS_OF_SAMPLES)]
     stepping = ["step", frames, "--earliest"]
     runs = []
     for name, command, pieces in (("judged", judging, len(manifest["shards"])),
@@ -112,13 +113,19 @@ def measure(options, run):
         row = in_pieces(command, pieces, place / name, options)
         row["pieces"] = pieces
         if name == "judged":
-            row |= cost_by_method(place / name) | {"bytes": sum(file["bytes"] for shard in manifest["shards"]
-                                                                for file in shard["files"])}
+            pieces_ = [json.loads(file.read_text()) for file in sorted((place / name).glob("[0-9]*.json"))]
+            row |= {"ns": oracle_and_methods(pieces_), "bytes": sum(file["bytes"] for shard in manifest["shards"]
+                                                                    for file in shard["files"])}
         else:
             steps = [piece["result"]["steps"][0] for piece in row.pop("result")["pieces"]]
             row["result"] = {"steps": len(steps), "colliding": sum(not step["free"] for step in steps)}
         row["command"] = "touchstone " + " ".join(
             str(word).replace(str(place), "build/large") for word in command)
         runs.append(row)
-    runs[0]["recording_seconds"] = recording
+    print(f"touchstone {' '.join(map(str, sampling))}", flush=True)
+    sampled = in_one_run(sampling, options, place / "sampled.json")
+    runs.append({"command": "touchstone " + " ".join(str(word).replace(str(place), "build/large") for word in sampling),
+                 "result": sampled, "ns": oracle_and_methods([sampled])})
+    runs[0]["recording_seconds"] = sum(json.loads((place / f"{scene.split()[0]}.json").read_text())["seconds"]["total"]
+                                       for scene in SCENES)
     return runs
