@@ -16,6 +16,13 @@ Decision decide(Kind kind, const Query& query, const Separation& separation) {
   return verdict;
 }
 
+Decision decide(Kind kind, const CurvedQuery& query, const Separation& separation) {
+  const MotionOf<Curved> motion = scale(kind, query, separation);
+  Decision verdict = is_zero(separation) ? decide_contact(motion) : decide_distance(motion);
+  verdict.separation = separation;
+  return verdict;
+}
+
 ContactParameters contact_parameters(const Decision& verdict, const Rational& width) {
   if (!verdict.contact) throw std::invalid_argument("the place of contact is not known");
   const auto& [u, v, denominator] = *verdict.contact;

@@ -12,15 +12,15 @@ class Conditions {
   explicit Conditions(AlgebraicNumber& time) : time_(time) {}
 
   /// The form's sign at the time. Adds the form to the conditions.
-  template <std::size_t degree>
-  int sign(const Form<degree>& form) {
+  template <AnyForm F>
+  int sign(const F& form) {
     const int sign = sign_at(form, time_);
     add(form, sign);
     return sign;
   }
 
-  template <std::size_t degree>
-  void add(const Form<degree>& form, int sign) {
+  template <AnyForm F>
+  void add(const F& form, int sign) {
     // A polynomial that is zero throughout is divisible by all others.
     if (form.is_zero()) return;
     (sign == 0 ? zero_ : nonzero_).push_back(to_polynomial(form));
@@ -41,19 +41,21 @@ using Found = std::optional<ContactConditions>;
 
 /// All triangles of the polygon have its normal (of half a parallelogram's length or the whole) and
 /// its determinant.
-Found in_triangle(const Motion& motion, AlgebraicNumber& time,
+template <class Order>
+Found in_triangle(const MotionOf<Order>& motion, AlgebraicNumber& time,
                   const std::array<std::size_t, 3>& corners, std::size_t axis) {
   Conditions conditions(time);
   if (conditions.sign(determinant(motion)) != 0) return std::nullopt;
   const int orientation = conditions.sign(normal_component(motion, axis));
   for (std::size_t k = 0; k < 3; ++k) {
-    const Form<2> side = cross_component(motion, corners.at(k), corners.at((k + 1) % 3), axis);
+    const auto side = cross_component(motion, corners.at(k), corners.at((k + 1) % 3), axis);
     if (conditions.sign(side) * orientation < 0) return std::nullopt;
   }
   return std::move(conditions).of(TriangleContact{corners, axis});
 }
 
-Found on_segment(const Motion& motion, AlgebraicNumber& time,
+template <class Order>
+Found on_segment(const MotionOf<Order>& motion, AlgebraicNumber& time,
                  const std::array<std::size_t, 2>& corners) {
   Conditions conditions(time);
   const auto [i, j] = corners;
@@ -67,58 +69,60 @@ Found on_segment(const Motion& motion, AlgebraicNumber& time,
 // ---- l2 -----------------------------------------------------------------------------------------
 
 /// d² times the form, in the degree of the values that it is compared with.
-template <std::size_t degree>
-Form<degree + 2> within(const Motion& motion, Form<degree> form) {
-  const Integer square = motion.distance * motion.distance;
-  for (Integer& x : form.c) x *= square;
-  return form * one<2>();
+template <class Order, AnyForm F>
+auto within(const MotionOf<Order>& motion, const F& form) {
+  return form * (motion.reach() * motion.reach());
 }
 
-Found contact_at_vertex(const Motion& motion, AlgebraicNumber& time, std::size_t corner) {
+template <class Order>
+Found contact_at_vertex(const MotionOf<Order>& motion, AlgebraicNumber& time, std::size_t corner) {
   Conditions conditions(time);
-  const Form<2> excess = dot(motion, corner, corner) - within(motion, one<0>());
+  const auto excess = dot(motion, corner, corner) - motion.reach() * motion.reach();
   if (conditions.sign(excess) > 0) return std::nullopt;
   return std::move(conditions).of(VertexContact{corner});
 }
 
-Found contact_at_edge(const Motion& motion, AlgebraicNumber& time,
+template <class Order>
+Found contact_at_edge(const MotionOf<Order>& motion, AlgebraicNumber& time,
                       const std::array<std::size_t, 2>& corners) {
   Conditions conditions(time);
   const auto [i, j] = corners;
-  const Form<2> a_a = dot(motion, i, i), a_b = dot(motion, i, j), b_b = dot(motion, j, j);
-  const Form<2> from = a_b - a_a, to = b_b - a_b, length = to - from;
+  const auto a_a = dot(motion, i, i), a_b = dot(motion, i, j), b_b = dot(motion, j, j);
+  const auto from = a_b - a_a, to = b_b - a_b, length = to - from;
   if (conditions.sign(length) == 0 || conditions.sign(from) > 0 || conditions.sign(to) < 0) {
     return std::nullopt;
   }
-  Form<4> excess = a_a * b_b;  // |w_i × w_j|² by Lagrange's identity
+  auto excess = a_a * b_b;  // |w_i × w_j|² by Lagrange's identity
   subtract_product(excess, a_b, a_b);
   if (conditions.sign(excess - within(motion, length)) > 0) return std::nullopt;
   return std::move(conditions).of(EdgeContact{corners});
 }
 
-Found contact_at_face(const Motion& motion, AlgebraicNumber& time) {
+template <class Order>
+Found contact_at_face(const MotionOf<Order>& motion, AlgebraicNumber& time) {
   Conditions conditions(time);
-  std::array<Form<2>, 3> normal;
-  Form<4> length{};
+  std::array<typename Order::template Form<2>, 3> normal;
+  typename Order::template Form<4> length{};
   for (std::size_t axis = 0; axis < 3; ++axis) {
     normal.at(axis) = normal_component(motion, axis);
     add_product(length, normal.at(axis), normal.at(axis));
   }
   if (conditions.sign(length) == 0) return std::nullopt;
   for (std::size_t i = 0; i < motion.corner_count; ++i) {
-    Form<4> side{};
+    typename Order::template Form<4> side{};
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const std::size_t next = (i + 1) % motion.corner_count;
       add_product(side, normal.at(axis), cross_component(motion, i, next, axis));
     }
     if (conditions.sign(side) < 0) return std::nullopt;
   }
-  const Form<3> det = determinant(motion);
+  const auto det = determinant(motion);
   if (conditions.sign(det * det - within(motion, length)) > 0) return std::nullopt;
   return std::move(conditions).of(FaceContact{});
 }
 
-Found contact_in_l2(const Motion& motion, AlgebraicNumber& time) {
+template <class Order>
+Found contact_in_l2(const MotionOf<Order>& motion, AlgebraicNumber& time) {
   for (std::size_t i = 0; i < motion.corner_count; ++i) {
     if (Found found = contact_at_vertex(motion, time, i)) return found;
   }
@@ -132,15 +136,19 @@ Found contact_in_l2(const Motion& motion, AlgebraicNumber& time) {
 // ---- linf ---------------------------------------------------------------------------------------
 
 /// Collects for every axis a corner that is not above and one that is not below.
+template <class Order>
 class CubeContact {
  public:
-  CubeContact(const Motion& motion, AlgebraicNumber& time)
+  template <std::size_t n>
+  using Form = typename Order::template Form<n>;
+
+  CubeContact(const MotionOf<Order>& motion, AlgebraicNumber& time)
       : motion_(motion), time_(time), conditions_(time) {}
 
   Found find() {
     for (std::size_t axis = 0; axis < 3; ++axis) {
       std::array<Form<0>, 3> direction{};
-      direction.at(axis) = one<0>();
+      direction.at(axis) = Form<0>{{Integer(1)}};
       if (!reaches_across(direction)) return std::nullopt;
     }
     const std::array normal{normal_component(motion_, 0), normal_component(motion_, 1),
@@ -157,8 +165,8 @@ class CubeContact {
  private:
   /// The axes e_k × (w_j − w_i).
   bool reaches_across_side(std::size_t i) {
-    const Motion::Point &from = motion_.corners.at(i),
-                        &to = motion_.corners.at((i + 1) % motion_.corner_count);
+    const auto& from = motion_.corners.at(i);
+    const auto& to = motion_.corners.at((i + 1) % motion_.corner_count);
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const std::size_t y = (axis + 1) % 3, z = (axis + 2) % 3;
       std::array<Form<1>, 3> direction{};
@@ -171,13 +179,13 @@ class CubeContact {
 
   /// True if the polygon has corners on both sides of the planes that would separate it from the
   /// cube along an axis.
-  template <std::size_t degree>
-  bool reaches_across(const std::array<Form<degree>, 3>& direction) {
-    Form<degree> length{};
-    for (const Form<degree>& x : direction) sign_at(x, time_) < 0 ? length -= x : length += x;
-    const Form<degree + 1> reach = raised(multiple(length, motion_.distance));
+  template <AnyForm F>
+  bool reaches_across(const std::array<F, 3>& direction) {
+    F length{};
+    for (const F& x : direction) sign_at(x, time_) < 0 ? length -= x : length += x;
+    const auto reach = length * motion_.reach();
     const auto value = [&](std::size_t corner) {
-      Form<degree + 1> sum{};
+      decltype(length * motion_.reach()) sum{};
       for (std::size_t axis = 0; axis < 3; ++axis) {
         add_product(sum, direction.at(axis), motion_.corners.at(corner).at(axis));
       }
@@ -203,14 +211,16 @@ class CubeContact {
     return zero.has_value();
   }
 
-  const Motion& motion_;
+  const MotionOf<Order>& motion_;
   AlgebraicNumber& time_;
   Conditions conditions_;
 };
 
 }  // namespace
 
-std::optional<ContactConditions> find_contact(const Motion& motion, AlgebraicNumber& time) {
+template <class Order>
+std::optional<ContactConditions> find_contact(const MotionOf<Order>& motion,
+                                              AlgebraicNumber& time) {
   for (std::size_t axis = 0; axis < 3; ++axis) {
     if (sign_at(normal_component(motion, axis), time) == 0) continue;
     for (std::size_t second = 1; second + 1 < motion.corner_count; ++second) {
@@ -224,9 +234,18 @@ std::optional<ContactConditions> find_contact(const Motion& motion, AlgebraicNum
   return std::nullopt;
 }
 
-std::optional<ContactConditions> find_near_contact(const Motion& motion, AlgebraicNumber& time) {
+template <class Order>
+std::optional<ContactConditions> find_near_contact(const MotionOf<Order>& motion,
+                                                   AlgebraicNumber& time) {
   if (motion.norm == Norm::l2) return contact_in_l2(motion, time);
   return CubeContact(motion, time).find();
 }
+
+template std::optional<ContactConditions> find_contact(const MotionOf<Straight>&, AlgebraicNumber&);
+template std::optional<ContactConditions> find_contact(const MotionOf<Curved>&, AlgebraicNumber&);
+template std::optional<ContactConditions> find_near_contact(const MotionOf<Straight>&,
+                                                            AlgebraicNumber&);
+template std::optional<ContactConditions> find_near_contact(const MotionOf<Curved>&,
+                                                            AlgebraicNumber&);
 
 }  // namespace touchstone::exact

@@ -12,20 +12,24 @@ namespace touchstone::exact {
 namespace {
 
 /// The contact's (u,v) as forms with a common denominator that is positive at the time of contact.
+template <class Order>
 struct ContactForms {
-  Form<2> u_numerator;
-  Form<2> v_numerator;
-  Form<2> denominator;
+  typename Order::template Form<2> u_numerator, v_numerator, denominator;
 };
 
 /// The sign rules of the theorem at given times. Polynomials are computed when they are first
 /// needed.
+template <class Order>
 class ContainsOrigin {
  public:
-  explicit ContainsOrigin(const Motion& motion) : motion_(motion) {}
+  template <std::size_t n>
+  using Form = typename Order::template Form<n>;
+  using Contact = ContactForms<Order>;
+
+  explicit ContainsOrigin(const MotionOf<Order>& motion) : motion_(motion) {}
 
   /// The place of the origin in conv{w_i(t)}; empty if it is outside. \pre det vanishes at t.
-  std::optional<ContactForms> at(AlgebraicNumber& t) {
+  std::optional<Contact> at(AlgebraicNumber& t) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const int orientation = sign_at(normal(axis), t);
       if (orientation != 0) return in_polygon(t, axis, orientation);
@@ -75,17 +79,17 @@ class ContainsOrigin {
   }
 
   /// N_axis ≠ 0. Cramer's rule: u N = w_last × w_0 and v N = w_0 × w_1.
-  std::optional<ContactForms> in_polygon(AlgebraicNumber& t, std::size_t axis, int orientation) {
+  std::optional<Contact> in_polygon(AlgebraicNumber& t, std::size_t axis, int orientation) {
     for (std::size_t edge = 0; edge < edges(); ++edge) {
       if (sign_at(cross(edge, axis), t) * orientation < 0) return std::nullopt;
     }
     const auto oriented = [&](const Form<2>& form) { return orientation > 0 ? form : -form; };
-    return ContactForms{oriented(cross(edges() - 1, axis)), oriented(cross(0, axis)),
-                        oriented(normal(axis))};
+    return Contact{oriented(cross(edges() - 1, axis)), oriented(cross(0, axis)),
+                   oriented(normal(axis))};
   }
 
   /// N = 0.
-  std::optional<ContactForms> in_segment(AlgebraicNumber& t) {
+  std::optional<Contact> in_segment(AlgebraicNumber& t) {
     for (std::size_t edge = 0; edge < edges(); ++edge) {
       const auto vanishes = [&](std::size_t axis) { return sign_at(cross(edge, axis), t) == 0; };
       if (vanishes(0) && vanishes(1) && vanishes(2) &&
@@ -97,8 +101,8 @@ class ContainsOrigin {
   }
 
   /// 0 = (1−λ) w_i + λ w_j, hence λ = w_i,k / (w_i,k − w_j,k) for any axis k where they differ.
-  [[nodiscard]] ContactForms on_segment(AlgebraicNumber& t, std::size_t i, std::size_t j) const {
-    Form<1> numerator{}, denominator = one<1>();
+  [[nodiscard]] Contact on_segment(AlgebraicNumber& t, std::size_t i, std::size_t j) const {
+    Form<1> numerator{}, denominator = motion_.denominator;
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const Form<1>& from = motion_.corners.at(i).at(axis);
       const Form<1> difference = from - motion_.corners.at(j).at(axis);
@@ -109,24 +113,25 @@ class ContainsOrigin {
       break;
     }
     const auto between = [&](int at_i, int at_j) {
-      const Form<1> start = denominator * Form<0>{{Integer(at_i)}};
-      return (start + numerator * Form<0>{{Integer(at_j - at_i)}}) * one<1>();
+      const Form<1> start = multiple(denominator, at_i);
+      return (start + multiple(numerator, at_j - at_i)) * motion_.denominator;
     };
     const Corner &from = corners(motion_.kind)[i], &to = corners(motion_.kind)[j];
-    return {between(from.u, to.u), between(from.v, to.v), denominator * one<1>()};
+    return {between(from.u, to.u), between(from.v, to.v), denominator * motion_.denominator};
   }
 
-  const Motion& motion_;
+  const MotionOf<Order>& motion_;
   std::array<std::optional<Form<2>>, 3> normals_;
   std::array<std::array<std::optional<Form<2>>, 3>, 4> crosses_;
 };
 
 /// The denominator times F(t,u,v), component `axis`, from the eight points.
-Form<3> scaled_contact_function(const Motion& motion, const ContactForms& contact,
-                                std::size_t axis) {
+template <class Order>
+auto scaled_contact_function(const MotionOf<Order>& motion, const ContactForms<Order>& contact,
+                             std::size_t axis) {
   const auto& [u, v, d] = contact;
-  const auto point = [&](std::size_t i) -> const Form<1>& { return motion.points.at(i).at(axis); };
-  Form<3> value;
+  const auto point = [&](std::size_t i) -> const auto& { return motion.points.at(i).at(axis); };
+  typename Order::template Form<3> value{};
   if (motion.kind == Kind::vertex_face) {
     add_product(value, d, point(0));
     subtract_product(value, d - u - v, point(1));
@@ -141,10 +146,12 @@ Form<3> scaled_contact_function(const Motion& motion, const ContactForms& contac
 }
 
 /// Checks that F(toi,u,v) = 0 and that (u,v) is in the domain; a failure is a fault of the oracle.
-void check_contact(const Motion& motion, const ContactForms& contact, AlgebraicNumber& toi) {
+template <class Order>
+void check_contact(const MotionOf<Order>& motion, const ContactForms<Order>& contact,
+                   AlgebraicNumber& toi) {
   const auto& [u, v, d] = contact;
   bool holds = sign_at(d, toi) > 0;
-  const auto require_nonnegative = [&](const Form<2>& form) {
+  const auto require_nonnegative = [&](const auto& form) {
     holds = holds && sign_at(form, toi) >= 0;
   };
   require_nonnegative(u);
@@ -156,14 +163,15 @@ void check_contact(const Motion& motion, const ContactForms& contact, AlgebraicN
     require_nonnegative(d - v);
   }
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    const Form<3> value = scaled_contact_function(motion, contact, axis);
+    const auto value = scaled_contact_function(motion, contact, axis);
     holds = holds && (value.is_zero() || toi.is_root_of(to_polynomial(value)));
   }
   if (!holds) throw std::logic_error("touchstone: the oracle found a contact where F is not zero");
 }
 
 /// Candidates of motion in a common plane, in ascending order.
-std::vector<AlgebraicNumber> planar_candidates(ContainsOrigin& contains_origin) {
+template <class Order>
+std::vector<AlgebraicNumber> planar_candidates(ContainsOrigin<Order>& contains_origin) {
   std::vector<Polynomial> distinct;
   for (const Polynomial& p : contains_origin.planar_polynomials()) {
     Polynomial squarefree = squarefree_part(p);
@@ -182,8 +190,10 @@ std::vector<AlgebraicNumber> planar_candidates(ContainsOrigin& contains_origin) 
 }
 
 /// Candidate times in ascending order, among them the toi if the query collides.
-std::vector<AlgebraicNumber> candidates(const Motion& motion, ContainsOrigin& contains_origin) {
-  const Form<3> det = determinant(motion);
+template <class Order>
+std::vector<AlgebraicNumber> candidates(const MotionOf<Order>& motion,
+                                        ContainsOrigin<Order>& contains_origin) {
+  const auto det = determinant(motion);
   const auto is_positive = [](const Integer& c) { return sgn(c) > 0; };
   const auto is_negative = [](const Integer& c) { return sgn(c) < 0; };
   if (std::ranges::all_of(det.c, is_positive) || std::ranges::all_of(det.c, is_negative)) return {};
@@ -193,10 +203,11 @@ std::vector<AlgebraicNumber> candidates(const Motion& motion, ContainsOrigin& co
 
 }  // namespace
 
-Decision decide_contact(const Motion& motion) {
-  ContainsOrigin contains_origin(motion);
+template <class Order>
+Decision decide_contact(const MotionOf<Order>& motion) {
+  ContainsOrigin<Order> contains_origin(motion);
   for (AlgebraicNumber& t : candidates(motion, contains_origin)) {
-    const std::optional<ContactForms> forms = contains_origin.at(t);
+    const auto forms = contains_origin.at(t);
     if (!forms) continue;
     check_contact(motion, *forms, t);
     return {.toi = std::move(t),
@@ -205,5 +216,8 @@ Decision decide_contact(const Motion& motion) {
   }
   return {};
 }
+
+template Decision decide_contact(const MotionOf<Straight>& motion);
+template Decision decide_contact(const MotionOf<Curved>& motion);
 
 }  // namespace touchstone::exact

@@ -14,8 +14,9 @@
 ///     passes every point between its ends). The origin is in it iff for some edge i, j
 ///     w_i × w_j = 0 and w_i · w_j ≤ 0.
 ///
-/// As functions of t these values are polynomials, det of degree 3, the others of degree 2. The set
-/// of times of contact is closed, so if it is not empty it has a least element. The candidates are
+/// As functions of t these values are polynomials, det of degree 3, the others of degree 2, for
+/// motion on straight lines; of degrees 3k and 2k for motion on curves of degree k. The set of
+/// times of contact is closed, so if it is not empty it has a least element. The candidates are
 ///   - det ≢ 0: the roots of det in [0,1].
 ///   - det ≡ 0, some N_k ≢ 0 (a polygon whose plane always contains the origin): 0 and the roots in
 ///     [0,1] of N_k and of the (w_i × w_{i+1})_k. Between neighbouring ones N_k ≠ 0 and no sign of
@@ -40,6 +41,7 @@ namespace touchstone::exact {
 /// The verdict at distance 0, with the place of contact. Each axis of the motion may have its own
 /// unit.
 /// \throws std::logic_error if F is not zero at the contact, that is if the oracle is wrong.
-[[nodiscard]] Decision decide_contact(const Motion& motion);
+template <class Order>
+[[nodiscard]] Decision decide_contact(const MotionOf<Order>& motion);
 
 }  // namespace touchstone::exact

@@ -73,19 +73,92 @@ Motion in_units(Kind kind, const Query& query, const std::array<int, 3>& units) 
       }
     }
   }
-  for (const Corner& corner : corners(kind)) {
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      motion.corners[motion.corner_count][axis] =
-          motion.points[corner.plus][axis] - motion.points[corner.minus][axis];
-    }
-    ++motion.corner_count;
-  }
+  set_corners(motion);
   return motion;
+}
+
+/// The distance of a separation. \throws std::invalid_argument if it is not valid.
+Decomposed distance_of(const Separation& separation) {
+  // A comparison accepts a negative subnormal if the environment treats it as zero.
+  const bool is_infinite_or_nan = !is_valid(separation);
+  const Decomposed distance =
+      is_infinite_or_nan ? Decomposed{-1, 0} : decompose(separation.distance);
+  if (distance.significand < 0) {
+    throw std::invalid_argument("a separation's distance must be finite and not negative");
+  }
+  return distance;
+}
+
+// ---- Curves -------------------------------------------------------------------------------------
+
+/// Row n of Pascal's triangle.
+std::vector<Integer> binomials(std::size_t n) {
+  std::vector<Integer> row{1};
+  for (std::size_t k = 1; k <= n; ++k) row.push_back(row.back() * (n - k + 1) / k);
+  return row;
+}
+
+/// A resting point has one weight, which does not matter.
+bool is_rational(const Trajectory& curve) { return curve.weights.size() > 1; }
+
+/// The weights as a form with integer coefficients; 1 for a polynomial curve.
+CurvedForm weight_form(const Trajectory& curve) {
+  if (!is_rational(curve)) return {{Integer(1)}};
+  int unit = no_exponent;
+  for (const double weight : curve.weights) unit = std::min(unit, last_exponent(decompose(weight)));
+  CurvedForm form{binomials(curve.degree())};
+  for (std::size_t j = 0; j < form.c.size(); ++j) {
+    form.c[j] *= in_units(decompose(curve.weights[j]), unit);
+  }
+  return form;
+}
+
+/// Weight times position along an axis, in units 2^unit.
+CurvedForm numerator(const Trajectory& curve, const CurvedForm& weights, std::size_t axis,
+                     int unit) {
+  CurvedForm form = is_rational(curve) ? weights : CurvedForm{binomials(curve.degree())};
+  for (std::size_t j = 0; j < form.c.size(); ++j) {
+    form.c[j] *= in_units(decompose(curve.control[j][axis]), unit);
+  }
+  return form;
+}
+
+void require_valid(const Trajectory& curve) {
+  if (curve.control.empty() || curve.degree() > greatest_degree) {
+    throw std::invalid_argument("a trajectory must have 1 to 9 control points");
+  }
+  if (curve.weights.empty()) return;
+  if (curve.weights.size() != curve.control.size()) {
+    throw std::invalid_argument("a trajectory must have as many weights as control points");
+  }
+  for (const double weight : curve.weights) {
+    if (decompose(weight).significand <= 0) {
+      throw std::invalid_argument("the weights of a trajectory must be positive");
+    }
+  }
+}
+
+/// The same polynomial as a form of this degree: multiplied by powers of (1−t) + t.
+CurvedForm raised_to(CurvedForm form, std::size_t degree) {
+  const CurvedForm step{{Integer(1), Integer(1)}};
+  while (form.c.size() <= degree) form = form * step;
+  return form;
+}
+
+/// The denominators of the points, those of equal weights once.
+std::vector<CurvedForm> distinct_weights(const std::vector<CurvedForm>& weights) {
+  std::vector<CurvedForm> distinct;
+  for (const CurvedForm& form : weights) {
+    const auto is_this = [&](const CurvedForm& other) { return other.c == form.c; };
+    if (form.c.size() > 1 && std::ranges::none_of(distinct, is_this)) distinct.push_back(form);
+  }
+  return distinct;
 }
 
 }  // namespace
 
 Polynomial to_polynomial(std::span<const Integer> form) {
+  if (form.empty()) return {};
   // With s = 1−t, one factor s at a time: Σ c_k s^(n−k) t^k by Horner's rule in s.
   std::vector<Integer> a(form.size());
   a[0] = form[0];
@@ -97,6 +170,7 @@ Polynomial to_polynomial(std::span<const Integer> form) {
 }
 
 int sign_at(std::span<const Integer> form, AlgebraicNumber& t) {
+  if (form.empty()) return 0;
   if (t.rational() == Rational(0)) return sgn(form.front());
   if (t.rational() == Rational(1)) return sgn(form.back());
   bool positive = false, negative = false;
@@ -114,13 +188,7 @@ Motion scale_to_integers(Kind kind, const Query& query) {
 }
 
 Motion scale_uniformly(Kind kind, const Query& query, const Separation& separation) {
-  // A comparison accepts a negative subnormal if the environment treats it as zero.
-  const bool is_infinite_or_nan = !is_valid(separation);
-  const Decomposed distance =
-      is_infinite_or_nan ? Decomposed{-1, 0} : decompose(separation.distance);
-  if (distance.significand < 0) {
-    throw std::invalid_argument("a separation's distance must be finite and not negative");
-  }
+  const Decomposed distance = distance_of(separation);
   int unit = last_exponent(distance);
   for (std::size_t axis = 0; axis < 3; ++axis) unit = std::min(unit, axis_exponent(query, axis));
   Motion motion = in_units(kind, query, {unit, unit, unit});
@@ -129,39 +197,44 @@ Motion scale_uniformly(Kind kind, const Query& query, const Separation& separati
   return motion;
 }
 
-Form<2> cross_component(const Motion& motion, std::size_t i, std::size_t j, std::size_t axis) {
-  const Motion::Point &a = motion.corners[i], &b = motion.corners[j];
-  const std::size_t y = (axis + 1) % 3, z = (axis + 2) % 3;
-  Form<2> result = a[y] * b[z];
-  subtract_product(result, a[z], b[y]);
-  return result;
-}
-
-Form<2> dot(const Motion& motion, std::size_t i, std::size_t j) {
-  const Motion::Point &a = motion.corners[i], &b = motion.corners[j];
-  Form<2> sum;
-  for (std::size_t axis = 0; axis < 3; ++axis) add_product(sum, a[axis], b[axis]);
-  return sum;
-}
-
-Form<2> normal_component(const Motion& motion, std::size_t axis) {
-  const std::size_t last = motion.corner_count - 1;
-  const std::size_t y = (axis + 1) % 3, z = (axis + 2) % 3;
-  const auto edge = [&](std::size_t corner, std::size_t k) {
-    return motion.corners[corner][k] - motion.corners[0][k];
-  };
-  Form<2> result = edge(1, y) * edge(last, z);
-  subtract_product(result, edge(1, z), edge(last, y));
-  return result;
-}
-
-Form<3> determinant(const Motion& motion) {
-  const std::size_t last = motion.corner_count - 1;
-  Form<3> sum;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    add_product(sum, cross_component(motion, 0, 1, axis), motion.corners[last][axis]);
+MotionOf<Curved> scale(Kind kind, const CurvedQuery& query, const Separation& separation) {
+  const Decomposed distance = distance_of(separation);
+  std::array<int, 3> units{no_exponent, no_exponent, no_exponent};
+  std::vector<CurvedForm> weights;
+  for (const Trajectory& curve : query) {
+    require_valid(curve);
+    weights.push_back(weight_form(curve));
+    for (const auto& point : curve.control) {
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        units[axis] = std::min(units[axis], last_exponent(decompose(point[axis])));
+      }
+    }
   }
-  return sum;
+  MotionOf<Curved> motion{.kind = kind, .points = {}, .corners = {}, .corner_count = 0};
+  if (distance.significand != 0) {
+    units.fill(std::min(std::ranges::min(units), last_exponent(distance)));
+    motion.distance = in_units(distance, units[0]);
+  }
+  motion.norm = separation.norm;
+  const std::vector<CurvedForm> distinct = distinct_weights(weights);
+  std::size_t degree = 1;
+  for (std::size_t point = 0; point < moving_points; ++point) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      CurvedForm form = numerator(query[point], weights[point], axis, units[axis]);
+      for (const CurvedForm& other : distinct) {
+        if (other.c != weights[point].c) form = form * other;
+      }
+      degree = std::max(degree, form.c.size() - 1);
+      motion.points[point][axis] = std::move(form);
+    }
+  }
+  for (const CurvedForm& other : distinct) motion.denominator = motion.denominator * other;
+  motion.denominator = raised_to(std::move(motion.denominator), degree);
+  for (auto& point : motion.points) {
+    for (CurvedForm& form : point) form = raised_to(std::move(form), degree);
+  }
+  set_corners(motion);
+  return motion;
 }
 
 }  // namespace touchstone::exact

@@ -10,15 +10,18 @@
 /// A polynomial of degree n in time is held as a *form*, Σ c_k (1−t)^(n−k) t^k: a point that moves
 /// from a to b is the form (a, b), products are convolutions, and the c_k are the polynomial's
 /// Bernstein coefficients on [0,1] times binomials, so their signs bound the sign on all of [0,1].
+/// A Bézier curve of degree k is a form of degree k: its control points times binomials.
 
 #include <algorithm>
 #include <array>
+#include <concepts>
 #include <cstddef>
 #include <span>
 #include <utility>
 #include <vector>
 
 #include "touchstone/algebraic_number.hpp"
+#include "touchstone/curved_query.hpp"
 #include "touchstone/number.hpp"
 #include "touchstone/polynomial.hpp"
 #include "touchstone/query.hpp"
@@ -33,38 +36,76 @@ struct Form {
   [[nodiscard]] bool is_zero() const {
     return std::ranges::all_of(c, [](const Integer& x) { return sgn(x) == 0; });
   }
+};
 
-  Form& operator+=(const Form& other) {
-    for (std::size_t k = 0; k <= degree; ++k) c[k] += other.c[k];
-    return *this;
-  }
-  Form& operator-=(const Form& other) {
-    for (std::size_t k = 0; k <= degree; ++k) c[k] -= other.c[k];
-    return *this;
-  }
-  friend Form operator+(Form a, const Form& b) { return a += b; }
-  friend Form operator-(Form a, const Form& b) { return a -= b; }
-  friend Form operator-(Form a) {
-    for (Integer& x : a.c) x = -x;
-    return a;
+/// The same of a degree that is known when the program runs. Without coefficients it is zero, of
+/// any degree.
+struct CurvedForm {
+  std::vector<Integer> c;
+
+  [[nodiscard]] bool is_zero() const {
+    return std::ranges::all_of(c, [](const Integer& x) { return sgn(x) == 0; });
   }
 };
 
-/// sum += a b, by convolution.
-template <std::size_t m, std::size_t n>
-void add_product(Form<m + n>& sum, const Form<m>& a, const Form<n>& b) {
-  for (std::size_t i = 0; i <= m; ++i) {
-    for (std::size_t j = 0; j <= n; ++j) {
+template <class F>
+concept AnyForm = requires(F form) {
+  { form.is_zero() } -> std::same_as<bool>;
+  form.c;
+};
+
+/// Makes room for so many coefficients in a form without any.
+template <std::size_t degree>
+void make_room(Form<degree>&, std::size_t) {}
+inline void make_room(CurvedForm& form, std::size_t size) {
+  if (form.c.empty()) form.c.resize(size);
+}
+
+template <AnyForm F>
+F& operator+=(F& a, const F& b) {
+  make_room(a, b.c.size());
+  for (std::size_t k = 0; k < b.c.size(); ++k) a.c[k] += b.c[k];
+  return a;
+}
+template <AnyForm F>
+F& operator-=(F& a, const F& b) {
+  make_room(a, b.c.size());
+  for (std::size_t k = 0; k < b.c.size(); ++k) a.c[k] -= b.c[k];
+  return a;
+}
+template <AnyForm F>
+[[nodiscard]] F operator+(F a, const F& b) {
+  return a += b;
+}
+template <AnyForm F>
+[[nodiscard]] F operator-(F a, const F& b) {
+  return a -= b;
+}
+template <AnyForm F>
+[[nodiscard]] F operator-(F a) {
+  for (Integer& x : a.c) x = -x;
+  return a;
+}
+
+/// sum += a b, by convolution. The degree of the sum is that of the product.
+template <AnyForm Sum, AnyForm A, AnyForm B>
+void add_product(Sum& sum, const A& a, const B& b) {
+  if (a.c.empty() || b.c.empty()) return;
+  make_room(sum, a.c.size() + b.c.size() - 1);
+  for (std::size_t i = 0; i < a.c.size(); ++i) {
+    for (std::size_t j = 0; j < b.c.size(); ++j) {
       mpz_addmul(sum.c[i + j].get_mpz_t(), a.c[i].get_mpz_t(), b.c[j].get_mpz_t());
     }
   }
 }
 
 /// sum −= a b.
-template <std::size_t m, std::size_t n>
-void subtract_product(Form<m + n>& sum, const Form<m>& a, const Form<n>& b) {
-  for (std::size_t i = 0; i <= m; ++i) {
-    for (std::size_t j = 0; j <= n; ++j) {
+template <AnyForm Sum, AnyForm A, AnyForm B>
+void subtract_product(Sum& sum, const A& a, const B& b) {
+  if (a.c.empty() || b.c.empty()) return;
+  make_room(sum, a.c.size() + b.c.size() - 1);
+  for (std::size_t i = 0; i < a.c.size(); ++i) {
+    for (std::size_t j = 0; j < b.c.size(); ++j) {
       mpz_submul(sum.c[i + j].get_mpz_t(), a.c[i].get_mpz_t(), b.c[j].get_mpz_t());
     }
   }
@@ -73,6 +114,11 @@ void subtract_product(Form<m + n>& sum, const Form<m>& a, const Form<n>& b) {
 template <std::size_t m, std::size_t n>
 [[nodiscard]] Form<m + n> operator*(const Form<m>& a, const Form<n>& b) {
   Form<m + n> product;
+  add_product(product, a, b);
+  return product;
+}
+[[nodiscard]] inline CurvedForm operator*(const CurvedForm& a, const CurvedForm& b) {
+  CurvedForm product;
   add_product(product, a, b);
   return product;
 }
@@ -87,20 +133,9 @@ template <std::size_t degree>
   }
 }
 
-/// The same polynomial as a form of one higher degree: multiplied by (1−t) + t.
-template <std::size_t degree>
-[[nodiscard]] Form<degree + 1> raised(const Form<degree>& form) {
-  Form<degree + 1> result;
-  for (std::size_t k = 0; k <= degree; ++k) {
-    result.c[k] += form.c[k];
-    result.c[k + 1] += form.c[k];
-  }
-  return result;
-}
-
 /// factor · form.
-template <std::size_t degree>
-[[nodiscard]] Form<degree> multiple(Form<degree> form, const Integer& factor) {
+template <AnyForm F>
+[[nodiscard]] F multiple(F form, const Integer& factor) {
   for (Integer& x : form.c) x *= factor;
   return form;
 }
@@ -108,8 +143,8 @@ template <std::size_t degree>
 /// The polynomial of the form with these coefficients, in the monomial basis.
 [[nodiscard]] Polynomial to_polynomial(std::span<const Integer> form);
 
-template <std::size_t degree>
-[[nodiscard]] Polynomial to_polynomial(const Form<degree>& form) {
+template <AnyForm F>
+[[nodiscard]] Polynomial to_polynomial(const F& form) {
   return to_polynomial(std::span<const Integer>(form.c));
 }
 
@@ -117,13 +152,33 @@ template <std::size_t degree>
 /// sign changes has the sign of its coefficients.
 [[nodiscard]] int sign_at(std::span<const Integer> form, AlgebraicNumber& t);
 
-template <std::size_t degree>
-[[nodiscard]] int sign_at(const Form<degree>& form, AlgebraicNumber& t) {
+template <AnyForm F>
+[[nodiscard]] int sign_at(const F& form, AlgebraicNumber& t) {
   return sign_at(std::span<const Integer>(form.c), t);
 }
 
-/// The four moving points and the corners of a query, scaled to integers.
-struct Motion {
+/// Motion on straight lines: a coordinate is a form of degree 1.
+struct Straight {
+  template <std::size_t n>
+  using Form = exact::Form<n>;
+  static Form<1> one() { return exact::one<1>(); }
+};
+
+/// Motion on curves: a coordinate is a form of any degree k, which is the same for all, and what is
+/// a form of degree n for straight lines is one of degree n k.
+struct Curved {
+  template <std::size_t n>
+  using Form = CurvedForm;
+  static Form<1> one() { return {{Integer(1)}}; }
+};
+
+/// The four moving points and the corners of a query, scaled to integers, times a common
+/// denominator that is positive on [0,1]: it moves no zero of F, and the corners stay those of a
+/// triangle or parallelogram.
+template <class Order>
+struct MotionOf {
+  template <std::size_t n>
+  using Form = typename Order::template Form<n>;
   using Point = std::array<Form<1>, 3>;
 
   Kind kind;
@@ -134,7 +189,25 @@ struct Motion {
   /// The minimum separation in units of the coordinates; 0 if each axis has its own unit.
   Integer distance = 0;
   Norm norm = Norm::l2;
+  Form<1> denominator = Order::one();
+
+  /// The distance times the denominator, as the corners are.
+  [[nodiscard]] Form<1> reach() const { return multiple(denominator, distance); }
 };
+using Motion = MotionOf<Straight>;
+
+/// Sets the corners from the points.
+template <class Order>
+void set_corners(MotionOf<Order>& motion) {
+  motion.corner_count = 0;
+  for (const Corner& corner : corners(motion.kind)) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      motion.corners[motion.corner_count][axis] =
+          motion.points[corner.plus][axis] - motion.points[corner.minus][axis];
+    }
+    ++motion.corner_count;
+  }
+}
 
 /// Scales each axis by its own power of two.
 /// \throws std::domain_error if a coordinate is NaN or infinite.
@@ -148,18 +221,55 @@ struct Motion {
                                      const Separation& separation = {.distance = 0.0,
                                                                      .norm = Norm::l2});
 
+/// As scale_to_integers where the distance is 0, else as scale_uniformly.
+/// \throws std::domain_error if a number is NaN or infinite; std::invalid_argument if the
+/// separation or the query is not valid.
+[[nodiscard]] MotionOf<Curved> scale(Kind kind, const CurvedQuery& query,
+                                     const Separation& separation);
+
 /// Component `axis` of w_i × w_j as a function of time.
-[[nodiscard]] Form<2> cross_component(const Motion& motion, std::size_t i, std::size_t j,
-                                      std::size_t axis);
+template <class Order>
+[[nodiscard]] auto cross_component(const MotionOf<Order>& motion, std::size_t i, std::size_t j,
+                                   std::size_t axis) {
+  const auto &a = motion.corners[i], &b = motion.corners[j];
+  const std::size_t y = (axis + 1) % 3, z = (axis + 2) % 3;
+  auto result = a[y] * b[z];
+  subtract_product(result, a[z], b[y]);
+  return result;
+}
 
 /// w_i · w_j, each axis still scaled by its own power of two: its sign is meaningful only where w_i
 /// and w_j are parallel.
-[[nodiscard]] Form<2> dot(const Motion& motion, std::size_t i, std::size_t j);
+template <class Order>
+[[nodiscard]] auto dot(const MotionOf<Order>& motion, std::size_t i, std::size_t j) {
+  const auto &a = motion.corners[i], &b = motion.corners[j];
+  auto sum = a[0] * b[0];
+  for (std::size_t axis = 1; axis < 3; ++axis) add_product(sum, a[axis], b[axis]);
+  return sum;
+}
 
 /// Component `axis` of the polygon's normal N = (w_1 − w_0) × (w_last − w_0).
-[[nodiscard]] Form<2> normal_component(const Motion& motion, std::size_t axis);
+template <class Order>
+[[nodiscard]] auto normal_component(const MotionOf<Order>& motion, std::size_t axis) {
+  const std::size_t last = motion.corner_count - 1;
+  const std::size_t y = (axis + 1) % 3, z = (axis + 2) % 3;
+  const auto edge = [&](std::size_t corner, std::size_t k) {
+    return motion.corners[corner][k] - motion.corners[0][k];
+  };
+  auto result = edge(1, y) * edge(last, z);
+  subtract_product(result, edge(1, z), edge(last, y));
+  return result;
+}
 
 /// det(w_0, w_1, w_last): zero iff the origin is in the polygon's plane.
-[[nodiscard]] Form<3> determinant(const Motion& motion);
+template <class Order>
+[[nodiscard]] auto determinant(const MotionOf<Order>& motion) {
+  const std::size_t last = motion.corner_count - 1;
+  auto sum = cross_component(motion, 0, 1, 0) * motion.corners[last][0];
+  for (std::size_t axis = 1; axis < 3; ++axis) {
+    add_product(sum, cross_component(motion, 0, 1, axis), motion.corners[last][axis]);
+  }
+  return sum;
+}
 
 }  // namespace touchstone::exact

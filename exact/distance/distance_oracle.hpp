@@ -8,9 +8,9 @@
 ///
 /// At every earlier time some axis separates. The search (exact/distance/separating_axes.hpp) goes
 /// from 0 to the first time at which no axis separates: a root of one of their polynomials, of
-/// degree at most 8. That time is then checked by the conditions of a contact
-/// (exact/contact/contact_conditions.hpp), which do not depend on separating axes. The rules cover
-/// every case: also zero-length edges, faces without area and polygons that are points.
+/// degree at most 8 (8k for curves of degree k). That time is then checked by the conditions of a
+/// contact (exact/contact/contact_conditions.hpp), which do not depend on separating axes. The
+/// rules cover every case: also zero-length edges, faces without area and polygons that are points.
 ///
 /// docs/theory.md, section 3.
 
@@ -22,6 +22,7 @@ namespace touchstone::exact {
 /// The verdict at the motion's distance, which may be 0, without the place of contact.
 /// \pre the motion is scaled uniformly.
 /// \throws std::logic_error if search and conditions disagree, that is if the oracle is wrong.
-[[nodiscard]] Decision decide_distance(const Motion& motion);
+template <class Order>
+[[nodiscard]] Decision decide_distance(const MotionOf<Order>& motion);
 
 }  // namespace touchstone::exact

@@ -15,12 +15,15 @@ bool is_positive(const Integer& x) { return sgn(x) > 0; }
 bool is_negative(const Integer& x) { return sgn(x) < 0; }
 
 /// The polynomials of features; products of corners are computed when first needed.
+template <class Order>
 class Values {
  public:
+  template <std::size_t n>
+  using Form = typename Order::template Form<n>;
   using Holds = std::function<bool(Coefficients, bool is_guard)>;
 
-  explicit Values(const Motion& motion)
-      : motion_(motion), square_(multiple(one<2>(), motion.distance * motion.distance)) {}
+  explicit Values(const MotionOf<Order>& motion)
+      : motion_(motion), reach_(motion.reach()), square_(reach_ * reach_) {}
 
   /// All features, the cheaper ones first.
   [[nodiscard]] std::vector<Feature> features() const {
@@ -114,12 +117,11 @@ class Values {
   // ---- l2 ---------------------------------------------------------------------------------------
 
   /// a·w > d|a|, from a·w and |a|².
-  template <std::size_t degree, std::size_t twice>
-  bool is_beyond(const Form<degree>& value, const Form<twice>& squared_length, const Holds& holds) {
-    static_assert(twice + 2 == 2 * degree);
+  template <AnyForm Value, AnyForm Square>
+  bool is_beyond(const Value& value, const Square& squared_length, const Holds& holds) {
     if (!holds(value.c, is_apart())) return false;
     if (!is_apart()) return true;
-    Form<2 * degree> difference = value * value;
+    auto difference = value * value;
     subtract_product(difference, squared_length, square_);
     return holds(difference.c, false);
   }
@@ -162,15 +164,14 @@ class Values {
 
   /// a·w > d(σ·a) for all σ, from a·w and those components of a that may differ from zero. If the
   /// coefficients of a component have one sign, that sign is the strictest σ.
-  template <std::size_t degree, std::size_t below, std::size_t count>
-  bool is_beyond_cube(const Form<degree>& value, const std::array<Form<below>, count>& components,
+  template <AnyForm Value, AnyForm Component, std::size_t count>
+  bool is_beyond_cube(const Value& value, const std::array<Component, count>& components,
                       const Holds& holds) {
-    static_assert(degree == below + 1);
     if (std::ranges::none_of(value.c, is_positive)) return false;
-    std::vector<Form<degree>> sums{value};
-    for (const Form<below>& component : components) {
+    std::vector<Value> sums{value};
+    for (const Component& component : components) {
       if (!is_apart()) continue;
-      const Form<degree> step = raised(multiple(component, motion_.distance));
+      const Value step = component * reach_;
       const bool never_positive = std::ranges::none_of(component.c, is_positive);
       const bool is_both = !never_positive && std::ranges::any_of(component.c, is_negative);
       const std::size_t size = sums.size();
@@ -179,16 +180,13 @@ class Values {
         never_positive ? sums[n] += step : sums[n] -= step;
       }
     }
-    return std::ranges::all_of(sums,
-                               [&](const Form<degree>& form) { return holds(form.c, false); });
+    return std::ranges::all_of(sums, [&](const Value& form) { return holds(form.c, false); });
   }
 
   bool every_of_axis(const Feature& feature, const Holds& holds) {
-    const Form<1> distance = multiple(one<1>(), motion_.distance);
     for (std::size_t k = 0; k < corners(); ++k) {
       const Form<1>& x = motion_.corners.at(k).at(feature.axis);
-      if (!holds(((feature.sort == Sort::positive_axis ? x : -x) - distance).c, false))
-        return false;
+      if (!holds(((feature.sort == Sort::positive_axis ? x : -x) - reach_).c, false)) return false;
     }
     return true;
   }
@@ -206,8 +204,9 @@ class Values {
            is_beyond_cube(cross(j, opposite, axis) - cross(i, opposite, axis), components, holds);
   }
 
-  const Motion& motion_;
-  /// d² as a form.
+  const MotionOf<Order>& motion_;
+  /// d and d² as forms.
+  Form<1> reach_;
   Form<2> square_;
   std::array<std::array<std::optional<Form<2>>, 4>, 4> products_;
   std::array<std::array<std::array<std::optional<Form<2>>, 3>, 4>, 4> crosses_;
@@ -287,8 +286,9 @@ std::optional<AlgebraicNumber> Separator::begin_before(AlgebraicNumber& t) {
   return begin;
 }
 
-std::vector<Separator> separators(const Motion& motion) {
-  Values values(motion);
+template <class Order>
+std::vector<Separator> separators(const MotionOf<Order>& motion) {
+  Values<Order> values(motion);
   std::vector<Separator> result;
   for (const Feature& feature : values.features()) {
     std::vector<Separator::Condition> conditions;
@@ -320,7 +320,8 @@ std::optional<Span> farthest(std::vector<Separator>& separators, AlgebraicNumber
   return best;
 }
 
-std::optional<AlgebraicNumber> end_of_separation(const Motion& motion) {
+template <class Order>
+std::optional<AlgebraicNumber> end_of_separation(const MotionOf<Order>& motion) {
   std::vector<Separator> all = separators(motion);
   AlgebraicNumber t(0);
   while (std::optional<Span> span = farthest(all, t)) {
@@ -329,5 +330,10 @@ std::optional<AlgebraicNumber> end_of_separation(const Motion& motion) {
   }
   return t;
 }
+
+template std::vector<Separator> separators(const MotionOf<Straight>&);
+template std::vector<Separator> separators(const MotionOf<Curved>&);
+template std::optional<AlgebraicNumber> end_of_separation(const MotionOf<Straight>&);
+template std::optional<AlgebraicNumber> end_of_separation(const MotionOf<Curved>&);
 
 }  // namespace touchstone::exact

@@ -115,7 +115,8 @@ class Separator {
 
 /// All separators of the motion's distance and norm that may hold at some time, the cheaper ones
 /// first; or a single one that is trivial.
-[[nodiscard]] std::vector<Separator> separators(const Motion& motion);
+template <class Order>
+[[nodiscard]] std::vector<Separator> separators(const MotionOf<Order>& motion);
 
 /// A separator that holds at a time, and the end of its interval.
 struct Span {
@@ -130,6 +131,7 @@ struct Span {
 /// The first time in [0,1] at which no direction separates, by the search above; empty if some
 /// direction separates at every time.
 /// \pre the motion is scaled uniformly.
-[[nodiscard]] std::optional<AlgebraicNumber> end_of_separation(const Motion& motion);
+template <class Order>
+[[nodiscard]] std::optional<AlgebraicNumber> end_of_separation(const MotionOf<Order>& motion);
 
 }  // namespace touchstone::exact

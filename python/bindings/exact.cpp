@@ -6,6 +6,7 @@
 #include <pybind11/stl.h>
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cstddef>
 #include <optional>
@@ -14,6 +15,7 @@
 #include <streambuf>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "exact/checker/checker.hpp"
@@ -117,6 +119,23 @@ py::list decide(const std::string& kind_name, const Doubles& array, py::array re
   py::list exact_times;
   for (std::size_t i = 0; i < done; ++i) exact_times.append(to_python(times[i]));
   return exact_times;
+}
+
+/// Control points and weights; none for a polynomial curve.
+using CurveArguments = std::pair<std::vector<std::array<double, 3>>, std::vector<double>>;
+
+/// The exact time, and the doubles around it.
+py::tuple decide_curved(const std::string& kind_name,
+                        const std::array<CurveArguments, moving_points>& curves, double distance,
+                        const std::string& norm) {
+  CurvedQuery query;
+  for (std::size_t i = 0; i < moving_points; ++i) {
+    query[i] = {.control = curves[i].first, .weights = curves[i].second};
+  }
+  const auto time = exact::decide(kind_from(kind_name), query, separation_from(distance, norm)).toi;
+  exact::DoubleInterval enclosure{fast::no_number, fast::no_number};
+  if (time) enclosure = time->enclosure();
+  return py::make_tuple(to_python(time), enclosure.lower, enclosure.upper);
 }
 
 // ---- Certificates -------------------------------------------------------------------------------
@@ -261,6 +280,7 @@ PYBIND11_MODULE(_exact, m) {
   m.def("decision_layout", decision_layout);
   m.def("decide", decide, arg("kind"), arg("queries").noconvert(), arg("results").noconvert(),
         arg("separation"), arg("norm"), arg("threads"), arg("progress"));
+  m.def("decide_curved", decide_curved, arg("kind"), arg("curves"), arg("separation"), arg("norm"));
   m.def("prove", prove, arg("kind"), arg("queries").noconvert(), arg("separation"), arg("norm"),
         arg("claim"), arg("threads"), arg("progress"));
   m.def("check", check, arg("certificates"), arg("scenes"), arg("claim"), arg("separation"),

@@ -17,6 +17,12 @@ def decide(
     threads: int,
     progress: _Progress | None,
 ) -> list[Any]: ...
+def decide_curved(
+    kind: str,
+    curves: list[tuple[list[list[float]], list[float]]],
+    separation: float,
+    norm: str,
+) -> tuple[Any, float, float]: ...
 def prove(
     kind: str,
     queries: _Doubles,

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from enum import IntEnum
 from fractions import Fraction
 from types import ModuleType
-from typing import Any, Literal, Tuple, Union
+from typing import Any, Literal, Sequence, Tuple, Union
 
 import numpy as np
 import numpy.typing as npt
@@ -178,6 +178,67 @@ def decide(
     if done < len(array):
         raise Interrupted(Decisions(result))
     return Decisions(result.reshape(()) if single else result)
+
+
+def _curve_from(curve: Any) -> tuple[list[list[float]], list[float]]:
+    control, weights = curve if isinstance(curve, tuple) else (curve, ())
+    points = np.asarray(control, dtype=np.float64)
+    if points.ndim != 2 or points.shape[1] != 3:
+        raise ValueError(f"the control points of a curve have the shape (k + 1, 3), not {points.shape}")
+    numbers = np.asarray(weights, dtype=np.float64)
+    if not (np.isfinite(points).all() and np.isfinite(numbers).all()):
+        raise ValueError("a number of a curve is not finite")
+    return points.tolist(), numbers.reshape(-1).tolist()
+
+
+def decide_curved(
+    kind: Kind,
+    curves: Sequence[Any],
+    *,
+    separation: float = 0.0,
+    norm: Norm = "linf",
+) -> Decisions:
+    """Decide a query whose points move on Bézier curves, exactly.
+
+    Parameters
+    ----------
+    kind, separation, norm
+        As for `certified`.
+    curves : sequence of four curves
+        Of the points in the order of a query: v, f0, f1, f2 or ea0, ea1, eb0, eb1. A curve is its
+        control points, of shape (k + 1, 3) with k from 0 (at rest) to 8; or, for a rational curve, a
+        tuple of these and of k + 1 positive weights. Each has its own degree.
+
+    Returns
+    -------
+    Decisions
+        Of one query: `collides`, `toi_lower`, `toi_upper` and `toi`.
+
+    Raises
+    ------
+    ValueError
+        If a curve is not valid, or a number is not finite.
+
+    Examples
+    --------
+    A vertex on a parabola that touches a resting triangle:
+
+    >>> import touchstone
+    >>> vertex = [[0.25, 0.25, 1], [0.25, 0.25, -1], [0.25, 0.25, 1]]
+    >>> touchstone.decide_curved("vertex_face", [vertex, [[0, 0, 0]], [[1, 0, 0]], [[0, 1, 0]]]).toi
+    Fraction(1, 2)
+    """
+    if len(curves) != 4:
+        raise ValueError(f"a query has four curves, not {len(curves)}")
+    module = exact_module()
+    parts = [_curve_from(curve) for curve in curves]
+    time, lower, upper = module.decide_curved(kind, parts, separation, norm)
+    numbers = np.dtype(module.decision_layout())
+    result = np.empty((), dtype=[*((n, numbers[n]) for n in numbers.names or ()), ("toi", "O")])
+    result["collides"] = time is not None
+    result["toi_lower"], result["toi_upper"] = lower, upper
+    result["toi"] = _time_from(time)
+    return Decisions(result)
 
 
 def prove(

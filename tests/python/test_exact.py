@@ -44,6 +44,30 @@ def test_the_oracle_agrees_and_its_times_are_exact(query, kind, separation, norm
     assert Fraction(float(fast.toi_lower)) <= lower and upper <= Fraction(float(fast.toi_upper))
 
 
+@given(small_queries, st.sampled_from(KINDS), st.sampled_from([0.0, 0.5]), st.sampled_from(["linf", "l2"]), st.integers(1, 5))
+@settings(max_examples=40)
+def test_curves_that_are_lines_in_another_time_have_the_same_contacts(query, kind, separation, norm, weight):
+    truth = touchstone.decide(kind, query, separation=separation, norm=norm)
+    lines = list(zip(query[:4], query[4:]))
+    slow = touchstone.decide_curved(kind, [[a, a, b] for a, b in lines], separation=separation, norm=norm)
+    late = touchstone.decide_curved(kind, [([a, b], [1, weight]) for a, b in lines], separation=separation, norm=norm)
+    assert slow.collides == late.collides == truth.collides
+    if truth.collides:  # after t² of the time, and after w t / (1 − t + w t)
+        time = float(truth.toi)
+        assert float(slow.toi) ** 2 == pytest.approx(time, abs=1e-15)
+        assert weight * float(late.toi) == pytest.approx(time * (1 - float(late.toi) + weight * float(late.toi)), abs=1e-14)
+        assert slow.toi_lower <= float(slow.toi) <= slow.toi_upper
+
+
+def test_curves_that_are_none_are_refused():
+    rest = [[[0, 0, 0]], [[1, 0, 0]], [[0, 1, 0]]]
+    for vertex in ([[0, 0]], [], [[0, 0, np.nan]], [[0, 0, 1]] * 10, ([[0, 0, 1]] * 2, [1]), ([[0, 0, 1]] * 2, [1, 0])):
+        with pytest.raises(ValueError):
+            touchstone.decide_curved("vertex_face", [vertex, *rest])
+    with pytest.raises(ValueError, match="four curves, not 3"):
+        touchstone.decide_curved("vertex_face", rest)
+
+
 def test_rational_times_are_recognised_in_polynomials_of_any_degree():
     # A vertex that meets a turning triangle at t = 1/3 and 2/3, or at sqrt(1/2).
     start = np.array([[0, 0, 1.0], [-9, -9, 0], [9, -9, 0], [0, 9, 0]])

@@ -11,6 +11,7 @@
 #include <optional>
 
 #include "touchstone/algebraic_number.hpp"
+#include "touchstone/curved_query.hpp"
 #include "touchstone/number.hpp"
 #include "touchstone/polynomial.hpp"
 #include "touchstone/query.hpp"
@@ -18,7 +19,8 @@
 namespace touchstone::exact {
 
 /// The place of contact: u = u_numerator(toi) / denominator(toi), likewise v, each a polynomial in
-/// t of degree at most 2. If the primitives have several common points, it is one of them.
+/// t of degree at most 2, 2k for curves of degree k. If the primitives have several common points,
+/// it is one of them.
 struct Contact {
   Polynomial u_numerator;
   Polynomial v_numerator;
@@ -50,6 +52,14 @@ struct Decision {
 /// \throws std::domain_error if a coordinate is NaN or infinite; std::invalid_argument if the
 /// separation is not valid.
 [[nodiscard]] Decision decide(Kind kind, const Query& query, const Separation& separation = {});
+
+/// Decides a query whose points move on curves. For curves of degrees up to k, polynomial or of the
+/// same weights, the degree of the toi is at most 3k, or 8k with a separation; the degrees of
+/// further weights are added to k.
+/// \throws std::domain_error if a number is NaN or infinite; std::invalid_argument if a trajectory
+/// or the separation is not valid.
+[[nodiscard]] Decision decide(Kind kind, const CurvedQuery& query,
+                              const Separation& separation = {});
 
 /// The parameters (u,v) of a contact, as the query's F defines them.
 struct ContactParameters {

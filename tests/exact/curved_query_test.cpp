@@ -1,0 +1,350 @@
+#include "touchstone/curved_query.hpp"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include "exact/distance/distance_oracle.hpp"
+#include "tests/support/queries.hpp"
+#include "touchstone/oracle.hpp"
+
+namespace touchstone::exact::curved_query_test {
+namespace {
+
+using tests::Random;
+using Point = std::array<double, 3>;
+
+Kind kind_of(int round) { return round % 2 == 0 ? Kind::vertex_face : Kind::edge_edge; }
+
+/// Divisible by all degrees and by 2^8: multiples of it have exact control points of any degree.
+constexpr double unit = 840.0 * 256.0;
+
+/// Small multiples of the unit: many contacts, at ends and sides, and common planes.
+double small(Random& random, int most = 2) { return unit * random.between(-most, most); }
+
+Query small_query(Random& random) {
+  Query query{};
+  for (double& x : query.coordinates) x = small(random);
+  return query;
+}
+
+/// Distance 0 mostly, or one that small queries often have exactly.
+Separation small_separation(Random& random) {
+  if (random.between(0, 2) != 0) return {};
+  return {.distance = unit * random.between(1, 2) / 2,
+          .norm = random.coin() ? Norm::l2 : Norm::linf};
+}
+
+/// The polynomial q^n p(numerator / q) of degree n of p.
+Polynomial composed(const Polynomial& p, const Polynomial& numerator, const Polynomial& q) {
+  Polynomial sum;
+  for (std::size_t i = 0; i <= p.degree(); ++i) {
+    Polynomial term{p[i]};
+    for (std::size_t k = 0; k < p.degree(); ++k) term = term * (k < i ? numerator : q);
+    sum = sum + term;
+  }
+  return sum;
+}
+
+Polynomial power_of_t(std::size_t n) {
+  std::vector<Integer> coefficients(n + 1, 0);
+  coefficients.back() = 1;
+  return Polynomial(std::move(coefficients));
+}
+
+/// The curved query collides iff the straight one does, at a time that the rational function
+/// numerator / denominator, increasing on [0,1], takes to that of the straight one.
+void expect_reparametrized(const Decision& curved, const Decision& straight,
+                           const Polynomial& numerator, const Polynomial& denominator) {
+  ASSERT_EQ(curved.collides(), straight.collides());
+  if (!curved.collides()) return;
+  EXPECT_TRUE(curved.toi->is_root_of(composed(straight.toi->polynomial(), numerator, denominator)));
+  AlgebraicNumber toi = *curved.toi;
+  toi.refine_to_level(60);
+  const auto at = [&](const Rational& t) -> Rational {
+    const auto value = [&](const Polynomial& p) {
+      Rational sum = 0;
+      for (std::size_t i = p.degree() + 1; i-- > 0;) sum = sum * t + p[i];
+      return sum;
+    };
+    return value(numerator) / value(denominator);
+  };
+  const RationalInterval interval = toi.interval();
+  EXPECT_LE(at(interval.lower), *straight.toi);
+  EXPECT_GE(at(interval.upper), *straight.toi);
+}
+
+// ---- Straight lines as curves -------------------------------------------------------------------
+
+TEST(CurvedQuery, StraightLinesOfAnyDegreeAreStraightLines) {
+  Random random(371);
+  int collisions = 0;
+  for (int round = 0; round < 600; ++round) {
+    const Kind kind = kind_of(round);
+    const Query query = small_query(random);
+    const Separation separation = small_separation(random);
+    CurvedQuery curved = to_curved(query);
+    for (Trajectory& curve : curved) {
+      const Point a = curve.control[0], b = curve.control[1];
+      const int degree = random.between(1, separation.distance > 0 ? 4 : 8);
+      curve.control.clear();
+      for (int j = 0; j <= degree; ++j) {
+        Point& point = curve.control.emplace_back();
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+          point[axis] = ((degree - j) * a[axis] + j * b[axis]) / degree;
+        }
+      }
+      if (a == b && random.coin()) curve.control.resize(1);
+    }
+    const Decision expected = decide(kind, query, separation);
+    const Decision found = decide(kind, curved, separation);
+    ASSERT_EQ(found.collides(), expected.collides());
+    if (!found.collides()) continue;
+    ++collisions;
+    EXPECT_EQ(*found.toi, *expected.toi);
+    ASSERT_EQ(found.contact.has_value(), expected.contact.has_value());
+  }
+  EXPECT_GT(collisions, 100);
+}
+
+TEST(CurvedQuery, OtherTimesOnStraightLinesAreThoseOfTheSameContacts) {
+  Random random(372);
+  for (int round = 0; round < 400; ++round) {
+    const Kind kind = kind_of(round);
+    const Query query = small_query(random);
+    const Separation separation = small_separation(random);
+    const Decision straight = decide(kind, query, separation);
+    // a + (b − a) t^m
+    const auto m = static_cast<std::size_t>(random.between(2, 4));
+    CurvedQuery power = to_curved(query);
+    for (Trajectory& curve : power)
+      curve.control.insert(curve.control.begin(), m - 1, curve.control[0]);
+    expect_reparametrized(decide(kind, power, separation), straight, power_of_t(m),
+                          Polynomial(Integer(1)));
+    // Weights 1 and w: the time is w t / (1 − t + w t).
+    const int w = random.between(2, 7);
+    CurvedQuery rational = to_curved(query);
+    for (Trajectory& curve : rational) curve.weights = {0.5, 0.5 * w};
+    expect_reparametrized(decide(kind, rational, separation), straight,
+                          Polynomial(Integer(0), Integer(w)),
+                          Polynomial(Integer(1), Integer(w - 1)));
+  }
+}
+
+TEST(CurvedQuery, WeightsOfRestingPointsDoNotMatter) {
+  Random random(373);
+  for (int round = 0; round < 200; ++round) {
+    const Kind kind = kind_of(round);
+    Query query = small_query(random);
+    const std::size_t bodies = kind == Kind::vertex_face ? 1 : 2;
+    for (std::size_t point = bodies; point < moving_points; ++point) {
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        query.at(1, point, axis) = query.at(0, point, axis);
+      }
+    }
+    CurvedQuery plain = to_curved(query), weighted = plain;
+    for (std::size_t point = 0; point < bodies; ++point) {
+      plain[point].weights = weighted[point].weights = {1.0, 3.0};
+    }
+    for (std::size_t point = bodies; point < moving_points; ++point) {
+      weighted[point].weights = {2.0, static_cast<double>(point) + 4.0};
+      if (random.coin()) {
+        weighted[point].control.resize(1);
+        weighted[point].weights = {7.0};
+      }
+    }
+    const Separation separation = small_separation(random);
+    const Decision expected = decide(kind, plain, separation);
+    const Decision found = decide(kind, weighted, separation);
+    ASSERT_EQ(found.collides(), expected.collides());
+    EXPECT_TRUE(!found.collides() || *found.toi == *expected.toi);
+  }
+}
+
+// ---- Curves -------------------------------------------------------------------------------------
+
+/// Each point on a curve of its own degree, some of them rational.
+CurvedQuery curved_query(Random& random, int greatest, bool may_be_rational) {
+  CurvedQuery query;
+  for (Trajectory& curve : query) {
+    const int degree = random.between(0, greatest);
+    for (int j = 0; j <= degree; ++j) {
+      curve.control.push_back({small(random), small(random), small(random)});
+    }
+    if (!may_be_rational || degree != 2 || random.coin()) continue;
+    curve.weights = {1.0, 1.0, 2.0};
+  }
+  return query;
+}
+
+TEST(CurvedQuery, TwoRulesAgree) {
+  Random random(374);
+  int collisions = 0;
+  for (int round = 0; round < 300; ++round) {
+    const Kind kind = kind_of(round);
+    const CurvedQuery query = curved_query(random, 3, true);
+    const Decision contact = decide(kind, query);
+    const Decision axes = decide_distance(scale(kind, query, {}));
+    ASSERT_EQ(contact.collides(), axes.collides()) << round;
+    if (!contact.collides()) continue;
+    ++collisions;
+    EXPECT_EQ(*contact.toi, *axes.toi) << round;
+  }
+  EXPECT_GT(collisions, 50);
+}
+
+/// The halves of a curve, by de Casteljau's algorithm, which is exact here.
+std::array<Trajectory, 2> halves(const Trajectory& curve) {
+  std::vector<Point> row = curve.control;
+  std::array<Trajectory, 2> result;
+  while (!row.empty()) {
+    result[0].control.push_back(row.front());
+    result[1].control.insert(result[1].control.begin(), row.back());
+    for (std::size_t j = 0; j + 1 < row.size(); ++j) {
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        row[j][axis] = (row[j][axis] + row[j + 1][axis]) / 2;
+      }
+    }
+    row.pop_back();
+  }
+  return result;
+}
+
+TEST(CurvedQuery, CollidesWhereAHalfDoes) {
+  Random random(375);
+  for (int round = 0; round < 200; ++round) {
+    const Kind kind = kind_of(round);
+    const CurvedQuery whole = curved_query(random, 4, false);
+    const Separation separation = small_separation(random);
+    std::array<CurvedQuery, 2> parts;
+    for (std::size_t point = 0; point < moving_points; ++point) {
+      const auto both = halves(whole[point]);
+      for (std::size_t half = 0; half < 2; ++half) parts[half][point] = both[half];
+    }
+    const Decision found = decide(kind, whole, separation);
+    const Decision first = decide(kind, parts[0], separation);
+    const Decision second = decide(kind, parts[1], separation);
+    ASSERT_EQ(found.collides(), first.collides() || second.collides());
+    if (!found.collides()) continue;
+    const Polynomial two_t(Integer(0), Integer(2)), shifted(Integer(-1), Integer(2));
+    expect_reparametrized(found, first.collides() ? first : second,
+                          first.collides() ? two_t : shifted, Polynomial(Integer(1)));
+  }
+}
+
+TEST(CurvedQuery, BackwardsCollidesToo) {
+  Random random(376);
+  for (int round = 0; round < 200; ++round) {
+    const Kind kind = kind_of(round);
+    const CurvedQuery query = curved_query(random, 4, true);
+    CurvedQuery backwards = query;
+    for (Trajectory& curve : backwards) {
+      std::ranges::reverse(curve.control);
+      std::ranges::reverse(curve.weights);
+    }
+    const Separation separation = small_separation(random);
+    EXPECT_EQ(decide(kind, query, separation).collides(),
+              decide(kind, backwards, separation).collides());
+  }
+}
+
+// ---- Known truth --------------------------------------------------------------------------------
+
+/// A vertex over a resting face in the plane z = 0, with these heights as control points.
+CurvedQuery over_a_face(const std::vector<double>& heights) {
+  CurvedQuery query;
+  for (const double z : heights) query[0].control.push_back({1, 1, z});
+  query[1].control = {{0, 0, 0}};
+  query[2].control = {{4, 0, 0}};
+  query[3].control = {{0, 4, 0}};
+  return query;
+}
+
+TEST(CurvedQuery, AParabolaTouchesInItsVertex) {
+  const auto parabola = [](double above) {  // (2t − 1)² + above
+    return over_a_face({1 + above, -1 + above, 1 + above});
+  };
+  const Decision touching = decide(Kind::vertex_face, parabola(0));
+  ASSERT_TRUE(touching.collides());
+  EXPECT_EQ(*touching.toi, Rational(1, 2));
+  const ContactParameters place = contact_parameters(touching, Rational(1, 1000));
+  EXPECT_EQ(place.u.lower, Rational(1, 4));
+  EXPECT_EQ(place.v.upper, Rational(1, 4));
+  EXPECT_FALSE(decide(Kind::vertex_face, parabola(0x1p-50)).collides());
+  const Decision below = decide(Kind::vertex_face, parabola(-0x1p-50));
+  ASSERT_TRUE(below.collides());
+  EXPECT_EQ(*below.toi, Rational(1, 2) - power_of_two(-26));
+  for (const Norm norm : {Norm::l2, Norm::linf}) {
+    const Decision near = decide(Kind::vertex_face, parabola(0.25), {0.25, norm});
+    ASSERT_TRUE(near.collides());
+    EXPECT_EQ(*near.toi, Rational(1, 2));
+    EXPECT_FALSE(
+        decide(Kind::vertex_face, parabola(0.25), {0x1.fffffffffffffp-3, norm}).collides());
+  }
+}
+
+TEST(CurvedQuery, TheFirstRootOfACubicCounts) {
+  // 32 (t − 1/4)(t − 1/2)(t − 3/4) has the control points −3, 13/3, −13/3, 3.
+  const Decision found = decide(Kind::vertex_face, over_a_face({9, -13, 13, -9}));
+  ASSERT_TRUE(found.collides());
+  EXPECT_EQ(*found.toi, Rational(1, 4));
+  EXPECT_EQ(found.contact->denominator.degree(), 0U);
+}
+
+TEST(CurvedQuery, AQuarterOfACircleIsExact) {
+  // (1 − t², 2t)/(1 + t²) is in the plane x = 3/5 at t = 1/2, at y = 4/5.
+  CurvedQuery query;
+  query[0] = {.control = {{5, 0, 0}, {5, 5, 0}, {0, 5, 0}}, .weights = {1, 1, 2}};
+  query[1].control = {{3, 4, -1}};
+  query[2].control = {{3, 4, 1}};
+  query[3].control = {{3, 6, 0}};
+  const Decision found = decide(Kind::vertex_face, query);
+  ASSERT_TRUE(found.collides());
+  EXPECT_EQ(*found.toi, Rational(1, 2));
+  query[1].control[0][1] = query[2].control[0][1] = std::nextafter(4.0, 5.0);
+  EXPECT_FALSE(decide(Kind::vertex_face, query).collides());
+}
+
+TEST(CurvedQuery, OfDoublesOfAnySizeIsDecided) {
+  const double large = std::numeric_limits<double>::max();
+  const double least = std::numeric_limits<double>::denorm_min();
+  const Decision found = decide(Kind::vertex_face, over_a_face({large, -large, least}));
+  ASSERT_TRUE(found.collides());
+  EXPECT_LT(*found.toi, Rational(1));
+  EXPECT_FALSE(decide(Kind::vertex_face, over_a_face({least, least, large})).collides());
+}
+
+TEST(CurvedQuery, ThatIsNotOneIsRefused) {
+  const CurvedQuery good = over_a_face({1, 2, 3});
+  const auto changed = [&](const auto& change) {
+    CurvedQuery query = good;
+    change(query[0]);
+    return query;
+  };
+  const double infinite = std::numeric_limits<double>::infinity();
+  const auto refused = [](const CurvedQuery& query) {
+    EXPECT_THROW((void)decide(Kind::vertex_face, query), std::invalid_argument);
+  };
+  refused(changed([](Trajectory& curve) { curve.control.clear(); }));
+  refused(changed([](Trajectory& curve) { curve.control.resize(10); }));
+  refused(changed([](Trajectory& curve) { curve.weights = {1, 2}; }));
+  refused(changed([](Trajectory& curve) { curve.weights = {1, 0, 1}; }));
+  refused(changed([](Trajectory& curve) { curve.weights = {1, -1, 1}; }));
+  for (const double x : {infinite, -infinite, std::nan("")}) {
+    EXPECT_THROW((void)decide(Kind::vertex_face,
+                              changed([&](Trajectory& curve) { curve.control[1][2] = x; })),
+                 std::domain_error);
+    EXPECT_THROW((void)decide(Kind::vertex_face, changed([&](Trajectory& curve) {
+                                curve.weights = {1, x, 1};
+                              })),
+                 std::domain_error);
+  }
+  EXPECT_THROW((void)decide(Kind::vertex_face, good, {-1.0, Norm::l2}), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace touchstone::exact::curved_query_test
