@@ -21,7 +21,7 @@ FEWEST = 60_000_000
 # The methods that answer all queries; the others answer as many of each shard as these seconds for all of them allow.
 ON_ALL = ["certified", "tight_inclusion", "tccd"]
 SAMPLED = ["irf", "uirf", "fprf", "rp", "rrp", "bsc", "msrf", "accd"]
-SECONDS_OF_SAMPLES = 480
+SECONDS_OF_SAMPLES = 240
 WORKERS = 2
 KILLS = 6
 

@@ -112,7 +112,7 @@ std::ostream& operator<<(std::ostream& out, const Polynomial& p) {
       out << (sign < 0 ? " - " : " + ");
     }
     const Integer magnitude = abs(p[i]);
-    if (magnitude != 1 || i == 0) out << magnitude << (i > 0 ? " " : "");
+    if (magnitude != 1 || i == 0) out << magnitude.get_str() << (i > 0 ? " " : "");
     if (i > 0) out << 't';
     if (i > 1) out << '^' << i;
   }

@@ -10,14 +10,15 @@
 namespace touchstone::verify::io {
 namespace {
 
-/// Nothing may be loaded from anywhere.
+/// Nothing may be loaded from anywhere. (WebAssembly is in the page, as an address of data.)
 constexpr std::string_view policy =
     "default-src 'none'; script-src 'unsafe-inline'{}; style-src 'unsafe-inline'; img-src data:";
 
 }  // namespace
 
 std::string html_beginning(std::string_view title, std::string_view style, bool has_webassembly) {
-  const std::string allowed = fmt::format(policy, has_webassembly ? " 'wasm-unsafe-eval'" : "");
+  const std::string allowed =
+      fmt::format(policy, has_webassembly ? " 'wasm-unsafe-eval'; connect-src data:" : "");
   return fmt::format(
       "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
       "<meta http-equiv=\"Content-Security-Policy\" content=\"{}\">\n"
