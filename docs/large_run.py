@@ -6,14 +6,17 @@ on two cores, and 50 GB in build/large.
 """
 
 import json
-import os
 import pathlib
 import random
 import resource
-import signal
 import subprocess
+import sys
 import threading
 import time
+
+ROOT = pathlib.Path(__file__).resolve().parents[1]
+sys.path.insert(0, str(ROOT / "tests"))
+import cluster  # noqa: E402  (the test of the same recipes)
 
 SCENES = ["two-heads", "chain-of-rings", "dimpled-ball", "draped-cloth", "twisting-mat --steps 200"]
 LIMIT = 40000  # of queries of a kind in a motion
@@ -32,15 +35,8 @@ def kill_workers(folder, pieces, kills, stop):
     while moments and not stop.wait(0.05):
         if len(list(folder.glob("*.piece"))) < moments[0]:
             continue
-        for process in pathlib.Path("/proc").glob("[0-9]*/cmdline"):
-            try:
-                words = process.read_bytes().split(b"\0")
-            except OSError:
-                continue
-            if b"--shard" in words and str(folder).encode() in words and words[0].endswith(b"touchstone"):
-                os.kill(int(process.parent.name), signal.SIGKILL)
-                kills.append(moments.pop(0))
-                break
+        if cluster.kill_worker(folder):
+            kills.append(moments.pop(0))
 
 
 def in_pieces(command, pieces, folder, options):
@@ -49,7 +45,7 @@ def in_pieces(command, pieces, folder, options):
     before = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime
     killer = threading.Thread(target=kill_workers, args=(folder, pieces, kills, stop))
     killer.start()
-    recipe = pathlib.Path(__file__).resolve().parents[1] / "examples/cluster/parallel.sh"
+    recipe = ROOT / "examples/cluster/parallel.sh"
     done = subprocess.run([recipe, folder, str(WORKERS), options.tool, *command, "--json", folder.with_suffix(".json")],
                           capture_output=True, text=True, check=False)
     stop.set()
