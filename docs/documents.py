@@ -179,7 +179,7 @@ def measure_one(name, command, options, folder):
 
 def measure(name, options, folder):
     """Writes docs/data/NAME.json anew, with a line for each run or each measurement."""
-    rows = (large_run.measure(options, run) if name == "large"
+    rows = ([reduced(row) for row in large_run.measure(options, run)] if name == "large"
             else [measure_one(name, command, options, folder) for command in COMMANDS[name]])
     key, data = "runs", {"date": datetime.datetime.now(datetime.timezone.utc).date().isoformat()}
     if name == "results":  # as `touchstone report --from` reads it
