@@ -456,7 +456,8 @@ def large(data):
     """The section of docs/results.md on the large run."""
     of, stepped, sampled = data["runs"]
     judged_, exact_ns = of["result"], of["ns"]["certified"]
-    minutes = [f"{seconds / 60:.0f}" for seconds in (of["recording_seconds"], of["seconds"], of["processor_seconds"])]
+    deciding, answering = (sum(ns for name, ns in of["ns"].items() if (name == "oracle") == is_oracle) * judged_["queries"] / 6e10
+                           for is_oracle in (True, False))
     rows = [["oracle", f"{judged_['queries']:,}", "–", "–", "–", rounded(of["ns"]["oracle"] / exact_ns)]]
     for run_ in (of, sampled):
         for m in run_["result"]["methods"]:
@@ -466,9 +467,10 @@ def large(data):
             f"Not part of the tables above. Made by `./run results large`, {data['date']}: the queries of "
             f"{len(large_run.SCENES)} simulations (`./run simulate SCENE --record`; {', '.join(large_run.SCENES)}), "
             f"{judged_['queries']:,} of them, of which {judged_['collisions']:,} collide; {of['bytes'] / 1e9:.1f} GB in "
-            f"{of['pieces']} shards. Recorded in {minutes[0]} minutes, judged in {minutes[1]} ({minutes[2]} of processor time) by "
-            f"{large_run.WORKERS} workers of `examples/cluster/parallel.sh`, {of['kills']} times killed by SIGKILL; a process has at "
-            f"most {of['greatest_memory_bytes'] / 1e6:.0f} MB.", "",
+            f"{of['pieces']} shards. Recorded in {of['recording_seconds'] / 60:.0f} minutes, and judged by {large_run.WORKERS} workers of "
+            f"`examples/cluster/parallel.sh`, which were killed by SIGKILL and started again: {deciding:.1f} minutes of one core for "
+            f"the oracle and {answering:.1f} for the methods of the first command. A process has at most "
+            f"{of['greatest_memory_bytes'] / 1e6:.0f} MB.", "",
             "```", of["command"], sampled["command"], "```", "",
             *table(["method", "asked", "false negatives", "false positives", "late", "time, in that of certified"], rows), "",
             "The second command asks as many of each shard as its time allows.", "",

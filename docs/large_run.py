@@ -42,7 +42,6 @@ def kill_workers(folder, pieces, kills, stop):
 def in_pieces(command, pieces, folder, options):
     """The merged result of a command in pieces, with its cost. The runs of an interrupted measurement go on."""
     kills, stop, begin = [], threading.Event(), time.monotonic()
-    before = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime
     killer = threading.Thread(target=kill_workers, args=(folder, pieces, kills, stop))
     killer.start()
     recipe = ROOT / "examples/cluster/parallel.sh"
@@ -52,10 +51,9 @@ def in_pieces(command, pieces, folder, options):
     killer.join()
     if done.returncode not in (0, 1):
         raise RuntimeError(f"{' '.join(map(str, command))}: exit status {done.returncode}\n{done.stdout}{done.stderr}")
-    usage = resource.getrusage(resource.RUSAGE_CHILDREN)
     return {"result": json.loads(folder.with_suffix(".json").read_text()), "kills": len(kills),
-            "seconds": time.monotonic() - begin, "processor_seconds": usage.ru_utime - before,
-            "greatest_memory_bytes": 1024 * usage.ru_maxrss}
+            "seconds": time.monotonic() - begin,
+            "greatest_memory_bytes": 1024 * resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss}
 
 
 def oracle_and_methods(results):
