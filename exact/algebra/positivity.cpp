@@ -2,18 +2,10 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <numeric>
 #include <utility>
 
 namespace touchstone::exact {
 namespace {
-
-/// Row n of Pascal's triangle.
-std::vector<unsigned long> binomials(std::size_t n) {
-  std::vector<unsigned long> row(n + 1, 1);
-  for (std::size_t k = 1; k <= n; ++k) row[k] = row[k - 1] * (n - k + 1) / k;
-  return row;
-}
 
 /// product *= from (1−y) + to y, all as forms in (1−y, y).
 void multiply(std::vector<Integer>& product, const Integer& from, const Integer& to) {
@@ -52,10 +44,16 @@ bool is_positive_at_ends(const std::vector<Integer>& bernstein) {
 
 }  // namespace
 
+std::vector<Integer> binomials(std::size_t n) {
+  std::vector<Integer> row{1};
+  for (std::size_t k = 1; k <= n; ++k) row.emplace_back(row.back() * (n - k + 1) / k);
+  return row;
+}
+
 std::vector<Integer> bernstein_coefficients(std::vector<Integer> form) {
   const auto row = binomials(form.size() - 1);
-  unsigned long multiple = 1;  // GMP knows no std::uint64_t of 32-bit processors
-  for (const unsigned long x : row) multiple = std::lcm(multiple, x);
+  Integer multiple = 1;
+  for (const Integer& x : row) multiple = lcm(multiple, x);
   for (std::size_t k = 0; k < form.size(); ++k) form[k] *= multiple / row[k];
   return form;
 }

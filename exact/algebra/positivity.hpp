@@ -19,6 +19,9 @@ namespace touchstone::exact {
 /// The maximum number of times that a checker of certificates halves an interval.
 inline constexpr unsigned long bisection_limit = 128;
 
+/// Row n of Pascal's triangle.
+[[nodiscard]] std::vector<Integer> binomials(std::size_t n);
+
 /// The Bernstein coefficients of p on an interval, all multiplied by one positive number.
 [[nodiscard]] std::vector<Integer> bernstein_coefficients(const Polynomial& p,
                                                           const RationalInterval& interval);

@@ -8,6 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include "exact/algebra/positivity.hpp"
+
 namespace touchstone::exact {
 namespace {
 
@@ -40,8 +42,13 @@ int last_exponent(const Decomposed& x) { return x.significand == 0 ? no_exponent
 /// GMP's integers are made of long, which has 32 bits on some processors, or of a double, which
 /// takes longer.
 Integer significand_of(const Decomposed& x) {
-  if constexpr (sizeof(long) >= sizeof(x.significand)) return static_cast<long>(x.significand);
-  return Integer(static_cast<double>(x.significand));
+  Integer value;
+  if constexpr (sizeof(long) >= sizeof(x.significand)) {
+    value = static_cast<long>(x.significand);
+  } else {
+    value = static_cast<double>(x.significand);
+  }
+  return value;
 }
 
 /// x as a multiple of 2^unit. \pre unit ≤ its last exponent
@@ -90,13 +97,6 @@ Decomposed distance_of(const Separation& separation) {
 }
 
 // ---- Curves -------------------------------------------------------------------------------------
-
-/// Row n of Pascal's triangle.
-std::vector<Integer> binomials(std::size_t n) {
-  std::vector<Integer> row{1};
-  for (std::size_t k = 1; k <= n; ++k) row.push_back(row.back() * (n - k + 1) / k);
-  return row;
-}
 
 /// A resting point has one weight, which does not matter.
 bool is_rational(const Trajectory& curve) { return curve.weights.size() > 1; }

@@ -161,7 +161,7 @@ template <AnyForm F>
 struct Straight {
   template <std::size_t n>
   using Form = exact::Form<n>;
-  static Form<1> one() { return exact::one<1>(); }
+  static Form<1> one() { return {{Integer(1), Integer(1)}}; }
 };
 
 /// Motion on curves: a coordinate is a form of any degree k, which is the same for all, and what is

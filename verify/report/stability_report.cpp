@@ -21,7 +21,7 @@
 namespace touchstone::verify::report {
 namespace {
 
-constexpr std::string_view legend =
+constexpr std::string_view map_legend =
     "worst by level, a character each: . every answer is right; - nothing was asked; 0 to 9 false "
     "positives, up to so "
     "many tenths of "
@@ -185,7 +185,7 @@ std::string to_text(const stability::StabilityResult& result) {
     text += fmt::format("minimum separation {}\n", judge::to_text(result.separation));
   }
   for (std::size_t i = 0; i < result.total.methods.size(); ++i) text += method_text(result, i);
-  text += legend;
+  text += map_legend;
   if (result.unjudged_cells != 0) {
     text += fmt::format("{} cells were not judged\n", result.unjudged_cells);
   }
