@@ -83,7 +83,7 @@ void read_dataset(const fs::path& path, bool keep_going) {
   std::optional<Dataset> source;
   try {
     source.emplace(path, options);
-  } catch (const io::DatasetError&) {
+  } catch (const DatasetError&) {
     return;
   }
   std::uint64_t least = 0;
@@ -100,7 +100,7 @@ void read_dataset(const fs::path& path, bool keep_going) {
   }
   try {
     read_all();
-  } catch (const io::DatasetError& error) {
+  } catch (const DatasetError& error) {
     require(!std::string_view(error.what()).empty());
   }
 }
@@ -152,7 +152,7 @@ void read_labels(const fs::path& path) {
   for (; index < 100; index += 1 + index % 3) {
     try {
       static_cast<void>(labels.at(index));
-    } catch (const io::DatasetError&) {  // A label may be faulty and the next one valid.
+    } catch (const DatasetError&) {  // A label may be faulty and the next one valid.
     }
   }
   static_cast<void>(labels.beyond(index));
@@ -164,7 +164,7 @@ void read_tois(const fs::path& path) {
   for (; index < 100; index += 1 + index % 3) {
     try {
       static_cast<void>(tois.at(index));
-    } catch (const io::DatasetError&) {  // The same as above.
+    } catch (const DatasetError&) {  // The same as above.
     }
   }
   static_cast<void>(tois.beyond(index));
@@ -205,7 +205,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   static MemoryFile file;
   try {
     reader.read(file.holding(data, size));
-  } catch (const io::DatasetError& error) {
+  } catch (const DatasetError& error) {
     require(!std::string_view(error.what()).empty());
   }
   return 0;
