@@ -102,7 +102,7 @@ class ContainsOrigin {
 
   /// 0 = (1−λ) w_i + λ w_j, hence λ = w_i,k / (w_i,k − w_j,k) for any axis k where they differ.
   [[nodiscard]] Contact on_segment(AlgebraicNumber& t, std::size_t i, std::size_t j) const {
-    Form<1> numerator{}, denominator = motion_.denominator;
+    Form<1> numerator{}, denominator = motion_.denominator.form();
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const Form<1>& from = motion_.corners.at(i).at(axis);
       const Form<1> difference = from - motion_.corners.at(j).at(axis);
@@ -114,10 +114,10 @@ class ContainsOrigin {
     }
     const auto between = [&](int at_i, int at_j) {
       const Form<1> start = multiple(denominator, at_i);
-      return (start + multiple(numerator, at_j - at_i)) * motion_.denominator;
+      return (start + multiple(numerator, at_j - at_i)) * motion_.denominator.form();
     };
     const Corner &from = corners(motion_.kind)[i], &to = corners(motion_.kind)[j];
-    return {between(from.u, to.u), between(from.v, to.v), denominator * motion_.denominator};
+    return {between(from.u, to.u), between(from.v, to.v), denominator * motion_.denominator.form()};
   }
 
   const MotionOf<Order>& motion_;

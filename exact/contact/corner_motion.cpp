@@ -42,13 +42,13 @@ int last_exponent(const Decomposed& x) { return x.significand == 0 ? no_exponent
 /// GMP's integers are made of long, which has 32 bits on some processors, or of a double, which
 /// takes longer.
 Integer significand_of(const Decomposed& x) {
-  Integer value;
   if constexpr (sizeof(long) >= sizeof(x.significand)) {
-    value = static_cast<long>(x.significand);
+    return static_cast<long>(x.significand);
   } else {
+    Integer value;
     value = static_cast<double>(x.significand);
+    return value;
   }
-  return value;
 }
 
 /// x as a multiple of 2^unit. \pre unit ≤ its last exponent
@@ -228,8 +228,9 @@ MotionOf<Curved> scale(Kind kind, const CurvedQuery& query, const Separation& se
       motion.points[point][axis] = std::move(form);
     }
   }
-  for (const CurvedForm& other : distinct) motion.denominator = motion.denominator * other;
-  motion.denominator = raised_to(std::move(motion.denominator), degree);
+  CurvedForm& denominator = motion.denominator.value;
+  for (const CurvedForm& other : distinct) denominator = denominator * other;
+  denominator = raised_to(std::move(denominator), degree);
   for (auto& point : motion.points) {
     for (CurvedForm& form : point) form = raised_to(std::move(form), degree);
   }

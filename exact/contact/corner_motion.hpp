@@ -161,7 +161,13 @@ template <AnyForm F>
 struct Straight {
   template <std::size_t n>
   using Form = exact::Form<n>;
-  static Form<1> one() { return {{Integer(1), Integer(1)}}; }
+  /// One, which is not made anew for each query.
+  struct Denominator {
+    [[nodiscard]] static const Form<1>& form() {
+      static const Form<1> one = exact::one<1>();
+      return one;
+    }
+  };
 };
 
 /// Motion on curves: a coordinate is a form of any degree k, which is the same for all, and what is
@@ -169,7 +175,10 @@ struct Straight {
 struct Curved {
   template <std::size_t n>
   using Form = CurvedForm;
-  static Form<1> one() { return {{Integer(1)}}; }
+  struct Denominator {
+    CurvedForm value{{Integer(1)}};
+    [[nodiscard]] const Form<1>& form() const { return value; }
+  };
 };
 
 /// The four moving points and the corners of a query, scaled to integers, times a common
@@ -189,10 +198,10 @@ struct MotionOf {
   /// The minimum separation in units of the coordinates; 0 if each axis has its own unit.
   Integer distance = 0;
   Norm norm = Norm::l2;
-  Form<1> denominator = Order::one();
+  typename Order::Denominator denominator = {};
 
   /// The distance times the denominator, as the corners are.
-  [[nodiscard]] Form<1> reach() const { return multiple(denominator, distance); }
+  [[nodiscard]] Form<1> reach() const { return multiple(denominator.form(), distance); }
 };
 using Motion = MotionOf<Straight>;
 
