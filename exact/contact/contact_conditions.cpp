@@ -41,8 +41,7 @@ using Found = std::optional<ContactConditions>;
 
 /// All triangles of the polygon have its normal (of half a parallelogram's length or the whole) and
 /// its determinant.
-template <class Order>
-Found in_triangle(const MotionOf<Order>& motion, AlgebraicNumber& time,
+Found in_triangle(const Motion& motion, AlgebraicNumber& time,
                   const std::array<std::size_t, 3>& corners, std::size_t axis) {
   Conditions conditions(time);
   if (conditions.sign(determinant(motion)) != 0) return std::nullopt;
@@ -54,8 +53,7 @@ Found in_triangle(const MotionOf<Order>& motion, AlgebraicNumber& time,
   return std::move(conditions).of(TriangleContact{corners, axis});
 }
 
-template <class Order>
-Found on_segment(const MotionOf<Order>& motion, AlgebraicNumber& time,
+Found on_segment(const Motion& motion, AlgebraicNumber& time,
                  const std::array<std::size_t, 2>& corners) {
   Conditions conditions(time);
   const auto [i, j] = corners;
@@ -218,9 +216,7 @@ class CubeContact {
 
 }  // namespace
 
-template <class Order>
-std::optional<ContactConditions> find_contact(const MotionOf<Order>& motion,
-                                              AlgebraicNumber& time) {
+std::optional<ContactConditions> find_contact(const Motion& motion, AlgebraicNumber& time) {
   for (std::size_t axis = 0; axis < 3; ++axis) {
     if (sign_at(normal_component(motion, axis), time) == 0) continue;
     for (std::size_t second = 1; second + 1 < motion.corner_count; ++second) {
@@ -241,8 +237,6 @@ std::optional<ContactConditions> find_near_contact(const MotionOf<Order>& motion
   return CubeContact(motion, time).find();
 }
 
-template std::optional<ContactConditions> find_contact(const MotionOf<Straight>&, AlgebraicNumber&);
-template std::optional<ContactConditions> find_contact(const MotionOf<Curved>&, AlgebraicNumber&);
 template std::optional<ContactConditions> find_near_contact(const MotionOf<Straight>&,
                                                             AlgebraicNumber&);
 template std::optional<ContactConditions> find_near_contact(const MotionOf<Curved>&,

@@ -101,18 +101,20 @@ int do_piece(const jobs::PieceFolder& folder, std::size_t number, const std::str
   const int status = solvers::run_own_program(std::move(arguments));
   if (status == static_cast<int>(Status::all_well) ||
       status == static_cast<int>(Status::wrong_answers)) {
-    folder.finish(number, status);
-    const std::string fault = folder.fault(number);
-    if (!fault.empty()) report_error(fault);
-    if (!fault.empty()) return static_cast<int>(Status::bad_input);
+    const std::string fault = folder.finish(number, status);
+    if (fault.empty()) return status;
+    report_error(fault);
+    return static_cast<int>(Status::bad_input);
   }
   return status;
 }
 
-void report_unfinished(const jobs::PieceFolder& folder, const fs::path& path, std::size_t faults) {
+/// \param unfinished pieces
+void report_unfinished(const jobs::PieceFolder& folder, const fs::path& path,
+                       std::size_t unfinished) {
   const std::size_t count = folder.plan().pieces.size();
   io::print(stdout, fmt::format("{} of {} pieces are done; when all are: touchstone merge {}\n",
-                                count - std::min(faults, count), count, path.string()));
+                                count - unfinished, count, path.string()));
 }
 
 // ---- The merged result --------------------------------------------------------------------------
@@ -266,7 +268,7 @@ Status run_pieces(const CLI::App& command, const PieceArguments& arguments, cons
   if (worst > static_cast<int>(Status::wrong_answers)) return Status::bad_input;
   const std::size_t faults = folder.faults().size();
   if (faults == 0) return write_merged(folder, "");
-  report_unfinished(folder, arguments.folder, faults);
+  report_unfinished(folder, arguments.folder, faults - folder.foreign_files().size());
   return static_cast<Status>(worst);
 }
 

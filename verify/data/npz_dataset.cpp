@@ -6,6 +6,12 @@
 #include <array>
 
 namespace touchstone::verify::data {
+namespace {
+
+/// Queries of a block.
+constexpr std::uint64_t block_size = 512;
+
+}  // namespace
 
 NpzDataset::NpzDataset(const std::filesystem::path& path, const DatasetOptions& options)
     : DatasetSource(path, options), archive_(path), queries_(archive_, "queries") {
@@ -23,8 +29,8 @@ double NpzDataset::progress() const {
 }
 
 DatasetSource::StoredQuery NpzDataset::read(std::uint64_t index) {
-  if (next_in_block_ == collides_.size()) fill();
-  const std::size_t i = next_in_block_++;
+  const std::size_t i = position_ % block_size;
+  if (i == 0) fill();
   ++position_;
   StoredQuery result{.query = {}, .label = std::nullopt, .label_position = {}};
   constexpr std::size_t size = 3 * query_points;
@@ -36,11 +42,9 @@ DatasetSource::StoredQuery NpzDataset::read(std::uint64_t index) {
 }
 
 void NpzDataset::fill() {
-  static constexpr std::uint64_t block_size = 512;
   const std::size_t count = std::min(block_size, count_ - position_);
   coordinates_.resize(3 * query_points * count);
   collides_.resize(count);
-  next_in_block_ = 0;
   try {
     queries_.take<double, float, double>(coordinates_, {"<f4", "<f8"});
     if (labels_) labels_->take<std::uint8_t, std::uint8_t>(collides_, {"|b1"});

@@ -33,10 +33,9 @@ class NpzDataset final : public DatasetSource {
   std::optional<NpzArray> labels_;
   std::uint64_t count_ = 0;
   std::uint64_t position_ = 0;
-  /// The queries from the position on, as far as they have been read, and their labels.
+  /// The block of queries that the position is in, and their labels.
   std::vector<double> coordinates_;
   std::vector<std::uint8_t> collides_;
-  std::size_t next_in_block_ = 0;
 };
 
 }  // namespace touchstone::verify::data

@@ -29,7 +29,7 @@ std::optional<exact::Integer> any_integer(std::string_view text) {
 /// True for NaN or infinity as the standard library and NumPy write them.
 bool is_not_finite(std::string_view text) {
   if (text.starts_with('+')) text.remove_prefix(1);
-  const auto value = io::number_from_text<double>(text);
+  const auto value = number_from_text<double>(text);
   return value && !std::isfinite(*value);
 }
 

@@ -15,7 +15,7 @@ constexpr char apostrophe = '\'';
 
 bool is_number(std::string_view text) {
   if (text.starts_with('+')) text.remove_prefix(1);
-  return io::number_from_text<double>(text).has_value();
+  return number_from_text<double>(text).has_value();
 }
 
 /// Would a spreadsheet compute the text, but for apostrophes in front?

@@ -226,10 +226,22 @@ json PieceFolder::record_of(std::size_t piece, int status) const {
           {"outputs", outputs}};
 }
 
-void PieceFolder::finish(std::size_t piece, int status) const {
+std::string PieceFolder::finish(std::size_t piece, int status) const {
   json record = record_of(piece, status);
   record["sha256"] = base::sha256(record.dump());
   write_file(record_file(piece), io::json_document(record));
+  return fault_of_inputs(record, piece);
+}
+
+std::string PieceFolder::fault_of_inputs(const json& record, std::size_t piece) const {
+  const std::map<std::string, std::string>& digests = plan_.pieces[piece].digests;
+  for (const json& input : record.at("inputs")) {
+    const auto known = digests.find(input.at("file"));
+    if (known != digests.end() && known->second != input.at("sha256")) {
+      return known->first + " is not as the manifest of its store says";
+    }
+  }
+  return {};
 }
 
 std::string PieceFolder::fault_of(const std::string& text, std::size_t piece) const {
@@ -249,18 +261,12 @@ std::string PieceFolder::fault_of(const std::string& text, std::size_t piece) co
     const json expected = record_of(piece, record.at("status"));
     if (record.at("inputs") != expected.at("inputs")) return "its input has changed since";
     if (record != expected) return "its results have changed since";
-    for (const json& input : record.at("inputs")) {
-      const auto known = plan_.pieces[piece].digests.find(input.at("file"));
-      if (known != plan_.pieces[piece].digests.end() && known->second != input.at("sha256")) {
-        return known->first + " is not as the manifest of its store says";
-      }
-    }
+    return fault_of_inputs(record, piece);
   } catch (const json::exception&) {
     return "its record is damaged";
   } catch (const std::exception& error) {
     return error.what();
   }
-  return {};
 }
 
 std::string PieceFolder::fault(std::size_t piece) const {
@@ -270,15 +276,22 @@ std::string PieceFolder::fault(std::size_t piece) const {
 
 std::vector<std::string> PieceFolder::faults() const {
   std::vector<std::string> result;
-  std::set<fs::path> expected;
   for (std::size_t piece = 0; piece < plan_.pieces.size(); ++piece) {
-    const fs::path file = record_file(piece);
-    expected.insert(file);
     const std::string reason = fault(piece);
     if (reason.empty()) continue;
-    result.push_back(fmt::format("{}: piece {}, {}: {}", file.string(), piece,
+    result.push_back(fmt::format("{}: piece {}, {}: {}", record_file(piece).string(), piece,
                                  plan_.pieces[piece].name, reason));
   }
+  for (std::string& foreign : foreign_files()) result.push_back(std::move(foreign));
+  return result;
+}
+
+std::vector<std::string> PieceFolder::foreign_files() const {
+  std::set<fs::path> expected;
+  for (std::size_t piece = 0; piece < plan_.pieces.size(); ++piece) {
+    expected.insert(record_file(piece));
+  }
+  std::vector<std::string> result;
   for (const auto& entry : fs::directory_iterator(folder_)) {
     if (entry.path().extension() != ".piece" || expected.contains(entry.path())) continue;
     result.push_back(entry.path().string() + ": no piece of this run has that name");

@@ -70,12 +70,14 @@ class PieceFolder {
   /// Why the piece is not done; empty if it has a valid record. A record that is not valid counts
   /// for nothing.
   [[nodiscard]] std::string fault(std::size_t piece) const;
-  /// Writes the record of a piece whose outputs are complete.
-  void finish(std::size_t piece, int status) const;
+  /// Writes the record of a piece whose outputs are complete. Returns what is wrong with its inputs
+  /// as fault() says it; empty if nothing is.
+  std::string finish(std::size_t piece, int status) const;
 
-  /// The reasons why the pieces cannot be merged, a line each that names the piece or file; the
-  /// pieces before the files that are none.
+  /// The reasons why the pieces cannot be merged, a line each that names the piece or file.
   [[nodiscard]] std::vector<std::string> faults() const;
+  /// Those of them that are files with the name of a piece that the plan has not.
+  [[nodiscard]] std::vector<std::string> foreign_files() const;
   /// The greatest exit status of all pieces. \pre faults() is empty.
   [[nodiscard]] int status() const;
   /// The results of all pieces as one. \pre faults() is empty.
@@ -90,6 +92,8 @@ class PieceFolder {
   [[nodiscard]] nlohmann::json record_of(std::size_t piece, int status) const;
   /// What is wrong with a record; empty if nothing is. \param text of the file
   [[nodiscard]] std::string fault_of(const std::string& text, std::size_t piece) const;
+  /// Which input of a record is not as the manifest of its store says; empty if all are.
+  [[nodiscard]] std::string fault_of_inputs(const nlohmann::json& record, std::size_t piece) const;
 
   std::filesystem::path folder_;
   Plan plan_;

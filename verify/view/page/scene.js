@@ -247,10 +247,7 @@ export class Scene {
   /// they would overlap.
   placeNames() {
     const { clientWidth: width, clientHeight: height } = this.canvas;
-    const places = this.labels.map(({ point }) => {
-      const seen = point.clone().project(this.camera);
-      return { x: (seen.x + 1) / 2 * width, y: (1 - seen.y) / 2 * height };
-    });
+    const places = this.labels.map(({ point }) => this.seen(point));
     const across = places.map(({ x }) => x);
     const middle = across.reduce((sum, x) => sum + x / across.length, 0);
     const left = middle - (Math.max(...across) - Math.min(...across)) / 10;
@@ -293,11 +290,16 @@ export class Scene {
     return { x: ((x + 1) / 2) * this.canvas.clientWidth, y: ((1 - y) / 2) * this.canvas.clientHeight, depth: z };
   }
 
+  /// Where on the canvas a pointer is.
+  placeOf(event) {
+    const { left, top } = this.canvas.getBoundingClientRect();
+    return [event.clientX - left, event.clientY - top];
+  }
+
   /// The point with a handle next to a place of the canvas; null if none is near.
   grabbed(event) {
     if (this.drag === null || !this.drag.begin()) return null;
-    const { left, top } = this.canvas.getBoundingClientRect();
-    const [x, y] = [event.clientX - left, event.clientY - top];
+    const [x, y] = this.placeOf(event);
     const near = this.labels.filter(({ handle }) => handle !== null)
       .map(({ handle, point }) => ({ handle, ...this.seen(point) }))
       .map((one) => ({ ...one, away: Math.hypot(one.x - x, one.y - y) }))
@@ -308,8 +310,7 @@ export class Scene {
   /// Moves a grabbed point to a place of the canvas, in the plane that faces the viewer.
   moveTo(grabbed, event) {
     const { canvas } = this;
-    const { left, top } = canvas.getBoundingClientRect();
-    const [x, y] = [event.clientX - left, event.clientY - top];
+    const [x, y] = this.placeOf(event);
     const place = new THREE.Vector3((2 * x) / canvas.clientWidth - 1, 1 - (2 * y) / canvas.clientHeight, grabbed.depth);
     this.drag.move(grabbed.handle, place.unproject(this.camera).toArray());
   }
