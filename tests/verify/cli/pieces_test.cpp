@@ -171,6 +171,12 @@ TEST_F(PieceRuns, ByShardsInAnyOrderGiveTheSame) {
     }
   }
   EXPECT_EQ(results("some"), results("one"));
+  // A file that is no piece of the run is no piece that is not done.
+  fs::copy(path("some/000000.piece"), path("some/999999.piece"));
+  const std::string all = std::to_string(json("some/plan.json")["pieces"].size());
+  std::vector<std::string> again = words("certify", "some");
+  again.insert(again.end(), {"--shard", "0/3"});
+  EXPECT_TRUE(contains(run(again).out, all + " of " + all + " pieces are done"));
   // Without a folder, a shard is a run of its own.
   std::uint64_t queries = 0;
   for (const std::string shard : {"0/2", "1/2"}) {
