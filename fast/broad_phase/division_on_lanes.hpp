@@ -18,12 +18,7 @@
 
 namespace touchstone::fast::division {
 
-/// `Lanes` is as in search_on_lanes.hpp, and also has
-/// - load_unaligned, and least(a, b) and greatest(a, b) of Numbers;
-/// - equal(a, b): a Mask;
-/// - Words, load_words(from): sixteen numbers of 32 bits, and
-/// - write(to, words, bits): writes the numbers selected by the bits, one after the other. It may
-///   write sixteen.
+/// `Lanes` is as in search_on_lanes.hpp.
 template <class Lanes>
 class Division {
  public:
@@ -36,6 +31,7 @@ class Division {
   }
 
  private:
+  using Value = typename Lanes::Value;
   static constexpr std::size_t lanes = 16;
 
   // ---- The axis ----
@@ -60,16 +56,16 @@ class Division {
   };
 
   [[nodiscard]] Range range(const float* coordinates) const {
-    auto lower = Lanes::load_unaligned(coordinates + (part_.count - lanes)), upper = lower;
+    Value lower = Value::load(coordinates + (part_.count - lanes)), upper = lower;
     for (std::size_t i = 0; i + lanes <= part_.count; i += lanes) {
-      const auto some = Lanes::load(coordinates + i);
-      lower = Lanes::least(lower, some);
-      upper = Lanes::greatest(upper, some);
+      const Value some = Value::load(coordinates + i);
+      lower = min(lower, some);
+      upper = max(upper, some);
     }
     alignas(64) std::array<float, lanes> lowest;
     alignas(64) std::array<float, lanes> uppermost;
-    Lanes::store(lowest.data(), lower);
-    Lanes::store(uppermost.data(), upper);
+    lower.store(lowest.data());
+    upper.store(uppermost.data());
     Range result{lowest[0], uppermost[0]};
     for (std::size_t i = 1; i < lanes; ++i) {
       result.lower = lowest[i] < result.lower ? lowest[i] : result.lower;
@@ -138,15 +134,14 @@ class Division {
   /// Moves the seeds before the cut to the front, over seeds already read, and the others to the
   /// second buffer.
   void move() {
-    const auto pivot = Lanes::broadcast(pivot_);
+    const Value pivot(pivot_);
     std::size_t in_front = 0, behind = 0;
     for (std::size_t i = 0; i < part_.count; i += lanes) {
       const std::size_t rest = part_.count - i;
       const unsigned valid = rest < lanes ? (1U << rest) - 1U : 0xFFFFU;
-      const auto coordinates = Lanes::load(coordinates_ + i);
-      unsigned front = Lanes::bits(Lanes::greater(pivot, coordinates)) & valid;
-      if (at_pivot_ > 0)
-        front |= first_at_pivot(Lanes::bits(Lanes::equal(pivot, coordinates)) & valid);
+      const Value coordinates = Value::load(coordinates_ + i);
+      unsigned front = (pivot > coordinates).bits() & valid;
+      if (at_pivot_ > 0) front |= first_at_pivot((pivot == coordinates).bits() & valid);
       const unsigned back = valid & ~front;
       for (std::size_t axis = 0; axis < 3; ++axis) {
         float* const from = part_.seeds.centres[axis];

@@ -10,14 +10,6 @@ namespace {
 
 // GCC 12 loses stores to arrays of vectors.
 
-struct Numbers {
-  float32x4_t first, second, third, fourth;
-};
-
-struct Mask {
-  uint32x4_t first, second, third, fourth;
-};
-
 /// Applies an operation on vectors to sixteen lanes.
 template <class Result, class Operation, class... Sixteen>
 Result each(const Operation& operation, const Sixteen&... lanes) {
@@ -25,62 +17,24 @@ Result each(const Operation& operation, const Sixteen&... lanes) {
           operation(lanes.fourth...)};
 }
 
-Mask operator|(const Mask& a, const Mask& b) {
-  return each<Mask>([](uint32x4_t x, uint32x4_t y) { return vorrq_u32(x, y); }, a, b);
-}
+struct Mask {
+  uint32x4_t first, second, third, fourth;
 
-struct Lanes : WordsOneByOne {
-  using Numbers = touchstone::fast::Numbers;
-  using Mask = touchstone::fast::Mask;
-
-  static Numbers load(const float* from) {
-    return {vld1q_f32(from), vld1q_f32(from + 4), vld1q_f32(from + 8), vld1q_f32(from + 12)};
+  static Mask of(std::uint32_t word) {
+    const uint32x4_t words = vdupq_n_u32(word);
+    return {words, words, words, words};
   }
-  static Numbers load_unaligned(const float* from) { return load(from); }
-  static Numbers broadcast(float x) {
-    const float32x4_t all = vdupq_n_f32(x);
-    return {all, all, all, all};
-  }
-  static void store(float* to, const Numbers& numbers) {
-    vst1q_f32(to, numbers.first);
-    vst1q_f32(to + 4, numbers.second);
-    vst1q_f32(to + 8, numbers.third);
-    vst1q_f32(to + 12, numbers.fourth);
-  }
-  static Numbers least(const Numbers& a, const Numbers& b) {
-    const auto lesser = [](float32x4_t x, float32x4_t y) {
-      return vbslq_f32(vcltq_f32(x, y), x, y);
-    };
-    return each<Numbers>(lesser, a, b);
-  }
-  static Numbers greatest(const Numbers& a, const Numbers& b) {
-    const auto larger = [](float32x4_t x, float32x4_t y) {
-      return vbslq_f32(vcgtq_f32(x, y), x, y);
-    };
-    return each<Numbers>(larger, a, b);
-  }
-  static Mask none() {
-    const uint32x4_t zero = vdupq_n_u32(0);
-    return {zero, zero, zero, zero};
-  }
-  static Mask greater(const Numbers& a, const Numbers& b) {
-    return each<Mask>([](float32x4_t x, float32x4_t y) { return vcgtq_f32(x, y); }, a, b);
-  }
-  static Mask equal(const Numbers& a, const Numbers& b) {
-    return each<Mask>([](float32x4_t x, float32x4_t y) { return vceqq_f32(x, y); }, a, b);
-  }
-  static Mask greater_where(const Mask& mask, const Numbers& a, const Numbers& b) {
-    return each<Mask>([](uint32x4_t x, uint32x4_t y) { return vandq_u32(x, y); }, mask,
-                      greater(a, b));
-  }
-  static unsigned bits(const Mask& mask) {
-    return eight_bits(mask.first, mask.second) | eight_bits(mask.third, mask.fourth) << 8U;
+  static Mask none() { return of(0); }
+  static Mask all() { return of(~0U); }
+  [[nodiscard]] unsigned bits() const {
+    return eight_bits(first, second) | eight_bits(third, fourth) << 8U;
   }
 
-  static unsigned equal_bits(const std::int32_t* values, std::int32_t value) {
-    const int32x4_t all = vdupq_n_s32(value);
-    const auto equal = [&](std::size_t first) { return vceqq_s32(vld1q_s32(values + first), all); };
-    return bits({equal(0), equal(4), equal(8), equal(12)});
+  friend Mask operator&(const Mask& a, const Mask& b) {
+    return each<Mask>([](uint32x4_t x, uint32x4_t y) { return vandq_u32(x, y); }, a, b);
+  }
+  friend Mask operator|(const Mask& a, const Mask& b) {
+    return each<Mask>([](uint32x4_t x, uint32x4_t y) { return vorrq_u32(x, y); }, a, b);
   }
 
  private:
@@ -88,6 +42,77 @@ struct Lanes : WordsOneByOne {
     // A byte for each lane, then a bit of its own in each byte, then their sum.
     const uint8x8_t bytes = vmovn_u16(vcombine_u16(vmovn_u32(low), vmovn_u32(high)));
     return vaddv_u8(vand_u8(bytes, vcreate_u8(0x8040201008040201)));
+  }
+};
+
+struct Value {
+  using Scalar = float;
+
+  float32x4_t first, second, third, fourth;
+
+  Value() = default;
+  explicit Value(float value)
+      : first(vdupq_n_f32(value)), second(first), third(first), fourth(first) {}
+  Value(float32x4_t a, float32x4_t b, float32x4_t c, float32x4_t d)
+      : first(a), second(b), third(c), fourth(d) {}
+  static Value load(const float* from) {
+    return {vld1q_f32(from), vld1q_f32(from + 4), vld1q_f32(from + 8), vld1q_f32(from + 12)};
+  }
+  void store(float* to) const {
+    vst1q_f32(to, first);
+    vst1q_f32(to + 4, second);
+    vst1q_f32(to + 8, third);
+    vst1q_f32(to + 12, fourth);
+  }
+
+  friend Value operator+(const Value& a, const Value& b) {
+    return each<Value>([](float32x4_t x, float32x4_t y) { return vaddq_f32(x, y); }, a, b);
+  }
+  friend Value operator-(const Value& a, const Value& b) {
+    return each<Value>([](float32x4_t x, float32x4_t y) { return vsubq_f32(x, y); }, a, b);
+  }
+  friend Value operator*(const Value& a, const Value& b) {
+    return each<Value>([](float32x4_t x, float32x4_t y) { return vmulq_f32(x, y); }, a, b);
+  }
+  friend Mask operator<(const Value& a, const Value& b) {
+    return each<Mask>([](float32x4_t x, float32x4_t y) { return vcltq_f32(x, y); }, a, b);
+  }
+  friend Mask operator>(const Value& a, const Value& b) {
+    return each<Mask>([](float32x4_t x, float32x4_t y) { return vcgtq_f32(x, y); }, a, b);
+  }
+  friend Mask operator<=(const Value& a, const Value& b) {
+    return each<Mask>([](float32x4_t x, float32x4_t y) { return vcleq_f32(x, y); }, a, b);
+  }
+  friend Mask operator==(const Value& a, const Value& b) {
+    return each<Mask>([](float32x4_t x, float32x4_t y) { return vceqq_f32(x, y); }, a, b);
+  }
+  // As elsewhere: the second operand if there is a NaN.
+  friend Value min(const Value& a, const Value& b) {
+    return each<Value>(
+        [](float32x4_t x, float32x4_t y) { return vbslq_f32(vcltq_f32(x, y), x, y); }, a, b);
+  }
+  friend Value max(const Value& a, const Value& b) {
+    return each<Value>(
+        [](float32x4_t x, float32x4_t y) { return vbslq_f32(vcgtq_f32(x, y), x, y); }, a, b);
+  }
+  friend Value abs(const Value& a) {
+    return each<Value>([](float32x4_t x) { return vabsq_f32(x); }, a);
+  }
+};
+
+struct Lanes : WordsOneByOne {
+  using Value = touchstone::fast::Value;
+  using Mask = touchstone::fast::Mask;
+
+  static Value pick(const float* from, const Words<std::int32_t>& indices) {
+    FloatLanes result;
+    for (std::size_t i = 0; i < group_size; ++i) result[i] = from[indices[i]];
+    return Value::load(result.data());
+  }
+  static unsigned equal_bits(const std::int32_t* values, std::int32_t value) {
+    const int32x4_t all = vdupq_n_s32(value);
+    const auto equal = [&](std::size_t first) { return vceqq_s32(vld1q_s32(values + first), all); };
+    return Mask{equal(0), equal(4), equal(8), equal(12)}.bits();
   }
 };
 

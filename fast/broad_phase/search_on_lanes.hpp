@@ -24,10 +24,12 @@
 namespace touchstone::fast::search {
 
 /// `Lanes` is a type of the file of one instruction set, in an anonymous namespace. It has
-/// - Numbers and Mask: a float and a truth value in each of sixteen lanes;
-/// - load and broadcast: sixteen floats, or one sixteen times;
-/// - greater(a, b), and greater_where(mask, a, b), false where the mask is false;
-/// - bits(mask);
+/// - Value and Mask: a float and a truth value in each of sixteen lanes, with the operations of the
+///   certified solver's lanes (fast/certified/stages/lanes.hpp);
+/// - load_words(from): sixteen numbers of 32 bits at an address aligned to 64;
+/// - write(to, words, bits): writes the words that the bits select, one after the other. It may
+///   write sixteen;
+/// - pick(from, indices): of sixteen floats at an address aligned to 64, those at the indices;
 /// - equal_bits(values, value): which of sixteen whole numbers are that value;
 /// - append<is_ordered>(to, number, numbers, bits): writes the pairs of a number with those of the
 ///   sixteen numbers that the bits select, if is_ordered the smaller one first, and returns the
@@ -50,7 +52,7 @@ class Search {
   }
 
  private:
-  using Numbers = typename Lanes::Numbers;
+  using Value = typename Lanes::Value;
   using Mask = typename Lanes::Mask;
   using Boxes = BoxGroup<instants>;
 
@@ -88,16 +90,16 @@ class Search {
   // ---- Comparing ----
 
   struct Loaded {
-    std::array<std::array<Numbers, 3>, instants> lower;
-    std::array<std::array<Numbers, 3>, instants> upper;
+    std::array<std::array<Value, 3>, instants> lower;
+    std::array<std::array<Value, 3>, instants> upper;
   };
 
   static Loaded load(const Boxes& boxes) {
     Loaded result;
     for (std::size_t instant = 0; instant < instants; ++instant) {
       for (std::size_t axis = 0; axis < 3; ++axis) {
-        result.lower[instant][axis] = Lanes::load(boxes.lower[instant][axis].data());
-        result.upper[instant][axis] = Lanes::load(boxes.upper[instant][axis].data());
+        result.lower[instant][axis] = Value::load(boxes.lower[instant][axis].data());
+        result.upper[instant][axis] = Value::load(boxes.upper[instant][axis].data());
       }
     }
     return result;
@@ -106,23 +108,19 @@ class Search {
   /// The boxes, of sixteen, that are not apart from one box of a group: on no axis are they apart
   /// at all instants, in the same order.
   static unsigned not_apart(const Loaded& boxes, const Boxes& group, std::size_t lane) {
-    Mask apart = Lanes::none();
+    Mask apart = Mask::none();
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      const auto lower = [&](std::size_t i) {
-        return Lanes::broadcast(group.lower[i][axis][lane]);
-      };
-      const auto upper = [&](std::size_t i) {
-        return Lanes::broadcast(group.upper[i][axis][lane]);
-      };
-      Mask above = Lanes::greater(lower(0), boxes.upper[0][axis]);
-      Mask below = Lanes::greater(boxes.lower[0][axis], upper(0));
+      const auto lower = [&](std::size_t i) { return Value(group.lower[i][axis][lane]); };
+      const auto upper = [&](std::size_t i) { return Value(group.upper[i][axis][lane]); };
+      Mask above = lower(0) > boxes.upper[0][axis];
+      Mask below = boxes.lower[0][axis] > upper(0);
       if constexpr (instants == 2) {
-        above = Lanes::greater_where(above, lower(1), boxes.upper[1][axis]);
-        below = Lanes::greater_where(below, boxes.lower[1][axis], upper(1));
+        above = above & (lower(1) > boxes.upper[1][axis]);
+        below = below & (boxes.lower[1][axis] > upper(1));
       }
       apart = apart | above | below;
     }
-    return ~Lanes::bits(apart);
+    return ~apart.bits();
   }
 
   // ---- The walk ----

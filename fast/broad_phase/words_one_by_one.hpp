@@ -16,13 +16,16 @@ namespace touchstone::fast {
 
 struct WordsOneByOne {
   template <class Word>
-  static std::array<Word, group_size> load_words(const Word* from) {
-    std::array<Word, group_size> result;
+  using Words = std::array<Word, group_size>;
+
+  template <class Word>
+  static Words<Word> load_words(const Word* from) {
+    Words<Word> result;
     for (std::size_t i = 0; i < group_size; ++i) result[i] = from[i];
     return result;
   }
   template <class Word>
-  static void write(Word* to, const std::array<Word, group_size>& words, unsigned bits) {
+  static void write(Word* to, const Words<Word>& words, unsigned bits) {
     for (std::size_t i = 0; i < group_size; ++i) {
       *to = words[i];
       to += bits >> i & 1U;

@@ -17,6 +17,8 @@ struct Mask {
 };
 
 struct Value {
+  using Scalar = double;
+
   double x;
 
   Value() = default;

@@ -21,6 +21,8 @@ struct Mask {
 };
 
 struct Value {
+  using Scalar = double;
+
   __m256d x;
 
   Value() = default;

@@ -22,6 +22,8 @@ struct Mask {
 };
 
 struct Value {
+  using Scalar = double;
+
   __m512d x;
 
   Value() = default;

@@ -23,6 +23,8 @@ struct Mask {
 };
 
 struct Value {
+  using Scalar = double;
+
   float64x2_t x;
 
   Value() = default;

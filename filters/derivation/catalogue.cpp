@@ -22,13 +22,13 @@ CatalogueEntry entry(Ships ships, const PublishedConstants& published) {
           .ships = ships == Ships::yes};
 }
 
-/// An expression of the certified solver, in the only format in which it runs.
+/// An expression of the certified solver, in the formats in which it runs.
 template <class Expression>
-CatalogueEntry entry(const Format& format) {
+CatalogueEntry entry(const std::vector<Format>& formats) {
   return {.graph = record<Expression>(),
           .evaluators = evaluators<Expression>(),
           .published = std::nullopt,
-          .formats = {format},
+          .formats = formats,
           .ships = true};
 }
 
@@ -47,19 +47,19 @@ std::vector<CatalogueEntry> make_catalogue() {
       entry<VertexFace>(Ships::yes, vertex_face),
       entry<EdgeEdgeSeparated>(Ships::yes, edge_edge_separated),
       entry<VertexFaceSeparated>(Ships::yes, vertex_face_separated),
-      entry<MeasuredProjectedGap>(double_format),
-      entry<MeasuredDeterminantEnd>(double_format),
-      entry<MeasuredDeterminantMiddle>(double_format),
-      entry<MeasuredOrientationEnd>(double_format),
-      entry<MeasuredOrientationMiddle>(double_format),
-      entry<DeterminantEnd>(double_double_format),
-      entry<MeasuredAdvancedGap>(double_format),
-      entry<AdvancedGap>(double_double_format),
-      entry<ComponentSum>(double_format),
-      entry<SquaredLength>(double_format),
-      entry<LengthDefect>(double_double_format),
-      entry<ContactComponent>(double_double_format),
-      entry<Position>(double_format),
+      entry<MeasuredProjectedGap>({double_format}),
+      entry<MeasuredDeterminantEnd>({double_format, float_format}),
+      entry<MeasuredDeterminantMiddle>({double_format, float_format}),
+      entry<MeasuredOrientationEnd>({double_format, float_format}),
+      entry<MeasuredOrientationMiddle>({double_format, float_format}),
+      entry<DeterminantEnd>({double_double_format}),
+      entry<MeasuredAdvancedGap>({double_format, float_format}),
+      entry<AdvancedGap>({double_double_format}),
+      entry<ComponentSum>({double_format}),
+      entry<SquaredLength>({double_format}),
+      entry<LengthDefect>({double_double_format}),
+      entry<ContactComponent>({double_double_format}),
+      entry<Position>({double_format}),
       entry<PaperEdgeEdge>(Ships::no, edge_edge),
       entry<PaperVertexFace>(Ships::no, vertex_face),
       entry<PaperEdgeEdgeSeparated>(Ships::no, edge_edge_separated),

@@ -64,10 +64,11 @@ std::string error_bound_declaration(const ExpressionGraph& graph, const Format& 
   const std::vector<mpq_class> coefficients = shipped_coefficients(bound, format);
   std::string list;
   for (std::size_t j = 0; j < coefficients.size(); ++j) {
-    // The line breaks of clang-format, with three numbers on a line.
-    const std::string_view separator = j == 0       ? ""
-                                       : j % 3 == 0 ? ",\n                      "
-                                                    : ", ";
+    // The line breaks of clang-format: three doubles on a line, or four floats.
+    const std::size_t on_a_line = format.digits == float_format.digits ? 4 : 3;
+    const std::string_view separator = j == 0               ? ""
+                                       : j % on_a_line == 0 ? ",\n                      "
+                                                            : ", ";
     list += std::string(separator) + literal(coefficients[j], format);
   }
   const mpq_class units = bound.rounding() / format.unit_roundoff();

@@ -17,38 +17,32 @@
 #include "fast/certified/stages/direction.hpp"
 #include "fast/certified/stages/lanes.hpp"
 #include "fast/certified/stages/moving_vectors.hpp"
-#include "touchstone/filters/error_bounds.hpp"
 
 namespace touchstone::fast::kernel {
-
-/// An upper bound of the underflow part of an error: negligible in any scene.
-inline constexpr double determinant_underflow =
-    filters::measured_determinant_middle_double.underflow(greatest_difference);
-// The bound of the middle Bernstein coefficients, which is the greatest, serves for all.
-static_assert(filters::measured_determinant_end_double.rounding() <=
-              filters::measured_determinant_middle_double.rounding());
 
 /// The error bound of det by the magnitudes of r, p and q: `shift` is the one of a value or of
 /// coefficients.
 template <bool separated, class Value>
-inline Value determinant_bound(const std::array<Value, 3>& magnitudes, double rounding,
-                               double underflow, const Value& distance, double shift) {
+inline Value determinant_bound(const std::array<Value, 3>& magnitudes,
+                               typename Value::Scalar rounding, typename Value::Scalar underflow,
+                               const Value& distance, typename Value::Scalar shift) {
   return widened<separated>(magnitudes[0], rounding, distance, shift) * magnitudes[1] *
              magnitudes[2] * Value(rounding) +
          Value(underflow);
 }
 template <bool separated, class Value>
 inline Value determinant_bound(const std::array<Value, 3>& magnitudes, const Value& distance,
-                               double shift) {
-  return determinant_bound<separated>(magnitudes,
-                                      filters::measured_determinant_middle_double.rounding(),
-                                      determinant_underflow, distance, shift);
+                               typename Value::Scalar shift) {
+  using Format = FormatOf<Value>;
+  return determinant_bound<separated>(magnitudes, Format::determinant.rounding(),
+                                      Format::determinant.underflow(Format::limits.difference),
+                                      distance, shift);
 }
 template <bool separated, class Value>
 inline Value determinant_bound(const Ends<Value>& unit, const Value& distance) {
   return determinant_bound<separated>(
       std::array<Value, 3>{magnitude(unit[r]), magnitude(unit[p]), magnitude(unit[q])}, distance,
-      shift_of_coefficients);
+      shift_of_coefficients<typename Value::Scalar>);
 }
 
 /// N = p × q at both ends, and twice its middle Bernstein coefficient.
@@ -84,7 +78,7 @@ struct DeterminantTest {
   MaskOf<Value> crosses_once;  ///< one zero
 
   DeterminantTest(const std::array<Value, 4>& c, const Value& bound) {
-    const Value minus_bound = Value(0.0) - bound;
+    const Value minus_bound = Value(0) - bound;
     one_sided = (min(min(c[0], c[1]), min(c[2], c[3])) > bound) |
                 (max(max(c[0], c[1]), max(c[2], c[3])) < minus_bound);
     const MaskOf<Value> rises =

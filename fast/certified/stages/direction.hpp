@@ -12,19 +12,11 @@
 
 #include <array>
 #include <cstddef>
+#include <limits>
 
 #include "fast/certified/stages/lanes.hpp"
-#include "touchstone/filters/error_bounds.hpp"
 
 namespace touchstone::fast::kernel {
-
-// Upper bounds of the underflow part of an error: negligible in any scene.
-inline constexpr double gap_underflow =
-    filters::measured_projected_gap_double.underflow(greatest_direction);
-inline constexpr double advanced_gap_underflow =
-    filters::measured_advanced_gap_double.underflow(greatest_direction);
-static_assert(greatest_direction <= filters::measured_projected_gap_double.greatest_x);
-static_assert(greatest_direction <= filters::measured_advanced_gap_double.greatest_x);
 
 /// A query's points as differences from one of them, at t=0 and t=1. The corners are all a − b for
 /// a of the first and b of the second list.
@@ -76,7 +68,7 @@ struct Differences {
     for (std::size_t end = 0; end < 2; ++end) {
       Value least_a = filters::dot(d, a[0][end]);
       for (std::size_t i = 1; i < firsts; ++i) least_a = min(least_a, filters::dot(d, a[i][end]));
-      Value greatest_b(0.0);
+      Value greatest_b(0);
       for (std::size_t i = 0; i < seconds; ++i) {
         greatest_b = max(greatest_b, filters::dot(d, b[i][end]));
       }
@@ -96,37 +88,42 @@ class DirectionTest {
     const Differences<Value, kind> differences(points);
     const Value magnitude = differences.magnitude();
     const Vector<Value> d = differences.sum_of_corners();
-    bounded = (max(magnitude, distance) <= Value(greatest_distance)) & is_number(d);
+    bounded = (max(magnitude, distance) <= Value(limits.distance)) & is_number(d);
     apart = separates(d, differences.gap(d), magnitude, distance);
   }
 
  private:
+  using Scalar = typename Value::Scalar;
+  using Format = FormatOf<Value>;
+  static constexpr Limits<Scalar> limits = Format::limits;
+
   /// \param gap The least d·w, at both ends.
   static MaskOf<Value> separates(const Vector<Value>& d, const Value& gap, const Value& magnitude,
                                  const Value& distance) {
-    if constexpr (separated) return separates_by(d, gap, magnitude, distance);
-    const Value bound =
-        greatest(d) * magnitude * Value(filters::measured_projected_gap_double.rounding()) +
-        Value(gap_underflow);
-    return gap > bound;
+    if constexpr (separated) {
+      return separates_by(d, gap, magnitude, distance);
+    } else {
+      const Value bound = greatest(d) * magnitude * Value(Format::projected_gap.rounding()) +
+                          Value(Format::projected_gap.underflow(limits.direction));
+      return gap > bound;
+    }
   }
 
   /// The test with a distance: d·w − D n as filters::AdvancedGap. n is the sum of the magnitudes of
   /// d's components, rounded up, an upper bound of both norms.
   static MaskOf<Value> separates_by(const Vector<Value>& d, const Value& gap,
                                     const Value& magnitude, const Value& distance) {
-    constexpr double above_rounding = 1.0 + 0x1p-50;
+    constexpr Scalar above_rounding = 1 + 4 * std::numeric_limits<Scalar>::epsilon();
     const Value n = (abs(d[0]) + abs(d[1]) + abs(d[2])) * Value(above_rounding);
-    const Value bound =
-        n * max(magnitude, distance) * Value(filters::measured_advanced_gap_double.rounding()) +
-        Value(advanced_gap_underflow);
+    const Value bound = n * max(magnitude, distance) * Value(Format::advanced_gap.rounding()) +
+                        Value(Format::advanced_gap.underflow(limits.direction));
     return gap - n * distance > bound;
   }
 
   /// The sum of the corners has every coordinate as a term, so it is not finite if one of them is
   /// not.
   static MaskOf<Value> is_number(const Vector<Value>& sum) {
-    const Value zero(0.0);
+    const Value zero(0);
     const Value difference = ((sum[0] - sum[0]) + (sum[1] - sum[1])) + (sum[2] - sum[2]);
     return difference <= zero;
   }

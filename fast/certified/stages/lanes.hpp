@@ -20,17 +20,57 @@
 #include <utility>
 
 #include "fast/certified/kernel.hpp"
+#include "touchstone/filters/error_bounds.hpp"
 #include "touchstone/filters/polynomial_expressions.hpp"
 
 namespace touchstone::fast::kernel {
 
-/// The maximum distance of a query's points from one of them on each axis: squares and cubes of the
-/// differences do not overflow. The kernel does not decide larger queries.
-inline constexpr double greatest_distance = 0x1p100;
-/// Upper bounds of the differences of any two points, and of sums of differences or of products of
-/// two, with a margin for rounding.
-inline constexpr double greatest_difference = 0x1p102;
-inline constexpr double greatest_direction = 0x1p210;
+/// The limits of a query's size. Larger queries are not decided.
+template <class Scalar>
+struct Limits {
+  /// The maximum distance of a query's points from one of them on each axis: squares and cubes of
+  /// the differences do not overflow.
+  Scalar distance;
+  /// Upper bounds of the differences of any two points, and of sums of differences or of products
+  /// of two, with a margin for rounding.
+  Scalar difference;
+  Scalar direction;
+};
+
+/// The limits and the error bounds of the stages, by the format of their numbers. The bounds of
+/// middle Bernstein coefficients, which are the greatest, serve for all coefficients.
+template <class Scalar>
+struct StageFormat;
+
+template <>
+struct StageFormat<double> {
+  static constexpr Limits<double> limits{0x1p100, 0x1p102, 0x1p210};
+  static constexpr auto projected_gap = filters::measured_projected_gap_double;
+  static constexpr auto advanced_gap = filters::measured_advanced_gap_double;
+  static constexpr auto determinant = filters::measured_determinant_middle_double;
+  static constexpr auto orientation = filters::measured_orientation_middle_double;
+  static_assert(limits.direction <= projected_gap.greatest_x);
+  static_assert(limits.direction <= advanced_gap.greatest_x);
+  static_assert(limits.direction <= orientation.greatest_x);
+  static_assert(filters::measured_determinant_end_double.rounding() <= determinant.rounding());
+  static_assert(filters::measured_orientation_end_double.rounding() <= orientation.rounding());
+};
+
+/// For the coordinates of fast/broad_phase/local_places.hpp.
+template <>
+struct StageFormat<float> {
+  static constexpr Limits<float> limits{0x1p4F, 0x1p6F, 0x1p14F};
+  static constexpr auto advanced_gap = filters::measured_advanced_gap_float;
+  static constexpr auto determinant = filters::measured_determinant_middle_float;
+  static constexpr auto orientation = filters::measured_orientation_middle_float;
+  static_assert(limits.direction <= advanced_gap.greatest_x);
+  static_assert(limits.direction <= orientation.greatest_x);
+  static_assert(filters::measured_determinant_end_float.rounding() <= determinant.rounding());
+  static_assert(filters::measured_orientation_end_float.rounding() <= orientation.rounding());
+};
+
+template <class Value>
+using FormatOf = StageFormat<typename Value::Scalar>;
 
 // ---- Lists of queries ---------------------------------------------------------------------------
 

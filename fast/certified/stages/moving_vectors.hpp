@@ -68,11 +68,14 @@ inline Ends<Value> between(const Ends<Value>& unit, const Value& begin, const Va
 /// also covers the shift by the distance. `rounding` is the factor of the magnitudes in the bound,
 /// `shift` the factor of the distance.
 template <bool separated, class Value>
-inline Value widened(const Value& magnitude, double rounding, const Value& distance, double shift) {
+inline Value widened(const Value& magnitude, typename Value::Scalar rounding, const Value& distance,
+                     typename Value::Scalar shift) {
   if constexpr (separated) return magnitude + distance * Value(shift / rounding);
   return magnitude;
 }
-inline constexpr double shift_of_value = 4.001;
-inline constexpr double shift_of_coefficients = 12.001;
+template <class Scalar>
+inline constexpr Scalar shift_of_value = Scalar(4.001);
+template <class Scalar>
+inline constexpr Scalar shift_of_coefficients = Scalar(12.001);
 
 }  // namespace touchstone::fast::kernel

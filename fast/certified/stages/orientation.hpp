@@ -23,17 +23,8 @@
 #include "fast/certified/stages/determinant.hpp"
 #include "fast/certified/stages/lanes.hpp"
 #include "fast/certified/stages/moving_vectors.hpp"
-#include "touchstone/filters/error_bounds.hpp"
 
 namespace touchstone::fast::kernel {
-
-/// An upper bound of the underflow part of an error: negligible in any scene.
-inline constexpr double orientation_underflow =
-    filters::measured_orientation_middle_double.underflow(greatest_direction);
-static_assert(greatest_direction <= filters::measured_orientation_middle_double.greatest_x);
-// The bound of the middle Bernstein coefficients, which is the greatest, serves for all.
-static_assert(filters::measured_orientation_end_double.rounding() <=
-              filters::measured_orientation_middle_double.rounding());
 
 /// An orientation as ± x · (d × y).
 struct Orientation {
@@ -63,12 +54,13 @@ struct Bounds {
 template <Kind kind, bool separated, class Value>
 inline Bounds<Value, kind> bounds_of(const Ends<Value>& unit, const Value& distance) {
   constexpr auto all_orientations = orientations<kind>();
-  constexpr double rounding = filters::measured_orientation_middle_double.rounding();
+  using Scalar = typename Value::Scalar;
+  constexpr Scalar rounding = FormatOf<Value>::orientation.rounding();
   Bounds<Value, kind> bounds{determinant_bound<separated>(unit, distance), {}};
   for (std::size_t i = 0; i < all_orientations.size(); ++i) {
     const auto [x, y, is_negative] = all_orientations[i];
     bounds.orientation_scale[i] =
-        widened<separated>(magnitude(unit[x]), rounding, distance, shift_of_coefficients) *
+        widened<separated>(magnitude(unit[x]), rounding, distance, shift_of_coefficients<Scalar>) *
         magnitude(unit[y]);
   }
   return bounds;
@@ -84,9 +76,11 @@ struct OrientationTest {
 template <Kind kind, class Value>
 inline OrientationTest<Value> test_orientations(const Vector<Value>& d, const Ends<Value>& at,
                                                 const Bounds<Value, kind>& bounds) {
+  using Format = FormatOf<Value>;
   using Mask = MaskOf<Value>;
+  constexpr auto underflow = Format::orientation.underflow(Format::limits.direction);
   constexpr auto all_orientations = orientations<kind>();
-  const Value scale = greatest(d) * Value(filters::measured_orientation_middle_double.rounding());
+  const Value scale = greatest(d) * Value(Format::orientation.rounding());
   Mask any_positive = Mask::none(), any_negative = Mask::none();
   Mask all_positive = Mask::all(), all_negative = Mask::all();
   for (std::size_t i = 0; i < all_orientations.size(); ++i) {
@@ -94,9 +88,9 @@ inline OrientationTest<Value> test_orientations(const Vector<Value>& d, const En
     const Vector<Value> d_y_a = filters::cross(d, at[y][0]), d_y_b = filters::cross(d, at[y][1]);
     const Value o_a = filters::dot(at[x][0], d_y_a), o_b = filters::dot(at[x][1], d_y_b);
     const Value o_ab = filters::orientation_middle(at[x][0], at[x][1], d_y_a, d_y_b);
-    const Value bound = scale * bounds.orientation_scale[i] + Value(orientation_underflow);
+    const Value bound = scale * bounds.orientation_scale[i] + Value(underflow);
     const Mask above = min(min(o_a, o_b), o_ab) > bound;
-    const Mask below = max(max(o_a, o_b), o_ab) < Value(0.0) - bound;
+    const Mask below = max(max(o_a, o_b), o_ab) < Value(0) - bound;
     const Mask positive = is_negative ? below : above;
     const Mask negative = is_negative ? above : below;
     any_positive = any_positive | positive;

@@ -34,8 +34,9 @@ namespace touchstone::fast::kernel {
 
 /// An upper bound of the underflow part of an error: negligible in any scene.
 inline constexpr double double_double_underflow =
-    filters::determinant_end_double_double.underflow(greatest_difference);
-static_assert(greatest_difference <= filters::determinant_end_double_double.greatest_x);
+    filters::determinant_end_double_double.underflow(StageFormat<double>::limits.difference);
+static_assert(StageFormat<double>::limits.difference <=
+              filters::determinant_end_double_double.greatest_x);
 
 /// det in double-double, at any time.
 template <class Value, bool separated, Kind kind>
@@ -56,7 +57,7 @@ class PreciseDeterminant {
     }
     bound_ =
         determinant_bound<separated>(magnitudes_, filters::determinant_end_double_double.rounding(),
-                                     double_double_underflow, distance, shift_of_value);
+                                     double_double_underflow, distance, shift_of_value<double>);
   }
 
   [[nodiscard]] Value at(const Value& time) const {
@@ -70,7 +71,7 @@ class PreciseDeterminant {
   [[nodiscard]] const Value& bound() const { return bound_; }
   /// The bound of det if computed in double, from its coefficients on any interval.
   [[nodiscard]] Value rough_bound() const {
-    return determinant_bound<separated>(magnitudes_, distance_, shift_of_value);
+    return determinant_bound<separated>(magnitudes_, distance_, shift_of_value<double>);
   }
 
  private:

@@ -74,11 +74,23 @@ inline constexpr ErrorBound<double, 3> measured_determinant_end_double{
     .greatest_x = 0x1p+340,
 };
 
+/// measured_determinant_end in float: 82 u x^3 and underflow.
+inline constexpr ErrorBound<float, 3> measured_determinant_end_float{
+    .coefficients = {{0x1p-147F, 0x1.8p-147F, 0x1.ep-145F, 0x1.48002p-18F}},
+    .greatest_x = 0x1p+41F,
+};
+
 /// measured_determinant_middle in double: 276 u x^3 and underflow.
 inline constexpr ErrorBound<double, 3> measured_determinant_middle_double{
     .coefficients = {{0x0.0000000000006p-1022, 0x0.000000000000cp-1022, 0x0.0000000000054p-1022,
                       0x1.140000000000ep-45}},
     .greatest_x = 0x1p+339,
+};
+
+/// measured_determinant_middle in float: 276 u x^3 and underflow.
+inline constexpr ErrorBound<float, 3> measured_determinant_middle_float{
+    .coefficients = {{0x1.8p-147F, 0x1.8p-146F, 0x1.5p-143F, 0x1.14001cp-16F}},
+    .greatest_x = 0x1p+40F,
 };
 
 /// measured_orientation_end in double: 70 u x^3 and underflow.
@@ -88,11 +100,23 @@ inline constexpr ErrorBound<double, 3> measured_orientation_end_double{
     .greatest_x = 0x1p+340,
 };
 
+/// measured_orientation_end in float: 70 u x^3 and underflow.
+inline constexpr ErrorBound<float, 3> measured_orientation_end_float{
+    .coefficients = {{0x1p-147F, 0x1.8p-147F, 0x1.8p-145F, 0x1.18001ap-18F}},
+    .greatest_x = 0x1p+41F,
+};
+
 /// measured_orientation_middle in double: 152 u x^3 and underflow.
 inline constexpr ErrorBound<double, 3> measured_orientation_middle_double{
     .coefficients = {{0x0.0000000000006p-1022, 0x0.0000000000009p-1022, 0x0.000000000002dp-1022,
                       0x1.300000000000fp-46}},
     .greatest_x = 0x1p+339,
+};
+
+/// measured_orientation_middle in float: 152 u x^3 and underflow.
+inline constexpr ErrorBound<float, 3> measured_orientation_middle_float{
+    .coefficients = {{0x1.8p-147F, 0x1.2p-146F, 0x1.68p-144F, 0x1.30001ep-17F}},
+    .greatest_x = 0x1p+41F,
 };
 
 /// determinant_end in double_double: 64 u x^3 and underflow.
@@ -106,6 +130,12 @@ inline constexpr ErrorBound<double, 3> determinant_end_double_double{
 inline constexpr ErrorBound<double, 2> measured_advanced_gap_double{
     .coefficients = {{0x0.0000000000007p-1022, 0x0.000000000000ap-1022, 0x1.c00000000000ep-48}},
     .greatest_x = 0x1p+510,
+};
+
+/// measured_advanced_gap in float: 56 u x^2 and underflow.
+inline constexpr ErrorBound<float, 2> measured_advanced_gap_float{
+    .coefficients = {{0x1.cp-147F, 0x1.4p-146F, 0x1.c0001cp-19F}},
+    .greatest_x = 0x1p+62F,
 };
 
 /// advanced_gap in double_double: 42 u x^2 and underflow.
