@@ -52,12 +52,12 @@ void for_each_block(const Scene& scene, const Trees<instants>& trees, const Sear
 // ---- Collisions ---------------------------------------------------------------------------------
 
 /// Appends the collisions of a part, in the order of its pairs.
-void collect(const Scene& scene, const Trees<2>& trees, const SearchPart& part,
+void collect(const Scene& scene, const SceneInterval& interval, const SearchPart& part,
              std::vector<StepCollision>& found) {
   std::vector<std::pair<std::size_t, StepCollision>> of_block;
-  for_each_block(scene, trees, part, [&](std::span<const IndexPair> pairs) {
+  for_each_block(scene, interval.trees, part, [&](std::span<const IndexPair> pairs) {
     of_block.clear();
-    scene.decide(part.kind, pairs, scene.certified().t_max,
+    scene.decide(part.kind, pairs, interval, scene.certified().t_max,
                  [&](std::size_t place, const StepCollision& collision) {
                    of_block.emplace_back(place, collision);
                  });
@@ -67,11 +67,11 @@ void collect(const Scene& scene, const Trees<2>& trees, const SearchPart& part,
 }
 
 std::vector<StepCollision> all_collisions(const Scene& scene) {
-  const Trees<2> trees = scene.trees<2>(t_end_of(scene.certified().t_max));
+  const SceneInterval interval = scene.up_to(t_end_of(scene.certified().t_max));
   const std::vector<SearchPart> parts = scene.parts(groups_of_part);
   std::vector<std::vector<StepCollision>> of_parts(parts.size());
   tbb::parallel_for(std::size_t{0}, parts.size(),
-                    [&](std::size_t i) { collect(scene, trees, parts[i], of_parts[i]); });
+                    [&](std::size_t i) { collect(scene, interval, parts[i], of_parts[i]); });
   std::size_t count = 0;
   for (const auto& some : of_parts) count += some.size();
   std::vector<StepCollision> result;
@@ -81,14 +81,14 @@ std::vector<StepCollision> all_collisions(const Scene& scene) {
 }
 
 bool has_collision(const Scene& scene) {
-  const Trees<2> trees = scene.trees<2>(t_end_of(scene.certified().t_max));
+  const SceneInterval interval = scene.up_to(t_end_of(scene.certified().t_max));
   const std::vector<SearchPart> parts = scene.parts(groups_of_part);
   std::atomic<bool> found = false;
   tbb::parallel_for(std::size_t{0}, parts.size(), [&](std::size_t i) {
     if (found) return;
-    for_each_block(scene, trees, parts[i], [&](std::span<const IndexPair> pairs) {
+    for_each_block(scene, interval.trees, parts[i], [&](std::span<const IndexPair> pairs) {
       if (found) return;
-      scene.decide(parts[i].kind, pairs, scene.certified().t_max,
+      scene.decide(parts[i].kind, pairs, interval, scene.certified().t_max,
                    [&](std::size_t, const StepCollision&) { found = true; });
     });
   });
@@ -104,7 +104,7 @@ class EarliestSearch {
   explicit EarliestSearch(const Scene& scene)
       : scene_(scene),
         t_end_(t_end_of(scene.certified().t_max)),
-        trees_(scene.trees<2>(t_end_)),
+        interval_(scene.up_to(t_end_)),
         parts_(scene.parts(groups_of_part)) {}
 
   [[nodiscard]] std::optional<StepImpact> run() {
@@ -133,7 +133,7 @@ class EarliestSearch {
     const double t_end = t_end_of(limit());
     if (t_end > much * t_end_) return;
     t_end_ = t_end;
-    scene_.fit(trees_, t_end);
+    scene_.fit(interval_, t_end);
   }
 
   /// Searches with the wanted groups.
@@ -151,8 +151,8 @@ class EarliestSearch {
   }
 
   void search(const SearchPart& part) {
-    for_each_block(scene_, trees_, part, [&](std::span<const IndexPair> pairs) {
-      scene_.decide(part.kind, pairs, limit(),
+    for_each_block(scene_, interval_.trees, part, [&](std::span<const IndexPair> pairs) {
+      scene_.decide(part.kind, pairs, interval_, limit(),
                     [this](std::size_t, const StepCollision& collision) { add(collision); });
     });
   }
@@ -191,7 +191,7 @@ class EarliestSearch {
 
   const Scene& scene_;
   double t_end_;
-  Trees<2> trees_;
+  SceneInterval interval_;
   std::vector<SearchPart> parts_;
   std::atomic<double> upper_ = std::numeric_limits<double>::infinity();
   tbb::enumerable_thread_specific<Found> found_;
@@ -356,7 +356,7 @@ std::optional<double> Step::free_step_size() const {
 
 void Step::candidates(const std::function<void(const StepCandidates&)>& take) const {
   with_threads(scene_->certified().max_threads, [&] {
-    const Trees<1> trees = scene_->trees<1>(1.0);
+    const Trees<1> trees = scene_->swept_trees();
     const std::vector<SearchPart> parts = scene_->parts(groups_of_part);
     tbb::parallel_for(std::size_t{0}, parts.size(), [&](std::size_t i) {
       const PairKind kind = parts[i].kind;

@@ -6,79 +6,10 @@
 #include <utility>
 
 #include "fast/broad_phase/search_on_lanes.hpp"
+#include "fast/platform/avx2_floats.hpp"
 
 namespace touchstone::fast {
 namespace {
-
-struct Mask {
-  __m256 low, high;
-
-  static Mask none() { return {_mm256_setzero_ps(), _mm256_setzero_ps()}; }
-  static Mask all() {
-    const __m256 ones = _mm256_castsi256_ps(_mm256_set1_epi32(-1));
-    return {ones, ones};
-  }
-  [[nodiscard]] unsigned bits() const {
-    return static_cast<unsigned>(_mm256_movemask_ps(low)) |
-           static_cast<unsigned>(_mm256_movemask_ps(high)) << 8U;
-  }
-
-  friend Mask operator&(const Mask& a, const Mask& b) {
-    return {_mm256_and_ps(a.low, b.low), _mm256_and_ps(a.high, b.high)};
-  }
-  friend Mask operator|(const Mask& a, const Mask& b) {
-    return {_mm256_or_ps(a.low, b.low), _mm256_or_ps(a.high, b.high)};
-  }
-};
-
-struct Value {
-  using Scalar = float;
-
-  __m256 low, high;
-
-  Value() = default;
-  explicit Value(float value) : low(_mm256_set1_ps(value)), high(low) {}
-  Value(__m256 first, __m256 second) : low(first), high(second) {}
-  static Value load(const float* from) {
-    return {_mm256_loadu_ps(from), _mm256_loadu_ps(from + 8)};
-  }
-  void store(float* to) const {
-    _mm256_storeu_ps(to, low);
-    _mm256_storeu_ps(to + 8, high);
-  }
-
-  friend Value operator+(const Value& a, const Value& b) {
-    return {_mm256_add_ps(a.low, b.low), _mm256_add_ps(a.high, b.high)};
-  }
-  friend Value operator-(const Value& a, const Value& b) {
-    return {_mm256_sub_ps(a.low, b.low), _mm256_sub_ps(a.high, b.high)};
-  }
-  friend Value operator*(const Value& a, const Value& b) {
-    return {_mm256_mul_ps(a.low, b.low), _mm256_mul_ps(a.high, b.high)};
-  }
-  friend Mask operator<(const Value& a, const Value& b) {
-    return {_mm256_cmp_ps(a.low, b.low, _CMP_LT_OQ), _mm256_cmp_ps(a.high, b.high, _CMP_LT_OQ)};
-  }
-  friend Mask operator>(const Value& a, const Value& b) {
-    return {_mm256_cmp_ps(a.low, b.low, _CMP_GT_OQ), _mm256_cmp_ps(a.high, b.high, _CMP_GT_OQ)};
-  }
-  friend Mask operator<=(const Value& a, const Value& b) {
-    return {_mm256_cmp_ps(a.low, b.low, _CMP_LE_OQ), _mm256_cmp_ps(a.high, b.high, _CMP_LE_OQ)};
-  }
-  friend Mask operator==(const Value& a, const Value& b) {
-    return {_mm256_cmp_ps(a.low, b.low, _CMP_EQ_OQ), _mm256_cmp_ps(a.high, b.high, _CMP_EQ_OQ)};
-  }
-  friend Value min(const Value& a, const Value& b) {
-    return {_mm256_min_ps(a.low, b.low), _mm256_min_ps(a.high, b.high)};
-  }
-  friend Value max(const Value& a, const Value& b) {
-    return {_mm256_max_ps(a.low, b.low), _mm256_max_ps(a.high, b.high)};
-  }
-  friend Value abs(const Value& a) {
-    const __m256 sign = _mm256_set1_ps(-0.0F);
-    return {_mm256_andnot_ps(sign, a.low), _mm256_andnot_ps(sign, a.high)};
-  }
-};
 
 /// For each set of eight lanes, the lanes' numbers in sequence, one byte each.
 constexpr std::array<std::uint64_t, 256> make_places() {
@@ -96,15 +27,15 @@ constexpr std::array<std::uint64_t, 256> make_places() {
 constexpr std::array<std::uint64_t, 256> places = make_places();
 
 struct Lanes {
-  using Value = touchstone::fast::Value;
-  using Mask = touchstone::fast::Mask;
+  using Value = Floats;
+  using Mask = FloatMask;
 
   static unsigned equal_bits(const std::int32_t* values, std::int32_t value) {
     const __m256i all = _mm256_set1_epi32(value);
     const auto equal = [all](const std::int32_t* from) {
       return _mm256_castsi256_ps(_mm256_cmpeq_epi32(load_whole(from), all));
     };
-    return Mask{equal(values), equal(values + 8)}.bits();
+    return FloatMask{equal(values), equal(values + 8)}.bits();
   }
 
   struct Words {
@@ -113,9 +44,6 @@ struct Lanes {
   template <class Word>
   static Words load_words(const Word* from) {
     return {load_whole(from), load_whole(from + 8)};
-  }
-  static Value pick(const float* from, const Words& indices) {
-    return {pick_half(from, indices.low), pick_half(from, indices.high)};
   }
   template <class Word>
   static void write(Word* to, const Words& words, unsigned bits) {
@@ -133,13 +61,6 @@ struct Lanes {
   }
 
  private:
-  static __m256 pick_half(const float* from, __m256i indices) {
-    // Bit 3 of an index, which selects the half, becomes the sign.
-    return _mm256_blendv_ps(_mm256_permutevar8x32_ps(_mm256_load_ps(from), indices),
-                            _mm256_permutevar8x32_ps(_mm256_load_ps(from + 8), indices),
-                            _mm256_castsi256_ps(_mm256_slli_epi32(indices, 28)));
-  }
-
   static __m256i load_whole(const void* from) {
     return _mm256_load_si256(static_cast<const __m256i*>(from));
   }

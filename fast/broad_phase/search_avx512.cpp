@@ -4,59 +4,15 @@
 #include <immintrin.h>
 
 #include "fast/broad_phase/search_on_lanes.hpp"
+#include "fast/platform/avx512_floats.hpp"
 
 namespace touchstone::fast {
 namespace {
 
-struct Mask {
-  __mmask16 set;
-
-  static Mask none() { return {0}; }
-  static Mask all() { return {0xFFFF}; }
-  [[nodiscard]] unsigned bits() const { return set; }
-
-  friend Mask operator&(Mask a, Mask b) { return {static_cast<__mmask16>(a.set & b.set)}; }
-  friend Mask operator|(Mask a, Mask b) { return {static_cast<__mmask16>(a.set | b.set)}; }
-};
-
-struct Value {
-  using Scalar = float;
-
-  __m512 x;
-
-  Value() = default;
-  explicit Value(float value) : x(_mm512_set1_ps(value)) {}
-  explicit Value(__m512 value) : x(value) {}
-  static Value load(const float* from) { return Value(_mm512_loadu_ps(from)); }
-  void store(float* to) const { _mm512_storeu_ps(to, x); }
-
-  friend Value operator+(const Value& a, const Value& b) { return Value(_mm512_add_ps(a.x, b.x)); }
-  friend Value operator-(const Value& a, const Value& b) { return Value(_mm512_sub_ps(a.x, b.x)); }
-  friend Value operator*(const Value& a, const Value& b) { return Value(_mm512_mul_ps(a.x, b.x)); }
-  friend Mask operator<(const Value& a, const Value& b) {
-    return {_mm512_cmp_ps_mask(a.x, b.x, _CMP_LT_OQ)};
-  }
-  friend Mask operator>(const Value& a, const Value& b) {
-    return {_mm512_cmp_ps_mask(a.x, b.x, _CMP_GT_OQ)};
-  }
-  friend Mask operator<=(const Value& a, const Value& b) {
-    return {_mm512_cmp_ps_mask(a.x, b.x, _CMP_LE_OQ)};
-  }
-  friend Mask operator==(const Value& a, const Value& b) {
-    return {_mm512_cmp_ps_mask(a.x, b.x, _CMP_EQ_OQ)};
-  }
-  friend Value min(const Value& a, const Value& b) { return Value(_mm512_min_ps(a.x, b.x)); }
-  friend Value max(const Value& a, const Value& b) { return Value(_mm512_max_ps(a.x, b.x)); }
-  friend Value abs(const Value& a) { return Value(_mm512_abs_ps(a.x)); }
-};
-
 struct Lanes {
-  using Value = touchstone::fast::Value;
-  using Mask = touchstone::fast::Mask;
+  using Value = Floats;
+  using Mask = FloatMask;
 
-  static Value pick(const float* from, __m512i indices) {
-    return Value(_mm512_permutexvar_ps(indices, _mm512_load_ps(from)));
-  }
   static unsigned equal_bits(const std::int32_t* values, std::int32_t value) {
     return _mm512_cmpeq_epi32_mask(_mm512_load_si512(values), _mm512_set1_epi32(value));
   }

@@ -29,7 +29,6 @@ namespace touchstone::fast::search {
 /// - load_words(from): sixteen numbers of 32 bits at an address aligned to 64;
 /// - write(to, words, bits): writes the words that the bits select, one after the other. It may
 ///   write sixteen;
-/// - pick(from, indices): of sixteen floats at an address aligned to 64, those at the indices;
 /// - equal_bits(values, value): which of sixteen whole numbers are that value;
 /// - append<is_ordered>(to, number, numbers, bits): writes the pairs of a number with those of the
 ///   sixteen numbers that the bits select, if is_ordered the smaller one first, and returns the

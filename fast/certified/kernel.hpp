@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <span>
 
+#include "fast/certified/fixed_point_vertices.hpp"
 #include "fast/platform/instruction_set.hpp"
 #include "touchstone/mesh.hpp"
 #include "touchstone/query.hpp"
@@ -33,6 +34,10 @@ struct KernelInput {
   /// True if coordinates are known to be finite and few queries are separated on an axis. Then the
   /// first stage is omitted.
   bool axis_is_done = false;
+  /// With pairs, null or all vertices in fixed point, on an interval [0, t]. Then queries without a
+  /// contact up to t may be decided in single precision.
+  const FixedPointVertex* rounded = nullptr;
+  float rounded_distance = 0.0F;  ///< of FixedPointVertices
   /// The distance at which primitives are in contact.
   Separation separation = {};
   /// As CertifiedOptions::toi_tolerance, at least least_kernel_tolerance.

@@ -3,6 +3,7 @@
 
 #include "fast/certified/kernel_on_lanes.hpp"
 #include "fast/platform/avx2_doubles.hpp"
+#include "fast/platform/avx2_floats.hpp"
 #include "fast/platform/avx_rows.hpp"
 
 namespace touchstone::fast {
@@ -13,6 +14,8 @@ struct Lanes {
   using Mask = touchstone::fast::Mask;
   using Row = AvxRow<Value>;
   using RowMask = AvxRowMask<Value>;
+  using Single = Floats;
+  using Rounded = Wholes;
   static constexpr std::size_t width = 4;
 
   static std::array<Value, 3> load(const std::array<const double*, width>& rows) {

@@ -5,6 +5,7 @@
 
 #include "fast/certified/kernel_on_lanes.hpp"
 #include "fast/platform/avx512_doubles.hpp"
+#include "fast/platform/avx512_floats.hpp"
 #include "fast/platform/avx_rows.hpp"
 
 namespace touchstone::fast {
@@ -15,6 +16,8 @@ struct Lanes {
   using Mask = touchstone::fast::Mask;
   using Row = AvxRow<Value>;
   using RowMask = AvxRowMask<Value>;
+  using Single = Floats;
+  using Rounded = Wholes;
   static constexpr std::size_t width = 8;
 
   static std::array<Value, 3> load(const std::array<const double*, width>& rows) {

@@ -2,6 +2,7 @@
 
 #include "fast/certified/kernel_on_lanes.hpp"
 #include "fast/platform/neon_doubles.hpp"
+#include "fast/platform/neon_floats.hpp"
 
 namespace touchstone::fast {
 namespace {
@@ -41,6 +42,8 @@ struct Lanes {
   using Mask = touchstone::fast::Mask;
   using Row = touchstone::fast::Row;
   using RowMask = touchstone::fast::RowMask;
+  using Single = Floats;
+  using Rounded = Wholes;
   static constexpr std::size_t width = 2;
 
   static std::array<Value, 3> load(const std::array<const double*, width>& rows) {

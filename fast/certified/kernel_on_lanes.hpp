@@ -31,6 +31,9 @@
 /// stages/distance_enclosure.hpp encloses the times of impact that advancement finds, and those
 /// that refinement cannot enclose because the zero of det is too long after them.
 ///
+/// Pairs of a mesh may come with their vertices in fixed point. Then stages/single_precision.hpp,
+/// with the theorems of 2. to 4., takes the place of 2. and 3.
+///
 /// Queries that no stage decides remain undecided, as do those with coordinates that are not finite
 /// or too large for the bounds.
 
@@ -47,6 +50,7 @@
 #include "fast/certified/stages/only_zero.hpp"
 #include "fast/certified/stages/orientation.hpp"
 #include "fast/certified/stages/refinement.hpp"
+#include "fast/certified/stages/single_precision.hpp"
 
 namespace touchstone::fast::kernel {
 
@@ -54,15 +58,20 @@ template <class Lanes, bool separated, Kind kind, class Source>
 void run_stages(const KernelInput& input, KernelOutput& output) {
   output.separated_in_direction.count = output.one_sided.count = 0;
   output.rejected.count = output.impacts.count = output.undecided.count = 0;
-  Indices open, mixed, far, undecided;
-  if (input.axis_is_done) {
-    for (; open.count < input.count; ++open.count) {
-      open.items[open.count] = static_cast<std::uint32_t>(open.count);
-    }
+  Indices mixed, far, undecided;
+  if (input.rounded != nullptr) {
+    single_precision_stage<Lanes, kind>(input, mixed, output);
   } else {
-    AxisStage<Lanes, separated, kind, Source>::run(input, open);
+    Indices open;
+    if (input.axis_is_done) {
+      for (; open.count < input.count; ++open.count) {
+        open.items[open.count] = static_cast<std::uint32_t>(open.count);
+      }
+    } else {
+      AxisStage<Lanes, separated, kind, Source>::run(input, open);
+    }
+    direction_and_determinant_stage<Lanes, separated, kind, Source>(input, open, mixed, output);
   }
-  direction_and_determinant_stage<Lanes, separated, kind, Source>(input, open, mixed, output);
   Crossings contacts, zeros;
   orientation_stage<Lanes, separated, kind, Source>(input, mixed, contacts, zeros, undecided, far,
                                                     output);

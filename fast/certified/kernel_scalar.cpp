@@ -1,6 +1,7 @@
 // The kernel in plain C++, a query at a time.
 
 #include "fast/certified/kernel_on_lanes.hpp"
+#include "fast/platform/scalar_floats.hpp"
 
 namespace touchstone::fast {
 namespace {
@@ -94,6 +95,8 @@ struct Lanes {
   using Mask = touchstone::fast::Mask;
   using Row = touchstone::fast::Row;
   using RowMask = touchstone::fast::RowMask;
+  using Single = Floats;
+  using Rounded = Wholes;
   static constexpr std::size_t width = 1;
 
   static std::array<Value, 3> load(const std::array<const double*, width>& rows) {

@@ -112,6 +112,7 @@ void decide(const Rescaled& some, KernelInput block, const CertifiedKernel& kern
   block.count = some.queries.size();
   block.queries = some.queries.data();
   block.axis_is_done = false;
+  block.rounded = nullptr;
   block.separation.distance = some.distance;
   kernel.decide(block, result);
   const auto move = [&](auto list) {

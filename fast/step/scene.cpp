@@ -80,6 +80,15 @@ PrimitiveGroups groups_of(const FloatBounds& bounds, const std::vector<Element>&
   return PrimitiveGroups(bounds, std::span<const Element>(elements));
 }
 
+template <std::size_t instants>
+Trees<instants> trees_of(const OfPrimitives<PrimitiveGroups>& groups, const FloatBounds& bounds) {
+  return each(groups, [&bounds](const PrimitiveGroups& some) {
+    BoxTree<instants> tree(some);
+    tree.fit(bounds);
+    return tree;
+  });
+}
+
 }  // namespace
 
 // ---- The mesh -----------------------------------------------------------------------------------
@@ -133,28 +142,21 @@ Scene::Scene(MovingVertices vertices, const Scene& other, const Separation& sepa
 
 // ---- Searching ----------------------------------------------------------------------------------
 
-template <std::size_t instants>
-Trees<instants> Scene::trees(double end) const {
-  Trees<instants> result =
-      each(mesh_->groups, [](const PrimitiveGroups& groups) { return BoxTree<instants>(groups); });
-  if (end == 1.0) {
-    for (BoxTree<instants>& tree : result) tree.fit(bounds_);
-  } else {
-    fit(result, end);
-  }
-  return result;
+Trees<1> Scene::swept_trees() const { return trees_of<1>(mesh_->groups, bounds_); }
+
+SceneInterval Scene::up_to(double end) const {
+  const double distance = certified_.separation.distance;
+  return {.trees = end == 1.0 ? trees_of<2>(mesh_->groups, bounds_)
+                              : trees_of<2>(mesh_->groups, FloatBounds(vertices_, end, distance)),
+          .rounded = fixed_point_vertices(vertices_, end, distance)};
 }
 
-template Trees<1> Scene::trees<1>(double end) const;
-template Trees<2> Scene::trees<2>(double end) const;
-
-template <std::size_t instants>
-void Scene::fit(Trees<instants>& trees, double end) const {
-  const FloatBounds bounds(vertices_, end, certified_.separation.distance);
-  for (BoxTree<instants>& tree : trees) tree.fit(bounds);
+void Scene::fit(SceneInterval& interval, double end) const {
+  const double distance = certified_.separation.distance;
+  const FloatBounds bounds(vertices_, end, distance);
+  for (BoxTree<2>& tree : interval.trees) tree.fit(bounds);
+  interval.rounded = fixed_point_vertices(vertices_, end, distance);
 }
-
-template void Scene::fit(Trees<2>& trees, double end) const;
 
 std::vector<SearchPart> Scene::parts(std::size_t groups_of_part) const {
   std::vector<SearchPart> result;

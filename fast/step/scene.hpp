@@ -25,6 +25,7 @@
 #include "fast/broad_phase/primitive_groups.hpp"
 #include "fast/broad_phase/search.hpp"
 #include "fast/certified/block.hpp"
+#include "fast/certified/fixed_point_vertices.hpp"
 #include "fast/certified/kernel.hpp"
 #include "fast/step/bodies.hpp"
 #include "fast/step/codimensional.hpp"
@@ -70,6 +71,12 @@ inline constexpr std::array<PairRecord, 4> pair_records{
 /// The trees of a scene.
 template <std::size_t instants>
 using Trees = OfPrimitives<BoxTree<instants>>;
+
+/// The scene on an interval [0, end] of times.
+struct SceneInterval {
+  Trees<2> trees;
+  FixedPointVertices rounded;
+};
 
 /// A part of the search for pairs of one kind: groups of the searching tree.
 struct SearchPart {
@@ -135,13 +142,12 @@ class Scene final : private PairQuestions {
 
   // ---- Searching ----
 
-  /// The trees with boxes at t=0 and at the time `end`; with one instant, around all places up to
-  /// it. \param end As in FloatBounds.
-  template <std::size_t instants>
-  [[nodiscard]] Trees<instants> trees(double end) const;
-  /// Sets the boxes anew.
-  template <std::size_t instants>
-  void fit(Trees<instants>& trees, double end) const;
+  /// The trees with boxes around all places of the step.
+  [[nodiscard]] Trees<1> swept_trees() const;
+  /// \param end As in FloatBounds.
+  [[nodiscard]] SceneInterval up_to(double end) const;
+  /// Sets an interval's end anew.
+  void fit(SceneInterval& interval, double end) const;
 
   /// The whole search, kind by kind, in parts of at most `groups_of_part` groups.
   [[nodiscard]] std::vector<SearchPart> parts(std::size_t groups_of_part) const;
@@ -157,10 +163,10 @@ class Scene final : private PairQuestions {
   [[nodiscard]] IndexPair reported(PairKind kind, const IndexPair& pair) const;
 
   /// Calls report(place, collision) for each pair that collides, in any order. Contacts after
-  /// t_limit may be ignored.
+  /// t_limit, or after the interval, may be ignored.
   template <class Report>
-  void decide(PairKind kind, std::span<const IndexPair> pairs, double t_limit,
-              const Report& report) const {
+  void decide(PairKind kind, std::span<const IndexPair> pairs, const SceneInterval& interval,
+              double t_limit, const Report& report) const {
     PairScratch scratch;
     const Candidates candidates = candidates_of(kind, pairs, scratch);
     const KernelInput block{.kind = candidates.kind,
@@ -169,7 +175,9 @@ class Scene final : private PairQuestions {
                             .edges = candidates.edges.data(),
                             .faces = candidates.faces.data(),
                             .pairs = candidates.pairs.data(),
-                            .axis_is_done = true};
+                            .axis_is_done = true,
+                            .rounded = interval.rounded.vertices.get(),
+                            .rounded_distance = interval.rounded.distance};
     decide_block(
         block, t_limit, certified_, kernel_,
         [&](std::size_t i) { return fast::query_of(vertices_, candidates, candidates.pairs[i]); },

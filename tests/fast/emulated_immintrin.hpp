@@ -33,9 +33,14 @@ inline simde__m512i widened_to_64(simde__m256i x) {
 }
 #undef _mm512_cvtepu32_epi64
 #define _mm512_cvtepu32_epi64(x) widened_to_64(x)
-#undef _mm512_mask_cmp_ps_mask
-#define _mm512_mask_cmp_ps_mask(mask, a, b, relation) \
-  static_cast<simde__mmask16>((mask)&simde_mm512_cmp_ps_mask(a, b, relation))
+
+inline simde__m512 rounded_to_float(simde__m512i x) {
+  const simde__m512i_private from = simde__m512i_to_private(x);
+  simde__m512_private result;
+  for (std::size_t i = 0; i < 16; ++i) result.f32[i] = static_cast<float>(from.i32[i]);
+  return simde__m512_from_private(result);
+}
+#define _mm512_cvtepi32_ps(x) rounded_to_float(x)
 
 /// Fused arithmetic: SIMDe rounds the product if the processor cannot fuse.
 inline simde__m512d fused_multiply_subtract(simde__m512d a, simde__m512d b, simde__m512d c) {

@@ -16,6 +16,7 @@
 #include "fast/broad_phase/float_bounds.hpp"
 #include "fast/broad_phase/search.hpp"
 #include "fast/certified/exact/exact_stage.hpp"
+#include "fast/certified/fixed_point_vertices.hpp"
 #include "fast/certified/kernel.hpp"
 #include "fast/method.hpp"
 #include "fast/tight_inclusion/box_kernel.hpp"
@@ -67,6 +68,8 @@ using DecideRescaled = void(const fast::KernelInput&, const fast::CertifiedKerne
                             std::span<const Query>, fast::KernelOutput&);
 using DecideExactly = std::optional<fast::ExactImpact>(Kind, const Query&, const Separation&,
                                                        double toi_tolerance, double t_max);
+using MakeFixedPoint = fast::FixedPointVertices(const fast::MovingVertices&, double end,
+                                                double distance);
 using MakeTightInclusion = std::unique_ptr<fast::Method>(const fast::TightInclusionOptions&);
 using MakeCertified = std::unique_ptr<fast::Method>(const fast::CertifiedOptions&);
 
@@ -81,7 +84,8 @@ struct PlantedFaults {
   Faults<Check> checker;
   Faults<const fast::BoxKernel> box_kernel;
   Faults<MakeTightInclusion> tight_inclusion;
-  Faults<const fast::CertifiedKernel> certified_kernel;
+  Faults<const fast::CertifiedKernel> certified_kernel, single_precision;
+  Faults<MakeFixedPoint> fixed_point_vertices;
   Faults<DecideRescaled> rescaling;
   Faults<DecideExactly> exact_stage;
   Faults<MakeCertified> certified;

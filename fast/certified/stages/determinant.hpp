@@ -58,7 +58,12 @@ struct Normals {
         twice_ab(filters::normal_middle(at[p][0], at[p][1], at[q][0], at[q][1])) {}
 
   /// The normal in the middle of the interval, up to a factor.
-  [[nodiscard]] Vector<Value> middle() const { return filters::add(filters::add(a, b), twice_ab); }
+  [[nodiscard]] Vector<Value> middle() const {
+    const Vector<Value> sum = filters::add(filters::add(a, b), twice_ab);
+    constexpr auto scale = FormatOf<Value>::normal_scale;
+    if constexpr (scale == 1) return sum;
+    return {sum[0] * Value(scale), sum[1] * Value(scale), sum[2] * Value(scale)};
+  }
 };
 
 /// d0, 3 d1, 3 d2, d3 of the Bernstein coefficients of det.

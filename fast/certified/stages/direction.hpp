@@ -28,10 +28,11 @@ struct Differences {
   std::array<std::array<Vector<Value>, 2>, firsts> a;
   std::array<std::array<Vector<Value>, 2>, seconds> b;  ///< with the origin, which is a b too
 
-  explicit Differences(const std::array<Vector<Value>, query_points>& x) {
+  template <class Coordinate>
+  explicit Differences(const std::array<Vector<Coordinate>, query_points>& x) {
     constexpr std::size_t origin = kind == Kind::vertex_face ? 1 : 2;
     for (std::size_t end = 0; end < 2; ++end) {
-      const Vector<Value>& from = x[4 * end + origin];
+      const Vector<Coordinate>& from = x[4 * end + origin];
       for (std::size_t i = 0; i < firsts; ++i) a[i][end] = minus(x[4 * end + i], from);
       for (std::size_t i = 0; i < seconds; ++i) {
         b[i][end] = minus(x[4 * end + origin + 1 + i], from);
@@ -84,7 +85,8 @@ class DirectionTest {
   MaskOf<Value> bounded;  ///< the query is small enough for all bounds, and finite
   MaskOf<Value> apart;    ///< no contact, if it is bounded
 
-  DirectionTest(const std::array<Vector<Value>, query_points>& points, const Value& distance) {
+  template <class Coordinate>
+  DirectionTest(const std::array<Vector<Coordinate>, query_points>& points, const Value& distance) {
     const Differences<Value, kind> differences(points);
     const Value magnitude = differences.magnitude();
     const Vector<Value> d = differences.sum_of_corners();

@@ -7,6 +7,7 @@
 /// `Lanes` is a type of the file of one instruction set, in an anonymous namespace. It has
 /// - Value and Mask: a number and a truth value in each of its `width` lanes, one query a lane;
 /// - Row and RowMask: the same for the three coordinates of one point;
+/// - Single and Rounded: a float and a whole number in each of sixteen lanes;
 /// - load and load_backwards: the points at `width` addresses. load may read one number after a
 ///   point, load_backwards one before it.
 ///
@@ -32,7 +33,7 @@ struct Limits {
   /// the differences do not overflow.
   Scalar distance;
   /// Upper bounds of the differences of any two points, and of sums of differences or of products
-  /// of two, with a margin for rounding.
+  /// of two (of normals: times normal_scale), with a margin for rounding.
   Scalar difference;
   Scalar direction;
 };
@@ -45,25 +46,30 @@ struct StageFormat;
 template <>
 struct StageFormat<double> {
   static constexpr Limits<double> limits{0x1p100, 0x1p102, 0x1p210};
+  /// The factor of normals that are directions.
+  static constexpr double normal_scale = 1.0;
   static constexpr auto projected_gap = filters::measured_projected_gap_double;
   static constexpr auto advanced_gap = filters::measured_advanced_gap_double;
   static constexpr auto determinant = filters::measured_determinant_middle_double;
   static constexpr auto orientation = filters::measured_orientation_middle_double;
   static_assert(limits.direction <= projected_gap.greatest_x);
   static_assert(limits.direction <= advanced_gap.greatest_x);
+  static_assert(limits.difference <= determinant.greatest_x);
   static_assert(limits.direction <= orientation.greatest_x);
   static_assert(filters::measured_determinant_end_double.rounding() <= determinant.rounding());
   static_assert(filters::measured_orientation_end_double.rounding() <= orientation.rounding());
 };
 
-/// For the coordinates of fast/broad_phase/local_places.hpp.
+/// For whole numbers as coordinates (stages/single_precision.hpp).
 template <>
 struct StageFormat<float> {
-  static constexpr Limits<float> limits{0x1p4F, 0x1p6F, 0x1p14F};
+  static constexpr Limits<float> limits{0x1p30F, 0x1p31F, 0x1p41F};
+  static constexpr float normal_scale = 0x1p-23F;
   static constexpr auto advanced_gap = filters::measured_advanced_gap_float;
   static constexpr auto determinant = filters::measured_determinant_middle_float;
   static constexpr auto orientation = filters::measured_orientation_middle_float;
   static_assert(limits.direction <= advanced_gap.greatest_x);
+  static_assert(limits.difference <= determinant.greatest_x);
   static_assert(limits.direction <= orientation.greatest_x);
   static_assert(filters::measured_determinant_end_float.rounding() <= determinant.rounding());
   static_assert(filters::measured_orientation_end_float.rounding() <= orientation.rounding());
@@ -181,8 +187,13 @@ using MaskOf = decltype(std::declval<Value>() < std::declval<Value>());
 template <class Value>
 using Vector = filters::Vector3<Value>;
 
-template <class Value>
-inline Vector<Value> minus(const Vector<Value>& a, const Vector<Value>& b) {
+/// The type of differences of coordinates.
+template <class Coordinate>
+using DifferenceOf = decltype(std::declval<Coordinate>() - std::declval<Coordinate>());
+
+template <class Coordinate>
+inline Vector<DifferenceOf<Coordinate>> minus(const Vector<Coordinate>& a,
+                                              const Vector<Coordinate>& b) {
   return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
 }
 
@@ -227,17 +238,20 @@ struct FromArray {
 /// Pairs of primitives of a mesh.
 template <class Lanes, Kind kind>
 struct FromPairs {
-  static Points points(const KernelInput& input, std::size_t i) {
+  /// The vertices of a pair.
+  static std::array<std::int32_t, moving_points> vertices(const KernelInput& input, std::size_t i) {
     const auto [first, second] = input.pairs[i];
-    std::array<std::int32_t, 4> indices;
     if constexpr (kind == Kind::vertex_face) {
       const Face& face = input.faces[static_cast<std::size_t>(second)];
-      indices = {first, face[0], face[1], face[2]};
+      return {first, face[0], face[1], face[2]};
     } else {
       const Edge& a = input.edges[static_cast<std::size_t>(first)];
       const Edge& b = input.edges[static_cast<std::size_t>(second)];
-      indices = {a[0], a[1], b[0], b[1]};
+      return {a[0], a[1], b[0], b[1]};
     }
+  }
+  static Points points(const KernelInput& input, std::size_t i) {
+    const std::array<std::int32_t, moving_points> indices = vertices(input, i);
     Points result;
     for (std::size_t k = 0; k < moving_points; ++k) {
       const MovingVertex& vertex = input.vertices[static_cast<std::size_t>(indices[k])];

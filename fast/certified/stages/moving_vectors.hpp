@@ -40,10 +40,11 @@ template <class Value>
 using Ends = std::array<std::array<Vector<Value>, 2>, vector_count>;
 
 /// The moving vectors of queries at t=0 and t=1, from their points.
-template <Kind kind, class Value>
-inline Ends<Value> vectors_of(const std::array<Vector<Value>, query_points>& x) {
+template <Kind kind, class Coordinate>
+inline Ends<DifferenceOf<Coordinate>> vectors_of(
+    const std::array<Vector<Coordinate>, query_points>& x) {
   constexpr auto ends = ends_of_vectors<kind>();
-  Ends<Value> at;
+  Ends<DifferenceOf<Coordinate>> at;
   for (std::size_t i = 0; i < vector_count; ++i) {
     for (std::size_t end = 0; end < 2; ++end) {
       at[i][end] = minus(x[4 * end + ends[i][0]], x[4 * end + ends[i][1]]);
@@ -55,7 +56,7 @@ inline Ends<Value> vectors_of(const std::array<Vector<Value>, query_points>& x) 
 /// Vectors that move from their first value at 0 to their second at 1, at the ends of [begin, end].
 template <class Value>
 inline Ends<Value> between(const Ends<Value>& unit, const Value& begin, const Value& end) {
-  const Value one(1.0), before_begin = one - begin, before_end = one - end;
+  const Value one(1), before_begin = one - begin, before_end = one - end;
   Ends<Value> at;
   for (std::size_t i = 0; i < vector_count; ++i) {
     at[i] = {filters::at_time(unit[i][0], unit[i][1], before_begin, begin),

@@ -17,6 +17,8 @@
 #include <string>
 #include <vector>
 
+#include "fast/certified/block.hpp"
+#include "fast/certified/fixed_point_vertices.hpp"
 #include "fast/kernels.hpp"
 #include "tests/faults/planted_faults.hpp"
 #include "tests/support/certified.hpp"
@@ -75,11 +77,7 @@ std::vector<KernelImpact> collisions(const KernelOutput& output) {
   return result;
 }
 
-void expect_same(const KernelOutput& a, const KernelOutput& b) {
-  EXPECT_EQ(numbers(a.separated_in_direction), numbers(b.separated_in_direction));
-  EXPECT_EQ(numbers(a.one_sided), numbers(b.one_sided));
-  EXPECT_EQ(numbers(a.rejected), numbers(b.rejected));
-  EXPECT_EQ(numbers(a.undecided), numbers(b.undecided));
+void expect_same_collisions(const KernelOutput& a, const KernelOutput& b) {
   const std::vector<KernelImpact> of_a = collisions(a), of_b = collisions(b);
   ASSERT_EQ(of_a.size(), of_b.size());
   for (std::size_t i = 0; i < of_a.size(); ++i) {
@@ -89,6 +87,14 @@ void expect_same(const KernelOutput& a, const KernelOutput& b) {
     EXPECT_EQ(of_a[i].u, of_b[i].u);
     EXPECT_EQ(of_a[i].v, of_b[i].v);
   }
+}
+
+void expect_same(const KernelOutput& a, const KernelOutput& b) {
+  EXPECT_EQ(numbers(a.separated_in_direction), numbers(b.separated_in_direction));
+  EXPECT_EQ(numbers(a.one_sided), numbers(b.one_sided));
+  EXPECT_EQ(numbers(a.rejected), numbers(b.rejected));
+  EXPECT_EQ(numbers(a.undecided), numbers(b.undecided));
+  expect_same_collisions(a, b);
 }
 
 std::vector<const CertifiedKernel*> all_kernels() {
@@ -127,6 +133,90 @@ TEST(CertifiedKernels, GiveTheSameBits) {
   }
 }
 
+/// Queries as pairs of a mesh, each with vertices of its own.
+class Pairs {
+ public:
+  /// \param far The place of one more vertex, by the size of the coordinates: it makes the unit of
+  /// fixed point large. \pre The coordinates are finite.
+  Pairs(Kind kind, std::span<const Query> queries, double distance, double far = 0.0)
+      : kind_(kind), vertices_(places(queries, 0, far), places(queries, 1, far)) {
+    for (std::int32_t i = 0; i < static_cast<std::int32_t>(queries.size()); ++i) {
+      edges_.push_back({4 * i, 4 * i + 1});
+      edges_.push_back({4 * i + 2, 4 * i + 3});
+      faces_.push_back({4 * i + 1, 4 * i + 2, 4 * i + 3});
+      pairs_.push_back(kind == Kind::edge_edge ? IndexPair{2 * i, 2 * i + 1} : IndexPair{4 * i, i});
+    }
+    rounded_ = fixed_point_vertices(vertices_, 1.0, distance);
+  }
+
+  [[nodiscard]] KernelInput input() const {
+    return {.kind = kind_,
+            .count = pairs_.size(),
+            .vertices = vertices_.data(),
+            .edges = edges_.data(),
+            .faces = faces_.data(),
+            .pairs = pairs_.data(),
+            .axis_is_done = true,
+            .rounded = rounded_.vertices.get(),
+            .rounded_distance = rounded_.distance};
+  }
+
+ private:
+  using Places = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>;
+  static Places places(std::span<const Query> queries, std::size_t end, double far) {
+    Places result(4 * static_cast<Eigen::Index>(queries.size()) + 1, 3);
+    double size = 0.0;
+    double* to = result.data();
+    for (const Query& query : queries) {
+      for (const double x : std::span(query.coordinates).subspan(12 * end, 12)) {
+        size = std::max(size, std::abs(x));
+        *to++ = x;
+      }
+    }
+    std::fill(to, to + 3, far * size);
+    return result;
+  }
+
+  Kind kind_;
+  MovingVertices vertices_;
+  std::vector<Edge> edges_;
+  std::vector<Face> faces_;
+  std::vector<IndexPair> pairs_;
+  FixedPointVertices rounded_;
+};
+
+TEST(CertifiedKernels, GiveTheSameBitsOfPairsInSinglePrecision) {
+  const auto plain = std::make_unique<KernelOutput>(), other = std::make_unique<KernelOutput>();
+  std::size_t decided = 0;
+  for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
+    Random random(2);
+    for (int round = 0; round < 60; ++round) {
+      std::vector<Query> queries(static_cast<std::size_t>(random.between(1, kernel_block)));
+      for (Query& query : queries) {
+        query = round % 2 == 0 ? tests::full_significand_query(random)
+                               : tests::near_contact_query(random, kind);
+      }
+      const Separation separation = separation_of(round);
+      const Pairs pairs(kind, queries, separation.distance);
+      KernelInput input = pairs.input();
+      input.separation = separation;
+      certified_kernels().front()->decide(input, *plain);
+      for (const CertifiedKernel* const kernel : all_kernels()) {
+        SCOPED_TRACE(to_string(kernel->instructions));
+        kernel->decide(input, *other);
+        expect_same(*plain, *other);
+      }
+      // The collisions are those without single precision.
+      if (input.rounded == nullptr) continue;
+      decided += plain->separated_in_direction.count + plain->one_sided.count;
+      input.rounded = nullptr;
+      certified_kernels().back()->decide(input, *other);
+      expect_same_collisions(*plain, *other);
+    }
+  }
+  EXPECT_GT(decided, 10000U);
+}
+
 TEST(CertifiedKernels, TakeNoQueries) {
   const auto output = std::make_unique<KernelOutput>();
   for (const CertifiedKernel* const kernel : all_kernels()) {
@@ -161,10 +251,25 @@ bool is_wrong(const verify::generate::KnownQuery& known, const CertifiedResult& 
   return is_late || Rational(result.toi_upper) < *known.toi;
 }
 
+/// The results of a query: by itself, and as a pair of a mesh, with stages in single precision,
+/// whose unit is small or large.
+std::vector<CertifiedResult> results(Kind kind, const Query& query, const CertifiedKernel& kernel,
+                                     const CertifiedOptions& options = {}) {
+  const UseKernels use({.certified = &kernel});
+  std::vector<CertifiedResult> result{fast::solve(kind, query, options)};
+  for (const double far : {0.0, 0x1p22}) {
+    const Pairs pair(kind, std::span(&query, 1), options.separation.distance, far);
+    CertifiedResult& of_pair = result.emplace_back(CertifiedResult{.verdict = Verdict::no});
+    decide_block(
+        pair.input(), options.t_max, options, kernel, [&](std::size_t /*i*/) { return query; },
+        [&](std::size_t /*i*/, const CertifiedResult& found) { of_pair = found; });
+  }
+  return result;
+}
+
 /// The families in which the kernel's answers are wrong.
 std::vector<std::string> families_that_find(const CertifiedKernel& kernel) {
   constexpr std::uint64_t count = 120;
-  const UseKernels use({.certified = &kernel});
   std::vector<std::string> found;
   for (const verify::generate::Family& family : verify::generate::families()) {
     bool wrong = false;
@@ -172,7 +277,9 @@ std::vector<std::string> families_that_find(const CertifiedKernel& kernel) {
       if (!verify::generate::supports(family, kind)) continue;
       for (std::uint64_t i = 0; i < count && !wrong; ++i) {
         const verify::generate::KnownQuery known = verify::generate::make_query(family, kind, 5, i);
-        wrong = is_wrong(known, fast::solve(kind, known.query));
+        wrong = std::ranges::any_of(
+            results(kind, known.query, kernel),
+            [&](const CertifiedResult& result) { return is_wrong(known, result); });
       }
     }
     if (wrong) found.emplace_back(family.name);
@@ -187,7 +294,10 @@ TEST(CertifiedKernels, FamiliesFindNoFaultInTheKernels) {
 }
 
 TEST(CertifiedKernels, FamiliesFindPlantedFaults) {
-  for (const auto& fault : tests::planted_faults().certified_kernel) {
+  const tests::PlantedFaults& planted = tests::planted_faults();
+  std::vector faults = planted.certified_kernel;
+  faults.insert(faults.end(), planted.single_precision.begin(), planted.single_precision.end());
+  for (const auto& fault : faults) {
     if (fault.separation.distance > 0.0 || !fault.is_to_be_found() || fault.is_for_fuzzer) continue;
     const std::vector<std::string> found = families_that_find(*fault.part);
     std::printf("%s: found by %zu families\n", fault.name.data(), found.size());
@@ -209,7 +319,6 @@ Query query_near(Random& random, Kind kind, double distance, int i) {
 
 /// The number of distances with a wrong answer.
 int distances_that_find(const CertifiedKernel& kernel) {
-  const UseKernels use({.certified = &kernel});
   int found = 0;
   for (const double distance : {0.25, 1e-2, 1e-8, 1e-15, 1e-16}) {
     bool is_found = false;
@@ -219,8 +328,10 @@ int distances_that_find(const CertifiedKernel& kernel) {
         const Norm norm = i % 2 == 0 ? Norm::linf : Norm::l2;
         const CertifiedOptions options{.separation = {.distance = distance, .norm = norm}};
         const Query query = query_near(random, kind, distance, i);
-        is_found =
-            tests::fault(kind, query, fast::solve(kind, query, options), options).has_value();
+        is_found = std::ranges::any_of(
+            results(kind, query, kernel, options), [&](const CertifiedResult& result) {
+              return tests::fault(kind, query, result, options).has_value();
+            });
       }
     }
     found += is_found ? 1 : 0;
