@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <tuple>
@@ -35,43 +36,49 @@ double t_end_of(double time) {
   return std::ldexp(1.0, fraction == 0.5 ? exponent - 1 : exponent);
 }
 
-/// Calls take(pairs) for the pairs of a part as they are found, in the strict floating-point state.
-template <std::size_t instants, class Take>
-void for_each_block(const Scene& scene, const Trees<instants>& trees, const SearchPart& part,
-                    Take take) {
+/// Calls take(pairs) for the pairs that find(buffer) appends, in the strict floating-point state.
+template <class Find, class Take>
+void for_each_block(const Scene& scene, const Find& find, const Take& take) {
   const StrictFloatingPoint strict;
   scene.go_on();
   PairSink buffer([&](std::span<const IndexPair> pairs) {
     scene.go_on();
     take(pairs);
   });
-  scene.find(trees, part, buffer);
+  find(buffer);
   buffer.flush();
 }
 
 // ---- Collisions ---------------------------------------------------------------------------------
 
+/// The whole step.
+SceneInterval<2> whole_step(const Scene& scene) {
+  return scene.up_to<2>(t_end_of(scene.certified().t_max));
+}
+
 /// Appends the collisions of a part, in the order of its pairs.
-void collect(const Scene& scene, const SceneInterval& interval, const SearchPart& part,
+void collect(const Scene& scene, const SceneInterval<2>& step, const SearchPart& part,
              std::vector<StepCollision>& found) {
   std::vector<std::pair<std::size_t, StepCollision>> of_block;
-  for_each_block(scene, interval.trees, part, [&](std::span<const IndexPair> pairs) {
-    of_block.clear();
-    scene.decide(part.kind, pairs, interval, scene.certified().t_max,
-                 [&](std::size_t place, const StepCollision& collision) {
-                   of_block.emplace_back(place, collision);
-                 });
-    std::ranges::sort(of_block, {}, [](const auto& numbered) { return numbered.first; });
-    for (const auto& [place, collision] : of_block) found.push_back(collision);
-  });
+  for_each_block(
+      scene, [&](PairBuffer& pairs) { scene.find(step.trees, part, pairs); },
+      [&](std::span<const IndexPair> pairs) {
+        of_block.clear();
+        scene.decide(part.kind, pairs, step.rounded, scene.certified().t_max,
+                     [&](std::size_t place, const StepCollision& collision) {
+                       of_block.emplace_back(place, collision);
+                     });
+        std::ranges::sort(of_block, {}, [](const auto& numbered) { return numbered.first; });
+        for (const auto& [place, collision] : of_block) found.push_back(collision);
+      });
 }
 
 std::vector<StepCollision> all_collisions(const Scene& scene) {
-  const SceneInterval interval = scene.up_to(t_end_of(scene.certified().t_max));
+  const SceneInterval<2> step = whole_step(scene);
   const std::vector<SearchPart> parts = scene.parts(groups_of_part);
   std::vector<std::vector<StepCollision>> of_parts(parts.size());
   tbb::parallel_for(std::size_t{0}, parts.size(),
-                    [&](std::size_t i) { collect(scene, interval, parts[i], of_parts[i]); });
+                    [&](std::size_t i) { collect(scene, step, parts[i], of_parts[i]); });
   std::size_t count = 0;
   for (const auto& some : of_parts) count += some.size();
   std::vector<StepCollision> result;
@@ -80,45 +87,74 @@ std::vector<StepCollision> all_collisions(const Scene& scene) {
   return result;
 }
 
-bool has_collision(const Scene& scene) {
-  const SceneInterval interval = scene.up_to(t_end_of(scene.certified().t_max));
-  const std::vector<SearchPart> parts = scene.parts(groups_of_part);
-  std::atomic<bool> found = false;
-  tbb::parallel_for(std::size_t{0}, parts.size(), [&](std::size_t i) {
-    if (found) return;
-    for_each_block(scene, interval.trees, parts[i], [&](std::span<const IndexPair> pairs) {
-      if (found) return;
-      scene.decide(parts[i].kind, pairs, interval, scene.certified().t_max,
-                   [&](std::size_t, const StepCollision&) { found = true; });
-    });
-  });
-  return found;
-}
-
 // ---- The earliest -------------------------------------------------------------------------------
 
-/// Search for the earliest impact: first with a few groups from all over the scene, then with the
-/// others. In between, the boxes are fitted again, to the time up to the earliest known impact.
-class EarliestSearch {
+/// Search for the earliest impact, or for any. The groups of the scene are searched in rounds:
+/// first a few from all over the scene, then more and more. Between rounds, the boxes are fitted
+/// again if the earliest known impact leaves much less to search: steps with contacts mostly have
+/// early ones, and on a short interval little moves.
+class ImpactSearch {
  public:
-  explicit EarliestSearch(const Scene& scene)
-      : scene_(scene),
-        t_end_(t_end_of(scene.certified().t_max)),
-        interval_(scene.up_to(t_end_)),
-        parts_(scene.parts(groups_of_part)) {}
+  explicit ImpactSearch(const Scene& scene) : scene_(scene), parts_(scene.parts(groups_of_part)) {
+    for (const SearchPart& part : parts_) groups_ += part.end - part.first;
+  }
 
-  [[nodiscard]] std::optional<StepImpact> run() {
-    search_if([](std::size_t group) { return group % stride == 0; });
-    look_nearer();
-    search_if([](std::size_t group) { return group % stride != 0; });
+  [[nodiscard]] std::optional<StepImpact> earliest() {
+    run();
     return result();
   }
 
+  [[nodiscard]] bool is_any() {
+    any_suffices_ = true;
+    run();
+    return has_any();
+  }
+
  private:
-  /// Each group with a multiple of this number is in the first search.
-  static constexpr std::size_t stride = 256;
+  /// A round has the groups whose numbers are multiples of its stride, but of none before it.
+  static constexpr std::array<std::size_t, 5> strides{256, 64, 16, 4, 1};
+  /// The end of a short interval. Swept boxes suffice there, and need not be fitted again.
+  static constexpr double short_end = 0x1p-8;
 
   using Found = std::vector<StepCollision>;
+
+  void run() {
+    take_interval(t_end_of(scene_.certified().t_max));
+    for (std::size_t round = 0; round < strides.size(); ++round) {
+      short_ ? search(*short_, round) : search(*long_, round);
+      if (any_suffices_ && has_any()) return;
+      look_nearer(strides[round]);
+    }
+  }
+
+  [[nodiscard]] bool has_any() const {
+    return upper_.load() < std::numeric_limits<double>::infinity();
+  }
+
+  // ---- The interval ----
+
+  void take_interval(double end) {
+    short_.reset();
+    long_.reset();
+    if (end <= short_end) {
+      short_.emplace(scene_.up_to<1>(end));
+    } else {
+      long_.emplace(scene_.up_to<2>(end));
+    }
+  }
+
+  /// Fits the boxes to the remaining time, if that is much less than before and many pairs are to
+  /// be expected. \param stride Of the groups searched so far.
+  void look_nearer(std::size_t stride) {
+    static constexpr double much = 0.25;
+    // Fitting a group takes about as long as deciding that many pairs.
+    static constexpr std::size_t pairs_of_fit = 16;
+    if (short_ || stride == 1) return;
+    const double t_end = t_end_of(limit());
+    if (t_end > much * long_->end) return;
+    const std::size_t expected = (stride - 1) * pairs_.load();
+    if (expected > pairs_of_fit * groups_) take_interval(t_end);
+  }
 
   /// Contacts after this time do not matter.
   [[nodiscard]] double limit() const {
@@ -127,33 +163,33 @@ class EarliestSearch {
                     limit_after(std::min(upper_.load(), 1.0), options.toi_tolerance));
   }
 
-  /// Fits the boxes to the remaining time, if it is much less than before.
-  void look_nearer() {
-    static constexpr double much = 0.25;
-    const double t_end = t_end_of(limit());
-    if (t_end > much * t_end_) return;
-    t_end_ = t_end;
-    scene_.fit(interval_, t_end);
+  // ---- Rounds ----
+
+  static bool is_in(std::size_t round, std::size_t group) {
+    return group % strides[round] == 0 && (round == 0 || group % strides[round - 1] != 0);
   }
 
-  /// Searches with the wanted groups.
-  template <class IsWanted>
-  void search_if(const IsWanted& is_wanted) {
+  /// Searches with the groups of a round.
+  template <std::size_t instants>
+  void search(const SceneInterval<instants>& interval, std::size_t round) {
     tbb::parallel_for(std::size_t{0}, parts_.size(), [&](std::size_t i) {
-      SearchPart part = parts_[i];
-      for (const std::size_t end = part.end; part.first < end; part.first = part.end) {
-        part.end = part.first + 1;
-        if (!is_wanted(part.first)) continue;
-        while (part.end < end && is_wanted(part.end)) ++part.end;
-        search(part);
+      const SearchPart& part = parts_[i];
+      std::vector<SearchPart> wanted;
+      for (std::size_t group = part.first; group < part.end; ++group) {
+        if (is_in(round, group)) wanted.push_back({part.kind, group, group + 1});
       }
-    });
-  }
-
-  void search(const SearchPart& part) {
-    for_each_block(scene_, interval_.trees, part, [&](std::span<const IndexPair> pairs) {
-      scene_.decide(part.kind, pairs, interval_, limit(),
-                    [this](std::size_t, const StepCollision& collision) { add(collision); });
+      if (wanted.empty()) return;
+      for_each_block(
+          scene_,
+          [&](PairBuffer& pairs) {
+            for (const SearchPart& group : wanted) scene_.find(interval.trees, group, pairs);
+          },
+          [&](std::span<const IndexPair> pairs) {
+            if (any_suffices_ && has_any()) return;
+            pairs_ += pairs.size();
+            scene_.decide(part.kind, pairs, interval.rounded, std::min(limit(), interval.end),
+                          [this](std::size_t, const StepCollision& collision) { add(collision); });
+          });
     });
   }
 
@@ -190,9 +226,13 @@ class EarliestSearch {
   }
 
   const Scene& scene_;
-  double t_end_;
-  SceneInterval interval_;
   std::vector<SearchPart> parts_;
+  std::size_t groups_ = 0;
+  bool any_suffices_ = false;
+  /// One of them is the interval.
+  std::optional<SceneInterval<1>> short_;
+  std::optional<SceneInterval<2>> long_;
+  std::atomic<std::size_t> pairs_ = 0;  ///< decided so far
   std::atomic<double> upper_ = std::numeric_limits<double>::infinity();
   tbb::enumerable_thread_specific<Found> found_;
 };
@@ -327,7 +367,7 @@ Step Step::with_places(MovingVertices vertices, const Separation& separation) co
 
 std::optional<StepImpact> Step::earliest() const {
   return with_threads(scene_->certified().max_threads,
-                      [this] { return EarliestSearch(*scene_).run(); });
+                      [this] { return ImpactSearch(*scene_).earliest(); });
 }
 
 std::vector<StepCollision> Step::collisions() const {
@@ -335,7 +375,8 @@ std::vector<StepCollision> Step::collisions() const {
 }
 
 bool Step::is_free() const {
-  return with_threads(scene_->certified().max_threads, [this] { return !has_collision(*scene_); });
+  return with_threads(scene_->certified().max_threads,
+                      [this] { return !ImpactSearch(*scene_).is_any(); });
 }
 
 Step Step::scaled(double alpha) const {
@@ -361,11 +402,13 @@ void Step::candidates(const std::function<void(const StepCandidates&)>& take) co
     tbb::parallel_for(std::size_t{0}, parts.size(), [&](std::size_t i) {
       const PairKind kind = parts[i].kind;
       std::vector<IndexPair> reported;
-      for_each_block(*scene_, trees, parts[i], [&](std::span<const IndexPair> pairs) {
-        reported.clear();
-        for (const IndexPair& pair : pairs) reported.push_back(scene_->reported(kind, pair));
-        take({.kind = kind, .pairs = reported});
-      });
+      for_each_block(
+          *scene_, [&](PairBuffer& pairs) { scene_->find_candidates(trees, parts[i], pairs); },
+          [&](std::span<const IndexPair> pairs) {
+            reported.clear();
+            for (const IndexPair& pair : pairs) reported.push_back(scene_->reported(kind, pair));
+            take({.kind = kind, .pairs = reported});
+          });
     });
   });
 }

@@ -75,6 +75,7 @@ constexpr auto permissions = std::to_array<Permission>({
     {"fast/", "hwy/"},
     {"fast/", "arm_neon.h"},
     {"fast/", "immintrin.h"},
+    {"fast/platform/", "sys/mman.h"},
     {"fast/", "xmmintrin.h"},
 
     // Everything that needs oneTBB, which is optional.

@@ -117,9 +117,8 @@ BoxTree<instants>::BoxTree(const PrimitiveGroups& primitives) : members_(primiti
     groups += levels_.back().size();
     if (levels_.size() > 1 && levels_.back().size() == 1) break;
   }
-  // NOLINTNEXTLINE(modernize-avoid-c-arrays): an array without initialisation
-  groups_ = std::make_unique_for_overwrite<BoxGroup<instants>[]>(groups);
-  const BoxGroup<instants>* next = groups_.get();
+  groups_ = LargeArray<BoxGroup<instants>>(groups);
+  const BoxGroup<instants>* next = groups_.data();
   for (BoxLevel<instants>& level : levels_) {
     level.groups = next;
     next += level.size();
@@ -128,7 +127,7 @@ BoxTree<instants>::BoxTree(const PrimitiveGroups& primitives) : members_(primiti
 
 template <std::size_t instants>
 BoxGroup<instants>* BoxTree<instants>::groups_of(std::size_t level) {
-  return groups_.get() + (levels_[level].groups - groups_.get());
+  return groups_.data() + (levels_[level].groups - groups_.data());
 }
 
 template <std::size_t instants>

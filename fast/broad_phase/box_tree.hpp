@@ -22,12 +22,12 @@
 
 #include <array>
 #include <cstddef>
-#include <memory>
 #include <span>
 #include <vector>
 
 #include "fast/broad_phase/float_bounds.hpp"
 #include "fast/broad_phase/primitive_groups.hpp"
+#include "fast/platform/large_array.hpp"
 
 namespace touchstone::fast {
 
@@ -91,8 +91,7 @@ class BoxTree {
   [[nodiscard]] BoxGroup<instants>* groups_of(std::size_t level);
 
   std::span<const GroupMembers> members_;
-  // NOLINTNEXTLINE(modernize-avoid-c-arrays): an array without initialisation
-  std::unique_ptr<BoxGroup<instants>[]> groups_;
+  LargeArray<BoxGroup<instants>> groups_;
   std::vector<BoxLevel<instants>> levels_;
 };
 

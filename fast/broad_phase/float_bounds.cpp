@@ -199,8 +199,7 @@ class BoundsMaker {
 }  // namespace
 
 FloatBounds::FloatBounds(const MovingVertices& vertices, double end, double distance)
-    // NOLINTNEXTLINE(modernize-avoid-c-arrays): an array without initialisation
-    : size_(vertices.size()), bounds_(std::make_unique_for_overwrite<VertexBounds[]>(size_)) {
+    : size_(vertices.size()), bounds_(size_) {
   const StrictFloatingPoint strict;
   const BoundsMaker maker(vertices, end, distance);
   exact_ = tbb::parallel_reduce(

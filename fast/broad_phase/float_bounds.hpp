@@ -37,8 +37,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
-#include <memory>
 
+#include "fast/platform/large_array.hpp"
 #include "touchstone/mesh.hpp"
 
 namespace touchstone::fast {
@@ -91,8 +91,7 @@ class FloatBounds {
 
  private:
   std::size_t size_;
-  // NOLINTNEXTLINE(modernize-avoid-c-arrays): an array without initialisation
-  std::unique_ptr<VertexBounds[]> bounds_;
+  LargeArray<VertexBounds> bounds_;
   bool exact_ = true;
 };
 

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
-#include <memory>
 #include <type_traits>
 
 #include "fast/broad_phase/search.hpp"
@@ -71,11 +70,7 @@ class Splitting {
 class SeedScratch {
  public:
   explicit SeedScratch(std::size_t groups)
-      : groups_(groups),
-        // NOLINTBEGIN(modernize-avoid-c-arrays): arrays without initialisation
-        centres_(std::make_unique_for_overwrite<Sixteen<float>[]>(6 * groups)),
-        numbers_(std::make_unique_for_overwrite<Sixteen<std::int32_t>[]>(2 * groups)) {}
-  // NOLINTEND(modernize-avoid-c-arrays)
+      : groups_(groups), centres_(6 * groups), numbers_(2 * groups) {}
 
   [[nodiscard]] SeedPart part(std::size_t count) {
     return {array(0), array(1), count, groups_ * group_size};
@@ -95,10 +90,8 @@ class SeedScratch {
   }
 
   std::size_t groups_;
-  // NOLINTBEGIN(modernize-avoid-c-arrays): arrays without initialisation
-  std::unique_ptr<Sixteen<float>[]> centres_;
-  std::unique_ptr<Sixteen<std::int32_t>[]> numbers_;
-  // NOLINTEND(modernize-avoid-c-arrays)
+  LargeArray<Sixteen<float>> centres_;
+  LargeArray<Sixteen<std::int32_t>> numbers_;
 };
 
 // ---- Primitives ---------------------------------------------------------------------------------
@@ -162,10 +155,7 @@ void set_members(GroupMembers& members, std::span<const Element> elements,
 template <class Element>
 PrimitiveGroups::PrimitiveGroups(const FloatBounds& bounds, std::span<const Element> elements,
                                  const SearchKernel* kernel)
-    : size_(elements.size()),
-      groups_((size_ + group_size - 1) / group_size),
-      // NOLINTNEXTLINE(modernize-avoid-c-arrays): an array without initialisation
-      members_(std::make_unique_for_overwrite<GroupMembers[]>(groups_)) {
+    : size_(elements.size()), groups_((size_ + group_size - 1) / group_size), members_(groups_) {
   if (size_ == 0) return;
   SeedScratch scratch(groups_);
   const SeedPart all = scratch.part(size_);

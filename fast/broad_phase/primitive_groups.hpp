@@ -15,10 +15,10 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <memory>
 #include <span>
 
 #include "fast/broad_phase/float_bounds.hpp"
+#include "fast/platform/large_array.hpp"
 #include "touchstone/mesh.hpp"
 
 namespace touchstone::fast {
@@ -61,13 +61,12 @@ class PrimitiveGroups {
 
   /// The number of primitives.
   [[nodiscard]] std::size_t size() const { return size_; }
-  [[nodiscard]] std::span<const GroupMembers> members() const { return {members_.get(), groups_}; }
+  [[nodiscard]] std::span<const GroupMembers> members() const { return {members_.data(), groups_}; }
 
  private:
   std::size_t size_;
   std::size_t groups_;
-  // NOLINTNEXTLINE(modernize-avoid-c-arrays): an array without initialisation
-  std::unique_ptr<GroupMembers[]> members_;
+  LargeArray<GroupMembers> members_;
 };
 
 extern template PrimitiveGroups::PrimitiveGroups(const FloatBounds&, std::span<const std::int32_t>,

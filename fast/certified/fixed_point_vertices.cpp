@@ -93,8 +93,7 @@ FixedPointVertices fixed_point_vertices(const MovingVertices& vertices, double e
   const double in_units = 1.001 + (distance + 2.0 * error) / h;
   if (!(in_units <= greatest_distance)) return result;
   result.distance = static_cast<float>(in_units * (1.0 + 0x1p-20));
-  // NOLINTNEXTLINE(modernize-avoid-c-arrays): an array without initialisation
-  result.vertices = std::make_unique_for_overwrite<FixedPointVertex[]>(vertices.size());
+  result.vertices = LargeArray<FixedPointVertex>(vertices.size());
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, vertices.size(), vertices_of_task),
                     [&](const tbb::blocked_range<std::size_t>& range) {
                       const StrictFloatingPoint of_task;

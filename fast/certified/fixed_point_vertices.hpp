@@ -17,8 +17,8 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <memory>
 
+#include "fast/platform/large_array.hpp"
 #include "touchstone/mesh.hpp"
 
 namespace touchstone::fast {
@@ -31,13 +31,13 @@ struct alignas(32) FixedPointVertex {
 
 struct FixedPointVertices {
   /// Null if the scene or the distance is too large or too small for the stages.
-  // NOLINTNEXTLINE(modernize-avoid-c-arrays): an array without initialisation
-  std::unique_ptr<FixedPointVertex[]> vertices;
+  LargeArray<FixedPointVertex> vertices;
   /// An upper bound of D + ε in units of h.
   float distance = 0.0F;
 };
 
-/// The vertices at t=0 and at the time `end`, in (0,1]. Uses the threads of the caller's task arena.
+/// The vertices at t=0 and at the time `end`, in (0,1]. Uses the threads of the caller's task
+/// arena.
 /// \param distance D, finite and not negative.
 /// \pre The coordinates are finite.
 [[nodiscard]] FixedPointVertices fixed_point_vertices(const MovingVertices& vertices, double end,

@@ -144,19 +144,18 @@ Scene::Scene(MovingVertices vertices, const Scene& other, const Separation& sepa
 
 Trees<1> Scene::swept_trees() const { return trees_of<1>(mesh_->groups, bounds_); }
 
-SceneInterval Scene::up_to(double end) const {
+template <std::size_t instants>
+SceneInterval<instants> Scene::up_to(double end) const {
   const double distance = certified_.separation.distance;
-  return {.trees = end == 1.0 ? trees_of<2>(mesh_->groups, bounds_)
-                              : trees_of<2>(mesh_->groups, FloatBounds(vertices_, end, distance)),
+  return {.end = end,
+          .trees = end == 1.0
+                       ? trees_of<instants>(mesh_->groups, bounds_)
+                       : trees_of<instants>(mesh_->groups, FloatBounds(vertices_, end, distance)),
           .rounded = fixed_point_vertices(vertices_, end, distance)};
 }
 
-void Scene::fit(SceneInterval& interval, double end) const {
-  const double distance = certified_.separation.distance;
-  const FloatBounds bounds(vertices_, end, distance);
-  for (BoxTree<2>& tree : interval.trees) tree.fit(bounds);
-  interval.rounded = fixed_point_vertices(vertices_, end, distance);
-}
+template SceneInterval<1> Scene::up_to<1>(double end) const;
+template SceneInterval<2> Scene::up_to<2>(double end) const;
 
 std::vector<SearchPart> Scene::parts(std::size_t groups_of_part) const {
   std::vector<SearchPart> result;
@@ -174,23 +173,34 @@ std::vector<SearchPart> Scene::parts(std::size_t groups_of_part) const {
   return result;
 }
 
-template <std::size_t instants>
-void Scene::find(const Trees<instants>& trees, const SearchPart& part, PairBuffer& pairs) const {
-  const PairRecord& record = record_of(part.kind);
-  const bool is_sure = instants == 2 || bounds_.are_exact();
-  PairRules rules{.of_edges = record.query_kind == Kind::edge_edge,
-                  .certainty = is_sure ? Certainty::all : Certainty::unless_close,
-                  .questions = this};
+PairRules Scene::rules_of(const PairRecord& record, Certainty certainty) const {
+  PairRules rules{
+      .of_edges = record.query_kind == Kind::edge_edge, .certainty = certainty, .questions = this};
   if (mesh_->bodies_of_groups) {
     rules.some_bodies = &(*mesh_->bodies_of_groups)[record.some];
     rules.all_bodies = &(*mesh_->bodies_of_groups)[record.all];
   }
-  search_.find(SearchInput<instants>{&trees[record.some], &trees[record.all], rules}, part.first,
-               part.end, pairs);
+  return rules;
+}
+
+template <std::size_t instants>
+void Scene::find(const Trees<instants>& trees, const SearchPart& part, PairBuffer& pairs) const {
+  const PairRecord& record = record_of(part.kind);
+  search_.find(SearchInput<instants>{&trees[record.some], &trees[record.all],
+                                     rules_of(record, Certainty::all)},
+               part.first, part.end, pairs);
 }
 
 template void Scene::find(const Trees<1>& trees, const SearchPart& part, PairBuffer& pairs) const;
 template void Scene::find(const Trees<2>& trees, const SearchPart& part, PairBuffer& pairs) const;
+
+void Scene::find_candidates(const Trees<1>& trees, const SearchPart& part,
+                            PairBuffer& pairs) const {
+  const PairRecord& record = record_of(part.kind);
+  const Certainty certainty = bounds_.are_exact() ? Certainty::all : Certainty::unless_close;
+  search_.find(SearchInput<1>{&trees[record.some], &trees[record.all], rules_of(record, certainty)},
+               part.first, part.end, pairs);
+}
 
 bool Scene::confirms(const Primitive& a, const Primitive& b) const {
   return are_within_distance(vertices_, a, b, certified_.separation.distance);

@@ -72,9 +72,12 @@ inline constexpr std::array<PairRecord, 4> pair_records{
 template <std::size_t instants>
 using Trees = OfPrimitives<BoxTree<instants>>;
 
-/// The scene on an interval [0, end] of times.
+/// The scene on an interval [0, end] of times. With one instant, the boxes are swept ones: they
+/// take half the time of those at both ends, and exclude as much if little moves in the interval.
+template <std::size_t instants>
 struct SceneInterval {
-  Trees<2> trees;
+  double end;
+  Trees<instants> trees;
   FixedPointVertices rounded;
 };
 
@@ -145,17 +148,19 @@ class Scene final : private PairQuestions {
   /// The trees with boxes around all places of the step.
   [[nodiscard]] Trees<1> swept_trees() const;
   /// \param end As in FloatBounds.
-  [[nodiscard]] SceneInterval up_to(double end) const;
-  /// Sets an interval's end anew.
-  void fit(SceneInterval& interval, double end) const;
+  template <std::size_t instants>
+  [[nodiscard]] SceneInterval<instants> up_to(double end) const;
 
   /// The whole search, kind by kind, in parts of at most `groups_of_part` groups.
   [[nodiscard]] std::vector<SearchPart> parts(std::size_t groups_of_part) const;
 
-  /// Appends the pairs of a part to the buffer. With one instant: exactly the pairs whose swept
-  /// boxes are within the separation. With two: the pairs that may collide, including all that do.
+  /// Appends the pairs of a part to the buffer: those that may collide, including all that do up to
+  /// the end of the trees' interval.
   template <std::size_t instants>
   void find(const Trees<instants>& trees, const SearchPart& part, PairBuffer& pairs) const;
+  /// Likewise: exactly the pairs whose swept boxes are within the separation.
+  /// \param trees swept_trees()
+  void find_candidates(const Trees<1>& trees, const SearchPart& part, PairBuffer& pairs) const;
 
   // ---- Pairs ----
 
@@ -163,9 +168,9 @@ class Scene final : private PairQuestions {
   [[nodiscard]] IndexPair reported(PairKind kind, const IndexPair& pair) const;
 
   /// Calls report(place, collision) for each pair that collides, in any order. Contacts after
-  /// t_limit, or after the interval, may be ignored.
+  /// t_limit, or after the interval of the rounded vertices, may be ignored.
   template <class Report>
-  void decide(PairKind kind, std::span<const IndexPair> pairs, const SceneInterval& interval,
+  void decide(PairKind kind, std::span<const IndexPair> pairs, const FixedPointVertices& rounded,
               double t_limit, const Report& report) const {
     PairScratch scratch;
     const Candidates candidates = candidates_of(kind, pairs, scratch);
@@ -176,8 +181,8 @@ class Scene final : private PairQuestions {
                             .faces = candidates.faces.data(),
                             .pairs = candidates.pairs.data(),
                             .axis_is_done = true,
-                            .rounded = interval.rounded.vertices.get(),
-                            .rounded_distance = interval.rounded.distance};
+                            .rounded = rounded.vertices.data(),
+                            .rounded_distance = rounded.distance};
     decide_block(
         block, t_limit, certified_, kernel_,
         [&](std::size_t i) { return fast::query_of(vertices_, candidates, candidates.pairs[i]); },
@@ -195,6 +200,9 @@ class Scene final : private PairQuestions {
 
  private:
   using PairScratch = std::array<IndexPair, kernel_block>;
+
+  /// The rules of the search for pairs of a kind.
+  [[nodiscard]] PairRules rules_of(const PairRecord& record, Certainty certainty) const;
 
   [[nodiscard]] bool confirms(const Primitive& a, const Primitive& b) const override;
   [[nodiscard]] bool bodies_meet(std::int32_t a, std::int32_t b) const override;

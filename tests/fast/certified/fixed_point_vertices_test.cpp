@@ -75,7 +75,7 @@ std::string first_fault(decltype(fixed_point_vertices)* rounded_vertices) {
         const MovingVertices vertices = scene(random, exponent, origin);
         const double scaled = std::ldexp(distance, exponent);
         const FixedPointVertices rounded = rounded_vertices(vertices, end, scaled);
-        if (rounded.vertices == nullptr) continue;
+        if (rounded.vertices.data() == nullptr) continue;
         const Rational margin =
             Rational(rounded.distance) - Rational(scaled) / Rational(unit_of(vertices));
         if (margin < 2 * greatest_error(vertices, rounded, end)) {
@@ -110,7 +110,7 @@ TEST(FixedPointVertices, AreNoneOfScenesThatAreTooLargeOrTooSmall) {
   constexpr double least = std::numeric_limits<double>::denorm_min();
   const auto has_any = [](double x, double distance) {
     const Places start{{0, 0, 0}, {x, 0, 0}}, end{{0, -x, 0}, {0, 0, 0}};
-    return fixed_point_vertices({start, end}, 1.0, distance).vertices != nullptr;
+    return fixed_point_vertices({start, end}, 1.0, distance).vertices.data() != nullptr;
   };
   EXPECT_TRUE(has_any(1.0, 0.0));
   EXPECT_TRUE(has_any(0x1p97, 0.0));
@@ -122,7 +122,7 @@ TEST(FixedPointVertices, AreNoneOfScenesThatAreTooLargeOrTooSmall) {
   EXPECT_FALSE(has_any(0.0, 0.0));
   EXPECT_FALSE(has_any(1.0, 4.0));
   EXPECT_FALSE(has_any(1.0, greatest));
-  EXPECT_EQ(fixed_point_vertices({Places(0, 3), Places(0, 3)}, 1.0, 0.0).vertices, nullptr);
+  EXPECT_EQ(fixed_point_vertices({Places(0, 3), Places(0, 3)}, 1.0, 0.0).vertices.data(), nullptr);
 }
 
 }  // namespace

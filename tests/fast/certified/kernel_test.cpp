@@ -157,7 +157,7 @@ class Pairs {
             .faces = faces_.data(),
             .pairs = pairs_.data(),
             .axis_is_done = true,
-            .rounded = rounded_.vertices.get(),
+            .rounded = rounded_.vertices.data(),
             .rounded_distance = rounded_.distance};
   }
 
