@@ -75,8 +75,9 @@ constexpr auto permissions = std::to_array<Permission>({
     {"fast/", "hwy/"},
     {"fast/", "arm_neon.h"},
     {"fast/", "immintrin.h"},
-    {"fast/platform/", "sys/mman.h"},
     {"fast/", "xmmintrin.h"},
+    // Large pages.
+    {"fast/", "sys/mman.h"},
 
     // Everything that needs oneTBB, which is optional.
     {"fast/platform/threads.hpp", "fast/platform/floating_point_state.hpp"},
