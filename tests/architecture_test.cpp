@@ -220,7 +220,6 @@ constexpr auto headers_without_test = std::to_array<Exception>({
     {"fast/platform/scalar_floats.hpp", "a part of the kernels, tested through them"},
     {"fast/broad_phase/words_one_by_one.hpp", "a part of the searches, tested through them"},
     {"fast/certified/block.hpp", "a part of the solver, tested through it"},
-    {"fast/step/scene.hpp", "a part of Step, tested through it"},
     {"fast/distance/exact_distance.hpp", "a stage of the distance, tested in distance_test.cpp"},
     {"fast/distance/filter_kernel.hpp", "a stage of the distance, tested in distance_test.cpp"},
     {"fast/distance/filter_on_lanes.hpp", "a part of the kernels, tested through them"},

@@ -93,7 +93,7 @@ Trees<instants> trees_of(const OfPrimitives<PrimitiveGroups>& groups, const Floa
 
 // ---- The mesh -----------------------------------------------------------------------------------
 
-SceneMesh::SceneMesh(std::size_t vertex_count, const FloatBounds& bounds, const MeshElements& given,
+SceneMesh::SceneMesh(std::size_t vertex_count, const MeshElements& given,
                      const CollisionGroups& collision_groups)
     : edges_of_faces(given.edges.empty() ? edges_of(given.faces) : std::vector<Edge>()),
       elements{.edges = given.edges.empty() ? edges_of_faces : given.edges,
@@ -105,13 +105,67 @@ SceneMesh::SceneMesh(std::size_t vertex_count, const FloatBounds& bounds, const 
       edges_as_faces(fast::as_faces(codimensional.edges, elements.edges)),
       numbers{{{}, {}, {}, codimensional.points, codimensional.edges}},
       as_faces{{{}, {}, elements.faces, points_as_faces, edges_as_faces}},
-      bodies(vertex_count, collision_groups),
-      groups{groups_of(bounds, vertices), PrimitiveGroups(bounds, elements.edges),
-             PrimitiveGroups(bounds, elements.faces), groups_of(bounds, points_as_faces),
-             groups_of(bounds, edges_as_faces)} {
-  if (bodies.all_meet()) return;
-  bodies_of_groups = each(
-      groups, [this](const PrimitiveGroups& some) { return BodyTree(some, bodies.of_vertices()); });
+      bodies(vertex_count, collision_groups) {}
+
+// ---- The groups ---------------------------------------------------------------------------------
+
+namespace {
+
+/// The size of boxes around groups, in proportion to that of their primitives: the sums of the
+/// boxes' extents at t=0, for a sample of the groups. Of points alone, the groups' sum.
+double looseness_of(const PrimitiveGroups& groups, const FloatBounds& bounds) {
+  static constexpr std::size_t stride = 16;
+  double of_groups = 0.0, of_primitives = 0.0;
+  for (std::size_t i = 0; i < groups.members().size(); i += stride) {
+    const GroupMembers& members = groups.members()[i];
+    const auto extent = [](const FloatRow& lower, const FloatRow& upper) {
+      const FloatRow size = upper - lower;
+      return double{size[0]} + double{size[1]} + double{size[2]};
+    };
+    const auto vertex = [&](std::size_t corner, std::size_t lane) -> const VertexBounds& {
+      return bounds[static_cast<std::size_t>(members.vertices[corner][lane])];
+    };
+    FloatRow group_lower = vertex(0, 0).lower[0], group_upper = vertex(0, 0).upper[0];
+    for (std::size_t lane = 0; lane < group_size; ++lane) {
+      FloatRow lower = vertex(0, lane).lower[0], upper = vertex(0, lane).upper[0];
+      for (std::size_t corner = 1; corner < 3; ++corner) {
+        lower = least(lower, vertex(corner, lane).lower[0]);
+        upper = greatest(upper, vertex(corner, lane).upper[0]);
+      }
+      of_primitives += extent(lower, upper);
+      group_lower = least(group_lower, lower);
+      group_upper = greatest(group_upper, upper);
+    }
+    of_groups += extent(group_lower, group_upper);
+  }
+  return of_primitives > 0.0 ? of_groups / of_primitives : of_groups;
+}
+
+double looseness_of(const OfPrimitives<PrimitiveGroups>& groups, const FloatBounds& bounds) {
+  return looseness_of(groups[groups[Sort::edges].size() > 0 ? Sort::edges : Sort::vertices],
+                      bounds);
+}
+
+/// The same groups, or new ones if they have become loose.
+std::shared_ptr<const SceneGroups> still_tight(const std::shared_ptr<const SceneGroups>& groups,
+                                               const SceneMesh& mesh, const FloatBounds& bounds) {
+  // Looser groups cost more in each search than new ones.
+  static constexpr double loose = 1.3;
+  if (!(looseness_of(groups->groups, bounds) > loose * groups->looseness)) return groups;
+  return std::make_shared<const SceneGroups>(mesh, bounds);
+}
+
+}  // namespace
+
+SceneGroups::SceneGroups(const SceneMesh& mesh, const FloatBounds& bounds)
+    : groups{groups_of(bounds, mesh.vertices), PrimitiveGroups(bounds, mesh.elements.edges),
+             PrimitiveGroups(bounds, mesh.elements.faces), groups_of(bounds, mesh.points_as_faces),
+             groups_of(bounds, mesh.edges_as_faces)},
+      looseness(looseness_of(groups, bounds)) {
+  if (mesh.bodies.all_meet()) return;
+  bodies = each(groups, [&mesh](const PrimitiveGroups& some) {
+    return BodyTree(some, mesh.bodies.of_vertices());
+  });
 }
 
 // ---- The scene ----------------------------------------------------------------------------------
@@ -123,8 +177,8 @@ Scene::Scene(MovingVertices vertices, const MeshElements& elements, const StepOp
       kernel_(certified_kernel(chosen_kernels())),
       search_(search_kernel(chosen_kernels())),
       bounds_(vertices_, 1.0, certified_.separation.distance),
-      mesh_(
-          std::make_shared<const SceneMesh>(vertices_.size(), bounds_, elements, options.groups)) {}
+      mesh_(std::make_shared<const SceneMesh>(vertices_.size(), elements, options.groups)),
+      groups_(std::make_shared<const SceneGroups>(*mesh_, bounds_)) {}
 
 Scene::Scene(MovingVertices vertices, const Scene& other)
     : Scene(std::move(vertices), other, other.certified_.separation) {
@@ -138,19 +192,20 @@ Scene::Scene(MovingVertices vertices, const Scene& other, const Separation& sepa
       kernel_(other.kernel_),
       search_(other.search_),
       bounds_(vertices_, 1.0, separation.distance),
-      mesh_(other.mesh_) {}
+      mesh_(other.mesh_),
+      groups_(still_tight(other.groups_, *mesh_, bounds_)) {}
 
 // ---- Searching ----------------------------------------------------------------------------------
 
-Trees<1> Scene::swept_trees() const { return trees_of<1>(mesh_->groups, bounds_); }
+Trees<1> Scene::swept_trees() const { return trees_of<1>(groups_->groups, bounds_); }
 
 template <std::size_t instants>
 SceneInterval<instants> Scene::up_to(double end) const {
   const double distance = certified_.separation.distance;
   return {.end = end,
           .trees = end == 1.0
-                       ? trees_of<instants>(mesh_->groups, bounds_)
-                       : trees_of<instants>(mesh_->groups, FloatBounds(vertices_, end, distance)),
+                       ? trees_of<instants>(groups_->groups, bounds_)
+                       : trees_of<instants>(groups_->groups, FloatBounds(vertices_, end, distance)),
           .rounded = fixed_point_vertices(vertices_, end, distance)};
 }
 
@@ -160,8 +215,8 @@ template SceneInterval<2> Scene::up_to<2>(double end) const;
 std::vector<SearchPart> Scene::parts(std::size_t groups_of_part) const {
   std::vector<SearchPart> result;
   for (std::size_t kind = 0; kind < pair_records.size(); ++kind) {
-    const PrimitiveGroups& some = mesh_->groups[pair_records[kind].some];
-    const PrimitiveGroups& all = mesh_->groups[pair_records[kind].all];
+    const PrimitiveGroups& some = groups_->groups[pair_records[kind].some];
+    const PrimitiveGroups& all = groups_->groups[pair_records[kind].all];
     if (all.size() == 0) continue;
     const std::size_t groups = some.members().size();
     for (std::size_t first = 0; first < groups; first += groups_of_part) {
@@ -176,9 +231,9 @@ std::vector<SearchPart> Scene::parts(std::size_t groups_of_part) const {
 PairRules Scene::rules_of(const PairRecord& record, Certainty certainty) const {
   PairRules rules{
       .of_edges = record.query_kind == Kind::edge_edge, .certainty = certainty, .questions = this};
-  if (mesh_->bodies_of_groups) {
-    rules.some_bodies = &(*mesh_->bodies_of_groups)[record.some];
-    rules.all_bodies = &(*mesh_->bodies_of_groups)[record.all];
+  if (groups_->bodies) {
+    rules.some_bodies = &(*groups_->bodies)[record.some];
+    rules.all_bodies = &(*groups_->bodies)[record.all];
   }
   return rules;
 }

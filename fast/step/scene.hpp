@@ -88,11 +88,10 @@ struct SearchPart {
   std::size_t end;
 };
 
-/// The data that do not depend on the places of vertices (except for the groups' quality): steps of
-/// one mesh share them.
+/// The data that do not depend on the places of vertices: steps of one mesh share them.
 struct SceneMesh {
   /// Keeps references to the elements. \throws as Step.
-  SceneMesh(std::size_t vertex_count, const FloatBounds& bounds, const MeshElements& given,
+  SceneMesh(std::size_t vertex_count, const MeshElements& given,
             const CollisionGroups& collision_groups);
   SceneMesh(const SceneMesh&) = delete;
   SceneMesh& operator=(const SceneMesh&) = delete;
@@ -112,8 +111,16 @@ struct SceneMesh {
   /// The second primitives of pairs as input of the certified solver.
   OfPrimitives<std::span<const Face>> as_faces;
   Bodies bodies;
+};
+
+/// The primitives in groups. Their quality depends on the places of the vertices: steps of one mesh
+/// share them until the groups are loose.
+struct SceneGroups {
+  SceneGroups(const SceneMesh& mesh, const FloatBounds& bounds);
+
   OfPrimitives<PrimitiveGroups> groups;
-  std::optional<OfPrimitives<BodyTree>> bodies_of_groups;  ///< unless all meet
+  std::optional<OfPrimitives<BodyTree>> bodies;  ///< unless all meet
+  double looseness;                              ///< at the places for which they were made
 };
 
 /// The certified solver's result for a pair that collides, with the numbers of the interface.
@@ -138,6 +145,7 @@ class Scene final : private PairQuestions {
   [[nodiscard]] const MovingVertices& vertices() const { return vertices_; }
   [[nodiscard]] const MeshElements& elements() const { return mesh_->elements; }
   [[nodiscard]] const CertifiedOptions& certified() const { return certified_; }
+  [[nodiscard]] bool has_groups_of(const Scene& other) const { return groups_ == other.groups_; }
   /// \throws Stopped once the options' stop is true.
   void go_on() const {
     if (stop_ != nullptr && stop_->load(std::memory_order_relaxed)) throw Stopped();
@@ -219,6 +227,7 @@ class Scene final : private PairQuestions {
   const SearchKernel& search_;
   FloatBounds bounds_;
   std::shared_ptr<const SceneMesh> mesh_;
+  std::shared_ptr<const SceneGroups> groups_;
 };
 
 }  // namespace touchstone::fast

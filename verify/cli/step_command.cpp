@@ -95,7 +95,7 @@ class StepRun {
       progress(0.0);
       if (i > 0) {
         if (proof_) ask_for_proof(i, progress);
-        report_.steps.push_back(jobs::check_step(frames_->mesh(), before, after, options_));
+        report_.steps.push_back(jobs::check_step(step_, frames_->mesh(), before, after, options_));
         if (csv_) csv_.write(report::step_csv_rows(report_, i - 1));
         view_step(i, before, after);
       }
@@ -178,6 +178,7 @@ class StepRun {
   jobs::StepCheckOptions options_;
   std::unique_ptr<mesh::Frames> frames_;
   CollidingGroups groups_;
+  std::optional<fast::Step> step_;  ///< the last one
   fast::Bodies bodies_;
   report::StepReport report_;
 };

@@ -4,6 +4,7 @@
 #include <atomic>
 #include <limits>
 #include <tuple>
+#include <utility>
 
 namespace touchstone::verify::jobs {
 namespace {
@@ -69,28 +70,33 @@ PairCounts counts_of(const std::vector<fast::StepCollision>& collisions) {
   return counts;
 }
 
-StepCheck check_step(const mesh::Mesh& mesh, const mesh::Vertices& before,
-                     const mesh::Vertices& after, const StepCheckOptions& options) {
+StepCheck check_step(std::optional<fast::Step>& step, const mesh::Mesh& mesh,
+                     const mesh::Vertices& before, const mesh::Vertices& after,
+                     const StepCheckOptions& options) {
   StepCheck check;
-  std::optional<fast::Step> whole, part;
+  std::optional<fast::Step> part;
   check.broad_phase = work_time_of([&] {
-    whole.emplace(
-        before, after,
-        fast::MeshElements{.edges = mesh.edges, .faces = mesh.faces, .points = mesh.points},
-        options.step);
-    if (options.alpha) part.emplace(whole->scaled(*options.alpha));
+    fast::MovingVertices vertices(before, after);
+    if (step) {
+      step.emplace(step->with_places(std::move(vertices), options.step.separation));
+    } else {
+      step.emplace(
+          std::move(vertices),
+          fast::MeshElements{.edges = mesh.edges, .faces = mesh.faces, .points = mesh.points},
+          options.step);
+    }
+    if (options.alpha) part.emplace(step->scaled(*options.alpha));
     if (options.question == StepQuestion::all || options.count_candidates) {
-      check.candidates = count_candidates(part ? *part : *whole);
+      check.candidates = count_candidates(part ? *part : *step);
     }
   });
-  check.narrow_phase =
-      work_time_of([&] { answer(part ? *part : *whole, options.question, check); });
+  check.narrow_phase = work_time_of([&] { answer(part ? *part : *step, options.question, check); });
   if (options.proof.on_text) {
     check.proof = prove_step(
-        part ? *part : *whole,
+        part ? *part : *step,
         {.faces = mesh.faces, .points = mesh.points, .groups = options.step.groups}, options.proof);
   }
-  if (options.alpha) check.free_alpha = whole->free_step_size();
+  if (options.alpha) check.free_alpha = step->free_step_size();
   return check;
 }
 

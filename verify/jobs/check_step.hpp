@@ -69,9 +69,12 @@ struct StepCheck {
 /// The number of pairs of each kind.
 [[nodiscard]] PairCounts counts_of(const std::vector<fast::StepCollision>& collisions);
 
+/// \param step Empty, or an earlier step of the mesh with the same options, which then saves making
+/// the groups of primitives; set to this step. It keeps references to the mesh.
 /// \param before, after the vertices at the ends of the step: as many as the mesh has
 /// \throws std::invalid_argument for options out of range.
-[[nodiscard]] StepCheck check_step(const mesh::Mesh& mesh, const mesh::Vertices& before,
-                                   const mesh::Vertices& after, const StepCheckOptions& options);
+[[nodiscard]] StepCheck check_step(std::optional<fast::Step>& step, const mesh::Mesh& mesh,
+                                   const mesh::Vertices& before, const mesh::Vertices& after,
+                                   const StepCheckOptions& options);
 
 }  // namespace touchstone::verify::jobs

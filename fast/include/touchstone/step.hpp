@@ -169,8 +169,10 @@ class Step {
   Step(const Step&) = delete;
   Step& operator=(const Step&) = delete;
 
-  /// The same mesh at other places, with the same options except the separation. The steps share
-  /// the data that do not depend on places; this step may be destroyed first.
+  /// The same mesh at other places, with the same options except the separation: the next step of a
+  /// simulation, or another trial step of a line search. The steps share the data that do not
+  /// depend on places, and the groups of primitives, until the places have made these much looser
+  /// than new ones. This step may be destroyed first.
   /// \throws std::invalid_argument for another number of vertices or an invalid separation;
   /// std::domain_error as above.
   [[nodiscard]] Step with_places(MovingVertices vertices, const Separation& separation) const;
@@ -183,8 +185,8 @@ class Step {
   /// The earliest impact; nullopt if there is no collision.
   [[nodiscard]] std::optional<StepImpact> earliest() const;
 
-  /// All collisions, by kinds. The order depends only on the step; pairs that are close in space
-  /// are mostly close in the list.
+  /// All collisions, by kinds. The order depends only on the step and those that it was made from;
+  /// pairs that are close in space are mostly close in the list.
   [[nodiscard]] std::vector<StepCollision> collisions() const;
 
   /// True if there is no collision.

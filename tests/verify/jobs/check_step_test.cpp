@@ -37,7 +37,8 @@ struct Frames {
   }
 
   [[nodiscard]] StepCheck check(const StepCheckOptions& options = {}) const {
-    return check_step(mesh, mesh.vertices, after, options);
+    std::optional<fast::Step> step;
+    return check_step(step, mesh, mesh.vertices, after, options);
   }
 
   mesh::MovingMesh moving;
@@ -108,9 +109,31 @@ TEST(CheckStep, AgreesWithItselfWhateverIsAsked) {
   }
 }
 
+TEST(CheckStep, GivesTheSameAfterOtherStepsOfTheMesh) {
+  const Frames frames(12);
+  for (const StepQuestion question :
+       {StepQuestion::all, StepQuestion::earliest, StepQuestion::free}) {
+    for (const auto alpha : {std::optional<double>(), std::optional(0.5)}) {
+      const StepCheckOptions options{.question = question, .alpha = alpha};
+      std::optional<fast::Step> step;
+      (void)check_step(step, frames.mesh, frames.after, frames.mesh.vertices, options);
+      const StepCheck later =
+          check_step(step, frames.mesh, frames.mesh.vertices, frames.after, options);
+      const StepCheck fresh = frames.check(options);
+      EXPECT_EQ(later.candidates, fresh.candidates);
+      EXPECT_EQ(later.is_free, fresh.is_free);
+      EXPECT_EQ(later.earliest, fresh.earliest);
+      EXPECT_EQ(later.collisions, fresh.collisions);
+      EXPECT_EQ(later.free_alpha, fresh.free_alpha);
+    }
+  }
+}
+
 TEST(CheckStep, OfAMeshAtRestIsFree) {
   const Frames frames(11);
-  const StepCheck check = check_step(frames.mesh, frames.mesh.vertices, frames.mesh.vertices, {});
+  std::optional<fast::Step> step;
+  const StepCheck check =
+      check_step(step, frames.mesh, frames.mesh.vertices, frames.mesh.vertices, {});
   EXPECT_TRUE(check.is_free);
   EXPECT_TRUE(check.collisions && check.collisions->empty());
   EXPECT_FALSE(check.earliest);
