@@ -73,17 +73,6 @@ void set_lanes(std::array<FloatLanes, 3>& to, std::size_t lane, const FloatRow& 
   }
 }
 
-template <std::size_t instants>
-RowBox<instants> box_of(const BoxGroup<instants>& group, std::size_t lane) {
-  RowBox<instants> result;
-  for (std::size_t i = 0; i < instants; ++i) {
-    const auto& [lower, upper] = std::tie(group.lower[i], group.upper[i]);
-    result.lower[i] = FloatRow{lower[0][lane], lower[1][lane], lower[2][lane], 0.0F};
-    result.upper[i] = FloatRow{upper[0][lane], upper[1][lane], upper[2][lane], 0.0F};
-  }
-  return result;
-}
-
 /// Sets the first `count` lanes of a group to box(lane), and returns the box around them. Further
 /// lanes repeat the last.
 template <std::size_t instants, class BoxOf>
@@ -146,19 +135,20 @@ void BoxTree<instants>::fit(const FloatBounds& bounds) {
       });
     });
   };
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, levels_[1].size(), nodes_of_task),
+  std::vector<RowBox<instants>> of_nodes(levels_[1].size());
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, of_nodes.size(), nodes_of_task),
                     [&](const tbb::blocked_range<std::size_t>& range) {
                       const StrictFloatingPoint strict;
-                      for (std::size_t i = range.begin(); i < range.end(); ++i) fit_node(i);
+                      for (std::size_t i = range.begin(); i < range.end(); ++i) {
+                        of_nodes[i] = fit_node(i);
+                      }
                     });
   for (std::size_t level = 2; level < levels_.size(); ++level) {
+    // A node's box is read before it is replaced by one of the level above.
     for (std::size_t group = 0; group < levels_[level].size(); ++group) {
-      fill(groups_of(level)[group], boxes_in(level, group), [&](std::size_t child) {
-        const BoxGroup<instants>& below = groups_of(level - 1)[group * group_size + child];
-        RowBox<instants> around = box_of(below, 0);
-        for (std::size_t lane = 1; lane < group_size; ++lane) around.include(box_of(below, lane));
-        return around;
-      });
+      of_nodes[group] =
+          fill(groups_of(level)[group], boxes_in(level, group),
+               [&](std::size_t child) { return of_nodes[group * group_size + child]; });
     }
   }
 }
