@@ -60,6 +60,9 @@ struct Floats {
   friend Floats operator*(const Floats& a, const Floats& b) {
     return {_mm256_mul_ps(a.low, b.low), _mm256_mul_ps(a.high, b.high)};
   }
+  friend Floats operator/(const Floats& a, const Floats& b) {
+    return {_mm256_div_ps(a.low, b.low), _mm256_div_ps(a.high, b.high)};
+  }
   friend FloatMask operator<(const Floats& a, const Floats& b) {
     return {_mm256_cmp_ps(a.low, b.low, _CMP_LT_OQ), _mm256_cmp_ps(a.high, b.high, _CMP_LT_OQ)};
   }
@@ -69,6 +72,9 @@ struct Floats {
   friend FloatMask operator<=(const Floats& a, const Floats& b) {
     return {_mm256_cmp_ps(a.low, b.low, _CMP_LE_OQ), _mm256_cmp_ps(a.high, b.high, _CMP_LE_OQ)};
   }
+  friend FloatMask operator>=(const Floats& a, const Floats& b) {
+    return {_mm256_cmp_ps(a.low, b.low, _CMP_GE_OQ), _mm256_cmp_ps(a.high, b.high, _CMP_GE_OQ)};
+  }
   friend FloatMask operator==(const Floats& a, const Floats& b) {
     return {_mm256_cmp_ps(a.low, b.low, _CMP_EQ_OQ), _mm256_cmp_ps(a.high, b.high, _CMP_EQ_OQ)};
   }
@@ -77,6 +83,9 @@ struct Floats {
   }
   friend Floats max(const Floats& a, const Floats& b) {
     return {_mm256_max_ps(a.low, b.low), _mm256_max_ps(a.high, b.high)};
+  }
+  friend Floats select(const FloatMask& mask, const Floats& a, const Floats& b) {
+    return {_mm256_blendv_ps(b.low, a.low, mask.low), _mm256_blendv_ps(b.high, a.high, mask.high)};
   }
   friend Floats abs(const Floats& a) {
     const __m256 sign = _mm256_set1_ps(-0.0F);

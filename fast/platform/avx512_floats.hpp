@@ -49,6 +49,9 @@ struct Floats {
   friend Floats operator*(const Floats& a, const Floats& b) {
     return Floats(_mm512_mul_ps(a.x, b.x));
   }
+  friend Floats operator/(const Floats& a, const Floats& b) {
+    return Floats(_mm512_div_ps(a.x, b.x));
+  }
   friend FloatMask operator<(const Floats& a, const Floats& b) {
     return {_mm512_cmp_ps_mask(a.x, b.x, _CMP_LT_OQ)};
   }
@@ -58,12 +61,18 @@ struct Floats {
   friend FloatMask operator<=(const Floats& a, const Floats& b) {
     return {_mm512_cmp_ps_mask(a.x, b.x, _CMP_LE_OQ)};
   }
+  friend FloatMask operator>=(const Floats& a, const Floats& b) {
+    return {_mm512_cmp_ps_mask(a.x, b.x, _CMP_GE_OQ)};
+  }
   friend FloatMask operator==(const Floats& a, const Floats& b) {
     return {_mm512_cmp_ps_mask(a.x, b.x, _CMP_EQ_OQ)};
   }
   friend Floats min(const Floats& a, const Floats& b) { return Floats(_mm512_min_ps(a.x, b.x)); }
   friend Floats max(const Floats& a, const Floats& b) { return Floats(_mm512_max_ps(a.x, b.x)); }
   friend Floats abs(const Floats& a) { return Floats(_mm512_abs_ps(a.x)); }
+  friend Floats select(const FloatMask& mask, const Floats& a, const Floats& b) {
+    return Floats(_mm512_mask_blend_ps(mask.set, b.x, a.x));
+  }
 };
 
 struct Wholes {

@@ -79,6 +79,9 @@ struct Floats {
   friend Floats operator*(const Floats& a, const Floats& b) {
     return each<Floats>([](float32x4_t x, float32x4_t y) { return vmulq_f32(x, y); }, a, b);
   }
+  friend Floats operator/(const Floats& a, const Floats& b) {
+    return each<Floats>([](float32x4_t x, float32x4_t y) { return vdivq_f32(x, y); }, a, b);
+  }
   friend FloatMask operator<(const Floats& a, const Floats& b) {
     return each<FloatMask>([](float32x4_t x, float32x4_t y) { return vcltq_f32(x, y); }, a, b);
   }
@@ -87,6 +90,9 @@ struct Floats {
   }
   friend FloatMask operator<=(const Floats& a, const Floats& b) {
     return each<FloatMask>([](float32x4_t x, float32x4_t y) { return vcleq_f32(x, y); }, a, b);
+  }
+  friend FloatMask operator>=(const Floats& a, const Floats& b) {
+    return each<FloatMask>([](float32x4_t x, float32x4_t y) { return vcgeq_f32(x, y); }, a, b);
   }
   friend FloatMask operator==(const Floats& a, const Floats& b) {
     return each<FloatMask>([](float32x4_t x, float32x4_t y) { return vceqq_f32(x, y); }, a, b);
@@ -99,6 +105,10 @@ struct Floats {
   friend Floats max(const Floats& a, const Floats& b) {
     return each<Floats>(
         [](float32x4_t x, float32x4_t y) { return vbslq_f32(vcgtq_f32(x, y), x, y); }, a, b);
+  }
+  friend Floats select(const FloatMask& mask, const Floats& a, const Floats& b) {
+    return each<Floats>(
+        [](uint32x4_t m, float32x4_t x, float32x4_t y) { return vbslq_f32(m, x, y); }, mask, a, b);
   }
   friend Floats abs(const Floats& a) {
     return each<Floats>([](float32x4_t x) { return vabsq_f32(x); }, a);

@@ -66,12 +66,18 @@ struct Floats {
   friend Floats operator*(const Floats& a, const Floats& b) {
     return each<Floats>([&](std::size_t i) { return a.lanes[i] * b.lanes[i]; });
   }
+  friend Floats operator/(const Floats& a, const Floats& b) {
+    return each<Floats>([&](std::size_t i) { return a.lanes[i] / b.lanes[i]; });
+  }
   friend FloatMask operator>(const Floats& a, const Floats& b) {
     return each<FloatMask>([&](std::size_t i) { return a.lanes[i] > b.lanes[i] ? -1 : 0; });
   }
   friend FloatMask operator<(const Floats& a, const Floats& b) { return b > a; }
   friend FloatMask operator<=(const Floats& a, const Floats& b) {
     return each<FloatMask>([&](std::size_t i) { return a.lanes[i] <= b.lanes[i] ? -1 : 0; });
+  }
+  friend FloatMask operator>=(const Floats& a, const Floats& b) {
+    return each<FloatMask>([&](std::size_t i) { return a.lanes[i] >= b.lanes[i] ? -1 : 0; });
   }
   friend FloatMask operator==(const Floats& a, const Floats& b) {
     return each<FloatMask>([&](std::size_t i) { return a.lanes[i] == b.lanes[i] ? -1 : 0; });
@@ -84,6 +90,10 @@ struct Floats {
   friend Floats max(const Floats& a, const Floats& b) {
     return each<Floats>(
         [&](std::size_t i) { return a.lanes[i] > b.lanes[i] ? a.lanes[i] : b.lanes[i]; });
+  }
+  friend Floats select(const FloatMask& mask, const Floats& a, const Floats& b) {
+    return each<Floats>(
+        [&](std::size_t i) { return mask.lanes[i] != 0 ? a.lanes[i] : b.lanes[i]; });
   }
   friend Floats abs(const Floats& a) {
     return each<Floats>([&](std::size_t i) { return __builtin_fabsf(a.lanes[i]); });

@@ -120,7 +120,7 @@ double looseness_of(const PrimitiveGroups& groups, const FloatBounds& bounds) {
     const GroupMembers& members = groups.members()[i];
     const auto extent = [](const FloatRow& lower, const FloatRow& upper) {
       const FloatRow size = upper - lower;
-      return double{size[0]} + double{size[1]} + double{size[2]};
+      return static_cast<double>(size[0] + size[1] + size[2]);
     };
     const auto vertex = [&](std::size_t corner, std::size_t lane) -> const VertexBounds& {
       return bounds[static_cast<std::size_t>(members.vertices[corner][lane])];

@@ -17,9 +17,9 @@
 
 #include <array>
 #include <cstddef>
+#include <limits>
 
 #include "fast/certified/stages/lanes.hpp"
-#include "touchstone/filters/error_bounds.hpp"
 #include "touchstone/filters/polynomial_expressions.hpp"
 #include "touchstone/filters/separation_expressions.hpp"
 #include "touchstone/query.hpp"
@@ -27,7 +27,8 @@
 namespace touchstone::fast::kernel {
 
 /// The maximum dual norm of scaled directions: 1, with a margin for the rounding of the scaling.
-inline constexpr double unit_length = 1.0 + 0x1p-50;
+template <class Scalar>
+inline constexpr Scalar unit_length = 1 + 4 * std::numeric_limits<Scalar>::epsilon();
 
 template <class Lanes, Kind kind, Norm norm>
 class NearestPoint {
@@ -41,8 +42,8 @@ class NearestPoint {
   /// Its dual norm is at most unit_length; NaN if no direction separates.
   Vector direction{};
   /// Parameters of the point, in F's domain up to rounding.
-  Value u{0.0};
-  Value v{0.0};
+  Value u = Value(0);
+  Value v = Value(0);
 
   /// \param w The corners in cyclic order.
   explicit NearestPoint(const Corners& w) {
@@ -55,6 +56,8 @@ class NearestPoint {
   }
 
  private:
+  using Scalar = typename Value::Scalar;
+  using Format = FormatOf<Value>;
   static constexpr std::size_t last = corners - 1;
 
   static Vector plus_multiple(const Vector& a, const Vector& b, const Value& factor) {
@@ -63,18 +66,18 @@ class NearestPoint {
   static Vector chosen(const Mask& mask, const Vector& a, const Vector& b) {
     return {select(mask, a[0], b[0]), select(mask, a[1], b[1]), select(mask, a[2], b[2])};
   }
-  static Value negative(const Value& x) { return Value(0.0) - x; }
+  static Value negative(const Value& x) { return Value(0) - x; }
   static Value with_sign(const Value& magnitude, const Value& sign) {
-    return select(sign < Value(0.0), negative(magnitude), magnitude);
+    return select(sign < Value(0), negative(magnitude), magnitude);
   }
 
   /// (u,v) of a corner.
-  static constexpr std::array<double, 2> parameters(std::size_t corner) {
+  static constexpr std::array<Scalar, 2> parameters(std::size_t corner) {
     if constexpr (kind == Kind::vertex_face) {
-      constexpr std::array<std::array<double, 2>, 3> all{{{0, 0}, {1, 0}, {0, 1}}};
+      constexpr std::array<std::array<Scalar, 2>, 3> all{{{0, 0}, {1, 0}, {0, 1}}};
       return all[corner];
     } else {
-      constexpr std::array<std::array<double, 2>, 4> all{{{0, 0}, {1, 0}, {1, 1}, {0, 1}}};
+      constexpr std::array<std::array<Scalar, 2>, 4> all{{{0, 0}, {1, 0}, {1, 1}, {0, 1}}};
       return all[corner];
     }
   }
@@ -89,42 +92,41 @@ class NearestPoint {
   /// Divides the direction by an upper bound of its dual norm.
   void scale() {
     const Value most = greatest(direction);
-    Value length(0.0);
+    Value length(0);
     if constexpr (norm == Norm::l2) {
-      constexpr auto bound = filters::squared_length_double;
+      constexpr auto bound = Format::squared_length;
       const auto square = filters::SquaredLength::evaluate<Value>(direction, {});
       length = sqrt(square + (most * most * Value(bound.rounding()) +
-                              Value(bound.underflow(greatest_length))));
+                              Value(bound.underflow(Format::limits.direction))));
     } else {
-      constexpr auto bound = filters::component_sum_double;
+      constexpr auto bound = Format::component_sum;
       const auto sum = filters::ComponentSum::evaluate<Value>(
           {abs(direction[0]), abs(direction[1]), abs(direction[2])}, {});
-      length = sum + (most * Value(bound.rounding()) + Value(bound.underflow(greatest_length)));
+      length =
+          sum + (most * Value(bound.rounding()) + Value(bound.underflow(Format::limits.direction)));
     }
     // A direction that is too long for the bound, too short to divide by, or NaN becomes 0, which
     // separates nothing.
-    const Mask is_sound = (most <= Value(greatest_length)) & (length >= Value(least_length));
-    const Value factor = select(is_sound, Value(1.0) / length, Value(0.0));
+    const Mask is_sound =
+        (most <= Value(Format::limits.direction)) & (length >= Value(Format::least_length));
+    const Value factor = select(is_sound, Value(1) / length, Value(0));
     for (Value& x : direction) x = x * factor;
   }
-  /// Directions are products of at most two differences of coordinates.
-  static constexpr double greatest_length = 0x1p210;
-  static constexpr double least_length = 0x1p-1000;
 
   // ---- L2 ----
 
   void search_l2(const Corners& w) {
-    Value least(0x1p1000);
+    Value least(std::numeric_limits<Scalar>::max());
     for (std::size_t i = 0; i < corners; ++i) {
       const std::size_t j = (i + 1) % corners;
       const Vector e = minus(w[j], w[i]);
       const Value square = filters::dot(e, e), reach = negative(filters::dot(w[i], e));
       const Value part =
-          select(square > Value(0.0), max(min(reach / square, Value(1.0)), Value(0.0)), Value(0.0));
+          select(square > Value(0), max(min(reach / square, Value(1)), Value(0)), Value(0));
       const Vector x = plus_multiple(w[i], e, part);
       const Value distance = filters::dot(x, x);
       const Mask is_better = distance < least;
-      const Mask is_inside = (part > Value(0.0)) & (part < Value(1.0));
+      const Mask is_inside = (part > Value(0)) & (part < Value(1));
       const Vector upright = plus_multiple(x, e, negative(filters::dot(x, e)) / square);
       least = select(is_better, distance, least);
       direction = chosen(is_better, chosen(is_inside, upright, x), direction);
@@ -136,7 +138,7 @@ class NearestPoint {
   /// The lanes in which the origin's projection is in the polygon.
   void search_inside(const Corners& w) {
     const Vector n = filters::cross(minus(w[1], w[0]), minus(w[last], w[0]));
-    const Value square = filters::dot(n, n), zero(0.0);
+    const Value square = filters::dot(n, n), zero(0);
     std::array<Value, corners> turns;
     Mask is_inside = square > zero;
     for (std::size_t i = 0; i < corners; ++i) {
@@ -156,14 +158,14 @@ class NearestPoint {
 
   void search_linf(const Corners& w) {
     // The best direction's distance times length, and its length.
-    Value gap(-1.0), length(0.0);
+    Value gap(-1), length(0);
     const auto is_better = [&](const Value& other_gap, const Value& other_length) {
       const Mask better = other_gap * length > gap * other_length;
       gap = select(better, other_gap, gap);
       length = select(better, other_length, length);
       return better;
     };
-    length = Value(0x1p-900);
+    length = Value(Format::least_length);
     for (std::size_t axis = 0; axis < 3; ++axis) try_axis(w, axis, is_better);
     const std::size_t directions = kind == Kind::vertex_face ? 3 : 2;
     for (std::size_t i = 0; i < directions; ++i) {
@@ -174,8 +176,8 @@ class NearestPoint {
 
   template <class IsBetter>
   void try_axis(const Corners& w, std::size_t axis, const IsBetter& is_better) {
-    for (const double sign : {1.0, -1.0}) {
-      Value least = Value(sign) * w[0][axis], least_u(0.0), least_v(0.0);
+    for (const Scalar sign : {Scalar(1), Scalar(-1)}) {
+      Value least = Value(sign) * w[0][axis], least_u(0), least_v(0);
       for (std::size_t i = 1; i < corners; ++i) {
         const Value x = Value(sign) * w[i][axis];
         const Mask less = x < least;
@@ -184,8 +186,8 @@ class NearestPoint {
         least_u = select(less, Value(corner_u), least_u);
         least_v = select(less, Value(corner_v), least_v);
       }
-      const Mask better = is_better(least, Value(1.0));
-      Vector d{Value(0.0), Value(0.0), Value(0.0)};
+      const Mask better = is_better(least, Value(1));
+      Vector d{Value(0), Value(0), Value(0)};
       d[axis] = Value(sign);
       direction = chosen(better, d, direction);
       u = select(better, least_u, u);
@@ -205,7 +207,7 @@ class NearestPoint {
       return e_y * w[corner][z] - e_z * w[corner][y];
     };
     const Value here = project(i), there = project(from);
-    const Value zero(0.0);
+    const Value zero(0);
     const Mask is_above = min(here, there) > zero;
     const Value gap = select(is_above, min(here, there), negative(max(here, there)));
     const Value length = abs(e_y) + abs(e_z);
@@ -221,7 +223,7 @@ class NearestPoint {
     const Value reach = gap / length;
     const Value part_y = (with_sign(reach, d[y]) - start_y) / e_y;
     const Value part_z = (with_sign(reach, d[z]) - start_z) / e_z;
-    const Value part = max(min(select(abs(e_y) > abs(e_z), part_y, part_z), Value(1.0)), zero);
+    const Value part = max(min(select(abs(e_y) > abs(e_z), part_y, part_z), Value(1)), zero);
     take_on_side(better & is_here, i, j, part);
     if constexpr (kind == Kind::edge_edge) {
       const Mask is_there = abs(there) < abs(here);
@@ -233,7 +235,7 @@ class NearestPoint {
   void try_normal(const Corners& w, const IsBetter& is_better) {
     const Vector n = filters::cross(minus(w[1], w[0]), minus(w[last], w[0]));
     const Value height = filters::dot(n, w[0]);
-    const Value length = (abs(n[0]) + abs(n[1])) + abs(n[2]), zero(0.0);
+    const Value length = (abs(n[0]) + abs(n[1])) + abs(n[2]), zero(0);
     const Mask better = is_better(abs(height), length) & (length > zero);
     Vector d, at_cube;
     const Value reach = abs(height) / length;

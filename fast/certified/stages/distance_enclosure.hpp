@@ -62,7 +62,7 @@ class PreciseProof {
 
   /// The least c·w − D n of all corners at a time, less its bound.
   [[nodiscard]] Value least_gap(const Vector& c, const Value& time) const {
-    const Value bound = magnitude_ * Value(unit_length * gap_bound.rounding()) +
+    const Value bound = magnitude_ * Value(unit_length<double> * gap_bound.rounding()) +
                         Value(gap_bound.underflow(greatest_size));
     const std::array<Precise, 2> weights{filters::exact_difference(Value(1.0), time), exact(time)};
     Value least(0x1p1000);
@@ -74,7 +74,7 @@ class PreciseProof {
         x[4 + axis] = filters::exact_difference(points_[plus][axis], points_[minus][axis]);
         x[10 + axis] = filters::exact_difference(points_[4 + plus][axis], points_[4 + minus][axis]);
       }
-      x[3] = exact(Value(unit_length));
+      x[3] = exact(Value(unit_length<double>));
       x[16] = exact(Value(distance_));
       least = min(least, filters::AdvancedGap::evaluate<Precise>(x, weights).high);
     }

@@ -48,14 +48,20 @@ struct StageFormat<double> {
   static constexpr Limits<double> limits{0x1p100, 0x1p102, 0x1p210};
   /// The factor of normals that are directions.
   static constexpr double normal_scale = 1.0;
+  /// The least length by which directions are divided.
+  static constexpr double least_length = 0x1p-1000;
   static constexpr auto projected_gap = filters::measured_projected_gap_double;
   static constexpr auto advanced_gap = filters::measured_advanced_gap_double;
   static constexpr auto determinant = filters::measured_determinant_middle_double;
   static constexpr auto orientation = filters::measured_orientation_middle_double;
+  static constexpr auto component_sum = filters::component_sum_double;
+  static constexpr auto squared_length = filters::squared_length_double;
   static_assert(limits.direction <= projected_gap.greatest_x);
   static_assert(limits.direction <= advanced_gap.greatest_x);
   static_assert(limits.difference <= determinant.greatest_x);
   static_assert(limits.direction <= orientation.greatest_x);
+  static_assert(limits.direction <= component_sum.greatest_x);
+  static_assert(limits.direction <= squared_length.greatest_x);
   static_assert(filters::measured_determinant_end_double.rounding() <= determinant.rounding());
   static_assert(filters::measured_orientation_end_double.rounding() <= orientation.rounding());
 };
@@ -65,12 +71,17 @@ template <>
 struct StageFormat<float> {
   static constexpr Limits<float> limits{0x1p30F, 0x1p31F, 0x1p41F};
   static constexpr float normal_scale = 0x1p-23F;
+  static constexpr float least_length = 0x1p-60F;
   static constexpr auto advanced_gap = filters::measured_advanced_gap_float;
   static constexpr auto determinant = filters::measured_determinant_middle_float;
   static constexpr auto orientation = filters::measured_orientation_middle_float;
+  static constexpr auto component_sum = filters::component_sum_float;
+  static constexpr auto squared_length = filters::squared_length_float;
   static_assert(limits.direction <= advanced_gap.greatest_x);
   static_assert(limits.difference <= determinant.greatest_x);
   static_assert(limits.direction <= orientation.greatest_x);
+  static_assert(limits.direction <= component_sum.greatest_x);
+  static_assert(limits.direction <= squared_length.greatest_x);
   static_assert(filters::measured_determinant_end_float.rounding() <= determinant.rounding());
   static_assert(filters::measured_orientation_end_float.rounding() <= orientation.rounding());
 };

@@ -22,7 +22,6 @@
 #include "fast/certified/stages/closest_point.hpp"
 #include "fast/certified/stages/direction.hpp"
 #include "fast/certified/stages/lanes.hpp"
-#include "touchstone/filters/error_bounds.hpp"
 #include "touchstone/filters/polynomial_expressions.hpp"
 
 namespace touchstone::fast::kernel {
@@ -34,7 +33,8 @@ struct PolygonVectors {
   std::array<std::array<Vector<Value>, 2>, 3> vectors;
   Value magnitude;  ///< greatest of their coordinates
 
-  explicit PolygonVectors(const std::array<Vector<Value>, query_points>& points) {
+  template <class Coordinate>
+  explicit PolygonVectors(const std::array<Vector<Coordinate>, query_points>& points) {
     const Differences<Value, kind> of_points(points);
     std::size_t place = 0;
     for (const auto& a : of_points.a) vectors[place++] = a;
@@ -49,6 +49,8 @@ class MovingPolygon {
  public:
   using Value = typename Lanes::Value;
   using Mask = typename Lanes::Mask;
+  using Scalar = typename Value::Scalar;
+  using Format = FormatOf<Value>;
   using Vector = std::array<Value, 3>;
   using Nearest = NearestPoint<Lanes, kind, norm>;
   static constexpr std::size_t corners = Nearest::corners;
@@ -59,18 +61,18 @@ class MovingPolygon {
   /// \param points As in PolygonVectors.
   /// \param magnitude The greatest of their coordinates.
   MovingPolygon(const std::array<std::array<Vector, 2>, differences>& points,
-                const Value& magnitude, double distance)
+                const Value& magnitude, Scalar distance)
       : points_(points),
-        gap_(Value(unit_length) * Value(distance)),
-        bound_(Value(unit_length) * max(magnitude, Value(distance)) *
-                   Value(filters::measured_advanced_gap_double.rounding()) +
-               Value(filters::measured_advanced_gap_double.underflow(greatest_size))) {}
+        gap_(Value(unit_length<Scalar>) * Value(distance)),
+        bound_(Value(unit_length<Scalar>) * max(magnitude, Value(distance)) *
+                   Value(Format::advanced_gap.rounding()) +
+               Value(Format::advanced_gap.underflow(Format::limits.difference))) {}
 
   /// The corners at a time.
   [[nodiscard]] typename Nearest::Corners corners_at(const Value& time) const {
     std::array<Vector, differences> at;
     for (std::size_t i = 0; i < differences; ++i) {
-      at[i] = filters::at_time(points_[i][0], points_[i][1], Value(1.0) - time, time);
+      at[i] = filters::at_time(points_[i][0], points_[i][1], Value(1) - time, time);
     }
     typename Nearest::Corners w;
     for (std::size_t k = 0; k < corners; ++k) {
@@ -114,7 +116,7 @@ class MovingPolygon {
 
   /// c·w − D n of a corner at a time, as filters::AdvancedGap.
   [[nodiscard]] Value gap(const Projections& c, std::size_t corner, const Value& time) const {
-    return filters::blend(c.start[corner], c.end[corner], Value(1.0) - time, time) - gap_;
+    return filters::blend(c.start[corner], c.end[corner], Value(1) - time, time) - gap_;
   }
 
   /// An upper bound of the error of gap() if 1 − time is exact. Twice the bound also covers the
@@ -125,8 +127,8 @@ class MovingPolygon {
   /// The lanes in which the first two coefficients on [a,b] are positive for all corners. `weight`
   /// is 1 if 1−b is exact, else 2.
   [[nodiscard]] Mask begins_apart(const Projections& c_a, const Projections& c_b, const Value& a,
-                                  const Value& b, double weight) const {
-    const Value enough = bound_ * Value(2.001 * weight);
+                                  const Value& b, Scalar weight) const {
+    const Value enough = bound_ * Value(Scalar(2.001) * weight);
     Mask result = Mask::all();
     for (std::size_t k = 0; k < corners; ++k) {
       result = result & (gap(c_a, k, a) > bound_) & (gap(c_a, k, b) + gap(c_b, k, a) > enough);
@@ -152,13 +154,10 @@ class MovingPolygon {
                                    const Value& time) const {
     const Value start = Projections::at_point(c.start, u, v);
     const Value end = Projections::at_point(c.end, u, v);
-    const Value now = filters::blend(start, end, Value(1.0) - time, time) - gap_;
+    const Value now = filters::blend(start, end, Value(1) - time, time) - gap_;
     const Value rate = start - end;
-    return {now, time + now / rate, rate > Value(0.0)};
+    return {now, time + now / rate, rate > Value(0)};
   }
-
-  /// An upper bound of sizes: the stage takes only smaller queries.
-  static constexpr double greatest_size = 0x1p102;
 
  private:
   /// The indices of the two differences whose difference is the corner; the second is `differences`

@@ -126,6 +126,12 @@ inline Examination<Value> examine(const Ends<Value>& at, const Bounds<Value, kin
           test_orientations<kind>(normals.middle(), at, bounds)};
 }
 
+/// The size of a query.
+template <class Value>
+inline Value size_of(const Ends<Value>& unit) {
+  return max(max(magnitude(unit[r]), magnitude(unit[p])), magnitude(unit[q]));
+}
+
 /// If the distance times this factor exceeds the size of a query, the widened bounds prove too
 /// little.
 inline constexpr double greatest_shift = 0x1p16;
@@ -134,8 +140,7 @@ inline constexpr double greatest_shift = 0x1p16;
 template <bool separated, class Value>
 inline unsigned far_lanes(const KernelInput& input, const Ends<Value>& unit) {
   if constexpr (!separated) return 0;
-  const Value size = max(max(magnitude(unit[r]), magnitude(unit[p])), magnitude(unit[q]));
-  return (Value(input.separation.distance * greatest_shift) > size).bits();
+  return (Value(input.separation.distance * greatest_shift) > size_of(unit)).bits();
 }
 
 /// \param contacts The queries whose time of impact is the only zero of det.

@@ -20,6 +20,7 @@
 #include "fast/certified/stages/determinant.hpp"
 #include "fast/certified/stages/direction.hpp"
 #include "fast/certified/stages/lanes.hpp"
+#include "fast/certified/stages/moving_polygon.hpp"
 #include "fast/certified/stages/moving_vectors.hpp"
 #include "fast/certified/stages/orientation.hpp"
 
@@ -27,6 +28,13 @@ namespace touchstone::fast::kernel {
 
 /// Number of queries in lanes of single precision.
 inline constexpr std::size_t single_width = 16;
+
+/// Lanes of single precision for the templates of other stages.
+template <class Lanes>
+struct SingleLanes {
+  using Value = typename Lanes::Single;
+  using Mask = MaskOf<Value>;
+};
 
 /// A coordinate in fixed point, of which differences are floats.
 template <class Lanes>
@@ -74,44 +82,114 @@ inline auto load_rounded(const RoundedVertices<Lanes, count>& rounded, std::size
   return result;
 }
 
-/// The tests of determinant and orientation on parts of [0,1], where they did not suffice on all
-/// of it. \param open The queries; then those that are not decided.
-template <class Lanes, Kind kind>
-inline void parts_stage(const RoundedVertices<Lanes, kernel_block>& rounded, float distance,
-                        Indices& open, KernelOutput& output) {
-  using Value = typename Lanes::Single;
-  static constexpr float parts = 4;
-  Marks<Lanes> of_none, of_all;
+/// Sixteen of the queries that are still open, lanes beyond the last repeat it.
+template <class Lanes>
+inline auto load_open(const RoundedVertices<Lanes, kernel_block>& rounded, const Indices& open,
+                      std::size_t first) {
   RoundedVertices<Lanes, single_width> some;
-  for (std::size_t first = 0; first < open.count; first += single_width) {
-    for (std::size_t lane = 0; lane < single_width; ++lane) {
-      const std::size_t place =
-          open.items[first + lane < open.count ? first + lane : open.count - 1];
-      for (std::size_t k = 0; k < moving_points; ++k) some[k][lane] = rounded[k][place];
-    }
-    const Ends<Value> unit = vectors_of<kind>(load_rounded<Lanes>(some, 0));
-    const Bounds<Value, kind> bounds = bounds_of<kind, true>(unit, Value(distance));
-    unsigned rest =
-        first_lanes<Lanes>(open.count - first < single_width ? open.count - first : single_width);
-    const unsigned valid = rest;
-    unsigned possible = 0;
-    for (float part = 0; part < parts && possible != valid; part += 1) {
-      const auto found =
-          examine<kind>(between(unit, Value(part / parts), Value((part + 1) / parts)), bounds);
-      possible |= valid & ~found.has_no_contact().bits();
-    }
-    of_none.add(first, possible);
-    of_all.add(first, valid & ~possible);
+  for (std::size_t lane = 0; lane < single_width; ++lane) {
+    const std::size_t place = open.items[first + lane < open.count ? first + lane : open.count - 1];
+    for (std::size_t k = 0; k < moving_points; ++k) some[k][lane] = rounded[k][place];
   }
-  of_all.for_each([&](std::size_t i) { append<Lanes>(output.rejected, open.items[i]); });
+  return load_rounded<Lanes>(some, 0);
+}
+
+/// Examines [0,1] in this number of equal parts.
+inline constexpr int parts_of_unit = 4;
+template <class Value>
+inline Value time_of(int part) {
+  using Scalar = typename Value::Scalar;
+  return Value(Scalar(part) / Scalar(parts_of_unit));
+}
+
+/// The lanes that may have a contact by the tests of determinant and orientation on each part.
+template <class Lanes, Kind kind>
+inline unsigned possible_by_parts(const Ends<typename Lanes::Single>& unit,
+                                  const typename Lanes::Single& distance) {
+  using Value = typename Lanes::Single;
+  const Bounds<Value, kind> bounds = bounds_of<kind, true>(unit, distance);
+  MaskOf<Value> free = MaskOf<Value>::all();
+  for (int part = 0; part < parts_of_unit; ++part) {
+    const auto at = between(unit, time_of<Value>(part), time_of<Value>(part + 1));
+    free = free & examine<kind>(at, bounds).has_no_contact();
+  }
+  return ~free.bits();
+}
+
+/// The same by the theorem of moving_polygon.hpp, with the directions of the closest points in L∞
+/// at both ends of each part: where the distance is too large for determinants.
+template <class Lanes, Kind kind>
+inline unsigned possible_by_distance(
+    const std::array<Vector<FixedPointCoordinate<Lanes>>, query_points>& points, float distance) {
+  using Value = typename Lanes::Single;
+  using Polygon = MovingPolygon<SingleLanes<Lanes>, kind, Norm::linf>;
+  // Products of five coordinates, which are compared, stay below 2^127.
+  constexpr float scale = 0x1p-16F;
+  PolygonVectors<Value, kind> polygon_vectors(points);
+  for (auto& moving : polygon_vectors.vectors) {
+    for (Vector<Value>& x : moving) {
+      for (Value& coordinate : x) coordinate = coordinate * Value(scale);
+    }
+  }
+  const Polygon polygon(polygon_vectors.vectors, polygon_vectors.magnitude * Value(scale),
+                        distance * scale);
+  const auto projections_at = [&](int part) {
+    return polygon.project(
+        typename Polygon::Nearest(polygon.corners_at(time_of<Value>(part))).direction);
+  };
+  MaskOf<Value> free = MaskOf<Value>::all();
+  auto of_begin = projections_at(0);
+  for (int part = 0; part < parts_of_unit; ++part) {
+    const auto of_end = projections_at(part + 1);
+    const Value begin = time_of<Value>(part), end = time_of<Value>(part + 1);
+    free = free & polygon.begins_apart(of_begin, of_end, begin, end, 1) &
+           polygon.ends_apart(of_end, end);
+    of_begin = of_end;
+  }
+  return ~free.bits();
+}
+
+/// The lanes in which the distance is so large a part of the polygon that determinants prove
+/// little.
+template <class Value>
+inline unsigned large_distances(const Ends<Value>& unit, const Value& distance) {
+  constexpr float large = 0x1p-11F;
+  return (distance > size_of(unit) * Value(large)).bits();
+}
+
+/// Tests the queries on parts of [0,1]. \param open The queries; then those that are not decided.
+template <class Lanes, bool separated, Kind kind>
+inline void parts_stage(const KernelInput& input,
+                        const RoundedVertices<Lanes, kernel_block>& rounded, Indices& open,
+                        KernelOutput& output) {
+  using Value = typename Lanes::Single;
+  Marks<Lanes> of_possible, of_free;
+  for (std::size_t first = 0; first < open.count; first += single_width) {
+    const auto points = load_open<Lanes>(rounded, open, first);
+    const unsigned valid =
+        first_lanes<Lanes>(open.count - first < single_width ? open.count - first : single_width);
+    const Value distance(input.rounded_distance);
+    const Ends<Value> unit = vectors_of<kind>(points);
+    const unsigned far = separated ? valid & large_distances(unit, distance) : 0U;
+    unsigned possible = valid;
+    if (far != valid) possible &= possible_by_parts<Lanes, kind>(unit, distance);
+    if constexpr (separated) {
+      if ((possible & far) != 0) {
+        possible &= possible_by_distance<Lanes, kind>(points, input.rounded_distance);
+      }
+    }
+    of_possible.add(first, possible);
+    of_free.add(first, valid & ~possible);
+  }
+  of_free.for_each([&](std::size_t i) { append<Lanes>(output.rejected, open.items[i]); });
   std::size_t count = 0;
-  of_none.for_each([&](std::size_t i) { open.items[count++] = open.items[i]; });
+  of_possible.for_each([&](std::size_t i) { open.items[count++] = open.items[i]; });
   open.count = count;
 }
 
-/// \param mixed The queries that are not decided.
-template <class Lanes, Kind kind>
-inline void single_precision_stage(const KernelInput& input, Indices& mixed, KernelOutput& output) {
+/// \param open The queries that are not decided.
+template <class Lanes, bool separated, Kind kind>
+inline void single_precision_stage(const KernelInput& input, Indices& open, KernelOutput& output) {
   using Value = typename Lanes::Single;
   Marks<Lanes> of_direction, of_determinant, of_orientation, of_none;
   RoundedVertices<Lanes, kernel_block> rounded;
@@ -125,17 +203,12 @@ inline void single_precision_stage(const KernelInput& input, Indices& mixed, Ker
     const auto points = load_rounded<Lanes>(rounded, first);
     const DirectionTest<Value, true, kind> direction(points, distance);
     const Ends<Value> at = vectors_of<kind>(points);
-    const Normals<Value> normals(at);
-    const Bounds<Value, kind> bounds = bounds_of<kind, true>(at, distance);
-    const DeterminantTest<Value> determinant(determinant_coefficients(at, normals),
-                                             bounds.determinant);
-    const OrientationTest<Value> orientation =
-        test_orientations<kind>(normals.middle(), at, bounds);
+    const Examination<Value> found = examine<kind>(at, bounds_of<kind, true>(at, distance));
     const unsigned valid =
         first_lanes<Lanes>(input.count - first < single_width ? input.count - first : single_width);
     const unsigned apart = direction.apart.bits();
-    const unsigned one_sided = determinant.one_sided.bits() & ~apart;
-    const unsigned opposed = orientation.opposed.bits() & ~apart & ~one_sided;
+    const unsigned one_sided = found.determinant.one_sided.bits() & ~apart;
+    const unsigned opposed = found.orientation.opposed.bits() & ~apart & ~one_sided;
     of_direction.add(first, valid & apart);
     of_determinant.add(first, valid & one_sided);
     of_orientation.add(first, valid & opposed);
@@ -147,9 +220,9 @@ inline void single_precision_stage(const KernelInput& input, Indices& mixed, Ker
   of_direction.for_each(append_to(output.separated_in_direction));
   of_determinant.for_each(append_to(output.one_sided));
   of_orientation.for_each(append_to(output.rejected));
-  mixed.count = 0;
-  of_none.for_each(append_to(mixed));
-  parts_stage<Lanes, kind>(rounded, input.rounded_distance, mixed, output);
+  open.count = 0;
+  of_none.for_each(append_to(open));
+  parts_stage<Lanes, separated, kind>(input, rounded, open, output);
 }
 
 }  // namespace touchstone::fast::kernel

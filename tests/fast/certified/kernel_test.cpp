@@ -287,6 +287,13 @@ std::vector<std::string> families_that_find(const CertifiedKernel& kernel) {
   return found;
 }
 
+tests::Faults<const CertifiedKernel> faults_in_kernels() {
+  const tests::PlantedFaults& planted = tests::planted_faults();
+  tests::Faults<const CertifiedKernel> faults = planted.certified_kernel;
+  faults.insert(faults.end(), planted.single_precision.begin(), planted.single_precision.end());
+  return faults;
+}
+
 TEST(CertifiedKernels, FamiliesFindNoFaultInTheKernels) {
   for (const CertifiedKernel* const kernel : all_kernels()) {
     EXPECT_TRUE(families_that_find(*kernel).empty()) << to_string(kernel->instructions);
@@ -294,10 +301,7 @@ TEST(CertifiedKernels, FamiliesFindNoFaultInTheKernels) {
 }
 
 TEST(CertifiedKernels, FamiliesFindPlantedFaults) {
-  const tests::PlantedFaults& planted = tests::planted_faults();
-  std::vector faults = planted.certified_kernel;
-  faults.insert(faults.end(), planted.single_precision.begin(), planted.single_precision.end());
-  for (const auto& fault : faults) {
+  for (const auto& fault : faults_in_kernels()) {
     if (fault.separation.distance > 0.0 || !fault.is_to_be_found() || fault.is_for_fuzzer) continue;
     const std::vector<std::string> found = families_that_find(*fault.part);
     std::printf("%s: found by %zu families\n", fault.name.data(), found.size());
@@ -345,7 +349,7 @@ TEST(CertifiedKernels, DistancesFindNoFaultInTheKernels) {
 }
 
 TEST(CertifiedKernels, DistancesFindPlantedFaults) {
-  for (const auto& fault : tests::planted_faults().certified_kernel) {
+  for (const auto& fault : faults_in_kernels()) {
     if (fault.separation.distance == 0.0) continue;
     const int found = distances_that_find(*fault.part);
     std::printf("%s: found at %d distances\n", fault.name.data(), found);

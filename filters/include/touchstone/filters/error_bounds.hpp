@@ -150,10 +150,22 @@ inline constexpr ErrorBound<double, 1> component_sum_double{
     .greatest_x = 0x1p+1021,
 };
 
+/// component_sum in float: 5 u x and underflow.
+inline constexpr ErrorBound<float, 1> component_sum_float{
+    .coefficients = {{0x1p-149F, 0x1.40000ap-22F}},
+    .greatest_x = 0x1p+125F,
+};
+
 /// squared_length in double: 8 u x^2 and underflow.
 inline constexpr ErrorBound<double, 2> squared_length_double{
     .coefficients = {{0x0.0000000000004p-1022, 0x0.0000000000002p-1022, 0x1.0000000000007p-50}},
     .greatest_x = 0x1p+510,
+};
+
+/// squared_length in float: 8 u x^2 and underflow.
+inline constexpr ErrorBound<float, 2> squared_length_float{
+    .coefficients = {{0x1p-147F, 0x1p-148F, 0x1.00000ep-21F}},
+    .greatest_x = 0x1p+62F,
 };
 
 /// length_defect in double_double: 13 u x^2 and underflow.

@@ -20,6 +20,8 @@ struct Lanes {
     friend Mask operator&(Mask a, Mask b) { return {a.set && b.set}; }
   };
   struct Value {
+    using Scalar = double;
+
     double x = 0.0;
 
     Value() = default;
@@ -95,7 +97,7 @@ double separation(const Polygon<kind>& polygon, const Point& direction) {
 template <Kind kind, Norm norm>
 void expect_distance(const Polygon<kind>& polygon, double tolerance) {
   const Found found = nearest<kind, norm>(polygon);
-  EXPECT_LE(dual_length(norm, found.direction), unit_length);
+  EXPECT_LE(dual_length(norm, found.direction), unit_length<double>);
   EXPECT_GE(dual_length(norm, found.direction), 1.0 - 1e-12);
   const double least = 0.0 - 1e-12, most = 1.0 + 1e-12;
   EXPECT_TRUE(found.u >= least && found.v >= least && found.u <= most && found.v <= most);
