@@ -27,15 +27,15 @@ constexpr std::array<std::uint64_t, 256> make_places() {
 constexpr std::array<std::uint64_t, 256> places = make_places();
 
 struct Lanes {
-  using Value = Floats;
-  using Mask = FloatMask;
+  using Value = SixteenFloats;
+  using Mask = SixteenMask;
 
   static unsigned equal_bits(const std::int32_t* values, std::int32_t value) {
     const __m256i all = _mm256_set1_epi32(value);
     const auto equal = [all](const std::int32_t* from) {
-      return _mm256_castsi256_ps(_mm256_cmpeq_epi32(load_whole(from), all));
+      return EightMask{_mm256_castsi256_ps(_mm256_cmpeq_epi32(load_whole(from), all))};
     };
-    return FloatMask{equal(values), equal(values + 8)}.bits();
+    return SixteenMask{equal(values), equal(values + 8)}.bits();
   }
 
   struct Words {

@@ -15,27 +15,35 @@ namespace {
 /// Vertices per task.
 constexpr std::size_t vertices_of_task = 4096;
 
-/// x, y, z and an unused number of a vertex, in double.
-using Row = std::array<double, 4>;
+/// x and y, z and 0 of a vertex.
+using DoublePair = double __attribute__((vector_size(16)));
+using Position = std::array<DoublePair, 2>;
+using WholeRow = std::int32_t __attribute__((vector_size(16)));
 
-double greatest_magnitude(const Row& x) {
-  return std::max({std::abs(x[0]), std::abs(x[1]), std::abs(x[2])});
+Position position_of(const std::array<double, 4>& x) {
+  return {DoublePair{x[0], x[1]}, DoublePair{x[2], 0.0}};
 }
 
+DoublePair greatest(const DoublePair& a, const DoublePair& b) { return a > b ? a : b; }
+
 /// The greatest difference of a coordinate from that of the origin; infinity if one overflows.
-double extent(const MovingVertices& vertices, const Row& origin) {
+double extent(const MovingVertices& vertices, const Position& origin) {
   return tbb::parallel_reduce(
       tbb::blocked_range<std::size_t>(0, vertices.size(), vertices_of_task), 0.0,
-      [&](const tbb::blocked_range<std::size_t>& range, double greatest) {
+      [&](const tbb::blocked_range<std::size_t>& range, double known) {
         const StrictFloatingPoint of_task;
+        DoublePair above{known, known}, below = above;
         for (std::size_t i = range.begin(); i < range.end(); ++i) {
           for (const auto* x : {&vertices[i].start, &vertices[i].end}) {
-            for (std::size_t axis = 0; axis < 3; ++axis) {
-              greatest = std::max(greatest, std::abs((*x)[axis] - origin[axis]));
+            const Position position = position_of(*x);
+            for (std::size_t pair = 0; pair < 2; ++pair) {
+              above = greatest(above, position[pair] - origin[pair]);
+              below = greatest(below, origin[pair] - position[pair]);
             }
           }
         }
-        return greatest;
+        const DoublePair both = greatest(above, below);
+        return std::max(both[0], both[1]);
       },
       [](double a, double b) { return std::max(a, b); });
 }
@@ -43,33 +51,34 @@ double extent(const MovingVertices& vertices, const Row& origin) {
 /// The positions of vertices as whole numbers.
 class Rounding {
  public:
-  Rounding(const Row& origin, double h, double end) : origin_(origin), per_h_(1.0 / h), end_(end) {}
+  Rounding(const Position& origin, double h, double end)
+      : origin_(origin), per_h_(1.0 / h), end_(end) {}
 
   [[nodiscard]] FixedPointVertex operator()(const MovingVertex& vertex) const {
-    return {.start = whole(vertex.start), .end = whole(end_ == 1.0 ? vertex.end : at_end(vertex))};
+    return {.start = whole(position_of(vertex.start)),
+            .end = whole(end_ == 1.0 ? position_of(vertex.end) : at_end(vertex))};
   }
 
  private:
-  [[nodiscard]] Row at_end(const MovingVertex& vertex) const {
-    Row result{};
+  [[nodiscard]] Position at_end(const MovingVertex& vertex) const {
+    std::array<double, 4> result{};
     for (std::size_t axis = 0; axis < 3; ++axis) {
       result[axis] = filters::Position::evaluate<double>({vertex.start[axis], vertex.end[axis]},
                                                          {1.0 - end_, end_});
     }
-    return result;
+    return position_of(result);
   }
 
   /// The sum with 1.5 · 2^52 has the nearest whole number in its lowest bits.
-  [[nodiscard]] std::array<std::int32_t, 4> whole(const Row& x) const {
-    std::array<std::int32_t, 4> result;
-    for (std::size_t axis = 0; axis < 4; ++axis) {
-      const double shifted = (x[axis] - origin_[axis]) * per_h_ + 0x1.8p52;
-      result[axis] = static_cast<std::int32_t>(std::bit_cast<std::uint64_t>(shifted));
-    }
-    return result;
+  [[nodiscard]] std::array<std::int32_t, 4> whole(const Position& x) const {
+    const DoublePair low = (x[0] - origin_[0]) * per_h_ + 0x1.8p52;
+    const DoublePair high = (x[1] - origin_[1]) * per_h_ + 0x1.8p52;
+    const WholeRow row = __builtin_shufflevector(std::bit_cast<WholeRow>(low),
+                                                 std::bit_cast<WholeRow>(high), 0, 2, 4, 6);
+    return std::bit_cast<std::array<std::int32_t, 4>>(row);
   }
 
-  Row origin_;
+  Position origin_;
   double per_h_;
   double end_;
 };
@@ -84,9 +93,10 @@ FixedPointVertices fixed_point_vertices(const MovingVertices& vertices, double e
   const StrictFloatingPoint strict;
   FixedPointVertices result;
   if (vertices.size() == 0) return result;
-  const Row& origin = vertices[0].start;
+  const Position origin = position_of(vertices[0].start);
   const double size = extent(vertices, origin);
-  const double magnitude = greatest_magnitude(origin) + size;
+  const auto& [x, y, z, unused] = vertices[0].start;
+  const double magnitude = std::max({std::abs(x), std::abs(y), std::abs(z)}) + size;
   if (!(magnitude <= greatest_coordinate && size >= least_extent)) return result;
   const double h = std::ldexp(1.0, std::ilogb(size) + 1 - 29);
   const double error = end == 1.0 ? 0.0 : filters::position_double(2.0 * magnitude);

@@ -14,8 +14,8 @@ struct Lanes {
   using Mask = touchstone::fast::Mask;
   using Row = AvxRow<Value>;
   using RowMask = AvxRowMask<Value>;
-  using Single = Floats;
-  using Rounded = Wholes;
+  using Single = EightFloats;
+  using Rounded = EightWholes;
   static constexpr std::size_t width = 4;
 
   static std::array<Value, 3> load(const std::array<const double*, width>& rows) {

@@ -31,6 +31,7 @@ struct FloatMask {
 
 struct Floats {
   using Scalar = float;
+  static constexpr std::size_t width = 16;
 
   __m512 x;
 

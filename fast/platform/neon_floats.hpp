@@ -52,6 +52,7 @@ struct FloatMask {
 
 struct Floats {
   using Scalar = float;
+  static constexpr std::size_t width = 16;
 
   float32x4_t first, second, third, fourth;
 

@@ -43,6 +43,7 @@ struct FloatMask {
 
 struct Floats {
   using Scalar = float;
+  static constexpr std::size_t width = 16;
 
   std::array<float, 16> lanes;
 

@@ -7,7 +7,7 @@
 /// `Lanes` is a type of the file of one instruction set, in an anonymous namespace. It has
 /// - Value and Mask: a number and a truth value in each of its `width` lanes, one query a lane;
 /// - Row and RowMask: the same for the three coordinates of one point;
-/// - Single and Rounded: a float and a whole number in each of sixteen lanes;
+/// - Single and Rounded: a float and a whole number in each lane, of which there may be more;
 /// - load and load_backwards: the points at `width` addresses. load may read one number after a
 ///   point, load_backwards one before it.
 ///

@@ -27,7 +27,8 @@
 namespace touchstone::fast::kernel {
 
 /// Number of queries in lanes of single precision.
-inline constexpr std::size_t single_width = 16;
+template <class Lanes>
+inline constexpr std::size_t single_width = Lanes::Single::width;
 
 /// Lanes of single precision for the templates of other stages.
 template <class Lanes>
@@ -61,12 +62,12 @@ inline void find_rounded(const KernelInput& input, RoundedVertices<Lanes, kernel
       rounded[k][i] = input.rounded + vertices[k];
     }
   }
-  for (; i % single_width != 0; ++i) {
+  for (; i % single_width<Lanes> != 0; ++i) {
     for (auto& vertices : rounded) vertices[i] = vertices[i - 1];
   }
 }
 
-/// The points of sixteen queries from `first` on.
+/// The points of the queries that fill the lanes, from `first` on.
 template <class Lanes, std::size_t count>
 inline auto load_rounded(const RoundedVertices<Lanes, count>& rounded, std::size_t first) {
   std::array<Vector<FixedPointCoordinate<Lanes>>, query_points> result;
@@ -82,12 +83,12 @@ inline auto load_rounded(const RoundedVertices<Lanes, count>& rounded, std::size
   return result;
 }
 
-/// Sixteen of the queries that are still open, lanes beyond the last repeat it.
+/// The same of queries that are still open. Lanes beyond the last repeat it.
 template <class Lanes>
 inline auto load_open(const RoundedVertices<Lanes, kernel_block>& rounded, const Indices& open,
                       std::size_t first) {
-  RoundedVertices<Lanes, single_width> some;
-  for (std::size_t lane = 0; lane < single_width; ++lane) {
+  RoundedVertices<Lanes, single_width<Lanes>> some;
+  for (std::size_t lane = 0; lane < single_width<Lanes>; ++lane) {
     const std::size_t place = open.items[first + lane < open.count ? first + lane : open.count - 1];
     for (std::size_t k = 0; k < moving_points; ++k) some[k][lane] = rounded[k][place];
   }
@@ -164,10 +165,10 @@ inline void parts_stage(const KernelInput& input,
                         KernelOutput& output) {
   using Value = typename Lanes::Single;
   Marks<Lanes> of_possible, of_free;
-  for (std::size_t first = 0; first < open.count; first += single_width) {
+  for (std::size_t first = 0; first < open.count; first += single_width<Lanes>) {
     const auto points = load_open<Lanes>(rounded, open, first);
-    const unsigned valid =
-        first_lanes<Lanes>(open.count - first < single_width ? open.count - first : single_width);
+    const unsigned valid = first_lanes<Lanes>(
+        open.count - first < single_width<Lanes> ? open.count - first : single_width<Lanes>);
     const Value distance(input.rounded_distance);
     const Ends<Value> unit = vectors_of<kind>(points);
     const unsigned far = separated ? valid & large_distances(unit, distance) : 0U;
@@ -195,17 +196,17 @@ inline void single_precision_stage(const KernelInput& input, Indices& open, Kern
   RoundedVertices<Lanes, kernel_block> rounded;
   find_rounded<Lanes, kind>(input, rounded);
   const Value distance(input.rounded_distance);
-  for (std::size_t first = 0; first < input.count; first += single_width) {
-    for (std::size_t i = first + single_width; i < first + 2 * single_width && i < input.count;
-         ++i) {
+  for (std::size_t first = 0; first < input.count; first += single_width<Lanes>) {
+    for (std::size_t i = first + single_width<Lanes>;
+         i < first + 2 * single_width<Lanes> && i < input.count; ++i) {
       for (const auto& vertices : rounded) __builtin_prefetch(vertices[i]);
     }
     const auto points = load_rounded<Lanes>(rounded, first);
     const DirectionTest<Value, true, kind> direction(points, distance);
     const Ends<Value> at = vectors_of<kind>(points);
     const Examination<Value> found = examine<kind>(at, bounds_of<kind, true>(at, distance));
-    const unsigned valid =
-        first_lanes<Lanes>(input.count - first < single_width ? input.count - first : single_width);
+    const unsigned valid = first_lanes<Lanes>(
+        input.count - first < single_width<Lanes> ? input.count - first : single_width<Lanes>);
     const unsigned apart = direction.apart.bits();
     const unsigned one_sided = found.determinant.one_sided.bits() & ~apart;
     const unsigned opposed = found.orientation.opposed.bits() & ~apart & ~one_sided;
