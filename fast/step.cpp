@@ -16,6 +16,7 @@
 #include "fast/platform/floating_point_state.hpp"
 #include "fast/platform/threads.hpp"
 #include "fast/step/scene.hpp"
+#include "touchstone/certified.hpp"
 
 namespace touchstone::fast {
 namespace {
@@ -95,9 +96,7 @@ std::vector<StepCollision> all_collisions(const Scene& scene) {
 /// early ones, and on a short interval little moves.
 class ImpactSearch {
  public:
-  explicit ImpactSearch(const Scene& scene) : scene_(scene), parts_(scene.parts(groups_of_part)) {
-    for (const SearchPart& part : parts_) groups_ += part.end - part.first;
-  }
+  explicit ImpactSearch(const Scene& scene) : scene_(scene) {}
 
   [[nodiscard]] std::optional<StepImpact> earliest() {
     run();
@@ -153,7 +152,7 @@ class ImpactSearch {
     const double t_end = t_end_of(limit());
     if (t_end > much * long_->end) return;
     const std::size_t expected = (stride - 1) * pairs_.load();
-    if (expected > pairs_of_fit * groups_) take_interval(t_end);
+    if (expected > pairs_of_fit * stride * groups_) take_interval(t_end);
   }
 
   /// Contacts after this time do not matter.
@@ -165,20 +164,18 @@ class ImpactSearch {
 
   // ---- Rounds ----
 
-  static bool is_in(std::size_t round, std::size_t group) {
-    return group % strides[round] == 0 && (round == 0 || group % strides[round - 1] != 0);
-  }
-
   /// Searches with the groups of a round.
   template <std::size_t instants>
   void search(const SceneInterval<instants>& interval, std::size_t round) {
-    tbb::parallel_for(std::size_t{0}, parts_.size(), [&](std::size_t i) {
-      const SearchPart& part = parts_[i];
+    const std::vector<SearchPart> parts = scene_.parts(groups_of_part * strides[round]);
+    tbb::parallel_for(std::size_t{0}, parts.size(), [&](std::size_t i) {
+      const SearchPart& part = parts[i];
       std::vector<SearchPart> wanted;
-      for (std::size_t group = part.first; group < part.end; ++group) {
-        if (is_in(round, group)) wanted.push_back({part.kind, group, group + 1});
+      for (std::size_t group = part.first; group < part.end; group += strides[round]) {
+        const bool is_done = round > 0 && group % strides[round - 1] == 0;
+        if (!is_done) wanted.push_back({part.kind, group, group + 1});
       }
-      if (wanted.empty()) return;
+      groups_ += wanted.size();
       for_each_block(
           scene_,
           [&](PairBuffer& pairs) {
@@ -226,13 +223,12 @@ class ImpactSearch {
   }
 
   const Scene& scene_;
-  std::vector<SearchPart> parts_;
-  std::size_t groups_ = 0;
   bool any_suffices_ = false;
   /// One of them is the interval.
   std::optional<SceneInterval<1>> short_;
   std::optional<SceneInterval<2>> long_;
-  std::atomic<std::size_t> pairs_ = 0;  ///< decided so far
+  std::atomic<std::size_t> pairs_ = 0;   ///< decided so far
+  std::atomic<std::size_t> groups_ = 0;  ///< searched so far
   std::atomic<double> upper_ = std::numeric_limits<double>::infinity();
   tbb::enumerable_thread_specific<Found> found_;
 };
@@ -391,7 +387,16 @@ Step Step::scaled(double alpha) const {
 
 std::optional<double> Step::free_step_size() const {
   const std::optional<StepImpact> impact = earliest();
-  const auto is_free = [this](double alpha) { return scaled(alpha).is_free(); };
+  const auto is_free = [&](double alpha) {
+    const Step trial = scaled(alpha);
+    // The pairs that collide first in the whole step mostly do in a trial step that is not free.
+    const bool collides_again =
+        impact && std::ranges::any_of(impact->pairs, [&](const auto& one) {
+          const Query query = trial.query_of(one.kind, one.pair);
+          return solve(kind_of(one.kind), query, trial.certified()).verdict == Verdict::yes;
+        });
+    return !collides_again && trial.is_free();
+  };
   return StepSizeSearch(is_free).run(impact ? impact->toi_lower : 1.0);
 }
 

@@ -142,7 +142,7 @@ inline unsigned possible_by_distance(
   auto of_begin = projections_at(0);
   for (int part = 0; part < parts_of_unit; ++part) {
     const auto of_end = projections_at(part + 1);
-    const Value begin = time_of<Value>(part), end = time_of<Value>(part + 1);
+    const auto begin = time_of<Value>(part), end = time_of<Value>(part + 1);
     free = free & polygon.begins_apart(of_begin, of_end, begin, end, 1) &
            polygon.ends_apart(of_end, end);
     of_begin = of_end;
