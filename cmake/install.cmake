@@ -25,7 +25,7 @@ endif()
 touchstone_pkg_config(fast "Certified continuous collision detection" "eigen3 >= 3.4" ${tbb})
 if(TOUCHSTONE_BUILD_EXACT)
   set(definitions " -DCGAL_USE_GMPXX=1")  # as CGAL's package for CMake has it: CGAL's numbers are GMP's
-  touchstone_pkg_config(exact "Exact continuous collision detection, with certificates" "eigen3 >= 3.4" gmpxx)
+  touchstone_pkg_config(exact "Exact continuous collision detection, with certificates" "eigen3 >= 3.4" gmpxx mpfr)
   unset(definitions)
 endif()
 if(TOUCHSTONE_BUILD_ADAPTERS)
