@@ -48,7 +48,7 @@ class Member {
   [[nodiscard]] Kind kind() const {
     if (value_ == "fv") return Kind::vertex_face;
     if (value_ == "ee") return Kind::edge_edge;
-    fail("must be \"fv\" or \"ee\"");
+    fail(R"(must be "fv" or "ee")");
   }
 
  private:
