@@ -156,7 +156,8 @@ void require_limits(const Certificate& certificate) {
   }
 }
 
-void prove_collision(const Motion& motion, const AlgebraicNumber& first,
+template <class Order>
+void prove_collision(const MotionOf<Order>& motion, const AlgebraicNumber& first,
                      const ProveOptions& options, Certificate& certificate) {
   AlgebraicNumber toi = recognised(first);
   const bool is_apart = sgn(motion.distance) > 0;
@@ -177,8 +178,12 @@ void prove_collision(const Motion& motion, const AlgebraicNumber& first,
 
 }  // namespace
 
-Certificate prove(Kind kind, const Query& query, const Decision& verdict,
-                  const ProveOptions& options) {
+namespace {
+
+/// \tparam AnyQuery Query or CurvedQuery.
+template <class AnyQuery>
+Certificate prove_any(Kind kind, const AnyQuery& query, const Decision& verdict,
+                      const ProveOptions& options) {
   if (options.width && sgn(*options.width) <= 0) {
     throw std::invalid_argument("the interval of a time of impact must have a positive width");
   }
@@ -189,7 +194,7 @@ Certificate prove(Kind kind, const Query& query, const Decision& verdict,
   certificate.kind = kind;
   certificate.query = query;
   certificate.separation = verdict.separation;
-  Motion motion = scale_uniformly(kind, query, verdict.separation);
+  auto motion = scale_uniformly(kind, query, verdict.separation);
   // At distance 0 both norms mean the same, and l2 has fewer features.
   if (sgn(motion.distance) == 0) motion.norm = Norm::l2;
   if (verdict.toi) {
@@ -199,6 +204,18 @@ Certificate prove(Kind kind, const Query& query, const Decision& verdict,
   }
   require_limits(certificate);
   return certificate;
+}
+
+}  // namespace
+
+Certificate prove(Kind kind, const Query& query, const Decision& verdict,
+                  const ProveOptions& options) {
+  return prove_any(kind, query, verdict, options);
+}
+
+Certificate prove(Kind kind, const CurvedQuery& query, const Decision& verdict,
+                  const ProveOptions& options) {
+  return prove_any(kind, query, verdict, options);
 }
 
 }  // namespace touchstone::exact

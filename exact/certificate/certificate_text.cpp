@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <variant>
 
 namespace touchstone::exact {
@@ -64,15 +65,27 @@ void write_label(std::string& text, std::string_view label) {
   if (!label.empty()) text.append("label ").append(label_text(label)).append("\n");
 }
 
+void write_point(std::string& text, std::span<const double> numbers) {
+  text += "point";
+  for (const double x : numbers) write_hexadecimal(text += ' ', x);
+  text += '\n';
+}
+
 void write_points(std::string& text, const Query& query) {
-  for (std::size_t end = 0; end < 2; ++end) {
-    for (std::size_t point = 0; point < moving_points; ++point) {
-      text += "point";
-      for (std::size_t axis = 0; axis < 3; ++axis) {
-        text += ' ';
-        write_hexadecimal(text, query.at(end, point, axis));
-      }
-      text += '\n';
+  const std::span<const double> coordinates(query.coordinates);
+  for (std::size_t first = 0; first < coordinates.size(); first += 3) {
+    write_point(text, coordinates.subspan(first, 3));
+  }
+}
+
+void write_points(std::string& text, const CurvedQuery& query) {
+  for (const Trajectory& curve : query) {
+    text.append(curve.weights.empty() ? "curve " : "rational ");
+    text.append(std::to_string(curve.degree())).append("\n");
+    for (std::size_t j = 0; j < curve.control.size(); ++j) {
+      const auto& [x, y, z] = curve.control[j];
+      const std::array numbers{x, y, z, curve.weights.empty() ? 1.0 : curve.weights[j]};
+      write_point(text, std::span(numbers).first(curve.weights.empty() ? 3 : 4));
     }
   }
 }
@@ -184,7 +197,7 @@ std::string certificates_closing_line(std::uint64_t certificates) {
 void write(std::string& text, const Certificate& certificate, std::string_view label) {
   write_kind(text, certificate.kind);
   write_label(text, label);
-  write_points(text, certificate.query);
+  std::visit([&](const auto& query) { write_points(text, query); }, certificate.query);
   write_separation(text, certificate.separation);
   write_claim(text, certificate);
   write_subintervals(text, certificate.subintervals);

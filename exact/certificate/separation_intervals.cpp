@@ -1,6 +1,8 @@
 #include "exact/certificate/separation_intervals.hpp"
 
 #include <algorithm>
+#include <concepts>
+#include <cstddef>
 #include <optional>
 #include <utility>
 
@@ -18,20 +20,44 @@ static_assert(depth_left + 2 <= bisection_limit);
 /// A depth at which no break point within the limit can help.
 constexpr unsigned long greatest_depth = number_limit + depth_left;
 
-/// The motion on [0,until] as one on [0,1], in other units.
-Motion restricted(const Motion& motion, const Rational& until) {
-  Motion result = motion;
-  if (until == 1) return result;
-  const Integer& end = until.get_num();
-  const Integer& whole = until.get_den();
+/// The form on [0,until] as one on [0,1], times the denominator of `until` to the power of its
+/// degree: whole (1−t) = whole (1−y) + (whole−end) y and whole t = end y, by Horner's rule in t.
+template <AnyForm F>
+F restricted(F form, const Rational& until) {
+  const Integer &end = until.get_num(), &whole = until.get_den();
   const Integer rest = whole - end;
-  for (std::size_t i = 0; i < motion.corner_count; ++i) {
-    for (Form<1>& x : result.corners[i]) {
-      x.c[1] = x.c[0] * rest + x.c[1] * end;
-      x.c[0] *= whole;
+  const std::size_t degree = form.c.size() - 1;
+  std::vector<Integer> sum{form.c[degree]};
+  std::vector<Integer> power{Integer(1)};  // of whole (1−t)
+  for (std::size_t k = degree; k-- > 0;) {
+    power.emplace_back(0);
+    for (std::size_t i = power.size() - 1; i > 0; --i) {
+      power[i] = power[i] * whole + power[i - 1] * rest;
     }
+    power[0] *= whole;
+    sum.emplace_back(0);
+    for (std::size_t i = sum.size() - 1; i > 0; --i) {
+      sum[i] = sum[i - 1] * end + form.c[k] * power[i];
+    }
+    sum[0] = form.c[k] * power[0];
   }
-  result.distance *= whole;
+  std::ranges::move(sum, form.c.begin());
+  return form;
+}
+
+/// The motion on [0,until] as one on [0,1], in other units.
+template <class Order>
+MotionOf<Order> restricted(const MotionOf<Order>& motion, const Rational& until) {
+  MotionOf<Order> result = motion;
+  if (until == 1) return result;
+  for (std::size_t i = 0; i < motion.corner_count; ++i) {
+    for (auto& x : result.corners[i]) x = restricted(std::move(x), until);
+  }
+  if constexpr (std::same_as<Order, Curved>) {
+    result.denominator.value = restricted(std::move(result.denominator.value), until);
+  } else {
+    result.distance *= until.get_den();  // 1 stays 1 times the denominator of `until`
+  }
   return result;
 }
 
@@ -169,7 +195,8 @@ bool is_within_limit(const Rational& number) {
          mpz_sizeinbase(number.get_den_mpz_t(), 2) <= number_limit;
 }
 
-std::vector<Subinterval> separate(const Motion& motion, const Rational& until) {
+template <class Order>
+std::vector<Subinterval> separate(const MotionOf<Order>& motion, const Rational& until) {
   std::vector<Separator> separators = exact::separators(restricted(motion, until));
   if (const auto feature = single_feature(separators)) return {{Rational(0), until, *feature}};
   std::vector<Subinterval> subintervals;
@@ -184,5 +211,8 @@ std::vector<Subinterval> separate(const Motion& motion, const Rational& until) {
   }
   return subintervals;
 }
+
+template std::vector<Subinterval> separate(const MotionOf<Straight>&, const Rational&);
+template std::vector<Subinterval> separate(const MotionOf<Curved>&, const Rational&);
 
 }  // namespace touchstone::exact

@@ -35,8 +35,10 @@ namespace touchstone::exact {
 /// the last bit of any other. Beyond that an exception needs features that change, or nearly
 /// vanish, at times as close to each other. At a distance > 0 in l2 the degree is 8 and the
 /// coefficients are below 2^(8s+24): the bounds are 2^(−128s−500) and 2^(−56s−400), and s ≤ 70 is
-/// enough.
-[[nodiscard]] std::vector<Subinterval> separate(const Motion& motion, const Rational& until);
+/// enough. On curves all degrees, and with them the exponents, are greater.
+template <class Order>
+[[nodiscard]] std::vector<Subinterval> separate(const MotionOf<Order>& motion,
+                                                const Rational& until);
 
 /// True if numerator and denominator have at most number_limit bits.
 [[nodiscard]] bool is_within_limit(const Rational& number);

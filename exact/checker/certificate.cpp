@@ -101,6 +101,42 @@ void read_claim(Reader& reader, Certificate& certificate) {
   reader.end();
 }
 
+Point take_point(Reader& reader) {
+  Point point;
+  for (mpq_class& coordinate : point) coordinate = take_number(reader);
+  return point;
+}
+
+/// Reads the points of straight lines: all at t=0, then all at t=1.
+void read_lines(Reader& reader, Query& query) {
+  for (std::size_t end = 0; end < 2; ++end) {
+    for (Curve& curve : query.points) {
+      reader.begin("point");
+      curve.control.push_back(take_point(reader));
+      reader.end();
+    }
+  }
+}
+
+/// Reads `curve K` or `rational K`, and its control points.
+Curve read_curve(Reader& reader) {
+  Curve curve;
+  reader.begin();
+  const bool is_rational = reader.one_of({"curve", "rational"}) == 1;
+  const mpz_class degree = signed_number(reader.word(), parse_decimal);
+  if (degree < 0 || degree > max_curve_degree)
+    reject("a degree that is not 0 to " + std::to_string(max_curve_degree));
+  reader.end();
+  for (unsigned long j = 0; j <= degree.get_ui(); ++j) {
+    reader.begin("point");
+    curve.control.push_back(take_point(reader));
+    if (is_rational) curve.weights.push_back(take_number(reader));
+    if (is_rational && curve.weights.back() <= 0) reject("a weight that is not positive");
+    reader.end();
+  }
+  return curve;
+}
+
 std::size_t take_axis(Reader& reader) { return reader.one_of({"x", "y", "z"}); }
 
 void take_corners(Reader& reader, const Query& query, std::size_t count, Part& part) {
@@ -337,12 +373,10 @@ void read_certificate(Reader& reader, Certificate& certificate) {
   query.is_edge_edge = reader.one_of({"vertex_face", "edge_edge"}) == 1;
   reader.end();
   if (reader.first_word() == "label") certificate.label = read_label(reader, "label");
-  for (Points& points : query.points) {
-    for (Point& point : points) {
-      reader.begin("point");
-      for (mpq_class& coordinate : point) coordinate = take_number(reader);
-      reader.end();
-    }
+  if (reader.first_word() == "curve" || reader.first_word() == "rational") {
+    for (Curve& curve : query.points) curve = read_curve(reader);
+  } else {
+    read_lines(reader, query);
   }
   if (reader.first_word() == "separation") certificate.separation = read_separation(reader);
   read_claim(reader, certificate);

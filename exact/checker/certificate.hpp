@@ -24,7 +24,8 @@ inline constexpr std::size_t max_line_bytes = 65'536;
 inline constexpr std::size_t max_label_bytes = 1'024;
 inline constexpr std::size_t max_number_bits = 16'384;
 inline constexpr std::size_t max_subintervals = 4'096;
-inline constexpr std::size_t max_root_degree = 8;
+inline constexpr std::size_t max_root_degree = 256;
+inline constexpr std::size_t max_curve_degree = 8;
 
 /// Where a certificate proves nothing: throws, without a label.
 /// \param line at fault; 0: that at which the reader stands
@@ -54,13 +55,17 @@ void require_at_most(std::size_t limit, std::size_t count, std::string_view what
 
 /// x y z.
 using Point = std::array<mpq_class, 3>;
-/// Of a vertex and a face, or of two edges, as listed.
-using Points = std::array<Point, 4>;
+/// A moving point: its control points from t=0 to t=1, of a straight line two.
+struct Curve {
+  std::vector<Point> control;
+  /// The weights, > 0, of a rational curve; else none.
+  std::vector<mpq_class> weights;
+};
 
 struct Query {
   bool is_edge_edge = false;
-  /// At t=0 and at t=1.
-  std::array<Points, 2> points;
+  /// Of a vertex and a face, or of two edges, as listed.
+  std::array<Curve, 4> points;
 };
 
 /// The minimum separation and its norm: l2, or else linf.

@@ -9,7 +9,8 @@
 /// For certificates of whole steps also places.hpp/.cpp, which pairs need an argument, and
 /// step.hpp/.cpp, what is said of them.
 ///
-/// Four points move on straight lines. The *corners* are
+/// Four points move on straight lines or on curves, polynomial or rational in t with positive
+/// denominators. The *corners* are
 ///
 ///     vertex_face:  w = v−f0, v−f1, v−f2
 ///     edge_edge:    w = ea0−eb0, ea1−eb0, ea1−eb1, ea0−eb1     (a parallelogram, in cyclic order)

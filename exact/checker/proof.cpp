@@ -87,7 +87,8 @@ using Vector = std::array<Form, 3>;
 
 Vector operator-(Vector a, const Vector& b) {
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    for (std::size_t k = 0; k < a[axis].size(); ++k) a[axis][k] -= b[axis][k];
+    a[axis].resize(std::max(a[axis].size(), b[axis].size()));
+    for (std::size_t k = 0; k < b[axis].size(); ++k) a[axis][k] -= b[axis][k];
   }
   return a;
 }
@@ -118,6 +119,53 @@ Vector unit(std::size_t axis) {
   return result;
 }
 
+// ---- Curves -------------------------------------------------------------------------------------
+
+/// Σ b_k c_k (1−t)^(n−k) t^k with b the binomials of n, as a polynomial in t.
+Form bernstein_polynomial(Form c) {
+  mpz_class binomial = 1;
+  const std::size_t degree = c.size() - 1;
+  for (std::size_t k = 1; k < degree; ++k) {
+    binomial = binomial * (degree - k + 1) / k;
+    c[k] *= binomial;
+  }
+  Form p = substitute(std::move(c), 1, -1);  // r = t and s = 1, until they are exchanged
+  std::ranges::reverse(p);
+  return p;
+}
+
+/// What brings all of these to integers.
+void include_denominators(mpz_class& factor, const std::vector<mpq_class>& numbers) {
+  for (const mpq_class& x : numbers) factor = lcm(factor, x.get_den());
+}
+
+/// A multiple of the curve's denominator, positive on [0,1].
+Form denominator_of(const Curve& curve) {
+  if (curve.weights.empty()) return {1};
+  mpz_class factor = 1;
+  include_denominators(factor, curve.weights);
+  Form weights;
+  for (const mpq_class& weight : curve.weights) weights.push_back(scaled(weight, factor));
+  return bernstein_polynomial(std::move(weights));
+}
+
+/// `factor` times the curve's position times its denominator.
+Vector numerator_of(const Curve& curve, const mpz_class& factor) {
+  mpz_class weight_factor = 1;
+  include_denominators(weight_factor, curve.weights);
+  Vector result;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    Form c;
+    c.reserve(curve.control.size());
+    for (const Point& point : curve.control) c.push_back(scaled(point[axis], factor));
+    for (std::size_t k = 0; k < curve.weights.size(); ++k) {
+      c[k] *= scaled(curve.weights[k], weight_factor);
+    }
+    result[axis] = bernstein_polynomial(std::move(c));
+  }
+  return result;
+}
+
 // ---- Proofs -------------------------------------------------------------------------------------
 
 /// The corners of a query, each the difference of two of its points: their numbers.
@@ -140,24 +188,34 @@ class Proof {
   }
 
  private:
-  /// Brings the coordinates and the distance to integers: all of space is enlarged by one factor,
-  /// which changes no sign below. The corners are polynomials of degree 1 in t.
+  /// Brings the corners and the distance to polynomials in t of integer coefficients. At each time
+  /// all of space is enlarged by one factor, which changes no sign below: by what makes the
+  /// coordinates integers, and by the product of the denominators of all points, equal ones once.
   void find_corners() {
-    const auto& [is_edge_edge, ends] = certificate_.query;
+    const auto& [is_edge_edge, curves] = certificate_.query;
     mpz_class factor = certificate_.separation.distance.get_den();
-    for (const Points& points : ends) {
-      for (const Point& point : points) {
+    std::array<Form, 4> own;
+    std::vector<Form> denominators;
+    for (std::size_t i = 0; i < curves.size(); ++i) {
+      for (const Point& point : curves[i].control) {
         for (const mpq_class& x : point) factor = lcm(factor, x.get_den());
       }
-    }
-    distance_ = scaled(certificate_.separation.distance, factor);
-    for (const auto& [a, b] : is_edge_edge ? edge_edge_corners : vertex_face_corners) {
-      Vector& w = corners_.emplace_back();
-      for (std::size_t axis = 0; axis < 3; ++axis) {
-        const mpz_class start = scaled(ends[0][a][axis], factor) - scaled(ends[0][b][axis], factor);
-        const mpz_class end = scaled(ends[1][a][axis], factor) - scaled(ends[1][b][axis], factor);
-        w[axis] = {start, end - start};
+      own[i] = denominator_of(curves[i]);
+      if (std::ranges::find(denominators, own[i]) == denominators.end()) {
+        denominators.push_back(own[i]);
       }
+    }
+    reach_ = {scaled(certificate_.separation.distance, factor)};
+    for (const Form& denominator : denominators) reach_ = reach_ * denominator;
+    std::array<Vector, 4> points;
+    for (std::size_t i = 0; i < curves.size(); ++i) {
+      points[i] = numerator_of(curves[i], factor);
+      for (const Form& denominator : denominators) {
+        if (denominator != own[i]) points[i] = points[i] * denominator;
+      }
+    }
+    for (const auto& [a, b] : is_edge_edge ? edge_edge_corners : vertex_face_corners) {
+      corners_.push_back(points[a] - points[b]);
     }
   }
 
@@ -240,16 +298,16 @@ class Proof {
   }
 
   /// D (σ·d) for every vector σ of signs; the greatest is D‖d‖* in linf. Those that are surely the
-  /// same are left out.
+  /// same are left out. (D is enlarged as the corners are.)
   [[nodiscard]] std::vector<Form> reaches(const Vector& d) const {
     std::vector<Form> sums{Form{0}};
-    if (distance_ == 0) return sums;
+    if (certificate_.separation.distance == 0) return sums;
     for (const Form& x : d) {
       if (is_zero(x)) continue;
       std::vector<Form> longer;
       for (const Form& sum : sums) {
-        longer.push_back(add_product(sum, x, {distance_}));
-        longer.push_back(subtract_product(sum, x, {distance_}));
+        longer.push_back(add_product(sum, x, reach_));
+        longer.push_back(subtract_product(sum, x, reach_));
       }
       sums = std::move(longer);
     }
@@ -258,7 +316,7 @@ class Proof {
 
   /// value − D² |d|².
   [[nodiscard]] Form less_square(const Form& value, const Vector& d) const {
-    return subtract_product(value, dot(d, d), {distance_ * distance_});
+    return subtract_product(value, dot(d, d), reach_ * reach_);
   }
 
   /// Proves d·w > D‖d‖* for all corners w, d the direction of the subinterval's feature.
@@ -269,7 +327,8 @@ class Proof {
     for (const Vector& w : corners_) {
       const Form value = dot(d, w);
       for (const Form& sum : sums) prove_positive(value - sum);
-      if (is_l2 && distance_ != 0) prove_positive(less_square(value * value, d));
+      if (is_l2 && certificate_.separation.distance != 0)
+        prove_positive(less_square(value * value, d));
       // N·w is the same for all corners.
       if (subinterval.feature == Feature::face) return;
     }
@@ -408,7 +467,7 @@ class Proof {
   /// That of the part at hand.
   std::size_t line_;
   /// D, enlarged as the corners are.
-  mpz_class distance_;
+  Form reach_;
   std::vector<Vector> corners_;
   /// Why is_positive saw it not.
   const char* doubt_ = "";

@@ -349,8 +349,9 @@ class StepCheck {
     for (std::size_t n = 0; n < 4; ++n) {
       const std::int32_t number = is_edge_edge ? of_edges[n] : of_vertex_and_face[n];
       const Motion& vertex = scene_.vertices[static_cast<std::size_t>(number)];
-      std::ranges::copy(vertex.start, certificate.query.points[0][n].begin());
-      std::ranges::copy(vertex.end, certificate.query.points[1][n].begin());
+      for (const auto& [x, y, z] : {vertex.start, vertex.end}) {
+        certificate.query.points[n].control.push_back({x, y, z});
+      }
     }
     return certificate;
   }

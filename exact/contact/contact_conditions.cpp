@@ -41,7 +41,8 @@ using Found = std::optional<ContactConditions>;
 
 /// All triangles of the polygon have its normal (of half a parallelogram's length or the whole) and
 /// its determinant.
-Found in_triangle(const Motion& motion, AlgebraicNumber& time,
+template <class Order>
+Found in_triangle(const MotionOf<Order>& motion, AlgebraicNumber& time,
                   const std::array<std::size_t, 3>& corners, std::size_t axis) {
   Conditions conditions(time);
   if (conditions.sign(determinant(motion)) != 0) return std::nullopt;
@@ -53,7 +54,8 @@ Found in_triangle(const Motion& motion, AlgebraicNumber& time,
   return std::move(conditions).of(TriangleContact{corners, axis});
 }
 
-Found on_segment(const Motion& motion, AlgebraicNumber& time,
+template <class Order>
+Found on_segment(const MotionOf<Order>& motion, AlgebraicNumber& time,
                  const std::array<std::size_t, 2>& corners) {
   Conditions conditions(time);
   const auto [i, j] = corners;
@@ -216,7 +218,9 @@ class CubeContact {
 
 }  // namespace
 
-std::optional<ContactConditions> find_contact(const Motion& motion, AlgebraicNumber& time) {
+template <class Order>
+std::optional<ContactConditions> find_contact(const MotionOf<Order>& motion,
+                                              AlgebraicNumber& time) {
   for (std::size_t axis = 0; axis < 3; ++axis) {
     if (sign_at(normal_component(motion, axis), time) == 0) continue;
     for (std::size_t second = 1; second + 1 < motion.corner_count; ++second) {
@@ -237,6 +241,8 @@ std::optional<ContactConditions> find_near_contact(const MotionOf<Order>& motion
   return CubeContact(motion, time).find();
 }
 
+template std::optional<ContactConditions> find_contact(const MotionOf<Straight>&, AlgebraicNumber&);
+template std::optional<ContactConditions> find_contact(const MotionOf<Curved>&, AlgebraicNumber&);
 template std::optional<ContactConditions> find_near_contact(const MotionOf<Straight>&,
                                                             AlgebraicNumber&);
 template std::optional<ContactConditions> find_near_contact(const MotionOf<Curved>&,

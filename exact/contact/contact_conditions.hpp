@@ -39,7 +39,8 @@ struct ContactConditions {
 };
 
 /// The triangle or segment that contains the origin at a time; empty if the polygon does not.
-[[nodiscard]] std::optional<ContactConditions> find_contact(const Motion& motion,
+template <class Order>
+[[nodiscard]] std::optional<ContactConditions> find_contact(const MotionOf<Order>& motion,
                                                             AlgebraicNumber& time);
 
 /// A place of the motion's norm that is within the motion's distance at a time; empty if the

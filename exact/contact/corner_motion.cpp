@@ -197,7 +197,11 @@ Motion scale_uniformly(Kind kind, const Query& query, const Separation& separati
   return motion;
 }
 
-MotionOf<Curved> scale(Kind kind, const CurvedQuery& query, const Separation& separation) {
+namespace {
+
+/// \param is_uniform One unit for all axes.
+MotionOf<Curved> scaled(Kind kind, const CurvedQuery& query, const Separation& separation,
+                        bool is_uniform) {
   const Decomposed distance = distance_of(separation);
   std::array<int, 3> units{no_exponent, no_exponent, no_exponent};
   std::vector<CurvedForm> weights;
@@ -211,7 +215,7 @@ MotionOf<Curved> scale(Kind kind, const CurvedQuery& query, const Separation& se
     }
   }
   MotionOf<Curved> motion{.kind = kind, .points = {}, .corners = {}, .corner_count = 0};
-  if (distance.significand != 0) {
+  if (is_uniform) {
     units.fill(std::min(std::ranges::min(units), last_exponent(distance)));
     motion.distance = in_units(distance, units[0]);
   }
@@ -236,6 +240,17 @@ MotionOf<Curved> scale(Kind kind, const CurvedQuery& query, const Separation& se
   }
   set_corners(motion);
   return motion;
+}
+
+}  // namespace
+
+MotionOf<Curved> scale(Kind kind, const CurvedQuery& query, const Separation& separation) {
+  return scaled(kind, query, separation, !is_zero(separation));
+}
+
+MotionOf<Curved> scale_uniformly(Kind kind, const CurvedQuery& query,
+                                 const Separation& separation) {
+  return scaled(kind, query, separation, true);
 }
 
 }  // namespace touchstone::exact

@@ -235,6 +235,9 @@ void set_corners(MotionOf<Order>& motion) {
 /// separation or the query is not valid.
 [[nodiscard]] MotionOf<Curved> scale(Kind kind, const CurvedQuery& query,
                                      const Separation& separation);
+/// The same in one unit for all axes and the distance.
+[[nodiscard]] MotionOf<Curved> scale_uniformly(Kind kind, const CurvedQuery& query,
+                                               const Separation& separation);
 
 /// Component `axis` of w_i × w_j as a function of time.
 template <class Order>

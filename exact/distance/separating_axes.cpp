@@ -332,6 +332,7 @@ std::optional<AlgebraicNumber> end_of_separation(const MotionOf<Order>& motion) 
 }
 
 template std::vector<Separator> separators(const MotionOf<Straight>&);
+template std::vector<Separator> separators(const MotionOf<Curved>&);
 template std::optional<AlgebraicNumber> end_of_separation(const MotionOf<Straight>&);
 template std::optional<AlgebraicNumber> end_of_separation(const MotionOf<Curved>&);
 

@@ -10,6 +10,7 @@
 #include <sstream>
 #include <string>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include "tests/support/certificates.hpp"
@@ -92,7 +93,7 @@ class Mutations {
 
   void alter_point(std::size_t coordinate, double value) {
     Certificate altered = certificate_;
-    altered.query.coordinates.at(coordinate) = value;
+    std::get<Query>(altered.query).coordinates.at(coordinate) = value;
     if (!std::isfinite(value)) return;
     std::string text;
     write(text, altered);
@@ -100,7 +101,7 @@ class Mutations {
   }
 
   void alter_points() {
-    const auto& coordinates = certificate_.query.coordinates;
+    const auto& coordinates = std::get<Query>(certificate_.query).coordinates;
     for (std::size_t i = 0; i < coordinates.size(); ++i) {
       const double x = coordinates.at(i);
       const double other = coordinates.at((i + 1 + random_.bits() % 23U) % 24U);

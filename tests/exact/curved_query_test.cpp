@@ -9,7 +9,9 @@
 #include <vector>
 
 #include "exact/distance/distance_oracle.hpp"
+#include "tests/support/certificates.hpp"
 #include "tests/support/queries.hpp"
+#include "touchstone/certificate.hpp"
 #include "touchstone/oracle.hpp"
 
 namespace touchstone::exact::curved_query_test {
@@ -249,6 +251,76 @@ TEST(CurvedQuery, BackwardsCollidesToo) {
     const Separation separation = small_separation(random);
     EXPECT_EQ(decide(kind, query, separation).collides(),
               decide(kind, backwards, separation).collides());
+  }
+}
+
+// ---- Certificates -------------------------------------------------------------------------------
+
+Certificate proved(Kind kind, const CurvedQuery& query, const Separation& separation,
+                   const ProveOptions& options = {}) {
+  return prove(kind, query, decide(kind, query, separation), options);
+}
+
+TEST(CurvedQuery, HasAProofThatTheCheckerAccepts) {
+  Random random(377);
+  std::array<int, 3> claims{};
+  for (int round = 0; round < 400; ++round) {
+    const Kind kind = kind_of(round);
+    const CurvedQuery query = curved_query(random, round % 4 == 0 ? 4 : 3, true);
+    const Separation separation = small_separation(random);
+    const ProveOptions options{.collision_claim =
+                                   random.coin() ? Claim::time_of_impact : Claim::collision};
+    const Certificate certificate = proved(kind, query, separation, options);
+    ASSERT_EQ(tests::rejection(certificate), "") << certificate_stream(certificate);
+    ++claims.at(static_cast<std::size_t>(certificate.claim));
+  }
+  for (const int count : claims) EXPECT_GT(count, 40);
+}
+
+/// Of two queries, the one with the proof of the other.
+TEST(CurvedQuery, HasNoProofOfWhatIsFalse) {
+  Random random(378);
+  int rejected = 0, accepted = 0;
+  for (int round = 0; round < 2000; ++round) {
+    const Kind kind = kind_of(round);
+    const CurvedQuery query = curved_query(random, 2, true);
+    const Separation separation = small_separation(random);
+    Certificate certificate = proved(kind, query, separation);
+    CurvedQuery other = query;
+    const auto index = [&](std::size_t size) {
+      return static_cast<std::size_t>(random.between(0, static_cast<int>(size) - 1));
+    };
+    Trajectory& curve = other.at(index(moving_points));
+    curve.control.at(index(curve.control.size())).at(index(3)) += small(random, 1);
+    if (!curve.weights.empty() && random.coin()) curve.weights[1] *= 2;
+    certificate.query = other;
+    if (tests::rejection(certificate).empty()) {
+      ++accepted;
+      const Decision truth = decide(kind, other, separation);
+      ASSERT_EQ(truth.collides(), certificate.claim != Claim::no_collision);
+      if (!truth.collides()) continue;
+      EXPECT_GE(*truth.toi, certificate.toi.lower);
+      EXPECT_LE(*truth.toi, certificate.toi.upper);
+    } else {
+      ++rejected;
+    }
+  }
+  EXPECT_GT(accepted, 100);
+  EXPECT_GT(rejected, 100);
+}
+
+TEST(CurvedQuery, OfDegreeOneHasTheProofOfTheLine) {
+  Random random(379);
+  for (int round = 0; round < 200; ++round) {
+    const Kind kind = kind_of(round);
+    const Query query = small_query(random);
+    const Separation separation = small_separation(random);
+    Certificate straight = prove(kind, query, decide(kind, query, separation));
+    Certificate curved = proved(kind, to_curved(query), separation);
+    EXPECT_EQ(curved.subintervals, straight.subintervals);
+    EXPECT_EQ(tests::rejection(curved), "");
+    straight.query = to_curved(query);
+    EXPECT_EQ(certificate_stream(curved), certificate_stream(straight));
   }
 }
 

@@ -75,11 +75,15 @@ CertifiedQuery certified_query(std::string_view stream) {
   CertifiedQuery result{
       .kind = certificate.query.is_edge_edge ? Kind::edge_edge : Kind::vertex_face,
       .label = checker::printable(certificate.label)};
-  std::size_t number = 0;
-  for (const checker::Points& points : certificate.query.points) {
-    for (const checker::Point& point : points) {
-      for (const mpq_class& coordinate : point) {
-        result.query.coordinates.at(number++) = as_double(coordinate, "a coordinate");
+  for (std::size_t point = 0; point < moving_points; ++point) {
+    const checker::Curve& curve = certificate.query.points.at(point);
+    if (curve.control.size() != 2 || !curve.weights.empty()) {
+      throw std::invalid_argument("it is about curves, which are not shown");
+    }
+    for (std::size_t end = 0; end < 2; ++end) {
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        result.query.at(end, point, axis) =
+            as_double(curve.control.at(end).at(axis), "a coordinate");
       }
     }
   }

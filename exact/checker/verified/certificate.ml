@@ -5,7 +5,7 @@ let max_line_bytes = 65_536
 let max_label_bytes = 1_024
 let max_number_bits = 16_384
 let max_subintervals = 4_096
-let max_root_degree = 8
+let max_root_degree = 256
 let max_scaled_bits = 65_536
 
 (* The line at fault, or 0 for that at which the reader stands, and the reason. *)

@@ -28,6 +28,7 @@
 #include <variant>
 #include <vector>
 
+#include "touchstone/curved_query.hpp"
 #include "touchstone/number.hpp"
 #include "touchstone/oracle.hpp"
 #include "touchstone/polynomial.hpp"
@@ -130,7 +131,7 @@ enum class Claim : std::uint8_t { no_collision, collision, time_of_impact };
 /// A claim about a query with its proof.
 struct Certificate {
   Kind kind = Kind::vertex_face;
-  Query query{};
+  std::variant<Query, CurvedQuery> query{};
   Separation separation{};
   Claim claim = Claim::no_collision;
   /// For a time of impact: lower < toi ≤ upper, or both are 0 and so is the toi.
@@ -172,6 +173,11 @@ struct ProveOptions {
 /// exact/certificate/separation_intervals.hpp states for which queries the break points stay within
 /// it; the interval of a contact needs no more bits.
 [[nodiscard]] Certificate prove(Kind kind, const Query& query, const Decision& verdict,
+                                const ProveOptions& options = {});
+
+/// The same on curves.
+/// \throws std::invalid_argument also as decide, if a trajectory is not valid.
+[[nodiscard]] Certificate prove(Kind kind, const CurvedQuery& query, const Decision& verdict,
                                 const ProveOptions& options = {});
 
 }  // namespace touchstone::exact

@@ -315,6 +315,39 @@ TEST(Limit, OfSubintervals) {
   EXPECT_EQ(subintervals(4'097), "4109: more than 4096 subintervals");
 }
 
+/// A vertex on a curve over a resting triangle; its first line is line 3.
+std::string over_a_triangle(const std::string& curve) {
+  return "touchstone-certificates 2\nquery vertex_face\n" + curve +
+         "curve 0\npoint 0 0 0\ncurve 0\npoint 4 0 0\nrational 0\npoint 0 4 0 1/3\n"
+         "claim no_collision\nseparate 0 1 face +\nend\n";
+}
+
+TEST(Form, OfACurve) {
+  const std::string point = "point 1 1 1\n";
+  EXPECT_EQ(outcome(over_a_triangle("curve 0\n" + point)), "no_collision");
+  EXPECT_EQ(outcome(over_a_triangle("curve 2\n" + point + "point 1 1 -1/2\n" + point)),
+            "no_collision");
+  EXPECT_EQ(outcome(over_a_triangle("curve 2\n" + point + "point 1 1 -1\n" + point)),
+            "14: a polynomial is not positive at a point");
+  EXPECT_EQ(outcome(over_a_triangle("rational 1\npoint 1 1 1 2\npoint 1 1 1 1/3\n")),
+            "no_collision");
+  EXPECT_EQ(outcome(over_a_triangle("curve 1\n" + point)), "5: expected 'point', found 'curve'");
+  EXPECT_EQ(outcome(over_a_triangle("curve 0\npoint 1 1 1 1\n")), "4: the line has too many words");
+  EXPECT_EQ(outcome(over_a_triangle("rational 0\n" + point)), "4: the line has too few words");
+  for (const std::string_view weight : {"0", "-1"}) {
+    EXPECT_EQ(outcome(over_a_triangle("rational 0\npoint 1 1 1 " + std::string(weight) + "\n")),
+              "4: a weight that is not positive");
+  }
+  std::string longest = "curve 8\n", too_long = "curve 9\n" + point;
+  for (int j = 0; j <= 8; ++j) {
+    longest += point;
+    too_long += point;
+  }
+  EXPECT_EQ(outcome(over_a_triangle(longest)), "no_collision");
+  EXPECT_EQ(outcome(over_a_triangle(too_long)), "3: a degree that is not 0 to 8");
+  EXPECT_EQ(outcome(over_a_triangle("curve -1\n")), "3: a degree that is not 0 to 8");
+}
+
 TEST(Limit, OfADegree) {
   // det is 0 for all time, so any g divides it: t^n − 1/2 in [1/4,1].
   const auto degree = [](std::size_t n) {
@@ -328,8 +361,8 @@ TEST(Limit, OfADegree) {
     return outcome(joined(lines));
   };
   EXPECT_EQ(degree(1), "collision");
-  EXPECT_EQ(degree(8), "collision");
-  EXPECT_EQ(degree(9), "13: more than 9 coefficients in a polynomial");
+  EXPECT_EQ(degree(256), "collision");
+  EXPECT_EQ(degree(257), "13: more than 257 coefficients in a polynomial");
 }
 
 /// 96,000 bits a coefficient: some 200 such subintervals are too much, though each is proved.
