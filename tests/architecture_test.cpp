@@ -39,6 +39,7 @@ struct Permission {
 /// filters/ is two targets: the expressions and their bounds, which simulators include and which
 /// need nothing, and the derivation of the bounds.
 constexpr auto permissions = std::to_array<Permission>({
+    {"exact/curved_query.hpp", "exact/query.hpp"},
     {"exact/query.hpp", "Eigen/"},
 
     {"exact/", "exact/"},
@@ -69,6 +70,7 @@ constexpr auto permissions = std::to_array<Permission>({
 
     {"fast/", "fast/"},
     {"fast/", "filters/"},
+    {"fast/", "exact/curved_query.hpp"},
     {"fast/", "exact/query.hpp"},
     {"fast/", "Eigen/"},
     // Vectors, and the processor's floating-point control.
@@ -217,9 +219,15 @@ constexpr auto headers_without_test = std::to_array<Exception>({
     {"fast/platform/avx_rows.hpp", "a part of the kernels, tested through them"},
     {"fast/platform/neon_doubles.hpp", "a part of the kernels, tested through them"},
     {"fast/platform/neon_floats.hpp", "a part of the kernels, tested through them"},
+    {"fast/platform/scalar_doubles.hpp", "a part of the kernels, tested through them"},
     {"fast/platform/scalar_floats.hpp", "a part of the kernels, tested through them"},
     {"fast/broad_phase/words_one_by_one.hpp", "a part of the searches, tested through them"},
     {"fast/certified/block.hpp", "a part of the solver, tested through it"},
+    {"fast/certified/exact/curved_polygon.hpp", "tested in curved_parts_test.cpp"},
+    {"fast/curved/contact_proof.hpp", "tested in curved_parts_test.cpp"},
+    {"fast/curved/control_polygon.hpp", "tested in curved_parts_test.cpp"},
+    {"fast/curved/curved_search.hpp", "tested in curved_parts_test.cpp"},
+    {"verify/jobs/certify_curves.hpp", "tested in curved_query_file_test.cpp"},
     {"fast/distance/exact_distance.hpp", "a stage of the distance, tested in distance_test.cpp"},
     {"fast/distance/filter_kernel.hpp", "a stage of the distance, tested in distance_test.cpp"},
     {"fast/distance/filter_on_lanes.hpp", "a part of the kernels, tested through them"},

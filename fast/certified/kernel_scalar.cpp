@@ -1,48 +1,11 @@
 // The kernel in plain C++, a query at a time.
 
 #include "fast/certified/kernel_on_lanes.hpp"
+#include "fast/platform/scalar_doubles.hpp"
 #include "fast/platform/scalar_floats.hpp"
 
 namespace touchstone::fast {
 namespace {
-
-struct Mask {
-  bool set;
-
-  static Mask none() { return {false}; }
-  static Mask all() { return {true}; }
-  [[nodiscard]] unsigned bits() const { return set ? 1U : 0U; }
-
-  friend Mask operator&(Mask a, Mask b) { return {a.set && b.set}; }
-  friend Mask operator|(Mask a, Mask b) { return {a.set || b.set}; }
-};
-
-struct Value {
-  using Scalar = double;
-
-  double x;
-
-  Value() = default;
-  explicit Value(double value) : x(value) {}
-  static Value load(const double* from) { return Value(*from); }
-  void store(double* to) const { *to = x; }
-
-  friend Value operator+(Value a, Value b) { return Value(a.x + b.x); }
-  friend Value operator-(Value a, Value b) { return Value(a.x - b.x); }
-  friend Value operator*(Value a, Value b) { return Value(a.x * b.x); }
-  friend Value operator/(Value a, Value b) { return Value(a.x / b.x); }
-  friend Mask operator<(Value a, Value b) { return {a.x < b.x}; }
-  friend Mask operator>(Value a, Value b) { return {a.x > b.x}; }
-  friend Mask operator<=(Value a, Value b) { return {a.x <= b.x}; }
-  friend Mask operator>=(Value a, Value b) { return {a.x >= b.x}; }
-  friend Mask operator==(Value a, Value b) { return {a.x == b.x}; }
-  // As the vector instructions: the second operand if there is a NaN.
-  friend Value min(Value a, Value b) { return a.x < b.x ? a : b; }
-  friend Value max(Value a, Value b) { return a.x > b.x ? a : b; }
-  friend Value abs(Value a) { return Value(__builtin_fabs(a.x)); }
-  friend Value sqrt(Value a) { return Value(__builtin_sqrt(a.x)); }
-  friend Value select(Mask mask, Value a, Value b) { return mask.set ? a : b; }
-};
 
 struct RowMask {
   std::array<bool, 3> set;

@@ -55,6 +55,7 @@ std::vector<CatalogueEntry> make_catalogue() {
       entry<DeterminantEnd>({double_double_format}),
       entry<MeasuredAdvancedGap>({double_format, float_format}),
       entry<AdvancedGap>({double_double_format}),
+      entry<CornerGap>({double_format}),
       entry<ComponentSum>({double_format, float_format}),
       entry<SquaredLength>({double_format, float_format}),
       entry<LengthDefect>({double_double_format}),

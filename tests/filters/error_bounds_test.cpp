@@ -328,6 +328,7 @@ using BoundsByClasses = ::testing::Types<
                      determinant_end_double_double>,
     ShippedByClasses<MeasuredAdvancedGap, AdvancedGap, InDouble, 2, measured_advanced_gap_double>,
     ShippedByClasses<AdvancedGap, AdvancedGap, InDoubleDouble, 2, advanced_gap_double_double>,
+    ShippedByClasses<CornerGap, CornerGap, InDoubleItself, 2, corner_gap_double>,
     ShippedByClasses<SquaredLength, SquaredLength, InDoubleItself, 2, squared_length_double>,
     ShippedByClasses<LengthDefect, LengthDefect, InDoubleDouble, 2, length_defect_double_double>,
     ShippedByClasses<ContactComponent, ContactComponent, InDoubleDouble, 1,

@@ -49,6 +49,8 @@ TEST_F(SeparationExpressions, GapIsHowFarACornerIsBeyondTheDistance) {
     ones[0] = 1 - t;
     ones[1] = t;
     EXPECT_EQ(MeasuredAdvancedGap::evaluate<mpq_class>(x, ones), expected);
+    EXPECT_EQ(CornerGap::evaluate<mpq_class>({d[0], d[1], d[2], n, a[0], a[1], a[2], distance}, {}),
+              dot(d, a) - n * distance);
   }
 }
 

@@ -14,17 +14,14 @@ namespace {
 
 using Vector = std::array<Polynomial, 3>;
 
-template <std::size_t degree>
-Vector vector_of(const std::array<std::array<BigInteger, degree>, 3>& v) {
+Vector vector_of(const MovingVector<BigInteger>& v) {
   return {Polynomial(v[0].begin(), v[0].end()), Polynomial(v[1].begin(), v[1].end()),
           Polynomial(v[2].begin(), v[2].end())};
 }
 
-/// a (x + y): the same function of time in one higher degree.
-Polynomial raised(Polynomial a) {
-  a.push_back(a.back());
-  for (std::size_t k = a.size() - 2; k > 0; --k) a[k] += a[k - 1];
-  return a;
+Vector cross_product(const Vector& a, const Vector& b) {
+  const auto component = [&](std::size_t i, std::size_t j) { return a[i] * b[j] - a[j] * b[i]; };
+  return {component(1, 2), component(2, 0), component(0, 1)};
 }
 
 // ---- Separators ---------------------------------------------------------------------------------
@@ -70,27 +67,28 @@ void add_both(std::vector<Separator>& to, Separator separator) {
 
 /// The parts of the separators.
 struct Setting {
-  Setting(const Motion<BigInteger>& motion, const ScaledDistance& d)
-      : kind(motion.kind), distance(d.numerator), exponent(d.exponent) {
-    for (const auto& corner : moving_corners(motion)) corners.push_back(vector_of(corner.w));
-    const auto n = exact_stage::normal(motion);
-    normal = vector_of(n);
-    const auto det = exact_stage::determinant(motion, n);
-    determinant = Polynomial(det.begin(), det.end());
-  }
+  Setting(const MovingPolygon& polygon, const ScaledDistance& d)
+      : kind(polygon.kind),
+        corners(polygon.corners),
+        normal(cross_product(corners[1] - corners[0], corners.back() - corners[0])),
+        determinant(dot(normal, corners[0])),
+        reach(polygon.denominator * d.numerator),
+        squared_reach(reach * reach),
+        exponent(d.exponent) {}
 
   [[nodiscard]] std::size_t next(std::size_t corner) const { return (corner + 1) % corners.size(); }
 
-  /// value − d² · square · (x + y)², times 2^(2 exponent).
+  /// value − d² · square, times the denominator's square and 2^(2 exponent).
   [[nodiscard]] Polynomial beyond(const Polynomial& value, const Polynomial& square) const {
-    return (value << 2 * exponent) - raised(raised(square * (distance * distance)));
+    return (value << 2 * exponent) - square * squared_reach;
   }
 
   Kind kind;
   std::vector<Vector> corners;  // in cyclic order
   Vector normal;
   Polynomial determinant;  // normal · corner, for every corner
-  BigInteger distance;     // times 2^-exponent
+  Polynomial reach;        // the distance times the denominator, times 2^-exponent
+  Polynomial squared_reach;
   long exponent;
 };
 
@@ -100,20 +98,20 @@ Separator cube_separator(const Setting& setting, const Vector& axis,
   Separator result;
   for (const Polynomial& product : products) result.values.push_back(product << setting.exponent);
   for (const Polynomial& component : axis) {
-    if (!is_zero(component)) result.spreads.push_back(raised(component * setting.distance));
+    if (is_zero(component) || is_zero(setting.reach)) continue;
+    result.spreads.push_back(component * setting.reach);
   }
   return result;
 }
 
 /// ±e_c, for both norms.
 void add_axes(const Setting& setting, std::vector<Separator>& to) {
-  const Polynomial spread{setting.distance, setting.distance};
   for (std::size_t axis = 0; axis < 3; ++axis) {
     for (const bool negative : {false, true}) {
       Separator separator;
       for (const Vector& corner : setting.corners) {
         const Polynomial product = corner[axis] << setting.exponent;
-        separator.values.push_back((negative ? -product : product) - spread);
+        separator.values.push_back((negative ? -product : product) - setting.reach);
       }
       to.push_back(std::move(separator));
     }
@@ -131,7 +129,7 @@ std::vector<Separator> cube_separators(const Setting& setting) {
     const Vector e = setting.corners[j] - setting.corners[i];
     for (std::size_t c = 0; c < 3; ++c) {
       Vector axis;
-      axis[c] = {0, 0};
+      axis[c] = Polynomial(e[c].size());
       axis[(c + 1) % 3] = -e[(c + 2) % 3];
       axis[(c + 2) % 3] = e[(c + 1) % 3];
       add_both(result,
@@ -354,10 +352,10 @@ End first_instant(const Setting& setting, Norm norm, std::uint64_t latest) {
 
 }  // namespace
 
-std::optional<BitInterval> first_approach(const Motion<BigInteger>& motion,
+std::optional<BitInterval> first_approach(const MovingPolygon& polygon,
                                           const ScaledDistance& distance, Norm norm,
                                           std::uint64_t latest, std::uint64_t step) {
-  End end = first_instant(Setting(motion, distance), norm, latest);
+  End end = first_instant(Setting(polygon, distance), norm, latest);
   if (!end) return std::nullopt;
   if (compare(end->upper(), {0, 0}) == 0) return BitInterval{bits_of_zero, bits_of_zero};
   const auto is_above = [&](std::uint64_t bits) { return end->is_above(bits); };
@@ -365,6 +363,14 @@ std::optional<BitInterval> first_approach(const Motion<BigInteger>& motion,
   // A step is not small compared with a subnormal time.
   if (found.upper >= bits_of_least_normal) return found;
   return enclose(std::bit_cast<double>(found.upper), 1, is_above);
+}
+
+std::optional<BitInterval> first_approach(const Motion<BigInteger>& motion,
+                                          const ScaledDistance& distance, Norm norm,
+                                          std::uint64_t latest, std::uint64_t step) {
+  MovingPolygon polygon{.kind = motion.kind, .corners = {}, .denominator = {1, 1}};
+  for (const auto& corner : moving_corners(motion)) polygon.corners.push_back(vector_of(corner.w));
+  return first_approach(polygon, distance, norm, latest, step);
 }
 
 }  // namespace touchstone::fast::exact_stage

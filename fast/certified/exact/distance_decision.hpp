@@ -48,12 +48,15 @@
 ///   - side: C − d²|e|², and a·w_k − C for another k,
 /// which imply those above. They fail in place of theorem 1 only if the polygon degenerates.
 
+#include <array>
 #include <cstdint>
 #include <optional>
+#include <vector>
 
 #include "fast/certified/exact/big_integer.hpp"
 #include "fast/certified/exact/contact_conditions.hpp"
 #include "fast/certified/exact/enclosing_doubles.hpp"
+#include "fast/certified/exact/polynomial.hpp"
 #include "touchstone/query.hpp"
 
 namespace touchstone::fast::exact_stage {
@@ -64,11 +67,23 @@ struct ScaledDistance {
   long exponent = 0;  ///< not negative
 };
 
-/// The first time, not later than the double in [0,1] of bits `latest`, at which the motion's
-/// polygon is within the distance of the origin: doubles around it at most `step` spacings apart,
-/// one if `upper` is subnormal (lower < time ≤ upper, or both 0 if the time is 0); empty if there
-/// is no such time.
-/// \pre all axes of the motion have the same unit; 1 ≤ step.
+/// The corners of a moving polygon, in cyclic order: forms of one degree, all times a denominator
+/// of that degree that is positive on [0,1].
+struct MovingPolygon {
+  Kind kind = Kind::vertex_face;
+  std::vector<std::array<Polynomial, 3>> corners;
+  Polynomial denominator;
+};
+
+/// The first time, not later than the double in [0,1] of bits `latest`, at which the polygon is
+/// within the distance of the origin: doubles around it at most `step` spacings apart, one if
+/// `upper` is subnormal (lower < time ≤ upper, or both 0 if the time is 0); empty if there is no
+/// such time.
+/// \pre all axes have the same unit, or the distance is 0 and the norm linf; 1 ≤ step.
+[[nodiscard]] std::optional<BitInterval> first_approach(const MovingPolygon& polygon,
+                                                        const ScaledDistance& distance, Norm norm,
+                                                        std::uint64_t latest, std::uint64_t step);
+/// The same of a motion on straight lines.
 [[nodiscard]] std::optional<BitInterval> first_approach(const Motion<BigInteger>& motion,
                                                         const ScaledDistance& distance, Norm norm,
                                                         std::uint64_t latest, std::uint64_t step);

@@ -11,6 +11,7 @@
 #include "fast/certified/exact/closest_point_parameters.hpp"
 #include "fast/certified/exact/contact_conditions.hpp"
 #include "fast/certified/exact/contact_decision.hpp"
+#include "fast/certified/exact/curved_polygon.hpp"
 #include "fast/certified/exact/distance_decision.hpp"
 #include "fast/certified/exact/enclosing_doubles.hpp"
 #include "fast/certified/exact/fixed_integer.hpp"
@@ -159,6 +160,12 @@ void move_into_domain(Kind kind, double& u, double& v) {
   v = std::min(v, rest);
 }
 
+ExactImpact approach_at(Kind kind, const BitInterval& time, const Parameters& nearest) {
+  ExactImpact result = impact_at(time, nearest.u, nearest.v);
+  move_into_domain(kind, result.u, result.v);
+  return result;
+}
+
 }  // namespace
 
 std::optional<ExactImpact> decide_exactly(Kind kind, const Query& query, double toi_tolerance,
@@ -176,10 +183,20 @@ std::optional<ExactImpact> decide_exactly(Kind kind, const Query& query,
       first_approach_of(kind, query, separation, unit_bits(t_max), step_of(toi_tolerance));
   if (!time) return std::nullopt;
   const auto toi_upper = std::bit_cast<double>(time->upper);
-  const Parameters nearest = nearest_parameters(kind, query, toi_upper, separation.norm);
-  ExactImpact result = impact_at(*time, nearest.u, nearest.v);
-  move_into_domain(kind, result.u, result.v);
-  return result;
+  return approach_at(kind, *time, nearest_parameters(kind, query, toi_upper, separation.norm));
+}
+
+std::optional<ExactImpact> decide_exactly(Kind kind, const CurvedQuery& query,
+                                          const Separation& separation, double toi_tolerance,
+                                          double t_max) {
+  const CurvedPolygon curved = polygon_of(kind, query, separation.distance);
+  // At distance 0 both norms mean the same, and the forms of linf have lower degrees.
+  const Norm norm = separation.distance == 0.0 ? Norm::linf : separation.norm;
+  const auto time = first_approach(curved.polygon, curved.distance, norm, unit_bits(t_max),
+                                   step_of(toi_tolerance));
+  if (!time) return std::nullopt;
+  const Query at_impact = at_rest(query, std::bit_cast<double>(time->upper));
+  return approach_at(kind, *time, nearest_parameters(kind, at_impact, 0.0, separation.norm));
 }
 
 }  // namespace touchstone::fast

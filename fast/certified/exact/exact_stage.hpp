@@ -10,6 +10,7 @@
 
 #include <optional>
 
+#include "touchstone/curved_query.hpp"
 #include "touchstone/query.hpp"
 
 namespace touchstone::fast {
@@ -36,6 +37,11 @@ struct ExactImpact {
 /// time, without an error bound. At distance 0 this is the function above.
 /// \pre as above, and the separation is valid.
 [[nodiscard]] std::optional<ExactImpact> decide_exactly(Kind kind, const Query& query,
+                                                        const Separation& separation,
+                                                        double toi_tolerance, double t_max);
+
+/// The same on curves. \pre as above, and the weights are positive.
+[[nodiscard]] std::optional<ExactImpact> decide_exactly(Kind kind, const CurvedQuery& query,
                                                         const Separation& separation,
                                                         double toi_tolerance, double t_max);
 

@@ -6,6 +6,7 @@
 #include "touchstone/active_set.hpp"
 #include "touchstone/broad_phase.hpp"
 #include "touchstone/certified.hpp"
+#include "touchstone/curved.hpp"
 #include "touchstone/distance.hpp"
 #include "touchstone/filter.hpp"
 #include "touchstone/line_search.hpp"

@@ -144,6 +144,12 @@ inline constexpr ErrorBound<double, 2> advanced_gap_double_double{
     .greatest_x = 0x1p+493,
 };
 
+/// corner_gap in double: 13 u x^2 and underflow.
+inline constexpr ErrorBound<double, 2> corner_gap_double{
+    .coefficients = {{0x0.0000000000005p-1022, 0x0.0000000000002p-1022, 0x1.a00000000000bp-50}},
+    .greatest_x = 0x1p+510,
+};
+
 /// component_sum in double: 5 u x and underflow.
 inline constexpr ErrorBound<double, 1> component_sum_double{
     .coefficients = {{0x0.0000000000001p-1022, 0x1.4000000000005p-51}},

@@ -50,6 +50,23 @@ struct MeasuredAdvancedGap : Measured<AdvancedGap> {
   static constexpr std::string_view name = "measured_advanced_gap";
 };
 
+/// d·w − D n: the same of a corner w. Coordinates: d, n, w, D.
+struct CornerGap {
+  static constexpr std::string_view name = "corner_gap";
+  static constexpr std::size_t coordinates = 8;
+  static constexpr std::size_t weights = 0;
+  static constexpr std::array<std::size_t, coordinates> classes{0, 0, 0, 0, 1, 1, 1, 1};
+
+  template <class Visitor>
+  static constexpr void visit_groups(const Visitor& /*visit*/) {}
+
+  template <class Scalar>
+  [[nodiscard]] static constexpr Scalar evaluate(const std::array<Scalar, coordinates>& x,
+                                                 const std::array<Scalar, weights>& /*w*/) {
+    return dot(vector_of<0>(x), vector_of<4>(x)) - x[3] * x[7];
+  }
+};
+
 /// x + y + z: the L1 norm of a vector with the magnitudes x, y, z, dual to L∞.
 struct ComponentSum {
   static constexpr std::string_view name = "component_sum";

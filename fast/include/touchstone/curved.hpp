@@ -1,0 +1,28 @@
+#pragma once
+
+/// \file
+/// The certified solver for points on Bézier curves, polynomial or rational: exact verdicts and
+/// proved enclosures of the time of impact, as for straight lines (touchstone/certified.hpp).
+///
+/// Stages (docs/theory.md, section 6.15), on the control points of the corners:
+/// - *axis*, *direction*: a direction that keeps all control points of all corners on one side
+///   separates at all times, since a curve is in the hull of its control points;
+/// - *bisection*: the same on pieces of time, in ascending order, and a proof of contact on a
+/// piece;
+/// - *exact*: integers of any size.
+
+#include <span>
+
+#include "touchstone/certified.hpp"
+#include "touchstone/curved_query.hpp"
+
+namespace touchstone::fast {
+
+/// Decides query i in results[i]. The verdict is `error` if a coordinate is not finite or a weight
+/// is not positive and finite. Thread-safe; the caller's floating-point state has no effect.
+/// \throws std::invalid_argument for options out of range, a degree above greatest_degree, numbers
+/// that are no whole queries, or spans of different lengths.
+void solve(Kind kind, const CurvedQueries& queries, std::span<CertifiedResult> results,
+           const CertifiedOptions& options = {});
+
+}  // namespace touchstone::fast

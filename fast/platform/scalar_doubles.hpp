@@ -1,0 +1,48 @@
+#pragma once
+
+/// \file
+/// One double, and one truth value, for code on lanes.
+
+namespace touchstone::fast {
+namespace {  // NOLINT(cert-dcl59-cpp,google-build-namespaces): as of other instruction sets
+
+struct Mask {
+  bool set;
+
+  static Mask none() { return {false}; }
+  static Mask all() { return {true}; }
+  [[nodiscard]] unsigned bits() const { return set ? 1U : 0U; }
+
+  friend Mask operator&(Mask a, Mask b) { return {a.set && b.set}; }
+  friend Mask operator|(Mask a, Mask b) { return {a.set || b.set}; }
+};
+
+struct Value {
+  using Scalar = double;
+
+  double x;
+
+  Value() = default;
+  explicit Value(double value) : x(value) {}
+  static Value load(const double* from) { return Value(*from); }
+  void store(double* to) const { *to = x; }
+
+  friend Value operator+(Value a, Value b) { return Value(a.x + b.x); }
+  friend Value operator-(Value a, Value b) { return Value(a.x - b.x); }
+  friend Value operator*(Value a, Value b) { return Value(a.x * b.x); }
+  friend Value operator/(Value a, Value b) { return Value(a.x / b.x); }
+  friend Mask operator<(Value a, Value b) { return {a.x < b.x}; }
+  friend Mask operator>(Value a, Value b) { return {a.x > b.x}; }
+  friend Mask operator<=(Value a, Value b) { return {a.x <= b.x}; }
+  friend Mask operator>=(Value a, Value b) { return {a.x >= b.x}; }
+  friend Mask operator==(Value a, Value b) { return {a.x == b.x}; }
+  // As the vector instructions: the second operand if there is a NaN.
+  friend Value min(Value a, Value b) { return a.x < b.x ? a : b; }
+  friend Value max(Value a, Value b) { return a.x > b.x ? a : b; }
+  friend Value abs(Value a) { return Value(__builtin_fabs(a.x)); }
+  friend Value sqrt(Value a) { return Value(__builtin_sqrt(a.x)); }
+  friend Value select(Mask mask, Value a, Value b) { return mask.set ? a : b; }
+};
+
+}  // namespace
+}  // namespace touchstone::fast

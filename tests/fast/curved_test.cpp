@@ -1,0 +1,202 @@
+/// \file
+/// The certified solver for curves against the oracle: the same verdicts, and enclosures that hold
+/// the exact time of impact.
+
+#include "touchstone/curved.hpp"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <vector>
+
+#include "tests/support/queries.hpp"
+#include "tests/support/random.hpp"
+#include "tests/support/trials.hpp"
+#include "touchstone/oracle.hpp"
+
+namespace touchstone::fast::curved_test {
+namespace {
+
+using tests::Random;
+
+Kind kind_of(int round) { return round % 2 == 0 ? Kind::vertex_face : Kind::edge_edge; }
+
+/// Curves of one degree with their weights: none, the same for all, for each primitive, or for each
+/// point.
+enum class Weights : std::uint8_t { none, common, of_primitives, of_points };
+
+struct Sort {
+  std::size_t degree;
+  Weights weights;
+  /// Coordinates are small whole numbers, so that many contacts are degenerate; or any numbers.
+  bool is_degenerate;
+};
+
+struct Numbers {
+  std::vector<double> numbers;
+  CurvedQueries queries;
+};
+
+/// So many random queries.
+Numbers random_queries(Random& random, const Sort& sort, Kind kind, std::size_t count) {
+  Numbers result;
+  const bool is_rational = sort.weights != Weights::none;
+  const std::size_t second = kind == Kind::vertex_face ? 1 : 2;
+  for (std::size_t i = 0; i < count; ++i) {
+    // Faster motion of the whole than of its parts, so that not all queries collide.
+    std::array<double, 3> drift{};
+    for (double& x : drift) x = sort.is_degenerate ? 0.0 : 0.25 * random.uniform(-1, 1);
+    for (std::size_t k = 0; k <= sort.degree; ++k) {
+      std::array<double, 4> weights{};
+      for (double& w : weights)
+        w = sort.is_degenerate ? random.between(1, 3) : random.uniform(0.5, 2);
+      for (std::size_t point = 0; point < moving_points; ++point) {
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+          const bool is_second = point >= second;
+          const double x =
+              sort.is_degenerate
+                  ? random.between(-2, 2)
+                  : random.uniform(-1, 1) + (is_second ? drift.at(axis) : -drift.at(axis)) / 2;
+          result.numbers.push_back(x);
+        }
+        const std::size_t of = sort.weights == Weights::common ? 0
+                               : sort.weights == Weights::of_primitives
+                                   ? std::size_t{point >= second}
+                                   : point;
+        if (is_rational) result.numbers.push_back(weights.at(of));
+      }
+    }
+  }
+  result.queries = {sort.degree, is_rational, result.numbers};
+  return result;
+}
+
+void expect_agreement(Kind kind, const CurvedQueries& queries, const CertifiedOptions& options,
+                      std::array<int, stages>& decided_by, int& collisions) {
+  std::vector<CertifiedResult> results(queries.size());
+  solve(kind, queries, results, options);
+  for (std::size_t i = 0; i < results.size(); ++i) {
+    const CertifiedResult& found = results[i];
+    const exact::Decision truth = exact::decide(kind, queries.query(i), options.separation);
+    const bool counts = truth.collides() && *truth.toi <= exact::Rational(options.t_max);
+    ASSERT_EQ(found.verdict, counts ? Verdict::yes : Verdict::no)
+        << i << " by " << to_string(found.stage);
+    ++decided_by.at(static_cast<std::size_t>(found.stage));
+    if (!counts) continue;
+    ++collisions;
+    const exact::Rational lower(found.toi_lower), upper(found.toi_upper);
+    if (*truth.toi == exact::Rational(0)) {
+      EXPECT_EQ(found.toi_lower, 0.0);
+      EXPECT_EQ(found.toi_upper, 0.0);
+    } else {
+      EXPECT_LT(lower, *truth.toi) << i << " by " << to_string(found.stage);
+      EXPECT_GE(upper, *truth.toi) << i << " by " << to_string(found.stage);
+      const double width = std::max(options.toi_tolerance, 0x1p-52) * found.toi_upper;
+      EXPECT_LE(found.toi_upper - found.toi_lower, width);
+    }
+    EXPECT_GE(found.u, 0.0);
+    EXPECT_GE(found.v, 0.0);
+    EXPECT_LE(kind == Kind::vertex_face ? found.u + found.v : std::max(found.u, found.v), 1.0);
+  }
+}
+
+class CurvedSolver : public testing::TestWithParam<Sort> {};
+
+TEST_P(CurvedSolver, AgreesWithTheOracle) {
+  const Sort sort = GetParam();
+  Random random(91 + 10 * sort.degree + static_cast<std::uint64_t>(sort.weights));
+  std::array<int, stages> decided_by{};
+  int collisions = 0;
+  const int rounds = tests::soak_trials(12, 400);
+  for (int round = 0; round < rounds; ++round) {
+    const Kind kind = kind_of(round);
+    CertifiedOptions options{.max_threads = 1};
+    const Numbers some = random_queries(random, sort, kind, 40);
+    if (round % 3 == 1) {
+      options.separation = {.distance = sort.is_degenerate ? 1.0 : 0.1,
+                            .norm = round % 2 == 0 ? Norm::l2 : Norm::linf};
+    }
+    if (round % 5 == 4) options.t_max = 0.625;
+    if (round % 7 == 6) options.toi_tolerance = 0.0;
+    expect_agreement(kind, some.queries, options, decided_by, collisions);
+    if (HasFatalFailure()) return;
+  }
+  EXPECT_GT(collisions, 5 * rounds);
+  EXPECT_LT(collisions, 39 * rounds);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Sorts, CurvedSolver,
+    testing::Values(Sort{1, Weights::none, false}, Sort{2, Weights::none, false},
+                    Sort{3, Weights::none, false}, Sort{2, Weights::none, true},
+                    Sort{3, Weights::none, true}, Sort{2, Weights::common, false},
+                    Sort{2, Weights::common, true}, Sort{2, Weights::of_primitives, false},
+                    Sort{2, Weights::of_primitives, true}, Sort{2, Weights::of_points, true},
+                    Sort{6, Weights::none, false}));
+
+TEST(CurvedSolverInFloatingPoint, DecidesNearlyAll) {
+  Random random(92);
+  for (const Sort sort : {Sort{2, Weights::none, false}, Sort{3, Weights::none, false},
+                          Sort{2, Weights::of_primitives, false}}) {
+    int exact = 0, collisions = 0;
+    for (int round = 0; round < 4; ++round) {
+      const Numbers some = random_queries(random, sort, kind_of(round), 500);
+      std::vector<CertifiedResult> results(some.queries.size());
+      solve(kind_of(round), some.queries, results, {.max_threads = 2});
+      for (const CertifiedResult& result : results) {
+        exact += result.stage == Stage::exact ? 1 : 0;
+        collisions += result.verdict == Verdict::yes ? 1 : 0;
+      }
+    }
+    EXPECT_GT(collisions, 200);
+    EXPECT_LT(exact, 20);
+  }
+}
+
+TEST(CurvedSolver, SaysWhereInputIsNone) {
+  const std::vector<double> rest(3 * moving_points, 1.0);
+  const CurvedQueries queries{0, false, rest};
+  std::array<CertifiedResult, 1> one{};
+  solve(Kind::vertex_face, queries, one);
+  EXPECT_EQ(one[0].verdict, Verdict::yes);
+  EXPECT_EQ(one[0].toi_upper, 0.0);
+  EXPECT_THROW(solve(Kind::vertex_face, queries, {}), std::invalid_argument);
+  EXPECT_THROW(solve(Kind::vertex_face, CurvedQueries{9, false, {}}, {}), std::invalid_argument);
+  EXPECT_THROW(solve(Kind::vertex_face, CurvedQueries{1, false, rest}, {}), std::invalid_argument);
+  EXPECT_THROW(solve(Kind::vertex_face, queries, one, {.t_max = 2.0}), std::invalid_argument);
+  const double infinite = std::numeric_limits<double>::infinity();
+  for (const double bad : {infinite, -infinite, std::nan("")}) {
+    std::vector<double> numbers = rest;
+    numbers[7] = bad;
+    solve(Kind::edge_edge, CurvedQueries{0, false, numbers}, one);
+    EXPECT_EQ(one[0].verdict, Verdict::error);
+  }
+  for (const double bad : {0.0, -1.0, infinite, std::nan("")}) {
+    std::vector<double> numbers(4 * 2 * moving_points, 1.0);
+    numbers[0] = 5.0;
+    numbers[11] = bad;
+    solve(Kind::edge_edge, CurvedQueries{1, true, numbers}, one);
+    EXPECT_EQ(one[0].verdict, Verdict::error) << bad;
+  }
+}
+
+TEST(CurvedSolver, DecidesNumbersOfAnySize) {
+  Random random(93);
+  for (const double scale : {0x1p-1060, 0x1p-400, 0x1p90, 0x1p400, 0x1p1018}) {
+    for (int round = 0; round < 6; ++round) {
+      const Kind kind = kind_of(round);
+      Numbers some = random_queries(random, {2, Weights::none, round % 3 == 0}, kind, 10);
+      for (double& x : some.numbers) x *= scale;
+      std::array<int, stages> decided_by{};
+      int collisions = 0;
+      some.queries.numbers = some.numbers;
+      expect_agreement(kind, some.queries, {}, decided_by, collisions);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace touchstone::fast::curved_test
