@@ -79,6 +79,7 @@ int run(int argc, char** argv) {
   touchstone::verify::cli::fuzz_command::add(app, status);
   touchstone::verify::cli::convert_command::add(app, status);
   touchstone::verify::cli::merge_command::add(app, status);
+  touchstone::verify::cli::curved_command::add(app, status);
   touchstone::verify::cli::rigid_command::add(app, status);
   touchstone::verify::cli::stability_command::add(app, status);
   touchstone::verify::cli::report_command::add(app, status);

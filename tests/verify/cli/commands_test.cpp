@@ -18,6 +18,7 @@
 #include <thread>
 #include <vector>
 
+#include "exact/checker/checker.hpp"
 #include "tests/support/built_files.hpp"
 #include "tests/support/tool_test.hpp"
 #include "tests/verify/solvers/plugins/misbehaviour.hpp"
@@ -169,11 +170,32 @@ TEST_F(Tool, RigidDecidesQueriesOfRotatingBodies) {
   EXPECT_TRUE(contains(bad.err, "bad.json: the query has no member vertex")) << bad.err;
 }
 
+/// A vertex that falls on a parabola to a face, and one that does not reach it.
+TEST_F(Tool, DecidesCurves) {
+  std::string text = "degree,2\n";
+  for (const std::string middle : {"-1", "0"}) {
+    for (const std::string& z : {std::string("1"), middle, std::string("1")}) {
+      text += "1,1," + z + "\n0,0,0\n4,0,0\n0,4,0\n";
+    }
+  }
+  std::ofstream(path("curves-vf.csv"), std::ios::binary) << text;
+  const Outcome found = run({"curved", path("curves-vf.csv"), "--proof", path("c.cert")});
+  EXPECT_EQ(found.status, 0) << found.err;
+  EXPECT_TRUE(contains(found.out, "vertex-face, curves of degree 2: 2 queries, 1 collide"))
+      << found.out;
+  EXPECT_TRUE(contains(found.out, "certified: 0 wrong")) << found.out;
+  std::ifstream certificates(path("c.cert"), std::ios::binary);
+  EXPECT_EQ(checker::check(certificates).accepted(), 2U);
+  const Outcome near = run({"curved", path("curves-vf.csv"), "--min-separation", "0.5"});
+  EXPECT_TRUE(contains(near.out, "2 queries, 2 collide")) << near.out;
+  EXPECT_EQ(run({"curved", path("none.csv"), "--kind", "edge-edge"}).status, 2);
+}
+
 TEST_F(Tool, HelpBeginsWithAnExampleAndFitsAScreen) {
   const std::string overview = run({"--help"}).out;
-  EXPECT_LE(lines_of(overview), 29) << overview;
+  EXPECT_LE(lines_of(overview), 30) << overview;
   const std::vector<std::string> subcommands = subcommands_in(overview);
-  EXPECT_EQ(subcommands.size(), 15U) << overview;
+  EXPECT_EQ(subcommands.size(), 16U) << overview;
   for (const std::string& name : subcommands) {
     const Outcome help = run({name, "--help"});
     EXPECT_EQ(help.status, 0);

@@ -1,0 +1,172 @@
+// touchstone curved: queries on Bézier curves.
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "verify/cli/certificates_file.hpp"
+#include "verify/cli/commands.hpp"
+#include "verify/cli/files.hpp"
+#include "verify/cli/help.hpp"
+#include "verify/cli/options.hpp"
+#include "verify/data/curved_query_file.hpp"
+#include "verify/data/dataset.hpp"
+#include "verify/io/json.hpp"
+#include "verify/io/printable.hpp"
+#include "verify/io/terminal.hpp"
+#include "verify/jobs/certify_curves.hpp"
+
+namespace touchstone::verify::cli::curved_command {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Arguments {
+  std::vector<fs::path> paths;
+  std::string kind;
+  SeparationArguments separation;
+  unsigned threads = 0;
+  std::string proof_file;
+  std::string json_file;
+};
+
+class CurvedRun {
+ public:
+  explicit CurvedRun(const Arguments& arguments)
+      : arguments_(arguments),
+        json_(files_, arguments.json_file),
+        proof_(files_, arguments.proof_file) {
+    files_.add_inputs(arguments.paths);
+  }
+
+  Status run() {
+    for (const fs::path& path : arguments_.paths) {
+      if (!io::interrupted()) certify(path);
+    }
+    proof_.close(certificates_);
+    if (json_) json_.write(io::json_document({{"files", results_}}));
+    json_.close();
+    io::print(files_.summary_stream(), text_);
+    if (io::interrupted()) return Status::interrupted;
+    if (files_.has_failed() || beyond_limits_ > 0) return Status::bad_input;
+    return wrong_ > 0 ? Status::wrong_answers : Status::all_well;
+  }
+
+ private:
+  void certify(const fs::path& path) {
+    const data::CurvedQueryFile file = data::read_curved_queries(path);
+    const Kind kind =
+        arguments_.kind.empty() ? data::kind_from_path(path) : kind_from_string(arguments_.kind);
+    const std::string name = io::printable(path.string());
+    io::ProgressBar bar("curved");
+    jobs::CurvedOptions options{.separation = arguments_.separation.given(),
+                                .threads = arguments_.threads,
+                                .prove = static_cast<bool>(proof_),
+                                .label = name + ' '};
+    options.on_progress = [&](double done) { bar.update(done); };
+    options.on_certificates = [&](const std::string& text) { proof_.write(text); };
+    options.stop = &io::interrupted();
+    const jobs::CurvedResult result = jobs::certify_curves(kind, file.queries(), options);
+    bar.clear();
+    certificates_ += result.certificates;
+    beyond_limits_ += result.beyond_limits;
+    wrong_ += result.wrong.size();
+    add_text(name, kind, file, result);
+    add_json(path, kind, file, result);
+  }
+
+  void add_text(const std::string& name, Kind kind, const data::CurvedQueryFile& file,
+                const jobs::CurvedResult& result) {
+    text_ += fmt::format("{}: {}, {} of degree {}: {} queries, {} collide\n", name, to_string(kind),
+                         file.is_rational ? "rational curves" : "curves", file.degree,
+                         result.queries, result.collide);
+    const auto queries = static_cast<double>(result.queries == 0 ? 1 : result.queries);
+    text_ += fmt::format("  certified: {} wrong, {:.3f} µs a query (oracle {:.1f}); decided by",
+                         result.wrong.size(), result.certified_seconds / queries * 1e6,
+                         result.oracle_seconds / queries * 1e6);
+    for (std::size_t i = 0; i < result.decided_by.size(); ++i) {
+      text_ += fmt::format("{} {} {}", i == 0 ? "" : ",", to_string(static_cast<fast::Stage>(i)),
+                           result.decided_by[i]);
+    }
+    text_ += '\n';
+    for (const std::size_t i : result.wrong) text_ += fmt::format("  wrong: query {}\n", i);
+    if (result.beyond_limits > 0) {
+      text_ += fmt::format("  {} proofs exceed the limits of the format\n", result.beyond_limits);
+    }
+  }
+
+  void add_json(const fs::path& path, Kind kind, const data::CurvedQueryFile& file,
+                const jobs::CurvedResult& result) {
+    nlohmann::json stages;
+    for (std::size_t i = 0; i < result.decided_by.size(); ++i) {
+      stages[std::string(to_string(static_cast<fast::Stage>(i)))] = result.decided_by[i];
+    }
+    nlohmann::json times = nlohmann::json::array();
+    for (const double toi : result.toi) {
+      times.push_back(std::isnan(toi) ? nlohmann::json() : nlohmann::json(toi));
+    }
+    results_.push_back({{"file", path.string()},
+                        {"kind", to_string(kind)},
+                        {"degree", file.degree},
+                        {"rational", file.is_rational},
+                        {"queries", result.queries},
+                        {"collide", result.collide},
+                        {"wrong", result.wrong},
+                        {"decided_by", stages},
+                        {"certificates", result.certificates},
+                        {"beyond_limits", result.beyond_limits},
+                        {"oracle_seconds", result.oracle_seconds},
+                        {"certified_seconds", result.certified_seconds},
+                        {"toi", times}});
+  }
+
+  const Arguments& arguments_;
+  Files files_;
+  Output json_;
+  CertificatesFile proof_;
+  nlohmann::json results_ = nlohmann::json::array();
+  std::string text_;
+  std::size_t certificates_ = 0;
+  std::size_t beyond_limits_ = 0;
+  std::size_t wrong_ = 0;
+};
+
+}  // namespace
+
+void add(CLI::App& app, Status& status) {
+  const auto arguments = std::make_shared<Arguments>();
+  CLI::App* command = app.add_subcommand(
+      "curved", "Decide queries on Bézier curves exactly, and judge the certified solver");
+  command->option_defaults()->group("Input");
+  command->add_option("FILES", arguments->paths, "Files .npy of shape (N, K+1, 4, 3 or 4), or .csv")
+      ->type_name("")
+      ->required();
+  add_kind_option(*command, arguments->kind, "vertex-face or edge-edge, if the path does not tell");
+  add_separation_options(*command, arguments->separation);
+  command->add_option("--threads", arguments->threads, "Cores to use (0: all)")
+      ->type_name("N")
+      ->capture_default_str();
+  command->option_defaults()->group("Output");
+  command
+      ->add_option("--proof", arguments->proof_file,
+                   "Write certificates for touchstone-check; compressed if it ends in .zst")
+      ->type_name("FILE");
+  add_json_option(*command, arguments->json_file);
+  set_help(*command,
+           "touchstone curved curves-vf.npy\n"
+           "touchstone curved curves.csv --kind edge-edge --proof curves.cert",
+           "A row of an array has the control points of a query from t=0 to t=1, each of the four "
+           "points, with weights last if the curves are rational. A file of CSV begins with "
+           "degree,K or rational,K.\n"
+           "Exit status: 0 success, 1 the certified solver is wrong, 2 bad input or usage, 130 "
+           "interrupted.");
+  command->callback([arguments, &status] { status = CurvedRun(*arguments).run(); });
+}
+
+}  // namespace touchstone::verify::cli::curved_command

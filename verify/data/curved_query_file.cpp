@@ -1,0 +1,210 @@
+#include "verify/data/curved_query_file.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "verify/data/npy_header.hpp"
+#include "verify/io/coordinate_text.hpp"
+#include "verify/io/csv.hpp"
+#include "verify/io/dataset_error.hpp"
+#include "verify/io/input_file.hpp"
+#include "verify/io/number_text.hpp"
+
+namespace touchstone::verify::data {
+namespace {
+
+/// As many bytes as there are, up to the size of the buffer.
+std::size_t read_bytes(io::InputFile& file, std::span<char> buffer) {
+  std::size_t done = 0;
+  while (done < buffer.size()) {
+    const std::size_t count = file.read(buffer.subspan(done));
+    if (count == 0) break;
+    done += count;
+  }
+  return done;
+}
+
+/// Rejects the first number that is not valid.
+void require_valid(const std::filesystem::path& path, const CurvedQueryFile& file) {
+  const CurvedQueries queries = file.queries();
+  for (std::size_t i = 0; i < file.numbers.size(); ++i) {
+    const double x = file.numbers[i];
+    const bool is_weight = file.is_rational && i % 4 == 3;
+    if (std::isfinite(x) && (!is_weight || x > 0.0)) continue;
+    throw io::DatasetError(path, {},
+                           fmt::format("query {} has a {}", i / queries.numbers_of_query(),
+                                       is_weight ? "weight that is not positive and finite"
+                                                 : "coordinate that is not finite"));
+  }
+}
+
+// ---- NumPy --------------------------------------------------------------------------------------
+
+/// Sets degree and form from the header. \throws NpyHeaderError if it is that of another array.
+void set_form(const NpyHeader& header, CurvedQueryFile& file) {
+  if (header.descr != "<f8") {
+    throw NpyHeaderError("dtype " + io::quote(header.descr) +
+                         ", expected \"<f8\" (little-endian float64)");
+  }
+  require_c_order(header);
+  const std::vector<std::uint64_t>& shape = header.shape;
+  const bool is_straight = shape.size() == 3 && shape[1] == query_points && shape[2] == 3;
+  const bool is_curved = shape.size() == 4 && shape[1] >= 1 && shape[1] <= greatest_degree + 1 &&
+                         shape[2] == moving_points && (shape[3] == 3 || shape[3] == 4);
+  if (!is_straight && !is_curved) {
+    throw NpyHeaderError("shape " + shape_text(header) +
+                         ", expected (N, K+1, 4, 3), (N, K+1, 4, 4) with weights, K up to 8, or "
+                         "(N, 8, 3)");
+  }
+  file.degree = is_curved ? shape[1] - 1 : 1;
+  file.is_rational = is_curved && shape[3] == 4;
+}
+
+CurvedQueryFile read_npy(const std::filesystem::path& path) {
+  io::InputFile input(path);
+  CurvedQueryFile file;
+  try {
+    const NpyHeader header =
+        read_npy_header([&](std::span<char> buffer) { return read_bytes(input, buffer); });
+    set_form(header, file);
+    const std::uint64_t size = input.size() - header.size;
+    const std::uint64_t size_of_query = file.queries().numbers_of_query() * sizeof(double);
+    if (size % size_of_query != 0 || size / size_of_query != header.shape[0]) {
+      throw NpyHeaderError(
+          fmt::format("{} bytes of data, but the shape says {} queries of {} bytes", size,
+                      header.shape[0], size_of_query));
+    }
+    file.numbers.resize(size / sizeof(double));
+    void* const bytes = file.numbers.data();
+    if (read_bytes(input, {static_cast<char*>(bytes), size}) != size) {
+      throw NpyHeaderError("the file has become shorter");
+    }
+  } catch (const NpyHeaderError& error) {
+    throw io::DatasetError(path, {}, error.what());
+  }
+  return file;
+}
+
+// ---- CSV ----------------------------------------------------------------------------------------
+
+/// The lines of a file.
+class Lines {
+ public:
+  explicit Lines(const std::filesystem::path& path) : input_(path) {}
+
+  /// The next line without its end; empty at the end of the file.
+  [[nodiscard]] std::optional<std::string_view> next() {
+    for (;;) {
+      const std::size_t end = text_.find('\n', begin_);
+      if (end != std::string::npos) return line_until(end);
+      if (is_at_end_)
+        return begin_ < text_.size() ? std::optional(line_until(text_.size())) : std::nullopt;
+      text_.erase(0, begin_);
+      begin_ = 0;
+      std::array<char, 65536> buffer;
+      const std::size_t count = input_.read(buffer);
+      is_at_end_ = count == 0;
+      text_.append(buffer.data(), count);
+      if (text_.size() > longest_text) {
+        throw io::DatasetError(input_.path(), {.line = number_ + 1}, "the line is too long");
+      }
+    }
+  }
+  [[nodiscard]] std::uint64_t number() const { return number_; }
+
+ private:
+  static constexpr std::size_t longest_text = std::size_t{1} << 20U;
+
+  std::string_view line_until(std::size_t end) {
+    ++number_;
+    std::string_view line = std::string_view(text_).substr(begin_, end - begin_);
+    begin_ = end + 1;
+    if (line.ends_with('\r')) line.remove_suffix(1);
+    return line;
+  }
+
+  io::InputFile input_;
+  std::string text_;
+  std::size_t begin_ = 0;
+  std::uint64_t number_ = 0;
+  bool is_at_end_ = false;
+};
+
+class CsvReader {
+ public:
+  explicit CsvReader(const std::filesystem::path& path) : path_(path), lines_(path) {}
+
+  CurvedQueryFile read() {
+    read_header();
+    while (const auto line = lines_.next()) {
+      if (!line->empty()) read_row(*line);
+    }
+    if (file_.numbers.size() % file_.queries().numbers_of_query() != 0) {
+      fail(fmt::format("the file ends within a query, which has {} rows",
+                       moving_points * (file_.degree + 1)));
+    }
+    return std::move(file_);
+  }
+
+ private:
+  [[noreturn]] void fail(const std::string& reason) const {
+    throw io::DatasetError(path_, {.line = lines_.number()}, reason);
+  }
+
+  void read_header() {
+    const auto line = lines_.next();
+    std::array<std::string, 2> fields;
+    const bool has_two = line && io::split_csv(*line, fields).count == fields.size();
+    constexpr std::size_t none = greatest_degree + 1;
+    file_.degree = has_two ? io::number_from_text<std::size_t>(fields[1]).value_or(none) : none;
+    file_.is_rational = fields[0] == "rational";
+    if (file_.degree > greatest_degree || (!file_.is_rational && fields[0] != "degree")) {
+      fail("the first line must be degree,K or rational,K with K from 0 to 8");
+    }
+  }
+
+  void read_row(std::string_view line) {
+    const std::size_t numbers = file_.queries().numbers_of_point();
+    std::array<std::string, 8> fields;
+    const io::CsvSplit split = io::split_csv(line, fields);
+    if (split.fault != io::CsvSplit::Fault::none ||
+        (split.count != numbers && split.count != 2 * numbers)) {
+      fail(fmt::format("{} numbers are expected, or {} numerators and denominators", numbers,
+                       numbers));
+    }
+    const std::size_t step = split.count / numbers;
+    for (std::size_t k = 0; k < numbers; ++k) {
+      try {
+        const io::ParsedCoordinate x =
+            io::parse_coordinate(fields.at(k * step), step == 1 ? "1" : fields.at(k * step + 1));
+        if (!x.exact) fail(fmt::format("number {} is no double", k + 1));
+        file_.numbers.push_back(x.value);
+      } catch (const io::CoordinateError& error) {
+        fail(fmt::format("number {}: {}", k + 1, error.what()));
+      }
+    }
+  }
+
+  const std::filesystem::path& path_;
+  Lines lines_;
+  CurvedQueryFile file_;
+};
+
+}  // namespace
+
+CurvedQueryFile read_curved_queries(const std::filesystem::path& file) {
+  CurvedQueryFile result = file.extension() == ".npy" ? read_npy(file) : CsvReader(file).read();
+  require_valid(file, result);
+  return result;
+}
+
+}  // namespace touchstone::verify::data

@@ -1,0 +1,56 @@
+#pragma once
+
+/// \file
+/// The truth of queries on curves, its proofs, and the certified solver judged by it.
+
+#include <array>
+#include <atomic>
+#include <cstddef>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "touchstone/certified.hpp"
+#include "touchstone/curved_query.hpp"
+#include "touchstone/query.hpp"
+
+namespace touchstone::verify::jobs {
+
+struct CurvedOptions {
+  Separation separation = {};
+  /// Cores to use; 0: all of them.
+  unsigned threads = 0;
+  /// Write a certificate of each verdict.
+  bool prove = false;
+  /// Before each query's index in the label of its certificate.
+  std::string label = {};
+  /// Called with the certificates of consecutive queries.
+  std::function<void(const std::string&)> on_certificates = nullptr;
+  /// Called now and then with the fraction that is done.
+  std::function<void(double)> on_progress = nullptr;
+  /// Once true, no further block is begun.
+  const std::atomic<bool>* stop = nullptr;
+};
+
+/// The outcome for the queries, or for the first ones if it was stopped.
+struct CurvedResult {
+  std::size_t queries = 0;
+  std::size_t collide = 0;
+  /// Of the certified solver: queries with a wrong verdict, or with an enclosure that does not hold
+  /// the exact time.
+  std::vector<std::size_t> wrong;
+  std::array<std::size_t, fast::stages> decided_by{};
+  /// Certificates, and queries whose proof exceeds the limits of the format.
+  std::size_t certificates = 0;
+  std::size_t beyond_limits = 0;
+  /// Processor time a query in seconds.
+  double oracle_seconds = 0.0;
+  double certified_seconds = 0.0;
+  /// For each query its exact time of impact rounded to double, or NaN.
+  std::vector<double> toi;
+};
+
+[[nodiscard]] CurvedResult certify_curves(Kind kind, const CurvedQueries& queries,
+                                          const CurvedOptions& options);
+
+}  // namespace touchstone::verify::jobs
