@@ -7,6 +7,7 @@
 #include "touchstone/broad_phase.hpp"
 #include "touchstone/certified.hpp"
 #include "touchstone/curved.hpp"
+#include "touchstone/curved_step.hpp"
 #include "touchstone/distance.hpp"
 #include "touchstone/filter.hpp"
 #include "touchstone/line_search.hpp"
