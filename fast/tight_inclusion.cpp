@@ -11,6 +11,7 @@
 #include "fast/kernels.hpp"
 #include "fast/method.hpp"
 #include "fast/platform/arithmetic_check.hpp"
+#include "fast/tight_inclusion/curved_box_kernel.hpp"
 
 namespace touchstone::fast {
 namespace {
@@ -97,6 +98,15 @@ class Search {
   /// The widths of parameters for which the image is certainly at most δ wide: δ/(3κ), with κ the
   /// greatest change of F along an edge of the unit box (paper, section 4.3).
   void set_parameter_tolerances() {
+    const std::array<double, 3> kappa =
+        kernel_.changes != nullptr ? kernel_.changes(workspace_.problem) : changes_of_corners();
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      parameter_tolerances_[axis] = options_.tolerance / (3.0 * kappa[axis]);
+    }
+    if (options_.t_end == 0.0) parameter_tolerances_[t_axis] = infinity;
+  }
+
+  [[nodiscard]] std::array<double, 3> changes_of_corners() const {
     const Box unit{{0.0, 1.0, 0.0, 1.0, 0.0, 1.0}};
     std::array<double, 3> kappa{};
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -108,10 +118,7 @@ class Search {
         }
       }
     }
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      parameter_tolerances_[axis] = options_.tolerance / (3.0 * kappa[axis]);
-    }
-    if (options_.t_end == 0.0) parameter_tolerances_[t_axis] = infinity;
+    return kappa;
   }
 
   /// The axis to split on this level: the widest relative to its tolerance. None if all are small.
@@ -241,8 +248,8 @@ const BoxKernel& kernel_of(const TightInclusionOptions& options) {
 /// Solves one query by one search or more, as the options require.
 class QuerySolver {
  public:
-  QuerySolver(Workspace& workspace, const TightInclusionOptions& options)
-      : kernel_(kernel_of(options)), workspace_(workspace), options_(options) {}
+  QuerySolver(const BoxKernel& kernel, Workspace& workspace, const TightInclusionOptions& options)
+      : kernel_(kernel), workspace_(workspace), options_(options) {}
 
   TightInclusionResult solve(Kind kind, const Query& query) {
     TightInclusionResult result;
@@ -250,14 +257,38 @@ class QuerySolver {
     const Extent extent = kernel_.load(query, workspace_.problem);
     if (!extent.finite) return result;
     prepare(kind, query, extent);
-    search(result);
-    if (options_.no_zero_toi) refine(result);
-    result.tolerance /= scale_;
-    result.separation.distance /= scale_;
+    run(result);
+    return result;
+  }
+
+  TightInclusionResult solve(Kind kind, const CurvedQueries& queries, std::size_t i) {
+    TightInclusionResult result;
+    BoxProblem& problem = workspace_.problem;
+    problem.kind = kind;
+    const Extent extent = load_curves(queries, i, problem);
+    if (!extent.finite) return result;
+    if (std::max(std::ranges::max(extent.x_max), options_.separation.distance) >
+        greatest_of_curves) {
+      return {.verdict = Verdict::yes, .toi = 0.0, .tolerance = infinity};
+    }
+    tolerance_ = options_.tolerance;
+    t_max_ = options_.t_max;
+    problem.separation = options_.separation.distance;
+    std::ranges::copy(
+        filter_of_curves(kind, queries.degree, extent.x_max, options_.separation.distance),
+        problem.filter.begin());
+    run(result);
     return result;
   }
 
  private:
+  void run(TightInclusionResult& result) {
+    search(result);
+    if (options_.no_zero_toi) refine(result);
+    result.tolerance /= scale_;
+    result.separation.distance /= scale_;
+  }
+
   /// Sets scale, separation and filter.
   void prepare(Kind kind, const Query& query, Extent extent) {
     const double greatest = std::max(std::ranges::max(extent.x_max), options_.separation.distance);
@@ -416,7 +447,22 @@ TightInclusionResult tight_inclusion(Kind kind, const Query& query,
                                      const TightInclusionOptions& options) {
   require_strict_environment();
   require_valid(options);
-  return QuerySolver(workspace_of_this_thread(), options).solve(kind, query);
+  return QuerySolver(kernel_of(options), workspace_of_this_thread(), options).solve(kind, query);
+}
+
+TightInclusionResult tight_inclusion(Kind kind, const CurvedQueries& queries, std::size_t i,
+                                     const TightInclusionOptions& options) {
+  require_strict_environment();
+  require_valid(options);
+  const bool is_low = queries.degree == 2 || queries.degree == 3;
+  if (queries.is_rational || !is_low || i >= queries.size()) {
+    throw std::invalid_argument("tight_inclusion: curves must be of degree 2 or 3 without weights");
+  }
+  if (options.error_model != ErrorModel::derived || options.scene_filter) {
+    throw std::invalid_argument("tight_inclusion: curves have the derived filter alone");
+  }
+  return QuerySolver(curved_box_kernel(), workspace_of_this_thread(), options)
+      .solve(kind, queries, i);
 }
 
 std::unique_ptr<Method> tight_inclusion_method(const TightInclusionOptions& base) {

@@ -248,6 +248,7 @@ constexpr auto headers_without_test = std::to_array<Exception>({
     {"fast/certified/stages/refinement.hpp", "a part of the kernels, tested through them"},
     {"fast/certified/stages/single_precision.hpp", "a part of the kernels, tested through them"},
     {"fast/tight_inclusion/box_kernel_on_lanes.hpp", "a part of the kernels, tested through them"},
+    {"fast/tight_inclusion/curved_box_kernel.hpp", "tested in curved_test.cpp"},
     {"adapters/tight_inclusion/config.hpp", "macros, tested in ccd_test.cpp"},
     {"verify/cli/certificates_file.hpp", "tested through the commands that use it"},
     {"verify/cli/group_options.hpp", "tested through the commands that use it"},

@@ -28,6 +28,12 @@ struct BoxProblem {
   std::array<double, 4> filter{0.0, 0.0, 0.0, std::numeric_limits<double>::infinity()};
   double separation = 0.0;
   Kind kind = Kind::vertex_face;
+
+  static constexpr std::size_t greatest_curve_degree = 3;
+  /// On curves (curved_box_kernel.hpp): their degree, and for each axis the coordinates of the four
+  /// points for each control point.
+  std::size_t degree = 1;
+  std::array<std::array<double, moving_points*(greatest_curve_degree + 1)>, 3> control{};
 };
 
 /// A box [t0,t1] × [u0,u1] × [v0,v1]. Its ends are dyadic numbers of at most BoxKernel::digits
@@ -62,6 +68,9 @@ struct BoxKernel {
   BoxTest (*test)(const BoxProblem& problem, const Box& box);
   /// The corner values on an axis.
   CornerValues (*corners)(const BoxProblem& problem, const Box& box, std::size_t axis);
+  /// The greatest changes of F along t, u and v over the unit box; null: those of the corner
+  /// values.
+  std::array<double, 3> (*changes)(const BoxProblem& problem) = nullptr;
 };
 
 /// The kernels that this processor can run, slowest first; scalar is always among them.

@@ -16,6 +16,7 @@
 #include "tests/support/random.hpp"
 #include "tests/support/trials.hpp"
 #include "touchstone/oracle.hpp"
+#include "touchstone/tight_inclusion.hpp"
 
 namespace touchstone::fast::curved_test {
 namespace {
@@ -136,6 +137,35 @@ INSTANTIATE_TEST_SUITE_P(
                     Sort{2, Weights::common, true}, Sort{2, Weights::of_primitives, false},
                     Sort{2, Weights::of_primitives, true}, Sort{2, Weights::of_points, true},
                     Sort{6, Weights::none, false}));
+
+TEST(TightInclusionOnCurves, MissesNoContact) {
+  Random random(99);
+  int collisions = 0, false_positives = 0;
+  const int rounds = tests::soak_trials(16, 500);
+  for (int round = 0; round < rounds; ++round) {
+    const Kind kind = kind_of(round);
+    const Sort sort{2 + static_cast<std::size_t>(round / 2) % 2, Weights::none, round % 3 == 0};
+    const Numbers some = random_queries(random, sort, kind, 40);
+    TightInclusionOptions options{.tolerance = 1e-4, .max_checks = 20'000};
+    if (round % 4 == 3) options.separation = {.distance = 0.125, .norm = Norm::linf};
+    for (std::size_t i = 0; i < some.queries.size(); ++i) {
+      const TightInclusionResult found = tight_inclusion(kind, some.queries, i, options);
+      const exact::Decision truth = exact::decide(kind, some.queries.query(i), options.separation);
+      if (truth.collides()) {
+        ++collisions;
+        ASSERT_EQ(found.verdict, Verdict::yes);
+        EXPECT_LE(exact::Rational(found.toi), *truth.toi);
+      } else if (found.verdict == Verdict::yes) {
+        ++false_positives;
+      }
+    }
+  }
+  EXPECT_GT(collisions, 4 * rounds);
+  EXPECT_LT(false_positives, 4 * rounds);
+  const std::vector<double> rest(2 * 3 * moving_points, 1.0);
+  EXPECT_THROW((void)tight_inclusion(Kind::edge_edge, CurvedQueries{1, false, rest}, 0),
+               std::invalid_argument);
+}
 
 TEST(CurvedSolverInFloatingPoint, DecidesNearlyAll) {
   Random random(92);

@@ -81,6 +81,10 @@ using Bounds = ::testing::Types<
     Shipped<EdgeEdgeSeparated, float, edge_edge_separated_float>,
     Shipped<VertexFaceSeparated, double, vertex_face_separated_double>,
     Shipped<VertexFaceSeparated, float, vertex_face_separated_float>,
+    Shipped<QuadraticEdgeEdgeSeparated, double, quadratic_edge_edge_separated_double>,
+    Shipped<QuadraticVertexFaceSeparated, double, quadratic_vertex_face_separated_double>,
+    Shipped<CubicEdgeEdgeSeparated, double, cubic_edge_edge_separated_double>,
+    Shipped<CubicVertexFaceSeparated, double, cubic_vertex_face_separated_double>,
     Shipped<ComponentSum, double, component_sum_double>,
     Shipped<Position, double, position_double>>;
 TYPED_TEST_SUITE(EveryBound, Bounds);

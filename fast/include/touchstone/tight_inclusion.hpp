@@ -31,6 +31,7 @@
 #include <optional>
 #include <span>
 
+#include "touchstone/curved_query.hpp"
 #include "touchstone/filter.hpp"
 #include "touchstone/query.hpp"
 #include "touchstone/verdict.hpp"
@@ -95,6 +96,15 @@ struct TightInclusionResult {
 /// not strict (fast/platform/arithmetic_check.hpp); std::bad_alloc, which does not affect later
 /// calls.
 [[nodiscard]] TightInclusionResult tight_inclusion(Kind kind, const Query& query,
+                                                   const TightInclusionOptions& options = {});
+
+/// The same for query i on polynomial curves of degree 2 or 3: on a piece of time F is in the hull of
+/// its control values, in the place of its values at both ends. ([wang2021], section 7: the
+/// extension to non-linear trajectories.) Coordinates above 2^1000 are answered with yes, at time 0.
+/// \throws std::invalid_argument also for other curves, another error model than `derived`, a
+/// filter of a scene, or an i out of range.
+[[nodiscard]] TightInclusionResult tight_inclusion(Kind kind, const CurvedQueries& queries,
+                                                   std::size_t i,
                                                    const TightInclusionOptions& options = {});
 
 }  // namespace touchstone::fast

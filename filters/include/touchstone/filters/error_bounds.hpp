@@ -192,4 +192,28 @@ inline constexpr ErrorBound<double, 1> position_double{
     .greatest_x = 0x1p+1022,
 };
 
+/// quadratic_edge_edge_separated in double: 17 u x and underflow.
+inline constexpr ErrorBound<double, 1> quadratic_edge_edge_separated_double{
+    .coefficients = {{0x0.0000000000008p-1022, 0x1.1000000000005p-49}},
+    .greatest_x = 0x1p+1021,
+};
+
+/// quadratic_vertex_face_separated in double: 33 u x and underflow.
+inline constexpr ErrorBound<double, 1> quadratic_vertex_face_separated_double{
+    .coefficients = {{0x0.000000000000bp-1022, 0x1.0800000000005p-48}},
+    .greatest_x = 0x1p+1020,
+};
+
+/// cubic_edge_edge_separated in double: 21 u x and underflow.
+inline constexpr ErrorBound<double, 1> cubic_edge_edge_separated_double{
+    .coefficients = {{0x0.000000000000ap-1022, 0x1.5000000000007p-49}},
+    .greatest_x = 0x1p+1021,
+};
+
+/// cubic_vertex_face_separated in double: 41 u x and underflow.
+inline constexpr ErrorBound<double, 1> cubic_vertex_face_separated_double{
+    .coefficients = {{0x0.000000000000fp-1022, 0x1.4800000000007p-48}},
+    .greatest_x = 0x1p+1020,
+};
+
 }  // namespace touchstone::filters

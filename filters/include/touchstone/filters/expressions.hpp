@@ -206,6 +206,82 @@ struct PaperVertexFace {
   }
 };
 
+// ---- One axis of F on Bézier curves -------------------------------------------------------------
+
+/// A coordinate of a Bézier curve by its blossom: its control values b_0 … b_degree, from `first`
+/// on in steps of `stride`, blended with the weights (1−s, s) of each level. With all s = t it is
+/// the position at t; with k of them t1 and the others t0, control value k of the piece [t0,t1].
+template <std::size_t degree, std::size_t stride, class Scalar, std::size_t coordinates,
+          std::size_t weights>
+[[nodiscard]] constexpr Scalar blossom(const std::array<Scalar, coordinates>& x,
+                                       const std::array<Scalar, weights>& w, std::size_t first) {
+  if constexpr (degree == 0) {
+    return x[first];
+  } else {
+    return blend(blossom<degree - 1, stride>(x, w, first),
+                 blossom<degree - 1, stride>(x, w, first + stride), w[2 * degree - 2],
+                 w[2 * degree - 1]);
+  }
+}
+
+/// F of edge_edge on one axis. Coordinates: ea0, ea1, eb0, eb1 for each control point. Weights:
+/// (1−s, s) of each level, (1−u, u), (1−v, v).
+template <std::size_t degree>
+struct CurvedEdgeEdge {
+  static constexpr std::size_t coordinates = 4 * (degree + 1);
+  static constexpr std::size_t weights = 2 * degree + 4;
+
+  template <class Visitor>
+  static constexpr void visit_groups(const Visitor& visit) {
+    for (std::size_t i = 0; i < degree + 2; ++i) visit(unit_segment);
+  }
+
+  template <class Scalar>
+  [[nodiscard]] static constexpr Scalar evaluate(const std::array<Scalar, coordinates>& x,
+                                                 const std::array<Scalar, weights>& w) {
+    const std::array<Scalar, 4> points{blossom<degree, 4>(x, w, 0), blossom<degree, 4>(x, w, 1),
+                                       blossom<degree, 4>(x, w, 2), blossom<degree, 4>(x, w, 3)};
+    return from_points<Scalar>(
+        points, {w[2 * degree], w[2 * degree + 1], w[2 * degree + 2], w[2 * degree + 3]});
+  }
+
+  /// From the four points at the time. Weights: (1−u, u), (1−v, v).
+  template <class Scalar>
+  [[nodiscard]] static constexpr Scalar from_points(const std::array<Scalar, 4>& p,
+                                                    const std::array<Scalar, 4>& w) {
+    return blend(p[0], p[1], w[0], w[1]) - blend(p[2], p[3], w[2], w[3]);
+  }
+};
+
+/// F of vertex_face likewise. Coordinates: v, f0, f1, f2 for each control point. Weights: (1−s, s)
+/// of each level, (1−u−v, u, v).
+template <std::size_t degree>
+struct CurvedVertexFace {
+  static constexpr std::size_t coordinates = 4 * (degree + 1);
+  static constexpr std::size_t weights = 2 * degree + 3;
+
+  template <class Visitor>
+  static constexpr void visit_groups(const Visitor& visit) {
+    for (std::size_t i = 0; i < degree; ++i) visit(unit_segment);
+    visit(unit_square);
+  }
+
+  template <class Scalar>
+  [[nodiscard]] static constexpr Scalar evaluate(const std::array<Scalar, coordinates>& x,
+                                                 const std::array<Scalar, weights>& w) {
+    const std::array<Scalar, 4> points{blossom<degree, 4>(x, w, 0), blossom<degree, 4>(x, w, 1),
+                                       blossom<degree, 4>(x, w, 2), blossom<degree, 4>(x, w, 3)};
+    return from_points<Scalar>(points, {w[2 * degree], w[2 * degree + 1], w[2 * degree + 2]});
+  }
+
+  /// From the four points at the time. Weights: (1−u−v, u, v).
+  template <class Scalar>
+  [[nodiscard]] static constexpr Scalar from_points(const std::array<Scalar, 4>& p,
+                                                    const std::array<Scalar, 3>& w) {
+    return p[0] - blend(p[1], p[2], p[3], w[0], w[1], w[2]);
+  }
+};
+
 // ---- With a minimum separation ------------------------------------------------------------------
 
 /// F − d; F + d is its mirror image. The additional last coordinate is the separation d.
@@ -245,6 +321,19 @@ struct PaperEdgeEdgeSeparated : Separated<PaperEdgeEdge> {
 };
 struct PaperVertexFaceSeparated : Separated<PaperVertexFace> {
   static constexpr std::string_view name = "paper_vertex_face_separated";
+};
+
+struct QuadraticEdgeEdgeSeparated : Separated<CurvedEdgeEdge<2>> {
+  static constexpr std::string_view name = "quadratic_edge_edge_separated";
+};
+struct QuadraticVertexFaceSeparated : Separated<CurvedVertexFace<2>> {
+  static constexpr std::string_view name = "quadratic_vertex_face_separated";
+};
+struct CubicEdgeEdgeSeparated : Separated<CurvedEdgeEdge<3>> {
+  static constexpr std::string_view name = "cubic_edge_edge_separated";
+};
+struct CubicVertexFaceSeparated : Separated<CurvedVertexFace<3>> {
+  static constexpr std::string_view name = "cubic_vertex_face_separated";
 };
 
 }  // namespace touchstone::filters
