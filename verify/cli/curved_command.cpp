@@ -3,9 +3,12 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -17,6 +20,7 @@
 #include "verify/cli/options.hpp"
 #include "verify/data/curved_query_file.hpp"
 #include "verify/data/dataset.hpp"
+#include "verify/generate/curved_families.hpp"
 #include "verify/io/json.hpp"
 #include "verify/io/printable.hpp"
 #include "verify/io/terminal.hpp"
@@ -31,6 +35,9 @@ struct Arguments {
   std::vector<fs::path> paths;
   std::string kind;
   SeparationArguments separation;
+  std::uint64_t count = 1000;
+  std::uint64_t seed = default_seed;
+  bool judges_others = false;
   unsigned threads = 0;
   std::string proof_file;
   std::string json_file;
@@ -47,10 +54,11 @@ class CurvedRun {
 
   Status run() {
     for (const fs::path& path : arguments_.paths) {
-      if (!io::interrupted()) certify(path);
+      if (!io::interrupted()) certify_file(path);
     }
+    if (arguments_.paths.empty()) certify_families();
     proof_.close(certificates_);
-    if (json_) json_.write(io::json_document({{"files", results_}}));
+    if (json_) json_.write(io::json_document({{"sets", results_}}));
     json_.close();
     io::print(files_.summary_stream(), text_);
     if (io::interrupted()) return Status::interrupted;
@@ -59,33 +67,60 @@ class CurvedRun {
   }
 
  private:
-  void certify(const fs::path& path) {
+  /// Queries with what is known of them.
+  struct Set {
+    std::string name;
+    Kind kind;
+    CurvedQueries queries;
+    std::span<const std::optional<double>> truth = {};
+  };
+
+  void certify_file(const fs::path& path) {
     const data::CurvedQueryFile file = data::read_curved_queries(path);
     const Kind kind =
         arguments_.kind.empty() ? data::kind_from_path(path) : kind_from_string(arguments_.kind);
-    const std::string name = io::printable(path.string());
+    certify({io::printable(path.string()), kind, file.queries()});
+  }
+
+  void certify_families() {
+    const bool is_known = is_zero(arguments_.separation.given());
+    for (const std::size_t degree : {std::size_t{2}, std::size_t{3}}) {
+      for (const generate::CurvedFamily& family :
+           generate::curved_families(degree, arguments_.count, arguments_.seed)) {
+        if (io::interrupted()) return;
+        if (!arguments_.kind.empty() && kind_from_string(arguments_.kind) != family.kind) continue;
+        Set set{std::string(family.name), family.kind, family.queries()};
+        if (is_known) set.truth = family.toi;
+        certify(set);
+      }
+    }
+  }
+
+  void certify(const Set& set) {
     io::ProgressBar bar("curved");
     jobs::CurvedOptions options{.separation = arguments_.separation.given(),
                                 .threads = arguments_.threads,
+                                .truth = set.truth,
+                                .judge_others = arguments_.judges_others,
                                 .prove = static_cast<bool>(proof_),
-                                .label = name + ' '};
+                                .label = set.name + ' '};
     options.on_progress = [&](double done) { bar.update(done); };
     options.on_certificates = [&](const std::string& text) { proof_.write(text); };
     options.stop = &io::interrupted();
-    const jobs::CurvedResult result = jobs::certify_curves(kind, file.queries(), options);
+    const jobs::CurvedResult result = jobs::certify_curves(set.kind, set.queries, options);
     bar.clear();
     certificates_ += result.certificates;
     beyond_limits_ += result.beyond_limits;
-    wrong_ += result.wrong.size();
-    add_text(name, kind, file, result);
-    add_json(path, kind, file, result);
+    wrong_ += result.wrong.size() + result.against_truth.size();
+    add_text(set, result);
+    add_json(set, result);
   }
 
-  void add_text(const std::string& name, Kind kind, const data::CurvedQueryFile& file,
-                const jobs::CurvedResult& result) {
-    text_ += fmt::format("{}: {}, {} of degree {}: {} queries, {} collide\n", name, to_string(kind),
-                         file.is_rational ? "rational curves" : "curves", file.degree,
-                         result.queries, result.collide);
+  void add_text(const Set& set, const jobs::CurvedResult& result) {
+    text_ +=
+        fmt::format("{}: {}, {} of degree {}: {} queries, {} collide\n", set.name,
+                    to_string(set.kind), set.queries.is_rational ? "rational curves" : "curves",
+                    set.queries.degree, result.queries, result.collide);
     const auto queries = static_cast<double>(result.queries == 0 ? 1 : result.queries);
     text_ += fmt::format("  certified: {} wrong, {:.3f} µs a query (oracle {:.1f}); decided by",
                          result.wrong.size(), result.certified_seconds / queries * 1e6,
@@ -96,13 +131,20 @@ class CurvedRun {
     }
     text_ += '\n';
     for (const std::size_t i : result.wrong) text_ += fmt::format("  wrong: query {}\n", i);
+    for (const std::size_t i : result.against_truth) {
+      text_ += fmt::format("  the oracle contradicts the known truth: query {}\n", i);
+    }
+    for (const jobs::CurvedJudgement& other : result.others) {
+      text_ += fmt::format("  {}: {} missed, {} false, {} late, {:.3f} µs a query\n", other.name,
+                           other.false_negatives, other.false_positives, other.late,
+                           other.seconds / queries * 1e6);
+    }
     if (result.beyond_limits > 0) {
       text_ += fmt::format("  {} proofs exceed the limits of the format\n", result.beyond_limits);
     }
   }
 
-  void add_json(const fs::path& path, Kind kind, const data::CurvedQueryFile& file,
-                const jobs::CurvedResult& result) {
+  void add_json(const Set& set, const jobs::CurvedResult& result) {
     nlohmann::json stages;
     for (std::size_t i = 0; i < result.decided_by.size(); ++i) {
       stages[std::string(to_string(static_cast<fast::Stage>(i)))] = result.decided_by[i];
@@ -111,10 +153,20 @@ class CurvedRun {
     for (const double toi : result.toi) {
       times.push_back(std::isnan(toi) ? nlohmann::json() : nlohmann::json(toi));
     }
-    results_.push_back({{"file", path.string()},
-                        {"kind", to_string(kind)},
-                        {"degree", file.degree},
-                        {"rational", file.is_rational},
+    nlohmann::json others = nlohmann::json::array();
+    for (const jobs::CurvedJudgement& other : result.others) {
+      others.push_back({{"method", other.name},
+                        {"false_negatives", other.false_negatives},
+                        {"false_positives", other.false_positives},
+                        {"late", other.late},
+                        {"seconds", other.seconds}});
+    }
+    results_.push_back({{"name", set.name},
+                        {"kind", to_string(set.kind)},
+                        {"degree", set.queries.degree},
+                        {"rational", set.queries.is_rational},
+                        {"others", others},
+                        {"against_truth", result.against_truth},
                         {"queries", result.queries},
                         {"collide", result.collide},
                         {"wrong", result.wrong},
@@ -144,9 +196,18 @@ void add(CLI::App& app, Status& status) {
   CLI::App* command = app.add_subcommand(
       "curved", "Decide queries on Bézier curves exactly, and judge the certified solver");
   command->option_defaults()->group("Input");
-  command->add_option("FILES", arguments->paths, "Files .npy of shape (N, K+1, 4, 3 or 4), or .csv")
-      ->type_name("")
-      ->required();
+  command
+      ->add_option(
+          "FILES", arguments->paths,
+          "Files .npy of shape (N, K+1, 4, 3 or 4), or .csv; default: families of known truth")
+      ->type_name("");
+  command->add_option("--count", arguments->count, "Queries of each family and kind")
+      ->type_name("N")
+      ->capture_default_str()
+      ->check(whole_number(1, 1'000'000));
+  add_seed_option(*command, arguments->seed, "Seed of the families");
+  command->add_flag("--others", arguments->judges_others,
+                    "Judge also tight_inclusion, subdivision, sampling and advancement");
   add_kind_option(*command, arguments->kind, "vertex-face or edge-edge, if the path does not tell");
   add_separation_options(*command, arguments->separation);
   command->add_option("--threads", arguments->threads, "Cores to use (0: all)")
@@ -159,12 +220,12 @@ void add(CLI::App& app, Status& status) {
       ->type_name("FILE");
   add_json_option(*command, arguments->json_file);
   set_help(*command,
-           "touchstone curved curves-vf.npy\n"
+           "touchstone curved --others\n"
            "touchstone curved curves.csv --kind edge-edge --proof curves.cert",
            "A row of an array has the control points of a query from t=0 to t=1, each of the four "
            "points, with weights last if the curves are rational. A file of CSV begins with "
            "degree,K or rational,K.\n"
-           "Exit status: 0 success, 1 the certified solver is wrong, 2 bad input or usage, 130 "
+           "Exit status: 0 success, 1 an answer of ours is wrong, 2 bad input or usage, 130 "
            "interrupted.");
   command->callback([arguments, &status] { status = CurvedRun(*arguments).run(); });
 }

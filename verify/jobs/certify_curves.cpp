@@ -13,8 +13,10 @@
 #include "touchstone/curved.hpp"
 #include "touchstone/number.hpp"
 #include "touchstone/oracle.hpp"
+#include "touchstone/tight_inclusion.hpp"
 #include "verify/base/cores.hpp"
 #include "verify/base/thread_clock.hpp"
+#include "verify/baselines/curved_methods.hpp"
 
 namespace touchstone::verify::jobs {
 namespace {
@@ -70,6 +72,47 @@ Finding finding_of(Kind kind, const CurvedQueries& queries, std::size_t i,
   return result;
 }
 
+/// The verdict and time of Tight-Inclusion.
+std::optional<double> include_tightly(Kind kind, const CurvedQueries& queries, std::size_t i) {
+  const auto found = fast::tight_inclusion(kind, queries, i);
+  if (found.verdict == fast::Verdict::no) return std::nullopt;
+  return found.toi;
+}
+
+/// Judges a method by the times of impact, NaN for no contact.
+CurvedJudgement judge(const baselines::CurvedMethod& method, Kind kind,
+                      const CurvedQueries& queries, std::span<const double> toi) {
+  constexpr double late = 1e-9;
+  CurvedJudgement result{.name = method.name};
+  for (std::size_t i = 0; i < toi.size(); ++i) {
+    const double begin = base::thread_nanoseconds();
+    const std::optional<double> found = method.solve(kind, queries, i);
+    result.seconds += (base::thread_nanoseconds() - begin) * 1e-9;
+    const bool collides = !std::isnan(toi[i]);
+    if (collides && !found) ++result.false_negatives;
+    if (!collides && found) ++result.false_positives;
+    if (collides && found && *found > toi[i] + late) ++result.late;
+  }
+  return result;
+}
+
+std::vector<CurvedJudgement> judge_others(Kind kind, const CurvedQueries& queries,
+                                          std::span<const double> toi) {
+  std::vector<CurvedJudgement> result;
+  if (queries.degree == 2 || queries.degree == 3) {
+    result.push_back(judge({"tight_inclusion", include_tightly}, kind, queries, toi));
+  }
+  for (const baselines::CurvedMethod& method : baselines::curved_methods()) {
+    result.push_back(judge(method, kind, queries, toi));
+  }
+  return result;
+}
+
+/// True if the oracle's answer is not the known one. \param toi of the oracle, NaN for no contact
+bool contradicts(const std::optional<double>& known, double toi) {
+  return known ? toi != *known : !std::isnan(toi);
+}
+
 }  // namespace
 
 CurvedResult certify_curves(Kind kind, const CurvedQueries& queries, const CurvedOptions& options) {
@@ -106,11 +149,17 @@ CurvedResult certify_curves(Kind kind, const CurvedQueries& queries, const Curve
       sum.oracle_seconds += one.seconds;
       sum.toi.push_back(one.toi);
       certificates += one.certificate;
+      if (!options.truth.empty() && contradicts(options.truth[first + i], one.toi)) {
+        sum.against_truth.push_back(first + i);
+      }
     }
     if (options.on_certificates && !certificates.empty()) options.on_certificates(certificates);
     if (options.on_progress) {
       options.on_progress(static_cast<double>(sum.queries) / static_cast<double>(queries.size()));
     }
+  }
+  if (options.judge_others && !queries.is_rational && is_zero(options.separation)) {
+    sum.others = judge_others(kind, queries, sum.toi);
   }
   return sum;
 }

@@ -7,7 +7,10 @@
 #include <atomic>
 #include <cstddef>
 #include <functional>
+#include <optional>
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "touchstone/certified.hpp"
@@ -20,6 +23,11 @@ struct CurvedOptions {
   Separation separation = {};
   /// Cores to use; 0: all of them.
   unsigned threads = 0;
+  /// The known times of impact, which the oracle is held to; empty: they are not known.
+  std::span<const std::optional<double>> truth = {};
+  /// Judge also tight_inclusion and the methods of verify/baselines/curved_methods.hpp, at distance
+  /// 0, without weights.
+  bool judge_others = false;
   /// Write a certificate of each verdict.
   bool prove = false;
   /// Before each query's index in the label of its certificate.
@@ -32,6 +40,16 @@ struct CurvedOptions {
   const std::atomic<bool>* stop = nullptr;
 };
 
+/// A method's answers held to the truth.
+struct CurvedJudgement {
+  std::string_view name;
+  std::size_t false_negatives = 0;
+  std::size_t false_positives = 0;
+  /// Contacts with a time after that of impact by more than 1e-9.
+  std::size_t late = 0;
+  double seconds = 0.0;
+};
+
 /// The outcome for the queries, or for the first ones if it was stopped.
 struct CurvedResult {
   std::size_t queries = 0;
@@ -40,6 +58,10 @@ struct CurvedResult {
   /// the exact time.
   std::vector<std::size_t> wrong;
   std::array<std::size_t, fast::stages> decided_by{};
+  /// Queries in which the oracle contradicts the known truth.
+  std::vector<std::size_t> against_truth;
+  /// Of the other methods.
+  std::vector<CurvedJudgement> others;
   /// Certificates, and queries whose proof exceeds the limits of the format.
   std::size_t certificates = 0;
   std::size_t beyond_limits = 0;

@@ -32,7 +32,7 @@ std::size_t rows_in(const std::vector<Format>& formats) {
 TEST(BoundTable, HasARowForEachExpressionAndPrecision) {
   const DeriveResult result = derive(quick({Model::published, Model::rigorous, Model::observed}));
   ASSERT_EQ(result.rows.size(), rows_in({double_format, float_format, double_double_format}));
-  EXPECT_EQ(result.rows.size(), 36U);
+  EXPECT_EQ(result.rows.size(), 41U);
   EXPECT_FALSE(result.gappa_missing);
   EXPECT_FALSE(result.stopped);
   const DeriveRow& row = result.rows.at(1);

@@ -36,7 +36,7 @@ TEST_F(Derive, PrintsAndWritesTheTable) {
   EXPECT_NE(read("out").find("6.217248937900877e-15"), std::string::npos);
   const nlohmann::json result = json();
   EXPECT_EQ(result.at("evaluations"), 2000);
-  ASSERT_EQ(result.at("bounds").size(), 17U);
+  ASSERT_EQ(result.at("bounds").size(), 22U);
   const nlohmann::json row = result.at("bounds")[0];
   EXPECT_EQ(row.at("expression"), "edge_edge");
   EXPECT_EQ(row.at("precision"), "double");
