@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file
-/// What others do with curves, for comparison (docs/methods.md, section 9). All compute in doubles
+/// What others do with curves, for comparison (docs/methods.md, section 14). All compute in doubles
 /// without error bounds, and find a time of contact or none.
 ///
 /// - *subdivision*: a piece is replaced by the chords of its points, from which they deviate by a
