@@ -16,7 +16,9 @@
 /// All are multiplied by the positive denominators. Coefficients are sums of products of control
 /// values times binomials: forms, as in docs/theory.md, section 2.
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <span>
 #include <vector>
@@ -172,10 +174,9 @@ template <Kind kind>
   if (norm == Norm::l2) {
     return filters::is_positive(reach * reach - (x[0] * x[0] + x[1] * x[1] + x[2] * x[2]));
   }
-  for (const Ball& component : x) {
-    if (!filters::is_positive(reach - filters::abs(component))) return false;
-  }
-  return true;
+  return std::ranges::all_of(x, [&](const Ball& component) {
+    return filters::is_positive(reach - filters::abs(component));
+  });
 }
 
 }  // namespace touchstone::fast::curved

@@ -59,16 +59,15 @@ inline bool separates(const ControlPolygon& polygon, const Separator& separator)
   // 4.0001 times the greatest component is above |v|_1 + n and the rounding of this line.
   const double error = greatest * (polygon.magnitude * bound.rounding() + polygon.error * 4.0001) +
                        2.0 * bound.underflow(greatest_magnitude);
-  bool is_apart = true;
   for (std::size_t k = 0; k <= polygon.degree; ++k) {
     const CornerRow& w = polygon.w[k];
     for (std::size_t i = 0; i < 4; ++i) {
-      const double gap = filters::CornerGap::evaluate<double>(
+      const auto gap = filters::CornerGap::evaluate<double>(
           {v[0], v[1], v[2], n, w[i], w[4 + i], w[8 + i], polygon.reach[k]}, {});
-      is_apart = is_apart & (gap > error);
+      if (!(gap > error)) return false;  // also NaN
     }
   }
-  return is_apart;
+  return true;
 }
 
 /// True if a coordinate axis separates: theorem 1 for a unit vector. The two sums of numbers up to
@@ -281,8 +280,8 @@ class Search {
     const auto value = [&](double y) {
       double sum = 0.0, power = 1.0;
       const double rest = 1.0 - y;
-      for (std::size_t k = 0; k < form.size(); ++k) {
-        sum = sum * rest + form[k].center.high * power;
+      for (const Ball& c : form) {
+        sum = sum * rest + c.center.high * power;
         power *= y;
       }
       return sum;

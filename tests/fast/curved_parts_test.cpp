@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <vector>
 
@@ -156,6 +157,9 @@ TEST(CurvedSearch, SeparatesNoContact) {
     const curved::Separator any{
         {random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)}, 2.0};
     EXPECT_FALSE(curved::separates(polygon, any));
+    curved::Separator no_direction = any;
+    no_direction.v.at(static_cast<std::size_t>(round) % 3) = std::nan("");
+    EXPECT_FALSE(curved::separates(polygon, no_direction));
   }
 }
 
