@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "exact/distance/distance_oracle.hpp"
@@ -236,6 +237,38 @@ TEST(CurvedQuery, CollidesWhereAHalfDoes) {
     expect_reparametrized(found, first.collides() ? first : second,
                           first.collides() ? two_t : shifted, Polynomial(Integer(1)));
   }
+}
+
+TEST(CurvedQuery, KeepsItsTimeUnderAffineMapsAndOtherRoles) {
+  Random random(380);
+  int collisions = 0;
+  for (int round = 0; round < 300; ++round) {
+    const Kind kind = kind_of(round);
+    const CurvedQuery query = curved_query(random, 3, true);
+    const Decision expected = decide(kind, query);
+    collisions += expected.collides() ? 1 : 0;
+    CurvedQuery mapped = query;  // (x, y, z) to (x + 2y, y − z, 4z) and moved by (8, −2, 1) units
+    for (Trajectory& curve : mapped) {
+      for (auto& [x, y, z] : curve.control) {
+        x += 2 * y + 8 * unit;
+        y -= z + 2 * unit;
+        z = 4 * z + unit;
+      }
+    }
+    CurvedQuery swapped = query;
+    if (kind == Kind::edge_edge) {
+      std::swap(swapped[0], swapped[3]);
+      std::swap(swapped[1], swapped[2]);
+    } else {
+      std::swap(swapped[1], swapped[3]);
+    }
+    for (const CurvedQuery& other : {mapped, swapped}) {
+      const Decision found = decide(kind, other);
+      ASSERT_EQ(found.collides(), expected.collides());
+      EXPECT_TRUE(!found.collides() || *found.toi == *expected.toi);
+    }
+  }
+  EXPECT_GT(collisions, 50);
 }
 
 TEST(CurvedQuery, BackwardsCollidesToo) {
