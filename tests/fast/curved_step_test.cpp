@@ -37,7 +37,12 @@ struct Scene {
 };
 
 Scene random_scene(Random& random, std::size_t degree, bool is_rational) {
-  Scene scene{.degree = degree, .is_rational = is_rational};
+  Scene scene{.degree = degree,
+              .is_rational = is_rational,
+              .numbers = {},
+              .faces = {},
+              .edges = {},
+              .points = {}};
   const int triangles = 6, vertices = 3 * triangles + 4;
   for (int vertex = 0; vertex < vertices; ++vertex) {
     const int body = vertex / 3;
