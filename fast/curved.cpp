@@ -5,7 +5,6 @@
 
 #include "fast/certified/block.hpp"
 #include "fast/certified/exact/curved_polygon.hpp"
-#include "fast/certified/exact/exact_stage.hpp"
 #include "fast/curved/curved_search.hpp"
 #include "fast/platform/floating_point_state.hpp"
 #include "fast/platform/threads.hpp"
@@ -24,17 +23,9 @@ void require_valid(const CurvedQueries& queries) {
 
 CertifiedResult decided_exactly(Kind kind, const CurvedQuery& query,
                                 const CertifiedOptions& options) {
-  CertifiedResult result{.verdict = Verdict::error, .stage = Stage::exact};
-  if (!exact_stage::is_valid(query)) return result;
-  const auto impact =
-      decide_exactly(kind, query, options.separation, options.toi_tolerance, options.t_max);
-  result.verdict = impact ? Verdict::yes : Verdict::no;
-  if (!impact) return result;
-  result.toi_lower = impact->toi_lower;
-  result.toi_upper = impact->toi_upper;
-  result.u = impact->u;
-  result.v = impact->v;
-  return result;
+  if (!exact_stage::is_valid(query)) return {.verdict = Verdict::error, .stage = Stage::exact};
+  return result_of(
+      decide_exactly(kind, query, options.separation, options.toi_tolerance, options.t_max));
 }
 
 template <Kind kind, Norm norm>

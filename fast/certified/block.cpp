@@ -4,8 +4,6 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "fast/certified/exact/exact_stage.hpp"
-
 namespace touchstone::fast {
 
 void require_valid(const CertifiedOptions& options) {
@@ -24,21 +22,20 @@ void require_valid(const CertifiedOptions& options) {
   }
 }
 
-CertifiedResult decided_exactly(Kind kind, const Query& query, const CertifiedOptions& options) {
-  CertifiedResult result{.verdict = Verdict::error, .stage = Stage::exact};
-  if (!is_finite(query)) return result;
-  const std::optional<ExactImpact> impact =
-      decide_exactly(kind, query, options.separation, options.toi_tolerance, options.t_max);
-  if (!impact) {
-    result.verdict = Verdict::no;
-    return result;
-  }
+CertifiedResult result_of(const std::optional<ExactImpact>& impact) {
+  if (!impact) return {.verdict = Verdict::no, .stage = Stage::exact};
   return {.verdict = Verdict::yes,
           .stage = Stage::exact,
           .toi_lower = impact->toi_lower,
           .toi_upper = impact->toi_upper,
           .u = impact->u,
           .v = impact->v};
+}
+
+CertifiedResult decided_exactly(Kind kind, const Query& query, const CertifiedOptions& options) {
+  if (!is_finite(query)) return {.verdict = Verdict::error, .stage = Stage::exact};
+  return result_of(
+      decide_exactly(kind, query, options.separation, options.toi_tolerance, options.t_max));
 }
 
 std::optional<CertifiedResult> result_of(const KernelImpact& impact,

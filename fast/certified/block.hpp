@@ -9,6 +9,7 @@
 #include <optional>
 #include <vector>
 
+#include "fast/certified/exact/exact_stage.hpp"
 #include "fast/certified/kernel.hpp"
 #include "fast/certified/rescaling.hpp"
 #include "touchstone/certified.hpp"
@@ -18,6 +19,9 @@ namespace touchstone::fast {
 
 /// \throws std::invalid_argument for options out of range.
 void require_valid(const CertifiedOptions& options);
+
+/// The result of an exact decision.
+[[nodiscard]] CertifiedResult result_of(const std::optional<ExactImpact>& impact);
 
 /// The result of the exact stage.
 [[nodiscard]] CertifiedResult decided_exactly(Kind kind, const Query& query,

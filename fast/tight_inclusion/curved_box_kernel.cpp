@@ -27,9 +27,7 @@ void set_values(const BoxProblem& problem, const Box& box, std::size_t axis, Val
       w[2 * level] = 1.0 - t;
       w[2 * level + 1] = t;
     }
-    const std::array<double, 4> points{
-        filters::blossom<degree, 4>(x, w, 0), filters::blossom<degree, 4>(x, w, 1),
-        filters::blossom<degree, 4>(x, w, 2), filters::blossom<degree, 4>(x, w, 3)};
+    const std::array<double, 4> points = filters::points_on_curves<degree>(x, w);
     for (std::size_t corner = 0; corner < 4; ++corner) {
       const double at_u = u[corner / 2], at_v = v[corner % 2];
       values[k][corner] = problem.kind == Kind::edge_edge

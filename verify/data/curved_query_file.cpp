@@ -22,17 +22,6 @@
 namespace touchstone::verify::data {
 namespace {
 
-/// As many bytes as there are, up to the size of the buffer.
-std::size_t read_bytes(io::InputFile& file, std::span<char> buffer) {
-  std::size_t done = 0;
-  while (done < buffer.size()) {
-    const std::size_t count = file.read(buffer.subspan(done));
-    if (count == 0) break;
-    done += count;
-  }
-  return done;
-}
-
 /// Rejects the first number that is not valid.
 void require_valid(const std::filesystem::path& path, const CurvedQueryFile& file) {
   const CurvedQueries queries = file.queries();
@@ -51,11 +40,7 @@ void require_valid(const std::filesystem::path& path, const CurvedQueryFile& fil
 
 /// Sets degree and form from the header. \throws NpyHeaderError if it is that of another array.
 void set_form(const NpyHeader& header, CurvedQueryFile& file) {
-  if (header.descr != "<f8") {
-    throw NpyHeaderError("dtype " + io::quote(header.descr) +
-                         ", expected \"<f8\" (little-endian float64)");
-  }
-  require_c_order(header);
+  require_doubles(header);
   const std::vector<std::uint64_t>& shape = header.shape;
   const bool is_straight = shape.size() == 3 && shape[1] == query_points && shape[2] == 3;
   const bool is_curved = shape.size() == 4 && shape[1] >= 1 && shape[1] <= greatest_degree + 1 &&
@@ -74,7 +59,7 @@ CurvedQueryFile read_npy(const std::filesystem::path& path) {
   CurvedQueryFile file;
   try {
     const NpyHeader header =
-        read_npy_header([&](std::span<char> buffer) { return read_bytes(input, buffer); });
+        read_npy_header([&](std::span<char> buffer) { return input.read_all(buffer); });
     set_form(header, file);
     const std::uint64_t size = input.size() - header.size;
     const std::uint64_t size_of_query = file.queries().numbers_of_query() * sizeof(double);
@@ -85,7 +70,7 @@ CurvedQueryFile read_npy(const std::filesystem::path& path) {
     }
     file.numbers.resize(size / sizeof(double));
     void* const bytes = file.numbers.data();
-    if (read_bytes(input, {static_cast<char*>(bytes), size}) != size) {
+    if (input.read_all({static_cast<char*>(bytes), size}) != size) {
       throw NpyHeaderError("the file has become shorter");
     }
   } catch (const NpyHeaderError& error) {
@@ -96,57 +81,14 @@ CurvedQueryFile read_npy(const std::filesystem::path& path) {
 
 // ---- CSV ----------------------------------------------------------------------------------------
 
-/// The lines of a file.
-class Lines {
- public:
-  explicit Lines(const std::filesystem::path& path) : input_(path) {}
-
-  /// The next line without its end; empty at the end of the file.
-  [[nodiscard]] std::optional<std::string_view> next() {
-    for (;;) {
-      const std::size_t end = text_.find('\n', begin_);
-      if (end != std::string::npos) return line_until(end);
-      if (is_at_end_)
-        return begin_ < text_.size() ? std::optional(line_until(text_.size())) : std::nullopt;
-      text_.erase(0, begin_);
-      begin_ = 0;
-      std::array<char, 65536> buffer;
-      const std::size_t count = input_.read(buffer);
-      is_at_end_ = count == 0;
-      text_.append(buffer.data(), count);
-      if (text_.size() > longest_text) {
-        throw io::DatasetError(input_.path(), {.line = number_ + 1}, "the line is too long");
-      }
-    }
-  }
-  [[nodiscard]] std::uint64_t number() const { return number_; }
-
- private:
-  static constexpr std::size_t longest_text = std::size_t{1} << 20U;
-
-  std::string_view line_until(std::size_t end) {
-    ++number_;
-    std::string_view line = std::string_view(text_).substr(begin_, end - begin_);
-    begin_ = end + 1;
-    if (line.ends_with('\r')) line.remove_suffix(1);
-    return line;
-  }
-
-  io::InputFile input_;
-  std::string text_;
-  std::size_t begin_ = 0;
-  std::uint64_t number_ = 0;
-  bool is_at_end_ = false;
-};
-
 class CsvReader {
  public:
   explicit CsvReader(const std::filesystem::path& path) : path_(path), lines_(path) {}
 
   CurvedQueryFile read() {
     read_header();
-    while (const auto line = lines_.next()) {
-      if (!line->empty()) read_row(*line);
+    while (const std::optional<io::Line> line = next()) {
+      if (!line->text.empty()) read_row(line->text);
     }
     if (file_.numbers.size() % file_.queries().numbers_of_query() != 0) {
       fail(fmt::format("the file ends within a query, which has {} rows",
@@ -157,13 +99,19 @@ class CsvReader {
 
  private:
   [[noreturn]] void fail(const std::string& reason) const {
-    throw io::DatasetError(path_, {.line = lines_.number()}, reason);
+    throw io::DatasetError(path_, {.line = lines_.line_number()}, reason);
+  }
+
+  std::optional<io::Line> next() {
+    std::optional<io::Line> line = lines_.next();
+    if (line && line->too_long) fail("the line is too long");
+    return line;
   }
 
   void read_header() {
-    const auto line = lines_.next();
+    const std::optional<io::Line> line = next();
     std::array<std::string, 2> fields;
-    const bool has_two = line && io::split_csv(*line, fields).count == fields.size();
+    const bool has_two = line && io::split_csv(line->text, fields).count == fields.size();
     constexpr std::size_t none = greatest_degree + 1;
     file_.degree = has_two ? io::number_from_text<std::size_t>(fields[1]).value_or(none) : none;
     file_.is_rational = fields[0] == "rational";
@@ -195,7 +143,7 @@ class CsvReader {
   }
 
   const std::filesystem::path& path_;
-  Lines lines_;
+  io::LineReader lines_;
   CurvedQueryFile file_;
 };
 

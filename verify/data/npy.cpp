@@ -26,11 +26,7 @@ constexpr std::array<std::uint64_t, 2> query_extents{query_points, 3};
 /// Number of queries that the header announces. \throws NpyHeaderError if it is that of another
 /// array.
 std::uint64_t query_count(const NpyHeader& header) {
-  if (header.descr != query_descr) {
-    throw NpyHeaderError("dtype " + io::quote(header.descr) +
-                         ", expected \"<f8\" (little-endian float64)");
-  }
-  require_c_order(header);
+  require_doubles(header);
   if (header.shape.size() != 3 || header.shape[1] != query_extents[0] ||
       header.shape[2] != query_extents[1]) {
     throw NpyHeaderError("shape " + shape_text(header) + ", expected (N, 8, 3)");
@@ -38,21 +34,10 @@ std::uint64_t query_count(const NpyHeader& header) {
   return header.shape[0];
 }
 
-/// As many bytes as there are, up to the size of the buffer.
-std::size_t read_bytes(io::InputFile& file, std::span<char> buffer) {
-  std::size_t done = 0;
-  while (done < buffer.size()) {
-    const std::size_t count = file.read(buffer.subspan(done));
-    if (count == 0) break;
-    done += count;
-  }
-  return done;
-}
-
 /// Reads all that stands before the data and returns the number of queries.
 std::uint64_t read_header(io::InputFile& file) {
   const NpyHeader header =
-      read_npy_header([&file](std::span<char> buffer) { return read_bytes(file, buffer); });
+      read_npy_header([&file](std::span<char> buffer) { return file.read_all(buffer); });
   const std::uint64_t count = query_count(header);
   const std::uint64_t data_size = file.size() - header.size;
   if (data_size % sizeof(Query) != 0 || data_size / sizeof(Query) != count) {
@@ -85,7 +70,7 @@ void NpyReader::fill() {
   next_in_block_ = 0;
   void* const bytes = block_.data();
   const std::size_t size =
-      read_bytes(file_, {static_cast<char*>(bytes), block_.size() * sizeof(Query)});
+      file_.read_all({static_cast<char*>(bytes), block_.size() * sizeof(Query)});
   block_.resize(size / sizeof(Query));
   if (!block_.empty()) return;
   throw io::DatasetError(

@@ -171,6 +171,14 @@ void require_c_order(const NpyHeader& header) {
   if (header.fortran_order) throw NpyHeaderError("Fortran order, expected C order");
 }
 
+void require_doubles(const NpyHeader& header) {
+  if (header.descr != "<f8") {
+    throw NpyHeaderError("dtype " + io::quote(header.descr) +
+                         ", expected \"<f8\" (little-endian float64)");
+  }
+  require_c_order(header);
+}
+
 std::string shape_text(const NpyHeader& header) {
   return fmt::format("({})", fmt::join(header.shape, ", "));
 }

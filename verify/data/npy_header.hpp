@@ -41,6 +41,9 @@ using ReadBytes = std::function<std::size_t(std::span<char>)>;
 /// \throws NpyHeaderError unless the array is in C order.
 void require_c_order(const NpyHeader& header);
 
+/// \throws NpyHeaderError unless the array is of little-endian float64 in C order.
+void require_doubles(const NpyHeader& header);
+
 /// "(3, 8, 3)"
 [[nodiscard]] std::string shape_text(const NpyHeader& header);
 

@@ -55,6 +55,16 @@ std::size_t InputFile::read(std::span<char> buffer) {
   }
 }
 
+std::size_t InputFile::read_all(std::span<char> buffer) {
+  std::size_t done = 0;
+  while (done < buffer.size()) {
+    const std::size_t count = read(buffer.subspan(done));
+    if (count == 0) break;
+    done += count;
+  }
+  return done;
+}
+
 double InputFile::progress() const {
   if (size_ == 0) return 0.0;
   return std::min(1.0, static_cast<double>(consumed_) / static_cast<double>(size_));

@@ -37,6 +37,10 @@ class InputFile {
   /// if the user interrupts, also during a wait for input.
   [[nodiscard]] std::size_t read(std::span<char> buffer);
 
+  /// Fills the buffer, or a part of it at the end of the file. Returns the number of bytes. Throws
+  /// as read.
+  [[nodiscard]] std::size_t read_all(std::span<char> buffer);
+
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }
   /// Size in bytes when the file was opened; 0 if it has none (a pipe).
   [[nodiscard]] std::uint64_t size() const { return size_; }

@@ -1,6 +1,7 @@
 #include "fast/certified/exact/curved_polygon.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -48,12 +49,12 @@ Polynomial denominator_of(const Trajectory& curve) {
 }
 
 /// The coordinate times the curve's denominator.
-Polynomial numerator_of(const Trajectory& curve, std::size_t axis, int unit) {
+Polynomial numerator_of(const Trajectory& curve, const Polynomial& denominator, std::size_t axis,
+                        int unit) {
   Polynomial control;
   for (const auto& point : curve.control) control.push_back(in_units(point[axis], unit));
   if (curve.weights.size() < 2) return form_of(std::move(control));
-  const Polynomial weights = denominator_of(curve);
-  for (std::size_t k = 0; k < control.size(); ++k) control[k] = control[k] * weights[k];
+  for (std::size_t k = 0; k < control.size(); ++k) control[k] = control[k] * denominator[k];
   return control;
 }
 
@@ -67,14 +68,15 @@ Polynomial raised_to(Polynomial form, std::size_t degree) {
 
 CurvedPolygon polygon_of(Kind kind, const CurvedQuery& query, double distance) {
   int unit = no_unit;
+  std::array<Polynomial, moving_points> own;
   std::vector<Polynomial> denominators;
-  for (const Trajectory& curve : query) {
-    for (const auto& point : curve.control) {
+  for (std::size_t i = 0; i < moving_points; ++i) {
+    for (const auto& point : query[i].control) {
       for (const double x : point) include_last_bit(unit, x);
     }
-    const Polynomial own = denominator_of(curve);
-    if (own.size() > 1 && std::ranges::find(denominators, own) == denominators.end()) {
-      denominators.push_back(own);
+    own[i] = denominator_of(query[i]);
+    if (own[i].size() > 1 && std::ranges::find(denominators, own[i]) == denominators.end()) {
+      denominators.push_back(own[i]);
     }
   }
   if (unit == no_unit) unit = 0;
@@ -83,11 +85,10 @@ CurvedPolygon polygon_of(Kind kind, const CurvedQuery& query, double distance) {
   std::array<std::array<Polynomial, 3>, moving_points> points;
   std::size_t degree = std::max<std::size_t>(common.size() - 1, 1);
   for (std::size_t i = 0; i < moving_points; ++i) {
-    const Polynomial own = denominator_of(query[i]);
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      Polynomial& x = points[i][axis] = numerator_of(query[i], axis, unit);
+      Polynomial& x = points[i][axis] = numerator_of(query[i], own[i], axis, unit);
       for (const Polynomial& denominator : denominators) {
-        if (!(denominator == own)) x = x * denominator;
+        if (!(denominator == own[i])) x = x * denominator;
       }
       degree = std::max(degree, x.size() - 1);
     }

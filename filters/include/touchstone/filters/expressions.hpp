@@ -224,6 +224,14 @@ template <std::size_t degree, std::size_t stride, class Scalar, std::size_t coor
   }
 }
 
+/// The same for the four points of a query, whose control values alternate.
+template <std::size_t degree, class Scalar, std::size_t coordinates, std::size_t weights>
+[[nodiscard]] constexpr std::array<Scalar, 4> points_on_curves(
+    const std::array<Scalar, coordinates>& x, const std::array<Scalar, weights>& w) {
+  return {blossom<degree, 4>(x, w, 0), blossom<degree, 4>(x, w, 1), blossom<degree, 4>(x, w, 2),
+          blossom<degree, 4>(x, w, 3)};
+}
+
 /// F of edge_edge on one axis. Coordinates: ea0, ea1, eb0, eb1 for each control point. Weights:
 /// (1−s, s) of each level, (1−u, u), (1−v, v).
 template <std::size_t degree>
@@ -239,10 +247,9 @@ struct CurvedEdgeEdge {
   template <class Scalar>
   [[nodiscard]] static constexpr Scalar evaluate(const std::array<Scalar, coordinates>& x,
                                                  const std::array<Scalar, weights>& w) {
-    const std::array<Scalar, 4> points{blossom<degree, 4>(x, w, 0), blossom<degree, 4>(x, w, 1),
-                                       blossom<degree, 4>(x, w, 2), blossom<degree, 4>(x, w, 3)};
     return from_points<Scalar>(
-        points, {w[2 * degree], w[2 * degree + 1], w[2 * degree + 2], w[2 * degree + 3]});
+        points_on_curves<degree>(x, w),
+        {w[2 * degree], w[2 * degree + 1], w[2 * degree + 2], w[2 * degree + 3]});
   }
 
   /// From the four points at the time. Weights: (1−u, u), (1−v, v).
@@ -269,9 +276,8 @@ struct CurvedVertexFace {
   template <class Scalar>
   [[nodiscard]] static constexpr Scalar evaluate(const std::array<Scalar, coordinates>& x,
                                                  const std::array<Scalar, weights>& w) {
-    const std::array<Scalar, 4> points{blossom<degree, 4>(x, w, 0), blossom<degree, 4>(x, w, 1),
-                                       blossom<degree, 4>(x, w, 2), blossom<degree, 4>(x, w, 3)};
-    return from_points<Scalar>(points, {w[2 * degree], w[2 * degree + 1], w[2 * degree + 2]});
+    return from_points<Scalar>(points_on_curves<degree>(x, w),
+                               {w[2 * degree], w[2 * degree + 1], w[2 * degree + 2]});
   }
 
   /// From the four points at the time. Weights: (1−u−v, u, v).

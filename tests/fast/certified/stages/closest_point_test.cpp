@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstddef>
 
+#include "fast/platform/scalar_doubles.hpp"
 #include "tests/support/random.hpp"
 
 namespace touchstone::fast::kernel::closest_point_test {
@@ -14,32 +15,8 @@ namespace {
 
 /// A vector of one lane.
 struct Lanes {
-  struct Mask {
-    bool set;
-
-    friend Mask operator&(Mask a, Mask b) { return {a.set && b.set}; }
-  };
-  struct Value {
-    using Scalar = double;
-
-    double x = 0.0;
-
-    Value() = default;
-    explicit Value(double value) : x(value) {}
-    friend Value operator+(Value a, Value b) { return Value(a.x + b.x); }
-    friend Value operator-(Value a, Value b) { return Value(a.x - b.x); }
-    friend Value operator*(Value a, Value b) { return Value(a.x * b.x); }
-    friend Value operator/(Value a, Value b) { return Value(a.x / b.x); }
-    friend Mask operator<(Value a, Value b) { return {a.x < b.x}; }
-    friend Mask operator>(Value a, Value b) { return {a.x > b.x}; }
-    friend Mask operator<=(Value a, Value b) { return {a.x <= b.x}; }
-    friend Mask operator>=(Value a, Value b) { return {a.x >= b.x}; }
-    friend Value min(Value a, Value b) { return a.x < b.x ? a : b; }
-    friend Value max(Value a, Value b) { return a.x > b.x ? a : b; }
-    friend Value abs(Value a) { return Value(std::abs(a.x)); }
-    friend Value sqrt(Value a) { return Value(std::sqrt(a.x)); }
-    friend Value select(Mask mask, Value a, Value b) { return mask.set ? a : b; }
-  };
+  using Mask = fast::Mask;
+  using Value = fast::Value;
 };
 
 using Point = std::array<double, 3>;
