@@ -5,9 +5,9 @@
 #include <mutex>
 #include <stdexcept>
 #include <string>
-#include <tuple>
 
 #include "fast/certified/block.hpp"
+#include "fast/step/scene.hpp"
 #include "touchstone/curved.hpp"
 
 namespace touchstone::fast {
@@ -44,23 +44,6 @@ Step step_of_boxes(const CurvedVertices& vertices, const MeshElements& elements,
     }
   }
   return {std::span<const double>(least), std::span<const double>(greatest), elements, options};
-}
-
-StepCollision collision_of(PairKind kind, const IndexPair& pair, const CertifiedResult& result) {
-  const bool has_u = kind != PairKind::vertex_vertex;
-  const bool has_v = kind == PairKind::vertex_face || kind == PairKind::edge_edge;
-  return {.kind = kind,
-          .pair = pair,
-          .toi_lower = result.toi_lower,
-          .toi_upper = result.toi_upper,
-          .u = has_u ? result.u : 0.0,
-          .v = has_v ? result.v : 0.0};
-}
-
-void sort(std::vector<StepCollision>& collisions) {
-  std::ranges::sort(collisions, {}, [](const StepCollision& collision) {
-    return std::tuple(collision.kind, collision.pair[0], collision.pair[1]);
-  });
 }
 
 }  // namespace
@@ -105,7 +88,7 @@ std::vector<StepCollision> CurvedStep::collisions() const {
     const std::scoped_lock lock(mutex);
     all.push_back(collision);
   });
-  sort(all);
+  sort_by_pair(all);
   return all;
 }
 
@@ -133,7 +116,7 @@ std::optional<StepImpact> CurvedStep::earliest() const {
   for (const StepCollision& collision : impact.pairs) {
     impact.toi_lower = std::min(impact.toi_lower, collision.toi_lower);
   }
-  sort(impact.pairs);
+  sort_by_pair(impact.pairs);
   return impact;
 }
 

@@ -8,7 +8,6 @@
 #include <mutex>
 #include <optional>
 #include <stdexcept>
-#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -114,9 +113,7 @@ class SearchOfPairs {
     } else {
       take_earliest();
     }
-    std::ranges::sort(result_.pairs, [](const StepCollision& a, const StepCollision& b) {
-      return std::tie(a.kind, a.pair) < std::tie(b.kind, b.pair);
-    });
+    sort_by_pair(result_.pairs);
     for (const StepCollision& one : result_.pairs) {
       const Query query = step_.query_of(one.kind, one.pair);
       const Distance apart = distance(Step::kind_of(one.kind), query, 0.0, norm_);

@@ -9,7 +9,6 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
-#include <tuple>
 #include <utility>
 
 #include "fast/certified/block.hpp"
@@ -214,9 +213,7 @@ class ImpactSearch {
       impact.pairs.insert(impact.pairs.end(), found.begin(), found.end());
     }
     if (impact.pairs.empty()) return std::nullopt;
-    std::ranges::sort(impact.pairs, [](const StepCollision& a, const StepCollision& b) {
-      return std::tie(a.kind, a.pair) < std::tie(b.kind, b.pair);
-    });
+    sort_by_pair(impact.pairs);
     impact.toi_upper = upper_.load();
     impact.toi_lower = std::ranges::min(impact.pairs, {}, &StepCollision::toi_lower).toi_lower;
     return impact;

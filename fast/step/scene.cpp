@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <stdexcept>
+#include <tuple>
 #include <utility>
 
 #include "fast/broad_phase/swept_box.hpp"
@@ -298,6 +299,12 @@ StepCollision collision_of(PairKind kind, const IndexPair& pair, const Certified
           .toi_upper = result.toi_upper,
           .u = record.has_u ? result.u : 0.0,
           .v = record.has_v ? result.v : 0.0};
+}
+
+void sort_by_pair(std::vector<StepCollision>& collisions) {
+  std::ranges::sort(collisions, [](const StepCollision& a, const StepCollision& b) {
+    return std::tie(a.kind, a.pair) < std::tie(b.kind, b.pair);
+  });
 }
 
 std::array<std::int32_t, moving_points> Scene::vertices_of(PairKind kind,

@@ -127,6 +127,9 @@ struct SceneGroups {
 [[nodiscard]] StepCollision collision_of(PairKind kind, const IndexPair& pair,
                                          const CertifiedResult& result);
 
+/// By kind, then by the numbers of the primitives.
+void sort_by_pair(std::vector<StepCollision>& collisions);
+
 class Scene final : private PairQuestions {
  public:
   /// Uses the threads of the caller's task arena. Keeps references to the elements.
