@@ -10,6 +10,7 @@
 #include <span>
 
 #include "fast/certified/fixed_point_vertices.hpp"
+#include "fast/curved/curved_block.hpp"
 #include "fast/platform/instruction_set.hpp"
 #include "touchstone/mesh.hpp"
 #include "touchstone/query.hpp"
@@ -77,6 +78,12 @@ struct KernelOutput {
 struct CertifiedKernel {
   InstructionSet instructions;
   void (*decide)(const KernelInput& input, KernelOutput& output);
+  /// On curves (fast/curved/curved_stages.hpp): lists the queries that no axis separates.
+  void (*curved_axis)(const curved::Block& block, KernelOutput::List<std::uint32_t>& open);
+  /// Decides those of a list, which have control polygons of one form, and appends to the output.
+  void (*curved_search)(const curved::Block& block,
+                        const KernelOutput::List<std::uint32_t>& queries,
+                        curved::Denominators denominators, KernelOutput& output);
   /// a b + c on its lanes: certified_kernels() uses it to check that products are rounded before
   /// they are added.
   double (*product_then_sum)(double a, double b, double c);

@@ -34,6 +34,8 @@
 /// Pairs of a mesh may come with their vertices in fixed point. Then stages/single_precision.hpp,
 /// with the theorems of 2. to 4., takes the place of 2. and 3.
 ///
+/// The stages for curves are in fast/curved/curved_stages.hpp.
+///
 /// Queries that no stage decides remain undecided, as do those with coordinates that are not finite
 /// or too large for the bounds.
 
@@ -51,6 +53,7 @@
 #include "fast/certified/stages/orientation.hpp"
 #include "fast/certified/stages/refinement.hpp"
 #include "fast/certified/stages/single_precision.hpp"
+#include "fast/curved/curved_stages.hpp"
 
 namespace touchstone::fast::kernel {
 
@@ -124,6 +127,8 @@ template <class Lanes>
 constexpr CertifiedKernel certified_kernel_on(InstructionSet instructions) {
   return {.instructions = instructions,
           .decide = kernel::decide<Lanes>,
+          .curved_axis = curved::axis_stage<Lanes>,
+          .curved_search = curved::search<Lanes>,
           .product_then_sum = product_then_sum<Lanes>};
 }
 

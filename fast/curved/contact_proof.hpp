@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file
-/// Proofs of contact on curves, in numbers with error bounds (touchstone/filters/ball.hpp).
+/// Proofs of contact on curves, in lanes.
 ///
 /// **Theorem 1** (d = 0). On an interval of time let det(w_0, w_1, w_last) have Bernstein
 /// coefficients with exactly one change of sign, the first and the last not 0, and let for one axis
@@ -13,170 +13,469 @@
 ///
 /// **Theorem 2** (d > 0). If ‖F(t,u,v)‖ ≤ d for one (u,v) of the domain, t is a contact.
 ///
-/// All are multiplied by the positive denominators. Coefficients are sums of products of control
-/// values times binomials: forms, as in docs/theory.md, section 2.
+/// All are multiplied by the positive denominators.
+///
+/// **Errors.** Let K be the degree of the corners, M their greatest magnitude, e their error and
+/// u = 2^-53. Forms have the coefficients C(n,k) b_k, b_k the Bernstein coefficients. The sums of
+/// the C(K,i) C(K,j) with i + j = m are C(2K,m), so the terms of a coefficient of the component
+/// x y' − y x' add up to at most C(2K,m) · 2 M². With two factors scaled, a product, at most K + 1
+/// sums twice and a difference they have at most K + 6 roundings. The errors of the corners change
+/// it by at most C(2K,m) (4 M e + 2 e²). In all its error is at most
+///
+///     C(2K,m) (2 (K+8) u M² + 5 M e).
+///
+/// The terms of a coefficient of det add up to at most C(3K,m) · 6 M³, with at most 3 K + 6 more
+/// roundings; with the errors of its factors its error is at most
+///
+///     C(3K,m) ((24 K + 100) u M³ + 22 M² e).
+///
+/// Underflow adds less than 2^-1040 to the first and 2^-900 to the second. The point
+/// w_0 + (w_1 − w_0) u + (w_last − w_0) v has an error of at most δ = 24 u M + 6 e on each axis.
+/// (Its terms are at most 2 M, its sums 5 M; e counts five times.)
 
-#include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstddef>
-#include <span>
-#include <vector>
 
+#include "fast/certified/stages/lanes.hpp"
 #include "fast/curved/control_polygon.hpp"
 #include "touchstone/filters/ball.hpp"
+#include "touchstone/filters/polynomial_expressions.hpp"
 #include "touchstone/query.hpp"
 
 namespace touchstone::fast::curved {
 
-using filters::Ball;
+// ---- Theorem 1 ----------------------------------------------------------------------------------
 
-/// Σ c_k (1−t)^(n−k) t^k.
-using BallForm = std::vector<Ball>;
+/// Σ c_k (1−t)^(n−k) t^k in each lane.
+template <class Value, std::size_t most>
+using Form = std::array<Value, most + 1>;
 
-[[nodiscard]] inline int sign_of(const Ball& x) {
-  return (filters::is_positive(x) ? 1 : 0) - (filters::is_positive(-x) ? 1 : 0);
-}
+/// The coefficients of det; in each lane those of another query.
+template <class Lanes>
+struct DeterminantForms {
+  static constexpr std::size_t most = 3 * greatest_corner_degree;
+  std::size_t degree = 0;
+  alignas(64) std::array<kernel::Numbers<Lanes>, most + 1> coefficient;
+};
 
-inline void add_product(BallForm& sum, const BallForm& a, const BallForm& b) {
-  sum.resize(a.size() + b.size() - 1);
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    for (std::size_t j = 0; j < b.size(); ++j) sum[i + j] = sum[i + j] + a[i] * b[j];
+/// The lanes in which the coefficients c certainly have exactly one change of sign, given the signs
+/// that are certain: those of the first, then at most one of any kind, then those of the last.
+template <class Mask>
+class OneChange {
+ public:
+  OneChange(const Mask& all, const Mask& none) : before_(all), after_(none) {}
+
+  void add(const Mask& has_first_sign, const Mask& has_last_sign) {
+    after_ = before_ | (after_ & has_last_sign);
+    before_ = before_ & has_first_sign;
   }
-}
+  [[nodiscard]] const Mask& result() const { return after_; }
 
-[[nodiscard]] inline BallForm difference_of_products(const BallForm& a, const BallForm& b,
-                                                     const BallForm& c, const BallForm& d) {
-  BallForm first, second;
-  add_product(first, a, b);
-  add_product(second, c, d);
-  for (std::size_t k = 0; k < first.size(); ++k) first[k] = first[k] - second[k];
-  return first;
-}
+ private:
+  Mask before_;  ///< all have had the first sign
+  Mask after_;   ///< one has been passed over, and all behind it have had the last sign
+};
 
-/// A corner's coordinates as forms.
-using BallVector = std::array<BallForm, 3>;
+/// Theorem 1 for an axis of each lane.
+template <class Lanes, Kind kind>
+class Crossing {
+ public:
+  using Value = typename Lanes::Value;
+  using Mask = kernel::MaskOf<Value>;
+  using Polygons = ControlPolygons<Lanes, kind>;
 
-[[nodiscard]] inline BallVector corner_forms(const ControlPolygon& polygon, std::size_t corner) {
-  BallVector result;
-  double binomial = 1.0;
-  for (std::size_t k = 0; k <= polygon.degree; ++k) {
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      const Ball value({polygon.at(k, axis, corner), 0.0}, polygon.error);
-      result[axis].push_back(value * Ball(binomial));
-    }
-    binomial = binomial * static_cast<double>(polygon.degree - k) / static_cast<double>(k + 1);
-  }
-  return result;
-}
-
-/// Component `axis` of a × b.
-[[nodiscard]] inline BallForm cross_form(const BallVector& a, const BallVector& b,
-                                         std::size_t axis) {
-  const std::size_t y = (axis + 1) % 3, z = (axis + 2) % 3;
-  return difference_of_products(a[y], b[z], a[z], b[y]);
-}
-
-/// The sign of all coefficients; 0 if they differ or are uncertain.
-[[nodiscard]] inline int common_sign(const BallForm& form) {
-  const int sign = sign_of(form.front());
-  for (const Ball& c : form) {
-    if (sign_of(c) != sign) return 0;
-  }
-  return sign;
-}
-
-/// True if the coefficients certainly have exactly one change of sign: at most one that is
-/// uncertain, between those of the first sign and those of the last.
-[[nodiscard]] inline bool changes_once(const BallForm& form) {
-  const int first = sign_of(form.front()), last = sign_of(form.back());
-  if (first * last >= 0) return false;
-  std::size_t of_first = 0, of_last = 0;
-  while (sign_of(form[of_first]) == first) ++of_first;
-  while (sign_of(form[form.size() - 1 - of_last]) == last) ++of_last;
-  return of_first + of_last + 1 >= form.size();
-}
-
-/// det(w_0, w_1, w_last).
-[[nodiscard]] inline BallForm determinant_form(const std::array<BallVector, 4>& w) {
-  BallForm det;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    add_product(det, w[0][axis], cross_form(w[1], w[3], axis));
-  }
-  return det;
-}
-
-/// Theorem 1 for an axis. Place 3 has the last corner. \param det Receives the coefficients.
-template <Kind kind>
-[[nodiscard]] inline bool has_one_contact(const ControlPolygon& polygon, std::size_t axis,
-                                          BallForm& det) {
-  const std::array<BallVector, 4> w{corner_forms(polygon, 0), corner_forms(polygon, 1),
-                                    corner_forms(polygon, 2), corner_forms(polygon, 3)};
-  constexpr std::size_t sides = kind == Kind::vertex_face ? 3 : 4;
-  int sign = 0;
-  for (std::size_t i = 0; i < sides; ++i) {
-    const int of_side = common_sign(cross_form(w[i], w[(i + 1) % sides], axis));
-    if (of_side == 0 || (i > 0 && of_side != sign)) return false;
-    sign = of_side;
-  }
-  det = determinant_form(w);
-  return changes_once(det);
-}
-
-/// The sign of det at a time, from the query's own numbers; 0 if it is uncertain. (With coordinates
-/// up to greatest_magnitude and weights up to 2^30 the corners are below 2^161, det below 2^486.)
-template <Kind kind>
-[[nodiscard]] inline int determinant_sign(const ControlPoints& points, double time) {
-  const Ball t(time), rest = Ball(1.0) - t;
-  bool is_usual = true;
-  // Weighted coordinates and the weight, by de Casteljau's algorithm.
-  const auto place = [&](std::size_t point) {
-    std::array<std::array<Ball, 4>, greatest_degree + 1> row;
-    for (std::size_t k = 0; k <= points.degree(); ++k) {
-      const Ball weight(points.weight(k, point));
-      for (std::size_t axis = 0; axis < 3; ++axis) {
-        const double x = points.x(k, point, axis);
-        is_usual = is_usual && std::abs(x) <= greatest_magnitude;
-        row[k][axis] = Ball(x) * weight;
+  /// \param is_y, is_z The lanes whose axis this is; it is x elsewhere.
+  Crossing(const Polygons& polygons, const Mask& is_y, const Mask& is_z)
+      : polygons_(polygons), degree_(polygons.degree), is_y_(is_y), is_z_(is_z) {
+    for (std::size_t k = 0; k <= degree_; ++k) {
+      const Value scale(binomial<Lanes>(degree_, k));
+      for (std::size_t place = 0; place < 3 * corners; ++place) {
+        x_[place][k] = polygons.at(k, place) * scale;
       }
-      row[k][3] = weight;
     }
-    for (std::size_t level = points.degree(); level > 0; --level) {
+  }
+
+  /// The lanes in which exactly one time is a contact.
+  [[nodiscard]] Mask is_proved(DeterminantForms<Lanes>& det) const {
+    Mask result = has_one_orientation();
+    if (result.bits() != 0) result = result & changes_once(det);
+    return result;
+  }
+
+ private:
+  static constexpr std::size_t corners = Polygons::corners;
+  static constexpr std::size_t most = greatest_corner_degree;
+  using OfCorner = Form<Value, most>;
+  using OfSide = Form<Value, 2 * most>;
+
+  [[nodiscard]] Value magnitude() const { return Value::load(polygons_.magnitude.data()); }
+  [[nodiscard]] Value error() const { return Value::load(polygons_.error.data()); }
+
+  /// a b' − b a'.
+  void cross(const OfCorner& a, const OfCorner& b, const OfCorner& a2, const OfCorner& b2,
+             OfSide& result) const {
+    for (std::size_t m = 0; m <= 2 * degree_; ++m) {
+      const std::size_t least = m > degree_ ? m - degree_ : 0;
+      Value plus = a[least] * b2[m - least], minus = b[least] * a2[m - least];
+      for (std::size_t i = least + 1; i <= degree_ && i <= m; ++i) {
+        plus = plus + a[i] * b2[m - i];
+        minus = minus + b[i] * a2[m - i];
+      }
+      result[m] = plus - minus;
+    }
+  }
+
+  /// Corner i on the axis that follows the lane's in cyclic order, or on the one behind that.
+  [[nodiscard]] OfCorner chosen(std::size_t i, std::size_t steps) const {
+    OfCorner result;
+    const OfCorner& of_x = x_[(0 + steps) % 3 * corners + i];
+    const OfCorner& of_y = x_[(1 + steps) % 3 * corners + i];
+    const OfCorner& of_z = x_[(2 + steps) % 3 * corners + i];
+    for (std::size_t k = 0; k <= degree_; ++k) {
+      result[k] = select(is_z_, of_z[k], select(is_y_, of_y[k], of_x[k]));
+    }
+    return result;
+  }
+
+  [[nodiscard]] Mask has_one_orientation() const {
+    std::array<std::array<OfCorner, 2>, corners> plane;
+    for (std::size_t i = 0; i < corners; ++i) plane[i] = {chosen(i, 1), chosen(i, 2)};
+    const double sums = 2.0 * (static_cast<double>(degree_) + 8.0) * unit_roundoff;
+    const Value bound =
+        magnitude() * (magnitude() * Value(sums) + error() * Value(5.0)) * Value(above);
+    Mask is_positive = Mask::all(), is_negative = Mask::all();
+    for (std::size_t i = 0; i < corners; ++i) {
+      const std::size_t j = (i + 1) % corners;
+      OfSide side;
+      cross(plane[i][0], plane[i][1], plane[j][0], plane[j][1], side);
+      for (std::size_t m = 0; m <= 2 * degree_; ++m) {
+        const Value least = (bound + Value(0x1p-1040)) * Value(binomial<Lanes>(2 * degree_, m));
+        is_positive = is_positive & (side[m] > least);
+        is_negative = is_negative & (side[m] < Value(0.0) - least);
+      }
+      if ((is_positive | is_negative).bits() == 0) break;
+    }
+    return is_positive | is_negative;
+  }
+
+  [[nodiscard]] Mask changes_once(DeterminantForms<Lanes>& det) const {
+    Form<Value, 3 * most> sum;
+    det.degree = 3 * degree_;
+    for (std::size_t m = 0; m <= det.degree; ++m) sum[m] = Value(0.0);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const std::size_t y = (axis + 1) % 3 * corners, z = (axis + 2) % 3 * corners;
+      OfSide side;
+      cross(x_[y + 1], x_[z + 1], x_[y + corners - 1], x_[z + corners - 1], side);
+      const OfCorner& first = x_[axis * corners];
+      for (std::size_t i = 0; i <= degree_; ++i) {
+        for (std::size_t j = 0; j <= 2 * degree_; ++j) {
+          sum[i + j] = sum[i + j] + first[i] * side[j];
+        }
+      }
+    }
+    const double sums = (24.0 * static_cast<double>(degree_) + 100.0) * unit_roundoff;
+    const Value square = magnitude() * magnitude();
+    const Value bound = square * (magnitude() * Value(sums) + error() * Value(22.0)) * Value(above);
+    const Value zero(0.0);
+    const Mask begins_above = sum[0] > zero;
+    OneChange<Mask> change(Mask::all(), Mask::none());
+    Mask ends = Mask::all();
+    for (std::size_t m = 0; m <= det.degree; ++m) {
+      const Value least = (bound + Value(0x1p-900)) * Value(binomial<Lanes>(det.degree, m));
+      const Value turned = select(begins_above, sum[m], zero - sum[m]);
+      const Mask has_first_sign = turned > least, has_last_sign = turned < zero - least;
+      if (m == 0) ends = ends & has_first_sign;
+      if (m == det.degree) ends = ends & has_last_sign;
+      change.add(has_first_sign, has_last_sign);
+      sum[m].store(det.coefficient[m].data());
+    }
+    return ends & change.result();
+  }
+
+  /// Covers the roundings of a bound.
+  static constexpr double above = 1.0 + 0x1p-40;
+
+  const Polygons& polygons_;
+  std::size_t degree_;
+  Mask is_y_, is_z_;
+  std::array<OfCorner, 3 * corners> x_;
+};
+
+// ---- The zero of det ----------------------------------------------------------------------------
+
+/// Zeros in (0,1) of forms that have different signs at 0 and 1, approximations: secants (Illinois)
+/// and bisection.
+template <class Lanes>
+inline typename Lanes::Value guess_zeros(const DeterminantForms<Lanes>& form) {
+  using Value = typename Lanes::Value;
+  using Mask = kernel::MaskOf<Value>;
+  const Value zero(0.0), one(1.0), half(0.5);
+  const auto value = [&](const Value& y) {
+    const Value rest = one - y;
+    Value sum = zero, power = one;
+    for (std::size_t k = 0; k <= form.degree; ++k) {
+      sum = sum * rest + Value::load(form.coefficient[k].data()) * power;
+      power = power * y;
+    }
+    return sum;
+  };
+  Value lower = zero, upper = one, at_lower = value(zero), at_upper = value(one);
+  const Mask begins_above = at_lower > zero;
+  for (int step = 0; step < 60; ++step) {
+    const Mask is_wide = upper - lower > Value(0x1p-50) * upper;
+    if (is_wide.bits() == 0) break;
+    Value y = lower - at_lower * (upper - lower) / (at_upper - at_lower);
+    const Mask is_inside = (y > lower) & (y < upper);
+    const Value middle = half * (lower + upper);
+    y = step % 3 == 2 ? middle : select(is_inside, y, middle);
+    const Value at = value(y);
+    // The other end counts half, so that both move. An exact zero ends the search.
+    const Mask is_zero = at == zero;
+    const Mask is_before = select(begins_above, at, zero - at) > zero;
+    const Mask is_after = select(is_before, zero, one) > zero;
+    lower = select(is_wide & (is_before | is_zero), y, lower);
+    upper = select(is_wide & is_after, y, upper);
+    at_lower = select(is_wide, select(is_before, at, at_lower * half), at_lower);
+    at_upper = select(is_wide, select(is_before, at_upper * half, at), at_upper);
+  }
+  return half * (lower + upper);
+}
+
+/// Queries at a time of each lane, from their own numbers, in numbers with error bounds
+/// (touchstone/filters/ball.hpp).
+template <class Lanes, Kind kind>
+class AtTime {
+ public:
+  using Value = typename Lanes::Value;
+  using Mask = kernel::MaskOf<Value>;
+  using Ball = filters::BallOf<Value>;
+  static constexpr std::size_t corners = ControlPolygons<Lanes, kind>::corners;
+
+  AtTime(const Rows<Lanes>& rows, const Value& time) : rows_(rows) {
+    const Ball t({time, Value(0.0)}), rest = Ball(1.0) - t;
+    const std::array<std::array<Ball, 4>, moving_points> points{
+        place(0, t, rest), place(1, t, rest), place(2, t, rest), place(3, t, rest)};
+    reach_ = Ball(rows.block.separation.distance);
+    if (rows.block.is_rational) reach_ = reach_ * points[0][3] * points[3][3];
+    for (std::size_t i = 0; i < corners; ++i) {
+      const auto &a = points[corner_of<kind>(i).plus], &b = points[corner_of<kind>(i).minus];
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        w_[i][axis] = rows.block.is_rational ? a[axis] * b[3] - b[axis] * a[3] : a[axis] - b[axis];
+      }
+    }
+  }
+
+  /// The signs of det that are certain. (With coordinates up to greatest_magnitude and weights up
+  /// to 2^30 the corners are below 2^161, det below 2^486.)
+  struct Signs {
+    Mask is_positive, is_negative;
+  };
+  [[nodiscard]] Signs determinant() const {
+    const auto &a = w_[0], &b = w_[1], &c = w_[corners - 1];
+    const Ball det = a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2]) +
+                     a[2] * (b[0] * c[1] - b[1] * c[0]);
+    const Mask is_usual = greatest_ <= Value(greatest_magnitude);
+    return {filters::is_positive(det) & is_usual, filters::is_positive(-det) & is_usual};
+  }
+
+  /// Theorem 2, by the point (u,v) of the domain.
+  [[nodiscard]] Mask is_contact(Norm norm, const Value& u, const Value& v) const {
+    const Ball of_u({u, Value(0.0)}), of_v({v, Value(0.0)});
+    Mask result = greatest_ <= Value(greatest_magnitude);
+    Ball square;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const Ball &first = w_[0][axis], &second = w_[1][axis], &last = w_[corners - 1][axis];
+      const Ball x = first + (second - first) * of_u + (last - first) * of_v;
+      square = square + x * x;
+      if (norm == Norm::linf) {
+        result = result & filters::is_positive(reach_ - x) & filters::is_positive(reach_ + x);
+      }
+    }
+    return norm == Norm::linf ? result : result & filters::is_positive(reach_ * reach_ - square);
+  }
+
+  /// The corners and the distance, approximations.
+  [[nodiscard]] Value reach() const { return reach_.center.high; }
+  [[nodiscard]] typename ControlPolygons<Lanes, kind>::Corners approximate() const {
+    typename ControlPolygons<Lanes, kind>::Corners result;
+    for (std::size_t i = 0; i < corners; ++i) {
+      for (std::size_t axis = 0; axis < 3; ++axis) result[i][axis] = w_[i][axis].center.high;
+    }
+    return result;
+  }
+
+ private:
+  /// Weighted coordinates and the weight of a point, by de Casteljau's algorithm.
+  std::array<Ball, 4> place(std::size_t point, const Ball& t, const Ball& rest) {
+    const std::size_t degree = rows_.block.degree, size = rows_.block.is_rational ? 4 : 3;
+    std::array<std::array<Ball, 4>, greatest_degree + 1> row;
+    for (std::size_t k = 0; k <= degree; ++k) {
+      const kernel::Vector<Value> x = rows_.x(k, point);
+      greatest_ = max(greatest_, kernel::greatest(x));
+      for (std::size_t axis = 0; axis < 3; ++axis) row[k][axis] = Ball({x[axis], Value(0.0)});
+      if (!rows_.block.is_rational) continue;
+      row[k][3] = Ball({rows_.weight(k, point), Value(0.0)});
+      for (std::size_t axis = 0; axis < 3; ++axis) row[k][axis] = row[k][axis] * row[k][3];
+    }
+    for (std::size_t level = degree; level > 0; --level) {
       for (std::size_t k = 0; k < level; ++k) {
-        for (std::size_t i = 0; i < 4; ++i) row[k][i] = row[k][i] * rest + row[k + 1][i] * t;
+        for (std::size_t i = 0; i < size; ++i) row[k][i] = row[k][i] * rest + row[k + 1][i] * t;
       }
     }
     return row[0];
-  };
-  const std::array all{place(0), place(1), place(2), place(3)};
-  if (!is_usual) return 0;
-  const auto corner = [&](std::size_t i) {
-    const auto &a = all[corner_of(kind, i).plus], &b = all[corner_of(kind, i).minus];
-    return std::array{a[0] * b[3] - b[0] * a[3], a[1] * b[3] - b[1] * a[3],
-                      a[2] * b[3] - b[2] * a[3]};
-  };
-  const auto a = corner(0), b = corner(1), c = corner(3);
-  return sign_of(a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2]) +
-                 a[2] * (b[0] * c[1] - b[1] * c[0]));
-}
+  }
 
-/// Theorem 2 at the end of the polygon's interval, or at its start. \param u, v In the domain.
-[[nodiscard]] inline bool is_contact(const ControlPolygon& polygon, std::size_t k, double u,
-                                     double v, Norm norm) {
-  std::array<Ball, 3> x;
+  const Rows<Lanes>& rows_;
+  Value greatest_ = Value(0.0);
+  std::array<std::array<Ball, 3>, corners> w_;
+  Ball reach_;  ///< as far as the corners, times the denominators
+};
+
+// ---- A distance ---------------------------------------------------------------------------------
+
+/// **Theorem 3.** Let v(t) be linear on [a,b] between two directions of a dual norm of at most n,
+/// and let all v(t)·w_i(t) − n·reach(t) have positive Bernstein coefficients. Then no time of [a,b]
+/// is a contact: norms are convex, so v(t) has a dual norm of at most n as well.
+///
+/// From the queries' own numbers, in numbers with error bounds. The coefficients are C(m,k) times
+/// those of Bernstein.
+template <class Lanes, Kind kind>
+class PreciseGap {
+ public:
+  using Value = typename Lanes::Value;
+  using Mask = kernel::MaskOf<Value>;
+  using Ball = filters::BallOf<Value>;
+  using Direction = kernel::Vector<Value>;
+  static constexpr std::size_t corners = ControlPolygons<Lanes, kind>::corners;
+
+  PreciseGap(const Rows<Lanes>& rows, Denominators denominators, const Value& n, const Value& a,
+             const Value& b)
+      : rows_(rows),
+        degree_(rows.block.degree),
+        gap_degree_(denominators == Denominators::one ? degree_ : 2 * degree_),
+        reach_(Ball({n, Value(0.0)}) * Ball(rows.block.separation.distance)),
+        a_{a, Value(0.0)},
+        b_{b, Value(0.0)} {
+    constexpr std::size_t second = kind == Kind::vertex_face ? 1 : 2;
+    weights_ = {on_part([&](std::size_t k) { return weight(k, 0); }),
+                on_part([&](std::size_t k) { return weight(k, second); })};
+  }
+
+  /// Theorem 3 for the directions at a and b.
+  [[nodiscard]] Mask is_positive(const Direction& at_a, const Direction& at_b) {
+    const auto along_a = along(at_a), along_b = along(at_b);
+    Mask result = greatest_ <= Value(greatest_magnitude);
+    for (std::size_t i = 0; i < corners; ++i) {
+      const Coefficients of_a = gap(along_a, i), of_b = gap(along_b, i);
+      for (std::size_t m = 0; m <= gap_degree_ + 1; ++m) {
+        const Ball sum = m == 0                 ? of_a[0]
+                         : m == gap_degree_ + 1 ? of_b[gap_degree_]
+                                                : of_a[m] + of_b[m - 1];
+        result = result & filters::is_positive(sum);
+      }
+    }
+    return result;
+  }
+
+ private:
+  using Row = std::array<Ball, greatest_degree + 1>;
+  using Coefficients = std::array<Ball, greatest_corner_degree + 1>;
+
+  /// v·x of each point times its weight, on [a,b].
+  [[nodiscard]] std::array<Row, moving_points> along(const Direction& v) {
+    std::array<Row, moving_points> result;
+    for (std::size_t point = 0; point < moving_points; ++point) {
+      result[point] = on_part([&](std::size_t k) { return projection(v, k, point); });
+    }
+    return result;
+  }
+
+  /// The coefficients of v·w_i − n·reach.
+  [[nodiscard]] Coefficients gap(const std::array<Row, moving_points>& along, std::size_t i) const {
+    const Row &plus = along[corner_of<kind>(i).plus], &minus = along[corner_of<kind>(i).minus];
+    const Row &of_first = weights_[0], &of_second = weights_[1];
+    Coefficients result;
+    for (std::size_t k = 0; k <= degree_; ++k) {
+      const Ball above = plus[k] - reach_ * of_first[k];
+      const double scale = binomial<Lanes>(degree_, k);
+      if (gap_degree_ == degree_) {
+        result[k] = (above - minus[k]) * Ball(scale);
+        continue;
+      }
+      for (std::size_t j = 0; j <= degree_; ++j) {
+        const Ball term = above * of_second[j] - of_first[k] * minus[j];
+        result[k + j] = result[k + j] + term * Ball(scale * binomial<Lanes>(degree_, j));
+      }
+    }
+    return result;
+  }
+
+  [[nodiscard]] Ball weight(std::size_t k, std::size_t point) const {
+    return Ball({rows_.weight(k, point), Value(0.0)});
+  }
+
+  [[nodiscard]] Ball projection(const Direction& v, std::size_t k, std::size_t point) {
+    const kernel::Vector<Value> x = rows_.x(k, point);
+    greatest_ = max(greatest_, kernel::greatest(x));
+    Ball sum;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      sum = sum + Ball({v[axis], Value(0.0)}) * Ball({x[axis], Value(0.0)});
+    }
+    return rows_.block.is_rational ? sum * weight(k, point) : sum;
+  }
+
+  /// The Bernstein coefficients on [a,b] of those on [0,1]: the polar form.
+  template <class At>
+  [[nodiscard]] Row on_part(const At& at) const {
+    const Ball of_a(a_), rest_a = Ball(1.0) - of_a, of_b(b_), rest_b = Ball(1.0) - of_b;
+    Row x, result;
+    for (std::size_t k = 0; k <= degree_; ++k) x[k] = at(k);
+    for (std::size_t times_b = degree_;; --times_b) {
+      Row y = x;
+      for (std::size_t level = times_b; level > 0; --level) {
+        for (std::size_t j = 0; j < level; ++j) y[j] = y[j] * rest_b + y[j + 1] * of_b;
+      }
+      result[times_b] = y[0];
+      if (times_b == 0) return result;
+      for (std::size_t j = 0; j < times_b; ++j) x[j] = x[j] * rest_a + x[j + 1] * of_a;
+    }
+  }
+
+  const Rows<Lanes>& rows_;
+  std::size_t degree_;
+  std::size_t gap_degree_;
+  Ball reach_;  ///< n times the distance
+  filters::DoubleDouble<Value> a_, b_;
+  std::array<Row, 2> weights_;
+  Value greatest_ = Value(0.0);
+};
+
+/// The lanes in which control point k, the first or the last, is a contact, by the point (u,v).
+/// \param u, v In the domain.
+template <Norm norm, class Lanes, Kind kind>
+inline auto is_contact(const ControlPolygons<Lanes, kind>& polygons, std::size_t k,
+                       const typename Lanes::Value& u, const typename Lanes::Value& v) {
+  using Value = typename Lanes::Value;
+  const auto w = polygons.corners_at(k);
+  const Value error = Value::load(polygons.error.data());
+  const Value delta =
+      Value::load(polygons.magnitude.data()) * Value(24.0 * unit_roundoff * 1.0001) +
+      error * Value(6.0);
+  kernel::Vector<Value> x;
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    const auto corner = [&](std::size_t i) {
-      return Ball({polygon.at(k, axis, i), 0.0}, polygon.error);
-    };
-    x[axis] = corner(0) + (corner(1) - corner(0)) * Ball(u) + (corner(3) - corner(0)) * Ball(v);
+    x[axis] = w[0][axis] + (w[1][axis] - w[0][axis]) * u + (w.back()[axis] - w[0][axis]) * v;
   }
-  const Ball reach({polygon.reach[k], 0.0}, polygon.error);
-  if (norm == Norm::l2) {
-    return filters::is_positive(reach * reach - (x[0] * x[0] + x[1] * x[1] + x[2] * x[2]));
+  const Value most = kernel::greatest(x);
+  // Below the distance times the denominator; 2^-50 covers the roundings of this and what follows.
+  const Value reach = (polygons.reach(k) - error) * Value(1.0 - 0x1p-50);
+  if constexpr (norm == Norm::linf) {
+    return (most + delta) * Value(1.0 + 0x1p-50) < reach;
+  } else {
+    // |x + δ|² ≤ |x|² + 2 √3 δ |x| + 3 δ², and |x| ≤ √3 · most.
+    const Value change = delta * (most * Value(6.0) + delta * Value(3.0));
+    const Value square = (filters::dot(x, x) + change) * Value(1.0 + 0x1p-49) + Value(0x1p-1000);
+    return (square < reach * reach) & (reach > Value(0.0));
   }
-  return std::ranges::all_of(x, [&](const Ball& component) {
-    return filters::is_positive(reach - filters::abs(component));
-  });
 }
 
 }  // namespace touchstone::fast::curved

@@ -1,8 +1,8 @@
 #pragma once
 
 /// \file
-/// The corners of a query on curves by their control points, in doubles with a bound of their
-/// errors.
+/// The corners of queries on curves by their control points, in lanes, one query a lane: in doubles
+/// with a bound of their errors.
 ///
 /// Let the points of a primitive have weights in common, as on a rigid body, or none. With
 /// numerators a_i ω_i and b_j φ_j of degree k, the corner a − b times both denominators is the
@@ -16,265 +16,271 @@
 /// **Errors.** Let M be the greatest magnitude of a term without its α, u = 2^-53. A control value
 /// is computed by at most k + 6 roundings of terms whose magnitudes add up to at most M: its error
 /// is at most (k + 7) u M while nothing underflows; 2^-1060 covers underflow (no weight is
-/// subnormal). **Halving** a curve takes means (a + b)/2, which never exceed the greater of both. A
-/// mean has the error of a sum, at most u M, and an underflow; it keeps the errors of a and b below
-/// the greater of both, because it is a convex combination. So each half of a curve of degree K has
-/// the error of the whole plus at most K (u M + 2^-1074).
+/// subnormal).
+///
+/// **A part of the time.** The control point j of a curve of degree K on [a,b] is its polar form
+/// at K − j times a and j times b: K levels of x (1−t) + y t with t = a or b. A level rounds 1 − t,
+/// two products and a sum: at most 3 u M (1 + u)^2 and an underflow. It keeps the errors of x and y
+/// below the greater of both, because it is a convex combination. So the error on a part is that
+/// on [0,1] plus at most 4 K (u M + 2^-1060), and no value exceeds M (1 + 2^-45).
 
-#include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstddef>
-#include <cstdint>
-#include <span>
 
-#include "touchstone/curved_query.hpp"
-#include "touchstone/query.hpp"
+#include "fast/certified/stages/lanes.hpp"
+#include "fast/curved/curved_block.hpp"
+#include "touchstone/filters/polynomial_expressions.hpp"
 
 namespace touchstone::fast::curved {
 
-/// The least degree that is enough for all queries with a control polygon.
-inline constexpr std::size_t greatest_corner_degree = 8;
 inline constexpr double unit_roundoff = 0x1p-53;
 inline constexpr double underflow = 0x1p-1060;
-/// Control values above this are left to the exact stage: no cube of them overflows.
+/// Greater control values are left to the exact stage: no cube of them overflows.
 inline constexpr double greatest_magnitude = 0x1p100;
 
-/// The values of a moving corner's coordinate: of corner i on an axis at place 4 axis + i. A
-/// triangle's last corner counts twice.
-using CornerRow = std::array<double, 12>;
+// ---- Polygons -----------------------------------------------------------------------------------
 
-struct ControlPolygon {
-  std::size_t degree;
-  std::array<CornerRow, greatest_corner_degree + 1> w;
-  /// The control values of the distance times the denominator.
-  std::array<double, greatest_corner_degree + 1> reach;
-  double magnitude;  ///< M: of all values of w and reach
-  double error;      ///< of all values of w and reach
+/// Polygons in memory. A control point has the coordinates of corner i on an axis at place
+/// axis · corners + i, then the distance.
+template <class Lanes, Kind kind>
+struct ControlPolygons {
+  using Value = typename Lanes::Value;
+  using Row = kernel::Numbers<Lanes>;
+  static constexpr std::size_t corners = kind == Kind::vertex_face ? 3 : 4;
+  static constexpr std::size_t size = 3 * corners + 1;
+  using Corners = std::array<kernel::Vector<Value>, corners>;
 
-  [[nodiscard]] double at(std::size_t k, std::size_t axis, std::size_t corner) const {
-    return w[k][4 * axis + corner];
+  std::size_t degree = 0;
+  alignas(sizeof(Row)) std::array<std::array<Row, size>, greatest_corner_degree + 1> point;
+  alignas(sizeof(Row)) Row magnitude;  ///< M: of all values
+  alignas(sizeof(Row)) Row error;      ///< of all values
+
+  [[nodiscard]] Value at(std::size_t k, std::size_t place) const {
+    return Value::load(point[k][place].data());
+  }
+  [[nodiscard]] Value reach(std::size_t k) const { return at(k, size - 1); }
+  void set(std::size_t k, std::size_t place, const Value& value) {
+    value.store(point[k][place].data());
   }
 
-  /// Copies what the degree makes use of.
-  void assign(const ControlPolygon& other) {
-    degree = other.degree;
-    std::copy_n(other.w.begin(), degree + 1, w.begin());
-    std::copy_n(other.reach.begin(), degree + 1, reach.begin());
-    magnitude = other.magnitude;
-    error = other.error;
+  /// Copies a lane of another.
+  void take(std::size_t lane, const ControlPolygons& from, std::size_t lane_of_other) {
+    degree = from.degree;
+    for (std::size_t k = 0; k <= degree; ++k) {
+      for (std::size_t i = 0; i < size; ++i) point[k][i][lane] = from.point[k][i][lane_of_other];
+    }
+    magnitude[lane] = from.magnitude[lane_of_other];
+    error[lane] = from.error[lane_of_other];
+  }
+
+  [[nodiscard]] Corners corners_at(std::size_t k) const {
+    Corners result;
+    for (std::size_t i = 0; i < corners; ++i) {
+      for (std::size_t axis = 0; axis < 3; ++axis) result[i][axis] = at(k, axis * corners + i);
+    }
+    return result;
   }
 };
 
-enum class Loaded : std::uint8_t { yes, unusual };
+/// The points whose difference a corner is.
+template <Kind kind>
+inline constexpr const Corner& corner_of(std::size_t i) {
+  return kind == Kind::vertex_face ? vertex_face_corners[i] : edge_edge_corners[i];
+}
 
-/// The numbers of a query, and what follows from their layout.
-class ControlPoints {
+// ---- Loading ------------------------------------------------------------------------------------
+
+/// The numbers of `width` queries of a block.
+template <class Lanes>
+struct Rows {
+  using Value = typename Lanes::Value;
+  const Block& block;
+  std::array<const double*, Lanes::width> first;
+
+  [[nodiscard]] std::array<const double*, Lanes::width> addresses(std::size_t offset) const {
+    std::array<const double*, Lanes::width> result;
+    for (std::size_t lane = 0; lane < Lanes::width; ++lane) result[lane] = first[lane] + offset;
+    return result;
+  }
+  [[nodiscard]] std::size_t offset(std::size_t k, std::size_t point) const {
+    return (k * moving_points + point) * (block.is_rational ? 4 : 3);
+  }
+  [[nodiscard]] kernel::Vector<Value> x(std::size_t k, std::size_t point) const {
+    const auto rows = addresses(offset(k, point));
+    // Nothing is read behind the last number of the array.
+    const bool is_last = k == block.degree && point + 1 == moving_points && !block.is_rational;
+    const auto x = is_last ? Lanes::load_backwards(rows) : Lanes::load(rows);
+    return {x[0], x[1], x[2]};
+  }
+  [[nodiscard]] Value weight(std::size_t k, std::size_t point) const {
+    if (!block.is_rational) return Value(1.0);
+    return Lanes::load_backwards(addresses(offset(k, point) + 1))[2];
+  }
+};
+
+/// i out of n.
+template <class Lanes>
+inline double binomial(std::size_t n, std::size_t i) {
+  double result = 1.0;
+  for (std::size_t j = 0; j < i; ++j) {
+    result = result * static_cast<double>(n - j) / static_cast<double>(j + 1);
+  }
+  return result;
+}
+
+/// Loads polygons.
+template <class Lanes, Kind kind>
+class Loading {
  public:
-  ControlPoints(Kind kind, const CurvedQueries& queries, std::size_t i)
-      : kind_(kind), queries_(queries), row_(queries.row(i)) {}
+  using Value = typename Lanes::Value;
+  using Polygons = ControlPolygons<Lanes, kind>;
+  using Mask = kernel::MaskOf<Value>;
 
-  [[nodiscard]] double x(std::size_t k, std::size_t point, std::size_t axis) const {
-    return row_[(k * moving_points + point) * queries_.numbers_of_point() + axis];
-  }
-  [[nodiscard]] double weight(std::size_t k, std::size_t point) const {
-    return queries_.is_rational ? x(k, point, 3) : 1.0;
-  }
-  [[nodiscard]] std::size_t degree() const { return queries_.degree; }
-  [[nodiscard]] std::span<const double> row() const { return row_; }
-  [[nodiscard]] bool is_rational() const { return queries_.is_rational; }
-  /// The first point of the second primitive.
-  [[nodiscard]] std::size_t second() const { return kind_ == Kind::vertex_face ? 1 : 2; }
-
-  /// True if both points have the same weights.
-  [[nodiscard]] bool have_equal_weights(std::size_t a, std::size_t b) const {
-    if (!queries_.is_rational) return true;
-    for (std::size_t k = 0; k <= degree(); ++k) {
-      if (weight(k, a) != weight(k, b)) return false;
+  /// The lanes whose numbers are finite and not too large. The others are undefined.
+  static Mask run(const Rows<Lanes>& rows, Denominators denominators, Polygons& to) {
+    Loading loading(rows, to);
+    if (denominators == Denominators::one) {
+      loading.subtract();
+      return loading.finish(3.0);
     }
-    return true;
-  }
-  /// True if the points of each primitive have weights in common, which are not so small or large
-  /// that products of them underflow or overflow.
-  [[nodiscard]] bool are_rigid() const {
-    constexpr double least = 0x1p-30, most = 0x1p30;
-    if (!queries_.is_rational) return true;
-    for (const std::size_t point : {std::size_t{0}, second()}) {
-      for (std::size_t k = 0; k <= degree(); ++k) {
-        if (!(weight(k, point) >= least && weight(k, point) <= most)) return false;
-      }
-    }
-    for (std::size_t point = 1; point < moving_points; ++point) {
-      if (point != second() && !have_equal_weights(point, point < second() ? 0 : second())) {
-        return false;
-      }
-    }
-    return true;
+    loading.multiply();
+    return loading.finish(static_cast<double>(rows.block.degree) + 7.0);
   }
 
  private:
-  Kind kind_;
-  const CurvedQueries& queries_;
-  std::span<const double> row_;
+  Loading(const Rows<Lanes>& rows, Polygons& to)
+      : rows_(rows), to_(to), distance_(rows.block.separation.distance) {}
+
+  using Point = std::array<kernel::Vector<Value>, moving_points>;
+
+  [[nodiscard]] Point point(std::size_t k) const {
+    return {rows_.x(k, 0), rows_.x(k, 1), rows_.x(k, 2), rows_.x(k, 3)};
+  }
+
+  /// Notes a term for M. A term that is not finite makes the sum NaN.
+  void note(const Value& term) {
+    greatest_ = max(greatest_, abs(term));
+    not_finite_ = not_finite_ + (term - term);
+  }
+
+  /// The corners a − b times a weight, of control points that may differ.
+  template <class Take>
+  void for_each_corner(const Point& of_plus, const Point& of_minus, const Value& weight,
+                       const Take& take) {
+    constexpr std::size_t corners = Polygons::corners;
+    for (std::size_t i = 0; i < corners; ++i) {
+      const Corner& corner = corner_of<kind>(i);
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        const Value term = (of_plus[corner.plus][axis] - of_minus[corner.minus][axis]) * weight;
+        note(term);
+        take(axis * corners + i, term);
+      }
+    }
+    const Value reach = distance_ * weight;
+    note(reach);
+    take(Polygons::size - 1, reach);
+  }
+
+  void subtract() {
+    to_.degree = rows_.block.degree;
+    for (std::size_t k = 0; k <= to_.degree; ++k) {
+      const Point x = point(k);
+      for_each_corner(x, x, rows_.weight(k, 0),
+                      [&](std::size_t place, const Value& term) { to_.set(k, place, term); });
+    }
+  }
+
+  void multiply() {
+    const std::size_t degree = rows_.block.degree;
+    constexpr std::size_t second = kind == Kind::vertex_face ? 1 : 2;
+    to_.degree = 2 * degree;
+    for (std::size_t m = 0; m <= to_.degree; ++m) {
+      for (std::size_t place = 0; place < Polygons::size; ++place) to_.set(m, place, Value(0.0));
+    }
+    for (std::size_t i = 0; i <= degree; ++i) {
+      const Point of_plus = point(i);
+      for (std::size_t j = 0; j <= degree; ++j) {
+        const Value alpha(binomial<Lanes>(degree, i) * binomial<Lanes>(degree, j) /
+                          binomial<Lanes>(2 * degree, i + j));
+        const Value weight = rows_.weight(i, 0) * rows_.weight(j, second);
+        for_each_corner(of_plus, point(j), weight, [&](std::size_t place, const Value& term) {
+          to_.set(i + j, place, to_.at(i + j, place) + term * alpha);
+        });
+      }
+    }
+  }
+
+  Mask finish(double roundings) {
+    const Value magnitude = greatest_ * Value(1.0 + 0x1p-44);
+    const auto levels = 4.0 * static_cast<double>(to_.degree);
+    magnitude.store(to_.magnitude.data());
+    (magnitude * Value((roundings + levels) * unit_roundoff) + Value((1.0 + levels) * underflow))
+        .store(to_.error.data());
+    // NaN compares false.
+    return (magnitude <= Value(greatest_magnitude)) & (not_finite_ <= Value(0.0));
+  }
+
+  const Rows<Lanes>& rows_;
+  Polygons& to_;
+  Value distance_;
+  Value greatest_ = Value(0.0);
+  Value not_finite_ = Value(0.0);
 };
 
-/// The points whose difference a corner is; a triangle's last corner twice.
-inline const Corner& corner_of(Kind kind, std::size_t i) {
-  return kind == Kind::vertex_face ? vertex_face_corners[i < 3 ? i : 2] : edge_edge_corners[i];
-}
+// ---- Parts of the time --------------------------------------------------------------------------
 
-/// True if on an axis all control points of one primitive are farther than the distance beyond all
-/// of the other: then no time is a contact, since each point is in the hull of its control points.
-/// Exact but for the difference, which is rounded and does not exceed the distance if it is not
-/// beyond. False if a number is not finite or a weight is not positive.
-template <Kind kind, bool is_rational>
-inline bool is_apart_on_axis(std::span<const double> row, double distance) {
-  constexpr std::size_t stride = is_rational ? 4 : 3, size = moving_points * stride;
-  std::array<double, size> least, most, check;
-  for (std::size_t i = 0; i < size; ++i) least[i] = most[i] = row[i];
-  for (std::size_t i = 0; i < size; ++i) check[i] = row[i] - row[i];
-  for (std::size_t first = size; first < row.size(); first += size) {
-    for (std::size_t i = 0; i < size; ++i) {
-      const double x = row[first + i];
-      least[i] = x < least[i] ? x : least[i];
-      most[i] = x > most[i] ? x : most[i];
-      check[i] += x - x;
+/// One coordinate on [a,b].
+template <std::size_t most, class Value>
+inline void restrict_row(std::size_t degree, std::array<Value, most + 1>& x, const Value& a,
+                         const Value& rest_a, const Value& b, const Value& rest_b,
+                         std::array<Value, most + 1>& result) {
+  for (std::size_t of_b = degree;; --of_b) {
+    // The polar form at (degree − of_b) times a, then at b.
+    std::array<Value, most + 1> y;
+    for (std::size_t j = 0; j <= of_b; ++j) y[j] = x[j];
+    for (std::size_t level = of_b; level > 0; --level) {
+      for (std::size_t j = 0; j < level; ++j) y[j] = y[j] * rest_b + y[j + 1] * b;
     }
-  }
-  double sum = 0.0;
-  for (const double x : check) sum += x;
-  if (!(sum == 0.0)) return false;
-  if constexpr (is_rational) {
-    for (std::size_t point = 0; point < moving_points; ++point) {
-      if (!(least[stride * point + 3] > 0.0)) return false;
-    }
-  }
-  constexpr std::size_t second = kind == Kind::vertex_face ? 1 : 2;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    double least_a = least[axis], most_a = most[axis];
-    double least_b = least[stride * second + axis], most_b = most[stride * second + axis];
-    for (std::size_t point = 1; point < moving_points; ++point) {
-      const std::size_t place = stride * point + axis;
-      if (point < second) {
-        least_a = std::min(least_a, least[place]);
-        most_a = std::max(most_a, most[place]);
-      } else {
-        least_b = std::min(least_b, least[place]);
-        most_b = std::max(most_b, most[place]);
-      }
-    }
-    if (least_a - most_b > distance || least_b - most_a > distance) return true;
-  }
-  return false;
-}
-
-/// Sets magnitude and error after so many roundings, from the greatest term.
-inline Loaded finish(ControlPolygon& polygon, double greatest_term, double roundings) {
-  polygon.magnitude = greatest_term;
-  polygon.error = roundings * unit_roundoff * greatest_term + underflow;
-  // Written so that NaN fails too.
-  return greatest_term <= greatest_magnitude ? Loaded::yes : Loaded::unusual;
-}
-
-/// One denominator, or none.
-template <Kind kind>
-inline Loaded load_alike(const ControlPoints& from, double distance, ControlPolygon& polygon) {
-  polygon.degree = from.degree();
-  double greatest = 0.0, sum = 0.0;
-  for (std::size_t k = 0; k <= polygon.degree; ++k) {
-    const double weight = from.weight(k, 0);
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      for (std::size_t i = 0; i < 4; ++i) {
-        const Corner& corner = corner_of(kind, i);
-        const double w = (from.x(k, corner.plus, axis) - from.x(k, corner.minus, axis)) * weight;
-        polygon.w[k][4 * axis + i] = w;
-        greatest = std::max(greatest, std::abs(w));
-        sum += w - w;  // NaN if w is not finite
-      }
-    }
-    polygon.reach[k] = distance * weight;
-    greatest = std::max(greatest, polygon.reach[k]);
-  }
-  return finish(polygon, greatest + sum, 3.0);
-}
-
-/// The product of two denominators.
-template <Kind kind>
-inline Loaded load_product(const ControlPoints& from, double distance, ControlPolygon& polygon) {
-  const std::size_t k = from.degree();
-  polygon.degree = 2 * k;
-  for (std::size_t m = 0; m <= 2 * k; ++m) {
-    polygon.w[m].fill(0.0);
-    polygon.reach[m] = 0.0;
-  }
-  const auto binomial = [](std::size_t n, std::size_t i) {
-    double result = 1.0;
-    for (std::size_t j = 0; j < i; ++j) {
-      result = result * static_cast<double>(n - j) / static_cast<double>(j + 1);
-    }
-    return result;
-  };
-  double greatest = 0.0, sum = 0.0;
-  for (std::size_t i = 0; i <= k; ++i) {
-    for (std::size_t j = 0; j <= k; ++j) {
-      const double alpha = binomial(k, i) * binomial(k, j) / binomial(2 * k, i + j);
-      const double weight = from.weight(i, 0) * from.weight(j, from.second());
-      for (std::size_t axis = 0; axis < 3; ++axis) {
-        for (std::size_t c = 0; c < 4; ++c) {
-          const Corner& corner = corner_of(kind, c);
-          const double term =
-              (from.x(i, corner.plus, axis) - from.x(j, corner.minus, axis)) * weight;
-          polygon.w[i + j][4 * axis + c] += term * alpha;
-          greatest = std::max(greatest, std::abs(term));
-          sum += term - term;
-        }
-      }
-      polygon.reach[i + j] += distance * weight * alpha;
-      greatest = std::max(greatest, distance * weight);
-    }
-  }
-  return finish(polygon, greatest + sum, static_cast<double>(k) + 7.0);
-}
-
-/// Fills the control polygon of a query. `unusual`: with numbers that are not finite or too large,
-/// or with weights that are not in common.
-template <Kind kind>
-inline Loaded load(const ControlPoints& from, double distance, ControlPolygon& polygon) {
-  if (!from.are_rigid()) return Loaded::unusual;
-  if (from.have_equal_weights(0, from.second())) return load_alike<kind>(from, distance, polygon);
-  if (2 * from.degree() > greatest_corner_degree) return Loaded::unusual;
-  return load_product<kind>(from, distance, polygon);
-}
-
-/// Both halves of the time, by de Casteljau's algorithm.
-inline void halve(const ControlPolygon& whole, ControlPolygon& first, ControlPolygon& second) {
-  const std::size_t degree = whole.degree;
-  second.assign(whole);
-  second.error += static_cast<double>(degree) * (unit_roundoff * whole.magnitude + underflow);
-  first.degree = degree;
-  first.magnitude = second.magnitude;
-  first.error = second.error;
-  for (std::size_t k = 0; k <= degree; ++k) {
-    first.w[k] = second.w[0];
-    first.reach[k] = second.reach[0];
-    for (std::size_t j = 0; j + k < degree; ++j) {
-      for (std::size_t i = 0; i < second.w[j].size(); ++i) {
-        second.w[j][i] = (second.w[j][i] + second.w[j + 1][i]) * 0.5;
-      }
-      second.reach[j] = (second.reach[j] + second.reach[j + 1]) * 0.5;
-    }
+    result[of_b] = y[0];
+    if (of_b == 0) return;
+    for (std::size_t j = 0; j < of_b; ++j) x[j] = x[j] * rest_a + x[j + 1] * a;
   }
 }
 
-/// The corners at a time y of the piece, an approximation.
-inline CornerRow corners_at(const ControlPolygon& polygon, double y) {
-  auto w = polygon.w;
-  for (std::size_t level = polygon.degree; level > 0; --level) {
-    for (std::size_t j = 0; j < level; ++j) {
-      for (std::size_t i = 0; i < w[j].size(); ++i) w[j][i] += (w[j + 1][i] - w[j][i]) * y;
-    }
+/// The polygons on [begin, end] of each lane, with the bounds of `whole`.
+template <std::size_t most, bool separated, class Lanes, Kind kind>
+inline void restrict_to(const ControlPolygons<Lanes, kind>& whole, std::size_t degree,
+                        const typename Lanes::Value& begin, const typename Lanes::Value& end,
+                        ControlPolygons<Lanes, kind>& part) {
+  using Value = typename Lanes::Value;
+  constexpr std::size_t size = ControlPolygons<Lanes, kind>::size - (separated ? 0 : 1);
+  const Value rest_begin = Value(1.0) - begin, rest_end = Value(1.0) - end;
+  for (std::size_t place = 0; place < size; ++place) {
+    std::array<Value, most + 1> x, result;
+    for (std::size_t k = 0; k <= degree; ++k) x[k] = whole.at(k, place);
+    restrict_row<most>(degree, x, begin, rest_begin, end, rest_end, result);
+    for (std::size_t k = 0; k <= degree; ++k) part.set(k, place, result[k]);
   }
-  return w[0];
+}
+
+/// The same for the degree at hand: those that are common are compiled for it.
+template <bool separated, class Lanes, Kind kind>
+inline void restrict_to(const ControlPolygons<Lanes, kind>& whole,
+                        const typename Lanes::Value& begin, const typename Lanes::Value& end,
+                        ControlPolygons<Lanes, kind>& part) {
+  part.degree = whole.degree;
+  part.magnitude = whole.magnitude;
+  part.error = whole.error;
+  switch (whole.degree) {
+    case 2:
+      return restrict_to<2, separated>(whole, 2, begin, end, part);
+    case 3:
+      return restrict_to<3, separated>(whole, 3, begin, end, part);
+    case 4:
+      return restrict_to<4, separated>(whole, 4, begin, end, part);
+    default:
+      return restrict_to<greatest_corner_degree, separated>(whole, whole.degree, begin, end, part);
+  }
 }
 
 }  // namespace touchstone::fast::curved

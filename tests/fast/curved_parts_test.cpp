@@ -11,17 +11,31 @@
 
 #include "exact/contact/corner_motion.hpp"
 #include "fast/certified/exact/curved_polygon.hpp"
-#include "fast/curved/contact_proof.hpp"
-#include "fast/curved/control_polygon.hpp"
-#include "fast/curved/curved_search.hpp"
+#include "fast/curved/curved_stages.hpp"
+#include "fast/platform/scalar_doubles.hpp"
 #include "tests/support/random.hpp"
+#include "touchstone/oracle.hpp"
 
 namespace touchstone::fast::curved_parts_test {
 namespace {
 
-using curved::ControlPoints;
-using curved::ControlPolygon;
 using tests::Random;
+
+/// One query in the one lane.
+struct Lanes {
+  using Value = fast::Value;
+  using Mask = fast::Mask;
+  static constexpr std::size_t width = 1;
+
+  static std::array<Value, 3> load(const std::array<const double*, width>& rows) {
+    return {Value(rows[0][0]), Value(rows[0][1]), Value(rows[0][2])};
+  }
+  static std::array<Value, 3> load_backwards(const std::array<const double*, width>& rows) {
+    return load(rows);
+  }
+};
+constexpr Kind kind = Kind::vertex_face;
+using Polygons = curved::ControlPolygons<Lanes, kind>;
 
 struct OneQuery {
   std::vector<double> numbers;
@@ -42,124 +56,202 @@ OneQuery one_query(Random& random, bool is_rational, double size) {
   return result;
 }
 
-/// The exact control values of corner i on an axis, on a part of the time.
-std::vector<mpq_class> exact_values(const ControlPoints& points, std::size_t i, std::size_t axis,
-                                    bool is_rational) {
-  const Corner& corner = curved::corner_of(Kind::vertex_face, i);
-  const auto difference = [&](std::size_t a, std::size_t b) -> mpq_class {
-    return mpq_class(points.x(a, corner.plus, axis)) - mpq_class(points.x(b, corner.minus, axis));
+curved::Block block_of(const CurvedQueries& queries) {
+  return {.degree = queries.degree,
+          .is_rational = queries.is_rational,
+          .numbers = queries.numbers.data(),
+          .count = 1,
+          .separation = {.distance = 0.25}};
+}
+
+bool load(const curved::Block& block, Polygons& polygons) {
+  const curved::Rows<Lanes> rows{block, {block.numbers}};
+  const auto form = block.is_rational ? curved::Denominators::two : curved::Denominators::one;
+  return curved::Loading<Lanes, kind>::run(rows, form, polygons).set;
+}
+
+/// The exact Bernstein coefficients at a place of a control point.
+std::vector<mpq_class> exact_values(const curved::Block& block, std::size_t place) {
+  const auto number = [&](std::size_t k, std::size_t point, std::size_t i) -> mpq_class {
+    const std::size_t stride = block.is_rational ? 4 : 3;
+    if (i == 3 && !block.is_rational) return 1;
+    return block.numbers[(k * moving_points + point) * stride + i];
   };
-  if (!is_rational) return {difference(0, 0), difference(1, 1), difference(2, 2)};
+  const auto value = [&](std::size_t a, std::size_t b) -> mpq_class {
+    if (place == 9) return block.separation.distance;
+    const Corner& corner = vertex_face_corners.at(place % 3);
+    return number(a, corner.plus, place / 3) - number(b, corner.minus, place / 3);
+  };
+  if (!block.is_rational) return {value(0, 0), value(1, 1), value(2, 2)};
   static constexpr std::array binomials{1, 2, 1};
   static constexpr std::array wide{1, 4, 6, 4, 1};
   std::vector<mpq_class> values(5);
   for (std::size_t a = 0; a < 3; ++a) {
     for (std::size_t b = 0; b < 3; ++b) {
       values[a + b] += mpq_class(binomials.at(a) * binomials.at(b)) / wide.at(a + b) *
-                       mpq_class(points.weight(a, 0)) * mpq_class(points.weight(b, 1)) *
-                       difference(a, b);
+                       number(a, 0, 3) * number(b, 1, 3) * value(a, b);
     }
   }
   return values;
 }
 
-void halve(std::vector<mpq_class>& values, bool takes_second) {
-  std::vector<mpq_class> first;
-  std::vector<mpq_class> row = values;
-  for (std::size_t k = 0; k < values.size(); ++k) {
-    first.push_back(row[0]);
-    for (std::size_t j = 0; j + k + 1 < values.size(); ++j) row[j] = (row[j] + row[j + 1]) / 2;
+/// The Bernstein coefficients on [a,b].
+std::vector<mpq_class> on_part(const std::vector<mpq_class>& values, const mpq_class& a,
+                               const mpq_class& b) {
+  std::vector<mpq_class> result;
+  for (std::size_t times_b = 0; times_b < values.size(); ++times_b) {
+    std::vector<mpq_class> row = values;
+    for (std::size_t level = 1; level < values.size(); ++level) {
+      const mpq_class& t = level <= times_b ? b : a;
+      for (std::size_t j = 0; j + level < values.size(); ++j) {
+        row[j] = row[j] * (1 - t) + row[j + 1] * t;
+      }
+    }
+    result.push_back(row[0]);
   }
-  values = takes_second ? row : first;
+  return result;
 }
 
-TEST(ControlPolygon, HasItsErrorAfterAnyHalvings) {
+TEST(ControlPolygon, HasItsErrorOnAnyPart) {
   Random random(94);
-  for (int round = 0; round < 300; ++round) {
-    const bool is_rational = round % 2 == 1;
+  for (int round = 0; round < 3000; ++round) {
     const double size = round % 3 == 0 ? 0x1p-1058 : 1.0;
-    const OneQuery query = one_query(random, is_rational, size);
-    const ControlPoints points(Kind::vertex_face, query.queries, 0);
-    ControlPolygon polygon;
-    ASSERT_EQ(curved::load<Kind::vertex_face>(points, 0.0, polygon), curved::Loaded::yes);
-    std::array<std::vector<mpq_class>, 12> exact;
-    for (std::size_t place = 0; place < 12; ++place) {
-      exact.at(place) = exact_values(points, place % 4, place / 4, is_rational);
-    }
-    for (int level = 0; level < 12; ++level) {
-      for (std::size_t place = 0; place < 12; ++place) {
-        for (std::size_t k = 0; k <= polygon.degree; ++k) {
-          const mpq_class error = abs(exact.at(place)[k] - mpq_class(polygon.w.at(k).at(place)));
-          ASSERT_LE(error, mpq_class(polygon.error));
-          ASSERT_LE(std::abs(polygon.w.at(k).at(place)), polygon.magnitude);
-        }
+    const OneQuery query = one_query(random, round % 2 == 1, size);
+    const curved::Block block = block_of(query.queries);
+    Polygons whole, part;
+    ASSERT_TRUE(load(block, whole));
+    double begin = round % 5 == 0 ? 0.0 : random.uniform(0, 1);
+    double end = round % 7 == 0 ? 1.0 : random.uniform(0, 1);
+    if (begin > end) std::swap(begin, end);
+    curved::restrict_to<true>(whole, Value(begin), Value(end), part);
+    for (std::size_t place = 0; place < Polygons::size; ++place) {
+      const std::vector<mpq_class> of_whole = exact_values(block, place);
+      const std::vector<mpq_class> of_part = on_part(of_whole, begin, end);
+      ASSERT_EQ(part.degree + 1, of_part.size());
+      for (std::size_t k = 0; k <= part.degree; ++k) {
+        const mpq_class bound = part.error[0];
+        ASSERT_LE(abs(of_whole[k] - mpq_class(whole.at(k, place).x)), bound);
+        ASSERT_LE(abs(of_part[k] - mpq_class(part.at(k, place).x)), bound);
+        ASSERT_LE(std::abs(part.at(k, place).x), part.magnitude[0]);
       }
-      ControlPolygon first, second;
-      curved::halve(polygon, first, second);
-      const bool takes_second = random.coin();
-      polygon.assign(takes_second ? second : first);
-      for (auto& values : exact) halve(values, takes_second);
+    }
+  }
+}
+
+TEST(ControlPolygon, IsNoneOfNumbersThatAreNotUsual) {
+  for (const double bad : {0x1p102, std::numeric_limits<double>::infinity(), std::nan("")}) {
+    for (std::size_t place = 0; place < 36; ++place) {
+      std::vector<double> numbers(36, 1.0);
+      numbers[place] = bad;
+      Polygons polygons;
+      EXPECT_FALSE(load(block_of({2, false, numbers}), polygons));
     }
   }
 }
 
 TEST(ContactProof, CountsChangesOfSign) {
-  const auto form = [](const std::vector<double>& centers) {
-    curved::BallForm result;
-    for (const double x : centers) result.push_back(curved::Ball({x, 0.0}, 0.25));
-    return result;
+  const auto changes_once = [](const std::vector<int>& signs) {
+    curved::OneChange<Mask> change(Mask::all(), Mask::none());
+    for (const int sign : signs) change.add({sign > 0}, {sign < 0});
+    return change.result().set && signs.front() > 0 && signs.back() < 0;
   };
-  EXPECT_TRUE(curved::changes_once(form({1, -1})));
-  EXPECT_TRUE(curved::changes_once(form({-1, -2, 0, 3})));
-  EXPECT_TRUE(curved::changes_once(form({-1, 0.1, 3})));
-  EXPECT_FALSE(curved::changes_once(form({1, 1})));
-  EXPECT_FALSE(curved::changes_once(form({0, 1})));
-  EXPECT_FALSE(curved::changes_once(form({1, 0, 0, -1})));
-  EXPECT_FALSE(curved::changes_once(form({1, -1, 1, -1})));
-  EXPECT_FALSE(curved::changes_once(form({1, -1, 1})));
-  EXPECT_EQ(curved::common_sign(form({1, 2})), 1);
-  EXPECT_EQ(curved::common_sign(form({-1, -2})), -1);
-  EXPECT_EQ(curved::common_sign(form({-1, 0})), 0);
+  EXPECT_TRUE(changes_once({1, -1}));
+  EXPECT_TRUE(changes_once({1, 1, 0, -1}));
+  EXPECT_TRUE(changes_once({1, 0, -1, -1}));
+  EXPECT_TRUE(changes_once({1, 1, 1, -1}));
+  EXPECT_FALSE(changes_once({1, 1}));
+  EXPECT_FALSE(changes_once({0, -1}));
+  EXPECT_FALSE(changes_once({1, 0, 0, -1}));
+  EXPECT_FALSE(changes_once({1, -1, 1, -1}));
+  EXPECT_FALSE(changes_once({1, -1, 0, -1, 1, -1}));
+  EXPECT_FALSE(changes_once({1, -1, 1}));
+}
+
+/// The coefficients of det are those of the exact form, within the error that the proof allows.
+TEST(ContactProof, HasTheCoefficientsOfTheDeterminant) {
+  Random random(97);
+  int proved = 0;
+  for (int round = 0; round < 2000; ++round) {
+    OneQuery query = one_query(random, round % 2 == 1, 1.0);
+    // A corner's normal along z, and a vertex that passes through the triangle.
+    const std::size_t stride = query.queries.is_rational ? 4 : 3;
+    for (std::size_t k = 0; k < 3; ++k) {
+      for (std::size_t point = 0; point < moving_points; ++point) {
+        double* const x = query.numbers.data() + (k * moving_points + point) * stride;
+        x[0] = 0.05 * x[0] + std::array{0.0, -1.0, 1.0, 0.0}.at(point);
+        x[1] = 0.05 * x[1] + std::array{0.0, -1.0, -1.0, 1.0}.at(point);
+        x[2] = 0.05 * x[2] + (point == 0 ? static_cast<double>(k) - 1.0 : 0.0);
+      }
+    }
+    const curved::Block block = block_of(query.queries);
+    Polygons polygons;
+    ASSERT_TRUE(load(block, polygons));
+    curved::DeterminantForms<Lanes> det;
+    const curved::Crossing<Lanes, kind> crossing(polygons, Mask::none(), Mask::all());
+    if (!crossing.is_proved(det).set) continue;
+    ++proved;
+    const auto motion = exact::scale(kind, query.queries.query(0), {});
+    for (int i = 0; i <= 8; ++i) {
+      const double t = 0.125 * i;
+      mpq_class sum = 0, power = 1;
+      for (std::size_t m = 0; m <= det.degree; ++m) {
+        sum = sum * (1 - mpq_class(t)) + mpq_class(det.coefficient[m][0]) * power;
+        power *= t;
+      }
+      // (That of 9 corners below 3 and weights below 4 is below 2^-30.)
+      if (abs(sum) < 0x1p-30) continue;
+      exact::AlgebraicNumber at{exact::Rational(t)};
+      EXPECT_EQ(exact::sign_at(exact::determinant(motion), at), sgn(sum));
+    }
+    EXPECT_TRUE(exact::decide(kind, query.queries.query(0), {}).collides());
+  }
+  EXPECT_GT(proved, 1000);
 }
 
 TEST(ContactProof, HasTheSignOfTheDeterminant) {
   Random random(95);
   for (int round = 0; round < 200; ++round) {
     const OneQuery query = one_query(random, round % 2 == 1, 1.0);
-    const ControlPoints points(Kind::vertex_face, query.queries, 0);
+    const curved::Block block = block_of(query.queries);
     const double time = random.uniform(0, 1);
     exact::AlgebraicNumber at{exact::Rational(time)};
-    const auto motion = exact::scale(Kind::vertex_face, query.queries.query(0), {});
-    EXPECT_EQ(curved::determinant_sign<Kind::vertex_face>(points, time),
-              exact::sign_at(exact::determinant(motion), at));
+    const auto motion = exact::scale(kind, query.queries.query(0), {});
+    const auto signs =
+        curved::AtTime<Lanes, kind>({block, {block.numbers}}, Value(time)).determinant();
+    const int sign = exact::sign_at(exact::determinant(motion), at);
+    EXPECT_EQ(signs.is_positive.set, sign > 0);
+    EXPECT_EQ(signs.is_negative.set, sign < 0);
   }
 }
 
-/// The directions of a search prove nothing of a piece with a contact, whatever they are.
-TEST(CurvedSearch, SeparatesNoContact) {
+/// No direction proves anything of a piece with a contact.
+TEST(CurvedStages, SeparateNoContact) {
   Random random(96);
   for (int round = 0; round < 2000; ++round) {
     // The last corner is the negative of the first: the origin is in the triangle at the middle.
-    ControlPolygon polygon;
-    polygon.degree = 2;
-    polygon.magnitude = 1.0;
-    polygon.error = 0x1p-52;
+    Polygons polygons;
+    polygons.degree = 2;
+    polygons.magnitude = {1.0};
+    polygons.error = {0x1p-52};
     for (std::size_t k = 0; k < 3; ++k) {
-      polygon.reach.at(k) = 0.0;
       for (std::size_t axis = 0; axis < 3; ++axis) {
-        for (std::size_t i = 0; i < 4; ++i) {
-          polygon.w.at(k).at(4 * axis + i) = i == 0   ? random.uniform(-1, 1)
-                                             : i == 1 ? -polygon.w.at(2 - k).at(4 * axis)
-                                                      : 0.5;
-        }
+        polygons.set(k, 3 * axis, Value(random.uniform(-1, 1)));
+        polygons.set(k, 3 * axis + 2, Value(0.5));
+      }
+      polygons.set(k, Polygons::size - 1, Value(0.0));
+    }
+    for (std::size_t k = 0; k < 3; ++k) {
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        polygons.set(k, 3 * axis + 1, Value(-polygons.at(2 - k, 3 * axis).x));
       }
     }
-    const curved::Separator any{
-        {random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)}, 2.0};
-    EXPECT_FALSE(curved::separates(polygon, any));
-    curved::Separator no_direction = any;
-    no_direction.v.at(static_cast<std::size_t>(round) % 3) = std::nan("");
-    EXPECT_FALSE(curved::separates(polygon, no_direction));
+    kernel::Vector<Value> any{Value(random.uniform(-1, 1)), Value(random.uniform(-1, 1)),
+                              Value(random.uniform(-1, 1))};
+    EXPECT_FALSE(curved::separates<true>(polygons, any, Value(2.0)).set);
+    EXPECT_FALSE(curved::separates<false>(polygons, any, Value(2.0)).set);
+    EXPECT_FALSE(curved::separates_on_axis<false>(polygons).set);
+    any.at(static_cast<std::size_t>(round) % 3) = Value(std::nan(""));
+    EXPECT_FALSE(curved::separates<true>(polygons, any, Value(2.0)).set);
   }
 }
 

@@ -7,11 +7,15 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <stdexcept>
+#include <tuple>
 #include <vector>
 
+#include "fast/kernels.hpp"
 #include "tests/support/queries.hpp"
 #include "tests/support/random.hpp"
 #include "tests/support/trials.hpp"
@@ -79,6 +83,19 @@ void expect_agreement(Kind kind, const CurvedQueries& queries, const CertifiedOp
                       std::array<int, stages>& decided_by, int& collisions) {
   std::vector<CertifiedResult> results(queries.size());
   solve(kind, queries, results, options);
+  for (const CertifiedKernel* const kernel : certified_kernels()) {
+    const UseKernels use({.certified = kernel});
+    std::vector<CertifiedResult> by_kernel(queries.size());
+    solve(kind, queries, by_kernel, options);
+    for (std::size_t i = 0; i < results.size(); ++i) {
+      const auto numbers = [](const CertifiedResult& x) {
+        return std::tuple(x.verdict, x.stage, std::bit_cast<std::uint64_t>(x.toi_lower),
+                          std::bit_cast<std::uint64_t>(x.toi_upper),
+                          std::bit_cast<std::uint64_t>(x.u), std::bit_cast<std::uint64_t>(x.v));
+      };
+      ASSERT_EQ(numbers(by_kernel[i]), numbers(results[i])) << to_string(kernel->instructions);
+    }
+  }
   for (std::size_t i = 0; i < results.size(); ++i) {
     const CertifiedResult& found = results[i];
     const exact::Decision truth = exact::decide(kind, queries.query(i), options.separation);
