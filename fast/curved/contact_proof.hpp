@@ -249,7 +249,8 @@ class AtTime {
   using Value = typename Lanes::Value;
   using Mask = kernel::MaskOf<Value>;
   using Ball = filters::BallOf<Value>;
-  static constexpr std::size_t corners = ControlPolygons<Lanes, kind>::corners;
+  using Polygons = ControlPolygons<Lanes, kind>;
+  static constexpr std::size_t corners = Polygons::corners;
 
   AtTime(const Rows<Lanes>& rows, const Value& time) : rows_(rows) {
     const Ball t({time, Value(0.0)}), rest = Ball(1.0) - t;
@@ -258,7 +259,8 @@ class AtTime {
     reach_ = Ball(rows.block.separation.distance);
     if (rows.block.is_rational) reach_ = reach_ * points[0][3] * points[3][3];
     for (std::size_t i = 0; i < corners; ++i) {
-      const auto &a = points[corner_of<kind>(i).plus], &b = points[corner_of<kind>(i).minus];
+      const auto &a = points[Polygons::points_of_corner[i].plus],
+                 &b = points[Polygons::points_of_corner[i].minus];
       for (std::size_t axis = 0; axis < 3; ++axis) {
         w_[i][axis] = rows.block.is_rational ? a[axis] * b[3] - b[axis] * a[3] : a[axis] - b[axis];
       }
@@ -296,8 +298,8 @@ class AtTime {
 
   /// The corners and the distance, approximations.
   [[nodiscard]] Value reach() const { return reach_.center.high; }
-  [[nodiscard]] typename ControlPolygons<Lanes, kind>::Corners approximate() const {
-    typename ControlPolygons<Lanes, kind>::Corners result;
+  [[nodiscard]] typename Polygons::Corners approximate() const {
+    typename Polygons::Corners result;
     for (std::size_t i = 0; i < corners; ++i) {
       for (std::size_t axis = 0; axis < 3; ++axis) result[i][axis] = w_[i][axis].center.high;
     }
@@ -346,7 +348,8 @@ class PreciseGap {
   using Mask = kernel::MaskOf<Value>;
   using Ball = filters::BallOf<Value>;
   using Direction = kernel::Vector<Value>;
-  static constexpr std::size_t corners = ControlPolygons<Lanes, kind>::corners;
+  using Polygons = ControlPolygons<Lanes, kind>;
+  static constexpr std::size_t corners = Polygons::corners;
 
   PreciseGap(const Rows<Lanes>& rows, Denominators denominators, const Value& n, const Value& a,
              const Value& b)
@@ -392,7 +395,8 @@ class PreciseGap {
 
   /// The coefficients of v·w_i − n·reach.
   [[nodiscard]] Coefficients gap(const std::array<Row, moving_points>& along, std::size_t i) const {
-    const Row &plus = along[corner_of<kind>(i).plus], &minus = along[corner_of<kind>(i).minus];
+    const Row &plus = along[Polygons::points_of_corner[i].plus],
+              &minus = along[Polygons::points_of_corner[i].minus];
     const Row &of_first = weights_[0], &of_second = weights_[1];
     Coefficients result;
     for (std::size_t k = 0; k <= degree_; ++k) {

@@ -50,6 +50,15 @@ struct ControlPolygons {
   static constexpr std::size_t size = 3 * corners + 1;
   using Corners = std::array<kernel::Vector<Value>, corners>;
 
+  /// The points whose difference a corner is. (A copy that is local to the kernel.)
+  static constexpr std::array<Corner, corners> points_of_corner = [] {
+    std::array<Corner, corners> result{};
+    for (std::size_t i = 0; i < corners; ++i) {
+      result[i] = kind == Kind::vertex_face ? vertex_face_corners[i] : edge_edge_corners[i];
+    }
+    return result;
+  }();
+
   std::size_t degree = 0;
   alignas(sizeof(Row)) std::array<std::array<Row, size>, greatest_corner_degree + 1> point;
   alignas(sizeof(Row)) Row magnitude;  ///< M: of all values
@@ -81,12 +90,6 @@ struct ControlPolygons {
     return result;
   }
 };
-
-/// The points whose difference a corner is.
-template <Kind kind>
-inline constexpr const Corner& corner_of(std::size_t i) {
-  return kind == Kind::vertex_face ? vertex_face_corners[i] : edge_edge_corners[i];
-}
 
 // ---- Loading ------------------------------------------------------------------------------------
 
@@ -169,7 +172,7 @@ class Loading {
                        const Take& take) {
     constexpr std::size_t corners = Polygons::corners;
     for (std::size_t i = 0; i < corners; ++i) {
-      const Corner& corner = corner_of<kind>(i);
+      const Corner& corner = Polygons::points_of_corner[i];
       for (std::size_t axis = 0; axis < 3; ++axis) {
         const Value term = (of_plus[corner.plus][axis] - of_minus[corner.minus][axis]) * weight;
         note(term);

@@ -10,12 +10,14 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <cstdio>
 #include <limits>
 #include <stdexcept>
 #include <tuple>
 #include <vector>
 
 #include "fast/kernels.hpp"
+#include "tests/faults/planted_faults.hpp"
 #include "tests/support/queries.hpp"
 #include "tests/support/random.hpp"
 #include "tests/support/trials.hpp"
@@ -154,6 +156,41 @@ INSTANTIATE_TEST_SUITE_P(
                     Sort{2, Weights::common, true}, Sort{2, Weights::of_primitives, false},
                     Sort{2, Weights::of_primitives, true}, Sort{2, Weights::of_points, true},
                     Sort{6, Weights::none, false}));
+
+/// True if a kernel's answers are those of the best one, whose answers are compared with the
+/// oracle's above.
+bool answers_rightly(const CertifiedKernel& kernel, const Separation& separation) {
+  Random random(98);
+  const CertifiedOptions options{.separation = separation, .max_threads = 1};
+  for (int round = 0; round < 24; ++round) {
+    const Sort sort{2 + static_cast<std::size_t>(round) % 2,
+                    round % 4 == 0 ? Weights::of_primitives : Weights::none, round % 5 == 0};
+    const Kind kind = kind_of(round);
+    const Numbers some = random_queries(random, sort, kind, 100);
+    std::vector<CertifiedResult> expected(some.queries.size()), found = expected;
+    solve(kind, some.queries, expected, options);
+    const UseKernels use({.certified = &kernel});
+    solve(kind, some.queries, found, options);
+    for (std::size_t i = 0; i < found.size(); ++i) {
+      if (found[i].verdict != expected[i].verdict) return false;
+      if (found[i].verdict != Verdict::yes) continue;
+      // Both enclose the time of impact.
+      if (found[i].toi_lower > expected[i].toi_upper) return false;
+      if (found[i].toi_upper < expected[i].toi_lower) return false;
+    }
+  }
+  return true;
+}
+
+TEST(CurvedKernels, FindPlantedFaults) {
+  for (const CertifiedKernel* const kernel : certified_kernels()) {
+    EXPECT_TRUE(answers_rightly(*kernel, {})) << to_string(kernel->instructions);
+  }
+  for (const auto& fault : tests::planted_faults().curved_kernel) {
+    std::printf("%s\n", fault.name.data());
+    EXPECT_FALSE(answers_rightly(*fault.part, fault.separation)) << fault.name;
+  }
+}
 
 TEST(TightInclusionOnCurves, MissesNoContact) {
   Random random(99);

@@ -629,6 +629,8 @@ void decide_and_count(const KernelInput& input, KernelOutput& output) {
 Work work_of(const Scene& scene, const Separation& separation = {}) {
   static const CertifiedKernel counting{.instructions = InstructionSet::scalar,
                                         .decide = decide_and_count,
+                                        .curved_axis = nullptr,
+                                        .curved_search = nullptr,
                                         .product_then_sum = nullptr};
   work_done = {};
   const UseKernels use({.certified = &counting});
