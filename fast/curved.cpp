@@ -15,7 +15,7 @@ namespace touchstone::fast {
 namespace {
 
 /// Small enough that the queries stay in the cache between stages.
-constexpr std::size_t queries_of_block = 256;
+constexpr std::size_t queries_of_block = 1024;
 static_assert(queries_of_block <= kernel_block);
 
 void require_valid(const CurvedQueries& queries) {

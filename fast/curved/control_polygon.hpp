@@ -26,6 +26,7 @@
 
 #include <array>
 #include <cstddef>
+#include <utility>
 
 #include "fast/certified/stages/lanes.hpp"
 #include "fast/curved/curved_block.hpp"
@@ -232,41 +233,57 @@ class Loading {
 
 // ---- Parts of the time --------------------------------------------------------------------------
 
-/// One coordinate on [a,b].
-template <std::size_t most, class Value>
-inline void restrict_row(std::size_t degree, std::array<Value, most + 1>& x, const Value& a,
-                         const Value& rest_a, const Value& b, const Value& rest_b,
-                         std::array<Value, most + 1>& result) {
-  for (std::size_t of_b = degree;; --of_b) {
-    // The polar form at (degree − of_b) times a, then at b.
-    std::array<Value, most + 1> y;
-    for (std::size_t j = 0; j <= of_b; ++j) y[j] = x[j];
-    for (std::size_t level = of_b; level > 0; --level) {
-      for (std::size_t j = 0; j < level; ++j) y[j] = y[j] * rest_b + y[j + 1] * b;
-    }
-    result[of_b] = y[0];
-    if (of_b == 0) return;
-    for (std::size_t j = 0; j < of_b; ++j) x[j] = x[j] * rest_a + x[j + 1] * a;
+/// A time, and 1 minus it.
+template <class Value>
+struct Time {
+  Value t, rest;
+
+  explicit Time(const Value& time) : t(time), rest(Value(1.0) - time) {}
+};
+
+/// One level of the polar form. (By recursion over the degree, so that all values stay in
+/// registers.)
+template <std::size_t degree, class Value>
+inline std::array<Value, degree> blended(const std::array<Value, degree + 1>& x,
+                                         const Time<Value>& time) {
+  std::array<Value, degree> result;
+  for (std::size_t j = 0; j < degree; ++j) result[j] = x[j] * time.rest + x[j + 1] * time.t;
+  return result;
+}
+
+template <std::size_t degree, class Value>
+inline Value value_at(const std::array<Value, degree + 1>& x, const Time<Value>& time) {
+  if constexpr (degree == 0) {
+    return x[0];
+  } else {
+    return value_at<degree - 1>(blended<degree>(x, time), time);
+  }
+}
+
+/// The polar forms of x, of which `degree` times are left, on [a,b].
+template <std::size_t degree, class Value, class Take>
+inline void restrict_row(const std::array<Value, degree + 1>& x, const Time<Value>& a,
+                         const Time<Value>& b, const Take& take) {
+  take(degree, value_at<degree>(x, b));
+  if constexpr (degree > 0) restrict_row<degree - 1>(blended<degree>(x, a), a, b, take);
+}
+
+template <std::size_t degree, bool separated, class Lanes, Kind kind>
+inline void restrict_degree(const ControlPolygons<Lanes, kind>& whole,
+                            const Time<typename Lanes::Value>& begin,
+                            const Time<typename Lanes::Value>& end,
+                            ControlPolygons<Lanes, kind>& part) {
+  using Value = typename Lanes::Value;
+  constexpr std::size_t size = ControlPolygons<Lanes, kind>::size - (separated ? 0 : 1);
+  for (std::size_t place = 0; place < size; ++place) {
+    std::array<Value, degree + 1> x;
+    for (std::size_t k = 0; k <= degree; ++k) x[k] = whole.at(k, place);
+    restrict_row<degree>(x, begin, end,
+                         [&](std::size_t k, const Value& value) { part.set(k, place, value); });
   }
 }
 
 /// The polygons on [begin, end] of each lane, with the bounds of `whole`.
-template <std::size_t most, bool separated, class Lanes, Kind kind>
-inline void restrict_to(const ControlPolygons<Lanes, kind>& whole, std::size_t degree,
-                        const typename Lanes::Value& begin, const typename Lanes::Value& end,
-                        ControlPolygons<Lanes, kind>& part) {
-  using Value = typename Lanes::Value;
-  constexpr std::size_t size = ControlPolygons<Lanes, kind>::size - (separated ? 0 : 1);
-  const Value rest_begin = Value(1.0) - begin, rest_end = Value(1.0) - end;
-  for (std::size_t place = 0; place < size; ++place) {
-    std::array<Value, most + 1> x, result;
-    for (std::size_t k = 0; k <= degree; ++k) x[k] = whole.at(k, place);
-    restrict_row<most>(degree, x, begin, rest_begin, end, rest_end, result);
-    for (std::size_t k = 0; k <= degree; ++k) part.set(k, place, result[k]);
-  }
-}
-
-/// The same for the degree at hand: those that are common are compiled for it.
 template <bool separated, class Lanes, Kind kind>
 inline void restrict_to(const ControlPolygons<Lanes, kind>& whole,
                         const typename Lanes::Value& begin, const typename Lanes::Value& end,
@@ -274,16 +291,13 @@ inline void restrict_to(const ControlPolygons<Lanes, kind>& whole,
   part.degree = whole.degree;
   part.magnitude = whole.magnitude;
   part.error = whole.error;
-  switch (whole.degree) {
-    case 2:
-      return restrict_to<2, separated>(whole, 2, begin, end, part);
-    case 3:
-      return restrict_to<3, separated>(whole, 3, begin, end, part);
-    case 4:
-      return restrict_to<4, separated>(whole, 4, begin, end, part);
-    default:
-      return restrict_to<greatest_corner_degree, separated>(whole, whole.degree, begin, end, part);
+  const Time a(begin), b(end);
+  [&]<std::size_t... degree>(std::index_sequence<degree...> /*degrees*/) {
+    static_cast<void>((
+        (whole.degree == degree && (restrict_degree<degree, separated>(whole, a, b, part), true)) ||
+        ...));
   }
+  (std::make_index_sequence<greatest_corner_degree + 1>());
 }
 
 }  // namespace touchstone::fast::curved
