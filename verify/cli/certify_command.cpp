@@ -17,6 +17,7 @@
 
 #include "verify/cli/certificates_file.hpp"
 #include "verify/cli/commands.hpp"
+#include "verify/cli/curved_run.hpp"
 #include "verify/cli/files.hpp"
 #include "verify/cli/help.hpp"
 #include "verify/cli/options.hpp"
@@ -271,6 +272,15 @@ void add(CLI::App& app, Status& status) {
            "disables this. Definitions of wrong answers: docs/testing.md.\n" +
                std::string(judging_statuses));
   command->callback([arguments, command, &status] {
+    if (have_curves(arguments->sources)) {
+      CurvedArguments curves =
+          curved_arguments(*command, arguments->sources, {"--json", "--truth", "--prove"});
+      curves.json_file = arguments->json_file;
+      curves.truth_file = arguments->truth_file;
+      curves.proof_file = arguments->proof_file;
+      status = run_curves(curves);
+      return;
+    }
     settle_solver_options(*command, arguments->sources.built_in_set(), arguments->judged);
     settle_query_limit(*command, arguments->seconds, arguments->judged);
     status = run_in_pieces(

@@ -1,198 +1,16 @@
 // touchstone curved: queries on Bézier curves.
 
-#include <fmt/format.h>
-
-#include <cmath>
-#include <cstdint>
-#include <filesystem>
 #include <memory>
-#include <nlohmann/json.hpp>
-#include <optional>
-#include <span>
-#include <string>
-#include <string_view>
-#include <vector>
 
-#include "verify/cli/certificates_file.hpp"
 #include "verify/cli/commands.hpp"
-#include "verify/cli/files.hpp"
+#include "verify/cli/curved_run.hpp"
 #include "verify/cli/help.hpp"
 #include "verify/cli/options.hpp"
-#include "verify/data/curved_query_file.hpp"
-#include "verify/data/dataset.hpp"
-#include "verify/generate/curved_families.hpp"
-#include "verify/io/json.hpp"
-#include "verify/io/printable.hpp"
-#include "verify/io/terminal.hpp"
-#include "verify/jobs/certify_curves.hpp"
 
 namespace touchstone::verify::cli::curved_command {
-namespace {
-
-namespace fs = std::filesystem;
-
-struct Arguments {
-  std::vector<fs::path> paths;
-  std::string kind;
-  SeparationArguments separation;
-  std::uint64_t count = 1000;
-  std::uint64_t seed = default_seed;
-  bool judges_others = false;
-  unsigned threads = 0;
-  std::string proof_file;
-  std::string json_file;
-};
-
-class CurvedRun {
- public:
-  explicit CurvedRun(const Arguments& arguments)
-      : arguments_(arguments),
-        json_(files_, arguments.json_file),
-        proof_(files_, arguments.proof_file) {
-    files_.add_inputs(arguments.paths);
-  }
-
-  Status run() {
-    for (const fs::path& path : arguments_.paths) {
-      if (!io::interrupted()) certify_file(path);
-    }
-    if (arguments_.paths.empty()) certify_families();
-    proof_.close(certificates_);
-    if (json_) json_.write(io::json_document({{"sets", results_}}));
-    json_.close();
-    io::print(files_.summary_stream(), text_);
-    if (io::interrupted()) return Status::interrupted;
-    if (files_.has_failed() || beyond_limits_ > 0) return Status::bad_input;
-    return wrong_ > 0 ? Status::wrong_answers : Status::all_well;
-  }
-
- private:
-  /// Queries with what is known of them.
-  struct Set {
-    std::string name;
-    Kind kind;
-    CurvedQueries queries;
-    std::span<const std::optional<double>> truth = {};
-  };
-
-  void certify_file(const fs::path& path) {
-    const data::CurvedQueryFile file = data::read_curved_queries(path);
-    const Kind kind =
-        arguments_.kind.empty() ? data::kind_from_path(path) : kind_from_string(arguments_.kind);
-    certify({io::printable(path.string()), kind, file.queries()});
-  }
-
-  void certify_families() {
-    const bool is_known = is_zero(arguments_.separation.given());
-    for (const std::size_t degree : {std::size_t{2}, std::size_t{3}}) {
-      for (const generate::CurvedFamily& family :
-           generate::curved_families(degree, arguments_.count, arguments_.seed)) {
-        if (io::interrupted()) return;
-        if (!arguments_.kind.empty() && kind_from_string(arguments_.kind) != family.kind) continue;
-        Set set{std::string(family.name), family.kind, family.queries()};
-        if (is_known) set.truth = family.toi;
-        certify(set);
-      }
-    }
-  }
-
-  void certify(const Set& set) {
-    io::ProgressBar bar("curved");
-    jobs::CurvedOptions options{.separation = arguments_.separation.given(),
-                                .threads = arguments_.threads,
-                                .truth = set.truth,
-                                .judge_others = arguments_.judges_others,
-                                .prove = static_cast<bool>(proof_),
-                                .label = set.name + ' '};
-    options.on_progress = [&](double done) { bar.update(done); };
-    options.on_certificates = [&](const std::string& text) { proof_.write(text); };
-    options.stop = &io::interrupted();
-    const jobs::CurvedResult result = jobs::certify_curves(set.kind, set.queries, options);
-    bar.clear();
-    certificates_ += result.certificates;
-    beyond_limits_ += result.beyond_limits;
-    wrong_ += result.wrong.size() + result.against_truth.size();
-    add_text(set, result);
-    add_json(set, result);
-  }
-
-  void add_text(const Set& set, const jobs::CurvedResult& result) {
-    text_ +=
-        fmt::format("{}: {}, {} of degree {}: {} queries, {} collide\n", set.name,
-                    to_string(set.kind), set.queries.is_rational ? "rational curves" : "curves",
-                    set.queries.degree, result.queries, result.collide);
-    const auto queries = static_cast<double>(result.queries == 0 ? 1 : result.queries);
-    text_ += fmt::format("  certified: {} wrong, {:.3f} µs a query (oracle {:.1f}); decided by",
-                         result.wrong.size(), result.certified_seconds / queries * 1e6,
-                         result.oracle_seconds / queries * 1e6);
-    for (std::size_t i = 0; i < result.decided_by.size(); ++i) {
-      text_ += fmt::format("{} {} {}", i == 0 ? "" : ",", to_string(static_cast<fast::Stage>(i)),
-                           result.decided_by[i]);
-    }
-    text_ += '\n';
-    for (const std::size_t i : result.wrong) text_ += fmt::format("  wrong: query {}\n", i);
-    for (const std::size_t i : result.against_truth) {
-      text_ += fmt::format("  the oracle contradicts the known truth: query {}\n", i);
-    }
-    for (const jobs::CurvedJudgement& other : result.others) {
-      text_ += fmt::format("  {}: {} missed, {} false, {} late, {:.3f} µs a query\n", other.name,
-                           other.false_negatives, other.false_positives, other.late,
-                           other.seconds / queries * 1e6);
-    }
-    if (result.beyond_limits > 0) {
-      text_ += fmt::format("  {} proofs exceed the limits of the format\n", result.beyond_limits);
-    }
-  }
-
-  void add_json(const Set& set, const jobs::CurvedResult& result) {
-    nlohmann::json stages;
-    for (std::size_t i = 0; i < result.decided_by.size(); ++i) {
-      stages[std::string(to_string(static_cast<fast::Stage>(i)))] = result.decided_by[i];
-    }
-    nlohmann::json times = nlohmann::json::array();
-    for (const double toi : result.toi) {
-      times.push_back(std::isnan(toi) ? nlohmann::json() : nlohmann::json(toi));
-    }
-    nlohmann::json others = nlohmann::json::array();
-    for (const jobs::CurvedJudgement& other : result.others) {
-      others.push_back({{"method", other.name},
-                        {"false_negatives", other.false_negatives},
-                        {"false_positives", other.false_positives},
-                        {"late", other.late},
-                        {"seconds", other.seconds}});
-    }
-    results_.push_back({{"name", set.name},
-                        {"kind", to_string(set.kind)},
-                        {"degree", set.queries.degree},
-                        {"rational", set.queries.is_rational},
-                        {"others", others},
-                        {"against_truth", result.against_truth},
-                        {"queries", result.queries},
-                        {"collide", result.collide},
-                        {"wrong", result.wrong},
-                        {"decided_by", stages},
-                        {"certificates", result.certificates},
-                        {"beyond_limits", result.beyond_limits},
-                        {"oracle_seconds", result.oracle_seconds},
-                        {"certified_seconds", result.certified_seconds},
-                        {"toi", times}});
-  }
-
-  const Arguments& arguments_;
-  Files files_;
-  Output json_;
-  CertificatesFile proof_;
-  nlohmann::json results_ = nlohmann::json::array();
-  std::string text_;
-  std::size_t certificates_ = 0;
-  std::size_t beyond_limits_ = 0;
-  std::size_t wrong_ = 0;
-};
-
-}  // namespace
 
 void add(CLI::App& app, Status& status) {
-  const auto arguments = std::make_shared<Arguments>();
+  const auto arguments = std::make_shared<CurvedArguments>();
   CLI::App* command = app.add_subcommand(
       "curved", "Decide queries on Bézier curves exactly, and judge the certified solver");
   command->option_defaults()->group("Input");
@@ -227,7 +45,7 @@ void add(CLI::App& app, Status& status) {
            "degree,K or rational,K.\n"
            "Exit status: 0 success, 1 an answer of ours is wrong, 2 bad input or usage, 130 "
            "interrupted.");
-  command->callback([arguments, &status] { status = CurvedRun(*arguments).run(); });
+  command->callback([arguments, &status] { status = run_curves(*arguments); });
 }
 
 }  // namespace touchstone::verify::cli::curved_command

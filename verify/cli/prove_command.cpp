@@ -15,6 +15,7 @@
 #include "touchstone/number.hpp"
 #include "verify/cli/certificates_file.hpp"
 #include "verify/cli/commands.hpp"
+#include "verify/cli/curved_run.hpp"
 #include "verify/cli/files.hpp"
 #include "verify/cli/help.hpp"
 #include "verify/cli/options.hpp"
@@ -192,6 +193,13 @@ void add(CLI::App& app, Status& status) {
            "A query whose proof exceeds the limits of the format is bad input.\n" +
                std::string(writing_statuses));
   command->callback([arguments, command, &status] {
+    if (have_curves(arguments->sources)) {
+      CurvedArguments curves = curved_arguments(*command, arguments->sources, {"--json", "--out"});
+      curves.json_file = arguments->json_file;
+      curves.proof_file = arguments->out_file;
+      status = run_curves(curves);
+      return;
+    }
     status = run_in_pieces(*command, arguments->pieces, arguments->sources,
                            {.files = {"--json", "--out"}, .refused = {}},
                            [&] { return ProveRun(*arguments).run(); });

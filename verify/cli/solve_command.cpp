@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "verify/cli/commands.hpp"
+#include "verify/cli/curved_run.hpp"
 #include "verify/cli/files.hpp"
 #include "verify/cli/help.hpp"
 #include "verify/cli/options.hpp"
@@ -199,6 +200,15 @@ void add(CLI::App& app, Status& status) {
       *command, "touchstone solve --plugin ./libsolver.so data/handcrafted --out answers.csv",
       "A method that supports only linf is conservative for l2.\n" + std::string(writing_statuses));
   command->callback([arguments, command, &status] {
+    if (have_curves(arguments->sources)) {
+      CurvedArguments curves = curved_arguments(
+          *command, arguments->sources,
+          {"--json", "--out", "--method", "--t-max", "--tolerance", "--max-checks"});
+      curves.json_file = arguments->json_file;
+      const SolverArguments solver = the_solver(*arguments);
+      status = solve_curves(curves, solver.methods.front(), solver.options, arguments->out_file);
+      return;
+    }
     settle_solver_options(*command, arguments->sources.built_in_set(), arguments->solver);
     status = run_in_pieces(*command, arguments->pieces, arguments->sources,
                            {.files = {"--json", "--out"}, .refused = {}},

@@ -149,6 +149,24 @@ class CsvReader {
 
 }  // namespace
 
+bool is_curved_query_file(const std::filesystem::path& file) {
+  try {
+    if (file.extension() == ".npy") {
+      io::InputFile input(file);
+      const NpyHeader header =
+          read_npy_header([&](std::span<char> buffer) { return input.read_all(buffer); });
+      return header.shape.size() == 4;
+    }
+    io::LineReader lines(file);
+    const std::optional<io::Line> line = lines.next();
+    return line && (line->text.starts_with("degree,") || line->text.starts_with("rational,"));
+  } catch (const io::DatasetError&) {
+    return false;
+  } catch (const NpyHeaderError&) {
+    return false;
+  }
+}
+
 CurvedQueryFile read_curved_queries(const std::filesystem::path& file) {
   CurvedQueryFile result = file.extension() == ".npy" ? read_npy(file) : CsvReader(file).read();
   require_valid(file, result);

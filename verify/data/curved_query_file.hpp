@@ -27,6 +27,10 @@ struct CurvedQueryFile {
   [[nodiscard]] CurvedQueries queries() const { return {degree, is_rational, numbers}; }
 };
 
+/// True if the head of a file is that of queries on curves: an array of four dimensions, or text
+/// that begins with degree, or rational,. False if it cannot be read, and for straight queries.
+[[nodiscard]] bool is_curved_query_file(const std::filesystem::path& file);
+
 /// \throws io::DatasetError, which names the file and the line or the query, for anything else, and
 /// for numbers that are not finite and weights that are not positive.
 [[nodiscard]] CurvedQueryFile read_curved_queries(const std::filesystem::path& file);

@@ -29,7 +29,7 @@ constexpr unsigned long precision = 64;
 
 /// What is found of one query.
 struct Finding {
-  bool collides = false;
+  exact::Decision truth;
   bool is_wrong = false;
   double toi = fast::no_number;
   std::string certificate;
@@ -53,9 +53,9 @@ Finding finding_of(Kind kind, const CurvedQueries& queries, std::size_t i,
   Finding result;
   const CurvedQuery query = queries.query(i);
   const double begin = base::thread_nanoseconds();
-  const exact::Decision truth = exact::decide(kind, query, options.separation);
+  result.truth = exact::decide(kind, query, options.separation);
+  const exact::Decision& truth = result.truth;
   result.seconds = (base::thread_nanoseconds() - begin) * 1e-9;
-  result.collides = truth.collides();
   result.is_wrong = !is_right(found, truth);
   if (truth.collides()) {
     exact::AlgebraicNumber toi = *truth.toi;
@@ -141,7 +141,7 @@ CurvedResult certify_curves(Kind kind, const CurvedQueries& queries, const Curve
     for (std::size_t i = 0; i < count; ++i) {
       const Finding& one = findings[i];
       ++sum.queries;
-      if (one.collides) ++sum.collide;
+      if (one.truth.collides()) ++sum.collide;
       if (one.is_wrong) sum.wrong.push_back(first + i);
       ++sum.decided_by.at(static_cast<std::size_t>(found[i].stage));
       if (!one.certificate.empty()) ++sum.certificates;
@@ -149,6 +149,7 @@ CurvedResult certify_curves(Kind kind, const CurvedQueries& queries, const Curve
       sum.oracle_seconds += one.seconds;
       sum.toi.push_back(one.toi);
       certificates += one.certificate;
+      if (options.on_query) options.on_query(first + i, one.truth, found[i]);
       if (!options.truth.empty() && contradicts(options.truth[first + i], one.toi)) {
         sum.against_truth.push_back(first + i);
       }

@@ -15,6 +15,7 @@
 
 #include "touchstone/certified.hpp"
 #include "touchstone/curved_query.hpp"
+#include "touchstone/oracle.hpp"
 #include "touchstone/query.hpp"
 
 namespace touchstone::verify::jobs {
@@ -32,6 +33,9 @@ struct CurvedOptions {
   bool prove = false;
   /// Before each query's index in the label of its certificate.
   std::string label = {};
+  /// Called for each query in order, with the exact decision and the certified solver's result.
+  std::function<void(std::size_t, const exact::Decision&, const fast::CertifiedResult&)> on_query =
+      nullptr;
   /// Called with the certificates of consecutive queries.
   std::function<void(const std::string&)> on_certificates = nullptr;
   /// Called now and then with the fraction that is done.

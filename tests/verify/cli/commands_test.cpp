@@ -189,6 +189,33 @@ TEST_F(Tool, DecidesCurves) {
   const Outcome near = run({"curved", path("curves-vf.csv"), "--min-separation", "0.5"});
   EXPECT_TRUE(contains(near.out, "2 queries, 2 collide")) << near.out;
   EXPECT_EQ(run({"curved", path("none.csv"), "--kind", "edge-edge"}).status, 2);
+
+  // The commands for straight queries take the file, too.
+  const std::string file = path("curves-vf.csv");
+  const Outcome certified = run({"certify", file, "--truth", path("truth.csv")});
+  EXPECT_EQ(certified.status, 0) << certified.err;
+  EXPECT_TRUE(contains(certified.out, "2 queries, 1 collide")) << certified.out;
+  EXPECT_TRUE(contains(read_file(path("truth.csv")), ",0,vertex-face,1,0.5,0.5\n"));
+  EXPECT_TRUE(contains(read_file(path("truth.csv")), ",1,vertex-face,0,,\n"));
+  EXPECT_EQ(run({"prove", file, "--out", path("p.cert")}).status, 0);
+  EXPECT_EQ(read_file(path("p.cert")), read_file(path("c.cert")));
+  for (const std::string method : {"certified", "tight_inclusion"}) {
+    const Outcome solved = run({"solve", file, "--method", method, "--out", path("a.csv")});
+    EXPECT_EQ(solved.status, 0) << solved.err;
+    EXPECT_TRUE(contains(solved.out, "2 queries on curves, 1 yes, 1 no")) << solved.out;
+    EXPECT_TRUE(contains(read_file(path("a.csv")), ",0,vertex-face,yes,")) << method;
+    EXPECT_TRUE(contains(read_file(path("a.csv")), ",1,vertex-face,no,")) << method;
+  }
+  const Outcome other = run({"solve", file, "--method", "tccd", "--out", path("a.csv")});
+  EXPECT_EQ(other.status, 2);
+  EXPECT_TRUE(contains(other.err, "tccd does not answer queries on curves")) << other.err;
+  const Outcome option = run({"certify", file, "--view", path("v.html")});
+  EXPECT_EQ(option.status, 2);
+  EXPECT_TRUE(contains(option.err, "--view does not apply to queries on curves")) << option.err;
+  std::ofstream(path("vf.csv"), std::ios::binary) << "0,0,0\n";
+  const Outcome mixed = run({"certify", file, path("vf.csv")});
+  EXPECT_EQ(mixed.status, 2);
+  EXPECT_TRUE(contains(mixed.err, "in another run")) << mixed.err;
 }
 
 TEST_F(Tool, HelpBeginsWithAnExampleAndFitsAScreen) {

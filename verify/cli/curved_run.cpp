@@ -1,0 +1,294 @@
+#include "verify/cli/curved_run.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <span>
+#include <stdexcept>
+#include <utility>
+
+#include "touchstone/curved.hpp"
+#include "touchstone/tight_inclusion.hpp"
+#include "verify/base/cores.hpp"
+#include "verify/cli/certificates_file.hpp"
+#include "verify/cli/files.hpp"
+#include "verify/data/curved_query_file.hpp"
+#include "verify/data/dataset.hpp"
+#include "verify/generate/curved_families.hpp"
+#include "verify/io/json.hpp"
+#include "verify/io/printable.hpp"
+#include "verify/io/terminal.hpp"
+#include "verify/jobs/certify_curves.hpp"
+#include "verify/judge/ground_truth.hpp"
+#include "verify/report/certify_report.hpp"
+#include "verify/solvers/answers.hpp"
+
+namespace touchstone::verify::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+Kind kind_of(const fs::path& path, const std::string& named) {
+  return named.empty() ? data::kind_from_path(path) : kind_from_string(named);
+}
+
+class CurvedRun {
+ public:
+  explicit CurvedRun(const CurvedArguments& arguments)
+      : arguments_(arguments),
+        json_(files_, arguments.json_file),
+        truth_(files_, arguments.truth_file),
+        proof_(files_, arguments.proof_file) {
+    files_.add_inputs(arguments.paths);
+    if (truth_) truth_.write(report::truth_header());
+  }
+
+  Status run() {
+    for (const fs::path& path : arguments_.paths) {
+      if (!io::interrupted()) certify_file(path);
+    }
+    if (arguments_.paths.empty()) certify_families();
+    truth_.close();
+    proof_.close(certificates_);
+    if (json_) json_.write(io::json_document({{"sets", results_}}));
+    json_.close();
+    io::print(files_.summary_stream(), text_);
+    if (io::interrupted()) return Status::interrupted;
+    if (files_.has_failed() || beyond_limits_ > 0) return Status::bad_input;
+    return wrong_ > 0 ? Status::wrong_answers : Status::all_well;
+  }
+
+ private:
+  /// Queries with what is known of them.
+  struct Set {
+    std::string name;
+    Kind kind;
+    CurvedQueries queries;
+    std::span<const std::optional<double>> truth = {};
+  };
+
+  void certify_file(const fs::path& path) {
+    const data::CurvedQueryFile file = data::read_curved_queries(path);
+    certify({io::printable(path.string()), kind_of(path, arguments_.kind), file.queries()});
+  }
+
+  void certify_families() {
+    const bool is_known = is_zero(arguments_.separation.given());
+    for (const std::size_t degree : {std::size_t{2}, std::size_t{3}}) {
+      for (const generate::CurvedFamily& family :
+           generate::curved_families(degree, arguments_.count, arguments_.seed)) {
+        if (io::interrupted()) return;
+        if (!arguments_.kind.empty() && kind_from_string(arguments_.kind) != family.kind) continue;
+        Set set{std::string(family.name), family.kind, family.queries()};
+        if (is_known) set.truth = family.toi;
+        certify(set);
+      }
+    }
+  }
+
+  void certify(const Set& set) {
+    io::ProgressBar bar("curved");
+    jobs::CurvedOptions options{.separation = arguments_.separation.given(),
+                                .threads = arguments_.threads,
+                                .truth = set.truth,
+                                .judge_others = arguments_.judges_others,
+                                .prove = static_cast<bool>(proof_),
+                                .label = set.name + ' '};
+    options.on_progress = [&](double done) { bar.update(done); };
+    if (truth_) {
+      options.on_query = [&](std::size_t i, const exact::Decision& decision,
+                             const fast::CertifiedResult& /*result*/) {
+        truth_.write(report::truth_row(set.name, set.kind, judge::truth_of(i, decision)));
+      };
+    }
+    options.on_certificates = [&](const std::string& text) { proof_.write(text); };
+    options.stop = &io::interrupted();
+    const jobs::CurvedResult result = jobs::certify_curves(set.kind, set.queries, options);
+    bar.clear();
+    certificates_ += result.certificates;
+    beyond_limits_ += result.beyond_limits;
+    wrong_ += result.wrong.size() + result.against_truth.size();
+    add_text(set, result);
+    add_json(set, result);
+  }
+
+  void add_text(const Set& set, const jobs::CurvedResult& result) {
+    text_ +=
+        fmt::format("{}: {}, {} of degree {}: {} queries, {} collide\n", set.name,
+                    to_string(set.kind), set.queries.is_rational ? "rational curves" : "curves",
+                    set.queries.degree, result.queries, result.collide);
+    const auto queries = static_cast<double>(result.queries == 0 ? 1 : result.queries);
+    text_ += fmt::format("  certified: {} wrong, {:.3f} µs a query (oracle {:.1f}); decided by",
+                         result.wrong.size(), result.certified_seconds / queries * 1e6,
+                         result.oracle_seconds / queries * 1e6);
+    for (std::size_t i = 0; i < result.decided_by.size(); ++i) {
+      text_ += fmt::format("{} {} {}", i == 0 ? "" : ",", to_string(static_cast<fast::Stage>(i)),
+                           result.decided_by[i]);
+    }
+    text_ += '\n';
+    for (const std::size_t i : result.wrong) text_ += fmt::format("  wrong: query {}\n", i);
+    for (const std::size_t i : result.against_truth) {
+      text_ += fmt::format("  the oracle contradicts the known truth: query {}\n", i);
+    }
+    for (const jobs::CurvedJudgement& other : result.others) {
+      text_ += fmt::format("  {}: {} missed, {} false, {} late, {:.3f} µs a query\n", other.name,
+                           other.false_negatives, other.false_positives, other.late,
+                           other.seconds / queries * 1e6);
+    }
+    if (result.beyond_limits > 0) {
+      text_ += fmt::format("  {} proofs exceed the limits of the format\n", result.beyond_limits);
+    }
+  }
+
+  void add_json(const Set& set, const jobs::CurvedResult& result) {
+    nlohmann::json stages;
+    for (std::size_t i = 0; i < result.decided_by.size(); ++i) {
+      stages[std::string(to_string(static_cast<fast::Stage>(i)))] = result.decided_by[i];
+    }
+    nlohmann::json times = nlohmann::json::array();
+    for (const double toi : result.toi) {
+      times.push_back(std::isnan(toi) ? nlohmann::json() : nlohmann::json(toi));
+    }
+    nlohmann::json others = nlohmann::json::array();
+    for (const jobs::CurvedJudgement& other : result.others) {
+      others.push_back({{"method", other.name},
+                        {"false_negatives", other.false_negatives},
+                        {"false_positives", other.false_positives},
+                        {"late", other.late},
+                        {"seconds", other.seconds}});
+    }
+    results_.push_back({{"name", set.name},
+                        {"kind", to_string(set.kind)},
+                        {"degree", set.queries.degree},
+                        {"rational", set.queries.is_rational},
+                        {"others", others},
+                        {"against_truth", result.against_truth},
+                        {"queries", result.queries},
+                        {"collide", result.collide},
+                        {"wrong", result.wrong},
+                        {"decided_by", stages},
+                        {"certificates", result.certificates},
+                        {"beyond_limits", result.beyond_limits},
+                        {"oracle_seconds", result.oracle_seconds},
+                        {"certified_seconds", result.certified_seconds},
+                        {"toi", times}});
+  }
+
+  const CurvedArguments& arguments_;
+  Files files_;
+  Output json_;
+  Output truth_;
+  CertificatesFile proof_;
+  nlohmann::json results_ = nlohmann::json::array();
+  std::string text_;
+  std::size_t certificates_ = 0;
+  std::size_t beyond_limits_ = 0;
+  std::size_t wrong_ = 0;
+};
+
+// ---- Answers ------------------------------------------------------------------------------------
+
+/// The method's answers to all queries.
+std::vector<fast::Answer> answers_of(std::string_view method, Kind kind,
+                                     const CurvedQueries& queries, const Separation& separation,
+                                     unsigned threads, const fast::MethodOptions& options) {
+  std::vector<fast::Answer> answers(queries.size());
+  if (method == "certified") {
+    std::vector<fast::CertifiedResult> results(queries.size());
+    fast::solve(kind, queries, results,
+                {.t_max = options.t_max,
+                 .separation = separation,
+                 .max_threads = base::cores_for(threads)});
+    std::ranges::transform(results, answers.begin(), [](const fast::CertifiedResult& result) {
+      return fast::Answer{
+          .verdict = result.verdict, .toi_lower = result.toi_lower, .toi_upper = result.toi_upper};
+    });
+    return answers;
+  }
+  if (method != "tight_inclusion") {
+    throw std::invalid_argument(fmt::format(
+        "{} does not answer queries on curves; certified and tight_inclusion do", method));
+  }
+  const fast::TightInclusionOptions all{.tolerance = options.tolerance,
+                                        .max_checks = options.max_checks,
+                                        .separation = separation,
+                                        .t_max = options.t_max};
+  for (std::size_t i = 0; i < answers.size() && !io::interrupted(); ++i) {
+    const fast::TightInclusionResult result = fast::tight_inclusion(kind, queries, i, all);
+    answers[i] = {.verdict = result.verdict, .tolerance = result.tolerance};
+    if (result.verdict == fast::Verdict::yes) answers[i].toi_lower = result.toi;
+  }
+  return answers;
+}
+
+}  // namespace
+
+Status run_curves(const CurvedArguments& arguments) { return CurvedRun(arguments).run(); }
+
+Status solve_curves(const CurvedArguments& arguments, std::string_view method,
+                    const fast::MethodOptions& options, const std::string& out_file) {
+  Files files;
+  Output out(files, out_file), json(files, arguments.json_file);
+  files.add_inputs(arguments.paths);
+  out.write(solvers::answers_header());
+  std::uint64_t queries = 0, yes = 0, no = 0;
+  for (const fs::path& path : arguments.paths) {
+    if (io::interrupted()) break;
+    const data::CurvedQueryFile file = data::read_curved_queries(path);
+    const Kind kind = kind_of(path, arguments.kind);
+    const auto answers = answers_of(method, kind, file.queries(), arguments.separation.given(),
+                                    arguments.threads, options);
+    for (const fast::Answer& answer : answers) {
+      const auto index = static_cast<std::uint64_t>(&answer - answers.data());
+      out.write(solvers::answer_row(path.string(), index, kind, answer));
+      ++queries;
+      yes += answer.verdict == fast::Verdict::yes ? 1 : 0;
+      no += answer.verdict == fast::Verdict::no ? 1 : 0;
+    }
+  }
+  out.close();
+  if (json) {
+    json.write(
+        io::json_document({{"method", method}, {"queries", queries}, {"yes", yes}, {"no", no}}));
+  }
+  json.close();
+  io::print(files.summary_stream(),
+            fmt::format("{}: {} queries on curves, {} yes, {} no\n", method, queries, yes, no));
+  if (io::interrupted()) return Status::interrupted;
+  return files.has_failed() ? Status::bad_input : Status::all_well;
+}
+
+bool have_curves(const SourceArguments& sources) {
+  const auto is_curved = [](const fs::path& path) {
+    return fs::is_regular_file(path) && data::is_curved_query_file(path);
+  };
+  const auto curved = std::ranges::find_if(sources.paths, is_curved);
+  if (curved == sources.paths.end()) return false;
+  if (!std::ranges::all_of(sources.paths, is_curved)) {
+    throw std::invalid_argument(curved->string() +
+                                " has queries on curves; name the other files in another run");
+  }
+  return true;
+}
+
+CurvedArguments curved_arguments(const CLI::App& command, const SourceArguments& sources,
+                                 const std::vector<std::string>& options) {
+  for (const CLI::Option* option : command.get_options()) {
+    const std::string name = option->get_name();
+    const bool is_of_sources = name == "PATH" || name == "--kind" || name == "--threads" ||
+                               name == "--min-separation" || name == "--norm";
+    if (option->count() == 0 || is_of_sources || std::ranges::count(options, name) != 0) continue;
+    throw std::invalid_argument(name + " does not apply to queries on curves");
+  }
+  CurvedArguments result;
+  result.paths = sources.paths;
+  result.kind = sources.kind;
+  result.separation = sources.separation;
+  result.threads = sources.threads;
+  return result;
+}
+
+}  // namespace touchstone::verify::cli
