@@ -231,6 +231,8 @@ constexpr auto headers_without_test = std::to_array<Exception>({
     {"fast/curved/curved_stages.hpp", "tested in curved_parts_test.cpp"},
     {"verify/baselines/curved_methods.hpp", "tested in certify_curves_test.cpp"},
     {"verify/generate/curved_families.hpp", "tested in certify_curves_test.cpp"},
+    {"verify/solvers/curved_answers.hpp", "tested in fuzz_curves_test.cpp"},
+    {"verify/cli/curved_run.hpp", "tested in commands_test.cpp"},
     {"fast/distance/exact_distance.hpp", "a stage of the distance, tested in distance_test.cpp"},
     {"fast/distance/filter_kernel.hpp", "a stage of the distance, tested in distance_test.cpp"},
     {"fast/distance/filter_on_lanes.hpp", "a part of the kernels, tested through them"},

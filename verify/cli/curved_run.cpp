@@ -10,9 +10,6 @@
 #include <stdexcept>
 #include <utility>
 
-#include "touchstone/curved.hpp"
-#include "touchstone/tight_inclusion.hpp"
-#include "verify/base/cores.hpp"
 #include "verify/cli/certificates_file.hpp"
 #include "verify/cli/files.hpp"
 #include "verify/data/curved_query_file.hpp"
@@ -25,6 +22,7 @@
 #include "verify/judge/ground_truth.hpp"
 #include "verify/report/certify_report.hpp"
 #include "verify/solvers/answers.hpp"
+#include "verify/solvers/curved_answers.hpp"
 
 namespace touchstone::verify::cli {
 namespace {
@@ -189,47 +187,14 @@ class CurvedRun {
   std::size_t wrong_ = 0;
 };
 
-// ---- Answers ------------------------------------------------------------------------------------
-
-/// The method's answers to all queries.
-std::vector<fast::Answer> answers_of(std::string_view method, Kind kind,
-                                     const CurvedQueries& queries, const Separation& separation,
-                                     unsigned threads, const fast::MethodOptions& options) {
-  std::vector<fast::Answer> answers(queries.size());
-  if (method == "certified") {
-    std::vector<fast::CertifiedResult> results(queries.size());
-    fast::solve(kind, queries, results,
-                {.t_max = options.t_max,
-                 .separation = separation,
-                 .max_threads = base::cores_for(threads)});
-    std::ranges::transform(results, answers.begin(), [](const fast::CertifiedResult& result) {
-      return fast::Answer{
-          .verdict = result.verdict, .toi_lower = result.toi_lower, .toi_upper = result.toi_upper};
-    });
-    return answers;
-  }
-  if (method != "tight_inclusion") {
-    throw std::invalid_argument(fmt::format(
-        "{} does not answer queries on curves; certified and tight_inclusion do", method));
-  }
-  const fast::TightInclusionOptions all{.tolerance = options.tolerance,
-                                        .max_checks = options.max_checks,
-                                        .separation = separation,
-                                        .t_max = options.t_max};
-  for (std::size_t i = 0; i < answers.size() && !io::interrupted(); ++i) {
-    const fast::TightInclusionResult result = fast::tight_inclusion(kind, queries, i, all);
-    answers[i] = {.verdict = result.verdict, .tolerance = result.tolerance};
-    if (result.verdict == fast::Verdict::yes) answers[i].toi_lower = result.toi;
-  }
-  return answers;
-}
-
 }  // namespace
 
 Status run_curves(const CurvedArguments& arguments) { return CurvedRun(arguments).run(); }
 
 Status solve_curves(const CurvedArguments& arguments, std::string_view method,
                     const fast::MethodOptions& options, const std::string& out_file) {
+  fast::MethodOptions with_separation = options;
+  with_separation.separation = arguments.separation.given();
   Files files;
   Output out(files, out_file), json(files, arguments.json_file);
   files.add_inputs(arguments.paths);
@@ -239,8 +204,8 @@ Status solve_curves(const CurvedArguments& arguments, std::string_view method,
     if (io::interrupted()) break;
     const data::CurvedQueryFile file = data::read_curved_queries(path);
     const Kind kind = kind_of(path, arguments.kind);
-    const auto answers = answers_of(method, kind, file.queries(), arguments.separation.given(),
-                                    arguments.threads, options);
+    const auto answers =
+        solvers::curved_answers(method, kind, file.queries(), with_separation, arguments.threads);
     for (const fast::Answer& answer : answers) {
       const auto index = static_cast<std::uint64_t>(&answer - answers.data());
       out.write(solvers::answer_row(path.string(), index, kind, answer));
@@ -274,15 +239,20 @@ bool have_curves(const SourceArguments& sources) {
   return true;
 }
 
-CurvedArguments curved_arguments(const CLI::App& command, const SourceArguments& sources,
-                                 const std::vector<std::string>& options) {
+void refuse_for_curves(const CLI::App& command, const std::vector<std::string>& options) {
   for (const CLI::Option* option : command.get_options()) {
     const std::string name = option->get_name();
-    const bool is_of_sources = name == "PATH" || name == "--kind" || name == "--threads" ||
-                               name == "--min-separation" || name == "--norm";
-    if (option->count() == 0 || is_of_sources || std::ranges::count(options, name) != 0) continue;
+    if (option->count() == 0 || std::ranges::count(options, name) != 0) continue;
     throw std::invalid_argument(name + " does not apply to queries on curves");
   }
+}
+
+CurvedArguments curved_arguments(const CLI::App& command, const SourceArguments& sources,
+                                 std::vector<std::string> options) {
+  for (const char* name : {"PATH", "--kind", "--threads", "--min-separation", "--norm"}) {
+    options.emplace_back(name);
+  }
+  refuse_for_curves(command, options);
   CurvedArguments result;
   result.paths = sources.paths;
   result.kind = sources.kind;

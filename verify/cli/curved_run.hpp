@@ -45,10 +45,14 @@ struct CurvedArguments {
 /// \throws std::invalid_argument if only some of them do.
 [[nodiscard]] bool have_curves(const SourceArguments& sources);
 
-/// The arguments for such files, of a command of which only the named options apply.
-/// \throws std::invalid_argument that names another option of the command line.
+/// \throws std::invalid_argument that names an option of the command line which is not among those
+/// that apply to queries on curves.
+void refuse_for_curves(const CLI::App& command, const std::vector<std::string>& options);
+
+/// The arguments for such files. \param options Those of the command that apply, besides those of
+/// sources. \throws as refuse_for_curves.
 [[nodiscard]] CurvedArguments curved_arguments(const CLI::App& command,
                                                const SourceArguments& sources,
-                                               const std::vector<std::string>& options);
+                                               std::vector<std::string> options);
 
 }  // namespace touchstone::verify::cli

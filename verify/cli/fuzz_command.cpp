@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "verify/cli/commands.hpp"
+#include "verify/cli/curved_run.hpp"
 #include "verify/cli/files.hpp"
 #include "verify/cli/help.hpp"
 #include "verify/cli/options.hpp"
@@ -28,6 +29,7 @@
 #include "verify/data/separation_file.hpp"
 #include "verify/fuzz/finding_page.hpp"
 #include "verify/fuzz/fuzz.hpp"
+#include "verify/fuzz/fuzz_curves.hpp"
 #include "verify/fuzz/fuzz_report.hpp"
 #include "verify/fuzz/reproduce.hpp"
 #include "verify/fuzz/standalone.hpp"
@@ -35,6 +37,7 @@
 #include "verify/io/printable.hpp"
 #include "verify/io/terminal.hpp"
 #include "verify/judge/separation_inference.hpp"
+#include "verify/solvers/curved_answers.hpp"
 #include "verify/solvers/registry.hpp"
 #include "verify/solvers/solver.hpp"
 #include "verify/view/query_files.hpp"
@@ -58,6 +61,7 @@ struct Arguments {
   PieceArguments pieces;
   std::uint64_t most_findings = 20;
   std::string kind;
+  bool curved = false;
   std::vector<std::string> only;
   std::vector<fs::path> corpus;
   std::string out_file;
@@ -360,6 +364,83 @@ class FuzzRun {
   std::size_t groups_ = 0;  ///< of findings, so far
 };
 
+// ---- Curves -------------------------------------------------------------------------------------
+
+std::string to_line(const fuzz::CurvedFinding& finding) {
+  return fmt::format("{}: {}, {}degree {}, {}: [{:a}]\n", judge::to_string(finding.what),
+                     to_string(finding.kind), finding.is_rational ? "rational, " : "",
+                     finding.degree, judge::to_string(finding.answer.verdict),
+                     fmt::join(finding.numbers, ", "));
+}
+
+nlohmann::json to_json(const fuzz::CurvedFinding& finding) {
+  return {{"what", judge::to_string(finding.what)},
+          {"kind", to_string(finding.kind)},
+          {"degree", finding.degree},
+          {"rational", finding.is_rational},
+          {"numbers", finding.numbers},
+          {"verdict", judge::to_string(finding.answer.verdict)},
+          {"toi_lower", io::number_to_json(finding.answer.toi_lower)},
+          {"toi_upper", io::number_to_json(finding.answer.toi_upper)}};
+}
+
+/// The search in queries on curves.
+Status run_on_curves(const CLI::App& command, const Arguments& arguments) {
+  refuse_for_curves(
+      command, {"--curved", "--method", "--seconds", "--queries", "--seed", "--kind", "--json",
+                "--most-findings", "--tolerance", "--max-checks", "--min-separation", "--norm"});
+  if (arguments.solver.methods.size() != 1) {
+    throw std::invalid_argument("fuzz --curved needs exactly one --method");
+  }
+  const std::string& method = arguments.solver.methods.front();
+  Files files;
+  Output json(files, arguments.json_file);
+  io::ProgressBar bar("fuzz");
+  fuzz::CurvedFuzzOptions options{.seconds = arguments.run_seconds(),
+                                  .most_queries = arguments.queries,
+                                  .seed = arguments.seed,
+                                  .most_findings = arguments.most_findings,
+                                  .kinds = arguments.kinds(),
+                                  .method = arguments.solver.options,
+                                  .is_conservative = method != "certified",
+                                  .stop = &io::interrupted()};
+  options.method.separation = arguments.separation.given();
+  const double begin = options.clock();
+  options.on_progress = [&](std::uint64_t queries) {
+    const double part = options.seconds > 0.0 ? (options.clock() - begin) / options.seconds : 0.0;
+    const double count = static_cast<double>(queries);
+    bar.update(options.most_queries == 0
+                   ? part
+                   : std::max(part, count / static_cast<double>(options.most_queries)));
+  };
+  const auto answer = [&](Kind kind, const CurvedQueries& queries,
+                          const fast::MethodOptions& of_call) {
+    return solvers::curved_answers(method, kind, queries, of_call, 1);
+  };
+  const fuzz::CurvedFuzzResult result =
+      fuzz::fuzz_curves(answer, method == "tight_inclusion", options);
+  bar.clear();
+  nlohmann::json findings = nlohmann::json::array();
+  for (const fuzz::CurvedFinding& finding : result.findings) findings.push_back(to_json(finding));
+  if (json) {
+    json.write(io::json_document({{"method", method},
+                                  {"seed", options.seed},
+                                  {"queries", result.queries},
+                                  {"collisions", result.collisions},
+                                  {"findings", findings}}));
+  }
+  json.close();
+  io::print(files.summary_stream(),
+            fmt::format("{}: {} queries on curves, {} collide, {} findings\n", method,
+                        result.queries, result.collisions, result.findings.size()));
+  for (const fuzz::CurvedFinding& finding : result.findings) {
+    io::print(files.summary_stream(), to_line(finding));
+  }
+  if (!result.findings.empty()) return Status::wrong_answers;
+  if (files.has_failed()) return Status::bad_input;
+  return io::interrupted() ? Status::interrupted : Status::all_well;
+}
+
 std::vector<std::string> finding_kind_names() {
   std::vector<std::string> names;
   names.reserve(judge::fault_count);
@@ -389,6 +470,8 @@ void add_search_options(CLI::App& command, Arguments& arguments) {
       ->type_name("N")
       ->check(whole_number(1, UINT64_MAX));
   add_seed_option(command, arguments.seed, "Seed of all queries; --shard I/N adds I");
+  command.add_flag("--curved", arguments.curved,
+                   "Search in queries on Bézier curves (methods certified, tight_inclusion)");
   add_piece_options(command, arguments.pieces);
   command
       .add_option("--most-findings", arguments.most_findings,
@@ -449,6 +532,10 @@ void add(CLI::App& app, Status& status) {
       "Exit status: 0 nothing found (130: interrupted), 1 findings, 2 bad input or usage, nothing "
       "judged.");
   command->callback([arguments, command, &status] {
+    if (arguments->curved) {
+      status = run_on_curves(*command, *arguments);
+      return;
+    }
     settle_solver_options(*command, true, arguments->solver);
     settle_query_limit(*command, arguments->run_seconds(), arguments->solver);
     if (!arguments->pieces.folder.empty()) {

@@ -1,0 +1,22 @@
+#pragma once
+
+/// \file
+/// Answers of the methods that know queries on curves.
+
+#include <string_view>
+#include <vector>
+
+#include "fast/method.hpp"
+#include "touchstone/curved_query.hpp"
+
+namespace touchstone::verify::solvers {
+
+/// The answers of a method to all queries: of "certified", or of "tight_inclusion" to polynomial
+/// curves of degree 2 or 3. \param threads as many, 0: all cores, for the method that can use them.
+/// \throws std::invalid_argument for another method, or one that does not answer such queries.
+[[nodiscard]] std::vector<fast::Answer> curved_answers(std::string_view method, Kind kind,
+                                                       const CurvedQueries& queries,
+                                                       const fast::MethodOptions& options,
+                                                       unsigned threads);
+
+}  // namespace touchstone::verify::solvers
