@@ -27,6 +27,10 @@ struct CurvedQueryFile {
   [[nodiscard]] CurvedQueries queries() const { return {degree, is_rational, numbers}; }
 };
 
+/// Does the file begin as one of queries on curves: an array of four extents, or a line `degree,`
+/// or `rational,`? An array of shape (N, 8, 3) does not, nor does what cannot be read.
+[[nodiscard]] bool is_curved_query_file(const std::filesystem::path& file);
+
 /// \throws io::DatasetError, which names the file and the line or the query, for anything else, and
 /// for numbers that are not finite and weights that are not positive.
 [[nodiscard]] CurvedQueryFile read_curved_queries(const std::filesystem::path& file);
