@@ -66,7 +66,8 @@ export class Look {
       .reduce((a, b) => (compare(b, a) > 0 ? b : a));
     this.lgCorners = lg(farthest.n, farthest.d) + 0.35;
     const speed = largest(motion.control.flatMap(fastest));
-    this.lgSpeed = speed === 0n ? null : lg(speed, scale);
+    // Unzoomed, the window is all of the time, also if a curve is longer than the picture.
+    this.lgSpeed = speed === 0n ? null : Math.min(lg(speed, scale), this.lgAll + 1);
     this.lgEnd = Math.min(this.lgAll, this.lgCorners) - leastZoom;
     if (near.squared.n > 0n && !this.collides()) this.lgEnd = Math.min(log2(near.squared) / 2 + marginForGap, this.lgAll);
   }
