@@ -129,6 +129,24 @@ TEST_F(ViewCommand, QueriesOnCurvesAndTheirCertificates) {
             nlohmann::json::array({"accd is not asked: it takes straight lines alone."}));
 }
 
+TEST_F(ViewCommand, CurvesOfDifferentDegreesAreShownWithoutAnAnswer) {
+  const std::string proof =
+      write("mixed.cert",
+            "touchstone-certificates 2\nquery vertex_face\n"
+            "curve 2\npoint 1 1 -3/4\npoint 1 1 5/4\npoint 1 1 -3/4\n"
+            "curve 1\npoint 0 0 0\npoint 0 0 0\ncurve 0\npoint 4 0 0\ncurve 0\npoint 0 4 0\n"
+            "claim time_of_impact 0x1.fffffffffffffp-3 0x1p-2\n"
+            "separate 0 0x1.fffffffffffffp-3 face -\ncontact time 0x1p-2\n"
+            "at triangle 0 1 2 z\nend\ncertificates 1\n");
+  ASSERT_EQ(view({proof}).status, 0);
+  const nlohmann::json query = queries("page.html").at(0);
+  EXPECT_EQ(query.at("truth").at("toi").at("exact"), "1/4");
+  EXPECT_EQ(query.at("certificate").at("accepted"), true);
+  EXPECT_EQ(query.at("answers"), nlohmann::json::array());
+  EXPECT_EQ(query.at("notes"),
+            nlohmann::json::array({"certified is not asked: the curves differ in degree."}));
+}
+
 TEST_F(ViewCommand, CompressedCertificates) {
   const std::string data = write("vertex-face.csv", row("-2") + row("2"));
   ASSERT_EQ(run({"prove", data, "--out", path("proofs.cert.zst")}).status, 0);
