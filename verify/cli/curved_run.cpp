@@ -227,12 +227,9 @@ Status solve_curves(const CurvedArguments& arguments, std::string_view method,
 }
 
 bool have_curves(const SourceArguments& sources) {
-  const auto is_curved = [](const fs::path& path) {
-    return fs::is_regular_file(path) && data::is_curved_query_file(path);
-  };
-  const auto curved = std::ranges::find_if(sources.paths, is_curved);
+  const auto curved = std::ranges::find_if(sources.paths, data::is_curved_query_file);
   if (curved == sources.paths.end()) return false;
-  if (!std::ranges::all_of(sources.paths, is_curved)) {
+  if (!std::ranges::all_of(sources.paths, data::is_curved_query_file)) {
     throw std::invalid_argument(curved->string() +
                                 " has queries on curves; name the other files in another run");
   }

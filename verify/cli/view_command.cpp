@@ -12,6 +12,8 @@
 #include <utility>
 #include <vector>
 
+#include "fast/method.hpp"
+#include "touchstone/certified.hpp"
 #include "verify/cli/commands.hpp"
 #include "verify/cli/files.hpp"
 #include "verify/cli/group_options.hpp"
@@ -23,6 +25,7 @@
 #include "verify/io/input_file.hpp"
 #include "verify/io/printable.hpp"
 #include "verify/io/terminal.hpp"
+#include "verify/judge/judgement.hpp"
 #include "verify/mesh/frames.hpp"
 #include "verify/solvers/registry.hpp"
 #include "verify/view/asked_solvers.hpp"
@@ -113,6 +116,29 @@ std::vector<view::ViewedQuery> all_queries(const Arguments& arguments,
   return queries;
 }
 
+/// `certified` is asked about curves, if it is asked at all; notes name the other solvers of the
+/// user.
+std::vector<judge::GivenAnswer> answers_on_curves(const Arguments& arguments,
+                                                  view::ViewedQuery& query) {
+  const auto refuse = [&](const std::string& solver) {
+    query.notes.push_back(fmt::format("{} is not asked: it takes straight lines alone.", solver));
+  };
+  std::vector<judge::GivenAnswer> answers;
+  for (const std::string& method : asked_by(arguments).methods) {
+    if (method != fast::certified_info().name) continue;
+    if (auto answer = view::answer_on_curves(query)) {
+      answers.push_back(*std::move(answer));
+    } else {
+      query.notes.push_back(method + " is not asked: the curves differ in degree.");
+    }
+  }
+  for (const std::string& method : arguments.solvers.methods) {
+    if (method != fast::certified_info().name && method != "none") refuse(method);
+  }
+  for (const fs::path& plugin : arguments.solvers.plugins) refuse(plugin.string());
+  return answers;
+}
+
 Status run(const Arguments& arguments) {
   if (arguments.out_file.empty()) throw std::invalid_argument("--out has no file name");
   Files files;
@@ -121,12 +147,14 @@ Status run(const Arguments& arguments) {
       arguments.live_file.empty() ? "" : io::read_file(arguments.live_file, longest_script);
   const Solvers solvers(files, asked_by(arguments));
   const std::optional<view::ViewedStep> step = read_step(arguments, files);
-  const std::vector<view::ViewedQuery> queries = all_queries(arguments, step, files);
+  std::vector<view::ViewedQuery> queries = all_queries(arguments, step, files);
   io::ProgressBar bar("view");
   std::vector<nlohmann::json> facts;
-  for (const view::ViewedQuery& query : queries) {
+  for (view::ViewedQuery& query : queries) {
     if (io::interrupted()) break;
-    facts.push_back(view::query_facts(query, view::answers_of(solvers.all(), query)));
+    const std::vector<judge::GivenAnswer> answers =
+        query.curves ? answers_on_curves(arguments, query) : view::answers_of(solvers.all(), query);
+    facts.push_back(view::query_facts(query, answers));
     bar.update(static_cast<double>(facts.size()) / static_cast<double>(queries.size()));
   }
   bar.clear();
@@ -147,8 +175,8 @@ void add_options(CLI::App& command, Arguments& arguments) {
   command
       .add_option(
           "PATH", arguments.paths,
-          "Datasets (.csv, .npy) or folders of them, findings (.json of fuzz), certificates "
-          "(.cert, .cert.zst), or eight lines of vertices (.obj)")
+          "Datasets (.csv, .npy), also of queries on curves, or folders of them, findings (.json "
+          "of fuzz), certificates (.cert, .cert.zst), or eight lines of vertices (.obj)")
       ->type_name("");
   command
       .add_option("--step", arguments.step,

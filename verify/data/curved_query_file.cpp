@@ -9,8 +9,10 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <stdexcept>
 #include <string>
 #include <string_view>
+#include <system_error>
 
 #include "verify/data/npy_header.hpp"
 #include "verify/io/coordinate_text.hpp"
@@ -54,12 +56,15 @@ void set_form(const NpyHeader& header, CurvedQueryFile& file) {
   file.is_rational = is_curved && shape[3] == 4;
 }
 
+NpyHeader read_header(io::InputFile& input) {
+  return read_npy_header([&](std::span<char> buffer) { return input.read_all(buffer); });
+}
+
 CurvedQueryFile read_npy(const std::filesystem::path& path) {
   io::InputFile input(path);
   CurvedQueryFile file;
   try {
-    const NpyHeader header =
-        read_npy_header([&](std::span<char> buffer) { return input.read_all(buffer); });
+    const NpyHeader header = read_header(input);
     set_form(header, file);
     const std::uint64_t size = input.size() - header.size;
     const std::uint64_t size_of_query = file.queries().numbers_of_query() * sizeof(double);
@@ -150,19 +155,18 @@ class CsvReader {
 }  // namespace
 
 bool is_curved_query_file(const std::filesystem::path& file) {
+  // The header of a pipe could not be read a second time.
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(file, error)) return false;
   try {
     if (file.extension() == ".npy") {
       io::InputFile input(file);
-      const NpyHeader header =
-          read_npy_header([&](std::span<char> buffer) { return input.read_all(buffer); });
-      return header.shape.size() == 4;
+      return read_header(input).shape.size() == 4;
     }
     io::LineReader lines(file);
     const std::optional<io::Line> line = lines.next();
     return line && (line->text.starts_with("degree,") || line->text.starts_with("rational,"));
-  } catch (const io::DatasetError&) {
-    return false;
-  } catch (const NpyHeaderError&) {
+  } catch (const std::runtime_error&) {
     return false;
   }
 }

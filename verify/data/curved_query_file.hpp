@@ -27,8 +27,8 @@ struct CurvedQueryFile {
   [[nodiscard]] CurvedQueries queries() const { return {degree, is_rational, numbers}; }
 };
 
-/// True if the head of a file is that of queries on curves: an array of four dimensions, or text
-/// that begins with degree, or rational,. False if it cannot be read, and for straight queries.
+/// Does the file begin as one of queries on curves: an array of four extents, or a line `degree,`
+/// or `rational,`? An array of shape (N, 8, 3) does not, nor does what cannot be read.
 [[nodiscard]] bool is_curved_query_file(const std::filesystem::path& file);
 
 /// \throws io::DatasetError, which names the file and the line or the query, for anything else, and

@@ -1,12 +1,51 @@
 #include "verify/view/asked_solvers.hpp"
 
+#include <algorithm>
 #include <array>
+#include <cstddef>
 #include <cstdint>
+#include <string>
 #include <utility>
 
+#include "fast/method.hpp"
+#include "touchstone/certified.hpp"
+#include "touchstone/curved.hpp"
+#include "touchstone/curved_query.hpp"
 #include "verify/jobs/prove.hpp"
 
 namespace touchstone::verify::view {
+
+namespace {
+
+/// The numbers of a query on curves of one degree.
+struct CurvedNumbers {
+  std::size_t degree = 0;
+  bool is_rational = false;
+  std::vector<double> numbers = {};
+
+  [[nodiscard]] CurvedQueries queries() const { return {degree, is_rational, numbers}; }
+};
+
+/// The same curves, all of one degree, as a constant one has each; nothing if others differ.
+std::optional<CurvedNumbers> of_one_degree(const CurvedQuery& curves) {
+  CurvedNumbers result;
+  for (const Trajectory& curve : curves) {
+    result.degree = std::max(result.degree, curve.degree());
+    result.is_rational = result.is_rational || !curve.weights.empty();
+  }
+  for (std::size_t j = 0; j <= result.degree; ++j) {
+    for (const Trajectory& curve : curves) {
+      if (curve.degree() != 0 && curve.degree() != result.degree) return std::nullopt;
+      const std::size_t i = std::min(j, curve.degree());
+      result.numbers.insert(result.numbers.end(), curve.control[i].begin(), curve.control[i].end());
+      if (!result.is_rational) continue;
+      result.numbers.push_back(curve.weights.empty() ? 1.0 : curve.weights[i]);
+    }
+  }
+  return result;
+}
+
+}  // namespace
 
 std::vector<judge::GivenAnswer> answers_of(std::span<const solvers::Solver* const> solvers,
                                            const ViewedQuery& viewed) {
@@ -25,6 +64,18 @@ std::vector<judge::GivenAnswer> answers_of(std::span<const solvers::Solver* cons
     answers.push_back(std::move(given));
   }
   return answers;
+}
+
+std::optional<judge::GivenAnswer> answer_on_curves(const ViewedQuery& viewed) {
+  const std::optional<CurvedNumbers> curves = of_one_degree(*viewed.curves);
+  if (!curves) return std::nullopt;
+  fast::CertifiedResult found;
+  fast::solve(viewed.kind, curves->queries(), {&found, 1},
+              {.separation = viewed.separation, .max_threads = 1});
+  return judge::GivenAnswer{
+      .solver = std::string(fast::certified_info().name),
+      .answer = {
+          .verdict = found.verdict, .toi_lower = found.toi_lower, .toi_upper = found.toi_upper}};
 }
 
 ViewedQuery viewed_query(judge::WrongQuery wrong) {

@@ -3,6 +3,7 @@
 /// \file
 /// What solvers answer to a query that is viewed, and queries of the judge as a view shows them.
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -12,9 +13,13 @@
 
 namespace touchstone::verify::view {
 
-/// The answers of all solvers for which the query is within their terms.
+/// The answers of all solvers for which the query is within their terms. \pre not on curves
 [[nodiscard]] std::vector<judge::GivenAnswer> answers_of(
     std::span<const solvers::Solver* const> solvers, const ViewedQuery& viewed);
+
+/// What `certified` answers to a query on curves; nothing unless the curves have one degree or are
+/// constant. \pre viewed.curves
+[[nodiscard]] std::optional<judge::GivenAnswer> answer_on_curves(const ViewedQuery& viewed);
 
 /// A query that the judge found a fault in: its faults are the notes.
 [[nodiscard]] ViewedQuery viewed_query(judge::WrongQuery wrong);

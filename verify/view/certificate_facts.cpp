@@ -2,9 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <stdexcept>
+#include <utility>
 
 #include "exact/checker/certificate.hpp"
 #include "exact/checker/checker.hpp"
@@ -68,6 +71,43 @@ std::string_view claim_text(checker::Claim claim) {
   }
 }
 
+bool is_straight(const checker::Curve& curve) {
+  return curve.control.size() == 2 && curve.weights.empty();
+}
+
+Trajectory trajectory_of(const checker::Curve& curve) {
+  Trajectory result;
+  for (const checker::Point& point : curve.control) {
+    std::array<double, 3>& control = result.control.emplace_back();
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      control.at(axis) = as_double(point.at(axis), "a coordinate");
+    }
+  }
+  for (const mpq_class& weight : curve.weights) {
+    result.weights.push_back(as_double(weight, "a weight"));
+  }
+  return result;
+}
+
+CurvedQuery curves_of(const checker::Query& query) {
+  CurvedQuery result;
+  std::ranges::transform(query.points, result.begin(), trajectory_of);
+  return result;
+}
+
+/// \pre all are straight
+Query straight_query(const CurvedQuery& curves) {
+  Query result{};
+  for (std::size_t point = 0; point < moving_points; ++point) {
+    for (std::size_t end = 0; end < 2; ++end) {
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        result.at(end, point, axis) = curves.at(point).control.at(end).at(axis);
+      }
+    }
+  }
+  return result;
+}
+
 }  // namespace
 
 CertifiedQuery certified_query(std::string_view stream) {
@@ -75,17 +115,11 @@ CertifiedQuery certified_query(std::string_view stream) {
   CertifiedQuery result{
       .kind = certificate.query.is_edge_edge ? Kind::edge_edge : Kind::vertex_face,
       .label = checker::printable(certificate.label)};
-  for (std::size_t point = 0; point < moving_points; ++point) {
-    const checker::Curve& curve = certificate.query.points.at(point);
-    if (curve.control.size() != 2 || !curve.weights.empty()) {
-      throw std::invalid_argument("it is about curves, which are not shown");
-    }
-    for (std::size_t end = 0; end < 2; ++end) {
-      for (std::size_t axis = 0; axis < 3; ++axis) {
-        result.query.at(end, point, axis) =
-            as_double(curve.control.at(end).at(axis), "a coordinate");
-      }
-    }
+  CurvedQuery curves = curves_of(certificate.query);
+  if (std::ranges::all_of(certificate.query.points, is_straight)) {
+    result.query = straight_query(curves);
+  } else {
+    result.curves = std::move(curves);
   }
   const auto& [distance, is_l2] = certificate.separation;
   result.separation = {.distance = as_double(distance, "the distance"),

@@ -6,9 +6,11 @@
 /// wrote it.
 
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <string>
 #include <string_view>
 
+#include "touchstone/curved_query.hpp"
 #include "touchstone/query.hpp"
 
 namespace touchstone::verify::view {
@@ -17,13 +19,15 @@ namespace touchstone::verify::view {
 struct CertifiedQuery {
   Kind kind = Kind::vertex_face;
   Query query{};
+  /// In place of `query`, if the points move on curves.
+  std::optional<CurvedQuery> curves = std::nullopt;
   Separation separation{};
   std::string label;
 };
 
 /// The query of the only certificate of a stream.
-/// \throws std::invalid_argument if the text is not a certificate, or a coordinate or the distance
-/// is not a double.
+/// \throws std::invalid_argument if the text is not a certificate, or a coordinate, a weight or
+/// the distance is not a double.
 [[nodiscard]] CertifiedQuery certified_query(std::string_view stream);
 
 /// An object of `claim`, `accepted`, `reason` (of the checker, if rejected), `subintervals`, a list

@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
@@ -59,6 +61,59 @@ nlohmann::json moment(const exact::AlgebraicNumber& number_in_time) {
           {"time", near.get_str()}};
 }
 
+nlohmann::json numbers(std::span<const double> values) {
+  nlohmann::json texts = nlohmann::json::array();
+  for (const double value : values) texts.push_back(number(value));
+  return texts;
+}
+
+// ---- The points ---------------------------------------------------------------------------------
+
+/// Lists for j = 0 … K, K the greatest degree, of one value for each point: value(curve, j), or
+/// null for curves of lower degree.
+template <class Value>
+nlohmann::json control_lists(const CurvedQuery& curves, const Value& value) {
+  std::size_t count = 0;
+  for (const Trajectory& curve : curves) count = std::max(count, curve.control.size());
+  nlohmann::json lists = nlohmann::json::array();
+  for (std::size_t j = 0; j < count; ++j) {
+    nlohmann::json& list = lists.emplace_back(nlohmann::json::array());
+    for (const Trajectory& curve : curves) {
+      list.push_back(j < curve.control.size() ? value(curve, j) : nlohmann::json());
+    }
+  }
+  return lists;
+}
+
+bool is_rational(const Trajectory& curve) { return !curve.weights.empty(); }
+
+/// Adds `coordinates`; for curves `control`, and `weights` if any of them is rational.
+void add_points(const ViewedQuery& viewed, nlohmann::json& facts) {
+  if (!viewed.curves) {
+    facts["coordinates"] = numbers(viewed.query.coordinates);
+    return;
+  }
+  facts["control"] = control_lists(*viewed.curves, [](const Trajectory& curve, std::size_t j) {
+    return numbers(curve.control[j]);
+  });
+  if (std::ranges::none_of(*viewed.curves, is_rational)) return;
+  facts["weights"] = control_lists(*viewed.curves, [](const Trajectory& curve, std::size_t j) {
+    return number(is_rational(curve) ? curve.weights[j] : 1.0);
+  });
+}
+
+// ---- The truth ----------------------------------------------------------------------------------
+
+exact::Decision decided(const ViewedQuery& viewed) {
+  return viewed.curves ? exact::decide(viewed.kind, *viewed.curves, viewed.separation)
+                       : exact::decide(viewed.kind, viewed.query, viewed.separation);
+}
+
+exact::Certificate proved(const ViewedQuery& viewed, const exact::Decision& verdict) {
+  return viewed.curves ? exact::prove(viewed.kind, *viewed.curves, verdict)
+                       : exact::prove(viewed.kind, viewed.query, verdict);
+}
+
 nlohmann::json truth_facts(const exact::Decision& verdict) {
   nlohmann::json truth{{"collides", verdict.collides()},
                        {"text", judge::to_text(judge::truth_of(0, verdict))}};
@@ -76,7 +131,7 @@ nlohmann::json truth_facts(const exact::Decision& verdict) {
 }
 
 nlohmann::json approach_facts(const ViewedQuery& viewed) {
-  if (!viewed.with_approach) return {};
+  if (!viewed.with_approach || viewed.curves) return {};
   const auto approach = nearest_approach(viewed.kind, viewed.query);
   if (!approach) return {};
   nlohmann::json facts = moment(approach->time);
@@ -88,8 +143,7 @@ nlohmann::json approach_facts(const ViewedQuery& viewed) {
 /// The oracle's own certificate. \return nothing where it is beyond the format's limits
 std::string proof_of(const ViewedQuery& viewed, const exact::Decision& verdict) {
   try {
-    return exact::certificate_stream(exact::prove(viewed.kind, viewed.query, verdict),
-                                     io::printable(viewed.label));
+    return exact::certificate_stream(proved(viewed, verdict), io::printable(viewed.label));
   } catch (const exact::CertificateLimitError&) {
     return {};
   }
@@ -108,22 +162,32 @@ nlohmann::json certificate_of(const ViewedQuery& viewed, const exact::Decision& 
 
 /// The query with its truth.
 struct Judged {
-  judge::Question question;
+  const ViewedQuery& viewed;
   judge::GroundTruth truth;
 };
+
+std::vector<judge::Fault> faults_of(const judge::GivenAnswer& given,
+                                    const judge::Standard& standard, const Judged& judged) {
+  const ViewedQuery& viewed = judged.viewed;
+  const judge::Failure* const failure = given.failure ? &*given.failure : nullptr;
+  if (viewed.curves) {
+    return judge::judge_verdict(judged.truth, given.answer, standard.terms, failure);
+  }
+  const Query asked = judge::as_asked(standard.terms, viewed.query);
+  const judge::Question question{viewed.kind, asked, viewed.separation};
+  const judge::GroundTruth truth =
+      asked == viewed.query
+          ? judged.truth
+          : judge::truth_of(0, exact::decide(viewed.kind, asked, viewed.separation));
+  return judge::judge(question, truth, given.answer, standard, failure);
+}
 
 /// An answer, and the judgement on it.
 nlohmann::json answer_facts(const judge::GivenAnswer& given, const judge::Standard& standard,
                             bool is_recorded, const Judged& judged) {
   nlohmann::json faults = nlohmann::json::array();
   bool is_broken = false;
-  const auto& [kind, original, separation] = judged.question;
-  const Query asked = judge::as_asked(standard.terms, original);
-  const judge::GroundTruth truth =
-      asked == original ? judged.truth : judge::truth_of(0, exact::decide(kind, asked, separation));
-  for (const judge::Fault fault :
-       judge::judge({kind, asked, separation}, truth, given.answer, standard,
-                    given.failure ? &*given.failure : nullptr)) {
+  for (const judge::Fault fault : faults_of(given, standard, judged)) {
     is_broken = is_broken || judge::breaks(fault, standard.promise);
     // A failure that is no error has a text of its own below.
     if (fault == judge::Fault::hang || fault == judge::Fault::undecided) continue;
@@ -149,14 +213,13 @@ judge::Standard standard_of(const std::string& solver) {
                          : judge::standard_of(*info);
 }
 
-nlohmann::json answers_of(const ViewedQuery& viewed, const Judged& judged,
-                          std::span<const judge::GivenAnswer> asked) {
+nlohmann::json answers_of(const Judged& judged, std::span<const judge::GivenAnswer> asked) {
   nlohmann::json answers = nlohmann::json::array();
   const auto add = [&](const judge::GivenAnswer& given, bool is_recorded) {
     const judge::Standard standard = given.standard.value_or(standard_of(given.solver));
     answers.push_back(answer_facts(given, standard, is_recorded, judged));
   };
-  for (const judge::GivenAnswer& given : viewed.answers) add(given, true);
+  for (const judge::GivenAnswer& given : judged.viewed.answers) add(given, true);
   for (const judge::GivenAnswer& given : asked) add(given, false);
   return answers;
 }
@@ -164,23 +227,21 @@ nlohmann::json answers_of(const ViewedQuery& viewed, const Judged& judged,
 }  // namespace
 
 nlohmann::json query_facts(const ViewedQuery& viewed, std::span<const judge::GivenAnswer> asked) {
-  const exact::Decision verdict = exact::decide(viewed.kind, viewed.query, viewed.separation);
-  nlohmann::json coordinates = nlohmann::json::array(), notes = nlohmann::json::array();
-  for (const double x : viewed.query.coordinates) coordinates.push_back(number(x));
+  const exact::Decision verdict = decided(viewed);
+  nlohmann::json notes = nlohmann::json::array();
   for (const std::string& note : viewed.notes) notes.push_back(io::printable(note));
-  return {{"label", io::printable(viewed.label)},
-          {"kind", to_string(viewed.kind)},
-          {"coordinates", coordinates},
-          {"min_separation", number(viewed.separation.distance)},
-          {"norm", to_string(viewed.separation.norm)},
-          {"notes", notes},
-          {"truth", truth_facts(verdict)},
-          {"approach", approach_facts(viewed)},
-          {"certificate", certificate_of(viewed, verdict)},
-          {"answers", answers_of(viewed,
-                                 {.question = {viewed.kind, viewed.query, viewed.separation},
-                                  .truth = judge::truth_of(0, verdict)},
-                                 asked)}};
+  nlohmann::json facts{
+      {"label", io::printable(viewed.label)},
+      {"kind", to_string(viewed.kind)},
+      {"min_separation", number(viewed.separation.distance)},
+      {"norm", to_string(viewed.separation.norm)},
+      {"notes", notes},
+      {"truth", truth_facts(verdict)},
+      {"approach", approach_facts(viewed)},
+      {"certificate", certificate_of(viewed, verdict)},
+      {"answers", answers_of({.viewed = viewed, .truth = judge::truth_of(0, verdict)}, asked)}};
+  add_points(viewed, facts);
+  return facts;
 }
 
 }  // namespace touchstone::verify::view

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "fast/method.hpp"
+#include "touchstone/curved_query.hpp"
 #include "touchstone/query.hpp"
 #include "verify/judge/judgement.hpp"
 
@@ -23,6 +24,8 @@ struct ViewedQuery {
   std::string label;  ///< where it is from
   Kind kind = Kind::vertex_face;
   Query query{};  ///< finite
+  /// In place of `query`, if the points move on curves: finite numbers, positive weights.
+  std::optional<CurvedQuery> curves = std::nullopt;
   Separation separation = {};
   std::vector<std::string> notes = {};  ///< what is recorded of it, a sentence each
   std::vector<judge::GivenAnswer> answers = {};
@@ -33,9 +36,10 @@ struct ViewedQuery {
 };
 
 /// As the script of a page reads it, see verify/view/page/facts.js. Doubles are texts, in
-/// hexadecimal, and rationals "P/Q".
+/// hexadecimal, and rationals "P/Q". A query on curves has no nearest approach, and answers to it
+/// are judged by verdict and times.
 /// \param asked answers that were given now, to be shown behind the recorded ones
-/// \throws std::domain_error if a coordinate is NaN or infinite; std::invalid_argument if the
+/// \throws std::domain_error if a number is NaN or infinite; std::invalid_argument if a curve or the
 /// separation is not valid, or the text not a certificate.
 [[nodiscard]] nlohmann::json query_facts(const ViewedQuery& viewed,
                                          std::span<const judge::GivenAnswer> asked);

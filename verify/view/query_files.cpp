@@ -13,6 +13,8 @@
 #include <utility>
 
 #include "touchstone/certificate_text.hpp"
+#include "touchstone/curved_query.hpp"
+#include "verify/data/curved_query_file.hpp"
 #include "verify/data/dataset.hpp"
 #include "verify/io/coordinate_text.hpp"
 #include "verify/io/dataset_error.hpp"
@@ -90,6 +92,22 @@ std::vector<ViewedQuery> read_dataset(const fs::path& path, const QueryFileOptio
     selection.add(std::move(query));
   }
   return selection.take(path, offered);
+}
+
+// ---- Curves -------------------------------------------------------------------------------------
+
+std::vector<ViewedQuery> read_curves(const fs::path& path, const QueryFileOptions& options) {
+  const data::CurvedQueryFile file = data::read_curved_queries(path);
+  const CurvedQueries queries = file.queries();
+  const Kind kind = options.kind ? *options.kind : data::kind_from_path(path);
+  Selection selection(options);
+  for (std::size_t i = 0; i < queries.size(); ++i) {
+    if (!selection.wants(i)) continue;
+    selection.add({.label = jobs::certificate_label(path.string(), i),
+                   .kind = kind,
+                   .curves = queries.query(i)});
+  }
+  return selection.take(path, queries.size());
 }
 
 // ---- JSON ---------------------------------------------------------------------------------------
@@ -174,11 +192,12 @@ std::vector<ViewedQuery> read_json(const fs::path& path, const QueryFileOptions&
 // ---- Certificates -------------------------------------------------------------------------------
 
 ViewedQuery query_from(std::string stream, std::string label) {
-  const CertifiedQuery certified = certified_query(stream);
+  CertifiedQuery certified = certified_query(stream);
   if (!certified.label.empty()) label += ", " + certified.label;
   return {.label = std::move(label),
           .kind = certified.kind,
           .query = certified.query,
+          .curves = std::move(certified.curves),
           .separation = certified.separation,
           .certificate = std::move(stream)};
 }
@@ -315,6 +334,7 @@ std::vector<ViewedQuery> read_queries(const fs::path& path, const QueryFileOptio
   const bool is_compressed = extension == ".zst" && path.stem().extension() == ".cert";
   if (extension == ".cert" || is_compressed) return read_certificates(path, options);
   if (extension == ".obj") return read_obj(path, options);
+  if (data::is_curved_query_file(path)) return read_curves(path, options);
   return read_dataset(path, options);
 }
 

@@ -4,11 +4,13 @@
 /// Queries for a view, from files: rows of datasets, findings of the fuzzer, certificates,
 /// and the points of one query.
 ///
-///   - .csv, .npy: a dataset (verify/data/dataset.hpp);
+///   - .csv, .npy: a dataset (verify/data/dataset.hpp), or queries on curves
+///     (verify/data/curved_query_file.hpp);
 ///   - .json: the report of `fuzz --json`, whose findings are read, or one of them, or the JSON
 ///     that a view copies: an object of `coordinates`, 24 numbers or texts of numbers, `kind`, and
 ///     optionally `separation`, `label` and `note`; or a list of such objects;
-///   - .cert, .cert.zst: a stream of certificates of queries (exact/CERTIFICATES.md);
+///   - .cert, .cert.zst: a stream of certificates of queries, also on curves
+///   (exact/CERTIFICATES.md);
 ///   - .obj: eight lines `v x y z`, as ipc-toolkit writes a query, without the kind.
 
 #include <cstddef>

@@ -98,6 +98,55 @@ TEST_F(ViewCommand, RowsFindingsAndCertificatesByThoseWhoAreNamed) {
       << "it claims contact, and they stay 1 apart";
 }
 
+TEST_F(ViewCommand, QueriesOnCurvesAndTheirCertificates) {
+  const auto curve = [](const std::string& height) {
+    const std::string triangle = "0,0,0\n4,0,0\n0,4,0\n";
+    return "1,1,1\n" + triangle + "1,1," + height + "\n" + triangle + "1,1,1\n" + triangle;
+  };
+  const std::string data = write("vertex-face.csv", "degree,2\n" + curve("-1") + curve("0"));
+  ASSERT_EQ(run({"curved", data, "--proof", path("proofs.cert")}).status, 0);
+  const tests::Outcome outcome = view({data, path("proofs.cert")});
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  const nlohmann::json page = queries("page.html");
+  ASSERT_EQ(page.size(), 4U);
+  EXPECT_EQ(page[0].at("label"), data + ":0");
+  EXPECT_EQ(page[0].at("control"), page[2].at("control"));
+  EXPECT_EQ(page[0].at("truth").at("toi").at("exact"), "1/2");
+  EXPECT_EQ(page[3].at("truth").at("collides"), false);
+  EXPECT_EQ(page[3].at("certificate").at("given"), true);
+  for (const nlohmann::json& query : page) {
+    EXPECT_EQ(query.at("certificate").at("accepted"), true);
+    EXPECT_EQ(query.at("notes"), nlohmann::json::array());
+    ASSERT_EQ(query.at("answers").size(), 1U) << "only certified takes curves";
+    EXPECT_EQ(query.at("answers")[0].at("solver"), "certified");
+    EXPECT_EQ(query.at("answers")[0].at("faults"), nlohmann::json::array());
+  }
+  ASSERT_EQ(view({data, "--index", "1", "--method", "accd", "--min-separation", "0.5"}).status, 0);
+  const nlohmann::json other = queries("page.html").at(0);
+  EXPECT_EQ(other.at("truth").at("toi").at("exact"), "1/2");
+  EXPECT_EQ(other.at("answers"), nlohmann::json::array());
+  EXPECT_EQ(other.at("notes"),
+            nlohmann::json::array({"accd is not asked: it takes straight lines alone."}));
+}
+
+TEST_F(ViewCommand, CurvesOfDifferentDegreesAreShownWithoutAnAnswer) {
+  const std::string proof =
+      write("mixed.cert",
+            "touchstone-certificates 2\nquery vertex_face\n"
+            "curve 2\npoint 1 1 -3/4\npoint 1 1 5/4\npoint 1 1 -3/4\n"
+            "curve 1\npoint 0 0 0\npoint 0 0 0\ncurve 0\npoint 4 0 0\ncurve 0\npoint 0 4 0\n"
+            "claim time_of_impact 0x1.fffffffffffffp-3 0x1p-2\n"
+            "separate 0 0x1.fffffffffffffp-3 face -\ncontact time 0x1p-2\n"
+            "at triangle 0 1 2 z\nend\ncertificates 1\n");
+  ASSERT_EQ(view({proof}).status, 0);
+  const nlohmann::json query = queries("page.html").at(0);
+  EXPECT_EQ(query.at("truth").at("toi").at("exact"), "1/4");
+  EXPECT_EQ(query.at("certificate").at("accepted"), true);
+  EXPECT_EQ(query.at("answers"), nlohmann::json::array());
+  EXPECT_EQ(query.at("notes"),
+            nlohmann::json::array({"certified is not asked: the curves differ in degree."}));
+}
+
 TEST_F(ViewCommand, CompressedCertificates) {
   const std::string data = write("vertex-face.csv", row("-2") + row("2"));
   ASSERT_EQ(run({"prove", data, "--out", path("proofs.cert.zst")}).status, 0);

@@ -64,6 +64,25 @@ TEST_F(CurvedQueryFileTest, OfNumbersIsReadInAllShapes) {
   EXPECT_EQ(lines.queries().query(0)[2].control[1][1], 19.5);
 }
 
+TEST_F(CurvedQueryFileTest, IsToldFromOthersByItsHeader) {
+  const auto is_curved = [this](const std::string& name, const std::string& text) {
+    std::ofstream(path(name), std::ios::binary) << text;
+    return is_curved_query_file(path(name));
+  };
+  const std::vector<double> numbers(96, 1.0);
+  EXPECT_TRUE(is_curved("a.npy", npy({4, 4, 3}, 2, numbers)));
+  EXPECT_TRUE(is_curved("a.npy", npy({1, 4, 4}, 6, numbers)));
+  EXPECT_TRUE(is_curved("a.npy", npy({2, 5, 3}, 3, numbers))) << "its reader says what is wrong";
+  EXPECT_FALSE(is_curved("a.npy", npy({8, 3}, 4, numbers)));
+  EXPECT_FALSE(is_curved("a.npy", "no array"));
+  EXPECT_TRUE(is_curved("a.csv", "degree,2\n"));
+  EXPECT_TRUE(is_curved("a.csv", "rational,x\n"));
+  EXPECT_FALSE(is_curved("a.csv", "1,2,3\n"));
+  EXPECT_FALSE(is_curved("a.csv", ""));
+  EXPECT_FALSE(is_curved_query_file(path("missing.csv")));
+  EXPECT_FALSE(is_curved_query_file(path("")));
+}
+
 TEST_F(CurvedQueryFileTest, OfTextIsReadAsNumbersOrFractions) {
   std::string text = "degree,1\n", fractions = "rational,0\r\n";
   for (int row = 0; row < 8; ++row) text += std::to_string(row) + ",-0.25,1e3\n";

@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <string>
+#include <vector>
 
 #include "tests/support/queries.hpp"
 #include "verify/solvers/registry.hpp"
@@ -27,6 +29,39 @@ TEST(AnswersOf, AreThoseOfSolversWithinTheirTerms) {
   EXPECT_EQ(answers[0].answer.verdict, fast::Verdict::yes);
   ASSERT_TRUE(answers[0].standard.has_value());
   EXPECT_EQ(answers[0].standard->promise, fast::Promise::exact);
+}
+
+/// A vertex falls to a triangle at rest and through it, on a curve through these heights.
+ViewedQuery on_curves(const std::vector<double>& heights) {
+  CurvedQuery curves{{{}, {.control = {{0, 0, 0}}}, {.control = {{4, 0, 0}}}, {}}};
+  for (const double z : heights) curves[0].control.push_back({1, 1, z});
+  curves[3].control = {{0, 4, 0}, {0, 4, 0}, {0, 4, 0}};
+  return {.label = "curved", .curves = curves};
+}
+
+TEST(AnswerOnCurves, IsOfTheCertifiedSolver) {
+  ViewedQuery query = on_curves({0.5, 0.5, -1.5});
+  const auto answer = answer_on_curves(query);
+  ASSERT_TRUE(answer.has_value());
+  EXPECT_EQ(answer->solver, "certified");
+  EXPECT_EQ(answer->answer.verdict, fast::Verdict::yes);
+  EXPECT_LT(answer->answer.toi_lower, 0.5);
+  EXPECT_GE(answer->answer.toi_upper, 0.5);
+  EXPECT_NEAR(answer->answer.toi_lower, answer->answer.toi_upper, 1e-11);
+  query.curves->at(2).weights = {0.5};
+  EXPECT_NEAR(answer_on_curves(query)->answer.toi_upper, 0.5, 1e-11);
+  query.curves->at(0).weights = {1, 1, 2};
+  EXPECT_LT(answer_on_curves(query)->answer.toi_upper, 0.5);
+  query.curves->at(0).control[2][2] = 0.25;
+  EXPECT_EQ(answer_on_curves(query)->answer.verdict, fast::Verdict::no);
+  query.separation = {.distance = 0.25, .norm = Norm::l2};
+  EXPECT_EQ(answer_on_curves(query)->answer.verdict, fast::Verdict::yes);
+}
+
+TEST(AnswerOnCurves, NeedsOneDegreeOfThoseThatMove) {
+  EXPECT_TRUE(answer_on_curves(on_curves({1, 1, 1})).has_value());
+  EXPECT_TRUE(answer_on_curves(on_curves({1})).has_value());
+  EXPECT_FALSE(answer_on_curves(on_curves({1, 1})).has_value());
 }
 
 TEST(ViewedQueryOf, HasTheFaultsAsNotes) {

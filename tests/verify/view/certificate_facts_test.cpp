@@ -63,7 +63,32 @@ TEST(CertificateFacts, TheQueryBitForBit) {
   EXPECT_EQ(read.label, "a label");
 }
 
+/// The example on a curve of exact/CERTIFICATES.md, with weights of one point.
+const std::string through_a_triangle =
+    "touchstone-certificates 2\nquery vertex_face\ncurve 2\n"
+    "point 1 1 -3/4\npoint 1 1 5/4\npoint 1 1 -3/4\n"
+    "curve 0\npoint 0 0 0\nrational 0\npoint 4 0 0 0x1p-1\ncurve 0\npoint 0 4 0\n"
+    "claim time_of_impact 0x1.fffffffffffffp-3 0x1p-2\nseparate 0 0x1.fffffffffffffp-3 face -\n"
+    "contact time 0x1p-2\nat triangle 0 1 2 z\nend\ncertificates 1\n";
+
+TEST(CertificateFacts, TheCurvesOfAQueryEachOfItsDegree) {
+  const CertifiedQuery read = certified_query(through_a_triangle);
+  const CurvedQuery expected{{{.control = {{1.0, 1.0, -0.75}, {1.0, 1.0, 1.25}, {1.0, 1.0, -0.75}}},
+                              {.control = {{0.0, 0.0, 0.0}}},
+                              {.control = {{4.0, 0.0, 0.0}}, .weights = {0.5}},
+                              {.control = {{0.0, 4.0, 0.0}}}}};
+  ASSERT_TRUE(read.curves.has_value());
+  EXPECT_EQ(*read.curves, expected);
+  EXPECT_EQ(certificate_facts(through_a_triangle).at("accepted"), true);
+  EXPECT_FALSE(certified_query(over_an_edge).curves.has_value());
+}
+
 TEST(CertificateFacts, InvalidTextIsAnError) {
+  for (const std::string number : {"0x1p-1", "5/4"}) {
+    EXPECT_THROW(static_cast<void>(certified_query(replaced(through_a_triangle, number, "1/3"))),
+                 std::invalid_argument)
+        << "1/3 is no double";
+  }
   EXPECT_THROW(static_cast<void>(certified_query("")), std::invalid_argument);
   EXPECT_THROW(static_cast<void>(certified_query("touchstone-certificates 1\n")),
                std::invalid_argument);

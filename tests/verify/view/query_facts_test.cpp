@@ -6,6 +6,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "tests/support/queries.hpp"
@@ -105,6 +106,69 @@ TEST(QueryFacts, AnswersAreHeldAgainstTheTruth) {
   EXPECT_EQ(answers[3].at("verdict"), "yes");
   EXPECT_EQ(answers[3].at("faults"), nlohmann::json::array());
   EXPECT_FALSE(answers[3].at("toi_lower").is_null());
+}
+
+// ---- Curves -------------------------------------------------------------------------------------
+
+/// A vertex on a parabola or, with weights, a conic: it falls from 1 to a triangle at rest, turned
+/// where the middle control point is at -1, and rises again.
+ViewedQuery turning(std::vector<double> weights = {}) {
+  return {.label = "curved",
+          .curves = CurvedQuery{
+              {{.control = {{1, 1, 1}, {1, 1, -1}, {1, 1, 1}}, .weights = std::move(weights)},
+               {.control = {{0, 0, 0}}},
+               {.control = {{4, 0, 0}}},
+               {.control = {{0, 4, 0}}}}}};
+}
+
+TEST(QueryFacts, PointsOnCurvesAreGivenByTheirControlPoints) {
+  const nlohmann::json facts = query_facts(turning(), {});
+  EXPECT_FALSE(facts.contains("coordinates"));
+  EXPECT_FALSE(facts.contains("weights"));
+  EXPECT_EQ(facts.at("control"), nlohmann::json::parse(R"([
+    [["0x1p+0", "0x1p+0", "0x1p+0"], ["0x0p+0", "0x0p+0", "0x0p+0"],
+     ["0x1p+2", "0x0p+0", "0x0p+0"], ["0x0p+0", "0x1p+2", "0x0p+0"]],
+    [["0x1p+0", "0x1p+0", "-0x1p+0"], null, null, null],
+    [["0x1p+0", "0x1p+0", "0x1p+0"], null, null, null]])"));
+  const nlohmann::json& truth = facts.at("truth");
+  EXPECT_EQ(truth.at("toi").at("exact"), "1/2");
+  EXPECT_EQ(truth.at("u").at("exact"), "1/4");
+  EXPECT_EQ(truth.at("v").at("exact"), "1/4");
+  EXPECT_EQ(facts.at("certificate").at("claim"), "time_of_impact");
+  EXPECT_EQ(facts.at("certificate").at("accepted"), true);
+}
+
+// (1−t)² − 4(1−t)t + 3t² = (1−4t)(1−2t).
+TEST(QueryFacts, OnRationalCurvesTheirWeightsAreGiven) {
+  const nlohmann::json facts = query_facts(turning({1.0, 2.0, 3.0}), {});
+  EXPECT_EQ(facts.at("weights"), nlohmann::json::parse(R"([
+    ["0x1p+0", "0x1p+0", "0x1p+0", "0x1p+0"], ["0x1p+1", null, null, null],
+    ["0x1.8p+1", null, null, null]])"));
+  EXPECT_EQ(facts.at("truth").at("toi").at("exact"), "1/4");
+}
+
+TEST(QueryFacts, OnCurvesTheCertifiedSolverIsHeldAgainstTheTruth) {
+  const ViewedQuery query = turning();
+  std::vector<judge::GivenAnswer> asked{answer_on_curves(query).value()};
+  asked.push_back({.solver = "certified", .answer = {.verdict = fast::Verdict::no}});
+  const nlohmann::json answers = query_facts(query, asked).at("answers");
+  ASSERT_EQ(answers.size(), 2U);
+  EXPECT_EQ(answers[0].at("solver"), "certified");
+  EXPECT_EQ(answers[0].at("verdict"), "yes");
+  EXPECT_EQ(answers[0].at("faults"), nlohmann::json::array());
+  EXPECT_EQ(answers[1].at("faults"), nlohmann::json::array({"false negative"}));
+  EXPECT_EQ(answers[1].at("breaks_promise"), true);
+}
+
+TEST(QueryFacts, OnCurvesThereIsNoNearestApproach) {
+  ViewedQuery query = turning();
+  query.curves->at(0).control[1][2] = 0.0;
+  const nlohmann::json facts = query_facts(query, {});
+  EXPECT_EQ(facts.at("truth").at("collides"), false);
+  EXPECT_TRUE(facts.at("approach").is_null());
+  EXPECT_EQ(facts.at("certificate").at("claim"), "no_collision");
+  query.separation = {.distance = 0.5, .norm = Norm::linf};
+  EXPECT_EQ(query_facts(query, {}).at("truth").at("toi").at("exact"), "1/2");
 }
 
 TEST(QueryFacts, TextsArePrintable) {

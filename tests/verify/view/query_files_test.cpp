@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+#include <cstdint>
 #include <fstream>
 #include <stdexcept>
 #include <string>
@@ -13,6 +15,7 @@
 #include "touchstone/certificate_text.hpp"
 #include "touchstone/oracle.hpp"
 #include "verify/data/csv_dataset.hpp"
+#include "verify/data/npy_header.hpp"
 #include "verify/io/compressor.hpp"
 #include "verify/io/dataset_error.hpp"
 
@@ -61,6 +64,37 @@ TEST_F(QueryFiles, RowsOfADataset) {
   EXPECT_EQ(chosen[1].query, numbered(2));
   EXPECT_EQ(queries("vertex-face.csv", {.most = 2}).size(), 2U);
   EXPECT_EQ(reason("vertex-face.csv", {.indices = {3}}), "there is no query 3; it has 3");
+}
+
+TEST_F(QueryFiles, QueriesOnCurves) {
+  std::string text = "rational,2\n";
+  for (int row = 0; row < 24; ++row) text += std::to_string(row) + ",-0.25,3,0.5\n";
+  write("edge-edge.csv", text);
+  const auto all = queries("edge-edge.csv");
+  ASSERT_EQ(all.size(), 2U);
+  ASSERT_TRUE(all[1].curves.has_value());
+  const Trajectory& third = all[1].curves->at(2);
+  EXPECT_EQ(third.degree(), 2U);
+  EXPECT_EQ(third.control[1], (std::array{18.0, -0.25, 3.0}));
+  EXPECT_EQ(third.weights, std::vector<double>(3, 0.5));
+  EXPECT_EQ(all[1].kind, Kind::edge_edge);
+  EXPECT_EQ(all[1].label, path("edge-edge.csv") + ":1");
+  EXPECT_EQ(queries("edge-edge.csv", {.indices = {1}}).at(0).curves, all[1].curves);
+  EXPECT_EQ(queries("edge-edge.csv", {.most = 1}).size(), 1U);
+  EXPECT_EQ(queries("edge-edge.csv", {.kind = Kind::vertex_face}).at(0).kind, Kind::vertex_face);
+  EXPECT_EQ(reason("edge-edge.csv", {.indices = {2}}), "there is no query 2; it has 2");
+}
+
+TEST_F(QueryFiles, AnArrayOfFourExtentsIsOfCurves) {
+  const std::vector<double> numbers(96, 0.5);
+  const void* const bytes = numbers.data();
+  const std::string data(static_cast<const char*>(bytes), numbers.size() * sizeof(double));
+  const std::array<std::uint64_t, 3> curves{4, 4, 3};
+  const std::array<std::uint64_t, 2> lines{8, 3};
+  write("vertex-face.npy", data::npy_header_text("<f8", 2, curves) + data);
+  EXPECT_EQ(queries("vertex-face.npy").at(1).curves->at(3).degree(), 3U);
+  write("vertex-face.npy", data::npy_header_text("<f8", 4, lines) + data);
+  EXPECT_FALSE(queries("vertex-face.npy").at(3).curves.has_value());
 }
 
 TEST_F(QueryFiles, AFindingOfTheFuzzer) {
@@ -116,6 +150,15 @@ TEST_F(QueryFiles, Certificates) {
   EXPECT_EQ(all[2].label, path("proofs.cert") + ":2, label");
   EXPECT_TRUE(all[2].certificate.ends_with("end\ncertificates 1\n"));
   EXPECT_EQ(queries("proofs.cert", {.indices = {1}}).at(0).query, numbered(1));
+  const CurvedQuery curves{{{.control = {{1, 1, 1}, {1, 1, -1}, {1, 1, 1}}},
+                            {.control = {{0, 0, 0}}},
+                            {.control = {{4, 0, 0}}},
+                            {.control = {{0, 4, 0}}}}};
+  write("curves.cert",
+        exact::certificate_stream(
+            exact::prove(Kind::vertex_face, curves, exact::decide(Kind::vertex_face, curves)),
+            "on curves"));
+  EXPECT_EQ(queries("curves.cert").at(0).curves, curves);
   write("text.cert", "no certificate\n");
   EXPECT_EQ(reason("text.cert"), "this is no stream of certificates");
 }

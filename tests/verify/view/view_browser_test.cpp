@@ -14,6 +14,7 @@
 #include "tests/support/browser_test.hpp"
 #include "tests/support/queries.hpp"
 #include "tests/support/random.hpp"
+#include "touchstone/curved_query.hpp"
 #include "touchstone/number.hpp"
 #include "verify/mesh/mesh.hpp"
 #include "verify/solvers/registry.hpp"
@@ -140,6 +141,102 @@ TEST_F(ViewBrowser, TheSliderMovesThePointsExactly) {
       EXPECT_EQ(result.at("all").at(i), positions(posed.query, Rational(steps[i], 4096)));
     }
   }
+}
+
+// ---- Curves -------------------------------------------------------------------------------------
+
+/// Curves of different degrees with coordinates of very different sizes; two are rational.
+CurvedQuery odd_curves() {
+  return {{{.control = {{1, 1, 1e200}, {0.1, -1, 0.5}, {3, 1e-300, 0}, {2, 2, 7}},
+            .weights = {1, 0.3, 5, 0x1p-20}},
+           {.control = {{0, 0, 0}, {0.7, 0.2, 5e-324}, {9, -3, 1}}},
+           {.control = {{4, 0.1, 0}}},
+           {.control = {{0, 4, 0}, {1, 5, -2}, {0, 1, 1}, {8, 8, 8}},
+            .weights = {0.1, 0.2, 0.3, 0.4}}}};
+}
+
+/// Σ_j B_j(t) w_j b_j / Σ_j B_j(t) w_j for each coordinate of each point.
+std::vector<std::string> positions(const CurvedQuery& curves, const Rational& t) {
+  std::vector<std::string> result;
+  for (const Trajectory& curve : curves) {
+    std::array<Rational, 3> sum;
+    Rational sum_of_weights = 0, basis = 1;
+    for (std::size_t i = 0; i < curve.degree(); ++i) basis *= 1 - t;
+    for (std::size_t j = 0; j <= curve.degree(); ++j) {
+      const Rational weight = curve.weights.empty() ? basis : basis * Rational(curve.weights[j]);
+      sum_of_weights += weight;
+      for (std::size_t k = 0; k < 3; ++k) sum.at(k) += weight * Rational(curve.control[j].at(k));
+      basis *=
+          t * Rational(static_cast<int>(curve.degree() - j), static_cast<int>(j + 1)) / (1 - t);
+    }
+    for (const Rational& x : sum) result.push_back(Rational(x / sum_of_weights).get_str());
+  }
+  return result;
+}
+
+std::string page_of_curves(const CurvedQuery& curves) {
+  return view_page({query_facts({.label = "curved", .curves = curves}, {})}, "touchstone view", {});
+}
+
+TEST_F(ViewBrowser, TheSliderMovesPointsOnCurvesExactly) {
+  const CurvedQuery curves = odd_curves();
+  const nlohmann::json result = result_on(page_of_curves(curves), R"(
+    choose("format", "rational");
+    const read = (step) => { move("time", step); return text("#at_now code"); };
+    say({ steps: find("time").max, all: [0, 1, 1365, 2048, 4095].map(read), drawn: [pixels("motion"), pixels("corners")] });
+  )");
+  ASSERT_EQ(result.at("steps"), "4096");
+  const std::array<int, 5> steps{0, 1, 1365, 2048, 4095};
+  for (std::size_t i = 0; i < steps.size(); ++i) {
+    EXPECT_EQ(result.at("all").at(i), positions(curves, Rational(steps[i], 4096)));
+  }
+  for (const nlohmann::json& count : result.at("drawn")) EXPECT_GT(count, 30);
+}
+
+TEST_F(ViewBrowser, ShowsControlPointsAndNoTextOfCurves) {
+  const nlohmann::json result = result_on(page_of_curves(odd_curves()), R"(
+    const rows = (id) => all(`#${id} tr`).slice(1).map((row) => Array.from(row.children).map((cell) => cell.textContent).join(" "));
+    move("time", 4096);
+    say({ groups: text("#points tbody tr:first-child"), head: text("#points thead th"),
+      control: ["at_t_0", "at_control_1", "at_control_2", "at_t_1"].map(rows),
+      disabled: all("#exchange button").filter((one) => one.disabled).map((one) => one.id),
+      drawn: paste("1 1 1 0 0 0 4 0 0 0 4 0  1 1 -2 0 0 0 4 0 0 0 4 0"), end: rows("at_t_1") });
+  )");
+  EXPECT_EQ(result.at("groups"),
+            nlohmann::json::array({"t = 0", "control 1", "control 2", "t = 1", "now"}));
+  EXPECT_EQ(result.at("head"), nlohmann::json::array({"point", "x", "y", "z", "weight"}));
+  EXPECT_EQ(result.at("control"), nlohmann::json::parse(R"([
+    ["v 1 1 1e+200 1", "f0 0 0 0 1", "f1 4 0.1 0 1", "f2 0 4 0 0.1"],
+    ["v 0.1 -1 0.5 0.3", "f0 0.7 0.2 5e-324 1", "f2 1 5 -2 0.2"],
+    ["v 3 1e-300 0 5", "f2 0 1 1 0.3"],
+    ["v 2 2 7 9.5367431640625e-7", "f0 9 -3 1 1", "f1 4 0.1 0 1", "f2 8 8 8 0.4"]])"));
+  EXPECT_EQ(result.at("disabled"),
+            nlohmann::json::array({"copy_Cpp", "copy_CSV", "copy_JSON", "copy_OBJ"}));
+  EXPECT_EQ(result.at("drawn"), "Drawn. This page holds no answer to it.");
+  EXPECT_EQ(result.at("end").at(0), "v 1 1 -2");
+}
+
+/// A vertex that turns where it touches a triangle at rest: its path is seen although both ends
+/// are one point.
+TEST_F(ViewBrowser, ShowsContactAndPathOnCurves) {
+  const CurvedQuery curves{{{.control = {{1, 1, 1}, {1, 1, -1}, {1, 1, 1}}},
+                            {.control = {{0, 0, 0}}},
+                            {.control = {{4, 0, 0}}},
+                            {.control = {{0, 4, 0}}}}};
+  const nlohmann::json result = result_on(page_of_curves(curves), R"(
+    const first = { verdict: find("sentence").textContent, readout: find("readout").textContent, now: find("now").textContent };
+    const names = () => all("#motion .names span").slice(0, 1).map((one) => one.style.transform);
+    const heights = [0, 2048, 4096].map((step) => { move("time", step); return names()[0]; });
+    say({ first, heights, bars: all("#rows .subinterval").map((bar) => bar.textContent) });
+  )");
+  EXPECT_EQ(result.at("first").at("verdict"),
+            "vertex-face: collides. Time of impact: 0.5, (u, v) = (0.25, 0.25).");
+  EXPECT_EQ(result.at("first").at("readout"), "Contact now; nearest at (u, v) = (0.25, 0.25).");
+  EXPECT_EQ(result.at("first").at("now"), "0.5 (toi)");
+  EXPECT_EQ(result.at("bars"), nlohmann::json::array({"face +"}));
+  const nlohmann::json& heights = result.at("heights");
+  EXPECT_EQ(heights.at(0), heights.at(2));
+  EXPECT_NE(heights.at(0), heights.at(1));
 }
 
 TEST_F(ViewBrowser, ShowsContactTimeAndSolvers) {

@@ -1,6 +1,9 @@
 // The data of the page's queries. The tool writes for each (verify/view/query_facts.cpp):
 //
-//   label, kind, coordinates, min_separation, norm, notes
+//   label, kind, min_separation, norm, notes
+//   coordinates  24; or of a query on curves:
+//   control      lists for j = 0 … K of the four points' control points j, null where a curve has none
+//   weights      theirs, if any curve is rational
 //   truth        collides, text, toi (with its polynomial), u, v
 //   approach     the least distance without a collision: above, at_most, and the time
 //   certificate  claim, accepted, reason, subintervals, text, given
@@ -20,11 +23,20 @@ const double = (text) => {
 const enclosure = (facts) => ({ ...facts, lower: double(facts.lower), upper: double(facts.upper) });
 const moment = (facts) => ({ ...enclosure(facts), time: parseRational(facts.time) });
 
+function pointsOf({ coordinates, control, weights }) {
+  if (coordinates) return { coordinates: coordinates.map(double) };
+  return { control: control.map((points) => points.map((point) => point && point.map(double))),
+    ...(weights && { weights: weights.map((list) => list.map(double)) }) };
+}
+
+/// Points on curves can be seen; they are neither edited nor written as text.
+export const isCurved = (facts) => facts.control !== undefined;
+
 export function readFacts(facts) {
   const { truth, approach, certificate } = facts;
   return {
     ...facts,
-    coordinates: facts.coordinates.map(double),
+    ...pointsOf(facts),
     min_separation: double(facts.min_separation),
     truth: { ...truth, toi: truth.toi ? moment(truth.toi) : null,
       u: truth.u ? enclosure(truth.u) : null, v: truth.v ? enclosure(truth.v) : null },

@@ -7,7 +7,7 @@
 
 import { absolute, add, compare, log2, multiply, one, rational, shortText, subtract, zero } from "./exact.js";
 import { Frame } from "./frame.js";
-import { likelyNearestTime, minus, Motion } from "./motion.js";
+import { likelyNearestTime, minus, Motion, times } from "./motion.js";
 import { positionIn } from "./timeline.js";
 
 /// Steps of the time slider.
@@ -22,13 +22,23 @@ const largest = (vectors) => vectors.flat().reduce((a, b) => {
   return size > a ? size : a;
 }, 0n);
 
+/// Both ends of the motion and, on curves, times between them.
+function timesOf(motion) {
+  const parts = motion.isStraight ? 1 : 16;
+  return Array.from({ length: parts + 1 }, (_, i) => ({ n: BigInt(i), d: BigInt(parts) }));
+}
+
+/// The derivatives of a polynomial curve at its control points, which bound its speed.
+const fastest = (control) =>
+  control.slice(1).map((point, j) => times(BigInt(control.length - 1), minus(point, control[j])));
+
 /// log2 of n/d; by default of 1.
 const lg = (n, d) => (n === 0n ? 0 : log2({ n, d }));
 
 export class Look {
   constructor(facts) {
     this.facts = facts;
-    this.motion = new Motion(facts.kind, facts.coordinates);
+    this.motion = new Motion(facts);
     this.star = this.starTime();
     this.zoom = 0;
     this.isFollowing = false;
@@ -49,14 +59,15 @@ export class Look {
   /// The radii at both ends of the zoom, and the speed of the points, as powers of two.
   measure(state, near) {
     const { motion, place } = this;
-    const ends = [...motion.start, ...motion.end];
     const scale = 1n << motion.shift;
-    const away = ends.map((point) => point.map((x, k) => x * place.d - place.vector[k] * scale));
+    const away = motion.control.flat().map((point) => point.map((x, k) => x * place.d - place.vector[k] * scale));
     this.lgAll = lg(largest(away), place.d * scale) + 0.35;
-    const corners = [zero, one].map((t) => motion.at(t)).map((end) => [motion.corners(end), end.d]);
-    this.lgCorners = lg(largest(corners.flatMap(([all]) => all)), corners[0][1]) + 0.35;
-    const paths = motion.start.map((point, i) => minus(motion.end[i], point));
-    this.lgSpeed = largest(paths) === 0n ? null : lg(largest(paths), scale);
+    const farthest = timesOf(motion).map((t) => motion.at(t)).map((state) => ({ n: largest(motion.corners(state)), d: state.d }))
+      .reduce((a, b) => (compare(b, a) > 0 ? b : a));
+    this.lgCorners = lg(farthest.n, farthest.d) + 0.35;
+    const speed = largest(motion.control.flatMap(fastest));
+    // Unzoomed, the window is all of the time, also if a curve is longer than the picture.
+    this.lgSpeed = speed === 0n ? null : Math.min(lg(speed, scale), this.lgAll + 1);
     this.lgEnd = Math.min(this.lgAll, this.lgCorners) - leastZoom;
     if (near.squared.n > 0n && !this.collides()) this.lgEnd = Math.min(log2(near.squared) / 2 + marginForGap, this.lgAll);
   }

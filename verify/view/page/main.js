@@ -2,7 +2,7 @@
 
 import { add, compare, doubleText, hexadecimalText, log2, nearest, one, parseDouble, rational, rationalText, shortText, zero } from "./exact.js";
 import { find, make } from "./elements.js";
-import { momentText, placeText, readFacts, verdictText, withoutAnswer } from "./facts.js";
+import { isCurved, momentText, placeText, readFacts, verdictText, withoutAnswer } from "./facts.js";
 import { linkOf, readLink, readQuery, writers } from "./formats.js";
 import { worldOf } from "./frame.js";
 import { isLive, startLive } from "./live.js";
@@ -42,6 +42,9 @@ function figure(id, caption) {
       make("canvas", { tabindex: "0", role: "img", "aria-label": `${caption}. Arrow keys turn it, plus and minus zoom.` }),
       make("div", { class: "names", "aria-hidden": "true" })));
 }
+
+/// The button that copies in the format of that name.
+const copyId = (name) => `copy_${name.replace(/\+/g, "p")}`;
 
 const button = (id, text, tip, press) => make("button", { type: "button", id, title: tip, onclick: press }, text);
 
@@ -119,7 +122,7 @@ function page() {
       make("h2", {}, "Copy and paste"),
       make("p", {}, "Text of another query (C++, rows of CSV, JSON, OBJ v lines, or 24 numbers), pasted here, is drawn."),
       make("div", { class: "choice" },
-        ...Object.keys(writers).map((name) => button(`copy_${name.replace(/\+/g, "p")}`, `Copy as ${name}`, "", () => copy(name))),
+        ...Object.keys(writers).map((name) => button(copyId(name), `Copy as ${name}`, "", () => copy(name))),
         button("copy_certificate", "Copy the certificate", "For touchstone-check", () => copyText(look.facts.certificate.text))),
       make("textarea", { id: "text", rows: 10, spellcheck: "false", "aria-label": "A query as text",
         onpaste: () => setTimeout(draw) }),
@@ -150,6 +153,8 @@ function show(index) {
   find("label").title = facts.label;
   find("notes").replaceChildren(...facts.notes.map((note) => make("li", {}, note)));
   find("star").textContent = facts.truth && facts.truth.toi ? "To contact" : "To the nearest";
+  for (const name of Object.keys(writers)) find(copyId(name)).disabled = isCurved(facts);
+  find("edit").hidden = decide === null || isCurved(facts);
   find("enlarge").disabled = find("zoom").disabled = !look.canZoom;
   writeVerdict(facts);
   writeEditor(facts);
@@ -245,24 +250,36 @@ function numberText(value) {
   return (isExact ? "" : "≈ ") + (format === "decimal" ? String(near) : hexadecimalText(near));
 }
 
+/// The control points, those of the ends with their time; the last ones of all curves are together. \param all a list
+/// for each curve
+function controlGroups(all) {
+  const last = Math.max(...all.map((curve) => curve.length)) - 1;
+  const inner = Array.from({ length: Math.max(last - 1, 0) }, (_, j) =>
+    ({ title: `control ${j + 1}`, values: all.map((curve) => (j + 2 < curve.length ? curve[j + 1] : null)) }));
+  return [{ title: "t = 0", end: 0, values: all.map((curve) => curve[0]) }, ...inner,
+    { title: "t = 1", end: 1, values: all.map((curve) => curve[curve.length - 1]) }];
+}
+
 function writeTable(state = look.motion.at(look.t)) {
   const { motion } = look;
   const isTyping = document.activeElement && document.activeElement.matches("#points input");
   if (isTyping) return;
-  const isInput = decide !== null && format !== "rational";
-  const cell = (x, d, end, i, k) => (isInput && end >= 0
+  const isInput = decide !== null && format !== "rational" && !isCurved(look.facts);
+  const code = (value) => make("code", {}, numberText(value));
+  const cell = (x, d, end, i, k) => (isInput && end !== undefined
     ? make("input", { type: "text", value: numberText({ n: x, d }), "aria-label": `${axes[k]} of ${motion.names[i]} at t = ${end}`,
       onchange: (event) => typeCoordinate(12 * end + 3 * i + k, event.target) })
-    : make("code", {}, numberText({ n: x, d })));
-  const unit = 1n << motion.shift;
-  const groups = [["t = 0", motion.start, unit, 0], ["t = 1", motion.end, unit, 1], ["now", state.points, state.d, -1]];
-  const body = groups.map(([title, points, d, end]) => make("tbody", { id: `at_${title.replace(/[^a-z0-9]+/g, "_")}` },
-    make("tr", {}, make("th", { scope: "rowgroup", colspan: "4" }, title)),
-    ...points.map((point, i) => make("tr", {}, make("th", { scope: "row" }, motion.names[i]),
-      ...point.map((x, k) => make("td", {}, cell(x, d, end, i, k)))))));
-  find("points").replaceChildren(
-    make("thead", {}, make("tr", {}, make("th", { scope: "col" }, "point"), ...axes.map((name) => make("th", { scope: "col" }, name)))),
-    ...body);
+    : code({ n: x, d }));
+  const weights = motion.weights && controlGroups(motion.weights);
+  const weightCell = (group, i) => weights && make("td", {}, weights[group] ? code(rational(weights[group].values[i])) : "");
+  const columns = ["point", ...axes, ...(weights ? ["weight"] : [])];
+  const groups = [...controlGroups(motion.control).map((group) => ({ ...group, d: 1n << motion.shift })),
+    { title: "now", values: state.points, d: state.d }];
+  const body = groups.map(({ title, values, d, end }, group) => make("tbody", { id: `at_${title.replace(/[^a-z0-9]+/g, "_")}` },
+    make("tr", {}, make("th", { scope: "rowgroup", colspan: columns.length }, title)),
+    ...values.map((point, i) => point && make("tr", {}, make("th", { scope: "row" }, motion.names[i]),
+      ...point.map((x, k) => make("td", {}, cell(x, d, end, i, k))), weightCell(group, i)))));
+  find("points").replaceChildren(make("thead", {}, make("tr", {}, ...columns.map((name) => make("th", { scope: "col" }, name)))), ...body);
 }
 
 // ---- Copy and paste -----------------------------------------------------------------------------
@@ -281,7 +298,7 @@ function copyText(text) {
   if (navigator.clipboard) navigator.clipboard.writeText(area.value).then(() => { said.textContent = "Copied."; }, () => {});
 }
 
-const isSame = (a, b) => a.kind === b.kind && a.min_separation === b.min_separation &&
+const isSame = (a, b) => !isCurved(a) && !isCurved(b) && a.kind === b.kind && a.min_separation === b.min_separation &&
   (a.min_separation === 0 || a.norm === b.norm) && a.coordinates.every((x, i) => x === b.coordinates[i]);
 
 /// The number of a query in the list, which it joins if it is new.
@@ -366,7 +383,7 @@ function typeCoordinate(at, input) {
 /// Dragging moves the points of the end of the motion that is shown.
 const drag = {
   begin() {
-    if (decide === null || !find("move").checked) return false;
+    if (decide === null || isCurved(look.facts) || !find("move").checked) return false;
     isPlaying = false;
     const end = compare(add(look.t, look.t), one) < 0 ? zero : one;
     look.window = { from: zero, to: one };
@@ -416,7 +433,6 @@ function openLink() {
 async function goLive() {
   try {
     decide = await startLive();
-    find("edit").hidden = false;
   } catch (error) {
     find("nothing").textContent = `This browser cannot decide queries: ${error.message}.`;
     find("nothing").hidden = false;

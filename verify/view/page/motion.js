@@ -1,5 +1,5 @@
 // A query in motion: the positions of its points at a rational time, its corners, and its nearest
-// points, all exact (docs/theory.md, sections 1.1 to 1.3).
+// points, all exact (docs/theory.md, sections 1.1 to 1.3). A straight line is a Bézier curve of degree 1.
 //
 // A vector is three integers. Vectors of one time have one denominator.
 
@@ -24,28 +24,63 @@ export const times = (s, a) => [s * a[0], s * a[1], s * a[2]];
 export const cross = (a, b) =>
   [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
 
+/// The curves of the four points, each a list of control points x, y, z and their weights.
+function curvesOf({ coordinates, control, weights }) {
+  const lists = control || [0, 1].map((end) =>
+    [0, 1, 2, 3].map((i) => coordinates.slice(12 * end + 3 * i, 12 * end + 3 * i + 3)));
+  return [0, 1, 2, 3].map((i) => lists.filter((list) => list[i] !== null)
+    .map((list, j) => ({ point: list[i], weight: weights ? weights[j][i] : 1 })));
+}
+
+/// The least n ≥ 0 with which all doubles times 2^n are integers, and a double times 2^n.
+const shiftFor = (doubles) => BigInt(Math.max(0, ...doubles.map((x) => -dyadic(x).e)));
+function shifted(x, shift) {
+  const { m, e } = dyadic(x);
+  return m << (shift + BigInt(e));
+}
+
+/// De Casteljau's algorithm on vectors at t, times the denominator of t to the power of the degree.
+function pointAt(control, t) {
+  const rest = t.d - t.n;
+  let points = control;
+  while (points.length > 1) {
+    points = points.slice(1).map((next, j) => next.map((x, k) => rest * points[j][k] + t.n * x));
+  }
+  return points[0];
+}
+
 export class Motion {
-  /// \param coordinates 24 finite doubles in the order of a query
-  constructor(kind, coordinates) {
+  /// \param facts those of a query (facts.js), finite, with positive weights
+  constructor(facts) {
+    const { kind } = facts;
     this.kind = kind;
-    this.coordinates = coordinates;
     this.names = names[kind];
     this.primitives = primitives[kind];
     this.pairs = cornerPairs[kind];
-    const parts = coordinates.map(dyadic);
-    this.shift = BigInt(Math.max(0, ...parts.map(({ e }) => -e)));
-    const integers = parts.map(({ m, e }) => m << (this.shift + BigInt(e)));
-    const points = (end) => [0, 1, 2, 3].map((i) => integers.slice(12 * end + 3 * i, 12 * end + 3 * i + 3));
-    this.start = points(0);
-    this.end = points(1);
+    const curves = curvesOf(facts);
+    this.shift = shiftFor(curves.flat().flatMap(({ point }) => point));
+    const shiftOfWeights = shiftFor(curves.flat().map(({ weight }) => weight));
+    /// The control points of each curve: vectors over 2^shift.
+    this.control = curves.map((curve) => curve.map(({ point }) => point.map((x) => shifted(x, this.shift))));
+    /// The same, each times its weight, and the weight.
+    this.weighted = curves.map((curve, i) => curve.map(({ weight }, j) => {
+      const factor = shifted(weight, shiftOfWeights);
+      return [...times(factor, this.control[i][j]), factor];
+    }));
+    /// The weights of each curve as doubles; null if all are 1.
+    this.weights = facts.weights ? curves.map((curve) => curve.map(({ weight }) => weight)) : null;
+    this.isStraight = curves.every((curve) => curve.length <= 2);
   }
 
   /// The positions of the points at time t: vectors over `d`.
   at(t) {
-    const rest = t.d - t.n;
+    const weighted = this.weighted.map((curve) => pointAt(curve, t));
+    const weights = weighted.map(([, , , weight]) => weight);
+    // Curves of one degree and the same weights have one denominator.
+    const common = [...new Set(weights)].reduce((product, weight) => product * weight);
     return {
-      points: this.start.map((point, i) => plus(times(rest, point), times(t.n, this.end[i]))),
-      d: t.d << this.shift,
+      points: weighted.map(([x, y, z, weight]) => times(common / weight, [x, y, z])),
+      d: common << this.shift,
     };
   }
 

@@ -5,7 +5,10 @@
 
 import { clipped, seenPoint, toNumbers } from "./frame.js";
 
+/// The outlines of a trace: at both ends of the window, and between them.
 const ghosts = 13;
+/// Parts of a curve between two of them.
+const partsOfCurve = 4;
 
 /// Both primitives have a colour; one has round points, the other boxes.
 export const looks = [{ color: "s1", shape: "ball" }, { color: "s3", shape: "box" }];
@@ -14,20 +17,25 @@ export const looks = [{ color: "s1", shape: "ball" }, { color: "s3", shape: "box
 export const outline = (points) => (points.length > 2 ? [...points, points[0]] : points);
 export const sides = (points) => points.slice(1).map((point, i) => [points[i], point]);
 
-/// The times of the traces: both ends of the window, and between them.
-const ghostTimes = ({ from, to }) => Array.from({ length: ghosts }, (_, i) => {
-  const [before, after] = [BigInt(ghosts - 1 - i), BigInt(i)];
-  return { n: from.n * to.d * before + to.n * from.d * after, d: from.d * to.d * BigInt(ghosts - 1) };
-});
+/// The times of the traces.
+function traceTimes({ isStraight }, { from, to }) {
+  const count = (ghosts - 1) * (isStraight ? 1 : partsOfCurve);
+  return Array.from({ length: count + 1 }, (_, i) => {
+    const [before, after] = [BigInt(count - i), BigInt(i)];
+    return { n: from.n * to.d * before + to.n * from.d * after, d: from.d * to.d * BigInt(count) };
+  });
+}
 
 /// The traces of moving polygons: at each time a list of polygons of exact points.
-function traces(frames) {
+function traces({ isStraight }, frames) {
   const shapes = frames[0].length;
+  const pathFrames = isStraight ? [frames[0], frames[frames.length - 1]] : frames;
+  const ghostFrames = frames.filter((_, i) => i % ((frames.length - 1) / (ghosts - 1)) === 0);
   return Array.from({ length: shapes }, (_, k) => {
-    const paths = frames[0][k].map((_, i) => clipped([frames[0][k][i], frames[ghosts - 1][k][i]]));
-    const states = frames.map((frame) => sides(outline(frame[k])).map(clipped));
+    const paths = frames[0][k].map((_, i) => sides(pathFrames.map((frame) => frame[k][i])).map(clipped));
+    const states = ghostFrames.map((frame) => sides(outline(frame[k])).map(clipped));
     const strips = [];
-    for (let i = 1; i < ghosts; ++i) {
+    for (let i = 1; i < frames.length; ++i) {
       sides(outline(frames[i - 1][k])).forEach(([a, b], s) => {
         const [c, d] = sides(outline(frames[i][k]))[s];
         strips.push(clipped([a, b, d]), clipped([a, d, c]));
@@ -39,24 +47,26 @@ function traces(frames) {
 
 function drawTraces(scene, all) {
   scene.begin(scene.still);
-  scene.setExtent(all.flatMap(({ paths, ends }) => [...paths, ...ends.flat()].flat()));
+  scene.setExtent(all.flatMap(({ paths, ends }) => [...paths.flat(), ...ends.flat()].flat()));
   all.forEach((trace, k) => {
     const { color } = looks[k % 2];
     scene.surfaces(trace.strips, color, 0.05);
     scene.lines(trace.between.flat(), color, 0.16);
     scene.lines(trace.ends.flat(), color, 0.6);
-    scene.lines(trace.paths, color, 0.9, 0.03);
+    scene.lines(trace.paths.flat(), color, 0.9, 0.03);
     for (const path of trace.paths) drawArrow(scene, path, color);
   });
 }
 
-/// A mark at the end of a path, if it is visible.
+const difference = ([from, to]) => to.map((x, k) => x - from[k]);
+const lengthOf = (segment) => Math.hypot(...difference(segment));
+
+/// A mark at the end of a path of segments, if it is visible.
 function drawArrow(scene, path, color) {
-  if (path.length < 2) return;
-  const [from, to] = path;
-  const step = to.map((x, k) => x - from[k]);
-  const length = Math.hypot(...step);
-  if (length < 0.08 * scene.part) return;
+  const seen = path.filter((segment) => segment.length === 2 && lengthOf(segment) > 0);
+  if (seen.reduce((sum, segment) => sum + lengthOf(segment), 0) < 0.08 * scene.part) return;
+  const last = seen[seen.length - 1];
+  const [to, step, length] = [last[1], difference(last), lengthOf(last)];
   scene.arrow(to.map((x, k) => x - (0.06 * scene.part * step[k]) / length), to, color, 0.006);
 }
 
@@ -88,7 +98,7 @@ export class MotionPicture {
   }
 
   prepare({ motion, window, frame }) {
-    drawTraces(this.scene, traces(ghostTimes(window).map((t) => {
+    drawTraces(this.scene, traces(motion, traceTimes(motion, window).map((t) => {
       const state = motion.at(t);
       return motion.primitives.map((points) => points.map((i) => frame.place(state.points[i], state.d)));
     })));
@@ -141,7 +151,7 @@ export class CornerPicture {
   }
 
   prepare({ motion, window, frame }) {
-    drawTraces(this.scene, traces(ghostTimes(window).map((t) => {
+    drawTraces(this.scene, traces(motion, traceTimes(motion, window).map((t) => {
       const state = motion.at(t);
       return [motion.corners(state).map((w) => frame.place(w, state.d))];
     })));
