@@ -402,7 +402,7 @@ Status run_on_curves(const CLI::App& command, const Arguments& arguments) {
                                   .most_findings = arguments.most_findings,
                                   .kinds = arguments.kinds(),
                                   .method = arguments.solver.options,
-                                  .is_conservative = method != "certified",
+                                  .promise = solvers::find_method(method).promise(),
                                   .stop = &io::interrupted()};
   options.method.separation = arguments.separation.given();
   const double begin = options.clock();

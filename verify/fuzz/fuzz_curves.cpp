@@ -7,10 +7,11 @@
 #include <optional>
 #include <utility>
 
-#include "touchstone/number.hpp"
 #include "touchstone/oracle.hpp"
 #include "verify/generate/curved_families.hpp"
 #include "verify/generate/random.hpp"
+#include "verify/judge/ground_truth.hpp"
+#include "verify/judge/judge.hpp"
 
 namespace touchstone::verify::fuzz {
 namespace {
@@ -118,23 +119,11 @@ class CurvedDraws {
   generate::Random random_;
 };
 
+/// The first fault that breaks the promise.
 std::optional<judge::Fault> fault_of(const fast::Answer& answer, const exact::Decision& truth,
-                                     bool is_conservative) {
-  if (answer.verdict == fast::Verdict::error) return judge::Fault::no_verdict;
-  if (answer.verdict == fast::Verdict::no) {
-    if (truth.collides()) return judge::Fault::false_negative;
-    return std::nullopt;
-  }
-  if (!truth.collides()) {
-    if (is_conservative) return std::nullopt;
-    return judge::Fault::false_positive;
-  }
-  if (answer.verdict == fast::Verdict::undecided) return std::nullopt;
-  if (!std::isnan(answer.toi_lower) && exact::Rational(answer.toi_lower) > *truth.toi) {
-    return judge::Fault::late_toi;
-  }
-  if (!std::isnan(answer.toi_upper) && exact::Rational(answer.toi_upper) < *truth.toi) {
-    return judge::Fault::early_toi_upper;
+                                     fast::Promise promise) {
+  for (const judge::Fault fault : judge::judge_verdict(judge::truth_of(0, truth), answer)) {
+    if (judge::breaks(fault, promise)) return fault;
   }
   return std::nullopt;
 }
@@ -161,7 +150,7 @@ CurvedFuzzResult fuzz_curves(const AnswerCurves& answer, bool polynomials,
           exact::decide(block.kind, queries.query(i), options.method.separation);
       ++result.queries;
       result.collisions += truth.collides() ? 1U : 0U;
-      const auto fault = fault_of(answers[i], truth, options.is_conservative);
+      const auto fault = fault_of(answers[i], truth, options.promise);
       if (!fault) continue;
       const auto row = queries.row(i);
       result.findings.push_back({*fault, block.kind, block.degree, block.is_rational,

@@ -18,7 +18,7 @@
 #include "fast/method.hpp"
 #include "touchstone/curved_query.hpp"
 #include "verify/base/deadline.hpp"
-#include "verify/judge/judgement.hpp"
+#include "verify/judge/fault.hpp"
 
 namespace touchstone::verify::fuzz {
 
@@ -29,8 +29,8 @@ struct CurvedFuzzOptions {
   std::uint64_t most_findings = 20;  ///< after which the run ends; 0: never
   std::vector<Kind> kinds = {Kind::vertex_face, Kind::edge_edge};
   fast::MethodOptions method = {};
-  /// False positives are no findings.
-  bool is_conservative = false;
+  /// What breaks it is a finding.
+  fast::Promise promise = fast::Promise::exact;
   /// May be null. Once true, the run ends.
   const std::atomic<bool>* stop = nullptr;
   /// Called now and then with the queries that are judged.

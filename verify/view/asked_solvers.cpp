@@ -9,9 +9,9 @@
 
 #include "fast/method.hpp"
 #include "touchstone/certified.hpp"
-#include "touchstone/curved.hpp"
 #include "touchstone/curved_query.hpp"
 #include "verify/jobs/prove.hpp"
+#include "verify/solvers/curved_answers.hpp"
 
 namespace touchstone::verify::view {
 
@@ -69,13 +69,10 @@ std::vector<judge::GivenAnswer> answers_of(std::span<const solvers::Solver* cons
 std::optional<judge::GivenAnswer> answer_on_curves(const ViewedQuery& viewed) {
   const std::optional<CurvedNumbers> curves = of_one_degree(*viewed.curves);
   if (!curves) return std::nullopt;
-  fast::CertifiedResult found;
-  fast::solve(viewed.kind, curves->queries(), {&found, 1},
-              {.separation = viewed.separation, .max_threads = 1});
-  return judge::GivenAnswer{
-      .solver = std::string(fast::certified_info().name),
-      .answer = {
-          .verdict = found.verdict, .toi_lower = found.toi_lower, .toi_upper = found.toi_upper}};
+  const std::string method(fast::certified_info().name);
+  const auto answers = solvers::curved_answers(method, viewed.kind, curves->queries(),
+                                               {.separation = viewed.separation}, 1);
+  return judge::GivenAnswer{.solver = method, .answer = answers.front()};
 }
 
 ViewedQuery viewed_query(judge::WrongQuery wrong) {

@@ -40,7 +40,7 @@ TEST(FuzzCurves, FindsNothingInOurSolvers) {
       EXPECT_LT(certified.collisions, queries - queries / 10);
     }
   }
-  CurvedFuzzOptions options{.most_queries = queries, .is_conservative = true};
+  CurvedFuzzOptions options{.most_queries = queries, .promise = fast::Promise::conservative};
   options.method.max_checks = 2000;
   EXPECT_TRUE(fuzz_curves(method("tight_inclusion"), true, options).findings.empty());
 }
@@ -68,8 +68,8 @@ TEST(FuzzCurves, HasTheSameQueriesForTheSameSeed) {
       all.insert(all.end(), queries.numbers.begin(), queries.numbers.end());
       return std::vector<fast::Answer>(queries.size(), {.verdict = fast::Verdict::undecided});
     };
-    static_cast<void>(
-        fuzz_curves(note, false, {.most_queries = 200, .seed = seed, .is_conservative = true}));
+    static_cast<void>(fuzz_curves(
+        note, false, {.most_queries = 200, .seed = seed, .promise = fast::Promise::conservative}));
     return all;
   };
   EXPECT_EQ(numbers(1), numbers(1));
