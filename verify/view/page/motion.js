@@ -69,7 +69,8 @@ export class Motion {
     }));
     /// The weights of each curve as doubles; null if all are 1.
     this.weights = facts.weights ? curves.map((curve) => curve.map(({ weight }) => weight)) : null;
-    this.isStraight = curves.every((curve) => curve.length <= 2);
+    /// Do points and corners move on straight lines? Differences of rational curves do not, of any degree.
+    this.isStraight = this.weights === null && curves.every((curve) => curve.length <= 2);
   }
 
   /// The positions of the points at time t: vectors over `d`.
