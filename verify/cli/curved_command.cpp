@@ -6,6 +6,7 @@
 #include "verify/cli/curved_run.hpp"
 #include "verify/cli/help.hpp"
 #include "verify/cli/options.hpp"
+#include "verify/cli/solver_options.hpp"
 
 namespace touchstone::verify::cli::curved_command {
 
@@ -31,6 +32,10 @@ void add(CLI::App& app, Status& status) {
   command->add_option("--threads", arguments->threads, "Cores to use (0: all)")
       ->type_name("N")
       ->capture_default_str();
+  command->option_defaults()->group("Solver");
+  add_plugin_option(*command, arguments->judged);
+  add_solver_limits(*command, arguments->judged);
+  add_exact_flag(*command, arguments->judged);
   command->option_defaults()->group("Output");
   command
       ->add_option("--proof", arguments->proof_file,
@@ -38,14 +43,17 @@ void add(CLI::App& app, Status& status) {
       ->type_name("FILE");
   add_json_option(*command, arguments->json_file);
   set_help(*command,
-           "touchstone curved --others\n"
+           "touchstone curved --others --plugin mine.so\n"
            "touchstone curved curves.csv --kind edge-edge --proof curves.cert",
            "A row of an array has the control points of a query from t=0 to t=1, each of the four "
            "points, with weights last if the curves are rational. A file of CSV begins with "
            "degree,K or rational,K.\n"
-           "Exit status: 0 success, 1 an answer of ours is wrong, 2 bad input or usage, 130 "
-           "interrupted.");
-  command->callback([arguments, &status] { status = run_curves(*arguments); });
+           "Exit status: 0 success, 1 an answer of ours is wrong or a plugin breaks its promise, "
+           "2 bad input or usage, 130 interrupted.");
+  command->callback([arguments, command, &status] {
+    settle_solver_options(*command, false, arguments->judged);
+    status = run_curves(*arguments);
+  });
 }
 
 }  // namespace touchstone::verify::cli::curved_command

@@ -20,6 +20,7 @@
 #include "verify/io/terminal.hpp"
 #include "verify/jobs/certify_curves.hpp"
 #include "verify/judge/ground_truth.hpp"
+#include "verify/judge/judgement.hpp"
 #include "verify/report/certify_report.hpp"
 #include "verify/solvers/answers.hpp"
 #include "verify/solvers/curved_answers.hpp"
@@ -33,6 +34,44 @@ Kind kind_of(const fs::path& path, const std::string& named) {
   return named.empty() ? data::kind_from_path(path) : kind_from_string(named);
 }
 
+/// The judgement on a plugin, and the first of its wrong answers.
+std::string text_of(const jobs::CurvedPluginResult& plugin) {
+  using judge::Fault;
+  constexpr std::size_t most_shown = 10;
+  const judge::Judgement& judged = plugin.judgement;
+  const std::string name = io::printable(plugin.name);
+  std::string text = fmt::format(
+      "  {}: {} missed, {} false, {} late, {} with an early upper bound, {} failed, {:.3f} µs a "
+      "query\n",
+      name, judged.count(Fault::false_negative), judged.count(Fault::false_positive),
+      judged.count(Fault::late_toi), judged.count(Fault::early_toi_upper), plugin.failed(),
+      judged.nanoseconds_per_query() * 1e-3);
+  if (const std::uint64_t unasked = judged.outside + judged.left_out; unasked != 0) {
+    text += fmt::format("  {}: {} not asked\n", name, unasked);
+  }
+  std::size_t shown = 0;
+  for (const judge::WrongAnswer& wrong : judged.wrong_answers) {
+    if (!judge::breaks(wrong.fault, plugin.promise)) continue;
+    if (shown++ == most_shown) break;
+    text += fmt::format("  query {}: {}\n", wrong.index, judge::to_text(name, wrong));
+  }
+  return text;
+}
+
+nlohmann::json json_of(const jobs::CurvedPluginResult& plugin) {
+  using judge::Fault;
+  const judge::Judgement& judged = plugin.judgement;
+  return {{"method", plugin.name},
+          {"false_negatives", judged.count(Fault::false_negative)},
+          {"false_positives", judged.count(Fault::false_positive)},
+          {"late", judged.count(Fault::late_toi)},
+          {"early_toi_upper", judged.count(Fault::early_toi_upper)},
+          {"failed", plugin.failed()},
+          {"not_asked", judged.outside + judged.left_out},
+          {"seconds", judged.nanoseconds * 1e-9},
+          {"keeps_promise", !plugin.is_broken()}};
+}
+
 class CurvedRun {
  public:
   explicit CurvedRun(const CurvedArguments& arguments)
@@ -41,6 +80,8 @@ class CurvedRun {
         truth_(files_, arguments.truth_file),
         proof_(files_, arguments.proof_file) {
     files_.add_inputs(arguments.paths);
+    files_.add_inputs(arguments.judged.plugins);
+    load_plugins();
     if (truth_) truth_.write(report::truth_header());
   }
 
@@ -68,6 +109,16 @@ class CurvedRun {
     std::span<const std::optional<double>> truth = {};
   };
 
+  void load_plugins() {
+    const SolverArguments& judged = arguments_.judged;
+    for (const fs::path& path : judged.plugins) {
+      plugins_.push_back({.plugin = solvers::load_curved_plugin(path, judged.loading()),
+                          .options = judged.options,
+                          .process = judged.process()});
+      if (judged.exact) plugins_.back().plugin.promise = fast::Promise::exact;
+    }
+  }
+
   void certify_file(const fs::path& path) {
     const data::CurvedQueryFile file = data::read_curved_queries(path);
     certify({io::printable(path.string()), kind_of(path, arguments_.kind), file.queries()});
@@ -93,6 +144,7 @@ class CurvedRun {
                                 .threads = arguments_.threads,
                                 .truth = set.truth,
                                 .judge_others = arguments_.judges_others,
+                                .plugins = plugins_,
                                 .prove = static_cast<bool>(proof_),
                                 .label = set.name + ' '};
     options.on_progress = [&](double done) { bar.update(done); };
@@ -109,6 +161,10 @@ class CurvedRun {
     certificates_ += result.certificates;
     beyond_limits_ += result.beyond_limits;
     wrong_ += result.wrong.size() + result.against_truth.size();
+    for (const jobs::CurvedPluginResult& plugin : result.plugins) {
+      if (plugin.is_broken()) ++wrong_;
+      report_output(plugin.name, plugin.output, arguments_.judged.show_output);
+    }
     add_text(set, result);
     add_json(set, result);
   }
@@ -136,6 +192,7 @@ class CurvedRun {
                            other.false_negatives, other.false_positives, other.late,
                            other.seconds / queries * 1e6);
     }
+    for (const jobs::CurvedPluginResult& plugin : result.plugins) text_ += text_of(plugin);
     if (result.beyond_limits > 0) {
       text_ += fmt::format("  {} proofs exceed the limits of the format\n", result.beyond_limits);
     }
@@ -158,6 +215,7 @@ class CurvedRun {
                         {"late", other.late},
                         {"seconds", other.seconds}});
     }
+    for (const jobs::CurvedPluginResult& plugin : result.plugins) others.push_back(json_of(plugin));
     results_.push_back({{"name", set.name},
                         {"kind", to_string(set.kind)},
                         {"degree", set.queries.degree},
@@ -176,6 +234,7 @@ class CurvedRun {
   }
 
   const CurvedArguments& arguments_;
+  std::vector<jobs::JudgedPlugin> plugins_;
   Files files_;
   Output json_;
   Output truth_;

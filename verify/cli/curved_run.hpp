@@ -14,6 +14,7 @@
 #include "fast/method.hpp"
 #include "verify/cli/commands.hpp"
 #include "verify/cli/options.hpp"
+#include "verify/cli/solver_options.hpp"
 #include "verify/cli/sources.hpp"
 
 namespace touchstone::verify::cli {
@@ -25,6 +26,7 @@ struct CurvedArguments {
   std::uint64_t count = 1000;
   std::uint64_t seed = default_seed;
   bool judges_others = false;
+  SolverArguments judged = {};  ///< plugins
   unsigned threads = 0;
   std::string truth_file;
   std::string proof_file;
