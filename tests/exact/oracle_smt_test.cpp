@@ -2,8 +2,10 @@
 /// The oracle against an SMT solver (Z3, nonlinear real arithmetic).
 ///
 /// The solver gets only the definition: unknown reals t, u, v in the domain and the three equations
-/// F = 0 with the coordinates as exact rationals. It answers whether there is a solution, and
-/// whether there is one before the oracle's time of impact. Hard queries come first. The
+/// F = 0 with the coordinates as exact rationals, times the weights' sums if the curves are
+/// rational. It answers whether there is a solution, whether there is one before the oracle's time
+/// of impact, and whether there is one until then. Hard queries come first. What the solver does
+/// not decide within its steps is no agreement: it is counted, and the count is bounded. The
 /// environment variable TOUCHSTONE_SOAK multiplies the number of random queries by fifty.
 
 #include <gtest/gtest.h>
@@ -14,6 +16,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <iostream>
 #include <limits>
 #include <optional>
@@ -22,7 +25,9 @@
 #include "tests/support/queries.hpp"
 #include "tests/support/random.hpp"
 #include "tests/support/trials.hpp"
+#include "touchstone/curved_query.hpp"
 #include "touchstone/oracle.hpp"
+#include "verify/generate/curved_families.hpp"
 
 namespace touchstone::exact::oracle_smt_test {
 namespace {
@@ -38,21 +43,50 @@ using tests::turning_triangle;
 using tests::twisting_triangle;
 using tests::vertex_face;
 
-constexpr unsigned timeout_milliseconds = 20000;
+/// The steps that the solver may take for a question: its own measure of work.
+constexpr unsigned most_steps = 200'000;
 constexpr double least = std::numeric_limits<double>::denorm_min();
 
+/// A query on curves with its kind.
+struct PosedCurves {
+  Kind kind;
+  CurvedQuery query;
+};
+
+/// Prints the kind, and each point's control points and weights as hexadecimal doubles.
+std::ostream& operator<<(std::ostream& out, const PosedCurves& posed) {
+  out << to_string(posed.kind) << std::hexfloat;
+  for (const Trajectory& curve : posed.query) {
+    out << "; control";
+    for (const auto& point : curve.control) {
+      for (const double x : point) out << ' ' << x;
+    }
+    if (!curve.weights.empty()) out << " weights";
+    for (const double w : curve.weights) out << ' ' << w;
+  }
+  return out << std::defaultfloat;
+}
+
+PosedCurves to_curves(const PosedQuery& posed) { return {posed.kind, to_curved(posed.query)}; }
+
 // ------------------------------------------------------------------ the solver
+
+/// The times that a question is about: t < limit, or t ≤ limit.
+struct Times {
+  Rational limit;
+  bool includes_limit = false;
+};
 
 /// The query's definition in the language of the solver.
 class Definition {
  public:
-  explicit Definition(const PosedQuery& posed)
+  explicit Definition(const PosedCurves& posed)
       : t_(context_.real_const("t")),
         u_(context_.real_const("u")),
         v_(context_.real_const("v")),
         solver_(z3::tactic(context_, "qfnra-nlsat").mk_solver()) {
     z3::params parameters(context_);
-    parameters.set("timeout", timeout_milliseconds);
+    parameters.set("rlimit", most_steps);
     solver_.set(parameters);
     require_domain(posed.kind);
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -60,10 +94,13 @@ class Definition {
     }
   }
 
-  /// Asks whether there is a solution, with t < bound if there is a bound. The result is empty if
-  /// the solver gives up.
-  std::optional<bool> has_solution(const std::optional<Rational>& bound) {
-    if (bound) solver_.add(t_ < number(*bound));
+  /// Asks whether there is a solution, at these times if they are given. The result is empty if the
+  /// solver gives up.
+  std::optional<bool> has_solution(const std::optional<Times>& times = std::nullopt) {
+    if (times) {
+      const z3::expr limit = number(times->limit);
+      solver_.add(times->includes_limit ? t_ <= limit : t_ < limit);
+    }
     const z3::check_result result = solver_.check();
     if (result == z3::unknown) return std::nullopt;
     return result == z3::sat;
@@ -81,13 +118,42 @@ class Definition {
     if (kind == Kind::vertex_face) solver_.add(u_ + v_ <= one);
   }
 
-  z3::expr contact_function(const PosedQuery& posed, std::size_t axis) {
+  /// Σ_j B_j(t) values_j.
+  z3::expr bezier(const std::vector<Rational>& values) {
+    const std::size_t degree = values.size() - 1;
+    z3::expr sum = number(0);
+    Rational binomial = 1;
+    for (std::size_t j = 0; j <= degree; ++j) {
+      z3::expr term = number(binomial * values[j]);
+      for (std::size_t i = 0; i < degree; ++i) term = term * (i < j ? t_ : number(1) - t_);
+      sum = sum + term;
+      binomial = binomial * Rational(degree - j) / Rational(j + 1);
+    }
+    return sum;
+  }
+
+  /// A point's coordinate times all denominators of the query, which are positive.
+  z3::expr position(const CurvedQuery& query, std::size_t point, std::size_t axis) {
+    const Trajectory& curve = query.at(point);
+    std::vector<Rational> values;
+    for (std::size_t j = 0; j < curve.control.size(); ++j) {
+      const Rational weight(curve.weights.empty() ? 1.0 : curve.weights[j]);
+      values.push_back(weight * Rational(curve.control[j].at(axis)));
+    }
+    z3::expr product = bezier(values);
+    std::vector<std::vector<double>> done{{}, curve.weights};
+    for (const Trajectory& other : query) {
+      if (std::ranges::find(done, other.weights) != done.end()) continue;
+      done.push_back(other.weights);
+      product = product * bezier({other.weights.begin(), other.weights.end()});
+    }
+    return product;
+  }
+
+  z3::expr contact_function(const PosedCurves& posed, std::size_t axis) {
     const z3::expr one = number(1);
-    const auto position = [&](std::size_t point) {
-      return (one - t_) * number(Rational(posed.query.at(0, point, axis))) +
-             t_ * number(Rational(posed.query.at(1, point, axis)));
-    };
-    const z3::expr a = position(0), b = position(1), c = position(2), d = position(3);
+    const auto at = [&](std::size_t point) { return position(posed.query, point, axis); };
+    const z3::expr a = at(0), b = at(1), c = at(2), d = at(3);
     if (posed.kind == Kind::vertex_face) return a - ((one - u_ - v_) * b + u_ * c + v_ * d);
     return ((one - u_) * a + u_ * b) - ((one - v_) * c + v_ * d);
   }
@@ -151,6 +217,58 @@ std::vector<PosedQuery> queries_to_ask(int scale) {
   return queries;
 }
 
+/// Which denominators a query has: none, one for all points, or one for each primitive.
+enum class Weights : std::uint8_t { none, common, of_primitives };
+
+/// Curves of small whole numbers: many contacts are at boundaries. All points are in a common
+/// plane, or the second primitive rests; general positions take the solver too long.
+PosedCurves small_curves(Random& random, Kind kind, std::size_t degree, Weights weights) {
+  PosedCurves posed{kind, {}};
+  const bool is_flat = random.coin();
+  const auto flat_axis = static_cast<std::size_t>(random.between(0, 2));
+  const std::size_t second = kind == Kind::vertex_face ? 1 : 2;
+  for (std::size_t k = 0; k <= degree; ++k) {
+    const std::array<int, 2> drawn{random.between(1, 3), random.between(1, 3)};
+    for (std::size_t point = 0; point < moving_points; ++point) {
+      Trajectory& curve = posed.query.at(point);
+      std::array<double, 3> place{};
+      for (double& x : place) x = random.between(-2, 2);
+      if (is_flat) place.at(flat_axis) = 0.0;
+      const bool rests = !is_flat && point >= second;
+      curve.control.push_back(rests && k > 0 ? curve.control.front() : place);
+      if (weights == Weights::none) continue;
+      const bool has_second = weights == Weights::of_primitives && point >= second;
+      curve.weights.push_back(drawn.at(has_second ? 1 : 0));
+    }
+  }
+  return posed;
+}
+
+/// The families of known truth, then small whole numbers.
+std::vector<PosedCurves> curves_to_ask(int scale) {
+  std::vector<PosedCurves> queries;
+  for (const std::size_t degree : {2U, 3U}) {
+    for (const auto& family :
+         verify::generate::curved_families(degree, static_cast<std::size_t>(scale), 98)) {
+      for (std::size_t i = 0; i < family.queries().size(); ++i) {
+        queries.push_back({family.kind, family.queries().query(i)});
+      }
+    }
+  }
+  Random random(98);
+  const auto draw = [&](std::size_t degree, Weights weights) {
+    for (int i = 0; i < 8 * scale; ++i) {
+      const Kind kind = i % 2 == 0 ? Kind::vertex_face : Kind::edge_edge;
+      queries.push_back(small_curves(random, kind, degree, weights));
+    }
+  };
+  draw(2, Weights::none);
+  draw(3, Weights::none);
+  draw(2, Weights::common);
+  draw(2, Weights::of_primitives);
+  return queries;
+}
+
 // ------------------------------------------------------------------ the comparison
 
 struct Tally {
@@ -164,20 +282,19 @@ struct Tally {
   std::vector<double> times;
 };
 
-std::optional<bool> ask(const PosedQuery& posed, const std::optional<Rational>& bound,
-                        Tally& tally) {
+std::optional<bool> ask(const PosedCurves& posed, const std::optional<Times>& times, Tally& tally) {
   const auto start = std::chrono::steady_clock::now();
-  const std::optional<bool> answer = Definition(posed).has_solution(bound);
+  const std::optional<bool> answer = Definition(posed).has_solution(times);
   const std::chrono::duration<double> time = std::chrono::steady_clock::now() - start;
   tally.times.push_back(time.count());
   return answer;
 }
 
-void compare_verdict(const PosedQuery& posed, bool collides, Tally& tally) {
+void compare_verdict(const PosedCurves& posed, bool collides, Tally& tally) {
   const std::optional<bool> answer = ask(posed, std::nullopt, tally);
   if (!answer) {
     ++tally.unknown;
-    std::cout << "no answer within the time: " << posed << '\n';
+    std::cout << "no answer within the steps: " << posed << '\n';
     return;
   }
   ++tally.decided;
@@ -185,17 +302,26 @@ void compare_verdict(const PosedQuery& posed, bool collides, Tally& tally) {
   ++tally.agreed.at(static_cast<std::size_t>(posed.kind)).at(collides ? 1 : 0);
 }
 
-/// Expects no solution before the toi's lower bound.
-void compare_toi(const PosedQuery& posed, const AlgebraicNumber& toi, Tally& tally) {
-  const Rational lower(toi.enclosure().lower);
-  if (sgn(lower) == 0) return;
-  const std::optional<bool> answer = ask(posed, lower, tally);
+/// Expects a solution at these times, or none.
+void compare_toi(const PosedCurves& posed, const Times& times, bool expected, Tally& tally) {
+  const std::optional<bool> answer = ask(posed, times, tally);
   if (!answer) {
     ++tally.unknown_tois;
     return;
   }
   ++tally.tois;
-  ASSERT_FALSE(*answer) << "contact before " << lower;
+  ASSERT_EQ(*answer, expected) << (expected ? "no contact until " : "a contact before ")
+                               << times.limit;
+}
+
+/// Compares the verdict, and expects no contact before the toi's lower bound, and one until its
+/// upper bound.
+void compare(const PosedCurves& posed, const Decision& verdict, Tally& tally) {
+  compare_verdict(posed, verdict.collides(), tally);
+  if (!verdict.collides()) return;
+  const Rational lower(verdict.toi->enclosure().lower), upper(verdict.toi->enclosure().upper);
+  if (sgn(lower) > 0) compare_toi(posed, {lower}, false, tally);
+  compare_toi(posed, {upper, true}, true, tally);
 }
 
 void print_summary(const Tally& tally) {
@@ -216,28 +342,60 @@ void print_summary(const Tally& tally) {
 
 TEST(OracleSmt, TheSolverWouldFindAContactBeforeAToiThatIsTooLate) {
   const Rational half = Rational(1) / 2, little = power_of_two(-60);
-  for (const PosedQuery& posed : {over_triangle(1, 1, 1, -1), over_edge(1, 1, 1, -1)}) {
-    EXPECT_EQ(Definition(posed).has_solution(std::nullopt), true);
-    EXPECT_EQ(Definition(posed).has_solution(half + little), true);
-    EXPECT_EQ(Definition(posed).has_solution(half), false);
+  for (const PosedQuery& straight : {over_triangle(1, 1, 1, -1), over_edge(1, 1, 1, -1)}) {
+    const PosedCurves posed = to_curves(straight);
+    EXPECT_EQ(Definition(posed).has_solution(), true);
+    EXPECT_EQ(Definition(posed).has_solution(Times{half + little}), true);
+    EXPECT_EQ(Definition(posed).has_solution(Times{half}), false);
+    EXPECT_EQ(Definition(posed).has_solution(Times{half, true}), true);
+    EXPECT_EQ(Definition(posed).has_solution(Times{half - little, true}), false);
   }
 }
 
+/// A point on a quarter of the unit circle is on the line 3x + 4y = 5 at t = 1/2 and never beyond.
+TEST(OracleSmt, TheDefinitionOfARationalCurveIsThatOfACircle) {
+  const auto at_rest = [](double x, double y, double z) { return Trajectory{{{x, y, z}}, {3.0}}; };
+  const Trajectory circle{{{1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, {1, 1, 2}};
+  const PosedCurves touches{Kind::vertex_face,
+                            {circle, at_rest(3, -1, -1), at_rest(-1, 2, -1), at_rest(-1, 2, 5)}};
+  PosedCurves misses = touches;
+  misses.query[0].control[1][0] -= 0x1p-40;
+  const Rational half = Rational(1) / 2;
+  EXPECT_EQ(Definition(touches).has_solution(Times{half, true}), true);
+  EXPECT_EQ(Definition(touches).has_solution(Times{half}), false);
+  EXPECT_EQ(Definition(misses).has_solution(), false);
+}
+
 TEST(OracleSmt, AgreesWithAnSmtSolver) {
-  const int scale = tests::is_soak() ? 50 : 1;
+  const int scale = tests::soak_trials(1, 50);
   Tally tally;
   for (const PosedQuery& posed : queries_to_ask(scale)) {
     SCOPED_TRACE(posed);
-    const Decision verdict = decide(posed.kind, posed.query);
-    compare_verdict(posed, verdict.collides(), tally);
-    if (verdict.collides()) compare_toi(posed, *verdict.toi, tally);
+    compare(to_curves(posed), decide(posed.kind, posed.query), tally);
   }
   print_summary(tally);
   EXPECT_GE(tally.decided, 100U);
   EXPECT_LE(20 * tally.unknown, tally.decided + tally.unknown) << "more than 5% unknown";
-  EXPECT_GE(tally.tois, 20U);
+  EXPECT_GE(tally.tois, 40U);
   for (const auto& verdicts : tally.agreed) {
     for (const std::size_t count : verdicts) EXPECT_GE(count, 10U);
+  }
+}
+
+TEST(OracleSmt, AgreesWithAnSmtSolverOnCurves) {
+  const int scale = tests::soak_trials(1, 50);
+  Tally tally;
+  for (const PosedCurves& posed : curves_to_ask(scale)) {
+    SCOPED_TRACE(posed);
+    compare(posed, decide(posed.kind, posed.query), tally);
+  }
+  print_summary(tally);
+  EXPECT_GE(tally.decided, 50U);
+  EXPECT_LE(20 * tally.unknown, tally.decided + tally.unknown) << "more than 5% unknown";
+  EXPECT_LE(10 * tally.unknown_tois, tally.tois + tally.unknown_tois) << "more than 10% unknown";
+  EXPECT_GE(tally.tois, 40U);
+  for (const auto& verdicts : tally.agreed) {
+    for (const std::size_t count : verdicts) EXPECT_GE(count, 5U);
   }
 }
 
