@@ -12,12 +12,14 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "examples/simulation/collision_detector.hpp"
 #include "examples/simulation/recorder.hpp"
 #include "examples/simulation/scene.hpp"
 #include "examples/simulation/simulator.hpp"
+#include "examples/simulation/tumbling.hpp"
 #include "examples/simulation/world.hpp"
 #include "verify/io/json.hpp"
 #include "verify/io/output_file.hpp"
@@ -183,8 +185,27 @@ int simulate(Arguments arguments) {
   return 0;
 }
 
+constexpr std::string_view tumbling = "tumbling-cubes";
+
+/// The scene whose motion is curved. \returns the exit status.
+int simulate_tumbling(const Arguments& arguments) {
+  TumblingOptions options{.folder = arguments.recorder.folder};
+  if (arguments.steps > 0) options.steps = arguments.steps;
+  const TumblingResult result = tumble(options);
+  std::string text =
+      fmt::format("{}: {} steps, {} impacts\n", tumbling, options.steps, result.impacts);
+  for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
+    const auto index = static_cast<std::size_t>(kind);
+    text += fmt::format("  {} {} queries on curves, {} of them collide\n", result.queries.at(index),
+                        to_string(kind), result.collisions.at(index));
+  }
+  verify::io::print(stdout, text);
+  return 0;
+}
+
 std::string scene_list() {
-  std::string text = "Scenes:\n";
+  std::string text = fmt::format(
+      "Scenes:\n  {:<16} two rigid cubes on curves; only --steps and --record apply\n", tumbling);
   for (const SceneDescription& scene : scenes())
     text += fmt::format("  {:<16} {}\n", scene.name, scene.what);
   return text;
@@ -198,6 +219,7 @@ int run(int argc, char** argv) {
   Arguments arguments;
   std::vector<std::string> names;
   for (const SceneDescription& scene : scenes()) names.emplace_back(scene.name);
+  names.emplace_back(tumbling);
   app.add_option("scene", arguments.scene, "Which scene")
       ->required()
       ->check(CLI::IsMember(names))
@@ -242,6 +264,7 @@ int run(int argc, char** argv) {
              "./run step /tmp/torus");
   try {
     app.parse(argc, argv);
+    if (arguments.scene == tumbling) return simulate_tumbling(arguments);
     if (verify::solvers::find_info(arguments.detector.method) == nullptr) {
       (void)verify::solvers::find_method(arguments.detector.method);
     }
