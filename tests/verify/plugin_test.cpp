@@ -59,6 +59,9 @@ TEST(PluginInterface, FunctionsHaveTheirTypes) {
   EXPECT_TRUE((std::is_same_v<decltype(touchstone_plugin_solve),
                               void(int32_t, const double*, const TouchstonePluginOptions*,
                                    TouchstonePluginAnswer*)>));
+  EXPECT_TRUE((std::is_same_v<decltype(touchstone_plugin_solve_curved),
+                              void(int32_t, int32_t, int32_t, const double*,
+                                   const TouchstonePluginOptions*, TouchstonePluginAnswer*)>));
 }
 
 }  // namespace

@@ -18,6 +18,7 @@
 #include "verify/cli/files.hpp"
 #include "verify/cli/help.hpp"
 #include "verify/cli/options.hpp"
+#include "verify/cli/solver_options.hpp"
 #include "verify/data/curved_query_file.hpp"
 #include "verify/data/dataset.hpp"
 #include "verify/generate/curved_families.hpp"
@@ -38,10 +39,49 @@ struct Arguments {
   std::uint64_t count = 1000;
   std::uint64_t seed = default_seed;
   bool judges_others = false;
+  SolverArguments judged;
   unsigned threads = 0;
   std::string proof_file;
   std::string json_file;
 };
+
+/// The judgement on a plugin, and the first of its wrong answers.
+std::string text_of(const jobs::CurvedPluginResult& plugin) {
+  using judge::Fault;
+  constexpr std::size_t most_shown = 10;
+  const judge::Judgement& judged = plugin.judgement;
+  const std::string name = io::printable(plugin.name);
+  std::string text = fmt::format(
+      "  {}: {} missed, {} false, {} late, {} with an early upper bound, {} failed, {:.3f} µs a "
+      "query\n",
+      name, judged.count(Fault::false_negative), judged.count(Fault::false_positive),
+      judged.count(Fault::late_toi), judged.count(Fault::early_toi_upper), plugin.failed(),
+      judged.nanoseconds_per_query() * 1e-3);
+  if (const std::uint64_t unasked = judged.outside + judged.left_out; unasked != 0) {
+    text += fmt::format("  {}: {} not asked\n", name, unasked);
+  }
+  std::size_t shown = 0;
+  for (const judge::WrongAnswer& wrong : judged.wrong_answers) {
+    if (!judge::breaks(wrong.fault, plugin.promise)) continue;
+    if (shown++ == most_shown) break;
+    text += fmt::format("  query {}: {}\n", wrong.index, judge::to_text(name, wrong));
+  }
+  return text;
+}
+
+nlohmann::json json_of(const jobs::CurvedPluginResult& plugin) {
+  using judge::Fault;
+  const judge::Judgement& judged = plugin.judgement;
+  return {{"method", plugin.name},
+          {"false_negatives", judged.count(Fault::false_negative)},
+          {"false_positives", judged.count(Fault::false_positive)},
+          {"late", judged.count(Fault::late_toi)},
+          {"early_toi_upper", judged.count(Fault::early_toi_upper)},
+          {"failed", plugin.failed()},
+          {"not_asked", judged.outside + judged.left_out},
+          {"seconds", judged.nanoseconds * 1e-9},
+          {"keeps_promise", !plugin.is_broken()}};
+}
 
 class CurvedRun {
  public:
@@ -50,6 +90,8 @@ class CurvedRun {
         json_(files_, arguments.json_file),
         proof_(files_, arguments.proof_file) {
     files_.add_inputs(arguments.paths);
+    files_.add_inputs(arguments.judged.plugins);
+    load_plugins();
   }
 
   Status run() {
@@ -74,6 +116,16 @@ class CurvedRun {
     CurvedQueries queries;
     std::span<const std::optional<double>> truth = {};
   };
+
+  void load_plugins() {
+    const SolverArguments& judged = arguments_.judged;
+    for (const fs::path& path : judged.plugins) {
+      plugins_.push_back({.plugin = solvers::load_curved_plugin(path, judged.loading()),
+                          .options = judged.options,
+                          .process = judged.process()});
+      if (judged.exact) plugins_.back().plugin.promise = fast::Promise::exact;
+    }
+  }
 
   void certify_file(const fs::path& path) {
     const data::CurvedQueryFile file = data::read_curved_queries(path);
@@ -102,6 +154,7 @@ class CurvedRun {
                                 .threads = arguments_.threads,
                                 .truth = set.truth,
                                 .judge_others = arguments_.judges_others,
+                                .plugins = plugins_,
                                 .prove = static_cast<bool>(proof_),
                                 .label = set.name + ' '};
     options.on_progress = [&](double done) { bar.update(done); };
@@ -112,6 +165,10 @@ class CurvedRun {
     certificates_ += result.certificates;
     beyond_limits_ += result.beyond_limits;
     wrong_ += result.wrong.size() + result.against_truth.size();
+    for (const jobs::CurvedPluginResult& plugin : result.plugins) {
+      if (plugin.is_broken()) ++wrong_;
+      report_output(plugin.name, plugin.output, arguments_.judged.show_output);
+    }
     add_text(set, result);
     add_json(set, result);
   }
@@ -139,6 +196,7 @@ class CurvedRun {
                            other.false_negatives, other.false_positives, other.late,
                            other.seconds / queries * 1e6);
     }
+    for (const jobs::CurvedPluginResult& plugin : result.plugins) text_ += text_of(plugin);
     if (result.beyond_limits > 0) {
       text_ += fmt::format("  {} proofs exceed the limits of the format\n", result.beyond_limits);
     }
@@ -161,6 +219,7 @@ class CurvedRun {
                         {"late", other.late},
                         {"seconds", other.seconds}});
     }
+    for (const jobs::CurvedPluginResult& plugin : result.plugins) others.push_back(json_of(plugin));
     results_.push_back({{"name", set.name},
                         {"kind", to_string(set.kind)},
                         {"degree", set.queries.degree},
@@ -179,6 +238,7 @@ class CurvedRun {
   }
 
   const Arguments& arguments_;
+  std::vector<jobs::JudgedPlugin> plugins_;
   Files files_;
   Output json_;
   CertificatesFile proof_;
@@ -213,6 +273,10 @@ void add(CLI::App& app, Status& status) {
   command->add_option("--threads", arguments->threads, "Cores to use (0: all)")
       ->type_name("N")
       ->capture_default_str();
+  command->option_defaults()->group("Solver");
+  add_plugin_option(*command, arguments->judged);
+  add_solver_limits(*command, arguments->judged);
+  add_exact_flag(*command, arguments->judged);
   command->option_defaults()->group("Output");
   command
       ->add_option("--proof", arguments->proof_file,
@@ -220,14 +284,17 @@ void add(CLI::App& app, Status& status) {
       ->type_name("FILE");
   add_json_option(*command, arguments->json_file);
   set_help(*command,
-           "touchstone curved --others\n"
+           "touchstone curved --others --plugin mine.so\n"
            "touchstone curved curves.csv --kind edge-edge --proof curves.cert",
            "A row of an array has the control points of a query from t=0 to t=1, each of the four "
            "points, with weights last if the curves are rational. A file of CSV begins with "
            "degree,K or rational,K.\n"
-           "Exit status: 0 success, 1 an answer of ours is wrong, 2 bad input or usage, 130 "
-           "interrupted.");
-  command->callback([arguments, &status] { status = CurvedRun(*arguments).run(); });
+           "Exit status: 0 success, 1 an answer of ours is wrong or a plugin breaks its promise, "
+           "2 bad input or usage, 130 interrupted.");
+  command->callback([arguments, command, &status] {
+    settle_solver_options(*command, false, arguments->judged);
+    status = CurvedRun(*arguments).run();
+  });
 }
 
 }  // namespace touchstone::verify::cli::curved_command

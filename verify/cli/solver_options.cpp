@@ -49,6 +49,10 @@ void add_solver_options(CLI::App& command, SolverArguments& arguments) {
       ->type_name("NAME")
       ->allow_extra_args(false);
   add_plugin_option(command, arguments);
+  add_solver_limits(command, arguments);
+}
+
+void add_solver_limits(CLI::App& command, SolverArguments& arguments) {
   command
       .add_option("--tolerance", arguments.options.tolerance,
                   "Tolerance of conservative methods, in units of the coordinates")
@@ -169,9 +173,12 @@ solvers::ChildLimits SolverArguments::limits() const {
   return {.memory_bytes = memory_limit, .may_fork = allow_processes};
 }
 
+solvers::PluginOptions SolverArguments::loading() const {
+  return {.terms = terms, .limits = limits(), .stop = &io::interrupted()};
+}
+
 std::unique_ptr<fast::Method> SolverArguments::load(const std::filesystem::path& plugin) const {
-  return solvers::load_plugin(plugin,
-                              {.terms = terms, .limits = limits(), .stop = &io::interrupted()});
+  return solvers::load_plugin(plugin, loading());
 }
 
 solvers::SolverProcessOptions SolverArguments::process() const {

@@ -48,6 +48,9 @@ struct SolverArguments {
   /// The limits of a solver's process.
   [[nodiscard]] solvers::ChildLimits limits() const;
 
+  /// The options with which plugins are loaded.
+  [[nodiscard]] solvers::PluginOptions loading() const;
+
   /// The plugin at a path, loaded in a child process. \throws DatasetError as load_plugin does.
   [[nodiscard]] std::unique_ptr<fast::Method> load(const std::filesystem::path& plugin) const;
 
@@ -57,10 +60,13 @@ struct SolverArguments {
   [[nodiscard]] bool empty() const { return methods.empty() && plugins.empty() && results.empty(); }
 };
 
-/// Adds --method, --plugin, --query-limit, --memory-limit, --allow-processes, --show-output,
-/// --tolerance and --max-checks; the arguments must live
+/// Adds --method, --plugin and the options of add_solver_limits(); the arguments must live
 /// until the command line is parsed.
 void add_solver_options(CLI::App& command, SolverArguments& arguments);
+
+/// Adds --tolerance, --max-checks, --query-limit, --memory-limit, --allow-processes and
+/// --show-output.
+void add_solver_limits(CLI::App& command, SolverArguments& arguments);
 
 /// Adds --plugin, and the terms of the promises of plugins: --kinds, --starts-apart,
 /// --float-coordinates, --times, --time-error.

@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <deque>
+#include <memory>
 #include <optional>
 #include <span>
 
@@ -17,6 +19,8 @@
 #include "verify/base/cores.hpp"
 #include "verify/base/thread_clock.hpp"
 #include "verify/baselines/curved_methods.hpp"
+#include "verify/judge/ground_truth.hpp"
+#include "verify/judge/judge.hpp"
 
 namespace touchstone::verify::jobs {
 namespace {
@@ -30,6 +34,7 @@ constexpr unsigned long precision = 64;
 /// What is found of one query.
 struct Finding {
   bool collides = false;
+  judge::GroundTruth truth = {};  ///< if there are plugins
   bool is_wrong = false;
   double toi = fast::no_number;
   std::string certificate;
@@ -57,6 +62,7 @@ Finding finding_of(Kind kind, const CurvedQueries& queries, std::size_t i,
   result.seconds = (base::thread_nanoseconds() - begin) * 1e-9;
   result.collides = truth.collides();
   result.is_wrong = !is_right(found, truth);
+  if (!options.plugins.empty()) result.truth = judge::truth_of(i, truth);
   if (truth.collides()) {
     exact::AlgebraicNumber toi = *truth.toi;
     toi.refine_to_level(precision);
@@ -108,6 +114,64 @@ std::vector<CurvedJudgement> judge_others(Kind kind, const CurvedQueries& querie
   return result;
 }
 
+/// Asks a plugin about the queries of one call.
+class PluginRun {
+ public:
+  PluginRun(JudgedPlugin& judged, Kind kind, const CurvedQueries& queries, Separation separation)
+      : judged_(judged),
+        kind_(kind),
+        queries_(queries),
+        separation_(separation),
+        method_(solvers::curved_method(judged.plugin, queries)) {
+    solvers::SolverProcessOptions process = judged.process;
+    process.query_limit_seconds = judged.limits.seconds();
+    solver_ = solvers::solver_in_children(*method_, judged.options, process);
+    result_.name = judged.plugin.name;
+    result_.promise = judged.plugin.promise;
+  }
+
+  /// Judges the answers to the queries from number `first` on. They are left out if it is stopped.
+  void judge_block(std::size_t first, std::span<const Finding> findings) {
+    std::vector<Query> asked;
+    for (std::size_t i = 0; i < findings.size(); ++i) {
+      asked.push_back(solvers::stand_in(queries_, first + i));
+    }
+    std::vector<fast::Answer> answers(asked.size());
+    const solvers::SolveReply reply =
+        solver_->solve_timed({.kind = kind_, .queries = asked, .separation = separation_}, answers);
+    if (reply.stopped) return;
+    judge::Judgement block;
+    for (std::size_t i = 0; i < findings.size(); ++i) {
+      if (const auto why = reply.why_unasked(i)) {
+        block.add_unasked(*why, first + i);
+      } else {
+        block.add({kind_, asked[i], separation_}, findings[i].truth, answers[i],
+                  solver_->standard(), judge::failure_at(reply.failures, i));
+      }
+    }
+    block.unplaced_crashes = reply.unplaced_crashes;
+    block.nanoseconds = reply.time.value().processor_nanoseconds;
+    result_.judgement += block;
+  }
+
+  [[nodiscard]] CurvedPluginResult finish() {
+    for (std::uint64_t i = 0; i < result_.judgement.count(judge::Fault::hang); ++i) {
+      judged_.limits.add({});
+    }
+    result_.output = solver_->take_output();
+    return std::move(result_);
+  }
+
+ private:
+  JudgedPlugin& judged_;
+  Kind kind_;
+  const CurvedQueries& queries_;
+  Separation separation_;
+  std::unique_ptr<fast::Method> method_;
+  std::unique_ptr<solvers::Solver> solver_;
+  CurvedPluginResult result_;
+};
+
 /// True if the oracle's answer is not the known one. \param toi of the oracle, NaN for no contact
 bool contradicts(const std::optional<double>& known, double toi) {
   return known ? toi != *known : !std::isnan(toi);
@@ -121,6 +185,10 @@ CurvedResult certify_curves(Kind kind, const CurvedQueries& queries, const Curve
   tbb::task_arena arena(threads);
   std::vector<fast::CertifiedResult> found;
   std::vector<Finding> findings;
+  std::deque<PluginRun> plugins;
+  for (JudgedPlugin& judged : options.plugins) {
+    plugins.emplace_back(judged, kind, queries, options.separation);
+  }
   for (std::size_t first = 0; first < queries.size(); first += block_size) {
     if (options.stop != nullptr && *options.stop) break;
     const std::size_t count = std::min(block_size, queries.size() - first);
@@ -137,6 +205,7 @@ CurvedResult certify_curves(Kind kind, const CurvedQueries& queries, const Curve
         findings[i] = finding_of(kind, queries, first + i, found[i], options);
       });
     });
+    for (PluginRun& plugin : plugins) plugin.judge_block(first, findings);
     std::string certificates;
     for (std::size_t i = 0; i < count; ++i) {
       const Finding& one = findings[i];
@@ -161,6 +230,7 @@ CurvedResult certify_curves(Kind kind, const CurvedQueries& queries, const Curve
   if (options.judge_others && !queries.is_rational && is_zero(options.separation)) {
     sum.others = judge_others(kind, queries, sum.toi);
   }
+  for (PluginRun& plugin : plugins) sum.plugins.push_back(plugin.finish());
   return sum;
 }
 

@@ -1,11 +1,12 @@
 #pragma once
 
 /// \file
-/// The truth of queries on curves, its proofs, and the certified solver judged by it.
+/// The truth of queries on curves, its proofs, and the certified solver and others judged by it.
 
 #include <array>
 #include <atomic>
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <optional>
 #include <span>
@@ -13,11 +14,25 @@
 #include <string_view>
 #include <vector>
 
+#include "fast/method.hpp"
 #include "touchstone/certified.hpp"
 #include "touchstone/curved_query.hpp"
 #include "touchstone/query.hpp"
+#include "verify/judge/judgement.hpp"
+#include "verify/solvers/hang_limits.hpp"
+#include "verify/solvers/plugin.hpp"
+#include "verify/solvers/solver.hpp"
 
 namespace touchstone::verify::jobs {
+
+/// A plugin to judge, with what its processes may do.
+struct JudgedPlugin {
+  solvers::CurvedPlugin plugin;
+  fast::MethodOptions options = {};
+  solvers::SolverProcessOptions process = {};
+  /// The limits for hangs, which are counted over all calls.
+  solvers::HangLimits limits{process.query_limit_seconds};
+};
 
 struct CurvedOptions {
   Separation separation = {};
@@ -28,6 +43,8 @@ struct CurvedOptions {
   /// Judge also tight_inclusion and the methods of verify/baselines/curved_methods.hpp, at distance
   /// 0, without weights.
   bool judge_others = false;
+  /// Judge these, too.
+  std::span<JudgedPlugin> plugins = {};
   /// Write a certificate of each verdict.
   bool prove = false;
   /// Before each query's index in the label of its certificate.
@@ -50,6 +67,23 @@ struct CurvedJudgement {
   double seconds = 0.0;
 };
 
+/// A plugin's answers held to the truth, by the rules of judge.hpp.
+struct CurvedPluginResult {
+  std::string name;
+  fast::Promise promise = fast::Promise::none;
+  judge::Judgement judgement;
+  solvers::CapturedOutput output;
+
+  /// How often it ended its process, threw, gave no answer, or took too long.
+  [[nodiscard]] std::uint64_t failed() const {
+    return judgement.errors() + judgement.count(judge::Fault::hang);
+  }
+  /// Is there a promise, and a fault that breaks it?
+  [[nodiscard]] bool is_broken() const {
+    return promise != fast::Promise::none && !keeps(judgement, promise);
+  }
+};
+
 /// The outcome for the queries, or for the first ones if it was stopped.
 struct CurvedResult {
   std::size_t queries = 0;
@@ -62,6 +96,8 @@ struct CurvedResult {
   std::vector<std::size_t> against_truth;
   /// Of the other methods.
   std::vector<CurvedJudgement> others;
+  /// In the order of CurvedOptions::plugins.
+  std::vector<CurvedPluginResult> plugins;
   /// Certificates, and queries whose proof exceeds the limits of the format.
   std::size_t certificates = 0;
   std::size_t beyond_limits = 0;

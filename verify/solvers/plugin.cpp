@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <cstring>
 #include <exception>
@@ -167,11 +168,23 @@ fast::Answer checked(const TouchstonePluginAnswer& answer) {
 
 using Solve = decltype(touchstone_plugin_solve);
 using SolveBatch = decltype(touchstone_plugin_solve_batch);
+using SolveCurved = decltype(touchstone_plugin_solve_curved);
+constexpr const char* solve_name = "touchstone_plugin_solve";
+constexpr const char* solve_curved_name = "touchstone_plugin_solve_curved";
 static_assert(sizeof(Query) == 24 * sizeof(double));
 
-Solve* find_solve(const Library& library, const std::filesystem::path& path) {
-  return find_function<Solve>(library, path, "touchstone_plugin_solve");
+TouchstonePluginOptions plugin_options(const fast::MethodOptions& options) {
+  return {.tolerance = options.tolerance,
+          .max_checks = options.max_checks,
+          .min_separation = options.separation.distance,
+          .t_max = options.t_max,
+          .norm = static_cast<std::int32_t>(options.separation.norm)};
 }
+
+constexpr TouchstonePluginAnswer unanswered{.verdict = TOUCHSTONE_ERROR,
+                                            .toi_lower = fast::Answer::none,
+                                            .toi_upper = fast::Answer::none,
+                                            .tolerance = fast::Answer::none};
 
 class PluginMethod final : public fast::Method {
  public:
@@ -186,21 +199,12 @@ class PluginMethod final : public fast::Method {
              const fast::MethodOptions& options) const override {
     std::call_once(is_loaded_, [this] {
       library_ = open_library(path_);
-      solve_ = find_solve(library_, path_);
+      solve_ = find_function<Solve>(library_, path_, solve_name);
       solve_batch_ = find_optional<SolveBatch>(library_, "touchstone_plugin_solve_batch");
     });
     if (queries.empty()) return;
-    const TouchstonePluginOptions plugin_options{
-        .tolerance = options.tolerance,
-        .max_checks = options.max_checks,
-        .min_separation = options.separation.distance,
-        .t_max = options.t_max,
-        .norm = static_cast<std::int32_t>(options.separation.norm)};
-    std::vector<TouchstonePluginAnswer> found(queries.size(), {.verdict = TOUCHSTONE_ERROR,
-                                                               .toi_lower = fast::Answer::none,
-                                                               .toi_upper = fast::Answer::none,
-                                                               .tolerance = fast::Answer::none});
-    ask(static_cast<std::int32_t>(kind), queries, plugin_options, found);
+    std::vector<TouchstonePluginAnswer> found(queries.size(), unanswered);
+    ask(static_cast<std::int32_t>(kind), queries, plugin_options(options), found);
     std::ranges::transform(found, answers.begin(),
                            [](const TouchstonePluginAnswer& answer) { return checked(answer); });
   }
@@ -227,6 +231,46 @@ class PluginMethod final : public fast::Method {
   mutable SolveBatch* solve_batch_ = nullptr;
 };
 
+// ---- Curves -------------------------------------------------------------------------------------
+
+/// Where a stand-in has the number of its query.
+constexpr std::size_t number_place = 3 * moving_points;
+
+class CurvedPluginMethod final : public fast::Method {
+ public:
+  CurvedPluginMethod(const CurvedPlugin& plugin, const CurvedQueries& queries)
+      : path_(plugin.library),
+        queries_(queries),
+        info_{.name = plugin.name, .promise = plugin.promise, .terms = plugin.terms} {}
+
+  [[nodiscard]] const fast::MethodInfo& info() const override { return info_; }
+
+  void solve(Kind kind, std::span<const Query> queries, std::span<fast::Answer> answers,
+             const fast::MethodOptions& options) const override {
+    std::call_once(is_loaded_, [this] {
+      library_ = open_library(path_);
+      solve_ = find_function<SolveCurved>(library_, path_, solve_curved_name);
+    });
+    const TouchstonePluginOptions asked = plugin_options(options);
+    for (std::size_t i = 0; i < queries.size(); ++i) {
+      const auto number = static_cast<std::size_t>(queries[i].coordinates[number_place]);
+      TouchstonePluginAnswer found = unanswered;
+      solve_(static_cast<std::int32_t>(kind), static_cast<std::int32_t>(queries_.degree),
+             queries_.is_rational ? 1 : 0, queries_.row(number).data(), &asked, &found);
+      found.tolerance = fast::Answer::none;
+      answers[i] = checked(found);
+    }
+  }
+
+ private:
+  std::filesystem::path path_;
+  CurvedQueries queries_;
+  fast::MethodInfo info_;
+  mutable std::once_flag is_loaded_;
+  mutable Library library_;
+  mutable SolveCurved* solve_ = nullptr;
+};
+
 // ---- In a child process -------------------------------------------------------------------------
 
 // The child's messages: a word, and a text behind it.
@@ -241,7 +285,9 @@ void tell(const ChildChannel& channel, std::string_view word, std::string_view t
   static_cast<void>(channel.send(message.substr(0, ChildChannel::most_bytes)));
 }
 
-void load_and_ask(const std::filesystem::path& path, const ChildChannel& channel) {
+/// \param entry the name of the function that solves
+void load_and_ask(const std::filesystem::path& path, const char* entry,
+                  const ChildChannel& channel) {
   tell(channel, calls, "its constructors");
   Library library = open_library(path);
   tell(channel, calls, "touchstone_plugin_version()");
@@ -251,16 +297,16 @@ void load_and_ask(const std::filesystem::path& path, const ChildChannel& channel
   tell(channel, calls, "touchstone_plugin_promise()");
   const TouchstonePluginPromise promise = read_promise(library);
   tell(channel, vowed, {reinterpret_cast<const char*>(&promise), sizeof promise});
-  static_cast<void>(find_solve(library, path));
+  static_cast<void>(find_function<void()>(library, path, entry));
   // Its destructors need not run.
   static_cast<void>(library.release());
   tell(channel, named, name);
 }
 
 /// The work of the child: each of its possible ends has a message.
-void describe(const std::filesystem::path& path, const ChildChannel& channel) {
+void describe(const std::filesystem::path& path, const char* entry, const ChildChannel& channel) {
   try {
-    load_and_ask(path, channel);
+    load_and_ask(path, entry, channel);
   } catch (const io::DatasetError& error) {
     tell(channel, refused, error.reason());
   } catch (const std::exception& error) {
@@ -273,12 +319,14 @@ void describe(const std::filesystem::path& path, const ChildChannel& channel) {
 /// Loads the library in a child process.
 class Loading {
  public:
+  /// \param entry the name of the function that solves
   Loading(const std::filesystem::path& path, const std::filesystem::path& absolute,
-          const PluginOptions& options)
+          const char* entry, const PluginOptions& options)
       : path_(path),
         options_(options),
-        child_([&absolute](const ChildChannel& channel) { describe(absolute, channel); },
-               options.limits, folder_.path()) {}
+        child_(
+            [&absolute, entry](const ChildChannel& channel) { describe(absolute, entry, channel); },
+            options.limits, folder_.path()) {}
 
   /// The library's name. \throws DatasetError as load_plugin does.
   std::string name() {
@@ -351,11 +399,43 @@ std::unique_ptr<fast::Method> load_plugin(const std::filesystem::path& library,
                                           const PluginOptions& options) {
   // A child works in another folder.
   std::filesystem::path absolute = std::filesystem::absolute(library);
-  Loading loading(library, absolute, options);
+  Loading loading(library, absolute, solve_name, options);
   std::string name = loading.name();
   Stated stated = loading.stated();
   stated.terms = changed(stated.terms, options.terms);
   return std::make_unique<PluginMethod>(std::move(absolute), std::move(name), stated);
+}
+
+CurvedPlugin load_curved_plugin(const std::filesystem::path& library,
+                                const PluginOptions& options) {
+  std::filesystem::path absolute = std::filesystem::absolute(library);
+  Loading loading(library, absolute, solve_curved_name, options);
+  std::string name = loading.name();
+  const auto& [promise, terms] = loading.stated();
+  CurvedPlugin plugin{.library = std::move(absolute),
+                      .name = std::move(name),
+                      .promise = promise,
+                      .terms = changed(terms, options.terms)};
+  if (plugin.terms.float_coordinates) {
+    throw io::DatasetError(library, {}, "takes float coordinates; those of curves are doubles");
+  }
+  return plugin;
+}
+
+Query stand_in(const CurvedQueries& queries, std::size_t i) {
+  Query query{};
+  const std::span<const double> row = queries.row(i);
+  for (std::size_t point = 0; point < moving_points; ++point) {
+    const auto start = row.subspan(point * queries.numbers_of_point(), 3);
+    std::ranges::copy(start, query.coordinates.begin() + static_cast<std::ptrdiff_t>(3 * point));
+  }
+  query.coordinates[number_place] = static_cast<double>(i);
+  return query;
+}
+
+std::unique_ptr<fast::Method> curved_method(const CurvedPlugin& plugin,
+                                            const CurvedQueries& queries) {
+  return std::make_unique<CurvedPluginMethod>(plugin, queries);
 }
 
 }  // namespace touchstone::verify::solvers

@@ -8,11 +8,15 @@
 /// which is for a child to do (SolverProcess). What it answers is handed on as it is.
 
 #include <atomic>
+#include <cstddef>
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <string>
 
 #include "fast/method.hpp"
+#include "touchstone/curved_query.hpp"
+#include "touchstone/query.hpp"
 #include "verify/solvers/child_process.hpp"
 
 namespace touchstone::verify::solvers {
@@ -57,5 +61,29 @@ struct PluginOptions {
 /// true; std::system_error if no process can be made.
 [[nodiscard]] std::unique_ptr<fast::Method> load_plugin(const std::filesystem::path& library,
                                                         const PluginOptions& options = {});
+
+/// A plugin that answers queries on curves (touchstone_plugin_solve_curved).
+struct CurvedPlugin {
+  std::filesystem::path library;  ///< absolute
+  std::string name;
+  fast::Promise promise = fast::Promise::conservative;
+  fast::Terms terms = {};
+};
+
+/// Loads a plugin for curves, as load_plugin() does; it needs no function for straight lines.
+/// \throws what load_plugin() throws; DatasetError also if its terms ask for float coordinates.
+[[nodiscard]] CurvedPlugin load_curved_plugin(const std::filesystem::path& library,
+                                              const PluginOptions& options = {});
+
+/// The query that stands for query i on curves where a solver is asked by Query: the points at t=0,
+/// which the terms of a promise are about, and the number i as the first coordinate at t=1.
+[[nodiscard]] Query stand_in(const CurvedQueries& queries, std::size_t i);
+
+/// The plugin as a method that answers the stand-ins of these queries, by the rules of
+/// load_plugin(), without tolerances. In a child process the numbers are those of the time at which
+/// it was made, so they must live as long as the method and not change. The plugin must live as
+/// long as the method.
+[[nodiscard]] std::unique_ptr<fast::Method> curved_method(const CurvedPlugin& plugin,
+                                                          const CurvedQueries& queries);
 
 }  // namespace touchstone::verify::solvers

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstddef>
 #include <cstdlib>
 #include <filesystem>
 #include <limits>
@@ -89,6 +90,77 @@ TEST(BoxOverlap, HasItsNameAndPromise) {
   EXPECT_EQ(method->name(), "box_overlap");
   EXPECT_EQ(method->promise(), fast::Promise::conservative);
   EXPECT_EQ(method->info().terms, fast::Terms{});
+}
+
+// ---- Curves -------------------------------------------------------------------------------------
+
+/// Queries of degree 2 whose first number selects what the misbehaving plugin does.
+struct CurvedActions {
+  explicit CurvedActions(const std::vector<Misbehaviour>& actions)
+      : numbers(actions.size() * queries.numbers_of_query()) {
+    for (std::size_t i = 0; i < actions.size(); ++i) {
+      numbers[i * queries.numbers_of_query()] = static_cast<double>(actions[i]);
+    }
+    queries.numbers = numbers;
+  }
+
+  CurvedQueries queries{.degree = 2};
+  std::vector<double> numbers;
+};
+
+TEST(CurvedPlugin, AnswersQueriesByTheirNumber) {
+  CurvedActions actions({Misbehaviour::says_no, Misbehaviour::repeats_query});
+  actions.numbers[actions.queries.numbers_of_query() + 1] = 0.25;
+  actions.numbers[actions.queries.numbers_of_query() + 23] = 0.5;
+  const CurvedPlugin plugin = load_curved_plugin(misbehaving);
+  const auto method = curved_method(plugin, actions.queries);
+  const Answer no = ask(*method, Kind::edge_edge, stand_in(actions.queries, 0));
+  expect_nothing_but(no, Verdict::no);
+  const Answer yes = ask(*method, Kind::edge_edge, stand_in(actions.queries, 1));
+  EXPECT_EQ(yes.verdict, Verdict::yes);
+  EXPECT_EQ(yes.toi_lower, 0.25);
+  EXPECT_EQ(yes.toi_upper, 0.5);
+  EXPECT_TRUE(std::isnan(yes.tolerance));
+}
+
+TEST(CurvedPlugin, CostsTheQueryAtWhichItFails) {
+  const CurvedActions actions({Misbehaviour::says_no, Misbehaviour::aborts, Misbehaviour::throws,
+                               Misbehaviour::exits_with_3, Misbehaviour::is_undecided});
+  const CurvedPlugin plugin = load_curved_plugin(misbehaving);
+  const auto method = curved_method(plugin, actions.queries);
+  std::vector<Query> asked;
+  for (std::size_t i = 0; i < 5; ++i) asked.push_back(stand_in(actions.queries, i));
+  std::vector<Answer> answers(asked.size());
+  SolverProcess process(*method);
+  const SolverRun run = process.solve(Kind::vertex_face, asked, answers, {});
+  ASSERT_EQ(run.failures.size(), 3U);
+  EXPECT_EQ(run.failures[0].failure.kind, judge::Fault::crash);
+  EXPECT_EQ(run.failures[1].failure.kind, judge::Fault::exception);
+  EXPECT_EQ(run.failures[2].failure.kind, judge::Fault::exit);
+  EXPECT_EQ(answers[0].verdict, Verdict::no);
+  EXPECT_EQ(answers[4].verdict, Verdict::undecided);
+}
+
+/// The points at t=0 are those of the query, also with weights.
+TEST(CurvedPlugin, IsAskedByThePointsAtTheStart) {
+  std::vector<double> numbers(std::size_t{2} * 4 * 4 * 3);
+  for (std::size_t i = 0; i < numbers.size(); ++i) numbers[i] = static_cast<double>(i);
+  const Query query = stand_in({.degree = 2, .is_rational = true, .numbers = numbers}, 1);
+  EXPECT_EQ(query.at(0, 0, 0), 48.0);
+  EXPECT_EQ(query.at(0, 1, 0), 52.0);
+  EXPECT_EQ(query.at(0, 3, 2), 62.0);
+  EXPECT_EQ(query.at(1, 0, 0), 1.0);
+}
+
+TEST(CurvedPlugin, LacksTheFunctionOrTakesFloat) {
+  const std::filesystem::path straight = tests::plugin_library("always_no");
+  EXPECT_EQ(
+      error_of(straight.parent_path(), [&] { static_cast<void>(load_curved_plugin(straight)); }),
+      "always_no.so: defines no touchstone_plugin_solve_curved");
+  const PluginOptions takes_float{.terms = {.float_coordinates = true}};
+  EXPECT_EQ(error_of(misbehaving.parent_path(),
+                     [&] { static_cast<void>(load_curved_plugin(misbehaving, takes_float)); }),
+            "misbehaving.so: takes float coordinates; those of curves are doubles");
 }
 
 // ---- Promises -----------------------------------------------------------------------------------

@@ -146,6 +146,23 @@ TOUCHSTONE_API void touchstone_plugin_solve_batch(int32_t kind, int64_t count,
                                                   const TouchstonePluginOptions* options,
                                                   TouchstonePluginAnswer* answers);
 
+/// Defined by the plugin if it answers queries whose points move on Bezier curves: one query, as
+/// touchstone_plugin_solve answers one on straight lines, and under the same rules. `touchstone
+/// curved` calls it, and needs no touchstone_plugin_solve. The function is an addition that a
+/// plugin may leave out, so the version of the interface stays 2.
+///
+/// The promise is that of touchstone_plugin_promise, but is_float must be 0, and the tolerance of
+/// an answer is not judged.
+/// \param degree of the curves, 1 to 8.
+/// \param is_rational 1 if each control point has a weight, which is positive; else 0.
+/// \param control the control points from t=0 to t=1, for each of the degree + 1 the four points in
+///        the order of touchstone_plugin_solve, for each of these x, y, z, and the weight if the
+///        curves are rational: (degree + 1) x 4 x (3 or 4) finite doubles.
+TOUCHSTONE_API void touchstone_plugin_solve_curved(int32_t kind, int32_t degree,
+                                                   int32_t is_rational, const double* control,
+                                                   const TouchstonePluginOptions* options,
+                                                   TouchstonePluginAnswer* answer);
+
 #ifdef __cplusplus
 }
 #endif

@@ -1,5 +1,6 @@
 /// \file
 /// A plugin whose first coordinate selects its action, from right answers to the worst failures.
+/// Queries on curves have it act in the same way.
 /// With BATCH it takes many queries at once, and says by the tolerance of a no how many.
 
 #include <sys/types.h>
@@ -143,6 +144,13 @@ void touchstone_plugin_solve(std::int32_t kind, const double* coordinates,
     default:
       return;
   }
+}
+
+void touchstone_plugin_solve_curved(std::int32_t kind, std::int32_t /*degree*/,
+                                    std::int32_t /*is_rational*/, const double* control,
+                                    const TouchstonePluginOptions* options,
+                                    TouchstonePluginAnswer* answer) {
+  touchstone_plugin_solve(kind, control, options, answer);
 }
 
 #ifdef BATCH
