@@ -78,7 +78,7 @@ struct CurvedPluginResult {
   judge::Judgement judgement;
   solvers::CapturedOutput output;
 
-  /// Queries at which it ended its process, threw, gave no answer, or took too long.
+  /// How often it ended its process, threw, gave no answer, or took too long.
   [[nodiscard]] std::uint64_t failed() const {
     return judgement.errors() + judgement.count(judge::Fault::hang);
   }
