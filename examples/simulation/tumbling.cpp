@@ -65,11 +65,11 @@ Cubes start() {
           Cube{{1.3, -0.15, 0.1}, {-0.9, 0.1, 0}, Matrix3d::Identity(), {-0.5, 0.3, 1.6}}};
 }
 
-std::vector<Face> cube_faces() {
+std::vector<fast::Face> cube_faces() {
   // Both triangles of each side, by the bits of their corners.
   static constexpr std::array<std::array<int, 4>, 6> sides{
       {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}}};
-  std::vector<Face> faces;
+  std::vector<fast::Face> faces;
   for (int cube = 0; cube < 2; ++cube) {
     for (const auto& [a, b, c, d] : sides) {
       const int first = corners * cube;
@@ -187,7 +187,7 @@ bool collide(Cubes& cubes, const Contact& contact) {
 
 TumblingResult tumble(const TumblingOptions& options) {
   TumblingResult result;
-  const std::vector<Face> faces = cube_faces();
+  const std::vector<fast::Face> faces = cube_faces();
   const fast::MeshElements elements{.faces = faces};
   std::vector<std::int32_t> groups(2 * corners, 0);
   std::fill(groups.begin() + corners, groups.end(), 1);
@@ -203,7 +203,7 @@ TumblingResult tumble(const TumblingOptions& options) {
     const fast::CurvedStep step({degree, false, numbers}, elements, step_options);
     step.boxes().candidates([&](const fast::StepCandidates& some) {
       Recorder& recorder = some.kind == fast::PairKind::vertex_face ? vertex_face : edge_edge;
-      for (const IndexPair& pair : some.pairs) {
+      for (const fast::IndexPair& pair : some.pairs) {
         recorder.add(numbers, step.boxes().vertices_of(some.kind, pair));
       }
     });

@@ -97,7 +97,12 @@ class Draws {
 
 using Points = std::array<std::array<double, 3>, moving_points>;
 
-/// Appends the control points of a query: its shape at each, moved along a curve.
+/// The control points and weights of the quarter of the unit circle.
+constexpr std::array<std::array<double, 2>, 3> quarter_circle{{{1, 0}, {1, 1}, {0, 1}}};
+constexpr std::array<double, 3> quarter_weights{1, 1, 2};
+
+/// Appends the control points of a query: its shape at each, moved along a curve, and the weights
+/// of the quarter of a circle if the family is rational.
 template <class ShapeAt>
 void append(CurvedFamily& family, Draws& draws, const ShapeAt& shape_at) {
   for (std::size_t k = 0; k <= family.degree; ++k) {
@@ -107,6 +112,7 @@ void append(CurvedFamily& family, Draws& draws, const ShapeAt& shape_at) {
       for (std::size_t axis = 0; axis < 3; ++axis) {
         family.numbers.push_back(point.at(axis) + moved.at(axis));
       }
+      if (family.is_rational) family.numbers.push_back(quarter_weights.at(k));
     }
   }
 }
@@ -124,6 +130,59 @@ Points above(Kind kind, double height) {
 Points beside(Kind kind, double place) {
   if (kind == Kind::vertex_face) return {{{1, -place, 0}, {0, 0, 0}, {4, 0, 0}, {0, 4096, 0}}};
   return {{{1, place, 0}, {1, place + 4096, 0}, {0, 0, 0}, {4, 0, 0}}};
+}
+
+/// A rotation that is nearest to the other primitive at t = eighth/8.
+struct Rotation {
+  double eighth;
+  double scale;
+  /// 1, or −1 to turn the other way.
+  double direction;
+  /// The least distance by the radius.
+  double gap;
+};
+
+Rotation draw_rotation(Random& random, bool misses) {
+  Rotation rotation{};
+  rotation.eighth = static_cast<double>(random.between(1, 7));
+  rotation.scale = std::ldexp(1.0, static_cast<int>(random.between(-2, 2)));
+  rotation.direction = random.coin() ? 1.0 : -1.0;
+  if (misses) rotation.gap = std::ldexp(1.0, -static_cast<int>(random.between(10, 36)));
+  return rotation;
+}
+
+/// Control point k of a vertex that turns towards a triangle, or of an edge along the axis that
+/// turns towards a crossing one.
+Points turning(Kind kind, const Rotation& rotation, std::size_t k) {
+  const double square = rotation.eighth * rotation.eighth;
+  const double normal_x = 64.0 - square, normal_y = 16.0 * rotation.eighth;
+  const auto across = [&](double x, double y, double height) -> std::array<double, 3> {
+    return {rotation.scale * x, rotation.direction * rotation.scale * y, height};
+  };
+  const auto turned = [&](double height) {
+    const double radius = 64.0 + square;
+    return across(radius * quarter_circle.at(k)[0], radius * quarter_circle.at(k)[1], height);
+  };
+  const auto in_plane = [&](double along, double height) {
+    const double out = 1.0 + rotation.gap;
+    return across(out * normal_x - along * normal_y, out * normal_y + along * normal_x, height);
+  };
+  if (kind == Kind::vertex_face) {
+    return {turned(0), in_plane(-1, -1), in_plane(2, -1), in_plane(-1, 2)};
+  }
+  return {turned(-3), turned(2), in_plane(-1, -1), in_plane(2, 1)};
+}
+
+CurvedFamily rotations(std::string_view name, Kind kind, bool misses, std::size_t count,
+                       std::uint64_t seed) {
+  CurvedFamily family{name, kind, 2, {}, {}, true};
+  Draws draws(family.degree, mix(seed + hash(name)));
+  for (std::size_t i = 0; i < count; ++i) {
+    const Rotation rotation = draw_rotation(draws.random(), misses);
+    append(family, draws, [&](std::size_t k) { return turning(kind, rotation, k); });
+    family.toi.push_back(misses ? std::nullopt : std::optional(rotation.eighth / eighths));
+  }
+  return family;
 }
 
 using MakeHeight = Height (Draws::*)();
@@ -165,6 +224,9 @@ std::vector<CurvedFamily> curved_families(std::size_t degree, std::size_t count,
       append(plane, draws, [&](std::size_t k) { return beside(kind, place.control[k]); });
       plane.toi.push_back(place.root);
     }
+    if (degree != 2) continue;
+    families.push_back(rotations("rotation_touch", kind, false, count, seed));
+    families.push_back(rotations("rotation_miss", kind, true, count, seed));
   }
   return families;
 }

@@ -24,7 +24,9 @@ TEST(CertifyCurves, FindsTheKnownTruthOfTheFamilies) {
           certify_curves(family.kind, family.queries(),
                          {.threads = 1, .truth = family.toi, .judge_others = true, .prove = true});
       EXPECT_EQ(result.queries, 3U);
-      EXPECT_EQ(result.collide, family.name == "near_miss" ? 0U : 3U) << family.name;
+      const bool misses = family.name == "near_miss" || family.name == "rotation_miss";
+      EXPECT_EQ(result.collide, misses ? 0U : 3U) << family.name;
+      EXPECT_EQ(result.others.empty(), family.is_rational) << family.name;
       EXPECT_TRUE(result.wrong.empty()) << family.name;
       EXPECT_TRUE(result.against_truth.empty()) << family.name;
       EXPECT_EQ(result.certificates, 3U);
@@ -43,6 +45,32 @@ TEST(CertifyCurves, FindsTheKnownTruthOfTheFamilies) {
   EXPECT_GT(others["sampling"].false_negatives, 0U);
   EXPECT_GT(others["sampling"].late, 0U);
   EXPECT_GT(others["advancement"].false_positives, 0U);
+}
+
+/// Rotations touch, or miss by as little as 2^-36 of the radius, and have the weights of a circle.
+TEST(CertifyCurves, RotationsAreRationalAndOfDegreeTwo) {
+  std::size_t rotations = 0;
+  for (const generate::CurvedFamily& family : generate::curved_families(2, 40, 7)) {
+    if (!family.is_rational) continue;
+    ++rotations;
+    const CurvedQueries queries = family.queries();
+    ASSERT_EQ(queries.size(), 40U);
+    ASSERT_EQ(family.toi.size(), 40U);
+    for (std::size_t i = 0; i < queries.size(); ++i) {
+      for (const Trajectory& curve : queries.query(i)) {
+        EXPECT_EQ(curve.weights, (std::vector<double>{1, 1, 2}));
+      }
+    }
+    const CurvedResult result =
+        certify_curves(family.kind, queries, {.threads = 1, .truth = family.toi});
+    EXPECT_TRUE(result.wrong.empty()) << family.name;
+    EXPECT_TRUE(result.against_truth.empty()) << family.name;
+    EXPECT_EQ(result.collide, family.name == "rotation_touch" ? 40U : 0U);
+  }
+  EXPECT_EQ(rotations, 4U);
+  for (const generate::CurvedFamily& family : generate::curved_families(3, 1, 7)) {
+    EXPECT_FALSE(family.is_rational) << family.name;
+  }
 }
 
 TEST(CertifyCurves, SaysWhatContradictsTheTruth) {
