@@ -18,7 +18,7 @@ TEST_F(Tumbling, RecordsQueriesThatAreSolvedRightly) {
   for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
     const auto index = static_cast<std::size_t>(kind);
     const auto file = verify::data::read_curved_queries(
-        path("recorded") / (kind == Kind::vertex_face ? "tumbling-vf.npy" : "tumbling-ee.npy"));
+        path(kind == Kind::vertex_face ? "recorded/tumbling-vf.npy" : "recorded/tumbling-ee.npy"));
     const auto judged = verify::jobs::certify_curves(kind, file.queries(), {});
     EXPECT_EQ(file.degree, 3U);
     EXPECT_EQ(judged.queries, result.queries.at(index));
