@@ -100,9 +100,9 @@ std::vector<double> curves(const Cubes& cubes, double time) {
 }
 
 /// The queries of one kind, in a file.
-class Recorder {
+class CurveRecorder {
  public:
-  Recorder(const TumblingOptions& options, Kind kind) : kind_(kind) {
+  CurveRecorder(const TumblingOptions& options, Kind kind) : kind_(kind) {
     if (options.folder.empty()) return;
     std::filesystem::create_directories(options.folder);
     const std::string name = kind == Kind::vertex_face ? "tumbling-vf.npy" : "tumbling-ee.npy";
@@ -195,14 +195,14 @@ TumblingResult tumble(const TumblingOptions& options) {
   // In one thread, so that the recorded queries are in the same order every time.
   const fast::StepOptions step_options{.max_threads = 1,
                                        .groups = {.of_vertices = groups, .apart = apart}};
-  Recorder vertex_face(options, Kind::vertex_face), edge_edge(options, Kind::edge_edge);
+  CurveRecorder vertex_face(options, Kind::vertex_face), edge_edge(options, Kind::edge_edge);
   Cubes cubes = start();
   for (int i = 0; i < options.steps; ++i) {
     for (Cube& cube : cubes) cube.velocity -= spring * time_step * cube.place;
     const std::vector<double> numbers = curves(cubes, time_step);
     const fast::CurvedStep step({degree, false, numbers}, elements, step_options);
     step.boxes().candidates([&](const fast::StepCandidates& some) {
-      Recorder& recorder = some.kind == fast::PairKind::vertex_face ? vertex_face : edge_edge;
+      CurveRecorder& recorder = some.kind == fast::PairKind::vertex_face ? vertex_face : edge_edge;
       for (const fast::IndexPair& pair : some.pairs) {
         recorder.add(numbers, step.boxes().vertices_of(some.kind, pair));
       }

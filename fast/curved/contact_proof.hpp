@@ -54,8 +54,8 @@ using Form = std::array<Value, most + 1>;
 template <class Lanes>
 struct DeterminantForms {
   static constexpr std::size_t most = 3 * greatest_corner_degree;
-  std::size_t degree = 0;
   alignas(64) std::array<kernel::Numbers<Lanes>, most + 1> coefficient;
+  std::size_t degree = 0;
 };
 
 /// The lanes in which the coefficients c certainly have exactly one change of sign, given the signs

@@ -60,10 +60,10 @@ struct ControlPolygons {
     return result;
   }();
 
-  std::size_t degree = 0;
   alignas(sizeof(Row)) std::array<std::array<Row, size>, greatest_corner_degree + 1> point;
   alignas(sizeof(Row)) Row magnitude;  ///< M: of all values
   alignas(sizeof(Row)) Row error;      ///< of all values
+  std::size_t degree = 0;
 
   [[nodiscard]] Value at(std::size_t k, std::size_t place) const {
     return Value::load(point[k][place].data());

@@ -168,11 +168,14 @@ inline kernel::Vector<typename Lanes::Value> sum_of_corners(
 /// Queries whose time of impact is in a piece, until the lanes are full.
 template <class Lanes>
 struct Impacts {
-  std::size_t count = 0;
-  std::array<std::uint32_t, Lanes::width> index;
   alignas(64) kernel::Numbers<Lanes> begin{};
   alignas(64) kernel::Numbers<Lanes> length{};
   DeterminantForms<Lanes> det{};  ///< at distance 0
+  std::array<std::uint32_t, Lanes::width> index;
+  std::size_t count = 0;
+};
+alignas(64) kernel::Numbers<Lanes> length{};
+DeterminantForms<Lanes> det{};  ///< at distance 0
 };
 
 /// Stages 2 and 3 for the queries of a list.
@@ -203,7 +206,7 @@ class Search {
 
   Search(const Block& block, const KernelOutput::List<std::uint32_t>& queries,
          Denominators denominators, KernelOutput& output)
-      : block_(block), queries_(queries), denominators_(denominators), output_(output) {}
+      : block_(block), queries_(queries), output_(output), denominators_(denominators) {}
 
   // ---- Queries in lanes ----
 
@@ -497,19 +500,7 @@ class Search {
     kernel::append_lanes<Lanes>(output_.undecided, found_.index, all & ~enclosed);
   }
 
-  const Block& block_;
-  const KernelOutput::List<std::uint32_t>& queries_;
-  Denominators denominators_;
-  KernelOutput& output_;
-
-  std::size_t next_ = 0;  ///< in the list
-  unsigned waiting_ = 0;  ///< the lanes of what is loaded that have not been taken
   Polygons loaded_;
-  std::array<std::uint32_t, width> loaded_index_;
-
-  unsigned busy_ = 0;  ///< the lanes that have a query
-  std::array<std::uint32_t, width> index_;
-  std::array<int, width> steps_;
   Polygons whole_{};  // what idle lanes have is a number
   Polygons part_;
   alignas(64) kernel::Numbers<Lanes> begin_;
@@ -517,7 +508,26 @@ class Search {
   alignas(64) kernel::Numbers<Lanes> upper_;  ///< a time of contact, or 2
   DeterminantForms<Lanes> det_;
   Impacts<Lanes> found_;
-};
+
+  const Block& block_;
+  const KernelOutput::List<std::uint32_t>& queries_;
+  KernelOutput& output_;
+  std::size_t next_ = 0;                           ///< in the list
+  std::array<std::uint32_t, width> loaded_index_;  ///< the lanes of what is loaded
+  std::array<std::uint32_t, width> index_;
+  std::array<int, width> steps_;
+  unsigned waiting_ = 0;  ///< the loaded lanes that have not been taken
+  unsigned busy_ = 0;     ///< the lanes that have a query
+  Denominators denominators_;
+};  // what idle lanes have is a number
+Polygons part_;
+alignas(64) kernel::Numbers<Lanes> begin_;
+alignas(64) kernel::Numbers<Lanes> length_;
+alignas(64) kernel::Numbers<Lanes> upper_;  ///< a time of contact, or 2
+DeterminantForms<Lanes> det_;
+Impacts<Lanes> found_;
+}
+;
 
 template <class Lanes, Kind kind>
 inline void search_kind(const Block& block, const KernelOutput::List<std::uint32_t>& queries,

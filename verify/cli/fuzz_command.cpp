@@ -408,7 +408,7 @@ Status run_on_curves(const CLI::App& command, const Arguments& arguments) {
   const double begin = options.clock();
   options.on_progress = [&](std::uint64_t queries) {
     const double part = options.seconds > 0.0 ? (options.clock() - begin) / options.seconds : 0.0;
-    const double count = static_cast<double>(queries);
+    const auto count = static_cast<double>(queries);
     bar.update(options.most_queries == 0
                    ? part
                    : std::max(part, count / static_cast<double>(options.most_queries)));

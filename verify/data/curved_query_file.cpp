@@ -56,7 +56,7 @@ void set_form(const NpyHeader& header, CurvedQueryFile& file) {
   file.is_rational = is_curved && shape[3] == 4;
 }
 
-NpyHeader read_header(io::InputFile& input) {
+NpyHeader read_npy_head(io::InputFile& input) {
   return read_npy_header([&](std::span<char> buffer) { return input.read_all(buffer); });
 }
 
@@ -64,7 +64,7 @@ CurvedQueryFile read_npy(const std::filesystem::path& path) {
   io::InputFile input(path);
   CurvedQueryFile file;
   try {
-    const NpyHeader header = read_header(input);
+    const NpyHeader header = read_npy_head(input);
     set_form(header, file);
     const std::uint64_t size = input.size() - header.size;
     const std::uint64_t size_of_query = file.queries().numbers_of_query() * sizeof(double);
@@ -161,7 +161,7 @@ bool is_curved_query_file(const std::filesystem::path& file) {
   try {
     if (file.extension() == ".npy") {
       io::InputFile input(file);
-      return read_header(input).shape.size() == 4;
+      return read_npy_head(input).shape.size() == 4;
     }
     io::LineReader lines(file);
     const std::optional<io::Line> line = lines.next();

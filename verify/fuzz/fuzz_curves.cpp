@@ -77,7 +77,7 @@ class CurvedDraws {
         }
         if (!block.is_rational) continue;
         const std::size_t of = weights == 1   ? 0
-                               : weights == 2 ? std::size_t{point >= second}
+                               : weights == 2 ? (point >= second ? 1U : 0U)
                                               : point;
         block.numbers.push_back(of_point.at(of));
       }
