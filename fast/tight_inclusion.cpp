@@ -267,16 +267,18 @@ class QuerySolver {
     problem.kind = kind;
     const Extent extent = load_curves(queries, i, problem);
     if (!extent.finite) return result;
-    if (std::max(std::ranges::max(extent.x_max), options_.separation.distance) >
-        greatest_of_curves) {
-      return {.verdict = Verdict::yes, .toi = 0.0, .tolerance = infinity};
+    const double distance = options_.separation.distance;
+    std::optional<std::array<double, 3>> filter;
+    if (queries.is_rational) {
+      filter = filter_of_rational_curves(problem, extent.x_max, distance);
+    } else if (std::max(std::ranges::max(extent.x_max), distance) <= greatest_of_curves) {
+      filter = filter_of_curves(kind, queries.degree, extent.x_max, distance);
     }
+    if (!filter) return {.verdict = Verdict::yes, .toi = 0.0, .tolerance = infinity};
     tolerance_ = options_.tolerance;
     t_max_ = options_.t_max;
-    problem.separation = options_.separation.distance;
-    std::ranges::copy(
-        filter_of_curves(kind, queries.degree, extent.x_max, options_.separation.distance),
-        problem.filter.begin());
+    problem.separation = distance;
+    std::ranges::copy(*filter, problem.filter.begin());
     run(result);
     return result;
   }
@@ -455,14 +457,14 @@ TightInclusionResult tight_inclusion(Kind kind, const CurvedQueries& queries, st
   require_strict_environment();
   require_valid(options);
   const bool is_low = queries.degree == 2 || queries.degree == 3;
-  if (queries.is_rational || !is_low || i >= queries.size()) {
-    throw std::invalid_argument("tight_inclusion: curves must be of degree 2 or 3 without weights");
+  if (!is_low || i >= queries.size()) {
+    throw std::invalid_argument("tight_inclusion: curves must be of degree 2 or 3");
   }
   if (options.error_model != ErrorModel::derived || options.scene_filter) {
     throw std::invalid_argument("tight_inclusion: curves have the derived filter alone");
   }
-  return QuerySolver(curved_box_kernel(), workspace_of_this_thread(), options)
-      .solve(kind, queries, i);
+  const BoxKernel& kernel = queries.is_rational ? rational_box_kernel() : curved_box_kernel();
+  return QuerySolver(kernel, workspace_of_this_thread(), options).solve(kind, queries, i);
 }
 
 std::unique_ptr<Method> tight_inclusion_method(const TightInclusionOptions& base) {

@@ -174,9 +174,6 @@ struct Impacts {
   std::array<std::uint32_t, Lanes::width> index;
   std::size_t count = 0;
 };
-alignas(64) kernel::Numbers<Lanes> length{};
-DeterminantForms<Lanes> det{};  ///< at distance 0
-};
 
 /// Stages 2 and 3 for the queries of a list.
 template <class Lanes, Kind kind, Norm norm, bool separated>
@@ -519,15 +516,7 @@ class Search {
   unsigned waiting_ = 0;  ///< the loaded lanes that have not been taken
   unsigned busy_ = 0;     ///< the lanes that have a query
   Denominators denominators_;
-};  // what idle lanes have is a number
-Polygons part_;
-alignas(64) kernel::Numbers<Lanes> begin_;
-alignas(64) kernel::Numbers<Lanes> length_;
-alignas(64) kernel::Numbers<Lanes> upper_;  ///< a time of contact, or 2
-DeterminantForms<Lanes> det_;
-Impacts<Lanes> found_;
-}
-;
+};
 
 template <class Lanes, Kind kind>
 inline void search_kind(const Block& block, const KernelOutput::List<std::uint32_t>& queries,

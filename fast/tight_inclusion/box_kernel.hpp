@@ -34,6 +34,9 @@ struct BoxProblem {
   /// points for each control point.
   std::size_t degree = 1;
   std::array<std::array<double, moving_points*(greatest_curve_degree + 1)>, 3> control{};
+  /// Of rational curves: their weights in the same order; `control` then has the products of
+  /// coordinates and weights.
+  std::array<double, moving_points*(greatest_curve_degree + 1)> curve_weights{};
 };
 
 /// A box [t0,t1] × [u0,u1] × [v0,v1]. Its ends are dyadic numbers of at most BoxKernel::digits

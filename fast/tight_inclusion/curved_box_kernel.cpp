@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
+#include <span>
 
 #include "touchstone/filters/error_bounds.hpp"
 #include "touchstone/filters/expressions.hpp"
@@ -89,7 +91,106 @@ std::array<double, 3> changes(const BoxProblem& problem) {
   return result;
 }
 
+// ---- Rational curves ----------------------------------------------------------------------------
+
+/// The blossom of the values of a point at k times t1 and degree − k times t0.
+double blossom(const BoxProblem& problem, std::span<const double> values, std::size_t point,
+               std::size_t k, double t0, double t1) {
+  std::array<double, BoxProblem::greatest_curve_degree + 1> x{};
+  for (std::size_t j = 0; j <= problem.degree; ++j) x.at(j) = values[moving_points * j + point];
+  for (std::size_t level = 0; level < problem.degree; ++level) {
+    const double t = level < k ? t1 : t0;
+    for (std::size_t j = 0; j + level < problem.degree; ++j) {
+      x.at(j) = x.at(j) * (1.0 - t) + x.at(j + 1) * t;
+    }
+  }
+  return x[0];
+}
+
+struct Range {
+  double least = std::numeric_limits<double>::infinity();
+  double greatest = -std::numeric_limits<double>::infinity();
+};
+
+/// The range of F on an axis.
+Range range_of(const BoxProblem& problem, const Box& box, std::size_t axis) {
+  const auto& [t0, t1, u0, u1, v0, v1] = box.ends;
+  std::array<Range, moving_points> x;
+  for (std::size_t point = 0; point < moving_points; ++point) {
+    for (std::size_t k = 0; k <= problem.degree; ++k) {
+      const double at = blossom(problem, problem.control[axis], point, k, t0, t1) /
+                        blossom(problem, problem.curve_weights, point, k, t0, t1);
+      x.at(point).least = std::min(x.at(point).least, at);
+      x.at(point).greatest = std::max(x.at(point).greatest, at);
+    }
+  }
+  Range result;
+  for (const double u : {u0, u1}) {
+    for (const double v : {v0, v1}) {
+      const auto f = [&](double Range::*a, double Range::*b) {
+        if (problem.kind == Kind::edge_edge) {
+          return filters::CurvedEdgeEdge<2>::from_points<double>(
+              {x[0].*a, x[1].*a, x[2].*b, x[3].*b}, {1.0 - u, u, 1.0 - v, v});
+        }
+        // Where a box reaches out of the domain, its corner is moved to the side u + v = 1.
+        const double inside = std::min(v, 1.0 - u);
+        return filters::CurvedVertexFace<2>::from_points<double>(
+            {x[0].*a, x[1].*b, x[2].*b, x[3].*b}, {(1.0 - u) - inside, u, inside});
+      };
+      result.least = std::min(result.least, f(&Range::least, &Range::greatest));
+      result.greatest = std::max(result.greatest, f(&Range::greatest, &Range::least));
+    }
+  }
+  return result;
+}
+
+BoxTest test_rational(const BoxProblem& problem, const Box& box) {
+  BoxTest result{.rejected = false, .inside = true, .width = 0.0};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const auto [least, greatest] = range_of(problem, box, axis);
+    const double d = problem.separation, filter = problem.filter[axis];
+    if (least - d > filter || greatest + d < -filter)
+      return {.rejected = true, .inside = false, .width = 0.0};
+    result.inside = result.inside && greatest - d <= filter && least + d >= -filter;
+    result.width = std::max(result.width, greatest - least);
+  }
+  return result;
+}
+
+/// F changes along t by at most degree (Ω/ω)² times the steps between control points, Ω and ω the
+/// greatest and the least weight ([floater1992]), along u and v by the range of the unit box.
+std::array<double, 3> changes_of_rational(const BoxProblem& problem) {
+  const Box unit{{0.0, 1.0, 0.0, 1.0, 0.0, 1.0}};
+  const std::size_t count = moving_points * (problem.degree + 1);
+  const std::span<const double> weights(problem.curve_weights.data(), count);
+  const double ratio = std::ranges::max(weights) / std::ranges::min(weights);
+  std::array<double, 3> result{};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const auto [least, greatest] = range_of(problem, unit, axis);
+    const auto at = [&](std::size_t place) {
+      return problem.control[axis][place] / weights[place];
+    };
+    for (std::size_t place = moving_points; place < count; ++place) {
+      const double step = std::abs(at(place) - at(place - moving_points));
+      result[0] =
+          std::max(result[0], 2.0 * static_cast<double>(problem.degree) * ratio * ratio * step);
+    }
+    result[1] = result[2] = std::max(result[1], greatest - least);
+  }
+  return result;
+}
+
 }  // namespace
+
+const BoxKernel& rational_box_kernel() {
+  static const BoxKernel kernel{.instructions = InstructionSet::scalar,
+                                .digits = std::numeric_limits<double>::digits,
+                                .load = nullptr,
+                                .test = test_rational,
+                                .corners = nullptr,
+                                .changes = changes_of_rational};
+  return kernel;
+}
 
 const BoxKernel& curved_box_kernel() {
   static const BoxKernel kernel{.instructions = InstructionSet::scalar,
@@ -105,13 +206,36 @@ Extent load_curves(const CurvedQueries& queries, std::size_t i, BoxProblem& prob
   Extent extent{.x_max = {}, .finite = true};
   problem.degree = queries.degree;
   const std::span<const double> row = queries.row(i);
+  const std::size_t stride = queries.numbers_of_point();
   for (std::size_t place = 0; place < row.size(); ++place) {
-    const std::size_t axis = place % 3;
-    problem.control[axis][place / 3] = row[place];
-    extent.finite = extent.finite && std::isfinite(row[place]);
+    const std::size_t axis = place % stride, point = place / stride;
+    const double weight = queries.is_rational ? row[stride * point + 3] : 1.0;
+    extent.finite = extent.finite && std::isfinite(row[place]) && weight > 0.0;
+    if (axis == 3) {
+      problem.curve_weights[point] = weight;
+      continue;
+    }
+    problem.control[axis][point] = row[place] * weight;
     extent.x_max[axis] = std::max(extent.x_max[axis], std::abs(row[place]));
   }
   return extent;
+}
+
+std::optional<std::array<double, 3>> filter_of_rational_curves(const BoxProblem& problem,
+                                                               const std::array<double, 3>& x_max,
+                                                               double separation) {
+  constexpr double greatest = 0x1p900, least_weight = 0x1p-30, most_weight = 0x1p30;
+  for (std::size_t place = 0; place < moving_points * (problem.degree + 1); ++place) {
+    const double weight = problem.curve_weights[place];
+    if (weight < least_weight || weight > most_weight) return std::nullopt;
+  }
+  std::array<double, 3> result{};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const double x = std::max(x_max[axis], separation);
+    if (x > greatest) return std::nullopt;
+    result[axis] = (16.0 * static_cast<double>(problem.degree) + 64.0) * 0x1p-53 * x + 0x1p-1000;
+  }
+  return result;
 }
 
 std::array<double, 3> filter_of_curves(Kind kind, std::size_t degree,

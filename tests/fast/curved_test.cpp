@@ -198,7 +198,8 @@ TEST(TightInclusionOnCurves, MissesNoContact) {
   const int rounds = tests::soak_trials(16, 500);
   for (int round = 0; round < rounds; ++round) {
     const Kind kind = kind_of(round);
-    const Sort sort{2 + static_cast<std::size_t>(round / 2) % 2, Weights::none, round % 3 == 0};
+    const auto weights = static_cast<Weights>(round / 4 % 4);
+    const Sort sort{2 + static_cast<std::size_t>(round / 2) % 2, weights, round % 3 == 0};
     const Numbers some = random_queries(random, sort, kind, 40);
     TightInclusionOptions options{.tolerance = 1e-4, .max_checks = 20'000};
     if (round % 4 == 3) options.separation = {.distance = 0.125, .norm = Norm::linf};

@@ -98,10 +98,10 @@ struct TightInclusionResult {
 [[nodiscard]] TightInclusionResult tight_inclusion(Kind kind, const Query& query,
                                                    const TightInclusionOptions& options = {});
 
-/// The same for query i on polynomial curves of degree 2 or 3: on a piece of time F is in the hull
-/// of its control values, in the place of its values at both ends. ([wang2021], section 7: the
-/// extension to non-linear trajectories.) Coordinates above 2^1000 are answered with yes, at time
-/// 0.
+/// The same for query i on curves of degree 2 or 3, polynomial or rational: on a piece of time F is
+/// in the hull of its control values, in the place of its values at both ends. ([wang2021], section
+/// 7: the extension to non-linear trajectories.) Coordinates above 2^1000, of rational curves above
+/// 2^900 or with weights not between 2^-30 and 2^30, are answered with yes, at time 0.
 /// \throws std::invalid_argument also for other curves, another error model than `derived`, a
 /// filter of a scene, or an i out of range.
 [[nodiscard]] TightInclusionResult tight_inclusion(Kind kind, const CurvedQueries& queries,
