@@ -38,7 +38,7 @@ struct CurvedArguments {
 [[nodiscard]] Status run_curves(const CurvedArguments& arguments);
 
 /// The same for files, with the answers of a method as `solve` writes them: "certified", or
-/// "tight_inclusion" for polynomial curves of degree 2 or 3.
+/// "tight_inclusion" for curves of degree 2 or 3.
 /// \throws std::invalid_argument for another method, or one that does not answer such queries.
 [[nodiscard]] Status solve_curves(const CurvedArguments& arguments, std::string_view method,
                                   const fast::MethodOptions& options, const std::string& out_file);

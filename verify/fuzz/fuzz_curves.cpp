@@ -30,8 +30,8 @@ struct CurvedBlock {
 
 class CurvedDraws {
  public:
-  CurvedDraws(bool polynomials, const CurvedFuzzOptions& options)
-      : polynomials_(polynomials),
+  CurvedDraws(bool is_low, const CurvedFuzzOptions& options)
+      : is_low_(is_low),
         kinds_(options.kinds),
         has_distance_(options.method.separation.distance > 0.0),
         random_(options.seed) {}
@@ -52,18 +52,17 @@ class CurvedDraws {
     auto all = generate::curved_families(2 + pick(2), curved_block_size, random_.bits());
     std::erase_if(all, [kind](const auto& family) { return family.kind != kind; });
     generate::CurvedFamily& family = all.at(pick(all.size()));
-    return {kind, family.degree, false, std::move(family.numbers)};
+    return {kind, family.degree, family.is_rational, std::move(family.numbers)};
   }
 
   /// Small multiples of 1/4 or any numbers, about the same place.
   CurvedBlock of_numbers(Kind kind) {
     CurvedBlock block{kind, 2 + pick(2), false, {}};
-    if (!polynomials_) {
-      // (The oracle takes up to seconds for rational curves of degree 2 at a distance.)
-      block.is_rational = random_.coin();
-      const std::size_t most = has_distance_ ? 2 : 4;
-      block.degree = 1 + pick(block.is_rational ? most / 2 : most);
-    }
+    // (The oracle takes up to seconds for rational curves of degree 2 at a distance.)
+    block.is_rational = random_.coin() && !(is_low_ && has_distance_);
+    const std::size_t most = has_distance_ ? 2 : 4;
+    if (!is_low_) block.degree = 1 + pick(block.is_rational ? most / 2 : most);
+    if (is_low_ && block.is_rational) block.degree = 2;
     const bool is_whole = random_.coin();
     // One weight for all points, for each primitive, or for each point.
     const std::size_t weights = 1 + pick(3);
@@ -113,7 +112,7 @@ class CurvedDraws {
     }
   }
 
-  bool polynomials_;
+  bool is_low_;
   std::vector<Kind> kinds_;
   bool has_distance_;
   generate::Random random_;
@@ -130,10 +129,10 @@ std::optional<judge::Fault> fault_of(const fast::Answer& answer, const exact::De
 
 }  // namespace
 
-CurvedFuzzResult fuzz_curves(const AnswerCurves& answer, bool polynomials,
+CurvedFuzzResult fuzz_curves(const AnswerCurves& answer, bool is_low,
                              const CurvedFuzzOptions& options) {
   CurvedFuzzResult result;
-  CurvedDraws draws(polynomials, options);
+  CurvedDraws draws(is_low, options);
   const double begin = options.clock();
   const auto is_over = [&] {
     return (options.stop != nullptr && *options.stop) ||

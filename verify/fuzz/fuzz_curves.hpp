@@ -58,8 +58,8 @@ struct CurvedFuzzResult {
 using AnswerCurves = std::function<std::vector<fast::Answer>(Kind, const CurvedQueries&,
                                                              const fast::MethodOptions&)>;
 
-/// \param polynomials Only curves without weights of degree 2 or 3 are asked.
-[[nodiscard]] CurvedFuzzResult fuzz_curves(const AnswerCurves& answer, bool polynomials,
+/// \param is_low Only curves of degree 2 or 3 are asked.
+[[nodiscard]] CurvedFuzzResult fuzz_curves(const AnswerCurves& answer, bool is_low,
                                            const CurvedFuzzOptions& options);
 
 }  // namespace touchstone::verify::fuzz

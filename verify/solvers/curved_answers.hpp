@@ -11,8 +11,8 @@
 
 namespace touchstone::verify::solvers {
 
-/// The answers of a method to all queries: of "certified", or of "tight_inclusion" to polynomial
-/// curves of degree 2 or 3. \param threads as many, 0: all cores, for the method that can use them.
+/// The answers of a method to all queries: of "certified", or of "tight_inclusion" to curves
+/// of degree 2 or 3. \param threads as many, 0: all cores, for the method that can use them.
 /// \throws std::invalid_argument for another method, or one that does not answer such queries.
 [[nodiscard]] std::vector<fast::Answer> curved_answers(std::string_view method, Kind kind,
                                                        const CurvedQueries& queries,
