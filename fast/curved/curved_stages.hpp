@@ -167,6 +167,7 @@ inline kernel::Vector<typename Lanes::Value> sum_of_corners(
 
 /// Queries whose time of impact is in a piece, until the lanes are full.
 template <class Lanes>
+// NOLINTNEXTLINE(clang-analyzer-optin.performance.Padding): numbers of lanes are aligned
 struct Impacts {
   alignas(64) kernel::Numbers<Lanes> begin{};
   alignas(64) kernel::Numbers<Lanes> length{};
@@ -177,6 +178,7 @@ struct Impacts {
 
 /// Stages 2 and 3 for the queries of a list.
 template <class Lanes, Kind kind, Norm norm, bool separated>
+// NOLINTNEXTLINE(clang-analyzer-optin.performance.Padding): numbers of lanes are aligned
 class Search {
  public:
   static void run(const Block& block, const KernelOutput::List<std::uint32_t>& queries,
