@@ -51,22 +51,38 @@ Values values_of(const BoxProblem& problem, const Box& box, std::size_t axis) {
   return values;
 }
 
+struct Range {
+  double least = std::numeric_limits<double>::infinity();
+  double greatest = -std::numeric_limits<double>::infinity();
+
+  void add(double x) {
+    least = std::min(least, x);
+    greatest = std::max(greatest, x);
+  }
+};
+
+/// The range of F on an axis over a box.
+using RangeOf = Range(const BoxProblem& problem, const Box& box, std::size_t axis);
+
+template <RangeOf range_of>
 BoxTest test(const BoxProblem& problem, const Box& box) {
   BoxTest result{.rejected = false, .inside = true, .width = 0.0};
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    const Values values = values_of(problem, box, axis);
-    double least = values[0][0], greatest = values[0][0];
-    for (std::size_t k = 0; k <= problem.degree; ++k) {
-      for (const double x : values[k]) {
-        least = std::min(least, x);
-        greatest = std::max(greatest, x);
-      }
-    }
+    const auto [least, greatest] = range_of(problem, box, axis);
     const double d = problem.separation, filter = problem.filter[axis];
     if (least - d > filter || greatest + d < -filter)
       return {.rejected = true, .inside = false, .width = 0.0};
     result.inside = result.inside && greatest - d <= filter && least + d >= -filter;
     result.width = std::max(result.width, greatest - least);
+  }
+  return result;
+}
+
+Range range_of_values(const BoxProblem& problem, const Box& box, std::size_t axis) {
+  const Values values = values_of(problem, box, axis);
+  Range result;
+  for (std::size_t k = 0; k <= problem.degree; ++k) {
+    for (const double x : values[k]) result.add(x);
   }
   return result;
 }
@@ -107,21 +123,14 @@ double blossom(const BoxProblem& problem, std::span<const double> values, std::s
   return x[0];
 }
 
-struct Range {
-  double least = std::numeric_limits<double>::infinity();
-  double greatest = -std::numeric_limits<double>::infinity();
-};
-
-/// The range of F on an axis.
-Range range_of(const BoxProblem& problem, const Box& box, std::size_t axis) {
+Range range_of_rational(const BoxProblem& problem, const Box& box, std::size_t axis) {
   const auto& [t0, t1, u0, u1, v0, v1] = box.ends;
   std::array<Range, moving_points> x;
   for (std::size_t point = 0; point < moving_points; ++point) {
     for (std::size_t k = 0; k <= problem.degree; ++k) {
       const double at = blossom(problem, problem.control[axis], point, k, t0, t1) /
                         blossom(problem, problem.curve_weights, point, k, t0, t1);
-      x.at(point).least = std::min(x.at(point).least, at);
-      x.at(point).greatest = std::max(x.at(point).greatest, at);
+      x.at(point).add(at);
     }
   }
   Range result;
@@ -132,27 +141,14 @@ Range range_of(const BoxProblem& problem, const Box& box, std::size_t axis) {
           return filters::CurvedEdgeEdge<2>::from_points<double>(
               {x[0].*a, x[1].*a, x[2].*b, x[3].*b}, {1.0 - u, u, 1.0 - v, v});
         }
-        // Where a box reaches out of the domain, its corner is moved to the side u + v = 1.
-        const double inside = std::min(v, 1.0 - u);
+        // Where a box reaches out of the domain, the weight of f0 is negative.
+        const double w = (1.0 - u) - v;
         return filters::CurvedVertexFace<2>::from_points<double>(
-            {x[0].*a, x[1].*b, x[2].*b, x[3].*b}, {(1.0 - u) - inside, u, inside});
+            {x[0].*a, x[1].*(w < 0.0 ? a : b), x[2].*b, x[3].*b}, {w, u, v});
       };
-      result.least = std::min(result.least, f(&Range::least, &Range::greatest));
-      result.greatest = std::max(result.greatest, f(&Range::greatest, &Range::least));
+      result.add(f(&Range::least, &Range::greatest));
+      result.add(f(&Range::greatest, &Range::least));
     }
-  }
-  return result;
-}
-
-BoxTest test_rational(const BoxProblem& problem, const Box& box) {
-  BoxTest result{.rejected = false, .inside = true, .width = 0.0};
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    const auto [least, greatest] = range_of(problem, box, axis);
-    const double d = problem.separation, filter = problem.filter[axis];
-    if (least - d > filter || greatest + d < -filter)
-      return {.rejected = true, .inside = false, .width = 0.0};
-    result.inside = result.inside && greatest - d <= filter && least + d >= -filter;
-    result.width = std::max(result.width, greatest - least);
   }
   return result;
 }
@@ -166,7 +162,7 @@ std::array<double, 3> changes_of_rational(const BoxProblem& problem) {
   const double ratio = std::ranges::max(weights) / std::ranges::min(weights);
   std::array<double, 3> result{};
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    const auto [least, greatest] = range_of(problem, unit, axis);
+    const auto [least, greatest] = range_of_rational(problem, unit, axis);
     const auto at = [&](std::size_t place) {
       return problem.control[axis][place] / weights[place];
     };
@@ -186,7 +182,7 @@ const BoxKernel& rational_box_kernel() {
   static const BoxKernel kernel{.instructions = InstructionSet::scalar,
                                 .digits = std::numeric_limits<double>::digits,
                                 .load = nullptr,
-                                .test = test_rational,
+                                .test = test<range_of_rational>,
                                 .corners = nullptr,
                                 .changes = changes_of_rational};
   return kernel;
@@ -196,7 +192,7 @@ const BoxKernel& curved_box_kernel() {
   static const BoxKernel kernel{.instructions = InstructionSet::scalar,
                                 .digits = std::numeric_limits<double>::digits,
                                 .load = nullptr,
-                                .test = test,
+                                .test = test<range_of_values>,
                                 .corners = nullptr,
                                 .changes = changes};
   return kernel;

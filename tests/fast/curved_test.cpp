@@ -222,6 +222,29 @@ TEST(TightInclusionOnCurves, MissesNoContact) {
                std::invalid_argument);
 }
 
+/// A vertex through the third side of a triangle, where boxes of (u,v) reach out of the domain.
+TEST(TightInclusionOnCurves, FindsContactsAtTheThirdSide) {
+  Random random(100);
+  for (int round = 0; round < 200; ++round) {
+    const double u = std::ldexp(random.between(1, (1 << 20) - 1), -20);
+    std::vector<double> numbers;
+    for (const double height : {1.0, 0.0, -1.0}) {
+      const double weight = round % 2 == 0 ? 1.0 : random.uniform(0.5, 2.0);
+      for (const double x : {2.0 - u, 1.0 - u, height, weight}) numbers.push_back(x);
+      for (const double x : {0.0, 0.0, 0.0, 1.0, 1.0, 0.0, 0.0, 1.0, 2.0, 1.0, 0.0, 1.0}) {
+        numbers.push_back(x);
+      }
+    }
+    const CurvedQueries queries{2, true, numbers};
+    const exact::Decision truth = exact::decide(Kind::vertex_face, queries.query(0));
+    ASSERT_TRUE(truth.collides());
+    const TightInclusionResult found = tight_inclusion(Kind::vertex_face, queries, 0);
+    ASSERT_EQ(found.verdict, Verdict::yes) << round;
+    EXPECT_LE(exact::Rational(found.toi), *truth.toi);
+    EXPECT_GE(exact::Rational(found.toi + 1e-4), *truth.toi);
+  }
+}
+
 TEST(CurvedSolverInFloatingPoint, DecidesNearlyAll) {
   Random random(92);
   for (const Sort sort : {Sort{2, Weights::none, false}, Sort{3, Weights::none, false},
