@@ -263,10 +263,10 @@ std::vector<PosedCurves> curves_to_ask(int scale) {
     }
   };
   // (Of degree 3 some take the solver minutes.)
-  draw(2, Weights::none, 4 * scale);
-  draw(2, Weights::common, 2 * scale);
-  draw(2, Weights::of_primitives, 2 * scale);
-  draw(3, Weights::none, scale);
+  draw(2, Weights::none, 8 * scale);
+  draw(2, Weights::common, 4 * scale);
+  draw(2, Weights::of_primitives, 4 * scale);
+  draw(3, Weights::none, 8);
   return queries;
 }
 
@@ -384,7 +384,7 @@ TEST(OracleSmt, AgreesWithAnSmtSolver) {
 }
 
 TEST(OracleSmt, AgreesWithAnSmtSolverOnCurves) {
-  const int scale = tests::soak_trials(1, 50);
+  const int scale = tests::soak_trials(1, 25);
   Tally tally;
   for (const PosedCurves& posed : curves_to_ask(scale)) {
     SCOPED_TRACE(posed);
