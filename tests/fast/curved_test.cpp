@@ -187,6 +187,7 @@ TEST(CurvedKernels, FindPlantedFaults) {
     EXPECT_TRUE(answers_rightly(*kernel, {})) << to_string(kernel->instructions);
   }
   for (const auto& fault : tests::planted_faults().curved_kernel) {
+    if (!fault.is_to_be_found()) continue;
     std::printf("%s\n", fault.name.data());
     EXPECT_FALSE(answers_rightly(*fault.part, fault.separation)) << fault.name;
   }
