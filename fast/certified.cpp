@@ -6,7 +6,6 @@
 #include "fast/certified/block.hpp"
 #include "fast/kernels.hpp"
 #include "fast/method.hpp"
-#include "fast/platform/floating_point_state.hpp"
 #include "fast/platform/threads.hpp"
 
 namespace touchstone::fast {
@@ -67,36 +66,11 @@ const KernelOutput& decide(const Batch& batch, std::size_t first, double t_limit
       [&](std::size_t index, const CertifiedResult& result) { report(first + index, result); });
 }
 
-/// Calls body(first) for each block, under strict floating point, in the allowed number of threads.
+/// Calls body(first) for each block, in the allowed number of threads.
 template <class Body>
 void for_each_block(std::size_t size, int max_threads, const Body& body) {
-  const std::size_t blocks = (size + kernel_block - 1) / kernel_block;
-  const auto run = [&](std::size_t begin, std::size_t end) {
-    const StrictFloatingPoint strict;
-    for (std::size_t block = begin; block < end; ++block) body(block * kernel_block);
-  };
-  if (max_threads == 1 || blocks <= 1) {
-    run(0, blocks);
-    return;
-  }
   constexpr std::size_t blocks_a_task = 8;
-  with_threads(max_threads, [&] {
-    tbb::parallel_for(
-        tbb::blocked_range<std::size_t>(0, blocks, blocks_a_task),
-        [&](const tbb::blocked_range<std::size_t>& range) { run(range.begin(), range.end()); });
-  });
-}
-
-/// Calls mark(index, stage) for every query of the block without contact that a stage after the
-/// first has decided.
-template <class Mark>
-void mark_stages(const KernelOutput& output, const Mark& mark) {
-  const auto mark_all = [&](const KernelOutput::List<std::uint32_t>& list, Stage stage) {
-    for (std::size_t i = 0; i < list.count; ++i) mark(list.items[i], stage);
-  };
-  mark_all(output.separated_in_direction, Stage::direction);
-  mark_all(output.one_sided, Stage::determinant);
-  mark_all(output.rejected, Stage::bisection);
+  for_each_kernel_block(size, max_threads, blocks_a_task, body);
 }
 
 void solve(const Batch& batch, std::span<CertifiedResult> results,

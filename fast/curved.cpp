@@ -8,15 +8,9 @@
 #include "fast/certified/exact/curved_polygon.hpp"
 #include "fast/curved/curved_block.hpp"
 #include "fast/kernels.hpp"
-#include "fast/platform/floating_point_state.hpp"
-#include "fast/platform/threads.hpp"
 
 namespace touchstone::fast {
 namespace {
-
-/// Small enough that the queries stay in the cache between stages.
-constexpr std::size_t queries_of_block = 1024;
-static_assert(queries_of_block <= kernel_block);
 
 void require_valid(const CurvedQueries& queries) {
   if (queries.degree > greatest_degree) {
@@ -117,29 +111,17 @@ void decide(Kind kind, const CurvedQueries& queries, const CertifiedKernel& kern
       .t_limit = options.t_max};
   std::ranges::fill(results, CertifiedResult{.verdict = Verdict::no, .stage = Stage::axis});
   kernel.curved_axis(block, open);
-  output.separated_in_direction.count = output.rejected.count = 0;
+  output.separated_in_direction.count = output.one_sided.count = output.rejected.count = 0;
   output.impacts.count = output.undecided.count = 0;
   sort(kind, queries, open, sorted, output.undecided);
   for (const auto form : {curved::Denominators::one, curved::Denominators::two}) {
     kernel.curved_search(block, sorted[static_cast<std::size_t>(form)], form, output);
   }
-  const auto mark = [&](const Indices& list, Stage stage) {
-    for (std::size_t i = 0; i < list.count; ++i) results[list.items[i]].stage = stage;
-  };
-  mark(output.separated_in_direction, Stage::direction);
-  mark(output.rejected, Stage::bisection);
-  for (std::size_t i = 0; i < output.impacts.count; ++i) {
-    const KernelImpact& impact = output.impacts.items[i];
-    if (const auto result = result_of(impact, options)) {
-      results[impact.index] = *result;
-    } else {
-      append(output.undecided, impact.index);
-    }
-  }
-  for (std::size_t i = 0; i < output.undecided.count; ++i) {
-    const std::uint32_t index = output.undecided.items[i];
-    results[index] = decided_exactly(kind, queries.query(index), options);
-  }
+  mark_stages(output, [&](std::size_t index, Stage stage) { results[index].stage = stage; });
+  report_contacts(
+      output, options,
+      [&](std::size_t index) { return decided_exactly(kind, queries.query(index), options); },
+      [&](std::size_t index, const CertifiedResult& result) { results[index] = result; });
 }
 
 }  // namespace
@@ -152,25 +134,12 @@ void solve(Kind kind, const CurvedQueries& queries, std::span<CertifiedResult> r
     throw std::invalid_argument("curved: as many results as queries are needed");
   }
   const CertifiedKernel& kernel = certified_kernel(chosen_kernels());
-  const auto decide_blocks = [&](std::size_t begin, std::size_t end) {
-    const StrictFloatingPoint strict;
-    const std::size_t size = queries.numbers_of_query();
-    for (std::size_t first = begin; first < end; first += queries_of_block) {
-      const std::size_t count = std::min(queries_of_block, end - first);
-      const CurvedQueries some{queries.degree, queries.is_rational,
-                               queries.numbers.subspan(first * size, count * size)};
-      decide(kind, some, kernel, options, results.subspan(first, count));
-    }
-  };
-  if (options.max_threads == 1 || results.size() <= 1) {
-    decide_blocks(0, results.size());
-    return;
-  }
-  with_threads(options.max_threads, [&] {
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, results.size(), queries_of_block),
-                      [&](const tbb::blocked_range<std::size_t>& range) {
-                        decide_blocks(range.begin(), range.end());
-                      });
+  const std::size_t size = queries.numbers_of_query();
+  for_each_kernel_block(results.size(), options.max_threads, 1, [&](std::size_t first) {
+    const std::size_t count = std::min(kernel_block, results.size() - first);
+    const CurvedQueries some{queries.degree, queries.is_rational,
+                             queries.numbers.subspan(first * size, count * size)};
+    decide(kind, some, kernel, options, results.subspan(first, count));
   });
 }
 

@@ -6,12 +6,15 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <vector>
 
 #include "fast/certified/exact/exact_stage.hpp"
 #include "fast/certified/kernel.hpp"
 #include "fast/certified/rescaling.hpp"
+#include "fast/platform/floating_point_state.hpp"
+#include "fast/platform/threads.hpp"
 #include "touchstone/certified.hpp"
 #include "touchstone/query.hpp"
 
@@ -34,6 +37,56 @@ void require_valid(const CertifiedOptions& options);
 /// A time such that every contact after it has an enclosure with both ends above toi_upper.
 [[nodiscard]] double limit_after(double toi_upper, double tolerance);
 
+/// Calls body(first) for each block of the kernel, under strict floating point, in the allowed
+/// number of threads, so many blocks at once in one.
+template <class Body>
+void for_each_kernel_block(std::size_t size, int max_threads, std::size_t blocks_a_task,
+                           const Body& body) {
+  const std::size_t blocks = (size + kernel_block - 1) / kernel_block;
+  const auto run = [&](std::size_t begin, std::size_t end) {
+    const StrictFloatingPoint strict;
+    for (std::size_t block = begin; block < end; ++block) body(block * kernel_block);
+  };
+  if (max_threads == 1 || blocks <= 1) {
+    run(0, blocks);
+    return;
+  }
+  with_threads(max_threads, [&] {
+    tbb::parallel_for(
+        tbb::blocked_range<std::size_t>(0, blocks, blocks_a_task),
+        [&](const tbb::blocked_range<std::size_t>& range) { run(range.begin(), range.end()); });
+  });
+}
+
+/// Calls mark(index, stage) for every query of the block without contact that a stage after the
+/// first has decided.
+template <class Mark>
+void mark_stages(const KernelOutput& output, const Mark& mark) {
+  const auto mark_all = [&](const KernelOutput::List<std::uint32_t>& list, Stage stage) {
+    for (std::size_t i = 0; i < list.count; ++i) mark(list.items[i], stage);
+  };
+  mark_all(output.separated_in_direction, Stage::direction);
+  mark_all(output.one_sided, Stage::determinant);
+  mark_all(output.rejected, Stage::bisection);
+}
+
+/// Passes on the results of the block's queries that may have a contact: report(index, result).
+/// \param exactly(index) decides a query exactly
+template <class Exactly, class Report>
+void report_contacts(const KernelOutput& output, const CertifiedOptions& options,
+                     const Exactly& exactly, const Report& report) {
+  for (std::size_t i = 0; i < output.impacts.count; ++i) {
+    const KernelImpact& impact = output.impacts.items[i];
+    const std::size_t index = impact.index;
+    const auto result = result_of(impact, options);
+    report(index, result ? *result : exactly(index));
+  }
+  for (std::size_t i = 0; i < output.undecided.count; ++i) {
+    const std::size_t index = output.undecided.items[i];
+    report(index, exactly(index));
+  }
+}
+
 /// Runs the kernel on a block, ignoring contacts after t_limit, and passes on the results of
 /// queries that may have a contact: report(index, result). \pre strict floating point. \param
 /// query_of(index) a query of the block
@@ -52,20 +105,10 @@ const KernelOutput& decide_block(KernelInput block, double t_limit, const Certif
     undecided.push_back(query_of(output.undecided.items[i]));
   }
   decide_rescaled(block, kernel, undecided, output);
-  const auto report_exactly = [&](std::size_t index) {
-    report(index, decided_exactly(block.kind, query_of(index), options));
-  };
-  for (std::size_t i = 0; i < output.impacts.count; ++i) {
-    const KernelImpact& impact = output.impacts.items[i];
-    if (const auto result = result_of(impact, options)) {
-      report(std::size_t{impact.index}, *result);
-    } else {
-      report_exactly(impact.index);
-    }
-  }
-  for (std::size_t i = 0; i < output.undecided.count; ++i) {
-    report_exactly(output.undecided.items[i]);
-  }
+  report_contacts(
+      output, options,
+      [&](std::size_t index) { return decided_exactly(block.kind, query_of(index), options); },
+      report);
   return output;
 }
 

@@ -232,13 +232,27 @@ inline typename Lanes::Value guess_zeros(const DeterminantForms<Lanes>& form) {
     // The other end counts half, so that both move. An exact zero ends the search.
     const Mask is_zero = at == zero;
     const Mask is_before = select(begins_above, at, zero - at) > zero;
-    const Mask is_after = select(is_before, zero, one) > zero;
     lower = select(is_wide & (is_before | is_zero), y, lower);
-    upper = select(is_wide & is_after, y, upper);
+    upper = select(is_wide, select(is_before, upper, y), upper);
     at_lower = select(is_wide, select(is_before, at, at_lower * half), at_lower);
     at_upper = select(is_wide, select(is_before, at_upper * half, at), at_upper);
   }
   return half * (lower + upper);
+}
+
+/// A level of de Casteljau's algorithm on the first coefficients.
+template <class Ball>
+inline void blend(std::array<Ball, greatest_degree + 1>& x, std::size_t count,
+                  const Time<Ball>& time) {
+  for (std::size_t k = 0; k < count; ++k) x[k] = x[k] * time.rest + x[k + 1] * time.t;
+}
+
+/// The value of the Bernstein coefficients x at a time.
+template <class Ball>
+inline Ball value_at(std::array<Ball, greatest_degree + 1> x, std::size_t degree,
+                     const Time<Ball>& time) {
+  for (std::size_t level = degree; level > 0; --level) blend(x, level, time);
+  return x[0];
 }
 
 /// Queries at a time of each lane, from their own numbers, in numbers with error bounds
@@ -253,9 +267,9 @@ class AtTime {
   static constexpr std::size_t corners = Polygons::corners;
 
   AtTime(const Rows<Lanes>& rows, const Value& time) : rows_(rows) {
-    const Ball t({time, Value(0.0)}), rest = Ball(1.0) - t;
-    const std::array<std::array<Ball, 4>, moving_points> points{
-        place(0, t, rest), place(1, t, rest), place(2, t, rest), place(3, t, rest)};
+    const Time<Ball> at(Ball({time, Value(0.0)}));
+    const std::array<std::array<Ball, 4>, moving_points> points{place(0, at), place(1, at),
+                                                                place(2, at), place(3, at)};
     reach_ = Ball(rows.block.separation.distance);
     if (rows.block.is_rational) reach_ = reach_ * points[0][3] * points[3][3];
     for (std::size_t i = 0; i < corners; ++i) {
@@ -307,24 +321,21 @@ class AtTime {
   }
 
  private:
-  /// Weighted coordinates and the weight of a point, by de Casteljau's algorithm.
-  std::array<Ball, 4> place(std::size_t point, const Ball& t, const Ball& rest) {
+  /// Weighted coordinates and the weight of a point.
+  std::array<Ball, 4> place(std::size_t point, const Time<Ball>& time) {
     const std::size_t degree = rows_.block.degree, size = rows_.block.is_rational ? 4 : 3;
-    std::array<std::array<Ball, 4>, greatest_degree + 1> row;
+    std::array<std::array<Ball, greatest_degree + 1>, 4> row;
     for (std::size_t k = 0; k <= degree; ++k) {
       const kernel::Vector<Value> x = rows_.x(k, point);
       greatest_ = max(greatest_, kernel::greatest(x));
-      for (std::size_t axis = 0; axis < 3; ++axis) row[k][axis] = Ball({x[axis], Value(0.0)});
+      for (std::size_t axis = 0; axis < 3; ++axis) row[axis][k] = Ball({x[axis], Value(0.0)});
       if (!rows_.block.is_rational) continue;
-      row[k][3] = Ball({rows_.weight(k, point), Value(0.0)});
-      for (std::size_t axis = 0; axis < 3; ++axis) row[k][axis] = row[k][axis] * row[k][3];
+      row[3][k] = Ball({rows_.weight(k, point), Value(0.0)});
+      for (std::size_t axis = 0; axis < 3; ++axis) row[axis][k] = row[axis][k] * row[3][k];
     }
-    for (std::size_t level = degree; level > 0; --level) {
-      for (std::size_t k = 0; k < level; ++k) {
-        for (std::size_t i = 0; i < size; ++i) row[k][i] = row[k][i] * rest + row[k + 1][i] * t;
-      }
-    }
-    return row[0];
+    std::array<Ball, 4> result;
+    for (std::size_t i = 0; i < size; ++i) result[i] = value_at(row[i], degree, time);
+    return result;
   }
 
   const Rows<Lanes>& rows_;
@@ -357,8 +368,8 @@ class PreciseGap {
         degree_(rows.block.degree),
         gap_degree_(denominators == Denominators::one ? degree_ : 2 * degree_),
         reach_(Ball({n, Value(0.0)}) * Ball(rows.block.separation.distance)),
-        a_{a, Value(0.0)},
-        b_{b, Value(0.0)} {
+        a_(Ball({a, Value(0.0)})),
+        b_(Ball({b, Value(0.0)})) {
     constexpr std::size_t second = kind == Kind::vertex_face ? 1 : 2;
     weights_ = {on_part([&](std::size_t k) { return weight(k, 0); }),
                 on_part([&](std::size_t k) { return weight(k, second); })};
@@ -431,25 +442,21 @@ class PreciseGap {
   /// The Bernstein coefficients on [a,b] of those on [0,1]: the polar form.
   template <class At>
   [[nodiscard]] Row on_part(const At& at) const {
-    const Ball of_a(a_), rest_a = Ball(1.0) - of_a, of_b(b_), rest_b = Ball(1.0) - of_b;
     Row x, result;
     for (std::size_t k = 0; k <= degree_; ++k) x[k] = at(k);
-    for (std::size_t times_b = degree_;; --times_b) {
-      Row y = x;
-      for (std::size_t level = times_b; level > 0; --level) {
-        for (std::size_t j = 0; j < level; ++j) y[j] = y[j] * rest_b + y[j + 1] * of_b;
-      }
-      result[times_b] = y[0];
-      if (times_b == 0) return result;
-      for (std::size_t j = 0; j < times_b; ++j) x[j] = x[j] * rest_a + x[j + 1] * of_a;
+    for (std::size_t times_b = degree_; times_b > 0; --times_b) {
+      result[times_b] = value_at(x, times_b, b_);
+      blend(x, times_b, a_);
     }
+    result[0] = x[0];
+    return result;
   }
 
   const Rows<Lanes>& rows_;
   std::size_t degree_;
   std::size_t gap_degree_;
   Ball reach_;  ///< n times the distance
-  filters::DoubleDouble<Value> a_, b_;
+  Time<Ball> a_, b_;
   std::array<Row, 2> weights_;
   Value greatest_ = Value(0.0);
 };

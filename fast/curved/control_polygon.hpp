@@ -122,14 +122,22 @@ struct Rows {
   }
 };
 
-/// i out of n.
+/// i out of n ≤ 3 · greatest_corner_degree, by Pascal's triangle. (A copy that is local to the
+/// kernel.)
 template <class Lanes>
 inline double binomial(std::size_t n, std::size_t i) {
-  double result = 1.0;
-  for (std::size_t j = 0; j < i; ++j) {
-    result = result * static_cast<double>(n - j) / static_cast<double>(j + 1);
-  }
-  return result;
+  constexpr std::size_t size = 3 * greatest_corner_degree + 1;
+  static constexpr auto rows = [] {
+    std::array<std::array<double, size>, size> result{};
+    for (std::size_t row = 0; row < size; ++row) {
+      result[row][0] = 1.0;
+      for (std::size_t k = 1; k <= row; ++k) {
+        result[row][k] = result[row - 1][k - 1] + result[row - 1][k];
+      }
+    }
+    return result;
+  }();
+  return rows[n][i];
 }
 
 /// Loads polygons.

@@ -149,8 +149,7 @@ class CurvedRun {
                                 .label = set.name + ' '};
     options.on_progress = [&](double done) { bar.update(done); };
     if (truth_) {
-      options.on_query = [&](std::size_t i, const exact::Decision& decision,
-                             const fast::CertifiedResult& /*result*/) {
+      options.on_truth = [&](std::size_t i, const exact::Decision& decision) {
         truth_.write(report::truth_row(set.name, set.kind, judge::truth_of(i, decision)));
       };
     }
@@ -265,13 +264,12 @@ Status solve_curves(const CurvedArguments& arguments, std::string_view method,
     const Kind kind = kind_of(path, arguments.kind);
     const auto answers =
         solvers::curved_answers(method, kind, file.queries(), with_separation, arguments.threads);
-    for (const fast::Answer& answer : answers) {
-      const auto index = static_cast<std::uint64_t>(&answer - answers.data());
-      out.write(solvers::answer_row(path.string(), index, kind, answer));
-      ++queries;
-      yes += answer.verdict == fast::Verdict::yes ? 1 : 0;
-      no += answer.verdict == fast::Verdict::no ? 1 : 0;
+    for (std::size_t i = 0; i < answers.size(); ++i) {
+      out.write(solvers::answer_row(path.string(), i, kind, answers[i]));
+      yes += answers[i].verdict == fast::Verdict::yes ? 1U : 0U;
+      no += answers[i].verdict == fast::Verdict::no ? 1U : 0U;
     }
+    queries += answers.size();
   }
   out.close();
   if (json) {

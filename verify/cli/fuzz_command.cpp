@@ -87,6 +87,14 @@ struct Arguments {
   }
 };
 
+/// The fraction of a run that is done.
+double part_of_run(const Arguments& arguments, double seconds, std::uint64_t queries) {
+  const double limit = arguments.run_seconds();
+  const double of_time = limit > 0.0 ? seconds / limit : 0.0;
+  if (arguments.queries == 0) return of_time;
+  return std::max(of_time, static_cast<double>(queries) / static_cast<double>(arguments.queries));
+}
+
 // ---- The corpus ---------------------------------------------------------------------------------
 
 /// The kind of a file: from its path, or else from --kind.
@@ -311,13 +319,7 @@ class FuzzRun {
   [[nodiscard]] std::FILE* out() const { return files_.summary_stream(); }
 
   void show(const fuzz::FuzzProgress& progress) {
-    double fraction = 0.0;
-    if (options_.seconds > 0.0) fraction = progress.seconds / options_.seconds;
-    if (options_.most_queries != 0) {
-      fraction = std::max(fraction, static_cast<double>(progress.queries) /
-                                        static_cast<double>(options_.most_queries));
-    }
-    bar_.update(fraction);
+    bar_.update(part_of_run(arguments_, progress.seconds, progress.queries));
   }
 
   void add(const fuzz::Finding& finding) {
@@ -407,11 +409,7 @@ Status run_on_curves(const CLI::App& command, const Arguments& arguments) {
   options.method.separation = arguments.separation.given();
   const double begin = options.clock();
   options.on_progress = [&](std::uint64_t queries) {
-    const double part = options.seconds > 0.0 ? (options.clock() - begin) / options.seconds : 0.0;
-    const auto count = static_cast<double>(queries);
-    bar.update(options.most_queries == 0
-                   ? part
-                   : std::max(part, count / static_cast<double>(options.most_queries)));
+    bar.update(part_of_run(arguments, options.clock() - begin, queries));
   };
   const auto answer = [&](Kind kind, const CurvedQueries& queries,
                           const fast::MethodOptions& of_call) {

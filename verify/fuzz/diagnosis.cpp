@@ -94,13 +94,6 @@ Diagnosis diagnose_failure(const judge::Failure& failure, double limit_seconds) 
   }
 }
 
-Answer answer_of(const CertifiedResult& judged) {
-  return {.verdict = judged.verdict,
-          .toi_lower = judged.toi_lower,
-          .toi_upper = judged.toi_upper,
-          .tolerance = Answer::none};
-}
-
 std::string to_text(const Answer& answer) {
   std::string text(judge::to_string(answer.verdict));
   const auto add = [&text](std::string_view name, double value) {

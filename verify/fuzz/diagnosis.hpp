@@ -13,8 +13,8 @@
 #include <string>
 
 #include "fast/method.hpp"
-#include "touchstone/certified.hpp"
 #include "verify/judge/judge.hpp"
+#include "verify/solvers/answers.hpp"
 
 namespace touchstone::verify::fuzz {
 
@@ -42,8 +42,7 @@ struct Diagnosis {
 /// \param limit_seconds that a query may take
 [[nodiscard]] Diagnosis diagnose_failure(const judge::Failure& failure, double limit_seconds);
 
-/// The decision of the certified solver as an answer.
-[[nodiscard]] fast::Answer answer_of(const fast::CertifiedResult& judged);
+using solvers::answer_of;
 
 /// "no", "yes, toi_lower 0.5, tolerance 1e-06": the verdict and the fields that are given.
 [[nodiscard]] std::string to_text(const fast::Answer& answer);

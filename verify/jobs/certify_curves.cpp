@@ -216,7 +216,7 @@ CurvedResult certify_curves(Kind kind, const CurvedQueries& queries, const Curve
       sum.oracle_seconds += one.seconds;
       sum.toi.push_back(one.toi);
       certificates += one.certificate;
-      if (options.on_query) options.on_query(first + i, one.truth, found[i]);
+      if (options.on_truth) options.on_truth(first + i, one.truth);
       if (!options.truth.empty() && contradicts(options.truth[first + i], one.toi)) {
         sum.against_truth.push_back(first + i);
       }

@@ -50,9 +50,8 @@ struct CurvedOptions {
   bool prove = false;
   /// Before each query's index in the label of its certificate.
   std::string label = {};
-  /// Called for each query in order, with the exact decision and the certified solver's result.
-  std::function<void(std::size_t, const exact::Decision&, const fast::CertifiedResult&)> on_query =
-      nullptr;
+  /// Called for each query in order.
+  std::function<void(std::size_t, const exact::Decision&)> on_truth = nullptr;
   /// Called with the certificates of consecutive queries.
   std::function<void(const std::string&)> on_certificates = nullptr;
   /// Called now and then with the fraction that is done.

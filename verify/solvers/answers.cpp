@@ -44,6 +44,13 @@ using Fields = std::array<std::string, most_columns>;
 
 }  // namespace
 
+fast::Answer answer_of(const fast::CertifiedResult& result) {
+  return {.verdict = result.verdict,
+          .toi_lower = result.toi_lower,
+          .toi_upper = result.toi_upper,
+          .tolerance = fast::Answer::none};
+}
+
 std::string answers_header() { return std::string(header) + "\n"; }
 
 std::string answer_row(std::string_view file, std::uint64_t index, Kind kind,

@@ -23,10 +23,14 @@
 #include <vector>
 
 #include "fast/method.hpp"
+#include "touchstone/certified.hpp"
 #include "touchstone/query.hpp"
 #include "verify/judge/fault.hpp"
 
 namespace touchstone::verify::solvers {
+
+/// The decision of the certified solver as an answer.
+[[nodiscard]] fast::Answer answer_of(const fast::CertifiedResult& result);
 
 /// The first line of the file, with its line end.
 [[nodiscard]] std::string answers_header();

@@ -8,15 +8,12 @@
 #include "touchstone/curved.hpp"
 #include "touchstone/tight_inclusion.hpp"
 #include "verify/base/cores.hpp"
+#include "verify/solvers/answers.hpp"
 
 namespace touchstone::verify::solvers {
 namespace {
 
-fast::Answer answer_of(const fast::CertifiedResult& result) {
-  return {.verdict = result.verdict, .toi_lower = result.toi_lower, .toi_upper = result.toi_upper};
-}
-
-fast::Answer answer_of(const fast::TightInclusionResult& result) {
+fast::Answer answer_of_inclusion(const fast::TightInclusionResult& result) {
   if (result.verdict != fast::Verdict::yes) return {.verdict = result.verdict};
   return {.verdict = result.verdict, .toi_lower = result.toi, .tolerance = result.tolerance};
 }
@@ -33,8 +30,7 @@ std::vector<fast::Answer> curved_answers(std::string_view method, Kind kind,
                 {.t_max = options.t_max,
                  .separation = options.separation,
                  .max_threads = base::cores_for(threads)});
-    std::ranges::transform(results, answers.begin(),
-                           [](const fast::CertifiedResult& result) { return answer_of(result); });
+    std::ranges::transform(results, answers.begin(), answer_of);
     return answers;
   }
   if (method != "tight_inclusion") {
@@ -46,7 +42,7 @@ std::vector<fast::Answer> curved_answers(std::string_view method, Kind kind,
                                         .separation = options.separation,
                                         .t_max = options.t_max};
   for (std::size_t i = 0; i < answers.size(); ++i) {
-    answers[i] = answer_of(fast::tight_inclusion(kind, queries, i, all));
+    answers[i] = answer_of_inclusion(fast::tight_inclusion(kind, queries, i, all));
   }
   return answers;
 }

@@ -10,25 +10,16 @@
 #include "fast/method.hpp"
 #include "touchstone/certified.hpp"
 #include "touchstone/curved_query.hpp"
+#include "verify/data/curved_query_file.hpp"
 #include "verify/jobs/prove.hpp"
 #include "verify/solvers/curved_answers.hpp"
 
 namespace touchstone::verify::view {
-
 namespace {
 
-/// The numbers of a query on curves of one degree.
-struct CurvedNumbers {
-  std::size_t degree = 0;
-  bool is_rational = false;
-  std::vector<double> numbers = {};
-
-  [[nodiscard]] CurvedQueries queries() const { return {degree, is_rational, numbers}; }
-};
-
 /// The same curves, all of one degree, as a constant one has each; nothing if others differ.
-std::optional<CurvedNumbers> of_one_degree(const CurvedQuery& curves) {
-  CurvedNumbers result;
+std::optional<data::CurvedQueryFile> of_one_degree(const CurvedQuery& curves) {
+  data::CurvedQueryFile result{.degree = 0, .is_rational = false, .numbers = {}};
   for (const Trajectory& curve : curves) {
     result.degree = std::max(result.degree, curve.degree());
     result.is_rational = result.is_rational || !curve.weights.empty();
@@ -67,7 +58,7 @@ std::vector<judge::GivenAnswer> answers_of(std::span<const solvers::Solver* cons
 }
 
 std::optional<judge::GivenAnswer> answer_on_curves(const ViewedQuery& viewed) {
-  const std::optional<CurvedNumbers> curves = of_one_degree(*viewed.curves);
+  const std::optional<data::CurvedQueryFile> curves = of_one_degree(*viewed.curves);
   if (!curves) return std::nullopt;
   const std::string method(fast::certified_info().name);
   const auto answers = solvers::curved_answers(method, viewed.kind, curves->queries(),
