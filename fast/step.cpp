@@ -90,9 +90,11 @@ std::vector<StepCollision> all_collisions(const Scene& scene) {
 // ---- The earliest -------------------------------------------------------------------------------
 
 /// Search for the earliest impact, or for any. The groups of the scene are searched in rounds:
-/// first a few from all over the scene, then more and more. Between rounds, the boxes are fitted
-/// again if the earliest known impact leaves much less to search: steps with contacts mostly have
-/// early ones, and on a short interval little moves.
+/// first a few from all over the scene, then more and more. Steps with contacts mostly have early
+/// ones, and on a short interval little moves. So the first rounds search such an interval, and all
+/// rounds do if these find a contact in it. Otherwise the whole step is searched from the first
+/// round on, and between rounds the boxes are fitted again if the earliest known impact leaves much
+/// less to search.
 class ImpactSearch {
  public:
   explicit ImpactSearch(const Scene& scene) : scene_(scene) {}
@@ -113,17 +115,35 @@ class ImpactSearch {
   static constexpr std::array<std::size_t, 5> strides{256, 64, 16, 4, 1};
   /// The end of a short interval. Swept boxes suffice there, and need not be fitted again.
   static constexpr double short_end = 0x1p-8;
+  /// The rounds that search a short interval first: a sixty-fourth of the groups.
+  static constexpr std::size_t first_rounds = 2;
 
   using Found = std::vector<StepCollision>;
 
   void run() {
-    take_interval(t_end_of(scene_.certified().t_max));
-    for (std::size_t round = 0; round < strides.size(); ++round) {
-      short_ ? search(*short_, round) : search(*long_, round);
-      if (any_suffices_ && has_any()) return;
+    // (Any contact is found as fast in the whole step.)
+    std::size_t round = !any_suffices_ && is_early() ? first_rounds : 0;
+    if (round == 0) take_interval(t_end_of(scene_.certified().t_max));
+    for (; round < strides.size() && !is_enough(); ++round) {
+      search(round);
       look_nearer(strides[round]);
     }
   }
+
+  /// Searches a short interval in the first rounds. Returns true if contacts after it do not
+  /// matter.
+  bool is_early() {
+    if (t_end_of(scene_.certified().t_max) <= short_end) return false;
+    take_interval(short_end);
+    for (std::size_t round = 0; round < first_rounds; ++round) search(round);
+    if (limit() <= short_end) return true;
+    // The search of the whole step finds these collisions again.
+    for (Found& found : found_) found.clear();
+    pairs_ = groups_ = 0;
+    return false;
+  }
+
+  [[nodiscard]] bool is_enough() const { return any_suffices_ && has_any(); }
 
   [[nodiscard]] bool has_any() const {
     return upper_.load() < std::numeric_limits<double>::infinity();
@@ -163,6 +183,8 @@ class ImpactSearch {
 
   // ---- Rounds ----
 
+  void search(std::size_t round) { short_ ? search(*short_, round) : search(*long_, round); }
+
   /// Searches with the groups of a round.
   template <std::size_t instants>
   void search(const SceneInterval<instants>& interval, std::size_t round) {
@@ -181,7 +203,7 @@ class ImpactSearch {
             for (const SearchPart& group : wanted) scene_.find(interval.trees, group, pairs);
           },
           [&](std::span<const IndexPair> pairs) {
-            if (any_suffices_ && has_any()) return;
+            if (is_enough()) return;
             pairs_ += pairs.size();
             scene_.decide(part.kind, pairs, interval.rounded, std::min(limit(), interval.end),
                           [this](std::size_t, const StepCollision& collision) { add(collision); });

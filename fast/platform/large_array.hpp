@@ -3,45 +3,48 @@
 /// \file
 /// Arrays without initialisation, for items that are all written before they are read.
 ///
-/// A large array begins at a large page, and on Linux asks for such pages: the first access to each
-/// of the usual pages takes longer than what a step does with it.
+/// The first access to each page of new memory takes longer than what a step does with the page.
+/// So a large array begins at a large page, and on Linux asks for such pages; and the memory of the
+/// last arrays is kept for the next ones, up to 64 MiB in a process.
 
 #include <cstddef>
 #include <memory>
-#include <new>
 #include <type_traits>
 
 namespace touchstone::fast {
 
-/// Memory for large arrays. \throws std::bad_alloc
-[[nodiscard]] void* allocate_array(std::size_t bytes, std::align_val_t alignment);
+/// Memory for an array.
+struct ArrayMemory {
+  void* begin = nullptr;
+  std::size_t bytes = 0;
+};
 
-/// The alignment of an array of that size and alignment of its items.
-[[nodiscard]] std::align_val_t alignment_of_array(std::size_t bytes, std::size_t of_item);
+/// At least that many bytes, aligned to 64. May be called by several threads at once.
+/// \throws std::bad_alloc
+[[nodiscard]] ArrayMemory allocate_array(std::size_t bytes);
+/// Keeps the memory for the next arrays, or frees it. Likewise.
+void free_array(const ArrayMemory& memory) noexcept;
 
 template <class Item>
 class LargeArray {
  public:
   LargeArray() = default;
-  explicit LargeArray(std::size_t size)
-      : items_(allocated(size), Free{alignment_of_array(size * sizeof(Item), alignof(Item))}) {}
+  explicit LargeArray(std::size_t size) : LargeArray(allocate_array(size * sizeof(Item))) {}
 
   /// Null by default.
   [[nodiscard]] Item* data() const { return items_.get(); }
   [[nodiscard]] Item& operator[](std::size_t i) const { return items_.get()[i]; }
 
  private:
-  static_assert(std::is_trivially_copyable_v<Item>);
+  static_assert(std::is_trivially_copyable_v<Item> && alignof(Item) <= 64);
 
   struct Free {
-    std::align_val_t alignment{};
-    void operator()(Item* items) const { ::operator delete(items, alignment); }
+    std::size_t bytes = 0;
+    void operator()(Item* items) const { free_array({items, bytes}); }
   };
 
-  static Item* allocated(std::size_t size) {
-    const std::size_t bytes = size * sizeof(Item);
-    return static_cast<Item*>(allocate_array(bytes, alignment_of_array(bytes, alignof(Item))));
-  }
+  explicit LargeArray(const ArrayMemory& memory)
+      : items_(static_cast<Item*>(memory.begin), Free{memory.bytes}) {}
 
   std::unique_ptr<Item, Free> items_;
 };

@@ -9,7 +9,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <fstream>
 #include <functional>
 #include <limits>
 #include <numeric>
@@ -18,6 +17,7 @@
 #include <utility>
 #include <vector>
 
+#include "tests/support/process_memory.hpp"
 #include "tests/support/random.hpp"
 #include "tests/support/simulation_steps.hpp"
 #include "tests/support/trials.hpp"
@@ -450,18 +450,11 @@ TEST(BroadPhase, CountsCandidatesThatAreTooMany) {
 }
 
 #ifndef TOUCHSTONE_SANITIZED
-/// Bytes of address space that this process has.
-std::uint64_t address_space() {
-  std::uint64_t pages = 0;
-  std::ifstream("/proc/self/statm") >> pages;
-  return pages * static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE));
-}
-
 TEST(BroadPhase, CountsCandidatesThatDoNotFitIntoMemory) {
   // 18 million pairs of eight bytes each, and room for 64 MiB.
   const auto search = [] {
     const auto [vertices, edges] = crowd(6000);
-    const rlim_t limit = address_space() + (std::uint64_t{64} << 20U);
+    const rlim_t limit = tests::process_memory().address_space + (std::uint64_t{64} << 20U);
     const rlimit limits{.rlim_cur = limit, .rlim_max = limit};
     ::setrlimit(RLIMIT_AS, &limits);
     try {

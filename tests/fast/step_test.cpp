@@ -8,12 +8,12 @@
 #include <array>
 #include <atomic>
 #include <cmath>
-#include <fstream>
 #include <functional>
 #include <limits>
 #include <map>
 #include <mutex>
 #include <optional>
+#include <random>
 #include <stdexcept>
 #include <string>
 #include <thread>
@@ -25,6 +25,7 @@
 #include "fast/kernels.hpp"
 #include "tests/faults/planted_faults.hpp"
 #include "tests/support/certified.hpp"
+#include "tests/support/process_memory.hpp"
 #include "tests/support/random.hpp"
 #include "tests/support/scenes.hpp"
 #include "tests/support/trials.hpp"
@@ -413,10 +414,12 @@ TEST(Step, IsTheSameForAllInstructionSetsAndThreads) {
   }
 }
 
-/// A floor, and triangles at rest far above it, one of which falls fast enough to hit it at a time.
-Scene early_impact(Random& random, double time) {
+/// A floor, triangles at rest far above it, and triangles that fall fast enough to hit it at these
+/// times.
+Scene early_impacts(Random& random, const std::vector<double>& times) {
   static constexpr int resting = 600;
-  Scene scene{.start = Places(3 * resting + 6, 3),
+  const int falling = static_cast<int>(times.size());
+  Scene scene{.start = Places(3 * (resting + 1 + falling), 3),
               .end = {},
               .edges = {},
               .faces = {},
@@ -429,19 +432,43 @@ Scene early_impact(Random& random, double time) {
     }
     scene.faces.push_back({3 * i, 3 * i + 1, 3 * i + 2});
   }
-  scene.start.bottomRows(6) << -30, -30, 0, 60, -30, 0, -30, 60, 0,  //
-      0, 0, 1, 1, 0, 1.5, 0, 1, 1.5;
-  scene.faces.push_back({3 * resting, 3 * resting + 1, 3 * resting + 2});
-  scene.faces.push_back({3 * resting + 3, 3 * resting + 4, 3 * resting + 5});
+  const auto add_face = [&](int i) { scene.faces.push_back({3 * i, 3 * i + 1, 3 * i + 2}); };
+  scene.start.middleRows(3 * resting, 3) << -30, -30, 0, 60, -30, 0, -30, 60, 0;
+  add_face(resting);
+  scene.end.resizeLike(scene.start);
+  for (int i = 0; i < falling; ++i) {
+    const int x = 2 * (i % 5), y = 2 * (i / 5);
+    scene.start.middleRows(3 * (resting + 1 + i), 3)  //
+        << x,
+        y, 1, x + 1, y, 1.5, x, y + 1, 1.5;
+    add_face(resting + 1 + i);
+  }
   scene.end = scene.start;
-  scene.end.bottomRows(3).col(2).array() -= 1.0 / time;
+  for (int i = 0; i < falling; ++i) {
+    scene.end.middleRows(3 * (resting + 1 + i), 3).col(2).array() -=
+        1.0 / times[static_cast<std::size_t>(i)];
+  }
   return scene;
+}
+
+/// (About 2^-8 the first interval of the search ends.)
+TEST(Step, EarliestHasAllImpactsThatMayBeFirst) {
+  Random random(190);
+  for (const double apart : {0x1p-44, 0x1p-42, 0x1p-38}) {
+    std::vector<double> times;
+    for (int i = 0; i < 20; ++i) times.push_back(0x1p-8 * (1.0 + (i - 10) * apart));
+    std::ranges::shuffle(times, std::mt19937_64(1));
+    const Scene scene = early_impacts(random, times);
+    const std::optional<StepImpact> impact = scene.step().earliest();
+    EXPECT_EQ(impact, earliest_of(scene.step().collisions()));
+    EXPECT_EQ(impact && impact->pairs.size() > 1, apart < 0x1p-40);
+  }
 }
 
 TEST(Step, EarliestFindsImpactsAtAnyTime) {
   Random random(188);
-  for (const double time : {0.5, 0x1p-10, 0x1p-20, 0x1p-45}) {
-    const Scene scene = early_impact(random, time);
+  for (const double time : {0.5, 0x1p-8, 0x1p-10, 0x1p-20, 0x1p-45}) {
+    const Scene scene = early_impacts(random, {time});
     const std::optional<StepImpact> impact = scene.step().earliest();
     ASSERT_TRUE(impact);
     EXPECT_EQ(impact, earliest_of(scene.step().collisions()));
@@ -796,18 +823,6 @@ TEST(Step, PlantedFaultsInTheFusedStageAreFound) {
 #ifndef TOUCHSTONE_SANITIZED
 // ---- Memory -------------------------------------------------------------------------------------
 
-struct Memory {
-  std::uint64_t address_space, resident;
-};
-
-/// Bytes that this process has.
-Memory memory() {
-  Memory pages{};
-  std::ifstream("/proc/self/statm") >> pages.address_space >> pages.resident;
-  const auto page = static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE));
-  return {.address_space = pages.address_space * page, .resident = pages.resident * page};
-}
-
 /// oneTBB loses memory with each arena, and with each thread of the caller's outside of one.
 TEST(Step, SearchesTakeNoMemoryThatTheyKeep) {
   const Places places = Places::Identity(3, 3);
@@ -820,9 +835,9 @@ TEST(Step, SearchesTakeNoMemoryThatTheyKeep) {
     }
   };
   search(200);
-  const std::uint64_t before = memory().resident;
+  const std::uint64_t before = tests::process_memory().resident;
   search(2000);
-  EXPECT_LT(memory().resident, before + (std::uint64_t{6} << 20U));
+  EXPECT_LT(tests::process_memory().resident, before + (std::uint64_t{6} << 20U));
 }
 
 TEST(Step, DoesNotStoreCandidates) {
@@ -838,7 +853,7 @@ TEST(Step, DoesNotStoreCandidates) {
       places.row(2 * i + 1) << 1 + offset, 1 - offset, 1;
       edges.push_back({2 * i, 2 * i + 1});
     }
-    const rlim_t limit = memory().address_space + (std::uint64_t{24} << 20U);
+    const rlim_t limit = tests::process_memory().address_space + (std::uint64_t{24} << 20U);
     const rlimit limits{.rlim_cur = limit, .rlim_max = limit};
     ::setrlimit(RLIMIT_AS, &limits);
     const Step step(places, places, {.edges = edges, .faces = {}, .points = {}},

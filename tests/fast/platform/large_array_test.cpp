@@ -3,8 +3,13 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
+#include <thread>
 #include <utility>
+#include <vector>
+
+#include "tests/support/process_memory.hpp"
 
 namespace touchstone::fast {
 namespace {
@@ -26,6 +31,49 @@ TEST(LargeArray, HoldsItemsOfAnySize) {
 TEST(LargeArray, BeginsAtALargePageIfItIsLarge) {
   const LargeArray<Line> large(200'000);
   EXPECT_EQ(reinterpret_cast<std::uintptr_t>(large.data()) % (std::uintptr_t{1} << 21U), 0U);
+}
+
+#ifndef TOUCHSTONE_SANITIZED
+TEST(LargeArray, HasTheMemoryOfOneBefore) {
+  for (const std::size_t size : {10'000U, 200'000U}) {
+    const Line* const first = LargeArray<Line>(size).data();
+    const LargeArray<Line> second(size - 100), third(size);
+    EXPECT_EQ(second.data(), first) << "freed before, and large enough";
+    EXPECT_NE(third.data(), first) << "in use";
+  }
+  const Line* const large = LargeArray<Line>(200'000).data();
+  EXPECT_NE(LargeArray<Line>(80'000).data(), large) << "more than twice as large";
+}
+
+TEST(LargeArray, KeepsAtMostSoMuchMemory) {
+  // A hundred arrays of 8 MiB at once, each written. All but eight are given back.
+  static constexpr std::size_t size = std::size_t{1} << 17U;
+  std::vector<LargeArray<Line>> arrays;
+  for (int i = 0; i < 100; ++i) {
+    arrays.emplace_back(size);
+    for (std::size_t k = 0; k < size; k += 64) arrays.back()[k].words[0] = 1;
+  }
+  const std::uint64_t before = tests::process_memory().resident;
+  arrays.clear();
+  EXPECT_LT(tests::process_memory().resident, before - (std::uint64_t{100 - 12} << 23U));
+}
+#endif
+
+TEST(LargeArray, OfSeveralThreadsAreApart) {
+  std::vector<std::thread> threads;
+  for (std::uint32_t of_thread = 1; of_thread <= 4; ++of_thread) {
+    threads.emplace_back([of_thread] {
+      for (std::size_t i = 0; i < 200; ++i) {
+        const LargeArray<Line> lines(2000 + 10 * i);
+        lines[0].words.fill(of_thread);
+        lines[1999].words.fill(of_thread);
+        std::this_thread::yield();
+        EXPECT_EQ(lines[0].words[7], of_thread);
+        EXPECT_EQ(lines[1999].words[7], of_thread);
+      }
+    });
+  }
+  for (std::thread& one : threads) one.join();
 }
 
 TEST(LargeArray, IsNullByDefault) { EXPECT_EQ(LargeArray<Line>().data(), nullptr); }
