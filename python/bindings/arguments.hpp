@@ -15,6 +15,7 @@
 #include <string>
 #include <string_view>
 
+#include "touchstone/curved_query.hpp"
 #include "touchstone/query.hpp"
 
 namespace touchstone::python {
@@ -79,6 +80,69 @@ template <class Item>
                           std::to_string(place / 3) + ", " + std::to_string(place % 3) + "] is " +
                           (std::isnan(*found) ? "NaN" : "infinite"));
 }
+
+/// The queries of an array, which must live on: of shape (N, 8, 3), on straight lines, or of shape
+/// (N, K+1, 4, 3), or (N, K+1, 4, 4) with weights, on curves.
+class Batch {
+ public:
+  explicit Batch(const Doubles& array) : is_curved_(array.ndim() == 4) {
+    if (!is_curved_) {
+      lines_ = queries_of(array);
+      return;
+    }
+    if (array.shape(1) == 0 || array.shape(2) != 4 || array.shape(3) < 3 || array.shape(3) > 4) {
+      throw std::invalid_argument(
+          "curves must have the shape (N, k + 1, 4, 3) or (N, k + 1, 4, 4)");
+    }
+    curves_ = {.degree = std::size_t(array.shape(1)) - 1,
+               .is_rational = array.shape(3) == 4,
+               .numbers = {array.data(), std::size_t(array.size())}};
+    if (curves_.degree > greatest_degree) {
+      throw std::invalid_argument("the degree of a curve is at most " +
+                                  std::to_string(greatest_degree) + ", not " +
+                                  std::to_string(curves_.degree));
+    }
+  }
+
+  [[nodiscard]] std::size_t size() const { return is_curved_ ? curves_.size() : lines_.size(); }
+
+  /// Returns take(queries) for some of the queries, a span or CurvedQueries.
+  template <class Take>
+  decltype(auto) with_some(std::size_t first, std::size_t count, const Take& take) const {
+    if (!is_curved_) return take(lines_.subspan(first, count));
+    CurvedQueries some = curves_;
+    const std::size_t size = curves_.numbers_of_query();
+    some.numbers = some.numbers.subspan(first * size, count * size);
+    return take(some);
+  }
+  /// Returns take(query), a Query or a CurvedQuery.
+  template <class Take>
+  decltype(auto) with(std::size_t i, const Take& take) const {
+    return is_curved_ ? take(curves_.query(i)) : take(lines_[i]);
+  }
+
+  /// \throws std::domain_error naming a query with a number that is not finite or a weight that is
+  /// not positive.
+  void require_valid(std::size_t i) const {
+    if (!is_curved_) {
+      if (!is_finite(lines_[i])) reject_coordinates(lines_, i);
+      return;
+    }
+    const std::span<const double> row = curves_.row(i);
+    for (std::size_t place = 0; place < row.size(); ++place) {
+      const bool is_weight = curves_.is_rational && place % 4 == 3;
+      if (std::isfinite(row[place]) && !(is_weight && row[place] <= 0.0)) continue;
+      throw std::domain_error("query " + std::to_string(i) + ": a " +
+                              (is_weight ? "weight is not positive and finite"
+                                         : "coordinate of a control point is not finite"));
+    }
+  }
+
+ private:
+  bool is_curved_;
+  std::span<const Query> lines_;
+  CurvedQueries curves_;
+};
 
 /// The layout of results as numpy.dtype takes it: names, formats, offsets, itemsize.
 class Layout {

@@ -98,14 +98,15 @@ py::dict decision_layout() {
 py::list decide(const std::string& kind_name, const Doubles& array, py::array results,
                 double distance, const std::string& norm, int threads, const py::object& progress) {
   const Kind kind = kind_from(kind_name);
-  const auto queries = queries_of(array);
+  const Batch queries(array);
   const auto items = items_of<DecisionItem>(results, queries.size());
   const Separation separation = separation_from(distance, norm);
   std::vector<std::optional<exact::AlgebraicNumber>> times(queries.size());
   const auto decide_some = [&](std::size_t first, std::size_t count) {
     for (std::size_t i = first; i < first + count; ++i) {
-      if (!is_finite(queries[i])) reject_coordinates(queries, i);
-      times[i] = exact::decide(kind, queries[i], separation).toi;
+      queries.require_valid(i);
+      times[i] = queries.with(
+          i, [&](const auto& query) { return exact::decide(kind, query, separation).toi; });
       items[i] = {.collides = times[i].has_value(),
                   .toi_lower = fast::no_number,
                   .toi_upper = fast::no_number};
@@ -151,16 +152,18 @@ py::tuple prove(const std::string& kind_name, const Doubles& array, double dista
                 const std::string& norm, const std::string& claim, int threads,
                 const py::object& progress) {
   const Kind kind = kind_from(kind_name);
-  const auto queries = queries_of(array);
+  const Batch queries(array);
   const Separation separation = separation_from(distance, norm);
   const exact::ProveOptions options{.collision_claim = claim_from(claim)};
   std::vector<std::string> texts(queries.size());
   const std::size_t done = in_blocks(
       queries.size(), oracle_block, threads, progress, [&](std::size_t first, std::size_t count) {
         for (std::size_t i = first; i < first + count; ++i) {
-          if (!is_finite(queries[i])) reject_coordinates(queries, i);
-          const exact::Decision decision = exact::decide(kind, queries[i], separation);
-          exact::write(texts[i], exact::prove(kind, queries[i], decision, options));
+          queries.require_valid(i);
+          queries.with(i, [&](const auto& query) {
+            const exact::Decision decision = exact::decide(kind, query, separation);
+            exact::write(texts[i], exact::prove(kind, query, decision, options));
+          });
         }
       });
   std::string stream(exact::certificates_header());

@@ -15,6 +15,7 @@
 #include "python/bindings/blocks.hpp"
 #include "python/bindings/step.hpp"
 #include "touchstone/certified.hpp"
+#include "touchstone/curved.hpp"
 #include "touchstone/distance.hpp"
 #include "touchstone/tight_inclusion.hpp"
 
@@ -30,7 +31,7 @@ std::size_t certified(const std::string& kind_name, const Doubles& array, py::ar
                       double separation, const std::string& norm, double toi_tolerance,
                       double t_max, int threads, const py::object& progress) {
   const Kind kind = kind_from(kind_name);
-  const auto queries = queries_of(array);
+  const Batch queries(array);
   const auto items = items_of<fast::CertifiedResult>(results, queries.size());
   const fast::CertifiedOptions options{.toi_tolerance = toi_tolerance,
                                        .t_max = t_max,
@@ -40,10 +41,12 @@ std::size_t certified(const std::string& kind_name, const Doubles& array, py::ar
   return in_blocks(queries.size(), certified_block, threads, progress,
                    [&](std::size_t first, std::size_t count) {
                      const auto part = items.subspan(first, count);
-                     fast::solve(kind, queries.subspan(first, count), part, options);
+                     queries.with_some(first, count, [&](const auto& some) {
+                       fast::solve(kind, some, part, options);
+                     });
                      for (std::size_t i = 0; i < count; ++i) {
                        if (part[i].verdict == fast::Verdict::error)
-                         reject_coordinates(queries, first + i);
+                         queries.require_valid(first + i);
                      }
                    });
 }
@@ -68,12 +71,21 @@ struct TightInclusionItem {
   std::int64_t checks;
 };
 
+fast::TightInclusionResult searched(Kind kind, std::span<const Query> one,
+                                    const fast::TightInclusionOptions& options) {
+  return fast::tight_inclusion(kind, one[0], options);
+}
+fast::TightInclusionResult searched(Kind kind, const CurvedQueries& one,
+                                    const fast::TightInclusionOptions& options) {
+  return fast::tight_inclusion(kind, one, 0, options);
+}
+
 std::size_t tight_inclusion(const std::string& kind_name, const Doubles& array, py::array results,
                             double separation, const std::string& norm, double tolerance,
                             std::int64_t max_checks, double t_max, bool no_zero_toi, int threads,
                             const py::object& progress) {
   const Kind kind = kind_from(kind_name);
-  const auto queries = queries_of(array);
+  const Batch queries(array);
   const auto items = items_of<TightInclusionItem>(results, queries.size());
   const fast::TightInclusionOptions options{.tolerance = tolerance,
                                             .max_checks = max_checks,
@@ -88,8 +100,9 @@ std::size_t tight_inclusion(const std::string& kind_name, const Doubles& array, 
   return in_blocks(queries.size(), search_block, threads, progress,
                    [&](std::size_t first, std::size_t count) {
                      for (std::size_t i = first; i < first + count; ++i) {
-                       const auto result = fast::tight_inclusion(kind, queries[i], options);
-                       if (result.verdict == fast::Verdict::error) reject_coordinates(queries, i);
+                       const auto result = queries.with_some(
+                           i, 1, [&](const auto& some) { return searched(kind, some, options); });
+                       if (result.verdict == fast::Verdict::error) queries.require_valid(i);
                        items[i] = {.collides = result.verdict == fast::Verdict::yes,
                                    .toi = result.toi,
                                    .tolerance = result.tolerance,

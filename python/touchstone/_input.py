@@ -57,14 +57,20 @@ def as_doubles(values: npt.ArrayLike, name: str) -> Doubles:
     return doubles
 
 
-def as_queries(values: npt.ArrayLike) -> Tuple[Doubles, bool]:
-    """Return queries of shape (N, 8, 3), and whether it is a single query of shape (8, 3)."""
+def as_queries(values: npt.ArrayLike, curves: bool = False) -> Tuple[Doubles, bool]:
+    """Return queries of shape (N, 8, 3), and whether it is a single query of shape (8, 3).
+
+    With `curves` also of shape (N, k + 1, 4, 3) or (N, k + 1, 4, 4), and a single one without N.
+    """
     array = as_doubles(values, "queries")
     if array.shape == (8, 3):
         return array.reshape(1, 8, 3), True
     if array.ndim == 3 and array.shape[1:] == (8, 3):
         return array, False
-    raise ValueError(f"queries must have the shape (N, 8, 3) or (8, 3), not {array.shape}")
+    if curves and array.shape[-2:] in ((4, 3), (4, 4)) and array.ndim in (3, 4) and array.shape[-3] > 0:
+        return (array.reshape(1, *array.shape), True) if array.ndim == 3 else (array, False)
+    others = ", on curves (N, k + 1, 4, 3) or (N, k + 1, 4, 4)" if curves else ""
+    raise ValueError(f"queries must have the shape (N, 8, 3) or (8, 3){others}, not {array.shape}")
 
 
 def as_vertices(values: npt.ArrayLike, name: str) -> Doubles:

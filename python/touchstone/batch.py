@@ -26,12 +26,13 @@ def run_batch(
     progress: bool | None,
     out: Result | None,
     work: Callable[[Doubles, npt.NDArray[np.void], Callable[..., None] | None], int],
+    curves: bool = False,
 ) -> Result:
     """Return the results of work(queries, items, callback), which says how many queries it has done.
 
     They are written into the memory of `out` if that is given.
     """
-    array, single = as_queries(queries)
+    array, single = as_queries(queries, curves)
     if out is None:
         out = result(np.empty(() if single else len(array), dtype=item_type))
     elif type(out) is not result or out.array.shape != (() if single else (len(array),)):
@@ -114,7 +115,9 @@ def certified(
         The primitives of all queries.
     queries : array_like of shape (N, 8, 3) or (8, 3)
         Four points at t=0, then at t=1: v, f0, f1, f2 or ea0, ea1, eb0, eb1. Used without a copy if
-        it is float64 and C-contiguous; anything else is converted, float32 exactly.
+        it is float64 and C-contiguous; anything else is converted, float32 exactly. Or of shape
+        (N, k + 1, 4, 3) or (k + 1, 4, 3): control points of Bézier curves of degree k up to 8, from
+        t=0 to t=1; with 4 instead of 3 numbers, the last one a positive weight, rational curves.
     separation : float, optional
         The distance that counts as contact, in units of the coordinates.
     norm : {"linf", "l2"}, optional
@@ -139,8 +142,8 @@ def certified(
     Raises
     ------
     ValueError
-        For another shape or type, a coordinate that is NaN or infinite, options out of range, or an
-        `out` of another function or number of queries.
+        For another shape or type, a coordinate that is NaN or infinite, a weight that is not positive,
+        options out of range, or an `out` of another function or number of queries.
     Interrupted
         At Ctrl-C, with the results of the first queries.
 
@@ -157,6 +160,12 @@ def certified(
     (True, True)
     >>> touchstone.certified("vertex_face", np.stack([query, query + 0.125])).collides
     array([ True,  True])
+
+    The same vertex on a parabola that touches the triangle:
+
+    >>> middle = [[0.25, 0.25, -1], [0, 0, 0], [1, 0, 0], [0, 1, 0]]
+    >>> bool(touchstone.certified("vertex_face", [start, middle, start]).collides)
+    True
     """
     return run_batch(
         CertifiedResult,
@@ -167,6 +176,7 @@ def certified(
         lambda array, items, callback: _fast.certified(
             kind, array, items, separation, norm, toi_tolerance, t_max, threads, callback
         ),
+        curves=True,
     )
 
 
@@ -213,7 +223,7 @@ def tight_inclusion(
     Parameters
     ----------
     kind, queries, separation, norm, t_max, threads, progress, out
-        As for `certified`. With ``norm="l2"`` the answers are conservative.
+        As for `certified`; curves of degree 2 or 3. With ``norm="l2"`` the answers are conservative.
     tolerance : float, optional
         Boxes whose image is this small are not split, in units of the coordinates.
     max_checks : int, optional
@@ -251,6 +261,7 @@ def tight_inclusion(
         lambda array, items, callback: _fast.tight_inclusion(
             kind, array, items, separation, norm, tolerance, max_checks, t_max, no_zero_toi, threads, callback
         ),
+        curves=True,
     )
 
 
@@ -283,7 +294,7 @@ def distance(
     Parameters
     ----------
     kind, queries, threads, progress, out
-        As for `certified`.
+        As for `certified`; straight lines alone.
     t : float, optional
         The time, in [0, 1].
     norm : {"linf", "l2"}, optional

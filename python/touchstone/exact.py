@@ -164,7 +164,7 @@ def decide(
     Fraction(1, 3)
     """
     module = exact_module()
-    array, single = as_queries(queries)
+    array, single = as_queries(queries, curves=True)
     numbers = np.dtype(module.decision_layout())
     items = np.empty(len(array), dtype=numbers)
     with Progress("decide", progress, queries=len(array)) as bar:
@@ -198,7 +198,9 @@ def decide_curved(
     separation: float = 0.0,
     norm: Norm = "linf",
 ) -> Decisions:
-    """Decide a query whose points move on Bézier curves, exactly.
+    """Decide a query whose points move on Bézier curves of different degrees, exactly.
+
+    Of one degree: `decide`.
 
     Parameters
     ----------
@@ -282,7 +284,7 @@ def prove(
     >>> touchstone.check(touchstone.prove("vertex_face", query))
     CheckReport: 1 accepted, 0 rejected
     """
-    array, _ = as_queries(queries)
+    array, _ = as_queries(queries, curves=True)
     with Progress("prove", progress, queries=len(array)) as bar:
         done, stream = exact_module().prove(kind, array, separation, norm, claim, threads, bar.callback)
     if done < len(array):

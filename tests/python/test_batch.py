@@ -120,7 +120,7 @@ class TestErrors:
     @pytest.mark.parametrize(
         "bad, text",
         [
-            (np.zeros((4, 24)), r"\(N, 8, 3\) or \(8, 3\), not \(4, 24\)"),
+            (np.zeros((4, 24)), r"\(N, 8, 3\) or \(8, 3\).*, not \(4, 24\)"),
             (np.zeros(24), r"not \(24,\)"),
             (np.zeros((2, 3, 8)), r"not \(2, 3, 8\)"),
             (np.zeros((8, 3), dtype=complex), "not of complex128"),

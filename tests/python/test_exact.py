@@ -59,6 +59,49 @@ def test_curves_that_are_lines_in_another_time_have_the_same_contacts(query, kin
         assert slow.toi_lower <= float(slow.toi) <= slow.toi_upper
 
 
+@pytest.mark.parametrize("kind", KINDS)
+@pytest.mark.parametrize("numbers", [3, 4])
+@pytest.mark.parametrize("degree", [2, 3])
+def test_arrays_of_curves_are_decided_like_each_query(kind, degree, numbers):
+    random = np.random.default_rng(37)
+    curves = random.integers(-8, 9, (60, degree + 1, 4, numbers)) / 4
+    curves[..., 3:] = random.integers(1, 4, (60, degree + 1, 1, numbers - 3))
+    truth = touchstone.decide(kind, curves)
+    assert 3 < truth.collides.sum() < 57
+    fast = touchstone.certified(kind, curves)
+    assert (fast.collides == truth.collides).all()
+    hits = truth.collides
+    assert (fast.toi_lower[hits] <= truth.toi_upper[hits]).all()
+    assert (fast.toi_upper[hits] >= truth.toi_lower[hits]).all()
+    assert touchstone.tight_inclusion(kind, curves, tolerance=0.01, max_checks=2000).collides[hits].all()
+    assert touchstone.check(touchstone.prove(kind, curves)).accepted == 60
+    for i in (0, 1, 2):
+        points = [(c[:, :3], c[:, 3]) if numbers == 4 else c for c in np.moveaxis(curves[i], 1, 0)]
+        assert touchstone.decide_curved(kind, points).toi == touchstone.decide(kind, curves[i]).toi == truth[i].toi
+        assert touchstone.certified(kind, curves[i]).collides == truth.collides[i]
+
+
+def test_lines_are_curves_of_degree_1(queries):
+    lines = queries[:100]
+    curves = lines.reshape(100, 2, 4, 3)
+    assert (touchstone.decide("edge_edge", curves).toi == touchstone.decide("edge_edge", lines).toi).all()
+    assert (touchstone.certified("edge_edge", curves).collides == touchstone.certified("edge_edge", lines).collides).all()
+    assert len(touchstone.certified("edge_edge", np.empty((0, 3, 4, 4)))) == 0
+
+
+@pytest.mark.parametrize("call", [touchstone.certified, touchstone.decide, touchstone.prove, touchstone.tight_inclusion])
+def test_arrays_of_no_curves_are_refused(call):
+    curves = np.ones((3, 3, 4, 4))
+    for place, value in (((1, 2, 3, 3), 0), ((1, 2, 3, 3), np.inf), ((1, 0, 1, 2), np.nan)):
+        wrong = curves.copy()
+        wrong[place] = value
+        with pytest.raises(ValueError, match="query 1: a (weight|coordinate)"):
+            call("edge_edge", wrong)
+    for shape in ((2, 0, 4, 3), (2, 3, 4, 5), (2, 3, 3, 4), (2, 2, 3, 4, 3), (2, 10, 4, 3)):
+        with pytest.raises(ValueError, match="shape|degree|curves"):
+            call("edge_edge", np.ones(shape))
+
+
 def test_curves_that_are_none_are_refused():
     rest = [[[0, 0, 0]], [[1, 0, 0]], [[0, 1, 0]]]
     for vertex in ([[0, 0]], [], [[0, 0, np.nan]], [[0, 0, 1]] * 10, ([[0, 0, 1]] * 2, [1]), ([[0, 0, 1]] * 2, [1, 0])):

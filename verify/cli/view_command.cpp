@@ -27,6 +27,7 @@
 #include "verify/io/terminal.hpp"
 #include "verify/judge/judgement.hpp"
 #include "verify/mesh/frames.hpp"
+#include "verify/solvers/curved_answers.hpp"
 #include "verify/solvers/registry.hpp"
 #include "verify/view/asked_solvers.hpp"
 #include "verify/view/page.hpp"
@@ -116,26 +117,28 @@ std::vector<view::ViewedQuery> all_queries(const Arguments& arguments,
   return queries;
 }
 
-/// `certified` is asked about curves, if it is asked at all; notes name the other solvers of the
-/// user.
+/// The answers of the methods that know curves; notes name the other solvers of the user.
 std::vector<judge::GivenAnswer> answers_on_curves(const Arguments& arguments,
                                                   view::ViewedQuery& query) {
-  const auto refuse = [&](const std::string& solver) {
-    query.notes.push_back(fmt::format("{} is not asked: it takes straight lines alone.", solver));
-  };
   std::vector<judge::GivenAnswer> answers;
+  const auto note = [&](const std::string& solver, std::string_view reason) {
+    query.notes.push_back(fmt::format("{} is not asked: {}.", solver, reason));
+  };
   for (const std::string& method : asked_by(arguments).methods) {
-    if (method != fast::certified_info().name) continue;
-    if (auto answer = view::answer_on_curves(query)) {
+    if (!solvers::answers_curves(method)) continue;
+    if (auto answer = view::answer_on_curves(query, method, arguments.solvers.options)) {
       answers.push_back(*std::move(answer));
     } else {
-      query.notes.push_back(method + " is not asked: the curves differ in degree.");
+      const bool is_any = method == fast::certified_info().name;
+      note(method,
+           is_any ? "the curves differ in degree" : "it takes curves of one degree, 2 or 3");
     }
   }
+  constexpr std::string_view only_lines = "it takes straight lines alone";
   for (const std::string& method : arguments.solvers.methods) {
-    if (method != fast::certified_info().name && method != "none") refuse(method);
+    if (!solvers::answers_curves(method) && method != "none") note(method, only_lines);
   }
-  for (const fs::path& plugin : arguments.solvers.plugins) refuse(plugin.string());
+  for (const fs::path& plugin : arguments.solvers.plugins) note(plugin.string(), only_lines);
   return answers;
 }
 

@@ -20,9 +20,17 @@ fast::Answer answer_of_inclusion(const fast::TightInclusionResult& result) {
 
 }  // namespace
 
+bool answers_curves(std::string_view method) {
+  return method == "certified" || method == "tight_inclusion";
+}
+
 std::vector<fast::Answer> curved_answers(std::string_view method, Kind kind,
                                          const CurvedQueries& queries,
                                          const fast::MethodOptions& options, unsigned threads) {
+  if (!answers_curves(method)) {
+    throw std::invalid_argument(fmt::format(
+        "{} does not answer queries on curves; certified and tight_inclusion do", method));
+  }
   std::vector<fast::Answer> answers(queries.size());
   if (method == "certified") {
     std::vector<fast::CertifiedResult> results(queries.size());
@@ -32,10 +40,6 @@ std::vector<fast::Answer> curved_answers(std::string_view method, Kind kind,
                  .max_threads = base::cores_for(threads)});
     std::ranges::transform(results, answers.begin(), answer_of);
     return answers;
-  }
-  if (method != "tight_inclusion") {
-    throw std::invalid_argument(fmt::format(
-        "{} does not answer queries on curves; certified and tight_inclusion do", method));
   }
   const fast::TightInclusionOptions all{.tolerance = options.tolerance,
                                         .max_checks = options.max_checks,

@@ -11,6 +11,9 @@
 
 namespace touchstone::verify::solvers {
 
+/// True for "certified" and "tight_inclusion".
+[[nodiscard]] bool answers_curves(std::string_view method);
+
 /// The answers of a method to all queries: of "certified", or of "tight_inclusion" to curves
 /// of degree 2 or 3. \param threads as many, 0: all cores, for the method that can use them.
 /// \throws std::invalid_argument for another method, or one that does not answer such queries.

@@ -57,12 +57,15 @@ std::vector<judge::GivenAnswer> answers_of(std::span<const solvers::Solver* cons
   return answers;
 }
 
-std::optional<judge::GivenAnswer> answer_on_curves(const ViewedQuery& viewed) {
+std::optional<judge::GivenAnswer> answer_on_curves(const ViewedQuery& viewed,
+                                                   const std::string& method,
+                                                   fast::MethodOptions options) {
   const std::optional<data::CurvedQueryFile> curves = of_one_degree(*viewed.curves);
   if (!curves) return std::nullopt;
-  const std::string method(fast::certified_info().name);
-  const auto answers = solvers::curved_answers(method, viewed.kind, curves->queries(),
-                                               {.separation = viewed.separation}, 1);
+  const bool is_any = method == fast::certified_info().name;
+  if (!is_any && curves->degree != 2 && curves->degree != 3) return std::nullopt;
+  options.separation = viewed.separation;
+  const auto answers = solvers::curved_answers(method, viewed.kind, curves->queries(), options, 1);
   return judge::GivenAnswer{.solver = method, .answer = answers.front()};
 }
 

@@ -5,8 +5,10 @@
 
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
+#include "fast/method.hpp"
 #include "verify/judge/judgement.hpp"
 #include "verify/solvers/solver.hpp"
 #include "verify/view/query_facts.hpp"
@@ -17,9 +19,11 @@ namespace touchstone::verify::view {
 [[nodiscard]] std::vector<judge::GivenAnswer> answers_of(
     std::span<const solvers::Solver* const> solvers, const ViewedQuery& viewed);
 
-/// What `certified` answers to a query on curves; nothing unless the curves have one degree or are
-/// constant. \pre viewed.curves
-[[nodiscard]] std::optional<judge::GivenAnswer> answer_on_curves(const ViewedQuery& viewed);
+/// What a method that answers queries on curves does to this one; nothing unless the curves have
+/// one degree or are constant, with `tight_inclusion` 2 or 3. \pre viewed.curves
+[[nodiscard]] std::optional<judge::GivenAnswer> answer_on_curves(const ViewedQuery& viewed,
+                                                                 const std::string& method,
+                                                                 fast::MethodOptions options);
 
 /// A query that the judge found a fault in: its faults are the notes.
 [[nodiscard]] ViewedQuery viewed_query(judge::WrongQuery wrong);

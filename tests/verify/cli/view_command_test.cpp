@@ -117,9 +117,11 @@ TEST_F(ViewCommand, QueriesOnCurvesAndTheirCertificates) {
   for (const nlohmann::json& query : page) {
     EXPECT_EQ(query.at("certificate").at("accepted"), true);
     EXPECT_EQ(query.at("notes"), nlohmann::json::array());
-    ASSERT_EQ(query.at("answers").size(), 1U) << "only certified takes curves";
+    ASSERT_EQ(query.at("answers").size(), 2U) << "these alone take curves";
     EXPECT_EQ(query.at("answers")[0].at("solver"), "certified");
     EXPECT_EQ(query.at("answers")[0].at("faults"), nlohmann::json::array());
+    EXPECT_EQ(query.at("answers")[1].at("solver"), "tight_inclusion");
+    EXPECT_EQ(query.at("answers")[1].at("breaks_promise"), false);
   }
   ASSERT_EQ(view({data, "--index", "1", "--method", "accd", "--min-separation", "0.5"}).status, 0);
   const nlohmann::json other = queries("page.html").at(0);
@@ -144,7 +146,9 @@ TEST_F(ViewCommand, CurvesOfDifferentDegreesAreShownWithoutAnAnswer) {
   EXPECT_EQ(query.at("certificate").at("accepted"), true);
   EXPECT_EQ(query.at("answers"), nlohmann::json::array());
   EXPECT_EQ(query.at("notes"),
-            nlohmann::json::array({"certified is not asked: the curves differ in degree."}));
+            nlohmann::json::array(
+                {"certified is not asked: the curves differ in degree.",
+                 "tight_inclusion is not asked: it takes curves of one degree, 2 or 3."}));
 }
 
 TEST_F(ViewCommand, CompressedCertificates) {

@@ -39,9 +39,14 @@ ViewedQuery on_curves(const std::vector<double>& heights) {
   return {.label = "curved", .curves = curves};
 }
 
+std::optional<judge::GivenAnswer> asked(const ViewedQuery& query,
+                                        const std::string& method = "certified") {
+  return answer_on_curves(query, method, {.tolerance = 1e-3});
+}
+
 TEST(AnswerOnCurves, IsOfTheCertifiedSolver) {
   ViewedQuery query = on_curves({0.5, 0.5, -1.5});
-  const auto answer = answer_on_curves(query);
+  const auto answer = asked(query);
   ASSERT_TRUE(answer.has_value());
   EXPECT_EQ(answer->solver, "certified");
   EXPECT_EQ(answer->answer.verdict, fast::Verdict::yes);
@@ -49,19 +54,33 @@ TEST(AnswerOnCurves, IsOfTheCertifiedSolver) {
   EXPECT_GE(answer->answer.toi_upper, 0.5);
   EXPECT_NEAR(answer->answer.toi_lower, answer->answer.toi_upper, 1e-11);
   query.curves->at(2).weights = {0.5};
-  EXPECT_NEAR(answer_on_curves(query)->answer.toi_upper, 0.5, 1e-11);
+  EXPECT_NEAR(asked(query)->answer.toi_upper, 0.5, 1e-11);
   query.curves->at(0).weights = {1, 1, 2};
-  EXPECT_LT(answer_on_curves(query)->answer.toi_upper, 0.5);
+  EXPECT_LT(asked(query)->answer.toi_upper, 0.5);
   query.curves->at(0).control[2][2] = 0.25;
-  EXPECT_EQ(answer_on_curves(query)->answer.verdict, fast::Verdict::no);
+  EXPECT_EQ(asked(query)->answer.verdict, fast::Verdict::no);
   query.separation = {.distance = 0.25, .norm = Norm::l2};
-  EXPECT_EQ(answer_on_curves(query)->answer.verdict, fast::Verdict::yes);
+  EXPECT_EQ(asked(query)->answer.verdict, fast::Verdict::yes);
+}
+
+TEST(AnswerOnCurves, IsOfTightInclusionInItsDegrees) {
+  const auto answer = asked(on_curves({0.5, 0.5, -1.5}), "tight_inclusion");
+  ASSERT_TRUE(answer.has_value());
+  EXPECT_EQ(answer->solver, "tight_inclusion");
+  EXPECT_EQ(answer->answer.verdict, fast::Verdict::yes);
+  EXPECT_LE(answer->answer.toi_lower, 0.5);
+  EXPECT_GT(answer->answer.tolerance, 0.0);
+  EXPECT_EQ(asked(on_curves({1, 1, 1}), "tight_inclusion")->answer.verdict, fast::Verdict::no);
+  ViewedQuery lines = on_curves({1, 1});
+  lines.curves->at(3) = {.control = {{0, 4, 0}}};
+  EXPECT_TRUE(asked(lines));
+  EXPECT_FALSE(asked(lines, "tight_inclusion"));
 }
 
 TEST(AnswerOnCurves, NeedsOneDegreeOfThoseThatMove) {
-  EXPECT_TRUE(answer_on_curves(on_curves({1, 1, 1})).has_value());
-  EXPECT_TRUE(answer_on_curves(on_curves({1})).has_value());
-  EXPECT_FALSE(answer_on_curves(on_curves({1, 1})).has_value());
+  EXPECT_TRUE(asked(on_curves({1, 1, 1})).has_value());
+  EXPECT_TRUE(asked(on_curves({1})).has_value());
+  EXPECT_FALSE(asked(on_curves({1, 1})).has_value());
 }
 
 TEST(ViewedQueryOf, HasTheFaultsAsNotes) {

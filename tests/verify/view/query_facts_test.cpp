@@ -149,7 +149,7 @@ TEST(QueryFacts, OnRationalCurvesTheirWeightsAreGiven) {
 
 TEST(QueryFacts, OnCurvesTheCertifiedSolverIsHeldAgainstTheTruth) {
   const ViewedQuery query = turning();
-  std::vector<judge::GivenAnswer> asked{answer_on_curves(query).value()};
+  std::vector<judge::GivenAnswer> asked{answer_on_curves(query, "certified", {}).value()};
   asked.push_back({.solver = "certified", .answer = {.verdict = fast::Verdict::no}});
   const nlohmann::json answers = query_facts(query, asked).at("answers");
   ASSERT_EQ(answers.size(), 2U);
