@@ -74,12 +74,20 @@ F& operator-=(F& a, const F& b) {
   return a;
 }
 template <AnyForm F>
-[[nodiscard]] F operator+(F a, const F& b) {
-  return a += b;
+[[nodiscard]] F operator+(const F& a, const F& b) {
+  F sum;
+  make_room(sum, std::max(a.c.size(), b.c.size()));
+  if (a.c.empty() || b.c.empty()) return (sum += a) += b;
+  for (std::size_t k = 0; k < sum.c.size(); ++k) sum.c[k] = a.c[k] + b.c[k];
+  return sum;
 }
 template <AnyForm F>
-[[nodiscard]] F operator-(F a, const F& b) {
-  return a -= b;
+[[nodiscard]] F operator-(const F& a, const F& b) {
+  F difference;
+  make_room(difference, std::max(a.c.size(), b.c.size()));
+  if (a.c.empty() || b.c.empty()) return (difference += a) -= b;
+  for (std::size_t k = 0; k < difference.c.size(); ++k) difference.c[k] = a.c[k] - b.c[k];
+  return difference;
 }
 template <AnyForm F>
 [[nodiscard]] F operator-(F a) {
