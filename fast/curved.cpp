@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
+#include <optional>
 #include <stdexcept>
 
 #include "fast/certified/block.hpp"
@@ -36,21 +38,23 @@ class Weights {
   Weights(Kind kind, const CurvedQueries& queries, std::size_t i)
       : queries_(queries), row_(queries.row(i)), second_(kind == Kind::vertex_face ? 1 : 2) {}
 
-  /// True if all points have the same weights, or none.
+  /// True if both primitives have the same weights, or none. \pre are_alike_in_primitives()
   [[nodiscard]] bool are_alike() const { return are_equal(0, second_); }
 
-  /// True if the points of each primitive have weights in common, which are not so small or large
-  /// that products of them underflow or overflow.
-  [[nodiscard]] bool are_rigid() const {
-    constexpr double least = 0x1p-30, most = 0x1p30;
-    if (!queries_.is_rational) return true;
-    for (const std::size_t point : {std::size_t{0}, second_}) {
-      for (std::size_t k = 0; k <= queries_.degree; ++k) {
-        if (!(at(k, point) >= least && at(k, point) <= most)) return false;
-      }
-    }
+  /// True if the points of each primitive have the same weights, or none.
+  [[nodiscard]] bool are_alike_in_primitives() const {
     for (std::size_t point = 1; point < moving_points; ++point) {
       if (point != second_ && !are_equal(point, point < second_ ? 0 : second_)) return false;
+    }
+    return true;
+  }
+
+  /// True if no product of two underflows or overflows.
+  [[nodiscard]] bool are_usual() const {
+    constexpr double least = 0x1p-30, most = 0x1p30;
+    if (!queries_.is_rational) return true;
+    for (std::size_t i = 3; i < row_.size(); i += 4) {
+      if (!(row_[i] >= least && row_[i] <= most)) return false;
     }
     return true;
   }
@@ -78,19 +82,29 @@ using Indices = KernelOutput::List<std::uint32_t>;
 
 void append(Indices& list, std::uint32_t index) { list.items[list.count++] = index; }
 
+/// The form of a query's control polygon, if it has one.
+std::optional<curved::Denominators> form_of(const Weights& weights, std::size_t degree,
+                                            double distance) {
+  using curved::Denominators;
+  if (!weights.are_usual()) return std::nullopt;
+  const bool is_rigid = weights.are_alike_in_primitives();
+  if (is_rigid && weights.are_alike()) return Denominators::one;
+  if (2 * degree > curved::greatest_corner_degree) return std::nullopt;
+  if (is_rigid) return Denominators::two;
+  if (distance == 0.0) return Denominators::four;
+  return std::nullopt;
+}
+
+using ByDenominators = std::array<Indices, curved::denominators_count>;
+
 /// Queries by the form of their control polygons; those without one are undecided.
-void sort(Kind kind, const CurvedQueries& queries, const Indices& open,
-          std::array<Indices, 2>& by_denominators, Indices& undecided) {
+void sort(Kind kind, const CurvedQueries& queries, double distance, const Indices& open,
+          ByDenominators& by_denominators, Indices& undecided) {
   for (Indices& list : by_denominators) list.count = 0;
   for (std::size_t i = 0; i < open.count; ++i) {
-    const Weights weights(kind, queries, open.items[i]);
-    const bool is_small = 2 * queries.degree <= curved::greatest_corner_degree;
-    if (!weights.are_rigid() || (!weights.are_alike() && !is_small)) {
-      append(undecided, open.items[i]);
-    } else {
-      const auto form = weights.are_alike() ? curved::Denominators::one : curved::Denominators::two;
-      append(by_denominators[static_cast<std::size_t>(form)], open.items[i]);
-    }
+    const std::uint32_t index = open.items[i];
+    const auto form = form_of(Weights(kind, queries, index), queries.degree, distance);
+    append(form ? by_denominators[static_cast<std::size_t>(*form)] : undecided, index);
   }
 }
 
@@ -98,7 +112,7 @@ void sort(Kind kind, const CurvedQueries& queries, const Indices& open,
 void decide(Kind kind, const CurvedQueries& queries, const CertifiedKernel& kernel,
             const CertifiedOptions& options, std::span<CertifiedResult> results) {
   thread_local Indices open;
-  thread_local std::array<Indices, 2> sorted;
+  thread_local ByDenominators sorted;
   thread_local KernelOutput output;
   const curved::Block block{
       .kind = kind,
@@ -113,9 +127,9 @@ void decide(Kind kind, const CurvedQueries& queries, const CertifiedKernel& kern
   kernel.curved_axis(block, open);
   output.separated_in_direction.count = output.one_sided.count = output.rejected.count = 0;
   output.impacts.count = output.undecided.count = 0;
-  sort(kind, queries, open, sorted, output.undecided);
-  for (const auto form : {curved::Denominators::one, curved::Denominators::two}) {
-    kernel.curved_search(block, sorted[static_cast<std::size_t>(form)], form, output);
+  sort(kind, queries, options.separation.distance, open, sorted, output.undecided);
+  for (std::size_t form = 0; form < sorted.size(); ++form) {
+    kernel.curved_search(block, sorted[form], static_cast<curved::Denominators>(form), output);
   }
   mark_stages(output, [&](std::size_t index, Stage stage) { results[index].stage = stage; });
   report_contacts(

@@ -13,7 +13,9 @@
 ///
 /// **Theorem 2** (d > 0). If ‖F(t,u,v)‖ ≤ d for one (u,v) of the domain, t is a contact.
 ///
-/// All are multiplied by the positive denominators.
+/// All are multiplied by the positive denominators. At distance 0 each corner may have factors of
+/// its own (control_polygon.hpp): they change no sign in theorem 1, neither of det nor of a
+/// component of w_i × w_{i+1}.
 ///
 /// **Errors.** Let K be the degree of the corners, M their greatest magnitude, e their error and
 /// u = 2^-53. Forms have the coefficients C(n,k) b_k, b_k the Bernstein coefficients. The sums of
@@ -272,6 +274,7 @@ class AtTime {
                                                                 place(2, at), place(3, at)};
     reach_ = Ball(rows.block.separation.distance);
     if (rows.block.is_rational) reach_ = reach_ * points[0][3] * points[3][3];
+    for (std::size_t i = 0; i < moving_points; ++i) weight_[i] = points[i][3].center.high;
     for (std::size_t i = 0; i < corners; ++i) {
       const auto &a = points[Polygons::points_of_corner[i].plus],
                  &b = points[Polygons::points_of_corner[i].minus];
@@ -310,6 +313,17 @@ class AtTime {
     return norm == Norm::linf ? result : result & filters::is_positive(reach_ * reach_ - square);
   }
 
+  /// The corners without denominators, approximations.
+  [[nodiscard]] typename Polygons::Corners places() const {
+    typename Polygons::Corners result = approximate();
+    if (!rows_.block.is_rational) return result;
+    for (std::size_t i = 0; i < corners; ++i) {
+      const Corner& corner = Polygons::points_of_corner[i];
+      const Value factor = weight_[corner.plus] * weight_[corner.minus];
+      for (Value& x : result[i]) x = x / factor;
+    }
+    return result;
+  }
   /// The corners and the distance, approximations.
   [[nodiscard]] Value reach() const { return reach_.center.high; }
   [[nodiscard]] typename Polygons::Corners approximate() const {
@@ -341,6 +355,7 @@ class AtTime {
   const Rows<Lanes>& rows_;
   Value greatest_ = Value(0.0);
   std::array<std::array<Ball, 3>, corners> w_;
+  std::array<Value, moving_points> weight_;
   Ball reach_;  ///< as far as the corners, times the denominators
 };
 

@@ -4,14 +4,17 @@
 /// The corners of queries on curves by their control points, in lanes, one query a lane: in doubles
 /// with a bound of their errors.
 ///
-/// Let the points of a primitive have weights in common, as on a rigid body, or none. With
-/// numerators a_i ω_i and b_j φ_j of degree k, the corner a − b times both denominators is the
+/// With numerators a_i ω_i and b_j φ_j of degree k, the corner a − b times both denominators is the
 /// curve of degree 2k with the control points
 ///
 ///     Σ_{i+j=m} α_ij ω_i φ_j (a_i − b_j),   α_ij = C(k,i) C(k,j) / C(2k,m),   Σ α_ij = 1.
 ///
 /// If the weights of both are equal, one denominator is enough: degree k, ω_m (a_m − b_m); without
-/// weights a_m − b_m. The distance is multiplied by the same, and its control values follow.
+/// weights a_m − b_m. Where the points of a primitive have weights in common, as on a rigid body,
+/// all corners have the same factor. The distance is multiplied by it, and its control values
+/// follow. Otherwise each corner has a positive factor of its own, which is of no consequence at
+/// distance 0: the proofs there depend only on signs of v·w_i, of components of w_i × w_j and of
+/// det.
 ///
 /// **Errors.** Let M be the greatest magnitude of a term without its α, u = 2^-53. A control value
 /// is computed by at most k + 6 roundings of terms whose magnitudes add up to at most M: its error
@@ -155,7 +158,7 @@ class Loading {
       loading.subtract();
       return loading.finish(3.0);
     }
-    loading.multiply();
+    loading.multiply(denominators == Denominators::four);
     return loading.finish(static_cast<double>(rows.block.degree) + 7.0);
   }
 
@@ -175,20 +178,21 @@ class Loading {
     not_finite_ = not_finite_ + (term - term);
   }
 
-  /// The corners a − b times a weight, of control points that may differ.
-  template <class Take>
-  void for_each_corner(const Point& of_plus, const Point& of_minus, const Value& weight,
+  /// The corners a − b times weight(a, b), of control points that may differ.
+  template <class Weight, class Take>
+  void for_each_corner(const Point& of_plus, const Point& of_minus, const Weight& weight,
                        const Take& take) {
     constexpr std::size_t corners = Polygons::corners;
     for (std::size_t i = 0; i < corners; ++i) {
       const Corner& corner = Polygons::points_of_corner[i];
+      const Value of_corner = weight(corner.plus, corner.minus);
       for (std::size_t axis = 0; axis < 3; ++axis) {
-        const Value term = (of_plus[corner.plus][axis] - of_minus[corner.minus][axis]) * weight;
+        const Value term = (of_plus[corner.plus][axis] - of_minus[corner.minus][axis]) * of_corner;
         note(term);
         take(axis * corners + i, term);
       }
     }
-    const Value reach = distance_ * weight;
+    const Value reach = distance_ * weight(0, moving_points - 1);
     note(reach);
     take(Polygons::size - 1, reach);
   }
@@ -197,14 +201,16 @@ class Loading {
     to_.degree = rows_.block.degree;
     for (std::size_t k = 0; k <= to_.degree; ++k) {
       const Point x = point(k);
-      for_each_corner(x, x, rows_.weight(k, 0),
-                      [&](std::size_t place, const Value& term) { to_.set(k, place, term); });
+      const Value weight = rows_.weight(k, 0);
+      for_each_corner(
+          x, x, [&](std::size_t, std::size_t) { return weight; },
+          [&](std::size_t place, const Value& term) { to_.set(k, place, term); });
     }
   }
 
-  void multiply() {
+  /// \param has_own True if each point has its own weights.
+  void multiply(bool has_own) {
     const std::size_t degree = rows_.block.degree;
-    constexpr std::size_t second = kind == Kind::vertex_face ? 1 : 2;
     to_.degree = 2 * degree;
     for (std::size_t m = 0; m <= to_.degree; ++m) {
       for (std::size_t place = 0; place < Polygons::size; ++place) to_.set(m, place, Value(0.0));
@@ -214,10 +220,15 @@ class Loading {
       for (std::size_t j = 0; j <= degree; ++j) {
         const Value alpha(binomial<Lanes>(degree, i) * binomial<Lanes>(degree, j) /
                           binomial<Lanes>(2 * degree, i + j));
-        const Value weight = rows_.weight(i, 0) * rows_.weight(j, second);
-        for_each_corner(of_plus, point(j), weight, [&](std::size_t place, const Value& term) {
-          to_.set(i + j, place, to_.at(i + j, place) + term * alpha);
-        });
+        const Value common = rows_.weight(i, 0) * rows_.weight(j, moving_points - 1);
+        for_each_corner(
+            of_plus, point(j),
+            [&](std::size_t plus, std::size_t minus) {
+              return has_own ? rows_.weight(i, plus) * rows_.weight(j, minus) : common;
+            },
+            [&](std::size_t place, const Value& term) {
+              to_.set(i + j, place, to_.at(i + j, place) + term * alpha);
+            });
       }
     }
   }

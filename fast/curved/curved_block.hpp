@@ -15,11 +15,14 @@ namespace touchstone::fast::curved {
 /// The least degree that is enough for all queries with a control polygon.
 inline constexpr std::size_t greatest_corner_degree = greatest_degree;
 
-/// The form of the control polygons of queries.
+/// The form of the control polygons of queries. With more than one denominator,
+/// 2 · degree ≤ greatest_corner_degree.
 enum class Denominators : std::uint8_t {
-  one,  ///< the weights of all points are equal, or there are none
-  two,  ///< those of each primitive are; 2 · degree ≤ greatest_corner_degree
+  one,   ///< the weights of all points are equal, or there are none
+  two,   ///< those of each primitive are
+  four,  ///< each point has its own; for distance 0
 };
+inline constexpr std::size_t denominators_count = 3;
 
 /// Queries of an array, at most kernel_block.
 struct Block {

@@ -387,7 +387,7 @@ class Search {
         from_above & (is_begin | sign_before.is_positive) & (is_end | sign_after.is_negative);
     const Mask rises = (is_begin | sign_before.is_negative) & (is_end | sign_after.is_positive);
     report(falls.bits() | (rises.bits() & ~from_above.bits()), lower, upper,
-           Nearest(before.approximate()));
+           Nearest(before.places()));
   }
 
   // ---- A distance ----

@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
@@ -14,8 +15,10 @@
 #include <limits>
 #include <stdexcept>
 #include <tuple>
+#include <utility>
 #include <vector>
 
+#include "fast/certified/exact/curved_polygon.hpp"
 #include "fast/kernels.hpp"
 #include "tests/faults/planted_faults.hpp"
 #include "tests/support/queries.hpp"
@@ -81,6 +84,23 @@ Numbers random_queries(Random& random, const Sort& sort, Kind kind, std::size_t 
   return result;
 }
 
+/// ‖F‖ at the place and time of a contact, about, as a part of the greatest coordinate.
+double distance_at(Kind kind, const CurvedQuery& query, const CertifiedResult& found) {
+  const Query place = exact_stage::at_rest(query, found.toi_upper);
+  double most = 0.0;
+  double greatest = 0.0;
+  for (const double x : place.coordinates) greatest = std::max(greatest, std::abs(x));
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const auto x = [&](std::size_t point) { return place.at(0, point, axis); };
+    const auto [u, v] = std::pair(found.u, found.v);
+    const double f = kind == Kind::vertex_face
+                         ? x(0) - (x(1) + u * (x(2) - x(1)) + v * (x(3) - x(1)))
+                         : x(0) + u * (x(1) - x(0)) - (x(2) + v * (x(3) - x(2)));
+    most = std::max(most, std::abs(f) / greatest);
+  }
+  return most;
+}
+
 void expect_agreement(Kind kind, const CurvedQueries& queries, const CertifiedOptions& options,
                       std::array<int, stages>& decided_by, int& collisions) {
   std::vector<CertifiedResult> results(queries.size());
@@ -120,6 +140,8 @@ void expect_agreement(Kind kind, const CurvedQueries& queries, const CertifiedOp
     EXPECT_GE(found.u, 0.0);
     EXPECT_GE(found.v, 0.0);
     EXPECT_LE(kind == Kind::vertex_face ? found.u + found.v : std::max(found.u, found.v), 1.0);
+    if (found.stage != Stage::bisection || options.separation.distance > 0.0) continue;
+    EXPECT_LT(distance_at(kind, queries.query(i), found), 1e-6) << i;
   }
 }
 
@@ -135,7 +157,8 @@ TEST_P(CurvedSolver, AgreesWithTheOracle) {
     const Kind kind = kind_of(round);
     CertifiedOptions options{.max_threads = 1};
     const Numbers some = random_queries(random, sort, kind, 40);
-    if (round % 3 == 1) {
+    // (The oracle takes seconds for curves of four denominators at a distance.)
+    if (round % 3 == 1 && (sort.weights != Weights::of_points || sort.is_degenerate)) {
       options.separation = {.distance = sort.is_degenerate ? 1.0 : 0.1,
                             .norm = round % 2 == 0 ? Norm::l2 : Norm::linf};
     }
@@ -155,7 +178,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Sort{3, Weights::none, true}, Sort{2, Weights::common, false},
                     Sort{2, Weights::common, true}, Sort{2, Weights::of_primitives, false},
                     Sort{2, Weights::of_primitives, true}, Sort{2, Weights::of_points, true},
-                    Sort{6, Weights::none, false}));
+                    Sort{2, Weights::of_points, false}, Sort{6, Weights::none, false}));
 
 /// True if a kernel's answers are those of the best one, whose answers are compared with the
 /// oracle's above.
@@ -163,8 +186,10 @@ bool answers_rightly(const CertifiedKernel& kernel, const Separation& separation
   Random random(98);
   const CertifiedOptions options{.separation = separation, .max_threads = 1};
   for (int round = 0; round < 24; ++round) {
+    constexpr std::array sorts{Weights::of_primitives, Weights::none, Weights::none,
+                               Weights::of_points};
     const Sort sort{2 + static_cast<std::size_t>(round) % 2,
-                    round % 4 == 0 ? Weights::of_primitives : Weights::none, round % 5 == 0};
+                    sorts.at(static_cast<std::size_t>(round) % sorts.size()), round % 5 == 0};
     const Kind kind = kind_of(round);
     const Numbers some = random_queries(random, sort, kind, 100);
     std::vector<CertifiedResult> expected(some.queries.size()), found = expected;
