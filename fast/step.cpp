@@ -131,7 +131,7 @@ class ImpactSearch {
   }
 
   /// Searches a short interval in the first rounds. Returns true if contacts after it do not
-  /// matter.
+  /// matter; otherwise this was in vain, and cost a fit of all boxes.
   bool is_early() {
     if (t_end_of(scene_.certified().t_max) <= short_end) return false;
     take_interval(short_end);

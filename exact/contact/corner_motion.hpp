@@ -74,19 +74,21 @@ F& operator-=(F& a, const F& b) {
   return a;
 }
 template <AnyForm F>
-[[nodiscard]] F operator+(const F& a, const F& b) {
-  F sum;
-  make_room(sum, std::max(a.c.size(), b.c.size()));
-  if (a.c.empty() || b.c.empty()) return (sum += a) += b;
-  for (std::size_t k = 0; k < sum.c.size(); ++k) sum.c[k] = a.c[k] + b.c[k];
-  return sum;
+[[nodiscard]] F operator+(F a, const F& b) {
+  a += b;
+  return a;
 }
+/// (Without a copy of a, whose integers would grow.)
 template <AnyForm F>
 [[nodiscard]] F operator-(const F& a, const F& b) {
   F difference;
-  make_room(difference, std::max(a.c.size(), b.c.size()));
-  if (a.c.empty() || b.c.empty()) return (difference += a) -= b;
-  for (std::size_t k = 0; k < difference.c.size(); ++k) difference.c[k] = a.c[k] - b.c[k];
+  if (a.c.empty() || b.c.empty()) {
+    difference += a;
+    difference -= b;
+    return difference;
+  }
+  make_room(difference, a.c.size());
+  for (std::size_t k = 0; k < a.c.size(); ++k) difference.c[k] = a.c[k] - b.c[k];
   return difference;
 }
 template <AnyForm F>

@@ -20,10 +20,10 @@
 ///    above, and pieces before it are left behind until the bounds meet.
 ///
 /// The computed values have to exceed the bound of filters::CornerGap at the magnitude M of the
-/// control values, and (|v|_1 + n) times their error (polygon_on_lanes.hpp).
+/// control values, and (|v|_1 + n) times their error (control_polygon.hpp).
 ///
 /// What is not proved within some steps goes to the exact stage, as do queries with numbers that
-/// are not finite or too large.
+/// are not finite or too large, and those without a control polygon (Denominators).
 
 #include <array>
 #include <cstddef>
@@ -285,7 +285,8 @@ class Search {
     if (apart != busy_) {
       const Corners middle = corners_in_middle();
       const Value n(kernel::unit_length<double>);
-      apart |= separates<separated>(part_, Nearest(middle).direction, n).bits() & busy_;
+      const Nearest nearest(denominators_ == Denominators::four ? with_one_factor(middle) : middle);
+      apart |= separates<separated>(part_, nearest.direction, n).bits() & busy_;
       const unsigned open = busy_ & ~apart;
       if (open != 0) contacts = (separated ? contacts_at_end() : crossings(middle, open)) & open;
     }
@@ -325,7 +326,7 @@ class Search {
     if (length_[lane] < least_length || ++steps_[lane] > most_steps) undecided(lane);
   }
 
-  /// The corners at the middle of the part times 2^degree, approximations.
+  /// The corners at the middle of the part times 2^degree and denominators, approximations.
   [[nodiscard]] Corners corners_in_middle() const {
     Corners result = part_.corners_at(0);
     double factor = 1.0;
@@ -339,6 +340,27 @@ class Search {
       }
     }
     return result;
+  }
+
+  /// Corners with factors of their own, times others so that all have one factor. The directions of
+  /// a triangle do not depend on factors. Four corners are λ_i w_i with w_0 − w_1 + w_2 − w_3 = 0,
+  /// and det of all but λ_i w_i is, up to its sign, the product of the other λ times one number.
+  static Corners with_one_factor(Corners w) {
+    if constexpr (kind == Kind::edge_edge) {
+      std::array<Value, corners> factor;
+      Value greatest(0.0);
+      for (std::size_t i = 0; i < corners; ++i) {
+        factor[i] = abs(filters::dot(w[(i + 1) % corners],
+                                     filters::cross(w[(i + 2) % corners], w[(i + 3) % corners])));
+        greatest = max(greatest, factor[i]);
+      }
+      const Mask is_any = greatest > Value(0.0);
+      for (std::size_t i = 0; i < corners; ++i) {
+        const Value scale = select(is_any, factor[i] / greatest, Value(1.0));
+        for (Value& x : w[i]) x = x * scale;
+      }
+    }
+    return w;
   }
 
   // ---- Distance 0 ----

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <array>
-#include <mutex>
+#include <atomic>
 #include <new>
-#include <utility>
+#include <type_traits>
 
 #ifdef __linux__
 #include <sys/mman.h>
@@ -36,35 +36,38 @@ void free(const ArrayMemory& memory) {
   ::operator delete(memory.begin, alignment_of(memory.bytes));
 }
 
-/// The memory of the last arrays. Where another thread uses it, both functions do nothing: nothing
-/// waits, not even in a process that was forked meanwhile.
+/// The memory of the last arrays. While another thread uses it, `take` finds nothing and `keep`
+/// frees: nothing waits, not even in a process that was forked meanwhile.
 class KeptMemory {
  public:
-  /// Null if nothing fits.
+  /// The last one that fits; null if none does.
   ArrayMemory take(std::size_t bytes) {
-    const std::unique_lock lock(mutex_, std::try_to_lock);
-    if (!lock) return {};
-    ArrayMemory* const end = kept_.data() + count_;
-    const auto fits = [bytes](const ArrayMemory& one) {
-      return one.bytes >= bytes && one.bytes / 2 <= bytes;
-    };
-    ArrayMemory* const found = std::find_if(kept_.data(), end, fits);
-    if (found == end) return {};
-    const ArrayMemory result = *found;
-    remove(found);
-    return result;
+    const Use use(*this);
+    if (!use.is_alone) return {};
+    for (std::size_t i = count_; i-- > 0;) {
+      const ArrayMemory one = kept_[i];
+      if (one.bytes < bytes || one.bytes / 2 > bytes) continue;
+      remove(i);
+      return one;
+    }
+    return {};
   }
 
   /// Keeps it in place of the oldest ones, or frees it.
   void keep(const ArrayMemory& memory) {
-    const std::unique_lock lock(mutex_, std::try_to_lock);
-    if (!lock || memory.bytes < least_bytes || memory.bytes > most_bytes) return free(memory);
-    while (count_ == kept_.size() || bytes_ + memory.bytes > most_bytes) {
-      free(kept_[0]);
-      remove(kept_.data());
+    const Use use(*this);
+    if (!use.is_alone || memory.bytes < least_bytes || memory.bytes > most_bytes) {
+      free(memory);
+      return;
     }
+    while (count_ == kept_.size() || bytes_ + memory.bytes > most_bytes) free_oldest();
     kept_[count_++] = memory;
     bytes_ += memory.bytes;
+  }
+
+  void free_all() {
+    const Use use(*this);
+    while (use.is_alone && count_ > 0) free_oldest();
   }
 
  private:
@@ -77,31 +80,55 @@ class KeptMemory {
   /// The C library keeps smaller pieces itself.
   static constexpr std::size_t least_bytes = std::size_t{64} << 10U;
 
-  void remove(ArrayMemory* one) {
-    bytes_ -= one->bytes;
-    std::move(one + 1, kept_.data() + count_, one);
+  /// The use by a thread, if no other one uses it.
+  struct Use {
+    explicit Use(KeptMemory& of) : memory(of), is_alone(!of.is_used_.test_and_set()) {}
+    Use(const Use&) = delete;
+    Use& operator=(const Use&) = delete;
+    Use(Use&&) = delete;
+    Use& operator=(Use&&) = delete;
+    ~Use() {
+      if (is_alone) memory.is_used_.clear();
+    }
+
+    KeptMemory& memory;
+    bool is_alone;
+  };
+
+  void free_oldest() {
+    free(kept_[0]);
+    remove(0);
+  }
+
+  void remove(std::size_t i) {
+    bytes_ -= kept_[i].bytes;
+    std::move(kept_.data() + i + 1, kept_.data() + count_, kept_.data() + i);
     --count_;
   }
 
-  std::mutex mutex_;
-  std::array<ArrayMemory, 32> kept_;  ///< the oldest first
+  std::atomic_flag is_used_;
+  std::array<ArrayMemory, 32> kept_{};  ///< the oldest first
   std::size_t count_ = 0;
   std::size_t bytes_ = 0;  ///< of all
 };
 
-/// It is never destroyed: arrays may be freed by destructors of static variables.
-KeptMemory& kept_memory() {
-  static KeptMemory& kept = *new KeptMemory;
-  return kept;
-}
+// Arrays may be freed by destructors of static variables.
+static_assert(std::is_trivially_destructible_v<KeptMemory>);
+constinit KeptMemory kept_memory;
 
 }  // namespace
 
 ArrayMemory allocate_array(std::size_t bytes) {
-  const ArrayMemory kept = kept_memory().take(bytes);
-  return kept.begin != nullptr ? kept : allocate(bytes);
+  const ArrayMemory kept = kept_memory.take(bytes);
+  if (kept.begin != nullptr) return kept;
+  try {
+    return allocate(bytes);
+  } catch (const std::bad_alloc&) {
+    kept_memory.free_all();
+    return allocate(bytes);
+  }
 }
 
-void free_array(const ArrayMemory& memory) noexcept { kept_memory().keep(memory); }
+void free_array(const ArrayMemory& memory) noexcept { kept_memory.keep(memory); }
 
 }  // namespace touchstone::fast

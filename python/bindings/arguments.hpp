@@ -129,12 +129,19 @@ class Batch {
       return;
     }
     const std::span<const double> row = curves_.row(i);
+    const std::size_t numbers = curves_.numbers_of_point();
     for (std::size_t place = 0; place < row.size(); ++place) {
-      const bool is_weight = curves_.is_rational && place % 4 == 3;
-      if (std::isfinite(row[place]) && !(is_weight && row[place] <= 0.0)) continue;
-      throw std::domain_error("query " + std::to_string(i) + ": a " +
-                              (is_weight ? "weight is not positive and finite"
-                                         : "coordinate of a control point is not finite"));
+      const double x = row[place];
+      const bool is_weight = place % numbers == 3;
+      if (std::isfinite(x) && !(is_weight && x <= 0.0)) continue;
+      throw std::domain_error("query " + std::to_string(i) +
+                              (is_weight ? ": weight [" : ": coordinate [") +
+                              std::to_string(place / (moving_points * numbers)) + ", " +
+                              std::to_string(place / numbers % moving_points) + ", " +
+                              std::to_string(place % numbers) + "] is " +
+                              (std::isnan(x)   ? "NaN"
+                               : std::isinf(x) ? "infinite"
+                                               : "not positive"));
     }
   }
 

@@ -123,7 +123,7 @@ Result = TypeVar("Result", bound="BatchResult")
 class BatchResult:
     """Results of queries: an item each in a structured array, and its fields as attributes.
 
-    Of a single query of shape (8, 3) the fields are scalars.
+    Of a single query the fields are scalars.
 
     Attributes
     ----------

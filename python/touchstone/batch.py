@@ -239,7 +239,7 @@ def tight_inclusion(
     Raises
     ------
     ValueError
-        As for `certified`.
+        As for `certified`, and for curves of another degree.
     Interrupted
         At Ctrl-C, with the results of the first queries.
 

@@ -198,9 +198,9 @@ def decide_curved(
     separation: float = 0.0,
     norm: Norm = "linf",
 ) -> Decisions:
-    """Decide a query whose points move on Bézier curves of different degrees, exactly.
+    """Decide a query whose points move on Bézier curves, each of its own degree, exactly.
 
-    Of one degree: `decide`.
+    `decide` takes arrays of curves of one degree.
 
     Parameters
     ----------

@@ -317,6 +317,24 @@ TEST(CurvedSolver, SaysWhereInputIsNone) {
   }
 }
 
+/// With factors of their own the corners of two edges are no parallelogram.
+TEST(CurvedSolver, LeavesFewEdgesOfUnequalEndsToTheExactStage) {
+  Random random(96);
+  for (const std::array<double, 4>& weights :
+       {std::array{1.0, 3.0, 1.0, 3.0}, {10.0, 1.0, 1.0, 10.0}, {1.0, 1.0, 0.125, 2.0}}) {
+    Numbers some = random_queries(random, {2, Weights::of_points, false}, Kind::edge_edge, 400);
+    for (std::size_t i = 3; i < some.numbers.size(); i += 4) {
+      some.numbers[i] = weights.at(i / 4 % moving_points);
+    }
+    some.queries.numbers = some.numbers;
+    std::array<int, stages> decided_by{};
+    int collisions = 0;
+    expect_agreement(Kind::edge_edge, some.queries, {.max_threads = 1}, decided_by, collisions);
+    EXPECT_GT(collisions, 20);
+    EXPECT_LT(decided_by.at(static_cast<std::size_t>(Stage::exact)), 4) << weights[0];
+  }
+}
+
 TEST(CurvedSolver, DecidesNumbersOfAnySize) {
   Random random(93);
   for (const double scale : {0x1p-1060, 0x1p-400, 0x1p90, 0x1p400, 0x1p1018}) {

@@ -1,6 +1,8 @@
 #include "fast/platform/large_array.hpp"
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <unistd.h>
 
 #include <array>
 #include <cstddef>
@@ -46,16 +48,29 @@ TEST(LargeArray, HasTheMemoryOfOneBefore) {
 }
 
 TEST(LargeArray, KeepsAtMostSoMuchMemory) {
-  // A hundred arrays of 8 MiB at once, each written. All but eight are given back.
-  static constexpr std::size_t size = std::size_t{1} << 17U;
+  // Five arrays of 40 MiB, each written. (The C library gives such memory back.) One is kept.
+  static constexpr std::size_t size = std::size_t{40} << 14U;
   std::vector<LargeArray<Line>> arrays;
-  for (int i = 0; i < 100; ++i) {
+  for (int i = 0; i < 5; ++i) {
     arrays.emplace_back(size);
     for (std::size_t k = 0; k < size; k += 64) arrays.back()[k].words[0] = 1;
   }
   const std::uint64_t before = tests::process_memory().resident;
   arrays.clear();
-  EXPECT_LT(tests::process_memory().resident, before - (std::uint64_t{100 - 12} << 23U));
+  EXPECT_LT(tests::process_memory().resident, before - (std::uint64_t{3 * 40} << 20U));
+}
+
+TEST(LargeArray, HasMemoryThatIsKeptForOthersBeforeThereIsNone) {
+  const auto fill = [] {
+    static_cast<void>(LargeArray<Line>(std::size_t{32} << 14U));
+    const rlim_t limit = tests::process_memory().address_space + (std::uint64_t{16} << 20U);
+    const rlimit limits{.rlim_cur = limit, .rlim_max = limit};
+    ::setrlimit(RLIMIT_AS, &limits);
+    const LargeArray<Line> other(std::size_t{36} << 14U);  // only without the first one
+    _exit(other.data() != nullptr ? 0 : 1);
+  };
+  GTEST_FLAG_SET(death_test_style, "threadsafe");
+  EXPECT_EXIT(fill(), ::testing::ExitedWithCode(0), "");
 }
 #endif
 
