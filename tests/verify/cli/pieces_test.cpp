@@ -11,6 +11,7 @@
 
 #include "tests/support/certificates.hpp"
 #include "tests/support/tool_test.hpp"
+#include "tests/support/trials.hpp"
 
 // Tests of --shard, --resume and `touchstone merge`, some of which run the tool.
 
@@ -201,10 +202,11 @@ TEST_F(PieceRuns, ThatAreKilledGoOn) {
     }
     return count;
   };
-  // At twenty random moments, each up to some pieces after the start and in the work.
+  // At twenty random moments (fewer under the sanitizers), each up to some pieces after the start
+  // and in the work.
   std::mt19937 random(20);
   std::size_t most = 0;
-  for (int i = 0; i < 20; ++i) {
+  for (int i = 0; i < tests::trials(20); ++i) {
     const std::size_t pieces = most + random() % 3;
     const pid_t process = start(words("certify", "killed", "store"));
     ASSERT_TRUE(tests::comes_true([&] { return done() >= pieces; }));
