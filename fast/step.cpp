@@ -122,9 +122,10 @@ class ImpactSearch {
 
   void run() {
     // (Any contact is found as fast in the whole step.)
-    std::size_t round = !any_suffices_ && is_early() ? first_rounds : 0;
-    if (round == 0) take_interval(t_end_of(scene_.certified().t_max));
-    for (; round < strides.size() && !is_enough(); ++round) {
+    const bool is_short = !any_suffices_ && is_early();
+    if (!is_short) take_interval(t_end_of(scene_.certified().t_max));
+    for (std::size_t round = is_short ? first_rounds : 0; round < strides.size() && !is_enough();
+         ++round) {
       search(round);
       look_nearer(strides[round]);
     }

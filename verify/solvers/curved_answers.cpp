@@ -24,6 +24,10 @@ bool answers_curves(std::string_view method) {
   return method == "certified" || method == "tight_inclusion";
 }
 
+bool answers_curves(std::string_view method, std::size_t degree) {
+  return method == "certified" || (answers_curves(method) && (degree == 2 || degree == 3));
+}
+
 std::vector<fast::Answer> curved_answers(std::string_view method, Kind kind,
                                          const CurvedQueries& queries,
                                          const fast::MethodOptions& options, unsigned threads) {

@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "fast/method.hpp"
-#include "touchstone/certified.hpp"
 #include "touchstone/curved_query.hpp"
 #include "verify/data/curved_query_file.hpp"
 #include "verify/jobs/prove.hpp"
@@ -61,9 +60,7 @@ std::optional<judge::GivenAnswer> answer_on_curves(const ViewedQuery& viewed,
                                                    const std::string& method,
                                                    fast::MethodOptions options) {
   const std::optional<data::CurvedQueryFile> curves = of_one_degree(*viewed.curves);
-  if (!curves) return std::nullopt;
-  const bool is_any = method == fast::certified_info().name;
-  if (!is_any && curves->degree != 2 && curves->degree != 3) return std::nullopt;
+  if (!curves || !solvers::answers_curves(method, curves->degree)) return std::nullopt;
   options.separation = viewed.separation;
   const auto answers = solvers::curved_answers(method, viewed.kind, curves->queries(), options, 1);
   return judge::GivenAnswer{.solver = method, .answer = answers.front()};
