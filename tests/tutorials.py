@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
-"""Follows tutorials: runs what their pages print, and compares what they print with what happens.
+"""Follows tutorials and transcripts: runs what their pages print, and compares what they print with what happens.
 
     tests/tutorials.py --tool build/release/touchstone docs/tutorials/prove_a_step.md
     tests/tutorials.py --clone CLONE docs/tutorials/prove_a_step.md       # by its text alone, in a clean clone
+    tests/tutorials.py --write tests/transcripts/step.md                  # write down what the commands print now
 
 Of the blocks of a page, in their order:
 - `sh` is run by bash; the first failure ends the page. In front of it, `<!-- not run: REASON -->` leaves it out, and
@@ -10,6 +11,8 @@ Of the blocks of a page, in their order:
 - A block that begins with the comment `NAME: …`, NAME with a full stop, is written to the file NAME; if NAME begins with
   examples/, that file of the repository must have this text.
 - `text` must be printed by the `sh` block before: its lines in their order, blanks compared loosely, … for anything.
+- `console` is a transcript: a line `$ COMMAND` (lines `> …` continue it), all lines that it prints, errors included, and
+  its exit status as `[N]` unless it is 0. … stands for anything within a line, a line of … for any lines.
 """
 
 import argparse
@@ -22,6 +25,7 @@ import tempfile
 
 ROOT = pathlib.Path(__file__).resolve().parents[1]
 BLOCK = re.compile(r"(?:<!-- (not run: [^>]+|clone) -->\n)?^```(\w*)\n(.*?)^```$", re.DOTALL | re.MULTILINE)
+STEP = re.compile(r"^\$ (.*\n(?:> .*\n)*)((?:(?!\$ ).*\n)*)", re.MULTILINE)
 
 
 def faults_of(expected, printed):
@@ -37,10 +41,17 @@ def faults_of(expected, printed):
             lines = lines[found + 1:]
 
 
+def transcript_fault(expected, printed):
+    """True if a transcript's lines are not what was printed; … stands for anything, a line of … for any lines."""
+    lines = [" ".join(line.split()) for line in expected.splitlines()]
+    pattern = "".join(r"(?:.*\n)*?" if line == "…" else ".*".join(map(re.escape, line.split("…"))) + r"\n" for line in lines)
+    return not re.fullmatch(pattern, "".join(" ".join(line.split()) + "\n" for line in printed.splitlines()))
+
+
 def follow(page, folder, options):
     """The faults of a page."""
     text = page.read_text()
-    script, expected, blocks = ["set -e"], [], 0
+    script, expected, steps, blocks = ["set -e"], [], [], 0
     for mark, language, body in BLOCK.findall(text):
         name = re.match(r"(?://|#) ([\w./-]+\.\w+)(?::.*)?\n", body)
         if name and name[1].startswith("examples/"):
@@ -53,6 +64,12 @@ def follow(page, folder, options):
             script.append(f"echo '@@ {blocks}'\n{body}")
         elif language == "text":
             expected.append((blocks, body))
+        elif language == "console":
+            for step in STEP.finditer(body):
+                blocks += 1
+                steps.append((blocks, step))
+                command = step[1].replace("\n> ", "\n")
+                script.append(f"echo '@@ {blocks}'\nset +e\n{command}echo \"[$?]\"\nset -e")
     environment = os.environ | {"TERM": "dumb"}
     if not options.clone:
         environment |= {"TOUCHSTONE_SOURCE": str(ROOT), "TOUCHSTONE_BUILD": str(options.tool.parent),
@@ -67,16 +84,25 @@ def follow(page, folder, options):
     if done.returncode != 0 or len(printed) != blocks or blocks == 0:
         yield f"{page}: block {len(printed)} of {blocks} ended with {done.returncode}\n{done.stdout[-2000:]}"
         return
+    written = text
+    for block, step in steps:
+        actual = printed[str(block)].removesuffix("[0]\n")
+        if transcript_fault(step[2], actual):
+            yield f"{page}: $ {step[1]}prints\n{actual}and not\n{step[2]}"
+            written = written.replace(step[0], f"$ {step[1]}{actual}", 1)
+    if options.write and written != text:
+        page.write_text(written)
     for block, body in expected:
         for line in faults_of(body, printed[str(block)]):
             yield f"{page}: block {block} does not print: {line}\nbut:\n{printed[str(block)][-1500:]}"
 
 
 def main():
-    parser = argparse.ArgumentParser(description="Follows the tutorials.")
+    parser = argparse.ArgumentParser(description="Follows tutorials and transcripts.")
     parser.add_argument("pages", nargs="+", type=pathlib.Path)
     parser.add_argument("--tool", type=pathlib.Path, default=ROOT / "build/release/touchstone")
     parser.add_argument("--clone", type=pathlib.Path, help="a clone, in which the page begins")
+    parser.add_argument("--write", action="store_true", help="write what the commands of transcripts print into the pages")
     parser.add_argument("--verbose", action="store_true")
     options = parser.parse_args()
     options.tool = options.tool.resolve()
