@@ -1,13 +1,21 @@
 #include "touchstone/number.hpp"
 
+#include <CGAL/Exact_integer.h>
+#include <CGAL/Exact_rational.h>
+
 #include <algorithm>
 #include <cctype>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
 #include <string>
+#include <type_traits>
 
 namespace touchstone::exact {
+
+static_assert(std::is_same_v<Integer, CGAL::Exact_integer> &&
+                  std::is_same_v<Rational, CGAL::Exact_rational>,
+              "CGAL must choose GMP's C++ classes: install libgmpxx and define CGAL_USE_GMPXX");
 
 namespace {
 

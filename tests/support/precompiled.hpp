@@ -4,8 +4,7 @@
 /// The common includes of test programs, for precompilation (tests/CMakeLists.txt). A test
 /// still includes the headers that it uses.
 
-#include <CGAL/Exact_integer.h>
-#include <CGAL/Exact_rational.h>
+#include <gmpxx.h>
 #include <gtest/gtest.h>
 
 #include <Eigen/Core>

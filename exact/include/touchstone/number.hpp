@@ -3,26 +3,18 @@
 /// \file
 /// The exact numbers of this module, and the only conversions between them and doubles.
 ///
-/// They are CGAL's number types. CGAL chooses their classes by its configuration. This project
-/// needs GMP's C++ classes, which CGAL takes where libgmpxx is installed (CGAL_USE_GMPXX). The
-/// functions are thread-safe.
-///
-/// CGAL's headers take 4 s to compile. The sources of this module are compiled together, and verify
-/// has a precompiled header.
+/// They are CGAL::Exact_integer and CGAL::Exact_rational, under the names of GMP's classes that
+/// CGAL takes where libgmpxx is installed: algebra/number.cpp refuses to compile otherwise. Thus no
+/// other source reads CGAL's headers. The functions are thread-safe.
 
-#include <CGAL/Exact_integer.h>
-#include <CGAL/Exact_rational.h>
 #include <gmpxx.h>
 
 #include <string_view>
-#include <type_traits>
 
 namespace touchstone::exact {
 
-using Integer = CGAL::Exact_integer;
-using Rational = CGAL::Exact_rational;
-static_assert(std::is_same_v<Integer, mpz_class> && std::is_same_v<Rational, mpq_class>,
-              "CGAL must choose GMP's C++ classes: install libgmpxx and define CGAL_USE_GMPXX");
+using Integer = mpz_class;
+using Rational = mpq_class;
 
 /// A closed interval of rationals, lower ≤ upper; a single number where they are equal.
 struct RationalInterval {

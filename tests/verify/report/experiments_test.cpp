@@ -63,34 +63,11 @@ TEST(Experiments, TrialsAreThoseOfTheMethodsThere) {
   EXPECT_EQ(few[0].settings[0].method->name(), "tccd");
 }
 
-TEST(Experiments, EachMeasuresDistanceInItsOwnNorm) {
-  const std::vector<std::string> all{"certified", "tight_inclusion", "fprf", "msrf"};
-  for (const Trial& trial : trials_of(all)) {
-    if (trial.experiment != Experiment::separation) continue;
-    for (const double distance : separation_distances()) {
-      std::map<Norm, std::set<std::string>> names;
-      for (const auto& [method, options, in_children, allowance] : trial.settings) {
-        if (options.separation.distance != distance) continue;
-        names[options.separation.norm].insert(std::string(method->name()));
-      }
-      EXPECT_EQ(names[Norm::linf], (std::set<std::string>{"certified", "tight_inclusion"}));
-      EXPECT_EQ(names[Norm::l2], (std::set<std::string>{"certified", "fprf", "msrf"}));
-    }
-  }
-}
-
 TEST(Experiments, DistancesHoldThoseOfThePapersTables) {
   for (const double distance : {1e-2, 1e-8, 1e-16, 1e-30, 1e-100}) {
     EXPECT_TRUE(std::ranges::count(separation_distances(), distance) == 1) << distance;
   }
   EXPECT_TRUE(std::ranges::is_sorted(separation_distances()));
-}
-
-TEST(Experiments, SlowSearchersAreLimitedMore) {
-  const std::vector<std::string> all{"tight_inclusion", "irf"};
-  const Trial field = trials_of(all).front();
-  EXPECT_EQ(field.settings[0].options.max_checks, 1'000'000);
-  EXPECT_EQ(field.settings[1].options.max_checks, 100'000);
 }
 
 TEST(Experiments, MeasuresEveryTrialAndTheMapOfStability) {
@@ -127,20 +104,6 @@ TEST(Experiments, MeasuresEveryTrialAndTheMapOfStability) {
   }
 }
 
-TEST(Experiments, WithoutNamesAllMethodsTakePart) {
-  const std::vector<data::QueryGroup> groups = falling();
-  ExperimentOptions options = quick();
-  options.methods.clear();
-  options.stability_count = 0;
-  const Measurements result = run_experiments(groups, options);
-  std::set<std::string> names;
-  for (const Measurement* measurement : of_experiment(result, Experiment::field)) {
-    names.insert(measurement->method);
-  }
-  EXPECT_TRUE(names.contains("tight_inclusion_published"));
-  EXPECT_TRUE(result.stability.empty());
-}
-
 TEST(Experiments, FiltersAreComparedOnFamiliesAndOverTheScale) {
   const std::vector<data::QueryGroup> groups = falling();
   ExperimentOptions options = quick();
@@ -164,16 +127,6 @@ TEST(Experiments, FiltersAreComparedOnFamiliesAndOverTheScale) {
   EXPECT_EQ(scales.size(), filter_scales().size());
   EXPECT_EQ(missed["tight_inclusion"], 0U);
   EXPECT_GT(missed["tight_inclusion_released"], 0U);
-}
-
-TEST(Experiments, OnlyTheChosenExperimentsAreDone) {
-  const std::vector<data::QueryGroup> groups = falling();
-  ExperimentOptions options = quick();
-  options.experiments = {Experiment::checks};
-  options.stability_count = 0;
-  const Measurements result = run_experiments(groups, options);
-  EXPECT_EQ(result.all.size(), 6U);
-  EXPECT_EQ(of_experiment(result, Experiment::checks).size(), 6U);
 }
 
 TEST(Experiments, StoppedItKeepsWhatIsMeasured) {

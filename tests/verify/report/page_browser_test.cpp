@@ -75,17 +75,6 @@ TEST_F(Browser, PanelsSideBySideHaveOneScale) {
   EXPECT_EQ(widths(drawn).size(), 1U);
 }
 
-TEST_F(Browser, DrawsThePointsTheFrontAndTheNames) {
-  const std::string dom = load(report_page(tests::small_report()));
-  const std::string speed = section(dom, "speed_false_positives");
-  EXPECT_EQ(count(speed, "class=\"front\""), 1U);
-  for (const std::string name : {"certified", "tight_inclusion", "msrf"}) {
-    EXPECT_TRUE(std::regex_search(speed, std::regex("class=\"name\"[^>]*>" + name + "<"))) << name;
-  }
-  const std::string stability = section(dom, "stability");
-  EXPECT_TRUE(std::regex_search(stability, std::regex(">N 40</text>")));
-}
-
 TEST_F(Browser, FitsATelephone) {
   const std::string dom = load(report_page(tests::small_report()), 500);
   EXPECT_EQ(complaints(), "");
@@ -121,54 +110,6 @@ document.getElementById("orders").textContent = orders.join("; ");
   EXPECT_EQ(count(dom, expected), 1U) << dom.substr(dom.find("<p id=\"orders\""), 600);
 }
 
-/// On a telephone the name and the false negatives stay in place while the rest moves.
-TEST_F(Browser, KeepsTheNameAndTheMissesInView) {
-  std::string page = report_page(tests::small_report());
-  page.insert(page.rfind("</body>"), R"(<p id="places"></p><script>
-const scroll = document.querySelector("#table_1 .scroll");
-const cells = Array.from(scroll.querySelector("tbody tr").cells);
-const places = () => cells.slice(0, 3).map((cell) => Math.round(cell.getBoundingClientRect().left));
-const before = places();
-scroll.scrollLeft = 120;
-const moved = places().map((left, i) => left - before[i]);
-document.getElementById("places").textContent = `moved by ${moved.join(" ")} of ${scroll.scrollLeft}`;
-</script>)");
-  const std::string dom = load(page, 500);
-  EXPECT_EQ(complaints(), "");
-  EXPECT_EQ(count(dom, "moved by 0 0 -120 of 120"), 1U)
-      << dom.substr(dom.find("<p id=\"places\""), 200);
-}
-
-/// The links to pictures give separate files, which an XML parser reads.
-TEST_F(Browser, GivesEveryFigureAsAPicture) {
-  const Measurements measurements = tests::small_report();
-  std::string page = report_page(measurements);
-  page.insert(page.rfind("</body>"), R"(<p id="pictures"></p><script>
-const describe = (link) => {
-  link.addEventListener("click", (event) => event.preventDefault());
-  link.click();
-  const text = decodeURIComponent(link.href.replace(/^data:image.svg.xml,/, ""));
-  const picture = new DOMParser().parseFromString(text, "image/svg+xml").documentElement;
-  const panels = Array.from(picture.querySelectorAll("desc"), (desc) => desc.parentNode);
-  const isStyled = picture.querySelector("style").textContent.includes("prefers-color-scheme: dark");
-  const bottom = Math.max(...panels.map((p) => Number(p.getAttribute("y")) + Number(p.getAttribute("height"))));
-  const isLarge = bottom > 0 && bottom <= Number(picture.getAttribute("height"));
-  return `${link.download}: ${picture.localName}, panels ${panels.length}, ${isStyled} ${isLarge}.`;
-};
-document.getElementById("pictures").textContent =
-  Array.from(document.querySelectorAll("a.svg"), describe).join(" ");
-</script>)");
-  const std::string dom = load(page);
-  EXPECT_EQ(complaints(), "");
-  for (const Figure& figure : figures_of(measurements)) {
-    const std::string expected =
-        figure.id + ".svg: svg, panels " + std::to_string(figure.panels.size()) + ", true true.";
-    EXPECT_EQ(count(dom, expected), 1U)
-        << expected << "\n"
-        << dom.substr(std::min(dom.find("<p id=\"pictures\""), dom.size()), 2000);
-  }
-}
-
 /// The tolerances that a method states as achieved.
 Spread& achieved(Measurements& measurements) {
   for (Measurement& m : measurements.all) {
@@ -199,16 +140,6 @@ TEST_F(Browser, DrawsWhatIsInfiniteAtTheUpperEnd) {
   ASSERT_EQ(infinite.size(), 1U) << drawn;
   ASSERT_EQ(median.size(), 1U) << drawn;
   EXPECT_LT(infinite[0], median[0]) << "heights are counted from the top";
-}
-
-TEST_F(Browser, DrawsNumbersAtTheEndsOfTheRange) {
-  Measurements measurements = tests::small_report();
-  achieved(measurements) = Spread{.count = 2, .median = 4.9e-324, .max = 1.7e308};
-  const std::string drawn = section(load(report_page(measurements)), "checks_tolerance");
-  EXPECT_EQ(complaints(), "");
-  EXPECT_EQ(count(drawn, "NaN"), 0U);
-  EXPECT_EQ(count(drawn, "Infinity"), 0U);
-  EXPECT_NE(drawn.find(">10³⁰⁰</text>"), std::string::npos) << drawn;
 }
 
 // ---- The map of stability -----------------------------------------------------------------------
@@ -268,23 +199,6 @@ std::string measured(const std::string& dom) {
   return dom.substr(said + start.size(), dom.find("</p>", said) - said - start.size());
 }
 
-TEST_F(Browser, DrawsTheMapOfStability) {
-  const std::string dom = load(stability_page(map_of({1e-13, 1.5}), "touchstone stability"));
-  EXPECT_EQ(complaints(), "");
-  for (const std::string id : {"stability", "stability_toi_median", "stability_toi_max",
-                               "stability_time", "stability_checks"}) {
-    const std::string drawn = section(dom, id);
-    EXPECT_EQ(count(drawn, "role=\"img\""), 1U) << id;
-    EXPECT_GE(count(drawn, "<rect"), 2U) << id;
-    EXPECT_EQ(count(drawn, "NaN"), 0U) << id;
-    EXPECT_EQ(count(drawn, "undefined"), 0U) << id;
-  }
-  EXPECT_EQ(count(section(dom, "stability"), ">N 100</text>"), 1U);
-  EXPECT_EQ(count(section(dom, "stability"), "1 queries, 1 collisions, 1 false negatives"), 1U);
-  EXPECT_EQ(count(section(dom, "stability_toi_max"), ">1e-13</text>"), 1U);
-  EXPECT_EQ(count(section(dom, "stability_toi_max"), ">1.5</text>"), 1U);
-}
-
 TEST_F(Browser, NumbersOfAnySizeFitIntoTheirCells) {
   for (const int width : {1200, 500}) {
     const std::string said = measured(load(page_that_measures(map_of(numbers_of_any_size)), width));
@@ -292,14 +206,6 @@ TEST_F(Browser, NumbersOfAnySizeFitIntoTheirCells) {
     EXPECT_TRUE(said.ends_with(" too wide: .")) << said;
     EXPECT_FALSE(said.starts_with("of 0 ")) << said;
   }
-}
-
-/// The script finds texts that are too wide.
-TEST_F(Browser, ATextThatIsTooWideIsSeen) {
-  EXPECT_NE(measured(load(page_that_measures(map_of(numbers_of_any_size),
-                                             "a text that is wider than every cell of a page")))
-                .find("too wide: a text that is wider"),
-            std::string::npos);
 }
 
 /// The test finds a page that loads something, or fails.

@@ -67,26 +67,6 @@ TEST(Page, MayLoadNothingFromAnywhere) {
       std::regex_search(ours, std::regex("<(link|img|iframe|object)|@import|src=|url\\(")));
 }
 
-TEST(Page, HasTheTablesWithTheirNumbers) {
-  const std::string page = report_page(tests::small_report());
-  EXPECT_TRUE(contains(page, "<caption>handcrafted, vertex-face</caption>"));
-  EXPECT_TRUE(contains(page,
-                       "<th scope=\"row\">msrf</th><td class=\"missed\">✗ 2</td><td>1 (1.2 %)</td>"
-                       "<td>0.4</td><td>40</td><td>0</td><td>100 of 200</td>"));
-  EXPECT_TRUE(contains(page, "<section id=\"table_2\">"));
-  EXPECT_FALSE(contains(page, "<section id=\"table_3\">")) << "nothing was measured of FPRF";
-}
-
-TEST(Page, NumbersAreDownloadedAsCsv) {
-  const std::string page = report_page(tests::small_report());
-  EXPECT_TRUE(contains(page,
-                       "download=\"table_1_1.csv\" href=\"data:text/csv;charset=utf-8,method,"
-                       "FN,FP,%C2%B5s,%C3%B7%20certified,"));
-  EXPECT_TRUE(contains(page,
-                       "group,kind,stage,queries,asked%0D%0Ahandcrafted,vertex-face,axis,75,"
-                       "100%0D%0A"));
-}
-
 TEST(Page, SaysWhatMadeItAndEscapesIt) {
   const std::string page = report_page(tests::small_report());
   EXPECT_TRUE(contains(page, "Made on a machine, 2026-01-31 by"));
@@ -97,25 +77,6 @@ TEST(Page, SaysWhatMadeItAndEscapesIt) {
   EXPECT_FALSE(contains(report_page(hostile), "<script>alert"));
 }
 
-TEST(Page, SaysByWhichVersionAndOfWhichData) {
-  Measurements measurements = tests::small_report();
-  measurements.version = "1.2.3 (abcdef0123)";
-  measurements.groups = {
-      {.name = "hand<made", .kind = Kind::vertex_face, .queries = 200, .digest = 0xabcU}};
-  const std::string page = report_page(measurements);
-  EXPECT_TRUE(
-      contains(page, "Made with Touchstone 1.2.3 (abcdef0123) on a machine, 2026-01-31 by"));
-  EXPECT_TRUE(
-      contains(page, "hand&lt;made, vertex-face: 200 queries, digest <code>0000000000000abc<"));
-}
-
-TEST(Page, GivesTheCommandOnce) {
-  const std::string page = report_page(tests::small_report());
-  const std::size_t first = page.find("touchstone report handcrafted --out");
-  ASSERT_NE(first, std::string::npos);
-  EXPECT_EQ(page.find("touchstone report handcrafted --out", first + 1), std::string::npos);
-}
-
 TEST(Page, ShowsWhatHasChanged) {
   const Measurements before = tests::small_report();
   Measurements after = before;
@@ -124,28 +85,6 @@ TEST(Page, ShowsWhatHasChanged) {
   const std::string page = report_page(after, &before);
   EXPECT_TRUE(contains(page, "<h2>What has changed</h2>"));
   EXPECT_TRUE(contains(page, "<td class=\"missed\">✗ 2 of 100 → 0 of 100</td>"));
-}
-
-TEST(Page, SaysIfItWasInterrupted) {
-  Measurements measurements = tests::small_report();
-  EXPECT_FALSE(contains(report_page(measurements), "Interrupted"));
-  measurements.interrupted = true;
-  EXPECT_TRUE(contains(report_page(measurements), "Not all that was asked"));
-}
-
-TEST(Page, OpensWithItsFindingsAndTimeAgainstError) {
-  const std::string page = without_d3(report_page(tests::small_report()));
-  const std::vector<std::string> order{"<h1>Touchstone report</h1>",
-                                       "<li>Every method kept its promise.</li>",
-                                       "<li>3 methods were asked up to 100 queries",
-                                       "<section class=\"figure\" id=\"speed_false_positives\">",
-                                       "<nav",
-                                       "<section id=\"table_1\">",
-                                       "<section class=\"figure\" id=\"speed_toi_median\">"};
-  for (std::size_t i = 0; i + 1 < order.size(); ++i) {
-    ASSERT_TRUE(contains(page, order[i])) << order[i];
-    EXPECT_LT(page.find(order[i]), page.find(order[i + 1])) << order[i];
-  }
 }
 
 stability::StabilityResult map_of_one_cell(const std::string& method) {
@@ -170,36 +109,12 @@ stability::StabilityResult map_of_one_cell(const std::string& method) {
   return result;
 }
 
-TEST(StabilityPage, SaysWhatItIsAboutAndWhoKeepsTheirPromise) {
-  stability::StabilityResult result = map_of_one_cell("planted");
-  result.separation = {.distance = 0.25, .norm = Norm::l2};
-  result.total.interrupted = true;
-  const std::string page = stability_page(result, "touchstone stability --seed 77");
-  EXPECT_TRUE(contains(page,
-                       "10 queries a cell, half of them collisions; seed 77; minimum separation "
-                       "0.25 (l2)."));
-  EXPECT_TRUE(contains(page, "Not all that was asked"));
-  EXPECT_TRUE(contains(page, "<li>planted (conservative): breaks its promise.</li>"));
-  EXPECT_TRUE(contains(page, "<pre class=\"command\">touchstone stability --seed 77</pre>"));
-  EXPECT_TRUE(contains(page, "<th scope=\"row\">planted</th><td>false negative 20 %</td>"));
-  EXPECT_TRUE(contains(page, "<section class=\"figure\" id=\"stability\">"));
-  EXPECT_TRUE(contains(page, "<section class=\"figure\" id=\"stability_time\">"));
-  EXPECT_TRUE(contains(stability_page({}, ""), "No cell was judged."));
-}
-
 TEST(StabilityPage, HoldsNoMarkupOfNames) {
   const std::string page =
       without_d3(stability_page(map_of_one_cell("</script>&\"\xE9"), "</pre>\x1b"));
   EXPECT_TRUE(contains(page, "&lt;/script&gt;&amp;&quot;\\xe9 (conservative)"));
   EXPECT_TRUE(contains(page, "&lt;/pre&gt;\\x1b"));
   EXPECT_FALSE(contains(page, "</script>&"));
-}
-
-TEST(Page, WithoutABaselineOursAreShownOverTheSeparation) {
-  Measurements measurements = tests::small_report();
-  std::erase_if(measurements.all, [](const Measurement& m) { return m.method == "msrf"; });
-  EXPECT_TRUE(
-      contains(report_page(measurements), "<h2>Table 2: over the minimum separation d</h2>"));
 }
 
 }  // namespace

@@ -193,29 +193,6 @@ TEST_F(ViewBrowser, TheSliderMovesPointsOnCurvesExactly) {
   for (const nlohmann::json& count : result.at("drawn")) EXPECT_GT(count, 30);
 }
 
-TEST_F(ViewBrowser, ShowsControlPointsAndNoTextOfCurves) {
-  const nlohmann::json result = result_on(page_of_curves(odd_curves()), R"(
-    const rows = (id) => all(`#${id} tr`).slice(1).map((row) => Array.from(row.children).map((cell) => cell.textContent).join(" "));
-    move("time", 4096);
-    say({ groups: text("#points tbody tr:first-child"), head: text("#points thead th"),
-      control: ["at_t_0", "at_control_1", "at_control_2", "at_t_1"].map(rows),
-      disabled: all("#exchange button").filter((one) => one.disabled).map((one) => one.id),
-      drawn: paste("1 1 1 0 0 0 4 0 0 0 4 0  1 1 -2 0 0 0 4 0 0 0 4 0"), end: rows("at_t_1") });
-  )");
-  EXPECT_EQ(result.at("groups"),
-            nlohmann::json::array({"t = 0", "control 1", "control 2", "t = 1", "now"}));
-  EXPECT_EQ(result.at("head"), nlohmann::json::array({"point", "x", "y", "z", "weight"}));
-  EXPECT_EQ(result.at("control"), nlohmann::json::parse(R"([
-    ["v 1 1 1e+200 1", "f0 0 0 0 1", "f1 4 0.1 0 1", "f2 0 4 0 0.1"],
-    ["v 0.1 -1 0.5 0.3", "f0 0.7 0.2 5e-324 1", "f2 1 5 -2 0.2"],
-    ["v 3 1e-300 0 5", "f2 0 1 1 0.3"],
-    ["v 2 2 7 9.5367431640625e-7", "f0 9 -3 1 1", "f1 4 0.1 0 1", "f2 8 8 8 0.4"]])"));
-  EXPECT_EQ(result.at("disabled"),
-            nlohmann::json::array({"copy_Cpp", "copy_CSV", "copy_JSON", "copy_OBJ"}));
-  EXPECT_EQ(result.at("drawn"), "Drawn. This page holds no answer to it.");
-  EXPECT_EQ(result.at("end").at(0), "v 1 1 -2");
-}
-
 /// A vertex that turns where it touches a triangle at rest: its path is seen although both ends
 /// are one point.
 TEST_F(ViewBrowser, ShowsContactAndPathOnCurves) {
@@ -407,54 +384,6 @@ TEST_F(ViewBrowser, DrawsEveryScale) {
   }
 }
 
-TEST_F(ViewBrowser, DrawsAtTheSizeOfThePageFromTheFirst) {
-  const nlohmann::json result = result_of({falling()}, R"(
-    say(all("#motion canvas, #corners canvas").map((canvas) =>
-      [canvas.width, canvas.clientWidth * window.devicePixelRatio,
-       canvas.height, canvas.clientHeight * window.devicePixelRatio]));
-  )");
-  ASSERT_EQ(result.size(), 2);
-  for (const nlohmann::json& canvas : result) {
-    // The results at the end of the page may have added a scroll bar.
-    EXPECT_NEAR(canvas.at(0).get<double>(), canvas.at(1).get<double>(), 20);
-    EXPECT_NEAR(canvas.at(2).get<double>(), canvas.at(3).get<double>(), 1);
-  }
-}
-
-/// Of a query whose points are far from their common ball: two long edges that are nearly parallel.
-TEST_F(ViewBrowser, TheObjectFillsItsPicture) {
-  const PosedQuery posed{Kind::edge_edge, {{1,  0, 0.1, 9, 0.1, 0, 1,  0,   0.2, 9, -0.1, 0.2,
-                                            1., 0, 0.1, 9, 0.1, 0, 1., 0.1, 0,   9, -0.1, 0}}};
-  const nlohmann::json result = result_of({posed}, R"(
-    const filled = () => {
-      const canvas = document.querySelector("#motion canvas");
-      const copy = document.createElement("canvas");
-      [copy.width, copy.height] = [canvas.width, canvas.height];
-      copy.getContext("2d").drawImage(canvas, 0, 0);
-      const data = copy.getContext("2d").getImageData(0, 0, copy.width, copy.height).data;
-      const drawn = Array.from({ length: data.length / 4 }, (_, i) => i).filter((i) => data[4 * i + 3] > 0);
-      const range = (all) => all.reduce(([a, b], x) => [Math.min(a, x), Math.max(b, x)], [Infinity, 0]);
-      const [left, right] = range(drawn.map((i) => i % copy.width));
-      const [top, bottom] = range(drawn.map((i) => Math.floor(i / copy.width)));
-      return Math.max((right - left) / copy.width, (bottom - top) / copy.height);
-    };
-    const canvas = document.querySelector("#motion canvas");
-    const parts = [filled()];
-    for (let i = 0; i < 3; ++i) {
-      for (let k = 0; k < 5; ++k) canvas.dispatchEvent(new KeyboardEvent("keydown", { key: "ArrowRight" }));
-      parts.push(filled());
-    }
-    say(parts);
-  )");
-  ASSERT_EQ(result.size(), 4U);
-  for (const auto& part : result) {
-    // (Seen along the edges, they are not enlarged without a limit.)
-    EXPECT_GT(part.get<double>(), 0.45);
-    EXPECT_LT(part.get<double>(), 1.0);
-  }
-  EXPECT_GT(result.at(0).get<double>(), 0.7);
-}
-
 TEST_F(ViewBrowser, KeysMoveTimeZoomAndList) {
   const nlohmann::json result = result_of({falling(), falling(0.5)}, R"(
     choose("format", "rational");
@@ -484,15 +413,6 @@ TEST_F(ViewBrowser, KeysMoveTimeZoomAndList) {
   EXPECT_EQ(result.at("zoom"), nlohmann::json::array({1000, 0}));
   EXPECT_EQ(result.at("list"), nlohmann::json::array({"1", "0", "1"}));
   EXPECT_EQ(result.at("turned"), true);
-}
-
-TEST_F(ViewBrowser, SaysThatThereIsNothing) {
-  const nlohmann::json result = result_of({}, R"(
-    const before = [find("nothing").hidden, find("query").hidden];
-    paste("1 1 1 0 0 0 4 0 0 0 4 0  1 1 -2 0 0 0 4 0 0 0 4 0");
-    say([...before, find("nothing").hidden, find("query").hidden]);
-  )");
-  EXPECT_EQ(result, nlohmann::json::array({false, true, true, false}));
 }
 
 TEST_F(ViewBrowser, FitsATelephone) {
@@ -566,22 +486,6 @@ TEST_F(ViewBrowser, PrintsWhatIsShownWithoutTheControls) {
   EXPECT_GT(second.at("names"), 3.0);
 }
 
-// Browsers print an empty canvas for WebGL.
-TEST_F(ViewBrowser, PrintsImagesOfItsPictures) {
-  const nlohmann::json result = result_of({falling()}, R"(
-    const empty = document.createElement("canvas");
-    const images = () => all("#query .canvas img").map((image) => {
-      [empty.width, empty.height] = [image.previousElementSibling.width, image.previousElementSibling.height];
-      return image.src !== empty.toDataURL();
-    });
-    window.dispatchEvent(new Event("beforeprint"));
-    const during = images();
-    window.dispatchEvent(new Event("afterprint"));
-    say([during, images(), pixels("motion") > 50]);
-  )");
-  EXPECT_EQ(result, nlohmann::json::parse("[[true, true], [], true]"));
-}
-
 TEST_F(ViewBrowser, WithoutWebGlTheNumbersAreThere) {
   const nlohmann::json result =
       result_of({falling()}, R"(
@@ -634,21 +538,6 @@ constexpr std::string_view height_of_mesh = R"(
   const at = (step) => { move("step_time", step); return [...height(), find("step_now").textContent]; };
 )";
 
-TEST_F(ViewBrowser, TheSliderMovesTheMesh) {
-  const nlohmann::json result = result_on(page_of_a_step(false), std::string(height_of_mesh) + R"(
-    say({ heights: [0, 2048, 4096].map(at), verdict: find("step_verdict").textContent,
-      hidden: [find("query").hidden, find("numbers").hidden] });
-  )");
-  EXPECT_EQ(result.at("verdict"), "No collision.");
-  EXPECT_EQ(result.at("hidden"), nlohmann::json::array({true, true}));
-  const nlohmann::json& heights = result.at("heights");
-  const double low = heights.at(0).at(0), middle = heights.at(1).at(0), high = heights.at(2).at(0);
-  EXPECT_GT(low, middle + 5.0) << heights;
-  EXPECT_GT(middle, high + 5.0) << heights;
-  EXPECT_NEAR(middle, (low + high) / 2, 0.1 * (low - high)) << heights;
-  for (const nlohmann::json& height : heights) EXPECT_GT(height.at(1), 200);
-}
-
 TEST_F(ViewBrowser, PairsOfAStepLeadToTheirQueries) {
   const nlohmann::json result = result_on(page_of_a_step(true), std::string(height_of_mesh) + R"(
     choose("format", "rational");
@@ -678,19 +567,6 @@ TEST_F(ViewBrowser, PairsOfAStepLeadToTheirQueries) {
   EXPECT_EQ(last.at("chosen"), nlohmann::json::array({result.at("names").at(pairs - 1)}));
   EXPECT_EQ(last.at("past"), pairs);
   for (const nlohmann::json& count : result.at("drawn")) EXPECT_GT(count, 200);
-}
-
-TEST_F(ViewBrowser, PrintsAStepWithItsTime) {
-  const nlohmann::json result = result_on(page_of_a_step(true), std::string(on_paper) + R"(
-    say({ unseen: unseen(["#step_verdict", "#mesh canvas", "#mesh .names span", "#step_now", "#pairs span"]), controls: controls(),
-      named: text("#mesh .names span"), first: text("#pairs .chosen span"), drawn: pixels("mesh") });
-  )",
-                                          718);
-  EXPECT_EQ(result.at("unseen"), nlohmann::json::array());
-  EXPECT_EQ(result.at("controls"), 0);
-  EXPECT_EQ(result.at("named").size(), 1) << "the first pair is pointed out";
-  EXPECT_EQ(result.at("named"), result.at("first"));
-  EXPECT_GT(result.at("drawn"), 200);
 }
 
 // ---- A page that decides ------------------------------------------------------------------------
@@ -728,20 +604,6 @@ class LivePage : public ViewBrowser {
 };
 
 constexpr const char* link = "q=vertex_face,1,1,0x1p-1,0,0,0,4,0,0,0,4,0,1,1,-2,0,0,0,4,0,0,0,4,0";
-
-TEST_F(LivePage, DecidesTheQueryOfALink) {
-  const nlohmann::json result = result_of({falling(1)}, R"(
-    say({ verdict: find("verdict").textContent, asked, label: find("label").textContent, title: text("h1") });
-  )",
-                                          1200, with_hash(link));
-  EXPECT_EQ(result.at("verdict"), "collides");
-  EXPECT_EQ(result.at("title").at(0), "Touchstone playground");
-  const nlohmann::json& asked = result.at("asked").at(0);
-  EXPECT_EQ(asked.at("edge"), 0);
-  EXPECT_EQ(asked.at("coordinates").at(2), 0.5);
-  EXPECT_EQ(asked.at("coordinates").at(14), -2);
-  EXPECT_EQ(asked.at("distance"), 0);
-}
 
 TEST_F(LivePage, FollowsTheAddress) {
   const nlohmann::json result = result_of({falling(1)}, R"(
