@@ -13,6 +13,10 @@ Of the blocks of a page, in their order:
 - `text` must be printed by the `sh` block before: its lines in their order, blanks compared loosely, … for anything.
 - `console` is a transcript: a line `$ COMMAND` (lines `> …` continue it), all lines that it prints, errors included, and
   its exit status as `[N]` unless it is 0. … stands for anything within a line, a line of … for any lines.
+
+Their commands find the tool and its checker by name, plugins for tests in $PLUGINS, and the sources in $TOUCHSTONE_SOURCE;
+`json FILE EXPRESSION…` prints Python expressions of a JSON file, which they call j (items of generators one a line; without
+an expression all members); `refused ARGUMENT…` prints why the tool refuses its arguments, with the status 2.
 """
 
 import argparse
@@ -25,6 +29,13 @@ import tempfile
 
 ROOT = pathlib.Path(__file__).resolve().parents[1]
 BLOCK = re.compile(r"(?:<!-- (not run: [^>]+|clone) -->\n)?^```(\w*)\n(.*?)^```$", re.DOTALL | re.MULTILINE)
+PRELUDE = """set -e
+json() { python3 -c '
+import json, sys
+j = json.load(open(sys.argv[1]))
+values = map(eval, sys.argv[2:] or ["(f\\"{key}: {value}\\" for key, value in j.items())"])
+print(*("\\n".join(map(str, value)) if hasattr(value, "__next__") else value for value in values))' "$@"; }
+refused() { touchstone "$@" 2>&1 | sed '/^Run with --help/d'; local status=$PIPESTATUS; [ $status = 2 ] || echo "[$status]"; }"""
 STEP = re.compile(r"^\$ (.*\n(?:> .*\n)*)((?:(?!\$ ).*\n)*)", re.MULTILINE)
 
 
@@ -41,6 +52,14 @@ def faults_of(expected, printed):
             lines = lines[found + 1:]
 
 
+def rewritten(expected, printed):
+    """What was printed, with the … of the expected lines that it matches."""
+    patterns = [(line, re.compile(".*".join(map(re.escape, line.split("…"))))) for line in expected.splitlines()
+                if "…" in line and line != "…"]
+    return "".join(next((line for line, pattern in patterns if pattern.fullmatch(actual)), actual) + "\n"
+                   for actual in printed.splitlines())
+
+
 def transcript_fault(expected, printed):
     """True if a transcript's lines are not what was printed; … stands for anything, a line of … for any lines."""
     lines = [" ".join(line.split()) for line in expected.splitlines()]
@@ -51,8 +70,9 @@ def transcript_fault(expected, printed):
 def follow(page, folder, options):
     """The faults of a page."""
     text = page.read_text()
-    script, expected, steps, blocks = ["set -e"], [], [], 0
-    for mark, language, body in BLOCK.findall(text):
+    script, expected, steps, blocks = [PRELUDE], [], [], 0
+    for block in BLOCK.finditer(text):
+        mark, language, body = block.groups("")
         name = re.match(r"(?://|#) ([\w./-]+\.\w+)(?::.*)?\n", body)
         if name and name[1].startswith("examples/"):
             if (ROOT / name[1]).read_text() != body.split("\n", 1)[1]:
@@ -67,31 +87,33 @@ def follow(page, folder, options):
         elif language == "console":
             for step in STEP.finditer(body):
                 blocks += 1
-                steps.append((blocks, step))
+                steps.append((blocks, step, block.start(3)))
                 command = step[1].replace("\n> ", "\n")
-                script.append(f"echo '@@ {blocks}'\nset +e\n{command}echo \"[$?]\"\nset -e")
-    environment = os.environ | {"TERM": "dumb"}
+                script.append(f"echo '@@ {blocks}'\nset +e -o pipefail\n{command}echo \"[$?]\"\nset -e +o pipefail")
+    environment = os.environ | {"TERM": "dumb", "LC_ALL": "C.UTF-8"}
     if not options.clone:
         environment |= {"TOUCHSTONE_SOURCE": str(ROOT), "TOUCHSTONE_BUILD": str(options.tool.parent),
+                        "PLUGINS": str(options.tool.parent / "tests/plugins"),
                         # The python3 of Debian, which has NumPy.
                         "PATH": f"{options.tool.parent}:/usr/bin:{os.environ['PATH']}",
                         "PYTHONPATH": str(options.tool.parent / "python"), "PYTHONDONTWRITEBYTECODE": "1"}
-    done = subprocess.run(["bash", "-c", "\n".join(script)], cwd=folder, env=environment, text=True, stdin=subprocess.DEVNULL,
-                          stdout=subprocess.PIPE, stderr=subprocess.STDOUT, check=False)
-    printed = dict(re.findall(r"^@@ (\d+)\n(.*?)(?=^@@ \d+\n|\Z)", done.stdout, re.DOTALL | re.MULTILINE))
+    done = subprocess.run(["bash", "-c", "\n".join(script)], cwd=folder, env=environment, text=True, errors="replace",
+                          stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, check=False)
+    # Without lines of progress, which commands print on a machine so loaded that they take long.
+    output = re.sub(r"^.* \[#*\.*\] +\d+ %.*\n", "", done.stdout, flags=re.MULTILINE)
+    printed = dict(re.findall(r"^@@ (\d+)\n(.*?)(?=^@@ \d+\n|\Z)", output, re.DOTALL | re.MULTILINE))
     if options.verbose:
         print(done.stdout)
     if done.returncode != 0 or len(printed) != blocks or blocks == 0:
         yield f"{page}: block {len(printed)} of {blocks} ended with {done.returncode}\n{done.stdout[-2000:]}"
         return
-    written = text
-    for block, step in steps:
+    for block, step, start in reversed(steps):
         actual = printed[str(block)].removesuffix("[0]\n")
         if transcript_fault(step[2], actual):
             yield f"{page}: $ {step[1]}prints\n{actual}and not\n{step[2]}"
-            written = written.replace(step[0], f"$ {step[1]}{actual}", 1)
-    if options.write and written != text:
-        page.write_text(written)
+            text = text[:start + step.start(2)] + rewritten(step[2], actual) + text[start + step.end(2):]
+    if options.write:
+        page.write_text(text)
     for block, body in expected:
         for line in faults_of(body, printed[str(block)]):
             yield f"{page}: block {block} does not print: {line}\nbut:\n{printed[str(block)][-1500:]}"

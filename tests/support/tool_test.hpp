@@ -102,25 +102,6 @@ class ToolTest : public FolderTest {
     return finish(start(words, output));
   }
 
-  /// Runs the program, and interrupts it when it handles interrupts and the condition holds.
-  [[nodiscard]] Outcome run_interrupted(
-      const std::vector<std::string>& words,
-      const std::function<bool()>& condition = [] { return true; }) const {
-    const pid_t process = start(words);
-    EXPECT_TRUE(comes_true([&] { return handles(process, SIGINT) && condition(); }));
-    kill(process, SIGINT);
-    return finish(process);
-  }
-
-  /// True if a file with this beginning of its name has contents. (The name is temporary until the
-  /// end.)
-  [[nodiscard]] bool has_grown(const std::string& name) const {
-    for (const auto& entry : std::filesystem::directory_iterator(folder())) {
-      if (entry.path().filename().string().starts_with(name) && entry.file_size() != 0) return true;
-    }
-    return false;
-  }
-
   std::string write(const std::string& name, const std::string& text) const {
     std::filesystem::create_directories(std::filesystem::path(path(name)).parent_path());
     std::ofstream(path(name), std::ios::binary) << text;
@@ -129,27 +110,6 @@ class ToolTest : public FolderTest {
 
   [[nodiscard]] nlohmann::json json(const std::string& name) const {
     return nlohmann::json::parse(read(name));
-  }
-};
-
-/// Tests that give the shell a subcommand's arguments as one text. Output goes to "out" and "err",
-/// JSON to "json".
-template <const char* subcommand>
-class ShellTest : public ToolTest {
- protected:
-  /// Runs the subcommand, after shell words such as a limit of time; returns its exit status.
-  [[nodiscard]] int run(const std::string& arguments, const std::string& before = "") const {
-    const std::string command = before + " '" + touchstone_program() + "' " + subcommand + " " +
-                                arguments + " >" + quoted("out") + " 2>" + quoted("err");
-    const int status = std::system(command.c_str());  // NOLINT(cert-env33-c): a test's own command
-    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-  }
-
-  [[nodiscard]] nlohmann::json json() const { return ToolTest::json("json"); }
-  [[nodiscard]] std::string quoted(const std::string& name) const { return "'" + path(name) + "'"; }
-  /// Writes a file and returns its path in quotes.
-  std::string write(const std::string& name, const std::string& text) const {
-    return "'" + ToolTest::write(name, text) + "'";
   }
 };
 
