@@ -101,6 +101,14 @@ TEST(Tables, NumbersAreShort) {
   EXPECT_EQ(short_number(std::numeric_limits<double>::quiet_NaN()), "–");
 }
 
+TEST(Tables, HavePercentOfTwoDigits) {
+  EXPECT_EQ(percent(0.0000123), "0.0012 %");
+  EXPECT_EQ(percent(0.083), "8.3 %");
+  EXPECT_EQ(percent(0.994), "99 %");
+  EXPECT_EQ(percent(0.996), "100 %");
+  EXPECT_EQ(percent(1.0), "100 %");
+}
+
 TEST(Tables, WriteMarkdownAndCsv) {
   const Table table{.title = "t", .columns = {"a", "b|c"}, .rows = {{"1", "x, \"y\""}}};
   EXPECT_EQ(to_markdown(table), "| a | b\\|c |\n| --- | --- |\n| 1 | x, \"y\" |\n");
