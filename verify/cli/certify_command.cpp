@@ -269,8 +269,9 @@ void add(CLI::App& app, Status& status) {
            "touchstone certify data/handcrafted --json result.json\n"
            "touchstone certify --min-separation 1e-8 --norm l2 --method tight_inclusion",
            "By default our solvers are judged, and only on the built-in set; --method none "
-           "disables this. Definitions of wrong answers: docs/testing.md.\n" +
-               std::string(judging_statuses));
+           "disables this. Definitions of wrong answers: docs/testing.md. Queries on curves are "
+           "decided, too; touchstone curved judges plugins on them.\n" +
+               std::string(answering_statuses));
   command->callback([arguments, command, &status] {
     if (have_curves(arguments->sources)) {
       CurvedArguments curves =

@@ -297,7 +297,15 @@ void refuse_for_curves(const CLI::App& command, const std::vector<std::string>& 
   for (const CLI::Option* option : command.get_options()) {
     const std::string name = option->get_name();
     if (option->count() == 0 || std::ranges::count(options, name) != 0) continue;
-    throw std::invalid_argument(name + " does not apply to queries on curves");
+    std::string message =
+        fmt::format("{} does not take {} with queries on curves", command.get_name(), name);
+    const CLI::App* const curved = command.get_parent()->get_subcommand("curved");
+    if (const CLI::Option* const same = curved->get_option_no_throw(name)) {
+      const std::string value = same->get_type_name();
+      message += fmt::format("; touchstone curved FILE {}{}{} does", name, value.empty() ? "" : " ",
+                             value);
+    }
+    throw std::invalid_argument(message);
   }
 }
 

@@ -211,7 +211,7 @@ TEST_F(Tool, DecidesCurves) {
   EXPECT_TRUE(contains(other.err, "tccd does not answer queries on curves")) << other.err;
   const Outcome option = run({"certify", file, "--view", path("v.html")});
   EXPECT_EQ(option.status, 2);
-  EXPECT_TRUE(contains(option.err, "--view does not apply to queries on curves")) << option.err;
+  EXPECT_TRUE(contains(option.err, "certify does not take --view with queries on curves")) << option.err;
   std::ofstream(path("vf.csv"), std::ios::binary) << "0,0,0\n";
   const Outcome mixed = run({"certify", file, path("vf.csv")});
   EXPECT_EQ(mixed.status, 2);
