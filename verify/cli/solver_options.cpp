@@ -174,7 +174,11 @@ solvers::ChildLimits SolverArguments::limits() const {
 }
 
 solvers::PluginOptions SolverArguments::loading() const {
-  return {.terms = terms, .limits = limits(), .stop = &io::interrupted()};
+  constexpr double least_limit = 10.0;  // the disk may be slow
+  return {.terms = terms,
+          .limits = limits(),
+          .load_seconds = std::max(least_limit, query_limit),
+          .stop = &io::interrupted()};
 }
 
 std::unique_ptr<fast::Method> SolverArguments::load(const std::filesystem::path& plugin) const {
