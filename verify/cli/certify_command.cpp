@@ -98,7 +98,7 @@ class CertifyRun {
     json_.close();
     view_.write(arguments_.judged.options);
     print_summary();
-    return status();
+    return worse(status_of_responses(), status());
   }
 
  private:
@@ -198,6 +198,17 @@ class CertifyRun {
     // A run that ended early did not solve all queries.
     if (sum_.interrupted || sum_.errors != 0 || budget_.is_over()) return;
     for (const std::string& warning : solvers_.warnings()) report_warning(warning);
+  }
+
+  /// The status by how the solvers took their queries; that of a piece is the merged run's to find.
+  [[nodiscard]] Status status_of_responses() const {
+    Status status = Status::all_well;
+    if (io::interrupted() || arguments_.sources.is_piece) return status;
+    for (const jobs::MethodResult& method : sum_.methods) {
+      if (method.judgement.missing != 0) continue;
+      status = worse(status, status_of(method.name, Responses::of(method.judgement)));
+    }
+    return status;
   }
 
   [[nodiscard]] bool stopped() const {
