@@ -39,13 +39,18 @@ constexpr int interpreter_socket = 3;
 
 /// The coordinates of the queries follow.
 struct Request {
+  std::int64_t number;
   std::int64_t kind;
   std::int64_t count;
   TouchstonePluginOptions options;
 };
 
-/// Before the answers: −1; else the number of bytes of an exception's text, which follows.
-using Reply = std::int64_t;
+/// Before the answers, or an exception's text.
+struct Reply {
+  std::int64_t number;   ///< of the request
+  std::int64_t process;  ///< that writes it
+  std::int64_t bytes;    ///< of the text; −1: answers follow
+};
 
 std::string setting(const char* name) {
   const char* const value = std::getenv(name);
@@ -78,17 +83,21 @@ class Interpreter {
     if (error != 0) throw std::system_error(error, std::generic_category(), program);
   }
 
-  void solve(const Request& request, const double* coordinates, TouchstonePluginAnswer* answers) {
+  void solve(Request request, const double* coordinates, TouchstonePluginAnswer* answers) {
+    request.number = ++requests_;
     const auto count = std::size_t(request.count);
     transfer(::send, &request, sizeof request);
     transfer(::send, coordinates, count * sizeof(double) * 24);
     Reply reply{};
     transfer(::recv, &reply, sizeof reply);
-    if (reply < 0) {
+    if (reply.number != requests_ || reply.process != process_) {
+      throw std::runtime_error("the reply is not that of the interpreter to this request");
+    }
+    if (reply.bytes < 0) {
       transfer(::recv, answers, count * sizeof *answers);
       return;
     }
-    std::string text(std::size_t(reply), ' ');
+    std::string text(std::size_t(reply.bytes), ' ');
     transfer(::recv, text.data(), text.size());
     throw std::runtime_error(text);
   }
@@ -119,6 +128,7 @@ class Interpreter {
 
   int socket_ = -1;
   pid_t process_ = 0;
+  std::int64_t requests_ = 0;
 };
 
 }  // namespace
@@ -136,7 +146,8 @@ void touchstone_plugin_solve_batch(int32_t kind, int64_t count, const double* co
   static std::mutex guard;
   static Interpreter interpreter;
   const std::scoped_lock lock(guard);
-  interpreter.solve({.kind = kind, .count = count, .options = *options}, coordinates, answers);
+  interpreter.solve({.number = 0, .kind = kind, .count = count, .options = *options}, coordinates,
+                    answers);
 }
 
 void touchstone_plugin_solve(int32_t kind, const double* coordinates,

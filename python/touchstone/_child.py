@@ -16,8 +16,8 @@ from typing import Any, BinaryIO, Dict, List, Tuple
 import numpy as np
 
 SOCKET = 3
-REQUEST = struct.Struct("=qqdqddi4x")
-REPLY = struct.Struct("=q")
+REQUEST = struct.Struct("=qqqdqddi4x")
+REPLY = struct.Struct("=qqq")
 ANSWER = struct.Struct("=i4xddd")
 QUERY_BYTES = 24 * 8
 KINDS = ("vertex_face", "edge_edge")
@@ -62,7 +62,7 @@ def items_of(value: Any, count: int) -> List[Any]:
     return list(zip(*parts)) if isinstance(value, tuple) else list(parts[0])
 
 
-def ask(solver: Dict[str, Any], fields: Tuple[Any, ...], data: bytes) -> List[Answer]:
+def ask(solver: Dict[str, Any], fields: List[Any], data: bytes) -> List[Answer]:
     """Return the solver's answers to a request about queries."""
     kind, count, tolerance, max_checks, separation, t_max, norm = fields
     queries = np.frombuffer(bytearray(data)).reshape(count, 8, 3)
@@ -81,20 +81,27 @@ def ask(solver: Dict[str, Any], fields: Tuple[Any, ...], data: bytes) -> List[An
 
 
 def serve(solver: Dict[str, Any], requests: BinaryIO, replies: BinaryIO) -> None:
-    """Answer until the other end is closed."""
+    """Answer until the other end is closed.
+
+    Each request has a number, which its reply repeats, together with the number of the process that writes it. A copy
+    of this process that the solver made ends here, where it comes back from the solver.
+    """
+    process = os.getpid()
     while True:
         head = requests.read(REQUEST.size)
         if len(head) < REQUEST.size:
             return
-        fields = REQUEST.unpack(head)
+        number, *fields = REQUEST.unpack(head)
         data = requests.read(fields[1] * QUERY_BYTES)
         try:
             answers = ask(solver, fields, data)
-            reply = REPLY.pack(-1) + b"".join(ANSWER.pack(*answer, math.nan) for answer in answers)
+            reply = REPLY.pack(number, os.getpid(), -1) + b"".join(ANSWER.pack(*answer, math.nan) for answer in answers)
         except Exception as error:
             text = traceback.format_exception_only(type(error), error)[-1].strip().encode()
-            reply = REPLY.pack(len(text)) + text
+            reply = REPLY.pack(number, os.getpid(), len(text)) + text
         sys.stdout.flush()
+        if os.getpid() != process:
+            os._exit(0)
         replies.write(reply)
         replies.flush()
 

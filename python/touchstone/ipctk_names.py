@@ -1,4 +1,4 @@
-"""The certified solver under the names of ipctk, the Python package of the IPC Toolkit.
+"""The certified solver under four names of ipctk, the Python package of the IPC Toolkit.
 
 Replace ``import ipctk`` by ``from touchstone import ipctk_names as ipctk`` where these functions are called:
 names of arguments, defaults and results are the same. A result is ``(collides, toi)``.

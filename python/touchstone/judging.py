@@ -496,7 +496,7 @@ def certify(
         True if the solver takes arrays of shape (N, 8, 3) and returns arrays of shape (N,). N grows from
         1 to 512 as the solver proves to be fast; after a failure its queries are asked with N=1.
     name : str, optional
-        The name of the solver in the report.
+        The name of the solver in the report: at most 100 bytes, and not that of one of `methods`.
     promise : {"conservative", "exact"}, optional
         With "exact" false positives are wrong answers, too.
     separation : float, optional
@@ -524,7 +524,8 @@ def certify(
     Raises
     ------
     ValueError
-        For bad data, naming file and line, or a solver that cannot be sent to another process.
+        For bad data, naming file and line, a solver that cannot be sent to another process, or one that
+        answers nothing.
     FileNotFoundError
         Without the command line tool.
     Interrupted

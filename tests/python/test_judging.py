@@ -123,6 +123,39 @@ def test_every_form_of_a_right_solver_is_acquitted(eight):
     assert near.wrong == [] and near.to_dict()["separation"]["min_separation"] == 0.5
 
 
+def copies_itself(kind, query):
+    """A right answer, unless it is the copy's."""
+    return os.fork() != 0
+
+
+def fails_in_its_copy(kind, query):
+    """A right answer; an exception in the copy."""
+    if os.fork() == 0:
+        raise ValueError("the copy")
+    return True
+
+
+@pytest.mark.parametrize("solver", [copies_itself, fails_in_its_copy])
+def test_a_copy_of_the_solver_answers_nothing(solver, eight):
+    judgement = touchstone.certify(solver, eight, promise="exact", query_limit=60.0, threads=1)
+    assert judgement.wrong == [] and judgement.queries == 8
+
+
+def test_bytes_that_are_no_reply_are_an_error(eight):
+    def writes_to_the_socket(kind, query):
+        os.write(3, bytes(24))
+        return True
+
+    judgement = touchstone.certify(writes_to_the_socket, eight, query_limit=60.0, threads=1)
+    assert judgement.count("errors") == 8
+
+
+@pytest.mark.parametrize("name", ["certified", "x" * 101])
+def test_a_name_that_misleads_is_refused(name, eight):
+    with pytest.raises(ValueError, match="name (is that of a built-in solver|has more than 100 bytes)"):
+        touchstone.certify(copies_itself, eight, name=name)
+
+
 def test_a_batch_is_many_queries_and_a_failure_costs_one():
     data = touchstone.Queries("edge_edge", np.random.default_rng(3).normal(size=(300, 8, 3)))
     unwanted = data.queries[200].copy()

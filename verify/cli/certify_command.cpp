@@ -98,7 +98,7 @@ class CertifyRun {
     json_.close();
     view_.write(arguments_.judged.options);
     print_summary();
-    return status();
+    return worse(status_of_responses(), status());
   }
 
  private:
@@ -200,6 +200,17 @@ class CertifyRun {
     for (const std::string& warning : solvers_.warnings()) report_warning(warning);
   }
 
+  /// The status by how the solvers took their queries; that of a piece is the merged run's to find.
+  [[nodiscard]] Status status_of_responses() const {
+    Status status = Status::all_well;
+    if (io::interrupted() || arguments_.sources.is_piece) return status;
+    for (const jobs::MethodResult& method : sum_.methods) {
+      if (method.judgement.missing != 0) continue;
+      status = worse(status, status_of(method.name, Responses::of(method.judgement)));
+    }
+    return status;
+  }
+
   [[nodiscard]] bool stopped() const {
     return io::interrupted() || budget_.is_over() ||
            (sum_.errors != 0 && !arguments_.sources.keep_going);
@@ -269,8 +280,9 @@ void add(CLI::App& app, Status& status) {
            "touchstone certify data/handcrafted --json result.json\n"
            "touchstone certify --min-separation 1e-8 --norm l2 --method tight_inclusion",
            "By default our solvers are judged, and only on the built-in set; --method none "
-           "disables this. Definitions of wrong answers: docs/testing.md.\n" +
-               std::string(judging_statuses));
+           "disables this. Definitions of wrong answers: docs/testing.md. Queries on curves are "
+           "decided, too; touchstone curved judges plugins on them.\n" +
+               std::string(answering_statuses));
   command->callback([arguments, command, &status] {
     if (have_curves(arguments->sources)) {
       CurvedArguments curves =

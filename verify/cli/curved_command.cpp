@@ -42,14 +42,16 @@ void add(CLI::App& app, Status& status) {
                    "Write certificates for touchstone-check; compressed if it ends in .zst")
       ->type_name("FILE");
   add_json_option(*command, arguments->json_file);
-  set_help(*command,
-           "touchstone curved --others --plugin mine.so\n"
-           "touchstone curved curves.csv --kind edge-edge --proof curves.cert",
-           "A row of an array has the control points of a query from t=0 to t=1, each of the four "
-           "points, with weights last if the curves are rational. A file of CSV begins with "
-           "degree,K or rational,K.\n"
-           "Exit status: 0 success, 1 an answer of ours is wrong or a plugin breaks its promise, "
-           "2 bad input or usage, 130 interrupted.");
+  set_help(
+      *command,
+      "touchstone curved --others --plugin mine.so\n"
+      "touchstone curved curves.csv --kind edge-edge --proof curves.cert",
+      "A row of an array has the control points of a query from t=0 to t=1, each of the four "
+      "points, with weights last if the curves are rational. A file of CSV begins with "
+      "degree,K or rational,K.\n"
+      "Exit status: 0 success, 1 an answer of ours is wrong, or a plugin breaks its promise "
+      "or hangs at more than 1 % of its queries, 2 bad input or usage, or a plugin that answers "
+      "nothing, 130 interrupted.");
   command->callback([arguments, command, &status] {
     settle_solver_options(*command, false, arguments->judged);
     status = run_curves(*arguments);

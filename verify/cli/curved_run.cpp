@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <span>
@@ -97,7 +98,11 @@ class CurvedRun {
     io::print(files_.summary_stream(), text_);
     if (io::interrupted()) return Status::interrupted;
     if (files_.has_failed() || beyond_limits_ > 0) return Status::bad_input;
-    return wrong_ > 0 ? Status::wrong_answers : Status::all_well;
+    Status status = wrong_ > 0 ? Status::wrong_answers : Status::all_well;
+    for (const auto& [name, responses] : responses_) {
+      status = worse(status, status_of(name, responses));
+    }
+    return status;
   }
 
  private:
@@ -162,6 +167,7 @@ class CurvedRun {
     wrong_ += result.wrong.size() + result.against_truth.size();
     for (const jobs::CurvedPluginResult& plugin : result.plugins) {
       if (plugin.is_broken()) ++wrong_;
+      responses_[plugin.name] += Responses::of(plugin.judgement);
       report_output(plugin.name, plugin.output, arguments_.judged.show_output);
     }
     add_text(set, result);
@@ -243,6 +249,7 @@ class CurvedRun {
   std::size_t certificates_ = 0;
   std::size_t beyond_limits_ = 0;
   std::size_t wrong_ = 0;
+  std::map<std::string, Responses> responses_;  ///< of the plugins
 };
 
 }  // namespace
@@ -297,7 +304,15 @@ void refuse_for_curves(const CLI::App& command, const std::vector<std::string>& 
   for (const CLI::Option* option : command.get_options()) {
     const std::string name = option->get_name();
     if (option->count() == 0 || std::ranges::count(options, name) != 0) continue;
-    throw std::invalid_argument(name + " does not apply to queries on curves");
+    std::string message =
+        fmt::format("{} does not take {} with queries on curves", command.get_name(), name);
+    const CLI::App* const curved = command.get_parent()->get_subcommand("curved");
+    if (const CLI::Option* const same = curved->get_option_no_throw(name)) {
+      const std::string value = same->get_type_name();
+      message += fmt::format("; touchstone curved FILE {}{}{} does", name, value.empty() ? "" : " ",
+                             value);
+    }
+    throw std::invalid_argument(message);
   }
 }
 

@@ -19,6 +19,12 @@ inline constexpr std::string_view judging_statuses =
     "Exit status: 0 success, 1 wrong answers, 2 bad input or usage, 130 interrupted (results so "
     "far are written).";
 
+/// The same if a solver that does not answer counts as well.
+inline constexpr std::string_view answering_statuses =
+    "Exit status: 0 success, 1 wrong answers, or a solver that hangs at more than 1 % of its "
+    "queries, 2 bad input or usage, or a solver that answers nothing, 130 interrupted (results so "
+    "far are written).";
+
 /// The exit statuses of a command that judges nothing.
 inline constexpr std::string_view writing_statuses =
     "Exit status: 0 success, 2 bad input or usage, 130 interrupted (results so far are written).";

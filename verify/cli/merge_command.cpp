@@ -46,8 +46,9 @@ void add(CLI::App& app, Status& status) {
            "is the same however the pieces were done. A piece that is missing, damaged, of another "
            "run or version, or whose input has changed is an error that names it. Run it where the "
            "pieces ran: their inputs are checked again.\n"
-           "Exit status: 0 success, 1 wrong answers or collisions in a piece, 2 the pieces are not "
-           "all there and valid.");
+           "Exit status: 0 success, 1 wrong answers or collisions in a piece, or a solver that "
+           "hangs at more than 1 % of all queries, 2 the pieces are not all there and valid, or a "
+           "solver answers nothing.");
   command->callback([arguments, &status] { status = run(*arguments); });
 }
 

@@ -14,6 +14,7 @@
 #include "verify/cli/certificates_file.hpp"
 #include "verify/cli/files.hpp"
 #include "verify/cli/options.hpp"
+#include "verify/cli/solver_options.hpp"
 #include "verify/cli/version.hpp"
 #include "verify/data/dataset.hpp"
 #include "verify/data/ground_truth_files.hpp"
@@ -159,6 +160,26 @@ void write_merged_text(const jobs::PieceFolder& folder, const std::string& optio
   output.close(std::string_view());
 }
 
+/// The status by how the solvers took the queries of all pieces.
+Status status_of_responses(const nlohmann::json& total) {
+  const auto responses = [](const nlohmann::json& counts) -> Responses {
+    return {.asked = counts.at("queries"),
+            .hangs = counts.at("failures").at(judge::to_string(judge::Fault::hang)),
+            .errors = counts.at("errors"),
+            .unasked = counts.value("unasked", std::uint64_t{0}) +
+                       counts.value("outside", std::uint64_t{0}) +
+                       counts.value("left_out", std::uint64_t{0})};
+  };
+  Status status = Status::all_well;
+  if (total.contains("method")) {
+    return status_of(total.at("method").get<std::string>(), responses(total));
+  }
+  for (const nlohmann::json& method : total.value("methods", nlohmann::json::array())) {
+    status = worse(status, status_of(method.at("name").get<std::string>(), responses(method)));
+  }
+  return status;
+}
+
 /// Writes the merged files, and prints a summary. \pre the folder has no faults
 Status write_merged(const jobs::PieceFolder& folder, const std::string& json_file) {
   Files files;
@@ -174,7 +195,8 @@ Status write_merged(const jobs::PieceFolder& folder, const std::string& json_fil
   }
   io::print(files.summary_stream(),
             fmt::format("{} pieces\n{}", folder.plan().pieces.size(), summary_text(total)));
-  return files.has_failed() ? Status::bad_input : static_cast<Status>(folder.status());
+  const Status status = worse(static_cast<Status>(folder.status()), status_of_responses(total));
+  return files.has_failed() ? Status::bad_input : status;
 }
 
 }  // namespace
@@ -212,7 +234,7 @@ std::vector<jobs::Piece> pieces_of(const SourceArguments& sources) {
       pieces.push_back(
           {.name = fmt::format("{} {}", families[i].family.name, to_string(families[i].kind)),
            .files = {},
-           .arguments = {fmt::format("--only-source={}", i)}});
+           .arguments = {"--piece", fmt::format("--only-source={}", i)}});
     }
     return pieces;
   }
@@ -223,7 +245,8 @@ std::vector<jobs::Piece> pieces_of(const SourceArguments& sources) {
                                                 : std::map<fs::path, std::string>();
     for (const fs::path& file : datasets) {
       if (!seen.insert(fs::weakly_canonical(file)).second) continue;
-      jobs::Piece piece{.name = file.string(), .files = {file}, .arguments = {file.string()}};
+      jobs::Piece piece{
+          .name = file.string(), .files = {file}, .arguments = {"--piece", file.string()}};
       for (const fs::path& companion : data::find_ground_truth_files(file)) {
         piece.files.push_back(companion);
       }

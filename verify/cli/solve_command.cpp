@@ -160,7 +160,13 @@ class SolveRun {
     if (files_.has_failed() || reading_errors_ + sum_.skipped != 0) {
       return Status::bad_input;
     }
-    return io::interrupted() ? Status::interrupted : Status::all_well;
+    if (io::interrupted()) return Status::interrupted;
+    if (arguments_.sources.is_piece) return Status::all_well;
+    return status_of(solver_.name(),
+                     {.asked = sum_.queries,
+                      .hangs = sum_.failures[static_cast<std::size_t>(judge::Fault::hang)],
+                      .errors = sum_.errors,
+                      .unasked = sum_.unasked});
   }
 
   const Arguments& arguments_;
@@ -198,7 +204,9 @@ void add(CLI::App& app, Status& status) {
   add_json_option(*command, arguments->json_file);
   set_help(
       *command, "touchstone solve --plugin ./libsolver.so data/handcrafted --out answers.csv",
-      "A method that supports only linf is conservative for l2.\n" + std::string(writing_statuses));
+      "A method that supports only linf is conservative for l2.\n"
+      "Exit status: 0 success, 1 the solver hangs at more than 1 % of its queries, 2 bad input "
+      "or usage, or it answers nothing, 130 interrupted (results so far are written).");
   command->callback([arguments, command, &status] {
     if (have_curves(arguments->sources)) {
       CurvedArguments curves = curved_arguments(

@@ -174,7 +174,11 @@ solvers::ChildLimits SolverArguments::limits() const {
 }
 
 solvers::PluginOptions SolverArguments::loading() const {
-  return {.terms = terms, .limits = limits(), .stop = &io::interrupted()};
+  constexpr double least_limit = 10.0;  // the disk may be slow
+  return {.terms = terms,
+          .limits = limits(),
+          .load_seconds = std::max(least_limit, query_limit),
+          .stop = &io::interrupted()};
 }
 
 std::unique_ptr<fast::Method> SolverArguments::load(const std::filesystem::path& plugin) const {
@@ -224,6 +228,45 @@ void report_unplaced_crashes(std::string_view solver, std::uint64_t crashes) {
   if (crashes == 0) return;
   report_error(
       fmt::format("{} ended its process {} times, not at a particular query", solver, crashes));
+}
+
+Responses Responses::of(const judge::Judgement& judgement) {
+  return {.asked = judgement.queries,
+          .hangs = judgement.count(judge::Fault::hang),
+          .errors = judgement.errors(),
+          .unasked = judgement.outside + judgement.left_out};
+}
+
+Responses& Responses::operator+=(const Responses& other) {
+  asked += other.asked;
+  hangs += other.hangs;
+  errors += other.errors;
+  unasked += other.unasked;
+  return *this;
+}
+
+Status status_of(std::string_view solver, const Responses& responses) {
+  const auto& [asked, hangs, errors, unasked] = responses;
+  if (asked + unasked == 0) return Status::all_well;
+  if (hangs + errors >= asked) {
+    report_error(
+        fmt::format("{} was not judged: it answered none of {} queries ({} hangs, {} "
+                    "errors, {} not asked)",
+                    solver, asked + unasked, hangs, errors, unasked));
+    return Status::bad_input;
+  }
+  constexpr std::uint64_t queries_of_a_hang = 100;
+  if (hangs * queries_of_a_hang <= asked) return Status::all_well;
+  report_error(fmt::format("{} hung at {} of {} queries: more than one in {} is a fault", solver,
+                           hangs, asked, queries_of_a_hang));
+  return Status::wrong_answers;
+}
+
+Status worse(Status a, Status b) {
+  for (const Status status : {Status::wrong_answers, Status::bad_input}) {
+    if (a == status || b == status) return status;
+  }
+  return std::max(a, b);
 }
 
 Solvers::Solvers(Files& files, const SolverArguments& arguments, MethodHost host) {

@@ -14,8 +14,10 @@
 
 #include "fast/certified/kernel.hpp"
 #include "fast/method.hpp"
+#include "verify/cli/commands.hpp"
 #include "verify/cli/files.hpp"
 #include "verify/fuzz/fuzz.hpp"
+#include "verify/judge/judgement.hpp"
 #include "verify/solvers/answers.hpp"
 #include "verify/solvers/plugin.hpp"
 #include "verify/solvers/solver.hpp"
@@ -96,6 +98,25 @@ void report_output(std::string_view solver, const solvers::CapturedOutput& outpu
 
 /// Reports on standard error how often a solver ended its process, if ever.
 void report_unplaced_crashes(std::string_view solver, std::uint64_t crashes);
+
+/// How a solver took the queries of a run.
+struct Responses {
+  std::uint64_t asked = 0;
+  std::uint64_t hangs = 0;
+  std::uint64_t errors = 0;
+  std::uint64_t unasked = 0;  ///< outside its terms, or left out
+
+  [[nodiscard]] static Responses of(const judge::Judgement& judgement);
+  Responses& operator+=(const Responses& other);
+};
+
+/// The status of a run by its solver's responses: bad_input if it answered nothing,
+/// wrong_answers if it hung at more than one in a hundred queries; the reason goes to standard
+/// error. all_well if there were no queries.
+[[nodiscard]] Status status_of(std::string_view solver, const Responses& responses);
+
+/// The more urgent of two: wrong_answers before bad_input before the others.
+[[nodiscard]] Status worse(Status a, Status b);
 
 /// The process in which methods run.
 enum class MethodHost : std::uint8_t {

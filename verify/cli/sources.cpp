@@ -147,6 +147,7 @@ void add_source_options(CLI::App& command, SourceArguments& arguments) {
   add_separation_options(command, arguments.separation);
   // For pieces.hpp; not in the help.
   command.add_option("--only-source", arguments.only_source)->group("");
+  command.add_flag("--piece", arguments.is_piece)->group("");
 }
 
 Separation separation_for(const SourceArguments& arguments, const data::QuerySource& source) {

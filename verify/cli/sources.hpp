@@ -46,6 +46,8 @@ struct SourceArguments {
   Shard shard = {};
   /// Of the built-in set only the source of that number (built_in_sources).
   std::optional<std::size_t> only_source = std::nullopt;
+  /// Is this a piece of another run?
+  bool is_piece = false;
 
   /// Without a path the built-in set is used.
   [[nodiscard]] bool built_in_set() const { return paths.empty(); }

@@ -88,9 +88,14 @@ Status run(const Arguments& arguments) {
   if (picture) picture.write(report::stability_page(result, command_line()));
   picture.close();
   io::print(files.summary_stream(), report::to_text(result));
+  Status status = Status::all_well;
+  for (const jobs::MethodResult& method : result.total.methods) {
+    if (io::interrupted()) break;
+    status = worse(status, status_of(method.name, Responses::of(method.judgement)));
+  }
   if (stability::has_wrong_answers(result)) return Status::wrong_answers;
-  if (files.has_failed()) return Status::bad_input;
-  return io::interrupted() ? Status::interrupted : Status::all_well;
+  if (files.has_failed()) return worse(status, Status::bad_input);
+  return io::interrupted() ? Status::interrupted : status;
 }
 
 void add_options(CLI::App& command, Arguments& arguments) {
@@ -137,7 +142,7 @@ void add(CLI::App& app, Status& status) {
            "Queries with one kind of difficulty, at eleven levels: " + list +
                ". Half of them collide. By default all built-in solvers except the baselines are "
                "judged.\n" +
-               std::string(judging_statuses));
+               std::string(answering_statuses));
   command->callback([arguments, command, &status] {
     settle_solver_options(*command, true, arguments->judged);
     settle_query_limit(*command, arguments->seconds, arguments->judged);

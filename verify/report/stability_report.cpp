@@ -255,9 +255,8 @@ Table overview_of(const stability::StabilityResult& result) {
     row.push_back(result.total.methods[i].name);
     for (const jobs::CertifyResult& sum : sums) {
       const stability::Outcome outcome = stability::outcome_of(sum, i);
-      row.push_back(outcome.worst
-                        ? fmt::format("{} {:.2g} %", name_of(outcome), 100.0 * outcome.rate)
-                        : "nothing wrong");
+      row.push_back(outcome.worst ? fmt::format("{} {}", name_of(outcome), percent(outcome.rate))
+                                  : "nothing wrong");
     }
   }
   return table;

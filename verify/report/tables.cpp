@@ -92,7 +92,7 @@ void append_published_columns(Texts& columns, const Place& place) {
 
 /// "8 (10 %)".
 std::string counted_share(std::uint64_t count, double share) {
-  return count == 0 ? "0" : fmt::format("{} ({:.2g} %)", count, 100.0 * share);
+  return count == 0 ? "0" : fmt::format("{} ({})", count, percent(share));
 }
 
 /// "12, ≤ 0.3": how many, and by how much of the step at most, where that is known.
@@ -280,6 +280,12 @@ std::string short_number(double value) {
   if (std::isnan(value)) return none;
   if (std::abs(value) >= 1000.0 && std::abs(value) < 1e9) return fmt::format("{:.0f}", value);
   return fmt::format("{:.3g}", value);
+}
+
+std::string percent(double share) {
+  const double percents = 100.0 * share;
+  // Of two digits, 100 would be 1e+02.
+  return percents < 99.5 ? fmt::format("{:.2g} %", percents) : fmt::format("{:.0f} %", percents);
 }
 
 std::string to_markdown(const Table& table) {

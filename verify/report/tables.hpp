@@ -47,6 +47,9 @@ struct Table {
 /// "12.3", "0.00456", "12300": three digits, more for whole numbers from 1000; "–" for NaN.
 [[nodiscard]] std::string short_number(double value);
 
+/// "8.3 %", "0.0012 %", "100 %": two digits, or whole numbers from 100.
+[[nodiscard]] std::string percent(double share);
+
 /// As a table of Markdown, with what could be markup escaped.
 [[nodiscard]] std::string to_markdown(const Table& table);
 

@@ -6,7 +6,7 @@
 ///
 /// - It leads a process group of its own: the keys of a terminal do not reach it, and what it has
 ///   started in turn (unless that left the group) is killed when it ends.
-/// - It dies with this process, even if that is killed.
+/// - It dies with this process, even if that is killed. It cannot send this process a signal.
 /// - Its memory, its files and their size are limited, it writes no core files and, unless allowed,
 ///   makes no processes (threads it may make). The limit of memory is of one process.
 /// - It works in a folder of its own, reads nothing from standard input, and has no descriptors of

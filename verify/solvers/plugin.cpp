@@ -1,6 +1,8 @@
 #include "verify/solvers/plugin.hpp"
 
 #include <dlfcn.h>
+#include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
@@ -22,6 +24,7 @@
 #include "verify/io/dataset_error.hpp"
 #include "verify/io/printable.hpp"
 #include "verify/io/terminal.hpp"
+#include "verify/solvers/registry.hpp"
 
 namespace touchstone::verify::solvers {
 namespace {
@@ -87,9 +90,16 @@ std::string read_name(const Library& library, const std::filesystem::path& path)
   const char* const name =
       find_function<decltype(touchstone_plugin_name)>(library, path, "touchstone_plugin_name")();
   if (name == nullptr) throw io::DatasetError(path, {}, "has no name");
-  const std::string_view text = name;
+  constexpr std::size_t longest = 100;
+  const std::string_view text(name, ::strnlen(name, longest + 1));
+  if (text.size() > longest) {
+    throw io::DatasetError(path, {}, fmt::format("name has more than {} bytes", longest));
+  }
   if (text.empty() || !io::is_printable(text)) {
     throw io::DatasetError(path, {}, "name is not one line of text: " + io::quote(text));
+  }
+  if (is_own_name(text)) {
+    throw io::DatasetError(path, {}, fmt::format("name is that of a built-in solver: {}", text));
   }
   return std::string(text);
 }
@@ -166,6 +176,23 @@ fast::Answer checked(const TouchstonePluginAnswer& answer) {
           .tolerance = tolerance};
 }
 
+/// Ends this process if it is another at the end than at the beginning: a copy that a solver made
+/// of the one that was asked. Its answers would overwrite those of the other.
+class SameProcess {
+ public:
+  SameProcess() = default;
+  SameProcess(const SameProcess&) = delete;
+  SameProcess& operator=(const SameProcess&) = delete;
+  SameProcess(SameProcess&&) = delete;
+  SameProcess& operator=(SameProcess&&) = delete;
+  ~SameProcess() {
+    if (::getpid() != process_) ::_exit(0);
+  }
+
+ private:
+  pid_t process_ = ::getpid();
+};
+
 using Solve = decltype(touchstone_plugin_solve);
 using SolveBatch = decltype(touchstone_plugin_solve_batch);
 using SolveCurved = decltype(touchstone_plugin_solve_curved);
@@ -212,6 +239,7 @@ class PluginMethod final : public fast::Method {
  private:
   void ask(std::int32_t kind, std::span<const Query> queries,
            const TouchstonePluginOptions& options, std::span<TouchstonePluginAnswer> found) const {
+    const SameProcess same;
     if (solve_batch_ != nullptr) {
       solve_batch_(kind, std::ssize(queries), queries.front().coordinates.data(), &options,
                    found.data());
@@ -255,6 +283,7 @@ class CurvedPluginMethod final : public fast::Method {
     for (std::size_t i = 0; i < queries.size(); ++i) {
       const auto number = static_cast<std::size_t>(queries[i].coordinates[number_place]);
       TouchstonePluginAnswer found = unanswered;
+      const SameProcess same;
       solve_(static_cast<std::int32_t>(kind), static_cast<std::int32_t>(queries_.degree),
              queries_.is_rational ? 1 : 0, queries_.row(number).data(), &asked, &found);
       found.tolerance = fast::Answer::none;
@@ -370,7 +399,12 @@ class Loading {
   }
 
   [[noreturn]] void fail(const judge::Failure& failure) const {
-    throw io::DatasetError(path_, {}, "cannot load: " + at_ + ": " + to_text(failure));
+    std::string reason = to_text(failure);
+    if (failure.kind == judge::Fault::hang) {
+      reason +=
+          fmt::format(" for {} s; a greater --query-limit allows more", options_.load_seconds);
+    }
+    throw io::DatasetError(path_, {}, "cannot load: " + at_ + ": " + reason);
   }
 
   const std::filesystem::path& path_;

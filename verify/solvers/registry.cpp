@@ -105,6 +105,10 @@ const fast::MethodInfo* find_info(std::string_view name) {
   return found == methods().end() ? nullptr : &(*found)->info();
 }
 
+bool is_own_name(std::string_view name) {
+  return find_info(name) != nullptr || name == "certified_queries" || name == "certified_pairs";
+}
+
 std::string_view to_string(fast::Promise promise) {
   switch (promise) {
     case fast::Promise::none:

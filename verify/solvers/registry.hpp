@@ -31,6 +31,9 @@ namespace touchstone::verify::solvers {
 /// The description of the method of that name; null if there is none.
 [[nodiscard]] const fast::MethodInfo* find_info(std::string_view name);
 
+/// True if a built-in solver has that name, or writes answers under it.
+[[nodiscard]] bool is_own_name(std::string_view name);
+
 /// "none", "conservative" or "exact".
 [[nodiscard]] std::string_view to_string(fast::Promise promise);
 

@@ -2,8 +2,10 @@
 #include "tests/support/built_files.hpp"
 
 #include <dlfcn.h>
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdlib>
@@ -49,10 +51,6 @@ Answer ask(const fast::Method& method, Kind kind, const Query& query,
 Answer ask(const fast::Method& method, const PosedQuery& posed,
            const fast::MethodOptions& options = {}) {
   return ask(method, posed.kind, posed.query, options);
-}
-
-Answer ask_misbehaving(Misbehaviour what) {
-  return ask(*load_plugin(misbehaving), Kind::vertex_face, query_for(what));
 }
 
 void expect_nothing_but(const Answer& answer, Verdict verdict) {
@@ -121,24 +119,6 @@ TEST(CurvedPlugin, AnswersQueriesByTheirNumber) {
   EXPECT_EQ(yes.toi_lower, 0.25);
   EXPECT_EQ(yes.toi_upper, 0.5);
   EXPECT_TRUE(std::isnan(yes.tolerance));
-}
-
-TEST(CurvedPlugin, CostsTheQueryAtWhichItFails) {
-  const CurvedActions actions({Misbehaviour::says_no, Misbehaviour::aborts, Misbehaviour::throws,
-                               Misbehaviour::exits_with_3, Misbehaviour::is_undecided});
-  const CurvedPlugin plugin = load_curved_plugin(misbehaving);
-  const auto method = curved_method(plugin, actions.queries);
-  std::vector<Query> asked;
-  for (std::size_t i = 0; i < 5; ++i) asked.push_back(stand_in(actions.queries, i));
-  std::vector<Answer> answers(asked.size());
-  SolverProcess process(*method);
-  const SolverRun run = process.solve(Kind::vertex_face, asked, answers, {});
-  ASSERT_EQ(run.failures.size(), 3U);
-  EXPECT_EQ(run.failures[0].failure.kind, judge::Fault::crash);
-  EXPECT_EQ(run.failures[1].failure.kind, judge::Fault::exception);
-  EXPECT_EQ(run.failures[2].failure.kind, judge::Fault::exit);
-  EXPECT_EQ(answers[0].verdict, Verdict::no);
-  EXPECT_EQ(answers[4].verdict, Verdict::undecided);
 }
 
 /// The points at t=0 are those of the query, also with weights.
@@ -289,28 +269,32 @@ TEST(LoadPlugin, NamesFileAndReason) {
             "without_name.so: name is not one line of text: \"two?lines\"");
 }
 
-/// Each library would end this process, or never return.
+/// Each would end this process, or never return.
 TEST(LoadPlugin, SurvivesWhatALibraryDoesOnTheWay) {
-  const auto error = [](const char* how) {
-    ::setenv("TOUCHSTONE_TEST_LOADING", how, 1);
-    const std::filesystem::path path = tests::plugin_library("bad_loading");
-    const double limit = std::string_view(how).ends_with("hangs") ? 0.5 : 600.0;
-    const std::string text = error_of(
-        path.parent_path(), [&] { static_cast<void>(load_plugin(path, {.load_seconds = limit})); });
-    ::unsetenv("TOUCHSTONE_TEST_LOADING");
-    return text;
-  };
-  const std::string prefix = "bad_loading.so: cannot load: ";
-  EXPECT_EQ(error("constructor exits"), prefix + "its constructors: exit: status 0");
-  EXPECT_EQ(error("constructor crashes"), prefix + "its constructors: crash: SIGSEGV");
-  EXPECT_EQ(error("version exits"), prefix + "touchstone_plugin_version(): exit: status 0");
-  EXPECT_EQ(error("version throws"), prefix + "touchstone_plugin_version(): exception: no version");
-  EXPECT_EQ(error("name exits"), prefix + "touchstone_plugin_name(): exit: status 0");
-  EXPECT_EQ(error("name crashes"), prefix + "touchstone_plugin_name(): crash: SIGSEGV");
-  EXPECT_EQ(error("name hangs"), prefix + "touchstone_plugin_name(): hang");
-  // A child that may not fork reports an error.
-  EXPECT_EQ(error("constructor forks"), prefix + "its constructors: exit: status 11");
-  EXPECT_EQ(load_plugin(tests::plugin_library("bad_loading"))->name(), "bad_loading");
+  const std::filesystem::path path = tests::plugin_library("bad_loading");
+  const std::string hang = "hang for 0.5 s; a greater --query-limit allows more";
+  const std::vector<std::array<std::string, 3>> table{
+      {"constructor exits", "its constructors", "exit: status 0"},
+      {"constructor crashes", "its constructors", "crash: SIGSEGV"},
+      {"constructor hangs", "its constructors", hang},
+      // A child that may not fork reports an error.
+      {"constructor forks", "its constructors", "exit: status 11"},
+      {"version exits", "touchstone_plugin_version()", "exit: status 0"},
+      {"version throws", "touchstone_plugin_version()", "exception: no version"},
+      {"name exits", "touchstone_plugin_name()", "exit: status 0"},
+      {"name crashes", "touchstone_plugin_name()", "crash: SIGSEGV"},
+      {"name hangs", "touchstone_plugin_name()", hang},
+      {"promise throws", "touchstone_plugin_promise()", "exception: no promise"},
+      {"promise hangs", "touchstone_plugin_promise()", hang}};
+  for (const auto& [event, function, end] : table) {
+    ::setenv("TOUCHSTONE_TEST_LOADING", event.c_str(), 1);  // NOLINT(concurrency-mt-unsafe)
+    const double limit = event.ends_with("hangs") ? 0.5 : 600.0;
+    EXPECT_EQ(error_of(path.parent_path(),
+                       [&] { static_cast<void>(load_plugin(path, {.load_seconds = limit})); }),
+              "bad_loading.so: cannot load: " + function + ": " + end);
+    ::unsetenv("TOUCHSTONE_TEST_LOADING");  // NOLINT(concurrency-mt-unsafe)
+  }
+  EXPECT_EQ(load_plugin(path)->name(), "bad_loading");
 }
 
 /// No code of the library runs in this process before a call solves here.
@@ -327,20 +311,34 @@ TEST(LoadPlugin, LoadsNothingIntoThisProcess) {
   EXPECT_TRUE(is_loaded());
 }
 
-TEST(Plugin, NameIsOneLineOfText) {
-  const auto set_name = [](const char* name) {
-    ::setenv("TOUCHSTONE_PLUGIN_NAME", name, 1);  // NOLINT(concurrency-mt-unsafe)
+TEST(LoadPlugin, RefusesNamesThatMislead) {
+  const std::filesystem::path path = tests::plugin_library("latin_name");
+  const auto set_name = [](const std::string& name) {
+    ::setenv("TOUCHSTONE_PLUGIN_NAME", name.c_str(), 1);  // NOLINT(concurrency-mt-unsafe)
   };
-  for (const char* name :
-       {"two\u2028lines", "\u202egnol", "\u009b31m", "caf\xe9", "\x1b[31m", "\x7f", ""}) {
+  const std::string unprintable = "is not one line of text: ",
+                    ours = "is that of a built-in solver: ";
+  const std::vector<std::array<std::string, 2>> refused{
+      {"two\u2028lines", unprintable},
+      {"\u202egnol", unprintable},
+      {"\u009b31m", unprintable},
+      {"caf\xe9", unprintable},
+      {"\x1b[31m", unprintable},
+      {"\x7f", unprintable},
+      {"", unprintable},
+      {"certified", ours},
+      {"tight_inclusion_float", ours},
+      {"certified_pairs", ours},
+      {std::string(101, 'x'), "has more than 100 bytes"},
+      {std::string(100'000, 'x'), "has more than 100 bytes"}};
+  for (const auto& [name, reason] : refused) {
     set_name(name);
-    EXPECT_TRUE(load_error(tests::plugin_library("latin_name"))
-                    .starts_with("latin_name.so: name is not one line of text: "))
-        << name;
+    EXPECT_TRUE(load_error(path).starts_with("latin_name.so: name " + reason)) << load_error(path);
   }
-  for (const char* name : {"café", "δ-solver (v2)", "法"}) {
+  for (const std::string& name : {std::string("café"), std::string("δ-solver (v2)"),
+                                  std::string("法"), std::string(100, 'x')}) {
     set_name(name);
-    EXPECT_EQ(load_plugin(tests::plugin_library("latin_name"))->name(), name);
+    EXPECT_EQ(load_plugin(path)->name(), name);
   }
   ::unsetenv("TOUCHSTONE_PLUGIN_NAME");  // NOLINT(concurrency-mt-unsafe)
 }
@@ -390,89 +388,119 @@ TEST(Plugin, MayBeOfTheVersionBeforeTheNorm) {
   EXPECT_EQ(answer.toi_upper, 0.5);
 }
 
-TEST(Plugin, MayGiveNoTimeOfImpact) {
-  expect_nothing_but(ask_misbehaving(Misbehaviour::yes_without_toi), Verdict::yes);
-}
+// ---- Events -------------------------------------------------------------------------------------
 
-TEST(Plugin, MayBeUndecided) {
-  expect_nothing_but(ask_misbehaving(Misbehaviour::is_undecided), Verdict::undecided);
-}
+/// What a plugin does at a query, and what becomes of it.
+struct Event {
+  Misbehaviour what;
+  Answer answer = {};
+  std::string failure = {};
+  bool may_fork = false;
+};
 
-TEST(Plugin, HasTimesOfImpactOnlyWithYes) {
-  const Answer answer = ask_misbehaving(Misbehaviour::says_no_with_toi);
-  EXPECT_EQ(answer.verdict, Verdict::no);
-  EXPECT_TRUE(std::isnan(answer.toi_lower));
-  EXPECT_TRUE(std::isnan(answer.toi_upper));
-  EXPECT_EQ(answer.tolerance, 1e-9);
-}
+constexpr double none = Answer::none, infinity = std::numeric_limits<double>::infinity();
 
-TEST(Plugin, InvalidTolerancesAreDropped) {
-  for (const Misbehaviour what : {Misbehaviour::negative_tolerance, Misbehaviour::nan_tolerance}) {
-    const Answer answer = ask_misbehaving(what);
-    EXPECT_EQ(answer.verdict, Verdict::yes);
-    EXPECT_EQ(answer.toi_lower, 0.25);
-    EXPECT_TRUE(std::isnan(answer.tolerance));
-  }
-  EXPECT_EQ(ask_misbehaving(Misbehaviour::infinite_tolerance).tolerance,
-            std::numeric_limits<double>::infinity());
-}
-
-TEST(Plugin, AnInvalidVerdictIsAnError) {
-  for (const Misbehaviour what : {Misbehaviour::verdict_too_large, Misbehaviour::verdict_negative,
-                                  Misbehaviour::leaves_answer_alone}) {
-    SCOPED_TRACE(static_cast<int>(what));
-    const Answer answer = ask_misbehaving(what);
-    expect_nothing_but(answer, Verdict::error);
-    EXPECT_EQ(judge::failure_of(answer).value().kind, judge::Fault::no_verdict);
-  }
-}
-
-TEST(Plugin, HandsOnTimesThatAreNotFinite) {
-  for (const Misbehaviour what :
-       {Misbehaviour::infinite_toi_lower, Misbehaviour::infinite_toi_upper}) {
-    const Answer answer = ask_misbehaving(what);
-    EXPECT_EQ(answer.verdict, Verdict::yes);
-    EXPECT_EQ(judge::failure_of(answer).value().kind, judge::Fault::not_finite);
-  }
-}
-
-/// By single calls, and in batches.
-class WorstPlugin : public ::testing::TestWithParam<const char*> {};
-
-TEST_P(WorstPlugin, CostsOneQueryEachInAProcessOfItsOwn) {
-  const auto method = load_plugin(tests::plugin_library(GetParam()));
-  std::vector<Query> queries(40, query_for(Misbehaviour::says_no));
-  std::vector<Verdict> expected(queries.size(), Verdict::no);
-  const auto add = [&](Misbehaviour what, Verdict verdict) {
-    queries.push_back(query_for(what));
-    expected.push_back(verdict);
+const std::vector<Event>& events() {
+  using enum tests::Misbehaviour;
+  static const Answer no{.verdict = Verdict::no}, error{.verdict = Verdict::error},
+      undecided{.verdict = Verdict::undecided};
+  const auto yes = [](double toi_lower, double toi_upper, double tolerance) -> Answer {
+    return {.verdict = Verdict::yes,
+            .toi_lower = toi_lower,
+            .toi_upper = toi_upper,
+            .tolerance = tolerance};
   };
-  add(Misbehaviour::aborts, Verdict::error);
-  add(Misbehaviour::says_no, Verdict::no);
-  add(Misbehaviour::hangs, Verdict::undecided);
-  add(Misbehaviour::yes_without_toi, Verdict::yes);
-  add(Misbehaviour::throws, Verdict::error);
-  add(Misbehaviour::writes_to_null, Verdict::error);
-  add(Misbehaviour::says_no, Verdict::no);
-  std::vector<Answer> answers(queries.size());
-  SolverProcess process(*method, {.query_limit_seconds = 0.5});
-  const SolverRun run = process.solve(Kind::vertex_face, queries, answers, {});
-  double most_at_once = 1.0;
-  for (std::size_t i = 0; i < queries.size(); ++i) {
-    SCOPED_TRACE(i);
-    EXPECT_EQ(answers[i].verdict, expected[i]);
-    most_at_once = std::fmax(most_at_once, answers[i].tolerance);
-  }
-  EXPECT_EQ(most_at_once > 1.0, std::string_view(GetParam()) == "misbehaving_batch");
-  std::string failures;
-  for (const judge::QueryFailure& failure : run.failures) {
-    failures += std::to_string(failure.position) + " " + to_text(failure.failure) + "\n";
-  }
-  EXPECT_EQ(failures,
-            "40 crash: SIGABRT\n42 hang\n44 exception: thrown by a plugin\n45 crash: SIGSEGV\n");
+  static const std::vector<Event> all{
+      {says_no, no},
+      {says_no_with_toi, {.verdict = Verdict::no, .tolerance = 1e-9}},
+      {is_undecided, undecided, "undecided"},
+      {verdict_too_large, error, "no_verdict"},
+      {verdict_negative, error, "no_verdict"},
+      {leaves_answer_alone, error, "no_verdict"},
+      {infinite_toi_lower, yes(-infinity, 0.5, 1e-9), "not_finite: toi_lower -inf"},
+      {infinite_toi_upper, yes(0.25, infinity, 1e-9), "not_finite: toi_upper inf"},
+      {yes_without_toi, {.verdict = Verdict::yes}},
+      {negative_tolerance, yes(0.25, 0.5, none)},
+      {nan_tolerance, yes(0.25, 0.5, none)},
+      {infinite_tolerance, yes(0.25, 0.5, infinity)},
+      {throws, error, "exception: thrown by a plugin"},
+      {throws_a_number, error, "exception: not a std::exception"},
+      {exits_with_3, error, "exit: status 3"},
+      {exits_at_once, error, "exit: status 0"},
+      {kills_itself, error, "crash: SIGKILL"},
+      {aborts, error, "crash: SIGABRT"},
+      {writes_to_null, error, "crash: SIGSEGV"},
+      {writes_without_end, error, "crash: SIGXFSZ"},
+      {hangs, undecided, "hang"},
+      {sleeps, undecided, "hang"},
+      {closes_all, undecided, "hang"},
+      {prints, no},
+      {writes_a_file, no},
+      {allocates, no},
+      {forks, error, "exception: fork is refused"},
+      {signals_parent, no},
+      {forks, no, "", true},
+      {copies_itself, no, "", true},
+      {signals_parent, no, "", true},
+  };
+  return all;
 }
 
-INSTANTIATE_TEST_SUITE_P(Calls, WorstPlugin, ::testing::Values("misbehaving", "misbehaving_batch"));
+/// By single calls, in batches, and on curves.
+class PluginEvents : public ::testing::TestWithParam<const char*> {
+ protected:
+  [[nodiscard]] static bool is(std::string_view name) { return GetParam() == name; }
+
+  /// A batch says how many it was with the tolerance of a no; those of curves are not judged.
+  [[nodiscard]] static std::string text_of(Answer answer, const std::string& failure) {
+    const bool is_count = is("misbehaving_batch") && answer.verdict == Verdict::no;
+    if (is_count || is("curves")) answer.tolerance = none;
+    return fmt::format("{} [{}, {}] {} {}", judge::to_string(answer.verdict), answer.toi_lower,
+                       answer.toi_upper, answer.tolerance, failure);
+  }
+};
+
+TEST_P(PluginEvents, CostOneQueryEachAndHaveTheirNames) {
+  for (const bool may_fork : {false, true}) {
+    std::vector<Misbehaviour> actions(40, Misbehaviour::says_no);
+    std::vector<std::string> expected(actions.size(), text_of({.verdict = Verdict::no}, ""));
+    for (const Event& event : events()) {
+      if (event.may_fork != may_fork) continue;
+      actions.insert(actions.end(), {event.what, Misbehaviour::says_no});
+      expected.push_back(text_of(event.answer, event.failure));
+      expected.push_back(expected.front());
+    }
+    const CurvedActions curved(actions);
+    const CurvedPlugin curved_plugin = load_curved_plugin(misbehaving);
+    const auto method = is("curves") ? curved_method(curved_plugin, curved.queries)
+                                     : load_plugin(tests::plugin_library(GetParam()));
+    std::vector<Query> queries;
+    for (std::size_t i = 0; i < actions.size(); ++i) {
+      queries.push_back(is("curves") ? stand_in(curved.queries, i) : query_for(actions[i]));
+    }
+    std::vector<Answer> answers(queries.size());
+    SolverProcess process(*method, {.query_limit_seconds = 0.5,
+                                    .limits = {.file_bytes = 1U << 20U, .may_fork = may_fork}});
+    const SolverRun run = process.solve(Kind::vertex_face, queries, answers, {});
+    EXPECT_EQ(run.answered, queries.size());
+    EXPECT_EQ(run.unplaced_crashes, 0U);
+    double most_at_once = 1.0;
+    for (std::size_t i = 0; i < queries.size(); ++i) {
+      const judge::Failure* known = judge::failure_at(run.failures, i);
+      const auto shown = judge::failure_of(answers[i]);
+      if (known == nullptr && shown) known = &*shown;
+      EXPECT_EQ(text_of(answers[i], known == nullptr ? "" : to_text(*known)), expected[i])
+          << "action " << static_cast<int>(actions[i]) << ", may fork: " << may_fork;
+      if (answers[i].verdict == Verdict::no) {
+        most_at_once = std::fmax(most_at_once, answers[i].tolerance);
+      }
+    }
+    EXPECT_EQ(most_at_once > 1.0, is("misbehaving_batch"));
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Of, PluginEvents,
+                         ::testing::Values("misbehaving", "misbehaving_batch", "curves"));
 
 }  // namespace
 }  // namespace touchstone::verify::solvers::plugin_test

@@ -18,14 +18,12 @@
 #include <ctime>
 #include <filesystem>
 #include <fstream>
-#include <functional>
 #include <iostream>
 #include <limits>
 #include <memory>
 #include <new>
 #include <stdexcept>
 #include <string>
-#include <string_view>
 #include <thread>
 #include <vector>
 
@@ -42,24 +40,15 @@ using fast::Verdict;
 enum class Act {
   answer,  ///< yes; times: the second coordinate and the kind; tolerance: length of the span
   dies,
-  segfaults,
   throws,
-  throws_a_number,
-  exits,           ///< with status 0
-  exits_as_usual,  ///< with status 3, by exit()
-  hangs,           ///< asleep
-  burns,           ///< without end
-  works,           ///< 50 ms of processor time, then answers
-  dies_in_spans,   ///< answers if it is asked alone
-  dies_once,       ///< in the first process
-  closes,          ///< all descriptors but the standard ones, then sleeps
-  forks,           ///< a process that sleeps without end, then answers
-  forks_for_ever,  ///< as long as possible, then answers; tolerance: the number of processes
-  allocates,       ///< as much as possible, then answers; tolerance: GiB
-  writes_a_file,   ///< without end, in its working directory
-  prints,
-  is_infinite,  ///< yes from -inf on
-  is_undecided
+  hangs,          ///< asleep
+  burns,          ///< without end
+  works,          ///< 50 ms of processor time, then answers
+  dies_in_spans,  ///< answers if it is asked alone
+  dies_once,      ///< in the first process
+  forks,          ///< a process that sleeps without end, then answers
+  allocates,      ///< as much as possible, then answers; tolerance: GiB
+  prints
 };
 
 Query scripted(Act act, std::size_t number) {
@@ -124,11 +113,10 @@ class ScriptedMethod final : public fast::Method {
     if (queries.empty() && (*starts_)++ < lost_starts_) std::raise(SIGKILL);
     for (std::size_t i = 0; i < queries.size(); ++i) {
       const auto what = static_cast<Act>(static_cast<int>(queries[i].coordinates[0]));
-      answers[i] = {.verdict = what == Act::is_undecided ? Verdict::undecided : Verdict::yes,
+      answers[i] = {.verdict = Verdict::yes,
                     .toi_lower = queries[i].coordinates[1] + options.t_max,
                     .toi_upper = static_cast<double>(kind),
                     .tolerance = static_cast<double>(queries.size())};
-      if (what == Act::is_infinite) answers[i].toi_lower = -HUGE_VAL;
       end_badly(what, queries.size());
       act(what, answers[i]);
     }
@@ -140,21 +128,9 @@ class ScriptedMethod final : public fast::Method {
   void end_badly(Act act, std::size_t span) const {
     if (act == Act::dies || (act == Act::dies_in_spans && span > 1)) std::raise(SIGKILL);
     if (act == Act::dies_once && (*processes_)++ == 0) std::raise(SIGKILL);
-    if (act == Act::segfaults) std::raise(SIGSEGV);
     if (act == Act::throws) throw std::runtime_error("thrown by a solver");
-    if (act == Act::throws_a_number) throw 7;
-    if (act == Act::exits) ::_exit(0);
-    if (act == Act::exits_as_usual) std::exit(3);
     if (act == Act::hangs) sleep_for_ever();
     if (act == Act::burns) burn();
-    if (act == Act::closes) {
-      for (int descriptor = 0; descriptor < 1024; ++descriptor) ::close(descriptor);
-      sleep_for_ever();
-    }
-    if (act == Act::writes_a_file) {
-      std::ofstream file("large");
-      for (const std::string text(4096, 'x');;) file << text;
-    }
   }
 
   static void act(Act act, Answer& answer) {
@@ -163,15 +139,6 @@ class ScriptedMethod final : public fast::Method {
     if (act == Act::prints) {
       std::printf("out %g\n", answer.toi_lower);
       std::cerr << "err\n";
-    }
-    if (act == Act::forks_for_ever) {
-      constexpr int enough = 20;
-      answer.tolerance = 0.0;
-      for (int i = 0; i < enough; ++i) {
-        const pid_t child = ::fork();
-        if (child == 0) sleep_for_ever();
-        answer.tolerance += child > 0 ? 1.0 : 0.0;
-      }
     }
     if (act == Act::allocates) {
       constexpr std::size_t gibibyte = std::size_t{1} << 30U;
@@ -316,15 +283,12 @@ TEST(SolverProcess, AsksOneProcessThatIsNotThisOne) {
 
 // ---- Failures -----------------------------------------------------------------------------------
 
-TEST(SolverProcess, EveryWayToEndCostsOneQueryAndHasItsName) {
-  const std::vector<std::pair<Act, judge::Failure>> ends{
-      {Act::dies, killed},
-      {Act::segfaults, {.kind = judge::Fault::crash, .number = SIGSEGV}},
-      {Act::throws, {.kind = judge::Fault::exception, .what = "thrown by a solver"}},
-      {Act::throws_a_number, {.kind = judge::Fault::exception, .what = "not a std::exception"}},
-      {Act::exits, {.kind = judge::Fault::exit}},
-      {Act::exits_as_usual, {.kind = judge::Fault::exit, .number = 3}}};
-  for (const auto& [act, failure] : ends) {
+// The ways to end, and their names, are in plugin_test.cpp.
+
+TEST(SolverProcess, AnEndCostsOneQueryWhereverItIs) {
+  const judge::Failure thrown{.kind = judge::Fault::exception, .what = "thrown by a solver"};
+  for (const auto& [act, failure] :
+       {std::pair(Act::dies, killed), std::pair(Act::throws, thrown)}) {
     for (const double limit : {0.0, long_limit}) {
       SCOPED_TRACE(to_text(failure));
       const std::vector<std::size_t> deadly{0, 100, 101, 1023, 1024, 2499};
@@ -335,17 +299,6 @@ TEST(SolverProcess, EveryWayToEndCostsOneQueryAndHasItsName) {
       EXPECT_EQ(outcome.run.unplaced_crashes, 0U);
     }
   }
-}
-
-TEST(SolverProcess, LeavesItToTheAnswersWhatTheyShow) {
-  std::vector<Query> queries = numbered(3);
-  plant(queries, Act::is_infinite, {1});
-  plant(queries, Act::is_undecided, {2});
-  const Outcome outcome = run(queries);
-  EXPECT_TRUE(outcome.run.failures.empty());
-  EXPECT_EQ(judge::failure_of(outcome.answers[0]), std::nullopt);
-  EXPECT_EQ(judge::failure_of(outcome.answers[1]).value().kind, judge::Fault::not_finite);
-  EXPECT_EQ(judge::failure_of(outcome.answers[2]).value().kind, judge::Fault::undecided);
 }
 
 TEST(SolverProcess, SurvivesAMethodThatNeverDoes) {
@@ -399,21 +352,13 @@ TEST(SolverProcess, TellsEndsThatRepeatFromThoseThatDoNot) {
   EXPECT_EQ(outcome.run.unplaced_crashes, 2U);
 }
 
-TEST(SolverProcess, TheLimitCostsOneQuery) {
-  for (const Act act : {Act::hangs, Act::burns}) {
-    const std::vector<std::size_t> slow{0, 7, 8, 29};
-    std::vector<Query> queries = numbered(30);
-    plant(queries, act, slow);
-    const Outcome outcome = run(queries, hang_limit);
-    expect_failures(outcome, {.kind = judge::Fault::hang}, slow);
-    EXPECT_EQ(outcome.run.unplaced_crashes, 0U);
-  }
-}
-
-TEST(SolverProcess, TheLimitHoldsForAChildThatClosesAllItsDescriptors) {
-  std::vector<Query> queries = numbered(3);
-  plant(queries, Act::closes, {1});
-  expect_failures(run(queries, hang_limit), {.kind = judge::Fault::hang}, {1});
+TEST(SolverProcess, TheLimitCostsOneQueryWhereverItIs) {
+  const std::vector<std::size_t> slow{0, 7, 8, 29};
+  std::vector<Query> queries = numbered(30);
+  plant(queries, Act::burns, slow);
+  const Outcome outcome = run(queries, hang_limit);
+  expect_failures(outcome, {.kind = judge::Fault::hang}, slow);
+  EXPECT_EQ(outcome.run.unplaced_crashes, 0U);
 }
 
 TEST(SolverProcess, AStepThatTakesTooLongIsSearchedAndNotCharged) {
@@ -481,13 +426,6 @@ TEST(SolverProcess, StopsAtItsTime) {
 
 // ---- Limits -------------------------------------------------------------------------------------
 
-TEST(SolverProcess, MakesNoProcessesUnlessItMay) {
-  const std::vector<Query> queries = all_of(Act::forks_for_ever, 1);
-  EXPECT_EQ(run(queries).answers.front().tolerance, 0.0);
-  // The processes that it made are killed with it; another test shows that none is left.
-  EXPECT_EQ(run(queries, {.limits = {.may_fork = true}}).answers.front().tolerance, 20.0);
-}
-
 TEST(SolverProcess, MayMakeThreads) {
   class Threaded final : public fast::Method {
    public:
@@ -521,13 +459,6 @@ TEST(SolverProcess, GetsAsMuchMemoryAsItMay) {
   EXPECT_EQ(gibibytes(0), 64.0);
 }
 #endif
-
-TEST(SolverProcess, AFileThatIsTooLargeEndsIt) {
-  std::vector<Query> queries = numbered(3);
-  plant(queries, Act::writes_a_file, {1});
-  expect_failures(run(queries, {.limits = {.file_bytes = 1U << 20U}}),
-                  {.kind = judge::Fault::crash, .number = SIGXFSZ}, {1});
-}
 
 /// A method that answers whether it could write into its working directory, and prints its path.
 class WritingMethod final : public fast::Method {

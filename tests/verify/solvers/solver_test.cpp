@@ -119,24 +119,6 @@ TEST(Solver, AnExceptionCostsOneQuery) {
   EXPECT_EQ(to_text(outcome.reply.failures[0].failure), "exception: thrown by a solver");
 }
 
-TEST(Solver, ACrashAndAHangCostAQueryEachInChildProcesses) {
-  const FunctionMethod method([](Kind kind, const Query& query) {
-    if (query.coordinates[0] == 103.0) std::raise(SIGKILL);
-    while (query.coordinates[0] == 105.0) std::this_thread::sleep_for(std::chrono::seconds(1));
-    return echo(kind, query);
-  });
-  const Outcome outcome = ask(*solver_in_children(method, {}, {.query_limit_seconds = 0.5}), 10);
-  for (std::size_t i = 0; i < 10; ++i) {
-    const Verdict expected = i == 3 ? Verdict::error : (i == 5 ? Verdict::undecided : Verdict::yes);
-    EXPECT_EQ(outcome.answers[i].verdict, expected) << i;
-  }
-  ASSERT_EQ(outcome.reply.failures.size(), 2U);
-  EXPECT_EQ(outcome.reply.failures[0].position, 3U);
-  EXPECT_EQ(to_text(outcome.reply.failures[0].failure), "crash: SIGKILL");
-  EXPECT_EQ(outcome.reply.failures[1].position, 5U);
-  EXPECT_EQ(to_text(outcome.reply.failures[1].failure), "hang");
-}
-
 TEST(Solver, RecordedAnswersAreLookedUpBySourceKindAndIndex) {
   const auto path = std::filesystem::path(::testing::TempDir()) /
                     ("touchstone_solver_" + std::to_string(getpid()) + ".csv");

@@ -112,8 +112,8 @@ typedef struct TouchstonePluginPromise {
 /// Defined by the plugin: returns TOUCHSTONE_PLUGIN_VERSION.
 TOUCHSTONE_API int32_t touchstone_plugin_version(void);
 
-/// Defined by the plugin: the solver's name in reports, one line of UTF-8 text without control
-/// characters or invisible ones, that stays valid.
+/// Defined by the plugin: the solver's name in reports, one line of UTF-8 text of at most 100 bytes
+/// without control characters or invisible ones, that stays valid; not that of a built-in solver.
 TOUCHSTONE_API const char* touchstone_plugin_name(void);
 
 /// Defined by the plugin: answers one query. Must be thread-safe.

@@ -22,8 +22,10 @@
 #include <ctime>
 #include <fstream>
 #include <iostream>
+#include <span>
 #include <system_error>
 #include <utility>
+#include <vector>
 
 namespace touchstone::verify::solvers {
 namespace {
@@ -73,43 +75,77 @@ void limit_resource(auto resource, std::uint64_t value) {
   ::setrlimit(resource, &limit);
 }
 
+// Rules for system calls: of this process, and of those that it makes.
+#if defined(__x86_64__) || defined(__aarch64__)
+
+#if defined(__x86_64__)
+constexpr std::uint32_t architecture = AUDIT_ARCH_X86_64;
+#else
+constexpr std::uint32_t architecture = AUDIT_ARCH_AARCH64;
+#endif
+constexpr sock_filter allow = BPF_STMT(BPF_RET | BPF_K, SECCOMP_RET_ALLOW);
+
+sock_filter load(std::size_t offset) {
+  return BPF_STMT(BPF_LD | BPF_W | BPF_ABS, static_cast<std::uint32_t>(offset));
+}
+
+sock_filter fail_with(int error) {
+  return BPF_STMT(BPF_RET | BPF_K, SECCOMP_RET_ERRNO | static_cast<std::uint32_t>(error));
+}
+
+/// Skips so many rules if the value is this, and as many as the third if it is not.
+sock_filter jump(std::uint32_t value, std::size_t if_equal, std::size_t if_not) {
+  return BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, value, static_cast<std::uint8_t>(if_equal),
+                  static_cast<std::uint8_t>(if_not));
+}
+
+void apply(std::span<sock_filter> rules) {
+  const sock_fprog program{.len = static_cast<unsigned short>(rules.size()),
+                           .filter = rules.data()};
+  ::prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0);
+  ::prctl(PR_SET_SECCOMP, SECCOMP_MODE_FILTER, &program);
+}
+
 /// Has the system refuse to make processes, but not threads. What makes a thread is known by the
 /// flags of clone(); those of clone3() lie in memory, so the C library is made to do without it.
 void forbid_processes() {
-#if defined(__x86_64__) || defined(__aarch64__)
+  std::array rules {
+    load(offsetof(seccomp_data, arch)), jump(architecture, 0, 1), load(offsetof(seccomp_data, nr)),
+        jump(SYS_clone3, 0, 1), fail_with(ENOSYS),
 #if defined(__x86_64__)
-  constexpr std::uint32_t architecture = AUDIT_ARCH_X86_64;
-#else
-  constexpr std::uint32_t architecture = AUDIT_ARCH_AARCH64;
+        jump(SYS_fork, 0, 1), fail_with(EAGAIN), jump(SYS_vfork, 0, 1), fail_with(EAGAIN),
 #endif
-  const auto load = [](std::size_t offset) {
-    return sock_filter BPF_STMT(BPF_LD | BPF_W | BPF_ABS, static_cast<std::uint32_t>(offset));
-  };
-  const auto fail_with = [](int error) {
-    return sock_filter BPF_STMT(BPF_RET | BPF_K,
-                                SECCOMP_RET_ERRNO | static_cast<std::uint32_t>(error));
-  };
-  /// Skips so many instructions unless the value is this.
-  const auto unless = [](std::uint32_t value, std::uint8_t skipped) {
-    return sock_filter BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, value, 0, skipped);
-  };
-  const sock_filter allow = BPF_STMT(BPF_RET | BPF_K, SECCOMP_RET_ALLOW);
-  std::array filter {
-    load(offsetof(seccomp_data, arch)), unless(architecture, 1), load(offsetof(seccomp_data, nr)),
-        unless(SYS_clone3, 1), fail_with(ENOSYS),
-#if defined(__x86_64__)
-        unless(SYS_fork, 1), fail_with(EAGAIN), unless(SYS_vfork, 1), fail_with(EAGAIN),
-#endif
-        unless(SYS_clone, 4), load(offsetof(seccomp_data, args[0])),
+        jump(SYS_clone, 0, 4), load(offsetof(seccomp_data, args[0])),
         sock_filter BPF_JUMP(BPF_JMP | BPF_JSET | BPF_K, CLONE_THREAD, 1, 0), fail_with(EAGAIN),
         allow, allow,
   };
-  const sock_fprog program{.len = static_cast<unsigned short>(filter.size()),
-                           .filter = filter.data()};
-  ::prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0);
-  ::prctl(PR_SET_SECCOMP, SECCOMP_MODE_FILTER, &program);
-#endif
+  apply(rules);
 }
+
+/// Has the system refuse every signal to the parent, to its group and to all processes.
+void protect_parent() {
+  const auto number = [](pid_t process) { return static_cast<std::uint32_t>(process); };
+  const std::array targets{number(::getppid()), number(-::getpgid(::getppid())), number(-1)};
+  constexpr std::array<std::uint32_t, 6> calls{
+      SYS_kill, SYS_tkill, SYS_tgkill, SYS_rt_sigqueueinfo, SYS_rt_tgsigqueueinfo, SYS_pidfd_open};
+  std::vector rules{load(offsetof(seccomp_data, arch)), jump(architecture, 1, 0), allow,
+                    load(offsetof(seccomp_data, nr))};
+  // To the rule behind the one that allows all other calls; then to the one behind the last.
+  for (std::size_t i = 0; i < calls.size(); ++i) {
+    rules.push_back(jump(calls.at(i), calls.size() - i, 0));
+  }
+  rules.insert(rules.end(), {allow, load(offsetof(seccomp_data, args[0]))});
+  for (std::size_t i = 0; i < targets.size(); ++i) {
+    rules.push_back(jump(targets.at(i), targets.size() - i, 0));
+  }
+  rules.insert(rules.end(), {allow, fail_with(EPERM)});
+  apply(rules);
+}
+
+#else
+void forbid_processes() {}
+void protect_parent() {}
+#endif
 
 void set_limits(const ChildLimits& limits) {
   limit_resource(RLIMIT_CORE, 0);
@@ -118,6 +154,7 @@ void set_limits(const ChildLimits& limits) {
   if (limits.memory_bytes != 0 && !is_sanitized) {
     limit_resource(RLIMIT_DATA, data_bytes() + limits.memory_bytes);
   }
+  protect_parent();
   if (!limits.may_fork) forbid_processes();
 }
 

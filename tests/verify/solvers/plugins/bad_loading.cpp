@@ -36,6 +36,7 @@ void fork_without_end() {
 const bool is_constructed = [] {
   if (is_told("constructor exits")) std::exit(0);
   if (is_told("constructor crashes")) std::raise(SIGSEGV);
+  if (is_told("constructor hangs")) hang();
   if (is_told("constructor forks")) fork_without_end();
   return true;
 }();
@@ -53,6 +54,11 @@ const char* touchstone_plugin_name() {
   if (is_told("name crashes")) std::raise(SIGSEGV);
   if (is_told("name hangs")) hang();
   return is_constructed ? "bad_loading" : "";
+}
+
+void touchstone_plugin_promise(TouchstonePluginPromise*) {
+  if (is_told("promise throws")) throw std::runtime_error("no promise");
+  if (is_told("promise hangs")) hang();
 }
 
 void touchstone_plugin_solve(std::int32_t, const double*, const TouchstonePluginOptions*,

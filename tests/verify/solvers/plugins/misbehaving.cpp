@@ -3,9 +3,12 @@
 /// Queries on curves have it act in the same way.
 /// With BATCH it takes many queries at once, and says by the tolerance of a no how many.
 
+#include <sys/syscall.h>
 #include <sys/types.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
+#include <csignal>
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
@@ -13,6 +16,7 @@
 #include <limits>
 #include <memory>
 #include <stdexcept>
+#include <string>
 #include <vector>
 
 #include "tests/verify/solvers/plugins/misbehaviour.hpp"
@@ -34,6 +38,15 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
   for (volatile bool go_on = true;;) static_cast<void>(go_on);
 }
 
+[[noreturn]] void sleep_for_ever() {
+  for (;;) ::pause();
+}
+
+[[noreturn]] void write_without_end() {
+  std::ofstream file("large");
+  for (const std::string text(4096, 'x');;) file << text;
+}
+
 /// Makes a few processes.
 void fork_often() {
   for (int i = 0; i < 8; ++i) {
@@ -41,6 +54,22 @@ void fork_often() {
     if (child == 0) ::_exit(0);
     if (child < 0) throw std::runtime_error("fork is refused");
   }
+}
+
+/// True in the copy; in the other after its end.
+bool copy() {
+  const pid_t child = ::fork();
+  if (child == 0) return true;
+  ::waitpid(child, nullptr, 0);
+  return false;
+}
+
+/// True if the system lets this process signal its parent, by one of several ways.
+bool may_signal_parent() {
+  const pid_t parent = ::getppid();
+  return ::kill(parent, 0) == 0 || ::kill(-::getpgid(parent), 0) == 0 || ::kill(-1, 0) == 0 ||
+         ::sigqueue(parent, 0, {}) == 0 || ::syscall(SYS_tgkill, parent, parent, 0) == 0 ||
+         ::syscall(SYS_tkill, parent, 0) == 0 || ::syscall(SYS_pidfd_open, parent, 0) >= 0;
 }
 
 /// Allocates much memory without using it.
@@ -56,7 +85,13 @@ int calls = 0;
 void fail(Misbehaviour what) {
   if (what == Misbehaviour::dies_at_call_1500 && ++calls == 1500) std::abort();
   if (what == Misbehaviour::throws) throw std::runtime_error("thrown by a plugin");
+  if (what == Misbehaviour::throws_a_number) throw 7;
   if (what == Misbehaviour::exits_with_3) std::exit(3);
+  if (what == Misbehaviour::exits_at_once) ::_exit(0);
+  if (what == Misbehaviour::kills_itself) std::raise(SIGKILL);
+  if (what == Misbehaviour::writes_without_end) write_without_end();
+  if (what == Misbehaviour::closes_all) ::syscall(SYS_close_range, 0, ~0U, 0U);
+  if (what == Misbehaviour::closes_all || what == Misbehaviour::sleeps) sleep_for_ever();
   if (what == Misbehaviour::aborts) std::abort();
   if (what == Misbehaviour::hangs) hang();
   if (what == Misbehaviour::writes_to_null) write_to_null();
@@ -77,6 +112,13 @@ void touchstone_plugin_solve(std::int32_t kind, const double* coordinates,
     case Misbehaviour::forks:
       fork_often();
       answer->verdict = TOUCHSTONE_NO;
+      return;
+    case Misbehaviour::copies_itself:
+      answer->verdict = copy() ? TOUCHSTONE_YES : TOUCHSTONE_NO;
+      return;
+    case Misbehaviour::signals_parent:
+      answer->verdict =
+          may_signal_parent() || ::kill(::getpid(), 0) != 0 ? TOUCHSTONE_YES : TOUCHSTONE_NO;
       return;
     case Misbehaviour::allocates:
       allocate_much();

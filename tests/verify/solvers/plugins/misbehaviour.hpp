@@ -29,9 +29,17 @@ enum class Misbehaviour {
   forks,                 ///< eight children, each for a moment, then says no; throws if refused
   allocates,             ///< 2 GiB in blocks, then says no
   yes_with_tolerance_0,  ///< from time 0 on
+  copies_itself,         ///< the copy says yes, it no, after the copy has ended
+  signals_parent,        ///< yes if it may send its parent a signal, or may not send itself one
   aborts,
   writes_to_null,
-  hangs
+  kills_itself,
+  throws_a_number,
+  exits_at_once,       ///< with status 0
+  writes_without_end,  ///< a file
+  hangs,               ///< at work
+  sleeps,
+  closes_all  ///< its descriptors, then sleeps
 };
 
 }  // namespace touchstone::tests
