@@ -23,6 +23,7 @@
 #include "exact/contact/corner_motion.hpp"
 #include "tests/support/built_files.hpp"
 #include "tests/support/checker_outcome.hpp"
+#include "tests/support/rows.hpp"
 #include "tests/support/trials.hpp"
 #include "touchstone/oracle.hpp"
 
@@ -30,52 +31,10 @@ namespace touchstone::checker::proof_test {
 namespace {
 
 using tests::outcome;
+using tests::split;
 using Texts = std::vector<std::string>;
 
 // ---- The list -----------------------------------------------------------------------------------
-
-/// The parts of a text between the separators.
-Texts split(std::string_view text, std::string_view separator) {
-  Texts parts;
-  for (std::size_t at = 0; (at = text.find(separator)) != std::string_view::npos;) {
-    parts.emplace_back(text.substr(0, at));
-    text.remove_prefix(at + separator.size());
-  }
-  parts.emplace_back(text);
-  return parts;
-}
-
-std::string replaced(std::string text, std::string_view what, std::string_view by) {
-  for (std::size_t at = 0; (at = text.find(what, at)) != std::string::npos; at += by.size()) {
-    text.replace(at, what.size(), by);
-  }
-  return text;
-}
-
-/// The row for each choice in {a|b}; {} is the choice again.
-void expand(const std::string& row, Texts& rows) {
-  const std::size_t begin = row.find('{'), end = row.find('}');
-  if (begin == std::string::npos) return rows.push_back(row);
-  for (const std::string& choice : split(row.substr(begin + 1, end - begin - 1), "|")) {
-    expand(replaced(row.substr(0, begin) + choice + row.substr(end + 1), "{}", choice), rows);
-  }
-}
-
-/// The header and the query: lines 1 to 10 of its certificates.
-Texts query_lines(const std::string& query) {
-  const std::size_t space = query.find(' ');
-  const bool is_over = query.starts_with("over");
-  Texts lines{"touchstone-certificates 2",
-              "query " + (is_over ? "vertex_face" : query.substr(0, space))};
-  Texts ends = split(query.substr(space + 1), " > ");
-  if (ends.size() == 1) ends.push_back(ends[0]);
-  for (const std::string& end : ends) {
-    for (const std::string& point : split(end + (is_over ? ", 0 0 0, 4 0 0, 0 4 0" : ""), ", ")) {
-      lines.push_back("point " + point);
-    }
-  }
-  return lines;
-}
 
 /// The character for each \xHH.
 std::string unescaped(std::string text) {
@@ -87,7 +46,9 @@ std::string unescaped(std::string text) {
 
 /// The certificate of a row; `last` is the last row that is no alteration of another.
 std::string certificate_of(const std::string& query, const std::string& row, std::string& last) {
-  Texts lines = query_lines(query);
+  const tests::QueryRow points(query);
+  Texts lines{"touchstone-certificates 2", "query " + points.kind};
+  for (const std::string& point : points.points) lines.push_back("point " + point);
   const bool is_altered = row.starts_with("@");
   if (!is_altered) last = row;
   std::ranges::copy(split(last, "; "), std::back_inserter(lines));
@@ -95,11 +56,9 @@ std::string certificate_of(const std::string& query, const std::string& row, std
   if (is_altered) {
     const std::size_t space = row.find(' ');
     lines.at(std::stoul(row.substr(1, space)) - 1) =
-        replaced(unescaped(row.substr(space + 1)), "; ", "\n");
+        tests::replaced(unescaped(row.substr(space + 1)), "; ", "\n");
   }
-  std::string text;
-  for (const std::string& line : lines) text += line + "\n";
-  return text;
+  return tests::joined(lines, "\n") + "\n";
 }
 
 /// Each certificate of certificates.txt has the outcome that is written beside it.
@@ -120,13 +79,11 @@ TEST(List, HasTheOutcomesThatItSays) {
     if (!is_row && is_after_row) queries.clear();
     is_after_row = is_row;
     if (!is_row) {
-      expand(line, queries);
+      for (std::string& query : tests::expanded(line)) queries.push_back(query);
       continue;
     }
-    Texts rows;
-    expand(line.substr(2), rows);
     for (const std::string& query : queries) {
-      for (const std::string& row : rows) {
+      for (const std::string& row : tests::expanded(line.substr(2))) {
         const Texts sides = split(row, " -> ");
         const std::string text = certificate_of(query, sides[0], last);
         std::string expected = split(split(text, "\nclaim ").back(), "\n")[0];
