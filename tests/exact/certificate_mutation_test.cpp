@@ -1,14 +1,13 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>
 #include <map>
-#include <sstream>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -16,6 +15,7 @@
 #include "tests/support/certificates.hpp"
 #include "tests/support/queries.hpp"
 #include "tests/support/random.hpp"
+#include "tests/support/rows.hpp"
 #include "tests/support/trials.hpp"
 #include "touchstone/certificate.hpp"
 #include "verify/generate/families.hpp"
@@ -26,32 +26,46 @@
 namespace touchstone::exact::certificate_mutation_test {
 namespace {
 
+using tests::joined;
 using tests::PosedQuery;
+using tests::split;
 using Lines = std::vector<std::string>;
 
-/// An altered certificate as the text of a stream, and the field that was altered.
+/// An altered certificate as the text of a stream, and the first word of the line that was altered.
 struct Mutant {
   std::string field;
   std::string text;
 };
 
-std::string join(const Lines& lines) {
-  std::string text(certificates_header());
-  for (const std::string& line : lines) text += line + "\n";
-  return text + certificates_closing_line(1);
-}
-
-Lines split(const std::string& text, char separator) {
-  std::istringstream in(text);
-  Lines parts;
-  for (std::string part; std::getline(in, part, separator);) parts.push_back(part);
-  return parts;
-}
-
 std::string number(const Rational& value) {
   std::string text;
   write_number(text, value);
   return text;
+}
+
+/// What may follow the first words of a line, so many of them.
+struct Rest {
+  std::string_view line;
+  std::size_t words;
+  std::string rest;
+};
+
+const std::vector<Rest>& rests() {
+  static const std::string corner = "{0|1|2|3|4}", axis = "{x|y|z}";
+  static const std::vector<Rest> all{
+      {"query", 1, "{vertex_face|edge_edge}"},
+      {"claim", 1, "{no_collision|collision}"},
+      {"claim", 1, "time_of_impact {0 1|0 0|1 1|0 1/2}"},
+      {"separation", 2, "{linf|l2}"},
+      {"separate", 3, "vertex " + corner},
+      {"separate", 3, "edge " + corner + " " + corner},
+      {"separate", 3, "{face|axis x|axis y|axis z} {+|-}"},
+      {"separate", 3, "cross " + axis + " " + corner + " " + corner},
+      {"contact root", 4, "{-1 2|0 1|-1 0 2}"},
+      {"at", 1, "{segment|edge} " + corner + " " + corner},
+      {"at", 1, "triangle {0|1|2|3} {0|1|2|3} {1|3} " + axis},
+      {"at", 1, "{face|axes|vertex 0|vertex 1|vertex 2|vertex 3}"}};
+  return all;
 }
 
 /// All the ways to alter one certificate.
@@ -61,235 +75,143 @@ class Mutations {
       : random_(seed), certificate_(certificate) {
     std::string text;
     write(text, certificate);
-    lines_ = split(text, '\n');
+    lines_ = split(text, "\n");
+    lines_.pop_back();
   }
 
   std::vector<Mutant> all() {
-    alter_points();
     for (std::size_t i = 0; i < lines_.size(); ++i) {
-      if (lines_[i].starts_with("separation")) alter_separation(i);
-      if (lines_[i].starts_with("claim")) alter_claim(i);
-      if (lines_[i].starts_with("separate")) alter_subinterval(i);
-      if (lines_[i].starts_with("contact time")) alter_numbers("time", i, 2, 3);
-      if (lines_[i].starts_with("contact root")) alter_root(i);
-      if (lines_[i].starts_with("at ")) alter_place(i);
-      if (lines_[i].starts_with("query")) alter_kind(i);
-      alter_order(i);
+      words_ = split(lines_[i], " ");
+      alter_words(i);
+      alter_lines(i);
       alter_bytes(i);
     }
     return std::move(mutants_);
   }
 
  private:
-  void add(const std::string& field, const Lines& lines) {
-    if (lines != lines_) mutants_.push_back({field, join(lines)});
+  void add(const Lines& lines) {
+    if (lines == lines_) return;
+    mutants_.push_back({words_[0], std::string(certificates_header()) + joined(lines, "\n") + "\n" +
+                                       certificates_closing_line(1)});
   }
 
-  void replace(const std::string& field, std::size_t line, const std::string& by) {
+  void replace(std::size_t line, const std::string& by) {
     Lines lines = lines_;
     lines[line] = by;
-    add(field, lines);
+    add(lines);
   }
 
-  void alter_point(std::size_t coordinate, double value) {
-    Certificate altered = certificate_;
-    std::get<Query>(altered.query).coordinates.at(coordinate) = value;
-    if (!std::isfinite(value)) return;
-    std::string text;
-    write(text, altered);
-    add("point", split(text, '\n'));
+  void replace(std::size_t line, std::size_t word, const std::string& by) {
+    Lines words = words_;
+    words[word] = by;
+    replace(line, joined(words, " "));
   }
 
-  void alter_points() {
-    const auto& coordinates = std::get<Query>(certificate_.query).coordinates;
-    for (std::size_t i = 0; i < coordinates.size(); ++i) {
-      const double x = coordinates.at(i);
-      const double other = coordinates.at((i + 1 + random_.bits() % 23U) % 24U);
-      for (const double value : {std::nextafter(x, HUGE_VAL), std::nextafter(x, -HUGE_VAL), -x, 0.0,
-                                 x + 1.0, 2.0 * x, other}) {
-        alter_point(i, value);
+  /// Other numbers than this one: doubles for a coordinate.
+  std::vector<Rational> others_than(const Rational& value) {
+    if (words_[0] == "point") {
+      const auto& all = std::get<Query>(certificate_.query).coordinates;
+      const double x = value.get_d();
+      std::vector<Rational> result;
+      for (const double by : {std::nextafter(x, HUGE_VAL), std::nextafter(x, -HUGE_VAL), -x, 0.0,
+                              x + 1.0, 2.0 * x, all.at(random_.bits() % all.size())}) {
+        if (std::isfinite(by)) result.emplace_back(by);
       }
+      return result;
     }
+    const Rational least = power_of_two(-1074), small = power_of_two(-53), part(1, 8);
+    return {value + least,
+            value - least,
+            value + small,
+            value - small,
+            value / 2,
+            value * 2,
+            -value,
+            0,
+            1,
+            value + part,
+            value - part,
+            value + 1,
+            value - 1,
+            (value + 1) / 2};
   }
 
-  /// Alters the words from number `first` to before `last`, each in several ways.
-  void alter_numbers(const std::string& field, std::size_t line, std::size_t first,
-                     std::size_t last) {
-    const Lines words = split(lines_[line], ' ');
-    for (std::size_t i = first; i < std::min(last, words.size()); ++i) {
-      const Rational value = tests::read_number(words[i]);
-      const Rational least = power_of_two(-1074), small = power_of_two(-53);
-      for (const Rational& by :
-           {Rational(value + least), Rational(value - least), Rational(value + small),
-            Rational(value - small), Rational(value / 2), Rational(value * 2), Rational(-value),
-            Rational(0), Rational(1), Rational(value + Rational(1, 8)),
-            Rational(value - Rational(1, 8)), Rational((value + 1) / 2)}) {
-        Lines altered = words;
-        altered[i] = number(by);
-        replace(field, line, words_to_line(altered));
+  void alter_words(std::size_t line) {
+    for (std::size_t i = 1; i < words_.size(); ++i) {
+      const std::size_t digit = words_[i].find_first_of("0123456789");
+      const bool is_number = digit == 0 || (digit == 1 && words_[i][0] == '-');
+      if (is_number) {
+        for (const Rational& by : others_than(tests::read_number(words_[i]))) {
+          replace(line, i, number(by));
+        }
       }
-      if (i + 1 < words.size()) {
-        Lines swapped = words;
+      if (i + 1 < words_.size()) {
+        Lines swapped = words_;
         std::swap(swapped[i], swapped[i + 1]);
-        replace(field, line, words_to_line(swapped));
+        replace(line, joined(swapped, " "));
       }
     }
-  }
-
-  static std::string words_to_line(const Lines& words) {
-    std::string line;
-    for (const std::string& word : words) line += (line.empty() ? "" : " ") + word;
-    return line;
-  }
-
-  void alter_claim(std::size_t line) {
+    replace(line, lines_[line] + " 0");
+    replace(line, lines_[line] + " 1");
+    replace(line, lines_[line].substr(0, lines_[line].rfind(' ')));
+    for (const auto& [begin, count, rest] : rests()) {
+      if (!lines_[line].starts_with(begin)) continue;
+      const Lines kept(words_.begin(), words_.begin() + static_cast<std::ptrdiff_t>(count));
+      for (const std::string& other : tests::expanded(rest)) {
+        replace(line, joined(kept, " ") + " " + other);
+      }
+    }
     const std::string lower = number(certificate_.toi.lower),
                       upper = number(certificate_.toi.upper);
-    for (const char* const claim : {"claim no_collision", "claim collision"}) {
-      replace("claim", line, claim);
-    }
-    const std::vector<std::array<std::string, 2>> intervals{
-        {"0", "1"},   {"0", "0"},   {upper, upper}, {lower, lower},
-        {"0", lower}, {lower, "1"}, {upper, "1"}};
-    for (const auto& [from, to] : intervals) {
-      replace("claim", line, std::string("claim time_of_impact ").append(from + ' ').append(to));
-    }
-    alter_numbers("claim", line, 2, 4);
-    // The claim with and without the lines of the other claims.
-    for (const char* const claim : {"claim no_collision", "claim collision"}) {
-      for (const char* const part : {"separate", "contact", "at "}) {
-        Lines lines = lines_;
-        lines[line] = claim;
-        std::erase_if(lines, [&](const std::string& l) { return l.starts_with(part); });
-        add("claim", lines);
-        std::erase_if(lines, [&](const std::string& l) { return l.starts_with("at "); });
-        add("claim", lines);
+    if (words_[0] == "claim") {
+      for (const std::string& toi :
+           {upper + " " + upper, lower + " " + lower, "0 " + lower, lower + " 1", upper + " 1"}) {
+        replace(line, "claim time_of_impact " + toi);
       }
     }
   }
 
-  void alter_separation(std::size_t line) {
-    alter_numbers("separation", line, 1, 2);
-    const Lines words = split(lines_[line], ' ');
-    for (const char* const norm : {"linf", "l2"}) {
-      replace("norm", line, words_to_line({words[0], words[1], norm}));
-    }
-    replace("norm", line, words_to_line({words[0], words[1]}));
-    const double distance = certificate_.separation.distance;
-    for (const double by : {std::nextafter(distance, 0.0), std::nextafter(distance, HUGE_VAL)}) {
-      replace("separation", line, words_to_line({words[0], number(Rational(by)), words[2]}));
-    }
-  }
-
-  void alter_subinterval(std::size_t line) {
-    alter_numbers("break point", line, 1, 3);
-    const Lines words = split(lines_[line], ' ');
-    const std::string times = "separate " + words[1] + " " + words[2] + " ";
-    for (const std::string& feature : features()) replace("feature", line, times + feature);
-    // The end moves together with the end of its neighbour.
-    if (line + 1 < lines_.size() && lines_[line + 1].starts_with("separate")) {
-      for (const Rational& by :
-           {Rational(1, 64), Rational(-1, 64), Rational(1, 4), Rational(-1, 4)}) {
-        Lines next = split(lines_[line + 1], ' '), altered = words;
-        altered[2] = next[1] = number(tests::read_number(words[2]) + by);
-        Lines lines = lines_;
-        lines[line] = words_to_line(altered);
-        lines[line + 1] = words_to_line(next);
-        add("break point", lines);
-      }
-      Lines joined = words;
-      joined[2] = split(lines_[line + 1], ' ')[2];
-      Lines lines = lines_;
-      lines[line] = words_to_line(joined);
-      lines.erase(lines.begin() + static_cast<std::ptrdiff_t>(line) + 1);
-      add("break point", lines);
-    }
-  }
-
-  static Lines features() {
-    Lines result{"face +", "face -"};
-    for (const char i : std::string("01234")) {
-      result.push_back(std::string("vertex ") + i);
-      for (const char j : std::string("0123")) {
-        const std::string corners = std::string(1, i) + " " + j;
-        result.push_back("edge " + corners);
-        for (const char axis : std::string("xyz")) {
-          result.push_back(std::string("cross ") + axis + " " + corners);
-        }
-      }
-    }
-    for (const char axis : std::string("xyz")) {
-      for (const char sign : std::string("+-")) {
-        result.push_back(std::string("axis ") + axis + " " + sign);
-      }
-    }
-    return result;
-  }
-
-  void alter_root(std::size_t line) {
-    const Lines words = split(lines_[line], ' ');
-    alter_numbers("interval", line, 2, 4);
-    for (std::size_t i = 4; i < words.size(); ++i) {
-      const Integer value(words[i]);
-      for (const Integer& by : {Integer(value + 1), Integer(value - 1), Integer(-value), Integer(0),
-                                Integer(2 * value), Integer(value + 1000000)}) {
-        Lines altered = words;
-        altered[i] = by.get_str();
-        replace("polynomial", line, words_to_line(altered));
-      }
-      Lines shorter = words;
-      shorter.erase(shorter.begin() + static_cast<std::ptrdiff_t>(i));
-      replace("polynomial", line, words_to_line(shorter));
-    }
-    replace("polynomial", line, lines_[line] + " 0");
-    replace("polynomial", line, lines_[line] + " 1");
-    const std::string interval = words[0] + " " + words[1] + " " + words[2] + " " + words[3];
-    replace("polynomial", line, interval + " -1 2");
-    replace("polynomial", line, "contact time " + words[2]);
-    replace("polynomial", line, "contact time " + words[3]);
-  }
-
-  void alter_place(std::size_t line) {
-    for (int i = 0; i < 4; ++i) {
-      for (int j = 0; j < 4; ++j) {
-        const std::string two = std::to_string(i) + " " + std::to_string(j);
-        replace("place", line, "at segment " + two);
-        replace("place", line, "at edge " + two);
-        const int k = random_.between(0, 3);
-        for (const char axis : std::string("xyz")) {
-          replace("place", line, "at triangle " + two + " " + std::to_string(k) + " " + axis);
-        }
-      }
-    }
-    for (const char* const other :
-         {"at face", "at axes", "at vertex 0", "at vertex 1", "at vertex 2", "at vertex 3"}) {
-      replace("place", line, other);
-    }
-    for (const char axis : std::string("xyz")) {
-      std::string other = lines_[line];
-      other.back() = axis;
-      replace("place", line, other);
-    }
-  }
-
-  void alter_kind(std::size_t line) {
-    const bool is_vertex_face = certificate_.kind == Kind::vertex_face;
-    replace("kind", line, is_vertex_face ? "query edge_edge" : "query vertex_face");
-  }
-
-  void alter_order(std::size_t line) {
-    const auto at = lines_.begin() + static_cast<std::ptrdiff_t>(line);
-    Lines lines = lines_;
-    lines.erase(lines.begin() + (at - lines_.begin()));
-    add("dropped line", lines);
-    lines = lines_;
-    lines.insert(lines.begin() + (at - lines_.begin()), *at);
-    add("doubled line", lines);
+  /// Drops, doubles and moves lines, also several at a time.
+  void alter_lines(std::size_t line) {
+    const auto at = static_cast<std::ptrdiff_t>(line);
+    Lines dropped = lines_, doubled = lines_;
+    dropped.erase(dropped.begin() + at);
+    doubled.insert(doubled.begin() + at, lines_[line]);
+    add(dropped);
+    add(doubled);
     for (int repetition = 0; repetition < 3; ++repetition) {
-      lines = lines_;
+      Lines lines = lines_;
       std::swap(lines[line], lines[random_.bits() % lines.size()]);
-      add("order", lines);
+      add(lines);
     }
+    if (words_[0] == "claim") {  // with and without the lines of the other claims
+      for (const char* const claim : {"claim no_collision", "claim collision"}) {
+        for (const char* const part : {"separate", "contact", "at "}) {
+          Lines lines = lines_;
+          lines[line] = claim;
+          std::erase_if(lines, [&](const std::string& l) { return l.starts_with(part); });
+          add(lines);
+          std::erase_if(lines, [&](const std::string& l) { return l.starts_with("at "); });
+          add(lines);
+        }
+      }
+    }
+    if (words_[0] != "separate" || !lines_[line + 1].starts_with("separate")) return;
+    // A subinterval's end moves together with the end of its neighbour.
+    Lines next = split(lines_[line + 1], " ");
+    const Rational end = tests::read_number(words_[2]);
+    for (const Rational& by :
+         {Rational(1, 64), Rational(-1, 64), Rational(1, 4), Rational(-1, 4)}) {
+      Lines lines = lines_, words = words_;
+      words[2] = next[1] = number(end + by);
+      lines[line] = joined(words, " ");
+      lines[line + 1] = joined(next, " ");
+      add(lines);
+    }
+    words_[2] = next[2];
+    dropped[line] = joined(words_, " ");
+    add(dropped);
   }
 
   void alter_bytes(std::size_t line) {
@@ -301,13 +223,13 @@ class Mutations {
       if (repetition % 3 == 0) altered[at] = byte;
       if (repetition % 3 == 1) altered.insert(at, 1, byte);
       if (repetition % 3 == 2) altered.erase(at, 1);
-      replace("byte", line, altered);
+      replace(line, altered);
     }
   }
 
   tests::Random random_;
   Certificate certificate_;
-  Lines lines_;
+  Lines lines_, words_;
   std::vector<Mutant> mutants_;
 };
 

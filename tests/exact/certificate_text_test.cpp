@@ -90,71 +90,51 @@ TEST(WriteCertificate, IsTheFormatLineByLine) {
             "end\n");
 }
 
-TEST(WriteCertificate, WritesEveryFeatureAndContact) {
-  Certificate certificate;
-  certificate.kind = Kind::edge_edge;
-  using Sort = Feature::Sort;
-  certificate.subintervals = {
-      {0, Rational(1, 4), {.sort = Sort::vertex, .i = 3}},
-      {Rational(1, 4), Rational(1, 2), {.sort = Sort::edge, .i = 2, .j = 3}},
-      {Rational(1, 2), 1, {.sort = Sort::negative_face}}};
+/// The text of a certificate, from the last point on.
+std::string end_of(const Certificate& certificate) {
   std::string text;
   write(text, certificate);
-  EXPECT_TRUE(text.starts_with("query edge_edge\npoint "));
-  EXPECT_TRUE(
-      text.ends_with("claim no_collision\nseparate 0 1/4 vertex 3\nseparate 1/4 1/2 edge 2 3\n"
-                     "separate 1/2 1 face -\nend\n"));
-  certificate.claim = Claim::collision;
-  certificate.subintervals.clear();
-  certificate.contact = {
-      RootTime{{Rational(1, 2), 1}, Polynomial(Integer(-1), Integer(0), Integer(2))},
-      SegmentContact{{1, 2}}};
-  text.clear();
-  write(text, certificate);
-  EXPECT_TRUE(text.ends_with("claim collision\ncontact root 1/2 1 -1 0 2\nat segment 1 2\nend\n"));
+  return text.substr(text.find('\n', text.rfind("point")) + 1);
 }
 
-TEST(WriteCertificate, NamesADistanceAndWhatBelongsToIt) {
+TEST(WriteCertificate, NamesEveryFeature) {
   using Sort = Feature::Sort;
   Certificate certificate;
-  certificate.separation = {.distance = 0.125, .norm = Norm::linf};
-  certificate.subintervals = {
-      {0, Rational(1, 4), {.sort = Sort::positive_axis, .axis = 0}},
-      {Rational(1, 4), Rational(1, 2), {.sort = Sort::negative_axis, .axis = 2}},
-      {Rational(1, 2), 1, {.sort = Sort::cross, .i = 2, .j = 0, .axis = 1}}};
-  std::string text;
-  write(text, certificate);
-  EXPECT_TRUE(text.ends_with(
-      "point 0x0p+0 0x0p+0 0x0p+0\nseparation 0x1p-3 linf\nclaim no_collision\n"
-      "separate 0 1/4 axis x +\nseparate 1/4 1/2 axis z -\nseparate 1/2 1 cross y 2 0\nend\n"));
-  certificate.separation.norm = Norm::l2;
-  certificate.claim = Claim::collision;
-  certificate.subintervals.clear();
-  for (const auto& [place, line] :
-       {std::pair<ContactPlace, const char*>(VertexContact{2}, "at vertex 2"),
-        {EdgeContact{{1, 2}}, "at edge 1 2"},
-        {FaceContact{}, "at face"},
-        {AxesContact{}, "at axes"}}) {
-    certificate.contact = {Rational(1, 2), place};
-    text.clear();
-    write(text, certificate);
-    EXPECT_TRUE(text.ends_with(std::string("\nseparation 0x1p-3 l2\nclaim collision\n"
-                                           "contact time 1/2\n") +
-                               line + "\nend\n"))
-        << text;
+  for (const auto& [feature, text] :
+       {std::pair<Feature, const char*>({.sort = Sort::vertex, .i = 3}, "vertex 3"),
+        {{.sort = Sort::edge, .i = 2, .j = 3}, "edge 2 3"},
+        {{.sort = Sort::positive_face}, "face +"},
+        {{.sort = Sort::negative_face}, "face -"},
+        {{.sort = Sort::positive_axis, .axis = 0}, "axis x +"},
+        {{.sort = Sort::negative_axis, .axis = 2}, "axis z -"},
+        {{.sort = Sort::cross, .i = 2, .j = 0, .axis = 1}, "cross y 2 0"}}) {
+    certificate.subintervals = {{0, Rational(1, 4), feature}, {Rational(1, 4), 1, feature}};
+    EXPECT_EQ(end_of(certificate), std::string("claim no_collision\nseparate 0 1/4 ") + text +
+                                       "\nseparate 1/4 1 " + text + "\nend\n");
   }
 }
 
-TEST(WriteCertificate, NamesTheLeastDistanceButNotZero) {
+TEST(WriteCertificate, NamesEveryPlaceOfContactAndDistancesAboveZero) {
+  const RootTime root{{Rational(1, 2), 1}, Polynomial(Integer(-1), Integer(0), Integer(2))};
   Certificate certificate;
-  for (const auto& [distance, line] :
-       {std::pair(0x1p-1074, "\nseparation 0x0.0000000000001p-1022 linf\n"), std::pair(0.0, ""),
-        std::pair(-0.0, "")}) {
-    certificate.separation.distance = distance;
-    std::string text;
-    write(text, certificate);
-    EXPECT_EQ(text.find("separation") != std::string::npos, *line != '\0');
-    EXPECT_NE(text.find(line), std::string::npos);
+  certificate.claim = Claim::collision;
+  certificate.contact = {root, SegmentContact{{1, 2}}};
+  EXPECT_EQ(end_of(certificate),
+            "claim collision\ncontact root 1/2 1 -1 0 2\nat segment 1 2\nend\n");
+  for (const auto& [distance, line] : {std::pair(0.125, "separation 0x1p-3 l2\n"),
+                                       {0x1p-1074, "separation 0x0.0000000000001p-1022 l2\n"},
+                                       {0.0, ""},
+                                       {-0.0, ""}}) {
+    certificate.separation = {.distance = distance, .norm = Norm::l2};
+    for (const auto& [place, text] :
+         {std::pair<ContactPlace, const char*>(VertexContact{2}, "at vertex 2"),
+          {EdgeContact{{1, 2}}, "at edge 1 2"},
+          {FaceContact{}, "at face"},
+          {AxesContact{}, "at axes"}}) {
+      certificate.contact = {Rational(1, 2), place};
+      EXPECT_EQ(end_of(certificate),
+                line + std::string("claim collision\ncontact time 1/2\n") + text + "\nend\n");
+    }
   }
 }
 

@@ -14,20 +14,25 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <initializer_list>
+#include <cstdlib>
+#include <fstream>
 #include <latch>
 #include <limits>
 #include <optional>
 #include <span>
+#include <sstream>
 #include <stdexcept>
+#include <string>
 #include <string_view>
 #include <thread>
 #include <utility>
 #include <vector>
 
+#include "tests/support/built_files.hpp"
 #include "tests/support/contact_function.hpp"
 #include "tests/support/queries.hpp"
 #include "tests/support/random.hpp"
+#include "tests/support/rows.hpp"
 #include "tests/support/trials.hpp"
 
 namespace touchstone::exact::oracle_test {
@@ -255,29 +260,48 @@ void expect_irrational_toi(const PosedQuery& posed, const Polynomial& polynomial
   check_contact(posed, verdict);
 }
 
-Polynomial polynomial(std::initializer_list<int> coefficients) {
-  return Polynomial(std::vector<Integer>(coefficients.begin(), coefficients.end()));
+// ------------------------------------------------------------------ known answers
+
+/// A number of a row: a double, a fraction, or a power of two.
+Rational number(const std::string& word) {
+  if (word.find('/') != std::string::npos) return Rational(word, 10);
+  const std::size_t power = word.find("0x1p");
+  if (power != std::string::npos) return power_of_two(std::stol(word.substr(power + 4)));
+  return rational_from_decimal(word);
 }
 
-// ------------------------------------------------------------------ the published queries
-
-TEST(Oracle, FindsTheHourglassContactAtOneMinusTheDoubleNearOneTenth) {
-  const double x = 0.1;
-  expect_contact(vertex_face({x, x, x, 0, 0, 1, 1, 0, 1, 0, 1, 1},  //
-                             {x, x, x, 0, 0, 0, 0, 1, 0, 1, 0, 0}),
-                 1 - Rational(x), Rational(x), Rational(x));
-}
-
-TEST(Oracle, FindsThatTheInflectionQueryMisses) {
-  expect_no_collision(vertex_face({1, 1, 0, 0, 0, 5, 2, 0, 2, 0, 1, 0},  //
-                                  {1, 1, 0, 0, 0, -1, 0, 0, -2, 0, 7, 0}));
-}
-
-TEST(Oracle, FindsTheCoplanarContactAtTheQuotientOfItsDoubles) {
-  const Rational start(0.57), end(0.28);
-  expect_contact(vertex_face({1, 0.5, 1, 0, 0.57, 1, 1, 0.57, 1, 1, 1.57, 1},
-                             {1, 0.5, 1, 0, 0.28, 1, 1, 0.28, 1, 1, 1.28, 1}),
-                 (start - Rational(0.5)) / (start - end), 1, 0);
+/// The queries of contacts.txt.
+TEST(Oracle, KnowsTheContactsOfTheList) {
+  std::ifstream file(tests::source_folder() + "/tests/exact/contacts.txt");
+  std::size_t rows = 0;
+  for (std::string line; std::getline(file, line);) {
+    if (line.empty() || line.starts_with('#')) continue;
+    for (const std::string& row : tests::expanded(line)) {
+      ++rows;
+      const auto sides = tests::split(row, " -> ");
+      const tests::QueryRow query(sides.at(0));
+      PosedQuery posed{kind_from_string(tests::replaced(query.kind, "_", "-")), {}};
+      std::istringstream coordinates(tests::joined(query.points, " "));
+      for (double& x : posed.query.coordinates) {
+        std::string word;
+        coordinates >> word;
+        x = std::strtod(word.c_str(), nullptr);
+      }
+      const auto words = tests::split(sides.at(1), " ");
+      if (words[0] == "none") {
+        expect_no_collision(posed);
+      } else if (words[0] == "root") {
+        std::vector<Integer> coefficients;
+        for (std::size_t i = 1; words[i] != "~"; ++i) coefficients.emplace_back(words[i]);
+        expect_irrational_toi(posed, Polynomial(std::move(coefficients)), words.back());
+      } else if (words.size() == 1) {
+        expect_toi(posed, number(words[0]));
+      } else {
+        expect_contact(posed, number(words[0]), number(words[1]), number(words[2]));
+      }
+    }
+  }
+  EXPECT_GT(rows, 80U);
 }
 
 // ------------------------------------------------------------------ contacts in general position
@@ -313,216 +337,14 @@ TEST(Oracle, FindsEdgeEdgeContactInsideAndAtTheEnds) {
   }
 }
 
-TEST(Oracle, MissesByTheLeastDouble) {
-  const double over_four = std::nextafter(4.0, 5.0), over_two = std::nextafter(2.0, 3.0);
-  for (const auto& [x, y] : {std::pair{-least, 1.0},
-                             {1.0, -least},
-                             {over_four, 0.0},
-                             {over_two, 2.0},
-                             {0.0, over_four},
-                             {2.0, over_two}}) {
-    expect_no_collision(over_triangle(x, y, 1, -1));
-    expect_no_collision(over_triangle(x, y, 0, 0));
-  }
-  for (const auto& [x, y] : {std::pair{-least, 1.0}, {1.0, -least}, {over_four, 1.0}}) {
-    expect_no_collision(over_edge(x, y, 1, -1));
-  }
-  expect_no_collision(over_triangle(1, 1, least, least));
-  expect_no_collision(over_triangle(1, 1, 1, least));
-  expect_no_collision(over_edge(1, 1, 1, least));
-  expect_contact(over_triangle(least, 1, 1, -1), ratio(1, 2), Rational(least) / 4, ratio(1, 4));
-}
-
-TEST(Oracle, FindsIrrationalTimesOfDegreeTwo) {
-  // t·2t = 1, u = t, v = 1/4.
-  expect_irrational_toi(turning_triangle(2, 0, 2, 1), polynomial({-1, 0, 2}),
-                        "0.70710678118654752440");
-  // t(1 + t) = 1 at the inverse of the golden ratio, u = (1+t)/2.
-  expect_irrational_toi(turning_triangle(4, 1, 2, 1), polynomial({-1, 1, 1}),
-                        "0.61803398874989484820");
-}
-
-TEST(Oracle, FindsIrrationalTimesOfDegreeThree) {
-  // (3/4) t − 1/8 = t³, that is 8t³ − 6t + 1 = 0: cos 80°, cos 40° and −cos 20°.
-  expect_irrational_toi(twisting_triangle({0.75, 0.125, 0}, {0.75, 0.125, 1}),
-                        polynomial({1, -6, 0, 8}), "0.17364817766693034885");
-  // u = 3/4 − t² and v = t − 1/4 are inside the domain at cos 40° and not at cos 80°. The motion of
-  // x cancels the term −t²·(−1/4) of the plane's equation, which gives u = 3/4 − t².
-  expect_irrational_toi(twisting_triangle({0.75, 0.125, -0.25}, {0.5, 0.125, 0.75}),
-                        polynomial({1, -6, 0, 8}), "0.76604444311897803520");
-}
-
-TEST(Oracle, SkipsRootsOutsideThePrimitive) {
-  // t(1−t) = 3/16 at 1/4 and 3/4, where u = (1−t)/s.
-  expect_contact(turning_triangle(1, 1, 0, 0.1875), ratio(1, 4), ratio(3, 4), ratio(1, 4));
-  expect_contact(turning_triangle(0.5, 1, 0, 0.1875), ratio(3, 4), ratio(1, 2), ratio(1, 4));
-  expect_no_collision(turning_triangle(0.125, 1, 0, 0.1875));
-  // (t − 1/4)(t − 1/2)(t − 3/4) = 0 with v = z0 + t and u = 3/2 t − t².
-  expect_contact(twisting_triangle({0, -0.09375, -0.125}, {1.375, 0.59375, 0.875}), ratio(1, 4),
-                 ratio(5, 16), ratio(1, 8));
-  expect_contact(twisting_triangle({0, -0.09375, -0.375}, {1.125, 0.59375, 0.625}), ratio(1, 2),
-                 ratio(1, 2), ratio(1, 8));
-  expect_contact(twisting_triangle({0, -0.09375, -0.625}, {0.875, 0.59375, 0.375}), ratio(3, 4),
-                 ratio(9, 16), ratio(1, 8));
-  expect_no_collision(twisting_triangle({0, -0.09375, -0.875}, {0.625, 0.59375, 0.125}));
-}
-
-TEST(Oracle, FindsTheDoubleRootAndSeparatesItFromItsNeighbours) {
-  // t(1−t) = y: a double root at 1/2 for y = 1/4, none above, two below.
-  expect_contact(turning_triangle(1, 1, 0, 0.25), ratio(1, 2), ratio(1, 2), ratio(1, 4));
-  expect_no_collision(turning_triangle(1, 1, 0, std::nextafter(0.25, 1.0)));
+TEST(Oracle, FindsTheFirstOfTwoRootsBesideADoubleOne) {
+  // t(1−t) = y: 1/4 − 2^-55 = t(1−t) at 1/2 − 2^-27.5, which is irrational.
   const PosedQuery below = turning_triangle(1, 1, 0, std::nextafter(0.25, 0.0));
   const Decision verdict = decide(below);
   ASSERT_TRUE(verdict.collides());
   check_contact(below, verdict);
-  // 1/4 − 2^-55 = t(1−t) at 1/2 − 2^-27.5, which is irrational.
   EXPECT_TRUE(*verdict.toi < Rational(ratio(1, 2) - power_of_two(-28)));
   EXPECT_TRUE(*verdict.toi > Rational(ratio(1, 2) - power_of_two(-27)));
-}
-
-// ------------------------------------------------------------------ degenerate primitives
-
-TEST(Oracle, DecidesPointOnPoint) {
-  const FourPoints start{-1, -2, -3, 0, 0, 0, 0, 0, 0, 0, 0, 0};
-  const FourPoints end{2, 4, 6, 0, 0, 0, 0, 0, 0, 0, 0, 0};
-  expect_toi(vertex_face(start, end), ratio(1, 3));
-  FourPoints beside = end;
-  beside[2] = std::nextafter(6.0, 7.0);
-  expect_no_collision(vertex_face(start, beside));
-
-  const FourPoints edges_start{-1, -2, -3, -1, -2, -3, 0, 0, 0, 0, 0, 0};
-  const FourPoints edges_end{2, 4, 6, 2, 4, 6, 0, 0, 0, 0, 0, 0};
-  expect_toi(edge_edge(edges_start, edges_end), ratio(1, 3));
-  FourPoints edges_beside = edges_end;
-  edges_beside[2] = edges_beside[5] = std::nextafter(6.0, 7.0);
-  expect_no_collision(edge_edge(edges_start, edges_beside));
-}
-
-TEST(Oracle, DecidesPointOnEdge) {
-  // The edge from (0,0,0) to (4,0,0) and the point over (1,0,0), once as an edge of length 0, once
-  // under a triangle of area 0 whose points are collinear.
-  const PosedQuery on_edge =
-      edge_edge({1, 0, 1, 1, 0, 1, 0, 0, 0, 4, 0, 0}, {1, 0, -2, 1, 0, -2, 0, 0, 0, 4, 0, 0});
-  expect_toi(on_edge, ratio(1, 3));
-  const RationalInterval v = contact_parameters(decide(on_edge), 1).v;
-  EXPECT_EQ(v.lower, ratio(1, 4));
-  EXPECT_EQ(v.upper, ratio(1, 4));
-  expect_no_collision(
-      edge_edge({1, 1, 1, 1, 1, 1, 0, 0, 0, 4, 0, 0}, {1, 1, -2, 1, 1, -2, 0, 0, 0, 4, 0, 0}));
-  expect_no_collision(edge_edge({-least, 0, 1, -least, 0, 1, 0, 0, 0, 4, 0, 0},
-                                {-least, 0, -2, -least, 0, -2, 0, 0, 0, 4, 0, 0}));
-  const std::array<double, 9> line{0, 0, 0, 1, 0, 0, 4, 0, 0};
-  for (const double x : {0.0, 0.5, 1.0, 2.0, 4.0}) {
-    expect_toi(vertex_face(with_vertex(x, 0, 1, line), with_vertex(x, 0, -2, line)), ratio(1, 3));
-  }
-  for (const double x : {-least, std::nextafter(4.0, 5.0)}) {
-    expect_no_collision(vertex_face(with_vertex(x, 0, 1, line), with_vertex(x, 0, -2, line)));
-  }
-  expect_no_collision(vertex_face(with_vertex(1, least, 1, line), with_vertex(1, least, -2, line)));
-}
-
-TEST(Oracle, DecidesAZeroAreaTriangleThatOpensLater) {
-  // The triangle is the segment x ∈ [0,4] at t=0; f2 rises so that it is not degenerate later.
-  expect_contact(
-      vertex_face({2, 0.5, 0, 0, 0, 0, 4, 0, 0, 2, 0, 0}, {2, 0.5, 0, 0, 0, 0, 4, 0, 0, 2, 2, 0}),
-      ratio(1, 4), 0, 1);
-  expect_no_collision(vertex_face({2, 0.5, 0, 0, 0, 0, 4, 0, 0, 2, 0, 0},
-                                  {2, 0.5, 0, 0, 0, 0, 4, 0, 0, 2, 0.25, 0}));
-}
-
-TEST(Oracle, DecidesParallelEdges) {
-  // The edges overlap on [2,4] (u from 1/2 on) when the second comes down to z=0.
-  expect_toi(
-      edge_edge({0, 0, 0, 4, 0, 0, 2, 0, 1, 6, 0, 1}, {0, 0, 0, 4, 0, 0, 2, 0, -2, 6, 0, -2}),
-      ratio(1, 3));
-  // The edges share only the point (4,0,0).
-  expect_contact(
-      edge_edge({0, 0, 0, 4, 0, 0, 4, 0, 1, 6, 0, 1}, {0, 0, 0, 4, 0, 0, 4, 0, -2, 6, 0, -2}),
-      ratio(1, 3), 1, 0);
-  const double gap = std::nextafter(4.0, 5.0);
-  expect_no_collision(
-      edge_edge({0, 0, 0, 4, 0, 0, gap, 0, 1, 6, 0, 1}, {0, 0, 0, 4, 0, 0, gap, 0, -2, 6, 0, -2}));
-  expect_no_collision(
-      edge_edge({0, 0, 0, 4, 0, 0, 2, 1, 1, 6, 1, 1}, {0, 0, 0, 4, 0, 0, 2, 1, -2, 6, 1, -2}));
-}
-
-TEST(Oracle, DecidesCollinearEdges) {
-  // The edges [0,1] at rest and [3,4] moving to [3−s, 4−s] on the same line.
-  const FourPoints start{0, 0, 0, 1, 0, 0, 3, 0, 0, 4, 0, 0};
-  expect_contact(edge_edge(start, {0, 0, 0, 1, 0, 0, -3, 0, 0, -2, 0, 0}), ratio(1, 3), 1, 0);
-  expect_contact(edge_edge(start, {0, 0, 0, 1, 0, 0, 1, 0, 0, 2, 0, 0}), 1, 1, 0);
-  expect_no_collision(
-      edge_edge(start, {0, 0, 0, 1, 0, 0, std::nextafter(1.0, 2.0), 0, 0, 2, 0, 0}));
-  // The same on the line in direction (1,2,−3).
-  expect_contact(edge_edge({0, 0, 0, 1, 2, -3, 3, 6, -9, 4, 8, -12},
-                           {0, 0, 0, 1, 2, -3, -3, -6, 9, -2, -4, 6}),
-                 ratio(1, 3), 1, 0);
-}
-
-TEST(Oracle, DecidesCoincidentPoints) {
-  const FourPoints here{1, 2, 3, 1, 2, 3, 1, 2, 3, 1, 2, 3};
-  const FourPoints there{-1, 5, 0, -1, 5, 0, -1, 5, 0, -1, 5, 0};
-  const FourPoints apart{1, 0, 0, 0, 1, 0, 0, 0, 1, 2, 2, 2};
-  for (const FourPoints& end : {here, there, apart}) {
-    expect_toi(vertex_face(here, end), 0);
-    expect_toi(edge_edge(here, end), 0);
-  }
-  // The primitives meet only at the end.
-  expect_toi(vertex_face({5, 0, 0, 0, 1, 0, 0, 0, 1, 0, 2, 2}, here), 1);
-  expect_toi(edge_edge({5, 0, 0, 5, 1, 0, 0, 0, 1, 0, 2, 2}, here), 1);
-}
-
-// ------------------------------------------------------------------ degenerate motion
-
-TEST(Oracle, DecidesRest) {
-  for (const double z : {0.0, -0.0})
-    expect_contact(over_triangle(1, 1, z, z), 0, ratio(1, 4), ratio(1, 4));
-  expect_no_collision(over_triangle(1, 1, 1, 1));
-  expect_no_collision(over_triangle(5, 1, 0, 0));
-  expect_contact(over_edge(1, 2, 0, 0), 0, ratio(1, 4), ratio(1, 2));
-  expect_no_collision(over_edge(1, 2, 1, 1));
-  expect_no_collision(over_edge(5, 2, 0, 0));
-}
-
-TEST(Oracle, FindsTheFirstInstantOfAnIntervalOfCoplanarContact) {
-  constexpr std::array<double, 9> face{0, 0, 0, 4, 0, 0, 0, 4, 0};
-  // The vertex enters through the edge x=0 at (0,1) and stays inside.
-  expect_contact(vertex_face(with_vertex(-1, 1, 0, face), with_vertex(2, 1, 0, face)), ratio(1, 3),
-                 0, ratio(1, 4));
-  // It enters through the long side, at (3,1).
-  expect_contact(vertex_face(with_vertex(5, 1, 0, face), with_vertex(1, 1, 0, face)), ratio(1, 2),
-                 ratio(3, 4), ratio(1, 4));
-  // It slides along the edge from outside, in the edge's own line.
-  expect_contact(vertex_face(with_vertex(-1, 0, 0, face), with_vertex(2, 0, 0, face)), ratio(1, 3),
-                 0, 0);
-  expect_no_collision(vertex_face(with_vertex(-1, 1, 0, face), with_vertex(-least, 1, 0, face)));
-  // Crossed edges in one plane, the second from the right: they meet at (4,0).
-  expect_contact(
-      edge_edge({0, 0, 0, 4, 0, 0, 6, -1, 0, 6, 1, 0}, {0, 0, 0, 4, 0, 0, 0, -1, 0, 0, 1, 0}),
-      ratio(1, 3), 1, ratio(1, 2));
-}
-
-TEST(Oracle, FindsAnIsolatedInstantOfCoplanarContact) {
-  // A path past the tip (0,0) of a triangle, below it.
-  const std::array<double, 9> face{0, 0, 0, 1, 1, 0, -1, 1, 0};
-  expect_contact(vertex_face(with_vertex(-1, 0, 0, face), with_vertex(2, 0, 0, face)), ratio(1, 3),
-                 0, 0);
-  expect_no_collision(
-      vertex_face(with_vertex(-1, -least, 0, face), with_vertex(2, -least, 0, face)));
-  // A hanging edge moves along below the lower end of a standing one.
-  expect_contact(
-      edge_edge({0, 0, 0, 0, 2, 0, -1, 0, 0, -1, -2, 0}, {0, 0, 0, 0, 2, 0, 2, 0, 0, 2, -2, 0}),
-      ratio(1, 3), 0, 0);
-  expect_no_collision(edge_edge({0, 0, 0, 0, 2, 0, -1, -least, 0, -1, -2, 0},
-                                {0, 0, 0, 0, 2, 0, 2, -least, 0, 2, -2, 0}));
-}
-
-TEST(Oracle, FindsIrrationalTimesOfCoplanarMotion) {
-  // A vertex comes down through the turning edge from (0,0) to (2,2t), t·2t = 1, into the triangle
-  // below it; all in the plane z=0.
-  expect_irrational_toi(vertex_face({0, 1, 0, 0, 0, 0, 2, 0, 0, 1, -3, 0},  //
-                                    {2, 1, 0, 0, 0, 0, 2, 2, 0, 1, -3, 0}),
-                        polynomial({-1, 0, 2}), "0.70710678118654752440");
 }
 
 // ------------------------------------------------------------------ the limits of doubles

@@ -24,12 +24,7 @@ using tests::Scene;
 
 Scene scene_of(const Places& start, const Places& end) {
   return {.start = start,
-          .end = end,
-          .edges = {},
-          .faces = {},
-          .points = {},
-          .groups = {},
-          .apart = {}};
+          .end = end};
 }
 
 /// A point that falls from height 1 to −1 over (1,1) of a face in the plane z=0.

@@ -348,11 +348,7 @@ TEST(LeastDistance, OfLargerScenesIsThatOfAllPairs) {
 tests::Scene two_triangles(double distance) {
   tests::Scene scene{.start = tests::Places(6, 3),
                      .end = {},
-                     .edges = {},
-                     .faces = {{0, 1, 2}, {3, 4, 5}},
-                     .points = {},
-                     .groups = {},
-                     .apart = {}};
+                     .faces = {{0, 1, 2}, {3, 4, 5}}};
   scene.start << 0, 0, 0, 4, 0, 0, 0, 4, 0, 1, 1, distance, 2, 1, distance, 1, 2, distance;
   scene.end = scene.start;
   scene.edges = edges_of(scene.faces);

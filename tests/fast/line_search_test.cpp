@@ -36,11 +36,7 @@ constexpr auto norms = std::to_array<Norm>({Norm::l2, Norm::linf});
 Scene falling_triangle(double height, double end) {
   Scene scene{.start = Places(6, 3),
               .end = {},
-              .edges = {},
-              .faces = {{0, 1, 2}, {3, 4, 5}},
-              .points = {},
-              .groups = {},
-              .apart = {}};
+              .faces = {{0, 1, 2}, {3, 4, 5}}};
   scene.start << -4, -4, 0, 8, -4, 0, -4, 8, 0,  //
       -1, -1, height, 1, -1, height + 1, -1, 1, height + 2;
   scene.end = scene.start;

@@ -21,6 +21,7 @@
 #include "touchstone/line_search.hpp"
 #include "touchstone/primitive_pairs.hpp"
 #include "touchstone/step.hpp"
+#include "touchstone/tight_inclusion.hpp"
 
 namespace touchstone::fast::refusals_test {
 namespace {
@@ -110,6 +111,24 @@ std::vector<Refusal> refusals() {
          Distance result;
          distances(posed.kind, std::span(&posed.query, 1), 0.0, Norm::l2, std::span(&result, 1),
                    static_cast<int>(x));
+       }},
+      {"tolerance_of_tight_inclusion",
+       {0.0, -1.0, infinity, nan},
+       [](double x) { (void)tight_inclusion(posed.kind, posed.query, {.tolerance = x}); }},
+      {"separation_of_tight_inclusion", no_distance,
+       [](double x) {
+         (void)tight_inclusion(posed.kind, posed.query, {.separation = {.distance = x}});
+       }},
+      {"time_of_tight_inclusion", no_time,
+       [](double x) { (void)tight_inclusion(posed.kind, posed.query, {.t_max = x}); }},
+      {"refinements_of_tight_inclusion", no_count,
+       [](double x) {
+         (void)tight_inclusion(posed.kind, posed.query, {.max_refinements = static_cast<int>(x)});
+       }},
+      {"scene_filter_of_tight_inclusion",
+       {-1.0, nan},
+       [](double x) {
+         (void)tight_inclusion(posed.kind, posed.query, {.scene_filter = {{0.0, x, 0.0}}});
        }},
       {"size_of_scaled_step", no_time, [](double x) { (void)step().scaled(x); }},
       {"share_of_line_search", {0.0, -0.5, 1.0, 1.0 - 0x1p-52, nan}, [](double x) {

@@ -37,11 +37,11 @@ using Pairs = std::vector<NumberedPair>;
 struct Scene {
   Places start;
   Places end;
-  std::vector<Edge> edges;  ///< all of them
-  std::vector<Face> faces;
-  std::vector<std::int32_t> points;
-  std::vector<std::int32_t> groups;
-  std::vector<std::array<std::int32_t, 2>> apart;
+  std::vector<Edge> edges = {};  ///< all of them
+  std::vector<Face> faces = {};
+  std::vector<std::int32_t> points = {};
+  std::vector<std::int32_t> groups = {};
+  std::vector<std::array<std::int32_t, 2>> apart = {};
 
   [[nodiscard]] fast::MeshElements elements() const {
     return {.edges = edges, .faces = faces, .points = points};
@@ -95,12 +95,7 @@ struct Shape {
 /// points.
 [[nodiscard]] inline Scene random_scene(Random& random, const Shape& shape, int vertices) {
   Scene scene{.start = Places(vertices, 3),
-              .end = Places(vertices, 3),
-              .edges = {},
-              .faces = {},
-              .points = {},
-              .groups = {},
-              .apart = {}};
+              .end = Places(vertices, 3)};
   for (Eigen::Index i = 0; i < vertices; ++i) {
     for (Eigen::Index axis = 0; axis < 3; ++axis) {
       scene.start(i, axis) = shape.coordinate(random);
@@ -128,12 +123,7 @@ struct Shape {
 /// Triangles, edges and points at random places in a cube, each of about this size and motion.
 [[nodiscard]] inline Scene soup(Random& random, int count, double size) {
   Scene scene{.start = Places(6 * count, 3),
-              .end = Places(6 * count, 3),
-              .edges = {},
-              .faces = {},
-              .points = {},
-              .groups = {},
-              .apart = {}};
+              .end = Places(6 * count, 3)};
   for (int i = 0; i < count; ++i) {
     for (Eigen::Index axis = 0; axis < 3; ++axis) {
       const double centre = random.uniform(-1, 1), motion = random.uniform(-size, size);

@@ -1,5 +1,6 @@
 /// \file
 /// The checker's reading: what is a certificate, and of what is not one the line and the reason.
+/// (The words and numbers of the format are rows of certificates.txt.)
 
 #include "exact/checker/certificate.hpp"
 
@@ -114,113 +115,6 @@ TEST(Form, EveryLineIsNeededToItsEnd) {
               n == 2 ? "the stream is cut: it has no closing line 'certificates 0'"
                      : "the stream ends within a certificate");
   }
-}
-
-TEST(Form, WordsAreThoseOfTheFormat) {
-  const std::vector<std::pair<std::string, std::string>> cases{
-      {with(2, "query vertex-face"), "2: unknown word: 'vertex-face'"},
-      {with(2, "query"), "2: the line has too few words"},
-      {with(2, "Query vertex_face"), "2: expected 'query', found 'Query'"},
-      {with(3, "labels x"), "3: expected 'point', found 'labels'"},
-      {with(4, "points 1 1 1"), "4: expected 'point', found 'points'"},
-      {with(4, "point 1 1"), "4: the line has too few words"},
-      {with(4, "point 1 1 1 1"), "4: the line has too many words"},
-      {with(12, "claim contact"), "12: unknown word: 'contact'"},
-      {with(12, "claim no_collision 1/4 3/4"), "12: the line has too many words"},
-      {with(12, "claim time_of_impact 1/4"), "12: the line has too few words"},
-      {with(12, "claim no_collision"), "15: expected 'end', found 'contact'"},
-      {with(12, "claim collision"), "13: expected 'contact', found 'separate'"},
-      {with(13, "separate 0 1/8 plane +"), "13: unknown word: 'plane'"},
-      {with(13, "separate 0 1/8 face"), "13: the line has too few words"},
-      {with(13, "separate 0 1/8 face 0"), "13: unknown word: '0'"},
-      {with(13, "separate 0 1/8 vertex 3"), "13: a vertex_face has no corner 3"},
-      {with(13, "separate 0 1/8 vertex 4"), "13: unknown word: '4'"},
-      {with(13, "separate 0 1/8 vertex -1"), "13: unknown word: '-1'"},
-      {with(13, "separate 0 1/8 vertex 00"), "13: unknown word: '00'"},
-      {with(13, "separate 0 1/8 vertex 18446744073709551616"),
-       "13: unknown word: '18446744073709551616'"},
-      {with(13, "separate 0 1/8 edge 0 3"), "13: a vertex_face has no corner 3"},
-      {with(13, "separate 0 1/8 edge 3 0"), "13: a vertex_face has no corner 3"},
-      {with(13, "separate 0 1/8 edge 0"), "13: the line has too few words"},
-      {with(13, "separate 0 1/8 vertex 0 1"), "13: the line has too many words"},
-      {with(14, "end"), "14: expected 'contact', found 'end'"},
-      {with(15, "contact at 1/2"), "15: unknown word: 'at'"},
-      {with(15, "contact time 1/2 1/2"), "15: the line has too many words"},
-      {with(15, "contact root 1/4 3/4"), "15: a polynomial of a degree below 1"},
-      {with(15, "contact root 1/4 3/4 -1"), "15: a polynomial of a degree below 1"},
-      {with(15, "contact root 1/4 3/4 -1 2 0"), "15: a polynomial whose leading coefficient is 0"},
-      {with(15, "contact root 1/4 3/4 0 0"), "15: a polynomial whose leading coefficient is 0"},
-      {with(15, "contact root 1/4 3/4 -1/2 1"), "15: not a number: '-1/2'"},
-      {with(15, "contact root 1/4 3/4 -1 0x1p+1"), "15: not a number: '0x1p+1'"},
-      {with(15, "contact root 1/4 3/4 -1 2 "), "15: not a number: ''"},
-      {with(16, "at point 0"), "16: unknown word: 'point'"},
-      {with(16, "at triangle 0 1 2"), "16: the line has too few words"},
-      {with(16, "at triangle 0 1 3 z"), "16: a vertex_face has no corner 3"},
-      {with(16, "at triangle 0 1 2 w"), "16: unknown word: 'w'"},
-      {with(16, "at triangle 0 1 2 xy"), "16: unknown word: 'xy'"},
-      {with(16, "at segment 0 1 2"), "16: the line has too many words"},
-      {with(17, "End"), "17: expected 'end', found 'End'"},
-  };
-  for (const auto& [text, expected] : cases) EXPECT_EQ(outcome(text), expected);
-}
-
-TEST(Form, CommentsAndEmptyLinesAreSkippedAndCounted) {
-  EXPECT_EQ(outcome(with(9, "# 0 0 0\n\n#\npoint 0 0 0")), "time_of_impact");
-  EXPECT_EQ(outcome(with(9, "# 0 0 0\n\n#\npoint 0 0")), "12: the line has too few words");
-  EXPECT_EQ(outcome(with(9, " \npoint 0 0 0")), "9: expected 'point', found ''");
-  EXPECT_EQ(outcome(with(9, " # no comment\npoint 0 0 0")), "9: expected 'point', found ''");
-  EXPECT_EQ(outcome(with(9, "#\0\x1b\xff\r\npoint 0 0 0"s)), "time_of_impact");
-}
-
-// ---- Numbers ------------------------------------------------------------------------------------
-
-TEST(Number, MayBeWrittenInThreeWays) {
-  for (const std::string_view one :
-       {"1", "5/5", "0x1p+0", "0x1p0", "0x1p-0", "0x1.0p+0", "0x0.8p+1", "0x2p-1", "0x10p-4",
-        "0x0.0001p16", "0x1.00000000000000000000000000000000p+0", "0x1p+000000",
-        "0x100000000000000000000p-80",
-        "123456789012345678901234567890/123456789012345678901234567890"}) {
-    // At height 1 the vertex meets the triangle's plane at t=1/2 exactly.
-    EXPECT_EQ(outcome(with(4, "point 1 1 " + std::string(one))), "time_of_impact") << one;
-  }
-  for (const std::string_view other :
-       {"0x1.0000000000001p+0", "0x1.fffffffffffffp-1", "2", "-1", "0x1p+1", "0x1p-1", "1/2",
-        "0x0p+0", "0x0.0000000000001p-1022"}) {
-    EXPECT_EQ(outcome(with(4, "point 1 1 " + std::string(other))).find('\''), std::string::npos)
-        << other;
-    EXPECT_NE(outcome(with(4, "point 1 1 " + std::string(other))), "time_of_impact") << other;
-  }
-  for (const std::string_view minus_one : {"-1", "-3/3", "-0x1p+0", "-0x8p-3"}) {
-    EXPECT_EQ(outcome(with(8, "point 1 1 " + std::string(minus_one))), "time_of_impact")
-        << minus_one;
-  }
-  for (const std::string_view zero : {"0", "0/3", "-0x0p+0", "0x0.0p-1074", "0x0p+9999"}) {
-    EXPECT_EQ(outcome(with(13, "separate " + std::string(zero) + " 1/8 face +")), "time_of_impact")
-        << zero;
-  }
-}
-
-TEST(Number, IsNothingElse) {
-  for (const std::string_view word :
-       {"",       "nan",     "inf",      "-inf",     "infinity", "-nan",     "1.0",
-        "1e0",    "+1",      "--1",      "-",        "1/",       "/1",       "1/-1",
-        "1/+1",   "1/1/1",   "0x1p+0/1", "0x",       "0x1",      "0x1.p+0",  "0x.8p1",
-        "0x1p",   "0x1p+",   "0x1p+-1",  "0x1p+0x1", "0x1p1.0",  "0x1+0",    "0x1-0",
-        "0X1p+0", "0x1P+0",  "0x1Ap+0",  "-0x",      "0xp+0",    "1,0",      "1'000",
-        "0b1",    "0x1p+0f", "1u",       "0x-1p+0",  "+0x1p+0",  "0x1..0p0", "--0x1p+0"}) {
-    EXPECT_EQ(outcome(one_as(std::string(word))), "4: not a number: '"s.append(word).append("'"));
-  }
-  EXPECT_EQ(outcome(one_as("1\0"s)), "4: not a number: '1\\x00'");
-  EXPECT_EQ(outcome(one_as("1\r")), "4: not a number: '1\\x0d'");
-  EXPECT_EQ(outcome(one_as("\xc2\xbd")), "4: not a number: '\\xc2\\xbd'");
-  EXPECT_EQ(outcome(one_as("\x1b[2J")), "4: not a number: '\\x1b[2J'");
-  EXPECT_EQ(outcome(one_as("1/0")), "4: a denominator that is 0: '1/0'");
-  EXPECT_EQ(outcome(one_as("0/0")), "4: a denominator that is 0: '0/0'");
-  EXPECT_EQ(outcome(one_as("0/000")), "4: an integer with leading zeros: '0/000'");
-  EXPECT_EQ(outcome(one_as("-0")), "4: a zero with a sign: '-0'");
-  EXPECT_EQ(outcome(one_as("-0/3")), "4: a zero with a sign: '-0/3'");
-  EXPECT_EQ(outcome(one_as(std::string(41, 'z'))),
-            "4: not a number: '" + std::string(40, 'z') + "...'");
 }
 
 /// 2^n in decimal.

@@ -82,49 +82,80 @@ TEST(Check, CountsByClaim) {
   EXPECT_TRUE(check_closed(header + apart + colliding).all_accepted());
 }
 
-TEST(Check, AcceptsAStreamWithoutCertificates) {
-  const Report report = check_text(header + "\n# nothing\ncertificates 0\n");
-  EXPECT_TRUE(report.all_accepted());
-  EXPECT_EQ(report.accepted(), 0U);
-}
+/// A stream, how many certificates of it are accepted, and what is told of the others.
+struct Told {
+  std::string stream;
+  std::uint64_t accepted;
+  Texts rejections;
+};
 
-TEST(Check, RejectsAStreamWithoutItsClosingLine) {
-  const std::string missing = " : the stream is cut: it has no closing line 'certificates ";
-  EXPECT_EQ(rejections(check_text(header)), Texts{"1" + missing + "0'"});
-  EXPECT_EQ(rejections(check_text(header + "\n# nothing\n")), Texts{"3" + missing + "0'"});
-  const Report cut = check_text(header + apart + colliding);
-  EXPECT_EQ(cut.accepted(), 2U);
-  EXPECT_EQ(rejections(cut), Texts{"26" + missing + "2'"});
-  EXPECT_EQ(rejections(check_text(header + apart + "certificates 1")),
-            Texts{"14 : the last line is not ended by a newline"});
+TEST(Check, TellsWhatItAcceptsAndRejects) {
+  const std::string begin = header + apart,
+                    no_closing = "the stream is cut: it has no closing line";
+  const std::string broken = "query vertex_face\nlabel one\npoint 1 1 x\nclaim no_collision\nend\n",
+                    endless = "query vertex_face\nlabel two\n" + points_of_no_collision +
+                              "claim no_collision\nseparate 0 1 face +\n",
+                    labelled = "query vertex_face\nlabel first\n" + apart.substr(18),
+                    without_proof = "query vertex_face\n" + points_of_no_collision +
+                                    "claim no_collision\nend\n",
+                    not_positive = "a polynomial is not positive at a point";
+  std::string lie_among_truths = header;
+  for (int n = 0; n < 101; ++n) lie_among_truths += n < 50 ? apart : n == 50 ? lie : impact;
+  const std::vector<Told> all{
+      {header + "\n# nothing\ncertificates 0\n", 0, {}},
+      {begin + "certificates 1\n\n# the end\n", 1, {}},
+      {header, 0, {"1 : " + no_closing + " 'certificates 0'"}},
+      {header + "\n# nothing\n", 0, {"3 : " + no_closing + " 'certificates 0'"}},
+      {header + apart + colliding, 2, {"26 : " + no_closing + " 'certificates 2'"}},
+      {begin + "certificates 1", 1, {"14 : the last line is not ended by a newline"}},
+      {begin.substr(0, begin.size() - 1),
+       0,
+       {"13 : the last line is not ended by a newline",
+        "13 : " + no_closing + " 'certificates 1'"}},
+      {begin + "certificate 1\n",
+       1,
+       {"14 : expected 'query', found 'certificate'", "14 : " + no_closing + " 'certificates 1'"}},
+      // A rejected certificate is one of those that the closing line counts.
+      {begin + "query x\ncertificates 2\n", 1, {"14 : unknown word: 'x'"}},
+      {begin + "query x\ncertificates 1\n",
+       1,
+       {"14 : unknown word: 'x'",
+        "15 : expected the closing line 'certificates 2', found 'certificates 1'"}},
+      {tests::closed(begin) + apart + header + lie, 1, {"15 : a line after the closing line"}},
+      {tests::closed(header + broken + apart + endless + colliding + "stray 1\nstray 2\n" +
+                     "query\n" + apart + "query x\nquery y\n" + impact),
+       4,
+       {"4 one: not a number: 'x'", "31 two: expected 'end', found 'query'",
+        "44 : expected 'query', found 'stray'", "46 : the line has too few words",
+        "59 : unknown word: 'x'", "60 : unknown word: 'y'"}},
+      {tests::closed(lie_among_truths), 100, {"612 : " + not_positive}},
+      // A proof of one query is none of the next; nor is its label.
+      {tests::closed(begin + without_proof), 1, {"23 : there is no subinterval"}},
+      {tests::closed(header + labelled + lie), 1, {"25 : " + not_positive}},
+      {tests::closed(header + "query vertex_face\nlabel a \x1b[2Jb\t\xc3\xa9\0\r\n"s +
+                     "point x\nend\n"),
+       0,
+       {"4 a \\x1b[2Jb\\x09\\xc3\\xa9\\x00\\x0d: not a number: 'x'"}}};
+  for (const auto& [stream, accepted, expected] : all) {
+    const Report report = check_text(stream);
+    EXPECT_EQ(report.accepted(), accepted) << stream;
+    EXPECT_EQ(rejections(report), expected) << stream;
+    EXPECT_EQ(report.rejected, expected.size());
+    EXPECT_EQ(report.all_accepted(), expected.empty());
+  }
 }
 
 TEST(Check, HoldsTheClosingLineToTheNumberOfCertificates) {
-  const std::string begin = header + apart;
-  EXPECT_TRUE(check_text(begin + "certificates 1\n\n# the end\n").all_accepted());
-  for (const std::string& other :
-       {"certificates 0"s, "certificates 2"s, "certificates 01"s, "certificates -1"s,
-        "certificates 1 "s, "certificates 1\r"s, "certificates  1"s, "certificates"s,
-        "certificates 1 1"s, "certificates 18446744073709551617"s}) {
-    const Report report = check_text(begin + other + "\n");
-    EXPECT_EQ(report.accepted(), 1U) << other;
-    ASSERT_EQ(report.rejected, 1U) << other;
+  for (const std::string_view number :
+       {" 0", " 2", " 01", " -1", " 1 ", " 1\r", "  1", "", " 1 1", " 18446744073709551617"}) {
+    const std::string closing = "certificates" + std::string(number);
+    const Report report = check_text(header + apart + closing + "\n");
+    EXPECT_EQ(report.accepted(), 1U) << number;
+    ASSERT_EQ(report.rejected, 1U) << number;
     EXPECT_TRUE(report.rejections[0].reason.starts_with(
         "expected the closing line 'certificates 1', found 'certificates"))
         << report.rejections[0].reason;
   }
-  EXPECT_EQ(rejections(check_text(begin + "certificate 1\n")),
-            (Texts{"14 : expected 'query', found 'certificate'",
-                   "14 : the stream is cut: it has no closing line 'certificates 1'"}));
-  // A rejected certificate is one of those that the closing line counts.
-  EXPECT_EQ(check_text(begin + "query x\ncertificates 2\n").rejected, 1U);
-  EXPECT_EQ(check_text(begin + "query x\ncertificates 1\n").rejected, 2U);
-}
-
-TEST(Check, ReadsNothingBehindTheClosingLine) {
-  const Report report = check_text(tests::closed(header + apart) + apart + header + lie);
-  EXPECT_EQ(report.accepted(), 1U);
-  EXPECT_EQ(rejections(report), Texts{"15 : a line after the closing line"});
 }
 
 TEST(Check, RejectsAStreamOfAnotherKindAsAWhole) {
@@ -142,42 +173,6 @@ TEST(Check, RejectsAStreamOfAnotherKindAsAWhole) {
   }
 }
 
-TEST(Check, GoesOnAfterARejection) {
-  const std::string broken = "query vertex_face\nlabel one\npoint 1 1 x\nclaim no_collision\nend\n";
-  const std::string endless = "query vertex_face\nlabel two\n" + points_of_no_collision +
-                              "claim no_collision\nseparate 0 1 face +\n";
-  const Report report =
-      check_closed(header + broken + apart + endless + colliding + "stray 1\nstray 2\n" +
-                   "query\n" + apart + "query x\nquery y\n" + impact);
-  EXPECT_EQ(report.accepted(), 4U);
-  EXPECT_EQ(rejections(report),
-            (Texts{"4 one: not a number: 'x'", "31 two: expected 'end', found 'query'",
-                   "44 : expected 'query', found 'stray'", "46 : the line has too few words",
-                   "59 : unknown word: 'x'", "60 : unknown word: 'y'"}));
-  EXPECT_EQ(report.rejected, 6U);
-}
-
-TEST(Check, FindsALieAmongTruths) {
-  std::string text = header;
-  for (int n = 0; n < 50; ++n) text += apart;
-  text += lie;
-  for (int n = 0; n < 50; ++n) text += impact;
-  const Report report = check_closed(text);
-  EXPECT_EQ(report.accepted(), 100U);
-  EXPECT_EQ(rejections(report), Texts{"612 : a polynomial is not positive at a point"});
-}
-
-/// A proof of one query is none of the next.
-TEST(Check, ForgetsTheCertificateBefore) {
-  const std::string without_proof =
-      "query vertex_face\n" + points_of_no_collision + "claim no_collision\nend\n";
-  EXPECT_EQ(rejections(check_closed(header + apart + without_proof)),
-            Texts{"23 : there is no subinterval"});
-  const std::string labelled = "query vertex_face\nlabel first\n" + apart.substr(18);
-  EXPECT_EQ(rejections(check_closed(header + labelled + lie)),
-            Texts{"25 : a polynomial is not positive at a point"});
-}
-
 TEST(Check, KeepsTheFirstRejections) {
   std::string text = header;
   for (int n = 0; n < 250; ++n) text += "query " + std::to_string(n) + "\n";
@@ -191,13 +186,6 @@ TEST(Check, KeepsTheFirstRejections) {
   EXPECT_EQ(check_closed(text, {.max_rejections = 0}).rejected, 250U);
 }
 
-TEST(Check, ShowsLabelsSafely) {
-  const std::string named =
-      "query vertex_face\nlabel a \x1b[2Jb\t\xc3\xa9\0\r\n"s + "point x\nend\n";
-  EXPECT_EQ(rejections(check_closed(header + named)),
-            Texts{"4 a \\x1b[2Jb\\x09\\xc3\\xa9\\x00\\x0d: not a number: 'x'"});
-}
-
 TEST(Check, RejectsTheEndingsOfOtherSystems) {
   std::string text = header + apart, carriage = text;
   for (std::size_t at = 0; (at = carriage.find('\n', at)) != std::string::npos; at += 2)
@@ -206,13 +194,6 @@ TEST(Check, RejectsTheEndingsOfOtherSystems) {
   EXPECT_FALSE(check_closed(header + carriage.substr(header.size() + 1)).all_accepted());
   std::ranges::replace(text, '\n', '\r');
   EXPECT_FALSE(check_closed(text).all_accepted());
-}
-
-TEST(Check, WantsTheLastLineEnded) {
-  const std::string text = header + apart;
-  EXPECT_EQ(rejections(check_text(text.substr(0, text.size() - 1))),
-            (Texts{"13 : the last line is not ended by a newline",
-                   "13 : the stream is cut: it has no closing line 'certificates 1'"}));
 }
 
 /// Cut anywhere, a stream is not accepted, and proves at most what was complete.

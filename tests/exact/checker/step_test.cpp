@@ -63,15 +63,8 @@ TEST(Step, SaysWhatItProves) {
   EXPECT_EQ(report.accepted(), 1U);
 }
 
-TEST(Step, NeedsAnArgumentForEveryPair) {
-  for (const auto& [argument, name] : {std::pair("3 0 -1 0 1\n", "vertex_face 3 0"),
-                                       std::pair("4 0\nseparate 0 1 face +\n", "vertex_face 4 0"),
-                                       std::pair("2 4 1 0 -1\n", "edge_edge 2 4")}) {
-    EXPECT_EQ(refusal(stream(replaced(step(), argument, ""))),
-              "no argument for " + std::string(name));
-  }
-  EXPECT_EQ(refusal(stream(replaced(step(), "2 4 1 0 -1\n", "2 4 1 0 -1\n0 3 0 -1 0\n"))), "")
-      << "an argument more than needed";
+TEST(Step, MayHaveAnArgumentMoreThanNeeded) {
+  EXPECT_EQ(refusal(stream(replaced(step(), "2 4 1 0 -1\n", "2 4 1 0 -1\n0 3 0 -1 0\n"))), "");
 }
 
 /// What is altered in the honest certificate, and why the checker then refuses it.
@@ -128,6 +121,18 @@ const std::vector<Falsehood>& falsehoods() {
       {"vertices 6", "vertices 4194304", "not a number: 'faces'"},
       {"0x1.4p+1", "1/3", no_double},
       {"0x1.4p+1", "0x1p+2000", no_double},
+      // A pair without an argument.
+      {"3 0 -1 0 1\n", "", "no argument for vertex_face 3 0"},
+      {"4 0\nseparate 0 1 face +\n", "", "no argument for vertex_face 4 0"},
+      {"2 3 1 0 -1\n", "", "no argument for edge_edge 2 3"},
+      {"2 4 1 0 -1\n", "", "no argument for edge_edge 2 4"},
+      // Integers have one form.
+      {"\n0 1 2\n", "\n00 1 2\n", off_range},
+      {"\n0 1 2\n", "\n-0 1 2\n", off_range},
+      {"\nvertices 6\n", "\nvertices 06\n", off_range},
+      {"no_contact 1\n", "no_contact 01\n", "an integer with leading zeros: '01'"},
+      {"no_contact 1\n", "no_contact 01/1\n", "an integer with leading zeros: '01/1'"},
+      {"separation 0 ", "separation -0 ", "a zero with a sign: '-0'"},
       // The order of the parts.
       {"sweep x\n", "", "expected 'sweep', found 'vertex_face'"},
       {"vertex_edge\n", "", "expected 'vertex_edge', found 'vertex_vertex'"},
@@ -169,9 +174,6 @@ std::vector<std::string> false_streams() {
   std::vector<std::string> streams;
   for (const auto& [truth, lie, reason] : falsehoods()) {
     streams.push_back(replaced(stream(step()), truth, lie));
-  }
-  for (const std::string_view argument : {"3 0 -1 0 1\n", "2 3 1 0 -1\n", "2 4 1 0 -1\n"}) {
-    streams.push_back(replaced(stream(step()), argument, ""));
   }
   for (const std::string_view end : {"0", "-1"}) {
     streams.push_back(of_falling_vertex(end, ""));
@@ -334,18 +336,14 @@ TEST(Step, LimitsTheWorkByItsBytes) {
   EXPECT_EQ(refusal_of(longer, 0, bits), "");
 }
 
-TEST(Step, LimitsTheItemsOfAScene) {
+TEST(Step, LimitsItsItemsAndArguments) {
   // 6 vertices and 2 faces.
-  const std::string text = stream(step());
+  const std::string text = stream(step()), more = replaced(text, "points 0", "points 1\n0"),
+                    too_many = "the scene has too many items";
   EXPECT_EQ(refusal_within({.max_items = 8}, text), "");
-  EXPECT_EQ(refusal_within({.max_items = 7}, text), "the scene has too many items");
-  const std::string more = replaced(text, "points 0", "points 1\n0");
+  EXPECT_EQ(refusal_within({.max_items = 7}, text), too_many);
   EXPECT_EQ(refusal_within({.max_items = 9}, more), "");
-  EXPECT_EQ(refusal_within({.max_items = 8}, more), "the scene has too many items");
-}
-
-TEST(Step, LimitsItsArguments) {
-  const std::string text = stream(step());
+  EXPECT_EQ(refusal_within({.max_items = 8}, more), too_many);
   EXPECT_EQ(refusal_within({.max_arguments = 6}, text), "");
   EXPECT_EQ(refusal_within({.max_arguments = 5}, text), "more than 5 arguments");
 }
@@ -406,19 +404,6 @@ TEST(Step, ProvesWhatIsDemandedAndNothingElse) {
   EXPECT_THROW(static_cast<void>(demanded_separation("1", "l1")), Rejection);
   EXPECT_THROW(static_cast<void>(demanded_separation("-1", "l2")), Rejection);
   EXPECT_THROW(static_cast<void>(demanded_separation("nan", "l2")), Rejection);
-}
-
-TEST(Step, IntegersHaveOneForm) {
-  for (const auto& [from, to] :
-       {std::pair("\n0 1 2\n", "\n00 1 2\n"), std::pair("\n0 1 2\n", "\n-0 1 2\n"),
-        std::pair("\nvertices 6\n", "\nvertices 06\n"),
-        std::pair("no_contact 1\n", "no_contact 01\n"),
-        std::pair("no_contact 1\n", "no_contact 01/1\n"),
-        std::pair("separation 0 ", "separation -0 ")}) {
-    std::string text = stream(step());
-    text.replace(text.find(from), std::string(from).size(), to);
-    EXPECT_NE(refusal(text), "") << to;
-  }
 }
 
 TEST(Step, IsThereWhereItIsDemanded) {

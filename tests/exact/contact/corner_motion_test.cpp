@@ -4,7 +4,6 @@
 
 #include <array>
 #include <limits>
-#include <span>
 #include <stdexcept>
 #include <vector>
 
@@ -53,10 +52,11 @@ Rational random_time(Random& random) { return Rational(random.between(-50, 150))
 
 // ---- Forms --------------------------------------------------------------------------------------
 
+/// Sums, products and the polynomial of forms are those of their values.
 template <std::size_t m, std::size_t n>
-void expect_products(Random& random) {
+void expect_arithmetic(Random& random) {
   for (int round = 0; round < 50; ++round) {
-    const Form<m> a = random_form<m>(random, 60);
+    const Form<m> a = random_form<m>(random, 60), other = random_form<m>(random, 60);
     const Form<n> b = random_form<n>(random, 60);
     const Form<m + n> start = random_form<m + n>(random, 60);
     const Rational t = random_time(random), product = value(a, t) * value(b, t);
@@ -68,36 +68,35 @@ void expect_products(Random& random) {
     EXPECT_EQ(sum.c, start.c);
     subtract_product(sum, a, b);
     EXPECT_EQ(value(sum, t), Rational(value(start, t) - product));
-  }
-}
-
-TEST(Form, ProductsAreProducts) {
-  Random random(71);
-  expect_products<0, 0>(random);
-  expect_products<0, 2>(random);
-  expect_products<1, 1>(random);
-  expect_products<1, 2>(random);
-  expect_products<3, 2>(random);
-}
-
-TEST(Form, SumsAndDifferences) {
-  Random random(72);
-  for (int round = 0; round < 50; ++round) {
-    const Form<3> a = random_form<3>(random, 60), b = random_form<3>(random, 60);
-    const Rational t = random_time(random);
-    EXPECT_EQ(value(a + b, t), Rational(value(a, t) + value(b, t)));
-    EXPECT_EQ(value(a - b, t), Rational(value(a, t) - value(b, t)));
+    EXPECT_EQ(value(a + other, t), Rational(value(a, t) + value(other, t)));
+    EXPECT_EQ(value(a - other, t), Rational(value(a, t) - value(other, t)));
     EXPECT_EQ(value(-a, t), Rational(-value(a, t)));
-    Form<3> c = a;
-    c += b;
-    EXPECT_EQ(c.c, (a + b).c);
-    c -= b;
+    Form<m> c = a;
+    c += other;
+    EXPECT_EQ(c.c, (a + other).c);
+    c -= other;
     EXPECT_EQ(c.c, a.c);
+    EXPECT_EQ(value(multiple(a, Integer(-4)), t), Rational(-4 * value(a, t)));
+    EXPECT_EQ(value(one<m>(), t), 1);
+    EXPECT_EQ(to_polynomial(one<m>()), Polynomial(Integer(1)));
+    EXPECT_TRUE(Form<m>{}.is_zero());
+    EXPECT_TRUE(to_polynomial(Form<m>{}).is_zero());
+    EXPECT_LE(to_polynomial(a).degree(), m);
+    EXPECT_EQ(value(to_polynomial(a), t), value(a, t));
   }
+}
+
+TEST(Form, CalculatesAsItsValuesDo) {
+  Random random(71);
+  expect_arithmetic<0, 0>(random);
+  expect_arithmetic<0, 2>(random);
+  expect_arithmetic<1, 1>(random);
+  expect_arithmetic<2, 1>(random);
+  expect_arithmetic<3, 2>(random);
+  expect_arithmetic<6, 0>(random);
 }
 
 TEST(Form, IsZeroWhereAllCoefficientsAre) {
-  EXPECT_TRUE(Form<2>{}.is_zero());
   for (std::size_t k = 0; k < 3; ++k) {
     for (const int entry : {1, -1}) {
       Form<2> form;
@@ -105,51 +104,6 @@ TEST(Form, IsZeroWhereAllCoefficientsAre) {
       EXPECT_FALSE(form.is_zero());
     }
   }
-}
-
-TEST(Form, OneIsOneAtEveryTime) {
-  Random random(73);
-  for (int round = 0; round < 10; ++round) {
-    const Rational t = random_time(random);
-    EXPECT_EQ(value(one<0>(), t), 1);
-    EXPECT_EQ(value(one<1>(), t), 1);
-    EXPECT_EQ(value(one<2>(), t), 1);
-    EXPECT_EQ(value(one<6>(), t), 1);
-  }
-}
-
-template <std::size_t degree>
-void expect_same_polynomial(Random& random) {
-  for (int round = 0; round < 30; ++round) {
-    const Form<degree> form = random_form<degree>(random, 60);
-    const Polynomial p = to_polynomial(form);
-    EXPECT_LE(p.degree(), degree);
-    for (int k = 0; k < 8; ++k) {
-      const Rational t = random_time(random);
-      EXPECT_EQ(value(p, t), value(form, t));
-    }
-  }
-}
-
-TEST(Form, RaisedIsTheSameFunctionAndAMultipleIsOne) {
-  const Form<2> form{{Integer(3), Integer(-5), Integer(7)}};
-  EXPECT_EQ(to_polynomial(form * one<1>()), to_polynomial(form));
-  EXPECT_EQ(to_polynomial(multiple(form, Integer(-4))),
-            Polynomial(Integer(-4)) * to_polynomial(form));
-}
-
-TEST(Form, ToPolynomialIsTheSameFunction) {
-  Random random(74);
-  expect_same_polynomial<0>(random);
-  expect_same_polynomial<1>(random);
-  expect_same_polynomial<2>(random);
-  expect_same_polynomial<3>(random);
-  expect_same_polynomial<6>(random);
-}
-
-TEST(Form, ToPolynomialLosesLeadingZeros) {
-  EXPECT_EQ(to_polynomial(one<3>()), Polynomial(Integer(1)));
-  EXPECT_TRUE(to_polynomial(Form<3>{}).is_zero());
 }
 
 // ---- Signs of forms -----------------------------------------------------------------------------
@@ -178,20 +132,6 @@ TEST(SignOfForm, AtRationalTimes) {
     EXPECT_EQ(sign_at(form, known), sgn(value(form, t)));
     EXPECT_EQ(sign_at(form, unknown), sgn(value(form, t)));
   }
-}
-
-TEST(SignOfForm, AtTheEndsIsThatOfTheEndCoefficient) {
-  Form<3> form;
-  form.c = {-1, 5, 5, 7};
-  AlgebraicNumber start(Rational(0)), end(Rational(1));
-  EXPECT_EQ(sign_at(form, start), -1);
-  EXPECT_EQ(sign_at(form, end), 1);
-  form.c = {0, 5, -5, 0};
-  EXPECT_EQ(sign_at(form, start), 0);
-  EXPECT_EQ(sign_at(form, end), 0);
-  form.c = {0, 5, 5, 0};
-  EXPECT_EQ(sign_at(form, start), 0);
-  EXPECT_EQ(sign_at(form, end), 0);
 }
 
 /// a + b√2.
@@ -294,18 +234,6 @@ Vector scales(const Query& query, const Motion& motion) {
   return result;
 }
 
-TEST(ScaleToIntegers, MultipliesEachAxisByItsOwnPowerOfTwo) {
-  Random random(77);
-  for (int round = 0; round < 400; ++round) {
-    const Query query = random_query(random, round % 4);
-    for (const Kind kind : kinds) {
-      const Motion motion = scale_to_integers(kind, query);
-      EXPECT_EQ(motion.kind, kind);
-      scales(query, motion);
-    }
-  }
-}
-
 TEST(ScaleToIntegers, SpansTheWholeRangeOfDoubles) {
   Query query{};
   query.at(0, 0, 0) = least_subnormal;
@@ -318,16 +246,8 @@ TEST(ScaleToIntegers, SpansTheWholeRangeOfDoubles) {
   EXPECT_EQ(Rational(motion.points[0][0].c[1]),
             Rational(std::numeric_limits<double>::max()) * scale[0]);
   for (const auto& point : motion.points) EXPECT_TRUE(point[2].is_zero());
-}
-
-TEST(ScaleToIntegers, ZeroQueriesAreZero) {
-  Query query{};
   query.coordinates.fill(-0.0);
-  const Motion motion = scale_to_integers(Kind::vertex_face, query);
-  for (const auto& point : motion.points) {
-    for (const Form<1>& coordinate : point) EXPECT_TRUE(coordinate.is_zero());
-  }
-  EXPECT_TRUE(determinant(motion).is_zero());
+  EXPECT_TRUE(determinant(scale_to_integers(Kind::vertex_face, query)).is_zero());
 }
 
 TEST(ScaleToIntegers, NanAndInfinityAreErrorsEverywhere) {
@@ -394,26 +314,6 @@ TEST(ScaleUniformly, TakesTheDistanceAlong) {
   }
 }
 
-TEST(ScaleToIntegers, CornersAreTheDifferencesOfThePoints) {
-  Random random(79);
-  for (int round = 0; round < 50; ++round) {
-    for (const Kind kind : kinds) {
-      const Motion motion = scale_to_integers(kind, random_query(random, round % 4));
-      const std::span<const Corner> expected = touchstone::corners(kind);
-      ASSERT_EQ(motion.corner_count, expected.size());
-      for (std::size_t i = 0; i < expected.size(); ++i) {
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-          for (std::size_t end = 0; end < 2; ++end) {
-            const Integer difference = motion.points[expected[i].plus][axis].c[end] -
-                                       motion.points[expected[i].minus][axis].c[end];
-            EXPECT_EQ(motion.corners[i][axis].c[end], difference);
-          }
-        }
-      }
-    }
-  }
-}
-
 // ---- The polynomials in time, against vectors at one time ---------------------------------------
 
 Vector cross(const Vector& a, const Vector& b) {
@@ -437,66 +337,34 @@ std::vector<Vector> corners_at(Kind kind, const Query& query, const Vector& scal
   return result;
 }
 
-/// A query, its motion, and the corners at a time.
-struct Sample {
-  Motion motion;
-  Rational t;
-  std::vector<Vector> w;
-};
-
-std::vector<Sample> samples(std::uint64_t seed) {
-  Random random(seed);
-  std::vector<Sample> result;
-  for (int round = 0; round < 100; ++round) {
+TEST(Motion, HasThePolynomialsOfItsVectors) {
+  Random random(80);
+  for (int round = 0; round < 200; ++round) {
     const Query query = random_query(random, round % 4);
     for (const Kind kind : kinds) {
       const Motion motion = scale_to_integers(kind, query);
+      EXPECT_EQ(motion.kind, kind);
       const Rational t = random_time(random);
-      result.push_back({motion, t, corners_at(kind, query, scales(query, motion), t)});
-    }
-  }
-  return result;
-}
-
-TEST(CrossComponent, IsTheCrossProductOfTwoCorners) {
-  for (const auto& [motion, t, w] : samples(80)) {
-    for (std::size_t i = 0; i < w.size(); ++i) {
-      for (std::size_t j = 0; j < w.size(); ++j) {
-        const Vector expected = cross(w[i], w[j]);
+      const std::vector<Vector> w = corners_at(kind, query, scales(query, motion), t);
+      ASSERT_EQ(motion.corner_count, w.size());
+      const Vector normal = cross(minus(w[1], w[0]), minus(w.back(), w[0]));
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        EXPECT_EQ(value(normal_component(motion, axis), t), normal[axis]);
+      }
+      for (std::size_t i = 0; i < w.size(); ++i) {
         for (std::size_t axis = 0; axis < 3; ++axis) {
-          EXPECT_EQ(value(cross_component(motion, i, j, axis), t), expected[axis]);
+          EXPECT_EQ(value(motion.corners[i][axis], t), w[i][axis]);
         }
+        for (std::size_t j = 0; j < w.size(); ++j) {
+          EXPECT_EQ(value(dot(motion, i, j), t), inner(w[i], w[j]));
+          const Vector product = cross(w[i], w[j]);
+          for (std::size_t axis = 0; axis < 3; ++axis) {
+            EXPECT_EQ(value(cross_component(motion, i, j, axis), t), product[axis]);
+          }
+        }
+        // The origin's plane gives the same number by the normal and any corner.
+        EXPECT_EQ(value(determinant(motion), t), inner(normal, w[i]));
       }
-    }
-  }
-}
-
-TEST(Dot, IsTheInnerProductOfTwoScaledCorners) {
-  for (const auto& [motion, t, w] : samples(81)) {
-    for (std::size_t i = 0; i < w.size(); ++i) {
-      for (std::size_t j = 0; j < w.size(); ++j) {
-        EXPECT_EQ(value(dot(motion, i, j), t), inner(w[i], w[j]));
-      }
-    }
-  }
-}
-
-TEST(NormalComponent, IsTheNormalOfThePolygon) {
-  for (const auto& [motion, t, w] : samples(82)) {
-    const Vector expected = cross(minus(w[1], w[0]), minus(w.back(), w[0]));
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      EXPECT_EQ(value(normal_component(motion, axis), t), expected[axis]);
-    }
-  }
-}
-
-TEST(Determinant, IsTheTripleProductOfTheFirstTwoCornersAndTheLast) {
-  for (const auto& [motion, t, w] : samples(83)) {
-    const Rational expected = inner(cross(w[0], w[1]), w.back());
-    EXPECT_EQ(value(determinant(motion), t), expected);
-    // The origin's plane gives the same number by the normal and any corner.
-    for (const Vector& corner : w) {
-      EXPECT_EQ(inner(cross(minus(w[1], w[0]), minus(w.back(), w[0])), corner), expected);
     }
   }
 }

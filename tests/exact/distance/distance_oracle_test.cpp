@@ -70,38 +70,54 @@ void expect_same(const std::optional<AlgebraicNumber>& a, const std::optional<Al
 
 // ---- Known answers ------------------------------------------------------------------------------
 
-TEST(DistanceOracle, OverAFaceAndBetweenCrossingEdges) {
-  // The height is 3 − 4t.
+/// A query with a distance in l2 and one in linf, each reached exactly at its time.
+struct Known {
+  PosedQuery posed;
+  double in_l2, in_linf;
+  Rational time_in_l2, time_in_linf;
+};
+
+PosedQuery at_rest(Kind kind, const tests::FourPoints& points) {
+  return {kind, tests::moving(points, points)};
+}
+
+TEST(DistanceOracle, KnowsWhenDistancesAreReached) {
+  const Rational half(1, 2), eighths(3, 8);
+  // (−3,−4,12) is 13 from the corner, and 12 in linf; (2,−3) is 3 from the side, (7,2) 3 from the
+  // end of an edge; the heights are 3 − 4t, 16 − 8t and 8 − 8t.
+  std::vector<Known> all{
+      {over_triangle(-3, -4, 16, 8), 13, 13, half, eighths},
+      {edge_edge({0, 0, 0, 4, 0, 0, -1, 3, 0, 3, 3, 0}, {0, 0, 0, 4, 0, 0, -1, 1, 0, 3, 1, 0}), 2,
+       2, half, half},
+      // A path past a point, nearest at t=1/2 with sides of 3 and 4.
+      {vertex_face({-1, 3, 4, 0, 0, 0, 0, 0, 0, 0, 0, 0}, {1, 3, 4, 0, 0, 0, 0, 0, 0, 0, 0, 0}), 5,
+       4, half, 0},
+      // Primitives that are points or segments, and a place inside of one.
+      {at_rest(Kind::vertex_face, {3, 4, 12, 0, 0, 0, 0, 0, 0, 0, 0, 0}), 13, 12, 0, 0},
+      {at_rest(Kind::edge_edge, {3, 4, 12, 3, 4, 12, 0, 0, 0, 0, 0, 0}), 13, 12, 0, 0},
+      {at_rest(Kind::vertex_face, {3, 4, 12, 0, 0, 0, -4, 0, 0, -2, 0, 0}), 13, 12, 0, 0},
+      {at_rest(Kind::edge_edge, {3, 4, 12, 3, 4, 12, 0, 0, 0, 0, -5, 0}), 13, 12, 0, 0},
+      {at_rest(Kind::edge_edge, {3, 4, 12, 5, 4, 12, 0, 0, 0, -1, 0, 0}), 13, 12, 0, 0},
+      {at_rest(Kind::vertex_face, {2, 3, 4, 0, 0, 0, 4, 0, 0, 1, 0, 0}), 5, 4, 0, 0},
+      {at_rest(Kind::edge_edge, {2, 3, 4, 2, 3, 4, 0, 0, 0, 4, 0, 0}), 5, 4, 0, 0}};
   for (const PosedQuery& posed : {over_triangle(1, 1, 3, -1), over_edge(1, 2, 3, -1)}) {
-    for (const Norm norm : both_norms) {
-      expect_from(posed, 1, norm, Rational(1, 2));
-      expect_from(posed, 2.5, norm, Rational(1, 8));
-      expect_from(posed, 3, norm, 0);
-      expect_toi(posed, 1e-100, norm, (3 - Rational(1e-100)) / 4);
-    }
+    all.push_back({posed, 1, 2.5, half, Rational(1, 8)});
+    all.push_back({posed, 2.5, 1, Rational(1, 8), half});
+    all.push_back({posed, 3, 3, 0, 0});
+    for (const Norm norm : both_norms) expect_toi(posed, 1e-100, norm, (3 - Rational(1e-100)) / 4);
   }
-  EXPECT_FALSE(toi(over_triangle(1, 1, 3, 1.5), 1, Norm::l2));
-  EXPECT_FALSE(toi(over_triangle(1, 1, -3, -1.5), 1, Norm::linf));
-}
-
-TEST(DistanceOracle, BesideACornerASideAndAnEnd) {
-  // (−3,−4,12) is 13 from the corner, and 12 in linf; the height is 16 − 8t.
-  const PosedQuery corner = over_triangle(-3, -4, 16, 8);
-  expect_from(corner, 13, Norm::l2, Rational(1, 2));
-  expect_from(corner, 13, Norm::linf, Rational(3, 8));
-  // (2,−3) is 3 from the side, (7,2) 3 from the end of an edge; the height is 8 − 8t.
   for (const PosedQuery& posed : {over_triangle(2, -3, 8, 0), over_edge(7, 2, 8, 0)}) {
-    expect_from(posed, 5, Norm::l2, Rational(1, 2));
-    expect_from(posed, 5, Norm::linf, Rational(3, 8));
-    expect_from(posed, 3, Norm::l2, 1);
-    expect_from(posed, 3, Norm::linf, Rational(5, 8));
+    all.push_back({posed, 5, 5, half, eighths});
+    all.push_back({posed, 3, 3, 1, Rational(5, 8)});
   }
-}
-
-TEST(DistanceOracle, BesideAParallelEdge) {
-  const PosedQuery parallel =
-      edge_edge({0, 0, 0, 4, 0, 0, -1, 3, 0, 3, 3, 0}, {0, 0, 0, 4, 0, 0, -1, 1, 0, 3, 1, 0});
-  for (const Norm norm : both_norms) expect_from(parallel, 2, norm, Rational(1, 2));
+  for (const auto& [posed, in_l2, in_linf, time_in_l2, time_in_linf] : all) {
+    expect_from(posed, in_l2, Norm::l2, time_in_l2);
+    expect_from(posed, in_linf, Norm::linf, time_in_linf);
+  }
+  for (const Norm norm : both_norms) {
+    EXPECT_FALSE(toi(over_triangle(1, 1, 3, 1.5), 1, norm));
+    EXPECT_FALSE(toi(over_triangle(1, 1, -3, -1.5), 1, norm));
+  }
 }
 
 TEST(DistanceOracle, AnIrrationalTime) {
@@ -125,37 +141,6 @@ TEST(DistanceOracle, ACubesEdgeAgainstASide) {
   auto found = toi(posed, 1, Norm::l2);  // s = 4 − 4t, 2s² = 1
   ASSERT_TRUE(found);
   EXPECT_EQ(found->sign_of(Polynomial(Integer(31), Integer(-64), Integer(32))), 0);
-}
-
-TEST(DistanceOracle, PrimitivesThatArePointsOrSegments) {
-  const auto at_rest = [](Kind kind, const tests::FourPoints& points) {
-    return PosedQuery{kind, tests::moving(points, points)};
-  };
-  for (const PosedQuery& posed :
-       {at_rest(Kind::vertex_face, {3, 4, 12, 0, 0, 0, 0, 0, 0, 0, 0, 0}),
-        at_rest(Kind::edge_edge, {3, 4, 12, 3, 4, 12, 0, 0, 0, 0, 0, 0}),
-        at_rest(Kind::vertex_face, {3, 4, 12, 0, 0, 0, -4, 0, 0, -2, 0, 0}),
-        at_rest(Kind::edge_edge, {3, 4, 12, 3, 4, 12, 0, 0, 0, 0, -5, 0}),
-        at_rest(Kind::edge_edge, {3, 4, 12, 5, 4, 12, 0, 0, 0, -1, 0, 0})}) {
-    expect_from(posed, 13, Norm::l2, 0);
-    expect_from(posed, 12, Norm::linf, 0);
-    EXPECT_FALSE(toi(posed, 12.999, Norm::l2));
-    EXPECT_FALSE(toi(posed, 11.999, Norm::linf));
-  }
-  // Inside a segment: (2,3,4) beside one along x.
-  for (const PosedQuery& posed : {at_rest(Kind::vertex_face, {2, 3, 4, 0, 0, 0, 4, 0, 0, 1, 0, 0}),
-                                  at_rest(Kind::edge_edge, {2, 3, 4, 2, 3, 4, 0, 0, 0, 4, 0, 0})}) {
-    expect_from(posed, 5, Norm::l2, 0);
-    expect_from(posed, 4, Norm::linf, 0);
-  }
-}
-
-TEST(DistanceOracle, APassThatOnlyJustReaches) {
-  // A path past a point, nearest at t=1/2 with sides of 3 and 4.
-  const PosedQuery posed =
-      vertex_face({-1, 3, 4, 0, 0, 0, 0, 0, 0, 0, 0, 0}, {1, 3, 4, 0, 0, 0, 0, 0, 0, 0, 0, 0});
-  expect_from(posed, 5, Norm::l2, Rational(1, 2));
-  EXPECT_FALSE(toi(posed, std::nextafter(5.0, 0.0), Norm::l2));
 }
 
 TEST(DistanceOracle, AnyMagnitude) {
@@ -204,15 +189,6 @@ TEST(DistanceOracle, RefusesInvalidQueriesAndSeparations) {
 }
 
 // ---- Distance 0 ---------------------------------------------------------------------------------
-
-TEST(DistanceOracle, AtDistanceZeroTheNormDoesNotMatter) {
-  for (const double zero : {0.0, -0.0}) {
-    for (const Norm norm : both_norms) {
-      expect_toi(over_triangle(1, 1, 1, -2), zero, norm, Rational(1, 3));
-      EXPECT_FALSE(toi(over_triangle(1, 1, 3, 1), zero, norm));
-    }
-  }
-}
 
 TEST(DistanceOracle, TheSearchAtDistanceZeroAgreesWithTheContactOracle) {
   Random random(11);

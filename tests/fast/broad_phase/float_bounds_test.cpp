@@ -45,24 +45,56 @@ Eigen::MatrixX3d places(int count, const Coordinate& coordinate) {
   return result;
 }
 
+std::vector<VertexBounds> bounds_of(const MovingVertices& vertices, double end, double distance) {
+  const FloatBounds bounds(vertices, end, distance);
+  std::vector<VertexBounds> result;
+  for (std::size_t i = 0; i < bounds.size(); ++i) result.push_back(bounds[i]);
+  return result;
+}
+
+/// A coordinate, and its bounds.
+struct Place {
+  Rational x;
+  float lower, upper;
+};
+
+/// All coordinates at both ends of [0, time].
+std::vector<Place> places_of(const std::vector<VertexBounds>& bounds, const Eigen::MatrixX3d& start,
+                             const Eigen::MatrixX3d& end, double time) {
+  std::vector<Place> all;
+  for (Eigen::Index i = 0; i < start.rows(); ++i) {
+    const auto& [lower, upper] = bounds[static_cast<std::size_t>(i)];
+    for (int axis = 0; axis < 3; ++axis) {
+      const Rational from(start(i, axis)), to(end(i, axis));
+      all.push_back({from, lower[0][axis], upper[0][axis]});
+      all.push_back(
+          {Rational(from + (to - from) * Rational(time)), lower[1][axis], upper[1][axis]});
+    }
+  }
+  return all;
+}
+
+/// True if bounds at both ends of [0, time] are apart only if the exact places there are apart by
+/// more than the distance.
+bool are_around_places(tests::MakeBounds& make, const Eigen::MatrixX3d& start,
+                       const Eigen::MatrixX3d& end, double time, double distance) {
+  const std::vector<Place> all =
+      places_of(make(MovingVertices(start, end), time, distance), start, end, time);
+  return std::ranges::all_of(all, [&](const Place& a) {
+    return a.lower <= a.upper && std::ranges::all_of(all, [&](const Place& b) {
+             return a.lower <= b.upper || a.x - b.x > Rational(distance);
+           });
+  });
+}
+
 /// Compares the bounds of any two places on any axis with their coordinates: the bounds must
 /// overlap if these are within the distance, and surely only then.
 void expect_ordered_as_coordinates(const Eigen::MatrixX3d& start, const Eigen::MatrixX3d& end,
                                    double distance) {
   const FloatBounds bounds(MovingVertices(start, end), 1.0, distance);
   EXPECT_TRUE(!bounds.are_exact() || distance == 0.0);
-  struct Place {
-    double x;
-    float lower, upper;
-  };
-  std::vector<Place> all;
-  for (Eigen::Index i = 0; i < start.rows(); ++i) {
-    const VertexBounds& vertex = bounds[static_cast<std::size_t>(i)];
-    for (int axis = 0; axis < 3; ++axis) {
-      all.push_back({start(i, axis), vertex.lower[0][axis], vertex.upper[0][axis]});
-      all.push_back({end(i, axis), vertex.lower[1][axis], vertex.upper[1][axis]});
-    }
-  }
+  const std::vector<Place> all =
+      places_of(bounds_of(MovingVertices(start, end), 1.0, distance), start, end, 1.0);
   for (const Place& a : all) {
     ASSERT_LE(a.lower, a.upper);
     // The sums of boxes' centres do not overflow.
@@ -72,7 +104,7 @@ void expect_ordered_as_coordinates(const Eigen::MatrixX3d& start, const Eigen::M
       ASSERT_EQ(a.upper, a.lower);
     }
     for (const Place& b : all) {
-      const bool is_near = Rational(a.x) - Rational(b.x) <= Rational(distance);
+      const bool is_near = a.x - b.x <= Rational(distance);
       if (a.lower > b.upper) {
         ASSERT_FALSE(is_near) << a.x << " " << b.x << " " << distance;
       }
@@ -129,39 +161,6 @@ TEST(FloatBounds, AreOrderedAsTheCoordinatesOfAllScalesAtOnce) {
       expect_ordered_as_coordinates(start, places(20, usual), distance);
     }
   }
-}
-
-std::vector<VertexBounds> bounds_of(const MovingVertices& vertices, double end, double distance) {
-  const FloatBounds bounds(vertices, end, distance);
-  std::vector<VertexBounds> result;
-  for (std::size_t i = 0; i < bounds.size(); ++i) result.push_back(bounds[i]);
-  return result;
-}
-
-/// True if bounds at both ends of [0, time] are apart only if the exact places there are apart by
-/// more than the distance.
-bool are_around_places(tests::MakeBounds& make, const Eigen::MatrixX3d& start,
-                       const Eigen::MatrixX3d& end, double time, double distance) {
-  const std::vector<VertexBounds> bounds = make(MovingVertices(start, end), time, distance);
-  struct Place {
-    Rational x;
-    float lower, upper;
-  };
-  std::vector<Place> all;
-  for (Eigen::Index i = 0; i < start.rows(); ++i) {
-    const VertexBounds& vertex = bounds[static_cast<std::size_t>(i)];
-    for (int axis = 0; axis < 3; ++axis) {
-      const Rational from(start(i, axis)), to(end(i, axis));
-      all.push_back({from, vertex.lower[0][axis], vertex.upper[0][axis]});
-      all.push_back({Rational(from + (to - from) * Rational(time)), vertex.lower[1][axis],
-                     vertex.upper[1][axis]});
-    }
-  }
-  return std::ranges::all_of(all, [&](const Place& a) {
-    return a.lower <= a.upper && std::ranges::all_of(all, [&](const Place& b) {
-             return a.lower <= b.upper || a.x - b.x > Rational(distance);
-           });
-  });
 }
 
 /// The first fault of such bounds, or nothing.

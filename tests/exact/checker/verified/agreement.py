@@ -1,8 +1,8 @@
 """Do touchstone-check and touchstone-check-verified agree?
 
 On certificates that `touchstone prove` writes (the built-in set and, if TOUCHSTONE_DATA names them, the
-public data, in all separations), on the corpus of the fuzzer, and on mutants of certificates. Equal are
-exit status and output. Of a proof that is rejected the verified program names the part; then the certificate has
+public data, in all separations), on the list of altered certificates, whose outcomes it says, on the corpus of the fuzzer,
+and on mutants of certificates. Equal are exit status and output. Of a proof that is rejected the verified program names the part; then the certificate has
 to be the same, by its label.
 """
 
@@ -55,7 +55,7 @@ class Result:
         (status, lines), (verified_status, verified_lines) = (run(program, path) for program in programs)
         self.accepted = self.rejected = self.unseen = 0
         self.difference = None
-        if path.read_text().startswith("touchstone-steps"):
+        if path.read_bytes().startswith(b"touchstone-steps"):
             if verified_status != 2:
                 self.difference = f"status {verified_status} of certificates of steps, which are not covered"
             return
@@ -71,6 +71,66 @@ class Result:
         for line, verified_line in zip(kept, verified_lines):
             if not is_same(line, verified_line):
                 self.difference = self.difference or f"{line!r} and {verified_line!r}"
+
+
+# ---- The list ----
+
+def expanded(row):
+    """The rows for each choice in {a|b}; {} is the choice again."""
+    group = re.search(r"\{(.*?)\}", row)
+    if not group:
+        return [row]
+    choices = group[1].split("|")
+    return [one for choice in choices
+            for one in expanded((row[:group.start()] + choice + row[group.end():]).replace("{}", choice))]
+
+
+def query_lines(query):
+    kind, points = query.split(" ", 1)
+    ends = points.split(" > ") * (1 if " > " in points else 2)
+    if kind == "over":
+        kind, ends = "vertex_face", [end + ", 0 0 0, 4 0 0, 0 4 0" for end in ends]
+    return ["touchstone-certificates 2", f"query {kind}"] + [f"point {p}" for end in ends for p in end.split(", ")]
+
+
+def listed(path):
+    """The certificates of the list, as texts without their header, each with True if it is accepted."""
+    queries, last, is_after_row = [], "", False
+    for line in path.read_text().splitlines():
+        if not line or line.startswith("#") or " = " in line:
+            continue
+        is_row = line.startswith("  ")
+        if not is_row:
+            queries = (queries if not is_after_row else []) + expanded(line)
+        is_after_row = is_row
+        for query in queries if is_row else []:
+            for row in expanded(line[2:]):
+                row, arrow, _ = row.partition(" -> ")
+                last = last if row.startswith("@") else row
+                lines = query_lines(query) + last.split("; ") + ["end"]
+                if row.startswith("@"):
+                    number, text = row[1:].split(" ", 1)
+                    text = re.sub(r"\\x(..)", lambda code: chr(int(code[1], 16)), text)
+                    lines[int(number) - 1] = text.replace("; ", "\n")
+                yield "\n".join(lines[1:]) + "\n", not arrow
+
+
+def list_results(programs, folder, path):
+    """What both programs answer to the list, in the order of the expected outcomes."""
+    certificates = list(listed(path))
+    for accepted in (True, False):
+        texts = [text for text, outcome in certificates if outcome == accepted]
+        for first in range(0, len(texts), BATCH):
+            # The query's label, if it has such a line.
+            some = [re.sub("^(query .*\n)", rf"\g<1>label l{n}\n", text)
+                    for n, text in enumerate(texts[first:first + BATCH])]
+            count = sum(line.split(" ")[0] == "query" for text in some for line in text.split("\n"))
+            stream = folder / "listed.cert"
+            stream.write_bytes(("touchstone-certificates 2\n" + "".join(some) + f"certificates {count}\n").encode("latin1"))
+            result = Result(programs, stream)
+            if (result.rejected == 0) != accepted or (result.accepted == 0) == accepted:
+                result.difference = f"{result.accepted} accepted and {result.rejected} refused of the list"
+            yield result
 
 
 # ---- Mutants ----
@@ -203,8 +263,10 @@ def main():
                     report(f"{name}, {of}, {claim}", [Result(programs, path)])
                     if name == "built-in set":
                         originals += certificates(path)
-        corpus = pathlib.Path(__file__).parents[1] / "corpus"
-        report("corpus of the fuzzer", [Result(programs, file) for file in sorted(corpus.iterdir())])
+        cases = pathlib.Path(__file__).parents[1]
+        report("list of altered certificates",
+               list(list_results(programs, pathlib.Path(folder), cases / "certificates.txt")))
+        report("corpus of the fuzzer", [Result(programs, file) for file in sorted((cases / "corpus").iterdir())])
         results = []
         for first in range(0, arguments.mutants, BATCH):
             write_mutants(draw, originals, path, first, min(BATCH, arguments.mutants - first))
