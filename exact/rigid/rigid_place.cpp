@@ -6,7 +6,8 @@
 /// sums of up to three products by less than 2^-317 of the sum of their magnitudes. Angles are
 /// below 2^104, so an error of θ of 2^-318 of it changes sin θ by at most 2^-214. All terms are at
 /// most 4 |v| or |p|: a coordinate errs by less than 2^-200 (|p| + |v|) before it is rounded to a
-/// double, which adds at most 2^-53 of it, less than 2^-51 (|p| + |v|).
+/// double, which adds at most 2^-53 of it, less than 2^-51 (|p| + |v|), or half the least subnormal
+/// number. (MPFR's exponents have no such limit.)
 
 #include "exact/rigid/rigid_place.hpp"
 
@@ -28,7 +29,12 @@ class Real {
   }
   ~Real() { mpfr_clear(x_); }
 
-  [[nodiscard]] double to_double() const { return mpfr_get_d(x_, MPFR_RNDN); }
+  /// In units of 2^unit.
+  [[nodiscard]] double to_double(int unit) const {
+    Real result;
+    mpfr_mul_2si(result.x_, x_, -unit, MPFR_RNDN);
+    return mpfr_get_d(result.x_, MPFR_RNDN);
+  }
   [[nodiscard]] bool is_zero() const { return mpfr_zero_p(x_) != 0; }
 
   friend Real operator+(const Real& a, const Real& b) { return of(mpfr_add, a, b); }
@@ -75,22 +81,22 @@ Vector cross(const Vector& a, const Vector& b) {
 
 }  // namespace
 
-std::array<double, 3> place_of(const RigidMotion& motion, const std::array<double, 3>& v,
-                               double t) {
+std::array<double, 3> place_of(const RigidMotion& motion, const std::array<double, 3>& v, double t,
+                               int unit) {
   const Vector p = at_time(motion.start.position, motion.end.position, t);
   const Vector r = at_time(motion.start.rotation, motion.end.rotation, t);
   const Vector body{Real(v[0]), Real(v[1]), Real(v[2])};
   const Real angle = square_root(r[0] * r[0] + r[1] * r[1] + r[2] * r[2]);
   std::array<double, 3> result{};
   if (angle.is_zero()) {
-    for (std::size_t k = 0; k < 3; ++k) result[k] = (p[k] + body[k]).to_double();
+    for (std::size_t k = 0; k < 3; ++k) result[k] = (p[k] + body[k]).to_double(unit);
     return result;
   }
   const Vector once = cross(r, body), twice = cross(r, once);
   const Real half = sine(angle / Real(2.0)) / angle;
   const Real first = sine(angle) / angle, second = Real(2.0) * half * half;
   for (std::size_t k = 0; k < 3; ++k) {
-    result[k] = (p[k] + body[k] + first * once[k] + second * twice[k]).to_double();
+    result[k] = (p[k] + body[k] + first * once[k] + second * twice[k]).to_double(unit);
   }
   return result;
 }

@@ -13,9 +13,12 @@ namespace touchstone::exact {
 /// place.
 inline constexpr double place_error = 0x1p-50;
 
-/// x(t) of a point v, each coordinate with an error of at most place_error (|p| + |v|), where |p|
-/// is the greater of the positions' magnitudes at both ends. \param t In [0,1].
+/// x(t) of a point v in units of 2^unit, each coordinate with an error of at most place_error (|p|
+/// +
+/// |v|), where |p| is the greater of the positions' magnitudes at both ends, and 2^-1075, as a
+/// double may be subnormal. \param t In [0,1].
 [[nodiscard]] std::array<double, 3> place_of(const RigidMotion& motion,
-                                             const std::array<double, 3>& v, double t);
+                                             const std::array<double, 3>& v, double t,
+                                             int unit = 0);
 
 }  // namespace touchstone::exact

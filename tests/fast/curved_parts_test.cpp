@@ -4,6 +4,7 @@
 #include <gmpxx.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -267,6 +268,55 @@ TEST(CurvedPolygon, AtRestIsThePlaceAtATime) {
   EXPECT_TRUE(exact_stage::is_valid(query));
   query[1].weights[0] = 0.0;
   EXPECT_FALSE(exact_stage::is_valid(query));
+}
+
+/// Times a number.
+bool is_multiple(const exact_stage::Polynomial& a, const exact_stage::Polynomial& b) {
+  const auto place = static_cast<std::size_t>(
+      std::ranges::find_if(b, [](const auto& x) { return x.sign() != 0; }) - b.begin());
+  return a.size() == b.size() && a * b[place] == b * a[place];
+}
+
+/// For every choice of equal and different weights of the points.
+TEST(CurvedPolygon, HasFactorsThatDivideTheDeterminant) {
+  Random random(101);
+  for (const Kind any : {Kind::vertex_face, Kind::edge_edge}) {
+    for (int choice = 0; choice < 625; ++choice) {
+      CurvedQuery query;
+      int rest = choice;
+      for (Trajectory& curve : query) {
+        for (int k = 0; k < 3; ++k) {
+          curve.control.push_back({random.uniform(-1, 1), random.uniform(-1, 1), random.uniform()});
+        }
+        const double weight = rest % 5;
+        if (weight > 0) curve.weights = {1, weight + 1, std::ldexp(weight + 2, 300)};
+        rest /= 5;
+      }
+      for (const auto& [motion, factors] : exact_stage::motions_of(any, query)) {
+        exact_stage::Polynomial left = determinant(motion, normal(motion));
+        for (const exact_stage::Polynomial& factor : factors) {
+          const exact_stage::Polynomial quotient = exact_stage::scaled_quotient(left, factor);
+          ASSERT_TRUE(is_multiple(quotient * factor, left)) << choice;
+          left = quotient;
+        }
+        EXPECT_LE(left.size(), 4U * 2U + 1U) << choice;
+      }
+    }
+  }
+}
+
+TEST(CurvedPolygon, OnLinesIsTheQuery) {
+  Random random(102);
+  Query lines{};
+  for (double& x : lines.coordinates) x = random.uniform(-1, 1);
+  CurvedQuery query = to_curved(lines);
+  query[2].weights = {3.0, 3.0};
+  EXPECT_EQ(exact_stage::on_lines(query), lines);
+  query[3].control.pop_back();
+  lines.point(1, 3) = lines.point(0, 3);
+  EXPECT_EQ(exact_stage::on_lines(query), lines);
+  query[2].weights[1] = 4.0;
+  EXPECT_FALSE(exact_stage::on_lines(query).has_value());
 }
 
 }  // namespace

@@ -350,5 +350,32 @@ TEST(CurvedSolver, DecidesNumbersOfAnySize) {
   }
 }
 
+/// (The oracle takes a second for each query of degree 2 and of four denominators.)
+TEST(CurvedSolver, DecidesWeightsOfAnySize) {
+  Random random(103);
+  constexpr std::array weights{5e-324, 1e-300, 0x1p-30, 1.0, 0x1p31, 1e300, 1.7e308};
+  std::array<int, stages> decided_by{};
+  int collisions = 0;
+  for (const auto& [degree, sort, count] :
+       {std::tuple(std::size_t{1}, Weights::of_points, std::size_t{20}),
+        {std::size_t{2}, Weights::of_primitives, std::size_t{20}},
+        {std::size_t{2}, Weights::of_points, std::size_t{2}}}) {
+    for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
+      const std::size_t second = kind == Kind::vertex_face ? 1 : 2;
+      Numbers some = random_queries(random, {degree, sort, true}, kind, count);
+      for (std::size_t i = 3; i < some.numbers.size(); i += 4) {
+        const std::size_t point = i / 4 % moving_points;
+        const bool is_same = sort == Weights::of_primitives && point != 0 && point != second;
+        some.numbers[i] =
+            is_same ? some.numbers[i - 4] : weights.at(random.bits() % weights.size());
+      }
+      some.queries.numbers = some.numbers;
+      expect_agreement(kind, some.queries, {}, decided_by, collisions);
+    }
+  }
+  EXPECT_GT(collisions, 8);
+  EXPECT_GT(decided_by.at(static_cast<std::size_t>(Stage::exact)), 20);
+}
+
 }  // namespace
 }  // namespace touchstone::fast::curved_test

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -28,6 +29,7 @@ namespace fs = std::filesystem;
 
 struct Arguments {
   std::vector<fs::path> paths;
+  bool keep_going = false;
   std::string json_file;
 };
 
@@ -35,6 +37,10 @@ constexpr std::array<const char*, 3> names{"no", "yes", "undecided"};
 const char* name_of(exact::RigidVerdict verdict) {
   return names.at(static_cast<std::size_t>(verdict));
 }
+
+/// Why a query is undecided.
+constexpr std::array<const char*, 4> limits{"", "the least interval of time",
+                                            "the number of intervals", "interrupted"};
 
 /// The files, and those of folders in the order of their names.
 std::vector<fs::path> query_files(const std::vector<fs::path>& paths) {
@@ -63,35 +69,56 @@ Status run(const Arguments& arguments) {
   std::array<std::size_t, names.size()> counts{};
   std::string lines;
   nlohmann::json decisions = nlohmann::json::array();
+  std::size_t errors = 0;
   io::ProgressBar bar("rigid");
+  const auto fail = [&](const io::DatasetError& error) {
+    bar.clear();
+    report_error(error.what());
+    ++errors;
+  };
   for (std::size_t i = 0; i < paths.size() && !io::interrupted(); ++i) {
+    if (errors != 0 && !arguments.keep_going) break;
     bar.update(static_cast<double>(i) / static_cast<double>(paths.size()));
-    const data::KindOfRigidQuery query = data::read_rigid_query(paths[i]);
-    const exact::RigidDecision decision = exact::decide(query.kind, query.query);
+    data::KindOfRigidQuery query;
+    exact::RigidDecision decision;
+    try {
+      query = data::read_rigid_query(paths[i]);
+      decision = exact::decide(query.kind, query.query, {.stop = &io::interrupted()});
+    } catch (const io::DatasetError& error) {
+      fail(error);
+      continue;
+    } catch (const std::domain_error& error) {
+      fail(io::DatasetError(paths[i], {}, error.what()));
+      continue;
+    }
+    if (decision.limit == exact::RigidLimit::stop) break;
     ++counts.at(static_cast<std::size_t>(decision.verdict));
     const std::string name = io::printable(paths[i].string());
+    const char* const limit = limits.at(static_cast<std::size_t>(decision.limit));
     if (decision.verdict == exact::RigidVerdict::yes) {
       lines += fmt::format("{}: yes, at a time in [{:.17g}, {:.17g}]\n", name, decision.toi_lower,
                            decision.toi_upper);
     } else if (decision.verdict == exact::RigidVerdict::undecided) {
-      lines += fmt::format("{}: undecided within {:.3g}, free before the time {:.17g}\n", name,
-                           decision.error, decision.toi_lower);
+      lines += fmt::format("{}: undecided within {:.3g}, free before the time {:.17g} ({})\n", name,
+                           decision.error, decision.toi_lower, limit);
     }
     decisions.push_back({{"file", paths[i].string()},
                          {"kind", to_string(query.kind)},
                          {"verdict", name_of(decision.verdict)},
                          {"toi_lower", decision.toi_lower},
                          {"toi_upper", decision.toi_upper},
-                         {"error", decision.error}});
+                         {"error", decision.error},
+                         {"limit", io::text_or_null(limit)}});
   }
   bar.clear();
   if (json) json.write(io::json_document({{"queries", decisions}}));
   json.close();
   io::print(files.summary_stream(),
-            fmt::format("{}{} queries: {} no, {} yes, {} undecided\n", lines, decisions.size(),
-                        counts[0], counts[1], counts[2]));
+            fmt::format("{}{} queries: {} no, {} yes, {} undecided{}\n", lines, decisions.size(),
+                        counts[0], counts[1], counts[2],
+                        errors == 0 ? "" : fmt::format(", {} invalid", errors)));
   if (io::interrupted()) return Status::interrupted;
-  if (files.has_failed()) return Status::bad_input;
+  if (files.has_failed() || errors != 0) return Status::bad_input;
   return counts[0] < decisions.size() ? Status::wrong_answers : Status::all_well;
 }
 
@@ -107,14 +134,16 @@ void add(CLI::App& app, Status& status) {
                    "Files of JSON as rigid-ipc writes them, and folders of such files")
       ->type_name("")
       ->required();
+  command->add_flag("--keep-going", arguments->keep_going,
+                    "Report and skip invalid files (exit status 2)");
   command->option_defaults()->group("Output");
   add_json_option(*command, arguments->json_file);
   set_help(*command,
            "touchstone rigid query.json\n"
            "touchstone rigid queries/ --json verdicts.json",
            "Positions and rotation vectors go linearly from pose_t0 to pose_t1. Every answer is "
-           "proved: no, yes with an enclosure of the time of impact, or undecided within a "
-           "distance.\n"
+           "proved: no, yes with an enclosure of the time of impact, or undecided, with a distance "
+           "within which the bodies come. Exact if no rotation moves a point.\n"
            "Exit status: 0 no query collides, 1 some collide or are undecided, 2 bad input.");
   command->callback([arguments, &status] { status = run(*arguments); });
 }

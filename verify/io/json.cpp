@@ -40,6 +40,9 @@ nlohmann::json read_json(const std::filesystem::path& path, std::size_t most_byt
     return nlohmann::json::parse(read_file(path, most_bytes), check);
   } catch (const nlohmann::json::parse_error& error) {
     throw DatasetError(path, {}, std::string("no JSON: ") + error.what());
+  } catch (const nlohmann::json::out_of_range& error) {
+    throw DatasetError(path, {},
+                       std::string("a number beyond the range of doubles: ") + error.what());
   }
 }
 

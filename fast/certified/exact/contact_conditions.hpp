@@ -2,12 +2,12 @@
 
 /// \file
 /// Conditions under which a moving polygon contains the origin, as signs of polynomials in
-/// time; for any integer type.
+/// time; for any integer type, and for coordinates of any degree.
 ///
 /// F = r − u p − v q, where for vertex_face r = v − f0, p = f1 − f0, q = f2 − f0 and Ω is the
 /// triangle u, v ≥ 0, u + v ≤ 1; for edge_edge r = ea0 − eb0, p = ea0 − ea1, q = eb1 − eb0 and Ω is
-/// the unit square. r, p and q move linearly. Contact at time t: some (u,v) ∈ Ω has r = u p + v q.
-/// Let N = p × q, U = r × q, V = p × r and D = r · N.
+/// the unit square. r, p and q move linearly, or on curves: no proof uses a degree. Contact at time
+/// t: some (u,v) ∈ Ω has r = u p + v q. Let N = p × q, U = r × q, V = p × r and D = r · N.
 ///
 /// **Theorem 1** (a fixed time). Let `bounds` be U, V and N−U−V (triangle), or U, V, N−U and N−V
 /// (square).
@@ -63,18 +63,21 @@ using Square = decltype(Number() * Number());
 template <class Number>
 using Cube = decltype(Square<Number>() * Number());
 
-/// r, p and q. For numbers of fixed size the greatest coordinate must be at most a quarter of the
-/// type's maximum; then all values below fit into Square and Cube. (With coordinates up to 2^b, two
-/// products add up to 2^(2b+1), a coefficient of N, U, V or a bound to 2^(2b+2), of a product of
-/// corners to 6·2^2b, and one of D, three determinants of vectors of length up to √3·2^b, to
-/// 16·2^3b.)
-template <class Number>
-struct Motion {
+/// r, p and q, whose coordinates are forms of one degree. For numbers of fixed size the greatest
+/// coordinate must be at most a quarter of the type's maximum; then all values below fit into
+/// Square and Cube. (With coordinates up to 2^b, two products add up to 2^(2b+1), a coefficient of
+/// N, U, V or a bound to 2^(2b+2), of a product of corners to 6·2^2b, and one of D, three
+/// determinants of vectors of length up to √3·2^b, to 16·2^3b.)
+template <class Linear>
+struct MotionOf {
   Kind kind = Kind::vertex_face;
-  MovingVector<Number> r, p, q;
+  std::array<Linear, 3> r, p, q;
   /// The exponent of the unit of each axis; only guesses use it.
   std::array<int, 3> unit{};
 };
+/// On straight lines.
+template <class Number>
+using Motion = MotionOf<Form<Number, 1>>;
 
 template <class AnyForm>
 [[nodiscard]] bool is_zero(const AnyForm& form) {
@@ -109,6 +112,10 @@ template <class A, std::size_t a_size, class B, std::size_t b_size>
   return product;
 }
 
+/// The form of a product of two coordinates.
+template <class Linear>
+using Quadratic = decltype(Linear() * Linear());
+
 /// The sign pattern of a form's coefficients on an interval.
 struct IntervalSigns {
   int changes = 0;  ///< sign changes, without zeros
@@ -128,9 +135,9 @@ struct IntervalSigns {
 }
 
 /// Component k of a × b.
-template <class Number>
-[[nodiscard]] Form<Square<Number>, 2> cross(const MovingVector<Number>& a,
-                                            const MovingVector<Number>& b, std::size_t k) {
+template <class Linear>
+[[nodiscard]] Quadratic<Linear> cross(const std::array<Linear, 3>& a,
+                                      const std::array<Linear, 3>& b, std::size_t k) {
   const std::size_t i = (k + 1) % 3, j = (k + 2) % 3;
   return a[i] * b[j] - a[j] * b[i];
 }
@@ -148,15 +155,15 @@ template <class Number>
 using MovingNormal = std::array<Form<Square<Number>, 2>, 3>;
 
 /// N.
-template <class Number>
-[[nodiscard]] MovingNormal<Number> normal(const Motion<Number>& motion) {
+template <class Linear>
+[[nodiscard]] std::array<Quadratic<Linear>, 3> normal(const MotionOf<Linear>& motion) {
   return {cross(motion.p, motion.q, 0), cross(motion.p, motion.q, 1), cross(motion.p, motion.q, 2)};
 }
 
 /// D.
-template <class Number>
-[[nodiscard]] Form<Cube<Number>, 3> determinant(const Motion<Number>& motion,
-                                                const MovingNormal<Number>& normal) {
+template <class Linear>
+[[nodiscard]] auto determinant(const MotionOf<Linear>& motion,
+                               const std::array<Quadratic<Linear>, 3>& normal) {
   return dot(normal, motion.r);
 }
 
@@ -178,10 +185,9 @@ template <class AnyForm, class SignOf>
   return true;
 }
 
-template <class Number>
-[[nodiscard]] Bounds<Form<Square<Number>, 2>> bounds(const Motion<Number>& motion,
-                                                     const Form<Square<Number>, 2>& n,
-                                                     std::size_t k) {
+template <class Linear>
+[[nodiscard]] Bounds<Quadratic<Linear>> bounds(const MotionOf<Linear>& motion,
+                                               const Quadratic<Linear>& n, std::size_t k) {
   const auto u = cross(motion.r, motion.q, k), v = cross(motion.p, motion.r, k);
   if (motion.kind == Kind::vertex_face) {
     return {n, {u, v, n - u - v, {}}, 3};
@@ -190,17 +196,17 @@ template <class Number>
 }
 
 /// A corner of the polygon.
-template <class Number>
+template <class Linear>
 struct MovingCorner {
-  MovingVector<Number> w;
+  std::array<Linear, 3> w;
   bool u = false, v = false;  ///< its parameters, 0 or 1
 };
 
 /// The corners in cyclic order.
-template <class Number>
-[[nodiscard]] std::vector<MovingCorner<Number>> moving_corners(const Motion<Number>& motion) {
+template <class Linear>
+[[nodiscard]] std::vector<MovingCorner<Linear>> moving_corners(const MotionOf<Linear>& motion) {
   const auto u_corner = motion.r - motion.p, v_corner = motion.r - motion.q;
-  std::vector<MovingCorner<Number>> result{{motion.r, false, false}, {u_corner, true, false}};
+  std::vector<MovingCorner<Linear>> result{{motion.r, false, false}, {u_corner, true, false}};
   if (motion.kind == Kind::edge_edge) {
     result.push_back({u_corner - motion.q, true, true});
   }
@@ -213,29 +219,27 @@ template <class AnyForm>
 struct ContactForms {
   AnyForm u, v, denominator;
 };
-/// The parameters of a motion in these numbers.
-template <class Number>
-using ContactOf = ContactForms<Form<Square<Number>, 2>>;
+/// The parameters of a motion.
+template <class Linear>
+using ContactOf = ContactForms<Quadratic<Linear>>;
 
 /// (u,v) of the origin on the side from a to b, which is on a line through it: the origin divides
 /// the side in the ratio w_a·(w_a − w_b) to w_b·(w_b − w_a).
-template <class Number>
-[[nodiscard]] ContactOf<Number> contact_on_side(const MovingCorner<Number>& a,
-                                                const MovingCorner<Number>& b) {
+template <class Linear>
+[[nodiscard]] ContactOf<Linear> contact_on_side(const MovingCorner<Linear>& a,
+                                                const MovingCorner<Linear>& b) {
   const auto side = b.w - a.w;
-  const auto weight_a = dot(b.w, side), weight_b = dot(a.w - b.w, a.w);
+  const auto weight_a = dot(b.w, side), weight_b = dot(a.w - b.w, a.w), sum = dot(side, side);
   const auto weighted = [&](bool at_a, bool at_b) {
-    Form<Square<Number>, 2> sum{};
-    if (at_a) sum += weight_a;
-    if (at_b) sum += weight_b;
-    return sum;
+    if (at_a == at_b) return at_a ? sum : sum - sum;
+    return at_a ? weight_a : weight_b;
   };
-  return {weighted(a.u, b.u), weighted(a.v, b.v), dot(side, side)};
+  return {weighted(a.u, b.u), weighted(a.v, b.v), sum};
 }
 
 /// Theorem 1 for N = 0.
-template <class Number, class SignOf>
-[[nodiscard]] std::optional<ContactOf<Number>> contact_on_line(const Motion<Number>& motion,
+template <class Linear, class SignOf>
+[[nodiscard]] std::optional<ContactOf<Linear>> contact_on_line(const MotionOf<Linear>& motion,
                                                                SignOf&& sign_of) {
   for (std::size_t k = 0; k < 3; ++k) {
     if (sign_of(cross(motion.r, motion.q, k)) != 0) return std::nullopt;
@@ -252,26 +256,26 @@ template <class Number, class SignOf>
 }
 
 /// Theorem 1 at a time with D = 0. `sign_of` gives the sign of a quadratic form at that time.
-template <class Number, class SignOf>
-[[nodiscard]] std::optional<ContactOf<Number>> contact_in_plane(const Motion<Number>& motion,
-                                                                const MovingNormal<Number>& normal,
-                                                                SignOf&& sign_of) {
+template <class Linear, class SignOf>
+[[nodiscard]] std::optional<ContactOf<Linear>> contact_in_plane(
+    const MotionOf<Linear>& motion, const std::array<Quadratic<Linear>, 3>& normal,
+    SignOf&& sign_of) {
   for (std::size_t k = 0; k < 3; ++k) {
     const int orientation = sign_of(normal[k]);
     if (orientation == 0) continue;
     const auto in = bounds(motion, normal[k], k);
     if (!is_in_bounds(in, orientation, sign_of)) return std::nullopt;
-    return ContactOf<Number>{in.bound[0], in.bound[1], in.n};
+    return ContactOf<Linear>{in.bound[0], in.bound[1], in.n};
   }
   return contact_on_line(motion, sign_of);
 }
 
 /// The events of theorem 2 for D ≡ 0.
-template <class Number>
-[[nodiscard]] std::vector<Form<Square<Number>, 2>> events_in_plane(
-    const Motion<Number>& motion, const MovingNormal<Number>& normal) {
-  std::vector<Form<Square<Number>, 2>> events;
-  const auto add = [&](const Form<Square<Number>, 2>& form) {
+template <class Linear>
+[[nodiscard]] std::vector<Quadratic<Linear>> events_in_plane(
+    const MotionOf<Linear>& motion, const std::array<Quadratic<Linear>, 3>& normal) {
+  std::vector<Quadratic<Linear>> events;
+  const auto add = [&](const Quadratic<Linear>& form) {
     if (!is_zero(form)) events.push_back(form);
     return !events.empty();
   };

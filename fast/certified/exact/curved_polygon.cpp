@@ -5,7 +5,11 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <limits>
+#include <optional>
+#include <span>
+#include <utility>
 #include <vector>
 
 #include "fast/certified/exact/enclosing_doubles.hpp"
@@ -38,9 +42,14 @@ Polynomial form_of(Polynomial control) {
   return control;
 }
 
-/// The denominator of a curve, which is constant for a polynomial one.
+/// Equal weights do not matter.
+bool is_rational(const Trajectory& curve) {
+  return std::ranges::adjacent_find(curve.weights, std::not_equal_to{}) != curve.weights.end();
+}
+
+/// The denominator of a curve, which is 1 for a polynomial one.
 Polynomial denominator_of(const Trajectory& curve) {
-  if (curve.weights.size() < 2) return {1};
+  if (!is_rational(curve)) return {1};
   int unit = no_unit;
   for (const double weight : curve.weights) include_last_bit(unit, weight);
   Polynomial weights;
@@ -53,7 +62,7 @@ Polynomial numerator_of(const Trajectory& curve, const Polynomial& denominator, 
                         int unit) {
   Polynomial control;
   for (const auto& point : curve.control) control.push_back(in_units(point[axis], unit));
-  if (curve.weights.size() < 2) return form_of(std::move(control));
+  if (!is_rational(curve)) return form_of(std::move(control));
   for (std::size_t k = 0; k < control.size(); ++k) control[k] = control[k] * denominator[k];
   return control;
 }
@@ -64,51 +73,154 @@ Polynomial raised_to(Polynomial form, std::size_t degree) {
   return form;
 }
 
+using Vector = std::array<Polynomial, 3>;
+
+/// Raises all to the greatest degree, which is returned.
+std::size_t raise_to_one_degree(std::span<Vector> vectors, std::size_t least) {
+  std::size_t degree = least;
+  for (const Vector& vector : vectors) {
+    for (const Polynomial& x : vector) degree = std::max(degree, x.size() - 1);
+  }
+  for (Vector& vector : vectors) {
+    for (Polynomial& x : vector) x = raised_to(std::move(x), degree);
+  }
+  return degree;
+}
+
+/// The points times their denominators.
+struct RationalPoints {
+  std::array<int, 3> units{no_unit, no_unit, no_unit};
+  std::array<Vector, moving_points> numerators;
+  std::array<Polynomial, moving_points> denominators;
+
+  /// \param has_one_unit For all axes.
+  RationalPoints(const CurvedQuery& query, bool has_one_unit) {
+    for (const Trajectory& curve : query) {
+      for (const auto& point : curve.control) {
+        for (std::size_t axis = 0; axis < 3; ++axis) include_last_bit(units[axis], point[axis]);
+      }
+    }
+    if (has_one_unit) units.fill(std::ranges::min(units));
+    for (int& unit : units) unit = unit == no_unit ? 0 : unit;
+    for (std::size_t i = 0; i < moving_points; ++i) {
+      denominators[i] = denominator_of(query[i]);
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        numerators[i][axis] = numerator_of(query[i], denominators[i], axis, units[axis]);
+      }
+    }
+  }
+
+  /// The denominators that are not 1, equal ones once.
+  [[nodiscard]] std::vector<Polynomial> distinct() const {
+    std::vector<Polynomial> result;
+    for (const Polynomial& own : denominators) {
+      if (own.size() > 1 && std::ranges::find(result, own) == result.end()) result.push_back(own);
+    }
+    return result;
+  }
+};
+
+/// The denominators by which a corner is multiplied.
+std::vector<Polynomial> denominators_of(const RationalPoints& points, const Corner& corner) {
+  const Polynomial &a = points.denominators[corner.plus], &b = points.denominators[corner.minus];
+  if (a == b) return {a};
+  return {a, b};
+}
+
+/// The corner times these denominators.
+Vector corner_of(const RationalPoints& points, const Corner& corner) {
+  std::array<Vector, 2> both{points.numerators[corner.plus], points.numerators[corner.minus]};
+  const Polynomial &a = points.denominators[corner.plus], &b = points.denominators[corner.minus];
+  if (!(a == b)) {
+    for (Polynomial& x : both[0]) x = x * b;
+    for (Polynomial& x : both[1]) x = x * a;
+  }
+  raise_to_one_degree(both, 1);
+  return both[0] - both[1];
+}
+
+/// What is left of the factors of three corners without the denominators of the points.
+std::vector<Polynomial> other_factors(std::vector<Polynomial> factors,
+                                      const RationalPoints& points) {
+  for (const Polynomial& own : points.denominators) {
+    const auto place = std::ranges::find(factors, own);
+    if (place != factors.end()) factors.erase(place);
+  }
+  std::erase_if(factors, [](const Polynomial& factor) { return factor.size() == 1; });
+  return factors;
+}
+
+/// The motion of a triangle or parallelogram.
+MotionOf<Polynomial> motion_of(Kind kind, const Vector& first, const Vector& next,
+                               const Vector& last) {
+  return {kind, first, first - next, first - last, {}};
+}
+
 }  // namespace
 
 CurvedPolygon polygon_of(Kind kind, const CurvedQuery& query, double distance) {
-  int unit = no_unit;
-  std::array<Polynomial, moving_points> own;
-  std::vector<Polynomial> denominators;
-  for (std::size_t i = 0; i < moving_points; ++i) {
-    for (const auto& point : query[i].control) {
-      for (const double x : point) include_last_bit(unit, x);
-    }
-    own[i] = denominator_of(query[i]);
-    if (own[i].size() > 1 && std::ranges::find(denominators, own[i]) == denominators.end()) {
-      denominators.push_back(own[i]);
-    }
-  }
-  if (unit == no_unit) unit = 0;
+  const BinaryFraction d = odd_fraction(distance);
+  RationalPoints points(query, d.numerator != 0);
+  const std::vector<Polynomial> denominators = points.distinct();
   Polynomial common{1};
   for (const Polynomial& denominator : denominators) common = common * denominator;
-  std::array<std::array<Polynomial, 3>, moving_points> points;
-  std::size_t degree = std::max<std::size_t>(common.size() - 1, 1);
   for (std::size_t i = 0; i < moving_points; ++i) {
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      Polynomial& x = points[i][axis] = numerator_of(query[i], own[i], axis, unit);
-      for (const Polynomial& denominator : denominators) {
-        if (!(denominator == own[i])) x = x * denominator;
-      }
-      degree = std::max(degree, x.size() - 1);
+    for (const Polynomial& denominator : denominators) {
+      if (denominator == points.denominators[i]) continue;
+      for (Polynomial& x : points.numerators[i]) x = x * denominator;
     }
   }
+  const std::size_t degree =
+      raise_to_one_degree(points.numerators, std::max<std::size_t>(common.size() - 1, 1));
   CurvedPolygon result{
       .polygon = {.kind = kind, .corners = {}, .denominator = raised_to(std::move(common), degree)},
       .distance = {}};
-  for (auto& point : points) {
-    for (Polynomial& x : point) x = raised_to(std::move(x), degree);
-  }
   for (const Corner& corner : corners(kind)) {
-    auto& w = result.polygon.corners.emplace_back();
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      w[axis] = points[corner.plus][axis] - points[corner.minus][axis];
-    }
+    result.polygon.corners.push_back(points.numerators[corner.plus] -
+                                     points.numerators[corner.minus]);
   }
-  const BinaryFraction d = odd_fraction(distance);
   if (d.numerator != 0) {
-    const int exponent = d.exponent - unit;
+    const int exponent = d.exponent - points.units[0];
     result.distance = {BigInteger(d.numerator) << std::max(exponent, 0), std::max(-exponent, 0)};
+  }
+  return result;
+}
+
+std::vector<PolynomialMotion> motions_of(Kind kind, const CurvedQuery& query) {
+  const RationalPoints points(query, false);
+  const std::vector<Polynomial> distinct = points.distinct();
+  std::vector<Polynomial> factors;
+  const auto add = [&](const std::vector<Polynomial>& more) {
+    factors.insert(factors.end(), more.begin(), more.end());
+  };
+  if (distinct.size() <= 2) {
+    const std::vector<Vector> w = polygon_of(kind, query, 0.0).polygon.corners;
+    for (int corner = 0; corner < 3; ++corner) add(distinct);
+    return {{motion_of(kind, w[0], w[1], w.back()), other_factors(std::move(factors), points)}};
+  }
+  std::vector<Vector> w;
+  for (const Corner& corner : corners(kind)) w.push_back(corner_of(points, corner));
+  raise_to_one_degree(w, 1);
+  std::vector<PolynomialMotion> result;
+  for (std::size_t i = 1; i + 1 < w.size(); ++i) {
+    factors.clear();
+    for (const std::size_t k : {std::size_t{0}, i, i + 1}) {
+      add(denominators_of(points, corners(kind)[k]));
+    }
+    result.push_back(
+        {motion_of(Kind::vertex_face, w[0], w[i], w[i + 1]), other_factors(factors, points)});
+  }
+  return result;
+}
+
+std::optional<Query> on_lines(const CurvedQuery& query) {
+  Query result{};
+  for (std::size_t i = 0; i < moving_points; ++i) {
+    if (query[i].degree() > 1 || is_rational(query[i])) return std::nullopt;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      result.at(0, i, axis) = query[i].control.front()[axis];
+      result.at(1, i, axis) = query[i].control.back()[axis];
+    }
   }
   return result;
 }

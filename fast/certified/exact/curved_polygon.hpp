@@ -3,11 +3,23 @@
 /// \file
 /// The moving polygon of a query on curves, in integers.
 ///
-/// All coordinates have one unit, a power of two, and the weights of a point another. The points
-/// are multiplied by the product of all denominators, equal ones once (docs/theory.md,
-/// section 2.5).
+/// All coordinates have one unit, a power of two, and the weights of a point another; without a
+/// distance each axis has its own. The points are multiplied by the product of all denominators,
+/// equal ones once (docs/theory.md, section 2.5).
+///
+/// With three or four denominators the degrees and the numbers are shorter if each corner is
+/// multiplied by those of its two points alone. Factors of their own keep a triangle that contains
+/// the origin one that does; a parallelogram is the union of two.
+///
+/// The determinant of three corners that have all four points is, up to its sign, that of the
+/// points with a fourth coordinate 1. Times the denominators of the four points it is a polynomial.
+/// So the other denominators that the corners have been multiplied by divide it.
+
+#include <optional>
+#include <vector>
 
 #include "fast/certified/exact/distance_decision.hpp"
+#include "fast/certified/exact/general_contact_decision.hpp"
 #include "touchstone/curved_query.hpp"
 #include "touchstone/query.hpp"
 
@@ -20,6 +32,12 @@ struct CurvedPolygon {
 
 /// \pre is_valid(query)
 [[nodiscard]] CurvedPolygon polygon_of(Kind kind, const CurvedQuery& query, double distance);
+
+/// Motions one of which contains the origin where the query is in contact. \pre is_valid(query)
+[[nodiscard]] std::vector<PolynomialMotion> motions_of(Kind kind, const CurvedQuery& query);
+
+/// The same query on straight lines, if all its curves are polynomial and of a degree up to 1.
+[[nodiscard]] std::optional<Query> on_lines(const CurvedQuery& query);
 
 /// True if all coordinates are finite, and all weights positive and finite, as many as control
 /// points or none.

@@ -140,6 +140,26 @@ std::optional<BitInterval> first_approach_of(Kind kind, const Query& query,
   return before ? before : contact;
 }
 
+/// Of any of the motions.
+std::optional<BitInterval> first_contact_of(Kind kind, const CurvedQuery& query,
+                                            std::uint64_t latest) {
+  std::optional<BitInterval> result;
+  for (const auto& motion : motions_of(kind, query)) {
+    if (const auto time = first_contact(motion, latest)) {
+      result = time;
+      latest = time->upper;
+    }
+  }
+  return result;
+}
+
+std::optional<BitInterval> first_approach_of(Kind kind, const CurvedQuery& query,
+                                             const Separation& separation, std::uint64_t latest,
+                                             std::uint64_t step) {
+  const CurvedPolygon curved = polygon_of(kind, query, separation.distance);
+  return first_approach(curved.polygon, curved.distance, separation.norm, latest, step);
+}
+
 /// The maximum width, in spacings of doubles, of an enclosure with the relative width `tolerance`:
 /// spacings are at most 2^-52 of a normal number.
 std::uint64_t step_of(double tolerance) {
@@ -189,11 +209,13 @@ std::optional<ExactImpact> decide_exactly(Kind kind, const Query& query,
 std::optional<ExactImpact> decide_exactly(Kind kind, const CurvedQuery& query,
                                           const Separation& separation, double toi_tolerance,
                                           double t_max) {
-  const CurvedPolygon curved = polygon_of(kind, query, separation.distance);
-  // At distance 0 both norms mean the same, and the forms of linf have lower degrees.
-  const Norm norm = separation.distance == 0.0 ? Norm::linf : separation.norm;
-  const auto time = first_approach(curved.polygon, curved.distance, norm, unit_bits(t_max),
-                                   step_of(toi_tolerance));
+  if (const auto lines = on_lines(query)) {
+    return decide_exactly(kind, *lines, separation, toi_tolerance, t_max);
+  }
+  const auto time =
+      is_zero(separation)
+          ? first_contact_of(kind, query, unit_bits(t_max))
+          : first_approach_of(kind, query, separation, unit_bits(t_max), step_of(toi_tolerance));
   if (!time) return std::nullopt;
   const Query at_impact = at_rest(query, std::bit_cast<double>(time->upper));
   return approach_at(kind, *time, nearest_parameters(kind, at_impact, 0.0, separation.norm));

@@ -34,7 +34,7 @@ namespace touchstone::fast::exact_stage {
 /// A form on an interval, in fixed point.
 class FixedPointForm {
  public:
-  static constexpr std::size_t largest_degree = 8;
+  static constexpr std::size_t largest_degree = 24;
   static constexpr int fraction_bits = 60;
 
   /// Σ c_k x^(n−k) y^k on the interval between two times, both in units of 2^-60, without their

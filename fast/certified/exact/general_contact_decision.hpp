@@ -1,17 +1,19 @@
 #pragma once
 
 /// \file
-/// The first contact of any motion with integer coordinates of any size, for the cases that
-/// contact_decision.hpp does not decide.
+/// The first contact of any motion with integer coordinates of any size: on curves, and for the
+/// cases that contact_decision.hpp does not decide.
 
 #include <bit>
 #include <cstdint>
 #include <optional>
+#include <vector>
 
 #include "fast/certified/exact/big_integer.hpp"
 #include "fast/certified/exact/contact_conditions.hpp"
 #include "fast/certified/exact/enclosing_doubles.hpp"
 #include "fast/certified/exact/exact_stage.hpp"
+#include "fast/certified/exact/polynomial.hpp"
 
 namespace touchstone::fast::exact_stage {
 
@@ -30,5 +32,15 @@ namespace touchstone::fast::exact_stage {
 /// doubles; empty if there is none.
 [[nodiscard]] std::optional<ExactImpact> first_impact(const Motion<BigInteger>& motion,
                                                       std::uint64_t latest);
+
+/// A motion, and polynomials that are positive on [0,1] and whose product divides D.
+struct PolynomialMotion {
+  MotionOf<Polynomial> motion;
+  std::vector<Polynomial> factors;
+};
+
+/// The time of the first contact of any motion, likewise.
+[[nodiscard]] std::optional<BitInterval> first_contact(const PolynomialMotion& motion,
+                                                       std::uint64_t latest);
 
 }  // namespace touchstone::fast::exact_stage

@@ -40,22 +40,6 @@ Polynomial pseudo_remainder(Polynomial a, const Polynomial& b) {
   return a;
 }
 
-/// b's top coefficient times a/b. Its coefficients are integers: with b = c h and h primitive, a/h
-/// has integer coefficients, and the top coefficient of b divided by c is that of h. \pre b divides
-/// a.
-Polynomial scaled_quotient(Polynomial a, const Polynomial& b) {
-  Polynomial quotient(a.size() - b.size() + 1);
-  for (BigInteger& x : a) x = x * b.back();
-  while (a.size() >= b.size()) {
-    const std::size_t shift = a.size() - b.size();
-    const BigInteger factor = quotient[shift] = a.back().divided_exactly(b.back());
-    for (std::size_t k = 0; k < b.size(); ++k) a[k + shift] -= factor * b[k];
-    drop_top_zeros(a);
-  }
-  remove_twos(quotient);
-  return quotient;
-}
-
 BigInteger power(const BigInteger& x, std::size_t exponent) {
   BigInteger result = 1;
   for (; exponent > 0; --exponent) result = result * x;
@@ -179,6 +163,20 @@ Polynomial common_divisor(Polynomial a, Polynomial b) {
   for (BigInteger& x : divisor) x = (x * top).divided_exactly(own);
   remove_twos(divisor);
   return divisor;
+}
+
+Polynomial scaled_quotient(Polynomial a, const Polynomial& b) {
+  Polynomial quotient(a.size() - b.size() + 1);
+  for (BigInteger& x : a) x = x * b.back();
+  drop_top_zeros(a);
+  while (a.size() >= b.size()) {
+    const std::size_t shift = a.size() - b.size();
+    const BigInteger factor = quotient[shift] = a.back().divided_exactly(b.back());
+    for (std::size_t k = 0; k < b.size(); ++k) a[k + shift] -= factor * b[k];
+    drop_top_zeros(a);
+  }
+  remove_twos(quotient);
+  return quotient;
 }
 
 Polynomial squarefree(const Polynomial& f) {

@@ -43,6 +43,12 @@ Polynomial& operator-=(Polynomial& a, const Polynomial& b);
 /// of the longer polynomial. \pre as above.
 [[nodiscard]] Polynomial common_divisor(Polynomial a, Polynomial b);
 
+/// a/b times b's top coefficient, up to a power of two. The coefficients are integers: with b = c h
+/// and h primitive, a/h has integer coefficients, and b's top coefficient divided by c is that of
+/// h.
+/// \pre b divides a, and its top coefficient is not 0.
+[[nodiscard]] Polynomial scaled_quotient(Polynomial a, const Polynomial& b);
+
 /// A polynomial with the same roots, each simple. \pre as above.
 [[nodiscard]] Polynomial squarefree(const Polynomial& f);
 

@@ -506,8 +506,8 @@ double Instant::guess() const {
   return quotient(middle, {0.5, 1});
 }
 
-double Instant::quotient_of(const Form<BigInteger, 2>& numerator,
-                            const Form<BigInteger, 2>& denominator) {
+double Instant::quotient_of(std::span<const BigInteger> numerator,
+                            std::span<const BigInteger> denominator) {
   constexpr double accuracy = 0x1p-48;  // above the quotients' own errors
   const auto at = [&](const Dyadic& t) {
     const Time time = time_of(t);

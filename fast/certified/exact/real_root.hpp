@@ -83,8 +83,8 @@ class Instant {
 
   /// numerator/denominator at this time, to about the accuracy of a double (absolute, below 1).
   /// \pre the denominator is not 0 there, and the quotient is in [0,1].
-  [[nodiscard]] double quotient_of(const Form<BigInteger, 2>& numerator,
-                                   const Form<BigInteger, 2>& denominator);
+  [[nodiscard]] double quotient_of(std::span<const BigInteger> numerator,
+                                   std::span<const BigInteger> denominator);
 
  private:
   [[nodiscard]] bool narrow_by_guess();

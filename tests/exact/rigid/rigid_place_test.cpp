@@ -61,6 +61,10 @@ TEST(RigidPlace, OfTinyAndOfHugeAngles) {
   const RigidMotion moving{{.position = {1, 2, 3}, .rotation = {0, 0, std::numbers::pi}},
                            {.position = {3, 2, 1}, .rotation = {0, 0, -std::numbers::pi}}};
   EXPECT_EQ(place_of(moving, v, 0.5), (Point{3, 2, 2}));
+  EXPECT_EQ(place_of(moving, v, 0.5, 2), (Point{0.75, 0.5, 0.5}));
+  constexpr double least = 0x1p-1074;
+  const RigidMotion tiny = turning({}, {0, 0, std::numbers::pi / 3});
+  EXPECT_EQ(place_of(tiny, {least, 0, 0}, 1.0, -1074), place_of(tiny, v, 1.0));
 }
 
 }  // namespace

@@ -44,7 +44,7 @@ std::vector<Rational> exact_coefficients(const std::vector<std::int64_t>& c, con
 TEST(FixedPointForm, IsWithinItsBound) {
   Random random(1);
   for (int i = 0; i < 3000; ++i) {
-    const auto degree = static_cast<std::size_t>(random.between(0, 8));
+    const auto degree = static_cast<std::size_t>(random.between(0, 24));
     std::vector<std::int64_t> c(degree + 1);
     for (auto& x : c) x = random.integer<std::int64_t>(60);
     c[0] = std::abs(c[0]) | (std::int64_t{1} << 59U);  // so that the units are 1

@@ -38,6 +38,13 @@ TEST(Polynomial, FindsCommonDivisors) {
   EXPECT_EQ(squarefree(both).size(), 3U);
 }
 
+TEST(Polynomial, DividesByAFactor) {
+  const Polynomial a = polynomial(in_time(1, -2, 0)), b = polynomial(in_time(3, 1, -4));
+  ASSERT_EQ(b.back().sign(), 0);
+  EXPECT_EQ(scaled_quotient(a * Polynomial{1, 1}, {1, 1}), a);
+  EXPECT_EQ(scaled_quotient(b * Polynomial{5, 3}, {5, 3}), b * 3);
+}
+
 TEST(Polynomial, FindsCommonDivisorsOfDegreeEight) {
   const Polynomial a = polynomial(in_time(1, 0, -2)), b = polynomial(in_time(2, -9, 9));
   const Polynomial f = a * a * b * polynomial(in_time(1, 1, 1));
