@@ -29,6 +29,20 @@ bool Npz::has(const std::string& array) const {
   return zip_name_locate(archive_.get(), (array + ".npy").c_str(), 0) >= 0;
 }
 
+std::vector<std::string> Npz::names() const {
+  static constexpr std::string_view extension = ".npy";
+  std::vector<std::string> result;
+  const zip_int64_t count = zip_get_num_entries(archive_.get(), 0);
+  for (zip_int64_t i = 0; i < count; ++i) {
+    const char* const text = zip_get_name(archive_.get(), static_cast<zip_uint64_t>(i), 0);
+    std::string_view name = text == nullptr ? "" : text;
+    if (!name.ends_with(extension)) continue;
+    name.remove_suffix(extension.size());
+    result.emplace_back(name);
+  }
+  return result;
+}
+
 void NpzArray::Close::operator()(zip_file* member) const { zip_fclose(member); }
 
 NpzArray::NpzArray(const Npz& archive, std::string name)

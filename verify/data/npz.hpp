@@ -29,6 +29,8 @@ class Npz {
 
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }
   [[nodiscard]] bool has(const std::string& array) const;
+  /// The names of all arrays, in the order of the archive.
+  [[nodiscard]] std::vector<std::string> names() const;
 
  private:
   friend class NpzArray;

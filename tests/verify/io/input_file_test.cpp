@@ -80,6 +80,26 @@ TEST(LineReader, ReadsAllLineEnds) {
   EXPECT_EQ(lines_of("a\r\nb\r"), expected);
 }
 
+TEST(LineReader, PassesOverAByteOrderMark) {
+  EXPECT_EQ(lines_of("\xEF\xBB\xBF"
+                     "a\n"),
+            (std::vector<OwnedLine>{{"a", 1, false}}));
+  EXPECT_EQ(lines_of("a\n\xEF\xBB\xBF"),
+            (std::vector<OwnedLine>{{"a", 1, false}, {"\xEF\xBB\xBF", 2, false}}));
+  EXPECT_TRUE(lines_of("\xEF\xBB\xBF").empty());
+  const TemporaryFolder folder;
+  for (const std::string mark : {"\xFF\xFE", "\xFE\xFF"}) {
+    LineReader reader(folder.file("text", mark + std::string("a\0\n\0", 4)));
+    EXPECT_EQ(error_of(folder.path(), [&] { (void)reader.next(); }),
+              "text:1: UTF-16 text; UTF-8 is read: iconv -f UTF-16 -t UTF-8");
+    EXPECT_TRUE(reader.at_end()) << "it has ended";
+  }
+  LineReader peeked(folder.file("text",
+                                "\xEF\xBB\xBF"
+                                "1,2\n"));
+  EXPECT_EQ(peeked.peek(4), "1,2\n");
+}
+
 TEST(LineReader, BlankLinesCountExceptAtTheEnd) {
   EXPECT_TRUE(lines_of("").empty());
   EXPECT_TRUE(lines_of("\n \t\n\r\n").empty());
