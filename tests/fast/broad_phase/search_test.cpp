@@ -30,7 +30,9 @@ using Pairs = std::vector<IndexPair>;
 
 std::vector<const SearchKernel*> all_kernels() {
   std::vector<const SearchKernel*> kernels(search_kernels().begin(), search_kernels().end());
+#ifdef TOUCHSTONE_EMULATED_AVX512
   kernels.push_back(&emulated_avx512_search_kernel);
+#endif
   return kernels;
 }
 
