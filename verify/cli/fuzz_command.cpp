@@ -281,13 +281,18 @@ class FuzzRun {
     if (arguments_.page_folder.empty()) return {};
     fs::path folder = fs::weakly_canonical(arguments_.page_folder);
     if (!folder.has_filename()) folder = folder.parent_path();  // a slash at the end
-    const fs::path partial = folder.string() + ".touchstone.partial";
-    fs::remove_all(partial);  // of a killed run
+    const fs::path partial = io::partial_name(folder);
     const auto interface = arguments_.calls.empty()
                                ? fuzz::usual_interface(asked_)
                                : fuzz::call_interface_from_string(arguments_.calls).value();
-    std::vector<fs::path> pages = fuzz::write_pages(report, interface, partial);
-    fs::rename(partial, folder);
+    std::vector<fs::path> pages;
+    try {
+      pages = fuzz::write_pages(report, interface, partial);
+      fs::rename(partial, folder);
+    } catch (...) {
+      fs::remove_all(partial);
+      throw;
+    }
     for (fs::path& page : pages) page = arguments_.page_folder / page.filename();
     return pages;
   }
@@ -340,10 +345,10 @@ class FuzzRun {
   [[nodiscard]] Status status(const fuzz::FuzzResult& result) const {
     const bool seeks_ends =
         fuzz::seeks(options_, judge::Fault::crash) || fuzz::seeks(options_, judge::Fault::exit);
+    if (files_.has_failed()) return Status::bad_input;
     if (result.all_findings != 0 || (seeks_ends && result.unplaced_crashes != 0)) {
       return Status::wrong_answers;
     }
-    if (files_.has_failed()) return Status::bad_input;
     if (result.ended_by == fuzz::FuzzEnd::interrupt) return Status::interrupted;
     if (result.queries != 0) return Status::all_well;
     report_error(
@@ -434,8 +439,8 @@ Status run_on_curves(const CLI::App& command, const Arguments& arguments) {
   for (const fuzz::CurvedFinding& finding : result.findings) {
     io::print(files.summary_stream(), to_line(finding));
   }
-  if (!result.findings.empty()) return Status::wrong_answers;
   if (files.has_failed()) return Status::bad_input;
+  if (!result.findings.empty()) return Status::wrong_answers;
   return io::interrupted() ? Status::interrupted : Status::all_well;
 }
 
