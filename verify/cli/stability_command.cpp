@@ -88,8 +88,8 @@ Status run(const Arguments& arguments) {
   if (picture) picture.write(report::stability_page(result, command_line()));
   picture.close();
   io::print(files.summary_stream(), report::to_text(result));
-  if (stability::has_wrong_answers(result)) return Status::wrong_answers;
   if (files.has_failed()) return Status::bad_input;
+  if (stability::has_wrong_answers(result)) return Status::wrong_answers;
   return io::interrupted() ? Status::interrupted : Status::all_well;
 }
 

@@ -119,7 +119,10 @@ TEST_F(ConvertCommand, RefusesWhatIsNoNewStore) {
   EXPECT_EQ(run({"convert", path("none"), "--out", path("b")}).status, 2);
   write("bad_ee.csv", "1,2\n");
   EXPECT_EQ(run({"convert", path("bad_ee.csv"), "--out", path("c")}).status, 2);
-  EXPECT_FALSE(fs::exists(path("c/manifest.json")));
+  // What was written is no store.
+  write("c/vertex-face/some.npy", "");
+  EXPECT_EQ(run({"certify", path("c")}).status, 2);
+  EXPECT_TRUE(contains(read("err"), "the manifest of its store does not name it"));
 }
 
 }  // namespace
