@@ -46,18 +46,25 @@ Shard checked(std::size_t index, std::size_t count) {
       fmt::format("--shard: there is no part {} of {}; parts are counted from 0", index, count));
 }
 
+/// The part of a task of a Slurm array. An array of some tasks only, as of those that failed and
+/// are submitted again, does not say of how many they are.
+Shard shard_of_array(std::size_t task) {
+  const std::size_t count = variable("SLURM_ARRAY_TASK_COUNT").value_or(0);
+  const bool is_whole = variable("SLURM_ARRAY_TASK_MIN") == 0U &&
+                        variable("SLURM_ARRAY_TASK_MAX").value_or(0) + 1 == count;
+  if (is_whole && count > 1) return checked(task, count);
+  throw std::invalid_argument(
+      fmt::format("--shard auto: this Slurm array has not the tasks 0 to N-1, or one task only: of "
+                  "how many parts this is one is not known; name it: --shard {}/N",
+                  task));
+}
+
 Shard shard_of_environment() {
-  if (const auto id = variable("SLURM_ARRAY_TASK_ID")) {
-    const std::size_t first = variable("SLURM_ARRAY_TASK_MIN").value_or(0);
-    if (const auto count = variable("SLURM_ARRAY_TASK_COUNT")) return checked(*id - first, *count);
-  }
+  if (const auto task = variable("SLURM_ARRAY_TASK_ID")) return shard_of_array(*task);
   const auto rank = variable("OMPI_COMM_WORLD_RANK"), size = variable("OMPI_COMM_WORLD_SIZE");
   if (rank && size) return checked(*rank, *size);
-  const auto job = variable("PARALLEL_SEQ"), jobs = variable("PARALLEL_COUNT");
-  if (job && jobs) return checked(*job - 1, *jobs);
   throw std::invalid_argument(
-      "--shard auto: none of SLURM_ARRAY_TASK_ID and SLURM_ARRAY_TASK_COUNT, OMPI_COMM_WORLD_RANK "
-      "and _SIZE, PARALLEL_SEQ and PARALLEL_COUNT are set");
+      "--shard auto: neither SLURM_ARRAY_TASK_ID nor OMPI_COMM_WORLD_RANK and _SIZE are set");
 }
 
 // ---- The plan -----------------------------------------------------------------------------------
@@ -207,7 +214,7 @@ Status write_merged(const jobs::PieceFolder& folder, const std::string& json_fil
 void add_piece_options(CLI::App& command, PieceArguments& arguments) {
   command
       .add_option(shard_option, arguments.shard,
-                  "Do part I of N, from 0 on; auto: as Slurm, mpirun or GNU parallel say")
+                  "Do part I of N, from 0 on; auto: as a Slurm array or mpirun says")
       ->type_name("I/N");
   command
       .add_option(resume_option, arguments.folder,

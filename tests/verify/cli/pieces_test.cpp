@@ -11,7 +11,7 @@
 
 #include "tests/support/certificates.hpp"
 #include "tests/support/tool_test.hpp"
-#include "tests/support/trials.hpp"
+#include "verify/jobs/pieces.hpp"
 
 // Tests of --shard, --resume and `touchstone merge`, some of which run the tool.
 
@@ -55,19 +55,30 @@ TEST_F(Shards, AreCountedFromZero) {
 }
 
 TEST_F(Shards, ComeFromEnginesByTheirVariables) {
-  EXPECT_TRUE(contains(error_of("auto"), "none of SLURM_ARRAY_TASK_ID"));
-  set("PARALLEL_SEQ", "5");
-  set("PARALLEL_COUNT", "4");
-  EXPECT_TRUE(contains(error_of("auto"), "no part 4 of 4"));
+  EXPECT_TRUE(contains(error_of("auto"), "neither SLURM_ARRAY_TASK_ID"));
   set("OMPI_COMM_WORLD_RANK", "3");
   set("OMPI_COMM_WORLD_SIZE", "3");
   EXPECT_TRUE(contains(error_of("auto"), "no part 3 of 3"));
-  set("SLURM_ARRAY_TASK_ID", "18");
-  set("SLURM_ARRAY_TASK_COUNT", "8");
-  set("SLURM_ARRAY_TASK_MIN", "10");
-  EXPECT_TRUE(contains(error_of("auto"), "no part 8 of 8"));
-  set("SLURM_ARRAY_TASK_ID", "17");
-  EXPECT_EQ(error_of("auto"), "");
+  const auto set_array = [&](const std::string& id, const std::string& first,
+                             const std::string& last, const std::string& count) {
+    set("SLURM_ARRAY_TASK_ID", id);
+    set("SLURM_ARRAY_TASK_MIN", first);
+    set("SLURM_ARRAY_TASK_MAX", last);
+    set("SLURM_ARRAY_TASK_COUNT", count);
+    return error_of("auto");
+  };
+  EXPECT_EQ(set_array("7", "0", "7", "8"), "");
+  EXPECT_TRUE(contains(set_array("8", "0", "7", "8"), "no part 8 of 8"));
+  // Tasks that are submitted again: one, the first, some, the last ones; and others than 0 to N-1.
+  for (const auto& [id, first, last, count] :
+       std::vector<std::array<std::string, 4>>{{"5", "5", "5", "1"},
+                                               {"0", "0", "0", "1"},
+                                               {"3", "3", "7", "2"},
+                                               {"6", "6", "7", "2"},
+                                               {"4", "0", "12", "4"},
+                                               {"1", "1", "8", "8"}}) {
+    EXPECT_TRUE(contains(set_array(id, first, last, count), "name it: --shard " + id + "/N")) << id;
+  }
 }
 
 // ---- Runs ---------------------------------------------------------------------------------------
@@ -159,6 +170,16 @@ TEST_F(PieceRuns, OfTheBuiltInSetAreByFamily) {
   EXPECT_EQ(total, without_means(json("a.json")));
 }
 
+TEST_F(PieceRuns, AreOfAProgramKnownByItsCommitOrItsDigest) {
+  std::string version = run({"--version"}).out;
+  version.pop_back();
+  ASSERT_EQ(run(words("solve", "one")).status, 0);
+  const bool is_commit = version.ends_with(')') && !version.ends_with("-dirty)");
+  const std::string digest = jobs::digest_of(tests::touchstone_program());
+  EXPECT_EQ(json("one/plan.json")["program"],
+            is_commit ? version : version + ", SHA-256 " + digest);
+}
+
 TEST_F(PieceRuns, ByShardsInAnyOrderGiveTheSame) {
   ASSERT_EQ(run(words("certify", "one")).status, 1);
   for (const std::string shard : {"2/3", "0/3", "1/3"}) {
@@ -167,7 +188,7 @@ TEST_F(PieceRuns, ByShardsInAnyOrderGiveTheSame) {
     const Outcome outcome = run(some);
     EXPECT_LE(outcome.status, 1) << outcome.err;
     if (shard != "1/3") {
-      EXPECT_TRUE(contains(outcome.out, "pieces are done; when all are: touchstone merge"));
+      EXPECT_TRUE(contains(outcome.out, ": when all are, touchstone merge"));
       EXPECT_EQ(run({"merge", path("some")}).status, 2);
     }
   }
@@ -177,7 +198,7 @@ TEST_F(PieceRuns, ByShardsInAnyOrderGiveTheSame) {
   const std::string all = std::to_string(json("some/plan.json")["pieces"].size());
   std::vector<std::string> again = words("certify", "some");
   again.insert(again.end(), {"--shard", "0/3"});
-  EXPECT_TRUE(contains(run(again).out, all + " of " + all + " pieces are done"));
+  EXPECT_TRUE(contains(run(again).out, all + " of " + all + " pieces are done, not yet 0"));
   // Without a folder, a shard is a run of its own.
   std::uint64_t queries = 0;
   for (const std::string shard : {"0/2", "1/2"}) {
@@ -202,11 +223,10 @@ TEST_F(PieceRuns, ThatAreKilledGoOn) {
     }
     return count;
   };
-  // At twenty random moments (fewer under the sanitizers), each up to some pieces after the start
-  // and in the work.
+  // At twenty random moments, each up to some pieces after the start and in the work.
   std::mt19937 random(20);
   std::size_t most = 0;
-  for (int i = 0; i < tests::trials(20); ++i) {
+  for (int i = 0; i < 20; ++i) {
     const std::size_t pieces = most + random() % 3;
     const pid_t process = start(words("certify", "killed", "store"));
     ASSERT_TRUE(tests::comes_true([&] { return done() >= pieces; }));
