@@ -147,7 +147,6 @@ constexpr auto permissions = std::to_array<Permission>({
     {"verify/solvers/linux/", "linux/"},
     {"verify/solvers/linux/", "poll.h"},
     {"verify/solvers/linux/", "sched.h"},
-    {"verify/solvers/linux/", "spawn.h"},
     {"verify/solvers/linux/", "sys/"},
     {"verify/solvers/linux/", "unistd.h"},
 
