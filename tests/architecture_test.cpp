@@ -84,7 +84,7 @@ constexpr auto layers = std::to_array<Layer>({
      "verify/solvers/ verify/base/ verify/baselines/ verify/io/ verify/judge/ +"},
     // All that needs Linux.
     {"verify/solvers/linux/",
-     "verify/solvers/ verify/io/ fcntl.h linux/ poll.h sched.h spawn.h sys/ "
+     "verify/solvers/ verify/io/ fcntl.h linux/ poll.h sched.h sys/ "
      "unistd.h"},
     {"verify/jobs/",
      "verify/jobs/ verify/base/ verify/baselines/ verify/data/ verify/io/ verify/judge/ "

@@ -6,7 +6,8 @@
 set -euo pipefail
 folder=$1 workers=$2
 shift 2
-printf -v words '%q ' "$@" --threads 1 --resume "$folder" --shard auto
+printf -v words '%q ' "$@" --threads 1 --resume "$folder" --shard
+words+="\$SLURM_ARRAY_TASK_ID/$workers"
 for _ in 1 2 3; do
   # Waits for all tasks.
   sbatch --wait --array="0-$((workers - 1))" --output "$folder-%a.log" --wrap "$words" >/dev/null || true

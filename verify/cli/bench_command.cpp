@@ -210,8 +210,9 @@ class BenchRun {
   }
 
   [[nodiscard]] Status status() const {
+    if (files_.has_failed()) return Status::bad_input;
     if (report::has_wrong_answers(report_)) return Status::wrong_answers;
-    if (files_.has_failed() || !errors_.empty() || skipped_ != 0) return Status::bad_input;
+    if (!errors_.empty() || skipped_ != 0) return Status::bad_input;
     return io::interrupted() ? Status::interrupted : Status::all_well;
   }
 

@@ -223,12 +223,13 @@ class CertifyRun {
     const auto is_incomplete = [](const jobs::MethodResult& method) {
       return method.judgement.missing != 0;
     };
+    if (files_.has_failed()) return Status::bad_input;
     if (sum_.label_mismatches + sum_.toi_mismatches != 0 ||
         std::ranges::any_of(sum_.methods, is_wrong)) {
       return Status::wrong_answers;
     }
-    if (files_.has_failed() || sum_.errors + sum_.skipped != 0 ||
-        !sum_.proofs.beyond_limits.empty() || std::ranges::any_of(sum_.methods, is_incomplete)) {
+    if (sum_.errors + sum_.skipped != 0 || !sum_.proofs.beyond_limits.empty() ||
+        std::ranges::any_of(sum_.methods, is_incomplete)) {
       return Status::bad_input;
     }
     return io::interrupted() ? Status::interrupted : Status::all_well;

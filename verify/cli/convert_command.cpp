@@ -153,6 +153,8 @@ class ConvertRun {
 
   Status run() {
     require_one_separation();
+    // Names no shard: what is there before the end is no store.
+    static_cast<void>(write_manifest());
     io::ProgressBar bar("convert");
     std::atomic<std::size_t> done = 0;
     oneapi::tbb::task_arena arena(base::cores_for(arguments_.threads));
@@ -171,7 +173,7 @@ class ConvertRun {
     bar.clear();
     if (io::interrupted()) return Status::interrupted;
     if (failed_ && !arguments_.keep_going) return Status::bad_input;
-    write_manifest();
+    io::print(stdout, write_manifest());
     return failed_ ? Status::bad_input : Status::all_well;
   }
 
@@ -245,7 +247,8 @@ class ConvertRun {
             {"first", first}};
   }
 
-  void write_manifest() const {
+  /// Writes the manifest of the shards that are done; returns a line about them.
+  [[nodiscard]] std::string write_manifest() const {
     nlohmann::json shards = nlohmann::json::array();
     std::uint64_t queries = 0;
     for (const nlohmann::json& some : shards_) {
@@ -262,8 +265,8 @@ class ConvertRun {
                                   {"queries", queries},
                                   {"shards", shards}}));
     file.close();
-    io::print(stdout, fmt::format("{} queries in {} shards below {}\n", queries, shards.size(),
-                                  io::printable(arguments_.folder.string())));
+    return fmt::format("{} queries in {} shards below {}\n", queries, shards.size(),
+                       io::printable(arguments_.folder.string()));
   }
 
   const Arguments& arguments_;

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <cstdio>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -263,11 +264,13 @@ class FuzzRun {
     bar_.clear();
     report_unplaced_crashes(asked_.method, report.result.unplaced_crashes);
     report_output(asked_.method, report.result.output, arguments_.solver.show_output);
-    std::vector<fs::path> written = found_.close();
+    std::vector<fs::path> written = attempt([&] { return found_.close(); });
     if (json_) json_.write(io::json_document(fuzz::to_json(report)));
     json_.close();
     write_view(report);
-    for (fs::path& page : write_pages(report)) written.push_back(std::move(page));
+    for (const fs::path& page : attempt([&] { return write_pages(report); })) {
+      written.push_back(page);
+    }
     io::print(out(), fuzz::to_text(report));
     for (const fs::path& file : written)
       io::print(out(), fmt::format("written: {}\n", io::printable(file.string())));
@@ -276,18 +279,35 @@ class FuzzRun {
   }
 
  private:
+  /// The files that an action writes; if it fails, none, and the findings go on their other ways.
+  std::vector<fs::path> attempt(const std::function<std::vector<fs::path>()>& write) {
+    try {
+      return write();
+    } catch (const std::exception& error) {
+      bar_.clear();
+      report_error(error.what());
+      files_.note_failure();
+      return {};
+    }
+  }
+
   /// The folder appears when it is complete, as files do.
   [[nodiscard]] std::vector<fs::path> write_pages(const fuzz::FuzzReport& report) const {
     if (arguments_.page_folder.empty()) return {};
     fs::path folder = fs::weakly_canonical(arguments_.page_folder);
     if (!folder.has_filename()) folder = folder.parent_path();  // a slash at the end
-    const fs::path partial = folder.string() + ".touchstone.partial";
-    fs::remove_all(partial);  // of a killed run
+    const fs::path partial = io::partial_name(folder);
     const auto interface = arguments_.calls.empty()
                                ? fuzz::usual_interface(asked_)
                                : fuzz::call_interface_from_string(arguments_.calls).value();
-    std::vector<fs::path> pages = fuzz::write_pages(report, interface, partial);
-    fs::rename(partial, folder);
+    std::vector<fs::path> pages;
+    try {
+      pages = fuzz::write_pages(report, interface, partial);
+      fs::rename(partial, folder);
+    } catch (...) {
+      fs::remove_all(partial);
+      throw;
+    }
     for (fs::path& page : pages) page = arguments_.page_folder / page.filename();
     return pages;
   }
@@ -331,19 +351,22 @@ class FuzzRun {
     }
     const fuzz::FailingCase& simplest = finding.simplest;
     const fuzz::FailingCase& original = finding.original;
-    found_.write(finding.kind, simplest.query, simplest.collides);
-    if (simplest.query != original.query) {
-      found_.write(finding.kind, original.query, original.collides);
-    }
+    static_cast<void>(attempt([&] {
+      found_.write(finding.kind, simplest.query, simplest.collides);
+      if (simplest.query != original.query) {
+        found_.write(finding.kind, original.query, original.collides);
+      }
+      return std::vector<fs::path>();
+    }));
   }
 
   [[nodiscard]] Status status(const fuzz::FuzzResult& result) const {
     const bool seeks_ends =
         fuzz::seeks(options_, judge::Fault::crash) || fuzz::seeks(options_, judge::Fault::exit);
+    if (files_.has_failed()) return Status::bad_input;
     if (result.all_findings != 0 || (seeks_ends && result.unplaced_crashes != 0)) {
       return Status::wrong_answers;
     }
-    if (files_.has_failed()) return Status::bad_input;
     if (result.ended_by == fuzz::FuzzEnd::interrupt) return Status::interrupted;
     if (result.queries != 0) return Status::all_well;
     report_error(
@@ -434,8 +457,8 @@ Status run_on_curves(const CLI::App& command, const Arguments& arguments) {
   for (const fuzz::CurvedFinding& finding : result.findings) {
     io::print(files.summary_stream(), to_line(finding));
   }
-  if (!result.findings.empty()) return Status::wrong_answers;
   if (files.has_failed()) return Status::bad_input;
+  if (!result.findings.empty()) return Status::wrong_answers;
   return io::interrupted() ? Status::interrupted : Status::all_well;
 }
 

@@ -102,8 +102,8 @@ Written write_csv(data::QuerySource& source, const Separation& separation, const
     queries.write(query.query, query.collides);
     if (query.toi) tois.write(query.index, *query.toi);
   });
-  queries.close();
   tois.close();
+  queries.close();
   return written;
 }
 

@@ -110,8 +110,9 @@ int run(int argc, char** argv) {
 int main(int argc, char** argv) {
   try {
     open_standard_streams();
-    // A write to a pipe without a reader then fails, which print() handles.
+    // A write to a pipe without a reader, or beyond the limit of a file's size, then fails.
     std::signal(SIGPIPE, SIG_IGN);
+    std::signal(SIGXFSZ, SIG_IGN);
     touchstone::fast::require_strict_arithmetic();
     const int status = run(argc, argv);
     touchstone::verify::io::finish_printing();

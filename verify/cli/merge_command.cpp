@@ -7,7 +7,6 @@
 #include "verify/cli/help.hpp"
 #include "verify/cli/options.hpp"
 #include "verify/cli/pieces.hpp"
-#include "verify/cli/version.hpp"
 
 namespace touchstone::verify::cli::merge_command {
 namespace {
@@ -16,16 +15,6 @@ struct Arguments {
   std::string folder;
   std::string json_file;
 };
-
-Status run(const Arguments& arguments) {
-  const jobs::PieceFolder folder(arguments.folder);
-  if (folder.plan().program != version()) {
-    report_error(arguments.folder + ": made by version " + folder.plan().program +
-                 ", this is version " + std::string(version()));
-    return Status::bad_input;
-  }
-  return merge_pieces(folder, arguments.json_file);
-}
 
 }  // namespace
 
@@ -49,7 +38,8 @@ void add(CLI::App& app, Status& status) {
            "Exit status: 0 success, 1 wrong answers or collisions in a piece, or a solver that "
            "hangs at more than 1 % of all queries, 2 the pieces are not all there and valid, or a "
            "solver answers nothing.");
-  command->callback([arguments, &status] { status = run(*arguments); });
+  command->callback(
+      [arguments, &status] { status = merge_pieces(arguments->folder, arguments->json_file); });
 }
 
 }  // namespace touchstone::verify::cli::merge_command

@@ -22,6 +22,7 @@
 #include "verify/generate/families.hpp"
 #include "verify/io/json.hpp"
 #include "verify/io/number_text.hpp"
+#include "verify/io/printable.hpp"
 #include "verify/io/terminal.hpp"
 #include "verify/solvers/own_program.hpp"
 
@@ -46,21 +47,49 @@ Shard checked(std::size_t index, std::size_t count) {
       fmt::format("--shard: there is no part {} of {}; parts are counted from 0", index, count));
 }
 
+/// The part of a task of a Slurm array. An array of some tasks only, as of those that failed and
+/// are submitted again, does not say of how many they are.
+Shard shard_of_array(std::size_t task) {
+  const std::size_t count = variable("SLURM_ARRAY_TASK_COUNT").value_or(0);
+  const bool is_whole = variable("SLURM_ARRAY_TASK_MIN") == 0U &&
+                        variable("SLURM_ARRAY_TASK_MAX").value_or(0) + 1 == count;
+  if (is_whole && count > 1) return checked(task, count);
+  throw std::invalid_argument(
+      fmt::format("--shard auto: this Slurm array has not the tasks 0 to N-1, or one task only: of "
+                  "how many parts this is one is not known; name it: --shard {}/N",
+                  task));
+}
+
 Shard shard_of_environment() {
-  if (const auto id = variable("SLURM_ARRAY_TASK_ID")) {
-    const std::size_t first = variable("SLURM_ARRAY_TASK_MIN").value_or(0);
-    if (const auto count = variable("SLURM_ARRAY_TASK_COUNT")) return checked(*id - first, *count);
-  }
+  if (const auto task = variable("SLURM_ARRAY_TASK_ID")) return shard_of_array(*task);
   const auto rank = variable("OMPI_COMM_WORLD_RANK"), size = variable("OMPI_COMM_WORLD_SIZE");
   if (rank && size) return checked(*rank, *size);
-  const auto job = variable("PARALLEL_SEQ"), jobs = variable("PARALLEL_COUNT");
-  if (job && jobs) return checked(*job - 1, *jobs);
   throw std::invalid_argument(
-      "--shard auto: none of SLURM_ARRAY_TASK_ID and SLURM_ARRAY_TASK_COUNT, OMPI_COMM_WORLD_RANK "
-      "and _SIZE, PARALLEL_SEQ and PARALLEL_COUNT are set");
+      "--shard auto: neither SLURM_ARRAY_TASK_ID nor OMPI_COMM_WORLD_RANK and _SIZE are set");
 }
 
 // ---- The plan -----------------------------------------------------------------------------------
+
+/// The program that makes results: its version, with its digest where that does not say what
+/// sources it is made of.
+std::string program() {
+  std::string text(version());
+  if (!text.ends_with(')') || text.ends_with("-dirty)")) {
+    text += ", SHA-256 " + jobs::digest_of("/proc/self/exe");
+  }
+  return text;
+}
+
+/// The file, or the files of the folder; none if it is neither.
+std::vector<fs::path> files_below(const fs::path& path) {
+  if (fs::is_regular_file(path)) return {path};
+  std::vector<fs::path> files;
+  if (!fs::is_directory(path)) return files;
+  for (const auto& entry : fs::recursive_directory_iterator(path)) {
+    if (entry.is_regular_file()) files.push_back(entry.path());
+  }
+  return files;
+}
 
 /// The options of the command line that results depend on, in the order of the help, and the files
 /// that they name.
@@ -77,7 +106,9 @@ void set_options(const CLI::App& command, const PieceRun& run, jobs::Plan& plan)
     for (const std::string& value : values) {
       const bool is_flag = option->get_expected_min() == 0;
       plan.options.push_back(is_flag && value == "true" ? name : fmt::format("{}={}", name, value));
-      if (fs::is_regular_file(value)) plan.uses[value] = jobs::digest_of(value);
+      for (const fs::path& file : files_below(value)) {
+        plan.uses[file.string()] = jobs::digest_of(file);
+      }
     }
   }
   for (const std::string& output : run.outputs) {
@@ -88,34 +119,35 @@ void set_options(const CLI::App& command, const PieceRun& run, jobs::Plan& plan)
   plan.outputs.try_emplace(std::string(jobs::json_option), "");
 }
 
-/// Does a piece. Returns its exit status.
+/// Does a piece, in a process of its own. Returns its exit status.
 int do_piece(const jobs::PieceFolder& folder, std::size_t number, const std::string& threads) {
   const jobs::Plan& plan = folder.plan();
-  std::vector<std::string> arguments{"touchstone", plan.command};
-  arguments.insert(arguments.end(), plan.options.begin(), plan.options.end());
-  if (!threads.empty()) arguments.push_back("--threads=" + threads);
-  for (const auto& [option, file] : plan.outputs) {
-    arguments.insert(arguments.end(), {option, folder.output(number, option).string()});
-  }
   const jobs::Piece& piece = plan.pieces[number];
-  arguments.insert(arguments.end(), piece.arguments.begin(), piece.arguments.end());
-  const int status = solvers::run_own_program(std::move(arguments));
-  if (status == static_cast<int>(Status::all_well) ||
-      status == static_cast<int>(Status::wrong_answers)) {
-    const std::string fault = folder.finish(number, status);
-    if (fault.empty()) return status;
-    report_error(fault);
-    return static_cast<int>(Status::bad_input);
-  }
-  return status;
+  return folder.finish(number, [&](const std::map<std::string, fs::path>& outputs) {
+    std::vector<std::string> arguments{"touchstone", plan.command};
+    arguments.insert(arguments.end(), plan.options.begin(), plan.options.end());
+    if (!threads.empty()) arguments.push_back("--threads=" + threads);
+    for (const auto& [option, file] : outputs) arguments.push_back(option + "=" + file.string());
+    arguments.insert(arguments.end(), piece.arguments.begin(), piece.arguments.end());
+    return solvers::run_own_program(std::move(arguments));
+  });
 }
 
-/// \param unfinished pieces
-void report_unfinished(const jobs::PieceFolder& folder, const fs::path& path,
-                       std::size_t unfinished) {
-  const std::size_t count = folder.plan().pieces.size();
-  io::print(stdout, fmt::format("{} of {} pieces are done; when all are: touchstone merge {}\n",
-                                count - unfinished, count, path.string()));
+/// The same, with a report of what went wrong.
+int try_piece(const jobs::PieceFolder& folder, std::size_t number, const std::string& threads) {
+  std::string reason;
+  int status = static_cast<int>(Status::bad_input);
+  try {
+    status = do_piece(folder, number, threads);
+    reason = fmt::format("ended with status {}", status);
+  } catch (const std::exception& error) {
+    reason = error.what();
+  }
+  if (status > static_cast<int>(Status::wrong_answers) && !io::interrupted()) {
+    report_error(fmt::format("piece {}, {}: {}; it is not done", number,
+                             folder.plan().pieces[number].name, reason));
+  }
+  return status;
 }
 
 // ---- The merged result --------------------------------------------------------------------------
@@ -204,7 +236,7 @@ Status write_merged(const jobs::PieceFolder& folder, const std::string& json_fil
 void add_piece_options(CLI::App& command, PieceArguments& arguments) {
   command
       .add_option(shard_option, arguments.shard,
-                  "Do part I of N, from 0 on; auto: as Slurm, mpirun or GNU parallel say")
+                  "Do part I of N, from 0 on; auto: as a Slurm array or mpirun says")
       ->type_name("I/N");
   command
       .add_option(resume_option, arguments.folder,
@@ -246,7 +278,7 @@ std::vector<jobs::Piece> pieces_of(const SourceArguments& sources) {
     for (const fs::path& file : datasets) {
       if (!seen.insert(fs::weakly_canonical(file)).second) continue;
       jobs::Piece piece{
-          .name = file.string(), .files = {file}, .arguments = {"--piece", file.string()}};
+          .name = file.string(), .files = {file}, .arguments = {"--piece", "--", file.string()}};
       for (const fs::path& companion : data::find_ground_truth_files(file)) {
         piece.files.push_back(companion);
       }
@@ -261,7 +293,7 @@ std::vector<jobs::Piece> pieces_of(const SourceArguments& sources) {
 }
 
 Status run_pieces(const CLI::App& command, const PieceArguments& arguments, const PieceRun& run) {
-  jobs::Plan plan{.program = std::string(version()),
+  jobs::Plan plan{.program = program(),
                   .command = command.get_name(),
                   .options = {},
                   .uses = {},
@@ -279,20 +311,17 @@ Status run_pieces(const CLI::App& command, const PieceArguments& arguments, cons
   for (std::size_t i = 0; i < count && !io::interrupted(); ++i) {
     bar.update(static_cast<double>(i) / static_cast<double>(count));
     if (!shard.contains(i) || folder.fault(i).empty()) continue;
-    const int status = do_piece(folder, i, thread_count);
-    if (status > static_cast<int>(Status::wrong_answers) && !io::interrupted()) {
-      report_error(fmt::format("piece {}, {}: ended with status {}; it is not done", i,
-                               run.pieces[i].name, status));
-    }
-    worst = std::max(worst, status);
+    worst = std::max(worst, try_piece(folder, i, thread_count));
   }
   bar.clear();
   if (io::interrupted()) return Status::interrupted;
-  if (worst > static_cast<int>(Status::wrong_answers)) return Status::bad_input;
   const std::size_t faults = folder.faults().size();
   if (faults == 0) return write_merged(folder, "");
-  report_unfinished(folder, arguments.folder, faults - folder.foreign_files().size());
-  return static_cast<Status>(worst);
+  const std::size_t left = faults - folder.foreign_files().size();
+  io::print(stdout,
+            fmt::format("{} of {} pieces are done, not yet {}: when all are, touchstone merge {}\n",
+                        count - left, count, left, io::printable(arguments.folder.string())));
+  return std::min(static_cast<Status>(worst), Status::bad_input);
 }
 
 Status run_in_pieces(const CLI::App& command, const PieceArguments& arguments,
@@ -321,7 +350,13 @@ Status run_in_pieces(const CLI::App& command, const PieceArguments& arguments,
   return run();
 }
 
-Status merge_pieces(const jobs::PieceFolder& folder, const std::string& json_file) {
+Status merge_pieces(const fs::path& path, const std::string& json_file) {
+  const jobs::PieceFolder folder(path);
+  if (folder.plan().program != program()) {
+    report_error(fmt::format("{}: made by version {}, this is version {}", path.string(),
+                             folder.plan().program, program()));
+    return Status::bad_input;
+  }
   const std::vector<std::string> faults = folder.faults();
   for (const std::string& fault : faults) report_error(fault);
   if (!faults.empty()) {

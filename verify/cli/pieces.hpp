@@ -26,8 +26,8 @@ struct PieceArguments {
 /// Adds --shard and --resume. The arguments must live until the command line is parsed.
 void add_piece_options(CLI::App& command, PieceArguments& arguments);
 
-/// The shard of the command line; "auto": of SLURM_ARRAY_TASK_ID (less SLURM_ARRAY_TASK_MIN) and
-/// _COUNT, of OMPI_COMM_WORLD_RANK and _SIZE, or of PARALLEL_SEQ (from 1 on) and PARALLEL_COUNT.
+/// The shard of the command line; "auto": of SLURM_ARRAY_TASK_ID and _COUNT if the array has the
+/// tasks 0 to N-1, or of OMPI_COMM_WORLD_RANK and _SIZE.
 /// \throws std::invalid_argument if it is none.
 [[nodiscard]] Shard shard_of(const PieceArguments& arguments);
 
@@ -63,6 +63,7 @@ struct PieceOutputs {
 
 /// Writes the results of all pieces as one, to the files that the run's command line named; a
 /// summary goes to standard output. \param json_file Instead of the named JSON file, if not empty.
-[[nodiscard]] Status merge_pieces(const jobs::PieceFolder& folder, const std::string& json_file);
+[[nodiscard]] Status merge_pieces(const std::filesystem::path& folder,
+                                  const std::string& json_file);
 
 }  // namespace touchstone::verify::cli

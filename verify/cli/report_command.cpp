@@ -134,8 +134,9 @@ class ReportRun {
     }
     write(measurements);
     report_broken_promises(measurements);
+    if (files_.has_failed()) return Status::bad_input;
     if (report::has_wrong_answers(measurements)) return Status::wrong_answers;
-    if (files_.has_failed() || !errors_.empty() || skipped_ != 0) return Status::bad_input;
+    if (!errors_.empty() || skipped_ != 0) return Status::bad_input;
     return io::interrupted() ? Status::interrupted : Status::all_well;
   }
 

@@ -88,14 +88,14 @@ Status run(const Arguments& arguments) {
   if (picture) picture.write(report::stability_page(result, command_line()));
   picture.close();
   io::print(files.summary_stream(), report::to_text(result));
+  if (files.has_failed()) return Status::bad_input;
+  if (stability::has_wrong_answers(result)) return Status::wrong_answers;
+  if (io::interrupted()) return Status::interrupted;
   Status status = Status::all_well;
   for (const jobs::MethodResult& method : result.total.methods) {
-    if (io::interrupted()) break;
     status = worse(status, status_of(method.name, Responses::of(method.judgement)));
   }
-  if (stability::has_wrong_answers(result)) return Status::wrong_answers;
-  if (files.has_failed()) return worse(status, Status::bad_input);
-  return io::interrupted() ? Status::interrupted : status;
+  return status;
 }
 
 void add_options(CLI::App& command, Arguments& arguments) {

@@ -194,7 +194,7 @@ std::vector<jobs::Piece> pieces_of_frames(const Arguments& arguments) {
     const std::vector<fs::path> step{files[i], files[i + 1]};
     pieces.push_back({.name = files[i].string() + " to " + files[i + 1].filename().string(),
                       .files = step,
-                      .arguments = {step.front().string(), step.back().string()}});
+                      .arguments = {"--", step.front().string(), step.back().string()}});
   }
   return pieces;
 }

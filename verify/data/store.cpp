@@ -49,7 +49,9 @@ std::map<fs::path, std::string> store_digests(const fs::path& folder,
   }
   for (const fs::path& dataset : datasets) {
     if (digests.contains(dataset.lexically_normal())) continue;
-    throw io::DatasetError(dataset, {}, "the manifest of its store does not name it");
+    throw io::DatasetError(
+        dataset, {},
+        "the manifest of its store does not name it (a conversion that was cut short?)");
   }
   return digests;
 }

@@ -1,12 +1,12 @@
 #include "verify/io/output_file.hpp"
 
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <unistd.h>
 
 #include <cerrno>
-#include <charconv>
-#include <csignal>
 #include <iterator>
+#include <random>
 #include <system_error>
 #include <utility>
 
@@ -36,22 +36,6 @@ bool is_special(const fs::path& path) {
          is_below_system_folder(path);
 }
 
-/// Removes the temporary files with this beginning whose process has ended.
-void remove_abandoned_files(const fs::path& folder, const std::string& beginning) {
-  std::error_code error;
-  for (fs::directory_iterator entry(folder.empty() ? "." : folder, error), end;
-       !error && entry != end; entry.increment(error)) {
-    const std::string name = entry->path().filename().string();
-    if (!name.starts_with(beginning)) continue;
-    pid_t process = 0;
-    const char* const last = name.data() + name.size();
-    const auto [stop, fault] = std::from_chars(name.data() + beginning.size(), last, process);
-    if (fault != std::errc() || stop != last || process <= 0) continue;
-    const bool has_ended = ::kill(process, 0) != 0 && errno == ESRCH;
-    if (has_ended || process == ::getpid()) ::unlink(entry->path().c_str());
-  }
-}
-
 }  // namespace
 
 fs::path behind_links(fs::path path) {
@@ -61,6 +45,15 @@ fs::path behind_links(fs::path path) {
   }
   const fs::path canonical = fs::weakly_canonical(path, error);
   return error ? path : canonical;
+}
+
+std::string unused_name() {
+  std::random_device random;
+  return fmt::format("{:08x}{:08x}", random(), random());
+}
+
+fs::path partial_name(const fs::path& path) {
+  return path.string() + ".touchstone.partial-" + unused_name();
 }
 
 OutputFile::OutputFile(fs::path path) : path_(std::move(path)) {
@@ -76,9 +69,7 @@ OutputFile::OutputFile(fs::path path) : path_(std::move(path)) {
 
 void OutputFile::open_temporary() {
   path_ = behind_links(path_);
-  const std::string beginning = path_.filename().string() + ".touchstone.partial-";
-  remove_abandoned_files(path_.parent_path(), beginning);
-  temporary_ = path_.parent_path() / (beginning + std::to_string(::getpid()));
+  temporary_ = partial_name(path_);
   descriptor_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
   if (descriptor_ < 0) temporary_.clear();
 }

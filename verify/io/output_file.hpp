@@ -3,10 +3,10 @@
 /// \file
 /// Files that appear completely or not at all.
 ///
-/// The data is written to <name>.touchstone.partial-<process> beside the target, which takes the
+/// The data is written to <name>.touchstone.partial-<random> beside the target, which takes the
 /// target's name when it is complete; an existing file is unchanged until then. A search for
-/// datasets does not find such a name. The next run with the same target removes the file of a
-/// killed one.
+/// datasets does not find such a name. A killed process leaves its file: on a common file system or
+/// in a container nothing tells it from one that a living process writes.
 ///
 /// Devices and pipes, and all files below /dev and /proc, are written to directly; a symbolic link
 /// remains one.
@@ -22,6 +22,12 @@ namespace touchstone::verify::io {
 /// The place at which a file of this name would be created: the target of symbolic links, also if
 /// it does not exist yet.
 [[nodiscard]] std::filesystem::path behind_links(std::filesystem::path path);
+
+/// A name that nobody else takes, on any machine: 64 random bits in hexadecimal digits.
+[[nodiscard]] std::string unused_name();
+
+/// The name, of nobody else's, for what is to be called `path` when it is complete.
+[[nodiscard]] std::filesystem::path partial_name(const std::filesystem::path& path);
 
 /// A file open for writing, buffered. Without close() it is discarded.
 class OutputFile {

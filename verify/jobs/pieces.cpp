@@ -38,6 +38,27 @@ json described(const fs::path& file) {
   return {{"file", file.string()}, {"bytes", fs::file_size(file)}, {"sha256", digest_of(file)}};
 }
 
+/// A folder that is removed with this object unless it is to be kept.
+class NewFolder {
+ public:
+  explicit NewFolder(fs::path path) : path_(std::move(path)) { fs::create_directory(path_); }
+  NewFolder(const NewFolder&) = delete;
+  NewFolder& operator=(const NewFolder&) = delete;
+  NewFolder(NewFolder&&) = delete;
+  NewFolder& operator=(NewFolder&&) = delete;
+  ~NewFolder() {
+    std::error_code ignored;
+    if (!is_kept_) fs::remove_all(path_, ignored);
+  }
+
+  [[nodiscard]] const fs::path& path() const { return path_; }
+  void keep() { is_kept_ = true; }
+
+ private:
+  fs::path path_;
+  bool is_kept_ = false;
+};
+
 // ---- The plan -----------------------------------------------------------------------------------
 
 json to_json(const Plan& plan) {
@@ -204,50 +225,73 @@ fs::path PieceFolder::record_file(std::size_t piece) const {
   return folder_ / fmt::format("{:06}.piece", piece);
 }
 
+json PieceFolder::record(std::size_t piece) const {
+  return io::read_json(record_file(piece), most_bytes);
+}
+
 fs::path PieceFolder::output(std::size_t piece, std::string_view option) const {
-  return folder_ / fmt::format("{:06}.{}", piece, option.substr(option.find_first_not_of('-')));
+  return folder_ / record(piece).at("outputs").at(option).at("file").get<std::string>();
 }
 
-json PieceFolder::record_of(std::size_t piece, int status) const {
-  json inputs = json::array(), outputs = json::object();
+json PieceFolder::described_inputs(std::size_t piece) const {
+  json inputs = json::array();
   for (const fs::path& file : plan_.pieces[piece].files) inputs.push_back(described(file));
-  for (const auto& [option, name] : plan_.outputs) {
-    const fs::path file = output(piece, option);
-    outputs[option] = described(file);
-    outputs[option]["file"] = file.filename().string();
-  }
-  return {{"format", record_format},
-          {"program", plan_.program},
-          {"plan", digest_},
-          {"piece", piece},
-          {"name", plan_.pieces[piece].name},
-          {"status", status},
-          {"inputs", inputs},
-          {"outputs", outputs}};
+  return inputs;
 }
 
-std::string PieceFolder::finish(std::size_t piece, int status) const {
-  json record = record_of(piece, status);
-  record["sha256"] = base::sha256(record.dump());
-  write_file(record_file(piece), io::json_document(record));
-  return fault_of_inputs(record, piece);
-}
-
-std::string PieceFolder::fault_of_inputs(const json& record, std::size_t piece) const {
-  const std::map<std::string, std::string>& digests = plan_.pieces[piece].digests;
-  for (const json& input : record.at("inputs")) {
-    const auto known = digests.find(input.at("file"));
-    if (known != digests.end() && known->second != input.at("sha256")) {
-      return known->first + " is not as the manifest of its store says";
+json PieceFolder::checked_inputs(std::size_t piece) const {
+  for (const auto& [file, digest] : plan_.uses) {
+    if (digest_of(file) != digest) {
+      throw std::runtime_error(file + ": has changed since the run began");
     }
   }
-  return {};
+  json inputs = described_inputs(piece);
+  const std::map<std::string, std::string>& digests = plan_.pieces[piece].digests;
+  for (const json& input : inputs) {
+    const auto known = digests.find(input.at("file"));
+    if (known != digests.end() && known->second != input.at("sha256")) {
+      throw std::runtime_error(known->first + " is not as the manifest of its store says");
+    }
+  }
+  return inputs;
+}
+
+json PieceFolder::described_output(const std::string& name) const {
+  json result = described(folder_ / name);
+  result["file"] = name;
+  return result;
+}
+
+int PieceFolder::finish(std::size_t piece, const Work& work) const {
+  json record{{"format", record_format},
+              {"program", plan_.program},
+              {"plan", digest_},
+              {"piece", piece},
+              {"name", plan_.pieces[piece].name},
+              {"inputs", checked_inputs(piece)}};
+  NewFolder own(folder_ / fmt::format("{:06}-{}", piece, io::unused_name()));
+  std::map<std::string, fs::path> files;
+  for (const auto& [option, name] : plan_.outputs) {
+    files[option] = own.path() / option.substr(option.find_first_not_of('-'));
+  }
+  const int status = work(files);
+  if (status != 0 && status != 1) return status;
+  if (checked_inputs(piece) != record["inputs"]) {
+    throw std::runtime_error("an input has changed while it was read");
+  }
+  record["status"] = status;
+  for (const auto& [option, file] : files) {
+    record["outputs"][option] = described_output(file.lexically_relative(folder_).string());
+  }
+  record["sha256"] = base::sha256(record.dump());
+  write_file(record_file(piece), io::json_document(record));
+  own.keep();
+  return status;
 }
 
 std::string PieceFolder::fault_of(const std::string& text, std::size_t piece) const {
-  json record;
   try {
-    record = json::parse(text);
+    json record = json::parse(text);
     const std::string digest = record.at("sha256");
     record.erase("sha256");
     if (base::sha256(record.dump()) != digest) return "its record is damaged";
@@ -258,10 +302,12 @@ std::string PieceFolder::fault_of(const std::string& text, std::size_t piece) co
     if (record.at("piece") != piece) {
       return fmt::format("piece {} is there under this number too", record.at("piece").dump());
     }
-    const json expected = record_of(piece, record.at("status"));
-    if (record.at("inputs") != expected.at("inputs")) return "its input has changed since";
-    if (record != expected) return "its results have changed since";
-    return fault_of_inputs(record, piece);
+    if (record.at("inputs") != described_inputs(piece)) return "its input has changed since";
+    for (const auto& [option, name] : plan_.outputs) {
+      const json& output = record.at("outputs").at(option);
+      if (output != described_output(output.at("file"))) return "its results have changed since";
+    }
+    return {};
   } catch (const json::exception&) {
     return "its record is damaged";
   } catch (const std::exception& error) {
@@ -302,8 +348,7 @@ std::vector<std::string> PieceFolder::foreign_files() const {
 int PieceFolder::status() const {
   int result = 0;
   for (std::size_t piece = 0; piece < plan_.pieces.size(); ++piece) {
-    const json record = io::read_json(record_file(piece), most_bytes);
-    result = std::max(result, record.at("status").get<int>());
+    result = std::max(result, record(piece).at("status").get<int>());
   }
   return result;
 }

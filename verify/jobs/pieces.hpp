@@ -5,10 +5,11 @@
 ///
 /// The **plan** of a run is a file that all processes write alike: program, command, options, the
 /// digests of the files that options name, and the pieces, each an input. A finished piece has a
-/// **record**: the plan's digest, the piece's number, the digests of its inputs and of its outputs,
-/// its exit status, and a digest of all this. Plan, outputs and records get their names when they
-/// are complete, a record last. So a process that is killed at any moment loses only the piece in
-/// work.
+/// **record**: the plan's digest, the piece's number, the digests of its inputs, which are the same
+/// before and after the work, those of its outputs, its exit status, and a digest of all this.
+/// The outputs lie in a folder that only this work has, which the record names; the record gets its
+/// name when it is complete. So a process that is killed at any moment loses only the piece in
+/// work, and what it or a child of it still writes is nobody's result.
 ///
 /// The results of all pieces are merged only if the records prove that they are of this plan, that
 /// each piece is there exactly once, and that inputs and outputs are what they were; everything
@@ -64,15 +65,17 @@ class PieceFolder {
   explicit PieceFolder(std::filesystem::path folder);
 
   [[nodiscard]] const Plan& plan() const { return plan_; }
-  /// The file for an output of a piece.
-  [[nodiscard]] std::filesystem::path output(std::size_t piece, std::string_view option) const;
 
   /// Why the piece is not done; empty if it has a valid record. A record that is not valid counts
   /// for nothing.
   [[nodiscard]] std::string fault(std::size_t piece) const;
-  /// Writes the record of a piece whose outputs are complete. Returns what is wrong with its inputs
-  /// as fault() says it; empty if nothing is.
-  std::string finish(std::size_t piece, int status) const;
+
+  /// Does a piece: from the files for its outputs, by their options, to an exit status.
+  using Work = std::function<int(const std::map<std::string, std::filesystem::path>&)>;
+  /// Has a piece done, and writes its record if the status is 0 or 1. Returns the status.
+  /// \throws std::runtime_error if an input or a file that an option names cannot be read, changes
+  /// meanwhile, or is not as the plan or the manifest of its store says.
+  int finish(std::size_t piece, const Work& work) const;
 
   /// The reasons why the pieces cannot be merged, a line each that names the piece or file.
   [[nodiscard]] std::vector<std::string> faults() const;
@@ -89,11 +92,15 @@ class PieceFolder {
 
  private:
   [[nodiscard]] std::filesystem::path record_file(std::size_t piece) const;
-  [[nodiscard]] nlohmann::json record_of(std::size_t piece, int status) const;
+  [[nodiscard]] nlohmann::json record(std::size_t piece) const;
+  /// The file that the piece's record names.
+  [[nodiscard]] std::filesystem::path output(std::size_t piece, std::string_view option) const;
+  [[nodiscard]] nlohmann::json described_inputs(std::size_t piece) const;
+  /// The same, after a look at all that is known of them. \throws as finish().
+  [[nodiscard]] nlohmann::json checked_inputs(std::size_t piece) const;
+  [[nodiscard]] nlohmann::json described_output(const std::string& name) const;
   /// What is wrong with a record; empty if nothing is. \param text of the file
   [[nodiscard]] std::string fault_of(const std::string& text, std::size_t piece) const;
-  /// Which input of a record is not as the manifest of its store says; empty if all are.
-  [[nodiscard]] std::string fault_of_inputs(const nlohmann::json& record, std::size_t piece) const;
 
   std::filesystem::path folder_;
   Plan plan_;

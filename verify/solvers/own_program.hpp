@@ -10,7 +10,8 @@ namespace touchstone::verify::solvers {
 
 /// Runs this program with other arguments, the program's name first, without standard output, and
 /// returns its exit status; 128 and the signal's number if one ended it. An interrupt of this
-/// process is passed on. \throws std::system_error if it cannot be run.
+/// process is passed on; if this process is killed, so is the other. \throws std::system_error if
+/// it cannot be run.
 [[nodiscard]] int run_own_program(std::vector<std::string> arguments);
 
 }  // namespace touchstone::verify::solvers

@@ -2,6 +2,7 @@
 
 #include <dlfcn.h>
 #include <fmt/format.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -57,11 +58,22 @@ std::string loader_reason(const std::string& file) {
   return reason.starts_with(prefix) ? reason.substr(prefix.size()) : reason;
 }
 
-/// \pre the path is absolute.
-Library open_library(const std::filesystem::path& path) {
+/// What tells a file from one that takes its name, or from itself after a change.
+std::string state_of(const std::filesystem::path& path) {
+  struct stat file {};
+  if (::stat(path.c_str(), &file) != 0) return {};
+  return fmt::format("{} {} {} {}.{:09}", file.st_dev, file.st_ino, file.st_size,
+                     file.st_mtim.tv_sec, file.st_mtim.tv_nsec);
+}
+
+/// \pre the path is absolute. \param state of the file when the run began
+Library open_library(const std::filesystem::path& path, const std::string& state) {
   const std::string& file = path.native();
   Library library(::dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL));
   if (!library) throw io::DatasetError(path, {}, "cannot load: " + loader_reason(file));
+  if (state_of(path) != state) {
+    throw io::DatasetError(path, {}, "has changed since it was loaded first");
+  }
   return library;
 }
 
@@ -215,8 +227,10 @@ constexpr TouchstonePluginAnswer unanswered{.verdict = TOUCHSTONE_ERROR,
 
 class PluginMethod final : public fast::Method {
  public:
-  PluginMethod(std::filesystem::path path, std::string name, const Stated& stated)
+  PluginMethod(std::filesystem::path path, std::string state, std::string name,
+               const Stated& stated)
       : path_(std::move(path)),
+        state_(std::move(state)),
         name_(std::move(name)),
         info_{.name = name_, .promise = stated.promise, .terms = stated.terms} {}
 
@@ -225,7 +239,7 @@ class PluginMethod final : public fast::Method {
   void solve(Kind kind, std::span<const Query> queries, std::span<fast::Answer> answers,
              const fast::MethodOptions& options) const override {
     std::call_once(is_loaded_, [this] {
-      library_ = open_library(path_);
+      library_ = open_library(path_, state_);
       solve_ = find_function<Solve>(library_, path_, solve_name);
       solve_batch_ = find_optional<SolveBatch>(library_, "touchstone_plugin_solve_batch");
     });
@@ -251,6 +265,7 @@ class PluginMethod final : public fast::Method {
   }
 
   std::filesystem::path path_;
+  std::string state_;
   std::string name_;
   fast::MethodInfo info_;
   mutable std::once_flag is_loaded_;
@@ -268,6 +283,7 @@ class CurvedPluginMethod final : public fast::Method {
  public:
   CurvedPluginMethod(const CurvedPlugin& plugin, const CurvedQueries& queries)
       : path_(plugin.library),
+        state_(plugin.state),
         queries_(queries),
         info_{.name = plugin.name, .promise = plugin.promise, .terms = plugin.terms} {}
 
@@ -276,7 +292,7 @@ class CurvedPluginMethod final : public fast::Method {
   void solve(Kind kind, std::span<const Query> queries, std::span<fast::Answer> answers,
              const fast::MethodOptions& options) const override {
     std::call_once(is_loaded_, [this] {
-      library_ = open_library(path_);
+      library_ = open_library(path_, state_);
       solve_ = find_function<SolveCurved>(library_, path_, solve_curved_name);
     });
     const TouchstonePluginOptions asked = plugin_options(options);
@@ -293,6 +309,7 @@ class CurvedPluginMethod final : public fast::Method {
 
  private:
   std::filesystem::path path_;
+  std::string state_;
   CurvedQueries queries_;
   fast::MethodInfo info_;
   mutable std::once_flag is_loaded_;
@@ -318,7 +335,7 @@ void tell(const ChildChannel& channel, std::string_view word, std::string_view t
 void load_and_ask(const std::filesystem::path& path, const char* entry,
                   const ChildChannel& channel) {
   tell(channel, calls, "its constructors");
-  Library library = open_library(path);
+  Library library = open_library(path, state_of(path));
   tell(channel, calls, "touchstone_plugin_version()");
   check_version(library, path);
   tell(channel, calls, "touchstone_plugin_name()");
@@ -433,20 +450,24 @@ std::unique_ptr<fast::Method> load_plugin(const std::filesystem::path& library,
                                           const PluginOptions& options) {
   // A child works in another folder.
   std::filesystem::path absolute = std::filesystem::absolute(library);
+  std::string state = state_of(absolute);
   Loading loading(library, absolute, solve_name, options);
   std::string name = loading.name();
   Stated stated = loading.stated();
   stated.terms = changed(stated.terms, options.terms);
-  return std::make_unique<PluginMethod>(std::move(absolute), std::move(name), stated);
+  return std::make_unique<PluginMethod>(std::move(absolute), std::move(state), std::move(name),
+                                        stated);
 }
 
 CurvedPlugin load_curved_plugin(const std::filesystem::path& library,
                                 const PluginOptions& options) {
   std::filesystem::path absolute = std::filesystem::absolute(library);
+  std::string state = state_of(absolute);
   Loading loading(library, absolute, solve_curved_name, options);
   std::string name = loading.name();
   const auto& [promise, terms] = loading.stated();
   CurvedPlugin plugin{.library = std::move(absolute),
+                      .state = std::move(state),
                       .name = std::move(name),
                       .promise = promise,
                       .terms = changed(terms, options.terms)};

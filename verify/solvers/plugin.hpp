@@ -50,10 +50,11 @@ struct PluginOptions {
 ///
 /// The method's name is what the library calls itself, its promise and terms what the library
 /// states (touchstone_plugin_promise), else conservative. solve() loads the library into the
-/// process that calls it, where it stays as long as the method lives. It throws what the library
-/// throws, and answers Verdict::error for a verdict that is none. Times of impact with any other
-/// verdict than yes are dropped, and so is a tolerance that is none (negative or NaN); infinite
-/// times of impact are not: judge::failure_of() tells of them.
+/// process that calls it, where it stays as long as the method lives; it throws DatasetError if the
+/// file has changed since: a run has one solver. It throws what the library throws, and answers
+/// Verdict::error for a verdict that is none. Times of impact with any other verdict than yes are
+/// dropped, and so is a tolerance that is none (negative or NaN); infinite times of impact are not:
+/// judge::failure_of() tells of them.
 /// \throws DatasetError naming the file and the reason if it cannot be loaded, lacks a function, is
 /// made for a version of the interface that this program does not know, has no name or one that is
 /// not printable, has more than 100 bytes or is that of a built-in solver, states a promise out of
@@ -65,6 +66,7 @@ struct PluginOptions {
 /// A plugin that answers queries on curves (touchstone_plugin_solve_curved).
 struct CurvedPlugin {
   std::filesystem::path library;  ///< absolute
+  std::string state;              ///< of its file, by which a change is noticed
   std::string name;
   fast::Promise promise = fast::Promise::conservative;
   fast::Terms terms = {};

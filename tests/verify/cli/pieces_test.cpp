@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "tests/support/tool_test.hpp"
-#include "tests/support/trials.hpp"
+#include "verify/jobs/pieces.hpp"
 
-// Kills of a run in pieces; the rest is in tests/transcripts/merge.md.
+// Kills of a run in pieces; the rest is in tests/transcripts/{merge,pieces}.md.
 
 namespace touchstone::verify::cli::pieces_test {
 namespace {
@@ -33,6 +33,16 @@ class PieceRuns : public tests::ToolTest {
   }
 };
 
+TEST_F(PieceRuns, AreOfAProgramKnownByItsCommitOrItsDigest) {
+  std::string version = run({"--version"}).out;
+  version.pop_back();
+  ASSERT_EQ(run({"certify", "--count", "1", "--resume", path("one")}).status, 0);
+  const bool is_commit = version.ends_with(')') && !version.ends_with("-dirty)");
+  const std::string digest = jobs::digest_of(tests::touchstone_program());
+  EXPECT_EQ(json("one/plan.json")["program"],
+            is_commit ? version : version + ", SHA-256 " + digest);
+}
+
 TEST_F(PieceRuns, ThatAreKilledGoOn) {
   std::vector<std::string> generate{"generate", "--out", path("data"), "--count", "100"};
   for (const char* family : {"hourglass", "contact-at-start", "contact-at-end", "tangential"}) {
@@ -52,11 +62,10 @@ TEST_F(PieceRuns, ThatAreKilledGoOn) {
     }
     return count;
   };
-  // At twenty random moments (fewer under the sanitizers), each up to some pieces after the start
-  // and in the work.
+  // At twenty random moments, each up to some pieces after the start and in the work.
   std::mt19937 random(20);
   std::size_t most = 0;
-  for (int i = 0; i < tests::trials(20); ++i) {
+  for (int i = 0; i < 20; ++i) {
     const std::size_t pieces = most + random() % 3;
     const pid_t process = start(words("killed"));
     ASSERT_TRUE(tests::comes_true([&] { return done() >= pieces; }));

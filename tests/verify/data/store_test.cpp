@@ -43,7 +43,10 @@ TEST_F(Store, HasTheFilesOfItsManifest) {
   manifest(R"({"file": "edge-edge/a.npy", "bytes": 5, "sha256": "00"})");
   EXPECT_EQ(error(), "edge-edge/a.npy: 4 bytes, but the manifest of its store says 5");
   manifest("");
-  EXPECT_EQ(error(), "edge-edge/a.npy: the manifest of its store does not name it");
+  EXPECT_EQ(
+      error(),
+      "edge-edge/a.npy: the manifest of its store does not name it (a conversion that was cut "
+      "short?)");
   manifest("1");
   EXPECT_TRUE(error().starts_with("manifest.json: not the manifest of a store: "));
   static_cast<void>(folder_.file("manifest.json", "{"));

@@ -2,8 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
+#include <fstream>
 #include <functional>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
@@ -36,16 +39,21 @@ class Pieces : public tests::ToolTest {
 
   [[nodiscard]] PieceFolder open() const { return {path("run"), plan_}; }
 
-  void do_piece(const PieceFolder& run, std::size_t i, int status = 0) const {
-    Json result{{"queries", 10 + i},
-                {"us_per_query", 0.5 * static_cast<double>(i)},
-                {"interrupted", false},
-                {"late", {{"greatest", 0.25 * static_cast<double>(i)}, {"beyond", {1, i}}}},
-                {"files", {{{"file", plan_.pieces[i].name}}}}};
-    write(run.output(i, "--json").lexically_relative(folder()).string(), result.dump());
-    write(run.output(i, "--truth").lexically_relative(folder()).string(),
-          "header\nrow " + std::to_string(i) + "\n");
-    run.finish(i, status);
+  /// \param meanwhile what happens after the outputs are written
+  int do_piece(
+      const PieceFolder& run, std::size_t i, int status = 0,
+      const std::function<void(const fs::path& folder)>& meanwhile = [](const fs::path&) {}) const {
+    return run.finish(i, [&](const std::map<std::string, fs::path>& outputs) {
+      Json result{{"queries", 10 + i},
+                  {"us_per_query", 0.5 * static_cast<double>(i)},
+                  {"interrupted", false},
+                  {"late", {{"greatest", 0.25 * static_cast<double>(i)}, {"beyond", {1, i}}}},
+                  {"files", {{{"file", plan_.pieces[i].name}}}}};
+      std::ofstream(outputs.at("--json")) << result;
+      std::ofstream(outputs.at("--truth")) << "header\nrow " << i << "\n";
+      meanwhile(outputs.at("--json").parent_path());
+      return status;
+    });
   }
 
   [[nodiscard]] PieceFolder all_done() const {
@@ -136,6 +144,15 @@ TEST_P(DamagedPieces, AreNamed) {
   }
 }
 
+/// The folder of a piece's results.
+fs::path results(const fs::path& run, int piece) {
+  for (const auto& entry : fs::directory_iterator(run)) {
+    const std::string name = entry.path().filename().string();
+    if (entry.is_directory() && name.starts_with("00000" + std::to_string(piece))) return entry;
+  }
+  return {};
+}
+
 /// Changes a byte of a file.
 void flip(const fs::path& file, std::size_t place) {
   std::string text = tests::read_file(file);
@@ -176,11 +193,14 @@ INSTANTIATE_TEST_SUITE_P(
                  replace(run + "/000001.piece", "\"status\": 1", "\"status\": 0");
                },
                {"piece 1, input1: its record is damaged"}},
-        Damage{"a bit of a result",
-               [](const std::string& run, const std::string&) { flip(run + "/000000.truth", 9); },
-               {"piece 0, input0: its results have changed since"}},
+        Damage{
+            "a bit of a result",
+            [](const std::string& run, const std::string&) { flip(results(run, 0) / "truth", 9); },
+            {"piece 0, input0: its results have changed since"}},
         Damage{"no result",
-               [](const std::string& run, const std::string&) { fs::remove(run + "/000002.json"); },
+               [](const std::string& run, const std::string&) {
+                 fs::remove(results(run, 2) / "json");
+               },
                {"No such file or directory"}},
         Damage{"another input",
                [](const std::string&, const std::string& input) { flip(input + "2", 0); },
@@ -211,20 +231,76 @@ TEST_F(Pieces, OfAnotherRunOrVersionAreNamed) {
   EXPECT_TRUE(faults[1].ends_with("input1: made by version \"0.9\", not 1")) << faults[1];
 }
 
-TEST_F(Pieces, OfAStoreHaveTheInputsOfItsManifest) {
-  for (Piece& piece : plan_.pieces) {
-    piece.digests[piece.files.front().string()] = digest_of(piece.files.front());
+/// What happens to the files of a piece in work, and why it is not done.
+struct Change {
+  std::string what;
+  std::function<void(const std::string& folder)> act;
+  std::string reason;
+};
+
+class ChangedPieces : public Pieces, public ::testing::WithParamInterface<Change> {};
+
+TEST_P(ChangedPieces, AreNotDone) {
+  const std::string library = write("x.so", "library");
+  plan_.pieces[1].files.emplace_back(write("input1b", "companion"));
+  plan_.uses[library] = digest_of(library);
+  plan_.pieces[1].digests[path("input1")] = digest_of(path("input1"));
+  const PieceFolder run = open();
+  try {
+    do_piece(run, 1, 0, [&](const fs::path&) { GetParam().act(folder()); });
+    FAIL();
+  } catch (const std::exception& error) {
+    EXPECT_TRUE(tests::contains(error.what(), GetParam().reason)) << error.what();
   }
-  plan_.pieces[1].digests.begin()->second.front() ^= 1;
-  const std::vector<std::string> faults = all_done().faults();
-  ASSERT_EQ(faults.size(), 1U);
-  EXPECT_TRUE(tests::contains(faults[0], "piece 1, input1: ")) << faults[0];
-  EXPECT_TRUE(faults[0].ends_with("is not as the manifest of its store says")) << faults[0];
+  EXPECT_EQ(run.fault(1), "missing");
+  EXPECT_EQ(results(path("run"), 1), "") << "results of nobody are left";
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Table, ChangedPieces,
+    ::testing::Values(
+        Change{"input",
+               [](const std::string& folder) { std::ofstream(folder + "/input1b") << "x"; },
+               "an input has changed while it was read"},
+        Change{"input of a store",
+               [](const std::string& folder) { std::ofstream(folder + "/input1") << "x"; },
+               "input1 is not as the manifest of its store says"},
+        Change{"plugin", [](const std::string& folder) { std::ofstream(folder + "/x.so") << "x"; },
+               "x.so: has changed since the run began"},
+        Change{"no plugin", [](const std::string& folder) { fs::remove(folder + "/x.so"); },
+               "x.so: cannot open"}),
+    [](const auto& change) {
+      std::string name = change.param.what;
+      std::ranges::replace(name, ' ', '_');
+      return name;
+    });
+
+/// A process that was killed, and its child, which writes on.
+TEST_F(Pieces, AreNotWhatALaterChildOfAKilledProcessWrites) {
+  const PieceFolder run = open();
+  fs::path old;
+  (void)do_piece(run, 0, 1, [&](const fs::path& folder) {
+    // The same piece is done again meanwhile.
+    old = folder;
+    (void)do_piece(open(), 0);
+  });
+  EXPECT_EQ(run.fault(0), "");
+  (void)do_piece(open(), 0);
+  std::ofstream(old / "truth") << "header\nrow of old\n";
+  for (const std::size_t i : {1U, 2U}) (void)do_piece(run, i);
+  EXPECT_TRUE(run.faults().empty());
+  EXPECT_EQ(text_of(run), "header\nrow 0\nrow 1\nrow 2\n");
+}
+
+TEST_F(Pieces, WithoutAResultLeaveNothing) {
+  EXPECT_EQ(do_piece(open(), 0, 2), 2);
+  EXPECT_EQ(open().fault(0), "missing");
+  EXPECT_EQ(results(path("run"), 0), "");
 }
 
 TEST_F(Pieces, ThatContradictEachOtherAreNotAdded) {
   const PieceFolder run = all_done();
-  write("run/000002.json", R"({"queries": 1, "interrupted": true})");
+  std::ofstream(results(path("run"), 2) / "json") << R"({"queries": 1, "interrupted": true})";
   try {
     (void)run.merged_json();
     FAIL();

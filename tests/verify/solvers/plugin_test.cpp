@@ -269,6 +269,20 @@ TEST(LoadPlugin, NamesFileAndReason) {
             "without_name.so: name is not one line of text: \"two?lines\"");
 }
 
+TEST(LoadPlugin, IsOfTheFileThatWasThere) {
+  const data::test::TemporaryFolder folder;
+  const std::filesystem::path library = folder.path() / "mine.so";
+  std::filesystem::copy_file(tests::plugin_library("always_no"), library);
+  const auto method = load_plugin(library);
+  std::filesystem::copy_file(tests::plugin_library("always_yes"), folder.path() / "new.so");
+  std::filesystem::rename(folder.path() / "new.so", library);
+  std::vector<fast::Answer> answers(1);
+  EXPECT_EQ(data::test::error_of(
+                folder.path(),
+                [&] { method->solve(Kind::edge_edge, std::vector<Query>(1), answers, {}); }),
+            "mine.so: has changed since it was loaded first");
+}
+
 /// Each would end this process, or never return.
 TEST(LoadPlugin, SurvivesWhatALibraryDoesOnTheWay) {
   const std::filesystem::path path = tests::plugin_library("bad_loading");

@@ -1,7 +1,7 @@
 #include "verify/solvers/own_program.hpp"
 
 #include <fcntl.h>
-#include <spawn.h>
+#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -12,20 +12,29 @@
 #include "verify/io/terminal.hpp"
 
 namespace touchstone::verify::solvers {
+namespace {
+
+/// Replaces this child by the program, which the system kills when the parent's thread ends.
+[[noreturn]] void become(char** arguments, pid_t parent) {
+  constexpr int cannot_run = 127;  // as of a shell
+  ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+  // The parent may have ended before.
+  if (::getppid() != parent) ::_exit(cannot_run);
+  ::dup2(::open("/dev/null", O_WRONLY | O_CLOEXEC), STDOUT_FILENO);
+  ::execv("/proc/self/exe", arguments);
+  ::_exit(cannot_run);
+}
+
+}  // namespace
 
 int run_own_program(std::vector<std::string> arguments) {
   std::vector<char*> pointers;
   pointers.reserve(arguments.size() + 1);
   for (std::string& argument : arguments) pointers.push_back(argument.data());
   pointers.push_back(nullptr);
-  posix_spawn_file_actions_t actions;
-  ::posix_spawn_file_actions_init(&actions);
-  ::posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
-  pid_t process = 0;
-  const int error =
-      ::posix_spawn(&process, "/proc/self/exe", &actions, nullptr, pointers.data(), environ);
-  ::posix_spawn_file_actions_destroy(&actions);
-  if (error != 0) throw std::system_error(error, std::generic_category(), "cannot run a piece");
+  const pid_t parent = ::getpid(), process = ::fork();
+  if (process == 0) become(pointers.data(), parent);
+  if (process < 0) throw std::system_error(errno, std::generic_category(), "cannot run a piece");
   int status = 0;
   while (::waitpid(process, &status, 0) < 0 && errno == EINTR) {
     if (io::interrupted()) ::kill(process, SIGINT);
