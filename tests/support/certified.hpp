@@ -9,7 +9,6 @@
 #include <optional>
 #include <string>
 
-#include "fast/certified/exact/exact_stage.hpp"
 #include "touchstone/certified.hpp"
 #include "touchstone/number.hpp"
 #include "touchstone/oracle.hpp"
@@ -62,16 +61,12 @@ namespace touchstone::tests {
   return fault(kind, exact::decide(kind, query, options.separation), result, options);
 }
 
-/// The exact stage's decision, as a result.
-[[nodiscard]] inline fast::CertifiedResult exact_result(
-    Kind kind, const Query& query, const fast::CertifiedOptions& options = {}) {
-  const auto& [tolerance, t_max, separation, threads] = options;
-  const auto impact = is_zero(separation)
-                          ? fast::decide_exactly(kind, query, tolerance, t_max)
-                          : fast::decide_exactly(kind, query, separation, tolerance, t_max);
-  if (!impact) return {.verdict = fast::Verdict::no, .stage = fast::Stage::exact};
-  return {fast::Verdict::yes, fast::Stage::exact, impact->toi_lower,
-          impact->toi_upper,  impact->u,          impact->v};
+/// A result about curves, of which u + v may exceed 1 by a rounding, without this.
+[[nodiscard]] inline fast::CertifiedResult without_rounding(fast::CertifiedResult result) {
+  if (result.u + result.v == 1.0) {
+    result.v = std::min(result.v, std::nextafter(1.0 - result.u, 0.0));
+  }
+  return result;
 }
 
 }  // namespace touchstone::tests
