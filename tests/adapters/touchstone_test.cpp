@@ -6,10 +6,14 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <span>
 #include <string>
+#include <string_view>
 #include <thread>
+#include <tuple>
+#include <utility>
 #include <vector>
 
 #include "tests/support/certified.hpp"
@@ -279,160 +283,143 @@ void expect_error(const std::string& part) {
       << touchstone_last_error();
 }
 
-TEST(CInterface, SaysWhatIsWrong) {
+/// A call that is refused: its status, and a part of its message.
+void expect_refused(const std::function<std::int32_t()>& call, std::int32_t status,
+                    std::string_view says) {
+  EXPECT_EQ(call(), status) << says;
+  expect_error(std::string(says));
+}
+
+TEST(CInterface, SaysWhatIsWrongAndWritesNothing) {
+  constexpr std::int32_t invalid = TOUCHSTONE_INVALID_ARGUMENT;
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  const auto with = [](auto change) {
+    TouchstoneOptions options = touchstone_default_options();
+    change(options);
+    return options;
+  };
+  const TouchstoneOptions bad_norm = with([](auto&o) { o.norm = 5; }),
+                          bad_time = with([](auto&o) { o.t_max = 2.0; }),
+                          bad_distance = with([](auto&o) { o.min_separation = -1.0; });
+  const TouchstoneLineSearchOptions other_norm{2, TOUCHSTONE_OF_PAIR},
+      other_start{TOUCHSTONE_L2, 2};
   const std::vector<Query> queries = random_queries(1);
-  const double* const coordinates = queries[0].coordinates.data();
-  TouchstoneImpact impact{};
-  const auto solve = [&](std::int32_t kind, const double* given, const TouchstoneOptions* options,
-                         TouchstoneImpact* impacts) {
-    return touchstone_solve(kind, 1, given, options, impacts);
-  };
-  EXPECT_EQ(solve(2, coordinates, nullptr, &impact), TOUCHSTONE_INVALID_ARGUMENT);
-  expect_error("kind");
-  EXPECT_EQ(solve(0, nullptr, nullptr, &impact), TOUCHSTONE_INVALID_ARGUMENT);
-  expect_error("coordinates is null");
-  EXPECT_EQ(solve(0, coordinates, nullptr, nullptr), TOUCHSTONE_INVALID_ARGUMENT);
-  expect_error("impacts is null");
-  EXPECT_EQ(touchstone_solve(0, 0, nullptr, nullptr, nullptr), TOUCHSTONE_OK);
-  TouchstoneOptions options = touchstone_default_options();
-  options.norm = 5;
-  EXPECT_EQ(solve(0, coordinates, &options, &impact), TOUCHSTONE_INVALID_ARGUMENT);
-  expect_error("norm");
-  options = touchstone_default_options();
-  options.t_max = 2.0;
-  EXPECT_EQ(solve(0, coordinates, &options, &impact), TOUCHSTONE_INVALID_ARGUMENT);
-  options = touchstone_default_options();
-  options.min_separation = -1.0;
-  EXPECT_EQ(solve(0, coordinates, &options, &impact), TOUCHSTONE_INVALID_ARGUMENT);
-  EXPECT_EQ(impact.verdict, 0) << "nothing is written";
-
-  TouchstoneDistance distance{77.0, 77.0};
-  const auto distances = [&](std::int32_t kind, const double* given, double t, std::int32_t norm) {
-    return touchstone_distances(kind, 1, given, t, norm, 1, &distance);
-  };
-  EXPECT_EQ(distances(3, coordinates, 0.0, 0), TOUCHSTONE_INVALID_ARGUMENT);
-  EXPECT_EQ(distances(0, coordinates, 2.0, 0), TOUCHSTONE_INVALID_ARGUMENT);
-  EXPECT_EQ(distances(0, coordinates, 0.0, 2), TOUCHSTONE_INVALID_ARGUMENT);
-  EXPECT_EQ(distances(0, nullptr, 0.0, 0), TOUCHSTONE_INVALID_ARGUMENT);
-  EXPECT_EQ(touchstone_distances(0, 1, coordinates, 0.0, 0, -1, &distance),
-            TOUCHSTONE_INVALID_ARGUMENT);
-  EXPECT_EQ(touchstone_distances(0, 1, coordinates, 0.0, 0, 1, nullptr),
-            TOUCHSTONE_INVALID_ARGUMENT);
-  Query infinite = queries[0];
-  infinite.coordinates[11] = std::numeric_limits<double>::infinity();
-  EXPECT_EQ(distances(0, infinite.coordinates.data(), 0.0, 0), TOUCHSTONE_NOT_FINITE);
-  expect_error("query 0: a coordinate is not finite");
-  EXPECT_EQ(distance.upper, 77.0) << "nothing is written";
-}
-
-TEST(CInterface, RefusesMeshesByStatus) {
-  TouchstoneStep* step = nullptr;
-  const auto made = [&](const TouchstoneMesh* mesh) {
-    return touchstone_step_new(mesh, nullptr, &step);
-  };
-  EXPECT_EQ(made(nullptr), TOUCHSTONE_INVALID_ARGUMENT);
-  expect_error("mesh is null");
-  Scene scene;
-  scene.faces[2] = 9;
-  TouchstoneMesh mesh = scene.mesh();
-  EXPECT_EQ(made(&mesh), TOUCHSTONE_OUT_OF_RANGE);
-  expect_error("face 0");
-  scene = {};
-  scene.after[4] = nan;
-  mesh = scene.mesh();
-  EXPECT_EQ(made(&mesh), TOUCHSTONE_NOT_FINITE);
-  expect_error("vertex 1");
-  mesh.before = nullptr;
-  EXPECT_EQ(made(&mesh), TOUCHSTONE_INVALID_ARGUMENT);
-  expect_error("before is null");
-  scene = {};
-  mesh = scene.mesh();
-  mesh.faces = std::numeric_limits<std::size_t>::max();
-  EXPECT_EQ(made(&mesh), TOUCHSTONE_TOO_MANY);
-  expect_error("face_vertices");
-  EXPECT_EQ(step, nullptr) << "nothing is written";
-  mesh = scene.mesh();
-  EXPECT_EQ(touchstone_step_new(&mesh, nullptr, nullptr), TOUCHSTONE_INVALID_ARGUMENT);
-  expect_error("step is null");
-  scene.before[0] = -std::numeric_limits<double>::max();
-  scene.after[0] = std::numeric_limits<double>::max();
-  mesh = scene.mesh();
-  const StepOf owner(mesh);
-  double alpha = 77.0;
-  EXPECT_EQ(touchstone_step_free_step_size(owner.get(), &alpha), TOUCHSTONE_NOT_FINITE);
-  expect_error("vertex 0");
-  EXPECT_EQ(alpha, 77.0);
-}
-
-/// A null step or a null output: the other outputs stay as they were.
-TEST(CInterface, WritesNothingWithAnError) {
+  const double* const x = queries[0].coordinates.data();
+  Query far = queries[0];
+  far.coordinates[11] = infinity;
   const Scene scene;
   const TouchstoneMesh mesh = scene.mesh();
   const StepOf owner(mesh);
   TouchstoneStep* const step = owner.get();
-  ASSERT_NE(step, nullptr);
-  const TouchstoneCollision* collisions = nullptr;
-  std::size_t count = 0;
-  ASSERT_EQ(touchstone_step_collisions(step, &collisions, &count), 0);
-  const TouchstoneCollision first = collisions[0];
+  Scene fast = scene;
+  fast.before[0] = -std::numeric_limits<double>::max();
+  fast.after[0] = std::numeric_limits<double>::max();
+  const TouchstoneMesh fast_mesh = fast.mesh();
+  const StepOf fast_step(fast_mesh);
+  const auto solve = [&](std::int32_t kind, const double* given, const TouchstoneOptions* options,
+                         TouchstoneImpact* impacts) {
+    return touchstone_solve(kind, 1, given, options, impacts);
+  };
 
-  const TouchstoneCollision untouched{};
-  const TouchstoneCollision* written = &untouched;
-  std::size_t number = 77;
-  EXPECT_EQ(touchstone_step_collisions(step, &written, nullptr), TOUCHSTONE_INVALID_ARGUMENT);
-  expect_error("count is null");
-  EXPECT_EQ(touchstone_step_collisions(step, nullptr, &number), TOUCHSTONE_INVALID_ARGUMENT);
-  expect_error("collisions is null");
-  EXPECT_EQ(touchstone_step_collisions(nullptr, &written, &number), TOUCHSTONE_INVALID_ARGUMENT);
-  expect_error("step is null");
-  EXPECT_EQ(written, &untouched);
-  EXPECT_EQ(number, 77U);
-  EXPECT_EQ(collisions[0].toi_lower, first.toi_lower) << "what was handed out is valid still";
-
-  std::int32_t is_free = 77;
-  EXPECT_EQ(touchstone_step_is_free(nullptr, &is_free), TOUCHSTONE_INVALID_ARGUMENT);
-  EXPECT_EQ(touchstone_step_is_free(step, nullptr), TOUCHSTONE_INVALID_ARGUMENT);
-  EXPECT_EQ(is_free, 77);
   TouchstoneImpact impact{};
   impact.verdict = 77;
-  EXPECT_EQ(touchstone_step_earliest(nullptr, &impact), TOUCHSTONE_INVALID_ARGUMENT);
-  EXPECT_EQ(touchstone_step_earliest(step, nullptr), TOUCHSTONE_INVALID_ARGUMENT);
-  EXPECT_EQ(impact.verdict, 77);
-  double alpha = 77.0;
-  EXPECT_EQ(touchstone_step_free_step_size(nullptr, &alpha), TOUCHSTONE_INVALID_ARGUMENT);
-  EXPECT_EQ(touchstone_step_free_step_size(step, nullptr), TOUCHSTONE_INVALID_ARGUMENT);
-  EXPECT_EQ(alpha, 77.0);
-
   TouchstoneDistance distance{77.0, 77.0};
+  const TouchstoneCollision none{};
+  const TouchstoneCollision *collisions = &none, *before = nullptr;
   const TouchstonePair* pairs = nullptr;
   const TouchstoneActiveContact* contacts = nullptr;
   TouchstoneLineSearchLimit limit{};
   limit.reason = 77;
-  const TouchstoneLineSearchOptions bad_norm{2, TOUCHSTONE_OF_PAIR}, bad_start{TOUCHSTONE_L2, 2};
-  for (const std::int32_t status :
-       {touchstone_step_least_distance(nullptr, 0.0, TOUCHSTONE_L2, &distance, &pairs, &number),
-        touchstone_step_least_distance(step, 0.0, TOUCHSTONE_L2, nullptr, &pairs, &number),
-        touchstone_step_least_distance(step, 0.0, TOUCHSTONE_L2, &distance, nullptr, &number),
-        touchstone_step_least_distance(step, 0.0, TOUCHSTONE_L2, &distance, &pairs, nullptr),
-        touchstone_step_least_distance(step, nan, TOUCHSTONE_L2, &distance, &pairs, &number),
-        touchstone_step_least_distance(step, 0.0, 2, &distance, &pairs, &number),
-        touchstone_step_active_set(nullptr, 0.5, TOUCHSTONE_L2, &contacts, &number),
-        touchstone_step_active_set(step, 0.5, TOUCHSTONE_L2, nullptr, &number),
-        touchstone_step_active_set(step, 0.5, TOUCHSTONE_L2, &contacts, nullptr),
-        touchstone_step_active_set(step, -0.5, TOUCHSTONE_L2, &contacts, &number),
-        touchstone_step_active_set(step, 0.5, 2, &contacts, &number),
-        touchstone_step_line_search_limit(nullptr, 0.5, nullptr, &limit),
-        touchstone_step_line_search_limit(step, 0.5, nullptr, nullptr),
-        touchstone_step_line_search_limit(step, 1.0, nullptr, &limit),
-        touchstone_step_line_search_limit(step, 0.5, &bad_norm, &limit),
-        touchstone_step_line_search_limit(step, 0.5, &bad_start, &limit)}) {
-    EXPECT_EQ(status, TOUCHSTONE_INVALID_ARGUMENT);
+  std::size_t count = 77, of_before = 0;
+  std::int32_t is_free = 77;
+  double alpha = 77.0;
+  ASSERT_EQ(touchstone_step_collisions(step, &before, &of_before), TOUCHSTONE_OK);
+  const double first = before[0].toi_lower;
+
+  const std::vector<std::pair<std::string_view, std::function<std::int32_t()>>> calls{
+      {"kind", [&] { return solve(2, x, nullptr, &impact); }},
+      {"coordinates is null", [&] { return solve(0, nullptr, nullptr, &impact); }},
+      {"impacts is null", [&] { return solve(0, x, nullptr, nullptr); }},
+      {"norm", [&] { return solve(0, x, &bad_norm, &impact); }},
+      {"", [&] { return solve(0, x, &bad_time, &impact); }},
+      {"", [&] { return solve(0, x, &bad_distance, &impact); }},
+      {"", [&] { return touchstone_distances(3, 1, x, 0.0, 0, 1, &distance); }},
+      {"", [&] { return touchstone_distances(0, 1, x, 2.0, 0, 1, &distance); }},
+      {"", [&] { return touchstone_distances(0, 1, x, 0.0, 2, 1, &distance); }},
+      {"", [&] { return touchstone_distances(0, 1, nullptr, 0.0, 0, 1, &distance); }},
+      {"", [&] { return touchstone_distances(0, 1, x, 0.0, 0, -1, &distance); }},
+      {"", [&] { return touchstone_distances(0, 1, x, 0.0, 0, 1, nullptr); }},
+      {"step is null", [&] { return touchstone_step_new(&mesh, nullptr, nullptr); }},
+      {"count is null", [&] { return touchstone_step_collisions(step, &collisions, nullptr); }},
+      {"collisions is null", [&] { return touchstone_step_collisions(step, nullptr, &count); }},
+      {"step is null", [&] { return touchstone_step_collisions(nullptr, &collisions, &count); }},
+      {"", [&] { return touchstone_step_is_free(nullptr, &is_free); }},
+      {"", [&] { return touchstone_step_is_free(step, nullptr); }},
+      {"", [&] { return touchstone_step_earliest(nullptr, &impact); }},
+      {"", [&] { return touchstone_step_earliest(step, nullptr); }},
+      {"", [&] { return touchstone_step_free_step_size(nullptr, &alpha); }},
+      {"", [&] { return touchstone_step_free_step_size(step, nullptr); }},
+      {"",
+       [&] { return touchstone_step_least_distance(nullptr, 0, 0, &distance, &pairs, &count); }},
+      {"", [&] { return touchstone_step_least_distance(step, 0, 0, nullptr, &pairs, &count); }},
+      {"", [&] { return touchstone_step_least_distance(step, 0, 0, &distance, nullptr, &count); }},
+      {"", [&] { return touchstone_step_least_distance(step, 0, 0, &distance, &pairs, nullptr); }},
+      {"", [&] { return touchstone_step_least_distance(step, nan, 0, &distance, &pairs, &count); }},
+      {"", [&] { return touchstone_step_least_distance(step, 0, 2, &distance, &pairs, &count); }},
+      {"", [&] { return touchstone_step_active_set(nullptr, 0.5, 0, &contacts, &count); }},
+      {"", [&] { return touchstone_step_active_set(step, 0.5, 0, nullptr, &count); }},
+      {"", [&] { return touchstone_step_active_set(step, 0.5, 0, &contacts, nullptr); }},
+      {"", [&] { return touchstone_step_active_set(step, -0.5, 0, &contacts, &count); }},
+      {"", [&] { return touchstone_step_active_set(step, 0.5, 2, &contacts, &count); }},
+      {"", [&] { return touchstone_step_line_search_limit(nullptr, 0.5, nullptr, &limit); }},
+      {"", [&] { return touchstone_step_line_search_limit(step, 0.5, nullptr, nullptr); }},
+      {"", [&] { return touchstone_step_line_search_limit(step, 1.0, nullptr, &limit); }},
+      {"", [&] { return touchstone_step_line_search_limit(step, 0.5, &other_norm, &limit); }},
+      {"", [&] { return touchstone_step_line_search_limit(step, 0.5, &other_start, &limit); }}};
+  for (std::size_t i = 0; i < calls.size(); ++i) {
+    SCOPED_TRACE(i);
+    expect_refused(calls[i].second, invalid, calls[i].first);
   }
+  expect_refused(
+      [&] { return touchstone_distances(0, 1, far.coordinates.data(), 0.0, 0, 1, &distance); },
+      TOUCHSTONE_NOT_FINITE, "query 0: a coordinate is not finite");
+  expect_refused([&] { return touchstone_step_free_step_size(fast_step.get(), &alpha); },
+                 TOUCHSTONE_NOT_FINITE, "vertex 0");
+
+  EXPECT_EQ(impact.verdict, 77);
   EXPECT_EQ(distance.lower, 77.0);
+  EXPECT_EQ(distance.upper, 77.0);
+  EXPECT_EQ(collisions, &none);
+  EXPECT_EQ(before[0].toi_lower, first) << "what was handed out is valid still";
   EXPECT_EQ(pairs, nullptr);
   EXPECT_EQ(contacts, nullptr);
-  EXPECT_EQ(number, 77U);
   EXPECT_EQ(limit.reason, 77);
+  EXPECT_EQ(count, 77U);
+  EXPECT_EQ(is_free, 77);
+  EXPECT_EQ(alpha, 77.0);
+  EXPECT_EQ(touchstone_solve(0, 0, nullptr, nullptr, nullptr), TOUCHSTONE_OK);
+}
+
+TEST(CInterface, RefusesMeshesByStatus) {
+  Scene out_of_range, not_finite, good;
+  out_of_range.faces[2] = 9;
+  not_finite.after[4] = nan;
+  TouchstoneMesh without_before = good.mesh(), too_many = good.mesh();
+  without_before.before = nullptr;
+  too_many.faces = std::numeric_limits<std::size_t>::max();
+  const TouchstoneMesh beyond = out_of_range.mesh(), infinite = not_finite.mesh();
+  TouchstoneStep* step = nullptr;
+  for (const auto& [mesh, status, says] :
+       {std::tuple<const TouchstoneMesh*, std::int32_t, std::string_view>(
+            nullptr, TOUCHSTONE_INVALID_ARGUMENT, "mesh is null"),
+        {&beyond, TOUCHSTONE_OUT_OF_RANGE, "face 0"},
+        {&infinite, TOUCHSTONE_NOT_FINITE, "vertex 1"},
+        {&without_before, TOUCHSTONE_INVALID_ARGUMENT, "before is null"},
+        {&too_many, TOUCHSTONE_TOO_MANY, "face_vertices"}}) {
+    const auto* const of = mesh;
+    expect_refused([&] { return touchstone_step_new(of, nullptr, &step); }, status, says);
+    EXPECT_EQ(step, nullptr) << "nothing is written";
+  }
 }
 
 TEST(CInterface, KeepsTheErrorsOfThreadsApart) {

@@ -52,19 +52,18 @@ struct Rest {
 
 const std::vector<Rest>& rests() {
   static const std::string corner = "{0|1|2|3|4}", axis = "{x|y|z}";
-  static const std::vector<Rest> all{
-      {"query", 1, "{vertex_face|edge_edge}"},
-      {"claim", 1, "{no_collision|collision}"},
-      {"claim", 1, "time_of_impact {0 1|0 0|1 1|0 1/2}"},
-      {"separation", 2, "{linf|l2}"},
-      {"separate", 3, "vertex " + corner},
-      {"separate", 3, "edge " + corner + " " + corner},
-      {"separate", 3, "{face|axis x|axis y|axis z} {+|-}"},
-      {"separate", 3, "cross " + axis + " " + corner + " " + corner},
-      {"contact root", 4, "{-1 2|0 1|-1 0 2}"},
-      {"at", 1, "{segment|edge} " + corner + " " + corner},
-      {"at", 1, "triangle {0|1|2|3} {0|1|2|3} {1|3} " + axis},
-      {"at", 1, "{face|axes|vertex 0|vertex 1|vertex 2|vertex 3}"}};
+  static const std::vector<Rest> all{{"query", 1, "{vertex_face|edge_edge}"},
+                                     {"claim", 1, "{no_collision|collision}"},
+                                     {"claim", 1, "time_of_impact {0 1|0 0|1 1|0 1/2}"},
+                                     {"separation", 2, "{linf|l2}"},
+                                     {"separate", 3, "vertex " + corner},
+                                     {"separate", 3, "edge " + corner + " " + corner},
+                                     {"separate", 3, "{face|axis x|axis y|axis z} {+|-}"},
+                                     {"separate", 3, "cross " + axis + " " + corner + " " + corner},
+                                     {"contact root", 4, "{-1 2|0 1|-1 0 2}"},
+                                     {"at", 1, "{segment|edge} " + corner + " " + corner},
+                                     {"at", 1, "triangle {0|1|2|3} {0|1|2|3} {1|3} " + axis},
+                                     {"at", 1, "{face|axes|vertex 0|vertex 1|vertex 2|vertex 3}"}};
   return all;
 }
 

@@ -22,10 +22,7 @@ using tests::Places;
 using tests::Random;
 using tests::Scene;
 
-Scene scene_of(const Places& start, const Places& end) {
-  return {.start = start,
-          .end = end};
-}
+Scene scene_of(const Places& start, const Places& end) { return {.start = start, .end = end}; }
 
 /// A point that falls from height 1 to −1 over (1,1) of a face in the plane z=0.
 Scene falling_point() {

@@ -134,10 +134,8 @@ INSTANTIATE_TEST_SUITE_P(Shapes, BroadPhaseOn, testing::ValuesIn(all_shapes()),
 
 /// A resting triangle in x ≤ 1, and a resting vertex at x.
 Scene vertex_beside_triangle(double x) {
-  Scene scene{.start = Places(4, 3),
-              .end = {},
-              .edges = {{1, 2}, {2, 3}, {1, 3}},
-              .faces = {{1, 2, 3}}};
+  Scene scene{
+      .start = Places(4, 3), .end = {}, .edges = {{1, 2}, {2, 3}, {1, 3}}, .faces = {{1, 2, 3}}};
   scene.start << x, 0.25, 0, 0, 0, 0, 1, 0, 0, 0, 1, 0;
   scene.end = scene.start;
   return scene;
@@ -164,8 +162,7 @@ TEST(BroadPhase, BoxesInContactAreCandidatesAndTheNextDoubleIsNot) {
 // In units of the huge primitive all others are 0 in float, so that doubles decide each pair.
 TEST(BroadPhase, AHugePrimitiveAmongTinyOnesIsFoundWithEachOfThem) {
   static constexpr int tiny = tests::trials(2'000);
-  Scene scene{.start = Places::Zero(3 * tiny + 3, 3),
-              .end = {}};
+  Scene scene{.start = Places::Zero(3 * tiny + 3, 3), .end = {}};
   for (int i = 0; i < tiny; ++i) {
     for (int corner = 0; corner < 3; ++corner) {
       scene.start(3 * i + corner, 0) = 1e-20 * i;

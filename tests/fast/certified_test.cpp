@@ -112,36 +112,6 @@ TEST(Certified, EveryStageIsReachedAndNamed) {
   EXPECT_EQ(to_string(Stage::exact), "exact");
 }
 
-TEST(Certified, AStepToTheLowerEndIsFree) {
-  // The toi is a double, but the lower end is below it, however narrow the enclosure.
-  for (const double tolerance : {1e-12, 1e-15, 0.0, 0.1}) {
-    const CertifiedResult result = solve(over_triangle(1, 1, 1, -1), {.toi_tolerance = tolerance});
-    EXPECT_LT(result.toi_lower, 0.5);
-    EXPECT_GE(result.toi_upper, 0.5);
-  }
-  const CertifiedResult narrowest = solve(over_triangle(1, 1, 1, -1), {.toi_tolerance = 0.0});
-  EXPECT_EQ(narrowest.toi_lower, std::nextafter(0.5, 0.0));
-  EXPECT_EQ(narrowest.toi_upper, 0.5);
-}
-
-TEST(Certified, ContactAtTheStartIsAtZero) {
-  const CertifiedResult result = solve(over_triangle(1, 1, 0, 1));
-  EXPECT_EQ(result.verdict, Verdict::yes);
-  EXPECT_EQ(result.toi_lower, 0.0);
-  EXPECT_EQ(result.toi_upper, 0.0);
-}
-
-TEST(Certified, CountsOnlyWhatIsUpToTMax) {
-  const PosedQuery half = over_triangle(1, 1, 1, -1), quarter = over_triangle(1.25, 0.5, 1, -3);
-  EXPECT_EQ(solve(half, {.t_max = 0.5}).verdict, Verdict::yes);
-  EXPECT_EQ(solve(half, {.t_max = std::nextafter(0.5, 0.0)}).verdict, Verdict::no);
-  EXPECT_EQ(solve(half, {.t_max = std::nextafter(0.5, 1.0)}).verdict, Verdict::yes);
-  EXPECT_EQ(solve(half, {.t_max = 0.25}).verdict, Verdict::no);
-  EXPECT_EQ(solve(half, {.t_max = 0.0}).verdict, Verdict::no);
-  EXPECT_EQ(solve(quarter, {.t_max = 0.25}).verdict, Verdict::yes);
-  EXPECT_EQ(solve(over_triangle(1, 1, 0, 1), {.t_max = 0.0}).verdict, Verdict::yes);
-}
-
 /// Contact at t_max counts, though the enclosure ends beyond it (certified.hpp).
 TEST(Certified, TheUpperEndMayLieBeyondTMax) {
   const CertifiedResult result =

@@ -346,9 +346,7 @@ TEST(LeastDistance, OfLargerScenesIsThatOfAllPairs) {
 
 /// Two triangles in parallel planes at this distance.
 tests::Scene two_triangles(double distance) {
-  tests::Scene scene{.start = tests::Places(6, 3),
-                     .end = {},
-                     .faces = {{0, 1, 2}, {3, 4, 5}}};
+  tests::Scene scene{.start = tests::Places(6, 3), .end = {}, .faces = {{0, 1, 2}, {3, 4, 5}}};
   scene.start << 0, 0, 0, 4, 0, 0, 0, 4, 0, 1, 1, distance, 2, 1, distance, 1, 2, distance;
   scene.end = scene.start;
   scene.edges = edges_of(scene.faces);

@@ -34,9 +34,7 @@ constexpr auto norms = std::to_array<Norm>({Norm::l2, Norm::linf});
 
 /// A triangle at a height over the origin of a larger one, and its place at t=1.
 Scene falling_triangle(double height, double end) {
-  Scene scene{.start = Places(6, 3),
-              .end = {},
-              .faces = {{0, 1, 2}, {3, 4, 5}}};
+  Scene scene{.start = Places(6, 3), .end = {}, .faces = {{0, 1, 2}, {3, 4, 5}}};
   scene.start << -4, -4, 0, 8, -4, 0, -4, 8, 0,  //
       -1, -1, height, 1, -1, height + 1, -1, 1, height + 2;
   scene.end = scene.start;

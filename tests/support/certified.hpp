@@ -9,7 +9,6 @@
 #include <optional>
 #include <string>
 
-#include "fast/certified/exact/exact_stage.hpp"
 #include "touchstone/certified.hpp"
 #include "touchstone/number.hpp"
 #include "touchstone/oracle.hpp"
@@ -60,18 +59,6 @@ namespace touchstone::tests {
                                                       const fast::CertifiedResult& result,
                                                       const fast::CertifiedOptions& options = {}) {
   return fault(kind, exact::decide(kind, query, options.separation), result, options);
-}
-
-/// The exact stage's decision, as a result.
-[[nodiscard]] inline fast::CertifiedResult exact_result(
-    Kind kind, const Query& query, const fast::CertifiedOptions& options = {}) {
-  const auto& [tolerance, t_max, separation, threads] = options;
-  const auto impact = is_zero(separation)
-                          ? fast::decide_exactly(kind, query, tolerance, t_max)
-                          : fast::decide_exactly(kind, query, separation, tolerance, t_max);
-  if (!impact) return {.verdict = fast::Verdict::no, .stage = fast::Stage::exact};
-  return {fast::Verdict::yes, fast::Stage::exact, impact->toi_lower,
-          impact->toi_upper,  impact->u,          impact->v};
 }
 
 }  // namespace touchstone::tests

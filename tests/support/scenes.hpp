@@ -94,8 +94,7 @@ struct Shape {
 /// A mesh of few vertices: faces and edges of any of them, even with the same one twice, and
 /// points.
 [[nodiscard]] inline Scene random_scene(Random& random, const Shape& shape, int vertices) {
-  Scene scene{.start = Places(vertices, 3),
-              .end = Places(vertices, 3)};
+  Scene scene{.start = Places(vertices, 3), .end = Places(vertices, 3)};
   for (Eigen::Index i = 0; i < vertices; ++i) {
     for (Eigen::Index axis = 0; axis < 3; ++axis) {
       scene.start(i, axis) = shape.coordinate(random);
@@ -122,8 +121,7 @@ struct Shape {
 
 /// Triangles, edges and points at random places in a cube, each of about this size and motion.
 [[nodiscard]] inline Scene soup(Random& random, int count, double size) {
-  Scene scene{.start = Places(6 * count, 3),
-              .end = Places(6 * count, 3)};
+  Scene scene{.start = Places(6 * count, 3), .end = Places(6 * count, 3)};
   for (int i = 0; i < count; ++i) {
     for (Eigen::Index axis = 0; axis < 3; ++axis) {
       const double centre = random.uniform(-1, 1), motion = random.uniform(-size, size);

@@ -3,19 +3,16 @@
 #include <gtest/gtest.h>
 
 #include <array>
-#include <bit>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>
 #include <limits>
-#include <map>
 #include <optional>
 #include <string>
 
+#include "fast/certified/block.hpp"
 #include "fast/certified/exact/exact_stage.hpp"
-#include "fast/certified/exact/general_contact_decision.hpp"
-#include "tests/fast/certified/decisions.hpp"
 #include "tests/faults/limb_products.hpp"
 #include "tests/faults/planted_faults.hpp"
 #include "tests/support/certified.hpp"
@@ -149,27 +146,12 @@ TEST(SeparatedDecision, SubnormalTimesAreEnclosedByOneSpacing) {
         const PosedQuery posed = over(kind, 1.0 + k * 0x1p-52, -0x1p1000);
         const Separation one{1.0, norm};
         for (const double tolerance : {0.0, 1e-12, 0.1}) {
-          const CertifiedResult result = tests::exact_result(
+          const CertifiedResult result = fast::decided_exactly(
               kind, posed.query, {.toi_tolerance = tolerance, .separation = one});
           ASSERT_LT(result.toi_upper, std::numeric_limits<double>::min());
           expect_truth(posed, result, one);
         }
       }
-    }
-  }
-}
-
-TEST(SeparatedDecision, AtDistanceZeroItIsThePlainDecision) {
-  Random random(7);
-  for (int i = 0; i < 300; ++i) {
-    const PosedQuery posed{kinds[random.bits() % 2], tests::integer_query(random, 1 + i % 3)};
-    const auto motion = tests::integer_motion<BigInteger>(posed);
-    const auto plain = first_impact(motion, bits_of_one);
-    for (const Norm norm : norms) {
-      const auto walked = first_approach(motion, {}, norm, bits_of_one, 1);
-      ASSERT_EQ(walked.has_value(), plain.has_value()) << posed;
-      if (!plain) continue;
-      EXPECT_EQ(std::bit_cast<double>(walked->upper), plain->toi_upper) << posed;
     }
   }
 }
@@ -187,7 +169,7 @@ TEST(SeparatedDecision, DipsBeforeASeparatorsEndCount) {
   const PosedQuery dipping = dipping_query();
   const Separation separation{2.0, Norm::linf};
   const CertifiedOptions options{.toi_tolerance = 0.0, .separation = separation};
-  const CertifiedResult result = tests::exact_result(dipping.kind, dipping.query, options);
+  const CertifiedResult result = fast::decided_exactly(dipping.kind, dipping.query, options);
   EXPECT_EQ(result.verdict, Verdict::yes);
   expect_truth(dipping, result, separation);
 }

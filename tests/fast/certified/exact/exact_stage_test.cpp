@@ -8,15 +8,14 @@
 #include <cstdint>
 #include <cstdio>
 #include <limits>
-#include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "fast/certified/block.hpp"
 #include "tests/faults/planted_faults.hpp"
 #include "tests/support/certified.hpp"
 #include "tests/support/queries.hpp"
-#include "tests/support/trials.hpp"
 #include "touchstone/oracle.hpp"
 #include "verify/generate/families.hpp"
 
@@ -33,24 +32,8 @@ constexpr std::array<double, 4> tolerances{0.0, 1e-12, 0.1, 1e300};
 
 void expect_truth(const PosedQuery& posed, double tolerance) {
   const CertifiedOptions options{.toi_tolerance = tolerance};
-  const CertifiedResult result = tests::exact_result(posed.kind, posed.query, options);
+  const CertifiedResult result = fast::decided_exactly(posed.kind, posed.query, options);
   EXPECT_EQ(tests::fault(posed.kind, posed.query, result, options).value_or(""), "") << posed;
-}
-
-TEST(ExactStage, KnowsTheTruthOfTheFamiliesByConstruction) {
-  for (const verify::generate::Family& family : verify::generate::families()) {
-    for (const Kind kind : kinds) {
-      if (!verify::generate::supports(family, kind)) continue;
-      for (std::uint64_t i = 0; i < tests::trials(300U); ++i) {
-        const verify::generate::KnownQuery known = verify::generate::make_query(family, kind, 2, i);
-        const auto impact = decide_exactly(kind, known.query, 1e-12, 1.0);
-        ASSERT_EQ(impact.has_value(), known.collides) << family.name << ' ' << i;
-        if (!known.toi) continue;
-        EXPECT_LE(*known.toi, Rational(impact->toi_upper)) << family.name << ' ' << i;
-        EXPECT_TRUE(*known.toi > Rational(impact->toi_lower) || impact->toi_upper == 0.0);
-      }
-    }
-  }
 }
 
 TEST(ExactStage, EnclosesATinyTimeOfImpact) {
