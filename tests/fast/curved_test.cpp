@@ -135,7 +135,8 @@ void expect_agreement(Kind kind, const CurvedQueries& queries, const CertifiedOp
       EXPECT_LT(lower, *truth.toi) << i << " by " << to_string(found.stage);
       EXPECT_GE(upper, *truth.toi) << i << " by " << to_string(found.stage);
       const double width = std::max(options.toi_tolerance, 0x1p-52) * found.toi_upper;
-      EXPECT_LE(found.toi_upper - found.toi_lower, width);
+      const double least = std::numeric_limits<double>::denorm_min();
+      EXPECT_LE(found.toi_upper - found.toi_lower, std::max(width, least));
     }
     EXPECT_GE(found.u, 0.0);
     EXPECT_GE(found.v, 0.0);
@@ -359,7 +360,7 @@ TEST(CurvedSolver, DecidesWeightsOfAnySize) {
   for (const auto& [degree, sort, count] :
        {std::tuple(std::size_t{1}, Weights::of_points, std::size_t{20}),
         {std::size_t{2}, Weights::of_primitives, std::size_t{20}},
-        {std::size_t{2}, Weights::of_points, std::size_t{2}}}) {
+        {std::size_t{2}, Weights::of_points, std::size_t{1}}}) {
     for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
       const std::size_t second = kind == Kind::vertex_face ? 1 : 2;
       Numbers some = random_queries(random, {degree, sort, true}, kind, count);
