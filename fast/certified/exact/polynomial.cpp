@@ -25,6 +25,16 @@ void drop_top_zeros(Polynomial& c) {
   while (!c.empty() && c.back().sign() == 0) c.pop_back();
 }
 
+/// Divides by x + y as often as it divides.
+void remove_sums(Polynomial& c) {
+  while (c.size() > 1) {
+    Polynomial quotient(c.begin(), c.end() - 1);
+    for (std::size_t k = 1; k < quotient.size(); ++k) quotient[k] -= quotient[k - 1];
+    if (!(quotient.back() == c.back())) return;
+    c = std::move(quotient);
+  }
+}
+
 /// The pseudo-remainder: a times b's top coefficient to the power 1 + the difference of degrees,
 /// modulo b.
 /// \pre a is not of lower degree than b.
@@ -138,6 +148,7 @@ Polynomial inner_polynomial(std::span<const BigInteger> form) {
   const auto is_not_zero = [](const BigInteger& c) { return c.sign() != 0; };
   Polynomial result(std::ranges::find_if(form, is_not_zero), form.end());
   drop_top_zeros(result);
+  remove_sums(result);
   remove_twos(result);
   return result;
 }

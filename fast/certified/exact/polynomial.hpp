@@ -32,7 +32,8 @@ Polynomial& operator-=(Polynomial& a, const Polynomial& b);
 [[nodiscard]] Polynomial operator*(Polynomial a, const BigInteger& factor);
 [[nodiscard]] Polynomial operator<<(Polynomial a, long bits);
 
-/// The form without its roots at t=0 and t=1; empty for zero.
+/// The form without its roots at t=0 and t=1, and without factors x + y, which are 1 for all t: a
+/// curve that is given by more control points than it needs has them. Empty for zero.
 [[nodiscard]] Polynomial inner_polynomial(std::span<const BigInteger> form);
 
 /// True if the polynomials certainly have no common factor.

@@ -155,7 +155,8 @@ double scaled(double significand, long exponent) {
   if (exponent >= -1022 && exponent <= 1023) {
     return significand * std::bit_cast<double>(static_cast<std::uint64_t>(exponent + 1023) << 52U);
   }
-  return std::ldexp(significand, static_cast<int>(std::clamp(exponent, -3000L, 3000L)));
+  if (exponent < -1100) return 0.0;
+  return std::ldexp(significand, static_cast<int>(std::min(exponent, 3000L)));
 }
 
 /// a/a_divisor − b/b_divisor.

@@ -25,6 +25,8 @@ TEST(Polynomial, CalculatesAsFunctionsOfTimeDo) {
 
 TEST(Polynomial, LosesItsRootsAtTheEnds) {
   EXPECT_EQ(inner_polynomial(Polynomial{0, 0, 4, -8, 0}), (Polynomial{1, -2}));
+  EXPECT_EQ(inner_polynomial(Polynomial{0, 1, 0, -3, -2}), (Polynomial{1, -2}));  // (x+y)²
+  EXPECT_EQ(inner_polynomial(Polynomial{5, 5}).size(), 1U);
   EXPECT_TRUE(inner_polynomial(Polynomial{0, 0}).empty());
 }
 
