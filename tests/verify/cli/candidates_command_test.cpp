@@ -32,9 +32,9 @@ using Pairs = std::vector<std::array<std::int32_t, 2>>;
 
 /// All queries of a .npy file.
 std::vector<Query> npy_queries(const fs::path& path) {
-  data::NpyReader npy(path);
-  std::vector<Query> queries;
-  while (npy.position() < npy.count()) queries.push_back(npy.next());
+  data::NpyArray array(path);
+  std::vector<Query> queries(array.shape()[0]);
+  for (Query& query : queries) array.take_numbers(query.coordinates);
   return queries;
 }
 
