@@ -21,6 +21,10 @@ constexpr std::size_t chunk = std::size_t{1} << 16U;
 // A line that is just not too long, its CR, and room to read on.
 constexpr std::size_t buffer_size = LineReader::longest_line + 1 + chunk;
 
+constexpr const char* lone_carriage_return =
+    "a carriage return within the line: lines end in LF or CR LF (from CR: tr '\\r' '\\n' <OLD "
+    ">NEW)";
+
 std::string last_system_error() { return std::generic_category().message(errno); }
 
 }  // namespace
@@ -97,6 +101,7 @@ std::optional<Line> LineReader::next() {
 
 std::string_view LineReader::peek(std::size_t bytes) {
   if (ahead_) return {};
+  begin();
   while (end_ - begin_ < bytes && fill()) {
   }
   return {buffer_.get() + begin_, end_ - begin_};
@@ -107,7 +112,20 @@ void LineReader::skip(std::size_t bytes, std::uint64_t lines) {
   line_number_ += lines;
 }
 
+void LineReader::begin() {
+  if (std::exchange(has_begun_, true)) return;
+  static constexpr std::size_t longest_mark = 3;
+  while (end_ < longest_mark && fill()) {
+  }
+  has_failed_ = true;  // after an exception
+  const std::string_view text(buffer_.get(), std::exchange(end_, 0));
+  begin_ = text.size() - without_byte_order_mark(text, path()).size();
+  end_ = text.size();
+  has_failed_ = false;
+}
+
 std::optional<Line> LineReader::read_line() {
+  begin();
   std::size_t searched = 0;
   for (;;) {
     const char* const from = buffer_.get() + begin_;
@@ -118,6 +136,7 @@ std::optional<Line> LineReader::read_line() {
     }
     searched = available;
     if (available > longest_line + 1) {
+      require_no_carriage_return({from, available - 1});  // The last one may belong to an LF.
       pass_over_line();
       return Line{.text = {}, .number = ++line_number_, .too_long = true};
     }
@@ -131,9 +150,17 @@ Line LineReader::take_line(std::size_t length, std::size_t terminator) {
   std::string_view text(buffer_.get() + begin_, length);
   begin_ += length + terminator;
   if (text.ends_with('\r')) text.remove_suffix(1);
+  require_no_carriage_return(text);
   const bool too_long = text.size() > longest_line;
   return {
       .text = too_long ? std::string_view() : text, .number = ++line_number_, .too_long = too_long};
+}
+
+void LineReader::require_no_carriage_return(std::string_view text) {
+  if (text.find('\r') == std::string_view::npos) return;
+  has_failed_ = true;
+  begin_ = end_;
+  throw DatasetError(path(), {.line = line_number_ + 1}, lone_carriage_return);
 }
 
 void LineReader::pass_over_line() {
@@ -167,6 +194,7 @@ bool LineReader::fill() {
 
 /// At least one byte, or none at the end.
 std::size_t LineReader::read(std::span<char> space) {
+  if (has_failed_) return 0;
   if (!decompressor_) return file_.read(space);
   for (;;) {
     if (compressed_left_.empty()) {
@@ -175,7 +203,7 @@ std::size_t LineReader::read(std::span<char> space) {
       compressed_left_ = compressed_;
     }
     const bool is_at_end = compressed_left_.empty();
-    if (has_failed_ || (is_at_end && decompressor_->is_complete())) return 0;
+    if (is_at_end && decompressor_->is_complete()) return 0;
     const std::size_t count = decompress(space);
     if (count > 0) return count;
     if (!is_at_end) continue;
@@ -191,6 +219,14 @@ std::size_t LineReader::decompress(std::span<char> space) {
     has_failed_ = true;
     throw DatasetError(path(), {}, error.what());
   }
+}
+
+std::string_view without_byte_order_mark(std::string_view text, const std::filesystem::path& path) {
+  if (text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF")) {
+    throw DatasetError(path, {.line = 1}, "UTF-16 text; UTF-8 is read: iconv -f UTF-16 -t UTF-8");
+  }
+  if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
+  return text;
 }
 
 std::string read_file(const std::filesystem::path& path, std::size_t limit) {

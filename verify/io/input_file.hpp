@@ -68,7 +68,9 @@ struct Line {
 };
 
 /// The lines of a text file, compressed if its name ends in ".zst" (compressor.hpp). Blank lines
-/// (nothing, or spaces and tabs) at the end of the file are no lines; all others are.
+/// (nothing, or spaces and tabs) at the end of the file are no lines; all others are. A byte order
+/// mark of UTF-8 in front is passed over; one of UTF-16 is an error, and so is a CR that ends no
+/// line or all: after an error the file is treated as ended.
 class LineReader {
  public:
   /// Maximum length of a line in bytes, without its line end.
@@ -105,9 +107,11 @@ class LineReader {
   [[nodiscard]] double progress() const { return file_.progress(); }
 
  private:
+  void begin();
   std::optional<Line> read_line();
   Line take_line(std::size_t length, std::size_t terminator);
   void pass_over_line();
+  void require_no_carriage_return(std::string_view text);
   bool fill();
   std::size_t read(std::span<char> space);
   std::size_t decompress(std::span<char> space);
@@ -116,14 +120,20 @@ class LineReader {
   std::optional<Decompressor> decompressor_;
   std::string compressed_;            ///< the last chunk read
   std::string_view compressed_left_;  ///< the unread part of it
-  bool has_failed_ = false;           ///< the compressed stream is treated as ended
-  std::unique_ptr<char[]> buffer_;    // NOLINT(modernize-avoid-c-arrays): std::vector would fill it
+  bool has_failed_ = false;           ///< the file is treated as ended
+  bool has_begun_ = false;
+  std::unique_ptr<char[]> buffer_;  // NOLINT(modernize-avoid-c-arrays): std::vector would fill it
   std::size_t begin_ = 0;
   std::size_t end_ = 0;
   std::uint64_t line_number_ = 0;
   std::optional<Line> ahead_;
   std::uint64_t blank_lines_ahead_ = 0;
 };
+
+/// The text without the byte order mark of UTF-8 that it may begin with.
+/// \throws DatasetError naming the file if it begins with the mark of UTF-16.
+[[nodiscard]] std::string_view without_byte_order_mark(std::string_view text,
+                                                       const std::filesystem::path& path);
 
 /// The bytes of a file. \throws DatasetError if it cannot be read or has more than `limit` bytes,
 /// Interrupted as InputFile::read.

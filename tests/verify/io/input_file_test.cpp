@@ -80,6 +80,48 @@ TEST(LineReader, ReadsAllLineEnds) {
   EXPECT_EQ(lines_of("a\r\nb\r"), expected);
 }
 
+TEST(LineReader, PassesOverAByteOrderMark) {
+  EXPECT_EQ(lines_of("\xEF\xBB\xBF"
+                     "a\n"),
+            (std::vector<OwnedLine>{{"a", 1, false}}));
+  EXPECT_EQ(lines_of("a\n\xEF\xBB\xBF"),
+            (std::vector<OwnedLine>{{"a", 1, false}, {"\xEF\xBB\xBF", 2, false}}));
+  EXPECT_TRUE(lines_of("\xEF\xBB\xBF").empty());
+  const TemporaryFolder folder;
+  for (const std::string mark : {"\xFF\xFE", "\xFE\xFF"}) {
+    LineReader reader(folder.file("text", mark + std::string("a\0\n\0", 4)));
+    EXPECT_EQ(error_of(folder.path(), [&] { (void)reader.next(); }),
+              "text:1: UTF-16 text; UTF-8 is read: iconv -f UTF-16 -t UTF-8");
+    EXPECT_TRUE(reader.at_end()) << "it has ended";
+  }
+  LineReader peeked(folder.file("text",
+                                "\xEF\xBB\xBF"
+                                "1,2\n"));
+  EXPECT_EQ(peeked.peek(4), "1,2\n");
+}
+
+TEST(LineReader, RefusesCarriageReturnsThatEndLinesAlone) {
+  const std::string reason =
+      ": a carriage return within the line: lines end in LF or CR LF (from CR: tr '\\r' '\\n' <OLD "
+      ">NEW)";
+  const TemporaryFolder folder;
+  const std::string longest(LineReader::longest_line, 'x');
+  for (const auto& [text, line] :
+       std::vector<std::pair<std::string, std::string>>{{"a\rb\r", "1"},
+                                                        {"a\r\r\n", "1"},
+                                                        {"a\nb\rc\nd\n", "2"},
+                                                        {longest + "\r" + longest, "1"}}) {
+    LineReader reader(folder.file("text", text));
+    EXPECT_EQ(error_of(folder.path(),
+                       [&] {
+                         while (reader.next()) {
+                         }
+                       }),
+              "text:" + line + reason);
+    EXPECT_TRUE(reader.at_end()) << "it has ended";
+  }
+}
+
 TEST(LineReader, BlankLinesCountExceptAtTheEnd) {
   EXPECT_TRUE(lines_of("").empty());
   EXPECT_TRUE(lines_of("\n \t\n\r\n").empty());
