@@ -11,7 +11,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _fast
-from ._input import Doubles, Interrupted, Norm, as_indices, as_vertices
+from ._input import Doubles, Interrupted, Norm, as_indices, as_vertices, checked
 from ._tool import Progress, Run
 
 Value = TypeVar("Value")
@@ -154,6 +154,7 @@ class Step:
     'limited'
     """
 
+    @checked
     def __init__(
         self,
         before: npt.ArrayLike,
@@ -188,6 +189,7 @@ class Step:
             )
         )
 
+    @checked
     def moved(
         self,
         before: npt.ArrayLike,
@@ -241,7 +243,7 @@ class Step:
         A vertex and an edge are the query of the vertex and the face (e0, e1, e0), two vertices that
         of the first one and the face (w, w, w).
         """
-        first, second = (int(i) for i in np.asarray(pair))
+        first, second = as_indices(pair, "pair", None).tolist()
         return self._step.query(int(PairKind(kind)), first, second)
 
     def earliest(self) -> Impact | None:
@@ -272,6 +274,7 @@ class Step:
         """
         return self._search(self._step.free_step_size)
 
+    @checked
     def active_set(self, eta: float, *, norm: Norm = "l2") -> npt.NDArray[np.void]:
         """Return all pairs that come within a distance during the step, with their contacts.
 
@@ -290,6 +293,7 @@ class Step:
         """
         return self._search(lambda progress: self._step.active_set(eta, norm, progress))
 
+    @checked
     def line_search_limit(
         self, p: float, *, norm: Norm = "l2", of_pair: bool = False
     ) -> LineSearchLimit:
@@ -324,6 +328,7 @@ class Step:
         """
         return self._search(self._step.candidates)
 
+    @checked
     def least_distance(self, *, t: float = 0.0, norm: Norm = "l2") -> LeastDistance | None:
         """Return the least distance of all pairs at a time; None without pairs.
 

@@ -134,7 +134,9 @@ bool is_curved_query_file(const std::filesystem::path& file) {
   if (!std::filesystem::is_regular_file(file, error)) return false;
   try {
     if (file.extension() == ".npy") {
-      return NpyArray(file).shape().size() == 4;
+      io::InputFile input(file);
+      const auto read = [&](std::span<char> buffer) { return input.read_all(buffer); };
+      return read_npy_header(read).shape.size() == 4;
     }
     io::LineReader lines(file);
     const std::optional<io::Line> line = lines.next();
