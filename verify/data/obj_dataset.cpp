@@ -6,36 +6,24 @@
 #include <utility>
 
 #include "verify/io/coordinate_text.hpp"
+#include "verify/io/words.hpp"
 
 namespace touchstone::verify::data {
-namespace {
-
-constexpr std::string_view blanks = " \t";
-
-bool is_vertex(std::string_view line) {
-  return line.size() > 1 && line.front() == 'v' && blanks.find(line[1]) != std::string_view::npos;
-}
-
-/// Takes the first word of a line.
-std::string_view take_word(std::string_view& line) {
-  line.remove_prefix(std::min(line.find_first_not_of(blanks), line.size()));
-  const std::string_view word = line.substr(0, line.find_first_of(blanks));
-  line.remove_prefix(word.size());
-  return word;
-}
-
-}  // namespace
 
 ObjDataset::ObjDataset(const std::filesystem::path& path, const DatasetOptions& options)
-    : DatasetSource(path, options), lines_(path) {
+    : DatasetSource(path, options), statements_(path) {
   if (ObjDataset::at_end()) throw io::DatasetError(path, {}, "no vertices");
 }
 
 bool ObjDataset::at_end() {
-  while (!ahead_) {
-    ahead_ = lines_.next();
-    if (!ahead_) return true;
-    if (!ahead_->too_long && !is_vertex(ahead_->text)) ahead_.reset();
+  try {
+    while (!ahead_) {
+      ahead_ = statements_.next();
+      if (!ahead_) return true;
+      if (ahead_->keyword != "v") ahead_.reset();
+    }
+  } catch (const io::DatasetError& fault) {
+    give_up(fault);
   }
   return false;
 }
@@ -47,9 +35,9 @@ DatasetSource::StoredQuery ObjDataset::read(std::uint64_t) {
     if (at_end()) {
       give_up({path(), {}, fmt::format("truncated query: {} of {} vertices", row, query_points)});
     }
-    const io::Line line = *std::exchange(ahead_, std::nullopt);
+    const io::ObjStatement vertex = *std::exchange(ahead_, std::nullopt);
     try {
-      read_point(line, row, result.query);
+      read_point(vertex, row, result.query);
     } catch (const io::DatasetError& error) {
       if (!fault) fault = error;
     }
@@ -58,13 +46,11 @@ DatasetSource::StoredQuery ObjDataset::read(std::uint64_t) {
   return result;
 }
 
-void ObjDataset::read_point(const io::Line& line, std::size_t row, Query& query) {
-  if (line.too_long)
-    throw io::DatasetError(path(), {.line = line.number}, "line longer than 1 MiB");
-  std::string_view rest = line.text.substr(1);
+void ObjDataset::read_point(const io::ObjStatement& vertex, std::size_t row, Query& query) {
+  std::string_view words = vertex.words;
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    const io::FilePosition position{.line = line.number, .column = axis + 2};
-    const std::string_view word = take_word(rest);
+    const io::FilePosition position{.line = vertex.line, .column = axis + 2};
+    const std::string_view word = io::take_word(words);
     try {
       const io::ParsedCoordinate coordinate = io::parse_coordinate(word, "1");
       if (!coordinate.exact && !options().round) {
@@ -77,6 +63,7 @@ void ObjDataset::read_point(const io::Line& line, std::size_t row, Query& query)
       throw io::DatasetError(path(), position, error.what());
     }
   }
+  statements_.pass_over_behind_vertex(words, vertex.line);
 }
 
 }  // namespace touchstone::verify::data

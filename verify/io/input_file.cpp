@@ -21,10 +21,6 @@ constexpr std::size_t chunk = std::size_t{1} << 16U;
 // A line that is just not too long, its CR, and room to read on.
 constexpr std::size_t buffer_size = LineReader::longest_line + 1 + chunk;
 
-constexpr const char* lone_carriage_return =
-    "a carriage return within the line: lines end in LF or CR LF (from CR: tr '\\r' '\\n' <OLD "
-    ">NEW)";
-
 std::string last_system_error() { return std::generic_category().message(errno); }
 
 }  // namespace

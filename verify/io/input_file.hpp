@@ -130,6 +130,11 @@ class LineReader {
   std::uint64_t blank_lines_ahead_ = 0;
 };
 
+/// Why a line with a carriage return that does not end it is refused.
+inline constexpr const char* lone_carriage_return =
+    "a carriage return within the line: lines end in LF or CR LF (from CR: tr '\\r' '\\n' <OLD "
+    ">NEW)";
+
 /// The text without the byte order mark of UTF-8 that it may begin with.
 /// \throws DatasetError naming the file if it begins with the mark of UTF-16.
 [[nodiscard]] std::string_view without_byte_order_mark(std::string_view text,

@@ -1,5 +1,7 @@
 #include "verify/mesh/mesh.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <string>
 #include <utility>
@@ -53,6 +55,35 @@ Mesh make_mesh(std::span<const std::array<double, 3>> coordinates, std::vector<f
   mesh.faces = std::move(faces);
   mesh.points = all_points(points, named_edges);
   return mesh;
+}
+
+std::string note_of(std::size_t polygons, std::span<const std::string> passed_over) {
+  static constexpr std::size_t most_named = 20;
+  std::string note;
+  if (polygons != 0) note = fmt::format("polygons read as fans of triangles: {}", polygons);
+  if (passed_over.empty()) return note;
+  if (!note.empty()) note += "; ";
+  const auto named = passed_over.first(std::min(passed_over.size(), most_named));
+  note += fmt::format("passed over: {}", fmt::join(named, ", "));
+  if (named.size() < passed_over.size())
+    note += fmt::format(" and {} more", passed_over.size() - named.size());
+  return note;
+}
+
+void add_polygon(std::vector<fast::Face>& faces, std::span<const std::int32_t> vertices,
+                 std::size_t& polygons) {
+  for (std::size_t i = 2; i < vertices.size(); ++i) {
+    faces.push_back({vertices[0], vertices[i - 1], vertices[i]});
+  }
+  if (vertices.size() > 3) ++polygons;
+}
+
+void require_elements(const Mesh& mesh, const std::filesystem::path& path) {
+  if (!mesh.faces.empty() || !mesh.edges.empty() || !mesh.points.empty()) return;
+  throw io::DatasetError(
+      path, {},
+      fmt::format("nothing in it can collide: no face, edge or point, only vertices: {}{}{}",
+                  mesh.vertices.rows(), mesh.note.empty() ? "" : "; ", mesh.note));
 }
 
 bool is_mesh_file(const std::filesystem::path& path) {

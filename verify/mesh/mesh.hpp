@@ -43,7 +43,19 @@ struct Mesh {
   /// itself: ascending, each once.
   std::vector<std::int32_t> points;
   Groups groups;
+  /// What of the file was read in another form or passed over, in a line; empty if nothing was.
+  std::string note;
 };
+
+/// The note of a mesh. \param polygons those with more than three vertices \param passed_over
+/// names, with their numbers if they have one
+[[nodiscard]] std::string note_of(std::size_t polygons, std::span<const std::string> passed_over);
+
+/// Adds a polygon as a fan of triangles around its first vertex, and counts it if it is no
+/// triangle.
+/// \pre three vertices or more
+void add_polygon(std::vector<fast::Face>& faces, std::span<const std::int32_t> vertices,
+                 std::size_t& polygons);
 
 /// A mesh from what a file holds: the edges of the faces join those that the file names, in
 /// whatever order and direction. An edge from a vertex to itself is a point.
@@ -58,6 +70,9 @@ struct Mesh {
 
 /// Have they as many vertices, and the same faces, edges, points and groups?
 [[nodiscard]] bool same_elements(const Mesh& a, const Mesh& b);
+
+/// \throws DatasetError that says what was found, if the mesh has nothing that could collide.
+void require_elements(const Mesh& mesh, const std::filesystem::path& path);
 
 /// Reads a mesh in the format that the file's extension names, in either case: .ply or .obj.
 /// \throws DatasetError if the extension is another, the file cannot be read or is in error.

@@ -4,15 +4,16 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <unordered_map>
 #include <utility>
+#include <vector>
 
 #include "verify/io/dataset_error.hpp"
 #include "verify/io/input_file.hpp"
-#include "verify/mesh/words.hpp"
+#include "verify/io/obj_statements.hpp"
+#include "verify/io/words.hpp"
 
 namespace touchstone::verify::mesh {
 namespace {
@@ -20,17 +21,28 @@ namespace {
 constexpr std::int32_t no_group = -1;
 constexpr std::size_t most_vertices = std::numeric_limits<std::int32_t>::max();
 
-/// Reads line by line. A corner may name a vertex that comes later, so these are checked at the
-/// end.
+/// True for whole numbers, of which the second and the third may be empty: 1/2/3, 1//3, 1/2, 1/, 1.
+bool is_corner(std::string_view word) {
+  std::size_t parts = 1;
+  for (std::size_t slash = word.find('/'); slash != std::string_view::npos;
+       slash = word.find('/')) {
+    word.remove_prefix(slash + 1);
+    const std::string_view part = word.substr(0, word.find('/'));
+    if (!part.empty() && !io::parse_number<std::int32_t>(part)) return false;
+    ++parts;
+  }
+  return parts <= 3;
+}
+
+/// A corner may name a vertex that comes later, so these are checked at the end.
 class ObjReader {
  public:
-  explicit ObjReader(const std::filesystem::path& path) : path_(path), lines_(path) {}
+  explicit ObjReader(const std::filesystem::path& path) : path_(path), statements_(path) {}
 
   [[nodiscard]] Mesh read() {
-    while (const auto line = lines_.next()) {
-      line_ = line->number;
-      if (line->too_long) fail("line too long");
-      read_line(line->text.substr(0, line->text.find('#')));
+    while (const auto statement = statements_.next()) {
+      line_ = statement->line;
+      read_statement(statement->keyword, statement->words);
     }
     if (vertices_.empty()) {
       throw io::DatasetError(path_, {},
@@ -41,6 +53,7 @@ class ObjReader {
     require_vertices(points_, point_places_);
     Mesh mesh = make_mesh(vertices_, std::move(faces_), edges_, points_);
     if (!group_names_.empty()) mesh.groups = groups(mesh.faces);
+    mesh.note = note_of(polygons_, statements_.passed_over());
     return mesh;
   }
 
@@ -51,26 +64,26 @@ class ObjReader {
     std::int32_t group;
   };
 
-  void read_line(std::string_view line) {
-    const std::string_view keyword = take_word(line);
-    if (keyword == "o" || keyword == "g") begin_group(line);
-    if (keyword == "p") read_points(line);
-    if (keyword == "v") read_vertex(line);
-    if (keyword == "f") read_face(line);
-    if (keyword == "l") read_polyline(line);
+  void read_statement(std::string_view keyword, std::string_view words) {
+    if (keyword == "o" || keyword == "g") begin_group(words);
+    if (keyword == "p") read_points(words);
+    if (keyword == "v") read_vertex(words);
+    if (keyword == "f") read_face(words);
+    if (keyword == "l") read_polyline(words);
   }
 
-  void read_vertex(std::string_view line) {
+  void read_vertex(std::string_view words) {
     if (vertices_.size() == most_vertices) fail("more than 2^31-1 vertices");
     std::array<double, 3> vertex{};
     for (double& coordinate : vertex) {
-      const std::string_view word = take_word(line);
+      const std::string_view word = io::take_word(words);
       if (word.empty()) fail("a vertex must have three coordinates");
-      const auto value = parse_number<double>(word);
+      const auto value = io::parse_number<double>(word);
       if (!value) fail(io::quote(word) + " is no number, or none that a double holds");
       if (!std::isfinite(*value)) fail("a coordinate must be finite");
       coordinate = *value;
     }
+    statements_.pass_over_behind_vertex(words, line_);
     vertices_.push_back(vertex);
     group_of_line_.push_back(group_);
   }
@@ -90,9 +103,9 @@ class ObjReader {
 
   [[nodiscard]] Place place() const { return {.line = line_, .group = group_}; }
 
-  void read_points(std::string_view line) {
-    for (auto word = take_word(line); !word.empty(); word = take_word(line)) {
-      points_.push_back({read_corner(word)});
+  void read_points(std::string_view words) {
+    for (const std::int32_t corner : read_corners(words, 1, "a point")) {
+      points_.push_back({corner});
       point_places_.push_back(place());
     }
   }
@@ -129,40 +142,39 @@ class ObjReader {
     }
   }
 
-  void read_face(std::string_view line) {
-    fast::Face face{};
-    std::size_t corners = 0;
-    for (auto word = take_word(line); !word.empty(); word = take_word(line)) {
-      const std::int32_t corner = read_corner(word);
-      if (corners < face.size()) face[corners] = corner;
-      ++corners;
-    }
-    if (corners != face.size()) {
-      fail("a face with " + std::to_string(corners) + " corners; only triangles are read");
-    }
-    faces_.push_back(face);
-    face_places_.push_back(place());
+  void read_face(std::string_view words) {
+    add_polygon(faces_, read_corners(words, 3, "a face"), polygons_);
+    face_places_.resize(faces_.size(), place());
   }
 
-  void read_polyline(std::string_view line) {
-    std::optional<std::int32_t> last;
-    std::size_t corners = 0;
-    for (auto word = take_word(line); !word.empty(); word = take_word(line)) {
-      const std::int32_t corner = read_corner(word);
-      if (last) {
-        edges_.push_back({*last, corner});
-        edge_places_.push_back(place());
-      }
-      last = corner;
-      ++corners;
+  void read_polyline(std::string_view words) {
+    const std::vector<std::int32_t>& corners = read_corners(words, 2, "a line");
+    for (std::size_t i = 1; i < corners.size(); ++i) {
+      edges_.push_back({corners[i - 1], corners[i]});
+      edge_places_.push_back(place());
     }
-    if (corners < 2) fail("a line must have two corners or more");
   }
 
-  /// The vertex's index, counted from 0; not below 0.
+  /// The corners of an element, at least so many; valid until the next call.
+  [[nodiscard]] const std::vector<std::int32_t>& read_corners(std::string_view words,
+                                                              std::size_t least,
+                                                              std::string_view element) {
+    corners_.clear();
+    for (auto word = io::take_word(words); !word.empty(); word = io::take_word(words)) {
+      corners_.push_back(read_corner(word));
+    }
+    if (corners_.size() < least) {
+      fail("corners: " + std::to_string(corners_.size()) + "; " + std::string(element) +
+           " must have " + std::to_string(least) + " or more");
+    }
+    return corners_;
+  }
+
+  /// The vertex's index, counted from 0; not below 0. Behind it may be numbers of a texture and a
+  /// normal.
   [[nodiscard]] std::int32_t read_corner(std::string_view word) const {
-    const auto number = parse_number<std::int32_t>(word.substr(0, word.find('/')));
-    if (!number) fail(io::quote(word) + " is no corner");
+    const auto number = io::parse_number<std::int32_t>(word.substr(0, word.find('/')));
+    if (!number || !is_corner(word)) fail(io::quote(word) + " is no corner");
     if (*number > 0) return *number - 1;
     const auto index = static_cast<std::int64_t>(vertices_.size()) + *number;
     if (*number == 0 || index < 0) {
@@ -188,9 +200,11 @@ class ObjReader {
   }
 
   std::filesystem::path path_;
-  io::LineReader lines_;
+  io::ObjStatements statements_;
   std::uint64_t line_ = 0;
   std::vector<std::array<double, 3>> vertices_;
+  std::vector<std::int32_t> corners_;
+  std::size_t polygons_ = 0;
   std::vector<fast::Face> faces_;
   std::vector<Place> face_places_;
   std::vector<fast::Edge> edges_;

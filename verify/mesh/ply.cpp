@@ -5,6 +5,7 @@
 #include <bit>
 #include <cstdint>
 #include <cstring>
+#include <initializer_list>
 #include <limits>
 #include <optional>
 #include <string>
@@ -16,7 +17,7 @@
 #include "verify/io/dataset_error.hpp"
 #include "verify/io/input_file.hpp"
 #include "verify/io/output_file.hpp"
-#include "verify/mesh/words.hpp"
+#include "verify/io/words.hpp"
 
 namespace touchstone::verify::mesh {
 namespace {
@@ -104,8 +105,11 @@ class Input {
       begin_ += static_cast<std::size_t>(newline - rest.begin()) + (complete ? 1 : 0);
       if (line_.size() > io::LineReader::longest_line) fail("line too long");
     }
-    if (line_.ends_with('\r')) line_.pop_back();
-    return line_;
+    std::string_view text = line_;
+    if (line_number_ == 1) text = io::without_byte_order_mark(text, file_.path());
+    if (text.ends_with('\r')) text.remove_suffix(1);
+    if (text.find('\r') != std::string_view::npos) fail(io::lone_carriage_return);
+    return text;
   }
 
   /// Fills the bytes, or fails if there are not as many left.
@@ -175,11 +179,11 @@ class HeaderReader {
       const auto line = input_.line();
       if (!line) input_.fail("the header has no end");
       std::string_view rest = *line;
-      const std::string_view keyword = take_word(rest);
+      const std::string_view keyword = io::take_word(rest);
       if (keyword == "end_header") break;
       if (keyword == "comment" || keyword == "obj_info") continue;
       read_statement(keyword, rest);
-      if (!take_word(rest).empty()) fail_at(*line);
+      if (!io::take_word(rest).empty()) fail_at(*line);
     }
     if (!header_.format) input_.fail("the header has no format");
     return std::move(header_);
@@ -202,7 +206,7 @@ class HeaderReader {
   void read_format(std::string_view& rest) {
     static constexpr std::array<std::string_view, 3> names{"ascii", "binary_little_endian",
                                                            "binary_big_endian"};
-    const std::string_view name = take_word(rest), version = take_word(rest);
+    const std::string_view name = io::take_word(rest), version = io::take_word(rest);
     const auto* const found = std::ranges::find(names, name);
     if (found == names.end() || header_.format) fail_at(name);
     if (version != "1.0") fail_at(version);
@@ -210,23 +214,23 @@ class HeaderReader {
   }
 
   void read_element(std::string_view& rest) {
-    const std::string_view name = take_word(rest), count = take_word(rest);
-    const auto number = parse_number<std::uint64_t>(count);
+    const std::string_view name = io::take_word(rest), count = io::take_word(rest);
+    const auto number = io::parse_number<std::uint64_t>(count);
     if (name.empty() || !number) fail_at(count);
     header_.elements.push_back({.name = std::string(name), .count = *number, .properties = {}});
   }
 
   Property read_property(std::string_view& rest) {
-    std::string_view type = take_word(rest);
+    std::string_view type = io::take_word(rest);
     Property property{};
     if (type == "list") {
-      const std::string_view length_type = take_word(rest);
+      const std::string_view length_type = io::take_word(rest);
       property.length_type = read_type(length_type);
       if (!is_whole(*property.length_type)) fail_at(length_type);
-      type = take_word(rest);
+      type = io::take_word(rest);
     }
     property.type = read_type(type);
-    property.name = take_word(rest);
+    property.name = io::take_word(rest);
     if (property.name.empty()) input_.fail("a property must have a name");
     return property;
   }
@@ -255,7 +259,7 @@ class TextValues {
       const auto line = input_.line();
       if (!line) input_.fail_at_end();
       rest_ = *line;
-      word_ = take_word(rest_);
+      word_ = io::take_word(rest_);
     } while (word_.empty());
   }
 
@@ -263,12 +267,12 @@ class TextValues {
   double next(Scalar type) {
     if (word_.empty()) input_.fail("too few values");
     const auto value = with_type(type, [this](auto number) -> std::optional<double> {
-      const auto parsed = parse_number<decltype(number)>(word_);
+      const auto parsed = io::parse_number<decltype(number)>(word_);
       if (!parsed) return std::nullopt;
       return static_cast<double>(*parsed);
     });
     if (!value) input_.fail(io::quote(word_) + " is no number of the property's type");
-    word_ = take_word(rest_);
+    word_ = io::take_word(rest_);
     return *value;
   }
 
@@ -279,7 +283,7 @@ class TextValues {
   /// True if anything but blank lines is left.
   [[nodiscard]] bool at_end() {
     while (auto line = input_.line()) {
-      if (!take_word(*line).empty()) return false;
+      if (!io::take_word(*line).empty()) return false;
     }
     return true;
   }
@@ -331,6 +335,9 @@ class BodyReader {
     const Element* const faces = find_element("face");
     const Element* const edges = find_element("edge");
     for (const Element& element : header_.elements) {
+      if (&element != vertices && &element != faces && &element != edges) pass_over(element);
+    }
+    for (const Element& element : header_.elements) {
       if (&element == vertices) {
         read_vertices(element);
       } else if (&element == faces) {
@@ -344,11 +351,34 @@ class BodyReader {
     input_.end_elements();
     if (!values_.at_end()) input_.fail("data after the last element");
     if (vertices_.empty()) input_.fail("no vertex: the header says element vertex 0");
-    return make_mesh(vertices_, std::move(faces_), edges_);
+    Mesh mesh = make_mesh(vertices_, std::move(faces_), edges_);
+    mesh.note = note_of(polygons_, passed_over_);
+    return mesh;
   }
 
  private:
   static constexpr std::size_t nothing = std::numeric_limits<std::size_t>::max();
+
+  /// Notes an element that is not read. One that has vertices would be missing in the mesh.
+  void pass_over(const Element& element) {
+    static constexpr std::array<std::string_view, 4> of_vertices{"vertex_indices", "vertex_index",
+                                                                 "vertex1", "vertex2"};
+    if (element.count == 0) return;
+    for (const Property& property : element.properties) {
+      if (std::ranges::find(of_vertices, property.name) == of_vertices.end()) continue;
+      input_.fail(io::quote(element.name) +
+                  " has vertices and is not read: write it as element face or edge");
+    }
+    passed_over_.push_back(element.name + ' ' + std::to_string(element.count));
+  }
+
+  /// Notes the properties of an element that is read, but for those that are used.
+  void pass_over(const Element& element, std::initializer_list<std::size_t> used) {
+    for (std::size_t i = 0; i < element.properties.size(); ++i) {
+      if (std::ranges::find(used, i) != used.end()) continue;
+      passed_over_.push_back(element.name + '.' + element.properties[i].name);
+    }
+  }
 
   [[nodiscard]] const Element* find_element(std::string_view name) const {
     const Element* found = nullptr;
@@ -414,19 +444,21 @@ class BodyReader {
   void read_list(const Property& property, bool wanted) {
     const double length = values_.next(*property.length_type);
     if (length < 0.0) input_.fail("a list of negative length");
-    if (wanted && length != 3.0) {
-      input_.fail(std::to_string(static_cast<std::int64_t>(length)) +
-                  " vertices; only triangles are read");
+    if (wanted) corners_.clear();
+    if (wanted && length < 3.0) {
+      input_.fail("vertices: " + std::to_string(static_cast<std::int64_t>(length)) +
+                  "; a face must have 3 or more");
     }
     for (std::uint64_t i = 0; i < static_cast<std::uint64_t>(length); ++i) {
       const double value = values_.next(property.type);
-      if (wanted) corners_[i] = value;
+      if (wanted) corners_.push_back(vertex(value));
     }
   }
 
   void read_vertices(const Element& element) {
     const std::array<std::size_t, 3> axes{need_property(element, "x"), need_property(element, "y"),
                                           need_property(element, "z")};
+    pass_over(element, {axes[0], axes[1], axes[2]});
     for_each(element, nothing, [&] {
       const std::array<double, 3> vertex{row_[axes[0]], row_[axes[1]], row_[axes[2]]};
       if (!is_finite(vertex)) input_.fail("a coordinate must be finite");
@@ -442,9 +474,8 @@ class BodyReader {
     }
     const std::size_t list = indices == nothing ? index : indices;
     need_whole(element, list);
-    for_each(element, list, [&] {
-      faces_.push_back({vertex(corners_[0]), vertex(corners_[1]), vertex(corners_[2])});
-    });
+    pass_over(element, {list});
+    for_each(element, list, [&] { add_polygon(faces_, corners_, polygons_); });
   }
 
   void read_edges(const Element& element) {
@@ -452,6 +483,7 @@ class BodyReader {
     const std::size_t second = need_property(element, "vertex2");
     need_whole(element, first);
     need_whole(element, second);
+    pass_over(element, {first, second});
     for_each(element, nothing, [&] {
       edges_.push_back({vertex(row_[first]), vertex(row_[second])});
     });
@@ -471,7 +503,9 @@ class BodyReader {
   Values values_;
   std::uint64_t vertex_count_ = 0;
   std::vector<double> row_;
-  std::array<double, 3> corners_{};
+  std::vector<std::int32_t> corners_;
+  std::size_t polygons_ = 0;
+  std::vector<std::string> passed_over_;
   std::vector<std::array<double, 3>> vertices_;
   std::vector<fast::Face> faces_;
   std::vector<fast::Edge> edges_;

@@ -20,6 +20,7 @@
 #include "verify/io/dataset_error.hpp"
 #include "verify/io/input_file.hpp"
 #include "verify/io/json.hpp"
+#include "verify/io/obj_statements.hpp"
 #include "verify/jobs/prove.hpp"
 #include "verify/jobs/prove_step.hpp"
 #include "verify/view/certificate_facts.hpp"
@@ -250,11 +251,11 @@ std::vector<ViewedQuery> read_certificates(const fs::path& path, const QueryFile
 // ---- Points -------------------------------------------------------------------------------------
 
 std::vector<ViewedQuery> read_obj(const fs::path& path, const QueryFileOptions& options) {
-  io::LineReader lines(path);
+  io::ObjStatements statements(path);
   std::string numbers;
-  for (auto line = lines.next(); line; line = lines.next()) {
-    if (!line->text.starts_with("v ")) continue;
-    numbers.append(line->text.substr(2)).append("\n");
+  while (const auto statement = statements.next()) {
+    if (statement->keyword != "v") continue;
+    numbers.append(statement->words).append("\n");
     if (numbers.size() > io::LineReader::longest_line) {
       throw io::DatasetError(path, {}, "a query has eight lines of vertices");
     }

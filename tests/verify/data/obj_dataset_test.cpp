@@ -28,8 +28,8 @@ std::string vertices(int query) {
 
 TEST(ObjDataset, ReadsEightVerticesAQueryAndNothingElse) {
   const TemporaryFolder folder;
-  const auto path = folder.file("a.obj", "# comment\no thing\nvn 0 0 1\n" + vertices(0) +
-                                             "f 1 2 3\nv\n" + vertices(1) + "\n");
+  const auto path = folder.file("a.obj", "\xEF\xBB\xBF# comment\no thing\nvn 0 0 1\n" +
+                                             vertices(0) + "f 1 2 3\n" + vertices(1) + "\n");
   ObjDataset source(path, edge_edge());
   const auto records = read_all(source);
   ASSERT_EQ(records.size(), 2U);
@@ -61,6 +61,11 @@ TEST(ObjDataset, LocatesFaultsAndGoesOnWithTheNextQuery) {
             "a.obj:1:2: not exactly a double (--round takes the nearest)");
   EXPECT_EQ(error_with("v 1 2\n" + vertices(0)), "a.obj:1:4: not a number: \"\"");
   EXPECT_EQ(error_with("f 1 2 3\n"), "a.obj: no vertices");
+  EXPECT_EQ(error_with("v 1 2 3 x\n" + vertices(0)),
+            "a.obj:1: \"x\" is no number, or none that a double holds");
+  EXPECT_EQ(
+      error_with(vertices(0) + "V 1 2 3\n"),
+      "a.obj:9: \"V\" is no keyword of OBJ (v, f, l, p and others, in small letters of ASCII)");
   EXPECT_EQ(error_with(vertices(0) + "v 1 2 3\n"), "a.obj: truncated query: 1 of 8 vertices");
   const Survivors kept = read_survivors(folder.file("b_ee.obj", bad), folder.path(), edge_edge());
   ASSERT_EQ(kept.records.size(), 2U);

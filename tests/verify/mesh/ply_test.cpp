@@ -153,6 +153,9 @@ TEST(ReadPly, PassesOverOtherPropertiesAndElements) {
   const auto expect = [](const Mesh& mesh) {
     EXPECT_EQ(coordinates(mesh), (std::vector<double>{1, 2, 3, 4, 5, 6, 7, 8, 9}));
     EXPECT_EQ(mesh.faces, (std::vector<Face>{{2, 1, 0}}));
+    EXPECT_EQ(mesh.note,
+              "passed over: camera 1, nothing 5, material 1, vertex.red, vertex.data, vertex.x, "
+              "face.area, face.texcoord, face.flags");
   };
   expect(folder.mesh("a.ply", ascii + header +
                                   "0.5 2 1 2\n9 3 0 1 2 0\n9 6 2 7 7 4 5 1 8\n9 9 1 7 7 8 0\n"
@@ -173,6 +176,33 @@ TEST(ReadPly, PassesOverOtherPropertiesAndElements) {
     bytes.add(3).add(2U).add(1U).add(0U).add(std::uint8_t{9}).add(77);
     expect(folder.mesh("a.ply", format(big_endian) + header + bytes.text()));
   }
+}
+
+TEST(ReadPly, ReadsPolygonsAsFansAndSaysSo) {
+  const MeshFolder folder;
+  Bytes bytes(false);
+  for (int i = 0; i < 900; ++i) bytes.add(static_cast<double>(i));
+  bytes.add(std::uint16_t{3}).add(5).add(6).add(7).add(std::uint16_t{300});
+  for (int i = 0; i < 300; ++i) bytes.add(299 - i);
+  const Mesh mesh = folder.mesh("a.ply", format(false) + "element vertex 300\n" + xyz +
+                                             "element face 2\nproperty list ushort int "
+                                             "vertex_indices\nend_header\n" +
+                                             bytes.text());
+  ASSERT_EQ(mesh.faces.size(), 299U);
+  EXPECT_EQ(mesh.faces[0], (Face{5, 6, 7}));
+  EXPECT_EQ(mesh.faces[1], (Face{299, 298, 297}));
+  EXPECT_EQ(mesh.faces[298], (Face{299, 1, 0}));
+  EXPECT_EQ(mesh.note, "polygons read as fans of triangles: 1");
+}
+
+TEST(ReadPly, RefusesElementsOfVerticesThatItDoesNotRead) {
+  const MeshFolder folder;
+  const std::string text = ascii + "element vertex 1\n" + xyz + "element tristrips ";
+  const std::string rest = "\nproperty list int int vertex_indices\nend_header\n0 0 0\n";
+  EXPECT_EQ(
+      folder.error("a.ply", text + "1" + rest + "3 0 0 0\n"),
+      "a.ply:9: \"tristrips\" has vertices and is not read: write it as element face or edge");
+  EXPECT_EQ(folder.error("a.ply", text + "0" + rest), "");
 }
 
 TEST(ReadPly, JoinsTheFilesOwnEdges) {
@@ -225,8 +255,9 @@ TEST(ReadPly, HugeCountsTakeNoMoreThanTheFileHas) {
     EXPECT_TRUE(folder.error("a.ply", start + "element vertex 2147483647\n" + xyz + "end_header\n")
                     .ends_with("the file ends early"));
     EXPECT_TRUE(folder
-                    .error("a.ply", start + "element other 18446744073709551615\n" + triangle +
-                                        "element vertex 0\n" + xyz + "end_header\n")
+                    .error("a.ply", start + "element other 18446744073709551615\n" +
+                                        "property list uchar int data\nelement vertex 0\n" + xyz +
+                                        "end_header\n")
                     .ends_with("the file ends early"));
     EXPECT_TRUE(folder
                     .error("a.ply", start + "element vertex 0\n" + xyz +
@@ -253,6 +284,9 @@ TEST(ReadPly, NamesWhatIsWrongWithAHeader) {
   EXPECT_EQ(error("plyx\n"), "a.ply:1: not a PLY file");
   EXPECT_EQ(error("ply\nformat ascii 1.0\n"), "a.ply:2: the header has no end");
   EXPECT_EQ(error("ply\nend_header\n"), "a.ply:2: the header has no format");
+  EXPECT_EQ(error("\xEF\xBB\xBFply\nend_header\n"), "a.ply:2: the header has no format");
+  EXPECT_TRUE(error("\xFF\xFEp\0l").starts_with("a.ply:1: UTF-16 text; "));
+  EXPECT_TRUE(error("ply\rformat ascii 1.0\r").starts_with("a.ply:1: a carriage return within "));
   EXPECT_EQ(error("ply\nformat text 1.0\n"), "a.ply:2: malformed header at \"text\"");
   EXPECT_EQ(error("ply\nformat ascii 2.0\n"), "a.ply:2: malformed header at \"2.0\"");
   EXPECT_EQ(error(ascii + "format ascii 1.0\n"), "a.ply:3: malformed header at \"ascii\"");
@@ -309,8 +343,7 @@ TEST(ReadPly, NamesWhatIsWrongInText) {
     return folder.error("a.ply", four_vertices(1) + line + "\n");
   };
   EXPECT_EQ(face("3 0 1 3"), "");
-  EXPECT_EQ(face("4 0 1 2 3"), "a.ply:14: face 0: 4 vertices; only triangles are read");
-  EXPECT_EQ(face("2 0 1"), "a.ply:14: face 0: 2 vertices; only triangles are read");
+  EXPECT_EQ(face("2 0 1"), "a.ply:14: face 0: vertices: 2; a face must have 3 or more");
   EXPECT_EQ(face("3 0 1"), "a.ply:14: face 0: too few values");
   EXPECT_EQ(face("3 0 1 2 3"), "a.ply:14: face 0: too many values");
   EXPECT_EQ(face("3 0 1 4"), "a.ply:14: face 0: vertex 4, but there are 4, counted from 0");
@@ -350,7 +383,7 @@ TEST(ReadPly, NamesWhatIsWrongInBinary) {
   EXPECT_EQ(face(3, 1), "a.ply: face 0 " + at(24) + ": vertex 1, but there are 1, counted from 0");
   EXPECT_EQ(face(3, -1),
             "a.ply: face 0 " + at(24) + ": vertex -1, but there are 1, counted from 0");
-  EXPECT_EQ(face(4, 0), "a.ply: face 0 " + at(24) + ": 4 vertices; only triangles are read");
+  EXPECT_EQ(face(2, 0), "a.ply: face 0 " + at(24) + ": vertices: 2; a face must have 3 or more");
   EXPECT_EQ(face(-3, 0), "a.ply: face 0 " + at(24) + ": a list of negative length");
   EXPECT_EQ(error(after_vertex(std::nan(""))),
             "a.ply: vertex 0 " + at(0) + ": a coordinate must be finite");
