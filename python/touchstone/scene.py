@@ -94,7 +94,8 @@ class Step:
     """A step of a mesh whose vertices move on straight lines from t=0 to t=1.
 
     Two primitives collide if they have a common point at some time, or come within the separation.
-    Answers are exact, and the same for any number of threads.
+    Answers are exact, and the same for any number of threads. Vertices alone collide with nothing: a
+    step without faces, edges and points is free, and `prove` refuses it.
 
     Parameters
     ----------

@@ -59,6 +59,14 @@ def test_types_of_indices(dtype):
         assert (Step(**{**scene, "faces": faces}).collisions() == expected).all()
 
 
+def test_vertices_alone_are_free_but_not_proved(tmp_path):
+    places = np.arange(6.0).reshape(2, 3)
+    step = Step(places, places)
+    assert step.is_free()
+    with pytest.raises(ValueError, match="nothing in it can collide"):
+        step.prove(tmp_path / "step.cert")
+
+
 @pytest.mark.parametrize("threads", [1, 2, 5])
 def test_threads_change_nothing(threads):
     scene = soup(2, 300)

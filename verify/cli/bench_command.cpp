@@ -140,6 +140,7 @@ class BenchRun {
 
   void bench_given_step() {
     const mesh::MovingMesh mesh = mesh::read_step(arguments_.step.at(0), arguments_.step.at(1));
+    report_note(arguments_.step.front(), mesh.note);
     for (const Kind kind : chosen_kinds()) bench_candidates(mesh, kind);
     if (stopped()) return;
     io::ProgressBar bar("bench " + mesh.name);

@@ -23,6 +23,7 @@
 #include "verify/cli/files.hpp"
 #include "verify/cli/help.hpp"
 #include "verify/cli/options.hpp"
+#include "verify/cli/sources.hpp"
 #include "verify/data/npy.hpp"
 #include "verify/io/json.hpp"
 #include "verify/io/terminal.hpp"
@@ -153,6 +154,7 @@ Status candidates(const Arguments& arguments) {
   const Arrays arrays(arguments.prefix);
   for (const fs::path& array : arrays.all()) files.add_output(array);
   const mesh::MovingMesh mesh = mesh::read_step(arguments.before, arguments.after);
+  report_note(arguments.before, mesh.note);
   const std::vector<Found> all{find(mesh, Kind::vertex_face, arguments.broad_phase),
                                find(mesh, Kind::edge_edge, arguments.broad_phase)};
   const fs::path folder = arrays.edges.parent_path();

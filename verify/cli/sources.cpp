@@ -170,10 +170,28 @@ void for_each_source(const SourceArguments& arguments, Files& files,
   }
 }
 
+std::vector<fs::path> frame_files(std::span<const fs::path> paths) {
+  std::vector<fs::path> others;
+  std::vector<fs::path> files = mesh::frame_files(paths, &others);
+  if (!others.empty()) {
+    report_warning(fmt::format("{}: left out, as they are no .ply or .obj files: {}, among them {}",
+                               paths.front().string(), others.size(),
+                               std::ranges::min(others).filename().string()));
+  }
+  return files;
+}
+
 std::unique_ptr<mesh::Frames> open_frames(Files& record, std::span<const fs::path> paths) {
-  std::vector<fs::path> files = mesh::frame_files(paths);
+  std::vector<fs::path> files = frame_files(paths);
   record.add_inputs(files);
-  return mesh::open_frames(std::move(files));
+  const fs::path first = files.front();
+  auto frames = mesh::open_frames(std::move(files));
+  report_note(first, frames->mesh().note);
+  return frames;
+}
+
+void report_note(const fs::path& mesh, const std::string& note) {
+  if (!note.empty()) report_warning(mesh.string() + ": " + note);
 }
 
 }  // namespace touchstone::verify::cli

@@ -89,7 +89,15 @@ struct SourceHandlers {
 void for_each_source(const SourceArguments& arguments, Files& files,
                      const SourceHandlers& handlers);
 
-/// Opens the frames of a mesh, as mesh::open_frames. \param record records their files
+/// The files of frames, as mesh::frame_files; says what else is in a folder.
+[[nodiscard]] std::vector<std::filesystem::path> frame_files(
+    std::span<const std::filesystem::path> paths);
+
+/// Says what of a mesh's file was not read, or otherwise than it is written.
+void report_note(const std::filesystem::path& mesh, const std::string& note);
+
+/// Opens the frames of a mesh, as mesh::open_frames, and says what is not read. \param record
+/// records their files
 [[nodiscard]] std::unique_ptr<mesh::Frames> open_frames(
     Files& record, std::span<const std::filesystem::path> paths);
 

@@ -185,7 +185,7 @@ class StepRun {
 
 /// A piece for each step between two files.
 std::vector<jobs::Piece> pieces_of_frames(const Arguments& arguments) {
-  const std::vector<fs::path> files = mesh::frame_files(arguments.frames);
+  const std::vector<fs::path> files = frame_files(arguments.frames);
   if (files.size() < 2) {
     throw std::runtime_error("step: --resume needs each frame in a file of its own");
   }

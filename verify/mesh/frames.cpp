@@ -51,10 +51,14 @@ bool is_folder(const fs::path& path) {
   return fs::is_directory(path, error);
 }
 
-std::vector<fs::path> mesh_files_in(const fs::path& folder) {
+std::vector<fs::path> mesh_files_in(const fs::path& folder, std::vector<fs::path>* left_out) {
   std::vector<fs::path> files;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
-    if (entry.is_regular_file() && is_mesh_file(entry.path())) files.push_back(entry.path());
+    if (entry.is_regular_file() && is_mesh_file(entry.path())) {
+      files.push_back(entry.path());
+    } else if (left_out != nullptr) {
+      left_out->push_back(entry.path());
+    }
   }
   if (files.empty()) throw io::DatasetError(folder, {}, "no .ply or .obj file in this folder");
   std::ranges::sort(files, [](const fs::path& a, const fs::path& b) {
@@ -67,7 +71,9 @@ std::vector<fs::path> mesh_files_in(const fs::path& folder) {
 class FileFrames : public Frames {
  public:
   explicit FileFrames(std::vector<fs::path> files)
-      : files_(std::move(files)), mesh_(read_mesh(files_.front())) {}
+      : files_(std::move(files)), mesh_(read_mesh(files_.front())) {
+    require_elements(mesh_, files_.front());
+  }
 
   [[nodiscard]] const Mesh& mesh() const override { return mesh_; }
   [[nodiscard]] std::size_t count() const override { return files_.size(); }
@@ -108,8 +114,15 @@ class ArchivedFrames : public Frames {
     if (vertex_count_ > std::numeric_limits<std::int32_t>::max())
       vertices_->fail("more than 2^31-1 vertices");
     const std::vector<fast::Edge> edges = elements<2>("E", "(k, 2)");
-    mesh_ = make_mesh({}, elements<3>("F", "(m, 3)"), edges, elements<1>("P", "(p,)"));
+    mesh_ = make_mesh({}, elements<3>("F", "(m, 3)"), edges, elements<1>("P", "(p,) or (p, 1)"));
     mesh_.vertices = read_frame(0);
+    std::vector<std::string> others = archive_.names();
+    std::erase_if(others, [](const std::string& name) {
+      return name == "V" || name == "F" || name == "E" || name == "P";
+    });
+    std::ranges::for_each(others, [](std::string& name) { name.insert(0, "array "); });
+    mesh_.note = note_of(0, others);
+    require_elements(mesh_, path);
   }
 
   [[nodiscard]] const Mesh& mesh() const override { return mesh_; }
@@ -143,11 +156,13 @@ class ArchivedFrames : public Frames {
     if (!archive_.has(name)) return result;
     data::NpyArray array(archive_, name);
     constexpr std::array<std::uint64_t, 1> last{corners};
-    array.require_shape(corners == 1 ? 1 : 2, std::span(last).first(corners == 1 ? 0 : 1),
-                        expected);
+    const bool is_list = corners == 1 && array.shape().size() == 1;
+    array.require_shape(is_list ? 1 : 2, std::span(last).first(is_list ? 0 : 1), expected);
     for (std::uint64_t i = 0; i < array.shape()[0]; ++i) {
       std::array<std::int64_t, corners> element{};
-      array.take<std::int64_t, std::int32_t, std::int64_t>(element, {"<i4", "<i8"});
+      array.take<std::int64_t, std::int8_t, std::uint8_t, std::int16_t, std::uint16_t, std::int32_t,
+                 std::uint32_t, std::int64_t, std::uint64_t>(
+          element, {"|i1", "|u1", "<i2", "<u2", "<i4", "<u4", "<i8", "<u8"});
       for (std::size_t k = 0; k < corners; ++k) {
         if (element[k] < 0 || element[k] >= static_cast<std::int64_t>(vertex_count_)) {
           array.fail(fmt::format("row {}: vertex {}, but there are {}, counted from 0", i,
@@ -171,8 +186,9 @@ class ArchivedFrames : public Frames {
 
 }  // namespace
 
-std::vector<fs::path> frame_files(std::span<const fs::path> paths) {
-  if (paths.size() == 1 && is_folder(paths.front())) return mesh_files_in(paths.front());
+std::vector<fs::path> frame_files(std::span<const fs::path> paths,
+                                  std::vector<fs::path>* left_out) {
+  if (paths.size() == 1 && is_folder(paths.front())) return mesh_files_in(paths.front(), left_out);
   for (const fs::path& path : paths) {
     if (paths.size() > 1 && (path.extension() == ".npz" || is_folder(path))) {
       throw io::DatasetError(path, {}, "pass either one archive, one folder, or a list of files");

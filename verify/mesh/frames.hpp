@@ -5,9 +5,10 @@
 ///
 /// They come from mesh files (.ply, .obj; a file each, or all of a folder in the order of the
 /// numbers in their names), or from one .npz archive as NumPy's `savez` and `savez_compressed`
-/// write it: `V`, float32 or float64 of shape (T, n, 3); `F`, faces, int32 or int64 of shape (m,
-/// 3); `E`, edges of their own, of shape (k, 2); and `P`, points, of shape (p,). F, E and P may be
-/// missing. Of `V` one frame is in memory at a time.
+/// write it: `V`, float32 or float64 of shape (T, n, 3); `F`, faces, of any type of whole numbers
+/// and of shape (m, 3); `E`, edges of their own, of shape (k, 2); and `P`, points, of shape (p,) or
+/// (p, 1). Of F, E and P two may be missing. Of `V` one frame is in memory at a time, unless it is
+/// in Fortran order.
 
 #include <cstddef>
 #include <filesystem>
@@ -43,12 +44,14 @@ class Frames {
 };
 
 /// The files that hold the frames: those of the folder where one is named.
+/// \param left_out gets what else is in that folder, in no order
 /// \throws io::DatasetError if a folder has no mesh, or a folder or an archive is not named alone.
 [[nodiscard]] std::vector<std::filesystem::path> frame_files(
-    std::span<const std::filesystem::path> paths);
+    std::span<const std::filesystem::path> paths,
+    std::vector<std::filesystem::path>* left_out = nullptr);
 
 /// Opens mesh files, or one archive: the result of frame_files. \throws io::DatasetError naming
-/// what is in error.
+/// what is in error, also if nothing in the mesh could collide.
 [[nodiscard]] std::unique_ptr<Frames> open_frames(std::vector<std::filesystem::path> files);
 
 }  // namespace touchstone::verify::mesh

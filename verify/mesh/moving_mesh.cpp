@@ -1,21 +1,26 @@
 #include "verify/mesh/moving_mesh.hpp"
 
+#include <array>
+
 #include "touchstone/broad_phase.hpp"
 #include "verify/io/dataset_error.hpp"
-#include "verify/mesh/mesh.hpp"
+#include "verify/mesh/frames.hpp"
 
 namespace touchstone::verify::mesh {
 
 MovingMesh read_step(const std::filesystem::path& before, const std::filesystem::path& after) {
-  Mesh start = read_mesh(before);
-  const Mesh end = read_mesh(after);
-  if (!same_elements(start, end)) {
-    throw io::DatasetError(after, {}, "is not the same mesh as " + before.string());
+  const std::array files{before, after};
+  const auto frames = open_frames(frame_files(files));
+  const Mesh& mesh = frames->mesh();
+  if (mesh.faces.empty() && mesh.edges.empty()) {
+    throw io::DatasetError(before, {}, "no face and no edge: candidates are pairs of these");
   }
+  const Vertices start = frames->next(), end = frames->next();
   return {.name = before.stem().string() + "-" + after.stem().string(),
-          .vertices = fast::MovingVertices(start.vertices, end.vertices),
-          .faces = std::move(start.faces),
-          .edges = std::move(start.edges)};
+          .vertices = fast::MovingVertices(start, end),
+          .faces = mesh.faces,
+          .edges = mesh.edges,
+          .note = mesh.note};
 }
 
 std::vector<fast::IndexPair> find_candidates(const MovingMesh& mesh, Kind kind, int max_threads,

@@ -20,11 +20,12 @@ struct MovingMesh {
   fast::MovingVertices vertices;
   std::vector<fast::Face> faces;
   std::vector<fast::Edge> edges;
+  std::string note;  ///< as Mesh has it
 };
 
 /// The step from one mesh file to another.
-/// \throws DatasetError if one cannot be read, or the meshes differ in more than the positions of
-/// their vertices.
+/// \throws DatasetError if one cannot be read, the meshes differ in more than the positions of
+/// their vertices, or they have no face and no edge.
 [[nodiscard]] MovingMesh read_step(const std::filesystem::path& before,
                                    const std::filesystem::path& after);
 

@@ -118,6 +118,13 @@ TEST_F(Step, IsReadFromTwoFiles) {
   EXPECT_EQ(mesh.edges.size(), 3U);
 }
 
+TEST_F(Step, RefusesAMeshWithoutCandidates) {
+  for (const std::string text : {"v 0 0 0\n", "v 0 0 0\np 1\n"}) {
+    const fs::path frame = write("a.obj", text);
+    EXPECT_THROW(static_cast<void>(read_step(frame, frame)), io::DatasetError) << text;
+  }
+}
+
 TEST_F(Step, RefusesTwoDifferentMeshes) {
   const fs::path before = write("a0.obj", triangle);
   const std::string more = std::string(triangle) + "v 1 1 1\n";
