@@ -23,6 +23,7 @@
 #include "python/bindings/arguments.hpp"
 #include "python/bindings/background.hpp"
 #include "python/bindings/blocks.hpp"
+#include "python/bindings/exact_numbers.hpp"
 #include "touchstone/certificate.hpp"
 #include "touchstone/certificate_text.hpp"
 #include "touchstone/oracle.hpp"
@@ -36,17 +37,6 @@ constexpr std::size_t oracle_block = 1;
 constexpr std::size_t method_block = 16;  ///< of methods that take microseconds a query
 
 // ---- Exact numbers ------------------------------------------------------------------------------
-
-py::object to_python(const exact::Integer& number) {
-  return py::reinterpret_steal<py::object>(
-      PyLong_FromString(number.get_str(16).c_str(), nullptr, 16));
-}
-
-/// (numerator, denominator).
-py::tuple to_python(const exact::Rational& number) {
-  return py::make_tuple(to_python(exact::Integer(number.get_num())),
-                        to_python(exact::Integer(number.get_den())));
-}
 
 /// The value, if it is rational. If a number p/q in lowest terms is a root of an integer polynomial
 /// with the leading coefficient a, then q divides a, so that a p/q is an integer: the only one in
@@ -66,7 +56,7 @@ std::optional<exact::Rational> rational_value(exact::AlgebraicNumber number) {
 }
 
 /// None, (numerator, denominator), or (coefficients, lower end, upper end).
-py::object to_python(const std::optional<exact::AlgebraicNumber>& time) {
+py::object time_to_python(const std::optional<exact::AlgebraicNumber>& time) {
   if (!time) return py::none();
   if (const auto value = rational_value(*time)) return to_python(*value);
   py::list coefficients;
@@ -118,7 +108,7 @@ py::list decide(const std::string& kind_name, const Doubles& array, py::array re
   };
   const std::size_t done = in_blocks(queries.size(), oracle_block, threads, progress, decide_some);
   py::list exact_times;
-  for (std::size_t i = 0; i < done; ++i) exact_times.append(to_python(times[i]));
+  for (std::size_t i = 0; i < done; ++i) exact_times.append(time_to_python(times[i]));
   return exact_times;
 }
 
@@ -136,7 +126,7 @@ py::tuple decide_curved(const std::string& kind_name,
   const auto time = exact::decide(kind_from(kind_name), query, separation_from(distance, norm)).toi;
   exact::DoubleInterval enclosure{fast::no_number, fast::no_number};
   if (time) enclosure = time->enclosure();
-  return py::make_tuple(to_python(time), enclosure.lower, enclosure.upper);
+  return py::make_tuple(time_to_python(time), enclosure.lower, enclosure.upper);
 }
 
 // ---- Certificates -------------------------------------------------------------------------------

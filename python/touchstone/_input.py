@@ -2,9 +2,14 @@
 
 from __future__ import annotations
 
+import functools
 import importlib
+import numbers
+import operator
+import reprlib
+from decimal import Decimal
 from types import ModuleType
-from typing import Any, Literal, Tuple, TypeVar
+from typing import Any, Callable, Dict, Literal, Tuple, TypeVar, cast, get_args
 
 import numpy as np
 import numpy.typing as npt
@@ -31,6 +36,119 @@ class Interrupted(KeyboardInterrupt):
         self.result = result
 
 
+def _wrong_type(reason: str, value: Any) -> TypeError:
+    return TypeError(f"{reason}, not {reprlib.repr(value)} of type {type(value).__name__}")
+
+
+def as_number(value: Any, name: str) -> float:
+    """Return the double that a real number is.
+
+    Raises
+    ------
+    TypeError
+        For anything else.
+    ValueError
+        For a number that is no double.
+    """
+    if isinstance(value, np.ndarray) and value.ndim == 0:
+        value = value[()]
+    if isinstance(value, float):
+        return value
+    if isinstance(value, (bool, np.bool_)) or not isinstance(value, (numbers.Real, Decimal)):
+        raise _wrong_type(f"{name}: a real number is needed", value)
+    exact = int(value) if isinstance(value, numbers.Integral) else value
+    try:
+        double = float(exact)
+    except OverflowError:
+        raise ValueError(f"{name}: {reprlib.repr(value)} is beyond the range of doubles") from None
+    if double != exact and exact == exact:
+        raise ValueError(
+            f"{name}: {reprlib.repr(value)} is not a double; pass float(…), the nearest one is {double!r}"
+        )
+    return double
+
+
+def _as_whole_number(value: Any, name: str) -> int:
+    try:
+        return operator.index(value)
+    except TypeError:
+        raise _wrong_type(f"{name}: a whole number is needed", value) from None
+
+
+def _as_flag(value: Any, name: str) -> bool:
+    if not isinstance(value, (bool, np.bool_)):
+        raise _wrong_type(f"{name}: True or False is needed", value)
+    return bool(value)
+
+
+def _as_one_of(words: Any) -> Callable[[Any, str], str]:
+    def as_word(value: Any, name: str) -> str:
+        choices = " or ".join(map(repr, get_args(words)))
+        if not isinstance(value, str):
+            raise _wrong_type(f"{name} must be {choices}", value)
+        if value not in get_args(words):
+            raise ValueError(f"{name} must be {choices}, not {reprlib.repr(value)}")
+        return str(value)
+
+    return as_word
+
+
+#: By annotations, which are texts.
+_CONVERSIONS: Dict[str, Callable[[Any, str], Any]] = {
+    "float": as_number,
+    "int": _as_whole_number,
+    "bool": _as_flag,
+    "Kind": _as_one_of(Kind),
+    "Norm": _as_one_of(Norm),
+}
+Function = TypeVar("Function", bound=Callable[..., Any])
+
+
+def checked(function: Function) -> Function:
+    """Convert a function's numbers, flags and words by their annotations, or refuse them by name."""
+    code = function.__code__
+    places = code.co_varnames[: code.co_argcount]
+    conversions = {}
+    for name, annotation in function.__annotations__.items():
+        conversion = _CONVERSIONS.get(annotation.split(" | None")[0])
+        if conversion is not None:
+            conversions[name] = conversion, annotation.endswith(" | None")
+
+    def converted(name: str, value: Any) -> Any:
+        if name not in conversions or (value is None and conversions[name][1]):
+            return value
+        return conversions[name][0](value, name)
+
+    @functools.wraps(function)
+    def call(*arguments: Any, **options: Any) -> Any:
+        given = [converted(name, value) for name, value in zip(places, arguments)]
+        return function(
+            *given,
+            *arguments[len(places) :],
+            **{name: converted(name, value) for name, value in options.items()},
+        )
+
+    return cast(Function, call)
+
+
+def as_array(values: npt.ArrayLike, name: str) -> npt.NDArray[Any]:
+    """Return the array that NumPy makes of values.
+
+    Raises
+    ------
+    ValueError
+        If values are masked, or no array.
+    """
+    parts = values if isinstance(values, (list, tuple)) else (values,)
+    count = sum(np.count_nonzero(part.mask) for part in parts if isinstance(part, np.ma.MaskedArray))
+    if count:
+        raise ValueError(f"{name}: {count} values are masked; select what is to be used, or call filled(…)")
+    try:
+        return np.asarray(values)
+    except ValueError as error:
+        raise ValueError(f"{name}: no array of numbers: {error}") from None
+
+
 def as_doubles(values: npt.ArrayLike, name: str) -> Doubles:
     """Return an array of float64 in C's order: the same memory where it is one already.
 
@@ -39,7 +157,7 @@ def as_doubles(values: npt.ArrayLike, name: str) -> Doubles:
     ValueError
         For another type than numbers, and for a number that is not a double.
     """
-    array = np.asarray(values)
+    array = as_array(values, name)
     if array.dtype == np.float64 and array.flags.c_contiguous and array.flags.aligned:
         return array
     if array.dtype.kind not in "fiu":
@@ -83,7 +201,7 @@ def as_vertices(values: npt.ArrayLike, name: str) -> Doubles:
 
 def as_indices(values: npt.ArrayLike | None, name: str, columns: int | None) -> npt.NDArray[np.int32]:
     """Return indices of shape (n, columns), or (n,) without columns, as int32; None: no indices."""
-    array = np.asarray([] if values is None else values)
+    array = as_array([] if values is None else values, name)
     shape = (0,) if columns is None else (0, columns)
     if array.size == 0:
         return np.empty(shape, dtype=np.int32)

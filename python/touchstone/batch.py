@@ -9,7 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _fast
-from ._input import BatchResult, Booleans, Doubles, Interrupted, Kind, Norm, as_queries
+from ._input import BatchResult, Booleans, Doubles, Interrupted, Kind, Norm, as_queries, checked
 from ._tool import Progress
 
 _certified_type = np.dtype(_fast.certified_layout())
@@ -95,6 +95,7 @@ class CertifiedResult(BatchResult):
         return self._field("stage")  # type: ignore[no-any-return]
 
 
+@checked
 def certified(
     kind: Kind,
     queries: npt.ArrayLike,
@@ -204,6 +205,7 @@ class TightInclusionResult(BatchResult):
         return self._field("checks")  # type: ignore[no-any-return]
 
 
+@checked
 def tight_inclusion(
     kind: Kind,
     queries: npt.ArrayLike,
@@ -279,6 +281,7 @@ class DistanceResult(BatchResult):
         return self._field("upper")  # type: ignore[no-any-return]
 
 
+@checked
 def distance(
     kind: Kind,
     queries: npt.ArrayLike,

@@ -11,7 +11,7 @@ from typing import Any, Literal, Sequence, Tuple, Union
 import numpy as np
 import numpy.typing as npt
 
-from ._input import BatchResult, Booleans, Doubles, Interrupted, Kind, Norm, as_queries, load
+from ._input import BatchResult, Booleans, Doubles, Interrupted, Kind, Norm, as_doubles, as_queries, checked, load
 from ._tool import Progress
 from .batch import run_batch
 
@@ -127,6 +127,7 @@ class Decisions(BatchResult):
         return self._field("toi")
 
 
+@checked
 def decide(
     kind: Kind,
     queries: npt.ArrayLike,
@@ -182,15 +183,16 @@ def decide(
 
 def _curve_from(curve: Any) -> tuple[list[list[float]], list[float]]:
     control, weights = curve if isinstance(curve, tuple) else (curve, ())
-    points = np.asarray(control, dtype=np.float64)
+    points = as_doubles(control, "curves")
     if points.ndim != 2 or points.shape[1] != 3:
         raise ValueError(f"the control points of a curve have the shape (k + 1, 3), not {points.shape}")
-    numbers = np.asarray(weights, dtype=np.float64)
+    numbers = as_doubles(weights, "weights") if np.size(weights) else np.empty(0)
     if not (np.isfinite(points).all() and np.isfinite(numbers).all()):
         raise ValueError("a number of a curve is not finite")
     return points.tolist(), numbers.reshape(-1).tolist()
 
 
+@checked
 def decide_curved(
     kind: Kind,
     curves: Sequence[Any],
@@ -243,6 +245,7 @@ def decide_curved(
     return Decisions(result)
 
 
+@checked
 def prove(
     kind: Kind,
     queries: npt.ArrayLike,
@@ -347,6 +350,7 @@ class CheckReport:
         return f"CheckReport: {self.accepted} accepted, {self.rejected} rejected"
 
 
+@checked
 def check(
     certificates: bytes | str,
     *,
@@ -385,7 +389,7 @@ def check(
     """
     try:
         report = exact_module().check(
-            certificates, scenes, claim, None if separation is None else float(separation).hex(), norm
+            certificates, scenes, claim, None if separation is None else separation.hex(), norm
         )
     except KeyboardInterrupt as interrupt:
         raise Interrupted() from interrupt
@@ -476,6 +480,7 @@ def methods() -> list[Method]:
     return [Method(*fields) for fields in exact_module().methods()]
 
 
+@checked
 def solve(
     method: str,
     kind: Kind,

@@ -21,7 +21,7 @@ from typing import Tuple
 import numpy as np
 import numpy.typing as npt
 
-from ._input import Kind, as_doubles
+from ._input import Kind, as_doubles, checked
 from .batch import certified, distance
 
 __all__ = ["edge_edge_ccd", "point_edge_ccd", "point_point_ccd", "point_triangle_ccd"]
@@ -29,6 +29,7 @@ __all__ = ["edge_edge_ccd", "point_edge_ccd", "point_point_ccd", "point_triangle
 Point = npt.ArrayLike
 
 
+@checked
 def _decide(
     kind: Kind, points: Tuple[Point, ...], min_distance: float, tmax: float, conservative_rescaling: float
 ) -> Tuple[bool, float]:

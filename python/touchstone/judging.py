@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import csv
 import html
 import inspect
 import json
@@ -12,18 +11,17 @@ import pickle
 import sys
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
-from typing import Any, Callable, Dict, Iterable, List, Literal, Sequence, Tuple, Union
+from typing import Any, Callable, Dict, Iterable, List, Literal, Sequence, Union
 
 import numpy as np
 import numpy.typing as npt
 
-from ._input import Booleans, Doubles, Interrupted, Kind, Norm, as_queries
+from ._input import Booleans, Doubles, Interrupted, Kind, Norm, as_queries, checked, load
 from ._tool import FOLDER, Run
 
 Promise = Literal["conservative", "exact"]
 Solver = Union[str, Callable[..., Any]]
 PathLike = Union[str, "os.PathLike[str]"]
-KINDS: Tuple[Kind, Kind] = ("vertex_face", "edge_edge")
 
 
 # ---- Queries --------------------------------------------------------------------------------------
@@ -64,120 +62,27 @@ class Queries:
         return text + ")"
 
 
-def _kind_of(path: pathlib.Path) -> Kind:
-    """Return the kind that a path says, as the command line reads it."""
-    for part in reversed(path.absolute().parts):
-        for kind in KINDS:
-            if kind.replace("_", "-") in part:
-                return kind
-    for kind, ending in zip(KINDS, ("vf", "ee")):
-        if path.stem.endswith(ending):
-            return kind
-    raise ValueError(f"{path}: the path does not say the kind of the queries; give it by kind=")
+#: What the command line calls arguments of `read`.
+_ARGUMENTS = (
+    ("pass --kind vertex-face or --kind edge-edge", "give it by kind="),
+    ("pass --kind", "give it by kind="),
+    ("--round takes", "round=True takes"),
+)
 
 
-def _double(words: Sequence[str], round: bool) -> float:
-    """Return the double that a decimal, or a numerator and a denominator, is."""
-    exact = Fraction(words[0]) if len(words) == 1 else Fraction(words[0]) / Fraction(words[1])
-    double = exact.numerator / exact.denominator
-    if not round and Fraction(double) != exact:
-        raise ValueError(f"{'/'.join(words)} is not a double; read with round=True")
-    return double
-
-
-def _read_csv(path: pathlib.Path, round: bool) -> Tuple[Doubles, Booleans | None]:
-    points: List[List[float]] = []
-    labels: List[bool] = []
-    columns = 0
-    with open(path, newline="") as file:
-        for number, row in enumerate(csv.reader(file), start=1):
-            row = [word.strip() for word in row]
-            is_header = any(word[:1].isalpha() for word in row)
-            if not any(row) or (is_header and len(points) % 8 == 0):
-                continue
-            columns = columns or len(row)
-            width = columns // 3 if columns in (3, 4, 6, 7) else 0
-            try:
-                if width == 0 or len(row) != columns:
-                    raise ValueError(f"{len(row)} columns instead of {columns if width else '3, 4, 6 or 7'}")
-                points.append([_double(row[i * width : (i + 1) * width], round) for i in range(3)])
-                if columns % 3 == 1:
-                    if row[-1] not in ("0", "1"):
-                        raise ValueError(f"the label {row[-1]!r} is neither 0 nor 1")
-                    labels.append(row[-1] == "1")
-            except (ValueError, ZeroDivisionError, OverflowError) as error:
-                raise ValueError(f"{path}:{number}: {error}") from None
-    if len(points) % 8 or not points:
-        raise ValueError(f"{path}: {len(points)} rows are not eight for each query")
-    by_query = np.array(labels).reshape(-1, 8)
-    if labels and (by_query != by_query[:, :1]).any():
-        first = np.flatnonzero((by_query != by_query[:, :1]).any(axis=1))[0]
-        raise ValueError(f"{path}: the labels of query {first} differ")
-    return np.array(points).reshape(-1, 8, 3), by_query[:, 0] if labels else None
-
-
-def _companion(path: pathlib.Path, folder: str, ending: str) -> pathlib.Path | None:
-    """Return the file of recorded truth beside a dataset, where the command line looks for it."""
-    name = path.stem + ending
-    for one in (path.parent / ".." / folder / name, path.parent / folder / name, path.parent / name):
-        if one.exists():
-            return one
-    return None
-
-
-def _read_labels(path: pathlib.Path, count: int) -> Booleans:
-    """Return the labels of a JSON array of true, false, 1 and 0, one for each query."""
+def _in_our_words(call: Callable[[], Any]) -> Any:
     try:
-        labels = json.loads(path.read_text())
+        return call()
     except ValueError as error:
-        raise ValueError(f"{path}: {error}") from None
-    if not isinstance(labels, list) or len(labels) != count:
-        raise ValueError(f"{path}: not an array of {count} labels, one for each query")
-    for i, label in enumerate(labels):
-        if not isinstance(label, (bool, int)) or label not in (0, 1):
-            raise ValueError(f"{path}: the label of query {i} is not a boolean: {json.dumps(label)}")
-    return np.array(labels, dtype=bool)
+        text = str(error)
+        for theirs, ours in _ARGUMENTS:
+            text = text.replace(theirs, ours)
+        raise ValueError(text) from None
 
 
-def _read_times(path: pathlib.Path, count: int) -> Dict[int, Fraction]:
-    """Return the times of lines "query,toi" below that header; query numbers ascend."""
-    times: Dict[int, Fraction] = {}
-    with open(path, newline="") as file:
-        rows = csv.reader(file)
-        if [word.strip() for word in next(rows, [])] != ["query", "toi"]:
-            raise ValueError(f"{path}:1: expected the header query,toi")
-        last = -1
-        for row in rows:
-            try:
-                if len(row) != 2 or "/" in row[1]:
-                    raise ValueError("expected two columns, a query and a decimal")
-                query, time = int(row[0]), Fraction(row[1].strip())
-                if not last < query < count:
-                    raise ValueError(f"query {query} after {last}, of {count} queries")
-            except ValueError as error:
-                raise ValueError(f"{path}:{rows.line_num}: {error}") from None
-            last = query
-            times[query] = time
-    return times
-
-
-def _with_companions(queries: Queries, path: pathlib.Path) -> Queries:
-    """Return queries with the truth that files beside their dataset record."""
-    labels = _companion(path, "mma_bool", "_mma_bool.json")
-    times = _companion(path, "toi", "_toi.csv")
-    collides = queries.collides
-    if labels is not None:
-        recorded = _read_labels(labels, len(queries))
-        if collides is not None and (collides != recorded).any():
-            first = np.flatnonzero(collides != recorded)[0]
-            raise ValueError(f"{labels}: the label of query {first} is not that of {path}")
-        collides = recorded
-    toi = {} if times is None else _read_times(times, len(queries))
-    return replace(queries, collides=collides, toi=toi)
-
-
+@checked
 def read(path: PathLike, *, kind: Kind | None = None, round: bool = False) -> Queries:
-    """Read a dataset: .csv in the formats of the public benchmarks, or .npy of shape (N, 8, 3).
+    """Read a dataset as the command line tool does: .csv, .csv.zst, .npy, .npz or .obj.
 
     Parameters
     ----------
@@ -198,14 +103,22 @@ def read(path: PathLike, *, kind: Kind | None = None, round: bool = False) -> Qu
     ------
     ValueError
         Naming file, line and reason.
+    FileNotFoundError
+        If there is no such file.
+    ImportError
+        If this build does not have the reader.
+    Interrupted
+        At Ctrl-C.
     """
-    path = pathlib.Path(path)
-    kind = kind or _kind_of(path)
-    if path.suffix == ".npy":
-        return _with_companions(Queries(kind, as_queries(np.load(path))[0], None, str(path)), path)
-    if path.suffix == ".csv":
-        return _with_companions(Queries(kind, *_read_csv(path, round), str(path)), path)
-    raise ValueError(f"{path}: the name must end in .csv or .npy")
+    os.stat(path)
+    module = load("_data")
+    try:
+        found = _in_our_words(lambda: module.read(os.fsencode(path), kind, round))
+    except KeyboardInterrupt as interrupt:
+        raise Interrupted() from interrupt
+    its_kind, queries, labels, times = found
+    toi = {query: Fraction(*time) for query, time in times}
+    return Queries(its_kind, queries, None if labels is None else labels.astype(bool), str(path), toi)
 
 
 def write(path: PathLike, queries: Queries) -> None:
@@ -218,13 +131,19 @@ def write(path: PathLike, queries: Queries) -> None:
     ValueError
         For another ending of the name, a coordinate that is not finite, or a path that says
         another kind.
+    ImportError
+        If this build does not have the reader, which knows the kinds of paths.
     """
-    path = pathlib.Path(path)
+    module = load("_data")
+    if _in_our_words(lambda: module.kind_of(os.fsencode(path))) != queries.kind:
+        raise ValueError(f"{path}: the path says another kind than {queries.kind}")
+    _write(pathlib.Path(path), queries)
+
+
+def _write(path: pathlib.Path, queries: Queries) -> None:
     array, _ = as_queries(queries.queries)
     if not np.isfinite(array).all():
         raise ValueError(f"{path}: a coordinate is NaN or infinite")
-    if _kind_of(path) != queries.kind:
-        raise ValueError(f"{path}: the path says another kind than {queries.kind}")
     if path.suffix == ".npy":
         np.save(path, array)
         return
@@ -246,6 +165,7 @@ def families() -> List[str]:
     return names
 
 
+@checked
 def generate(
     kind: Kind,
     *,
@@ -284,7 +204,7 @@ def generate(
     with Run() as run:
         command = ["generate", "--out", run.folder / "set", "--count", count, "--seed", seed]
         if separation:
-            command += ["--min-separation", float(separation).hex(), "--norm", norm]
+            command += ["--min-separation", separation.hex(), "--norm", norm]
         run.call(command + ([] if family is None else ["--family", family]))
         files = sorted((run.folder / "set" / kind.replace("_", "-")).glob("*.csv"))
         return [replace(read(file, kind=kind), name=file.stem) for file in files]
@@ -350,7 +270,7 @@ def _common_arguments(
     arguments = ["--tolerance", tolerance, "--max-checks", max_checks, "--query-limit", query_limit]
     arguments += ["--memory-limit", memory_limit]
     if separation is not None:
-        arguments += ["--min-separation", float(separation).hex(), "--norm", norm]
+        arguments += ["--min-separation", separation.hex(), "--norm", norm]
     return arguments
 
 
@@ -458,10 +378,11 @@ def _write_data(run: Run, data: Data) -> List[Any]:
         # The file's name is that of the source in the report.
         name = "".join(c if c.isalnum() or c in "-_" else "_" for c in pathlib.Path(one.name).stem)
         paths.append(folder / f"{name}.{'npy' if one.collides is None else 'csv'}")
-        write(paths[-1], one)
+        _write(paths[-1], one)
     return paths
 
 
+@checked
 def certify(
     solver: Solver,
     data: Data = None,
@@ -645,6 +566,7 @@ class FuzzReport:
         return f"<p>{html.escape(repr(self))}</p>" + _table(["fault", "kind", "truth", "detail"], rows)
 
 
+@checked
 def fuzz(
     solver: Solver,
     *,
@@ -744,6 +666,7 @@ class View:
         return f'<iframe srcdoc="{page}" width="100%" height="700" style="border: 0"></iframe>'
 
 
+@checked
 def view(
     query: npt.ArrayLike | Finding | Queries,
     kind: Kind | None = None,
@@ -788,6 +711,6 @@ def view(
         command = ["view", *_write_data(run, query), "--out", page]
         command += [word for method in methods for word in ("--method", method)]
         if separation is not None:
-            command += ["--min-separation", float(separation).hex(), "--norm", norm]
+            command += ["--min-separation", separation.hex(), "--norm", norm]
         run.call(command)
         return View(page.read_text(encoding="utf-8"))

@@ -11,7 +11,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _fast
-from ._input import Doubles, Interrupted, Norm, as_indices, as_vertices
+from ._input import Doubles, Interrupted, Norm, as_indices, as_vertices, checked
 from ._tool import Progress, Run
 
 Value = TypeVar("Value")
@@ -155,6 +155,7 @@ class Step:
     'limited'
     """
 
+    @checked
     def __init__(
         self,
         before: npt.ArrayLike,
@@ -189,6 +190,7 @@ class Step:
             )
         )
 
+    @checked
     def moved(
         self,
         before: npt.ArrayLike,
@@ -242,7 +244,7 @@ class Step:
         A vertex and an edge are the query of the vertex and the face (e0, e1, e0), two vertices that
         of the first one and the face (w, w, w).
         """
-        first, second = (int(i) for i in np.asarray(pair))
+        first, second = as_indices(pair, "pair", None).tolist()
         return self._step.query(int(PairKind(kind)), first, second)
 
     def earliest(self) -> Impact | None:
@@ -273,6 +275,7 @@ class Step:
         """
         return self._search(self._step.free_step_size)
 
+    @checked
     def active_set(self, eta: float, *, norm: Norm = "l2") -> npt.NDArray[np.void]:
         """Return all pairs that come within a distance during the step, with their contacts.
 
@@ -291,6 +294,7 @@ class Step:
         """
         return self._search(lambda progress: self._step.active_set(eta, norm, progress))
 
+    @checked
     def line_search_limit(
         self, p: float, *, norm: Norm = "l2", of_pair: bool = False
     ) -> LineSearchLimit:
@@ -325,6 +329,7 @@ class Step:
         """
         return self._search(self._step.candidates)
 
+    @checked
     def least_distance(self, *, t: float = 0.0, norm: Norm = "l2") -> LeastDistance | None:
         """Return the least distance of all pairs at a time; None without pairs.
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from decimal import Decimal
 from fractions import Fraction
 
 import hypothesis.extra.numpy as arrays
@@ -127,6 +128,9 @@ class TestErrors:
             (np.full((8, 3), "a"), "not of <U1"),
             (np.full((2, 8, 3), 2**53 + 1), r"queries\[0, 0, 0\]: 9007199254740993 of int64"),
             (np.full((8, 3), np.longdouble(1) / 3), "is not a double; round it first"),
+            (np.ma.array(np.zeros((8, 3)), mask=np.eye(8, 3)), "queries: 3 values are masked; select"),
+            ([np.ma.array(np.zeros((8, 3)), mask=np.eye(8, 3))], "queries: 3 values are masked; select"),
+            ([[0.0, 1.0], [2.0]], "queries: "),
         ],
     )
     def test_shapes_and_types(self, solve, bad, text):
@@ -193,6 +197,70 @@ def test_out_is_overwritten_and_returned(solve, queries):
 def test_options_out_of_range(solve, options, text, count):
     with pytest.raises(ValueError, match=text):
         solve("edge_edge", np.zeros((count, 8, 3)), **options)
+
+
+def test_numbers_of_other_types_are_taken_exactly(queries):
+    plain = touchstone.certified("edge_edge", queries, separation=0.125, t_max=1.0, threads=1)
+    for number in (Fraction(1, 8), Decimal("0.125"), np.float32(0.125), np.array(0.125), np.longdouble(0.125)):
+        other = touchstone.certified(
+            "edge_edge", queries, separation=number, t_max=np.int8(1), threads=np.uint8(1), progress=np.False_
+        )
+        assert other.array.tobytes() == plain.array.tobytes()
+    free = np.ma.array(queries, mask=False)
+    assert touchstone.certified("edge_edge", free, separation=0.125).array.tobytes() == plain.array.tobytes()
+
+
+def step(**options):
+    return touchstone.Step(np.eye(3), np.eye(3), faces=[[0, 1, 2]], **options)
+
+
+@pytest.mark.parametrize(
+    "call",
+    [
+        lambda **options: touchstone.certified("edge_edge", np.zeros((8, 3)), **options),
+        lambda **options: touchstone.tight_inclusion("edge_edge", np.zeros((8, 3)), **options),
+        lambda **options: touchstone.decide("edge_edge", np.zeros((8, 3)), **options),
+        lambda **options: touchstone.decide_curved("edge_edge", [np.zeros((1, 3))] * 4, **options),
+        lambda **options: touchstone.prove("edge_edge", np.zeros((8, 3)), **options),
+        lambda **options: touchstone.check(b"", **options),
+        lambda **options: touchstone.solve("accd", "edge_edge", np.zeros((8, 3)), **options),
+        lambda **options: touchstone.certify("accd", **options),
+        lambda **options: touchstone.fuzz("accd", **options),
+        lambda **options: touchstone.generate("edge_edge", **options),
+        lambda **options: touchstone.view(np.zeros((8, 3)), "edge_edge", **options),
+        step,
+        lambda **options: step().moved(np.eye(3), np.eye(3), **options),
+        lambda separation=0.0, norm="l2": step().active_set(separation, norm=norm),
+    ],
+)
+def test_options_of_wrong_types_are_named(call):
+    for number, error, text in [
+        (Fraction(1, 3), ValueError, r"Fraction\(1, 3\) is not a double; pass float"),
+        (Decimal("0.1"), ValueError, r"Decimal\('0.1'\) is not a double"),
+        (2**53 + 1, ValueError, "9007199254740993 is not a double"),
+        (10**400, ValueError, "is beyond the range of doubles"),
+        ("0.5", TypeError, "a real number is needed, not '0.5' of type str"),
+        (True, TypeError, "a real number is needed, not True of type bool"),
+        ([0.5], TypeError, r"a real number is needed, not \[0.5\] of type list"),
+    ]:
+        with pytest.raises(error, match=f"^(separation|eta): {text}"):
+            call(separation=number)
+    with pytest.raises(TypeError, match="^norm must be 'linf' or 'l2', not 2 of type int"):
+        call(norm=2)
+
+
+@pytest.mark.parametrize(
+    "kind, options, text",
+    [
+        (0, {}, "kind must be 'vertex_face' or 'edge_edge', not 0 of type int"),
+        ("edge_edge", {"threads": 1.5}, "threads: a whole number is needed, not 1.5 of type float"),
+        ("edge_edge", {"progress": "no"}, "progress: True or False is needed, not 'no' of type str"),
+        ("edge_edge", {"t_max": None}, "t_max: a real number is needed, not None of type NoneType"),
+    ],
+)
+def test_words_and_flags_of_wrong_types_are_named(kind, options, text):
+    with pytest.raises(TypeError, match=text):
+        touchstone.certified(kind, np.zeros((8, 3)), **options)
 
 
 def test_results_in_tables(queries):

@@ -111,6 +111,9 @@ def test_curves_that_are_none_are_refused():
     for vertex in ([[0, 0]], [], [[0, 0, np.nan]], [[0, 0, 1]] * 10, ([[0, 0, 1]] * 2, [1]), ([[0, 0, 1]] * 2, [1, 0])):
         with pytest.raises(ValueError):
             touchstone.decide_curved("vertex_face", [vertex, *rest])
+    for vertex in ([["0", "0", "1"]], np.array([[0, 0, 2**53 + 1]]), np.ma.array([[0, 0, 1]], mask=[[1, 0, 0]])):
+        with pytest.raises(ValueError, match="^curves"):
+            touchstone.decide_curved("vertex_face", [vertex, *rest])
     with pytest.raises(ValueError, match="four curves, not 3"):
         touchstone.decide_curved("vertex_face", rest)
 

@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import doctest
 import importlib
+import inspect
 import os
 import pathlib
 import pkgutil
+import re
 import subprocess
 import sys
 
@@ -22,9 +24,21 @@ MODULES = [
 ]
 
 
+class Finder(doctest.DocTestFinder):
+    """Finds functions also behind a decorator."""
+
+    def _from_module(self, module, object):
+        return super()._from_module(module, inspect.unwrap(object))
+
+
 @pytest.mark.parametrize("name", ["touchstone", *MODULES])
 def test_examples_of_docstrings(name):
-    assert doctest.testmod(importlib.import_module(name)).failed == 0
+    module = importlib.import_module(name)
+    found = Finder().find(module, name)
+    runner = doctest.DocTestRunner()
+    assert [one.name for one in found if runner.run(one).failed] == []
+    source = pathlib.Path(module.__file__).read_text()
+    assert sum(len(one.examples) for one in found) == len(re.findall(r"^ *>>> ", source, re.MULTILINE))
 
 
 def test_the_version_is_that_of_the_project():

@@ -169,4 +169,6 @@ def test_errors_of_methods():
         step.active_set(-1.0)
     with pytest.raises(IndexError):
         step.query(PairKind.VERTEX_FACE, [0, 5])
+    with pytest.raises(ValueError, match="pair: an array of integers is needed, not of float64"):
+        step.query(PairKind.VERTEX_FACE, [0.5, 0.0])
     assert Fraction(step.free_step_size()) == 1

@@ -21,6 +21,7 @@
 #include "verify/cli/options.hpp"
 #include "verify/cli/pieces.hpp"
 #include "verify/cli/sources.hpp"
+#include "verify/io/coordinate_text.hpp"
 #include "verify/io/json.hpp"
 #include "verify/io/terminal.hpp"
 #include "verify/jobs/prove.hpp"
@@ -46,7 +47,11 @@ exact::ProveOptions proof_options(const Arguments& arguments) {
   exact::ProveOptions options;
   if (arguments.claim == "collision") options.collision_claim = exact::Claim::collision;
   if (!arguments.width.empty()) {
-    options.width = exact::rational_from_decimal(arguments.width);
+    try {
+      options.width = exact::rational_from_decimal(arguments.width);
+    } catch (const std::invalid_argument&) {
+      throw std::invalid_argument("--width: " + io::fault_of_decimal(arguments.width));
+    }
     if (sgn(*options.width) <= 0) throw std::invalid_argument("--width must be positive");
   }
   return options;

@@ -14,7 +14,7 @@
 #include <string_view>
 #include <system_error>
 
-#include "verify/data/npy_header.hpp"
+#include "verify/data/npy.hpp"
 #include "verify/io/coordinate_text.hpp"
 #include "verify/io/csv.hpp"
 #include "verify/io/dataset_error.hpp"
@@ -40,47 +40,21 @@ void require_valid(const std::filesystem::path& path, const CurvedQueryFile& fil
 
 // ---- NumPy --------------------------------------------------------------------------------------
 
-/// Sets degree and form from the header. \throws NpyHeaderError if it is that of another array.
-void set_form(const NpyHeader& header, CurvedQueryFile& file) {
-  require_doubles(header);
-  const std::vector<std::uint64_t>& shape = header.shape;
+CurvedQueryFile read_npy(const std::filesystem::path& path) {
+  NpyArray array(path);
+  const std::vector<std::uint64_t>& shape = array.shape();
   const bool is_straight = shape.size() == 3 && shape[1] == query_points && shape[2] == 3;
   const bool is_curved = shape.size() == 4 && shape[1] >= 1 && shape[1] <= greatest_degree + 1 &&
                          shape[2] == moving_points && (shape[3] == 3 || shape[3] == 4);
   if (!is_straight && !is_curved) {
-    throw NpyHeaderError("shape " + shape_text(header) +
-                         ", expected (N, K+1, 4, 3), (N, K+1, 4, 4) with weights, K up to 8, or "
-                         "(N, 8, 3)");
+    array.fail_for_shape("(N, K+1, 4, 3), (N, K+1, 4, 4) with weights, K up to 8, or (N, 8, 3)");
   }
+  CurvedQueryFile file;
   file.degree = is_curved ? shape[1] - 1 : 1;
   file.is_rational = is_curved && shape[3] == 4;
-}
-
-NpyHeader read_npy_head(io::InputFile& input) {
-  return read_npy_header([&](std::span<char> buffer) { return input.read_all(buffer); });
-}
-
-CurvedQueryFile read_npy(const std::filesystem::path& path) {
-  io::InputFile input(path);
-  CurvedQueryFile file;
-  try {
-    const NpyHeader header = read_npy_head(input);
-    set_form(header, file);
-    const std::uint64_t size = input.size() - header.size;
-    const std::uint64_t size_of_query = file.queries().numbers_of_query() * sizeof(double);
-    if (size % size_of_query != 0 || size / size_of_query != header.shape[0]) {
-      throw NpyHeaderError(
-          fmt::format("{} bytes of data, but the shape says {} queries of {} bytes", size,
-                      header.shape[0], size_of_query));
-    }
-    file.numbers.resize(size / sizeof(double));
-    void* const bytes = file.numbers.data();
-    if (input.read_all({static_cast<char*>(bytes), size}) != size) {
-      throw NpyHeaderError("the file has become shorter");
-    }
-  } catch (const NpyHeaderError& error) {
-    throw io::DatasetError(path, {}, error.what());
-  }
+  array.take_numbers({});  // Is it of numbers?
+  file.numbers.resize(shape[0] * file.queries().numbers_of_query());
+  array.take_numbers(file.numbers);
   return file;
 }
 
@@ -161,7 +135,8 @@ bool is_curved_query_file(const std::filesystem::path& file) {
   try {
     if (file.extension() == ".npy") {
       io::InputFile input(file);
-      return read_npy_head(input).shape.size() == 4;
+      const auto read = [&](std::span<char> buffer) { return input.read_all(buffer); };
+      return read_npy_header(read).shape.size() == 4;
     }
     io::LineReader lines(file);
     const std::optional<io::Line> line = lines.next();

@@ -13,7 +13,6 @@
 
 #include "verify/data/csv_dataset.hpp"
 #include "verify/data/npy_dataset.hpp"
-#include "verify/data/npz_dataset.hpp"
 #include "verify/data/obj_dataset.hpp"
 #include "verify/data/store.hpp"
 
@@ -204,8 +203,8 @@ std::unique_ptr<QuerySource> open_dataset(const fs::path& path, const DatasetOpt
   const fs::path extension = path.extension();
   if (extension == ".csv" || path.string().ends_with(".csv.zst"))
     return std::make_unique<CsvDataset>(path, options);
-  if (extension == ".npy") return std::make_unique<NpyDataset>(path, options);
-  if (extension == ".npz") return std::make_unique<NpzDataset>(path, options);
+  if (extension == ".npy" || extension == ".npz")
+    return std::make_unique<NpyDataset>(path, options);
   if (extension == ".obj") return std::make_unique<ObjDataset>(path, options);
   throw io::DatasetError(path, {},
                          "unknown format: only .csv, .csv.zst, .npy, .npz and .obj are datasets");

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "verify/data/separation_file.hpp"
+#include "verify/io/coordinate_text.hpp"
 #include "verify/io/csv.hpp"
 #include "verify/io/number_text.hpp"
 
@@ -51,6 +52,9 @@ std::optional<std::filesystem::path> find_tois(const std::filesystem::path& data
 }  // namespace
 
 LabelReader::LabelReader(std::filesystem::path path) : file_(std::move(path)) {
+  end_ = file_.read_all(buffer_);
+  const std::string_view begin(buffer_.data(), end_);
+  begin_ = begin.size() - io::without_byte_order_mark(begin, file_.path()).size();
   if (skip_whitespace() != '[') fail("expected a JSON array of booleans");
   take();
 }
@@ -167,7 +171,7 @@ std::optional<exact::Rational> ToiReader::at(std::uint64_t index) {
     return exact::rational_from_decimal(entry_->decimal);
   } catch (const std::invalid_argument&) {
     throw io::DatasetError(lines_.path(), {.line = entry_->line, .column = 2},
-                           "not a decimal number: " + io::quote(entry_->decimal));
+                           io::fault_of_decimal(entry_->decimal));
   }
 }
 

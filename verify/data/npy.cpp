@@ -1,10 +1,11 @@
 #include "verify/data/npy.hpp"
 
-#include <fmt/core.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <memory>
 #include <span>
 #include <stdexcept>
 #include <string>
@@ -12,71 +13,120 @@
 #include <utility>
 #include <vector>
 
-#include "verify/data/npy_header.hpp"
 #include "verify/io/dataset_error.hpp"
+#include "verify/io/input_file.hpp"
+#include "verify/io/number_text.hpp"
 
 namespace touchstone::verify::data {
 namespace {
 
-static_assert(std::endian::native == std::endian::little, "queries are read as they are stored");
+static_assert(std::endian::native == std::endian::little, "arrays are read as they are stored");
 
 constexpr std::string_view query_descr = "<f8";
 constexpr std::array<std::uint64_t, 2> query_extents{query_points, 3};
 
-/// Number of queries that the header announces. \throws NpyHeaderError if it is that of another
-/// array.
-std::uint64_t query_count(const NpyHeader& header) {
-  require_doubles(header);
-  if (header.shape.size() != 3 || header.shape[1] != query_extents[0] ||
-      header.shape[2] != query_extents[1]) {
-    throw NpyHeaderError("shape " + shape_text(header) + ", expected (N, 8, 3)");
+/// The bytes of a number of the header's type; 0 for types that are none.
+std::size_t size_of_number(const NpyHeader& header) {
+  const std::string_view descr = header.descr;
+  if (descr.size() < 3 || std::string_view("biufc").find(descr[1]) == std::string_view::npos) {
+    return 0;
   }
-  return header.shape[0];
+  return io::number_from_text<std::size_t>(descr.substr(2)).value_or(0);
 }
 
-/// Reads all that stands before the data and returns the number of queries.
-std::uint64_t read_header(io::InputFile& file) {
-  const NpyHeader header =
-      read_npy_header([&file](std::span<char> buffer) { return file.read_all(buffer); });
-  const std::uint64_t count = query_count(header);
-  const std::uint64_t data_size = file.size() - header.size;
-  if (data_size % sizeof(Query) != 0 || data_size / sizeof(Query) != count) {
-    throw NpyHeaderError(fmt::format("{} bytes of data, but the shape says {} queries of {} bytes",
-                                     data_size, count, sizeof(Query)));
+/// The numbers of an array in Fortran order, the first index fastest, in C order.
+std::string in_c_order(const std::string& bytes, const NpyHeader& header, std::size_t size) {
+  std::vector<std::size_t> strides, place(header.shape.size());
+  std::size_t stride = size;
+  for (const std::uint64_t extent : header.shape) {
+    strides.push_back(stride);
+    stride *= extent;
   }
-  return count;
+  std::string result;
+  result.reserve(bytes.size());
+  for (std::size_t from = 0; result.size() < bytes.size();) {
+    result.append(bytes, from, size);
+    for (std::size_t k = place.size(); k-- > 0;) {
+      from += strides[k];
+      if (++place[k] < header.shape[k]) break;
+      from -= strides[k] * std::exchange(place[k], 0);
+    }
+  }
+  return result;
+}
+
+/// Reads a text from its beginning on.
+ReadBytes reader_of(std::string text) {
+  return [text = std::move(text), at = std::size_t{0}](std::span<char> buffer) mutable {
+    const std::size_t count = text.copy(buffer.data(), buffer.size(), at);
+    at += count;
+    return count;
+  };
 }
 
 }  // namespace
 
-NpyReader::NpyReader(const std::filesystem::path& path) : file_(path) {
+NpyArray::NpyArray(const std::filesystem::path& path) : path_(path) {
+  const auto file = std::make_shared<io::InputFile>(path);
+  open([file](std::span<char> buffer) { return file->read_all(buffer); }, file->size());
+}
+
+void NpyArray::open(ReadBytes read, std::uint64_t size) {
+  read_ = std::move(read);
   try {
-    count_ = read_header(file_);
+    header_ = read_npy_header(read_);
   } catch (const NpyHeaderError& error) {
-    throw io::DatasetError(path, {}, error.what());
+    fail(error.what());
+  }
+  const std::uint64_t data_size = size - std::min<std::uint64_t>(size, header_.size);
+  check_size(data_size);
+  if (!header_.fortran_order || size_of_number(header_) == 0) return;
+  std::string bytes(data_size, '\0');
+  read_all(bytes);
+  read_ = reader_of(in_c_order(bytes, header_, size_of_number(header_)));
+}
+
+void NpyArray::check_size(std::uint64_t data_size) const {
+  const std::size_t size = size_of_number(header_);
+  std::uint64_t expected = size;
+  bool fits = true;
+  for (const std::uint64_t extent : header_.shape) {
+    fits = !__builtin_mul_overflow(expected, extent, &expected) && fits;
+  }
+  if (size == 0 || (fits && expected == data_size)) return;
+  fail(fmt::format("{} bytes of data do not fit shape {} of dtype {}", data_size,
+                   shape_text(header_), io::quote(header_.descr)));
+}
+
+void NpyArray::require_shape(std::size_t extents, std::span<const std::uint64_t> last,
+                             std::string_view expected) const {
+  const std::vector<std::uint64_t>& shape = header_.shape;
+  if (shape.size() == extents &&
+      std::equal(last.begin(), last.end(),
+                 shape.end() - static_cast<std::ptrdiff_t>(last.size()))) {
+    return;
+  }
+  fail_for_shape(expected);
+}
+
+void NpyArray::fail_for_shape(std::string_view expected) const {
+  fail("shape " + shape_text(header_) + ", expected " + std::string(expected));
+}
+
+void NpyArray::fail(const std::string& reason) const {
+  throw io::DatasetError(path_, {}, name_.empty() ? reason : name_ + ": " + reason);
+}
+
+void NpyArray::read_all(std::span<char> buffer) {
+  while (!buffer.empty()) {
+    const std::size_t count = read_(buffer);
+    if (count == 0) fail("the array ends early: it has become shorter while it was read");
+    buffer = buffer.subspan(count);
   }
 }
 
-const Query& NpyReader::next() {
-  if (next_in_block_ == block_.size()) fill();
-  ++position_;
-  return block_[next_in_block_++];
-}
-
-void NpyReader::fill() {
-  // 96 KiB: a system call is not felt, and the block stays in the processor's cache.
-  static constexpr std::uint64_t block_size = 512;
-  block_.resize(std::min(block_size, count_ - position_));
-  next_in_block_ = 0;
-  void* const bytes = block_.data();
-  const std::size_t size =
-      file_.read_all({static_cast<char*>(bytes), block_.size() * sizeof(Query)});
-  block_.resize(size / sizeof(Query));
-  if (!block_.empty()) return;
-  throw io::DatasetError(
-      file_.path(), {},
-      fmt::format("has become shorter while it was read: query {} of {} is missing", position_,
-                  count_));
+void NpyArray::fail_for_type(std::span<const std::string_view> names) const {
+  fail(fmt::format("dtype {}, expected {}", io::quote(header_.descr), fmt::join(names, " or ")));
 }
 
 NpyWriter::NpyWriter(std::filesystem::path path) : file_(std::move(path)) {

@@ -1,52 +1,104 @@
 #pragma once
 
 /// \file
-/// NumPy's .npy files of queries: little-endian float64 of shape (N, 8, 3), in C order.
+/// Arrays in NumPy's format: .npy files, and the members of .npz archives (npz.hpp).
 ///
-/// Such an array has the layout of N consecutive Query objects, so its bytes *are* the queries,
-/// without parsing. An array of no queries, shape (0, 8, 3), is valid.
+/// Queries are an array of float64 or float32 of shape (N, 8, 3). One of float64 in C order has the
+/// layout of N consecutive Query objects, so its bytes *are* the queries, without parsing; so
+/// NpyWriter writes them. An array of no queries, shape (0, 8, 3), is valid.
 
+#include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <span>
+#include <string>
+#include <string_view>
+#include <type_traits>
 #include <vector>
 
 #include "touchstone/query.hpp"
-#include "verify/io/input_file.hpp"
+#include "verify/data/npy_header.hpp"
 #include "verify/io/output_file.hpp"
 
 namespace touchstone::verify::data {
 
-/// Reads such a file front to back, a block of queries at a time. The file is not mapped into
-/// memory, because the system ends a process that reads mapped pages of a file that was truncated.
-class NpyReader {
+class Npz;
+
+/// An array that is read front to back, a part at a time; only one in Fortran order is in memory as
+/// a whole. A file is not mapped into memory, because the system ends a process that reads mapped
+/// pages of a file that was truncated.
+class NpyArray {
  public:
-  /// \throws DatasetError if the file cannot be read, is not such an array, or its size does not
-  /// fit its shape.
-  explicit NpyReader(const std::filesystem::path& path);
+  /// A .npy file.
+  /// \throws io::DatasetError if it cannot be read, is no array, or its size does not fit its shape.
+  explicit NpyArray(const std::filesystem::path& path);
+  /// An array of an archive, which is read once as a whole for its checksum, before it is used.
+  /// \throws io::DatasetError if there is none, its checksum is wrong, or as above.
+  NpyArray(const Npz& archive, const std::string& name);
 
-  /// Number of queries according to the header.
-  [[nodiscard]] std::uint64_t count() const { return count_; }
+  [[nodiscard]] const std::vector<std::uint64_t>& shape() const { return header_.shape; }
 
-  /// Number of the query that next() returns.
-  [[nodiscard]] std::uint64_t position() const { return position_; }
+  /// The next numbers, of the type that the header names: one of `Stored`, by `names`.
+  /// \throws io::DatasetError if the type is another, or the file has become shorter.
+  template <class Number, class... Stored>
+  void take(std::span<Number> numbers,
+            const std::array<std::string_view, sizeof...(Stored)>& names) {
+    std::size_t i = 0;
+    const bool found =
+        ((header_.descr == names[i++] && (take_stored<Stored>(numbers), true)) || ...);
+    if (!found) fail_for_type(names);
+  }
 
-  /// The next query, valid until the next call. Coordinates are not checked for NaN and infinities.
-  /// \pre position() < count().
-  /// \throws DatasetError if the system reports an error, or the file has become shorter.
-  [[nodiscard]] const Query& next();
+  /// The next numbers of an array of doubles or floats. \throws io::DatasetError as take().
+  void take_numbers(std::span<double> numbers) {
+    take<double, float, double>(numbers, {"<f4", "<f8"});
+  }
+
+  /// \throws io::DatasetError unless the shape has so many extents, the last ones as given.
+  void require_shape(std::size_t extents, std::span<const std::uint64_t> last,
+                     std::string_view expected) const;
+  [[noreturn]] void fail_for_shape(std::string_view expected) const;
+
+  /// \throws io::DatasetError with the file, the array's name in it and this reason.
+  [[noreturn]] void fail(const std::string& reason) const;
 
  private:
-  void fill();
+  /// Reads the header. \param size of header and data
+  void open(ReadBytes read, std::uint64_t size);
+  void check_size(std::uint64_t data_size) const;
+  /// Fills the buffer. \throws io::DatasetError if the array ends before.
+  void read_all(std::span<char> buffer);
+  [[noreturn]] void fail_for_type(std::span<const std::string_view> names) const;
 
-  io::InputFile file_;
-  std::uint64_t count_ = 0;
-  std::uint64_t position_ = 0;
-  std::vector<Query> block_;
-  std::size_t next_in_block_ = 0;
+  template <class Number>
+  static std::span<char> bytes_of(std::span<Number> numbers) {
+    return {static_cast<char*>(static_cast<void*>(numbers.data())), numbers.size_bytes()};
+  }
+
+  template <class Stored, class Number>
+  void take_stored(std::span<Number> numbers) {
+    if constexpr (std::is_same_v<Stored, Number>) {
+      read_all(bytes_of(numbers));
+      return;
+    }
+    std::array<Stored, 4096> part{};
+    while (!numbers.empty()) {
+      const std::size_t count = std::min(part.size(), numbers.size());
+      read_all(bytes_of(std::span(part).first(count)));
+      for (std::size_t i = 0; i < count; ++i) numbers[i] = static_cast<Number>(part[i]);
+      numbers = numbers.subspan(count);
+    }
+  }
+
+  std::filesystem::path path_;
+  std::string name_;  ///< empty if the file is the array
+  ReadBytes read_;
+  NpyHeader header_;
 };
 
-/// Writes such a file as a stream; the number of queries is filled in at the end.
+/// Writes a .npy file of queries as a stream; the number of queries is filled in at the end.
 class NpyWriter {
  public:
   /// \throws DatasetError if no file can be made there.

@@ -1,23 +1,76 @@
 #include "verify/data/npy_dataset.hpp"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <span>
+#include <string>
+
+#include "verify/data/npz.hpp"
+
 namespace touchstone::verify::data {
+namespace {
+
+/// Queries of a block, 96 KiB: a system call is not felt, and it stays in the processor's cache.
+constexpr std::uint64_t block_size = 512;
+const std::string queries_name = "queries", labels_name = "collides";
+
+/// The name of the array of queries. \throws DatasetError if it is unclear.
+std::string name_of_queries(const Npz& archive) {
+  if (archive.has(queries_name)) return queries_name;
+  std::vector<std::string> names = archive.names();
+  std::erase(names, labels_name);
+  if (names.size() == 1) return names.front();
+  throw io::DatasetError(
+      archive.path(), {},
+      fmt::format("no array \"{}\", nor a single one; it has: {}", queries_name,
+                  names.empty() ? "none" : fmt::format("{}", fmt::join(names, ", "))));
+}
+
+}  // namespace
+
+NpyDataset::Arrays NpyDataset::open(const std::filesystem::path& path) {
+  if (path.extension() != ".npz") return {.queries = NpyArray(path), .labels = std::nullopt};
+  const Npz archive(path);
+  Arrays arrays{.queries = NpyArray(archive, name_of_queries(archive)), .labels = std::nullopt};
+  if (archive.has(labels_name)) arrays.labels = NpyArray(archive, labels_name);
+  return arrays;
+}
+
 NpyDataset::NpyDataset(const std::filesystem::path& path, const DatasetOptions& options)
-    : DatasetSource(path, options), file_(path) {}
+    : DatasetSource(path, options), arrays_(open(path)) {
+  constexpr std::array<std::uint64_t, 2> extents{query_points, 3};
+  arrays_.queries.require_shape(3, extents, "(N, 8, 3)");
+  arrays_.queries.take_numbers({});  // Is it of numbers?
+  count_ = arrays_.queries.shape()[0];
+  if (!arrays_.labels) return;
+  const std::array<std::uint64_t, 1> count{count_};
+  arrays_.labels->require_shape(1, count, fmt::format("({})", count_));
+}
 
 double NpyDataset::progress() const {
-  if (file_.count() == 0) return 1.0;
-  return static_cast<double>(file_.position()) / static_cast<double>(file_.count());
+  return count_ == 0 ? 1.0 : static_cast<double>(position_) / static_cast<double>(count_);
 }
 
 DatasetSource::StoredQuery NpyDataset::read(std::uint64_t index) {
-  const Query& query = read_query();
-  require_finite(query, index);
-  return {.query = query, .label = std::nullopt, .label_position = {}};
+  const std::size_t i = position_ % block_size;
+  if (i == 0) fill();
+  ++position_;
+  StoredQuery result{.query = block_[i], .label = std::nullopt, .label_position = {}};
+  if (arrays_.labels) result.label = collides_[i] != 0;
+  require_finite(result.query, index);
+  return result;
 }
 
-const Query& NpyDataset::read_query() {
+void NpyDataset::fill() {
+  const std::size_t count = std::min(block_size, count_ - position_);
+  block_.resize(count);
+  collides_.resize(count);
+  double* const first = block_.front().coordinates.data();
   try {
-    return file_.next();
+    arrays_.queries.take_numbers({first, count * sizeof(Query) / sizeof(double)});
+    if (arrays_.labels) arrays_.labels->take<std::uint8_t, std::uint8_t>(collides_, {"|b1"});
   } catch (const io::DatasetError& fault) {
     give_up(fault);
   }

@@ -1,18 +1,23 @@
 #pragma once
 
 /// \file
-/// The queries of a .npy file as a stream, joined with their companions. Coordinates are checked
-/// here. A file that becomes shorter ends the stream with an error, also with keep_going.
+/// The queries of NumPy's files as a stream, joined with their companions: an array of float64 or
+/// float32 of shape (N, 8, 3) in a .npy file, or in a .npz archive, where it is called `queries`
+/// or is the only array, beside labels where there are any: `collides`, of N booleans. Coordinates
+/// are checked here. A file that becomes shorter ends the stream with an error, also with
+/// keep_going.
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
+#include <vector>
 
 #include "verify/data/dataset_source.hpp"
 #include "verify/data/npy.hpp"
 
 namespace touchstone::verify::data {
 
-/// The queries of a .npy file as a stream.
+/// The queries of a .npy or .npz file as a stream.
 class NpyDataset final : public DatasetSource {
  public:
   /// \throws DatasetError as open_dataset does.
@@ -21,11 +26,23 @@ class NpyDataset final : public DatasetSource {
   [[nodiscard]] double progress() const override;
 
  private:
-  [[nodiscard]] bool at_end() override { return file_.position() == file_.count(); }
-  [[nodiscard]] StoredQuery read(std::uint64_t index) override;
-  [[nodiscard]] const Query& read_query();
+  struct Arrays {
+    NpyArray queries;
+    std::optional<NpyArray> labels;
+  };
 
-  NpyReader file_;
+  [[nodiscard]] static Arrays open(const std::filesystem::path& path);
+  [[nodiscard]] bool at_end() override { return position_ == count_; }
+  [[nodiscard]] StoredQuery read(std::uint64_t index) override;
+  /// Reads the next queries. \throws DatasetError if an array ends before.
+  void fill();
+
+  Arrays arrays_;
+  std::uint64_t count_ = 0;
+  std::uint64_t position_ = 0;
+  /// The block of queries that the position is in, and their labels.
+  std::vector<Query> block_;
+  std::vector<std::uint8_t> collides_;
 };
 
 }  // namespace touchstone::verify::data

@@ -61,7 +61,7 @@ class HeaderParser {
   std::string read_descr() {
     skip_space();
     if (rest_.starts_with('['))
-      throw NpyHeaderError("the array has named fields, expected float64");
+      throw NpyHeaderError("the array has named fields, expected numbers");
     return read_string();
   }
 
@@ -105,6 +105,7 @@ class HeaderParser {
     const auto [stop, error] = std::from_chars(rest_.data(), rest_.data() + rest_.size(), value);
     if (error != std::errc()) throw NpyHeaderError("malformed header");
     rest_.remove_prefix(static_cast<std::size_t>(stop - rest_.data()));
+    if (rest_.starts_with('L')) rest_.remove_prefix(1);  // Python 2
     return value;
   }
 
@@ -165,18 +166,6 @@ NpyHeader read_npy_header(const ReadBytes& read) {
           .fortran_order = *entries.fortran_order,
           .shape = std::move(*entries.shape),
           .size = prefix.size() + length};
-}
-
-void require_c_order(const NpyHeader& header) {
-  if (header.fortran_order) throw NpyHeaderError("Fortran order, expected C order");
-}
-
-void require_doubles(const NpyHeader& header) {
-  if (header.descr != "<f8") {
-    throw NpyHeaderError("dtype " + io::quote(header.descr) +
-                         ", expected \"<f8\" (little-endian float64)");
-  }
-  require_c_order(header);
 }
 
 std::string shape_text(const NpyHeader& header) {

@@ -3,7 +3,7 @@
 /// \file
 /// The header of NumPy's .npy files: "\x93NUMPY", two bytes of version (1 to 3), the length of the
 /// dictionary (2 bytes in version 1, else 4, little-endian) and the dictionary, of exactly descr,
-/// fortran_order and shape; then the data.
+/// fortran_order and shape; then the data. NumPy of Python 2 wrote extents as "8L".
 
 #include <cstddef>
 #include <cstdint>
@@ -25,7 +25,7 @@ class NpyHeaderError : public std::runtime_error {
 /// The contents of the header.
 struct NpyHeader {
   std::string descr;           ///< the type: "<f8" is little-endian float64
-  bool fortran_order = false;  ///< columns first
+  bool fortran_order = false;  ///< the first index fastest
   std::vector<std::uint64_t> shape;
   /// Bytes before the data.
   std::size_t size = 0;
@@ -37,12 +37,6 @@ using ReadBytes = std::function<std::size_t(std::span<char>)>;
 /// Reads the header and no byte more.
 /// \throws NpyHeaderError and the exceptions of `read`.
 [[nodiscard]] NpyHeader read_npy_header(const ReadBytes& read);
-
-/// \throws NpyHeaderError unless the array is in C order.
-void require_c_order(const NpyHeader& header);
-
-/// \throws NpyHeaderError unless the array is of little-endian float64 in C order.
-void require_doubles(const NpyHeader& header);
 
 /// "(3, 8, 3)"
 [[nodiscard]] std::string shape_text(const NpyHeader& header);

@@ -3,34 +3,78 @@
 #include <fmt/format.h>
 #include <zip.h>
 
-#include <bit>
+#include <array>
 #include <utility>
 
 #include "verify/io/dataset_error.hpp"
 
 namespace touchstone::verify::data {
+namespace {
 
-static_assert(std::endian::native == std::endian::little, "arrays are read as they are stored");
+constexpr std::string_view extension = ".npy";
 
-void Npz::Close::operator()(zip* archive) const { zip_discard(archive); }
+/// What libzip's error means, and what to do.
+std::string reason_of(int error) {
+  if (error == ZIP_ER_CRC)
+    return "its checksum is wrong: the file is damaged; copy or write it anew";
+  if (error == ZIP_ER_EXISTS) return "two members have one name; write it anew";
+  if (error == ZIP_ER_INCONS) {
+    return "bytes follow the archive, or its directory is damaged; write it anew";
+  }
+  zip_error_t reason;
+  zip_error_init_with_code(&reason, error);
+  std::string text = zip_error_strerror(&reason);
+  zip_error_fini(&reason);
+  return text;
+}
+
+/// A member that is open for reading, and its archive, which has to stay open as long.
+struct Member {
+  std::shared_ptr<zip> archive;
+  zip_file* file;
+
+  explicit Member(std::shared_ptr<zip> of, const std::string& name)
+      : archive(std::move(of)), file(zip_fopen(archive.get(), name.c_str(), 0)) {}
+  Member(const Member&) = delete;
+  Member& operator=(const Member&) = delete;
+  Member(Member&&) = delete;
+  Member& operator=(Member&&) = delete;
+  ~Member() {
+    if (file != nullptr) zip_fclose(file);
+  }
+};
+
+/// Reads a member from its first byte on.
+ReadBytes reader_of(const std::shared_ptr<zip>& archive, const std::filesystem::path& path,
+                    const std::string& name) {
+  const auto member = std::make_shared<Member>(archive, name + std::string(extension));
+  if (member->file == nullptr) {
+    throw io::DatasetError(path, {}, name + ": " + zip_strerror(archive.get()));
+  }
+  return [member, path, name](std::span<char> buffer) {
+    const zip_int64_t count = zip_fread(member->file, buffer.data(), buffer.size());
+    if (count >= 0) return static_cast<std::size_t>(count);
+    throw io::DatasetError(
+        path, {}, name + ": " + reason_of(zip_error_code_zip(zip_file_get_error(member->file))));
+  };
+}
+
+}  // namespace
 
 Npz::Npz(std::filesystem::path path) : path_(std::move(path)) {
   int error = 0;
-  archive_.reset(zip_open(path_.c_str(), ZIP_RDONLY, &error));
-  if (archive_) return;
-  zip_error_t reason;
-  zip_error_init_with_code(&reason, error);
-  const std::string text = zip_error_strerror(&reason);
-  zip_error_fini(&reason);
-  throw io::DatasetError(path_, {}, "cannot open: " + text);
+  // The flag also refuses bytes behind the archive and names that come twice.
+  archive_ = {zip_open(path_.c_str(), ZIP_RDONLY | ZIP_CHECKCONS, &error), [](zip* archive) {
+                if (archive != nullptr) zip_discard(archive);
+              }};
+  if (!archive_) throw io::DatasetError(path_, {}, "cannot open: " + reason_of(error));
 }
 
 bool Npz::has(const std::string& array) const {
-  return zip_name_locate(archive_.get(), (array + ".npy").c_str(), 0) >= 0;
+  return zip_name_locate(archive_.get(), (array + std::string(extension)).c_str(), 0) >= 0;
 }
 
 std::vector<std::string> Npz::names() const {
-  static constexpr std::string_view extension = ".npy";
   std::vector<std::string> result;
   const zip_int64_t count = zip_get_num_entries(archive_.get(), 0);
   for (zip_int64_t i = 0; i < count; ++i) {
@@ -43,52 +87,18 @@ std::vector<std::string> Npz::names() const {
   return result;
 }
 
-void NpzArray::Close::operator()(zip_file* member) const { zip_fclose(member); }
-
-NpzArray::NpzArray(const Npz& archive, std::string name)
-    : path_(archive.path()),
-      name_(std::move(name)),
-      member_(zip_fopen(archive.archive_.get(), (name_ + ".npy").c_str(), 0)) {
-  if (!member_) fail(zip_strerror(archive.archive_.get()));
-  try {
-    header_ = read_npy_header([this](std::span<char> buffer) { return read(buffer); });
-    require_c_order(header_);
-  } catch (const NpyHeaderError& error) {
-    fail(error.what());
+NpyArray::NpyArray(const Npz& archive, const std::string& name)
+    : path_(archive.path()), name_(name) {
+  if (!archive.has(name)) {
+    fail(fmt::format("no such array; the archive has: {}", fmt::join(archive.names(), ", ")));
   }
-}
-
-void NpzArray::require_shape(std::size_t extents, std::span<const std::uint64_t> last,
-                             std::string_view expected) const {
-  const std::vector<std::uint64_t>& shape = header_.shape;
-  if (shape.size() == extents &&
-      std::equal(last.begin(), last.end(),
-                 shape.end() - static_cast<std::ptrdiff_t>(last.size()))) {
-    return;
-  }
-  fail("shape " + shape_text(header_) + ", expected " + std::string(expected));
-}
-
-void NpzArray::fail(const std::string& reason) const {
-  throw io::DatasetError(path_, {}, name_ + ": " + reason);
-}
-
-std::size_t NpzArray::read(std::span<char> buffer) {
-  const zip_int64_t count = zip_fread(member_.get(), buffer.data(), buffer.size());
-  if (count < 0) fail(zip_file_strerror(member_.get()));
-  return static_cast<std::size_t>(count);
-}
-
-void NpzArray::read_all(std::span<char> buffer) {
-  while (!buffer.empty()) {
-    const std::size_t count = read(buffer);
-    if (count == 0) fail("the array ends early");
-    buffer = buffer.subspan(count);
-  }
-}
-
-void NpzArray::fail_for_type(std::span<const std::string_view> names) const {
-  fail(fmt::format("dtype {}, expected {}", io::quote(header_.descr), fmt::join(names, " or ")));
+  const auto reader = [&] { return reader_of(archive.archive_, path_, name); };
+  // libzip compares the checksum where the member ends.
+  std::array<char, 1U << 16U> part{};
+  std::uint64_t size = 0;
+  const ReadBytes whole = reader();
+  while (const std::size_t count = whole(part)) size += count;
+  open(reader(), size);
 }
 
 }  // namespace touchstone::verify::data

@@ -6,7 +6,6 @@
 #include <cstddef>
 #include <cstdlib>
 #include <nlohmann/json.hpp>
-#include <set>
 #include <stdexcept>
 #include <system_error>
 
@@ -31,9 +30,8 @@ bool has_value(std::string_view text) {
   return text.substr(0, end).find_first_of("123456789abcdefABCDEF") != std::string_view::npos;
 }
 
-/// Parses the file; of its keys at the top none may be unknown or come twice.
+/// Parses the file; of its keys at the top none may be unknown.
 nlohmann::json parse(const fs::path& path) {
-  std::set<std::string> seen;
   const auto check_key = [&](int depth, nlohmann::json::parse_event_t event,
                              const nlohmann::json& value) {
     if (event != nlohmann::json::parse_event_t::key || depth != 1) return true;
@@ -43,8 +41,6 @@ nlohmann::json parse(const fs::path& path) {
                              fmt::format("unknown key {}, expected {} and {}", io::quote(key),
                                          distance_key, norm_key));
     }
-    if (!seen.insert(key).second)
-      throw io::DatasetError(path, {}, "repeated key " + io::quote(key));
     return true;
   };
   return io::read_json(path, most_bytes, check_key);

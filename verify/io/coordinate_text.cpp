@@ -1,14 +1,15 @@
 #include "verify/io/coordinate_text.hpp"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <cstdint>
 #include <limits>
 #include <optional>
+#include <system_error>
 
 #include "touchstone/number.hpp"
 #include "verify/io/dataset_error.hpp"
-#include "verify/io/number_text.hpp"
 
 namespace touchstone::verify::io {
 namespace {
@@ -26,20 +27,21 @@ std::optional<exact::Integer> any_integer(std::string_view text) {
   return text.starts_with('-') ? exact::Integer(-magnitude) : magnitude;
 }
 
-/// True for NaN or infinity as the standard library and NumPy write them.
-bool is_not_finite(std::string_view text) {
-  if (text.starts_with('+')) text.remove_prefix(1);
-  const auto value = number_from_text<double>(text);
-  return value && !std::isfinite(*value);
+/// What the standard library makes of a text: empty if it is no number.
+std::optional<double> standard_number(std::string_view text) {
+  if (text.starts_with('+') && !text.starts_with("+-")) text.remove_prefix(1);
+  double value = 0.0;
+  const char* const end = text.data() + text.size();
+  const auto [stop, error] = std::from_chars(text.data(), end, value);
+  if (error == std::errc::invalid_argument || stop != end) return std::nullopt;
+  return value;
 }
 
 exact::Rational any_number(std::string_view text, Part part) {
   try {
     return exact::rational_from_decimal(text);
   } catch (const std::invalid_argument&) {
-    const std::string_view reason =
-        is_not_finite(text) ? "not a finite number: " : "not a number: ";
-    throw CoordinateError(part, std::string(reason) + quote(text));
+    throw CoordinateError(part, fault_of_decimal(text));
   }
 }
 
@@ -80,9 +82,17 @@ ParsedCoordinate parse_coordinate(std::string_view numerator, std::string_view d
   return {.value = value, .exact = exact::Rational(value) == quotient};
 }
 
+std::string fault_of_decimal(std::string_view text) {
+  const std::optional<double> value = standard_number(text);
+  if (value && std::isfinite(*value))
+    return "beyond the range, exponents up to 10000: " + quote(text);
+  return (value ? "not a finite number: " : "not a number: ") + quote(text);
+}
+
 bool is_numeric(std::string_view text) {
   const std::size_t start = text.find_first_not_of("+-.");
-  return (start != std::string_view::npos && is_digit(text[start])) || is_not_finite(text);
+  if (start != std::string_view::npos && is_digit(text[start])) return true;
+  return !std::isfinite(standard_number(text).value_or(0.0));
 }
 
 void append_coordinate(std::string& text, double value) {

@@ -44,6 +44,9 @@ class CoordinateError : public std::invalid_argument {
 [[nodiscard]] ParsedCoordinate parse_coordinate(std::string_view numerator,
                                                 std::string_view denominator);
 
+/// Why exact::rational_from_decimal does not take a text.
+[[nodiscard]] std::string fault_of_decimal(std::string_view text);
+
 /// True if a text is meant as a number, well-formed or not: it begins like one, or is NaN or
 /// infinity.
 [[nodiscard]] bool is_numeric(std::string_view text);

@@ -132,6 +132,7 @@ std::optional<Line> LineReader::read_line() {
     }
     searched = available;
     if (available > longest_line + 1) {
+      require_no_carriage_return({from, available - 1});  // The last one may belong to an LF.
       pass_over_line();
       return Line{.text = {}, .number = ++line_number_, .too_long = true};
     }
@@ -145,9 +146,17 @@ Line LineReader::take_line(std::size_t length, std::size_t terminator) {
   std::string_view text(buffer_.get() + begin_, length);
   begin_ += length + terminator;
   if (text.ends_with('\r')) text.remove_suffix(1);
+  require_no_carriage_return(text);
   const bool too_long = text.size() > longest_line;
   return {
       .text = too_long ? std::string_view() : text, .number = ++line_number_, .too_long = too_long};
+}
+
+void LineReader::require_no_carriage_return(std::string_view text) {
+  if (text.find('\r') == std::string_view::npos) return;
+  has_failed_ = true;
+  begin_ = end_;
+  throw DatasetError(path(), {.line = line_number_ + 1}, lone_carriage_return);
 }
 
 void LineReader::pass_over_line() {

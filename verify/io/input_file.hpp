@@ -69,7 +69,8 @@ struct Line {
 
 /// The lines of a text file, compressed if its name ends in ".zst" (compressor.hpp). Blank lines
 /// (nothing, or spaces and tabs) at the end of the file are no lines; all others are. A byte order
-/// mark of UTF-8 in front is passed over; one of UTF-16 is an error.
+/// mark of UTF-8 in front is passed over; one of UTF-16 is an error, and so is a CR that ends no
+/// line or all: after an error the file is treated as ended.
 class LineReader {
  public:
   /// Maximum length of a line in bytes, without its line end.
@@ -110,6 +111,7 @@ class LineReader {
   std::optional<Line> read_line();
   Line take_line(std::size_t length, std::size_t terminator);
   void pass_over_line();
+  void require_no_carriage_return(std::string_view text);
   bool fill();
   std::size_t read(std::span<char> space);
   std::size_t decompress(std::span<char> space);
@@ -127,6 +129,11 @@ class LineReader {
   std::optional<Line> ahead_;
   std::uint64_t blank_lines_ahead_ = 0;
 };
+
+/// Why a line with a carriage return that does not end it is refused.
+inline constexpr const char* lone_carriage_return =
+    "a carriage return within the line: lines end in LF or CR LF (from CR: tr '\\r' '\\n' <OLD "
+    ">NEW)";
 
 /// The text without the byte order mark of UTF-8 that it may begin with.
 /// \throws DatasetError naming the file if it begins with the mark of UTF-16.

@@ -2,6 +2,8 @@
 
 #include <cmath>
 #include <limits>
+#include <map>
+#include <set>
 #include <string>
 
 #include "verify/io/dataset_error.hpp"
@@ -30,19 +32,23 @@ double number_from_json(const nlohmann::json& json) {
 
 nlohmann::json read_json(const std::filesystem::path& path, std::size_t most_bytes,
                          const nlohmann::json::parser_callback_t& accept) {
+  std::map<int, std::set<std::string>> keys;  // of the open object of each depth
   const auto check = [&](int depth, nlohmann::json::parse_event_t event, nlohmann::json& value) {
     if (depth > deepest_json) {
       throw DatasetError(path, {}, "nested more than " + std::to_string(deepest_json) + " deep");
     }
+    if (event == nlohmann::json::parse_event_t::object_start) keys[depth + 1].clear();
+    if (event == nlohmann::json::parse_event_t::key && !keys[depth].insert(value).second) {
+      throw DatasetError(path, {}, "repeated key " + quote(value.get<std::string>()));
+    }
     return accept == nullptr || accept(depth, event, value);
   };
   try {
-    return nlohmann::json::parse(read_file(path, most_bytes), check);
+    return nlohmann::json::parse(without_byte_order_mark(read_file(path, most_bytes), path), check);
   } catch (const nlohmann::json::parse_error& error) {
     throw DatasetError(path, {}, std::string("no JSON: ") + error.what());
   } catch (const nlohmann::json::out_of_range& error) {
-    throw DatasetError(path, {},
-                       std::string("a number beyond the range of doubles: ") + error.what());
+    throw DatasetError(path, {}, std::string("a number beyond the range: ") + error.what());
   }
 }
 

@@ -92,26 +92,20 @@ std::vector<std::string> ObjStatements::passed_over() const {
 
 /// The text of a line and of those in which it goes on.
 std::string_view ObjStatements::joined(const Line& line) {
-  check(line);
+  if (line.too_long) fail(line.number, "line too long");
   if (!goes_on(line.text)) return line.text;
   joined_ = line.text;
   while (goes_on(joined_)) {
     joined_.pop_back();
     const auto more = lines_.next();
     if (!more) break;
-    check(*more);
     check_joint(*more);
     joined_ += more->text;
-    if (joined_.size() > LineReader::longest_line) fail(more->number, "line too long");
+    if (more->too_long || joined_.size() > LineReader::longest_line) {
+      fail(more->number, "line too long");
+    }
   }
   return joined_;
-}
-
-void ObjStatements::check(const Line& line) const {
-  if (line.too_long)
-    fail(line.number, "line too long: more than 1 MiB (lines end in LF or CR LF, not in CR)");
-  if (line.text.find('\r') == std::string_view::npos) return;
-  fail(line.number, std::string(lone_carriage_return));
 }
 
 /// Some programs put a blank in place of the backslash and the line's end, some put nothing: both
@@ -119,7 +113,7 @@ void ObjStatements::check(const Line& line) const {
 void ObjStatements::check_joint(const Line& line) const {
   std::string_view words = line.text;
   const std::string_view first = take_word(words);
-  if (contains(returned, first) || contains(harmless, first)) {
+  if (contains(returned, first) || contains(harmless, first) || contains(not_read, first)) {
     fail(line.number, "begins with " + quote(first) +
                           ", but the line before goes on, as it ends in a backslash");
   }

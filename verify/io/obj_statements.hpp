@@ -34,9 +34,8 @@ class ObjStatements {
   explicit ObjStatements(const std::filesystem::path& path) : lines_(path) {}
 
   /// The next one; empty at the end.
-  /// \throws DatasetError with the line, for a keyword that is not read or known, a line that is too long or has
-  /// a carriage return within it, and lines whose joint could be read in two ways. As
-  /// LineReader::next.
+  /// \throws DatasetError with the line, for a keyword that is not read or known, a line that is
+  /// too long, and lines whose joint could be read in two ways. As LineReader::next.
   [[nodiscard]] std::optional<ObjStatement> next();
 
   /// Passes over what may follow the coordinates of a vertex: the weight 1, or three numbers of a
@@ -51,7 +50,6 @@ class ObjStatements {
 
  private:
   [[nodiscard]] std::string_view joined(const Line& line);
-  void check(const Line& line) const;
   void check_joint(const Line& line) const;
   [[noreturn]] void fail(std::uint64_t line, const std::string& reason) const;
 

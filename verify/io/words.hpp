@@ -10,11 +10,6 @@
 
 namespace touchstone::verify::io {
 
-/// Why a text is refused that is not all in lines.
-inline constexpr std::string_view lone_carriage_return =
-    "a carriage return within the line: lines end in LF or CR LF (from CR: tr '\\r' '\\n' <OLD "
-    ">NEW)";
-
 /// True for a space and a tab, which separate words.
 [[nodiscard]] constexpr bool is_blank(char c) { return c == ' ' || c == '\t'; }
 

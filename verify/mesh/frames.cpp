@@ -154,7 +154,7 @@ class ArchivedFrames : public Frames {
                                                           std::string_view expected) {
     std::vector<std::array<std::int32_t, corners>> result;
     if (!archive_.has(name)) return result;
-    data::NpzArray array(archive_, name);
+    data::NpyArray array(archive_, name);
     constexpr std::array<std::uint64_t, 1> last{corners};
     const bool is_list = corners == 1 && array.shape().size() == 1;
     array.require_shape(is_list ? 1 : 2, std::span(last).first(is_list ? 0 : 1), expected);
@@ -177,7 +177,7 @@ class ArchivedFrames : public Frames {
   }
 
   data::Npz archive_;
-  std::optional<data::NpzArray> vertices_;
+  std::optional<data::NpyArray> vertices_;
   std::size_t count_ = 0;
   std::size_t vertex_count_ = 0;
   std::size_t next_ = 0;

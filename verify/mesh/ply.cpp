@@ -108,7 +108,7 @@ class Input {
     std::string_view text = line_;
     if (line_number_ == 1) text = io::without_byte_order_mark(text, file_.path());
     if (text.ends_with('\r')) text.remove_suffix(1);
-    if (text.find('\r') != std::string_view::npos) fail(std::string(io::lone_carriage_return));
+    if (text.find('\r') != std::string_view::npos) fail(io::lone_carriage_return);
     return text;
   }
 

@@ -114,7 +114,7 @@ TEST_F(CurvedQueryFileTest, ThatIsNoneIsRefusedWithItsPlace) {
             "a.csv: query 0 has a weight that is not positive and finite");
   const std::vector<double> numbers(12, 1.0);
   EXPECT_EQ(fault("a.npy", npy({1, 4, 3}, 2, numbers)),
-            "a.npy: 96 bytes of data, but the shape says 2 queries of 96 bytes");
+            "a.npy: 96 bytes of data do not fit shape (2, 1, 4, 3) of dtype \"<f8\"");
   EXPECT_EQ(fault("a.npy", npy({4, 3}, 1, numbers)),
             "a.npy: shape (1, 4, 3), expected (N, K+1, 4, 3), (N, K+1, 4, 4) with weights, K up to "
             "8, or (N, 8, 3)");

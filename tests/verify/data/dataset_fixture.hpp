@@ -82,9 +82,9 @@ class TemporaryFolder {
 
 /// All queries of a .npy file.
 [[nodiscard]] inline std::vector<Query> npy_queries(const std::filesystem::path& path) {
-  NpyReader npy(path);
-  std::vector<Query> queries;
-  while (npy.position() < npy.count()) queries.push_back(npy.next());
+  NpyArray array(path);
+  std::vector<Query> queries(array.shape()[0]);
+  for (Query& query : queries) array.take_numbers(query.coordinates);
   return queries;
 }
 

@@ -134,7 +134,7 @@ TEST(ToiReader, KeepsEveryDigit) {
 
 TEST(ToiReader, ABadDecimalConcernsOneQuery) {
   EXPECT_EQ(tois("query,toi\n0,1\n1,x\n2,\n3,0\n", 4),
-            (Answers{"1", "f:3:2: not a decimal number: \"x\"", "f:4:2: not a decimal number: \"\"",
+            (Answers{"1", "f:3:2: not a number: \"x\"", "f:4:2: not a number: \"\"",
                      "0"}));
 }
 

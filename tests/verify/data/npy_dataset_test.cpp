@@ -2,12 +2,16 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <cstdint>
 #include <limits>
+#include <map>
 #include <numeric>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "tests/support/npz_files.hpp"
 #include "tests/verify/data/dataset_fixture.hpp"
 
 namespace touchstone::verify::data::npy_dataset_test {
@@ -103,11 +107,10 @@ TEST(NpyDataset, ThatBecomesShorterGivesWhatIsThereAndThenOneError) {
     const std::string error = error_of(folder.path(), [&] {
       while (auto record = source.next()) records.push_back(*record);
     });
-    std::vector<std::uint64_t> there(2000);
+    std::vector<std::uint64_t> there(1536);  // whole blocks
     std::iota(there.begin(), there.end(), 0);
     expect_numbered(records, there);
-    const std::string reason =
-        "has become shorter while it was read: query 2000 of 3000 is missing";
+    const std::string reason = "the array ends early: it has become shorter while it was read";
     EXPECT_EQ(error, keep_going ? "no DatasetError" : "a_vf.npy: " + reason);
     EXPECT_EQ(messages, std::vector<std::string>(keep_going ? 1 : 0, reason));
     EXPECT_EQ(source.skipped(), keep_going ? 1U : 0U);
@@ -138,6 +141,110 @@ TEST(NpyDataset, MemoryDoesNotGrowWithTheFile) {
     EXPECT_EQ(sum, 25.0 * (queries - 1.0) * queries / 2.0);
   });
   EXPECT_GT(whole, 40'000'000U) << "the measure must see a reader that keeps the file";
+}
+
+// ---- Archives ----
+
+constexpr std::size_t size = 3 * query_points;
+
+/// More queries than a block has: coordinate k of query i is i + k / 32, in float, too.
+template <class Number>
+std::vector<Number> coordinates(std::size_t count) {
+  std::vector<Number> result;
+  for (std::size_t i = 0; i < count; ++i) {
+    for (std::size_t k = 0; k < size; ++k) {
+      result.push_back(static_cast<Number>(i) + static_cast<Number>(k) / 32);
+    }
+  }
+  return result;
+}
+
+class NpzQueries : public ::testing::Test {
+ protected:
+  /// The archive of these members.
+  [[nodiscard]] std::filesystem::path write(const std::map<std::string, std::string>& members,
+                                            bool is_compressed = true) const {
+    return tests::archive(folder_.path() / "a_ee.npz", members, is_compressed);
+  }
+
+  [[nodiscard]] std::string error_with(const std::map<std::string, std::string>& members) const {
+    return error_of(folder_.path(), [&] {
+      NpyDataset source(write(members), {});
+      (void)read_all(source);
+    });
+  }
+
+  TemporaryFolder folder_;
+};
+
+TEST_F(NpzQueries, AreReadWithTheirLabels) {
+  constexpr std::size_t count = 1300;
+  std::vector<std::uint8_t> labels;
+  for (std::size_t i = 0; i < count; ++i) labels.push_back(i % 3 == 0 ? 1 : 0);
+  const std::vector<std::string> arrays{
+      tests::array("<f8", {count, 8, 3}, coordinates<double>(count)),
+      tests::array("<f4", {count, 8, 3}, coordinates<float>(count))};
+  for (const std::string& queries : arrays) {
+    for (const bool is_compressed : {false, true}) {
+      NpyDataset source(
+          write({{"queries.npy", queries}, {"collides.npy", tests::array("|b1", {count}, labels)}},
+                is_compressed),
+          {});
+      EXPECT_EQ(source.kind(), Kind::edge_edge);
+      const auto records = read_all(source);
+      EXPECT_EQ(source.progress(), 1.0);
+      ASSERT_EQ(records.size(), count);
+      for (std::size_t i = 0; i < count; ++i) {
+        EXPECT_EQ(records[i].index, i);
+        EXPECT_EQ(records[i].collides, i % 3 == 0);
+        for (std::size_t k = 0; k < size; ++k) {
+          EXPECT_EQ(records[i].query.coordinates.at(k),
+                    static_cast<double>(i) + static_cast<double>(k) / 32);
+        }
+      }
+    }
+  }
+  NpyDataset unlabelled(write({{"queries.npy", arrays[0]}}), {});
+  EXPECT_FALSE(read_all(unlabelled).front().collides.has_value());
+}
+
+TEST_F(NpzQueries, ThatAreNotFiniteAreSkippedOnDemand) {
+  std::vector<double> numbers = coordinates<double>(3);
+  numbers[size + 4] = std::nan("");
+  const std::map<std::string, std::string> members{
+      {"queries.npy", tests::array("<f8", {3, 8, 3}, numbers)}};
+  EXPECT_EQ(error_with(members), "a_ee.npz: query 1, point 1, y: not finite");
+  NpyDataset source(write(members), {.keep_going = true});
+  EXPECT_EQ(read_all(source).size(), 2U);
+  EXPECT_EQ(source.skipped(), 1U);
+}
+
+TEST_F(NpzQueries, AreTheOnlyArray) {
+  const std::string queries = tests::array("<f8", {2, 8, 3}, coordinates<double>(2));
+  const std::vector<std::uint8_t> labels{1, 0};
+  NpyDataset source(
+      write({{"arr_0.npy", queries}, {"collides.npy", tests::array("|b1", {2}, labels)}}), {});
+  const auto records = read_all(source);
+  ASSERT_EQ(records.size(), 2U);
+  EXPECT_EQ(records[0].collides, true);
+  EXPECT_EQ(records[1].query.coordinates.at(23), 1.0 + 23.0 / 32.0);
+}
+
+TEST_F(NpzQueries, OfAnotherShapeOrTypeAreErrors) {
+  const std::vector<double> numbers = coordinates<double>(2);
+  const std::string queries = tests::array("<f8", {2, 8, 3}, numbers);
+  EXPECT_EQ(error_with({{"V.npy", queries}, {"F.npy", queries}, {"collides.npy", queries}}),
+            "a_ee.npz: no array \"queries\", nor a single one; it has: F, V");
+  EXPECT_EQ(error_with({{"queries.npy", tests::array("<f8", {16, 3}, numbers)}}),
+            "a_ee.npz: queries: shape (16, 3), expected (N, 8, 3)");
+  EXPECT_EQ(error_with({{"queries.npy", tests::array("<i8", {2, 8, 3}, numbers)}}),
+            "a_ee.npz: queries: dtype \"<i8\", expected <f4 or <f8");
+  EXPECT_EQ(error_with({{"queries.npy", tests::array("<f8", {3, 8, 3}, numbers)}}),
+            "a_ee.npz: queries: 384 bytes of data do not fit shape (3, 8, 3) of dtype \"<f8\"");
+  const std::vector<std::uint8_t> labels{1};
+  EXPECT_EQ(
+      error_with({{"queries.npy", queries}, {"collides.npy", tests::array("|b1", {1}, labels)}}),
+      "a_ee.npz: collides: shape (1), expected (2)");
 }
 
 }  // namespace

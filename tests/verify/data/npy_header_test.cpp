@@ -39,12 +39,6 @@ TEST(NpyHeader, HasOneSizeForEveryCount) {
   }
 }
 
-TEST(NpyHeader, OfColumnsIsRefusedWhereRowsAreAsked) {
-  EXPECT_NO_THROW(require_c_order({.descr = "<f8", .fortran_order = false, .shape = {2}}));
-  EXPECT_THROW(require_c_order({.descr = "<f8", .fortran_order = true, .shape = {2}}),
-               NpyHeaderError);
-}
-
 TEST(NpyHeader, EndsWithTheReasonIfItIsInvalid) {
   const std::string whole = npy_header_text("<i4", 5, {});
   for (std::size_t size = 0; size < whole.size(); ++size) {

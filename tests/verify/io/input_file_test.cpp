@@ -100,6 +100,28 @@ TEST(LineReader, PassesOverAByteOrderMark) {
   EXPECT_EQ(peeked.peek(4), "1,2\n");
 }
 
+TEST(LineReader, RefusesCarriageReturnsThatEndLinesAlone) {
+  const std::string reason =
+      ": a carriage return within the line: lines end in LF or CR LF (from CR: tr '\\r' '\\n' <OLD "
+      ">NEW)";
+  const TemporaryFolder folder;
+  const std::string longest(LineReader::longest_line, 'x');
+  for (const auto& [text, line] :
+       std::vector<std::pair<std::string, std::string>>{{"a\rb\r", "1"},
+                                                        {"a\r\r\n", "1"},
+                                                        {"a\nb\rc\nd\n", "2"},
+                                                        {longest + "\r" + longest, "1"}}) {
+    LineReader reader(folder.file("text", text));
+    EXPECT_EQ(error_of(folder.path(),
+                       [&] {
+                         while (reader.next()) {
+                         }
+                       }),
+              "text:" + line + reason);
+    EXPECT_TRUE(reader.at_end()) << "it has ended";
+  }
+}
+
 TEST(LineReader, BlankLinesCountExceptAtTheEnd) {
   EXPECT_TRUE(lines_of("").empty());
   EXPECT_TRUE(lines_of("\n \t\n\r\n").empty());

@@ -33,18 +33,22 @@ TEST(Json, NumbersComeBack) {
   EXPECT_THROW(static_cast<void>(number_from_json("infinite")), nlohmann::json::exception);
 }
 
-using JsonFile = tests::FolderTest;
-
-TEST_F(JsonFile, IsReadUpToADepthAndASize) {
-  const auto error_of = [&](const std::string& text, std::size_t most_bytes = 1U << 20U) {
+class JsonFile : public tests::FolderTest {
+ protected:
+  /// The error of reading a file with this text; empty if there is none.
+  [[nodiscard]] std::string error_of(const std::string& text,
+                                     std::size_t most_bytes = 1U << 20U) const {
     std::ofstream(path("a.json")) << text;
     try {
       static_cast<void>(read_json(path("a.json"), most_bytes));
     } catch (const DatasetError& error) {
       return std::string(error.what()).substr(path("").size());
     }
-    return std::string();
-  };
+    return {};
+  }
+};
+
+TEST_F(JsonFile, IsReadUpToADepthAndASize) {
   const auto nested = [](std::string_view opening, std::string_view closing, int depth) {
     std::string text = "1";
     for (int i = 0; i < depth; ++i) text = text + std::string(closing);
@@ -56,6 +60,13 @@ TEST_F(JsonFile, IsReadUpToADepthAndASize) {
   EXPECT_EQ(error_of(nested(R"({"a":)", "}", 20'000)), "a.json: nested more than 100 deep");
   EXPECT_EQ(error_of("[1, 2]", 5), "a.json: has more than 5 bytes");
   EXPECT_TRUE(error_of("[1, 2").starts_with("a.json: no JSON: "));
+}
+
+TEST_F(JsonFile, WithAKeyTwiceOrANumberBeyondTheRangeIsAnError) {
+  EXPECT_EQ(error_of(R"({"a": 1, "b": {"a": 1, "c": [{"a": 1}, {"a": 2}]}})"), "");
+  EXPECT_EQ(error_of(R"({"b": {"c": [{"a": 1, "a": 1}]}})"), "a.json: repeated key \"a\"");
+  EXPECT_TRUE(error_of("[-1e999]").starts_with("a.json: a number beyond the range: "));
+  EXPECT_EQ(error_of("\xEF\xBB\xBF{}"), "");
 }
 
 TEST(Json, EmptyTextsAreNull) {

@@ -174,10 +174,10 @@ TEST(Frames, SayWhatIsWrongWithAnArchive) {
   EXPECT_EQ(error({{"V.npy", array<std::int32_t>("<i4", {1, 1, 3}, {0, 0, 0})}}),
             "a.npz: V: dtype \"<i4\", expected <f4 or <f8");
   EXPECT_EQ(error({{"V.npy", array<double>("<f8", {1, 2, 3}, {0, 0, 0})}}),
-            "a.npz: V: the array ends early");
+            "a.npz: V: 24 bytes of data do not fit shape (1, 2, 3) of dtype \"<f8\"");
   const std::uint64_t huge = 2'000'000'000;
   EXPECT_EQ(error({{"V.npy", array<double>("<f8", {1, huge, 3}, {0, 0, 0})}}),
-            "a.npz: V: the array ends early");
+            "a.npz: V: 24 bytes of data do not fit shape (1, 2000000000, 3) of dtype \"<f8\"");
   EXPECT_EQ(error({{"V.npy", array<double>("<f8", {1, 1, 3},
                                            {0, 0, std::numeric_limits<double>::infinity()})}}),
             "a.npz: V: frame 0: a coordinate must be finite");
