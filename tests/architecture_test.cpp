@@ -168,7 +168,7 @@ const std::vector<Layer>& verify_layers() {
       {"io", {}},
       {"data", {"io"}},
       {"mesh", {"data", "io"}},
-      {"generate", {"data", "mesh"}},
+      {"generate", {"data", "io", "mesh"}},
       {"baselines", {"generate"}},
       {"judge", {"base", "data", "io"}},
       {"solvers", {"base", "baselines", "io", "judge"}},

@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -320,6 +321,16 @@ TEST(BroadPhase, DoesNotDependOnTheThreads) {
       EXPECT_EQ(edge_edge_candidates(scene.vertices(), scene.edges(), options), edge_edge);
     }
   }
+}
+
+TEST(BroadPhase, EndsWhenItIsToStop) {
+  const std::atomic<bool> stop = true;
+  const MovingVertices vertices(Eigen::MatrixX3d::Zero(6, 3), Eigen::MatrixX3d::Ones(6, 3));
+  const BroadPhaseOptions options{.stop = &stop};
+  EXPECT_THROW((void)vertex_face_candidates(vertices, std::vector<Face>{{0, 1, 2}}, options),
+               Stopped);
+  EXPECT_THROW((void)edge_edge_candidates(vertices, std::vector<Edge>{{0, 1}, {2, 3}}, options),
+               Stopped);
 }
 
 TEST(BroadPhase, MayBeCalledFromTasks) {

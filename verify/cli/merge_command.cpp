@@ -47,7 +47,7 @@ void add(CLI::App& app, Status& status) {
            "run or version, or whose input has changed is an error that names it. Run it where the "
            "pieces ran: their inputs are checked again.\n"
            "Exit status: 0 success, 1 wrong answers or collisions in a piece, 2 the pieces are not "
-           "all there and valid.");
+           "all there and valid, 130 interrupted (nothing is written).");
   command->callback([arguments, &status] { status = run(*arguments); });
 }
 

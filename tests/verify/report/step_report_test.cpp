@@ -26,8 +26,9 @@ fast::StepCollision collision(fast::PairKind kind, fast::IndexPair pair, double 
 /// A step with this number of collisions, the last one first, and one piercing at its end.
 StepReport report_of(std::size_t collisions) {
   StepReport report{.vertices = 5, .edges = edges(), .faces = faces(), .frames = {}, .steps = {}};
-  report.frames = {{.name = "a\n", .piercings = {}, .time = {}},
-                   {.name = "b", .piercings = {{.edge = 3, .face = 0}}, .time = {}}};
+  using Piercings = std::vector<mesh::Piercing>;
+  report.frames = {{.name = "a\n", .piercings = Piercings{}, .time = {}},
+                   {.name = "b", .piercings = Piercings{{.edge = 3, .face = 0}}, .time = {}}};
   StepRecord step;
   step.candidates = jobs::PairCounts{7, 8, 0, 0};
   step.is_free = collisions == 0;
@@ -66,7 +67,7 @@ TEST(StepReport, KnowsWhetherAllIsFree) {
   EXPECT_TRUE(has_collisions(report));
   report = report_of(0);
   EXPECT_TRUE(has_collisions(report));
-  report.frames[1].piercings.clear();
+  report.frames[1].piercings->clear();
   EXPECT_FALSE(has_collisions(report));
   EXPECT_TRUE(contains(to_text(report), "free"));
 }
