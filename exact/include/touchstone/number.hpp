@@ -10,6 +10,8 @@
 /// CGAL's headers take 4 s to compile. The sources of this module are compiled together, and verify
 /// has a precompiled header.
 
+#include "touchstone/cxx20.hpp"
+
 #include <CGAL/Exact_integer.h>
 #include <CGAL/Exact_rational.h>
 #include <gmpxx.h>
