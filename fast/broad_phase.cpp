@@ -50,7 +50,8 @@ class ExactTest final : public PairQuestions {
 /// Search for the pairs between two trees, or within one.
 class Search {
  public:
-  explicit Search(const SearchInput<1>& input) : input_(input) {}
+  /// \param stop As in the options.
+  Search(const SearchInput<1>& input, const std::atomic<bool>* stop) : input_(input), stop_(stop) {}
 
   /// Counts the pairs first, then writes them to their final places.
   /// \throws TooManyCandidates if there are more than `most`.
@@ -77,7 +78,7 @@ class Search {
   template <class Take>
   void for_each_part(std::size_t chunk, Take take) const {
     const StrictFloatingPoint strict;
-    PairSink buffer(std::move(take));
+    PairSink buffer(std::move(take), stop_);
     const std::size_t first = chunk * groups_of_chunk;
     const std::size_t end = std::min(first + groups_of_chunk, input_.some->members().size());
     search_kernels().back()->find(input_, first, end, buffer);
@@ -98,6 +99,7 @@ class Search {
   }
 
   const SearchInput<1>& input_;
+  const std::atomic<bool>* stop_;
 };
 
 /// The rules for all pairs of a kind within a distance, with a reference to `test`.
@@ -130,7 +132,7 @@ std::vector<IndexPair> vertex_face_candidates(const MovingVertices& vertices,
     face_tree.fit(bounds);
     const ExactTest test(vertices, options.separation.distance);
     const SearchInput<1> input{&point_tree, &face_tree, rules_of(bounds, test, false)};
-    return Search(input).run(options.max_candidates);
+    return Search(input, options.stop).run(options.max_candidates);
   });
 }
 
@@ -147,7 +149,7 @@ std::vector<IndexPair> edge_edge_candidates(const MovingVertices& vertices,
     tree.fit(bounds);
     const ExactTest test(vertices, options.separation.distance);
     const SearchInput<1> input{&tree, &tree, rules_of(bounds, test, true)};
-    return Search(input).run(options.max_candidates);
+    return Search(input, options.stop).run(options.max_candidates);
   });
 }
 

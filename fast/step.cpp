@@ -37,14 +37,11 @@ double t_end_of(double time) {
 }
 
 /// Calls take(pairs) for the pairs that find(buffer) appends, in the strict floating-point state.
+/// \throws Stopped once the scene's stop is true.
 template <class Find, class Take>
-void for_each_block(const Scene& scene, const Find& find, const Take& take) {
+void for_each_block(const Scene& scene, const Find& find, Take take) {
   const StrictFloatingPoint strict;
-  scene.go_on();
-  PairSink buffer([&](std::span<const IndexPair> pairs) {
-    scene.go_on();
-    take(pairs);
-  });
+  PairSink buffer(std::move(take), scene.stop());
   find(buffer);
   buffer.flush();
 }

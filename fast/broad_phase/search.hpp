@@ -5,6 +5,7 @@
 /// each instruction set. (The algorithm: search_on_lanes.hpp.)
 
 #include <array>
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -14,6 +15,7 @@
 #include "fast/broad_phase/box_tree.hpp"
 #include "fast/broad_phase/seeds.hpp"
 #include "fast/platform/instruction_set.hpp"
+#include "touchstone/broad_phase.hpp"
 #include "touchstone/mesh.hpp"
 
 namespace touchstone::fast {
@@ -72,16 +74,27 @@ struct PairBuffer {
   virtual void take(std::span<const IndexPair> found) = 0;
 };
 
-/// A buffer that calls a function with its pairs.
+/// A buffer that calls a function with its pairs. It throws Stopped, when it is made or before such
+/// a call, once *stop is true.
 template <class Take>
 class PairSink final : public PairBuffer {
  public:
-  explicit PairSink(Take take) : take_(std::move(take)) {}
+  explicit PairSink(Take take, const std::atomic<bool>* stop = nullptr)
+      : take_(std::move(take)), stop_(stop) {
+    go_on();
+  }
 
  private:
-  void take(std::span<const IndexPair> found) override { take_(found); }
+  void take(std::span<const IndexPair> found) override {
+    go_on();
+    take_(found);
+  }
+  void go_on() const {
+    if (stop_ != nullptr && stop_->load(std::memory_order_relaxed)) throw Stopped();
+  }
 
   Take take_;
+  const std::atomic<bool>* stop_;
 };
 
 /// The two trees of a search and its rules.

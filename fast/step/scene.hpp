@@ -149,10 +149,7 @@ class Scene final : private PairQuestions {
   [[nodiscard]] const MeshElements& elements() const { return mesh_->elements; }
   [[nodiscard]] const CertifiedOptions& certified() const { return certified_; }
   [[nodiscard]] bool has_groups_of(const Scene& other) const { return groups_ == other.groups_; }
-  /// \throws Stopped once the options' stop is true.
-  void go_on() const {
-    if (stop_ != nullptr && stop_->load(std::memory_order_relaxed)) throw Stopped();
-  }
+  [[nodiscard]] const std::atomic<bool>* stop() const { return stop_; }
 
   // ---- Searching ----
 

@@ -1,14 +1,26 @@
-# Takes the project by add_subdirectory, and runs a simulator; then by FetchContent, as far as configuring.
+# Takes the project by add_subdirectory, in folders whose names have blanks and umlauts, and runs a simulator; then by
+# FetchContent, as far as configuring. With TOUCHSTONE_SOAK=1 in the environment also in other ways to build.
 #   cmake -DTOUCHSTONE=<source folder> -DWORK=<scratch folder> -P take_as_subproject.cmake
 set(most_objects 70)
 find_program(CCACHE ccache)
 
+# configure(NAME OPTION…): a project that takes this one.
+function(configure name)
+  execute_process(COMMAND ${CMAKE_COMMAND} -S ${CMAKE_CURRENT_LIST_DIR}/subproject -B ${WORK}/${name} -G Ninja
+      -DTOUCHSTONE=${source} -DCMAKE_CXX_COMPILER_LAUNCHER=${CCACHE} ${ARGN}
+    COMMAND_ECHO STDOUT COMMAND_ERROR_IS_FATAL ANY)
+endfunction()
+
+# run(NAME [CONFIGURATION]): builds the project, and runs its simulator.
+function(run name)
+  execute_process(COMMAND ${CMAKE_COMMAND} --build ${WORK}/${name} --config Release COMMAND_ERROR_IS_FATAL ANY)
+  execute_process(COMMAND ${WORK}/${name}/${ARGN}/simulator COMMAND_ERROR_IS_FATAL ANY)
+endfunction()
+
 # take(HOW): configures a project that takes this one, and checks the objects and files that it gets.
 function(take how)
   set(build ${WORK}/${how})
-  execute_process(COMMAND ${CMAKE_COMMAND} -S ${CMAKE_CURRENT_LIST_DIR}/subproject -B ${build} -G Ninja
-      -DCMAKE_BUILD_TYPE=Release -DHOW=${how} -DTOUCHSTONE=${TOUCHSTONE} -DCMAKE_CXX_COMPILER_LAUNCHER=${CCACHE}
-    COMMAND_ECHO STDOUT COMMAND_ERROR_IS_FATAL ANY)
+  configure(${how} -DCMAKE_BUILD_TYPE=Release -DHOW=${how})
   file(READ ${build}/compile_commands.json commands)
   string(JSON objects LENGTH ${commands})
   message(STATUS "${how}: ${objects} objects")
@@ -29,9 +41,31 @@ function(take how)
   endif()
 endfunction()
 
+set(WORK "${WORK}/Bau für alle")
+set(source "${WORK}/Quelle dafür")
 file(REMOVE_RECURSE ${WORK})
+file(MAKE_DIRECTORY ${WORK})
+file(CREATE_LINK ${TOUCHSTONE} ${source} SYMBOLIC)
 take(FetchContent)
 take(add_subdirectory)
-execute_process(COMMAND ${CMAKE_COMMAND} --build ${WORK}/add_subdirectory COMMAND_ERROR_IS_FATAL ANY)
-execute_process(COMMAND ${WORK}/add_subdirectory/simulator COMMAND_ERROR_IS_FATAL ANY)
+run(add_subdirectory)
+if(DEFINED ENV{TOUCHSTONE_SOAK})
+  configure(no_type)
+  run(no_type)
+  configure(multi_config -G "Ninja Multi-Config")
+  run(multi_config Release)
+  configure(unity -DCMAKE_BUILD_TYPE=Release -DCMAKE_UNITY_BUILD=ON)
+  run(unity)
+  configure(shared -DCMAKE_BUILD_TYPE=Release -DBUILD_SHARED_LIBS=ON)
+  run(shared)
+  configure(lto -DCMAKE_BUILD_TYPE=Release -DCMAKE_INTERPROCEDURAL_OPTIMIZATION=ON)
+  run(lto)
+  configure(cxx23 -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_STANDARD=23)
+  run(cxx23)
+  find_program(CLANG NAMES clang++-16 clang++-19 clang++)
+  if(CLANG)
+    configure(clang_without_type -DCMAKE_CXX_COMPILER=${CLANG})
+    run(clang_without_type)
+  endif()
+endif()
 file(REMOVE_RECURSE ${WORK})

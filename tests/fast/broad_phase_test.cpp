@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -179,6 +180,16 @@ TEST(BroadPhase, AHugePrimitiveAmongTinyOnesIsFoundWithEachOfThem) {
   for (std::int32_t i = 0; i < 3 * tiny; ++i) {
     EXPECT_EQ(pairs[static_cast<std::size_t>(i)], (IndexPair{i, tiny}));
   }
+}
+
+TEST(BroadPhase, EndsWhenItIsToStop) {
+  const std::atomic<bool> stop = true;
+  const MovingVertices vertices(Eigen::MatrixX3d::Zero(6, 3), Eigen::MatrixX3d::Ones(6, 3));
+  const BroadPhaseOptions options{.stop = &stop};
+  EXPECT_THROW((void)vertex_face_candidates(vertices, std::vector<Face>{{0, 1, 2}}, options),
+               Stopped);
+  EXPECT_THROW((void)edge_edge_candidates(vertices, std::vector<Edge>{{0, 1}, {2, 3}}, options),
+               Stopped);
 }
 
 TEST(BroadPhase, MayBeCalledFromTasks) {

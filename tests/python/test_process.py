@@ -5,6 +5,8 @@ from __future__ import annotations
 import concurrent.futures
 import os
 import signal
+import subprocess
+import sys
 import threading
 
 import numpy as np
@@ -203,3 +205,30 @@ def test_nothing_leaks(leaked_bytes, queries):
     before = resident_bytes()
     calls(100_000)
     assert (resident_bytes() - before < 4 << 20) == (leaked_bytes == 0)
+
+
+# All that is asked in a process whose first call comes in this rounding mode, which its argument numbers.
+IN_A_MODE = """
+import ctypes, platform, sys
+import numpy as np
+shift = 10 if platform.machine() == "x86_64" else 22
+assert ctypes.CDLL("libm.so.6").fesetround(int(sys.argv[1]) << shift) == 0
+import touchstone
+queries = (np.arange(24 * 50).reshape(-1, 8, 3) * 7919 % 13 - 6) / 2.0
+for kind in ("edge_edge", "vertex_face"):
+    for result in (touchstone.certified(kind, queries), touchstone.distance(kind, queries, 0.5)):
+        print(result, result.array.tolist())
+    print(touchstone.decide(kind, queries).collides.tolist())
+step = touchstone.Step(queries[:, :3].reshape(-1, 3), queries[:, 3:6].reshape(-1, 3), np.arange(150).reshape(-1, 3))
+print(step.earliest(), step.collisions().tolist(), step.free_step_size())
+"""
+
+
+def test_the_rounding_mode_of_the_first_call_does_not_matter():
+    def answers(mode: int) -> str:
+        command = [sys.executable, "-c", IN_A_MODE, str(mode)]
+        return subprocess.run(command, check=True, stdout=subprocess.PIPE, text=True).stdout
+
+    usual = answers(0)
+    assert usual.count("True") > 10
+    assert all(answers(mode) == usual for mode in (1, 2, 3))

@@ -86,12 +86,10 @@ class BenchRun {
   }
 
   Status run() {
-    if (!arguments_.step.empty()) {
-      bench_given_step();
-    } else if (arguments_.built_in_workload()) {
-      bench_built_in();
-    } else {
-      for (const fs::path& path : arguments_.sources.paths) bench_path(path);
+    try {
+      bench_all();
+    } catch (const fast::Stopped&) {
+    } catch (const io::Interrupted&) {
     }
     if (json_) json_.write(io::json_document(report::to_json(report_)));
     json_.close();
@@ -102,6 +100,16 @@ class BenchRun {
   }
 
  private:
+  void bench_all() {
+    if (!arguments_.step.empty()) {
+      bench_given_step();
+    } else if (arguments_.built_in_workload()) {
+      bench_built_in();
+    } else {
+      for (const fs::path& path : arguments_.sources.paths) bench_path(path);
+    }
+  }
+
   void bench_group(const data::QueryGroup& group,
                    const std::vector<const solvers::Solver*>& solvers,
                    const Separation& separation) {
@@ -117,7 +125,7 @@ class BenchRun {
 
   /// The candidates of a mesh, from index pairs too.
   void bench_candidates(const mesh::MovingMesh& mesh, Kind kind) {
-    const auto pairs = mesh::find_candidates(mesh, kind, 0, separation_);
+    const auto pairs = mesh::find_candidates(mesh, kind, 0, separation_, &io::interrupted());
     const fast::Candidates candidates = mesh::candidates_of(mesh, kind, pairs);
     const auto with_queries = solvers::certified_queries(certified_);
     const auto with_pairs = solvers::certified_pairs(mesh.vertices, candidates, certified_);

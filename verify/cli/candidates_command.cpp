@@ -98,6 +98,7 @@ std::vector<fast::IndexPair> find_pairs(const mesh::MovingMesh& mesh, Kind kind,
 
 Found find(const mesh::MovingMesh& mesh, Kind kind, fast::BroadPhaseOptions options) {
   const auto start = std::chrono::steady_clock::now();
+  options.stop = &io::interrupted();
   if (options.max_candidates == 0) options.max_candidates = candidates_in_free_memory();
   std::vector<fast::IndexPair> pairs = find_pairs(mesh, kind, options);
   const std::chrono::duration<double> time = std::chrono::steady_clock::now() - start;
@@ -105,19 +106,20 @@ Found find(const mesh::MovingMesh& mesh, Kind kind, fast::BroadPhaseOptions opti
 }
 
 /// Writes the candidates as a stream of queries, which would take much more memory than the pairs.
-/// After an interrupt there is no file.
+/// \throws io::Interrupted; then there is no file.
 void write_queries(const fs::path& path, const mesh::MovingMesh& mesh, const Found& found) {
   static constexpr std::size_t pairs_of_update = 1U << 14U;
   const fast::Candidates candidates = mesh::candidates_of(mesh, found.kind, found.pairs);
   io::ProgressBar progress("write " + path.filename().string());
   data::NpyWriter writer(path);
-  for (std::size_t i = 0; i < found.pairs.size() && !io::interrupted(); ++i) {
+  for (std::size_t i = 0; i < found.pairs.size(); ++i) {
+    io::throw_if_interrupted();
     writer.write(fast::query_of(mesh.vertices, candidates, found.pairs[i]));
     if (i % pairs_of_update == 0) {
       progress.update(static_cast<double>(i) / static_cast<double>(found.pairs.size()));
     }
   }
-  if (!io::interrupted()) writer.close();
+  writer.close();
 }
 
 nlohmann::json summary(const mesh::MovingMesh& mesh, const std::vector<Found>& all) {
@@ -155,15 +157,21 @@ Status candidates(const Arguments& arguments) {
   for (const fs::path& array : arrays.all()) files.add_output(array);
   const mesh::MovingMesh mesh = mesh::read_step(arguments.before, arguments.after);
   report_note(arguments.before, mesh.note);
-  const std::vector<Found> all{find(mesh, Kind::vertex_face, arguments.broad_phase),
-                               find(mesh, Kind::edge_edge, arguments.broad_phase)};
-  const fs::path folder = arrays.edges.parent_path();
-  if (!folder.empty()) fs::create_directories(folder);
-  mesh::write_index_pairs(arrays.edges, mesh.edges);
-  mesh::write_index_pairs(arrays.vertex_face_pairs, all[0].pairs);
-  mesh::write_index_pairs(arrays.edge_edge_pairs, all[1].pairs);
-  write_queries(arrays.vertex_face, mesh, all[0]);
-  write_queries(arrays.edge_edge, mesh, all[1]);
+  std::vector<Found> all;
+  try {
+    for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
+      all.push_back(find(mesh, kind, arguments.broad_phase));
+    }
+    const fs::path folder = arrays.edges.parent_path();
+    if (!folder.empty()) fs::create_directories(folder);
+    mesh::write_index_pairs(arrays.edges, mesh.edges);
+    mesh::write_index_pairs(arrays.vertex_face_pairs, all[0].pairs);
+    mesh::write_index_pairs(arrays.edge_edge_pairs, all[1].pairs);
+    write_queries(arrays.vertex_face, mesh, all[0]);
+    write_queries(arrays.edge_edge, mesh, all[1]);
+  } catch (const fast::Stopped&) {
+  } catch (const io::Interrupted&) {
+  }
   if (json) json.write(io::json_document(summary(mesh, all)));
   json.close();
   io::print(files.summary_stream(), table_of(mesh, all));

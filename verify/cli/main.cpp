@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "fast/platform/arithmetic_check.hpp"
+#include "touchstone/broad_phase.hpp"
 #include "verify/cli/commands.hpp"
 #include "verify/cli/help.hpp"
 #include "verify/cli/options.hpp"
@@ -50,6 +51,12 @@ bool report_unknown(const CLI::App& app, const std::string& word) {
       "no command " + word + "; " +
       (nearest.empty() ? "touchstone --help lists them" : "did you mean " + nearest + "?"));
   return true;
+}
+
+/// An interrupt before there was anything to keep.
+int report_interrupt() {
+  touchstone::verify::cli::report_error("interrupted");
+  return static_cast<int>(Status::interrupted);
 }
 
 int run(int argc, char** argv) {
@@ -114,12 +121,15 @@ int main(int argc, char** argv) {
     std::signal(SIGPIPE, SIG_IGN);
     std::signal(SIGXFSZ, SIG_IGN);
     touchstone::fast::require_strict_arithmetic();
+    // From here on a signal ends every command with what it has.
+    static_cast<void>(touchstone::verify::io::interrupted());
     const int status = run(argc, argv);
     touchstone::verify::io::finish_printing();
     return status;
-  } catch (const touchstone::verify::io::Interrupted& interrupt) {
-    touchstone::verify::cli::report_error(interrupt.what());
-    return static_cast<int>(Status::interrupted);
+  } catch (const touchstone::verify::io::Interrupted&) {
+    return report_interrupt();
+  } catch (const touchstone::fast::Stopped&) {
+    return report_interrupt();
   } catch (const std::filesystem::filesystem_error& error) {
     touchstone::verify::cli::report_error(error.path1().string() + ": " + error.code().message());
     return static_cast<int>(Status::bad_input);

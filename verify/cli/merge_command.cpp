@@ -37,7 +37,7 @@ void add(CLI::App& app, Status& status) {
            "pieces ran: their inputs are checked again.\n"
            "Exit status: 0 success, 1 wrong answers or collisions in a piece, or a solver that "
            "hangs at more than 1 % of all queries, 2 the pieces are not all there and valid, or a "
-           "solver answers nothing.");
+           "solver answers nothing, 130 interrupted (nothing is written).");
   command->callback(
       [arguments, &status] { status = merge_pieces(arguments->folder, arguments->json_file); });
 }

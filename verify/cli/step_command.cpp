@@ -46,6 +46,7 @@ struct Arguments {
   SeparationArguments separation;
   jobs::StepCheckOptions check;
   GroupArguments groups;
+  bool find_piercings = true;
   std::string json_file;
   std::string csv_file;
   std::string proof_file;
@@ -60,6 +61,7 @@ class StepRun {
         csv_(files_, arguments.csv_file),
         proof_(files_, arguments.proof_file, jobs::step_proofs_header()),
         view_(files_, arguments.view_file),
+        find_piercings_(arguments.find_piercings),
         options_(arguments.check),
         frames_(open_frames(files_, arguments.frames)),
         groups_(files_, arguments.groups, frames_->mesh()),
@@ -71,6 +73,7 @@ class StepRun {
     const mesh::Mesh& mesh = frames_->mesh();
     options_.step.separation = arguments.separation.given();
     options_.step.groups = groups_.get();
+    options_.step.stop = &io::interrupted();
     report_ = {.separation = options_.step.separation,
                .question = options_.question,
                .alpha = options_.alpha,
@@ -86,21 +89,20 @@ class StepRun {
     io::ProgressBar bar("step");
     const std::size_t count = frames_->count();
     mesh::Vertices before;
-    for (std::size_t i = 0; i < count && !is_stopped(); ++i) {
-      mesh::Vertices after = frames_->next();
-      check_frame(i, after);
-      const auto progress = [&](double fraction) {
-        bar.update((static_cast<double>(i) + 0.5 + 0.5 * fraction) / static_cast<double>(count));
-      };
-      progress(0.0);
-      if (i > 0) {
-        if (proof_) ask_for_proof(i, progress);
-        report_.steps.push_back(jobs::check_step(step_, frames_->mesh(), before, after, options_));
-        if (csv_) csv_.write(report::step_csv_rows(report_, i - 1));
-        view_step(i, before, after);
+    try {
+      for (std::size_t i = 0; i < count && !is_stopped(); ++i) {
+        mesh::Vertices after = frames_->next();
+        check_frame(i, after);
+        const auto progress = [&](double fraction) {
+          bar.update((static_cast<double>(i) + 0.5 + 0.5 * fraction) / static_cast<double>(count));
+        };
+        progress(0.0);
+        if (i > 0) check_step(i, before, after, progress);
+        before = std::move(after);
+        progress(1.0);
       }
-      before = std::move(after);
-      progress(1.0);
+    } catch (const fast::Stopped&) {
+    } catch (const io::Interrupted&) {
     }
     bar.clear();
     report_.interrupted = report_.steps.size() + 1 < count;
@@ -110,15 +112,26 @@ class StepRun {
  private:
   void check_frame(std::size_t i, const mesh::Vertices& vertices) {
     report::FrameRecord frame{.name = frames_->name(i), .piercings = {}, .time = {}};
-    const mesh::Mesh& mesh = frames_->mesh();
-    frame.time = jobs::work_time_of([&] {
-      frame.piercings = mesh::find_piercings(
-          vertices, mesh.edges, mesh.faces, [&](std::int32_t edge, std::int32_t face) {
-            return bodies_.meet(mesh.edges[static_cast<std::size_t>(edge)],
-                                mesh.faces[static_cast<std::size_t>(face)]);
-          });
-    });
+    if (find_piercings_)
+      frame.time = jobs::work_time_of([&] { frame.piercings = piercings_of(vertices); });
     report_.frames.push_back(std::move(frame));
+  }
+
+  [[nodiscard]] std::vector<mesh::Piercing> piercings_of(const mesh::Vertices& vertices) const {
+    const mesh::Mesh& mesh = frames_->mesh();
+    const auto can_meet = [&](std::int32_t edge, std::int32_t face) {
+      return bodies_.meet(mesh.edges[static_cast<std::size_t>(edge)],
+                          mesh.faces[static_cast<std::size_t>(face)]);
+    };
+    return mesh::find_piercings(vertices, mesh.edges, mesh.faces, can_meet, options_.step.stop);
+  }
+
+  void check_step(std::size_t i, const mesh::Vertices& before, const mesh::Vertices& after,
+                  const std::function<void(double)>& progress) {
+    if (proof_) ask_for_proof(i, progress);
+    report_.steps.push_back(jobs::check_step(step_, frames_->mesh(), before, after, options_));
+    if (csv_) csv_.write(report::step_csv_rows(report_, i - 1));
+    view_step(i, before, after);
   }
 
   /// The page shows the first step with a collision, or else the first step.
@@ -175,6 +188,7 @@ class StepRun {
   CertificatesFile proof_;
   ViewFile view_;
   bool shows_contact_ = false;
+  bool find_piercings_;
   jobs::StepCheckOptions options_;
   std::unique_ptr<mesh::Frames> frames_;
   CollidingGroups groups_;
@@ -228,6 +242,9 @@ void add_step_options(CLI::App& command, Arguments& arguments) {
   free->excludes(all)->excludes(earliest);
   command.add_flag("--candidates", arguments.check.count_candidates,
                    "Count the candidate pairs also with --earliest and --free");
+  command.add_flag_callback(
+      "--no-piercings", [&arguments] { arguments.find_piercings = false; },
+      "Do not search the frames for edges that pierce faces, which can take longer than --free");
   command
       .add_option("--t-max", arguments.check.step.t_max, "Only contacts up to this time of a step")
       ->type_name("T")
@@ -270,7 +287,8 @@ void add(CLI::App& app, Status& status) {
            "touchstone step frames/ --free --prove steps.cert && touchstone-check steps.cert",
            "A step is the straight motion of every vertex from one frame to the next; a simulator "
            "with substeps should write each of them. Each frame is also searched for edges that "
-           "pierce faces. Pairs that share a vertex are ignored. Numbers begin at 0; "
+           "pierce faces (but for --no-piercings). Pairs that share a vertex are ignored. Numbers "
+           "begin at 0; "
            "edges are numbered by their larger vertex, then by the smaller.\n"
            "Exit status: 0 free of collisions, 1 a collision or a frame that intersects itself, 2 "
            "bad input or usage, 130 interrupted (results so far are written).");

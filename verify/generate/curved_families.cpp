@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "verify/generate/random.hpp"
+#include "verify/io/terminal.hpp"
 
 namespace touchstone::verify::generate {
 namespace {
@@ -105,6 +106,7 @@ constexpr std::array<double, 3> quarter_weights{1, 1, 2};
 /// of the quarter of a circle if the family is rational.
 template <class ShapeAt>
 void append(CurvedFamily& family, Draws& draws, const ShapeAt& shape_at) {
+  io::throw_if_interrupted();
   for (std::size_t k = 0; k <= family.degree; ++k) {
     const std::array<double, 3> moved{draws.coordinate(), draws.coordinate(), draws.coordinate()};
     const Points points = shape_at(k);

@@ -11,6 +11,7 @@
 #include "touchstone/broad_phase.hpp"
 #include "verify/generate/families.hpp"
 #include "verify/generate/random.hpp"
+#include "verify/io/terminal.hpp"
 
 namespace touchstone::verify::generate {
 namespace {
@@ -139,6 +140,7 @@ mesh::MovingMesh moving_patches(const PatchOptions& options) {
     add_faces(options.cells, vertex, random, faces);
     Patch patch(side, is_upper, random);
     for (int i = 0; i < row; ++i) {
+      io::throw_if_interrupted();
       for (int j = 0; j < row; ++j, ++vertex) {
         start.row(vertex) = patch.start(i, j);
         end.row(vertex) = start.row(vertex) + patch.way(i, j).transpose();
@@ -157,7 +159,11 @@ data::QueryGroup built_in_set(Kind kind, std::uint64_t seed, std::uint64_t count
   for (const Family& family : families(separation)) {
     if (!supports(family, kind)) continue;
     group.read(
-        *open_family(family, kind, seed, count, separation), [](double) {}, [] { return false; });
+        *open_family(family, kind, seed, count, separation), [](double) {},
+        [] {
+          io::throw_if_interrupted();
+          return false;
+        });
   }
   return group;
 }

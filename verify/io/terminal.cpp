@@ -112,12 +112,16 @@ const std::atomic<bool>& interrupted() {
 
 void set_interrupt_clock(std::int64_t (*milliseconds)()) { interrupt_clock = milliseconds; }
 
+void throw_if_interrupted() {
+  if (interrupt_flag) throw Interrupted();
+}
+
 void wait_for_input(int descriptor) {
   // A signal may reach another thread, or come just before the wait.
   static constexpr int look_again_milliseconds = 100;
   pollfd waited{.fd = descriptor, .events = POLLIN, .revents = 0};
   for (int ready = 0; ready == 0 || (ready < 0 && errno == EINTR);) {
-    if (interrupt_flag) throw Interrupted();
+    throw_if_interrupted();
     ready = ::poll(&waited, 1, look_again_milliseconds);
   }
 }

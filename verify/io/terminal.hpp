@@ -66,11 +66,14 @@ inline constexpr int same_interrupt_milliseconds = 200;
 /// in a signal handler.
 void set_interrupt_clock(std::int64_t (*milliseconds)());
 
-/// Thrown if an interrupt ends a wait for input.
+/// Thrown if an interrupt ends a wait for input, or work whose part is of no use.
 class Interrupted : public std::runtime_error {
  public:
   Interrupted() : std::runtime_error("interrupted") {}
 };
+
+/// \throws Interrupted if interrupted() is true.
+void throw_if_interrupted();
 
 /// Waits until a read from the descriptor does not block: there is input, the end or an error.
 /// \throws Interrupted if interrupted() is true or becomes so.

@@ -17,6 +17,7 @@
 #include "touchstone/oracle.hpp"
 #include "touchstone/tight_inclusion.hpp"
 #include "verify/base/cores.hpp"
+#include "verify/base/deadline.hpp"
 #include "verify/base/thread_clock.hpp"
 #include "verify/baselines/curved_methods.hpp"
 #include "verify/judge/ground_truth.hpp"
@@ -84,11 +85,14 @@ std::optional<double> include_tightly(Kind kind, const CurvedQueries& queries, s
 }
 
 /// Judges a method by the times of impact, NaN for no contact.
-CurvedJudgement judge(const baselines::CurvedMethod& method, Kind kind,
-                      const CurvedQueries& queries, std::span<const double> toi) {
+/// Nothing if it is stopped.
+std::optional<CurvedJudgement> judge(const baselines::CurvedMethod& method, Kind kind,
+                                     const CurvedQueries& queries, std::span<const double> toi,
+                                     const std::atomic<bool>* stop) {
   constexpr double late = 1e-9;
   CurvedJudgement result{.name = method.name};
   for (std::size_t i = 0; i < toi.size(); ++i) {
+    if (base::is_stopped(stop)) return std::nullopt;
     const double begin = base::thread_nanoseconds();
     const std::optional<double> found = method.solve(kind, queries, i);
     result.seconds += (base::thread_nanoseconds() - begin) * 1e-9;
@@ -101,14 +105,14 @@ CurvedJudgement judge(const baselines::CurvedMethod& method, Kind kind,
 }
 
 std::vector<CurvedJudgement> judge_others(Kind kind, const CurvedQueries& queries,
-                                          std::span<const double> toi) {
+                                          std::span<const double> toi,
+                                          const std::atomic<bool>* stop) {
   std::vector<CurvedJudgement> result;
-  if (queries.degree == 2 || queries.degree == 3) {
-    result.push_back(judge({"tight_inclusion", include_tightly}, kind, queries, toi));
-  }
-  for (const baselines::CurvedMethod& method : baselines::curved_methods()) {
-    result.push_back(judge(method, kind, queries, toi));
-  }
+  const auto add = [&](const baselines::CurvedMethod& method) {
+    if (auto judged = judge(method, kind, queries, toi, stop)) result.push_back(*judged);
+  };
+  if (queries.degree == 2 || queries.degree == 3) add({"tight_inclusion", include_tightly});
+  for (const baselines::CurvedMethod& method : baselines::curved_methods()) add(method);
   return result;
 }
 
@@ -188,7 +192,6 @@ CurvedResult certify_curves(Kind kind, const CurvedQueries& queries, const Curve
     plugins.emplace_back(judged, kind, queries, options.separation);
   }
   for (std::size_t first = 0; first < queries.size(); first += block_size) {
-    if (options.stop != nullptr && *options.stop) break;
     const std::size_t count = std::min(block_size, queries.size() - first);
     found.assign(count, {});
     findings.assign(count, {});
@@ -200,9 +203,11 @@ CurvedResult certify_curves(Kind kind, const CurvedQueries& queries, const Curve
     sum.certified_seconds += (base::thread_nanoseconds() - begin) * 1e-9;
     arena.execute([&] {
       tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) {
+        if (base::is_stopped(options.stop)) return;
         findings[i] = finding_of(kind, queries, first + i, found[i], options);
       });
     });
+    if (base::is_stopped(options.stop)) break;
     for (PluginRun& plugin : plugins) plugin.judge_block(first, findings);
     std::string certificates;
     for (std::size_t i = 0; i < count; ++i) {
@@ -227,7 +232,7 @@ CurvedResult certify_curves(Kind kind, const CurvedQueries& queries, const Curve
     }
   }
   if (options.judge_others && !queries.is_rational && is_zero(options.separation)) {
-    sum.others = judge_others(kind, queries, sum.toi);
+    sum.others = judge_others(kind, queries, sum.toi, options.stop);
   }
   for (PluginRun& plugin : plugins) sum.plugins.push_back(plugin.finish());
   return sum;

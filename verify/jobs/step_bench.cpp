@@ -63,7 +63,12 @@ class StepRun {
     for (std::size_t i = 0; i < options_.repetitions && !stopped(); ++i) {
       pass_over_memory();
       for (Series& series : series_) {
-        if (!stopped()) repeat(series);
+        if (stopped()) break;
+        try {
+          repeat(series);
+        } catch (const fast::Stopped&) {
+          break;
+        }
       }
       if (options_.on_progress) {
         options_.on_progress(static_cast<double>(i + 1) /
@@ -101,6 +106,7 @@ class StepRun {
   void repeat(Series& series) {
     fast::StepOptions options = options_.step;
     options.max_threads = series.threads;
+    options.stop = options_.stop;
     std::optional<fast::Step> step;
     const fast::MeshElements elements{.edges = mesh_.edges, .faces = mesh_.faces, .points = {}};
     series.trees.add([&] { step.emplace(mesh_.vertices, elements, options); });

@@ -6,6 +6,7 @@
 
 #include "verify/data/npy_header.hpp"
 #include "verify/io/output_file.hpp"
+#include "verify/io/terminal.hpp"
 
 namespace touchstone::verify::mesh {
 
@@ -19,6 +20,7 @@ void write_index_pairs(const std::filesystem::path& path,
   // The writer buffers each call as a whole.
   static constexpr std::size_t part = 4096;
   for (; !pairs.empty(); pairs = pairs.subspan(std::min(part, pairs.size()))) {
+    io::throw_if_interrupted();
     const auto bytes = pairs.first(std::min(part, pairs.size()));
     const void* const data = bytes.data();
     file.write({static_cast<const char*>(data), bytes.size_bytes()});

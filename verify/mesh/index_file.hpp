@@ -12,7 +12,7 @@
 namespace touchstone::verify::mesh {
 
 /// Writes such a file, which appears completely or not at all.
-/// \throws DatasetError if it cannot be written.
+/// \throws DatasetError if it cannot be written, Interrupted (terminal.hpp) if the user interrupts.
 void write_index_pairs(const std::filesystem::path& path,
                        std::span<const std::array<std::int32_t, 2>> pairs);
 

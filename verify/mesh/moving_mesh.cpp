@@ -4,6 +4,7 @@
 
 #include "touchstone/broad_phase.hpp"
 #include "verify/io/dataset_error.hpp"
+#include "verify/io/terminal.hpp"
 #include "verify/mesh/frames.hpp"
 
 namespace touchstone::verify::mesh {
@@ -24,8 +25,10 @@ MovingMesh read_step(const std::filesystem::path& before, const std::filesystem:
 }
 
 std::vector<fast::IndexPair> find_candidates(const MovingMesh& mesh, Kind kind, int max_threads,
-                                             const Separation& separation) {
-  const fast::BroadPhaseOptions options{.separation = separation, .max_threads = max_threads};
+                                             const Separation& separation,
+                                             const std::atomic<bool>* stop) {
+  const fast::BroadPhaseOptions options{
+      .separation = separation, .max_threads = max_threads, .stop = stop};
   return kind == Kind::vertex_face
              ? fast::vertex_face_candidates(mesh.vertices, mesh.faces, options)
              : fast::edge_edge_candidates(mesh.vertices, mesh.edges, options);
@@ -40,6 +43,7 @@ std::vector<Query> queries_of(const MovingMesh& mesh, const fast::Candidates& ca
   std::vector<Query> queries;
   queries.reserve(candidates.pairs.size());
   for (const fast::IndexPair& pair : candidates.pairs) {
+    io::throw_if_interrupted();
     queries.push_back(fast::query_of(mesh.vertices, candidates, pair));
   }
   return queries;

@@ -4,6 +4,7 @@
 /// A step of a simulation for benchmarks: the mesh before and after, and the candidates
 /// between them.
 
+#include <atomic>
 #include <filesystem>
 #include <span>
 #include <string>
@@ -30,16 +31,18 @@ struct MovingMesh {
                                    const std::filesystem::path& after);
 
 /// The pairs that the broad phase finds, with all that come within the distance on every axis:
-/// enough for either norm. \param max_threads 0: all cores
+/// enough for either norm. \param max_threads 0: all cores. \param stop As in the options of the
+/// broad phase.
 [[nodiscard]] std::vector<fast::IndexPair> find_candidates(const MovingMesh& mesh, Kind kind,
                                                            int max_threads = 0,
-                                                           const Separation& separation = {});
+                                                           const Separation& separation = {},
+                                                           const std::atomic<bool>* stop = nullptr);
 
 /// Pairs of a kind with the arrays of their indices; refers to the mesh and to the pairs.
 [[nodiscard]] fast::Candidates candidates_of(const MovingMesh& mesh, Kind kind,
                                              std::span<const fast::IndexPair> pairs);
 
-/// The candidates as queries, in their order.
+/// The candidates as queries, in their order. \throws io::Interrupted if the user interrupts.
 [[nodiscard]] std::vector<Query> queries_of(const MovingMesh& mesh,
                                             const fast::Candidates& candidates);
 

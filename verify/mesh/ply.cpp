@@ -17,6 +17,7 @@
 #include "verify/io/dataset_error.hpp"
 #include "verify/io/input_file.hpp"
 #include "verify/io/output_file.hpp"
+#include "verify/io/terminal.hpp"
 #include "verify/io/words.hpp"
 
 namespace touchstone::verify::mesh {
@@ -540,6 +541,7 @@ void write_ply(const std::filesystem::path& path, const Vertices& vertices,
   file.write(header + "end_header\n");
   write_numbers(vertices.data(), static_cast<std::size_t>(vertices.size()));
   for (const fast::Face& face : faces) {
+    io::throw_if_interrupted();
     file.write("\3");
     write_numbers(face.data(), face.size());
   }

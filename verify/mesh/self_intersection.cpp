@@ -55,8 +55,8 @@ bool enters(const Point& v, const Point& q, const Point& r, const Point& w) {
 class Search {
  public:
   Search(const Vertices& vertices, std::span<const fast::Edge> edges,
-         std::span<const fast::Face> faces)
-      : vertices_(vertices), edges_(edges), faces_(faces) {
+         std::span<const fast::Face> faces, const std::atomic<bool>* stop)
+      : vertices_(vertices), edges_(edges), faces_(faces), stop_(stop) {
     points_.reserve(static_cast<std::size_t>(vertices.rows()));
     for (Eigen::Index i = 0; i < vertices.rows(); ++i) {
       points_.emplace_back(vertices(i, 0), vertices(i, 1), vertices(i, 2));
@@ -101,7 +101,7 @@ class Search {
     static constexpr std::array<std::array<std::int32_t, 2>, 2> apart{{{0, 0}, {1, 1}}};
     const fast::MeshElements elements{.edges = {}, .faces = faces_, .points = points};
     const fast::Step step(before, after, elements,
-                          {.groups = {.of_vertices = groups, .apart = apart}});
+                          {.groups = {.of_vertices = groups, .apart = apart}, .stop = stop_});
     step.candidates([&](const fast::StepCandidates& candidates) {
       // A face that names one vertex three times makes this one a point, which the moving ones are
       // too.
@@ -139,6 +139,7 @@ class Search {
   const Vertices& vertices_;
   std::span<const fast::Edge> edges_;
   std::span<const fast::Face> faces_;
+  const std::atomic<bool>* stop_;
   std::vector<Point> points_;
 };
 
@@ -146,8 +147,8 @@ class Search {
 
 std::vector<Piercing> find_piercings(const Vertices& vertices, std::span<const fast::Edge> edges,
                                      std::span<const fast::Face> faces,
-                                     const PiercingFilter& filter) {
-  return Search(vertices, edges, faces).run(filter);
+                                     const PiercingFilter& filter, const std::atomic<bool>* stop) {
+  return Search(vertices, edges, faces, stop).run(filter);
 }
 
 }  // namespace touchstone::verify::mesh

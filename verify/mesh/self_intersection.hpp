@@ -17,6 +17,7 @@
 /// **Exactness.** The signs of orientations come from CGAL's kernel of exact predicates. The pairs
 /// come from the broad phase (touchstone/step.hpp): exactly those whose boxes overlap.
 
+#include <atomic>
 #include <functional>
 #include <span>
 #include <vector>
@@ -38,10 +39,13 @@ struct Piercing {
 using PiercingFilter = std::function<bool(std::int32_t edge, std::int32_t face)>;
 
 /// All pairs of an edge and a face that it pierces, in ascending order.
-/// \param vertices n×3, finite. \param filter called in several threads at once. \pre indices are in range.
+/// \param vertices n×3, finite. \param filter called in several threads at once. \param stop May be
+/// null. \pre indices are in range.
+/// \throws fast::Stopped soon after *stop turns true.
 [[nodiscard]] std::vector<Piercing> find_piercings(const Vertices& vertices,
                                                    std::span<const fast::Edge> edges,
                                                    std::span<const fast::Face> faces,
-                                                   const PiercingFilter& filter = nullptr);
+                                                   const PiercingFilter& filter = nullptr,
+                                                   const std::atomic<bool>* stop = nullptr);
 
 }  // namespace touchstone::verify::mesh

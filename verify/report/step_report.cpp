@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <iterator>
 #include <nlohmann/json.hpp>
-#include <set>
 #include <utility>
 
 #include "verify/io/csv.hpp"
@@ -30,12 +29,13 @@ std::vector<fast::StepCollision> known_collisions(const StepRecord& step) {
   return step.earliest ? step.earliest->pairs : std::vector<fast::StepCollision>();
 }
 
-/// How many pairs pierce in one of the two frames or both.
-std::size_t pierced_in(const StepReport& report, std::size_t step) {
-  std::set<mesh::Piercing> all(report.frames.at(step).piercings.begin(),
-                               report.frames.at(step).piercings.end());
-  all.insert(report.frames.at(step + 1).piercings.begin(),
-             report.frames.at(step + 1).piercings.end());
+/// How many pairs pierce in one of the two frames or both, if they were searched for.
+std::optional<std::size_t> pierced_in(const StepReport& report, std::size_t step) {
+  const auto& before = report.frames.at(step).piercings;
+  const auto& after = report.frames.at(step + 1).piercings;
+  if (!before || !after) return std::nullopt;
+  std::vector<mesh::Piercing> all;
+  std::ranges::set_union(*before, *after, std::back_inserter(all));
   return all.size();
 }
 
@@ -79,6 +79,11 @@ std::string earliest_text(const StepReport& report, const StepRecord& step) {
   return fmt::format("{:.6g}", step.earliest->toi_lower);
 }
 
+bool has_piercings(const StepReport& report) {
+  return std::ranges::all_of(report.frames,
+                             [](const FrameRecord& frame) { return frame.piercings.has_value(); });
+}
+
 io::TextTable table_of(const StepReport& report) {
   const std::vector<fast::PairKind> kinds = kinds_in(report);
   const bool has_counts = report.question == jobs::StepQuestion::all;
@@ -89,7 +94,7 @@ io::TextTable table_of(const StepReport& report) {
   }
   columns.push_back({"earliest", 11});
   if (report.alpha) columns.push_back({"free alpha", 20});
-  columns.push_back({"pierced", 7});
+  if (has_piercings(report)) columns.push_back({"pierced", 7});
   columns.push_back({"seconds", 8});
   io::TextTable table(std::move(columns));
   for (std::size_t i = 0; i < report.steps.size(); ++i) {
@@ -103,7 +108,7 @@ io::TextTable table_of(const StepReport& report) {
     }
     row.push_back(earliest_text(report, step));
     if (report.alpha) row.push_back(io::number_text(step.free_alpha, "{}"));
-    row.push_back(std::to_string(pierced_in(report, i)));
+    if (const auto pierced = pierced_in(report, i)) row.push_back(std::to_string(*pierced));
     row.push_back(io::number_text((step.broad_phase + step.narrow_phase).wall, "{:.3f}"));
     table.add(std::move(row));
   }
@@ -158,16 +163,16 @@ void append_collisions(std::string& text, const StepReport& report, std::size_t 
 }
 
 void append_piercings(std::string& text, const StepReport& report, const FrameRecord& frame) {
-  if (frame.piercings.empty()) return;
+  if (!frame.piercings || frame.piercings->empty()) return;
   text += fmt::format("\n{}: the mesh intersects itself; edges that pierce faces: {}\n",
-                      io::printable(frame.name), frame.piercings.size());
-  const std::size_t printed = std::min(frame.piercings.size(), most_pairs);
-  for (const mesh::Piercing& piercing : std::span(frame.piercings).first(printed)) {
+                      io::printable(frame.name), frame.piercings->size());
+  const std::size_t printed = std::min(frame.piercings->size(), most_pairs);
+  for (const mesh::Piercing& piercing : std::span(*frame.piercings).first(printed)) {
     text += fmt::format("  edge {} ({}), face {} ({})\n", piercing.edge,
                         vertices_text(report.edges, piercing.edge), piercing.face,
                         vertices_text(report.faces, piercing.face));
   }
-  text += rest_text(frame.piercings.size(), "--json FILE");
+  text += rest_text(frame.piercings->size(), "--json FILE");
 }
 
 void append_proof(std::string& text, const StepReport& report, std::size_t i) {
@@ -224,13 +229,15 @@ nlohmann::json seconds_of(const StepRecord& step, double jobs::WorkTime::*time) 
 }
 
 nlohmann::json json_of(const FrameRecord& frame) {
-  nlohmann::json piercings = nlohmann::json::array();
-  for (const mesh::Piercing& piercing : frame.piercings) {
-    piercings.push_back({piercing.edge, piercing.face});
+  nlohmann::json json{
+      {"name", io::printable(frame.name)}, {"pierced", nullptr}, {"piercings", nullptr}};
+  if (!frame.piercings) return json;
+  json["pierced"] = frame.piercings->size();
+  json["piercings"] = nlohmann::json::array();
+  for (const mesh::Piercing& piercing : *frame.piercings) {
+    json["piercings"].push_back({piercing.edge, piercing.face});
   }
-  return {{"name", io::printable(frame.name)},
-          {"pierced", frame.piercings.size()},
-          {"piercings", std::move(piercings)}};
+  return json;
 }
 
 nlohmann::json json_of(const StepReport& report, std::size_t i) {
@@ -238,6 +245,7 @@ nlohmann::json json_of(const StepReport& report, std::size_t i) {
   const auto toi = [&](double fast::StepImpact::*bound) {
     return step.earliest ? nlohmann::json((*step.earliest).*bound) : nlohmann::json();
   };
+  const auto pierced = pierced_in(report, i);
   nlohmann::json earliest = nlohmann::json::array();
   if (step.earliest) {
     for (const fast::StepCollision& pair : step.earliest->pairs) earliest.push_back(json_of(pair));
@@ -252,7 +260,7 @@ nlohmann::json json_of(const StepReport& report, std::size_t i) {
       {"toi_upper", toi(&fast::StepImpact::toi_upper)},
       {"earliest", std::move(earliest)},
       {"free", step.is_free},
-      {"pierced", pierced_in(report, i)},
+      {"pierced", pierced ? nlohmann::json(*pierced) : nlohmann::json()},
       {"seconds", seconds_of(step, &jobs::WorkTime::wall)},
       {"processor_seconds", seconds_of(step, &jobs::WorkTime::processor)}};
   if (report.alpha) json["free_alpha"] = io::number_to_json(step.free_alpha);
@@ -270,8 +278,9 @@ nlohmann::json json_of(const StepReport& report, std::size_t i) {
 
 bool has_collisions(const StepReport& report) {
   return !std::ranges::all_of(report.steps, &StepRecord::is_free) ||
-         !std::ranges::all_of(report.frames,
-                              [](const FrameRecord& frame) { return frame.piercings.empty(); });
+         !std::ranges::all_of(report.frames, [](const FrameRecord& frame) {
+           return !frame.piercings || frame.piercings->empty();
+         });
 }
 
 std::string to_text(const StepReport& report) {

@@ -7,6 +7,7 @@
 #include <array>
 #include <cstdint>
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -19,8 +20,8 @@ namespace touchstone::verify::report {
 /// A frame and the edges that pierce faces in it.
 struct FrameRecord {
   std::string name;
-  std::vector<mesh::Piercing> piercings;
-  jobs::WorkTime time;  ///< of finding them
+  std::optional<std::vector<mesh::Piercing>> piercings;  ///< if they were searched for; ascending
+  jobs::WorkTime time;                                   ///< of finding them
 };
 
 /// The step from frame i to frame i + 1.
@@ -34,7 +35,7 @@ struct StepReport {
   std::size_t vertices = 0;
   std::span<const fast::Edge> edges;
   std::span<const fast::Face> faces;
-  /// One more than steps, unless the run was interrupted.
+  /// One more than steps; an interrupted run may have one more, or none.
   std::vector<FrameRecord> frames;
   std::vector<StepRecord> steps;
   bool interrupted = false;
@@ -49,14 +50,15 @@ struct StepReport {
 
 /// `separation` (as in bench_report.hpp, null for contact), `alpha` (or null), `question` (all,
 /// earliest or free), `vertices`, `edges`, `faces`, `interrupted`; `frames`, a list of `name`,
-/// `pierced` (how many edges pierce faces) and `piercings` (pairs of an edge and a face); and
+/// `pierced` (how many edges pierce faces) and `piercings` (pairs of an edge and a face; both null
+/// if they were not searched for); and
 /// `steps`, a list of `frames` (two names), `candidates` and `collisions`
 /// (`vertex_face`, `edge_edge`, `vertex_edge`, `vertex_vertex`; null where they were not
 /// counted or not all asked for), `toi_lower` and `toi_upper` (null if nothing touches, or only
 /// freedom was asked for), `earliest` (the pairs of the earliest impact, as below), `free`,
-/// `pierced` (how many pairs pierce in one of the two frames or both), `free_alpha` (with alpha),
-/// `proof` (if a certificate was written: `claim`, `directions` and `certificates`, the pairs that
-/// are argued by each, `bytes`, and `complete`), and `seconds` and `processor_seconds`
+/// `pierced` (how many pairs pierce in one of the two frames or both, or null), `free_alpha` (with
+/// alpha), `proof` (if a certificate was written: `claim`, `directions` and `certificates`, the
+/// pairs that are argued by each, `bytes`, and `complete`), and `seconds` and `processor_seconds`
 /// (`broad_phase`, `narrow_phase`, `total`).
 ///
 /// A pair has `kind`, `first`, `second` (numbers from 0), `toi_lower`, `toi_upper`, `u` and `v`.

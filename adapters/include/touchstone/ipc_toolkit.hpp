@@ -118,7 +118,7 @@ class NarrowPhaseCCD : public ipc::NarrowPhaseCCD {
   /// d_e: at least d_min and below the distance d > d_min, which is between neighbouring doubles.
   [[nodiscard]] double effective_distance(double d_min, const fast::Distance& d) const {
     const double wanted = d_min + (1.0 - conservative_rescaling) * (d.lower - d_min);
-    return std::max(d_min, std::min(wanted, std::nextafter(d.lower, 0.0)));
+    return (std::max)(d_min, (std::min)(wanted, std::nextafter(d.lower, 0.0)));
   }
 
   static void require_valid(double min_distance, double tmax) {

@@ -7,6 +7,8 @@
 /// CGAL takes where libgmpxx is installed: algebra/number.cpp refuses to compile otherwise. Thus no
 /// other source reads CGAL's headers. The functions are thread-safe.
 
+#include "touchstone/cxx20.hpp"
+
 #include <gmpxx.h>
 
 #include <string_view>

@@ -21,15 +21,15 @@
 /// All functions are thread-safe. This is the only header of exact/ that fast/ includes. It needs
 /// Eigen alone.
 
+#include "touchstone/cxx20.hpp"
+
 #include <Eigen/Core>
 
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <span>
 #include <stdexcept>
 #include <string_view>
@@ -80,9 +80,15 @@ static_assert(sizeof(Query) == 3 * query_points * sizeof(double));
 static_assert(std::is_trivially_copyable_v<Query> && std::is_standard_layout_v<Query> &&
               std::is_aggregate_v<Query>);
 
-/// True if all numbers, or all coordinates, are finite.
+/// The bits of infinity; those of a number that is not finite contain them.
+inline constexpr std::uint64_t infinity_bits = 0x7FF0'0000'0000'0000;
+
+/// True if all numbers, or all coordinates, are finite. The bits decide, because a caller's
+/// compiler may take every number for finite (-ffast-math).
 [[nodiscard]] inline bool is_finite(std::span<const double> numbers) {
-  return std::ranges::all_of(numbers, [](double x) { return std::isfinite(x); });
+  return std::ranges::all_of(numbers, [](double x) {
+    return (std::bit_cast<std::uint64_t>(x) & infinity_bits) != infinity_bits;
+  });
 }
 [[nodiscard]] inline bool is_finite(const Query& query) { return is_finite(query.coordinates); }
 
@@ -127,15 +133,15 @@ struct Separation {
   friend bool operator==(const Separation&, const Separation&) = default;
 };
 
-/// True if the distance is finite and not negative.
-[[nodiscard]] inline bool is_valid(const Separation& separation) {
-  return separation.distance >= 0.0 && separation.distance <= std::numeric_limits<double>::max();
-}
-
 /// True if the distance is 0, so that the norm does not matter. The bits decide, because a
 /// floating-point environment may treat a subnormal distance as 0.
 [[nodiscard]] inline bool is_zero(const Separation& separation) {
   return std::bit_cast<std::uint64_t>(separation.distance) << 1U == 0;
+}
+
+/// True if the distance is finite and not negative. The bits decide, as for is_finite.
+[[nodiscard]] inline bool is_valid(const Separation& separation) {
+  return std::bit_cast<std::uint64_t>(separation.distance) < infinity_bits || is_zero(separation);
 }
 
 /// "linf" or "l2".

@@ -30,6 +30,7 @@
 /// Pairs that share a vertex are excluded, because they are always in contact. The functions are
 /// thread-safe.
 
+#include <atomic>
 #include <cstdint>
 #include <limits>
 #include <span>
@@ -47,7 +48,15 @@ struct BroadPhaseOptions {
   /// Maximum number of cores; 0: all. The result does not depend on it.
   int max_threads = 0;
   /// More candidates are an error. Each takes eight bytes.
-  std::uint64_t max_candidates = std::numeric_limits<std::uint64_t>::max();
+  std::uint64_t max_candidates = (std::numeric_limits<std::uint64_t>::max)();
+  /// May be null. Once true, the search ends soon with the exception Stopped.
+  const std::atomic<bool>* stop = nullptr;
+};
+
+/// BroadPhaseOptions::stop or StepOptions::stop has ended a search.
+class Stopped : public std::runtime_error {
+ public:
+  Stopped() : std::runtime_error("the search was stopped") {}
 };
 
 /// More candidates than allowed, or than fit into memory. Counting them takes no memory, and the
@@ -70,7 +79,7 @@ class TooManyCandidates : public std::runtime_error {
 /// \throws std::domain_error naming the first vertex with a coordinate that is NaN or infinite;
 /// std::out_of_range naming the first face with an index out of range; std::invalid_argument for
 /// invalid options; std::length_error if there are more than 2^31−1 of a primitive;
-/// TooManyCandidates.
+/// TooManyCandidates; Stopped.
 [[nodiscard]] std::vector<IndexPair> vertex_face_candidates(const MovingVertices& vertices,
                                                             std::span<const Face> faces,
                                                             const BroadPhaseOptions& options = {});

@@ -44,10 +44,10 @@
 #include <memory>
 #include <optional>
 #include <span>
-#include <stdexcept>
 #include <string_view>
 #include <vector>
 
+#include "touchstone/broad_phase.hpp"
 #include "touchstone/certified.hpp"
 #include "touchstone/mesh.hpp"
 #include "touchstone/query.hpp"
@@ -102,12 +102,6 @@ struct StepOptions {
   /// May be null, else outlives the step and all made from it. While true, their searches for
   /// impacts, collisions and candidates end soon with the exception Stopped.
   const std::atomic<bool>* stop = nullptr;
-};
-
-/// StepOptions::stop has ended a search.
-class Stopped : public std::runtime_error {
- public:
-  Stopped() : std::runtime_error("step: the search was stopped") {}
 };
 
 /// Two primitives that collide.

@@ -7,8 +7,10 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <chrono>
 #include <csignal>
+#include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <functional>
@@ -41,6 +43,16 @@ std::string falling_vertex() {
 
 class TerminalTool : public tests::ToolTest {
  protected:
+  /// Runs the program, and interrupts it when it handles interrupts and the condition holds.
+  [[nodiscard]] Outcome run_interrupted(
+      const std::vector<std::string>& words,
+      const std::function<bool()>& condition = [] { return true; }) const {
+    const pid_t process = start(words);
+    EXPECT_TRUE(comes_true([&] { return handles(process, SIGINT) && condition(); }));
+    kill(process, SIGINT);
+    return finish(process);
+  }
+
   [[nodiscard]] std::string make_pipe(const std::string& name) const {
     EXPECT_EQ(::mkfifo(path(name).c_str(), 0600), 0);
     return path(name);
@@ -48,6 +60,75 @@ class TerminalTool : public tests::ToolTest {
 };
 
 // ---- Interrupts ---------------------------------------------------------------------------------
+
+TEST_F(TerminalTool, EveryCommandEndsAtAnInterrupt) {
+  const std::string out = path("result");
+  const std::vector<std::vector<std::string>> runs{
+      {"certify", "--count", "100000000"},
+      {"solve", "--count", "100000000", "--method", "certified", "--out", out},
+      {"prove", "--count", "100000000", "--out", out},
+      {"generate", "--count", "100000000", "--out", out},
+      {"generate", "--patches", "1000", "--out", out},
+      {"bench", "--count", "100000000"},
+      {"fuzz", "--method", "certified"},
+      {"curved", "--count", "100000000"},
+      {"stability"},
+      {"report", "--out", out},
+      {"derive"}};
+  for (const std::vector<std::string>& words : runs) {
+    EXPECT_EQ(run_interrupted(words).status, 130) << words[0] << " " << words.back();
+  }
+}
+
+/// A sheet whose vertices are in places all over the cube of this size: nearly all pairs of its
+/// primitives are candidates of the step between two sizes.
+std::string sheet(double size) {
+  constexpr int row = 61;
+  std::string text;
+  for (int i = 0; i < row * row; ++i) {
+    text += "v";
+    for (const int factor : {7919, 104'729, 1'299'709}) {
+      text += " " + std::to_string(size * (i * std::int64_t{factor} % 1009));
+    }
+    text += '\n';
+  }
+  for (int i = 1; i <= row * (row - 1); ++i) {
+    if (i % row == 0) continue;
+    text += "f " + std::to_string(i) + " " + std::to_string(i + 1) + " " + std::to_string(i + row) +
+            '\n';
+  }
+  return text;
+}
+
+/// The second frame comes through a pipe: when it has been read, the search begins, which takes
+/// minutes.
+TEST_F(TerminalTool, ASearchOfAStepEndsAtAnInterrupt) {
+  const std::string before = write("0.obj", sheet(0.01)), after = path("1.obj");
+  const std::string text = sheet(-1.0), out = path("result");
+  ASSERT_EQ(::mkfifo(after.c_str(), 0600), 0);
+  const std::vector<std::vector<std::string>> runs{
+      {"step", before, after, "--all", "--no-piercings", "--csv", out},
+      {"step", before, after, "--free", "--json", out},
+      {"candidates", before, after, "--out", out, "--max-candidates", "1000000000"},
+      {"bench", "--step", before, after},
+      {"view", "--step", before, after, "--out", out}};
+  for (const std::vector<std::string>& words : runs) {
+    std::atomic<bool> is_written = false;
+    std::thread writer([&] {
+      std::ofstream(after) << text;  // waits for the reader
+      is_written = true;
+    });
+    const auto is_read = [&] {
+      if (!is_written) return false;
+      const int pipe = ::open(after.c_str(), O_WRONLY | O_NONBLOCK);
+      if (pipe >= 0) ::close(pipe);
+      return pipe < 0;
+    };
+    EXPECT_EQ(run_interrupted(words, is_read).status, 130) << words[0] << " " << words[3];
+    ::close(::open(after.c_str(), O_RDONLY | O_NONBLOCK));  // for a writer that nobody has read
+    writer.join();
+  }
+}
 
 TEST_F(TerminalTool, TheFirstInterruptEndsAReadThatBlocks) {
   const std::string pipe = make_pipe("queries_vf.csv");

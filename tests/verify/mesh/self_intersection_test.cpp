@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <atomic>
 #include <cmath>
 #include <utility>
 #include <vector>
@@ -116,6 +117,8 @@ TEST(Piercings, CountThePairsAskedForInOrder) {
       (std::vector<Piercing>{{0, 0}, {1, 1}}));
   EXPECT_TRUE(find_piercings(vertices, {}, faces).empty());
   EXPECT_TRUE(find_piercings(vertices, edges, {}).empty());
+  const std::atomic<bool> stop = true;
+  EXPECT_THROW((void)find_piercings(vertices, edges, faces, nullptr, &stop), fast::Stopped);
 }
 
 /// An edge and a face meet iff an end of the edge is in the face, the edge meets an edge of the

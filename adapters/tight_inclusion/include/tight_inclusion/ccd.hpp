@@ -87,7 +87,7 @@ inline Array3 tolerances(const Corners& corners, Scalar distance_tolerance) {
     for (std::size_t corner = 0; corner < 8; ++corner) {
       if ((corner & digit) != 0) continue;
       const Vector3 change = corners[corner + digit] - corners[corner];
-      greatest = std::max(greatest, change.cwiseAbs().maxCoeff());
+      greatest = (std::max)(greatest, change.cwiseAbs().maxCoeff());
     }
     result[static_cast<Eigen::Index>(parameter)] = greatest == 0
                                                        ? std::numeric_limits<Scalar>::infinity()

@@ -26,12 +26,12 @@ inline Array3 get_numerical_error(const std::vector<Vector3>& vertices, const bo
   for (const Vector3& vertex : vertices) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const double x = touchstone::fast::to_double(vertex[static_cast<Eigen::Index>(axis)]);
-      greatest[axis] = std::max(greatest[axis], std::abs(x));
+      greatest[axis] = (std::max)(greatest[axis], std::abs(x));
     }
   }
   const std::array<double, 3> filter = touchstone::fast::error_filter(
       is_vertex_face ? touchstone::Kind::vertex_face : touchstone::Kind::edge_edge, greatest,
-      using_minimum_separation ? std::numeric_limits<double>::min() : 0.0);
+      using_minimum_separation ? (std::numeric_limits<double>::min)() : 0.0);
   return Eigen::Array3d(filter[0], filter[1], filter[2]).cast<Scalar>();
 }
 

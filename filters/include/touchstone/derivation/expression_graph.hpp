@@ -4,6 +4,11 @@
 /// An expression as a graph of its operations, recorded by running its template on a scalar
 /// that records operations. All derivations start from this graph.
 
+#if __cplusplus <= 201703L
+#error "Touchstone needs C++20: compile with -std=c++20"
+#include <touchstone/needs_cxx20>  // as in touchstone/cxx20.hpp, which this module does not use
+#endif
+
 #include <array>
 #include <cstddef>
 #include <cstdint>

@@ -32,10 +32,11 @@ namespace touchstone::filters {
 namespace {  // NOLINT(cert-dcl59-cpp,google-build-namespaces): the flags of each source matter
 
 [[maybe_unused]] const bool products_round_before_sums = [] {
-  // (1+ε)(1−ε) − 1 for ε = 2^-30: 0 if the product rounds to 1.
+  // (1+ε)(1−ε) − 1 for ε = 2^-30: fused it is −ε², separate a multiple of 2^-53, in every rounding
+  // mode of the program that loads this.
   volatile double epsilon = 0x1p-30;
   const double a = 1.0 + epsilon, b = 1.0 - epsilon;
-  if (a * b - 1.0 == 0.0) return true;
+  if (a * b - 1.0 != -0x1p-60) return true;
   std::fputs(
       "touchstone: error bounds do not hold where products are contracted: compile every source "
       "that includes filters/ with -ffp-contract=off\n",

@@ -1,0 +1,10 @@
+#pragma once
+
+/// \file
+/// The language that the headers need: included first by those that every other one includes.
+
+#if __cplusplus <= 201703L
+#error "Touchstone needs C++20: compile with -std=c++20"
+// A missing file ends the compilation, before errors of the other headers hide this one.
+#include <touchstone/needs_cxx20>
+#endif
