@@ -142,34 +142,6 @@ TEST_F(Tool, SaysThatFalsePositivesAreNotShown) {
   EXPECT_TRUE(contains(outcome.out, "no wrong answer to look at (false positives")) << outcome.out;
 }
 
-TEST_F(Tool, RigidDecidesQueriesOfRotatingBodies) {
-  // A vertex turns by a quarter about the z axis, through a triangle that stands at 45 degrees.
-  const auto query = [](const std::string& end_of_vertex) {
-    const std::string at_rest = R"({"position": [0, 0, 0], "rotation": [0, 0, 0]})";
-    return R"({"type": "fv", "vertex": {"pose_t0": )" + at_rest + R"(, "pose_t1": )" +
-           end_of_vertex + R"(, "vertex": [1, 0, 0]}, "face": {"pose_t0": )" + at_rest +
-           R"(, "pose_t1": )" + at_rest +
-           R"(, "vertex0": [0.5, 0.5, -1], "vertex1": [0.5, 0.5, 1], "vertex2": [1, 1, 0]}})";
-  };
-  const auto file = [&](const std::string& name, const std::string& text) {
-    std::ofstream(path(name), std::ios::binary) << text;
-    return path(name);
-  };
-  const std::string hit =
-      file("hit.json", query(R"({"position": [0, 0, 0], "rotation": [0, 0, 1.5]})"));
-  const std::string miss =
-      file("miss.json", query(R"({"position": [0, 0, 0], "rotation": [0, 0, 0.7]})"));
-  const Outcome both = run({"rigid", hit, miss});
-  EXPECT_EQ(both.status, 1);
-  EXPECT_TRUE(contains(both.out, "hit.json: yes, at a time in [0.523")) << both.out;
-  EXPECT_TRUE(contains(both.out, "2 queries: 1 no, 1 yes, 0 undecided")) << both.out;
-  EXPECT_EQ(run({"rigid", miss}).status, 0);
-  const std::string lacking = file("bad.json", R"({"type": "fv"})");
-  const Outcome bad = run({"rigid", lacking});
-  EXPECT_EQ(bad.status, 2);
-  EXPECT_TRUE(contains(bad.err, "bad.json: the query has no member vertex")) << bad.err;
-}
-
 /// A vertex that falls on a parabola to a face, and one that does not reach it.
 TEST_F(Tool, DecidesCurves) {
   std::string text = "degree,2\n";
