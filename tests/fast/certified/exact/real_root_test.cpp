@@ -196,10 +196,10 @@ TEST(AlgebraicInstant, NarrowsByTwiceAsManyBitsEachTime) {
 
 TEST(AlgebraicInstant, ComparesRootsThatAreHardlyApart) {
   const BigInteger large = BigInteger(1) << 20000;
-  const Polynomial f = cubic(1, 0, -2, 0) * large;  // 1 − 2t², t = √½
+  const Polynomial f = polynomial(in_time(1, 0, -2)) * large;  // 1 − 2t², t = √½
   for (const int sign : {1, -1}) {
     Polynomial other = f;
-    for (std::size_t k = 0; k < 4; ++k) other[k] += BigInteger(sign) * cubic(1, 0, 0, 0)[k];
+    other += polynomial(in_time(1, 0, 0)) * BigInteger(sign);
     Instant a(f, {0, 0}, {1, 0}), b(other, {0, 0}, {1, 0});
     EXPECT_EQ(compare(a, b), -sign);
     EXPECT_EQ(compare(b, a), sign);
