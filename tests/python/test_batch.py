@@ -205,9 +205,9 @@ def test_numbers_of_other_types_are_taken_exactly(queries):
         other = touchstone.certified(
             "edge_edge", queries, separation=number, t_max=np.int8(1), threads=np.uint8(1), progress=np.False_
         )
-        assert other.array.tobytes() == plain.array.tobytes()
+        assert bits(other) == bits(plain)
     free = np.ma.array(queries, mask=False)
-    assert touchstone.certified("edge_edge", free, separation=0.125).array.tobytes() == plain.array.tobytes()
+    assert bits(touchstone.certified("edge_edge", free, separation=0.125)) == bits(plain)
 
 
 def step(**options):
@@ -238,7 +238,7 @@ def test_options_of_wrong_types_are_named(call):
         (Fraction(1, 3), ValueError, r"Fraction\(1, 3\) is not a double; pass float"),
         (Decimal("0.1"), ValueError, r"Decimal\('0.1'\) is not a double"),
         (2**53 + 1, ValueError, "9007199254740993 is not a double"),
-        (10**400, ValueError, "is beyond the range of doubles"),
+        (10**400, ValueError, "10+.* is beyond the range of doubles"),
         ("0.5", TypeError, "a real number is needed, not '0.5' of type str"),
         (True, TypeError, "a real number is needed, not True of type bool"),
         ([0.5], TypeError, r"a real number is needed, not \[0.5\] of type list"),

@@ -3,7 +3,7 @@
 /// \file
 /// Queries on curves in files.
 ///
-/// - `.npy`: little-endian float64 in C order, of shape (N, K+1, 4, 3): the control points from t=0
+/// - `.npy`: float64 or float32, of shape (N, K+1, 4, 3): the control points from t=0
 /// to
 ///   t=1 of the four points; (N, K+1, 4, 4) with weights last; (N, 8, 3) is of degree 1.
 /// - `.csv`: the first line is `degree,K` or `rational,K`; then 4 (K+1) rows a query, x, y and z
