@@ -158,6 +158,8 @@ constexpr auto headers_without_test = std::to_array<Exception>({
      "tested through the kernels, and in curved_test.cpp"},
     {"filters/", "strict_arithmetic.hpp", "tested by compilation, in tests/filters/CMakeLists.txt"},
     {"verify/baselines/", "curved_methods.hpp", "tested in certify_curves_test.cpp"},
+    {"verify/baselines/", "moving_polynomials.hpp query_random.hpp upward_rounding.hpp",
+     "parts of the methods, tested by their answers in baselines_test.cpp"},
     {"verify/cli/",
      "certificates_file.hpp commands.hpp curved_run.hpp files.hpp group_options.hpp help.hpp "
      "options.hpp solver_options.hpp sources.hpp version.hpp view_file.hpp",

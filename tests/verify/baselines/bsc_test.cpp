@@ -56,17 +56,6 @@ TEST(Bsc, IsRightInGeneralPositionButForInflections) {
   }
 }
 
-TEST(Bsc, ThrowsForAboutHalfOfAllCollisions) {
-  Random random(2);
-  const int count = tests::trials(1000);
-  for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
-    int thrown = 0;
-    for (int i = 0; i < count; ++i) thrown += throws(tests::random_hit(random, kind)) ? 1 : 0;
-    EXPECT_GT(thrown, count / 2);
-    EXPECT_LT(thrown, count * 9 / 10);
-  }
-}
-
 TEST(Bsc, MissesEveryContactInACommonPlane) {
   Random random(3);
   int collisions = 0;

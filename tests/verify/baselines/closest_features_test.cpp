@@ -14,38 +14,9 @@ namespace {
 using Vector = Eigen::Vector3d;
 using tests::Random;
 
-const Triangle right_angled{{0, 0, 0}, {4, 0, 0}, {0, 4, 0}};
-
-void expect_both(const Vector& p, const Triangle& triangle, double expected) {
-  EXPECT_NEAR(closest_point_squared_distance(p, triangle), expected, 1e-14 * (1.0 + expected));
-  EXPECT_NEAR(feature_squared_distance(p, triangle), expected, 1e-14 * (1.0 + expected));
-}
-
 void expect_both(const Segment& a, const Segment& b, double expected) {
   EXPECT_NEAR(closest_points_squared_distance(a, b), expected, 1e-14 * (1.0 + expected));
   EXPECT_NEAR(feature_squared_distance(a, b), expected, 1e-14 * (1.0 + expected));
-}
-
-TEST(TriangleDistance, OfEveryFeature) {
-  expect_both({1, 1, 3}, right_angled, 9.0);
-  expect_both({-3, -4, 0}, right_angled, 25.0);
-  expect_both({6, -1, 2}, right_angled, 9.0);
-  expect_both({-1, 6, 2}, right_angled, 9.0);
-  expect_both({2, -2, 1}, right_angled, 5.0);
-  expect_both({-2, 2, 1}, right_angled, 5.0);
-  expect_both({3, 3, 1}, right_angled, 3.0);
-  expect_both({1, 1, 0}, right_angled, 0.0);
-}
-
-TEST(SegmentDistance, OfEveryPairOfFeatures) {
-  const Segment along_x{{0, 0, 0}, {4, 0, 0}};
-  expect_both(along_x, {{1, -2, 3}, {1, 2, 3}}, 9.0);
-  expect_both(along_x, {{1, 2, 3}, {1, 5, 3}}, 13.0);
-  expect_both(along_x, {{6, -2, 3}, {6, 2, 3}}, 13.0);
-  expect_both(along_x, {{6, 3, 1}, {8, 9, 1}}, 14.0);
-  expect_both(along_x, {{-6, 2, 1}, {-1, 2, 1}}, 6.0);
-  expect_both(along_x, {{1, 2, 0}, {9, 2, 0}}, 4.0);
-  expect_both(along_x, {{2, -1, 0}, {2, 1, 0}}, 0.0);
 }
 
 TEST(SegmentDistance, OfShortSegments) {
@@ -76,7 +47,7 @@ double least_on_grid(const Distance& distance, int steps, bool triangle) {
   return least;
 }
 
-TEST(Distances, AreTheLeastOnAGrid) {
+TEST(Distances, AreTheLeastOnAGridByFeatureAndByPoint) {
   Random random(6);
   constexpr int steps = 60;
   constexpr double off = 4.0 * 2.0 / steps;  // in the distance: two parameters, edges of up to 4
@@ -92,26 +63,14 @@ TEST(Distances, AreTheLeastOnAGrid) {
     const double to_triangle = least_on_grid(
         [&](double u, double v) { return (p - (a + u * (b - a) + v * (c - a))).squaredNorm(); },
         steps, true);
-    check(closest_point_squared_distance(p, {a, b, c}), to_triangle);
-    check(feature_squared_distance(p, {a, b, c}), to_triangle);
+    const double by_point = closest_point_squared_distance(p, {a, b, c});
+    check(by_point, to_triangle);
+    EXPECT_NEAR(feature_squared_distance(p, {a, b, c}), by_point, 1e-9);
     const double of_edges = least_on_grid(
         [&](double u, double v) { return (p + u * (a - p) - (b + v * (c - b))).squaredNorm(); },
         steps, false);
-    check(closest_points_squared_distance({p, a}, {b, c}), of_edges);
-    check(feature_squared_distance(Segment{p, a}, {b, c}), of_edges);
-  }
-}
-
-TEST(Distances, ByFeatureAndByPointAgree) {
-  Random random(7);
-  const auto draw = [&] {
-    return Vector(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1));
-  };
-  for (int i = 0; i < 10000; ++i) {
-    const Vector p = draw(), a = draw(), b = draw(), c = draw();
-    const double by_point = closest_point_squared_distance(p, {a, b, c});
-    EXPECT_NEAR(feature_squared_distance(p, {a, b, c}), by_point, 1e-9);
     const double by_points = closest_points_squared_distance({p, a}, {b, c});
+    check(by_points, of_edges);
     EXPECT_NEAR(feature_squared_distance(Segment{p, a}, {b, c}), by_points, 1e-9);
   }
 }

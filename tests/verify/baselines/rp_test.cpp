@@ -58,16 +58,13 @@ TEST(Rp, FindsContactsThatItsRayStartsOn) {
   EXPECT_FALSE(says_yes(rp(), tests::over_edge(5, 2, 1, -1)));
 }
 
-/// A query whose edge f0 f1 turns over in the plane z=0 while f2 stays below: its patch is an
-/// hourglass about (1/2, 0) in units of F, whose hull holds 0 although the patch does not.
-PosedQuery hourglass_beside_origin() {
-  return tests::vertex_face({0, 0, 0, 0.5, 1, 0, -1.5, 1, 0, 0, 0, -5},
-                            {0, 0, 0, -1.5, -1, 0, 0.5, -1, 0, 0, 0, -5});
-}
-
 TEST(Rp, TakesTheHullOfAnHourglassForThePatch) {
-  EXPECT_FALSE(tests::truly_collides(hourglass_beside_origin()));
-  EXPECT_TRUE(says_yes(rp(), hourglass_beside_origin()));
+  // The edge f0 f1 turns over in the plane z=0 while f2 stays below: the patch is an hourglass
+  // about (1/2, 0) in units of F, whose hull holds 0 although the patch does not.
+  const PosedQuery beside = tests::vertex_face({0, 0, 0, 0.5, 1, 0, -1.5, 1, 0, 0, 0, -5},
+                                               {0, 0, 0, -1.5, -1, 0, 0.5, -1, 0, 0, 0, -5});
+  EXPECT_FALSE(tests::truly_collides(beside));
+  EXPECT_TRUE(says_yes(rp(), beside));
 }
 
 TEST(Rp, AnswersAlikeInAnyOrderAndAnyRounding) {

@@ -44,18 +44,6 @@ double worst_distance(const std::vector<Complex>& expected, const Zeros& found) 
   return worst;
 }
 
-TEST(Rpoly, FindsWhatIsKnown) {
-  EXPECT_LT(worst_distance({3.0}, zeros_of(with_zeros({3.0}))), 1e-15);
-  EXPECT_LT(worst_distance({1.0, 2.0}, zeros_of(with_zeros({1.0, 2.0}, -4.0))), 1e-14);
-  EXPECT_LT(worst_distance({1.0, 2.0, 3.0}, zeros_of(with_zeros({1.0, 2.0, 3.0}))), 1e-12);
-  const std::vector<Complex> roots_of_minus_one{
-      {0.5, std::sqrt(0.75)}, {0.5, -std::sqrt(0.75)}, -1};
-  EXPECT_LT(worst_distance(roots_of_minus_one, zeros_of(std::vector{1.0, 0.0, 0.0, 1.0})), 1e-12);
-  std::vector<Complex> wilkinson;
-  for (int i = 1; i <= 8; ++i) wilkinson.emplace_back(i);
-  EXPECT_LT(worst_distance(wilkinson, zeros_of(with_zeros(wilkinson))), 1e-8);
-}
-
 TEST(Rpoly, FindsTheZerosOfThePrintedInflection) {
   // −72t³ + 120t² − 44t + 3 (docs/methods.md, section 1.4).
   std::vector<double> real;

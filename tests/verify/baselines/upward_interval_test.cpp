@@ -97,16 +97,5 @@ TEST(UpwardInterval, StandsForFiniteNumbersWhereItsEndsAreInfinite) {
   EXPECT_EQ(of_large.sign(), 0);
 }
 
-TEST(UpwardInterval, KnowsItsSign) {
-  EXPECT_EQ(from_to(0x1p-1074, 1).sign(), 1);
-  EXPECT_EQ(from_to(-1, -0x1p-1074).sign(), -1);
-  EXPECT_EQ(from_to(0, 1).sign(), 0);
-  EXPECT_EQ(from_to(-1, 0).sign(), 0);
-  EXPECT_TRUE(same_sign(from_to(0, 1), from_to(-2, -1)));
-  EXPECT_TRUE(same_sign(from_to(-3, -1), from_to(-2, -1)));
-  EXPECT_FALSE(same_sign(from_to(1, 1), from_to(-2, -1)));
-  EXPECT_EQ(from_to(1, 3).estimate(), 2.0);
-}
-
 }  // namespace
 }  // namespace touchstone::baselines::upward_interval_test
