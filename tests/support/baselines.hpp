@@ -25,22 +25,15 @@
 
 namespace touchstone::tests {
 
-/// A query printed in the appendices of [wang2021], by the name of its family.
+/// A query printed in the appendices of [wang2021], by the name of its family: the hourglass, two
+/// vertices of a sinking face exchange places (contact at 0.9, up to the rounding of 0.1, and at
+/// 0.5 the face is degenerate); the inflection, coplanar twice, never in contact;
+/// sliding-degenerate, motion in a plane (the vertex meets a corner of the face at 7/29, about).
 [[nodiscard]] inline PosedQuery printed_query(std::string_view family) {
   const auto known = verify::generate::make_query(verify::generate::family_from_name(family),
                                                   Kind::vertex_face, 1, 0);
   return {Kind::vertex_face, known.query};
 }
-
-/// H, the hourglass: two vertices of a sinking face exchange places. Contact at 0.9 (up to the
-/// rounding of 0.1), and at 0.5 the face is degenerate.
-[[nodiscard]] inline PosedQuery printed_hourglass() { return printed_query("hourglass"); }
-
-/// I, the inflection: coplanar twice, never in contact.
-[[nodiscard]] inline PosedQuery printed_inflection() { return printed_query("inflection"); }
-
-/// C: motion in a plane; the vertex meets a corner of the face at 7/29 (about).
-[[nodiscard]] inline PosedQuery printed_coplanar() { return printed_query("sliding-degenerate"); }
 
 [[nodiscard]] inline fast::Answer answer_to(const fast::Method& method, const PosedQuery& posed,
                                             const fast::MethodOptions& options = {}) {

@@ -41,11 +41,6 @@ namespace touchstone::tests {
   return score;
 }
 
-/// The score on the public handcrafted queries of a kind; empty if they are missing.
-[[nodiscard]] inline Score score_on_handcrafted(const fast::Method& method, Kind kind) {
-  return score_on_public_data(method, {}, "handcrafted", kind, 1);
-}
-
 /// 1 + 2^-60, rounded in the mode of this thread's SSE unit (which std::fegetround does not
 /// report): 1 for to nearest and downward.
 [[nodiscard]] inline double one_and_a_little() {

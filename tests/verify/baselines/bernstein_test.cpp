@@ -49,17 +49,6 @@ Number casteljau(Bernstein<Number, degree> q, const Time& at) {
   return q[0];
 }
 
-TEST(Values, AreDeCasteljaus) {
-  tests::Random random(1);
-  for (int i = 0; i < 100; ++i) {
-    const Time at = random_time(random);
-    const auto quadratic = random_form<2>(random);
-    const auto cubic = random_form<3>(random);
-    EXPECT_TRUE(value(quadratic, at) == casteljau<2>(quadratic, at));
-    EXPECT_TRUE(value(cubic, at) == casteljau<3>(cubic, at));
-  }
-}
-
 /// A point at a time, times t + s.
 Vector<Number> position(const Moving<Number>& point, const Time& at) {
   Vector<Number> result;

@@ -67,26 +67,6 @@ TEST(UpwardInterval, HoldsTheResultsOfItsEnds) {
   }
 }
 
-TEST(UpwardInterval, IsAsNarrowAsItsEndsAllow) {
-  const std::array pairs{
-      std::array{from_to(2, 3), from_to(5, 7), from_to(10, 21)},
-      std::array{from_to(-3, -2), from_to(5, 7), from_to(-21, -10)},
-      std::array{from_to(2, 3), from_to(-7, 5), from_to(-21, 15)},
-      std::array{from_to(-3, -2), from_to(-7, 5), from_to(-15, 21)},
-      std::array{from_to(-2, 3), from_to(5, 7), from_to(-14, 21)},
-      std::array{from_to(-2, 3), from_to(-7, -5), from_to(-21, 14)},
-      std::array{from_to(-2, 3), from_to(-7, 5), from_to(-21, 15)},
-      std::array{from_to(0, 3), from_to(-7, 5), from_to(-21, 15)},
-      std::array{from_to(0, 0), from_to(-7, 5), from_to(0, 0)},
-  };
-  for (const auto& [a, b, product] : pairs) {
-    for (const auto& result : {rounded_operations(a, b)[2], rounded_operations(b, a)[2]}) {
-      EXPECT_EQ(result.minus_lower, product.minus_lower);
-      EXPECT_EQ(result.upper, product.upper);
-    }
-  }
-}
-
 TEST(UpwardInterval, StandsForFiniteNumbersWhereItsEndsAreInfinite) {
   const UpwardInterval unbounded{infinity, infinity}, zero(0.0);
   const auto product = rounded_operations(unbounded, zero)[2];

@@ -101,18 +101,6 @@ TEST(Diagnose, HoldsAYesToItsToleranceBeyondTheSeparation) {
   EXPECT_EQ(claims(0.0), judge::Fault::beyond_tolerance);
 }
 
-TEST(Diagnose, TellsFailuresApart) {
-  const auto what = [](const judge::Failure& failure) {
-    return diagnose_failure(failure, 10.0).what;
-  };
-  for (const judge::Fault kind : judge::all_failures) {
-    EXPECT_EQ(what({.kind = kind}), kind);
-  }
-  EXPECT_EQ(diagnose_failure({.kind = judge::Fault::hang}, 10.0).detail, "takes more than 10 s");
-  EXPECT_EQ(diagnose_failure({.kind = judge::Fault::exit, .number = 3}, 0.0).detail,
-            "exit: status 3");
-}
-
 TEST(Diagnose, JudgesAtTheSeparation) {
   const judge::Standard exact{.promise = Promise::exact};
   const Separation separation{.distance = 1.5};
@@ -120,24 +108,6 @@ TEST(Diagnose, JudgesAtTheSeparation) {
             judge::Fault::false_negative);
   EXPECT_EQ(fault(never, yes(0.5, 0.5), exact, separation), std::nullopt);
   EXPECT_EQ(fault(never, yes(0.75, 0.75), exact, separation), judge::Fault::late_toi);
-}
-
-TEST(Diagnose, FindsMostRightAnswersRightAtAGlance) {
-  const auto glance = [](const tests::PosedQuery& posed, const Answer& answer,
-                         const judge::Standard& standard) {
-    return is_beyond_doubt({posed.kind, posed.query}, fast::solve(posed.kind, posed.query), answer,
-                           standard);
-  };
-  EXPECT_TRUE(glance(at_third, yes(0.333, 0.334), {.promise = Promise::exact}));
-  EXPECT_TRUE(glance(at_third, {.verdict = Verdict::undecided}, {}));
-  EXPECT_TRUE(glance(never, {.verdict = Verdict::no}, {.promise = Promise::exact}));
-  EXPECT_TRUE(glance(never, yes(0.5, Answer::none), {}));
-  EXPECT_TRUE(glance(never, yes(0.5, Answer::none, 2.0), {.filter = fast::ErrorModel::derived}));
-}
-
-TEST(Diagnose, SaysAnswersInWords) {
-  EXPECT_EQ(to_text(Answer{.verdict = Verdict::no}), "no");
-  EXPECT_EQ(to_text(yes(0.5, Answer::none, 1e-6)), "yes, toi_lower 0.5, tolerance 1e-06");
 }
 
 }  // namespace

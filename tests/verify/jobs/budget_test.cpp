@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <memory>
 #include <vector>
 
@@ -20,15 +19,6 @@ struct Solvers {
   std::unique_ptr<solvers::Solver> second = solvers::solver_in_process(method, {});
   std::vector<const solvers::Solver*> all{first.get(), second.get()};
 };
-
-TEST(Budget, WithoutOneNothingIsLimited) {
-  Solvers solvers;
-  Budget budget;
-  EXPECT_FALSE(budget.is_limited());
-  EXPECT_FALSE(budget.is_over());
-  EXPECT_FALSE(budget.begin_source(1).is_over());
-  EXPECT_TRUE(std::isinf(solvers.first->allowance()));
-}
 
 TEST(Budget, SharesWhatIsLeftOverSourcesAndSolvers) {
   Solvers solvers;

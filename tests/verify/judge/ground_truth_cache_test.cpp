@@ -23,20 +23,6 @@ data::QueryGroup falling() {
 
 using Positions = std::vector<std::size_t>;
 
-TEST(GroundTruthCache, AreThoseOfTheQueriesAskedFor) {
-  const data::QueryGroup group = falling();
-  GroundTruthCache truths(group, 1);
-  const std::vector<GroundTruth> found = truths.of({}, Positions{0, 1, 2});
-  ASSERT_EQ(found.size(), 3U);
-  EXPECT_EQ(found[0].index, 0U);
-  EXPECT_TRUE(found[0].collides);
-  EXPECT_EQ(found[0].toi.value().lower, 0.5);
-  EXPECT_EQ(found[0].toi.value().upper, 0.5);
-  EXPECT_FALSE(found[1].collides);
-  EXPECT_FALSE(found[1].toi.has_value());
-  EXPECT_EQ(found[2].toi.value().lower, 0.25);
-}
-
 TEST(GroundTruthCache, AskTheOracleOnceAQueryAndSeparation) {
   const data::QueryGroup group = falling();
   GroundTruthCache truths(group);

@@ -6,7 +6,6 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
-#include <memory>
 #include <stdexcept>
 #include <utility>
 
@@ -118,32 +117,6 @@ TEST(MeasureStability, TimesThatExcludeTheTrueOneAreWorseThanErrorsAndFalsePosit
     EXPECT_EQ(outcome.worst, judge::Fault::late_toi);
     EXPECT_EQ(outcome.rate, 1.0);
   }
-}
-
-TEST(MeasureStability, PromisesAreHeldAgainstTheAnswers) {
-  const auto always = [](Kind, const Query&) { return answer(Verdict::yes); };
-  EXPECT_FALSE(has_wrong_answers(measure(FunctionMethod(always, fast::Promise::conservative))));
-  EXPECT_TRUE(has_wrong_answers(measure(FunctionMethod(always, fast::Promise::exact))));
-}
-
-TEST(MeasureStability, CountsChecksWhereTheMethodDoes) {
-  const FunctionMethod counting([](Kind, const Query& query) {
-    return Answer{.verdict = Verdict::yes, .checks = coin(query) ? 3U : 1U};
-  });
-  double sum = 0.0;
-  const StabilityResult result = measure(counting);
-  for (const StabilityCell& cell : result.cells) {
-    const auto checks = checks_per_query(cell.judged.methods.at(0));
-    ASSERT_TRUE(checks);
-    EXPECT_GE(*checks, 1.0);
-    EXPECT_LE(*checks, 3.0);
-    sum += *checks;
-    EXPECT_TRUE(nanoseconds_per_query(cell.judged.methods.at(0)));
-  }
-  EXPECT_GT(sum, 22.0);
-  EXPECT_LT(sum, 66.0);
-  const FunctionMethod silent([](Kind, const Query&) { return answer(Verdict::yes); });
-  EXPECT_FALSE(checks_per_query(measure(silent).total.methods.at(0)));
 }
 
 /// The queries and their truth are about the requested distance.

@@ -42,14 +42,6 @@ TEST(CertificateFacts, AWrongProofIsShownAsRefused) {
   EXPECT_EQ(facts.at("subintervals").at(1).at("feature"), "face -");
 }
 
-TEST(CertificateFacts, EveryFeatureByItsName) {
-  for (const std::string feature :
-       {"vertex 2", "edge 1 2", "face -", "axis x +", "axis z -", "cross y 1 2"}) {
-    const nlohmann::json facts = certificate_facts(replaced(over_an_edge, "face +", feature));
-    EXPECT_EQ(facts.at("subintervals").at(1).at("feature"), feature);
-  }
-}
-
 TEST(CertificateFacts, TheQueryBitForBit) {
   const tests::PosedQuery posed = tests::edge_edge({-1, 0.1, 1, 1, 0, 1, 0, -1, 0, 0, 1, 5e-324},
                                                    {-1, 0, -1, 1, 0, -1, 0, -1.7e308, 0, 0, 1, 0});
