@@ -9,8 +9,8 @@
 #include <memory>
 #include <stdexcept>
 
+#include "tests/support/baselines.hpp"
 #include "tests/support/trials.hpp"
-#include "tests/support/verdict_scores.hpp"
 
 namespace touchstone::baselines::bsc_test {
 namespace {
@@ -26,7 +26,7 @@ const fast::Method& bsc() {
 
 bool throws(const PosedQuery& posed) {
   try {
-    static_cast<void>(bsc_collides(posed.kind, posed.query));
+    (void)bsc_collides(posed.kind, posed.query);
     return false;
   } catch (const std::domain_error&) {
     return true;

@@ -12,9 +12,9 @@
 #include <stdexcept>
 #include <vector>
 
+#include "tests/support/baselines.hpp"
 #include "tests/support/root_count.hpp"
 #include "tests/support/trials.hpp"
-#include "tests/support/verdict_scores.hpp"
 
 namespace touchstone::baselines::rp_test {
 namespace {
@@ -114,8 +114,7 @@ TEST(Rp, TakesACrossingOfATinyCapForContactThere) {
 TEST(Rp, CallsWhatIsOutOfItsRangeACollision) {
   const PosedQuery no_collision = tests::edge_edge({0, 0, 0, 4, 0, 0, 5, -1, 0, 5, 1, 1e308},
                                                    {0, 0, 0, 4, 0, 0, 5, -1, 0, -5, 1, -1.7e308});
-  EXPECT_THROW(static_cast<void>(rp_collides(no_collision.kind, no_collision.query)),
-               std::overflow_error);
+  EXPECT_THROW((void)rp_collides(no_collision.kind, no_collision.query), std::overflow_error);
   EXPECT_EQ(tests::one_and_a_little(), 1.0);
   EXPECT_TRUE(says_yes(rp(), no_collision));
 }

@@ -91,8 +91,8 @@ TEST(Rpoly, MultipleZerosComeOutAsClustersWithoutTheirLastDigits) {
 TEST(Rpoly, HasNoZerosToGiveForNoPolynomial) {
   EXPECT_EQ(zeros_of(std::vector{0.0, 1.0, 2.0}).count, 0U);
   EXPECT_EQ(zeros_of(std::vector{5.0}).count, 0U);
-  EXPECT_THROW(static_cast<void>(zeros_of({})), std::invalid_argument);
-  EXPECT_THROW(static_cast<void>(zeros_of(std::vector<double>(10, 1.0))), std::invalid_argument);
+  EXPECT_THROW((void)zeros_of({}), std::invalid_argument);
+  EXPECT_THROW((void)zeros_of(std::vector<double>(10, 1.0)), std::invalid_argument);
 }
 
 TEST(Rpoly, EndsOnCoefficientsOfAllMagnitudes) {

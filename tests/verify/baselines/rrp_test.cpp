@@ -8,8 +8,8 @@
 
 #include <memory>
 
+#include "tests/support/baselines.hpp"
 #include "tests/support/root_count.hpp"
-#include "tests/support/verdict_scores.hpp"
 
 namespace touchstone::baselines::rrp_test {
 namespace {

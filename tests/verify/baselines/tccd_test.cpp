@@ -11,9 +11,9 @@
 #include <memory>
 #include <vector>
 
+#include "tests/support/baselines.hpp"
 #include "tests/support/simulation_steps.hpp"
 #include "tests/support/trials.hpp"
-#include "tests/support/verdict_scores.hpp"
 #include "verify/baselines/bernstein.hpp"
 
 namespace touchstone::baselines::tccd_test {

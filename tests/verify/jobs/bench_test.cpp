@@ -302,13 +302,13 @@ TEST(Bench, RefusesWhatMakesNoSense) {
   field.add(always_yes, Promise::none, "yes");
   BenchOptions options = quick();
   options.repetitions = 0;
-  EXPECT_THROW(static_cast<void>(field.run(falling_vertices(4), options)), std::invalid_argument);
+  EXPECT_THROW((void)field.run(falling_vertices(4), options), std::invalid_argument);
   options = quick();
   for (const double seconds : {0.0, -1.0, std::numeric_limits<double>::quiet_NaN()}) {
     options.seconds = seconds;
-    EXPECT_THROW(static_cast<void>(field.run(falling_vertices(4), options)), std::invalid_argument);
+    EXPECT_THROW((void)field.run(falling_vertices(4), options), std::invalid_argument);
   }
-  EXPECT_THROW(static_cast<void>(field.run(falling_vertices(0), quick())), std::invalid_argument);
+  EXPECT_THROW((void)field.run(falling_vertices(0), quick()), std::invalid_argument);
 }
 
 }  // namespace

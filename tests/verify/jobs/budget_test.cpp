@@ -35,7 +35,7 @@ TEST(Budget, SharesWhatIsLeftOverSourcesAndSolvers) {
   EXPECT_DOUBLE_EQ(solvers.second->allowance(), 40.0 / 3.0);
   // It takes more than all.
   solvers.first->allow(-1000.0);
-  static_cast<void>(budget.begin_source(2));
+  (void)budget.begin_source(2);
   EXPECT_EQ(solvers.first->allowance(), 0.0);
   EXPECT_DOUBLE_EQ(solvers.second->allowance(), 20.0);
   now = 100.0;

@@ -146,8 +146,8 @@ std::vector<data::RecordedQuery> numbered_records(std::uint64_t count) {
     records.push_back(
         {.query = i % 3 != 0 ? falling_vertex(height, 2 * height) : falling_vertex(height, -0.5),
          .index = i,
-         .collides = std::nullopt,
-         .toi = std::nullopt});
+         .collides = {},
+         .toi = {}});
   }
   return records;
 }

@@ -25,8 +25,7 @@ std::vector<data::RecordedQuery> falling_vertices(std::uint64_t count) {
     const double end = i % 9 == 0 ? -2 : i % 9 == 3 ? -1.0 / 3 : 0.5;
     const double start = i % 9 == 6 ? 0 : 1;
     const auto posed = tests::over_triangle(1, 1, start, end);
-    records.push_back(
-        {.query = posed.query, .index = i + 10, .collides = std::nullopt, .toi = std::nullopt});
+    records.push_back({.query = posed.query, .index = i + 10, .collides = {}, .toi = {}});
   }
   return records;
 }

@@ -21,8 +21,8 @@ std::vector<data::RecordedQuery> scripted(std::uint64_t count) {
   for (std::uint64_t i = 0; i < count; ++i) {
     records.push_back({.query = {{static_cast<double>(i % 5 % 4), static_cast<double>(i)}},
                        .index = i + 10,
-                       .collides = std::nullopt,
-                       .toi = std::nullopt});
+                       .collides = {},
+                       .toi = {}});
   }
   return records;
 }

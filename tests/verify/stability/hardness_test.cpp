@@ -310,9 +310,9 @@ TEST(HardQueries, AreTheSameEverywhereAndDifferByEveryArgument) {
 
 TEST(HardQueries, AreOfTheLevelsThereAre) {
   const Hardness& distance = hardness_from_name("distance");
-  EXPECT_THROW(static_cast<void>(make_hard_query({.hardness = &distance, .level = -2}, seed, 0)),
+  EXPECT_THROW((void)make_hard_query({.hardness = &distance, .level = -2}, seed, 0),
                std::invalid_argument);
-  EXPECT_THROW(static_cast<void>(open_hard_queries({.hardness = &distance, .level = 0}, seed, 1)),
+  EXPECT_THROW((void)open_hard_queries({.hardness = &distance, .level = 0}, seed, 1),
                std::invalid_argument);
 }
 
@@ -360,7 +360,7 @@ TEST(HardQueriesAboutASeparation, AreLimitedInDistance) {
                                   [](double x) { return std::isfinite(x); }));
   HardSort beyond = sort;
   beyond.separation.distance = 1e5;
-  EXPECT_THROW(static_cast<void>(make_hard_query(beyond, seed, 0)), std::invalid_argument);
+  EXPECT_THROW((void)make_hard_query(beyond, seed, 0), std::invalid_argument);
 }
 
 }  // namespace

@@ -133,9 +133,9 @@ TEST(MeasureStability, TakesASeparation) {
     EXPECT_EQ(cell.judged.separation,
               separation_at(*cell.hardness, cell.level, {.distance = 0.01, .norm = Norm::l2}));
   }
-  EXPECT_THROW(static_cast<void>(measure_stability({&hardness_from_name("scale")},
-                                                   {.separation = {.distance = 1e9}})),
-               std::invalid_argument);
+  EXPECT_THROW(
+      (void)measure_stability({&hardness_from_name("scale")}, {.separation = {.distance = 1e9}}),
+      std::invalid_argument);
 }
 
 TEST(MeasureStability, IsTheSameForAnyNumberOfThreads) {
