@@ -159,6 +159,11 @@ constexpr auto headers_without_test = std::to_array<Exception>({
      "tested through the kernels, and in curved_test.cpp"},
     {"filters/", "strict_arithmetic.hpp", "tested by compilation, in tests/filters/CMakeLists.txt"},
     {"verify/baselines/", "curved_methods.hpp", "tested in certify_curves_test.cpp"},
+    {"verify/base/", "cores.hpp", "a call of oneTBB and a limit"},
+    {"verify/baselines/",
+     "closest_features.hpp exact_number.hpp moving_polynomials.hpp query_random.hpp "
+     "upward_rounding.hpp verdicts.hpp",
+     "parts of the methods, tested by their answers in baselines_test.cpp"},
     {"verify/cli/",
      "certificates_file.hpp commands.hpp curved_run.hpp files.hpp group_options.hpp help.hpp "
      "options.hpp solver_options.hpp sources.hpp version.hpp view_file.hpp",
@@ -174,6 +179,7 @@ constexpr auto headers_without_test = std::to_array<Exception>({
      "coordinate_sampler.hpp draws.hpp family_builder.hpp grid.hpp passing_planes.hpp random.hpp",
      "parts of the families, tested through their queries"},
     {"verify/jobs/", "block_answers.hpp block_truth.hpp", "tested through certify and solve"},
+    {"verify/jobs/", "work_time.hpp", "tested in step_bench_test.cpp"},
     {"verify/report/",
      "certify_report.hpp judgement_report.hpp stability_report.hpp step_report.hpp",
      "tested by tests/transcripts"},

@@ -109,14 +109,6 @@ TEST_P(Energies, HaveTheirWholeHessianAtRest) {
   EXPECT_NEAR(direction.dot(hessian * direction), curvature, 1e-9 * curvature);
 }
 
-TEST(World, HasTheMassOfItsBodies) {
-  // A block of 2 × 1.4 × 0.8 m, and cloth of 2 × 1.6 m.
-  const World block_world(scene_of(small_block()));
-  EXPECT_NEAR(block_world.masses().sum() / 3.0, 2.0 * 1.4 * 0.8 * 1000.0, 1e-9);
-  const World cloth_world(scene_of(small_cloth()));
-  EXPECT_NEAR(cloth_world.masses().sum() / 3.0, 2.0 * 1.6 * 0.3, 1e-12);
-}
-
 TEST(World, BendsClothThatIsFoldedOnly) {
   // Cloth stays plane under an affine map: the weights of a hinge add up to zero.
   Scene scene = scene_of(small_cloth());
@@ -140,17 +132,6 @@ TEST(World, PullsPinsWhereTheyAreToBe) {
   const Eigen::Vector3d away = world.start().head<3>() - Eigen::Vector3d(2.0, 0.0, 0.0);
   EXPECT_LT(derivatives.gradient.head<3>().cross(away).norm(), 1e-6);
   EXPECT_GT(derivatives.gradient.head<3>().dot(away), 0.0);
-}
-
-TEST(World, NumbersTheBodiesOneAfterTheOther) {
-  Scene scene;
-  scene.bodies = {small_block(), extruded({{0.0, 0.0}, {1.0, 0.0}}, 1.0, 1)};
-  const World world(scene);
-  EXPECT_EQ(world.coordinates(), 3 * (12 + 4));
-  EXPECT_EQ(world.faces().size(), 20 + 2);
-  EXPECT_FALSE(world.is_held(3 * 11 + 2));
-  EXPECT_TRUE(world.is_held(3 * 12));
-  EXPECT_EQ(world.masses().tail<12>().sum(), 0.0);
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <ostream>
@@ -25,22 +26,15 @@
 
 namespace touchstone::tests {
 
-/// A query printed in the appendices of [wang2021], by the name of its family.
+/// A query printed in the appendices of [wang2021], by the name of its family: the hourglass, two
+/// vertices of a sinking face exchange places (contact at 0.9, up to the rounding of 0.1, and at
+/// 0.5 the face is degenerate); the inflection, coplanar twice, never in contact;
+/// sliding-degenerate, motion in a plane (the vertex meets a corner of the face at 7/29, about).
 [[nodiscard]] inline PosedQuery printed_query(std::string_view family) {
   const auto known = verify::generate::make_query(verify::generate::family_from_name(family),
                                                   Kind::vertex_face, 1, 0);
   return {Kind::vertex_face, known.query};
 }
-
-/// H, the hourglass: two vertices of a sinking face exchange places. Contact at 0.9 (up to the
-/// rounding of 0.1), and at 0.5 the face is degenerate.
-[[nodiscard]] inline PosedQuery printed_hourglass() { return printed_query("hourglass"); }
-
-/// I, the inflection: coplanar twice, never in contact.
-[[nodiscard]] inline PosedQuery printed_inflection() { return printed_query("inflection"); }
-
-/// C: motion in a plane; the vertex meets a corner of the face at 7/29 (about).
-[[nodiscard]] inline PosedQuery printed_coplanar() { return printed_query("sliding-degenerate"); }
 
 [[nodiscard]] inline fast::Answer answer_to(const fast::Method& method, const PosedQuery& posed,
                                             const fast::MethodOptions& options = {}) {
@@ -181,6 +175,57 @@ struct Score {
     }
   }
   return score;
+}
+
+// ---- Baselines with verdicts alone --------------------------------------------------------------
+
+/// The method's verdict on one query.
+[[nodiscard]] inline fast::Verdict verdict_of(const fast::Method& method, const PosedQuery& posed,
+                                              const fast::MethodOptions& options = {}) {
+  return answer_to(method, posed, options).verdict;
+}
+
+/// True for yes or undecided.
+[[nodiscard]] inline bool says_yes(const fast::Method& method, const PosedQuery& posed) {
+  const fast::Verdict verdict = verdict_of(method, posed);
+  return verdict == fast::Verdict::yes || verdict == fast::Verdict::undecided;
+}
+
+[[nodiscard]] inline bool truly_collides(const PosedQuery& posed) {
+  return exact::decide(posed.kind, posed.query).collides();
+}
+
+/// The score on `count` random queries of a family of tests/support/queries.hpp.
+[[nodiscard]] inline Score score_on(const fast::Method& method, Kind kind, Family family,
+                                    std::uint64_t seed, int count) {
+  Random random(seed);
+  Score score;
+  for (int i = 0; i < count; ++i) {
+    const PosedQuery posed = random_query(random, kind, family);
+    score.count(truly_collides(posed), says_yes(method, posed));
+  }
+  return score;
+}
+
+/// 1 + 2^-60, rounded in the mode of this thread's SSE unit (which std::fegetround does not
+/// report): 1 for to nearest and downward.
+[[nodiscard]] inline double one_and_a_little() {
+  volatile double one = 1.0, little = 0x1p-60;
+  return one + little;
+}
+
+/// A query of full significands that collides, its contact at a random time and place.
+[[nodiscard]] inline PosedQuery random_hit(Random& random, Kind kind) {
+  for (;;) {
+    const PosedQuery posed{kind, near_contact_query(random, kind)};
+    if (truly_collides(posed)) return posed;
+  }
+}
+
+/// The query with every coordinate times 2^exponent, which changes no answer but for rounding.
+[[nodiscard]] inline PosedQuery scaled(PosedQuery posed, int exponent) {
+  for (double& x : posed.query.coordinates) x = std::ldexp(x, exponent);
+  return posed;
 }
 
 }  // namespace touchstone::tests

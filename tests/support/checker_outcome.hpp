@@ -5,7 +5,6 @@
 
 #include <gtest/gtest.h>
 
-#include <array>
 #include <cstddef>
 #include <sstream>
 #include <string>
@@ -44,14 +43,6 @@ inline constexpr std::string_view certificate_header = "touchstone-certificates 
   }
   if (report.no_collision == 1) return "no_collision";
   return report.collision == 1 ? "collision" : "time_of_impact";
-}
-
-/// The header and a query without a label: lines 1 to 10. The claim that follows is line 11.
-[[nodiscard]] inline std::string query_text(std::string_view kind,
-                                            const std::array<std::string, 8>& points) {
-  std::string text = std::string(certificate_header) + "query " + std::string(kind) + "\n";
-  for (const std::string& point : points) text += "point " + point + "\n";
-  return text;
 }
 
 }  // namespace touchstone::tests

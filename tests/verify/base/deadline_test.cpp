@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <atomic>
 #include <cmath>
 
 namespace touchstone::verify::base::deadline_test {
@@ -41,19 +40,6 @@ TEST(Deadline, IsMovedFromNowOn) {
   now = 20.0;
   EXPECT_TRUE(deadline.at_most(4.0).is_over());
   EXPECT_EQ(deadline.at_least(1.0).seconds_left(), 1.0);
-}
-
-TEST(Stop, IsObeyedWhereThereIsOne) {
-  EXPECT_FALSE(is_stopped(nullptr));
-  std::atomic<bool> stop = false;
-  EXPECT_FALSE(is_stopped(&stop));
-  stop = true;
-  EXPECT_TRUE(is_stopped(&stop));
-}
-
-TEST(SteadySeconds, NeverRunBackwards) {
-  const double before = steady_seconds();
-  EXPECT_GE(steady_seconds(), before);
 }
 
 }  // namespace

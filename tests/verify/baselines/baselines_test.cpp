@@ -13,7 +13,7 @@
 #include <string>
 #include <string_view>
 
-#include "tests/support/verdict_scores.hpp"
+#include "tests/support/baselines.hpp"
 #include "verify/baselines/accd.hpp"
 #include "verify/baselines/bsc.hpp"
 #include "verify/baselines/cubic.hpp"
@@ -59,91 +59,41 @@ struct Baseline {
   std::uint64_t stride = 1;
 };
 
+/// The parts of a row, one after the other.
+Baseline row(std::string_view name, std::unique_ptr<fast::Method> (*make)(), Promise promise,
+             Said hourglass, Said inflection, Said coplanar, bool counts_up_to_t_max,
+             Wrong handcrafted, Wrong simulation, fast::MethodOptions on_public_data = {},
+             std::uint64_t stride = 1) {
+  return {
+      name,        make,       promise,        hourglass, inflection, coplanar, counts_up_to_t_max,
+      handcrafted, simulation, on_public_data, stride};
+}
+
 constexpr Verdict yes = Verdict::yes, no = Verdict::no;
 constexpr fast::MethodOptions short_search{.max_checks = 2000};
 constexpr double coplanar_toi = 0.07 / 0.29;
 
-const std::array<Baseline, 11> all_baselines{
-    {{"accd",
-      accd_method,
-      Promise::none,
-      {yes, 0, 0.9},
-      {no},
-      {yes, 0, coplanar_toi},
-      true,
-      {0, 174, 0, 217},
-      {0, 67, 0, 156},
-      {.max_checks = 10000}},
-     {"accd_limited",
-      accd_limited_method,
-      Promise::none,
-      {yes, 0, 0.9},
-      {no},
-      {yes, 0, coplanar_toi},
-      true,
-      {14, 174, 6, 222},
-      {199, 67, 9, 156}},
-     {"bsc", bsc_method, Promise::none, {yes}, {yes}, {no}, false, {3, 28, 2, 4}, {0, 0, 13, 20}},
-     {"cubic",
-      cubic_method,
-      Promise::none,
-      {yes, 0.9 - 1e-4, 0.9 + 1e-4},
-      {no},
-      {yes},
-      true,
-      {1, 123, 1, 166},
-      {0, 59, 0, 151}},
-     {"fprf",
-      fprf_method,
-      Promise::none,
-      {yes, 0.499999, 0.500001},
-      {no},
-      {yes, coplanar_toi - 1e-6, coplanar_toi + 1e-6},
-      true,
-      {24, 9, 33, 3},
-      {1874, 0, 52, 0}},
-     {"irf",
-      irf_method,
-      Promise::conservative,
-      {yes},
-      {no},
-      {yes},
-      true,
-      {0, 2, 0, 5},
-      {0, 2, 0, 4},
-      short_search,
-      16},
-     {"msrf",
-      msrf_method,
-      Promise::none,
-      {yes, 0.9 - 1e-4, 0.9 + 1e-4},
-      {no},
-      {yes},
-      true,
-      {0, 119, 4, 111},
-      {236, 67, 13, 156}},
-     {"rp", rp_method, Promise::none, {yes}, {no}, {yes}, false, {0, 1, 0, 1}, {63, 0, 1, 0}},
-     {"rrp", rrp_method, Promise::none, {yes}, {no}, {yes}, false, {0, 0, 0, 0}, {63, 0, 1, 0}},
-     {"tccd",
-      tccd_method,
-      Promise::none,
-      {yes},
-      {no},
-      {yes},
-      false,
-      {0, 288, 0, 192},
-      {23, 35, 0, 65}},
-     {"uirf",
-      uirf_method,
-      Promise::conservative,
-      {yes},
-      {no},
-      {yes, coplanar_toi - 1e-3, coplanar_toi + 1e-3},
-      true,
-      {0, 4, 0, 7},
-      {0, 2, 0, 0},
-      short_search,
-      16}}};
+const std::array all_baselines{
+    row("accd", accd_method, Promise::none, {yes, 0, 0.9}, {no}, {yes, 0, coplanar_toi}, true,
+        {0, 174, 0, 217}, {0, 67, 0, 156}, {.max_checks = 10000}),
+    row("accd_limited", accd_limited_method, Promise::none, {yes, 0, 0.9}, {no},
+        {yes, 0, coplanar_toi}, true, {14, 174, 6, 222}, {199, 67, 9, 156}),
+    row("bsc", bsc_method, Promise::none, {yes}, {yes}, {no}, false, {3, 28, 2, 4}, {0, 0, 13, 20}),
+    row("cubic", cubic_method, Promise::none, {yes, 0.9 - 1e-4, 0.9 + 1e-4}, {no}, {yes}, true,
+        {1, 123, 1, 166}, {0, 59, 0, 151}),
+    row("fprf", fprf_method, Promise::none, {yes, 0.499999, 0.500001}, {no},
+        {yes, coplanar_toi - 1e-6, coplanar_toi + 1e-6}, true, {24, 9, 33, 3}, {1874, 0, 52, 0}),
+    row("irf", irf_method, Promise::conservative, {yes}, {no}, {yes}, true, {0, 2, 0, 5},
+        {0, 2, 0, 4}, short_search, 16),
+    row("msrf", msrf_method, Promise::none, {yes, 0.9 - 1e-4, 0.9 + 1e-4}, {no}, {yes}, true,
+        {0, 119, 4, 111}, {236, 67, 13, 156}),
+    row("rp", rp_method, Promise::none, {yes}, {no}, {yes}, false, {0, 1, 0, 1}, {63, 0, 1, 0}),
+    row("rrp", rrp_method, Promise::none, {yes}, {no}, {yes}, false, {0, 0, 0, 0}, {63, 0, 1, 0}),
+    row("tccd", tccd_method, Promise::none, {yes}, {no}, {yes}, false, {0, 288, 0, 192},
+        {23, 35, 0, 65}),
+    row("uirf", uirf_method, Promise::conservative, {yes}, {no},
+        {yes, coplanar_toi - 1e-3, coplanar_toi + 1e-3}, true, {0, 4, 0, 7}, {0, 2, 0, 0},
+        short_search, 16)};
 
 class Baselines : public testing::TestWithParam<const Baseline*> {
  protected:

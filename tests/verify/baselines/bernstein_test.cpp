@@ -49,17 +49,6 @@ Number casteljau(Bernstein<Number, degree> q, const Time& at) {
   return q[0];
 }
 
-TEST(Values, AreDeCasteljaus) {
-  tests::Random random(1);
-  for (int i = 0; i < 100; ++i) {
-    const Time at = random_time(random);
-    const auto quadratic = random_form<2>(random);
-    const auto cubic = random_form<3>(random);
-    EXPECT_TRUE(value(quadratic, at) == casteljau<2>(quadratic, at));
-    EXPECT_TRUE(value(cubic, at) == casteljau<3>(cubic, at));
-  }
-}
-
 /// A point at a time, times t + s.
 Vector<Number> position(const Moving<Number>& point, const Time& at) {
   Vector<Number> result;
@@ -89,18 +78,6 @@ TEST(Forms, AreTheirDefinitions) {
   }
 }
 
-TEST(Points, AreTheFaceAndTheVertexOrTheEdges) {
-  Query query{};
-  for (std::size_t i = 0; i < 24; ++i) query.coordinates[i] = static_cast<double>(i);
-  const auto face = moving_points_of<double>(Kind::vertex_face, query);
-  const auto edges = moving_points_of<double>(Kind::edge_edge, query);
-  EXPECT_EQ(face[0][0], (Vector<double>{3, 4, 5}));
-  EXPECT_EQ(face[3][0], (Vector<double>{0, 1, 2}));
-  EXPECT_EQ(face[3][1], (Vector<double>{12, 13, 14}));
-  EXPECT_EQ(edges[0][0], (Vector<double>{0, 1, 2}));
-  EXPECT_EQ(edges[3][1], (Vector<double>{21, 22, 23}));
-}
-
 TEST(Reduction, IsGWithoutAMultipleOfY) {
   tests::Random random(3);
   for (int trial = 0; trial < tests::trials(1000); ++trial) {
@@ -127,27 +104,6 @@ TEST(Decomposition, IsDivisionWithRemainder) {
     const Number root = Number(2) * j[1] - j[0] - j[2];
     EXPECT_TRUE(parts.t == root * root);
   }
-}
-
-TEST(Course, IsReadFromTheCoefficients) {
-  const auto opposite = [](double a, double b) { return a * b < 0.0; };
-  const auto course = [&](const Bernstein<double, 3>& k) {
-    return course_of(k, opposite, opposite);
-  };
-  EXPECT_EQ(course({1, -1, -2, -1}), Course::monotone);  // only an end has the other sign
-  EXPECT_EQ(course({-1, -1, -3, 1}), Course::monotone);
-  EXPECT_EQ(course({4, 3, 2, 1}), Course::monotone);
-  EXPECT_EQ(course({3, 1, 1, 3}), Course::one_extremum);
-  EXPECT_EQ(course({3, 2, -2, -3}), Course::inflection);
-  EXPECT_EQ(course({3, -35.0 / 3, 41.0 / 3, 7}), Course::inflection);
-  EXPECT_EQ(course_without_inflection(Bernstein<double, 3>{0, 1, -1, 1}, opposite),
-            Course::monotone);
-  EXPECT_TRUE(has_lone_end(Bernstein<double, 3>{1, -1, -2, -1}, opposite));
-  EXPECT_FALSE(has_lone_end(Bernstein<double, 3>{1, 0, -2, -1}, opposite));
-}
-
-TEST(Derivative, IsTheDifferences) {
-  EXPECT_EQ(derivative(Bernstein<double, 3>{1, 3, 2, 7}), (Bernstein<double, 2>{2, -1, 5}));
 }
 
 }  // namespace

@@ -68,12 +68,6 @@ TEST(ErrorBounded, SignIsZeroWhereItIsNotCertain) {
   EXPECT_EQ(ErrorBounded(0.1, std::numeric_limits<double>::quiet_NaN()).sign(), 0);
 }
 
-TEST(ErrorBounded, ExactInputHasNoBoundAndAnOperationHas) {
-  EXPECT_EQ(ErrorBounded(0.1).bound, 0.0);
-  EXPECT_EQ((ErrorBounded(0.5) + ErrorBounded(0.25)).bound, 0.75 * ErrorBounded::unit);
-  EXPECT_EQ((ErrorBounded(0.5) * ErrorBounded(-0.25)).bound, 0.125 * ErrorBounded::unit);
-}
-
 TEST(ErrorBounded, LosesItsBoundBeforeItsValueWhenItUnderflows) {
   // The sign of 1 ± 2^-1 less 3/4 is uncertain; after scaling down, it seems certain.
   const ErrorBounded about(1.0, 0.5), tiny(0x1p-1074);

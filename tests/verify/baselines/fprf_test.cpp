@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <memory>
 
 #include "tests/support/baselines.hpp"
@@ -15,7 +14,6 @@ using tests::missed_centre_hits;
 using tests::Motion;
 using tests::over_edge;
 using tests::over_triangle;
-using tests::Score;
 
 const std::unique_ptr<fast::Method> method = baselines::fprf_method();
 constexpr fast::MethodOptions wide{.separation = {.distance = 1e-3, .norm = Norm::l2}};
@@ -63,24 +61,6 @@ TEST(Fprf, SeparatesInteriorsOnly) {
               fast::Verdict::no);
     EXPECT_EQ(answer_to(*method, over_edge(4 + gap, 2, 2, -2), options).verdict, fast::Verdict::no);
   }
-}
-
-TEST(Fprf, AgreesWithTheTruthElsewhere) {
-  // Primitives that a direction separates by far do not collide.
-  EXPECT_EQ(answer_to(*method, over_triangle(1, 1, 3, 1)).verdict, fast::Verdict::no);
-  EXPECT_EQ(answer_to(*method, over_triangle(3, 3, 1, -1)).verdict, fast::Verdict::no);
-  EXPECT_EQ(answer_to(*method, over_edge(5, 2, 1, -1)).verdict, fast::Verdict::no);
-  const fast::Answer face = answer_to(*method, over_triangle(1, 1, 1, -3));
-  EXPECT_EQ(face.verdict, fast::Verdict::yes);
-  EXPECT_NEAR(face.toi_lower, 0.25, 1e-7);
-  const fast::Answer edge = answer_to(*method, over_edge(1, 2, 1, -3));
-  EXPECT_EQ(edge.verdict, fast::Verdict::yes);
-  EXPECT_NEAR(edge.toi_lower, 0.25, 1e-7);
-  const Score score = tests::score_on_random(*method, {}, 500);
-  EXPECT_GT(score.false_negatives, 0);
-  EXPECT_LT(score.false_negatives + score.false_positives,
-            (score.collisions + score.no_collisions) / 4);
-  EXPECT_EQ(score.errors + score.undecided, 0);
 }
 
 }  // namespace

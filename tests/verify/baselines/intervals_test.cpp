@@ -2,8 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <cfenv>
 #include <cmath>
 #include <limits>
 
@@ -49,32 +47,6 @@ TEST(Intervals, OperationsOnNumbersAreTight) {
   EXPECT_GT(wide, 9000) << "two directions give two numbers";
 }
 
-TEST(Intervals, OperationsHoldAllResultsOfWideOperands) {
-  Random random(2);
-  const auto draw = [&] {
-    const double x = random.uniform(-2.0, 2.0);
-    return Interval(x, x + random.uniform(0.0, 1.0));
-  };
-  const auto within = [&](const Interval& x) {
-    return std::min(x.upper(), x.lower() + random.uniform() * (x.upper() - x.lower()));
-  };
-  for (int i = 0; i < 10000; ++i) {
-    const Interval a = draw();
-    const Interval b = draw();
-    const double x = within(a);
-    const double y = within(b);
-    EXPECT_TRUE(holds(a + b, Rational(x) + Rational(y)));
-    EXPECT_TRUE(holds(a - b, Rational(x) - Rational(y)));
-    EXPECT_TRUE(holds(a * b, Rational(x) * Rational(y)));
-  }
-}
-
-TEST(Intervals, PutTheRoundingModeBack) {
-  const Interval x = Interval(0.1) * Interval(0.3) + Interval(0.7);
-  EXPECT_LT(x.lower(), x.upper());
-  EXPECT_EQ(std::fegetround(), FE_TONEAREST);
-}
-
 TEST(Intervals, HoldWhatOverflows) {
   const double huge = std::numeric_limits<double>::max();
   const Interval x = (Interval(huge) - Interval(-huge)) * Interval(0.0, 1.0) + Interval(-huge);
@@ -91,19 +63,6 @@ TEST(Intervals, MayBeZeroUnlessTheyExcludeIt) {
   EXPECT_FALSE(may_be_zero(Interval(0x1p-1074, 1.0)));
   EXPECT_FALSE(may_be_zero(Interval(-1.0, -0x1p-1074)));
   EXPECT_TRUE(may_be_zero(Interval(nan)));
-}
-
-TEST(Intervals, VectorsMultiplyAsVectorsDo) {
-  const IntervalVector a{Interval(1.0), Interval(2.0), Interval(3.0)};
-  const IntervalVector b{Interval(-4.0), Interval(5.0), Interval(7.0)};
-  const auto is = [](const Interval& x, double value) {
-    return x.lower() == value && x.upper() == value;
-  };
-  EXPECT_TRUE(is(dot(a, b), 27.0));
-  const IntervalVector product = cross(a, b);
-  EXPECT_TRUE(is(product[0], -1.0) && is(product[1], -19.0) && is(product[2], 13.0));
-  const IntervalVector difference = minus(a, b);
-  EXPECT_TRUE(is(difference[0], 5.0) && is(difference[1], -3.0) && is(difference[2], -4.0));
 }
 
 TEST(IntervalMotion, HoldsThePointsOnTheirWay) {
@@ -123,13 +82,6 @@ TEST(IntervalMotion, HoldsThePointsOnTheirWay) {
       }
     }
   }
-}
-
-TEST(IntervalMotion, GreatestDisplacementIsThatOfOnePoint) {
-  const Query query = tests::moving({0, 0, 0, 1, 1, 1, 2, 2, 2, 3, 3, 3},  //
-                                    {1, 0, 0, 1, 4, 5, 2, 2, 2, 3, 5, 3});
-  EXPECT_EQ(greatest_displacement(query), 5.0);
-  EXPECT_EQ(greatest_displacement(tests::over_triangle(1, 1, 2, 2).query), 0.0);
 }
 
 }  // namespace

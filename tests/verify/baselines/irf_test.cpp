@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <memory>
 
 #include "tests/support/baselines.hpp"
@@ -11,24 +10,9 @@ namespace touchstone::baselines::irf_test {
 namespace {
 
 using tests::answer_to;
-using tests::over_edge;
 using tests::over_triangle;
 
 const std::unique_ptr<fast::Method> method = baselines::irf_method();
-
-TEST(Irf, MissesNoCollisionsInTheCentre) {
-  for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
-    for (const auto motion : {tests::Motion::independent, tests::Motion::translation}) {
-      EXPECT_EQ(tests::missed_centre_hits(*method, kind, motion, {}, 40), 0);
-    }
-  }
-}
-
-TEST(Irf, GivesNoTimes) {
-  const fast::Answer answer = answer_to(*method, over_triangle(1, 1, 1, -3));
-  EXPECT_EQ(answer.verdict, fast::Verdict::yes);
-  EXPECT_TRUE(std::isnan(answer.toi_lower) && std::isnan(answer.toi_upper));
-}
 
 TEST(Irf, TakesNearMissesForCollisionsWithinItsToleranceOnly) {
   // A path past the side u + v = 1 of the face; and an edge whose end stops short of the other,

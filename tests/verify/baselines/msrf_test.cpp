@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <array>
-#include <cmath>
 #include <memory>
 
 #include "tests/support/baselines.hpp"
@@ -16,7 +15,6 @@ using tests::missed_centre_hits;
 using tests::Motion;
 using tests::over_edge;
 using tests::over_triangle;
-using tests::Score;
 
 const std::unique_ptr<fast::Method> method = baselines::msrf_method();
 constexpr int collisions = 4000;
@@ -26,16 +24,16 @@ constexpr fast::MethodOptions within(double h) {
 }
 
 TEST(Msrf, AnswersThePrintedQueriesAsItWasSeenTo) {
-  EXPECT_EQ(method->name(), "msrf");
-  EXPECT_EQ(method->promise(), fast::Promise::none);
   for (const double h : {1e-16, 1e-30, 1e-100}) {
-    EXPECT_EQ(answer_to(*method, tests::printed_hourglass(), within(h)).verdict, fast::Verdict::no)
+    EXPECT_EQ(answer_to(*method, tests::printed_query("hourglass"), within(h)).verdict,
+              fast::Verdict::no)
         << h;
   }
-  const fast::Answer hourglass = answer_to(*method, tests::printed_hourglass(), within(1e-8));
+  const fast::Answer hourglass =
+      answer_to(*method, tests::printed_query("hourglass"), within(1e-8));
   EXPECT_EQ(hourglass.verdict, fast::Verdict::yes);
   EXPECT_NEAR(hourglass.toi_lower, 0.9, 1e-4);
-  EXPECT_EQ(answer_to(*method, tests::printed_inflection(), within(1e-8)).verdict,
+  EXPECT_EQ(answer_to(*method, tests::printed_query("inflection"), within(1e-8)).verdict,
             fast::Verdict::no);
 }
 
@@ -50,12 +48,6 @@ TEST(Msrf, MissesTheMoreTheSmallerItsSeparation) {
     EXPECT_NEAR(share(kind, 1e-8), 0.045, 0.015) << to_string(kind);
     EXPECT_LT(share(kind, 1e-2), 0.002) << to_string(kind);
   }
-}
-
-TEST(Msrf, UsesItsDefaultSeparation) {
-  EXPECT_EQ(missed_centre_hits(*method, Kind::vertex_face, Motion::independent, {}, collisions),
-            missed_centre_hits(*method, Kind::vertex_face, Motion::independent,
-                               within(msrf_default_separation), collisions));
 }
 
 TEST(Msrf, ReachesTheRootOfItsSeparation) {
@@ -74,6 +66,9 @@ TEST(Msrf, MissesWhatIsWithinItsSeparationFromTheStart) {
   EXPECT_EQ(answer_to(*method, near, within(0.5)).verdict, fast::Verdict::no);
   EXPECT_EQ(answer_to(*method, over_triangle(1, 1, 1, 0.25), within(0.5)).verdict,
             fast::Verdict::yes);
+  // All points rest: every polynomial is constant or 0.
+  EXPECT_EQ(answer_to(*method, over_triangle(1, 1, 0, 0)).verdict, fast::Verdict::no);
+  EXPECT_EQ(answer_to(*method, {Kind::vertex_face, Query{}}).verdict, fast::Verdict::no);
 }
 
 TEST(Msrf, MissesEndsOfEdgesAndParallelEdges) {
@@ -89,18 +84,6 @@ TEST(Msrf, MissesEndsOfEdgesAndParallelEdges) {
             fast::Verdict::yes);
 }
 
-TEST(Msrf, QuickTestsRuleOutWhatHasNoZero) {
-  const auto ruled_out = [](std::array<double, 7> c) { return msrf_rules_out_zeros(c); };
-  EXPECT_TRUE(ruled_out({1, 0, 0, 2, 0, 0, 3}));
-  EXPECT_TRUE(ruled_out({-1, -1, -2, -3, -1, -1, -1}));
-  EXPECT_TRUE(ruled_out({8, -1, 1, -1, 1, -1, 1}));
-  EXPECT_TRUE(ruled_out({3, 4, -1, 1, -1, 1, -1})) << "the first ones together";
-  EXPECT_FALSE(ruled_out({1, -2, 0, 0, 0, 0, 0}));
-  EXPECT_FALSE(ruled_out({-1, 0, 0, 0, 0, 0, 2}));
-  EXPECT_FALSE(ruled_out({-1, -1, 0, 0, 0, 0, 3})) << "its first ones are together less";
-  EXPECT_TRUE(ruled_out({5, -2, 0, 0, 0, 0, 0}));
-}
-
 TEST(Msrf, QuickTestsRuleOutZerosToo) {
   const auto ruled_out = [](std::array<double, 7> c) { return msrf_rules_out_zeros(c); };
   // 10 − 9t − 1.25t⁶ is 10 at 0 and −0.25 at 1; without the last it is 1 there.
@@ -108,25 +91,6 @@ TEST(Msrf, QuickTestsRuleOutZerosToo) {
   EXPECT_FALSE(ruled_out({10, -9, 0, 0, 0, 0, -1.5})) << "not steep enough to be sure: 9 = 6 · 1.5";
   // t² is 0 at 0.
   EXPECT_TRUE(ruled_out({0, 0, 1, 0, 0, 0, 0}));
-}
-
-TEST(Msrf, AgreesWithTheTruthElsewhere) {
-  const fast::Answer face = answer_to(*method, over_triangle(1, 1, 1, -3));
-  EXPECT_EQ(face.verdict, fast::Verdict::yes);
-  EXPECT_NEAR(face.toi_lower, 0.25, 1e-7);
-  const fast::Answer edge = answer_to(*method, over_edge(1, 2, 1, -3));
-  EXPECT_EQ(edge.verdict, fast::Verdict::yes);
-  EXPECT_NEAR(edge.toi_lower, 0.25, 1e-7);
-  EXPECT_EQ(answer_to(*method, over_triangle(1, 1, 3, 1)).verdict, fast::Verdict::no);
-  EXPECT_EQ(answer_to(*method, over_edge(5, 2, 1, -1)).verdict, fast::Verdict::no);
-  // All points rest: every polynomial is constant or 0.
-  EXPECT_EQ(answer_to(*method, over_triangle(1, 1, 0, 0)).verdict, fast::Verdict::no);
-  EXPECT_EQ(answer_to(*method, {Kind::vertex_face, Query{}}).verdict, fast::Verdict::no);
-  const Score score = tests::score_on_random(*method, {}, 500);
-  EXPECT_GT(score.false_negatives, 0);
-  EXPECT_LT(score.false_negatives + score.false_positives,
-            (score.collisions + score.no_collisions) / 4);
-  EXPECT_EQ(score.errors + score.undecided, 0);
 }
 
 }  // namespace

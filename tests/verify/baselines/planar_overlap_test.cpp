@@ -93,12 +93,6 @@ TEST(PlanarOverlap, AgreesWithAllPointsOfSmallGrids) {
   EXPECT_GT(outside, tests::trials(40));
 }
 
-TEST(PlanarOverlap, GivesTheWeightsOfAPointInside) {
-  const auto found = overlap({{{1, 2}, {20, 20}}}, triangle);
-  EXPECT_EQ(found.segment_weights, (std::array{1.0, 0.0}));
-  EXPECT_EQ(found.triangle_weights, (std::array{0.625, 0.125, 0.25}));
-}
-
 TEST(PlanarOverlap, DoesNotNoticeACrossingOfTheFirstEdge) {
   // A segment into the edge of points 1 and 2: the weight of point 0 is 0.
   const auto noticed = overlap({{{-2, 4}, {10, 4}}}, {{{8, 0}, {0, 0}, {0, 8}}});

@@ -12,9 +12,9 @@
 #include <stdexcept>
 #include <vector>
 
+#include "tests/support/baselines.hpp"
 #include "tests/support/root_count.hpp"
 #include "tests/support/trials.hpp"
-#include "tests/support/verdict_scores.hpp"
 
 namespace touchstone::baselines::rp_test {
 namespace {
@@ -58,16 +58,13 @@ TEST(Rp, FindsContactsThatItsRayStartsOn) {
   EXPECT_FALSE(says_yes(rp(), tests::over_edge(5, 2, 1, -1)));
 }
 
-/// A query whose edge f0 f1 turns over in the plane z=0 while f2 stays below: its patch is an
-/// hourglass about (1/2, 0) in units of F, whose hull holds 0 although the patch does not.
-PosedQuery hourglass_beside_origin() {
-  return tests::vertex_face({0, 0, 0, 0.5, 1, 0, -1.5, 1, 0, 0, 0, -5},
-                            {0, 0, 0, -1.5, -1, 0, 0.5, -1, 0, 0, 0, -5});
-}
-
 TEST(Rp, TakesTheHullOfAnHourglassForThePatch) {
-  EXPECT_FALSE(tests::truly_collides(hourglass_beside_origin()));
-  EXPECT_TRUE(says_yes(rp(), hourglass_beside_origin()));
+  // The edge f0 f1 turns over in the plane z=0 while f2 stays below: the patch is an hourglass
+  // about (1/2, 0) in units of F, whose hull holds 0 although the patch does not.
+  const PosedQuery beside = tests::vertex_face({0, 0, 0, 0.5, 1, 0, -1.5, 1, 0, 0, 0, -5},
+                                               {0, 0, 0, -1.5, -1, 0, 0.5, -1, 0, 0, 0, -5});
+  EXPECT_FALSE(tests::truly_collides(beside));
+  EXPECT_TRUE(says_yes(rp(), beside));
 }
 
 TEST(Rp, AnswersAlikeInAnyOrderAndAnyRounding) {
@@ -117,8 +114,7 @@ TEST(Rp, TakesACrossingOfATinyCapForContactThere) {
 TEST(Rp, CallsWhatIsOutOfItsRangeACollision) {
   const PosedQuery no_collision = tests::edge_edge({0, 0, 0, 4, 0, 0, 5, -1, 0, 5, 1, 1e308},
                                                    {0, 0, 0, 4, 0, 0, 5, -1, 0, -5, 1, -1.7e308});
-  EXPECT_THROW(static_cast<void>(rp_collides(no_collision.kind, no_collision.query)),
-               std::overflow_error);
+  EXPECT_THROW((void)rp_collides(no_collision.kind, no_collision.query), std::overflow_error);
   EXPECT_EQ(tests::one_and_a_little(), 1.0);
   EXPECT_TRUE(says_yes(rp(), no_collision));
 }

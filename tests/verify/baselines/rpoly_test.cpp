@@ -44,32 +44,6 @@ double worst_distance(const std::vector<Complex>& expected, const Zeros& found) 
   return worst;
 }
 
-TEST(Rpoly, FindsWhatIsKnown) {
-  EXPECT_LT(worst_distance({3.0}, zeros_of(with_zeros({3.0}))), 1e-15);
-  EXPECT_LT(worst_distance({1.0, 2.0}, zeros_of(with_zeros({1.0, 2.0}, -4.0))), 1e-14);
-  EXPECT_LT(worst_distance({1.0, 2.0, 3.0}, zeros_of(with_zeros({1.0, 2.0, 3.0}))), 1e-12);
-  const std::vector<Complex> roots_of_minus_one{
-      {0.5, std::sqrt(0.75)}, {0.5, -std::sqrt(0.75)}, -1};
-  EXPECT_LT(worst_distance(roots_of_minus_one, zeros_of(std::vector{1.0, 0.0, 0.0, 1.0})), 1e-12);
-  std::vector<Complex> wilkinson;
-  for (int i = 1; i <= 8; ++i) wilkinson.emplace_back(i);
-  EXPECT_LT(worst_distance(wilkinson, zeros_of(with_zeros(wilkinson))), 1e-8);
-}
-
-TEST(Rpoly, FindsTheZerosOfThePrintedInflection) {
-  // −72t³ + 120t² − 44t + 3 (docs/methods.md, section 1.4).
-  std::vector<double> real;
-  for (const Zero& zero : zeros_of(std::vector{-72.0, 120.0, -44.0, 3.0})) {
-    EXPECT_EQ(zero.im, 0.0);
-    real.push_back(zero.re);
-  }
-  std::ranges::sort(real);
-  ASSERT_EQ(real.size(), 3U);
-  EXPECT_NEAR(real[0], 0.0883, 1e-4);
-  EXPECT_NEAR(real[1], 0.4005, 1e-4);
-  EXPECT_NEAR(real[0] + real[1] + real[2], 120.0 / 72.0, 1e-12);
-}
-
 TEST(Rpoly, FindsRandomZeros) {
   Random random(3);
   for (int i = 0; i < 3000; ++i) {
@@ -96,13 +70,6 @@ TEST(Rpoly, FindsRandomZeros) {
   }
 }
 
-TEST(Rpoly, GivesZerosAtZeroExactly) {
-  const Zeros found = zeros_of(with_zeros({0.0, 0.0, 0.5, 0.25}));
-  ASSERT_EQ(found.count, 4U);
-  EXPECT_EQ(std::ranges::count_if(found, [](const Zero& z) { return z.re == 0.0 && z.im == 0.0; }),
-            2);
-}
-
 TEST(Rpoly, MultipleZerosComeOutAsClustersWithoutTheirLastDigits) {
   Random random(4);
   int complex_pairs = 0;
@@ -124,8 +91,8 @@ TEST(Rpoly, MultipleZerosComeOutAsClustersWithoutTheirLastDigits) {
 TEST(Rpoly, HasNoZerosToGiveForNoPolynomial) {
   EXPECT_EQ(zeros_of(std::vector{0.0, 1.0, 2.0}).count, 0U);
   EXPECT_EQ(zeros_of(std::vector{5.0}).count, 0U);
-  EXPECT_THROW(static_cast<void>(zeros_of({})), std::invalid_argument);
-  EXPECT_THROW(static_cast<void>(zeros_of(std::vector<double>(10, 1.0))), std::invalid_argument);
+  EXPECT_THROW((void)zeros_of({}), std::invalid_argument);
+  EXPECT_THROW((void)zeros_of(std::vector<double>(10, 1.0)), std::invalid_argument);
 }
 
 TEST(Rpoly, EndsOnCoefficientsOfAllMagnitudes) {

@@ -8,14 +8,13 @@
 
 #include <memory>
 
+#include "tests/support/baselines.hpp"
 #include "tests/support/root_count.hpp"
-#include "tests/support/verdict_scores.hpp"
 
 namespace touchstone::baselines::rrp_test {
 namespace {
 
 using fast::Method;
-using fast::Verdict;
 using tests::PosedQuery;
 using tests::Random;
 using tests::says_yes;
@@ -83,14 +82,6 @@ TEST(Rrp, TakesAFlatPatchWithAReflexCornerForItsTwoTriangles) {
                                                {0, -1, 1, -1, 1, -1, 1, -1, 0, -1, 0, 1});
   EXPECT_FALSE(tests::truly_collides(reflex));
   EXPECT_TRUE(says_yes(rrp(), reflex));
-}
-
-TEST(Rrp, FindsContactsThatItsRayStartsOn) {
-  EXPECT_TRUE(says_yes(rrp(), tests::over_triangle(1, 1, 0, 1)));
-  EXPECT_TRUE(says_yes(rrp(), tests::over_triangle(1, 1, 1, 0)));
-  EXPECT_TRUE(says_yes(rrp(), tests::over_edge(1, 2, 1, -1)));
-  EXPECT_FALSE(says_yes(rrp(), tests::over_triangle(3, 3, 1, -1)));
-  EXPECT_FALSE(says_yes(rrp(), tests::over_edge(5, 2, 1, -1)));
 }
 
 }  // namespace

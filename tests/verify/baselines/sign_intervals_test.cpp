@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
+#include <array>
 #include <vector>
 
 namespace touchstone::baselines::sign_intervals_test {
@@ -18,29 +18,30 @@ Intervals not_positive(const std::vector<double>& coefficients) {
   return sign_intervals(coefficients, WantedSign::not_positive);
 }
 
-TEST(SignIntervals, OfConstants) {
-  EXPECT_EQ(not_negative({2.0}), (Intervals{{0, 1}}));
-  EXPECT_EQ(not_negative({-2.0}), Intervals{});
-  EXPECT_EQ(not_positive({-2.0}), (Intervals{{0, 1}}));
-  EXPECT_EQ(not_positive({2.0}), Intervals{});
-  EXPECT_EQ(not_positive({0.0, 0.0, 0.0}), (Intervals{{0, 1}}));
-  EXPECT_EQ(not_negative({0.0, 0.0, 3.0}), (Intervals{{0, 1}})) << "leading zeros are left out";
-}
+struct Row {
+  const char* name;
+  std::vector<double> coefficients;
+  Intervals not_negative, not_positive;
+};
 
-TEST(SignIntervals, OfLines) {
-  EXPECT_EQ(not_negative({2.0, -1.0}), (Intervals{{0.5, 1}}));
-  EXPECT_EQ(not_positive({2.0, -1.0}), (Intervals{{0, 0.5}}));
-  EXPECT_EQ(not_negative({1.0, 1.0}), (Intervals{{0, 1}})) << "zero before";
-  EXPECT_EQ(not_negative({1.0, -2.0}), Intervals{}) << "zero after";
+TEST(SignIntervals, OfConstantsLinesAndParabolas) {
+  const Intervals all{{0, 1}}, none;
+  const std::array rows{
+      Row{"positive", {2.0}, all, none},
+      Row{"negative", {-2.0}, none, all},
+      Row{"leading zeros are left out", {0.0, 0.0, 3.0}, all, none},
+      Row{"a zero inside", {2.0, -1.0}, {{0.5, 1}}, {{0, 0.5}}},
+      Row{"two zeros", {16.0, -16.0, 3.0}, {{0, 0.25}, {0.75, 1}}, {{0.25, 0.75}}},
+      Row{"no zeros", {1.0, 0.0, 1.0}, all, none},
+  };
+  for (const Row& row : rows) {
+    EXPECT_EQ(not_negative(row.coefficients), row.not_negative) << row.name;
+    EXPECT_EQ(not_positive(row.coefficients), row.not_positive) << row.name;
+  }
+  EXPECT_EQ(not_positive({0.0, 0.0, 0.0}), all);
+  EXPECT_EQ(not_negative({1.0, 1.0}), all) << "zero before";
+  EXPECT_EQ(not_negative({1.0, -2.0}), none) << "zero after";
   EXPECT_EQ(not_negative({1.0, -1.0}), (Intervals{{1, 1}})) << "of no length";
-}
-
-TEST(SignIntervals, OfParabolas) {
-  // (4t − 1)(4t − 3)
-  EXPECT_EQ(not_negative({16.0, -16.0, 3.0}), (Intervals{{0, 0.25}, {0.75, 1}}));
-  EXPECT_EQ(not_positive({16.0, -16.0, 3.0}), (Intervals{{0.25, 0.75}}));
-  EXPECT_EQ(not_negative({1.0, 0.0, 1.0}), (Intervals{{0, 1}})) << "no zeros";
-  EXPECT_EQ(not_positive({1.0, 0.0, 1.0}), Intervals{});
   EXPECT_EQ(not_positive({4.0, -4.0, 1.0}), (Intervals{{0.5, 0.5}})) << "a double zero";
 }
 

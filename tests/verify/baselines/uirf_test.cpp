@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <memory>
 
 #include "tests/support/baselines.hpp"
@@ -15,21 +14,6 @@ using tests::over_edge;
 using tests::over_triangle;
 
 const std::unique_ptr<fast::Method> method = baselines::uirf_method();
-
-TEST(Uirf, GivesTimesThatAreNotLate) {
-  tests::Random random(4);
-  for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
-    for (int i = 0; i < 50; ++i) {
-      const auto posed = tests::centre_hit(random, kind, tests::Motion::independent);
-      const fast::Answer answer = answer_to(*method, posed);
-      ASSERT_EQ(answer.verdict, fast::Verdict::yes);
-      const auto truth = exact::decide(kind, posed.query);
-      ASSERT_TRUE(truth.collides());
-      EXPECT_LE(exact::Rational(answer.toi_lower), truth.toi->enclosure().upper);
-      EXPECT_TRUE(std::isnan(answer.toi_upper));
-    }
-  }
-}
 
 TEST(Uirf, PassesAllThatIsOnOneLine) {
   // Two edges on one line, far from each other, at rest; and a triangle on a line with its vertex.

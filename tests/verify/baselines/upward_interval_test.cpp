@@ -67,26 +67,6 @@ TEST(UpwardInterval, HoldsTheResultsOfItsEnds) {
   }
 }
 
-TEST(UpwardInterval, IsAsNarrowAsItsEndsAllow) {
-  const std::array pairs{
-      std::array{from_to(2, 3), from_to(5, 7), from_to(10, 21)},
-      std::array{from_to(-3, -2), from_to(5, 7), from_to(-21, -10)},
-      std::array{from_to(2, 3), from_to(-7, 5), from_to(-21, 15)},
-      std::array{from_to(-3, -2), from_to(-7, 5), from_to(-15, 21)},
-      std::array{from_to(-2, 3), from_to(5, 7), from_to(-14, 21)},
-      std::array{from_to(-2, 3), from_to(-7, -5), from_to(-21, 14)},
-      std::array{from_to(-2, 3), from_to(-7, 5), from_to(-21, 15)},
-      std::array{from_to(0, 3), from_to(-7, 5), from_to(-21, 15)},
-      std::array{from_to(0, 0), from_to(-7, 5), from_to(0, 0)},
-  };
-  for (const auto& [a, b, product] : pairs) {
-    for (const auto& result : {rounded_operations(a, b)[2], rounded_operations(b, a)[2]}) {
-      EXPECT_EQ(result.minus_lower, product.minus_lower);
-      EXPECT_EQ(result.upper, product.upper);
-    }
-  }
-}
-
 TEST(UpwardInterval, StandsForFiniteNumbersWhereItsEndsAreInfinite) {
   const UpwardInterval unbounded{infinity, infinity}, zero(0.0);
   const auto product = rounded_operations(unbounded, zero)[2];
@@ -95,17 +75,6 @@ TEST(UpwardInterval, StandsForFiniteNumbersWhereItsEndsAreInfinite) {
   EXPECT_EQ(of_large.minus_lower, infinity);
   EXPECT_EQ(of_large.upper, infinity);
   EXPECT_EQ(of_large.sign(), 0);
-}
-
-TEST(UpwardInterval, KnowsItsSign) {
-  EXPECT_EQ(from_to(0x1p-1074, 1).sign(), 1);
-  EXPECT_EQ(from_to(-1, -0x1p-1074).sign(), -1);
-  EXPECT_EQ(from_to(0, 1).sign(), 0);
-  EXPECT_EQ(from_to(-1, 0).sign(), 0);
-  EXPECT_TRUE(same_sign(from_to(0, 1), from_to(-2, -1)));
-  EXPECT_TRUE(same_sign(from_to(-3, -1), from_to(-2, -1)));
-  EXPECT_FALSE(same_sign(from_to(1, 1), from_to(-2, -1)));
-  EXPECT_EQ(from_to(1, 3).estimate(), 2.0);
 }
 
 }  // namespace

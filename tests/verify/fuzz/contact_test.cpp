@@ -106,18 +106,5 @@ TEST(Contact, ApartIsAboutAtTheDistance) {
   }
 }
 
-TEST(Contact, SlidingComesNearAndSometimesCollides) {
-  int collisions = 0, near = 0;
-  for_each_query(sliding, tests::trials(400), [&](Kind kind, const Query& query) {
-    double greatest = 0.0;
-    for (const double x : query.coordinates) greatest = std::max(greatest, std::abs(x));
-    collisions += exact::decide(kind, query).collides() ? 1 : 0;
-    near +=
-        exact::decide(kind, query, {.distance = greatest * 0x1p-9, .norm = Norm::l2}).collides();
-  });
-  EXPECT_GT(collisions, tests::trials(16));
-  EXPECT_GT(near, collisions + tests::trials(80));
-}
-
 }  // namespace
 }  // namespace touchstone::verify::fuzz::contact_test

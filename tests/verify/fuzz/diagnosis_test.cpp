@@ -2,8 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
-#include <limits>
 #include <optional>
 
 #include "fast/method.hpp"
@@ -11,7 +9,6 @@
 #include "touchstone/query.hpp"
 #include "touchstone/tight_inclusion.hpp"
 #include "verify/judge/ground_truth.hpp"
-#include "verify/solvers/registry.hpp"
 
 namespace touchstone::verify::fuzz::diagnosis_test {
 namespace {
@@ -21,10 +18,7 @@ using fast::CertifiedResult;
 using fast::Promise;
 using fast::Verdict;
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
-/// Queries with contact at 1/3, at 1/2, and never.
-const tests::PosedQuery at_third = tests::over_triangle(1, 1, 1, -2);
+/// Queries with contact at 1/2, and never.
 const tests::PosedQuery at_half = tests::over_triangle(1, 1, 1, -1);
 const tests::PosedQuery never = tests::over_triangle(1, 1, 2, 1);
 
@@ -45,28 +39,6 @@ std::optional<judge::Fault> fault(const tests::PosedQuery& posed, const Answer& 
 
 Answer yes(double lower, double upper, double tolerance = Answer::none) {
   return {.verdict = Verdict::yes, .toi_lower = lower, .toi_upper = upper, .tolerance = tolerance};
-}
-
-TEST(Diagnose, KnowsEveryFaultOfACollision) {
-  EXPECT_EQ(fault(at_half, {.verdict = Verdict::no}), judge::Fault::false_negative);
-  EXPECT_EQ(fault(at_half, {.verdict = Verdict::error}), judge::Fault::no_verdict);
-  EXPECT_EQ(fault(at_half, {.verdict = Verdict::undecided}), std::nullopt);
-  EXPECT_EQ(fault(at_half, yes(0.5, 0.5)), std::nullopt);
-  EXPECT_EQ(fault(at_half, yes(Answer::none, Answer::none)), std::nullopt);
-  EXPECT_EQ(fault(at_half, yes(std::nextafter(0.5, 1.0), 1.0)), judge::Fault::late_toi);
-  EXPECT_EQ(fault(at_half, yes(0.0, std::nextafter(0.5, 0.0))), judge::Fault::early_toi_upper);
-  EXPECT_EQ(fault(at_half, yes(-infinity, 0.5)), judge::Fault::not_finite);
-  EXPECT_EQ(fault(at_half, yes(0.0, infinity)), judge::Fault::not_finite);
-  EXPECT_EQ(fault(at_half, yes(0.0, 1.0, -1.0)), judge::Fault::not_finite);
-}
-
-/// 1/3 is not a double: its neighbours are the tightest right bounds.
-TEST(Diagnose, IsExactAboutTimesThatAreNoDoubles) {
-  const double third = 1.0 / 3.0;  // rounded down
-  const double above = std::nextafter(third, 1.0);
-  EXPECT_EQ(fault(at_third, yes(third, above)), std::nullopt);
-  EXPECT_EQ(fault(at_third, yes(above, 1.0)), judge::Fault::late_toi);
-  EXPECT_EQ(fault(at_third, yes(0.0, third)), judge::Fault::early_toi_upper);
 }
 
 TEST(Diagnose, HoldsOnlyWhatIsExactToMisses) {
@@ -101,18 +73,6 @@ TEST(Diagnose, HoldsAYesToItsToleranceBeyondTheSeparation) {
   EXPECT_EQ(claims(0.0), judge::Fault::beyond_tolerance);
 }
 
-TEST(Diagnose, TellsFailuresApart) {
-  const auto what = [](const judge::Failure& failure) {
-    return diagnose_failure(failure, 10.0).what;
-  };
-  for (const judge::Fault kind : judge::all_failures) {
-    EXPECT_EQ(what({.kind = kind}), kind);
-  }
-  EXPECT_EQ(diagnose_failure({.kind = judge::Fault::hang}, 10.0).detail, "takes more than 10 s");
-  EXPECT_EQ(diagnose_failure({.kind = judge::Fault::exit, .number = 3}, 0.0).detail,
-            "exit: status 3");
-}
-
 TEST(Diagnose, JudgesAtTheSeparation) {
   const judge::Standard exact{.promise = Promise::exact};
   const Separation separation{.distance = 1.5};
@@ -120,24 +80,6 @@ TEST(Diagnose, JudgesAtTheSeparation) {
             judge::Fault::false_negative);
   EXPECT_EQ(fault(never, yes(0.5, 0.5), exact, separation), std::nullopt);
   EXPECT_EQ(fault(never, yes(0.75, 0.75), exact, separation), judge::Fault::late_toi);
-}
-
-TEST(Diagnose, FindsMostRightAnswersRightAtAGlance) {
-  const auto glance = [](const tests::PosedQuery& posed, const Answer& answer,
-                         const judge::Standard& standard) {
-    return is_beyond_doubt({posed.kind, posed.query}, fast::solve(posed.kind, posed.query), answer,
-                           standard);
-  };
-  EXPECT_TRUE(glance(at_third, yes(0.333, 0.334), {.promise = Promise::exact}));
-  EXPECT_TRUE(glance(at_third, {.verdict = Verdict::undecided}, {}));
-  EXPECT_TRUE(glance(never, {.verdict = Verdict::no}, {.promise = Promise::exact}));
-  EXPECT_TRUE(glance(never, yes(0.5, Answer::none), {}));
-  EXPECT_TRUE(glance(never, yes(0.5, Answer::none, 2.0), {.filter = fast::ErrorModel::derived}));
-}
-
-TEST(Diagnose, SaysAnswersInWords) {
-  EXPECT_EQ(to_text(Answer{.verdict = Verdict::no}), "no");
-  EXPECT_EQ(to_text(yes(0.5, Answer::none, 1e-6)), "yes, toi_lower 0.5, tolerance 1e-06");
 }
 
 }  // namespace

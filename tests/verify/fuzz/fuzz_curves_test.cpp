@@ -69,8 +69,8 @@ TEST(FuzzCurves, HasTheSameQueriesForTheSameSeed) {
       all.insert(all.end(), queries.numbers.begin(), queries.numbers.end());
       return std::vector<fast::Answer>(queries.size(), {.verdict = fast::Verdict::undecided});
     };
-    static_cast<void>(fuzz_curves(
-        note, false, {.most_queries = 200, .seed = seed, .promise = fast::Promise::conservative}));
+    (void)fuzz_curves(note, false,
+                      {.most_queries = 200, .seed = seed, .promise = fast::Promise::conservative});
     return all;
   };
   EXPECT_EQ(numbers(1), numbers(1));

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
-#include <set>
 #include <string_view>
 #include <vector>
 
@@ -34,17 +33,6 @@ std::vector<Query> make_queries(const Generator& generator, Kind kind, const Sep
     queries.push_back(generator.make(kind, context, random));
   }
   return queries;
-}
-
-TEST(Generators, HaveNamesOfTheirOwn) {
-  std::set<std::string_view> names;
-  for (const Generator& generator : generators()) {
-    EXPECT_TRUE(names.insert(generator.name).second) << generator.name;
-    EXPECT_FALSE(generator.about.empty());
-    EXPECT_GT(generator.work, 0.0);
-  }
-  EXPECT_EQ(generators({}).size() + 3, generators().size());
-  EXPECT_EQ(generators(separations[1]).size(), generators().size());
 }
 
 TEST(Generators, MakeFiniteQueriesTheSameEveryTime) {

@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <array>
-#include <atomic>
 #include <chrono>
 #include <cmath>
 #include <cstdlib>
@@ -149,15 +148,6 @@ TEST(Simplify, SaysIfTheTimeWasTooShort) {
     expect_consistent(finding, finding.simplest, late);
     EXPECT_LE(now, 1.0 + 5.0 * step);
   }
-}
-
-TEST(Simplify, EndsWhenTheRunIsStopped) {
-  const FunctionMethod method(late, Promise::conservative);
-  Finding finding = find(method);
-  const std::atomic<bool> stop = true;
-  simplify(method, {.stop = &stop}, {}, finding);
-  EXPECT_EQ(finding.shrinking, Shrinking::cut_short);
-  EXPECT_EQ(finding.simplest.query, finding.original.query);
 }
 
 TEST(Simplify, SaysIfTheMethodIsNotWrongAlone) {

@@ -4,11 +4,8 @@
 
 #include <cstddef>
 #include <cstdlib>
-#include <limits>
 #include <sstream>
-#include <stdexcept>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "tests/support/queries.hpp"
@@ -105,17 +102,6 @@ TEST(AsCsv, ReadsBackUnchanged) {
     EXPECT_EQ(read[i].query, queries[i]);
     EXPECT_EQ(read[i].collides, i % 2 == 0);
   }
-}
-
-TEST(AsCsv, HasEightRowsOfTheFormat) {
-  const auto lines = lines_of(as_csv(tests::over_triangle(0.5, 1, 1, -2).query, true));
-  ASSERT_EQ(lines.size(), 8U);
-  EXPECT_EQ(lines[0], "1,2,1,1,1,1,1");
-  EXPECT_EQ(lines[4], "1,2,1,1,-2,1,1");
-  EXPECT_EQ(lines_of(as_csv(miss().failing.query))[4], "1,1,1,1,-2,1");
-  Query infinite{};
-  infinite.coordinates[3] = std::numeric_limits<double>::infinity();
-  EXPECT_THROW((void)as_csv(infinite), std::invalid_argument);
 }
 
 // ---- As a command -------------------------------------------------------------------------------

@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <filesystem>
 #include <string>
 
@@ -50,17 +49,6 @@ TEST(AsMain, IsTheProgramThatIsCompiledHere) {
   EXPECT_EQ(as_main(miss_of_edges(), CallInterface::ticcd), golden("standalone_ticcd.cpp"));
   EXPECT_EQ(as_main(miss_of_edges(), CallInterface::ipc_toolkit),
             golden("standalone_ipc_toolkit.cpp"));
-}
-
-TEST(AsMain, IncludesNothingOfOursAndIsShort) {
-  for (const CallInterface interface :
-       {CallInterface::plugin, CallInterface::ticcd, CallInterface::ipc_toolkit}) {
-    const std::string text = as_main(miss(), interface);
-    for (const std::string ours : {"\"verify/", "\"exact/", "\"fast/", "\"filters/"}) {
-      EXPECT_EQ(text.find("#include " + ours), std::string::npos) << text;
-    }
-    EXPECT_LE(std::ranges::count(text, '\n'), 48) << text;
-  }
 }
 
 TEST(AsMain, EndsWithOneForTheFinding) {

@@ -2,9 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstddef>
 
 #include "tests/support/trials.hpp"
@@ -24,23 +22,6 @@ void for_each_query(Query (*make)(Kind, Random&), int count, const Use& use) {
     const Kind kind = both_kinds.at(static_cast<std::size_t>(i % 2));
     use(kind, make(kind, random));
   }
-}
-
-/// The decimal digits of the number, or of the float that it equals.
-int digits_of(double x) {
-  const auto as_float = static_cast<float>(x);
-  const int as_double = shortest_decimal(x).count;
-  if (static_cast<double>(as_float) != x) return as_double;
-  int digits = 1;
-  for (; digits < 9; ++digits) {
-    const Decimal decimal = shortest_decimal(x);
-    const double rounded = from_decimal(
-        static_cast<std::uint64_t>(std::llround(static_cast<double>(decimal.digits) *
-                                                std::pow(10.0, digits - decimal.count))),
-        decimal.exponent + decimal.count - digits);
-    if (static_cast<float>(rounded) == as_float) break;
-  }
-  return std::min(as_double, digits);
 }
 
 TEST(EverydayContact, IsContactAlways) {
@@ -64,22 +45,6 @@ TEST(EverydayContact, IsContactAlways) {
   EXPECT_GT(at_start, count / 3);
   EXPECT_GT(at_end, count / 5);
   EXPECT_GT(shared, count / 16);
-}
-
-TEST(EverydayContact, HasShortDecimalsOfEverydaySize) {
-  std::array<int, 3> by_size{};
-  for_each_query(everyday_contact, tests::trials(1000), [&](Kind, const Query& query) {
-    double greatest = 0.0;
-    for (const double x : query.coordinates) {
-      if (x == 0.0) continue;
-      greatest = std::max(greatest, std::abs(x));
-      EXPECT_LE(digits_of(std::abs(x)), 6) << x;
-    }
-    EXPECT_LE(greatest, 1e4);
-    EXPECT_GE(greatest, 1e-4);
-    by_size.at(greatest < 0.1 ? 0 : greatest < 10.0 ? 1 : 2) += 1;
-  });
-  for (const int count : by_size) EXPECT_GT(count, tests::trials(1000) / 6);
 }
 
 TEST(EverydayNearContact, MostlyDoesNotCollideByAUnit) {

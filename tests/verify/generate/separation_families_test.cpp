@@ -132,21 +132,5 @@ TEST(SeparationFamilies, TheyReachToBothEndsOfTheirDistances) {
   }
 }
 
-TEST(SeparationFamilies, AStreamSaysWhatItsClaimsAreAbout) {
-  const Separation separation{.distance = 1e-8, .norm = Norm::l2};
-  const auto about_it =
-      open_family(family_from_name("separation-corner"), Kind::edge_edge, seed, 2, separation);
-  EXPECT_EQ(about_it->recorded_separation(), separation);
-  const auto first = about_it->next();
-  EXPECT_EQ(first->query,
-            make_query(family_from_name("separation-corner"), Kind::edge_edge, seed, 0, separation)
-                .query);
-  const auto about_contact =
-      open_family(family_from_name("interior-dyadic"), Kind::edge_edge, seed, 2, separation);
-  EXPECT_EQ(about_contact->recorded_separation(), Separation{});
-  EXPECT_EQ(about_contact->next()->query,
-            make_query(family_from_name("interior-dyadic"), Kind::edge_edge, seed, 0).query);
-}
-
 }  // namespace
 }  // namespace touchstone::verify::generate::separation_families_test

@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <memory>
 #include <vector>
 
@@ -21,15 +20,6 @@ struct Solvers {
   std::vector<const solvers::Solver*> all{first.get(), second.get()};
 };
 
-TEST(Budget, WithoutOneNothingIsLimited) {
-  Solvers solvers;
-  Budget budget;
-  EXPECT_FALSE(budget.is_limited());
-  EXPECT_FALSE(budget.is_over());
-  EXPECT_FALSE(budget.begin_source(1).is_over());
-  EXPECT_TRUE(std::isinf(solvers.first->allowance()));
-}
-
 TEST(Budget, SharesWhatIsLeftOverSourcesAndSolvers) {
   Solvers solvers;
   double now = 0.0;
@@ -45,7 +35,7 @@ TEST(Budget, SharesWhatIsLeftOverSourcesAndSolvers) {
   EXPECT_DOUBLE_EQ(solvers.second->allowance(), 40.0 / 3.0);
   // It takes more than all.
   solvers.first->allow(-1000.0);
-  static_cast<void>(budget.begin_source(2));
+  (void)budget.begin_source(2);
   EXPECT_EQ(solvers.first->allowance(), 0.0);
   EXPECT_DOUBLE_EQ(solvers.second->allowance(), 20.0);
   now = 100.0;

@@ -5,9 +5,7 @@
 #include <Eigen/Core>
 
 #include <algorithm>
-#include <array>
 #include <cstdint>
-#include <limits>
 #include <optional>
 #include <vector>
 
@@ -81,32 +79,6 @@ TEST(CheckStep, FindsWhatTheOracleCallsCollisionsInOrder) {
             (PairCounts{mesh::find_candidates(frames.moving, Kind::vertex_face).size(),
                         mesh::find_candidates(frames.moving, Kind::edge_edge).size(), 0, 0}));
   EXPECT_FALSE(check.is_free);
-}
-
-TEST(CheckStep, AgreesWithItselfWhateverIsAsked) {
-  for (const std::uint64_t seed : {11U, 12U, 13U}) {
-    const Frames frames(seed);
-    const StepCheck all = frames.check();
-    const StepCheck earliest = frames.check({.question = StepQuestion::earliest});
-    const StepCheck free = frames.check({.question = StepQuestion::free});
-    ASSERT_TRUE(all.earliest && earliest.earliest);
-    EXPECT_EQ(all.earliest->toi_lower, earliest.earliest->toi_lower);
-    EXPECT_EQ(all.earliest->toi_upper, earliest.earliest->toi_upper);
-    const auto pairs = [](const StepCheck& check) {
-      std::vector<std::array<std::int32_t, 2>> result;
-      for (const auto& pair : check.earliest->pairs) result.push_back(pair.pair);
-      std::ranges::sort(result);
-      return result;
-    };
-    EXPECT_EQ(pairs(all), pairs(earliest));
-    EXPECT_FALSE(earliest.collisions);
-    EXPECT_FALSE(earliest.is_free);
-    EXPECT_FALSE(free.is_free);
-    EXPECT_FALSE(free.earliest);
-    EXPECT_TRUE(all.candidates.has_value());
-    EXPECT_FALSE(free.candidates.has_value());
-    EXPECT_FALSE(earliest.candidates.has_value());
-  }
 }
 
 TEST(CheckStep, GivesTheSameAfterOtherStepsOfTheMesh) {

@@ -281,9 +281,8 @@ TEST(ProveStep, PassesOnExceptionsOfItsReader) {
   const fast::Step step = scene.step();
   StepProofOptions options;
   options.on_text = [](std::string_view) { throw std::runtime_error("full"); };
-  EXPECT_THROW(
-      static_cast<void>(prove_step(step, {.faces = scene.faces, .points = scene.points}, options)),
-      std::runtime_error);
+  EXPECT_THROW((void)prove_step(step, {.faces = scene.faces, .points = scene.points}, options),
+               std::runtime_error);
 }
 
 }  // namespace

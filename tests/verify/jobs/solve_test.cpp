@@ -2,9 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include <atomic>
 #include <cstdint>
-#include <utility>
 #include <vector>
 
 #include "tests/support/memory_source.hpp"
@@ -23,8 +21,8 @@ std::vector<data::RecordedQuery> scripted(std::uint64_t count) {
   for (std::uint64_t i = 0; i < count; ++i) {
     records.push_back({.query = {{static_cast<double>(i % 5 % 4), static_cast<double>(i)}},
                        .index = i + 10,
-                       .collides = std::nullopt,
-                       .toi = std::nullopt});
+                       .collides = {},
+                       .toi = {}});
   }
   return records;
 }
@@ -63,52 +61,6 @@ TEST(Solve, CountsAndHandsOutTheAnswersInOrder) {
     EXPECT_FALSE(result.reading_error);
     EXPECT_FALSE(result.interrupted);
   }
-}
-
-TEST(Solve, AnErrorOrAStopLosesNothingBeforeIt) {
-  const tests::FunctionMethod method(obey);
-  const auto solver = solvers::solver_in_process(method, {});
-  MemorySource broken(Kind::edge_edge, scripted(3000));
-  broken.fail_at(2500, "row is broken");
-  const SolveResult to_error = solve(broken, *solver);
-  EXPECT_EQ(to_error.queries, 2500U);
-  EXPECT_EQ(to_error.reading_error, "row is broken");
-
-  std::atomic<bool> stop = false;
-  MemorySource source(Kind::edge_edge, scripted(200000));
-  std::uint64_t seen = 0;
-  const SolveResult stopped =
-      solve(source, *solver,
-            {.on_answer = [&](std::uint64_t, const Answer&,
-                              const judge::Failure*) { stop = ++seen > 100; },
-             .stop = &stop});
-  EXPECT_TRUE(stopped.interrupted);
-  EXPECT_EQ(stopped.queries, seen);
-  EXPECT_GT(seen, 100U);
-  EXPECT_LT(seen, 100000U);
-}
-
-TEST(Solve, ResultsAddUp) {
-  SolveResult sum{.queries = 1, .yes = 1, .unplaced_crashes = 1, .nanoseconds = 10.0};
-  sum += SolveResult{.queries = 4,
-                     .yes = 1,
-                     .no = 1,
-                     .undecided = 1,
-                     .errors = 1,
-                     .unplaced_crashes = 2,
-                     .nanoseconds = 40.0,
-                     .skipped = 6,
-                     .rounded = 7,
-                     .interrupted = true};
-  EXPECT_EQ(sum.queries, 5U);
-  EXPECT_EQ(sum.yes, 2U);
-  EXPECT_EQ(sum.no + sum.undecided + sum.errors, 3U);
-  EXPECT_EQ(sum.unplaced_crashes, 3U);
-  EXPECT_EQ(sum.skipped, 6U);
-  EXPECT_EQ(sum.rounded, 7U);
-  EXPECT_EQ(sum.nanoseconds_per_query(), 10.0);
-  EXPECT_TRUE(sum.interrupted);
-  EXPECT_EQ(SolveResult{}.nanoseconds_per_query(), 0.0);
 }
 
 }  // namespace

@@ -5,20 +5,12 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <functional>
 #include <vector>
 
 namespace touchstone::verify::jobs::statistics_test {
 namespace {
 
 using Positions = std::vector<std::size_t>;
-
-TEST(Statistics, MedianIsTheMiddleWhateverTheOrder) {
-  EXPECT_EQ(median({3.0, 1.0, 2.0}), 2.0);
-  EXPECT_EQ(median({4.0, 1.0, 2.0, 8.0}), 3.0);
-  EXPECT_EQ(median({7.0}), 7.0);
-  EXPECT_TRUE(std::isnan(median({})));
-}
 
 TEST(Statistics, QuantileIsTheLeastValueThatEnoughDoNotExceed) {
   std::vector<double> values;
@@ -30,13 +22,6 @@ TEST(Statistics, QuantileIsTheLeastValueThatEnoughDoNotExceed) {
   EXPECT_EQ(quantile(values, 1.0), 100.0);
   EXPECT_EQ(quantile({5.0}, 0.99), 5.0);
   EXPECT_TRUE(std::isnan(quantile({}, 0.5)));
-}
-
-TEST(SpreadSample, IsAllWhereAllAreAskedFor) {
-  EXPECT_EQ(spread_sample(3, 3), (Positions{0, 1, 2}));
-  EXPECT_EQ(spread_sample(3, 99), (Positions{0, 1, 2}));
-  EXPECT_EQ(spread_sample(0, 5), Positions{});
-  EXPECT_EQ(spread_sample(5, 0), Positions{});
 }
 
 TEST(SpreadSample, HasTheCountAskedForAscendingAndWithoutRepetition) {

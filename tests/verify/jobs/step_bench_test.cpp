@@ -64,24 +64,15 @@ TEST(StepBench, FindsTheCollisionsAndTheEarliestOne) {
   EXPECT_LE(result.earliest->toi_upper - result.earliest->toi_lower, 1e-11);
   EXPECT_TRUE(result.earliest_agrees);
   EXPECT_FALSE(result.interrupted);
-}
-
-TEST(StepBench, TimesOneThreadAndMany) {
-  const mesh::MovingMesh mesh = generate::moving_patches({.seed = 11, .cells = 8});
-  const StepResult both = bench_step(mesh, {.repetitions = 2, .threads = 3});
-  ASSERT_EQ(both.times.size(), 2U);
-  EXPECT_EQ(both.times[0].threads, 1);
-  EXPECT_EQ(both.times[1].threads, 3);
-  for (const StepTimes& times : both.times) {
+  ASSERT_EQ(result.times.size(), 2U);
+  EXPECT_EQ(result.times[0].threads, 1);
+  EXPECT_EQ(result.times[1].threads, 2);
+  for (const StepTimes& times : result.times) {
     for (const WorkTime& time : {times.trees, times.candidates, times.collisions, times.earliest}) {
       EXPECT_GT(time.wall, 0.0);
       EXPECT_GT(time.processor, 0.0);
     }
   }
-  EXPECT_GT(both.memory_pass.wall, 0.0);
-  const StepResult one = bench_step(mesh, {.repetitions = 1, .threads = 1});
-  ASSERT_EQ(one.times.size(), 1U);
-  EXPECT_EQ(one.times[0].threads, 1);
 }
 
 TEST(StepBench, AStepWithoutContactHasNoEarliestImpact) {
@@ -92,7 +83,8 @@ TEST(StepBench, AStepWithoutContactHasNoEarliestImpact) {
   const mesh::MovingMesh mesh{.name = "alone",
                               .vertices = fast::MovingVertices(points, points),
                               .faces = std::move(faces),
-                              .edges = std::move(edges)};
+                              .edges = std::move(edges),
+                              .note = {}};
   const StepResult result = bench_step(mesh);
   EXPECT_EQ(result.vertex_face.candidates, 0U);
   EXPECT_EQ(result.edge_edge.candidates, 0U);
@@ -111,7 +103,7 @@ TEST(StepBench, AStopLeavesTheRestOut) {
 
 TEST(StepBench, RefusesOptionsOutOfRange) {
   const mesh::MovingMesh mesh = generate::moving_patches({.seed = 1, .cells = 1});
-  EXPECT_THROW(static_cast<void>(bench_step(mesh, {.repetitions = 0})), std::invalid_argument);
+  EXPECT_THROW((void)bench_step(mesh, {.repetitions = 0}), std::invalid_argument);
 }
 
 }  // namespace

@@ -4,12 +4,9 @@
 
 #include <algorithm>
 #include <atomic>
-#include <cmath>
 #include <mutex>
 #include <set>
 #include <stdexcept>
-#include <thread>
-#include <utility>
 #include <vector>
 
 #include "tests/support/memory_source.hpp"
@@ -60,24 +57,6 @@ TEST(Stream, AllComesOutInOrderWhateverTheNumberOfThreads) {
     EXPECT_FALSE(collected.result.error);
     EXPECT_FALSE(collected.result.interrupted);
   }
-}
-
-TEST(Stream, ABlockHoldsWhatTheSourceSays) {
-  MemorySource source(Kind::edge_edge, numbered(3));
-  std::size_t blocks = 0;
-  const auto work = [&](const Block& block) -> BlockResult {
-    EXPECT_EQ(*block.source, "memory");
-    EXPECT_EQ(block.kind, Kind::edge_edge);
-    for (std::size_t i = 0; i < 3; ++i) {
-      EXPECT_EQ(block.queries[i].coordinates[0], static_cast<double>(i));
-      EXPECT_EQ(block.indices[i], i);
-      EXPECT_EQ(block.labels[i].collides, i % 2 == 0);
-      EXPECT_EQ(block.labels[i].toi, exact::Rational(static_cast<unsigned long>(i)));
-    }
-    return {.in_order = [&] { ++blocks; }};
-  };
-  static_cast<void>(stream(source, work, {}));
-  EXPECT_EQ(blocks, 1U);
 }
 
 TEST(Stream, AnErrorOfTheSourceLosesNothingBeforeIt) {

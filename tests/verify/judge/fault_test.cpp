@@ -11,7 +11,6 @@
 namespace touchstone::verify::judge::fault_test {
 namespace {
 
-using fast::Answer;
 using fast::Verdict;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -70,21 +69,6 @@ TEST(FailureOf, AnAnswerShowsItself) {
             "not_finite: toi_upper -inf");
   EXPECT_EQ(to_text(failure_of({.verdict = Verdict::yes, .tolerance = -1.0}).value()),
             "not_finite: tolerance -1");
-}
-
-TEST(FailureAt, IsFoundByItsPosition) {
-  const std::vector<QueryFailure> failures{{.position = 2, .failure = {.kind = Fault::hang}},
-                                           {.position = 5, .failure = {.kind = Fault::crash}}};
-  EXPECT_EQ(failure_at(failures, 5), &failures[1].failure);
-  EXPECT_EQ(failure_at(failures, 3), nullptr);
-  EXPECT_EQ(failure_at(failures, 6), nullptr);
-}
-
-TEST(VerdictOf, OnlyIndecisionIsConservative) {
-  for (const Fault kind : all_failures) {
-    const bool is_undecided = kind == Fault::undecided || kind == Fault::hang;
-    EXPECT_EQ(verdict_of(kind), is_undecided ? Verdict::undecided : Verdict::error);
-  }
 }
 
 }  // namespace

@@ -27,14 +27,5 @@ TEST(GroundTruth, IsTheVerdictInDoubles) {
   EXPECT_EQ(never.toi, std::nullopt);
 }
 
-TEST(GroundTruth, InWords) {
-  EXPECT_EQ(to_text(GroundTruth{.index = 0, .collides = false, .toi = std::nullopt}),
-            "no collision");
-  EXPECT_EQ(to_text(GroundTruth{.index = 0, .collides = true, .toi = DoubleInterval{0.5, 0.5}}),
-            "collision at 0.5");
-  EXPECT_EQ(to_text(GroundTruth{.index = 0, .collides = true, .toi = DoubleInterval{0.25, 0.5}}),
-            "collision after 0.25 and before 0.5");
-}
-
 }  // namespace
 }  // namespace touchstone::verify::judge::ground_truth_test

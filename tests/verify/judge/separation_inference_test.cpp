@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
-#include <vector>
 
 namespace touchstone::verify::judge::separation_inference_test {
 namespace {
@@ -31,18 +30,6 @@ TEST(Separation, OnlyWhatFollowsIsInferred) {
   EXPECT_EQ(infer(one_linf, one_l2), Inference::nothing);
   EXPECT_EQ(infer(two_linf, one_linf), Inference::nothing);
   EXPECT_EQ(infer(one_linf, contact), Inference::nothing);
-}
-
-TEST(Separation, ACommonOneIsOfAllAndMoreThanContact) {
-  EXPECT_EQ(common_separation({}), std::nullopt);
-  EXPECT_EQ(common_separation(std::vector{one_l2, one_l2}), one_l2);
-  EXPECT_EQ(common_separation(std::vector{one_l2, one_linf}), std::nullopt);
-  EXPECT_EQ(common_separation(std::vector{contact, contact_l2}), std::nullopt);
-}
-
-TEST(Separation, TextAndJsonGiveTheSameDoubleAgain) {
-  EXPECT_EQ(to_text({.distance = 1e-100, .norm = Norm::l2}), "1e-100 (l2)");
-  EXPECT_EQ(to_json({.distance = 0.1}).dump(), R"({"min_separation":0.1,"norm":"linf"})");
 }
 
 }  // namespace

@@ -83,21 +83,5 @@ TEST(AnswerOnCurves, NeedsOneDegreeOfThoseThatMove) {
   EXPECT_FALSE(asked(on_curves({1, 1})).has_value());
 }
 
-TEST(ViewedQueryOf, HasTheFaultsAsNotes) {
-  const ViewedQuery query = resting();
-  const ViewedQuery viewed = viewed_query({.source = "a.csv",
-                                           .index = 7,
-                                           .kind = query.kind,
-                                           .query = query.query,
-                                           .separation = {.distance = 0.5},
-                                           .faults = {"late"},
-                                           .answers = {{.solver = "x"}}});
-  EXPECT_EQ(viewed.label, "a.csv:7");
-  EXPECT_EQ(viewed.query, query.query);
-  EXPECT_EQ(viewed.separation.distance, 0.5);
-  EXPECT_EQ(viewed.notes, std::vector<std::string>{"late"});
-  EXPECT_EQ(viewed.answers.at(0).solver, "x");
-}
-
 }  // namespace
 }  // namespace touchstone::verify::view::asked_solvers_test

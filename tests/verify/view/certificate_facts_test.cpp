@@ -42,14 +42,6 @@ TEST(CertificateFacts, AWrongProofIsShownAsRefused) {
   EXPECT_EQ(facts.at("subintervals").at(1).at("feature"), "face -");
 }
 
-TEST(CertificateFacts, EveryFeatureByItsName) {
-  for (const std::string feature :
-       {"vertex 2", "edge 1 2", "face -", "axis x +", "axis z -", "cross y 1 2"}) {
-    const nlohmann::json facts = certificate_facts(replaced(over_an_edge, "face +", feature));
-    EXPECT_EQ(facts.at("subintervals").at(1).at("feature"), feature);
-  }
-}
-
 TEST(CertificateFacts, TheQueryBitForBit) {
   const tests::PosedQuery posed = tests::edge_edge({-1, 0.1, 1, 1, 0, 1, 0, -1, 0, 0, 1, 5e-324},
                                                    {-1, 0, -1, 1, 0, -1, 0, -1.7e308, 0, 0, 1, 0});
@@ -85,16 +77,15 @@ TEST(CertificateFacts, TheCurvesOfAQueryEachOfItsDegree) {
 
 TEST(CertificateFacts, InvalidTextIsAnError) {
   for (const std::string number : {"0x1p-1", "5/4"}) {
-    EXPECT_THROW(static_cast<void>(certified_query(replaced(through_a_triangle, number, "1/3"))),
+    EXPECT_THROW((void)certified_query(replaced(through_a_triangle, number, "1/3")),
                  std::invalid_argument)
         << "1/3 is no double";
   }
-  EXPECT_THROW(static_cast<void>(certified_query("")), std::invalid_argument);
-  EXPECT_THROW(static_cast<void>(certified_query("touchstone-certificates 1\n")),
+  EXPECT_THROW((void)certified_query(""), std::invalid_argument);
+  EXPECT_THROW((void)certified_query("touchstone-certificates 1\n"), std::invalid_argument);
+  EXPECT_THROW((void)certified_query(replaced(over_an_edge, "4 0 0", "4 0")),
                std::invalid_argument);
-  EXPECT_THROW(static_cast<void>(certified_query(replaced(over_an_edge, "4 0 0", "4 0"))),
-               std::invalid_argument);
-  EXPECT_THROW(static_cast<void>(certified_query(replaced(over_an_edge, "4 0 0", "1/3 0 0"))),
+  EXPECT_THROW((void)certified_query(replaced(over_an_edge, "4 0 0", "1/3 0 0")),
                std::invalid_argument)
       << "1/3 is no double";
 }

@@ -22,11 +22,6 @@ PosedQuery falling_to(double height) {
                             {1, 1, height, 0, 0, 0, 4, 0, 0, 0, 4, 0});
 }
 
-TEST(NearestApproach, OfCollidingQueriesDoesNotExist) {
-  const PosedQuery colliding = falling_to(-2.0);
-  EXPECT_FALSE(nearest_approach(colliding.kind, colliding.query));
-}
-
 TEST(NearestApproach, IsBetweenNeighbouringDoubles) {
   for (const double height : {0.5, 1e-9, 0x1p-53, 1e-310, least}) {
     const PosedQuery posed = falling_to(height);

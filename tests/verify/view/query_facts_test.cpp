@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <array>
-#include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <utility>
@@ -145,19 +144,6 @@ TEST(QueryFacts, OnRationalCurvesTheirWeightsAreGiven) {
     ["0x1p+0", "0x1p+0", "0x1p+0", "0x1p+0"], ["0x1p+1", null, null, null],
     ["0x1.8p+1", null, null, null]])"));
   EXPECT_EQ(facts.at("truth").at("toi").at("exact"), "1/4");
-}
-
-TEST(QueryFacts, OnCurvesTheCertifiedSolverIsHeldAgainstTheTruth) {
-  const ViewedQuery query = turning();
-  std::vector<judge::GivenAnswer> asked{answer_on_curves(query, "certified", {}).value()};
-  asked.push_back({.solver = "certified", .answer = {.verdict = fast::Verdict::no}});
-  const nlohmann::json answers = query_facts(query, asked).at("answers");
-  ASSERT_EQ(answers.size(), 2U);
-  EXPECT_EQ(answers[0].at("solver"), "certified");
-  EXPECT_EQ(answers[0].at("verdict"), "yes");
-  EXPECT_EQ(answers[0].at("faults"), nlohmann::json::array());
-  EXPECT_EQ(answers[1].at("faults"), nlohmann::json::array({"false negative"}));
-  EXPECT_EQ(answers[1].at("breaks_promise"), true);
 }
 
 TEST(QueryFacts, OnCurvesThereIsNoNearestApproach) {

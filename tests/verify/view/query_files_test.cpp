@@ -41,7 +41,7 @@ class QueryFiles : public tests::FolderTest {
   [[nodiscard]] std::string reason(const std::string& name,
                                    const QueryFileOptions& options = {}) const {
     try {
-      static_cast<void>(queries(name, options));
+      (void)queries(name, options);
     } catch (const io::DatasetError& error) {
       return error.reason();
     }
@@ -202,7 +202,7 @@ TEST(ParseNumber, DecimalsHexadecimalsAndFractions) {
   EXPECT_EQ(parse_number("0x1p-1074"), 5e-324);
   for (const std::string text :
        {"", "x", "0x", "1e999", "nan", "inf", "0x1p+2000", "1/0", "1.5x"}) {
-    EXPECT_THROW(static_cast<void>(parse_number(text)), std::invalid_argument) << text;
+    EXPECT_THROW((void)parse_number(text), std::invalid_argument) << text;
   }
 }
 
@@ -210,7 +210,7 @@ TEST(ParsePoints, AnySeparators) {
   const Query query = parse_points(
       "{{1, 1,1; (0 0 0) [4,0,0] 0 4 0\n1 1 -0x1.999999999999ap-4 0 0 0 4 0 0 0 4 0}}");
   EXPECT_EQ(query, numbered(1));
-  EXPECT_THROW(static_cast<void>(parse_points("1 2 3")), std::invalid_argument);
+  EXPECT_THROW((void)parse_points("1 2 3"), std::invalid_argument);
 }
 
 }  // namespace

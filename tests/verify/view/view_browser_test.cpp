@@ -193,29 +193,6 @@ TEST_F(ViewBrowser, TheSliderMovesPointsOnCurvesExactly) {
   for (const nlohmann::json& count : result.at("drawn")) EXPECT_GT(count, 30);
 }
 
-/// A vertex that turns where it touches a triangle at rest: its path is seen although both ends
-/// are one point.
-TEST_F(ViewBrowser, ShowsContactAndPathOnCurves) {
-  const CurvedQuery curves{{{.control = {{1, 1, 1}, {1, 1, -1}, {1, 1, 1}}},
-                            {.control = {{0, 0, 0}}},
-                            {.control = {{4, 0, 0}}},
-                            {.control = {{0, 4, 0}}}}};
-  const nlohmann::json result = result_on(page_of_curves(curves), R"(
-    const first = { verdict: find("sentence").textContent, readout: find("readout").textContent, now: find("now").textContent };
-    const names = () => all("#motion .names span").slice(0, 1).map((one) => one.style.transform);
-    const heights = [0, 2048, 4096].map((step) => { move("time", step); return names()[0]; });
-    say({ first, heights, bars: all("#rows .subinterval").map((bar) => bar.textContent) });
-  )");
-  EXPECT_EQ(result.at("first").at("verdict"),
-            "vertex-face: collides. Time of impact: 0.5, (u, v) = (0.25, 0.25).");
-  EXPECT_EQ(result.at("first").at("readout"), "Contact now; nearest at (u, v) = (0.25, 0.25).");
-  EXPECT_EQ(result.at("first").at("now"), "0.5 (toi)");
-  EXPECT_EQ(result.at("bars"), nlohmann::json::array({"face +"}));
-  const nlohmann::json& heights = result.at("heights");
-  EXPECT_EQ(heights.at(0), heights.at(2));
-  EXPECT_NE(heights.at(0), heights.at(1));
-}
-
 TEST_F(ViewBrowser, ShowsContactTimeAndSolvers) {
   const auto certified = solvers::solver_in_process(solvers::find_method("certified"), {});
   const auto inclusion = solvers::solver_in_process(solvers::find_method("tight_inclusion"), {});
@@ -382,37 +359,6 @@ TEST_F(ViewBrowser, DrawsEveryScale) {
       }
     }
   }
-}
-
-TEST_F(ViewBrowser, KeysMoveTimeZoomAndList) {
-  const nlohmann::json result = result_of({falling(), falling(0.5)}, R"(
-    choose("format", "rational");
-    const value = (id) => Number(find(id).value);
-    const current = () => document.querySelector("#list [aria-current] b").textContent;
-    const results = { steps: [value("time")] };
-    for (const key of ["ArrowRight", "ArrowRight", "ArrowLeft", "c"]) {
-      press(key);
-      results.steps.push(value("time"));
-    }
-    press("z");
-    results.zoom = [value("zoom")];
-    press("0");
-    results.zoom.push(value("zoom"));
-    press("n");
-    results.list = [current()];
-    press("n");
-    results.list.push(current());
-    press("p");
-    results.list.push(current());
-    const before = all("#motion .names span")[1].style.transform;
-    document.querySelector("#motion canvas").dispatchEvent(new KeyboardEvent("keydown", { key: "ArrowLeft" }));
-    results.turned = before !== all("#motion .names span")[1].style.transform;
-    say(results);
-  )");
-  EXPECT_EQ(result.at("steps"), nlohmann::json::array({1365, 1397, 1429, 1397, 1365}));
-  EXPECT_EQ(result.at("zoom"), nlohmann::json::array({1000, 0}));
-  EXPECT_EQ(result.at("list"), nlohmann::json::array({"1", "0", "1"}));
-  EXPECT_EQ(result.at("turned"), true);
 }
 
 TEST_F(ViewBrowser, FitsATelephone) {
