@@ -45,18 +45,6 @@ TEST(Registry, AnUnknownNameIsAnErrorThatListsTheKnownOnes) {
   }
 }
 
-TEST(Registry, EveryMethodTellsACollisionFromAWideGap) {
-  const tests::PosedQuery collision = tests::over_triangle(1, 1, 1, -3);
-  const tests::PosedQuery no_collision = tests::over_triangle(1, 1, 3, 1);
-  const std::vector<Query> queries{collision.query, no_collision.query};
-  for (const auto& method : methods()) {
-    std::vector<fast::Answer> answers(2);
-    method->solve(Kind::vertex_face, queries, answers, {});
-    EXPECT_EQ(answers[0].verdict, fast::Verdict::yes) << method->name();
-    EXPECT_EQ(answers[1].verdict, fast::Verdict::no) << method->name();
-  }
-}
-
 TEST(Registry, JudgesUnaskedWhatPromisesSomethingInItsDefaultSetting) {
   EXPECT_EQ(default_methods(), (std::vector<std::string>{"certified", "tight_inclusion"}));
 }
@@ -106,12 +94,6 @@ TEST(Registry, MethodsHeedTheDistancesThatTheySayTheyMeasure) {
       EXPECT_EQ(answer.verdict, fast::Verdict::yes) << method->name();
     }
   }
-}
-
-TEST(Registry, PromisesHaveNames) {
-  EXPECT_EQ(to_string(fast::Promise::none), "none");
-  EXPECT_EQ(to_string(fast::Promise::conservative), "conservative");
-  EXPECT_EQ(to_string(fast::Promise::exact), "exact");
 }
 
 }  // namespace
