@@ -157,6 +157,8 @@ constexpr auto headers_without_test = std::to_array<Exception>({
     {"fast/tight_inclusion/", "box_kernel_on_lanes.hpp curved_box_kernel.hpp",
      "tested through the kernels, and in curved_test.cpp"},
     {"filters/", "strict_arithmetic.hpp", "tested by compilation, in tests/filters/CMakeLists.txt"},
+    {"filters/", "error_bound.hpp", "tested in error_bounds_test.cpp"},
+    {"filters/derivation/", "mpfr_number.hpp", "tested in worst_case_test.cpp"},
     {"verify/baselines/", "curved_methods.hpp", "tested in certify_curves_test.cpp"},
     {"verify/cli/",
      "certificates_file.hpp commands.hpp curved_run.hpp files.hpp group_options.hpp help.hpp "
