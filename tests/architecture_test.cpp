@@ -130,7 +130,12 @@ constexpr auto foreign_headers = std::to_array<Exception>({
 constexpr auto headers_without_test = std::to_array<Exception>({
     {"adapters/tight_inclusion/", "config.hpp", "macros, tested in ccd_test.cpp"},
     {"exact/", "exact.hpp", "an umbrella, included by tests/consumer"},
-    {"exact/contact/", "contact_oracle.hpp", "tested in oracle_test.cpp"},
+    {"exact/algebra/", "positivity.hpp", "tested in separation_intervals_test.cpp"},
+    {"exact/contact/", "contact_conditions.hpp", "tested in certificate_test.cpp"},
+    {"exact/contact/", "contact_oracle.hpp corner_motion.hpp",
+     "tested in oracle_test.cpp and distance_oracle_test.cpp"},
+    {"exact/distance/", "separating_axes.hpp", "tested in distance_oracle_test.cpp"},
+    {"exact/rigid/", "rigid_place.hpp", "tested in rigid_motion_test.cpp"},
     {"fast/", "fast.hpp", "an umbrella, included by tests/consumer"},
     {"fast/", "kernels.hpp", "a choice of kernels, tested by the tests that choose them"},
     {"fast/", "method.hpp verdict.hpp", "without code"},

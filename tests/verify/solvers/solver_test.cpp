@@ -1,7 +1,6 @@
 #include "verify/solvers/solver.hpp"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
@@ -107,33 +106,6 @@ TEST(Solver, AnExceptionCostsOneQuery) {
   ASSERT_EQ(outcome.reply.failures.size(), 1U);
   EXPECT_EQ(outcome.reply.failures[0].position, 3U);
   EXPECT_EQ(to_text(outcome.reply.failures[0].failure), "exception: thrown by a solver");
-}
-
-TEST(Solver, RecordedAnswersAreLookedUpBySourceKindAndIndex) {
-  const auto path = std::filesystem::path(::testing::TempDir()) /
-                    ("touchstone_solver_" + std::to_string(getpid()) + ".csv");
-  std::ofstream(path) << answers_header()
-                      << answer_row("a,file", 102, Kind::edge_edge, {.verdict = Verdict::error})
-                      << answer_row("a,file", 100, Kind::edge_edge,
-                                    {.verdict = Verdict::yes, .toi_lower = 0.25})
-                      << answer_row("a,file", 101, Kind::vertex_face, {.verdict = Verdict::no})
-                      << answer_row("other", 101, Kind::edge_edge, {.verdict = Verdict::no});
-  const RecordedAnswers answers = load_answers(path);
-  std::filesystem::remove(path);
-  const auto solver = recorded_solver("answers", answers);
-  EXPECT_EQ(solver->name(), "answers");
-  EXPECT_EQ(solver->promise(), Promise::none);
-  EXPECT_FALSE(solver->is_timed());
-  const Outcome outcome = ask(*solver, 4);
-  EXPECT_EQ(outcome.reply.unasked, (std::vector<UnaskedQuery>{{1, judge::Unasked::missing},
-                                                              {3, judge::Unasked::missing}}));
-  EXPECT_EQ(outcome.nanoseconds(), 0.0);
-  EXPECT_EQ(outcome.answers[0].verdict, Verdict::yes);
-  EXPECT_EQ(outcome.answers[0].toi_lower, 0.25);
-  EXPECT_EQ(outcome.answers[2].verdict, Verdict::error);
-  ASSERT_EQ(outcome.reply.failures.size(), 1U);
-  EXPECT_EQ(outcome.reply.failures[0].position, 2U);
-  EXPECT_EQ(outcome.reply.failures[0].failure.kind, judge::Fault::no_verdict);
 }
 
 TEST(Solver, SpansAreShortForSlowAndLongForFastSolvers) {
