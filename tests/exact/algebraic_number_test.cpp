@@ -10,7 +10,6 @@
 #include <cmath>
 #include <iterator>
 #include <limits>
-#include <optional>
 #include <stdexcept>
 #include <utility>
 #include <vector>
@@ -145,31 +144,6 @@ Known hidden(const Factor& factor) {
   return {roots.at(0), factor.key};
 }
 
-TEST(RootsInUnitInterval, AreTheKnownRootsInOrderEachOnce) {
-  Random random(41);
-  std::size_t found = 0;
-  for (int round = 0; round < 400; ++round) {
-    const std::vector<Known> roots = random_known_roots(random);
-    found += roots.size();
-    for (const Known& root : roots) {
-      EXPECT_TRUE(isolates(root.number, root.key));
-      const Polynomial& p = root.number.polynomial();
-      EXPECT_EQ(squarefree_part(p), primitive_part(p));
-      const auto [lower, upper] = root.number.interval();
-      const int change = sign_at(p, lower) * sign_at(p, upper);
-      EXPECT_EQ(change, root.number.rational() ? 0 : -1);
-      EXPECT_EQ(root.number.rational(), lower == upper ? std::optional(lower) : std::nullopt);
-      // Isolating intervals may hold rational roots that were split off; narrow ones do not.
-      AlgebraicNumber narrow = root.number;
-      narrow.refine_to_level(60);
-      const auto others = std::ranges::count_if(
-          roots, [&](const Known& other) { return isolates(narrow, other.key); });
-      EXPECT_EQ(others, 1);
-    }
-  }
-  EXPECT_GT(found, 400U);
-}
-
 TEST(RootsInUnitInterval, EndsCountAndAreKnownToBeRational) {
   for (int multiplicity = 1; multiplicity < 4; ++multiplicity) {
     const Polynomial p = power(polynomial({0, 1, -1}), multiplicity) * polynomial({-1, 0, 2});
@@ -285,22 +259,6 @@ TEST(Refine, IsNotDeceivedByNearlyMultipleRoots) {
 }
 
 // ---- Signs and comparison against keys ----------------------------------------------------------
-
-TEST(Comparison, InPlaceIsTheSameAndKeepsWhatItRefined) {
-  const auto roots = [](long constant) {
-    return roots_in_unit_interval(Polynomial(Integer(-constant), Integer(0), Integer(2000000)));
-  };
-  AlgebraicNumber a = roots(1000000).front(), b = roots(1000001).front(), c = a;
-  const Rational width = a.interval().upper - a.interval().lower;
-  EXPECT_TRUE(compare(a, b) < 0);
-  EXPECT_TRUE(compare(b, a) > 0);
-  EXPECT_LT(a.interval().upper - a.interval().lower, width);
-  EXPECT_TRUE(a.interval().upper <= b.interval().lower);
-  EXPECT_TRUE(compare(a, c) == 0);
-  AlgebraicNumber half(Rational(1, 2));
-  EXPECT_TRUE(compare(half, a) < 0);
-  EXPECT_TRUE(compare(a, half) > 0);
-}
 
 TEST(Comparison, AgainstRationals) {
   for (const auto& [number, key] : pool(50, 70)) {
