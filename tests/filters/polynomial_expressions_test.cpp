@@ -194,33 +194,5 @@ TYPED_TEST(PolynomialExpressions, GapIsTheProjectionOfTheDifference) {
   }
 }
 
-/// The measured expression at weights 1, with one coordinate wrong by a factor.
-template <class Expression, class Scalar, std::size_t count, std::size_t weights>
-void expect_measures(std::array<Scalar, count> x, const std::array<Scalar, weights>& w) {
-  std::array<Scalar, weights + count> with_ones;
-  with_ones.fill(Scalar(1));
-  std::copy(w.begin(), w.end(), with_ones.begin());
-  EXPECT_EQ(Measured<Expression>::evaluate(x, with_ones), Expression::evaluate(x, w));
-  for (std::size_t i = 0; i < count; ++i) {
-    with_ones[weights + i] = Scalar(3);
-    std::array<Scalar, count> tripled = x;
-    tripled[i] = tripled[i] * Scalar(3);
-    EXPECT_EQ(Measured<Expression>::evaluate(x, with_ones), Expression::evaluate(tripled, w));
-    with_ones[weights + i] = Scalar(1);
-  }
-}
-
-TYPED_TEST(PolynomialExpressions, MeasuredOnesTakeEachCoordinateTimesItsWeight) {
-  const auto three = this->random_three().inputs();
-  const auto oriented = this->random_oriented().inputs();
-  const TypeParam a = this->time(), b = this->time();
-  expect_measures<DeterminantEnd>(three, weights_of<3, TypeParam>(a));
-  expect_measures<DeterminantMiddle>(three, weights_of<3, TypeParam>(a, b));
-  expect_measures<OrientationEnd>(oriented, weights_of<2, TypeParam>(a));
-  expect_measures<OrientationMiddle>(oriented, weights_of<2, TypeParam>(a, b));
-  expect_measures<ProjectedGap>(joined<TypeParam>(this->vector(), this->vector(), this->vector()),
-                                std::array<TypeParam, 0>{});
-}
-
 }  // namespace
 }  // namespace touchstone::filters::polynomial_expressions_test
