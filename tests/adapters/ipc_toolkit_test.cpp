@@ -112,10 +112,10 @@ TEST(IpcAdapter, AnswersForPointsAndEdgesInTwoAndThreeDimensions) {
 }
 
 TEST(IpcAdapter, StopsWhatIsNotFinite) {
-  Query query = falling(1);
-  query.coordinates[0] = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_TRUE(ask(NarrowPhaseCCD(), Kind::vertex_face, query).collision);
-  EXPECT_EQ(ask(NarrowPhaseCCD(), Kind::vertex_face, query).toi, 0.0);
+  const Said said =
+      ask(NarrowPhaseCCD(), Kind::vertex_face, falling(std::numeric_limits<double>::quiet_NaN()));
+  EXPECT_TRUE(said.collision);
+  EXPECT_EQ(said.toi, 0.0);
 }
 
 /// Bad arguments are refused for all points: also at distance 0, in contact, or not finite.

@@ -10,8 +10,6 @@
 #include <cmath>
 #include <iterator>
 #include <limits>
-#include <numbers>
-#include <optional>
 #include <stdexcept>
 #include <utility>
 #include <vector>
@@ -146,31 +144,6 @@ Known hidden(const Factor& factor) {
   return {roots.at(0), factor.key};
 }
 
-TEST(RootsInUnitInterval, AreTheKnownRootsInOrderEachOnce) {
-  Random random(41);
-  std::size_t found = 0;
-  for (int round = 0; round < 400; ++round) {
-    const std::vector<Known> roots = random_known_roots(random);
-    found += roots.size();
-    for (const Known& root : roots) {
-      EXPECT_TRUE(isolates(root.number, root.key));
-      const Polynomial& p = root.number.polynomial();
-      EXPECT_EQ(squarefree_part(p), primitive_part(p));
-      const auto [lower, upper] = root.number.interval();
-      const int change = sign_at(p, lower) * sign_at(p, upper);
-      EXPECT_EQ(change, root.number.rational() ? 0 : -1);
-      EXPECT_EQ(root.number.rational(), lower == upper ? std::optional(lower) : std::nullopt);
-      // Isolating intervals may hold rational roots that were split off; narrow ones do not.
-      AlgebraicNumber narrow = root.number;
-      narrow.refine_to_level(60);
-      const auto others = std::ranges::count_if(
-          roots, [&](const Known& other) { return isolates(narrow, other.key); });
-      EXPECT_EQ(others, 1);
-    }
-  }
-  EXPECT_GT(found, 400U);
-}
-
 TEST(RootsInUnitInterval, EndsCountAndAreKnownToBeRational) {
   for (int multiplicity = 1; multiplicity < 4; ++multiplicity) {
     const Polynomial p = power(polynomial({0, 1, -1}), multiplicity) * polynomial({-1, 0, 2});
@@ -220,28 +193,6 @@ TEST(RootsInUnitInterval, AreFoundInClustersOfThree) {
     EXPECT_EQ(roots_in_unit_interval(linear * (square - Polynomial(Integer(1)))).size(), 3U);
     EXPECT_EQ(roots_in_unit_interval(linear * (square + Polynomial(Integer(1)))).size(), 1U);
   }
-}
-
-TEST(AlgebraicNumber, IsConstructedFromARational) {
-  EXPECT_EQ(AlgebraicNumber().rational(), Rational(0));
-  const Rational value(3, 7);
-  const AlgebraicNumber number(value);
-  EXPECT_EQ(number.rational(), value);
-  EXPECT_EQ(sign_at(number.polynomial(), value), 0);
-  EXPECT_EQ(number.interval().lower, value);
-  EXPECT_EQ(number.interval().upper, value);
-}
-
-TEST(AlgebraicNumber, IsConstructedFromAPolynomialAndACell) {
-  // Both roots of 9t² − 9t + 1 in [0,1]: t = 1/2 ± √5/6.
-  const Polynomial p = polynomial({1, -9, 9});
-  const AlgebraicNumber low(p, {.index = 0, .level = 1}), high(p, {.index = 1, .level = 1});
-  EXPECT_EQ(low.interval().lower, 0);
-  EXPECT_EQ(low.interval().upper, Rational(1, 2));
-  EXPECT_EQ(high.interval().lower, Rational(1, 2));
-  EXPECT_TRUE(low < fraction(1, 7) && low > fraction(1, 8));
-  EXPECT_TRUE(high > fraction(6, 7) && high < fraction(7, 8));
-  EXPECT_EQ(AlgebraicNumber(polynomial({-2, 6}), DyadicCell{}).rational(), Rational(1, 3));
 }
 
 // ---- Refinement ---------------------------------------------------------------------------------
@@ -309,34 +260,6 @@ TEST(Refine, IsNotDeceivedByNearlyMultipleRoots) {
 
 // ---- Signs and comparison against keys ----------------------------------------------------------
 
-TEST(SignOf, ConstantsAndZero) {
-  for (auto& [number, key] : pool(48, 10)) {
-    EXPECT_EQ(number.sign_of(Polynomial(Integer(0))), 0);
-    EXPECT_EQ(number.sign_of(polynomial({5})), 1);
-    EXPECT_EQ(number.sign_of(polynomial({-5})), -1);
-    EXPECT_TRUE(number.is_root_of(Polynomial(Integer(0))));
-    EXPECT_FALSE(number.is_root_of(polynomial({5})));
-    EXPECT_EQ(number.sign_of(number.polynomial()), 0);
-    EXPECT_TRUE(number.is_root_of(number.polynomial()));
-  }
-}
-
-TEST(Comparison, InPlaceIsTheSameAndKeepsWhatItRefined) {
-  const auto roots = [](long constant) {
-    return roots_in_unit_interval(Polynomial(Integer(-constant), Integer(0), Integer(2000000)));
-  };
-  AlgebraicNumber a = roots(1000000).front(), b = roots(1000001).front(), c = a;
-  const Rational width = a.interval().upper - a.interval().lower;
-  EXPECT_TRUE(compare(a, b) < 0);
-  EXPECT_TRUE(compare(b, a) > 0);
-  EXPECT_LT(a.interval().upper - a.interval().lower, width);
-  EXPECT_TRUE(a.interval().upper <= b.interval().lower);
-  EXPECT_TRUE(compare(a, c) == 0);
-  AlgebraicNumber half(Rational(1, 2));
-  EXPECT_TRUE(compare(half, a) < 0);
-  EXPECT_TRUE(compare(a, half) > 0);
-}
-
 TEST(Comparison, AgainstRationals) {
   for (const auto& [number, key] : pool(50, 70)) {
     std::vector<Rational> others{-3, 0, 1, 2, number.interval().lower, number.interval().upper};
@@ -351,16 +274,6 @@ TEST(Comparison, AgainstRationals) {
       EXPECT_TRUE((other <=> number) == (0 <=> expected)) << other;
       EXPECT_EQ(number == other, expected == 0);
     }
-  }
-}
-
-TEST(Comparison, SeparatesNumbersThatAreVeryNear) {
-  for (const int distance : {10, 60, 200, 1000}) {
-    const Rational r = fraction(1, 2);
-    const Known a = hidden(square_root(r)), b = hidden(square_root(r + power_of_two(-distance)));
-    EXPECT_TRUE(a.number < b.number) << distance;
-    EXPECT_TRUE(b.number > a.number) << distance;
-    EXPECT_FALSE(a.number == b.number) << distance;
   }
 }
 
@@ -580,53 +493,6 @@ TEST(Enclosure, NextToZeroOneAndDoubles) {
 
 // ---- Quotients ----------------------------------------------------------------------------------
 
-/// a + b√r.
-struct Surd {
-  Rational a, b;
-};
-
-Surd surd_value(const Polynomial& p, const Rational& r) {
-  Surd value{0, 0};
-  Rational term = 1;
-  bool odd = false;
-  for (const Integer& c : p.coefficients()) {
-    (odd ? value.b : value.a) += c * term;
-    if (odd) term *= r;
-    odd = !odd;
-  }
-  return value;
-}
-
-/// Sign of a + b√r for r > 0.
-int sign(const Surd& x, const Rational& r) {
-  if (sgn(x.a) * sgn(x.b) >= 0) return sgn(x.a) != 0 ? sgn(x.a) : sgn(x.b);
-  return sgn(x.a) * cmp(Rational(x.a * x.a), Rational(x.b * x.b * r));
-}
-
-/// Sign of numerator/denominator − value.
-int compare_quotient(const Surd& numerator, const Surd& denominator, const Rational& value,
-                     const Rational& r) {
-  const Surd difference{numerator.a - value * denominator.a, numerator.b - value * denominator.b};
-  return sign(difference, r) * sign(denominator, r);
-}
-
-TEST(EncloseQuotient, ContainsTheValueAtIrrationalNumbers) {
-  Random random(60);
-  for (int round = 0; round < 200; ++round) {
-    const Rational r = fraction(random.between(1, 30), 31);
-    const AlgebraicNumber alpha = hidden(square_root(r)).number;
-    const Polynomial numerator = random_polynomial(random, random.between(0, 4), 20);
-    const Polynomial denominator = random_polynomial(random, random.between(0, 4), 20);
-    const Surd above = surd_value(numerator, r), below = surd_value(denominator, r);
-    if (sign(below, r) == 0) continue;
-    const Rational width = power_of_two(-random.between(-10, 300));
-    const auto [lower, upper] = enclose_quotient(numerator, denominator, alpha, width);
-    EXPECT_LE(Rational(upper - lower), width);
-    EXPECT_GE(compare_quotient(above, below, lower, r), 0);
-    EXPECT_LE(compare_quotient(above, below, upper, r), 0);
-  }
-}
-
 TEST(EncloseQuotient, WaitsForADenominatorToShowItsSign) {
   // The denominator is ±1 at α but vanishes 2^−300 from it.
   const Rational r = fraction(1, 2);
@@ -637,34 +503,8 @@ TEST(EncloseQuotient, WaitsForADenominatorToShowItsSign) {
     const auto [lower, upper] =
         enclose_quotient(polynomial({0, 1}), denominator, alpha, power_of_two(-40));
     EXPECT_LE(Rational(upper - lower), power_of_two(-40));
-    EXPECT_GE(compare_quotient({0, 1}, {one, 0}, lower, r), 0);
-    EXPECT_LE(compare_quotient({0, 1}, {one, 0}, upper, r), 0);
-  }
-}
-
-TEST(EncloseQuotient, IsExactAtRationalNumbers) {
-  Random random(61);
-  for (int round = 0; round < 100; ++round) {
-    const Rational t = fraction(random.between(0, 50), 50);
-    const Polynomial numerator = random_polynomial(random, random.between(0, 3), 20);
-    const Polynomial denominator = random_polynomial(random, random.between(0, 3), 20);
-    const auto value = [&](const Polynomial& p) {
-      Rational sum = 0, term = 1;
-      for (const Integer& c : p.coefficients()) {
-        sum += c * term;
-        term *= t;
-      }
-      return sum;
-    };
-    if (sgn(value(denominator)) == 0) continue;
-    const Rational expected = value(numerator) / value(denominator);
-    const auto known = enclose_quotient(numerator, denominator, AlgebraicNumber(t), 1);
-    EXPECT_EQ(known.lower, expected);
-    EXPECT_EQ(known.upper, expected);
-    const Rational width = power_of_two(-100);
-    const auto unknown = enclose_quotient(numerator, denominator, hidden(linear(t)).number, width);
-    EXPECT_TRUE(unknown.lower <= expected && expected <= unknown.upper);
-    EXPECT_LE(Rational(unknown.upper - unknown.lower), width);
+    EXPECT_TRUE(one > 0 ? alpha >= lower && alpha <= upper
+                        : alpha <= Rational(-lower) && alpha >= Rational(-upper));
   }
 }
 

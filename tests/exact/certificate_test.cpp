@@ -7,7 +7,6 @@
 #include <limits>
 #include <optional>
 #include <ostream>
-#include <set>
 #include <string>
 #include <vector>
 
@@ -34,10 +33,6 @@ const RootTime& root_of(const Certificate& certificate) {
   return std::get<RootTime>(certificate.contact.value().time);
 }
 
-TriangleContact triangle_of(const Certificate& certificate) {
-  return std::get<TriangleContact>(certificate.contact.value().place);
-}
-
 /// A vertex that moves past a triangle.
 PosedQuery past(const std::array<double, 9>& face, const std::array<double, 3>& start,
                 const std::array<double, 3>& end) {
@@ -46,15 +41,6 @@ PosedQuery past(const std::array<double, 9>& face, const std::array<double, 3>& 
 }
 
 // ---- By hand ------------------------------------------------------------------------------------
-
-TEST(Prove, ACertificateOfNoCollisionHasSubintervalsAlone) {
-  const Certificate certificate = tests::prove(over_triangle(1, 1, 3, 1));
-  EXPECT_EQ(certificate.claim, Claim::no_collision);
-  EXPECT_FALSE(certificate.contact);
-  EXPECT_EQ(certificate.subintervals,
-            (std::vector<Subinterval>{{0, 1, {.sort = Feature::Sort::positive_face}}}));
-  EXPECT_EQ(rejection(certificate), "");
-}
 
 /// A query with its first contact: where the time is named, between neighbours, one of which may be
 /// the time, after one subinterval or none.
@@ -146,30 +132,6 @@ TEST(Prove, BetweenZeroAndTheLeastDoubleAPointIsAPiece) {
   EXPECT_EQ(certificate.subintervals.front().from, 0);
   EXPECT_EQ(certificate.subintervals.front().to, 0);
   EXPECT_EQ(rejection(certificate), "");
-}
-
-TEST(Prove, TheOtherHalfOfAParallelogramIsATriangleToo) {
-  std::set<std::array<std::size_t, 3>> triangles;
-  for (const double x : {1.0, 3.0}) {
-    for (const double y : {1.0, 3.0}) {
-      const Certificate certificate = tests::prove(over_edge(x, y, 1, -2));
-      triangles.insert(triangle_of(certificate).corners);
-      EXPECT_EQ(rejection(certificate), "");
-    }
-  }
-  EXPECT_EQ(triangles, (std::set<std::array<std::size_t, 3>>{{0, 1, 2}, {0, 2, 3}}));
-}
-
-// ---- At a distance ------------------------------------------------------------------------------
-
-TEST(Prove, WithoutADistanceTheTextIsAsWithoutASeparation) {
-  for (const PosedQuery& posed : {over_triangle(1, 1, 3, -1), over_triangle(1, 1, 3, 1),
-                                  tests::turning_triangle(4, 0, 1, 0.5), over_edge(7, 1, 3, -1)}) {
-    const std::string plain = certificate_stream(tests::prove(posed));
-    for (const Separation& zero : {Separation{0.0, Norm::l2}, Separation{-0.0, Norm::linf}}) {
-      EXPECT_EQ(certificate_stream(tests::prove(posed, zero)), plain);
-    }
-  }
 }
 
 // ---- Options ------------------------------------------------------------------------------------

@@ -69,49 +69,11 @@ TEST(WriteNumber, LosesNothing) {
   }
 }
 
-TEST(WriteCertificate, IsTheFormatLineByLine) {
-  std::string text;
-  write(text, tests::prove(tests::over_triangle(1, 1, 1, -2)), "folder/file.csv:17");
-  EXPECT_EQ(text,
-            "query vertex_face\n"
-            "label folder/file.csv:17\n"
-            "point 0x1p+0 0x1p+0 0x1p+0\n"
-            "point 0x0p+0 0x0p+0 0x0p+0\n"
-            "point 0x1p+2 0x0p+0 0x0p+0\n"
-            "point 0x0p+0 0x1p+2 0x0p+0\n"
-            "point 0x1p+0 0x1p+0 -0x1p+1\n"
-            "point 0x0p+0 0x0p+0 0x0p+0\n"
-            "point 0x1p+2 0x0p+0 0x0p+0\n"
-            "point 0x0p+0 0x1p+2 0x0p+0\n"
-            "claim time_of_impact 0x1.5555555555555p-2 0x1.5555555555556p-2\n"
-            "separate 0 0x1.5555555555555p-2 face +\n"
-            "contact time 1/3\n"
-            "at triangle 0 1 2 z\n"
-            "end\n");
-}
-
 /// The text of a certificate, from the last point on.
 std::string end_of(const Certificate& certificate) {
   std::string text;
   write(text, certificate);
   return text.substr(text.find('\n', text.rfind("point")) + 1);
-}
-
-TEST(WriteCertificate, NamesEveryFeature) {
-  using Sort = Feature::Sort;
-  Certificate certificate;
-  for (const auto& [feature, text] :
-       {std::pair<Feature, const char*>({.sort = Sort::vertex, .i = 3}, "vertex 3"),
-        {{.sort = Sort::edge, .i = 2, .j = 3}, "edge 2 3"},
-        {{.sort = Sort::positive_face}, "face +"},
-        {{.sort = Sort::negative_face}, "face -"},
-        {{.sort = Sort::positive_axis, .axis = 0}, "axis x +"},
-        {{.sort = Sort::negative_axis, .axis = 2}, "axis z -"},
-        {{.sort = Sort::cross, .i = 2, .j = 0, .axis = 1}, "cross y 2 0"}}) {
-    certificate.subintervals = {{0, Rational(1, 4), feature}, {Rational(1, 4), 1, feature}};
-    EXPECT_EQ(end_of(certificate), std::string("claim no_collision\nseparate 0 1/4 ") + text +
-                                       "\nseparate 1/4 1 " + text + "\nend\n");
-  }
 }
 
 TEST(WriteCertificate, NamesEveryPlaceOfContactAndDistancesAboveZero) {

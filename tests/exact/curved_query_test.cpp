@@ -342,21 +342,6 @@ TEST(CurvedQuery, HasNoProofOfWhatIsFalse) {
   EXPECT_GT(rejected, 100);
 }
 
-TEST(CurvedQuery, OfDegreeOneHasTheProofOfTheLine) {
-  Random random(379);
-  for (int round = 0; round < 200; ++round) {
-    const Kind kind = kind_of(round);
-    const Query query = small_query(random);
-    const Separation separation = small_separation(random);
-    Certificate straight = prove(kind, query, decide(kind, query, separation));
-    Certificate curved = proved(kind, to_curved(query), separation);
-    EXPECT_EQ(curved.subintervals, straight.subintervals);
-    EXPECT_EQ(tests::rejection(curved), "");
-    straight.query = to_curved(query);
-    EXPECT_EQ(certificate_stream(curved), certificate_stream(straight));
-  }
-}
-
 // ---- Known truth --------------------------------------------------------------------------------
 
 /// A vertex over a resting face in the plane z = 0, with these heights as control points.
@@ -390,14 +375,6 @@ TEST(CurvedQuery, AParabolaTouchesInItsVertex) {
     EXPECT_FALSE(
         decide(Kind::vertex_face, parabola(0.25), {0x1.fffffffffffffp-3, norm}).collides());
   }
-}
-
-TEST(CurvedQuery, TheFirstRootOfACubicCounts) {
-  // 32 (t − 1/4)(t − 1/2)(t − 3/4) has the control points −3, 13/3, −13/3, 3.
-  const Decision found = decide(Kind::vertex_face, over_a_face({9, -13, 13, -9}));
-  ASSERT_TRUE(found.collides());
-  EXPECT_EQ(*found.toi, Rational(1, 4));
-  EXPECT_EQ(found.contact->denominator.degree(), 0U);
 }
 
 TEST(CurvedQuery, AQuarterOfACircleIsExact) {

@@ -13,7 +13,6 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -279,20 +278,10 @@ struct Tally {
   std::size_t unknown_tois = 0;
   /// The queries that the solver decided, by kind and verdict.
   std::array<std::array<std::size_t, 2>, 2> agreed{};
-  /// Seconds for each question.
-  std::vector<double> times;
 };
 
-std::optional<bool> ask(const PosedCurves& posed, const std::optional<Times>& times, Tally& tally) {
-  const auto start = std::chrono::steady_clock::now();
-  const std::optional<bool> answer = Definition(posed).has_solution(times);
-  const std::chrono::duration<double> time = std::chrono::steady_clock::now() - start;
-  tally.times.push_back(time.count());
-  return answer;
-}
-
 void compare_verdict(const PosedCurves& posed, bool collides, Tally& tally) {
-  const std::optional<bool> answer = ask(posed, std::nullopt, tally);
+  const std::optional<bool> answer = Definition(posed).has_solution();
   if (!answer) {
     ++tally.unknown;
     std::cout << "no answer within the steps: " << posed << '\n';
@@ -305,7 +294,7 @@ void compare_verdict(const PosedCurves& posed, bool collides, Tally& tally) {
 
 /// Expects a solution at these times, or none.
 void compare_toi(const PosedCurves& posed, const Times& times, bool expected, Tally& tally) {
-  const std::optional<bool> answer = ask(posed, times, tally);
+  const std::optional<bool> answer = Definition(posed).has_solution(times);
   if (!answer) {
     ++tally.unknown_tois;
     return;
@@ -323,22 +312,6 @@ void compare(const PosedCurves& posed, const Decision& verdict, Tally& tally) {
   const Rational lower(verdict.toi->enclosure().lower), upper(verdict.toi->enclosure().upper);
   if (sgn(lower) > 0) compare_toi(posed, {lower}, false, tally);
   compare_toi(posed, {upper, true}, true, tally);
-}
-
-void print_summary(const Tally& tally) {
-  std::vector<double> times = tally.times;
-  std::ranges::sort(times);
-  double total = 0.0;
-  for (const double time : times) total += time;
-  std::cout << "verdicts: " << tally.decided << " decided, " << tally.unknown
-            << " unknown; tois: " << tally.tois << " decided, " << tally.unknown_tois
-            << " unknown\nseconds a question: median " << times[times.size() / 2] << ", worst "
-            << times.back() << ", total " << total << '\n';
-  for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
-    const auto& [no_collisions, collisions] = tally.agreed.at(static_cast<std::size_t>(kind));
-    std::cout << to_string(kind) << ": " << collisions << " collisions, " << no_collisions
-              << " others agreed\n";
-  }
 }
 
 TEST(OracleSmt, TheSolverWouldFindAContactBeforeAToiThatIsTooLate) {
@@ -374,7 +347,6 @@ TEST(OracleSmt, AgreesWithAnSmtSolver) {
     SCOPED_TRACE(posed);
     compare(to_curves(posed), decide(posed.kind, posed.query), tally);
   }
-  print_summary(tally);
   EXPECT_GE(tally.decided, 100U);
   EXPECT_LE(20 * tally.unknown, tally.decided + tally.unknown) << "more than 5% unknown";
   EXPECT_GE(tally.tois, 40U);
@@ -390,7 +362,6 @@ TEST(OracleSmt, AgreesWithAnSmtSolverOnCurves) {
     SCOPED_TRACE(posed);
     compare(posed, decide(posed.kind, posed.query), tally);
   }
-  print_summary(tally);
   EXPECT_GE(tally.decided, 50U);
   EXPECT_LE(20 * tally.unknown, tally.decided + tally.unknown) << "more than 5% unknown";
   EXPECT_LE(10 * tally.unknown_tois, tally.tois + tally.unknown_tois) << "more than 10% unknown";

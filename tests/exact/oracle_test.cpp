@@ -304,39 +304,6 @@ TEST(Oracle, KnowsTheContactsOfTheList) {
   EXPECT_GT(rows, 80U);
 }
 
-// ------------------------------------------------------------------ contacts in general position
-
-struct Crossing {
-  double from;
-  double to;
-  long numerator;
-  long denominator;
-};
-constexpr std::array<Crossing, 6> crossings{
-    {{0, 3, 0, 1}, {1, -1, 1, 2}, {1, -2, 1, 3}, {-2, 5, 2, 7}, {3, 0, 1, 1}, {0, 0, 0, 1}}};
-
-TEST(Oracle, FindsVertexFaceContactInsideOnEdgesAndAtVertices) {
-  for (const auto& [from, to, numerator, denominator] : crossings) {
-    for (const int x : {0, 1, 2, 3, 4}) {
-      for (int y = 0; x + y <= 4; ++y) {
-        expect_contact(over_triangle(x, y, from, to), ratio(numerator, denominator), ratio(x, 4),
-                       ratio(y, 4));
-      }
-    }
-  }
-}
-
-TEST(Oracle, FindsEdgeEdgeContactInsideAndAtTheEnds) {
-  for (const auto& [from, to, numerator, denominator] : crossings) {
-    for (const int x : {0, 1, 2, 4}) {
-      for (const int y : {0, 1, 3, 4}) {
-        expect_contact(over_edge(x, y, from, to), ratio(numerator, denominator), ratio(x, 4),
-                       ratio(y, 4));
-      }
-    }
-  }
-}
-
 TEST(Oracle, FindsTheFirstOfTwoRootsBesideADoubleOne) {
   // t(1−t) = y: 1/4 − 2^-55 = t(1−t) at 1/2 − 2^-27.5, which is irrational.
   const PosedQuery below = turning_triangle(1, 1, 0, std::nextafter(0.25, 0.0));

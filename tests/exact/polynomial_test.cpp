@@ -117,63 +117,6 @@ TEST(Polynomial, AddsMultipliesAndDerivesAsValuesDo) {
   EXPECT_EQ(sign_at(power(factor(root), 2), root + least), 1);
 }
 
-TEST(DyadicCell, HasItsEnds) {
-  EXPECT_EQ(DyadicCell{}.lower(), 0);
-  EXPECT_EQ(DyadicCell{}.upper(), 1);
-  EXPECT_EQ((DyadicCell{.index = 6, .level = 3}.lower()), Rational(3, 4));
-  EXPECT_EQ((DyadicCell{.index = 6, .level = 3}.upper()), Rational(7, 8));
-  EXPECT_EQ((DyadicCell{.index = -1, .level = 1}.lower()), Rational(-1, 2));
-  EXPECT_EQ((DyadicCell{.index = 0, .level = 2000}.upper()), power_of_two(-2000));
-}
-
-/// Σ c_j (1−y)^(n−j) y^j.
-Rational bernstein_value(const Coefficients& c, const Rational& y) {
-  Polynomial sum;
-  for (std::size_t j = 0; j < c.size(); ++j) {
-    sum = sum + polynomial({c[j]}) * power(polynomial({0, 1}), static_cast<int>(j)) *
-                    power(polynomial({1, -1}), static_cast<int>(c.size() - 1 - j));
-  }
-  return value(sum, y);
-}
-
-TEST(Cell, FormsAreThePolynomialSeenFromIt) {
-  Random random(22);
-  for (int round = 0; round < 300; ++round) {
-    const Polynomial p = random_polynomial(random, random.between(0, 6), 50);
-    const DyadicCell cell = random_cell(random, 40);
-    const Coefficients a = local_coefficients(p, cell), c = bernstein_form(p, cell);
-    ASSERT_EQ(a.size(), p.degree() + 1);
-    ASSERT_EQ(c.size(), p.degree() + 1);
-    const Rational scale = power_of_two(static_cast<long>(cell.level * p.degree()));
-    // Two polynomials of degree n with a common ratio at n+1 points have it at all points.
-    Rational ratio = 0;
-    for (std::size_t k = 0; k <= p.degree(); ++k) {
-      const Rational y = Rational(k) / (p.degree() + 1), expected = value(p, inside(cell, y));
-      EXPECT_EQ(value(polynomial(a), y), Rational(scale * expected));
-      const Rational form = bernstein_value(c, y);
-      EXPECT_EQ(sgn(form), sgn(expected));
-      if (sgn(expected) == 0) continue;
-      if (sgn(ratio) == 0) ratio = form / expected;
-      EXPECT_EQ(Rational(form / expected), ratio);
-    }
-    EXPECT_GT(ratio, 0);
-  }
-}
-
-TEST(SignChanges, LeaveZerosOut) {
-  const std::vector<std::pair<Coefficients, int>> cases{
-      {{}, 0},         {{0, 0}, 0},
-      {{5}, 0},        {{1, 2, 3}, 0},
-      {{-1, -2}, 0},   {{1, -1}, 1},
-      {{1, 0, 1}, 0},  {{1, 0, -1}, 1},
-      {{0, 1, 0}, 0},  {{0, -1, 0, 2}, 1},
-      {{1, -1, 1}, 2}, {{-3, 0, 2, 2}, 1},
-      {{-1, 1}, 1},    {{1, -1, 0, -1, 1, -1}, 3}};
-  for (const auto& [coefficients, expected] : cases) {
-    EXPECT_EQ(sign_changes(coefficients), expected);
-  }
-}
-
 /// A polynomial with known roots, which has no other real root.
 struct Factored {
   Polynomial p;
@@ -258,25 +201,6 @@ TEST(Factors, ArePrimitivePartsDivisorsAndSquarefreePartsOfCgal) {
   EXPECT_TRUE(exact_quotient(Polynomial(), polynomial({1, 1})).is_zero());
 }
 
-TEST(Factors, HaveTheirKnownPowers) {
-  Random random(29);
-  const std::array factors{polynomial({-1, 3}), polynomial({-1, 0, 2}), polynomial({1, 1, 1}),
-                           polynomial({0, 1}), polynomial({-3, 7, 0, 5})};
-  for (int round = 0; round < 300; ++round) {
-    Polynomial p(Integer(random.between(1, 50))), q(Integer(-random.between(1, 50))),
-        divisor(Integer(1)), squarefree = divisor;
-    for (const Polynomial& f : factors) {
-      const int in_p = random.between(0, 3), in_q = random.between(0, 5);
-      p = p * power(f, in_p);
-      q = q * power(f, in_q);
-      divisor = divisor * power(f, std::min(in_p, in_q));
-      squarefree = squarefree * power(f, std::min(1, in_q));
-    }
-    EXPECT_EQ(greatest_common_divisor(p, q), divisor);
-    EXPECT_EQ(squarefree_part(q), squarefree);
-  }
-}
-
 TEST(GreatestCommonDivisor, OfZeroOfConstantsAndWhereItsPrimeFails) {
   // Some lose their leading coefficients, or all, modulo 2^31 − 1, or gain a common root.
   const Integer prime = 2147483647;
@@ -297,35 +221,6 @@ TEST(GreatestCommonDivisor, OfZeroOfConstantsAndWhereItsPrimeFails) {
   for (const auto& [a, b, expected] : cases) {
     EXPECT_EQ(greatest_common_divisor(a, b), expected) << a << ", " << b;
   }
-}
-
-TEST(PseudoRemainder, IsTheRemainderTimesAPositiveNumber) {
-  Random random(32);
-  for (int round = 0; round < 500; ++round) {
-    const Polynomial p = random_polynomial(random, random.between(0, 7), 30),
-                     q = random_polynomial(random, random.between(1, 5), 30);
-    // Long division over the rationals.
-    std::vector<Rational> expected(p.coefficients().begin(), p.coefficients().end());
-    for (std::size_t i = expected.size(); i-- > q.degree();) {
-      const Rational ratio = expected[i] / q.leading();
-      for (std::size_t j = 0; j <= q.degree(); ++j) {
-        expected[i - q.degree() + j] -= ratio * q.coefficients()[j];
-      }
-    }
-    expected.resize(q.degree());
-    Coefficients actual = pseudo_remainder(p, q).coefficients();
-    ASSERT_LE(actual.size(), expected.size());
-    actual.resize(expected.size());
-    Rational scale = 0;
-    for (std::size_t i = 0; i < expected.size(); ++i) {
-      EXPECT_EQ(sgn(actual[i]), sgn(expected[i]));
-      if (sgn(expected[i]) == 0) continue;
-      if (sgn(scale) == 0) scale = actual[i] / expected[i];
-      EXPECT_EQ(Rational(actual[i] / expected[i]), scale);
-    }
-    EXPECT_TRUE(pseudo_remainder(p * q, q).is_zero());
-  }
-  EXPECT_TRUE(pseudo_remainder(Polynomial(), polynomial({1, 1})).is_zero());
 }
 
 }  // namespace

@@ -3,25 +3,19 @@
 #include <gtest/gtest.h>
 
 #include <array>
-#include <initializer_list>
-#include <limits>
 #include <numeric>
 #include <span>
 #include <stdexcept>
-#include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 #include "tests/support/contact_function.hpp"
-#include "tests/support/random.hpp"
 #include "touchstone/number.hpp"
 
 namespace touchstone::query_test {
 namespace {
 
 using exact::Rational;
-using tests::Random;
 using Vector = std::array<Rational, 3>;
 
 constexpr std::array kinds{Kind::vertex_face, Kind::edge_edge};
@@ -31,27 +25,6 @@ Query counting_query() {
   Query query{};
   std::iota(query.coordinates.begin(), query.coordinates.end(), 1.0);
   return query;
-}
-
-Query random_query(Random& random) {
-  Query query{};
-  for (double& x : query.coordinates) x = random.few_bit_double(53, -80, 80);
-  return query;
-}
-
-Rational random_fraction(Random& random) { return {Rational(random.between(0, 1000)) / 1000}; }
-
-/// The corner w_i(t) from the documented pairs of points, without contact_function.
-Vector corner_at(const Query& query, const Corner& corner, const Rational& t) {
-  Vector w;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    const auto difference = [&](std::size_t end) {
-      return Rational(Rational(query.at(end, corner.plus, axis)) -
-                      Rational(query.at(end, corner.minus, axis)));
-    };
-    w[axis] = difference(0) + t * (difference(1) - difference(0));
-  }
-  return w;
 }
 
 TEST(Query, AnArrayOfDoublesIsASpanOfQueries) {
@@ -78,132 +51,6 @@ TEST(Query, CoordinatesStandInTheOrderEndPointAxis) {
   }
 }
 
-TEST(Query, AccessorsWriteThrough) {
-  Query query = counting_query();
-  query.at(1, 2, 1) = -7.0;
-  query.point(0, 3) = Eigen::Vector3d(100.0, 200.0, 300.0);
-  query.point(1, 0) += Eigen::Vector3d::Ones();
-  Query expected = counting_query();
-  expected.coordinates[3 * (4 + 2) + 1] = -7.0;
-  expected.coordinates[9] = 100.0;
-  expected.coordinates[10] = 200.0;
-  expected.coordinates[11] = 300.0;
-  for (std::size_t i = 12; i < 15; ++i) expected.coordinates[i] += 1.0;
-  EXPECT_EQ(query, expected);
-}
-
-TEST(Query, PointsReferToTheQuerysOwnMemory) {
-  Query query = counting_query();
-  const Query& constant = query;
-  for (std::size_t end = 0; end < 2; ++end) {
-    for (std::size_t point = 0; point < moving_points; ++point) {
-      const double* expected = &query.coordinates[12 * end + 3 * point];
-      EXPECT_EQ(query.point(end, point).data(), expected);
-      EXPECT_EQ(constant.point(end, point).data(), expected);
-    }
-  }
-}
-
-TEST(Query, EqualityComparesEveryCoordinate) {
-  const Query query = counting_query();
-  EXPECT_EQ(query, counting_query());
-  for (std::size_t i = 0; i < query.coordinates.size(); ++i) {
-    Query other = query;
-    other.coordinates[i] = -1.0;
-    EXPECT_FALSE(query == other) << i;
-  }
-}
-
-TEST(Query, IsFiniteIfAllCoordinatesAre) {
-  using Limits = std::numeric_limits<double>;
-  EXPECT_TRUE(is_finite(Query{}));
-  for (std::size_t i = 0; i < Query{}.coordinates.size(); ++i) {
-    Query query{};
-    query.coordinates[i] = -Limits::max();
-    EXPECT_TRUE(is_finite(query)) << i;
-    for (const double bad : {Limits::infinity(), -Limits::infinity(), Limits::quiet_NaN()}) {
-      query.coordinates[i] = bad;
-      EXPECT_FALSE(is_finite(query)) << i << ' ' << bad;
-    }
-  }
-}
-
-TEST(Corners, AreTheDocumentedDifferences) {
-  const auto pairs = [](Kind kind) {
-    std::vector<std::pair<std::size_t, std::size_t>> result;
-    for (const Corner& corner : corners(kind)) result.emplace_back(corner.plus, corner.minus);
-    return result;
-  };
-  using Pairs = std::vector<std::pair<std::size_t, std::size_t>>;
-  EXPECT_EQ(pairs(Kind::vertex_face), (Pairs{{0, 1}, {0, 2}, {0, 3}}));
-  EXPECT_EQ(pairs(Kind::edge_edge), (Pairs{{0, 2}, {1, 2}, {1, 3}, {0, 3}}));
-}
-
-TEST(Corners, StandAtTheVerticesOfTheDomainInCyclicOrder) {
-  const auto parameters = [](Kind kind) {
-    std::vector<std::pair<int, int>> result;
-    for (const Corner& corner : corners(kind)) result.emplace_back(corner.u, corner.v);
-    return result;
-  };
-  using Pairs = std::vector<std::pair<int, int>>;
-  EXPECT_EQ(parameters(Kind::vertex_face), (Pairs{{0, 0}, {1, 0}, {0, 1}}));
-  EXPECT_EQ(parameters(Kind::edge_edge), (Pairs{{0, 0}, {1, 0}, {1, 1}, {0, 1}}));
-}
-
-TEST(AffineVectors, AreDifferencesOfCorners) {
-  Random random(3);
-  const Query query = random_query(random);
-  const Rational t = random_fraction(random);
-  for (const Kind kind : kinds) {
-    const auto difference = [&](const std::array<std::size_t, 2>& points) {
-      return corner_at(query, {points[0], points[1], 0, 0}, t);
-    };
-    const auto [r, p, q] = affine_vectors(kind);
-    const Vector w0 = corner_at(query, corners(kind).front(), t);
-    EXPECT_EQ(difference(r), w0);
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      EXPECT_EQ(difference(p)[axis], w0[axis] - corner_at(query, corners(kind)[1], t)[axis]);
-      EXPECT_EQ(difference(q)[axis], w0[axis] - corner_at(query, corners(kind).back(), t)[axis]);
-    }
-  }
-}
-
-TEST(ContactFunction, EqualsTheCornerAtEveryVertexOfTheDomain) {
-  Random random(1);
-  for (int round = 0; round < 50; ++round) {
-    const Query query = random_query(random);
-    const Rational t = random_fraction(random);
-    for (const Kind kind : kinds) {
-      for (std::size_t i = 0; i < corners(kind).size(); ++i) {
-        const Corner& corner = corners(kind)[i];
-        const Rational u(corner.u), v(corner.v);
-        EXPECT_EQ(tests::contact_function(kind, query, t, u, v), corner_at(query, corner, t))
-            << to_string(kind) << " corner " << i;
-      }
-    }
-  }
-}
-
-TEST(ContactFunction, IsAffineBetweenTheCorners) {
-  Random random(2);
-  for (int round = 0; round < 50; ++round) {
-    const Query query = random_query(random);
-    const Rational t = random_fraction(random), u = random_fraction(random),
-                   v = random_fraction(random);
-    for (const Kind kind : kinds) {
-      // Corner 0 is at (0,0), corner 1 at (1,0), the last one at (0,1), for both kinds.
-      const auto along = [&](const Corner& corner) { return corner_at(query, corner, t); };
-      const Vector origin = along(corners(kind).front()), first = along(corners(kind)[1]),
-                   second = along(corners(kind).back());
-      const Vector value = tests::contact_function(kind, query, t, u, v);
-      for (std::size_t axis = 0; axis < 3; ++axis) {
-        EXPECT_EQ(value[axis], Rational(origin[axis] + u * (first[axis] - origin[axis]) +
-                                        v * (second[axis] - origin[axis])));
-      }
-    }
-  }
-}
-
 TEST(ContactFunction, HasTheValuesComputedByHand) {
   // Point k stands at (k, k², 1) at t=0 and moves by (4, 0, −2k).
   Query query{};
@@ -220,50 +67,6 @@ TEST(ContactFunction, HasTheValuesComputedByHand) {
   // ea: (2,0,1)·3/4 + (3,1,0)·1/4; eb: (4,4,−1)·2/3 + (5,9,−2)·1/3.
   EXPECT_EQ(tests::contact_function(Kind::edge_edge, query, t, u, v),
             (Vector{Rational(-25, 12), Rational(-65, 12), Rational(25, 12)}));
-}
-
-std::string join(std::initializer_list<std::string_view> parts) {
-  std::string result;
-  for (const std::string_view part : parts) result += part;
-  return result;
-}
-
-/// A scalar that records the operations on it.
-struct Recorded {
-  Recorded() = default;
-  explicit Recorded(double value) : text(std::to_string(static_cast<int>(value))) {}
-  explicit Recorded(std::string formula) : text(std::move(formula)) {}
-
-  std::string text;
-};
-
-Recorded operator+(const Recorded& a, const Recorded& b) {
-  return Recorded(join({"(", a.text, "+", b.text, ")"}));
-}
-Recorded operator-(const Recorded& a, const Recorded& b) {
-  return Recorded(join({"(", a.text, "-", b.text, ")"}));
-}
-Recorded operator*(const Recorded& a, const Recorded& b) {
-  return Recorded(join({"(", a.text, "*", b.text, ")"}));
-}
-
-TEST(ContactFunction, PerformsTheOperationsInTheOrderOfItsFormula) {
-  const Recorded t(std::string("t")), u(std::string("u")), v(std::string("v"));
-  const auto value = [&](Kind kind, int axis) {
-    return tests::contact_function(kind, counting_query(), t, u, v)[static_cast<std::size_t>(axis)]
-        .text;
-  };
-  const auto position = [](int start, int end) {
-    return join({"(((1-t)*", std::to_string(start), ")+(t*", std::to_string(end), "))"});
-  };
-  for (int axis = 0; axis < 3; ++axis) {
-    const std::string a = position(1 + axis, 13 + axis), b = position(4 + axis, 16 + axis),
-                      c = position(7 + axis, 19 + axis), d = position(10 + axis, 22 + axis);
-    EXPECT_EQ(value(Kind::vertex_face, axis),
-              join({"(", a, "-(((((1-u)-v)*", b, ")+(u*", c, "))+(v*", d, ")))"}));
-    EXPECT_EQ(value(Kind::edge_edge, axis),
-              join({"((((1-u)*", a, ")+(u*", b, "))-(((1-v)*", c, ")+(v*", d, ")))"}));
-  }
 }
 
 TEST(Kind, TextsAreThoseOfTheDatasets) {
@@ -287,25 +90,6 @@ TEST(Norm, TextsAndNormsAreEachOthersInverse) {
   for (const Norm norm : {Norm::linf, Norm::l2}) EXPECT_EQ(norm_from_string(to_string(norm)), norm);
   for (const std::string_view text : {"", "l", "L2", "linf ", "l1", "inf"}) {
     EXPECT_THROW(static_cast<void>(norm_from_string(text)), std::invalid_argument) << text;
-  }
-}
-
-TEST(Separation, DistancesAreFiniteAndNotNegative) {
-  using Limits = std::numeric_limits<double>;
-  for (const double d : {0.0, -0.0, Limits::denorm_min(), 1e-100, 1.0, Limits::max()}) {
-    EXPECT_TRUE(is_valid(Separation{.distance = d, .norm = Norm::l2})) << d;
-  }
-  for (const double d : {-Limits::denorm_min(), -1.0, Limits::infinity(), -Limits::infinity(),
-                         Limits::quiet_NaN()}) {
-    EXPECT_FALSE(is_valid(Separation{.distance = d})) << d;
-  }
-}
-
-TEST(Separation, OnlyZeroIsContact) {
-  using Limits = std::numeric_limits<double>;
-  for (const double d : {0.0, -0.0}) EXPECT_TRUE(is_zero({.distance = d})) << d;
-  for (const double d : {Limits::denorm_min(), -Limits::denorm_min(), 1.0, Limits::quiet_NaN()}) {
-    EXPECT_FALSE(is_zero({.distance = d})) << d;
   }
 }
 

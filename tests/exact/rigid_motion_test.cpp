@@ -21,6 +21,29 @@ using tests::Random;
 using Point = std::array<double, 3>;
 constexpr double pi = std::numbers::pi;
 
+// ---- Places ------------------------------------------------------------------------------------
+
+RigidMotion turning(const Point& from, const Point& to) {
+  return {{.rotation = from}, {.rotation = to}};
+}
+
+TEST(RigidPlace, OfTinyAndOfHugeAngles) {
+  const Point v{1, 0, 0};
+  EXPECT_EQ(place_of(turning({}, {}), v, 0.5), v);
+  EXPECT_EQ(place_of(turning({}, {0, 0, 0x1p-1060}), v, 1.0)[1], 0x1p-1060);
+  // sin and cos of 10^22, to many digits.
+  const Point x = place_of(turning({}, {0, 0, 1e22}), v, 1.0);
+  EXPECT_NEAR(x[0], 0.5232147853951389, 1e-15);
+  EXPECT_NEAR(x[1], -0.8522008497671888, 1e-15);
+  const RigidMotion moving{{.position = {1, 2, 3}, .rotation = {0, 0, std::numbers::pi}},
+                           {.position = {3, 2, 1}, .rotation = {0, 0, -std::numbers::pi}}};
+  EXPECT_EQ(place_of(moving, v, 0.5), (Point{3, 2, 2}));
+  EXPECT_EQ(place_of(moving, v, 0.5, 2), (Point{0.75, 0.5, 0.5}));
+  constexpr double least = 0x1p-1074;
+  const RigidMotion tiny = turning({}, {0, 0, std::numbers::pi / 3});
+  EXPECT_EQ(place_of(tiny, {least, 0, 0}, 1.0, -1074), place_of(tiny, v, 1.0));
+}
+
 // ---- Without rotation ---------------------------------------------------------------------------
 
 /// A query whose points no rotation moves: of small whole numbers times a scale.
@@ -299,7 +322,9 @@ TEST(RigidMotion, RefusesNumbersOutOfRange) {
   for (const double x : {infinity, -infinity, std::nan(""), 0x1p101}) {
     RigidQuery query;
     query.points[2][1] = x;
-    if (x != 0x1p101) EXPECT_THROW((void)decide(Kind::edge_edge, query), std::domain_error);
+    if (x != 0x1p101) {
+      EXPECT_THROW((void)decide(Kind::edge_edge, query), std::domain_error);
+    }
     query = {};
     query.bodies[1].end.rotation[2] = x;
     EXPECT_THROW((void)decide(Kind::vertex_face, query), std::domain_error);

@@ -142,7 +142,6 @@ class PolynomialExpressions : public ::testing::Test {
   }
   [[nodiscard]] Scalar time() { return small_fraction<Scalar>(random_); }
   [[nodiscard]] Vector3<Scalar> vector() { return random_vector<Scalar>(random_); }
-  [[nodiscard]] Scalar integer() { return small_integer<Scalar>(random_); }
 
   static constexpr int trials = 300;
 
@@ -173,32 +172,6 @@ TYPED_TEST(PolynomialExpressions, CoefficientsOfAnOrientationAreItsOwn) {
   }
 }
 
-TYPED_TEST(PolynomialExpressions, MiddleOfAPointOfTimeIsAMultipleOfTheEnd) {
-  for (int i = 0; i < this->trials; ++i) {
-    const auto three = this->random_three();
-    const auto oriented = this->random_oriented();
-    const TypeParam t = this->time();
-    EXPECT_EQ(three.middle(t, t), TypeParam(3) * three.end(t));
-    EXPECT_EQ(oriented.middle(t, t), TypeParam(2) * oriented.end(t));
-  }
-}
-
-/// The polynomial on [0,1] with time reversed: motions from end to start.
-TYPED_TEST(PolynomialExpressions, WhatIsLastIsFirstWithTheEndsExchanged) {
-  for (int i = 0; i < this->trials; ++i) {
-    const auto [r, p, q] = this->random_three();
-    const Three<TypeParam> forwards{r, p, q};
-    const Three<TypeParam> backwards{{r.end, r.start}, {p.end, p.start}, {q.end, q.start}};
-    EXPECT_EQ(forwards.middle(TypeParam(1), TypeParam(0)),
-              backwards.middle(TypeParam(0), TypeParam(1)));
-    const auto [d, x, y] = this->random_oriented();
-    const Oriented<TypeParam> other{d, {x.end, x.start}, {y.end, y.start}};
-    EXPECT_EQ((Oriented<TypeParam>{d, x, y}.middle(TypeParam(0), TypeParam(1))),
-              other.middle(TypeParam(0), TypeParam(1)))
-        << "its middle is its own mirror image";
-  }
-}
-
 TYPED_TEST(PolynomialExpressions, NormalHasTheCoefficientsOfTheBlossom) {
   for (int i = 0; i < this->trials; ++i) {
     const auto [r, p, q] = this->random_three();
@@ -212,36 +185,6 @@ TYPED_TEST(PolynomialExpressions, NormalHasTheCoefficientsOfTheBlossom) {
   }
 }
 
-TYPED_TEST(PolynomialExpressions, DeterminantsOfDependentVectorsVanish) {
-  for (int i = 0; i < this->trials; ++i) {
-    const auto [r, p, q] = this->random_three();
-    const TypeParam a = this->time(), b = this->time(), x = this->integer(), y = this->integer();
-    const Three<TypeParam> in_plane{
-        {combined(p.start, x, q.start, y), combined(p.end, x, q.end, y)}, p, q};
-    const Three<TypeParam> parallel{
-        r, p, {combined(p.start, x, p.start, y), combined(p.end, x, p.end, y)}};
-    const Three<TypeParam> nothing{r, {}, q};
-    for (const auto& three : {in_plane, parallel, nothing}) {
-      EXPECT_EQ(three.end(a), TypeParam(0));
-      EXPECT_EQ(three.middle(a, b), TypeParam(0));
-    }
-  }
-}
-
-TYPED_TEST(PolynomialExpressions, OrientationsOfDependentVectorsVanish) {
-  for (int i = 0; i < this->trials; ++i) {
-    const auto [d, x, y] = this->random_oriented();
-    const TypeParam a = this->time(), b = this->time(), k = this->integer(), l = this->integer();
-    const Oriented<TypeParam> parallel{
-        d, x, {combined(x.start, k, d, l), combined(x.end, k, d, l)}};
-    const Oriented<TypeParam> along{d, {combined(d, k, d, l), combined(d, l, d, l)}, y};
-    for (const auto& oriented : {parallel, along, Oriented<TypeParam>{{}, x, y}}) {
-      EXPECT_EQ(oriented.end(a), TypeParam(0));
-      EXPECT_EQ(oriented.middle(a, b), TypeParam(0));
-    }
-  }
-}
-
 TYPED_TEST(PolynomialExpressions, GapIsTheProjectionOfTheDifference) {
   for (int i = 0; i < this->trials; ++i) {
     const auto d = this->vector(), a = this->vector(), b = this->vector();
@@ -249,41 +192,6 @@ TYPED_TEST(PolynomialExpressions, GapIsTheProjectionOfTheDifference) {
     EXPECT_EQ(ProjectedGap::evaluate(joined<TypeParam>(d, a, b), {}), dot(d, difference));
     EXPECT_EQ(ProjectedGap::evaluate(joined<TypeParam>(d, a, a), {}), TypeParam(0));
   }
-}
-
-/// The measured expression at weights 1, with one coordinate wrong by a factor.
-template <class Expression, class Scalar, std::size_t count, std::size_t weights>
-void expect_measures(std::array<Scalar, count> x, const std::array<Scalar, weights>& w) {
-  std::array<Scalar, weights + count> with_ones;
-  with_ones.fill(Scalar(1));
-  std::copy(w.begin(), w.end(), with_ones.begin());
-  EXPECT_EQ(Measured<Expression>::evaluate(x, with_ones), Expression::evaluate(x, w));
-  for (std::size_t i = 0; i < count; ++i) {
-    with_ones[weights + i] = Scalar(3);
-    std::array<Scalar, count> tripled = x;
-    tripled[i] = tripled[i] * Scalar(3);
-    EXPECT_EQ(Measured<Expression>::evaluate(x, with_ones), Expression::evaluate(tripled, w));
-    with_ones[weights + i] = Scalar(1);
-  }
-}
-
-TYPED_TEST(PolynomialExpressions, MeasuredOnesTakeEachCoordinateTimesItsWeight) {
-  const auto three = this->random_three().inputs();
-  const auto oriented = this->random_oriented().inputs();
-  const TypeParam a = this->time(), b = this->time();
-  expect_measures<DeterminantEnd>(three, weights_of<3, TypeParam>(a));
-  expect_measures<DeterminantMiddle>(three, weights_of<3, TypeParam>(a, b));
-  expect_measures<OrientationEnd>(oriented, weights_of<2, TypeParam>(a));
-  expect_measures<OrientationMiddle>(oriented, weights_of<2, TypeParam>(a, b));
-  expect_measures<ProjectedGap>(joined<TypeParam>(this->vector(), this->vector(), this->vector()),
-                                std::array<TypeParam, 0>{});
-}
-
-TEST(PolynomialExpressionsAlone, CanRunAtCompileTime) {
-  static_assert(ProjectedGap::evaluate<double>({1, 2, 3, 4, 5, 6, 3, 3, 3}, {}) == 14);
-  static_assert(DeterminantEnd::evaluate<double>({1, 0, 0, 0, 1, 0, 0, 0, 1,  //
-                                                  3, 0, 0, 0, 3, 0, 0, 0, 3},
-                                                 {.5, .5, .5, .5, .5, .5}) == 8);
 }
 
 }  // namespace

@@ -78,13 +78,5 @@ TEST_F(SeparationExpressions, ContactComponentIsFBeyondTheDistance) {
   }
 }
 
-TEST(SeparationExpressionsAlone, CanRunAtCompileTime) {
-  static_assert(ComponentSum::evaluate<double>({1, 2, 4}, {}) == 7);
-  static_assert(SquaredLength::evaluate<double>({1, 2, 2}, {}) == 9);
-  static_assert(LengthDefect::evaluate<double>({2, 3, 6, 7}, {}) == 0);
-  static_assert(
-      ContactComponent::evaluate<double>({1, 2, 4, 3, 2, 4, 0.5}, {0.5, 0.5, 0.25, 0.5}) == -1);
-}
-
 }  // namespace
 }  // namespace touchstone::filters::separation_expressions_test

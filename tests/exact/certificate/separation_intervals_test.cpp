@@ -2,16 +2,13 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <array>
 #include <ostream>
 #include <vector>
 
-#include "exact/algebra/positivity.hpp"
 #include "tests/support/queries.hpp"
 #include "tests/support/random.hpp"
 #include "tests/support/trials.hpp"
-#include "touchstone/oracle.hpp"
 
 namespace touchstone::exact {
 
@@ -45,59 +42,6 @@ Motion passing_point(const Integer& a, const Integer& b, const Integer& distance
     motion.corners[i][1].c = {distance, distance};
   }
   return motion;
-}
-
-using Vector = std::array<Polynomial, 3>;
-
-Polynomial inner(const Vector& a, const Vector& b) {
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
-Vector outer(const Vector& a, const Vector& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-
-Vector minus(const Vector& a, const Vector& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
-
-std::vector<Vector> corner_polynomials(const Motion& motion) {
-  std::vector<Vector> corners(motion.corner_count);
-  for (std::size_t i = 0; i < motion.corner_count; ++i) {
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      corners[i].at(axis) = to_polynomial(motion.corners.at(i).at(axis));
-    }
-  }
-  return corners;
-}
-
-/// The directions of all features, diagonals included, as the format defines them.
-std::vector<Vector> directions(const std::vector<Vector>& w) {
-  std::vector<Vector> result = w;
-  const Vector normal = outer(minus(w[1], w[0]), minus(w[2], w[0]));
-  result.push_back(normal);
-  result.push_back({-normal[0], -normal[1], -normal[2]});
-  for (std::size_t i = 0; i < w.size(); ++i) {
-    for (std::size_t j = 0; j < w.size(); ++j) {
-      const Vector e = minus(w[j], w[i]);
-      Vector d;
-      for (std::size_t axis = 0; axis < 3; ++axis) {
-        d.at(axis) = inner(e, e) * w[i].at(axis) - inner(w[i], e) * e.at(axis);
-      }
-      if (i != j) result.push_back(d);
-    }
-  }
-  return result;
-}
-
-/// True if the direction of one feature separates on all of [0,1].
-bool some_direction_separates(const Motion& motion) {
-  static constexpr unsigned long deep = 4000;
-  const std::vector<Vector> w = corner_polynomials(motion);
-  return std::ranges::any_of(directions(w), [&](const Vector& d) {
-    return std::ranges::all_of(w, [&](const Vector& corner) {
-      const auto values = bernstein_coefficients(inner(d, corner), {0, 1});
-      return prove_positive(values, deep).outcome == BisectionProof::Outcome::positive;
-    });
-  });
 }
 
 void expect_cover(const std::vector<Subinterval>& subintervals, const Rational& until) {
@@ -196,22 +140,6 @@ TEST(Separate, SaysSoWhereTheLimitsCannotBeKept) {
   const Integer far = Integer(1) << 17000U;
   EXPECT_THROW(static_cast<void>(separate(passing_point(far, 2 * far, 1), 1)),
                CertificateLimitError);
-}
-
-TEST(Separate, TakesTwoSubintervalsOnlyWhereNoFeatureSeparatesThroughout) {
-  tests::Random random(5);
-  std::size_t several = 0;
-  for (int repetition = 0; repetition < tests::trials(4000); ++repetition) {
-    const Kind kind = random.coin() ? Kind::vertex_face : Kind::edge_edge;
-    const PosedQuery posed = tests::random_query(random, kind, tests::Family::near_contact);
-    if (decide(posed.kind, posed.query).collides()) continue;
-    const auto subintervals = separate_all(posed);
-    expect_cover(subintervals, 1);
-    if (subintervals.size() < 2) continue;
-    ++several;
-    EXPECT_FALSE(some_direction_separates(scale_uniformly(posed.kind, posed.query))) << posed;
-  }
-  EXPECT_GT(several, tests::trials(20U));
 }
 
 TEST(IsWithinLimit, CountsTheBitsOfBothParts) {

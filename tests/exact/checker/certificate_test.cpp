@@ -8,14 +8,10 @@
 
 #include <array>
 #include <cstddef>
-#include <sstream>
-#include <stdexcept>
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
-#include "exact/checker/proof.hpp"
 #include "tests/support/checker_outcome.hpp"
 
 namespace touchstone::checker::certificate_test {
@@ -64,58 +60,6 @@ std::string with(std::size_t number, std::string_view line) {
 std::string one_as(const std::string& number) { return with(4, "point 1 " + number + " 1"); }
 
 TEST(Form, TheSampleIsAccepted) { EXPECT_EQ(outcome(joined(sample())), "time_of_impact"); }
-
-TEST(Form, EveryLineIsNeededOnceAndInOrder) {
-  for (std::size_t n = 2; n <= sample().size(); ++n) {
-    const auto at = static_cast<std::ptrdiff_t>(n) - 1;
-    Lines without = sample(), twice = sample();
-    without.erase(without.begin() + at);
-    twice.insert(twice.begin() + at, sample().at(n - 1));
-    if (n == 3) {
-      EXPECT_EQ(outcome(joined(without)), "time_of_impact") << "a label is optional";
-    } else {
-      EXPECT_NE(outcome(joined(without)), "time_of_impact") << "without line " << n;
-    }
-    EXPECT_NE(outcome(joined(twice)), "time_of_impact") << "line " << n << " twice";
-    if (n == sample().size()) continue;
-    Lines swapped = sample();
-    std::swap(swapped.at(n - 1), swapped.at(n));
-    // Equal lines may be swapped.
-    if (swapped != sample()) {
-      EXPECT_NE(outcome(joined(swapped)), "time_of_impact") << "line " << n << " after the next";
-    }
-  }
-}
-
-TEST(Form, EveryLineIsNeededToItsEnd) {
-  for (std::size_t n = 2; n <= sample().size(); ++n) {
-    if (n == 3) continue;
-    const std::string& line = sample().at(n - 1);
-    const std::string at = std::to_string(n) + ": ";
-    EXPECT_EQ(outcome(with(n, line.substr(0, line.rfind(' ')))).rfind(at, 0),
-              n == 17 ? std::string::npos : 0)
-        << line;
-    for (const std::string& longer : {line + " 1", line + " ", " " + line, line + "\r", line + "\t",
-                                      line + "\0"s, "  " + line}) {
-      EXPECT_EQ(outcome(with(n, longer)).rfind(at, 0), 0) << longer;
-    }
-    if (const auto space = line.find(' '); space != std::string::npos) {
-      EXPECT_EQ(outcome(with(n, line.substr(0, space) + " " + line.substr(space))).rfind(at, 0), 0)
-          << line;
-      EXPECT_EQ(
-          outcome(with(n, line.substr(0, space) + "\t" + line.substr(space + 1))).rfind(at, 0), 0)
-          << line;
-    }
-    Lines cut(sample().begin(), sample().begin() + static_cast<std::ptrdiff_t>(n) - 1);
-    const Report report = tests::check_text(joined(cut));
-    EXPECT_EQ(report.accepted(), 0U);
-    ASSERT_EQ(report.rejected, n == 2 ? 1U : 2U);
-    EXPECT_EQ(report.rejections[0].line, n - 1);
-    EXPECT_EQ(report.rejections[0].reason,
-              n == 2 ? "the stream is cut: it has no closing line 'certificates 0'"
-                     : "the stream ends within a certificate");
-  }
-}
 
 /// 2^n in decimal.
 std::string power_of_two(unsigned n) { return mpz_class(mpz_class(1) << n).get_str(); }
@@ -273,33 +217,6 @@ TEST(Limit, OfWork) {
   };
   EXPECT_EQ(subintervals(100), "no_collision");
   EXPECT_EQ(subintervals(300), "199: the proof takes too much work");
-}
-
-TEST(Printable, ShowsEveryByteInAscii) {
-  EXPECT_EQ(printable(""), "");
-  EXPECT_EQ(printable(" az~"), " az~");
-  EXPECT_EQ(printable("\0\n\x1b\x7f\x80\xff"s), "\\x00\\x0a\\x1b\\x7f\\x80\\xff");
-}
-
-TEST(Reader, CountsLines) {
-  std::istringstream stream("a\n\n# b\nc d\ne");
-  Reader lines(stream);
-  EXPECT_EQ(lines.number(), 0U);
-  lines.advance();
-  EXPECT_EQ(lines.text(), "a");
-  EXPECT_EQ(lines.number(), 1U);
-  lines.advance();
-  EXPECT_EQ(lines.text(), "c d");
-  EXPECT_EQ(lines.number(), 4U);
-  EXPECT_EQ(lines.first_word(), "c");
-  EXPECT_FALSE(lines.at_end());
-  lines.advance();
-  EXPECT_EQ(lines.number(), 5U);
-  EXPECT_THROW(lines.begin("e"), Rejection);
-  lines.advance();
-  EXPECT_TRUE(lines.at_end());
-  EXPECT_EQ(lines.number(), 5U);
-  EXPECT_THROW(lines.begin("e"), Rejection);
 }
 
 }  // namespace

@@ -70,18 +70,6 @@ Report check_closed(const std::string& text, const Options& options = {}) {
   return check_text(tests::closed(text), options);
 }
 
-TEST(Check, CountsByClaim) {
-  const Report report =
-      check_closed(header + apart + colliding + impact + colliding + apart + apart + lie);
-  EXPECT_EQ(report.no_collision, 3U);
-  EXPECT_EQ(report.collision, 2U);
-  EXPECT_EQ(report.time_of_impact, 1U);
-  EXPECT_EQ(report.accepted(), 6U);
-  EXPECT_EQ(report.rejected, 1U);
-  EXPECT_FALSE(report.all_accepted());
-  EXPECT_TRUE(check_closed(header + apart + colliding).all_accepted());
-}
-
 /// A stream, how many certificates of it are accepted, and what is told of the others.
 struct Told {
   std::string stream;

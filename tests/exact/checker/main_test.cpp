@@ -39,14 +39,6 @@ Outcome run(const std::string& arguments) {
 
 const std::string corpus = tests::source_folder() + "/tests/exact/checker/corpus/";
 
-TEST(Command, AcceptsAFile) {
-  const auto [status, output] = run(corpus + "contacts.cert");
-  EXPECT_EQ(status, 0);
-  EXPECT_EQ(output,
-            "accepted         7\n  no_collision   0\n  collision      4\n  time_of_impact "
-            "3\nrejected         0\n");
-}
-
 TEST(Command, ReadsStandardInput) {
   EXPECT_EQ(run("- < " + corpus + "features.cert").status, 0);
   EXPECT_EQ(run("- < " + corpus + "features.cert").output, run(corpus + "features.cert").output);
@@ -105,17 +97,6 @@ TEST(Command, FailsIfItsOutputCannotBeWritten) {
     EXPECT_EQ(status, 2) << arguments;
     EXPECT_TRUE(output.ends_with(": standard output cannot be written\n")) << output;
   }
-}
-
-TEST(Command, TellsAnEmptyOrCutStreamFromACompleteOne) {
-  EXPECT_EQ(run(corpus + "empty.cert").status, 0);
-  const auto [status, output] = run("- < " + corpus + "cut.cert");
-  EXPECT_EQ(status, 1);
-  EXPECT_NE(output.find("the stream is cut: it has no closing line 'certificates 2'"),
-            std::string::npos)
-      << output;
-  EXPECT_EQ(run("/dev/null").status, 1);
-  EXPECT_EQ(run(corpus + "miscounted.cert").status, 1);
 }
 
 TEST(Command, DemandsAClaimAndASeparation) {

@@ -2,8 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdint>
 #include <set>
@@ -92,23 +90,6 @@ TEST(Places, SeesADirectionOnlyWhereItSeparates) {
   }
   EXPECT_GT(seen, 20);
   EXPECT_LT(close, 40);
-}
-
-TEST(Places, IsExactForSmallIntegers) {
-  Random random(2);
-  for (int trial = 0; trial < 4'000; ++trial) {
-    std::vector<Motion> vertices(6);
-    for (Motion& x : vertices) {
-      for (double& c : x.start) c = random.between(-3, 3);
-      for (double& c : x.end) c = random.between(-3, 3);
-    }
-    const double distance = random.between(0, 1);
-    const Places places(vertices, distance, 1);
-    Direction d{};
-    for (auto& x : d) x = random.between(-2, 2);
-    const Primitive a{0, {0, 1, 0}}, b{0, {2, 3, 4}};
-    EXPECT_EQ(places.is_above(a, b, d), gap(vertices, distance, 1, a, b, d) > 0);
-  }
 }
 
 TEST(Places, FindsEveryPairThatNoAxisKeepsApart) {

@@ -423,10 +423,5 @@ TEST(Step, IsNoStreamOfQueriesWhereScenesAreNamed) {
             "the first line is not 'touchstone-steps 1', as for scenes");
 }
 
-TEST(Step, OfAnEmptyStreamThereIsNone) {
-  EXPECT_EQ(refusal("touchstone-steps 1\n"), "the stream is cut: it has no closing line 'steps 0'");
-  EXPECT_EQ(refusal(stream("", 0)), "");
-}
-
 }  // namespace
 }  // namespace touchstone::checker::step_test

@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -12,7 +11,6 @@
 #include <stdexcept>
 #include <vector>
 
-#include "tests/support/contact_function.hpp"
 #include "tests/support/distance_reference.hpp"
 #include "tests/support/floating_point_modes.hpp"
 #include "tests/support/queries.hpp"
@@ -250,32 +248,6 @@ TEST(DistanceOracle, AgreesWithTheEvaluationOfAllCandidates) {
   }
   EXPECT_GT(later, count / 8);
   EXPECT_GT(no_collisions, count / 8);
-}
-
-TEST(DistanceOracle, FindsTheContactsOfAGrid) {
-  Random random(13);
-  for (int i = 0; i < 1500; ++i) {
-    const PosedQuery posed = small_query(random);
-    const double distance = small_distance(random);
-    std::array<std::optional<double>, 2> first;
-    for (int k = 0; k <= 8; ++k) {
-      for (int m = 0; m < 25; ++m) {
-        const double t = k / 8.0, u = m % 5 / 4.0, v = std::floor(m / 5.0) / 4.0;
-        if (posed.kind == Kind::vertex_face && u + v > 1) continue;
-        const auto f = tests::contact_function<double>(posed.kind, posed.query, t, u, v);  // exact
-        const double linf = std::max({std::abs(f[0]), std::abs(f[1]), std::abs(f[2])});
-        const double squared = f[0] * f[0] + f[1] * f[1] + f[2] * f[2];
-        if (!first[0] && linf <= distance) first[0] = t;
-        if (!first[1] && squared <= distance * distance) first[1] = t;
-      }
-    }
-    for (const std::size_t n : {0U, 1U}) {
-      if (!first.at(n)) continue;
-      const auto found = toi(posed, distance, both_norms.at(n));
-      ASSERT_TRUE(found) << posed;
-      ASSERT_TRUE(*found <= Rational(*first.at(n))) << posed;
-    }
-  }
 }
 
 // ---- Relations ----------------------------------------------------------------------------------

@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <set>
 #include <stdexcept>
 #include <string>
@@ -40,28 +39,6 @@ TEST(Catalogue, EvaluatesWhatItRecorded) {
             exact_value<EdgeEdge>(inputs).get_d());
   const auto [high, low] = entry.evaluators.in_double_double(inputs);
   EXPECT_EQ(mpq_class(high) + mpq_class(low), exact_value<EdgeEdge>(inputs)) << "of few bits";
-}
-
-TEST(Catalogue, ShipsTheBoundsOfTheSolversAndNoOthers) {
-  const std::string header = error_bounds_header();
-  for (const CatalogueEntry& entry : catalogue()) {
-    ASSERT_FALSE(entry.formats.empty());
-    for (const Format& format : {double_format, float_format, double_double_format}) {
-      const bool runs =
-          std::ranges::find(entry.formats, format.digits, &Format::digits) != entry.formats.end();
-      const std::string name = " " + entry.graph.name + "_" + format.name + "{";
-      EXPECT_EQ(header.find(name) != std::string::npos, entry.ships && runs) << name;
-    }
-  }
-}
-
-TEST(Catalogue, ShipsBoundsThatAreNumbersThatCodeComparesWith) {
-  const std::string header = error_bounds_header();
-  for (const char* declaration : {"ErrorBound<float, 1> edge_edge_float{",
-                                  "ErrorBound<double, 2> measured_projected_gap_double{",
-                                  "ErrorBound<double, 3> determinant_end_double_double{"}) {
-    EXPECT_NE(header.find(declaration), std::string::npos) << declaration;
-  }
 }
 
 }  // namespace

@@ -6,21 +6,9 @@
 #include <stdexcept>
 
 #include "tests/filters/support.hpp"
-#include "touchstone/filters/polynomial_expressions.hpp"
 
 namespace touchstone::filters::expression_graph_test {
 namespace {
-
-TEST(ExpressionGraph, RecordsEachOperationOnce) {
-  const ExpressionGraph graph = record<Blend>();
-  EXPECT_EQ(graph.name, "blend");
-  EXPECT_EQ(graph.coordinates, 2U);
-  ASSERT_EQ(graph.nodes.size(), 7U);
-  const Node& result = graph.nodes.at(graph.result);
-  EXPECT_EQ(result.operation, Operation::add);
-  EXPECT_EQ(graph.nodes.at(result.left).operation, Operation::multiply);
-  EXPECT_EQ(graph.nodes.at(result.right).operation, Operation::multiply);
-}
 
 TEST(ExpressionGraph, EvaluatesLikeTheTemplate) {
   // The recorded operations in double give the bits of the template.
@@ -50,18 +38,6 @@ TEST(ExpressionGraph, EvaluatesLikeTheTemplate) {
     }
     EXPECT_EQ(values.at(graph.result), (computed_value<VertexFace, double>(inputs)));
   }
-}
-
-TEST(ExpressionGraph, KnowsGroupsAndTheirVertices) {
-  const ExpressionGraph graph = record<VertexFace>();
-  EXPECT_EQ(graph.group_of(1), 0U);
-  EXPECT_EQ(graph.group_of(2), 1U);
-  EXPECT_EQ(graph.group_of(4), 1U);
-  const std::vector<std::vector<int>> vertices = graph.weight_vertices();
-  ASSERT_EQ(vertices.size(), 8U);
-  EXPECT_EQ(vertices.front(), (std::vector<int>{1, 0, 1, 0, 0}));
-  EXPECT_EQ(vertices.back(), (std::vector<int>{0, 1, -1, 1, 1}));
-  EXPECT_EQ(record<EdgeEdge>().weight_vertices().size(), 8U);
 }
 
 /// x w0 w1, with both weights of one group: not affine in it.
@@ -150,12 +126,6 @@ TEST(ExpressionGraph, RefusesClassesThatItsProductsDoNotHave) {
   EXPECT_EQ((refusal<Area<0, 0, 1, 1, 1>>()),
             "expression area: its classes are not one a coordinate");
   EXPECT_EQ(refusal<MixedSum>(), "expression mixed_sum: a sum adds terms of other classes");
-}
-
-TEST(ExpressionGraph, AcceptsTheClassesOfThePolynomials) {
-  EXPECT_EQ(refusal<ProjectedGap>(), "accepted");
-  EXPECT_EQ(refusal<MeasuredDeterminantMiddle>(), "accepted");
-  EXPECT_EQ(refusal<MeasuredOrientationMiddle>(), "accepted");
 }
 
 }  // namespace

@@ -136,38 +136,5 @@ TEST(ShippedBound, TakesAnExpressionWithoutErrors) {
   EXPECT_EQ(shipped_coefficients(proved, double_format).back(), 0);
 }
 
-TEST(ShippedBound, IsDeclaredWithExactLiterals) {
-  EXPECT_EQ(error_bound_declaration(record<EdgeEdge>(), float_format),
-            "/// edge_edge in float: 10 u x and underflow.\n"
-            "inline constexpr ErrorBound<float, 1> edge_edge_float{\n"
-            "    .coefficients = {{0x1.8p-147F, 0x1.40000cp-21F}},\n"
-            "    .greatest_x = 0x1p+125F,\n"
-            "};\n");
-}
-
-TEST(ShippedBound, OfPairsOfDoublesIsDeclaredInDoublesOfThreeALine) {
-  const std::string declaration =
-      error_bound_declaration(record<DeterminantEnd>(), double_double_format);
-  EXPECT_TRUE(declaration.starts_with(
-      "/// determinant_end in double_double: 64 u x^3 and underflow.\n"
-      "inline constexpr ErrorBound<double, 3> determinant_end_double_double{\n"
-      "    .coefficients = {{0x"))
-      << declaration;
-  EXPECT_NE(declaration.find(",\n                      0x1.000000000000ap-97}},\n"),
-            std::string::npos)
-      << declaration;
-}
-
-TEST(ShippedBound, HeadersDeclareEachBoundInItsFormat) {
-  const std::vector<ShippedExpression> expressions{
-      {record<EdgeEdge>(), float_format}, {record<DeterminantEnd>(), double_double_format}};
-  const std::string header = error_bounds_header(expressions);
-  EXPECT_TRUE(header.starts_with("#pragma once\n"));
-  for (const auto& [graph, format] : expressions) {
-    EXPECT_NE(header.find(error_bound_declaration(graph, format)), std::string::npos);
-  }
-  EXPECT_EQ(header.find("edge_edge_double"), std::string::npos) << "not asked for";
-}
-
 }  // namespace
 }  // namespace touchstone::filters::shipped_bound_test

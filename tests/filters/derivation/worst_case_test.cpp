@@ -61,21 +61,6 @@ TEST(WorstCase, MeasuresCoordinatesToo) {
   }
 }
 
-TEST(WorstCase, SearchesInPairsOfDoubles) {
-  const ExpressionGraph graph = record<DeterminantEnd>();
-  const WorstCase worst =
-      search_worst_case(graph, evaluators<DeterminantEnd>(), double_double_format,
-                        {.seed = 11, .evaluations = 20'000});
-  const auto [high, low] = evaluators<DeterminantEnd>().in_double_double(worst.inputs);
-  const mpq_class error =
-      abs(mpq_class(high) + mpq_class(low) - exact_value<DeterminantEnd>(worst.inputs));
-  const mpq_class x(greatest_coordinate(worst.inputs));
-  const mpq_class units = error / (double_double_format.unit_roundoff() * x * x * x);
-  EXPECT_NEAR(units.get_d(), worst.units, 1e-12);
-  EXPECT_GT(worst.units, 0.5);
-  EXPECT_LT(worst.units, 64);
-}
-
 /// Searches with an evaluator that fails the test if MPFR rounds.
 template <class Expression>
 void expect_exact_truth(const Format& format) {
@@ -113,16 +98,6 @@ TEST(WorstCase, HasAPrecisionForTheSmallestAndLargestInputs) {
   EXPECT_EQ(value.to_double(), exact_value<Blend>(inputs).get_d());
   static_cast<void>(evaluators<Blend>().in_mpfr(inputs, precision - 60));
   EXPECT_TRUE(mpfr_inexflag_p()) << "a test of nothing: the precision is far more than is needed";
-}
-
-TEST(WorstCase, IsAFunctionOfTheSeed) {
-  const auto search = [](std::uint64_t seed) {
-    return search_worst_case(record<EdgeEdge>(), evaluators<EdgeEdge>(), double_format,
-                             {.seed = seed, .evaluations = 3'000});
-  };
-  EXPECT_EQ(search(1).inputs.coordinates, search(1).inputs.coordinates);
-  EXPECT_EQ(search(1).inputs.weights, search(1).inputs.weights);
-  EXPECT_NE(search(1).inputs.coordinates, search(2).inputs.coordinates);
 }
 
 /// Evaluators that count their calls.

@@ -12,12 +12,6 @@ namespace {
 
 using Row = std::vector<std::string>;
 
-TEST(Changes, OfTheSameMeasurementsAreEmpty) {
-  const Table table = changes_between(tests::small_report(), tests::small_report());
-  EXPECT_EQ(table.title, "since 2026-01-31");
-  EXPECT_TRUE(table.rows.empty());
-}
-
 TEST(Changes, AreCountsTimesAndMethods) {
   const Measurements before = tests::small_report();
   Measurements after = before;

@@ -3,12 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <atomic>
 #include <cstddef>
 #include <map>
 #include <regex>
 #include <set>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -127,27 +125,6 @@ TEST(Experiments, FiltersAreComparedOnFamiliesAndOverTheScale) {
   EXPECT_EQ(scales.size(), filter_scales().size());
   EXPECT_EQ(missed["tight_inclusion"], 0U);
   EXPECT_GT(missed["tight_inclusion_released"], 0U);
-}
-
-TEST(Experiments, StoppedItKeepsWhatIsMeasured) {
-  const std::vector<data::QueryGroup> groups = falling();
-  std::atomic<bool> stop = false;
-  ExperimentOptions options = quick();
-  options.stop = &stop;
-  options.on_progress = [&](double fraction) {
-    if (fraction > 0.3) stop = true;
-  };
-  const Measurements result = run_experiments(groups, options);
-  EXPECT_TRUE(result.interrupted);
-  EXPECT_GE(result.all.size(), 2U);
-  EXPECT_TRUE(result.stability.empty());
-}
-
-TEST(Experiments, UnknownMethodsAreRefused) {
-  const std::vector<data::QueryGroup> groups = falling();
-  ExperimentOptions options = quick();
-  options.methods = {"nonsense"};
-  EXPECT_THROW(static_cast<void>(run_experiments(groups, options)), std::invalid_argument);
 }
 
 }  // namespace

@@ -3,10 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
-#include <cmath>
 #include <cstddef>
 #include <memory>
-#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
@@ -49,7 +47,6 @@ class Field {
     methods_.push_back(std::make_unique<FunctionMethod>(std::move(function), promise, name));
     settings_.push_back({methods_.back().get(), options});
   }
-  void add(const Setting& setting) { settings_.push_back(setting); }
 
   [[nodiscard]] std::vector<Measurement> run(const data::QueryGroup& group,
                                              const MeasureOptions& options = {}) {
@@ -128,31 +125,6 @@ TEST(Measure, CountsExactlyTheFaultsThatAMethodHas) {
   EXPECT_EQ(all[3].false_negatives, 0U);
 }
 
-TEST(Measure, TheCertifiedSolverIsRightAndTellsItsStages) {
-  const data::QueryGroup group = falling(100);
-  Field field;
-  const auto certified = fast::certified_method();
-  field.add({certified.get(), {}});
-  const std::vector<Measurement> all = field.run(group);
-  ASSERT_EQ(all.size(), 1U);
-  EXPECT_EQ(all[0].false_negatives + all[0].false_positives + all[0].late_tois, 0U);
-  ASSERT_EQ(all[0].stages.size(), fast::stages);
-  EXPECT_EQ(all[0].stages.front(), (StageShare{.stage = "axis", .queries = 90}));
-}
-
-TEST(Measure, LargerGroupsAreSampledAndItIsSaid) {
-  const data::QueryGroup group = falling(1000);
-  Field field;
-  field.add(tests::true_answer, Promise::exact, "truth");
-  MeasureOptions options;
-  options.count = 100;
-  options.experiment = Experiment::checks;
-  const std::vector<Measurement> all = field.run(group, options);
-  EXPECT_EQ(all.at(0).group_queries, 1000U);
-  EXPECT_EQ(all.at(0).asked, 100U);
-  EXPECT_EQ(all.at(0).experiment, Experiment::checks);
-}
-
 /// An answer that takes processor time.
 Answer slow_no(Kind, const Query&) {
   const double start = base::thread_nanoseconds();
@@ -226,16 +198,6 @@ TEST(Measure, SettingsOfAMethodMayShareTheSmallestSample) {
   EXPECT_EQ(all[2].asked, 1000U);
 }
 
-TEST(Measure, StoppedItHasNoResult) {
-  const data::QueryGroup group = falling(10);
-  Field field;
-  field.add(tests::true_answer, Promise::exact, "truth");
-  const std::atomic<bool> stop = true;
-  MeasureOptions options;
-  options.stop = &stop;
-  EXPECT_TRUE(field.run(group, options).empty());
-}
-
 TEST(Measure, StoppedBetweenRepetitionsItKeepsThoseThatAreDone) {
   const data::QueryGroup group = falling(10);
   Field field;
@@ -248,34 +210,6 @@ TEST(Measure, StoppedBetweenRepetitionsItKeepsThoseThatAreDone) {
   ASSERT_EQ(all.size(), 1U);
   EXPECT_EQ(all[0].repetitions, 1U);
   EXPECT_EQ(all[0].collisions, 1U);
-}
-
-TEST(Measure, TellsItsProgressUpToTheEnd) {
-  const data::QueryGroup group = falling(10);
-  Field field;
-  field.add(tests::true_answer, Promise::exact, "truth");
-  std::vector<double> told;
-  MeasureOptions options;
-  options.on_progress = [&](double fraction) { told.push_back(fraction); };
-  static_cast<void>(field.run(group, options));
-  ASSERT_FALSE(told.empty());
-  EXPECT_TRUE(std::ranges::is_sorted(told));
-  EXPECT_EQ(told.back(), 1.0);
-}
-
-TEST(Measure, OptionsOutOfRangeAreRefused) {
-  Field field;
-  const data::QueryGroup empty("empty", Kind::vertex_face);
-  EXPECT_THROW(static_cast<void>(field.run(empty)), std::invalid_argument);
-  const data::QueryGroup group = falling(1);
-  for (const auto& spoil : std::vector<void (*)(MeasureOptions&)>{
-           [](MeasureOptions& options) { options.count = 0; },
-           [](MeasureOptions& options) { options.repetitions = 0; },
-           [](MeasureOptions& options) { options.seconds = std::nan(""); }}) {
-    MeasureOptions options;
-    spoil(options);
-    EXPECT_THROW(static_cast<void>(field.run(group, options)), std::invalid_argument);
-  }
 }
 
 }  // namespace

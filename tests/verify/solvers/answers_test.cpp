@@ -1,5 +1,6 @@
 #include "verify/solvers/answers.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <bit>
@@ -10,6 +11,7 @@
 #include <string>
 #include <string_view>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "tests/verify/data/dataset_fixture.hpp"
@@ -27,6 +29,7 @@ constexpr auto ee = Kind::edge_edge;
 /// The header without the last column, which files may omit.
 const std::string header = "file,index,kind,verdict,toi_lower,toi_upper,tolerance\n";
 const std::string full_header = "file,index,kind,verdict,toi_lower,toi_upper,tolerance,failure\n";
+constexpr double infinity = std::numeric_limits<double>::infinity();
 
 RecordedAnswers load(const TemporaryFolder& folder, const std::string& text) {
   return load_answers(folder.file("answers.csv", text));
@@ -71,36 +74,29 @@ void expect_same(const std::optional<RecordedAnswer>& recorded, const Answer& b,
 
 TEST(AnswerRow, IsWrittenAsDocumented) {
   EXPECT_EQ(answers_header(), full_header);
-  EXPECT_EQ(answer_row("a.csv", 3, vf, {Verdict::yes, 0, 0.1, 0.25, 1e-6}),
-            "a.csv,3,vertex-face,yes,0.1,0.25,1e-06,\n");
-  EXPECT_EQ(answer_row("a.csv", 0, ee, {.verdict = Verdict::no}), "a.csv,0,edge-edge,no,,,,\n");
-  EXPECT_EQ(answer_row("a.csv", 1, ee, {.verdict = Verdict::undecided, .tolerance = 0.5}),
-            "a.csv,1,edge-edge,undecided,,,0.5,\n");
-  EXPECT_EQ(answer_row("a.csv", 2, ee, {.verdict = Verdict::error}),
-            "a.csv,2,edge-edge,error,,,,no_verdict\n");
-  EXPECT_EQ(answer_row("a.csv", 2, ee, {.verdict = Verdict::yes, .toi_upper = 1.0}),
-            "a.csv,2,edge-edge,yes,,1,,\n");
-}
-
-TEST(AnswerRow, QuotesNames) {
-  EXPECT_EQ(answer_row("a,\"b\".csv", 0, vf, {.verdict = Verdict::no}),
-            "\"a,\"\"b\"\".csv\",0,vertex-face,no,,,,\n");
-}
-
-TEST(AnswerRow, SaysWhyThereIsNoAnswer) {
-  const auto row = [](const Answer& answer, const judge::Failure& failure) {
-    return answer_row("a", 0, ee, answer, &failure);
+  const Answer no{.verdict = Verdict::no}, error{.verdict = Verdict::error},
+      undecided{.verdict = Verdict::undecided};
+  EXPECT_EQ(answer_row("a,\"b\".csv", 3, vf, {Verdict::yes, 0, 0.1, 0.25, 1e-6}),
+            "\"a,\"\"b\"\".csv\",3,vertex-face,yes,0.1,0.25,1e-06,\n");
+  struct Case {
+    Answer answer;
+    std::optional<judge::Failure> failure;
+    std::string row;
   };
-  EXPECT_EQ(row({.verdict = Verdict::error}, {.kind = judge::Fault::crash, .number = 11}),
-            "a,0,edge-edge,error,,,,crash: SIGSEGV\n");
-  EXPECT_EQ(row({.verdict = Verdict::undecided}, {.kind = judge::Fault::hang}),
-            "a,0,edge-edge,undecided,,,,hang\n");
-  EXPECT_EQ(row({.verdict = Verdict::error}, {.kind = judge::Fault::exception, .what = "a,b"}),
-            "a,0,edge-edge,error,,,,\"exception: a,b\"\n");
-  // Readers refuse an infinite time.
-  const double infinity = std::numeric_limits<double>::infinity();
-  EXPECT_EQ(answer_row("a", 0, ee, {.verdict = Verdict::yes, .toi_lower = infinity}),
-            "a,0,edge-edge,error,,,,not_finite: toi_lower inf\n");
+  const std::vector<Case> cases{
+      {no, {}, "no,,,,"},
+      {{.verdict = Verdict::undecided, .tolerance = 0.5}, {}, "undecided,,,0.5,"},
+      {error, {}, "error,,,,no_verdict"},
+      {{.verdict = Verdict::yes, .toi_upper = 1.0}, {}, "yes,,1,,"},
+      {error, {{.kind = judge::Fault::crash, .number = 11}}, "error,,,,crash: SIGSEGV"},
+      {undecided, {{.kind = judge::Fault::hang}}, "undecided,,,,hang"},
+      {error, {{.kind = judge::Fault::exception, .what = "a,b"}}, "error,,,,\"exception: a,b\""},
+      // Readers refuse an infinite time.
+      {{.verdict = Verdict::yes, .toi_lower = infinity}, {}, "error,,,,not_finite: toi_lower inf"}};
+  for (const auto& [answer, failure, row] : cases) {
+    EXPECT_EQ(answer_row("a", 0, ee, answer, failure ? &*failure : nullptr),
+              "a,0,edge-edge," + row + "\n");
+  }
 }
 
 TEST(Answers, ReadAsTheyWereWritten) {
@@ -148,93 +144,60 @@ TEST(Answers, AreFoundUnderNamesThatAreWrittenOut) {
 // ---- Reading ------------------------------------------------------------------------------------
 
 TEST(LoadAnswers, ReadsEveryVerdict) {
-  const RecordedAnswers answers = load_rows(
-      "a,0,vertex-face,no,,,\n"
-      "a,1,vertex-face,yes,0.25,0.5,1e-3\n"
-      "a,2,vertex-face,undecided,,,\n"
-      "a,3,vertex-face,error,,,\n"
-      "a,4,vertex-face,yes,,,\n");
-  expect_same(answers.answer_to("a", vf, 0), {.verdict = Verdict::no});
-  expect_same(answers.answer_to("a", vf, 1), {Verdict::yes, 0, 0.25, 0.5, 1e-3});
-  expect_same(answers.answer_to("a", vf, 2), {.verdict = Verdict::undecided});
-  expect_same(answers.answer_to("a", vf, 3), {.verdict = Verdict::error});
-  expect_same(answers.answer_to("a", vf, 4), {.verdict = Verdict::yes});
-}
-
-TEST(LoadAnswers, ReadsWhyThereIsNoAnswer) {
-  const TemporaryFolder folder;
-  const RecordedAnswers answers = load(folder, full_header +
-                                                   "a,0,edge-edge,error,,,,crash: SIGSEGV\n"
-                                                   "a,1,edge-edge,undecided,,,,hang\n"
-                                                   "a,2,edge-edge,no,,,,\n");
-  expect_same(answers.answer_to("a", ee, 0), {.verdict = Verdict::error}, judge::Fault::crash);
-  expect_same(answers.answer_to("a", ee, 1), {.verdict = Verdict::undecided}, judge::Fault::hang);
-  expect_same(answers.answer_to("a", ee, 2), {.verdict = Verdict::no});
-  EXPECT_EQ(error_in(full_header + "a,0,edge-edge,error,,,,bang\n"),
-            "answers.csv:2:8: must be a kind of failure or empty: \"bang\"");
-  EXPECT_EQ(error_in(full_header + "a,0,edge-edge,no,,,,crash\n"),
-            "answers.csv:2:8: a failure of kind crash is no answer no");
-  EXPECT_EQ(error_in(full_header + "a,0,edge-edge,no,,,\n"),
-            "answers.csv:2: 7 columns, expected 8");
-}
-
-TEST(LoadAnswers, DropsTimesWithoutAYes) {
-  const RecordedAnswers answers =
-      load_rows("a,0,vertex-face,no,1,1,0.5\na,1,vertex-face,undecided,0,1,0.5\n");
-  expect_same(answers.answer_to("a", vf, 0), {.verdict = Verdict::no, .tolerance = 0.5});
-  expect_same(answers.answer_to("a", vf, 1), {.verdict = Verdict::undecided, .tolerance = 0.5});
-}
-
-TEST(LoadAnswers, TimesWithoutAYesMayBeAnyNumber) {
-  const RecordedAnswers answers = load_rows(
-      "a,0,vertex-face,no,inf,inf,inf\n"
-      "a,1,vertex-face,undecided,-inf,nan,\n"
-      "a,2,vertex-face,error,nan,inf,0\n");
-  expect_same(answers.answer_to("a", vf, 0),
-              {.verdict = Verdict::no, .tolerance = std::numeric_limits<double>::infinity()});
-  expect_same(answers.answer_to("a", vf, 1), {.verdict = Verdict::undecided});
-  expect_same(answers.answer_to("a", vf, 2), {.verdict = Verdict::error, .tolerance = 0.0});
-}
-
-TEST(LoadAnswers, AnInfiniteToleranceClaimsNothingAndIsReadBack) {
-  const Answer answer{Verdict::yes, 0, 0.25, 0.5, std::numeric_limits<double>::infinity()};
+  struct Case {
+    std::string row;
+    Answer answer;
+    std::optional<judge::Fault> failure = {};
+  };
+  const Answer no{.verdict = Verdict::no}, error{.verdict = Verdict::error},
+      undecided{.verdict = Verdict::undecided};
+  const std::vector<Case> cases{
+      {"no,,,,", no},
+      {"yes,0.25,0.5,1e-3,", {Verdict::yes, 0, 0.25, 0.5, 1e-3}},
+      {"undecided,,,,", undecided},
+      {"error,,,,", error},
+      {"yes,,,,", {.verdict = Verdict::yes}},
+      // Why there is no answer.
+      {"error,,,,crash: SIGSEGV", error, judge::Fault::crash},
+      {"undecided,,,,hang", undecided, judge::Fault::hang},
+      // Times without a yes may be any number, and are dropped.
+      {"no,1,1,0.5,", {.verdict = Verdict::no, .tolerance = 0.5}},
+      {"undecided,0,1,0.5,", {.verdict = Verdict::undecided, .tolerance = 0.5}},
+      {"no,inf,inf,inf,", {.verdict = Verdict::no, .tolerance = infinity}},
+      {"undecided,-inf,nan,,", undecided},
+      {"error,nan,inf,0,", {.verdict = Verdict::error, .tolerance = 0.0}},
+      // An infinite tolerance claims nothing.
+      {"yes,0.25,0.5,inf,", {Verdict::yes, 0, 0.25, 0.5, infinity}},
+      // The range of times is left to the judge.
+      {"yes,-1e-17,1.5,,", {.verdict = Verdict::yes, .toi_lower = -1e-17, .toi_upper = 1.5}},
+      // Spaces around all fields but the name.
+      {" yes , 0.5 ,\t, ,", {.verdict = Verdict::yes, .toi_lower = 0.5}}};
+  for (const auto& [row, answer, failure] : cases) {
+    SCOPED_TRACE(row);
+    expect_same(load_written(" a , 5 , edge-edge ," + row + "\n").answer_to(" a ", ee, 5), answer,
+                failure);
+  }
+  const Answer answer{Verdict::yes, 0, 0.25, 0.5, infinity};
   expect_same(load_written(answer_row("a", 0, vf, answer)).answer_to("a", vf, 0), answer);
 }
 
-TEST(LoadAnswers, LeavesTheRangeOfTimesToTheJudge) {
-  expect_same(load_rows("a,0,vertex-face,yes,-1e-17,1.5,\n").answer_to("a", vf, 0),
-              {.verdict = Verdict::yes, .toi_lower = -1e-17, .toi_upper = 1.5});
-}
-
-TEST(LoadAnswers, TakesRowsInAnyOrder) {
+TEST(LoadAnswers, TakesRowsInAnyOrderAndKnowsNoOtherQueries) {
   const RecordedAnswers answers = load_rows(
       "b,7,edge-edge,yes,0.5,,\n"
-      "a,2,vertex-face,yes,0.25,,\n"
+      "a,3,vertex-face,yes,0.25,,\n"
       "b,1,edge-edge,no,,,\n"
-      "a,0,vertex-face,no,,,\n"
+      "b,1,vertex-face,yes,0.125,,\n"
       "a,1,vertex-face,undecided,,,\n");
-  EXPECT_EQ(answers.answer_to("a", vf, 0)->answer.verdict, Verdict::no);
   EXPECT_EQ(answers.answer_to("a", vf, 1)->answer.verdict, Verdict::undecided);
-  EXPECT_EQ(answers.answer_to("a", vf, 2)->answer.toi_lower, 0.25);
+  EXPECT_EQ(answers.answer_to("a", vf, 3)->answer.toi_lower, 0.25);
   EXPECT_EQ(answers.answer_to("b", ee, 1)->answer.verdict, Verdict::no);
+  EXPECT_EQ(answers.answer_to("b", vf, 1)->answer.toi_lower, 0.125);
   EXPECT_EQ(answers.answer_to("b", ee, 7)->answer.toi_lower, 0.5);
-}
-
-TEST(LoadAnswers, KnowsNoOtherQueries) {
-  const RecordedAnswers answers = load_rows("a,1,vertex-face,no,,,\na,3,vertex-face,no,,,\n");
   for (const std::uint64_t index : {0U, 2U, 4U}) {
     EXPECT_FALSE(answers.answer_to("a", vf, index).has_value()) << index;
   }
   EXPECT_FALSE(answers.answer_to("a", ee, 1).has_value());
-  EXPECT_FALSE(answers.answer_to("b", vf, 1).has_value());
   EXPECT_FALSE(answers.answer_to("", vf, 1).has_value());
-}
-
-TEST(LoadAnswers, KeepsKindsOfOneNameApart) {
-  const RecordedAnswers answers =
-      load_rows("family,0,vertex-face,no,,,\nfamily,0,edge-edge,yes,,,\n");
-  EXPECT_EQ(answers.answer_to("family", vf, 0)->answer.verdict, Verdict::no);
-  EXPECT_EQ(answers.answer_to("family", ee, 0)->answer.verdict, Verdict::yes);
 }
 
 TEST(LoadAnswers, TakesWindowsLineEndsAndBlankLinesAtTheEnd) {
@@ -256,11 +219,6 @@ TEST(LoadAnswers, TakesQuotesAroundAnyField) {
   EXPECT_EQ(answers.answer_to("a \"b\", c", vf, 0)->answer.toi_lower, 0.5);
   EXPECT_EQ(answers.answer_to("two\nlines", vf, 0)->answer.toi_lower, 0.25);
   EXPECT_EQ(answers.answer_to("three", vf, 0)->answer.toi_lower, 0.125);
-}
-
-TEST(LoadAnswers, TakesSpacesAroundAllFieldsButTheName) {
-  const RecordedAnswers answers = load_rows(" a , 5 , edge-edge , yes , 0.5 ,\t, \n");
-  EXPECT_EQ(answers.answer_to(" a ", ee, 5)->answer.toi_lower, 0.5);
 }
 
 TEST(LoadAnswers, TakesAFileWithoutAnswers) {
@@ -286,20 +244,16 @@ TEST(RecordedAnswers, SayWhatWasNeverAskedFor) {
   EXPECT_EQ(answers.unasked(), 3U);
 
   const std::vector<RecordedAnswers::Group> groups = answers.groups();
-  ASSERT_EQ(groups.size(), 3U);
-  EXPECT_EQ(groups[0].file, "a");
-  EXPECT_EQ(groups[0].kind, vf);
-  EXPECT_EQ(groups[0].answers, 3U);
-  EXPECT_EQ(groups[0].unasked, 2U);
-  EXPECT_EQ(groups[0].first_unasked_line, 5U);
-  EXPECT_EQ(groups[1].file, "a");
-  EXPECT_EQ(groups[1].kind, ee);
-  EXPECT_EQ(groups[1].unasked, 1U);
-  EXPECT_EQ(groups[1].first_unasked_line, 6U);
-  EXPECT_EQ(groups[2].file, "b");
-  EXPECT_EQ(groups[2].answers, 1U);
-  EXPECT_EQ(groups[2].unasked, 0U);
-  EXPECT_EQ(groups[2].first_unasked_line, 0U);
+  std::string text;
+  for (const RecordedAnswers::Group& group : groups) {
+    text +=
+        fmt::format("{} {}: {} answers, {} unasked from line {}; ", group.file,
+                    to_string(group.kind), group.answers, group.unasked, group.first_unasked_line);
+  }
+  EXPECT_EQ(text,
+            "a vertex-face: 3 answers, 2 unasked from line 5; "
+            "a edge-edge: 1 answers, 1 unasked from line 6; "
+            "b edge-edge: 1 answers, 0 unasked from line 0; ");
 }
 
 TEST(RecordedAnswers, CountLinesOfNamesOverSeveralLines) {
@@ -335,33 +289,20 @@ TEST(RecordedAnswers, MayBeAskedFromSeveralThreads) {
 
 // ---- Errors -------------------------------------------------------------------------------------
 
-TEST(LoadAnswers, NeedsItsHeader) {
+TEST(LoadAnswers, NeedsAFileWithItsHeader) {
   const std::string reason =
       "first line must be file,index,kind,verdict,toi_lower,toi_upper,tolerance[,failure]";
   EXPECT_EQ(error_in(""), "answers.csv: " + reason);
-  EXPECT_EQ(error_in("a,0,vertex-face,no,,,\n"), "answers.csv:1: " + reason);
-  EXPECT_EQ(error_in("index,file,kind,verdict,toi_lower,toi_upper,tolerance\n"),
-            "answers.csv:1: " + reason);
-  EXPECT_EQ(error_in("file,index,kind,verdict,toi_lower,toi_upper\n"), "answers.csv:1: " + reason);
-  EXPECT_EQ(error_in("file,index,kind,verdict,toi_lower,toi_upper,tolerance,x\n"),
-            "answers.csv:1: " + reason);
+  for (const std::string other :
+       {"a,0,vertex-face,no,,,", "index,file,kind,verdict,toi_lower,toi_upper,tolerance",
+        "file,index,kind,verdict,toi_lower,toi_upper",
+        "file,index,kind,verdict,toi_lower,toi_upper,tolerance,x"}) {
+    EXPECT_EQ(error_in(other + "\n"), "answers.csv:1: " + reason);
+  }
 }
-
-TEST(LoadAnswers, NeedsAFile) {
-  const TemporaryFolder folder;
-  EXPECT_EQ(
-      data::test::error_of(folder.path(),
-                           [&] { static_cast<void>(load_answers(folder.path() / "none.csv")); }),
-      "none.csv: cannot open: No such file or directory");
-}
-
-struct BadRow {
-  std::string row;
-  std::string error;
-};
 
 TEST(LoadAnswers, NamesLineColumnAndReason) {
-  const std::vector<BadRow> rows{
+  const std::vector<std::pair<std::string, std::string>> rows{
       {"a,0,vertex-face,no,,", "6 columns, expected 7"},
       {"a,0,vertex-face,no,,,,", "8 columns, expected 7"},
       {"", "blank line before the end of the file"},
@@ -396,6 +337,12 @@ TEST(LoadAnswers, NamesLineColumnAndReason) {
               expected)
         << row;
   }
+  EXPECT_EQ(error_in(full_header + "a,0,edge-edge,error,,,,bang\n"),
+            "answers.csv:2:8: must be a kind of failure or empty: \"bang\"");
+  EXPECT_EQ(error_in(full_header + "a,0,edge-edge,no,,,,crash\n"),
+            "answers.csv:2:8: a failure of kind crash is no answer no");
+  EXPECT_EQ(error_in(full_header + "a,0,edge-edge,no,,,\n"),
+            "answers.csv:2: 7 columns, expected 8");
 }
 
 TEST(LoadAnswers, FindsQueriesAnsweredTwice) {

@@ -117,19 +117,6 @@ TEST(ChildProcess, WhatIsPrintedBeforeAMessageIsReadWithIt) {
   }
 }
 
-TEST(ChildProcess, EndsOnRequest) {
-  const TemporaryFolder folder;
-  ChildProcess child(
-      [](const ChildChannel&) {
-        for (;;) ::pause();
-      },
-      {}, folder.path());
-  CapturedOutput output;
-  std::string message;
-  EXPECT_EQ(child.wait(ChildProcess::Seconds(0.01), message, output), Event::none);
-  EXPECT_EQ(child.end(output).failure.number, SIGKILL);
-}
-
 TEST(ChildProcess, TellsWorkFromSleep) {
   const TemporaryFolder folder;
   ChildProcess busy(
@@ -189,17 +176,6 @@ TEST(TemporaryFolder, GoesWithWhatIsInIt) {
     EXPECT_TRUE(std::filesystem::exists(path / "a" / "b"));
   }
   EXPECT_FALSE(std::filesystem::exists(path));
-}
-
-TEST(CapturedOutput, KeepsTheBeginning) {
-  CapturedOutput output;
-  const std::string text(CapturedOutput::most_bytes - 1, 'x');
-  output.append(text.data(), text.size());
-  output.append("yz", 2);
-  EXPECT_EQ(output.text, text + "y");
-  EXPECT_EQ(output.dropped, 1U);
-  output.append("more", 4);
-  EXPECT_EQ(output.dropped, 5U);
 }
 
 }  // namespace

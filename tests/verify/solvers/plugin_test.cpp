@@ -81,15 +81,6 @@ class WorkingDirectory {
   std::filesystem::path before_;
 };
 
-// ---- The example --------------------------------------------------------------------------------
-
-TEST(BoxOverlap, HasItsNameAndPromise) {
-  const auto method = load_plugin(box_overlap);
-  EXPECT_EQ(method->name(), "box_overlap");
-  EXPECT_EQ(method->promise(), fast::Promise::conservative);
-  EXPECT_EQ(method->info().terms, fast::Terms{});
-}
-
 // ---- Curves -------------------------------------------------------------------------------------
 
 /// Queries of degree 2 whose first number selects what the misbehaving plugin does.
@@ -105,21 +96,6 @@ struct CurvedActions {
   CurvedQueries queries{.degree = 2};
   std::vector<double> numbers;
 };
-
-TEST(CurvedPlugin, AnswersQueriesByTheirNumber) {
-  CurvedActions actions({Misbehaviour::says_no, Misbehaviour::repeats_query});
-  actions.numbers[actions.queries.numbers_of_query() + 1] = 0.25;
-  actions.numbers[actions.queries.numbers_of_query() + 23] = 0.5;
-  const CurvedPlugin plugin = load_curved_plugin(misbehaving);
-  const auto method = curved_method(plugin, actions.queries);
-  const Answer no = ask(*method, Kind::edge_edge, stand_in(actions.queries, 0));
-  expect_nothing_but(no, Verdict::no);
-  const Answer yes = ask(*method, Kind::edge_edge, stand_in(actions.queries, 1));
-  EXPECT_EQ(yes.verdict, Verdict::yes);
-  EXPECT_EQ(yes.toi_lower, 0.25);
-  EXPECT_EQ(yes.toi_upper, 0.5);
-  EXPECT_TRUE(std::isnan(yes.tolerance));
-}
 
 /// The points at t=0 are those of the query, also with weights.
 TEST(CurvedPlugin, IsAskedByThePointsAtTheStart) {
@@ -375,6 +351,13 @@ TEST(Plugin, GetsTheQueryAndItsKind) {
 
 TEST(Plugin, GetsTheOptions) {
   const auto method = load_plugin(misbehaving);
+  for (const Norm norm : {Norm::linf, Norm::l2}) {
+    const Separation separation{.distance = 0.25, .norm = norm};
+    EXPECT_EQ(ask(*method, Kind::vertex_face, query_for(Misbehaviour::repeats_norm),
+                  {.separation = separation})
+                  .toi_lower,
+              norm == Norm::l2 ? 1.0 : 0.0);
+  }
   const Answer answer =
       ask(*method, Kind::vertex_face, query_for(Misbehaviour::repeats_options),
           {.tolerance = 0.0625, .max_checks = 77, .separation = {.distance = 0.25}, .t_max = 0.5});
@@ -382,15 +365,6 @@ TEST(Plugin, GetsTheOptions) {
   EXPECT_EQ(answer.toi_lower, 0.0625);
   EXPECT_EQ(answer.toi_upper, 0.25);
   EXPECT_EQ(answer.tolerance, 0.5);
-}
-
-TEST(Plugin, GetsTheNorm) {
-  const auto method = load_plugin(misbehaving);
-  for (const Norm norm : {Norm::linf, Norm::l2}) {
-    const Answer answer = ask(*method, Kind::vertex_face, query_for(Misbehaviour::repeats_norm),
-                              {.separation = {.distance = 0.25, .norm = norm}});
-    EXPECT_EQ(answer.toi_lower, norm == Norm::l2 ? 1.0 : 0.0);
-  }
 }
 
 TEST(Plugin, MayBeOfTheVersionBeforeTheNorm) {

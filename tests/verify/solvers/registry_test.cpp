@@ -6,7 +6,6 @@
 #include <fstream>
 #include <iterator>
 #include <set>
-#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -29,36 +28,6 @@ TEST(Registry, NamesAreUniqueAndFound) {
     EXPECT_EQ(find_info(method->name()), &method->info());
   }
   EXPECT_TRUE(names.contains("tight_inclusion"));
-}
-
-TEST(Registry, AnUnknownNameIsAnErrorThatListsTheKnownOnes) {
-  EXPECT_EQ(find_info("nonsense"), nullptr);
-  try {
-    static_cast<void>(find_method("nonsense"));
-    FAIL();
-  } catch (const std::invalid_argument& error) {
-    const std::string message = error.what();
-    EXPECT_NE(message.find("nonsense"), std::string::npos) << message;
-    for (const auto& method : methods()) {
-      EXPECT_NE(message.find(method->name()), std::string::npos) << message;
-    }
-  }
-}
-
-TEST(Registry, EveryMethodTellsACollisionFromAWideGap) {
-  const tests::PosedQuery collision = tests::over_triangle(1, 1, 1, -3);
-  const tests::PosedQuery no_collision = tests::over_triangle(1, 1, 3, 1);
-  const std::vector<Query> queries{collision.query, no_collision.query};
-  for (const auto& method : methods()) {
-    std::vector<fast::Answer> answers(2);
-    method->solve(Kind::vertex_face, queries, answers, {});
-    EXPECT_EQ(answers[0].verdict, fast::Verdict::yes) << method->name();
-    EXPECT_EQ(answers[1].verdict, fast::Verdict::no) << method->name();
-  }
-}
-
-TEST(Registry, JudgesUnaskedWhatPromisesSomethingInItsDefaultSetting) {
-  EXPECT_EQ(default_methods(), (std::vector<std::string>{"certified", "tight_inclusion"}));
 }
 
 TEST(Registry, BaselinesStandBehindOurOwn) {
@@ -106,12 +75,6 @@ TEST(Registry, MethodsHeedTheDistancesThatTheySayTheyMeasure) {
       EXPECT_EQ(answer.verdict, fast::Verdict::yes) << method->name();
     }
   }
-}
-
-TEST(Registry, PromisesHaveNames) {
-  EXPECT_EQ(to_string(fast::Promise::none), "none");
-  EXPECT_EQ(to_string(fast::Promise::conservative), "conservative");
-  EXPECT_EQ(to_string(fast::Promise::exact), "exact");
 }
 
 }  // namespace

@@ -1,10 +1,8 @@
 #include "verify/solvers/solver.hpp"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <atomic>
 #include <chrono>
 #include <csignal>
 #include <cstdio>
@@ -19,8 +17,6 @@
 #include "tests/support/queries.hpp"
 #include "verify/base/thread_clock.hpp"
 #include "verify/generate/workload.hpp"
-#include "verify/jobs/bench.hpp"
-#include "verify/jobs/stream.hpp"
 #include "verify/mesh/moving_mesh.hpp"
 
 // A separate program, because it makes processes, which copy no threads.
@@ -98,13 +94,6 @@ TEST(Solver, TimeIsTheProcessorTimeOfTheMethod) {
   EXPECT_GE(ask(*solver_in_children(burner, {}, {}), 10).nanoseconds(), 20e6);
 }
 
-TEST(Solver, ItIsJudgedByItsStatedPromise) {
-  const FunctionMethod method(echo);
-  const auto solver = solver_in_process(method, {});
-  solver->hold_to(Promise::exact);
-  EXPECT_EQ(solver->promise(), Promise::exact);
-}
-
 TEST(Solver, AnExceptionCostsOneQuery) {
   const FunctionMethod method([](Kind kind, const Query& query) {
     if (query.coordinates[0] == 103.0) throw std::runtime_error("thrown by a solver");
@@ -117,33 +106,6 @@ TEST(Solver, AnExceptionCostsOneQuery) {
   ASSERT_EQ(outcome.reply.failures.size(), 1U);
   EXPECT_EQ(outcome.reply.failures[0].position, 3U);
   EXPECT_EQ(to_text(outcome.reply.failures[0].failure), "exception: thrown by a solver");
-}
-
-TEST(Solver, RecordedAnswersAreLookedUpBySourceKindAndIndex) {
-  const auto path = std::filesystem::path(::testing::TempDir()) /
-                    ("touchstone_solver_" + std::to_string(getpid()) + ".csv");
-  std::ofstream(path) << answers_header()
-                      << answer_row("a,file", 102, Kind::edge_edge, {.verdict = Verdict::error})
-                      << answer_row("a,file", 100, Kind::edge_edge,
-                                    {.verdict = Verdict::yes, .toi_lower = 0.25})
-                      << answer_row("a,file", 101, Kind::vertex_face, {.verdict = Verdict::no})
-                      << answer_row("other", 101, Kind::edge_edge, {.verdict = Verdict::no});
-  const RecordedAnswers answers = load_answers(path);
-  std::filesystem::remove(path);
-  const auto solver = recorded_solver("answers", answers);
-  EXPECT_EQ(solver->name(), "answers");
-  EXPECT_EQ(solver->promise(), Promise::none);
-  EXPECT_FALSE(solver->is_timed());
-  const Outcome outcome = ask(*solver, 4);
-  EXPECT_EQ(outcome.reply.unasked, (std::vector<UnaskedQuery>{{1, judge::Unasked::missing},
-                                                              {3, judge::Unasked::missing}}));
-  EXPECT_EQ(outcome.nanoseconds(), 0.0);
-  EXPECT_EQ(outcome.answers[0].verdict, Verdict::yes);
-  EXPECT_EQ(outcome.answers[0].toi_lower, 0.25);
-  EXPECT_EQ(outcome.answers[2].verdict, Verdict::error);
-  ASSERT_EQ(outcome.reply.failures.size(), 1U);
-  EXPECT_EQ(outcome.reply.failures[0].position, 2U);
-  EXPECT_EQ(outcome.reply.failures[0].failure.kind, judge::Fault::no_verdict);
 }
 
 TEST(Solver, SpansAreShortForSlowAndLongForFastSolvers) {
@@ -177,16 +139,6 @@ TEST(Solver, TheMakingOfChildProcessesDoesNotShortenSpans) {
   EXPECT_GE(longest, 1000U);
 }
 
-TEST(Solver, OneChildProcessAnswersCallAfterCall) {
-  const FunctionMethod method([](Kind, const Query&) {
-    return Answer{.verdict = Verdict::yes, .toi_lower = static_cast<double>(getpid())};
-  });
-  const auto in_children = solver_in_children(method, {}, {});
-  const double first = ask(*in_children, 3).answers.front().toi_lower;
-  EXPECT_NE(first, static_cast<double>(getpid()));
-  EXPECT_EQ(ask(*in_children, 3).answers.back().toi_lower, first);
-}
-
 TEST(Solver, KeepsWhatItsProcessesPrint) {
   const FunctionMethod method([](Kind kind, const Query& query) {
     std::printf("asked %g\n", query.coordinates[0]);
@@ -198,62 +150,6 @@ TEST(Solver, KeepsWhatItsProcessesPrint) {
   static_cast<void>(ask(*in_children, 1));
   EXPECT_EQ(in_children->take_output().text, "asked 100\n");
   EXPECT_EQ(solver_in_process(method, {})->take_output().text, "");
-}
-
-TEST(Solver, SaysWhatItsChildProcessesDid) {
-  const pid_t parent = getpid();
-  int calls = 0;  // in each process
-  const FunctionMethod dies_late([&calls, parent](Kind kind, const Query& query) {
-    if (getpid() != parent && ++calls == 1500) std::raise(SIGKILL);
-    return echo(kind, query);
-  });
-  const Outcome outcome = ask(*solver_in_children(dies_late, {}, {}), jobs::Block::size);
-  EXPECT_EQ(outcome.reply.unplaced_crashes, 1U);
-  EXPECT_FALSE(outcome.reply.stopped);
-  EXPECT_EQ(outcome.answers.back().verdict, Verdict::yes);
-
-  const std::atomic<bool> stop = true;
-  const FunctionMethod hangs([](Kind, const Query&) -> Answer {
-    for (;;) std::this_thread::sleep_for(std::chrono::seconds(1));
-  });
-  EXPECT_TRUE(ask(*solver_in_children(hangs, {}, {.stop = &stop}), 10).reply.stopped);
-}
-
-TEST(Solver, MayBeCalledAnythingElse) {
-  const FunctionMethod method(echo, Promise::conservative, "echo");
-  const auto solver = solver_in_process(method, {});
-  solver->rename("echo (2)");
-  EXPECT_EQ(solver->name(), "echo (2)");
-  EXPECT_EQ(solver->info().name, "echo (2)");
-}
-
-TEST(Solver, GivesItsOptionsToTheMethodButTheSeparationOfTheRequest) {
-  class OptionsMethod final : public fast::Method {
-   public:
-    [[nodiscard]] const fast::MethodInfo& info() const override {
-      static const fast::MethodInfo info{.name = "options"};
-      return info;
-    }
-    void solve(Kind, std::span<const Query>, std::span<Answer> answers,
-               const fast::MethodOptions& options) const override {
-      std::ranges::fill(answers, Answer{.toi_lower = options.separation.distance,
-                                        .toi_upper = static_cast<double>(options.separation.norm),
-                                        .tolerance = options.tolerance});
-    }
-  };
-  const OptionsMethod method;
-  const fast::MethodOptions options{.tolerance = 0.125, .separation = {.distance = 7.0}};
-  const std::vector<Query> queries(1);
-  const auto here = solver_in_process(method, options),
-             in_child = solver_in_children(method, options, {});
-  for (const Solver* solver : {here.get(), in_child.get()}) {
-    std::vector<Answer> answers(1);
-    static_cast<void>(solver->solve(
-        {.queries = queries, .separation = {.distance = 0.5, .norm = Norm::l2}}, answers));
-    EXPECT_EQ(answers[0].tolerance, 0.125);
-    EXPECT_EQ(answers[0].toi_lower, 0.5);
-    EXPECT_EQ(answers[0].toi_upper, static_cast<double>(Norm::l2));
-  }
 }
 
 // ---- In child processes -------------------------------------------------------------------------
@@ -306,27 +202,6 @@ TEST(Solver, AsksNoQueryAgainThatEndedItsProcess) {
       answers);
   EXPECT_EQ(other.failures.size(), 2U);
   EXPECT_GT(std::filesystem::file_size(log), ends);
-}
-
-/// The whole benchmark survives the crash.
-TEST(Solver, ACrashInABenchmarkCostsAQuery) {
-  const FunctionMethod method([](Kind kind, const Query& query) {
-    if (height(query) == 3.0) std::raise(SIGSEGV);
-    return tests::true_answer(kind, query);
-  });
-  const auto solver = solver_in_children(method, {}, {});
-  jobs::BenchOptions options;
-  options.repetitions = 2;
-  const jobs::BenchResult result = jobs::bench(data::QueryGroup("falling", vf, falling(8)),
-                                               std::vector<const Solver*>{solver.get()}, options);
-  const jobs::SolverResult& said = result.solvers.at(0);
-  EXPECT_EQ(said.queries, 8U);
-  EXPECT_EQ(said.judgement.count(judge::Fault::crash), 1U);
-  EXPECT_EQ(said.judgement.errors(), 1U);
-  ASSERT_EQ(said.judgement.wrong_answers.size(), 1U);
-  EXPECT_EQ(said.judgement.wrong_answers[0].answer, "crash: SIGSEGV");
-  EXPECT_GT(said.times.median(), 0.0);
-  EXPECT_TRUE(said.singles.has_value());
 }
 
 // ---- Stages, and the certified solver by its own interfaces -------------------------------------
