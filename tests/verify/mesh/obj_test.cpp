@@ -46,12 +46,6 @@ TEST(ReadObj, ReadsPolygonsAsFansAndSaysSo) {
   EXPECT_EQ(folder.mesh("a.obj", four_vertices + "f 1 2 3\n").note, "");
 }
 
-TEST(ReadObj, ReadsLinesWithoutFaces) {
-  const MeshFolder folder;
-  const Mesh mesh = folder.mesh("a.obj", four_vertices + "l 4 1/2 3\nl 1 -1\n");
-  EXPECT_EQ(mesh.edges, (std::vector<Edge>{{0, 2}, {0, 3}}));
-}
-
 TEST(ReadObj, CountsNegativeCornersBackwardsFromTheVerticesBefore) {
   const MeshFolder folder;
   const Mesh mesh = folder.mesh("a.obj", four_vertices + "f -1 -2 -4\nv 9 9 9\nf -1/-1 1 2");
@@ -93,13 +87,6 @@ TEST(ReadObj, ReadsTheGroupsOfVertices) {
   EXPECT_EQ(groups.of_vertex, (std::vector<std::int32_t>{0, 1, 1, 1, 2, 2, 2, 1}));
   EXPECT_EQ(groups.error, "");
   EXPECT_TRUE(folder.mesh("a.obj", four_vertices).groups.of_vertex.empty());
-}
-
-TEST(ReadObj, SaysWhyGroupsCannotBeUsed) {
-  const MeshFolder folder;
-  const Groups groups = folder.mesh("a.obj", four_vertices + "g a\nf 1 2 3\ng b\nf 2 3 4\n").groups;
-  EXPECT_TRUE(groups.error.ends_with("a.obj:8: vertex 2 is in two groups, \"a\" and \"b\""))
-      << groups.error;
 }
 
 TEST(ReadObj, NamesTheLineAndTheReason) {

@@ -178,33 +178,6 @@ TEST(ReadPly, PassesOverOtherPropertiesAndElements) {
   }
 }
 
-TEST(ReadPly, ReadsPolygonsAsFansAndSaysSo) {
-  const MeshFolder folder;
-  Bytes bytes(false);
-  for (int i = 0; i < 900; ++i) bytes.add(static_cast<double>(i));
-  bytes.add(std::uint16_t{3}).add(5).add(6).add(7).add(std::uint16_t{300});
-  for (int i = 0; i < 300; ++i) bytes.add(299 - i);
-  const Mesh mesh = folder.mesh("a.ply", format(false) + "element vertex 300\n" + xyz +
-                                             "element face 2\nproperty list ushort int "
-                                             "vertex_indices\nend_header\n" +
-                                             bytes.text());
-  ASSERT_EQ(mesh.faces.size(), 299U);
-  EXPECT_EQ(mesh.faces[0], (Face{5, 6, 7}));
-  EXPECT_EQ(mesh.faces[1], (Face{299, 298, 297}));
-  EXPECT_EQ(mesh.faces[298], (Face{299, 1, 0}));
-  EXPECT_EQ(mesh.note, "polygons read as fans of triangles: 1");
-}
-
-TEST(ReadPly, RefusesElementsOfVerticesThatItDoesNotRead) {
-  const MeshFolder folder;
-  const std::string text = ascii + "element vertex 1\n" + xyz + "element tristrips ";
-  const std::string rest = "\nproperty list int int vertex_indices\nend_header\n0 0 0\n";
-  EXPECT_EQ(
-      folder.error("a.ply", text + "1" + rest + "3 0 0 0\n"),
-      "a.ply:9: \"tristrips\" has vertices and is not read: write it as element face or edge");
-  EXPECT_EQ(folder.error("a.ply", text + "0" + rest), "");
-}
-
 TEST(ReadPly, JoinsTheFilesOwnEdges) {
   const MeshFolder folder;
   const Mesh mesh = folder.mesh(
