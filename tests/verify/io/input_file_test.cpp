@@ -33,14 +33,6 @@ std::vector<OwnedLine> lines_of(const std::string& text) {
   return lines;
 }
 
-TEST(InputFile, NamesAFileThatIsNotThereAndAFolder) {
-  const TemporaryFolder folder;
-  EXPECT_EQ(error_of(folder.path(), [&] { InputFile file(folder.path() / "none"); }),
-            "none: cannot open: No such file or directory");
-  EXPECT_EQ(error_of(folder.path().parent_path(), [&] { InputFile file(folder.path()); }),
-            folder.path().filename().string() + ": is a folder");
-}
-
 TEST(InputFile, AReadErrorIsReportedOnceAndEndsTheFile) {
   // Address 0 is never mapped, so the system answers the first read of this file with an error.
   InputFile file("/proc/self/mem");
