@@ -175,6 +175,7 @@ constexpr auto headers_without_test = std::to_array<Exception>({
      "certificates_file.hpp commands.hpp curved_run.hpp files.hpp group_options.hpp help.hpp "
      "options.hpp solver_options.hpp sources.hpp version.hpp view_file.hpp",
      "tested by tests/transcripts"},
+    {"verify/data/", "npy_header.hpp", "tested in npy_test.cpp"},
     {"verify/data/", "query_source.hpp", "an interface without code"},
     {"verify/fuzz/", "finding.hpp", "what the fuzzer hands out, without code"},
     {"verify/fuzz/",
@@ -187,6 +188,7 @@ constexpr auto headers_without_test = std::to_array<Exception>({
      "parts of the families, tested through their queries"},
     {"verify/jobs/", "block_answers.hpp block_truth.hpp", "tested through certify and solve"},
     {"verify/jobs/", "work_time.hpp", "tested in step_bench_test.cpp"},
+    {"verify/mesh/", "moving_mesh.hpp", "tested by tests/transcripts: candidates, step, bench"},
     {"verify/report/",
      "certify_report.hpp judgement_report.hpp stability_report.hpp step_report.hpp",
      "tested by tests/transcripts"},

@@ -21,7 +21,7 @@ struct MovingMesh {
   fast::MovingVertices vertices;
   std::vector<fast::Face> faces;
   std::vector<fast::Edge> edges;
-  std::string note;  ///< as Mesh has it
+  std::string note = {};  ///< as Mesh has it
 };
 
 /// The step from one mesh file to another.

@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <array>
-#include <atomic>
 #include <cmath>
 #include <cstdint>
 #include <fstream>
@@ -13,7 +12,6 @@
 #include "tests/support/folder_test.hpp"
 #include "verify/data/npy_header.hpp"
 #include "verify/io/dataset_error.hpp"
-#include "verify/jobs/certify_curves.hpp"
 
 namespace touchstone::verify::data::curved_query_file_test {
 namespace {
@@ -122,35 +120,6 @@ TEST_F(CurvedQueryFileTest, ThatIsNoneIsRefusedWithItsPlace) {
   infinite[5] = HUGE_VAL;
   EXPECT_EQ(fault("a.npy", npy({1, 4, 3}, 1, infinite)),
             "a.npy: query 0 has a coordinate that is not finite");
-}
-
-/// A vertex on parabolas over a face at rest: from above, through and back.
-TEST_F(CurvedQueryFileTest, IsDecidedProvedAndJudged) {
-  std::vector<double> numbers;
-  for (const double middle : {-1.0, 0.0, -8.0}) {
-    for (const double z : {1.0, middle, 1.0}) {
-      for (const double x : {1.0, 1.0, z, 0.0, 0.0, 0.0, 4.0, 0.0, 0.0, 0.0, 4.0, 0.0}) {
-        numbers.push_back(x);
-      }
-    }
-  }
-  const CurvedQueryFile file = read("a.npy", npy({3, 4, 3}, 3, numbers));
-  std::string certificates;
-  jobs::CurvedOptions options{.threads = 2, .prove = true, .label = "a "};
-  options.on_certificates = [&](const std::string& text) { certificates += text; };
-  const jobs::CurvedResult result =
-      jobs::certify_curves(Kind::vertex_face, file.queries(), options);
-  EXPECT_EQ(result.queries, 3U);
-  EXPECT_EQ(result.collide, 2U);
-  EXPECT_TRUE(result.wrong.empty());
-  EXPECT_EQ(result.certificates, 3U);
-  EXPECT_EQ(result.toi[0], 0.5);
-  EXPECT_TRUE(std::isnan(result.toi[1]));
-  EXPECT_LT(result.toi[2], 0.25);
-  EXPECT_NE(certificates.find("label a 2\n"), std::string::npos);
-  const std::atomic<bool> stop = true;
-  options.stop = &stop;
-  EXPECT_EQ(jobs::certify_curves(Kind::vertex_face, file.queries(), options).queries, 0U);
 }
 
 }  // namespace

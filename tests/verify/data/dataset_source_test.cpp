@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "tests/verify/data/dataset_fixture.hpp"
-#include "verify/data/npy.hpp"
 
 namespace touchstone::verify::data::dataset_source_test {
 namespace {
@@ -15,7 +14,6 @@ using test::error_of;
 using test::expect_numbered;
 using test::joined;
 using test::numbered_lines;
-using test::numbered_query;
 using test::read_all;
 using test::read_survivors;
 using test::Survivors;
@@ -64,21 +62,6 @@ TEST(DatasetSource, JoinsQueriesWithTheirCompanions) {
   EXPECT_EQ(kept.records[2].toi, exact::Rational(1));
 }
 
-TEST(DatasetSource, JoinsNpyFilesToo) {
-  const TemporaryFolder folder;
-  NpyWriter writer(folder.path() / "7ee.npy");
-  writer.write(numbered_query(0));
-  writer.close();
-  (void)folder.file("7ee_mma_bool.json", "[1]");
-  (void)folder.file("7ee_toi.csv", "query,toi\n0,0\n");
-  const auto source = open_dataset(folder.path() / "7ee.npy");
-  EXPECT_EQ(source->kind(), Kind::edge_edge);
-  const auto records = read_all(*source);
-  expect_numbered(records, {0});
-  EXPECT_EQ(records[0].collides, std::optional(true));
-  EXPECT_EQ(records[0].toi, exact::Rational(0));
-}
-
 TEST(DatasetSource, ASkippedQueryDoesNotShiftTheTruthOfTheOthers) {
   Scene scene{.labels = "[true,false,true]", .tois = "query,toi\n0,0.5\n1,0.25\n2,1\n"};
   scene.lines[8] = "bad,1,1,1,1,1";
@@ -107,14 +90,6 @@ TEST(DatasetSource, ABadLabelOrToiCostsItsQueryOnly) {
   expect_numbered(kept.records, {0, 2});
   EXPECT_EQ(kept.messages, Messages{"toi/7vf_toi.csv:2:2: not a number: \"half\""});
   EXPECT_EQ(kept.records[1].toi, exact::Rational(1));
-}
-
-TEST(DatasetSource, AQueryWithTwoFaultsCountsOnce) {
-  Scene scene{.labels = "[true,null,true]", .tois = "query,toi\n1,half\n"};
-  scene.lines[9] = "bad,1,1,1,1,1";
-  const Survivors kept = scene.read();
-  expect_numbered(kept.records, {0, 2});
-  EXPECT_EQ(kept.messages, Messages{"s/queries/7vf.csv:10:1: not a number: \"bad\""});
 }
 
 TEST(DatasetSource, ABrokenCompanionCostsEveryLaterQuery) {

@@ -11,17 +11,14 @@
 #include "tests/support/public_data.hpp"
 #include "tests/verify/data/dataset_fixture.hpp"
 #include "verify/data/csv_dataset.hpp"
-#include "verify/data/npy.hpp"
 
 namespace touchstone::verify::data::dataset_test {
 namespace {
 
 namespace fs = std::filesystem;
 using test::error_of;
-using test::expect_numbered;
 using test::joined;
 using test::numbered_lines;
-using test::numbered_query;
 using test::read_all;
 using test::TemporaryFolder;
 
@@ -56,7 +53,7 @@ TEST(FindDatasets, KeepsTheGivenOrderAndTakesNamedFilesAsTheyAre) {
 
 TEST(FindDatasets, AFolderNamedLikeACompanionIsSearchedIfItIsNamedItself) {
   const TemporaryFolder folder;
-  const fs::path path = folder.file("boxes/1vf.csv", "");
+  const fs::path path = folder.file("boxes/data.csv/1vf.csv", "");
   EXPECT_EQ(found_in(folder.path() / "boxes"), std::vector<fs::path>{path});
 }
 
@@ -129,67 +126,39 @@ TEST(FindDatasets, NamesWhatItLeavesOutButForCompanions) {
           "s/pipe.csv: left out: neither a file nor a folder", "s/toi/1vf.csv" + in_companions}));
 }
 
-TEST(FindDatasets, AFolderNamedLikeAFileIsAFolder) {
-  const TemporaryFolder folder;
-  const fs::path path = folder.file("data.csv/1vf.csv", "");
-  EXPECT_EQ(found_in(folder.path()), std::vector<fs::path>{path});
-}
-
 const std::string no_kind =
     ": the path does not say whether its queries are vertex-face or edge-edge; pass --kind "
     "vertex-face or --kind edge-edge";
 
-TEST(KindFromPath, TheDeepestPartWinsThenTheEndingOfTheName) {
-  EXPECT_EQ(kind_from_path("a/vertex-face/data_0_0.csv"), Kind::vertex_face);
-  EXPECT_EQ(kind_from_path("a/edge-edge/data_0_0.csv"), Kind::edge_edge);
-  EXPECT_EQ(kind_from_path("vertex-face/x/edge-edge/d.csv"), Kind::edge_edge);
-  EXPECT_EQ(kind_from_path("edge-edge/my-vertex-face-set.npy"), Kind::vertex_face);
-  EXPECT_EQ(kind_from_path("my-edge-edge-queries/1vf.csv"), Kind::edge_edge);
-  EXPECT_EQ(kind_from_path("queries/326vf.csv"), Kind::vertex_face);
-  EXPECT_EQ(kind_from_path("ee.npy"), Kind::edge_edge);
-}
-
-TEST(KindFromPath, TakesLettersForAKindOnlyWhereTheyAreAWord) {
-  for (const std::string name :
-       {"x_ee", "x-ee", "x ee", "x.ee", "ee", "326ee", "x_326ee", "3d-ee"}) {
-    EXPECT_EQ(kind_from_path(name + ".npy"), Kind::edge_edge) << name;
-  }
-  for (const std::string name : {"x_vf", "vf", "92vf", "cloth-92vf", "a_vf"}) {
-    EXPECT_EQ(kind_from_path(name + ".csv"), Kind::vertex_face) << name;
-  }
-  EXPECT_EQ(kind_from_path("2edge-edge_queries/d.csv"), Kind::edge_edge);
+/// The deepest part of the path wins, then the ending of the name; letters are a kind only where
+/// they are a word.
+TEST(KindFromPath, IsThatOfItsDeepestWord) {
   for (const std::string path :
-       {"tree.npy", "x_tree.csv", "coffee.csv", "4fa9ee.npy", "w1ee.csv", "pdvf.csv",
-        "n\xC3\xA9"
-        "ee.csv",
-        "knowledge-edge.csv", "edge-edges/d.csv", "vertex-facet/d.csv", "x_EE.csv", "ee_.csv"}) {
-    EXPECT_EQ(error_of("", [&] { (void)kind_from_path(path); }), path + no_kind);
+       {"a/edge-edge/data_0_0.csv", "vertex-face/x/edge-edge/d.csv", "my-edge-edge-queries/1vf.csv",
+        "2edge-edge_queries/d.csv", "x_ee.npy", "x-ee.npy", "x ee.npy", "x.ee.npy", "ee.npy",
+        "326ee.npy", "x_326ee.npy", "3d-ee.npy"}) {
+    EXPECT_EQ(kind_from_path(path), Kind::edge_edge) << path;
+  }
+  for (const std::string path :
+       {"a/vertex-face/data_0_0.csv", "edge-edge/my-vertex-face-set.npy", "queries/326vf.csv",
+        "x_vf.csv", "vf.csv", "92vf.csv", "cloth-92vf.csv", "a_vf.csv"}) {
+    EXPECT_EQ(kind_from_path(path), Kind::vertex_face) << path;
   }
 }
 
 TEST(KindFromPath, AsksForTheKindWhereThePathDoesNotSayIt) {
-  for (const std::string path : {"data.csv", "vf/data.csv", "vertex_face/data.csv", "vf1.csv"}) {
+  for (const std::string path :
+       {"tree.npy", "x_tree.csv", "coffee.csv", "4fa9ee.npy", "w1ee.csv", "pdvf.csv",
+        "n\xC3\xA9"
+        "ee.csv",
+        "knowledge-edge.csv", "edge-edges/d.csv", "vertex-facet/d.csv", "x_EE.csv", "ee_.csv",
+        "data.csv", "vf/data.csv", "vertex_face/data.csv", "vf1.csv"}) {
     EXPECT_EQ(error_of("", [&] { (void)kind_from_path(path); }), path + no_kind);
   }
   EXPECT_EQ(
       error_of("", [] { (void)kind_from_path("vertex-face/edge-edge-vertex-face.csv"); }),
       "vertex-face/edge-edge-vertex-face.csv: \"edge-edge-vertex-face.csv\" names both kinds; "
       "pass --kind");
-}
-
-TEST(OpenDataset, PicksTheFormatAndTheKind) {
-  const TemporaryFolder folder;
-  const fs::path csv = folder.file("1vf.csv", joined(numbered_lines(2, true)));
-  const fs::path npy = folder.path() / "1ee.npy";
-  NpyWriter writer(npy);
-  for (std::size_t i = 0; i < 2; ++i) writer.write(numbered_query(i));
-  writer.close();
-  const auto from_csv = open_dataset(csv), from_npy = open_dataset(npy);
-  EXPECT_EQ(from_csv->kind(), Kind::vertex_face);
-  EXPECT_EQ(from_npy->kind(), Kind::edge_edge);
-  expect_numbered(read_all(*from_csv), {0, 1});
-  expect_numbered(read_all(*from_npy), {0, 1});
-  EXPECT_EQ(open_dataset(csv, {.kind = Kind::edge_edge})->kind(), Kind::edge_edge);
 }
 
 TEST(OpenDataset, OpeningErrorsThrowEvenIfItKeepsGoing) {

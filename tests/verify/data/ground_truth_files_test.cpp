@@ -98,15 +98,6 @@ TEST(LabelReader, OtherJsonEndsItWithAPlace) {
             twice("f:1:71: expected true or false"));
 }
 
-TEST(LabelReader, Counts) {
-  EXPECT_EQ(labels("[true,\nfalse]", 4),
-            (Answers{"1", "0", "f:2:6: no label for query 2: the array has only 2",
-                     "f:2:6: no label for query 3: the array has only 2"}));
-  EXPECT_EQ(labels("[true,\nfalse]", 1),
-            (Answers{"1", "behind f:2:1: more labels than the 1 queries"}));
-  EXPECT_EQ(labels("[]", 1), Answers{"f:1:2: no label for query 0: the array has only 0"});
-}
-
 TEST(LabelReader, ReportsWhatIsWrongBehindTheLastLabel) {
   EXPECT_EQ(labels("[true", 1), (Answers{"1", "behind f:1:6: expected ',' or ']'"}));
   EXPECT_EQ(labels("[true] x", 1),
@@ -134,8 +125,7 @@ TEST(ToiReader, KeepsEveryDigit) {
 
 TEST(ToiReader, ABadDecimalConcernsOneQuery) {
   EXPECT_EQ(tois("query,toi\n0,1\n1,x\n2,\n3,0\n", 4),
-            (Answers{"1", "f:3:2: not a number: \"x\"", "f:4:2: not a number: \"\"",
-                     "0"}));
+            (Answers{"1", "f:3:2: not a number: \"x\"", "f:4:2: not a number: \"\"", "0"}));
 }
 
 TEST(ToiReader, OtherHeadersAreOpeningErrors) {
@@ -195,18 +185,6 @@ TEST(GroundTruthFiles, AreFoundBesideAndBelowTheFolderOfTheDatasetInOrder) {
   }
 }
 
-TEST(GroundTruthFiles, AreKnownByTheirPaths) {
-  const TemporaryFolder folder;
-  const auto dataset = folder.file("queries/7vf.csv", "");
-  EXPECT_TRUE(find_ground_truth_files(dataset).empty());
-  const auto tois = folder.file("toi/7vf_toi.csv", "");
-  const auto labels = folder.file("queries/7vf_mma_bool.json", "");
-  const auto found = find_ground_truth_files(dataset);
-  ASSERT_EQ(found.size(), 2U);
-  EXPECT_EQ(found[0].lexically_normal(), labels);
-  EXPECT_EQ(found[1].lexically_normal(), tois);
-}
-
 TEST(GroundTruthFiles, OfOtherDatasetsDoNotCount) {
   const TemporaryFolder folder;
   const auto dataset = folder.file("queries/7vf.npy", "");
@@ -215,14 +193,6 @@ TEST(GroundTruthFiles, OfOtherDatasetsDoNotCount) {
   GroundTruthFiles companions(dataset);
   EXPECT_EQ(companions.at(0).collides, std::nullopt);
   EXPECT_EQ(companions.at(0).toi, std::nullopt);
-}
-
-TEST(GroundTruthFiles, ThatCannotBeReadAreErrors) {
-  const TemporaryFolder folder;
-  const auto dataset = folder.file("7vf.csv", "");
-  std::filesystem::create_directory(folder.path() / "7vf_toi.csv");
-  EXPECT_EQ(error_of(folder.path(), [&] { GroundTruthFiles companions(dataset); }),
-            "7vf_toi.csv: is a folder");
 }
 
 }  // namespace

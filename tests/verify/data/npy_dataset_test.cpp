@@ -7,7 +7,6 @@
 #include <limits>
 #include <map>
 #include <numeric>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,7 +16,6 @@
 namespace touchstone::verify::data::npy_dataset_test {
 namespace {
 
-using test::contents;
 using test::error_of;
 using test::expect_numbered;
 using test::npy_queries;
@@ -79,15 +77,6 @@ TEST(NpyDataset, NamesTheCoordinateThatIsNotFiniteAndSkipsItsQueryOnly) {
       EXPECT_EQ(kept.messages, std::vector<std::string>{expected});
     }
   }
-}
-
-TEST(NpyDataset, OfNoQueriesEndsAtOnce) {
-  const TemporaryFolder folder;
-  NpyWriter(folder.path() / "a_vf.npy").close();
-  NpyDataset source(folder.path() / "a_vf.npy", {});
-  EXPECT_FALSE(source.next().has_value());
-  EXPECT_EQ(source.progress(), 1.0);
-  EXPECT_EQ(source.skipped(), 0U);
 }
 
 TEST(NpyDataset, ThatBecomesShorterGivesWhatIsThereAndThenOneError) {
@@ -219,26 +208,11 @@ TEST_F(NpzQueries, ThatAreNotFiniteAreSkippedOnDemand) {
   EXPECT_EQ(source.skipped(), 1U);
 }
 
-TEST_F(NpzQueries, AreTheOnlyArray) {
-  const std::string queries = tests::array("<f8", {2, 8, 3}, coordinates<double>(2));
-  const std::vector<std::uint8_t> labels{1, 0};
-  NpyDataset source(
-      write({{"arr_0.npy", queries}, {"collides.npy", tests::array("|b1", {2}, labels)}}), {});
-  const auto records = read_all(source);
-  ASSERT_EQ(records.size(), 2U);
-  EXPECT_EQ(records[0].collides, true);
-  EXPECT_EQ(records[1].query.coordinates.at(23), 1.0 + 23.0 / 32.0);
-}
-
 TEST_F(NpzQueries, OfAnotherShapeOrTypeAreErrors) {
   const std::vector<double> numbers = coordinates<double>(2);
   const std::string queries = tests::array("<f8", {2, 8, 3}, numbers);
-  EXPECT_EQ(error_with({{"V.npy", queries}, {"F.npy", queries}, {"collides.npy", queries}}),
-            "a_ee.npz: no array \"queries\", nor a single one; it has: F, V");
   EXPECT_EQ(error_with({{"queries.npy", tests::array("<f8", {16, 3}, numbers)}}),
             "a_ee.npz: queries: shape (16, 3), expected (N, 8, 3)");
-  EXPECT_EQ(error_with({{"queries.npy", tests::array("<i8", {2, 8, 3}, numbers)}}),
-            "a_ee.npz: queries: dtype \"<i8\", expected <f4 or <f8");
   EXPECT_EQ(error_with({{"queries.npy", tests::array("<f8", {3, 8, 3}, numbers)}}),
             "a_ee.npz: queries: 384 bytes of data do not fit shape (3, 8, 3) of dtype \"<f8\"");
   const std::vector<std::uint8_t> labels{1};

@@ -2,10 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <cstdint>
 #include <cstring>
-#include <filesystem>
 #include <limits>
 #include <random>
 #include <string>
@@ -68,22 +65,6 @@ void expect_two_queries(const std::string& file) {
   EXPECT_EQ(npy_queries(folder.file("a.npy", file)), two_queries());
 }
 
-TEST(NpyArray, ReadsAVersion1FileMadeByteByByte) {
-  std::string file = "\x93NUMPY";
-  file += '\x01';
-  file += '\x00';
-  file += '\x46';  // 70 bytes of header: 10 + 70 is a multiple of 16, as old NumPy aligned it.
-  file += '\x00';
-  file += "{'descr': '<f8', 'fortran_order': False, 'shape': (1, 8, 3), }";
-  file += "       \n";
-  ASSERT_EQ(file.size(), 80U);
-  for (int i = 0; i < 24; ++i) file += std::string("\0\0\0\0\0\0\xf8\xbf", 8);
-  const TemporaryFolder folder;
-  const std::vector<Query> queries = npy_queries(folder.file("a.npy", file));
-  ASSERT_EQ(queries.size(), 1U);
-  for (const double x : queries[0].coordinates) EXPECT_EQ(x, -1.5);
-}
-
 TEST(NpyArray, ReadsVersions1To3AndHeadersThatOthersWrite) {
   const std::string data = bytes_of(two_queries());
   for (const char version : {'\1', '\2', '\3'}) {
@@ -103,12 +84,6 @@ TEST(NpyArray, NamesWhatIsNoNumpyFile) {
   EXPECT_EQ(open_error(""), "a.npy: not a NumPy file");
   EXPECT_EQ(open_error("1,1,1,1,1,1\n"), "a.npy: not a NumPy file");
   EXPECT_EQ(open_error("\x93NUMPY\x01"), "a.npy: not a NumPy file");
-  const TemporaryFolder folder;
-  EXPECT_EQ(error_of(folder.path(), [&] { NpyArray npy(folder.path() / "none.npy"); }),
-            "none.npy: cannot open: No such file or directory");
-  std::filesystem::create_directory(folder.path() / "folder.npy");
-  EXPECT_EQ(error_of(folder.path(), [&] { NpyArray npy(folder.path() / "folder.npy"); }),
-            "folder.npy: is a folder");
 }
 
 TEST(NpyArray, NamesUnknownVersionsAndTruncatedHeaders) {
@@ -122,29 +97,6 @@ TEST(NpyArray, NamesUnknownVersionsAndTruncatedHeaders) {
   }
 }
 
-/// The arrays of two queries that NumPy writes otherwise: the bytes are those of its `save`.
-TEST(NpyArray, ReadsSinglePrecisionColumnsAndTheHeadersOfPython2) {
-  expect_two_queries(header("{'descr': '<f8', 'fortran_order': False, 'shape': (2L, 8L, 3L), }") +
-                     bytes_of(two_queries()));
-  std::vector<double> columns;
-  std::vector<float> rounded;
-  const std::vector<Query> queries = two_queries();
-  for (std::size_t k = 0; k < 24; ++k) {
-    // The first index is the fastest, the axis the slowest.
-    for (const Query& query : queries) columns.push_back(query.coordinates.at(k % 8 * 3 + k / 8));
-  }
-  for (const Query& query : queries)
-    rounded.insert(rounded.end(), query.coordinates.begin(), query.coordinates.end());
-  const auto bytes = [](const auto& numbers) {
-    const void* const data = numbers.data();
-    return std::string(static_cast<const char*>(data), numbers.size() * sizeof(numbers[0]));
-  };
-  expect_two_queries(header("{'descr': '<f8', 'fortran_order': True, 'shape': (2, 8, 3), }") +
-                     bytes(columns));
-  expect_two_queries(header("{'descr': '<f4', 'fortran_order': False, 'shape': (2, 8, 3), }") +
-                     bytes(rounded));
-}
-
 TEST(NpyArray, NamesEveryOtherKindOfNumber) {
   for (const std::string dtype : {">f8", "=f8", "|f8", "<i8", "<f16", "f8", "float64", ""}) {
     const TemporaryFolder folder;
@@ -155,15 +107,6 @@ TEST(NpyArray, NamesEveryOtherKindOfNumber) {
   }
   EXPECT_EQ(header_error("{'descr': [('x', '<f8')], 'fortran_order': False, 'shape': (2, 8, 3), }"),
             "a.npy: the array has named fields, expected numbers");
-}
-
-TEST(NpyArray, AnArrayOfNoQueriesIsOne) {
-  const TemporaryFolder folder;
-  NpyArray npy(folder.file(
-      "a.npy", header("{'descr': '<f8', 'fortran_order': False, 'shape': (0, 8, 3), }")));
-  EXPECT_EQ(npy.shape(), (std::vector<std::uint64_t>{0, 8, 3}));
-  NpyWriter(folder.path() / "b.npy").close();
-  EXPECT_EQ(NpyArray(folder.path() / "b.npy").shape()[0], 0U);
 }
 
 TEST(NpyArray, NamesHeadersThatAreNoDictionaryOfTheseThree) {
@@ -246,12 +189,6 @@ TEST(NpyWriter, RefusesWhatIsNotFiniteAndStaysUsable) {
   writer.write(numbered_query(0));
   writer.close();
   EXPECT_EQ(npy_queries(folder.path() / "a.npy"), std::vector{numbered_query(0)});
-}
-
-TEST(NpyWriter, WithoutCloseThereIsNoFile) {
-  const TemporaryFolder folder;
-  { NpyWriter(folder.path() / "a.npy").write(numbered_query(0)); }
-  EXPECT_TRUE(folder.names().empty());
 }
 
 }  // namespace

@@ -58,22 +58,5 @@ TEST(Npz, WithABitThatFlippedIsAnErrorOrHasTheSameNumbers) {
   }
 }
 
-TEST(Npz, ThatCannotBeOpenedIsAnError) {
-  const TemporaryFolder folder;
-  EXPECT_EQ(error_of(folder.path(), [&] { (void)Npz(folder.path() / "b.npz"); }),
-            "b.npz: cannot open: No such file");
-  EXPECT_EQ(error_of(folder.path(), [&] { (void)Npz(folder.file("c.npz", "text")); }),
-            "c.npz: cannot open: Not a zip archive");
-  const auto path = tests::archive(folder.path() / "d.npz", {{"x.npy", ""}, {"y.npy", ""}}, false);
-  const std::string whole = test::contents(path);
-  EXPECT_EQ(error_of(folder.path(), [&] { (void)Npz(folder.file("e.npz", whole + "more")); }),
-            "e.npz: cannot open: bytes follow the archive, or its directory is damaged; write it "
-            "anew");
-  std::string twice = whole;
-  for (std::size_t at = 0; (at = twice.find("y.npy", at)) != std::string::npos;) twice[at] = 'x';
-  EXPECT_EQ(error_of(folder.path(), [&] { (void)Npz(folder.file("f.npz", twice)); }),
-            "f.npz: cannot open: two members have one name; write it anew");
-}
-
 }  // namespace
 }  // namespace touchstone::verify::data::npz_test

@@ -5,7 +5,6 @@
 #include <cstdint>
 #include <optional>
 #include <stdexcept>
-#include <string>
 #include <utility>
 #include <vector>
 
@@ -49,12 +48,6 @@ TEST(QueryGroup, KnowsWhereItsQueriesComeFrom) {
     EXPECT_EQ(place.source, "memory");
     EXPECT_EQ(static_cast<double>(place.index), group.queries()[i].coordinates[0]) << i;
   }
-}
-
-TEST(QueryGroup, OfQueriesMadeHereNamesItselfAndTheirPositions) {
-  const QueryGroup group("patches", Kind::vertex_face, std::vector<Query>(3));
-  EXPECT_EQ(group.place_of(2).source, "patches");
-  EXPECT_EQ(group.place_of(2).index, 2U);
 }
 
 TEST(QueryGroup, RefusesAnotherKind) {

@@ -146,28 +146,18 @@ void read_obj_file(const fs::path& path) { check_mesh(touchstone::verify::mesh::
 
 void read_ply_file(const fs::path& path) { check_mesh(touchstone::verify::mesh::read_ply(path)); }
 
-void read_labels(const fs::path& path) {
-  touchstone::verify::data::LabelReader labels(path);
+/// Reads the labels or times of some queries.
+template <class Reader>
+void read_truth(const fs::path& path) {
+  Reader truth(path);
   std::uint64_t index = 0;
   for (; index < 100; index += 1 + index % 3) {
     try {
-      static_cast<void>(labels.at(index));
-    } catch (const DatasetError&) {  // A label may be faulty and the next one valid.
+      static_cast<void>(truth.at(index));
+    } catch (const DatasetError&) {  // One may be faulty and the next one valid.
     }
   }
-  static_cast<void>(labels.beyond(index));
-}
-
-void read_tois(const fs::path& path) {
-  touchstone::verify::data::ToiReader tois(path);
-  std::uint64_t index = 0;
-  for (; index < 100; index += 1 + index % 3) {
-    try {
-      static_cast<void>(tois.at(index));
-    } catch (const DatasetError&) {  // The same as above.
-    }
-  }
-  static_cast<void>(tois.beyond(index));
+  static_cast<void>(truth.beyond(index));
 }
 
 void read_separation_file(const fs::path& path) {
@@ -179,14 +169,15 @@ struct Reader {
   void (*read)(const fs::path& path);
 };
 
-constexpr std::array<Reader, 8> readers{{{"csv", read_csv},
-                                         {"npy", read_npy},
-                                         {"answers", read_answers},
-                                         {"obj", read_obj_file},
-                                         {"ply", read_ply_file},
-                                         {"labels", read_labels},
-                                         {"tois", read_tois},
-                                         {"separation", read_separation_file}}};
+constexpr std::array<Reader, 8> readers{
+    {{"csv", read_csv},
+     {"npy", read_npy},
+     {"answers", read_answers},
+     {"obj", read_obj_file},
+     {"ply", read_ply_file},
+     {"labels", read_truth<touchstone::verify::data::LabelReader>},
+     {"tois", read_truth<touchstone::verify::data::ToiReader>},
+     {"separation", read_separation_file}}};
 
 const Reader& chosen_reader() {
   const char* const name = std::getenv("TOUCHSTONE_READER");

@@ -2,10 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <filesystem>
 #include <fstream>
-#include <limits>
 #include <string>
 
 #include "tests/support/folder_test.hpp"
@@ -16,29 +14,19 @@ namespace {
 
 namespace fs = std::filesystem;
 
-TEST(DistanceFromText, TakesWhatStrtodTakes) {
-  EXPECT_EQ(distance_from_text("1e-8"), 1e-8);
-  EXPECT_EQ(distance_from_text("0x1.8p-3"), 0.1875);
-  EXPECT_EQ(distance_from_text("0.1"), 0.1);
-  EXPECT_EQ(distance_from_text("5e-324"), std::numeric_limits<double>::denorm_min());
-  for (const char* zero : {"0", "-0.0", "0x0p0", "0e7"}) {
-    ASSERT_EQ(distance_from_text(zero), 0.0) << zero;
-    EXPECT_FALSE(std::signbit(*distance_from_text(zero)));
-  }
-}
-
-TEST(DistanceFromText, RefusesAllElse) {
-  for (const char* bad : {"", " 1", "1 ", "x", "1e", "-1", "-1e-300", "nan", "inf", "1e999",
-                          "1e-999", "0x1p-1080", "1,5", "1e-8m"}) {
-    EXPECT_EQ(distance_from_text(bad), std::nullopt) << bad;
-  }
-}
-
 class SeparationFile : public tests::FolderTest {
  protected:
   [[nodiscard]] fs::path write(const std::string& text) const {
     std::ofstream(path("separation.json"), std::ios::binary) << text;
     return path("separation.json");
+  }
+  [[nodiscard]] static std::string reason(const fs::path& file) {
+    try {
+      (void)read_separation(file);
+    } catch (const io::DatasetError& fault) {
+      return fault.reason();
+    }
+    return "no error";
   }
 };
 
@@ -66,14 +54,7 @@ TEST_F(SeparationFile, BelongsToTheFolderAndToThoseInIt) {
 }
 
 TEST_F(SeparationFile, UnknownAndRepeatedKeysAreErrors) {
-  const auto error = [&](const std::string& text) -> std::string {
-    try {
-      (void)read_separation(write(text));
-    } catch (const io::DatasetError& fault) {
-      return fault.reason();
-    }
-    return "no error";
-  };
+  const auto error = [&](const std::string& text) { return reason(write(text)); };
   const std::string distance = R"("min_separation": "0.5")", norm = R"("norm": "l2")";
   EXPECT_EQ(error("{" + distance + ", " + norm + "}"), "no error");
   EXPECT_EQ(error("{" + distance + ", " + norm + ", " + R"("min_separation": "0.25")" + "}"),
@@ -88,20 +69,11 @@ TEST_F(SeparationFile, UnknownAndRepeatedKeysAreErrors) {
 }
 
 TEST_F(SeparationFile, MessagesAndFilesAreBounded) {
-  const auto error = [&](const fs::path& file) -> std::string {
-    try {
-      (void)read_separation(file);
-    } catch (const io::DatasetError& fault) {
-      return fault.reason();
-    }
-    return "no error";
-  };
-  EXPECT_LE(error(write(R"({"min_separation": ")" + std::string(60000, 'x'))).size(), 1003U);
-  EXPECT_LE(
-      error(write(R"({"min_separation": "1", "norm": ")" + std::string(60000, 'x') + "\"}")).size(),
-      1003U);
-  EXPECT_EQ(error(write(std::string(65537, ' '))), "has more than 65536 bytes");
-  EXPECT_EQ(error("/dev/zero"), "has more than 65536 bytes");
+  const std::string many(60000, 'x');
+  EXPECT_LE(reason(write(R"({"min_separation": ")" + many)).size(), 1003U);
+  EXPECT_LE(reason(write(R"({"min_separation": "1", "norm": ")" + many + "\"}")).size(), 1003U);
+  EXPECT_EQ(reason(write(std::string(65537, ' '))), "has more than 65536 bytes");
+  EXPECT_EQ(reason("/dev/zero"), "has more than 65536 bytes");
 }
 
 TEST_F(SeparationFile, AnInvalidOneIsAnErrorThatNamesTheFile) {

@@ -60,23 +60,6 @@ TEST(ToDecimal, IsWithinHalfAUnitOfTheLastDigit) {
   }
 }
 
-TEST(ToiWriter, WhatIsReadBackIsWhatWasWritten) {
-  const TemporaryFolder folder;
-  const auto path = folder.path() / "a_toi.csv";
-  ToiWriter writer(path);
-  writer.write(0, Rational(0.3));
-  writer.write(4, 0);
-  writer.write(5, ratio(1, 3));
-  writer.close();
-  EXPECT_EQ(contents(path).substr(0, 12), "query,toi\n0,");
-  ToiReader reader(path);
-  EXPECT_EQ(reader.at(0), Rational(0.3));
-  EXPECT_EQ(reader.at(1), std::nullopt);
-  EXPECT_EQ(reader.at(4), Rational(0));
-  EXPECT_EQ(reader.at(5), exact::rational_from_decimal("0." + std::string(60, '3')));
-  EXPECT_FALSE(reader.beyond(6).has_value());
-}
-
 TEST(ToiWriter, RefusesQueriesOutOfOrder) {
   const TemporaryFolder folder;
   ToiWriter writer(folder.path() / "a_toi.csv");
@@ -86,12 +69,6 @@ TEST(ToiWriter, RefusesQueriesOutOfOrder) {
   writer.write(5, 1);
   writer.close();
   EXPECT_EQ(contents(folder.path() / "a_toi.csv"), "query,toi\n4,1E0\n5,1E0\n");
-}
-
-TEST(ToiWriter, WithoutCloseThereIsNoFile) {
-  const TemporaryFolder folder;
-  { ToiWriter(folder.path() / "a_toi.csv").write(0, 1); }
-  EXPECT_TRUE(folder.names().empty());
 }
 
 }  // namespace

@@ -14,14 +14,6 @@ TEST(DatasetError, SaysPathLineColumnAndReasonWithoutThePartsThatAreZero) {
   EXPECT_STREQ(DatasetError("a/b.csv", {}, "bad").what(), "a/b.csv: bad");
 }
 
-TEST(DatasetError, KeepsItsParts) {
-  const DatasetError error("a/b.csv", {.line = 12, .column = 3}, "bad");
-  EXPECT_EQ(error.path(), "a/b.csv");
-  EXPECT_EQ(error.line(), 12U);
-  EXPECT_EQ(error.column(), 3U);
-  EXPECT_EQ(error.reason(), "bad");
-}
-
 TEST(DatasetError, HasABoundedLength) {
   const DatasetError error(std::string(100000, 'p'), {.line = 12, .column = 3},
                            std::string(100000, 'r'));

@@ -29,10 +29,6 @@ TEST(Html, JsonDoesNotEndItsElement) {
             "<script type=\"application/json\" id=\"data\">\"\xef\xbf\xbd\"</script>\n");
 }
 
-TEST(Html, AScriptStandsAsItIs) {
-  EXPECT_EQ(script_element("f(1 < 2);\n"), "<script>\nf(1 < 2);\n</script>\n");
-}
-
 TEST(Html, BytesOfADataUrl) {
   EXPECT_EQ(percent_encoded("a-b_c.1,2"), "a-b_c.1,2");
   EXPECT_EQ(percent_encoded(" \n%\xc2\xb5\""), "%20%0A%25%C2%B5%22");

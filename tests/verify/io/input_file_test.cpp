@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <array>
-#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -34,14 +33,6 @@ std::vector<OwnedLine> lines_of(const std::string& text) {
   return lines;
 }
 
-TEST(InputFile, NamesAFileThatIsNotThereAndAFolder) {
-  const TemporaryFolder folder;
-  EXPECT_EQ(error_of(folder.path(), [&] { InputFile file(folder.path() / "none"); }),
-            "none: cannot open: No such file or directory");
-  EXPECT_EQ(error_of(folder.path().parent_path(), [&] { InputFile file(folder.path()); }),
-            folder.path().filename().string() + ": is a folder");
-}
-
 TEST(InputFile, AReadErrorIsReportedOnceAndEndsTheFile) {
   // Address 0 is never mapped, so the system answers the first read of this file with an error.
   InputFile file("/proc/self/mem");
@@ -60,16 +51,6 @@ TEST(InputFile, IsReadWholeUpToALimit) {
             "text: has more than 199999 bytes");
   EXPECT_EQ(error_of("", [] { (void)read_file("/dev/zero", 10); }),
             "/dev/zero: has more than 10 bytes");
-}
-
-TEST(InputFile, ProgressIsTheFractionRead) {
-  const TemporaryFolder folder;
-  InputFile file(folder.file("eight", "12345678"));
-  std::array<char, 2> buffer{};
-  EXPECT_EQ(file.size(), 8U);
-  EXPECT_EQ(file.progress(), 0.0);
-  EXPECT_EQ(file.read(buffer), 2U);
-  EXPECT_EQ(file.progress(), 0.25);
 }
 
 TEST(LineReader, ReadsAllLineEnds) {
@@ -160,13 +141,6 @@ TEST(LineReader, PassesOverLinesBeyondTheLimitAndNoOthers) {
             (std::vector<OwnedLine>{{"b", 1, false}, {"", 2, true}}));
   EXPECT_EQ(lines_of(std::string(longest.size() + 2, ' ') + "\n"),
             (std::vector<OwnedLine>{{"", 1, true}}));
-}
-
-TEST(Trimmed, RemovesSpacesAndTabsAtBothEndsOnly) {
-  EXPECT_EQ(trimmed(" \ta b\t "), "a b");
-  EXPECT_EQ(trimmed("a"), "a");
-  EXPECT_EQ(trimmed(" \t "), "");
-  EXPECT_EQ(trimmed(""), "");
 }
 
 }  // namespace

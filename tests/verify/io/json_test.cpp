@@ -69,11 +69,6 @@ TEST_F(JsonFile, WithAKeyTwiceOrANumberBeyondTheRangeIsAnError) {
   EXPECT_EQ(error_of("\xEF\xBB\xBF{}"), "");
 }
 
-TEST(Json, EmptyTextsAreNull) {
-  EXPECT_EQ(text_or_null("a"), "a");
-  EXPECT_TRUE(text_or_null("").is_null());
-}
-
 TEST(Json, DocumentsAreAscii) {
   EXPECT_EQ(json_document({{"a", "\u202e\x1b"}}), "{\n  \"a\": \"\\u202e\\u001b\"\n}\n");
   EXPECT_EQ(json_document("caf\xe9"), "\"caf\\ufffd\"\n");

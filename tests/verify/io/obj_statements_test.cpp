@@ -67,23 +67,5 @@ TEST(ObjStatements, AreOfKnownKeywords) {
             "a.obj:1: \"surf\" may add to the mesh and is not read: write its faces (f)");
 }
 
-TEST(ObjStatements, AllowAWeightOrAColourBehindAVertex) {
-  const TemporaryFolder folder;
-  ObjStatements statements(folder.file("a.obj", ""));
-  const auto fault = [&](const std::string& words) {
-    return error_of(folder.path(), [&] { statements.pass_over_behind_vertex(words, 7); });
-  };
-  for (const std::string words : {"", " ", " 1", "1.0", "0.5 1 0.25", "nan nan nan"}) {
-    EXPECT_EQ(fault(words), "no DatasetError") << words;
-  }
-  EXPECT_EQ(statements.passed_over(), Texts{"colours of vertices 2"});
-  EXPECT_EQ(fault("garbage 1e"), "a.obj:7: \"garbage\" is no number, or none that a double holds");
-  EXPECT_EQ(fault("0.5"),
-            "a.obj:7: a weight other than 1; only straight edges and flat faces are read");
-  EXPECT_EQ(fault("1 2"),
-            "a.obj:7: three coordinates and 2 more numbers; only a weight or three of a colour may "
-            "follow");
-}
-
 }  // namespace
 }  // namespace touchstone::verify::io::obj_statements_test

@@ -2,15 +2,12 @@
 
 #include <gtest/gtest.h>
 #include <sched.h>
-#include <sys/resource.h>
 #include <sys/socket.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <array>
-#include <csignal>
 #include <filesystem>
 #include <string>
 #include <thread>
@@ -25,28 +22,6 @@ namespace {
 using data::test::contents;
 using data::test::error_of;
 using data::test::TemporaryFolder;
-
-/// A limit of file sizes: writes beyond it fail as on a full disk during the life of this object.
-class FileSizeLimit {
- public:
-  explicit FileSizeLimit(rlim_t bytes) : handler_(std::signal(SIGXFSZ, SIG_IGN)) {
-    ::getrlimit(RLIMIT_FSIZE, &limit_);
-    const rlimit lower{.rlim_cur = bytes, .rlim_max = limit_.rlim_max};
-    ::setrlimit(RLIMIT_FSIZE, &lower);
-  }
-  FileSizeLimit(const FileSizeLimit&) = delete;
-  FileSizeLimit& operator=(const FileSizeLimit&) = delete;
-  FileSizeLimit(FileSizeLimit&&) = delete;
-  FileSizeLimit& operator=(FileSizeLimit&&) = delete;
-  ~FileSizeLimit() {
-    ::setrlimit(RLIMIT_FSIZE, &limit_);
-    std::signal(SIGXFSZ, handler_);
-  }
-
- private:
-  rlimit limit_{};
-  void (*handler_)(int);
-};
 
 TEST(OutputFile, HasItsNameAndAllItsBytesAfterClose) {
   const TemporaryFolder folder;
@@ -200,22 +175,6 @@ TEST(OutputFile, NamesTheTargetWhereNoFileCanBeMadeOrRenamed) {
                      }),
             "taken: cannot write: Is a directory");
   EXPECT_EQ(folder.names(), std::vector<std::string>{"taken"});
-}
-
-TEST(OutputFile, AFullDiskIsAnErrorAndLeavesNothing) {
-  const TemporaryFolder folder;
-  const FileSizeLimit limit(100000);
-  const auto write_bytes = [&](std::size_t count) {
-    return error_of(folder.path(), [&] {
-      OutputFile file(folder.path() / "out");
-      file.write(std::string(count, 'x'));
-      file.close();
-    });
-  };
-  EXPECT_EQ(write_bytes(100001), "out: cannot write: File too large");
-  EXPECT_TRUE(folder.names().empty());
-  EXPECT_EQ(write_bytes(100000), "no DatasetError");
-  EXPECT_EQ(folder.names(), std::vector<std::string>{"out"});
 }
 
 }  // namespace

@@ -2,8 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <limits>
-
 namespace touchstone::verify::io::text_table_test {
 namespace {
 
@@ -30,22 +28,6 @@ TEST(TextTable, HasLinesAcrossItsColumns) {
   table.add_line("  a long line");
   table.add({"3", "4"});
   EXPECT_EQ(table.text(), "a  b\n1  2\n  a long line\n3  4\n");
-}
-
-TEST(TextTable, WithoutRowsIsItsHeader) {
-  EXPECT_EQ(TextTable({word_column("a", 3), {"b", 2}}).text(), "a     b\n");
-}
-
-TEST(Joined, PutsListsOneBehindTheOther) {
-  EXPECT_EQ(joined<std::string>({{"a", "b"}, {}, {"c"}}), (TextRow{"a", "b", "c"}));
-}
-
-TEST(NumberText, IsADashWithoutANumber) {
-  EXPECT_EQ(number_text(12.34, "{:.1f}"), "12.3");
-  EXPECT_EQ(number_text(std::nullopt, "{:.1f}"), "-");
-  EXPECT_EQ(number_text(std::numeric_limits<double>::quiet_NaN(), "{:.1f}"), "-");
-  EXPECT_EQ(error_text(0.25), "2.50e-01");
-  EXPECT_EQ(error_text(std::numeric_limits<double>::quiet_NaN()), "-");
 }
 
 }  // namespace

@@ -2,8 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <array>
-#include <cmath>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
@@ -67,14 +65,6 @@ TEST(Frames, OfAFolderAreInTheOrderOfTheirNumbers) {
   EXPECT_EQ(left_out, (std::vector{folder.path() / "notes.txt"}));
 }
 
-TEST(Frames, OfFilesAreInTheirOrder) {
-  const MeshFolder folder;
-  const auto frames = open({folder.file("b.obj", triangle(2)), folder.file("a.obj", triangle(1))});
-  EXPECT_EQ(frames->mesh().faces.size(), 1U);
-  EXPECT_EQ(frames->next()(0, 2), 2.0);
-  EXPECT_EQ(frames->next()(0, 2), 1.0);
-}
-
 TEST(Frames, OfAnotherMeshAreAnError) {
   const MeshFolder folder;
   const std::vector<std::string> others{triangle(1) + "v 1 1 1\n", triangle(1) + "f 3 2 1\n",
@@ -120,44 +110,6 @@ TEST(Frames, OfALargeArchiveAreReadInParts) {
                                          {"P.npy", array<std::uint8_t>("|u1", {1}, {7})}})});
   EXPECT_EQ(frames->next()(vertices - 1, 2), 3.0 * vertices - 1);
   EXPECT_EQ(frames->next()(vertices - 1, 2), 6.0 * vertices - 1);
-}
-
-TEST(Frames, HaveElementsOfAnyTypeOfWholeNumbers) {
-  const MeshFolder folder;
-  const auto expect = [&]<class Number>(const std::string& descr, Number) {
-    const auto frames =
-        open({archive(folder.path() / "a.npz",
-                      {{"V.npy", array<double>("<f8", {1, 4, 3}, std::vector<double>(12))},
-                       {"F.npy", array<Number>(descr, {1, 3}, {0, 1, 2})},
-                       {"E.npy", array<Number>(descr, {1, 2}, {3, 0})},
-                       {"P.npy", array<Number>(descr, {2, 1}, {3, 1})}})});
-    EXPECT_EQ(frames->mesh().faces, (std::vector<fast::Face>{{0, 1, 2}})) << descr;
-    EXPECT_EQ(frames->mesh().edges.size(), 4U) << descr;
-    EXPECT_EQ(frames->mesh().points, (std::vector<std::int32_t>{1, 3})) << descr;
-  };
-  expect("|i1", std::int8_t{});
-  expect("|u1", std::uint8_t{});
-  expect("<i2", std::int16_t{});
-  expect("<u2", std::uint16_t{});
-  expect("<i4", std::int32_t{});
-  expect("<u4", std::uint32_t{});
-  expect("<i8", std::int64_t{});
-  expect("<u8", std::uint64_t{});
-}
-
-TEST(Frames, MustHaveAnElementThatCanCollide) {
-  const MeshFolder folder;
-  const auto error = [&](const fs::path& file) {
-    return error_of(folder, [&] { (void)open({file}); });
-  };
-  EXPECT_EQ(error(folder.file("a.obj", "v 0 0 0\nv 1 1 1 1 0 0\nvt 0 0\n")),
-            "a.obj: nothing in it can collide: no face, edge or point, only vertices: 2; passed "
-            "over: colours of vertices 1, vt 1");
-  EXPECT_EQ(
-      error(archive(folder.path() / "b.npz", {{"V.npy", array<double>("<f8", {1, 1, 3}, {0, 0, 0})},
-                                              {"F.npy", array<std::int32_t>("<i4", {0, 3}, {})}})),
-      "b.npz: nothing in it can collide: no face, edge or point, only vertices: 1");
-  EXPECT_EQ(error(folder.file("c.obj", "v 0 0 0\np 1\n")), "");
 }
 
 TEST(Frames, SayWhatIsWrongWithAnArchive) {

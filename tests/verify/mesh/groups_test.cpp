@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <stdexcept>
 #include <string>
 
 #include "tests/support/mesh_files.hpp"
@@ -40,23 +39,6 @@ TEST(ReadGroups, NeedsALineForEachVertex) {
   EXPECT_EQ(error_of(folder, "a\nb\nc\n", 2),
             "groups.txt:3: a group for more than the 2 vertices of the mesh");
   EXPECT_EQ(error_of(folder, "a\n\nb\n", 3), "groups.txt:2: no name of a group");
-}
-
-TEST(GroupNumbers, AreThoseOfTheNames) {
-  const Groups groups{.names = {"cloth", "ball"}, .of_vertex = {0, 1}, .error = {}};
-  const std::vector<std::pair<std::string, std::string>> names{{"ball", "ball"}, {"cloth", "ball"}};
-  EXPECT_EQ(numbers_of(groups, names), (std::vector<std::array<std::int32_t, 2>>{{1, 1}, {0, 1}}));
-}
-
-TEST(GroupNumbers, NameWhatIsUnknown) {
-  const Groups groups{.names = {"cloth", "ball"}, .of_vertex = {0, 1}, .error = {}};
-  const std::vector<std::pair<std::string, std::string>> names{{"ball", "wall"}};
-  try {
-    (void)numbers_of(groups, names);
-    FAIL();
-  } catch (const std::invalid_argument& error) {
-    EXPECT_STREQ(error.what(), "no group \"wall\"; there are: \"cloth\", \"ball\"");
-  }
 }
 
 }  // namespace

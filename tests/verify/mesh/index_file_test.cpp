@@ -29,12 +29,6 @@ std::string header(const std::string& shape) {
   return text + std::string(127 - text.size(), ' ') + '\n';
 }
 
-TEST(WriteIndexPairs, WritesTheArrayByteByByte) {
-  EXPECT_EQ(written({}), header("(0, 2)"));
-  EXPECT_EQ(written({{1, -2}, {0x01020304, 5}}),
-            header("(2, 2)") + std::string("\1\0\0\0\xFE\xFF\xFF\xFF\4\3\2\1\5\0\0\0", 16));
-}
-
 TEST(WriteIndexPairs, WritesMoreThanItsBufferHolds) {
   std::vector<std::array<std::int32_t, 2>> pairs(50'001);
   for (std::size_t i = 0; i < pairs.size(); ++i) {
@@ -44,11 +38,6 @@ TEST(WriteIndexPairs, WritesMoreThanItsBufferHolds) {
   ASSERT_EQ(bytes.size(), 128 + 8 * pairs.size());
   EXPECT_EQ(bytes.substr(0, 128), header("(50001, 2)"));
   EXPECT_EQ(std::memcmp(bytes.data() + 128, pairs.data(), 8 * pairs.size()), 0);
-}
-
-TEST(WriteIndexPairs, SaysWhereItCannot) {
-  const MeshFolder folder;
-  EXPECT_THROW(write_index_pairs(folder.path() / "none" / "a.npy", {}), io::DatasetError);
 }
 
 }  // namespace

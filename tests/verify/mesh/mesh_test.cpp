@@ -49,13 +49,5 @@ TEST(ReadMesh, GoesByTheExtensionInEitherCase) {
   EXPECT_EQ(folder.error("e", ""), "e: unknown format: only .ply and .obj are meshes");
 }
 
-TEST(ReadMesh, SaysWhyAFileCannotBeRead) {
-  const MeshFolder folder;
-  EXPECT_EQ(folder.error_of(folder.path() / "missing.ply"),
-            "missing.ply: cannot open: No such file or directory");
-  std::filesystem::create_directory(folder.path() / "folder.obj");
-  EXPECT_EQ(folder.error_of(folder.path() / "folder.obj"), "folder.obj: is a folder");
-}
-
 }  // namespace
 }  // namespace touchstone::verify::mesh::mesh_test
