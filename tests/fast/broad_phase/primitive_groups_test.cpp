@@ -79,7 +79,7 @@ TEST(PrimitiveGroups, AreSixteenNeighboursEach) {
 }
 
 TEST(PrimitiveGroups, OfEqualPrimitivesAreAnyAndTakeNoLongerToFind) {
-  static constexpr int count = 100'000;
+  static constexpr int count = 100'001;
   const Eigen::MatrixX3d points = Eigen::MatrixX3d::Constant(count, 3, 1.0);
   std::vector<std::int32_t> vertices(count);
   std::iota(vertices.begin(), vertices.end(), 0);

@@ -19,9 +19,10 @@
 #include "tests/support/scenes.hpp"
 
 namespace touchstone::fast {
-
 extern const SearchKernel emulated_avx512_search_kernel;
+}
 
+namespace touchstone::fast::search_test {
 namespace {
 
 using tests::Random;
@@ -417,4 +418,4 @@ TEST(Search, PlantedFaultsAreFound) {
 }
 
 }  // namespace
-}  // namespace touchstone::fast
+}  // namespace touchstone::fast::search_test

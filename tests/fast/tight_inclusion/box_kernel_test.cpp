@@ -17,7 +17,7 @@
 #include "tests/support/random.hpp"
 #include "touchstone/filters/expressions.hpp"
 
-namespace touchstone::fast {
+namespace touchstone::fast::box_kernel_test {
 namespace {
 
 using tests::Random;
@@ -193,4 +193,4 @@ TEST_P(EachKernel, TestsTheBoxOfItsCorners) {
 }
 
 }  // namespace
-}  // namespace touchstone::fast
+}  // namespace touchstone::fast::box_kernel_test
