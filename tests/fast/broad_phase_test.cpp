@@ -10,7 +10,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <limits>
 #include <map>
 #include <numeric>
@@ -22,10 +21,8 @@
 #include "tests/support/process_memory.hpp"
 #include "tests/support/random.hpp"
 #include "tests/support/scenes.hpp"
-#include "tests/support/simulation_steps.hpp"
 #include "tests/support/trials.hpp"
 #include "touchstone/number.hpp"
-#include "touchstone/oracle.hpp"
 
 namespace touchstone::fast::broad_phase_test {
 namespace {
@@ -202,37 +199,19 @@ TEST(BroadPhase, MayBeCalledFromTasks) {
   for (const Pairs& pairs : found) EXPECT_EQ(pairs, expected);
 }
 
-/// The message of an exception of that type, or "".
-template <class Error>
-std::string message(const std::function<void()>& work) {
-  try {
-    work();
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "";
-}
-
-TEST(BroadPhase, NamesTheVertexThatIsNotFinite) {
+/// (With the messages of steps: step_test.cpp.)
+TEST(BroadPhase, RefusesWhatIsNotFiniteAndIndicesOutOfRange) {
   for (const double bad : {std::nan(""), std::numeric_limits<double>::infinity()}) {
     Scene scene = vertex_beside_triangle(0);
     scene.end(2, 1) = -bad;
-    EXPECT_EQ(message<std::domain_error>([&] { (void)found_vertex_face(scene); }),
-              "vertex 2: a coordinate is not finite");
-    EXPECT_EQ(message<std::domain_error>([&] { (void)found_edge_edge(scene); }),
-              "vertex 2: a coordinate is not finite");
+    EXPECT_THROW((void)found_vertex_face(scene), std::domain_error);
+    EXPECT_THROW((void)found_edge_edge(scene), std::domain_error);
   }
-}
-
-TEST(BroadPhase, NamesThePrimitiveWithAnIndexOutOfRange) {
-  const Scene scene = vertex_beside_triangle(0);
-  const MovingVertices vertices{scene.start, scene.end};
-  const std::vector<Face> faces{{0, 1, 2}, {1, 2, 4}};
-  EXPECT_EQ(message<std::out_of_range>([&] { (void)vertex_face_candidates(vertices, faces); }),
-            "face 1: vertex 4, but there are 4");
-  const std::vector<Edge> edges{{-1, 2}};
-  EXPECT_EQ(message<std::out_of_range>([&] { (void)edge_edge_candidates(vertices, edges); }),
-            "edge 0: vertex -1, but there are 4");
+  Scene scene = vertex_beside_triangle(0);
+  scene.faces = {{0, 1, 2}, {1, 2, 4}};
+  scene.edges = {{-1, 2}};
+  EXPECT_THROW((void)found_vertex_face(scene), std::out_of_range);
+  EXPECT_THROW((void)found_edge_edge(scene), std::out_of_range);
 }
 
 /// Unconnected edges that all have the same swept box: every pair is a candidate.
@@ -294,52 +273,6 @@ TEST(EdgesOf, GoByTheirLargerVertexThenByTheSmaller) {
   EXPECT_EQ(edges_of({}), std::vector<Edge>{});
   const std::vector<Face> degenerate{{5, 5, 2}, {7, 7, 7}};
   EXPECT_EQ(edges_of(degenerate), (std::vector<Edge>{{2, 5}}));
-}
-
-// ---- The public data ----------------------------------------------------------------------------
-
-struct Published {
-  std::string_view scene;
-  Kind kind;
-  std::size_t candidates;
-  std::ptrdiff_t collisions;
-};
-
-constexpr auto published = std::to_array<Published>({
-    {"cloth-ball", Kind::vertex_face, 1'655'541, 19'032},
-    {"cloth-ball", Kind::edge_edge, 5'197'332, 94'822},
-    {"armadillo-rollers", Kind::vertex_face, 2'031'902, 4'650},
-    {"armadillo-rollers", Kind::edge_edge, 5'068'080, 19'308},
-    {"cloth-funnel", Kind::vertex_face, 7'319, 27},
-    {"cloth-funnel", Kind::edge_edge, 33'770, 107},
-});
-
-/// Compares the label of one query in `stride` with the oracle.
-constexpr std::size_t stride = 97;
-
-void expect_as_published(const tests::SimulationStep& step, const Published& expected) {
-  const tests::LabelledPairs& labelled = step.labelled(expected.kind);
-  EXPECT_EQ(std::ranges::count(labelled.collides, true), expected.collisions);
-  const Pairs found =
-      sorted(expected.kind == Kind::vertex_face ? vertex_face_candidates(step.vertices, step.faces)
-                                                : edge_edge_candidates(step.vertices, step.edges));
-  EXPECT_EQ(found.size(), expected.candidates);
-  for (std::size_t i = 0; i < labelled.pairs.size(); ++i) {
-    EXPECT_TRUE(std::ranges::binary_search(found, labelled.pairs[i])) << i;
-    if (i % stride != 0) continue;
-    const Query query =
-        query_of(step.vertices, step.candidates(expected.kind, labelled.pairs), labelled.pairs[i]);
-    EXPECT_EQ(exact::decide(expected.kind, query).collides(), labelled.collides[i]) << i;
-  }
-}
-
-TEST(PublicSteps, HaveThePublishedCandidatesAndLabelsPairByPair) {
-  const auto folder = tests::simulation_folder();
-  if (folder.empty()) GTEST_SKIP() << "public data missing";
-  for (const Published& expected : published) {
-    SCOPED_TRACE(std::string(expected.scene) + " " + std::string(to_string(expected.kind)));
-    expect_as_published(tests::load_simulation_step(folder, expected.scene), expected);
-  }
 }
 
 }  // namespace

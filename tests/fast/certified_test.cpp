@@ -1,6 +1,6 @@
 /// \file
-/// The certified solver by hand, in batches and as a method. (deciders_test.cpp compares it with
-/// the oracle.)
+/// The certified solver by hand, in batches and as a method, at contact and at separations.
+/// (deciders_test.cpp compares it with the oracle.)
 
 #include "touchstone/certified.hpp"
 
@@ -9,11 +9,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdint>
+#include <cstddef>
 #include <limits>
-#include <memory>
-#include <stdexcept>
-#include <string>
+#include <span>
 #include <vector>
 
 #include "fast/certified/kernel.hpp"
@@ -22,6 +20,7 @@
 #include "tests/support/certified.hpp"
 #include "tests/support/queries.hpp"
 #include "tests/support/random.hpp"
+#include "tests/support/scenes.hpp"
 
 namespace touchstone::fast::certified_test {
 namespace {
@@ -40,15 +39,33 @@ CertifiedResult solve(const PosedQuery& posed, const CertifiedOptions& options =
 
 // ---- By hand ------------------------------------------------------------------------------------
 
+/// Contact, and separations in both norms.
+const std::vector<Separation> separations{{}, {0.01, Norm::linf}, {0.01, Norm::l2}};
+
+void expect_within(const CertifiedResult& result, double toi) {
+  ASSERT_EQ(result.verdict, Verdict::yes);
+  EXPECT_LT(result.toi_lower, toi);
+  EXPECT_GE(result.toi_upper, toi);
+  EXPECT_LE(result.toi_upper - result.toi_lower, 1e-12);
+}
+
 TEST(Certified, FindsAnImpactAndItsPlace) {
   for (const PosedQuery& posed : {over_triangle(1, 2, 3, -1), over_edge(1, 2, 3, -1)}) {
     const CertifiedResult result = solve(posed);
-    ASSERT_EQ(result.verdict, Verdict::yes);
-    EXPECT_LT(result.toi_lower, 0.75);
-    EXPECT_GE(result.toi_upper, 0.75);
-    EXPECT_LE(result.toi_upper - result.toi_lower, 1e-12);
+    expect_within(result, 0.75);
     EXPECT_NEAR(result.u, 0.25, 1e-9);
     EXPECT_NEAR(result.v, 0.5, 1e-9);
+  }
+  // The height falls from 1 to −1, and is d at the time (1 − d)/2.
+  for (const PosedQuery& posed : {over_triangle(1, 1, 1, -1), over_edge(1, 1, 1, -1)}) {
+    for (const Norm norm : {Norm::linf, Norm::l2}) {
+      for (const double distance : {0.5, 0.25, 0x1p-20, 0x1p-40}) {
+        const CertifiedResult result = solve(posed, {.separation = {distance, norm}});
+        expect_within(result, (1.0 - distance) / 2.0);
+        EXPECT_EQ(result.stage, Stage::bisection);
+        EXPECT_NEAR(result.u, 0.25, 1e-6);
+      }
+    }
   }
 }
 
@@ -91,25 +108,28 @@ TEST(Certified, WhatCrossesThePlaneNearAnEdgeIsDecidedInFloatingPoint) {
   EXPECT_EQ(fast::solve(Kind::vertex_face, beside_edge(0x1p-50)).stage, Stage::exact);
 }
 
-TEST(Certified, EveryStageIsReachedAndNamed) {
-  std::array<std::size_t, stages> reached{};
+TEST(Certified, EveryStageIsReached) {
+  std::array<std::size_t, stages> reached{}, separated{};
   for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
     Random random(7);
     std::vector<Query> queries(3000);
-    for (Query& query : queries) query = tests::full_significand_query(random);
-    for (std::size_t i = 0; i < queries.size(); i += 10) {
-      queries[i] = tests::near_contact_query(random, kind);
+    for (std::size_t i = 0; i < queries.size(); ++i) {
+      queries[i] = i % 10 == 0 ? tests::near_contact_query(random, kind)
+                               : tests::full_significand_query(random);
     }
     std::vector<CertifiedResult> results(queries.size());
-    solve(kind, queries, results);
-    for (const CertifiedResult& result : results)
-      ++reached.at(static_cast<std::size_t>(result.stage));
+    for (const Separation& separation : separations) {
+      solve(kind, queries, results, {.separation = separation});
+      for (const CertifiedResult& result : results) {
+        ++(separation == Separation{} ? reached : separated)
+              .at(static_cast<std::size_t>(result.stage));
+      }
+    }
   }
   for (std::size_t i = 0; i < stages; ++i) {
     EXPECT_GT(reached.at(i), 0U) << to_string(static_cast<Stage>(i));
+    EXPECT_GT(separated.at(i), 0U) << to_string(static_cast<Stage>(i));
   }
-  EXPECT_EQ(to_string(Stage::axis), "axis");
-  EXPECT_EQ(to_string(Stage::exact), "exact");
 }
 
 /// Contact at t_max counts, though the enclosure ends beyond it (certified.hpp).
@@ -127,20 +147,22 @@ TEST(Certified, TheUpperEndMayLieBeyondTMax) {
 // ---- Errors -------------------------------------------------------------------------------------
 
 TEST(Certified, CoordinatesThatAreNotFiniteAreAnErrorOfTheirQueryAlone) {
-  for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
-    for (const double bad : {infinity, -infinity, std::numeric_limits<double>::quiet_NaN()}) {
-      for (std::size_t place = 0; place < 24; ++place) {
-        // One query that any axis separates, and one that collides.
-        for (const double height : {5.0, -1.0}) {
-          std::vector<Query> queries(3, kind == Kind::vertex_face
-                                            ? over_triangle(1, 1, 7, height).query
-                                            : over_edge(1, 1, 7, height).query);
-          queries[1].coordinates.at(place) = bad;
-          std::vector<CertifiedResult> results(3);
-          solve(kind, queries, results);
-          EXPECT_EQ(results[1].verdict, Verdict::error) << bad << " at " << place;
-          EXPECT_EQ(results[0].verdict, height < 0 ? Verdict::yes : Verdict::no);
-          EXPECT_EQ(results[2].verdict, results[0].verdict);
+  for (const Separation& separation : separations) {
+    for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
+      for (const double bad : {infinity, -infinity, std::numeric_limits<double>::quiet_NaN()}) {
+        for (std::size_t place = 0; place < 24; ++place) {
+          // One query that any axis separates, and one that collides.
+          for (const double height : {5.0, -1.0}) {
+            std::vector<Query> queries(3, kind == Kind::vertex_face
+                                              ? over_triangle(1, 1, 7, height).query
+                                              : over_edge(1, 1, 7, height).query);
+            queries[1].coordinates.at(place) = bad;
+            std::vector<CertifiedResult> results(3);
+            solve(kind, queries, results, {.separation = separation});
+            EXPECT_EQ(results[1].verdict, Verdict::error) << bad << " at " << place;
+            EXPECT_EQ(results[0].verdict, height < 0 ? Verdict::yes : Verdict::no);
+            EXPECT_EQ(results[2].verdict, results[0].verdict);
+          }
         }
       }
     }
@@ -161,79 +183,29 @@ void expect_same(std::span<const CertifiedResult> a, std::span<const CertifiedRe
 
 // ---- Meshes -------------------------------------------------------------------------------------
 
-/// Two sheets of n×n vertices, the upper one falling through the lower, both wrinkled.
-struct Sheets {
-  Eigen::MatrixXd start, end;
-  std::vector<Face> faces;
-  std::vector<Edge> edges;
-  std::vector<IndexPair> vertex_face, edge_edge;
-
-  explicit Sheets(int n) : start(2 * n * n, 3), end(2 * n * n, 3) {
-    Random random(31);
-    for (int sheet = 0; sheet < 2; ++sheet) {
-      for (int i = 0; i < n * n; ++i) {
-        const int x = i % n, y = i / n;
-        const Eigen::RowVector3d at(x + random.uniform(-0.2, 0.2), y + random.uniform(-0.2, 0.2),
-                                    0.5 * sheet + random.uniform(-0.2, 0.2));
-        start.row(sheet * n * n + i) = at;
-        const double fall = sheet == 0 ? 0.0 : -1.0;
-        end.row(sheet * n * n + i) = at + Eigen::RowVector3d(random.uniform(-0.2, 0.2), 0.0,
-                                                             fall + random.uniform(-0.1, 0.1));
-      }
-      add_faces(n, sheet * n * n);
-    }
-    pair_up(n * n);
-  }
-
-  void add_faces(int n, int first) {
-    for (int y = 0; y + 1 < n; ++y) {
-      for (int x = 0; x + 1 < n; ++x) {
-        const int i = first + y * n + x;
-        faces.push_back({i, i + 1, i + n});
-        faces.push_back({i + 1, i + n + 1, i + n});
-        edges.push_back({i, i + 1});
-        edges.push_back({i, i + n});
-        edges.push_back({i + 1, i + n});
-      }
-    }
-  }
-
-  /// All pairs between the sheets.
-  void pair_up(int vertices) {
-    const auto face_count = static_cast<int>(faces.size()),
-               edge_count = static_cast<int>(edges.size());
-    for (int v = 0; v < 2 * vertices; ++v) {
-      for (int f = 0; f < face_count; ++f) {
-        if ((v < vertices) != (f < face_count / 2)) vertex_face.push_back({v, f});
-      }
-    }
-    for (int a = 0; a < edge_count / 2; ++a) {
-      for (int b = edge_count / 2; b < edge_count; ++b) edge_edge.push_back({a, b});
-    }
-  }
-
-  [[nodiscard]] Candidates candidates(Kind kind) const {
-    return {.kind = kind,
-            .pairs = kind == Kind::vertex_face ? vertex_face : edge_edge,
-            .edges = edges,
-            .faces = faces};
-  }
-};
-
 TEST(Certified, IndexPairsGiveWhatTheirQueriesGive) {
-  const Sheets sheets(7);
-  const MovingVertices vertices(sheets.start, sheets.end);
+  Random random(31);
+  const tests::Scene scene = tests::soup(random, 40, 0.4);
+  const MovingVertices vertices(scene.start, scene.end);
   for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
-    const Candidates candidates = sheets.candidates(kind);
+    std::vector<IndexPair> pairs;
+    for (const tests::AllPairs all(scene); const auto& [of_kind, pair] : all.pairs()) {
+      const PairKind wanted =
+          kind == Kind::vertex_face ? PairKind::vertex_face : PairKind::edge_edge;
+      if (of_kind == wanted) pairs.push_back(pair);
+    }
+    const Candidates candidates{
+        .kind = kind, .pairs = pairs, .edges = scene.edges, .faces = scene.faces};
     std::vector<Query> queries;
     for (const IndexPair& pair : candidates.pairs) {
       queries.push_back(query_of(vertices, candidates, pair));
     }
     std::vector<CertifiedResult> of_queries(queries.size());
     for (const CertifiedKernel* const kernel : certified_kernels()) {
-      for (const int threads : {1, 4}) {
+      for (std::size_t i = 0; i < 2 * separations.size(); ++i) {
         const UseKernels use({.certified = kernel});
-        const CertifiedOptions options{.max_threads = threads};
+        const CertifiedOptions options{.separation = separations[i / 2],
+                                       .max_threads = i % 2 == 0 ? 1 : 4};
         solve(kind, queries, of_queries, options);
         const std::vector<Collision> all = collisions(vertices, candidates, options);
         std::vector<CertifiedResult> rebuilt(of_queries);
@@ -248,48 +220,20 @@ TEST(Certified, IndexPairsGiveWhatTheirQueriesGive) {
 
         const std::vector<Collision> from_array = collisions(kind, queries, options);
         ASSERT_EQ(from_array.size(), all.size());
-        for (std::size_t i = 0; i < all.size(); ++i) {
-          EXPECT_EQ(from_array[i].candidate, all[i].candidate);
-          expect_same(std::span(&from_array[i].result, 1), std::span(&all[i].result, 1));
+        for (std::size_t k = 0; k < all.size(); ++k) {
+          EXPECT_EQ(from_array[k].candidate, all[k].candidate);
+          expect_same(std::span(&from_array[k].result, 1), std::span(&all[k].result, 1));
         }
       }
     }
   }
 }
 
-TEST(Certified, RefusesInvalidCandidates) {
-  const Sheets sheets(3);
-  const MovingVertices vertices(sheets.start, sheets.end);
-  Candidates candidates = sheets.candidates(Kind::vertex_face);
-  for (const IndexPair& bad :
-       std::initializer_list<IndexPair>{{-1, 0}, {18, 0}, {0, -1}, {0, 16}}) {
-    candidates.pairs = std::span(&bad, 1);
-    EXPECT_THROW(static_cast<void>(collisions(vertices, candidates)), std::out_of_range);
-  }
-}
-
 // ---- As a method --------------------------------------------------------------------------------
 
-TEST(CertifiedMethod, AnswersWhatTheSolverFinds) {
-  const std::unique_ptr<Method> method = certified_method();
-  EXPECT_EQ(method->name(), "certified");
-  EXPECT_EQ(method->promise(), Promise::exact);
-  Random random(29);
-  std::vector<Query> queries(600);
-  for (Query& query : queries) query = tests::near_contact_query(random, Kind::edge_edge);
-  std::vector<CertifiedResult> results(queries.size());
-  solve(Kind::edge_edge, queries, results);
-  std::vector<Answer> answers(queries.size());
-  method->solve(Kind::edge_edge, queries, answers, {});
-  for (std::size_t i = 0; i < queries.size(); ++i) {
-    EXPECT_EQ(answers[i].verdict, results[i].verdict);
-    EXPECT_TRUE(same(answers[i].toi_lower, results[i].toi_lower));
-    EXPECT_TRUE(same(answers[i].toi_upper, results[i].toi_upper));
-    EXPECT_EQ(answers[i].checks, static_cast<std::uint32_t>(results[i].stage) + 1);
-  }
-}
-
 TEST(CertifiedMethod, HeedsTMaxAndTheSeparation) {
+  EXPECT_EQ(certified_method()->name(), "certified");
+  EXPECT_EQ(certified_method()->promise(), Promise::exact);
   const Query query = over_triangle(1, 1, 1, -1).query;
   Answer answer;
   certified_method()->solve(Kind::vertex_face, std::span(&query, 1), std::span(&answer, 1),

@@ -150,24 +150,6 @@ TEST(ControlPolygon, IsNoneOfNumbersThatAreNotUsual) {
   }
 }
 
-TEST(ContactProof, CountsChangesOfSign) {
-  const auto changes_once = [](const std::vector<int>& signs) {
-    curved::OneChange<Mask> change(Mask::all(), Mask::none());
-    for (const int sign : signs) change.add({sign > 0}, {sign < 0});
-    return change.result().set && signs.front() > 0 && signs.back() < 0;
-  };
-  EXPECT_TRUE(changes_once({1, -1}));
-  EXPECT_TRUE(changes_once({1, 1, 0, -1}));
-  EXPECT_TRUE(changes_once({1, 0, -1, -1}));
-  EXPECT_TRUE(changes_once({1, 1, 1, -1}));
-  EXPECT_FALSE(changes_once({1, 1}));
-  EXPECT_FALSE(changes_once({0, -1}));
-  EXPECT_FALSE(changes_once({1, 0, 0, -1}));
-  EXPECT_FALSE(changes_once({1, -1, 1, -1}));
-  EXPECT_FALSE(changes_once({1, -1, 0, -1, 1, -1}));
-  EXPECT_FALSE(changes_once({1, -1, 1}));
-}
-
 /// The coefficients of det are those of the exact form, within the error that the proof allows.
 TEST(ContactProof, HasTheCoefficientsOfTheDeterminant) {
   Random random(97);
@@ -254,20 +236,6 @@ TEST(CurvedStages, SeparateNoContact) {
     any.at(static_cast<std::size_t>(round) % 3) = Value(std::nan(""));
     EXPECT_FALSE(curved::separates<true>(polygons, any, Value(2.0)).set);
   }
-}
-
-TEST(CurvedPolygon, AtRestIsThePlaceAtATime) {
-  CurvedQuery query;
-  for (Trajectory& curve : query) curve.control = {{0, 0, 0}, {2, 0, 0}, {2, 2, 0}};
-  query[1] = {.control = {{1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, .weights = {1, 1, 2}};
-  const Query at = exact_stage::at_rest(query, 0.5);
-  EXPECT_EQ(at.at(0, 0, 0), 1.5);
-  EXPECT_EQ(at.at(1, 0, 1), 0.5);
-  EXPECT_DOUBLE_EQ(at.at(0, 1, 0), 0.6);
-  EXPECT_DOUBLE_EQ(at.at(0, 1, 1), 0.8);
-  EXPECT_TRUE(exact_stage::is_valid(query));
-  query[1].weights[0] = 0.0;
-  EXPECT_FALSE(exact_stage::is_valid(query));
 }
 
 /// Times a number.

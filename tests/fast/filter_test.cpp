@@ -17,16 +17,6 @@ double on_first_axis(Kind kind, double x_max, double d, ErrorModel model = Error
   return error_filter(kind, {x_max, 0.0, 0.0}, d, model)[0];
 }
 
-TEST(ErrorFilter, IsTheDerivedBoundOfTheKindOnEachAxis) {
-  const std::array<double, 3> x_max{1.0, 0.0, 1000.0};
-  EXPECT_EQ(error_filter(Kind::edge_edge, x_max, 0.0),
-            (std::array{filters::edge_edge_double(1.0), filters::edge_edge_double(0.0),
-                        filters::edge_edge_double(1000.0)}));
-  EXPECT_EQ(error_filter(Kind::vertex_face, x_max, 0.0),
-            (std::array{filters::vertex_face_double(1.0), filters::vertex_face_double(0.0),
-                        filters::vertex_face_double(1000.0)}));
-}
-
 TEST(ErrorFilter, TakesTheSeparationForACoordinate) {
   EXPECT_EQ(on_first_axis(Kind::edge_edge, 3.0, 2.0), filters::edge_edge_separated_double(3.0));
   EXPECT_EQ(on_first_axis(Kind::edge_edge, 3.0, 5.0), filters::edge_edge_separated_double(5.0));

@@ -120,13 +120,6 @@ TEST(Elements, AreRefusedInOtherShapesAndOutOfRange) {
   }
 }
 
-TEST(Candidates, HaveTheirVerticesInTheOrderOfAQuery) {
-  EXPECT_EQ(vertices_of(candidates(Kind::vertex_face, {}), {0, 1}),
-            (std::array<std::int32_t, 4>{0, 4, 3, 1}));
-  EXPECT_EQ(vertices_of(candidates(Kind::edge_edge, {}), {1, 0}),
-            (std::array<std::int32_t, 4>{4, 2, 0, 1}));
-}
-
 TEST(Candidates, AreQueries) {
   const Query vertex_face = query_of(counted(5), candidates(Kind::vertex_face, {}), {0, 1});
   EXPECT_EQ(vertex_face, (Query{{0,   1,   2,   12,  13,  14,  9,   10,  11,  3,   4,   5,
@@ -136,25 +129,24 @@ TEST(Candidates, AreQueries) {
                                112, 113, 114, 106, 107, 108, 100, 101, 102, 103, 104, 105}}));
 }
 
-TEST(RequireInRange, AcceptsTheOutermostIndices) {
-  EXPECT_EQ(range_error(candidates(Kind::vertex_face, {{0, 0}, {4, 1}})), "");
-  EXPECT_EQ(range_error(candidates(Kind::edge_edge, {{0, 1}, {1, 0}})), "");
-  EXPECT_EQ(range_error(candidates(Kind::edge_edge, {})), "");
-}
-
 TEST(RequireInRange, NamesTheFirstPairAndWhatIsWrongThere) {
-  EXPECT_EQ(range_error(candidates(Kind::vertex_face, {{0, 0}, {5, 1}, {-1, 0}})),
-            "pair 1: vertex 5, but there are 5");
-  EXPECT_EQ(range_error(candidates(Kind::vertex_face, {{-1, 0}})),
-            "pair 0: vertex -1, but there are 5");
-  EXPECT_EQ(range_error(candidates(Kind::vertex_face, {{0, 2}})),
-            "pair 0: face 2, but there are 2");
-  EXPECT_EQ(range_error(candidates(Kind::vertex_face, {{0, -1}})),
-            "pair 0: face -1, but there are 2");
-  EXPECT_EQ(range_error(candidates(Kind::edge_edge, {{0, 1}, {2, 0}})),
-            "pair 1: edge 2, but there are 2");
-  EXPECT_EQ(range_error(candidates(Kind::edge_edge, {{0, std::numeric_limits<int>::min()}})),
-            "pair 0: edge -2147483648, but there are 2");
+  struct Row {
+    Kind kind;
+    std::vector<IndexPair> pairs;
+    std::string expected;
+  };
+  constexpr int least = std::numeric_limits<int>::min();
+  constexpr Kind face = Kind::vertex_face, edges = Kind::edge_edge;
+  for (const auto& [kind, pairs, expected] :
+       {Row{face, {{0, 0}, {4, 1}}, ""}, Row{edges, {{0, 1}, {1, 0}}, ""}, Row{edges, {}, ""},
+        Row{face, {{0, 0}, {5, 1}, {-1, 0}}, "pair 1: vertex 5, but there are 5"},
+        Row{face, {{-1, 0}}, "pair 0: vertex -1, but there are 5"},
+        Row{face, {{0, 2}}, "pair 0: face 2, but there are 2"},
+        Row{face, {{0, -1}}, "pair 0: face -1, but there are 2"},
+        Row{edges, {{0, 1}, {2, 0}}, "pair 1: edge 2, but there are 2"},
+        Row{edges, {{0, least}}, "pair 0: edge -2147483648, but there are 2"}}) {
+    EXPECT_EQ(range_error(candidates(kind, pairs)), expected);
+  }
 }
 
 TEST(RequireInRange, FindsTheOneAmongMany) {
@@ -184,19 +176,6 @@ TEST(RequireInRange, MindsNoEdgeOrFaceThatNoPairHas) {
             "pair 70: face 2, vertex -2, but there are 5");
   EXPECT_EQ(range_error({Kind::edge_edge, pairs, edges, faces}),
             "pair 70: edge 2, vertex 5, but there are 5");
-}
-
-TEST(RequireInRange, LooksIntoTheEdgesAndFacesOfPairs) {
-  const std::vector<Edge> edges{{0, 1}, {0, 5}};
-  const std::vector<Face> faces{{0, 1, -2}, {0, 1, 2}};
-  const std::vector<IndexPair> sound{{0, 1}}, unsound{{0, 1}, {0, 0}}, swapped{{1, 0}};
-  EXPECT_EQ(range_error({Kind::vertex_face, sound, edges, faces}), "");
-  EXPECT_EQ(range_error({Kind::vertex_face, unsound, edges, faces}),
-            "pair 1: face 0, vertex -2, but there are 5");
-  EXPECT_EQ(range_error({Kind::edge_edge, sound, edges, faces}),
-            "pair 0: edge 1, vertex 5, but there are 5");
-  EXPECT_EQ(range_error({Kind::edge_edge, swapped, edges, faces}),
-            "pair 0: edge 1, vertex 5, but there are 5");
 }
 
 }  // namespace

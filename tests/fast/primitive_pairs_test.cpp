@@ -21,26 +21,6 @@ void expect_enclosed(const CertifiedResult& result, double toi) {
   EXPECT_GE(result.toi_upper, toi);
 }
 
-TEST(PrimitivePairs, PointAndTriangleMeetWhereTheyDo) {
-  const Vector3d a(0, 0, 0), b(4, 0, 0), c(0, 4, 0);
-  const CertifiedResult result =
-      solve_vertex_face(Vector3d(2, 1, 1), a, b, c, Vector3d(2, 1, -1), a, b, c);
-  expect_enclosed(result, 0.5);
-  EXPECT_DOUBLE_EQ(result.u, 0.5);
-  EXPECT_DOUBLE_EQ(result.v, 0.25);
-  EXPECT_EQ(solve_vertex_face(Vector3d(3, 2, 1), a, b, c, Vector3d(3, 2, -1), a, b, c).verdict,
-            Verdict::no);
-}
-
-TEST(PrimitivePairs, EdgesMeetWhereTheyDo) {
-  const Vector3d a0(0, 0, 0), a1(4, 0, 0);
-  const CertifiedResult result = solve_edge_edge(a0, a1, Vector3d(1, -1, 1), Vector3d(1, 3, 1),  //
-                                                 a0, a1, Vector3d(1, -1, -2), Vector3d(1, 3, -2));
-  expect_enclosed(result, third);
-  EXPECT_DOUBLE_EQ(result.u, 0.25);
-  EXPECT_DOUBLE_EQ(result.v, 0.25);
-}
-
 TEST(PrimitivePairs, PointAndEdgeMeetOnTheEdgeAlone) {
   const Vector3d a(0, 0, 0), b(4, 0, 0);
   const CertifiedResult result =

@@ -9,7 +9,6 @@
 #include <atomic>
 #include <cmath>
 #include <functional>
-#include <limits>
 #include <map>
 #include <mutex>
 #include <optional>
@@ -30,7 +29,6 @@
 #include "tests/support/scenes.hpp"
 #include "tests/support/trials.hpp"
 #include "touchstone/broad_phase.hpp"
-#include "touchstone/oracle.hpp"
 #include "verify/mesh/self_intersection.hpp"
 
 namespace touchstone::fast::step_test {
@@ -256,6 +254,9 @@ TEST(Step, RefusesWhatMakesNoSense) {
   scene.groups = {0, -1, 0};
   EXPECT_EQ(refused({}), "step: the group of vertex 1 is negative");
   scene.groups = {};
+  scene.apart = {{0, -1}};
+  EXPECT_THROW((void)scene.step(), std::invalid_argument);
+  scene.apart = {};
   const std::vector<double> four(4);
   const std::span<const double> coordinates(four);
   EXPECT_THROW(Step(coordinates, coordinates, scene.elements()), std::invalid_argument);
@@ -539,13 +540,6 @@ TEST(FreeStepSize, NamesTheVertexWhoseMotionOverflows) {
   EXPECT_THROW(static_cast<void>(step.free_step_size()), std::domain_error);
 }
 
-TEST(Step, IsMovedWithItsScene) {
-  const Scene colliding = falling_vertex(3.0), free = falling_vertex(-0.5);
-  Step step = colliding.step();
-  step = free.step();
-  EXPECT_TRUE(step.is_free());
-}
-
 // ---- Ranges of coordinates ----------------------------------------------------------------------
 
 /// The work of steps: the pairs after the broad phase, and those that floating point does not
@@ -701,11 +695,6 @@ TEST(Step, HasTheSameCandidatesInEveryIncreasingFunctionOfCoordinates) {
     EXPECT_EQ(candidates_of(stretched.step()), pairs);
     EXPECT_LE(work_of(stretched).pairs, 2 * work_of(scene).pairs);
   }
-}
-
-TEST(PairKind, HasAName) {
-  constexpr std::array names{"vertex-face", "edge-edge", "vertex-edge", "vertex-vertex"};
-  for (std::size_t i = 0; i < kinds.size(); ++i) EXPECT_EQ(to_string(kinds.at(i)), names.at(i));
 }
 
 // ---- Faults -------------------------------------------------------------------------------------

@@ -16,7 +16,6 @@
 #include <set>
 #include <span>
 #include <stdexcept>
-#include <string>
 #include <string_view>
 #include <tuple>
 #include <vector>
@@ -28,7 +27,6 @@
 #include "tests/support/public_data.hpp"
 #include "tests/support/queries.hpp"
 #include "tests/support/random.hpp"
-#include "tests/support/trials.hpp"
 #include "touchstone/number.hpp"
 #include "touchstone/oracle.hpp"
 #include "verify/data/dataset.hpp"
@@ -181,28 +179,6 @@ TEST(TightInclusion, MissesNothingInSinglePrecision) {
     }
   });
   EXPECT_GT(unheld, 0U);
-}
-
-TEST(TightInclusion, GivesTheSameResultOnAllKernels) {
-  for_each_family_query(tests::trials(12U), [&](const verify::generate::Family& family, Kind kind,
-                                                const auto& known) {
-    for (const double d : {0.0, 1e-3}) {
-      const TightInclusionOptions options = limited({.separation = {.distance = d}});
-      const auto result_on = [&](const BoxKernel* kernel) {
-        const UseKernels use({.box = kernel});
-        return tight_inclusion(kind, known.query, options);
-      };
-      const TightInclusionResult expected = result_on(box_kernels().front());
-      for (const BoxKernel* const kernel : box_kernels()) {
-        const TightInclusionResult result = result_on(kernel);
-        EXPECT_EQ(result.verdict, expected.verdict) << family.name;
-        EXPECT_EQ(result.checks, expected.checks) << family.name;
-        if (result.verdict != Verdict::yes) continue;
-        EXPECT_EQ(result.toi, expected.toi) << family.name;
-        EXPECT_EQ(result.tolerance, expected.tolerance) << family.name;
-      }
-    }
-  });
 }
 
 TEST(TightInclusion, MissesNothingOnThePublicData) {
@@ -452,10 +428,11 @@ TEST(Tolerance, BoundsTheErrorOfTheTime) {
   }
 }
 
+/// An edge that slides along another: contact for an interval of time and of parameters.
+const PosedQuery sliding =
+    tests::edge_edge({0, 0, 0, 4, 0, 0, 1, 0, 0, 5, 0, 0}, {0, 0, 0, 4, 0, 0, 2, 0, 0, 6, 0, 0});
+
 TEST(MaxChecks, EndsEarlyWithTheToleranceReached) {
-  // An edge that slides along another: contact for an interval of time and of parameters.
-  const PosedQuery sliding =
-      tests::edge_edge({0, 0, 0, 4, 0, 0, 1, 0, 0, 5, 0, 0}, {0, 0, 0, 4, 0, 0, 2, 0, 0, 6, 0, 0});
   double last_tolerance = infinity;
   for (const std::int64_t checks : {10, 100, 1000, 10000}) {
     const auto result = solve(sliding, {.max_checks = checks});
@@ -468,18 +445,7 @@ TEST(MaxChecks, EndsEarlyWithTheToleranceReached) {
   }
 }
 
-TEST(MaxChecks, NotPositiveMeansNoLimit) {
-  const PosedQuery falling = over_triangle(1, 1, 1, -2);
-  const auto limited = solve(falling, {.max_checks = 1'000'000});
-  const auto unlimited = solve(falling, {.max_checks = 0});
-  EXPECT_EQ(limited.toi, unlimited.toi);
-  EXPECT_EQ(unlimited.tolerance, 1e-6);
-  EXPECT_EQ(solve(falling, {.max_checks = -1}).checks, unlimited.checks);
-}
-
 TEST(MaxBoxes, BoundsTheWaitingBoxes) {
-  const PosedQuery sliding =
-      tests::edge_edge({0, 0, 0, 4, 0, 0, 1, 0, 0, 5, 0, 0}, {0, 0, 0, 4, 0, 0, 2, 0, 0, 6, 0, 0});
   const auto result = solve(sliding, {.max_checks = 0, .max_boxes = 1000});
   EXPECT_EQ(result.verdict, Verdict::yes);
   EXPECT_GT(result.tolerance, 1e-6);
@@ -739,31 +705,6 @@ TEST(TightInclusion, FamiliesFindPlantedFaults) {
 }
 
 // ---- As a method --------------------------------------------------------------------------------
-
-TEST(Method, SaysWhoItIsAndWhatItPromises) {
-  struct Row {
-    TightInclusionOptions options;
-    std::string_view name;
-    Promise promise;
-  };
-  // (The release misses contacts, and no_zero_toi may lower the separation.)
-  for (const auto& [options, name, promise] :
-       {Row{{}, "tight_inclusion", Promise::conservative},
-        Row{{.error_model = ErrorModel::published},
-            "tight_inclusion_published",
-            Promise::conservative},
-        Row{{.error_model = ErrorModel::single_precision},
-            "tight_inclusion_float",
-            Promise::conservative},
-        Row{{.error_model = ErrorModel::released}, "tight_inclusion_released", Promise::none},
-        Row{{.no_zero_toi = true}, "tight_inclusion", Promise::none}}) {
-    const auto method = tight_inclusion_method(options);
-    EXPECT_EQ(method->name(), name);
-    EXPECT_EQ(method->promise(), promise) << name;
-    EXPECT_EQ(method->info().terms.float_coordinates,
-              options.error_model == ErrorModel::single_precision);
-  }
-}
 
 TEST(Method, RefusesToRunWithSubnormalsFlushed) {
   {

@@ -53,10 +53,6 @@ struct SimulationStep {
   }
 };
 
-/// The scenes, each with one step.
-inline constexpr std::array<std::string_view, 3> simulation_scenes{
-    "cloth-ball", "armadillo-rollers", "cloth-funnel"};
-
 /// The folder of the public simulation steps; empty, with a message, if they are missing.
 [[nodiscard]] inline std::filesystem::path simulation_folder() {
   const std::filesystem::path data = public_data_folder();

@@ -115,22 +115,6 @@ void expect_ordered_as_coordinates(const Eigen::MatrixX3d& start, const Eigen::M
   }
 }
 
-TEST(FloatBounds, AreOrderedAsTheCoordinatesAtEveryScale) {
-  Random random(3);
-  for (const int exponent : {-1074, -1040, -1000, -150, -70, -1, 0, 60, 70, 200, 1000, 1023}) {
-    for (const unsigned bits : {3U, 24U, 26U, 53U}) {
-      const auto coordinate = [&] {
-        const double x =
-            random.few_bit_double(bits, -static_cast<int>(bits), -static_cast<int>(bits));
-        return std::ldexp(x, random.coin() ? exponent : exponent - random.between(0, 60));
-      };
-      for (const double distance : {0.0, std::abs(coordinate())}) {
-        expect_ordered_as_coordinates(places(12, coordinate), places(12, coordinate), distance);
-      }
-    }
-  }
-}
-
 TEST(FloatBounds, AreOrderedAsTheCoordinatesOfAllScalesAtOnce) {
   Random random(4);
   for (int i = 0; i < 20; ++i) {
@@ -262,11 +246,6 @@ TEST(FloatBounds, TellCoordinatesOfAllSizesApart) {
       }
     }
   }
-}
-
-TEST(FloatBounds, OfNoVerticesAreEmpty) {
-  const Eigen::MatrixX3d none(0, 3);
-  EXPECT_EQ(FloatBounds(MovingVertices(none, none)).size(), 0U);
 }
 
 }  // namespace

@@ -9,8 +9,6 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <functional>
-#include <map>
 #include <numeric>
 #include <span>
 #include <string>
@@ -18,14 +16,17 @@
 
 #include "tests/faults/planted_faults.hpp"
 #include "tests/support/random.hpp"
+#include "tests/support/scenes.hpp"
 
 namespace touchstone::fast {
-
 extern const SearchKernel emulated_avx512_search_kernel;
+}
 
+namespace touchstone::fast::search_test {
 namespace {
 
 using tests::Random;
+using tests::Scene;
 using Pairs = std::vector<IndexPair>;
 
 std::vector<const SearchKernel*> all_kernels() {
@@ -36,22 +37,10 @@ std::vector<const SearchKernel*> all_kernels() {
   return kernels;
 }
 
-/// Vertices, edges and faces that move.
-struct Scene {
-  Eigen::MatrixX3d start, end;
-  std::vector<Edge> edges;
-  std::vector<Face> faces;
-  std::vector<std::int32_t> vertices;
-};
-
 /// Triangles of a size in a cube; their coordinates are multiples of `grain`, so that boxes often
 /// touch.
 Scene random_scene(Random& random, int faces, double size, double grain, double jitter = 0.0) {
-  Scene scene{.start = Eigen::MatrixX3d(3 * faces, 3),
-              .end = Eigen::MatrixX3d(3 * faces, 3),
-              .edges = {},
-              .faces = {},
-              .vertices = {}};
+  Scene scene{.start = Eigen::MatrixX3d(3 * faces, 3), .end = Eigen::MatrixX3d(3 * faces, 3)};
   const auto on_grid = [&](double x) {
     const double place = grain == 0.0 ? x : std::round(x / grain) * grain;
     return jitter == 0.0 ? place : place + jitter * random.between(-2, 2);
@@ -70,7 +59,7 @@ Scene random_scene(Random& random, int faces, double size, double grain, double 
     scene.edges.push_back({3 * i, random.coin() ? 3 * i + 1 : other});
     scene.edges.push_back({3 * i + 1, 3 * i + 2});
   }
-  for (int i = 0; i < 3 * faces; ++i) scene.vertices.push_back(i);
+  for (int i = 0; i < 3 * faces; ++i) scene.points.push_back(i);
   return scene;
 }
 
@@ -80,7 +69,7 @@ struct Trees {
   explicit Trees(const Scene& scene, double distance = 0.0)
       : moving(scene.start, scene.end),
         bounds(moving, 1.0, distance),
-        vertex_groups(bounds, std::span<const std::int32_t>(scene.vertices)),
+        vertex_groups(bounds, std::span<const std::int32_t>(scene.points)),
         edge_groups(bounds, std::span<const Edge>(scene.edges)),
         face_groups(bounds, std::span<const Face>(scene.faces)),
         vertices(vertex_groups),
@@ -194,7 +183,7 @@ std::string fault(const SearchKernel& kernel, const Scene& scene, double distanc
   const SearchInput<instants> with_faces{&trees.vertices, &trees.faces, rules(false)};
   const SearchInput<instants> of_one_tree{&trees.edges, &trees.edges, rules(true)};
   if (sorted(found(kernel, with_faces)) !=
-      all_pairs<instants, std::int32_t, Face>(scene, scene.vertices, scene.faces, distance)) {
+      all_pairs<instants, std::int32_t, Face>(scene, scene.points, scene.faces, distance)) {
     return "vertices and faces";
   }
   if (sorted(found(kernel, of_one_tree)) !=
@@ -290,37 +279,6 @@ TEST(Search, GivesTheSamePairsInTheSameOrder) {
     const Scene scene = random_scene(random, 2000, 0.08, grain);
     expect_same_order<1>(scene);
     expect_same_order<2>(scene);
-  }
-}
-
-TEST(Search, OfPartsIsThatOfTheWhole) {
-  Random random(24);
-  const Scene scene = random_scene(random, 300, 0.1, 0.0);
-  const Trees<2> trees(scene);
-  const SearchInput<2> input{&trees.edges, &trees.edges, {.of_edges = true}};
-  for (const SearchKernel* const kernel : all_kernels()) {
-    const Pairs whole = found(*kernel, input);
-    Pairs parts;
-    PairSink buffer([&](std::span<const IndexPair> pairs) {
-      parts.insert(parts.end(), pairs.begin(), pairs.end());
-    });
-    const std::size_t groups = trees.edges.members().size();
-    for (std::size_t i = 0; i < groups; ++i) kernel->find(input, i, i + 1, buffer);
-    buffer.flush();
-    EXPECT_EQ(parts, whole);
-  }
-}
-
-TEST(Search, OfNothingFindsNothing) {
-  Random random(25);
-  Scene scene = random_scene(random, 5, 0.5, 0.0);
-  scene.faces.clear();
-  scene.edges.clear();
-  const Trees<1> trees(scene);
-  for (const SearchKernel* const kernel : all_kernels()) {
-    EXPECT_TRUE(found<1>(*kernel, {&trees.vertices, &trees.faces, {}}).empty());
-    EXPECT_TRUE(found<1>(*kernel, {&trees.faces, &trees.vertices, {}}).empty());
-    EXPECT_TRUE(found<1>(*kernel, {&trees.edges, &trees.edges, {.of_edges = true}}).empty());
   }
 }
 
@@ -447,19 +405,6 @@ TEST(Division, IsThatOfASort) {
   }
 }
 
-TEST(Division, MakesTheSameGroupsWithAllKernels) {
-  Random random(27);
-  const Scene scene = random_scene(random, 3000, 0.1, 0.01);
-  const FloatBounds bounds(MovingVertices(scene.start, scene.end));
-  const PrimitiveGroups groups(bounds, std::span<const Edge>(scene.edges));
-  for (const SearchKernel* const kernel : all_kernels()) {
-    const PrimitiveGroups others(bounds, std::span<const Edge>(scene.edges), kernel);
-    for (std::size_t i = 0; i < groups.members().size(); ++i) {
-      ASSERT_EQ(groups.members()[i].numbers, others.members()[i].numbers);
-    }
-  }
-}
-
 TEST(Division, PlantedFaultsAreFound) {
   for (const auto& fault : tests::planted_faults().division) {
     EXPECT_NE(first_wrong_division(*fault.part), "") << fault.name;
@@ -473,4 +418,4 @@ TEST(Search, PlantedFaultsAreFound) {
 }
 
 }  // namespace
-}  // namespace touchstone::fast
+}  // namespace touchstone::fast::search_test

@@ -45,15 +45,5 @@ TEST(NeighbouringDoubles, NeedFewComparisonsNearby) {
   }
 }
 
-TEST(NeighbouringDoubles, AreUnknownIfASignIs) {
-  for (const double guess : {0.5, 1.0, 2.0}) {
-    const auto knows_not = [](double s) -> std::optional<int> {
-      if (s == 1.0) return std::nullopt;
-      return s < 1.0 ? 1 : -1;
-    };
-    EXPECT_EQ(neighbouring_doubles(guess, knows_not), std::nullopt);
-  }
-}
-
 }  // namespace
 }  // namespace touchstone::fast::neighbouring_doubles_test

@@ -26,13 +26,10 @@ TEST(LargeArray, HoldsItemsOfAnySize) {
     for (std::size_t i = 0; i < size; ++i) lines[i].words.fill(static_cast<std::uint32_t>(i));
     const LargeArray<Line> moved = std::move(lines);
     for (std::size_t i = 0; i < size; ++i) ASSERT_EQ(moved[i].words[15], i) << size;
-    EXPECT_EQ(reinterpret_cast<std::uintptr_t>(moved.data()) % alignof(Line), 0U);
+    // Large ones begin at a large page.
+    const std::uintptr_t alignment = size == 200'000 ? std::uintptr_t{1} << 21U : alignof(Line);
+    EXPECT_EQ(reinterpret_cast<std::uintptr_t>(moved.data()) % alignment, 0U);
   }
-}
-
-TEST(LargeArray, BeginsAtALargePageIfItIsLarge) {
-  const LargeArray<Line> large(200'000);
-  EXPECT_EQ(reinterpret_cast<std::uintptr_t>(large.data()) % (std::uintptr_t{1} << 21U), 0U);
 }
 
 #ifndef TOUCHSTONE_SANITIZED
@@ -90,8 +87,6 @@ TEST(LargeArray, OfSeveralThreadsAreApart) {
   }
   for (std::thread& one : threads) one.join();
 }
-
-TEST(LargeArray, IsNullByDefault) { EXPECT_EQ(LargeArray<Line>().data(), nullptr); }
 
 }  // namespace
 }  // namespace touchstone::fast

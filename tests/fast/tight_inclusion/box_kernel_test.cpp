@@ -15,14 +15,11 @@
 
 #include "tests/support/queries.hpp"
 #include "tests/support/random.hpp"
-#include "touchstone/filter.hpp"
 #include "touchstone/filters/expressions.hpp"
-#include "touchstone/number.hpp"
 
-namespace touchstone::fast {
+namespace touchstone::fast::box_kernel_test {
 namespace {
 
-using exact::Rational;
 using tests::Random;
 
 bool is_single_precision(const BoxKernel& kernel) { return kernel.digits == 24; }
@@ -95,59 +92,42 @@ std::uint64_t bits(double x) { return std::bit_cast<std::uint64_t>(x); }
 
 class EachKernel : public testing::TestWithParam<const BoxKernel*> {};
 
-INSTANTIATE_TEST_SUITE_P(BoxKernel, EachKernel, testing::ValuesIn(box_kernels()),
-                         [](const auto& kernel) {
-                           return std::string(to_string(kernel.param->instructions));
-                         });
+std::vector<const BoxKernel*> all_kernels() {
+  std::vector<const BoxKernel*> all{&released_box_kernel()};
+  for (const auto& some : {box_kernels(), single_precision_box_kernels()}) {
+    all.insert(all.end(), some.begin(), some.end());
+  }
+  return all;
+}
 
-INSTANTIATE_TEST_SUITE_P(SinglePrecision, EachKernel,
-                         testing::ValuesIn(single_precision_box_kernels()), [](const auto& kernel) {
-                           return std::string(to_string(kernel.param->instructions));
-                         });
+INSTANTIATE_TEST_SUITE_P(All, EachKernel, testing::ValuesIn(all_kernels()), [](const auto& tested) {
+  const BoxKernel& kernel = *tested.param;
+  const char* const sort = is_released(kernel)           ? "released_"
+                           : is_single_precision(kernel) ? "single_precision_"
+                                                         : "";
+  return sort + std::string(to_string(kernel.instructions));
+});
 
-INSTANTIATE_TEST_SUITE_P(Released, EachKernel, testing::Values(&released_box_kernel()),
-                         [](const auto& kernel) {
-                           return std::string(to_string(kernel.param->instructions));
-                         });
-
-TEST_P(EachKernel, SortsCoordinatesByAxis) {
+TEST_P(EachKernel, LoadsCoordinatesAndTheirExtent) {
   Random random(1);
+  constexpr double infinity = std::numeric_limits<double>::infinity();
   const Query query = random_query(random, *GetParam());
   BoxProblem problem;
-  const Extent extent = GetParam()->load(query, problem);
-  EXPECT_TRUE(extent.finite);
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    double greatest = 0.0;
-    for (std::size_t point = 0; point < 8; ++point) {
-      const double x = query.at(point / 4, point % 4, axis);
-      EXPECT_EQ(bits(problem.coordinates[axis][point]), bits(x));
-      greatest = std::max(greatest, std::abs(x));
-    }
-    EXPECT_EQ(extent.x_max[axis], greatest);
-  }
-}
-
-TEST_P(EachKernel, SeesEveryCoordinateThatIsNotFinite) {
-  constexpr double infinity = std::numeric_limits<double>::infinity();
+  EXPECT_TRUE(GetParam()->load(query, problem).finite);
   for (std::size_t i = 0; i < 24; ++i) {
-    for (const double bad : {infinity, -infinity, std::numeric_limits<double>::quiet_NaN()}) {
-      Query query{};
-      query.coordinates[i] = bad;
-      BoxProblem problem;
-      EXPECT_FALSE(GetParam()->load(query, problem).finite) << i << ' ' << bad;
-    }
+    EXPECT_EQ(bits(problem.coordinates[i % 3][i / 3]), bits(query.coordinates[i]));
   }
-}
-
-TEST_P(EachKernel, SeesTheGreatestCoordinateWhereverItIs) {
   for (std::size_t i = 0; i < 24; ++i) {
+    Query other{};
+    std::array<double, 3> expected{};
+    expected[i % 3] = 3.0;
     for (const double x : {-3.0, 3.0}) {
-      Query query{};
-      query.coordinates[i] = x;
-      BoxProblem problem;
-      std::array<double, 3> expected{};
-      expected[i % 3] = 3.0;
-      EXPECT_EQ(GetParam()->load(query, problem).x_max, expected);
+      other.coordinates[i] = x;
+      EXPECT_EQ(GetParam()->load(other, problem).x_max, expected);
+    }
+    for (const double bad : {infinity, -infinity, std::numeric_limits<double>::quiet_NaN()}) {
+      other.coordinates[i] = bad;
+      EXPECT_FALSE(GetParam()->load(other, problem).finite) << i << ' ' << bad;
     }
   }
 }
@@ -168,29 +148,6 @@ TEST_P(EachKernel, ComputesTheExpressionsBitForBit) {
                 : expression<double>(*GetParam(), problem, box, axis, corner);
         ASSERT_EQ(bits(values[corner]), bits(expected))
             << to_string(kind) << " case " << i << " axis " << axis << " corner " << corner;
-      }
-    }
-  }
-}
-
-TEST_P(EachKernel, StaysWithinTheFilterOfTheExactValue) {
-  Random random(3);
-  for (int i = 0; i < 500; ++i) {
-    const auto [kind, query, box] = random_case(random, *GetParam());
-    BoxProblem problem;
-    problem.kind = kind;
-    const Extent extent = GetParam()->load(query, problem);
-    // The released filter is not a bound, so the published one is used.
-    ErrorModel model = is_released(*GetParam()) ? ErrorModel::published : ErrorModel::derived;
-    if (is_single_precision(*GetParam())) model = ErrorModel::single_precision;
-    const auto filter = error_filter(kind, extent.x_max, 0.0, model);
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      const CornerValues values = GetParam()->corners(problem, box, axis);
-      for (std::size_t corner = 0; corner < 8; ++corner) {
-        const Rational error = Rational(values[corner]) -
-                               expression<Rational>(*GetParam(), problem, box, axis, corner);
-        ASSERT_TRUE(std::isinf(filter[axis]) || abs(error) <= Rational(filter[axis]))
-            << to_string(kind) << " case " << i;
       }
     }
   }
@@ -236,4 +193,4 @@ TEST_P(EachKernel, TestsTheBoxOfItsCorners) {
 }
 
 }  // namespace
-}  // namespace touchstone::fast
+}  // namespace touchstone::fast::box_kernel_test

@@ -1,12 +1,18 @@
+/// \file
+/// The integers of the exact stage, of any size and of a fixed one, against GMP's.
+
 #include "fast/certified/exact/big_integer.hpp"
 
 #include <gtest/gtest.h>
 
+#include <cfenv>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <utility>
 
+#include "fast/certified/exact/fixed_integer.hpp"
 #include "tests/support/random.hpp"
 #include "touchstone/number.hpp"
 
@@ -14,7 +20,10 @@ namespace touchstone::fast::exact_stage::big_integer_test {
 namespace {
 
 using exact::Integer;
+using exact::Rational;
 using tests::Random;
+
+Integer power(unsigned bits) { return Integer(1) << bits; }
 
 BigInteger big(const Integer& value) {
   BigInteger result;
@@ -27,70 +36,63 @@ BigInteger big(const Integer& value) {
   return value < 0 ? -result : result;
 }
 
-/// An integer of any size from zero to beyond the inline limbs; often with long runs of equal bits.
-Integer draw(Random& random) {
-  const auto bits = static_cast<unsigned>(random.between(0, 1500));
-  if (random.coin()) return random.integer<Integer>(bits);
-  return (Integer(1) << bits) - random.between(-2, 2);
+/// The low bits of a value that fits, assembled from small parts.
+template <std::size_t size>
+FixedInteger<size> fixed(const Integer& value) {
+  FixedInteger<size> result{}, part(std::int64_t{1});
+  const Integer rest = abs(value);
+  for (std::size_t bit = 0; bit + 1 < 64 * size; ++bit) {
+    if (mpz_tstbit(rest.get_mpz_t(), bit) != 0) result += part;
+    part += part;
+  }
+  return value < 0 ? -result : result;
 }
 
-TEST(BigInteger, AddsSubtractsAndMultipliesAsGmpDoes) {
+/// An integer of any size up to so many bits (by default beyond the inline limbs); often with long
+/// runs of equal bits.
+Integer draw(Random& random, int most = 1500) {
+  const auto bits = static_cast<unsigned>(random.between(0, most));
+  if (random.coin()) return random.integer<Integer>(bits);
+  const Integer edge = power(bits) - 1;
+  return random.coin() ? edge : -edge;
+}
+
+TEST(BigInteger, CalculatesAsGmpDoes) {
   Random random(1);
+  constexpr std::uint64_t modulus = (std::uint64_t{1} << 61U) - 1;
   for (int i = 0; i < 3000; ++i) {
-    const Integer a = draw(random), b = draw(random);
+    const Integer a = draw(random), b = draw(random) + random.between(-1, 3);
     EXPECT_TRUE(big(a) + big(b) == big(a + b)) << a << ' ' << b;
     EXPECT_TRUE(big(a) - big(b) == big(a - b)) << a << ' ' << b;
     EXPECT_TRUE(big(a) * big(b) == big(a * b)) << a << ' ' << b;
     EXPECT_EQ((big(a) - big(b)).sign(), sgn(a - b));
-  }
-}
-
-TEST(BigInteger, ShiftsAndMeasuresBits) {
-  Random random(2);
-  for (int i = 0; i < 2000; ++i) {
-    const Integer a = draw(random);
+    BigInteger sum = big(a), difference = big(a);
+    const BigInteger &alias = sum, &other_alias = difference;
+    sum += alias;
+    difference -= other_alias;
+    EXPECT_TRUE(sum == big(2 * a));
+    EXPECT_EQ(difference.sign(), 0);
     const int shift = random.between(0, 200);
     const BigInteger shifted = big(a) << shift;
     EXPECT_TRUE(shifted == big(a << static_cast<unsigned>(shift)));
     EXPECT_TRUE(shifted >> shift == big(a));
-    EXPECT_TRUE(big(a) >> 8 * shift == big(a / (Integer(1) << static_cast<unsigned>(8 * shift))));
+    EXPECT_TRUE(big(a) >> 8 * shift == big(a / power(static_cast<unsigned>(8 * shift))));
+    const Integer rest = ((a % Integer(modulus)) + Integer(modulus)) % Integer(modulus);
+    EXPECT_EQ(big(a).residue(modulus), rest.get_ui()) << a;
+    if (b != 0) {
+      EXPECT_TRUE(big(a * b).divided_exactly(big(b)) == big(a)) << a << ' ' << b;
+    }
     if (a == 0) continue;
     EXPECT_EQ(big(a).bit_length(), static_cast<long>(mpz_sizeinbase(a.get_mpz_t(), 2)));
     EXPECT_EQ(big(a).trailing_zeros(), static_cast<long>(mpz_scan1(a.get_mpz_t(), 0)));
   }
   EXPECT_EQ(BigInteger().bit_length(), 0);
-}
-
-TEST(BigInteger, TakesItselfAsOperand) {
-  Random random(3);
-  for (int i = 0; i < 200; ++i) {
-    const Integer value = draw(random);
-    BigInteger sum = big(value), difference = big(value);
-    const BigInteger &alias = sum, &other_alias = difference;
-    sum += alias;
-    difference -= other_alias;
-    EXPECT_TRUE(sum == big(2 * value));
-    EXPECT_EQ(difference.sign(), 0);
-  }
-}
-
-TEST(BigInteger, HoldsTheExtremesOfItsConstructor) {
-  EXPECT_TRUE(BigInteger(INT64_MIN) == big(-(Integer(1) << 63U)));
-  EXPECT_TRUE(BigInteger(INT64_MAX) == big((Integer(1) << 63U) - 1));
-  EXPECT_EQ(BigInteger(0).sign(), 0);
+  EXPECT_TRUE(BigInteger(INT64_MIN) == big(-power(63)));
+  EXPECT_TRUE(BigInteger(INT64_MAX) == big(power(63) - 1));
   EXPECT_EQ((-BigInteger(0)).sign(), 0);
 }
 
-TEST(BigInteger, DividesMultiplesExactly) {
-  Random random(5);
-  for (int i = 0; i < 2000; ++i) {
-    const Integer a = draw(random), b = draw(random);
-    if (b == 0) continue;
-    EXPECT_TRUE(big(a * b).divided_exactly(big(b)) == big(a)) << a << ' ' << b;
-  }
-}
-
-TEST(BigInteger, ApproximatesQuotients) {
+TEST(BigInteger, ApproximatesWithinItsBounds) {
   Random random(7);
   for (int i = 0; i < 2000; ++i) {
     Integer a = draw(random), b = draw(random);
@@ -100,40 +102,19 @@ TEST(BigInteger, ApproximatesQuotients) {
     const BigInteger scaled = big(a) << bits, divisor = big(b), most = big(2 * b);
     const BigInteger error = approximate_quotient(big(a), divisor, bits) * divisor - scaled;
     EXPECT_TRUE((error - most).sign() * (error + most).sign() < 0) << a << ' ' << b;
-  }
-  EXPECT_EQ(approximate_quotient(5, 0, 10).sign(), 0);
-}
-
-TEST(BigInteger, TakesResiduesAndDropsFractions) {
-  Random random(6);
-  constexpr std::uint64_t modulus = (std::uint64_t{1} << 61U) - 1;
-  for (int i = 0; i < 2000; ++i) {
-    const Integer a = draw(random);
-    const Integer rest = ((a % Integer(modulus)) + Integer(modulus)) % Integer(modulus);
-    EXPECT_EQ(big(a).residue(modulus), rest.get_ui()) << a;
+    const Approximation near = big(b).approximation();
+    const Rational value = Rational(near.significand) * exact::power_of_two(near.exponent);
+    EXPECT_LE(abs(value - b), abs(Rational(b)) * exact::power_of_two(-52));
+    EXPECT_GE(std::abs(near.significand), 0.5);
+    EXPECT_LE(std::abs(near.significand), 1.0);
     const long shift = random.between(-80, 62) - big(a).bit_length();
     if (shift + big(a).bit_length() > 62) continue;
     const Integer cut = shift >= 0 ? Integer(a << static_cast<unsigned>(shift))
-                                   : Integer(a / (Integer(1) << static_cast<unsigned>(-shift)));
+                                   : Integer(a / power(static_cast<unsigned>(-shift)));
     EXPECT_EQ(big(a).truncated(shift), cut.get_si()) << a << ' ' << shift;
   }
-}
-
-TEST(BigInteger, ApproximatesWithin52Bits) {
-  Random random(4);
-  for (int i = 0; i < 2000; ++i) {
-    const Integer a = draw(random);
-    const Approximation near = big(a).approximation();
-    if (a == 0) {
-      EXPECT_EQ(near.significand, 0.0);
-      continue;
-    }
-    const exact::Rational value =
-        exact::Rational(near.significand) * exact::power_of_two(near.exponent);
-    EXPECT_LE(abs(value - a), abs(exact::Rational(a)) * exact::power_of_two(-52));
-    EXPECT_GE(std::abs(near.significand), 0.5);
-    EXPECT_LE(std::abs(near.significand), 1.0);
-  }
+  EXPECT_EQ(approximate_quotient(5, 0, 10).sign(), 0);
+  EXPECT_EQ(BigInteger(0).approximation().significand, 0.0);
 }
 
 TEST(BigInteger, DividesApproximationsBeyondTheRangeOfDoubles) {
@@ -141,6 +122,78 @@ TEST(BigInteger, DividesApproximationsBeyondTheRangeOfDoubles) {
   EXPECT_EQ(quotient({0.75, -9000}, {0.5, 0}), 0.0);
   EXPECT_EQ(quotient({0.75, 9000}, {-0.5, 0}), -std::numeric_limits<double>::max());
   EXPECT_EQ(quotient({0.75, 3}, {0.0, 0}), 0.0);
+}
+
+template <std::size_t a_size, std::size_t b_size>
+void expect_products(Random& random) {
+  constexpr int most_a = 64 * a_size - 1, most_b = 64 * b_size - 1;
+  for (int i = 0; i < 500; ++i) {
+    const Integer a = draw(random, most_a), b = draw(random, most_b);
+    EXPECT_TRUE(fixed<a_size>(a) * fixed<b_size>(b) == (fixed<a_size + b_size>(a * b)))
+        << a << ' ' << b;
+    if constexpr (a_size == b_size) {
+      const Integer c = a / 2, d = b / 2;
+      EXPECT_TRUE(fixed<a_size>(c) + fixed<a_size>(d) == fixed<a_size>(c + d)) << c << ' ' << d;
+      EXPECT_TRUE(fixed<a_size>(c) - fixed<a_size>(d) == fixed<a_size>(c - d)) << c << ' ' << d;
+      EXPECT_EQ((fixed<a_size>(c) - fixed<a_size>(d)).sign(), sgn(c - d)) << c << ' ' << d;
+    }
+  }
+}
+
+TEST(FixedInteger, CalculatesAsGmpDoes) {
+  Random random(1);
+  expect_products<1, 1>(random);
+  expect_products<2, 1>(random);
+  expect_products<1, 2>(random);
+  expect_products<2, 2>(random);
+  expect_products<3, 2>(random);
+  expect_products<7, 7>(random);
+  for (int i = 0; i < 1000; ++i) {
+    const Integer a = draw(random, 191), b = draw(random, 191);
+    const auto x = static_cast<std::int64_t>(random.bits() >> 2U);
+    const std::int64_t y = random.coin() ? (std::int64_t{1} << 62U) - 1 - x / 2 : 0;
+    const Integer expected = a * Integer(x) + b * Integer(y);
+    EXPECT_TRUE(blend(fixed<3>(a), x, fixed<3>(b), y) == fixed<4>(expected));
+  }
+}
+
+TEST(FixedInteger, HoldsItsExtremes) {
+  EXPECT_TRUE(FixedInteger<2>(std::int64_t{INT64_MIN}) == fixed<2>(-power(63)));
+  const SignedWideLimb wide = -(SignedWideLimb{1} << 126U);
+  EXPECT_TRUE(FixedInteger<2>(wide) == fixed<2>(-power(126)));
+  EXPECT_TRUE(FixedInteger<3>(wide) == fixed<3>(-power(126)));
+  EXPECT_EQ(FixedInteger<2>().sign(), 0);
+  const Integer least = 1 - power(127);
+  for (const Integer& a : {least, Integer(-least), Integer(-1), Integer(1)}) {
+    for (const Integer& b : {least, Integer(-least), Integer(-1)}) {
+      EXPECT_TRUE(fixed<2>(a) * fixed<2>(b) == fixed<4>(a * b)) << a << ' ' << b;
+    }
+  }
+  const Integer most = power(191) - 1, low = power(128) - 1;
+  for (const std::int64_t factor : {INT64_MIN, INT64_MIN + 1, std::int64_t{-1}, INT64_MAX}) {
+    for (const Integer& b : {most, Integer(-most), low, Integer(-low), Integer(0)}) {
+      const Integer expected = b * Integer(static_cast<long>(factor));
+      EXPECT_TRUE(FixedInteger<1>(factor) * fixed<3>(b) == fixed<4>(expected)) << b;
+      EXPECT_TRUE(fixed<3>(b) * FixedInteger<1>(factor) == fixed<4>(expected)) << b;
+    }
+  }
+  EXPECT_TRUE(FixedInteger<1>(INT64_MIN) * FixedInteger<1>(INT64_MIN) == fixed<2>(power(126)));
+}
+
+TEST(FixedInteger, RoundsWithin50BitsInEveryMode) {
+  Random random(4);
+  for (int i = 0; i < 1000; ++i) {
+    const Integer a = draw(random, 383);
+    for (const int mode : {FE_TONEAREST, FE_UPWARD, FE_DOWNWARD, FE_TOWARDZERO}) {
+      std::fesetround(mode);
+      const double rounded = fixed<6>(a).rounded();
+      std::fesetround(FE_TONEAREST);
+      EXPECT_LE(abs(Rational(rounded) - a), abs(Rational(a)) * exact::power_of_two(-50)) << a;
+    }
+  }
+  EXPECT_EQ(FixedInteger<3>(std::int64_t{-5}).rounded(), -5.0);
+  EXPECT_EQ(FixedInteger<3>(std::int64_t{0}).rounded(), 0.0);
+  EXPECT_EQ(FixedInteger<1>(std::int64_t{INT64_MIN}).rounded(), -0x1p63);
 }
 
 }  // namespace

@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "tests/support/contact_function.hpp"
@@ -40,22 +39,6 @@ TEST(NearestParameters, NoOtherPointIsNearer) {
       }
     }
   }
-}
-
-TEST(NearestParameters, KnowsWherePrimitivesAreNearest) {
-  const auto expect = [](const PosedQuery& posed, double u, double v) {
-    for (const Norm norm : {Norm::linf, Norm::l2}) {
-      const Parameters x = nearest_parameters(posed.kind, posed.query, 0.0, norm);
-      EXPECT_NEAR(x.u, u, 1e-12) << posed;
-      EXPECT_NEAR(x.v, v, 1e-12) << posed;
-    }
-  };
-  expect(tests::over_triangle(1, 2, 0, 0), 0.25, 0.5);
-  expect(tests::over_edge(1, 2, 0, 0), 0.25, 0.5);
-  const PosedQuery corner = tests::over_triangle(5, -1, 0, 0);
-  const Parameters x = nearest_parameters(corner.kind, corner.query, 0.0, Norm::l2);
-  EXPECT_EQ(x.u, 1.0);
-  EXPECT_EQ(x.v, 0.0);
 }
 
 TEST(NearestParameters, OverflowsForNoCoordinates) {

@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <cstdlib>
 #include <limits>
-#include <utility>
+#include <vector>
 
 #include "tests/support/random.hpp"
 
@@ -29,7 +29,9 @@ BitInterval found(std::uint64_t ceiling, double guess, std::uint64_t step, int& 
 TEST(DoubleSearch, EnclosesWhateverTheGuess) {
   Random random(1);
   for (int i = 0; i < 20000; ++i) {
-    const std::uint64_t ceiling = 1 + random.bits() % bits_of_one;
+    const std::uint64_t ceiling = i == 0   ? 1
+                                  : i == 1 ? bits_of_one
+                                           : 1 + random.bits() % bits_of_one;
     const double guess =
         random.coin() ? random.finite_double() : std::bit_cast<double>(random.bits() % bits_of_one);
     const std::uint64_t step = std::uint64_t{1} << (random.bits() % 40U);
@@ -41,16 +43,6 @@ TEST(DoubleSearch, EnclosesWhateverTheGuess) {
     EXPECT_LE(cell.upper, bits_of_one);
     EXPECT_LE(questions, 130);
   }
-}
-
-TEST(DoubleSearch, EnclosesTheEnds) {
-  int questions = 0;
-  const BitInterval first = found(1, 1.0, 1, questions);
-  EXPECT_EQ(first.lower, bits_of_zero);
-  EXPECT_EQ(first.upper, 1U);
-  const BitInterval last = found(bits_of_one, 0.0, 1, questions);
-  EXPECT_EQ(last.lower, bits_of_one - 1);
-  EXPECT_EQ(last.upper, bits_of_one);
 }
 
 TEST(DoubleSearch, AsksLittleWhereTheGuessIsGood) {
@@ -75,8 +67,10 @@ TEST(DoubleSearch, TakesAnyGuessIntoTheInterval) {
 
 TEST(BinaryFraction, IsTheDouble) {
   Random random(2);
-  for (int i = 0; i < 10000; ++i) {
-    const double x = random.finite_double();
+  using Limits = std::numeric_limits<double>;
+  std::vector<double> numbers{0.0, -0.0, 1.0, -12.0, Limits::denorm_min(), -Limits::max()};
+  while (numbers.size() < 10000) numbers.push_back(random.finite_double());
+  for (const double x : numbers) {
     const auto [numerator, exponent] = binary_fraction(x);
     EXPECT_EQ(std::ldexp(static_cast<double>(numerator), exponent), x);
     EXPECT_LT(std::abs(numerator), std::int64_t{1} << 53);
@@ -85,19 +79,6 @@ TEST(BinaryFraction, IsTheDouble) {
     EXPECT_EQ(std::ldexp(static_cast<double>(odd.numerator), odd.exponent), x);
     EXPECT_EQ(std::abs(odd.numerator % 2), x == 0.0 ? 0 : 1);
   }
-}
-
-TEST(BinaryFraction, KnownValues) {
-  const auto odd = [](double x) {
-    const BinaryFraction fraction = odd_fraction(x);
-    return std::pair(fraction.numerator, fraction.exponent);
-  };
-  using Limits = std::numeric_limits<double>;
-  for (const double zero : {0.0, -0.0}) EXPECT_EQ(odd(zero), std::pair(std::int64_t{0}, 0));
-  EXPECT_EQ(odd(1.0), std::pair(std::int64_t{1}, 0));
-  EXPECT_EQ(odd(-12.0), std::pair(std::int64_t{-3}, 2));
-  EXPECT_EQ(odd(Limits::denorm_min()), std::pair(std::int64_t{1}, -1074));
-  EXPECT_EQ(odd(-Limits::max()), std::pair(1 - (std::int64_t{1} << 53), 971));
 }
 
 }  // namespace

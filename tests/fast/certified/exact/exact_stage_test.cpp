@@ -19,8 +19,7 @@
 #include "touchstone/oracle.hpp"
 #include "verify/generate/families.hpp"
 
-namespace touchstone::fast {
-
+namespace touchstone::fast::exact_stage_test {
 namespace {
 
 using exact::Rational;
@@ -136,4 +135,4 @@ TEST(ExactStage, FamiliesFindPlantedFaultsAndNoOthers) {
 }
 
 }  // namespace
-}  // namespace touchstone::fast
+}  // namespace touchstone::fast::exact_stage_test

@@ -65,20 +65,6 @@ TEST(FixedPointForm, IsWithinItsBound) {
   }
 }
 
-TEST(FixedPointForm, CountsSignChangesOrSaysThatItCannot) {
-  const std::vector<BigInteger> line{1, -1}, parabola{2, -5, 3}, positive{1, 0, 1};
-  EXPECT_EQ(FixedPointForm(line, 0, one).signs()->changes, 1);
-  EXPECT_EQ(FixedPointForm(line, 0, one / 4).signs()->changes, 0);
-  EXPECT_FALSE(FixedPointForm(line, 0, one / 2).signs().has_value());  // 0 at the end
-  EXPECT_EQ(FixedPointForm(line, one / 2, one / 2).first_sign(), 0);
-  EXPECT_EQ(FixedPointForm(parabola, 0, one).signs()->changes, 2);
-  EXPECT_FALSE(FixedPointForm(positive, 0, one).signs().has_value());
-  EXPECT_EQ(FixedPointForm(positive, one / 4, one).signs()->changes, 0);
-  const std::vector<BigInteger> doubtful{1, 0, -1}, zero{0, 0};
-  EXPECT_EQ(FixedPointForm(doubtful, 0, one).signs()->changes, 1);
-  EXPECT_FALSE(FixedPointForm(zero, 0, one).signs().has_value());
-}
-
 TEST(FixedPointForm, TakesNumbersOfAnySize) {
   const BigInteger large = BigInteger(1) << 3000;
   const std::vector<BigInteger> form{large, BigInteger(0) - large - large - large};

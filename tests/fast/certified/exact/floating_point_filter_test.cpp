@@ -148,17 +148,5 @@ TEST(FilteredForm, TellsNothingOfWhatOverflows) {
   EXPECT_EQ(positive.sign_at(middle), 1);
 }
 
-TEST(FilteredForm, KnowsItsCoefficients) {
-  const FilteredForm<1, 4> form({FixedInteger<1>(std::int64_t{-1}),
-                                 FixedInteger<1>(std::int64_t{0}), FixedInteger<1>(std::int64_t{2}),
-                                 FixedInteger<1>(std::int64_t{5})});
-  EXPECT_EQ(form.rounded(), (std::array<double, 4>{-3.0, 0.0, 2.0, 15.0}));
-  EXPECT_EQ(form.coefficient_sign(0), -1);
-  EXPECT_EQ(form.coefficient_sign(1), 0);
-  EXPECT_EQ(form.coefficient_sign(3), 1);
-  EXPECT_FALSE(form.is_zero());
-  EXPECT_TRUE((FilteredForm<1, 2>(std::array<FixedInteger<1>, 2>{}).is_zero()));
-}
-
 }  // namespace
 }  // namespace touchstone::fast::exact_stage::floating_point_filter_test

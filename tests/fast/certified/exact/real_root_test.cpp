@@ -3,23 +3,32 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <cmath>
 #include <cstdint>
 #include <utility>
 #include <vector>
 
+#include "fast/certified/exact/contact_conditions.hpp"
 #include "fast/certified/exact/enclosing_doubles.hpp"
-#include "tests/fast/certified/forms.hpp"
+#include "fast/certified/exact/polynomial.hpp"
 
 namespace touchstone::fast::exact_stage::real_root_test {
 namespace {
 
-using tests::cubic;
-using tests::in_time;
-using tests::polynomial;
-using tests::Quadratic;
+using Quadratic = Form<BigInteger, 2>;
+
+/// a + b t + c t² as a form: t = y/(x+y).
+Quadratic in_time(std::int64_t a, std::int64_t b, std::int64_t c) {
+  return {a, 2 * a + b, a + b + c};
+}
+
+Polynomial polynomial(const Quadratic& form) { return {form.begin(), form.end()}; }
+
+/// a + b t + c t² + d t³, without roots at t=0 and t=1.
+Polynomial cubic(std::int64_t a, std::int64_t b, std::int64_t c, std::int64_t d) {
+  return inner_polynomial(Polynomial{a, 3 * a + b, 3 * a + 2 * b + c, a + b + c + d});
+}
 
 std::uint64_t bits_of(double x) { return std::bit_cast<std::uint64_t>(x); }
 
@@ -53,37 +62,25 @@ void expect_roots(const Polynomial& f, const std::vector<double>& expected) {
 }
 
 TEST(AlgebraicInstant, FindsAllRootsInOrder) {
+  constexpr double third = 1.0 / 3.0;
   expect_roots(cubic(-3, 32, -64, 0), {1.0 / 8.0, 3.0 / 8.0});
   expect_roots(cubic(-3, 44, -192, 256), {1.0 / 8.0, 0.25, 3.0 / 8.0});
   expect_roots(cubic(-1, 0, 2, 0), {std::sqrt(0.5)});
   expect_roots(cubic(1, 0, 2, 0), {});
-  expect_roots(cubic(1, -5, 6, 0), {1.0 / 3.0, 0.5});
-}
-
-TEST(AlgebraicInstant, FindsMultipleRootsOnce) {
-  expect_roots(cubic(1, -6, 9, 0), {1.0 / 3.0});          // (1−3t)²
-  expect_roots(cubic(1, -9, 27, -27), {1.0 / 3.0});       // (1−3t)³
-  expect_roots(cubic(1, -8, 21, -18), {1.0 / 3.0, 0.5});  // (1−3t)²(1−2t)
-  expect_roots(cubic(1, -6, 12, -8), {0.5});              // (1−2t)³
-}
-
-TEST(AlgebraicInstant, LeavesRootsAtTheEndsOut) {
-  EXPECT_TRUE(roots(cubic(0, 1, -1, 0)).empty());  // t(1−t)
-  expect_roots(cubic(0, 1, -3, 2), {0.5});         // t(1−t)(1−2t)
-}
-
-TEST(AlgebraicInstant, FindsRootsFarApart) {
+  // Multiple ones once.
+  expect_roots(cubic(1, -6, 9, 0), {third});          // (1−3t)²
+  expect_roots(cubic(1, -9, 27, -27), {third});       // (1−3t)³
+  expect_roots(cubic(1, -8, 21, -18), {third, 0.5});  // (1−3t)²(1−2t)
+  const Polynomial a = polynomial(in_time(1, 0, -2)), b = polynomial(in_time(2, -9, 9));
+  expect_roots(inner_polynomial(a * a * b * polynomial(in_time(1, 1, 1))),
+               {third, 2.0 / 3.0, std::sqrt(0.5)});
+  // None at the ends.
+  expect_roots(cubic(0, 1, -1, 0), {});     // t(1−t)
+  expect_roots(cubic(0, 1, -3, 2), {0.5});  // t(1−t)(1−2t)
   // (1 − 2^70 t)(1 − 2^35 t)
-  const BigInteger one = 1;
-  const BigInteger a = one << 70, b = one << 35;
-  const Polynomial f{one, BigInteger(2) - a - b, one - a - b + a * b};
-  expect_roots(f, {0x1p-70, 0x1p-35});
-}
-
-TEST(AlgebraicInstant, StopsWhereTheVisitorSays) {
-  int visits = 0;
-  EXPECT_TRUE(visit_roots(cubic(-3, 44, -192, 256), [&](Instant&) { return ++visits == 2; }));
-  EXPECT_EQ(visits, 2);
+  const BigInteger one = 1, steep = one << 70, flat = one << 35;
+  expect_roots({one, BigInteger(2) - steep - flat, one - steep - flat + steep * flat},
+               {0x1p-70, 0x1p-35});
 }
 
 TEST(AlgebraicInstant, KnowsSignsAndZerosOfOtherForms) {
@@ -96,9 +93,7 @@ TEST(AlgebraicInstant, KnowsSignsAndZerosOfOtherForms) {
   EXPECT_EQ(root.sign_of(root_at(70710679, 100000000)), 1);
   EXPECT_EQ(root.sign_of(root_at(33461, 47321)), 1);   // 2·33461² = 47321² + 1
   EXPECT_EQ(root.sign_of(root_at(13860, 19601)), -1);  // 2·13860² = 19601² − 1
-}
-
-TEST(AlgebraicInstant, TellsARootFromTheOtherOfTheSameDivisor) {
+  EXPECT_NEAR(root.quotient_of(in_time(0, 1, 0), in_time(1, 0, 0)), std::sqrt(0.5), 0x1p-46);
   // f = (1−3t)(2−3t); q = (2−3t)(1+t) shares only the other root.
   Instant first(cubic(2, -9, 9, 0), {0, 0}, {1, 1});
   EXPECT_EQ(first.sign_of(in_time(2, -1, -3)), 1);
@@ -111,13 +106,6 @@ TEST(AlgebraicInstant, KnowsADyadicRootExactly) {
   EXPECT_TRUE(root.is_above(bits_of(std::nextafter(0.3125, 0.0))));
   EXPECT_EQ(root.sign_of(root_at(5, 16)), 0);
   EXPECT_EQ(root.sign_of(root_at(5000001, 16000000)), 1);
-}
-
-TEST(AlgebraicInstant, DividesAccurately) {
-  Instant root(cubic(1, 0, -2, 0), {0, 0}, {1, 0});
-  EXPECT_NEAR(root.quotient_of(in_time(0, 1, 0), in_time(1, 0, 0)), std::sqrt(0.5), 0x1p-46);
-  Instant point(Dyadic{1, 2});
-  EXPECT_EQ(point.quotient_of(in_time(0, 2, 0), in_time(1, 0, 0)), 0.5);
 }
 
 TEST(AlgebraicInstant, SplitsBetweenTheEndsAndQuicklyTowardsThem) {
@@ -134,12 +122,6 @@ TEST(AlgebraicInstant, SplitsBetweenTheEndsAndQuicklyTowardsThem) {
     (i % 2 == 0 ? lower : upper) = middle;
     if (value(upper) - value(lower) < 0x1p-50) break;
   }
-}
-
-TEST(AlgebraicInstant, HandlesDegreeEight) {
-  const Polynomial a = polynomial(in_time(1, 0, -2)), b = polynomial(in_time(2, -9, 9));
-  const Polynomial f = a * a * b * polynomial(in_time(1, 1, 1));
-  expect_roots(inner_polynomial(f), {1.0 / 3.0, 2.0 / 3.0, std::sqrt(0.5)});
 }
 
 TEST(AlgebraicInstant, TellsRootsThatAreHardlyApart) {
@@ -244,15 +226,6 @@ TEST(AlgebraicInstant, FindsTheFirstRootLaterThanATime) {
   auto end = first_root_after(start, {1, 2}, in_time(1, -4, 0));  // at the limit itself
   ASSERT_TRUE(end.has_value());
   EXPECT_EQ(compare(end->lower(), {1, 2}), 0);
-}
-
-TEST(AlgebraicInstant, SeesSignsBetweenTimes) {
-  const Quadratic f = in_time(1, -2, 0);  // 1 − 2t
-  EXPECT_TRUE(is_positive_between(f, {0, 0}, {1, 2}));
-  EXPECT_FALSE(is_positive_between(f, {0, 0}, {1, 1}));
-  EXPECT_EQ(weak_sign_between(f, {0, 0}, {1, 1}), 1);
-  EXPECT_EQ(weak_sign_between(f, {1, 1}, {1, 0}), -1);
-  EXPECT_EQ(weak_sign_between(f, {0, 0}, {1, 0}), 0);
 }
 
 }  // namespace
