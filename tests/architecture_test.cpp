@@ -46,7 +46,7 @@ constexpr std::string_view rest =
 /// A path obeys the longest line that fits it. Folders of verify include only those above them, so
 /// that there are no circles.
 constexpr auto layers = std::to_array<Layer>({
-    {"exact/query.hpp", "Eigen/"},
+    {"exact/query.hpp", "exact/cxx20.hpp Eigen/"},
     {"exact/curved_query.hpp", "exact/query.hpp"},
     {"exact/", "exact/ CGAL/ Eigen/ gmp.h gmpxx.h mpfr.h"},
     // The checker shares no code with anything that decides queries.

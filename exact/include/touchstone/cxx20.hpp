@@ -6,5 +6,5 @@
 #if __cplusplus <= 201703L
 #error "Touchstone needs C++20: compile with -std=c++20"
 // A missing file ends the compilation, before errors of the other headers hide this one.
-#include <touchstone/needs_cxx20>
+#include <touchstone_needs_cxx20>
 #endif

@@ -6,7 +6,7 @@
 
 #if __cplusplus <= 201703L
 #error "Touchstone needs C++20: compile with -std=c++20"
-#include <touchstone/needs_cxx20>  // as in touchstone/cxx20.hpp, which this module does not use
+#include <touchstone_needs_cxx20>  // as in touchstone/cxx20.hpp, which this module does not use
 #endif
 
 #include <array>
