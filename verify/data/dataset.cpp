@@ -15,6 +15,7 @@
 #include "verify/data/npy_dataset.hpp"
 #include "verify/data/obj_dataset.hpp"
 #include "verify/data/store.hpp"
+#include "verify/io/output_file.hpp"
 
 namespace touchstone::verify::data {
 namespace {
@@ -101,7 +102,7 @@ class Search {
       found_.push_back(path);
     } else if (is_dataset) {
       leave_out(path, "in a folder of what accompanies datasets; name the file itself to read it");
-    } else if (!companions && !is_ground_truth_name(path)) {
+    } else if (!companions && !is_ground_truth_name(path) && !io::is_partial(path)) {
       leave_out(path, "no dataset (.csv, .npy)");
     }
   }

@@ -52,8 +52,12 @@ std::string unused_name() {
   return fmt::format("{:08x}{:08x}", random(), random());
 }
 
-fs::path partial_name(const fs::path& path) {
-  return path.string() + ".touchstone.partial-" + unused_name();
+constexpr const char* partial_mark = ".touchstone.partial-";
+
+fs::path partial_name(const fs::path& path) { return path.string() + partial_mark + unused_name(); }
+
+bool is_partial(const fs::path& path) {
+  return path.filename().string().find(partial_mark) != std::string::npos;
 }
 
 OutputFile::OutputFile(fs::path path) : path_(std::move(path)) {

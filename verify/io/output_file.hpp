@@ -29,6 +29,9 @@ namespace touchstone::verify::io {
 /// The name, of nobody else's, for what is to be called `path` when it is complete.
 [[nodiscard]] std::filesystem::path partial_name(const std::filesystem::path& path);
 
+/// True if the name is one that partial_name() gives: such a file is no input.
+[[nodiscard]] bool is_partial(const std::filesystem::path& path);
+
 /// A file open for writing, buffered. Without close() it is discarded.
 class OutputFile {
  public:

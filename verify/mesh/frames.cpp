@@ -13,6 +13,7 @@
 
 #include "verify/data/npz.hpp"
 #include "verify/io/dataset_error.hpp"
+#include "verify/io/output_file.hpp"
 
 namespace touchstone::verify::mesh {
 namespace {
@@ -56,7 +57,7 @@ std::vector<fs::path> mesh_files_in(const fs::path& folder, std::vector<fs::path
   for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
     if (entry.is_regular_file() && is_mesh_file(entry.path())) {
       files.push_back(entry.path());
-    } else if (left_out != nullptr) {
+    } else if (left_out != nullptr && !io::is_partial(entry.path())) {
       left_out->push_back(entry.path());
     }
   }
