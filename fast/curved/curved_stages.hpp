@@ -268,7 +268,8 @@ class Search {
     const Value zero(0.0), one(1.0);
     const Value u = max(min(nearest.u, one), zero), v = max(min(nearest.v, one), zero);
     if constexpr (kind == Kind::edge_edge) return {u, v};
-    // On the side between, a little inside. (A sum above 1 may be rounded to 1: `rest` is its error.)
+    // On the side between, a little inside. (A sum above 1 may be rounded to 1: `rest` is its
+    // error.)
     const Value sum = u + v, part = sum - u;
     const Value rest = (u - (sum - part)) + (v - part);
     const Value factor = select((sum - one) + rest > zero, Value(1.0 - 0x1p-50) / sum, one);

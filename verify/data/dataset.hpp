@@ -6,8 +6,8 @@
 ///
 /// Formats: CSV, also compressed by zstd, with eight rows for each query, each x, y and z as
 /// numbers or as numerator and denominator, and optionally a label (csv_dataset.hpp); NumPy arrays
-/// of shape (N, 8, 3), alone or in an archive (npy_dataset.hpp); eight vertices of an OBJ file for each query
-/// (obj_dataset.hpp). Labels and times of impact may be in separate files beside either
+/// of shape (N, 8, 3), alone or in an archive (npy_dataset.hpp); eight vertices of an OBJ file for
+/// each query (obj_dataset.hpp). Labels and times of impact may be in separate files beside either
 /// (ground_truth_files.hpp).
 
 #include <filesystem>

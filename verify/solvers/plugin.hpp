@@ -58,8 +58,8 @@ struct PluginOptions {
 /// \throws DatasetError naming the file and the reason if it cannot be loaded, lacks a function, is
 /// made for a version of the interface that this program does not know, has no name or one that is
 /// not printable, has more than 100 bytes or is that of a built-in solver, states a promise out of
-/// range, or ends its process, throws or takes too long on the way; Interrupted if the options' stop turns
-/// true; std::system_error if no process can be made.
+/// range, or ends its process, throws or takes too long on the way; Interrupted if the options'
+/// stop turns true; std::system_error if no process can be made.
 [[nodiscard]] std::unique_ptr<fast::Method> load_plugin(const std::filesystem::path& library,
                                                         const PluginOptions& options = {});
 

@@ -182,10 +182,11 @@ TOUCHSTONE_API int32_t touchstone_step_collisions(TouchstoneStep* step,
                                                   const TouchstoneCollision** collisions,
                                                   size_t* count);
 
-/// A maximal step size: the step from x0 to fl(x0 + fl(alpha fl(x1 − x0))) is free and, unless alpha
-/// is 1, that of the next double is not. Because of rounding, the step of a larger alpha may be free
-/// too, and that of a smaller one may not. Writes −1 if not even a step of size 0 is free. TOUCHSTONE_NOT_FINITE if
-/// x1 − x0 of a coordinate is greater than any double; the message names the vertex.
+/// A maximal step size: the step from x0 to fl(x0 + fl(alpha fl(x1 − x0))) is free and, unless
+/// alpha is 1, that of the next double is not. Because of rounding, the step of a larger alpha may
+/// be free too, and that of a smaller one may not. Writes −1 if not even a step of size 0 is free.
+/// TOUCHSTONE_NOT_FINITE if x1 − x0 of a coordinate is greater than any double; the message names
+/// the vertex.
 TOUCHSTONE_API int32_t touchstone_step_free_step_size(const TouchstoneStep* step, double* alpha);
 
 /// The least distance of all pairs of the step at the time t, in [0,1], and all pairs with this
