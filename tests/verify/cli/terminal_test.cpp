@@ -88,7 +88,7 @@ std::string sheet(double size) {
   for (int i = 0; i < row * row; ++i) {
     text += "v";
     for (const int factor : {7919, 104'729, 1'299'709}) {
-      text += " " + std::to_string(size * (i * std::int64_t{factor} % 1009));
+      text += " " + std::to_string(size * static_cast<double>(i * std::int64_t{factor} % 1009));
     }
     text += '\n';
   }
