@@ -362,7 +362,7 @@ class Search {
            have_one_sign(at_a, at_b, error);
   }
 
-  [[nodiscard]] Rational rounding() const { return Rational(rounding_ * upwards); }
+  [[nodiscard]] Rational rounding() const { return rounding_ * upwards; }
 
   /// The sign of det, or 0 if the rounding of places could change it.
   [[nodiscard]] int sign_of_determinant(const Corners& w) const {
