@@ -29,17 +29,17 @@ std::string reason_of(int error) {
 }
 
 /// A member that is open for reading, and its archive, which has to stay open as long.
-struct Member {
+struct OpenMember {
   std::shared_ptr<zip> archive;
   zip_file* file;
 
-  explicit Member(std::shared_ptr<zip> of, const std::string& name)
+  explicit OpenMember(std::shared_ptr<zip> of, const std::string& name)
       : archive(std::move(of)), file(zip_fopen(archive.get(), name.c_str(), 0)) {}
-  Member(const Member&) = delete;
-  Member& operator=(const Member&) = delete;
-  Member(Member&&) = delete;
-  Member& operator=(Member&&) = delete;
-  ~Member() {
+  OpenMember(const OpenMember&) = delete;
+  OpenMember& operator=(const OpenMember&) = delete;
+  OpenMember(OpenMember&&) = delete;
+  OpenMember& operator=(OpenMember&&) = delete;
+  ~OpenMember() {
     if (file != nullptr) zip_fclose(file);
   }
 };
@@ -47,7 +47,7 @@ struct Member {
 /// Reads a member from its first byte on.
 ReadBytes reader_of(const std::shared_ptr<zip>& archive, const std::filesystem::path& path,
                     const std::string& name) {
-  const auto member = std::make_shared<Member>(archive, name + std::string(extension));
+  const auto member = std::make_shared<OpenMember>(archive, name + std::string(extension));
   if (member->file == nullptr) {
     throw io::DatasetError(path, {}, name + ": " + zip_strerror(archive.get()));
   }
