@@ -63,7 +63,6 @@ struct PieceOutputs {
 
 /// Writes the results of all pieces as one, to the files that the run's command line named; a
 /// summary goes to standard output. \param json_file Instead of the named JSON file, if not empty.
-[[nodiscard]] Status merge_pieces(const std::filesystem::path& folder,
-                                  const std::string& json_file);
+[[nodiscard]] Status merge_pieces(const std::filesystem::path& path, const std::string& json_file);
 
 }  // namespace touchstone::verify::cli
