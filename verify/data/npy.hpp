@@ -87,6 +87,7 @@ class NpyArray {
     while (!numbers.empty()) {
       const std::size_t count = std::min(part.size(), numbers.size());
       read_all(bytes_of(std::span(part).first(count)));
+      // NOLINTNEXTLINE(bugprone-signed-char-misuse): an int8 is a number here
       for (std::size_t i = 0; i < count; ++i) numbers[i] = static_cast<Number>(part[i]);
       numbers = numbers.subspan(count);
     }
