@@ -63,7 +63,7 @@ def with_languages(text):
     lines, is_open = text.split("\n"), False
     for i, line in enumerate(lines):
         if line.startswith("```"):
-            lines[i] = "```text" if line in ("```", "```csv") and not is_open else line
+            lines[i] = "```text" if line in ("```", "```csv", "```mermaid") and not is_open else line
             is_open = not is_open
     return "\n".join(lines)
 
