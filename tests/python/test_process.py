@@ -216,10 +216,10 @@ assert ctypes.CDLL("libm.so.6").fesetround(int(sys.argv[1]) << shift) == 0
 import touchstone
 queries = (np.arange(24 * 50).reshape(-1, 8, 3) * 7919 % 13 - 6) / 2.0
 for kind in ("edge_edge", "vertex_face"):
-    for result in (touchstone.certified(kind, queries), touchstone.distance(kind, queries, 0.5)):
+    for result in (touchstone.certified(kind, queries), touchstone.distance(kind, queries, t=0.5)):
         print(result, result.array.tolist())
     print(touchstone.decide(kind, queries).collides.tolist())
-step = touchstone.Step(queries[:, :3].reshape(-1, 3), queries[:, 3:6].reshape(-1, 3), np.arange(150).reshape(-1, 3))
+step = touchstone.Step(queries[:, :3].reshape(-1, 3), queries[:, 3:6].reshape(-1, 3), faces=np.arange(150).reshape(-1, 3))
 print(step.earliest(), step.collisions().tolist(), step.free_step_size())
 """
 
