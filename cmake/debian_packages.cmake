@@ -27,7 +27,7 @@ endif()
 touchstone_debian_package(libtouchstone-dev libdevel
   "Certified continuous collision detection: libraries in C++ and C"
   DEPENDS "libeigen3-dev (>= 3.4)${tbb}"
-  RECOMMENDS "libcgal-dev (>= 5.5), libgmp-dev, libmpfr-dev, libfmt-dev (>= 9)")
+  RECOMMENDS "libgmp-dev, libmpfr-dev, libfmt-dev (>= 9)")
 if(TOUCHSTONE_BUILD_EXACT)
   touchstone_debian_package(touchstone-check math "Checker of the certificates of continuous collision detection")
 endif()

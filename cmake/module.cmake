@@ -3,11 +3,6 @@
 set(CMAKE_CXX_EXTENSIONS OFF)
 set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
 
-# GCC 12 for AArch64 puts a constant that it may not fold (-frounding-math, an option of CGAL's package) in the middle of
-# a block of constants, and then reads those behind it from wrong places. Of use to all that link exact.
-set(touchstone_cgal_options
-  "$<$<AND:$<CXX_COMPILER_ID:GNU>,$<STREQUAL:${CMAKE_SYSTEM_PROCESSOR},aarch64>>:-fno-section-anchors>")
-
 add_library(touchstone_build_options INTERFACE)
 target_compile_features(touchstone_build_options INTERFACE cxx_std_20)
 # Internal headers are included by their paths from the root.
@@ -23,7 +18,9 @@ target_compile_options(touchstone_build_options INTERFACE
   $<$<CXX_COMPILER_ID:GNU>:--param=ggc-min-heapsize=4000000>
   # A filter's bound holds for the operations as they are written.
   -ffp-contract=off
-  ${touchstone_cgal_options}
+  # GCC 12 for AArch64 puts a constant that it may not fold (-frounding-math, an option of CGAL's package) in the middle
+  # of a block of constants, and then reads those behind it from wrong places.
+  $<$<AND:$<CXX_COMPILER_ID:GNU>,$<STREQUAL:${CMAKE_SYSTEM_PROCESSOR},aarch64>>:-fno-section-anchors>
   # Clang 19 raises an alarm on the stable sort of GCC's library, which uses a deprecated function.
   $<$<CXX_COMPILER_ID:Clang>:-Wno-deprecated-declarations>
   # GCC 12 raises a false alarm on std::string's operator+ (its bug 105651).

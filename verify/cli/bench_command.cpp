@@ -86,11 +86,7 @@ class BenchRun {
   }
 
   Status run() {
-    try {
-      bench_all();
-    } catch (const fast::Stopped&) {
-    } catch (const io::Interrupted&) {
-    }
+    until_interrupted([&] { bench_all(); });
     if (json_) json_.write(io::json_document(report::to_json(report_)));
     json_.close();
     if (!report_.groups.empty() || errors_.empty()) {

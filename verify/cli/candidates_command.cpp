@@ -158,7 +158,7 @@ Status candidates(const Arguments& arguments) {
   const mesh::MovingMesh mesh = mesh::read_step(arguments.before, arguments.after);
   report_note(arguments.before, mesh.note);
   std::vector<Found> all;
-  try {
+  until_interrupted([&] {
     for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
       all.push_back(find(mesh, kind, arguments.broad_phase));
     }
@@ -169,9 +169,7 @@ Status candidates(const Arguments& arguments) {
     mesh::write_index_pairs(arrays.edge_edge_pairs, all[1].pairs);
     write_queries(arrays.vertex_face, mesh, all[0]);
     write_queries(arrays.edge_edge, mesh, all[1]);
-  } catch (const fast::Stopped&) {
-  } catch (const io::Interrupted&) {
-  }
+  });
   if (json) json.write(io::json_document(summary(mesh, all)));
   json.close();
   io::print(files.summary_stream(), table_of(mesh, all));

@@ -264,13 +264,14 @@ class FuzzRun {
     bar_.clear();
     report_unplaced_crashes(asked_.method, report.result.unplaced_crashes);
     report_output(asked_.method, report.result.output, arguments_.solver.show_output);
-    std::vector<fs::path> written = attempt([&] { return found_.close(); });
+    std::vector<fs::path> written;
+    attempt([&] { written = found_.close(); });
     if (json_) json_.write(io::json_document(fuzz::to_json(report)));
     json_.close();
     write_view(report);
-    for (const fs::path& page : attempt([&] { return write_pages(report); })) {
-      written.push_back(page);
-    }
+    attempt([&] {
+      for (fs::path& page : write_pages(report)) written.push_back(std::move(page));
+    });
     io::print(out(), fuzz::to_text(report));
     for (const fs::path& file : written)
       io::print(out(), fmt::format("written: {}\n", io::printable(file.string())));
@@ -279,15 +280,14 @@ class FuzzRun {
   }
 
  private:
-  /// The files that an action writes; if it fails, none, and the findings go on their other ways.
-  std::vector<fs::path> attempt(const std::function<std::vector<fs::path>()>& write) {
+  /// Writes findings; if it fails, they go on their other ways.
+  void attempt(const std::function<void()>& write) {
     try {
-      return write();
+      write();
     } catch (const std::exception& error) {
       bar_.clear();
       report_error(error.what());
       files_.note_failure();
-      return {};
     }
   }
 
@@ -351,13 +351,12 @@ class FuzzRun {
     }
     const fuzz::FailingCase& simplest = finding.simplest;
     const fuzz::FailingCase& original = finding.original;
-    static_cast<void>(attempt([&] {
+    attempt([&] {
       found_.write(finding.kind, simplest.query, simplest.collides);
       if (simplest.query != original.query) {
         found_.write(finding.kind, original.query, original.collides);
       }
-      return std::vector<fs::path>();
-    }));
+    });
   }
 
   [[nodiscard]] Status status(const fuzz::FuzzResult& result) const {

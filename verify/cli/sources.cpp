@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "touchstone/broad_phase.hpp"
 #include "touchstone/query.hpp"
 #include "verify/data/dataset.hpp"
 #include "verify/generate/families.hpp"
@@ -160,14 +161,20 @@ Separation separation_for(const SourceArguments& arguments, const data::QuerySou
 
 void for_each_source(const SourceArguments& arguments, Files& files,
                      const SourceHandlers& handlers) {
-  try {
+  until_interrupted([&] {
     if (arguments.built_in_set()) {
       for_each_family(arguments, handlers);
     } else {
       for_each_file(arguments, files, handlers);
     }
+  });
+}
+
+void until_interrupted(const std::function<void()>& work) {
+  try {
+    work();
+  } catch (const fast::Stopped&) {
   } catch (const io::Interrupted&) {
-    // The command continues with the results so far, as after an interrupt between two queries.
   }
 }
 

@@ -91,6 +91,9 @@ struct SourceHandlers {
 void for_each_source(const SourceArguments& arguments, Files& files,
                      const SourceHandlers& handlers);
 
+/// Does the work up to an interrupt: the command goes on with the results so far.
+void until_interrupted(const std::function<void()>& work);
+
 /// The files of frames, as mesh::frame_files; says what else is in a folder.
 [[nodiscard]] std::vector<std::filesystem::path> frame_files(
     std::span<const std::filesystem::path> paths);

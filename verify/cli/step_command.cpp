@@ -89,7 +89,7 @@ class StepRun {
     io::ProgressBar bar("step");
     const std::size_t count = frames_->count();
     mesh::Vertices before;
-    try {
+    until_interrupted([&] {
       for (std::size_t i = 0; i < count && !is_stopped(); ++i) {
         mesh::Vertices after = frames_->next();
         check_frame(i, after);
@@ -101,9 +101,7 @@ class StepRun {
         before = std::move(after);
         progress(1.0);
       }
-    } catch (const fast::Stopped&) {
-    } catch (const io::Interrupted&) {
-    }
+    });
     bar.clear();
     report_.interrupted = report_.steps.size() + 1 < count;
     return finish();
