@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <stdexcept>
+#include <string>
 #include <utility>
 
 #include "exact/algebra/positivity.hpp"
@@ -216,6 +217,26 @@ Certificate prove(Kind kind, const Query& query, const Decision& verdict,
 Certificate prove(Kind kind, const CurvedQuery& query, const Decision& verdict,
                   const ProveOptions& options) {
   return prove_any(kind, query, verdict, options);
+}
+
+Certificate prove(const Queries& queries, std::size_t i, const Decision& verdict,
+                  const ProveOptions& options) {
+  if (queries.is_straight()) return prove(queries.kind, queries.straight()[i], verdict, options);
+  return prove(queries.kind, to_curved(queries, i), verdict, options);
+}
+
+std::vector<Certificate> prove(const Queries& queries, std::span<const Decision> verdicts,
+                               const ProveOptions& options) {
+  if (verdicts.size() != queries.size()) {
+    throw std::invalid_argument("prove: " + std::to_string(verdicts.size()) + " verdicts for " +
+                                std::to_string(queries.size()) + " queries");
+  }
+  std::vector<Certificate> certificates;
+  certificates.reserve(queries.size());
+  for (std::size_t i = 0; i < queries.size(); ++i) {
+    certificates.push_back(prove(queries, i, verdicts[i], options));
+  }
+  return certificates;
 }
 
 }  // namespace touchstone::exact

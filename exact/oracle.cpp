@@ -23,6 +23,20 @@ Decision decide(Kind kind, const CurvedQuery& query, const Separation& separatio
   return verdict;
 }
 
+Decision decide(const Queries& queries, std::size_t i, const Separation& separation) {
+  if (queries.is_straight()) return decide(queries.kind, queries.straight()[i], separation);
+  return decide(queries.kind, to_curved(queries, i), separation);
+}
+
+std::vector<Decision> decide(const Queries& queries, const Separation& separation) {
+  std::vector<Decision> decisions;
+  decisions.reserve(queries.size());
+  for (std::size_t i = 0; i < queries.size(); ++i) {
+    decisions.push_back(decide(queries, i, separation));
+  }
+  return decisions;
+}
+
 ContactParameters contact_parameters(const Decision& verdict, const Rational& width) {
   if (!verdict.contact) throw std::invalid_argument("the place of contact is not known");
   const auto& [u, v, denominator] = *verdict.contact;

@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file
-/// The interface of every solver: a description, and answers to a span of queries. verify/
+/// The interface of every solver: a description, and answers to queries. verify/
 /// uses solvers through it alone.
 
 #include <algorithm>
@@ -54,6 +54,11 @@ enum class Times : std::uint8_t {
 struct Terms {
   bool vertex_face = true;  ///< It answers vertex-face queries.
   bool edge_edge = true;    ///< It answers edge-edge queries.
+  bool straight = true;     ///< It answers queries on straight lines.
+  /// The degrees of the other curves that it answers; none unless least ≤ most.
+  std::size_t least_degree = 1;
+  std::size_t most_degree = 0;
+  bool rational = false;  ///< Of these, also rational ones.
   /// At t=0 the distance must be more than the minimum separation plus this; nothing: any distance.
   std::optional<double> starts_apart = std::nullopt;
   /// It takes coordinates in single precision: queries are rounded first.
@@ -63,6 +68,12 @@ struct Terms {
 
   [[nodiscard]] bool answers(Kind kind) const {
     return kind == Kind::vertex_face ? vertex_face : edge_edge;
+  }
+  [[nodiscard]] bool answers(const QueryShape& shape) const {
+    if (!answers(shape.kind)) return false;
+    if (shape.is_straight()) return straight;
+    return least_degree <= shape.degree && shape.degree <= most_degree &&
+           (rational || !shape.is_rational);
   }
   friend bool operator==(const Terms&, const Terms&) = default;
 };
@@ -124,10 +135,10 @@ class Method {
   [[nodiscard]] Promise promise() const { return info().promise; }
 
   /// Answers query i in answers[i], in this thread.
-  /// \pre both spans have the same length.
+  /// \pre as many answers as queries; info().terms.answers(queries).
   /// \throws std::invalid_argument for options that the method refuses; std::runtime_error if the
   /// arithmetic violates its assumptions; std::bad_alloc.
-  virtual void solve(Kind kind, std::span<const Query> queries, std::span<Answer> answers,
+  virtual void solve(const Queries& queries, std::span<Answer> answers,
                      const MethodOptions& options) const = 0;
 };
 

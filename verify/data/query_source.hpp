@@ -9,12 +9,13 @@
 
 #include "touchstone/number.hpp"
 #include "touchstone/query.hpp"
+#include "verify/base/any_query.hpp"
 
 namespace touchstone::verify::data {
 
 /// A query with the truth that its source records.
 struct RecordedQuery {
-  Query query;
+  base::AnyQuery query;
   /// Position in the source, counted from 0; skipped queries keep their number.
   std::uint64_t index;
   /// The label, if the source has one: true for a collision.
@@ -23,7 +24,7 @@ struct RecordedQuery {
   std::optional<exact::Rational> toi;
 };
 
-/// A stream of queries of one kind.
+/// A stream of queries of one shape.
 class QuerySource {
  public:
   QuerySource() = default;
@@ -35,7 +36,8 @@ class QuerySource {
 
   /// The file's path, or the family's name.
   [[nodiscard]] virtual const std::string& name() const = 0;
-  [[nodiscard]] virtual Kind kind() const = 0;
+  [[nodiscard]] virtual QueryShape shape() const = 0;
+  [[nodiscard]] Kind kind() const { return shape().kind; }
 
   /// The separation of the recorded labels and times of impact.
   [[nodiscard]] virtual Separation recorded_separation() const { return {}; }

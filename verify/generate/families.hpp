@@ -45,6 +45,9 @@ struct Family {
   std::string_view reason;
   /// The verdicts that occur among its queries.
   Verdicts verdicts;
+  /// The curves of its queries.
+  std::size_t degree = 1;
+  bool is_rational = false;
 };
 
 /// A query with the truth that its construction provides.
@@ -75,7 +78,11 @@ struct KnownQuery {
 /// queries.
 [[nodiscard]] std::vector<Family> families(const Separation& separation);
 
-/// The family of that name, about contact or about a separation.
+/// All families on curves (curved_families.hpp), of degree 2, of degree 3, and rational, always in
+/// the same order.
+[[nodiscard]] std::span<const Family> curved_families();
+
+/// The family of that name, about contact, about a separation or on curves.
 /// \throws std::invalid_argument if there is none.
 [[nodiscard]] const Family& family_from_name(std::string_view name);
 
@@ -83,14 +90,15 @@ struct KnownQuery {
 /// \throws std::invalid_argument if no family has the name of `family`.
 [[nodiscard]] bool supports(const Family& family, Kind kind);
 
-/// Query number `index` of a family: a function of the arguments alone, the same on every machine.
-/// Families about contact ignore the separation. \throws std::invalid_argument if the family does
-/// not support the kind or is unknown, or has no queries for the separation.
+/// Query number `index` of a family on straight lines: a function of the arguments alone, the same
+/// on every machine. Families about contact ignore the separation. \throws std::invalid_argument if
+/// the family does not support the kind, is unknown or on curves, or has no queries for the
+/// separation.
 [[nodiscard]] KnownQuery make_query(const Family& family, Kind kind, std::uint64_t seed,
                                     std::uint64_t index, const Separation& separation = {});
 
 /// The queries 0 to count−1 of one family and kind as a stream; its name is the family's name.
-/// \throws std::invalid_argument as make_query does.
+/// \throws std::invalid_argument as make_query does, on curves too.
 [[nodiscard]] std::unique_ptr<data::QuerySource> open_family(const Family& family, Kind kind,
                                                              std::uint64_t seed,
                                                              std::uint64_t count,

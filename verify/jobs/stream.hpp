@@ -30,19 +30,21 @@ namespace touchstone::verify::jobs {
 struct Block {
   /// So many queries, but for the last block: as many as hide the cost of a clock call behind a
   /// solver that takes 10 ns a query.
-  static constexpr std::size_t size = 2048;
+  static constexpr std::size_t most_queries = 2048;
 
   const std::string* source;
-  Kind kind;
-  std::vector<Query> queries;
+  QueryShape shape;
+  std::vector<double> numbers;
   std::vector<std::uint64_t> indices;
   std::vector<judge::Label> labels;
+
+  [[nodiscard]] std::size_t size() const { return indices.size(); }
+  [[nodiscard]] Queries queries() const { return {shape, numbers}; }
 
   /// Asks for the answers to `count` of them from number `first` on.
   [[nodiscard]] solvers::SolveRequest request(std::size_t first, std::size_t count,
                                               const Separation& separation) const {
-    return {.kind = kind,
-            .queries = std::span(queries).subspan(first, count),
+    return {.queries = queries().part(first, count),
             .separation = separation,
             .source = *source,
             .indices = std::span(indices).subspan(first, count)};
@@ -99,8 +101,8 @@ struct StreamOptions {
   const std::atomic<bool>* stop = nullptr;
   /// Behind it no further block is begun.
   base::Deadline deadline = {};
-  /// Queries of a block, at most Block::size; fewer end sooner.
-  std::size_t block = Block::size;
+  /// Queries of a block, at most Block::most_queries; fewer end sooner.
+  std::size_t block = Block::most_queries;
 };
 
 /// Outcome of a stream.

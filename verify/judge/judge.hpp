@@ -15,8 +15,8 @@
 ///   gives them. An estimate t of the time with an error e claims the bounds t − e and t + e. All
 ///   comparisons are exact: the truth is enclosed by neighbouring doubles, or is one, so a double t
 ///   is above it iff t > lower, and below it iff t < upper.
-/// - The tolerance is judged for a yes to a query that does not collide: what collides is near
-/// enough for any claim.
+/// - The tolerance is judged for a yes to a query on straight lines that does not collide: a
+///   colliding pair satisfies any claimed distance.
 
 #include <optional>
 #include <vector>
@@ -30,8 +30,7 @@ namespace touchstone::verify::judge {
 
 /// A query as it was asked.
 struct Question {
-  Kind kind = Kind::vertex_face;
-  const Query& query;
+  Queries query;  ///< one
   Separation separation = {};
 };
 

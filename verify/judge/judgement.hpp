@@ -15,6 +15,7 @@
 
 #include "fast/method.hpp"
 #include "touchstone/number.hpp"
+#include "verify/base/any_query.hpp"
 #include "verify/judge/fault.hpp"
 #include "verify/judge/ground_truth.hpp"
 #include "verify/judge/judge.hpp"
@@ -104,8 +105,7 @@ struct GivenAnswer {
 struct WrongQuery {
   std::string source;
   std::uint64_t index = 0;
-  Kind kind = Kind::vertex_face;
-  Query query{};
+  base::AnyQuery query = {};
   Separation separation = {};
   std::vector<std::string> faults = {};  ///< what is wrong, a text each
   std::vector<GivenAnswer> answers = {};

@@ -8,20 +8,21 @@
 
 #include "fast/method.hpp"
 #include "touchstone/query.hpp"
+#include "verify/base/any_query.hpp"
 
 namespace touchstone::verify::judge {
 
-/// True if the terms leave some queries out, or change them.
-[[nodiscard]] bool select_queries(const fast::Terms& terms);
+/// True if the terms leave some queries of that shape out, or change them.
+[[nodiscard]] bool select_queries(const fast::Terms& terms, const QueryShape& shape);
 
 /// The query as a solver with these terms is asked it: rounded to float if it takes no more. A
-/// coordinate beyond all floats becomes infinite.
-[[nodiscard]] Query as_asked(const fast::Terms& terms, const Query& query);
+/// number beyond all floats becomes infinite.
+[[nodiscard]] base::AnyQuery as_asked(const fast::Terms& terms, base::AnyQuery query);
 
-/// Is that query, as_asked already, one that the promise is about: of a kind that the solver
+/// Is that query, as_asked already, one that the promise is about: of a shape that the solver
 /// answers, finite in the solver's precision, and far enough apart at t=0? The certified solver
 /// decides the latter, exactly, in the norm of the separation.
-[[nodiscard]] bool admits(const fast::Terms& terms, Kind kind, const Query& query,
+[[nodiscard]] bool admits(const fast::Terms& terms, const base::AnyQuery& query,
                           const Separation& separation);
 
 /// ", vertex-face alone, starts apart, float coordinates, times are estimates": the terms that

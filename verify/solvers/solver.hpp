@@ -29,8 +29,7 @@ namespace touchstone::verify::solvers {
 
 /// Some queries, and where they come from.
 struct SolveRequest {
-  Kind kind = Kind::vertex_face;
-  std::span<const Query> queries;
+  Queries queries = {};
   /// Minimum separation. Methods take it from here, whatever their MethodOptions say.
   Separation separation = {};
   /// By which recorded answers are found: the name of the source, and the queries' numbers in it.
@@ -99,7 +98,7 @@ class Solver {
   /// Answers query i in answers[i], in this thread or in a child process that it waits for. Queries
   /// outside the terms of its promise are not asked, and the others in the form that the terms
   /// name.
-  /// \pre both spans have the same length.
+  /// \pre as many answers as queries.
   [[nodiscard]] SolveReply solve(const SolveRequest& request,
                                  std::span<fast::Answer> answers) const;
 

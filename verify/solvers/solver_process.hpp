@@ -71,10 +71,9 @@ class SolverProcess {
   /// Answers query i in answers[i]: as the method does, undecided if it takes too long, error if it
   /// fails otherwise.
   /// \param deadline where it stops, or a quarter of a second later
-  /// \pre both spans have the same length.
+  /// \pre as many answers as queries.
   /// \throws std::system_error if the system has no memory, process or temporary folder to give.
-  [[nodiscard]] SolverRun solve(Kind kind, std::span<const Query> queries,
-                                std::span<fast::Answer> answers,
+  [[nodiscard]] SolverRun solve(const Queries& queries, std::span<fast::Answer> answers,
                                 const fast::MethodOptions& method_options,
                                 const base::Deadline& deadline = {});
 

@@ -24,6 +24,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <stdexcept>
 #include <variant>
 #include <vector>
@@ -179,5 +180,15 @@ struct ProveOptions {
 /// \throws std::invalid_argument also as decide, if a trajectory is not valid.
 [[nodiscard]] Certificate prove(Kind kind, const CurvedQuery& query, const Decision& verdict,
                                 const ProveOptions& options = {});
+
+/// The same for query i, decided by decide(queries, i, verdict.separation).
+[[nodiscard]] Certificate prove(const Queries& queries, std::size_t i, const Decision& verdict,
+                                const ProveOptions& options = {});
+
+/// The same for all queries, in this thread. \throws std::invalid_argument also unless there is a
+/// verdict for each.
+[[nodiscard]] std::vector<Certificate> prove(const Queries& queries,
+                                             std::span<const Decision> verdicts,
+                                             const ProveOptions& options = {});
 
 }  // namespace touchstone::exact

@@ -8,7 +8,9 @@
 /// arithmetic on scaled coordinates, without rounding and without filters. docs/theory.md, sections
 /// 2 and 3. All functions are thread-safe.
 
+#include <cstddef>
 #include <optional>
+#include <vector>
 
 #include "touchstone/algebraic_number.hpp"
 #include "touchstone/curved_query.hpp"
@@ -60,6 +62,14 @@ struct Decision {
 /// or the separation is not valid.
 [[nodiscard]] Decision decide(Kind kind, const CurvedQuery& query,
                               const Separation& separation = {});
+
+/// Decides query i. \throws as above.
+[[nodiscard]] Decision decide(const Queries& queries, std::size_t i,
+                              const Separation& separation = {});
+
+/// Decides all queries, in this thread. \throws as above.
+[[nodiscard]] std::vector<Decision> decide(const Queries& queries,
+                                           const Separation& separation = {});
 
 /// The parameters (u,v) of a contact, as the query's F defines them.
 struct ContactParameters {

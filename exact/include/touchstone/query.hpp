@@ -32,6 +32,7 @@
 #include <cstdint>
 #include <span>
 #include <stdexcept>
+#include <string>
 #include <string_view>
 #include <type_traits>
 
@@ -79,6 +80,70 @@ struct Query {
 static_assert(sizeof(Query) == 3 * query_points * sizeof(double));
 static_assert(std::is_trivially_copyable_v<Query> && std::is_standard_layout_v<Query> &&
               std::is_aggregate_v<Query>);
+
+/// The greatest degree of a curve.
+inline constexpr std::size_t greatest_degree = 8;
+
+/// The shape of queries: their primitives, and the Bézier curves that all points move on. A point's
+/// position is x(t) = Σ_j B_j(t) b_j with the Bernstein polynomials B_j(t) = binomial(k, j)
+/// (1−t)^(k−j) t^j of degree k, or, with positive weights w_j, Σ_j B_j(t) w_j b_j / Σ_j B_j(t) w_j.
+/// A straight line is a curve of degree 1.
+struct QueryShape {
+  Kind kind = Kind::vertex_face;
+  std::size_t degree = 1;
+  bool is_rational = false;  ///< Each control point has a weight.
+
+  /// True if the points move on straight lines, as those of Query.
+  [[nodiscard]] bool is_straight() const { return degree == 1 && !is_rational; }
+  [[nodiscard]] std::size_t numbers_of_point() const { return is_rational ? 4 : 3; }
+  [[nodiscard]] std::size_t numbers_of_query() const {
+    return (degree + 1) * moving_points * numbers_of_point();
+  }
+  friend bool operator==(const QueryShape&, const QueryShape&) = default;
+};
+
+/// Queries of one shape in an array, by reference.
+///
+/// Each has its control points from t=0 to t=1, and at each the four points in the order of Query:
+/// an array of shape (size, degree + 1, 4, 3), or (size, degree + 1, 4, 4) with weights last. On
+/// straight lines that is the layout of an array of Query.
+struct Queries : QueryShape {
+  std::span<const double> numbers = {};
+
+  Queries() = default;
+  Queries(Kind kind_of_all, std::span<const Query> queries)
+      : QueryShape{.kind = kind_of_all},
+        numbers(queries.empty() ? nullptr : queries.front().coordinates.data(),
+                queries.size() * numbers_of_query()) {}
+  /// \throws std::invalid_argument for a degree above greatest_degree, and unless the numbers are
+  /// those of whole queries.
+  Queries(const QueryShape& shape, std::span<const double> all) : QueryShape(shape), numbers(all) {
+    if (degree > greatest_degree) throw std::invalid_argument("queries: a degree above 8");
+    if (numbers.size() % numbers_of_query() != 0) {
+      throw std::invalid_argument("queries: " + std::to_string(numbers.size()) +
+                                  " numbers are no multiple of " +
+                                  std::to_string(numbers_of_query()) +
+                                  ", the size of a query of degree " + std::to_string(degree));
+    }
+  }
+
+  [[nodiscard]] std::size_t size() const { return numbers.size() / numbers_of_query(); }
+  [[nodiscard]] bool empty() const { return numbers.empty(); }
+  /// The numbers of query i.
+  [[nodiscard]] std::span<const double> row(std::size_t i) const {
+    return numbers.subspan(i * numbers_of_query(), numbers_of_query());
+  }
+  /// `count` queries from number `first` on.
+  [[nodiscard]] Queries part(std::size_t first, std::size_t count) const {
+    Queries some = *this;
+    some.numbers = numbers.subspan(first * numbers_of_query(), count * numbers_of_query());
+    return some;
+  }
+  /// The same queries as an array of Query. \pre is_straight()
+  [[nodiscard]] std::span<const Query> straight() const {
+    return {reinterpret_cast<const Query*>(numbers.data()), size()};
+  }
+};
 
 /// The bits of infinity; those of a number that is not finite contain them.
 inline constexpr std::uint64_t infinity_bits = 0x7FF0'0000'0000'0000;

@@ -77,7 +77,10 @@ struct CertifiedResult {
                                     const CertifiedOptions& options = {});
 
 /// Decides query i in results[i].
-/// \throws std::invalid_argument for options out of range or spans of different lengths.
+/// \throws std::invalid_argument for options out of range, or unless there is a result for each
+/// query.
+void solve(const Queries& queries, std::span<CertifiedResult> results,
+           const CertifiedOptions& options = {});
 void solve(Kind kind, std::span<const Query> queries, std::span<CertifiedResult> results,
            const CertifiedOptions& options = {});
 
@@ -90,6 +93,8 @@ struct Collision {
 /// The queries that collide, in order. Faster than `solve`, because queries that do not collide
 /// have no result.
 /// \throws as solve.
+[[nodiscard]] std::vector<Collision> collisions(const Queries& queries,
+                                                const CertifiedOptions& options = {});
 [[nodiscard]] std::vector<Collision> collisions(Kind kind, std::span<const Query> queries,
                                                 const CertifiedOptions& options = {});
 

@@ -6,7 +6,6 @@
 #include "touchstone/active_set.hpp"
 #include "touchstone/broad_phase.hpp"
 #include "touchstone/certified.hpp"
-#include "touchstone/curved.hpp"
 #include "touchstone/curved_step.hpp"
 #include "touchstone/distance.hpp"
 #include "touchstone/filter.hpp"

@@ -31,7 +31,6 @@
 #include <optional>
 #include <span>
 
-#include "touchstone/curved_query.hpp"
 #include "touchstone/filter.hpp"
 #include "touchstone/query.hpp"
 #include "touchstone/verdict.hpp"
@@ -98,14 +97,14 @@ struct TightInclusionResult {
 [[nodiscard]] TightInclusionResult tight_inclusion(Kind kind, const Query& query,
                                                    const TightInclusionOptions& options = {});
 
-/// The same for query i on curves of degree 2 or 3, polynomial or rational: on a piece of time F is
-/// in the hull of its control values, in the place of its values at both ends. ([wang2021], section
-/// 7: the extension to non-linear trajectories.) Coordinates above 2^1000, of rational curves above
-/// 2^900 or with weights not between 2^-30 and 2^30, are answered with yes, at time 0.
-/// \throws std::invalid_argument also for other curves, another error model than `derived`, a
-/// filter of a scene, or an i out of range.
-[[nodiscard]] TightInclusionResult tight_inclusion(Kind kind, const CurvedQueries& queries,
-                                                   std::size_t i,
-                                                   const TightInclusionOptions& options = {});
+/// Solves query i in results[i], in this thread: on straight lines as above, or on curves of degree
+/// 2 or 3, polynomial or rational. On a piece of time F is in the hull of its control values, which
+/// take the place of its values at both ends. ([wang2021], section 7: the extension to non-linear
+/// trajectories.) Coordinates above 2^1000, of rational curves above 2^900 or with weights not
+/// between 2^-30 and 2^30, are answered with yes, at time 0.
+/// \throws std::invalid_argument also for other curves, on curves for another error model than
+/// `derived` or a filter of a scene, and unless there is a result for each query.
+void tight_inclusion(const Queries& queries, std::span<TightInclusionResult> results,
+                     const TightInclusionOptions& options = {});
 
 }  // namespace touchstone::fast
