@@ -17,7 +17,6 @@
 
 #include "verify/cli/certificates_file.hpp"
 #include "verify/cli/commands.hpp"
-#include "verify/cli/curved_run.hpp"
 #include "verify/cli/files.hpp"
 #include "verify/cli/help.hpp"
 #include "verify/cli/options.hpp"
@@ -192,7 +191,7 @@ class CertifyRun {
       });
       report_error(fmt::format("{}: no answer to {} queries, first to {} query {} of {}",
                                method.name, method.judgement.missing,
-                               to_string(first->kind.value()),
+                               to_string(first->shape.value().kind),
                                first->methods[i].judgement.first_missing.value(), first->name));
     }
     // A run that ended early did not solve all queries.
@@ -279,21 +278,12 @@ void add(CLI::App& app, Status& status) {
                   "Write an HTML viewer of the first 100 queries with a wrong answer or label");
   set_help(*command,
            "touchstone certify data/handcrafted --json result.json\n"
-           "touchstone certify --min-separation 1e-8 --norm l2 --method tight_inclusion",
+           "touchstone certify --min-separation 1e-8 --norm l2 --method tight_inclusion\n"
+           "touchstone certify --degree 2 --degree rational --plugin ./libsolver.so",
            "By default our solvers are judged, and only on the built-in set; --method none "
-           "disables this. Definitions of wrong answers: docs/testing.md. Queries on curves are "
-           "decided, too; touchstone curved judges plugins on them.\n" +
+           "disables this. Definitions of wrong answers: docs/testing.md.\n" +
                std::string(answering_statuses));
   command->callback([arguments, command, &status] {
-    if (have_curves(arguments->sources)) {
-      CurvedArguments curves =
-          curved_arguments(*command, arguments->sources, {"--json", "--truth", "--prove"});
-      curves.json_file = arguments->json_file;
-      curves.truth_file = arguments->truth_file;
-      curves.proof_file = arguments->proof_file;
-      status = run_curves(curves);
-      return;
-    }
     settle_solver_options(*command, arguments->sources.built_in_set(), arguments->judged);
     settle_query_limit(*command, arguments->seconds, arguments->judged);
     status = run_in_pieces(

@@ -57,9 +57,6 @@ void add(CLI::App& app, Status& status);
 namespace merge_command {
 void add(CLI::App& app, Status& status);
 }
-namespace curved_command {
-void add(CLI::App& app, Status& status);
-}
 namespace rigid_command {
 void add(CLI::App& app, Status& status);
 }

@@ -9,6 +9,7 @@
 #include <exception>
 #include <filesystem>
 #include <sstream>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -53,6 +54,19 @@ bool report_unknown(const CLI::App& app, const std::string& word) {
   return true;
 }
 
+/// For one version, `curved` says what does its work now.
+void add_curved(CLI::App& app) {
+  CLI::App* const command = app.add_subcommand("curved")->group("");
+  command->prefix_command();
+  command->callback([] {
+    throw std::invalid_argument(
+        "curved is now certify, which decides queries on curves of every degree: touchstone "
+        "certify "
+        "FILE, or --degree 2 --degree 3 --degree rational for the families, with --prove for "
+        "--proof and --method subdivision and so on for --others");
+  });
+}
+
 /// An interrupt before there was anything to keep.
 int report_interrupt() {
   touchstone::verify::cli::report_error("interrupted");
@@ -86,7 +100,7 @@ int run(int argc, char** argv) {
   touchstone::verify::cli::fuzz_command::add(app, status);
   touchstone::verify::cli::convert_command::add(app, status);
   touchstone::verify::cli::merge_command::add(app, status);
-  touchstone::verify::cli::curved_command::add(app, status);
+  add_curved(app);
   touchstone::verify::cli::rigid_command::add(app, status);
   touchstone::verify::cli::stability_command::add(app, status);
   touchstone::verify::cli::report_command::add(app, status);

@@ -261,7 +261,7 @@ Shard shard_of(const PieceArguments& arguments) {
 std::vector<jobs::Piece> pieces_of(const SourceArguments& sources) {
   std::vector<jobs::Piece> pieces;
   if (sources.built_in_set()) {
-    const std::vector<BuiltInSource> families = built_in_sources(sources.separation.given());
+    const std::vector<BuiltInSource> families = built_in_sources(sources);
     for (std::size_t i = 0; i < families.size(); ++i) {
       pieces.push_back(
           {.name = fmt::format("{} {}", families[i].family.name, to_string(families[i].kind)),

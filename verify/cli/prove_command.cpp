@@ -15,7 +15,6 @@
 #include "touchstone/number.hpp"
 #include "verify/cli/certificates_file.hpp"
 #include "verify/cli/commands.hpp"
-#include "verify/cli/curved_run.hpp"
 #include "verify/cli/files.hpp"
 #include "verify/cli/help.hpp"
 #include "verify/cli/options.hpp"
@@ -24,6 +23,7 @@
 #include "verify/io/coordinate_text.hpp"
 #include "verify/io/json.hpp"
 #include "verify/io/terminal.hpp"
+#include "verify/jobs/certify.hpp"
 #include "verify/jobs/prove.hpp"
 #include "verify/judge/separation_inference.hpp"
 #include "verify/report/judgement_report.hpp"
@@ -37,7 +37,7 @@ using Progress = std::function<void(double)>;
 struct Arguments {
   SourceArguments sources;
   PieceArguments pieces;
-  std::string out_file;
+  std::string proof_file;
   std::string json_file;
   std::string claim = "time_of_impact";
   std::string width;
@@ -63,7 +63,7 @@ class ProveRun {
   explicit ProveRun(const Arguments& arguments)
       : arguments_(arguments),
         options_(proof_options(arguments)),
-        out_(files_, named_file(arguments.out_file)),
+        out_(files_, named_file(arguments.proof_file)),
         json_(files_, arguments.json_file) {}
 
   Status run() {
@@ -74,24 +74,25 @@ class ProveRun {
                        const Progress& progress) { prove_source(source, progress); },
          .fail = [this](const fs::path&, const io::DatasetError& error) { fail(error.what()); },
          .stopped = [this] { return stopped(); }});
-    out_.close(sum_.counts.certificates());
+    out_.close(sum_.proofs.certificates());
     if (json_) json_.write(io::json_document(summary()));
     json_.close();
-    report_beyond_limits(sum_.counts);
+    report_beyond_limits(sum_.proofs);
     print_summary();
     return status();
   }
 
  private:
   static const std::string& named_file(const std::string& name) {
-    if (name.empty()) throw std::invalid_argument("--out has no file name");
+    if (name.empty()) throw std::invalid_argument("--prove has no file name");
     return name;
   }
 
   void prove_source(data::QuerySource& source, const Progress& progress) {
-    jobs::SourceProofOptions options;
+    jobs::CertifyOptions options;
     options.separation = separation_for(arguments_.sources, source);
     separations_.push_back(options.separation);
+    options.compares_labels = false;
     options.threads = arguments_.sources.threads;
     options.proof = options_;
     options.stop = &io::interrupted();
@@ -101,9 +102,9 @@ class ProveRun {
       // An exception ends the proofs immediately; the failure was already reported.
       if (out_.failed()) throw std::runtime_error("certificates cannot be written");
     };
-    const jobs::SourceProof proof = jobs::prove(source, options);
-    sum_ += proof;
-    if (proof.reading_error && !out_.failed()) fail(*proof.reading_error);
+    const jobs::CertifyResult result = jobs::certify(source, options);
+    sum_ += result;
+    if (result.error && !out_.failed()) fail(*result.error);
   }
 
   void fail(const std::string& message) {
@@ -116,15 +117,10 @@ class ProveRun {
            (reading_errors_ != 0 && !arguments_.sources.keep_going);
   }
 
-  [[nodiscard]] double oracle_microseconds() const {
-    const std::uint64_t queries = sum_.counts.certificates() + sum_.counts.beyond_limits.size();
-    return queries == 0 ? 0.0 : 1e-3 * sum_.oracle_nanoseconds / static_cast<double>(queries);
-  }
-
   [[nodiscard]] nlohmann::json summary() const {
-    nlohmann::json result = jobs::to_json(sum_.counts);
+    nlohmann::json result = jobs::to_json(sum_.proofs);
     result.update({{"file_bytes", out_.bytes()},
-                   {"oracle_us_per_query", oracle_microseconds()},
+                   {"oracle_us_per_query", sum_.microseconds_per_query()},
                    {"skipped", sum_.skipped},
                    {"rounded", sum_.rounded},
                    {"reading_errors", reading_errors_},
@@ -136,20 +132,20 @@ class ProveRun {
   }
 
   void print_summary() const {
-    if (sum_.counts.certificates() == 0 && reading_errors_ != 0) return;
+    if (sum_.proofs.certificates() == 0 && reading_errors_ != 0) return;
     std::FILE* const stream = files_.summary_stream();
     if (const auto separation = judge::common_separation(separations_)) {
       io::print(stream, fmt::format("minimum separation {}\n", judge::to_text(*separation)));
     }
-    io::print(stream, jobs::to_text(sum_.counts));
-    io::print(stream, fmt::format("oracle {:.2f} µs/query, file {} bytes\n", oracle_microseconds(),
-                                  out_.bytes()));
+    io::print(stream, jobs::to_text(sum_.proofs));
+    io::print(stream, fmt::format("oracle {:.2f} µs/query, file {} bytes\n",
+                                  sum_.microseconds_per_query(), out_.bytes()));
     io::print(stream, report::reading_text(sum_.skipped, sum_.rounded));
   }
 
   [[nodiscard]] Status status() const {
     if (files_.has_failed() || reading_errors_ + sum_.skipped != 0 ||
-        !sum_.counts.beyond_limits.empty()) {
+        !sum_.proofs.beyond_limits.empty()) {
       return Status::bad_input;
     }
     return io::interrupted() ? Status::interrupted : Status::all_well;
@@ -160,7 +156,7 @@ class ProveRun {
   Files files_;
   CertificatesFile out_;
   Output json_;
-  jobs::SourceProof sum_;
+  jobs::CertifyResult sum_;
   std::vector<Separation> separations_;  // of the sources
   std::uint64_t reading_errors_ = 0;
 };
@@ -175,8 +171,9 @@ void add(CLI::App& app, Status& status) {
   add_piece_options(*command, arguments->pieces);
   command->option_defaults()->group("Output");
   command
-      ->add_option("--out", arguments->out_file,
-                   "Write the certificates; compressed if the name ends in .zst")
+      ->add_option(
+          "--prove,--out", arguments->proof_file,
+          "Write the certificates; compressed if the name ends in .zst (--out: its old name)")
       ->type_name("FILE")
       ->required();
   command
@@ -193,20 +190,13 @@ void add(CLI::App& app, Status& status) {
       ->type_name("W");
   add_json_option(*command, arguments->json_file);
   set_help(*command,
-           "touchstone prove data/handcrafted --out handcrafted.cert.zst\n"
+           "touchstone prove data/handcrafted --prove handcrafted.cert.zst\n"
            "zstdcat handcrafted.cert.zst | touchstone-check -",
            "A query whose proof exceeds the limits of the format is bad input.\n" +
                std::string(writing_statuses));
   command->callback([arguments, command, &status] {
-    if (have_curves(arguments->sources)) {
-      CurvedArguments curves = curved_arguments(*command, arguments->sources, {"--json", "--out"});
-      curves.json_file = arguments->json_file;
-      curves.proof_file = arguments->out_file;
-      status = run_curves(curves);
-      return;
-    }
     status = run_in_pieces(*command, arguments->pieces, arguments->sources,
-                           {.files = {"--json", "--out"}, .refused = {}},
+                           {.files = {"--json", "--prove"}, .refused = {}},
                            [&] { return ProveRun(*arguments).run(); });
   });
 }

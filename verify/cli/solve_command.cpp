@@ -14,7 +14,6 @@
 #include <vector>
 
 #include "verify/cli/commands.hpp"
-#include "verify/cli/curved_run.hpp"
 #include "verify/cli/files.hpp"
 #include "verify/cli/help.hpp"
 #include "verify/cli/options.hpp"
@@ -23,7 +22,7 @@
 #include "verify/cli/sources.hpp"
 #include "verify/io/json.hpp"
 #include "verify/io/terminal.hpp"
-#include "verify/jobs/solve.hpp"
+#include "verify/jobs/certify.hpp"
 #include "verify/judge/separation_inference.hpp"
 #include "verify/judge/terms.hpp"
 #include "verify/report/judgement_report.hpp"
@@ -53,6 +52,29 @@ SolverArguments the_solver(const Arguments& arguments) {
   return arguments.solver;
 }
 
+/// Answers by verdict. What is no answer (judge::Fault) counts as an error or as undecided, and by
+/// its failure.
+struct AnswerCounts {
+  std::uint64_t yes = 0;
+  std::uint64_t no = 0;
+  std::uint64_t undecided = 0;
+  std::uint64_t errors = 0;
+  report::FailureCounts failures{};
+
+  void add(const fast::Answer& answer, const judge::Failure* failure) {
+    using fast::Verdict;
+    Verdict verdict = answer.verdict;
+    if (const auto why = failure != nullptr ? std::optional(*failure) : judge::failure_of(answer)) {
+      ++failures[static_cast<std::size_t>(why->kind)];
+      verdict = judge::verdict_of(why->kind);
+    }
+    yes += verdict == Verdict::yes ? 1U : 0U;
+    no += verdict == Verdict::no ? 1U : 0U;
+    undecided += verdict == Verdict::undecided ? 1U : 0U;
+    errors += verdict == Verdict::error ? 1U : 0U;
+  }
+};
+
 /// A run: the sources in order, then the summary.
 class SolveRun {
  public:
@@ -76,15 +98,24 @@ class SolveRun {
     out_.close();
     if (json_) json_.write(io::json_document(summary()));
     json_.close();
-    report_unplaced_crashes(solver_.name(), sum_.unplaced_crashes);
+    report_unplaced_crashes(solver_.name(), asked().unplaced_crashes);
     solvers_.report_output(arguments_.solver.show_output);
     print_summary();
     return status();
   }
 
  private:
+  /// What the solver was asked.
+  [[nodiscard]] judge::Judgement asked() const {
+    return sum_.methods.empty() ? judge::Judgement{} : sum_.methods.front().judgement;
+  }
+
+  [[nodiscard]] std::uint64_t unasked() const {
+    return asked().missing + asked().outside + asked().left_out;
+  }
+
   void print_summary() const {
-    if (sum_.queries == 0 && reading_errors_ != 0) return;
+    if (asked().queries == 0 && reading_errors_ != 0) return;
     std::FILE* const stream = files_.summary_stream();
     if (const auto separation = the_separation()) {
       io::print(stream, fmt::format("minimum separation {}\n", judge::to_text(*separation)));
@@ -92,34 +123,37 @@ class SolveRun {
     io::print(
         stream,
         fmt::format("{}: {} queries, {} yes, {} no, {} undecided, {} errors, {:.1f} ns/query\n",
-                    solver_.name(), sum_.queries, sum_.yes, sum_.no, sum_.undecided, sum_.errors,
-                    sum_.nanoseconds_per_query()));
-    if (sum_.unasked != 0) {
+                    solver_.name(), asked().queries, counts_.yes, counts_.no, counts_.undecided,
+                    counts_.errors, asked().nanoseconds_per_query()));
+    if (unasked() != 0) {
       io::print(stream, fmt::format("not asked: {} queries outside its terms{}, or like those at "
                                     "which it hangs\n",
-                                    sum_.unasked, judge::to_text(solver_.terms())));
+                                    unasked(), judge::to_text(solver_.terms())));
     }
-    const std::string failures = report::to_text(sum_.failures);
+    const std::string failures = report::to_text(counts_.failures);
     if (!failures.empty()) io::print(stream, fmt::format("no answer: {}\n", failures));
     io::print(stream, report::reading_text(sum_.skipped, sum_.rounded));
   }
 
   void solve_source(data::QuerySource& source, const Progress& progress) {
-    jobs::SolveOptions options;
+    jobs::CertifyOptions options;
     options.separation = separation_for(arguments_.sources, source);
     separations_.push_back(options.separation);
+    options.decides = false;
     options.threads = arguments_.sources.threads;
     options.stop = &io::interrupted();
+    options.solvers = solvers_.all();
     options.on_progress = progress;
     options.on_answer = [&](std::uint64_t index, const fast::Answer& answer,
                             const judge::Failure* failure) {
+      counts_.add(answer, failure);
       out_.write(solvers::answer_row(source.name(), index, source.kind(), answer, failure));
       // An exception ends the run immediately; the failure was already reported.
       if (out_.failed()) throw std::runtime_error("answers cannot be written");
     };
-    const jobs::SolveResult result = jobs::solve(source, solver_, options);
+    const jobs::CertifyResult result = jobs::certify(source, options);
     sum_ += result;
-    if (result.reading_error && !out_.failed()) fail(*result.reading_error);
+    if (result.error && !out_.failed()) fail(*result.error);
   }
 
   void fail(const std::string& message) {
@@ -134,19 +168,19 @@ class SolveRun {
 
   [[nodiscard]] nlohmann::json summary() const {
     nlohmann::json json{{"method", solver_.name()},
-                        {"queries", sum_.queries},
-                        {"yes", sum_.yes},
-                        {"no", sum_.no},
-                        {"undecided", sum_.undecided},
-                        {"errors", sum_.errors},
-                        {"unasked", sum_.unasked},
-                        {"unplaced_crashes", sum_.unplaced_crashes},
-                        {"ns_per_query", sum_.nanoseconds_per_query()},
+                        {"queries", asked().queries},
+                        {"yes", counts_.yes},
+                        {"no", counts_.no},
+                        {"undecided", counts_.undecided},
+                        {"errors", counts_.errors},
+                        {"unasked", unasked()},
+                        {"unplaced_crashes", asked().unplaced_crashes},
+                        {"ns_per_query", asked().nanoseconds_per_query()},
                         {"skipped", sum_.skipped},
                         {"rounded", sum_.rounded},
                         {"reading_errors", reading_errors_},
                         {"interrupted", sum_.interrupted}};
-    json["failures"] = report::to_json(sum_.failures);
+    json["failures"] = report::to_json(counts_.failures);
     if (const auto separation = the_separation()) json["separation"] = judge::to_json(*separation);
     return json;
   }
@@ -163,10 +197,10 @@ class SolveRun {
     if (io::interrupted()) return Status::interrupted;
     if (arguments_.sources.is_piece) return Status::all_well;
     return status_of(solver_.name(),
-                     {.asked = sum_.queries,
-                      .hangs = sum_.failures[static_cast<std::size_t>(judge::Fault::hang)],
-                      .errors = sum_.errors,
-                      .unasked = sum_.unasked});
+                     {.asked = asked().queries,
+                      .hangs = counts_.failures[static_cast<std::size_t>(judge::Fault::hang)],
+                      .errors = counts_.errors,
+                      .unasked = unasked()});
   }
 
   const Arguments& arguments_;
@@ -175,7 +209,8 @@ class SolveRun {
   const solvers::Solver& solver_;
   Output out_;
   Output json_;
-  jobs::SolveResult sum_;
+  jobs::CertifyResult sum_;
+  AnswerCounts counts_;
   std::vector<Separation> separations_;  // of the sources
   std::uint64_t reading_errors_ = 0;
 };
@@ -208,15 +243,6 @@ void add(CLI::App& app, Status& status) {
       "Exit status: 0 success, 1 the solver hangs at more than 1 % of its queries, 2 bad input "
       "or usage, or it answers nothing, 130 interrupted (results so far are written).");
   command->callback([arguments, command, &status] {
-    if (have_curves(arguments->sources)) {
-      CurvedArguments curves = curved_arguments(
-          *command, arguments->sources,
-          {"--json", "--out", "--method", "--t-max", "--tolerance", "--max-checks"});
-      curves.json_file = arguments->json_file;
-      const SolverArguments solver = the_solver(*arguments);
-      status = solve_curves(curves, solver.methods.front(), solver.options, arguments->out_file);
-      return;
-    }
     settle_solver_options(*command, arguments->sources.built_in_set(), arguments->solver);
     status = run_in_pieces(*command, arguments->pieces, arguments->sources,
                            {.files = {"--json", "--out"}, .refused = {}},

@@ -39,7 +39,7 @@ class TotalProgress {
 
 void for_each_family(const SourceArguments& arguments, const SourceHandlers& handlers) {
   const Separation separation = arguments.separation.given();
-  const std::vector<BuiltInSource> all = built_in_sources(separation);
+  const std::vector<BuiltInSource> all = built_in_sources(arguments);
   std::vector<BuiltInSource> sources;
   for (std::size_t i = 0; i < all.size(); ++i) {
     if (arguments.shard.contains(i) && arguments.only_source.value_or(i) == i) {
@@ -115,9 +115,10 @@ void for_each_file(const SourceArguments& arguments, Files& record,
 
 }  // namespace
 
-std::vector<BuiltInSource> built_in_sources(const Separation& separation) {
+std::vector<BuiltInSource> built_in_sources(const SourceArguments& arguments) {
   std::vector<BuiltInSource> sources;
-  for (const generate::Family& family : generate::families(separation)) {
+  for (const generate::Family& family :
+       generate::families(arguments.separation.given(), arguments.degrees)) {
     for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
       if (generate::supports(family, kind)) sources.push_back({family, kind});
     }
@@ -145,6 +146,7 @@ void add_source_options(CLI::App& command, SourceArguments& arguments) {
       ->type_name("N")
       ->capture_default_str()
       ->check(whole_number(1, UINT64_MAX));
+  add_degree_option(command, arguments.degrees);
   add_separation_options(command, arguments.separation);
   // For pieces.hpp; not in the help.
   command.add_option("--only-source", arguments.only_source)->group("");

@@ -41,6 +41,7 @@ struct SourceArguments {
   unsigned threads = 0;
   std::uint64_t seed = default_seed;
   std::uint64_t count = 1000;
+  std::vector<std::string> degrees = {};  ///< of the built-in set
   SeparationArguments separation = {};
   /// The part of the sources that is used.
   Shard shard = {};
@@ -58,7 +59,7 @@ struct BuiltInSource {
   generate::Family family;
   Kind kind;
 };
-[[nodiscard]] std::vector<BuiltInSource> built_in_sources(const Separation& separation);
+[[nodiscard]] std::vector<BuiltInSource> built_in_sources(const SourceArguments& arguments);
 
 /// Adds the options that fill the arguments; these must live until the command line is parsed.
 void add_source_options(CLI::App& command, SourceArguments& arguments);

@@ -9,8 +9,8 @@ BlockAnswers::BlockAnswers(const Block& block, const solvers::Solver& solver,
     : block_(block),
       solver_(solver),
       separation_(separation),
-      answers_(block.queries.size()),
-      calls_(Passes::units(block.queries.size())) {
+      answers_(block.size()),
+      calls_(Passes::units(block.size())) {
   passes.run(solver.good_span(), [this](std::size_t first, std::size_t count) {
     Call& call = calls_[first / Passes::unit];
     call = {.count = count,
@@ -42,18 +42,22 @@ std::optional<judge::GivenAnswer> BlockAnswers::given(std::size_t i) const {
   return given;
 }
 
-judge::Judgement BlockAnswers::judge(std::span<const judge::GroundTruth> truths) const {
+judge::Judgement BlockAnswers::judge(std::size_t count,
+                                     std::span<const judge::GroundTruth> truths) const {
   judge::Judgement judgement;
-  for (std::size_t i = 0; i < truths.size(); ++i) {
+  const Queries queries = block_.queries();
+  for (std::size_t i = 0; i < count; ++i) {
     if (const auto why = why_unasked(i)) {
       judgement.add_unasked(*why, block_.indices[i]);
+    } else if (truths.empty()) {
+      ++judgement.queries;
     } else {
-      judgement.add({block_.kind, block_.queries[i], separation_}, truths[i], answers_[i],
-                    solver_.standard(), failure(i));
+      judgement.add({queries.part(i, 1), separation_}, truths[i], answers_[i], solver_.standard(),
+                    failure(i));
     }
   }
-  judgement.unplaced_crashes = unplaced_crashes(truths.size());
-  judgement.nanoseconds = nanoseconds(truths.size());
+  judgement.unplaced_crashes = unplaced_crashes(count);
+  judgement.nanoseconds = nanoseconds(count);
   return judgement;
 }
 

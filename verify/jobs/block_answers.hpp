@@ -35,8 +35,9 @@ class BlockAnswers {
   /// The answer to query i as a person is shown it, unless the solver has none.
   [[nodiscard]] std::optional<judge::GivenAnswer> given(std::size_t i) const;
 
-  /// The judgement on as many answers as there are truths.
-  [[nodiscard]] judge::Judgement judge(std::span<const judge::GroundTruth> truths) const;
+  /// The judgement on the first `count` answers. \param truths empty: only what was asked counts
+  [[nodiscard]] judge::Judgement judge(std::size_t count,
+                                       std::span<const judge::GroundTruth> truths) const;
   /// Processor time.
   [[nodiscard]] double nanoseconds(std::size_t count) const;
   [[nodiscard]] std::uint64_t unplaced_crashes(std::size_t count) const;

@@ -10,8 +10,8 @@ namespace touchstone::verify::jobs {
 BlockTruth::BlockTruth(const Block& block, BlockTruthOptions options, Passes& passes)
     : block_(block),
       options_(std::move(options)),
-      truths_(block.queries.size()),
-      parts_(Passes::units(block.queries.size())) {
+      truths_(block.size()),
+      parts_(Passes::units(block.size())) {
   passes.run(Passes::unit, [this](std::size_t first, std::size_t count) {
     decide(first, count, parts_[first / Passes::unit]);
     return true;
@@ -23,12 +23,9 @@ std::span<const DecidedPart> BlockTruth::parts(std::size_t count) const {
 }
 
 void BlockTruth::decide(std::size_t first, std::size_t count, DecidedPart& part) {
-  std::vector<exact::Decision> verdicts;
-  verdicts.reserve(count);
   const double start = base::thread_nanoseconds();
-  for (std::size_t i = 0; i < count; ++i) {
-    verdicts.push_back(exact::decide(block_.kind, block_.queries[first + i], options_.separation));
-  }
+  const std::vector<exact::Decision> verdicts =
+      exact::decide(block_.queries().part(first, count), options_.separation);
   part.nanoseconds = base::thread_nanoseconds() - start;
   for (std::size_t i = 0; i < count; ++i) {
     const exact::Decision& verdict = verdicts[i];
@@ -49,8 +46,8 @@ void BlockTruth::prove(std::size_t first, const std::vector<exact::Decision>& ve
                        DecidedPart& part) const {
   const double start = base::thread_nanoseconds();
   for (std::size_t i = 0; i < verdicts.size(); ++i) {
-    append_certificate(block_.kind, block_.queries[first + i], verdicts[i],
-                       certificate_label(*block_.source, block_.indices[first + i]), {},
+    append_certificate(block_.queries(), first + i, verdicts[i],
+                       certificate_label(*block_.source, block_.indices[first + i]), options_.proof,
                        part.certificates, part.proofs);
   }
   part.proofs.nanoseconds = base::thread_nanoseconds() - start;

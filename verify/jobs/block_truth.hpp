@@ -25,6 +25,7 @@ struct BlockTruthOptions {
   judge::LabelComparison comparison = {};
   bool times = false;         ///< Are times of impact needed?
   bool certificates = false;  ///< Are certificates to be written?
+  exact::ProveOptions proof = {};
 };
 
 /// The results of the oracle for a part of a block.

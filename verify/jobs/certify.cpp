@@ -18,38 +18,36 @@ class BlockJudgement {
  public:
   BlockJudgement(const Block& block, const CertifyOptions& options,
                  const judge::LabelComparison& comparison)
-      : block_(block),
-        options_(options),
-        passes_(block.queries.size(), options.stop),
-        truth_(block,
-               {.separation = options.separation,
-                .comparison = comparison,
-                .times = options.on_truth || !options.solvers.empty(),
-                .certificates = options.on_certificates != nullptr},
-               passes_) {
+      : block_(block), options_(options), passes_(block.size(), options.stop) {
+    if (options.decides) {
+      truth_.emplace(block,
+                     BlockTruthOptions{.separation = options.separation,
+                                       .comparison = comparison,
+                                       .times = options.on_truth || !options.solvers.empty(),
+                                       .certificates = options.on_certificates != nullptr,
+                                       .proof = options.proof},
+                     passes_);
+    }
     answers_.reserve(options.solvers.size());
     for (const solvers::Solver* solver : options.solvers) {
       answers_.emplace_back(block, *solver, options.separation, passes_);
     }
     complete_ = passes_.complete();
     for (const BlockAnswers& answers : answers_) {
-      judgements_.push_back(answers.judge(truth_.truths().first(complete_)));
+      judgements_.push_back(answers.judge(complete_, truths()));
     }
   }
 
-  [[nodiscard]] bool complete() const { return complete_ == block_.queries.size(); }
+  [[nodiscard]] bool complete() const { return complete_ == block_.size(); }
 
   /// The serial stage.
   void add_to(CertifyResult& result) const {
-    truth_.add_to(result, complete_);
-    if (options_.on_truth) {
-      std::ranges::for_each(truth_.truths().first(complete_), options_.on_truth);
-    }
+    if (truth_) truth_->add_to(result, complete_);
+    if (options_.on_truth) std::ranges::for_each(truths(), options_.on_truth);
     if (options_.on_certificates) {
-      for (const DecidedPart& part : truth_.parts(complete_)) {
-        options_.on_certificates(part.certificates);
-      }
+      for (const DecidedPart& part : parts()) options_.on_certificates(part.certificates);
     }
+    if (options_.on_answer) tell_answers();
     if (options_.on_wrong) tell_wrong_queries();
     for (std::size_t i = 0; i < judgements_.size(); ++i) {
       result.methods[i].judgement += judgements_[i];
@@ -57,10 +55,29 @@ class BlockJudgement {
   }
 
  private:
+  /// Of the complete queries; empty if none are decided.
+  [[nodiscard]] std::span<const judge::GroundTruth> truths() const {
+    if (!truth_) return {};
+    return truth_->truths().first(complete_);
+  }
+  [[nodiscard]] std::span<const DecidedPart> parts() const {
+    if (!truth_) return {};
+    return truth_->parts(complete_);
+  }
+
+  void tell_answers() const {
+    for (const BlockAnswers& answers : answers_) {
+      for (std::size_t i = 0; i < complete_; ++i) {
+        if (answers.why_unasked(i)) continue;
+        options_.on_answer(block_.indices[i], answers.answers()[i], answers.failure(i));
+      }
+    }
+  }
+
   /// The texts of all faults, by the indices of the queries.
   [[nodiscard]] std::map<std::uint64_t, std::vector<std::string>> faults() const {
     std::map<std::uint64_t, std::vector<std::string>> result;
-    for (const DecidedPart& part : truth_.parts(complete_)) {
+    for (const DecidedPart& part : parts()) {
       for (const judge::Mismatch& mismatch : part.mismatches) {
         result[mismatch.index].push_back(judge::to_text(mismatch));
       }
@@ -81,8 +98,7 @@ class BlockJudgement {
       const auto i = static_cast<std::size_t>(place);
       judge::WrongQuery wrong{.source = *block_.source,
                               .index = index,
-                              .kind = block_.kind,
-                              .query = block_.queries[i],
+                              .query = {block_.queries(), i},
                               .separation = options_.separation,
                               .faults = texts};
       for (const BlockAnswers& answers : answers_) {
@@ -95,7 +111,7 @@ class BlockJudgement {
   const Block& block_;
   const CertifyOptions& options_;
   Passes passes_;
-  BlockTruth truth_;
+  std::optional<BlockTruth> truth_;
   std::vector<BlockAnswers> answers_;
   std::vector<judge::Judgement> judgements_;
   std::size_t complete_ = 0;
@@ -158,13 +174,15 @@ CertifyResult& CertifyResult::operator+=(const CertifyResult& other) {
 
 CertifyResult certify(data::QuerySource& source, const CertifyOptions& options) {
   const judge::LabelComparison comparison{
-      .inference = judge::infer(source.recorded_separation(), options.separation),
+      .inference = options.compares_labels
+                       ? judge::infer(source.recorded_separation(), options.separation)
+                       : judge::Inference::nothing,
       .tolerance = options.toi_tolerance};
   CertifyResult result;
   result.separation = options.separation;
   result.compared = comparison.inference;
   result.name = source.name();
-  result.kind = source.kind();
+  result.shape = source.shape();
   for (const solvers::Solver* solver : options.solvers) {
     result.methods.push_back(result_of(*solver));
   }
@@ -175,7 +193,7 @@ CertifyResult certify(data::QuerySource& source, const CertifyOptions& options) 
        .on_progress = options.on_progress,
        .stop = options.stop,
        .deadline = options.deadline,
-       .block = options.is_short_of_time ? short_block : Block::size});
+       .block = options.is_short_of_time ? short_block : Block::most_queries});
   result.skipped = ended.skipped;
   result.rounded = ended.rounded;
   result.interrupted = ended.interrupted;

@@ -1,7 +1,8 @@
 #pragma once
 
 /// \file
-/// The main job: hold what a source records of its queries against the exact truth.
+/// The one job on the queries of a source: decide them, hold labels and solvers' answers against
+/// the truth, and hand out what is asked for: truth, certificates, answers, wrong queries.
 ///
 /// Queries stream from the source through the oracle, many at a time on all cores, and come out in
 /// the order they went in: the output does not depend on the number of threads. Time is the
@@ -31,6 +32,10 @@ namespace touchstone::verify::jobs {
 struct CertifyOptions {
   /// Minimum separation.
   Separation separation = {};
+  /// False: the solvers are asked, and nothing is decided, compared, proved or judged.
+  bool decides = true;
+  /// False: what the source records is not compared with the truth.
+  bool compares_labels = true;
   /// Cores to use; 0: all of them.
   unsigned threads = 0;
   /// A recorded time of impact may be off by this much; 0: not at all.
@@ -40,6 +45,12 @@ struct CertifyOptions {
   /// Called with the certificates of queries (touchstone/certificate.hpp), whole ones and in order,
   /// never from two threads at once. Without it none are made.
   std::function<void(std::string_view)> on_certificates = nullptr;
+  exact::ProveOptions proof = {};
+  /// Called for each answer of the solvers with the query's index and, where more is known of it
+  /// than the answer shows, its failure (else null); a block of one solver after the other, in
+  /// order, never from two threads at once.
+  std::function<void(std::uint64_t, const fast::Answer&, const judge::Failure*)> on_answer =
+      nullptr;
   /// Called with each query that a solver answered wrongly (an answer that breaks its promise), or
   /// that has a mismatch; with the answers of all solvers; in order, never from two threads at
   /// once. Of a great many wrong answers in a row some are left out.
@@ -78,10 +89,10 @@ struct CertifyResult {
   Separation separation = {};  ///< what counted as contact; not set in a total
   /// Which recorded claims were compared; not set in a total.
   judge::Inference compared = judge::Inference::all;
-  std::optional<Kind> kind;      ///< empty for a total, and for a source that could not be opened
-  std::uint64_t queries = 0;     ///< decided
-  std::uint64_t collisions = 0;  ///< of these, by the truth
-  std::uint64_t labels = 0;      ///< queries with a recorded verdict that is compared
+  std::optional<QueryShape> shape;  ///< empty for a total, and for a source that was not opened
+  std::uint64_t queries = 0;        ///< decided
+  std::uint64_t collisions = 0;     ///< of these, by the truth
+  std::uint64_t labels = 0;         ///< queries with a recorded verdict that is compared
   std::uint64_t label_mismatches = 0;
   std::uint64_t tois = 0;  ///< queries with a recorded time of impact that is compared
   std::uint64_t toi_mismatches = 0;

@@ -13,65 +13,6 @@
 namespace touchstone::verify::jobs {
 namespace {
 
-/// The certificates of a part of a block.
-struct ProvedPart {
-  std::string text;
-  ProofCounts counts;
-  double oracle_nanoseconds = 0.0;
-};
-
-/// The parallel stage: the certificates of one block.
-class BlockProofs {
- public:
-  BlockProofs(const Block& block, const SourceProofOptions& options)
-      : block_(block),
-        options_(options),
-        parts_((block.queries.size() + Passes::unit - 1) / Passes::unit) {
-    Passes passes(block.queries.size(), options.stop);
-    passes.run(Passes::unit, [this](std::size_t first, std::size_t count) {
-      prove_part(first, count, parts_[first / Passes::unit]);
-      return true;
-    });
-    complete_ = passes.complete();
-  }
-
-  [[nodiscard]] bool complete() const { return complete_ == block_.queries.size(); }
-
-  /// The serial stage.
-  void add_to(SourceProof& result) const {
-    for (std::size_t part = 0; part * Passes::unit < complete_; ++part) {
-      const auto& [text, counts, oracle_nanoseconds] = parts_[part];
-      if (options_.on_certificates) options_.on_certificates(text);
-      result.counts += counts;
-      result.oracle_nanoseconds += oracle_nanoseconds;
-    }
-  }
-
- private:
-  void prove_part(std::size_t first, std::size_t count, ProvedPart& part) const {
-    std::vector<exact::Decision> verdicts;
-    verdicts.reserve(count);
-    const double start = base::thread_nanoseconds();
-    for (std::size_t i = 0; i < count; ++i) {
-      verdicts.push_back(
-          exact::decide(block_.kind, block_.queries[first + i], options_.separation));
-    }
-    const double decided = base::thread_nanoseconds();
-    for (std::size_t i = 0; i < count; ++i) {
-      append_certificate(block_.kind, block_.queries[first + i], verdicts[i],
-                         certificate_label(*block_.source, block_.indices[first + i]),
-                         options_.proof, part.text, part.counts);
-    }
-    part.oracle_nanoseconds = decided - start;
-    part.counts.nanoseconds = base::thread_nanoseconds() - decided;
-  }
-
-  const Block& block_;
-  const SourceProofOptions& options_;
-  std::vector<ProvedPart> parts_;
-  std::size_t complete_ = 0;
-};
-
 void count(const exact::Certificate& certificate, ProofCounts& counts) {
   switch (certificate.claim) {
     case exact::Claim::no_collision:
@@ -112,11 +53,11 @@ std::string certificate_label(std::string_view source, std::uint64_t index) {
   return fmt::format("{}:{}", io::printable(source), index);
 }
 
-void append_certificate(Kind kind, const Query& query, const exact::Decision& verdict,
+void append_certificate(const Queries& queries, std::size_t i, const exact::Decision& verdict,
                         std::string_view label, const exact::ProveOptions& options,
                         std::string& text, ProofCounts& counts) {
   try {
-    const exact::Certificate certificate = exact::prove(kind, query, verdict, options);
+    const exact::Certificate certificate = exact::prove(queries, i, verdict, options);
     const std::size_t before = text.size();
     exact::write(text, certificate, label);
     count(certificate, counts);
@@ -157,28 +98,6 @@ nlohmann::json to_json(const ProofCounts& counts) {
           {"bytes_per_certificate", per_certificate(static_cast<double>(counts.bytes), counts)},
           {"us_per_certificate", per_certificate(1e-3 * counts.nanoseconds, counts)},
           {"beyond_limits", counts.beyond_limits.size()}};
-}
-
-SourceProof& SourceProof::operator+=(const SourceProof& other) {
-  counts += other.counts;
-  oracle_nanoseconds += other.oracle_nanoseconds;
-  skipped += other.skipped;
-  rounded += other.rounded;
-  interrupted = interrupted || other.interrupted;
-  return *this;
-}
-
-SourceProof prove(data::QuerySource& source, const SourceProofOptions& options) {
-  SourceProof result;
-  const StreamResult ended = stream(
-      source, [&](const Block& block) { return BlockProofs(block, options); },
-      [&](const BlockProofs& proofs) { proofs.add_to(result); },
-      {.threads = options.threads, .on_progress = options.on_progress, .stop = options.stop});
-  result.skipped = ended.skipped;
-  result.rounded = ended.rounded;
-  result.reading_error = ended.error;
-  result.interrupted = ended.interrupted;
-  return result;
 }
 
 }  // namespace touchstone::verify::jobs

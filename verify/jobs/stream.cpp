@@ -37,10 +37,10 @@ class Stream {
     Token& token = in_flight_[read_++ % in_flight_.size()];
     token = {};
     token.block.source = &source_.name();
-    token.block.kind = source_.kind();
-    while (!ended_ && token.block.queries.size() < options_.block) read_query(token.block);
+    token.block.shape = source_.shape();
+    while (!ended_ && token.block.size() < options_.block) read_query(token.block);
     token.progress = source_.progress();
-    return token.block.queries.empty() ? nullptr : &token;
+    return token.block.size() == 0 ? nullptr : &token;
   }
 
   void finish(const Token& token) {
@@ -61,7 +61,7 @@ class Stream {
 
  private:
   void read_query(Block& block) {
-    const bool is_late = block.queries.empty() && options_.deadline.is_over();
+    const bool is_late = block.size() == 0 && options_.deadline.is_over();
     if (base::is_stopped(options_.stop) || is_late) {
       ended_ = result_.interrupted = true;
       return;
@@ -70,7 +70,8 @@ class Stream {
       auto query = source_.next();
       ended_ = !query;
       if (!query) return;
-      block.queries.push_back(query->query);
+      const std::span<const double> numbers = query->query.numbers();
+      block.numbers.insert(block.numbers.end(), numbers.begin(), numbers.end());
       block.indices.push_back(query->index);
       block.labels.push_back({query->collides, std::move(query->toi)});
     } catch (const io::Interrupted&) {

@@ -13,7 +13,8 @@ namespace touchstone::verify::judge {
 namespace {
 
 bool is_beyond(const Question& question, const fast::Answer& answer, const Separation& claimed) {
-  const auto& [kind, query, separation] = question;
+  const Kind kind = question.query.kind;
+  const Query& query = question.query.straight().front();
   const bool is_seen =
       claimed.norm == Norm::linf && is_seen_within(kind, query, answer.toi_lower, claimed.distance);
   return !is_seen && !exact::decide(kind, query, claimed).collides();
@@ -104,9 +105,10 @@ bool is_slight(Fault fault, const std::optional<Lateness>& lateness) {
 
 std::optional<Separation> claim_of(const Question& question, const fast::Answer& answer,
                                    const Standard& standard) {
-  if (answer.verdict != fast::Verdict::yes) return std::nullopt;
+  if (answer.verdict != fast::Verdict::yes || !question.query.is_straight()) return std::nullopt;
   const Separation claimed =
-      claimed_distance(standard.filter, question.kind, question.query, answer, question.separation);
+      claimed_distance(standard.filter, question.query.kind, question.query.straight().front(),
+                       answer, question.separation);
   return is_valid(claimed) ? std::optional(claimed) : std::nullopt;
 }
 

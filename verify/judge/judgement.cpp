@@ -126,17 +126,18 @@ double Judgement::nanoseconds_per_query() const {
 
 void Judgement::add(const Question& question, const GroundTruth& known, const fast::Answer& answer,
                     const Standard& standard, const Failure* failure) {
-  const Query asked = as_asked(standard.terms, question.query);
-  const auto& [kind, query, separation] = question;
+  const auto& [query, separation] = question;
+  const base::AnyQuery asked = as_asked(standard.terms, {query, 0});
+  const bool is_rounded = !std::ranges::equal(asked.numbers(), query.numbers);
   const GroundTruth truth =
-      asked == query ? known : truth_of(known.index, exact::decide(kind, asked, separation));
+      is_rounded ? truth_of(known.index, exact::decide(asked.queries(), 0, separation)) : known;
   ++queries;
   collisions += truth.collides ? 1U : 0U;
   checks += answer.checks;
   const auto why = failure != nullptr ? std::optional(*failure) : failure_of(answer);
   const auto lateness = why ? std::nullopt : lateness_of(truth, answer, standard.terms);
   if (lateness) late.add(*lateness);
-  for (const Fault fault : judge({kind, asked, separation}, truth, answer, standard, failure)) {
+  for (const Fault fault : judge({asked.queries(), separation}, truth, answer, standard, failure)) {
     const bool is_kept = count_kept(fault, is_slight(fault, lateness));
     if (!is_kept || !is_wrong(fault)) continue;
     wrong_answers.push_back(

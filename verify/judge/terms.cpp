@@ -18,33 +18,37 @@ double nearest_float(double x) {
   return static_cast<double>(static_cast<float>(x));
 }
 
-/// The distance at t=0 is that at all times of a query that does not move.
-bool starts_within(Kind kind, const Query& query, Separation distance) {
-  Query at_rest = query;
-  constexpr std::size_t half = std::tuple_size_v<decltype(Query::coordinates)> / 2;
-  std::copy_n(query.coordinates.begin(), half, at_rest.coordinates.begin() + half);
-  return fast::solve(kind, at_rest, {.separation = distance}).verdict == fast::Verdict::yes;
+/// The distance at t=0, where each point is its first control point, is that at all times of a
+/// query that does not move.
+bool starts_within(const Queries& query, Separation distance) {
+  Query at_rest{};
+  for (std::size_t i = 0; i < at_rest.coordinates.size(); ++i) {
+    const std::size_t point = i / 3 % moving_points;
+    at_rest.coordinates[i] = query.numbers[point * query.numbers_of_point() + i % 3];
+  }
+  return fast::solve(query.kind, at_rest, {.separation = distance}).verdict == fast::Verdict::yes;
 }
 
 }  // namespace
 
-bool select_queries(const fast::Terms& terms) {
-  return !terms.vertex_face || !terms.edge_edge || terms.starts_apart || terms.float_coordinates;
+bool select_queries(const fast::Terms& terms, const QueryShape& shape) {
+  return !terms.answers(shape) || terms.starts_apart || terms.float_coordinates;
 }
 
-Query as_asked(const fast::Terms& terms, const Query& query) {
-  Query asked = query;
-  if (terms.float_coordinates)
-    std::ranges::transform(asked.coordinates, asked.coordinates.begin(), nearest_float);
-  return asked;
+base::AnyQuery as_asked(const fast::Terms& terms, base::AnyQuery query) {
+  if (terms.float_coordinates) {
+    std::ranges::transform(query.numbers(), query.numbers().begin(), nearest_float);
+  }
+  return query;
 }
 
-bool admits(const fast::Terms& terms, Kind kind, const Query& query, const Separation& separation) {
-  if (!terms.answers(kind)) return false;
-  if (terms.float_coordinates && !(is_finite(query) && as_asked(terms, query) == query))
-    return false;
-  if (!terms.starts_apart || !is_finite(query)) return true;
-  return !starts_within(kind, query, {separation.distance + *terms.starts_apart, separation.norm});
+bool admits(const fast::Terms& terms, const base::AnyQuery& query, const Separation& separation) {
+  if (!terms.answers(query.shape())) return false;
+  const bool is_finite = touchstone::is_finite(query.numbers());
+  if (terms.float_coordinates && !(is_finite && as_asked(terms, query) == query)) return false;
+  if (!terms.starts_apart || !is_finite) return true;
+  return !starts_within(query.queries(),
+                        {separation.distance + *terms.starts_apart, separation.norm});
 }
 
 std::string to_text(const fast::Terms& terms) {

@@ -22,12 +22,20 @@ namespace {
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
 std::string_view kind_text(const jobs::CertifyResult& result) {
-  return result.kind ? to_string(*result.kind) : "";
+  return result.shape ? to_string(result.shape->kind) : "";
+}
+
+/// "vertex-face", or "vertex-face of degree 2", or "rational vertex-face of degree 2".
+std::string shape_text(const jobs::CertifyResult& result) {
+  std::string text(kind_text(result));
+  if (!result.shape || result.shape->is_straight()) return text;
+  if (result.shape->is_rational) text.insert(0, "rational ");
+  return text + fmt::format(" of degree {}", result.shape->degree);
 }
 
 io::TextRow row_of(const jobs::CertifyResult& result) {
   return {io::printable(result.name),
-          std::string(kind_text(result)),
+          shape_text(result),
           std::to_string(result.queries),
           std::to_string(result.collisions),
           std::to_string(result.labels),
@@ -222,12 +230,14 @@ void append_wrong_answers(nlohmann::json& methods, const jobs::CertifyResult& re
 }  // namespace
 
 std::string to_text(const std::vector<jobs::CertifyResult>& results) {
-  std::size_t width = 5;
-  for (const jobs::CertifyResult& result : results)
+  std::size_t width = 5, shape_width = 11;
+  for (const jobs::CertifyResult& result : results) {
     width = std::max(width, io::printable(result.name).size());
+    shape_width = std::max(shape_width, shape_text(result).size());
+  }
 
   io::TextTable table({io::word_column("file", width),
-                       io::word_column("kind", 11),
+                       io::word_column("kind", shape_width),
                        {"queries", 9},
                        {"collisions", 10},
                        {"labels", 9},
@@ -265,6 +275,10 @@ nlohmann::json to_json(const std::vector<jobs::CertifyResult>& results) {
     nlohmann::json file = counts(result);
     file["file"] = result.name;
     file["kind"] = kind_text(result);
+    if (result.shape && !result.shape->is_straight()) {
+      file["degree"] = result.shape->degree;
+      file["rational"] = result.shape->is_rational;
+    }
     if (!is_zero(result.separation)) {
       file["separation"] = judge::to_json(result.separation);
       file["compared"] = name_of(result.compared);

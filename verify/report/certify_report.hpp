@@ -24,7 +24,8 @@ namespace touchstone::verify::report {
 /// `toi_mismatches`, `us_per_query`, `skipped`, `rounded`, `errors` (that ended the reading of a
 /// file), `interrupted`; `mismatches`, a list of objects with `file`, `index`, `kind`, `of`
 /// ("label" or "toi"), `recorded` and `truth`; `files`, a list with the total's fields a source,
-/// its name as `file`, its `kind`, and `error` if one ended the reading.
+/// its name as `file`, its `kind`, `degree` and `rational` if it is on curves, and `error` if one
+/// ended the reading.
 ///
 /// With a separation, the total (if it is that of all sources) and each file have it as
 /// `separation`, an object of `min_separation` and `norm`, and each file has `compared`: "all",

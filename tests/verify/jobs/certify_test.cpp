@@ -5,6 +5,7 @@
 #include <chrono>
 #include <csignal>
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <thread>
 #include <vector>
@@ -15,6 +16,7 @@
 #include "tests/support/trials.hpp"
 #include "verify/data/dataset.hpp"
 #include "verify/generate/families.hpp"
+#include "verify/solvers/registry.hpp"
 
 namespace touchstone::verify::jobs::certify_test {
 namespace {
@@ -24,9 +26,9 @@ using tests::MemorySource;
 
 /// A vertex falls from height `above` to height −`below` through the middle of a resting triangle:
 /// they collide iff below ≥ 0, at above/(above + below).
-Query falling_vertex(double above, double below) {
-  return {{1, 1, above,  0, 0, 0, 4, 0, 0, 0, 4, 0,  //
-           1, 1, -below, 0, 0, 0, 4, 0, 0, 0, 4, 0}};
+base::AnyQuery falling_vertex(double above, double below) {
+  return {Kind::vertex_face, Query{{1, 1, above,  0, 0, 0, 4, 0, 0, 0, 4, 0,  //
+                                    1, 1, -below, 0, 0, 0, 4, 0, 0, 0, 4, 0}}};
 }
 
 /// Collisions at t=1/4, and none if the index is divisible by 3, all with true records.
@@ -275,10 +277,69 @@ std::string family_name(const ::testing::TestParamInfo<generate::Family>& info) 
   return name;
 }
 
-INSTANTIATE_TEST_SUITE_P(Families, BuiltInSet,
-                         ::testing::ValuesIn(generate::families().begin(),
-                                             generate::families().end()),
-                         family_name);
+std::vector<generate::Family> all_families() {
+  const auto straight = generate::families(), curved = generate::curved_families();
+  std::vector<generate::Family> all(straight.begin(), straight.end());
+  all.insert(all.end(), curved.begin(), curved.end());
+  return all;
+}
+
+INSTANTIATE_TEST_SUITE_P(Families, BuiltInSet, ::testing::ValuesIn(all_families()), family_name);
+
+/// Solvers on curves: ours keep their promises, and what others miss is known.
+TEST(CertifyMethods, OnCurves) {
+  std::vector<std::unique_ptr<solvers::Solver>> all;
+  CertifyOptions options;
+  for (const char* name :
+       {"certified", "tight_inclusion", "subdivision", "sampling", "advancement", "cubic"}) {
+    all.push_back(solvers::solver_in_process(solvers::find_method(name), {}));
+    options.solvers.push_back(all.back().get());
+  }
+  CertifyResult sum;
+  for (const generate::Family& family : generate::curved_families()) {
+    for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
+      sum += certify(*generate::open_family(family, kind, 5, 3), options);
+    }
+  }
+  const auto judged = [&](std::size_t i) { return sum.methods.at(i).judgement; };
+  EXPECT_TRUE(judge::keeps(judged(0), Promise::exact));
+  EXPECT_EQ(judged(0).queries, sum.queries);
+  EXPECT_TRUE(judge::keeps(judged(1), Promise::conservative));
+  EXPECT_EQ(judged(2).count(judge::Fault::false_negative), 0U);
+  EXPECT_GT(judged(2).outside, 0U) << "rational curves";
+  EXPECT_GT(judged(3).count(judge::Fault::false_negative), 0U);
+  EXPECT_GT(judged(3).count(judge::Fault::late_toi), 0U);
+  EXPECT_GT(judged(4).count(judge::Fault::false_positive), 0U);
+  EXPECT_EQ(judged(5).outside, sum.queries) << "straight lines alone";
+}
+
+/// Answers alone: nothing is decided, and all are handed out in order.
+TEST(CertifyMethods, AnswersWithoutATruth) {
+  const FunctionMethod method([](Kind, const Query& query) {
+    return Answer{.verdict = fast::Verdict::yes,
+                  .toi_lower = static_cast<double>(number_of(query))};
+  });
+  const auto solver = solvers::solver_in_process(method, {});
+  for (const unsigned threads : {1U, 3U}) {
+    std::uint64_t next = 0;
+    CertifyOptions options;
+    options.decides = false;
+    options.threads = threads;
+    options.solvers = {solver.get()};
+    options.on_answer = [&](std::uint64_t index, const Answer& answer,
+                            const judge::Failure* failure) {
+      ASSERT_EQ(failure, nullptr);
+      ASSERT_EQ(index, next);
+      ASSERT_EQ(answer.toi_lower, static_cast<double>(next++));
+    };
+    const CertifyResult result = certify_records(numbered_records(9000), options);
+    EXPECT_EQ(next, 9000U);
+    EXPECT_EQ(result.queries, 0U);
+    EXPECT_EQ(result.methods.at(0).judgement.queries, 9000U);
+    EXPECT_EQ(all_faults(result.methods.at(0).judgement), 0U);
+    EXPECT_GT(result.methods.at(0).judgement.nanoseconds, 0.0);
+  }
+}
 
 /// The public data; empty if it is missing.
 std::vector<CertifyResult> certify_public(const std::string& folder) {

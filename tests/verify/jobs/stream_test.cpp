@@ -20,7 +20,7 @@ using tests::MemorySource;
 std::vector<data::RecordedQuery> numbered(std::uint64_t count) {
   std::vector<data::RecordedQuery> records;
   for (std::uint64_t i = 0; i < count; ++i) {
-    records.push_back({.query = {{static_cast<double>(i)}},
+    records.push_back({.query = {Kind::edge_edge, Query{{static_cast<double>(i)}}},
                        .index = i,
                        .collides = i % 2 == 0,
                        .toi = exact::Rational(static_cast<unsigned long>(i))});
@@ -47,11 +47,11 @@ Collected collect(MemorySource& source, const StreamOptions& options) {
 
 TEST(Stream, AllComesOutInOrderWhateverTheNumberOfThreads) {
   for (const unsigned threads : {1U, 2U, 5U}) {
-    MemorySource source(Kind::edge_edge, numbered(5 * Block::size + 7));
+    MemorySource source(Kind::edge_edge, numbered(5 * Block::most_queries + 7));
     const Collected collected = collect(source, {.threads = threads});
-    ASSERT_EQ(collected.indices.size(), 5 * Block::size + 7);
+    ASSERT_EQ(collected.indices.size(), 5 * Block::most_queries + 7);
     EXPECT_TRUE(std::ranges::is_sorted(collected.indices));
-    EXPECT_EQ(collected.indices.back(), 5 * Block::size + 6);
+    EXPECT_EQ(collected.indices.back(), 5 * Block::most_queries + 6);
     EXPECT_EQ(collected.result.skipped, 3U);
     EXPECT_EQ(collected.result.rounded, 5U);
     EXPECT_FALSE(collected.result.error);
@@ -60,10 +60,10 @@ TEST(Stream, AllComesOutInOrderWhateverTheNumberOfThreads) {
 }
 
 TEST(Stream, AnErrorOfTheSourceLosesNothingBeforeIt) {
-  MemorySource source(Kind::edge_edge, numbered(3 * Block::size));
-  source.fail_at(Block::size + 5, "row is broken");
+  MemorySource source(Kind::edge_edge, numbered(3 * Block::most_queries));
+  source.fail_at(Block::most_queries + 5, "row is broken");
   const Collected collected = collect(source, {});
-  EXPECT_EQ(collected.indices.size(), Block::size + 5);
+  EXPECT_EQ(collected.indices.size(), Block::most_queries + 5);
   EXPECT_EQ(collected.result.error, "row is broken");
   EXPECT_FALSE(collected.result.interrupted);
 }
@@ -72,7 +72,7 @@ TEST(Stream, AnErrorOfTheSourceLosesNothingBeforeIt) {
 class InterruptedSource final : public data::QuerySource {
  public:
   [[nodiscard]] const std::string& name() const override { return name_; }
-  [[nodiscard]] Kind kind() const override { return Kind::edge_edge; }
+  [[nodiscard]] QueryShape shape() const override { return {.kind = Kind::edge_edge}; }
   [[nodiscard]] std::optional<data::RecordedQuery> next() override {
     if (position_ == 5) throw io::Interrupted();
     return data::RecordedQuery{.query = {}, .index = position_++, .collides = {}, .toi = {}};
@@ -88,7 +88,7 @@ TEST(Stream, AnInterruptOfTheSourceIsNoErrorAndLosesNothingBeforeIt) {
   InterruptedSource source;
   std::size_t queries = 0;
   const auto work = [&](const Block& block) -> BlockResult {
-    return {.in_order = [&] { queries += block.queries.size(); }};
+    return {.in_order = [&] { queries += block.size(); }};
   };
   const StreamResult result = stream(source, work, {});
   EXPECT_TRUE(result.interrupted);
@@ -97,10 +97,11 @@ TEST(Stream, AnInterruptOfTheSourceIsNoErrorAndLosesNothingBeforeIt) {
 }
 
 TEST(Stream, AnExceptionOfTheWorkEndsItAndIsReported) {
-  MemorySource source(Kind::edge_edge, numbered(20 * Block::size));
+  MemorySource source(Kind::edge_edge, numbered(20 * Block::most_queries));
   std::size_t blocks = 0;
   const auto work = [&](const Block& block) -> BlockResult {
-    if (block.indices.front() == 10 * Block::size) throw std::runtime_error("no memory left");
+    if (block.indices.front() == 10 * Block::most_queries)
+      throw std::runtime_error("no memory left");
     return {.in_order = [&] { ++blocks; }};
   };
   EXPECT_EQ(stream(source, work, {.threads = 1}).error, "no memory left");
@@ -108,16 +109,16 @@ TEST(Stream, AnExceptionOfTheWorkEndsItAndIsReported) {
 }
 
 TEST(Stream, AnIncompleteBlockIsTheLast) {
-  MemorySource source(Kind::edge_edge, numbered(10 * Block::size));
+  MemorySource source(Kind::edge_edge, numbered(10 * Block::most_queries));
   std::vector<std::uint64_t> firsts;
   const auto work = [&](const Block& block) -> BlockResult {
     const std::uint64_t first = block.indices.front();
     return {.in_order = [&firsts, first] { firsts.push_back(first); },
-            .complete = first != 2 * Block::size};
+            .complete = first != 2 * Block::most_queries};
   };
   const StreamResult result = stream(source, work, {.threads = 4});
   EXPECT_TRUE(result.interrupted);
-  EXPECT_EQ(firsts, (std::vector<std::uint64_t>{0, Block::size, 2 * Block::size}));
+  EXPECT_EQ(firsts, (std::vector<std::uint64_t>{0, Block::most_queries, 2 * Block::most_queries}));
 }
 
 TEST(Stream, AStopEndsTheReading) {

@@ -166,7 +166,7 @@ TEST(Judge, HoldsAYesToItsTolerance) {
   const tests::PosedQuery never = tests::over_triangle(1, 1, 2, 1);
   const auto faults = [&](const Answer& answer, const Separation& separation = {},
                           const Failure* failure = nullptr) {
-    return judge({never.kind, never.query, separation}, no_collision, answer, {}, failure);
+    return judge({{never.kind, {&never.query, 1}}, separation}, no_collision, answer, {}, failure);
   };
   const Faults only{Fault::false_positive}, beyond{Fault::false_positive, Fault::beyond_tolerance};
   // The distance at this time suffices, or only the oracle decides.
@@ -182,7 +182,7 @@ TEST(Judge, HoldsAYesToItsTolerance) {
             (Faults{Fault::undecided, Fault::false_positive}));
   const Failure crash{.kind = Fault::crash};
   EXPECT_EQ(faults(yes(1.0, 1.0, 0.0), {}, &crash), Faults{Fault::crash});
-  EXPECT_EQ(judge({never.kind, never.query, {.distance = 2.0}}, collision(0.0, 0.0),
+  EXPECT_EQ(judge({{never.kind, {&never.query, 1}}, {.distance = 2.0}}, collision(0.0, 0.0),
                   yes(0.0, 0.0, 0.0), {}),
             Faults{})
       << "a collision is near enough";

@@ -29,7 +29,8 @@ GroundTruth collision(double lower, double upper) {
 /// distance of two points at one place, which never contradicts it.
 void add(Judgement& judgement, const GroundTruth& truth, const Answer& answer,
          const Failure* failure = nullptr) {
-  judgement.add({Kind::vertex_face, Query{}}, truth, answer, {}, failure);
+  const base::AnyQuery query;
+  judgement.add({query.queries()}, truth, answer, {}, failure);
 }
 
 Judgement judged(const GroundTruth& truth, const Answer& answer) {
