@@ -204,7 +204,6 @@ constexpr auto headers_without_test = std::to_array<Exception>({
      "figure.hpp figures.hpp findings.hpp measurement.hpp published.hpp results.hpp "
      "stability_figures.hpp",
      "tested by documents_test.cpp: docs/results.md and its picture are those of their data"},
-    {"verify/solvers/", "curved_answers.hpp", "tested in fuzz_curves_test.cpp"},
 });
 
 // ---- The rules ----------------------------------------------------------------------------------
