@@ -51,7 +51,8 @@ nlohmann::json facts_of(const base::AnyQuery& query, const Separation& separatio
     if (auto given = answer_of(*method, query, separation)) answers.push_back(*std::move(given));
   }
   return view::query_facts(
-      {.query = query, .separation = separation, .with_approach = with_approach}, answers);
+      {.label = "", .query = query, .separation = separation, .with_approach = with_approach},
+      answers);
 }
 
 }  // namespace

@@ -61,9 +61,10 @@ std::vector<double> dipping() {
 /// x = t − 0.505 in the plane of the triangle.
 std::vector<double> sliding() { return over_triangle({-0.505, -0.005, 0.495}, {0, 0, 0}); }
 
-/// z = 4 (t − 1/2)² + 5e-7: never in contact, and within the tolerance.
+/// z = 4 (t − 0.3)² + 5e-7: never in contact, and within the tolerance.
 std::vector<double> near_miss() {
-  return over_triangle({1, 1, 1}, {1 + 5e-7, -1 + 5e-7, 1 + 5e-7});
+  constexpr double start = 0.36 + 5e-7;
+  return over_triangle({1, 1, 1}, {start, start - 1.2, 1.96 + 5e-7});
 }
 
 struct Row {
@@ -78,7 +79,7 @@ TEST(CurvedMethods, AreWrongWhereKnown) {
   constexpr Verdict yes = Verdict::yes, no = Verdict::no;
   const std::array methods{subdivision_method(), subdivision_largest_deviation_method(),
                            sampling_method(), advancement_method()};
-  for (const Row& row : {Row{"bulging", bulging(), true, {yes, no, yes, yes}},
+  for (const Row& row : {Row{"bulging", bulging(), true, {yes, no, no, yes}},
                          {"dipping", dipping(), true, {yes, yes, no, yes}},
                          {"sliding", sliding(), true, {yes, yes, yes, yes}},
                          {"near miss", near_miss(), false, {yes, yes, yes, yes}},
