@@ -240,10 +240,19 @@ class InChildren final : public Solver {
 
 // ---- Recorded -----------------------------------------------------------------------------------
 
+/// With curves, as far as their numbers are not to be rounded.
+fast::Terms with_curves(fast::Terms terms) {
+  if (terms.float_coordinates) return terms;
+  terms.least_degree = 0;
+  terms.most_degree = greatest_degree;
+  terms.rational = true;
+  return terms;
+}
+
 class Recorded final : public Solver {
  public:
   Recorded(std::string_view name, const RecordedAnswers& answers, const fast::Terms& terms)
-      : Solver(fast::MethodInfo{.name = name, .terms = terms}), answers_(answers) {}
+      : Solver(fast::MethodInfo{.name = name, .terms = with_curves(terms)}), answers_(answers) {}
 
   [[nodiscard]] bool is_timed() const override { return false; }
 

@@ -248,6 +248,22 @@ TEST(Solver, AsksNoShapeOutsideTheTerms) {
   }
 }
 
+TEST(Solver, RecordedAnswersAreLookedUpForAllShapesInDoubles) {
+  const RecordedAnswers none;
+  const std::uint64_t index = 0;
+  for (const QueryShape& shape : {QueryShape{vf, 0}, {vf, 1}, {vf, 2, true}, {vf, 8}}) {
+    const std::vector<double> numbers(shape.numbers_of_query());
+    const SolveRequest request{.queries = Queries(shape, numbers), .indices = {&index, 1}};
+    for (const bool is_float : {false, true}) {
+      const auto solver = recorded_solver("a.csv", none, {.float_coordinates = is_float});
+      std::vector<Answer> answers(1);
+      EXPECT_EQ(solver->solve(request, answers).why_unasked(0), is_float && !shape.is_straight()
+                                                                    ? judge::Unasked::outside
+                                                                    : judge::Unasked::missing);
+    }
+  }
+}
+
 /// Rational curves of degree 2 and others of degree 3 have as many numbers.
 TEST(Solver, ALostQueryOnCurvesIsThatOfItsShape) {
   const FunctionMethod method(
