@@ -173,7 +173,6 @@ constexpr auto headers_without_test = std::to_array<Exception>({
     {"filters/", "strict_arithmetic.hpp", "tested by compilation, in tests/filters/CMakeLists.txt"},
     {"filters/", "error_bound.hpp", "tested in error_bounds_test.cpp"},
     {"filters/derivation/", "mpfr_number.hpp", "tested in worst_case_test.cpp"},
-    {"verify/baselines/", "curved_methods.hpp", "tested in certify_curves_test.cpp"},
     {"verify/base/", "cores.hpp", "a call of oneTBB and a limit"},
     {"verify/baselines/",
      "closest_features.hpp exact_number.hpp moving_polynomials.hpp query_random.hpp "
@@ -204,7 +203,6 @@ constexpr auto headers_without_test = std::to_array<Exception>({
      "figure.hpp figures.hpp findings.hpp measurement.hpp published.hpp results.hpp "
      "stability_figures.hpp",
      "tested by documents_test.cpp: docs/results.md and its picture are those of their data"},
-    {"verify/solvers/", "curved_answers.hpp", "tested in fuzz_curves_test.cpp"},
 });
 
 // ---- The rules ----------------------------------------------------------------------------------

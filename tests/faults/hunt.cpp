@@ -15,20 +15,24 @@ namespace {
 /// Enough boxes in each query to go wrong.
 constexpr std::int64_t most_checks = 1000;
 
-/// The certified solver with another exact stage.
+/// The certified solver with another exact stage, for straight lines alone.
 class WithExactStage final : public fast::Method {
  public:
-  explicit WithExactStage(DecideExactly* decide) : decide_(decide) {}
+  explicit WithExactStage(DecideExactly* decide) : decide_(decide), info_(fast::certified_info()) {
+    info_.terms = {};
+  }
 
-  [[nodiscard]] const fast::MethodInfo& info() const override { return fast::certified_info(); }
-  void solve(Kind kind, std::span<const Query> queries, std::span<fast::Answer> answers,
+  [[nodiscard]] const fast::MethodInfo& info() const override { return info_; }
+  void solve(const Queries& queries, std::span<fast::Answer> answers,
              const fast::MethodOptions& options) const override {
     const fast::CertifiedOptions all{
         .t_max = options.t_max, .separation = options.separation, .max_threads = 1};
-    for (std::size_t i = 0; i < queries.size(); ++i) {
-      fast::CertifiedResult result = fast::solve(kind, queries[i], all);
+    for (std::size_t i = 0; i < answers.size(); ++i) {
+      const Query& query = queries.straight()[i];
+      fast::CertifiedResult result = fast::solve(queries.kind, query, all);
       if (result.stage == fast::Stage::exact && result.verdict != fast::Verdict::error) {
-        const auto impact = decide_(kind, queries[i], all.separation, all.toi_tolerance, all.t_max);
+        const auto impact =
+            decide_(queries.kind, query, all.separation, all.toi_tolerance, all.t_max);
         result = {.verdict = impact ? fast::Verdict::yes : fast::Verdict::no};
         if (impact) result.toi_lower = impact->toi_lower, result.toi_upper = impact->toi_upper;
       }
@@ -38,6 +42,7 @@ class WithExactStage final : public fast::Method {
 
  private:
   DecideExactly* decide_;
+  fast::MethodInfo info_;
 };
 
 std::vector<FaultySolver> all_faulty_solvers() {
@@ -78,9 +83,9 @@ class Named final : public fast::Method {
   }
 
   [[nodiscard]] const fast::MethodInfo& info() const override { return info_; }
-  void solve(Kind kind, std::span<const Query> queries, std::span<fast::Answer> answers,
+  void solve(const Queries& queries, std::span<fast::Answer> answers,
              const fast::MethodOptions& options) const override {
-    method_->solve(kind, queries, answers, options);
+    method_->solve(queries, answers, options);
   }
 
  private:

@@ -39,7 +39,7 @@ namespace touchstone::tests {
 [[nodiscard]] inline fast::Answer answer_to(const fast::Method& method, const PosedQuery& posed,
                                             const fast::MethodOptions& options = {}) {
   fast::Answer answer;
-  method.solve(posed.kind, std::span(&posed.query, 1), std::span(&answer, 1), options);
+  method.solve(Queries(posed.kind, {&posed.query, 1}), {&answer, 1}, options);
   return answer;
 }
 
@@ -170,8 +170,8 @@ struct Score {
     if (source->kind() != kind) continue;
     while (const auto recorded = source->next()) {
       if (recorded->index % stride != 0) continue;
-      score.add(exact::decide(kind, recorded->query),
-                answer_to(method, {kind, recorded->query}, options));
+      const PosedQuery posed{kind, recorded->query.straight()};
+      score.add(exact::decide(kind, posed.query), answer_to(method, posed, options));
     }
   }
   return score;

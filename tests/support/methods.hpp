@@ -19,36 +19,49 @@ namespace touchstone::tests {
 class FunctionMethod final : public fast::Method {
  public:
   using Function = std::function<fast::Answer(Kind, const Query&)>;
+  /// Of one query, of any shape.
+  using AnyFunction = std::function<fast::Answer(const Queries&)>;
 
   explicit FunctionMethod(Function function, fast::Promise promise = fast::Promise::conservative,
                           std::string name = "function")
-      : function_(std::move(function)),
+      : function_(of_any(std::move(function))),
         name_(std::move(name)),
         info_{.name = name_, .promise = promise} {}
   FunctionMethod(Function function, fast::MethodInfo info)
+      : FunctionMethod(of_any(std::move(function)), std::move(info)) {}
+  FunctionMethod(AnyFunction function, fast::MethodInfo info)
       : function_(std::move(function)), info_(std::move(info)) {}
 
   [[nodiscard]] const fast::MethodInfo& info() const override { return info_; }
-  void solve(Kind kind, std::span<const Query> queries, std::span<fast::Answer> answers,
+  void solve(const Queries& queries, std::span<fast::Answer> answers,
              const fast::MethodOptions&) const override {
-    for (std::size_t i = 0; i < queries.size(); ++i) answers[i] = function_(kind, queries[i]);
+    for (std::size_t i = 0; i < answers.size(); ++i) answers[i] = function_(queries.part(i, 1));
   }
 
  private:
-  Function function_;
+  static AnyFunction of_any(Function function) {
+    return [of_lines = std::move(function)](const Queries& one) {
+      return of_lines(one.kind, one.straight().front());
+    };
+  }
+
+  AnyFunction function_;
   std::string name_;
   fast::MethodInfo info_;
 };
 
-/// The truth as an answer, with the narrowest enclosure in doubles.
-[[nodiscard]] inline fast::Answer true_answer(Kind kind, const Query& query) {
-  const exact::Decision verdict = exact::decide(kind, query);
+/// The truth of one query as an answer, with the narrowest enclosure in doubles.
+[[nodiscard]] inline fast::Answer true_answer_to(const Queries& one) {
+  const exact::Decision verdict = exact::decide(one, 0);
   if (!verdict.collides()) return {.verdict = fast::Verdict::no};
   const exact::DoubleInterval toi = verdict.toi->enclosure();
   return {.verdict = fast::Verdict::yes,
           .toi_lower = toi.lower,
           .toi_upper = toi.upper,
           .tolerance = 0.0};
+}
+[[nodiscard]] inline fast::Answer true_answer(Kind kind, const Query& query) {
+  return true_answer_to(Queries(kind, {&query, 1}));
 }
 
 }  // namespace touchstone::tests

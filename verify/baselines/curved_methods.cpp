@@ -3,10 +3,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
+#include <string_view>
 #include <vector>
 
 #include "touchstone/certified.hpp"
+#include "touchstone/curved_query.hpp"
 #include "touchstone/distance.hpp"
+#include "verify/baselines/method_support.hpp"
 
 namespace touchstone::baselines {
 namespace {
@@ -20,9 +24,9 @@ constexpr int most_pieces = 100'000;
 constexpr int samples = 100;
 constexpr int most_advances = 10'000;
 
-Curves curves_of(const CurvedQueries& queries, std::size_t i) {
+Curves curves_of(const Queries& queries, std::size_t i) {
   Curves curves;
-  const CurvedQuery query = queries.query(i);
+  const CurvedQuery query = to_curved(queries, i);
   for (std::size_t point = 0; point < moving_points; ++point) curves[point] = query[point].control;
   return curves;
 }
@@ -69,7 +73,7 @@ struct Piece {
 };
 
 template <bool takes_sum>
-std::optional<double> subdivide(Kind kind, const CurvedQueries& queries, std::size_t i) {
+std::optional<double> subdivide(const Queries& queries, std::size_t i) {
   std::vector<Piece> pieces{{curves_of(queries, i), 0.0, 1.0}};
   for (int count = 0; !pieces.empty(); ++count) {
     const Piece piece = std::move(pieces.back());
@@ -79,7 +83,7 @@ std::optional<double> subdivide(Kind kind, const CurvedQueries& queries, std::si
     Query chords{};
     for (std::size_t point = 0; point < moving_points; ++point) {
       const auto& curve = piece.curves[point];
-      double& greatest = deviations[point < second_primitive(kind) ? 0 : 1];
+      double& greatest = deviations[point < second_primitive(queries.kind) ? 0 : 1];
       greatest = std::max(greatest, deviation(curve));
       for (std::size_t axis = 0; axis < 3; ++axis) {
         chords.at(0, point, axis) = curve.front()[axis];
@@ -88,8 +92,9 @@ std::optional<double> subdivide(Kind kind, const CurvedQueries& queries, std::si
     }
     const double reach =
         takes_sum ? deviations[0] + deviations[1] : std::max(deviations[0], deviations[1]);
-    const fast::CertifiedResult found = fast::solve(
-        kind, chords, {.separation = {.distance = reach, .norm = Norm::l2}, .max_threads = 1});
+    const fast::CertifiedResult found =
+        fast::solve(queries.kind, chords,
+                    {.separation = {.distance = reach, .norm = Norm::l2}, .max_threads = 1});
     if (found.verdict == fast::Verdict::no) continue;
     if (reach <= tolerance) return piece.begin + piece.length * found.toi_lower;
     std::array<Piece, 2> halves{Piece{{}, piece.begin, piece.length / 2},
@@ -117,11 +122,11 @@ double distance_at(Kind kind, const Curves& curves, double t) {
   return fast::distance(kind, rest, 0.0).lower;
 }
 
-std::optional<double> sample(Kind kind, const CurvedQueries& queries, std::size_t i) {
+std::optional<double> sample(const Queries& queries, std::size_t i) {
   const Curves curves = curves_of(queries, i);
   for (int k = 0; k <= samples; ++k) {
     const double t = static_cast<double>(k) / samples;
-    if (distance_at(kind, curves, t) <= tolerance) return t;
+    if (distance_at(queries.kind, curves, t) <= tolerance) return t;
   }
   return std::nullopt;
 }
@@ -141,12 +146,12 @@ double greatest_speed(Kind kind, const Curves& curves) {
   return speeds[0] + speeds[1];
 }
 
-std::optional<double> advance(Kind kind, const CurvedQueries& queries, std::size_t i) {
+std::optional<double> advance(const Queries& queries, std::size_t i) {
   const Curves curves = curves_of(queries, i);
-  const double speed = greatest_speed(kind, curves);
+  const double speed = greatest_speed(queries.kind, curves);
   double t = 0.0;
   for (int step = 0; step < most_advances && t <= 1.0; ++step) {
-    const double distance = distance_at(kind, curves, t);
+    const double distance = distance_at(queries.kind, curves, t);
     if (distance <= tolerance) return t;
     t += distance / speed;
   }
@@ -154,14 +159,35 @@ std::optional<double> advance(Kind kind, const CurvedQueries& queries, std::size
   return std::nullopt;
 }
 
+/// The time of contact of query i; nothing if it finds none.
+using Find = std::optional<double>(const Queries& queries, std::size_t i);
+
+template <Find find>
+std::unique_ptr<fast::Method> curved_method(std::string_view name,
+                                            std::string_view variant_of = {}) {
+  return baseline_method(
+      {.name = name,
+       .terms = {.straight = false, .most_degree = greatest_degree},
+       .variant_of = variant_of},
+      [](const Queries& queries, std::size_t i, const fast::MethodOptions& options) {
+        const std::optional<double> t = find(queries, i);
+        if (!t || *t > options.t_max) return fast::Answer{.verdict = fast::Verdict::no};
+        return fast::Answer{.verdict = fast::Verdict::yes, .toi_lower = *t};
+      });
+}
+
 }  // namespace
 
-std::span<const CurvedMethod> curved_methods() {
-  static constexpr std::array methods{
-      CurvedMethod{"subdivision", subdivide<true>},
-      CurvedMethod{"subdivision_largest_deviation", subdivide<false>},
-      CurvedMethod{"sampling", sample}, CurvedMethod{"advancement", advance}};
-  return methods;
+std::unique_ptr<fast::Method> subdivision_method() {
+  return curved_method<subdivide<true>>("subdivision");
 }
+
+std::unique_ptr<fast::Method> subdivision_largest_deviation_method() {
+  return curved_method<subdivide<false>>("subdivision_largest_deviation", "subdivision");
+}
+
+std::unique_ptr<fast::Method> sampling_method() { return curved_method<sample>("sampling"); }
+
+std::unique_ptr<fast::Method> advancement_method() { return curved_method<advance>("advancement"); }
 
 }  // namespace touchstone::baselines

@@ -12,23 +12,16 @@
 /// - *advancement*: t grows by the distance over the greatest relative speed until the distance is
 ///   within a tolerance.
 
-#include <cstddef>
-#include <optional>
-#include <span>
-#include <string_view>
+#include <memory>
 
-#include "touchstone/curved_query.hpp"
-#include "touchstone/query.hpp"
+#include "fast/method.hpp"
 
 namespace touchstone::baselines {
 
-struct CurvedMethod {
-  std::string_view name;
-  /// The time of contact of query i; nothing if it finds none. \pre without weights
-  std::optional<double> (*solve)(Kind kind, const CurvedQueries& queries, std::size_t i);
-};
-
-/// subdivision, subdivision_largest_deviation, sampling, advancement.
-[[nodiscard]] std::span<const CurvedMethod> curved_methods();
+// They promise nothing, answer polynomial curves at distance 0, and ignore all options but t_max.
+[[nodiscard]] std::unique_ptr<fast::Method> subdivision_method();
+[[nodiscard]] std::unique_ptr<fast::Method> subdivision_largest_deviation_method();
+[[nodiscard]] std::unique_ptr<fast::Method> sampling_method();
+[[nodiscard]] std::unique_ptr<fast::Method> advancement_method();
 
 }  // namespace touchstone::baselines

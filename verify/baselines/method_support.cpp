@@ -10,40 +10,50 @@
 namespace touchstone::baselines {
 namespace {
 
-fast::Answer answer_of(AnswerFunction answer, Kind kind, const Query& query,
+fast::Answer call(AnswerFunction answer, const Queries& queries, std::size_t i,
+                  const fast::MethodOptions& options) {
+  return answer(queries.kind, queries.straight()[i], options);
+}
+fast::Answer call(AnyAnswerFunction answer, const Queries& queries, std::size_t i,
+                  const fast::MethodOptions& options) {
+  return answer(queries, i, options);
+}
+
+template <class Function>
+fast::Answer answer_of(Function answer, const Queries& queries, std::size_t i,
                        const fast::MethodOptions& options) {
-  if (!is_finite(query)) return {.verdict = fast::Verdict::error};
+  if (!is_finite(queries.row(i))) return {.verdict = fast::Verdict::error};
   try {
-    return answer(kind, query, options);
+    return call(answer, queries, i, options);
   } catch (...) {
     return {.verdict = fast::Verdict::yes};
   }
 }
 
+template <class Function>
 class BaselineMethod final : public fast::Method {
  public:
-  BaselineMethod(fast::MethodInfo info, AnswerFunction answer)
-      : info_(std::move(info)), answer_(answer) {
+  BaselineMethod(fast::MethodInfo info, Function answer) : info_(std::move(info)), answer_(answer) {
     info_.is_baseline = true;
   }
 
   [[nodiscard]] const fast::MethodInfo& info() const override { return info_; }
 
-  void solve(Kind kind, std::span<const Query> queries, std::span<fast::Answer> answers,
+  void solve(const Queries& queries, std::span<fast::Answer> answers,
              const fast::MethodOptions& options) const override {
     if (!are_valid(options)) {
       std::ranges::fill(answers, fast::Answer{.verdict = fast::Verdict::error});
       return;
     }
     const NearestRounding state;
-    for (std::size_t i = 0; i < queries.size(); ++i) {
-      answers[i] = answer_of(answer_, kind, queries[i], options);
+    for (std::size_t i = 0; i < answers.size(); ++i) {
+      answers[i] = answer_of(answer_, queries, i, options);
     }
   }
 
  private:
   fast::MethodInfo info_;
-  AnswerFunction answer_;
+  Function answer_;
 };
 
 }  // namespace
@@ -78,7 +88,11 @@ double squared_distance_at(Kind kind, const Query& query, double t) {
 }
 
 std::unique_ptr<fast::Method> baseline_method(fast::MethodInfo info, AnswerFunction answer) {
-  return std::make_unique<BaselineMethod>(std::move(info), answer);
+  return std::make_unique<BaselineMethod<AnswerFunction>>(std::move(info), answer);
+}
+
+std::unique_ptr<fast::Method> baseline_method(fast::MethodInfo info, AnyAnswerFunction answer) {
+  return std::make_unique<BaselineMethod<AnyAnswerFunction>>(std::move(info), answer);
 }
 
 }  // namespace touchstone::baselines

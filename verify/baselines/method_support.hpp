@@ -38,6 +38,9 @@ class NearestRounding {
 /// are_valid(), rounding to nearest.
 using AnswerFunction = fast::Answer (*)(Kind kind, const Query& query,
                                         const fast::MethodOptions& options);
+/// The same of query i, of any shape that the method's terms name.
+using AnyAnswerFunction = fast::Answer (*)(const Queries& queries, std::size_t i,
+                                           const fast::MethodOptions& options);
 
 /// True if the tolerance is positive and finite, the separation finite and not negative, and t_max
 /// in [0,1].
@@ -59,5 +62,7 @@ using AnswerFunction = fast::Answer (*)(Kind kind, const Query& query,
 /// yes, without times, if the function throws.
 [[nodiscard]] std::unique_ptr<fast::Method> baseline_method(fast::MethodInfo info,
                                                             AnswerFunction answer);
+[[nodiscard]] std::unique_ptr<fast::Method> baseline_method(fast::MethodInfo info,
+                                                            AnyAnswerFunction answer);
 
 }  // namespace touchstone::baselines

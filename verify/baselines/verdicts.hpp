@@ -56,9 +56,9 @@ class VerdictMethod final : public fast::Method {
       : info_{.name = name, .reference = reference, .is_baseline = true}, collides_(collides) {}
 
   [[nodiscard]] const fast::MethodInfo& info() const override { return info_; }
-  void solve(Kind kind, std::span<const Query> queries, std::span<fast::Answer> answers,
+  void solve(const Queries& queries, std::span<fast::Answer> answers,
              const fast::MethodOptions& /*options*/) const override {
-    answer_each(kind, queries, answers, collides_);
+    answer_each(queries.kind, queries.straight(), answers, collides_);
   }
 
  private:

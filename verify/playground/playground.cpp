@@ -15,6 +15,7 @@
 
 #include "fast/method.hpp"
 #include "fast/platform/arithmetic_check.hpp"
+#include "verify/base/any_query.hpp"
 #include "verify/judge/terms.hpp"
 #include "verify/solvers/registry.hpp"
 #include "verify/view/query_facts.hpp"
@@ -26,29 +27,32 @@ namespace {
 constexpr std::int64_t most_checks = 20'000;
 
 /// Nothing if the query is outside the terms of the method.
-std::optional<judge::GivenAnswer> answer_of(const fast::Method& method,
-                                            const view::ViewedQuery& viewed) {
+std::optional<judge::GivenAnswer> answer_of(const fast::Method& method, const base::AnyQuery& query,
+                                            const Separation& separation) {
   const fast::MethodInfo& info = method.info();
-  const Query asked = judge::as_asked(info.terms, viewed.query);
-  if (!judge::admits(info.terms, viewed.kind, asked, viewed.separation)) return std::nullopt;
-  if (!is_zero(viewed.separation) && info.norms.empty()) return std::nullopt;
+  const base::AnyQuery asked = judge::as_asked(info.terms, query);
+  if (!judge::admits(info.terms, asked, separation)) return std::nullopt;
+  if (!is_zero(separation) && info.norms.empty()) return std::nullopt;
   judge::GivenAnswer given{.solver = std::string(info.name), .standard = judge::standard_of(info)};
   const fast::MethodOptions options{.max_checks = std::min(most_checks, info.usual_max_checks),
-                                    .separation = viewed.separation};
+                                    .separation = separation};
   try {
-    method.solve(viewed.kind, {&asked, 1}, {&given.answer, 1}, options);
+    method.solve(asked.queries(), {&given.answer, 1}, options);
   } catch (const std::exception&) {
     given.answer = {.verdict = fast::Verdict::error};
   }
   return given;
 }
 
-nlohmann::json facts_of(const view::ViewedQuery& viewed) {
+nlohmann::json facts_of(const base::AnyQuery& query, const Separation& separation,
+                        bool with_approach) {
   std::vector<judge::GivenAnswer> answers;
   for (const auto& method : solvers::methods()) {
-    if (auto given = answer_of(*method, viewed)) answers.push_back(*std::move(given));
+    if (auto given = answer_of(*method, query, separation)) answers.push_back(*std::move(given));
   }
-  return view::query_facts(viewed, answers);
+  return view::query_facts(
+      {.label = "", .query = query, .separation = separation, .with_approach = with_approach},
+      answers);
 }
 
 }  // namespace
@@ -64,13 +68,10 @@ EMSCRIPTEN_KEEPALIVE const char* touchstone_facts(int is_edge_edge, const double
   using namespace touchstone;
   static std::string text;
   try {
-    verify::view::ViewedQuery viewed{
-        .label = "",
-        .kind = is_edge_edge != 0 ? Kind::edge_edge : Kind::vertex_face,
-        .separation = {.distance = distance, .norm = is_l2 != 0 ? Norm::l2 : Norm::linf},
-        .with_approach = with_approach != 0};
-    std::copy_n(coordinates, viewed.query.coordinates.size(), viewed.query.coordinates.begin());
-    text = verify::playground::facts_of(viewed).dump();
+    const QueryShape lines{.kind = is_edge_edge != 0 ? Kind::edge_edge : Kind::vertex_face};
+    const Separation separation{.distance = distance, .norm = is_l2 != 0 ? Norm::l2 : Norm::linf};
+    const verify::base::AnyQuery query({lines, {coordinates, lines.numbers_of_query()}}, 0);
+    text = verify::playground::facts_of(query, separation, with_approach != 0).dump();
   } catch (const std::exception& error) {
     text = nlohmann::json{{"error", error.what()}}.dump();
   }

@@ -205,12 +205,27 @@ class SameProcess {
   pid_t process_ = ::getpid();
 };
 
-using Solve = decltype(touchstone_plugin_solve);
-using SolveBatch = decltype(touchstone_plugin_solve_batch);
-using SolveCurved = decltype(touchstone_plugin_solve_curved);
-constexpr const char* solve_name = "touchstone_plugin_solve";
-constexpr const char* solve_curved_name = "touchstone_plugin_solve_curved";
-static_assert(sizeof(Query) == 24 * sizeof(double));
+/// The functions that solve; null for those that a library does not define.
+struct Functions {
+  decltype(touchstone_plugin_solve)* solve = nullptr;
+  decltype(touchstone_plugin_solve_batch)* solve_batch = nullptr;
+  decltype(touchstone_plugin_solve_curved)* solve_curved = nullptr;
+};
+
+/// \throws DatasetError if there is neither one for lines nor one for curves.
+Functions find_functions(const Library& library, const std::filesystem::path& path) {
+  Functions found{.solve_batch = find_optional<decltype(touchstone_plugin_solve_batch)>(
+                      library, "touchstone_plugin_solve_batch"),
+                  .solve_curved = find_optional<decltype(touchstone_plugin_solve_curved)>(
+                      library, "touchstone_plugin_solve_curved")};
+  constexpr const char* name = "touchstone_plugin_solve";
+  using Solve = decltype(touchstone_plugin_solve);
+  found.solve = found.solve_curved == nullptr ? find_function<Solve>(library, path, name)
+                                              : find_optional<Solve>(library, name);
+  return found;
+}
+
+static_assert(sizeof(Query) == 24 * sizeof(double) && greatest_degree == 8);
 
 TouchstonePluginOptions plugin_options(const fast::MethodOptions& options) {
   return {.tolerance = options.tolerance,
@@ -236,31 +251,39 @@ class PluginMethod final : public fast::Method {
 
   [[nodiscard]] const fast::MethodInfo& info() const override { return info_; }
 
-  void solve(Kind kind, std::span<const Query> queries, std::span<fast::Answer> answers,
+  void solve(const Queries& queries, std::span<fast::Answer> answers,
              const fast::MethodOptions& options) const override {
     std::call_once(is_loaded_, [this] {
       library_ = open_library(path_, state_);
-      solve_ = find_function<Solve>(library_, path_, solve_name);
-      solve_batch_ = find_optional<SolveBatch>(library_, "touchstone_plugin_solve_batch");
+      functions_ = find_functions(library_, path_);
     });
     if (queries.empty()) return;
-    std::vector<TouchstonePluginAnswer> found(queries.size(), unanswered);
-    ask(static_cast<std::int32_t>(kind), queries, plugin_options(options), found);
+    std::vector<TouchstonePluginAnswer> found(answers.size(), unanswered);
+    ask(queries, plugin_options(options), found);
     std::ranges::transform(found, answers.begin(),
                            [](const TouchstonePluginAnswer& answer) { return checked(answer); });
   }
 
  private:
-  void ask(std::int32_t kind, std::span<const Query> queries,
-           const TouchstonePluginOptions& options, std::span<TouchstonePluginAnswer> found) const {
+  void ask(const Queries& queries, const TouchstonePluginOptions& options,
+           std::span<TouchstonePluginAnswer> found) const {
     const SameProcess same;
-    if (solve_batch_ != nullptr) {
-      solve_batch_(kind, std::ssize(queries), queries.front().coordinates.data(), &options,
-                   found.data());
+    const auto kind = static_cast<std::int32_t>(queries.kind);
+    if (queries.is_straight() && functions_.solve_batch != nullptr) {
+      functions_.solve_batch(kind, std::ssize(found), queries.numbers.data(), &options,
+                             found.data());
       return;
     }
-    for (std::size_t i = 0; i < queries.size(); ++i) {
-      solve_(kind, queries[i].coordinates.data(), &options, &found[i]);
+    const bool as_lines = queries.is_straight() && functions_.solve != nullptr;
+    for (std::size_t i = 0; i < found.size(); ++i) {
+      const double* const numbers = queries.row(i).data();
+      if (as_lines) {
+        functions_.solve(kind, numbers, &options, &found[i]);
+      } else {
+        functions_.solve_curved(kind, static_cast<std::int32_t>(queries.degree),
+                                queries.is_rational ? 1 : 0, numbers, &options, &found[i]);
+        found[i].tolerance = fast::Answer::none;
+      }
     }
   }
 
@@ -270,51 +293,7 @@ class PluginMethod final : public fast::Method {
   fast::MethodInfo info_;
   mutable std::once_flag is_loaded_;
   mutable Library library_;
-  mutable Solve* solve_ = nullptr;
-  mutable SolveBatch* solve_batch_ = nullptr;
-};
-
-// ---- Curves -------------------------------------------------------------------------------------
-
-/// Where a stand-in has the number of its query.
-constexpr std::size_t number_place = 3 * moving_points;
-
-class CurvedPluginMethod final : public fast::Method {
- public:
-  CurvedPluginMethod(const CurvedPlugin& plugin, const CurvedQueries& queries)
-      : path_(plugin.library),
-        state_(plugin.state),
-        queries_(queries),
-        info_{.name = plugin.name, .promise = plugin.promise, .terms = plugin.terms} {}
-
-  [[nodiscard]] const fast::MethodInfo& info() const override { return info_; }
-
-  void solve(Kind kind, std::span<const Query> queries, std::span<fast::Answer> answers,
-             const fast::MethodOptions& options) const override {
-    std::call_once(is_loaded_, [this] {
-      library_ = open_library(path_, state_);
-      solve_ = find_function<SolveCurved>(library_, path_, solve_curved_name);
-    });
-    const TouchstonePluginOptions asked = plugin_options(options);
-    for (std::size_t i = 0; i < queries.size(); ++i) {
-      const auto number = static_cast<std::size_t>(queries[i].coordinates[number_place]);
-      TouchstonePluginAnswer found = unanswered;
-      const SameProcess same;
-      solve_(static_cast<std::int32_t>(kind), static_cast<std::int32_t>(queries_.degree),
-             queries_.is_rational ? 1 : 0, queries_.row(number).data(), &asked, &found);
-      found.tolerance = fast::Answer::none;
-      answers[i] = checked(found);
-    }
-  }
-
- private:
-  std::filesystem::path path_;
-  std::string state_;
-  CurvedQueries queries_;
-  fast::MethodInfo info_;
-  mutable std::once_flag is_loaded_;
-  mutable Library library_;
-  mutable SolveCurved* solve_ = nullptr;
+  mutable Functions functions_;
 };
 
 // ---- In a child process -------------------------------------------------------------------------
@@ -324,16 +303,15 @@ constexpr std::string_view calls = "calls ";    // what runs from now on
 constexpr std::string_view named = "named ";    // the name: all is well
 constexpr std::string_view refused = "error ";  // why it is no plugin
 constexpr std::string_view threw = "threw ";
-constexpr std::string_view vowed = "vowed ";  // the bytes of the promise
+constexpr std::string_view vowed = "vowed ";   // the bytes of the promise
+constexpr std::string_view curves = "curves";  // it answers queries on curves
 
 void tell(const ChildChannel& channel, std::string_view word, std::string_view text) {
   const std::string message = std::string(word) + std::string(text);
   static_cast<void>(channel.send(message.substr(0, ChildChannel::most_bytes)));
 }
 
-/// \param entry the name of the function that solves
-void load_and_ask(const std::filesystem::path& path, const char* entry,
-                  const ChildChannel& channel) {
+void load_and_ask(const std::filesystem::path& path, const ChildChannel& channel) {
   tell(channel, calls, "its constructors");
   Library library = open_library(path, state_of(path));
   tell(channel, calls, "touchstone_plugin_version()");
@@ -343,16 +321,16 @@ void load_and_ask(const std::filesystem::path& path, const char* entry,
   tell(channel, calls, "touchstone_plugin_promise()");
   const TouchstonePluginPromise promise = read_promise(library);
   tell(channel, vowed, {reinterpret_cast<const char*>(&promise), sizeof promise});
-  static_cast<void>(find_function<void()>(library, path, entry));
+  if (find_functions(library, path).solve_curved != nullptr) tell(channel, curves, "");
   // Its destructors need not run.
   static_cast<void>(library.release());
   tell(channel, named, name);
 }
 
 /// The work of the child: each of its possible ends has a message.
-void describe(const std::filesystem::path& path, const char* entry, const ChildChannel& channel) {
+void describe(const std::filesystem::path& path, const ChildChannel& channel) {
   try {
-    load_and_ask(path, entry, channel);
+    load_and_ask(path, channel);
   } catch (const io::DatasetError& error) {
     tell(channel, refused, error.reason());
   } catch (const std::exception& error) {
@@ -365,14 +343,12 @@ void describe(const std::filesystem::path& path, const char* entry, const ChildC
 /// Loads the library in a child process.
 class Loading {
  public:
-  /// \param entry the name of the function that solves
   Loading(const std::filesystem::path& path, const std::filesystem::path& absolute,
-          const char* entry, const PluginOptions& options)
+          const PluginOptions& options)
       : path_(path),
         options_(options),
-        child_(
-            [&absolute, entry](const ChildChannel& channel) { describe(absolute, entry, channel); },
-            options.limits, folder_.path()) {}
+        child_([&absolute](const ChildChannel& channel) { describe(absolute, channel); },
+               options.limits, folder_.path()) {}
 
   /// The library's name. \throws DatasetError as load_plugin does.
   std::string name() {
@@ -393,8 +369,17 @@ class Loading {
     }
   }
 
-  /// Its promise. \pre name() has returned.
-  [[nodiscard]] const Stated& stated() const { return stated_; }
+  /// Its promise, under the terms of the options. \pre name() has returned.
+  [[nodiscard]] Stated stated() const {
+    Stated result = stated_;
+    result.terms = changed(result.terms, options_.terms);
+    // The numbers of curves are not rounded for it.
+    if (answers_curves_ && !result.terms.float_coordinates) {
+      result.terms.most_degree = greatest_degree;
+      result.terms.rational = true;
+    }
+    return result;
+  }
 
  private:
   using Clock = std::chrono::steady_clock;
@@ -409,6 +394,7 @@ class Loading {
       std::memcpy(&promise, text.data(), std::min(sizeof promise, text.size()));
       stated_ = checked(promise, path_);
     }
+    if (is_about(curves)) answers_curves_ = true;
     if (is_about(refused)) throw io::DatasetError(path_, {}, text);
     if (is_about(threw)) fail({.kind = judge::Fault::exception, .what = text});
     if (is_about(calls)) at_ = text;
@@ -430,6 +416,7 @@ class Loading {
   ChildProcess child_;
   std::string at_ = "before its constructors";
   Stated stated_;
+  bool answers_curves_ = false;
 };
 static_assert(calls.size() == named.size() && named.size() == refused.size() &&
               refused.size() == threw.size() && threw.size() == vowed.size());
@@ -451,46 +438,10 @@ std::unique_ptr<fast::Method> load_plugin(const std::filesystem::path& library,
   // A child works in another folder.
   std::filesystem::path absolute = std::filesystem::absolute(library);
   std::string state = state_of(absolute);
-  Loading loading(library, absolute, solve_name, options);
+  Loading loading(library, absolute, options);
   std::string name = loading.name();
-  Stated stated = loading.stated();
-  stated.terms = changed(stated.terms, options.terms);
   return std::make_unique<PluginMethod>(std::move(absolute), std::move(state), std::move(name),
-                                        stated);
-}
-
-CurvedPlugin load_curved_plugin(const std::filesystem::path& library,
-                                const PluginOptions& options) {
-  std::filesystem::path absolute = std::filesystem::absolute(library);
-  std::string state = state_of(absolute);
-  Loading loading(library, absolute, solve_curved_name, options);
-  std::string name = loading.name();
-  const auto& [promise, terms] = loading.stated();
-  CurvedPlugin plugin{.library = std::move(absolute),
-                      .state = std::move(state),
-                      .name = std::move(name),
-                      .promise = promise,
-                      .terms = changed(terms, options.terms)};
-  if (plugin.terms.float_coordinates) {
-    throw io::DatasetError(library, {}, "takes float coordinates; those of curves are doubles");
-  }
-  return plugin;
-}
-
-Query stand_in(const CurvedQueries& queries, std::size_t i) {
-  Query query{};
-  const std::span<const double> row = queries.row(i);
-  for (std::size_t point = 0; point < moving_points; ++point) {
-    const auto start = row.subspan(point * queries.numbers_of_point(), 3);
-    std::ranges::copy(start, query.coordinates.begin() + static_cast<std::ptrdiff_t>(3 * point));
-  }
-  query.coordinates[number_place] = static_cast<double>(i);
-  return query;
-}
-
-std::unique_ptr<fast::Method> curved_method(const CurvedPlugin& plugin,
-                                            const CurvedQueries& queries) {
-  return std::make_unique<CurvedPluginMethod>(plugin, queries);
+                                        loading.stated());
 }
 
 }  // namespace touchstone::verify::solvers

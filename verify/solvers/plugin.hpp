@@ -15,8 +15,6 @@
 #include <string>
 
 #include "fast/method.hpp"
-#include "touchstone/curved_query.hpp"
-#include "touchstone/query.hpp"
 #include "verify/solvers/child_process.hpp"
 
 namespace touchstone::verify::solvers {
@@ -49,12 +47,14 @@ struct PluginOptions {
 /// no search takes place.
 ///
 /// The method's name is what the library calls itself, its promise and terms what the library
-/// states (touchstone_plugin_promise), else conservative. solve() loads the library into the
-/// process that calls it, where it stays as long as the method lives; it throws DatasetError if the
-/// file has changed since: a run has one solver. It throws what the library throws, and answers
-/// Verdict::error for a verdict that is none. Times of impact with any other verdict than yes are
-/// dropped, and so is a tolerance that is none (negative or NaN); infinite times of impact are not:
-/// judge::failure_of() tells of them.
+/// states (touchstone_plugin_promise), else conservative. Curves are within its terms if it has a
+/// function for them and takes doubles; that function is asked straight lines, too, if there is no
+/// other, and its tolerances are dropped. solve() loads the library into the process that calls it,
+/// where it stays as long as the method lives; it throws DatasetError if the file has changed
+/// since: a run has one solver. It throws what the library throws, and answers Verdict::error for a
+/// verdict that is none. Times of impact with any other verdict than yes are dropped, and so is a
+/// tolerance that is none (negative or NaN); infinite times of impact are not: judge::failure_of()
+/// tells of them.
 /// \throws DatasetError naming the file and the reason if it cannot be loaded, lacks a function, is
 /// made for a version of the interface that this program does not know, has no name or one that is
 /// not printable, has more than 100 bytes or is that of a built-in solver, states a promise out of
@@ -62,30 +62,5 @@ struct PluginOptions {
 /// stop turns true; std::system_error if no process can be made.
 [[nodiscard]] std::unique_ptr<fast::Method> load_plugin(const std::filesystem::path& library,
                                                         const PluginOptions& options = {});
-
-/// A plugin that answers queries on curves (touchstone_plugin_solve_curved).
-struct CurvedPlugin {
-  std::filesystem::path library;  ///< absolute
-  std::string state;              ///< of its file, by which a change is noticed
-  std::string name;
-  fast::Promise promise = fast::Promise::conservative;
-  fast::Terms terms = {};
-};
-
-/// Loads a plugin for curves, as load_plugin() does; it needs no function for straight lines.
-/// \throws what load_plugin() throws; DatasetError also if its terms ask for float coordinates.
-[[nodiscard]] CurvedPlugin load_curved_plugin(const std::filesystem::path& library,
-                                              const PluginOptions& options = {});
-
-/// The query that stands for query i on curves where a solver is asked by Query: the points at t=0,
-/// which the terms of a promise are about, and the number i as the first coordinate at t=1.
-[[nodiscard]] Query stand_in(const CurvedQueries& queries, std::size_t i);
-
-/// The plugin as a method that answers the stand-ins of these queries, by the rules of
-/// load_plugin(), without tolerances. In a child process the numbers are those of the time at which
-/// it was made, so they must live as long as the method and not change. The plugin must live as
-/// long as the method.
-[[nodiscard]] std::unique_ptr<fast::Method> curved_method(const CurvedPlugin& plugin,
-                                                          const CurvedQueries& queries);
 
 }  // namespace touchstone::verify::solvers

@@ -12,6 +12,7 @@
 #include "verify/baselines/accd.hpp"
 #include "verify/baselines/bsc.hpp"
 #include "verify/baselines/cubic.hpp"
+#include "verify/baselines/curved_methods.hpp"
 #include "verify/baselines/fprf.hpp"
 #include "verify/baselines/irf.hpp"
 #include "verify/baselines/msrf.hpp"
@@ -26,7 +27,7 @@ namespace {
 
 using Methods = std::vector<std::unique_ptr<const fast::Method>>;
 
-/// Ours, then the baselines.
+/// Ours, then the baselines, those for curves last.
 constexpr auto factories = std::to_array<std::unique_ptr<fast::Method> (*)()>({
     [] { return fast::certified_method(); },
     [] { return fast::tight_inclusion_method(); },
@@ -50,6 +51,10 @@ constexpr auto factories = std::to_array<std::unique_ptr<fast::Method> (*)()>({
     baselines::accd_method,
     baselines::accd_limited_method,
     baselines::cubic_method,
+    baselines::subdivision_method,
+    baselines::subdivision_largest_deviation_method,
+    baselines::sampling_method,
+    baselines::advancement_method,
 });
 
 Methods make_methods() {

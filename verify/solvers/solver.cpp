@@ -3,16 +3,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <chrono>
 #include <cmath>
 #include <exception>
 #include <functional>
+#include <iterator>
 #include <map>
 #include <mutex>
 #include <stdexcept>
-#include <tuple>
 #include <utility>
 
 #include "verify/base/thread_clock.hpp"
@@ -53,7 +52,7 @@ std::vector<judge::QueryFailure> solve_despite_exceptions(const fast::Method& me
   std::vector<judge::QueryFailure> failures;
   for (std::size_t i = 0; i < answers.size(); ++i) {
     try {
-      method.solve(request.kind, request.queries.subspan(i, 1), answers.subspan(i, 1), options);
+      method.solve(request.queries.part(i, 1), answers.subspan(i, 1), options);
     } catch (const std::exception& error) {
       answers[i] = {.verdict = fast::Verdict::error};
       failures.push_back(
@@ -72,7 +71,7 @@ class InProcess final : public Solver {
                                   std::span<fast::Answer> answers) const override {
     const fast::MethodOptions options = with_separation(options_, request);
     try {
-      method_.solve(request.kind, request.queries, answers, options);
+      method_.solve(request.queries, answers, options);
     } catch (const std::exception&) {
       std::ranges::fill(answers, fast::Answer{});
       return {.failures = solve_despite_exceptions(method_, request, answers, options)};
@@ -129,19 +128,22 @@ class InChildren final : public Solver {
 
  private:
   /// A query by its bits, with what it is asked for.
-  using Coordinates = std::array<std::uint64_t, std::tuple_size_v<decltype(Query::coordinates)>>;
-  using QueryBits = std::tuple<Kind, Norm, std::uint64_t, Coordinates>;
+  using QueryBits = std::vector<std::uint64_t>;
 
   static QueryBits bits_of(const SolveRequest& request, std::size_t i) {
-    return {request.kind, request.separation.norm,
-            std::bit_cast<std::uint64_t>(request.separation.distance),
-            std::bit_cast<Coordinates>(request.queries[i].coordinates)};
+    const Queries& all = request.queries;
+    const auto to_bits = [](double x) { return std::bit_cast<std::uint64_t>(x); };
+    QueryBits bits{static_cast<std::uint64_t>(all.kind), all.degree, all.is_rational ? 1U : 0U,
+                   static_cast<std::uint64_t>(request.separation.norm),
+                   to_bits(request.separation.distance)};
+    std::ranges::transform(all.row(i), std::back_inserter(bits), to_bits);
+    return bits;
   }
 
   /// Asks for the answers from number `first` to before `last`.
   void ask(SolverProcess& process, const SolveRequest& request, std::span<fast::Answer> answers,
            std::size_t first, std::size_t last, SolveReply& reply) const {
-    const std::string sort = fmt::format("{} {}", request.source, to_string(request.kind));
+    const std::string sort = fmt::format("{} {}", request.source, to_string(request.queries.kind));
     double allowed = allowance();
     std::size_t step = std::isinf(allowed) ? answers.size() : 1;
     while (first < last && !reply.stopped) {
@@ -174,9 +176,8 @@ class InChildren final : public Solver {
                   const std::string& sort, SolveReply& reply) const {
     const WallClock::time_point start = WallClock::now();
     SolverTime& time = reply.time.value();
-    SolverRun run =
-        process.solve(request.kind, request.queries.subspan(first, count),
-                      answers.subspan(first, count), with_separation(options_, request));
+    SolverRun run = process.solve(request.queries.part(first, count), answers.subspan(first, count),
+                                  with_separation(options_, request));
     time.processor_nanoseconds += 1e9 * run.processor_seconds;
     time.wall_seconds += run.wall_seconds;
     reply.unplaced_crashes += run.unplaced_crashes;
@@ -239,10 +240,19 @@ class InChildren final : public Solver {
 
 // ---- Recorded -----------------------------------------------------------------------------------
 
+/// With curves, as far as their numbers are not to be rounded.
+fast::Terms with_curves(fast::Terms terms) {
+  if (terms.float_coordinates) return terms;
+  terms.least_degree = 0;
+  terms.most_degree = greatest_degree;
+  terms.rational = true;
+  return terms;
+}
+
 class Recorded final : public Solver {
  public:
   Recorded(std::string_view name, const RecordedAnswers& answers, const fast::Terms& terms)
-      : Solver(fast::MethodInfo{.name = name, .terms = terms}), answers_(answers) {}
+      : Solver(fast::MethodInfo{.name = name, .terms = with_curves(terms)}), answers_(answers) {}
 
   [[nodiscard]] bool is_timed() const override { return false; }
 
@@ -250,7 +260,8 @@ class Recorded final : public Solver {
                                   std::span<fast::Answer> answers) const override {
     SolveReply reply;
     for (std::size_t i = 0; i < answers.size(); ++i) {
-      const auto answer = answers_.answer_to(request.source, request.kind, request.indices[i]);
+      const auto answer =
+          answers_.answer_to(request.source, request.queries.kind, request.indices[i]);
       if (!answer) {
         reply.unasked.push_back({.position = i, .why = judge::Unasked::missing});
         continue;
@@ -274,9 +285,9 @@ class Collisions final : public Solver {
   using Find = std::function<std::vector<fast::Collision>(const SolveRequest&,
                                                           const fast::CertifiedOptions&)>;
 
-  Collisions(std::string_view name, bool only_as_a_whole, const fast::CertifiedOptions& options,
-             Find find)
-      : Solver(fast::MethodInfo{.name = name, .promise = fast::Promise::exact}),
+  Collisions(std::string_view name, const fast::Terms& terms, bool only_as_a_whole,
+             const fast::CertifiedOptions& options, Find find)
+      : Solver(fast::MethodInfo{.name = name, .promise = fast::Promise::exact, .terms = terms}),
         only_as_a_whole_(only_as_a_whole),
         options_(options),
         find_(std::move(find)) {
@@ -331,28 +342,30 @@ std::optional<judge::Unasked> SolveReply::why_unasked(std::size_t position) cons
 }
 
 SolveReply Solver::solve(const SolveRequest& request, std::span<fast::Answer> answers) const {
-  if (!judge::select_queries(terms())) return answer_in_time(request, answers);
+  if (!judge::select_queries(terms(), request.queries)) return answer_in_time(request, answers);
   SolveReply reply;
   std::vector<std::size_t> positions;
-  std::vector<Query> queries;
+  std::vector<double> numbers;
   std::vector<std::uint64_t> indices;
   for (std::size_t i = 0; i < answers.size(); ++i) {
-    const Query query = judge::as_asked(terms(), request.queries[i]);
+    const base::AnyQuery query = judge::as_asked(terms(), {request.queries, i});
     answers[i] = {};
-    if (!judge::admits(terms(), request.kind, query, request.separation)) {
+    if (!judge::admits(terms(), query, request.separation)) {
       reply.unasked.push_back({.position = i, .why = judge::Unasked::outside});
       continue;
     }
     positions.push_back(i);
-    queries.push_back(query);
+    numbers.insert(numbers.end(), query.numbers().begin(), query.numbers().end());
     if (!request.indices.empty()) indices.push_back(request.indices[i]);
   }
-  std::vector<fast::Answer> given(queries.size());
+  std::vector<fast::Answer> given(positions.size());
   SolveRequest within = request;
-  within.queries = queries;
+  within.queries = Queries(request.queries, numbers);
   within.indices = indices;
   SolveReply of_within;
-  const SolverTime time = time_of([&] { of_within = answer_in_time(within, given); });
+  const SolverTime time = time_of([&] {
+    if (!given.empty()) of_within = answer_in_time(within, given);
+  });
   for (std::size_t i = 0; i < given.size(); ++i) answers[positions[i]] = given[i];
   for (UnaskedQuery& unasked : of_within.unasked) {
     unasked.position = positions[unasked.position];
@@ -420,9 +433,9 @@ std::unique_ptr<Solver> recorded_solver(std::string_view name, const RecordedAns
 
 std::unique_ptr<Solver> certified_queries(const fast::CertifiedOptions& certified) {
   return std::make_unique<Collisions>(
-      "certified_queries", false, certified,
+      "certified_queries", fast::certified_info().terms, false, certified,
       [](const SolveRequest& request, const fast::CertifiedOptions& options) {
-        return fast::collisions(request.kind, request.queries, options);
+        return fast::collisions(request.queries, options);
       });
 }
 
@@ -431,12 +444,13 @@ std::unique_ptr<Solver> certified_pairs(const fast::MovingVertices& vertices,
                                         const fast::CertifiedOptions& certified) {
   const auto find = [&vertices, candidates](const SolveRequest& request,
                                             const fast::CertifiedOptions& options) {
-    if (request.kind != candidates.kind || request.queries.size() != candidates.pairs.size()) {
+    const Queries& queries = request.queries;
+    if (queries.kind != candidates.kind || queries.size() != candidates.pairs.size()) {
       throw std::invalid_argument("certified_pairs: these are not the queries of its candidates");
     }
     return fast::collisions(vertices, candidates, options);
   };
-  return std::make_unique<Collisions>("certified_pairs", true, certified, find);
+  return std::make_unique<Collisions>("certified_pairs", fast::Terms{}, true, certified, find);
 }
 
 std::vector<StageCount> count_stages(const fast::MethodInfo& info,

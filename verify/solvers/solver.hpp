@@ -147,7 +147,8 @@ class Solver {
                                                          const fast::MethodOptions& options,
                                                          const SolverProcessOptions& process);
 
-/// Recorded answers, looked up by source, kind and index. They promise nothing.
+/// Recorded answers, looked up by source, kind and index; with terms in doubles, of all shapes.
+/// They promise nothing.
 [[nodiscard]] std::unique_ptr<Solver> recorded_solver(std::string_view name,
                                                       const RecordedAnswers& answers,
                                                       const fast::Terms& terms = {});

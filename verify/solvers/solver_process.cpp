@@ -28,6 +28,8 @@ using Seconds = std::chrono::duration<double>;
 
 /// Queries for which there is room; longer calls are cut into pieces.
 constexpr std::size_t capacity = 4096;
+/// The numbers of the largest query.
+constexpr std::size_t most_numbers = (greatest_degree + 1) * moving_points * 4;
 /// Queries in a step.
 constexpr std::size_t longest_step = 512;
 /// A step that takes less than this share of the limit may be followed by one twice as long.
@@ -76,13 +78,13 @@ struct Shared {
   std::atomic<double> step_started_at;    ///< wall-clock seconds then
   std::atomic<double> processor_seconds;  ///< of the steps that are done
   std::atomic<double> wall_seconds;
-  Kind kind;
+  QueryShape shape;
   fast::MethodOptions options;
   double query_limit_seconds;
-  std::size_t first;          ///< queries from this number
-  std::size_t last;           ///< to before this one are to be solved,
-  std::size_t careful_until;  ///< those before this one in steps of one
-  std::array<Query, capacity> queries;
+  std::size_t first;                                    ///< queries from this number
+  std::size_t last;                                     ///< to before this one are to be solved,
+  std::size_t careful_until;                            ///< those before this one in steps of one
+  std::array<double, capacity * most_numbers> numbers;  ///< query after query
   std::array<fast::Answer, capacity> answers;
   std::array<bool, capacity> has_thrown;
   std::array<ShortText, capacity> thrown;  ///< what() of what it threw
@@ -127,7 +129,7 @@ class Worker {
   void warm_up() const {
     std::ranges::fill(shared_.answers, fast::Answer{});
     try {
-      method_.solve(shared_.kind, {}, {}, shared_.options);
+      method_.solve(Queries(shared_.shape, {}), {}, shared_.options);
     } catch (...) {
       // The queries will show it.
       return;
@@ -174,8 +176,11 @@ class Worker {
   }
 
   void solve(std::size_t begin, std::size_t count) const {
-    method_.solve(shared_.kind, std::span(shared_.queries).subspan(begin, count),
-                  std::span(shared_.answers).subspan(begin, count), shared_.options);
+    const std::size_t size = shared_.shape.numbers_of_query();
+    const auto numbers =
+        std::span<const double>(shared_.numbers).subspan(begin * size, count * size);
+    method_.solve(Queries(shared_.shape, numbers), std::span(shared_.answers).subspan(begin, count),
+                  shared_.options);
   }
 
   /// \pre an exception is being handled.
@@ -219,17 +224,17 @@ class SolverProcess::Impl {
   Impl(const fast::Method& method, const SolverProcessOptions& options)
       : method_(method), options_(options) {}
 
-  SolverRun solve(Kind kind, std::span<const Query> queries, std::span<fast::Answer> answers,
+  SolverRun solve(const Queries& queries, std::span<fast::Answer> answers,
                   const fast::MethodOptions& method_options, const base::Deadline& deadline) {
     deadline_ = deadline;
     run_ = {};
     lost_children_ = 0;
-    (*memory_).kind = kind;
+    (*memory_).shape = queries;
     (*memory_).options = method_options;
     while (run_.answered < queries.size() && !is_stopped() && !has_failed_enough()) {
       const std::size_t first = run_.answered;
       const std::size_t count = std::min(capacity, queries.size() - first);
-      solve_part(queries.subspan(first, count), answers.subspan(first, count), first);
+      solve_part(queries.part(first, count), answers.subspan(first, count), first);
     }
     return std::move(run_);
   }
@@ -262,18 +267,17 @@ class SolverProcess::Impl {
   }
 
   /// Answers what fits into the shared memory, which begins at number `offset` of all.
-  void solve_part(std::span<const Query> queries, std::span<fast::Answer> answers,
-                  std::size_t offset) {
+  void solve_part(const Queries& queries, std::span<fast::Answer> answers, std::size_t offset) {
     Shared& shared = *memory_;
-    std::ranges::copy(queries, shared.queries.begin());
-    std::ranges::fill(std::span(shared.has_thrown).first(queries.size()), false);
+    std::ranges::copy(queries.numbers, shared.numbers.begin());
+    std::ranges::fill(std::span(shared.has_thrown).first(answers.size()), false);
     shared.query_limit_seconds = options_.query_limit_seconds;
-    shared.last = queries.size();
+    shared.last = answers.size();
     shared.careful_until = 0;
     searched_until_ = 0;
     slow_until_ = 0;
     doubtful_.reset();
-    for (std::size_t first = 0; first < queries.size() && !has_failed_enough();) {
+    for (std::size_t first = 0; first < answers.size() && !has_failed_enough();) {
       const Stop stop = run_child(first);
       add_times();
       take_answers(answers, first, stop.begin, offset);
@@ -443,11 +447,10 @@ SolverProcess::SolverProcess(const fast::Method& method, const SolverProcessOpti
 
 SolverProcess::~SolverProcess() = default;
 
-SolverRun SolverProcess::solve(Kind kind, std::span<const Query> queries,
-                               std::span<fast::Answer> answers,
+SolverRun SolverProcess::solve(const Queries& queries, std::span<fast::Answer> answers,
                                const fast::MethodOptions& method_options,
                                const base::Deadline& deadline) {
-  return impl_->solve(kind, queries, answers, method_options, deadline);
+  return impl_->solve(queries, answers, method_options, deadline);
 }
 
 void SolverProcess::set_query_limit(double seconds) { impl_->set_query_limit(seconds); }

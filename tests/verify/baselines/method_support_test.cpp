@@ -24,7 +24,7 @@ fast::Answer solve(fast::Answer (*function)(Kind, const Query&, const fast::Meth
                    const Query& query, const fast::MethodOptions& options = {}) {
   const auto method = baseline_method({.name = "some"}, function);
   fast::Answer answer;
-  method->solve(Kind::vertex_face, {&query, 1}, {&answer, 1}, options);
+  method->solve(Queries(Kind::vertex_face, {&query, 1}), {&answer, 1}, options);
   return answer;
 }
 

@@ -74,10 +74,10 @@ TEST(Rp, AnswersAlikeInAnyOrderAndAnyRounding) {
     query = tests::random_query(random, Kind::edge_edge, tests::Family::tiny_integers).query;
   }
   std::vector<fast::Answer> forwards(queries.size()), backwards(queries.size());
-  rp().solve(Kind::edge_edge, queries, forwards, {});
+  rp().solve(Queries(Kind::edge_edge, queries), forwards, {});
   std::ranges::reverse(queries);
   std::fesetround(FE_UPWARD);
-  rp().solve(Kind::edge_edge, queries, backwards, {});
+  rp().solve(Queries(Kind::edge_edge, queries), backwards, {});
   const double after = tests::one_and_a_little();
   std::fesetround(FE_TONEAREST);
   EXPECT_GT(after, 1.0);

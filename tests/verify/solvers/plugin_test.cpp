@@ -14,6 +14,7 @@
 #include <memory>
 #include <string>
 #include <string_view>
+#include <tuple>
 #include <vector>
 
 #include "tests/support/queries.hpp"
@@ -41,11 +42,16 @@ Query query_for(Misbehaviour what) {
   return query;
 }
 
-Answer ask(const fast::Method& method, Kind kind, const Query& query,
+Answer ask(const fast::Method& method, const Queries& one,
            const fast::MethodOptions& options = {}) {
   Answer answer{.verdict = Verdict::no, .toi_lower = 7.0, .toi_upper = 7.0, .tolerance = 7.0};
-  method.solve(kind, {&query, 1}, {&answer, 1}, options);
+  method.solve(one, {&answer, 1}, options);
   return answer;
+}
+
+Answer ask(const fast::Method& method, Kind kind, const Query& query,
+           const fast::MethodOptions& options = {}) {
+  return ask(method, Queries(kind, {&query, 1}), options);
 }
 
 Answer ask(const fast::Method& method, const PosedQuery& posed,
@@ -81,44 +87,6 @@ class WorkingDirectory {
   std::filesystem::path before_;
 };
 
-// ---- Curves -------------------------------------------------------------------------------------
-
-/// Queries of degree 2 whose first number selects what the misbehaving plugin does.
-struct CurvedActions {
-  explicit CurvedActions(const std::vector<Misbehaviour>& actions)
-      : numbers(actions.size() * queries.numbers_of_query()) {
-    for (std::size_t i = 0; i < actions.size(); ++i) {
-      numbers[i * queries.numbers_of_query()] = static_cast<double>(actions[i]);
-    }
-    queries.numbers = numbers;
-  }
-
-  CurvedQueries queries{.degree = 2};
-  std::vector<double> numbers;
-};
-
-/// The points at t=0 are those of the query, also with weights.
-TEST(CurvedPlugin, IsAskedByThePointsAtTheStart) {
-  std::vector<double> numbers(std::size_t{2} * 4 * 4 * 3);
-  for (std::size_t i = 0; i < numbers.size(); ++i) numbers[i] = static_cast<double>(i);
-  const Query query = stand_in({.degree = 2, .is_rational = true, .numbers = numbers}, 1);
-  EXPECT_EQ(query.at(0, 0, 0), 48.0);
-  EXPECT_EQ(query.at(0, 1, 0), 52.0);
-  EXPECT_EQ(query.at(0, 3, 2), 62.0);
-  EXPECT_EQ(query.at(1, 0, 0), 1.0);
-}
-
-TEST(CurvedPlugin, LacksTheFunctionOrTakesFloat) {
-  const std::filesystem::path straight = tests::plugin_library("always_no");
-  EXPECT_EQ(
-      error_of(straight.parent_path(), [&] { static_cast<void>(load_curved_plugin(straight)); }),
-      "always_no.so: defines no touchstone_plugin_solve_curved");
-  const PluginOptions takes_float{.terms = {.float_coordinates = true}};
-  EXPECT_EQ(error_of(misbehaving.parent_path(),
-                     [&] { static_cast<void>(load_curved_plugin(misbehaving, takes_float)); }),
-            "misbehaving.so: takes float coordinates; those of curves are doubles");
-}
-
 // ---- Promises -----------------------------------------------------------------------------------
 
 TEST(PluginPromise, IsWhatTheLibraryStates) {
@@ -139,12 +107,31 @@ TEST(PluginPromise, ChangesReplaceWhatItStates) {
                              .float_coordinates = false,
                              .times = fast::Times::none,
                              .time_error = 0.125};
-  for (const char* const name : {"states_terms", "box_overlap"}) {
+  for (const char* const name : {"states_terms", "always_no"}) {
     const fast::Terms terms =
         load_plugin(tests::plugin_library(name), {.terms = changes})->info().terms;
     const fast::Terms expected{
         .vertex_face = false, .starts_apart = 0.0, .times = fast::Times::none, .time_error = 0.125};
     EXPECT_EQ(terms, expected) << name;
+  }
+}
+
+TEST(PluginPromise, IncludesCurvesIfItHasAFunctionForThemAndTakesDoubles) {
+  const PluginOptions takes_float{.terms = {.float_coordinates = true}};
+  for (const auto& [name, options, answers_curves] :
+       {std::tuple("misbehaving", PluginOptions{}, true),
+        std::tuple("curved_sampling", PluginOptions{}, true),
+        std::tuple("always_no", PluginOptions{}, false),
+        std::tuple("misbehaving", takes_float, false)}) {
+    const auto method = load_plugin(tests::plugin_library(name), options);
+    const fast::Terms& terms = method->info().terms;
+    for (std::size_t degree = 0; degree <= greatest_degree; ++degree) {
+      for (const bool is_rational : {false, true}) {
+        const QueryShape shape{Kind::edge_edge, degree, is_rational};
+        EXPECT_EQ(terms.answers(shape), shape.is_straight() || (answers_curves && degree > 0))
+            << name << ' ' << degree << ' ' << is_rational;
+      }
+    }
   }
 }
 
@@ -252,10 +239,8 @@ TEST(LoadPlugin, IsOfTheFileThatWasThere) {
   const auto method = load_plugin(library);
   std::filesystem::copy_file(tests::plugin_library("always_yes"), folder.path() / "new.so");
   std::filesystem::rename(folder.path() / "new.so", library);
-  std::vector<fast::Answer> answers(1);
-  EXPECT_EQ(data::test::error_of(
-                folder.path(),
-                [&] { method->solve(Kind::edge_edge, std::vector<Query>(1), answers, {}); }),
+  EXPECT_EQ(data::test::error_of(folder.path(),
+                                 [&] { static_cast<void>(ask(*method, Kind::edge_edge, {})); }),
             "mine.so: has changed since it was loaded first");
 }
 
@@ -349,6 +334,32 @@ TEST(Plugin, GetsTheQueryAndItsKind) {
   }
 }
 
+/// The plugin tells of curves by their shape and kind.
+TEST(Plugin, GetsCurvesByTheirOwnFunction) {
+  const auto method = load_plugin(misbehaving);
+  for (const QueryShape& shape :
+       {QueryShape{Kind::vertex_face, 1, true}, {Kind::edge_edge, 2}, {Kind::edge_edge, 8, true}}) {
+    std::vector<double> numbers(shape.numbers_of_query());
+    numbers.front() = static_cast<double>(Misbehaviour::repeats_query);
+    numbers.back() = 0.75;
+    const Answer answer = ask(*method, Queries(shape, numbers));
+    EXPECT_EQ(answer.verdict, Verdict::yes);
+    EXPECT_EQ(answer.toi_lower, static_cast<double>(shape.kind) +
+                                    10.0 * static_cast<double>(shape.degree) +
+                                    (shape.is_rational ? 100.0 : 0.0));
+    EXPECT_EQ(answer.toi_upper, 0.75);
+  }
+}
+
+/// Contact at 1/2 is seen at one of the times that it looks at, 1/8 apart.
+TEST(Plugin, GetsLinesAsCurvesOfDegreeOneIfItHasNoOtherFunction) {
+  const auto method = load_plugin(tests::plugin_library("curved_sampling"));
+  const Answer answer = ask(*method, tests::over_triangle(1, 1, 1, -1));
+  EXPECT_EQ(answer.verdict, Verdict::yes);
+  EXPECT_EQ(answer.toi_lower, 0.375);
+  EXPECT_EQ(ask(*method, tests::over_triangle(1, 1, 2, 1)).verdict, Verdict::no);
+}
+
 TEST(Plugin, GetsTheOptions) {
   const auto method = load_plugin(misbehaving);
   for (const Norm norm : {Norm::linf, Norm::l2}) {
@@ -434,15 +445,30 @@ const std::vector<Event>& events() {
   return all;
 }
 
-/// By single calls, in batches, and on curves.
-class PluginEvents : public ::testing::TestWithParam<const char*> {
+/// How it is asked.
+struct Way {
+  const char* library;
+  std::size_t degree;
+};
+
+class PluginEvents : public ::testing::TestWithParam<Way> {
  protected:
-  [[nodiscard]] static bool is(std::string_view name) { return GetParam() == name; }
+  const bool in_batches = std::string_view(GetParam().library) == "misbehaving_batch";
+  const QueryShape shape{.degree = GetParam().degree};
+
+  /// Queries whose first number selects what it does.
+  [[nodiscard]] std::vector<double> numbers_of(const std::vector<Misbehaviour>& actions) const {
+    std::vector<double> numbers(actions.size() * shape.numbers_of_query());
+    for (std::size_t i = 0; i < actions.size(); ++i) {
+      numbers[i * shape.numbers_of_query()] = static_cast<double>(actions[i]);
+    }
+    return numbers;
+  }
 
   /// A batch says how many it was with the tolerance of a no; those of curves are not judged.
-  [[nodiscard]] static std::string text_of(Answer answer, const std::string& failure) {
-    const bool is_count = is("misbehaving_batch") && answer.verdict == Verdict::no;
-    if (is_count || is("curves")) answer.tolerance = none;
+  [[nodiscard]] std::string text_of(Answer answer, const std::string& failure) const {
+    const bool is_count = in_batches && answer.verdict == Verdict::no;
+    if (is_count || !shape.is_straight()) answer.tolerance = none;
     return fmt::format("{} [{}, {}] {} {}", judge::to_string(answer.verdict), answer.toi_lower,
                        answer.toi_upper, answer.tolerance, failure);
   }
@@ -458,18 +484,13 @@ TEST_P(PluginEvents, CostOneQueryEachAndHaveTheirNames) {
       expected.push_back(text_of(event.answer, event.failure));
       expected.push_back(expected.front());
     }
-    const CurvedActions curved(actions);
-    const CurvedPlugin curved_plugin = load_curved_plugin(misbehaving);
-    const auto method = is("curves") ? curved_method(curved_plugin, curved.queries)
-                                     : load_plugin(tests::plugin_library(GetParam()));
-    std::vector<Query> queries;
-    for (std::size_t i = 0; i < actions.size(); ++i) {
-      queries.push_back(is("curves") ? stand_in(curved.queries, i) : query_for(actions[i]));
-    }
+    const auto method = load_plugin(tests::plugin_library(GetParam().library));
+    const std::vector<double> numbers = numbers_of(actions);
+    const Queries queries(shape, numbers);
     std::vector<Answer> answers(queries.size());
     SolverProcess process(*method, {.query_limit_seconds = 0.5,
                                     .limits = {.file_bytes = 1U << 20U, .may_fork = may_fork}});
-    const SolverRun run = process.solve(Kind::vertex_face, queries, answers, {});
+    const SolverRun run = process.solve(queries, answers, {});
     EXPECT_EQ(run.answered, queries.size());
     EXPECT_EQ(run.unplaced_crashes, 0U);
     double most_at_once = 1.0;
@@ -483,12 +504,13 @@ TEST_P(PluginEvents, CostOneQueryEachAndHaveTheirNames) {
         most_at_once = std::fmax(most_at_once, answers[i].tolerance);
       }
     }
-    EXPECT_EQ(most_at_once > 1.0, is("misbehaving_batch"));
+    EXPECT_EQ(most_at_once > 1.0, in_batches);
   }
 }
 
 INSTANTIATE_TEST_SUITE_P(Of, PluginEvents,
-                         ::testing::Values("misbehaving", "misbehaving_batch", "curves"));
+                         ::testing::Values(Way{"misbehaving", 1}, Way{"misbehaving_batch", 1},
+                                           Way{"misbehaving", 2}));
 
 }  // namespace
 }  // namespace touchstone::verify::solvers::plugin_test

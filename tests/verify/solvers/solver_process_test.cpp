@@ -59,6 +59,12 @@ Query scripted(Act act, std::size_t number) {
   return query;
 }
 
+/// Another number for each shape.
+double shape_number(const QueryShape& shape) {
+  return static_cast<double>(shape.kind) + 10.0 * static_cast<double>(shape.degree) +
+         (shape.is_rational ? 100.0 : 0.0);
+}
+
 double processor_seconds() {
   timespec now{};
   clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
@@ -109,14 +115,15 @@ class ScriptedMethod final : public fast::Method {
     return info;
   }
 
-  void solve(Kind kind, std::span<const Query> queries, std::span<Answer> answers,
+  void solve(const Queries& queries, std::span<Answer> answers,
              const fast::MethodOptions& options) const override {
     if (queries.empty() && (*starts_)++ < lost_starts_) std::raise(SIGKILL);
     for (std::size_t i = 0; i < queries.size(); ++i) {
-      const auto what = static_cast<Act>(static_cast<int>(queries[i].coordinates[0]));
+      const std::span<const double> numbers = queries.row(i);
+      const auto what = static_cast<Act>(static_cast<int>(numbers[0]));
       answers[i] = {.verdict = Verdict::yes,
-                    .toi_lower = queries[i].coordinates[1] + options.t_max,
-                    .toi_upper = static_cast<double>(kind),
+                    .toi_lower = numbers[1] + options.t_max,
+                    .toi_upper = shape_number(queries),
                     .tolerance = static_cast<double>(queries.size())};
       end_badly(what, queries.size());
       act(what, answers[i]);
@@ -164,9 +171,9 @@ class SpanMethod final : public fast::Method {
     static const fast::MethodInfo info{.name = "spans"};
     return info;
   }
-  void solve(Kind, std::span<const Query> queries, std::span<Answer> answers,
+  void solve(const Queries& queries, std::span<Answer> answers,
              const fast::MethodOptions& options) const override {
-    function_(queries, answers, options.tolerance);
+    function_(queries.straight(), answers, options.tolerance);
   }
 
  private:
@@ -178,6 +185,8 @@ std::vector<Query> numbered(std::size_t count) {
   for (std::size_t i = 0; i < count; ++i) queries.push_back(scripted(Act::answer, i));
   return queries;
 }
+
+Queries lines(const std::vector<Query>& queries) { return {Kind::vertex_face, queries}; }
 
 void plant(std::vector<Query>& queries, Act act, const std::vector<std::size_t>& indices) {
   for (const std::size_t i : indices) queries.at(i) = scripted(act, i);
@@ -199,7 +208,7 @@ Outcome run(const std::vector<Query>& queries, const SolverProcessOptions& optio
             Kind kind = Kind::vertex_face, const ScriptedMethod& method = ScriptedMethod()) {
   SolverProcess process(method, options);
   Outcome outcome{.answers = std::vector<Answer>(queries.size()), .run = {}, .output = {}};
-  outcome.run = process.solve(kind, queries, outcome.answers, {.t_max = 0.5});
+  outcome.run = process.solve(Queries(kind, queries), outcome.answers, {.t_max = 0.5});
   outcome.output = process.take_output();
   return outcome;
 }
@@ -250,10 +259,37 @@ TEST(SolverProcess, AnswersAsTheMethodDoes) {
         const Outcome outcome = run(numbered(count), {.query_limit_seconds = limit}, kind);
         expect_all_answered(outcome);
         for (const Answer& answer : outcome.answers) {
-          ASSERT_EQ(answer.toi_upper, static_cast<double>(kind));
+          ASSERT_EQ(answer.toi_upper, shape_number({.kind = kind}));
         }
         EXPECT_EQ(outcome.run.unplaced_crashes, 0U);
       }
+    }
+  }
+}
+
+/// The largest queries fill the shared memory several times, and other shapes follow them in the
+/// same process.
+TEST(SolverProcess, AnswersQueriesOfAllShapes) {
+  const ScriptedMethod method;
+  SolverProcess process(method);
+  constexpr std::size_t count = 9000, deadly = 4096;
+  for (const QueryShape shape : {QueryShape{Kind::edge_edge, greatest_degree, true},
+                                 {Kind::vertex_face, 2, false},
+                                 {Kind::edge_edge, 1, true},
+                                 {Kind::vertex_face, 0, false},
+                                 {Kind::vertex_face, 1, false}}) {
+    std::vector<double> numbers(count * shape.numbers_of_query());
+    for (std::size_t i = 0; i < count; ++i) {
+      numbers[i * shape.numbers_of_query() + 1] = static_cast<double>(i);
+    }
+    numbers[deadly * shape.numbers_of_query()] = static_cast<double>(Act::dies);
+    Outcome outcome{.answers = std::vector<Answer>(count), .run = {}, .output = {}};
+    outcome.run = process.solve(Queries(shape, numbers), outcome.answers, {.t_max = 0.5});
+    expect_failures(outcome, killed, {deadly});
+    EXPECT_EQ(outcome.run.unplaced_crashes, 0U);
+    for (std::size_t i = 0; i < count; ++i) {
+      if (i == deadly) continue;
+      ASSERT_EQ(outcome.answers[i].toi_upper, shape_number(shape));
     }
   }
 }
@@ -280,8 +316,8 @@ TEST(SolverProcess, AsksOneProcessThatIsNotThisOne) {
   });
   SolverProcess process(method);
   std::vector<Answer> first(10), second(10);
-  static_cast<void>(process.solve(Kind::vertex_face, numbered(10), first, {.tolerance = 0.5}));
-  static_cast<void>(process.solve(Kind::vertex_face, numbered(10), second, {.tolerance = 0.25}));
+  static_cast<void>(process.solve(lines(numbered(10)), first, {.tolerance = 0.5}));
+  static_cast<void>(process.solve(lines(numbered(10)), second, {.tolerance = 0.25}));
   EXPECT_EQ(second.back().toi_lower, 20.0);
   EXPECT_EQ(first.front().toi_upper, second.back().toi_upper);
   EXPECT_NE(first.front().toi_upper, static_cast<double>(::getpid()));
@@ -373,7 +409,7 @@ TEST(SolverProcess, AStepThatTakesTooLongIsSearchedAndNotCharged) {
   SolverProcess process(method, {.query_limit_seconds = hang_limit});
   const std::vector<Query> queries = numbered(140);
   Outcome outcome{.answers = std::vector<Answer>(queries.size()), .run = {}, .output = {}};
-  outcome.run = process.solve(Kind::vertex_face, queries, outcome.answers, {});
+  outcome.run = process.solve(lines(queries), outcome.answers, {});
   expect_all_answered(outcome);
 }
 
@@ -409,11 +445,11 @@ TEST(SolverProcess, StopsAtItsTime) {
   std::vector<Query> queries = numbered(10);
   plant(queries, Act::hangs, {5});
   std::vector<Answer> answers(queries.size());
-  const SolverRun cut = process.solve(Kind::vertex_face, queries, answers, {}, base::Deadline(0.1));
+  const SolverRun cut = process.solve(lines(queries), answers, {}, base::Deadline(0.1));
   EXPECT_LE(cut.answered, 5U);
   EXPECT_TRUE(cut.failures.empty());
   // The next call has its full time.
-  EXPECT_EQ(process.solve(Kind::vertex_face, numbered(10), answers, {}).answered, 10U);
+  EXPECT_EQ(process.solve(lines(numbered(10)), answers, {}).answered, 10U);
 }
 
 // ---- Limits -------------------------------------------------------------------------------------
@@ -426,7 +462,7 @@ TEST(SolverProcess, MayMakeThreads) {
   });
   SolverProcess process(method);
   std::vector<Answer> answers(3);
-  EXPECT_TRUE(process.solve(Kind::vertex_face, numbered(3), answers, {}).failures.empty());
+  EXPECT_TRUE(process.solve(lines(numbered(3)), answers, {}).failures.empty());
   EXPECT_EQ(answers.back().verdict, Verdict::no);
 }
 
@@ -547,10 +583,8 @@ TEST(SolverProcess, OutlivesTheThreadThatFirstAsked) {
   const ScriptedMethod method;
   SolverProcess process(method);
   std::vector<Answer> answers(10);
-  std::jthread([&] {
-    static_cast<void>(process.solve(Kind::vertex_face, numbered(10), answers, {}));
-  }).join();
-  const SolverRun solved = process.solve(Kind::vertex_face, numbered(10), answers, {});
+  std::jthread([&] { static_cast<void>(process.solve(lines(numbered(10)), answers, {})); }).join();
+  const SolverRun solved = process.solve(lines(numbered(10)), answers, {});
   EXPECT_EQ(solved.answered, 10U);
   EXPECT_EQ(solved.unplaced_crashes, 0U);
 }
@@ -601,7 +635,7 @@ TEST(SolverProcess, DiesWithItsParent) {
       grandchild = ::getpid();
       sleep_for_ever();
     });
-    static_cast<void>(SolverProcess(method).solve(Kind::vertex_face, queries, answers, {}));
+    static_cast<void>(SolverProcess(method).solve(lines(queries), answers, {}));
     ::_exit(0);
   }
   ASSERT_GT(parent, 0);

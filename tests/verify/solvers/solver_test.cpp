@@ -8,6 +8,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
+#include <iostream>
 #include <stdexcept>
 #include <string>
 #include <thread>
@@ -43,7 +44,7 @@ struct Numbered {
   }
 
   [[nodiscard]] SolveRequest request() const {
-    return {.kind = Kind::edge_edge, .queries = queries, .source = source, .indices = indices};
+    return {.queries = {Kind::edge_edge, queries}, .source = source, .indices = indices};
   }
 };
 
@@ -184,7 +185,7 @@ TEST(Solver, AsksNoQueryAgainThatEndedItsProcess) {
   std::vector<Answer> answers(queries.size());
   std::uintmax_t ends = 0;
   for (int round = 0; round < 3; ++round) {
-    const SolveReply reply = solver->solve({.kind = vf, .queries = queries}, answers);
+    const SolveReply reply = solver->solve({.queries = {vf, queries}}, answers);
     for (std::size_t i = 0; i < queries.size(); ++i) {
       EXPECT_EQ(answers[i].verdict, i == 2 || i == 4 ? Verdict::error : Verdict::yes) << i;
     }
@@ -198,10 +199,100 @@ TEST(Solver, AsksNoQueryAgainThatEndedItsProcess) {
   EXPECT_EQ(std::filesystem::file_size(log), ends);
   // The same points with another distance are another query.
   const SolveReply other = solver->solve(
-      {.kind = vf, .queries = queries, .separation = {.distance = 0.25, .norm = Norm::l2}},
-      answers);
+      {.queries = {vf, queries}, .separation = {.distance = 0.25, .norm = Norm::l2}}, answers);
   EXPECT_EQ(other.failures.size(), 2U);
   EXPECT_GT(std::filesystem::file_size(log), ends);
+}
+
+// ---- Shapes -------------------------------------------------------------------------------------
+
+/// Queries whose second number is 100 more than their place.
+Queries numbered(const QueryShape& shape, std::vector<double>& numbers) {
+  for (std::size_t i = 0; i < numbers.size(); i += shape.numbers_of_query()) {
+    numbers[i + 1] = 100.0 + static_cast<double>(i / shape.numbers_of_query());
+  }
+  return {shape, numbers};
+}
+
+/// Terms are about shapes, too: a method of curves is not asked the lines, nor one of lines the
+/// curves, in this process and in children.
+TEST(Solver, AsksNoShapeOutsideTheTerms) {
+  const auto function = [](const Queries& one) -> Answer {
+    return {.verdict = Verdict::yes, .toi_lower = one.numbers[1]};
+  };
+  const FunctionMethod curves(function,
+                              {.name = "curves", .terms = {.straight = false, .most_degree = 2}}),
+      lines(function, {.name = "lines"});
+  constexpr QueryShape degree_2{.kind = vf, .degree = 2}, straight{.kind = vf};
+  for (const bool in_children : {false, true}) {
+    for (const QueryShape& shape : {degree_2, straight}) {
+      std::vector<double> numbers(3 * shape.numbers_of_query());
+      const SolveRequest request{.queries = numbered(shape, numbers)};
+      for (const FunctionMethod* method : {&curves, &lines}) {
+        const auto solver =
+            in_children ? solver_in_children(*method, {}, {}) : solver_in_process(*method, {});
+        std::vector<Answer> answers(3);
+        const SolveReply reply = solver->solve(request, answers);
+        const bool answered = (method == &lines) == shape.is_straight();
+        EXPECT_EQ(reply.unasked.size(), answered ? 0U : 3U);
+        for (std::size_t i = 0; i < 3; ++i) {
+          EXPECT_EQ(answers[i].verdict, answered ? Verdict::yes : Verdict::undecided);
+          if (answered) {
+            EXPECT_EQ(answers[i].toi_lower, 100.0 + static_cast<double>(i));
+          } else {
+            EXPECT_EQ(reply.why_unasked(i), judge::Unasked::outside);
+          }
+        }
+      }
+    }
+  }
+}
+
+TEST(Solver, RecordedAnswersAreLookedUpForAllShapesInDoubles) {
+  const RecordedAnswers none;
+  const std::uint64_t index = 0;
+  for (const QueryShape& shape : {QueryShape{vf, 0}, {vf, 1}, {vf, 2, true}, {vf, 8}}) {
+    const std::vector<double> numbers(shape.numbers_of_query());
+    const SolveRequest request{.queries = Queries(shape, numbers), .indices = {&index, 1}};
+    for (const bool is_float : {false, true}) {
+      const auto solver = recorded_solver("a.csv", none, {.float_coordinates = is_float});
+      std::vector<Answer> answers(1);
+      EXPECT_EQ(solver->solve(request, answers).why_unasked(0), is_float && !shape.is_straight()
+                                                                    ? judge::Unasked::outside
+                                                                    : judge::Unasked::missing);
+    }
+  }
+}
+
+/// Rational curves of degree 2 and others of degree 3 have as many numbers.
+TEST(Solver, ALostQueryOnCurvesIsThatOfItsShape) {
+  const FunctionMethod method(
+      [](const Queries& one) -> Answer {
+        if (one.is_rational && one.numbers[1] == 101.0) {
+          std::cerr << "asked";
+          std::raise(SIGKILL);
+        }
+        return {.verdict = Verdict::no};
+      },
+      {.name = "lethal", .terms = {.most_degree = 3, .rational = true}});
+  const auto solver = solver_in_children(method, {}, {});
+  constexpr QueryShape rational{.kind = vf, .degree = 2, .is_rational = true},
+      polynomial{.kind = vf, .degree = 3};
+  std::vector<double> numbers(4 * rational.numbers_of_query());
+  const SolveRequest request{.queries = numbered(rational, numbers)};
+  for (const bool is_known : {false, true}) {
+    std::vector<Answer> answers(4);
+    const SolveReply reply = solver->solve(request, answers);
+    ASSERT_EQ(reply.failures.size(), 1U);
+    EXPECT_EQ(reply.failures[0].position, 1U);
+    for (std::size_t i = 0; i < 4; ++i) {
+      EXPECT_EQ(answers[i].verdict, i == 1 ? Verdict::error : Verdict::no) << i;
+    }
+    EXPECT_EQ(solver->take_output().text.empty(), is_known);
+    const SolveReply other = solver->solve({.queries = Queries(polynomial, numbers)}, answers);
+    EXPECT_TRUE(other.failures.empty());
+    EXPECT_EQ(answers[1].verdict, Verdict::no);
+  }
 }
 
 // ---- Stages, and the certified solver by its own interfaces -------------------------------------
@@ -214,8 +305,7 @@ TEST(Solver, StagesAreCountedInTheirOrder) {
   std::vector<Answer> answers(queries.size());
   std::vector<fast::CertifiedResult> results(queries.size());
   const auto method = fast::certified_method();
-  static_cast<void>(
-      solver_in_process(*method, {})->solve({.kind = vf, .queries = queries}, answers));
+  static_cast<void>(solver_in_process(*method, {})->solve({.queries = {vf, queries}}, answers));
   fast::solve(vf, queries, results, {.max_threads = 1});
   std::vector<StageCount> expected;
   for (const std::string_view stage : {"axis", "direction", "determinant", "bisection", "exact"}) {
@@ -240,7 +330,7 @@ TEST(Solver, PairsAreAnsweredAsTheirQueriesAre) {
     EXPECT_FALSE(with_queries->only_as_a_whole());
     EXPECT_TRUE(with_pairs->only_as_a_whole());
     std::vector<Answer> expected(queries.size()), answers(queries.size());
-    const SolveRequest request{.kind = kind, .queries = queries};
+    const SolveRequest request{.queries = {kind, queries}};
     EXPECT_TRUE(with_queries->solve(request, expected).time.has_value());
     EXPECT_TRUE(with_pairs->solve(request, answers).time.has_value());
     std::size_t collisions = 0;
@@ -251,10 +341,9 @@ TEST(Solver, PairsAreAnsweredAsTheirQueriesAre) {
     }
     EXPECT_GT(collisions, 0U);
     EXPECT_LT(collisions, queries.size());
-    EXPECT_THROW(
-        static_cast<void>(with_pairs->solve({.kind = kind, .queries = std::span(queries).first(1)},
-                                            std::span(answers).first(1))),
-        std::invalid_argument);
+    EXPECT_THROW(static_cast<void>(with_pairs->solve({.queries = request.queries.part(0, 1)},
+                                                     std::span(answers).first(1))),
+                 std::invalid_argument);
   }
 }
 

@@ -148,7 +148,7 @@ TOUCHSTONE_API void touchstone_plugin_solve_batch(int32_t kind, int64_t count,
 
 /// Defined by the plugin if it answers queries whose points move on Bezier curves: one query, as
 /// touchstone_plugin_solve answers one on straight lines, and under the same rules. `touchstone
-/// curved` calls it, and needs no touchstone_plugin_solve. The function is an addition that a
+/// certify` calls it, and needs no touchstone_plugin_solve. The function is an addition that a
 /// plugin may leave out, so the version of the interface stays 2.
 ///
 /// The promise is that of touchstone_plugin_promise, but is_float must be 0, and the tolerance of

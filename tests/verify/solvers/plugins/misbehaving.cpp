@@ -1,6 +1,6 @@
 /// \file
 /// A plugin whose first coordinate selects its action, from right answers to the worst failures.
-/// Queries on curves have it act in the same way.
+/// Queries on curves have it act in the same way, but what it repeats of a query is its shape.
 /// With BATCH it takes many queries at once, and says by the tolerance of a no how many.
 
 #include <sys/syscall.h>
@@ -188,11 +188,14 @@ void touchstone_plugin_solve(std::int32_t kind, const double* coordinates,
   }
 }
 
-void touchstone_plugin_solve_curved(std::int32_t kind, std::int32_t /*degree*/,
-                                    std::int32_t /*is_rational*/, const double* control,
+void touchstone_plugin_solve_curved(std::int32_t kind, std::int32_t degree,
+                                    std::int32_t is_rational, const double* control,
                                     const TouchstonePluginOptions* options,
                                     TouchstonePluginAnswer* answer) {
   touchstone_plugin_solve(kind, control, options, answer);
+  if (static_cast<int>(control[0]) != static_cast<int>(Misbehaviour::repeats_query)) return;
+  answer->toi_lower = kind + 10 * degree + 100 * is_rational;
+  answer->toi_upper = control[(degree + 1) * 4 * (3 + is_rational) - 1];
 }
 
 #ifdef BATCH
