@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <stdexcept>
+#include <string>
 
 #include "fast/certified/block.hpp"
+#include "fast/certified/curves.hpp"
 #include "fast/kernels.hpp"
 #include "fast/method.hpp"
 #include "fast/platform/threads.hpp"
@@ -15,18 +17,22 @@ namespace {
 
 /// The queries of a batch, in one of two forms.
 struct Batch {
-  Kind kind = Kind::vertex_face;
-  std::size_t size = 0;
-  std::span<const Query> queries;            ///< either queries
+  Queries queries;                           ///< either queries
   const MovingVertices* vertices = nullptr;  ///< or vertices
-  Candidates candidates;                     ///< with candidates
+  Candidates candidates = {};                ///< with candidates
   const CertifiedKernel& kernel = certified_kernel(chosen_kernels());
 
-  [[nodiscard]] KernelInput block(std::size_t first) const {
-    KernelInput input{.kind = kind, .count = std::min(kernel_block, size - first)};
+  [[nodiscard]] std::size_t size() const {
+    return vertices == nullptr ? queries.size() : candidates.pairs.size();
+  }
+
+  /// A block of queries on straight lines.
+  [[nodiscard]] KernelInput block(std::size_t first, std::size_t count) const {
+    KernelInput input{.kind = queries.kind, .count = count};
     if (vertices == nullptr) {
-      input.queries = queries.data() + first;
+      input.queries = queries.straight().data() + first;
     } else {
+      input.kind = candidates.kind;
       input.vertices = vertices->data();
       input.edges = candidates.edges.data();
       input.faces = candidates.faces.data();
@@ -36,57 +42,78 @@ struct Batch {
   }
 
   [[nodiscard]] Query query(std::size_t i) const {
-    return vertices == nullptr ? queries[i] : query_of(*vertices, candidates, candidates.pairs[i]);
+    return vertices == nullptr ? queries.straight()[i]
+                               : query_of(*vertices, candidates, candidates.pairs[i]);
   }
 };
 
-Batch batch_of(Kind kind, std::span<const Query> queries) {
-  return {.kind = kind, .size = queries.size(), .queries = queries, .candidates = {}};
-}
-
 Batch batch_of(const MovingVertices& vertices, const Candidates& candidates) {
   require_in_range(vertices, candidates);
-  return {.kind = candidates.kind,
-          .size = candidates.pairs.size(),
-          .queries = {},
-          .vertices = &vertices,
-          .candidates = candidates};
+  return {.queries = {}, .vertices = &vertices, .candidates = candidates};
 }
 
-// ---- A block ------------------------------------------------------------------------------------
+// ---- Blocks -------------------------------------------------------------------------------------
 
-/// Decides the block that begins at `first`, ignoring contacts after t_limit, and passes on the
-/// results of queries that may have a contact: report(number, result).
+/// Decides the block that begins at `first` and passes on the results of queries that may have a
+/// contact: report(number, result).
 template <class Report>
-const KernelOutput& decide(const Batch& batch, std::size_t first, double t_limit,
-                           const CertifiedOptions& options, const Report& report) {
-  return decide_block(
-      batch.block(first), t_limit, options, batch.kernel,
-      [&](std::size_t index) { return batch.query(first + index); },
-      [&](std::size_t index, const CertifiedResult& result) { report(first + index, result); });
+const KernelOutput& decide(const Batch& batch, std::size_t first, const CertifiedOptions& options,
+                           const Report& report) {
+  const std::size_t count = std::min(kernel_block, batch.size() - first);
+  const auto report_of_block = [&](std::size_t index, const CertifiedResult& result) {
+    report(first + index, result);
+  };
+  if (batch.queries.is_straight()) {
+    return decide_block(
+        batch.block(first, count), options.t_max, options, batch.kernel,
+        [&](std::size_t index) { return batch.query(first + index); }, report_of_block);
+  }
+  const Queries block = batch.queries.part(first, count);
+  const KernelOutput& output = search_curves(block, options, batch.kernel);
+  report_contacts(
+      output, options, [&](std::size_t index) { return decided_exactly(block, index, options); },
+      report_of_block);
+  return output;
 }
 
 /// Calls body(first) for each block, in the allowed number of threads.
 template <class Body>
-void for_each_block(std::size_t size, int max_threads, const Body& body) {
-  constexpr std::size_t blocks_a_task = 8;
-  for_each_kernel_block(size, max_threads, blocks_a_task, body);
+void for_each_block(const Batch& batch, int max_threads, const Body& body) {
+  const std::size_t blocks_a_task = batch.queries.is_straight() ? 8 : 1;
+  for_each_kernel_block(batch.size(), max_threads, blocks_a_task, body);
 }
 
-void solve(const Batch& batch, std::span<CertifiedResult> results,
-           const CertifiedOptions& options) {
+// ---- Results and answers ------------------------------------------------------------------------
+
+void set_stage(CertifiedResult& to, Stage stage) { to.stage = stage; }
+/// The number of stages that the query went through.
+void set_stage(Answer& to, Stage stage) { to.checks = static_cast<std::uint32_t>(stage) + 1; }
+
+void set(CertifiedResult& to, const CertifiedResult& result) { to = result; }
+void set(Answer& to, const CertifiedResult& result) {
+  to = {.verdict = result.verdict, .toi_lower = result.toi_lower, .toi_upper = result.toi_upper};
+  set_stage(to, result.stage);
+}
+
+/// Decides query i in items[i], a result or an answer.
+template <class Item>
+void solve_blocks(const Batch& batch, std::span<Item> items, const CertifiedOptions& options) {
   require_valid(options);
-  if (results.size() != batch.size) {
-    throw std::invalid_argument("certified: as many results as queries are needed");
+  if (items.size() != batch.size()) {
+    throw std::invalid_argument("solve: " + std::to_string(items.size()) + " results for " +
+                                std::to_string(batch.size()) + " queries");
   }
-  for_each_block(batch.size, options.max_threads, [&](std::size_t first) {
-    const std::size_t count = std::min(kernel_block, batch.size - first);
-    const std::span<CertifiedResult> of_block = results.subspan(first, count);
-    std::ranges::fill(of_block, CertifiedResult{.verdict = Verdict::no, .stage = Stage::axis});
-    const KernelOutput& output = decide(
-        batch, first, options.t_max, options,
-        [&](std::size_t number, const CertifiedResult& result) { results[number] = result; });
-    mark_stages(output, [&](std::size_t index, Stage stage) { of_block[index].stage = stage; });
+  Item free;
+  set(free, {.verdict = Verdict::no, .stage = Stage::axis});
+  for_each_block(batch, options.max_threads, [&](std::size_t first) {
+    const std::size_t count = std::min(kernel_block, items.size() - first);
+    const std::span<Item> of_block = items.subspan(first, count);
+    std::ranges::fill(of_block, free);
+    const auto take = [&](std::size_t number, const CertifiedResult& result) {
+      set(items[number], result);
+    };
+    mark_stages(decide(batch, first, options, take),
+                [&](std::size_t index, Stage stage) { set_stage(of_block[index], stage); });
   });
 }
 
@@ -96,10 +123,9 @@ void solve(const Batch& batch, std::span<CertifiedResult> results,
 void collect(const Batch& batch, std::size_t first, const CertifiedOptions& options,
              std::vector<Collision>& found) {
   const auto before = static_cast<std::ptrdiff_t>(found.size());
-  decide(batch, first, options.t_max, options,
-         [&](std::size_t number, const CertifiedResult& result) {
-           if (result.verdict != Verdict::no) found.push_back({number, result});
-         });
+  decide(batch, first, options, [&](std::size_t number, const CertifiedResult& result) {
+    if (result.verdict != Verdict::no) found.push_back({number, result});
+  });
   std::ranges::sort(found.begin() + before, found.end(), {}, &Collision::candidate);
 }
 
@@ -107,11 +133,11 @@ std::vector<Collision> collisions(const Batch& batch, const CertifiedOptions& op
   require_valid(options);
   std::vector<Collision> all;
   if (options.max_threads == 1) {
-    for_each_block(batch.size, 1, [&](std::size_t first) { collect(batch, first, options, all); });
+    for_each_block(batch, 1, [&](std::size_t first) { collect(batch, first, options, all); });
     return all;
   }
   tbb::enumerable_thread_specific<std::vector<Collision>> of_threads;
-  for_each_block(batch.size, options.max_threads,
+  for_each_block(batch, options.max_threads,
                  [&](std::size_t first) { collect(batch, first, options, of_threads.local()); });
   for (const std::vector<Collision>& some : of_threads) {
     all.insert(all.end(), some.begin(), some.end());
@@ -142,18 +168,27 @@ std::string_view to_string(Stage stage) {
 
 CertifiedResult solve(Kind kind, const Query& query, const CertifiedOptions& options) {
   CertifiedResult result;
-  solve(batch_of(kind, std::span(&query, 1)), std::span(&result, 1), options);
+  solve(kind, std::span(&query, 1), std::span(&result, 1), options);
   return result;
+}
+
+void solve(const Queries& queries, std::span<CertifiedResult> results,
+           const CertifiedOptions& options) {
+  solve_blocks(Batch{.queries = queries}, results, options);
 }
 
 void solve(Kind kind, std::span<const Query> queries, std::span<CertifiedResult> results,
            const CertifiedOptions& options) {
-  solve(batch_of(kind, queries), results, options);
+  solve(Queries(kind, queries), results, options);
+}
+
+std::vector<Collision> collisions(const Queries& queries, const CertifiedOptions& options) {
+  return collisions(Batch{.queries = queries}, options);
 }
 
 std::vector<Collision> collisions(Kind kind, std::span<const Query> queries,
                                   const CertifiedOptions& options) {
-  return collisions(batch_of(kind, queries), options);
+  return collisions(Queries(kind, queries), options);
 }
 
 std::vector<Collision> collisions(const MovingVertices& vertices, const Candidates& candidates,
@@ -162,9 +197,6 @@ std::vector<Collision> collisions(const MovingVertices& vertices, const Candidat
 }
 
 namespace {
-
-/// The number of stages of a query that this one decides.
-constexpr std::uint32_t stages_up_to(Stage stage) { return static_cast<std::uint32_t>(stage) + 1; }
 
 std::vector<std::string_view> stage_names() {
   std::vector<std::string_view> names;
@@ -178,35 +210,18 @@ class CertifiedMethod : public Method {
 
   [[nodiscard]] const MethodInfo& info() const override { return certified_info(); }
 
-  void solve(Kind kind, std::span<const Query> queries, std::span<Answer> answers,
+  void solve(const Queries& queries, std::span<Answer> answers,
              const MethodOptions& options) const override {
+    if (!is_valid(options.separation)) {
+      std::ranges::fill(answers, Answer{.verdict = Verdict::error});
+      return;
+    }
     CertifiedOptions of_call = base_;
     of_call.t_max = options.t_max;
     of_call.max_threads = 1;
     of_call.separation = options.separation;
-    if (!is_valid(of_call.separation)) {
-      std::ranges::fill(answers, Answer{.verdict = Verdict::error});
-      return;
-    }
-    require_valid(of_call);
     const UseKernels use(kernels_);
-    const Batch batch = batch_of(kind, queries);
-    for_each_block(batch.size, of_call.max_threads, [&](std::size_t first) {
-      const std::size_t count = std::min(kernel_block, batch.size - first);
-      const std::span<Answer> of_block = answers.subspan(first, count);
-      std::ranges::fill(of_block,
-                        Answer{.verdict = Verdict::no, .checks = stages_up_to(Stage::axis)});
-      const auto take = [&](std::size_t number, const CertifiedResult& result) {
-        answers[number] = {.verdict = result.verdict,
-                           .checks = stages_up_to(result.stage),
-                           .toi_lower = result.toi_lower,
-                           .toi_upper = result.toi_upper,
-                           .tolerance = Answer::none};
-      };
-      mark_stages(
-          decide(batch, first, of_call.t_max, of_call, take),
-          [&](std::size_t index, Stage stage) { of_block[index].checks = stages_up_to(stage); });
-    });
+    solve_blocks(Batch{.queries = queries}, answers, of_call);
   }
 
  private:
@@ -217,10 +232,12 @@ class CertifiedMethod : public Method {
 }  // namespace
 
 const MethodInfo& certified_info() {
-  static const MethodInfo info{.name = "certified",
-                               .promise = Promise::exact,
-                               .norms = {Norm::linf, Norm::l2},
-                               .stages = stage_names()};
+  static const MethodInfo info{
+      .name = "certified",
+      .promise = Promise::exact,
+      .terms = {.least_degree = 0, .most_degree = greatest_degree, .rational = true},
+      .norms = {Norm::linf, Norm::l2},
+      .stages = stage_names()};
   return info;
 }
 

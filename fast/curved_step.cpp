@@ -8,7 +8,7 @@
 
 #include "fast/certified/block.hpp"
 #include "fast/step/scene.hpp"
-#include "touchstone/curved.hpp"
+#include "touchstone/certified.hpp"
 
 namespace touchstone::fast {
 namespace {
@@ -72,7 +72,10 @@ void CurvedStep::for_each_collision(const std::atomic<double>& limit, const Take
       }
     }
     std::vector<CertifiedResult> results(some.pairs.size());
-    solve(Step::kind_of(some.kind), CurvedQueries{vertices_.degree, vertices_.is_rational, numbers},
+    solve(Queries({.kind = Step::kind_of(some.kind),
+                   .degree = vertices_.degree,
+                   .is_rational = vertices_.is_rational},
+                  numbers),
           results, options);
     for (std::size_t i = 0; i < results.size(); ++i) {
       if (results[i].verdict != Verdict::yes) continue;

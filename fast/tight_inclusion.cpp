@@ -245,6 +245,22 @@ const BoxKernel& kernel_of(const TightInclusionOptions& options) {
                                                      : *box_kernels().back();
 }
 
+bool has_filter_of_curves(const TightInclusionOptions& options) {
+  return options.error_model == ErrorModel::derived && !options.scene_filter;
+}
+
+/// The kernel for queries of a shape.
+const BoxKernel& kernel_of(const QueryShape& shape, const TightInclusionOptions& options) {
+  if (shape.is_straight()) return kernel_of(options);
+  if (shape.degree < 2 || shape.degree > BoxProblem::greatest_curve_degree) {
+    throw std::invalid_argument("tight_inclusion: curves must be of degree 2 or 3");
+  }
+  if (!has_filter_of_curves(options)) {
+    throw std::invalid_argument("tight_inclusion: curves have the derived filter alone");
+  }
+  return shape.is_rational ? rational_box_kernel() : curved_box_kernel();
+}
+
 /// Solves one query by one search or more, as the options require.
 class QuerySolver {
  public:
@@ -261,10 +277,11 @@ class QuerySolver {
     return result;
   }
 
-  TightInclusionResult solve(Kind kind, const CurvedQueries& queries, std::size_t i) {
+  /// Query i, on curves.
+  TightInclusionResult solve(const Queries& queries, std::size_t i) {
     TightInclusionResult result;
     BoxProblem& problem = workspace_.problem;
-    problem.kind = kind;
+    problem.kind = queries.kind;
     const Extent extent = load_curves(queries, i, problem);
     if (!extent.finite) return result;
     const double distance = options_.separation.distance;
@@ -272,7 +289,7 @@ class QuerySolver {
     if (queries.is_rational) {
       filter = filter_of_rational_curves(problem, extent.x_max, distance);
     } else if (std::max(std::ranges::max(extent.x_max), distance) <= greatest_of_curves) {
-      filter = filter_of_curves(kind, queries.degree, extent.x_max, distance);
+      filter = filter_of_curves(queries.kind, queries.degree, extent.x_max, distance);
     }
     if (!filter) return {.verdict = Verdict::yes, .toi = 0.0, .tolerance = infinity};
     tolerance_ = options_.tolerance;
@@ -379,6 +396,21 @@ Workspace& workspace_of_this_thread() {
   return workspace;
 }
 
+/// Passes on the result of each query: take(i, result).
+template <class Take>
+void solve_all(const Queries& queries, const TightInclusionOptions& options, const Take& take) {
+  require_strict_environment();
+  require_valid(options);
+  const BoxKernel& kernel = kernel_of(queries, options);
+  Workspace& workspace = workspace_of_this_thread();
+  const std::size_t size = queries.size();
+  for (std::size_t i = 0; i < size; ++i) {
+    QuerySolver solver(kernel, workspace, options);
+    take(i, queries.is_straight() ? solver.solve(queries.kind, queries.straight()[i])
+                                  : solver.solve(queries, i));
+  }
+}
+
 /// Saturates the number at the maximum of an answer.
 std::uint32_t to_answer_checks(std::int64_t checks) {
   return static_cast<std::uint32_t>(
@@ -409,6 +441,11 @@ MethodInfo info_of(const TightInclusionOptions& options) {
   }
   // An answer has no field for a lower separation.
   if (options.no_zero_toi) info.promise = Promise::none;
+  if (has_filter_of_curves(options)) {
+    info.terms.least_degree = 2;
+    info.terms.most_degree = BoxProblem::greatest_curve_degree;
+    info.terms.rational = true;
+  }
   return info;
 }
 
@@ -419,7 +456,7 @@ class TightInclusionMethod final : public Method {
 
   [[nodiscard]] const MethodInfo& info() const override { return info_; }
 
-  void solve(Kind kind, std::span<const Query> queries, std::span<Answer> answers,
+  void solve(const Queries& queries, std::span<Answer> answers,
              const MethodOptions& options) const override {
     const UseKernels use(kernels_);
     TightInclusionOptions all = base_;
@@ -427,14 +464,13 @@ class TightInclusionMethod final : public Method {
     all.max_checks = options.max_checks;
     all.separation = options.separation;
     all.t_max = options.t_max;
-    for (std::size_t i = 0; i < queries.size(); ++i) {
-      const TightInclusionResult result = tight_inclusion(kind, queries[i], all);
+    solve_all(queries, all, [&](std::size_t i, const TightInclusionResult& result) {
       answers[i] = {.verdict = result.verdict,
                     .checks = to_answer_checks(result.checks),
                     .toi_lower = result.toi,
                     .toi_upper = Answer::none,
                     .tolerance = result.tolerance};
-    }
+    });
   }
 
  private:
@@ -447,24 +483,19 @@ class TightInclusionMethod final : public Method {
 
 TightInclusionResult tight_inclusion(Kind kind, const Query& query,
                                      const TightInclusionOptions& options) {
-  require_strict_environment();
-  require_valid(options);
-  return QuerySolver(kernel_of(options), workspace_of_this_thread(), options).solve(kind, query);
+  TightInclusionResult result;
+  tight_inclusion(Queries(kind, std::span(&query, 1)), std::span(&result, 1), options);
+  return result;
 }
 
-TightInclusionResult tight_inclusion(Kind kind, const CurvedQueries& queries, std::size_t i,
-                                     const TightInclusionOptions& options) {
-  require_strict_environment();
-  require_valid(options);
-  const bool is_low = queries.degree == 2 || queries.degree == 3;
-  if (!is_low || i >= queries.size()) {
-    throw std::invalid_argument("tight_inclusion: curves must be of degree 2 or 3");
+void tight_inclusion(const Queries& queries, std::span<TightInclusionResult> results,
+                     const TightInclusionOptions& options) {
+  if (results.size() != queries.size()) {
+    throw std::invalid_argument("tight_inclusion: " + std::to_string(results.size()) +
+                                " results for " + std::to_string(queries.size()) + " queries");
   }
-  if (options.error_model != ErrorModel::derived || options.scene_filter) {
-    throw std::invalid_argument("tight_inclusion: curves have the derived filter alone");
-  }
-  const BoxKernel& kernel = queries.is_rational ? rational_box_kernel() : curved_box_kernel();
-  return QuerySolver(kernel, workspace_of_this_thread(), options).solve(kind, queries, i);
+  solve_all(queries, options,
+            [&](std::size_t i, const TightInclusionResult& result) { results[i] = result; });
 }
 
 std::unique_ptr<Method> tight_inclusion_method(const TightInclusionOptions& base) {

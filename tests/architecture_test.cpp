@@ -60,8 +60,35 @@ constexpr auto layers = std::to_array<Layer>({
     {"fast/",
      "fast/ filters/ exact/curved_query.hpp exact/query.hpp Eigen/ hwy/ arm_neon.h immintrin.h "
      "xmmintrin.h sys/mman.h"},
+    {"fast/platform/", "fast/platform/ filters/ arm_neon.h immintrin.h sys/mman.h xmmintrin.h"},
     // All that needs oneTBB, which is optional.
     {"fast/platform/threads.hpp", "fast/platform/floating_point_state.hpp oneapi/tbb/"},
+    // Each folder of fast includes those above it, and the headers named with it.
+    {"fast/broad_phase/",
+     "fast/broad_phase/ fast/platform/ fast/broad_phase.hpp fast/mesh.hpp filters/ arm_neon.h "
+     "immintrin.h"},
+    {"fast/tight_inclusion/",
+     "fast/tight_inclusion/ fast/platform/ filters/ exact/query.hpp immintrin.h"},
+    {"fast/certified/exact/",
+     "fast/certified/exact/ exact/curved_query.hpp exact/query.hpp Eigen/"},
+    {"fast/certified/fixed_point_vertices.hpp", "fast/platform/ fast/mesh.hpp"},
+    {"fast/certified/kernel.hpp",
+     "fast/certified/fixed_point_vertices.hpp fast/platform/ fast/mesh.hpp exact/query.hpp"},
+    {"fast/certified/stages/",
+     "fast/certified/stages/ fast/certified/fixed_point_vertices.hpp fast/certified/kernel.hpp "
+     "filters/ exact/query.hpp"},
+    {"fast/certified/curves/",
+     "fast/certified/curves/ fast/certified/stages/ fast/certified/kernel.hpp filters/ "
+     "exact/query.hpp"},
+    {"fast/certified/",
+     "fast/certified/ fast/platform/ fast/certified.hpp fast/mesh.hpp filters/ "
+     "exact/curved_query.hpp exact/query.hpp immintrin.h"},
+    {"fast/distance/",
+     "fast/distance/ fast/certified/exact/ fast/platform/ fast/distance.hpp fast/kernels.hpp "
+     "fast/step.hpp filters/ exact/query.hpp arm_neon.h immintrin.h"},
+    {"fast/step/",
+     "fast/step/ fast/broad_phase/ fast/certified/ fast/broad_phase.hpp fast/kernels.hpp "
+     "fast/mesh.hpp fast/step.hpp"},
     {"adapters/", "adapters/ fast/ exact/query.hpp Eigen/"},
     {"adapters/ipc_toolkit.hpp", "fast/ exact/query.hpp ipc/ccd/narrow_phase_ccd.hpp"},
     {"adapters/tight_inclusion/logger.hpp", "spdlog/"},
@@ -145,7 +172,9 @@ constexpr auto headers_without_test = std::to_array<Exception>({
      "parts of the searches, tested through them"},
     {"fast/broad_phase/", "body_tree.hpp box_tree.hpp swept_box.hpp",
      "tested by all pairs one by one: search_test.cpp, broad_phase_test.cpp, step_test.cpp"},
-    {"fast/certified/", "block.hpp kernel_on_lanes.hpp", "tested through the solver"},
+    {"fast/certified/", "block.hpp curves.hpp kernel_on_lanes.hpp", "tested through the solver"},
+    {"fast/certified/curves/", "contact_proof.hpp control_polygon.hpp stages.hpp",
+     "tested in curved_parts_test.cpp and curved_test.cpp"},
     {"fast/certified/exact/", "curved_polygon.hpp", "tested in curved_parts_test.cpp"},
     {"fast/certified/exact/", "fixed_integer.hpp", "tested in big_integer_test.cpp"},
     {"fast/certified/exact/", "contact_conditions.hpp general_contact_decision.hpp polynomial.hpp",
@@ -156,8 +185,6 @@ constexpr auto headers_without_test = std::to_array<Exception>({
      "lanes.hpp moving_polygon.hpp moving_vectors.hpp only_zero.hpp orientation.hpp refinement.hpp "
      "single_precision.hpp",
      "parts of the kernels, tested through them"},
-    {"fast/curved/", "contact_proof.hpp control_polygon.hpp curved_block.hpp curved_stages.hpp",
-     "tested in curved_parts_test.cpp and curved_test.cpp"},
     {"fast/distance/",
      "exact_distance.hpp filter_kernel.hpp filter_on_lanes.hpp filtered_distance.hpp "
      "polygon_features.hpp",

@@ -97,7 +97,7 @@ std::vector<CollisionDetector::Impact> CollisionDetector::impacts(const fast::St
     answers.assign(queries.size(), {});
     statistics_.candidates += queries.size();
     const Kind kind = fast::Step::kind_of(candidates.kind);
-    (void)solver_->solve({.kind = kind, .queries = queries, .separation = separation}, answers);
+    (void)solver_->solve({.queries = {kind, queries}, .separation = separation}, answers);
     for (std::size_t i = 0; i < queries.size(); ++i) {
       if (answers[i].verdict == fast::Verdict::no) continue;
       if (options_.missed_one_in != 0 && hash(queries[i]) % options_.missed_one_in == 0) {

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "touchstone/curved.hpp"
+#include "touchstone/certified.hpp"
 #include "touchstone/curved_step.hpp"
 #include "verify/data/npy_header.hpp"
 #include "verify/io/output_file.hpp"
@@ -121,9 +121,9 @@ class CurveRecorder {
 
   /// Writes the file. \param result Receives the counts.
   void close(TumblingResult& result) const {
-    const CurvedQueries queries{degree, false, numbers_};
+    const Queries queries({.kind = kind_, .degree = degree}, numbers_);
     std::vector<fast::CertifiedResult> answers(queries.size());
-    fast::solve(kind_, queries, answers);
+    fast::solve(queries, answers);
     const auto index = static_cast<std::size_t>(kind_);
     result.queries.at(index) = queries.size();
     result.collisions.at(index) = static_cast<std::uint64_t>(

@@ -4,6 +4,9 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "fast/certified/exact/curved_polygon.hpp"
+#include "touchstone/curved_query.hpp"
+
 namespace touchstone::fast {
 
 void require_valid(const CertifiedOptions& options) {
@@ -36,6 +39,15 @@ CertifiedResult decided_exactly(Kind kind, const Query& query, const CertifiedOp
   if (!is_finite(query)) return {.verdict = Verdict::error, .stage = Stage::exact};
   return result_of(
       decide_exactly(kind, query, options.separation, options.toi_tolerance, options.t_max));
+}
+
+CertifiedResult decided_exactly(const Queries& queries, std::size_t i,
+                                const CertifiedOptions& options) {
+  if (queries.is_straight()) return decided_exactly(queries.kind, queries.straight()[i], options);
+  const CurvedQuery query = to_curved(queries, i);
+  if (!exact_stage::is_valid(query)) return {.verdict = Verdict::error, .stage = Stage::exact};
+  return result_of(decide_exactly(queries.kind, query, options.separation, options.toi_tolerance,
+                                  options.t_max));
 }
 
 std::optional<CertifiedResult> result_of(const KernelImpact& impact,

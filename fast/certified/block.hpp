@@ -29,6 +29,8 @@ void require_valid(const CertifiedOptions& options);
 /// The result of the exact stage.
 [[nodiscard]] CertifiedResult decided_exactly(Kind kind, const Query& query,
                                               const CertifiedOptions& options);
+[[nodiscard]] CertifiedResult decided_exactly(const Queries& queries, std::size_t i,
+                                              const CertifiedOptions& options);
 
 /// The result of a impact, if its enclosure is narrow enough and on one side of t_max.
 [[nodiscard]] std::optional<CertifiedResult> result_of(const KernelImpact& impact,

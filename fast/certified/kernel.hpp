@@ -10,7 +10,6 @@
 #include <span>
 
 #include "fast/certified/fixed_point_vertices.hpp"
-#include "fast/curved/curved_block.hpp"
 #include "fast/platform/instruction_set.hpp"
 #include "touchstone/mesh.hpp"
 #include "touchstone/query.hpp"
@@ -74,11 +73,34 @@ struct KernelOutput {
   List<std::uint32_t> undecided;  ///< for the exact stage
 };
 
+namespace curved {
+
+/// The greatest degree of a control polygon.
+inline constexpr std::size_t greatest_corner_degree = greatest_degree;
+
+/// The form of the control polygons of queries. With more than one denominator,
+/// 2 · degree ≤ greatest_corner_degree.
+enum class Denominators : std::uint8_t {
+  one,   ///< the weights of all points are equal, or there are none
+  two,   ///< those of each primitive are
+  four,  ///< each point has its own; for distance 0
+};
+inline constexpr std::size_t denominators_count = 3;
+
+/// A block of queries on curves, at most kernel_block. The rest is as in KernelInput.
+struct Block : Queries {
+  Separation separation = {};
+  double toi_tolerance = 1e-12;
+  double t_limit = 1.0;
+};
+
+}  // namespace curved
+
 /// The functions of one instruction set. All sets make the same decisions.
 struct CertifiedKernel {
   InstructionSet instructions;
   void (*decide)(const KernelInput& input, KernelOutput& output);
-  /// On curves (fast/curved/curved_stages.hpp): lists the queries that no axis separates.
+  /// On curves (fast/certified/curves/stages.hpp): lists the queries that no axis separates.
   void (*curved_axis)(const curved::Block& block, KernelOutput::List<std::uint32_t>& open);
   /// Decides those of a list, which have control polygons of one form, and appends to the output.
   void (*curved_search)(const curved::Block& block,

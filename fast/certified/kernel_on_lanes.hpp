@@ -34,13 +34,14 @@
 /// Pairs of a mesh may come with their vertices in fixed point. Then stages/single_precision.hpp,
 /// with the theorems of 2. to 4., takes the place of 2. and 3.
 ///
-/// The stages for curves are in fast/curved/curved_stages.hpp.
+/// The stages for curves are in fast/certified/curves/stages.hpp.
 ///
 /// Queries that no stage decides remain undecided, as do those with coordinates that are not finite
 /// or too large for the bounds.
 
 #include <array>
 
+#include "fast/certified/curves/stages.hpp"
 #include "fast/certified/kernel.hpp"
 #include "fast/certified/stages/axis.hpp"
 #include "fast/certified/stages/bisection.hpp"
@@ -53,7 +54,6 @@
 #include "fast/certified/stages/orientation.hpp"
 #include "fast/certified/stages/refinement.hpp"
 #include "fast/certified/stages/single_precision.hpp"
-#include "fast/curved/curved_stages.hpp"
 
 namespace touchstone::fast::kernel {
 

@@ -198,7 +198,7 @@ const BoxKernel& curved_box_kernel() {
   return kernel;
 }
 
-Extent load_curves(const CurvedQueries& queries, std::size_t i, BoxProblem& problem) {
+Extent load_curves(const Queries& queries, std::size_t i, BoxProblem& problem) {
   Extent extent{.x_max = {}, .finite = true};
   problem.degree = queries.degree;
   const std::span<const double> row = queries.row(i);

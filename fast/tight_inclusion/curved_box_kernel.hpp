@@ -23,7 +23,7 @@
 #include <optional>
 
 #include "fast/tight_inclusion/box_kernel.hpp"
-#include "touchstone/curved_query.hpp"
+#include "touchstone/query.hpp"
 
 namespace touchstone::fast {
 
@@ -33,7 +33,7 @@ namespace touchstone::fast {
 
 /// Sorts the control points of query i by axis. Its extent is finite if the weights are positive,
 /// too. \pre degree 2 or 3
-[[nodiscard]] Extent load_curves(const CurvedQueries& queries, std::size_t i, BoxProblem& problem);
+[[nodiscard]] Extent load_curves(const Queries& queries, std::size_t i, BoxProblem& problem);
 
 /// The error bound of a computed value of F − d, for each axis.
 /// \param x_max the greatest coordinates of each axis, at most greatest_of_curves

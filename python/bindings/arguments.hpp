@@ -15,7 +15,6 @@
 #include <string>
 #include <string_view>
 
-#include "touchstone/curved_query.hpp"
 #include "touchstone/query.hpp"
 
 namespace touchstone::python {
@@ -50,13 +49,32 @@ using Integers = py::array_t<std::int32_t, py::array::c_style>;
                               std::to_string(distance));
 }
 
-/// The queries of an array of shape (N, 8, 3), which must live on.
-[[nodiscard]] inline std::span<const Query> queries_of(const Doubles& array) {
-  if (array.ndim() != 3 || array.shape(1) != 8 || array.shape(2) != 3) {
-    throw std::invalid_argument("queries must have the shape (N, 8, 3)");
+/// The queries of an array, which must live on: of shape (N, 8, 3), on straight lines, or of shape
+/// (N, k+1, 4, 3), or (N, k+1, 4, 4) with weights, on curves.
+[[nodiscard]] inline Queries queries_of(Kind kind, const Doubles& array) {
+  const std::span<const double> numbers{array.data(), std::size_t(array.size())};
+  if (array.ndim() != 4) {
+    if (array.ndim() != 3 || array.shape(1) != 8 || array.shape(2) != 3) {
+      throw std::invalid_argument("queries must have the shape (N, 8, 3)");
+    }
+    return {{.kind = kind}, numbers};
   }
-  // An array of doubles in this order is an array of queries (touchstone/query.hpp).
-  return {reinterpret_cast<const Query*>(array.data()), std::size_t(array.shape(0))};
+  if (array.shape(1) == 0 || array.shape(2) != 4 || array.shape(3) < 3 || array.shape(3) > 4) {
+    throw std::invalid_argument("curves must have the shape (N, k + 1, 4, 3) or (N, k + 1, 4, 4)");
+  }
+  const auto degree = std::size_t(array.shape(1)) - 1;
+  if (degree > greatest_degree) {
+    throw std::invalid_argument("the degree of a curve is at most " +
+                                std::to_string(greatest_degree) + ", not " +
+                                std::to_string(degree));
+  }
+  return {{.kind = kind, .degree = degree, .is_rational = array.shape(3) == 4}, numbers};
+}
+
+/// The same, on straight lines alone.
+[[nodiscard]] inline Queries straight_queries_of(Kind kind, const Doubles& array) {
+  if (array.ndim() == 3) return queries_of(kind, array);
+  throw std::invalid_argument("queries must have the shape (N, 8, 3)");
 }
 
 /// The items of a structured array that the caller has made for results, an item each.
@@ -70,86 +88,28 @@ template <class Item>
   return {static_cast<Item*>(array.mutable_data()), count};
 }
 
-/// \throws std::domain_error naming the query and the place of its first coordinate that is not
-/// finite.
-[[noreturn]] inline void reject_coordinates(std::span<const Query> queries, std::size_t number) {
-  const auto& coordinates = queries[number].coordinates;
-  const auto found = std::ranges::find_if(coordinates, [](double x) { return !std::isfinite(x); });
-  const auto place = std::size_t(found - coordinates.begin());
-  throw std::domain_error("query " + std::to_string(number) + ": coordinate [" +
-                          std::to_string(place / 3) + ", " + std::to_string(place % 3) + "] is " +
-                          (std::isnan(*found) ? "NaN" : "infinite"));
+/// \throws std::domain_error naming query i and the first of its numbers that is not finite, or a
+/// weight that is not positive, by its place in its array: on straight lines of shape (8, 3).
+inline void require_valid(const Queries& queries, std::size_t i) {
+  const std::span<const double> row = queries.row(i);
+  const std::size_t numbers = queries.numbers_of_point();
+  for (std::size_t place = 0; place < row.size(); ++place) {
+    const double x = row[place];
+    const bool is_weight = place % numbers == 3;
+    if (std::isfinite(x) && !(is_weight && x <= 0.0)) continue;
+    const std::size_t point = place / numbers;
+    const std::string points =
+        queries.is_straight()
+            ? std::to_string(point)
+            : std::to_string(point / moving_points) + ", " + std::to_string(point % moving_points);
+    throw std::domain_error("query " + std::to_string(i) +
+                            (is_weight ? ": weight [" : ": coordinate [") + points + ", " +
+                            std::to_string(place % numbers) + "] is " +
+                            (std::isnan(x)   ? "NaN"
+                             : std::isinf(x) ? "infinite"
+                                             : "not positive"));
+  }
 }
-
-/// The queries of an array, which must live on: of shape (N, 8, 3), on straight lines, or of shape
-/// (N, K+1, 4, 3), or (N, K+1, 4, 4) with weights, on curves.
-class Batch {
- public:
-  explicit Batch(const Doubles& array) : is_curved_(array.ndim() == 4) {
-    if (!is_curved_) {
-      lines_ = queries_of(array);
-      return;
-    }
-    if (array.shape(1) == 0 || array.shape(2) != 4 || array.shape(3) < 3 || array.shape(3) > 4) {
-      throw std::invalid_argument(
-          "curves must have the shape (N, k + 1, 4, 3) or (N, k + 1, 4, 4)");
-    }
-    curves_ = {.degree = std::size_t(array.shape(1)) - 1,
-               .is_rational = array.shape(3) == 4,
-               .numbers = {array.data(), std::size_t(array.size())}};
-    if (curves_.degree > greatest_degree) {
-      throw std::invalid_argument("the degree of a curve is at most " +
-                                  std::to_string(greatest_degree) + ", not " +
-                                  std::to_string(curves_.degree));
-    }
-  }
-
-  [[nodiscard]] std::size_t size() const { return is_curved_ ? curves_.size() : lines_.size(); }
-
-  /// Returns take(queries) for some of the queries, a span or CurvedQueries.
-  template <class Take>
-  decltype(auto) with_some(std::size_t first, std::size_t count, const Take& take) const {
-    if (!is_curved_) return take(lines_.subspan(first, count));
-    CurvedQueries some = curves_;
-    const std::size_t size = curves_.numbers_of_query();
-    some.numbers = some.numbers.subspan(first * size, count * size);
-    return take(some);
-  }
-  /// Returns take(query), a Query or a CurvedQuery.
-  template <class Take>
-  decltype(auto) with(std::size_t i, const Take& take) const {
-    return is_curved_ ? take(curves_.query(i)) : take(lines_[i]);
-  }
-
-  /// \throws std::domain_error naming a query with a number that is not finite or a weight that is
-  /// not positive.
-  void require_valid(std::size_t i) const {
-    if (!is_curved_) {
-      if (!is_finite(lines_[i])) reject_coordinates(lines_, i);
-      return;
-    }
-    const std::span<const double> row = curves_.row(i);
-    const std::size_t numbers = curves_.numbers_of_point();
-    for (std::size_t place = 0; place < row.size(); ++place) {
-      const double x = row[place];
-      const bool is_weight = place % numbers == 3;
-      if (std::isfinite(x) && !(is_weight && x <= 0.0)) continue;
-      throw std::domain_error("query " + std::to_string(i) +
-                              (is_weight ? ": weight [" : ": coordinate [") +
-                              std::to_string(place / (moving_points * numbers)) + ", " +
-                              std::to_string(place / numbers % moving_points) + ", " +
-                              std::to_string(place % numbers) + "] is " +
-                              (std::isnan(x)   ? "NaN"
-                               : std::isinf(x) ? "infinite"
-                                               : "not positive"));
-    }
-  }
-
- private:
-  bool is_curved_;
-  std::span<const Query> lines_;
-  CurvedQueries curves_;
-};
 
 /// The layout of results as numpy.dtype takes it: names, formats, offsets, itemsize.
 class Layout {

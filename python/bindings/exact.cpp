@@ -87,16 +87,14 @@ py::dict decision_layout() {
 /// The exact times of the queries that are done.
 py::list decide(const std::string& kind_name, const Doubles& array, py::array results,
                 double distance, const std::string& norm, int threads, const py::object& progress) {
-  const Kind kind = kind_from(kind_name);
-  const Batch queries(array);
+  const Queries queries = queries_of(kind_from(kind_name), array);
   const auto items = items_of<DecisionItem>(results, queries.size());
   const Separation separation = separation_from(distance, norm);
   std::vector<std::optional<exact::AlgebraicNumber>> times(queries.size());
   const auto decide_some = [&](std::size_t first, std::size_t count) {
     for (std::size_t i = first; i < first + count; ++i) {
-      queries.require_valid(i);
-      times[i] = queries.with(
-          i, [&](const auto& query) { return exact::decide(kind, query, separation).toi; });
+      require_valid(queries, i);
+      times[i] = exact::decide(queries, i, separation).toi;
       items[i] = {.collides = times[i].has_value(),
                   .toi_lower = fast::no_number,
                   .toi_upper = fast::no_number};
@@ -141,19 +139,16 @@ exact::Claim claim_from(const std::string& name) {
 py::tuple prove(const std::string& kind_name, const Doubles& array, double distance,
                 const std::string& norm, const std::string& claim, int threads,
                 const py::object& progress) {
-  const Kind kind = kind_from(kind_name);
-  const Batch queries(array);
+  const Queries queries = queries_of(kind_from(kind_name), array);
   const Separation separation = separation_from(distance, norm);
   const exact::ProveOptions options{.collision_claim = claim_from(claim)};
   std::vector<std::string> texts(queries.size());
   const std::size_t done = in_blocks(
       queries.size(), oracle_block, threads, progress, [&](std::size_t first, std::size_t count) {
         for (std::size_t i = first; i < first + count; ++i) {
-          queries.require_valid(i);
-          queries.with(i, [&](const auto& query) {
-            const exact::Decision decision = exact::decide(kind, query, separation);
-            exact::write(texts[i], exact::prove(kind, query, decision, options));
-          });
+          require_valid(queries, i);
+          const exact::Decision decision = exact::decide(queries, i, separation);
+          exact::write(texts[i], exact::prove(queries, i, decision, options));
         }
       });
   std::string stream(exact::certificates_header());
@@ -244,8 +239,7 @@ std::size_t solve(const std::string& name, const std::string& kind_name, const D
                   py::array results, double distance, const std::string& norm, double tolerance,
                   std::int64_t max_checks, double t_max, int threads, const py::object& progress) {
   const fast::Method& method = verify::solvers::find_method(name);
-  const Kind kind = kind_from(kind_name);
-  const auto queries = queries_of(array);
+  const Queries queries = straight_queries_of(kind_from(kind_name), array);
   const auto items = items_of<fast::Answer>(results, queries.size());
   const fast::MethodOptions options{.tolerance = tolerance,
                                     .max_checks = max_checks,
@@ -257,13 +251,11 @@ std::size_t solve(const std::string& name, const std::string& kind_name, const D
   }
   // A query with a tolerance can take a second.
   const std::size_t block = method.info().is_tolerance_driven ? 1 : method_block;
-  return in_blocks(
-      queries.size(), block, threads, progress, [&](std::size_t first, std::size_t count) {
-        for (std::size_t i = first; i < first + count; ++i) {
-          if (!is_finite(queries[i])) reject_coordinates(queries, i);
-        }
-        method.solve(kind, queries.subspan(first, count), items.subspan(first, count), options);
-      });
+  return in_blocks(queries.size(), block, threads, progress,
+                   [&](std::size_t first, std::size_t count) {
+                     for (std::size_t i = first; i < first + count; ++i) require_valid(queries, i);
+                     method.solve(queries.part(first, count), items.subspan(first, count), options);
+                   });
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 
 #include <pybind11/pybind11.h>
 
+#include <array>
 #include <cstddef>
 #include <span>
 #include <string>
@@ -15,7 +16,6 @@
 #include "python/bindings/blocks.hpp"
 #include "python/bindings/step.hpp"
 #include "touchstone/certified.hpp"
-#include "touchstone/curved.hpp"
 #include "touchstone/distance.hpp"
 #include "touchstone/tight_inclusion.hpp"
 
@@ -30,23 +30,21 @@ constexpr std::size_t search_block = 4;
 std::size_t certified(const std::string& kind_name, const Doubles& array, py::array results,
                       double separation, const std::string& norm, double toi_tolerance,
                       double t_max, int threads, const py::object& progress) {
-  const Kind kind = kind_from(kind_name);
-  const Batch queries(array);
+  const Queries queries = queries_of(kind_from(kind_name), array);
   const auto items = items_of<fast::CertifiedResult>(results, queries.size());
   const fast::CertifiedOptions options{.toi_tolerance = toi_tolerance,
                                        .t_max = t_max,
                                        .separation = separation_from(separation, norm),
                                        .max_threads = 1};
-  fast::solve(kind, std::span<const Query>{}, {}, options);  // checks the options of no query too
+  fast::solve(queries.part(0, 0), {}, options);  // checks the options of no query too
   return in_blocks(queries.size(), certified_block, threads, progress,
                    [&](std::size_t first, std::size_t count) {
                      const auto part = items.subspan(first, count);
-                     queries.with_some(first, count, [&](const auto& some) {
-                       fast::solve(kind, some, part, options);
-                     });
+                     fast::solve(queries.part(first, count), part, options);
                      for (std::size_t i = 0; i < count; ++i) {
-                       if (part[i].verdict == fast::Verdict::error)
-                         queries.require_valid(first + i);
+                       if (part[i].verdict == fast::Verdict::error) {
+                         require_valid(queries, first + i);
+                       }
                      }
                    });
 }
@@ -71,44 +69,33 @@ struct TightInclusionItem {
   std::int64_t checks;
 };
 
-fast::TightInclusionResult searched(Kind kind, std::span<const Query> one,
-                                    const fast::TightInclusionOptions& options) {
-  return fast::tight_inclusion(kind, one[0], options);
-}
-fast::TightInclusionResult searched(Kind kind, const CurvedQueries& one,
-                                    const fast::TightInclusionOptions& options) {
-  return fast::tight_inclusion(kind, one, 0, options);
-}
-
 std::size_t tight_inclusion(const std::string& kind_name, const Doubles& array, py::array results,
                             double separation, const std::string& norm, double tolerance,
                             std::int64_t max_checks, double t_max, bool no_zero_toi, int threads,
                             const py::object& progress) {
-  const Kind kind = kind_from(kind_name);
-  const Batch queries(array);
+  const Queries queries = queries_of(kind_from(kind_name), array);
   const auto items = items_of<TightInclusionItem>(results, queries.size());
   const fast::TightInclusionOptions options{.tolerance = tolerance,
                                             .max_checks = max_checks,
                                             .separation = separation_from(separation, norm),
                                             .t_max = t_max,
                                             .no_zero_toi = no_zero_toi};
-  (void)fast::tight_inclusion(kind, Query{},
-                              {.tolerance = tolerance,
-                               .max_checks = 1,
-                               .separation = options.separation,
-                               .t_max = t_max});  // checks them
-  return in_blocks(queries.size(), search_block, threads, progress,
-                   [&](std::size_t first, std::size_t count) {
-                     for (std::size_t i = first; i < first + count; ++i) {
-                       const auto result = queries.with_some(
-                           i, 1, [&](const auto& some) { return searched(kind, some, options); });
-                       if (result.verdict == fast::Verdict::error) queries.require_valid(i);
-                       items[i] = {.collides = result.verdict == fast::Verdict::yes,
-                                   .toi = result.toi,
-                                   .tolerance = result.tolerance,
-                                   .checks = result.checks};
-                     }
-                   });
+  fast::tight_inclusion(queries.part(0, 0), {}, options);  // checks them
+  return in_blocks(
+      queries.size(), search_block, threads, progress, [&](std::size_t first, std::size_t count) {
+        std::array<fast::TightInclusionResult, search_block> found;
+        fast::tight_inclusion(queries.part(first, count), std::span(found).first(count), options);
+        for (std::size_t i = 0; i < count; ++i) {
+          const fast::TightInclusionResult& result = found[i];
+          if (result.verdict == fast::Verdict::error) {
+            require_valid(queries, first + i);
+          }
+          items[first + i] = {.collides = result.verdict == fast::Verdict::yes,
+                              .toi = result.toi,
+                              .tolerance = result.tolerance,
+                              .checks = result.checks};
+        }
+      });
 }
 
 py::dict tight_inclusion_layout() {
@@ -124,16 +111,14 @@ py::dict tight_inclusion_layout() {
 std::size_t distance(const std::string& kind_name, const Doubles& array, py::array results,
                      double t, const std::string& norm, int threads, const py::object& progress) {
   const Kind kind = kind_from(kind_name);
-  const auto queries = queries_of(array);
+  const Queries queries = straight_queries_of(kind, array);
   const auto items = items_of<fast::Distance>(results, queries.size());
   const Norm of_distance = separation_from(0.0, norm).norm;
   fast::distances(kind, {}, t, of_distance, {}, 1);  // checks the time
   return in_blocks(queries.size(), search_block, threads, progress,
                    [&](std::size_t first, std::size_t count) {
-                     for (std::size_t i = first; i < first + count; ++i) {
-                       if (!is_finite(queries[i])) reject_coordinates(queries, i);
-                     }
-                     fast::distances(kind, queries.subspan(first, count), t, of_distance,
+                     for (std::size_t i = first; i < first + count; ++i) require_valid(queries, i);
+                     fast::distances(kind, queries.part(first, count).straight(), t, of_distance,
                                      items.subspan(first, count), 1);
                    });
 }

@@ -225,7 +225,7 @@ def tight_inclusion(
     Parameters
     ----------
     kind, queries, separation, norm, t_max, threads, progress, out
-        As for `certified`; curves of degree 2 or 3. With ``norm="l2"`` the answers are conservative.
+        As for `certified`; of curves, those of degree 2 or 3. With ``norm="l2"`` the answers are conservative.
     tolerance : float, optional
         Boxes whose image is this small are not split, in units of the coordinates.
     max_checks : int, optional

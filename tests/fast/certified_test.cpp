@@ -235,20 +235,19 @@ TEST(CertifiedMethod, HeedsTMaxAndTheSeparation) {
   EXPECT_EQ(certified_method()->name(), "certified");
   EXPECT_EQ(certified_method()->promise(), Promise::exact);
   const Query query = over_triangle(1, 1, 1, -1).query;
+  const Queries queries(Kind::vertex_face, {&query, 1});
   Answer answer;
-  certified_method()->solve(Kind::vertex_face, std::span(&query, 1), std::span(&answer, 1),
-                            {.t_max = 0.25});
+  certified_method()->solve(queries, std::span(&answer, 1), {.t_max = 0.25});
   EXPECT_EQ(answer.verdict, Verdict::no);
   // Contact at a distance of 1/2 is at t = 1/4.
-  certified_method()->solve(Kind::vertex_face, std::span(&query, 1), std::span(&answer, 1),
+  certified_method()->solve(queries, std::span(&answer, 1),
                             {.separation = {.distance = 0.5, .norm = Norm::l2}, .t_max = 0.25});
   EXPECT_EQ(answer.verdict, Verdict::yes);
   EXPECT_LT(answer.toi_lower, 0.25);
   EXPECT_GE(answer.toi_upper, 0.25);
   EXPECT_LE(answer.toi_upper, 0.25 + 1e-12);
   for (const double bad : {-1.0, infinity, std::numeric_limits<double>::quiet_NaN()}) {
-    certified_method()->solve(Kind::vertex_face, std::span(&query, 1), std::span(&answer, 1),
-                              {.separation = {.distance = bad}});
+    certified_method()->solve(queries, std::span(&answer, 1), {.separation = {.distance = bad}});
     EXPECT_EQ(answer.verdict, Verdict::error) << bad;
   }
 }

@@ -11,10 +11,11 @@
 #include <vector>
 
 #include "exact/contact/corner_motion.hpp"
+#include "fast/certified/curves/stages.hpp"
 #include "fast/certified/exact/curved_polygon.hpp"
-#include "fast/curved/curved_stages.hpp"
 #include "fast/platform/scalar_doubles.hpp"
 #include "tests/support/random.hpp"
+#include "touchstone/curved_query.hpp"
 #include "touchstone/oracle.hpp"
 
 namespace touchstone::fast::curved_parts_test {
@@ -40,7 +41,7 @@ using Polygons = curved::ControlPolygons<Lanes, kind>;
 
 struct OneQuery {
   std::vector<double> numbers;
-  CurvedQueries queries;
+  Queries queries;
 };
 
 /// One rational or polynomial query of degree 2, with weights in common to a primitive.
@@ -53,20 +54,14 @@ OneQuery one_query(Random& random, bool is_rational, double size) {
       if (is_rational) result.numbers.push_back(weights.at(point == 0 ? 0 : 1));
     }
   }
-  result.queries = {2, is_rational, result.numbers};
+  result.queries = {{.degree = 2, .is_rational = is_rational}, result.numbers};
   return result;
 }
 
-curved::Block block_of(const CurvedQueries& queries) {
-  return {.degree = queries.degree,
-          .is_rational = queries.is_rational,
-          .numbers = queries.numbers.data(),
-          .count = 1,
-          .separation = {.distance = 0.25}};
-}
+curved::Block block_of(const Queries& queries) { return {queries, {.distance = 0.25}}; }
 
 bool load(const curved::Block& block, Polygons& polygons) {
-  const curved::Rows<Lanes> rows{block, {block.numbers}};
+  const curved::Rows<Lanes> rows{block, {block.numbers.data()}};
   const auto form = block.is_rational ? curved::Denominators::two : curved::Denominators::one;
   return curved::Loading<Lanes, kind>::run(rows, form, polygons).set;
 }
@@ -74,7 +69,7 @@ bool load(const curved::Block& block, Polygons& polygons) {
 /// The exact Bernstein coefficients at a place of a control point.
 std::vector<mpq_class> exact_values(const curved::Block& block, std::size_t place) {
   const auto number = [&](std::size_t k, std::size_t point, std::size_t i) -> mpq_class {
-    const std::size_t stride = block.is_rational ? 4 : 3;
+    const std::size_t stride = block.numbers_of_point();
     if (i == 3 && !block.is_rational) return 1;
     return block.numbers[(k * moving_points + point) * stride + i];
   };
@@ -145,7 +140,7 @@ TEST(ControlPolygon, IsNoneOfNumbersThatAreNotUsual) {
       std::vector<double> numbers(36, 1.0);
       numbers[place] = bad;
       Polygons polygons;
-      EXPECT_FALSE(load(block_of({2, false, numbers}), polygons));
+      EXPECT_FALSE(load(block_of({{.degree = 2}, numbers}), polygons));
     }
   }
 }
@@ -157,7 +152,7 @@ TEST(ContactProof, HasTheCoefficientsOfTheDeterminant) {
   for (int round = 0; round < 2000; ++round) {
     OneQuery query = one_query(random, round % 2 == 1, 1.0);
     // A corner's normal along z, and a vertex that passes through the triangle.
-    const std::size_t stride = query.queries.is_rational ? 4 : 3;
+    const std::size_t stride = query.queries.numbers_of_point();
     for (std::size_t k = 0; k < 3; ++k) {
       for (std::size_t point = 0; point < moving_points; ++point) {
         double* const x = query.numbers.data() + (k * moving_points + point) * stride;
@@ -173,7 +168,7 @@ TEST(ContactProof, HasTheCoefficientsOfTheDeterminant) {
     const curved::Crossing<Lanes, kind> crossing(polygons, Mask::none(), Mask::all());
     if (!crossing.is_proved(det).set) continue;
     ++proved;
-    const auto motion = exact::scale(kind, query.queries.query(0), {});
+    const auto motion = exact::scale(kind, to_curved(query.queries, 0), {});
     for (int i = 0; i <= 8; ++i) {
       const double t = 0.125 * i;
       mpq_class sum = 0, power = 1;
@@ -186,7 +181,7 @@ TEST(ContactProof, HasTheCoefficientsOfTheDeterminant) {
       exact::AlgebraicNumber at{exact::Rational(t)};
       EXPECT_EQ(exact::sign_at(exact::determinant(motion), at), sgn(sum));
     }
-    EXPECT_TRUE(exact::decide(kind, query.queries.query(0), {}).collides());
+    EXPECT_TRUE(exact::decide(query.queries, 0).collides());
   }
   EXPECT_GT(proved, 1000);
 }
@@ -198,9 +193,9 @@ TEST(ContactProof, HasTheSignOfTheDeterminant) {
     const curved::Block block = block_of(query.queries);
     const double time = random.uniform(0, 1);
     exact::AlgebraicNumber at{exact::Rational(time)};
-    const auto motion = exact::scale(kind, query.queries.query(0), {});
+    const auto motion = exact::scale(kind, to_curved(query.queries, 0), {});
     const auto signs =
-        curved::AtTime<Lanes, kind>({block, {block.numbers}}, Value(time)).determinant();
+        curved::AtTime<Lanes, kind>({block, {block.numbers.data()}}, Value(time)).determinant();
     const int sign = exact::sign_at(exact::determinant(motion), at);
     EXPECT_EQ(signs.is_positive.set, sign > 0);
     EXPECT_EQ(signs.is_negative.set, sign < 0);

@@ -2,8 +2,6 @@
 /// The certified solver for curves against the oracle: the same verdicts, and enclosures that hold
 /// the exact time of impact.
 
-#include "touchstone/curved.hpp"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -25,6 +23,8 @@
 #include "tests/support/queries.hpp"
 #include "tests/support/random.hpp"
 #include "tests/support/trials.hpp"
+#include "touchstone/certified.hpp"
+#include "touchstone/curved_query.hpp"
 #include "touchstone/oracle.hpp"
 #include "touchstone/tight_inclusion.hpp"
 
@@ -49,7 +49,7 @@ struct Sort {
 
 struct Numbers {
   std::vector<double> numbers;
-  CurvedQueries queries;
+  Queries queries;
 };
 
 /// So many random queries.
@@ -82,20 +82,20 @@ Numbers random_queries(Random& random, const Sort& sort, Kind kind, std::size_t 
       }
     }
   }
-  result.queries = {sort.degree, is_rational, result.numbers};
+  result.queries = {{kind, sort.degree, is_rational}, result.numbers};
   return result;
 }
 
 /// ‖F‖ at the place and time of a contact, about, as a part of the greatest coordinate.
-double distance_at(Kind kind, const CurvedQuery& query, const CertifiedResult& found) {
-  const Query place = exact_stage::at_rest(query, found.toi_upper);
+double distance_at(const Queries& queries, std::size_t i, const CertifiedResult& found) {
+  const Query place = exact_stage::at_rest(to_curved(queries, i), found.toi_upper);
   double most = 0.0;
   double greatest = 0.0;
   for (const double x : place.coordinates) greatest = std::max(greatest, std::abs(x));
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const auto x = [&](std::size_t point) { return place.at(0, point, axis); };
     const auto [u, v] = std::pair(found.u, found.v);
-    const double f = kind == Kind::vertex_face
+    const double f = queries.kind == Kind::vertex_face
                          ? x(0) - (x(1) + u * (x(2) - x(1)) + v * (x(3) - x(1)))
                          : x(0) + u * (x(1) - x(0)) - (x(2) + v * (x(3) - x(2)));
     most = std::max(most, std::abs(f) / greatest);
@@ -103,14 +103,14 @@ double distance_at(Kind kind, const CurvedQuery& query, const CertifiedResult& f
   return most;
 }
 
-void expect_agreement(Kind kind, const CurvedQueries& queries, const CertifiedOptions& options,
+void expect_agreement(const Queries& queries, const CertifiedOptions& options,
                       std::array<int, stages>& decided_by, int& collisions) {
   std::vector<CertifiedResult> results(queries.size());
-  solve(kind, queries, results, options);
+  solve(queries, results, options);
   for (const CertifiedKernel* const kernel : certified_kernels()) {
     const UseKernels use({.certified = kernel});
     std::vector<CertifiedResult> by_kernel(queries.size());
-    solve(kind, queries, by_kernel, options);
+    solve(queries, by_kernel, options);
     for (std::size_t i = 0; i < results.size(); ++i) {
       const auto numbers = [](const CertifiedResult& x) {
         return std::tuple(x.verdict, x.stage, std::bit_cast<std::uint64_t>(x.toi_lower),
@@ -122,14 +122,14 @@ void expect_agreement(Kind kind, const CurvedQueries& queries, const CertifiedOp
   }
   for (std::size_t i = 0; i < results.size(); ++i) {
     const CertifiedResult& found = results[i];
-    const exact::Decision truth = exact::decide(kind, queries.query(i), options.separation);
-    const auto wrong = tests::fault(kind, truth, found, options);
+    const exact::Decision truth = exact::decide(queries, i, options.separation);
+    const auto wrong = tests::fault(queries.kind, truth, found, options);
     ASSERT_FALSE(wrong) << *wrong << ": " << i << " by " << to_string(found.stage);
     ++decided_by.at(static_cast<std::size_t>(found.stage));
     if (found.verdict != Verdict::yes) continue;
     ++collisions;
     if (found.stage != Stage::bisection || options.separation.distance > 0.0) continue;
-    EXPECT_LT(distance_at(kind, queries.query(i), found), 1e-6) << i;
+    EXPECT_LT(distance_at(queries, i, found), 1e-6) << i;
   }
 }
 
@@ -152,7 +152,7 @@ TEST_P(CurvedSolver, AgreesWithTheOracle) {
     }
     if (round % 5 == 4) options.t_max = 0.625;
     if (round % 7 == 6) options.toi_tolerance = 0.0;
-    expect_agreement(kind, some.queries, options, decided_by, collisions);
+    expect_agreement(some.queries, options, decided_by, collisions);
     if (HasFatalFailure()) return;
   }
   EXPECT_GT(collisions, 5 * rounds);
@@ -161,7 +161,7 @@ TEST_P(CurvedSolver, AgreesWithTheOracle) {
 
 INSTANTIATE_TEST_SUITE_P(
     Sorts, CurvedSolver,
-    testing::Values(Sort{1, Weights::none, false}, Sort{2, Weights::none, false},
+    testing::Values(Sort{1, Weights::of_primitives, false}, Sort{2, Weights::none, false},
                     Sort{3, Weights::none, false}, Sort{2, Weights::none, true},
                     Sort{3, Weights::none, true}, Sort{2, Weights::common, false},
                     Sort{2, Weights::common, true}, Sort{2, Weights::of_primitives, false},
@@ -185,9 +185,9 @@ bool answers_rightly(const CertifiedKernel& kernel, const Separation& separation
     const Kind kind = kind_of(round);
     const Numbers some = random_queries(random, sort, kind, 100);
     std::vector<CertifiedResult> expected(some.queries.size()), found = expected;
-    solve(kind, some.queries, expected, options);
+    solve(some.queries, expected, options);
     const UseKernels use({.certified = &kernel});
-    solve(kind, some.queries, found, options);
+    solve(some.queries, found, options);
     for (std::size_t i = 0; i < found.size(); ++i) {
       if (found[i].verdict != expected[i].verdict) return false;
       if (found[i].verdict != Verdict::yes) continue;
@@ -221,23 +221,37 @@ TEST(TightInclusionOnCurves, MissesNoContact) {
     const Numbers some = random_queries(random, sort, kind, 40);
     TightInclusionOptions options{.tolerance = 1e-4, .max_checks = 20'000};
     if (round % 4 == 3) options.separation = {.distance = 0.125, .norm = Norm::linf};
-    for (std::size_t i = 0; i < some.queries.size(); ++i) {
-      const TightInclusionResult found = tight_inclusion(kind, some.queries, i, options);
-      const exact::Decision truth = exact::decide(kind, some.queries.query(i), options.separation);
+    std::vector<TightInclusionResult> found(some.queries.size());
+    tight_inclusion(some.queries, found, options);
+    for (std::size_t i = 0; i < found.size(); ++i) {
+      const exact::Decision truth = exact::decide(some.queries, i, options.separation);
       if (truth.collides()) {
         ++collisions;
-        ASSERT_EQ(found.verdict, Verdict::yes);
-        EXPECT_LE(exact::Rational(found.toi), *truth.toi);
-      } else if (found.verdict == Verdict::yes) {
+        ASSERT_EQ(found[i].verdict, Verdict::yes);
+        EXPECT_LE(exact::Rational(found[i].toi), *truth.toi);
+      } else if (found[i].verdict == Verdict::yes) {
         ++false_positives;
       }
     }
   }
   EXPECT_GT(collisions, 4 * rounds);
   EXPECT_LT(false_positives, 4 * rounds);
-  const std::vector<double> rest(2 * 3 * moving_points, 1.0);
-  EXPECT_THROW((void)tight_inclusion(Kind::edge_edge, CurvedQueries{1, false, rest}, 0),
-               std::invalid_argument);
+}
+
+TEST(TightInclusionOnCurves, RefusesWhatItHasNoFilterFor) {
+  const auto refuses = [](const QueryShape& shape, const TightInclusionOptions& options,
+                          std::size_t results = 1) {
+    const std::vector<double> rest(shape.numbers_of_query(), 1.0);
+    std::vector<TightInclusionResult> found(results);
+    EXPECT_THROW(tight_inclusion({shape, rest}, found, options), std::invalid_argument)
+        << shape.degree;
+  };
+  for (const QueryShape& shape : {QueryShape{.degree = 0}, {.degree = 4}, {.is_rational = true}}) {
+    refuses(shape, {});
+  }
+  refuses({.degree = 2}, {}, 0);
+  refuses({.degree = 2}, {.error_model = ErrorModel::published});
+  refuses({.degree = 2}, {.scene_filter = std::array{1.0, 1.0, 1.0}});
 }
 
 /// A vertex through the third side of a triangle, where boxes of (u,v) reach out of the domain.
@@ -253,10 +267,11 @@ TEST(TightInclusionOnCurves, FindsContactsAtTheThirdSide) {
         numbers.push_back(x);
       }
     }
-    const CurvedQueries queries{2, true, numbers};
-    const exact::Decision truth = exact::decide(Kind::vertex_face, queries.query(0));
+    const Queries queries({.degree = 2, .is_rational = true}, numbers);
+    const exact::Decision truth = exact::decide(queries, 0);
     ASSERT_TRUE(truth.collides());
-    const TightInclusionResult found = tight_inclusion(Kind::vertex_face, queries, 0);
+    TightInclusionResult found;
+    tight_inclusion(queries, {&found, 1});
     ASSERT_EQ(found.verdict, Verdict::yes) << round;
     EXPECT_LE(exact::Rational(found.toi), *truth.toi);
     EXPECT_GE(exact::Rational(found.toi + 1e-4), *truth.toi);
@@ -271,7 +286,7 @@ TEST(CurvedSolverInFloatingPoint, DecidesNearlyAll) {
     for (int round = 0; round < 4; ++round) {
       const Numbers some = random_queries(random, sort, kind_of(round), 500);
       std::vector<CertifiedResult> results(some.queries.size());
-      solve(kind_of(round), some.queries, results, {.max_threads = 2});
+      solve(some.queries, results, {.max_threads = 2});
       for (const CertifiedResult& result : results) {
         exact += result.stage == Stage::exact ? 1 : 0;
         collisions += result.verdict == Verdict::yes ? 1 : 0;
@@ -284,27 +299,27 @@ TEST(CurvedSolverInFloatingPoint, DecidesNearlyAll) {
 
 TEST(CurvedSolver, SaysWhereInputIsNone) {
   const std::vector<double> rest(3 * moving_points, 1.0);
-  const CurvedQueries queries{0, false, rest};
+  const Queries queries({.degree = 0}, rest);
   std::array<CertifiedResult, 1> one{};
-  solve(Kind::vertex_face, queries, one);
+  solve(queries, one);
   EXPECT_EQ(one[0].verdict, Verdict::yes);
   EXPECT_EQ(one[0].toi_upper, 0.0);
-  EXPECT_THROW(solve(Kind::vertex_face, queries, {}), std::invalid_argument);
-  EXPECT_THROW(solve(Kind::vertex_face, CurvedQueries{9, false, {}}, {}), std::invalid_argument);
-  EXPECT_THROW(solve(Kind::vertex_face, CurvedQueries{1, false, rest}, {}), std::invalid_argument);
-  EXPECT_THROW(solve(Kind::vertex_face, queries, one, {.t_max = 2.0}), std::invalid_argument);
+  EXPECT_THROW(solve(queries, {}), std::invalid_argument);
+  EXPECT_THROW(solve(Queries({.degree = 9}, {}), {}), std::invalid_argument);
+  EXPECT_THROW(solve(Queries({.degree = 1}, rest), {}), std::invalid_argument);
+  EXPECT_THROW(solve(queries, one, {.t_max = 2.0}), std::invalid_argument);
   const double infinite = std::numeric_limits<double>::infinity();
   for (const double bad : {infinite, -infinite, std::nan("")}) {
     std::vector<double> numbers = rest;
     numbers[7] = bad;
-    solve(Kind::edge_edge, CurvedQueries{0, false, numbers}, one);
+    solve(Queries({Kind::edge_edge, 0, false}, numbers), one);
     EXPECT_EQ(one[0].verdict, Verdict::error);
   }
   for (const double bad : {0.0, -1.0, infinite, std::nan("")}) {
     std::vector<double> numbers(4 * 2 * moving_points, 1.0);
     numbers[0] = 5.0;
     numbers[11] = bad;
-    solve(Kind::edge_edge, CurvedQueries{1, true, numbers}, one);
+    solve(Queries({Kind::edge_edge, 1, true}, numbers), one);
     EXPECT_EQ(one[0].verdict, Verdict::error) << bad;
   }
 }
@@ -321,7 +336,7 @@ TEST(CurvedSolver, LeavesFewEdgesOfUnequalEndsToTheExactStage) {
     some.queries.numbers = some.numbers;
     std::array<int, stages> decided_by{};
     int collisions = 0;
-    expect_agreement(Kind::edge_edge, some.queries, {.max_threads = 1}, decided_by, collisions);
+    expect_agreement(some.queries, {.max_threads = 1}, decided_by, collisions);
     EXPECT_GT(collisions, 20);
     EXPECT_LT(decided_by.at(static_cast<std::size_t>(Stage::exact)), 4) << weights[0];
   }
@@ -347,7 +362,7 @@ TEST(CurvedSolver, DecidesWeightsOfAnySize) {
             is_same ? some.numbers[i - 4] : weights.at(random.bits() % weights.size());
       }
       some.queries.numbers = some.numbers;
-      expect_agreement(kind, some.queries, {}, decided_by, collisions);
+      expect_agreement(some.queries, {}, decided_by, collisions);
     }
   }
   EXPECT_GT(collisions, 8);

@@ -28,7 +28,6 @@
 #include "tests/support/random.hpp"
 #include "tests/support/trials.hpp"
 #include "touchstone/certified.hpp"
-#include "touchstone/curved.hpp"
 #include "touchstone/primitive_pairs.hpp"
 #include "verify/data/dataset.hpp"
 #include "verify/generate/families.hpp"
@@ -112,25 +111,33 @@ void solve_in_limbs(Kind kind, std::span<const Query> queries, std::span<Certifi
                  });
 }
 
-/// Lines as curves, of degree 2 where the control point in the middle is a double. (With a
-/// tolerance of 1 the enclosure of a time that is 0 may end later.)
+/// Lines as curves, of degree 2 where the control point in the middle is a double, else of degree 1
+/// with equal weights. (With a tolerance of 1 the enclosure of a time that is 0 may end later.)
 void solve_curves(Kind kind, std::span<const Query> queries, std::span<CertifiedResult> results,
                   const CertifiedOptions& options) {
+  CertifiedOptions of_curves = options;
+  of_curves.toi_tolerance = std::min(options.toi_tolerance, 0.5);
   for (std::size_t i = 0; i < queries.size(); ++i) {
     const std::span<const double> all(queries[i].coordinates), start = all.first(12),
                                                                end = all.last(12);
-    std::vector<double> numbers(start.begin(), start.end());
+    std::vector<double> middle;
     bool is_exact = true;
     for (std::size_t k = 0; k < start.size(); ++k) {
-      const double middle = start[k] / 2 + end[k] / 2;
-      is_exact = is_exact && Rational(middle) * 2 == Rational(start[k]) + Rational(end[k]);
-      numbers.push_back(middle);
+      middle.push_back(start[k] / 2 + end[k] / 2);
+      is_exact = is_exact && Rational(middle[k]) * 2 == Rational(start[k]) + Rational(end[k]);
     }
-    if (!is_exact) numbers.resize(start.size());
-    numbers.insert(numbers.end(), end.begin(), end.end());
-    CertifiedOptions of_curves = options;
-    of_curves.toi_tolerance = std::min(options.toi_tolerance, 0.5);
-    solve(kind, CurvedQueries{is_exact ? 2U : 1U, false, numbers}, results.subspan(i, 1),
+    std::vector<double> numbers;
+    if (is_exact) {
+      for (const std::span<const double> part : {start, std::span<const double>(middle), end}) {
+        numbers.insert(numbers.end(), part.begin(), part.end());
+      }
+    } else {
+      for (std::size_t k = 0; k < all.size(); ++k) {
+        numbers.push_back(all[k]);
+        if (k % 3 == 2) numbers.push_back(1.0);
+      }
+    }
+    solve(Queries({kind, is_exact ? 2U : 1U, !is_exact}, numbers), results.subspan(i, 1),
           of_curves);
   }
 }
@@ -227,7 +234,7 @@ const std::vector<Query>& public_queries(Kind kind) {
       while (source->kind() == wanted) {
         const auto recorded = source->next();
         if (!recorded) break;
-        queries.push_back(recorded->query);
+        queries.push_back(recorded->query.straight());
       }
     }
     return queries;

@@ -28,7 +28,6 @@
 #include "tests/support/public_data.hpp"
 #include "tests/support/random.hpp"
 #include "touchstone/certified.hpp"
-#include "touchstone/curved.hpp"
 #include "verify/data/dataset.hpp"
 #include "verify/solvers/registry.hpp"
 
@@ -46,7 +45,7 @@ void add(QuerySets& sets, const std::string& name, const std::filesystem::path& 
   const auto source = data::open_dataset(path);
   QuerySet& set = sets[name + "/" + std::string(to_string(source->kind()))];
   set.kind = source->kind();
-  while (const auto query = source->next()) set.queries.push_back(query->query);
+  while (const auto query = source->next()) set.queries.push_back(query->query.straight());
 }
 
 std::string variable(const char* name, const std::string& otherwise) {
@@ -88,7 +87,7 @@ void time_method(benchmark::State& state, const fast::Method& method, const Quer
   for (auto iteration : state) {
     static_cast<void>(iteration);
     pass += seconds([&] { read_all(set.queries); });
-    const double time = seconds([&] { method.solve(set.kind, set.queries, answers, {}); });
+    const double time = seconds([&] { method.solve({set.kind, set.queries}, answers, {}); });
     state.SetIterationTime(time);
     solve += time;
   }
@@ -107,7 +106,7 @@ struct CurvedSet {
   std::vector<double> numbers;
   std::vector<Query> lines;
 
-  [[nodiscard]] CurvedQueries queries() const { return {degree, is_rational, numbers}; }
+  [[nodiscard]] Queries queries() const { return {{kind, degree, is_rational}, numbers}; }
 };
 
 CurvedSet random_curves(Kind kind, std::size_t degree, bool is_rational, double reach) {
@@ -150,7 +149,7 @@ void time_curves(benchmark::State& state, const CurvedSet& set) {
   for (auto iteration : state) {
     static_cast<void>(iteration);
     of_lines += seconds([&] { fast::solve(set.kind, set.lines, results, options); });
-    const double time = seconds([&] { fast::solve(set.kind, set.queries(), results, options); });
+    const double time = seconds([&] { fast::solve(set.queries(), results, options); });
     state.SetIterationTime(time);
     of_curves += time;
   }

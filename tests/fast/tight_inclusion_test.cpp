@@ -151,7 +151,8 @@ TEST_P(Conservative, OnAllFamilies) {
 /// The query that is decided: rounded to float in single precision.
 Query as_decided(ErrorModel model, const Query& query) {
   return verify::judge::as_asked({.float_coordinates = model == ErrorModel::single_precision},
-                                 query);
+                                 {Kind::vertex_face, query})
+      .straight();
 }
 
 /// Of all families, among them coordinates that no float holds, and subnormal ones.
@@ -190,10 +191,10 @@ TEST(TightInclusion, MissesNothingOnThePublicData) {
     while (const auto recorded = source->next()) {
       for (const ErrorModel model :
            {ErrorModel::derived, ErrorModel::published, ErrorModel::single_precision}) {
-        const Query query = as_decided(model, recorded->query);
+        const Query query = as_decided(model, recorded->query.straight());
         const exact::Decision truth = exact::decide(source->kind(), query);
         const TightInclusionOptions options = limited({.error_model = model});
-        const auto result = tight_inclusion(source->kind(), recorded->query, options);
+        const auto result = tight_inclusion(source->kind(), recorded->query.straight(), options);
         const bool yes = result.verdict == Verdict::yes;
         EXPECT_TRUE(yes || !truth.collides()) << file << ' ' << recorded->index;
         if (yes && truth.collides()) {
@@ -674,17 +675,15 @@ TEST(Published, TheReleaseDeniesSomeContactsAtScalesFarFromOne) {
 /// kind.
 std::size_t families_that_find(const Method& method) {
   std::set<std::string_view> result;
-  for_each_family_query(100,
-                        [&](const verify::generate::Family& family, Kind kind, const auto& known) {
-                          Answer answer;
-                          method.solve(kind, std::span(&known.query, 1), std::span(&answer, 1),
-                                       {.max_checks = some_checks});
-                          TightInclusionResult found;
-                          found.verdict = answer.verdict;
-                          found.toi = answer.toi_lower;
-                          if (is_missed(known, found) || is_late(known, found))
-                            result.insert(family.name);
-                        });
+  for_each_family_query(
+      100, [&](const verify::generate::Family& family, Kind kind, const auto& known) {
+        Answer answer;
+        method.solve({kind, {&known.query, 1}}, std::span(&answer, 1), {.max_checks = some_checks});
+        TightInclusionResult found;
+        found.verdict = answer.verdict;
+        found.toi = answer.toi_lower;
+        if (is_missed(known, found) || is_late(known, found)) result.insert(family.name);
+      });
   return result.size();
 }
 
@@ -723,7 +722,7 @@ TEST(Method, AnswersASpanAsQueryByQuery) {
   MethodOptions options;
   options.tolerance = 1e-3;
   options.t_max = 0.75;
-  tight_inclusion_method()->solve(Kind::vertex_face, queries, answers, options);
+  tight_inclusion_method()->solve({Kind::vertex_face, queries}, answers, options);
   EXPECT_EQ(answers[0].verdict, Verdict::yes);
   EXPECT_EQ(answers[1].verdict, Verdict::no);
   EXPECT_TRUE(std::isnan(answers[1].toi_lower));

@@ -156,11 +156,8 @@ MotionOf<Polynomial> motion_of(Kind kind, const Vector& first, const Vector& nex
   return {kind, first, first - next, first - last, {}};
 }
 
-}  // namespace
-
-CurvedPolygon polygon_of(Kind kind, const CurvedQuery& query, double distance) {
-  const BinaryFraction d = odd_fraction(distance);
-  RationalPoints points(query, d.numerator != 0);
+/// The corners of all points times all denominators.
+MovingPolygon polygon_of(Kind kind, RationalPoints points) {
   const std::vector<Polynomial> denominators = points.distinct();
   Polynomial common{1};
   for (const Polynomial& denominator : denominators) common = common * denominator;
@@ -172,18 +169,19 @@ CurvedPolygon polygon_of(Kind kind, const CurvedQuery& query, double distance) {
   }
   const std::size_t degree =
       raise_to_one_degree(points.numerators, std::max<std::size_t>(common.size() - 1, 1));
-  CurvedPolygon result{
-      .polygon = {.kind = kind, .corners = {}, .denominator = raised_to(std::move(common), degree)},
-      .distance = {}};
+  MovingPolygon polygon{
+      .kind = kind, .corners = {}, .denominator = raised_to(std::move(common), degree)};
   for (const Corner& corner : corners(kind)) {
-    result.polygon.corners.push_back(points.numerators[corner.plus] -
-                                     points.numerators[corner.minus]);
+    polygon.corners.push_back(points.numerators[corner.plus] - points.numerators[corner.minus]);
   }
-  if (d.numerator != 0) {
-    const int exponent = d.exponent - points.units[0];
-    result.distance = {BigInteger(d.numerator) << std::max(exponent, 0), std::max(-exponent, 0)};
-  }
-  return result;
+  return polygon;
+}
+
+}  // namespace
+
+CurvedPolygon polygon_of(Kind kind, const CurvedQuery& query, double distance) {
+  const RationalPoints points(query, true);
+  return {polygon_of(kind, points), scaled_distance(distance, points.units[0])};
 }
 
 std::vector<PolynomialMotion> motions_of(Kind kind, const CurvedQuery& query) {
@@ -194,7 +192,7 @@ std::vector<PolynomialMotion> motions_of(Kind kind, const CurvedQuery& query) {
     factors.insert(factors.end(), more.begin(), more.end());
   };
   if (distinct.size() <= 2) {
-    const std::vector<Vector> w = polygon_of(kind, query, 0.0).polygon.corners;
+    const std::vector<Vector> w = polygon_of(kind, points).corners;
     for (int corner = 0; corner < 3; ++corner) add(distinct);
     return {{motion_of(kind, w[0], w[1], w.back()), other_factors(std::move(factors), points)}};
   }

@@ -30,7 +30,7 @@ struct CurvedPolygon {
   ScaledDistance distance;
 };
 
-/// \pre is_valid(query)
+/// \pre is_valid(query), distance > 0
 [[nodiscard]] CurvedPolygon polygon_of(Kind kind, const CurvedQuery& query, double distance);
 
 /// Motions one of which contains the origin where the query is in contact. \pre is_valid(query)

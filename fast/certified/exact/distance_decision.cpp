@@ -98,7 +98,7 @@ Separator cube_separator(const Setting& setting, const Vector& axis,
   Separator result;
   for (const Polynomial& product : products) result.values.push_back(product << setting.exponent);
   for (const Polynomial& component : axis) {
-    if (is_zero(component) || is_zero(setting.reach)) continue;
+    if (is_zero(component)) continue;
     result.spreads.push_back(component * setting.reach);
   }
   return result;
@@ -351,6 +351,12 @@ End first_instant(const Setting& setting, Norm norm, std::uint64_t latest) {
 }
 
 }  // namespace
+
+ScaledDistance scaled_distance(double distance, int unit) {
+  const BinaryFraction d = odd_fraction(distance);
+  const int exponent = d.exponent - unit;
+  return {BigInteger(d.numerator) << std::max(exponent, 0), std::max(-exponent, 0)};
+}
 
 std::optional<BitInterval> first_approach(const MovingPolygon& polygon,
                                           const ScaledDistance& distance, Norm norm,

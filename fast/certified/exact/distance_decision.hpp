@@ -2,7 +2,7 @@
 
 /// \file
 /// The first time at which a moving polygon is within a distance of the origin: any motion with
-/// integer coordinates of any size, any distance, both norms.
+/// integer coordinates of any size, any distance > 0, both norms.
 ///
 /// P(t) is the polygon with the corners w_k(t) (contact_conditions.hpp), B the closed ball of
 /// radius d of a norm: for linf the cube [−d,d]³. A *separator* is a direction a(t) with forms in
@@ -28,11 +28,9 @@
 /// **Theorem 2** (linf). P(t) does not meet B iff a·w_k − d(σ·a) > 0 for all corners k and all sign
 /// vectors σ, for a one of ±e_c, ±N, ±(e_c × e), e_c a coordinate axis and e a side. Proof. The
 /// maximum of a·b is d(|a_x| + |a_y| + |a_z|), the greatest of the d(σ·a). P(t) and B meet iff the
-/// origin is in the polytope Q = B ⊕ −P(t). It is full-dimensional if d > 0, and then the
+/// origin is in the polytope Q = B ⊕ −P(t). It is full-dimensional, and so the
 /// intersection of the half-spaces of its facets; a facet of a sum is the sum of faces of both, and
-/// its normal is that of a facet of B, that of P(t), or orthogonal to an edge of each. If d = 0 and
-/// P(t) does not meet B, P(t) does not meet some cube with d > 0 either, and its separator also
-/// holds for 0. ∎
+/// its normal is that of a facet of B, that of P(t), or orthogonal to an edge of each. ∎
 ///
 /// **Theorem 3** (the walk). Begin at t = 0. If no separator holds at t, t is the answer. Otherwise
 /// take one that holds and go to the first root of its forms later than t; if there is none, the
@@ -61,11 +59,14 @@
 
 namespace touchstone::fast::exact_stage {
 
-/// numerator / 2^exponent, in the units of a motion's coordinates. Not negative.
+/// numerator / 2^exponent, in the units of a motion's coordinates. Positive.
 struct ScaledDistance {
   BigInteger numerator;
   long exponent = 0;  ///< not negative
 };
+
+/// A distance > 0 in units of 2^unit.
+[[nodiscard]] ScaledDistance scaled_distance(double distance, int unit);
 
 /// The corners of a moving polygon, in cyclic order: forms of one degree, all times a denominator
 /// of that degree that is positive on [0,1].
@@ -79,7 +80,7 @@ struct MovingPolygon {
 /// within the distance of the origin: doubles around it at most `step` spacings apart, one if
 /// `upper` is subnormal (lower < time ≤ upper, or both 0 if the time is 0); empty if there is no
 /// such time.
-/// \pre all axes have the same unit, or the distance is 0 and the norm linf; 1 ≤ step.
+/// \pre all axes have the same unit; 1 ≤ step.
 [[nodiscard]] std::optional<BitInterval> first_approach(const MovingPolygon& polygon,
                                                         const ScaledDistance& distance, Norm norm,
                                                         std::uint64_t latest, std::uint64_t step);

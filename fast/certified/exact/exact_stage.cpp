@@ -95,14 +95,6 @@ std::array<Axis, 3> axes_of_one_unit(const Query& query) {
   return axes;
 }
 
-/// In units of 2^unit.
-ScaledDistance scaled_distance(double distance, int unit) {
-  const BinaryFraction d = odd_fraction(distance);
-  if (d.numerator == 0) return {};
-  const int exponent = d.exponent - unit;
-  return {BigInteger(d.numerator) << std::max(exponent, 0), std::max(-exponent, 0)};
-}
-
 std::optional<ExactImpact> first_impact_of(Kind kind, const Query& query, std::uint64_t latest,
                                            std::uint64_t step) {
   const std::array<Axis, 3> axes{axis_of(query, 0), axis_of(query, 1), axis_of(query, 2)};

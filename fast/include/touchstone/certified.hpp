@@ -13,6 +13,10 @@
 ///     axis, direction, determinant, bisection    fast/certified/kernel_on_lanes.hpp, stages/
 ///     exact                                      fast/certified/exact/exact_stage.hpp
 ///
+/// On Bézier curves of degrees up to 8, polynomial or rational, axis, direction and bisection look
+/// at control points (fast/certified/curves.hpp, with the times of the slowest queries;
+/// docs/theory.md, section 6.15).
+///
 /// With a minimum separation d, "contact" means distance ≤ d (L∞ or L2); all guarantees are the
 /// same. (For large d, fast/certified/stages/conservative_advancement.hpp replaces bisection.)
 ///
@@ -60,7 +64,8 @@ struct CertifiedOptions {
 };
 
 struct CertifiedResult {
-  /// yes or no, always right; error if a coordinate is not finite. Never undecided.
+  /// yes or no, always right; error if a coordinate is not finite, or a weight not positive and
+  /// finite. Never undecided.
   Verdict verdict = Verdict::error;
   Stage stage = Stage::axis;     ///< the stage that decided
   double toi_lower = no_number;  ///< with yes: below the time of impact; 0 if that is 0

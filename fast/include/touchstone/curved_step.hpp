@@ -7,7 +7,7 @@
 /// The pairs that can collide are those of touchstone/step.hpp: its theorem is about the geometry
 /// at one time. A vertex stays in the box around its control points, so a primitive stays in the
 /// box around those of its vertices; the candidates are the pairs of primitives whose boxes are
-/// within the separation. They are decided exactly (touchstone/curved.hpp).
+/// within the separation. They are decided exactly (touchstone/certified.hpp).
 ///
 /// A CurvedStep never changes; all of its functions are thread-safe.
 

@@ -29,12 +29,11 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "fast/certified/curves/contact_proof.hpp"
+#include "fast/certified/curves/control_polygon.hpp"
 #include "fast/certified/kernel.hpp"
 #include "fast/certified/stages/closest_point.hpp"
 #include "fast/certified/stages/lanes.hpp"
-#include "fast/curved/contact_proof.hpp"
-#include "fast/curved/control_polygon.hpp"
-#include "fast/curved/curved_block.hpp"
 #include "touchstone/filters/error_bounds.hpp"
 #include "touchstone/filters/separation_expressions.hpp"
 
@@ -47,7 +46,7 @@ template <class Lanes, Kind kind>
 inline bool is_apart_on_axis(const Block& block, const double* numbers) {
   using Row = typename Lanes::Row;
   constexpr std::size_t firsts = kind == Kind::vertex_face ? 1 : 2;
-  const std::size_t stride = block.is_rational ? 4 : 3;
+  const std::size_t stride = block.numbers_of_point();
   Row least_a = Row::load(numbers), least_b = Row::load(numbers + firsts * stride);
   Row most_a = least_a, most_b = least_b, sum(0.0);
   for (std::size_t k = 0; k <= block.degree; ++k) {
@@ -79,8 +78,9 @@ inline bool is_apart_on_axis(const Block& block, const double* numbers) {
 template <class Lanes>
 void axis_stage(const Block& block, KernelOutput::List<std::uint32_t>& open) {
   open.count = 0;
-  for (std::size_t i = 0; i < block.count; ++i) {
-    const double* const numbers = block.numbers + i * block.numbers_of_query();
+  const std::size_t count = block.size();
+  for (std::size_t i = 0; i < count; ++i) {
+    const double* const numbers = block.numbers.data() + i * block.numbers_of_query();
     const bool is_apart = block.kind == Kind::vertex_face
                               ? is_apart_on_axis<Lanes, Kind::vertex_face>(block, numbers)
                               : is_apart_on_axis<Lanes, Kind::edge_edge>(block, numbers);
@@ -210,7 +210,7 @@ class Search {
   // ---- Queries in lanes ----
 
   [[nodiscard]] const double* numbers_of(std::uint32_t index) const {
-    return block_.numbers + index * block_.numbers_of_query();
+    return block_.numbers.data() + index * block_.numbers_of_query();
   }
 
   /// Puts the next query into a lane, if there is one.

@@ -31,8 +31,8 @@
 #include <cstddef>
 #include <utility>
 
+#include "fast/certified/kernel.hpp"
 #include "fast/certified/stages/lanes.hpp"
-#include "fast/curved/curved_block.hpp"
 #include "touchstone/filters/polynomial_expressions.hpp"
 
 namespace touchstone::fast::curved {
@@ -110,7 +110,7 @@ struct Rows {
     return result;
   }
   [[nodiscard]] std::size_t offset(std::size_t k, std::size_t point) const {
-    return (k * moving_points + point) * (block.is_rational ? 4 : 3);
+    return (k * moving_points + point) * block.numbers_of_point();
   }
   [[nodiscard]] kernel::Vector<Value> x(std::size_t k, std::size_t point) const {
     const auto rows = addresses(offset(k, point));

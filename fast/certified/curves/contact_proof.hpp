@@ -38,8 +38,8 @@
 #include <array>
 #include <cstddef>
 
+#include "fast/certified/curves/control_polygon.hpp"
 #include "fast/certified/stages/lanes.hpp"
-#include "fast/curved/control_polygon.hpp"
 #include "touchstone/filters/ball.hpp"
 #include "touchstone/filters/polynomial_expressions.hpp"
 #include "touchstone/query.hpp"
