@@ -72,9 +72,10 @@ constexpr auto layers = std::to_array<Layer>({
     {"verify/", ""},
     {"verify/base/", "verify/base/ +"},
     {"verify/io/", "verify/io/ +"},
-    {"verify/data/", "verify/data/ verify/io/ +"},
+    {"verify/data/", "verify/data/ verify/base/ verify/io/ +"},
     {"verify/mesh/", "verify/mesh/ verify/data/ verify/io/ +"},
-    {"verify/generate/", "verify/generate/ verify/data/ verify/io/ verify/mesh/ +"},
+    {"verify/generate/",
+     "verify/generate/ verify/base/ verify/data/ verify/io/ verify/mesh/ +"},
     // The published methods use packages that simulators do not need, and the rounding mode.
     {"verify/baselines/",
      "verify/baselines/ verify/generate/random.hpp fast/ filters/ gmpxx.h exact/curved_query.hpp "
