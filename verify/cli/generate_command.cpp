@@ -74,10 +74,10 @@ std::vector<generate::Family> chosen(const Arguments& arguments) {
 
 void list_families(const std::vector<generate::Family>& chosen_families) {
   for (const generate::Family& family : chosen_families) {
-    const std::string degree = generate::degree_text(family);
-    io::print(stdout,
-              fmt::format("{}{}\n    {}\n", family.name,
-                          degree == "1" ? "" : fmt::format(" (degree {})", degree), family.reason));
+    const std::string curves = family.is_rational   ? " (rational)"
+                               : family.degree != 1 ? fmt::format(" (degree {})", family.degree)
+                                                    : "";
+    io::print(stdout, fmt::format("{}{}\n    {}\n", family.name, curves, family.reason));
   }
 }
 
