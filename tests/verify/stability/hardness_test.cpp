@@ -43,7 +43,7 @@ void for_each_query(std::string_view name, std::uint64_t count, const Use& use) 
       for (std::uint64_t index = 0; index < trials(count); ++index) {
         const HardQuery made =
             make_hard_query({.hardness = &hardness, .level = level, .kind = kind}, seed, index);
-        use(level, kind, made.query, made.collides);
+        use(level, kind, made.query.straight(), made.collides);
       }
     }
   }
@@ -98,7 +98,7 @@ TEST(HardQueries, CollideIfTheirNumberIsEvenSaysTheOracle) {
           const HardQuery made =
               make_hard_query({.hardness = &hardness, .level = level, .kind = kind}, seed, index);
           ASSERT_EQ(made.collides, index % 2 == 0);
-          ASSERT_EQ(exact::decide(kind, made.query).collides(), made.collides)
+          ASSERT_EQ(exact::decide(kind, made.query.straight()).collides(), made.collides)
               << hardness.name << " " << level << " " << to_string(kind) << " " << index;
         }
       }
@@ -264,7 +264,7 @@ TEST(HardQueries, HaveTheShareOfContactsAtTheEnds) {
       const HardQuery made = make_hard_query({.hardness = &hardness, .level = level, .kind = kind},
                                              seed, static_cast<std::uint64_t>(2 * i));
       ASSERT_TRUE(made.collides);
-      at_ends += is_at_an_end(kind, made.query) ? 1 : 0;
+      at_ends += is_at_an_end(kind, made.query.straight()) ? 1 : 0;
     }
     EXPECT_TRUE(level != 0 || at_ends == 0) << at_ends;
     // Some queries with contact at t=1 have contact earlier.
@@ -282,9 +282,9 @@ TEST(HardQueries, HaveTheFrame) {
   });
 }
 
-std::uint64_t hash(const Query& query) {
+std::uint64_t hash(const base::AnyQuery& query) {
   std::uint64_t value = 0;
-  for (const double x : query.coordinates) {
+  for (const double x : query.numbers()) {
     value = generate::mix(value ^ std::bit_cast<std::uint64_t>(x));
   }
   return value;
@@ -337,7 +337,7 @@ TEST(HardQueriesAboutASeparation, AreHalfCollisionsByTheOracle) {
                 index);
             collisions += made.collides ? 1U : 0U;
             const exact::Decision truth =
-                exact::decide(kind, made.query, separation_at(hardness, level, asked));
+                exact::decide(kind, made.query.straight(), separation_at(hardness, level, asked));
             ASSERT_EQ(truth.collides(), made.collides);
           }
           EXPECT_EQ(collisions, trials(16U) / 2)
@@ -356,7 +356,7 @@ TEST(HardQueriesAboutASeparation, AreLimitedInDistance) {
   const HardSort sort{.hardness = &hardness_from_name("scale"),
                       .level = 1000,
                       .separation = {.distance = 0x1p14, .norm = Norm::l2}};
-  EXPECT_TRUE(std::ranges::all_of(make_hard_query(sort, seed, 0).query.coordinates,
+  EXPECT_TRUE(std::ranges::all_of(make_hard_query(sort, seed, 0).query.numbers(),
                                   [](double x) { return std::isfinite(x); }));
   HardSort beyond = sort;
   beyond.separation.distance = 1e5;
