@@ -3,8 +3,9 @@
 #include <gtest/gtest.h>
 
 #include "tests/support/folder_test.hpp"
-#include "verify/data/curved_query_file.hpp"
-#include "verify/jobs/certify_curves.hpp"
+#include "verify/data/dataset.hpp"
+#include "verify/jobs/certify.hpp"
+#include "verify/solvers/registry.hpp"
 
 namespace touchstone::simulation::tumbling_test {
 namespace {
@@ -17,13 +18,17 @@ TEST_F(Tumbling, RecordsQueriesThatAreSolvedRightly) {
   EXPECT_LT(result.worst_change, 1e-9);
   for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
     const auto index = static_cast<std::size_t>(kind);
-    const auto file = verify::data::read_curved_queries(
+    const auto source = verify::data::open_dataset(
         path(kind == Kind::vertex_face ? "recorded/tumbling-vf.npy" : "recorded/tumbling-ee.npy"));
-    const auto judged = verify::jobs::certify_curves(kind, file.queries(), {});
-    EXPECT_EQ(file.degree, 3U);
+    EXPECT_EQ(source->shape(), (QueryShape{.kind = kind, .degree = 3}));
+    const auto certified =
+        verify::solvers::solver_in_process(verify::solvers::find_method("certified"), {});
+    const auto judged = verify::jobs::certify(*source, {.solvers = {certified.get()}});
+    const auto& method = judged.methods.at(0);
     EXPECT_EQ(judged.queries, result.queries.at(index));
-    EXPECT_EQ(judged.collide, result.collisions.at(index));
-    EXPECT_TRUE(judged.wrong.empty());
+    EXPECT_EQ(judged.collisions, result.collisions.at(index));
+    EXPECT_EQ(method.judgement.queries, judged.queries);
+    EXPECT_TRUE(verify::judge::keeps(method.judgement, method.promise));
   }
   EXPECT_GT(result.collisions[0] + result.collisions[1], 0U);
 }
