@@ -118,8 +118,8 @@ TEST(CurvedCsv, IsReadInEveryShapeAndFormatOfNumbers) {
 TEST(CurvedCsv, MayHaveBlankLinesHeadersQuotesAndItsShapeAgain) {
   const TemporaryFolder folder;
   const std::string rows = numbered_text(rational.shape, 1, false, true);
-  const std::string text = "\n \"rational\" , 2\r\n\nx,y,z,w,label\n" + rows + "\n" +
-                           " \"rational\" , 2\r\nx,y,z,w,label\n" + rows;
+  const std::string text = "\n\"rational\", 2\r\n\nx,y,z,w,label\n" + rows + "\n" +
+                           "\"rational\", 2\r\nx,y,z,w,label\n" + rows;
   const auto source = open_dataset(folder.file("a_ee.csv", text));
   const auto records = read_all(*source);
   ASSERT_EQ(records.size(), 2U);
