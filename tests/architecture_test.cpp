@@ -99,9 +99,9 @@ constexpr auto layers = std::to_array<Layer>({
     {"verify/", ""},
     {"verify/base/", "verify/base/ +"},
     {"verify/io/", "verify/io/ +"},
-    {"verify/data/", "verify/data/ verify/io/ +"},
+    {"verify/data/", "verify/data/ verify/base/ verify/io/ +"},
     {"verify/mesh/", "verify/mesh/ verify/data/ verify/io/ +"},
-    {"verify/generate/", "verify/generate/ verify/data/ verify/io/ verify/mesh/ +"},
+    {"verify/generate/", "verify/generate/ verify/base/ verify/data/ verify/io/ verify/mesh/ +"},
     // The published methods use packages that simulators do not need, and the rounding mode.
     {"verify/baselines/",
      "verify/baselines/ verify/generate/random.hpp fast/ filters/ gmpxx.h exact/curved_query.hpp "
@@ -216,7 +216,7 @@ constexpr auto headers_without_test = std::to_array<Exception>({
      "coverage.hpp finding_page.hpp fuzz_report.hpp plainness.hpp scheduler.hpp signature.hpp",
      "tested by what the fuzzer finds, simplifies, groups and prints: fuzz_test.cpp, "
      "shrink_test.cpp, tests/transcripts"},
-    {"verify/generate/", "curved_families.hpp", "tested in certify_curves_test.cpp"},
+    {"verify/generate/", "curved_families.hpp", "tested in families_test.cpp"},
     {"verify/generate/",
      "coordinate_sampler.hpp draws.hpp family_builder.hpp grid.hpp passing_planes.hpp random.hpp",
      "parts of the families, tested through their queries"},
@@ -230,6 +230,7 @@ constexpr auto headers_without_test = std::to_array<Exception>({
      "figure.hpp figures.hpp findings.hpp measurement.hpp published.hpp results.hpp "
      "stability_figures.hpp",
      "tested by documents_test.cpp: docs/results.md and its picture are those of their data"},
+    {"verify/stability/", "hard_curves.hpp", "tested in hardness_test.cpp"},
 });
 
 // ---- The rules ----------------------------------------------------------------------------------

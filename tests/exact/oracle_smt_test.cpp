@@ -26,7 +26,7 @@
 #include "tests/support/trials.hpp"
 #include "touchstone/curved_query.hpp"
 #include "touchstone/oracle.hpp"
-#include "verify/generate/curved_families.hpp"
+#include "verify/generate/families.hpp"
 
 namespace touchstone::exact::oracle_smt_test {
 namespace {
@@ -246,11 +246,12 @@ PosedCurves small_curves(Random& random, Kind kind, std::size_t degree, Weights 
 /// The families of known truth, then small whole numbers.
 std::vector<PosedCurves> curves_to_ask(int scale) {
   std::vector<PosedCurves> queries;
-  for (const std::size_t degree : {2U, 3U}) {
-    for (const auto& family :
-         verify::generate::curved_families(degree, static_cast<std::size_t>(scale), 98)) {
-      for (std::size_t i = 0; i < family.queries().size(); ++i) {
-        queries.push_back({family.kind, family.queries().query(i)});
+  for (const auto& family : verify::generate::curved_families()) {
+    for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
+      const auto source =
+          verify::generate::open_family(family, kind, 98, static_cast<std::uint64_t>(scale));
+      while (const auto record = source->next()) {
+        queries.push_back({kind, to_curved(record->query.queries(), 0)});
       }
     }
   }

@@ -77,14 +77,14 @@ std::string shard_name(const fs::path& file, const fs::path& path) {
 /// A shard that is being written.
 class Shard {
  public:
-  Shard(const fs::path& folder, const std::string& name)
+  Shard(const fs::path& folder, const std::string& name, const QueryShape& shape)
       : queries_file_(folder / (name + ".npy")),
         labels_file_(folder / "mma_bool" / (name + "_mma_bool.json")),
         tois_file_(folder / "toi" / (name + "_toi.csv")),
-        queries_(queries_file_) {}
+        queries_(queries_file_, shape) {}
 
   void write(const data::RecordedQuery& query) {
-    queries_.write(query.query);
+    queries_.write(query.query.numbers());
     if (query.collides)
       labels_ += fmt::format("{}{}", labelled_++ == 0 ? "" : ",", *query.collides);
     if (query.toi) {
@@ -222,7 +222,7 @@ class ConvertRun {
     for (auto query = source->next(); query && !io::interrupted(); query = source->next()) {
       if (shard && shard->count() == arguments_.shard_size) finish();
       if (!shard) {
-        shard.emplace(folder, fmt::format("{}-{:05}", origin.name, result.size()));
+        shard.emplace(folder, fmt::format("{}-{:05}", origin.name, result.size()), source->shape());
         first = query->index;
       }
       shard->write(*query);

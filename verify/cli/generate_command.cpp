@@ -34,6 +34,7 @@ namespace fs = std::filesystem;
 struct Arguments {
   std::string folder;
   std::vector<std::string> names;
+  std::vector<std::string> degrees;
   std::uint64_t seed = default_seed;
   std::uint64_t count = 1000;
   SeparationArguments separation;
@@ -52,18 +53,32 @@ struct Written {
   bool is_known = true;  // whether the truth is known by construction
 };
 
-std::vector<generate::Family> chosen(const std::vector<std::string>& names,
-                                     const Separation& separation) {
-  if (names.empty()) return generate::families(separation);
+/// The named families, else those of the named degrees, else those on straight lines, or to list
+/// them all.
+std::vector<generate::Family> chosen(const Arguments& arguments) {
+  const Separation separation = arguments.separation.given();
+  if (!arguments.degrees.empty()) return generate::families(separation, arguments.degrees);
+  if (arguments.names.empty()) {
+    std::vector<generate::Family> result = generate::families(separation);
+    const auto curved = generate::curved_families();
+    if (arguments.list) result.insert(result.end(), curved.begin(), curved.end());
+    return result;
+  }
   std::vector<generate::Family> result;
-  result.reserve(names.size());
-  for (const std::string& name : names) result.push_back(generate::family_from_name(name));
+  result.reserve(arguments.names.size());
+  for (const std::string& name : arguments.names) {
+    result.push_back(generate::family_from_name(name));
+  }
   return result;
 }
 
 void list_families(const std::vector<generate::Family>& chosen_families) {
-  for (const generate::Family& family : chosen_families)
-    io::print(stdout, fmt::format("{}\n    {}\n", family.name, family.reason));
+  for (const generate::Family& family : chosen_families) {
+    const std::string curves = family.is_rational   ? " (rational)"
+                               : family.degree != 1 ? fmt::format(" (degree {})", family.degree)
+                                                    : "";
+    io::print(stdout, fmt::format("{}{}\n    {}\n", family.name, curves, family.reason));
+  }
 }
 
 /// The query without the truth for another separation.
@@ -118,9 +133,9 @@ Written write_npy(data::QuerySource& source, const Separation& separation, const
                              ": would become the array's companion; choose another folder");
   }
   fs::create_directories(folder);
-  data::NpyWriter queries(file);
+  data::NpyWriter queries(file, source.shape());
   Written written = for_each_query(source, separation, file, [&](const data::RecordedQuery& query) {
-    queries.write(query.query);
+    queries.write(query.query.numbers());
   });
   queries.close();
   return written;
@@ -141,7 +156,7 @@ std::vector<Written> write_families(const Arguments& arguments, Files& files) {
   std::vector<Written> result;
   const Separation separation = arguments.separation.given();
   require_same_separation(arguments.folder, separation);
-  const std::vector<generate::Family> chosen_families = chosen(arguments.names, separation);
+  const std::vector<generate::Family> chosen_families = chosen(arguments);
   if (!is_zero(separation)) {
     fs::create_directories(arguments.folder);
     data::write_separation(arguments.folder, separation);
@@ -184,7 +199,7 @@ Status generate_patches(const Arguments& arguments) {
 
 Status generate(const Arguments& arguments) {
   if (arguments.list) {
-    list_families(chosen(arguments.names, arguments.separation.given()));
+    list_families(chosen(arguments));
     return Status::all_well;
   }
   if (arguments.folder.empty()) throw CLI::RequiredError("--out");
@@ -225,6 +240,7 @@ void add(CLI::App& app, Status& status) {
   command->option_defaults()->group("Input");
   command->add_option("--family", arguments->names, "Only these families (see --list)")
       ->type_name("NAME");
+  add_degree_option(*command, arguments->degrees)->excludes(command->get_option("--family"));
   add_seed_option(*command, arguments->seed, "Seed");
   command->add_option("--count", arguments->count, "Queries of each family and kind")
       ->type_name("N")
@@ -237,7 +253,8 @@ void add(CLI::App& app, Status& status) {
                    "cells per side: 4 N² faces")
       ->type_name("N")
       ->check(whole_number(1, 20'000))
-      ->excludes(command->get_option("--family"));
+      ->excludes(command->get_option("--family"))
+      ->excludes(command->get_option("--degree"));
   command
       ->add_option("--grading", arguments->grading,
                    "Patches: ratio of the widths of a side's last and first cell")
@@ -248,13 +265,16 @@ void add(CLI::App& app, Status& status) {
   command->option_defaults()->group("Output");
   command->add_flag("--list", arguments->list, "List the families with the proofs of their truth");
   command->add_option("--out", arguments->folder, "Folder to write to")->type_name("FOLDER");
-  command->add_flag("--npy", arguments->npy,
-                    "Write float64 arrays of shape (N, 8, 3), without the truth, instead of CSV");
+  command->add_flag(
+      "--npy", arguments->npy,
+      "Write float64 arrays of shape (N, 8, 3), on curves (N, K+1, 4, 3) or (N, K+1, 4, 4) "
+      "with weights, without the truth, instead of CSV");
   add_json_option(*command, arguments->json_file);
   set_help(
       *command,
       "touchstone generate --out hard --count 100 --family hourglass\n"
       "touchstone generate --out near --min-separation 1e-8 --norm l2\n"
+      "touchstone generate --out curves --degree 2 --degree rational\n"
       "touchstone generate --out patches --patches 500",
       "With --min-separation there are additional families, with contact at exactly that distance; "
       "the others are written without truth. FOLDER/separation.json records the separation.\n" +

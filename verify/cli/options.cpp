@@ -88,6 +88,17 @@ void add_kind_option(CLI::App& command, std::string& kind, const std::string& de
       ->check(CLI::IsMember({"vertex-face", "edge-edge"}).description(""));
 }
 
+CLI::Option* add_degree_option(CLI::App& command, std::vector<std::string>& degrees) {
+  return command
+      .add_option(
+          "--degree", degrees,
+          "Built-in queries on curves of this degree, 1 (straight lines), 2 or 3, or rational "
+          "ones; repeatable")
+      ->type_name("D")
+      ->allow_extra_args(false)
+      ->check(CLI::IsMember({"1", "2", "3", "rational"}).description(""));
+}
+
 void add_seed_option(CLI::App& command, std::uint64_t& seed, const std::string& description) {
   command.add_option("--seed", seed, description)
       ->type_name("N")

@@ -8,6 +8,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "touchstone/query.hpp"
 
@@ -52,6 +53,10 @@ void add_json_option(CLI::App& command, std::string& file);
 
 /// Adds --kind, which selects queries of one kind, or declares the kind of all.
 void add_kind_option(CLI::App& command, std::string& kind, const std::string& description);
+
+/// Adds --degree, which selects built-in families by generate::degree_text; repeatable. The texts
+/// must live until the command line is parsed.
+CLI::Option* add_degree_option(CLI::App& command, std::vector<std::string>& degrees);
 
 /// Adds --seed.
 void add_seed_option(CLI::App& command, std::uint64_t& seed, const std::string& description);

@@ -4,19 +4,18 @@
 
 #include <algorithm>
 #include <cctype>
+#include <span>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "verify/data/plain_rows.hpp"
 #include "verify/io/coordinate_text.hpp"
 #include "verify/io/csv.hpp"
+#include "verify/io/number_text.hpp"
 
 namespace touchstone::verify::data {
 namespace {
-
-bool is_format(std::size_t columns) {
-  return columns == 3 || columns == 4 || columns == 6 || columns == 7;
-}
 
 /// Bytes to look for plain rows in: more than eight of them have, as a rule.
 constexpr std::size_t plain_bytes = 4096;
@@ -33,6 +32,26 @@ bool is_name(std::string_view text) {
   return std::isalpha(first) != 0 || first == '_' || first == '#' || first >= 0x80U;
 }
 
+/// The line before the queries of a shape; none on straight lines.
+std::string shape_line(const QueryShape& shape) {
+  if (shape.is_straight()) return "";
+  return fmt::format("{},{}\n", shape.is_rational ? "rational" : "degree", shape.degree);
+}
+
+/// The rows of a query, each of so many numbers and the label.
+std::string rows_of(std::span<const double> numbers, std::size_t numbers_of_row,
+                    std::optional<bool> collides) {
+  const std::string_view label = !collides ? "" : *collides ? ",1" : ",0";
+  std::string text;
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    io::append_coordinate(text, numbers[i]);
+    const bool ends_row = (i + 1) % numbers_of_row == 0;
+    text += ends_row ? label : ",";
+    if (ends_row) text += '\n';
+  }
+  return text;
+}
+
 }  // namespace
 
 CsvDataset::CsvDataset(const std::filesystem::path& path, const DatasetOptions& options)
@@ -47,37 +66,62 @@ bool CsvDataset::at_end() {
     ahead_ = lines_.next();
     if (!ahead_) return true;
     if (ahead_->too_long) break;
-    if (io::trimmed(ahead_->text).empty() || is_header(ahead_->text)) ahead_.reset();
+    if (io::trimmed(ahead_->text).empty() || is_header(*ahead_)) ahead_.reset();
   }
   return false;
 }
 
-/// True if the line, which is between two queries or before the first, is the file's header.
-bool CsvDataset::is_header(std::string_view line) {
-  if (columns_ || io::is_numeric(io::trimmed(line))) return !header_.empty() && line == header_;
-  const io::CsvSplit split = io::split_csv(line, fields_);
-  if (split.fault != io::CsvSplit::Fault::none || !is_format(split.count)) return false;
+/// True if the line, which is between two queries or before the first, is a header of the file.
+bool CsvDataset::is_header(const io::Line& line) {
+  const std::string_view text = line.text;
+  if (!text.empty() && (text == header_ || text == shape_line_)) return true;
+  if (columns_ || io::is_numeric(io::trimmed(text))) return false;
+  const io::CsvSplit split = io::split_csv(text, fields_);
+  if (split.fault != io::CsvSplit::Fault::none) return false;
+  if (shape_line_.empty() && take_shape(line, split.count)) return true;
+  if (!is_format(split.count)) return false;
   for (std::size_t column = 0; column < split.count; ++column) {
     if (!is_name(field(column))) return false;
   }
   columns_ = split.count;
-  header_ = line;
+  header_ = text;
   return true;
 }
 
+bool CsvDataset::take_shape(const io::Line& line, std::size_t count) {
+  const bool is_rational = field(0) == "rational";
+  if (count != 2 || (!is_rational && field(0) != "degree")) return false;
+  const auto degree = io::number_from_text<std::size_t>(field(1));
+  if (!degree || *degree > greatest_degree) {
+    throw error(line, 2, "the degree must be a whole number from 0 to 8: " + io::quote(field(1)));
+  }
+  set_curves(*degree, is_rational);
+  shape_line_ = line.text;
+  return true;
+}
+
+bool CsvDataset::is_format(std::size_t columns) const {
+  const std::size_t numbers = shape().numbers_of_point();
+  return columns == numbers || columns == numbers + 1 || columns == 2 * numbers ||
+         columns == 2 * numbers + 1;
+}
+
 DatasetSource::StoredQuery CsvDataset::read(std::uint64_t) {
-  if (columns_ && !ahead_) {
+  if (columns_ && !ahead_ && shape().is_straight()) {
     if (const auto plain = read_plain_rows(lines_.peek(plain_bytes), *columns_, options().round)) {
       const io::FilePosition first{.line = lines_.line_number() + 1, .column = *columns_};
       lines_.skip(plain->bytes, query_points);
       rounded_ += plain->rounded;
-      return {.query = plain->query, .label = plain->label, .label_position = first};
+      return {.query = {kind(), plain->query}, .label = plain->label, .label_position = first};
     }
   }
-  Rows rows{.query = {}, .rounded = 0};
+  Rows rows{.query = {.query = {shape(), std::vector<double>(shape().numbers_of_query())},
+                      .label = std::nullopt,
+                      .label_position = {}},
+            .rounded = 0};
   std::optional<io::DatasetError> fault;
   std::uint64_t last_line = 0;
-  for (std::size_t row = 0; row < query_points; ++row) {
+  for (std::size_t row = 0; row < rows_of_query(); ++row) {
     const std::optional<io::Line> line =
         ahead_ ? std::exchange(ahead_, std::nullopt) : lines_.next();
     if (!line) {
@@ -86,13 +130,13 @@ DatasetSource::StoredQuery CsvDataset::read(std::uint64_t) {
           path(), {.line = last_line},
           fmt::format("truncated query: {} of {} rows; if a row is missing further "
                       "up, queries behind it were put together of two",
-                      row, query_points));
+                      row, rows_of_query()));
     }
     last_line = line->number;
     split_row(*line);
     // The labels of all rows, for they tell whether these are the rows of one query.
     std::optional<io::DatasetError> label_fault = read_label(*line, rows);
-    if (!fault) fault = read_point(*line, row, rows);
+    if (!fault) fault = read_numbers(*line, row, rows);
     if (!fault) fault = std::move(label_fault);
   }
   if (fault) throw io::DatasetError(*fault);
@@ -109,7 +153,10 @@ void CsvDataset::split_row(const io::Line& line) {
     lose_count(line, split.count, "malformed quoted field");
   }
   if (!columns_ && !is_format(split.count)) {
-    lose_count(line, 0, fmt::format("{} columns, expected 3, 4, 6 or 7", split.count));
+    const std::size_t numbers = shape().numbers_of_point();
+    lose_count(line, 0,
+               fmt::format("{} columns, expected {}, {}, {} or {}", split.count, numbers,
+                           numbers + 1, 2 * numbers, 2 * numbers + 1));
   }
   if (split.count != columns_.value_or(split.count)) {
     lose_count(line, 0, fmt::format("{} columns, expected {} as before", split.count, *columns_));
@@ -123,8 +170,8 @@ void CsvDataset::split_row(const io::Line& line) {
 }
 
 std::optional<io::DatasetError> CsvDataset::read_label(const io::Line& line, Rows& rows) {
-  if (columns_ != 4 && columns_ != 7) return std::nullopt;
   const std::size_t column = columns_.value();
+  if (column % shape().numbers_of_point() == 0) return std::nullopt;
   const std::string_view text = field(column - 1);
   if (text != "0" && text != "1") {
     return error(line, column, "label must be 0 or 1: " + io::quote(text));
@@ -140,11 +187,13 @@ std::optional<io::DatasetError> CsvDataset::read_label(const io::Line& line, Row
   return std::nullopt;
 }
 
-std::optional<io::DatasetError> CsvDataset::read_point(const io::Line& line, std::size_t row,
-                                                       Rows& rows) const {
-  const bool is_fraction = columns_ >= 6;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    const std::size_t column = is_fraction ? 2 * axis : axis;
+std::optional<io::DatasetError> CsvDataset::read_numbers(const io::Line& line, std::size_t row,
+                                                         Rows& rows) const {
+  const std::size_t count = shape().numbers_of_point();
+  const std::span<double> numbers = rows.query.query.numbers().subspan(row * count, count);
+  const bool is_fraction = columns_ >= 2 * count;
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::size_t column = is_fraction ? 2 * i : i;
     try {
       const io::ParsedCoordinate coordinate =
           io::parse_coordinate(field(column), is_fraction ? field(column + 1) : "1");
@@ -152,7 +201,10 @@ std::optional<io::DatasetError> CsvDataset::read_point(const io::Line& line, std
         return error(line, column + 1, "not exactly a double (--round takes the nearest)");
       }
       if (!coordinate.exact) ++rows.rounded;
-      rows.query.query.at(row / moving_points, row % moving_points, axis) = coordinate.value;
+      if (i == 3 && coordinate.value <= 0.0) {
+        return error(line, column + 1, "a weight must be positive");
+      }
+      numbers[i] = coordinate.value;
     } catch (const io::CoordinateError& fault) {
       const bool numerator = fault.part() == io::CoordinateError::Part::numerator;
       return error(line, column + (numerator ? 1 : 2), fault.what());
@@ -171,27 +223,30 @@ io::DatasetError CsvDataset::error(const io::Line& line, std::size_t column,
 }
 
 void CsvDataset::lose_count(const io::Line& line, std::size_t column, const std::string& reason) {
-  give_up(error(line, column,
-                reason +
-                    "; the rest of the file is left out, since it is unknown from here on which "
-                    "eight rows are a query: mend this line"));
+  const std::size_t rows = rows_of_query();
+  give_up(
+      error(line, column,
+            fmt::format("{}; the rest of the file is left out, since it is unknown from here on "
+                        "which {} rows are a query: mend this line",
+                        reason, rows == query_points ? "eight" : std::to_string(rows))));
+}
+
+std::string csv_rows(const base::AnyQuery& query, std::optional<bool> collides) {
+  return shape_line(query.shape()) +
+         rows_of(query.numbers(), query.shape().numbers_of_point(), collides);
 }
 
 std::string csv_rows(const Query& query, std::optional<bool> collides) {
-  const std::string_view label = !collides ? "" : *collides ? ",1" : ",0";
-  std::string text;
-  for (std::size_t row = 0; row < query_points; ++row) {
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      if (axis != 0) text += ',';
-      io::append_coordinate(text, query.at(row / moving_points, row % moving_points, axis));
-    }
-    text += label;
-    text += '\n';
-  }
-  return text;
+  return rows_of(query.coordinates, 3, collides);
 }
 
 CsvWriter::CsvWriter(std::filesystem::path path) : file_(std::move(path)) {}
+
+void CsvWriter::write(const base::AnyQuery& query, std::optional<bool> collides) {
+  const std::string rows = rows_of(query.numbers(), query.shape().numbers_of_point(), collides);
+  if (std::exchange(is_empty_, false)) file_.write(shape_line(query.shape()));
+  file_.write(rows);
+}
 
 void CsvWriter::write(const Query& query, std::optional<bool> collides) {
   file_.write(csv_rows(query, collides));

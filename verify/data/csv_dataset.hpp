@@ -11,12 +11,19 @@
 ///     3        x, y and z                                          spreadsheets, NumPy's savetxt
 ///     4        the same and the label
 ///
+/// Queries on curves have a first line of their shape (touchstone/query.hpp): `degree,K`, or
+/// `rational,K` for rational curves, with K from 0 to 8. A query then has 4 (K+1) rows, the four
+/// points at each control point from t=0 to t=1. A row of a rational curve ends with the weight,
+/// also as a number or as numerator and denominator, before the label: 4, 5, 8 or 9 columns.
+/// Without that line it is `degree,1`.
+///
 /// Each number is an integer or a decimal (coordinate_text.hpp; newer data has a decimal over 1).
 /// Labels may also be in a separate file (ground_truth_files.hpp). Fields may be quoted. A header
-/// line with a name for each column, which is ignored, may precede the first row; blank lines and
-/// the header may be repeated between two queries.
+/// line with a name for each column, which is ignored, may precede the first row; blank lines, the
+/// header and the line of the shape may be repeated between two queries.
 ///
-/// Only counting assigns rows to queries. A row with an invalid number invalidates its query. After
+/// Only counting assigns rows to queries. A row with an invalid number, or a weight that is not
+/// positive, invalidates its query. After
 /// a line that is not a row (blank or a header inside a query, another number of columns, or no
 /// number), or after labels that differ inside a query, the boundaries of queries are unknown, and
 /// the rest of the file is skipped, so that no query is composed of two. (A missing or additional
@@ -46,7 +53,7 @@ class CsvDataset final : public DatasetSource {
   [[nodiscard]] std::uint64_t rounded() const override { return rounded_; }
 
  private:
-  static constexpr std::size_t most_columns = 7;
+  static constexpr std::size_t most_columns = 9;
 
   /// The rows of the current query so far.
   struct Rows {
@@ -57,12 +64,17 @@ class CsvDataset final : public DatasetSource {
   [[nodiscard]] bool at_end() override;
   [[nodiscard]] StoredQuery read(std::uint64_t index) override;
 
-  [[nodiscard]] bool is_header(std::string_view line);
+  [[nodiscard]] bool is_header(const io::Line& line);
+  /// True if the fields are a line of a shape, which it takes over from the file's first line.
+  [[nodiscard]] bool take_shape(const io::Line& line, std::size_t count);
+  /// True if rows of queries may have so many columns.
+  [[nodiscard]] bool is_format(std::size_t columns) const;
+  [[nodiscard]] std::size_t rows_of_query() const { return moving_points * (shape().degree + 1); }
   void split_row(const io::Line& line);
   /// Return the fault of a row that invalidates its query, if any.
   [[nodiscard]] std::optional<io::DatasetError> read_label(const io::Line& line, Rows& rows);
-  [[nodiscard]] std::optional<io::DatasetError> read_point(const io::Line& line, std::size_t row,
-                                                           Rows& rows) const;
+  [[nodiscard]] std::optional<io::DatasetError> read_numbers(const io::Line& line, std::size_t row,
+                                                             Rows& rows) const;
   /// Counted from 0; without the spaces around it.
   [[nodiscard]] std::string_view field(std::size_t column) const;
   [[nodiscard]] io::DatasetError error(const io::Line& line, std::size_t column,
@@ -73,7 +85,8 @@ class CsvDataset final : public DatasetSource {
   io::LineReader lines_;
   /// The first line of the next query, if at_end() has read it.
   std::optional<io::Line> ahead_;
-  /// The header of the file, empty if it has none.
+  /// The lines of the shape and of the names of the columns, each empty if the file has none.
+  std::string shape_line_;
   std::string header_;
   std::optional<std::size_t> columns_;
   /// The position of the current line.
@@ -82,8 +95,9 @@ class CsvDataset final : public DatasetSource {
 };
 
 /// The eight rows of a query in the 2021 format, with its label: integers in lowest terms, LF, no
-/// spaces. Without a label the rows have six columns.
-/// \throws std::invalid_argument if a coordinate is not finite.
+/// spaces. Without a label the rows have six columns. On curves, a line of the shape and the rows.
+/// \throws std::invalid_argument if a number is not finite.
+[[nodiscard]] std::string csv_rows(const base::AnyQuery& query, std::optional<bool> collides);
 [[nodiscard]] std::string csv_rows(const Query& query, std::optional<bool> collides);
 
 /// Writes files of such rows.
@@ -93,9 +107,10 @@ class CsvWriter {
   explicit CsvWriter(std::filesystem::path path);
 
   /// Appends a query with its label: true for a collision. Without a label, which must then hold
-  /// for all queries, the rows have six columns.
+  /// for all queries, the rows have no column of labels. \pre all queries are of one shape
   /// \throws DatasetError if it cannot be written.
-  /// \throws std::invalid_argument if a coordinate is not finite; nothing is written then.
+  /// \throws std::invalid_argument if a number is not finite; nothing is written then.
+  void write(const base::AnyQuery& query, std::optional<bool> collides);
   void write(const Query& query, std::optional<bool> collides);
 
   /// Completes the file and gives it its name; without this call there is no file.
@@ -104,6 +119,7 @@ class CsvWriter {
 
  private:
   io::OutputFile file_;
+  bool is_empty_ = true;
 };
 
 }  // namespace touchstone::verify::data

@@ -7,8 +7,10 @@
 /// Formats: CSV, also compressed by zstd, with eight rows for each query, each x, y and z as
 /// numbers or as numerator and denominator, and optionally a label (csv_dataset.hpp); NumPy arrays
 /// of shape (N, 8, 3), alone or in an archive (npy_dataset.hpp); eight vertices of an OBJ file for
-/// each query (obj_dataset.hpp). Labels and times of impact may be in separate files beside either
-/// (ground_truth_files.hpp).
+/// each query (obj_dataset.hpp). CSV and NumPy arrays also have queries on curves, all of the same
+/// degree in a file: with a first line `degree,K` or `rational,K` and 4 (K+1) rows a query, or of
+/// shape (N, K+1, 4, 3), or (N, K+1, 4, 4) with weights. Labels and times of impact may be in
+/// separate files beside either (ground_truth_files.hpp).
 
 #include <filesystem>
 #include <functional>
@@ -27,8 +29,9 @@ namespace touchstone::verify::data {
 struct DatasetOptions {
   /// The kind of all its queries; by default the path determines it.
   std::optional<Kind> kind = std::nullopt;
-  /// Round coordinates that are not doubles to the nearest double; QuerySource::rounded() counts
-  /// them. A coordinate whose nearest double is infinite stays an error.
+  /// Round coordinates and weights that are not doubles to the nearest double;
+  /// QuerySource::rounded() counts them. A coordinate whose nearest double is infinite stays an
+  /// error.
   bool round = false;
   /// Skip invalid queries instead of throwing; QuerySource::skipped() counts them.
   bool keep_going = false;

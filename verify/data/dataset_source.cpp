@@ -2,7 +2,10 @@
 
 #include <fmt/core.h>
 
+#include <array>
 #include <cmath>
+#include <cstddef>
+#include <span>
 #include <string_view>
 #include <utility>
 
@@ -14,7 +17,7 @@ DatasetSource::DatasetSource(const std::filesystem::path& path, DatasetOptions o
     : path_(path),
       name_(path.string()),
       options_(std::move(options)),
-      kind_(options_.kind ? *options_.kind : kind_from_path(path)),
+      shape_{.kind = options_.kind ? *options_.kind : kind_from_path(path)},
       ground_truth_files_(path),
       separation_(data::recorded_separation(path)) {}
 
@@ -40,27 +43,29 @@ std::optional<RecordedQuery> DatasetSource::next() {
 std::optional<RecordedQuery> DatasetSource::read_record() {
   if (at_end()) return std::nullopt;
   const std::uint64_t index = count_++;
-  const StoredQuery stored = read(index);
+  StoredQuery stored = read(index);
   RecordedTruth truth = ground_truth_files_.at(index);
   if (stored.label && truth.collides && *stored.label != *truth.collides) {
     throw io::DatasetError(
         path_, stored.label_position,
         "label differs from that in " + ground_truth_files_.label_path().string());
   }
-  return RecordedQuery{.query = stored.query,
+  return RecordedQuery{.query = std::move(stored.query),
                        .index = index,
                        .collides = stored.label ? stored.label : truth.collides,
                        .toi = std::move(truth.toi)};
 }
 
-void DatasetSource::require_finite(const Query& query, std::uint64_t index) const {
-  for (std::size_t row = 0; row < query_points; ++row) {
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      if (std::isfinite(query.coordinates.at(3 * row + axis))) continue;
-      static constexpr std::string_view axes = "xyz";
-      throw io::DatasetError(
-          path_, {}, fmt::format("query {}, point {}, {}: not finite", index, row, axes[axis]));
-    }
+void DatasetSource::require_valid(const base::AnyQuery& query, std::uint64_t index) const {
+  const std::span<const double> numbers = query.numbers();
+  const std::size_t step = query.shape().numbers_of_point();
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    const bool is_weight = i % step == 3;
+    if (std::isfinite(numbers[i]) && (!is_weight || numbers[i] > 0.0)) continue;
+    static constexpr std::array<std::string_view, 4> names{"x", "y", "z", "weight"};
+    throw io::DatasetError(path_, {},
+                           fmt::format("query {}, point {}, {}: not {}finite", index, i / step,
+                                       names.at(i % step), is_weight ? "positive and " : ""));
   }
 }
 

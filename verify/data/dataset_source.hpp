@@ -23,7 +23,7 @@ namespace touchstone::verify::data {
 class DatasetSource : public QuerySource {
  public:
   [[nodiscard]] const std::string& name() const final { return name_; }
-  [[nodiscard]] Kind kind() const final { return kind_; }
+  [[nodiscard]] QueryShape shape() const final { return shape_; }
   [[nodiscard]] std::optional<RecordedQuery> next() final;
   [[nodiscard]] std::uint64_t skipped() const final { return skipped_; }
   [[nodiscard]] Separation recorded_separation() const final { return separation_; }
@@ -31,7 +31,7 @@ class DatasetSource : public QuerySource {
  protected:
   /// A query with the truth that the file itself records.
   struct StoredQuery {
-    Query query;
+    base::AnyQuery query;
     std::optional<bool> label;
     /// The position of the first label.
     io::FilePosition label_position;
@@ -44,8 +44,15 @@ class DatasetSource : public QuerySource {
   /// place of the next query is unknown. The rest of the companions is ignored.
   [[noreturn]] void give_up(const io::DatasetError& fault);
 
-  /// \throws DatasetError naming the first coordinate of query `index` that is not finite.
-  void require_finite(const Query& query, std::uint64_t index) const;
+  /// Its queries are on such curves; on straight lines unless this is called.
+  void set_curves(std::size_t degree, bool is_rational) {
+    shape_.degree = degree;
+    shape_.is_rational = is_rational;
+  }
+
+  /// \throws DatasetError naming the first coordinate of query `index` that is not finite, or the
+  /// first weight that is not positive and finite.
+  void require_valid(const base::AnyQuery& query, std::uint64_t index) const;
 
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }
   [[nodiscard]] const DatasetOptions& options() const { return options_; }
@@ -63,7 +70,7 @@ class DatasetSource : public QuerySource {
   std::filesystem::path path_;
   std::string name_;
   DatasetOptions options_;
-  Kind kind_;
+  QueryShape shape_;
   GroundTruthFiles ground_truth_files_;
   Separation separation_;
   std::uint64_t count_ = 0;

@@ -23,7 +23,6 @@ namespace {
 static_assert(std::endian::native == std::endian::little, "arrays are read as they are stored");
 
 constexpr std::string_view query_descr = "<f8";
-constexpr std::array<std::uint64_t, 2> query_extents{query_points, 3};
 
 /// The bytes of a number of the header's type; 0 for types that are none.
 std::size_t size_of_number(const NpyHeader& header) {
@@ -129,19 +128,23 @@ void NpyArray::fail_for_type(std::span<const std::string_view> names) const {
   fail(fmt::format("dtype {}, expected {}", io::quote(header_.descr), fmt::join(names, " or ")));
 }
 
-NpyWriter::NpyWriter(std::filesystem::path path) : file_(std::move(path)) {
-  file_.write(npy_header_text(query_descr, 0, query_extents));
+NpyWriter::NpyWriter(std::filesystem::path path, const QueryShape& shape)
+    : file_(std::move(path)), extents_{query_points, 3} {
+  if (!shape.is_straight()) {
+    extents_ = {shape.degree + 1, moving_points, shape.numbers_of_point()};
+  }
+  file_.write(npy_header_text(query_descr, 0, extents_));
 }
 
-void NpyWriter::write(const Query& query) {
-  if (!is_finite(query)) throw std::invalid_argument("a coordinate must be finite");
-  const void* const bytes = &query;
-  file_.write({static_cast<const char*>(bytes), sizeof(Query)});
+void NpyWriter::write(std::span<const double> numbers) {
+  if (!is_finite(numbers)) throw std::invalid_argument("a coordinate must be finite");
+  const void* const bytes = numbers.data();
+  file_.write({static_cast<const char*>(bytes), numbers.size_bytes()});
   ++count_;
 }
 
 void NpyWriter::close() {
-  file_.overwrite(0, npy_header_text(query_descr, count_, query_extents));
+  file_.overwrite(0, npy_header_text(query_descr, count_, extents_));
   file_.close();
 }
 

@@ -3,9 +3,10 @@
 /// \file
 /// Arrays in NumPy's format: .npy files, and the members of .npz archives (npz.hpp).
 ///
-/// Queries are an array of float64 or float32 of shape (N, 8, 3). One of float64 in C order has the
-/// layout of N consecutive Query objects, so its bytes *are* the queries, without parsing; so
-/// NpyWriter writes them. An array of no queries, shape (0, 8, 3), is valid.
+/// Queries are an array of float64 or float32 of shape (N, 8, 3), or on curves (N, K+1, 4, 3 or 4).
+/// One of float64 in C order has the layout of N consecutive Query objects, or of Queries, so its
+/// bytes *are* the queries, without parsing; so NpyWriter writes them. An array of no queries,
+/// shape (0, 8, 3), is valid.
 
 #include <algorithm>
 #include <array>
@@ -102,13 +103,15 @@ class NpyArray {
 /// Writes a .npy file of queries as a stream; the number of queries is filled in at the end.
 class NpyWriter {
  public:
+  /// \param shape of all its queries; the kind does not matter
   /// \throws DatasetError if no file can be made there.
-  explicit NpyWriter(std::filesystem::path path);
+  explicit NpyWriter(std::filesystem::path path, const QueryShape& shape = {});
 
-  /// Appends a query.
+  /// Appends a query, given by its numbers. \pre as many as the shape has
   /// \throws DatasetError if it cannot be written.
-  /// \throws std::invalid_argument if a coordinate is not finite; nothing is written then.
-  void write(const Query& query);
+  /// \throws std::invalid_argument if a number is not finite; nothing is written then.
+  void write(std::span<const double> numbers);
+  void write(const Query& query) { write(query.coordinates); }
 
   /// Completes the file and gives it its name; without this call there is no file.
   /// \throws DatasetError if it cannot be written.
@@ -116,6 +119,7 @@ class NpyWriter {
 
  private:
   io::OutputFile file_;
+  std::vector<std::uint64_t> extents_;
   std::uint64_t count_ = 0;
 };
 

@@ -12,7 +12,8 @@
 namespace touchstone::verify::data {
 namespace {
 
-/// Queries of a block, 96 KiB: a system call is not felt, and it stays in the processor's cache.
+/// Queries of a block, 96 KiB on straight lines: a system call is not felt, and it stays in the
+/// processor's cache.
 constexpr std::uint64_t block_size = 512;
 const std::string queries_name = "queries", labels_name = "collides";
 
@@ -40,13 +41,26 @@ NpyDataset::Arrays NpyDataset::open(const std::filesystem::path& path) {
 
 NpyDataset::NpyDataset(const std::filesystem::path& path, const DatasetOptions& options)
     : DatasetSource(path, options), arrays_(open(path)) {
-  constexpr std::array<std::uint64_t, 2> extents{query_points, 3};
-  arrays_.queries.require_shape(3, extents, "(N, 8, 3)");
+  set_curves_by_extents();
   arrays_.queries.take_numbers({});  // Is it of numbers?
   count_ = arrays_.queries.shape()[0];
   if (!arrays_.labels) return;
   const std::array<std::uint64_t, 1> count{count_};
   arrays_.labels->require_shape(1, count, fmt::format("({})", count_));
+}
+
+void NpyDataset::set_curves_by_extents() {
+  const std::vector<std::uint64_t>& extents = arrays_.queries.shape();
+  if (extents.size() == 3 && extents[1] == query_points && extents[2] == 3) return;
+  const bool are_curves = extents.size() == 4 && extents[1] >= 1 &&
+                          extents[1] <= greatest_degree + 1 && extents[2] == moving_points &&
+                          (extents[3] == 3 || extents[3] == 4);
+  if (!are_curves) {
+    arrays_.queries.fail_for_shape(
+        "(N, 8, 3), or (N, K+1, 4, 3) for curves of degree K up to 8, or (N, K+1, 4, 4) with "
+        "weights");
+  }
+  set_curves(extents[1] - 1, extents[3] == 4);
 }
 
 double NpyDataset::progress() const {
@@ -57,19 +71,21 @@ DatasetSource::StoredQuery NpyDataset::read(std::uint64_t index) {
   const std::size_t i = position_ % block_size;
   if (i == 0) fill();
   ++position_;
-  StoredQuery result{.query = block_[i], .label = std::nullopt, .label_position = {}};
+  const double* const first = block_.data() + i * shape().numbers_of_query();
+  StoredQuery result{.query = {shape(), {first, first + shape().numbers_of_query()}},
+                     .label = std::nullopt,
+                     .label_position = {}};
   if (arrays_.labels) result.label = collides_[i] != 0;
-  require_finite(result.query, index);
+  require_valid(result.query, index);
   return result;
 }
 
 void NpyDataset::fill() {
   const std::size_t count = std::min(block_size, count_ - position_);
-  block_.resize(count);
+  block_.resize(count * shape().numbers_of_query());
   collides_.resize(count);
-  double* const first = block_.front().coordinates.data();
   try {
-    arrays_.queries.take_numbers({first, count * sizeof(Query) / sizeof(double)});
+    arrays_.queries.take_numbers(block_);
     if (arrays_.labels) arrays_.labels->take<std::uint8_t, std::uint8_t>(collides_, {"|b1"});
   } catch (const io::DatasetError& fault) {
     give_up(fault);

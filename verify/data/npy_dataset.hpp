@@ -2,8 +2,9 @@
 
 /// \file
 /// The queries of NumPy's files as a stream, joined with their companions: an array of float64 or
-/// float32 of shape (N, 8, 3) in a .npy file, or in a .npz archive, where it is called `queries`
-/// or is the only array, beside labels where there are any: `collides`, of N booleans. Coordinates
+/// float32 in a .npy file, or in a .npz archive, where it is called `queries` or is the only array,
+/// beside labels where there are any: `collides`, of N booleans. Its shape is (N, 8, 3), or, on
+/// curves, that of Queries: (N, K+1, 4, 3), with weights (N, K+1, 4, 4). Coordinates and weights
 /// are checked here. A file that becomes shorter ends the stream with an error, also with
 /// keep_going.
 
@@ -32,6 +33,7 @@ class NpyDataset final : public DatasetSource {
   };
 
   [[nodiscard]] static Arrays open(const std::filesystem::path& path);
+  void set_curves_by_extents();
   [[nodiscard]] bool at_end() override { return position_ == count_; }
   [[nodiscard]] StoredQuery read(std::uint64_t index) override;
   /// Reads the next queries. \throws DatasetError if an array ends before.
@@ -40,8 +42,8 @@ class NpyDataset final : public DatasetSource {
   Arrays arrays_;
   std::uint64_t count_ = 0;
   std::uint64_t position_ = 0;
-  /// The block of queries that the position is in, and their labels.
-  std::vector<Query> block_;
+  /// The numbers of the block of queries that the position is in, and their labels.
+  std::vector<double> block_;
   std::vector<std::uint8_t> collides_;
 };
 

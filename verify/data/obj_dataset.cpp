@@ -29,7 +29,7 @@ bool ObjDataset::at_end() {
 }
 
 DatasetSource::StoredQuery ObjDataset::read(std::uint64_t) {
-  StoredQuery result{.query = {}, .label = std::nullopt, .label_position = {}};
+  StoredQuery result{.query = {kind(), Query{}}, .label = std::nullopt, .label_position = {}};
   std::optional<io::DatasetError> fault;
   for (std::size_t row = 0; row < query_points; ++row) {
     if (at_end()) {
@@ -37,7 +37,7 @@ DatasetSource::StoredQuery ObjDataset::read(std::uint64_t) {
     }
     const io::ObjStatement vertex = *std::exchange(ahead_, std::nullopt);
     try {
-      read_point(vertex, row, result.query);
+      read_point(vertex, result.query.numbers().subspan(3 * row, 3));
     } catch (const io::DatasetError& error) {
       if (!fault) fault = error;
     }
@@ -46,7 +46,7 @@ DatasetSource::StoredQuery ObjDataset::read(std::uint64_t) {
   return result;
 }
 
-void ObjDataset::read_point(const io::ObjStatement& vertex, std::size_t row, Query& query) {
+void ObjDataset::read_point(const io::ObjStatement& vertex, std::span<double> point) {
   std::string_view words = vertex.words;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const io::FilePosition position{.line = vertex.line, .column = axis + 2};
@@ -58,7 +58,7 @@ void ObjDataset::read_point(const io::ObjStatement& vertex, std::size_t row, Que
                                "not exactly a double (--round takes the nearest)");
       }
       if (!coordinate.exact) ++rounded_;
-      query.at(row / moving_points, row % moving_points, axis) = coordinate.value;
+      point[axis] = coordinate.value;
     } catch (const io::CoordinateError& error) {
       throw io::DatasetError(path(), position, error.what());
     }

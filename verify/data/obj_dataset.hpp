@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <span>
 
 #include "verify/data/dataset_source.hpp"
 #include "verify/io/obj_statements.hpp"
@@ -27,7 +28,7 @@ class ObjDataset final : public DatasetSource {
   [[nodiscard]] bool at_end() override;
   [[nodiscard]] StoredQuery read(std::uint64_t index) override;
   /// Sets a point. \throws DatasetError if the statement has no three numbers.
-  void read_point(const io::ObjStatement& vertex, std::size_t row, Query& query);
+  void read_point(const io::ObjStatement& vertex, std::span<double> point);
 
   io::ObjStatements statements_;
   /// The first vertex of the next query, if at_end() has read it.

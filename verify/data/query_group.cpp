@@ -4,6 +4,7 @@
 #include <bit>
 #include <cstdint>
 #include <iterator>
+#include <span>
 #include <stdexcept>
 #include <utility>
 
@@ -15,19 +16,19 @@ constexpr std::size_t reading_step = 4096;
 
 }  // namespace
 
-QueryGroup::QueryGroup(std::string name, Kind kind, std::vector<Query> queries)
-    : name_(std::move(name)), kind_(kind), queries_(std::move(queries)) {
+QueryGroup::QueryGroup(std::string name, Kind kind, const std::vector<Query>& queries)
+    : QueryGroup(std::move(name), kind) {
+  const std::span<const double> numbers = Queries(kind, queries).numbers;
+  numbers_.assign(numbers.begin(), numbers.end());
   runs_.push_back({0, {name_, 0}});
 }
 
 std::uint64_t QueryGroup::digest() const {
   std::uint64_t digest = 0xcbf29ce484222325U;
-  for (const Query& query : queries_) {
-    for (const double coordinate : query.coordinates) {
-      auto bytes = std::bit_cast<std::uint64_t>(coordinate);
-      for (int i = 0; i < 8; ++i, bytes >>= 8U) {
-        digest = (digest ^ (bytes & 0xFFU)) * 0x100000001b3U;
-      }
+  for (const double number : numbers_) {
+    auto bytes = std::bit_cast<std::uint64_t>(number);
+    for (int i = 0; i < 8; ++i, bytes >>= 8U) {
+      digest = (digest ^ (bytes & 0xFFU)) * 0x100000001b3U;
     }
   }
   return digest;
@@ -35,17 +36,20 @@ std::uint64_t QueryGroup::digest() const {
 
 void QueryGroup::read(QuerySource& source, const std::function<void(double)>& progress,
                       const std::function<bool()>& stopped) {
-  if (source.kind() != kind_) throw std::invalid_argument(source.name() + ": is of another kind");
+  if (source.shape() != shape_) {
+    throw std::invalid_argument(source.name() + ": is of another kind or on other curves");
+  }
   std::uint64_t expected = 0;
   bool first = true;
   while (const auto query = source.next()) {
     if (first || query->index != expected) {
-      runs_.push_back({queries_.size(), {source.name(), query->index}});
+      runs_.push_back({queries().size(), {source.name(), query->index}});
     }
     first = false;
     expected = query->index + 1;
-    queries_.push_back(query->query);
-    if (queries_.size() % reading_step != 0) continue;
+    const std::span<const double> numbers = std::as_const(query->query).numbers();
+    numbers_.insert(numbers_.end(), numbers.begin(), numbers.end());
+    if (queries().size() % reading_step != 0) continue;
     progress(source.progress());
     if (stopped()) return;
   }

@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file
-/// Queries of one kind in memory, from one or several sources, that are measured together.
+/// Queries of one shape in memory, from one or several sources, that are measured together.
 
 #include <cstddef>
 #include <cstdint>
@@ -20,25 +20,29 @@ struct QueryPlace {
   std::uint64_t index = 0;  ///< RecordedQuery::index
 };
 
-/// Queries of one kind with their origins.
+/// Queries of one shape with their origins.
 class QueryGroup {
  public:
-  QueryGroup(std::string name, Kind kind) : name_(std::move(name)), kind_(kind) {}
+  QueryGroup(std::string name, const QueryShape& shape) : name_(std::move(name)), shape_(shape) {}
+  /// On straight lines.
+  QueryGroup(std::string name, Kind kind) : QueryGroup(std::move(name), QueryShape{.kind = kind}) {}
 
   /// Generated queries: their source is the group, their index their position.
-  QueryGroup(std::string name, Kind kind, std::vector<Query> queries);
+  QueryGroup(std::string name, Kind kind, const std::vector<Query>& queries);
 
   [[nodiscard]] const std::string& name() const { return name_; }
-  [[nodiscard]] Kind kind() const { return kind_; }
-  [[nodiscard]] const std::vector<Query>& queries() const { return queries_; }
+  [[nodiscard]] const QueryShape& shape() const { return shape_; }
+  [[nodiscard]] Kind kind() const { return shape_.kind; }
+  /// By reference to the group, until it reads more.
+  [[nodiscard]] Queries queries() const { return {shape_, numbers_}; }
 
   /// A digest that distinguishes groups of different queries: FNV-1a, 64 bits, of the bytes of all
-  /// coordinates in their order.
+  /// numbers in their order.
   [[nodiscard]] std::uint64_t digest() const;
 
   /// Appends the queries of a source, up to its end or until `stopped`.
   /// \param progress called occasionally with the fraction of the source that is read.
-  /// \throws DatasetError as the source does, std::invalid_argument if it is of another kind.
+  /// \throws DatasetError as the source does, std::invalid_argument if it is of another shape.
   void read(QuerySource& source, const std::function<void(double)>& progress,
             const std::function<bool()>& stopped);
 
@@ -53,8 +57,8 @@ class QueryGroup {
   };
 
   std::string name_;
-  Kind kind_;
-  std::vector<Query> queries_;
+  QueryShape shape_;
+  std::vector<double> numbers_;
   std::vector<Run> runs_;
 };
 

@@ -3,9 +3,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
+#include <span>
+#include <string_view>
+#include <utility>
+#include <vector>
 
 #include "verify/generate/random.hpp"
-#include "verify/io/terminal.hpp"
 
 namespace touchstone::verify::generate {
 namespace {
@@ -64,6 +68,14 @@ class Draws {
     const auto b = static_cast<double>(random_.between(5, 7));
     return with_roots({a, b});
   }
+  /// Positive until the root.
+  Height falling() {
+    Height height = transversal();
+    if (height.control.front() < 0.0) {
+      for (double& c : height.control) c = -c;
+    }
+    return height;
+  }
   Height near_miss() {
     Height height = tangential_of_two();
     for (double& c : height.control) c += 0x1p-20;
@@ -96,35 +108,26 @@ class Draws {
   Random random_;
 };
 
-using Points = std::array<std::array<double, 3>, moving_points>;
-
-/// The control points and weights of the quarter of the unit circle.
+/// The control points of the quarter of the unit circle.
 constexpr std::array<std::array<double, 2>, 3> quarter_circle{{{1, 0}, {1, 1}, {0, 1}}};
-constexpr std::array<double, 3> quarter_weights{1, 1, 2};
 
-/// Appends the control points of a query: its shape at each, moved along a curve, and the weights
-/// of the quarter of a circle if the family is rational.
-template <class ShapeAt>
-void append(CurvedFamily& family, Draws& draws, const ShapeAt& shape_at) {
-  io::throw_if_interrupted();
-  for (std::size_t k = 0; k <= family.degree; ++k) {
+/// A query of these points at each control point, moved along a curve, with the weights of the
+/// quarter of a circle if it is rational.
+template <class PointsAt>
+base::AnyQuery moved_query(const QueryShape& shape, Draws& draws, const PointsAt& points_at) {
+  std::vector<double> numbers;
+  numbers.reserve(shape.numbers_of_query());
+  for (std::size_t k = 0; k <= shape.degree; ++k) {
     const std::array<double, 3> moved{draws.coordinate(), draws.coordinate(), draws.coordinate()};
-    const Points points = shape_at(k);
+    const Points points = points_at(k);
     for (const auto& point : points) {
       for (std::size_t axis = 0; axis < 3; ++axis) {
-        family.numbers.push_back(point.at(axis) + moved.at(axis));
+        numbers.push_back(point.at(axis) + moved.at(axis));
       }
-      if (family.is_rational) family.numbers.push_back(quarter_weights.at(k));
+      if (shape.is_rational) numbers.push_back(quarter_weights.at(k));
     }
   }
-}
-
-/// At this height above the middle of a triangle or an edge.
-Points above(Kind kind, double height) {
-  if (kind == Kind::vertex_face) {
-    return {{{1, 1, height}, {0, 0, 0}, {4, 0, 0}, {0, 4, 0}}};
-  }
-  return {{{-3, 0, height}, {2, 0, height}, {0, -2, 0}, {0, 3, 0}}};
+  return {shape, std::move(numbers)};
 }
 
 /// In a common plane, at this place beside the triangle (outside if positive), or before the end of
@@ -133,16 +136,6 @@ Points beside(Kind kind, double place) {
   if (kind == Kind::vertex_face) return {{{1, -place, 0}, {0, 0, 0}, {4, 0, 0}, {0, 4096, 0}}};
   return {{{1, place, 0}, {1, place + 4096, 0}, {0, 0, 0}, {4, 0, 0}}};
 }
-
-/// A rotation that is nearest to the other primitive at t = eighth/8.
-struct Rotation {
-  double eighth;
-  double scale;
-  /// 1, or −1 to turn the other way.
-  double direction;
-  /// The least distance by the radius.
-  double gap;
-};
 
 Rotation draw_rotation(Random& random, bool misses) {
   Rotation rotation{};
@@ -153,8 +146,96 @@ Rotation draw_rotation(Random& random, bool misses) {
   return rotation;
 }
 
-/// Control point k of a vertex that turns towards a triangle, or of an edge along the axis that
-/// turns towards a crossing one.
+/// The families of degree 2 and 3 of one construction.
+struct HeightConstruction {
+  std::array<std::string_view, 2> names;
+  std::string_view key;  ///< of the seed
+  std::string_view reason;
+  Verdicts verdicts;
+  Height (Draws::*height)();
+  Points (*place)(Kind, double) = &above;
+};
+
+constexpr std::array<HeightConstruction, 7> heights{
+    {{{"quadratic-transversal", "cubic-transversal"},
+      "transversal",
+      "The height over the inside is a product of known factors, with one root in [0,1].",
+      Verdicts::collisions,
+      &Draws::transversal},
+     {{"quadratic-tangential", "cubic-tangential"},
+      "tangential",
+      "The height is a product of known factors, with one double or triple root in [0,1].",
+      Verdicts::collisions,
+      &Draws::tangential},
+     {{"quadratic-at-start", "cubic-at-start"},
+      "at_start",
+      "The height has a factor t.",
+      Verdicts::collisions,
+      &Draws::at_start},
+     {{"quadratic-at-end", "cubic-at-end"},
+      "at_end",
+      "The height has a factor 1−t, and no other root in [0,1].",
+      Verdicts::collisions,
+      &Draws::at_end},
+     {{"quadratic-twice", "cubic-twice"},
+      "twice",
+      "The height has two roots in [0,1]: through and back.",
+      Verdicts::collisions,
+      &Draws::twice},
+     {{"quadratic-in-plane", "cubic-in-plane"},
+      "in_plane",
+      "All is in one plane: the vertex enters the triangle, or one edge comes into the other's "
+      "way, "
+      "at a known root.",
+      Verdicts::collisions,
+      &Draws::falling,
+      &beside},
+     {{"quadratic-near-miss", "cubic-near-miss"},
+      "near_miss",
+      "The height is a positive multiple of (8t−a)² plus 2^-20.",
+      Verdicts::no_collisions,
+      &Draws::near_miss}}};
+
+constexpr std::array<Family, 2> rotations{
+    {{"rotation-touch",
+      "A rotating point, or edge along the axis, touches a plane at a known time.",
+      Verdicts::collisions, 2, true},
+     {"rotation-miss", "The plane is beyond the circle by 2^-36 to 2^-10 of the radius.",
+      Verdicts::no_collisions, 2, true}}};
+
+data::RecordedQuery draw_height(const HeightConstruction& construction, const QueryShape& shape,
+                                Draws& draws, std::uint64_t index) {
+  const Height height = (draws.*construction.height)();
+  const auto points_at = [&](std::size_t k) {
+    return construction.place(shape.kind, height.control[k]);
+  };
+  return {.query = moved_query(shape, draws, points_at),
+          .index = index,
+          .collides = height.root.has_value(),
+          .toi = height.root};
+}
+
+data::RecordedQuery draw_turning(bool misses, const QueryShape& shape, Draws& draws,
+                                 std::uint64_t index) {
+  const Rotation rotation = draw_rotation(draws.random(), misses);
+  const auto points_at = [&](std::size_t k) { return turning(shape.kind, rotation, k); };
+  data::RecordedQuery result{.query = moved_query(shape, draws, points_at),
+                             .index = index,
+                             .collides = !misses,
+                             .toi = std::nullopt};
+  if (!misses) result.toi = rotation.eighth / eighths;
+  return result;
+}
+
+}  // namespace
+
+Points above(Kind kind, double height) {
+  if (kind == Kind::vertex_face) {
+    return {{{1, 1, height}, {0, 0, 0}, {4, 0, 0}, {0, 4, 0}}};
+  }
+  return {{{-3, 0, height}, {2, 0, height}, {0, -2, 0}, {0, 3, 0}}};
+}
+
 Points turning(Kind kind, const Rotation& rotation, std::size_t k) {
   const double square = rotation.eighth * rotation.eighth;
   const double normal_x = 64.0 - square, normal_y = 16.0 * rotation.eighth;
@@ -175,62 +256,38 @@ Points turning(Kind kind, const Rotation& rotation, std::size_t k) {
   return {turned(-3), turned(2), in_plane(-1, -1), in_plane(2, 1)};
 }
 
-CurvedFamily rotations(std::string_view name, Kind kind, bool misses, std::size_t count,
-                       std::uint64_t seed) {
-  CurvedFamily family{name, kind, 2, {}, {}, true};
-  Draws draws(family.degree, mix(seed + hash(name)));
-  for (std::size_t i = 0; i < count; ++i) {
-    const Rotation rotation = draw_rotation(draws.random(), misses);
-    append(family, draws, [&](std::size_t k) { return turning(kind, rotation, k); });
-    family.toi.push_back(misses ? std::nullopt : std::optional(rotation.eighth / eighths));
-  }
-  return family;
+std::span<const Family> curved_families() {
+  static const std::vector<Family> all = [] {
+    std::vector<Family> list;
+    for (const std::size_t degree : {2U, 3U}) {
+      for (const HeightConstruction& of : heights) {
+        list.push_back({of.names.at(degree - 2), of.reason, of.verdicts, degree});
+      }
+    }
+    list.insert(list.end(), rotations.begin(), rotations.end());
+    return list;
+  }();
+  return all;
 }
 
-using MakeHeight = Height (Draws::*)();
-
-struct CurvedRecipe {
-  std::string_view name;
-  MakeHeight make;
-};
-
-}  // namespace
-
-std::vector<CurvedFamily> curved_families(std::size_t degree, std::size_t count,
-                                          std::uint64_t seed) {
-  static constexpr std::array recipes{CurvedRecipe{"transversal", &Draws::transversal},
-                                      CurvedRecipe{"tangential", &Draws::tangential},
-                                      CurvedRecipe{"at_start", &Draws::at_start},
-                                      CurvedRecipe{"at_end", &Draws::at_end},
-                                      CurvedRecipe{"twice", &Draws::twice},
-                                      CurvedRecipe{"near_miss", &Draws::near_miss}};
-  std::vector<CurvedFamily> families;
-  for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
-    for (const auto& [name, make] : recipes) {
-      CurvedFamily& family = families.emplace_back(CurvedFamily{name, kind, degree, {}, {}});
-      Draws draws(degree, mix(seed + hash(name) + degree));
-      for (std::size_t i = 0; i < count; ++i) {
-        const Height height = (draws.*make)();
-        append(family, draws, [&](std::size_t k) { return above(kind, height.control[k]); });
-        family.toi.push_back(height.root);
-      }
-    }
-    CurvedFamily& plane = families.emplace_back(CurvedFamily{"in_plane", kind, degree, {}, {}});
-    Draws draws(degree, mix(seed + hash(plane.name) + degree));
-    for (std::size_t i = 0; i < count; ++i) {
-      // Outside until the root: the form falls from positive values.
-      Height place = draws.transversal();
-      if (place.control.front() < 0.0) {
-        for (double& c : place.control) c = -c;
-      }
-      append(plane, draws, [&](std::size_t k) { return beside(kind, place.control[k]); });
-      plane.toi.push_back(place.root);
-    }
-    if (degree != 2) continue;
-    families.push_back(rotations("rotation_touch", kind, false, count, seed));
-    families.push_back(rotations("rotation_miss", kind, true, count, seed));
+std::function<data::RecordedQuery(std::uint64_t)> curved_draws(const Family& family, Kind kind,
+                                                               std::uint64_t seed) {
+  const QueryShape shape{kind, family.degree, family.is_rational};
+  if (family.is_rational) {
+    const bool misses = family.verdicts == Verdicts::no_collisions;
+    const std::uint64_t state = mix(seed + hash(misses ? "rotation_miss" : "rotation_touch"));
+    return [=, draws = Draws(shape.degree, state)](std::uint64_t index) mutable {
+      return draw_turning(misses, shape, draws, index);
+    };
   }
-  return families;
+  const auto has_name = [&](const HeightConstruction& of) {
+    return of.names.at(shape.degree - 2) == family.name;
+  };
+  const HeightConstruction& of = *std::ranges::find_if(heights, has_name);
+  const std::uint64_t state = mix(seed + hash(of.key) + shape.degree);
+  return [=, &of, draws = Draws(shape.degree, state)](std::uint64_t index) mutable {
+    return draw_height(of, shape, draws, index);
+  };
 }
 
 }  // namespace touchstone::verify::generate

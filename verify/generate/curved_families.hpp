@@ -15,35 +15,43 @@
 /// an edge of the plane n·x = r² then, and misses one of the plane n·x = (1+g) r² by g r. All
 /// numbers are multiples of 2^-38 below 2^11.
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
-#include <optional>
-#include <string_view>
-#include <vector>
+#include <functional>
 
-#include "touchstone/curved_query.hpp"
 #include "touchstone/query.hpp"
+#include "verify/data/query_source.hpp"
+#include "verify/generate/families.hpp"
 
 namespace touchstone::verify::generate {
 
-struct CurvedFamily {
-  std::string_view name;
-  Kind kind;
-  std::size_t degree;
-  /// As CurvedQueries.
-  std::vector<double> numbers;
-  /// For each query the exact time of impact; nothing if it does not collide.
-  std::vector<std::optional<double>> toi;
-  bool is_rational = false;
+/// Draws query number `index` of a family on curves; to be called with 0, 1, 2, … in order.
+/// \pre the family is one of curved_families()
+[[nodiscard]] std::function<data::RecordedQuery(std::uint64_t index)> curved_draws(
+    const Family& family, Kind kind, std::uint64_t seed);
 
-  [[nodiscard]] CurvedQueries queries() const { return {degree, is_rational, numbers}; }
+/// The points of a query at a control point, before the whole is moved.
+using Points = std::array<std::array<double, 3>, moving_points>;
+
+/// At this height above the middle of a triangle or an edge.
+[[nodiscard]] Points above(Kind kind, double height);
+
+/// A rotation that is nearest to the other primitive at t = eighth/8.
+struct Rotation {
+  double eighth;
+  double scale;
+  /// 1, or −1 to turn the other way.
+  double direction;
+  /// The least distance by the radius; if it is negative, so far one goes through the other.
+  double gap;
 };
 
-/// So many queries of each family and kind: transversal, tangential, at_start, at_end, twice
-/// (through and back), in_plane (h = 0 throughout, the vertex enters the triangle, or one edge the
-/// other's way), near_miss (a tangent 2^-20 away), and of degree 2 rotation_touch and rotation_miss
-/// (by 2^-10 to 2^-36 of the radius). \pre degree 2 or 3
-[[nodiscard]] std::vector<CurvedFamily> curved_families(std::size_t degree, std::size_t count,
-                                                        std::uint64_t seed);
+/// Control point k of a vertex that turns towards a triangle, or of an edge along the axis that
+/// turns towards a crossing one.
+[[nodiscard]] Points turning(Kind kind, const Rotation& rotation, std::size_t k);
+
+/// The weights of the control points of a rotation.
+inline constexpr std::array<double, 3> quarter_weights{1, 1, 2};
 
 }  // namespace touchstone::verify::generate

@@ -1,11 +1,13 @@
 #include "verify/generate/families.hpp"
 
 #include <algorithm>
+#include <functional>
 #include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "verify/generate/curved_families.hpp"
 #include "verify/generate/family_builder.hpp"
 #include "verify/generate/random.hpp"
 
@@ -46,6 +48,12 @@ const Definition& find_definition(std::string_view name) {
     if (found != list.end()) return *found;
   }
   throw std::invalid_argument("no family is named " + std::string(name));
+}
+
+/// The family on curves of that name; null if there is none.
+const Family* find_curved(std::string_view name) {
+  const auto found = std::ranges::find(curved_families(), name, &Family::name);
+  return found == curved_families().end() ? nullptr : &*found;
 }
 
 bool is_about_separation(const Definition& definition) {
@@ -102,26 +110,28 @@ KnownQuery build(const Definition& definition, Kind kind, std::uint64_t seed, st
   }
 }
 
+/// Draws the queries of a family from its first one on.
+using Draw = std::function<data::RecordedQuery(std::uint64_t index)>;
+
 /// The stream of queries of open_family.
 class FamilySource final : public data::QuerySource {
  public:
-  FamilySource(const Definition& definition, Kind kind, std::uint64_t seed, std::uint64_t count,
-               const Separation& separation)
-      : definition_(definition),
-        name_(definition.family.name),
-        kind_(kind),
-        seed_(seed),
+  /// \param separation of its truth
+  FamilySource(const Family& family, Kind kind, std::uint64_t count, const Separation& separation,
+               Draw draw)
+      : name_(family.name),
+        shape_{kind, family.degree, family.is_rational},
         count_(count),
-        separation_(is_about_separation(definition) ? separation : Separation{}) {}
+        separation_(separation),
+        draw_(std::move(draw)) {}
 
   [[nodiscard]] const std::string& name() const override { return name_; }
-  [[nodiscard]] Kind kind() const override { return kind_; }
+  [[nodiscard]] QueryShape shape() const override { return shape_; }
   [[nodiscard]] Separation recorded_separation() const override { return separation_; }
 
   [[nodiscard]] std::optional<data::RecordedQuery> next() override {
     if (index_ == count_) return std::nullopt;
-    KnownQuery known = build(definition_, kind_, seed_, index_, separation_);
-    return data::RecordedQuery{known.query, index_++, known.collides, std::move(known.toi)};
+    return draw_(index_++);
   }
 
   [[nodiscard]] double progress() const override {
@@ -129,12 +139,11 @@ class FamilySource final : public data::QuerySource {
   }
 
  private:
-  const Definition& definition_;
   std::string name_;
-  Kind kind_;
-  std::uint64_t seed_;
+  QueryShape shape_;
   std::uint64_t count_;
   Separation separation_;
+  Draw draw_;
   std::uint64_t index_ = 0;
 };
 
@@ -166,23 +175,52 @@ std::vector<Family> families(const Separation& separation) {
   return list;
 }
 
-const Family& family_from_name(std::string_view name) { return find_definition(name).family; }
+std::vector<Family> families(const Separation& separation, std::span<const std::string> degrees) {
+  std::vector<Family> list = families(separation);
+  list.insert(list.end(), curved_families().begin(), curved_families().end());
+  std::erase_if(list, [&](const Family& family) {
+    return std::ranges::find(degrees, degree_text(family)) == degrees.end();
+  });
+  return list;
+}
+
+std::string degree_text(const Family& family) {
+  return family.is_rational ? "rational" : std::to_string(family.degree);
+}
+
+const Family& family_from_name(std::string_view name) {
+  const Family* const curved = find_curved(name);
+  return curved != nullptr ? *curved : find_definition(name).family;
+}
 
 bool supports(const Family& family, Kind kind) {
+  if (find_curved(family.name) != nullptr) return true;
   const Definition& definition = find_definition(family.name);
   return kind == Kind::vertex_face ? definition.vertex_face : definition.edge_edge;
 }
 
 KnownQuery make_query(const Family& family, Kind kind, std::uint64_t seed, std::uint64_t index,
                       const Separation& separation) {
+  if (find_curved(family.name) != nullptr) {
+    throw std::invalid_argument(std::string(family.name) + " is on curves");
+  }
   const Definition& definition = find_definition(family, kind, separation);
   return build(definition, kind, seed, index, separation);
 }
 
 std::unique_ptr<data::QuerySource> open_family(const Family& family, Kind kind, std::uint64_t seed,
                                                std::uint64_t count, const Separation& separation) {
+  if (const Family* const curved = find_curved(family.name)) {
+    return std::make_unique<FamilySource>(*curved, kind, count, Separation{},
+                                          curved_draws(*curved, kind, seed));
+  }
   const Definition& definition = find_definition(family, kind, separation);
-  return std::make_unique<FamilySource>(definition, kind, seed, count, separation);
+  const Separation about = is_about_separation(definition) ? separation : Separation{};
+  const auto draw = [&definition, kind, seed, about](std::uint64_t index) {
+    KnownQuery known = build(definition, kind, seed, index, about);
+    return data::RecordedQuery{{kind, known.query}, index, known.collides, std::move(known.toi)};
+  };
+  return std::make_unique<FamilySource>(definition.family, kind, count, about, draw);
 }
 
 }  // namespace touchstone::verify::generate

@@ -25,6 +25,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -81,6 +82,14 @@ struct KnownQuery {
 /// All families on curves (curved_families.hpp), of degree 2, of degree 3, and rational, always in
 /// the same order.
 [[nodiscard]] std::span<const Family> curved_families();
+
+/// The families whose degree_text is among `degrees`: those for a separation, then those on curves,
+/// whose truth refers to distance 0.
+[[nodiscard]] std::vector<Family> families(const Separation& separation,
+                                           std::span<const std::string> degrees);
+
+/// "1", "2", "3" or "rational".
+[[nodiscard]] std::string degree_text(const Family& family);
 
 /// The family of that name, about contact, about a separation or on curves.
 /// \throws std::invalid_argument if there is none.

@@ -8,6 +8,7 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include "touchstone/certified.hpp"
 #include "verify/generate/decimal.hpp"
@@ -15,6 +16,7 @@
 #include "verify/generate/family_builder.hpp"
 #include "verify/generate/grid.hpp"
 #include "verify/generate/random.hpp"
+#include "verify/stability/hard_curves.hpp"
 
 namespace touchstone::verify::stability {
 namespace {
@@ -39,58 +41,80 @@ enum Index : std::size_t {
   everyday_scale,
   digits,
   ends,
-  frame
+  frame,
+  curve_distance,
+  rotation_distance,
+  curve_degree
 };
 
-constexpr std::array<Hardness, 10> all{{
-    {"distance",
-     "distance to contact, in sizes",
-     "At the nearest they are so far apart, or overlap by so little: the motion ends there, or one "
-     "passes beside the other's border.",
-     {-1, -5, -10, -15, -20, -25, -30, -35, -40, -45, -50}},
-    {"aspect",
-     "triangle: height by longest side; edges: shorter by longer",
-     "Needles, and edges of very different length.",
-     {0, -4, -8, -12, -16, -20, -24, -28, -32, -36, -40}},
-    {"angle",
-     "tangent of the angle to parallel",
-     "Edges that are nearly parallel; a vertex that moves nearly along the plane of the triangle.",
-     {-1, -4, -8, -12, -16, -20, -24, -28, -32, -36, -40}},
-    {"speed",
-     "relative motion, in sizes",
-     "Slow and fast motion, of the first primitive.",
-     {-40, -32, -24, -16, -8, 0, 8, 16, 24, 32, 40}},
-    {"offset",
-     "distance from the origin, in sizes",
-     "Few bits of the coordinates are left for the shape.",
-     {0, 4, 8, 12, 16, 20, 24, 28, 32, 36, 40}},
-    {"scale",
-     "factor of all coordinates, and of the separation",
-     "From near the smallest doubles to near the greatest.",
-     {-1000, -800, -600, -400, -200, 0, 200, 400, 600, 800, 1000}},
-    {"everyday-scale",
-     "factor of all coordinates, and of the separation",
-     "Contacts at the ends of the step, in decimals times a power of two.",
-     {-20, -16, -12, -8, -4, 0, 4, 8, 12, 16, 20}},
-    {"digits",
-     "significant digits of coordinates",
-     "Contacts at the ends of the step, in decimals of so many digits.",
-     {1, 2, 3, 4, 5, 6, 7, 9, 11, 13, 15},
-     LevelUnit::digits},
-    {"ends",
-     "share of contacts at t=0 and t=1, of the collisions",
-     "Other collisions cross in the middle of the step.",
-     {0, 10, 20, 30, 40, 50, 60, 70, 80, 90, 100},
-     LevelUnit::percent},
-    {"frame",
-     "offset of the local frame, in sizes",
-     "Contacts at the ends of the step, in decimals to which an offset is added and rounded.",
-     {0, 4, 8, 12, 16, 20, 24, 28, 32, 36, 40}},
-}};
+const std::array<Hardness, 13>& all() {
+  static const std::array<Hardness, 13> list{{
+      {"distance",
+       "distance to contact, in sizes",
+       "At the nearest they are so far apart, or overlap by so little: the motion ends there, or "
+       "one "
+       "passes beside the other's border.",
+       {-1, -5, -10, -15, -20, -25, -30, -35, -40, -45, -50}},
+      {"aspect",
+       "triangle: height by longest side; edges: shorter by longer",
+       "Needles, and edges of very different length.",
+       {0, -4, -8, -12, -16, -20, -24, -28, -32, -36, -40}},
+      {"angle",
+       "tangent of the angle to parallel",
+       "Edges that are nearly parallel; a vertex that moves nearly along the plane of the "
+       "triangle.",
+       {-1, -4, -8, -12, -16, -20, -24, -28, -32, -36, -40}},
+      {"speed",
+       "relative motion, in sizes",
+       "Slow and fast motion, of the first primitive.",
+       {-40, -32, -24, -16, -8, 0, 8, 16, 24, 32, 40}},
+      {"offset",
+       "distance from the origin, in sizes",
+       "Few bits of the coordinates are left for the shape.",
+       {0, 4, 8, 12, 16, 20, 24, 28, 32, 36, 40}},
+      {"scale",
+       "factor of all coordinates, and of the separation",
+       "From near the smallest doubles to near the greatest.",
+       {-1000, -800, -600, -400, -200, 0, 200, 400, 600, 800, 1000}},
+      {"everyday-scale",
+       "factor of all coordinates, and of the separation",
+       "Contacts at the ends of the step, in decimals times a power of two.",
+       {-20, -16, -12, -8, -4, 0, 4, 8, 12, 16, 20}},
+      {"digits",
+       "significant digits of coordinates",
+       "Contacts at the ends of the step, in decimals of so many digits.",
+       {1, 2, 3, 4, 5, 6, 7, 9, 11, 13, 15},
+       LevelUnit::digits},
+      {"ends",
+       "share of contacts at t=0 and t=1, of the collisions",
+       "Other collisions cross in the middle of the step.",
+       {0, 10, 20, 30, 40, 50, 60, 70, 80, 90, 100},
+       LevelUnit::percent},
+      {"frame",
+       "offset of the local frame, in sizes",
+       "Contacts at the ends of the step, in decimals to which an offset is added and rounded.",
+       {0, 4, 8, 12, 16, 20, 24, 28, 32, 36, 40}},
+      {"curve-distance",
+       "distance to contact, in sizes",
+       "Cubic curves: at the nearest they are so far apart, or overlap by so little.",
+       {-8, -11, -14, -17, -20, -23, -26, -29, -32, -35, -38}},
+      {"rotation-distance",
+       "distance to contact, by the radius",
+       "Rotations as rational curves: at the nearest they are so far apart, or overlap by so "
+       "little.",
+       {-6, -9, -12, -15, -18, -21, -24, -27, -30, -33, -36}},
+      {"curve-degree",
+       "degree of the curves",
+       "They touch at one time, or are 2^-20 sizes apart then.",
+       {2, 3, 4, 5, 6, 7, 8},
+       LevelUnit::degree},
+  }};
+  return list;
+}
 
 std::size_t index_of(const Hardness& hardness) {
-  return static_cast<std::size_t>(std::ranges::find(all, hardness.name, &Hardness::name) -
-                                  all.begin());
+  return static_cast<std::size_t>(std::ranges::find(all(), hardness.name, &Hardness::name) -
+                                  all().begin());
 }
 
 /// The properties of a class of queries, in units of the frame.
@@ -339,6 +363,36 @@ Query draw_query(const HardSort& sort, bool collides, const Separation& separati
   return known.query;
 }
 
+// ---- Curves -------------------------------------------------------------------------------------
+
+bool is_on_curves(const Hardness& hardness) { return index_of(hardness) >= Index::curve_distance; }
+
+QueryShape shape_of(const HardSort& sort) {
+  switch (index_of(*sort.hardness)) {
+    case Index::curve_distance:
+      return {.kind = sort.kind, .degree = 3};
+    case Index::rotation_distance:
+      return {.kind = sort.kind, .degree = 2, .is_rational = true};
+    case Index::curve_degree:
+      return {.kind = sort.kind, .degree = static_cast<std::size_t>(sort.level)};
+    default:
+      return {.kind = sort.kind};
+  }
+}
+
+base::AnyQuery draw_curves(const HardSort& sort, bool collides, Random& random) {
+  constexpr double curve_size = 4.0;  // of a side of the triangle
+  const double sign = collides ? -1.0 : 1.0;
+  const QueryShape shape = shape_of(sort);
+  if (shape.is_rational) {
+    return hard_rotation(sort.kind, sign * std::ldexp(1.0, sort.level), random);
+  }
+  if (index_of(*sort.hardness) == Index::curve_distance) {
+    return hard_curves(sort.kind, shape.degree, sign * std::ldexp(curve_size, sort.level), random);
+  }
+  return hard_curves(sort.kind, shape.degree, collides ? 0.0 : curve_size * 0x1p-20, random);
+}
+
 void check(const HardSort& sort) {
   const auto& levels = sort.hardness->levels;
   if (std::ranges::find(levels, sort.level) == levels.end()) {
@@ -347,6 +401,9 @@ void check(const HardSort& sort) {
   }
   if (!has_hard_queries(sort.separation)) {
     throw std::invalid_argument("hard queries are about separations up to 16384");
+  }
+  if (is_on_curves(*sort.hardness) && !is_zero(sort.separation)) {
+    throw std::invalid_argument(fmt::format("{} is about distance 0 alone", sort.hardness->name));
   }
 }
 
@@ -367,15 +424,17 @@ class HardSource final : public data::QuerySource {
         name_(fmt::format("{} {}", sort.hardness->name, level_text(*sort.hardness, sort.level))) {}
 
   [[nodiscard]] const std::string& name() const override { return name_; }
-  [[nodiscard]] Kind kind() const override { return sort_.kind; }
+  [[nodiscard]] QueryShape shape() const override { return shape_of(sort_); }
   [[nodiscard]] Separation recorded_separation() const override {
     return separation_at(*sort_.hardness, sort_.level, sort_.separation);
   }
   [[nodiscard]] std::optional<data::RecordedQuery> next() override {
     if (done_ == count_) return std::nullopt;
-    const HardQuery made = make_hard_query(sort_, seed_, done_);
-    return data::RecordedQuery{
-        .query = made.query, .index = done_++, .collides = made.collides, .toi = std::nullopt};
+    HardQuery made = make_hard_query(sort_, seed_, done_);
+    return data::RecordedQuery{.query = std::move(made.query),
+                               .index = done_++,
+                               .collides = made.collides,
+                               .toi = std::nullopt};
   }
   [[nodiscard]] double progress() const override {
     return static_cast<double>(done_) / static_cast<double>(count_);
@@ -391,11 +450,15 @@ class HardSource final : public data::QuerySource {
 
 }  // namespace
 
-std::span<const Hardness> hardnesses() { return all; }
+std::span<const Hardness> hardnesses() { return std::span(all()).first(Index::curve_distance); }
+
+std::span<const Hardness> curve_hardnesses() {
+  return std::span(all()).subspan(Index::curve_distance);
+}
 
 const Hardness& hardness_from_name(std::string_view name) {
   std::string known;
-  for (const Hardness& hardness : all) {
+  for (const Hardness& hardness : all()) {
     if (hardness.name == name) return hardness;
     known += fmt::format("{}{}", known.empty() ? "" : ", ", hardness.name);
   }
@@ -412,6 +475,8 @@ std::string level_text(const Hardness& hardness, int level) {
       return fmt::format("{} digits", level);
     case LevelUnit::percent:
       return fmt::format("{} %", level);
+    case LevelUnit::degree:
+      return fmt::format("degree {}", level);
     default:
       return fmt::format("2^{}", level);
   }
@@ -432,11 +497,13 @@ HardQuery make_hard_query(const HardSort& sort, std::uint64_t seed, std::uint64_
   const Separation separation = separation_at(*sort.hardness, sort.level, sort.separation);
   const bool wanted = index % 2 == 0;
   Random random(key_of(sort, seed, index));
+  if (is_on_curves(*sort.hardness)) return {draw_curves(sort, wanted, random), wanted};
   HardQuery made;
   for (int attempt = 0; attempt < most_attempts; ++attempt) {
-    made.query = draw_query(sort, wanted, separation, attempt, random);
-    made.collides = fast::solve(sort.kind, made.query, {.separation = separation}).verdict ==
-                    fast::Verdict::yes;
+    const Query query = draw_query(sort, wanted, separation, attempt, random);
+    made = {
+        {sort.kind, query},
+        fast::solve(sort.kind, query, {.separation = separation}).verdict == fast::Verdict::yes};
     if (made.collides == wanted) break;
   }
   return made;

@@ -25,19 +25,22 @@
 /// or t=1, and whose other queries have the least possible clearance. They have size 1/10, times
 /// the level's factor if it has one.
 ///
+/// Three kinds are about curves (hard_curves.hpp), at distance 0 alone.
+///
 /// With a separation, contact is at that distance, except in scenes of decimals; the size is at
 /// least 16 times as much. Irrational lengths are then rounded to the grid of the frame, so each
 /// query is decided after its construction, and constructed again, at most sixteen times, until it
 /// has the intended verdict.
 
-#include <array>
 #include <cstdint>
 #include <memory>
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "touchstone/query.hpp"
+#include "verify/base/any_query.hpp"
 #include "verify/data/query_source.hpp"
 
 namespace touchstone::verify::stability {
@@ -46,7 +49,8 @@ namespace touchstone::verify::stability {
 enum class LevelUnit : std::uint8_t {
   power_of_two,  ///< the exponent
   digits,        ///< decimal digits
-  percent
+  percent,
+  degree  ///< of curves
 };
 
 /// A kind of difficulty.
@@ -58,21 +62,24 @@ struct Hardness {
   /// A description of its queries.
   std::string_view reason;
   /// In order.
-  std::array<int, 11> levels;
+  std::vector<int> levels;
   LevelUnit unit = LevelUnit::power_of_two;
 };
 
-/// All kinds, always in the same order.
+/// All kinds on straight lines, always in the same order.
 [[nodiscard]] std::span<const Hardness> hardnesses();
 
-/// The kind of difficulty with that name.
+/// All kinds on curves, always in the same order.
+[[nodiscard]] std::span<const Hardness> curve_hardnesses();
+
+/// The kind of difficulty with that name, on straight lines or on curves.
 /// \throws std::invalid_argument, listing the valid names, if there is none.
 [[nodiscard]] const Hardness& hardness_from_name(std::string_view name);
 
-/// "2^-20", "6 digits" or "30 %".
+/// "2^-20", "6 digits", "30 %" or "degree 3".
 [[nodiscard]] std::string level_text(const Hardness& hardness, int level);
 
-/// The power of two, the number of digits, or the percentage.
+/// The power of two, the number of digits, the percentage, or the degree.
 [[nodiscard]] double level_value(const Hardness& hardness, int level);
 
 /// True if there are queries for this separation: for distances up to 2^14.
@@ -91,20 +98,20 @@ struct HardSort {
   Separation separation = {};  ///< as requested, before separation_at()
 };
 
-/// A query with the verdict of the certified solver.
+/// A query with the verdict of the certified solver, or on curves with that of its construction.
 struct HardQuery {
-  Query query{};
+  base::AnyQuery query;
   bool collides = false;
 };
 
 /// Query number `index`: a function of the arguments alone, the same on every machine. Even numbers
 /// collide and odd ones do not, up to the last bits of queries about a separation.
 /// \throws std::invalid_argument if the kind does not have the level, or there are no queries for
-/// the separation.
+/// the separation: on curves, for any but 0.
 [[nodiscard]] HardQuery make_hard_query(const HardSort& sort, std::uint64_t seed,
                                         std::uint64_t index);
 
-/// The queries 0 to count−1 as a stream, labelled with the verdicts of the certified solver. Its
+/// The queries 0 to count−1 as a stream, labelled with these verdicts. Its
 /// name is kind and level, "distance 2^-20"; its recorded separation is that of separation_at().
 [[nodiscard]] std::unique_ptr<data::QuerySource> open_hard_queries(const HardSort& sort,
                                                                    std::uint64_t seed,

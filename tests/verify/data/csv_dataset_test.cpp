@@ -189,9 +189,9 @@ TEST(CsvDataset, CoordinatesMayBeDecimalsInOneColumnOrTwo) {
     const Survivors kept = survivors(text);
     ASSERT_EQ(kept.records.size(), 1U) << text;
     for (std::size_t point = 0; point < 8; ++point) {
-      EXPECT_EQ(kept.records[0].query.at(point / 4, point % 4, 0), -0.75);
-      EXPECT_EQ(kept.records[0].query.at(point / 4, point % 4, 1), 0.25);
-      EXPECT_EQ(kept.records[0].query.at(point / 4, point % 4, 2), 300.0);
+      EXPECT_EQ(kept.records[0].query.straight().at(point / 4, point % 4, 0), -0.75);
+      EXPECT_EQ(kept.records[0].query.straight().at(point / 4, point % 4, 1), 0.25);
+      EXPECT_EQ(kept.records[0].query.straight().at(point / 4, point % 4, 2), 300.0);
     }
     EXPECT_EQ(kept.records[0].collides.has_value(), text.ends_with(",1\n") && text != six);
   }
@@ -260,9 +260,9 @@ TEST(CsvDataset, RoundsOnlyWhereAskedAndCounts) {
   const auto source = open_dataset(path, options);
   const auto records = read_all(*source);
   ASSERT_EQ(records.size(), 2U);
-  EXPECT_EQ(records[0].query.at(0, 3, 0), 1.0 / 3.0);
-  EXPECT_EQ(records[0].query.at(0, 3, 1), 2.0);
-  EXPECT_EQ(records[0].query.at(0, 3, 2), -2.0 / 3.0);
+  EXPECT_EQ(records[0].query.straight().at(0, 3, 0), 1.0 / 3.0);
+  EXPECT_EQ(records[0].query.straight().at(0, 3, 1), 2.0);
+  EXPECT_EQ(records[0].query.straight().at(0, 3, 2), -2.0 / 3.0);
   EXPECT_EQ(source->rounded(), 2U) << "the rounding in the query left out does not count";
   EXPECT_EQ(source->skipped(), 1U);
   EXPECT_EQ(strict_error(joined(lines)), "4:1: not exactly a double (--round takes the nearest)");
@@ -335,7 +335,7 @@ TEST(CsvWriter, WhatIsReadBackIsWhatWasWritten) {
   const auto records = read_all(source);
   ASSERT_EQ(records.size(), queries.size());
   for (std::size_t i = 0; i < queries.size(); ++i) {
-    EXPECT_EQ(records[i].query, queries[i]);
+    EXPECT_EQ(records[i].query.straight(), queries[i]);
     EXPECT_EQ(records[i].index, i);
     EXPECT_EQ(records[i].collides, std::optional(i % 3 == 0));
   }

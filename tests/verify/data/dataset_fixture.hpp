@@ -175,7 +175,7 @@ inline void expect_numbered(const std::vector<RecordedQuery>& records,
   ASSERT_EQ(records.size(), indices.size());
   for (std::size_t i = 0; i < records.size(); ++i) {
     EXPECT_EQ(records[i].index, indices[i]);
-    EXPECT_EQ(records[i].query, numbered_query(indices[i]));
+    EXPECT_EQ(records[i].query.straight(), numbered_query(indices[i]));
   }
 }
 

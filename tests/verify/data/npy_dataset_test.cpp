@@ -187,7 +187,7 @@ TEST_F(NpzQueries, AreReadWithTheirLabels) {
         EXPECT_EQ(records[i].index, i);
         EXPECT_EQ(records[i].collides, i % 3 == 0);
         for (std::size_t k = 0; k < size; ++k) {
-          EXPECT_EQ(records[i].query.coordinates.at(k),
+          EXPECT_EQ(records[i].query.straight().coordinates.at(k),
                     static_cast<double>(i) + static_cast<double>(k) / 32);
         }
       }
@@ -212,7 +212,9 @@ TEST_F(NpzQueries, OfAnotherShapeOrTypeAreErrors) {
   const std::vector<double> numbers = coordinates<double>(2);
   const std::string queries = tests::array("<f8", {2, 8, 3}, numbers);
   EXPECT_EQ(error_with({{"queries.npy", tests::array("<f8", {16, 3}, numbers)}}),
-            "a_ee.npz: queries: shape (16, 3), expected (N, 8, 3)");
+            "a_ee.npz: queries: shape (16, 3), expected (N, 8, 3), or (N, K+1, 4, 3) for curves of "
+            "degree "
+            "K up to 8, or (N, K+1, 4, 4) with weights");
   EXPECT_EQ(error_with({{"queries.npy", tests::array("<f8", {3, 8, 3}, numbers)}}),
             "a_ee.npz: queries: 384 bytes of data do not fit shape (3, 8, 3) of dtype \"<f8\"");
   const std::vector<std::uint8_t> labels{1};

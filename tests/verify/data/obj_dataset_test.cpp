@@ -38,9 +38,9 @@ TEST(ObjDataset, ReadsEightVerticesAQueryAndNothingElse) {
     EXPECT_FALSE(records[query].collides.has_value());
     for (std::size_t point = 0; point < 8; ++point) {
       const std::size_t at = 3 * point;
-      EXPECT_EQ(records[query].query.coordinates.at(at), static_cast<double>(point));
-      EXPECT_EQ(records[query].query.coordinates.at(at + 1), static_cast<double>(query));
-      EXPECT_EQ(records[query].query.coordinates.at(at + 2), -0.25);
+      EXPECT_EQ(records[query].query.straight().coordinates.at(at), static_cast<double>(point));
+      EXPECT_EQ(records[query].query.straight().coordinates.at(at + 1), static_cast<double>(query));
+      EXPECT_EQ(records[query].query.straight().coordinates.at(at + 2), -0.25);
     }
   }
 }
@@ -78,7 +78,7 @@ TEST(ObjDataset, RoundsWhereItIsAsked) {
   std::string text = vertices(0);
   text.replace(0, 3, "v 0.1");
   ObjDataset source(folder.file("a.obj", text), {.kind = Kind::edge_edge, .round = true});
-  EXPECT_EQ(read_all(source).front().query.coordinates.front(), 0.1);
+  EXPECT_EQ(read_all(source).front().query.straight().coordinates.front(), 0.1);
   EXPECT_EQ(source.rounded(), 1U);
 }
 

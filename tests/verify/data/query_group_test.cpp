@@ -24,7 +24,8 @@ std::vector<RecordedQuery> recorded(const std::vector<std::uint64_t>& indices) {
   std::vector<RecordedQuery> queries;
   queries.reserve(indices.size());
   for (const std::uint64_t index : indices) {
-    queries.push_back({query_number(static_cast<double>(index)), index, std::nullopt, {}});
+    queries.push_back(
+        {{Kind::edge_edge, query_number(static_cast<double>(index))}, index, std::nullopt, {}});
   }
   return queries;
 }
@@ -46,7 +47,7 @@ TEST(QueryGroup, KnowsWhereItsQueriesComeFrom) {
   for (std::size_t i = 0; i < 6; ++i) {
     const QueryPlace place = group.place_of(i);
     EXPECT_EQ(place.source, "memory");
-    EXPECT_EQ(static_cast<double>(place.index), group.queries()[i].coordinates[0]) << i;
+    EXPECT_EQ(static_cast<double>(place.index), group.queries().row(i)[0]) << i;
   }
 }
 
@@ -80,8 +81,8 @@ TEST(QueryGroup, StopsReadingWhenAskedAndTellsHowFarItIs) {
 
 TEST(QueryGroup, HasADigestOfItsQueriesInTheirOrder) {
   const Query zero{}, one{{1}};
-  const auto digest = [](std::vector<Query> queries) {
-    return QueryGroup("a", Kind::vertex_face, std::move(queries)).digest();
+  const auto digest = [](const std::vector<Query>& queries) {
+    return QueryGroup("a", Kind::vertex_face, queries).digest();
   };
   // The digest of no data is the published offset basis of FNV-1a.
   EXPECT_EQ(digest({}), 0xcbf29ce484222325U);

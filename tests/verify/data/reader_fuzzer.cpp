@@ -61,8 +61,8 @@ class MemoryFile {
 };
 
 /// Checks that a query is finite and reads back from its text.
-void check_query(const Query& query) {
-  for (const double x : query.coordinates) {
+void check_query(const touchstone::verify::base::AnyQuery& query) {
+  for (const double x : query.numbers()) {
     require(std::isfinite(x));
     std::string text;
     touchstone::verify::io::append_coordinate(text, x);

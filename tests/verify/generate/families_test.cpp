@@ -2,7 +2,8 @@
 /// Checks of the built-in families by rational arithmetic written here, not by an oracle: at chosen
 /// rational times the hull of the corners contains zero or not, by the three sign rules for a
 /// triangle. The times are random, just before the claimed time of impact, and all rational times
-/// at which a coordinate of a corner vanishes, where degenerate contacts are.
+/// at which a coordinate of a corner vanishes, where degenerate contacts are. Families on curves
+/// are checked by the oracle.
 
 #include "verify/generate/families.hpp"
 
@@ -10,6 +11,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstring>
 #include <random>
@@ -21,6 +23,7 @@
 #include "tests/support/contact_function.hpp"
 #include "tests/support/trials.hpp"
 #include "touchstone/number.hpp"
+#include "touchstone/oracle.hpp"
 #include "touchstone/query.hpp"
 
 namespace touchstone::verify::generate::families_test {
@@ -458,6 +461,73 @@ TEST(Families, ExtremeRangeReachesBothEndsOfTheDoubles) {
   EXPECT_GT(largest, 1.7e308);
   EXPECT_EQ(smallest, 0x1p-1074);
   EXPECT_GT(overflows, tests::trials(100U));
+}
+
+// ---- On curves ----------------------------------------------------------------------------------
+
+/// Calls use(family, record) for the first queries of every family on curves and kind.
+template <class Use>
+void for_each_curved_query(std::uint64_t count, const Use& use) {
+  for (const Family& family : curved_families()) {
+    for (const Kind kind : kinds) {
+      SCOPED_TRACE(std::string(family.name) + " " + std::string(to_string(kind)));
+      const auto source = open_family(family, kind, seed, count);
+      EXPECT_EQ(source->name(), family.name);
+      EXPECT_EQ(source->shape(), (QueryShape{kind, family.degree, family.is_rational}));
+      std::uint64_t drawn = 0;
+      while (const auto record = source->next()) {
+        EXPECT_EQ(record->index, drawn++);
+        use(family, *record);
+      }
+      EXPECT_EQ(drawn, count);
+    }
+  }
+}
+
+TEST(CurvedFamilies, AreFoundByNameAndByDegree) {
+  std::set<std::string_view> names;
+  for (const auto list : {families(), separation_families(), curved_families()}) {
+    for (const Family& family : list) {
+      EXPECT_TRUE(names.insert(family.name).second) << family.name;
+      EXPECT_EQ(family_from_name(family.name).reason, family.reason);
+    }
+  }
+  for (const Family& family : curved_families()) {
+    EXPECT_THROW((void)make_query(family, Kind::edge_edge, seed, 0), std::invalid_argument);
+  }
+  const auto count = [](const std::vector<std::string>& degrees) {
+    return families({}, degrees).size();
+  };
+  EXPECT_EQ(count({"1"}), families().size());
+  EXPECT_EQ(count({"2"}), 7U);
+  EXPECT_EQ(count({"rational", "3"}), 9U);
+  EXPECT_EQ(count({"1", "2", "3", "rational"}), families().size() + curved_families().size());
+}
+
+TEST(CurvedFamilies, TellTheTruthSaysTheOracle) {
+  for_each_curved_query(
+      tests::trials(8U), [](const Family& family, const data::RecordedQuery& record) {
+        const exact::Decision truth = exact::decide(record.query.queries(), 0);
+        EXPECT_EQ(record.collides, std::optional(truth.collides()));
+        EXPECT_EQ(record.collides, std::optional(family.verdicts == Verdicts::collisions));
+        ASSERT_EQ(record.toi.has_value(), truth.collides());
+        if (record.toi) {
+          EXPECT_TRUE(*truth.toi == *record.toi);
+        }
+      });
+}
+
+/// As Families.DrawTheSameBitsEverywhere, with the times of impact.
+TEST(CurvedFamilies, DrawTheSameBitsEverywhere) {
+  std::uint64_t digest = 0xcbf29ce484222325ULL;
+  const auto add = [&](double x) {
+    digest = (digest ^ std::bit_cast<std::uint64_t>(x)) * 0x100000001b3ULL;
+  };
+  for_each_curved_query(120, [&](const Family&, const data::RecordedQuery& record) {
+    for (const double x : record.query.numbers()) add(x);
+    add(record.toi ? record.toi->get_d() : -1.0);
+  });
+  EXPECT_EQ(digest, 10030151229226999845ULL);
 }
 
 }  // namespace

@@ -86,7 +86,7 @@ TEST(Workload, EndContactsAreAtTheEnd) {
             end_contacts(kind, {.scale = scale, .two_decimals = two_decimals, .count = 50});
         ASSERT_EQ(group.queries().size(), 50U);
         double greatest = 0.0;
-        for (const Query& query : group.queries()) {
+        for (const Query& query : group.queries().straight()) {
           const exact::Decision truth = exact::decide(kind, query);
           ASSERT_TRUE(truth.collides());
           for (const double x : query.coordinates) {
@@ -112,7 +112,7 @@ TEST(Workload, TheBuiltInSetIsThatOfTheFamilies) {
       if (!supports(family, kind)) continue;
       for (std::uint64_t index = 0; index < 3; ++index, ++position) {
         ASSERT_LT(position, group.queries().size());
-        EXPECT_EQ(group.queries()[position], make_query(family, kind, 7, index).query);
+        EXPECT_EQ(group.queries().straight()[position], make_query(family, kind, 7, index).query);
         EXPECT_EQ(group.place_of(position).source, family.name);
         EXPECT_EQ(group.place_of(position).index, index);
       }

@@ -43,7 +43,7 @@ void for_each_query(std::string_view name, std::uint64_t count, const Use& use) 
       for (std::uint64_t index = 0; index < trials(count); ++index) {
         const HardQuery made =
             make_hard_query({.hardness = &hardness, .level = level, .kind = kind}, seed, index);
-        use(level, kind, made.query, made.collides);
+        use(level, kind, made.query.straight(), made.collides);
       }
     }
   }
@@ -91,15 +91,17 @@ Vector normal(Kind kind, const Query& query, std::size_t end) {
 }
 
 TEST(HardQueries, CollideIfTheirNumberIsEvenSaysTheOracle) {
-  for (const Hardness& hardness : hardnesses()) {
-    for (const int level : hardness.levels) {
-      for (const Kind kind : kinds) {
-        for (std::uint64_t index = 0; index < trials(16U); ++index) {
-          const HardQuery made =
-              make_hard_query({.hardness = &hardness, .level = level, .kind = kind}, seed, index);
-          ASSERT_EQ(made.collides, index % 2 == 0);
-          ASSERT_EQ(exact::decide(kind, made.query).collides(), made.collides)
-              << hardness.name << " " << level << " " << to_string(kind) << " " << index;
+  for (const auto list : {hardnesses(), curve_hardnesses()}) {
+    for (const Hardness& hardness : list) {
+      for (const int level : hardness.levels) {
+        for (const Kind kind : kinds) {
+          const HardSort sort{.hardness = &hardness, .level = level, .kind = kind};
+          SCOPED_TRACE(::testing::Message() << hardness.name << " " << level);
+          for (std::uint64_t index = 0; index < trials(16U); ++index) {
+            const HardQuery made = make_hard_query(sort, seed, index);
+            ASSERT_EQ(made.collides, index % 2 == 0);
+            ASSERT_EQ(exact::decide(made.query.queries(), 0).collides(), made.collides) << index;
+          }
         }
       }
     }
@@ -139,6 +141,65 @@ TEST(HardQueries, OverlapByExactlyTheDistance) {
     EXPECT_NE(std::ranges::find(overlaps, square), overlaps.end());
   });
 }
+
+// ---- Curves -------------------------------------------------------------------------------------
+
+TEST(HardQueriesOnCurves, MissByExactlyTheDistance) {
+  const Hardness& hardness = hardness_from_name("curve-distance");
+  for (const int level : hardness.levels) {
+    for (const Kind kind : kinds) {
+      for (std::uint64_t index = 1; index < trials(8U); index += 2) {
+        const HardQuery made =
+            make_hard_query({.hardness = &hardness, .level = level, .kind = kind}, seed, index);
+        const auto collides_at = [&](double distance) {
+          const Separation separation{.distance = distance, .norm = Norm::l2};
+          return exact::decide(made.query.queries(), 0, separation).collides();
+        };
+        const double distance = size * std::ldexp(4.0, level);
+        EXPECT_TRUE(collides_at(distance));
+        EXPECT_FALSE(collides_at(std::nextafter(distance, 0.0)));
+      }
+    }
+  }
+}
+
+TEST(HardQueriesOnCurves, HaveTheirShapes) {
+  const auto shape = [](std::string_view name, int level) {
+    const HardSort sort{.hardness = &hardness_from_name(name), .level = level};
+    const auto source = open_hard_queries(sort, seed, 2);
+    EXPECT_EQ(source->next()->query.shape(), source->shape());
+    return source->shape();
+  };
+  EXPECT_EQ(shape("curve-distance", -20), (QueryShape{.degree = 3}));
+  EXPECT_EQ(shape("rotation-distance", -36), (QueryShape{.degree = 2, .is_rational = true}));
+  EXPECT_EQ(shape("curve-degree", 8), (QueryShape{.degree = 8}));
+  EXPECT_EQ(shape("distance", -20), QueryShape{});
+  EXPECT_EQ(level_text(hardness_from_name("curve-degree"), 5), "degree 5");
+}
+
+TEST(HardQueriesOnCurves, AreAboutDistanceZeroAlone) {
+  for (const Hardness& hardness : curve_hardnesses()) {
+    EXPECT_THROW((void)make_hard_query({.hardness = &hardness,
+                                        .level = hardness.levels.front(),
+                                        .separation = {.distance = 1e-3}},
+                                       seed, 0),
+                 std::invalid_argument);
+  }
+}
+
+TEST(HardQueriesOnCurves, HaveFullSignificands) {
+  for (const Hardness& hardness : curve_hardnesses()) {
+    const HardSort sort{.hardness = &hardness, .level = hardness.levels.back()};
+    const HardQuery made = make_hard_query(sort, seed, 0);
+    const auto has_many_bits = [](double x) {
+      return std::ldexp(x, 30) != std::rint(std::ldexp(x, 30));
+    };
+    EXPECT_GT(2 * std::ranges::count_if(made.query.numbers(), has_many_bits),
+              std::ssize(made.query.numbers()));
+  }
+}
+
+// ---- Scenes in a frame --------------------------------------------------------------------------
 
 TEST(HardQueries, HaveTheAspect) {
   for_each_query("aspect", 16, [](int exponent, Kind kind, const Query& query, bool) {
@@ -264,7 +325,7 @@ TEST(HardQueries, HaveTheShareOfContactsAtTheEnds) {
       const HardQuery made = make_hard_query({.hardness = &hardness, .level = level, .kind = kind},
                                              seed, static_cast<std::uint64_t>(2 * i));
       ASSERT_TRUE(made.collides);
-      at_ends += is_at_an_end(kind, made.query) ? 1 : 0;
+      at_ends += is_at_an_end(kind, made.query.straight()) ? 1 : 0;
     }
     EXPECT_TRUE(level != 0 || at_ends == 0) << at_ends;
     // Some queries with contact at t=1 have contact earlier.
@@ -282,9 +343,9 @@ TEST(HardQueries, HaveTheFrame) {
   });
 }
 
-std::uint64_t hash(const Query& query) {
+std::uint64_t hash(const base::AnyQuery& query) {
   std::uint64_t value = 0;
-  for (const double x : query.coordinates) {
+  for (const double x : query.numbers()) {
     value = generate::mix(value ^ std::bit_cast<std::uint64_t>(x));
   }
   return value;
@@ -337,7 +398,7 @@ TEST(HardQueriesAboutASeparation, AreHalfCollisionsByTheOracle) {
                 index);
             collisions += made.collides ? 1U : 0U;
             const exact::Decision truth =
-                exact::decide(kind, made.query, separation_at(hardness, level, asked));
+                exact::decide(kind, made.query.straight(), separation_at(hardness, level, asked));
             ASSERT_EQ(truth.collides(), made.collides);
           }
           EXPECT_EQ(collisions, trials(16U) / 2)
@@ -356,7 +417,7 @@ TEST(HardQueriesAboutASeparation, AreLimitedInDistance) {
   const HardSort sort{.hardness = &hardness_from_name("scale"),
                       .level = 1000,
                       .separation = {.distance = 0x1p14, .norm = Norm::l2}};
-  EXPECT_TRUE(std::ranges::all_of(make_hard_query(sort, seed, 0).query.coordinates,
+  EXPECT_TRUE(std::ranges::all_of(make_hard_query(sort, seed, 0).query.numbers(),
                                   [](double x) { return std::isfinite(x); }));
   HardSort beyond = sort;
   beyond.separation.distance = 1e5;

@@ -95,7 +95,7 @@ TEST(MeasureStability, CountsWhatIsWrongInEachCell) {
     for (std::uint64_t index = 0; index < count; ++index) {
       const HardQuery made = make_hard_query(
           {.hardness = cell.hardness, .level = cell.level, .kind = cell.kind}, 5, index);
-      if (coin(made.query)) ++(made.collides ? missed : invented);
+      if (coin(made.query.straight())) ++(made.collides ? missed : invented);
     }
     EXPECT_EQ(rate_of(judge::Fault::false_negative, cell.judged, 0),
               static_cast<double>(missed) / 4.0);
