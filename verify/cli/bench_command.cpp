@@ -106,10 +106,11 @@ class BenchRun {
     }
   }
 
-  void bench_group(const data::QueryGroup& group,
-                   const std::vector<const solvers::Solver*>& solvers,
+  void bench_group(const data::QueryGroup& group, std::vector<const solvers::Solver*> solvers,
                    const Separation& separation) {
     if (group.queries().empty() || stopped()) return;
+    leave_out_others(group, solvers);
+    if (solvers.empty()) return fail(group.name() + ": no solver takes these queries");
     io::ProgressBar bar(fmt::format("bench {} {}", group.name(), to_string(group.kind())));
     jobs::BenchOptions options = report_.options;
     options.separation = separation;
@@ -117,6 +118,17 @@ class BenchRun {
     report_.groups.push_back(jobs::bench(group, solvers, options));
     bar.clear();
     solvers_.report_output(arguments_.solvers.show_output);
+  }
+
+  /// Leaves out those that do not take the curves of the group, and says so.
+  static void leave_out_others(const data::QueryGroup& group,
+                               std::vector<const solvers::Solver*>& solvers) {
+    std::erase_if(solvers, [&](const solvers::Solver* solver) {
+      if (jobs::takes_curves(solver->terms(), group.shape())) return false;
+      report_warning(fmt::format("{}: {} is left out: it takes no {}", group.name(), solver->name(),
+                                 group.shape().is_straight() ? "straight lines" : "such curves"));
+      return true;
+    });
   }
 
   /// The candidates of a mesh, from index pairs too.
@@ -168,7 +180,7 @@ class BenchRun {
     SourceArguments sources = arguments_.sources;
     sources.paths = {path};
     for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
-      data::QueryGroup group(path.string(), kind);
+      std::vector<data::QueryGroup> groups;
       std::optional<Separation> separation;
       for_each_source(
           sources, files_,
@@ -177,13 +189,15 @@ class BenchRun {
                [&](data::QuerySource& source, const Progress& progress) {
                  if (source.kind() != kind) return;
                  require_one_separation(source, separation);
-                 group.read(source, progress, [this] { return stopped(); });
+                 group_of(groups, path.string(), source.shape()).read(source, progress, [this] {
+                   return stopped();
+                 });
                  skipped_ += source.skipped();
                },
            .fail = [this](const fs::path&, const io::DatasetError& error) { fail(error.what()); },
            .stopped = [this] { return stopped(); }});
       const Separation asked = separation.value_or(separation_);
-      bench_group(group, solvers_.all(), asked);
+      for (const data::QueryGroup& group : groups) bench_group(group, solvers_.all(), asked);
     }
   }
 

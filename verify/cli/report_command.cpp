@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>
@@ -74,7 +73,7 @@ class WrongAnswers {
   void add(judge::WrongQuery wrong) {
     std::vector<judge::WrongQuery>& of_method = by_method_[wrong.answers.front().solver];
     const auto is_known = [&](const judge::WrongQuery& other) {
-      return other.query == wrong.query && other.kind == wrong.kind &&
+      return other.query == wrong.query &&
              judge::same_separation(other.separation, wrong.separation);
     };
     if (of_method.size() == ViewFile::most_queries || std::ranges::any_of(of_method, is_known)) {
@@ -240,8 +239,7 @@ class ReportRun {
 
   void read_path(const fs::path& path, const std::string& name,
                  std::vector<data::QueryGroup>& groups) {
-    std::array<data::QueryGroup, 2> of_path{data::QueryGroup(name, Kind::vertex_face),
-                                            data::QueryGroup(name, Kind::edge_edge)};
+    std::vector<data::QueryGroup> of_path;
     SourceArguments sources = arguments_.sources;
     sources.paths = {path};
     for_each_source(
@@ -249,13 +247,14 @@ class ReportRun {
         {.title = "reading " + path.string(),
          .use =
              [&](data::QuerySource& source, const std::function<void(double)>& progress) {
-               of_path.at(static_cast<std::size_t>(source.kind())).read(source, progress, [this] {
+               group_of(of_path, name, source.shape()).read(source, progress, [this] {
                  return stopped();
                });
                skipped_ += source.skipped();
              },
          .fail = [this](const fs::path&, const io::DatasetError& error) { fail(error.what()); },
          .stopped = [this] { return stopped(); }});
+    std::ranges::stable_sort(of_path, {}, &data::QueryGroup::kind);
     for (data::QueryGroup& group : of_path) {
       if (!group.queries().empty()) groups.push_back(std::move(group));
     }
