@@ -102,7 +102,11 @@ class BenchRun {
     } else if (arguments_.built_in_workload()) {
       bench_built_in();
     } else {
-      for (const fs::path& path : arguments_.sources.paths) bench_path(path);
+      SourceArguments sources = arguments_.sources;
+      for (const fs::path& path : arguments_.sources.paths) {
+        sources.paths = {path};
+        bench_sources(sources, path.string(), {Kind::vertex_face, Kind::edge_edge});
+      }
     }
   }
 
@@ -144,14 +148,9 @@ class BenchRun {
   }
 
   void bench_built_in() {
-    const SourceArguments& sources = arguments_.sources;
-    const mesh::MovingMesh patches = generate::moving_patches({.seed = sources.seed});
+    const mesh::MovingMesh patches = generate::moving_patches({.seed = arguments_.sources.seed});
     for (const Kind kind : chosen_kinds()) bench_candidates(patches, kind);
-    for (const Kind kind : chosen_kinds()) {
-      if (stopped()) return;
-      bench_group(generate::built_in_set(kind, sources.seed, sources.count, separation_),
-                  solvers_.all(), separation_);
-    }
+    bench_sources(arguments_.sources, "built-in set", chosen_kinds());
   }
 
   void bench_given_step() {
@@ -175,21 +174,21 @@ class BenchRun {
     return fast::find_kernel(fast::search_kernels(), kernel->instructions);
   }
 
-  /// Measures the queries below a path, one kind at a time, because both may not fit into memory.
-  void bench_path(const fs::path& path) {
-    SourceArguments sources = arguments_.sources;
-    sources.paths = {path};
-    for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
+  /// Measures the queries below a path, or of the built-in set, one kind at a time, because both
+  /// may not fit into memory.
+  void bench_sources(const SourceArguments& sources, const std::string& name,
+                     const std::vector<Kind>& kinds) {
+    for (const Kind kind : kinds) {
       std::vector<data::QueryGroup> groups;
       std::optional<Separation> separation;
       for_each_source(
           sources, files_,
-          {.title = "reading " + path.string(),
+          {.title = "reading " + name,
            .use =
                [&](data::QuerySource& source, const Progress& progress) {
                  if (source.kind() != kind) return;
                  require_one_separation(source, separation);
-                 group_of(groups, path.string(), source.shape()).read(source, progress, [this] {
+                 group_of(groups, name, source.shape()).read(source, progress, [this] {
                    return stopped();
                  });
                  skipped_ += source.skipped();
