@@ -101,25 +101,38 @@ double number_of(const nlohmann::json& json) {
   return value;
 }
 
-base::AnyQuery query_of(const nlohmann::json& json, Kind kind) {
-  const QueryShape shape{.kind = kind,
-                         .degree = json.value("degree", std::size_t{1}),
-                         .is_rational = json.value("rational", false)};
-  if (shape.degree > greatest_degree) throw std::invalid_argument("a degree above 8");
-  const nlohmann::json& coordinates = json.at("coordinates");
-  if (!coordinates.is_array() || coordinates.size() != shape.numbers_of_query()) {
-    throw std::invalid_argument(
-        fmt::format("coordinates must be a list of {} numbers", shape.numbers_of_query()));
+base::AnyQuery straight_from(const nlohmann::json& coordinates, Kind kind) {
+  if (!coordinates.is_array() || coordinates.size() != coordinate_count) {
+    throw std::invalid_argument("coordinates must be a list of 24 numbers");
   }
-  std::vector<double> numbers;
-  for (const nlohmann::json& number : coordinates) {
-    numbers.push_back(number_of(number));
-    const bool is_weight = shape.is_rational && numbers.size() % shape.numbers_of_point() == 0;
-    if (is_weight && !(numbers.back() > 0.0)) {
-      throw std::invalid_argument("a weight is not positive");
+  Query query{};
+  for (std::size_t i = 0; i < coordinate_count; ++i) {
+    query.coordinates.at(i) = number_of(coordinates[i]);
+  }
+  return {kind, query};
+}
+
+/// From `control` and `weights` as a page has them (query_facts).
+OwnCurves curves_from(const nlohmann::json& json, Kind kind) {
+  const nlohmann::json& control = json.at("control");
+  if (!control.is_array() || control.empty() || control.size() > greatest_degree + 1) {
+    throw std::invalid_argument("control must be a list for each of 1 to 9 control points");
+  }
+  OwnCurves own{.kind = kind};
+  for (std::size_t j = 0; j < control.size(); ++j) {
+    for (std::size_t i = 0; i < moving_points; ++i) {
+      const nlohmann::json& point = control[j].at(i);
+      if (point.is_null() && j > 0) continue;
+      Trajectory& curve = own.curves.at(i);
+      if (curve.control.size() != j) throw std::invalid_argument("a curve has a gap");
+      curve.control.push_back(
+          {number_of(point.at(0)), number_of(point.at(1)), number_of(point.at(2))});
+      if (!json.contains("weights")) continue;
+      curve.weights.push_back(number_of(json.at("weights").at(j).at(i)));
+      if (!(curve.weights.back() > 0.0)) throw std::invalid_argument("a weight is not positive");
     }
   }
-  return {shape, std::move(numbers)};
+  return own;
 }
 
 Separation separation_of(const nlohmann::json& json) {
@@ -272,7 +285,11 @@ ViewedQuery query_from_json(const nlohmann::json& json, std::string label,
     kind = kind_from_string(named->get<std::string>());
   }
   if (!kind) throw std::invalid_argument("nothing says the kind; add --kind");
-  query.query = query_of(json, *kind);
+  if (json.contains("control")) {
+    query.query = curves_from(json, *kind);
+  } else {
+    query.query = straight_from(json.at("coordinates"), *kind);
+  }
   query.separation = separation_of(json);
   if (json.contains("label")) query.label = json.at("label").get<std::string>();
   if (json.contains("note")) query.notes.push_back(json.at("note").get<std::string>());

@@ -1,11 +1,11 @@
 #include "verify/view/query_files.hpp"
 
-#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <array>
 #include <cstdint>
 #include <fstream>
+#include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <string>
 #include <variant>
@@ -20,6 +20,7 @@
 #include "verify/data/npy_header.hpp"
 #include "verify/io/compressor.hpp"
 #include "verify/io/dataset_error.hpp"
+#include "verify/view/query_facts.hpp"
 
 namespace touchstone::verify::view::query_files_test {
 namespace {
@@ -132,23 +133,30 @@ TEST_F(QueryFiles, AFindingOfTheFuzzer) {
   EXPECT_EQ(all[0].answers[0].answer.verdict, fast::Verdict::yes);
 }
 
-TEST_F(QueryFiles, CurvesInJson) {
-  std::string numbers;
-  for (int i = 1; i <= 48; ++i) numbers += fmt::format("{}{}", i == 1 ? "" : ", ", i);
-  const auto json = [&](const std::string& shape) {
-    return R"({"kind": "edge-edge", "coordinates": [)" + numbers + "], " + shape + "}";
+TEST_F(QueryFiles, CurvesInJsonAreThoseOfAPage) {
+  const OwnCurves curves{.kind = Kind::edge_edge,
+                         .curves = {{{.control = {{1, 1, 1}, {1, 1, -1}}, .weights = {1, 2}},
+                                     {.control = {{0, 0, 0.1}}, .weights = {1}},
+                                     {.control = {{4, 0, 0}}, .weights = {0.5}},
+                                     {.control = {{0, 4, 0}}, .weights = {1}}}}};
+  nlohmann::json facts = query_facts({.label = "of a page", .query = curves}, {});
+  const auto read_again = [&] {
+    write("curves.json", facts.dump());
+    return reason("curves.json");
   };
-  write("curves.json", json(R"("degree": 3)"));
-  EXPECT_EQ(curves_of(queries("curves.json").at(0))[1].control[2], (std::array{28.0, 29.0, 30.0}));
-  write("curves.json", json(R"("degree": 2, "rational": true)"));
-  EXPECT_EQ(curves_of(queries("curves.json").at(0))[3].weights, (std::vector{16.0, 32.0, 48.0}));
-  write("curves.json", json(R"("degree": 2)"));
-  EXPECT_EQ(reason("curves.json"), "query 0: coordinates must be a list of 36 numbers");
-  write("curves.json", json(R"("degree": 9)"));
-  EXPECT_EQ(reason("curves.json"), "query 0: a degree above 8");
-  numbers.replace(numbers.find("16"), 2, "-1");
-  write("curves.json", json(R"("degree": 2, "rational": true)"));
-  EXPECT_EQ(reason("curves.json"), "query 0: a weight is not positive");
+  EXPECT_EQ(read_again(), "none");
+  EXPECT_EQ(queries("curves.json").at(0).query, AnyViewed(curves));
+  facts["weights"][1][0] = -1;
+  EXPECT_EQ(read_again(), "query 0: a weight is not positive");
+  facts.erase("weights");
+  EXPECT_EQ(read_again(), "none");
+  EXPECT_TRUE(curves_of(queries("curves.json").at(0))[0].weights.empty());
+  facts["control"].push_back(facts["control"][0]);
+  EXPECT_EQ(read_again(), "query 0: a curve has a gap");
+  facts["control"] = nlohmann::json::array();
+  EXPECT_EQ(read_again(), "query 0: control must be a list for each of 1 to 9 control points");
+  facts["control"] = {{nullptr, nullptr, nullptr, nullptr}};
+  EXPECT_NE(read_again(), "none") << "each curve has a point";
 }
 
 TEST_F(QueryFiles, FaultyJson) {
