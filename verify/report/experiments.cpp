@@ -333,6 +333,7 @@ class Run {
       solvers.push_back(solvers::solver_in_children(*plugin, method_options, options_.process));
       asked.push_back(solvers.back().get());
     }
+    if (asked.empty()) return;
     // The rest is for the page.
     const double left = 0.85 * deadline_.seconds_left();
     std::vector<const stability::Hardness*> sorts;

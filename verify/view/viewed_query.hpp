@@ -28,7 +28,7 @@ struct OwnCurves {
 
 /// A query to be looked at. Texts may hold any bytes.
 struct ViewedQuery {
-  std::string label;                                ///< where it is from
+  std::string label = {};                           ///< where it is from
   std::variant<base::AnyQuery, OwnCurves> query{};  ///< finite numbers, positive weights
   Separation separation = {};
   std::vector<std::string> notes = {};  ///< what is recorded of it, a sentence each
