@@ -126,8 +126,8 @@ constexpr auto layers = std::to_array<Layer>({
      "verify/report/ verify/base/ verify/data/ verify/generate/ verify/io/ verify/jobs/ "
      "verify/judge/ verify/mesh/ verify/solvers/ verify/stability/ +"},
     {"verify/view/",
-     "verify/view/ verify/data/ verify/io/ verify/jobs/ verify/judge/ verify/mesh/ verify/report/ "
-     "verify/solvers/ +"},
+     "verify/view/ verify/base/ verify/data/ verify/io/ verify/jobs/ verify/judge/ verify/mesh/ "
+     "verify/report/ verify/solvers/ +"},
     {"verify/playground/",
      "verify/judge/ verify/solvers/ verify/view/ fast/ nlohmann/ "
      "emscripten/emscripten.h"},

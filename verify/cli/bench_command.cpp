@@ -102,14 +102,19 @@ class BenchRun {
     } else if (arguments_.built_in_workload()) {
       bench_built_in();
     } else {
-      for (const fs::path& path : arguments_.sources.paths) bench_path(path);
+      SourceArguments sources = arguments_.sources;
+      for (const fs::path& path : arguments_.sources.paths) {
+        sources.paths = {path};
+        bench_sources(sources, path.string(), {Kind::vertex_face, Kind::edge_edge});
+      }
     }
   }
 
-  void bench_group(const data::QueryGroup& group,
-                   const std::vector<const solvers::Solver*>& solvers,
+  void bench_group(const data::QueryGroup& group, std::vector<const solvers::Solver*> solvers,
                    const Separation& separation) {
     if (group.queries().empty() || stopped()) return;
+    leave_out_others(group, solvers);
+    if (solvers.empty()) return fail(group.name() + ": no solver takes these queries");
     io::ProgressBar bar(fmt::format("bench {} {}", group.name(), to_string(group.kind())));
     jobs::BenchOptions options = report_.options;
     options.separation = separation;
@@ -117,6 +122,17 @@ class BenchRun {
     report_.groups.push_back(jobs::bench(group, solvers, options));
     bar.clear();
     solvers_.report_output(arguments_.solvers.show_output);
+  }
+
+  /// Leaves out those that do not take the curves of the group, and says so.
+  static void leave_out_others(const data::QueryGroup& group,
+                               std::vector<const solvers::Solver*>& solvers) {
+    std::erase_if(solvers, [&](const solvers::Solver* solver) {
+      if (jobs::takes_curves(solver->terms(), group.shape())) return false;
+      report_warning(fmt::format("{}: {} is left out: it takes no {}", group.name(), solver->name(),
+                                 group.shape().is_straight() ? "straight lines" : "such curves"));
+      return true;
+    });
   }
 
   /// The candidates of a mesh, from index pairs too.
@@ -132,14 +148,9 @@ class BenchRun {
   }
 
   void bench_built_in() {
-    const SourceArguments& sources = arguments_.sources;
-    const mesh::MovingMesh patches = generate::moving_patches({.seed = sources.seed});
+    const mesh::MovingMesh patches = generate::moving_patches({.seed = arguments_.sources.seed});
     for (const Kind kind : chosen_kinds()) bench_candidates(patches, kind);
-    for (const Kind kind : chosen_kinds()) {
-      if (stopped()) return;
-      bench_group(generate::built_in_set(kind, sources.seed, sources.count, separation_),
-                  solvers_.all(), separation_);
-    }
+    bench_sources(arguments_.sources, "built-in set", chosen_kinds());
   }
 
   void bench_given_step() {
@@ -163,27 +174,29 @@ class BenchRun {
     return fast::find_kernel(fast::search_kernels(), kernel->instructions);
   }
 
-  /// Measures the queries below a path, one kind at a time, because both may not fit into memory.
-  void bench_path(const fs::path& path) {
-    SourceArguments sources = arguments_.sources;
-    sources.paths = {path};
-    for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
-      data::QueryGroup group(path.string(), kind);
+  /// Measures the queries below a path, or of the built-in set, one kind at a time, because both
+  /// may not fit into memory.
+  void bench_sources(const SourceArguments& sources, const std::string& name,
+                     const std::vector<Kind>& kinds) {
+    for (const Kind kind : kinds) {
+      std::vector<data::QueryGroup> groups;
       std::optional<Separation> separation;
       for_each_source(
           sources, files_,
-          {.title = "reading " + path.string(),
+          {.title = "reading " + name,
            .use =
                [&](data::QuerySource& source, const Progress& progress) {
                  if (source.kind() != kind) return;
                  require_one_separation(source, separation);
-                 group.read(source, progress, [this] { return stopped(); });
+                 group_of(groups, name, source.shape()).read(source, progress, [this] {
+                   return stopped();
+                 });
                  skipped_ += source.skipped();
                },
            .fail = [this](const fs::path&, const io::DatasetError& error) { fail(error.what()); },
            .stopped = [this] { return stopped(); }});
       const Separation asked = separation.value_or(separation_);
-      bench_group(group, solvers_.all(), asked);
+      for (const data::QueryGroup& group : groups) bench_group(group, solvers_.all(), asked);
     }
   }
 

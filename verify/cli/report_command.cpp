@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>
@@ -74,7 +73,7 @@ class WrongAnswers {
   void add(judge::WrongQuery wrong) {
     std::vector<judge::WrongQuery>& of_method = by_method_[wrong.answers.front().solver];
     const auto is_known = [&](const judge::WrongQuery& other) {
-      return other.query == wrong.query && other.kind == wrong.kind &&
+      return other.query == wrong.query &&
              judge::same_separation(other.separation, wrong.separation);
     };
     if (of_method.size() == ViewFile::most_queries || std::ranges::any_of(of_method, is_known)) {
@@ -213,50 +212,52 @@ class ReportRun {
   }
 
   /// The two moving patches, and the built-in set with about the requested number of queries.
-  [[nodiscard]] std::vector<data::QueryGroup> built_in() const {
-    const std::uint64_t seed = arguments_.sources.seed;
-    const std::uint64_t a_family =
+  [[nodiscard]] std::vector<data::QueryGroup> built_in() {
+    SourceArguments sources = arguments_.sources;
+    sources.count =
         std::max<std::uint64_t>(1, arguments_.experiments.count / generate::families().size());
-    const mesh::MovingMesh patches = generate::moving_patches({.seed = seed});
+    const mesh::MovingMesh patches = generate::moving_patches({.seed = sources.seed});
     std::vector<data::QueryGroup> groups;
     for (const Kind kind : kinds()) {
       const auto pairs = mesh::find_candidates(patches, kind);
       groups.emplace_back(patches.name, kind,
                           mesh::queries_of(patches, mesh::candidates_of(patches, kind, pairs)));
     }
-    for (const Kind kind : kinds()) groups.push_back(generate::built_in_set(kind, seed, a_family));
+    read(sources, "built-in set", groups);
+    io::throw_if_interrupted();
     return groups;
   }
 
   [[nodiscard]] std::vector<data::QueryGroup> given() {
     std::vector<data::QueryGroup> groups;
     std::set<std::string> names;
+    SourceArguments sources = arguments_.sources;
     for (const fs::path& path : arguments_.sources.paths) {
+      sources.paths = {path};
       const std::string name = short_name(path);
-      read_path(path, names.insert(name).second ? name : path.string(), groups);
+      read(sources, names.insert(name).second ? name : path.string(), groups);
     }
     return groups;
   }
 
-  void read_path(const fs::path& path, const std::string& name,
-                 std::vector<data::QueryGroup>& groups) {
-    std::array<data::QueryGroup, 2> of_path{data::QueryGroup(name, Kind::vertex_face),
-                                            data::QueryGroup(name, Kind::edge_edge)};
-    SourceArguments sources = arguments_.sources;
-    sources.paths = {path};
+  void read(const SourceArguments& sources, const std::string& name,
+            std::vector<data::QueryGroup>& groups) {
+    std::vector<data::QueryGroup> of_sources;
     for_each_source(
         sources, files_,
-        {.title = "reading " + path.string(),
+        {.title = "reading " + name,
          .use =
              [&](data::QuerySource& source, const std::function<void(double)>& progress) {
-               of_path.at(static_cast<std::size_t>(source.kind())).read(source, progress, [this] {
+               if (std::ranges::count(kinds(), source.kind()) == 0) return;
+               group_of(of_sources, name, source.shape()).read(source, progress, [this] {
                  return stopped();
                });
                skipped_ += source.skipped();
              },
          .fail = [this](const fs::path&, const io::DatasetError& error) { fail(error.what()); },
          .stopped = [this] { return stopped(); }});
-    for (data::QueryGroup& group : of_path) {
+    std::ranges::stable_sort(of_sources, {}, &data::QueryGroup::kind);
+    for (data::QueryGroup& group : of_sources) {
       if (!group.queries().empty()) groups.push_back(std::move(group));
     }
   }

@@ -172,6 +172,17 @@ void for_each_source(const SourceArguments& arguments, Files& files,
   });
 }
 
+data::QueryGroup& group_of(std::vector<data::QueryGroup>& groups, const std::string& path,
+                           const QueryShape& shape) {
+  const auto known = std::ranges::find(groups, shape, &data::QueryGroup::shape);
+  if (known != groups.end()) return *known;
+  std::string name = path;
+  if (!shape.is_straight()) {
+    name += fmt::format("{}, degree {}", shape.is_rational ? ", rational" : "", shape.degree);
+  }
+  return groups.emplace_back(std::move(name), shape);
+}
+
 void until_interrupted(const std::function<void()>& work) {
   try {
     work();

@@ -17,6 +17,7 @@
 
 #include "verify/cli/files.hpp"
 #include "verify/cli/options.hpp"
+#include "verify/data/query_group.hpp"
 #include "verify/data/query_source.hpp"
 #include "verify/generate/families.hpp"
 #include "verify/io/dataset_error.hpp"
@@ -91,6 +92,11 @@ struct SourceHandlers {
 /// \param files records the datasets and their companions. \throws std::runtime_error as Files.
 void for_each_source(const SourceArguments& arguments, Files& files,
                      const SourceHandlers& handlers);
+
+/// The group of that shape among those of a path, added if there is none yet. On curves its name
+/// ends in their degree.
+[[nodiscard]] data::QueryGroup& group_of(std::vector<data::QueryGroup>& groups,
+                                         const std::string& path, const QueryShape& shape);
 
 /// Does the work up to an interrupt: the command goes on with the results so far.
 void until_interrupted(const std::function<void()>& work);

@@ -2,8 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <filesystem>
+#include <iterator>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -12,8 +14,6 @@
 #include <utility>
 #include <vector>
 
-#include "fast/method.hpp"
-#include "touchstone/certified.hpp"
 #include "verify/cli/commands.hpp"
 #include "verify/cli/files.hpp"
 #include "verify/cli/group_options.hpp"
@@ -25,9 +25,7 @@
 #include "verify/io/input_file.hpp"
 #include "verify/io/printable.hpp"
 #include "verify/io/terminal.hpp"
-#include "verify/judge/judgement.hpp"
 #include "verify/mesh/frames.hpp"
-#include "verify/solvers/curved_answers.hpp"
 #include "verify/solvers/registry.hpp"
 #include "verify/view/asked_solvers.hpp"
 #include "verify/view/page.hpp"
@@ -88,9 +86,9 @@ std::vector<view::ViewedQuery> read(const Arguments& arguments, Files& files) {
   std::vector<view::ViewedQuery> queries;
   if (!arguments.points.empty()) {
     if (!options.kind) throw std::invalid_argument("--points needs --kind");
-    queries.push_back({.label = "points on the command line",
-                       .kind = *options.kind,
-                       .query = view::parse_points(arguments.points)});
+    queries.push_back(
+        {.label = "points on the command line",
+         .query = base::AnyQuery(*options.kind, view::parse_points(arguments.points))});
   }
   for (const fs::path& path : data::find_datasets(arguments.paths)) {
     files.add_dataset(path);
@@ -119,31 +117,6 @@ std::vector<view::ViewedQuery> all_queries(const Arguments& arguments,
   return queries;
 }
 
-/// The answers of the methods that know curves; notes name the other solvers of the user.
-std::vector<judge::GivenAnswer> answers_on_curves(const Arguments& arguments,
-                                                  view::ViewedQuery& query) {
-  std::vector<judge::GivenAnswer> answers;
-  const auto note = [&](const std::string& solver, std::string_view reason) {
-    query.notes.push_back(fmt::format("{} is not asked: {}.", solver, reason));
-  };
-  for (const std::string& method : asked_by(arguments).methods) {
-    if (!solvers::answers_curves(method)) continue;
-    if (auto answer = view::answer_on_curves(query, method, arguments.solvers.options)) {
-      answers.push_back(*std::move(answer));
-    } else {
-      const bool is_any = method == fast::certified_info().name;
-      note(method,
-           is_any ? "the curves differ in degree" : "it takes curves of one degree, 2 or 3");
-    }
-  }
-  constexpr std::string_view only_lines = "it takes straight lines alone";
-  for (const std::string& method : arguments.solvers.methods) {
-    if (!solvers::answers_curves(method) && method != "none") note(method, only_lines);
-  }
-  for (const fs::path& plugin : arguments.solvers.plugins) note(plugin.string(), only_lines);
-  return answers;
-}
-
 Status run(const Arguments& arguments) {
   if (arguments.out_file.empty()) throw std::invalid_argument("--out has no file name");
   Files files;
@@ -157,9 +130,9 @@ Status run(const Arguments& arguments) {
   std::vector<nlohmann::json> facts;
   for (view::ViewedQuery& query : queries) {
     if (io::interrupted()) break;
-    const std::vector<judge::GivenAnswer> answers =
-        query.curves ? answers_on_curves(arguments, query) : view::answers_of(solvers.all(), query);
-    facts.push_back(view::query_facts(query, answers));
+    view::Replies replies = view::ask(solvers.all(), query);
+    std::ranges::move(replies.notes, std::back_inserter(query.notes));
+    facts.push_back(view::query_facts(query, replies.answers));
     bar.update(static_cast<double>(facts.size()) / static_cast<double>(queries.size()));
   }
   bar.clear();

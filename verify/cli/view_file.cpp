@@ -16,13 +16,13 @@
 #include "verify/solvers/solver.hpp"
 #include "verify/view/asked_solvers.hpp"
 #include "verify/view/page.hpp"
+#include "verify/view/query_facts.hpp"
 
 namespace touchstone::verify::cli {
 namespace {
 
 bool is_same(const view::ViewedQuery& a, const view::ViewedQuery& b) {
-  return a.kind == b.kind && a.query == b.query &&
-         judge::same_separation(a.separation, b.separation);
+  return a.query == b.query && judge::same_separation(a.separation, b.separation);
 }
 
 template <class Thing>
@@ -62,7 +62,7 @@ void ViewFile::write(const fast::MethodOptions& options) {
     const bool has_answered = std::ranges::find(query.answers, certified->name(),
                                                 &judge::GivenAnswer::solver) != query.answers.end();
     facts.push_back(
-        view::query_facts(query, view::answers_of({&certified, has_answered ? 0U : 1U}, query)));
+        view::query_facts(query, view::ask({&certified, has_answered ? 0U : 1U}, query).answers));
   }
   output_.write(view::view_page(facts, command_line(), step_));
   output_.close();

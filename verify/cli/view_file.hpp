@@ -12,8 +12,8 @@
 
 #include "fast/method.hpp"
 #include "verify/cli/files.hpp"
-#include "verify/view/query_facts.hpp"
 #include "verify/view/step_facts.hpp"
+#include "verify/view/viewed_query.hpp"
 
 namespace touchstone::verify::cli {
 

@@ -85,7 +85,7 @@ class Run {
   }
 
   void pass_over_memory() {
-    const auto pass = [this] { checksum_ = checksum_ ^ memory_pass(group_.queries()); };
+    const auto pass = [this] { checksum_ = checksum_ ^ memory_pass(group_.queries().numbers); };
     if (pass_calls_ == 0) pass_calls_ = calls_for(time_of(1, pass));
     const double time = time_of(pass_calls_, pass);
     result_.memory_pass.repetitions.push_back(time / static_cast<double>(result_.queries));

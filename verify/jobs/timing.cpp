@@ -35,7 +35,7 @@ double Times::median() const { return jobs::median(repetitions); }
 double Times::min() const { return quantile(repetitions, 0.0); }
 
 std::shared_ptr<const Sample> Samples::of(std::size_t count) {
-  const std::vector<Query>& all = group_->queries();
+  const Queries all = group_->queries();
   count = std::min(count, all.size());
   std::weak_ptr<const Sample>& known = samples_[count];
   if (auto sample = known.lock()) return sample;
@@ -43,9 +43,12 @@ std::shared_ptr<const Sample> Samples::of(std::size_t count) {
   sample->positions = spread_sample(all.size(), count);
   sample->queries = all;
   if (count < all.size()) {
-    sample->copies.reserve(count);
-    for (const std::size_t position : sample->positions) sample->copies.push_back(all[position]);
-    sample->queries = sample->copies;
+    sample->copies.reserve(count * all.numbers_of_query());
+    for (const std::size_t position : sample->positions) {
+      const std::span<const double> row = all.row(position);
+      sample->copies.insert(sample->copies.end(), row.begin(), row.end());
+    }
+    sample->queries.numbers = sample->copies;
   }
   known = sample;
   return sample;
@@ -89,8 +92,7 @@ double TimedSolver::possible_growth(const SampleLimits& limits) {
 }
 
 double TimedSolver::time_calls(const solvers::Solver& solver, std::size_t calls) {
-  const solvers::SolveRequest request{
-      .kind = samples_->group().kind(), .queries = queries(), .separation = separation_};
+  const solvers::SolveRequest request{.queries = queries(), .separation = separation_};
   double own = 0.0;
   const double here = time_of(calls, [&] {
     reply_ = solver.solve(request, answers_);
@@ -127,8 +129,7 @@ std::optional<std::vector<double>> TimedSolver::time_singles(std::size_t count, 
   for (int sweep = 0; sweep < sweeps && nanoseconds_since(start) <= 1e9 * seconds; ++sweep) {
     for (std::size_t i = 0; i < chosen.size(); ++i) {
       if (base::is_stopped(stop)) return std::nullopt;
-      const solvers::SolveRequest request{.kind = samples_->group().kind(),
-                                          .queries = queries().subspan(chosen[i], 1),
+      const solvers::SolveRequest request{.queries = queries().part(chosen[i], 1),
                                           .separation = separation_};
       const WallClock::time_point before = WallClock::now();
       const solvers::SolveReply reply = solver_->solve(request, {&answer, 1});
@@ -154,11 +155,16 @@ judge::Judgement TimedSolver::judge(std::span<const judge::GroundTruth> truths) 
       judgement.add_unasked(*why, truth.index);
       continue;
     }
-    judgement.add({samples_->group().kind(), queries()[i], separation_}, truth, answers_[i],
-                  solver_->standard(), judge::failure_at(reply_.failures, i));
+    judgement.add({queries().part(i, 1), separation_}, truth, answers_[i], solver_->standard(),
+                  judge::failure_at(reply_.failures, i));
   }
   judgement.unplaced_crashes = unplaced_crashes_;
   return judgement;
+}
+
+bool takes_curves(const fast::Terms& terms, QueryShape shape) {
+  shape.kind = terms.vertex_face ? Kind::vertex_face : Kind::edge_edge;
+  return terms.answers(shape);
 }
 
 std::size_t calls_for(double nanoseconds) {

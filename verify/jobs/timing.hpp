@@ -58,8 +58,8 @@ struct Sample {
   /// In the group, ascending.
   std::vector<std::size_t> positions;
   /// Copies of the queries there, if these are not all.
-  std::vector<Query> copies;
-  std::span<const Query> queries;
+  std::vector<double> copies;
+  Queries queries;
 };
 
 /// The samples of a group. One that several solvers are timed on is in memory once.
@@ -108,7 +108,7 @@ class TimedSolver {
   [[nodiscard]] const solvers::Solver& solver() const { return *solver_; }
   [[nodiscard]] const Separation& separation() const { return separation_; }
   /// The sample.
-  [[nodiscard]] std::span<const Query> queries() const { return sample_->queries; }
+  [[nodiscard]] const Queries& queries() const { return sample_->queries; }
   /// The positions of the sample in the group, ascending.
   [[nodiscard]] const std::vector<std::size_t>& positions() const { return sample_->positions; }
   /// Of the latest call, query by query.
@@ -144,6 +144,10 @@ class TimedSolver {
   double latest_ = 0.0;  ///< nanoseconds of the latest call
   double seconds_spent_ = 0.0;
 };
+
+/// True if a solver with these terms takes such curves, in queries of whatever kind; no other is
+/// timed on them.
+[[nodiscard]] bool takes_curves(const fast::Terms& terms, QueryShape shape);
 
 /// So many times is work that takes this long to be done at once, so that the clock does not show.
 [[nodiscard]] std::size_t calls_for(double nanoseconds);

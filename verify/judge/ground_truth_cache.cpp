@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <stdexcept>
 
 #include "verify/base/cores.hpp"
 #include "verify/base/deadline.hpp"
@@ -34,6 +35,10 @@ GroundTruthCache::Known& GroundTruthCache::known_at(const Separation& separation
 void GroundTruthCache::decide(const Separation& separation, std::span<const std::size_t> positions,
                               Known& known, const std::atomic<bool>* stop,
                               const std::function<void(double)>& on_progress) {
+  const Queries queries = group_.queries();
+  if (!positions.empty() && positions.back() >= queries.size()) {
+    throw std::out_of_range("a position beyond the group");
+  }
   tbb::task_arena arena(threads_);
   std::vector<std::optional<GroundTruth>> found(std::min(step, positions.size()));
   for (std::size_t first = 0; first < positions.size(); first += step) {
@@ -44,8 +49,7 @@ void GroundTruthCache::decide(const Separation& separation, std::span<const std:
         // The hardest take a quarter of a second each.
         if (base::is_stopped(stop)) return;
         const std::size_t position = positions[first + i];
-        const Query& query = group_.queries().at(position);
-        found[i] = truth_of(position, exact::decide(group_.kind(), query, separation));
+        found[i] = truth_of(position, exact::decide(queries, position, separation));
       });
     });
     for (std::size_t i = 0; i < count; ++i) {

@@ -42,6 +42,7 @@ class GroundTruthCache {
   using Known = std::unordered_map<std::size_t, GroundTruth>;
 
   [[nodiscard]] Known& known_at(const Separation& separation);
+  /// \pre the positions ascend
   void decide(const Separation& separation, std::span<const std::size_t> positions, Known& known,
               const std::atomic<bool>* stop, const std::function<void(double)>& on_progress);
 

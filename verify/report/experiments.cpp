@@ -18,6 +18,7 @@
 #include "verify/base/deadline.hpp"
 #include "verify/generate/families.hpp"
 #include "verify/generate/workload.hpp"
+#include "verify/jobs/timing.hpp"
 #include "verify/judge/ground_truth_cache.hpp"
 #include "verify/report/measure.hpp"
 #include "verify/report/stability_report.hpp"
@@ -147,7 +148,9 @@ class Run {
       : groups_(groups), options_(options), methods_(find_methods(options.methods)) {
     if (options.budget > 0.0) deadline_ = base::Deadline(options.budget);
     if (!methods_.empty()) return;
-    for (const auto& method : solvers::methods()) methods_.push_back(method.get());
+    for (const auto& method : solvers::methods()) {
+      if (is_asked(method->info().terms)) methods_.push_back(method.get());
+    }
   }
 
   [[nodiscard]] Measurements result() {
@@ -183,6 +186,13 @@ class Run {
 
   void tell(double fraction) const {
     if (options_.on_progress) options_.on_progress(fraction);
+  }
+
+  /// The map of stability is of straight lines.
+  [[nodiscard]] bool is_asked(const fast::Terms& terms) const {
+    return terms.straight || std::ranges::any_of(groups_, [&](const data::QueryGroup& group) {
+             return jobs::takes_curves(terms, group.shape());
+           });
   }
 
   /// The seconds of a setting of our own methods: with a budget, those that fit into it.
@@ -227,8 +237,12 @@ class Run {
   void measure_trial(const data::QueryGroup& group, judge::GroundTruthCache& truths,
                      const Trial& trial, double seconds,
                      const std::function<void(double)>& on_progress) {
+    std::vector<Setting> settings = trial.settings;
+    std::erase_if(settings, [&](const Setting& setting) {
+      return !jobs::takes_curves(setting.method->info().terms, group.shape());
+    });
     std::vector<Measurement> measured =
-        measure(group, truths, trial.settings, solvers::find_method(fast::certified_info().name),
+        measure(group, truths, settings, solvers::find_method(fast::certified_info().name),
                 {.experiment = trial.experiment,
                  .count = count_of(trial),
                  .seconds = seconds,
@@ -307,6 +321,7 @@ class Run {
     std::vector<std::unique_ptr<solvers::Solver>> solvers;
     std::vector<const solvers::Solver*> asked;
     for (const auto* method : methods_) {
+      if (!method->info().terms.straight) continue;
       fast::MethodOptions method_options;
       method_options.max_checks = stability_limit;
       solvers.push_back(solvers::solver_in_process(*method, method_options));
@@ -318,6 +333,7 @@ class Run {
       solvers.push_back(solvers::solver_in_children(*plugin, method_options, options_.process));
       asked.push_back(solvers.back().get());
     }
+    if (asked.empty()) return;
     // The rest is for the page.
     const double left = 0.85 * deadline_.seconds_left();
     std::vector<const stability::Hardness*> sorts;

@@ -50,7 +50,8 @@ struct Trial {
 [[nodiscard]] std::span<const double> filter_scales();
 
 struct ExperimentOptions {
-  /// Names of methods; all there are if empty.
+  /// Names of methods; all there are if empty. Each is measured on the groups whose curves it
+  /// takes.
   std::vector<std::string> methods = {};
   /// Further methods: in child processes under these options, in *field* and *stability*.
   std::vector<const fast::Method*> plugins = {};

@@ -64,8 +64,7 @@ void tell_wrong(const data::QueryGroup& group, const Measurement& said,
     data::QueryPlace place = group.place_of(wrong.index);
     on_wrong({.source = std::move(place.source),
               .index = place.index,
-              .kind = group.kind(),
-              .query = group.queries()[wrong.index],
+              .query = base::AnyQuery(group.queries(), wrong.index),
               .separation = said.separation,
               .faults = {judge::to_text(said.method, wrong)},
               .answers = {{.solver = said.method,
@@ -268,15 +267,15 @@ std::optional<Measurement> judge_all(const data::QueryGroup& group, judge::Groun
                                      const fast::Method& method, const fast::MethodOptions& options,
                                      Experiment experiment, const std::atomic<bool>* stop,
                                      const OnWrong& on_wrong) {
-  const std::vector<Query>& queries = group.queries();
+  const Queries queries = group.queries();
   std::vector<std::size_t> positions(queries.size());
   std::iota(positions.begin(), positions.end(), std::size_t{0});
   const std::vector<judge::GroundTruth> known = truths.of(options.separation, positions, stop);
   if (known.size() < queries.size()) return std::nullopt;
   std::vector<fast::Answer> answers(queries.size());
   const auto solver = solvers::solver_in_process(method, options);
-  const solvers::SolveReply reply = solver->solve(
-      {.kind = group.kind(), .queries = queries, .separation = options.separation}, answers);
+  const solvers::SolveReply reply =
+      solver->solve({.queries = queries, .separation = options.separation}, answers);
   Measurement said = of_separation(group, experiment, {.method = &method, .options = options});
   const judge::Standard standard = solver->standard();
   judge::Judgement judgement;
@@ -285,8 +284,8 @@ std::optional<Measurement> judge_all(const data::QueryGroup& group, judge::Groun
       ++said.outside;
       continue;
     }
-    judgement.add({group.kind(), queries[truth.index], options.separation}, truth,
-                  answers[truth.index], standard, judge::failure_at(reply.failures, truth.index));
+    judgement.add({queries.part(truth.index, 1), options.separation}, truth, answers[truth.index],
+                  standard, judge::failure_at(reply.failures, truth.index));
     said.at_limit += is_at_limit(answers[truth.index], said.max_checks) ? 1U : 0U;
   }
   said.asked = judgement.queries;
@@ -304,15 +303,14 @@ std::optional<Measurement> judge_recorded(const data::QueryGroup& group,
   std::vector<fast::Answer> answers;
   std::vector<judge::QueryFailure> failures;
   std::uint64_t outside = 0;
-  for (std::size_t i = 0; i < group.queries().size(); ++i) {
+  const Queries queries = group.queries();
+  for (std::size_t i = 0; i < queries.size(); ++i) {
     const data::QueryPlace place = group.place_of(i);
     const std::uint64_t index = place.index;
     fast::Answer answer;
-    const solvers::SolveReply reply = recorded.solve({.kind = group.kind(),
-                                                      .queries = {&group.queries()[i], 1},
-                                                      .source = place.source,
-                                                      .indices = {&index, 1}},
-                                                     {&answer, 1});
+    const solvers::SolveReply reply = recorded.solve(
+        {.queries = queries.part(i, 1), .source = place.source, .indices = {&index, 1}},
+        {&answer, 1});
     if (const auto why = reply.why_unasked(0)) {
       if (*why == judge::Unasked::outside) ++outside;
       continue;
@@ -330,13 +328,13 @@ std::optional<Measurement> judge_recorded(const data::QueryGroup& group,
   said.kind = group.kind();
   said.method = recorded.name();
   said.promise = recorded.promise();
-  said.group_queries = group.queries().size();
+  said.group_queries = queries.size();
   said.asked = positions.size();
   said.outside = outside;
   const judge::Standard standard = recorded.standard();
   judge::Judgement judgement;
   for (std::size_t i = 0; i < known.size(); ++i) {
-    judgement.add({group.kind(), group.queries()[positions[i]]}, known[i], answers[i], standard,
+    judgement.add({queries.part(positions[i], 1)}, known[i], answers[i], standard,
                   judge::failure_at(failures, i));
     said.collisions += known[i].collides ? 1U : 0U;
   }

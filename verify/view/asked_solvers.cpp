@@ -1,75 +1,70 @@
 #include "verify/view/asked_solvers.hpp"
 
-#include <algorithm>
+#include <fmt/format.h>
+
 #include <array>
-#include <cstddef>
 #include <cstdint>
-#include <string>
+#include <optional>
 #include <utility>
 
 #include "fast/method.hpp"
-#include "touchstone/curved_query.hpp"
-#include "verify/data/curved_query_file.hpp"
 #include "verify/jobs/prove.hpp"
-#include "verify/solvers/curved_answers.hpp"
 
 namespace touchstone::verify::view {
 namespace {
 
-/// The same curves, all of one degree, as a constant one has each; nothing if others differ.
-std::optional<data::CurvedQueryFile> of_one_degree(const CurvedQuery& curves) {
-  data::CurvedQueryFile result{.degree = 0, .is_rational = false, .numbers = {}};
-  for (const Trajectory& curve : curves) {
-    result.degree = std::max(result.degree, curve.degree());
-    result.is_rational = result.is_rational || !curve.weights.empty();
+/// Nothing if it is not asked.
+std::optional<judge::GivenAnswer> answer_of(const solvers::Solver& solver,
+                                            const base::AnyQuery& query,
+                                            const ViewedQuery& viewed) {
+  judge::GivenAnswer given{.solver = solver.name(), .standard = solver.standard()};
+  const std::array<std::uint64_t, 1> index{0};
+  const solvers::SolveReply reply = solver.solve({.queries = query.queries(),
+                                                  .separation = viewed.separation,
+                                                  .source = viewed.label,
+                                                  .indices = index},
+                                                 {&given.answer, 1});
+  if (!reply.unasked.empty()) return std::nullopt;
+  if (!reply.failures.empty()) given.failure = reply.failures.front().failure;
+  return given;
+}
+
+/// Why a solver with these terms is not asked.
+/// \param query in one shape; nothing if there is none
+std::string reason_of(const fast::Terms& terms, Kind kind,
+                      const std::optional<base::AnyQuery>& query) {
+  if (!terms.answers(kind) || (query && terms.answers(query->shape()))) {
+    return "the query is outside the terms of its promise";
   }
-  for (std::size_t j = 0; j <= result.degree; ++j) {
-    for (const Trajectory& curve : curves) {
-      if (curve.degree() != 0 && curve.degree() != result.degree) return std::nullopt;
-      const std::size_t i = std::min(j, curve.degree());
-      result.numbers.insert(result.numbers.end(), curve.control[i].begin(), curve.control[i].end());
-      if (!result.is_rational) continue;
-      result.numbers.push_back(curve.weights.empty() ? 1.0 : curve.weights[i]);
-    }
-  }
-  return result;
+  if (query && query->shape().is_straight()) return "it takes no straight lines";
+  if (terms.most_degree < terms.least_degree) return "it takes straight lines alone";
+  if (!query && terms.least_degree <= 1) return "the curves differ in degree";
+  const bool are_neighbours = terms.least_degree + 1 == terms.most_degree;
+  return fmt::format("it takes {}curves of one degree, {} {} {}",
+                     terms.rational ? "" : "polynomial ", terms.least_degree,
+                     are_neighbours ? "or" : "to", terms.most_degree);
 }
 
 }  // namespace
 
-std::vector<judge::GivenAnswer> answers_of(std::span<const solvers::Solver* const> solvers,
-                                           const ViewedQuery& viewed) {
-  std::vector<judge::GivenAnswer> answers;
+Replies ask(std::span<const solvers::Solver* const> solvers, const ViewedQuery& viewed) {
+  const std::optional<base::AnyQuery> query = in_one_shape(viewed);
+  const bool is_straight = query && query->shape().is_straight();
+  Replies replies;
   for (const solvers::Solver* solver : solvers) {
-    judge::GivenAnswer given{.solver = solver->name(), .standard = solver->standard()};
-    const std::array<std::uint64_t, 1> index{0};
-    const solvers::SolveReply reply = solver->solve({.kind = viewed.kind,
-                                                     .queries = {&viewed.query, 1},
-                                                     .separation = viewed.separation,
-                                                     .source = viewed.label,
-                                                     .indices = index},
-                                                    {&given.answer, 1});
-    if (!reply.unasked.empty()) continue;
-    if (!reply.failures.empty()) given.failure = reply.failures.front().failure;
-    answers.push_back(std::move(given));
+    if (auto given = query ? answer_of(*solver, *query, viewed) : std::nullopt) {
+      replies.answers.push_back(*std::move(given));
+    } else if (!is_straight || !solver->terms().straight) {
+      replies.notes.push_back(fmt::format("{} is not asked: {}.", solver->name(),
+                                          reason_of(solver->terms(), kind_of(viewed), query)));
+    }
   }
-  return answers;
-}
-
-std::optional<judge::GivenAnswer> answer_on_curves(const ViewedQuery& viewed,
-                                                   const std::string& method,
-                                                   fast::MethodOptions options) {
-  const std::optional<data::CurvedQueryFile> curves = of_one_degree(*viewed.curves);
-  if (!curves || !solvers::answers_curves(method, curves->degree)) return std::nullopt;
-  options.separation = viewed.separation;
-  const auto answers = solvers::curved_answers(method, viewed.kind, curves->queries(), options, 1);
-  return judge::GivenAnswer{.solver = method, .answer = answers.front()};
+  return replies;
 }
 
 ViewedQuery viewed_query(judge::WrongQuery wrong) {
   return {.label = jobs::certificate_label(wrong.source, wrong.index),
-          .kind = wrong.kind,
-          .query = wrong.query,
+          .query = std::move(wrong.query),
           .separation = wrong.separation,
           .notes = std::move(wrong.faults),
           .answers = std::move(wrong.answers)};

@@ -89,41 +89,25 @@ Trajectory trajectory_of(const checker::Curve& curve) {
   return result;
 }
 
-CurvedQuery curves_of(const checker::Query& query) {
-  CurvedQuery result;
-  std::ranges::transform(query.points, result.begin(), trajectory_of);
-  return result;
-}
-
-/// \pre all are straight
-Query straight_query(const CurvedQuery& curves) {
-  Query result{};
-  for (std::size_t point = 0; point < moving_points; ++point) {
-    for (std::size_t end = 0; end < 2; ++end) {
-      for (std::size_t axis = 0; axis < 3; ++axis) {
-        result.at(end, point, axis) = curves.at(point).control.at(end).at(axis);
-      }
-    }
-  }
+OwnCurves curves_of(const checker::Query& query) {
+  OwnCurves result{.kind = query.is_edge_edge ? Kind::edge_edge : Kind::vertex_face};
+  std::ranges::transform(query.points, result.curves.begin(), trajectory_of);
   return result;
 }
 
 }  // namespace
 
-CertifiedQuery certified_query(std::string_view stream) {
+ViewedQuery certified_query(std::string stream) {
   const checker::Certificate certificate = parsed(stream);
-  CertifiedQuery result{
-      .kind = certificate.query.is_edge_edge ? Kind::edge_edge : Kind::vertex_face,
-      .label = checker::printable(certificate.label)};
-  CurvedQuery curves = curves_of(certificate.query);
+  ViewedQuery result{.label = checker::printable(certificate.label),
+                     .query = curves_of(certificate.query)};
   if (std::ranges::all_of(certificate.query.points, is_straight)) {
-    result.query = straight_query(curves);
-  } else {
-    result.curves = std::move(curves);
+    result.query = in_one_shape(result).value();
   }
   const auto& [distance, is_l2] = certificate.separation;
   result.separation = {.distance = as_double(distance, "the distance"),
                        .norm = is_l2 ? Norm::l2 : Norm::linf};
+  result.certificate = std::move(stream);
   return result;
 }
 

@@ -6,29 +6,16 @@
 /// wrote it.
 
 #include <nlohmann/json_fwd.hpp>
-#include <optional>
 #include <string>
-#include <string_view>
 
-#include "touchstone/curved_query.hpp"
-#include "touchstone/query.hpp"
+#include "verify/view/viewed_query.hpp"
 
 namespace touchstone::verify::view {
 
-/// The query of a certificate.
-struct CertifiedQuery {
-  Kind kind = Kind::vertex_face;
-  Query query{};
-  /// In place of `query`, if the points move on curves.
-  std::optional<CurvedQuery> curves = std::nullopt;
-  Separation separation{};
-  std::string label;
-};
-
-/// The query of the only certificate of a stream.
+/// The only certificate of a stream with its query, under its own label.
 /// \throws std::invalid_argument if the text is not a certificate, or a coordinate, a weight or
 /// the distance is not a double.
-[[nodiscard]] CertifiedQuery certified_query(std::string_view stream);
+[[nodiscard]] ViewedQuery certified_query(std::string stream);
 
 /// An object of `claim`, `accepted`, `reason` (of the checker, if rejected), `subintervals`, a list
 /// of `from`, `to` (rationals as text) and `feature` ("edge 0 1"), and `text`, the stream. \throws

@@ -89,30 +89,20 @@ bool is_rational(const Trajectory& curve) { return !curve.weights.empty(); }
 
 /// Adds `coordinates`; for curves `control`, and `weights` if any of them is rational.
 void add_points(const ViewedQuery& viewed, nlohmann::json& facts) {
-  if (!viewed.curves) {
-    facts["coordinates"] = numbers(viewed.query.coordinates);
+  if (const Query* const query = straight_of(viewed)) {
+    facts["coordinates"] = numbers(query->coordinates);
     return;
   }
-  facts["control"] = control_lists(*viewed.curves, [](const Trajectory& curve, std::size_t j) {
-    return numbers(curve.control[j]);
-  });
-  if (std::ranges::none_of(*viewed.curves, is_rational)) return;
-  facts["weights"] = control_lists(*viewed.curves, [](const Trajectory& curve, std::size_t j) {
+  const CurvedQuery curves = curves_of(viewed);
+  facts["control"] = control_lists(
+      curves, [](const Trajectory& curve, std::size_t j) { return numbers(curve.control[j]); });
+  if (std::ranges::none_of(curves, is_rational)) return;
+  facts["weights"] = control_lists(curves, [](const Trajectory& curve, std::size_t j) {
     return number(is_rational(curve) ? curve.weights[j] : 1.0);
   });
 }
 
 // ---- The truth ----------------------------------------------------------------------------------
-
-exact::Decision decided(const ViewedQuery& viewed) {
-  return viewed.curves ? exact::decide(viewed.kind, *viewed.curves, viewed.separation)
-                       : exact::decide(viewed.kind, viewed.query, viewed.separation);
-}
-
-exact::Certificate proved(const ViewedQuery& viewed, const exact::Decision& verdict) {
-  return viewed.curves ? exact::prove(viewed.kind, *viewed.curves, verdict)
-                       : exact::prove(viewed.kind, viewed.query, verdict);
-}
 
 nlohmann::json truth_facts(const exact::Decision& verdict) {
   nlohmann::json truth{{"collides", verdict.collides()},
@@ -131,8 +121,9 @@ nlohmann::json truth_facts(const exact::Decision& verdict) {
 }
 
 nlohmann::json approach_facts(const ViewedQuery& viewed) {
-  if (!viewed.with_approach || viewed.curves) return {};
-  const auto approach = nearest_approach(viewed.kind, viewed.query);
+  const Query* const query = straight_of(viewed);
+  if (!viewed.with_approach || query == nullptr) return {};
+  const auto approach = nearest_approach(kind_of(viewed), *query);
   if (!approach) return {};
   nlohmann::json facts = moment(approach->time);
   facts["above"] = number(approach->above);
@@ -143,7 +134,7 @@ nlohmann::json approach_facts(const ViewedQuery& viewed) {
 /// The oracle's own certificate. \return nothing where it is beyond the format's limits
 std::string proof_of(const ViewedQuery& viewed, const exact::Decision& verdict) {
   try {
-    return exact::certificate_stream(proved(viewed, verdict), io::printable(viewed.label));
+    return exact::certificate_stream(prove(viewed, verdict), io::printable(viewed.label));
   } catch (const exact::CertificateLimitError&) {
     return {};
   }
@@ -170,15 +161,12 @@ std::vector<judge::Fault> faults_of(const judge::GivenAnswer& given,
                                     const judge::Standard& standard, const Judged& judged) {
   const ViewedQuery& viewed = judged.viewed;
   const judge::Failure* const failure = given.failure ? &*given.failure : nullptr;
-  if (viewed.curves) {
-    return judge::judge_verdict(judged.truth, given.answer, standard.terms, failure);
-  }
-  const Query asked = judge::as_asked(standard.terms, viewed.query);
-  const judge::Question question{viewed.kind, asked, viewed.separation};
+  const base::AnyQuery query = in_one_shape(viewed).value();
+  const base::AnyQuery asked = judge::as_asked(standard.terms, query);
+  const judge::Question question{asked.queries(), viewed.separation};
   const judge::GroundTruth truth =
-      asked == viewed.query
-          ? judged.truth
-          : judge::truth_of(0, exact::decide(viewed.kind, asked, viewed.separation));
+      asked == query ? judged.truth
+                     : judge::truth_of(0, exact::decide(question.query, 0, viewed.separation));
   return judge::judge(question, truth, given.answer, standard, failure);
 }
 
@@ -227,12 +215,12 @@ nlohmann::json answers_of(const Judged& judged, std::span<const judge::GivenAnsw
 }  // namespace
 
 nlohmann::json query_facts(const ViewedQuery& viewed, std::span<const judge::GivenAnswer> asked) {
-  const exact::Decision verdict = decided(viewed);
+  const exact::Decision verdict = decide(viewed);
   nlohmann::json notes = nlohmann::json::array();
   for (const std::string& note : viewed.notes) notes.push_back(io::printable(note));
   nlohmann::json facts{
       {"label", io::printable(viewed.label)},
-      {"kind", to_string(viewed.kind)},
+      {"kind", to_string(kind_of(viewed))},
       {"min_separation", number(viewed.separation.distance)},
       {"norm", to_string(viewed.separation.norm)},
       {"notes", notes},

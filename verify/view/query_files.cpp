@@ -13,8 +13,6 @@
 #include <utility>
 
 #include "touchstone/certificate_text.hpp"
-#include "touchstone/curved_query.hpp"
-#include "verify/data/curved_query_file.hpp"
 #include "verify/data/dataset.hpp"
 #include "verify/io/coordinate_text.hpp"
 #include "verify/io/dataset_error.hpp"
@@ -78,13 +76,12 @@ std::vector<ViewedQuery> read_dataset(const fs::path& path, const QueryFileOptio
   Selection selection(options);
   std::uint64_t offered = 0;
   while (!selection.is_complete()) {
-    const auto recorded = source->next();
+    auto recorded = source->next();
     if (!recorded) break;
     offered = recorded->index + 1;
     if (!selection.wants(recorded->index)) continue;
     ViewedQuery query{.label = jobs::certificate_label(source->name(), recorded->index),
-                      .kind = source->kind(),
-                      .query = recorded->query,
+                      .query = std::move(recorded->query),
                       .separation = source->recorded_separation()};
     if (recorded->collides) {
       query.notes.emplace_back(*recorded->collides ? "The dataset says that they collide."
@@ -93,22 +90,6 @@ std::vector<ViewedQuery> read_dataset(const fs::path& path, const QueryFileOptio
     selection.add(std::move(query));
   }
   return selection.take(path, offered);
-}
-
-// ---- Curves -------------------------------------------------------------------------------------
-
-std::vector<ViewedQuery> read_curves(const fs::path& path, const QueryFileOptions& options) {
-  const data::CurvedQueryFile file = data::read_curved_queries(path);
-  const CurvedQueries queries = file.queries();
-  const Kind kind = options.kind ? *options.kind : data::kind_from_path(path);
-  Selection selection(options);
-  for (std::size_t i = 0; i < queries.size(); ++i) {
-    if (!selection.wants(i)) continue;
-    selection.add({.label = jobs::certificate_label(path.string(), i),
-                   .kind = kind,
-                   .curves = queries.query(i)});
-  }
-  return selection.take(path, queries.size());
 }
 
 // ---- JSON ---------------------------------------------------------------------------------------
@@ -120,7 +101,7 @@ double number_of(const nlohmann::json& json) {
   return value;
 }
 
-Query query_of(const nlohmann::json& coordinates) {
+base::AnyQuery straight_from(const nlohmann::json& coordinates, Kind kind) {
   if (!coordinates.is_array() || coordinates.size() != coordinate_count) {
     throw std::invalid_argument("coordinates must be a list of 24 numbers");
   }
@@ -128,7 +109,30 @@ Query query_of(const nlohmann::json& coordinates) {
   for (std::size_t i = 0; i < coordinate_count; ++i) {
     query.coordinates.at(i) = number_of(coordinates[i]);
   }
-  return query;
+  return {kind, query};
+}
+
+/// From `control` and `weights` as a page has them (query_facts).
+OwnCurves curves_from(const nlohmann::json& json, Kind kind) {
+  const nlohmann::json& control = json.at("control");
+  if (!control.is_array() || control.empty() || control.size() > greatest_degree + 1) {
+    throw std::invalid_argument("control must be a list for each of 1 to 9 control points");
+  }
+  OwnCurves own{.kind = kind};
+  for (std::size_t j = 0; j < control.size(); ++j) {
+    for (std::size_t i = 0; i < moving_points; ++i) {
+      const nlohmann::json& point = control[j].at(i);
+      if (point.is_null() && j > 0) continue;
+      Trajectory& curve = own.curves.at(i);
+      if (curve.control.size() != j) throw std::invalid_argument("a curve has a gap");
+      curve.control.push_back(
+          {number_of(point.at(0)), number_of(point.at(1)), number_of(point.at(2))});
+      if (!json.contains("weights")) continue;
+      curve.weights.push_back(number_of(json.at("weights").at(j).at(i)));
+      if (!(curve.weights.back() > 0.0)) throw std::invalid_argument("a weight is not positive");
+    }
+  }
+  return own;
 }
 
 Separation separation_of(const nlohmann::json& json) {
@@ -193,14 +197,10 @@ std::vector<ViewedQuery> read_json(const fs::path& path, const QueryFileOptions&
 // ---- Certificates -------------------------------------------------------------------------------
 
 ViewedQuery query_from(std::string stream, std::string label) {
-  CertifiedQuery certified = certified_query(stream);
-  if (!certified.label.empty()) label += ", " + certified.label;
-  return {.label = std::move(label),
-          .kind = certified.kind,
-          .query = certified.query,
-          .curves = std::move(certified.curves),
-          .separation = certified.separation,
-          .certificate = std::move(stream)};
+  ViewedQuery query = certified_query(std::move(stream));
+  if (!query.label.empty()) label += ", " + query.label;
+  query.label = std::move(label);
+  return query;
 }
 
 /// \throws DatasetError if it is not the first line of certificates of queries
@@ -261,9 +261,8 @@ std::vector<ViewedQuery> read_obj(const fs::path& path, const QueryFileOptions& 
     }
   }
   try {
-    return {{.label = path.string(),
-             .kind = options.kind ? *options.kind : data::kind_from_path(path),
-             .query = parse_points(numbers)}};
+    const Kind kind = options.kind ? *options.kind : data::kind_from_path(path);
+    return {{.label = path.string(), .query = base::AnyQuery(kind, parse_points(numbers))}};
   } catch (const std::invalid_argument& error) {
     throw io::DatasetError(path, {}, error.what());
   }
@@ -283,13 +282,14 @@ ViewedQuery query_from_json(const nlohmann::json& json, std::string label,
                             std::optional<Kind> kind) {
   ViewedQuery query{.label = std::move(label)};
   if (const auto named = json.find("kind"); named != json.end()) {
-    query.kind = kind_from_string(named->get<std::string>());
-  } else if (kind) {
-    query.kind = *kind;
-  } else {
-    throw std::invalid_argument("nothing says the kind; add --kind");
+    kind = kind_from_string(named->get<std::string>());
   }
-  query.query = query_of(json.at("coordinates"));
+  if (!kind) throw std::invalid_argument("nothing says the kind; add --kind");
+  if (json.contains("control")) {
+    query.query = curves_from(json, *kind);
+  } else {
+    query.query = straight_from(json.at("coordinates"), *kind);
+  }
   query.separation = separation_of(json);
   if (json.contains("label")) query.label = json.at("label").get<std::string>();
   if (json.contains("note")) query.notes.push_back(json.at("note").get<std::string>());
@@ -335,7 +335,6 @@ std::vector<ViewedQuery> read_queries(const fs::path& path, const QueryFileOptio
   const bool is_compressed = extension == ".zst" && path.stem().extension() == ".cert";
   if (extension == ".cert" || is_compressed) return read_certificates(path, options);
   if (extension == ".obj") return read_obj(path, options);
-  if (data::is_curved_query_file(path)) return read_curves(path, options);
   return read_dataset(path, options);
 }
 

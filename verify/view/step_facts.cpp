@@ -99,10 +99,10 @@ ViewedStep find_collisions(std::string label, const mesh::Mesh& mesh, mesh::Vert
 std::vector<ViewedQuery> first_queries(const ViewedStep& step, std::size_t most) {
   std::vector<ViewedQuery> queries;
   for (std::size_t i = 0; i < std::min(most, step.collisions.size()); ++i) {
-    queries.push_back({.label = fmt::format("{}: {}", step.label, pair_text(step.collisions[i])),
-                       .kind = fast::Step::kind_of(step.collisions[i].kind),
-                       .query = step.queries[i],
-                       .separation = step.separation});
+    queries.push_back(
+        {.label = fmt::format("{}: {}", step.label, pair_text(step.collisions[i])),
+         .query = base::AnyQuery(fast::Step::kind_of(step.collisions[i].kind), step.queries[i]),
+         .separation = step.separation});
   }
   return queries;
 }

@@ -15,7 +15,7 @@
 #include "touchstone/query.hpp"
 #include "touchstone/step.hpp"
 #include "verify/mesh/mesh.hpp"
-#include "verify/view/query_facts.hpp"
+#include "verify/view/viewed_query.hpp"
 
 namespace touchstone::verify::view {
 

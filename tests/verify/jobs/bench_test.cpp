@@ -17,6 +17,7 @@
 #include <utility>
 #include <vector>
 
+#include "tests/support/curved_group.hpp"
 #include "tests/support/methods.hpp"
 #include "tests/support/queries.hpp"
 #include "verify/base/thread_clock.hpp"
@@ -137,6 +138,37 @@ TEST(Bench, CountsWhatEachSolverGetsWrong) {
   EXPECT_TRUE(any_broke_promise({&result, 1}));
 }
 
+TEST(Bench, OnCurvesCountsTheSame) {
+  const fast::Terms curves{.straight = false, .least_degree = 2, .most_degree = 2};
+  Field field;
+  field.add(fast::certified_method());
+  field.add(solvers::certified_queries({}));
+  field.add(std::make_unique<FunctionMethod>(
+      tests::true_answer_to,
+      fast::MethodInfo{.name = "truth", .promise = Promise::exact, .terms = curves}));
+  field.add(std::make_unique<FunctionMethod>(
+      [](const Queries&) { return Answer{.verdict = Verdict::no}; },
+      fast::MethodInfo{.name = "no", .promise = Promise::conservative, .terms = curves}));
+  field.add(always_no, Promise::conservative, "lines alone");
+  const BenchResult result = field.run(tests::curved_group(Kind::vertex_face, 30), quick());
+  EXPECT_EQ(result.kind, Kind::vertex_face);
+  EXPECT_EQ(result.queries, 30U);
+  EXPECT_EQ(result.judged, 30U);
+  EXPECT_GT(result.collisions, 0U);
+  ASSERT_EQ(result.solvers.size(), 5U);
+  for (std::size_t i = 0; i < 3; ++i) {
+    const SolverResult& right = result.solvers[i];
+    EXPECT_EQ(right.judgement.queries, 30U) << right.name;
+    EXPECT_EQ(right.judgement.toi_errors.count(), result.collisions) << right.name;
+    EXPECT_EQ(all_faults(right.judgement), 0U) << right.name;
+    EXPECT_GT(right.times.median(), 0.0) << right.name;
+  }
+  EXPECT_EQ(result.solvers[3].judgement.count(judge::Fault::false_negative), result.collisions);
+  EXPECT_TRUE(broke_promise(result.solvers[3]));
+  EXPECT_EQ(result.solvers[4].judgement.outside, 30U);
+  EXPECT_FALSE(broke_promise(result.solvers[4]));
+}
+
 TEST(Bench, JudgesASampleOfManyQueries) {
   BenchOptions options = quick();
   options.judge = 50;
@@ -198,7 +230,8 @@ class Burner final : public solvers::Solver {
   [[nodiscard]] solvers::SolveReply answer(const solvers::SolveRequest& request,
                                            std::span<Answer> answers) const override {
     log_.emplace_back(name(), request.queries.size());
-    latest.assign(request.queries.begin(), request.queries.end());
+    const std::span<const Query> lines = request.queries.straight();
+    latest.assign(lines.begin(), lines.end());
     std::ranges::fill(answers, Answer{.verdict = Verdict::yes});
     burn(nanoseconds_ * static_cast<double>(request.queries.size()));
     if (on_solve) on_solve();
@@ -255,7 +288,7 @@ TEST(Bench, SlowSolversAreTimedOnASpreadSample) {
   ASSERT_EQ(slow.latest.size(), timed);
   const auto sample = spread_sample(group.queries().size(), timed);
   for (std::size_t i = 0; i < timed; ++i) {
-    ASSERT_EQ(slow.latest[i], group.queries()[sample[i]]) << i;
+    ASSERT_EQ(slow.latest[i], group.queries().straight()[sample[i]]) << i;
   }
   const auto colliding = static_cast<std::uint64_t>(std::ranges::count_if(sample, collides));
   EXPECT_EQ(result.solvers[0].judgement.queries, timed) << "it answered no others";

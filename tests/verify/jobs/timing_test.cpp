@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "tests/support/curved_group.hpp"
 #include "tests/support/methods.hpp"
 #include "tests/support/queries.hpp"
 
@@ -66,6 +67,29 @@ TEST(TimedSolver, ItsSampleGrowsAsLongAsItAndItsCompanionAreFast) {
   }
   const std::atomic<bool> stop = true;
   EXPECT_EQ(size_with(*quick, {.most = 1000, .seconds = 10.0, .stop = &stop}), 16U);
+}
+
+TEST(Samples, OfCurvesAreCopiedWhole) {
+  const data::QueryGroup group = tests::curved_group(Kind::edge_edge, 40);
+  Samples samples(group);
+  const auto some = samples.of(16), all = samples.of(100);
+  EXPECT_EQ(QueryShape(some->queries), (QueryShape{.kind = Kind::edge_edge, .degree = 2}));
+  ASSERT_EQ(some->queries.size(), 16U);
+  for (std::size_t i = 0; i < 16; ++i) {
+    EXPECT_TRUE(std::ranges::equal(some->queries.row(i), group.queries().row(some->positions[i])));
+  }
+  EXPECT_EQ(all->queries.numbers.data(), group.queries().numbers.data()) << "no copy";
+  EXPECT_EQ(all->queries.size(), 40U);
+}
+
+TEST(TimedSolver, TakesCurvesOrLinesOfWhateverKind) {
+  const QueryShape line{.kind = Kind::edge_edge}, parabola{.kind = Kind::edge_edge, .degree = 2};
+  const fast::Terms lines{.edge_edge = false},
+      curves{.edge_edge = false, .straight = false, .most_degree = 8};
+  EXPECT_TRUE(takes_curves(lines, line));
+  EXPECT_FALSE(takes_curves(lines, parabola));
+  EXPECT_TRUE(takes_curves(curves, parabola));
+  EXPECT_FALSE(takes_curves(curves, line));
 }
 
 TEST(TimedSolver, TimesQueriesAlone) {

@@ -8,8 +8,10 @@
 #include <regex>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "tests/support/curved_group.hpp"
 #include "tests/support/queries.hpp"
 
 namespace touchstone::verify::report::experiments_test {
@@ -100,6 +102,30 @@ TEST(Experiments, MeasuresEveryTrialAndTheMapOfStability) {
       EXPECT_EQ(mark.worst, std::nullopt);
     }
   }
+}
+
+TEST(Experiments, MethodsAreMeasuredOnTheCurvesThatTheyTake) {
+  std::vector<data::QueryGroup> groups = falling();
+  groups.push_back(tests::curved_group(Kind::edge_edge, 10));
+  ExperimentOptions options = quick();
+  options.methods = {"certified", "subdivision", "accd"};
+  options.experiments = {Experiment::field};
+  options.stability_count = 1;
+  const Measurements result = run_experiments(groups, options);
+  std::vector<std::pair<std::string, std::string>> measured;
+  for (const Measurement& m : result.all) {
+    measured.emplace_back(m.group, m.method);
+    EXPECT_EQ(m.asked, 10U) << m.method;
+    EXPECT_EQ(m.outside, 0U) << m.method;
+  }
+  const std::vector<std::pair<std::string, std::string>> expected{{"falling", "certified"},
+                                                                  {"falling", "accd"},
+                                                                  {"curves", "certified"},
+                                                                  {"curves", "subdivision"}};
+  EXPECT_EQ(measured, expected);
+  std::set<std::string> on_the_map;
+  for (const StabilityMark& mark : result.stability) on_the_map.insert(mark.method);
+  EXPECT_EQ(on_the_map, (std::set<std::string>{"accd", "certified"}));
 }
 
 TEST(Experiments, FiltersAreComparedOnFamiliesAndOverTheScale) {

@@ -3,9 +3,14 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <memory>
+#include <optional>
 #include <string>
+#include <string_view>
+#include <variant>
 #include <vector>
 
+#include "tests/support/methods.hpp"
 #include "tests/support/queries.hpp"
 #include "verify/solvers/registry.hpp"
 
@@ -16,71 +21,132 @@ namespace {
 ViewedQuery resting() {
   const tests::PosedQuery posed = tests::vertex_face({1, 1, 0, 0, 0, 0, 4, 0, 0, 0, 4, 0},
                                                      {1, 1, 0, 0, 0, 0, 4, 0, 0, 0, 4, 0});
-  return {.label = "a label", .kind = posed.kind, .query = posed.query};
+  return {.label = "a label", .query = base::AnyQuery(posed.kind, posed.query)};
 }
 
-TEST(AnswersOf, AreThoseOfSolversWithinTheirTerms) {
-  const auto certified = solvers::solver_in_process(solvers::find_method("certified"), {});
-  const auto limited = solvers::solver_in_process(solvers::find_method("accd_limited"), {});
-  const std::array<const solvers::Solver*, 2> asked{certified.get(), limited.get()};
-  const auto answers = answers_of(asked, resting());
+/// What these methods say.
+Replies ask_methods(const std::vector<std::string>& names, const ViewedQuery& query) {
+  std::vector<std::unique_ptr<solvers::Solver>> made;
+  std::vector<const solvers::Solver*> asked;
+  for (const std::string& name : names) {
+    made.push_back(solvers::solver_in_process(solvers::find_method(name), {.tolerance = 1e-3}));
+    asked.push_back(made.back().get());
+  }
+  return ask(asked, query);
+}
+
+TEST(Ask, AnswersAreThoseOfSolversWithinTheirTerms) {
+  const Replies replies = ask_methods({"certified", "accd_limited"}, resting());
+  const std::vector<judge::GivenAnswer>& answers = replies.answers;
   ASSERT_EQ(answers.size(), 1U) << "ACCD's promise is about primitives that start apart";
   EXPECT_EQ(answers[0].solver, "certified");
   EXPECT_EQ(answers[0].answer.verdict, fast::Verdict::yes);
   ASSERT_TRUE(answers[0].standard.has_value());
   EXPECT_EQ(answers[0].standard->promise, fast::Promise::exact);
+  EXPECT_TRUE(replies.notes.empty());
 }
 
 /// A vertex falls to a triangle at rest and through it, on a curve through these heights.
-ViewedQuery on_curves(const std::vector<double>& heights) {
-  CurvedQuery curves{{{}, {.control = {{0, 0, 0}}}, {.control = {{4, 0, 0}}}, {}}};
-  for (const double z : heights) curves[0].control.push_back({1, 1, z});
-  curves[3].control = {{0, 4, 0}, {0, 4, 0}, {0, 4, 0}};
-  return {.label = "curved", .curves = curves};
+OwnCurves on_curves(const std::vector<double>& heights) {
+  OwnCurves own{.curves = {{{}, {.control = {{0, 0, 0}}}, {.control = {{4, 0, 0}}}, {}}}};
+  for (const double z : heights) own.curves[0].control.push_back({1, 1, z});
+  own.curves[3].control = {{0, 4, 0}, {0, 4, 0}, {0, 4, 0}};
+  return own;
 }
 
-std::optional<judge::GivenAnswer> asked(const ViewedQuery& query,
-                                        const std::string& method = "certified") {
-  return answer_on_curves(query, method, {.tolerance = 1e-3});
+/// The answer of a method, if it gives one.
+std::optional<fast::Answer> asked(const OwnCurves& curves, const std::string& method = "certified",
+                                  const Separation& separation = {}) {
+  const Replies replies =
+      ask_methods({method}, {.label = "curved", .query = curves, .separation = separation});
+  EXPECT_EQ(replies.answers.size() + replies.notes.size(), 1U);
+  if (replies.answers.empty()) return std::nullopt;
+  EXPECT_EQ(replies.answers[0].solver, method);
+  return replies.answers[0].answer;
 }
 
-TEST(AnswerOnCurves, IsOfTheCertifiedSolver) {
-  ViewedQuery query = on_curves({0.5, 0.5, -1.5});
-  const auto answer = asked(query);
+TEST(Ask, TheCertifiedSolverOnCurves) {
+  OwnCurves own = on_curves({0.5, 0.5, -1.5});
+  const auto answer = asked(own);
   ASSERT_TRUE(answer.has_value());
-  EXPECT_EQ(answer->solver, "certified");
-  EXPECT_EQ(answer->answer.verdict, fast::Verdict::yes);
-  EXPECT_LT(answer->answer.toi_lower, 0.5);
-  EXPECT_GE(answer->answer.toi_upper, 0.5);
-  EXPECT_NEAR(answer->answer.toi_lower, answer->answer.toi_upper, 1e-11);
-  query.curves->at(2).weights = {0.5};
-  EXPECT_NEAR(asked(query)->answer.toi_upper, 0.5, 1e-11);
-  query.curves->at(0).weights = {1, 1, 2};
-  EXPECT_LT(asked(query)->answer.toi_upper, 0.5);
-  query.curves->at(0).control[2][2] = 0.25;
-  EXPECT_EQ(asked(query)->answer.verdict, fast::Verdict::no);
-  query.separation = {.distance = 0.25, .norm = Norm::l2};
-  EXPECT_EQ(asked(query)->answer.verdict, fast::Verdict::yes);
+  EXPECT_EQ(answer->verdict, fast::Verdict::yes);
+  EXPECT_LT(answer->toi_lower, 0.5);
+  EXPECT_GE(answer->toi_upper, 0.5);
+  EXPECT_NEAR(answer->toi_lower, answer->toi_upper, 1e-11);
+  own.curves[2].weights = {0.5};
+  EXPECT_NEAR(asked(own)->toi_upper, 0.5, 1e-11);
+  own.curves[0].weights = {1, 1, 2};
+  EXPECT_LT(asked(own)->toi_upper, 0.5);
+  own.curves[0].control[2][2] = 0.25;
+  EXPECT_EQ(asked(own)->verdict, fast::Verdict::no);
+  EXPECT_EQ(asked(own, "certified", {.distance = 0.25, .norm = Norm::l2})->verdict,
+            fast::Verdict::yes);
 }
 
-TEST(AnswerOnCurves, IsOfTightInclusionInItsDegrees) {
+TEST(Ask, TightInclusionOnCurvesOfItsDegrees) {
   const auto answer = asked(on_curves({0.5, 0.5, -1.5}), "tight_inclusion");
   ASSERT_TRUE(answer.has_value());
-  EXPECT_EQ(answer->solver, "tight_inclusion");
-  EXPECT_EQ(answer->answer.verdict, fast::Verdict::yes);
-  EXPECT_LE(answer->answer.toi_lower, 0.5);
-  EXPECT_GT(answer->answer.tolerance, 0.0);
-  EXPECT_EQ(asked(on_curves({1, 1, 1}), "tight_inclusion")->answer.verdict, fast::Verdict::no);
-  ViewedQuery lines = on_curves({1, 1});
-  lines.curves->at(3) = {.control = {{0, 4, 0}}};
-  EXPECT_TRUE(asked(lines));
-  EXPECT_FALSE(asked(lines, "tight_inclusion"));
+  EXPECT_EQ(answer->verdict, fast::Verdict::yes);
+  EXPECT_LE(answer->toi_lower, 0.5);
+  EXPECT_GT(answer->tolerance, 0.0);
+  EXPECT_EQ(asked(on_curves({1, 1, 1}), "tight_inclusion")->verdict, fast::Verdict::no);
 }
 
-TEST(AnswerOnCurves, NeedsOneDegreeOfThoseThatMove) {
+TEST(Ask, CurvesOfDegreeOneAsStraightLines) {
+  OwnCurves lines = on_curves({1, -1});
+  lines.curves[3] = {.control = {{0, 4, 0}}};
+  const Replies replies =
+      ask_methods({"certified", "tight_inclusion", "accd"}, {.label = "lines", .query = lines});
+  ASSERT_EQ(replies.answers.size(), 3U);
+  for (const judge::GivenAnswer& given : replies.answers) {
+    EXPECT_EQ(given.answer.verdict, fast::Verdict::yes) << given.solver;
+  }
+}
+
+TEST(Ask, CurvesOfOneDegreeOrConstant) {
   EXPECT_TRUE(asked(on_curves({1, 1, 1})).has_value());
   EXPECT_TRUE(asked(on_curves({1})).has_value());
   EXPECT_FALSE(asked(on_curves({1, 1})).has_value());
+}
+
+/// A method of these terms that is never asked.
+std::vector<std::string> notes_of(const fast::Terms& terms, const ViewedQuery& query) {
+  const tests::FunctionMethod method(
+      [](Kind, const Query&) { return fast::Answer{.verdict = fast::Verdict::no}; },
+      {.name = "method", .terms = terms});
+  const auto solver = solvers::solver_in_process(method, {});
+  const std::array<const solvers::Solver*, 1> asked{solver.get()};
+  const Replies replies = ask(asked, query);
+  EXPECT_TRUE(replies.answers.empty());
+  return replies.notes;
+}
+
+TEST(Ask, NotesSayWhoIsNotAskedAndWhy) {
+  struct Row {
+    std::string_view reason;  ///< empty: nothing is said
+    fast::Terms terms;
+    ViewedQuery query;
+  };
+  const fast::Terms polynomial{.straight = false, .least_degree = 1, .most_degree = 8};
+  const fast::Terms two_or_three{.least_degree = 2, .most_degree = 3, .rational = true};
+  const ViewedQuery mixed{.label = "", .query = on_curves({1, 1})};
+  ViewedQuery rational{.label = "", .query = on_curves({1, 1, 1})};
+  std::get<OwnCurves>(rational.query).curves[0].weights = {1, 1, 1};
+  const std::vector<Row> rows{
+      {"it takes straight lines alone", {}, rational},
+      {"it takes straight lines alone", {}, mixed},
+      {"it takes polynomial curves of one degree, 1 to 8", polynomial, rational},
+      {"the curves differ in degree", polynomial, mixed},
+      {"it takes curves of one degree, 2 or 3", two_or_three, mixed},
+      {"it takes no straight lines", polynomial, resting()},
+      {"the query is outside the terms of its promise", {.vertex_face = false}, rational},
+      {"", {.vertex_face = false}, resting()},
+  };
+  for (const auto& [reason, terms, query] : rows) {
+    std::vector<std::string> expected;
+    if (!reason.empty()) expected.push_back("method is not asked: " + std::string(reason) + ".");
+    EXPECT_EQ(notes_of(terms, query), expected);
+  }
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <string>
+#include <variant>
 
 #include "tests/support/queries.hpp"
 #include "touchstone/certificate.hpp"
@@ -47,10 +48,11 @@ TEST(CertificateFacts, TheQueryBitForBit) {
                                                    {-1, 0, -1, 1, 0, -1, 0, -1.7e308, 0, 0, 1, 0});
   const Separation separation{.distance = 0.1, .norm = Norm::l2};
   const exact::Decision verdict = exact::decide(posed.kind, posed.query, separation);
-  const CertifiedQuery read = certified_query(
-      exact::certificate_stream(exact::prove(posed.kind, posed.query, verdict), "a label"));
-  EXPECT_EQ(read.kind, posed.kind);
-  EXPECT_EQ(read.query, posed.query);
+  const std::string stream =
+      exact::certificate_stream(exact::prove(posed.kind, posed.query, verdict), "a label");
+  const ViewedQuery read = certified_query(stream);
+  EXPECT_EQ(read.certificate, stream);
+  EXPECT_EQ(std::get<base::AnyQuery>(read.query), base::AnyQuery(posed.kind, posed.query));
   EXPECT_EQ(read.separation, separation);
   EXPECT_EQ(read.label, "a label");
 }
@@ -64,15 +66,15 @@ const std::string through_a_triangle =
     "contact time 0x1p-2\nat triangle 0 1 2 z\nend\ncertificates 1\n";
 
 TEST(CertificateFacts, TheCurvesOfAQueryEachOfItsDegree) {
-  const CertifiedQuery read = certified_query(through_a_triangle);
+  const ViewedQuery read = certified_query(through_a_triangle);
   const CurvedQuery expected{{{.control = {{1.0, 1.0, -0.75}, {1.0, 1.0, 1.25}, {1.0, 1.0, -0.75}}},
                               {.control = {{0.0, 0.0, 0.0}}},
                               {.control = {{4.0, 0.0, 0.0}}, .weights = {0.5}},
                               {.control = {{0.0, 4.0, 0.0}}}}};
-  ASSERT_TRUE(read.curves.has_value());
-  EXPECT_EQ(*read.curves, expected);
+  EXPECT_EQ(std::get<OwnCurves>(read.query),
+            (OwnCurves{.kind = Kind::vertex_face, .curves = expected}));
   EXPECT_EQ(certificate_facts(through_a_triangle).at("accepted"), true);
-  EXPECT_FALSE(certified_query(over_an_edge).curves.has_value());
+  EXPECT_NE(straight_of(certified_query(over_an_edge)), nullptr);
 }
 
 TEST(CertificateFacts, InvalidTextIsAnError) {

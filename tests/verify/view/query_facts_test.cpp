@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include "tests/support/queries.hpp"
@@ -20,14 +21,14 @@ namespace {
 ViewedQuery falling() {
   const tests::PosedQuery posed = tests::vertex_face({1, 1, 1, 0, 0, 0, 4, 0, 0, 0, 4, 0},
                                                      {1, 1, -2, 0, 0, 0, 4, 0, 0, 0, 4, 0});
-  return {.label = "a label", .kind = posed.kind, .query = posed.query};
+  return {.label = "a label", .query = base::AnyQuery(posed.kind, posed.query)};
 }
 
 /// √½: the third example of exact/CERTIFICATES.md.
 ViewedQuery at_root_of_a_half() {
   const tests::PosedQuery posed = tests::vertex_face({0, 0.5, 0.25, 0, 0, 0, 2, 0, 0, 0, 0, 1},
                                                      {1, 0.5, 0.25, 0, 0, 0, 2, 2, 0, 0, 0, 1});
-  return {.label = "root", .kind = posed.kind, .query = posed.query};
+  return {.label = "root", .query = base::AnyQuery(posed.kind, posed.query)};
 }
 
 TEST(QueryFacts, ARationalTimeOfImpactIsGivenExactly) {
@@ -60,8 +61,9 @@ TEST(QueryFacts, AnIrrationalOneIsNearTheTimeGiven) {
 }
 
 TEST(QueryFacts, TheNearestApproachOfQueriesWithoutCollision) {
-  ViewedQuery query = falling();
-  query.query.at(1, 0, 2) = 0x1p-60;
+  Query almost = *straight_of(falling());
+  almost.at(1, 0, 2) = 0x1p-60;
+  const ViewedQuery query{.label = "near", .query = base::AnyQuery(Kind::vertex_face, almost)};
   const nlohmann::json facts = query_facts(query, {});
   EXPECT_EQ(facts.at("truth").at("collides"), false);
   EXPECT_FALSE(facts.at("truth").contains("toi"));
@@ -91,7 +93,7 @@ TEST(QueryFacts, AnswersAreHeldAgainstTheTruth) {
                     .failure = judge::Failure{.kind = judge::Fault::crash, .number = 11}}};
   const auto method = solvers::solver_in_process(solvers::find_method("certified"), {});
   const std::array<const solvers::Solver*, 1> asked{method.get()};
-  const nlohmann::json answers = query_facts(query, answers_of(asked, query)).at("answers");
+  const nlohmann::json answers = query_facts(query, ask(asked, query).answers).at("answers");
   ASSERT_EQ(answers.size(), 4U);
   EXPECT_EQ(answers[0].at("solver"), "mine");
   EXPECT_EQ(answers[0].at("recorded"), true);
@@ -113,11 +115,11 @@ TEST(QueryFacts, AnswersAreHeldAgainstTheTruth) {
 /// where the middle control point is at -1, and rises again.
 ViewedQuery turning(std::vector<double> weights = {}) {
   return {.label = "curved",
-          .curves = CurvedQuery{
-              {{.control = {{1, 1, 1}, {1, 1, -1}, {1, 1, 1}}, .weights = std::move(weights)},
-               {.control = {{0, 0, 0}}},
-               {.control = {{4, 0, 0}}},
-               {.control = {{0, 4, 0}}}}}};
+          .query = OwnCurves{.curves = {{{.control = {{1, 1, 1}, {1, 1, -1}, {1, 1, 1}},
+                                          .weights = std::move(weights)},
+                                         {.control = {{0, 0, 0}}},
+                                         {.control = {{4, 0, 0}}},
+                                         {.control = {{0, 4, 0}}}}}}};
 }
 
 TEST(QueryFacts, PointsOnCurvesAreGivenByTheirControlPoints) {
@@ -148,13 +150,27 @@ TEST(QueryFacts, OnRationalCurvesTheirWeightsAreGiven) {
 
 TEST(QueryFacts, OnCurvesThereIsNoNearestApproach) {
   ViewedQuery query = turning();
-  query.curves->at(0).control[1][2] = 0.0;
+  std::get<OwnCurves>(query.query).curves[0].control[1][2] = 0.0;
   const nlohmann::json facts = query_facts(query, {});
   EXPECT_EQ(facts.at("truth").at("collides"), false);
   EXPECT_TRUE(facts.at("approach").is_null());
   EXPECT_EQ(facts.at("certificate").at("claim"), "no_collision");
   query.separation = {.distance = 0.5, .norm = Norm::linf};
   EXPECT_EQ(query_facts(query, {}).at("truth").at("toi").at("exact"), "1/2");
+}
+
+TEST(QueryFacts, CurvesOfOneShapeHaveAllTheirControlPoints) {
+  ViewedQuery query = turning({1.0, 2.0, 3.0});
+  query.query = in_one_shape(query).value();
+  query.answers = {{.solver = "certified", .answer = {.verdict = fast::Verdict::no}}};
+  const nlohmann::json facts = query_facts(query, {});
+  EXPECT_EQ(facts.at("weights"), nlohmann::json::parse(R"([
+    ["0x1p+0", "0x1p+0", "0x1p+0", "0x1p+0"], ["0x1p+1", "0x1p+0", "0x1p+0", "0x1p+0"],
+    ["0x1.8p+1", "0x1p+0", "0x1p+0", "0x1p+0"]])"));
+  EXPECT_EQ(facts.at("control").at(2).at(3),
+            nlohmann::json::parse(R"(["0x0p+0", "0x1p+2", "0x0p+0"])"));
+  EXPECT_EQ(facts.at("truth").at("toi").at("exact"), "1/4");
+  EXPECT_EQ(facts.at("answers").at(0).at("faults"), nlohmann::json::array({"false negative"}));
 }
 
 TEST(QueryFacts, TextsArePrintable) {

@@ -5,8 +5,10 @@
 #include <array>
 #include <cstdint>
 #include <fstream>
+#include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "tests/support/folder_test.hpp"
@@ -18,6 +20,7 @@
 #include "verify/data/npy_header.hpp"
 #include "verify/io/compressor.hpp"
 #include "verify/io/dataset_error.hpp"
+#include "verify/view/query_facts.hpp"
 
 namespace touchstone::verify::view::query_files_test {
 namespace {
@@ -27,6 +30,11 @@ Query numbered(int number) {
   return tests::moving({1, 1, 1, 0, 0, 0, 4, 0, 0, 0, 4, 0},
                        {1, 1, -0.1 * number, 0, 0, 0, 4, 0, 0, 0, 4, 0});
 }
+
+/// A query as it is viewed.
+using AnyViewed = decltype(ViewedQuery::query);
+
+AnyViewed any(const Query& query) { return base::AnyQuery(Kind::vertex_face, query); }
 
 class QueryFiles : public tests::FolderTest {
  protected:
@@ -54,14 +62,13 @@ TEST_F(QueryFiles, RowsOfADataset) {
                                data::csv_rows(numbered(2), true));
   const auto all = queries("vertex-face.csv");
   ASSERT_EQ(all.size(), 3U);
-  EXPECT_EQ(all[1].query, numbered(1));
-  EXPECT_EQ(all[1].kind, Kind::vertex_face);
+  EXPECT_EQ(all[1].query, any(numbered(1)));
   EXPECT_EQ(all[1].label, path("vertex-face.csv") + ":1");
   EXPECT_EQ(all[1].notes, std::vector<std::string>{"The dataset says that they collide."});
   const auto chosen = queries("vertex-face.csv", {.indices = {2, 0}});
   ASSERT_EQ(chosen.size(), 2U);
-  EXPECT_EQ(chosen[0].query, numbered(0));
-  EXPECT_EQ(chosen[1].query, numbered(2));
+  EXPECT_EQ(chosen[0].query, any(numbered(0)));
+  EXPECT_EQ(chosen[1].query, any(numbered(2)));
   EXPECT_EQ(queries("vertex-face.csv", {.most = 2}).size(), 2U);
   EXPECT_EQ(reason("vertex-face.csv", {.indices = {3}}), "there is no query 3; it has 3");
 }
@@ -72,16 +79,17 @@ TEST_F(QueryFiles, QueriesOnCurves) {
   write("edge-edge.csv", text);
   const auto all = queries("edge-edge.csv");
   ASSERT_EQ(all.size(), 2U);
-  ASSERT_TRUE(all[1].curves.has_value());
-  const Trajectory& third = all[1].curves->at(2);
-  EXPECT_EQ(third.degree(), 2U);
+  const auto& second = std::get<base::AnyQuery>(all[1].query);
+  EXPECT_EQ(second.shape(),
+            (QueryShape{.kind = Kind::edge_edge, .degree = 2, .is_rational = true}));
+  const Trajectory third = curves_of(all[1])[2];
   EXPECT_EQ(third.control[1], (std::array{18.0, -0.25, 3.0}));
   EXPECT_EQ(third.weights, std::vector<double>(3, 0.5));
-  EXPECT_EQ(all[1].kind, Kind::edge_edge);
   EXPECT_EQ(all[1].label, path("edge-edge.csv") + ":1");
-  EXPECT_EQ(queries("edge-edge.csv", {.indices = {1}}).at(0).curves, all[1].curves);
+  EXPECT_EQ(queries("edge-edge.csv", {.indices = {1}}).at(0).query, all[1].query);
   EXPECT_EQ(queries("edge-edge.csv", {.most = 1}).size(), 1U);
-  EXPECT_EQ(queries("edge-edge.csv", {.kind = Kind::vertex_face}).at(0).kind, Kind::vertex_face);
+  EXPECT_EQ(kind_of(queries("edge-edge.csv", {.kind = Kind::vertex_face}).at(0)),
+            Kind::vertex_face);
   EXPECT_EQ(reason("edge-edge.csv", {.indices = {2}}), "there is no query 2; it has 2");
 }
 
@@ -92,9 +100,9 @@ TEST_F(QueryFiles, AnArrayOfFourExtentsIsOfCurves) {
   const std::array<std::uint64_t, 3> curves{4, 4, 3};
   const std::array<std::uint64_t, 2> lines{8, 3};
   write("vertex-face.npy", data::npy_header_text("<f8", 2, curves) + data);
-  EXPECT_EQ(queries("vertex-face.npy").at(1).curves->at(3).degree(), 3U);
+  EXPECT_EQ(curves_of(queries("vertex-face.npy").at(1))[3].degree(), 3U);
   write("vertex-face.npy", data::npy_header_text("<f8", 4, lines) + data);
-  EXPECT_FALSE(queries("vertex-face.npy").at(3).curves.has_value());
+  EXPECT_NE(straight_of(queries("vertex-face.npy").at(3)), nullptr);
 }
 
 TEST_F(QueryFiles, AFindingOfTheFuzzer) {
@@ -111,16 +119,44 @@ TEST_F(QueryFiles, AFindingOfTheFuzzer) {
     "tolerance": null}}]})");
   const auto all = queries("found.json");
   ASSERT_EQ(all.size(), 1U);
-  EXPECT_EQ(all[0].kind, Kind::edge_edge);
-  EXPECT_EQ(all[0].query.coordinates[0], 5e-324);
-  EXPECT_EQ(all[0].query.coordinates[1], -1.5);
-  EXPECT_EQ(all[0].query.coordinates[23], 23.0);
+  EXPECT_EQ(kind_of(all[0]), Kind::edge_edge);
+  const Query* const query = straight_of(all[0]);
+  ASSERT_NE(query, nullptr);
+  EXPECT_EQ(query->coordinates[0], 5e-324);
+  EXPECT_EQ(query->coordinates[1], -1.5);
+  EXPECT_EQ(query->coordinates[23], 23.0);
   EXPECT_EQ(all[0].separation, (Separation{.distance = 0.5, .norm = Norm::l2}));
   EXPECT_EQ(all[0].label, path("found.json") + ":0, late_toi of mine");
   ASSERT_EQ(all[0].answers.size(), 1U);
   EXPECT_EQ(all[0].answers[0].solver, "mine");
   EXPECT_EQ(all[0].answers[0].answer.toi_lower, 0.75);
   EXPECT_EQ(all[0].answers[0].answer.verdict, fast::Verdict::yes);
+}
+
+TEST_F(QueryFiles, CurvesInJsonAreThoseOfAPage) {
+  const OwnCurves curves{.kind = Kind::edge_edge,
+                         .curves = {{{.control = {{1, 1, 1}, {1, 1, -1}}, .weights = {1, 2}},
+                                     {.control = {{0, 0, 0.1}}, .weights = {1}},
+                                     {.control = {{4, 0, 0}}, .weights = {0.5}},
+                                     {.control = {{0, 4, 0}}, .weights = {1}}}}};
+  nlohmann::json facts = query_facts({.label = "of a page", .query = curves}, {});
+  const auto read_again = [&] {
+    write("curves.json", facts.dump());
+    return reason("curves.json");
+  };
+  EXPECT_EQ(read_again(), "none");
+  EXPECT_EQ(queries("curves.json").at(0).query, AnyViewed(curves));
+  facts["weights"][1][0] = -1;
+  EXPECT_EQ(read_again(), "query 0: a weight is not positive");
+  facts.erase("weights");
+  EXPECT_EQ(read_again(), "none");
+  EXPECT_TRUE(curves_of(queries("curves.json").at(0))[0].weights.empty());
+  facts["control"].push_back(facts["control"][0]);
+  EXPECT_EQ(read_again(), "query 0: a curve has a gap");
+  facts["control"] = nlohmann::json::array();
+  EXPECT_EQ(read_again(), "query 0: control must be a list for each of 1 to 9 control points");
+  facts["control"] = {{nullptr, nullptr, nullptr, nullptr}};
+  EXPECT_NE(read_again(), "none") << "each curve has a point";
 }
 
 TEST_F(QueryFiles, FaultyJson) {
@@ -146,10 +182,10 @@ TEST_F(QueryFiles, Certificates) {
   write("proofs.cert", text + exact::certificates_closing_line(3));
   const auto all = queries("proofs.cert");
   ASSERT_EQ(all.size(), 3U);
-  EXPECT_EQ(all[2].query, numbered(2));
+  EXPECT_EQ(all[2].query, any(numbered(2)));
   EXPECT_EQ(all[2].label, path("proofs.cert") + ":2, label");
   EXPECT_TRUE(all[2].certificate.ends_with("end\ncertificates 1\n"));
-  EXPECT_EQ(queries("proofs.cert", {.indices = {1}}).at(0).query, numbered(1));
+  EXPECT_EQ(queries("proofs.cert", {.indices = {1}}).at(0).query, any(numbered(1)));
   const CurvedQuery curves{{{.control = {{1, 1, 1}, {1, 1, -1}, {1, 1, 1}}},
                             {.control = {{0, 0, 0}}},
                             {.control = {{4, 0, 0}}},
@@ -158,7 +194,8 @@ TEST_F(QueryFiles, Certificates) {
         exact::certificate_stream(
             exact::prove(Kind::vertex_face, curves, exact::decide(Kind::vertex_face, curves)),
             "on curves"));
-  EXPECT_EQ(queries("curves.cert").at(0).curves, curves);
+  EXPECT_EQ(queries("curves.cert").at(0).query,
+            AnyViewed(OwnCurves{.kind = Kind::vertex_face, .curves = curves}));
   write("text.cert", "no certificate\n");
   EXPECT_EQ(reason("text.cert"), "this is no stream of certificates");
 }
@@ -189,7 +226,7 @@ TEST_F(QueryFiles, LinesOfVertices) {
         "v 4 0 0\nv 0 4 0\n");
   const auto read_ones = queries("query.obj", {.kind = Kind::vertex_face});
   ASSERT_EQ(read_ones.size(), 1U);
-  EXPECT_EQ(read_ones[0].query, numbered(1));
+  EXPECT_EQ(read_ones[0].query, any(numbered(1)));
   EXPECT_NE(reason("query.obj"), "none") << "nothing says the kind";
   write("few.obj", "v 1 2 3\n");
   EXPECT_EQ(reason("few.obj", {.kind = Kind::edge_edge}), "3 numbers, not the 24 of a query");

@@ -45,7 +45,7 @@ TEST(StepFacts, PairsAreInTheOrderOfTheirTimes) {
   const auto queries = first_queries(found, 1);
   ASSERT_EQ(queries.size(), 1U);
   EXPECT_EQ(queries[0].label, "a step: vertex 4, face 0");
-  EXPECT_EQ(queries[0].query.at(1, 0, 2), -3.0);
+  EXPECT_EQ(straight_of(queries[0])->at(1, 0, 2), -3.0);
   EXPECT_EQ(first_queries(found, 9).size(), 2U);
 }
 
@@ -90,7 +90,7 @@ TEST(StepFacts, OfTheStepThatIsTaken) {
   ASSERT_EQ(taken.collisions.size(), 1U) << "the other point falls through at t = 1/2";
   EXPECT_EQ(taken.after(4, 2), 0.0);
   EXPECT_EQ(taken.after(3, 2), 1.0);
-  EXPECT_EQ(first_queries(taken, 1)[0].query.at(1, 0, 2), 0.0);
+  EXPECT_EQ(straight_of(first_queries(taken, 1)[0])->at(1, 0, 2), 0.0);
 }
 
 TEST(StepFacts, BetweenGroupsThatMeet) {
