@@ -67,11 +67,12 @@ bool is_beyond_doubt(const judge::Question& question, const CertifiedResult& jud
   judge::GroundTruth truth{.index = 0, .collides = judged.verdict == Verdict::yes, .toi = {}};
   if (truth.collides) truth.toi = exact::DoubleInterval{judged.toi_lower, judged.toi_upper};
   if (broken(judge::judge_verdict(truth, answer, standard.terms), standard.promise)) return false;
-  if (truth.collides) return true;
+  if (truth.collides || !question.query.is_straight()) return true;
   const auto claimed = judge::claim_of(question, answer, standard);
-  const auto& [kind, query, separation] = question;
-  return !claimed ||
-         (claimed->norm == Norm::linf &&
+  if (!claimed) return true;
+  const Kind kind = question.query.kind;
+  const Query& query = question.query.straight().front();
+  return (claimed->norm == Norm::linf &&
           judge::is_seen_within(kind, query, answer.toi_lower, claimed->distance)) ||
          fast::solve(kind, query, {.separation = *claimed}).verdict == Verdict::yes;
 }
