@@ -505,8 +505,8 @@ void add_search_options(CLI::App& command, Arguments& arguments) {
                       "default) to 8, or rational (of degrees 1 and 2); repeatable")
           ->type_name("D")
           ->allow_extra_args(false)
-          ->check(CLI::IsMember({"1", "2", "3", "4", "5", "6", "7", "8", std::string(rational)})
-                      .description(""));
+          ->check(
+              CLI::IsMember({"1", "2", "3", "4", "5", "6", "7", "8", "rational"}).description(""));
   command
       .add_flag(
           "--curved", arguments.curved,

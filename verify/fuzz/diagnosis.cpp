@@ -67,7 +67,7 @@ bool is_beyond_doubt(const judge::Question& question, const CertifiedResult& jud
   judge::GroundTruth truth{.index = 0, .collides = judged.verdict == Verdict::yes, .toi = {}};
   if (truth.collides) truth.toi = exact::DoubleInterval{judged.toi_lower, judged.toi_upper};
   if (broken(judge::judge_verdict(truth, answer, standard.terms), standard.promise)) return false;
-  if (truth.collides || !question.query.is_straight()) return true;
+  if (truth.collides) return true;
   const auto claimed = judge::claim_of(question, answer, standard);
   if (!claimed) return true;
   const Kind kind = question.query.kind;
