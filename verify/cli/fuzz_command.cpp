@@ -3,22 +3,23 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>
+#include <deque>
 #include <filesystem>
 #include <functional>
+#include <iterator>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
 #include "verify/cli/commands.hpp"
-#include "verify/cli/curved_run.hpp"
 #include "verify/cli/files.hpp"
 #include "verify/cli/help.hpp"
 #include "verify/cli/options.hpp"
@@ -30,7 +31,6 @@
 #include "verify/data/separation_file.hpp"
 #include "verify/fuzz/finding_page.hpp"
 #include "verify/fuzz/fuzz.hpp"
-#include "verify/fuzz/fuzz_curves.hpp"
 #include "verify/fuzz/fuzz_report.hpp"
 #include "verify/fuzz/reproduce.hpp"
 #include "verify/fuzz/standalone.hpp"
@@ -38,7 +38,6 @@
 #include "verify/io/printable.hpp"
 #include "verify/io/terminal.hpp"
 #include "verify/judge/separation_inference.hpp"
-#include "verify/solvers/curved_answers.hpp"
 #include "verify/solvers/registry.hpp"
 #include "verify/solvers/solver.hpp"
 #include "verify/view/query_files.hpp"
@@ -52,6 +51,8 @@ constexpr double default_seconds = 60.0;
 constexpr double longest_run = 1e7;
 /// The maximum time, in seconds, for simplifying a finding.
 constexpr double shrink_seconds = 5.0;
+/// Instead of a degree: curves with weights, of degrees 1 and 2.
+constexpr std::string_view rational = "rational";
 
 struct Arguments {
   SolverArguments solver;
@@ -62,6 +63,7 @@ struct Arguments {
   PieceArguments pieces;
   std::uint64_t most_findings = 20;
   std::string kind;
+  std::vector<std::string> degree;
   bool curved = false;
   std::vector<std::string> only;
   std::vector<fs::path> corpus;
@@ -79,6 +81,26 @@ struct Arguments {
   [[nodiscard]] std::vector<Kind> kinds() const {
     if (kind.empty()) return {Kind::vertex_face, Kind::edge_edge};
     return {kind_from_string(kind)};
+  }
+
+  /// The degrees as they are written.
+  [[nodiscard]] std::vector<std::string> degrees() const {
+    if (curved) return {"2", "3", std::string(rational)};
+    return degree.empty() ? std::vector<std::string>{"1"} : degree;
+  }
+
+  /// The shapes of one of them.
+  [[nodiscard]] std::vector<QueryShape> shapes(const std::string& of_degree) const {
+    std::vector<QueryShape> result;
+    for (const Kind one : kinds()) {
+      if (of_degree != rational) {
+        result.push_back({.kind = one, .degree = std::stoul(of_degree)});
+        continue;
+      }
+      result.push_back({.kind = one, .degree = 1, .is_rational = true});
+      result.push_back({.kind = one, .degree = 2, .is_rational = true});
+    }
+    return result;
   }
 
   [[nodiscard]] std::vector<judge::Fault> sought() const {
@@ -108,15 +130,15 @@ Kind kind_of(const fs::path& file, const Arguments& arguments) {
   }
 }
 
-std::vector<fuzz::CorpusQuery> read_corpus(const Arguments& arguments, Files& files) {
-  std::vector<fuzz::CorpusQuery> corpus;
+std::vector<base::AnyQuery> read_corpus(const Arguments& arguments, Files& files) {
+  std::vector<base::AnyQuery> corpus;
   if (arguments.corpus.empty()) return corpus;
   for (const fs::path& file : data::find_datasets(arguments.corpus)) {
     files.add_dataset(file);
     const Kind kind = kind_of(file, arguments);
     const auto source = data::open_dataset(file, {.kind = kind});
     for (auto query = source->next(); query && !io::interrupted(); query = source->next()) {
-      corpus.push_back({kind, query->query});
+      corpus.push_back(std::move(query->query));
     }
   }
   return corpus;
@@ -124,57 +146,65 @@ std::vector<fuzz::CorpusQuery> read_corpus(const Arguments& arguments, Files& fi
 
 // ---- The dataset that is written ----------------------------------------------------------------
 
-/// FILE itself if its path determines the kind, else with the kind in its name.
-fs::path dataset_path(const fs::path& file, Kind kind) {
+/// FILE itself for straight lines if its path determines the kind, else with the kind in its name;
+/// for curves with shape and kind.
+fs::path dataset_path(const fs::path& file, const QueryShape& shape) {
+  const std::string_view kind = to_string(shape.kind);
   try {
-    if (data::kind_from_path(file) == kind) return file;
+    if (data::kind_from_path(file) != shape.kind) {
+      throw std::runtime_error(
+          fmt::format("{}: its name excludes {} queries; add --kind", file.string(), kind));
+    }
+    if (shape.is_straight()) return file;
   } catch (const io::DatasetError&) {
-    fs::path result = file;
-    result.replace_filename(
-        fmt::format("{}-{}.csv", file.stem().string(), std::string(to_string(kind))));
-    return result;
+    // The kind is in no name yet.
   }
-  throw std::runtime_error(
-      fmt::format("{}: its name excludes {} queries; add --kind", file.string(), to_string(kind)));
+  std::string name = file.stem().string();
+  if (!shape.is_straight()) {
+    name += fmt::format("-{}-{}", shape.is_rational ? rational : "degree", shape.degree);
+  }
+  fs::path result = file;
+  return result.replace_filename(fmt::format("{}-{}.csv", name, kind));
 }
 
-/// The findings' queries, with their truth, as datasets. The files appear when they are complete,
-/// and only if there are queries.
+/// The findings' queries, with their truth, as datasets, one for each shape. The files appear when
+/// they are complete, and only if there are queries.
 class FoundQueries {
  public:
   FoundQueries(Files& files, const Arguments& arguments, const Separation& separation)
-      : folder_(fs::path(arguments.out_file).parent_path()), separation_(separation) {
+      : all_files_(files),
+        name_(arguments.out_file),
+        folder_(name_.parent_path()),
+        separation_(separation) {
     if (arguments.out_file.empty()) return;
     if (fs::path(arguments.out_file).extension() != ".csv") {
       throw std::runtime_error(arguments.out_file + ": the name must end in .csv");
     }
     require_same_separation(arguments.out_file);
-    for (const Kind kind : arguments.kinds()) {
-      const fs::path path = dataset_path(arguments.out_file, kind);
-      files.add_output(path);
-      files_.at(static_cast<std::size_t>(kind)).emplace(path);
+    for (const std::string& degree : arguments.degrees()) {
+      for (const QueryShape& shape : arguments.shapes(degree)) (void)file_of(shape);
     }
   }
 
-  void write(Kind kind, const Query& query, bool collides) {
-    auto& file = files_.at(static_cast<std::size_t>(kind));
-    if (!file) return;
-    file->writer.write(query, collides);
-    ++file->queries;
+  void write(const base::AnyQuery& query, bool collides) {
+    if (name_.empty()) return;
+    File& file = file_of(query.shape());
+    file.writer.write(query, collides);
+    ++file.queries;
   }
 
   /// The files written.
   [[nodiscard]] std::vector<fs::path> close() {
     std::vector<fs::path> written;
-    for (const auto& file : files_) {
-      if (file && file->queries != 0) written.push_back(file->path);
+    for (const File& file : files_) {
+      if (file.queries != 0) written.push_back(file.path);
     }
     // First: without it the labels would be about contact.
     if (!written.empty() && !is_zero(separation_)) {
       data::write_separation(folder_.empty() ? "." : folder_, separation_);
     }
-    for (auto& file : files_) {
-      if (file && file->queries != 0) file->writer.close();
+    for (File& file : files_) {
+      if (file.queries != 0) file.writer.close();
     }
     return written;
   }
@@ -186,6 +216,16 @@ class FoundQueries {
     data::CsvWriter writer;
     std::uint64_t queries = 0;
   };
+
+  /// The file of the shape, which is opened when it is first asked for: simplified queries may be
+  /// of any lower degree.
+  [[nodiscard]] File& file_of(const QueryShape& shape) {
+    const fs::path path = dataset_path(name_, shape);
+    const auto found = std::ranges::find(files_, path, &File::path);
+    if (found != files_.end()) return *found;
+    all_files_.add_output(path);
+    return files_.emplace_back(path);
+  }
 
   /// \throws std::runtime_error if a folder has queries for another separation.
   void require_same_separation(const fs::path& file) const {
@@ -206,9 +246,11 @@ class FoundQueries {
     });
   }
 
+  Files& all_files_;
+  fs::path name_;
   fs::path folder_;
   Separation separation_;
-  std::array<std::optional<File>, 2> files_;
+  std::deque<File> files_;
 };
 
 // ---- The run ------------------------------------------------------------------------------------
@@ -241,7 +283,7 @@ class FuzzRun {
     options_.shrink_seconds = shrink_seconds;
     options_.only = arguments.sought();
     options_.corpus = read_corpus(arguments, files_);
-    options_.kinds = arguments.kinds();
+    options_.shapes = chosen_shapes();
     options_.stop = &io::interrupted();
     options_.on_progress = [this](const fuzz::FuzzProgress& progress) { show(progress); };
     options_.on_finding = [this](const fuzz::Finding& finding) { add(finding); };
@@ -260,6 +302,7 @@ class FuzzRun {
                                   .seconds = options_.seconds,
                                   .queries = options_.most_queries,
                                   .only = options_.only,
+                                  .degrees = degrees_of_report(),
                                   .result = fuzz::fuzz(*method_, options_)};
     bar_.clear();
     report_unplaced_crashes(asked_.method, report.result.unplaced_crashes);
@@ -336,6 +379,44 @@ class FuzzRun {
     method_ = plugin_.get();
   }
 
+  /// The shapes that the command line names and the solver answers. \throws std::invalid_argument
+  /// if it answers none of some degree, but for its kinds.
+  [[nodiscard]] std::vector<QueryShape> chosen_shapes() const {
+    const fast::Terms& terms = method_->info().terms;
+    const bool answers_a_kind =
+        std::ranges::any_of(arguments_.kinds(), [&](Kind kind) { return terms.answers(kind); });
+    std::vector<QueryShape> result;
+    for (const std::string& degree : arguments_.degrees()) {
+      const std::vector<QueryShape> shapes = arguments_.shapes(degree);
+      const std::size_t before = result.size();
+      std::ranges::copy_if(shapes, std::back_inserter(result), [&](const QueryShape& shape) {
+        return terms.answers(shape) || !answers_a_kind;
+      });
+      if (result.size() == before && !arguments_.curved) refuse(degree);
+    }
+    if (result.empty()) refuse("any");
+    if (!arguments_.calls.empty() && arguments_.calls != "plugin" &&
+        !std::ranges::all_of(result, &QueryShape::is_straight)) {
+      throw std::invalid_argument(
+          fmt::format("the interface {} is of queries on straight lines alone", arguments_.calls));
+    }
+    return result;
+  }
+
+  [[noreturn]] void refuse(const std::string& degree) const {
+    const std::string what = degree == "1"        ? "straight lines; add --degree for curves"
+                             : degree == "any"    ? "curves"
+                             : degree == rational ? "rational curves"
+                                                  : "curves of degree " + degree;
+    throw std::invalid_argument(fmt::format("{} answers no queries on {}", method_->name(), what));
+  }
+
+  /// Empty for straight lines alone.
+  [[nodiscard]] std::vector<std::string> degrees_of_report() const {
+    if (std::ranges::all_of(options_.shapes, &QueryShape::is_straight)) return {};
+    return arguments_.degrees();
+  }
+
   [[nodiscard]] std::FILE* out() const { return files_.summary_stream(); }
 
   void show(const fuzz::FuzzProgress& progress) {
@@ -352,10 +433,8 @@ class FuzzRun {
     const fuzz::FailingCase& simplest = finding.simplest;
     const fuzz::FailingCase& original = finding.original;
     attempt([&] {
-      found_.write(finding.kind, simplest.query, simplest.collides);
-      if (simplest.query != original.query) {
-        found_.write(finding.kind, original.query, original.collides);
-      }
+      found_.write(simplest.query, simplest.collides);
+      if (simplest.query != original.query) found_.write(original.query, original.collides);
     });
   }
 
@@ -388,78 +467,7 @@ class FuzzRun {
   std::size_t groups_ = 0;  ///< of findings, so far
 };
 
-// ---- Curves -------------------------------------------------------------------------------------
-
-std::string to_line(const fuzz::CurvedFinding& finding) {
-  return fmt::format("{}: {}, {}degree {}, {}: [{:a}]\n", judge::to_string(finding.what),
-                     to_string(finding.kind), finding.is_rational ? "rational, " : "",
-                     finding.degree, judge::to_string(finding.answer.verdict),
-                     fmt::join(finding.numbers, ", "));
-}
-
-nlohmann::json to_json(const fuzz::CurvedFinding& finding) {
-  return {{"what", judge::to_string(finding.what)},
-          {"kind", to_string(finding.kind)},
-          {"degree", finding.degree},
-          {"rational", finding.is_rational},
-          {"numbers", finding.numbers},
-          {"verdict", judge::to_string(finding.answer.verdict)},
-          {"toi_lower", io::number_to_json(finding.answer.toi_lower)},
-          {"toi_upper", io::number_to_json(finding.answer.toi_upper)}};
-}
-
-/// The search in queries on curves.
-Status run_on_curves(const CLI::App& command, const Arguments& arguments) {
-  refuse_for_curves(
-      command, {"--curved", "--method", "--seconds", "--queries", "--seed", "--kind", "--json",
-                "--most-findings", "--tolerance", "--max-checks", "--min-separation", "--norm"});
-  if (arguments.solver.methods.size() != 1) {
-    throw std::invalid_argument("fuzz --curved needs exactly one --method");
-  }
-  const std::string& method = arguments.solver.methods.front();
-  Files files;
-  Output json(files, arguments.json_file);
-  io::ProgressBar bar("fuzz");
-  fuzz::CurvedFuzzOptions options{.seconds = arguments.run_seconds(),
-                                  .most_queries = arguments.queries,
-                                  .seed = arguments.seed,
-                                  .most_findings = arguments.most_findings,
-                                  .kinds = arguments.kinds(),
-                                  .method = arguments.solver.options,
-                                  .promise = solvers::find_method(method).promise(),
-                                  .stop = &io::interrupted()};
-  options.method.separation = arguments.separation.given();
-  const double begin = options.clock();
-  options.on_progress = [&](std::uint64_t queries) {
-    bar.update(part_of_run(arguments, options.clock() - begin, queries));
-  };
-  const auto answer = [&](Kind kind, const CurvedQueries& queries,
-                          const fast::MethodOptions& of_call) {
-    return solvers::curved_answers(method, kind, queries, of_call, 1);
-  };
-  const fuzz::CurvedFuzzResult result =
-      fuzz::fuzz_curves(answer, method == "tight_inclusion", options);
-  bar.clear();
-  nlohmann::json findings = nlohmann::json::array();
-  for (const fuzz::CurvedFinding& finding : result.findings) findings.push_back(to_json(finding));
-  if (json) {
-    json.write(io::json_document({{"method", method},
-                                  {"seed", options.seed},
-                                  {"queries", result.queries},
-                                  {"collisions", result.collisions},
-                                  {"findings", findings}}));
-  }
-  json.close();
-  io::print(files.summary_stream(),
-            fmt::format("{}: {} queries on curves, {} collide, {} findings\n", method,
-                        result.queries, result.collisions, result.findings.size()));
-  for (const fuzz::CurvedFinding& finding : result.findings) {
-    io::print(files.summary_stream(), to_line(finding));
-  }
-  if (files.has_failed()) return Status::bad_input;
-  if (!result.findings.empty()) return Status::wrong_answers;
-  return io::interrupted() ? Status::interrupted : Status::all_well;
-}
+// ---- The command line ---------------------------------------------------------------------------
 
 std::vector<std::string> finding_kind_names() {
   std::vector<std::string> names;
@@ -490,8 +498,21 @@ void add_search_options(CLI::App& command, Arguments& arguments) {
       ->type_name("N")
       ->check(whole_number(1, UINT64_MAX));
   add_seed_option(command, arguments.seed, "Seed of all queries; --shard I/N adds I");
-  command.add_flag("--curved", arguments.curved,
-                   "Search in queries on Bézier curves (methods certified, tight_inclusion)");
+  auto* const degree =
+      command
+          .add_option("--degree", arguments.degree,
+                      "Degree of the Bézier curves that points move on, 1 (straight lines, the "
+                      "default) to 8, or rational (of degrees 1 and 2); repeatable")
+          ->type_name("D")
+          ->allow_extra_args(false)
+          ->check(
+              CLI::IsMember({"1", "2", "3", "4", "5", "6", "7", "8", "rational"}).description(""));
+  command
+      .add_flag(
+          "--curved", arguments.curved,
+          "As --degree 2 --degree 3 --degree rational, as far as the solver answers them; goes "
+          "with the next version")
+      ->excludes(degree);
   add_piece_options(command, arguments.pieces);
   command
       .add_option("--most-findings", arguments.most_findings,
@@ -545,17 +566,14 @@ void add(CLI::App& app, Status& status) {
   set_help(
       *command,
       "touchstone fuzz --plugin ./libsolver.so --only false_negative --seconds 600\n"
-      "touchstone fuzz --plugin ./libsolver.so --exact --write findings --corpus data",
+      "touchstone fuzz --plugin ./libsolver.so --exact --write findings --corpus data\n"
+      "touchstone fuzz --plugin ./libsolver.so --degree 2 --degree 3",
       "The solver runs in a child process. Findings are simplified, grouped by their probable "
       "cause, and printed with one example per group. The same --seed and --queries give the same "
       "findings. The search and the judgement: docs/testing.md.\n"
       "Exit status: 0 nothing found (130: interrupted), 1 findings, 2 bad input or usage, nothing "
       "judged.");
   command->callback([arguments, command, &status] {
-    if (arguments->curved) {
-      status = run_on_curves(*command, *arguments);
-      return;
-    }
     settle_solver_options(*command, true, arguments->solver);
     settle_query_limit(*command, arguments->run_seconds(), arguments->solver);
     if (!arguments->pieces.folder.empty()) {

@@ -43,21 +43,22 @@ class Hash {
 
 }  // namespace
 
-std::uint64_t coverage_key(Kind kind, const Query& query, const fast::CertifiedResult& judged,
+std::uint64_t coverage_key(const Queries& query, const fast::CertifiedResult& judged,
                            const fast::Answer& answer) {
   double greatest = 0.0;
   std::uint64_t zeros = 0;
-  for (const double x : query.coordinates) {
+  for (const double x : query.numbers) {
     greatest = std::max(greatest, std::abs(x));
     zeros += x == 0.0 ? 1U : 0U;
   }
   Hash hash;
-  hash.add(static_cast<std::uint64_t>(kind) + 2 * static_cast<std::uint64_t>(judged.stage) +
+  if (!query.is_straight()) hash.add(2 * query.degree + (query.is_rational ? 1U : 0U));
+  hash.add(static_cast<std::uint64_t>(query.kind) + 2 * static_cast<std::uint64_t>(judged.stage) +
            16 * static_cast<std::uint64_t>(judged.verdict) +
            64 * static_cast<std::uint64_t>(answer.verdict) + 256 * (zeros / 4) +
            4096 * (exponent_field(greatest) / 256));
   if (judged.verdict == fast::Verdict::yes) {
-    hash.add(time_place(judged.toi_upper) + 64 * boundary_place(kind, judged.u, judged.v));
+    hash.add(time_place(judged.toi_upper) + 64 * boundary_place(query.kind, judged.u, judged.v));
     hash.add(small_exponent(judged.toi_upper - answer.toi_lower) / 2);
   }
   hash.add(answer.verdict == fast::Verdict::yes ? exponent_field(answer.tolerance) / 2 : 0);

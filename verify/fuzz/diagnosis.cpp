@@ -69,9 +69,10 @@ bool is_beyond_doubt(const judge::Question& question, const CertifiedResult& jud
   if (broken(judge::judge_verdict(truth, answer, standard.terms), standard.promise)) return false;
   if (truth.collides) return true;
   const auto claimed = judge::claim_of(question, answer, standard);
-  const auto& [kind, query, separation] = question;
-  return !claimed ||
-         (claimed->norm == Norm::linf &&
+  if (!claimed) return true;
+  const Kind kind = question.query.kind;
+  const Query& query = question.query.straight().front();
+  return (claimed->norm == Norm::linf &&
           judge::is_seen_within(kind, query, answer.toi_lower, claimed->distance)) ||
          fast::solve(kind, query, {.separation = *claimed}).verdict == Verdict::yes;
 }

@@ -1,6 +1,14 @@
 #include "verify/fuzz/finding.hpp"
 
+#include <fmt/format.h>
+
 namespace touchstone::verify::fuzz {
+
+std::string to_text(const QueryShape& shape) {
+  if (shape.is_straight()) return std::string(to_string(shape.kind));
+  return fmt::format("{}, {}degree {}", to_string(shape.kind),
+                     shape.is_rational ? "rational, " : "", shape.degree);
+}
 
 std::string_view to_string(Shrinking shrinking) {
   switch (shrinking) {

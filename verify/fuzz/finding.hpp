@@ -12,13 +12,17 @@
 #include "fast/method.hpp"
 #include "touchstone/number.hpp"
 #include "touchstone/query.hpp"
+#include "verify/base/any_query.hpp"
 #include "verify/judge/fault.hpp"
 
 namespace touchstone::verify::fuzz {
 
+/// "vertex-face" on straight lines, "edge-edge, rational, degree 2" on curves.
+[[nodiscard]] std::string to_text(const QueryShape& shape);
+
 /// A query that a solver answers wrongly, its answer, and the truth: all of the same query.
 struct FailingCase {
-  Query query{};
+  base::AnyQuery query = {};
   fast::Answer answer = {};
   bool collides = false;  ///< the truth
   /// Neighbouring doubles around the exact time of impact, or one; nothing if they do not collide.
@@ -60,7 +64,6 @@ struct ScaleRange {
 /// Something that a solver does wrong, confirmed by the oracle.
 struct Finding {
   judge::Fault what = judge::Fault::false_negative;
-  Kind kind = Kind::vertex_face;
   Separation separation = {};
   std::string method;         ///< that is wrong: the one asked, or "certified" where the judge is
   FailingCase original = {};  ///< as it was found
@@ -77,6 +80,9 @@ struct Finding {
   double seconds = 0.0;       ///< wall-clock time of the run when it was found
   std::uint64_t queries = 0;  ///< asked by then, itself included
   std::string generator;      ///< that made the query
+
+  /// Simpler queries are of the same kind, but may be on curves of a lower degree.
+  [[nodiscard]] Kind kind() const { return original.query.kind(); }
 };
 
 }  // namespace touchstone::verify::fuzz

@@ -29,7 +29,7 @@ std::string facts(const FuzzReport& report, const FindingGroup& group, const Fin
   };
   add("answer", finding.simplest.detail);
   add("truth", finding.simplest.truth);
-  add("query", fmt::format("{}, from t=0 to t=1", to_string(finding.kind)));
+  add("query", fmt::format("{}, from t=0 to t=1", to_text(finding.simplest.query.shape())));
   add("asked with",
       fmt::format("tolerance {}, at most {} checks, minimum separation {}", options.tolerance,
                   options.max_checks,
@@ -55,7 +55,7 @@ std::string as_page(const FuzzReport& report, const FindingGroup& group, CallInt
   std::string page = fmt::format("# {} {}\n\n{}\n## The points\n\n", io::printable(finding.method),
                                  judge::to_phrase(finding.what), facts(report, group, finding));
   page += "Each line gives the same doubles twice, in decimal and in hexadecimal.\n\n";
-  page += code_block("", as_points(finding.kind, failing.query));
+  page += code_block("", as_points(failing.query));
   page += fmt::format(
       "\n## See it\n\n`{}.cpp` needs nothing but the solver. It ends with 1 if the answer is wrong "
       "as "

@@ -16,6 +16,7 @@
 #include "touchstone/certified.hpp"
 #include "verify/base/deadline.hpp"
 #include "verify/fuzz/coverage.hpp"
+#include "verify/fuzz/curves.hpp"
 #include "verify/fuzz/diagnosis.hpp"
 #include "verify/fuzz/generators.hpp"
 #include "verify/fuzz/plainness.hpp"
@@ -33,6 +34,7 @@ namespace touchstone::verify::fuzz {
 namespace {
 
 namespace draws = generate::draws;
+using base::AnyQuery;
 using draws::one_in;
 using fast::Answer;
 using fast::CertifiedResult;
@@ -62,8 +64,8 @@ constexpr double check_work = 0.05;
 constexpr double finding_reward = 50.0;
 
 /// Far from overflow and underflow: what is made from it is not a query of zeros.
-bool is_moderate(const Query& query) {
-  return std::ranges::all_of(query.coordinates, [](double x) {
+bool is_moderate(std::span<const double> numbers) {
+  return std::ranges::all_of(numbers, [](double x) {
     return x == 0.0 || (std::abs(x) > 0x1p-300 && std::abs(x) < 0x1p300);
   });
 }
@@ -78,26 +80,39 @@ struct Image {
 
 /// Queries that are asked together: first those that generators made, then images of some of them.
 struct Block {
-  Kind kind = Kind::vertex_face;
-  std::vector<Query> queries;
+  QueryShape shape;
+  std::vector<double> numbers;
   std::vector<std::size_t> arms;  ///< by query: whose it is
   std::vector<Image> images;      ///< the last queries
 
-  [[nodiscard]] std::size_t made() const { return queries.size() - images.size(); }
+  [[nodiscard]] std::size_t size() const { return arms.size(); }
+  [[nodiscard]] std::size_t made() const { return size() - images.size(); }
+  [[nodiscard]] Queries queries() const { return {shape, numbers}; }
+  /// Query i as the only one.
+  [[nodiscard]] Queries query(std::size_t i) const { return queries().part(i, 1); }
 
   /// The image that query i is, or null.
   [[nodiscard]] const Image* image(std::size_t i) const {
     return i < made() ? nullptr : &images[i - made()];
   }
 
+  void add(const AnyQuery& query, std::size_t arm) {
+    numbers.insert(numbers.end(), query.numbers().begin(), query.numbers().end());
+    arms.push_back(arm);
+  }
+
   /// Leaves the first `count` queries.
   void cut(std::size_t count) {
-    if (count >= queries.size()) return;
+    if (count >= size()) return;
     images.resize(count > made() ? count - made() : 0);
-    queries.resize(count);
+    numbers.resize(count * shape.numbers_of_query());
     arms.resize(count);
   }
 };
+
+bool are_some_curved(const std::vector<QueryShape>& shapes) {
+  return !std::ranges::all_of(shapes, &QueryShape::is_straight);
+}
 
 std::vector<double> explored_parts(const std::vector<Generator>& generators) {
   std::vector<double> result;
@@ -106,26 +121,26 @@ std::vector<double> explored_parts(const std::vector<Generator>& generators) {
   return result;
 }
 
-/// Makes blocks, one kind after the other.
+/// Makes blocks, one shape after the other.
 class BlockMaker {
  public:
   BlockMaker(const fast::Terms& terms, const FuzzOptions& options,
              const std::vector<Generator>& generators)
-      : kinds_(answered(options.kinds, terms)),
+      : shapes_(answered(options.shapes, terms)),
         terms_(terms),
         hangs_(options.query_limit_seconds),
         generators_(generators),
         context_(options.separation),
         scheduler_(explored_parts(generators), generate::mix(options.seed) + 1),
         random_(generate::mix(options.seed)) {
-    for (const CorpusQuery& query : options.corpus) context_.pool(query.kind).keep(query.query);
+    for (const AnyQuery& query : options.corpus) keep(query);
   }
 
   [[nodiscard]] Block make() {
     Block block;
-    block.kind = kinds_[count_++ % kinds_.size()];
-    for (std::size_t slices = 0; block.queries.size() < block_queries; ++slices) {
-      if (slices == most_slices && block.queries.empty()) {
+    block.shape = shapes_[count_++ % shapes_.size()];
+    for (std::size_t slices = 0; block.size() < block_queries; ++slices) {
+      if (slices == most_slices && block.size() == 0) {
         throw std::runtime_error("fuzz: no generator makes queries within the solver's terms");
       }
       if (slices >= most_slices) break;
@@ -141,7 +156,7 @@ class BlockMaker {
   }
 
   /// Notes a hang at a query of the block.
-  void note_hang(Kind kind, std::size_t arm) { hangs_.add(sort_of(kind, arm)); }
+  void note_hang(const QueryShape& shape, std::size_t arm) { hangs_.add(sort_of(shape, arm)); }
 
   /// Seconds that a query may take now.
   [[nodiscard]] double query_limit() const { return hangs_.seconds(); }
@@ -150,52 +165,65 @@ class BlockMaker {
   [[nodiscard]] std::uint64_t left_out() const { return left_out_; }
 
   /// Keeps a query as one to mutate.
-  void remember(Kind kind, const Query& query) { context_.pool(kind).add(query); }
+  void remember(AnyQuery query) { context_.pool(query.shape()).add(std::move(query)); }
 
  private:
-  static std::vector<Kind> answered(std::vector<Kind> kinds, const fast::Terms& terms) {
-    std::erase_if(kinds, [&](Kind kind) { return !terms.answers(kind); });
-    if (kinds.empty()) throw std::invalid_argument("fuzz: the solver answers none of the kinds");
-    return kinds;
+  static std::vector<QueryShape> answered(std::vector<QueryShape> shapes,
+                                          const fast::Terms& terms) {
+    std::erase_if(shapes, [&](const QueryShape& shape) { return !terms.answers(shape); });
+    if (shapes.empty()) throw std::invalid_argument("fuzz: the solver answers none of the kinds");
+    return shapes;
   }
 
-  [[nodiscard]] std::string sort_of(Kind kind, std::size_t arm) const {
-    return fmt::format("{} {}", generators_[arm].name, to_string(kind));
+  /// Keeps a query of the corpus, and one on straight lines for each shape.
+  void keep(const AnyQuery& query) {
+    for (const QueryShape& shape : shapes_) {
+      if (shape.kind != query.kind()) continue;
+      if (shape == query.shape()) {
+        context_.pool(shape).keep(query);
+      } else if (query.shape().is_straight()) {
+        context_.pool(shape).keep(at_other_speed(shape, query.straight(), shape.degree));
+      }
+    }
+  }
+
+  [[nodiscard]] std::string sort_of(const QueryShape& shape, std::size_t arm) const {
+    return fmt::format("{} {}", generators_[arm].name, to_text(shape));
   }
 
   /// A slice of a generator's queries. What is not asked teaches that the generator brings less.
   void add_slice(std::size_t arm, Block& block) {
     for (std::size_t i = 0; i < slice_queries; ++i) {
-      const Query query =
-          judge::as_asked(terms_, generators_[arm].make(block.kind, context_, random_));
-      const bool is_outside = !judge::admits(terms_, block.kind, query, context_.separation());
-      const bool is_left_out = !is_outside && hangs_.leaves_out(sort_of(block.kind, arm));
+      const AnyQuery query =
+          judge::as_asked(terms_, generators_[arm].make(block.shape, context_, random_));
+      const bool is_outside = !judge::admits(terms_, query, context_.separation());
+      const bool is_left_out = !is_outside && hangs_.leaves_out(sort_of(block.shape, arm));
       outside_ += is_outside ? 1U : 0U;
       left_out_ += is_left_out ? 1U : 0U;
       if (is_outside || is_left_out) {
         learn(arm, 0.0, 0.0);
         continue;
       }
-      block.queries.push_back(query);
-      block.arms.push_back(arm);
+      block.add(query, arm);
     }
   }
 
   void add_images(Block& block) {
-    const std::size_t made = block.queries.size();
+    const std::size_t made = block.size();
     for (std::size_t i = 0; i < made; ++i) {
       if (!one_in(random_, queries_an_image)) continue;
       const generate::Symmetry symmetry =
-          generate::draw_symmetry(block.kind, block.queries[i], context_.separation(), random_);
-      const Query changed = image(symmetry, block.queries[i]).value_or(block.queries[i]);
-      if (!judge::admits(terms_, block.kind, changed, context_.separation())) continue;
-      block.queries.push_back(changed);
-      block.arms.push_back(block.arms[i]);
+          generate::draw_symmetry(block.query(i), context_.separation(), random_);
+      AnyQuery changed(block.queries(), i);
+      if (auto numbers = image(symmetry, block.query(i)))
+        changed = {block.shape, *std::move(numbers)};
+      if (!judge::admits(terms_, changed, context_.separation())) continue;
+      block.add(changed, block.arms[i]);
       block.images.push_back({.origin = i, .symmetry = symmetry});
     }
   }
 
-  std::vector<Kind> kinds_;
+  std::vector<QueryShape> shapes_;
   const fast::Terms& terms_;
   solvers::HangLimits hangs_;
   const std::vector<Generator>& generators_;
@@ -229,8 +257,8 @@ class BoundHabit {
 };
 
 bool is_plainer(const Finding& a, const Finding& b) {
-  return plainness(a.kind, a.simplest.query, a.original.query) <
-         plainness(b.kind, b.simplest.query, b.original.query);
+  return plainness(a.simplest.query, a.original.query) <
+         plainness(b.simplest.query, b.original.query);
 }
 
 /// Do two answers to what is the same question contradict each other?
@@ -251,7 +279,7 @@ class Run {
         name_(method.name()),
         standard_(standard_of(method, options)),
         oracle_share_(name_ == judge_name() ? 1.0 : options.oracle_share),
-        generators_(generators(options.separation)),
+        generators_(generators(options.separation, are_some_curved(options.shapes))),
         maker_(method.info().terms, options, generators_),
         solver_(method, process_options(options)),
         method_options_(method_options(options)),
@@ -301,23 +329,22 @@ class Run {
   void run_block() {
     block_ = maker_.make();
     if (options_.most_queries != 0) {
-      block_.cut(
-          std::min<std::uint64_t>(block_.queries.size(), options_.most_queries - result_.queries));
+      block_.cut(std::min<std::uint64_t>(block_.size(), options_.most_queries - result_.queries));
     }
-    answers_.assign(block_.queries.size(), Answer{});
+    answers_.assign(block_.size(), Answer{});
     const double asked = seconds();
     solver_.set_query_limit(maker_.query_limit());
     // A block of a slow method may take minutes.
-    const solvers::SolverRun run = solver_.solve(block_.kind, block_.queries, answers_,
-                                                 method_options_, solver_deadline(end_));
+    const solvers::SolverRun run =
+        solver_.solve(block_.queries(), answers_, method_options_, solver_deadline(end_));
     result_.method_seconds += seconds() - asked;
     result_.unplaced_crashes += run.unplaced_crashes;
     limit_ = maker_.query_limit();
     for (const auto& [position, failure] : run.failures) {
       if (failure.kind != judge::Fault::hang) continue;
-      maker_.note_hang(block_.kind, block_.arms[position]);
+      maker_.note_hang(block_.shape, block_.arms[position]);
     }
-    if (end_.is_over() || is_stopped()) result_.unanswered = block_.queries.size() - run.answered;
+    if (end_.is_over() || is_stopped()) result_.unanswered = block_.size() - run.answered;
     judge(run);
     if (options_.on_progress) {
       options_.on_progress(
@@ -362,8 +389,7 @@ class Run {
   }
 
   void judge_together(std::size_t first, std::size_t count) {
-    fast::solve(block_.kind, std::span<const Query>(block_.queries).subspan(first, count),
-                std::span(judged_).subspan(first, count),
+    fast::solve(block_.queries().part(first, count), std::span(judged_).subspan(first, count),
                 {.separation = options_.separation, .max_threads = 1});
   }
 
@@ -389,11 +415,11 @@ class Run {
       reward += examine_answer(i, work);
     }
     const std::uint32_t before =
-        coverage_.add(coverage_key(block_.kind, block_.queries[i], judged_[i], answers_[i]));
+        coverage_.add(coverage_key(block_.query(i), judged_[i], answers_[i]));
     reward += 1.0 / (1.0 + before);
     if (before == 0) {
       ++statistics.coverage_keys;
-      if (is_moderate(block_.queries[i])) maker_.remember(block_.kind, block_.queries[i]);
+      if (is_moderate(block_.queries().row(i))) maker_.remember({block_.queries(), i});
     }
     work += check_work * static_cast<double>(answers_[i].checks);
     maker_.learn(block_.arms[i], reward, work);
@@ -401,7 +427,7 @@ class Run {
 
   /// Looks for all that can be wrong with an answer. Returns the reward, and adds the work.
   double examine_answer(std::size_t i, double& work) {
-    const judge::Question question{block_.kind, block_.queries[i], options_.separation};
+    const judge::Question question{block_.query(i), options_.separation};
     const bool is_drawn = random_.unit() < oracle_share_;
     const MissingBounds missing = missing_bounds(answers_[i]);
     if (!is_drawn && !missing.any() &&
@@ -410,8 +436,7 @@ class Run {
     }
     work += oracle_work;
     ++result_.judged_by_oracle;
-    const exact::Decision verdict =
-        exact::decide(question.kind, question.query, question.separation);
+    const exact::Decision verdict = exact::decide(question.query, 0, question.separation);
     const judge::GroundTruth truth = judge::truth_of(result_.queries, verdict);
     double reward = 0.0;
     if (name_ != judge_name()) {
@@ -453,7 +478,7 @@ class Run {
   double report_failure(std::size_t i, const judge::Failure& failure) {
     ++result_.judged_by_oracle;
     return report(i, {diagnose_failure(failure, limit_), name_},
-                  exact::decide(block_.kind, block_.queries[i], options_.separation));
+                  exact::decide(block_.queries(), i, options_.separation));
   }
 
   /// Who does what wrong.
@@ -502,7 +527,7 @@ class Run {
     ++result_.all_findings;
     ++result_.generators[block_.arms[i]].findings;
     const Class what{
-        std::string(charge.method), charge.diagnosis.what, block_.kind,
+        std::string(charge.method), charge.diagnosis.what, to_text(block_.shape),
         judged_[i].stage,           block_.arms[i],        is_slight(charge, answers_[i], verdict)};
     const auto [known, is_new] = classes_.try_emplace(what);
     Class::Seen& seen = known->second;
@@ -519,10 +544,9 @@ class Run {
     const bool of_judge = charge.method == judge_name() && name_ != judge_name();
     const std::string& generator = result_.generators[block_.arms[i]].name;
     Finding finding{.what = charge.diagnosis.what,
-                    .kind = block_.kind,
                     .separation = options_.separation,
                     .method = std::string(charge.method),
-                    .original = failing_case(block_.kind, block_.queries[i],
+                    .original = failing_case({block_.queries(), i},
                                              of_judge ? answer_of(judged_[i]) : answers_[i],
                                              verdict, charge.diagnosis.detail, generator),
                     .missing = charge.missing,
@@ -565,7 +589,7 @@ class Run {
   struct Class {
     std::string method;
     judge::Fault what;
-    Kind kind;
+    std::string shape;
     fast::Stage stage;
     std::size_t arm;
     bool is_slight;
@@ -619,7 +643,12 @@ void check(const FuzzOptions& options) {
     throw std::invalid_argument("fuzz: oracle_share must be in [0,1]");
   }
   if (options.method.t_max != 1.0) throw std::invalid_argument("fuzz: t_max must be 1");
-  if (options.kinds.empty()) throw std::invalid_argument("fuzz: no kind of queries");
+  if (options.shapes.empty()) throw std::invalid_argument("fuzz: no kind of queries");
+  if (!std::ranges::all_of(options.shapes, [](const QueryShape& shape) {
+        return shape.degree > 0 && shape.degree <= greatest_degree;
+      })) {
+    throw std::invalid_argument("fuzz: degrees must be from 1 to 8");
+  }
   if (!is_valid(options.separation)) {
     throw std::invalid_argument("fuzz: the separation must be finite and not negative");
   }

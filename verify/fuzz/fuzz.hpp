@@ -7,7 +7,7 @@
 /// prefers by what they have brought so far. The solver answers them in a child process
 /// (solver_process.hpp), the certified solver judges (diagnosis.hpp), and the oracle judges a share
 /// again and everything that is doubtful. Some queries are asked once more as an exact image
-/// (symmetry.hpp).
+/// (symmetry.hpp). All queries of a block are of one shape; by default they are on straight lines.
 ///
 /// The same seed gives the same queries and findings on every machine, for any solver that answers
 /// the same: what steers is counted work, the clock only ends the run. (A query near the time limit
@@ -24,17 +24,12 @@
 
 #include "fast/method.hpp"
 #include "touchstone/query.hpp"
+#include "verify/base/any_query.hpp"
 #include "verify/base/deadline.hpp"
 #include "verify/fuzz/finding.hpp"
 #include "verify/solvers/child_process.hpp"
 
 namespace touchstone::verify::fuzz {
-
-/// A query with its kind.
-struct CorpusQuery {
-  Kind kind;
-  Query query;
-};
 
 /// Progress of a run.
 struct FuzzProgress {
@@ -68,10 +63,10 @@ struct FuzzOptions {
   double shrink_seconds = 0.0;
   /// Kinds of findings that are sought; empty: all. Others are counted and nothing else.
   std::vector<judge::Fault> only = {};
-  /// Queries to mutate.
-  std::vector<CorpusQuery> corpus = {};
-  /// Kinds of queries to ask; not empty.
-  std::vector<Kind> kinds = {Kind::vertex_face, Kind::edge_edge};
+  /// Queries to mutate. Those on straight lines are also mutated on curves.
+  std::vector<base::AnyQuery> corpus = {};
+  /// Shapes of queries to ask, one a block in turn; not empty, of degrees above 0.
+  std::vector<QueryShape> shapes = {{.kind = Kind::vertex_face}, {.kind = Kind::edge_edge}};
   /// Share of the queries that the oracle judges again. Of the method `certified` it judges all.
   double oracle_share = 0.01;
   /// May be null. Once true, the run ends within a quarter of a second and the time of judging a
@@ -108,7 +103,7 @@ struct GeneratorStatistics {
 
 /// Findings of one cause, as far as it can be told from outside (signature.hpp).
 struct FindingGroup {
-  /// All of them. Those that are like a kept finding in solver, kind of finding, kind of query,
+  /// All of them. Those that are like a kept finding in solver, kind of finding, shape of query,
   /// generator and the judge's stage are not looked at closer, and counted in its group.
   std::uint64_t count = 0;
   std::size_t best = 0;  ///< in FuzzResult::findings: the plainest kept finding

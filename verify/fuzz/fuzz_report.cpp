@@ -1,10 +1,12 @@
 #include "verify/fuzz/fuzz_report.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cstddef>
 #include <optional>
+#include <span>
 #include <string_view>
 
 #include "verify/fuzz/diagnosis.hpp"
@@ -20,10 +22,35 @@
 namespace touchstone::verify::fuzz {
 namespace {
 
-nlohmann::json coordinates_of(const Query& query) {
+nlohmann::json texts_of(std::span<const double> numbers) {
   nlohmann::json list = nlohmann::json::array();
-  for (const double x : query.coordinates) list.push_back(fmt::format("{:a}", x));
+  for (const double x : numbers) list.push_back(fmt::format("{:a}", x));
   return list;
+}
+
+/// Adds `coordinates` of a query on straight lines, and of one on curves what to_json says.
+void add_numbers(const AnyQuery& query, nlohmann::json& json) {
+  const QueryShape& shape = query.shape();
+  if (shape.is_straight()) {
+    json["coordinates"] = texts_of(query.numbers());
+    return;
+  }
+  json["degree"] = shape.degree;
+  json["rational"] = shape.is_rational;
+  json["numbers"] = query.numbers();
+  nlohmann::json control = nlohmann::json::array(), weights = nlohmann::json::array();
+  const std::size_t size = shape.numbers_of_point();
+  for (std::size_t i = 0; i < query.numbers().size() / size; ++i) {
+    const auto point = query.numbers().subspan(size * i, size);
+    if (i % moving_points == 0) {
+      control.push_back(nlohmann::json::array());
+      weights.push_back(nlohmann::json::array());
+    }
+    control.back().push_back(texts_of(point.first(3)));
+    if (shape.is_rational) weights.back().push_back(fmt::format("{:a}", point[3]));
+  }
+  json["control"] = control;
+  if (shape.is_rational) json["weights"] = weights;
 }
 
 /// Whether the simplest query is the simplest there is, where that needs to be said.
@@ -67,7 +94,7 @@ std::string example_text(std::size_t number, const Finding& finding, const Solve
   std::string text = fmt::format("\ngroup {}: {}\n  truth: {}\n  {}\n", number, to_line(finding),
                                  finding.simplest.truth, scale_text(finding, asked));
   text += shrinking_text(finding.shrinking);
-  return text + as_short_points(finding.kind, finding.simplest.query);
+  return text + as_short_points(finding.simplest.query);
 }
 
 std::string findings_text(const FuzzReport& report) {
@@ -126,12 +153,13 @@ nlohmann::json answer_json(const fast::Answer& answer) {
 }
 
 nlohmann::json case_json(const FailingCase& failing) {
-  return {{"coordinates", coordinates_of(failing.query)},
-          {"answer", answer_json(failing.answer)},
-          {"collides", failing.collides},
-          {"truth", failing.truth},
-          {"detail", failing.detail},
-          {"certificate", io::text_or_null(failing.certificate)}};
+  nlohmann::json json{{"answer", answer_json(failing.answer)},
+                      {"collides", failing.collides},
+                      {"truth", failing.truth},
+                      {"detail", failing.detail},
+                      {"certificate", io::text_or_null(failing.certificate)}};
+  add_numbers(failing.query, json);
+  return json;
 }
 
 nlohmann::json solver_json(const SolverCall& solver) {
@@ -167,7 +195,7 @@ std::string scale_text(const Finding& finding, const SolverCall& asked) {
 }
 
 std::string to_line(const Finding& finding) {
-  std::string about(to_string(finding.kind));
+  std::string about = to_text(finding.simplest.query.shape());
   if (!is_zero(finding.separation)) {
     about += " at minimum separation " + judge::to_text(finding.separation);
   }
@@ -179,10 +207,11 @@ std::string to_text(const FuzzReport& report) {
   const FuzzResult& result = report.result;
   const Separation separation = report.solver.options.separation;
   std::string text = fmt::format(
-      "{} ({}{}), seed {}{}: {} queries in {:.1f} s, {} of them images, {} collisions\n"
+      "{} ({}{}), seed {}{}{}: {} queries in {:.1f} s, {} of them images, {} collisions\n"
       "{:.0f} queries a second, {:.0f} without the method's own time; {} judged by the oracle\n",
       report.solver.method, solvers::to_string(report.solver.promise),
       judge::to_text(report.solver.terms), report.seed,
+      report.degrees.empty() ? "" : fmt::format(", degree {}", fmt::join(report.degrees, " ")),
       is_zero(separation) ? "" : ", minimum separation " + judge::to_text(separation),
       result.queries, result.seconds, result.images, result.collisions, result.queries_per_second(),
       result.judged_per_second(), result.judged_by_oracle);
@@ -207,8 +236,10 @@ std::string to_text(const FuzzReport& report) {
 nlohmann::json to_json(const Finding& finding, const SolverCall& asked) {
   const Reproduction reproduction = reproduction_of(finding, asked);
   nlohmann::json json = case_json(finding.simplest);
+  // Names of earlier versions.
+  if (reproduction.is_found_on_curves) json.update(answer_json(finding.simplest.answer));
   json.update({{"what", to_string(finding.what)},
-               {"kind", to_string(finding.kind)},
+               {"kind", to_string(finding.kind())},
                {"separation", judge::to_json(finding.separation)},
                {"method", finding.method},
                {"generator", finding.generator},
@@ -242,37 +273,40 @@ nlohmann::json to_json(const FuzzReport& report) {
   }
   nlohmann::json groups = nlohmann::json::array();
   for (const FindingGroup& group : result.groups) groups.push_back(group_json(result, group));
-  return {{"solver", solver_json(report.solver)},
-          {"method", report.solver.method},
-          {"promise", solvers::to_string(report.solver.promise)},
-          {"seed", report.seed},
-          {"separation", judge::to_json(report.solver.options.separation)},
-          {"asked",
-           {{"seconds", report.seconds > 0.0 ? nlohmann::json(report.seconds) : nlohmann::json()},
-            {"queries", report.queries != 0 ? nlohmann::json(report.queries) : nlohmann::json()},
-            {"only", only}}},
-          {"ended_by", to_string(result.ended_by)},
-          {"queries", result.queries},
-          {"unjudged", result.unjudged},
-          {"unanswered", result.unanswered},
-          {"outside", result.outside},
-          {"left_out", result.left_out},
-          {"images", result.images},
-          {"collisions", result.collisions},
-          {"judged_by_oracle", result.judged_by_oracle},
-          {"seconds", result.seconds},
-          {"method_seconds", result.method_seconds},
-          {"shrink_seconds", result.shrink_seconds},
-          {"other_seconds", result.other_seconds},
-          {"queries_per_second", result.queries_per_second()},
-          {"judged_per_second", result.judged_per_second()},
-          {"all_findings", result.all_findings},
-          {"other_findings", result.other_findings},
-          {"unplaced_crashes", result.unplaced_crashes},
-          {"interrupted", result.ended_by == FuzzEnd::interrupt},
-          {"generators", generators},
-          {"findings", findings},
-          {"groups", groups}};
+  nlohmann::json json{
+      {"solver", solver_json(report.solver)},
+      {"method", report.solver.method},
+      {"promise", solvers::to_string(report.solver.promise)},
+      {"seed", report.seed},
+      {"separation", judge::to_json(report.solver.options.separation)},
+      {"asked",
+       {{"seconds", report.seconds > 0.0 ? nlohmann::json(report.seconds) : nlohmann::json()},
+        {"queries", report.queries != 0 ? nlohmann::json(report.queries) : nlohmann::json()},
+        {"only", only}}},
+      {"ended_by", to_string(result.ended_by)},
+      {"queries", result.queries},
+      {"unjudged", result.unjudged},
+      {"unanswered", result.unanswered},
+      {"outside", result.outside},
+      {"left_out", result.left_out},
+      {"images", result.images},
+      {"collisions", result.collisions},
+      {"judged_by_oracle", result.judged_by_oracle},
+      {"seconds", result.seconds},
+      {"method_seconds", result.method_seconds},
+      {"shrink_seconds", result.shrink_seconds},
+      {"other_seconds", result.other_seconds},
+      {"queries_per_second", result.queries_per_second()},
+      {"judged_per_second", result.judged_per_second()},
+      {"all_findings", result.all_findings},
+      {"other_findings", result.other_findings},
+      {"unplaced_crashes", result.unplaced_crashes},
+      {"interrupted", result.ended_by == FuzzEnd::interrupt},
+      {"generators", generators},
+      {"findings", findings},
+      {"groups", groups}};
+  if (!report.degrees.empty()) json["asked"]["degrees"] = report.degrees;
+  return json;
 }
 
 }  // namespace touchstone::verify::fuzz

@@ -22,6 +22,8 @@ struct FuzzReport {
   double seconds = 0.0;                 ///< asked for; 0: no limit
   std::uint64_t queries = 0;            ///< asked for; 0: no limit
   std::vector<judge::Fault> only = {};  ///< sought; empty: all
+  /// Of the curves, as they were asked for; empty: straight lines alone.
+  std::vector<std::string> degrees = {};
   FuzzResult result;
 };
 
@@ -39,7 +41,9 @@ struct FuzzReport {
 
 /// An object of `what`, `kind`, `separation` (`min_separation`, `norm`), `method`, `generator`,
 /// `seconds`, `queries`, `shrinking` ("not tried", "complete", "cut short" or "not reproduced"); of
-/// the simplest query `coordinates` (24 numbers in hexadecimal, as text), `answer` (`verdict`,
+/// the simplest query `coordinates` (24 numbers in hexadecimal, as text; on curves instead
+/// `degree`, `rational`, `control`, for each control point a list of four points, of rational
+/// curves `weights` likewise, and all as numbers in one list `numbers`), `answer` (`verdict`,
 /// `toi_lower`, `toi_upper` and `tolerance`, as number_to_json of io/json.hpp writes them),
 /// `collides`, `truth`, `detail` and `certificate` (a stream that touchstone-check takes; null if
 /// there is none), and the same in `original`, an object, of the query as it was found; `solver`
@@ -51,14 +55,15 @@ struct FuzzReport {
 /// An object of `solver` (`method`, `plugin` or null, `promise`, `tolerance`, `max_checks`,
 /// `min_separation`, `plugin` or null, `promise`, `terms` (as options of the command line),,
 /// `memory_limit` in bytes, `allow_processes`), `method`, `promise`, `seed`, `separation`, `asked`
-/// (`seconds` and `queries`, null without a limit, and `only`, a list of kinds, empty for all),
-/// `ended_by` ("time", "queries", "findings" or "interrupt"), `queries`, `unjudged`, `unanswered`,
-/// `outside` and `left_out` (not asked), `images`, `collisions`, `judged_by_oracle`, `seconds`,
-/// `method_seconds`, `shrink_seconds`, `other_seconds`, `queries_per_second`, `judged_per_second`,
-/// `all_findings`, `other_findings`, `unplaced_crashes`, `interrupted`, `generators` (a list of
-/// `name`, `queries`, `collisions`, `coverage_keys`, `findings`), `findings`, a list as above, and
-/// `groups`, a list of `what`, `method`, `count`, `best` (a number in `findings`), `scale`, `kind`,
-/// `shape` and `time` (signature.hpp, in words; `kind` null where it does not matter).
+/// (`seconds` and `queries`, null without a limit, and `only`, a list of kinds, empty for all; on
+/// curves `degrees`), `ended_by` ("time", "queries", "findings" or "interrupt"), `queries`,
+/// `unjudged`, `unanswered`, `outside` and `left_out` (not asked), `images`, `collisions`,
+/// `judged_by_oracle`, `seconds`, `method_seconds`, `shrink_seconds`, `other_seconds`,
+/// `queries_per_second`, `judged_per_second`, `all_findings`, `other_findings`, `unplaced_crashes`,
+/// `interrupted`, `generators` (a list of `name`, `queries`, `collisions`, `coverage_keys`,
+/// `findings`), `findings`, a list as above, and `groups`, a list of `what`, `method`, `count`,
+/// `best` (a number in `findings`), `scale`, `kind`, `shape` and `time` (signature.hpp, in words;
+/// `kind` null where it does not matter).
 [[nodiscard]] nlohmann::json to_json(const FuzzReport& report);
 
 }  // namespace touchstone::verify::fuzz

@@ -8,6 +8,7 @@
 
 #include "verify/fuzz/aligned_roundings.hpp"
 #include "verify/fuzz/contact.hpp"
+#include "verify/fuzz/curves.hpp"
 #include "verify/fuzz/mutation.hpp"
 #include "verify/generate/draws.hpp"
 #include "verify/generate/everyday.hpp"
@@ -156,6 +157,14 @@ Query slide(Kind kind, const GeneratorContext& /*context*/, Random& random) {
   return sliding(kind, random);
 }
 
+/// A generator of queries on straight lines, which also makes them queries on curves.
+template <Query (*make)(Kind, const GeneratorContext&, Random&)>
+AnyQuery lines(const QueryShape& shape, const GeneratorContext& context, Random& random) {
+  const Query query = make(shape.kind, context, random);
+  if (shape.is_straight()) return {shape.kind, query};
+  return on_curves(shape, query, random);
+}
+
 // ---- From other queries -------------------------------------------------------------------------
 
 Query family(Kind kind, const GeneratorContext& context, Random& random) {
@@ -165,14 +174,15 @@ Query family(Kind kind, const GeneratorContext& context, Random& random) {
   return generate::make_query(chosen, kind, seed, below(random, 1000), context.separation()).query;
 }
 
-Query from_pool(Kind kind, const GeneratorContext& context, Random& random) {
-  const QueryPool& pool = context.pool(kind);
-  if (pool.empty() || one_in(random, 16)) return contact_on_grid(kind, context, random);
+AnyQuery from_pool(const QueryShape& shape, const GeneratorContext& context, Random& random) {
+  const QueryPool& pool = context.pool(shape);
+  if (pool.empty() || one_in(random, 16)) return lines<contact_on_grid>(shape, context, random);
   return pool.draw(random);
 }
 
-Query mutate(Kind kind, const GeneratorContext& context, Random& random) {
-  return mutated(from_pool(kind, context, random), random);
+AnyQuery mutate(const QueryShape& shape, const GeneratorContext& context, Random& random) {
+  return mutated(from_pool(shape, context, random), may_weights_differ(shape, context.separation()),
+                 random);
 }
 
 /// Exponents of the greatest coordinate. Mostly close to that of the distance, if there is one,
@@ -186,12 +196,15 @@ std::pair<int, int> draw_exponents(const Separation& separation, Random& random)
 
 /// A query of another generator far from 1, with a greatest coordinate from 2^-1000 to 2^1000,
 /// sometimes for each axis separately.
-Query scaled(Kind kind, const GeneratorContext& context, Random& random) {
-  const Query query = from_pool(kind, context, random);
+AnyQuery scaled(const QueryShape& shape, const GeneratorContext& context, Random& random) {
+  AnyQuery result = from_pool(shape, context, random);
+  const std::span<double> numbers = result.numbers();
+  const std::size_t point_size = shape.numbers_of_point();
   std::array<double, 3> greatest{};
-  for (std::size_t i = 0; i < query.coordinates.size(); ++i) {
-    double& most = greatest.at(i % 3);
-    most = std::max(most, std::abs(query.coordinates.at(i)));
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    if (i % point_size >= 3) continue;
+    double& most = greatest.at(i % point_size);
+    most = std::max(most, std::abs(numbers[i]));
   }
   const bool alike = !one_in(random, 3);
   const double most = std::ranges::max(greatest);
@@ -200,56 +213,76 @@ Query scaled(Kind kind, const GeneratorContext& context, Random& random) {
     return static_cast<int>(random.between(low, high));
   };
   const int common = draw();
-  Query result = query;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const double size = alike ? most : greatest.at(axis);
     if (size == 0.0) continue;
     const int exponent = (alike ? common : draw()) - std::ilogb(size);
-    for (std::size_t i = axis; i < result.coordinates.size(); i += 3) {
-      result.coordinates.at(i) = std::ldexp(result.coordinates.at(i), exponent);
+    for (std::size_t i = axis; i < numbers.size(); i += point_size) {
+      numbers[i] = std::ldexp(numbers[i], exponent);
     }
   }
   return result;
+}
+
+// ---- Curves -------------------------------------------------------------------------------------
+
+AnyQuery curved_family(const QueryShape& shape, const GeneratorContext& context, Random& random) {
+  if (auto query = of_curved_family(shape, random)) return *std::move(query);
+  return lines<family>(shape, context, random);
+}
+
+AnyQuery control_points(const QueryShape& shape, const GeneratorContext& context, Random& random) {
+  return of_numbers(shape, context.separation(), random);
 }
 
 /// Queries like those of a solver's users are the most valuable: about an eighth of the queries
 /// from the start.
 constexpr double explored_everyday = 5.0;
 
-constexpr std::array<Generator, 16> all_generators{{
-    {"family", "a query of the built-in set (touchstone generate --list), any seed", 20.0, family},
-    {"few_bits", "small integers times a power of two", 1.0, few_bits},
-    {"grid", "a few numbers an axis with full significands", 3.0, grid},
-    {"shared_vertices", "points shared, at rest, or with equal coordinates", 2.0, shared_vertices},
-    {"contact_on_grid", "exact contact of integers, nudged", 31.0, contact_on_grid},
-    {"contact_at_level", "exact contact with full significands, nudged", 6.5, contact_at_level},
-    {"contact_central", "the centres meet at an end, along the normal", 3.5, contact_central},
-    {"contact_rounded", "one point solved for contact and rounded, nudged", 6.0, contact_rounded},
-    {"contact_aligned", "contact of edges whose roundings add up", 38.0, contact_aligned},
-    {"everyday", "contact at t=0, t=1 or a shared point, in short decimals", 2.0, everyday, false,
-     explored_everyday},
-    {"sliding", "nearly parallel and nearly touching", 2.5, slide},
+constexpr std::array<Generator, 18> all_generators{{
+    {"family", "a query of the built-in set (touchstone generate --list), any seed", 20.0,
+     lines<family>},
+    {"few_bits", "small integers times a power of two", 1.0, lines<few_bits>},
+    {"grid", "a few numbers an axis with full significands", 3.0, lines<grid>},
+    {"shared_vertices", "points shared, at rest, or with equal coordinates", 2.0,
+     lines<shared_vertices>},
+    {"contact_on_grid", "exact contact of integers, nudged", 31.0, lines<contact_on_grid>},
+    {"contact_at_level", "exact contact with full significands, nudged", 6.5,
+     lines<contact_at_level>},
+    {"contact_central", "the centres meet at an end, along the normal", 3.5,
+     lines<contact_central>},
+    {"contact_rounded", "one point solved for contact and rounded, nudged", 6.0,
+     lines<contact_rounded>},
+    {"contact_aligned", "contact of edges whose roundings add up", 38.0, lines<contact_aligned>},
+    {"everyday", "contact at t=0, t=1 or a shared point, in short decimals", 2.0, lines<everyday>,
+     false, explored_everyday},
+    {"sliding", "nearly parallel and nearly touching", 2.5, lines<slide>},
     {"mutated", "a query of the corpus or a recent one, changed", 9.0, mutate},
     {"scaled", "such a query times 2^-1000 to 2^1000", 15.0, scaled},
-    {"apart", "about as far apart as the separation", 10.0, apart, true},
-    {"multiples", "small multiples of the separation, an end of them moved", 20.0, multiples, true},
-    {"tilting", "a polygon that tilts within the separation", 10.0, tilt, true},
+    {"apart", "about as far apart as the separation", 10.0, lines<apart>, true},
+    {"multiples", "small multiples of the separation, an end of them moved", 20.0, lines<multiples>,
+     true},
+    {"tilting", "a polygon that tilts within the separation", 10.0, lines<tilt>, true},
+    {"curved_family", "a query of a family on curves, any seed", 40.0, curved_family, false, 1.0,
+     true},
+    {"control_points", "small whole numbers or any, any weights", 20.0, control_points, false, 1.0,
+     true},
 }};
 
 }  // namespace
 
-void QueryPool::add(const Query& query) {
+void QueryPool::add(AnyQuery query) {
   if (latest_.size() < most_latest) {
-    latest_.push_back(query);
+    latest_.push_back(std::move(query));
     return;
   }
-  latest_[oldest_] = query;
+  latest_[oldest_] = std::move(query);
   oldest_ = (oldest_ + 1) % most_latest;
 }
 
-const Query& QueryPool::draw(Random& random) const {
+const AnyQuery& QueryPool::draw(Random& random) const {
   const bool from_kept = latest_.empty() || (!kept_.empty() && random.coin());
-  const std::vector<Query>& from = from_kept ? kept_ : latest_;
+  const std::vector<AnyQuery>& from = from_kept ? kept_ : latest_;
   return from[below(random, from.size())];
 }
 
@@ -264,10 +297,11 @@ GeneratorContext::GeneratorContext(const Separation& separation) : separation_(s
 
 std::span<const Generator> generators() { return all_generators; }
 
-std::vector<Generator> generators(const Separation& separation) {
+std::vector<Generator> generators(const Separation& separation, bool on_curves) {
   std::vector<Generator> result;
   std::ranges::copy_if(all_generators, std::back_inserter(result), [&](const Generator& generator) {
-    return !generator.needs_distance || !is_zero(separation);
+    return (!generator.needs_distance || !is_zero(separation)) &&
+           (!generator.is_of_curves || on_curves);
   });
   return result;
 }

@@ -2,40 +2,45 @@
 
 /// \file
 /// The sources of the fuzzer's queries. Each generator has one kind of difficulty; it draws
-/// the scale, the closeness and all other parameters anew for each query.
+/// the scale, the closeness and all other parameters anew for each query. Those of queries on
+/// straight lines also make them queries on curves (curves.hpp).
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "touchstone/query.hpp"
+#include "verify/base/any_query.hpp"
 #include "verify/generate/families.hpp"
 #include "verify/generate/random.hpp"
 
 namespace touchstone::verify::fuzz {
 
-/// Queries of one kind to mutate: some permanent ones, and the latest ones with new coverage.
+using base::AnyQuery;
+
+/// Queries of one shape to mutate: some permanent ones, and the latest ones with new coverage.
 class QueryPool {
  public:
   /// Keeps a query permanently.
-  void keep(const Query& query) { kept_.push_back(query); }
+  void keep(AnyQuery query) { kept_.push_back(std::move(query)); }
 
   /// Keeps a query until many others have been added.
-  void add(const Query& query);
+  void add(AnyQuery query);
 
   /// A random one of them; with probability 1/2 a permanent one, if there is one. \pre not empty
-  [[nodiscard]] const Query& draw(generate::Random& random) const;
+  [[nodiscard]] const AnyQuery& draw(generate::Random& random) const;
 
   [[nodiscard]] bool empty() const { return kept_.empty() && latest_.empty(); }
 
  private:
   static constexpr std::size_t most_latest = 1024;
 
-  std::vector<Query> kept_;
-  std::vector<Query> latest_;
+  std::vector<AnyQuery> kept_;
+  std::vector<AnyQuery> latest_;
   std::size_t oldest_ = 0;
 };
 
@@ -49,15 +54,19 @@ class GeneratorContext {
   [[nodiscard]] const std::vector<generate::Family>& families(Kind kind) const {
     return families_.at(static_cast<std::size_t>(kind));
   }
-  [[nodiscard]] const QueryPool& pool(Kind kind) const {
-    return pools_.at(static_cast<std::size_t>(kind));
+  [[nodiscard]] const QueryPool& pool(const QueryShape& shape) const {
+    return pools_.at(place_of(shape));
   }
-  [[nodiscard]] QueryPool& pool(Kind kind) { return pools_.at(static_cast<std::size_t>(kind)); }
+  [[nodiscard]] QueryPool& pool(const QueryShape& shape) { return pools_.at(place_of(shape)); }
 
  private:
+  static std::size_t place_of(const QueryShape& shape) {
+    return 4 * shape.degree + (shape.is_rational ? 2 : 0) + static_cast<std::size_t>(shape.kind);
+  }
+
   Separation separation_;
   std::array<std::vector<generate::Family>, 2> families_;
-  std::array<QueryPool, 2> pools_;
+  std::array<QueryPool, 4 * (greatest_degree + 1)> pools_;
 };
 
 /// A named generator of queries.
@@ -68,18 +77,22 @@ struct Generator {
   std::string_view about;
   /// The work of a query: about the microseconds to generate and judge it.
   double work;
-  /// Generates a query of finite coordinates: a function of the arguments alone.
-  Query (*make)(Kind kind, const GeneratorContext& context, generate::Random& random);
+  /// Generates a query of finite coordinates and positive weights: a function of the arguments
+  /// alone. \pre a degree above 0
+  AnyQuery (*make)(const QueryShape& shape, const GeneratorContext& context,
+                   generate::Random& random);
   /// True if it needs a positive separation.
   bool needs_distance = false;
   /// Its share of the exploration (scheduler.hpp), independent of its results so far.
   double explored = 1.0;
+  /// True if its queries are on curves, unless they must be on straight lines.
+  bool is_of_curves = false;
 };
 
-/// All generators, always in the same order.
+/// All generators, always in the same order: first those of queries on straight lines.
 [[nodiscard]] std::span<const Generator> generators();
 
-/// The generators with queries for the separation.
-[[nodiscard]] std::vector<Generator> generators(const Separation& separation);
+/// The generators with queries for the separation; those of curves only if asked for.
+[[nodiscard]] std::vector<Generator> generators(const Separation& separation, bool on_curves);
 
 }  // namespace touchstone::verify::fuzz

@@ -3,8 +3,9 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <functional>
 #include <limits>
-#include <utility>
+#include <span>
 
 #include "verify/generate/draws.hpp"
 
@@ -12,6 +13,7 @@ namespace touchstone::verify::fuzz {
 namespace {
 
 namespace draws = generate::draws;
+using base::AnyQuery;
 using draws::below;
 using draws::one_in;
 using generate::Random;
@@ -22,14 +24,26 @@ std::int64_t rank(double x) {
   return std::signbit(x) ? -bits : bits;
 }
 
-double& some_coordinate(Query& query, Random& random) {
-  return query.coordinates.at(below(random, query.coordinates.size()));
+double& some_number(std::span<double> numbers, Random& random) {
+  return numbers[below(random, numbers.size())];
 }
 
-/// Another coordinate of the same axis, for equal coordinates.
-double some_like(const Query& query, const double& coordinate, Random& random) {
-  const auto index = static_cast<std::size_t>(&coordinate - query.coordinates.data());
-  return query.coordinates.at(3 * below(random, query_points) + index % 3);
+/// Another coordinate of the same axis, for equal coordinates, or another weight.
+double some_like(const AnyQuery& query, const double& number, Random& random) {
+  const std::span<const double> all = query.numbers();
+  const std::size_t size = query.shape().numbers_of_point();
+  const auto index = static_cast<std::size_t>(&number - all.data());
+  return all[size * below(random, all.size() / size) + index % size];
+}
+
+void nudge_numbers(std::span<double> numbers, Random& random) {
+  const std::size_t count = 1 + below(random, 3);
+  for (std::size_t i = 0; i < count; ++i) {
+    double& x = some_number(numbers, random);
+    const std::int64_t steps =
+        one_in(random, 4) ? std::int64_t{1} << below(random, 40) : random.between(1, 4);
+    x = stepped(x, random.coin() ? steps : -steps);
+  }
 }
 
 void flip_bit(double& x, Random& random) {
@@ -49,8 +63,8 @@ void rescale(double& x, Random& random) {
   if (std::isfinite(scaled)) x = scaled;
 }
 
-void change_coordinate(Query& query, Random& random) {
-  double& x = some_coordinate(query, random);
+void change_number(AnyQuery& query, Random& random) {
+  double& x = some_number(query.numbers(), random);
   switch (below(random, 7)) {
     case 0:
       flip_bit(x, random);
@@ -71,25 +85,41 @@ void change_coordinate(Query& query, Random& random) {
       rescale(x, random);
       break;
     default:
-      nudge(query, random);
+      nudge_numbers(query.numbers(), random);
   }
 }
 
-void change_points(Query& query, Random& random) {
+void change_points(AnyQuery& query, Random& random) {
   const std::size_t point = below(random, moving_points), other = below(random, moving_points);
-  const std::size_t end = below(random, 2);
+  const std::size_t degree = query.shape().degree, control = below(random, degree + 1);
+  const auto at = [&](std::size_t j, std::size_t index) {
+    const std::size_t size = query.shape().numbers_of_point();
+    return query.numbers().subspan((moving_points * j + index) * size, size);
+  };
   switch (below(random, 4)) {
     case 0:
-      query.point(0, point).swap(query.point(1, point));
+      std::ranges::swap_ranges(at(0, point), at(degree, point));
       break;
     case 1:
-      query.point(end, point) = Eigen::Vector3d(query.point(end, other));
+      std::ranges::transform(at(control, other), at(control, point).begin(), std::identity{});
       break;
     case 2:
-      query.point(1 - end, point) = Eigen::Vector3d(query.point(end, point));
+      std::ranges::transform(at(control, point), at(degree - control, point).begin(),
+                             std::identity{});
       break;
     default:
-      query.point(end, point).swap(query.point(end, other));
+      std::ranges::swap_ranges(at(control, point), at(control, other));
+  }
+}
+
+/// Gives weights that may not change, or are no weights or far from 1, what they were.
+void restore_weights(AnyQuery& query, const AnyQuery& before, bool changes_weights) {
+  constexpr double greatest = 0x1p40;
+  if (!query.shape().is_rational) return;
+  for (std::size_t i = 3; i < query.numbers().size(); i += 4) {
+    double& weight = query.numbers()[i];
+    const bool is_moderate = weight <= greatest && weight >= 1.0 / greatest;
+    if (!changes_weights || !is_moderate) weight = before.numbers()[i];
   }
 }
 
@@ -102,15 +132,7 @@ double stepped(double x, std::int64_t steps) {
   return target < 0 ? -magnitude : magnitude;
 }
 
-void nudge(Query& query, Random& random) {
-  const std::size_t count = 1 + below(random, 3);
-  for (std::size_t i = 0; i < count; ++i) {
-    double& x = some_coordinate(query, random);
-    const std::int64_t steps =
-        one_in(random, 4) ? std::int64_t{1} << below(random, 40) : random.between(1, 4);
-    x = stepped(x, random.coin() ? steps : -steps);
-  }
-}
+void nudge(Query& query, Random& random) { nudge_numbers(query.coordinates, random); }
 
 void overshoot(Kind kind, Query& query, Random& random) {
   const std::size_t end = below(random, 2);
@@ -125,16 +147,17 @@ void overshoot(Kind kind, Query& query, Random& random) {
   if (is_finite(moved)) query = moved;
 }
 
-Query mutated(const Query& query, Random& random) {
-  Query result = query;
+AnyQuery mutated(const AnyQuery& query, bool changes_weights, Random& random) {
+  AnyQuery result = query;
   const std::size_t count = 1 + below(random, 3);
   for (std::size_t i = 0; i < count; ++i) {
     if (one_in(random, 4)) {
       change_points(result, random);
     } else {
-      change_coordinate(result, random);
+      change_number(result, random);
     }
   }
+  restore_weights(result, query, changes_weights);
   return result;
 }
 

@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include "touchstone/query.hpp"
+#include "verify/base/any_query.hpp"
 #include "verify/generate/random.hpp"
 
 namespace touchstone::verify::fuzz {
@@ -25,7 +26,9 @@ void overshoot(Kind kind, Query& query, generate::Random& random);
 
 /// One to three changes: a bit flipped, coordinates or points copied or exchanged, a sign changed,
 /// a coordinate set to 0, rounded to few bits or multiplied by a power of two, units in the last
-/// place, a point at rest. All coordinates stay finite.
-[[nodiscard]] Query mutated(const Query& query, generate::Random& random);
+/// place, a point at rest. Weights are changed as coordinates are, if they may be. All coordinates
+/// stay finite, all weights between 2^-40 and 2^40.
+[[nodiscard]] base::AnyQuery mutated(const base::AnyQuery& query, bool changes_weights,
+                                     generate::Random& random);
 
 }  // namespace touchstone::verify::fuzz

@@ -21,7 +21,7 @@ std::uint64_t away(int exponent, int least, int greatest) {
   return static_cast<std::uint64_t>(std::max({least - exponent, exponent - greatest, 0}));
 }
 
-std::uint64_t drift(const Query& query, const Query& original) {
+std::uint64_t drift(const AnyQuery& query, const AnyQuery& original) {
   constexpr int allowed = 3;
   const int size = size_exponent(query), of_original = size_exponent(original);
   if (away(of_original, least_everyday, greatest_everyday) != 0) {
@@ -33,23 +33,22 @@ std::uint64_t drift(const Query& query, const Query& original) {
 // ---- Degeneracy ---------------------------------------------------------------------------------
 
 /// Halves a query that is so large that differences would overflow.
-Query with_margin(const Query& query) {
+AnyQuery with_margin(AnyQuery query) {
   constexpr int most = 1000;
-  Query result = query;
-  if (size_exponent(query) < most) return result;
-  for (double& x : result.coordinates) x *= 0.5;
-  return result;
+  if (size_exponent(query) < most) return query;
+  for_each_coordinate(query, point_axes, [](double& x) { x *= 0.5; });
+  return query;
 }
 
 /// The greatest difference of two coordinates on an axis.
-double extent(const Query& query) {
+double extent(const AnyQuery& query) {
   double result = 0.0;
   for (std::size_t axis = 0; axis < point_axes; ++axis) {
-    double least = query.coordinates[axis], greatest = least;
-    for (std::size_t i = axis; i < coordinate_count; i += point_axes) {
-      least = std::min(least, query.coordinates[i]);
-      greatest = std::max(greatest, query.coordinates[i]);
-    }
+    double least = query.numbers()[axis], greatest = least;
+    for_each_coordinate(query, axis, [&](double x) {
+      least = std::min(least, x);
+      greatest = std::max(greatest, x);
+    });
     result = std::max(result, greatest - least);
   }
   return result;
@@ -57,15 +56,36 @@ double extent(const Query& query) {
 
 /// The query's shape, about 1 in extent: its products neither overflow nor vanish. All coordinates
 /// are 0 if all points coincide.
-Query shape(const Query& query) {
-  const Query padded = with_margin(query);
-  const double size = extent(padded);
-  Query result{};
-  if (size == 0.0) return result;
-  const int exponent = std::ilogb(size);
-  for (std::size_t i = 0; i < coordinate_count; ++i) {
-    result.coordinates[i] =
-        std::ldexp(padded.coordinates[i] - padded.coordinates[i % point_axes], -exponent);
+AnyQuery shape(const AnyQuery& query) {
+  AnyQuery result = with_margin(query);
+  const double size = extent(result);
+  const int exponent = size == 0.0 ? 0 : std::ilogb(size);
+  for (std::size_t axis = 0; axis < point_axes; ++axis) {
+    const double origin = result.numbers()[axis];
+    for_each_coordinate(result, axis, [&](double& x) { x = std::ldexp(x - origin, -exponent); });
+  }
+  return result;
+}
+
+/// The four points at one time.
+using Places = std::array<Vector3d, moving_points>;
+
+/// By de Casteljau's algorithm; weights are the fourth coordinate of points that they multiply.
+Places places_at(const AnyQuery& query, double t) {
+  const std::size_t size = query.shape().numbers_of_point();
+  Places result;
+  for (std::size_t point = 0; point < moving_points; ++point) {
+    std::array<Eigen::Vector4d, greatest_degree + 1> row;
+    for (std::size_t j = 0; j <= query.shape().degree; ++j) {
+      const auto numbers = query.numbers().subspan((moving_points * j + point) * size, size);
+      row.at(j) = {numbers[0], numbers[1], numbers[2], 1.0};
+      if (query.shape().is_rational) row.at(j) *= numbers[3];
+    }
+    for (std::size_t count = query.shape().degree; count > 0; --count) {
+      for (std::size_t j = 0; j < count; ++j) row.at(j) = (1.0 - t) * row.at(j) + t * row.at(j + 1);
+    }
+    result.at(point) = row[0].head<3>();
+    if (query.shape().is_rational) result.at(point) /= row[0][3];
   }
   return result;
 }
@@ -74,38 +94,38 @@ Query shape(const Query& query) {
 /// below which a triangle's height is.
 constexpr double least_part = 0x1p-10;
 
-std::uint64_t collapsed_triangle(const Query& shape, std::size_t end) {
-  const Vector3d a = shape.point(end, 2) - shape.point(end, 1);
-  const Vector3d b = shape.point(end, 3) - shape.point(end, 1);
+std::uint64_t collapsed_triangle(const Places& places) {
+  const Vector3d a = places[2] - places[1];
+  const Vector3d b = places[3] - places[1];
   const double longest = std::max({a.norm(), b.norm(), (b - a).norm()});
   if (longest <= least_part) return 2;
   return a.cross(b).norm() <= least_part * longest * longest ? 1 : 0;
 }
 
-std::uint64_t collapsed_edge(const Query& shape, std::size_t end, std::size_t first) {
-  const Vector3d side = shape.point(end, first + 1) - shape.point(end, first);
+std::uint64_t collapsed_edge(const Places& places, std::size_t first) {
+  const Vector3d side = places.at(first + 1) - places.at(first);
   return side.norm() <= least_part ? 1 : 0;
 }
 
-std::uint64_t collapsed_in_shape(Kind kind, const Query& shape) {
+std::uint64_t collapsed_in_shape(const AnyQuery& shape) {
   std::uint64_t result = 0;
-  for (std::size_t end = 0; end < motion_ends; ++end) {
-    result += kind == Kind::vertex_face
-                  ? collapsed_triangle(shape, end)
-                  : collapsed_edge(shape, end, 0) + collapsed_edge(shape, end, 2);
+  for (const double end : {0.0, 1.0}) {
+    const Places places = places_at(shape, end);
+    result += shape.kind() == Kind::vertex_face
+                  ? collapsed_triangle(places)
+                  : collapsed_edge(places, 0) + collapsed_edge(places, 2);
   }
   return result;
 }
 
-/// A cubic that is about 0 at four times is about 0 at all times.
-bool is_coplanar(const Query& shape) {
+/// On curves of degree k the volume of the points is a polynomial of degree 3k, and times all
+/// weights one of degree 4k: if it is about 0 at one time more, it is so at all times.
+bool is_coplanar(const AnyQuery& shape) {
   constexpr double least_volume = 0x1p-20;
-  for (const double t : {0.0, 1.0 / 3.0, 2.0 / 3.0, 1.0}) {
-    const auto place = [&](std::size_t point) -> Vector3d {
-      return (1.0 - t) * shape.point(0, point) + t * shape.point(1, point);
-    };
-    const Vector3d origin = place(0), a = place(1) - origin, b = place(2) - origin;
-    const Vector3d c = place(3) - origin;
+  const std::size_t degree = (shape.shape().is_rational ? 4 : 3) * shape.shape().degree;
+  for (std::size_t i = 0; i <= degree; ++i) {
+    const Places places = places_at(shape, static_cast<double>(i) / static_cast<double>(degree));
+    const Vector3d a = places[1] - places[0], b = places[2] - places[0], c = places[3] - places[0];
     const double sizes = a.norm() * b.norm() * c.norm();
     if (std::abs(a.dot(b.cross(c))) > least_volume * sizes) return false;
   }
@@ -114,24 +134,29 @@ bool is_coplanar(const Query& shape) {
 
 // ---- Length -------------------------------------------------------------------------------------
 
-std::uint64_t length(const Query& query, const std::vector<double>& of_query) {
+std::uint64_t length(const AnyQuery& query, const std::vector<double>& of_query) {
   constexpr std::uint64_t of_magnitude = 8, of_coordinate = 2;
+  const auto numbers = query.numbers();
+  const std::size_t step = to_next_control(query);
   std::uint64_t result = 0;
   for (const double x : of_query) result += of_magnitude + writing_length(x);
-  for (std::size_t i = 0; i < coordinate_count; ++i) {
-    const double x = query.coordinates[i];
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    const double x = numbers[i];
     if (x != 0.0) result += of_coordinate;
     if (std::signbit(x)) ++result;
-    if (i < to_other_end && x != query.coordinates[i + to_other_end]) ++result;
+    if (i + step < numbers.size() && x != numbers[i + step]) ++result;
   }
   return result;
 }
 
-bool is_greater(const Query& query, const PointPair& pair) {
-  for (std::size_t end = 0; end < motion_ends; ++end) {
+bool is_greater(const AnyQuery& query, const PointPair& pair) {
+  const std::size_t size = query.shape().numbers_of_point();
+  for (std::size_t j = 0; j <= query.shape().degree; ++j) {
     for (std::size_t axis = 0; axis < point_axes; ++axis) {
-      const double first = query.at(end, pair[0], axis), second = query.at(end, pair[1], axis);
-      if (first != second) return first > second;
+      const auto at = [&](std::size_t point) {
+        return query.numbers()[(moving_points * j + point) * size + axis];
+      };
+      if (at(pair[0]) != at(pair[1])) return at(pair[0]) > at(pair[1]);
     }
   }
   return false;
@@ -144,7 +169,17 @@ bool Plainness::is_worse_somewhere(const Plainness& other) const {
          length > other.length;
 }
 
-Plainness plainness(Kind kind, const Query& query, const Query& original) {
+bool is_valid(const AnyQuery& query) {
+  const std::size_t size = query.shape().numbers_of_point();
+  if (!is_finite(query.numbers())) return false;
+  for (std::size_t i = point_axes; query.shape().is_rational && i < query.numbers().size();
+       i += size) {
+    if (!(query.numbers()[i] > 0.0)) return false;
+  }
+  return true;
+}
+
+Plainness plainness(const AnyQuery& query, const AnyQuery& original) {
   constexpr unsigned bits_for_sum = 8;
   const std::vector<double> all = magnitudes(query);
   Plainness result;
@@ -152,33 +187,32 @@ Plainness plainness(Kind kind, const Query& query, const Query& original) {
     result.beyond += away(std::ilogb(x), least_everyday, greatest_everyday);
     result.size += std::bit_cast<std::uint64_t>(x) >> bits_for_sum;
   }
-  result.degenerate = degeneracy(kind, query);
+  result.degenerate = degeneracy(query);
   result.drift = drift(query, original);
   result.length = length(query, all);
-  for (const PointPair& pair : exchangeable(kind)) {
+  for (const PointPair& pair : exchangeable(query.kind())) {
     if (is_greater(query, pair)) ++result.disorder;
   }
   return result;
 }
 
-std::uint64_t degeneracy(Kind kind, const Query& query) {
-  const Query its_shape = shape(query);
-  return collapsed_in_shape(kind, its_shape) + (is_coplanar(its_shape) ? 1 : 0);
+std::uint64_t degeneracy(const AnyQuery& query) {
+  const AnyQuery its_shape = shape(query);
+  return collapsed_in_shape(its_shape) + (is_coplanar(its_shape) ? 1 : 0);
 }
 
-std::uint64_t collapsed_elements(Kind kind, const Query& query) {
-  return collapsed_in_shape(kind, shape(query));
-}
+std::uint64_t collapsed_elements(const AnyQuery& query) { return collapsed_in_shape(shape(query)); }
 
-int size_exponent(const Query& query) {
+int size_exponent(const AnyQuery& query) {
   double greatest = 0.0;
-  for (const double x : query.coordinates) greatest = std::max(greatest, std::abs(x));
+  for_each_coordinate(query, point_axes,
+                      [&](double x) { greatest = std::max(greatest, std::abs(x)); });
   return greatest == 0.0 ? least_everyday : std::ilogb(greatest);
 }
 
-std::vector<double> magnitudes(const Query& query) {
+std::vector<double> magnitudes(const AnyQuery& query) {
   std::vector<double> result;
-  for (const double x : query.coordinates) {
+  for (const double x : query.numbers()) {
     if (x != 0.0) result.push_back(std::abs(x));
   }
   std::ranges::sort(result);

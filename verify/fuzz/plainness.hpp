@@ -16,7 +16,8 @@
 /// 4. `length`: the cost of writing it down. For each magnitude (except 0) 8, 3 for each
 ///    significant digit of the shortest decimal of this double, 1 for each zero between these and
 ///    the point, and 2 if it is not an integer. For each coordinate 2 unless it is 0, 1 for a sign,
-///    and 1 if it moves.
+///    and 1 if it moves on. Weights are numbers as coordinates are, so fewer control points, and
+///    none with weights, are shorter.
 /// 5. `size`: the sum of the magnitudes, each as a number that orders doubles.
 /// 6. `disorder`: pairs of points whose order is irrelevant (the triangle's, an edge's), with the
 ///   greater one first.
@@ -31,15 +32,33 @@
 #include <vector>
 
 #include "touchstone/query.hpp"
+#include "verify/base/any_query.hpp"
 
 namespace touchstone::verify::fuzz {
 
-// A query's coordinates: coordinate_count numbers at t=0 and t=1 each, x, y and z of each point.
+using base::AnyQuery;
+
+/// Coordinates of a point; a weight follows them on rational curves.
 inline constexpr std::size_t point_axes = 3;
-inline constexpr std::size_t motion_ends = 2;
-inline constexpr std::size_t coordinate_count = point_axes * query_points;
-/// Distance of a point's coordinate at t=0 from the one at t=1.
-inline constexpr std::size_t to_other_end = point_axes * moving_points;
+
+/// Distance of a number of a control point from the same number of the next one.
+[[nodiscard]] inline std::size_t to_next_control(const AnyQuery& query) {
+  return moving_points * query.shape().numbers_of_point();
+}
+
+/// Calls use(x) for each coordinate of an axis, or of all axes for an index beyond the last one,
+/// in their order. Weights are none.
+template <class Numbers, class Use>
+void for_each_coordinate(Numbers& query, std::size_t axis, const Use& use) {
+  const std::size_t size = query.shape().numbers_of_point();
+  const auto numbers = query.numbers();
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    if (axis < point_axes ? i % size == axis : i % size < point_axes) use(numbers[i]);
+  }
+}
+
+/// True if all numbers are finite and all weights positive.
+[[nodiscard]] bool is_valid(const AnyQuery& query);
 
 /// The measure above. Two queries may be equally plain.
 struct Plainness {
@@ -56,26 +75,26 @@ struct Plainness {
   [[nodiscard]] bool is_worse_somewhere(const Plainness& other) const;
 };
 
-/// \param original the query from which it was derived. \pre all coordinates are finite
-[[nodiscard]] Plainness plainness(Kind kind, const Query& query, const Query& original);
+/// \param original the query from which it was derived. \pre both are valid
+[[nodiscard]] Plainness plainness(const AnyQuery& query, const AnyQuery& original);
 
 /// At each end 1 for an edge that is shorter than 2^-10 of the query's extent, 1 for a triangle
 /// whose height is less than 2^-10 of its longest side, or 2 if all its sides are that short; and 1
 /// if the four points are always in one plane, to about 2^-20. (The extent: the greatest difference
 /// of two coordinates on an axis.) 0 to 5.
-[[nodiscard]] std::uint64_t degeneracy(Kind kind, const Query& query);
+[[nodiscard]] std::uint64_t degeneracy(const AnyQuery& query);
 
 /// The elements' part of degeneracy(): 0 to 4.
-[[nodiscard]] std::uint64_t collapsed_elements(Kind kind, const Query& query);
+[[nodiscard]] std::uint64_t collapsed_elements(const AnyQuery& query);
 
 /// Binary exponents of coordinates of everyday size.
 inline constexpr int least_everyday = -10, greatest_everyday = 9;
 
 /// The binary exponent of the greatest coordinate in magnitude; least_everyday if all are 0.
-[[nodiscard]] int size_exponent(const Query& query);
+[[nodiscard]] int size_exponent(const AnyQuery& query);
 
-/// The occurring magnitudes without 0, in ascending order.
-[[nodiscard]] std::vector<double> magnitudes(const Query& query);
+/// The occurring magnitudes of coordinates and weights without 0, in ascending order.
+[[nodiscard]] std::vector<double> magnitudes(const AnyQuery& query);
 
 /// The length of one magnitude. \pre it is finite and positive
 [[nodiscard]] std::uint64_t writing_length(double magnitude);

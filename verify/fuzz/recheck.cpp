@@ -8,6 +8,7 @@
 #include "touchstone/certificate.hpp"
 #include "touchstone/certificate_text.hpp"
 #include "verify/base/deadline.hpp"
+#include "verify/fuzz/plainness.hpp"
 #include "verify/fuzz/shrink.hpp"
 #include "verify/judge/terms.hpp"
 
@@ -33,10 +34,10 @@ bool lacks_same_bounds(const Answer& a, const Answer& b) {
 }
 
 /// Empty where it would exceed the format's limits.
-std::string certificate(Kind kind, const Query& query, const exact::Decision& verdict,
+std::string certificate(const AnyQuery& query, const exact::Decision& verdict,
                         std::string_view label) {
   try {
-    return exact::certificate_stream(exact::prove(kind, query, verdict, {}), label);
+    return exact::certificate_stream(exact::prove(query.queries(), 0, verdict, {}), label);
   } catch (const exact::CertificateLimitError&) {
     return {};
   }
@@ -62,18 +63,18 @@ base::Deadline solver_deadline(const base::Deadline& deadline) {
   return base::Deadline(std::max(least_seconds, deadline.seconds_left()));
 }
 
-FailingCase failing_case(Kind kind, const Query& query, const Answer& answer,
-                         const exact::Decision& verdict, std::string detail,
-                         std::string_view label) {
+FailingCase failing_case(AnyQuery query, const Answer& answer, const exact::Decision& verdict,
+                         std::string detail, std::string_view label) {
   std::optional<exact::DoubleInterval> toi;
   if (verdict.collides()) toi = verdict.toi->enclosure();
-  return {.query = query,
+  std::string proof = certificate(query, verdict, label);
+  return {.query = std::move(query),
           .answer = answer,
           .collides = verdict.collides(),
           .toi = toi,
           .truth = judge::to_text(judge::truth_of(0, verdict)),
           .detail = std::move(detail),
-          .certificate = certificate(kind, query, verdict, label)};
+          .certificate = std::move(proof)};
 }
 
 Recheck::Recheck(const fast::Method& method, const Finding& finding, const FuzzOptions& options)
@@ -87,38 +88,37 @@ Recheck::Recheck(const fast::Method& method, const Finding& finding, const FuzzO
   if (of_judge_) standard_ = judge::standard_of(fast::certified_info());
 }
 
-std::optional<FailingCase> Recheck::ask(const Query& query, const base::Deadline& deadline) {
-  if (!is_finite(query) || deadline.is_over()) return std::nullopt;
-  if (!judge::admits(standard_.terms, finding_.kind, query, separation_)) return std::nullopt;
+std::optional<FailingCase> Recheck::ask(const AnyQuery& query, const base::Deadline& deadline) {
+  if (!is_valid(query) || deadline.is_over()) return std::nullopt;
+  if (!judge::admits(standard_.terms, query, separation_)) return std::nullopt;
   const std::optional<Reply> reply = reply_to(query, deadline);
   if (!reply) return std::nullopt;
-  const exact::Decision verdict = exact::decide(finding_.kind, query, separation_);
+  const exact::Decision verdict = exact::decide(query.queries(), 0, separation_);
   const auto diagnosis = diagnose_reply(query, judge::truth_of(0, verdict), *reply);
   if (!diagnosis || !is_same(*diagnosis)) return std::nullopt;
   const bool is_slight = judge::is_slight(
       diagnosis->what,
       judge::lateness_of(judge::truth_of(0, verdict), reply->answer, standard_.terms));
   if (is_slight != finding_.is_slight) return std::nullopt;
-  return failing_case(finding_.kind, query, reply->answer, verdict, diagnosis->detail,
-                      finding_.generator);
+  return failing_case(query, reply->answer, verdict, diagnosis->detail, finding_.generator);
 }
 
-std::optional<Recheck::Reply> Recheck::reply_to(const Query& query,
+std::optional<Recheck::Reply> Recheck::reply_to(const AnyQuery& query,
                                                 const base::Deadline& deadline) {
   if (of_judge_) {
-    return Reply{
-        .answer = answer_of(fast::solve(finding_.kind, query, {.separation = separation_})),
-        .failure = std::nullopt};
+    fast::CertifiedResult result;
+    fast::solve(query.queries(), {&result, 1}, {.separation = separation_, .max_threads = 1});
+    return Reply{.answer = answer_of(result), .failure = std::nullopt};
   }
   Reply reply;
-  const solvers::SolverRun run = solver_.solve(finding_.kind, {&query, 1}, {&reply.answer, 1},
-                                               method_options_, solver_deadline(deadline));
+  const solvers::SolverRun run = solver_.solve(query.queries(), {&reply.answer, 1}, method_options_,
+                                               solver_deadline(deadline));
   if (run.answered == 0) return std::nullopt;
   if (!run.failures.empty()) reply.failure = run.failures.front().failure;
   return reply;
 }
 
-std::optional<Diagnosis> Recheck::diagnose_reply(const Query& query,
+std::optional<Diagnosis> Recheck::diagnose_reply(const AnyQuery& query,
                                                  const judge::GroundTruth& truth,
                                                  const Reply& reply) const {
   if (reply.failure) return diagnose_failure(*reply.failure, query_limit_seconds_);
@@ -126,7 +126,7 @@ std::optional<Diagnosis> Recheck::diagnose_reply(const Query& query,
       lacks_same_bounds(reply.answer, finding_.original.answer)) {
     return Diagnosis{judge::Fault::not_finite, finding_.original.detail};
   }
-  return diagnose({finding_.kind, query, separation_}, truth, reply.answer, standard_);
+  return diagnose({query.queries(), separation_}, truth, reply.answer, standard_);
 }
 
 bool Recheck::is_same(const Diagnosis& diagnosis) const {
@@ -140,7 +140,7 @@ void simplify(const fast::Method& method, const FuzzOptions& options,
   if (is_hang && deadline.seconds_left() <= options.query_limit_seconds) return;
   Recheck recheck(method, finding, options);
   const auto must_end = [&] { return deadline.is_over() || base::is_stopped(options.stop); };
-  const auto fails = [&](const Query& query) {
+  const auto fails = [&](const AnyQuery& query) {
     std::optional<FailingCase> evidence = recheck.ask(query, deadline);
     if (evidence) finding.simplest = std::move(*evidence);
     return evidence.has_value();
@@ -150,7 +150,7 @@ void simplify(const fast::Method& method, const FuzzOptions& options,
     finding.shrinking = must_end() ? Shrinking::cut_short : Shrinking::not_reproduced;
     return;
   }
-  static_cast<void>(shrink(finding.kind, finding.original.query, fails, {.must_end = must_end}));
+  static_cast<void>(shrink(finding.original.query, fails, {.must_end = must_end}));
   finding.shrinking = must_end() ? Shrinking::cut_short : Shrinking::complete;
 }
 

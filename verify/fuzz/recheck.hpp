@@ -12,6 +12,7 @@
 #include "fast/method.hpp"
 #include "touchstone/certified.hpp"
 #include "touchstone/query.hpp"
+#include "verify/base/any_query.hpp"
 #include "verify/base/deadline.hpp"
 #include "verify/fuzz/diagnosis.hpp"
 #include "verify/fuzz/finding.hpp"
@@ -20,6 +21,8 @@
 #include "verify/solvers/solver_process.hpp"
 
 namespace touchstone::verify::fuzz {
+
+using base::AnyQuery;
 
 /// The name of the solver that judges the others.
 [[nodiscard]] inline std::string_view judge_name() { return fast::certified_info().name; }
@@ -34,7 +37,7 @@ namespace touchstone::verify::fuzz {
 [[nodiscard]] base::Deadline solver_deadline(const base::Deadline& deadline);
 
 /// The evidence of a fault. \param verdict of the query, at the run's separation
-[[nodiscard]] FailingCase failing_case(Kind kind, const Query& query, const fast::Answer& answer,
+[[nodiscard]] FailingCase failing_case(AnyQuery query, const fast::Answer& answer,
                                        const exact::Decision& verdict, std::string detail,
                                        std::string_view label);
 
@@ -48,8 +51,8 @@ class Recheck {
   Recheck(const fast::Method& method, const Finding& finding, const FuzzOptions& options);
 
   /// The evidence, if it does; nothing if it does not, or has not answered at the deadline, or the
-  /// query is not finite.
-  [[nodiscard]] std::optional<FailingCase> ask(const Query& query,
+  /// query is not valid.
+  [[nodiscard]] std::optional<FailingCase> ask(const AnyQuery& query,
                                                const base::Deadline& deadline = {});
 
  private:
@@ -58,8 +61,9 @@ class Recheck {
     fast::Answer answer;
     std::optional<judge::Failure> failure;
   };
-  [[nodiscard]] std::optional<Reply> reply_to(const Query& query, const base::Deadline& deadline);
-  [[nodiscard]] std::optional<Diagnosis> diagnose_reply(const Query& query,
+  [[nodiscard]] std::optional<Reply> reply_to(const AnyQuery& query,
+                                              const base::Deadline& deadline);
+  [[nodiscard]] std::optional<Diagnosis> diagnose_reply(const AnyQuery& query,
                                                         const judge::GroundTruth& truth,
                                                         const Reply& reply) const;
   [[nodiscard]] bool is_same(const Diagnosis& diagnosis) const;

@@ -8,6 +8,8 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
+#include <span>
 
 #include "verify/data/csv_dataset.hpp"
 #include "verify/generate/random.hpp"
@@ -22,15 +24,26 @@ std::string hexadecimal(double x) { return fmt::format("{:a}", x); }
 
 /// Tells apart the reproductions of one method.
 std::string fingerprint(const Reproduction& found) {
-  auto hash = static_cast<std::uint64_t>(found.kind);
+  const QueryShape& shape = found.failing.query.shape();
+  auto hash = static_cast<std::uint64_t>(shape.kind);
   const auto add = [&](std::uint64_t bits) {
     hash = generate::mix(hash + bits + 0x9e3779b97f4a7c15ULL);
   };
-  for (const double x : found.failing.query.coordinates) add(std::bit_cast<std::uint64_t>(x));
+  if (!shape.is_straight()) add(2 * shape.degree + (shape.is_rational ? 1 : 0));
+  for (const double x : found.failing.query.numbers()) add(std::bit_cast<std::uint64_t>(x));
   add(std::bit_cast<std::uint64_t>(found.solver.options.separation.distance));
   add(static_cast<std::uint64_t>(found.solver.options.separation.norm));
   return fmt::format("{:08x}", hash >> 32U);
 }
+
+/// "(0, 0.5, 1)", and a weight: "(0, 0.5, 1; 2)".
+template <class Text>
+std::string tuple(std::span<const double> point, const Text& text) {
+  std::string result = "(" + text(point[0]) + ", " + text(point[1]) + ", " + text(point[2]);
+  return result + (point.size() > 3 ? "; " + text(point[3]) : "") + ")";
+}
+
+std::string decimal(double x) { return fmt::format("{}", x); }
 
 double gibibytes(const solvers::ChildLimits& limits) {
   constexpr int bits = 30;
@@ -63,39 +76,38 @@ std::string_view point_name(Kind kind, std::size_t point) {
   return kind == Kind::vertex_face ? of_face.at(point) : of_edges.at(point);
 }
 
-std::string as_points(Kind kind, const Query& query) {
+std::string as_points(const AnyQuery& query) {
+  const QueryShape& shape = query.shape();
+  const std::size_t size = shape.numbers_of_point();
+  const std::string_view place = shape.is_straight() ? "at t=" : "control point ";
   std::string result;
-  for (std::size_t end = 0; end < 2; ++end) {
-    for (std::size_t point = 0; point < moving_points; ++point) {
-      const double x = query.at(end, point, 0), y = query.at(end, point, 1);
-      const double z = query.at(end, point, 2);
-      result += fmt::format("{:<3} at t={}  ({}, {}, {}) = ({}, {}, {})\n", point_name(kind, point),
-                            end, x, y, z, hexadecimal(x), hexadecimal(y), hexadecimal(z));
-    }
+  for (std::size_t i = 0; i < (shape.degree + 1) * moving_points; ++i) {
+    const auto point = query.numbers().subspan(i * size, size);
+    result += fmt::format("{:<3} {}{}  {} = {}\n", point_name(shape.kind, i % moving_points), place,
+                          i / moving_points, tuple(point, decimal), tuple(point, hexadecimal));
   }
   return result;
 }
 
-std::string as_short_points(Kind kind, const Query& query) {
+std::string as_short_points(const AnyQuery& query) {
+  const QueryShape& shape = query.shape();
+  const std::size_t size = shape.numbers_of_point();
   std::string result;
   for (std::size_t point = 0; point < moving_points; ++point) {
-    const auto place = [&](std::size_t end) {
-      return fmt::format("({}, {}, {})", query.at(end, point, 0), query.at(end, point, 1),
-                         query.at(end, point, 2));
-    };
-    result += fmt::format("{:<3}  {} → {}\n", point_name(kind, point), place(0), place(1));
+    std::string places;
+    for (std::size_t j = 0; j <= shape.degree; ++j) {
+      places += (j == 0 ? "" : " → ") +
+                tuple(query.numbers().subspan((moving_points * j + point) * size, size), decimal);
+    }
+    result += fmt::format("{:<3}  {}\n", point_name(shape.kind, point), places);
   }
   return result;
-}
-
-std::string as_csv(const Query& query, std::optional<bool> collides) {
-  return data::csv_rows(query, collides);
 }
 
 Reproduction reproduction_of(const Finding& finding, const SolverCall& asked) {
   Reproduction result{.what = finding.what,
-                      .kind = finding.kind,
                       .failing = finding.simplest,
+                      .is_found_on_curves = !finding.original.query.shape().is_straight(),
                       .missing = finding.missing,
                       .solver = asked};
   if (finding.method != asked.method) {
@@ -108,12 +120,13 @@ Reproduction reproduction_of(const Finding& finding, const SolverCall& asked) {
 }
 
 std::string as_command(const Reproduction& found) {
-  const std::string file = fmt::format("{}-{}.csv", fingerprint(found), to_string(found.kind));
+  const std::string file =
+      fmt::format("{}-{}.csv", fingerprint(found), to_string(found.failing.query.kind()));
   // Without more, a label is about contact itself.
   std::optional<bool> label;
   if (found.solver.options.separation.distance == 0.0) label = found.failing.collides;
   return fmt::format("cat > {0} <<'END'\n{1}END\ntouchstone certify {0} {2}\n", file,
-                     as_csv(found.failing.query, label), options_as_words(found.solver));
+                     data::csv_rows(found.failing.query, label), options_as_words(found.solver));
 }
 
 }  // namespace touchstone::verify::fuzz

@@ -5,30 +5,28 @@
 
 #include <cstddef>
 #include <filesystem>
-#include <optional>
 #include <string>
 #include <string_view>
 
 #include "fast/method.hpp"
 #include "touchstone/query.hpp"
+#include "verify/base/any_query.hpp"
 #include "verify/fuzz/finding.hpp"
 #include "verify/solvers/child_process.hpp"
 
 namespace touchstone::verify::fuzz {
 
+using base::AnyQuery;
+
 /// "v", "f0" and so on of a vertex and a triangle, "ea0" and so on of two edges.
 [[nodiscard]] std::string_view point_name(Kind kind, std::size_t point);
 
-/// A line a point, at t=0 and then at t=1: its name in the kind, and its coordinates in decimal and
-/// in hexadecimal. Both give the very doubles.
-[[nodiscard]] std::string as_points(Kind kind, const Query& query);
+/// A line a point, at t=0 and then at t=1, or a line a control point: its name in the kind, and its
+/// coordinates and weight in decimal and in hexadecimal. Both give the very doubles.
+[[nodiscard]] std::string as_points(const AnyQuery& query);
 
-/// The same in decimal only, each point at t=0 and at t=1 on one line.
-[[nodiscard]] std::string as_short_points(Kind kind, const Query& query);
-
-/// The eight rows that a dataset has for it (csv_dataset.hpp), with the label where there is one.
-/// \throws std::invalid_argument if a coordinate is not finite.
-[[nodiscard]] std::string as_csv(const Query& query, std::optional<bool> collides = std::nullopt);
+/// The same in decimal only, each point at t=0 and at t=1, or all its control points, on one line.
+[[nodiscard]] std::string as_short_points(const AnyQuery& query);
 
 /// A solver, and what it is asked with besides the query.
 struct SolverCall {
@@ -51,8 +49,9 @@ struct SolverCall {
 /// A query and the wrong answer to it.
 struct Reproduction {
   judge::Fault what = judge::Fault::false_negative;
-  Kind kind = Kind::vertex_face;
   FailingCase failing;
+  /// True if it was found in a query on curves; that of the case may be on straight lines.
+  bool is_found_on_curves = false;
   /// Of what is wrong only in that.
   MissingBounds missing = {};
   SolverCall solver;

@@ -11,16 +11,15 @@
 #include <utility>
 #include <vector>
 
-#include "verify/fuzz/plainness.hpp"
 #include "verify/generate/decimal.hpp"
 #include "verify/generate/random.hpp"
 
 namespace touchstone::verify::fuzz {
 namespace {
 
-std::uint64_t hash_of(const Query& query) {
-  std::uint64_t result = 0;
-  for (const double x : query.coordinates) {
+std::uint64_t hash_of(const AnyQuery& query) {
+  std::uint64_t result = query.numbers().size() + (query.shape().is_rational ? 1 : 0);
+  for (const double x : query.numbers()) {
     result = generate::mix(result + std::bit_cast<std::uint64_t>(x) + 0x9e3779b97f4a7c15ULL);
   }
   return result;
@@ -85,22 +84,22 @@ std::vector<double> plainer_numbers(double magnitude) {
 /// One run: the plainest query so far, and the steps from it.
 class Shrinker {
  public:
-  Shrinker(Kind kind, const Query& query, const std::function<bool(const Query&)>& still_fails,
+  Shrinker(const AnyQuery& query, const std::function<bool(const AnyQuery&)>& still_fails,
            const ShrinkOptions& options)
-      : kind_(kind),
-        still_fails_(still_fails),
+      : still_fails_(still_fails),
         options_(options),
         original_(query),
-        of_original_(plainness(kind, query, query)),
+        of_original_(plainness(query, query)),
         query_(query),
         plainness_(of_original_) {
     seen_.insert(hash_of(query));
   }
 
-  Query run() {
+  AnyQuery run() {
     Plainness before;
     do {
       before = plainness_;
+      straighten();
       scale();
       translate();
       follow_points();
@@ -122,9 +121,9 @@ class Shrinker {
   }
 
   /// Keeps the query if it is plainer and still fails.
-  bool attempt(const Query& plainer) {
-    if (over_ || !is_finite(plainer)) return false;
-    const Plainness of_plainer = plainness(kind_, plainer, original_);
+  bool attempt(const AnyQuery& plainer) {
+    if (over_ || !is_valid(plainer)) return false;
+    const Plainness of_plainer = plainness(plainer, original_);
     if (of_plainer >= plainness_ || of_plainer.is_worse_somewhere(of_original_) || is_over()) {
       return false;
     }
@@ -139,11 +138,70 @@ class Shrinker {
   /// Attempts the query with `change` applied to each coordinate of an axis.
   template <class Change>
   bool attempt_axis(std::size_t axis, const Change& change) {
-    Query plainer = query_;
-    for (std::size_t i = axis; i < coordinate_count; i += point_axes) {
-      plainer.coordinates[i] = change(plainer.coordinates[i]);
-    }
+    AnyQuery plainer = query_;
+    for_each_coordinate(plainer, axis, [&](double& x) { x = change(x); });
     return attempt(plainer);
+  }
+
+  [[nodiscard]] const QueryShape& shape() const { return query_.shape(); }
+  [[nodiscard]] std::size_t point_size() const { return shape().numbers_of_point(); }
+  /// From a number of a control point to the same number of the next one.
+  [[nodiscard]] std::size_t next() const { return to_next_control(query_); }
+
+  // ---- Curves ----
+
+  /// Attempts straight lines between the ends, curves without weights, and of the next lower
+  /// degree: the same curve if it has one, or one without some control point.
+  void straighten() {
+    while (!shape().is_straight()) {
+      const std::size_t degree = shape().degree;
+      bool is_plainer = attempt(with_control({0, degree})) || attempt(without_weights(query_));
+      is_plainer = is_plainer || (degree > 1 && attempt(reduced()));
+      for (std::size_t left_out = 1; left_out < degree && !is_plainer; ++left_out) {
+        std::vector<std::size_t> kept;
+        for (std::size_t j = 0; j <= degree; ++j) {
+          if (j != left_out) kept.push_back(j);
+        }
+        is_plainer = attempt(with_control(kept));
+      }
+      if (!is_plainer) return;
+    }
+  }
+
+  /// The curves of these control points; without weights if they are two.
+  [[nodiscard]] AnyQuery with_control(const std::vector<std::size_t>& kept) const {
+    std::vector<double> numbers;
+    for (const std::size_t j : kept) {
+      const auto control = std::as_const(query_).numbers().subspan(j * next(), next());
+      numbers.insert(numbers.end(), control.begin(), control.end());
+    }
+    QueryShape of_kept = shape();
+    of_kept.degree = kept.size() - 1;
+    const AnyQuery result(of_kept, std::move(numbers));
+    return of_kept.degree == 1 ? without_weights(result) : result;
+  }
+
+  static AnyQuery without_weights(const AnyQuery& query) {
+    QueryShape bare = query.shape();
+    bare.is_rational = false;
+    std::vector<double> numbers;
+    for_each_coordinate(query, point_axes, [&](double x) { numbers.push_back(x); });
+    return {bare, std::move(numbers)};
+  }
+
+  /// The control points c of the next lower degree k that gave those b of the query's degree, if
+  /// they did: (k+1) b_j = j c_(j−1) + (k+1−j) c_j.
+  [[nodiscard]] AnyQuery reduced() const {
+    QueryShape lower = shape();
+    --lower.degree;
+    const auto all = std::as_const(query_).numbers();
+    std::vector<double> numbers(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(next()));
+    const auto degree = static_cast<double>(shape().degree);
+    for (std::size_t i = next(); i < lower.numbers_of_query(); ++i) {
+      const auto j = static_cast<double>(i / next());
+      numbers.push_back((degree * all[i] - j * numbers[i - next()]) / (degree - j));
+    }
+    return {lower, std::move(numbers)};
   }
 
   // ---- The whole ----
@@ -161,16 +219,13 @@ class Shrinker {
   }
 
   bool scale_by(int shift) {
-    Query plainer = query_;
-    for (double& x : plainer.coordinates) x = std::ldexp(x, shift);
+    AnyQuery plainer = query_;
+    for_each_coordinate(plainer, point_axes, [&](double& x) { x = std::ldexp(x, shift); });
     return attempt(plainer);
   }
 
   void scale_axis(std::size_t axis) {
-    double greatest = 0.0;
-    for (std::size_t i = axis; i < coordinate_count; i += point_axes) {
-      greatest = std::max(greatest, std::abs(query_.coordinates[i]));
-    }
+    const double greatest = greatest_of(axis);
     if (greatest == 0.0) return;
     const int shift = size_exponent(query_) - std::ilogb(greatest);
     attempt_axis(axis, [&](double x) { return std::ldexp(x, shift); });
@@ -181,11 +236,12 @@ class Shrinker {
 
   /// Translates such that a coordinate of some point becomes 0.
   void translate() {
-    for (std::size_t i = 0; i < coordinate_count; ++i) {
-      const double origin = query_.coordinates[i];
-      if (origin == 0.0) continue;
-      attempt_axis(i % point_axes, [&](double x) { return x - origin; });
-      attempt_axis(i % point_axes, [&](double x) { return to_digits(x - origin, digits_of_sums); });
+    for (std::size_t i = 0; i < query_.numbers().size(); ++i) {
+      const std::size_t axis = i % point_size();
+      const double origin = query_.numbers()[i];
+      if (axis >= point_axes || origin == 0.0) continue;
+      attempt_axis(axis, [&](double x) { return x - origin; });
+      attempt_axis(axis, [&](double x) { return to_digits(x - origin, digits_of_sums); });
     }
   }
 
@@ -193,12 +249,15 @@ class Shrinker {
   void follow_points() {
     for (std::size_t point = 0; point < moving_points; ++point) {
       for (std::size_t axis = 0; axis < point_axes; ++axis) {
-        const double motion = query_.at(1, point, axis) - query_.at(0, point, axis);
-        Query plainer = query_;
-        for (std::size_t other = 0; other < moving_points; ++other) {
-          plainer.at(1, other, axis) -= motion;
+        const std::size_t first = point * point_size() + axis;
+        AnyQuery plainer = query_;
+        for (std::size_t j = 1; j <= shape().degree; ++j) {
+          const double motion = query_.numbers()[j * next() + first] - query_.numbers()[first];
+          for (std::size_t other = 0; other < moving_points; ++other) {
+            plainer.numbers()[j * next() + other * point_size() + axis] -= motion;
+          }
         }
-        if (motion != 0.0) attempt(plainer);
+        if (plainer != query_) attempt(plainer);
       }
     }
   }
@@ -207,16 +266,15 @@ class Shrinker {
   /// places of the greatest one. Equality and order are preserved.
   void round_all() {
     for (std::size_t axis = 0; axis <= point_axes; ++axis) {
-      double greatest = 0.0;
-      for_each_of(axis, query_, [&](double& x) { greatest = std::max(greatest, std::abs(x)); });
+      const double greatest = greatest_of(axis);
       if (greatest == 0.0) continue;
       const generate::Decimal decimal = generate::shortest_decimal(greatest);
       const int top = decimal.exponent + decimal.count;
       for (const int digits : digit_counts) {
         const double unit = generate::from_decimal(1, top - digits);
-        Query shorter = query_, on_grid = query_;
-        for_each_of(axis, shorter, [&](double& x) { x = to_digits(x, digits); });
-        for_each_of(axis, on_grid, [&](double& x) {
+        AnyQuery shorter = query_, on_grid = query_;
+        for_each_coordinate(shorter, axis, [&](double& x) { x = to_digits(x, digits); });
+        for_each_coordinate(on_grid, axis, [&](double& x) {
           // Avoids −0 and digits that come from the rounding of the product.
           x = to_digits(std::nearbyint(x / unit) * unit + 0.0, digits);
         });
@@ -230,7 +288,7 @@ class Shrinker {
   void space_evenly() {
     for (std::size_t axis = 0; axis <= point_axes; ++axis) {
       std::vector<double> values;
-      for_each_of(axis, query_, [&](double& x) { values.push_back(x); });
+      for_each_coordinate(query_, axis, [&](double x) { values.push_back(x); });
       std::ranges::sort(values);
       values.erase(std::unique(values.begin(), values.end()), values.end());
       const double greatest = std::max(std::abs(values.front()), std::abs(values.back()));
@@ -252,8 +310,8 @@ class Shrinker {
       return std::ranges::lower_bound(values, x) - values.begin();
     };
     const std::ptrdiff_t zero = rank_of(0.0);
-    Query plainer = query_;
-    for_each_of(axis, plainer, [&](double& x) {
+    AnyQuery plainer = query_;
+    for_each_coordinate(plainer, axis, [&](double& x) {
       const std::ptrdiff_t rank = rank_of(x) - zero;
       const double magnitude =
           generate::from_decimal(step * static_cast<std::uint64_t>(std::abs(rank)), exponent);
@@ -262,12 +320,12 @@ class Shrinker {
     attempt(plainer);
   }
 
-  /// Calls use(x) for the coordinates of an axis, or of all axes for an index beyond the last one.
-  template <class Use>
-  static void for_each_of(std::size_t axis, Query& query, const Use& use) {
-    for (std::size_t i = 0; i < coordinate_count; ++i) {
-      if (axis == point_axes || i % point_axes == axis) use(query.coordinates[i]);
-    }
+  /// The greatest magnitude of an axis, or of all axes for an index beyond the last one.
+  [[nodiscard]] double greatest_of(std::size_t axis) const {
+    double greatest = 0.0;
+    for_each_coordinate(query_, axis,
+                        [&](double x) { greatest = std::max(greatest, std::abs(x)); });
+    return greatest;
   }
 
   // ---- Axes and points ----
@@ -276,31 +334,38 @@ class Shrinker {
     for (std::size_t axis = 0; axis < point_axes; ++axis) {
       attempt_axis(axis, [](double) { return 0.0; });
       attempt_axis(axis, [](double x) { return 0.0 - x; });
-      for (std::size_t end = 0; end < motion_ends; ++end) {
-        Query at_rest = query_;
-        for (std::size_t point = 0; point < moving_points; ++point) {
-          at_rest.at(1 - end, point, axis) = at_rest.at(end, point, axis);
-        }
+      for (std::size_t control = 0; control <= shape().degree; ++control) {
+        AnyQuery at_rest = query_;
+        for_each_index(axis, [&](std::size_t i) {
+          at_rest.numbers()[i] = query_.numbers()[control * next() + i % next()];
+        });
         attempt(at_rest);
       }
       for (std::size_t other = 0; other < point_axes; ++other) {
-        Query alike = query_;
-        for (std::size_t i = axis; i < coordinate_count; i += point_axes) {
-          alike.coordinates[i] = query_.coordinates[i - axis + other];
-        }
+        AnyQuery alike = query_;
+        for_each_index(
+            axis, [&](std::size_t i) { alike.numbers()[i] = query_.numbers()[i - axis + other]; });
         attempt(alike);
       }
     }
   }
 
-  /// Moves points to another one, at both ends or at one; to 0; to rest on an axis, which can make
-  /// degenerate elements proper.
+  /// Calls use(i) for the index of each number of an axis.
+  template <class Use>
+  void for_each_index(std::size_t axis, const Use& use) const {
+    const std::size_t size = point_size(), count = query_.numbers().size();
+    for (std::size_t i = axis; i < count; i += size) use(i);
+  }
+
+  /// Moves control points to another one, of one time or of all; to 0; to rest on an axis, which
+  /// can make degenerate elements proper.
   void simplify_points() {
-    for (std::size_t to = 0; to < query_points; ++to) {
-      Query at_zero = query_;
-      at_zero.point(to / moving_points, to % moving_points).setZero();
+    const std::size_t count = moving_points * (shape().degree + 1);
+    for (std::size_t to = 0; to < count; ++to) {
+      AnyQuery at_zero = query_;
+      place(at_zero, to, {0.0, 0.0, 0.0});
       attempt(at_zero);
-      for (std::size_t from = 0; from < query_points; ++from) {
+      for (std::size_t from = 0; from < count; ++from) {
         copy_point(from, to, false);
         if (from < moving_points && to < moving_points) copy_point(from, to, true);
       }
@@ -309,32 +374,39 @@ class Shrinker {
     }
   }
 
+  static void place(AnyQuery& query, std::size_t point, const std::array<double, 3>& at) {
+    std::ranges::copy(at, query.numbers().begin() + static_cast<std::ptrdiff_t>(
+                                                        point * query.shape().numbers_of_point()));
+  }
+
   void put_on_axis(std::size_t point, std::size_t axis) {
-    Query plainer = query_;
-    for (std::size_t end = 0; end < motion_ends; ++end) {
-      plainer.point(end, point).setZero();
-      plainer.at(end, point, axis) = 1.0;
-    }
+    AnyQuery plainer = query_;
+    std::array<double, 3> at{};
+    at.at(axis) = 1.0;
+    for (std::size_t j = 0; j <= shape().degree; ++j) place(plainer, moving_points * j + point, at);
     attempt(plainer);
   }
 
-  void copy_point(std::size_t from, std::size_t to, bool at_both_ends) {
-    Query plainer = query_;
-    for (std::size_t axis = 0; axis < point_axes; ++axis) {
-      const std::size_t source = point_axes * from + axis, target = point_axes * to + axis;
-      plainer.coordinates[target] = query_.coordinates[source];
-      if (!at_both_ends) continue;
-      plainer.coordinates[target + to_other_end] = query_.coordinates[source + to_other_end];
+  /// \param at_all_times Those of all control points; the indices are of the first ones.
+  void copy_point(std::size_t from, std::size_t to, bool at_all_times) {
+    AnyQuery plainer = query_;
+    for (std::size_t j = 0; j <= (at_all_times ? shape().degree : 0); ++j) {
+      for (std::size_t axis = 0; axis < point_axes; ++axis) {
+        plainer.numbers()[j * next() + point_size() * to + axis] =
+            query_.numbers()[j * next() + point_size() * from + axis];
+      }
     }
     attempt(plainer);
   }
 
   void exchange_points() {
-    for (const PointPair& pair : exchangeable(kind_)) {
-      Query plainer = query_;
-      for (std::size_t end = 0; end < motion_ends; ++end) {
-        plainer.point(end, pair[0]) = query_.point(end, pair[1]);
-        plainer.point(end, pair[1]) = query_.point(end, pair[0]);
+    for (const PointPair& pair : exchangeable(shape().kind)) {
+      AnyQuery plainer = query_;
+      for (std::size_t j = 0; j <= shape().degree; ++j) {
+        const auto at = [&](std::size_t point) {
+          return plainer.numbers().subspan(j * next() + point * point_size(), point_size());
+        };
+        std::ranges::swap_ranges(at(pair[0]), at(pair[1]));
       }
       attempt(plainer);
     }
@@ -342,7 +414,7 @@ class Shrinker {
 
   // ---- Values ----
 
-  /// Changes all coordinates of one magnitude together, longest first.
+  /// Changes all numbers of one magnitude together, longest first.
   void simplify_values() {
     std::vector<double> all = magnitudes(query_);
     std::ranges::stable_sort(all, std::ranges::greater{}, writing_length);
@@ -357,32 +429,34 @@ class Shrinker {
   }
 
   bool replace_magnitude(double magnitude, double replacement) {
-    Query plainer = query_;
-    for (double& x : plainer.coordinates) {
+    AnyQuery plainer = query_;
+    for (double& x : plainer.numbers()) {
       if (std::abs(x) == magnitude) x = with_sign_of(x, replacement);
     }
     return attempt(plainer);
   }
 
-  /// Changes each coordinate alone, and at both ends if it is at rest.
+  /// Changes each number alone, and at all times if it is at rest.
   void simplify_coordinates() {
-    for (std::size_t i = 0; i < coordinate_count; ++i) {
+    for (std::size_t i = 0; i < query_.numbers().size(); ++i) {
       for (const double candidate : candidates_for(i)) {
-        Query plainer = query_;
-        plainer.coordinates[i] = candidate;
+        AnyQuery plainer = query_;
+        plainer.numbers()[i] = candidate;
         if (attempt(plainer)) break;
-        if (i >= to_other_end) continue;
-        plainer.coordinates[i + to_other_end] = candidate;
+        if (i >= next()) continue;
+        for (std::size_t j = 1; j <= shape().degree; ++j) {
+          plainer.numbers()[j * next() + i] = candidate;
+        }
         if (attempt(plainer)) break;
       }
     }
   }
 
-  /// Numbers to try for a coordinate, the plainest first.
+  /// Numbers to try for a number, the plainest first.
   [[nodiscard]] std::vector<double> candidates_for(std::size_t i) const {
-    const double x = query_.coordinates[i];
-    const std::size_t other_end = i < to_other_end ? i + to_other_end : i - to_other_end;
-    std::vector<double> result{0.0, query_.coordinates[other_end], std::abs(x), 1.0, -1.0};
+    const double x = query_.numbers()[i];
+    const std::size_t other = i + next() < query_.numbers().size() ? i + next() : i - next();
+    std::vector<double> result{0.0, query_.numbers()[other], std::abs(x), 1.0, -1.0};
     for (const double magnitude : magnitudes(query_)) {
       result.push_back(magnitude);
       result.push_back(-magnitude);
@@ -393,12 +467,11 @@ class Shrinker {
     return result;
   }
 
-  Kind kind_;
-  const std::function<bool(const Query&)>& still_fails_;
+  const std::function<bool(const AnyQuery&)>& still_fails_;
   const ShrinkOptions& options_;
-  const Query& original_;
+  const AnyQuery& original_;
   Plainness of_original_;
-  Query query_;
+  AnyQuery query_;
   Plainness plainness_;
   /// Hashes of the queries tried. A query with the same hash as an earlier one is skipped.
   std::unordered_set<std::uint64_t> seen_;
@@ -408,9 +481,9 @@ class Shrinker {
 
 }  // namespace
 
-Query shrink(Kind kind, const Query& query, const std::function<bool(const Query&)>& still_fails,
-             const ShrinkOptions& options) {
-  return Shrinker(kind, query, still_fails, options).run();
+AnyQuery shrink(const AnyQuery& query, const std::function<bool(const AnyQuery&)>& still_fails,
+                const ShrinkOptions& options) {
+  return Shrinker(query, still_fails, options).run();
 }
 
 }  // namespace touchstone::verify::fuzz

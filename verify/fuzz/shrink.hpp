@@ -3,10 +3,11 @@
 /// \file
 /// Simplification of a failing query.
 ///
-/// A finding of a search has 24 long numbers, most of which are irrelevant to the fault. Shrinking
-/// tries plainer queries (plainness.hpp), keeps each that still fails, and ends when no step leads
-/// to a plainer one that fails. The steps, from large changes to small ones:
+/// A finding of a search has 24 long numbers or more, most of which are irrelevant to the fault.
+/// Shrinking tries plainer queries (plainness.hpp), keeps each that still fails, and ends when no
+/// step leads to a plainer one that fails. The steps, from large changes to small ones:
 ///
+/// - curves: straight lines between their ends, without weights, of the next lower degree;
 /// - the whole: scaled by powers of two (all axes, or one) to everyday size, translated so that a
 ///   point's coordinate becomes 0, changed to the frame of a moving point, all coordinates or those
 ///   of an axis rounded to fewer decimal digits, or evenly spaced in their order;
@@ -26,7 +27,7 @@
 #include <cstdint>
 #include <functional>
 
-#include "touchstone/query.hpp"
+#include "verify/fuzz/plainness.hpp"
 
 namespace touchstone::verify::fuzz {
 
@@ -39,10 +40,11 @@ struct ShrinkOptions {
 
 /// The last of a chain of ever plainer queries for which `still_fails` holds; `query` itself if
 /// none is found. A function of the arguments alone, if still_fails is one and must_end does not
-/// end it. It never tests `query` itself, nor another one twice. \pre all coordinates are finite.
+/// end it. It never tests `query` itself, nor another one twice. \pre all numbers are finite and
+/// weights positive, as in all queries that it tests.
 /// \throws the exceptions of still_fails.
-[[nodiscard]] Query shrink(Kind kind, const Query& query,
-                           const std::function<bool(const Query&)>& still_fails,
-                           const ShrinkOptions& options = {});
+[[nodiscard]] AnyQuery shrink(const AnyQuery& query,
+                              const std::function<bool(const AnyQuery&)>& still_fails,
+                              const ShrinkOptions& options = {});
 
 }  // namespace touchstone::verify::fuzz

@@ -44,13 +44,14 @@ class ScaleSearch {
 
  private:
   bool is_right_at(int scale) {
-    Query query = query_;
-    for (double& x : query.coordinates) x = std::ldexp(x, scale - exponent_);
+    AnyQuery query = query_;
+    for_each_coordinate(query, point_axes,
+                        [&](double& x) { x = std::ldexp(x, scale - exponent_); });
     // Without an answer in time nothing is known.
     return !recheck_.ask(query, deadline_) && !deadline_.is_over();
   }
 
-  const Query& query_;
+  const AnyQuery& query_;
   int exponent_;
   int least_;
   const base::Deadline& deadline_;
@@ -78,9 +79,9 @@ ContactTime time_of(const FailingCase& failing) {
   return failing.toi->lower == 1.0 ? ContactTime::at_end : ContactTime::between;
 }
 
-Shape shape_of(Kind kind, const Query& query) {
-  if (collapsed_elements(kind, query) != 0) return Shape::collapsed;
-  return degeneracy(kind, query) != 0 ? Shape::coplanar : Shape::general;
+Shape shape_of(const AnyQuery& query) {
+  if (collapsed_elements(query) != 0) return Shape::collapsed;
+  return degeneracy(query) != 0 ? Shape::coplanar : Shape::general;
 }
 
 }  // namespace
@@ -106,10 +107,11 @@ Signature signature_of(const Finding& finding) {
   add_end(finding.scales.end_below, result.ends);
   add_end(finding.scales.end_above, result.ends);
   if (result.ends.any()) return result;
-  result.kind = finding.kind;
+  result.kind = finding.kind();
   // Its query is as it was found, and says nothing of a cause.
   if (finding.what == judge::Fault::hang) return result;
-  result.shape = shape_of(finding.kind, simplest.query);
+  result.shape = shape_of(simplest.query);
+  result.is_on_curves = !simplest.query.shape().is_straight();
   result.time = time_of(simplest);
   return result;
 }

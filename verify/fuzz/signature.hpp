@@ -10,7 +10,8 @@
 /// are of one group if they are of one solver and kind of finding, and
 ///
 /// - the fault ends in the same ranges of scale, if it ends anywhere, or else
-/// - kind, degeneracy (plainness.hpp) and time of contact are the same; of hangs the kind alone.
+/// - kind, degeneracy (plainness.hpp) and time of contact are the same, and both or none are on
+///   curves; of hangs the kind alone.
 ///
 /// This is no proof: two faults may have one signature, and one fault two.
 
@@ -44,7 +45,7 @@ struct ScaleEnds {
   friend auto operator<=>(const ScaleEnds&, const ScaleEnds&) = default;
 };
 
-/// As above. Of a fault that depends on the scale, kind, shape and time are not set.
+/// As above. Of a fault that depends on the scale, kind, shape, time and curves are not set.
 struct Signature {
   std::string method;
   judge::Fault what = judge::Fault::false_negative;
@@ -55,6 +56,7 @@ struct Signature {
   std::optional<Kind> kind = std::nullopt;
   std::optional<Shape> shape = std::nullopt;
   std::optional<ContactTime> time = std::nullopt;
+  bool is_on_curves = false;
 
   // clang-tidy 14 takes the comparison of the bool for a conversion.
   // NOLINTNEXTLINE(readability-implicit-bool-conversion)

@@ -1,6 +1,7 @@
 #include "verify/fuzz/standalone.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -65,14 +66,18 @@ std::string wrong_as_found_of_plugin(const Reproduction& found) {
 }
 
 std::string points(const Reproduction& found) {
-  std::string result = "  const double x[8][3] = {  // at t=0, then at t=1\n";
-  for (std::size_t end = 0; end < 2; ++end) {
-    for (std::size_t point = 0; point < moving_points; ++point) {
-      const Query& query = found.failing.query;
-      result += fmt::format("      {{{}, {}, {}}},  // {}\n", query.at(end, point, 0),
-                            query.at(end, point, 1), query.at(end, point, 2),
-                            point_name(found.kind, point));
-    }
+  const AnyQuery& query = found.failing.query;
+  const QueryShape& shape = query.shape();
+  const std::size_t count = (shape.degree + 1) * moving_points, size = shape.numbers_of_point();
+  std::string result =
+      fmt::format("  const double x[{}][{}] = {{  // {}\n", count, size,
+                  shape.is_straight() ? "at t=0, then at t=1"
+                  : shape.is_rational ? "control points and weights, from t=0 to t=1"
+                                      : "control points, from t=0 to t=1");
+  for (std::size_t i = 0; i < count; ++i) {
+    result += fmt::format("      {{{}}},  // {}\n",
+                          fmt::join(query.numbers().subspan(i * size, size), ", "),
+                          point_name(shape.kind, i % moving_points));
   }
   return result + "  };\n";
 }
@@ -92,18 +97,41 @@ std::string plugin_main(const Reproduction& found) {
       "struct Answer {\n  std::int32_t verdict;  // 0 no, 1 yes, 2 undecided, 3 error\n"
       "  double toi_lower, toi_upper, tolerance;\n};\n\nint main(int, char** argv) {\n";
   result += points(found);
-  result +=
+  const QueryShape& shape = found.failing.query.shape();
+  const bool is_straight = shape.is_straight();
+  const std::string_view of_curves = "touchstone_plugin_solve_curved";
+  result += fmt::format(
       "  void* const library = argv[1] ? dlopen(argv[1], RTLD_NOW) : nullptr;\n"
-      "  void* const solve = library ? dlsym(library, \"touchstone_plugin_solve\") : nullptr;\n"
-      "  if (solve == nullptr) return 2;\n";
+      "  void* const solve = library ? dlsym(library, \"{}\") : nullptr;\n",
+      is_straight ? "touchstone_plugin_solve" : of_curves);
+  // A plugin for curves alone is asked about lines as curves of degree 1.
+  const bool is_curve_at_last = is_straight && found.is_found_on_curves;
+  if (is_curve_at_last) {
+    result += fmt::format(
+        "  void* const solve_curved = library ? dlsym(library, \"{}\") : nullptr;\n", of_curves);
+  }
+  result += fmt::format("  if (solve == nullptr{}) return 2;\n",
+                        is_curve_at_last ? " && solve_curved == nullptr" : "");
   result += fmt::format("  const Options options{{{}, {}, {}, {}, {}}};\n", options.tolerance,
                         options.max_checks, options.separation.distance, options.t_max,
                         static_cast<int>(options.separation.norm));
-  result += fmt::format(
-      "  Answer answer{{3, NAN, NAN, NAN}};\n"
-      "  using Solve = void(std::int32_t, const double*, const Options*, Answer*);\n"
-      "  reinterpret_cast<Solve*>(solve)({}, x[0], &options, &answer);  // {}\n",
-      static_cast<int>(found.kind), to_string(found.kind));
+  result += "  Answer answer{3, NAN, NAN, NAN};\n";
+  const auto kind = static_cast<int>(shape.kind);
+  if (is_straight) {
+    result += fmt::format(
+        "  using Solve = void(std::int32_t, const double*, const Options*, Answer*);\n"
+        "  {}reinterpret_cast<Solve*>(solve)({}, x[0], &options, &answer);  // {}\n",
+        is_curve_at_last ? "if (solve != nullptr) " : "", kind, to_string(shape.kind));
+  }
+  if (!is_straight || is_curve_at_last) {
+    result += fmt::format(
+        "  using SolveCurved = void(std::int32_t, std::int32_t, std::int32_t, const double*,\n"
+        "                           const Options*, Answer*);\n"
+        "  {}reinterpret_cast<SolveCurved*>({})({}, {}, {}, x[0], &options, &answer);  // {}\n",
+        is_curve_at_last ? "if (solve == nullptr) " : "",
+        is_curve_at_last ? "solve_curved" : "solve", kind, shape.degree, shape.is_rational ? 1 : 0,
+        to_text(shape));
+  }
   result += fmt::format(
       "  std::printf(\"verdict %d, toi_lower %.17g, toi_upper %.17g; truth: {}\\n\", "
       "answer.verdict,\n              answer.toi_lower, answer.toi_upper);\n",
@@ -134,7 +162,7 @@ std::string ticcd_main(const Reproduction& found) {
   result += fmt::format(
       "  const bool collides = ticcd::{}({},\n"
       "                              ticcd::Array3(-1, -1, -1), {}, toi, {}, {}, {}, tolerance);\n",
-      found.kind == Kind::vertex_face ? "vertexFaceCCD" : "edgeEdgeCCD", all_points,
+      found.failing.query.kind() == Kind::vertex_face ? "vertexFaceCCD" : "edgeEdgeCCD", all_points,
       options.separation.distance, options.tolerance, options.t_max,
       options.max_checks > 0 ? options.max_checks : -1);
   return result + printing(found);
@@ -149,11 +177,11 @@ std::string ipc_toolkit_main(const Reproduction& found) {
   result +=
       "  const auto p = [&x](int i) { return Eigen::Vector3d(x[i][0], x[i][1], x[i][2]); };\n"
       "  double toi = 0;\n";
-  result +=
-      fmt::format("  const bool collides = ipc::AdditiveCCD({}).{}(\n      {}, toi, {}, {});\n",
-                  options.max_checks > 0 ? options.max_checks : -1,
-                  found.kind == Kind::vertex_face ? "point_triangle_ccd" : "edge_edge_ccd",
-                  all_points, options.separation.distance, options.t_max);
+  result += fmt::format(
+      "  const bool collides = ipc::AdditiveCCD({}).{}(\n      {}, toi, {}, {});\n",
+      options.max_checks > 0 ? options.max_checks : -1,
+      found.failing.query.kind() == Kind::vertex_face ? "point_triangle_ccd" : "edge_edge_ccd",
+      all_points, options.separation.distance, options.t_max);
   return result + printing(found);
 }
 
@@ -176,6 +204,7 @@ CallInterface usual_interface(const SolverCall& solver) {
 }
 
 std::string as_main(const Reproduction& found, CallInterface interface) {
+  if (!found.failing.query.shape().is_straight()) return plugin_main(found);
   switch (interface) {
     case CallInterface::ticcd:
       return ticcd_main(found);

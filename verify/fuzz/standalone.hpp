@@ -14,7 +14,8 @@ namespace touchstone::verify::fuzz {
 
 /// The interface with which such a program calls the solver.
 enum class CallInterface : std::uint8_t {
-  plugin,      ///< touchstone/plugin.h, of a loaded library
+  plugin,  ///< touchstone/plugin.h, of a loaded library
+  // These know straight lines alone.
   ticcd,       ///< the public Tight-Inclusion: ticcd::vertexFaceCCD, edgeEdgeCCD
   ipc_toolkit  ///< the public IPC Toolkit: ipc::AdditiveCCD
 };
@@ -31,7 +32,8 @@ enum class CallInterface : std::uint8_t {
 
 /// The text of a C++17 program: it solves the query, prints the answer and the truth, and its exit
 /// status is 1 if the answer is wrong as found, 0 if it is not, and 2 if the solver cannot be
-/// called. For crashes, hangs and the like the status is 0 if they do not happen.
+/// called. For crashes, hangs and the like the status is 0 if they do not happen. Of a query on
+/// curves the interface is that of plugins.
 /// \pre all coordinates are finite
 [[nodiscard]] std::string as_main(const Reproduction& found, CallInterface interface);
 

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
+#include <string_view>
 #include <utility>
 
 #include "verify/generate/draws.hpp"
@@ -62,15 +64,40 @@ void multiply(Random& random, Symmetry& symmetry) {
 
 /// Shifts by a vector that brings some coordinate to 0, or by a power of two of similar size: then
 /// sums are sometimes exact.
-void shift(const Query& query, Random& random, Symmetry& symmetry) {
+void shift(const Queries& query, Random& random, Symmetry& symmetry) {
   for (std::size_t axis = 0; axis < 3; ++axis) {
     if (random.coin()) continue;
-    const std::size_t end = draws::below(random, 2), point = draws::below(random, moving_points);
-    const double x = symmetry.factors.at(axis) * query.at(end, point, symmetry.axes.at(axis));
+    const std::size_t control = draws::below(random, query.degree + 1);
+    const std::size_t point = moving_points * control + draws::below(random, moving_points);
+    const double x = symmetry.factors.at(axis) *
+                     query.numbers[point * query.numbers_of_point() + symmetry.axes.at(axis)];
     if (x == 0.0) continue;
     symmetry.shifts.at(axis) =
         random.coin() ? -x : std::ldexp(random.coin() ? 1.0 : -1.0, std::ilogb(x));
   }
+}
+
+/// False if some coordinate would not be exact.
+bool write_image(const Symmetry& symmetry, const Queries& query, std::span<double> result) {
+  const std::size_t size = query.numbers_of_point();
+  for (std::size_t control = 0; control <= query.degree; ++control) {
+    const std::size_t from = moving_points * control;
+    const std::size_t to = moving_points * (symmetry.reversed ? query.degree - control : control);
+    for (std::size_t point = 0; point < moving_points; ++point) {
+      const auto source = query.numbers.subspan((from + symmetry.points.at(point)) * size, size);
+      const auto target = result.subspan((to + point) * size, size);
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        const auto product =
+            exact_product(source[symmetry.axes.at(axis)], symmetry.factors.at(axis));
+        if (!product) return false;
+        const auto sum = exact_sum(*product, symmetry.shifts.at(axis));
+        if (!sum) return false;
+        target[axis] = *sum;
+      }
+      if (query.is_rational) target[3] = source[3];
+    }
+  }
+  return true;
 }
 
 std::string list(const std::array<double, 3>& numbers) {
@@ -81,25 +108,25 @@ std::string list(const std::array<double, 3>& numbers) {
 
 std::optional<Query> image(const Symmetry& symmetry, const Query& query) {
   Query result{};
-  for (std::size_t end = 0; end < 2; ++end) {
-    for (std::size_t point = 0; point < moving_points; ++point) {
-      for (std::size_t axis = 0; axis < 3; ++axis) {
-        const double x = query.at(end, symmetry.points.at(point), symmetry.axes.at(axis));
-        const auto product = exact_product(x, symmetry.factors.at(axis));
-        if (!product) return std::nullopt;
-        const auto sum = exact_sum(*product, symmetry.shifts.at(axis));
-        if (!sum) return std::nullopt;
-        result.at(symmetry.reversed ? 1 - end : end, point, axis) = *sum;
-      }
-    }
-  }
+  const Queries one(Kind::vertex_face, {&query, 1});
+  if (!write_image(symmetry, one, result.coordinates)) return std::nullopt;
+  return result;
+}
+
+std::optional<std::vector<double>> image(const Symmetry& symmetry, const Queries& query) {
+  std::vector<double> result(query.numbers.size());
+  if (!write_image(symmetry, query, result)) return std::nullopt;
   return result;
 }
 
 Symmetry draw_symmetry(Kind kind, const Query& query, const Separation& separation,
                        Random& random) {
+  return draw_symmetry(Queries(kind, {&query, 1}), separation, random);
+}
+
+Symmetry draw_symmetry(const Queries& query, const Separation& separation, Random& random) {
   Symmetry symmetry;
-  if (random.coin()) renumber(kind, random, symmetry);
+  if (random.coin()) renumber(query.kind, random, symmetry);
   if (random.coin()) shuffle(symmetry.axes, 0, 3, random);
   for (double& factor : symmetry.factors) factor = random.coin() ? 1.0 : -1.0;
   symmetry.reversed = draws::one_in(random, 4);

@@ -10,11 +10,14 @@
 /// - All points may be shifted by one vector if all sums are exact: F does not change.
 /// - Time may be reversed: the set of positions is the same, so the verdict is the same, but the
 ///   time of impact is different.
+///
+/// All of them act on the control points of curves, which keep their weights.
 
 #include <array>
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "touchstone/query.hpp"
 #include "verify/generate/random.hpp"
@@ -35,9 +38,14 @@ struct Symmetry {
 
 /// The image of a query; empty if some coordinate of it would not be exact.
 [[nodiscard]] std::optional<Query> image(const Symmetry& symmetry, const Query& query);
+/// The numbers of the image of one query of any shape; empty as above.
+[[nodiscard]] std::optional<std::vector<double>> image(const Symmetry& symmetry,
+                                                       const Queries& query);
 
-/// A random symmetry with an exact image of this query. Without powers of two if there is a
-/// separation.
+/// A random symmetry with an exact image of this query, one of any shape. Without powers of two if
+/// there is a separation.
+[[nodiscard]] Symmetry draw_symmetry(const Queries& query, const Separation& separation,
+                                     Random& random);
 [[nodiscard]] Symmetry draw_symmetry(Kind kind, const Query& query, const Separation& separation,
                                      Random& random);
 

@@ -26,7 +26,7 @@ const tests::PosedQuery never = tests::over_triangle(1, 1, 2, 1);
 std::optional<judge::Fault> fault(const tests::PosedQuery& posed, const Answer& answer,
                                   const judge::Standard& standard = {},
                                   const Separation& separation = {}) {
-  const judge::Question question{posed.kind, posed.query, separation};
+  const judge::Question question{Queries(posed.kind, {&posed.query, 1}), separation};
   const judge::GroundTruth truth =
       judge::truth_of(0, exact::decide(posed.kind, posed.query, separation));
   const CertifiedResult judged = fast::solve(posed.kind, posed.query, {.separation = separation});

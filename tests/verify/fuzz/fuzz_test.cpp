@@ -63,7 +63,7 @@ void expect_found(judge::Fault what, const FuzzResult& result) {
   EXPECT_FALSE(finding.original.detail.empty());
   EXPECT_FALSE(finding.generator.empty());
   EXPECT_EQ(finding.original.collides,
-            exact::decide(finding.kind, finding.original.query, finding.separation).collides());
+            exact::decide(finding.original.query.queries(), 0, finding.separation).collides());
   // Simplification was not requested.
   EXPECT_EQ(finding.simplest.query, finding.original.query);
   EXPECT_EQ(finding.shrinking, Shrinking::not_tried);
@@ -170,7 +170,7 @@ TEST(Fuzz, FindsWhatIsWrongInAMirror) {
   };
   const auto found = std::ranges::find_if(result.findings, is_asymmetry);
   ASSERT_NE(found, result.findings.end());
-  EXPECT_LT(found->original.query.at(0, 0, 0), 0.0);
+  EXPECT_LT(found->original.query.straight().at(0, 0, 0), 0.0);
   EXPECT_NE(found->original.detail.find("exact image"), std::string::npos);
   // Without the promise exact only the wrong answer counts.
   const FuzzResult lenient = search(one_sided, Promise::conservative, options);
@@ -251,8 +251,8 @@ TEST(Fuzz, TellsTheMethodTheSeparation) {
   }
 }
 
-std::vector<Query> queries_of(const FuzzResult& result) {
-  std::vector<Query> queries;
+std::vector<base::AnyQuery> queries_of(const FuzzResult& result) {
+  std::vector<base::AnyQuery> queries;
   for (const Finding& finding : result.findings) queries.push_back(finding.original.query);
   return queries;
 }
@@ -280,7 +280,7 @@ TEST(Fuzz, IsTheSameForTheSameSeed) {
 /// A bound that is too small for small coordinates is one cause, for any generator, kind and stage.
 TEST(Fuzz, PutsFindingsOfOneCauseInOneGroup) {
   const auto blind = [](Kind kind, const Query& query) {
-    if (size_exponent(query) < -3) return Answer{.verdict = Verdict::no};
+    if (size_exponent({kind, query}) < -3) return Answer{.verdict = Verdict::no};
     return honest(kind, query);
   };
   const FuzzResult result = search(
@@ -293,9 +293,9 @@ TEST(Fuzz, PutsFindingsOfOneCauseInOneGroup) {
   EXPECT_FALSE(best.scales.end_below);
   for (const Finding& finding : result.findings) {
     EXPECT_EQ(finding.group, 0U);
-    EXPECT_FALSE(plainness(finding.kind, finding.simplest.query, finding.original.query)
-                     .is_worse_somewhere(
-                         plainness(finding.kind, finding.original.query, finding.original.query)));
+    const base::AnyQuery& original = finding.original.query;
+    EXPECT_FALSE(plainness(finding.simplest.query, original)
+                     .is_worse_somewhere(plainness(original, original)));
   }
 }
 
@@ -321,10 +321,11 @@ TEST(Fuzz, PutsFindingsOfTwoCausesInTwoGroups) {
   EXPECT_EQ(kinds, (std::set{judge::Fault::false_negative, judge::Fault::crash}));
 }
 
-TEST(Fuzz, AsksOnlyTheKindsOfItsOptions) {
+TEST(Fuzz, AsksOnlyTheShapesOfItsOptions) {
   std::set<Kind> kinds;
-  FuzzOptions options{.most_queries = 2000, .most_groups = 1000, .kinds = {Kind::edge_edge}};
-  options.on_finding = [&kinds](const Finding& finding) { kinds.insert(finding.kind); };
+  FuzzOptions options{
+      .most_queries = 2000, .most_groups = 1000, .shapes = {{.kind = Kind::edge_edge}}};
+  options.on_finding = [&kinds](const Finding& finding) { kinds.insert(finding.kind()); };
   const auto no = [](Kind, const Query&) { return Answer{.verdict = Verdict::no}; };
   EXPECT_FALSE(search(no, Promise::none, options).findings.empty());
   EXPECT_EQ(kinds, std::set<Kind>{Kind::edge_edge});
@@ -357,6 +358,107 @@ TEST(Fuzz, StopsOnRequest) {
   EXPECT_EQ(result.ended_by, FuzzEnd::interrupt);
   EXPECT_GT(result.queries, 1000U);
   EXPECT_LT(result.queries, 3000U);
+}
+
+// ---- Curves -------------------------------------------------------------------------------------
+
+std::vector<QueryShape> shapes(std::size_t degree, bool is_rational = false) {
+  return {{Kind::vertex_face, degree, is_rational}, {Kind::edge_edge, degree, is_rational}};
+}
+
+/// The certified solver's answers, changed.
+FunctionMethod on_curves(const std::function<void(const Queries&, Answer&)>& change,
+                         Promise promise = Promise::exact) {
+  return {[change](const Queries& one) {
+            fast::CertifiedResult result;
+            fast::solve(one, {&result, 1}, {.max_threads = 1});
+            Answer answer = answer_of(result);
+            change(one, answer);
+            return answer;
+          },
+          {.name = "function",
+           .promise = promise,
+           .terms = {.least_degree = 1, .most_degree = greatest_degree, .rational = true}}};
+}
+
+/// Each fault is found and made simple; those that lines show end in lines.
+TEST(Fuzz, FindsEveryPlantedFaultOnCurvesAndMakesItsQuerySimple) {
+  using enum judge::Fault;
+  struct Row {
+    judge::Fault fault;
+    QueryShape simplest;
+    std::function<void(const Queries&, Answer&)> change;
+  };
+  const std::vector<Row> rows{
+      {false_negative,
+       {},
+       [](const Queries&, Answer& answer) { answer = {.verdict = Verdict::no}; }},
+      {false_positive,
+       {},
+       [](const Queries&, Answer& answer) { answer = {.verdict = Verdict::yes}; }},
+      {no_verdict,
+       {},
+       [](const Queries&, Answer& answer) { answer = {.verdict = Verdict::error}; }},
+      {late_toi,
+       {.degree = 2},
+       [](const Queries& one, Answer& answer) {
+         if (one.degree > 1) answer.toi_lower = answer.toi_upper + 1e-12;
+       }},
+      {early_toi_upper, {.degree = 1, .is_rational = true}, [](const Queries& one, Answer& answer) {
+         if (one.is_rational) answer.toi_upper = answer.toi_lower - 1e-12;
+       }}};
+  for (const Row& row : rows) {
+    SCOPED_TRACE(to_string(row.fault));
+    const std::size_t degree = row.simplest.is_rational ? 2 : 3;
+    const FuzzResult result =
+        fuzz(on_curves(row.change), {.most_queries = 3000,
+                                     .most_groups = 1,
+                                     .shrink_seconds = 60.0,
+                                     .shapes = shapes(degree, row.simplest.is_rational)});
+    ASSERT_FALSE(result.findings.empty());
+    const Finding& finding = result.findings.front();
+    EXPECT_EQ(to_string(finding.what), to_string(row.fault)) << finding.original.detail;
+    EXPECT_EQ(finding.original.query.shape().degree, degree);
+    EXPECT_EQ(finding.shrinking, Shrinking::complete);
+    EXPECT_EQ(finding.simplest.query.shape().degree, row.simplest.degree);
+    EXPECT_EQ(finding.simplest.query.shape().is_rational, row.simplest.is_rational);
+    EXPECT_LE(magnitudes(finding.simplest.query).size(), 3U);
+    EXPECT_FALSE(finding.simplest.certificate.empty());
+  }
+}
+
+TEST(Fuzz, FindsNothingOnCurvesWhereNothingIsWrong) {
+  for (const Separation& separation :
+       {Separation{}, Separation{0.25, Norm::linf}, Separation{0.25, Norm::l2}}) {
+    for (const auto& [degree, is_rational] : {std::pair(2U, false), {3U, false}, {2U, true}}) {
+      const FuzzOptions options{.most_queries = tests::trials(std::uint64_t{256}),
+                                .separation = separation,
+                                .shapes = shapes(degree, is_rational)};
+      const FuzzResult certified = fuzz(solvers::find_method("certified"), options);
+      EXPECT_EQ(certified.all_findings, 0U);
+      EXPECT_EQ(certified.judged_by_oracle, certified.queries);
+      EXPECT_GT(certified.collisions, certified.queries / 10);
+      EXPECT_GT(certified.images, 0U);
+    }
+  }
+  const FuzzOptions options{.most_queries = tests::trials(std::uint64_t{400}),
+                            .method = {.max_checks = 2000},
+                            .query_limit_seconds = 30.0,
+                            .shapes = shapes(2)};
+  EXPECT_EQ(fuzz(solvers::find_method("tight_inclusion"), options).all_findings, 0U);
+}
+
+/// Wrong in a mirror, as on straight lines; and the same queries for the same seed.
+TEST(Fuzz, AsksImagesOfQueriesOnCurvesAndTheSameForTheSameSeed) {
+  const FunctionMethod one_sided = on_curves([](const Queries& one, Answer& answer) {
+    if (one.numbers[0] < 0.0 && one.numbers[3] >= 0.0) answer.verdict = Verdict::no;
+  });
+  const FuzzOptions options{.most_queries = 2000, .most_groups = 1000, .shapes = shapes(2)};
+  const FuzzResult result = fuzz(one_sided, options);
+  EXPECT_TRUE(std::ranges::any_of(result.findings, [](const Finding& finding) {
+    return finding.what == judge::Fault::asymmetry;
+  }));
+  EXPECT_EQ(queries_of(result), queries_of(fuzz(one_sided, options)));
 }
 
 // ---- The time -----------------------------------------------------------------------------------
@@ -452,7 +554,9 @@ TEST(Fuzz, RefusesOptionsThatMakeNoSense) {
   refused({.most_queries = 1, .separation = {.distance = -1.0}});
   refused({.most_queries = 1, .query_limit_seconds = -1.0});
   refused({.most_queries = 1, .shrink_seconds = -1.0});
-  refused({.most_queries = 1, .kinds = {}});
+  refused({.most_queries = 1, .shapes = {}});
+  refused({.most_queries = 1, .shapes = {{.degree = 0}}});
+  refused({.most_queries = 1, .shapes = {{.degree = 9}}});
   refused({.most_queries = 1, .oracle_share = 1.5});
 }
 

@@ -10,6 +10,7 @@
 
 #include "tests/support/trials.hpp"
 #include "touchstone/certified.hpp"
+#include "verify/fuzz/plainness.hpp"
 #include "verify/generate/random.hpp"
 
 namespace touchstone::verify::fuzz::generators_test {
@@ -18,32 +19,37 @@ namespace {
 using generate::Random;
 
 constexpr std::array<Kind, 2> both_kinds{Kind::vertex_face, Kind::edge_edge};
+constexpr std::array<QueryShape, 5> some_shapes{{{Kind::vertex_face},
+                                                 {Kind::edge_edge},
+                                                 {Kind::vertex_face, 2, true},
+                                                 {Kind::edge_edge, 3},
+                                                 {Kind::edge_edge, 1, true}}};
 const std::array<Separation, 3> separations{
     {{}, {.distance = 1e-8, .norm = Norm::l2}, {.distance = 1e250, .norm = Norm::linf}}};
 
-std::vector<Query> make_queries(const Generator& generator, Kind kind, const Separation& separation,
-                                int count) {
+std::vector<AnyQuery> make_queries(const Generator& generator, const QueryShape& shape,
+                                   const Separation& separation, int count) {
   GeneratorContext context(separation);
   Random random(7);
-  std::vector<Query> queries;
+  std::vector<AnyQuery> queries;
   for (int i = 0; i < count; ++i) {
     // A query to mutate, from each generator without inputs in turn.
     const Generator& other = generators()[1 + static_cast<std::size_t>(i % 7)];
-    context.pool(kind).add(other.make(kind, context, random));
-    queries.push_back(generator.make(kind, context, random));
+    context.pool(shape).add(other.make(shape, context, random));
+    queries.push_back(generator.make(shape, context, random));
   }
   return queries;
 }
 
 TEST(Generators, MakeFiniteQueriesTheSameEveryTime) {
   for (const Separation& separation : separations) {
-    for (const Generator& generator : generators(separation)) {
-      for (const Kind kind : both_kinds) {
-        const auto queries = make_queries(generator, kind, separation, tests::trials(160));
-        EXPECT_TRUE(std::ranges::all_of(queries, [](const Query& query) {
-          return is_finite(query);
-        })) << generator.name;
-        EXPECT_EQ(queries, make_queries(generator, kind, separation, tests::trials(160)))
+    for (const Generator& generator : generators(separation, true)) {
+      for (const QueryShape& shape : some_shapes) {
+        const auto queries = make_queries(generator, shape, separation, tests::trials(160));
+        EXPECT_TRUE(std::ranges::all_of(queries, is_valid)) << generator.name;
+        EXPECT_TRUE(std::ranges::all_of(
+            queries, [&](const AnyQuery& query) { return query.shape() == shape; }));
+        EXPECT_EQ(queries, make_queries(generator, shape, separation, tests::trials(160)))
             << generator.name;
       }
     }
@@ -54,11 +60,15 @@ TEST(Generators, MakeFiniteQueriesTheSameEveryTime) {
 TEST(Generators, MakeCollisionsAndMissesThatAreHard) {
   constexpr int count = 160;
   for (const Separation& separation : separations) {
-    for (const Generator& generator : generators(separation)) {
+    for (const Generator& generator : generators(separation, false)) {
       for (const Kind kind : both_kinds) {
-        const auto queries = make_queries(generator, kind, separation, count);
-        std::vector<fast::CertifiedResult> results(queries.size());
-        fast::solve(kind, queries, results, {.separation = separation, .max_threads = 1});
+        std::vector<double> numbers;
+        for (const AnyQuery& query : make_queries(generator, {kind}, separation, count)) {
+          numbers.insert(numbers.end(), query.numbers().begin(), query.numbers().end());
+        }
+        std::vector<fast::CertifiedResult> results(count);
+        fast::solve(Queries({kind}, numbers), results,
+                    {.separation = separation, .max_threads = 1});
         const auto collisions =
             std::ranges::count(results, fast::Verdict::yes, &fast::CertifiedResult::verdict);
         const auto late = std::ranges::count_if(
@@ -75,11 +85,7 @@ TEST(Generators, MakeCollisionsAndMissesThatAreHard) {
 }
 
 TEST(QueryPool, ForgetsTheOldestButNotWhatItKeeps) {
-  const auto numbered = [](double number) {
-    Query query{};
-    query.coordinates.fill(number);
-    return query;
-  };
+  const auto numbered = [](double number) { return AnyQuery({}, std::vector<double>(24, number)); };
   QueryPool pool;
   EXPECT_TRUE(pool.empty());
   pool.keep(numbered(-1.0));
@@ -88,7 +94,7 @@ TEST(QueryPool, ForgetsTheOldestButNotWhatItKeeps) {
   int kept = 0;
   double oldest = 5000.0;
   for (int i = 0; i < 4000; ++i) {
-    const double number = pool.draw(random).coordinates.front();
+    const double number = pool.draw(random).numbers().front();
     kept += number < 0.0 ? 1 : 0;
     if (number >= 0.0) oldest = std::min(oldest, number);
   }

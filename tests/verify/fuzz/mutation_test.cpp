@@ -4,8 +4,11 @@
 
 #include <cmath>
 #include <limits>
+#include <vector>
 
 #include "touchstone/query.hpp"
+#include "verify/fuzz/curves.hpp"
+#include "verify/fuzz/plainness.hpp"
 #include "verify/generate/random.hpp"
 
 namespace touchstone::verify::fuzz::mutation_test {
@@ -32,13 +35,33 @@ TEST(Stepped, GoesFromDoubleToDouble) {
 TEST(Mutated, StaysFiniteWhereverItStarts) {
   Random random(2);
   for (const double start : {0.0, least, -1.5, greatest, -greatest}) {
-    Query query{};
-    query.coordinates.fill(start);
-    for (int i = 0; i < 5000; ++i) {
-      query = mutated(query, random);
-      ASSERT_TRUE(is_finite(query));
+    for (const QueryShape& shape : {QueryShape{}, {.degree = 3}, {.is_rational = true}}) {
+      base::AnyQuery query(shape, std::vector<double>(shape.numbers_of_query(), start));
+      for (std::size_t i = 3; shape.is_rational && i < query.numbers().size(); i += 4) {
+        query.numbers()[i] = 0x1p39;
+      }
+      for (int i = 0; i < 5000; ++i) {
+        query = mutated(query, true, random);
+        ASSERT_TRUE(is_valid(query));
+      }
     }
   }
+}
+
+TEST(Mutated, LeavesWeightsAloneIfAsked) {
+  Random random(3);
+  const QueryShape shape{.degree = 2, .is_rational = true};
+  const base::AnyQuery query = of_numbers(shape, {}, random);
+  bool is_changed = false;
+  for (int i = 0; i < 500; ++i) {
+    const base::AnyQuery kept = mutated(query, false, random);
+    const base::AnyQuery free = mutated(query, true, random);
+    for (std::size_t place = 3; place < query.numbers().size(); place += 4) {
+      ASSERT_EQ(kept.numbers()[place], query.numbers()[place]);
+      is_changed = is_changed || free.numbers()[place] != query.numbers()[place];
+    }
+  }
+  EXPECT_TRUE(is_changed);
 }
 
 }  // namespace

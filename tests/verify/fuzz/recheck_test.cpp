@@ -63,9 +63,9 @@ TEST(Recheck, AsksAgainAboutAnyQuery) {
   Recheck recheck(method, finding, {});
   EXPECT_TRUE(recheck.ask(finding.original.query));
   // The first point is raised first, and so never below the point that the method compares it with.
-  EXPECT_FALSE(recheck.ask(tests::over_triangle(8, 8, 1, -1).query));
-  Query infinite = finding.original.query;
-  infinite.coordinates.front() = HUGE_VAL;
+  EXPECT_FALSE(recheck.ask({Kind::vertex_face, tests::over_triangle(8, 8, 1, -1).query}));
+  AnyQuery infinite = finding.original.query;
+  infinite.numbers().front() = HUGE_VAL;
   EXPECT_FALSE(recheck.ask(infinite));
   EXPECT_FALSE(recheck.ask(finding.original.query, base::Deadline(0.0)));
 }
@@ -81,7 +81,9 @@ TEST(Recheck, KnowsCrashesHangsAndMissingBounds) {
   };
   const FunctionMethod method(ill, Promise::none);
   const FuzzOptions options{.query_limit_seconds = 0.5};
-  const auto query_at = [](double x) { return tests::over_triangle(x, 0.25, 1, -1).query; };
+  const auto query_at = [](double x) {
+    return AnyQuery(Kind::vertex_face, tests::over_triangle(x, 0.25, 1, -1).query);
+  };
   Finding finding;
   finding.method = "function";
   finding.original.query = query_at(1.0);
@@ -104,10 +106,10 @@ TEST(Recheck, KnowsCrashesHangsAndMissingBounds) {
 /// Expects that all parts of the case agree with its query, by the method and the oracle.
 void expect_consistent(const Finding& finding, const FailingCase& failing,
                        const FunctionMethod::Function& function) {
-  const Answer answer = function(finding.kind, failing.query);
+  const Answer answer = function(finding.kind(), failing.query.straight());
   EXPECT_EQ(failing.answer.verdict, answer.verdict);
   EXPECT_EQ(failing.answer.toi_lower, answer.toi_lower);
-  const exact::Decision truth = exact::decide(finding.kind, failing.query, finding.separation);
+  const exact::Decision truth = exact::decide(failing.query.queries(), 0, finding.separation);
   EXPECT_EQ(failing.collides, truth.collides());
   EXPECT_EQ(failing.truth, judge::to_text(judge::truth_of(0, truth)));
   EXPECT_NE(failing.detail.find(fmt::format("{}", answer.toi_lower)), std::string::npos)
@@ -115,8 +117,7 @@ void expect_consistent(const Finding& finding, const FailingCase& failing,
   EXPECT_EQ(tests::check(failing.certificate).accepted(), 1U) << failing.certificate;
   const std::optional<tests::ReadClaim> claim = tests::read_claim(failing.certificate);
   ASSERT_TRUE(claim);
-  EXPECT_EQ(claim->posed.query, failing.query);
-  EXPECT_EQ(claim->posed.kind, finding.kind);
+  EXPECT_EQ(AnyQuery(claim->posed.kind, claim->posed.query), failing.query);
   EXPECT_TRUE(tests::is_true(*claim));
 }
 
@@ -169,12 +170,12 @@ TEST(Simplify, DoesNotRepeatACrash) {
   Finding finding;
   finding.what = judge::Fault::crash;
   finding.method = "function";
-  finding.original.query = crashing;
+  finding.original.query = {Kind::vertex_face, crashing};
   finding.simplest = finding.original;
   simplify(method, {}, {}, finding);
   EXPECT_EQ(asked.value(), 0U);
   EXPECT_EQ(finding.shrinking, Shrinking::complete);
-  EXPECT_EQ(finding.simplest.query, crashing);
+  EXPECT_EQ(finding.simplest.query, finding.original.query);
 }
 
 TEST(Simplify, DoesNotRepeatAHangLongerThanTheTime) {

@@ -21,8 +21,7 @@ using fast::Promise;
 /// A vertex that falls through a triangle, with contact at t = 1/3.
 Reproduction miss() {
   return {.what = judge::Fault::false_negative,
-          .kind = Kind::vertex_face,
-          .failing = {.query = tests::over_triangle(1, 1, 1, -2).query,
+          .failing = {.query = {Kind::vertex_face, tests::over_triangle(1, 1, 1, -2).query},
                       .answer = {.verdict = fast::Verdict::no},
                       .collides = true},
           .solver = {.method = "tight_inclusion",
@@ -33,8 +32,7 @@ Reproduction miss() {
 /// Two edges that come within 0.1 of each other, with a tolerance of 0.09.
 Reproduction claim() {
   return {.what = judge::Fault::false_positive,
-          .kind = Kind::edge_edge,
-          .failing = {.query = tests::over_edge(1, 1, -1, -0.1).query,
+          .failing = {.query = {Kind::edge_edge, tests::over_edge(1, 1, -1, -0.1).query},
                       .answer = {.verdict = fast::Verdict::yes}},
           .solver = {.method = "certified",
                      .promise = Promise::exact,
@@ -53,12 +51,12 @@ std::vector<std::string> lines_of(const std::string& text) {
 TEST(AsPoints, NamesThePointsOfTheKind) {
   Query query{};
   for (std::size_t i = 0; i < 24; ++i) query.coordinates[i] = static_cast<double>(i) / 4;
-  const auto lines = lines_of(as_points(Kind::vertex_face, query));
+  const auto lines = lines_of(as_points({Kind::vertex_face, query}));
   ASSERT_EQ(lines.size(), 8U);
   EXPECT_EQ(lines[0], "v   at t=0  (0, 0.25, 0.5) = (0x0p+0, 0x1p-2, 0x1p-1)");
   EXPECT_EQ(lines[3], "f2  at t=0  (2.25, 2.5, 2.75) = (0x1.2p+1, 0x1.4p+1, 0x1.6p+1)");
   EXPECT_EQ(lines[5].substr(0, 10), "f0  at t=1");
-  const auto of_edges = lines_of(as_points(Kind::edge_edge, query));
+  const auto of_edges = lines_of(as_points({Kind::edge_edge, query}));
   EXPECT_EQ(of_edges[6], "eb0 at t=1  (4.5, 4.75, 5) = (0x1.2p+2, 0x1.3p+2, 0x1.4p+2)");
 }
 
@@ -67,7 +65,7 @@ TEST(AsPoints, GivesTheExactDoublesTwice) {
   for (int i = 0; i < 50; ++i) {
     Query query;
     for (double& x : query.coordinates) x = random.finite_double();
-    const auto lines = lines_of(as_points(Kind::edge_edge, query));
+    const auto lines = lines_of(as_points({Kind::edge_edge, query}));
     for (std::size_t row = 0; row < 8; ++row) {
       std::string numbers = lines[row].substr(lines[row].find('('));
       for (char& c : numbers) {
@@ -83,25 +81,18 @@ TEST(AsPoints, GivesTheExactDoublesTwice) {
   }
 }
 
-// ---- As CSV -------------------------------------------------------------------------------------
-
-TEST(AsCsv, ReadsBackUnchanged) {
-  const data::test::TemporaryFolder folder;
-  tests::Random random(2);
-  std::vector<Query> queries{tests::over_edge(1, 1, 1, -1).query};
-  for (int i = 0; i < 30; ++i) {
-    queries.push_back(tests::full_significand_query(random));
-    for (double& x : queries.emplace_back().coordinates) x = random.finite_double();
-  }
-  std::string text;
-  for (std::size_t i = 0; i < queries.size(); ++i) text += as_csv(queries[i], i % 2 == 0);
-  data::CsvDataset source(folder.file("ee.csv", text), {.kind = Kind::edge_edge});
-  const auto read = data::test::read_all(source);
-  ASSERT_EQ(read.size(), queries.size());
-  for (std::size_t i = 0; i < queries.size(); ++i) {
-    EXPECT_EQ(read[i].query, queries[i]);
-    EXPECT_EQ(read[i].collides, i % 2 == 0);
-  }
+TEST(AsPoints, NamesControlPointsAndWeights) {
+  const QueryShape shape{.kind = Kind::edge_edge, .degree = 2, .is_rational = true};
+  std::vector<double> numbers(shape.numbers_of_query());
+  for (std::size_t i = 0; i < numbers.size(); ++i) numbers[i] = static_cast<double>(i) / 4;
+  const AnyQuery query(shape, numbers);
+  const auto lines = lines_of(as_points(query));
+  ASSERT_EQ(lines.size(), 12U);
+  EXPECT_EQ(lines[0],
+            "ea0 control point 0  (0, 0.25, 0.5; 0.75) = (0x0p+0, 0x1p-2, 0x1p-1; 0x1.8p-1)");
+  EXPECT_TRUE(lines[11].starts_with("eb1 control point 2  (11, 11.25, 11.5; 11.75) = "));
+  EXPECT_EQ(lines_of(as_short_points(query)).at(1),
+            "ea1  (1, 1.25, 1.5; 1.75) → (5, 5.25, 5.5; 5.75) → (9, 9.25, 9.5; 9.75)");
 }
 
 // ---- As a command -------------------------------------------------------------------------------
@@ -146,13 +137,13 @@ TEST(AsCommand, TellsFindingsApart) {
   const auto name_of = [](const Reproduction& found) { return lines_of(as_command(found)).at(0); };
   Reproduction other = miss();
   EXPECT_EQ(name_of(other), name_of(miss()));
-  other.failing.query.coordinates[7] = 5.0;
+  other.failing.query.numbers()[7] = 5.0;
   EXPECT_NE(name_of(other), name_of(miss()));
   other = miss();
   other.solver.options.separation.distance = 1e-3;
   EXPECT_NE(name_of(other), name_of(miss()));
   other = miss();
-  other.kind = Kind::edge_edge;
+  other.failing.query = {Kind::edge_edge, miss().failing.query.straight()};
   EXPECT_NE(name_of(other), name_of(miss()));
 }
 
@@ -161,8 +152,8 @@ TEST(AsCommand, TellsFindingsApart) {
 TEST(ReproductionOf, ShowsTheSimplestQueryAndTheSolver) {
   Finding finding;
   finding.method = "mine";
-  finding.original.query = tests::over_triangle(1, 1, 1, -3).query;
-  finding.simplest.query = tests::over_triangle(1, 1, 1, -2).query;
+  finding.original.query = {Kind::vertex_face, tests::over_triangle(1, 1, 1, -3).query};
+  finding.simplest.query = {Kind::vertex_face, tests::over_triangle(1, 1, 1, -2).query};
   const SolverCall asked{.method = "mine", .plugin = "/tmp/mine.so", .options = {.max_checks = 5}};
   const Reproduction found = reproduction_of(finding, asked);
   EXPECT_EQ(found.failing.query, finding.simplest.query);

@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <cmath>
 #include <cstdint>
@@ -17,7 +16,9 @@
 #include "tests/support/trials.hpp"
 #include "touchstone/certified.hpp"
 #include "touchstone/oracle.hpp"
+#include "verify/fuzz/curves.hpp"
 #include "verify/fuzz/plainness.hpp"
+#include "verify/fuzz/reproduce.hpp"
 #include "verify/generate/decimal.hpp"
 
 namespace touchstone::verify::fuzz::shrink_test {
@@ -26,18 +27,18 @@ namespace {
 using tests::PosedQuery;
 using tests::Random;
 
-using Predicate = std::function<bool(const Query&)>;
+using Predicate = std::function<bool(const AnyQuery&)>;
 
-Plainness of_itself(Kind kind, const Query& query) { return plainness(kind, query, query); }
+AnyQuery any(const PosedQuery& posed) { return {posed.kind, posed.query}; }
 
-std::uint64_t length_of(Kind kind, const Query& query) { return of_itself(kind, query).length; }
+std::uint64_t length_of(const AnyQuery& query) { return plainness(query, query).length; }
 
-std::vector<PosedQuery> random_queries(std::uint64_t seed, int count) {
+std::vector<AnyQuery> random_queries(std::uint64_t seed, int count) {
   Random random(seed);
-  std::vector<PosedQuery> result;
+  std::vector<AnyQuery> result;
   for (int i = 0; i < count; ++i) {
     for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
-      result.push_back({kind, tests::full_significand_query(random)});
+      result.emplace_back(kind, tests::full_significand_query(random));
     }
   }
   return result;
@@ -46,29 +47,29 @@ std::vector<PosedQuery> random_queries(std::uint64_t seed, int count) {
 // ---- Known ends ---------------------------------------------------------------------------------
 
 /// Expects only 0 and 1, and no degenerate primitives.
-void expect_plain(Kind kind, const Query& query) {
-  EXPECT_EQ(degeneracy(kind, query), 0U) << PosedQuery{kind, query};
-  for (const double x : magnitudes(query)) EXPECT_EQ(x, 1.0) << PosedQuery{kind, query};
+void expect_plain(const AnyQuery& query) {
+  EXPECT_EQ(degeneracy(query), 0U) << as_points(query);
+  for (const double x : magnitudes(query)) EXPECT_EQ(x, 1.0) << as_points(query);
 }
 
 TEST(Shrink, LeavesThePlainestQueryIfAllFail) {
-  for (const auto& [kind, query] : random_queries(1, 20)) {
-    const Query least = shrink(kind, query, [](const Query&) { return true; });
-    expect_plain(kind, least);
-    EXPECT_LE(length_of(kind, least), 11U + 10U * 2U) << PosedQuery{kind, least};
+  for (const AnyQuery& query : random_queries(1, 20)) {
+    const AnyQuery least = shrink(query, [](const AnyQuery&) { return true; });
+    expect_plain(least);
+    EXPECT_LE(length_of(least), 11U + 10U * 2U) << as_points(least);
   }
+}
+
+bool falls(const AnyQuery& some) {
+  return some.straight().at(0, 0, 2) > 0.0 && some.straight().at(1, 0, 2) < 0.0;
 }
 
 /// A fault of one scale is shown at that scale, and a fault of all scales at the original one.
 TEST(Shrink, StaysAtTheOriginalsScale) {
-  const Query base = tests::over_triangle(1, 1, 1, -2).query;
   for (const double scale : {0.013, 1.0, 87.0}) {
-    Query query = base;
-    for (double& x : query.coordinates) x *= scale;
-    const auto falls = [](const Query& some) {
-      return some.at(0, 0, 2) > 0.0 && some.at(1, 0, 2) < 0.0;
-    };
-    const Query least = shrink(Kind::vertex_face, query, falls);
+    AnyQuery query = any(tests::over_triangle(1, 1, 1, -2));
+    for (double& x : query.numbers()) x *= scale;
+    const AnyQuery least = shrink(query, falls);
     EXPECT_TRUE(falls(least));
     EXPECT_LE(std::abs(size_exponent(least) - size_exponent(query)), 3);
     for (const double x : magnitudes(least)) EXPECT_EQ(generate::shortest_decimal(x).count, 1) << x;
@@ -77,25 +78,23 @@ TEST(Shrink, StaysAtTheOriginalsScale) {
 
 TEST(Shrink, ComesBackFromTheEndsOfTheRange) {
   for (const int exponent : {-1070, -1000, -500, 500, 960}) {
-    Query query = tests::over_triangle(1, 1, 1, -2).query;
-    for (double& x : query.coordinates) x = std::ldexp(x, exponent);
-    const Query least = shrink(Kind::vertex_face, query, [](const Query& some) {
-      return some.at(0, 0, 2) > 0.0 && some.at(1, 0, 2) < 0.0;
-    });
-    expect_plain(Kind::vertex_face, least);
-    EXPECT_EQ(least.at(0, 0, 2), 1.0) << exponent;
-    EXPECT_EQ(least.at(1, 0, 2), -1.0) << exponent;
+    AnyQuery query = any(tests::over_triangle(1, 1, 1, -2));
+    for (double& x : query.numbers()) x = std::ldexp(x, exponent);
+    const AnyQuery least = shrink(query, falls);
+    expect_plain(least);
+    EXPECT_EQ(least.straight().at(0, 0, 2), 1.0) << exponent;
+    EXPECT_EQ(least.straight().at(1, 0, 2), -1.0) << exponent;
   }
 }
 
 // ---- Faults of methods --------------------------------------------------------------------------
 
 /// True if the certified solver misses the query after rounding to floats.
-bool is_missed_in_float(Kind kind, const Query& query) {
-  Query rounded = query;
+bool is_missed_in_float(const AnyQuery& query) {
+  Query rounded = query.straight();
   for (double& x : rounded.coordinates) x = static_cast<double>(static_cast<float>(x));
-  return fast::solve(kind, rounded).verdict == fast::Verdict::no &&
-         exact::decide(kind, query).collides();
+  return fast::solve(query.kind(), rounded).verdict == fast::Verdict::no &&
+         exact::decide(query.queries(), 0).collides();
 }
 
 TEST(Shrink, MakesFindingsOfAMethodShort) {
@@ -103,61 +102,119 @@ TEST(Shrink, MakesFindingsOfAMethodShort) {
   int missed = 0;
   for (int i = 0; i < tests::trials(48); ++i) {
     const Kind kind = i % 2 == 0 ? Kind::vertex_face : Kind::edge_edge;
-    const Query query = tests::near_contact_query(random, kind);
-    if (!is_missed_in_float(kind, query)) continue;
+    const AnyQuery query(kind, tests::near_contact_query(random, kind));
+    if (!is_missed_in_float(query)) continue;
     ++missed;
-    const auto is_missed = [&](const Query& other) { return is_missed_in_float(kind, other); };
-    const Query least = shrink(kind, query, is_missed);
-    EXPECT_TRUE(is_missed(least)) << PosedQuery{kind, least};
+    const AnyQuery least = shrink(query, is_missed_in_float);
+    EXPECT_TRUE(is_missed_in_float(least)) << as_points(least);
     // Narrow contact, which hardly any change of one coordinate preserves.
-    EXPECT_LE(length_of(kind, least), 600U) << PosedQuery{kind, least};
-    EXPECT_GE(length_of(kind, query), 1400U);
+    EXPECT_LE(length_of(least), 600U) << as_points(least);
+    EXPECT_GE(length_of(query), 1400U);
   }
   EXPECT_GE(missed, tests::trials(48) / 16);
 }
 
 TEST(Shrink, FindsSmallIntegersForATimeOfImpact) {
-  const auto is_late = [](const Query& query) {
-    const exact::Decision truth = exact::decide(Kind::vertex_face, query);
+  const auto is_late = [](const AnyQuery& query) {
+    const exact::Decision truth = exact::decide(query.queries(), 0);
     return truth.collides() && truth.toi->enclosure().lower > 0.6;
   };
   Random random(11);
-  const Query base = tests::over_triangle(1, 1, 0.8, -0.4).query;
   for (int i = 0; i < tests::trials(8); ++i) {
-    Query query = base;
-    for (double& x : query.coordinates) x = 0.37 * (x + random.uniform(-0.01, 0.01));
+    AnyQuery query = any(tests::over_triangle(1, 1, 0.8, -0.4));
+    for (double& x : query.numbers()) x = 0.37 * (x + random.uniform(-0.01, 0.01));
     ASSERT_TRUE(is_late(query));
-    const Query least = shrink(Kind::vertex_face, query, is_late);
+    const AnyQuery least = shrink(query, is_late);
     EXPECT_TRUE(is_late(least));
-    for (const double x : least.coordinates) EXPECT_LE(std::abs(x), 3.0) << x;
-    EXPECT_LE(length_of(Kind::vertex_face, least), 45U) << PosedQuery{Kind::vertex_face, least};
+    for (const double x : least.numbers()) EXPECT_LE(std::abs(x), 3.0) << x;
+    EXPECT_LE(length_of(least), 45U) << as_points(least);
   }
+}
+
+// ---- Curves -------------------------------------------------------------------------------------
+
+/// The least shape that fails is left, with the plainest query of it.
+TEST(Shrink, LowersTheDegreeOfCurvesAndDropsTheirWeights) {
+  struct Row {
+    QueryShape least;
+    Predicate fails;
+  };
+  const auto is_at_least = [](std::size_t degree, bool is_rational) {
+    return [=](const AnyQuery& query) {
+      return query.shape().degree >= degree && (query.shape().is_rational || !is_rational);
+    };
+  };
+  const std::vector<Row> rows{{{.degree = 1}, is_at_least(1, false)},
+                              {{.degree = 2}, is_at_least(2, false)},
+                              {{.degree = 1, .is_rational = true}, is_at_least(1, true)},
+                              {{.degree = 3, .is_rational = true}, is_at_least(3, true)}};
+  generate::Random random(1);
+  for (const auto& [shape, fails] : rows) {
+    for (const QueryShape& of_original : {QueryShape{.degree = 4, .is_rational = true},
+                                          QueryShape{.degree = 3, .is_rational = true}}) {
+      const AnyQuery least = shrink(of_numbers(of_original, {}, random), fails);
+      EXPECT_EQ(least.shape(), shape);
+      expect_plain(least);
+    }
+  }
+}
+
+/// The vertex dips through the triangle from above, and is above it at both ends.
+TEST(Shrink, FindsThePlainCurveOfAFault) {
+  const auto dips = [](const AnyQuery& query) {
+    const auto height = [&](std::size_t j) {
+      return query.numbers()[moving_points * j * query.shape().numbers_of_point() + 2];
+    };
+    return height(0) > 0.0 && height(query.shape().degree) > 0.0 &&
+           exact::decide(query.queries(), 0).collides();
+  };
+  std::vector<double> numbers;
+  for (const double height : {0.7, -0.4, -1.9, 1.3}) {
+    for (const double x : {0.3, 0.4, height, 0.0, 0.0, 0.0, 1.7, 0.0, 0.0, 0.0, 1.9, 0.0}) {
+      numbers.push_back(x);
+    }
+  }
+  const AnyQuery query({.degree = 3}, numbers);
+  ASSERT_TRUE(dips(query));
+  const AnyQuery least = shrink(query, dips);
+  EXPECT_TRUE(dips(least));
+  EXPECT_LE(least.shape().degree, 2U);
+  EXPECT_LE(length_of(least), 60U) << as_points(least);
 }
 
 // ---- Properties of every run --------------------------------------------------------------------
 
 /// A condition that depends on many coordinates: a hash of the rounded differences.
 Predicate fickle(std::uint64_t seed) {
-  return [seed](const Query& query) {
+  return [seed](const AnyQuery& query) {
     double sum = static_cast<double>(seed % 7U);
     for (std::size_t i = 0; i < 23; ++i) {
-      sum += std::abs(query.coordinates[i] - query.coordinates[i + 1]) > 0.25 ? 1.0 : 0.0;
+      sum += std::abs(query.numbers()[i] - query.numbers()[i + 1]) > 0.25 ? 1.0 : 0.0;
     }
     return std::fmod(sum, 3.0) != 0.0 && sum > 6.0;
   };
 }
 
 TEST(Shrink, AsksOnlyPlainerQueriesAndNoneTwice) {
-  for (const auto& [kind, query] : random_queries(5, tests::trials(16))) {
-    const Predicate fails = fickle(query.coordinates[0] > 0 ? 1 : 2);
-    Query best = query;
-    using Bits = std::array<std::uint64_t, 24>;
-    std::set<Bits> asked{std::bit_cast<Bits>(query)};
-    const Query least = shrink(kind, query, [&, kind = kind](const Query& other) {
-      const Plainness of_other = plainness(kind, other, query);
-      EXPECT_LT(of_other, plainness(kind, best, query));
-      EXPECT_FALSE(of_other.is_worse_somewhere(plainness(kind, query, query)));
-      EXPECT_TRUE(asked.insert(std::bit_cast<Bits>(other)).second);
+  std::vector<AnyQuery> queries = random_queries(5, tests::trials(16));
+  generate::Random random(1);
+  for (int i = 0; i < tests::trials(8); ++i) {
+    queries.push_back(of_numbers({.degree = 3, .is_rational = i % 2 == 0}, {}, random));
+  }
+  for (const AnyQuery& query : queries) {
+    const Predicate fails = fickle(query.numbers()[0] > 0 ? 1 : 2);
+    AnyQuery best = query;
+    const auto bits = [](const AnyQuery& some) {
+      std::vector<std::uint64_t> result{some.shape().degree};
+      for (const double x : some.numbers()) result.push_back(std::bit_cast<std::uint64_t>(x));
+      return result;
+    };
+    std::set<std::vector<std::uint64_t>> asked{bits(query)};
+    const AnyQuery least = shrink(query, [&](const AnyQuery& other) {
+      const Plainness of_other = plainness(other, query);
+      EXPECT_LT(of_other, plainness(best, query));
+      EXPECT_FALSE(of_other.is_worse_somewhere(plainness(query, query)));
+      EXPECT_TRUE(asked.insert(bits(other)).second);
       if (fails(other)) best = other;
       return fails(other);
     });
@@ -166,28 +223,28 @@ TEST(Shrink, AsksOnlyPlainerQueriesAndNoneTwice) {
 }
 
 TEST(Shrink, IsDeterministic) {
-  for (const auto& [kind, query] : random_queries(6, tests::trials(16))) {
-    const Predicate fails = fickle(query.coordinates[1] > 0 ? 1 : 2);
-    EXPECT_EQ(shrink(kind, query, fails), shrink(kind, query, fails));
+  for (const AnyQuery& query : random_queries(6, tests::trials(16))) {
+    const Predicate fails = fickle(query.numbers()[1] > 0 ? 1 : 2);
+    EXPECT_EQ(shrink(query, fails), shrink(query, fails));
   }
 }
 
 TEST(Shrink, KeepsItsLimits) {
-  for (const auto& [kind, query] : random_queries(7, 2)) {
+  for (const AnyQuery& query : random_queries(7, 2)) {
     for (const std::uint64_t limit : {0U, 1U, 10U, 100U}) {
       std::uint64_t calls = 0;
-      const auto count = [&](const Query&) {
+      const auto count = [&](const AnyQuery&) {
         ++calls;
         return calls % 3 == 0;
       };
-      const Query least = shrink(kind, query, count, {.most_calls = limit});
+      const AnyQuery least = shrink(query, count, {.most_calls = limit});
       EXPECT_LE(calls, limit);
       EXPECT_GE(calls, std::min<std::uint64_t>(limit, 10));
       EXPECT_EQ(least == query, limit < 3);
     }
-    const auto never = [](const Query&) -> bool { throw std::logic_error("asked"); };
-    EXPECT_EQ(shrink(kind, query, never, {.must_end = [] { return true; }}), query);
-    EXPECT_THROW((void)shrink(kind, query, never), std::logic_error);
+    const auto never = [](const AnyQuery&) -> bool { throw std::logic_error("asked"); };
+    EXPECT_EQ(shrink(query, never, {.must_end = [] { return true; }}), query);
+    EXPECT_THROW((void)shrink(query, never), std::logic_error);
   }
 }
 

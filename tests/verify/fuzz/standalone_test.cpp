@@ -18,8 +18,7 @@ namespace {
 /// A vertex that falls through a triangle, with contact at t = 1/3.
 Reproduction miss() {
   return {.what = judge::Fault::false_negative,
-          .kind = Kind::vertex_face,
-          .failing = {.query = tests::over_triangle(1, 1, 1, -2).query,
+          .failing = {.query = {Kind::vertex_face, tests::over_triangle(1, 1, 1, -2).query},
                       .answer = {.verdict = fast::Verdict::no},
                       .collides = true,
                       .toi = {{0.33333333333333331, 0.33333333333333337}},
@@ -31,8 +30,7 @@ Reproduction miss() {
 
 Reproduction miss_of_edges() {
   Reproduction result = miss();
-  result.kind = Kind::edge_edge;
-  result.failing.query = tests::over_edge(0.5, 0.25, 0.1, -0.1).query;
+  result.failing.query = {Kind::edge_edge, tests::over_edge(0.5, 0.25, 0.1, -0.1).query};
   result.failing.truth = "collision at 0.5";
   return result;
 }

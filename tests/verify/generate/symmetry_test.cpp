@@ -73,7 +73,7 @@ TEST(Symmetry, DrawsEveryIngredientAndOnlyExactImages) {
   std::set<std::string> seen;
   for (int i = 0; i < 2000; ++i) {
     const Kind kind = both_kinds.at(static_cast<std::size_t>(i % 2));
-    const Query query = fuzz::generators()[1].make(kind, context, random);
+    const Query query = fuzz::generators()[1].make({kind}, context, random).straight();
     const Symmetry symmetry = draw_symmetry(kind, query, {}, random);
     ASSERT_TRUE(image(symmetry, query)) << to_text(symmetry);
     const std::string text = to_text(symmetry);
@@ -99,10 +99,11 @@ TEST(Symmetry, KeepsPrimitivesTogether) {
   EXPECT_TRUE(exchanged);
 }
 
-void expect_same_truth(Kind kind, const Query& query, const Separation& separation,
+void expect_same_truth(const Queries& query, const Separation& separation,
                        const Symmetry& symmetry) {
-  const exact::Decision truth = exact::decide(kind, query, separation);
-  const exact::Decision of_image = exact::decide(kind, image(symmetry, query).value(), separation);
+  const exact::Decision truth = exact::decide(query, 0, separation);
+  const exact::Decision of_image =
+      exact::decide(Queries(query, image(symmetry, query).value()), 0, separation);
   ASSERT_EQ(truth.collides(), of_image.collides()) << to_text(symmetry);
   if (!truth.collides() || symmetry.reversed) return;
   const exact::DoubleInterval toi = truth.toi->enclosure(), image_toi = of_image.toi->enclosure();
@@ -120,10 +121,12 @@ TEST(Symmetry, KeepsTheOraclesVerdictAndTime) {
     for (int i = 0; i < tests::trials(160); ++i) {
       const Kind kind = both_kinds.at(static_cast<std::size_t>(i % 2));
       const auto& generator = fuzz::generators()[1 + static_cast<std::size_t>(i % 7)];
-      const Query query = generator.make(kind, context, random);
-      const Symmetry symmetry = draw_symmetry(kind, query, separation, random);
-      expect_same_truth(kind, query, separation, symmetry);
-      ++(exact::decide(kind, query, separation).collides() ? collisions : others);
+      // Half of them on curves.
+      const QueryShape shape{kind, i % 4 < 2 ? 1U : 2U, i % 8 > 5};
+      const base::AnyQuery query = generator.make(shape, context, random);
+      const Symmetry symmetry = draw_symmetry(query.queries(), separation, random);
+      expect_same_truth(query.queries(), separation, symmetry);
+      ++(exact::decide(query.queries(), 0, separation).collides() ? collisions : others);
     }
   }
   EXPECT_GT(collisions, tests::trials(80));
