@@ -42,7 +42,7 @@ struct SourceArguments {
   unsigned threads = 0;
   std::uint64_t seed = default_seed;
   std::uint64_t count = 1000;
-  std::vector<std::string> degrees = {};  ///< of the built-in set
+  std::vector<std::string> degrees = {"1"};  ///< of the built-in set (generate::families)
   SeparationArguments separation = {};
   /// The part of the sources that is used.
   Shard shard = {};
