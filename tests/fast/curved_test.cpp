@@ -18,6 +18,7 @@
 
 #include "fast/certified/exact/curved_polygon.hpp"
 #include "fast/kernels.hpp"
+#include "fast/method.hpp"
 #include "tests/faults/planted_faults.hpp"
 #include "tests/support/certified.hpp"
 #include "tests/support/queries.hpp"
@@ -103,6 +104,11 @@ double distance_at(const Queries& queries, std::size_t i, const CertifiedResult&
   return most;
 }
 
+auto bits_of(const CertifiedResult& x) {
+  const auto bits = [](double number) { return std::bit_cast<std::uint64_t>(number); };
+  return std::tuple(x.verdict, x.stage, bits(x.toi_lower), bits(x.toi_upper), bits(x.u), bits(x.v));
+}
+
 void expect_agreement(const Queries& queries, const CertifiedOptions& options,
                       std::array<int, stages>& decided_by, int& collisions) {
   std::vector<CertifiedResult> results(queries.size());
@@ -112,12 +118,7 @@ void expect_agreement(const Queries& queries, const CertifiedOptions& options,
     std::vector<CertifiedResult> by_kernel(queries.size());
     solve(queries, by_kernel, options);
     for (std::size_t i = 0; i < results.size(); ++i) {
-      const auto numbers = [](const CertifiedResult& x) {
-        return std::tuple(x.verdict, x.stage, std::bit_cast<std::uint64_t>(x.toi_lower),
-                          std::bit_cast<std::uint64_t>(x.toi_upper),
-                          std::bit_cast<std::uint64_t>(x.u), std::bit_cast<std::uint64_t>(x.v));
-      };
-      ASSERT_EQ(numbers(by_kernel[i]), numbers(results[i])) << to_string(kernel->instructions);
+      ASSERT_EQ(bits_of(by_kernel[i]), bits_of(results[i])) << to_string(kernel->instructions);
     }
   }
   for (std::size_t i = 0; i < results.size(); ++i) {
@@ -171,6 +172,36 @@ INSTANTIATE_TEST_SUITE_P(
                     Sort{2, Weights::none, false, 0x1p-400}, Sort{2, Weights::none, true, 0x1p90},
                     Sort{2, Weights::none, false, 0x1p400},
                     Sort{2, Weights::none, false, 0x1p1018}));
+
+/// Queries of several blocks.
+TEST(CurvedSolver, HasTheSameResultsAsAnswersAndAsCollisions) {
+  Random random(104);
+  const Separation separation{.distance = 0.1, .norm = Norm::l2};
+  const Numbers some = random_queries(random, {2, Weights::none, false}, Kind::edge_edge, 3000);
+  std::vector<CertifiedResult> results(some.queries.size());
+  solve(some.queries, results, {.t_max = 0.75, .separation = separation});
+  std::vector<Answer> answers(results.size());
+  certified_method()->solve(some.queries, answers, {.separation = separation, .t_max = 0.75});
+  for (const int threads : {0, 1}) {
+    const auto found =
+        collisions(some.queries, {.t_max = 0.75, .separation = separation, .max_threads = threads});
+    std::size_t listed = 0;
+    for (std::size_t i = 0; i < results.size(); ++i) {
+      const auto& [verdict, stage, lower, upper, u, v] = results[i];
+      EXPECT_EQ(answers[i].checks, static_cast<std::uint32_t>(stage) + 1);
+      ASSERT_EQ(
+          bits_of({answers[i].verdict, stage, answers[i].toi_lower, answers[i].toi_upper, u, v}),
+          bits_of(results[i]));
+      if (verdict == Verdict::no) continue;
+      ASSERT_LT(listed, found.size());
+      EXPECT_EQ(found[listed].candidate, i);
+      EXPECT_EQ(bits_of(found[listed++].result), bits_of(results[i]));
+    }
+    EXPECT_EQ(listed, found.size());
+    EXPECT_GT(listed, 300U);
+    EXPECT_LT(listed, 2700U);
+  }
+}
 
 /// True if a kernel's answers are those of the best one, whose answers are compared with the
 /// oracle's above.
@@ -236,6 +267,23 @@ TEST(TightInclusionOnCurves, MissesNoContact) {
   }
   EXPECT_GT(collisions, 4 * rounds);
   EXPECT_LT(false_positives, 4 * rounds);
+}
+
+TEST(TightInclusionOnCurves, AnswersAsAMethod) {
+  Random random(105);
+  const Numbers some = random_queries(random, {3, Weights::none, false}, Kind::edge_edge, 100);
+  std::vector<TightInclusionResult> found(some.queries.size());
+  tight_inclusion(some.queries, found, {.tolerance = 1e-2, .max_checks = 500});
+  std::vector<Answer> answers(found.size());
+  tight_inclusion_method()->solve(some.queries, answers, {.tolerance = 1e-2, .max_checks = 500});
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    EXPECT_EQ(answers[i].verdict, found[i].verdict);
+    EXPECT_EQ(answers[i].checks, found[i].checks);
+    EXPECT_EQ(std::isnan(answers[i].toi_lower), found[i].verdict == Verdict::no);
+    if (found[i].verdict != Verdict::yes) continue;
+    EXPECT_EQ(answers[i].toi_lower, found[i].toi);
+    EXPECT_EQ(answers[i].tolerance, found[i].tolerance);
+  }
 }
 
 TEST(TightInclusionOnCurves, RefusesWhatItHasNoFilterFor) {
@@ -304,7 +352,12 @@ TEST(CurvedSolver, SaysWhereInputIsNone) {
   solve(queries, one);
   EXPECT_EQ(one[0].verdict, Verdict::yes);
   EXPECT_EQ(one[0].toi_upper, 0.0);
-  EXPECT_THROW(solve(queries, {}), std::invalid_argument);
+  try {
+    solve(queries, {});
+    ADD_FAILURE();
+  } catch (const std::invalid_argument& error) {
+    EXPECT_STREQ(error.what(), "solve: 0 results for 1 queries");
+  }
   EXPECT_THROW(solve(Queries({.degree = 9}, {}), {}), std::invalid_argument);
   EXPECT_THROW(solve(Queries({.degree = 1}, rest), {}), std::invalid_argument);
   EXPECT_THROW(solve(queries, one, {.t_max = 2.0}), std::invalid_argument);
