@@ -8,7 +8,6 @@
 #include <array>
 #include <atomic>
 #include <cmath>
-#include <functional>
 #include <map>
 #include <mutex>
 #include <optional>
@@ -24,6 +23,7 @@
 #include "fast/kernels.hpp"
 #include "tests/faults/planted_faults.hpp"
 #include "tests/support/certified.hpp"
+#include "tests/support/messages.hpp"
 #include "tests/support/process_memory.hpp"
 #include "tests/support/random.hpp"
 #include "tests/support/scenes.hpp"
@@ -35,6 +35,7 @@ namespace touchstone::fast::step_test {
 namespace {
 
 using tests::AllPairs;
+using tests::message_of;
 using tests::NumberedPair;
 using tests::Pairs;
 using tests::Places;
@@ -232,21 +233,10 @@ TEST(Step, WithOtherPlacesAndSeparationIsAStepOfItsOwn) {
   EXPECT_THROW((void)back.with_separation({.distance = -1.0}), std::invalid_argument);
 }
 
-/// The message of an exception of that type, or "".
-template <class Error>
-std::string message(const std::function<void()>& work) {
-  try {
-    work();
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "";
-}
-
 TEST(Step, RefusesWhatMakesNoSense) {
   Scene scene{.start = Places::Zero(3, 3), .end = Places::Zero(3, 3), .faces = {{0, 1, 2}}};
   const auto refused = [&](const StepOptions& options) {
-    return message<std::invalid_argument>([&] { (void)scene.step(options); });
+    return message_of<std::invalid_argument>([&] { (void)scene.step(options); });
   };
   EXPECT_EQ(refused({.max_threads = -1}), "step: max_threads must not be negative");
   scene.groups = {0, 1};
@@ -261,14 +251,14 @@ TEST(Step, RefusesWhatMakesNoSense) {
   const std::span<const double> coordinates(four);
   EXPECT_THROW(Step(coordinates, coordinates, scene.elements()), std::invalid_argument);
   scene.points = {3};
-  EXPECT_EQ(message<std::out_of_range>([&] { (void)scene.step(); }),
+  EXPECT_EQ(message_of<std::out_of_range>([&] { (void)scene.step(); }),
             "point 0: vertex 3, but there are 3");
   scene.points = {};
   scene.faces = {{0, 1, -1}};
-  EXPECT_EQ(message<std::out_of_range>([&] { (void)scene.step(); }),
+  EXPECT_EQ(message_of<std::out_of_range>([&] { (void)scene.step(); }),
             "face 0: vertex -1, but there are 3");
   scene.end(1, 2) = std::nan("");
-  EXPECT_EQ(message<std::domain_error>([&] { (void)scene.step(); }),
+  EXPECT_EQ(message_of<std::domain_error>([&] { (void)scene.step(); }),
             "vertex 1: a coordinate is not finite");
 }
 
@@ -276,7 +266,7 @@ TEST(Step, PassesOnExceptionsOfATaker) {
   Random random(185);
   const Scene scene = soup(random, 30, 0.4);
   const Step step = scene.step();
-  EXPECT_EQ(message<std::runtime_error>([&] {
+  EXPECT_EQ(message_of<std::runtime_error>([&] {
               step.candidates([](const StepCandidates&) { throw std::runtime_error("enough"); });
             }),
             "enough");
@@ -529,13 +519,8 @@ TEST(FreeStepSize, NamesTheVertexWhoseMotionOverflows) {
   const Step step(before, after, {.edges = {}, .faces = faces, .points = {}});
   EXPECT_TRUE(step.is_free());
   for (const double alpha : {0.0, 0.5, 1.0}) {
-    try {
-      static_cast<void>(step.scaled(alpha));
-      ADD_FAILURE() << alpha;
-    } catch (const std::domain_error& error) {
-      EXPECT_EQ(error.what(),
-                std::string("vertex 1: the motion x1 - x0 is greater than any double"));
-    }
+    EXPECT_EQ(message_of<std::domain_error>([&] { (void)step.scaled(alpha); }),
+              "vertex 1: the motion x1 - x0 is greater than any double");
   }
   EXPECT_THROW(static_cast<void>(step.free_step_size()), std::domain_error);
 }

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "tests/support/floating_point_modes.hpp"
+#include "tests/support/messages.hpp"
 
 namespace touchstone::fast::arithmetic_check_test {
 namespace {
@@ -37,12 +38,8 @@ TEST_F(ArithmeticCheck, FindsEveryOtherRoundingModeAndSaysSo) {
     std::fesetround(mode);
     const ArithmeticReport report = check_arithmetic();
     EXPECT_THROW(require_strict_environment(), std::runtime_error) << mode;
-    std::string message;
-    try {
-      require_strict_arithmetic();
-    } catch (const std::runtime_error& error) {
-      message = error.what();
-    }
+    const std::string message =
+        tests::message_of<std::runtime_error>([] { require_strict_arithmetic(); });
     std::fesetround(FE_TONEAREST);
     EXPECT_FALSE(report.rounds_to_nearest) << mode;
     EXPECT_TRUE(report.gradual_underflow) << mode;
