@@ -192,45 +192,34 @@ TEST(Step, AgreesWithTheOracleOnAllPairsOfAllScenes) {
   EXPECT_GT(with_groups, 10);
 }
 
-TEST(Step, HasTheEdgesOfItsFacesIfNoneAreGiven) {
-  Random random(183);
-  Scene scene = soup(random, 30, 0.4);
-  scene.edges = edges_of(scene.faces);
-  const std::vector<StepCollision> expected = scene.step().collisions();
-  EXPECT_GT(expected.size(), 10U);
-  const std::vector<Edge> edges = std::exchange(scene.edges, {});
-  const Step step = scene.step();
-  EXPECT_TRUE(std::ranges::equal(step.edges(), edges));
-  EXPECT_EQ(step.collisions(), expected);
-  // A scaled step outlives the step that it comes from.
-  std::optional<Step> whole(scene.step());
-  const Step part = whole->scaled(0.5);
-  whole.reset();
-  EXPECT_TRUE(std::ranges::equal(part.edges(), edges));
-  EXPECT_EQ(part.is_free(), part.collisions().empty());
-}
-
-TEST(Step, WithOtherPlacesAndSeparationIsAStepOfItsOwn) {
+/// Edges that are not given are those of the faces. A step that is made from another outlives it.
+TEST(Step, MadeFromAnotherIsAStepOfItsOwn) {
   Random random(189);
   Scene scene = soup(random, 30, 0.4);
   scene.groups = std::vector<std::int32_t>(static_cast<std::size_t>(scene.start.rows()), 0);
   std::fill_n(scene.groups.begin(), scene.groups.size() / 2, 1);
   scene.apart = {{0, 0}};
-  const Separation separation{.distance = 0.02, .norm = Norm::l2};
-  const StepOptions options{.separation = separation, .t_max = 0.75};
+  scene.edges = edges_of(scene.faces);
+  const StepOptions options{.separation = {.distance = 0.02, .norm = Norm::l2}, .t_max = 0.75};
+  const Step expected = scene.step(options);
+  Scene reversed = scene;
+  std::swap(reversed.start, reversed.end);
+  const Step expected_back = reversed.step(options);
+  const std::vector<Edge> edges = std::exchange(scene.edges, {});
   std::optional<Step> step(scene.step({.t_max = 0.75}));
-  const Step wider = step->with_separation(separation);
-  EXPECT_EQ(wider.collisions(), scene.step(options).collisions());
-  EXPECT_EQ(wider.certified().separation, separation);
-  std::swap(scene.start, scene.end);
-  const Step back = step->with_places(MovingVertices(scene.start, scene.end), separation);
+  const Step wider = step->with_separation(options.separation), part = step->scaled(0.5);
+  const Step back =
+      step->with_places(MovingVertices(reversed.start, reversed.end), options.separation);
   step.reset();
-  EXPECT_EQ(back.collisions(), scene.step(options).collisions());
-  EXPECT_EQ(back.earliest(), scene.step(options).earliest());
-  EXPECT_GT(back.collisions().size(), 10U);
+  EXPECT_TRUE(std::ranges::equal(part.edges(), edges));
+  EXPECT_EQ(part.is_free(), part.collisions().empty());
+  EXPECT_EQ(wider.certified().separation, options.separation);
+  EXPECT_EQ(in_order(wider.collisions()), in_order(expected.collisions()));
+  EXPECT_EQ(in_order(back.collisions()), in_order(expected_back.collisions()));
+  EXPECT_EQ(back.earliest(), expected_back.earliest());
+  EXPECT_FALSE(wider.collisions().empty() || back.collisions().empty());
   const Places few = Places::Zero(3, 3);
   EXPECT_THROW((void)back.with_places(MovingVertices(few, few), {}), std::invalid_argument);
-  EXPECT_THROW((void)back.with_separation({.distance = -1.0}), std::invalid_argument);
 }
 
 TEST(Step, RefusesWhatMakesNoSense) {
@@ -262,16 +251,6 @@ TEST(Step, RefusesWhatMakesNoSense) {
             "vertex 1: a coordinate is not finite");
 }
 
-TEST(Step, PassesOnExceptionsOfATaker) {
-  Random random(185);
-  const Scene scene = soup(random, 30, 0.4);
-  const Step step = scene.step();
-  EXPECT_EQ(message_of<std::runtime_error>([&] {
-              step.candidates([](const StepCandidates&) { throw std::runtime_error("enough"); });
-            }),
-            "enough");
-}
-
 TEST(Step, EndsItsSearchesWhenItIsToStop) {
   Random random(185);
   std::atomic<bool> stop = false;
@@ -292,6 +271,11 @@ TEST(Step, EndsItsSearchesWhenItIsToStop) {
   EXPECT_THROW(step.candidates([&](const StepCandidates&) { stop = true; }), Stopped);
   stop = false;
   EXPECT_EQ(step.collisions(), before);
+  // So do exceptions of a taker.
+  EXPECT_EQ(message_of<std::runtime_error>([&] {
+              step.candidates([](const StepCandidates&) { throw std::runtime_error("enough"); });
+            }),
+            "enough");
 }
 
 // ---- The theorem --------------------------------------------------------------------------------
@@ -688,8 +672,7 @@ TEST(Step, PlantedFaultsInTheFusedStageAreFound) {
   const auto expect_found = [](const auto& planted) {
     Random random(191);
     const UseKernels use({.search = planted.part});
-    const std::string what = first_fault(compared_scenes(random, 40));
-    EXPECT_NE(what, "") << planted.name;
+    EXPECT_NE(first_fault(compared_scenes(random, 40)), "") << planted.name;
   };
   for (const auto& planted : tests::planted_faults().search) {
     // The next stage decides the pairs that these two let through; search_test.cpp finds these
