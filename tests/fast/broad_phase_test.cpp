@@ -22,7 +22,6 @@
 #include "tests/support/process_memory.hpp"
 #include "tests/support/random.hpp"
 #include "tests/support/scenes.hpp"
-#include "tests/support/trials.hpp"
 #include "touchstone/number.hpp"
 
 namespace touchstone::fast::broad_phase_test {
