@@ -17,6 +17,7 @@
 #include "tests/faults/planted_faults.hpp"
 #include "tests/support/random.hpp"
 #include "tests/support/scenes.hpp"
+#include "touchstone/filters/double_double.hpp"
 
 namespace touchstone::fast {
 extern const SearchKernel emulated_avx512_search_kernel;
@@ -101,10 +102,9 @@ Pairs found(const SearchKernel& kernel, const SearchInput<instants>& input) {
 
 // ---- All pairs one by one -----------------------------------------------------------------------
 
-/// True if x − y > d, exactly: the rounded difference and its error add up to the true one.
+/// True if x − y > d, exactly.
 bool exceeds(double x, double y, double distance) {
-  const double difference = x - y, part = difference - x;
-  const double error = (x - (difference - part)) - (y + part);
+  const auto [difference, error] = filters::exact_difference(x, y);
   return difference > distance || (difference == distance && error > 0.0);
 }
 
@@ -132,10 +132,6 @@ bool are_apart(const Scene& scene, const Primitive& a, const Primitive& b, doubl
   return false;
 }
 
-bool share_vertex(const Primitive& a, const Primitive& b) {
-  return std::ranges::any_of(a, [&](std::int32_t i) { return std::ranges::count(b, i) > 0; });
-}
-
 template <std::size_t instants, class First, class Second>
 Pairs all_pairs(const Scene& scene, std::span<const First> first, std::span<const Second> second,
                 double distance) {
@@ -144,7 +140,8 @@ Pairs all_pairs(const Scene& scene, std::span<const First> first, std::span<cons
   for (std::size_t i = 0; i < first.size(); ++i) {
     for (std::size_t k = within ? i + 1 : 0; k < second.size(); ++k) {
       const Primitive a = primitive_of(first[i]), b = primitive_of(second[k]);
-      if (share_vertex(a, b) || are_apart<instants>(scene, a, b, distance)) continue;
+      const bool share_vertex = std::ranges::find_first_of(a, b) != a.end();
+      if (share_vertex || are_apart<instants>(scene, a, b, distance)) continue;
       result.push_back({static_cast<std::int32_t>(i), static_cast<std::int32_t>(k)});
     }
   }
@@ -196,36 +193,35 @@ std::string fault(const SearchKernel& kernel, const Scene& scene, double distanc
 /// The first fault in random scenes, or nothing.
 std::string first_fault(const SearchKernel& kernel) {
   Random random(21);
-  const auto name = [](std::string what, double grain, double distance) {
-    return what.empty() ? what
-                        : what + ", grain " + std::to_string(grain) + ", distance " +
-                              std::to_string(distance);
+  std::string found;
+  const auto search = [&](const Scene& scene, double grain, double distance, Certainty certainty,
+                          bool at_both_ends) {
+    if (found.empty()) found = fault<1>(kernel, scene, distance, certainty);
+    if (found.empty() && at_both_ends) {
+      found = fault<2>(kernel, scene, distance, certainty);
+      if (!found.empty()) found += " at both ends";
+    }
+    if (found.empty()) return true;
+    found += ", grain " + std::to_string(grain) + ", distance " + std::to_string(distance);
+    return false;
   };
+  constexpr double exact = 0.0625, jitter = 0x1p-30;
   for (int round = 0; round < 6; ++round) {
+    const int faces = 10 + 12 * round;
     for (const double size : {0.03, 0.2, 1.0}) {
       // Coordinates that are floats, and multiples of 0.1, which are not.
-      for (const double grain : {0.0625, 0.1, 0.0}) {
-        const Scene scene = random_scene(random, 10 + 12 * round, size, grain);
-        const Certainty certainty = grain == 0.0625 ? Certainty::all : Certainty::unless_close;
-        const std::string swept = fault<1>(kernel, scene, 0.0, certainty);
-        if (!swept.empty()) return name(swept, grain, 0);
-        if (grain == 0.0625) {
-          const std::string at_ends = fault<2>(kernel, scene, 0.0, certainty);
-          if (!at_ends.empty()) return name(at_ends + " at both ends", grain, 0);
-        }
+      for (const double grain : {exact, 0.1, 0.0}) {
+        const Certainty certainty = grain == exact ? Certainty::all : Certainty::unless_close;
+        const Scene scene = random_scene(random, faces, size, grain);
+        if (!search(scene, grain, 0.0, certainty, grain == exact)) return found;
       }
       // Gaps and overlaps that are too small for floats.
-      constexpr double jitter = 0x1p-30;
-      const Scene near = random_scene(random, 10 + 12 * round, size, 0.0625, jitter);
-      const std::string confirmed = fault<1>(kernel, near, 0.0, Certainty::unless_close);
-      if (!confirmed.empty()) return name(confirmed, jitter, 0);
-      for (const double distance : {0.0625, 0.1, 1e-10}) {
-        const Scene scene = random_scene(random, 10 + 12 * round, size, 0.0625);
+      const Scene near = random_scene(random, faces, size, exact, jitter);
+      if (!search(near, jitter, 0.0, Certainty::unless_close, false)) return found;
+      for (const double distance : {exact, 0.1, 1e-10}) {
+        const Scene scene = random_scene(random, faces, size, exact);
         for (const Certainty certainty : {Certainty::unless_close, Certainty::none}) {
-          const std::string swept = fault<1>(kernel, scene, distance, certainty);
-          if (!swept.empty()) return name(swept, 0.0625, distance);
-          const std::string at_ends = fault<2>(kernel, scene, distance, certainty);
-          if (!at_ends.empty()) return name(at_ends + " at both ends", 0.0625, distance);
+          if (!search(scene, exact, distance, certainty, true)) return found;
         }
       }
     }
