@@ -572,18 +572,6 @@ constexpr auto ranges = std::to_array<Range>({{1e10, 1},
 /// Scenes with vertices far away.
 using MakeScene = Scene(const Range&);
 const std::map<std::string, MakeScene*> scenes_with_far_vertices{
-    {"one crosses beside the others",
-     +[](const Range& range) {
-       Random random(192);
-       Scene scene = points_in_cube(random, 801);
-       scene.start.row(800) << 0, 15, 15;
-       scene.end.row(800) = scene.start.row(800);
-       scene.start *= range.size;
-       scene.end *= range.size;
-       scene.start(800, 0) = range.far;
-       scene.end(800, 0) = -range.far;
-       return scene;
-     }},
     {"one of a hundred coordinates is far away, half of these change sides",
      +[](const Range& range) {
        Random random(193);
