@@ -179,65 +179,44 @@ TEST(LineSearch, IsTheSameForAllNumbersOfThreads) {
 
 // ---- Again and again ----------------------------------------------------------------------------
 
-/// The places after a step of that size, in doubles as simulators compute them.
-Places advanced(const Scene& scene, double step_size) {
-  return scene.start + step_size * (scene.end - scene.start);
-}
-
 /// Scenes in which a primitive falls from height 1 to −1 onto another in the plane z=0.
 std::vector<Scene> falls() {
-  const Scene blank = falling_triangle(1.0, -1.0);
-  std::vector<Scene> result{blank};
-  Scene edges = blank;
-  edges.faces.clear();
-  edges.start.topRows(2) << -1, 0, 0, 1, 0, 0;
-  edges.start.middleRows(2, 2) << 0, -1, 1, 0.125, 1, 1;
-  edges.end = edges.start;
-  edges.end.middleRows(2, 2).col(2).array() = -1;
-  edges.edges = {{0, 1}, {2, 3}};
-  result.push_back(edges);
+  Places start(4, 3);
+  start << -1, 0, 0, 1, 0, 0, 0, -1, 1, 0.125, 1, 1;
+  Scene edges{.start = start, .end = start, .edges = {{0, 1}, {2, 3}}};
+  edges.end.bottomRows(2).col(2).setConstant(-1);
   Scene point = edges;
   point.start.row(2) << 0, 0, 1;
   point.end.row(2) << 0, 0, -1;
   point.edges = {{0, 1}};
   point.points = {2};
-  result.push_back(point);
   Scene points = point;
   points.edges.clear();
   points.points = {1, 2};
   points.start.row(1).setZero();
   points.end.row(1).setZero();
-  result.push_back(points);
-  return result;
+  return {falling_triangle(1.0, -1.0), edges, point, points};
 }
 
-/// The result of a line search that was repeated along one direction.
-struct Repetition {
-  long steps = 0;        ///< not 0
-  double least = 1.0;    ///< distance
-  bool stalled = false;  ///< the last step was 0
-};
-
-/// Repeats our line search until the distance is below `until`, and checks each step: it keeps the
-/// share p of the distance, to the tolerance of the time and the rounding of places.
-Repetition repeat(Scene scene, double p, StartDistance start_distance, double until) {
-  Repetition result;
-  while (result.least > until) {
+/// The number of line searches along one direction until the distance is at most `until`. Checks
+/// each step: it keeps the share p of the distance, to the tolerance of the time and the rounding
+/// of places, which are computed as simulators do.
+long steps_until(Scene scene, double p, StartDistance start_distance, double until) {
+  long steps = 0;
+  for (double least = 1.0; least > until && !testing::Test::HasFailure(); ++steps) {
     const auto limit =
         line_search_limit(scene.step({.max_threads = 1}), p, {.start_distance = start_distance});
-    result.stalled = !(limit.step_size > 0.0);
-    if (result.stalled || limit.status != LineSearchStatus::limited) break;
-    EXPECT_EQ(limit.distance.lower, result.least);
-    scene.start = advanced(scene, limit.step_size);
+    EXPECT_EQ(limit.status, LineSearchStatus::limited);
+    EXPECT_GT(limit.step_size, 0.0);
+    EXPECT_EQ(limit.distance.lower, least);
+    scene.start = Places(scene.start + limit.step_size * (scene.end - scene.start));
     const double now = least_distance(scene.step({.max_threads = 1}))->distance.lower;
-    EXPECT_LT(now, result.least);
-    EXPECT_GE(now, p * result.least * (1.0 - 0x1p-50));
-    EXPECT_LE(now, p * result.least * (1.0 + 0x1p-36));
-    result.least = now;
-    ++result.steps;
-    if (testing::Test::HasFailure()) break;
+    EXPECT_LT(now, least);
+    EXPECT_GE(now, p * least * (1.0 - 0x1p-50));
+    EXPECT_LE(now, p * least * (1.0 + 0x1p-36));
+    least = now;
   }
-  return result;
+  return steps;
 }
 
 TEST(LineSearch, RepeatedGoesOnToTheLeastDistances) {
@@ -246,12 +225,10 @@ TEST(LineSearch, RepeatedGoesOnToTheLeastDistances) {
     for (const StartDistance start : {StartDistance::of_scene, StartDistance::of_pair}) {
       for (const double p : {0.25, 0.5, 0.9, 0.98}) {
         if (p > 0.25 && !tests::is_soak()) continue;
-        const Repetition run = repeat(scene, p, start, 1e-300);
-        EXPECT_FALSE(run.stalled);
-        EXPECT_LE(run.least, 1e-300);
+        const long of_scene = steps_until(scene, p, start, 1e-300);
         // p^steps = 1e-300
-        EXPECT_NEAR(static_cast<double>(run.steps), std::log(1e-300) / std::log(p), 2.0);
-        steps += run.steps;
+        EXPECT_NEAR(static_cast<double>(of_scene), std::log(1e-300) / std::log(p), 2.0);
+        steps += of_scene;
       }
     }
   }
