@@ -361,28 +361,19 @@ std::array<std::vector<std::int32_t>, 2> expected_of(const Centres& centres, std
 /// The first centres that a kernel divides wrongly, or nothing.
 std::string first_wrong_division(const SearchKernel& kernel) {
   Random random(26);
-  for (const int kind : {0, 1, 2, 3, 4}) {
+  // Any, many equal ones, all sizes, both zeros, and one alone.
+  constexpr std::array<float (*)(Random&), 5> kinds{
+      [](Random& r) { return static_cast<float>(r.uniform(-1, 1)); },
+      [](Random& r) { return static_cast<float>(r.between(-2, 2)); },
+      [](Random& r) {
+        return static_cast<float>(std::ldexp(r.coin() ? 1 : -1, r.between(-140, 60)));
+      },
+      [](Random& r) { return r.coin() ? 0.0F : -0.0F; }, [](Random& /*r*/) { return 1.0F; }};
+  for (std::size_t kind = 0; kind < kinds.size(); ++kind) {
     for (const std::size_t count : {17U, 31U, 32U, 33U, 100U, 256U, 1000U}) {
       Centres centres(count);
       for (auto& centre : centres) {
-        for (float& x : centre) {
-          switch (kind) {
-            case 0:
-              x = static_cast<float>(random.uniform(-1, 1));
-              break;
-            case 1:  // many equal ones
-              x = static_cast<float>(random.between(-2, 2));
-              break;
-            case 2:  // all sizes
-              x = static_cast<float>(std::ldexp(random.coin() ? 1 : -1, random.between(-140, 60)));
-              break;
-            case 3:  // both zeros
-              x = random.coin() ? 0.0F : -0.0F;
-              break;
-            default:
-              x = 1.0F;
-          }
-        }
+        for (float& x : centre) x = kinds.at(kind)(random);
       }
       for (std::size_t rank = group_size; rank < count; rank += group_size) {
         if (divided(kernel, centres, rank) != expected_of(centres, rank)) {
