@@ -162,30 +162,22 @@ TEST(Distance, IsThatOfRationals) {
 
 // ---- What follows -------------------------------------------------------------------------------
 
-TEST(Distance, IsADoubleWhereThereIsOne) {
-  for (const double height : {1.0, 0.1, 1e-300, tiniest, 1e300, 0.0}) {
-    const PosedQuery face = tests::over_triangle(1, 1, height, -height);
-    const PosedQuery edges = tests::over_edge(1, 1, height, height);
-    for (const Norm norm : norms) {
-      EXPECT_EQ(distance(face.kind, face.query, 0.0, norm), (Distance{height, height}));
-      EXPECT_EQ(distance(face.kind, face.query, 0.5, norm), (Distance{0.0, 0.0}));
-      EXPECT_EQ(distance(edges.kind, edges.query, 0.5, norm), (Distance{height, height}));
-    }
-  }
-}
-
-TEST(Distance, BelowTheLeastDoubleIsPositive) {
-  const PosedQuery posed = tests::over_triangle(1, 1, tiniest, 0.0);
-  EXPECT_EQ(distance(posed.kind, posed.query, 0.75), (Distance{0.0, tiniest}));
-  EXPECT_EQ(distance(posed.kind, posed.query, 1.0), (Distance{0.0, 0.0}));
-}
-
-TEST(Distance, BeyondTheGreatestDoubleIsInfinite) {
-  const PosedQuery posed = tests::vertex_face(
-      {greatest, greatest, greatest, -greatest, 0, 0, -greatest, 0, 0, -greatest, 0, 0},
-      {0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0});
+TEST(Distance, IsADoubleWhereThereIsOneAndNoOverflowOrUnderflow) {
   for (const Norm norm : norms) {
-    EXPECT_EQ(distance(posed.kind, posed.query, 0.0, norm), (Distance{greatest, infinity}));
+    const auto expect = [norm](const PosedQuery& posed, double t, const Distance& expected) {
+      EXPECT_EQ(distance(posed.kind, posed.query, t, norm), expected) << posed << " at " << t;
+    };
+    for (const double height : {1.0, 0.1, 1e-300, tiniest, 1e300, 0.0}) {
+      expect(tests::over_triangle(1, 1, height, -height), 0.0, {height, height});
+      expect(tests::over_triangle(1, 1, height, -height), 0.5, {0.0, 0.0});
+      expect(tests::over_edge(1, 1, height, height), 0.5, {height, height});
+    }
+    expect(tests::over_triangle(1, 1, tiniest, 0.0), 0.75, {0.0, tiniest});
+    expect(tests::over_triangle(1, 1, tiniest, 0.0), 1.0, {0.0, 0.0});
+    expect(tests::vertex_face(
+               {greatest, greatest, greatest, -greatest, 0, 0, -greatest, 0, 0, -greatest, 0, 0},
+               {0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0}),
+           0.0, {greatest, infinity});
   }
 }
 
