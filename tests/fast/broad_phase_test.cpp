@@ -18,10 +18,10 @@
 #include <utility>
 #include <vector>
 
+#include "tests/support/messages.hpp"
 #include "tests/support/process_memory.hpp"
 #include "tests/support/random.hpp"
 #include "tests/support/scenes.hpp"
-#include "tests/support/trials.hpp"
 #include "touchstone/number.hpp"
 
 namespace touchstone::fast::broad_phase_test {
@@ -99,10 +99,9 @@ TEST_P(BroadPhaseOn, FindsExactlyAllPairsWithinTheSeparation) {
   EXPECT_GT(others, 100U);
 }
 
-TEST_P(BroadPhaseOn, GivesTheSamePairsInOneOrderWithAnyThreads) {
+TEST(BroadPhase, GivesTheSamePairsInOneOrderWithAnyThreads) {
   Random random(14);
-  Scene scene = tests::soup(random, 200, 0.3);
-  scene.start.row(0).setConstant(GetParam().coordinate(random));
+  const Scene scene = tests::soup(random, 200, 0.3);
   const MovingVertices vertices{scene.start, scene.end};
   const Pairs vertex_face = vertex_face_candidates(vertices, scene.faces, {.max_threads = 1}),
               edge_edge = edge_edge_candidates(vertices, scene.edges, {.max_threads = 1});
@@ -150,32 +149,9 @@ TEST(BroadPhase, BoxesInContactAreCandidatesAndTheNextDoubleIsNot) {
     while (Rational(std::nextafter(x, greatest)) - 1 <= Rational(separation)) {
       x = std::nextafter(x, greatest);
     }
+    const double next = std::nextafter(x, greatest);
     EXPECT_EQ(found_vertex_face(vertex_beside_triangle(x), options), (Pairs{{0, 0}})) << separation;
-    EXPECT_EQ(found_vertex_face(vertex_beside_triangle(std::nextafter(x, greatest)), options),
-              Pairs{})
-        << separation;
-  }
-}
-
-// In units of the huge primitive all others are 0 in float, so that doubles decide each pair.
-TEST(BroadPhase, AHugePrimitiveAmongTinyOnesIsFoundWithEachOfThem) {
-  static constexpr int tiny = tests::trials(2'000);
-  Scene scene{.start = Places::Zero(3 * tiny + 3, 3), .end = {}};
-  for (int i = 0; i < tiny; ++i) {
-    for (int corner = 0; corner < 3; ++corner) {
-      scene.start(3 * i + corner, 0) = 1e-20 * i;
-      scene.start(3 * i + corner, 1) = 1e-30 * corner;
-    }
-    scene.faces.push_back({3 * i, 3 * i + 1, 3 * i + 2});
-  }
-  scene.start.bottomRows(3).setConstant(-1e300);
-  scene.start.bottomRows(1).setConstant(1e300);
-  scene.faces.push_back({3 * tiny, 3 * tiny + 1, 3 * tiny + 2});
-  scene.end = scene.start;
-  const Pairs pairs = found_vertex_face(scene);
-  ASSERT_EQ(pairs.size(), 3U * tiny);
-  for (std::int32_t i = 0; i < 3 * tiny; ++i) {
-    EXPECT_EQ(pairs[static_cast<std::size_t>(i)], (IndexPair{i, tiny}));
+    EXPECT_EQ(found_vertex_face(vertex_beside_triangle(next), options), Pairs{}) << separation;
   }
 }
 
@@ -232,14 +208,10 @@ TEST(BroadPhase, CountsCandidatesThatAreTooMany) {
   EXPECT_EQ(edge_edge_candidates(vertices, edges, {.max_candidates = all}).size(), all);
   for (const int threads : {1, 0}) {
     for (const std::uint64_t most : {std::uint64_t{0}, std::uint64_t{1}, all / 2, all - 1}) {
-      try {
-        static_cast<void>(edge_edge_candidates(vertices, edges,
-                                               {.max_threads = threads, .max_candidates = most}));
-        ADD_FAILURE() << most;
-      } catch (const TooManyCandidates& error) {
-        EXPECT_EQ(error.count(), all);
-        EXPECT_EQ(error.what(), std::string("79800 candidates are too many for the memory"));
-      }
+      const BroadPhaseOptions options{.max_threads = threads, .max_candidates = most};
+      EXPECT_EQ(tests::message_of<TooManyCandidates>(
+                    [&] { (void)edge_edge_candidates(vertices, edges, options); }),
+                "79800 candidates are too many for the memory");
     }
   }
   EXPECT_TRUE(edge_edge_candidates(vertices, {}, {.max_candidates = 0}).empty());

@@ -96,26 +96,28 @@ double random_time(Random& random) {
   }
 }
 
-PosedQuery of_one_scale(Random& random, Kind kind) {
+/// A query with the coordinates of the last axes, from `first` on, at another scale.
+PosedQuery scaled_from(std::size_t first, int exponent, Random& random, Kind kind) {
   PosedQuery posed = tests::random_query(random, kind, tests::Family::full_significands);
-  const int exponent = random.between(-1070, 1021);
-  for (double& x : posed.query.coordinates) x = std::ldexp(x, exponent);
+  for (std::size_t i = 0; i < posed.query.coordinates.size(); ++i) {
+    double& x = posed.query.coordinates[i];
+    if (i % 3 >= first) x = std::ldexp(x, exponent);
+  }
   return posed;
+}
+
+PosedQuery of_one_scale(Random& random, Kind kind) {
+  return scaled_from(0, random.between(-1070, 1021), random, kind);
+}
+
+/// All sizes are 1, but on one axis.
+PosedQuery flat(Random& random, Kind kind) {
+  return scaled_from(2, -std::abs(random.between(-1070, 1021)), random, kind);
 }
 
 PosedQuery of_all_scales(Random& random, Kind kind) {
   PosedQuery posed{kind, {}};
   for (double& x : posed.query.coordinates) x = random.finite_double();
-  return posed;
-}
-
-/// All sizes are 1, but on one axis.
-PosedQuery flat(Random& random, Kind kind) {
-  PosedQuery posed = tests::random_query(random, kind, tests::Family::full_significands);
-  const int exponent = -std::abs(random.between(-1070, 1021));
-  for (std::size_t i = 2; i < posed.query.coordinates.size(); i += 3) {
-    posed.query.coordinates[i] = std::ldexp(posed.query.coordinates[i], exponent);
-  }
   return posed;
 }
 
@@ -160,92 +162,61 @@ TEST(Distance, IsThatOfRationals) {
 
 // ---- What follows -------------------------------------------------------------------------------
 
-TEST(Distance, IsADoubleWhereThereIsOne) {
-  for (const double height : {1.0, 0.1, 1e-300, tiniest, 1e300, 0.0}) {
-    const PosedQuery face = tests::over_triangle(1, 1, height, -height);
-    const PosedQuery edges = tests::over_edge(1, 1, height, height);
-    for (const Norm norm : norms) {
-      EXPECT_EQ(distance(face.kind, face.query, 0.0, norm), (Distance{height, height}));
-      EXPECT_EQ(distance(face.kind, face.query, 0.5, norm), (Distance{0.0, 0.0}));
-      EXPECT_EQ(distance(edges.kind, edges.query, 0.5, norm), (Distance{height, height}));
-    }
-  }
-}
-
-TEST(Distance, BelowTheLeastDoubleIsPositive) {
-  const PosedQuery posed = tests::over_triangle(1, 1, tiniest, 0.0);
-  EXPECT_EQ(distance(posed.kind, posed.query, 0.75), (Distance{0.0, tiniest}));
-  EXPECT_EQ(distance(posed.kind, posed.query, 1.0), (Distance{0.0, 0.0}));
-}
-
-TEST(Distance, BeyondTheGreatestDoubleIsInfinite) {
-  const PosedQuery posed = tests::vertex_face(
-      {greatest, greatest, greatest, -greatest, 0, 0, -greatest, 0, 0, -greatest, 0, 0},
-      {0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0});
+TEST(Distance, IsADoubleWhereThereIsOneAndNoOverflowOrUnderflow) {
   for (const Norm norm : norms) {
-    EXPECT_EQ(distance(posed.kind, posed.query, 0.0, norm), (Distance{greatest, infinity}));
-  }
-}
-
-TEST(Distance, IsFilteredAsARule) {
-  Random random(2005);
-  for (const Norm norm : norms) {
-    int filtered = 0;
-    const int count = tests::trials(2000);
-    for (int i = 0; i < count; ++i) {
-      const Kind kind = random.coin() ? Kind::vertex_face : Kind::edge_edge;
-      const Query query = tests::random_query(random, kind, tests::Family::full_significands).query;
-      filtered += filtered_distance(kind, query, random.uniform(0, 1), norm) ? 1 : 0;
+    const auto expect = [norm](const PosedQuery& posed, double t, const Distance& expected) {
+      EXPECT_EQ(distance(posed.kind, posed.query, t, norm), expected) << posed << " at " << t;
+    };
+    for (const double height : {1.0, 0.1, 1e-300, tiniest, 1e300, 0.0}) {
+      expect(tests::over_triangle(1, 1, height, -height), 0.0, {height, height});
+      expect(tests::over_triangle(1, 1, height, -height), 0.5, {0.0, 0.0});
+      expect(tests::over_edge(1, 1, height, height), 0.5, {height, height});
     }
-    // Queries in contact are not filtered.
-    EXPECT_GT(filtered, count * 9 / 10) << to_string(norm);
+    expect(tests::over_triangle(1, 1, tiniest, 0.0), 0.75, {0.0, tiniest});
+    expect(tests::over_triangle(1, 1, tiniest, 0.0), 1.0, {0.0, 0.0});
+    expect(tests::vertex_face(
+               {greatest, greatest, greatest, -greatest, 0, 0, -greatest, 0, 0, -greatest, 0, 0},
+               {0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0}),
+           0.0, {greatest, infinity});
   }
 }
 
-TEST(Distance, OfManyIsThatOfEach) {
+TEST(Distance, OfManyIsThatOfEachInAllInstructionSetsAndAsARuleFiltered) {
   Random random(2006);
   for (const Kind kind : kinds) {
-    for (const Norm norm : norms) {
-      for (const double t : {0.0, 0.3, 1.0}) {
-        std::vector<Query> queries;
-        for (std::size_t i = 0; i < 500; ++i) {
-          queries.push_back(tests::random_query(random, kind, tests::all_families[i % 4]).query);
-          if (i % 50 == 0) queries.back().coordinates[i % 24] = random.finite_double();
-        }
+    for (const double t : {0.0, 0.3, 1.0}) {
+      // A count that is not a multiple of any number of lanes; one in four is near contact.
+      std::vector<Query> queries;
+      for (std::size_t i = 0; i < 501; ++i) {
+        queries.push_back(tests::random_query(random, kind, tests::all_families[i % 4]).query);
+        if (i % 50 == 0) queries.back().coordinates[i % 24] = random.finite_double();
+      }
+      for (const Norm norm : norms) {
         std::vector<Distance> expected;
-        for (const Query& query : queries) expected.push_back(distance(kind, query, t, norm));
+        int filtered = 0;
+        for (std::size_t i = 0; i < queries.size(); ++i) {
+          expected.push_back(distance(kind, queries[i], t, norm));
+          if (i % 4 == 2) filtered += filtered_distance(kind, queries[i], t, norm) ? 1 : 0;
+        }
+        // Queries in contact are not filtered.
+        EXPECT_TRUE(filtered > 100 || t != 0.3) << to_string(norm);
         for (const int threads : {1, 0}) {
           std::vector<Distance> found(queries.size());
           distances(kind, queries, t, norm, found, threads);
           EXPECT_EQ(found, expected);
         }
-      }
-    }
-  }
-}
-
-TEST(Distance, OfAllInstructionSetsIsTheSameAndAsARuleFiltered) {
-  Random random(2011);
-  for (const Kind kind : kinds) {
-    for (const double t : {0.0, 0.3}) {
-      // A count that is not a multiple of any number of lanes.
-      std::vector<Query> queries;
-      for (int i = 0; i < 501; ++i) {
-        queries.push_back(
-            tests::random_query(random, kind, tests::Family::full_significands).query);
-      }
-      for (const DistanceKernel* const kernel : distance_kernels()) {
-        std::vector<Distance> found(queries.size());
-        kernel->filter(kind, queries.data(), queries.size(), t, found.data());
-        int open = 0;
-        for (std::size_t i = 0; i < queries.size(); ++i) {
-          if (found[i] == open_distance) {
-            ++open;
-          } else {
-            EXPECT_EQ(found[i], exact_distance(kind, queries[i], t, Norm::l2));
+        for (const DistanceKernel* const kernel : distance_kernels()) {
+          if (norm != Norm::l2) continue;
+          std::vector<Distance> found(queries.size());
+          kernel->filter(kind, queries.data(), queries.size(), t, found.data());
+          int open = 0;
+          for (std::size_t i = 0; i < queries.size(); ++i) {
+            const bool is_open = found[i] == open_distance;
+            EXPECT_TRUE(is_open || found[i] == expected[i]) << to_string(kernel->instructions);
+            open += is_open && i % 4 == 2 ? 1 : 0;
           }
+          EXPECT_LT(open, 25) << to_string(kernel->instructions);
         }
-        EXPECT_LT(open, 50) << to_string(kernel->instructions);
       }
     }
   }
@@ -275,12 +246,11 @@ bool is_found(const DistanceOf& distance_of) {
 }
 
 TEST(Distance, PlantedFaultsAreFound) {
-  for (const auto& fault : tests::planted_faults().exact_distance) {
-    EXPECT_TRUE(is_found(*fault.part)) << fault.name;
-  }
-  for (const auto& fault : tests::planted_faults().filtered_distance) {
-    EXPECT_TRUE(is_found(*fault.part)) << fault.name;
-  }
+  const auto expect_found = [](const auto& faults) {
+    for (const auto& fault : faults) EXPECT_TRUE(is_found(*fault.part)) << fault.name;
+  };
+  expect_found(tests::planted_faults().exact_distance);
+  expect_found(tests::planted_faults().filtered_distance);
   EXPECT_FALSE(is_found(filtered_distance));
 }
 
@@ -306,34 +276,32 @@ std::optional<LeastDistance> least_of(const tests::Scene& scene, double t, Norm 
 TEST(LeastDistance, IsThatOfAllPairs) {
   Random random(2007);
   int positive = 0, of_many = 0;
+  const auto expect_least = [&](const tests::Scene& scene, double t, Norm norm,
+                                const std::vector<StepOptions>& all_options) {
+    const auto expected = least_of(scene, t, norm);
+    for (const StepOptions& options : all_options) {
+      ASSERT_EQ(least_distance(scene.step(options), t, norm), expected) << t;
+    }
+    positive += expected && expected->distance.lower > 0.0 ? 1 : 0;
+    of_many += expected && expected->pairs.size() > 1 ? 1 : 0;
+  };
   for (int round = 0; round < tests::trials(60); ++round) {
     for (const tests::Shape& shape : tests::shapes()) {
       const tests::Scene scene = tests::random_scene(random, shape, random.between(1, 10));
       // Neither separation nor end of the step matter.
-      const Step step =
-          scene.step({.separation = {.distance = round % 2 * shape.separation}, .t_max = 0.25});
+      const StepOptions options{.separation = {.distance = round % 2 * shape.separation},
+                                .t_max = 0.25};
       const double t = random_time(random);
-      for (const Norm norm : norms) {
-        const auto expected = least_of(scene, t, norm);
-        ASSERT_EQ(least_distance(step, t, norm), expected) << shape.name << ' ' << t;
-        positive += expected && expected->distance.lower > 0.0 ? 1 : 0;
-        of_many += expected && expected->pairs.size() > 1 ? 1 : 0;
-      }
+      for (const Norm norm : norms) expect_least(scene, t, norm, {options});
+      if (HasFatalFailure()) FAIL() << shape.name;
     }
   }
   EXPECT_GT(positive, tests::trials(200));
   EXPECT_GT(of_many, tests::trials(50));
-}
-
-TEST(LeastDistance, OfLargerScenesIsThatOfAllPairs) {
-  Random random(2008);
   for (const double size : {0.01, 0.05}) {
-    tests::Scene scene = tests::soup(random, 60, size);
+    const tests::Scene scene = tests::soup(random, 60, size);
     for (const double t : {0.0, 0.3}) {
-      const auto expected = least_of(scene, t, Norm::l2);
-      for (const int threads : {1, 0}) {
-        EXPECT_EQ(least_distance(scene.step({.max_threads = threads}), t), expected);
-      }
+      expect_least(scene, t, Norm::l2, {{.max_threads = 1}, {.max_threads = 0}});
     }
   }
 }

@@ -74,25 +74,24 @@ std::vector<State> states() {
   return result;
 }
 
-/// The state of this thread that must stay.
-std::uint64_t current_state() { return floating_point_modes(); }
-
 // ---- Answers ------------------------------------------------------------------------------------
 
 using Bits = std::vector<std::uint64_t>;
 
-void put(Bits& bits, double x) { bits.push_back(std::bit_cast<std::uint64_t>(x)); }
-void put(Bits& bits, std::int32_t x) { bits.push_back(static_cast<std::uint64_t>(x)); }
-void put(Bits& bits, std::size_t x) { bits.push_back(x); }
+template <class Number>
+void put(Bits& bits, Number x) {
+  if constexpr (std::is_same_v<Number, double>) {
+    bits.push_back(std::bit_cast<std::uint64_t>(x));
+  } else {
+    bits.push_back(static_cast<std::uint64_t>(x));
+  }
+}
 void put(Bits& bits, const Distance& x) {
   put(bits, x.lower);
   put(bits, x.upper);
 }
-template <class Enumeration>
-requires std::is_enum_v<Enumeration>
-void put(Bits& bits, Enumeration x) { bits.push_back(static_cast<std::uint64_t>(x)); }
-template <class... Several>
-requires(sizeof...(Several) > 1) void put(Bits& bits, const Several&... several) {
+template <class... Numbers>
+requires(sizeof...(Numbers) > 1) void put(Bits& bits, Numbers... several) {
   (put(bits, several), ...);
 }
 void put(Bits& bits, const CertifiedResult& x) {
@@ -159,10 +158,10 @@ std::function<Bits()> of_batches() {
       for (const double distance : {0.0, 1e-3}) {
         const CertifiedOptions options{.separation = {.distance = distance, .norm = Norm::l2},
                                        .max_threads = threads};
-        solve(Kind::vertex_face, faces, results, options);
-        for (const CertifiedResult& result : results) put(bits, result);
-        solve(Kind::edge_edge, edges, results, options);
-        for (const CertifiedResult& result : results) put(bits, result);
+        for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
+          solve(kind, kind == Kind::vertex_face ? faces : edges, results, options);
+          for (const CertifiedResult& result : results) put(bits, result);
+        }
       }
       std::vector<Distance> apart(faces.size());
       for (const Norm norm : {Norm::l2, Norm::linf}) {
@@ -192,13 +191,18 @@ void ask_step(Bits& bits, const Step& step) {
   }
 }
 
-std::function<Bits()> of_steps() {
+/// So many scenes of each shape.
+std::vector<tests::Scene> scenes(int count, int vertices) {
   Random random(30);
-  std::vector<tests::Scene> scenes;
+  std::vector<tests::Scene> result;
   for (const tests::Shape& shape : tests::shapes()) {
-    for (int i = 0; i < 4; ++i) scenes.push_back(tests::random_scene(random, shape, 9));
+    for (int i = 0; i < count; ++i) result.push_back(tests::random_scene(random, shape, vertices));
   }
-  return [scenes] {
+  return result;
+}
+
+std::function<Bits()> of_steps() {
+  return [scenes = scenes(4, 9)] {
     Bits bits;
     for (const tests::Scene& scene : scenes) ask_step(bits, scene.step());
     return bits;
@@ -228,12 +232,7 @@ std::function<Bits()> of_floats() {
 }
 
 std::function<Bits()> of_broad_phase() {
-  Random random(18);
-  std::vector<tests::Scene> scenes;
-  for (const tests::Shape& shape : tests::shapes()) {
-    scenes.push_back(tests::random_scene(random, shape, 60));
-  }
-  return [scenes] {
+  return [scenes = scenes(1, 60)] {
     Bits bits;
     for (const tests::Scene& scene : scenes) {
       const MovingVertices vertices(scene.start, scene.end);
@@ -270,9 +269,9 @@ class FloatingPointEnvironment : public testing::TestWithParam<std::tuple<Answer
   std::fenv_t callers;
   std::fegetenv(&callers);
   state.set();
-  const std::uint64_t before = current_state();
+  const std::uint64_t before = floating_point_modes();
   const Bits other = answers.ask();
-  const std::uint64_t after = current_state();
+  const std::uint64_t after = floating_point_modes();
   std::fesetenv(&callers);
   const Bits usual = answers.ask();
   constexpr std::uint64_t flags = 0x3F;  // flags that the caller's own arithmetic may raise

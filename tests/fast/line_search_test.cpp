@@ -3,12 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <map>
-#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "fast/distance/exact_distance.hpp"
@@ -16,10 +15,8 @@
 #include "tests/support/random.hpp"
 #include "tests/support/scenes.hpp"
 #include "tests/support/trials.hpp"
-#include "touchstone/filter.hpp"
 #include "touchstone/number.hpp"
 #include "touchstone/oracle.hpp"
-#include "touchstone/tight_inclusion.hpp"
 
 namespace touchstone::fast::line_search_test {
 namespace {
@@ -56,17 +53,15 @@ TEST(LineSearch, GoesNoFartherThanTheStep) {
 TEST(LineSearch, SaysWhatIsTooSmallForDoubles) {
   for (const StartDistance start : {StartDistance::of_scene, StartDistance::of_pair}) {
     const LineSearchOptions options{.start_distance = start};
-    // No double lies between half of the least double and itself.
-    const auto near = line_search_limit(falling_triangle(tiniest, -1.0).step(), 0.5, options);
-    EXPECT_EQ(near.status, LineSearchStatus::too_small);
-    EXPECT_EQ(near.step_size, 0.0);
-    EXPECT_EQ(near.pairs.size(), 1U);
-    // The least double is half of the second one; the time to get there is 2^-1073 2^-10.
-    const auto early =
-        line_search_limit(falling_triangle(4 * tiniest, -0x1p10).step(), 0.5, options);
-    EXPECT_EQ(early.status, LineSearchStatus::too_small);
-    EXPECT_EQ(early.step_size, 0.0);
-    EXPECT_EQ(early.pairs.size(), 1U);
+    // No double lies between half of the least double and itself. It is half of the second one; the
+    // time to get there is 2^-1073 2^-10.
+    for (const Scene& scene :
+         {falling_triangle(tiniest, -1.0), falling_triangle(4 * tiniest, -0x1p10)}) {
+      const auto limit = line_search_limit(scene.step(), 0.5, options);
+      EXPECT_EQ(limit.status, LineSearchStatus::too_small);
+      EXPECT_EQ(limit.step_size, 0.0);
+      EXPECT_EQ(limit.pairs.size(), 1U);
+    }
     const auto slow = line_search_limit(falling_triangle(8 * tiniest, 0.0).step(), 0.5, options);
     EXPECT_EQ(slow.status, LineSearchStatus::limited);
     EXPECT_GT(slow.step_size, 0.3);
@@ -110,33 +105,8 @@ std::string fault(const Scene& scene, const LineSearchLimit& limit, double p, No
   return is_first ? "" : "not so soon";
 }
 
-/// The first fault in random scenes.
-std::string first_fault(tests::LimitStep& limit_of, int rounds,
-                        std::map<LineSearchStatus, int>* seen) {
-  Random random(2300);
-  for (int round = 0; round < rounds; ++round) {
-    for (const tests::Shape& shape : tests::shapes()) {
-      const Scene scene = tests::random_scene(random, shape, random.between(2, 9));
-      const Norm norm = random.coin() ? Norm::l2 : Norm::linf;
-      const double p = random.uniform(0.05, 0.95);
-      const LineSearchLimit limit = limit_of(scene.step(), p, {.norm = norm});
-      const std::string what = fault(scene, limit, p, norm);
-      if (!what.empty()) return shape.name + ": " + what;
-      if (seen != nullptr) ++(*seen)[limit.status];
-    }
-  }
-  return "";
-}
-
-TEST(LineSearch, KeepsAllApartAndGoesAsFarAsThatAllows) {
-  std::map<LineSearchStatus, int> seen;
-  EXPECT_EQ(first_fault(line_search_limit, tests::trials(40), &seen), "");
-  EXPECT_GT(seen[LineSearchStatus::limited], tests::trials(40));
-  EXPECT_GT(seen[LineSearchStatus::whole], tests::trials(20));
-}
-
-/// The limit by the rule for pairs, from all pairs one by one.
-std::optional<double> limit_of_pairs(const Scene& scene, double p, Norm norm) {
+/// The limit by the rule for pairs, from all pairs one by one; 0 if there is none.
+double limit_of_pairs(const Scene& scene, double p, Norm norm) {
   const tests::AllPairs all(scene);
   double result = 1.0;
   for (const auto& named : all.pairs()) {
@@ -145,48 +115,49 @@ std::optional<double> limit_of_pairs(const Scene& scene, double p, Norm norm) {
     const Query query = all.query(named);
     const Distance apart = exact_distance(kind, query, 0.0, norm);
     const double kept = std::nextafter(p * apart.upper, std::numeric_limits<double>::infinity());
-    if (kept > apart.lower || (kept == apart.upper)) return std::nullopt;
+    if (kept > apart.lower || kept == apart.upper) return 0.0;
     const auto found = fast::solve(kind, query, {.separation = {.distance = kept, .norm = norm}});
     if (found.verdict == Verdict::yes) result = std::min(result, found.toi_lower);
   }
   return result;
 }
 
-/// The numbers of random scenes whose limit by the pairs' distances differs, and that have a limit.
-struct Compared {
-  int different = 0;
-  int limited = 0;
-};
+using Seen = std::map<std::pair<StartDistance, LineSearchStatus>, int>;
 
-Compared compare_pairs(tests::LimitStep& limit_of, int rounds) {
+/// The first fault in random scenes, by either rule.
+std::string first_fault(tests::LimitStep& limit_of, int rounds, Seen& seen) {
   Random random(2301);
-  Compared result;
   for (int round = 0; round < rounds; ++round) {
     for (const tests::Shape& shape : tests::shapes()) {
       const Scene scene = tests::random_scene(random, shape, random.between(2, 9));
       const Norm norm = random.coin() ? Norm::l2 : Norm::linf;
       const double p = random.uniform(0.05, 0.95);
-      const LineSearchLimit limit =
+      const LineSearchLimit limit = limit_of(scene.step(), p, {.norm = norm});
+      const std::string what = fault(scene, limit, p, norm);
+      if (!what.empty()) return shape.name + ": " + what;
+      const LineSearchLimit of_pairs =
           limit_of(scene.step(), p, {.norm = norm, .start_distance = StartDistance::of_pair});
-      const double expected = limit_of_pairs(scene, p, norm).value_or(0.0);
-      result.different += limit.step_size == expected ? 0 : 1;
-      result.limited += limit.status == LineSearchStatus::limited ? 1 : 0;
+      if (of_pairs.step_size != limit_of_pairs(scene, p, norm)) return shape.name + ": of pairs";
+      ++seen[{StartDistance::of_scene, limit.status}];
+      ++seen[{StartDistance::of_pair, of_pairs.status}];
     }
   }
-  return result;
+  return "";
 }
 
-TEST(LineSearch, OfPairsIsThatOfAllOfThem) {
-  const Compared compared = compare_pairs(line_search_limit, tests::trials(40));
-  EXPECT_EQ(compared.different, 0);
-  EXPECT_GT(compared.limited, tests::trials(40));
+TEST(LineSearch, KeepsAllApartAndGoesAsFarAsThatAllows) {
+  Seen seen;
+  EXPECT_EQ(first_fault(line_search_limit, tests::trials(40), seen), "");
+  for (const StartDistance start : {StartDistance::of_scene, StartDistance::of_pair}) {
+    EXPECT_GT((seen[{start, LineSearchStatus::limited}]), tests::trials(40));
+  }
+  EXPECT_GT((seen[{StartDistance::of_scene, LineSearchStatus::whole}]), tests::trials(20));
 }
 
 TEST(LineSearch, PlantedFaultsAreFound) {
   for (const auto& fault : tests::planted_faults().line_search) {
-    const bool is_found = !first_fault(*fault.part, 40, nullptr).empty() ||
-                          compare_pairs(*fault.part, 40).different > 0;
-    EXPECT_TRUE(is_found) << fault.name;
+    Seen seen;
+    EXPECT_NE(first_fault(*fault.part, 40, seen), "") << fault.name;
   }
 }
 
@@ -208,65 +179,44 @@ TEST(LineSearch, IsTheSameForAllNumbersOfThreads) {
 
 // ---- Again and again ----------------------------------------------------------------------------
 
-/// The places after a step of that size, in doubles as simulators compute them.
-Places advanced(const Scene& scene, double step_size) {
-  return scene.start + step_size * (scene.end - scene.start);
-}
-
 /// Scenes in which a primitive falls from height 1 to −1 onto another in the plane z=0.
 std::vector<Scene> falls() {
-  const Scene blank = falling_triangle(1.0, -1.0);
-  std::vector<Scene> result{blank};
-  Scene edges = blank;
-  edges.faces.clear();
-  edges.start.topRows(2) << -1, 0, 0, 1, 0, 0;
-  edges.start.middleRows(2, 2) << 0, -1, 1, 0.125, 1, 1;
-  edges.end = edges.start;
-  edges.end.middleRows(2, 2).col(2).array() = -1;
-  edges.edges = {{0, 1}, {2, 3}};
-  result.push_back(edges);
+  Places start(4, 3);
+  start << -1, 0, 0, 1, 0, 0, 0, -1, 1, 0.125, 1, 1;
+  Scene edges{.start = start, .end = start, .edges = {{0, 1}, {2, 3}}};
+  edges.end.bottomRows(2).col(2).setConstant(-1);
   Scene point = edges;
   point.start.row(2) << 0, 0, 1;
   point.end.row(2) << 0, 0, -1;
   point.edges = {{0, 1}};
   point.points = {2};
-  result.push_back(point);
   Scene points = point;
   points.edges.clear();
   points.points = {1, 2};
   points.start.row(1).setZero();
   points.end.row(1).setZero();
-  result.push_back(points);
-  return result;
+  return {falling_triangle(1.0, -1.0), edges, point, points};
 }
 
-/// The result of a line search that was repeated along one direction.
-struct Repetition {
-  long steps = 0;        ///< not 0
-  double least = 1.0;    ///< distance
-  bool stalled = false;  ///< the last step was 0
-};
-
-/// Repeats our line search until the distance is below `until`, and checks each step: it keeps the
-/// share p of the distance, to the tolerance of the time and the rounding of places.
-Repetition repeat(Scene scene, double p, StartDistance start_distance, double until) {
-  Repetition result;
-  while (result.least > until) {
+/// The number of line searches along one direction until the distance is at most `until`. Checks
+/// each step: it keeps the share p of the distance, to the tolerance of the time and the rounding
+/// of places, which are computed as simulators do.
+long steps_until(Scene scene, double p, StartDistance start_distance, double until) {
+  long steps = 0;
+  for (double least = 1.0; least > until && !testing::Test::HasFailure(); ++steps) {
     const auto limit =
         line_search_limit(scene.step({.max_threads = 1}), p, {.start_distance = start_distance});
-    result.stalled = !(limit.step_size > 0.0);
-    if (result.stalled || limit.status != LineSearchStatus::limited) break;
-    EXPECT_EQ(limit.distance.lower, result.least);
-    scene.start = advanced(scene, limit.step_size);
+    EXPECT_EQ(limit.status, LineSearchStatus::limited);
+    EXPECT_GT(limit.step_size, 0.0);
+    EXPECT_EQ(limit.distance.lower, least);
+    scene.start = Places(scene.start + limit.step_size * (scene.end - scene.start));
     const double now = least_distance(scene.step({.max_threads = 1}))->distance.lower;
-    EXPECT_LT(now, result.least);
-    EXPECT_GE(now, p * result.least * (1.0 - 0x1p-50));
-    EXPECT_LE(now, p * result.least * (1.0 + 0x1p-36));
-    result.least = now;
-    ++result.steps;
-    if (testing::Test::HasFailure()) break;
+    EXPECT_LT(now, least);
+    EXPECT_GE(now, p * least * (1.0 - 0x1p-50));
+    EXPECT_LE(now, p * least * (1.0 + 0x1p-36));
+    least = now;
   }
-  return result;
+  return steps;
 }
 
 TEST(LineSearch, RepeatedGoesOnToTheLeastDistances) {
@@ -275,97 +225,14 @@ TEST(LineSearch, RepeatedGoesOnToTheLeastDistances) {
     for (const StartDistance start : {StartDistance::of_scene, StartDistance::of_pair}) {
       for (const double p : {0.25, 0.5, 0.9, 0.98}) {
         if (p > 0.25 && !tests::is_soak()) continue;
-        const Repetition run = repeat(scene, p, start, 1e-300);
-        EXPECT_FALSE(run.stalled);
-        EXPECT_LE(run.least, 1e-300);
+        const long of_scene = steps_until(scene, p, start, 1e-300);
         // p^steps = 1e-300
-        EXPECT_NEAR(static_cast<double>(run.steps), std::log(1e-300) / std::log(p), 2.0);
-        steps += run.steps;
+        EXPECT_NEAR(static_cast<double>(of_scene), std::log(1e-300) / std::log(p), 2.0);
+        steps += of_scene;
       }
     }
   }
   EXPECT_GT(steps, tests::is_soak() ? 300'000 : 3'900);
-}
-
-// ---- The published line search ------------------------------------------------------------------
-
-/// Algorithm 4 of [wang2021] up to its backtracking, as its text means it: p is halved until p <
-/// (d_i − δ − ε − ρ) / d_i, and the distance is kept at p d_i, but at least at δ. If the search for
-/// impacts ends with a greater δ, all is repeated with that δ.
-class PublishedLineSearch {
- public:
-  explicit PublishedLineSearch(double delta) : delta_(delta) {}
-
-  [[nodiscard]] double step_size(const Scene& scene, double p) const {
-    const tests::AllPairs all(scene);
-    double distance_i = std::numeric_limits<double>::infinity();
-    for (const auto& named : all.pairs()) {
-      const Kind kind = Step::kind_of(named.first);
-      distance_i = std::min(distance_i, distance(kind, all.query(named), 0.0, Norm::linf).lower);
-    }
-    const double epsilon = filter(scene);
-    for (double delta = delta_;;) {
-      const auto is_valid = [&] { return p < (distance_i - delta - epsilon - rho) / distance_i; };
-      double kept = std::max(p * distance_i, delta);
-      while (!is_valid() && p > least_p) {
-        p /= 2.0;
-        kept = p * distance_i;
-      }
-      double alpha = 1.0, reached = delta;
-      for (const auto& named : all.pairs()) {
-        if (!all.are_near(named, kept)) continue;
-        const auto found = tight_inclusion(Step::kind_of(named.first), all.query(named),
-                                           {.tolerance = delta,
-                                            .separation = {.distance = kept},
-                                            .t_max = alpha,
-                                            .error_model = ErrorModel::published});
-        if (found.verdict != Verdict::yes) continue;
-        alpha = std::min(alpha, found.toi);
-        reached = std::max(reached, found.tolerance);
-      }
-      if (reached <= delta) return alpha;
-      delta = reached;
-    }
-  }
-
- private:
-  static constexpr double rho = 1e-9, least_p = 0x1p-60;
-
-  /// ε for the whole scene.
-  static double filter(const Scene& scene) {
-    std::array<double, 3> greatest{};
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      const auto column = static_cast<Eigen::Index>(axis);
-      greatest[axis] = std::max(scene.start.col(column).cwiseAbs().maxCoeff(),
-                                scene.end.col(column).cwiseAbs().maxCoeff());
-    }
-    return std::ranges::max(error_filter(Kind::vertex_face, greatest, 1.0, ErrorModel::published));
-  }
-
-  double delta_;
-};
-
-TEST(LineSearch, PublishedStallsWhereOursGoesOn) {
-  constexpr double p = 0.5;
-  for (const double delta : {1e-3, 1e-6}) {
-    for (Scene scene : falls()) {
-      const PublishedLineSearch published(delta);
-      int steps = 0;
-      double least = 1.0;
-      for (; steps < 1000; ++steps) {
-        const double step_size = published.step_size(scene, p);
-        if (step_size == 0.0) break;
-        scene.start = advanced(scene, step_size);
-        least = least_distance(scene.step())->distance.lower;
-      }
-      // The search stops at a distance slightly below δ.
-      EXPECT_LT(steps, 100);
-      EXPECT_GT(least, delta / 100);
-      const auto ours = line_search_limit(scene.step(), p);
-      EXPECT_EQ(ours.status, LineSearchStatus::limited);
-      EXPECT_GT(ours.step_size, 0.0);
-    }
-  }
 }
 
 }  // namespace

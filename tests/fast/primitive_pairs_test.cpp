@@ -13,8 +13,6 @@ namespace {
 using Eigen::RowVector3d;
 using Eigen::Vector3d;
 
-constexpr double third = 1.0 / 3.0;
-
 void expect_enclosed(const CertifiedResult& result, double toi) {
   EXPECT_EQ(result.verdict, Verdict::yes);
   EXPECT_LT(result.toi_lower, toi);
@@ -44,6 +42,11 @@ TEST(PrimitivePairs, PointsMeetInOnePlaceAlone) {
                                 Vector3d(-1, 0, 1e-300))
                 .verdict,
             Verdict::no);
+  // With the options of the solver.
+  const Vector3d o(0, 0, 0), before(3, 0, 0), after(-3, 0, 0);
+  const CertifiedOptions near{.separation = {.distance = 1.0, .norm = Norm::l2}};
+  expect_enclosed(solve_vertex_vertex(before, o, after, o, near), 1.0 / 3.0);
+  EXPECT_EQ(solve_vertex_vertex(before, o, after, o, {.t_max = 0.25}).verdict, Verdict::no);
 }
 
 TEST(PrimitivePairs, MayBeGivenInAnyShape) {
@@ -77,15 +80,6 @@ TEST(PrimitivePairs, RefuseAnythingElse) {
   const Vector3d o(0, 0, 0);
   EXPECT_THROW((void)solve_vertex_vertex(Eigen::VectorXd(2), o, o, o), std::invalid_argument);
   EXPECT_EQ(solve_vertex_vertex(Vector3d(std::nan(""), 0, 0), o, o, o).verdict, Verdict::error);
-}
-
-TEST(PrimitivePairs, TakeTheSolversOptions) {
-  const Vector3d o(0, 0, 0);
-  const CertifiedOptions near{.separation = {.distance = 1.0, .norm = Norm::l2}};
-  expect_enclosed(solve_vertex_vertex(Vector3d(3, 0, 0), o, Vector3d(-3, 0, 0), o, near), third);
-  const CertifiedOptions early{.t_max = 0.25};
-  EXPECT_EQ(solve_vertex_vertex(Vector3d(3, 0, 0), o, Vector3d(-3, 0, 0), o, early).verdict,
-            Verdict::no);
 }
 
 }  // namespace

@@ -8,7 +8,6 @@
 #include <array>
 #include <atomic>
 #include <cmath>
-#include <functional>
 #include <map>
 #include <mutex>
 #include <optional>
@@ -24,6 +23,7 @@
 #include "fast/kernels.hpp"
 #include "tests/faults/planted_faults.hpp"
 #include "tests/support/certified.hpp"
+#include "tests/support/messages.hpp"
 #include "tests/support/process_memory.hpp"
 #include "tests/support/random.hpp"
 #include "tests/support/scenes.hpp"
@@ -35,6 +35,7 @@ namespace touchstone::fast::step_test {
 namespace {
 
 using tests::AllPairs;
+using tests::message_of;
 using tests::NumberedPair;
 using tests::Pairs;
 using tests::Places;
@@ -191,62 +192,40 @@ TEST(Step, AgreesWithTheOracleOnAllPairsOfAllScenes) {
   EXPECT_GT(with_groups, 10);
 }
 
-TEST(Step, HasTheEdgesOfItsFacesIfNoneAreGiven) {
-  Random random(183);
-  Scene scene = soup(random, 30, 0.4);
-  scene.edges = edges_of(scene.faces);
-  const std::vector<StepCollision> expected = scene.step().collisions();
-  EXPECT_GT(expected.size(), 10U);
-  const std::vector<Edge> edges = std::exchange(scene.edges, {});
-  const Step step = scene.step();
-  EXPECT_TRUE(std::ranges::equal(step.edges(), edges));
-  EXPECT_EQ(step.collisions(), expected);
-  // A scaled step outlives the step that it comes from.
-  std::optional<Step> whole(scene.step());
-  const Step part = whole->scaled(0.5);
-  whole.reset();
-  EXPECT_TRUE(std::ranges::equal(part.edges(), edges));
-  EXPECT_EQ(part.is_free(), part.collisions().empty());
-}
-
-TEST(Step, WithOtherPlacesAndSeparationIsAStepOfItsOwn) {
+/// Edges that are not given are those of the faces. A step that is made from another outlives it.
+TEST(Step, MadeFromAnotherIsAStepOfItsOwn) {
   Random random(189);
   Scene scene = soup(random, 30, 0.4);
   scene.groups = std::vector<std::int32_t>(static_cast<std::size_t>(scene.start.rows()), 0);
   std::fill_n(scene.groups.begin(), scene.groups.size() / 2, 1);
   scene.apart = {{0, 0}};
-  const Separation separation{.distance = 0.02, .norm = Norm::l2};
-  const StepOptions options{.separation = separation, .t_max = 0.75};
+  scene.edges = edges_of(scene.faces);
+  const StepOptions options{.separation = {.distance = 0.02, .norm = Norm::l2}, .t_max = 0.75};
+  const Step expected = scene.step(options);
+  Scene reversed = scene;
+  std::swap(reversed.start, reversed.end);
+  const Step expected_back = reversed.step(options);
+  const std::vector<Edge> edges = std::exchange(scene.edges, {});
   std::optional<Step> step(scene.step({.t_max = 0.75}));
-  const Step wider = step->with_separation(separation);
-  EXPECT_EQ(wider.collisions(), scene.step(options).collisions());
-  EXPECT_EQ(wider.certified().separation, separation);
-  std::swap(scene.start, scene.end);
-  const Step back = step->with_places(MovingVertices(scene.start, scene.end), separation);
+  const Step wider = step->with_separation(options.separation), part = step->scaled(0.5);
+  const Step back =
+      step->with_places(MovingVertices(reversed.start, reversed.end), options.separation);
   step.reset();
-  EXPECT_EQ(back.collisions(), scene.step(options).collisions());
-  EXPECT_EQ(back.earliest(), scene.step(options).earliest());
-  EXPECT_GT(back.collisions().size(), 10U);
+  EXPECT_TRUE(std::ranges::equal(part.edges(), edges));
+  EXPECT_EQ(part.is_free(), part.collisions().empty());
+  EXPECT_EQ(wider.certified().separation, options.separation);
+  EXPECT_EQ(in_order(wider.collisions()), in_order(expected.collisions()));
+  EXPECT_EQ(in_order(back.collisions()), in_order(expected_back.collisions()));
+  EXPECT_EQ(back.earliest(), expected_back.earliest());
+  EXPECT_FALSE(wider.collisions().empty() || back.collisions().empty());
   const Places few = Places::Zero(3, 3);
   EXPECT_THROW((void)back.with_places(MovingVertices(few, few), {}), std::invalid_argument);
-  EXPECT_THROW((void)back.with_separation({.distance = -1.0}), std::invalid_argument);
-}
-
-/// The message of an exception of that type, or "".
-template <class Error>
-std::string message(const std::function<void()>& work) {
-  try {
-    work();
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "";
 }
 
 TEST(Step, RefusesWhatMakesNoSense) {
   Scene scene{.start = Places::Zero(3, 3), .end = Places::Zero(3, 3), .faces = {{0, 1, 2}}};
   const auto refused = [&](const StepOptions& options) {
-    return message<std::invalid_argument>([&] { (void)scene.step(options); });
+    return message_of<std::invalid_argument>([&] { (void)scene.step(options); });
   };
   EXPECT_EQ(refused({.max_threads = -1}), "step: max_threads must not be negative");
   scene.groups = {0, 1};
@@ -261,25 +240,15 @@ TEST(Step, RefusesWhatMakesNoSense) {
   const std::span<const double> coordinates(four);
   EXPECT_THROW(Step(coordinates, coordinates, scene.elements()), std::invalid_argument);
   scene.points = {3};
-  EXPECT_EQ(message<std::out_of_range>([&] { (void)scene.step(); }),
+  EXPECT_EQ(message_of<std::out_of_range>([&] { (void)scene.step(); }),
             "point 0: vertex 3, but there are 3");
   scene.points = {};
   scene.faces = {{0, 1, -1}};
-  EXPECT_EQ(message<std::out_of_range>([&] { (void)scene.step(); }),
+  EXPECT_EQ(message_of<std::out_of_range>([&] { (void)scene.step(); }),
             "face 0: vertex -1, but there are 3");
   scene.end(1, 2) = std::nan("");
-  EXPECT_EQ(message<std::domain_error>([&] { (void)scene.step(); }),
+  EXPECT_EQ(message_of<std::domain_error>([&] { (void)scene.step(); }),
             "vertex 1: a coordinate is not finite");
-}
-
-TEST(Step, PassesOnExceptionsOfATaker) {
-  Random random(185);
-  const Scene scene = soup(random, 30, 0.4);
-  const Step step = scene.step();
-  EXPECT_EQ(message<std::runtime_error>([&] {
-              step.candidates([](const StepCandidates&) { throw std::runtime_error("enough"); });
-            }),
-            "enough");
 }
 
 TEST(Step, EndsItsSearchesWhenItIsToStop) {
@@ -302,6 +271,11 @@ TEST(Step, EndsItsSearchesWhenItIsToStop) {
   EXPECT_THROW(step.candidates([&](const StepCandidates&) { stop = true; }), Stopped);
   stop = false;
   EXPECT_EQ(step.collisions(), before);
+  // So do exceptions of a taker.
+  EXPECT_EQ(message_of<std::runtime_error>([&] {
+              step.candidates([](const StepCandidates&) { throw std::runtime_error("enough"); });
+            }),
+            "enough");
 }
 
 // ---- The theorem --------------------------------------------------------------------------------
@@ -529,13 +503,8 @@ TEST(FreeStepSize, NamesTheVertexWhoseMotionOverflows) {
   const Step step(before, after, {.edges = {}, .faces = faces, .points = {}});
   EXPECT_TRUE(step.is_free());
   for (const double alpha : {0.0, 0.5, 1.0}) {
-    try {
-      static_cast<void>(step.scaled(alpha));
-      ADD_FAILURE() << alpha;
-    } catch (const std::domain_error& error) {
-      EXPECT_EQ(error.what(),
-                std::string("vertex 1: the motion x1 - x0 is greater than any double"));
-    }
+    EXPECT_EQ(message_of<std::domain_error>([&] { (void)step.scaled(alpha); }),
+              "vertex 1: the motion x1 - x0 is greater than any double");
   }
   EXPECT_THROW(static_cast<void>(step.free_step_size()), std::domain_error);
 }
@@ -603,18 +572,6 @@ constexpr auto ranges = std::to_array<Range>({{1e10, 1},
 /// Scenes with vertices far away.
 using MakeScene = Scene(const Range&);
 const std::map<std::string, MakeScene*> scenes_with_far_vertices{
-    {"one crosses beside the others",
-     +[](const Range& range) {
-       Random random(192);
-       Scene scene = points_in_cube(random, 801);
-       scene.start.row(800) << 0, 15, 15;
-       scene.end.row(800) = scene.start.row(800);
-       scene.start *= range.size;
-       scene.end *= range.size;
-       scene.start(800, 0) = range.far;
-       scene.end(800, 0) = -range.far;
-       return scene;
-     }},
     {"one of a hundred coordinates is far away, half of these change sides",
      +[](const Range& range) {
        Random random(193);
@@ -703,8 +660,7 @@ TEST(Step, PlantedFaultsInTheFusedStageAreFound) {
   const auto expect_found = [](const auto& planted) {
     Random random(191);
     const UseKernels use({.search = planted.part});
-    const std::string what = first_fault(compared_scenes(random, 40));
-    EXPECT_NE(what, "") << planted.name;
+    EXPECT_NE(first_fault(compared_scenes(random, 40)), "") << planted.name;
   };
   for (const auto& planted : tests::planted_faults().search) {
     // The next stage decides the pairs that these two let through; search_test.cpp finds these

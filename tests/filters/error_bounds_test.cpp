@@ -56,22 +56,21 @@ class EveryBound : public ::testing::Test {
         << ::testing::PrintToString(inputs.coordinates) << ::testing::PrintToString(inputs.weights);
   }
 
-  /// Runs the test on inputs whose coordinates are a function of a random number.
-  template <class Coordinate>
-  static void expect_within_bound_for(const Coordinate& coordinate) {
+  /// Runs the test on inputs whose coordinates have random magnitudes, and any sign.
+  template <class Magnitude>
+  static void expect_within_bound_for(const Magnitude& magnitude) {
     std::mt19937_64 random(5);
     for (int i = 0; i < 2000; ++i) {
       Inputs inputs;
       for (std::size_t j = 0; j < Expression::coordinates; ++j) {
-        inputs.coordinates.push_back(static_cast<double>(coordinate(random)));
+        const auto x = static_cast<double>(magnitude(random));
+        inputs.coordinates.push_back(random() % 2 == 0 ? x : -x);
       }
       const int bits = std::array{0, 1, 3, Limits::digits}.at(random() % 4);
       inputs.weights = random_weights<Expression>(random, bits);
       expect_within_bound(inputs);
     }
   }
-
-  static Scalar sign(std::mt19937_64& random) { return random() % 2 == 0 ? Scalar(1) : Scalar(-1); }
 };
 
 using Bounds = ::testing::Types<
@@ -99,46 +98,29 @@ TYPED_TEST(EveryBound, IsProvedByGappa) {
   EXPECT_TRUE(gappa_proves(graph, format, GappaGoal::underflow, underflow));
 }
 
-TYPED_TEST(EveryBound, HoldsAmongSubnormalsAndZeros) {
+TYPED_TEST(EveryBound, HoldsAtAllMagnitudes) {
   using Number = typename TestFixture::Scalar;
-  this->expect_within_bound_for([](std::mt19937_64& random) {
-    const auto multiple = static_cast<Number>(random() % (random() % 2 == 0 ? 4 : 1000));
-    return TestFixture::sign(random) * multiple * TestFixture::Limits::denorm_min();
-  });
-}
-
-TYPED_TEST(EveryBound, HoldsAcrossTheBorderOfSubnormals) {
-  using Number = typename TestFixture::Scalar;
-  this->expect_within_bound_for([](std::mt19937_64& random) {
+  using Of = std::numeric_limits<Number>;
+  using Random = std::mt19937_64;
+  static constexpr Number greatest = TypeParam::bound.greatest_x;
+  const auto normal = [](Random& random, int exponent, int range) {
     const Number fraction = std::ldexp(static_cast<Number>(random() >> 40U), -24);
-    return TestFixture::sign(random) * (1 + fraction) *
-           std::ldexp(TestFixture::Limits::min(), static_cast<int>(random() % 8) - 4);
-  });
-}
-
-TYPED_TEST(EveryBound, HoldsAtAllMagnitudesAtOnce) {
-  using Number = typename TestFixture::Scalar;
-  const int greatest = std::ilogb(TypeParam::bound.greatest_x) - 1;
+    return std::ldexp(1 + fraction,
+                      exponent + static_cast<int>(random() % static_cast<unsigned>(range)));
+  };
+  // Zeros of both signs; among subnormals, across their border, and all at once; without overflow.
   const int least = TypeParam::format.least_exponent;
-  this->expect_within_bound_for([=](std::mt19937_64& random) {
-    const Number fraction = std::ldexp(static_cast<Number>(random() >> 40U), -24);
-    const auto range = static_cast<std::uint64_t>(greatest - least);
-    return TestFixture::sign(random) *
-           std::ldexp(1 + fraction, least + static_cast<int>(random() % range));
+  this->expect_within_bound_for([](Random& /*random*/) { return Number(0); });
+  this->expect_within_bound_for([](Random& random) {
+    const auto multiple = static_cast<Number>(random() % (random() % 2 == 0 ? 4 : 1000));
+    return multiple * Of::denorm_min();
   });
-}
-
-TYPED_TEST(EveryBound, HoldsAtTheGreatestCoordinateWithoutOverflow) {
-  using Number = typename TestFixture::Scalar;
-  this->expect_within_bound_for([](std::mt19937_64& random) {
-    const Number below = std::nextafter(TypeParam::bound.greatest_x, Number(0));
-    return TestFixture::sign(random) * (random() % 2 == 0 ? TypeParam::bound.greatest_x : below);
-  });
-}
-
-TYPED_TEST(EveryBound, TakesZerosOfBothSigns) {
-  this->expect_within_bound_for([](std::mt19937_64& random) {
-    return random() % 2 == 0 ? typename TestFixture::Scalar(0) : -typename TestFixture::Scalar(0);
+  this->expect_within_bound_for(
+      [&](Random& random) { return normal(random, std::ilogb(Of::min()) - 4, 8); });
+  this->expect_within_bound_for(
+      [&](Random& random) { return normal(random, least, std::ilogb(greatest) - 1 - least); });
+  this->expect_within_bound_for([](Random& random) {
+    return random() % 2 == 0 ? greatest : std::nextafter(greatest, Number(0));
   });
 }
 
@@ -367,33 +349,23 @@ TYPED_TEST(EveryBoundByClasses, HoldsForClassesOfVeryDifferentMagnitudes) {
   }
 }
 
-TYPED_TEST(EveryBoundByClasses, HoldsAmongSubnormals) {
+TYPED_TEST(EveryBoundByClasses, HoldsWhereNumbersAndProductsUnderflow) {
   static_cast<void>(this->expect_within_bound_for({{-1074, -1074, -1074}, {-1020, -1020, -1020}}));
-}
-
-TYPED_TEST(EveryBoundByClasses, HoldsWhereProductsUnderflow) {
   // Products of two underflow, of three, and of one subnormal class with a large one.
-  const auto pairs = this->expect_within_bound_for({{-545, -545, -545}, {-480, -480, -480}});
-  EXPECT_GT(pairs.worst, 0.0);
-  const auto triples = this->expect_within_bound_for({{-370, -370, -370}, {-310, -310, -310}});
-  EXPECT_GT(triples.worst, 0.0);
-  const auto mixed = this->expect_within_bound_for({{60, -1074, -1074}, {62, -1020, -40}});
-  EXPECT_GT(mixed.worst, 0.0);
+  for (const auto& sizes : {Sizes{{-545, -545, -545}, {-480, -480, -480}},
+                            Sizes{{-370, -370, -370}, {-310, -310, -310}},
+                            Sizes{{60, -1074, -1074}, {62, -1020, -40}}}) {
+    EXPECT_GT(this->expect_within_bound_for(sizes).worst, 0.0);
+  }
 }
 
-TYPED_TEST(EveryBoundByClasses, HoldsAtTheGreatestMagnitudesOfTheSolver) {
+TYPED_TEST(EveryBoundByClasses, HoldsAtTheGreatestMagnitudesOfTheSolverAndOfAll) {
   // Differences up to 2^100; the first class of orientations and gaps are directions, up to 2^204.
   constexpr bool has_direction = TypeParam::Expression::coordinates != DeterminantEnd::coordinates;
-  const int first = has_direction ? 202 : 98;
-  const auto found = this->expect_within_bound_for({{first, 98, 98}, {first, 98, 98}});
-  EXPECT_GT(found.worst, TypeParam::least_part);
-}
-
-TYPED_TEST(EveryBoundByClasses, HoldsAtTheGreatestCoordinateWithoutOverflow) {
-  const int greatest = std::ilogb(TypeParam::bound.greatest_x) - 2;
-  const auto found = this->expect_within_bound_for(
-      {{greatest, greatest, greatest}, {greatest, greatest, greatest}});
-  EXPECT_GT(found.worst, TypeParam::least_part);
+  const int first = has_direction ? 202 : 98, all = std::ilogb(TypeParam::bound.greatest_x) - 2;
+  for (const std::array<int, 3>& size : {std::array{first, 98, 98}, std::array{all, all, all}}) {
+    EXPECT_GT(this->expect_within_bound_for({size, size}).worst, TypeParam::least_part);
+  }
 }
 
 }  // namespace

@@ -62,40 +62,6 @@ TYPED_TEST(EveryExpression, HasGroupsWhoseWeightsAddUpToOne) {
   });
 }
 
-using DoubleLanes [[gnu::vector_size(16)]] = double;
-using FloatLanes [[gnu::vector_size(16)]] = float;
-
-/// Evaluates an expression on lanes; each must equal the scalar's value, bit by bit.
-template <class Expression, class Lanes, class Scalar>
-void expect_lanes_equal_scalars(std::mt19937_64& random) {
-  constexpr std::size_t lanes = sizeof(Lanes) / sizeof(Scalar);
-  std::array<Inputs, lanes> inputs;
-  std::array<Lanes, Expression::coordinates> x{};
-  std::array<Lanes, Expression::weights> w{};
-  for (std::size_t lane = 0; lane < lanes; ++lane) {
-    inputs[lane] = random_inputs(random, Expression::coordinates);
-    inputs[lane].weights = random_weights<Expression>(random, 20);
-    for (std::size_t i = 0; i < x.size(); ++i) {
-      x[i][lane] = static_cast<Scalar>(inputs[lane].coordinates[i]);
-    }
-    for (std::size_t i = 0; i < w.size(); ++i) {
-      w[i][lane] = static_cast<Scalar>(inputs[lane].weights[i]);
-    }
-  }
-  const Lanes result = Expression::evaluate(x, w);
-  for (std::size_t lane = 0; lane < lanes; ++lane) {
-    EXPECT_EQ(result[lane], (computed_value<Expression, Scalar>(inputs[lane])));
-  }
-}
-
-TYPED_TEST(EveryExpression, RunsInVectorsLikeInScalars) {
-  std::mt19937_64 random(3);
-  for (int i = 0; i < 100; ++i) {
-    expect_lanes_equal_scalars<TypeParam, DoubleLanes, double>(random);
-    expect_lanes_equal_scalars<TypeParam, FloatLanes, float>(random);
-  }
-}
-
 TEST(Expressions, AreExactAtTheEndsOfMotionAndEdges) {
   std::mt19937_64 random(4);
   for (int i = 0; i < 100; ++i) {

@@ -16,6 +16,7 @@
 
 #include "touchstone/derivation/worst_case.hpp"
 #include "touchstone/filters/expressions.hpp"
+#include "touchstone/filters/polynomial_expressions.hpp"
 
 namespace touchstone::filters {
 
@@ -62,6 +63,35 @@ std::vector<double> random_weights(std::mt19937_64& random, int bits) {
   });
   return weights;
 }
+
+using RationalVector = Vector3<mpq_class>;
+
+/// The start of a motion and its end.
+struct RationalMotion {
+  RationalVector start;
+  RationalVector end;
+
+  [[nodiscard]] RationalVector at(const mpq_class& time) const {
+    RationalVector result;
+    for (std::size_t i = 0; i < 3; ++i) result[i] = start[i] + time * (end[i] - start[i]);
+    return result;
+  }
+};
+
+/// Draws small rational numbers, times in [0,1], vectors and motions.
+class SmallRationals {
+ public:
+  mpq_class number() {
+    return mpq_class(static_cast<int>(random_() % 41) - 20) / (1 + static_cast<int>(random_() % 7));
+  }
+  mpq_class fraction() { return mpq_class(static_cast<int>(random_() % 9)) / 8; }
+  RationalVector vector() { return {number(), number(), number()}; }
+  RationalMotion motion() { return {vector(), vector()}; }
+  std::array<RationalMotion, 3> three_motions() { return {motion(), motion(), motion()}; }
+
+ private:
+  std::mt19937_64 random_{1};
+};
 
 /// (a, b) blended once: small enough to check by hand.
 struct Blend {

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <string>
@@ -120,21 +121,18 @@ TEST(FloatBounds, AreOrderedAsTheCoordinatesOfAllScalesAtOnce) {
   for (int i = 0; i < 20; ++i) {
     // Some values are near a change of rounding: the ends of the window of most coordinates.
     const auto coordinate = [&] {
-      switch (random.between(0, 7)) {
-        case 0:
-          return tiniest_double * random.between(-2, 2);
-        case 1:
-          return random.coin() ? greatest_double : -greatest_double;
-        case 2:
-          return 0.0;
-        case 3:
-        case 4: {
-          const double end = random.coin() ? 0x1p-114 : 0x1p78;
-          return (random.coin() ? end : -end) * (1.0 + 0x1p-52 * random.between(-2, 2));
-        }
-        default:
-          return random.finite_double();
-      }
+      const double end = random.coin() ? 0x1p-114 : 0x1p78, any = random.finite_double();
+      const double near_end = end * (1.0 + 0x1p-52 * random.between(-2, 2));
+      const std::array magnitudes{tiniest_double * random.between(0, 2),
+                                  greatest_double,
+                                  0.0,
+                                  near_end,
+                                  near_end,
+                                  any,
+                                  any,
+                                  any};
+      const double x = magnitudes.at(static_cast<std::size_t>(random.between(0, 7)));
+      return random.coin() ? x : -x;
     };
     const auto usual = [&] { return random.uniform(-1, 1); };
     for (const double distance :

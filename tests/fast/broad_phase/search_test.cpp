@@ -17,6 +17,7 @@
 #include "tests/faults/planted_faults.hpp"
 #include "tests/support/random.hpp"
 #include "tests/support/scenes.hpp"
+#include "touchstone/filters/double_double.hpp"
 
 namespace touchstone::fast {
 extern const SearchKernel emulated_avx512_search_kernel;
@@ -37,29 +38,18 @@ std::vector<const SearchKernel*> all_kernels() {
   return kernels;
 }
 
-/// Triangles of a size in a cube; their coordinates are multiples of `grain`, so that boxes often
-/// touch.
-Scene random_scene(Random& random, int faces, double size, double grain, double jitter = 0.0) {
-  Scene scene{.start = Eigen::MatrixX3d(3 * faces, 3), .end = Eigen::MatrixX3d(3 * faces, 3)};
-  const auto on_grid = [&](double x) {
-    const double place = grain == 0.0 ? x : std::round(x / grain) * grain;
-    return jitter == 0.0 ? place : place + jitter * random.between(-2, 2);
-  };
-  for (int i = 0; i < faces; ++i) {
-    for (int axis = 0; axis < 3; ++axis) {
-      const double centre = random.uniform(-1, 1), motion = random.uniform(-size, size);
-      for (int k = 3 * i; k < 3 * i + 3; ++k) {
-        scene.start(k, axis) = on_grid(centre + random.uniform(-size, size));
-        scene.end(k, axis) =
-            on_grid(scene.start(k, axis) + motion + random.uniform(-size, size) / 4);
-      }
+/// Triangles, edges and points of a size in a cube; their coordinates are multiples of `grain`, so
+/// that boxes often touch, but for a few times `jitter`. All vertices are points.
+Scene random_scene(Random& random, int count, double size, double grain, double jitter = 0.0) {
+  Scene scene = tests::soup(random, count, size);
+  for (tests::Places* const places : {&scene.start, &scene.end}) {
+    for (double& x : places->reshaped()) {
+      if (grain != 0.0) x = std::round(x / grain) * grain;
+      if (jitter != 0.0) x += jitter * random.between(-2, 2);
     }
-    const int other = random.between(0, 3 * i + 2);
-    scene.faces.push_back({3 * i, 3 * i + 1, random.coin() ? 3 * i + 2 : other});
-    scene.edges.push_back({3 * i, random.coin() ? 3 * i + 1 : other});
-    scene.edges.push_back({3 * i + 1, 3 * i + 2});
   }
-  for (int i = 0; i < 3 * faces; ++i) scene.points.push_back(i);
+  scene.points.resize(static_cast<std::size_t>(scene.start.rows()));
+  std::iota(scene.points.begin(), scene.points.end(), 0);
   return scene;
 }
 
@@ -101,10 +91,9 @@ Pairs found(const SearchKernel& kernel, const SearchInput<instants>& input) {
 
 // ---- All pairs one by one -----------------------------------------------------------------------
 
-/// True if x − y > d, exactly: the rounded difference and its error add up to the true one.
+/// True if x − y > d, exactly.
 bool exceeds(double x, double y, double distance) {
-  const double difference = x - y, part = difference - x;
-  const double error = (x - (difference - part)) - (y + part);
+  const auto [difference, error] = filters::exact_difference(x, y);
   return difference > distance || (difference == distance && error > 0.0);
 }
 
@@ -132,10 +121,6 @@ bool are_apart(const Scene& scene, const Primitive& a, const Primitive& b, doubl
   return false;
 }
 
-bool share_vertex(const Primitive& a, const Primitive& b) {
-  return std::ranges::any_of(a, [&](std::int32_t i) { return std::ranges::count(b, i) > 0; });
-}
-
 template <std::size_t instants, class First, class Second>
 Pairs all_pairs(const Scene& scene, std::span<const First> first, std::span<const Second> second,
                 double distance) {
@@ -144,7 +129,8 @@ Pairs all_pairs(const Scene& scene, std::span<const First> first, std::span<cons
   for (std::size_t i = 0; i < first.size(); ++i) {
     for (std::size_t k = within ? i + 1 : 0; k < second.size(); ++k) {
       const Primitive a = primitive_of(first[i]), b = primitive_of(second[k]);
-      if (share_vertex(a, b) || are_apart<instants>(scene, a, b, distance)) continue;
+      const bool share_vertex = std::ranges::find_first_of(a, b) != a.end();
+      if (share_vertex || are_apart<instants>(scene, a, b, distance)) continue;
       result.push_back({static_cast<std::int32_t>(i), static_cast<std::int32_t>(k)});
     }
   }
@@ -196,36 +182,35 @@ std::string fault(const SearchKernel& kernel, const Scene& scene, double distanc
 /// The first fault in random scenes, or nothing.
 std::string first_fault(const SearchKernel& kernel) {
   Random random(21);
-  const auto name = [](std::string what, double grain, double distance) {
-    return what.empty() ? what
-                        : what + ", grain " + std::to_string(grain) + ", distance " +
-                              std::to_string(distance);
+  std::string found;
+  const auto search = [&](const Scene& scene, double grain, double distance, Certainty certainty,
+                          bool at_both_ends) {
+    if (found.empty()) found = fault<1>(kernel, scene, distance, certainty);
+    if (found.empty() && at_both_ends) {
+      found = fault<2>(kernel, scene, distance, certainty);
+      if (!found.empty()) found += " at both ends";
+    }
+    if (found.empty()) return true;
+    found += ", grain " + std::to_string(grain) + ", distance " + std::to_string(distance);
+    return false;
   };
+  constexpr double exact = 0.0625, jitter = 0x1p-30;
   for (int round = 0; round < 6; ++round) {
+    const int count = 6 + 6 * round;
     for (const double size : {0.03, 0.2, 1.0}) {
       // Coordinates that are floats, and multiples of 0.1, which are not.
-      for (const double grain : {0.0625, 0.1, 0.0}) {
-        const Scene scene = random_scene(random, 10 + 12 * round, size, grain);
-        const Certainty certainty = grain == 0.0625 ? Certainty::all : Certainty::unless_close;
-        const std::string swept = fault<1>(kernel, scene, 0.0, certainty);
-        if (!swept.empty()) return name(swept, grain, 0);
-        if (grain == 0.0625) {
-          const std::string at_ends = fault<2>(kernel, scene, 0.0, certainty);
-          if (!at_ends.empty()) return name(at_ends + " at both ends", grain, 0);
-        }
+      for (const double grain : {exact, 0.1, 0.0}) {
+        const Certainty certainty = grain == exact ? Certainty::all : Certainty::unless_close;
+        const Scene scene = random_scene(random, count, size, grain);
+        if (!search(scene, grain, 0.0, certainty, grain == exact)) return found;
       }
       // Gaps and overlaps that are too small for floats.
-      constexpr double jitter = 0x1p-30;
-      const Scene near = random_scene(random, 10 + 12 * round, size, 0.0625, jitter);
-      const std::string confirmed = fault<1>(kernel, near, 0.0, Certainty::unless_close);
-      if (!confirmed.empty()) return name(confirmed, jitter, 0);
-      for (const double distance : {0.0625, 0.1, 1e-10}) {
-        const Scene scene = random_scene(random, 10 + 12 * round, size, 0.0625);
+      const Scene near = random_scene(random, count, size, exact, jitter);
+      if (!search(near, jitter, 0.0, Certainty::unless_close, false)) return found;
+      for (const double distance : {exact, 0.1, 1e-10}) {
+        const Scene scene = random_scene(random, count, size, exact);
         for (const Certainty certainty : {Certainty::unless_close, Certainty::none}) {
-          const std::string swept = fault<1>(kernel, scene, distance, certainty);
-          if (!swept.empty()) return name(swept, 0.0625, distance);
-          const std::string at_ends = fault<2>(kernel, scene, distance, certainty);
-          if (!at_ends.empty()) return name(at_ends + " at both ends", 0.0625, distance);
+          if (!search(scene, exact, distance, certainty, true)) return found;
         }
       }
     }
@@ -244,7 +229,7 @@ TEST(Search, MissesNothingWithoutConfirmation) {
   Random random(22);
   for (const double distance : {0.0, 0.1, 1e-10}) {
     for (const double grain : {0.1, 0.0}) {
-      const Scene scene = random_scene(random, 60, 0.2, grain);
+      const Scene scene = random_scene(random, 30, 0.2, grain);
       const Trees<2> trees(scene, distance);
       const PairRules rules{.of_edges = true};
       const Pairs some = all_pairs<2, Edge, Edge>(scene, scene.edges, scene.edges, distance);
@@ -276,7 +261,7 @@ void expect_same_order(const Scene& scene) {
 TEST(Search, GivesTheSamePairsInTheSameOrder) {
   Random random(23);
   for (const double grain : {0.0, 0.01}) {
-    const Scene scene = random_scene(random, 2000, 0.08, grain);
+    const Scene scene = random_scene(random, 1000, 0.08, grain);
     expect_same_order<1>(scene);
     expect_same_order<2>(scene);
   }
@@ -365,28 +350,19 @@ std::array<std::vector<std::int32_t>, 2> expected_of(const Centres& centres, std
 /// The first centres that a kernel divides wrongly, or nothing.
 std::string first_wrong_division(const SearchKernel& kernel) {
   Random random(26);
-  for (const int kind : {0, 1, 2, 3, 4}) {
+  // Any, many equal ones, all sizes, both zeros, and one alone.
+  constexpr std::array<float (*)(Random&), 5> kinds{
+      [](Random& r) { return static_cast<float>(r.uniform(-1, 1)); },
+      [](Random& r) { return static_cast<float>(r.between(-2, 2)); },
+      [](Random& r) {
+        return static_cast<float>(std::ldexp(r.coin() ? 1 : -1, r.between(-140, 60)));
+      },
+      [](Random& r) { return r.coin() ? 0.0F : -0.0F; }, [](Random& /*r*/) { return 1.0F; }};
+  for (std::size_t kind = 0; kind < kinds.size(); ++kind) {
     for (const std::size_t count : {17U, 31U, 32U, 33U, 100U, 256U, 1000U}) {
       Centres centres(count);
       for (auto& centre : centres) {
-        for (float& x : centre) {
-          switch (kind) {
-            case 0:
-              x = static_cast<float>(random.uniform(-1, 1));
-              break;
-            case 1:  // many equal ones
-              x = static_cast<float>(random.between(-2, 2));
-              break;
-            case 2:  // all sizes
-              x = static_cast<float>(std::ldexp(random.coin() ? 1 : -1, random.between(-140, 60)));
-              break;
-            case 3:  // both zeros
-              x = random.coin() ? 0.0F : -0.0F;
-              break;
-            default:
-              x = 1.0F;
-          }
-        }
+        for (float& x : centre) x = kinds.at(kind)(random);
       }
       for (std::size_t rank = group_size; rank < count; rank += group_size) {
         if (divided(kernel, centres, rank) != expected_of(centres, rank)) {

@@ -11,10 +11,12 @@
 #include <cstdint>
 #include <cstdio>
 #include <cstring>
+#include <functional>
 #include <map>
 #include <memory>
 #include <span>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "fast/certified/block.hpp"
@@ -61,39 +63,29 @@ Query random_query(Random& random, Kind kind) {
   }
 }
 
-/// The sorted numbers in a list.
-std::vector<std::uint32_t> numbers(const KernelOutput::List<std::uint32_t>& list) {
-  std::vector<std::uint32_t> result(list.items.begin(),
-                                    list.items.begin() + static_cast<std::ptrdiff_t>(list.count));
-  std::ranges::sort(result);
-  return result;
-}
-
-std::vector<KernelImpact> collisions(const KernelOutput& output) {
-  std::vector<KernelImpact> result(
-      output.impacts.items.begin(),
-      output.impacts.items.begin() + static_cast<std::ptrdiff_t>(output.impacts.count));
-  std::ranges::sort(result, {}, &KernelImpact::index);
+/// The items of a list, sorted.
+template <class Item, class Projection = std::identity>
+std::vector<Item> sorted(const KernelOutput::List<Item>& list, const Projection& projection = {}) {
+  std::vector<Item> result(list.items.begin(),
+                           list.items.begin() + static_cast<std::ptrdiff_t>(list.count));
+  std::ranges::sort(result, {}, projection);
   return result;
 }
 
 void expect_same_collisions(const KernelOutput& a, const KernelOutput& b) {
-  const std::vector<KernelImpact> of_a = collisions(a), of_b = collisions(b);
-  ASSERT_EQ(of_a.size(), of_b.size());
-  for (std::size_t i = 0; i < of_a.size(); ++i) {
-    EXPECT_EQ(of_a[i].index, of_b[i].index);
-    EXPECT_EQ(of_a[i].toi_lower, of_b[i].toi_lower);
-    EXPECT_EQ(of_a[i].toi_upper, of_b[i].toi_upper);
-    EXPECT_EQ(of_a[i].u, of_b[i].u);
-    EXPECT_EQ(of_a[i].v, of_b[i].v);
-  }
+  const auto numbers_of = [](const KernelImpact& x) {
+    return std::tuple(x.index, x.toi_lower, x.toi_upper, x.u, x.v);
+  };
+  EXPECT_TRUE(std::ranges::equal(sorted(a.impacts, &KernelImpact::index),
+                                 sorted(b.impacts, &KernelImpact::index), {}, numbers_of,
+                                 numbers_of));
 }
 
 void expect_same(const KernelOutput& a, const KernelOutput& b) {
-  EXPECT_EQ(numbers(a.separated_in_direction), numbers(b.separated_in_direction));
-  EXPECT_EQ(numbers(a.one_sided), numbers(b.one_sided));
-  EXPECT_EQ(numbers(a.rejected), numbers(b.rejected));
-  EXPECT_EQ(numbers(a.undecided), numbers(b.undecided));
+  EXPECT_EQ(sorted(a.separated_in_direction), sorted(b.separated_in_direction));
+  EXPECT_EQ(sorted(a.one_sided), sorted(b.one_sided));
+  EXPECT_EQ(sorted(a.rejected), sorted(b.rejected));
+  EXPECT_EQ(sorted(a.undecided), sorted(b.undecided));
   expect_same_collisions(a, b);
 }
 
@@ -106,6 +98,17 @@ std::vector<const CertifiedKernel*> all_kernels() {
   return kernels;
 }
 
+/// Decides with the scalar kernel and expects the same of all others.
+void expect_same_bits(const KernelInput& input, KernelOutput& plain) {
+  const auto other = std::make_unique<KernelOutput>();
+  certified_kernels().front()->decide(input, plain);
+  for (const CertifiedKernel* const kernel : all_kernels()) {
+    SCOPED_TRACE(to_string(kernel->instructions));
+    kernel->decide(input, *other);
+    expect_same(plain, *other);
+  }
+}
+
 /// Separations: zero, and from beyond rounding to far below it, in both norms.
 Separation separation_of(int round) {
   constexpr std::array<double, 6> distances{0.0, 0.05, 1e-8, 1e-15, 1e-30, 1e300};
@@ -114,23 +117,18 @@ Separation separation_of(int round) {
 }
 
 TEST(CertifiedKernels, GiveTheSameBits) {
-  const auto plain = std::make_unique<KernelOutput>(), other = std::make_unique<KernelOutput>();
+  const auto plain = std::make_unique<KernelOutput>();
   for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
     Random random(1);
     for (int round = 0; round < 60; ++round) {
       std::vector<Query> queries(static_cast<std::size_t>(random.between(1, kernel_block)));
       for (Query& query : queries) query = random_query(random, kind);
-      const KernelInput input{.kind = kind,
-                              .count = queries.size(),
-                              .queries = queries.data(),
-                              .separation = separation_of(round),
-                              .t_limit = round % 3 == 0 ? 0.5 : 1.0};
-      certified_kernels().front()->decide(input, *plain);
-      for (const CertifiedKernel* const kernel : all_kernels()) {
-        SCOPED_TRACE(to_string(kernel->instructions));
-        kernel->decide(input, *other);
-        expect_same(*plain, *other);
-      }
+      expect_same_bits({.kind = kind,
+                        .count = queries.size(),
+                        .queries = queries.data(),
+                        .separation = separation_of(round),
+                        .t_limit = round % 3 == 0 ? 0.5 : 1.0},
+                       *plain);
     }
   }
 }
@@ -202,12 +200,7 @@ TEST(CertifiedKernels, GiveTheSameBitsOfPairsInSinglePrecision) {
       const Pairs pairs(kind, queries, separation.distance);
       KernelInput input = pairs.input();
       input.separation = separation;
-      certified_kernels().front()->decide(input, *plain);
-      for (const CertifiedKernel* const kernel : all_kernels()) {
-        SCOPED_TRACE(to_string(kernel->instructions));
-        kernel->decide(input, *other);
-        expect_same(*plain, *other);
-      }
+      expect_same_bits(input, *plain);
       // The collisions are those without single precision.
       if (input.rounded == nullptr) continue;
       decided += plain->separated_in_direction.count + plain->one_sided.count;

@@ -8,41 +8,24 @@
 #include <string>
 
 #include "tests/support/floating_point_modes.hpp"
+#include "tests/support/messages.hpp"
 
 namespace touchstone::fast::arithmetic_check_test {
 namespace {
 
-/// Restores the floating-point environment that the test found.
-class ArithmeticCheck : public ::testing::Test {
- public:
-  ArithmeticCheck() { std::fegetenv(&environment_); }
-  ArithmeticCheck(const ArithmeticCheck&) = delete;
-  ArithmeticCheck& operator=(const ArithmeticCheck&) = delete;
-  ArithmeticCheck(ArithmeticCheck&&) = delete;
-  ArithmeticCheck& operator=(ArithmeticCheck&&) = delete;
-  ~ArithmeticCheck() override { std::fesetenv(&environment_); }
-
- private:
-  std::fenv_t environment_{};
-};
-
-TEST_F(ArithmeticCheck, AcceptsThisBuild) {
+TEST(ArithmeticCheck, AcceptsThisBuild) {
   EXPECT_TRUE(check_arithmetic().is_strict());
   EXPECT_NO_THROW(require_strict_arithmetic());
 }
 
-TEST_F(ArithmeticCheck, FindsEveryOtherRoundingModeAndSaysSo) {
+TEST(ArithmeticCheck, FindsEveryOtherRoundingModeAndSaysSo) {
   for (const int mode : {FE_UPWARD, FE_DOWNWARD, FE_TOWARDZERO}) {
     EXPECT_NO_THROW(require_strict_environment());
     std::fesetround(mode);
     const ArithmeticReport report = check_arithmetic();
     EXPECT_THROW(require_strict_environment(), std::runtime_error) << mode;
-    std::string message;
-    try {
-      require_strict_arithmetic();
-    } catch (const std::runtime_error& error) {
-      message = error.what();
-    }
+    const std::string message =
+        tests::message_of<std::runtime_error>([] { require_strict_arithmetic(); });
     std::fesetround(FE_TONEAREST);
     EXPECT_FALSE(report.rounds_to_nearest) << mode;
     EXPECT_TRUE(report.gradual_underflow) << mode;
@@ -51,7 +34,7 @@ TEST_F(ArithmeticCheck, FindsEveryOtherRoundingModeAndSaysSo) {
   }
 }
 
-TEST_F(ArithmeticCheck, FindsFlushToZeroAndDenormalsAreZero) {
+TEST(ArithmeticCheck, FindsFlushToZeroAndDenormalsAreZero) {
   for (const std::uint64_t flag : {tests::flush_to_zero, tests::subnormals_are_zero}) {
     const ArithmeticReport report = [flag] {
       const tests::ChangedModes changed(flag);

@@ -55,17 +55,6 @@ Query random_query(Random& random, const BoxKernel& kernel) {
   return query;
 }
 
-struct Case {
-  Kind kind;
-  Query query;
-  Box box;
-};
-
-Case random_case(Random& random, const BoxKernel& kernel) {
-  return {random.coin() ? Kind::edge_edge : Kind::vertex_face, random_query(random, kernel),
-          random_box(random, kernel.digits)};
-}
-
 bool is_released(const BoxKernel& kernel) { return &kernel == &released_box_kernel(); }
 
 /// F at corner number `corner` (binary digits t, u, v), from the kernel's stated expressions.
@@ -132,55 +121,43 @@ TEST_P(EachKernel, LoadsCoordinatesAndTheirExtent) {
   }
 }
 
-TEST_P(EachKernel, ComputesTheExpressionsBitForBit) {
+TEST_P(EachKernel, ComputesTheExpressionsBitForBitAndTestsTheBoxOfItsCorners) {
+  const BoxKernel& kernel = *GetParam();
+  const auto round = [&kernel](double x) { return rounded(kernel, x); };
   Random random(2);
-  for (int i = 0; i < 20000; ++i) {
-    const auto [kind, query, box] = random_case(random, *GetParam());
-    BoxProblem problem;
-    problem.kind = kind;
-    static_cast<void>(GetParam()->load(query, problem));
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      const CornerValues values = GetParam()->corners(problem, box, axis);
-      for (std::size_t corner = 0; corner < 8; ++corner) {
-        const double expected =
-            is_single_precision(*GetParam())
-                ? static_cast<double>(expression<float>(*GetParam(), problem, box, axis, corner))
-                : expression<double>(*GetParam(), problem, box, axis, corner);
-        ASSERT_EQ(bits(values[corner]), bits(expected))
-            << to_string(kind) << " case " << i << " axis " << axis << " corner " << corner;
-      }
-    }
-  }
-}
-
-TEST_P(EachKernel, TestsTheBoxOfItsCorners) {
-  Random random(4);
   int rejections = 0, insides = 0;
   for (int i = 0; i < 20000; ++i) {
-    const auto [kind, query, box] = random_case(random, *GetParam());
     BoxProblem problem;
-    problem.kind = kind;
-    static_cast<void>(GetParam()->load(query, problem));
-    const double scale = std::abs(query.coordinates[0]);
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      problem.filter[axis] = rounded(*GetParam(), scale * random.uniform(0.0, 4.0));
-    }
-    problem.separation =
-        random.coin() ? 0.0 : rounded(*GetParam(), scale * random.uniform(0.0, 4.0));
+    problem.kind = random.coin() ? Kind::edge_edge : Kind::vertex_face;
+    const Query query = random_query(random, kernel);
+    const Box box = random_box(random, kernel.digits);
+    static_cast<void>(kernel.load(query, problem));
+    const auto tolerance = [&] {
+      return round(std::abs(query.coordinates[0]) * random.uniform(0.0, 4.0));
+    };
+    for (std::size_t axis = 0; axis < 3; ++axis) problem.filter[axis] = tolerance();
+    problem.separation = random.coin() ? 0.0 : tolerance();
 
     bool rejected = false, inside = true;
     double width = 0.0;
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      const CornerValues values = GetParam()->corners(problem, box, axis);
+      const CornerValues values = kernel.corners(problem, box, axis);
+      for (std::size_t corner = 0; corner < 8; ++corner) {
+        const double expected =
+            is_single_precision(kernel)
+                ? static_cast<double>(expression<float>(kernel, problem, box, axis, corner))
+                : expression<double>(kernel, problem, box, axis, corner);
+        ASSERT_EQ(bits(values[corner]), bits(expected))
+            << to_string(problem.kind) << " case " << i << " axis " << axis << " corner " << corner;
+      }
       const auto [least, greatest] = std::ranges::minmax(values);
       const double filter = problem.filter[axis], d = problem.separation;
       // (A sum of two floats that is rounded to double and then to float is rounded correctly.)
-      const auto round = [](double x) { return rounded(*GetParam(), x); };
       rejected = rejected || round(least - d) > filter || round(greatest + d) < -filter;
       inside = inside && round(greatest - d) <= filter && round(least + d) >= -filter;
       width = std::max(width, round(greatest - least));
     }
-    const BoxTest test = GetParam()->test(problem, box);
+    const BoxTest test = kernel.test(problem, box);
     ASSERT_EQ(test.rejected, rejected) << i;
     rejections += rejected ? 1 : 0;
     if (rejected) continue;

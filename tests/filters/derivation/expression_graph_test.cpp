@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "tests/filters/support.hpp"
+#include "tests/support/messages.hpp"
 
 namespace touchstone::filters::expression_graph_test {
 namespace {
@@ -95,12 +96,7 @@ struct MixedSum : Blend {
 
 template <class Expression>
 std::string refusal() {
-  try {
-    static_cast<void>(record<Expression>());
-  } catch (const std::invalid_argument& error) {
-    return error.what();
-  }
-  return "accepted";
+  return tests::message_of<std::invalid_argument>([] { (void)record<Expression>(); });
 }
 
 TEST(ExpressionGraph, RefusesWhatBreaksTheRules) {
@@ -110,18 +106,18 @@ TEST(ExpressionGraph, RefusesWhatBreaksTheRules) {
             "expression hidden_square: a product has weights of one group on both sides");
   EXPECT_EQ(refusal<Miscounted>(),
             "expression miscounted: its groups do not hold exactly its weights");
-  EXPECT_EQ(refusal<Blend>(), "accepted");
+  EXPECT_EQ(refusal<Blend>(), "");
 }
 
 TEST(ExpressionGraph, RefusesClassesThatItsProductsDoNotHave) {
-  EXPECT_EQ((refusal<Area<0, 0, 1, 1>>()), "accepted");
-  EXPECT_EQ((refusal<Area<7, 7, 2, 2>>()), "accepted") << "classes are names";
+  EXPECT_EQ((refusal<Area<0, 0, 1, 1>>()), "");
+  EXPECT_EQ((refusal<Area<7, 7, 2, 2>>()), "") << "classes are names";
   EXPECT_EQ((refusal<Area<0, 0, 0, 0>>()),
             "expression area: a product has coordinates of one class on both sides");
   EXPECT_EQ((refusal<Area<0, 1, 1, 0>>()),
             "expression area: a product has coordinates of one class on both sides");
   EXPECT_EQ((refusal<Area<0, 2, 1, 1>>()), "expression area: a sum adds terms of other classes");
-  EXPECT_EQ((refusal<Area<0, 1, 0, 1>>()), "accepted") << "x and y instead of sides";
+  EXPECT_EQ((refusal<Area<0, 1, 0, 1>>()), "") << "x and y instead of sides";
   EXPECT_EQ((refusal<Area<0, 0, 1>>()), "expression area: its classes are not one a coordinate");
   EXPECT_EQ((refusal<Area<0, 0, 1, 1, 1>>()),
             "expression area: its classes are not one a coordinate");

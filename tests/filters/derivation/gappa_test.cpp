@@ -159,24 +159,7 @@ TEST(Gappa, RefusesGoalsThatItsModelDoesNotHave) {
                std::invalid_argument);
 }
 
-/// Another PATH during the life of this object.
-class OtherPath {
- public:
-  explicit OtherPath(const std::string& path) {
-    if (const char* const before = std::getenv("PATH")) before_ = before;
-    setenv("PATH", path.c_str(), 1);
-  }
-  OtherPath(const OtherPath&) = delete;
-  OtherPath& operator=(const OtherPath&) = delete;
-  OtherPath(OtherPath&&) = delete;
-  OtherPath& operator=(OtherPath&&) = delete;
-  ~OtherPath() { setenv("PATH", before_.c_str(), 1); }
-
- private:
-  std::string before_;
-};
-
-/// A program called gappa in a separate folder.
+/// A program called gappa, alone in PATH, during the life of this object.
 class FakeGappa {
  public:
   explicit FakeGappa(const std::string& body)
@@ -184,22 +167,25 @@ class FakeGappa {
     fs::create_directories(folder_);
     std::ofstream(folder_ / "gappa") << "#!/bin/sh\n" << body << "\n";
     fs::permissions(folder_ / "gappa", fs::perms::owner_all);
+    if (const char* const before = std::getenv("PATH")) path_before_ = before;
+    setenv("PATH", folder_.c_str(), 1);
   }
   FakeGappa(const FakeGappa&) = delete;
   FakeGappa& operator=(const FakeGappa&) = delete;
   FakeGappa(FakeGappa&&) = delete;
   FakeGappa& operator=(FakeGappa&&) = delete;
-  ~FakeGappa() { fs::remove_all(folder_); }
-
-  [[nodiscard]] std::string path() const { return folder_.string(); }
+  ~FakeGappa() {
+    setenv("PATH", path_before_.c_str(), 1);
+    fs::remove_all(folder_);
+  }
 
  private:
   fs::path folder_;
+  std::string path_before_;
 };
 
 TEST(Gappa, HasProvedNothingWhenItsTimeIsOver) {
   const FakeGappa endless("echo said; while :; do :; done");
-  const OtherPath path(endless.path());
   const GappaAnswer answer = run_gappa("{ x in [0,1] -> x in ? }", std::chrono::seconds(1));
   EXPECT_FALSE(answer.proved);
   EXPECT_FALSE(answer.bound);
@@ -208,7 +194,6 @@ TEST(Gappa, HasProvedNothingWhenItsTimeIsOver) {
 
 TEST(Gappa, HasFailedIfItIsEndedByAnotherSignal) {
   const FakeGappa killed("kill -9 $$");
-  const OtherPath path(killed.path());
   EXPECT_THROW(static_cast<void>(run_gappa("{ x in [0,1] -> x in ? }")), std::runtime_error);
 }
 

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstdint>
 #include <cstdio>
 #include <limits>
@@ -50,17 +49,6 @@ TEST(ExactStage, EnclosesATinyTimeOfImpact) {
   expect_truth(small, 0.0);
   expect_truth(small, 1e-12);
   expect_truth(small, 5e-324);
-}
-
-TEST(ExactStage, AnIrrationalTimeOfImpactIsBetweenNeighbours) {
-  // The triangle turns by t x = y and the vertex is at x = 1 − t, y = 1/8: 8 t (1 − t) = 1. At the
-  // first root the vertex is still beside the triangle.
-  const PosedQuery posed = tests::turning_triangle(1, 1, 0, 0.125);
-  const auto impact = decide_exactly(posed.kind, posed.query, 0.0, 1.0);
-  ASSERT_TRUE(impact.has_value());
-  const double toi = 0.5 + std::sqrt(0.125);
-  EXPECT_NEAR(impact->toi_upper, toi, 1e-15);
-  expect_truth(posed, 0.0);
 }
 
 // ---- Planted faults -----------------------------------------------------------------------------

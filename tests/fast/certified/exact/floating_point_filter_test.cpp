@@ -23,17 +23,6 @@ using Time = BasicTime<std::int64_t>;
 
 constexpr std::array<int, 4> rounding_modes{FE_TONEAREST, FE_UPWARD, FE_DOWNWARD, FE_TOWARDZERO};
 
-/// A rounding mode for the time of its life.
-class Rounding {
- public:
-  explicit Rounding(int mode) { std::fesetround(mode); }
-  Rounding(const Rounding&) = delete;
-  Rounding& operator=(const Rounding&) = delete;
-  Rounding(Rounding&&) = delete;
-  Rounding& operator=(Rounding&&) = delete;
-  ~Rounding() { std::fesetround(FE_TONEAREST); }
-};
-
 Time draw_time(Random& random) {
   const auto bits = static_cast<unsigned>(random.between(1, 61));
   const std::int64_t sum = std::int64_t{1} << bits;
@@ -93,7 +82,7 @@ TEST(FilteredForm, SignsAreExactInEveryRoundingMode) {
   Random random(1);
   int zeros = 0;
   for (int i = 0; i < 4000; ++i) {
-    const Rounding rounding(rounding_modes[static_cast<std::size_t>(i) % 4]);
+    std::fesetround(rounding_modes[static_cast<std::size_t>(i) % 4]);
     const Drawn<2> line(random);
     EXPECT_EQ(FilteredForm(line.coefficients).sign_at(line.at),
               sgn(blossom_of(line.integers, {line.at})));
@@ -111,6 +100,7 @@ TEST(FilteredForm, SignsAreExactInEveryRoundingMode) {
               sgn(blossom_of(cubic.integers, {cubic.at, cubic.at, cubic.other})));
     if (sign == 0) ++zeros;
   }
+  std::fesetround(FE_TONEAREST);
   EXPECT_GT(zeros, 20);
 }
 
@@ -119,10 +109,9 @@ TEST(FilteredForm, RoundedValuesAreWithinTheirBound) {
   int unsure = 0, near = 0;
   for (int i = 0; i < 4000; ++i) {
     const Drawn<4> cubic(random);
-    const RoundedBlossom rounded = [&] {
-      const Rounding rounding(rounding_modes[static_cast<std::size_t>(i) % 4]);
-      return FilteredForm(cubic.coefficients).rounded_value_at(cubic.at);
-    }();
+    std::fesetround(rounding_modes[static_cast<std::size_t>(i) % 4]);
+    const RoundedBlossom rounded = FilteredForm(cubic.coefficients).rounded_value_at(cubic.at);
+    std::fesetround(FE_TONEAREST);
     const Rational truth(blossom_of(cubic.integers, {cubic.at, cubic.at, cubic.at}));
     const Rational error = abs(Rational(rounded.value) - truth);
     EXPECT_LE(error, Rational(RoundedBlossom::rounding) * Rational(rounded.magnitude));

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Core>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -19,7 +20,7 @@ struct Lanes {
   using Value = fast::Value;
 };
 
-using Point = std::array<double, 3>;
+using Point = Eigen::Vector3d;
 template <Kind kind>
 using Polygon = std::array<Point, kind == Kind::vertex_face ? 3 : 4>;
 
@@ -34,7 +35,9 @@ template <Kind kind, Norm norm>
 Found nearest(const Polygon<kind>& polygon) {
   typename NearestPoint<Lanes, kind, norm>::Corners w;
   for (std::size_t i = 0; i < w.size(); ++i) {
-    for (std::size_t k = 0; k < 3; ++k) w[i][k] = Lanes::Value(polygon[i][k]);
+    for (std::size_t k = 0; k < 3; ++k) {
+      w[i][k] = Lanes::Value(polygon[i][static_cast<Eigen::Index>(k)]);
+    }
   }
   const NearestPoint<Lanes, kind, norm> point(w);
   return {{point.direction[0].x, point.direction[1].x, point.direction[2].x}, point.u.x, point.v.x};
@@ -42,20 +45,15 @@ Found nearest(const Polygon<kind>& polygon) {
 
 template <Kind kind>
 Point point_at(const Polygon<kind>& w, double u, double v) {
-  Point x;
-  for (std::size_t k = 0; k < 3; ++k) {
-    x[k] = w[0][k] + u * (w[1][k] - w[0][k]) + v * (w.back()[k] - w[0][k]);
-  }
-  return x;
+  return w[0] + u * (w[1] - w[0]) + v * (w.back() - w[0]);
 }
 
 double length(Norm norm, const Point& x) {
-  if (norm == Norm::l2) return std::sqrt(x[0] * x[0] + x[1] * x[1] + x[2] * x[2]);
-  return std::max({std::abs(x[0]), std::abs(x[1]), std::abs(x[2])});
+  return norm == Norm::l2 ? x.norm() : x.lpNorm<Eigen::Infinity>();
 }
 
 double dual_length(Norm norm, const Point& x) {
-  return norm == Norm::l2 ? length(norm, x) : std::abs(x[0]) + std::abs(x[1]) + std::abs(x[2]);
+  return norm == Norm::l2 ? x.norm() : x.lpNorm<1>();
 }
 
 /// The distance that the direction separates: at most the true distance, and equal to it for the
@@ -63,9 +61,7 @@ double dual_length(Norm norm, const Point& x) {
 template <Kind kind>
 double separation(const Polygon<kind>& polygon, const Point& direction) {
   double least = 1e300;
-  for (const Point& w : polygon) {
-    least = std::min(least, direction[0] * w[0] + direction[1] * w[1] + direction[2] * w[2]);
-  }
+  for (const Point& w : polygon) least = std::min(least, direction.dot(w));
   return least;
 }
 
@@ -89,15 +85,15 @@ void expect_distance(const Polygon<kind>& polygon, double tolerance) {
 
 template <Kind kind>
 Polygon<kind> random_polygon(tests::Random& random) {
+  const auto vector = [&](double size) {
+    return Point{random.uniform(-size, size), random.uniform(-size, size),
+                 random.uniform(-size, size)};
+  };
   Polygon<kind> w;
   // An offset that mostly moves the polygon off the origin.
-  const Point offset{random.uniform(-2, 2), random.uniform(-2, 2), random.uniform(-2, 2)};
-  for (std::size_t i = 0; i < 3; ++i) {
-    for (std::size_t k = 0; k < 3; ++k) w[i][k] = offset[k] + random.uniform(-1, 1);
-  }
-  if constexpr (kind == Kind::edge_edge) {
-    for (std::size_t k = 0; k < 3; ++k) w[3][k] = w[0][k] + w[2][k] - w[1][k];
-  }
+  const Point offset = vector(2);
+  for (std::size_t i = 0; i < 3; ++i) w[i] = offset + vector(1);
+  if constexpr (kind == Kind::edge_edge) w[3] = w[0] + w[2] - w[1];
   return w;
 }
 
@@ -145,10 +141,8 @@ TEST(NearestPoint, WhatIsNoDirectionSeparatesNothing) {
   const Polygon<Kind::vertex_face> none{{{nan, 0, 0}, {0, nan, 0}, {0, 0, nan}}};
   EXPECT_FALSE(separation<Kind::vertex_face>(
                    none, nearest<Kind::vertex_face, Norm::l2>(none).direction) < 1e299);
-  const Polygon<Kind::vertex_face> zero{};
-  for (const double x : nearest<Kind::vertex_face, Norm::l2>(zero).direction) {
-    EXPECT_FALSE(std::abs(x) > 0.0);
-  }
+  const Polygon<Kind::vertex_face> zero{Point::Zero(), Point::Zero(), Point::Zero()};
+  EXPECT_FALSE((nearest<Kind::vertex_face, Norm::l2>(zero).direction.array().abs() > 0.0).any());
 }
 
 }  // namespace
