@@ -352,26 +352,6 @@ TEST(Oracle, IsExactAcrossTheWholeRangeOfDoublesForEdges) {
   expect_no_collision(query(-least));
 }
 
-TEST(Oracle, DecidesSubnormalQueriesAsTheirMultiples) {
-  Random random(20260101);
-  int collisions = 0;
-  for (int i = 0; i < 400; ++i) {
-    const Kind kind = random.coin() ? Kind::vertex_face : Kind::edge_edge;
-    const PosedQuery large = random_query(random, kind, Family::small_integers);
-    PosedQuery small = large;
-    for (double& x : small.query.coordinates) x *= least;
-    SCOPED_TRACE(large);
-    const Decision expected = decide(large), verdict = decide(small);
-    ASSERT_EQ(verdict.collides(), expected.collides());
-    if (!verdict.collides()) continue;
-    ++collisions;
-    EXPECT_TRUE(*verdict.toi == *expected.toi);
-    check_contact(small, verdict);
-  }
-  EXPECT_GT(collisions, 50);
-  EXPECT_LT(collisions, 350);
-}
-
 TEST(Oracle, EnclosesTimesThatAreTinyOrNextToADouble) {
   // t·2t = y: the toi is √(y/2), here an odd power of √2.
   for (const double y : {0x1p-200, 0x1p-600, 0x1p-1074}) {
