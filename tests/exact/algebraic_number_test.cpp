@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <iterator>
 #include <limits>
 #include <stdexcept>
@@ -94,16 +95,32 @@ Factor random_factor(Random& random) {
   }
 }
 
+/// A number, and the sign of its difference to a rational one by other means.
 struct Known {
   AlgebraicNumber number;
-  Rational key;
+  std::function<int(const Rational&)> minus;
 };
 
-/// True if the isolating interval of `number` isolates the number with this key.
-bool isolates(const AlgebraicNumber& number, const Rational& key) {
-  const auto [lower, upper] = number.interval();
-  if (lower == upper) return power(lower, 6) == key;
-  return power(lower, 6) < key && key < power(upper, 6);
+Known with_key(const AlgebraicNumber& number, const Rational& key) {
+  return {number, [key](const Rational& x) { return sgn(x) < 0 ? 1 : cmp(key, power(x, 6)); }};
+}
+
+/// True if these numbers, as the ends of an interval, are the known one or enclose it strictly.
+bool encloses(const Rational& lower, const Rational& upper, const Known& known) {
+  if (lower == upper) return known.minus(lower) == 0;
+  return known.minus(lower) > 0 && known.minus(upper) < 0;
+}
+
+bool is_isolated(const Known& known) {
+  const auto [lower, upper] = known.number.interval();
+  return encloses(lower, upper, known);
+}
+
+/// Expects the double itself if the number is one, and its two neighbours if not.
+void expect_tight(const Known& known) {
+  const auto [lower, upper] = known.number.enclosure();
+  EXPECT_TRUE(encloses(Rational(lower), Rational(upper), known)) << lower << ' ' << upper;
+  EXPECT_TRUE(lower == upper || upper == std::nextafter(lower, infinity)) << lower << ' ' << upper;
 }
 
 /// The roots in [0,1] of a product of random factors, with their known keys.
@@ -123,16 +140,7 @@ std::vector<Known> random_known_roots(Random& random) {
   EXPECT_EQ(roots.size(), keys.size()) << p;
   std::vector<Known> result;
   for (std::size_t i = 0; i < std::min(roots.size(), keys.size()); ++i) {
-    result.push_back({roots[i], keys[i]});
-  }
-  return result;
-}
-
-std::vector<Known> pool(std::uint64_t seed, std::size_t least_size) {
-  Random random(seed);
-  std::vector<Known> result;
-  while (result.size() < least_size) {
-    for (Known& known : random_known_roots(random)) result.push_back(std::move(known));
+    result.push_back(with_key(roots[i], keys[i]));
   }
   return result;
 }
@@ -141,7 +149,7 @@ std::vector<Known> pool(std::uint64_t seed, std::size_t least_size) {
 Known hidden(const Factor& factor) {
   std::vector<AlgebraicNumber> roots = roots_in_unit_interval(factor.p * without_real_roots());
   EXPECT_EQ(roots.size(), 1U);
-  return {roots.at(0), factor.key};
+  return with_key(roots.at(0), factor.key);
 }
 
 TEST(RootsInUnitInterval, EndsCountAndAreKnownToBeRational) {
@@ -197,30 +205,6 @@ TEST(RootsInUnitInterval, AreFoundInClustersOfThree) {
 
 // ---- Refinement ---------------------------------------------------------------------------------
 
-TEST(Refine, ReachesTheWidthAndKeepsTheRoot) {
-  Random random(43);
-  for (auto& [number, key] : pool(44, 60)) {
-    int level = 0;
-    for (int round = 0; round < 8; ++round) {
-      level += random.between(0, 150);
-      const Rational width = power_of_two(-level) * fraction(random.between(1, 99), 50);
-      const RationalInterval before = number.interval();
-      number.refine(width);
-      const auto [lower, upper] = number.interval();
-      EXPECT_LE(Rational(upper - lower), width);
-      EXPECT_TRUE(isolates(number, key));
-      AlgebraicNumber other = number;
-      other.refine_to_level(static_cast<unsigned long>(level));
-      EXPECT_LE(Rational(other.interval().upper - other.interval().lower), power_of_two(-level));
-      EXPECT_TRUE(isolates(other, key));
-      EXPECT_TRUE(before.lower <= lower && upper <= before.upper);
-      if (!number.rational()) {
-        EXPECT_EQ(sign_at(number.polynomial(), lower) * sign_at(number.polynomial(), upper), -1);
-      }
-    }
-  }
-}
-
 TEST(Refine, TakesAnyPositiveWidthAndNoOther) {
   for (AlgebraicNumber number :
        {hidden(square_root(fraction(1, 2))).number, AlgebraicNumber(Rational(1, 3))}) {
@@ -258,25 +242,6 @@ TEST(Refine, IsNotDeceivedByNearlyMultipleRoots) {
   EXPECT_EQ(roots[0], root);
 }
 
-// ---- Signs and comparison against keys ----------------------------------------------------------
-
-TEST(Comparison, AgainstRationals) {
-  for (const auto& [number, key] : pool(50, 70)) {
-    std::vector<Rational> others{-3, 0, 1, 2, number.interval().lower, number.interval().upper};
-    for (int n = 1; n < 12; ++n) others.push_back(fraction(n, 12));
-    for (const Rational& r : {fraction(1, 64), fraction(2, 3), fraction(4, 9), fraction(3, 7)}) {
-      others.push_back(r);
-      others.emplace_back(r + power_of_two(-200));
-    }
-    for (const Rational& other : others) {
-      const int expected = sgn(other) < 0 ? 1 : cmp(key, power(other, 6));
-      EXPECT_TRUE((number <=> other) == (expected <=> 0)) << other;
-      EXPECT_TRUE((other <=> number) == (0 <=> expected)) << other;
-      EXPECT_EQ(number == other, expected == 0);
-    }
-  }
-}
-
 // ---- Against CGAL's algebraic kernel ------------------------------------------------------------
 
 using Kernel = CGAL::Algebraic_kernel_d_1<CGAL::Gmpz>;
@@ -300,19 +265,16 @@ std::vector<CgalRoot> cgal_roots(const Polynomial& p) {
   return result;
 }
 
-/// True if CGAL's root is in the isolating interval, and so is the number.
-bool isolates(const AlgebraicNumber& number, const CgalRoot& root) {
-  const auto compare = Kernel().compare_1_object();
-  const auto [lower, upper] = number.interval();
-  const auto below = compare(root, to_cgal(lower)), above = compare(root, to_cgal(upper));
-  if (lower == upper) return below == CGAL::EQUAL;
-  return below == CGAL::LARGER && above == CGAL::SMALLER;
-}
-
 struct Pair {
   AlgebraicNumber number;
   CgalRoot expected;
 };
+
+Known known(const Pair& pair) {
+  return {pair.number, [root = pair.expected](const Rational& x) {
+            return static_cast<int>(Kernel().compare_1_object()(root, to_cgal(x)));
+          }};
+}
 
 std::vector<Pair> paired_roots(const Polynomial& p) {
   const std::vector<AlgebraicNumber> roots = roots_in_unit_interval(p);
@@ -320,33 +282,76 @@ std::vector<Pair> paired_roots(const Polynomial& p) {
   EXPECT_EQ(roots.size(), expected.size()) << p;
   std::vector<Pair> result;
   for (std::size_t i = 0; i < std::min(roots.size(), expected.size()); ++i) {
-    EXPECT_TRUE(isolates(roots[i], expected[i])) << p;
     result.push_back({roots[i], expected[i]});
+    EXPECT_TRUE(is_isolated(known(result.back()))) << p;
   }
   return result;
 }
 
-TEST(AgainstCgal, RootsOfRandomPolynomials) {
+/// Roots of products of factors, of random polynomials and their squares, and of Mignotte's
+/// polynomials t^n − 2(at − 1)²: two next to 1/a, about a^(−n/2) apart.
+std::vector<Known> numbers() {
+  std::vector<Known> result;
+  for (Random random(44); result.size() < 150;) {
+    std::ranges::move(random_known_roots(random), std::back_inserter(result));
+  }
+  const auto take = [&](const Polynomial& p) {
+    const std::vector<Pair> roots = paired_roots(p);
+    std::ranges::transform(roots, std::back_inserter(result), known);
+    return roots.size();
+  };
   Random random(51);
-  std::size_t found = 0;
   for (int round = 0; round < 300; ++round) {
     const Polynomial p = random_polynomial(random, random.between(1, 6), 12);
-    for (auto& [number, expected] : paired_roots(round % 3 == 0 ? p * p : p)) {
-      ++found;
-      number.refine(power_of_two(-200));
-      EXPECT_TRUE(isolates(number, expected)) << p;
-    }
+    take(round % 3 == 0 ? p * p : p);
   }
-  EXPECT_GT(found, 100U);
-}
-
-TEST(AgainstCgal, RootsThatLieCloseTogether) {
-  // Mignotte's polynomials t^n − 2(at − 1)²: two roots next to 1/a, about a^(−n/2) apart.
+  EXPECT_GT(result.size(), 250U);
   for (int degree = 3; degree <= 6; ++degree) {
     for (const int a : {3, 100, 1001}) {
-      const Polynomial p =
-          power(polynomial({0, 1}), degree) - polynomial({2}) * power(polynomial({-1, a}), 2);
-      EXPECT_GE(paired_roots(p).size(), 2U);
+      EXPECT_GE(
+          take(power(polynomial({0, 1}), degree) - polynomial({2}) * power(polynomial({-1, a}), 2)),
+          2U);
+    }
+  }
+  return result;
+}
+
+TEST(AlgebraicNumber, IsComparedEnclosedAndRefinedAsItsValue) {
+  Random random(43);
+  for (Known& known : numbers()) {
+    AlgebraicNumber& number = known.number;
+    EXPECT_TRUE(is_isolated(known));
+    expect_tight(known);
+    std::vector<Rational> others{-3, 0, 1, 2, number.interval().lower, number.interval().upper};
+    for (int n = 1; n < 12; ++n) others.push_back(fraction(n, 12));
+    for (const Rational& r : {fraction(1, 64), fraction(2, 3), fraction(4, 9), fraction(3, 7)}) {
+      others.push_back(r);
+      others.emplace_back(r + power_of_two(-200));
+    }
+    for (const Rational& other : others) {
+      const int expected = known.minus(other);
+      EXPECT_TRUE((number <=> other) == (expected <=> 0)) << other;
+      EXPECT_TRUE((other <=> number) == (0 <=> expected)) << other;
+      EXPECT_EQ(number == other, expected == 0);
+    }
+    int level = 0;
+    for (int round = 0; round < 8; ++round) {
+      level += random.between(0, 150);
+      const Rational width = power_of_two(-level) * fraction(random.between(1, 99), 50);
+      const RationalInterval before = number.interval();
+      number.refine(width);
+      const auto [lower, upper] = number.interval();
+      EXPECT_LE(Rational(upper - lower), width);
+      EXPECT_TRUE(is_isolated(known));
+      Known other = known;
+      other.number.refine_to_level(static_cast<unsigned long>(level));
+      const auto [below, above] = other.number.interval();
+      EXPECT_LE(Rational(above - below), power_of_two(-level));
+      EXPECT_TRUE(is_isolated(other));
+      EXPECT_TRUE(before.lower <= lower && upper <= before.upper);
+      if (!number.rational()) {
+        EXPECT_EQ(sign_at(number.polynomial(), lower) * sign_at(number.polynomial(), upper), -1);
+      }
     }
   }
 }
@@ -407,18 +412,6 @@ TEST(AgainstCgal, Comparisons) {
 
 // ---- Enclosures ---------------------------------------------------------------------------------
 
-/// Expects the double itself if the number is one, and its two neighbours if not.
-void expect_tight(const Known& known) {
-  const auto [lower, upper] = known.number.enclosure();
-  if (lower == upper) {
-    EXPECT_EQ(power(Rational(lower), 6), known.key);
-    return;
-  }
-  EXPECT_EQ(upper, std::nextafter(lower, infinity));
-  EXPECT_LT(power(Rational(lower), 6), known.key);
-  EXPECT_GT(power(Rational(upper), 6), known.key);
-}
-
 TEST(Enclosure, OfDoublesIsTheDouble) {
   Random random(59);
   std::vector<double> samples{1.0,
@@ -460,8 +453,7 @@ TEST(Enclosure, WhereOneDoubleLiesInsideTheCell) {
   }
 }
 
-TEST(Enclosure, OfKnownAndOfTinyNumbers) {
-  for (const Known& known : pool(58, 150)) expect_tight(known);
+TEST(Enclosure, OfTinyNumbers) {
   for (const Factor& factor : {linear(power_of_two(-1100)), square_root(power_of_two(-3000)),
                                linear(power_of_two(-1075)), cube_root(power_of_two(-4000))}) {
     EXPECT_EQ(hidden(factor).number.enclosure(), (DoubleInterval{0.0, least_subnormal}));

@@ -413,7 +413,9 @@ TEST(Forgery, IsAcceptedOnlyWhereItsClaimIsTrue) {
     const PosedQuery posed = tests::random_query(
         random, kind, random.coin() ? tests::Family::tiny_integers : tests::Family::small_integers);
     const bool collides = decide(kind, posed.query).collides();
-    Certificate forged{.kind = kind, .query = posed.query};
+    Certificate forged;
+    forged.kind = kind;
+    forged.query = posed.query;
     const auto try_as = [&](const std::string& proof) {
       if (!tests::rejection(forged).empty()) return;
       ++accepted[proof];

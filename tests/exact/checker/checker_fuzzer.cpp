@@ -70,6 +70,7 @@ class Mutator {
   }
 
   std::string mutate_word(const std::string& line, const std::string& other) {
+    // (The last word is empty.)
     static const Words vocabulary =
         cut("0 1 -1 2 3 1/2 1/3 -7/5 0x1p+0 0x1p-1074 0x1.fffffffffffffp+1023 0x1p-16383 "
             "0x1p+16383 123456789012345678901234567890 vertex edge face + - triangle segment "
