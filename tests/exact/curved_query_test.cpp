@@ -9,7 +9,6 @@
 #include <utility>
 #include <vector>
 
-#include "exact/distance/distance_oracle.hpp"
 #include "tests/support/certificates.hpp"
 #include "tests/support/queries.hpp"
 #include "touchstone/certificate.hpp"
@@ -168,7 +167,7 @@ TEST(CurvedQuery, WeightsOfRestingPointsDoNotMatter) {
   }
 }
 
-// ---- Curves -------------------------------------------------------------------------------------
+// ---- Certificates -------------------------------------------------------------------------------
 
 /// Each point on a curve of its own degree, some of them rational.
 CurvedQuery curved_query(Random& random, int greatest, bool may_be_rational) {
@@ -183,24 +182,6 @@ CurvedQuery curved_query(Random& random, int greatest, bool may_be_rational) {
   }
   return query;
 }
-
-TEST(CurvedQuery, TwoRulesAgree) {
-  Random random(374);
-  int collisions = 0;
-  for (int round = 0; round < 300; ++round) {
-    const Kind kind = kind_of(round);
-    const CurvedQuery query = curved_query(random, 3, true);
-    const Decision contact = decide(kind, query);
-    const Decision axes = decide_distance(scale(kind, query, {}));
-    ASSERT_EQ(contact.collides(), axes.collides()) << round;
-    if (!contact.collides()) continue;
-    ++collisions;
-    EXPECT_EQ(*contact.toi, *axes.toi) << round;
-  }
-  EXPECT_GT(collisions, 50);
-}
-
-// ---- Certificates -------------------------------------------------------------------------------
 
 Certificate proved(Kind kind, const CurvedQuery& query, const Separation& separation,
                    const ProveOptions& options = {}) {

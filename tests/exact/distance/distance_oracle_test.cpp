@@ -186,23 +186,6 @@ TEST(DistanceOracle, RefusesInvalidQueriesAndSeparations) {
   EXPECT_THROW(static_cast<void>(toi(posed, 0, Norm::linf)), std::domain_error);
 }
 
-// ---- Distance 0 ---------------------------------------------------------------------------------
-
-TEST(DistanceOracle, TheSearchAtDistanceZeroAgreesWithTheContactOracle) {
-  Random random(11);
-  const int count = tests::is_soak() ? 100000 : 1000;
-  for (int i = 0; i < count; ++i) {
-    const Kind kind = random.coin() ? Kind::vertex_face : Kind::edge_edge;
-    const PosedQuery posed =
-        tests::random_query(random, kind, tests::all_families.at(static_cast<std::size_t>(i % 4)));
-    const Decision plain = decide(kind, posed.query);
-    for (const Norm norm : both_norms) {
-      expect_same(decide_distance(scale_uniformly(kind, posed.query, {0.0, norm})).toi, plain.toi,
-                  posed);
-    }
-  }
-}
-
 // ---- Against other ways to the answer -----------------------------------------------------------
 
 /// A query of small integers, which is often degenerate; halves and thirds of a unit hardly ever
