@@ -287,40 +287,29 @@ class MutationTest : public ::testing::Test {
 };
 
 TEST_F(MutationTest, WhatIsAcceptedIsTrue) {
-  const std::uint64_t wanted = tests::is_soak() ? 100000U : tests::trials(5000U);
-  const unsigned stride = tests::is_soak() ? 2 : 12;
+  const std::uint64_t wanted = tests::is_soak() ? 200000U : tests::trials(8000U);
+  const unsigned stride = tests::is_soak() ? 2 : 16;
   tests::Random random(23);
+  const auto either_kind = [&] { return random.coin() ? Kind::vertex_face : Kind::edge_edge; };
+  const ProveOptions collision{.collision_claim = Claim::collision},
+      wide{.width = Rational(1, 100)};
   for (std::uint64_t index = 0; judged() < wanted; ++index) {
     for (const verify::generate::Family& family : verify::generate::families()) {
-      const Kind kind = random.coin() ? Kind::vertex_face : Kind::edge_edge;
+      const Kind kind = either_kind();
       if (!verify::generate::supports(family, kind)) continue;
       judge_all({kind, verify::generate::make_query(family, kind, 3, index).query}, {}, stride);
     }
-    for (const tests::Family family : tests::all_families) {
-      const Kind kind = random.coin() ? Kind::vertex_face : Kind::edge_edge;
-      judge_all(tests::random_query(random, kind, family), {}, stride);
-      judge_all(tests::random_query(random, kind, family), {.collision_claim = Claim::collision},
-                stride);
-      judge_all(tests::random_query(random, kind, family), {.width = Rational(1, 100)}, stride);
-    }
-  }
-  EXPECT_GE(judged(), wanted);
-  report();
-}
-
-TEST_F(MutationTest, WhatIsAcceptedAtADistanceIsTrue) {
-  const std::uint64_t wanted = tests::is_soak() ? 100000 : 3000;
-  const unsigned stride = tests::is_soak() ? 2 : 20;
-  tests::Random random(29);
-  while (judged() < wanted) {
-    for (const tests::Family family : tests::all_families) {
+    for (std::size_t i = 0; i < 2 * tests::all_families.size(); ++i) {
+      const tests::Family family = tests::all_families.at(i % tests::all_families.size());
+      const auto judge_with = [&](const ProveOptions& options, const Separation& separation) {
+        judge_all(tests::random_query(random, either_kind(), family), options, stride, separation);
+      };
+      for (const ProveOptions& options : {ProveOptions{}, collision, wide}) judge_with(options, {});
       for (const Norm norm : {Norm::linf, Norm::l2}) {
-        const Kind kind = random.coin() ? Kind::vertex_face : Kind::edge_edge;
-        const Separation near{random.between(1, 4) / 4.0, norm}, tiny{0x1p-60, norm};
-        judge_all(tests::random_query(random, kind, family), {}, stride, near);
-        judge_all(tests::random_query(random, kind, family), {}, stride, tiny);
-        judge_all(tests::random_query(random, kind, family), {.collision_claim = Claim::collision},
-                  stride, near);
+        const Separation near{random.between(1, 4) / 4.0, norm};
+        judge_with({}, near);
+        judge_with({}, {0x1p-60, norm});
+        judge_with(collision, near);
       }
     }
   }

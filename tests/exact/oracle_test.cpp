@@ -30,6 +30,7 @@
 #include <vector>
 
 #include "tests/support/built_files.hpp"
+#include "tests/support/certificates.hpp"
 #include "tests/support/contact_function.hpp"
 #include "tests/support/queries.hpp"
 #include "tests/support/random.hpp"
@@ -263,14 +264,6 @@ void expect_irrational_toi(const PosedQuery& posed, const Polynomial& polynomial
 
 // ------------------------------------------------------------------ known answers
 
-/// A number of a row: a double, a fraction, or a power of two.
-Rational number(const std::string& word) {
-  if (word.find('/') != std::string::npos) return Rational(word, 10);
-  const std::size_t power = word.find("0x1p");
-  if (power != std::string::npos) return power_of_two(std::stol(word.substr(power + 4)));
-  return rational_from_decimal(word);
-}
-
 /// The queries of contacts.txt.
 TEST(Oracle, KnowsTheContactsOfTheList) {
   std::ifstream file(tests::source_folder() + "/tests/exact/contacts.txt");
@@ -296,9 +289,10 @@ TEST(Oracle, KnowsTheContactsOfTheList) {
         for (std::size_t i = 1; words[i] != "~"; ++i) coefficients.emplace_back(words[i]);
         expect_irrational_toi(posed, Polynomial(std::move(coefficients)), words.back());
       } else if (words.size() == 1) {
-        expect_toi(posed, number(words[0]));
+        expect_toi(posed, tests::read_number(words[0]));
       } else {
-        expect_contact(posed, number(words[0]), number(words[1]), number(words[2]));
+        expect_contact(posed, tests::read_number(words[0]), tests::read_number(words[1]),
+                       tests::read_number(words[2]));
       }
     }
   }
