@@ -30,6 +30,7 @@ namespace {
 using tests::joined;
 using tests::PosedQuery;
 using tests::split;
+using tests::written;
 using Lines = std::vector<std::string>;
 
 /// An altered certificate as the text of a stream, and the first word of the line that was altered.
@@ -37,12 +38,6 @@ struct Mutant {
   std::string field;
   std::string text;
 };
-
-std::string number(const Rational& value) {
-  std::string text;
-  write_number(text, value);
-  return text;
-}
 
 /// What may follow the first words of a line, so many of them.
 struct Rest {
@@ -143,7 +138,7 @@ class Mutations {
       const bool is_number = digit == 0 || (digit == 1 && words_[i][0] == '-');
       if (is_number) {
         for (const Rational& by : others_than(tests::read_number(words_[i]))) {
-          replace(line, i, number(by));
+          replace(line, i, written(by));
         }
       }
       if (i + 1 < words_.size()) {
@@ -162,8 +157,8 @@ class Mutations {
         replace(line, joined(kept, " ") + " " + other);
       }
     }
-    const std::string lower = number(certificate_.toi.lower),
-                      upper = number(certificate_.toi.upper);
+    const std::string lower = written(certificate_.toi.lower),
+                      upper = written(certificate_.toi.upper);
     if (words_[0] == "claim") {
       for (const std::string& toi :
            {upper + " " + upper, lower + " " + lower, "0 " + lower, lower + " 1", upper + " 1"}) {
@@ -204,7 +199,7 @@ class Mutations {
     for (const Rational& by :
          {Rational(1, 64), Rational(-1, 64), Rational(1, 4), Rational(-1, 4)}) {
       Lines lines = lines_, words = words_;
-      words[2] = next[1] = number(end + by);
+      words[2] = next[1] = written(end + by);
       lines[line] = joined(words, " ");
       lines[line + 1] = joined(next, " ");
       add(lines);

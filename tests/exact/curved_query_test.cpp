@@ -63,6 +63,7 @@ Polynomial power_of_t(std::size_t n) {
 void expect_reparametrized(const Decision& curved, const Decision& straight,
                            const Polynomial& numerator, const Polynomial& denominator) {
   ASSERT_EQ(curved.collides(), straight.collides());
+  ASSERT_EQ(curved.contact.has_value(), straight.contact.has_value());
   if (!curved.collides()) return;
   EXPECT_TRUE(curved.toi->is_root_of(composed(straight.toi->polynomial(), numerator, denominator)));
   AlgebraicNumber toi = *curved.toi;
@@ -82,59 +83,53 @@ void expect_reparametrized(const Decision& curved, const Decision& straight,
 
 // ---- Straight lines as curves -------------------------------------------------------------------
 
-TEST(CurvedQuery, StraightLinesOfAnyDegreeAreStraightLines) {
-  Random random(371);
-  int collisions = 0;
-  for (int round = 0; round < 600; ++round) {
-    const Kind kind = kind_of(round);
-    const Query query = small_query(random);
-    const Separation separation = small_separation(random);
-    CurvedQuery curved = to_curved(query);
-    for (Trajectory& curve : curved) {
-      const Point a = curve.control[0], b = curve.control[1];
-      const int degree = random.between(1, separation.distance > 0 ? 4 : 8);
-      curve.control.clear();
-      for (int j = 0; j <= degree; ++j) {
-        Point& point = curve.control.emplace_back();
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-          point[axis] = ((degree - j) * a[axis] + j * b[axis]) / degree;
-        }
+/// The same lines, each as a curve of its own degree.
+CurvedQuery elevated(Random& random, CurvedQuery lines, int greatest) {
+  for (Trajectory& curve : lines) {
+    const Point a = curve.control[0], b = curve.control[1];
+    const int degree = random.between(1, greatest);
+    curve.control.clear();
+    for (int j = 0; j <= degree; ++j) {
+      Point& point = curve.control.emplace_back();
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        point[axis] = ((degree - j) * a[axis] + j * b[axis]) / degree;
       }
-      if (a == b && random.coin()) curve.control.resize(1);
     }
-    const Decision expected = decide(kind, query, separation);
-    const Decision found = decide(kind, curved, separation);
-    ASSERT_EQ(found.collides(), expected.collides());
-    if (!found.collides()) continue;
-    ++collisions;
-    EXPECT_EQ(*found.toi, *expected.toi);
-    ASSERT_EQ(found.contact.has_value(), expected.contact.has_value());
+    if (a == b && random.coin()) curve.control.resize(1);
   }
-  EXPECT_GT(collisions, 100);
+  return lines;
 }
 
 TEST(CurvedQuery, OtherTimesOnStraightLinesAreThoseOfTheSameContacts) {
-  Random random(372);
-  for (int round = 0; round < 400; ++round) {
+  Random random(371);
+  int collisions = 0;
+  const Polynomial one(Integer(1));
+  for (int round = 0; round < 500; ++round) {
     const Kind kind = kind_of(round);
     const Query query = small_query(random);
     const Separation separation = small_separation(random);
     const Decision straight = decide(kind, query, separation);
+    collisions += straight.collides() ? 1 : 0;
+    const auto expect = [&](const CurvedQuery& curves, const Polynomial& numerator,
+                            const Polynomial& denominator) {
+      expect_reparametrized(decide(kind, curves, separation), straight, numerator, denominator);
+    };
+    const CurvedQuery lines = to_curved(query);
+    expect(elevated(random, lines, separation.distance > 0 ? 4 : 8), power_of_t(1), one);
     // a + (b − a) t^m
     const auto m = static_cast<std::size_t>(random.between(2, 4));
-    CurvedQuery power = to_curved(query);
-    for (Trajectory& curve : power)
+    CurvedQuery power = lines;
+    for (Trajectory& curve : power) {
       curve.control.insert(curve.control.begin(), m - 1, curve.control[0]);
-    expect_reparametrized(decide(kind, power, separation), straight, power_of_t(m),
-                          Polynomial(Integer(1)));
+    }
+    expect(power, power_of_t(m), one);
     // Weights 1 and w: the time is w t / (1 − t + w t).
     const int w = random.between(2, 7);
-    CurvedQuery rational = to_curved(query);
+    CurvedQuery rational = lines;
     for (Trajectory& curve : rational) curve.weights = {0.5, 0.5 * w};
-    expect_reparametrized(decide(kind, rational, separation), straight,
-                          Polynomial(Integer(0), Integer(w)),
-                          Polynomial(Integer(1), Integer(w - 1)));
+    expect(rational, Polynomial(Integer(0), Integer(w)), Polynomial(Integer(1), Integer(w - 1)));
   }
+  EXPECT_GT(collisions, 100);
 }
 
 TEST(CurvedQuery, WeightsOfRestingPointsDoNotMatter) {
