@@ -15,19 +15,19 @@
 #include <utility>
 #include <vector>
 
+#include "tests/support/polynomials.hpp"
 #include "tests/support/random.hpp"
 
 namespace touchstone::exact::algebraic_number_test {
 namespace {
 
+using tests::polynomial;
+using tests::power;
 using tests::Random;
-using Coefficients = std::vector<Integer>;
+using tests::random_polynomial;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double least_subnormal = std::numeric_limits<double>::denorm_min();
-
-/// Σ c_i t^i.
-Polynomial polynomial(const Coefficients& c) { return Polynomial(c); }
 
 Rational power(const Rational& x, int exponent) {
   Rational result = 1;
@@ -35,21 +35,7 @@ Rational power(const Rational& x, int exponent) {
   return result;
 }
 
-Polynomial power(const Polynomial& p, int exponent) {
-  Polynomial result(Integer(1));
-  for (int i = 0; i < exponent; ++i) result = result * p;
-  return result;
-}
-
 Rational fraction(long numerator, long denominator) { return Rational(numerator) / denominator; }
-
-/// A random polynomial of this degree.
-Polynomial random_polynomial(Random& random, int degree, unsigned bits) {
-  Coefficients c;
-  for (int i = 0; i <= degree; ++i) c.push_back(random.integer<Integer>(bits));
-  if (sgn(c.back()) == 0) c.back() = 1;
-  return polynomial(c);
-}
 
 const Polynomial& without_real_roots() {
   static const Polynomial result = polynomial({1, 1, 1});
@@ -67,7 +53,7 @@ struct Factor {
   Rational key;
 };
 
-Factor linear(const Rational& r) { return {polynomial({-r.get_num(), r.get_den()}), power(r, 6)}; }
+Factor linear(const Rational& r) { return {tests::factor(r), power(r, 6)}; }
 /// \pre r > 0, as −√r would be another root otherwise.
 Factor square_root(const Rational& r) {
   return {polynomial({-r.get_num(), 0, r.get_den()}), power(r, 3)};

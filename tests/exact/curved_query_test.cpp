@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "tests/support/certificates.hpp"
+#include "tests/support/polynomials.hpp"
 #include "tests/support/queries.hpp"
 #include "touchstone/certificate.hpp"
 #include "touchstone/oracle.hpp"
@@ -17,6 +18,8 @@
 namespace touchstone::exact::curved_query_test {
 namespace {
 
+using tests::polynomial;
+using tests::power;
 using tests::Random;
 using Point = std::array<double, 3>;
 
@@ -50,12 +53,6 @@ Polynomial composed(const Polynomial& p, const Polynomial& numerator, const Poly
     sum = sum + term;
   }
   return sum;
-}
-
-Polynomial power_of_t(std::size_t n) {
-  std::vector<Integer> coefficients(n + 1, 0);
-  coefficients.back() = 1;
-  return Polynomial(std::move(coefficients));
 }
 
 /// The curved query collides iff the straight one does, at a time that the rational function
@@ -103,7 +100,7 @@ CurvedQuery elevated(Random& random, CurvedQuery lines, int greatest) {
 TEST(CurvedQuery, OtherTimesOnStraightLinesAreThoseOfTheSameContacts) {
   Random random(371);
   int collisions = 0;
-  const Polynomial one(Integer(1));
+  const Polynomial one = polynomial({1});
   for (int round = 0; round < 500; ++round) {
     const Kind kind = kind_of(round);
     const Query query = small_query(random);
@@ -115,19 +112,20 @@ TEST(CurvedQuery, OtherTimesOnStraightLinesAreThoseOfTheSameContacts) {
       expect_reparametrized(decide(kind, curves, separation), straight, numerator, denominator);
     };
     const CurvedQuery lines = to_curved(query);
-    expect(elevated(random, lines, separation.distance > 0 ? 4 : 8), power_of_t(1), one);
+    expect(elevated(random, lines, separation.distance > 0 ? 4 : 8), polynomial({0, 1}), one);
     // a + (b − a) t^m
-    const auto m = static_cast<std::size_t>(random.between(2, 4));
-    CurvedQuery power = lines;
-    for (Trajectory& curve : power) {
-      curve.control.insert(curve.control.begin(), m - 1, curve.control[0]);
+    const int m = random.between(2, 4);
+    CurvedQuery late = lines;
+    for (Trajectory& curve : late) {
+      curve.control.insert(curve.control.begin(), static_cast<std::size_t>(m - 1),
+                           Point(curve.control[0]));
     }
-    expect(power, power_of_t(m), one);
+    expect(late, power(polynomial({0, 1}), m), one);
     // Weights 1 and w: the time is w t / (1 − t + w t).
     const int w = random.between(2, 7);
     CurvedQuery rational = lines;
     for (Trajectory& curve : rational) curve.weights = {0.5, 0.5 * w};
-    expect(rational, Polynomial(Integer(0), Integer(w)), Polynomial(Integer(1), Integer(w - 1)));
+    expect(rational, polynomial({0, w}), polynomial({1, w - 1}));
   }
   EXPECT_GT(collisions, 100);
 }
