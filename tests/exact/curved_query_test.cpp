@@ -273,31 +273,28 @@ TEST(CurvedQuery, OfDoublesOfAnySizeIsDecided) {
 }
 
 TEST(CurvedQuery, ThatIsNotOneIsRefused) {
-  const CurvedQuery good = over_a_face({1, 2, 3});
-  const auto changed = [&](const auto& change) {
-    CurvedQuery query = good;
-    change(query[0]);
-    return query;
+  const auto decide_with = [](const Trajectory& curve) {
+    CurvedQuery query = over_a_face({1, 2, 3});
+    query[0] = curve;
+    static_cast<void>(decide(Kind::vertex_face, query));
   };
-  const double infinite = std::numeric_limits<double>::infinity();
-  const auto refused = [](const CurvedQuery& query) {
-    EXPECT_THROW((void)decide(Kind::vertex_face, query), std::invalid_argument);
-  };
-  refused(changed([](Trajectory& curve) { curve.control.clear(); }));
-  refused(changed([](Trajectory& curve) { curve.control.resize(10); }));
-  refused(changed([](Trajectory& curve) { curve.weights = {1, 2}; }));
-  refused(changed([](Trajectory& curve) { curve.weights = {1, 0, 1}; }));
-  refused(changed([](Trajectory& curve) { curve.weights = {1, -1, 1}; }));
-  for (const double x : {infinite, -infinite, std::nan("")}) {
-    EXPECT_THROW((void)decide(Kind::vertex_face,
-                              changed([&](Trajectory& curve) { curve.control[1][2] = x; })),
-                 std::domain_error);
-    EXPECT_THROW((void)decide(Kind::vertex_face, changed([&](Trajectory& curve) {
-                                curve.weights = {1, x, 1};
-                              })),
-                 std::domain_error);
+  const Point a{1, 1, 1};
+  for (const Trajectory& curve : std::vector<Trajectory>{{{}},
+                                                         {std::vector<Point>(10)},
+                                                         {{a, a, a}, {1, 2}},
+                                                         {{a, a, a}, {1, 0, 1}},
+                                                         {{a, a, a}, {1, -1, 1}}}) {
+    EXPECT_THROW(decide_with(curve), std::invalid_argument);
   }
-  EXPECT_THROW((void)decide(Kind::vertex_face, good, {-1.0, Norm::l2}), std::invalid_argument);
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  for (const double x : {infinity, -infinity, std::nan("")}) {
+    EXPECT_THROW(decide_with({{a, {1, 1, x}, a}}), std::domain_error);
+    EXPECT_THROW(decide_with({{a, a, a}, {1, x, 1}}), std::domain_error);
+  }
+  EXPECT_NO_THROW(decide_with({{a, a, a}, {1, 2, 1}}));
+  EXPECT_THROW(
+      static_cast<void>(decide(Kind::vertex_face, over_a_face({1, 2, 3}), {-1.0, Norm::l2})),
+      std::invalid_argument);
 }
 
 }  // namespace
