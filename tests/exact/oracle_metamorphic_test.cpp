@@ -3,11 +3,11 @@
 /// curves and on rational ones, in contact and at a distance.
 ///
 /// Renaming points, invertible linear maps of space and a common motion of all points change no
-/// root of F: verdict and toi stay. At a distance so they do if the map keeps the norm, or scales
+/// root of F: verdict and toi stay. At a distance they do so if the map keeps the norm, or scales
 /// it with the distance. Reversing time keeps the verdict. Cutting time at τ maps contact at t to
 /// contact at t/τ or (t−τ)/(1−τ). At distance 0 two rules find the same. None of this requires the
-/// answer. Every change is exact; if that
-/// is impossible in doubles, the query is left out and counted.
+/// answer. Every change is exact; what cannot be exact in doubles is left out, and the rest
+/// counted.
 
 #include <gtest/gtest.h>
 
@@ -377,8 +377,7 @@ TEST(OracleMetamorphic, ReversingTimeKeepsTheVerdictAndBoundsTheToi) {
 }
 
 /// Expects the motion from one time to another to collide if the toi is in it, there, and not to
-/// collide if the toi is after it.
-/// \pre doubles are exact for it.
+/// collide if the toi is after it. \pre the control points of the part are doubles.
 void expect_part(const PosedCurves& posed, const Decision& whole, const Rational& from,
                  const Rational& to) {
   const auto part = cut(posed, from, to);
