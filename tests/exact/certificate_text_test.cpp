@@ -14,17 +14,12 @@
 namespace touchstone::exact::certificate_text_test {
 namespace {
 
+using tests::written;
 using Limits = std::numeric_limits<double>;
 
 std::string hexadecimal(double value) {
   std::string text;
   write_hexadecimal(text, value);
-  return text;
-}
-
-std::string number(const Rational& value) {
-  std::string text;
-  write_number(text, value);
   return text;
 }
 
@@ -49,23 +44,23 @@ TEST(WriteHexadecimal, IsWhatPrintfWrites) {
 }
 
 TEST(WriteNumber, TakesTheShortestForm) {
-  EXPECT_EQ(number(0), "0");
-  EXPECT_EQ(number(-7), "-7");
-  EXPECT_EQ(number(Rational(1, 2)), "1/2");
-  EXPECT_EQ(number(Rational(1, 3)), "1/3");
-  EXPECT_EQ(number(Rational(0.1)), "0x1.999999999999ap-4");
-  EXPECT_EQ(number(power_of_two(-1074)), "0x0.0000000000001p-1022");
-  EXPECT_EQ(number(power_of_two(1023)), "0x1p+1023");
+  EXPECT_EQ(written(0), "0");
+  EXPECT_EQ(written(-7), "-7");
+  EXPECT_EQ(written(Rational(1, 2)), "1/2");
+  EXPECT_EQ(written(Rational(1, 3)), "1/3");
+  EXPECT_EQ(written(Rational(0.1)), "0x1.999999999999ap-4");
+  EXPECT_EQ(written(power_of_two(-1074)), "0x0.0000000000001p-1022");
+  EXPECT_EQ(written(power_of_two(1023)), "0x1p+1023");
   // Numbers that are not doubles: too many bits, or too small.
-  EXPECT_EQ(number(power_of_two(-60) + 1), "1152921504606846977/1152921504606846976");
-  EXPECT_EQ(number(power_of_two(-1075)), "1/" + Integer(Integer(1) << 1075U).get_str());
+  EXPECT_EQ(written(power_of_two(-60) + 1), "1152921504606846977/1152921504606846976");
+  EXPECT_EQ(written(power_of_two(-1075)), "1/" + Integer(Integer(1) << 1075U).get_str());
 }
 
 TEST(WriteNumber, LosesNothing) {
   tests::Random random(2);
   for (int repetition = 0; repetition < 5000; ++repetition) {
     const Rational x(std::abs(random.finite_double()));
-    ASSERT_EQ(tests::read_number(number(x)), x);
+    ASSERT_EQ(tests::read_number(written(x)), x);
   }
 }
 

@@ -9,8 +9,8 @@
 #include <utility>
 #include <vector>
 
-#include "exact/distance/distance_oracle.hpp"
 #include "tests/support/certificates.hpp"
+#include "tests/support/polynomials.hpp"
 #include "tests/support/queries.hpp"
 #include "touchstone/certificate.hpp"
 #include "touchstone/oracle.hpp"
@@ -18,6 +18,8 @@
 namespace touchstone::exact::curved_query_test {
 namespace {
 
+using tests::polynomial;
+using tests::power;
 using tests::Random;
 using Point = std::array<double, 3>;
 
@@ -53,17 +55,12 @@ Polynomial composed(const Polynomial& p, const Polynomial& numerator, const Poly
   return sum;
 }
 
-Polynomial power_of_t(std::size_t n) {
-  std::vector<Integer> coefficients(n + 1, 0);
-  coefficients.back() = 1;
-  return Polynomial(std::move(coefficients));
-}
-
 /// The curved query collides iff the straight one does, at a time that the rational function
 /// numerator / denominator, increasing on [0,1], takes to that of the straight one.
 void expect_reparametrized(const Decision& curved, const Decision& straight,
                            const Polynomial& numerator, const Polynomial& denominator) {
   ASSERT_EQ(curved.collides(), straight.collides());
+  ASSERT_EQ(curved.contact.has_value(), straight.contact.has_value());
   if (!curved.collides()) return;
   EXPECT_TRUE(curved.toi->is_root_of(composed(straight.toi->polynomial(), numerator, denominator)));
   AlgebraicNumber toi = *curved.toi;
@@ -83,59 +80,54 @@ void expect_reparametrized(const Decision& curved, const Decision& straight,
 
 // ---- Straight lines as curves -------------------------------------------------------------------
 
-TEST(CurvedQuery, StraightLinesOfAnyDegreeAreStraightLines) {
-  Random random(371);
-  int collisions = 0;
-  for (int round = 0; round < 600; ++round) {
-    const Kind kind = kind_of(round);
-    const Query query = small_query(random);
-    const Separation separation = small_separation(random);
-    CurvedQuery curved = to_curved(query);
-    for (Trajectory& curve : curved) {
-      const Point a = curve.control[0], b = curve.control[1];
-      const int degree = random.between(1, separation.distance > 0 ? 4 : 8);
-      curve.control.clear();
-      for (int j = 0; j <= degree; ++j) {
-        Point& point = curve.control.emplace_back();
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-          point[axis] = ((degree - j) * a[axis] + j * b[axis]) / degree;
-        }
+/// The same lines, each as a curve of its own degree.
+CurvedQuery elevated(Random& random, CurvedQuery lines, int greatest) {
+  for (Trajectory& curve : lines) {
+    const Point a = curve.control[0], b = curve.control[1];
+    const int degree = random.between(1, greatest);
+    curve.control.clear();
+    for (int j = 0; j <= degree; ++j) {
+      Point& point = curve.control.emplace_back();
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        point[axis] = ((degree - j) * a[axis] + j * b[axis]) / degree;
       }
-      if (a == b && random.coin()) curve.control.resize(1);
     }
-    const Decision expected = decide(kind, query, separation);
-    const Decision found = decide(kind, curved, separation);
-    ASSERT_EQ(found.collides(), expected.collides());
-    if (!found.collides()) continue;
-    ++collisions;
-    EXPECT_EQ(*found.toi, *expected.toi);
-    ASSERT_EQ(found.contact.has_value(), expected.contact.has_value());
+    if (a == b && random.coin()) curve.control.resize(1);
   }
-  EXPECT_GT(collisions, 100);
+  return lines;
 }
 
 TEST(CurvedQuery, OtherTimesOnStraightLinesAreThoseOfTheSameContacts) {
-  Random random(372);
-  for (int round = 0; round < 400; ++round) {
+  Random random(371);
+  int collisions = 0;
+  const Polynomial one = polynomial({1});
+  for (int round = 0; round < 500; ++round) {
     const Kind kind = kind_of(round);
     const Query query = small_query(random);
     const Separation separation = small_separation(random);
     const Decision straight = decide(kind, query, separation);
+    collisions += straight.collides() ? 1 : 0;
+    const auto expect = [&](const CurvedQuery& curves, const Polynomial& numerator,
+                            const Polynomial& denominator) {
+      expect_reparametrized(decide(kind, curves, separation), straight, numerator, denominator);
+    };
+    const CurvedQuery lines = to_curved(query);
+    expect(elevated(random, lines, separation.distance > 0 ? 4 : 8), polynomial({0, 1}), one);
     // a + (b − a) t^m
-    const auto m = static_cast<std::size_t>(random.between(2, 4));
-    CurvedQuery power = to_curved(query);
-    for (Trajectory& curve : power)
-      curve.control.insert(curve.control.begin(), m - 1, curve.control[0]);
-    expect_reparametrized(decide(kind, power, separation), straight, power_of_t(m),
-                          Polynomial(Integer(1)));
+    const int m = random.between(2, 4);
+    CurvedQuery late = lines;
+    for (Trajectory& curve : late) {
+      curve.control.insert(curve.control.begin(), static_cast<std::size_t>(m - 1),
+                           Point(curve.control[0]));
+    }
+    expect(late, power(polynomial({0, 1}), m), one);
     // Weights 1 and w: the time is w t / (1 − t + w t).
     const int w = random.between(2, 7);
-    CurvedQuery rational = to_curved(query);
+    CurvedQuery rational = lines;
     for (Trajectory& curve : rational) curve.weights = {0.5, 0.5 * w};
-    expect_reparametrized(decide(kind, rational, separation), straight,
-                          Polynomial(Integer(0), Integer(w)),
-                          Polynomial(Integer(1), Integer(w - 1)));
+    expect(rational, polynomial({0, w}), polynomial({1, w - 1}));
   }
+  EXPECT_GT(collisions, 100);
 }
 
 TEST(CurvedQuery, WeightsOfRestingPointsDoNotMatter) {
@@ -168,157 +160,36 @@ TEST(CurvedQuery, WeightsOfRestingPointsDoNotMatter) {
   }
 }
 
-// ---- Curves -------------------------------------------------------------------------------------
+// ---- Certificates -------------------------------------------------------------------------------
 
 /// Each point on a curve of its own degree, some of them rational.
-CurvedQuery curved_query(Random& random, int greatest, bool may_be_rational) {
+CurvedQuery curved_query(Random& random, int greatest) {
   CurvedQuery query;
   for (Trajectory& curve : query) {
     const int degree = random.between(0, greatest);
     for (int j = 0; j <= degree; ++j) {
       curve.control.push_back({small(random), small(random), small(random)});
     }
-    if (!may_be_rational || degree != 2 || random.coin()) continue;
-    curve.weights = {1.0, 1.0, 2.0};
+    if (degree == 2 && random.coin()) curve.weights = {1.0, 1.0, 2.0};
   }
   return query;
 }
 
-TEST(CurvedQuery, TwoRulesAgree) {
-  Random random(374);
-  int collisions = 0;
-  for (int round = 0; round < 300; ++round) {
-    const Kind kind = kind_of(round);
-    const CurvedQuery query = curved_query(random, 3, true);
-    const Decision contact = decide(kind, query);
-    const Decision axes = decide_distance(scale(kind, query, {}));
-    ASSERT_EQ(contact.collides(), axes.collides()) << round;
-    if (!contact.collides()) continue;
-    ++collisions;
-    EXPECT_EQ(*contact.toi, *axes.toi) << round;
-  }
-  EXPECT_GT(collisions, 50);
-}
-
-/// The halves of a curve, by de Casteljau's algorithm, which is exact here.
-std::array<Trajectory, 2> halves(const Trajectory& curve) {
-  std::vector<Point> row = curve.control;
-  std::array<Trajectory, 2> result;
-  while (!row.empty()) {
-    result[0].control.push_back(row.front());
-    result[1].control.insert(result[1].control.begin(), row.back());
-    for (std::size_t j = 0; j + 1 < row.size(); ++j) {
-      for (std::size_t axis = 0; axis < 3; ++axis) {
-        row[j][axis] = (row[j][axis] + row[j + 1][axis]) / 2;
-      }
-    }
-    row.pop_back();
-  }
-  return result;
-}
-
-TEST(CurvedQuery, CollidesWhereAHalfDoes) {
-  Random random(375);
-  for (int round = 0; round < 200; ++round) {
-    const Kind kind = kind_of(round);
-    const CurvedQuery whole = curved_query(random, 4, false);
-    const Separation separation = small_separation(random);
-    std::array<CurvedQuery, 2> parts;
-    for (std::size_t point = 0; point < moving_points; ++point) {
-      const auto both = halves(whole[point]);
-      for (std::size_t half = 0; half < 2; ++half) parts[half][point] = both[half];
-    }
-    const Decision found = decide(kind, whole, separation);
-    const Decision first = decide(kind, parts[0], separation);
-    const Decision second = decide(kind, parts[1], separation);
-    ASSERT_EQ(found.collides(), first.collides() || second.collides());
-    if (!found.collides()) continue;
-    const Polynomial two_t(Integer(0), Integer(2)), shifted(Integer(-1), Integer(2));
-    expect_reparametrized(found, first.collides() ? first : second,
-                          first.collides() ? two_t : shifted, Polynomial(Integer(1)));
-  }
-}
-
-TEST(CurvedQuery, KeepsItsTimeUnderAffineMapsAndOtherRoles) {
-  Random random(380);
-  int collisions = 0;
-  for (int round = 0; round < 300; ++round) {
-    const Kind kind = kind_of(round);
-    const CurvedQuery query = curved_query(random, 3, true);
-    const Decision expected = decide(kind, query);
-    collisions += expected.collides() ? 1 : 0;
-    CurvedQuery mapped = query;  // (x, y, z) to (x + 2y, y − z, 4z) and moved by (8, −2, 1) units
-    for (Trajectory& curve : mapped) {
-      for (auto& [x, y, z] : curve.control) {
-        x += 2 * y + 8 * unit;
-        y -= z + 2 * unit;
-        z = 4 * z + unit;
-      }
-    }
-    CurvedQuery swapped = query;
-    if (kind == Kind::edge_edge) {
-      std::swap(swapped[0], swapped[3]);
-      std::swap(swapped[1], swapped[2]);
-    } else {
-      std::swap(swapped[1], swapped[3]);
-    }
-    for (const CurvedQuery& other : {mapped, swapped}) {
-      const Decision found = decide(kind, other);
-      ASSERT_EQ(found.collides(), expected.collides());
-      EXPECT_TRUE(!found.collides() || *found.toi == *expected.toi);
-    }
-  }
-  EXPECT_GT(collisions, 50);
-}
-
-TEST(CurvedQuery, BackwardsCollidesToo) {
-  Random random(376);
-  for (int round = 0; round < 200; ++round) {
-    const Kind kind = kind_of(round);
-    const CurvedQuery query = curved_query(random, 4, true);
-    CurvedQuery backwards = query;
-    for (Trajectory& curve : backwards) {
-      std::ranges::reverse(curve.control);
-      std::ranges::reverse(curve.weights);
-    }
-    const Separation separation = small_separation(random);
-    EXPECT_EQ(decide(kind, query, separation).collides(),
-              decide(kind, backwards, separation).collides());
-  }
-}
-
-// ---- Certificates -------------------------------------------------------------------------------
-
-Certificate proved(Kind kind, const CurvedQuery& query, const Separation& separation,
-                   const ProveOptions& options = {}) {
-  return prove(kind, query, decide(kind, query, separation), options);
-}
-
-TEST(CurvedQuery, HasAProofThatTheCheckerAccepts) {
-  Random random(377);
-  std::array<int, 3> claims{};
-  for (int round = 0; round < 400; ++round) {
-    const Kind kind = kind_of(round);
-    const CurvedQuery query = curved_query(random, round % 4 == 0 ? 4 : 3, true);
-    const Separation separation = small_separation(random);
-    const ProveOptions options{.collision_claim =
-                                   random.coin() ? Claim::time_of_impact : Claim::collision};
-    const Certificate certificate = proved(kind, query, separation, options);
-    ASSERT_EQ(tests::rejection(certificate), "") << certificate_stream(certificate);
-    ++claims.at(static_cast<std::size_t>(certificate.claim));
-  }
-  for (const int count : claims) EXPECT_GT(count, 40);
-}
-
-/// Of two queries, the one with the proof of the other.
-TEST(CurvedQuery, HasNoProofOfWhatIsFalse) {
+/// Each query has a proof that the checker accepts; with the proof of another one it is accepted
+/// only where the claim is true of it too.
+TEST(CurvedQuery, HasAProofAndNoneOfWhatIsFalse) {
   Random random(378);
+  std::array<int, 3> claims{};
   int rejected = 0, accepted = 0;
   for (int round = 0; round < 2000; ++round) {
     const Kind kind = kind_of(round);
-    const CurvedQuery query = curved_query(random, 2, true);
+    const CurvedQuery query = curved_query(random, round % 5 == 0 ? random.between(3, 4) : 2);
     const Separation separation = small_separation(random);
-    Certificate certificate = proved(kind, query, separation);
+    const ProveOptions options{.collision_claim =
+                                   random.coin() ? Claim::time_of_impact : Claim::collision};
+    Certificate certificate = prove(kind, query, decide(kind, query, separation), options);
+    ASSERT_EQ(tests::rejection(certificate), "") << certificate_stream(certificate);
+    ++claims.at(static_cast<std::size_t>(certificate.claim));
     CurvedQuery other = query;
     const auto index = [&](std::size_t size) {
       return static_cast<std::size_t>(random.between(0, static_cast<int>(size) - 1));
@@ -327,17 +198,18 @@ TEST(CurvedQuery, HasNoProofOfWhatIsFalse) {
     curve.control.at(index(curve.control.size())).at(index(3)) += small(random, 1);
     if (!curve.weights.empty() && random.coin()) curve.weights[1] *= 2;
     certificate.query = other;
-    if (tests::rejection(certificate).empty()) {
-      ++accepted;
-      const Decision truth = decide(kind, other, separation);
-      ASSERT_EQ(truth.collides(), certificate.claim != Claim::no_collision);
-      if (!truth.collides()) continue;
-      EXPECT_GE(*truth.toi, certificate.toi.lower);
-      EXPECT_LE(*truth.toi, certificate.toi.upper);
-    } else {
+    if (!tests::rejection(certificate).empty()) {
       ++rejected;
+      continue;
     }
+    ++accepted;
+    const Decision truth = decide(kind, other, separation);
+    ASSERT_EQ(truth.collides(), certificate.claim != Claim::no_collision);
+    if (certificate.claim != Claim::time_of_impact) continue;
+    EXPECT_GE(*truth.toi, certificate.toi.lower);
+    EXPECT_LE(*truth.toi, certificate.toi.upper);
   }
+  for (const int count : claims) EXPECT_GT(count, 40);
   EXPECT_GT(accepted, 100);
   EXPECT_GT(rejected, 100);
 }
@@ -401,31 +273,28 @@ TEST(CurvedQuery, OfDoublesOfAnySizeIsDecided) {
 }
 
 TEST(CurvedQuery, ThatIsNotOneIsRefused) {
-  const CurvedQuery good = over_a_face({1, 2, 3});
-  const auto changed = [&](const auto& change) {
-    CurvedQuery query = good;
-    change(query[0]);
-    return query;
+  const auto decide_with = [](const Trajectory& curve) {
+    CurvedQuery query = over_a_face({1, 2, 3});
+    query[0] = curve;
+    static_cast<void>(decide(Kind::vertex_face, query));
   };
-  const double infinite = std::numeric_limits<double>::infinity();
-  const auto refused = [](const CurvedQuery& query) {
-    EXPECT_THROW((void)decide(Kind::vertex_face, query), std::invalid_argument);
-  };
-  refused(changed([](Trajectory& curve) { curve.control.clear(); }));
-  refused(changed([](Trajectory& curve) { curve.control.resize(10); }));
-  refused(changed([](Trajectory& curve) { curve.weights = {1, 2}; }));
-  refused(changed([](Trajectory& curve) { curve.weights = {1, 0, 1}; }));
-  refused(changed([](Trajectory& curve) { curve.weights = {1, -1, 1}; }));
-  for (const double x : {infinite, -infinite, std::nan("")}) {
-    EXPECT_THROW((void)decide(Kind::vertex_face,
-                              changed([&](Trajectory& curve) { curve.control[1][2] = x; })),
-                 std::domain_error);
-    EXPECT_THROW((void)decide(Kind::vertex_face, changed([&](Trajectory& curve) {
-                                curve.weights = {1, x, 1};
-                              })),
-                 std::domain_error);
+  const Point a{1, 1, 1};
+  for (const Trajectory& curve : std::vector<Trajectory>{{{}},
+                                                         {std::vector<Point>(10)},
+                                                         {{a, a, a}, {1, 2}},
+                                                         {{a, a, a}, {1, 0, 1}},
+                                                         {{a, a, a}, {1, -1, 1}}}) {
+    EXPECT_THROW(decide_with(curve), std::invalid_argument);
   }
-  EXPECT_THROW((void)decide(Kind::vertex_face, good, {-1.0, Norm::l2}), std::invalid_argument);
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  for (const double x : {infinity, -infinity, std::nan("")}) {
+    EXPECT_THROW(decide_with({{a, {1, 1, x}, a}}), std::domain_error);
+    EXPECT_THROW(decide_with({{a, a, a}, {1, x, 1}}), std::domain_error);
+  }
+  EXPECT_NO_THROW(decide_with({{a, a, a}, {1, 2, 1}}));
+  EXPECT_THROW(
+      static_cast<void>(decide(Kind::vertex_face, over_a_face({1, 2, 3}), {-1.0, Norm::l2})),
+      std::invalid_argument);
 }
 
 }  // namespace

@@ -52,11 +52,15 @@ class Binary64 {
   mpfr_exp_t saved_least_, saved_greatest_;
 };
 
-/// Compares all three roundings of x with MPFR's.
+/// Compares all three roundings of x with MPFR's, and no zero is negative.
 void expect_roundings(Binary64& binary64, const Rational& x) {
-  EXPECT_EQ(round_down(x), binary64.round(x, MPFR_RNDD)) << x;
-  EXPECT_EQ(round_up(x), binary64.round(x, MPFR_RNDU)) << x;
-  EXPECT_EQ(round_to_nearest(x), binary64.round(x, MPFR_RNDN)) << x;
+  const auto expect = [&](double found, mpfr_rnd_t mode) {
+    EXPECT_EQ(found, binary64.round(x, mode)) << x;
+    EXPECT_FALSE(found == 0.0 && std::signbit(found)) << x;
+  };
+  expect(round_down(x), MPFR_RNDD);
+  expect(round_up(x), MPFR_RNDU);
+  expect(round_to_nearest(x), MPFR_RNDN);
 }
 
 Rational random_rational(Random& random, int least_exponent, int greatest_exponent) {
@@ -87,42 +91,21 @@ TEST(Rounding, AgreesWithMpfr) {
   }
 }
 
-/// The three roundings of numbers at the ends of the range, and between doubles.
-TEST(Rounding, OfNumbersAtTheEndsAndTies) {
+TEST(Rounding, AtTheEndsOfTheRangeAndOfTiesAgreesWithMpfr) {
+  Binary64 binary64;
   const Rational tiny = power_of_two(-5000), half = power_of_two(-1075), top(Limits::max()),
-                 half_step = power_of_two(970);
-  const double odd = std::nextafter(1.0, 2.0), next = std::nextafter(odd, 2.0),
-               below = std::nextafter(1.0, 0.0), subnormal = std::nextafter(Limits::min(), 0.0);
-  struct Row {
-    Rational x;
-    double down, up, nearest;
-  };
-  for (const auto& [x, down, up, nearest] : std::initializer_list<Row>{
-           {0, 0.0, 0.0, 0.0},
-           {tiny, 0.0, least_subnormal, 0.0},
-           {half, 0.0, least_subnormal, 0.0},
-           {half + tiny, 0.0, least_subnormal, least_subnormal},
-           {3 * half, least_subnormal, 2 * least_subnormal, 2 * least_subnormal},
-           {5 * half, 2 * least_subnormal, 3 * least_subnormal, 2 * least_subnormal},
-           {middle(subnormal, Limits::min()), subnormal, Limits::min(), Limits::min()},
-           {middle(below, 1.0), below, 1.0, 1.0},
-           {middle(1.0, odd), 1.0, odd, 1.0},
-           {middle(odd, next), odd, next, next},
-           {top + power_of_two(-9000), Limits::max(), infinity, Limits::max()},
-           {top + half_step - power_of_two(-9000), Limits::max(), infinity, Limits::max()},
-           {top + half_step, Limits::max(), infinity, infinity},
-           {power_of_two(100000), Limits::max(), infinity, infinity}}) {
-    const auto expect_same = [](double found, double expected) {
-      EXPECT_EQ(found, expected);
-      EXPECT_FALSE(found == 0.0 && std::signbit(found));
-    };
-    expect_same(round_down(x), down);
-    expect_same(round_up(x), up);
-    expect_same(round_to_nearest(x), nearest);
-    expect_same(round_down(-x), -up + 0.0);
-    expect_same(round_up(-x), -down + 0.0);
-    expect_same(round_to_nearest(-x), -nearest + 0.0);
+                 half_step = power_of_two(970), least = power_of_two(-9000);
+  const double odd = std::nextafter(1.0, 2.0), below = std::nextafter(1.0, 0.0);
+  for (const Rational& x : std::initializer_list<Rational>{
+           0, tiny, half, half - tiny, half + tiny, 3 * half, 5 * half,
+           middle(std::nextafter(Limits::min(), 0.0), Limits::min()), middle(below, 1.0),
+           middle(1.0, odd), middle(odd, std::nextafter(odd, 2.0)), top + least,
+           top + half_step - least, top + half_step, power_of_two(100000)}) {
+    expect_roundings(binary64, x);
+    expect_roundings(binary64, -x);
   }
+  EXPECT_EQ(round_to_nearest(top + half_step), infinity);
+  EXPECT_EQ(round_up(tiny), least_subnormal);
 }
 
 /// GMP's own reading of "numerator/denominator".

@@ -35,9 +35,11 @@ using tests::edge_edge;
 using tests::Family;
 using tests::over_edge;
 using tests::over_triangle;
+using tests::PosedCurves;
 using tests::PosedQuery;
 using tests::Random;
 using tests::random_query;
+using tests::to_curves;
 using tests::turning_triangle;
 using tests::twisting_triangle;
 using tests::vertex_face;
@@ -45,28 +47,6 @@ using tests::vertex_face;
 /// The steps that the solver may take for a question: its own measure of work.
 constexpr unsigned most_steps = 200'000;
 constexpr double least = std::numeric_limits<double>::denorm_min();
-
-/// A query on curves with its kind.
-struct PosedCurves {
-  Kind kind;
-  CurvedQuery query;
-};
-
-/// Prints the kind, and each point's control points and weights as hexadecimal doubles.
-std::ostream& operator<<(std::ostream& out, const PosedCurves& posed) {
-  out << to_string(posed.kind) << std::hexfloat;
-  for (const Trajectory& curve : posed.query) {
-    out << "; control";
-    for (const auto& point : curve.control) {
-      for (const double x : point) out << ' ' << x;
-    }
-    if (!curve.weights.empty()) out << " weights";
-    for (const double w : curve.weights) out << ' ' << w;
-  }
-  return out << std::defaultfloat;
-}
-
-PosedCurves to_curves(const PosedQuery& posed) { return {posed.kind, to_curved(posed.query)}; }
 
 // ------------------------------------------------------------------ the solver
 

@@ -9,16 +9,18 @@
 #include <utility>
 #include <vector>
 
+#include "tests/support/polynomials.hpp"
 #include "tests/support/random.hpp"
 
 namespace touchstone::exact::polynomial_test {
 namespace {
 
+using tests::factor;
+using tests::polynomial;
+using tests::power;
 using tests::Random;
+using tests::random_polynomial;
 using Coefficients = std::vector<Integer>;
-
-/// Σ c_i t^i.
-Polynomial polynomial(const Coefficients& c) { return Polynomial(c); }
 
 CGAL::Polynomial<Integer> to_cgal(const Polynomial& p) {
   return {p.coefficients().begin(), p.coefficients().end()};
@@ -26,23 +28,6 @@ CGAL::Polynomial<Integer> to_cgal(const Polynomial& p) {
 
 Polynomial from_cgal(const CGAL::Polynomial<Integer>& p) {
   return polynomial({p.begin(), p.end()});
-}
-
-Polynomial power(const Polynomial& p, int exponent) {
-  Polynomial result(Integer(1));
-  for (int i = 0; i < exponent; ++i) result = result * p;
-  return result;
-}
-
-/// A primitive polynomial of degree 1 with this root.
-Polynomial factor(const Rational& root) { return polynomial({-root.get_num(), root.get_den()}); }
-
-/// A random polynomial of exactly this degree.
-Polynomial random_polynomial(Random& random, int degree, unsigned bits) {
-  Coefficients c;
-  for (int i = 0; i <= degree; ++i) c.push_back(random.integer<Integer>(bits));
-  if (sgn(c.back()) == 0) c.back() = 1;
-  return polynomial(c);
 }
 
 Rational random_rational(Random& random, unsigned bits) {

@@ -52,6 +52,13 @@ struct ReadClaim {
   exact::RationalInterval toi;
 };
 
+/// A number as certificates write it.
+[[nodiscard]] inline std::string written(const exact::Rational& value) {
+  std::string text;
+  exact::write_number(text, value);
+  return text;
+}
+
 /// A number in one of the format's forms.
 [[nodiscard]] inline exact::Rational read_number(std::string_view word) {
   const bool negative = word.starts_with('-');

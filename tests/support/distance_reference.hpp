@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "tests/support/queries.hpp"
+#include "tests/support/root_count.hpp"
 #include "touchstone/algebraic_number.hpp"
 #include "touchstone/polynomial.hpp"
 
@@ -29,17 +30,9 @@ class DistanceReference {
   using Polynomial = exact::Polynomial;
   using Vector = std::array<Polynomial, 3>;
 
-  DistanceReference(const PosedQuery& posed, double distance) : distance_(integer(distance)) {
-    for (const Corner& corner : corners(posed.kind)) {
-      Vector& w = w_.emplace_back();
-      for (std::size_t axis = 0; axis < 3; ++axis) {
-        const auto at = [&](std::size_t end) {
-          return exact::Integer(integer(posed.query.at(end, corner.plus, axis)) -
-                                integer(posed.query.at(end, corner.minus, axis)));
-        };
-        w.at(axis) = Polynomial(at(0), exact::Integer(at(1) - at(0)));
-      }
-    }
+  DistanceReference(PosedQuery posed, double distance) : distance_(integer(distance)) {
+    for (double& x : posed.query.coordinates) x = std::ldexp(x, 10);
+    w_ = root_count::moving_corners(posed);
     normal_ = cross(minus(w_[1], w_[0]), minus(w_[2], w_[0]));
   }
 
@@ -61,18 +54,12 @@ class DistanceReference {
   }
 
  private:
+  static constexpr auto& cross = root_count::cross;
+  static constexpr auto& dot = root_count::dot;
+  static constexpr auto& minus = root_count::minus;
+
   static exact::Integer integer(double x) { return exact::Rational(std::ldexp(x, 10)).get_num(); }
   static Polynomial constant(const exact::Integer& x) { return Polynomial(x); }
-
-  static Vector minus(const Vector& a, const Vector& b) {
-    return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
-  }
-  static Vector cross(const Vector& a, const Vector& b) {
-    return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-  }
-  static Polynomial dot(const Vector& a, const Vector& b) {
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-  }
 
   void candidate(const Polynomial& p) {
     if (p.degree() > 0) candidates_.insert(exact::squarefree_part(p));

@@ -17,6 +17,7 @@
 #include <ostream>
 
 #include "tests/support/random.hpp"
+#include "touchstone/curved_query.hpp"
 #include "touchstone/query.hpp"
 
 namespace touchstone::tests {
@@ -32,6 +33,35 @@ inline std::ostream& operator<<(std::ostream& out, const PosedQuery& posed) {
   out << to_string(posed.kind) << std::hexfloat;
   for (const double x : posed.query.coordinates) out << ' ' << x;
   return out << std::defaultfloat;
+}
+
+/// A query on curves with its kind and separation.
+struct PosedCurves {
+  Kind kind;
+  CurvedQuery query;
+  Separation separation = {};
+};
+
+/// Prints the kind, and each point's control points and weights as hexadecimal doubles.
+inline std::ostream& operator<<(std::ostream& out, const PosedCurves& posed) {
+  const auto& [kind, query, separation] = posed;
+  out << to_string(kind) << std::hexfloat;
+  for (const Trajectory& curve : query) {
+    out << "; control";
+    for (const auto& point : curve.control) {
+      for (const double x : point) out << ' ' << x;
+    }
+    if (!curve.weights.empty()) out << " weights";
+    for (const double w : curve.weights) out << ' ' << w;
+  }
+  if (!is_zero(separation)) {
+    out << "; separation " << separation.distance << ' ' << to_string(separation.norm);
+  }
+  return out << std::defaultfloat;
+}
+
+[[nodiscard]] inline PosedCurves to_curves(const PosedQuery& posed) {
+  return {posed.kind, to_curved(posed.query)};
 }
 
 /// Four points, x, y, z each, in the order of Query.

@@ -90,23 +90,6 @@ TEST(Separate, EndsAtTheGivenTime) {
   EXPECT_THROW(static_cast<void>(separate(motion, 1)), std::logic_error);
 }
 
-TEST(Separate, KeepsADistance) {
-  // The height is 1 at t=1/2.
-  const auto falling = over_triangle(1, 1, 3, -1);
-  const auto subintervals_until = [&](const Separation& separation, const Rational& until) {
-    return separate(scale_uniformly(falling.kind, falling.query, separation), until);
-  };
-  for (const Norm norm : {Norm::linf, Norm::l2}) {
-    const Rational before = Rational(1, 2) - power_of_two(-200);
-    const Feature expected =
-        norm == Norm::l2 ? face_above : Feature{.sort = Sort::positive_axis, .axis = 2};
-    EXPECT_EQ(subintervals_until({1, norm}, before),
-              (std::vector<Subinterval>{{0, before, expected}}));
-    EXPECT_THROW(static_cast<void>(subintervals_until({1, norm}, Rational(1, 2))),
-                 std::logic_error);
-  }
-}
-
 TEST(Separate, TakesACubesEdgeWhereNothingElseSeparates) {
   // (6,2) is 2 from the side in x = y. The triangle leans away from it: its plane is nearer, and
   // all coordinates of the vertex are between those of the triangle.

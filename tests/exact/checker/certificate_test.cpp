@@ -8,58 +8,55 @@
 
 #include <array>
 #include <cstddef>
+#include <map>
 #include <string>
-#include <string_view>
+#include <utility>
 #include <vector>
 
 #include "tests/support/checker_outcome.hpp"
+#include "tests/support/rows.hpp"
 
 namespace touchstone::checker::certificate_test {
 namespace {
 
 using namespace std::string_literals;
 using tests::outcome;
-using Lines = std::vector<std::string>;
 
-/// A certificate with every kind of line; line n is element n−1.
-const Lines& sample() {
-  static const Lines lines{"touchstone-certificates 2",
-                           "query vertex_face",
-                           "label simulation/cloth.csv:17",
-                           "point 1 1 1",
-                           "point 0 0 0",
-                           "point 4 0 0",
-                           "point 0 4 0",
-                           "point 1 1 -1",
-                           "point 0 0 0",
-                           "point 4 0 0",
-                           "point 0 4 0",
-                           "claim time_of_impact 1/4 3/4",
-                           "separate 0 1/8 face +",
-                           "separate 1/8 1/4 face +",
-                           "contact root 1/4 3/4 -1 2",
-                           "at triangle 0 1 2 z",
-                           "end"};
-  return lines;
+/// A certificate with every kind of line. Some, by their numbers, are written otherwise, or left
+/// out for "".
+std::string with(const std::map<std::size_t, std::string>& others) {
+  std::vector<std::string> lines{"touchstone-certificates 2",
+                                 "query vertex_face",
+                                 "label simulation/cloth.csv:17",
+                                 "point 1 1 1",
+                                 "point 0 0 0",
+                                 "point 4 0 0",
+                                 "point 0 4 0",
+                                 "point 1 1 -1",
+                                 "point 0 0 0",
+                                 "point 4 0 0",
+                                 "point 0 4 0",
+                                 "claim time_of_impact 1/4 3/4",
+                                 "separate 0 1/8 face +",
+                                 "separate 1/8 1/4 face +",
+                                 "contact root 1/4 3/4 -1 2",
+                                 "at triangle 0 1 2 z",
+                                 "end"};
+  for (const auto& [number, line] : others) lines.at(number - 1) = line;
+  std::erase(lines, "");
+  return tests::joined(lines, "\n") + "\n";
 }
 
-std::string joined(const Lines& lines) {
-  std::string text;
-  for (const std::string& line : lines) text += line + "\n";
-  return text;
-}
-
-/// The sample with another line in the place of line `number`.
-std::string with(std::size_t number, std::string_view line) {
-  Lines lines = sample();
-  lines.at(number - 1) = line;
-  return joined(lines);
+/// A line, and another so often that there are `count`.
+std::string repeated(std::string line, const std::string& next, std::size_t count) {
+  for (std::size_t n = 1; n < count; ++n) line += "\n" + next;
+  return line;
 }
 
 /// The sample with one of the vertex's first coordinates, 1, written otherwise.
-std::string one_as(const std::string& number) { return with(4, "point 1 " + number + " 1"); }
+std::string one_as(const std::string& number) { return with({{4, "point 1 " + number + " 1"}}); }
 
-TEST(Form, TheSampleIsAccepted) { EXPECT_EQ(outcome(joined(sample())), "time_of_impact"); }
+TEST(Form, TheSampleIsAccepted) { EXPECT_EQ(outcome(with({})), "time_of_impact"); }
 
 /// 2^n in decimal.
 std::string power_of_two(unsigned n) { return mpz_class(mpz_class(1) << n).get_str(); }
@@ -86,7 +83,7 @@ TEST(Limit, OfTheBitsOfANumber) {
         std::string(60000, '9')}) {
     EXPECT_TRUE(is_too_large(number)) << number.substr(0, 20);
   }
-  EXPECT_TRUE(outcome(with(15, "contact root 1/4 3/4 -1 " + power_of_two(16384)))
+  EXPECT_TRUE(outcome(with({{15, "contact root 1/4 3/4 -1 " + power_of_two(16384)}}))
                   .starts_with("15: more than 16384 bits in a number: '"));
 }
 
@@ -95,13 +92,11 @@ TEST(Limit, OfNumbersTogether) {
   // number adds as many, and 2^power as many as it says.
   const auto coordinates = [](int power) {
     const mpz_class large = mpz_class(1) << 16'383U;
-    Lines lines = sample();
-    lines.at(3) =
-        "point 1/" + mpz_class(large - 1).get_str() + " 1/" + mpz_class(large + 1).get_str() + " 1";
-    lines.at(6) = "point 1/17 4 0";
-    lines.at(5) = "point 0x1p+" + std::to_string(power) + " 0 0";
-    lines.at(9) = "point 4 0x1p-16383 0";
-    return outcome(joined(lines));
+    return outcome(with({{4, "point 1/" + mpz_class(large - 1).get_str() + " 1/" +
+                                 mpz_class(large + 1).get_str() + " 1"},
+                         {7, "point 1/17 4 0"},
+                         {6, "point 0x1p+" + std::to_string(power) + " 0 0"},
+                         {10, "point 4 0x1p-16383 0"}}));
   };
   EXPECT_EQ(coordinates(16'382), "time_of_impact");
   EXPECT_EQ(coordinates(16'383), "12: numbers too large over their common denominator");
@@ -109,45 +104,40 @@ TEST(Limit, OfNumbersTogether) {
 
 TEST(Limit, OfACommonDenominator) {
   const auto coordinates = [](std::size_t count) {
-    Lines lines = sample();
+    std::map<std::size_t, std::string> lines;
     for (std::size_t n = 0; n < count; ++n) {
       // Pairwise without a common factor, since none divides their differences of 6 to 24.
       const mpz_class denominator =
           (mpz_class(1) << 16'300U) + std::array{1U, 7U, 13U, 19U, 31U}.at(n);
-      lines.at(4 + n) = "point 0 0 1/" + denominator.get_str();
+      lines[5 + n] = "point 0 0 1/" + denominator.get_str();
     }
-    return outcome(joined(lines));
+    return outcome(with(lines));
   };
   EXPECT_NE(coordinates(4), "12: numbers too large over their common denominator");
   EXPECT_EQ(coordinates(5), "12: numbers too large over their common denominator");
 }
 
-TEST(Limit, OfALine) {
+TEST(Limit, OfALineAndOfALabel) {
   const auto comment = [](std::size_t bytes) {
-    return with(9, "#" + std::string(bytes - 1, 'x') + "\npoint 0 0 0");
+    return outcome(with({{9, "#" + std::string(bytes - 1, 'x') + "\npoint 0 0 0"}}));
   };
-  EXPECT_EQ(outcome(comment(65'535)), "time_of_impact");
-  EXPECT_EQ(outcome(comment(65'536)), "time_of_impact");
-  EXPECT_EQ(outcome(comment(65'537)), "9: the line is too long");
-  EXPECT_EQ(outcome(comment(1'000'000)), "9: the line is too long");
-}
-
-TEST(Limit, OfALabel) {
-  EXPECT_EQ(outcome(with(3, "label " + std::string(1'024, ' '))), "time_of_impact");
-  EXPECT_EQ(outcome(with(3, "label " + std::string(1'025, ' '))),
-            "3: more than 1024 bytes in a label");
-  EXPECT_EQ(outcome(with(3, "label")), "time_of_impact");
-  EXPECT_EQ(outcome(with(3, "label ")), "time_of_impact");
+  EXPECT_EQ(comment(65'535), "time_of_impact");
+  EXPECT_EQ(comment(65'536), "time_of_impact");
+  EXPECT_EQ(comment(65'537), "9: the line is too long");
+  EXPECT_EQ(comment(1'000'000), "9: the line is too long");
+  const auto label = [](std::size_t spaces) {
+    return outcome(with({{3, "label" + std::string(spaces, ' ')}}));
+  };
+  EXPECT_EQ(label(0), "time_of_impact");
+  EXPECT_EQ(label(1), "time_of_impact");
+  EXPECT_EQ(label(1'025), "time_of_impact");
+  EXPECT_EQ(label(1'026), "3: more than 1024 bytes in a label");
 }
 
 TEST(Limit, OfSubintervals) {
   const auto subintervals = [](std::size_t count) {
-    std::string text = "separate 0 1/4 face +";
-    for (std::size_t n = 1; n < count; ++n) text += "\nseparate 1/4 1/4 face +";
-    Lines lines = sample();
-    lines.erase(lines.begin() + 13);
-    lines.at(12) = text;
-    return outcome(joined(lines));
+    return outcome(with(
+        {{13, repeated("separate 0 1/4 face +", "separate 1/4 1/4 face +", count)}, {14, ""}}));
   };
   EXPECT_EQ(subintervals(4'096), "time_of_impact");
   EXPECT_EQ(subintervals(4'097), "4109: more than 4096 subintervals");
@@ -161,42 +151,35 @@ std::string over_a_triangle(const std::string& curve) {
 }
 
 TEST(Form, OfACurve) {
-  const std::string point = "point 1 1 1\n";
-  EXPECT_EQ(outcome(over_a_triangle("curve 0\n" + point)), "no_collision");
-  EXPECT_EQ(outcome(over_a_triangle("curve 2\n" + point + "point 1 1 -1/2\n" + point)),
-            "no_collision");
-  EXPECT_EQ(outcome(over_a_triangle("curve 2\n" + point + "point 1 1 -1\n" + point)),
-            "14: a polynomial is not positive at a point");
-  EXPECT_EQ(outcome(over_a_triangle("rational 1\npoint 1 1 1 2\npoint 1 1 1 1/3\n")),
-            "no_collision");
-  EXPECT_EQ(outcome(over_a_triangle("curve 1\n" + point)), "5: expected 'point', found 'curve'");
-  EXPECT_EQ(outcome(over_a_triangle("curve 0\npoint 1 1 1 1\n")), "4: the line has too many words");
-  EXPECT_EQ(outcome(over_a_triangle("rational 0\n" + point)), "4: the line has too few words");
-  for (const std::string_view weight : {"0", "-1"}) {
-    EXPECT_EQ(outcome(over_a_triangle("rational 0\npoint 1 1 1 " + std::string(weight) + "\n")),
-              "4: a weight that is not positive");
+  const std::string point = "point 1 1 1\n", line = "point 1 1 1";
+  for (const auto& [curve, expected] : std::vector<std::pair<std::string, std::string>>{
+           {"curve 0\n" + point, "no_collision"},
+           {"curve 2\n" + point + "point 1 1 -1/2\n" + point, "no_collision"},
+           {"curve 2\n" + point + "point 1 1 -1\n" + point,
+            "14: a polynomial is not positive at a point"},
+           {"rational 1\npoint 1 1 1 2\npoint 1 1 1 1/3\n", "no_collision"},
+           {"curve 1\n" + point, "5: expected 'point', found 'curve'"},
+           {"curve 0\npoint 1 1 1 1\n", "4: the line has too many words"},
+           {"rational 0\n" + point, "4: the line has too few words"},
+           {"rational 0\npoint 1 1 1 0\n", "4: a weight that is not positive"},
+           {"rational 0\npoint 1 1 1 -1\n", "4: a weight that is not positive"},
+           {"curve 8\n" + repeated(line, line, 9) + "\n", "no_collision"},
+           {"curve 9\n" + repeated(line, line, 10) + "\n", "3: a degree that is not 0 to 8"},
+           {"curve -1\n", "3: a degree that is not 0 to 8"}}) {
+    EXPECT_EQ(outcome(over_a_triangle(curve)), expected) << curve;
   }
-  std::string longest = "curve 8\n", too_long = "curve 9\n" + point;
-  for (int j = 0; j <= 8; ++j) {
-    longest += point;
-    too_long += point;
-  }
-  EXPECT_EQ(outcome(over_a_triangle(longest)), "no_collision");
-  EXPECT_EQ(outcome(over_a_triangle(too_long)), "3: a degree that is not 0 to 8");
-  EXPECT_EQ(outcome(over_a_triangle("curve -1\n")), "3: a degree that is not 0 to 8");
 }
 
 TEST(Limit, OfADegree) {
   // det is 0 for all time, so any g divides it: t^n − 1/2 in [1/4,1].
   const auto degree = [](std::size_t n) {
-    Lines lines = sample();
-    lines.at(3) = lines.at(7) = "point 1 1 0";
-    lines.at(11) = "claim collision";
-    lines.erase(lines.begin() + 12, lines.begin() + 14);
-    lines.at(12) = "contact root 1/4 1 -1";
-    for (std::size_t k = 1; k < n; ++k) lines.at(12) += " 0";
-    lines.at(12) += " 2";
-    return outcome(joined(lines));
+    return outcome(with({{4, "point 1 1 0"},
+                         {8, "point 1 1 0"},
+                         {12, "claim collision"},
+                         {13, ""},
+                         {14, ""},
+                         {15, "contact root 1/4 1 -1" +
+                                  tests::replaced(std::string(n - 1, '0'), "0", " 0") + " 2"}}));
   };
   EXPECT_EQ(degree(1), "collision");
   EXPECT_EQ(degree(256), "collision");
@@ -207,13 +190,13 @@ TEST(Limit, OfADegree) {
 TEST(Limit, OfWork) {
   const std::string vertex = "point 0x1p-16000 0x1p-16000 0x1p+16000";
   const auto subintervals = [&](std::size_t count) {
-    Lines lines = sample();
-    lines.at(3) = lines.at(7) = vertex;
-    lines.at(11) = "claim no_collision";
-    lines.erase(lines.begin() + 13, lines.begin() + 16);
-    lines.at(12) = "separate 0 1 edge 0 1";
-    for (std::size_t n = 1; n < count; ++n) lines.at(12) += "\nseparate 1 1 edge 0 1";
-    return outcome(joined(lines));
+    return outcome(with({{4, vertex},
+                         {8, vertex},
+                         {12, "claim no_collision"},
+                         {13, repeated("separate 0 1 edge 0 1", "separate 1 1 edge 0 1", count)},
+                         {14, ""},
+                         {15, ""},
+                         {16, ""}}));
   };
   EXPECT_EQ(subintervals(100), "no_collision");
   EXPECT_EQ(subintervals(300), "199: the proof takes too much work");

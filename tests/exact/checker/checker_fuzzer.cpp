@@ -8,7 +8,6 @@
 /// with the reasons.
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
@@ -71,68 +70,21 @@ class Mutator {
   }
 
   std::string mutate_word(const std::string& line, const std::string& other) {
-    static constexpr auto vocabulary =
-        std::to_array<std::string_view>({"0",
-                                         "1",
-                                         "-1",
-                                         "2",
-                                         "3",
-                                         "1/2",
-                                         "1/3",
-                                         "-7/5",
-                                         "0x1p+0",
-                                         "0x1p-1074",
-                                         "0x1.fffffffffffffp+1023",
-                                         "0x1p-16383",
-                                         "0x1p+16383",
-                                         "123456789012345678901234567890",
-                                         "vertex",
-                                         "edge",
-                                         "face",
-                                         "+",
-                                         "-",
-                                         "triangle",
-                                         "segment",
-                                         "axis",
-                                         "cross",
-                                         "axes",
-                                         "separation",
-                                         "linf",
-                                         "l2",
-                                         "x",
-                                         "y",
-                                         "z",
-                                         "time",
-                                         "root",
-                                         "no_collision",
-                                         "collision",
-                                         "time_of_impact",
-                                         "vertex_face",
-                                         "edge_edge",
-                                         "nan",
-                                         "certificates",
-                                         "vertices",
-                                         "faces",
-                                         "edges",
-                                         "points",
-                                         "groups",
-                                         "apart",
-                                         "sweep",
-                                         "no_contact",
-                                         "earliest",
-                                         "pair",
-                                         "vertex_edge",
-                                         "vertex_vertex",
-                                         "step",
-                                         "steps",
-                                         ""});
+    // (The last word is empty.)
+    static const Words vocabulary =
+        cut("0 1 -1 2 3 1/2 1/3 -7/5 0x1p+0 0x1p-1074 0x1.fffffffffffffp+1023 0x1p-16383 "
+            "0x1p+16383 123456789012345678901234567890 vertex edge face + - triangle segment "
+            "axis cross axes separation linf l2 x y z time root no_collision collision "
+            "time_of_impact vertex_face edge_edge nan certificates vertices faces edges "
+            "points groups apart sweep no_contact earliest pair vertex_edge vertex_vertex "
+            "step steps  ",
+            ' ');
     Words words = cut(line, ' ');
     const Words from = cut(other, ' ');
     if (words.empty() || from.empty()) return line;
     std::string& word = words[below(words.size())];
     const char last = word.back();
-    word = below(2) == 0 ? from[below(from.size())]
-                         : std::string(vocabulary.at(below(vocabulary.size())));
+    word = below(2) == 0 ? from[below(from.size())] : vocabulary[below(vocabulary.size())];
     while (word.ends_with(' ') || word.ends_with('\n')) word.pop_back();
     if (last == ' ' || last == '\n') word += last;
     return join(words);

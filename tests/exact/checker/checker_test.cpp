@@ -3,11 +3,9 @@
 /// bytes that are no certificates; the corpus of the fuzzer, and the examples of the manual.
 
 #include "exact/checker/checker.hpp"
-#include "tests/support/built_files.hpp"
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -24,7 +22,9 @@
 #include <utility>
 #include <vector>
 
+#include "tests/support/built_files.hpp"
 #include "tests/support/checker_outcome.hpp"
+#include "tests/support/rows.hpp"
 
 namespace touchstone::checker::checker_test {
 namespace {
@@ -175,13 +175,10 @@ TEST(Check, KeepsTheFirstRejections) {
 }
 
 TEST(Check, RejectsTheEndingsOfOtherSystems) {
-  std::string text = header + apart, carriage = text;
-  for (std::size_t at = 0; (at = carriage.find('\n', at)) != std::string::npos; at += 2)
-    carriage.insert(at, "\r");
-  EXPECT_FALSE(check_closed(carriage).all_accepted());
-  EXPECT_FALSE(check_closed(header + carriage.substr(header.size() + 1)).all_accepted());
-  std::ranges::replace(text, '\n', '\r');
-  EXPECT_FALSE(check_closed(text).all_accepted());
+  const std::string text = header + apart;
+  EXPECT_FALSE(check_closed(tests::replaced(text, "\n", "\r\n")).all_accepted());
+  EXPECT_FALSE(check_closed(header + tests::replaced(apart, "\n", "\r\n")).all_accepted());
+  EXPECT_FALSE(check_closed(tests::replaced(text, "\n", "\r")).all_accepted());
 }
 
 /// Cut anywhere, a stream is not accepted, and proves at most what was complete.
