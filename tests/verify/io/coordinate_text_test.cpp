@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <limits>
 #include <random>
+#include <sstream>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -48,54 +49,25 @@ std::string fault_of(std::string_view numerator, std::string_view denominator) {
 /// Signs, leading zeros, fractions of any terms, decimals that are doubles and others, and both
 /// ends of the range.
 TEST(ParseCoordinate, IsTheNearestDouble) {
-  const exact::Integer largest = power(1024) - power(971);
+  const auto [largest, half_past] =
+      std::pair{text_of(power(1024) - power(971)), text_of(power(1024) - power(970))};
+  const auto [smallest, half] = std::pair{text_of(power(1074)), text_of(power(1075))};
   const std::string sevens = "3" + std::string(400, '7');
-  const std::int64_t most = (std::int64_t{1} << 53) - 1;
-  for (const auto& [numerator, denominator] : std::vector<std::pair<std::string, std::string>>{
-           {"+3", "+4"},
-           {"3", "-4"},
-           {"-3", "-4"},
-           {"007", "002"},
-           {"9", "12"},
-           {"0", "7"},
-           {"-0", "1"},
-           {"-0", "-3"},
-           {sevens, sevens},
-           {"9223372036854775807", "9223372036854775807"},
-           {"-9223372036854775808", "9223372036854775808"},
-           {"18446744073709551616", "1"},
-           {"-0.75", "1"},
-           {"+.5", "1"},
-           {"3.", "1"},
-           {"1.5e3", "1"},
-           {"15E-1", "3"},
-           {"3", "0.5"},
-           {"0.3", "0.1"},
-           {"-0.0", "1"},
-           {"-0e-9999", "1"},
-           {"0.1000000000000000055511151231257827021181583404541015625", "1"},
-           {"4.0e-1", "6.4e0"},
-           {"0.1", "1"},
-           {"-0.00058163201902061701", "1"},
-           {"1e-330", "1"},
-           {"-1e-330", "1"},
-           {"1.7976931348623158e308", "1"},
-           {"-2.5e-324", "1"},
-           {"1", "3"},
-           {std::to_string(most), "1"},
-           {std::to_string(2 * most), "1"},
-           {std::to_string(2 * most + 1), "1"},
-           {text_of(largest), "1"},
-           {text_of(-largest), "1"},
-           {text_of(largest + power(970) - 1), "1"},
-           {"1", text_of(power(1074))},
-           {"-1", text_of(power(1074))},
-           {"-1", text_of(power(1075))},
-           {text_of(power(52) - 1), text_of(power(1074))}}) {
-    expect_correct(numerator, denominator);
+  std::istringstream fractions(
+      "+3/+4 3/-4 -3/-4 007/002 9/12 1/3 0/7 -0/1 -0/-3 -0.0/1 -0e-9999/1 -0.75/1 +.5/1 3./1 "
+      "1.5e3/1 15E-1/3 3/0.5 0.3/0.1 4.0e-1/6.4e0 0.1/1 -0.00058163201902061701/1 "
+      "0.1000000000000000055511151231257827021181583404541015625/1 1.7976931348623158e308/1 "
+      "1e-330/1 -1e-330/1 -2.5e-324/1 18446744073709551616/1 "
+      "9223372036854775807/9223372036854775807 -9223372036854775808/9223372036854775808 "
+      "9007199254740991/1 18014398509481982/1 18014398509481983/1 4503599627370495/" +
+      smallest + " 1/" + smallest + " -1/" + smallest + " -1/" + half + " " + sevens + "/" +
+      sevens + " " + largest + "/1 -" + largest + "/1 " + text_of(exact::Integer(half_past) - 1) +
+      "/1");
+  for (std::string fraction; fractions >> fraction;) {
+    const std::size_t slash = fraction.find('/');
+    expect_correct(fraction.substr(0, slash), fraction.substr(slash + 1));
   }
-  for (const std::string& beyond :
-       {text_of(largest + power(970)), text_of(-power(1024)), std::string("-1.8e308")}) {
+  for (const std::string& beyond : {half_past, text_of(-power(1024)), std::string("-1.8e308")}) {
     EXPECT_EQ(fault_of(beyond, "1"), "numerator: beyond the range of double");
   }
   EXPECT_EQ(fault_of("1", "1e-400"), "numerator: beyond the range of double");
