@@ -9,6 +9,7 @@
 #include <map>
 #include <numeric>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "tests/support/npz_files.hpp"
@@ -165,28 +166,21 @@ TEST_F(NpzQueries, AreReadWithTheirLabels) {
   EXPECT_FALSE(read_all(unlabelled).front().collides.has_value());
 }
 
-TEST_F(NpzQueries, ThatAreNotFiniteAreSkippedOnDemand) {
+TEST_F(NpzQueries, ThatAreNoneAreErrors) {
   std::vector<double> numbers = coordinates<double>(3);
-  numbers[size + 4] = std::nan("");
-  const std::map<std::string, std::string> members{
-      {"queries.npy", tests::array("<f8", {3, 8, 3}, numbers)}};
-  EXPECT_EQ(error_with(members), "a_ee.npz: query 1, point 1, y: not finite");
-  NpyDataset source(write(members), {.keep_going = true});
-  EXPECT_EQ(read_all(source).size(), 2U);
-  EXPECT_EQ(source.skipped(), 1U);
-}
-
-TEST_F(NpzQueries, OfAnotherShapeOrTypeAreErrors) {
-  const std::vector<double> numbers = coordinates<double>(2);
-  const std::string queries = tests::array("<f8", {2, 8, 3}, numbers);
-  EXPECT_EQ(error_with({{"queries.npy", tests::array("<f8", {16, 3}, numbers)}}),
-            "a_ee.npz: queries: shape (16, 3), expected (N, 8, 3)");
-  EXPECT_EQ(error_with({{"queries.npy", tests::array("<f8", {3, 8, 3}, numbers)}}),
-            "a_ee.npz: queries: 384 bytes of data do not fit shape (3, 8, 3) of dtype \"<f8\"");
+  const auto queries = [&](const std::vector<std::uint64_t>& shape) {
+    return std::pair<const std::string, std::string>("queries.npy",
+                                                     tests::array("<f8", shape, numbers));
+  };
+  EXPECT_EQ(error_with({queries({24, 3})}), "a_ee.npz: queries: shape (24, 3), expected (N, 8, 3)");
+  EXPECT_EQ(error_with({queries({4, 8, 3})}),
+            "a_ee.npz: queries: 576 bytes of data do not fit shape (4, 8, 3) of dtype \"<f8\"");
   const std::vector<std::uint8_t> labels{1};
-  EXPECT_EQ(
-      error_with({{"queries.npy", queries}, {"collides.npy", tests::array("|b1", {1}, labels)}}),
-      "a_ee.npz: collides: shape (1), expected (2)");
+  EXPECT_EQ(error_with({queries({3, 8, 3}), {"collides.npy", tests::array("|b1", {1}, labels)}}),
+            "a_ee.npz: collides: shape (1), expected (3)");
+  numbers[size + 4] = std::nan("");
+  EXPECT_EQ(error_with({queries({3, 8, 3})}), "a_ee.npz: query 1, point 1, y: not finite");
+  EXPECT_EQ(read_survivors(write({queries({3, 8, 3})}), folder_.path()).records.size(), 2U);
 }
 
 }  // namespace
