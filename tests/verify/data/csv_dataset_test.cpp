@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "tests/verify/data/dataset_fixture.hpp"
@@ -183,21 +184,20 @@ TEST(CsvDataset, ALineThatIsNoHeaderBeginsNoFile) {
 }
 
 TEST(CsvDataset, CoordinatesMayBeDecimalsInOneColumnOrTwo) {
-  for (const std::string row : {"-0.75,1,0.5,2,3e2,1", "-0.75, 0.25 ,300"}) {
-    for (const bool labelled : {false, true}) {
-      std::string rows;
-      for (int i = 0; i < 8; ++i) rows += row + (labelled ? ",1\n" : "\n");
-      for (const std::string header : {"", labelled ? "x,y,z,collides\n" : "x,y,z\n"}) {
-        if (!header.empty() && row.find('1') != std::string::npos) continue;
-        const Survivors kept = survivors(header + rows);
-        ASSERT_EQ(kept.records.size(), 1U) << header << rows;
-        EXPECT_EQ(kept.records[0].collides.has_value(), labelled);
-        for (std::size_t i = 0; i < 24; i += 3) {
-          EXPECT_EQ(kept.records[0].query.coordinates.at(i), -0.75);
-          EXPECT_EQ(kept.records[0].query.coordinates.at(i + 1), 0.25);
-          EXPECT_EQ(kept.records[0].query.coordinates.at(i + 2), 300.0);
-        }
-      }
+  const std::string six = "-0.75,1,0.5,2,3e2,1", three = "-0.75, 0.25 ,300";
+  for (const auto& [header, row] :
+       std::vector<std::pair<std::string, std::string>>{{"", six},
+                                                        {"", three},
+                                                        {"x,y,z", three},
+                                                        {"", six + ",1"},
+                                                        {"x,y,z,collides", three + ",1"}}) {
+    const Survivors kept = survivors(joined({header, row, row, row, row, row, row, row, row}));
+    ASSERT_EQ(kept.records.size(), 1U) << header << row;
+    EXPECT_EQ(kept.records[0].collides.has_value(), row.ends_with(",1") && row != six) << row;
+    for (std::size_t i = 0; i < 24; i += 3) {
+      EXPECT_EQ(kept.records[0].query.coordinates.at(i), -0.75);
+      EXPECT_EQ(kept.records[0].query.coordinates.at(i + 1), 0.25);
+      EXPECT_EQ(kept.records[0].query.coordinates.at(i + 2), 300.0);
     }
   }
 }
