@@ -39,77 +39,69 @@ Survivors survivors(const std::string& text) {
   return read_survivors(folder.file("a.csv", text), folder.path(), vertex_face());
 }
 
-/// The replacement of line 12, the fourth of query 1 of three, and its error.
+/// The replacement of line 12, the fourth of query 1, and its error.
 struct Fault {
   std::string line;
   std::string error;
 };
 
-class CsvFault : public ::testing::TestWithParam<Fault> {};
-
-TEST_P(CsvFault, IsLocatedAndCostsItsQueryOnly) {
-  std::vector<std::string> lines = numbered_lines(3, true);
-  lines[11] = GetParam().line;
-  EXPECT_EQ(strict_error(joined(lines)), GetParam().error);
-  const Survivors kept = survivors(joined(lines));
-  expect_numbered(kept.records, {0, 2});
-  EXPECT_EQ(kept.skipped, 1U);
-  EXPECT_EQ(kept.messages, std::vector<std::string>{"a.csv:" + GetParam().error});
-  EXPECT_FALSE(kept.records[0].collides.value());
-  EXPECT_FALSE(kept.records[1].collides.value());
+TEST(CsvDataset, AFaultIsLocatedAndCostsItsQueryOnly) {
+  const std::vector<Fault> faults{
+      {"1,0,2,1,3,1,1", "12:2: zero denominator"},
+      {"1,1,2,1,3,0,1", "12:6: zero denominator"},
+      {"1,1,x,1,3,1,1", "12:3: not a number: \"x\""},
+      {"1,1,2,1,,1,1", "12:5: not a number: \"\""},
+      {"1,1,2,1,0.1,1,1", "12:5: not exactly a double (--round takes the nearest)"},
+      {"1,1,2,1,1" + std::string(400, '0') + ",1,1", "12:5: beyond the range of double"},
+      {"1,1,2,1,3,1,2", "12:7: label must be 0 or 1: \"2\""},
+      {"1,1,2,1,3,1,", "12:7: label must be 0 or 1: \"\""},
+      {"1,1,2,1,3,1,true", "12:7: label must be 0 or 1: \"true\""}};
+  for (const auto& [line, error] : faults) {
+    std::vector<std::string> lines = numbered_lines(3, true);
+    lines[11] = line;
+    EXPECT_EQ(strict_error(joined(lines)), error);
+    const Survivors kept = survivors(joined(lines));
+    expect_numbered(kept.records, {0, 2});
+    EXPECT_EQ(kept.skipped, 1U);
+    EXPECT_EQ(kept.messages, std::vector<std::string>{"a.csv:" + error});
+    for (const RecordedQuery& record : kept.records) EXPECT_FALSE(record.collides.value());
+  }
 }
-
-INSTANTIATE_TEST_SUITE_P(
-    Table, CsvFault,
-    ::testing::Values(
-        Fault{"1,0,2,1,3,1,1", "12:2: zero denominator"},
-        Fault{"1,1,2,1,3,0,1", "12:6: zero denominator"},
-        Fault{"1,1,x,1,3,1,1", "12:3: not a number: \"x\""},
-        Fault{"1,1,2,1,,1,1", "12:5: not a number: \"\""},
-        Fault{"1,1,2,1,0.1,1,1", "12:5: not exactly a double (--round takes the nearest)"},
-        Fault{"1,1,2,1,1" + std::string(400, '0') + ",1,1", "12:5: beyond the range of double"},
-        Fault{"1,1,2,1,3,1,2", "12:7: label must be 0 or 1: \"2\""},
-        Fault{"1,1,2,1,3,1,", "12:7: label must be 0 or 1: \"\""},
-        Fault{"1,1,2,1,3,1,true", "12:7: label must be 0 or 1: \"true\""}));
 
 const std::string rest_is_left_out =
     "; the rest of the file is left out, since it is unknown from here on which eight rows are a "
     "query: mend this line";
 
-/// A line after which rows cannot be counted, instead of line 12 or in addition to it. From there
-/// on no query is read: neither the query of that line nor one made of later rows.
-class CsvLineThatIsNoRow : public ::testing::TestWithParam<Fault> {};
-
-TEST_P(CsvLineThatIsNoRow, EndsTheFile) {
-  const std::string error = GetParam().error + rest_is_left_out;
-  for (const bool in_addition : {false, true}) {
-    std::vector<std::string> lines = numbered_lines(5, true);
-    const auto line = lines.begin() + 11;
-    in_addition ? static_cast<void>(lines.insert(line, GetParam().line))
-                : static_cast<void>(*line = GetParam().line);
-    EXPECT_EQ(strict_error(joined(lines)), error);
-    const Survivors kept = survivors(joined(lines));
-    expect_numbered(kept.records, {0});
-    EXPECT_EQ(kept.skipped, 1U);
-    EXPECT_EQ(kept.messages, std::vector<std::string>{"a.csv:" + error});
+/// Rows cannot be counted behind a line that is none, instead of line 12 or in addition to it: no
+/// further query is read, neither that of the line nor one made of later rows.
+TEST(CsvDataset, ALineThatIsNoRowEndsTheFile) {
+  const std::vector<Fault> faults{
+      {"1,1,2,1,3,1,0", "12:7: label differs from that of the query's first row"},
+      {"1,1,2,1,3,1", "12: 6 columns, expected 7 as before"},
+      {"1,1,2,1,3,1,1,1", "12: 8 columns, expected 7 as before"},
+      {"1", "12: 1 columns, expected 7 as before"},
+      {"", "12: blank line inside a query"},
+      {" \t", "12: blank line inside a query"},
+      {"xn,xd,yn,yd,zn,zd,label", "12: no number in the line"},
+      {",,,,,,", "12: no number in the line"},
+      {"1,1,2,1,3,1,\"1", "12:7: malformed quoted field"},
+      {"1,1,2,\"1\"1,3,1,1", "12:4: malformed quoted field"},
+      {"1,1,2,1,3,1,1" + std::string(io::LineReader::longest_line, ' '),
+       "12: line longer than 1 MiB"}};
+  for (const auto& [line, reason] : faults) {
+    for (const bool in_addition : {false, true}) {
+      std::vector<std::string> lines = numbered_lines(5, true);
+      if (in_addition) lines.insert(lines.begin() + 11, "");
+      lines[11] = line;
+      const std::string error = reason + rest_is_left_out;
+      EXPECT_EQ(strict_error(joined(lines)), error);
+      const Survivors kept = survivors(joined(lines));
+      expect_numbered(kept.records, {0});
+      EXPECT_EQ(kept.skipped, 1U);
+      EXPECT_EQ(kept.messages, std::vector<std::string>{"a.csv:" + error});
+    }
   }
 }
-
-INSTANTIATE_TEST_SUITE_P(
-    Table, CsvLineThatIsNoRow,
-    ::testing::Values(Fault{"1,1,2,1,3,1,0",
-                            "12:7: label differs from that of the query's first row"},
-                      Fault{"1,1,2,1,3,1", "12: 6 columns, expected 7 as before"},
-                      Fault{"1,1,2,1,3,1,1,1", "12: 8 columns, expected 7 as before"},
-                      Fault{"1", "12: 1 columns, expected 7 as before"},
-                      Fault{"", "12: blank line inside a query"},
-                      Fault{" \t", "12: blank line inside a query"},
-                      Fault{"xn,xd,yn,yd,zn,zd,label", "12: no number in the line"},
-                      Fault{",,,,,,", "12: no number in the line"},
-                      Fault{"1,1,2,1,3,1,\"1", "12:7: malformed quoted field"},
-                      Fault{"1,1,2,\"1\"1,3,1,1", "12:4: malformed quoted field"},
-                      Fault{"1,1,2,1,3,1,1" + std::string(io::LineReader::longest_line, ' '),
-                            "12: line longer than 1 MiB"}));
 
 TEST(CsvDataset, AMissingRowIsFoundAtTheFirstLabelThatDiffers) {
   std::vector<std::string> lines = numbered_lines(6, true);
