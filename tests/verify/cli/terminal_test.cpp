@@ -1,14 +1,11 @@
 #include <fcntl.h>
 #include <gtest/gtest.h>
-#include <spawn.h>
 #include <sys/stat.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <array>
 #include <atomic>
-#include <chrono>
 #include <csignal>
 #include <cstdint>
 #include <filesystem>
@@ -28,12 +25,10 @@ namespace touchstone::verify::cli::terminal_test {
 namespace {
 
 namespace fs = std::filesystem;
-using namespace std::chrono_literals;
 using tests::comes_true;
 using tests::contains;
 using tests::handles;
 using tests::Outcome;
-using tests::read_file;
 
 /// A vertex that falls through a resting triangle.
 std::string falling_vertex() {
