@@ -118,16 +118,10 @@ def test_curves_that_are_none_are_refused():
         touchstone.decide_curved("vertex_face", rest)
 
 
-def test_rational_times_are_recognised_in_polynomials_of_any_degree():
-    # A vertex that meets a turning triangle at t = 1/3 and 2/3, or at sqrt(1/2).
+def test_rational_times_are_recognised():
+    # A vertex that falls through a triangle, which moves sideways.
     start = np.array([[0, 0, 1.0], [-9, -9, 0], [9, -9, 0], [0, 9, 0]])
-    query = np.concatenate([start, start * [1, 1, -2]])
-    assert touchstone.decide("vertex_face", query).toi == Fraction(1, 3)
-    # Edges along x(t) = t and y(t) = 1 - t ... at the golden ratio.
-    edges = np.array([[-1, 0, 0], [1, 0, 0], [0, -1, -1], [0, 1, -1]], dtype=float)
-    moved = np.array([[-1, 0, 0], [1, 0, 1], [1, -1, 0], [1, 1, 0]], dtype=float)
-    time = touchstone.decide("edge_edge", np.concatenate([edges, moved])).toi
-    assert time is None or isinstance(time, (Fraction, touchstone.AlgebraicNumber))
+    assert touchstone.decide("vertex_face", np.concatenate([start, start * [1, 1, -2]])).toi == Fraction(1, 3)
 
 
 @pytest.mark.parametrize("threads", [1, 3])
@@ -155,16 +149,15 @@ def test_certificates_are_accepted_and_changed_ones_are_not(queries, kind, claim
 
 
 def test_errors(queries):
-    with pytest.raises(ValueError, match="query 1: coordinate"):
-        touchstone.decide("edge_edge", np.stack([queries[0], queries[0] * np.inf]))
-    with pytest.raises(ValueError, match="claim must be"):
-        touchstone.prove("edge_edge", queries[0], claim="no_collision")
-    with pytest.raises(ValueError, match="no method is called frobnicate .there are: certified"):
-        touchstone.solve("frobnicate", "edge_edge", queries)
-    with pytest.raises(ValueError, match="knows no separation but 0"):
-        touchstone.solve("rp", "edge_edge", queries, separation=1.0)
-    with pytest.raises(ValueError):
-        touchstone.check(b"", claim="frobnicate")
+    for call, text in [
+        (lambda: touchstone.decide("edge_edge", np.stack([queries[0], queries[0] * np.inf])), "query 1: coordinate"),
+        (lambda: touchstone.prove("edge_edge", queries[0], claim="no_collision"), "claim must be"),
+        (lambda: touchstone.solve("frobnicate", "edge_edge", queries), "no method is called frobnicate .there are: certified"),
+        (lambda: touchstone.solve("rp", "edge_edge", queries, separation=1.0), "knows no separation but 0"),
+        (lambda: touchstone.check(b"", claim="frobnicate"), ""),
+    ]:
+        with pytest.raises(ValueError, match=text):
+            call()
 
 
 def test_a_missing_library_is_explained(monkeypatch):

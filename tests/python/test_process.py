@@ -52,7 +52,7 @@ def test_threads_run_at_the_same_time(name, queries, falling, only_released):
     assert (most > 1) == (name != "holds_the_lock")
 
 
-def interrupt_once_inside(call) -> pytest.ExceptionInfo:
+def interrupt_once_inside(call, error=touchstone.Interrupted) -> pytest.ExceptionInfo:
     """Call, and interrupt the call from another thread as soon as it releases the lock.
 
     The call shows no progress: isatty() of standard error releases the lock, too.
@@ -65,7 +65,7 @@ def interrupt_once_inside(call) -> pytest.ExceptionInfo:
 
     sender = threading.Thread(target=send)
     sender.start()
-    with pytest.raises(touchstone.Interrupted) as caught:
+    with pytest.raises(error) as caught:
         inside.set()
         call()
     sender.join()
@@ -123,26 +123,13 @@ def test_a_handler_of_signals_may_raise_what_it_likes(queries, only_released):
     def stop(*_):
         raise Stop
 
+    many = np.tile(queries, (1000, 1, 1))
     before = signal.signal(signal.SIGINT, stop)
     try:
-        signal.raise_signal(signal.SIGINT)
-    except Stop:
-        pass
-    many = np.tile(queries, (1000, 1, 1))
-    inside = threading.Event()
-
-    def send() -> None:
-        inside.wait()
-        os.kill(os.getpid(), signal.SIGINT)
-
-    sender = threading.Thread(target=send)
-    sender.start()
-    try:
         with pytest.raises(Stop):
-            inside.set()
-            touchstone.certified("edge_edge", many, threads=1, progress=False)
+            signal.raise_signal(signal.SIGINT)
+        interrupt_once_inside(lambda: touchstone.certified("edge_edge", many, threads=1, progress=False), Stop)
     finally:
-        sender.join()
         signal.signal(signal.SIGINT, before)
 
 

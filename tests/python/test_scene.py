@@ -161,14 +161,13 @@ def test_errors(change, error, text):
 
 def test_errors_of_methods():
     step = Step(np.eye(3), np.eye(3), faces=[[0, 1, 2]])
-    with pytest.raises(ValueError):
-        step.line_search_limit(1.0)
-    with pytest.raises(ValueError):
-        step.least_distance(t=2.0)
-    with pytest.raises(ValueError, match="separation"):
-        step.active_set(-1.0)
-    with pytest.raises(IndexError):
-        step.query(PairKind.VERTEX_FACE, [0, 5])
-    with pytest.raises(ValueError, match="pair: an array of integers is needed, not of float64"):
-        step.query(PairKind.VERTEX_FACE, [0.5, 0.0])
+    for call, error, text in [
+        (lambda: step.line_search_limit(1.0), ValueError, ""),
+        (lambda: step.least_distance(t=2.0), ValueError, ""),
+        (lambda: step.active_set(-1.0), ValueError, "separation"),
+        (lambda: step.query(PairKind.VERTEX_FACE, [0, 5]), IndexError, ""),
+        (lambda: step.query(PairKind.VERTEX_FACE, [0.5, 0.0]), ValueError, "pair: an array of integers is needed, not of float64"),
+    ]:
+        with pytest.raises(error, match=text):
+            call()
     assert Fraction(step.free_step_size()) == 1

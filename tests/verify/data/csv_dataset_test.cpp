@@ -2,9 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include <limits>
-#include <random>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "tests/verify/data/dataset_fixture.hpp"
@@ -17,15 +16,10 @@ using test::error_of;
 using test::expect_numbered;
 using test::joined;
 using test::numbered_lines;
-using test::numbered_query;
-using test::random_query;
 using test::read_all;
 using test::read_survivors;
-using test::resident_growth;
 using test::Survivors;
 using test::TemporaryFolder;
-
-using Limits = std::numeric_limits<double>;
 
 DatasetOptions vertex_face() { return {.kind = Kind::vertex_face}; }
 
@@ -45,77 +39,69 @@ Survivors survivors(const std::string& text) {
   return read_survivors(folder.file("a.csv", text), folder.path(), vertex_face());
 }
 
-/// The replacement of line 12, the fourth of query 1 of three, and its error.
+/// The replacement of line 12, the fourth of query 1, and its error.
 struct Fault {
   std::string line;
   std::string error;
 };
 
-class CsvFault : public ::testing::TestWithParam<Fault> {};
-
-TEST_P(CsvFault, IsLocatedAndCostsItsQueryOnly) {
-  std::vector<std::string> lines = numbered_lines(3, true);
-  lines[11] = GetParam().line;
-  EXPECT_EQ(strict_error(joined(lines)), GetParam().error);
-  const Survivors kept = survivors(joined(lines));
-  expect_numbered(kept.records, {0, 2});
-  EXPECT_EQ(kept.skipped, 1U);
-  EXPECT_EQ(kept.messages, std::vector<std::string>{"a.csv:" + GetParam().error});
-  EXPECT_FALSE(kept.records[0].collides.value());
-  EXPECT_FALSE(kept.records[1].collides.value());
+TEST(CsvDataset, AFaultIsLocatedAndCostsItsQueryOnly) {
+  const std::vector<Fault> faults{
+      {"1,0,2,1,3,1,1", "12:2: zero denominator"},
+      {"1,1,2,1,3,0,1", "12:6: zero denominator"},
+      {"1,1,x,1,3,1,1", "12:3: not a number: \"x\""},
+      {"1,1,2,1,,1,1", "12:5: not a number: \"\""},
+      {"1,1,2,1,0.1,1,1", "12:5: not exactly a double (--round takes the nearest)"},
+      {"1,1,2,1,1" + std::string(400, '0') + ",1,1", "12:5: beyond the range of double"},
+      {"1,1,2,1,3,1,2", "12:7: label must be 0 or 1: \"2\""},
+      {"1,1,2,1,3,1,", "12:7: label must be 0 or 1: \"\""},
+      {"1,1,2,1,3,1,true", "12:7: label must be 0 or 1: \"true\""}};
+  for (const auto& [line, error] : faults) {
+    std::vector<std::string> lines = numbered_lines(3, true);
+    lines[11] = line;
+    EXPECT_EQ(strict_error(joined(lines)), error);
+    const Survivors kept = survivors(joined(lines));
+    expect_numbered(kept.records, {0, 2});
+    EXPECT_EQ(kept.skipped, 1U);
+    EXPECT_EQ(kept.messages, std::vector<std::string>{"a.csv:" + error});
+    for (const RecordedQuery& record : kept.records) EXPECT_FALSE(record.collides.value());
+  }
 }
-
-INSTANTIATE_TEST_SUITE_P(
-    Table, CsvFault,
-    ::testing::Values(
-        Fault{"1,0,2,1,3,1,1", "12:2: zero denominator"},
-        Fault{"1,1,2,1,3,0,1", "12:6: zero denominator"},
-        Fault{"1,1,x,1,3,1,1", "12:3: not a number: \"x\""},
-        Fault{"1,1,2,1,,1,1", "12:5: not a number: \"\""},
-        Fault{"1,1,2,1,0.1,1,1", "12:5: not exactly a double (--round takes the nearest)"},
-        Fault{"1,1,2,1,1" + std::string(400, '0') + ",1,1", "12:5: beyond the range of double"},
-        Fault{"1,1,2,1,3,1,2", "12:7: label must be 0 or 1: \"2\""},
-        Fault{"1,1,2,1,3,1,", "12:7: label must be 0 or 1: \"\""},
-        Fault{"1,1,2,1,3,1,true", "12:7: label must be 0 or 1: \"true\""}));
 
 const std::string rest_is_left_out =
     "; the rest of the file is left out, since it is unknown from here on which eight rows are a "
     "query: mend this line";
 
-/// A line after which rows cannot be counted, instead of line 12 or in addition to it. From there
-/// on no query is read: neither the query of that line nor one made of later rows.
-class CsvLineThatIsNoRow : public ::testing::TestWithParam<Fault> {};
-
-TEST_P(CsvLineThatIsNoRow, EndsTheFile) {
-  const std::string error = GetParam().error + rest_is_left_out;
-  for (const bool in_addition : {false, true}) {
-    std::vector<std::string> lines = numbered_lines(5, true);
-    const auto line = lines.begin() + 11;
-    in_addition ? static_cast<void>(lines.insert(line, GetParam().line))
-                : static_cast<void>(*line = GetParam().line);
-    EXPECT_EQ(strict_error(joined(lines)), error);
-    const Survivors kept = survivors(joined(lines));
-    expect_numbered(kept.records, {0});
-    EXPECT_EQ(kept.skipped, 1U);
-    EXPECT_EQ(kept.messages, std::vector<std::string>{"a.csv:" + error});
+/// Rows cannot be counted behind a line that is none, instead of line 12 or in addition to it: no
+/// further query is read, neither that of the line nor one made of later rows.
+TEST(CsvDataset, ALineThatIsNoRowEndsTheFile) {
+  const std::vector<Fault> faults{
+      {"1,1,2,1,3,1,0", "12:7: label differs from that of the query's first row"},
+      {"1,1,2,1,3,1", "12: 6 columns, expected 7 as before"},
+      {"1,1,2,1,3,1,1,1", "12: 8 columns, expected 7 as before"},
+      {"1", "12: 1 columns, expected 7 as before"},
+      {"", "12: blank line inside a query"},
+      {" \t", "12: blank line inside a query"},
+      {"xn,xd,yn,yd,zn,zd,label", "12: no number in the line"},
+      {",,,,,,", "12: no number in the line"},
+      {"1,1,2,1,3,1,\"1", "12:7: malformed quoted field"},
+      {"1,1,2,\"1\"1,3,1,1", "12:4: malformed quoted field"},
+      {"1,1,2,1,3,1,1" + std::string(io::LineReader::longest_line, ' '),
+       "12: line longer than 1 MiB"}};
+  for (const auto& [line, reason] : faults) {
+    for (const bool in_addition : {false, true}) {
+      std::vector<std::string> lines = numbered_lines(5, true);
+      if (in_addition) lines.insert(lines.begin() + 11, "");
+      lines[11] = line;
+      const std::string error = reason + rest_is_left_out;
+      EXPECT_EQ(strict_error(joined(lines)), error);
+      const Survivors kept = survivors(joined(lines));
+      expect_numbered(kept.records, {0});
+      EXPECT_EQ(kept.skipped, 1U);
+      EXPECT_EQ(kept.messages, std::vector<std::string>{"a.csv:" + error});
+    }
   }
 }
-
-INSTANTIATE_TEST_SUITE_P(
-    Table, CsvLineThatIsNoRow,
-    ::testing::Values(Fault{"1,1,2,1,3,1,0",
-                            "12:7: label differs from that of the query's first row"},
-                      Fault{"1,1,2,1,3,1", "12: 6 columns, expected 7 as before"},
-                      Fault{"1,1,2,1,3,1,1,1", "12: 8 columns, expected 7 as before"},
-                      Fault{"1", "12: 1 columns, expected 7 as before"},
-                      Fault{"", "12: blank line inside a query"},
-                      Fault{" \t", "12: blank line inside a query"},
-                      Fault{"xn,xd,yn,yd,zn,zd,label", "12: no number in the line"},
-                      Fault{",,,,,,", "12: no number in the line"},
-                      Fault{"1,1,2,1,3,1,\"1", "12:7: malformed quoted field"},
-                      Fault{"1,1,2,\"1\"1,3,1,1", "12:4: malformed quoted field"},
-                      Fault{"1,1,2,1,3,1,1" + std::string(io::LineReader::longest_line, ' '),
-                            "12: line longer than 1 MiB"}));
 
 TEST(CsvDataset, AMissingRowIsFoundAtTheFirstLabelThatDiffers) {
   std::vector<std::string> lines = numbered_lines(6, true);
@@ -140,20 +126,35 @@ TEST(CsvDataset, WhatCompanionsHoldBehindALostPlaceIsNoFurtherFault) {
             std::vector<std::string>{"a.csv:12: blank line inside a query" + rest_is_left_out});
 }
 
-TEST(CsvDataset, BlankLinesAndHeadersMayStandBetweenQueries) {
+/// Blank lines and headers between queries, spaces, signs, line ends, and blank lines at the end.
+TEST(CsvDataset, ReadsEveryFormOfTheSameQueries) {
   for (const bool labelled : {false, true}) {
     const std::string header = labelled ? "xn,xd,yn,yd,zn,zd,label" : "\"x n\",xd,y_n,yd,#zn,zd";
-    std::vector<std::string> lines{"", header, " \t"};
+    const std::vector<std::string> plain = numbered_lines(4, labelled);
+    std::vector<std::string> between{"", header, " \t"}, decorated;
     for (std::size_t query = 0; query < 4; ++query) {
-      if (query == 2) lines.insert(lines.end(), {header, "", header});
-      for (const std::string& row : test::numbered_rows(query, labelled)) lines.push_back(row);
-      lines.insert(lines.end(), query, "");
+      if (query == 2) between.insert(between.end(), {header, "", header});
+      for (const std::string& row : test::numbered_rows(query, labelled)) between.push_back(row);
+      between.insert(between.end(), query, "");
     }
-    for (const std::string line_end : {"\n", "\r\n"}) {
-      const Survivors kept = survivors(joined(lines, line_end));
+    for (std::string line : plain) {
+      for (std::size_t at = 0; (at = line.find(',', at)) != std::string::npos; at += 4) {
+        line.replace(at, 1, " ,\t ");
+      }
+      decorated.push_back("  +" + line + " ");
+    }
+    std::string without_last_newline = joined(plain);
+    without_last_newline.pop_back();
+    for (const std::string& text :
+         {joined(between), joined(between, "\r\n"), joined(decorated), joined(plain, "\r\n"),
+          joined(decorated, "\r\n"), without_last_newline, joined(plain) + "\n \n\r\n\t"}) {
+      const Survivors kept = survivors(text);
       expect_numbered(kept.records, {0, 1, 2, 3});
+      for (const auto& record : kept.records) {
+        EXPECT_EQ(record.collides, labelled ? std::optional(record.index % 2 == 1) : std::nullopt);
+      }
       EXPECT_EQ(kept.messages, std::vector<std::string>{});
-      EXPECT_EQ(strict_error(joined(lines, line_end)), "no DatasetError");
+      EXPECT_EQ(strict_error(text), "no DatasetError");
     }
   }
 }
@@ -175,45 +176,21 @@ TEST(CsvDataset, ALineThatIsNoHeaderBeginsNoFile) {
 }
 
 TEST(CsvDataset, CoordinatesMayBeDecimalsInOneColumnOrTwo) {
-  const std::string numbers = "-0.75,1,0.5,2,3e2,1\n";
-  const std::string plain = "-0.75, 0.25 ,300\n";
-  std::string six, seven, three, four;
-  for (int row = 0; row < 8; ++row) {
-    six += numbers;
-    seven += numbers.substr(0, numbers.size() - 1) + ",1\n";
-    three += plain;
-    four += plain.substr(0, plain.size() - 1) + ",1\n";
-  }
-  for (const std::string& text :
-       {six, seven, three, four, "x,y,z\n" + three, "x,y,z,collides\n" + four}) {
-    const Survivors kept = survivors(text);
-    ASSERT_EQ(kept.records.size(), 1U) << text;
-    for (std::size_t point = 0; point < 8; ++point) {
-      EXPECT_EQ(kept.records[0].query.straight().at(point / 4, point % 4, 0), -0.75);
-      EXPECT_EQ(kept.records[0].query.straight().at(point / 4, point % 4, 1), 0.25);
-      EXPECT_EQ(kept.records[0].query.straight().at(point / 4, point % 4, 2), 300.0);
+  const std::string six = "-0.75,1,0.5,2,3e2,1", three = "-0.75, 0.25 ,300";
+  for (const auto& [header, row] :
+       std::vector<std::pair<std::string, std::string>>{{"", six},
+                                                        {"", three},
+                                                        {"x,y,z", three},
+                                                        {"", six + ",1"},
+                                                        {"x,y,z,collides", three + ",1"}}) {
+    const Survivors kept = survivors(joined({header, row, row, row, row, row, row, row, row}));
+    ASSERT_EQ(kept.records.size(), 1U) << header << row;
+    EXPECT_EQ(kept.records[0].collides.has_value(), row.ends_with(",1") && row != six) << row;
+    for (std::size_t i = 0; i < 24; i += 3) {
+      EXPECT_EQ(kept.records[0].query.straight().coordinates.at(i), -0.75);
+      EXPECT_EQ(kept.records[0].query.straight().coordinates.at(i + 1), 0.25);
+      EXPECT_EQ(kept.records[0].query.straight().coordinates.at(i + 2), 300.0);
     }
-    EXPECT_EQ(kept.records[0].collides.has_value(), text.ends_with(",1\n") && text != six);
-  }
-}
-
-TEST(CsvDataset, ReadsSpacesLineEndsSignsAndBlankLinesAtTheEnd) {
-  const std::vector<std::string> plain = numbered_lines(2, true);
-  std::vector<std::string> decorated;
-  for (std::string line : plain) {
-    for (std::size_t at = 0; (at = line.find(',', at)) != std::string::npos; at += 4) {
-      line.replace(at, 1, " ,\t ");
-    }
-    decorated.push_back("  +" + line + " ");
-  }
-  std::string without_last_newline = joined(plain);
-  without_last_newline.pop_back();
-  for (const std::string& text :
-       {joined(decorated), joined(plain, "\r\n"), joined(decorated, "\r\n"), without_last_newline,
-        joined(plain) + "\n \n\r\n\t"}) {
-    const TemporaryFolder folder;
-    CsvDataset source(folder.file("a.csv", text), vertex_face());
-    expect_numbered(read_all(source), {0, 1});
   }
 }
 
@@ -231,23 +208,6 @@ TEST(CsvDataset, ATruncatedLastQueryIsOneError) {
     EXPECT_EQ(kept.messages, std::vector<std::string>{"a.csv:" + error});
     EXPECT_EQ(kept.skipped, 1U);
   }
-}
-
-TEST(CsvDataset, FaultsInManyQueriesLeaveAllOthers) {
-  std::vector<std::string> lines = numbered_lines(50, true);
-  std::vector<std::uint64_t> good;
-  for (std::size_t query = 0; query < 50; ++query) {
-    if (query % 3 == 0) {
-      for (std::size_t row = query % 8; row < 8; ++row) lines[8 * query + row].replace(0, 1, "?");
-    } else {
-      good.push_back(query);
-    }
-  }
-  const Survivors kept = survivors(joined(lines));
-  expect_numbered(kept.records, good);
-  EXPECT_EQ(kept.skipped, 17U);
-  EXPECT_EQ(kept.messages.size(), 17U);
-  EXPECT_EQ(kept.messages.at(1), "a.csv:28:1: not a number: \"?09\"") << "the first of five";
 }
 
 TEST(CsvDataset, RoundsOnlyWhereAskedAndCounts) {
@@ -280,32 +240,6 @@ TEST(CsvDataset, ProgressRisesToOne) {
   EXPECT_EQ(source.progress(), 1.0);
 }
 
-TEST(CsvDataset, MemoryDoesNotGrowWithTheFile) {
-  const TemporaryFolder folder;
-  const auto path = folder.path() / "a.csv";
-  std::size_t queries = 0;
-  {
-    CsvWriter writer(path);
-    Query query{};
-    for (double& x : query.coordinates) x = 0x1.fffffffffffffp-11;
-    for (; queries < 50000; ++queries) writer.write(query, queries % 2 == 1);
-    writer.close();
-  }
-  ASSERT_GT(std::filesystem::file_size(path), 40'000'000U);
-  const std::size_t streamed = resident_growth([&] {
-    CsvDataset source(path, vertex_face());
-    std::size_t count = 0;
-    while (source.next()) ++count;
-    EXPECT_EQ(count, queries);
-  });
-  EXPECT_LT(streamed, 4'000'000U);
-  const std::size_t whole = resident_growth([&] {
-    const std::string text = contents(path);
-    EXPECT_EQ(text.size(), std::filesystem::file_size(path));
-  });
-  EXPECT_GT(whole, 30'000'000U) << "the measure must see a reader that keeps the file";
-}
-
 TEST(CsvWriter, WritesThe2021FormatToTheByte) {
   const TemporaryFolder folder;
   CsvWriter writer(folder.path() / "a.csv");
@@ -317,42 +251,6 @@ TEST(CsvWriter, WritesThe2021FormatToTheByte) {
   std::string expected = "1,2,0,1,0,1,1\n";
   for (int row = 1; row < 7; ++row) expected += "0,1,0,1,0,1,1\n";
   EXPECT_EQ(contents(folder.path() / "a.csv"), expected + "0,1,0,1,-3,1,1\n");
-}
-
-TEST(CsvWriter, WhatIsReadBackIsWhatWasWritten) {
-  const TemporaryFolder folder;
-  std::mt19937_64 random(7);
-  std::vector<Query> queries(300);
-  for (Query& query : queries) query = random_query(random);
-  queries[5].coordinates[0] = 4.9e-324;
-  queries[5].coordinates[1] = 1.797e308;
-  queries[5].coordinates[2] = -Limits::max();
-  queries[5].coordinates[3] = Limits::min();
-  CsvWriter writer(folder.path() / "a.csv");
-  for (std::size_t i = 0; i < queries.size(); ++i) writer.write(queries[i], i % 3 == 0);
-  writer.close();
-  CsvDataset source(folder.path() / "a.csv", vertex_face());
-  const auto records = read_all(source);
-  ASSERT_EQ(records.size(), queries.size());
-  for (std::size_t i = 0; i < queries.size(); ++i) {
-    EXPECT_EQ(records[i].query.straight(), queries[i]);
-    EXPECT_EQ(records[i].index, i);
-    EXPECT_EQ(records[i].collides, std::optional(i % 3 == 0));
-  }
-}
-
-TEST(CsvWriter, RefusesWhatIsNotFiniteAndStaysUsable) {
-  const TemporaryFolder folder;
-  CsvWriter writer(folder.path() / "a.csv");
-  for (const double bad : {Limits::quiet_NaN(), Limits::infinity(), -Limits::infinity()}) {
-    Query query = numbered_query(0);
-    query.at(1, 3, 2) = bad;
-    EXPECT_THROW(writer.write(query, true), std::invalid_argument);
-  }
-  writer.write(numbered_query(0), false);
-  writer.close();
-  CsvDataset source(folder.path() / "a.csv", vertex_face());
-  expect_numbered(read_all(source), {0});
 }
 
 }  // namespace

@@ -4,80 +4,30 @@
 /// Common parts of the tests of dataset readers and writers.
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
-#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
-#include <optional>
 #include <random>
-#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <string_view>
-#include <system_error>
 #include <vector>
 
+#include "tests/support/folder_test.hpp"
 #include "touchstone/query.hpp"
 #include "verify/data/dataset.hpp"
 #include "verify/data/npy.hpp"
 
 namespace touchstone::verify::data::test {
 
-/// A folder of the running test, removed with all its files at the end.
-class TemporaryFolder {
- public:
-  TemporaryFolder() {
-    static unsigned count = 0;
-    const auto* const info = ::testing::UnitTest::GetInstance()->current_test_info();
-    std::string name = std::string("touchstone-") + info->test_suite_name() + "-" + info->name() +
-                       "-" + std::to_string(::getpid()) + "-" + std::to_string(count++);
-    std::replace(name.begin(), name.end(), '/', '-');
-    path_ = std::filesystem::path(::testing::TempDir()) / name;
-    std::filesystem::remove_all(path_);
-    std::filesystem::create_directories(path_);
-  }
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-  TemporaryFolder(TemporaryFolder&&) = delete;
-  TemporaryFolder& operator=(TemporaryFolder&&) = delete;
-  ~TemporaryFolder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-  }
-
-  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
-
-  /// Makes a file with this text, and its folders; returns its path.
-  [[nodiscard]] std::filesystem::path file(const std::filesystem::path& name,
-                                           std::string_view text) const {
-    std::filesystem::create_directories((path_ / name).parent_path());
-    std::ofstream stream(path_ / name, std::ios::binary);
-    stream << text;
-    return path_ / name;
-  }
-
-  /// The names in the folder itself.
-  [[nodiscard]] std::vector<std::string> names() const {
-    std::vector<std::string> names;
-    for (const auto& entry : std::filesystem::directory_iterator(path_)) {
-      names.push_back(entry.path().filename().string());
-    }
-    return names;
-  }
-
- private:
-  std::filesystem::path path_;
-};
+using tests::TemporaryFolder;
 
 [[nodiscard]] inline std::string contents(const std::filesystem::path& path) {
-  std::ostringstream text;
-  text << std::ifstream(path, std::ios::binary).rdbuf();
-  return text.str();
+  return tests::read_file(path);
 }
 
 /// All queries of a .npy file.

@@ -4,7 +4,11 @@
 #include <sys/stat.h>
 
 #include <cstdint>
+#include <cstring>
 #include <filesystem>
+#include <limits>
+#include <random>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -16,6 +20,7 @@ namespace touchstone::verify::data::dataset_test {
 namespace {
 
 namespace fs = std::filesystem;
+using Limits = std::numeric_limits<double>;
 using test::error_of;
 using test::joined;
 using test::numbered_lines;
@@ -24,23 +29,6 @@ using test::TemporaryFolder;
 
 std::vector<fs::path> found_in(const fs::path& path) {
   return find_datasets(std::vector<fs::path>{path});
-}
-
-TEST(FindDatasets, FindsDatasetsAndNoneOfWhatAccompaniesThem) {
-  const TemporaryFolder folder;
-  for (const std::string other :
-       {"s/toi/1vf_toi.csv", "s/toi/odd.csv", "s/mma_bool/1vf_mma_bool.json", "s/mma_bool/odd.csv",
-        "s/boxes/1vf.json", "s/boxes/1vf.csv", "s/frames/1.ply", "s/frames/deep/1.npy",
-        "s/queries/1vf_toi.csv", "s/queries/1vf_mma_bool.json", "s/queries/toi/1vf_toi.csv",
-        "README.md", "LICENSE", "s/queries/1vf.csv.partial-1-0", "s/queries/1vf.npz"}) {
-    (void)folder.file(other, "");
-  }
-  std::vector<fs::path> expected;
-  for (const std::string dataset : {"a/edge-edge/data_0_0.csv", "a/vertex-face/data_0_0.csv",
-                                    "s/queries/1ee.csv", "s/queries/1vf.csv", "z.npy"}) {
-    expected.push_back(folder.file(dataset, ""));
-  }
-  EXPECT_EQ(found_in(folder.path()), expected);
 }
 
 TEST(FindDatasets, KeepsTheGivenOrderAndTakesNamedFilesAsTheyAre) {
@@ -103,36 +91,43 @@ TEST(FindDatasets, SearchesNoFolderTwiceHoweverLinksLeadToIt) {
                                 "b/c/ring: left out: leads to a folder that is searched already"}));
 }
 
-TEST(FindDatasets, NamesWhatItLeavesOutButForCompanions) {
+TEST(FindDatasets, FindsDatasetsAndNamesWhatItLeavesOutButForCompanions) {
   const TemporaryFolder folder;
-  for (const std::string name :
-       {"s/1vf.csv", "s/toi/1vf_toi.csv", "s/1ee_toi.csv", "s/mma_bool/1vf_mma_bool.json",
-        "s/1ee_mma_bool.json", "s/separation.json", "s/boxes/1vf.json", "s/frames/1.ply"}) {
-    (void)folder.file(name, "");
+  std::vector<fs::path> expected;
+  for (const std::string dataset :
+       {"a/edge-edge/data_0_0.csv", "a/vertex-face/data_0_0.csv", "s/1vf.csv", "z.npy"}) {
+    expected.push_back(folder.file(dataset, ""));
   }
+  for (const std::string companion :
+       {"s/toi/1vf_toi.csv", "s/1ee_toi.csv", "s/mma_bool/1vf_mma_bool.json", "s/1ee_mma_bool.json",
+        "s/separation.json", "s/boxes/1vf.json", "s/frames/1.ply",
+        "s/1vf.csv.touchstone.partial-1"}) {
+    (void)folder.file(companion, "");
+  }
+  EXPECT_EQ(found_in(folder.path()), expected);
   EXPECT_EQ(left_out_in(folder), std::vector<std::string>{});
   for (const std::string name :
-       {"README.md", "s/1vf.npz", "s/frames/deep/1vf.npy", "s/toi/1vf.csv"}) {
+       {"README.md", "s/1vf.npz", "s/1vf.csv.partial-1-0", "s/boxes/1vf.csv",
+        "s/frames/deep/1vf.npy", "s/mma_bool/odd.csv", "s/toi/1vf.csv"}) {
     (void)folder.file(name, "");
   }
   ASSERT_EQ(::mkfifo((folder.path() / "s/pipe.csv").c_str(), 0600), 0);
   const std::string in_companions =
       ": left out: in a folder of what accompanies datasets; name the file itself to read it";
+  EXPECT_EQ(found_in(folder.path()), expected);
   EXPECT_EQ(
       left_out_in(folder),
       (std::vector<std::string>{
           "README.md: left out: no dataset (.csv, .npy)",
-          "s/1vf.npz: left out: no dataset (.csv, .npy)", "s/frames/deep/1vf.npy" + in_companions,
+          "s/1vf.csv.partial-1-0: left out: no dataset (.csv, .npy)",
+          "s/1vf.npz: left out: no dataset (.csv, .npy)", "s/boxes/1vf.csv" + in_companions,
+          "s/frames/deep/1vf.npy" + in_companions, "s/mma_bool/odd.csv" + in_companions,
           "s/pipe.csv: left out: neither a file nor a folder", "s/toi/1vf.csv" + in_companions}));
 }
 
-const std::string no_kind =
-    ": the path does not say whether its queries are vertex-face or edge-edge; pass --kind "
-    "vertex-face or --kind edge-edge";
-
 /// The deepest part of the path wins, then the ending of the name; letters are a kind only where
 /// they are a word.
-TEST(KindFromPath, IsThatOfItsDeepestWord) {
+TEST(KindFromPath, IsThatOfItsDeepestWordIfThereIsOne) {
   for (const std::string path :
        {"a/edge-edge/data_0_0.csv", "vertex-face/x/edge-edge/d.csv", "my-edge-edge-queries/1vf.csv",
         "2edge-edge_queries/d.csv", "x_ee.npy", "x-ee.npy", "x ee.npy", "x.ee.npy", "ee.npy",
@@ -144,16 +139,14 @@ TEST(KindFromPath, IsThatOfItsDeepestWord) {
         "x_vf.csv", "vf.csv", "92vf.csv", "cloth-92vf.csv", "a_vf.csv"}) {
     EXPECT_EQ(kind_from_path(path), Kind::vertex_face) << path;
   }
-}
-
-TEST(KindFromPath, AsksForTheKindWhereThePathDoesNotSayIt) {
   for (const std::string path :
        {"tree.npy", "x_tree.csv", "coffee.csv", "4fa9ee.npy", "w1ee.csv", "pdvf.csv",
-        "n\xC3\xA9"
-        "ee.csv",
-        "knowledge-edge.csv", "edge-edges/d.csv", "vertex-facet/d.csv", "x_EE.csv", "ee_.csv",
-        "data.csv", "vf/data.csv", "vertex_face/data.csv", "vf1.csv"}) {
-    EXPECT_EQ(error_of("", [&] { (void)kind_from_path(path); }), path + no_kind);
+        "n\u00E9ee.csv", "knowledge-edge.csv", "edge-edges/d.csv", "vertex-facet/d.csv", "x_EE.csv",
+        "ee_.csv", "data.csv", "vf/data.csv", "vertex_face/data.csv", "vf1.csv"}) {
+    EXPECT_EQ(error_of("", [&] { (void)kind_from_path(path); }),
+              path +
+                  ": the path does not say whether its queries are vertex-face or edge-edge; "
+                  "pass --kind vertex-face or --kind edge-edge");
   }
   EXPECT_EQ(
       error_of("", [] { (void)kind_from_path("vertex-face/edge-edge-vertex-face.csv"); }),
@@ -178,6 +171,74 @@ TEST(OpenDataset, OpeningErrorsThrowEvenIfItKeepsGoing) {
   EXPECT_EQ(opening_error(folder.file("empty_vf.npy", "")), "empty_vf.npy: not a NumPy file");
   EXPECT_TRUE(opening_error(folder.file("a.csv", joined(numbered_lines(1, true))))
                   .ends_with("pass --kind vertex-face or --kind edge-edge"));
+}
+
+/// Both formats that are written and read.
+template <class Format>
+class WrittenDataset : public ::testing::Test {
+ protected:
+  void write(const std::vector<Query>& queries) {
+    typename Format::Writer writer(path_);
+    for (const double bad : {Limits::quiet_NaN(), Limits::infinity(), -Limits::infinity()}) {
+      Query query = queries[0];
+      query.at(1, 3, 2) = bad;
+      EXPECT_THROW(Format::write(writer, query), std::invalid_argument) << "and stays usable";
+    }
+    for (const Query& query : queries) Format::write(writer, query);
+    writer.close();
+  }
+
+  TemporaryFolder folder_;
+  const fs::path path_ = folder_.path() / Format::name;
+};
+
+struct Csv {
+  using Writer = CsvWriter;
+  static constexpr const char* name = "a_vf.csv";
+  static constexpr double zero = 0.0;
+  static constexpr std::size_t many = 50'000;
+  static void write(Writer& writer, const Query& query) { writer.write(query, true); }
+};
+struct Npy {
+  using Writer = NpyWriter;
+  static constexpr const char* name = "a_vf.npy";
+  static constexpr double zero = -0.0;
+  static constexpr std::size_t many = 250'000;
+  static void write(Writer& writer, const Query& query) { writer.write(query); }
+};
+using Formats = ::testing::Types<Csv, Npy>;
+TYPED_TEST_SUITE(WrittenDataset, Formats, );
+
+TYPED_TEST(WrittenDataset, IsReadBitForBit) {
+  std::mt19937_64 random(7);
+  std::vector<Query> queries(2000);
+  for (Query& query : queries) query = test::random_query(random);
+  queries[5].coordinates = {4.9e-324, 1.797e308, -Limits::max(), Limits::min(), TypeParam::zero};
+  this->write(queries);
+  const auto records = read_all(*open_dataset(this->path_));
+  ASSERT_EQ(records.size(), queries.size());
+  for (std::size_t i = 0; i < queries.size(); ++i) {
+    EXPECT_EQ(std::memcmp(&records[i].query, &queries[i], sizeof(Query)), 0) << i;
+    EXPECT_EQ(records[i].index, i);
+  }
+}
+
+TYPED_TEST(WrittenDataset, TakesMemoryThatDoesNotGrowWithTheFile) {
+  Query query{};
+  for (double& x : query.coordinates) x = 0x1.fffffffffffffp-11;
+  const std::vector<Query> queries(TypeParam::many, query);
+  this->write(queries);
+  ASSERT_GT(fs::file_size(this->path_), 40'000'000U);
+  const std::size_t streamed = test::resident_growth([&] {
+    const auto source = open_dataset(this->path_);
+    std::size_t count = 0;
+    while (source->next()) ++count;
+    EXPECT_EQ(count, queries.size());
+  });
+  EXPECT_LT(streamed, 8'000'000U);
+  const std::size_t whole = test::resident_growth(
+      [&] { EXPECT_EQ(test::contents(this->path_).size(), fs::file_size(this->path_)); });
+  EXPECT_GT(whole, 30'000'000U) << "the measure must see a reader that keeps the file";
 }
 
 /// The public data, which the project does not contain.

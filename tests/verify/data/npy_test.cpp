@@ -3,8 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <cstring>
-#include <limits>
-#include <random>
 #include <string>
 #include <vector>
 
@@ -17,10 +15,7 @@ using test::contents;
 using test::error_of;
 using test::npy_queries;
 using test::numbered_query;
-using test::random_query;
 using test::TemporaryFolder;
-
-using Limits = std::numeric_limits<double>;
 
 constexpr const char* good_dictionary =
     "{'descr': '<f8', 'fortran_order': False, 'shape': (2, 8, 3), }";
@@ -80,20 +75,17 @@ TEST(NpyArray, ReadsVersions1To3AndHeadersThatOthersWrite) {
   expect_two_queries(header(good_dictionary + std::string(60000, ' '), 2) + data);
 }
 
-TEST(NpyArray, NamesWhatIsNoNumpyFile) {
-  EXPECT_EQ(open_error(""), "a.npy: not a NumPy file");
-  EXPECT_EQ(open_error("1,1,1,1,1,1\n"), "a.npy: not a NumPy file");
-  EXPECT_EQ(open_error("\x93NUMPY\x01"), "a.npy: not a NumPy file");
-}
-
 TEST(NpyArray, NamesUnknownVersionsAndTruncatedHeaders) {
   EXPECT_EQ(open_error(header(good_dictionary, 4)),
             "a.npy: version 4 of the NumPy format, expected 1, 2 or 3");
   EXPECT_EQ(open_error(header(good_dictionary, 0)),
             "a.npy: version 0 of the NumPy format, expected 1, 2 or 3");
+  EXPECT_EQ(open_error("1,1,1,1,1,1\n"), "a.npy: not a NumPy file");
   const std::string whole = header(good_dictionary, 2);
-  for (std::size_t size = 10; size < whole.size(); ++size) {
-    EXPECT_EQ(open_error(whole.substr(0, size)), "a.npy: truncated header") << size;
+  for (std::size_t size = 0; size < whole.size(); ++size) {
+    EXPECT_EQ(open_error(whole.substr(0, size)),
+              size < 10 ? "a.npy: not a NumPy file" : "a.npy: truncated header")
+        << size;
   }
 }
 
@@ -156,18 +148,6 @@ TEST(NpyArray, BoundsTheHeader) {
   EXPECT_EQ(open_error(begin + length + room), "a.npy: header longer than 1 MiB");
 }
 
-TEST(NpyWriter, WhatIsReadIsWhatWasWrittenBitForBit) {
-  const TemporaryFolder folder;
-  std::mt19937_64 random(11);
-  std::vector<Query> queries(2000);
-  for (Query& query : queries) query = random_query(random);
-  queries[3].coordinates = {4.9e-324, 1.797e308, -0.0, -Limits::max(), Limits::min()};
-  NpyWriter writer(folder.path() / "a.npy");
-  for (const Query& query : queries) writer.write(query);
-  writer.close();
-  EXPECT_EQ(bytes_of(npy_queries(folder.path() / "a.npy")), bytes_of(queries));
-}
-
 TEST(NpyWriter, WritesAHeaderThatNumpyReads) {
   const TemporaryFolder folder;
   NpyWriter writer(folder.path() / "a.npy");
@@ -176,19 +156,6 @@ TEST(NpyWriter, WritesAHeaderThatNumpyReads) {
   std::string expected = std::string("\x93NUMPY\x01\x00\x76\x00", 10) + good_dictionary;
   expected.resize(127, ' ');
   EXPECT_EQ(contents(folder.path() / "a.npy"), expected + "\n" + bytes_of(two_queries()));
-}
-
-TEST(NpyWriter, RefusesWhatIsNotFiniteAndStaysUsable) {
-  const TemporaryFolder folder;
-  NpyWriter writer(folder.path() / "a.npy");
-  for (const double bad : {Limits::quiet_NaN(), Limits::infinity(), -Limits::infinity()}) {
-    Query query = numbered_query(0);
-    query.at(1, 3, 2) = bad;
-    EXPECT_THROW(writer.write(query), std::invalid_argument);
-  }
-  writer.write(numbered_query(0));
-  writer.close();
-  EXPECT_EQ(npy_queries(folder.path() / "a.npy"), std::vector{numbered_query(0)});
 }
 
 }  // namespace

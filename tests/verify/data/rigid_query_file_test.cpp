@@ -2,13 +2,14 @@
 
 #include <gtest/gtest.h>
 
-#include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <tuple>
+#include <vector>
 
 #include "tests/support/folder_test.hpp"
-#include "verify/io/dataset_error.hpp"
+#include "tests/verify/data/dataset_fixture.hpp"
 
 namespace touchstone::verify::data::rigid_query_file_test {
 namespace {
@@ -33,13 +34,10 @@ class RigidQueryFile : public tests::FolderTest {
     std::ofstream(path("query.json"), std::ios::binary) << text;
     return read_rigid_query(path("query.json"));
   }
-  [[nodiscard]] std::string fault(const std::string& text) const {
-    try {
-      (void)read(text);
-    } catch (const io::DatasetError& error) {
-      return error.what();
-    }
-    return "";
+  /// True if the error of reading it says so.
+  [[nodiscard]] bool is_at_fault(const std::string& text, const std::string& says) const {
+    const std::string error = test::error_of(folder(), [&] { (void)read(text); });
+    return error.starts_with("query.json") && error.find(says) != std::string::npos;
   }
 };
 
@@ -62,18 +60,18 @@ TEST_F(RigidQueryFile, IsReadAsItIs) {
 }
 
 TEST_F(RigidQueryFile, NamesWhatIsWrong) {
-  EXPECT_NE(fault("{").find("query.json"), std::string::npos);
-  EXPECT_NE(fault("[]").find("the query has no member type"), std::string::npos);
-  const auto changed = [&](const char* pointer, const json& value) {
+  EXPECT_TRUE(is_at_fault("{", ""));
+  EXPECT_TRUE(is_at_fault("[]", "the query has no member type"));
+  const std::vector<std::tuple<const char*, json, const char*>> changes{
+      {"/type", "vv", "type must be"},
+      {"/vertex/pose_t1/rotation", {1, 2}, "vertex.pose_t1.rotation must be"},
+      {"/face/vertex2", {1, "2", 3}, "face.vertex2 must be"},
+      {"/face", 3, "face has no member pose_t0"}};
+  for (const auto& [member, value, says] : changes) {
     json query = vertex_face();
-    query[json::json_pointer(pointer)] = value;
-    return fault(query.dump());
-  };
-  EXPECT_NE(changed("/type", "vv").find("type must be"), std::string::npos);
-  EXPECT_NE(changed("/vertex/pose_t1/rotation", {1, 2}).find("vertex.pose_t1.rotation must be"),
-            std::string::npos);
-  EXPECT_NE(changed("/face/vertex2", {1, "2", 3}).find("face.vertex2 must be"), std::string::npos);
-  EXPECT_NE(changed("/face", 3).find("face has no member pose_t0"), std::string::npos);
+    query[json::json_pointer(member)] = value;
+    EXPECT_TRUE(is_at_fault(query.dump(), says)) << says;
+  }
 }
 
 }  // namespace

@@ -5,9 +5,11 @@
 #include <filesystem>
 #include <fstream>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "tests/support/folder_test.hpp"
-#include "verify/io/dataset_error.hpp"
+#include "tests/verify/data/dataset_fixture.hpp"
 
 namespace touchstone::verify::data::separation_file_test {
 namespace {
@@ -16,17 +18,10 @@ namespace fs = std::filesystem;
 
 class SeparationFile : public tests::FolderTest {
  protected:
-  [[nodiscard]] fs::path write(const std::string& text) const {
+  /// The error of reading a file with this text.
+  [[nodiscard]] std::string error(const std::string& text) const {
     std::ofstream(path("separation.json"), std::ios::binary) << text;
-    return path("separation.json");
-  }
-  [[nodiscard]] static std::string reason(const fs::path& file) {
-    try {
-      (void)read_separation(file);
-    } catch (const io::DatasetError& fault) {
-      return fault.reason();
-    }
-    return "no error";
+    return test::error_of(folder(), [&] { (void)read_separation(path("separation.json")); });
   }
 };
 
@@ -53,41 +48,32 @@ TEST_F(SeparationFile, BelongsToTheFolderAndToThoseInIt) {
   EXPECT_EQ(recorded_separation(dataset).distance, 0.25) << "the nearer one counts";
 }
 
-TEST_F(SeparationFile, UnknownAndRepeatedKeysAreErrors) {
-  const auto error = [&](const std::string& text) { return reason(write(text)); };
+TEST_F(SeparationFile, AnInvalidOneIsAnErrorOfBoundedLengthThatNamesTheFile) {
   const std::string distance = R"("min_separation": "0.5")", norm = R"("norm": "l2")";
-  EXPECT_EQ(error("{" + distance + ", " + norm + "}"), "no error");
-  EXPECT_EQ(error("{" + distance + ", " + norm + ", " + R"("min_separation": "0.25")" + "}"),
-            "repeated key \"min_separation\"");
-  EXPECT_EQ(error("{" + norm + ", " + norm + ", " + distance + "}"), "repeated key \"norm\"");
-  EXPECT_EQ(error("{" + distance + ", " + norm + R"(, "Norm": "linf"})"),
-            "unknown key \"Norm\", expected min_separation and norm");
-  EXPECT_EQ(error("{" + distance + ", " + norm + R"(, "": {}})"),
-            "unknown key \"\", expected min_separation and norm");
-  EXPECT_EQ(error("{\"" + std::string(3000, 'k') + "\": 1}"),
-            "unknown key \"" + std::string(40, 'k') + "...\", expected min_separation and norm");
-}
-
-TEST_F(SeparationFile, MessagesAndFilesAreBounded) {
-  const std::string many(60000, 'x');
-  EXPECT_LE(reason(write(R"({"min_separation": ")" + many)).size(), 1003U);
-  EXPECT_LE(reason(write(R"({"min_separation": "1", "norm": ")" + many + "\"}")).size(), 1003U);
-  EXPECT_EQ(reason(write(std::string(65537, ' '))), "has more than 65536 bytes");
-  EXPECT_EQ(reason("/dev/zero"), "has more than 65536 bytes");
-}
-
-TEST_F(SeparationFile, AnInvalidOneIsAnErrorThatNamesTheFile) {
-  for (const char* bad :
-       {"", "[]", "{}", R"({"min_separation": 0.5, "norm": "l2"})", R"({"min_separation": "0.5"})",
-        R"({"min_separation": "-1", "norm": "l2"})",
-        R"({"min_separation": "0.5", "norm": "l3"})"}) {
-    try {
-      (void)read_separation(write(bad));
-      ADD_FAILURE() << bad;
-    } catch (const io::DatasetError& error) {
-      EXPECT_EQ(error.path(), path("separation.json"));
-    }
+  const std::string both = "{" + distance + ", " + norm,
+                    expected = ", expected min_separation and norm";
+  EXPECT_EQ(error(both + "}"), "no DatasetError");
+  for (const auto& [text, reason] : std::vector<std::pair<std::string, std::string>>{
+           {both + R"(, "min_separation": "0.25"})", R"(repeated key "min_separation")"},
+           {"{" + norm + ", " + norm + ", " + distance + "}", R"(repeated key "norm")"},
+           {both + R"(, "Norm": "linf"})", R"(unknown key "Norm")" + expected},
+           {both + R"(, "": {}})", R"(unknown key "")" + expected},
+           {"{\"" + std::string(3000, 'k') + "\": 1}",
+            "unknown key \"" + std::string(40, 'k') + "...\"" + expected},
+           {std::string(65537, ' '), "has more than 65536 bytes"}}) {
+    EXPECT_EQ(error(text), "separation.json: " + reason);
   }
+  const std::string many(60000, 'x');
+  for (const std::string& text :
+       {std::string(), std::string("[]"), std::string("{}"), "{" + distance + "}",
+        R"({"min_separation": 0.5, )" + norm + "}", R"({"min_separation": "-1", )" + norm + "}",
+        "{" + distance + R"(, "norm": "l3"})", R"({"min_separation": ")" + many,
+        R"({"min_separation": "1", "norm": ")" + many + "\"}"}) {
+    EXPECT_TRUE(error(text).starts_with("separation.json")) << text;
+    EXPECT_LE(error(text).size(), 1100U);
+  }
+  EXPECT_EQ(test::error_of("", [] { (void)read_separation("/dev/zero"); }),
+            "/dev/zero: has more than 65536 bytes");
 }
 
 }  // namespace

@@ -22,25 +22,6 @@ std::string decompress(const std::string& bytes, std::size_t size) {
   return result;
 }
 
-TEST(Compressor, GivesBackWhatItTook) {
-  tests::Random random(1);
-  for (const std::size_t size : {0U, 1U, 1000U, 3000000U}) {
-    std::string text;
-    while (text.size() < size) text += "point " + std::to_string(random.bits() % 1000U) + "\n";
-    text.resize(size);
-    Compressor compressor;
-    std::string bytes;
-    for (std::size_t at = 0; at < size;) {
-      const std::size_t count = 1 + random.bits() % 100000U;
-      bytes += compressor.compress(std::string_view(text).substr(at, count));
-      at += count;
-    }
-    bytes += compressor.finish();
-    EXPECT_EQ(decompress(bytes, size), text);
-    EXPECT_LT(bytes.size(), size / 3 + 1000);
-  }
-}
-
 /// The contents of a stream, read through small buffers in parts of `piece` bytes.
 std::string read_back(std::string_view bytes, std::size_t piece, bool& is_complete) {
   Decompressor decompressor;
@@ -57,17 +38,29 @@ std::string read_back(std::string_view bytes, std::size_t piece, bool& is_comple
   return text;
 }
 
-TEST(Decompressor, GivesBackWhatWasCompressed) {
-  tests::Random random(2);
-  std::string text;
-  while (text.size() < 300'000) text += "point " + std::to_string(random.bits() % 1000U) + "\n";
-  Compressor compressor;
-  std::string bytes = compressor.compress(text);
-  bytes += compressor.finish();
+/// Texts compressed in parts, decompressed by ours in parts, and by the library's other interface.
+TEST(Compressor, GivesBackWhatItTook) {
+  tests::Random random(1);
   bool is_complete = false;
-  for (const std::size_t piece : {1U, 1000U, 1000000U}) {
-    EXPECT_EQ(read_back(bytes, piece, is_complete), text);
-    EXPECT_TRUE(is_complete);
+  std::string text, bytes;
+  for (const std::size_t size : {0U, 1U, 1000U, 3000000U, 300000U}) {
+    text.clear();
+    while (text.size() < size) text += "point " + std::to_string(random.bits() % 1000U) + "\n";
+    text.resize(size);
+    Compressor compressor;
+    bytes.clear();
+    for (std::size_t at = 0; at < size;) {
+      const std::size_t count = 1 + random.bits() % 100000U;
+      bytes += compressor.compress(std::string_view(text).substr(at, count));
+      at += count;
+    }
+    bytes += compressor.finish();
+    EXPECT_EQ(decompress(bytes, size), text);
+    EXPECT_LT(bytes.size(), size / 3 + 1000);
+    for (const std::size_t piece : {1U, 1000U, 1000000U}) {
+      EXPECT_EQ(read_back(bytes, piece, is_complete), text);
+      EXPECT_TRUE(is_complete);
+    }
   }
   EXPECT_EQ(read_back(bytes + bytes, 1000, is_complete), text + text) << "two frames";
   static_cast<void>(read_back(bytes.substr(0, bytes.size() - 1), 1000, is_complete));

@@ -4,11 +4,13 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstdint>
 #include <limits>
 #include <random>
+#include <sstream>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include "tests/verify/data/dataset_fixture.hpp"
 #include "touchstone/number.hpp"
@@ -22,21 +24,13 @@ std::string text_of(const exact::Integer& n) { return n.get_str(); }
 exact::Integer power(unsigned long exponent) { return exact::Integer(1) << exponent; }
 
 /// Expects the double by its definition: the nearest to the rational, and exact iff equal to it.
-void expect_correct(const exact::Integer& numerator, const exact::Integer& denominator) {
-  exact::Rational quotient(numerator, denominator);
-  quotient.canonicalize();
-  SCOPED_TRACE(text_of(numerator) + " / " + text_of(denominator));
-  const ParsedCoordinate parsed = parse_coordinate(text_of(numerator), text_of(denominator));
+void expect_correct(const std::string& numerator, const std::string& denominator) {
+  SCOPED_TRACE(numerator + " / " + denominator);
+  const exact::Rational quotient =
+      exact::rational_from_decimal(numerator) / exact::rational_from_decimal(denominator);
+  const ParsedCoordinate parsed = parse_coordinate(numerator, denominator);
   EXPECT_EQ(parsed.value, exact::round_to_nearest(quotient));
   EXPECT_EQ(parsed.exact, exact::Rational(parsed.value) == quotient);
-  EXPECT_FALSE(std::signbit(parsed.value) && parsed.value == 0.0);
-}
-
-void expect_exact(std::string_view numerator, std::string_view denominator, double value) {
-  SCOPED_TRACE(std::string(numerator) + " / " + std::string(denominator));
-  const ParsedCoordinate parsed = parse_coordinate(numerator, denominator);
-  EXPECT_TRUE(parsed.exact);
-  EXPECT_EQ(parsed.value, value);
   EXPECT_FALSE(std::signbit(parsed.value) && parsed.value == 0.0);
 }
 
@@ -51,46 +45,30 @@ std::string fault_of(std::string_view numerator, std::string_view denominator) {
   return "no error";
 }
 
-TEST(ParseCoordinate, TakesSignsLeadingZerosAndAnyRepresentationOfADouble) {
-  expect_exact("3", "4", 0.75);
-  expect_exact("+3", "+4", 0.75);
-  expect_exact("3", "-4", -0.75);
-  expect_exact("-3", "-4", 0.75);
-  expect_exact("007", "002", 3.5);
-  expect_exact("9", "12", 0.75);
-  expect_exact("0", "7", 0.0);
-  expect_exact("-0", "1", 0.0);
-  expect_exact("-0", "-3", 0.0);
-  expect_exact("3" + std::string(400, '7'), "3" + std::string(400, '7'), 1.0);
-  expect_exact("9223372036854775807", "9223372036854775807", 1.0);
-  expect_exact("-9223372036854775808", "9223372036854775808", -1.0);
-  expect_exact("18446744073709551616", "1", 0x1p64);
-}
-
-TEST(ParseCoordinate, TakesDecimalsThatAreDoubles) {
-  expect_exact("-0.75", "1", -0.75);
-  expect_exact("+.5", "1", 0.5);
-  expect_exact("3.", "1", 3.0);
-  expect_exact("1.5e3", "1", 1500.0);
-  expect_exact("15E-1", "3", 0.5);
-  expect_exact("3", "0.5", 6.0);
-  expect_exact("0.3", "0.1", 3.0);
-  expect_exact("-0.0", "1", 0.0);
-  expect_exact("-0e-9999", "1", 0.0);
-  expect_exact("0.1000000000000000055511151231257827021181583404541015625", "1", 0.1);
-  expect_exact("4.0e-1", "6.4e0", 0.0625);
-}
-
-TEST(ParseCoordinate, TakesTheNearestDoubleOfOtherDecimals) {
-  for (const std::string_view decimal :
-       {"0.1", "-0.00058163201902061701", "1e-330", "1.7976931348623158e308", "-2.5e-324"}) {
-    const exact::Rational number = exact::rational_from_decimal(decimal);
-    const ParsedCoordinate parsed = parse_coordinate(decimal, "1");
-    EXPECT_FALSE(parsed.exact) << decimal;
-    EXPECT_EQ(parsed.value, exact::round_to_nearest(number)) << decimal;
+/// Signs, leading zeros, fractions of any terms, decimals that are doubles and others, and both
+/// ends of the range.
+TEST(ParseCoordinate, IsTheNearestDouble) {
+  const auto [largest, half_past] =
+      std::pair{text_of(power(1024) - power(971)), text_of(power(1024) - power(970))};
+  const auto [smallest, half] = std::pair{text_of(power(1074)), text_of(power(1075))};
+  const std::string sevens = "3" + std::string(400, '7');
+  std::istringstream fractions(
+      "+3/+4 3/-4 -3/-4 007/002 9/12 1/3 0/7 -0/1 -0/-3 -0.0/1 -0e-9999/1 -0.75/1 +.5/1 3./1 "
+      "1.5e3/1 15E-1/3 3/0.5 0.3/0.1 4.0e-1/6.4e0 0.1/1 -0.00058163201902061701/1 "
+      "0.1000000000000000055511151231257827021181583404541015625/1 1.7976931348623158e308/1 "
+      "1e-330/1 -1e-330/1 -2.5e-324/1 18446744073709551616/1 "
+      "9223372036854775807/9223372036854775807 -9223372036854775808/9223372036854775808 "
+      "9007199254740991/1 18014398509481982/1 18014398509481983/1 4503599627370495/" +
+      smallest + " 1/" + smallest + " -1/" + smallest + " -1/" + half + " " + sevens + "/" +
+      sevens + " " + largest + "/1 -" + largest + "/1 " + text_of(exact::Integer(half_past) - 1) +
+      "/1");
+  for (std::string fraction; fractions >> fraction;) {
+    const std::size_t slash = fraction.find('/');
+    expect_correct(fraction.substr(0, slash), fraction.substr(slash + 1));
   }
-  EXPECT_FALSE(std::signbit(parse_coordinate("-1e-330", "1").value));
-  EXPECT_EQ(fault_of("-1.8e308", "1"), "numerator: beyond the range of double");
+  for (const std::string& beyond : {half_past, text_of(-power(1024)), std::string("-1.8e308")}) {
+    EXPECT_EQ(fault_of(beyond, "1"), "numerator: beyond the range of double");
+  }
   EXPECT_EQ(fault_of("1", "1e-400"), "numerator: beyond the range of double");
 }
 
@@ -136,33 +114,6 @@ TEST(ParseCoordinate, RefusesZeroDenominators) {
   }
 }
 
-TEST(ParseCoordinate, IsExactUpTo53SignificantBitsAndSaysSoBeyond) {
-  const std::int64_t most = (std::int64_t{1} << 53) - 1;
-  expect_exact(std::to_string(most), "1", 9007199254740991.0);
-  expect_exact(std::to_string(2 * most), "1", 18014398509481982.0);
-  EXPECT_FALSE(parse_coordinate(std::to_string(2 * most + 1), "1").exact);
-  EXPECT_EQ(parse_coordinate(std::to_string(2 * most + 1), "1").value, 0x1p54);
-  EXPECT_FALSE(parse_coordinate("1", "3").exact);
-  EXPECT_EQ(parse_coordinate("1", "3").value, 1.0 / 3.0);
-}
-
-TEST(ParseCoordinate, ReachesBothEndsOfTheRangeAndNotBeyond) {
-  const exact::Integer largest = power(1024) - power(971);
-  expect_exact(text_of(largest), "1", Limits::max());
-  expect_exact(text_of(-largest), "1", -Limits::max());
-  expect_exact("1", text_of(power(1074)), Limits::denorm_min());
-  expect_exact("-1", text_of(power(1074)), -Limits::denorm_min());
-  expect_exact(text_of(power(52) - 1), text_of(power(1074)), Limits::min() - Limits::denorm_min());
-  const exact::Integer half_past = largest + power(970);
-  EXPECT_EQ(fault_of(text_of(half_past), "1"), "numerator: beyond the range of double");
-  EXPECT_EQ(fault_of(text_of(-power(1024)), "1"), "numerator: beyond the range of double");
-  EXPECT_EQ(parse_coordinate(text_of(half_past - 1), "1").value, Limits::max());
-  EXPECT_FALSE(parse_coordinate(text_of(half_past - 1), "1").exact);
-  EXPECT_EQ(parse_coordinate("-1", text_of(power(1075))).value, 0.0);
-  EXPECT_FALSE(parse_coordinate("-1", text_of(power(1075))).exact);
-  EXPECT_FALSE(std::signbit(parse_coordinate("-1", text_of(power(1075))).value));
-}
-
 TEST(ParseCoordinate, AgreesWithRationalArithmeticOnEveryPath) {
   std::mt19937_64 random(20210814);
   const auto signed_bits = [&](unsigned bits) {
@@ -171,11 +122,15 @@ TEST(ParseCoordinate, AgreesWithRationalArithmeticOnEveryPath) {
   for (int i = 0; i < 20000; ++i) {
     const auto bits = static_cast<unsigned>(2 + random() % 63);
     const exact::Integer n = signed_bits(bits), odd = abs(signed_bits(bits)) + 1;
-    expect_correct(n, power(random() % 64));
-    expect_correct(n, power(random() % 1200));
-    expect_correct(n * power(random() % 900), power(random() % 1200));
-    expect_correct(n, odd);
-    expect_correct(n * odd * power(random() % 80), odd * power(random() % 80));
+    for (const auto& [numerator, denominator] :
+         std::vector<std::pair<exact::Integer, exact::Integer>>{
+             {n, power(random() % 64)},
+             {n, power(random() % 1200)},
+             {n * power(random() % 900), power(random() % 1200)},
+             {n, odd},
+             {n * odd * power(random() % 80), odd * power(random() % 80)}}) {
+      expect_correct(text_of(numerator), text_of(denominator));
+    }
   }
 }
 

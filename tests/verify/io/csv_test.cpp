@@ -24,29 +24,26 @@ std::vector<std::string> fields_of(std::string_view record) {
 
 using Fields = std::vector<std::string>;
 
-TEST(CsvField, QuotesWhereItMust) {
-  EXPECT_EQ(csv_field("a b.csv"), "a b.csv");
-  EXPECT_EQ(csv_field(""), "");
-  EXPECT_EQ(csv_field("a,b"), "\"a,b\"");
-  EXPECT_EQ(csv_field("a\"b"), "\"a\"\"b\"");
-}
-
-TEST(CsvField, IsPrintable) {
-  EXPECT_EQ(csv_field("a\nb"), "a\\x0ab");
-  EXPECT_EQ(csv_field("a\r,b"), "\"a\\x0d,b\"");
-  EXPECT_EQ(csv_field("\x1b[31m"), "\\x1b[31m");
-  EXPECT_EQ(csv_field("caf\xe9"), "caf\\xe9");
-  EXPECT_EQ(csv_field("\u202eabc"), "\\xe2\\x80\\xaeabc");
-}
-
-TEST(CsvField, IsNoFormula) {
-  EXPECT_EQ(csv_field("=1+1"), "'=1+1");
-  EXPECT_EQ(csv_field("+x"), "'+x");
-  EXPECT_EQ(csv_field("-x"), "'-x");
-  EXPECT_EQ(csv_field("@SUM(A1)"), "'@SUM(A1)");
-  EXPECT_EQ(csv_field("=HYPERLINK(\"a\",1)"), "\"'=HYPERLINK(\"\"a\"\",1)\"");
-  EXPECT_EQ(csv_field("'=1"), "''=1");
-  EXPECT_EQ(csv_field("'a"), "'a");
+/// Quoted where it must be, printable, and no formula.
+TEST(CsvField, IsOneFieldOfPrintableText) {
+  const std::vector<std::pair<std::string, std::string>> fields{
+      {"a b.csv", "a b.csv"},
+      {"", ""},
+      {"a,b", "\"a,b\""},
+      {"a\"b", "\"a\"\"b\""},
+      {"a\nb", "a\\x0ab"},
+      {"a\r,b", "\"a\\x0d,b\""},
+      {"\x1b[31m", "\\x1b[31m"},
+      {"caf\xe9", "caf\\xe9"},
+      {"\u202eabc", "\\xe2\\x80\\xaeabc"},
+      {"=1+1", "'=1+1"},
+      {"+x", "'+x"},
+      {"-x", "'-x"},
+      {"@SUM(A1)", "'@SUM(A1)"},
+      {"=HYPERLINK(\"a\",1)", "\"'=HYPERLINK(\"\"a\"\",1)\""},
+      {"'=1", "''=1"},
+      {"'a", "'a"}};
+  for (const auto& [text, field] : fields) EXPECT_EQ(csv_field(text), field);
   for (const std::string number : {"-1", "+1.5", "-1e-300", "-inf", "-"}) {
     EXPECT_EQ(csv_field(number), number);
   }

@@ -21,17 +21,9 @@ TEST(DatasetError, HasABoundedLength) {
   EXPECT_EQ(error.reason(), std::string(1000, 'r') + "...");
   EXPECT_EQ(error.path().string().size(), 100000U) << "only what is printed is cut";
   EXPECT_EQ(DatasetError("p", {}, std::string(1000, 'r')).reason(), std::string(1000, 'r'));
-}
-
-TEST(DatasetError, CutsNoCharacterInTwo) {
-  for (std::size_t before = 996; before <= 1000; ++before) {
-    const std::string reason = DatasetError("p", {},
-                                            std::string(before, 'r') +
-                                                "\xF0\x9F\x98\x80"
-                                                "end")
-                                   .reason();
-    EXPECT_EQ(reason, std::string(before, 'r') + (before == 996 ? "\xF0\x9F\x98\x80..." : "..."));
-  }
+  EXPECT_EQ(DatasetError("p", {}, std::string(999, 'r') + "\xF0\x9F\x98\x80").reason(),
+            std::string(999, 'r') + "...")
+      << "no character is cut in two";
 }
 
 TEST(Beginning, TakesWholeCharacters) {

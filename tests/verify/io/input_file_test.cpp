@@ -4,6 +4,7 @@
 
 #include <array>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "tests/verify/data/dataset_fixture.hpp"
@@ -53,52 +54,40 @@ TEST(InputFile, IsReadWholeUpToALimit) {
             "/dev/zero: has more than 10 bytes");
 }
 
-TEST(LineReader, ReadsAllLineEnds) {
-  const std::vector<OwnedLine> expected{{"a", 1, false}, {"b", 2, false}};
-  EXPECT_EQ(lines_of("a\nb\n"), expected);
-  EXPECT_EQ(lines_of("a\nb"), expected);
-  EXPECT_EQ(lines_of("a\r\nb\r\n"), expected);
-  EXPECT_EQ(lines_of("a\r\nb\r"), expected);
-}
-
-TEST(LineReader, PassesOverAByteOrderMark) {
-  EXPECT_EQ(lines_of("\xEF\xBB\xBF"
-                     "a\n"),
-            (std::vector<OwnedLine>{{"a", 1, false}}));
-  EXPECT_EQ(lines_of("a\n\xEF\xBB\xBF"),
-            (std::vector<OwnedLine>{{"a", 1, false}, {"\xEF\xBB\xBF", 2, false}}));
-  EXPECT_TRUE(lines_of("\xEF\xBB\xBF").empty());
-  const TemporaryFolder folder;
-  for (const std::string mark : {"\xFF\xFE", "\xFE\xFF"}) {
-    LineReader reader(folder.file("text", mark + std::string("a\0\n\0", 4)));
-    EXPECT_EQ(error_of(folder.path(), [&] { (void)reader.next(); }),
-              "text:1: UTF-16 text; UTF-8 is read: iconv -f UTF-16 -t UTF-8");
-    EXPECT_TRUE(reader.at_end()) << "it has ended";
+TEST(LineReader, ReadsAllLineEndsBehindAByteOrderMark) {
+  const std::string mark = "\xEF\xBB\xBF";
+  for (const std::string text : {"a\nb\n", "a\nb", "a\r\nb\r\n", "a\r\nb\r"}) {
+    const std::vector<OwnedLine> expected{{"a", 1, false}, {"b", 2, false}};
+    EXPECT_EQ(lines_of(text), expected);
+    EXPECT_EQ(lines_of(mark + text), expected);
   }
-  LineReader peeked(folder.file("text",
-                                "\xEF\xBB\xBF"
-                                "1,2\n"));
+  EXPECT_EQ(lines_of("a\n" + mark), (std::vector<OwnedLine>{{"a", 1, false}, {mark, 2, false}}));
+  EXPECT_TRUE(lines_of(mark).empty());
+  const TemporaryFolder folder;
+  LineReader peeked(folder.file("text", mark + "1,2\n"));
   EXPECT_EQ(peeked.peek(4), "1,2\n");
 }
 
-TEST(LineReader, RefusesCarriageReturnsThatEndLinesAlone) {
-  const std::string reason =
-      ": a carriage return within the line: lines end in LF or CR LF (from CR: tr '\\r' '\\n' <OLD "
+/// UTF-16, and carriage returns that end lines alone.
+TEST(LineReader, EndsAtWhatItDoesNotRead) {
+  const std::string wide = "UTF-16 text; UTF-8 is read: iconv -f UTF-16 -t UTF-8";
+  const std::string alone =
+      "a carriage return within the line: lines end in LF or CR LF (from CR: tr '\\r' '\\n' <OLD "
       ">NEW)";
-  const TemporaryFolder folder;
   const std::string longest(LineReader::longest_line, 'x');
-  for (const auto& [text, line] :
-       std::vector<std::pair<std::string, std::string>>{{"a\rb\r", "1"},
-                                                        {"a\r\r\n", "1"},
-                                                        {"a\nb\rc\nd\n", "2"},
-                                                        {longest + "\r" + longest, "1"}}) {
+  const TemporaryFolder folder;
+  for (const auto& [text, error] : std::vector<std::pair<std::string, std::string>>{
+           {"\xFF\xFE" + std::string("a\0\n\0", 4), "1: " + wide},
+           {"\xFE\xFF" + std::string("a\0\n\0", 4), "1: " + wide},
+           {"a\rb\r", "1: " + alone},
+           {"a\r\r\n", "1: " + alone},
+           {"a\nb\rc\nd\n", "2: " + alone},
+           {longest + "\r" + longest, "1: " + alone}}) {
     LineReader reader(folder.file("text", text));
-    EXPECT_EQ(error_of(folder.path(),
-                       [&] {
-                         while (reader.next()) {
-                         }
-                       }),
-              "text:" + line + reason);
+    const auto read_all = [&] {
+      while (reader.next()) continue;
+    };
+    EXPECT_EQ(error_of(folder.path(), read_all), "text:" + error);
     EXPECT_TRUE(reader.at_end()) << "it has ended";
   }
 }
@@ -130,13 +119,13 @@ TEST(LineReader, RefusesALineWithoutAnEnd) {
 
 TEST(LineReader, PassesOverLinesBeyondTheLimitAndNoOthers) {
   const std::string longest(LineReader::longest_line, 'x');
-  const std::vector<OwnedLine> fits{{longest, 1, false}, {"b", 2, false}};
-  EXPECT_EQ(lines_of(longest + "\nb"), fits);
-  EXPECT_EQ(lines_of(longest + "\r\nb"), fits);
-  const std::vector<OwnedLine> too_long{{"", 1, true}, {"b", 2, false}};
-  EXPECT_EQ(lines_of(longest + "x\nb"), too_long);
-  EXPECT_EQ(lines_of(longest + "x\r\nb"), too_long);
-  EXPECT_EQ(lines_of(longest + longest + longest + "\nb"), too_long);
+  for (const std::string& line : {longest, longest + "x", longest + longest + longest}) {
+    const bool fits = line == longest;
+    const OwnedLine first{fits ? line : "", 1, !fits};
+    for (const std::string end : {"\n", "\r\n"}) {
+      EXPECT_EQ(lines_of(line + end + "b"), (std::vector<OwnedLine>{first, {"b", 2, false}}));
+    }
+  }
   EXPECT_EQ(lines_of("b\n" + longest + longest),
             (std::vector<OwnedLine>{{"b", 1, false}, {"", 2, true}}));
   EXPECT_EQ(lines_of(std::string(longest.size() + 2, ' ') + "\n"),

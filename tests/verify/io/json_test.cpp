@@ -9,7 +9,7 @@
 #include <string_view>
 
 #include "tests/support/folder_test.hpp"
-#include "verify/io/dataset_error.hpp"
+#include "tests/verify/data/dataset_fixture.hpp"
 
 namespace touchstone::verify::io::json_test {
 namespace {
@@ -39,12 +39,9 @@ class JsonFile : public tests::FolderTest {
   [[nodiscard]] std::string error_of(const std::string& text,
                                      std::size_t most_bytes = 1U << 20U) const {
     std::ofstream(path("a.json")) << text;
-    try {
-      static_cast<void>(read_json(path("a.json"), most_bytes));
-    } catch (const DatasetError& error) {
-      return std::string(error.what()).substr(path("").size());
-    }
-    return {};
+    const std::string error = data::test::error_of(
+        folder(), [&] { static_cast<void>(read_json(path("a.json"), most_bytes)); });
+    return error == "no DatasetError" ? "" : error;
   }
 };
 

@@ -4,7 +4,6 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <functional>
 #include <limits>
 #include <map>
 #include <string>
@@ -12,7 +11,6 @@
 
 #include "tests/support/mesh_files.hpp"
 #include "tests/support/npz_files.hpp"
-#include "verify/io/dataset_error.hpp"
 
 namespace touchstone::verify::mesh::frames_test {
 namespace {
@@ -24,16 +22,6 @@ using tests::MeshFolder;
 
 std::unique_ptr<Frames> open(const std::vector<fs::path>& paths) {
   return open_frames(frame_files(paths));
-}
-
-std::string error_of(const MeshFolder& folder, const std::function<void()>& action) {
-  try {
-    action();
-  } catch (const io::DatasetError& error) {
-    const std::string text = error.what(), prefix = folder.path().string() + "/";
-    return text.starts_with(prefix) ? text.substr(prefix.size()) : text;
-  }
-  return "";
 }
 
 std::string triangle(int height) {
@@ -72,7 +60,7 @@ TEST(Frames, OfAnotherMeshAreAnError) {
   for (const std::string& other : others) {
     const auto frames = open({folder.file("a.obj", triangle(0)), folder.file("b.obj", other)});
     (void)frames->next();
-    const std::string error = error_of(folder, [&] { (void)frames->next(); });
+    const std::string error = folder.error_of([&] { (void)frames->next(); });
     EXPECT_TRUE(error.starts_with("b.obj: is not the same mesh as ")) << error;
   }
 }
@@ -116,7 +104,7 @@ TEST(Frames, SayWhatIsWrongWithAnArchive) {
   const MeshFolder folder;
   const std::string square = array<double>("<f8", {1, 1, 3}, {0, 0, 0});
   const auto error = [&](const std::map<std::string, std::string>& members) {
-    return error_of(folder, [&] { (void)open({archive(folder.path() / "a.npz", members)}); });
+    return folder.error_of([&] { (void)open({archive(folder.path() / "a.npz", members)}); });
   };
   EXPECT_EQ(error({{"x.npy", square}}), "a.npz: no array V of positions, of shape (T, n, 3)");
   EXPECT_EQ(error({{"V.npy", array<double>("<f8", {1, 3}, {0, 0, 0})}}),
@@ -138,20 +126,19 @@ TEST(Frames, SayWhatIsWrongWithAnArchive) {
             "a.npz: F: row 0: vertex 1, but there are 1, counted from 0");
   EXPECT_EQ(error({{"V.npy", square}, {"E.npy", array<std::int32_t>("<i4", {1, 3}, {0, 0, 0})}}),
             "a.npz: E: shape (1, 3), expected (k, 2)");
-  EXPECT_EQ(error_of(folder, [&] { (void)open({folder.file("b.npz", "PK nothing")}); }),
+  EXPECT_EQ(folder.error_of([&] { (void)open({folder.file("b.npz", "PK nothing")}); }),
             "b.npz: cannot open: Not a zip archive");
 }
 
 TEST(Frames, ThatDoNotGoTogetherAreAnError) {
   const MeshFolder folder;
   const fs::path file = folder.file("a.obj", triangle(0));
-  EXPECT_EQ(error_of(folder,
-                     [&] {
-                       (void)open({file, folder.path() / "b.npz"});
-                     }),
+  EXPECT_EQ(folder.error_of([&] {
+    (void)open({file, folder.path() / "b.npz"});
+  }),
             "b.npz: pass either one archive, one folder, or a list of files");
   fs::create_directory(folder.path() / "empty");
-  EXPECT_EQ(error_of(folder, [&] { (void)open({folder.path() / "empty"}); }),
+  EXPECT_EQ(folder.error_of([&] { (void)open({folder.path() / "empty"}); }),
             "empty: no .ply or .obj file in this folder");
 }
 

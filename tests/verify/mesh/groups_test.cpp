@@ -5,21 +5,11 @@
 #include <string>
 
 #include "tests/support/mesh_files.hpp"
-#include "verify/io/dataset_error.hpp"
 
 namespace touchstone::verify::mesh::groups_test {
 namespace {
 
 using tests::MeshFolder;
-
-std::string error_of(const MeshFolder& folder, std::string_view text, std::size_t vertices) {
-  try {
-    (void)read_groups(folder.file("groups.txt", text), vertices);
-  } catch (const io::DatasetError& error) {
-    return std::string(error.what()).substr(folder.path().string().size() + 1);
-  }
-  return "";
-}
 
 TEST(ReadGroups, GivesEachVertexTheGroupOfItsLine) {
   const MeshFolder folder;
@@ -32,13 +22,16 @@ TEST(ReadGroups, GivesEachVertexTheGroupOfItsLine) {
 
 TEST(ReadGroups, NeedsALineForEachVertex) {
   const MeshFolder folder;
-  EXPECT_EQ(error_of(folder, "a\nb\n", 2), "");
+  const auto error = [&](std::string_view text, std::size_t vertices) {
+    return folder.error_of([&] { (void)read_groups(folder.file("groups.txt", text), vertices); });
+  };
+  EXPECT_EQ(error("a\nb\n", 2), "");
   EXPECT_EQ(
-      error_of(folder, "a\n", 2),
+      error("a\n", 2),
       "groups.txt: 1 lines, but the mesh has 2 vertices: a group's name for each, a line each");
-  EXPECT_EQ(error_of(folder, "a\nb\nc\n", 2),
+  EXPECT_EQ(error("a\nb\nc\n", 2),
             "groups.txt:3: a group for more than the 2 vertices of the mesh");
-  EXPECT_EQ(error_of(folder, "a\n\nb\n", 3), "groups.txt:2: no name of a group");
+  EXPECT_EQ(error("a\n\nb\n", 3), "groups.txt:2: no name of a group");
 }
 
 }  // namespace

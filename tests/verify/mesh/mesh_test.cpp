@@ -34,12 +34,6 @@ TEST(MakeMesh, HasEachPointOnce) {
             (std::vector<std::int32_t>{0, 1, 3}));
 }
 
-TEST(MakeMesh, OfNothingIsEmpty) {
-  const Mesh mesh = make_mesh({}, {}, {});
-  EXPECT_EQ(mesh.vertices.rows(), 0);
-  EXPECT_TRUE(mesh.faces.empty() && mesh.edges.empty());
-}
-
 TEST(ReadMesh, GoesByTheExtensionInEitherCase) {
   const MeshFolder folder;
   EXPECT_EQ(folder.mesh("a.obj", "v 1 2 3\n").vertices.rows(), 1);

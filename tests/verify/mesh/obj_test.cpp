@@ -17,17 +17,18 @@ using tests::MeshFolder;
 
 const std::string four_vertices = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n";
 
-TEST(ReadObj, ReadsVerticesFacesAndLines) {
+TEST(ReadObj, ReadsVerticesFacesLinesAndPoints) {
   const MeshFolder folder;
   const Mesh mesh = folder.mesh("a.obj",
                                 "# a comment\nmtllib x.mtl\no thing\n"
                                 "v 0.1 -2e-3 +3\r\n\tv 4 5 6 1.0 # weight\nv 7 8 9 0.5 0.5 0.5\n\n"
                                 "vn 0 0 1\nvt 0 0\nv 1 1 1\ns off\n"
                                 "f 1 2 3\nf 4/1 3/1 2/1\nf 1//1 2//1 4//1\nf 1/1/1 3/1/1 4/1/1\n"
-                                "l 1 2 4\n");
+                                "l 1 2 4\np 4 2\np -1\n");
   EXPECT_EQ(coordinates(mesh), (std::vector<double>{0.1, -2e-3, 3, 4, 5, 6, 7, 8, 9, 1, 1, 1}));
   EXPECT_EQ(mesh.faces, (std::vector<Face>{{0, 1, 2}, {3, 2, 1}, {0, 1, 3}, {0, 2, 3}}));
   EXPECT_EQ(mesh.edges, (std::vector<Edge>{{0, 1}, {0, 2}, {1, 2}, {0, 3}, {1, 3}, {2, 3}}));
+  EXPECT_EQ(mesh.points, (std::vector<std::int32_t>{1, 3}));
 }
 
 TEST(ReadObj, ReadsPolygonsAsFansAndSaysSo) {
@@ -46,16 +47,12 @@ TEST(ReadObj, ReadsPolygonsAsFansAndSaysSo) {
   EXPECT_EQ(folder.mesh("a.obj", four_vertices + "f 1 2 3\n").note, "");
 }
 
-TEST(ReadObj, CountsNegativeCornersBackwardsFromTheVerticesBefore) {
-  const MeshFolder folder;
-  const Mesh mesh = folder.mesh("a.obj", four_vertices + "f -1 -2 -4\nv 9 9 9\nf -1/-1 1 2");
-  EXPECT_EQ(mesh.faces, (std::vector<Face>{{3, 2, 0}, {4, 0, 1}}));
-}
-
-TEST(ReadObj, CornersMayNameLaterVertices) {
+TEST(ReadObj, CountsNegativeCornersBackwardsAndOthersAlsoForwards) {
   const MeshFolder folder;
   EXPECT_EQ(folder.mesh("a.obj", "f 1 2 4\n" + four_vertices).faces,
             (std::vector<Face>{{0, 1, 3}}));
+  const Mesh mesh = folder.mesh("a.obj", four_vertices + "f -1 -2 -4\nv 9 9 9\nf -1/-1 1 2");
+  EXPECT_EQ(mesh.faces, (std::vector<Face>{{3, 2, 0}, {4, 0, 1}}));
 }
 
 TEST(ReadObj, AMeshMustHaveAVertex) {
@@ -65,15 +62,6 @@ TEST(ReadObj, AMeshMustHaveAVertex) {
   for (const std::string text : {"", "# nothing\n", "o thing\nvn 0 0 1\n", "f 1 2 3\n"}) {
     EXPECT_EQ(folder.error("a.obj", text), error) << text;
   }
-}
-
-TEST(ReadObj, ReadsPoints) {
-  const MeshFolder folder;
-  EXPECT_EQ(folder.mesh("a.obj", four_vertices + "p 4 2\np -1\n").points,
-            (std::vector<std::int32_t>{1, 3}));
-  EXPECT_TRUE(folder.mesh("a.obj", four_vertices + "f 1 2 3\n").points.empty());
-  EXPECT_EQ(folder.error("a.obj", four_vertices + "p 5\n"),
-            "a.obj:5: corner 5, but there are 4 vertices");
 }
 
 TEST(ReadObj, ReadsTheGroupsOfVertices) {

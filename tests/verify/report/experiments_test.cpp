@@ -93,7 +93,7 @@ TEST(Experiments, MeasuresEveryTrialAndTheMapOfStability) {
   }
   EXPECT_EQ(result.all[0].method, "certified");
   EXPECT_EQ(result.all[0].stages.size(), 5U);
-  // Six hardnesses, eleven levels, two kinds, two methods.
+  // Ten hardnesses, eleven levels, two kinds, two methods.
   ASSERT_EQ(result.stability.size(), 10U * 11U * 2U * 2U);
   for (const StabilityMark& mark : result.stability) {
     EXPECT_EQ(mark.queries, 2U);

@@ -132,23 +132,34 @@ Answer slow_no(Kind, const Query&) {
   return {.verdict = Verdict::no};
 }
 
-TEST(Measure, SlowMethodsGetASmallerSampleAndTheirOwnReference) {
+Answer quick_no(Kind, const Query&) { return {.verdict = Verdict::no}; }
+
+/// Slow methods get a smaller sample and their own reference; settings of a method may share the
+/// smallest sample.
+TEST(Measure, ASampleIsNoLargerThanTheTimeAllows) {
   const data::QueryGroup group = falling(1000);
   Field field;
-  field.add(slow_no, Promise::none, "slow");
-  field.add(tests::true_answer, Promise::exact, "fast");
-  MeasureOptions options;
-  options.seconds = 0.05;
-  const std::vector<Measurement> all = field.run(group, options);
-  ASSERT_EQ(all.size(), 2U);
-  EXPECT_GE(all[0].asked, 16U);
-  EXPECT_LE(all[0].asked, 64U) << "a millisecond each";
-  EXPECT_LT(all[0].repetitions, 5U);
-  EXPECT_GE(all[0].repetitions, 1U);
-  EXPECT_GE(all[0].nanoseconds, 1e6);
-  EXPECT_LT(all[0].nanoseconds, 1e7);
-  EXPECT_LT(all[0].certified_nanoseconds, 1e5);
-  EXPECT_GT(all[1].asked, all[0].asked);
+  field.add(slow_no, Promise::none, "method", {.tolerance = 1e-8});
+  field.add(quick_no, Promise::none, "method", {.tolerance = 1.0});
+  field.add(quick_no, Promise::none, "other");
+  for (const bool same_sample : {false, true}) {
+    MeasureOptions options;
+    options.seconds = 0.05;
+    options.same_sample = same_sample;
+    const std::vector<Measurement> all = field.run(group, options);
+    ASSERT_EQ(all.size(), 3U);
+    EXPECT_GE(all[0].asked, 16U);
+    EXPECT_LE(all[0].asked, 64U) << "a millisecond each";
+    EXPECT_LT(all[0].repetitions, 5U);
+    EXPECT_GE(all[0].repetitions, 1U);
+    EXPECT_GE(all[0].nanoseconds, 1e6);
+    EXPECT_LT(all[0].nanoseconds, 1e7);
+    EXPECT_LT(all[0].certified_nanoseconds, 1e5);
+    EXPECT_EQ(all[1].asked, same_sample ? all[0].asked : 1000U);
+    EXPECT_EQ(all[1].collisions == all[0].collisions, same_sample);
+    EXPECT_EQ(all[1].collision_times.count() + all[1].no_collision_times.count(), all[1].asked);
+    EXPECT_EQ(all[2].asked, 1000U);
+  }
 }
 
 TEST(Measure, ASampleIsNoLargerThanTheReferenceCanTake) {
@@ -176,26 +187,6 @@ TEST(Measure, TheTruthIsAboutTheSeparation) {
   EXPECT_EQ(all[0].separation, (Separation{.distance = 0.5, .norm = Norm::l2}));
   EXPECT_EQ(all[1].collisions, 1U);
   EXPECT_EQ(all[1].false_negatives, 0U);
-}
-
-TEST(Measure, SettingsOfAMethodMayShareTheSmallestSample) {
-  const data::QueryGroup group = falling(1000);
-  Field field;
-  field.add(slow_no, Promise::none, "method", {.tolerance = 1e-8});
-  field.add([](Kind, const Query&) { return Answer{.verdict = Verdict::no}; }, Promise::none,
-            "method", {.tolerance = 1.0});
-  field.add([](Kind, const Query&) { return Answer{.verdict = Verdict::no}; }, Promise::none,
-            "other");
-  MeasureOptions options;
-  options.seconds = 0.05;
-  options.same_sample = true;
-  const std::vector<Measurement> all = field.run(group, options);
-  ASSERT_EQ(all.size(), 3U);
-  EXPECT_LE(all[0].asked, 64U);
-  EXPECT_EQ(all[1].asked, all[0].asked);
-  EXPECT_EQ(all[1].collisions, all[0].collisions);
-  EXPECT_EQ(all[1].collision_times.count() + all[1].no_collision_times.count(), all[0].asked);
-  EXPECT_EQ(all[2].asked, 1000U);
 }
 
 TEST(Measure, StoppedBetweenRepetitionsItKeepsThoseThatAreDone) {

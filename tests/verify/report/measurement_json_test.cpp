@@ -36,6 +36,8 @@ Measurement with_all_fields() {
   m.repetitions = 9;
   m.certified_nanoseconds = 1.0 / 3.0;
   m.toi_error = Spread{.count = 38, .median = 1e-300, .max = 0.7};
+  m.achieved_tolerance =
+      Spread{.count = 2, .median = 1.0, .max = std::numeric_limits<double>::infinity()};
   m.stages = {{"axis", 99}, {"exact", 1}};
   m.collision_times.bins = {{-1, 2}, {40, 38}};
   m.no_collision_times.bins = {{8, 60}};
@@ -79,38 +81,28 @@ TEST(MeasurementJson, ComesBackWithoutLoss) {
   EXPECT_EQ(m.separation, (Separation{.distance = 1e-100, .norm = Norm::l2}));
   EXPECT_EQ(m.certified_nanoseconds, 1.0 / 3.0);
   EXPECT_EQ(m.toi_error, (Spread{.count = 38, .median = 1e-300, .max = 0.7}));
+  EXPECT_EQ(m.achieved_tolerance, with_all_fields().achieved_tolerance);
+  EXPECT_EQ(written.at("measurements")[0].at("achieved_tolerance").at("max"), "Infinity");
   EXPECT_EQ(m.collision_times, with_all_fields().collision_times);
   EXPECT_TRUE(std::isnan(read.all[1].nanoseconds));
   EXPECT_EQ(read.stability, example().stability);
   EXPECT_EQ(to_json(read), written) << "every field that is written is read";
 }
 
-TEST(MeasurementJson, KeepsWhatIsInfinite) {
-  constexpr double infinity = std::numeric_limits<double>::infinity();
-  Measurements measurements = example();
-  measurements.all[0].achieved_tolerance = Spread{.count = 2, .median = 1.0, .max = infinity};
-  const nlohmann::json written = to_json(measurements);
-  EXPECT_EQ(written.at("measurements")[0].at("achieved_tolerance").at("max"), "Infinity");
-  const Measurements read = measurements_from_json(nlohmann::json::parse(written.dump()));
-  EXPECT_EQ(read.all[0].achieved_tolerance, measurements.all[0].achieved_tolerance);
-}
-
-TEST(MeasurementJson, ReadsMeasurementsFromBeforeThereWereScaleAndDate) {
+/// From before there were scale and date, and maps had all counts.
+TEST(MeasurementJson, ReadsWhatEarlierVersionsWrote) {
   nlohmann::json earlier = to_json(example());
   earlier["measurements"][0].erase("scale");
   earlier.erase("date");
-  EXPECT_FALSE(measurements_from_json(earlier).all[0].scale.has_value());
-  EXPECT_EQ(measurements_from_json(earlier).date, "");
-}
-
-TEST(MeasurementJson, ReadsMapsFromBeforeTheyHadAllCounts) {
-  nlohmann::json earlier = to_json(example());
   for (const char* const later :
        {"late_tois", "early_upper_tois", "beyond_tolerance", "errors", "undecided", "toi_error",
         "checks_per_query", "is_power", "hangs"}) {
     earlier["stability"][0].erase(later);
   }
-  const StabilityMark mark = measurements_from_json(earlier).stability.at(0);
+  const Measurements read = measurements_from_json(earlier);
+  EXPECT_FALSE(read.all[0].scale.has_value());
+  EXPECT_EQ(read.date, "");
+  const StabilityMark& mark = read.stability.at(0);
   EXPECT_EQ(mark.false_negatives, 2U);
   EXPECT_EQ(mark.late_tois, 0U);
   EXPECT_TRUE(mark.is_power);
