@@ -127,7 +127,7 @@ base::AnyQuery moved_query(const QueryShape& shape, Draws& draws, const PointsAt
       if (shape.is_rational) numbers.push_back(quarter_weights.at(k));
     }
   }
-  return {shape, std::move(numbers)};
+  return {shape, numbers};
 }
 
 /// In a common plane, at this place beside the triangle (outside if positive), or before the end of
