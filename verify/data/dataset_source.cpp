@@ -58,10 +58,10 @@ std::optional<RecordedQuery> DatasetSource::read_record() {
 
 void DatasetSource::require_valid(const base::AnyQuery& query, std::uint64_t index) const {
   const std::span<const double> numbers = query.numbers();
-  const std::size_t step = query.shape().numbers_of_point();
   for (std::size_t i = 0; i < numbers.size(); ++i) {
-    const bool is_weight = i % step == 3;
+    const bool is_weight = query.shape().is_rational && i % 4 == 3;
     if (std::isfinite(numbers[i]) && (!is_weight || numbers[i] > 0.0)) continue;
+    const std::size_t step = query.shape().numbers_of_point();
     static constexpr std::array<std::string_view, 4> names{"x", "y", "z", "weight"};
     throw io::DatasetError(path_, {},
                            fmt::format("query {}, point {}, {}: not {}finite", index, i / step,

@@ -71,8 +71,8 @@ DatasetSource::StoredQuery NpyDataset::read(std::uint64_t index) {
   const std::size_t i = position_ % block_size;
   if (i == 0) fill();
   ++position_;
-  const double* const first = block_.data() + i * shape().numbers_of_query();
-  StoredQuery result{.query = {shape(), {first, first + shape().numbers_of_query()}},
+  const std::size_t size = shape().numbers_of_query();
+  StoredQuery result{.query = {shape(), std::span(block_).subspan(i * size, size)},
                      .label = std::nullopt,
                      .label_position = {}};
   if (arrays_.labels) result.label = collides_[i] != 0;

@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <deque>
 #include <optional>
 #include <span>
+#include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -127,7 +129,7 @@ base::AnyQuery moved_query(const QueryShape& shape, Draws& draws, const PointsAt
       if (shape.is_rational) numbers.push_back(quarter_weights.at(k));
     }
   }
-  return {shape, std::move(numbers)};
+  return {shape, numbers};
 }
 
 /// In a common plane, at this place beside the triangle (outside if positive), or before the end of
@@ -148,53 +150,37 @@ Rotation draw_rotation(Random& random, bool misses) {
 
 /// The families of degree 2 and 3 of one construction.
 struct HeightConstruction {
-  std::array<std::string_view, 2> names;
-  std::string_view key;  ///< of the seed
+  std::string_view key;  ///< of the seed; their names end like it
   std::string_view reason;
-  Verdicts verdicts;
   Height (Draws::*height)();
+  Verdicts verdicts = Verdicts::collisions;
   Points (*place)(Kind, double) = &above;
 };
 
 constexpr std::array<HeightConstruction, 7> heights{
-    {{{"quadratic-transversal", "cubic-transversal"},
-      "transversal",
+    {{"transversal",
       "The height over the inside is a product of known factors, with one root in [0,1].",
-      Verdicts::collisions,
       &Draws::transversal},
-     {{"quadratic-tangential", "cubic-tangential"},
-      "tangential",
+     {"tangential",
       "The height is a product of known factors, with one double or triple root in [0,1].",
-      Verdicts::collisions,
       &Draws::tangential},
-     {{"quadratic-at-start", "cubic-at-start"},
-      "at_start",
-      "The height has a factor t.",
-      Verdicts::collisions,
-      &Draws::at_start},
-     {{"quadratic-at-end", "cubic-at-end"},
-      "at_end",
-      "The height has a factor 1−t, and no other root in [0,1].",
-      Verdicts::collisions,
-      &Draws::at_end},
-     {{"quadratic-twice", "cubic-twice"},
-      "twice",
-      "The height has two roots in [0,1]: through and back.",
-      Verdicts::collisions,
-      &Draws::twice},
-     {{"quadratic-in-plane", "cubic-in-plane"},
-      "in_plane",
+     {"at_start", "The height has a factor t.", &Draws::at_start},
+     {"at_end", "The height has a factor 1−t, and no other root in [0,1].", &Draws::at_end},
+     {"twice", "The height has two roots in [0,1]: through and back.", &Draws::twice},
+     {"in_plane",
       "All is in one plane: the vertex enters the triangle, or one edge comes into the other's "
       "way, "
       "at a known root.",
-      Verdicts::collisions,
-      &Draws::falling,
-      &beside},
-     {{"quadratic-near-miss", "cubic-near-miss"},
-      "near_miss",
-      "The height is a positive multiple of (8t−a)² plus 2^-20.",
-      Verdicts::no_collisions,
-      &Draws::near_miss}}};
+      &Draws::falling, Verdicts::collisions, &beside},
+     {"near_miss", "The height is a positive multiple of (8t−a)² plus 2^-20.", &Draws::near_miss,
+      Verdicts::no_collisions}}};
+
+/// "quadratic-at-start"
+std::string name_of(const HeightConstruction& construction, std::size_t degree) {
+  std::string name = (degree == 2 ? "quadratic-" : "cubic-") + std::string(construction.key);
+  std::ranges::replace(name, '_', '-');
+  return name;
+}
 
 constexpr std::array<Family, 2> rotations{
     {{"rotation-touch",
@@ -257,11 +243,12 @@ Points turning(Kind kind, const Rotation& rotation, std::size_t k) {
 }
 
 std::span<const Family> curved_families() {
+  static std::deque<std::string> names;
   static const std::vector<Family> all = [] {
     std::vector<Family> list;
     for (const std::size_t degree : {2U, 3U}) {
       for (const HeightConstruction& of : heights) {
-        list.push_back({of.names.at(degree - 2), of.reason, of.verdicts, degree});
+        list.push_back({names.emplace_back(name_of(of, degree)), of.reason, of.verdicts, degree});
       }
     }
     list.insert(list.end(), rotations.begin(), rotations.end());
@@ -281,7 +268,7 @@ std::function<data::RecordedQuery(std::uint64_t)> curved_draws(const Family& fam
     };
   }
   const auto has_name = [&](const HeightConstruction& of) {
-    return of.names.at(shape.degree - 2) == family.name;
+    return name_of(of, shape.degree) == family.name;
   };
   const HeightConstruction& of = *std::ranges::find_if(heights, has_name);
   const std::uint64_t state = mix(seed + hash(of.key) + shape.degree);

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <cstdint>
 #include <numeric>
-#include <utility>
 #include <vector>
 
 #include "verify/generate/curved_families.hpp"
@@ -68,7 +67,7 @@ base::AnyQuery moved_and_turned(const QueryShape& shape, Random& random,
       if (shape.is_rational) numbers.push_back(generate::quarter_weights.at(k));
     }
   }
-  return {shape, std::move(numbers)};
+  return {shape, numbers};
 }
 
 }  // namespace

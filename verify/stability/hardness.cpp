@@ -367,30 +367,18 @@ Query draw_query(const HardSort& sort, bool collides, const Separation& separati
 
 bool is_on_curves(const Hardness& hardness) { return index_of(hardness) >= Index::curve_distance; }
 
-QueryShape shape_of(const HardSort& sort) {
-  switch (index_of(*sort.hardness)) {
-    case Index::curve_distance:
-      return {.kind = sort.kind, .degree = 3};
-    case Index::rotation_distance:
-      return {.kind = sort.kind, .degree = 2, .is_rational = true};
-    case Index::curve_degree:
-      return {.kind = sort.kind, .degree = static_cast<std::size_t>(sort.level)};
-    default:
-      return {.kind = sort.kind};
-  }
-}
-
 base::AnyQuery draw_curves(const HardSort& sort, bool collides, Random& random) {
   constexpr double curve_size = 4.0;  // of a side of the triangle
-  const double sign = collides ? -1.0 : 1.0;
-  const QueryShape shape = shape_of(sort);
-  if (shape.is_rational) {
-    return hard_rotation(sort.kind, sign * std::ldexp(1.0, sort.level), random);
+  const double gap = std::ldexp(collides ? -1.0 : 1.0, sort.level);
+  switch (index_of(*sort.hardness)) {
+    case Index::curve_distance:
+      return hard_curves(sort.kind, 3, curve_size * gap, random);
+    case Index::rotation_distance:
+      return hard_rotation(sort.kind, gap, random);
+    default:
+      return hard_curves(sort.kind, static_cast<std::size_t>(sort.level),
+                         collides ? 0.0 : curve_size * 0x1p-20, random);
   }
-  if (index_of(*sort.hardness) == Index::curve_distance) {
-    return hard_curves(sort.kind, shape.degree, sign * std::ldexp(curve_size, sort.level), random);
-  }
-  return hard_curves(sort.kind, shape.degree, collides ? 0.0 : curve_size * 0x1p-20, random);
 }
 
 void check(const HardSort& sort) {
@@ -421,10 +409,11 @@ class HardSource final : public data::QuerySource {
       : sort_(sort),
         seed_(seed),
         count_(count),
+        shape_(make_hard_query(sort, seed, 0).query.shape()),
         name_(fmt::format("{} {}", sort.hardness->name, level_text(*sort.hardness, sort.level))) {}
 
   [[nodiscard]] const std::string& name() const override { return name_; }
-  [[nodiscard]] QueryShape shape() const override { return shape_of(sort_); }
+  [[nodiscard]] QueryShape shape() const override { return shape_; }
   [[nodiscard]] Separation recorded_separation() const override {
     return separation_at(*sort_.hardness, sort_.level, sort_.separation);
   }
@@ -444,6 +433,7 @@ class HardSource final : public data::QuerySource {
   HardSort sort_;
   std::uint64_t seed_;
   std::uint64_t count_;
+  QueryShape shape_;
   std::string name_;
   std::uint64_t done_ = 0;
 };
