@@ -47,17 +47,17 @@ bool print(const FaultySolver& solver, const Hunt& hunt) {
   return !why.empty();
 }
 
-/// Findings as datasets: a folder for each separation, with a file for each kind.
+/// Findings as datasets: a folder for each separation, with a file for each shape.
 class Corpus {
  public:
   void add(const FaultySolver& solver, const verify::fuzz::Finding& finding) {
-    const Query query = simplest(solver, finding);
-    const exact::Decision truth = exact::decide(finding.kind, query, finding.separation);
-    auto& queries = queries_[{name_of(finding.separation), finding.kind}];
+    const verify::base::AnyQuery query = simplest(solver, finding);
+    const exact::Decision truth = exact::decide(query.queries(), 0, finding.separation);
+    auto& queries = queries_[{name_of(finding.separation), name_of(query.shape())}];
     const Labelled labelled{query, truth.collides()};
     if (std::ranges::find(queries, labelled) == queries.end()) queries.push_back(labelled);
     separations_[name_of(finding.separation)] = finding.separation;
-    fmt::print("{}", verify::fuzz::as_points(finding.kind, query));
+    fmt::print("{}", verify::fuzz::as_points(query));
   }
 
   void write(const std::filesystem::path& folder) const {
@@ -66,8 +66,7 @@ class Corpus {
       verify::data::write_separation(folder / name, separation);
     }
     for (const auto& [place, queries] : queries_) {
-      verify::data::CsvWriter file(folder / place.first /
-                                   fmt::format("{}.csv", to_string(place.second)));
+      verify::data::CsvWriter file(folder / place.first / (place.second + ".csv"));
       for (const Labelled& labelled : queries) file.write(labelled.query, labelled.collides);
       file.close();
     }
@@ -75,7 +74,7 @@ class Corpus {
 
  private:
   struct Labelled {
-    Query query;
+    verify::base::AnyQuery query;
     bool collides;
 
     friend bool operator==(const Labelled&, const Labelled&) = default;
@@ -85,9 +84,14 @@ class Corpus {
     if (separation.distance == 0.0) return "contact";
     return std::string(to_string(separation.norm));
   }
+  static std::string name_of(const QueryShape& shape) {
+    const std::string kind(to_string(shape.kind));
+    if (shape.is_straight()) return kind;
+    return fmt::format("{}-{}-{}", shape.is_rational ? "rational" : "degree", shape.degree, kind);
+  }
 
   std::map<std::string, Separation> separations_;
-  std::map<std::pair<std::string, Kind>, std::vector<Labelled>> queries_;
+  std::map<std::pair<std::string, std::string>, std::vector<Labelled>> queries_;
 };
 
 int run(const std::vector<std::string>& names, const HuntOptions& options,

@@ -64,6 +64,14 @@ std::vector<FaultySolver> all_faulty_solvers() {
                      return fast::certified_method();
                    }});
   }
+  for (const auto& fault : planted.curved_kernel) {
+    all.push_back({fault, certified,
+                   [part = fault.part] {
+                     const fast::UseKernels use({.certified = part});
+                     return fast::certified_method();
+                   },
+                   true});
+  }
   for (const auto& fault : planted.exact_stage) {
     all.push_back(
         {fault, certified, [part = fault.part] { return std::make_unique<WithExactStage>(part); }});
@@ -98,6 +106,13 @@ verify::fuzz::FuzzOptions fuzz_options(const FaultySolver& solver) {
   options.separation = solver.fault.separation;
   options.method.max_checks = most_checks;
   options.most_groups = 1;
+  if (!solver.is_on_curves) return options;
+  options.shapes.clear();
+  for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
+    options.shapes.push_back({kind, 2});
+    options.shapes.push_back({kind, 3});
+    options.shapes.push_back({kind, 2, true});
+  }
   return options;
 }
 
@@ -132,7 +147,7 @@ Hunt hunt(const FaultySolver& solver, const HuntOptions& options) {
   return hunt;
 }
 
-Query simplest(const FaultySolver& solver, const verify::fuzz::Finding& finding) {
+verify::base::AnyQuery simplest(const FaultySolver& solver, const verify::fuzz::Finding& finding) {
   const Named method(solver);
   verify::fuzz::Finding simpler = finding;
   verify::fuzz::simplify(method, fuzz_options(solver), {}, simpler);

@@ -13,6 +13,7 @@
 
 #include "fast/method.hpp"
 #include "tests/faults/planted_faults.hpp"
+#include "verify/base/any_query.hpp"
 #include "verify/fuzz/fuzz.hpp"
 
 namespace touchstone::tests {
@@ -22,6 +23,8 @@ struct FaultySolver {
   /// The method with the planted fault.
   std::string_view of;
   std::function<std::unique_ptr<fast::Method>()> make;
+  /// True if queries on curves show the fault, of which those are asked.
+  bool is_on_curves = false;
 };
 
 /// One solver for each fault in a solver that this build plants.
@@ -46,6 +49,7 @@ struct Hunt {
 [[nodiscard]] Hunt hunt(const FaultySolver& solver, const HuntOptions& options);
 
 /// The simplest query with the same fault of the solver (verify/fuzz/recheck.hpp).
-[[nodiscard]] Query simplest(const FaultySolver& solver, const verify::fuzz::Finding& finding);
+[[nodiscard]] verify::base::AnyQuery simplest(const FaultySolver& solver,
+                                              const verify::fuzz::Finding& finding);
 
 }  // namespace touchstone::tests

@@ -56,8 +56,8 @@ TEST(FaultHunt, EndsInASimpleQuery) {
   const FaultySolver& solver = find_faulty_solver("root_at_start_missing");
   const Hunt found = hunt(solver, {.seconds = 0.0, .queries = 100'000});
   ASSERT_TRUE(found.finding);
-  const Query query = simplest(solver, *found.finding);
-  EXPECT_EQ(verify::fuzz::degeneracy(found.finding->kind, query), 0U);
+  const verify::base::AnyQuery query = simplest(solver, *found.finding);
+  EXPECT_EQ(verify::fuzz::degeneracy(query), 0U);
   EXPECT_LE(verify::fuzz::magnitudes(query).size(), 2U);
   for (const double x : verify::fuzz::magnitudes(query)) {
     EXPECT_EQ(verify::generate::shortest_decimal(x).count, 1) << x;
@@ -76,7 +76,7 @@ TEST(ReleasedFilter, IsFoundByAQueryOfEverydaySize) {
       const bool are_short = std::ranges::all_of(all, [](double x) {
         return x >= 1e-3 && x <= 1e3 && verify::generate::shortest_decimal(x).count <= 4;
       });
-      if (std::ranges::all_of(finding.original.query.coordinates, is_everyday) && are_short &&
+      if (std::ranges::all_of(finding.original.query.numbers(), is_everyday) && are_short &&
           all.size() <= 4) {
         found = true;
       }

@@ -50,10 +50,12 @@ inline constexpr std::size_t point_axes = 3;
 /// in their order. Weights are none.
 template <class Numbers, class Use>
 void for_each_coordinate(Numbers& query, std::size_t axis, const Use& use) {
+  const std::size_t first = axis < point_axes ? axis : 0;
+  const std::size_t last = axis < point_axes ? axis + 1 : point_axes;
   const std::size_t size = query.shape().numbers_of_point();
   const auto numbers = query.numbers();
-  for (std::size_t i = 0; i < numbers.size(); ++i) {
-    if (axis < point_axes ? i % size == axis : i % size < point_axes) use(numbers[i]);
+  for (std::size_t point = 0; point < numbers.size(); point += size) {
+    for (std::size_t i = first; i < last; ++i) use(numbers[point + i]);
   }
 }
 

@@ -65,7 +65,7 @@ TEST(EverydayQuery, IsOfItsScene) {
       const exact::Decision verdict = exact::decide(kind, inside);
       ASSERT_TRUE(verdict.collides());
       EXPECT_NEAR(verdict.toi->enclosure().lower, 0.5, 1e-9);
-      for (const double x : fuzz::magnitudes(inside)) {
+      for (const double x : fuzz::magnitudes({Kind::vertex_face, inside})) {
         EXPECT_GE(shortest_decimal(x).exponent, -2) << x;
         EXPECT_LT(x, 100.0);
       }

@@ -293,9 +293,9 @@ TEST(HardQueries, OfDecimalsCollideMostlyAtTheEnds) {
 
 TEST(HardQueries, OfDecimalsHaveTheScale) {
   for_each_query("everyday-scale", 16, [](int level, Kind, const Query& query, bool) {
-    EXPECT_LE(fuzz::size_exponent(query), level - 1);
-    EXPECT_GE(fuzz::size_exponent(query), level - 8);
-    for (const double x : fuzz::magnitudes(query)) {
+    EXPECT_LE(fuzz::size_exponent({Kind::vertex_face, query}), level - 1);
+    EXPECT_GE(fuzz::size_exponent({Kind::vertex_face, query}), level - 8);
+    for (const double x : fuzz::magnitudes({Kind::vertex_face, query})) {
       EXPECT_LE(generate::shortest_decimal(std::ldexp(x, -level)).count, 4) << x;
     }
   });
@@ -304,7 +304,7 @@ TEST(HardQueries, OfDecimalsHaveTheScale) {
 TEST(HardQueries, OfDecimalsHaveTheDigits) {
   for_each_query("digits", 16, [](int level, Kind, const Query& query, bool) {
     int most = 0;
-    for (const double x : fuzz::magnitudes(query)) {
+    for (const double x : fuzz::magnitudes({Kind::vertex_face, query})) {
       // The distance without contact may be several times the size.
       const generate::Decimal decimal = generate::shortest_decimal(x);
       EXPECT_GE(decimal.exponent, -level - 1) << x;
