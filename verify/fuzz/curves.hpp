@@ -46,4 +46,8 @@ namespace touchstone::verify::fuzz {
 /// True if the oracle decides queries of the shape at the separation soon, whatever the weights.
 [[nodiscard]] bool may_weights_differ(const QueryShape& shape, const Separation& separation);
 
+/// True unless the oracle may take long: on curves with a distance from which coordinates, but for
+/// zeros, differ by more than a factor of 2^64.
+[[nodiscard]] bool is_decided_soon(const base::AnyQuery& query, const Separation& separation);
+
 }  // namespace touchstone::verify::fuzz

@@ -237,7 +237,8 @@ nlohmann::json to_json(const Finding& finding, const SolverCall& asked) {
   const Reproduction reproduction = reproduction_of(finding, asked);
   nlohmann::json json = case_json(finding.simplest);
   // Names of earlier versions.
-  if (reproduction.is_found_on_curves) json.update(answer_json(finding.simplest.answer));
+  if (!finding.original.query.shape().is_straight())
+    json.update(answer_json(finding.simplest.answer));
   json.update({{"what", to_string(finding.what)},
                {"kind", to_string(finding.kind())},
                {"separation", judge::to_json(finding.separation)},

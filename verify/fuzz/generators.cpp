@@ -157,12 +157,18 @@ Query slide(Kind kind, const GeneratorContext& /*context*/, Random& random) {
   return sliding(kind, random);
 }
 
+/// The query, or another one if the oracle may take long for it.
+AnyQuery decided_soon(AnyQuery query, const GeneratorContext& context, Random& random) {
+  if (is_decided_soon(query, context.separation())) return query;
+  return of_numbers(query.shape(), context.separation(), random);
+}
+
 /// A generator of queries on straight lines, which also makes them queries on curves.
 template <Query (*make)(Kind, const GeneratorContext&, Random&)>
 AnyQuery lines(const QueryShape& shape, const GeneratorContext& context, Random& random) {
   const Query query = make(shape.kind, context, random);
   if (shape.is_straight()) return {shape.kind, query};
-  return on_curves(shape, query, random);
+  return decided_soon(on_curves(shape, query, random), context, random);
 }
 
 // ---- From other queries -------------------------------------------------------------------------
@@ -181,8 +187,9 @@ AnyQuery from_pool(const QueryShape& shape, const GeneratorContext& context, Ran
 }
 
 AnyQuery mutate(const QueryShape& shape, const GeneratorContext& context, Random& random) {
-  return mutated(from_pool(shape, context, random), may_weights_differ(shape, context.separation()),
-                 random);
+  const bool changes_weights = may_weights_differ(shape, context.separation());
+  AnyQuery query = mutated(from_pool(shape, context, random), changes_weights, random);
+  return decided_soon(std::move(query), context, random);
 }
 
 /// Exponents of the greatest coordinate. Mostly close to that of the distance, if there is one,
@@ -221,7 +228,7 @@ AnyQuery scaled(const QueryShape& shape, const GeneratorContext& context, Random
       numbers[i] = std::ldexp(numbers[i], exponent);
     }
   }
-  return result;
+  return decided_soon(std::move(result), context, random);
 }
 
 // ---- Curves -------------------------------------------------------------------------------------

@@ -107,7 +107,6 @@ std::string as_short_points(const AnyQuery& query) {
 Reproduction reproduction_of(const Finding& finding, const SolverCall& asked) {
   Reproduction result{.what = finding.what,
                       .failing = finding.simplest,
-                      .is_found_on_curves = !finding.original.query.shape().is_straight(),
                       .missing = finding.missing,
                       .solver = asked};
   if (finding.method != asked.method) {

@@ -50,8 +50,6 @@ struct SolverCall {
 struct Reproduction {
   judge::Fault what = judge::Fault::false_negative;
   FailingCase failing;
-  /// True if it was found in a query on curves; that of the case may be on straight lines.
-  bool is_found_on_curves = false;
   /// Of what is wrong only in that.
   MissingBounds missing = {};
   SolverCall solver;

@@ -150,14 +150,19 @@ class Shrinker {
 
   // ---- Curves ----
 
-  /// Attempts straight lines between the ends, curves without weights, and of the next lower
-  /// degree: the same curve if it has one, or one without some control point.
+  /// Attempts straight lines between two control points or at rest in one, the ends first; curves
+  /// without weights; and of the next lower degree: the same curve if it has one, or one without
+  /// some control point.
   void straighten() {
     while (!shape().is_straight()) {
       const std::size_t degree = shape().degree;
-      bool is_plainer = attempt(with_control({0, degree})) || attempt(without_weights(query_));
-      is_plainer = is_plainer || (degree > 1 && attempt(reduced()));
-      for (std::size_t left_out = 1; left_out < degree && !is_plainer; ++left_out) {
+      bool is_plainer = attempt(without_weights(with_control({0, degree})));
+      for (std::size_t i = 0; i < (degree + 1) * (degree + 1) && !is_plainer; ++i) {
+        is_plainer = attempt(without_weights(with_control({i / (degree + 1), i % (degree + 1)})));
+      }
+      is_plainer =
+          is_plainer || attempt(without_weights(query_)) || (degree > 1 && attempt(reduced()));
+      for (std::size_t left_out = 0; left_out <= degree && degree > 1 && !is_plainer; ++left_out) {
         std::vector<std::size_t> kept;
         for (std::size_t j = 0; j <= degree; ++j) {
           if (j != left_out) kept.push_back(j);
@@ -168,7 +173,7 @@ class Shrinker {
     }
   }
 
-  /// The curves of these control points; without weights if they are two.
+  /// The curves of these control points.
   [[nodiscard]] AnyQuery with_control(const std::vector<std::size_t>& kept) const {
     std::vector<double> numbers;
     for (const std::size_t j : kept) {
@@ -177,8 +182,7 @@ class Shrinker {
     }
     QueryShape of_kept = shape();
     of_kept.degree = kept.size() - 1;
-    const AnyQuery result(of_kept, std::move(numbers));
-    return of_kept.degree == 1 ? without_weights(result) : result;
+    return {of_kept, std::move(numbers)};
   }
 
   static AnyQuery without_weights(const AnyQuery& query) {

@@ -7,7 +7,7 @@
 /// Shrinking tries plainer queries (plainness.hpp), keeps each that still fails, and ends when no
 /// step leads to a plainer one that fails. The steps, from large changes to small ones:
 ///
-/// - curves: straight lines between their ends, without weights, of the next lower degree;
+/// - curves: straight lines between two control points, no weights, the next lower degree;
 /// - the whole: scaled by powers of two (all axes, or one) to everyday size, translated so that a
 ///   point's coordinate becomes 0, changed to the frame of a moving point, all coordinates or those
 ///   of an axis rounded to fewer decimal digits, or evenly spaced in their order;

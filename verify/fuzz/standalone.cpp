@@ -105,7 +105,8 @@ std::string plugin_main(const Reproduction& found) {
       "  void* const solve = library ? dlsym(library, \"{}\") : nullptr;\n",
       is_straight ? "touchstone_plugin_solve" : of_curves);
   // A plugin for curves alone is asked about lines as curves of degree 1.
-  const bool is_curve_at_last = is_straight && found.is_found_on_curves;
+  const fast::Terms& terms = found.solver.terms;
+  const bool is_curve_at_last = is_straight && terms.least_degree <= terms.most_degree;
   if (is_curve_at_last) {
     result += fmt::format(
         "  void* const solve_curved = library ? dlsym(library, \"{}\") : nullptr;\n", of_curves);

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstddef>
 #include <optional>
+#include <vector>
 
 #include "tests/support/queries.hpp"
 #include "tests/support/random.hpp"
@@ -86,6 +87,20 @@ TEST(OfNumbers, SharesWeightsWithADistance) {
   EXPECT_TRUE(has_different({.degree = 2, .is_rational = true}, {}));
   EXPECT_FALSE(has_different({.degree = 2, .is_rational = true}, {.distance = 0.25}));
   EXPECT_TRUE(has_different({.degree = 1, .is_rational = true}, {.distance = 0.25}));
+}
+
+TEST(IsDecidedSoon, ComparesCoordinatesOfCurvesWithTheDistance) {
+  AnyQuery query({.degree = 2}, std::vector<double>(36, 1.0));
+  const Separation separation{.distance = 0x1p-10};
+  EXPECT_TRUE(is_decided_soon(query, separation));
+  query.numbers()[7] = 0.0;
+  query.numbers()[8] = 0x1p54;
+  EXPECT_TRUE(is_decided_soon(query, separation));
+  query.numbers()[8] = 0x1p55;
+  EXPECT_FALSE(is_decided_soon(query, separation));
+  EXPECT_TRUE(is_decided_soon(query, {}));
+  EXPECT_TRUE(is_decided_soon({Kind::vertex_face, tests::over_triangle(1, 1, 0x1p99, -1).query},
+                              separation));
 }
 
 }  // namespace

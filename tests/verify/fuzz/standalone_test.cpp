@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "tests/support/queries.hpp"
 #include "tests/support/tool_test.hpp"
@@ -68,6 +69,32 @@ TEST(AsMain, EndsWithOneForTheFinding) {
   has(judge::Fault::no_verdict, "return answer.verdict == 3 ? 1 : 0;");
   has(judge::Fault::undecided, "return answer.verdict == 2 ? 1 : 0;");
   has(judge::Fault::crash, "  return 0;\n");
+}
+
+/// By the interface of plugins, whatever is asked for; by that for curves also about a straight
+/// query, if the plugin has no other.
+TEST(AsMain, AsksPluginsAboutCurves) {
+  const auto has = [](const Reproduction& found, const std::string& part) {
+    const std::string text = as_main(found, CallInterface::ticcd);
+    EXPECT_NE(text.find(part), std::string::npos) << part << '\n' << text;
+  };
+  Reproduction found = miss();
+  const QueryShape shape{.kind = Kind::edge_edge, .degree = 2, .is_rational = true};
+  found.failing.query = {shape, std::vector<double>(shape.numbers_of_query(), 1.5)};
+  has(found, "const double x[12][4] = {  // control points and weights, from t=0 to t=1\n");
+  has(found, "      {1.5, 1.5, 1.5, 1.5},  // eb1\n");
+  has(found, "dlsym(library, \"touchstone_plugin_solve_curved\")");
+  has(found, "(solve)(1, 2, 1, x[0], &options, &answer);  // edge-edge, rational, degree 2\n");
+  found.failing.query = miss().failing.query;
+  found.solver.terms.most_degree = greatest_degree;
+  const std::string text = as_main(found, CallInterface::plugin);
+  EXPECT_NE(text.find("if (solve == nullptr && solve_curved == nullptr) return 2;"),
+            std::string::npos);
+  EXPECT_NE(text.find("if (solve != nullptr) reinterpret_cast<Solve*>(solve)(0, x[0],"),
+            std::string::npos);
+  EXPECT_NE(text.find("if (solve == nullptr) reinterpret_cast<SolveCurved*>(solve_curved)(0, 1, 0, "
+                      "x[0],"),
+            std::string::npos);
 }
 
 TEST(CallInterface, HasANameAndFollowsFromTheSolver) {
