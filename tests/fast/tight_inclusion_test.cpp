@@ -565,7 +565,7 @@ std::size_t denied_at(double scale, bool two_decimals, Kind kind, ErrorModel mod
   const verify::data::QueryGroup contacts = verify::generate::end_contacts(
       kind, {.scale = scale, .two_decimals = two_decimals, .count = 500});
   return static_cast<std::size_t>(std::ranges::count_if(
-      contacts.queries(),
+      contacts.queries().straight(),
       [&](const Query& query) { return solve_with(model, kind, query).verdict == Verdict::no; }));
 }
 

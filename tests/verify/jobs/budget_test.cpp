@@ -48,7 +48,7 @@ TEST(Budget, AnEmptyAccountLeavesQueriesOut) {
   solvers.first->allow(0.0);
   const std::vector<Query> queries(3);
   std::vector<fast::Answer> answers(3);
-  const auto reply = solvers.first->solve({.queries = queries}, answers);
+  const auto reply = solvers.first->solve({.queries = {Kind::vertex_face, queries}}, answers);
   ASSERT_EQ(reply.unasked.size(), 3U);
   EXPECT_EQ(reply.unasked.front().why, judge::Unasked::left_out);
   EXPECT_FALSE(reply.stopped);
