@@ -73,19 +73,19 @@ constexpr std::string_view layer_lines = R"(
   verify/io/: verify/io/ REST
   verify/data/: verify/data/ verify/base/ verify/io/ REST
   verify/mesh/: verify/mesh/ verify/data/ verify/io/ REST
-  verify/generate/: verify/generate/ verify/base/ verify/data/ verify/io/ verify/mesh/ REST
+  verify/generate/: verify/generate/ verify/data/ verify/io/ verify/mesh/ REST
 // The published methods use packages that simulators do not need, and the rounding mode.
   verify/baselines/: verify/baselines/ verify/generate/random.hpp fast/ filters/ gmpxx.h exact/curved_query.hpp exact/query.hpp Eigen/ boost/numeric/interval.hpp xmmintrin.h
   verify/judge/: verify/judge/ verify/base/ verify/data/ verify/io/ REST
   verify/solvers/: verify/solvers/ verify/base/ verify/baselines/ verify/io/ verify/judge/ REST
 // All that needs Linux.
   verify/solvers/linux/: verify/solvers/ verify/io/ fcntl.h linux/ poll.h sched.h sys/ unistd.h
-  verify/jobs/: verify/jobs/ verify/base/ verify/baselines/ verify/data/ verify/io/ verify/judge/ verify/mesh/ verify/solvers/ REST
+  verify/jobs/: verify/jobs/ verify/base/ verify/data/ verify/io/ verify/judge/ verify/mesh/ verify/solvers/ REST
   verify/fuzz/: verify/fuzz/ verify/base/ verify/data/ verify/generate/ verify/io/ verify/judge/ verify/solvers/ REST
   verify/stability/: verify/stability/ verify/base/ verify/data/ verify/generate/ verify/jobs/ verify/judge/ verify/solvers/ REST
   verify/report/: verify/report/ verify/base/ verify/data/ verify/generate/ verify/io/ verify/jobs/ verify/judge/ verify/mesh/ verify/solvers/ verify/stability/ REST
   verify/view/: verify/view/ verify/base/ verify/data/ verify/io/ verify/jobs/ verify/judge/ verify/mesh/ verify/report/ verify/solvers/ REST
-  verify/playground/: verify/judge/ verify/solvers/ verify/view/ fast/ nlohmann/ emscripten/emscripten.h
+  verify/playground/: verify/base/ verify/judge/ verify/solvers/ verify/view/ fast/ nlohmann/ emscripten/emscripten.h
   verify/cli/: verify/cli/ verify/base/ verify/data/ verify/fuzz/ verify/generate/ verify/io/ verify/jobs/ verify/judge/ verify/mesh/ verify/report/ verify/solvers/ verify/stability/ verify/view/ REST
 )";
 
@@ -134,7 +134,7 @@ constexpr std::string_view headers_without_test = R"(
   adapters/tight_inclusion/: config.hpp
 // By the answers of the methods, baselines_test.cpp, the queries of the families, families_test.cpp,
 // and of the hard ones, hardness_test.cpp.
-  verify/base/: cores.hpp
+  verify/base/: any_query.hpp cores.hpp
   verify/baselines/: closest_features.hpp exact_number.hpp moving_polynomials.hpp query_random.hpp upward_rounding.hpp verdicts.hpp
   verify/generate/: coordinate_sampler.hpp draws.hpp family_builder.hpp grid.hpp passing_planes.hpp random.hpp curved_families.hpp
   verify/stability/: hard_curves.hpp

@@ -105,7 +105,8 @@ TEST(ActiveSet, HasADefinedNormalForEdgesThatAreAlwaysInContact) {
 }
 
 TEST(ActiveSet, ContactOfAPairThatIsNotNear) {
-  const Step step = point_and_face(1, -2).step();
+  const Scene scene = point_and_face(1, -2);
+  const Step step = scene.step();
   const ActiveContact at_start = contact_at(step, PairKind::vertex_face, {0, 0}, 0.0);
   EXPECT_TRUE(at_start.first.isApprox(Vector3d(1, 1, 1)));
   EXPECT_TRUE(at_start.second.isApprox(Vector3d(1, 1, 0)));
@@ -199,7 +200,8 @@ TEST(ActiveSet, NormalsAndContactsAgreeWithEachOther) {
 }
 
 TEST(ActiveSet, PlantedFaultsAreFound) {
-  const Step step = point_and_face(1, -2).step();
+  const Scene scene = point_and_face(1, -2);
+  const Step step = scene.step();
   for (const auto& fault : tests::planted_faults().active_set) {
     EXPECT_NE(fault.part(step, {}), active_set(step, {})) << fault.name;
   }

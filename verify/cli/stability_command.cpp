@@ -38,14 +38,28 @@ struct Arguments {
   std::string picture_file;
 };
 
-/// The named kinds of difficulty, in their usual order; by default all.
-std::vector<const stability::Hardness*> chosen(const std::vector<std::string>& names) {
-  std::vector<const stability::Hardness*> result;
-  for (const std::string& name : names) static_cast<void>(stability::hardness_from_name(name));
-  for (const stability::Hardness& hardness : stability::hardnesses()) {
-    const auto is_it = [&](const std::string& name) { return name == hardness.name; };
-    if (names.empty() || std::ranges::any_of(names, is_it)) result.push_back(&hardness);
+std::vector<const stability::Hardness*> all_hardnesses() {
+  std::vector<const stability::Hardness*> all;
+  for (const auto list : {stability::hardnesses(), stability::curve_hardnesses()}) {
+    for (const stability::Hardness& hardness : list) all.push_back(&hardness);
   }
+  return all;
+}
+
+/// The named kinds of difficulty, in their usual order; by default those on straight lines or, for
+/// solvers that answer none of these, on curves.
+std::vector<const stability::Hardness*> chosen(const std::vector<std::string>& names,
+                                               const Solvers& solvers) {
+  for (const std::string& name : names) static_cast<void>(stability::hardness_from_name(name));
+  const bool is_straight = std::ranges::any_of(
+      solvers.all(), [](const solvers::Solver* solver) { return solver->terms().straight; });
+  const auto straight = stability::hardnesses();
+  std::vector<const stability::Hardness*> result = all_hardnesses();
+  std::erase_if(result, [&](const stability::Hardness* hardness) {
+    if (!names.empty()) return std::ranges::find(names, hardness->name) == names.end();
+    return is_straight !=
+           (hardness >= straight.data() && hardness < straight.data() + straight.size());
+  });
   return result;
 }
 
@@ -62,7 +76,7 @@ SolverArguments judged_by(const Arguments& arguments) {
 stability::StabilityResult measure(const Arguments& arguments, const Solvers& solvers) {
   io::ProgressBar bar("stability");
   return stability::measure_stability(
-      chosen(arguments.hardnesses),
+      chosen(arguments.hardnesses, solvers),
       {.separation = arguments.separation.given(),
        .seed = arguments.seed,
        .count = arguments.count,
@@ -103,8 +117,8 @@ void add_options(CLI::App& command, Arguments& arguments) {
   add_exact_flag(command, arguments.judged);
   add_seconds_option(command, arguments.seconds);
   std::string names;
-  for (const stability::Hardness& hardness : stability::hardnesses()) {
-    names += fmt::format("{}{}", names.empty() ? "" : ", ", hardness.name);
+  for (const stability::Hardness* hardness : all_hardnesses()) {
+    names += fmt::format("{}{}", names.empty() ? "" : ", ", hardness->name);
   }
   command.option_defaults()->group("Queries");
   command.add_option("--hardness", arguments.hardnesses, "Only these; repeatable: " + names)
@@ -133,16 +147,19 @@ void add(CLI::App& app, Status& status) {
       app.add_subcommand("stability", "Judge solvers on queries of growing difficulty");
   add_options(*command, *arguments);
   std::string list;
-  for (const stability::Hardness& hardness : stability::hardnesses()) {
-    list += fmt::format("{}{} ({}, {} to {})", list.empty() ? "" : "; ", hardness.name,
-                        hardness.measure, stability::level_text(hardness, hardness.levels.front()),
-                        stability::level_text(hardness, hardness.levels.back()));
+  for (const stability::Hardness* hardness : all_hardnesses()) {
+    list +=
+        fmt::format("{}{} ({}, {} to {})", list.empty() ? "" : "; ", hardness->name,
+                    hardness->measure, stability::level_text(*hardness, hardness->levels.front()),
+                    stability::level_text(*hardness, hardness->levels.back()));
   }
-  set_help(*command, "touchstone stability --method tight_inclusion --picture stability.html",
-           "Queries with one kind of difficulty, at eleven levels: " + list +
-               ". Half of them collide. By default all built-in solvers except the baselines are "
-               "judged.\n" +
-               std::string(answering_statuses));
+  set_help(
+      *command, "touchstone stability --method tight_inclusion --picture stability.html",
+      "Queries with one kind of difficulty, at several levels: " + list +
+          ". Half of them collide. Those on curves are asked if they are named, or if no "
+          "solver takes straight lines. By default all built-in solvers except the baselines are "
+          "judged.\n" +
+          std::string(answering_statuses));
   command->callback([arguments, command, &status] {
     settle_solver_options(*command, true, arguments->judged);
     settle_query_limit(*command, arguments->seconds, arguments->judged);

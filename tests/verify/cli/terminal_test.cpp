@@ -61,7 +61,7 @@ TEST_F(TerminalTool, EveryCommandEndsAtAnInterrupt) {
       {"generate", "--patches", "1000", "--out", path("patches")},
       {"bench", "--count", "100000000"},
       {"fuzz", "--method", "certified"},
-      {"curved", "--count", "1000000"},
+      {"certify", "--degree", "rational", "--count", "1000000"},
       {"stability"},
       {"report", "--out", out},
       {"derive"}};

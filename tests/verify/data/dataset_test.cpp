@@ -218,7 +218,7 @@ TYPED_TEST(WrittenDataset, IsReadBitForBit) {
   const auto records = read_all(*open_dataset(this->path_));
   ASSERT_EQ(records.size(), queries.size());
   for (std::size_t i = 0; i < queries.size(); ++i) {
-    EXPECT_EQ(std::memcmp(&records[i].query, &queries[i], sizeof(Query)), 0) << i;
+    EXPECT_EQ(std::memcmp(&records[i].query.straight(), &queries[i], sizeof(Query)), 0) << i;
     EXPECT_EQ(records[i].index, i);
   }
 }

@@ -431,7 +431,7 @@ TEST(Fuzz, FindsNothingOnCurvesWhereNothingIsWrong) {
   for (const Separation& separation :
        {Separation{}, Separation{0.25, Norm::linf}, Separation{0.25, Norm::l2}}) {
     for (const auto& [degree, is_rational] : {std::pair(2U, false), {3U, false}, {2U, true}}) {
-      const FuzzOptions options{.most_queries = tests::trials(std::uint64_t{256}),
+      const FuzzOptions options{.most_queries = 300,  // a block and some images
                                 .separation = separation,
                                 .shapes = shapes(degree, is_rational)};
       const FuzzResult certified = fuzz(solvers::find_method("certified"), options);
