@@ -26,6 +26,8 @@ namespace {
 constexpr std::string_view no_method = "none";
 constexpr double longest_limit = 1e6;
 constexpr std::int64_t built_in_max_checks = 100'000;
+/// A check of a box on curves takes ten times as long, and families on curves need more of them.
+constexpr std::int64_t curved_max_checks = 10'000;
 constexpr double bytes_of_gibibyte = 0x1p30;
 constexpr double most_gibibytes = 1e6;
 
@@ -195,7 +197,9 @@ void settle_solver_options(const CLI::App& command, bool built_in_set, SolverArg
     return option != nullptr && option->count() != 0;
   };
   if (built_in_set) {
-    if (!is_given("--max-checks")) arguments.options.max_checks = built_in_max_checks;
+    if (!is_given("--max-checks")) {
+      arguments.options.max_checks = is_given("--degree") ? curved_max_checks : built_in_max_checks;
+    }
     return;
   }
   for (const std::string name : {"--exact", "--query-limit", "--memory-limit", "--allow-processes",
