@@ -86,7 +86,7 @@ void register_file(const std::filesystem::path& folder, const std::filesystem::p
   while (queries.size() < queries_per_file) {
     const auto recorded = source->next();
     if (!recorded) break;
-    queries.push_back(recorded->query);
+    queries.push_back(recorded->query.straight());
   }
   if (!queries.empty()) {
     register_benchmark(file.lexically_relative(folder), source->kind(), std::move(queries));

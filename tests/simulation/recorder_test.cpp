@@ -40,7 +40,7 @@ TEST_P(Recorded, QueriesComeBackWithTheTruth) {
     while (const auto query = source->next()) {
       ++queries;
       ASSERT_TRUE(query->collides.has_value());
-      EXPECT_EQ(*query->collides, exact::decide(kind, query->query).collides());
+      EXPECT_EQ(*query->collides, exact::decide(query->query.queries(), 0).collides());
       if (*query->collides) ++collisions;
     }
     EXPECT_EQ(queries, recorder.queries(kind));
@@ -62,7 +62,7 @@ std::vector<Query> recorded(const std::string& folder, Kind kind, std::size_t li
   const std::string file = folder + "/" + std::string(to_string(kind)) + "/wedge.npy";
   std::vector<Query> queries;
   const auto source = verify::data::open_dataset(file, {});
-  while (const auto query = source->next()) queries.push_back(query->query);
+  while (const auto query = source->next()) queries.push_back(query->query.straight());
   return queries;
 }
 

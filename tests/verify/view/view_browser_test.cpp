@@ -62,7 +62,7 @@ class ViewBrowser : public tests::BrowserTest {
                                          const std::string& script, int width = 1200) const {
     std::vector<ViewedQuery> viewed;
     for (const PosedQuery& one : posed) {
-      viewed.push_back({.label = "query", .kind = one.kind, .query = one.query});
+      viewed.push_back({.label = "query", .query = base::AnyQuery(one.kind, one.query)});
     }
     return result_on(page_of(viewed), script, width);
   }
@@ -88,7 +88,7 @@ class ViewBrowser : public tests::BrowserTest {
   [[nodiscard]] std::string page_of(const std::vector<ViewedQuery>& viewed) const {
     std::vector<nlohmann::json> facts;
     for (const ViewedQuery& one : viewed)
-      facts.push_back(query_facts(one, answers_of(asked_, one)));
+      facts.push_back(query_facts(one, view::ask(asked_, one).answers));
     return view_page(facts, "touchstone view", {}, solvers_);
   }
 
@@ -168,9 +168,10 @@ TEST_F(ViewBrowser, TheSliderMovesThePointsExactly) {
   const Query edge_edge = of_any_size(Kind::edge_edge).query;
   const std::vector<CurvedQuery> motions{as_curves(vertex_face), as_curves(edge_edge),
                                          odd_curves()};
-  const std::string page = page_of({{.label = "a", .kind = Kind::vertex_face, .query = vertex_face},
-                                    {.label = "b", .kind = Kind::edge_edge, .query = edge_edge},
-                                    {.label = "c", .curves = odd_curves()}});
+  const std::string page =
+      page_of({{.label = "a", .query = base::AnyQuery(Kind::vertex_face, vertex_face)},
+               {.label = "b", .query = base::AnyQuery(Kind::edge_edge, edge_edge)},
+               {.label = "c", .query = OwnCurves{Kind::vertex_face, odd_curves()}}});
   for (const std::string without : {"", "HTMLCanvasElement.prototype.getContext = () => null;"}) {
     const nlohmann::json result = result_on(page, R"(
       choose("format", "rational");
