@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
 """Writes the measured parts of the documents: `./run results`.
 
-docs/data contains the measurements as JSON, each file with its commands, their date and their results. They are the source
-of docs/results.md, docs/results.svg and the marked parts of README.md and docs/benchmarks.md. A marked part is between
+docs/data contains the measurements as JSON, each file with its commands, their date and their results; published.json has what
+others published, and its sources. They are the source of docs/results.md and docs/results.svg (results_document.py), and of the
+marked parts of README.md, docs/benchmarks.md and docs/simulation.md. A marked part is between
 <!-- made by ./run results: NAME --> and <!-- end -->; the function NAME below writes it.
 """
 

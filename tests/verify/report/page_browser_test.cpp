@@ -145,7 +145,7 @@ TEST_F(Browser, OpensWithItsFindings) {
   const std::string table = dom.substr(dom.find("<section id=\"table_1\""));
   EXPECT_EQ(
       texts(table, "tr").at(3),
-      "msrf | ✗ 2 | 1 (1.2 %) | 0.4 | 40 | 0 | 100 of 200 | 20 | 0 | – | – | 12.90 | 16 | ✗ 386");
+      "msrf | ✗ 2 | 1 (1.3 %) | 0.4 | 40 | 0 | 100 of 200 | 20 | 0 | – | – | 12.90 | 16 | ✗ 386");
 }
 
 /// Of counts and times; not of times within their noise.
