@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
 """Writes the measured parts of the documents: `./run results`.
 
-docs/data contains the measurements as JSON, each file with its commands, their date and their results. They are the source
-of docs/results.md, docs/results.svg and the marked parts of README.md and docs/benchmarks.md. A marked part is between
+docs/data contains the measurements as JSON, each file with its commands, their date and their results; published.json has what
+others published, and its sources. They are the source of docs/results.md and docs/results.svg (results_document.py), and of the
+marked parts of README.md, docs/benchmarks.md and docs/simulation.md. A marked part is between
 <!-- made by ./run results: NAME --> and <!-- end -->; the function NAME below writes it.
 """
 
@@ -16,9 +17,9 @@ import resource
 import subprocess
 import sys
 import tempfile
-import urllib.parse
 
 import large_run
+import results_document
 
 DATA = ["handcrafted", "simulation", ""]  # "": the built-in set
 STEPS = {"cloth-ball": ["", *(f" --min-separation {d} --norm {norm}" for d in ("1e-8", "1e-2") for norm in ("linf", "l2"))],
@@ -506,29 +507,19 @@ def with_parts(document, text, root):
     return mark.sub(made, text)
 
 
-def picture(page, folder):
-    """The figure of time against error, from its link on the report's page."""
-    page.write_text(page.read_text().replace("</body>", """<script>
-const link = document.querySelector("#speed_false_positives a.svg");
-link.addEventListener("click", (event) => event.preventDefault());
-link.click();
-</script></body>"""))
-    dom = run(["chromium", "--headless", "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage",
-               "--virtual-time-budget=10000", f"--user-data-dir={folder}/profile", "--dump-dom", page.as_uri()])
-    link = re.search(r'href="data:image/svg\+xml,([^"]*)"', dom)
-    if not link:
-        raise Problem("the page of the report has no picture")
-    return urllib.parse.unquote(link[1])
-
-
 def documents(options, folder):
     """The correct texts of all documents, by name."""
     made = {document: with_parts(document, (options.root / document).read_text(), options.root) for document in PARTS}
-    page, text = folder / "page.html", folder / "results.md"
-    run([options.tool, "report", "--from", options.root / "docs/data/results.json", "--out", page, "--markdown", text])
-    sections = [line for part in (large, field_2026)
-                for line in part(json.loads((options.root / f"docs/data/{part.__name__}.json").read_text()))]
-    return made | {"docs/results.md": "\n".join([text.read_text(), *sections]), "docs/results.svg": picture(page, folder)}
+    page = folder / "page.html"
+    run([options.tool, "report", "--from", options.root / "docs/data/results.json", "--out", page])
+    said = results_document.read_page(page, folder, run)
+
+    def read(name):
+        return json.loads((options.root / f"docs/data/{name}.json").read_text())
+
+    sections = [line for part in (large, field_2026) for line in part(read(part.__name__))]
+    text = results_document.document(read("results"), read("published"), said)
+    return made | {"docs/results.md": "\n".join([text, *sections]), "docs/results.svg": said["picture"]}
 
 
 def differences(root, made):

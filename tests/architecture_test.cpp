@@ -145,7 +145,7 @@ constexpr std::string_view headers_without_test = R"(
 // By tests/transcripts, and documents_test.cpp: docs/results.md and its picture are those of their data.
   verify/cli/: certificates_file.hpp commands.hpp files.hpp group_options.hpp help.hpp options.hpp solver_options.hpp sources.hpp version.hpp view_file.hpp
   verify/mesh/: moving_mesh.hpp
-  verify/report/: certify_report.hpp judgement_report.hpp stability_report.hpp step_report.hpp figure.hpp figures.hpp findings.hpp measurement.hpp published.hpp results.hpp stability_figures.hpp
+  verify/report/: certify_report.hpp judgement_report.hpp stability_report.hpp step_report.hpp measurement.hpp
 )";
 
 /// A line of a table.

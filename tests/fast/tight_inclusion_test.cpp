@@ -543,7 +543,7 @@ TightInclusionResult solve_with(ErrorModel model, Kind kind, const Query& query)
   return tight_inclusion(kind, query, options);
 }
 
-/// The simplest contact that the release denies (verify/report/results.cpp): a vertex flies along
+/// The simplest contact that the release denies (docs/data/published.json): a vertex flies along
 /// the x axis, onto a resting triangle in a plane across it. All coordinates have two decimals.
 TEST(Published, TheReleaseDeniesAVertexThatLandsOnATriangle) {
   const PosedQuery posed =

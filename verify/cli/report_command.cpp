@@ -38,8 +38,6 @@
 #include "verify/report/experiments.hpp"
 #include "verify/report/measurement_json.hpp"
 #include "verify/report/page.hpp"
-#include "verify/report/results.hpp"
-#include "verify/report/tables.hpp"
 #include "verify/solvers/answers.hpp"
 #include "verify/solvers/registry.hpp"
 #include "verify/solvers/solver.hpp"
@@ -62,7 +60,6 @@ struct Arguments {
   std::string compare_file;
   std::string page_file;
   std::string json_file;
-  std::string markdown_file;
   std::string view_file;
 };
 
@@ -109,10 +106,9 @@ class ReportRun {
       : arguments_(arguments),
         page_(files_, arguments.page_file),
         json_(files_, arguments.json_file),
-        markdown_(files_, arguments.markdown_file),
         view_(files_, arguments.view_file) {
-    if (!page_ && !json_ && !markdown_ && !view_) {
-      throw std::invalid_argument("no output: name --out, --json, --markdown or --view");
+    if (!page_ && !json_ && !view_) {
+      throw std::invalid_argument("no output: name --out, --json or --view");
     }
     files_.add_inputs(arguments.solvers.files());
     for (const std::string& input : {arguments.from_file, arguments.compare_file}) {
@@ -278,8 +274,6 @@ class ReportRun {
     json_.close();
     if (page_) page_.write(report::report_page(measurements, before_ ? &*before_ : nullptr));
     page_.close();
-    if (markdown_) markdown_.write(report::results_document(measurements));
-    markdown_.close();
     wrong_.add_to(view_);
     view_.write();
     std::FILE* const out = files_.summary_stream();
@@ -302,12 +296,11 @@ class ReportRun {
     for (const report::Measurement& m : measurements.all) {
       if (m.keeps_promise) continue;
       report_error(fmt::format(
-          "{} ({}) breaks its promise on {} {}, {}: false negatives {}, late toi {} (at most by {} "
-          "of the step), early toi_upper {}, errors {}, false positives {}",
+          "{} ({}) breaks its promise on {} {}, {}: false negatives {}, late toi {} (at most by "
+          "{:.3g} of the step), early toi_upper {}, errors {}, false positives {}",
           m.method, solvers::to_string(m.promise), m.group, to_string(m.kind),
-          report::to_string(m.experiment), m.false_negatives, m.late_tois,
-          report::short_number(m.late.greatest.step), m.early_upper_tois, m.errors,
-          m.false_positives));
+          report::to_string(m.experiment), m.false_negatives, m.late_tois, m.late.greatest.step,
+          m.early_upper_tois, m.errors, m.false_positives));
     }
   }
 
@@ -315,7 +308,6 @@ class ReportRun {
   Files files_;
   Output page_;
   Output json_;
-  Output markdown_;
   ViewFile view_;
   WrongAnswers wrong_;
   std::optional<report::Measurements> before_;
@@ -401,10 +393,6 @@ void add_output_options(CLI::App& command, Arguments& arguments) {
       ->type_name("OLD.json");
   command.add_option("--out", arguments.page_file, "Write the page")->type_name("FILE.html");
   add_json_option(command, arguments.json_file);
-  command
-      .add_option("--markdown", arguments.markdown_file,
-                  "Write the tables as Markdown, with the published numbers")
-      ->type_name("FILE.md");
   add_view_option(command, arguments.view_file,
                   "Write an HTML viewer of 100 wrong answers, split evenly among the methods");
   command.get_option("--view")->excludes(command.get_option("--from"));

@@ -65,13 +65,13 @@ std::string csv_field(std::string_view text) {
   return quoted + '"';
 }
 
-std::string csv_row(const std::vector<std::string>& texts, std::string_view line_end) {
+std::string csv_row(const std::vector<std::string>& texts) {
   std::string row;
   for (std::size_t i = 0; i < texts.size(); ++i) {
     if (i != 0) row += ',';
     row += csv_field(texts[i]);
   }
-  return row.append(line_end);
+  return row + '\n';
 }
 
 std::string csv_number(double number) {

@@ -21,8 +21,7 @@ namespace touchstone::verify::io {
 [[nodiscard]] std::string csv_field(std::string_view text);
 
 /// The texts as a record, with its line end.
-[[nodiscard]] std::string csv_row(const std::vector<std::string>& texts,
-                                  std::string_view line_end = "\n");
+[[nodiscard]] std::string csv_row(const std::vector<std::string>& texts);
 
 /// A number with the digits that reproduce the double; empty for NaN.
 [[nodiscard]] std::string csv_number(double number);

@@ -2,9 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <cctype>
 #include <cstdint>
-#include <iterator>
 #include <nlohmann/json.hpp>
 
 namespace touchstone::verify::io {
@@ -42,19 +40,6 @@ std::string json_element(std::string_view id, const nlohmann::json& json) {
     }
   }
   return text + "</script>\n";
-}
-
-std::string percent_encoded(std::string_view text) {
-  std::string result;
-  for (const char c : text) {
-    const auto byte = static_cast<unsigned char>(c);
-    if (std::isalnum(byte) != 0 || c == '-' || c == '.' || c == '_' || c == ',') {
-      result += c;
-    } else {
-      fmt::format_to(std::back_inserter(result), "%{:02X}", byte);
-    }
-  }
-  return result;
 }
 
 std::string base64(std::span<const std::byte> bytes) {

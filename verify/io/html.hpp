@@ -25,9 +25,6 @@ namespace touchstone::verify::io {
 [[nodiscard]] std::string script_element(std::string_view script);
 [[nodiscard]] std::string json_element(std::string_view id, const nlohmann::json& json);
 
-/// Bytes as they may stand in a data URL.
-[[nodiscard]] std::string percent_encoded(std::string_view text);
-
 /// Bytes in base 64, with padding (RFC 4648).
 [[nodiscard]] std::string base64(std::span<const std::byte> bytes);
 

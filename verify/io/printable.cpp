@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cstdint>
 #include <iterator>
 
@@ -64,40 +63,11 @@ std::string escaped(std::string_view text, Base base, std::string_view marks) {
   return result;
 }
 
-bool is_word(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0; }
-
-/// True if the character at `i` of printable text could be markup. An underscore within a word is
-/// not, and a colon only in front of the slashes of an address.
-bool is_markup(std::string_view text, std::size_t i) {
-  static constexpr std::string_view marks = "\\`*[]<>|~&$";
-  const char c = text[i];
-  if (c == '_')
-    return i == 0 || i + 1 == text.size() || !is_word(text[i - 1]) || !is_word(text[i + 1]);
-  if (c == ':') return text.substr(i + 1).starts_with("//");
-  return marks.find(c) != std::string_view::npos;
-}
-
 }  // namespace
 
 std::string printable(std::string_view text) { return escaped(text, Base::hexadecimal, ""); }
 
 bool is_printable(std::string_view text) { return printable(text) == text; }
-
-std::string markdown_escaped(std::string_view text) {
-  const std::string line = printable(text);
-  std::string result;
-  for (std::size_t i = 0; i < line.size(); ++i) {
-    if (is_markup(line, i)) result += '\\';
-    result += line[i];
-  }
-  return result;
-}
-
-std::string markdown_code(std::string_view text) {
-  std::string line = printable(text);
-  std::ranges::replace(line, '`', '\'');
-  return '`' + line + '`';
-}
 
 std::string html_escaped(std::string_view text) {
   static constexpr std::string_view marks = "&<>\"'";

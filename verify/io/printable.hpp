@@ -21,12 +21,6 @@ namespace touchstone::verify::io {
 /// True if the text is printable.
 [[nodiscard]] bool is_printable(std::string_view text);
 
-/// The text in Markdown, also in a cell of a table: possible markup is escaped.
-[[nodiscard]] std::string markdown_escaped(std::string_view text);
-
-/// The text as a code span of Markdown, with apostrophes for backticks.
-[[nodiscard]] std::string markdown_code(std::string_view text);
-
 /// The text in HTML, also in an attribute.
 [[nodiscard]] std::string html_escaped(std::string_view text);
 

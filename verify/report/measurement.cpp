@@ -19,10 +19,6 @@ constexpr std::array<std::pair<Experiment, std::string_view>, 5> names{{
     {Experiment::filter, "filter"},
 }};
 
-double ratio(std::uint64_t count, std::uint64_t among) {
-  return among == 0 ? 0.0 : static_cast<double>(count) / static_cast<double>(among);
-}
-
 }  // namespace
 
 std::string_view to_string(Experiment experiment) {
@@ -39,41 +35,6 @@ Experiment experiment_from_string(std::string_view name) {
 void TimeHistogram::add(double nanoseconds) {
   const double place = std::log10(std::max(nanoseconds, 1.0)) * bins_per_decade;
   ++bins[static_cast<int>(std::floor(place))];
-}
-
-double TimeHistogram::lower_end(int bin) {
-  return std::pow(10.0, static_cast<double>(bin) / bins_per_decade);
-}
-
-std::uint64_t TimeHistogram::count() const {
-  std::uint64_t sum = 0;
-  for (const auto& [bin, count] : bins) sum += count;
-  return sum;
-}
-
-double false_positive_rate(const Measurement& measurement) {
-  return ratio(measurement.false_positives, measurement.asked - measurement.collisions);
-}
-
-double false_negative_rate(const Measurement& measurement) {
-  return ratio(measurement.false_negatives, measurement.collisions);
-}
-
-std::vector<const Measurement*> of_experiment(const Measurements& measurements,
-                                              Experiment experiment) {
-  std::vector<const Measurement*> chosen;
-  for (const Measurement& measurement : measurements.all) {
-    if (measurement.experiment == experiment) chosen.push_back(&measurement);
-  }
-  return chosen;
-}
-
-std::string origin_text(const Measurements& measurements) {
-  std::string text;
-  if (!measurements.version.empty()) text += " with Touchstone " + measurements.version;
-  if (!measurements.machine.empty()) text += " on " + measurements.machine;
-  if (!measurements.date.empty()) text += ", " + measurements.date;
-  return text;
 }
 
 Measurements with_printable_texts(Measurements measurements) {

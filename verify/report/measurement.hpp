@@ -2,7 +2,7 @@
 
 /// \file
 /// The record of a report: measurements of a method, under some options, on a group of queries.
-/// Plain data; all that tables and figures show is computed from it and nothing else.
+/// Plain data; all that tables and figures show is computed from it and nothing else (page.hpp).
 
 #include <cstdint>
 #include <limits>
@@ -43,9 +43,6 @@ struct TimeHistogram {
 
   /// Times below a nanosecond count as one.
   void add(double nanoseconds);
-  /// Where a bin begins, in nanoseconds.
-  [[nodiscard]] static double lower_end(int bin);
-  [[nodiscard]] std::uint64_t count() const;
 
   friend bool operator==(const TimeHistogram&, const TimeHistogram&) = default;
 };
@@ -114,12 +111,6 @@ struct Measurement {
   TimeHistogram no_collision_times;
 };
 
-/// Of those that do not collide; 0 if there are none.
-[[nodiscard]] double false_positive_rate(const Measurement& measurement);
-
-/// Of those that collide; 0 if there are none.
-[[nodiscard]] double false_negative_rate(const Measurement& measurement);
-
 /// One cell of a map of stability (verify/stability/stability.hpp).
 struct StabilityMark {
   std::string method;
@@ -170,16 +161,8 @@ struct Measurements {
   bool interrupted = false;
 };
 
-/// By what, where and when they were made, for a sentence: " with Touchstone 1.2 (commit) on
-/// PROCESSOR, 2026-01-31"; empty if not known.
-[[nodiscard]] std::string origin_text(const Measurements& measurements);
-
 /// The same with all names and texts printable (printable.hpp): for what people read.
 [[nodiscard]] Measurements with_printable_texts(Measurements measurements);
-
-/// The measurements of one experiment, in their order. They point into `measurements`.
-[[nodiscard]] std::vector<const Measurement*> of_experiment(const Measurements& measurements,
-                                                            Experiment experiment);
 
 /// Did a method give a wrong answer that its promise excludes?
 [[nodiscard]] bool has_wrong_answers(const Measurements& measurements);

@@ -180,6 +180,7 @@ Json json_of(const StabilityMark& mark) {
           {"hangs", mark.hangs},
           {"undecided", mark.undecided},
           {"worst", mark.worst ? judge::to_text(*mark.worst) : ""},
+          {"is_slight", mark.is_slight},
           {"worst_rate", mark.worst_rate},
           {"toi_error", json_of(mark.toi_error)},
           {"ns_per_query", io::number_to_json(mark.nanoseconds)},
@@ -213,6 +214,7 @@ StabilityMark mark_from(const Json& json) {
   mark.errors = json.value("errors", mark.errors);
   mark.undecided = json.value("undecided", mark.undecided);
   mark.is_power = json.value("is_power", mark.is_power);
+  mark.is_slight = json.value("is_slight", mark.is_slight);
   mark.hangs = json.value("hangs", mark.hangs);
   mark.toi_error = spread_from(json.value("toi_error", Json()));
   mark.checks = io::number_from_json(json.value("checks_per_query", Json()));

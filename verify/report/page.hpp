@@ -4,13 +4,13 @@
 /// A report, or a map of stability, as one HTML page that needs nothing else: no network, no other
 /// file. Its policy (Content-Security-Policy) forbids to load anything.
 ///
-/// A report opens with its findings (findings.hpp) and the first figure of time against error;
-/// tables and further figures follow. The tables are in the page as they are; the figures are drawn
-/// by d3 in the browser from the data that stand in the page. Every table and figure has a link to
-/// its numbers as CSV, inside the page too; every figure has one to itself as an SVG file. Tables
-/// are sorted by the column that the reader chooses; the first column, and that of the false
-/// negatives behind it, stay in view. The page fits screens from a telephone's on, and paper, and
-/// follows the reader's light or dark scheme.
+/// The page holds the measurements as JSON. In the browser page/report.js computes from them all
+/// that it says, and page/page.js writes and draws it, with d3. A report opens with its findings
+/// and the first figure of time against error; tables and further figures follow. Every table and
+/// figure has a link to its numbers as CSV; every table has one to itself as Markdown, every figure
+/// one to itself as an SVG file. Tables are sorted by the column that the reader chooses; the first
+/// column, and that of the false negatives behind it, stay in view. The page fits screens from a
+/// telephone's on, and paper, and follows the reader's light or dark scheme.
 
 #include <string>
 

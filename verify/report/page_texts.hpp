@@ -1,8 +1,8 @@
 #pragma once
 
 /// \file
-/// The texts that a page is made of, embedded when the tool is built: d3 as Debian packages it, and
-/// page.js and page.css from verify/report/page/.
+/// The texts that a page is made of, embedded when the tool is built: d3 as Debian packages it,
+/// report.js, page.js and page.css from verify/report/page/, and docs/data/published.json.
 
 #include <string_view>
 
@@ -11,7 +11,13 @@ namespace touchstone::verify::report {
 /// The d3 library, minified, with its licence's notice at the top.
 [[nodiscard]] std::string_view d3_script();
 
-/// The script that draws the figures of a page.
+/// The numbers of published tables, and what is said of them, as JSON.
+[[nodiscard]] std::string_view published_numbers();
+
+/// The script that computes tables, figures and sentences from measurements.
+[[nodiscard]] std::string_view report_script();
+
+/// The script that writes and draws a page.
 [[nodiscard]] std::string_view page_script();
 
 /// The style of a page.

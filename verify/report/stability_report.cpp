@@ -36,6 +36,12 @@ std::string_view name_of(const stability::Outcome& outcome) {
   return outcome.worst ? judge::to_text(*outcome.worst) : std::string_view();
 }
 
+/// "8.3 %", "100 %": two digits, or whole numbers from 100.
+std::string percent(double share) {
+  const double percents = 100.0 * share;
+  return percents < 99.5 ? fmt::format("{:.2g} %", percents) : fmt::format("{:.0f} %", percents);
+}
+
 /// A level's cell in one character.
 char character_of(const jobs::CertifyResult& judged, std::size_t method) {
   if (judged.methods.at(method).judgement.queries == 0) return '-';
@@ -240,26 +246,27 @@ std::vector<StabilityMark> marks_of(const stability::StabilityResult& result) {
   return marks;
 }
 
-Table overview_of(const stability::StabilityResult& result) {
-  Table table{.title = "The worst at any level", .columns = {"method"}, .rows = {}};
+nlohmann::json overview_of(const stability::StabilityResult& result) {
+  std::vector<std::string> columns{"method"};
   std::vector<jobs::CertifyResult> sums;
   for (const stability::StabilityCell& cell : result.cells) {
-    if (table.columns.back() != cell.hardness->name) {
-      table.columns.emplace_back(cell.hardness->name);
+    if (columns.back() != cell.hardness->name) {
+      columns.emplace_back(cell.hardness->name);
       sums.emplace_back();
     }
     sums.back() += cell.judged;
   }
+  nlohmann::json rows = nlohmann::json::array();
   for (std::size_t i = 0; i < result.total.methods.size(); ++i) {
-    std::vector<std::string>& row = table.rows.emplace_back();
-    row.push_back(result.total.methods[i].name);
+    std::vector<std::string> row{io::printable(result.total.methods[i].name)};
     for (const jobs::CertifyResult& sum : sums) {
       const stability::Outcome outcome = stability::outcome_of(sum, i);
       row.push_back(outcome.worst ? fmt::format("{} {}", name_of(outcome), percent(outcome.rate))
                                   : "nothing wrong");
     }
+    rows.push_back(row);
   }
-  return table;
+  return {{"title", "The worst at any level"}, {"columns", columns}, {"rows", std::move(rows)}};
 }
 
 }  // namespace touchstone::verify::report

@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "verify/report/measurement.hpp"
-#include "verify/report/tables.hpp"
 #include "verify/stability/stability.hpp"
 
 namespace touchstone::verify::report {
@@ -40,7 +39,8 @@ namespace touchstone::verify::report {
 /// The cells as a report holds them, method by method within a cell.
 [[nodiscard]] std::vector<StabilityMark> marks_of(const stability::StabilityResult& result);
 
-/// A row a method, a column a hardness: the worst that happened at any level, and how often.
-[[nodiscard]] Table overview_of(const stability::StabilityResult& result);
+/// A table of texts (`title`, `columns`, `rows`), a row a method, a column a hardness: the worst
+/// that happened at any level, and how often.
+[[nodiscard]] nlohmann::json overview_of(const stability::StabilityResult& result);
 
 }  // namespace touchstone::verify::report

@@ -29,11 +29,6 @@ TEST(Html, JsonDoesNotEndItsElement) {
             "<script type=\"application/json\" id=\"data\">\"\xef\xbf\xbd\"</script>\n");
 }
 
-TEST(Html, BytesOfADataUrl) {
-  EXPECT_EQ(percent_encoded("a-b_c.1,2"), "a-b_c.1,2");
-  EXPECT_EQ(percent_encoded(" \n%\xc2\xb5\""), "%20%0A%25%C2%B5%22");
-}
-
 TEST(Html, BytesInBase64) {
   const auto encoded = [](std::string_view text) {
     return base64(std::as_bytes(std::span(text.data(), text.size())));

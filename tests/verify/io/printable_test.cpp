@@ -50,28 +50,6 @@ TEST(Printable, ChangesNothingTwice) {
   EXPECT_EQ(printable(printable(text)), printable(text));
 }
 
-TEST(MarkdownEscaped, LeavesNoMarkup) {
-  EXPECT_EQ(markdown_escaped("a|b"), "a\\|b");
-  EXPECT_EQ(markdown_escaped("<img src=x>"), "\\<img src=x\\>");
-  EXPECT_EQ(markdown_escaped("[a](b)"), "\\[a\\](b)");
-  EXPECT_EQ(markdown_escaped("**a** `b` ~~c~~ \\"), "\\*\\*a\\*\\* \\`b\\` \\~\\~c\\~\\~ \\\\");
-  EXPECT_EQ(markdown_escaped("&lt; $x$ http://a"), "\\&lt; \\$x\\$ http\\://a");
-  EXPECT_EQ(markdown_escaped("_a_"), "\\_a\\_");
-  EXPECT_EQ(markdown_escaped("a\n# b"), "a\\\\x0a# b");
-}
-
-TEST(MarkdownEscaped, KeepsNamesAndNumbers) {
-  for (const std::string_view text :
-       {"tight_inclusion", "1.5e-08", "-1", "δ: 2⁻⁵⁰", "57,000", ""}) {
-    EXPECT_EQ(markdown_escaped(text), text);
-  }
-}
-
-TEST(MarkdownCode, CannotBeLeft) {
-  EXPECT_EQ(markdown_code("a_b"), "`a_b`");
-  EXPECT_EQ(markdown_code("a`b\n"), "`a'b\\x0a`");
-}
-
 TEST(HtmlEscaped, LeavesNoMarkup) {
   EXPECT_EQ(html_escaped("a<b>&\"c'"), "a&lt;b&gt;&amp;&quot;c&#39;");
   EXPECT_EQ(html_escaped(""), "");

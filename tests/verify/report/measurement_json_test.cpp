@@ -65,7 +65,8 @@ Measurements example() {
                                     .beyond_tolerance = 5,
                                     .errors = 6,
                                     .undecided = 7,
-                                    .worst = judge::Fault::false_negative,
+                                    .worst = judge::Fault::late_toi,
+                                    .is_slight = true,
                                     .worst_rate = 0.2,
                                     .toi_error = Spread{.count = 8, .median = 0.0, .max = 1e-9},
                                     .nanoseconds = 1e3,
@@ -96,7 +97,7 @@ TEST(MeasurementJson, ReadsWhatEarlierVersionsWrote) {
   earlier.erase("date");
   for (const char* const later :
        {"late_tois", "early_upper_tois", "beyond_tolerance", "errors", "undecided", "toi_error",
-        "checks_per_query", "is_power", "hangs"}) {
+        "checks_per_query", "is_power", "is_slight", "hangs"}) {
     earlier["stability"][0].erase(later);
   }
   const Measurements read = measurements_from_json(earlier);

@@ -12,11 +12,11 @@
 #include <set>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "tests/support/browser_test.hpp"
 #include "tests/support/measurements.hpp"
-#include "verify/report/figures.hpp"
 #include "verify/report/page.hpp"
 
 namespace touchstone::verify::report::page_browser_test {
@@ -49,6 +49,14 @@ std::string section(const std::string& dom, const std::string& id) {
   return dom.substr(start, dom.find("</section>", start) - start);
 }
 
+/// The figures of the small report, and their panels.
+const std::vector<std::pair<std::string, std::size_t>> figures{
+    {"speed_false_positives", 1}, {"speed_toi_median", 1}, {"speed_toi_max", 1},
+    {"running_times", 1},         {"tolerance_time", 1},   {"tolerance_false_positives", 1},
+    {"separation_time", 1},       {"checks_early", 1},     {"checks_tolerance", 1},
+    {"filter_misses", 1},         {"stages", 1},           {"stability", 1},
+    {"stability_time", 1}};
+
 /// Clicks on the names of columns, and writes the orders of the rows.
 constexpr const char* sorting = R"(<p id="orders"></p><script>
 const table = document.querySelector("#table_1 table");
@@ -66,21 +74,20 @@ document.getElementById("orders").textContent = orders.join("; ");
 /// last.
 TEST_F(Browser, DrawsEveryFigureAndSortsATable) {
   const Measurements measurements = tests::small_report();
-  const std::vector<Figure> figures = figures_of(measurements);
-  ASSERT_EQ(figures.size(), 13U);
   std::string page = report_page(measurements);
   page.insert(page.rfind("</body>"), sorting);
   for (const int width : {1200, 500}) {
     const std::string dom = load(page, width);
     EXPECT_EQ(complaints(), "");
-    for (const Figure& figure : figures) {
-      const std::string drawn = section(dom, figure.id);
-      EXPECT_EQ(count(drawn, "role=\"img\""), figure.panels.size()) << figure.id;
-      EXPECT_EQ(count(drawn, "<desc id="), figure.panels.size()) << figure.id;
-      EXPECT_GE(count(drawn, "<title id="), figure.panels.size()) << figure.id;
-      EXPECT_GE(count(drawn, "<rect") + count(drawn, "<path"), 1U) << figure.id;
-      EXPECT_EQ(count(drawn, "class=\"csv\""), 1U) << figure.id;
-      EXPECT_EQ(count(drawn, "NaN") + count(drawn, "undefined"), 0U) << figure.id;
+    EXPECT_EQ(count(dom, "<section class=\"figure\""), figures.size());
+    for (const auto& [id, panels] : figures) {
+      const std::string drawn = section(dom, id);
+      EXPECT_EQ(count(drawn, "role=\"img\""), panels) << id;
+      EXPECT_EQ(count(drawn, "<desc id="), panels) << id;
+      EXPECT_GE(count(drawn, "<title id="), panels) << id;
+      EXPECT_GE(count(drawn, "<rect") + count(drawn, "<path"), 1U) << id;
+      EXPECT_EQ(count(drawn, "class=\"csv\""), 1U) << id;
+      EXPECT_EQ(count(drawn, "NaN") + count(drawn, "undefined"), 0U) << id;
     }
     const std::set<double> speed = widths(section(dom, "speed_false_positives"));
     ASSERT_FALSE(speed.empty());
@@ -95,6 +102,102 @@ TEST_F(Browser, DrawsEveryFigureAndSortsATable) {
               1U)
         << dom.substr(dom.find("<p id=\"orders\""), 600);
   }
+}
+
+// ---- What it says -------------------------------------------------------------------------------
+
+/// The elements of that kind in a part of a document, each with its cells between bars.
+std::vector<std::string> texts(const std::string& part, const std::string& kind) {
+  const std::regex element("<" + kind + "(?: [^>]*)?>(.*?)</" + kind + ">");
+  std::vector<std::string> result;
+  for (std::sregex_iterator at(part.begin(), part.end(), element), end; at != end; ++at) {
+    const std::string cells =
+        std::regex_replace((*at)[1].str(), std::regex("</t[dh]><t[dh][^>]*>"), " | ");
+    result.push_back(std::regex_replace(cells, std::regex("<[^>]*>"), ""));
+  }
+  return result;
+}
+
+using Texts = std::vector<std::string>;
+
+TEST_F(Browser, OpensWithItsFindings) {
+  Measurements measurements = tests::small_report();
+  for (Measurement& m : measurements.all) m.keeps_promise = m.false_negatives == 0;
+  measurements.all[1].outside = 7;
+  const std::string dom = load(report_page(measurements));
+  EXPECT_EQ(
+      texts(dom.substr(dom.find("<header>"), dom.find("</header>")), "li"),
+      (Texts{"Broke its promise: msrf (2 missed collisions), tight_inclusion_released (4 missed "
+             "collisions).",
+             "3 methods were asked up to 100 queries, 20 of which collide.",
+             "No missed collision and no time of impact after the exact one: certified, "
+             "tight_inclusion. Some: msrf (2 of 100).",
+             "Right on every query, with no false positive either: certified.",
+             "certified takes 10 ns a query. As a multiple of that, the others that miss "
+             "nothing: tight_inclusion 250.",
+             "On the Pareto front of time against error, among those that miss nothing: "
+             "certified in 3 of 3 panels.",
+             "Not asked: tight_inclusion (7 queries outside its promise, 0 for lack of "
+             "time)."}));
+  EXPECT_NE(dom.find("<p>Made on a machine, 2026-01-31 by</p>"), std::string::npos);
+  EXPECT_NE(dom.find("touchstone report handcrafted --out 'a &lt;page&gt;.html'</pre>"),
+            std::string::npos);
+  const std::string table = dom.substr(dom.find("<section id=\"table_1\""));
+  EXPECT_EQ(
+      texts(table, "tr").at(3),
+      "msrf | ✗ 2 | 1 (1.3 %) | 0.4 | 40 | 0 | 100 of 200 | 20 | 0 | – | – | 12.90 | 16 | ✗ 386");
+}
+
+/// Of counts and times; not of times within their noise.
+TEST_F(Browser, SaysWhatHasChangedSinceAnEarlierReport) {
+  Measurements before = tests::small_report();
+  before.all.push_back(tests::measured("simulation", "fprf", 30.0, 0, 2));
+  before.all.push_back(tests::measured("simulation", "rp", 30.0));
+  before.groups = {{.name = "simulation", .kind = Kind::vertex_face, .queries = 200, .digest = 1}};
+  Measurements after = before;
+  after.groups[0].digest = 2;
+  after.all[0].nanoseconds *= 1.2;
+  after.all[1].false_positives = 3;
+  after.all[1].nanoseconds *= 0.5;
+  after.all[2].method = "mine";
+  after.all.end()[-2].false_negatives = 5;
+  after.all.end()[-1].nanoseconds *= 1.44;
+  std::string dom = load(report_page(after, &before));
+  dom = dom.substr(dom.find("<section id=\"changes\""));
+  EXPECT_EQ(
+      texts(dom.substr(0, dom.find("</section>")), "tr"),
+      (Texts{"method | FN | FP | late | ÷ certified | data",
+             "tight_inclusion | = | 8 of 100 → 3 of 100 | = | 250 → 125 | handcrafted, vertex-face",
+             "mine | new | new | new | new | handcrafted, vertex-face",
+             "fprf | ✗ 2 of 100 → 5 of 100 | = | = | = | simulation, vertex-face (other queries)",
+             "rp | = | = | = | 3 → 4.32 | simulation, vertex-face (other queries)",
+             "msrf | gone | gone | gone | gone | handcrafted, vertex-face"}));
+}
+
+/// Writes what a table is as CSV and as Markdown.
+constexpr const char* written = R"(<p id="written"></p><script>
+const hostile = { columns: ["a", "b|c"], rows: [["=1+1", 'x, "y"'], ["| **y** <b>", "_a_ tight_inclusion"],
+  ["http://a", "-1e-300"], ["-x", NaN]] };
+document.getElementById("written").textContent = encodeURI(report.csvOf(hostile)) +
+  encodeURI(report.markdownOf({ ...hostile, rows: hostile.rows.slice(0, 3) }));
+</script>)";
+
+TEST_F(Browser, NoTextOfATableIsAFormulaOrMarkup) {
+  std::string page = report_page(tests::small_report());
+  page.insert(page.rfind("</body>"), written);
+  const std::string dom = load(page);
+  EXPECT_EQ(complaints(), "");
+  EXPECT_EQ(texts(dom.substr(dom.find("<p id=\"written\"")), "p").at(0),
+            "a,b%7Cc%0D%0A"
+            "'=1+1,%22x,%20%22%22y%22%22%22%0D%0A"
+            "%7C%20**y**%20%3Cb%3E,_a_%20tight_inclusion%0D%0A"
+            "http://a,-1e-300%0D%0A"
+            "'-x,%0D%0A"
+            "%7C%20a%20%7C%20b%5C%7Cc%20%7C%0A%7C%20---%20%7C%20---%20%7C%0A"
+            "%7C%20=1+1%20%7C%20x,%20%22y%22%20%7C%0A"
+            "%7C%20%5C%7C%20%5C*%5C*y%5C*%5C*%20%5C%3Cb%5C%3E%20%7C%20%5C_a%5C_%20tight_inclusion%"
+            "20%7C%0A"
+            "%7C%20http%5C://a%20%7C%20-1e-300%20%7C%0A");
 }
 
 /// The tolerances that a method states as achieved.

@@ -13,7 +13,7 @@ TEST(PageTexts, D3HasItsNotice) {
 }
 
 TEST(PageTexts, NoneEndsTheElementThatItStandsIn) {
-  for (const std::string_view text : {d3_script(), page_script(), page_style()}) {
+  for (const std::string_view text : {d3_script(), report_script(), page_script(), page_style()}) {
     EXPECT_EQ(text.find("</script"), std::string_view::npos);
     EXPECT_EQ(text.find("</style"), std::string_view::npos);
     EXPECT_EQ(text.find("<!--"), std::string_view::npos);

@@ -1,12 +1,11 @@
 "use strict";
-// Draws the figures of a report from the data in the page. Each form of figure is a function that
-// draws one panel into an SVG of the available width; all numbers and words come from the data.
+// Writes and draws a report from the data in the page. Each form of figure is a function that draws one panel into an SVG
+// of the available width; all numbers and words come from report.js.
 
-(function () {
-  // Infinite numbers are words in JSON.
-  const isPlace = (key) => key === "x" || key === "y";
-  const figures = JSON.parse(document.getElementById("figures").textContent,
-    (key, value) => (isPlace(key) && typeof value === "string" ? Number(value) : value));
+const page = (function () {
+  const parsed = (id) => report.parsed(document.getElementById(id).textContent);
+  const contents = report.contentsOf(parsed("report"), parsed("published"));
+  const { figures } = contents;
   const margin = { top: 10, right: 18, bottom: 44, left: 58 };
   const endBand = 26;  // room below a logarithmic axis for what is zero, above any for what is infinite
 
@@ -300,7 +299,7 @@
 
   // ---- Grids ------------------------------------------------------------------------------------
 
-  const markColors = { N: "var(--bad)", T: "var(--toi)", E: "var(--error)", B: "var(--beyond)" };
+  const markColors = { N: "var(--bad)", T: "var(--toi)", t: "var(--toi)", E: "var(--error)", B: "var(--beyond)" };
 
   const shade = (tone, depth) => `rgba(var(--${tone}), ${depth})`;
 
@@ -344,7 +343,7 @@
 
   /// The least and the greatest of the finite numbers above 0 in a figure.
   const extentOf = (figure) => d3.extent(figure.panels.flatMap(allPoints).map((point) => point.y)
-    .filter((y) => y !== null && y > 0 && Number.isFinite(y)));
+    .filter((y) => y > 0 && Number.isFinite(y)));
 
   /// The place of a number on the logarithmic scale of its figure: from 0.1 to 1, and less for zero.
   function depthOf(value, [least, greatest]) {
@@ -354,7 +353,7 @@
   }
 
   function shadeLook(point, figure, extent) {
-    if (point.y === null) return { fill: "none", frame: "var(--line)", texts: [] };
+    if (Number.isNaN(point.y)) return { fill: "none", frame: "var(--line)", texts: [] };
     const depth = depthOf(point.y, extent);
     return { fill: shade("number", depth), ink: depth > 0.5 ? "var(--paper)" : "var(--ink)",
       texts: [cellText(figure, point.y)] };
@@ -385,7 +384,7 @@
 
   const gridTip = (figure, panel, series, point) =>
     `${series.name}, ${series.role === "vf" ? "vertex-face" : "edge-edge"}, ${panel.title} 2${superscript(point.x)}: ` +
-    (figure.form === "shades" ? (point.y === null ? "not known" : valueText(figure.y_label, point.y))
+    (figure.form === "shades" ? (Number.isNaN(point.y) ? "not known" : valueText(figure.y_label, point.y))
       : point.label === "" ? "nothing wrong" : `${point.label} ${percentText(point.y)}`) +
     (point.tip ? `\n${point.tip}` : "");
 
@@ -528,13 +527,6 @@
     return new XMLSerializer().serializeToString(svg.node()).replace(/></g, ">\n<") + "\n";
   }
 
-  /// A link to the figure as a picture, beside that to its numbers; the picture is drawn on demand.
-  function addPictureLink(figure) {
-    const link = d3.select(`#${figure.id} .origin`).append("a").attr("class", "svg")
-      .attr("download", `${figure.id}.svg`).attr("href", "#").text("SVG");
-    link.on("click", () => link.attr("href", `data:image/svg+xml,${encodeURIComponent(pictureOf(figure))}`));
-  }
-
   // ---- Tables -----------------------------------------------------------------------------------
 
   /// The number at the beginning of a cell, after a sign for a fault; NaN if there is none.
@@ -571,9 +563,114 @@
     });
   }
 
+  /// True if the column holds false negatives.
+  const isMisses = (column) => /(^| )FN$/.test(column);
+
+  /// True if it is a number above 0, or a change from one or to one.
+  const isCount = (text) => /^[1-9]|^0 of/.test(text);
+
+  const isWord = (column) => ["method", "norm", "kind"].includes(column);
+
+  function writeTable(parent, table) {
+    const element = parent.append("div").attr("class", "scroll").attr("tabindex", 0).append("table")
+      .attr("class", isMisses(table.columns[1] || "") ? "misses" : null);
+    element.append("caption").text(table.title);
+    const head = element.append("thead").append("tr");
+    for (const column of table.columns) head.append("th").attr("scope", "col").text(column);
+    const body = element.append("tbody");
+    for (const texts of table.rows) {
+      const row = body.append("tr");
+      row.append("th").attr("scope", "row").text(texts[0]);
+      texts.slice(1).forEach((text, i) => {
+        const column = table.columns[i + 1];
+        const isMissed = isMisses(column) && isCount(text);
+        row.append("td").attr("class", isMissed ? "missed" : isWord(column) ? "word" : null)
+          .text(isMissed ? `✗ ${text}` : text);
+      });
+    }
+    makeSortable(element.node());
+  }
+
   /// Sets the width of the first column in the style, which is the position of the second one.
   function keepColumns(table) {
     table.style.setProperty("--first", `${table.tHead.rows[0].cells[0].offsetWidth}px`);
+  }
+
+  // ---- Sections ---------------------------------------------------------------------------------
+
+  const dataUrl = (type, text) => `data:${type};charset=utf-8,${encodeURIComponent(text)}`;
+
+  const writeLink = (line, kind, file, text) =>
+    line.append("a").attr("class", kind).attr("download", file).attr("href", "#").text(text);
+
+  /// A line of links to the numbers of a table; it is returned.
+  function writeLinks(parent, id, table) {
+    const line = parent.append("p").attr("class", "origin");
+    writeLink(line, "csv", `${id}.csv`, "CSV").attr("href", dataUrl("text/csv", report.csvOf(table)));
+    return line;
+  }
+
+  function writeDetails(parent, title, texts) {
+    const details = parent.append("details");
+    details.append("summary").text(title);
+    details.append("ul").selectAll("li").data(texts).join("li").text((text) => text);
+  }
+
+  function writeSection(parent, section) {
+    const element = parent.append("section").attr("id", section.id);
+    element.append("h2").text(section.title);
+    section.tables.forEach((table, i) => {
+      const id = `${section.id}_${i + 1}`;
+      writeTable(element, table);
+      writeLink(writeLinks(element, id, table), "markdown", `${id}.md`, "Markdown")
+        .attr("href", dataUrl("text/markdown", report.markdownOf(table)));
+    });
+    if (section.meanings) writeDetails(element, "What the columns mean", section.meanings);
+  }
+
+  /// The frame of a figure, with its links; the picture is drawn on demand.
+  function writeFigure(parent, figure) {
+    const section = parent.append("section").attr("class", "figure").attr("id", figure.id);
+    section.append("h2").text(figure.title);
+    section.append("p").text(figure.description);
+    section.append("div").attr("class", "legend");
+    section.append("div").attr("class", "panels");
+    const link = writeLink(writeLinks(section, figure.id, figure.data), "svg", `${figure.id}.svg`, "SVG");
+    link.on("click", () => link.attr("href", dataUrl("image/svg+xml", pictureOf(figure))));
+  }
+
+  function writeOpening(header) {
+    header.append("h1").text(contents.title);
+    header.append("p").text(contents.about);
+    if (contents.interrupted) {
+      header.append("p").attr("class", "warning")
+        .text("Not all that was asked for is here: the time was over, or the run was interrupted.");
+    }
+    header.append("ul").attr("class", "findings").selectAll("li").data(contents.findings).join("li").text((text) => text);
+  }
+
+  /// Where the numbers are from, and where they are on the page.
+  function writeNavigation(main) {
+    main.append("p").text(`Made${contents.origin} by`);
+    main.append("pre").attr("class", "command").text(contents.command);
+    if (contents.groups.length !== 0) {
+      writeDetails(main, "Data", contents.groups.map(({ name, kind, queries, digest }) =>
+        `${name}, ${kind}: ${queries} queries, digest ${digest}`));
+    }
+    const list = main.append("nav").attr("aria-label", "Contents").append("ul");
+    for (const { id, title } of [...contents.top, ...figures, ...contents.further]) {
+      list.append("li").append("a").attr("href", `#${id}`).text(title);
+    }
+  }
+
+  function writePage() {
+    writeOpening(d3.select("header"));
+    const main = d3.select("main");
+    figures.slice(0, 1).forEach((figure) => writeFigure(main, figure));
+    writeNavigation(main);
+    contents.top.forEach((section) => writeSection(main, section));
+    figures.slice(1).forEach((figure) => writeFigure(main, figure));
+    contents.further.forEach((section) => writeSection(main, section));
   }
 
   // ---- The page ---------------------------------------------------------------------------------
@@ -606,8 +703,8 @@
     }
   }
 
+  writePage();
   const tables = Array.from(document.querySelectorAll("table"));
-  tables.forEach(makeSortable);
 
   /// Marks a table that is wider than its place.
   function markWide(table) {
@@ -621,11 +718,12 @@
     tables.forEach(markWide);
   }
   drawAll();
-  figures.forEach(addPictureLink);
   let drawnWidth = window.innerWidth;
   window.addEventListener("resize", () => {
     if (window.innerWidth === drawnWidth) return;
     drawnWidth = window.innerWidth;
     drawAll();
   });
+
+  return { contents, pictureOf };
 })();
