@@ -17,6 +17,9 @@ enum class Status : int {
   interrupted = 130,  ///< by a signal; the results so far are reported
 };
 
+/// Adds all subcommands.
+void add_commands(CLI::App& app, Status& status);
+
 // The command `touchstone certify`, and so on with the other commands.
 namespace certify_command {
 void add(CLI::App& app, Status& status);
