@@ -24,6 +24,7 @@
 #include "verify/cli/commands.hpp"
 #include "verify/cli/files.hpp"
 #include "verify/cli/help.hpp"
+#include "verify/cli/option_table.hpp"
 #include "verify/cli/options.hpp"
 #include "verify/cli/pieces.hpp"
 #include "verify/cli/solver_options.hpp"
@@ -248,37 +249,13 @@ class BenchRun {
 
 void add_bench_options(CLI::App& command, Arguments& arguments) {
   command.option_defaults()->group("Measurement");
-  command
-      .add_option("--step", arguments.step,
-                  "Measure a step instead of queries: meshes before and after it")
-      ->type_name("FRAME0 FRAME1")
-      ->expected(2)
-      ->excludes(command.get_option("PATH"));
-  command
-      .add_option("--kernel", arguments.kernel,
-                  "Kernel of certified and steps: scalar, avx2, avx512, neon or best")
-      ->type_name("NAME")
-      ->capture_default_str()
-      ->check(CLI::IsMember({"scalar", "avx2", "avx512", "neon", "best"}).description(""));
-  command
-      .add_option("--repetitions", arguments.bench.repetitions, "Repetitions; times are medians")
-      ->type_name("N")
-      ->capture_default_str()
-      ->check(whole_number(1, 1'000'000));
-  command
-      .add_option("--seconds", arguments.bench.seconds,
-                  "Seconds for a method and repetition; slower methods are timed on a sample")
-      ->type_name("S")
-      ->capture_default_str()
-      ->check(real_number(1e-6, 1e6));
-  command
-      .add_option("--judge", arguments.bench.judge,
-                  "Queries to judge per group, plus every reported collision")
-      ->type_name("N")
-      ->capture_default_str()
-      ->check(whole_number(0, INT64_MAX));
+  add_option(command, "--step", arguments.step)->excludes(command.get_option("PATH"));
+  add_option(command, "--kernel", arguments.kernel);
+  add_option(command, "--repetitions", arguments.bench.repetitions);
+  add_option(command, "--seconds", arguments.bench.seconds);
+  add_option(command, "--judge", arguments.bench.judge);
   command.option_defaults()->group("Output");
-  add_json_option(command, arguments.json_file);
+  add_option(command, "--json", arguments.json_file);
 }
 
 /// The default methods, if the user names no solver.

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <chrono>
-#include <climits>
 #include <cstdint>
 #include <cstdio>
 #include <filesystem>
@@ -11,7 +10,6 @@
 #include <limits>
 #include <memory>
 #include <nlohmann/json.hpp>
-#include <optional>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -22,9 +20,11 @@
 #include "verify/cli/commands.hpp"
 #include "verify/cli/files.hpp"
 #include "verify/cli/help.hpp"
+#include "verify/cli/option_table.hpp"
 #include "verify/cli/options.hpp"
 #include "verify/cli/sources.hpp"
 #include "verify/data/npy.hpp"
+#include "verify/data/separation_file.hpp"
 #include "verify/io/json.hpp"
 #include "verify/io/terminal.hpp"
 #include "verify/io/text_table.hpp"
@@ -40,8 +40,7 @@ struct Arguments {
   std::string before;
   std::string after;
   std::string prefix;
-  fast::BroadPhaseOptions broad_phase;
-  std::optional<double> min_separation;
+  fast::BroadPhaseOptions broad_phase{.max_candidates = 0};
   std::string json_file;
 };
 
@@ -179,35 +178,16 @@ Status candidates(const Arguments& arguments) {
 
 void add_options(CLI::App& command, Arguments& arguments) {
   command.option_defaults()->group("Input");
-  command.add_option("before", arguments.before, "Mesh before the step: .ply or .obj")
-      ->type_name("FRAME0")
-      ->required();
-  command.add_option("after", arguments.after, "The same mesh after the step, with moved vertices")
-      ->type_name("FRAME1")
-      ->required();
-  add_distance_option(
-      command, arguments.min_separation,
-      "Also pairs whose boxes are within this distance (covers both norms): decimal or 0x1p-10");
-  command.add_option("--threads", arguments.broad_phase.max_threads, "Cores to use (0: all)")
-      ->type_name("N")
-      ->capture_default_str()
-      ->check(whole_number(0, INT_MAX));
+  add_option(command, "before", arguments.before);
+  add_option(command, "after", arguments.after);
+  add_option(command, "--min-separation", [&arguments](const std::string& text) {
+    arguments.broad_phase.separation.distance = data::distance_from_text(text).value();
+  });
+  add_option(command, "--threads", arguments.broad_phase.max_threads);
   command.option_defaults()->group("Output");
-  command
-      .add_option(
-          "--out", arguments.prefix,
-          "Write PREFIX_vf.npy and PREFIX_ee.npy (queries), PREFIX_vf_pairs.npy (vertex and "
-          "face), PREFIX_ee_pairs.npy (two edges) and PREFIX_edges.npy")
-      ->type_name("PREFIX")
-      ->required();
-  command
-      .add_option("--max-candidates", arguments.broad_phase.max_candidates,
-                  "Maximum candidates of a kind; more are an error with their number (0: the "
-                  "memory's limit)")
-      ->type_name("N")
-      ->default_val(0)
-      ->check(whole_number(0, UINT64_MAX));
-  add_json_option(command, arguments.json_file);
+  add_option(command, "--out", arguments.prefix);
+  add_option(command, "--max-candidates", arguments.broad_phase.max_candidates);
+  add_option(command, "--json", arguments.json_file);
 }
 
 }  // namespace
@@ -223,10 +203,7 @@ void add(CLI::App& app, Status& status) {
            "Pairs that share a vertex are left out. Edges are numbered by their larger vertex, "
            "then by the smaller.\n" +
                std::string(writing_statuses));
-  command->callback([arguments, &status] {
-    arguments->broad_phase.separation.distance = arguments->min_separation.value_or(0.0);
-    status = candidates(*arguments);
-  });
+  command->callback([arguments, &status] { status = candidates(*arguments); });
 }
 
 }  // namespace touchstone::verify::cli::candidates_command

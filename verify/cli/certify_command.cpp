@@ -19,6 +19,7 @@
 #include "verify/cli/commands.hpp"
 #include "verify/cli/files.hpp"
 #include "verify/cli/help.hpp"
+#include "verify/cli/option_table.hpp"
 #include "verify/cli/options.hpp"
 #include "verify/cli/pieces.hpp"
 #include "verify/cli/solver_options.hpp"
@@ -248,12 +249,6 @@ class CertifyRun {
   jobs::CertifyResult sum_;
 };
 
-void add_judged_options(CLI::App& command, SolverArguments& judged) {
-  add_solver_options(command, judged);
-  add_recorded_option(command, judged);
-  add_exact_flag(command, judged);
-}
-
 }  // namespace
 
 void add(CLI::App& app, Status& status) {
@@ -262,20 +257,15 @@ void add(CLI::App& app, Status& status) {
       "certify", "Decide queries exactly; compare answers and solvers with the truth");
   add_source_options(*command, arguments->sources);
   add_piece_options(*command, arguments->pieces);
-  add_judged_options(*command, arguments->judged);
-  add_seconds_option(*command, arguments->seconds);
+  add_solver_options(*command, arguments->judged);
+  add_option(*command, "--results", arguments->judged.results);
+  add_option(*command, "--exact", arguments->judged.exact);
+  add_option(*command, "--seconds", arguments->seconds);
   command->option_defaults()->group("Output");
-  add_json_option(*command, arguments->json_file);
-  command
-      ->add_option("--truth", arguments->truth_file,
-                   "Write the truth as CSV: file,index,kind,collides,toi_lower,toi_upper")
-      ->type_name("FILE");
-  command
-      ->add_option("--prove", arguments->proof_file,
-                   "Write a proof of every verdict, as touchstone prove does")
-      ->type_name("FILE");
-  add_view_option(*command, arguments->view_file,
-                  "Write an HTML viewer of the first 100 queries with a wrong answer or label");
+  add_option(*command, "--json", arguments->json_file);
+  add_option(*command, "--truth", arguments->truth_file);
+  add_option(*command, "--prove", arguments->proof_file);
+  add_option(*command, "--view", arguments->view_file);
   set_help(*command,
            "touchstone certify data/handcrafted --json result.json\n"
            "touchstone certify --min-separation 1e-8 --norm l2 --method tight_inclusion\n"

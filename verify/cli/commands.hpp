@@ -17,51 +17,26 @@ enum class Status : int {
   interrupted = 130,  ///< by a signal; the results so far are reported
 };
 
+/// Adds all subcommands.
+void add_commands(CLI::App& app, Status& status);
+
 // The command `touchstone certify`, and so on with the other commands.
-namespace certify_command {
-void add(CLI::App& app, Status& status);
-}
-namespace solve_command {
-void add(CLI::App& app, Status& status);
-}
-namespace prove_command {
-void add(CLI::App& app, Status& status);
-}
-namespace generate_command {
-void add(CLI::App& app, Status& status);
-}
-namespace bench_command {
-void add(CLI::App& app, Status& status);
-}
-namespace fuzz_command {
-void add(CLI::App& app, Status& status);
-}
-namespace stability_command {
-void add(CLI::App& app, Status& status);
-}
-namespace report_command {
-void add(CLI::App& app, Status& status);
-}
-namespace candidates_command {
-void add(CLI::App& app, Status& status);
-}
-namespace step_command {
-void add(CLI::App& app, Status& status);
-}
-namespace view_command {
-void add(CLI::App& app, Status& status);
-}
-namespace convert_command {
-void add(CLI::App& app, Status& status);
-}
-namespace merge_command {
-void add(CLI::App& app, Status& status);
-}
-namespace rigid_command {
-void add(CLI::App& app, Status& status);
-}
-namespace derive_command {
-void add(CLI::App& app, Status& status);
-}
+// clang-format off
+namespace certify_command { void add(CLI::App& app, Status& status); }
+namespace solve_command { void add(CLI::App& app, Status& status); }
+namespace prove_command { void add(CLI::App& app, Status& status); }
+namespace generate_command { void add(CLI::App& app, Status& status); }
+namespace bench_command { void add(CLI::App& app, Status& status); }
+namespace fuzz_command { void add(CLI::App& app, Status& status); }
+namespace stability_command { void add(CLI::App& app, Status& status); }
+namespace report_command { void add(CLI::App& app, Status& status); }
+namespace candidates_command { void add(CLI::App& app, Status& status); }
+namespace step_command { void add(CLI::App& app, Status& status); }
+namespace view_command { void add(CLI::App& app, Status& status); }
+namespace convert_command { void add(CLI::App& app, Status& status); }
+namespace merge_command { void add(CLI::App& app, Status& status); }
+namespace rigid_command { void add(CLI::App& app, Status& status); }
+namespace derive_command { void add(CLI::App& app, Status& status); }
+// clang-format on
 
 }  // namespace touchstone::verify::cli

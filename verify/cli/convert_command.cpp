@@ -25,6 +25,7 @@
 #include "verify/base/cores.hpp"
 #include "verify/cli/commands.hpp"
 #include "verify/cli/help.hpp"
+#include "verify/cli/option_table.hpp"
 #include "verify/cli/options.hpp"
 #include "verify/cli/version.hpp"
 #include "verify/data/dataset.hpp"
@@ -283,30 +284,16 @@ void add(CLI::App& app, Status& status) {
   CLI::App* command =
       app.add_subcommand("convert", "Write datasets as a store of arrays, for large runs");
   command->option_defaults()->group("Input");
-  command
-      ->add_option(
-          "PATH", arguments->paths,
-          "Files (.csv, .csv.zst, .npy; .npz with an array queries; .obj with eight vertices "
-          "a query) or folders")
-      ->type_name("")
-      ->required();
-  add_kind_option(*command, arguments->kind, "vertex-face or edge-edge, if the path does not tell");
-  command->add_flag("--round", arguments->round, "Round coordinates that are not doubles");
-  command->add_flag("--keep-going", arguments->keep_going,
-                    "Skip invalid queries and files (exit status 2)");
-  command->add_option("--threads", arguments->threads, "Cores to use (0: all)")
-      ->type_name("N")
-      ->capture_default_str();
+  add_option(*command, "PATH", arguments->paths);
+  add_option(*command, "--kind", arguments->kind);
+  add_option(*command, "--round", arguments->round);
+  add_option(*command, "--keep-going", arguments->keep_going);
+  add_option(*command, "--threads", arguments->threads);
   command->option_defaults()->group("Output");
-  command->add_option("--out", arguments->folder, "A new folder")->type_name("STORE")->required();
-  command->add_option("--shard-size", arguments->shard_size, "Queries of a shard")
-      ->type_name("N")
-      ->capture_default_str()
-      ->check(whole_number(1, UINT64_MAX));
-  command->add_option("--source", arguments->source, "Where the data are from, for the manifest")
-      ->type_name("TEXT");
-  command->add_option("--licence", arguments->licence, "Their licence, for the manifest")
-      ->type_name("TEXT");
+  add_option(*command, "--out", arguments->folder);
+  add_option(*command, "--shard-size", arguments->shard_size);
+  add_option(*command, "--source", arguments->source);
+  add_option(*command, "--licence", arguments->licence);
   set_help(*command, "touchstone convert data/handcrafted --out store --licence MIT",
            "Files are converted in parallel, in bounded memory. Labels and times of impact are "
            "written beside the shards. Every command reads the store as a dataset; manifest.json "

@@ -15,6 +15,7 @@
 #include "verify/cli/commands.hpp"
 #include "verify/cli/files.hpp"
 #include "verify/cli/help.hpp"
+#include "verify/cli/option_table.hpp"
 #include "verify/cli/options.hpp"
 #include "verify/io/json.hpp"
 #include "verify/io/terminal.hpp"
@@ -130,30 +131,14 @@ void add(CLI::App& app, Status& status) {
   CLI::App* command =
       app.add_subcommand("derive", "Derive the error bounds of filtered expressions");
   command->option_defaults()->group("Input");
-  command
-      ->add_option("--model", arguments->models,
-                   "Columns to compute: published, rigorous, gappa, observed; repeatable")
-      ->type_name("NAME")
-      ->check(CLI::IsMember(models_by_name).description(""));
-  command->add_option("--precision", arguments->precision, "Only double, float or double_double")
-      ->type_name("NAME")
-      ->check(CLI::IsMember({"double", "float", "double_double"}).description(""));
-  add_seed_option(*command, arguments->seed, "Seed of the search for the worst error");
-  command
-      ->add_option("--evaluations", arguments->evaluations,
-                   "Evaluations of the search, for each row")
-      ->type_name("N")
-      ->capture_default_str()
-      ->check(whole_number(1, UINT64_MAX));
-  command->add_option("--threads", arguments->threads, "Cores to use (default: all)")
-      ->type_name("N")
-      ->check(whole_number(1, 4096));
+  add_option(*command, "--model", arguments->models);
+  add_option(*command, "--precision", arguments->precision);
+  add_option(*command, "--seed", arguments->seed);
+  add_option(*command, "--evaluations", arguments->evaluations);
+  add_option(*command, "--threads", arguments->threads);
   command->option_defaults()->group("Output");
-  command
-      ->add_option("--emit", arguments->header_file,
-                   "Write the header of bounds (touchstone/filters/error_bounds.hpp)")
-      ->type_name("FILE");
-  add_json_option(*command, arguments->json_file);
+  add_option(*command, "--emit", arguments->header_file);
+  add_option(*command, "--json", arguments->json_file);
   set_help(*command, "touchstone derive --model published --model rigorous --precision double",
            "Bounds are in units of u times a power of the greatest coordinate, the expression's "
            "degree. Without gappa its column is empty; --model gappa is then an error.\n" +

@@ -22,6 +22,7 @@
 #include "verify/cli/commands.hpp"
 #include "verify/cli/files.hpp"
 #include "verify/cli/help.hpp"
+#include "verify/cli/option_table.hpp"
 #include "verify/cli/options.hpp"
 #include "verify/cli/pieces.hpp"
 #include "verify/cli/solver_options.hpp"
@@ -47,8 +48,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double default_seconds = 60.0;
-constexpr double longest_run = 1e7;
 /// The maximum time, in seconds, for simplifying a finding.
 constexpr double shrink_seconds = 5.0;
 /// Instead of a degree: curves with weights, of degrees 1 and 2.
@@ -75,7 +74,7 @@ struct Arguments {
 
   /// Seconds of the run; 0: no limit.
   [[nodiscard]] double run_seconds() const {
-    return seconds == 0.0 && queries == 0 ? default_seconds : seconds;
+    return seconds == 0.0 && queries == 0 ? usual_fuzz_seconds : seconds;
   }
 
   [[nodiscard]] std::vector<Kind> kinds() const {
@@ -469,13 +468,6 @@ class FuzzRun {
 
 // ---- The command line ---------------------------------------------------------------------------
 
-std::vector<std::string> finding_kind_names() {
-  std::vector<std::string> names;
-  names.reserve(judge::fault_count);
-  for (const judge::Fault fault : judge::all_faults) names.emplace_back(judge::to_string(fault));
-  return names;
-}
-
 /// A piece for each shard, with a seed of its own.
 std::vector<jobs::Piece> pieces_of_seeds(const Arguments& arguments) {
   std::vector<jobs::Piece> pieces;
@@ -488,69 +480,26 @@ std::vector<jobs::Piece> pieces_of_seeds(const Arguments& arguments) {
 
 void add_search_options(CLI::App& command, Arguments& arguments) {
   command.option_defaults()->group("Search");
-  command
-      .add_option(
-          "--seconds", arguments.seconds,
-          fmt::format("Seconds to search (default {} unless --queries is given)", default_seconds))
-      ->type_name("S")
-      ->check(real_number(1e-3, longest_run));
-  command.add_option("--queries", arguments.queries, "Number of queries")
-      ->type_name("N")
-      ->check(whole_number(1, UINT64_MAX));
-  add_seed_option(command, arguments.seed, "Seed of all queries; --shard I/N adds I");
-  auto* const degree =
-      command
-          .add_option("--degree", arguments.degree,
-                      "Degree of the Bézier curves that points move on, 1 (straight lines, the "
-                      "default) to 8, or rational (of degrees 1 and 2); repeatable")
-          ->type_name("D")
-          ->allow_extra_args(false)
-          ->check(
-              CLI::IsMember({"1", "2", "3", "4", "5", "6", "7", "8", "rational"}).description(""));
-  command
-      .add_flag(
-          "--curved", arguments.curved,
-          "As --degree 2 --degree 3 --degree rational, as far as the solver answers them; goes "
-          "with the next version")
-      ->excludes(degree);
+  add_option(command, "--seconds", arguments.seconds);
+  add_option(command, "--queries", arguments.queries);
+  add_option(command, "--seed", arguments.seed);
+  auto* const degree = add_option(command, "--degree", arguments.degree);
+  add_option(command, "--curved", arguments.curved)->excludes(degree);
   add_piece_options(command, arguments.pieces);
-  command
-      .add_option("--most-findings", arguments.most_findings,
-                  "End after this number of groups of findings (0: never)")
-      ->type_name("N")
-      ->capture_default_str()
-      ->check(whole_number(0, UINT32_MAX));
-  command
-      .add_option("--only", arguments.only,
-                  fmt::format("Report findings of this kind only; repeatable: {}",
-                              fmt::join(finding_kind_names(), ", ")))
-      ->type_name("KIND")
-      ->allow_extra_args(false)
-      ->check(CLI::IsMember(finding_kind_names()).description(""));
-  add_kind_option(command, arguments.kind, "Only vertex-face or edge-edge queries");
-  command.add_option("--corpus", arguments.corpus, "Datasets whose queries are mutated")
-      ->type_name("PATH");
+  add_option(command, "--most-findings", arguments.most_findings);
+  add_option(command, "--only", arguments.only);
+  add_option(command, "--kind", arguments.kind);
+  add_option(command, "--corpus", arguments.corpus);
   add_separation_options(command, arguments.separation);
 }
 
 void add_output_options(CLI::App& command, Arguments& arguments) {
   command.option_defaults()->group("Output");
-  command
-      .add_option("--out", arguments.out_file,
-                  "Write the queries found, with their truth, as a dataset")
-      ->type_name("FILE.csv");
-  command
-      .add_option("--write", arguments.page_folder,
-                  "Write a page per group for an issue tracker, with program, proof, JSON")
-      ->type_name("FOLDER");
-  command
-      .add_option(
-          "--calls", arguments.calls,
-          "Interface in the programs: plugin (the default for plugins), ticcd or ipc-toolkit")
-      ->type_name("INTERFACE")
-      ->check(CLI::IsMember({"plugin", "ticcd", "ipc-toolkit"}).description(""));
-  add_json_option(command, arguments.json_file);
-  add_view_option(command, arguments.view_file, "Write an HTML viewer of the first 100 findings");
+  add_option(command, "--out", arguments.out_file);
+  add_option(command, "--write", arguments.page_folder);
+  add_option(command, "--calls", arguments.calls);
+  add_option(command, "--json", arguments.json_file);
+  add_option(command, "--view", arguments.view_file);
 }
 
 }  // namespace
@@ -560,7 +509,7 @@ void add(CLI::App& app, Status& status) {
   CLI::App* command =
       app.add_subcommand("fuzz", "Search for queries that a solver answers wrongly");
   add_solver_options(*command, arguments->solver);
-  add_exact_flag(*command, arguments->solver);
+  add_option(*command, "--exact", arguments->solver.exact);
   add_search_options(*command, *arguments);
   add_output_options(*command, *arguments);
   set_help(

@@ -13,6 +13,7 @@
 #include "verify/cli/commands.hpp"
 #include "verify/cli/files.hpp"
 #include "verify/cli/help.hpp"
+#include "verify/cli/option_table.hpp"
 #include "verify/cli/options.hpp"
 #include "verify/data/csv_dataset.hpp"
 #include "verify/data/npy.hpp"
@@ -238,38 +239,19 @@ void add(CLI::App& app, Status& status) {
   CLI::App* command =
       app.add_subcommand("generate", "Write the built-in set: degenerate queries of known truth");
   command->option_defaults()->group("Input");
-  command->add_option("--family", arguments->names, "Only these families (see --list)")
-      ->type_name("NAME");
-  add_degree_option(*command, arguments->degrees)->excludes(command->get_option("--family"));
-  add_seed_option(*command, arguments->seed, "Seed");
-  command->add_option("--count", arguments->count, "Queries of each family and kind")
-      ->type_name("N")
-      ->capture_default_str()
-      ->check(whole_number(1, UINT64_MAX));
+  auto* const family = add_option(*command, "--family", arguments->names);
+  auto* const degree = add_option(*command, "--degree", arguments->degrees)->excludes(family);
+  add_option(*command, "--seed", arguments->seed);
+  add_option(*command, "--count", arguments->count);
   add_separation_options(*command, arguments->separation);
-  command
-      ->add_option("--patches", arguments->patch_cells,
-                   "Write two patches of mesh instead of queries, before and after a step, with N "
-                   "cells per side: 4 N² faces")
-      ->type_name("N")
-      ->check(whole_number(1, 20'000))
-      ->excludes(command->get_option("--family"))
-      ->excludes(command->get_option("--degree"));
-  command
-      ->add_option("--grading", arguments->grading,
-                   "Patches: ratio of the widths of a side's last and first cell")
-      ->type_name("G")
-      ->capture_default_str()
-      ->check(real_number(1.0, 1e9))
-      ->needs(command->get_option("--patches"));
+  auto* const patches = add_option(*command, "--patches", arguments->patch_cells);
+  patches->excludes(family)->excludes(degree);
+  add_option(*command, "--grading", arguments->grading)->needs(patches);
   command->option_defaults()->group("Output");
-  command->add_flag("--list", arguments->list, "List the families with the proofs of their truth");
-  command->add_option("--out", arguments->folder, "Folder to write to")->type_name("FOLDER");
-  command->add_flag(
-      "--npy", arguments->npy,
-      "Write float64 arrays of shape (N, 8, 3), on curves (N, K+1, 4, 3) or (N, K+1, 4, 4) "
-      "with weights, without the truth, instead of CSV");
-  add_json_option(*command, arguments->json_file);
+  add_option(*command, "--list", arguments->list);
+  add_option(*command, "--out", arguments->folder);
+  add_option(*command, "--npy", arguments->npy);
+  add_option(*command, "--json", arguments->json_file);
   set_help(
       *command,
       "touchstone generate --out hard --count 100 --family hourglass\n"

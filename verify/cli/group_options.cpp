@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <stdexcept>
 
+#include "verify/cli/option_table.hpp"
 #include "verify/mesh/groups.hpp"
 
 namespace touchstone::verify::cli {
@@ -31,14 +32,8 @@ CollidingGroups::CollidingGroups(Files& files, const GroupArguments& arguments,
       apart_(mesh::numbers_of(groups_, arguments.apart)) {}
 
 void add_group_options(CLI::App& command, GroupArguments& arguments) {
-  command
-      .add_option("--groups", arguments.file,
-                  "Group names of the vertices, one per line (default: o, g of an OBJ)")
-      ->type_name("FILE");
-  command
-      .add_option("--apart", arguments.apart,
-                  "Ignore collisions between groups A and B (A A: within A); repeatable")
-      ->type_name("GROUP GROUP");
+  add_option(command, "--groups", arguments.file);
+  add_option(command, "--apart", arguments.apart);
 }
 
 }  // namespace touchstone::verify::cli

@@ -90,22 +90,8 @@ int run(int argc, char** argv) {
   });
   app.require_subcommand(0, 1);
   Status status = Status::all_well;
-  touchstone::verify::cli::certify_command::add(app, status);
-  touchstone::verify::cli::solve_command::add(app, status);
-  touchstone::verify::cli::prove_command::add(app, status);
-  touchstone::verify::cli::generate_command::add(app, status);
-  touchstone::verify::cli::candidates_command::add(app, status);
-  touchstone::verify::cli::step_command::add(app, status);
-  touchstone::verify::cli::bench_command::add(app, status);
-  touchstone::verify::cli::fuzz_command::add(app, status);
-  touchstone::verify::cli::convert_command::add(app, status);
-  touchstone::verify::cli::merge_command::add(app, status);
+  touchstone::verify::cli::add_commands(app, status);
   add_curved(app);
-  touchstone::verify::cli::rigid_command::add(app, status);
-  touchstone::verify::cli::stability_command::add(app, status);
-  touchstone::verify::cli::report_command::add(app, status);
-  touchstone::verify::cli::view_command::add(app, status);
-  touchstone::verify::cli::derive_command::add(app, status);
   if (argc > 1 && argv[1][0] != '-' && report_unknown(app, argv[1])) {
     return static_cast<int>(Status::bad_input);
   }

@@ -5,6 +5,7 @@
 
 #include "verify/cli/commands.hpp"
 #include "verify/cli/help.hpp"
+#include "verify/cli/option_table.hpp"
 #include "verify/cli/options.hpp"
 #include "verify/cli/pieces.hpp"
 
@@ -23,11 +24,9 @@ void add(CLI::App& app, Status& status) {
   CLI::App* command =
       app.add_subcommand("merge", "Join the results of a run in pieces (--resume) into one");
   command->option_defaults()->group("Input");
-  command->add_option("FOLDER", arguments->folder, "The folder of the pieces, as --resume named it")
-      ->type_name("")
-      ->required();
+  add_option(*command, "FOLDER", arguments->folder);
   command->option_defaults()->group("Output");
-  add_json_option(*command, arguments->json_file);
+  add_option(*command, "--json", arguments->json_file);
   set_help(*command,
            "touchstone merge run   # of touchstone certify data --shard 0/2 --resume run --json "
            "all.json",

@@ -8,7 +8,6 @@
 #include <optional>
 #include <string>
 #include <string_view>
-#include <vector>
 
 #include "touchstone/query.hpp"
 
@@ -16,16 +15,6 @@ namespace touchstone::verify::cli {
 
 /// The default seed of generated queries.
 inline constexpr std::uint64_t default_seed = 2021;
-
-/// Accepts whole numbers from `least` to `greatest` (CLI11 alone lets "-1" wrap around).
-[[nodiscard]] CLI::Validator whole_number(std::uint64_t least, std::uint64_t greatest);
-
-/// Accepts finite numbers from `least` to `greatest`.
-[[nodiscard]] CLI::Validator real_number(double least, double greatest);
-
-/// Accepts finite numbers ≥ 0 in the forms of strtod, including hexadecimal ones, except positive
-/// ones that would become 0.
-[[nodiscard]] CLI::Validator distance_number();
 
 /// The requested separation.
 struct SeparationArguments {
@@ -41,25 +30,8 @@ struct SeparationArguments {
   [[nodiscard]] Separation settle(const Separation& recorded) const;
 };
 
-/// Adds --min-separation; the double must live until the command line is parsed.
-CLI::Option* add_distance_option(CLI::App& command, std::optional<double>& distance,
-                                 const std::string& description);
-
 /// Adds --min-separation and --norm; the arguments must live until the command line is parsed.
 void add_separation_options(CLI::App& command, SeparationArguments& arguments);
-
-/// Adds --json FILE. The text must live until the command line is parsed, as all arguments below.
-void add_json_option(CLI::App& command, std::string& file);
-
-/// Adds --kind, which selects queries of one kind, or declares the kind of all.
-void add_kind_option(CLI::App& command, std::string& kind, const std::string& description);
-
-/// Adds --degree, which selects built-in families by generate::degree_text; repeatable. The texts
-/// must live until the command line is parsed.
-CLI::Option* add_degree_option(CLI::App& command, std::vector<std::string>& degrees);
-
-/// Adds --seed.
-void add_seed_option(CLI::App& command, std::uint64_t& seed, const std::string& description);
 
 /// Prints "touchstone: error: …" on standard error, printable (printable.hpp).
 void report_error(std::string_view message);

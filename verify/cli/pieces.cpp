@@ -13,6 +13,7 @@
 
 #include "verify/cli/certificates_file.hpp"
 #include "verify/cli/files.hpp"
+#include "verify/cli/option_table.hpp"
 #include "verify/cli/options.hpp"
 #include "verify/cli/solver_options.hpp"
 #include "verify/cli/version.hpp"
@@ -234,14 +235,8 @@ Status write_merged(const jobs::PieceFolder& folder, const std::string& json_fil
 }  // namespace
 
 void add_piece_options(CLI::App& command, PieceArguments& arguments) {
-  command
-      .add_option(shard_option, arguments.shard,
-                  "Do part I of N, from 0 on; auto: as a Slurm array or mpirun says")
-      ->type_name("I/N");
-  command
-      .add_option(resume_option, arguments.folder,
-                  "Keep finished pieces there and go on with them (touchstone merge)")
-      ->type_name("FOLDER");
+  add_option(command, shard_option, arguments.shard);
+  add_option(command, resume_option, arguments.folder);
 }
 
 Shard shard_of(const PieceArguments& arguments) {

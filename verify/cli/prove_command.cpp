@@ -17,6 +17,7 @@
 #include "verify/cli/commands.hpp"
 #include "verify/cli/files.hpp"
 #include "verify/cli/help.hpp"
+#include "verify/cli/option_table.hpp"
 #include "verify/cli/options.hpp"
 #include "verify/cli/pieces.hpp"
 #include "verify/cli/sources.hpp"
@@ -170,25 +171,10 @@ void add(CLI::App& app, Status& status) {
   add_source_options(*command, arguments->sources);
   add_piece_options(*command, arguments->pieces);
   command->option_defaults()->group("Output");
-  command
-      ->add_option(
-          "--prove,--out", arguments->proof_file,
-          "Write the certificates; compressed if the name ends in .zst (--out: its old name)")
-      ->type_name("FILE")
-      ->required();
-  command
-      ->add_option("--claim", arguments->claim,
-                   "Claim for a collision: its time_of_impact, or only the collision")
-      ->type_name("CLAIM")
-      ->check(CLI::IsMember({"time_of_impact", "collision"}).description(""))
-      ->capture_default_str();
-  command
-      ->add_option(
-          "--width", arguments->width,
-          "Width of the interval around a time of impact, a decimal number (default: neighbouring "
-          "doubles)")
-      ->type_name("W");
-  add_json_option(*command, arguments->json_file);
+  add_option(*command, "--prove", arguments->proof_file);
+  add_option(*command, "--claim", arguments->claim);
+  add_option(*command, "--width", arguments->width);
+  add_option(*command, "--json", arguments->json_file);
   set_help(*command,
            "touchstone prove data/handcrafted --prove handcrafted.cert.zst\n"
            "zstdcat handcrafted.cert.zst | touchstone-check -",

@@ -22,6 +22,7 @@
 #include "verify/cli/commands.hpp"
 #include "verify/cli/files.hpp"
 #include "verify/cli/help.hpp"
+#include "verify/cli/option_table.hpp"
 #include "verify/cli/options.hpp"
 #include "verify/cli/solver_options.hpp"
 #include "verify/cli/sources.hpp"
@@ -48,12 +49,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The usual time of a report on plugins.
-constexpr double plugin_seconds = 60.0;
-
 struct Arguments {
   SourceArguments sources;
   report::ExperimentOptions experiments;
+  std::vector<std::string> experiment_names;
   SolverArguments solvers;
   bool field = false;
   std::string from_file;
@@ -316,86 +315,29 @@ class ReportRun {
 };
 
 void add_measuring_options(CLI::App& command, Arguments& arguments) {
-  add_source_options(command, arguments.sources);
-  for (const std::string name : {"--min-separation", "--norm", "--count"}) {
-    command.remove_option(command.get_option(name));
-  }
+  add_path_options(command, arguments.sources);
+  add_option(command, "--degree", arguments.sources.degrees);
   command.option_defaults()->group("Measurement");
-  command
-      .add_option("--method", arguments.experiments.methods,
-                  "Only these; repeatable: " + solvers::method_names())
-      ->type_name("NAME")
-      ->allow_extra_args(false);
+  add_option(command, "--method", arguments.experiments.methods);
   add_plugin_option(command, arguments.solvers);
-  command.add_flag("--field", arguments.field,
-                   "With --plugin: all methods and experiments; else certified and tight_inclusion "
-                   "alone");
-  add_recorded_option(command, arguments.solvers);
-  command
-      .add_option("--count", arguments.experiments.count,
-                  "Maximum queries per group (a quarter of it in the separation experiment)")
-      ->type_name("N")
-      ->capture_default_str()
-      ->check(whole_number(1, UINT32_MAX));
-  command
-      .add_option(
-          "--method-seconds", arguments.experiments.seconds,
-          "Processor seconds per method, group and setting; slower methods get fewer queries")
-      ->type_name("S")
-      ->capture_default_str()
-      ->check(real_number(1e-6, 1e6));
-  command
-      .add_option("--seconds", arguments.experiments.budget,
-                  fmt::format("Seconds of the whole run (0: no limit; default {} with --plugin and "
-                              "without --field, else 0)",
-                              plugin_seconds))
-      ->type_name("S")
-      ->check(real_number(0.0, 1e7));
-  command
-      .add_option("--repetitions", arguments.experiments.repetitions,
-                  "Repetitions; times are medians")
-      ->type_name("N")
-      ->capture_default_str()
-      ->check(whole_number(1, 1'000'000));
-  command
-      .add_option_function<std::vector<std::string>>(
-          "--experiment",
-          [&arguments](const std::vector<std::string>& chosen) {
-            for (const std::string& name : chosen) {
-              arguments.experiments.experiments.push_back(report::experiment_from_string(name));
-            }
-          },
-          "Only these; repeatable: field (all methods), separation, tolerance (δ), checks (m_I), "
-          "filter")
-      ->type_name("NAME")
-      ->allow_extra_args(false)
-      ->check(
-          CLI::IsMember({"field", "separation", "tolerance", "checks", "filter"}).description(""));
-  command
-      .add_option("--stability", arguments.experiments.stability_count,
-                  "Queries in a cell of the stability maps (0: no maps)")
-      ->type_name("N")
-      ->capture_default_str()
-      ->check(whole_number(0, UINT32_MAX));
+  add_option(command, "--field", arguments.field);
+  add_option(command, "--results", arguments.solvers.results);
+  add_option(command, "--count", arguments.experiments.count);
+  add_option(command, "--method-seconds", arguments.experiments.seconds);
+  add_option(command, "--seconds", [&arguments](double s) { arguments.experiments.budget = s; });
+  add_option(command, "--repetitions", arguments.experiments.repetitions);
+  add_option(command, "--experiment", arguments.experiment_names);
+  add_option(command, "--stability", arguments.experiments.stability_count);
 }
 
 void add_output_options(CLI::App& command, Arguments& arguments) {
   command.option_defaults()->group("Output");
-  command
-      .add_option("--from", arguments.from_file,
-                  "Read the --json file of an earlier run instead of measuring")
-      ->type_name("FILE.json")
-      ->excludes(command.get_option("PATH"))
-      ->excludes(command.get_option("--method"));
-  command
-      .add_option("--compare", arguments.compare_file,
-                  "The --json file of an earlier run: the page shows the changes since")
-      ->type_name("OLD.json");
-  command.add_option("--out", arguments.page_file, "Write the page")->type_name("FILE.html");
-  add_json_option(command, arguments.json_file);
-  add_view_option(command, arguments.view_file,
-                  "Write an HTML viewer of 100 wrong answers, split evenly among the methods");
-  command.get_option("--view")->excludes(command.get_option("--from"));
+  CLI::Option* const from = add_option(command, "--from", arguments.from_file);
+  from->excludes(command.get_option("PATH"))->excludes(command.get_option("--method"));
+  add_option(command, "--compare", arguments.compare_file);
+  add_option(command, "--out", arguments.page_file);
+  add_option(command, "--json", arguments.json_file);
+  add_option(command, "--view", arguments.view_file)->excludes(from);
 }
 
 }  // namespace
@@ -416,8 +358,11 @@ void add(CLI::App& app, Status& status) {
           std::string(judging_statuses));
   command->callback([arguments, command, &status] {
     report::ExperimentOptions& options = arguments->experiments;
+    for (const std::string& name : arguments->experiment_names) {
+      options.experiments.push_back(report::experiment_from_string(name));
+    }
     const bool is_plugin_alone = !arguments->solvers.plugins.empty() && !arguments->field;
-    if (is_plugin_alone && command->count("--seconds") == 0) options.budget = plugin_seconds;
+    if (is_plugin_alone && command->count("--seconds") == 0) options.budget = usual_plugin_seconds;
     settle_query_limit(*command, options.budget, arguments->solvers);
     status = ReportRun(*arguments).run();
   });

@@ -15,6 +15,7 @@
 #include "verify/cli/commands.hpp"
 #include "verify/cli/files.hpp"
 #include "verify/cli/help.hpp"
+#include "verify/cli/option_table.hpp"
 #include "verify/cli/options.hpp"
 #include "verify/data/rigid_query_file.hpp"
 #include "verify/io/dataset_error.hpp"
@@ -129,15 +130,10 @@ void add(CLI::App& app, Status& status) {
   CLI::App* command = app.add_subcommand(
       "rigid", "Decide queries of two rotating rigid bodies, with proved bounds");
   command->option_defaults()->group("Input");
-  command
-      ->add_option("QUERIES", arguments->paths,
-                   "Files of JSON as rigid-ipc writes them, and folders of such files")
-      ->type_name("")
-      ->required();
-  command->add_flag("--keep-going", arguments->keep_going,
-                    "Report and skip invalid files (exit status 2)");
+  add_option(*command, "QUERIES", arguments->paths);
+  add_option(*command, "--keep-going", arguments->keep_going);
   command->option_defaults()->group("Output");
-  add_json_option(*command, arguments->json_file);
+  add_option(*command, "--json", arguments->json_file);
   set_help(*command,
            "touchstone rigid query.json\n"
            "touchstone rigid queries/ --json verdicts.json",

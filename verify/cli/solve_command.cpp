@@ -16,6 +16,7 @@
 #include "verify/cli/commands.hpp"
 #include "verify/cli/files.hpp"
 #include "verify/cli/help.hpp"
+#include "verify/cli/option_table.hpp"
 #include "verify/cli/options.hpp"
 #include "verify/cli/pieces.hpp"
 #include "verify/cli/solver_options.hpp"
@@ -224,19 +225,10 @@ void add(CLI::App& app, Status& status) {
   add_source_options(*command, arguments->sources);
   add_piece_options(*command, arguments->pieces);
   add_solver_options(*command, arguments->solver);
-  command
-      ->add_option("--t-max", arguments->solver.options.t_max,
-                   "Only impacts up to this time count, for methods that have this option")
-      ->type_name("T")
-      ->capture_default_str()
-      ->check(real_number(0.0, 1.0));
+  add_option(*command, "--t-max", arguments->solver.options.t_max);
   command->option_defaults()->group("Output");
-  command
-      ->add_option("--out", arguments->out_file,
-                   "Write file,index,kind,verdict,toi_lower,toi_upper,tolerance,failure")
-      ->type_name("FILE")
-      ->required();
-  add_json_option(*command, arguments->json_file);
+  add_option(*command, "--out", arguments->out_file);
+  add_option(*command, "--json", arguments->json_file);
   set_help(
       *command, "touchstone solve --plugin ./libsolver.so data/handcrafted --out answers.csv",
       "A method that supports only linf is conservative for l2.\n"

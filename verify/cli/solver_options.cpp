@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cfloat>
 #include <cstdint>
 #include <stdexcept>
 #include <string>
@@ -14,7 +13,9 @@
 #include "fast/method.hpp"
 #include "touchstone/certified.hpp"
 #include "touchstone/query.hpp"
+#include "verify/cli/option_table.hpp"
 #include "verify/cli/options.hpp"
+#include "verify/io/number_text.hpp"
 #include "verify/io/printable.hpp"
 #include "verify/io/terminal.hpp"
 #include "verify/solvers/plugin.hpp"
@@ -24,12 +25,8 @@ namespace touchstone::verify::cli {
 namespace {
 
 constexpr std::string_view no_method = "none";
-constexpr double longest_limit = 1e6;
-constexpr std::int64_t built_in_max_checks = 100'000;
 /// A check of a box on curves takes ten times as long, and families on curves need more of them.
 constexpr std::int64_t curved_max_checks = 10'000;
-constexpr double bytes_of_gibibyte = 0x1p30;
-constexpr double most_gibibytes = 1e6;
 
 /// \throws std::invalid_argument for "none" with others.
 std::vector<std::string> named_methods(const SolverArguments& arguments) {
@@ -45,103 +42,36 @@ std::vector<std::string> named_methods(const SolverArguments& arguments) {
 
 void add_solver_options(CLI::App& command, SolverArguments& arguments) {
   command.option_defaults()->group("Solver");
-  command
-      .add_option("--method", arguments.methods,
-                  "Built-in solver; repeatable: " + solvers::method_names())
-      ->type_name("NAME")
-      ->allow_extra_args(false);
+  add_option(command, "--method", arguments.methods);
   add_plugin_option(command, arguments);
-  add_solver_limits(command, arguments);
-}
-
-void add_solver_limits(CLI::App& command, SolverArguments& arguments) {
-  command
-      .add_option("--tolerance", arguments.options.tolerance,
-                  "Tolerance of conservative methods, in units of the coordinates")
-      ->type_name("X")
-      ->capture_default_str()
-      ->check(real_number(DBL_TRUE_MIN, DBL_MAX));
-  command
-      .add_option("--max-checks", arguments.options.max_checks,
-                  fmt::format("Maximum steps per query (0: no limit; built-in set: {})",
-                              built_in_max_checks))
-      ->type_name("N")
-      ->capture_default_str()
-      ->check(whole_number(0, INT64_MAX));
-  command
-      .add_option("--query-limit", arguments.query_limit,
-                  "Seconds for a query in a child process, then undecided (0: no limit)")
-      ->type_name("S")
-      ->capture_default_str()
-      ->check(real_number(0.0, longest_limit));
-  command
-      .add_option_function<double>(
-          "--memory-limit",
-          [&arguments](double gibibytes) {
-            arguments.memory_limit = static_cast<std::uint64_t>(gibibytes * bytes_of_gibibyte);
-          },
-          fmt::format("Memory of a child process in GiB (default {:g}, 0: no limit)",
-                      static_cast<double>(arguments.memory_limit) / bytes_of_gibibyte))
-      ->type_name("GIB")
-      ->check(real_number(0.0, most_gibibytes));
-  command.add_flag("--allow-processes", arguments.allow_processes,
-                   "Allow plugins to start processes");
-  command.add_flag("--show-output", arguments.show_output,
-                   "Show the output of plugins on standard error");
+  add_option(command, "--tolerance", arguments.options.tolerance);
+  add_option(command, "--max-checks", arguments.options.max_checks);
+  add_option(command, "--query-limit", arguments.query_limit);
+  add_option(command, "--memory-limit", [&arguments](double gibibytes) {
+    arguments.memory_limit = static_cast<std::uint64_t>(gibibytes * bytes_of_gibibyte);
+  });
+  add_option(command, "--allow-processes", arguments.allow_processes);
+  add_option(command, "--show-output", arguments.show_output);
 }
 
 void add_plugin_option(CLI::App& command, SolverArguments& arguments) {
-  command
-      .add_option("--plugin", arguments.plugins,
-                  "Your solver: a shared library (touchstone/plugin.h); repeatable")
-      ->type_name("LIB.so")
-      ->allow_extra_args(false);
   solvers::TermsChanges& terms = arguments.terms;
-  command
-      .add_option_function<std::string>(
-          "--kinds",
-          [&terms](const std::string& name) {
-            terms.vertex_face = kind_from_string(name) == Kind::vertex_face;
-            terms.edge_edge = !*terms.vertex_face;
-          },
-          "The plugin answers only vertex-face or edge-edge queries")
-      ->type_name("KIND")
-      ->check(CLI::IsMember({"vertex-face", "edge-edge"}).description(""));
-  command.add_flag_callback(
-      "--float-coordinates", [&terms] { terms.float_coordinates = true; },
-      "The plugin takes float: queries are rounded first, and the truth is of these");
-  command
-      .add_flag("--starts-apart{0}", arguments.starts_apart,
-                "The plugin needs primitives that are apart at t=0; with =D, by more than the "
-                "minimum separation plus D")
-      ->each([&terms](const std::string& number) { terms.starts_apart = std::stod(number); })
-      ->check(real_number(0.0, DBL_MAX));
-  command
-      .add_option_function<std::string>(
-          "--times",
-          [&terms](const std::string& name) {
-            terms.times = name == "bounds" ? fast::Times::bounds
-                          : name == "none" ? fast::Times::none
-                                           : fast::Times::estimates;
-          },
-          "The plugin's times of impact: bounds, estimates or none")
-      ->type_name("WHAT")
-      ->check(CLI::IsMember({"bounds", "estimates", "none"}).description(""));
-  command
-      .add_option("--time-error", terms.time_error,
-                  "Error of estimates that is no fault, in units of the step (default 1e-6)")
-      ->type_name("E")
-      ->check(real_number(0.0, 1.0));
-}
-
-void add_seconds_option(CLI::App& command, double& seconds) {
-  constexpr double longest_run = 1e7;
-  command
-      .add_option("--seconds", seconds,
-                  "Seconds of the whole run, shared over sources and solvers (0: no limit)")
-      ->type_name("S")
-      ->capture_default_str()
-      ->check(real_number(0.0, longest_run));
+  add_option(command, "--plugin", arguments.plugins);
+  add_option(command, "--kinds", [&terms](const std::string& name) {
+    terms.vertex_face = kind_from_string(name) == Kind::vertex_face;
+    terms.edge_edge = !*terms.vertex_face;
+  });
+  add_option(command, "--float-coordinates", [&terms] { terms.float_coordinates = true; });
+  add_option(command, "--starts-apart", arguments.starts_apart)
+      ->each([&terms](const std::string& number) {
+        terms.starts_apart = io::number_from_text<double>(number);
+      });
+  add_option(command, "--times", [&terms](const std::string& name) {
+    terms.times = name == "bounds" ? fast::Times::bounds
+                  : name == "none" ? fast::Times::none
+                                   : fast::Times::estimates;
+  });
+  add_option(command, "--time-error", terms.time_error);
 }
 
 void settle_query_limit(const CLI::App& command, double seconds, SolverArguments& arguments) {
@@ -150,19 +80,6 @@ void settle_query_limit(const CLI::App& command, double seconds, SolverArguments
   const bool is_given = option != nullptr && option->count() != 0;
   if (is_given || !(seconds > 0.0)) return;
   arguments.query_limit = std::min(arguments.query_limit, std::max(least_limit, part * seconds));
-}
-
-void add_recorded_option(CLI::App& command, SolverArguments& arguments) {
-  command
-      .add_option("--results", arguments.results,
-                  "Recorded answers to judge, as touchstone solve writes them; repeatable")
-      ->type_name("FILE")
-      ->allow_extra_args(false);
-}
-
-void add_exact_flag(CLI::App& command, SolverArguments& arguments) {
-  command.add_flag("--exact", arguments.exact,
-                   "Judge every solver as exact: false positives are wrong answers too");
 }
 
 std::vector<std::filesystem::path> SolverArguments::files() const {

@@ -24,6 +24,11 @@
 
 namespace touchstone::verify::cli {
 
+inline constexpr double bytes_of_gibibyte = 0x1p30;
+
+/// The usual value of --max-checks on the built-in set.
+inline constexpr std::int64_t built_in_max_checks = 100'000;
+
 /// The named solvers and their options.
 struct SolverArguments {
   std::vector<std::string> methods;
@@ -62,26 +67,14 @@ struct SolverArguments {
   [[nodiscard]] bool empty() const { return methods.empty() && plugins.empty() && results.empty(); }
 };
 
-/// Adds --method, --plugin and the options of add_solver_limits(); the arguments must live
-/// until the command line is parsed.
+/// Adds --method, the options of add_plugin_option(), --tolerance, --max-checks, --query-limit,
+/// --memory-limit, --allow-processes and --show-output; the arguments must live until the command
+/// line is parsed.
 void add_solver_options(CLI::App& command, SolverArguments& arguments);
-
-/// Adds --tolerance, --max-checks, --query-limit, --memory-limit, --allow-processes and
-/// --show-output.
-void add_solver_limits(CLI::App& command, SolverArguments& arguments);
 
 /// Adds --plugin, and the terms of the promises of plugins: --kinds, --starts-apart,
 /// --float-coordinates, --times, --time-error.
 void add_plugin_option(CLI::App& command, SolverArguments& arguments);
-
-/// Adds --results.
-void add_recorded_option(CLI::App& command, SolverArguments& arguments);
-
-/// Adds --exact.
-void add_exact_flag(CLI::App& command, SolverArguments& arguments);
-
-/// Adds --seconds, the wall-clock time of the whole run; 0: no limit.
-void add_seconds_option(CLI::App& command, double& seconds);
 
 /// Without --query-limit, a query may take no more than a sixtieth of the run if that is less than
 /// the usual limit. \param seconds of the run; 0: no limit

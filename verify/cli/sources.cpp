@@ -10,6 +10,7 @@
 
 #include "touchstone/broad_phase.hpp"
 #include "touchstone/query.hpp"
+#include "verify/cli/option_table.hpp"
 #include "verify/data/dataset.hpp"
 #include "verify/generate/families.hpp"
 #include "verify/io/terminal.hpp"
@@ -126,31 +127,23 @@ std::vector<BuiltInSource> built_in_sources(const SourceArguments& arguments) {
   return sources;
 }
 
-void add_source_options(CLI::App& command, SourceArguments& arguments) {
+void add_path_options(CLI::App& command, SourceArguments& arguments) {
   command.option_defaults()->group("Input");
-  command
-      .add_option("PATH", arguments.paths,
-                  "Dataset files (.csv, .npy) or folders; default: the built-in set")
-      ->type_name("");
-  add_kind_option(command, arguments.kind, "vertex-face or edge-edge, if the path does not tell");
-  command.add_flag("--round", arguments.round,
-                   "Round coordinates that are not doubles, and count them");
-  command.add_flag("--keep-going", arguments.keep_going,
-                   "Skip and count invalid queries and files (exit status 2)");
-  command.add_option("--threads", arguments.threads, "Cores to use (0: all)")
-      ->type_name("N")
-      ->capture_default_str();
-  add_seed_option(command, arguments.seed, "Seed of the built-in set");
-  command
-      .add_option("--count", arguments.count, "Queries of each family and kind of the built-in set")
-      ->type_name("N")
-      ->capture_default_str()
-      ->check(whole_number(1, UINT64_MAX));
-  add_degree_option(command, arguments.degrees);
+  add_option(command, "PATH", arguments.paths);
+  add_option(command, "--kind", arguments.kind);
+  add_option(command, "--round", arguments.round);
+  add_option(command, "--keep-going", arguments.keep_going);
+  add_option(command, "--threads", arguments.threads);
+  add_option(command, "--seed", arguments.seed);
+}
+
+void add_source_options(CLI::App& command, SourceArguments& arguments) {
+  add_path_options(command, arguments);
+  add_option(command, "--count", arguments.count);
+  add_option(command, "--degree", arguments.degrees);
   add_separation_options(command, arguments.separation);
-  // For pieces.hpp; not in the help.
-  command.add_option("--only-source", arguments.only_source)->group("");
-  command.add_flag("--piece", arguments.is_piece)->group("");
+  add_option(command, "--only-source", arguments.only_source);
+  add_option(command, "--piece", arguments.is_piece);
 }
 
 Separation separation_for(const SourceArguments& arguments, const data::QuerySource& source) {

@@ -62,7 +62,11 @@ struct BuiltInSource {
 };
 [[nodiscard]] std::vector<BuiltInSource> built_in_sources(const SourceArguments& arguments);
 
-/// Adds the options that fill the arguments; these must live until the command line is parsed.
+/// Adds PATH, --kind, --round, --keep-going, --threads and --seed; the arguments must live until
+/// the command line is parsed.
+void add_path_options(CLI::App& command, SourceArguments& arguments);
+
+/// Adds these and the others that fill the arguments.
 void add_source_options(CLI::App& command, SourceArguments& arguments);
 
 /// The callbacks of a command for its sources.

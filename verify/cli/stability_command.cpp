@@ -13,6 +13,7 @@
 #include "verify/cli/commands.hpp"
 #include "verify/cli/files.hpp"
 #include "verify/cli/help.hpp"
+#include "verify/cli/option_table.hpp"
 #include "verify/cli/options.hpp"
 #include "verify/cli/solver_options.hpp"
 #include "verify/io/json.hpp"
@@ -114,29 +115,17 @@ Status run(const Arguments& arguments) {
 
 void add_options(CLI::App& command, Arguments& arguments) {
   add_solver_options(command, arguments.judged);
-  add_exact_flag(command, arguments.judged);
-  add_seconds_option(command, arguments.seconds);
-  std::string names;
-  for (const stability::Hardness* hardness : all_hardnesses()) {
-    names += fmt::format("{}{}", names.empty() ? "" : ", ", hardness->name);
-  }
+  add_option(command, "--exact", arguments.judged.exact);
+  add_option(command, "--seconds", arguments.seconds);
   command.option_defaults()->group("Queries");
-  command.add_option("--hardness", arguments.hardnesses, "Only these; repeatable: " + names)
-      ->type_name("NAME")
-      ->allow_extra_args(false);
-  add_seed_option(command, arguments.seed, "Seed of the queries");
-  command.add_option("--count", arguments.count, "Queries of each hardness, level and kind")
-      ->type_name("N")
-      ->capture_default_str()
-      ->check(whole_number(1, UINT64_MAX));
-  command.add_option("--threads", arguments.threads, "Cores to use (0: all)")
-      ->type_name("N")
-      ->capture_default_str();
+  add_option(command, "--hardness", arguments.hardnesses);
+  add_option(command, "--seed", arguments.seed);
+  add_option(command, "--count", arguments.count);
+  add_option(command, "--threads", arguments.threads);
   add_separation_options(command, arguments.separation);
   command.option_defaults()->group("Output");
-  add_json_option(command, arguments.json_file);
-  command.add_option("--picture", arguments.picture_file, "Write the result as an HTML page")
-      ->type_name("FILE.html");
+  add_option(command, "--json", arguments.json_file);
+  add_option(command, "--picture", arguments.picture_file);
 }
 
 }  // namespace

@@ -23,6 +23,7 @@
 #include "verify/cli/files.hpp"
 #include "verify/cli/group_options.hpp"
 #include "verify/cli/help.hpp"
+#include "verify/cli/option_table.hpp"
 #include "verify/cli/options.hpp"
 #include "verify/cli/pieces.hpp"
 #include "verify/cli/sources.hpp"
@@ -213,12 +214,7 @@ std::vector<jobs::Piece> pieces_of_frames(const Arguments& arguments) {
 
 void add_input_options(CLI::App& command, Arguments& arguments) {
   command.option_defaults()->group("Input");
-  command
-      .add_option("frames", arguments.frames,
-                  "Frames in order: .ply or .obj files, a folder of them, or one .npz of V "
-                  "(T,n,3), F and E")
-      ->type_name("FRAME")
-      ->required();
+  add_option(command, "frames", arguments.frames);
   add_piece_options(command, arguments.pieces);
   add_separation_options(command, arguments.separation);
   add_group_options(command, arguments.groups);
@@ -227,48 +223,23 @@ void add_input_options(CLI::App& command, Arguments& arguments) {
 void add_step_options(CLI::App& command, Arguments& arguments) {
   command.option_defaults()->group("Question");
   jobs::StepQuestion& question = arguments.check.question;
-  CLI::Option* const all = command.add_flag_callback(
-      "--all", [&question] { question = jobs::StepQuestion::all; },
-      "Find every collision, with its times (the default)");
-  CLI::Option* const earliest = command.add_flag_callback(
-      "--earliest", [&question] { question = jobs::StepQuestion::earliest; },
-      "Find only the earliest impact and its pairs");
-  CLI::Option* const free = command.add_flag_callback(
-      "--free", [&question] { question = jobs::StepQuestion::free; },
-      "Find only whether there is a collision");
-  earliest->excludes(all);
-  free->excludes(all)->excludes(earliest);
-  command.add_flag("--candidates", arguments.check.count_candidates,
-                   "Count the candidate pairs also with --earliest and --free");
-  command.add_flag_callback(
-      "--no-piercings", [&arguments] { arguments.find_piercings = false; },
-      "Do not search the frames for edges that pierce faces, which can take longer than --free");
-  command
-      .add_option("--t-max", arguments.check.step.t_max, "Only contacts up to this time of a step")
-      ->type_name("T")
-      ->capture_default_str()
-      ->check(real_number(0.0, 1.0));
-  command
-      .add_option("--alpha", arguments.check.alpha,
-                  "Judge the step with this step size, to the rounded x0 + alpha (x1 - x0), and "
-                  "report a maximal one")
-      ->type_name("A")
-      ->check(real_number(0.0, 1.0));
-  command.add_option("--threads", arguments.check.step.max_threads, "Cores to use (0: all)")
-      ->type_name("N")
-      ->capture_default_str()
-      ->check(whole_number(0, INT_MAX));
+  const auto asks = [&question](jobs::StepQuestion asked) {
+    return [&question, asked] { question = asked; };
+  };
+  CLI::Option* const all = add_option(command, "--all", asks(jobs::StepQuestion::all));
+  CLI::Option* const earliest =
+      add_option(command, "--earliest", asks(jobs::StepQuestion::earliest))->excludes(all);
+  add_option(command, "--free", asks(jobs::StepQuestion::free))->excludes(all)->excludes(earliest);
+  add_option(command, "--candidates", arguments.check.count_candidates);
+  add_option(command, "--no-piercings", [&arguments] { arguments.find_piercings = false; });
+  add_option(command, "--t-max", arguments.check.step.t_max);
+  add_option(command, "--alpha", arguments.check.alpha);
+  add_option(command, "--threads", arguments.check.step.max_threads);
   command.option_defaults()->group("Output");
-  command.add_option("--csv", arguments.csv_file, "Write a row for each collision")
-      ->type_name("FILE");
-  command
-      .add_option("--prove", arguments.proof_file,
-                  "Write a proof of each step, for touchstone-check: no collision (up to --t-max), "
-                  "or the time of the earliest contact; compressed if the name ends in .zst")
-      ->type_name("FILE");
-  add_json_option(command, arguments.json_file);
-  add_view_option(command, arguments.view_file,
-                  "Write an HTML viewer of the first step with a collision");
+  add_option(command, "--csv", arguments.csv_file);
+  add_option(command, "--prove", arguments.proof_file);
+  add_option(command, "--json", arguments.json_file);
+  add_option(command, "--view", arguments.view_file);
 }
 
 }  // namespace

@@ -18,6 +18,7 @@
 #include "verify/cli/files.hpp"
 #include "verify/cli/group_options.hpp"
 #include "verify/cli/help.hpp"
+#include "verify/cli/option_table.hpp"
 #include "verify/cli/options.hpp"
 #include "verify/cli/solver_options.hpp"
 #include "verify/cli/sources.hpp"
@@ -38,8 +39,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The maximum number of queries on a page.
-constexpr std::size_t most_queries = 1000;
 constexpr std::size_t longest_script = std::size_t{64} << 20U;
 
 struct Arguments {
@@ -150,45 +149,20 @@ Status run(const Arguments& arguments) {
 
 void add_options(CLI::App& command, Arguments& arguments) {
   command.option_defaults()->group("Input");
-  command
-      .add_option(
-          "PATH", arguments.paths,
-          "Datasets (.csv, .npy), also of queries on curves, or folders of them, findings (.json "
-          "of fuzz), certificates (.cert, .cert.zst), or eight lines of vertices (.obj)")
-      ->type_name("");
-  command
-      .add_option("--step", arguments.step,
-                  "The step between two frames of a mesh (.ply, .obj) with its collisions")
-      ->type_name("FRAME FRAME")
-      ->expected(2);
+  add_option(command, "PATH", arguments.paths);
+  add_option(command, "--step", arguments.step);
   add_group_options(command, arguments.groups);
-  command
-      .add_option("--index", arguments.files.indices,
-                  "Only the query at this position of a file, from 0; repeatable")
-      ->type_name("N")
-      ->allow_extra_args(false)
-      ->check(whole_number(0, UINT64_MAX));
-  command.add_option("--most", arguments.files.most, "Maximum number of queries")
-      ->type_name("N")
-      ->capture_default_str()
-      ->check(whole_number(1, most_queries));
-  command
-      .add_option("--points", arguments.points,
-                  "The 24 coordinates of a query, in one word: decimal, hexadecimal or fractions")
-      ->type_name("NUMBERS");
-  add_kind_option(command, arguments.kind, "vertex-face or edge-edge, if the input does not tell");
-  command.add_flag("--round", arguments.files.round,
-                   "Round coordinates of datasets that are not doubles");
+  add_option(command, "--index", arguments.files.indices);
+  add_option(command, "--most", arguments.files.most);
+  add_option(command, "--points", arguments.points);
+  add_option(command, "--kind", arguments.kind);
+  add_option(command, "--round", arguments.files.round);
   add_separation_options(command, arguments.separation);
   add_solver_options(command, arguments.solvers);
-  add_exact_flag(command, arguments.solvers);
+  add_option(command, "--exact", arguments.solvers.exact);
   command.option_defaults()->group("Output");
-  command
-      .add_option(
-          "--live", arguments.live_file,
-          "The solvers in WebAssembly (./run playground): the page decides other queries, too")
-      ->type_name("FILE.js");
-  command.add_option("--out", arguments.out_file, "The page")->type_name("FILE.html")->required();
+  add_option(command, "--live", arguments.live_file);
+  add_option(command, "--out", arguments.out_file);
 }
 
 }  // namespace

@@ -90,8 +90,4 @@ std::string ViewFile::summary(std::uint64_t allowed) const {
                      queries_.size() == 1 ? "1 query" : fmt::format("{} queries", queries_.size()));
 }
 
-void add_view_option(CLI::App& command, std::string& file, const std::string& description) {
-  command.add_option("--view", file, description)->type_name("FILE.html");
-}
-
 }  // namespace touchstone::verify::cli

@@ -3,7 +3,6 @@
 /// \file
 /// The viewer of a command's results (--view), as `touchstone view` writes pages.
 
-#include <CLI/CLI.hpp>
 #include <cstddef>
 #include <cstdint>
 #include <nlohmann/json.hpp>
@@ -54,8 +53,5 @@ class ViewFile {
   nlohmann::json step_;
   bool is_cut_ = false;
 };
-
-/// Adds --view.
-void add_view_option(CLI::App& command, std::string& file, const std::string& description);
 
 }  // namespace touchstone::verify::cli

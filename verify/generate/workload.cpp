@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "touchstone/broad_phase.hpp"
-#include "verify/generate/families.hpp"
 #include "verify/generate/random.hpp"
 #include "verify/io/terminal.hpp"
 
@@ -151,21 +150,6 @@ mesh::MovingMesh moving_patches(const PatchOptions& options) {
           .vertices = fast::MovingVertices(start, end),
           .faces = faces,
           .edges = fast::edges_of(faces)};
-}
-
-data::QueryGroup built_in_set(Kind kind, std::uint64_t seed, std::uint64_t count,
-                              const Separation& separation) {
-  data::QueryGroup group("built-in set", kind);
-  for (const Family& family : families(separation)) {
-    if (!supports(family, kind)) continue;
-    group.read(
-        *open_family(family, kind, seed, count, separation), [](double) {},
-        [] {
-          io::throw_if_interrupted();
-          return false;
-        });
-  }
-  return group;
 }
 
 data::QueryGroup end_contacts(Kind kind, const EndContactOptions& options) {

@@ -2,7 +2,7 @@
 
 /// \file
 /// The built-in workload of the benchmark: two patches of triangle mesh that move through
-/// each other in one step, as cloth does when its step is too long, and the built-in set. Also
+/// each other in one step, as cloth does when its step is too long. Also
 /// simple contacts at t=1, at any scale, for the report.
 ///
 /// The patches are square grids of cells, each cut into two triangles, bent like shallow bowls with
@@ -33,11 +33,6 @@ struct PatchOptions {
 /// The two patches: a function of the options, the same on every machine.
 /// \throws std::invalid_argument for options out of range.
 [[nodiscard]] mesh::MovingMesh moving_patches(const PatchOptions& options = {});
-
-/// All queries of one kind of the built-in set for a separation
-/// (verify/generate/families.hpp), `count` for each family.
-[[nodiscard]] data::QueryGroup built_in_set(Kind kind, std::uint64_t seed, std::uint64_t count,
-                                            const Separation& separation = {});
 
 struct EndContactOptions {
   /// No coordinate is greater in magnitude; positive and finite.

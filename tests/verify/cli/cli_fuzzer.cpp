@@ -69,12 +69,7 @@ void parse_commands(const std::vector<std::string>& words) {
   ParsedOnly app{"fuzzed"};
   app.require_subcommand(1);
   Status status = Status::all_well;
-  for (const auto add :
-       {certify_command::add, solve_command::add, prove_command::add, generate_command::add,
-        candidates_command::add, bench_command::add, stability_command::add, step_command::add,
-        report_command::add, derive_command::add}) {
-    add(app, status);
-  }
+  add_commands(app, status);
   parse(app, words);
 }
 

@@ -12,7 +12,6 @@
 #include <vector>
 
 #include "touchstone/oracle.hpp"
-#include "verify/generate/families.hpp"
 #include "verify/jobs/statistics.hpp"
 
 namespace touchstone::verify::generate::workload_test {
@@ -100,24 +99,6 @@ TEST(Workload, EndContactsAreAtTheEnd) {
         EXPECT_GT(greatest, 0.9 * scale);
       }
     }
-  }
-}
-
-TEST(Workload, TheBuiltInSetIsThatOfTheFamilies) {
-  for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
-    const data::QueryGroup group = built_in_set(kind, 7, 3);
-    EXPECT_EQ(group.kind(), kind);
-    std::size_t position = 0;
-    for (const Family& family : families()) {
-      if (!supports(family, kind)) continue;
-      for (std::uint64_t index = 0; index < 3; ++index, ++position) {
-        ASSERT_LT(position, group.queries().size());
-        EXPECT_EQ(group.queries().straight()[position], make_query(family, kind, 7, index).query);
-        EXPECT_EQ(group.place_of(position).source, family.name);
-        EXPECT_EQ(group.place_of(position).index, index);
-      }
-    }
-    EXPECT_EQ(position, group.queries().size());
   }
 }
 

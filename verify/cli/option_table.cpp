@@ -1,0 +1,227 @@
+#include "verify/cli/option_table.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cfloat>
+#include <climits>
+#include <stdexcept>
+
+#include "verify/cli/solver_options.hpp"
+#include "verify/data/separation_file.hpp"
+#include "verify/io/number_text.hpp"
+#include "verify/judge/fault.hpp"
+#include "verify/solvers/registry.hpp"
+#include "verify/stability/hardness.hpp"
+
+namespace touchstone::verify::cli {
+namespace {
+
+std::vector<std::string> fault_names() {
+  std::vector<std::string> names;
+  for (const judge::Fault fault : judge::all_faults) names.emplace_back(judge::to_string(fault));
+  return names;
+}
+
+std::vector<std::string> hardness_names() {
+  std::vector<std::string> names;
+  for (const auto list : {stability::hardnesses(), stability::curve_hardnesses()}) {
+    for (const stability::Hardness& hardness : list) names.emplace_back(hardness.name);
+  }
+  return names;
+}
+
+std::vector<OptionRow> make_table() {
+  using enum Form;
+  const OneOf kinds{{"vertex-face", "edge-edge"}};
+  const std::string certificates = "compressed if the name ends in .zst";
+  return {
+      // clang-format off
+      // Queries: files, or the built-in set.
+      {"PATH", "", {}, "Files (.csv, .csv.zst, .npy; .npz with an array queries; .obj with eight vertices a query) or folders", "convert", required},
+      {"PATH", "", {}, "Datasets (.csv, .npy), also of queries on curves, or folders of them, findings (.json of fuzz), certificates (.cert, .cert.zst), or eight lines of vertices (.obj)", "view", list},
+      {"PATH", "", {}, "Dataset files (.csv, .npy) or folders; default: the built-in set", "", list},
+      {"QUERIES", "", {}, "Files of JSON as rigid-ipc writes them, and folders of such files", "rigid", required},
+      {"--kind", "KIND", kinds, "Only vertex-face or edge-edge queries", "fuzz"},
+      {"--kind", "KIND", kinds, "vertex-face or edge-edge, if the input does not tell", "view"},
+      {"--kind", "KIND", kinds, "vertex-face or edge-edge, if the path does not tell"},
+      {"--round", "", {}, "Round coordinates that are not doubles", "convert"},
+      {"--round", "", {}, "Round coordinates of datasets that are not doubles", "view"},
+      {"--round", "", {}, "Round coordinates that are not doubles, and count them"},
+      {"--keep-going", "", {}, "Skip invalid queries and files (exit status 2)", "convert"},
+      {"--keep-going", "", {}, "Report and skip invalid files (exit status 2)", "rigid"},
+      {"--keep-going", "", {}, "Skip and count invalid queries and files (exit status 2)"},
+      {"--threads", "N", Whole{0, INT_MAX}, "Cores to use (0: all)"},
+      {"--seed", "N", Whole{}, "Seed of the queries", "stability"},
+      {"--seed", "N", Whole{}, "Seed of all queries; --shard I/N adds I", "fuzz"},
+      {"--seed", "N", Whole{}, "Seed of the search for the worst error", "derive"},
+      {"--seed", "N", Whole{}, "Seed of the built-in set"},
+      {"--count", "N", Whole{1}, "Queries of each hardness, level and kind", "stability"},
+      {"--count", "N", Whole{1, UINT32_MAX}, "Maximum queries per group (a quarter of it in the separation experiment)", "report"},
+      {"--count", "N", Whole{1}, "Queries of each family and kind of the built-in set"},
+      {"--degree", "D", OneOf{{"1", "2", "3", "4", "5", "6", "7", "8", "rational"}}, "Degree of the Bézier curves that points move on, 1 (straight lines, the default) to 8, or rational (of degrees 1 and 2); repeatable", "fuzz"},
+      {"--degree", "D", OneOf{{"1", "2", "3", "rational"}}, "Built-in queries on curves of this degree, 1 (straight lines), 2 or 3, or rational ones; repeatable"},
+      {"--curved", "", {}, "As --degree 2 --degree 3 --degree rational, as far as the solver answers them; goes with the next version"},
+      {"--min-separation", "D", Distance{}, "Also pairs whose boxes are within this distance (covers both norms): decimal or 0x1p-10", "candidates"},
+      {"--min-separation", "D", Distance{}, "Contact: distance ≤ D, 0.5 or 0x1p-1 (default: separation.json, or 0)"},
+      {"--norm", "NORM", OneOf{{"linf", "l2"}}, "Norm of the distance: linf (greatest component, the default) or l2"},
+      {"--hardness", "NAME", {}, fmt::format("Only these; repeatable: {}", fmt::join(hardness_names(), ", "))},
+      {"--family", "NAME", {}, "Only these families (see --list)", "generate", list},
+      {"--patches", "N", Whole{1, 20'000}, "Write two patches of mesh instead of queries, before and after a step, with N cells per side: 4 N² faces"},
+      {"--grading", "G", Real{1.0, 1e9}, "Patches: ratio of the widths of a side's last and first cell"},
+      {"--index", "N", Whole{}, "Only the query at this position of a file, from 0; repeatable"},
+      {"--most", "N", Whole{1, most_viewed_queries}, "Maximum number of queries"},
+      {"--points", "NUMBERS", {}, "The 24 coordinates of a query, in one word: decimal, hexadecimal or fractions"},
+
+      // Meshes.
+      {"frames", "FRAME", {}, "Frames in order: .ply or .obj files, a folder of them, or one .npz of V (T,n,3), F and E", "step", required},
+      {"before", "FRAME0", {}, "Mesh before the step: .ply or .obj", "candidates", required},
+      {"after", "FRAME1", {}, "The same mesh after the step, with moved vertices", "candidates", required},
+      {"--step", "FRAME FRAME", {}, "The step between two frames of a mesh (.ply, .obj) with its collisions", "view", pair},
+      {"--step", "FRAME0 FRAME1", {}, "Measure a step instead of queries: meshes before and after it", "bench", pair},
+      {"--groups", "FILE", {}, "Group names of the vertices, one per line (default: o, g of an OBJ)"},
+      {"--apart", "GROUP GROUP", {}, "Ignore collisions between groups A and B (A A: within A); repeatable", "", list},
+
+      // Runs in pieces; the last two are for their processes.
+      {"--shard", "I/N", {}, "Do part I of N, from 0 on; auto: as a Slurm array or mpirun says"},
+      {"--resume", "FOLDER", {}, "Keep finished pieces there and go on with them (touchstone merge)"},
+      {"FOLDER", "", {}, "The folder of the pieces, as --resume named it", "merge", required},
+      {"--only-source", "", Whole{}, "", "", hidden},
+      {"--piece", "", {}, "", "", hidden},
+
+      // Solvers.
+      {"--method", "NAME", {}, "Only these; repeatable: " + solvers::method_names(), "report"},
+      {"--method", "NAME", {}, "Built-in solver; repeatable: " + solvers::method_names()},
+      {"--plugin", "LIB.so", {}, "Your solver: a shared library (touchstone/plugin.h); repeatable"},
+      {"--kinds", "KIND", kinds, "The plugin answers only vertex-face or edge-edge queries"},
+      {"--float-coordinates", "", {}, "The plugin takes float: queries are rounded first, and the truth is of these"},
+      {"--starts-apart{0}", "", Real{0.0, DBL_MAX}, "The plugin needs primitives that are apart at t=0; with =D, by more than the minimum separation plus D"},
+      {"--times", "WHAT", OneOf{{"bounds", "estimates", "none"}}, "The plugin's times of impact: bounds, estimates or none"},
+      {"--time-error", "E", Real{0.0, 1.0}, "Error of estimates that is no fault, in units of the step (default 1e-6)"},
+      {"--tolerance", "X", Real{DBL_TRUE_MIN, DBL_MAX}, "Tolerance of conservative methods, in units of the coordinates"},
+      {"--max-checks", "N", Whole{0, INT64_MAX}, fmt::format("Maximum steps per query (0: no limit; built-in set: {})", built_in_max_checks)},
+      {"--query-limit", "S", Real{0.0, 1e6}, "Seconds for a query in a child process, then undecided (0: no limit)"},
+      {"--memory-limit", "GIB", Real{0.0, 1e6}, fmt::format("Memory of a child process in GiB (default {:g}, 0: no limit)", static_cast<double>(solvers::ChildLimits{}.memory_bytes) / bytes_of_gibibyte)},
+      {"--allow-processes", "", {}, "Allow plugins to start processes"},
+      {"--show-output", "", {}, "Show the output of plugins on standard error"},
+      {"--results", "FILE", {}, "Recorded answers to judge, as touchstone solve writes them; repeatable"},
+      {"--exact", "", {}, "Judge every solver as exact: false positives are wrong answers too"},
+      {"--t-max", "T", Real{0.0, 1.0}, "Only contacts up to this time of a step", "step"},
+      {"--t-max", "T", Real{0.0, 1.0}, "Only impacts up to this time count, for methods that have this option", "solve"},
+
+      // The work.
+      {"--seconds", "S", Real{1e-3, 1e7}, fmt::format("Seconds to search (default {} unless --queries is given)", usual_fuzz_seconds), "fuzz"},
+      {"--seconds", "S", Real{1e-6, 1e6}, "Seconds for a method and repetition; slower methods are timed on a sample", "bench"},
+      {"--seconds", "S", Real{0.0, 1e7}, fmt::format("Seconds of the whole run (0: no limit; default {} with --plugin and without --field, else 0)", usual_plugin_seconds), "report"},
+      {"--seconds", "S", Real{0.0, 1e7}, "Seconds of the whole run, shared over sources and solvers (0: no limit)"},
+      {"--queries", "N", Whole{1}, "Number of queries"},
+      {"--most-findings", "N", Whole{0, UINT32_MAX}, "End after this number of groups of findings (0: never)"},
+      {"--only", "KIND", OneOf{fault_names()}, fmt::format("Report findings of this kind only; repeatable: {}", fmt::join(fault_names(), ", "))},
+      {"--corpus", "PATH", {}, "Datasets whose queries are mutated", "fuzz", list},
+      {"--kernel", "NAME", OneOf{{"scalar", "avx2", "avx512", "neon", "best"}}, "Kernel of certified and steps: scalar, avx2, avx512, neon or best"},
+      {"--repetitions", "N", Whole{1, 1'000'000}, "Repetitions; times are medians"},
+      {"--judge", "N", Whole{0, INT64_MAX}, "Queries to judge per group, plus every reported collision"},
+      {"--field", "", {}, "With --plugin: all methods and experiments; else certified and tight_inclusion alone"},
+      {"--method-seconds", "S", Real{1e-6, 1e6}, "Processor seconds per method, group and setting; slower methods get fewer queries"},
+      {"--experiment", "NAME", OneOf{{"field", "separation", "tolerance", "checks", "filter"}}, "Only these; repeatable: field (all methods), separation, tolerance (δ), checks (m_I), filter"},
+      {"--stability", "N", Whole{0, UINT32_MAX}, "Queries in a cell of the stability maps (0: no maps)"},
+      {"--all", "", {}, "Find every collision, with its times (the default)"},
+      {"--earliest", "", {}, "Find only the earliest impact and its pairs"},
+      {"--free", "", {}, "Find only whether there is a collision"},
+      {"--candidates", "", {}, "Count the candidate pairs also with --earliest and --free"},
+      {"--no-piercings", "", {}, "Do not search the frames for edges that pierce faces, which can take longer than --free"},
+      {"--alpha", "A", Real{0.0, 1.0}, "Judge the step with this step size, to the rounded x0 + alpha (x1 - x0), and report a maximal one"},
+      {"--claim", "CLAIM", OneOf{{"time_of_impact", "collision"}}, "Claim for a collision: its time_of_impact, or only the collision"},
+      {"--width", "W", {}, "Width of the interval around a time of impact, a decimal number (default: neighbouring doubles)"},
+      {"--model", "NAME", OneOf{{"gappa", "observed", "published", "rigorous"}}, "Columns to compute: published, rigorous, gappa, observed; repeatable", "derive", list},
+      {"--precision", "NAME", OneOf{{"double", "float", "double_double"}}, "Only double, float or double_double"},
+      {"--evaluations", "N", Whole{1}, "Evaluations of the search, for each row"},
+
+      // Output.
+      {"--json", "FILE", {}, "Write the result as JSON"},
+      {"--truth", "FILE", {}, "Write the truth as CSV: file,index,kind,collides,toi_lower,toi_upper"},
+      {"--prove,--out", "FILE", {}, fmt::format("Write the certificates; {} (--out: its old name)", certificates), "prove", required},
+      {"--prove", "FILE", {}, "Write a proof of each step, for touchstone-check: no collision (up to --t-max), or the time of the earliest contact; " + certificates, "step"},
+      {"--prove", "FILE", {}, "Write a proof of every verdict, as touchstone prove does"},
+      {"--view", "FILE.html", {}, "Write an HTML viewer of the first step with a collision", "step"},
+      {"--view", "FILE.html", {}, "Write an HTML viewer of the first 100 findings", "fuzz"},
+      {"--view", "FILE.html", {}, "Write an HTML viewer of 100 wrong answers, split evenly among the methods", "report"},
+      {"--view", "FILE.html", {}, "Write an HTML viewer of the first 100 queries with a wrong answer or label"},
+      {"--out", "FILE", {}, "Write file,index,kind,verdict,toi_lower,toi_upper,tolerance,failure", "solve", required},
+      {"--out", "FILE.csv", {}, "Write the queries found, with their truth, as a dataset", "fuzz"},
+      {"--out", "FILE.html", {}, "Write the page", "report"},
+      {"--out", "FILE.html", {}, "The page", "view", required},
+      {"--out", "FOLDER", {}, "Folder to write to", "generate"},
+      {"--out", "STORE", {}, "A new folder", "convert", required},
+      {"--out", "PREFIX", {}, "Write PREFIX_vf.npy and PREFIX_ee.npy (queries), PREFIX_vf_pairs.npy (vertex and face), PREFIX_ee_pairs.npy (two edges) and PREFIX_edges.npy", "candidates", required},
+      {"--csv", "FILE", {}, "Write a row for each collision"},
+      {"--list", "", {}, "List the families with the proofs of their truth"},
+      {"--npy", "", {}, "Write float64 arrays of shape (N, 8, 3), on curves (N, K+1, 4, 3) or (N, K+1, 4, 4) with weights, without the truth, instead of CSV"},
+      {"--max-candidates", "N", Whole{}, "Maximum candidates of a kind; more are an error with their number (0: the memory's limit)"},
+      {"--shard-size", "N", Whole{1}, "Queries of a shard"},
+      {"--source", "TEXT", {}, "Where the data are from, for the manifest"},
+      {"--licence", "TEXT", {}, "Their licence, for the manifest"},
+      {"--write", "FOLDER", {}, "Write a page per group for an issue tracker, with program, proof, JSON"},
+      {"--calls", "INTERFACE", OneOf{{"plugin", "ticcd", "ipc-toolkit"}}, "Interface in the programs: plugin (the default for plugins), ticcd or ipc-toolkit"},
+      {"--picture", "FILE.html", {}, "Write the result as an HTML page"},
+      {"--from", "FILE.json", {}, "Read the --json file of an earlier run instead of measuring"},
+      {"--compare", "OLD.json", {}, "The --json file of an earlier run: the page shows the changes since"},
+      {"--live", "FILE.js", {}, "The solvers in WebAssembly (./run playground): the page decides other queries, too"},
+      {"--emit", "FILE", {}, "Write the header of bounds (touchstone/filters/error_bounds.hpp)"},
+      // clang-format on
+  };
+}
+
+}  // namespace
+
+bool OptionRow::is_of(std::string_view command, std::string_view option) const {
+  return std::string_view(name).substr(0, name.find_first_of(",{")) == option &&
+         (commands.empty() || commands == command);
+}
+
+const std::vector<OptionRow>& option_table() {
+  static const std::vector<OptionRow> table = make_table();
+  return table;
+}
+
+const OptionRow& option_row(std::string_view command, std::string_view option) {
+  const auto row = std::ranges::find_if(
+      option_table(), [&](const OptionRow& one) { return one.is_of(command, option); });
+  if (row != option_table().end()) return *row;
+  throw std::logic_error(fmt::format("{} of {} is not in the table of options", option, command));
+}
+
+std::string fault_of_value(const Values& values, const std::string& text) {
+  if (const auto* whole = std::get_if<Whole>(&values)) {
+    const auto value = io::number_from_text<std::uint64_t>(text);
+    if (value && *value >= whole->least && *value <= whole->greatest) return {};
+    return fmt::format("{} is not a whole number from {} to {}", text, whole->least,
+                       whole->greatest);
+  }
+  if (const auto* real = std::get_if<Real>(&values)) {
+    const auto value = io::number_from_text<double>(text);
+    if (value && *value >= real->least && *value <= real->greatest) return {};
+    return fmt::format("{} is not a number from {} to {}", text, real->least, real->greatest);
+  }
+  if (const auto* one_of = std::get_if<OneOf>(&values)) {
+    if (std::ranges::find(one_of->words, text) != one_of->words.end()) return {};
+    return fmt::format("{} not in {{{}}}", text, fmt::join(one_of->words, ","));
+  }
+  if (std::holds_alternative<Text>(values) || data::distance_from_text(text)) return {};
+  return fmt::format("{} must be a finite number ≥ 0", text);
+}
+
+CLI::Option* finish_option(CLI::Option* option, const OptionRow& row) {
+  const bool is_flag = option->get_expected_min() == 0;
+  if (!is_flag) option->type_name(row.type);
+  if (!std::holds_alternative<Text>(row.values)) {
+    option->check([&row](const std::string& text) { return fault_of_value(row.values, text); }, "");
+  }
+  if (row.form == Form::required) option->required();
+  if (row.form == Form::hidden) option->group("");
+  if (row.form == Form::pair) option->expected(2);
+  if (row.form == Form::usual && option->get_expected_max() > 1) option->allow_extra_args(false);
+  return option;
+}
+
+}  // namespace touchstone::verify::cli

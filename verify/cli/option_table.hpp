@@ -1,0 +1,124 @@
+#pragma once
+
+/// \file
+/// The table of options: each is described once, for all commands that have it. A command takes its
+/// options from here by name and binds them to variables (add_option); --help, the page of all
+/// options (docs/site) and the test that tries every option at its limits are of the same rows.
+
+#include <CLI/CLI.hpp>
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <utility>
+#include <variant>
+#include <vector>
+
+namespace touchstone::verify::cli {
+
+/// Seconds of touchstone fuzz without --seconds and --queries.
+inline constexpr double usual_fuzz_seconds = 60.0;
+
+/// Seconds of touchstone report on plugins alone, without --seconds.
+inline constexpr double usual_plugin_seconds = 60.0;
+
+/// The maximum number of queries on a page of touchstone view.
+inline constexpr std::uint64_t most_viewed_queries = 1000;
+
+/// Any text.
+struct Text {};
+
+/// A whole number. (CLI11 alone lets "-1" wrap around.)
+struct Whole {
+  std::uint64_t least = 0;
+  std::uint64_t greatest = UINT64_MAX;
+};
+
+/// A finite number.
+struct Real {
+  double least;
+  double greatest;
+};
+
+/// A finite number ≥ 0 in the forms of strtod, including hexadecimal ones, except positive ones
+/// that would become 0.
+struct Distance {};
+
+/// One of these words.
+struct OneOf {
+  std::vector<std::string> words;
+};
+
+using Values = std::variant<Text, Whole, Real, Distance, OneOf>;
+
+enum class Form : std::uint8_t {
+  usual,     ///< optional, and with one value each time that it is given
+  required,  ///< has to be given
+  list,      ///< with one value or more each time
+  pair,      ///< with two values
+  hidden     ///< not in the help
+};
+
+/// An option of some commands. A name in front of which there is no "--" is that of positional
+/// arguments; one that ends in {V} can be given without a value, which then is V.
+struct OptionRow {
+  std::string name;
+  std::string type;  ///< a word for its value in the help; empty for flags
+  Values values;
+  std::string text;
+  std::string commands = "";  ///< those with this row; empty: those that no other row names
+  Form form = Form::usual;
+
+  /// True if this is the row of the option with that name (of several the first) and command.
+  [[nodiscard]] bool is_of(std::string_view command, std::string_view option) const;
+};
+
+/// All rows; those that name their commands stand before the one that does not.
+[[nodiscard]] const std::vector<OptionRow>& option_table();
+
+/// The row of an option. \throws std::logic_error if there is none.
+[[nodiscard]] const OptionRow& option_row(std::string_view command, std::string_view option);
+
+/// What is wrong with a text as one of these values; empty if nothing is.
+[[nodiscard]] std::string fault_of_value(const Values& values, const std::string& text);
+
+/// Gives the option what the row says of it.
+CLI::Option* finish_option(CLI::Option* option, const OptionRow& row);
+
+/// Adds the command's option of that name, in the present group of its help. The target is a
+/// variable, which must live until the command line is parsed, or a function of the value, or of
+/// nothing for a flag. The help shows the variable's value as the default, if the option takes it.
+template <class Target>
+CLI::Option* add_option(CLI::App& command, std::string_view name, Target&& target) {
+  using Value = std::remove_cvref_t<Target>;
+  const OptionRow& row = option_row(command.get_name(), name);
+  if constexpr (std::is_same_v<Value, bool>) {
+    return finish_option(command.add_flag(row.name, target, row.text), row);
+  } else if constexpr (std::is_invocable_v<Value>) {
+    return finish_option(
+        command.add_flag_callback(row.name, std::forward<Target>(target), row.text), row);
+  } else if constexpr (std::is_invocable_v<Value, std::string>) {
+    return finish_option(command.add_option_function(
+                             row.name, std::function<void(const std::string&)>(target), row.text),
+                         row);
+  } else if constexpr (std::is_invocable_v<Value, double>) {
+    return finish_option(
+        command.add_option_function(row.name, std::function<void(const double&)>(target), row.text),
+        row);
+  } else {
+    CLI::Option* option = nullptr;
+    if constexpr (std::is_same_v<Value, std::string>) {
+      if (row.name.ends_with('}')) option = command.add_flag(row.name, target, row.text);
+    }
+    if (option == nullptr) option = command.add_option(row.name, target, row.text);
+    if constexpr (std::is_arithmetic_v<Value> || std::is_same_v<Value, std::string>) {
+      const bool is_text = std::holds_alternative<Text>(row.values);
+      const std::string value = CLI::detail::to_string(target);
+      if (!is_text && fault_of_value(row.values, value).empty()) option->capture_default_str();
+    }
+    return finish_option(option, row);
+  }
+}
+
+}  // namespace touchstone::verify::cli
