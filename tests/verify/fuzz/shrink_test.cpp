@@ -18,7 +18,6 @@
 #include "touchstone/oracle.hpp"
 #include "verify/fuzz/curves.hpp"
 #include "verify/fuzz/plainness.hpp"
-#include "verify/fuzz/reproduce.hpp"
 #include "verify/generate/decimal.hpp"
 
 namespace touchstone::verify::fuzz::shrink_test {
