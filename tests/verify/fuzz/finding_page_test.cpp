@@ -15,7 +15,8 @@ namespace {
 
 /// A vertex that falls through a triangle, with contact at t = 1/3.
 Finding fall() {
-  Finding finding{.method = "mine"};
+  Finding finding;
+  finding.method = "mine";
   finding.simplest = {.query = {Kind::vertex_face, tests::over_triangle(1, 1, 1, -2).query},
                       .answer = {.verdict = fast::Verdict::no},
                       .collides = true,
@@ -33,7 +34,8 @@ SolverCall call(const std::string& method = "mine") {
 }
 
 nlohmann::json json_of(const Finding& finding, const SolverCall& solver) {
-  FuzzReport report{.solver = solver};
+  FuzzReport report;
+  report.solver = solver;
   report.result.findings = {finding};
   return to_json(report).at("findings").at(0);
 }

@@ -117,7 +117,8 @@ TEST(Fuzz, FindsEveryPlantedFault) {
       planted.change(query, answer);
       return answer;
     };
-    const FuzzResult result = search(altered, planted.promise);
+    // Without the oracle's share: the judge must doubt the answer.
+    const FuzzResult result = search(altered, planted.promise, {.oracle_share = 0.0});
     expect_found(planted.fault, result);
     EXPECT_TRUE(planted.fault != false_negative || result.queries < 2000U);
   }
@@ -142,14 +143,16 @@ TEST(Fuzz, FindsAYesBeyondItsTolerance) {
       return Answer{.verdict = Verdict::yes, .toi_lower = 0.0, .tolerance = tolerance};
     };
   };
+  expect_found(judge::Fault::beyond_tolerance, search(yes(1e-9),
+                                                      {.name = "function",
+                                                       .promise = Promise::conservative,
+                                                       .filter = fast::ErrorModel::derived},
+                                                      {.oracle_share = 0.0}));
   expect_found(judge::Fault::beyond_tolerance,
-               search(yes(1e-9), {.name = "function",
-                                  .promise = Promise::conservative,
-                                  .filter = fast::ErrorModel::derived}));
-  expect_found(judge::Fault::beyond_tolerance, search(yes(0.0), Promise::conservative));
-  expect_found(
-      judge::Fault::beyond_tolerance,
-      search(yes(0.0), Promise::none, {.separation = {.distance = 0.25, .norm = Norm::l2}}));
+               search(yes(0.0), Promise::conservative, {.oracle_share = 0.0}));
+  expect_found(judge::Fault::beyond_tolerance,
+               search(yes(0.0), Promise::none,
+                      {.separation = {.distance = 0.25, .norm = Norm::l2}, .oracle_share = 0.0}));
   const std::uint64_t some = tests::trials(std::uint64_t{2400});
   EXPECT_EQ(search(yes(HUGE_VAL), Promise::conservative, {.most_queries = some}).all_findings, 0U);
 }

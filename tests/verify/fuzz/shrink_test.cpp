@@ -17,6 +17,7 @@
 #include "touchstone/certified.hpp"
 #include "touchstone/oracle.hpp"
 #include "verify/fuzz/curves.hpp"
+#include "verify/fuzz/finding.hpp"
 #include "verify/fuzz/plainness.hpp"
 #include "verify/generate/decimal.hpp"
 
@@ -218,13 +219,6 @@ TEST(Shrink, AsksOnlyPlainerQueriesAndNoneTwice) {
       return fails(other);
     });
     EXPECT_EQ(least, best);
-  }
-}
-
-TEST(Shrink, IsDeterministic) {
-  for (const AnyQuery& query : random_queries(6, tests::trials(16))) {
-    const Predicate fails = fickle(query.numbers()[1] > 0 ? 1 : 2);
-    EXPECT_EQ(shrink(query, fails), shrink(query, fails));
   }
 }
 
