@@ -21,7 +21,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using base::AnyQuery;
-using nlohmann::json;
+using Json = nlohmann::json;
 
 // ---- Templates: a value replaces each @NAME@ ----------------------------------------------------
 
@@ -175,11 +175,11 @@ std::string filled(std::string_view text, const Values& values) {
 
 // ---- Values -------------------------------------------------------------------------------------
 
-std::string text_of(const json& finding, const char* key) {
+std::string text_of(const Json& finding, const char* key) {
   return finding.at(key).get<std::string>();
 }
 
-AnyQuery query_of(const json& finding) {
+AnyQuery query_of(const Json& finding) {
   const QueryShape shape{.kind = kind_from_string(text_of(finding, "kind")),
                          .degree = finding.at("degree").get<std::size_t>(),
                          .is_rational = finding.at("rational").get<bool>()};
@@ -193,10 +193,10 @@ std::string_view places(const QueryShape& shape) {
 }
 
 /// An expression of C++, true if the answer is wrong as it was found to be.
-std::string wrong_as_found(const json& finding) {
+std::string wrong_as_found(const Json& finding) {
   using enum judge::Fault;
-  const json& toi = finding.at("toi");
-  const json& error = finding.at("solver").at("time_error");
+  const Json& toi = finding.at("toi");
+  const Json& error = finding.at("solver").at("time_error");
   const auto bound = [&](const char* of_toi) {
     return fmt::format("{}", toi.at(of_toi).get<double>());
   };
@@ -243,10 +243,10 @@ std::string rows(const AnyQuery& query) {
 }
 
 /// The values of a finding that pages and programs have.
-Values values_of(const json& finding) {
+Values values_of(const Json& finding) {
   const AnyQuery query = query_of(finding);
   const QueryShape& shape = query.shape();
-  const json& solver = finding.at("solver");
+  const Json& solver = finding.at("solver");
   const auto checks = solver.at("max_checks").get<std::int64_t>();
   const Norm norm = norm_from_string(text_of(solver, "norm"));
   const auto number = [&](const char* key) {
@@ -270,8 +270,8 @@ Values values_of(const json& finding) {
           {"wrong", wrong_as_found(finding)}};
 }
 
-const Interface& interface_of(const json& finding, std::string_view calls) {
-  const json& solver = finding.at("solver");
+const Interface& interface_of(const Json& finding, std::string_view calls) {
+  const Json& solver = finding.at("solver");
   const std::string method = text_of(solver, "method");
   const auto found = std::ranges::find_if(interfaces, [&](const Interface& interface) {
     if (!calls.empty()) return interface.name == calls;
@@ -289,10 +289,10 @@ std::string cell(const std::string& text) {
   return result;
 }
 
-std::string as_page(const json& finding, const json& group, const std::string& name,
+std::string as_page(const Json& finding, const Json& group, const std::string& name,
                     const std::string& program) {
   const AnyQuery query = query_of(finding);
-  const json& solver = finding.at("solver");
+  const Json& solver = finding.at("solver");
   const Separation separation{.distance = solver.at("min_separation").get<double>(),
                               .norm = norm_from_string(text_of(solver, "norm"))};
   const auto what = judge::fault_from_name(text_of(finding, "what")).value();
@@ -323,7 +323,7 @@ void write_file(const fs::path& path, std::string_view text) {
 
 }  // namespace
 
-std::string as_program(const json& finding, std::string_view calls) {
+std::string as_program(const Json& finding, std::string_view calls) {
   const Interface& interface = interface_of(finding, calls);
   Values values = values_of(finding);
   values["includes"] = interface.includes;
@@ -333,12 +333,12 @@ std::string as_program(const json& finding, std::string_view calls) {
   return filled(program_template, values);
 }
 
-std::vector<fs::path> write_pages(const json& report, std::string_view calls,
+std::vector<fs::path> write_pages(const Json& report, std::string_view calls,
                                   const fs::path& folder) {
   fs::create_directories(folder);
   std::vector<fs::path> pages;
-  for (const json& group : report.at("groups")) {
-    const json& finding = report.at("findings").at(group.at("best").get<std::size_t>());
+  for (const Json& group : report.at("groups")) {
+    const Json& finding = report.at("findings").at(group.at("best").get<std::size_t>());
     const std::string name = fmt::format("{}-{}", pages.size() + 1, text_of(finding, "what"));
     const std::string program = as_program(finding, calls);
     pages.push_back(folder / (name + ".md"));

@@ -58,7 +58,7 @@ class ScaleSearch {
   Recheck recheck_;
 };
 
-/// Has it a reason that tells one fault from another?
+/// True if it has a reason that tells one fault from another.
 bool has_reason(judge::Fault what) {
   return what == judge::Fault::crash || what == judge::Fault::exit ||
          what == judge::Fault::exception;
