@@ -51,7 +51,7 @@ int main(@parameters@) {
 /// The parts of a program that differ by the interface that it calls.
 struct Interface {
   std::string_view name;
-  std::string_view method;  ///< methods whose public code has it begin with that
+  std::string_view method;  ///< the beginning of the names of methods with this public code
   std::string_view includes;
   std::string_view parameters;
   std::array<std::string_view, 2> functions;  ///< for each kind
@@ -162,7 +162,7 @@ constexpr std::string_view proof_template =
 
 using Values = std::map<std::string_view, std::string>;
 
-/// The template with its values. What is filled in is not looked at again.
+/// The template with its values, which may contain @ themselves.
 std::string filled(std::string_view text, const Values& values) {
   std::string result;
   for (std::size_t begin = text.find('@'); begin != text.npos; begin = text.find('@')) {
@@ -242,7 +242,7 @@ std::string rows(const AnyQuery& query) {
   return fmt::format("{}", fmt::join(lines, "\n"));
 }
 
-/// The values of a finding that pages and programs have.
+/// The values of a finding in pages and programs.
 Values values_of(const Json& finding) {
   const AnyQuery query = query_of(finding);
   const QueryShape& shape = query.shape();

@@ -477,7 +477,7 @@ class Run {
     const Answer& other = answers_[image->origin];
     if (!origin_has_answer || !contradict(answers_[i], other, !image->symmetry.reversed)) return;
     diagnosis.what = judge::Fault::asymmetry;
-    diagnosis.detail += fmt::format("; of what this is an exact image of ({}) it says: {}",
+    diagnosis.detail += fmt::format("; the query that it is an exact image of ({}) is answered: {}",
                                     to_text(image->symmetry), to_text(other));
   }
 
