@@ -4,12 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <compare>
 #include <limits>
 #include <map>
 #include <numeric>
 #include <span>
 #include <stdexcept>
+#include <tuple>
 #include <utility>
 
 #include "fast/method.hpp"
@@ -513,7 +513,7 @@ class Run {
         std::string(charge.method), charge.diagnosis.what, to_text(block_.shape),
         judged_[i].stage,           block_.arms[i],        is_slight(charge, answers_[i], verdict)};
     const auto [known, is_new] = classes_.try_emplace(what);
-    Class::Seen& seen = known->second;
+    Seen& seen = known->second;
     if (!is_new) {
       ++result_.groups[seen.group].count;
     } else if (!has_found_enough()) {
@@ -568,23 +568,14 @@ class Run {
     result_.shrink_seconds += seconds() - begin;
   }
 
-  /// The properties that make two findings alike at first sight.
-  struct Class {
-    std::string method;
-    judge::Fault what;
-    std::string shape;
-    fast::Stage stage;
-    std::size_t arm;
-    bool is_slight;
+  /// The properties that make two findings alike at first sight: the method that is wrong, the
+  /// fault, the shape, the judge's stage, the generator, and if a late time is late slightly.
+  using Class = std::tuple<std::string, judge::Fault, std::string, fast::Stage, std::size_t, bool>;
 
-    // clang-tidy 14 takes the comparison of the bool for a conversion.
-    // NOLINTNEXTLINE(readability-implicit-bool-conversion)
-    friend auto operator<=>(const Class&, const Class&) = default;
-
-    struct Seen {
-      std::uint64_t count = 0;
-      std::size_t group = 0;  ///< of the first one, which was kept
-    };
+  /// The findings of a class so far.
+  struct Seen {
+    std::uint64_t count = 0;
+    std::size_t group = 0;  ///< of the first one, which was kept
   };
 
   const FuzzOptions& options_;
@@ -604,7 +595,7 @@ class Run {
   CoverageTable coverage_;
   BoundHabit lower_habit_;
   BoundHabit upper_habit_;
-  std::map<Class, Class::Seen> classes_;
+  std::map<Class, Seen> classes_;
   std::map<Signature, std::size_t> groups_;
   FuzzResult result_;
   // The block at hand.
