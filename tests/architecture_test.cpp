@@ -141,7 +141,7 @@ constexpr std::string_view headers_without_test = R"(
 // Through what uses them: certify, solve, the step's measurements, NumPy's arrays, the fuzzer.
   verify/jobs/: block_answers.hpp block_truth.hpp work_time.hpp
   verify/data/: npy_header.hpp
-  verify/fuzz/: coverage.hpp finding_page.hpp fuzz_report.hpp plainness.hpp scheduler.hpp signature.hpp
+  verify/fuzz/: coverage.hpp curves.hpp diagnosis.hpp fuzz_report.hpp mutation.hpp plainness.hpp scheduler.hpp signature.hpp
 // By tests/transcripts, and documents_test.cpp: docs/results.md and its picture are those of their data.
   verify/cli/: certificates_file.hpp commands.hpp files.hpp group_options.hpp help.hpp options.hpp solver_options.hpp sources.hpp version.hpp view_file.hpp
   verify/mesh/: moving_mesh.hpp

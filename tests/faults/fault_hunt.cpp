@@ -20,7 +20,7 @@
 #include "touchstone/oracle.hpp"
 #include "verify/data/csv_dataset.hpp"
 #include "verify/data/separation_file.hpp"
-#include "verify/fuzz/reproduce.hpp"
+#include "verify/fuzz/finding.hpp"
 
 namespace touchstone::tests {
 namespace {

@@ -33,8 +33,6 @@
 #include "verify/fuzz/finding_page.hpp"
 #include "verify/fuzz/fuzz.hpp"
 #include "verify/fuzz/fuzz_report.hpp"
-#include "verify/fuzz/reproduce.hpp"
-#include "verify/fuzz/standalone.hpp"
 #include "verify/io/json.hpp"
 #include "verify/io/printable.hpp"
 #include "verify/io/terminal.hpp"
@@ -301,18 +299,19 @@ class FuzzRun {
                                   .seconds = options_.seconds,
                                   .queries = options_.most_queries,
                                   .only = options_.only,
-                                  .degrees = degrees_of_report(),
+                                  .degrees = arguments_.degrees(),
                                   .result = fuzz::fuzz(*method_, options_)};
+    const nlohmann::json json = fuzz::to_json(report);
     bar_.clear();
     report_unplaced_crashes(asked_.method, report.result.unplaced_crashes);
     report_output(asked_.method, report.result.output, arguments_.solver.show_output);
     std::vector<fs::path> written;
     attempt([&] { written = found_.close(); });
-    if (json_) json_.write(io::json_document(fuzz::to_json(report)));
+    if (json_) json_.write(io::json_document(json));
     json_.close();
-    write_view(report);
+    write_view(json);
     attempt([&] {
-      for (fs::path& page : write_pages(report)) written.push_back(std::move(page));
+      for (fs::path& page : write_pages(json)) written.push_back(std::move(page));
     });
     io::print(out(), fuzz::to_text(report));
     for (const fs::path& file : written)
@@ -334,17 +333,14 @@ class FuzzRun {
   }
 
   /// The folder appears when it is complete, as files do.
-  [[nodiscard]] std::vector<fs::path> write_pages(const fuzz::FuzzReport& report) const {
+  [[nodiscard]] std::vector<fs::path> write_pages(const nlohmann::json& report) const {
     if (arguments_.page_folder.empty()) return {};
     fs::path folder = fs::weakly_canonical(arguments_.page_folder);
     if (!folder.has_filename()) folder = folder.parent_path();  // a slash at the end
     const fs::path partial = io::partial_name(folder);
-    const auto interface = arguments_.calls.empty()
-                               ? fuzz::usual_interface(asked_)
-                               : fuzz::call_interface_from_string(arguments_.calls).value();
     std::vector<fs::path> pages;
     try {
-      pages = fuzz::write_pages(report, interface, partial);
+      pages = fuzz::write_pages(report, arguments_.calls, partial);
       fs::rename(partial, folder);
     } catch (...) {
       fs::remove_all(partial);
@@ -354,12 +350,11 @@ class FuzzRun {
     return pages;
   }
 
-  void write_view(const fuzz::FuzzReport& report) {
+  void write_view(const nlohmann::json& report) {
     if (!view_) return;
     std::size_t number = 0;
-    for (const fuzz::Finding& finding : report.result.findings) {
-      const nlohmann::json json = fuzz::to_json(finding, report.solver);
-      view_.add(view::query_from_json(json, fmt::format("finding {}", number++)));
+    for (const nlohmann::json& finding : report.at("findings")) {
+      view_.add(view::query_from_json(finding, fmt::format("finding {}", number++)));
     }
     view_.write(arguments_.solver.options);
   }
@@ -378,22 +373,18 @@ class FuzzRun {
     method_ = plugin_.get();
   }
 
-  /// The shapes that the command line names and the solver answers. \throws std::invalid_argument
-  /// if it answers none of some degree, but for its kinds.
+  /// The shapes that the command line names and the solver answers.
+  /// \throws std::invalid_argument if it answers none of a degree, or with --curved none at all
   [[nodiscard]] std::vector<QueryShape> chosen_shapes() const {
-    const fast::Terms& terms = method_->info().terms;
-    const bool answers_a_kind =
-        std::ranges::any_of(arguments_.kinds(), [&](Kind kind) { return terms.answers(kind); });
     std::vector<QueryShape> result;
     for (const std::string& degree : arguments_.degrees()) {
-      const std::vector<QueryShape> shapes = arguments_.shapes(degree);
       const std::size_t before = result.size();
-      std::ranges::copy_if(shapes, std::back_inserter(result), [&](const QueryShape& shape) {
-        return terms.answers(shape) || !answers_a_kind;
-      });
+      std::ranges::copy_if(
+          arguments_.shapes(degree), std::back_inserter(result),
+          [&](const QueryShape& shape) { return method_->info().terms.answers(shape); });
       if (result.size() == before && !arguments_.curved) refuse(degree);
     }
-    if (result.empty()) refuse("any");
+    if (result.empty()) refuse("");
     if (!arguments_.calls.empty() && arguments_.calls != "plugin" &&
         !std::ranges::all_of(result, &QueryShape::is_straight)) {
       throw std::invalid_argument(
@@ -404,16 +395,12 @@ class FuzzRun {
 
   [[noreturn]] void refuse(const std::string& degree) const {
     const std::string what = degree == "1"        ? "straight lines; add --degree for curves"
-                             : degree == "any"    ? "curves"
+                             : degree.empty()     ? "curves"
                              : degree == rational ? "rational curves"
                                                   : "curves of degree " + degree;
-    throw std::invalid_argument(fmt::format("{} answers no queries on {}", method_->name(), what));
-  }
-
-  /// Empty for straight lines alone.
-  [[nodiscard]] std::vector<std::string> degrees_of_report() const {
-    if (std::ranges::all_of(options_.shapes, &QueryShape::is_straight)) return {};
-    return arguments_.degrees();
+    throw std::invalid_argument(fmt::format("{} answers no {}queries on {}", method_->name(),
+                                            arguments_.kind.empty() ? "" : arguments_.kind + " ",
+                                            what));
   }
 
   [[nodiscard]] std::FILE* out() const { return files_.summary_stream(); }

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "verify/fuzz/plainness.hpp"
 #include "verify/generate/draws.hpp"
 #include "verify/generate/families.hpp"
 
@@ -119,13 +120,13 @@ bool may_weights_differ(const QueryShape& shape, const Separation& separation) {
 
 bool is_decided_soon(const AnyQuery& query, const Separation& separation) {
   constexpr int most = 64;
-  const std::size_t size = query.shape().numbers_of_point();
   if (query.shape().is_straight() || is_zero(separation)) return true;
-  for (std::size_t i = 0; i < query.numbers().size(); ++i) {
-    const double x = i % size < 3 ? query.numbers()[i] : 0.0;
-    if (x != 0.0 && std::abs(std::ilogb(x) - std::ilogb(separation.distance)) > most) return false;
-  }
-  return true;
+  bool result = true;
+  for_each_coordinate(query, point_axes, [&](double x) {
+    result =
+        result && (x == 0.0 || std::abs(std::ilogb(x) - std::ilogb(separation.distance)) <= most);
+  });
+  return result;
 }
 
 }  // namespace touchstone::verify::fuzz

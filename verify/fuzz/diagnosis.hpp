@@ -24,8 +24,8 @@ struct Diagnosis {
   std::string detail;
 };
 
-/// Is there nothing in the answer that could break the promise, by what the certified solver found?
-/// If not, it may still be right.
+/// True if nothing in the answer could break the promise, by what the certified solver found. An
+/// answer that is not beyond doubt may still be right.
 [[nodiscard]] bool is_beyond_doubt(const judge::Question& question,
                                    const fast::CertifiedResult& judged, const fast::Answer& answer,
                                    const judge::Standard& standard);

@@ -2,12 +2,49 @@
 
 #include <fmt/format.h>
 
+#include <array>
+#include <span>
+
 namespace touchstone::verify::fuzz {
+namespace {
+
+/// "(0, 0.5, 1)", with a weight "(0, 0.5, 1; 2)".
+std::string tuple(std::span<const double> point, bool in_hexadecimal) {
+  std::string result;
+  for (std::size_t i = 0; i < point.size(); ++i) {
+    result += i == 0 ? "(" : i < 3 ? ", " : "; ";
+    result += in_hexadecimal ? fmt::format("{:a}", point[i]) : fmt::format("{}", point[i]);
+  }
+  return result + ")";
+}
+
+}  // namespace
 
 std::string to_text(const QueryShape& shape) {
   if (shape.is_straight()) return std::string(to_string(shape.kind));
   return fmt::format("{}, {}degree {}", to_string(shape.kind),
                      shape.is_rational ? "rational, " : "", shape.degree);
+}
+
+std::string_view point_name(Kind kind, std::size_t point) {
+  static constexpr std::array<std::string_view, moving_points> of_face{"v", "f0", "f1", "f2"};
+  static constexpr std::array<std::string_view, moving_points> of_edges{"ea0", "ea1", "eb0", "eb1"};
+  return kind == Kind::vertex_face ? of_face.at(point) : of_edges.at(point);
+}
+
+std::string as_points(const base::AnyQuery& query, bool in_hexadecimal) {
+  const QueryShape& shape = query.shape();
+  const std::size_t size = shape.numbers_of_point();
+  std::string result;
+  for (std::size_t point = 0; point < moving_points; ++point) {
+    result += fmt::format("{:<3}  ", point_name(shape.kind, point));
+    for (std::size_t j = 0; j <= shape.degree; ++j) {
+      const auto place = query.numbers().subspan((moving_points * j + point) * size, size);
+      result += (j == 0 ? "" : " → ") + tuple(place, in_hexadecimal);
+    }
+    result += '\n';
+  }
+  return result;
 }
 
 std::string_view to_string(Shrinking shrinking) {

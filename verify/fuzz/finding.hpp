@@ -20,6 +20,13 @@ namespace touchstone::verify::fuzz {
 /// "vertex-face" on straight lines, "edge-edge, rational, degree 2" on curves.
 [[nodiscard]] std::string to_text(const QueryShape& shape);
 
+/// "v", "f0" and so on of a vertex and a triangle, "ea0" and so on of two edges.
+[[nodiscard]] std::string_view point_name(Kind kind, std::size_t point);
+
+/// A line a point: its name, and its places at t=0 and t=1 or its control points, each with its
+/// weight. In decimal and in hexadecimal these are the very doubles.
+[[nodiscard]] std::string as_points(const base::AnyQuery& query, bool in_hexadecimal = false);
+
 /// A query that a solver answers wrongly, its answer, and the truth: all of the same query.
 struct FailingCase {
   base::AnyQuery query = {};
@@ -67,15 +74,13 @@ struct Finding {
   Separation separation = {};
   std::string method;         ///< that is wrong: the one asked, or "certified" where the judge is
   FailingCase original = {};  ///< as it was found
-  FailingCase simplest =
-      {};  ///< the simplest query with the same fault: the original if none was found
+  FailingCase simplest = {};  ///< the simplest query with the same fault: the original if none was
   Shrinking shrinking = Shrinking::not_tried;
-  /// Of what is wrong only in that.
+  /// Set if the fault is that alone.
   MissingBounds missing = {};
-  /// Of a late time: is it late slightly (judge::slight_lateness)?
+  /// True for a late time that is late slightly (judge::slight_lateness).
   bool is_slight = false;
-  /// Of the simplest query.
-  ScaleRange scales = {};
+  ScaleRange scales = {};     ///< of the simplest query
   std::size_t group = 0;      ///< in FuzzResult::groups
   double seconds = 0.0;       ///< wall-clock time of the run when it was found
   std::uint64_t queries = 0;  ///< asked by then, itself included

@@ -1,31 +1,37 @@
 #pragma once
 
 /// \file
-/// A group of findings as a page for an issue tracker, and all groups as files.
+/// Groups of findings as pages for an issue tracker, and wrong answers as self-contained C++
+/// programs, which the authors of a solver compile with their own code. Both are texts with places
+/// that the JSON of the findings fills (fuzz_report.hpp).
 
-#include <cstdint>
+#include <cstddef>
 #include <filesystem>
+#include <nlohmann/json.hpp>
 #include <string>
+#include <string_view>
 #include <vector>
-
-#include "verify/fuzz/fuzz_report.hpp"
-#include "verify/fuzz/standalone.hpp"
 
 namespace touchstone::verify::fuzz {
 
-/// Markdown for readers without knowledge of this project: the answer, the truth, the points in
-/// decimal and in hexadecimal, a program that shows the fault (standalone.hpp), the certificate
-/// with instructions for its check, and the command that reproduces the finding.
-/// \param name of the files beside the page: NAME.cpp and NAME.cert
-[[nodiscard]] std::string as_page(const FuzzReport& report, const FindingGroup& group,
-                                  CallInterface interface, const std::string& name);
+/// A C++17 program that solves a finding's simplest query, and prints the answer and the truth. Its
+/// exit status is 1 if the answer is wrong as found, 0 if it is not (also if there is no crash,
+/// exit, exception or hang, where that was found), and 2 if the solver cannot be called.
+/// \param finding with finite coordinates, as in `findings` of to_json
+/// \param calls the interface of the solver: "plugin" (touchstone/plugin.h, of a loaded library),
+/// "ticcd" (the public Tight-Inclusion) or "ipc-toolkit" (the public IPC Toolkit, AdditiveCCD); if
+/// empty, that of the public code of a built-in method, if there is such code, otherwise "plugin".
+/// Curves are always asked about by "plugin".
+[[nodiscard]] std::string as_program(const nlohmann::json& finding, std::string_view calls);
 
 /// Writes into a folder, which it creates: for each group of the report, by its number and kind of
 /// finding, the page, the program and the certificate if there is one (1-false_negative.md, .cpp
-/// and .cert), and findings.json (fuzz_report.hpp). Returns the pages.
+/// and .cert), and findings.json, the report. A page is Markdown for readers without knowledge of
+/// this project: answer, truth, points, program, certificate, and the command that asks again.
+/// Returns the pages.
 /// \throws DatasetError if a file cannot be written.
-[[nodiscard]] std::vector<std::filesystem::path> write_pages(const FuzzReport& report,
-                                                             CallInterface interface,
+[[nodiscard]] std::vector<std::filesystem::path> write_pages(const nlohmann::json& report,
+                                                             std::string_view calls,
                                                              const std::filesystem::path& folder);
 
 }  // namespace touchstone::verify::fuzz

@@ -4,12 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <compare>
 #include <limits>
 #include <map>
 #include <numeric>
 #include <span>
 #include <stdexcept>
+#include <tuple>
 #include <utility>
 
 #include "fast/method.hpp"
@@ -52,7 +52,7 @@ constexpr std::size_t most_slices = 16 * block_queries / slice_queries;
 constexpr std::size_t judged_together = 64;
 /// The time left to judge answers that were given before the time was over.
 constexpr double seconds_to_judge = 1.0;
-/// Of the time left, the share that may go into making one finding simpler.
+/// The share of the time left that may go into making one finding simpler.
 constexpr double shrink_share = 0.1;
 /// One in so many queries is asked again as an image.
 constexpr std::size_t queries_an_image = 8;
@@ -63,7 +63,7 @@ constexpr double check_work = 0.05;
 /// The value of a finding relative to a query of a new coverage key.
 constexpr double finding_reward = 50.0;
 
-/// Far from overflow and underflow: what is made from it is not a query of zeros.
+/// Keeps mutated coordinates away from overflow and underflow.
 bool is_moderate(std::span<const double> numbers) {
   return std::ranges::all_of(numbers, [](double x) {
     return x == 0.0 || (std::abs(x) > 0x1p-300 && std::abs(x) < 0x1p300);
@@ -110,17 +110,6 @@ struct Block {
   }
 };
 
-bool are_some_curved(const std::vector<QueryShape>& shapes) {
-  return !std::ranges::all_of(shapes, &QueryShape::is_straight);
-}
-
-std::vector<double> explored_parts(const std::vector<Generator>& generators) {
-  std::vector<double> result;
-  result.reserve(generators.size());
-  for (const Generator& generator : generators) result.push_back(generator.explored);
-  return result;
-}
-
 /// Makes blocks, one shape after the other.
 class BlockMaker {
  public:
@@ -131,7 +120,7 @@ class BlockMaker {
         hangs_(options.query_limit_seconds),
         generators_(generators),
         context_(options.separation),
-        scheduler_(explored_parts(generators), generate::mix(options.seed) + 1),
+        scheduler_(generators, generate::mix(options.seed) + 1),
         random_(generate::mix(options.seed)) {
     for (const AnyQuery& query : options.corpus) keep(query);
   }
@@ -240,7 +229,7 @@ class BlockMaker {
 /// Bounds that a method gives with nearly every yes, and then not.
 class BoundHabit {
  public:
-  /// Is it against all habit that this yes has or lacks the bound?
+  /// True if the solver usually gives this bound and now does not.
   [[nodiscard]] bool is_missing(double bound) {
     if (!std::isnan(bound)) {
       ++given_;
@@ -256,12 +245,29 @@ class BoundHabit {
   std::uint64_t missing_ = 0;
 };
 
-bool is_plainer(const Finding& a, const Finding& b) {
-  return plainness(a.simplest.query, a.original.query) <
-         plainness(b.simplest.query, b.original.query);
+Plainness plainness_of(const Finding& finding) {
+  return plainness(finding.simplest.query, finding.original.query);
 }
 
-/// Do two answers to what is the same question contradict each other?
+/// Puts the most harmful group first, then that with the plainest example.
+void sort_groups(fast::Promise promise, FuzzResult& result) {
+  const auto rank = [&](std::size_t group) {
+    const Finding& best = result.findings[result.groups[group].best];
+    return std::pair(judge::harm_of(best.what, best.is_slight, promise), plainness_of(best));
+  };
+  std::vector<std::size_t> order(result.groups.size()), place(order.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::ranges::stable_sort(order, {}, rank);
+  std::vector<FindingGroup> sorted;
+  for (const std::size_t group : order) {
+    place[group] = sorted.size();
+    sorted.push_back(result.groups[group]);
+  }
+  result.groups = std::move(sorted);
+  for (Finding& finding : result.findings) finding.group = place[finding.group];
+}
+
+/// True if two answers to equivalent queries contradict.
 bool contradict(const Answer& a, const Answer& b, bool same_time) {
   const bool both_decided = (a.verdict == Verdict::yes || a.verdict == Verdict::no) &&
                             (b.verdict == Verdict::yes || b.verdict == Verdict::no);
@@ -279,7 +285,8 @@ class Run {
         name_(method.name()),
         standard_(standard_of(method, options)),
         oracle_share_(name_ == judge_name() ? 1.0 : options.oracle_share),
-        generators_(generators(options.separation, are_some_curved(options.shapes))),
+        generators_(generators(options.separation,
+                               !std::ranges::all_of(options.shapes, &QueryShape::is_straight))),
         maker_(method.info().terms, options, generators_),
         solver_(method, process_options(options)),
         method_options_(method_options(options)),
@@ -295,7 +302,7 @@ class Run {
     result_.outside = maker_.outside();
     result_.left_out = maker_.left_out();
     result_.query_limit_seconds = maker_.query_limit();
-    sort_groups();
+    sort_groups(standard_.promise, result_);
     result_.output = solver_.take_output();
     result_.seconds = seconds();
     result_.other_seconds = result_.seconds - result_.method_seconds - result_.shrink_seconds;
@@ -370,7 +377,7 @@ class Run {
     result_.unjudged += judged_.size() - done - late;
   }
 
-  /// May another query be judged if so many of the block are?
+  /// True if time remains to judge another query, after so many of the block.
   [[nodiscard]] bool may_judge(std::size_t done) const {
     return !is_stopped() && !has_found_enough() && (done == 0 || !judging_end_.is_over());
   }
@@ -462,8 +469,7 @@ class Run {
             .upper = upper_habit_.is_missing(answer.toi_upper)};
   }
 
-  /// If the query is an image and what it is an image of has an answer that contradicts: of what
-  /// calls itself exact that is what is wrong.
+  /// For an exact solver, contradictory answers to a query and its image are an asymmetry.
   void explain_asymmetry(std::size_t i, Diagnosis& diagnosis) const {
     const Image* const image = block_.image(i);
     if (image == nullptr || standard_.promise != fast::Promise::exact) return;
@@ -471,7 +477,7 @@ class Run {
     const Answer& other = answers_[image->origin];
     if (!origin_has_answer || !contradict(answers_[i], other, !image->symmetry.reversed)) return;
     diagnosis.what = judge::Fault::asymmetry;
-    diagnosis.detail += fmt::format("; of what this is an exact image of ({}) it says: {}",
+    diagnosis.detail += fmt::format("; the query that it is an exact image of ({}) is answered: {}",
                                     to_text(image->symmetry), to_text(other));
   }
 
@@ -481,41 +487,18 @@ class Run {
                   exact::decide(block_.queries(), i, options_.separation));
   }
 
-  /// Who does what wrong.
+  /// The method that is wrong, and how.
   struct Charge {
     Diagnosis diagnosis;
     std::string_view method;
     MissingBounds missing = {};
   };
 
-  /// Is the finding a time that is late slightly?
+  /// True if the finding is a time that is late slightly.
   [[nodiscard]] bool is_slight(const Charge& charge, const Answer& answer,
                                const exact::Decision& verdict) const {
     return judge::is_slight(charge.diagnosis.what, judge::lateness_of(judge::truth_of(0, verdict),
                                                                       answer, standard_.terms));
-  }
-
-  /// The most harmful group first, then that with the plainest example.
-  void sort_groups() {
-    const auto harm = [this](const FindingGroup& group) {
-      const Finding& best = result_.findings[group.best];
-      return judge::harm_of(best.what, best.is_slight, standard_.promise);
-    };
-    std::vector<std::size_t> order(result_.groups.size());
-    std::iota(order.begin(), order.end(), std::size_t{0});
-    std::ranges::stable_sort(order, [&](std::size_t a, std::size_t b) {
-      const FindingGroup &first = result_.groups[a], &second = result_.groups[b];
-      if (harm(first) != harm(second)) return harm(first) < harm(second);
-      return is_plainer(result_.findings[first.best], result_.findings[second.best]);
-    });
-    std::vector<FindingGroup> sorted;
-    std::vector<std::size_t> place(order.size());
-    for (const std::size_t group : order) {
-      place[group] = sorted.size();
-      sorted.push_back(result_.groups[group]);
-    }
-    result_.groups = std::move(sorted);
-    for (Finding& finding : result_.findings) finding.group = place[finding.group];
   }
 
   /// Counts a finding, keeps the first of a class. Returns the reward, less for what is not new.
@@ -530,7 +513,7 @@ class Run {
         std::string(charge.method), charge.diagnosis.what, to_text(block_.shape),
         judged_[i].stage,           block_.arms[i],        is_slight(charge, answers_[i], verdict)};
     const auto [known, is_new] = classes_.try_emplace(what);
-    Class::Seen& seen = known->second;
+    Seen& seen = known->second;
     if (!is_new) {
       ++result_.groups[seen.group].count;
     } else if (!has_found_enough()) {
@@ -568,7 +551,7 @@ class Run {
     if (is_new) result_.groups.push_back({.count = 0, .best = result_.findings.size()});
     FindingGroup& group = result_.groups[known->second];
     ++group.count;
-    if (!is_new && is_plainer(finding, result_.findings[group.best])) {
+    if (!is_new && plainness_of(finding) < plainness_of(result_.findings[group.best])) {
       group.best = result_.findings.size();
     }
     return known->second;
@@ -585,23 +568,14 @@ class Run {
     result_.shrink_seconds += seconds() - begin;
   }
 
-  /// The properties that make two findings alike at first sight.
-  struct Class {
-    std::string method;
-    judge::Fault what;
-    std::string shape;
-    fast::Stage stage;
-    std::size_t arm;
-    bool is_slight;
+  /// The properties that make two findings alike at first sight: the method that is wrong, the
+  /// fault, the shape, the judge's stage, the generator, and if a late time is late slightly.
+  using Class = std::tuple<std::string, judge::Fault, std::string, fast::Stage, std::size_t, bool>;
 
-    // clang-tidy 14 takes the comparison of the bool for a conversion.
-    // NOLINTNEXTLINE(readability-implicit-bool-conversion)
-    friend auto operator<=>(const Class&, const Class&) = default;
-
-    struct Seen {
-      std::uint64_t count = 0;
-      std::size_t group = 0;  ///< of the first one, which was kept
-    };
+  /// The findings of a class so far.
+  struct Seen {
+    std::uint64_t count = 0;
+    std::size_t group = 0;  ///< of the first one, which was kept
   };
 
   const FuzzOptions& options_;
@@ -621,10 +595,10 @@ class Run {
   CoverageTable coverage_;
   BoundHabit lower_habit_;
   BoundHabit upper_habit_;
-  std::map<Class, Class::Seen> classes_;
+  std::map<Class, Seen> classes_;
   std::map<Signature, std::size_t> groups_;
   FuzzResult result_;
-  // Of the block at hand.
+  // The block at hand.
   Block block_;
   std::vector<Answer> answers_;
   std::vector<CertifiedResult> judged_;

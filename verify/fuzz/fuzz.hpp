@@ -69,8 +69,8 @@ struct FuzzOptions {
   std::vector<QueryShape> shapes = {{.kind = Kind::vertex_face}, {.kind = Kind::edge_edge}};
   /// Share of the queries that the oracle judges again. Of the method `certified` it judges all.
   double oracle_share = 0.01;
-  /// May be null. Once true, the run ends within a quarter of a second and the time of judging a
-  /// few queries; what is answered by then is not all judged.
+  /// Null, or a flag: once it is true, the run ends within a quarter of a second and the time of
+  /// judging a few queries; what is answered by then is not all judged.
   const std::atomic<bool>* stop = nullptr;
   /// Called now and then.
   std::function<void(const FuzzProgress&)> on_progress = nullptr;
@@ -80,7 +80,7 @@ struct FuzzOptions {
   base::SecondsClock clock = base::steady_seconds;
 };
 
-/// Is that kind of findings sought?
+/// True if that kind of findings is sought.
 [[nodiscard]] bool seeks(const FuzzOptions& options, judge::Fault what);
 
 /// Options of the calls to the method.

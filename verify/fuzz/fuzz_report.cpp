@@ -4,13 +4,15 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <bit>
 #include <cstddef>
 #include <optional>
 #include <span>
 #include <string_view>
 
-#include "verify/fuzz/diagnosis.hpp"
+#include "verify/data/csv_dataset.hpp"
 #include "verify/fuzz/signature.hpp"
+#include "verify/generate/random.hpp"
 #include "verify/io/json.hpp"
 #include "verify/io/printable.hpp"
 #include "verify/io/text_table.hpp"
@@ -28,32 +30,104 @@ nlohmann::json texts_of(std::span<const double> numbers) {
   return list;
 }
 
-/// Adds `coordinates` of a query on straight lines, and of one on curves what to_json says.
-void add_numbers(const AnyQuery& query, nlohmann::json& json) {
+/// The numbers of a query as to_json says.
+void add_numbers(const base::AnyQuery& query, nlohmann::json& json) {
   const QueryShape& shape = query.shape();
+  json["degree"] = shape.degree;
+  json["rational"] = shape.is_rational;
+  json["numbers"] = query.numbers();
   if (shape.is_straight()) {
     json["coordinates"] = texts_of(query.numbers());
     return;
   }
-  json["degree"] = shape.degree;
-  json["rational"] = shape.is_rational;
-  json["numbers"] = query.numbers();
-  nlohmann::json control = nlohmann::json::array(), weights = nlohmann::json::array();
   const std::size_t size = shape.numbers_of_point();
   for (std::size_t i = 0; i < query.numbers().size() / size; ++i) {
     const auto point = query.numbers().subspan(size * i, size);
-    if (i % moving_points == 0) {
-      control.push_back(nlohmann::json::array());
-      weights.push_back(nlohmann::json::array());
-    }
-    control.back().push_back(texts_of(point.first(3)));
-    if (shape.is_rational) weights.back().push_back(fmt::format("{:a}", point[3]));
+    json["control"][i / moving_points].push_back(texts_of(point.first(3)));
+    if (shape.is_rational) json["weights"][i / moving_points].push_back(texts_of(point)[3]);
   }
-  json["control"] = control;
-  if (shape.is_rational) json["weights"] = weights;
 }
 
-/// Whether the simplest query is the simplest there is, where that needs to be said.
+// ---- Asking again -------------------------------------------------------------------------------
+
+/// The solver that is wrong: the one asked, or the judge.
+SolverCall wrong_solver(const Finding& finding, const SolverCall& asked) {
+  SolverCall result = asked;
+  if (finding.method == asked.method) return result;
+  result.method = finding.method;
+  result.plugin.clear();
+  result.terms = {};
+  result.promise = fast::Promise::exact;
+  return result;
+}
+
+/// The options of the command line that ask for what the solver was asked for.
+std::string options_as_words(const SolverCall& solver) {
+  const fast::MethodOptions& options = solver.options;
+  const bool is_plugin = !solver.plugin.empty();
+  std::string words = is_plugin ? "--plugin " + io::shell_word(solver.plugin.string())
+                                : "--method " + solver.method;
+  words += fmt::format(" --tolerance {} --max-checks {} --min-separation {} --norm {}",
+                       options.tolerance, std::max<std::int64_t>(options.max_checks, 0),
+                       options.separation.distance, to_string(options.separation.norm));
+  words += fmt::format(" --query-limit {}", solver.query_limit_seconds);
+  if (solver.limits.memory_bytes != solvers::ChildLimits{}.memory_bytes) {
+    const auto bytes = static_cast<double>(solver.limits.memory_bytes);
+    words += fmt::format(" --memory-limit {}", bytes / 0x1p30);
+  }
+  if (solver.limits.may_fork) words += " --allow-processes";
+  if (is_plugin) words += judge::as_options(solver.terms);
+  return solver.promise == fast::Promise::exact ? words + " --exact" : words;
+}
+
+/// Tells apart the queries of one method.
+std::uint64_t fingerprint(const base::AnyQuery& query, const Separation& separation) {
+  const QueryShape& shape = query.shape();
+  auto hash = static_cast<std::uint64_t>(shape.kind);
+  const auto add = [&](std::uint64_t bits) {
+    hash = generate::mix(hash + bits + 0x9e3779b97f4a7c15ULL);
+  };
+  if (!shape.is_straight()) add(2 * shape.degree + (shape.is_rational ? 1 : 0));
+  for (const double x : query.numbers()) add(std::bit_cast<std::uint64_t>(x));
+  add(std::bit_cast<std::uint64_t>(separation.distance));
+  add(static_cast<std::uint64_t>(separation.norm));
+  return hash >> 32U;
+}
+
+/// Commands for a POSIX shell that write the simplest query as a dataset and ask the solver again,
+/// with all that it was asked with; `touchstone certify` then judges it.
+std::string command(const Finding& finding, const SolverCall& solver) {
+  const FailingCase& failing = finding.simplest;
+  const Separation& separation = solver.options.separation;
+  const std::string file = fmt::format("{:08x}-{}.csv", fingerprint(failing.query, separation),
+                                       to_string(failing.query.kind()));
+  // Without more, a label is about contact itself.
+  std::optional<bool> label;
+  if (is_zero(separation)) label = failing.collides;
+  return fmt::format("cat > {0} <<'END'\n{1}END\ntouchstone certify {0} {2}\n", file,
+                     data::csv_rows(failing.query, label), options_as_words(solver));
+}
+
+// ---- As text ------------------------------------------------------------------------------------
+
+/// The scales at which the finding's query is wrong, multiplied by powers of two: "wrong while the
+/// greatest coordinate is below 2^-3", "wrong at any scale from 2^-16 to 2^40".
+std::string scale_text(const Finding& finding, const SolverCall& asked) {
+  const auto& [below, above] = finding.scales;
+  if (!below && !above) {
+    const bool is_asked = finding.what != judge::Fault::hang && is_zero(finding.separation) &&
+                          finding.shrinking == Shrinking::complete;
+    if (!is_asked) return "not asked at other scales";
+    return fmt::format("wrong at any scale from 2^{} to 2^{}", least_scale(asked.options.tolerance),
+                       greatest_scale);
+  }
+  std::string text = "wrong while the greatest coordinate is";
+  if (below) text += fmt::format(" above 2^{}", *below + 1);
+  if (above) text += fmt::format("{} below 2^{}", below ? " and" : "", *above);
+  return text;
+}
+
+/// A remark where the simplest query may not be the simplest there is.
 std::string_view shrinking_text(Shrinking shrinking) {
   switch (shrinking) {
     case Shrinking::cut_short:
@@ -63,10 +137,6 @@ std::string_view shrinking_text(Shrinking shrinking) {
     default:
       return "";
   }
-}
-
-std::string kind_text(const std::optional<Kind>& kind) {
-  return kind ? std::string(to_string(*kind)) : "any";
 }
 
 std::string group_table(const FuzzResult& result) {
@@ -84,7 +154,8 @@ std::string group_table(const FuzzResult& result) {
     const auto first = std::ranges::find(result.findings, i, &Finding::group);
     table.add({std::to_string(i + 1),
                (signature.is_slight ? "slightly " : "") + std::string(to_string(signature.what)),
-               std::to_string(group.count), to_text(signature.ends), kind_text(signature.kind),
+               std::to_string(group.count), to_text(signature.ends),
+               signature.kind ? std::string(to_string(*signature.kind)) : "any",
                to_text(signature.shape), to_text(signature.time), std::to_string(first->queries)});
   }
   return table.text();
@@ -94,7 +165,7 @@ std::string example_text(std::size_t number, const Finding& finding, const Solve
   std::string text = fmt::format("\ngroup {}: {}\n  truth: {}\n  {}\n", number, to_line(finding),
                                  finding.simplest.truth, scale_text(finding, asked));
   text += shrinking_text(finding.shrinking);
-  return text + as_short_points(finding.simplest.query);
+  return text + as_points(finding.simplest.query);
 }
 
 std::string findings_text(const FuzzReport& report) {
@@ -109,7 +180,7 @@ std::string findings_text(const FuzzReport& report) {
   return text;
 }
 
-/// Why the run ended, if it ended before all was done that was asked for.
+/// The reason for which the run ended before all was done that was asked for.
 std::string end_text(const FuzzReport& report) {
   const FuzzResult& result = report.result;
   std::string text;
@@ -128,8 +199,11 @@ std::string end_text(const FuzzReport& report) {
   return text;
 }
 
-nlohmann::json number_or_null(const std::optional<int>& number) {
-  return number ? nlohmann::json(*number) : nlohmann::json();
+// ---- As JSON ------------------------------------------------------------------------------------
+
+template <class Value>
+nlohmann::json or_null(const std::optional<Value>& value) {
+  return value ? nlohmann::json(*value) : nlohmann::json();
 }
 
 nlohmann::json group_json(const FuzzResult& result, const FindingGroup& group) {
@@ -153,8 +227,11 @@ nlohmann::json answer_json(const fast::Answer& answer) {
 }
 
 nlohmann::json case_json(const FailingCase& failing) {
+  nlohmann::json toi;
+  if (failing.toi) toi = {{"lower", failing.toi->lower}, {"upper", failing.toi->upper}};
   nlohmann::json json{{"answer", answer_json(failing.answer)},
                       {"collides", failing.collides},
+                      {"toi", toi},
                       {"truth", failing.truth},
                       {"detail", failing.detail},
                       {"certificate", io::text_or_null(failing.certificate)}};
@@ -163,36 +240,46 @@ nlohmann::json case_json(const FailingCase& failing) {
 }
 
 nlohmann::json solver_json(const SolverCall& solver) {
-  return {{"method", solver.method},
-          {"plugin", io::text_or_null(solver.plugin.string())},
-          {"promise", solvers::to_string(solver.promise)},
-          {"terms", judge::as_options(solver.terms)},
-          {"tolerance", solver.options.tolerance},
-          {"max_checks", solver.options.max_checks},
-          {"min_separation", solver.options.separation.distance},
-          {"norm", to_string(solver.options.separation.norm)},
-          {"t_max", solver.options.t_max},
-          {"query_limit", solver.query_limit_seconds},
-          {"memory_limit", solver.limits.memory_bytes},
-          {"allow_processes", solver.limits.may_fork}};
+  const bool are_estimates = solver.terms.times == fast::Times::estimates;
+  return {
+      {"method", solver.method},
+      {"plugin", io::text_or_null(solver.plugin.string())},
+      {"promise", solvers::to_string(solver.promise)},
+      {"terms", judge::as_options(solver.terms)},
+      {"time_error", are_estimates ? nlohmann::json(solver.terms.time_error) : nlohmann::json()},
+      {"tolerance", solver.options.tolerance},
+      {"max_checks", solver.options.max_checks},
+      {"min_separation", solver.options.separation.distance},
+      {"norm", to_string(solver.options.separation.norm)},
+      {"t_max", solver.options.t_max},
+      {"query_limit", solver.query_limit_seconds},
+      {"memory_limit", solver.limits.memory_bytes},
+      {"allow_processes", solver.limits.may_fork}};
+}
+
+nlohmann::json finding_json(const Finding& finding, const SolverCall& asked) {
+  const SolverCall solver = wrong_solver(finding, asked);
+  nlohmann::json json = case_json(finding.simplest);
+  json.update({{"what", to_string(finding.what)},
+               {"kind", to_string(finding.kind())},
+               {"separation", judge::to_json(finding.separation)},
+               {"method", finding.method},
+               {"generator", finding.generator},
+               {"seconds", finding.seconds},
+               {"queries", finding.queries},
+               {"shrinking", to_string(finding.shrinking)},
+               {"group", finding.group},
+               {"wrong_until",
+                {{"below", or_null(finding.scales.end_below)},
+                 {"above", or_null(finding.scales.end_above)}}},
+               {"scales", scale_text(finding, asked)},
+               {"original", case_json(finding.original)},
+               {"solver", solver_json(solver)},
+               {"command", command(finding, solver)}});
+  return json;
 }
 
 }  // namespace
-
-std::string scale_text(const Finding& finding, const SolverCall& asked) {
-  const auto& [below, above] = finding.scales;
-  if (!below && !above) {
-    const bool is_asked = finding.what != judge::Fault::hang && is_zero(finding.separation) &&
-                          finding.shrinking == Shrinking::complete;
-    if (!is_asked) return "not asked at other scales";
-    return fmt::format("wrong at any scale from 2^{} to 2^{}", least_scale(asked.options.tolerance),
-                       greatest_scale);
-  }
-  std::string text = "wrong while the greatest coordinate is";
-  if (below) text += fmt::format(" above 2^{}", *below + 1);
-  if (above) text += fmt::format("{} below 2^{}", below ? " and" : "", *above);
-  return text;
-}
 
 std::string to_line(const Finding& finding) {
   std::string about = to_text(finding.simplest.query.shape());
@@ -206,12 +293,13 @@ std::string to_line(const Finding& finding) {
 std::string to_text(const FuzzReport& report) {
   const FuzzResult& result = report.result;
   const Separation separation = report.solver.options.separation;
+  const bool are_lines = report.degrees == std::vector<std::string>{"1"};
   std::string text = fmt::format(
       "{} ({}{}), seed {}{}{}: {} queries in {:.1f} s, {} of them images, {} collisions\n"
       "{:.0f} queries a second, {:.0f} without the method's own time; {} judged by the oracle\n",
       report.solver.method, solvers::to_string(report.solver.promise),
       judge::to_text(report.solver.terms), report.seed,
-      report.degrees.empty() ? "" : fmt::format(", degree {}", fmt::join(report.degrees, " ")),
+      are_lines ? "" : fmt::format(", degree {}", fmt::join(report.degrees, " ")),
       is_zero(separation) ? "" : ", minimum separation " + judge::to_text(separation),
       result.queries, result.seconds, result.images, result.collisions, result.queries_per_second(),
       result.judged_per_second(), result.judged_by_oracle);
@@ -233,30 +321,6 @@ std::string to_text(const FuzzReport& report) {
   return text;
 }
 
-nlohmann::json to_json(const Finding& finding, const SolverCall& asked) {
-  const Reproduction reproduction = reproduction_of(finding, asked);
-  nlohmann::json json = case_json(finding.simplest);
-  // Names of earlier versions.
-  if (!finding.original.query.shape().is_straight())
-    json.update(answer_json(finding.simplest.answer));
-  json.update({{"what", to_string(finding.what)},
-               {"kind", to_string(finding.kind())},
-               {"separation", judge::to_json(finding.separation)},
-               {"method", finding.method},
-               {"generator", finding.generator},
-               {"seconds", finding.seconds},
-               {"queries", finding.queries},
-               {"shrinking", to_string(finding.shrinking)},
-               {"group", finding.group},
-               {"wrong_until",
-                {{"below", number_or_null(finding.scales.end_below)},
-                 {"above", number_or_null(finding.scales.end_above)}}},
-               {"original", case_json(finding.original)},
-               {"solver", solver_json(reproduction.solver)},
-               {"command", as_command(reproduction)}});
-  return json;
-}
-
 nlohmann::json to_json(const FuzzReport& report) {
   const FuzzResult& result = report.result;
   nlohmann::json generators = nlohmann::json::array();
@@ -270,44 +334,42 @@ nlohmann::json to_json(const FuzzReport& report) {
   nlohmann::json findings = nlohmann::json::array(), only = nlohmann::json::array();
   for (const judge::Fault kind : report.only) only.push_back(to_string(kind));
   for (const Finding& finding : result.findings) {
-    findings.push_back(to_json(finding, report.solver));
+    findings.push_back(finding_json(finding, report.solver));
   }
   nlohmann::json groups = nlohmann::json::array();
   for (const FindingGroup& group : result.groups) groups.push_back(group_json(result, group));
-  nlohmann::json json{
-      {"solver", solver_json(report.solver)},
-      {"method", report.solver.method},
-      {"promise", solvers::to_string(report.solver.promise)},
-      {"seed", report.seed},
-      {"separation", judge::to_json(report.solver.options.separation)},
-      {"asked",
-       {{"seconds", report.seconds > 0.0 ? nlohmann::json(report.seconds) : nlohmann::json()},
-        {"queries", report.queries != 0 ? nlohmann::json(report.queries) : nlohmann::json()},
-        {"only", only}}},
-      {"ended_by", to_string(result.ended_by)},
-      {"queries", result.queries},
-      {"unjudged", result.unjudged},
-      {"unanswered", result.unanswered},
-      {"outside", result.outside},
-      {"left_out", result.left_out},
-      {"images", result.images},
-      {"collisions", result.collisions},
-      {"judged_by_oracle", result.judged_by_oracle},
-      {"seconds", result.seconds},
-      {"method_seconds", result.method_seconds},
-      {"shrink_seconds", result.shrink_seconds},
-      {"other_seconds", result.other_seconds},
-      {"queries_per_second", result.queries_per_second()},
-      {"judged_per_second", result.judged_per_second()},
-      {"all_findings", result.all_findings},
-      {"other_findings", result.other_findings},
-      {"unplaced_crashes", result.unplaced_crashes},
-      {"interrupted", result.ended_by == FuzzEnd::interrupt},
-      {"generators", generators},
-      {"findings", findings},
-      {"groups", groups}};
-  if (!report.degrees.empty()) json["asked"]["degrees"] = report.degrees;
-  return json;
+  return {{"solver", solver_json(report.solver)},
+          {"method", report.solver.method},
+          {"promise", solvers::to_string(report.solver.promise)},
+          {"seed", report.seed},
+          {"separation", judge::to_json(report.solver.options.separation)},
+          {"asked",
+           {{"seconds", report.seconds > 0.0 ? nlohmann::json(report.seconds) : nlohmann::json()},
+            {"queries", report.queries != 0 ? nlohmann::json(report.queries) : nlohmann::json()},
+            {"only", only},
+            {"degrees", report.degrees}}},
+          {"ended_by", to_string(result.ended_by)},
+          {"queries", result.queries},
+          {"unjudged", result.unjudged},
+          {"unanswered", result.unanswered},
+          {"outside", result.outside},
+          {"left_out", result.left_out},
+          {"images", result.images},
+          {"collisions", result.collisions},
+          {"judged_by_oracle", result.judged_by_oracle},
+          {"seconds", result.seconds},
+          {"method_seconds", result.method_seconds},
+          {"shrink_seconds", result.shrink_seconds},
+          {"other_seconds", result.other_seconds},
+          {"queries_per_second", result.queries_per_second()},
+          {"judged_per_second", result.judged_per_second()},
+          {"all_findings", result.all_findings},
+          {"other_findings", result.other_findings},
+          {"unplaced_crashes", result.unplaced_crashes},
+          {"interrupted", result.ended_by == FuzzEnd::interrupt},
+          {"generators", generators},
+          {"findings", findings},
+          {"groups", groups}};
 }
 
 }  // namespace touchstone::verify::fuzz

@@ -1,9 +1,11 @@
 #pragma once
 
 /// \file
-/// The report of the fuzzer: as text for a person, as JSON for a program.
+/// The report of the fuzzer: as text for a person, as JSON for a program. The JSON holds all that
+/// is known of a finding; pages and programs (finding_page.hpp) are filled from it.
 
 #include <cstdint>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
@@ -11,25 +13,38 @@
 #include "fast/method.hpp"
 #include "verify/fuzz/finding.hpp"
 #include "verify/fuzz/fuzz.hpp"
-#include "verify/fuzz/reproduce.hpp"
+#include "verify/solvers/child_process.hpp"
 
 namespace touchstone::verify::fuzz {
+
+/// A solver, and what it is asked with besides the query.
+struct SolverCall {
+  /// The name of one of methods(), or what a plugin calls itself.
+  std::string method;
+  /// The plugin's library; empty for one of methods().
+  std::filesystem::path plugin = {};
+  /// The promise it is judged by.
+  fast::Promise promise = fast::Promise::conservative;
+  /// The terms of the promise, stated by the solver or on the command line.
+  fast::Terms terms = {};
+  /// With the separation that counts as contact.
+  fast::MethodOptions options = {};
+  /// Wall-clock seconds that a query may take; 0: no limit.
+  double query_limit_seconds = 0.0;
+  /// Limits of its process.
+  solvers::ChildLimits limits = {};
+};
 
 /// A run and what was asked for.
 struct FuzzReport {
   SolverCall solver;  ///< that is searched for wrong answers
   std::uint64_t seed = 0;
-  double seconds = 0.0;                 ///< asked for; 0: no limit
-  std::uint64_t queries = 0;            ///< asked for; 0: no limit
-  std::vector<judge::Fault> only = {};  ///< sought; empty: all
-  /// Of the curves, as they were asked for; empty: straight lines alone.
-  std::vector<std::string> degrees = {};
+  double seconds = 0.0;                      ///< asked for; 0: no limit
+  std::uint64_t queries = 0;                 ///< asked for; 0: no limit
+  std::vector<judge::Fault> only = {};       ///< sought; empty: all
+  std::vector<std::string> degrees = {"1"};  ///< of the curves, as they were asked for
   FuzzResult result;
 };
-
-/// Where the finding's query is wrong when it is multiplied by powers of two: "wrong while the
-/// greatest coordinate is below 2^-3", "wrong at any scale from 2^-16 to 2^40".
-[[nodiscard]] std::string scale_text(const Finding& finding, const SolverCall& asked);
 
 /// "false_negative of METHOD, edge-edge: no, but they collide", for when a group is found.
 [[nodiscard]] std::string to_line(const Finding& finding);
@@ -39,31 +54,25 @@ struct FuzzReport {
 /// the truth, at what scales, and the points.
 [[nodiscard]] std::string to_text(const FuzzReport& report);
 
-/// An object of `what`, `kind`, `separation` (`min_separation`, `norm`), `method`, `generator`,
-/// `seconds`, `queries`, `shrinking` ("not tried", "complete", "cut short" or "not reproduced"); of
-/// the simplest query `coordinates` (24 numbers in hexadecimal, as text; on curves instead
-/// `degree`, `rational`, `control`, for each control point a list of four points, of rational
-/// curves `weights` likewise, and all as numbers in one list `numbers`), `answer` (`verdict`,
-/// `toi_lower`, `toi_upper` and `tolerance`, as number_to_json of io/json.hpp writes them),
-/// `collides`, `truth`, `detail` and `certificate` (a stream that touchstone-check takes; null if
-/// there is none), and the same in `original`, an object, of the query as it was found; `solver`
-/// (see below) and `command`, which asks again; `group`, its number in `groups` from 0, and
-/// `wrong_until`, the ends of its scales, `below` and `above` (binary exponents of the greatest
-/// coordinate; null where none is known).
-[[nodiscard]] nlohmann::json to_json(const Finding& finding, const SolverCall& asked);
-
-/// An object of `solver` (`method`, `plugin` or null, `promise`, `tolerance`, `max_checks`,
-/// `min_separation`, `plugin` or null, `promise`, `terms` (as options of the command line),,
-/// `memory_limit` in bytes, `allow_processes`), `method`, `promise`, `seed`, `separation`, `asked`
-/// (`seconds` and `queries`, null without a limit, and `only`, a list of kinds, empty for all; on
-/// curves `degrees`), `ended_by` ("time", "queries", "findings" or "interrupt"), `queries`,
-/// `unjudged`, `unanswered`, `outside` and `left_out` (not asked), `images`, `collisions`,
-/// `judged_by_oracle`, `seconds`, `method_seconds`, `shrink_seconds`, `other_seconds`,
-/// `queries_per_second`, `judged_per_second`, `all_findings`, `other_findings`, `unplaced_crashes`,
-/// `interrupted`, `generators` (a list of `name`, `queries`, `collisions`, `coverage_keys`,
-/// `findings`), `findings`, a list as above, and `groups`, a list of `what`, `method`, `count`,
-/// `best` (a number in `findings`), `scale`, `kind`, `shape` and `time` (signature.hpp, in words;
-/// `kind` null where it does not matter).
+/// All of the report. Numbers that may be infinite or NaN are written by io::number_to_json; what
+/// there is none of is null. A finding has
+///
+/// - `what`, `kind`, `separation` (`min_separation`, `norm`), `method`, `generator`, `seconds`,
+///   `queries`, `shrinking` and `group`, a place in `groups`;
+/// - of the simplest query `degree`, `rational`, its `numbers` in one list, and in hexadecimal, as
+///   text, the 24 `coordinates` on straight lines; on curves `control`, for each control point a
+///   list of four points, and of rational curves `weights` likewise; `answer` (`verdict`,
+///   `toi_lower`, `toi_upper`, `tolerance`), `collides`, `toi` (neighbouring doubles `lower` and
+///   `upper`), `truth`, `detail`, and `certificate`, a stream that touchstone-check takes;
+/// - `original`: the same of the query as it was found;
+/// - `wrong_until`: `below` and `above`, binary exponents of the greatest coordinate at which it is
+///   right, and `scales`, these in words;
+/// - `solver` (`method`, `plugin`, `promise`, `terms` as options of the command line, `time_error`
+///   of times that are estimates, the options, and the limits of its process, `memory_limit` in
+///   bytes), and `command`, which asks again.
+///
+/// `findings` is a list of these, and a group in `groups` has `best`, a place in `findings`, and in
+/// words its signature (signature.hpp).
 [[nodiscard]] nlohmann::json to_json(const FuzzReport& report);
 
 }  // namespace touchstone::verify::fuzz

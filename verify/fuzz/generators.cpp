@@ -10,6 +10,7 @@
 #include "verify/fuzz/contact.hpp"
 #include "verify/fuzz/curves.hpp"
 #include "verify/fuzz/mutation.hpp"
+#include "verify/fuzz/plainness.hpp"
 #include "verify/generate/draws.hpp"
 #include "verify/generate/everyday.hpp"
 
@@ -205,13 +206,10 @@ std::pair<int, int> draw_exponents(const Separation& separation, Random& random)
 /// sometimes for each axis separately.
 AnyQuery scaled(const QueryShape& shape, const GeneratorContext& context, Random& random) {
   AnyQuery result = from_pool(shape, context, random);
-  const std::span<double> numbers = result.numbers();
-  const std::size_t point_size = shape.numbers_of_point();
-  std::array<double, 3> greatest{};
-  for (std::size_t i = 0; i < numbers.size(); ++i) {
-    if (i % point_size >= 3) continue;
-    double& most = greatest.at(i % point_size);
-    most = std::max(most, std::abs(numbers[i]));
+  std::array<double, point_axes> greatest{};
+  for (std::size_t axis = 0; axis < point_axes; ++axis) {
+    double& most = greatest.at(axis);
+    for_each_coordinate(result, axis, [&](double x) { most = std::max(most, std::abs(x)); });
   }
   const bool alike = !one_in(random, 3);
   const double most = std::ranges::max(greatest);
@@ -220,13 +218,11 @@ AnyQuery scaled(const QueryShape& shape, const GeneratorContext& context, Random
     return static_cast<int>(random.between(low, high));
   };
   const int common = draw();
-  for (std::size_t axis = 0; axis < 3; ++axis) {
+  for (std::size_t axis = 0; axis < point_axes; ++axis) {
     const double size = alike ? most : greatest.at(axis);
     if (size == 0.0) continue;
     const int exponent = (alike ? common : draw()) - std::ilogb(size);
-    for (std::size_t i = axis; i < numbers.size(); i += point_size) {
-      numbers[i] = std::ldexp(numbers[i], exponent);
-    }
+    for_each_coordinate(result, axis, [&](double& x) { x = std::ldexp(x, exponent); });
   }
   return decided_soon(std::move(result), context, random);
 }

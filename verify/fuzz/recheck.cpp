@@ -22,12 +22,12 @@ using fast::Verdict;
 /// too long.
 constexpr std::size_t most_failures = 4;
 
-/// Was the query asked alone, in a process of its own, before it was a finding?
+/// True if the query was asked alone, in a process of its own, before it was a finding.
 bool is_confirmed_alone(judge::Fault what) {
   return what == judge::Fault::crash || what == judge::Fault::exit || what == judge::Fault::hang;
 }
 
-/// Are the same bounds missing in both?
+/// True if the same bounds are missing in both.
 bool lacks_same_bounds(const Answer& a, const Answer& b) {
   return std::isnan(a.toi_lower) == std::isnan(b.toi_lower) &&
          std::isnan(a.toi_upper) == std::isnan(b.toi_upper);

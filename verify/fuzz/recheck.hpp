@@ -41,9 +41,9 @@ using base::AnyQuery;
                                        const exact::Decision& verdict, std::string detail,
                                        std::string_view label);
 
-/// Does a solver do the same wrong to another query? Each call asks it alone, in a child process,
-/// and the oracle. What was found by an image of a query is wrong in any way. Of a finding against
-/// the judge, the judge is asked.
+/// Finds out if a solver does the same wrong to another query. Each call asks it alone, in a child
+/// process, and the oracle. For a finding by an image of a query any fault counts as the same. For
+/// a finding against the judge, the judge is asked.
 class Recheck {
  public:
   /// \param options those of the run that found it

@@ -14,6 +14,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "verify/fuzz/generators.hpp"
 #include "verify/generate/random.hpp"
 
 namespace touchstone::verify::fuzz {
@@ -27,38 +28,21 @@ class CoverageTable {
   /// (there are 2^16 hash slots).
   std::uint32_t add(std::uint64_t coverage_key);
 
-  /// The number of used slots: about the number of different coverage keys.
-  [[nodiscard]] std::size_t size() const { return size_; }
-
  private:
   std::vector<std::uint32_t> counts_;
-  std::size_t size_ = 0;
-};
-
-struct SchedulerOptions {
-  /// The factor by which the weight of earlier results decreases with each unit of later work: half
-  /// after 0.7 / this.
-  double forgetting = 1e-4;
-  /// The share of draws for exploration, 0 to 1, which is divided by the parts of the arms,
-  /// independent of their rewards.
-  double explored = 0.25;
 };
 
 /// Chooses among arms. The same calls give the same choices everywhere.
 class Scheduler {
  public:
-  /// \param parts the relative share of each arm in the exploration. \pre not empty, each > 0
-  Scheduler(const std::vector<double>& parts, std::uint64_t seed,
-            const SchedulerOptions& options = {});
+  /// An arm for each generator, which has its relative share in the exploration. \pre not empty
+  Scheduler(const std::vector<Generator>& generators, std::uint64_t seed);
 
   /// The arm to play next.
   [[nodiscard]] std::size_t choose();
 
   /// Records the reward and the work of an arm. \pre reward ≥ 0, work > 0
   void learn(std::size_t arm, double reward, double work);
-
-  /// The probability that choose() returns that arm.
-  [[nodiscard]] double share(std::size_t arm) const;
 
  private:
   struct Arm {
@@ -70,7 +54,6 @@ class Scheduler {
   [[nodiscard]] static double rate(const Arm& arm);
 
   generate::Random random_;
-  SchedulerOptions options_;
   std::vector<Arm> arms_;
 };
 

@@ -34,7 +34,7 @@ namespace touchstone::verify::fuzz {
 struct ShrinkOptions {
   /// The maximum number of calls of still_fails; 0: none.
   std::uint64_t most_calls = 50'000;
-  /// May be null. When it becomes true, no further call begins.
+  /// Null, or a function: when it returns true, no further call begins.
   std::function<bool()> must_end = nullptr;
 };
 

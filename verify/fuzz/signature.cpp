@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <ranges>
 
 #include "verify/fuzz/plainness.hpp"
 #include "verify/fuzz/recheck.hpp"
@@ -16,49 +17,7 @@ constexpr std::array scales_to_ask{-40, -30, -24, -20, -17, -14, -12, -10, -8, -
                                    -5,  -4,  -3,  -2,  -1,  0,   1,   2,   3,  4,  5,
                                    6,   7,   8,   10,  12,  14,  17,  20,  24, 30, 40};
 
-/// Asks a finding's query at other scales.
-class ScaleSearch {
- public:
-  ScaleSearch(const fast::Method& method, const FuzzOptions& options,
-              const base::Deadline& deadline, const Finding& finding)
-      : query_(finding.simplest.query),
-        exponent_(size_exponent(query_)),
-        least_(least_scale(options.method.tolerance)),
-        deadline_(deadline),
-        recheck_(method, finding, options) {}
-
-  [[nodiscard]] std::optional<int> end_above() {
-    for (const int scale : scales_to_ask) {
-      if (scale > exponent_ && is_right_at(scale)) return scale;
-    }
-    return std::nullopt;
-  }
-
-  [[nodiscard]] std::optional<int> end_below() {
-    for (std::size_t i = scales_to_ask.size(); i > 0; --i) {
-      const int scale = scales_to_ask.at(i - 1);
-      if (scale >= least_ && scale < exponent_ && is_right_at(scale)) return scale;
-    }
-    return std::nullopt;
-  }
-
- private:
-  bool is_right_at(int scale) {
-    AnyQuery query = query_;
-    for_each_coordinate(query, point_axes,
-                        [&](double& x) { x = std::ldexp(x, scale - exponent_); });
-    // Without an answer in time nothing is known.
-    return !recheck_.ask(query, deadline_) && !deadline_.is_over();
-  }
-
-  const AnyQuery& query_;
-  int exponent_;
-  int least_;
-  const base::Deadline& deadline_;
-  Recheck recheck_;
-};
-
-/// Has it a reason that tells one fault from another?
+/// True if it has a reason that tells one fault from another.
 bool has_reason(judge::Fault what) {
   return what == judge::Fault::crash || what == judge::Fault::exit ||
          what == judge::Fault::exception;
@@ -96,8 +55,27 @@ int least_scale(double tolerance) {
 ScaleRange scale_range(const fast::Method& method, const FuzzOptions& options,
                        const base::Deadline& deadline, const Finding& finding) {
   if (finding.what == judge::Fault::hang || !is_zero(finding.separation)) return {};
-  ScaleSearch search(method, options, deadline, finding);
-  return {.end_below = search.end_below(), .end_above = search.end_above()};
+  const AnyQuery& query = finding.simplest.query;
+  const int exponent = size_exponent(query), least = least_scale(options.method.tolerance);
+  Recheck recheck(method, finding, options);
+  const auto is_right_at = [&](int scale) {
+    AnyQuery scaled = query;
+    for_each_coordinate(scaled, point_axes,
+                        [&](double& x) { x = std::ldexp(x, scale - exponent); });
+    // Without an answer in time nothing is known.
+    return !recheck.ask(scaled, deadline) && !deadline.is_over();
+  };
+  ScaleRange result;
+  for (const int scale : scales_to_ask | std::views::reverse) {
+    if (result.end_below || scale < least) break;
+    if (scale < exponent && is_right_at(scale)) result.end_below = scale;
+  }
+  for (const int scale : scales_to_ask) {
+    if (scale <= exponent || !is_right_at(scale)) continue;
+    result.end_above = scale;
+    break;
+  }
+  return result;
 }
 
 Signature signature_of(const Finding& finding) {

@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file
-/// What findings of one cause have in common, as far as it can be told from outside.
+/// The signs by which findings of one cause are recognized from outside.
 ///
 /// A fault of rounding depends on the scale: multiplied by powers of two, which changes nothing
 /// else, the query is right somewhere, and where that is tells one wrong bound from another. It
@@ -28,7 +28,7 @@
 
 namespace touchstone::verify::fuzz {
 
-/// When the primitives touch first.
+/// The time at which the primitives touch first.
 enum class ContactTime : std::uint8_t { never, at_start, between, at_end };
 
 /// The elements of a query, and its points' plane.
@@ -45,11 +45,11 @@ struct ScaleEnds {
   friend auto operator<=>(const ScaleEnds&, const ScaleEnds&) = default;
 };
 
-/// As above. Of a fault that depends on the scale, kind, shape, time and curves are not set.
+/// As above. For a fault that depends on the scale, kind, shape, time and curves are not set.
 struct Signature {
   std::string method;
   judge::Fault what = judge::Fault::false_negative;
-  bool is_slight = false;  ///< Is it a time that is late slightly?
+  bool is_slight = false;  ///< true for a time that is late slightly
   /// The reason of a crash, an exit or an exception; else empty.
   std::string reason = {};
   ScaleEnds ends = {};
@@ -76,7 +76,7 @@ inline constexpr int greatest_scale = 40;
 [[nodiscard]] ScaleRange scale_range(const fast::Method& method, const FuzzOptions& options,
                                      const base::Deadline& deadline, const Finding& finding);
 
-/// Of the finding's simplest query; its scales are known.
+/// The signature of a finding's simplest query. \pre its scales are known
 [[nodiscard]] Signature signature_of(const Finding& finding);
 
 /// "ends near 1", "ends at large scales", "any scale" and so on.

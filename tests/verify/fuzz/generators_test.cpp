@@ -5,11 +5,13 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <limits>
 #include <string_view>
 #include <vector>
 
 #include "tests/support/trials.hpp"
 #include "touchstone/certified.hpp"
+#include "verify/fuzz/mutation.hpp"
 #include "verify/fuzz/plainness.hpp"
 #include "verify/generate/random.hpp"
 
@@ -79,6 +81,23 @@ TEST(Generators, MakeCollisionsAndMissesThatAreHard) {
         // With a distance most queries collide, and aligned queries cross far from any end.
         if (separation.distance > 0.0 || name == "contact_aligned") continue;
         EXPECT_LT(collisions, count) << name << ' ' << to_string(kind);
+      }
+    }
+  }
+}
+
+TEST(Mutated, StaysFiniteWhereverItStarts) {
+  Random random(2);
+  constexpr double greatest = std::numeric_limits<double>::max();
+  for (const double start : {0.0, std::numeric_limits<double>::denorm_min(), -1.5, greatest}) {
+    for (const QueryShape& shape : {QueryShape{}, {.degree = 3}, {.is_rational = true}}) {
+      AnyQuery query(shape, std::vector<double>(shape.numbers_of_query(), start));
+      for (std::size_t i = 3; shape.is_rational && i < query.numbers().size(); i += 4) {
+        query.numbers()[i] = 0x1p39;  // a weight
+      }
+      for (int i = 0; i < 5000; ++i) {
+        query = mutated(query, true, random);
+        ASSERT_TRUE(is_valid(query));
       }
     }
   }

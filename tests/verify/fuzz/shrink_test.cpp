@@ -17,8 +17,8 @@
 #include "touchstone/certified.hpp"
 #include "touchstone/oracle.hpp"
 #include "verify/fuzz/curves.hpp"
+#include "verify/fuzz/finding.hpp"
 #include "verify/fuzz/plainness.hpp"
-#include "verify/fuzz/reproduce.hpp"
 #include "verify/generate/decimal.hpp"
 
 namespace touchstone::verify::fuzz::shrink_test {
@@ -159,29 +159,6 @@ TEST(Shrink, LowersTheDegreeOfCurvesAndDropsTheirWeights) {
   }
 }
 
-/// The vertex dips through the triangle from above, and is above it at both ends.
-TEST(Shrink, FindsThePlainCurveOfAFault) {
-  const auto dips = [](const AnyQuery& query) {
-    const auto height = [&](std::size_t j) {
-      return query.numbers()[moving_points * j * query.shape().numbers_of_point() + 2];
-    };
-    return height(0) > 0.0 && height(query.shape().degree) > 0.0 &&
-           exact::decide(query.queries(), 0).collides();
-  };
-  std::vector<double> numbers;
-  for (const double height : {0.7, -0.4, -1.9, 1.3}) {
-    for (const double x : {0.3, 0.4, height, 0.0, 0.0, 0.0, 1.7, 0.0, 0.0, 0.0, 1.9, 0.0}) {
-      numbers.push_back(x);
-    }
-  }
-  const AnyQuery query({.degree = 3}, numbers);
-  ASSERT_TRUE(dips(query));
-  const AnyQuery least = shrink(query, dips);
-  EXPECT_TRUE(dips(least));
-  EXPECT_LE(least.shape().degree, 2U);
-  EXPECT_LE(length_of(least), 60U) << as_points(least);
-}
-
 // ---- Properties of every run --------------------------------------------------------------------
 
 /// A condition that depends on many coordinates: a hash of the rounded differences.
@@ -219,13 +196,6 @@ TEST(Shrink, AsksOnlyPlainerQueriesAndNoneTwice) {
       return fails(other);
     });
     EXPECT_EQ(least, best);
-  }
-}
-
-TEST(Shrink, IsDeterministic) {
-  for (const AnyQuery& query : random_queries(6, tests::trials(16))) {
-    const Predicate fails = fickle(query.numbers()[1] > 0 ? 1 : 2);
-    EXPECT_EQ(shrink(query, fails), shrink(query, fails));
   }
 }
 
