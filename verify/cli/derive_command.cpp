@@ -1,7 +1,5 @@
 // touchstone derive: the bounds of the filtered expressions, and the header that ships them.
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <map>
 #include <memory>

@@ -6,7 +6,6 @@
 #include "verify/cli/commands.hpp"
 #include "verify/cli/help.hpp"
 #include "verify/cli/option_table.hpp"
-#include "verify/cli/options.hpp"
 #include "verify/cli/pieces.hpp"
 
 namespace touchstone::verify::cli::merge_command {

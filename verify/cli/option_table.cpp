@@ -25,9 +25,7 @@ std::vector<std::string> fault_names() {
 
 std::vector<std::string> hardness_names() {
   std::vector<std::string> names;
-  for (const auto list : {stability::hardnesses(), stability::curve_hardnesses()}) {
-    for (const stability::Hardness& hardness : list) names.emplace_back(hardness.name);
-  }
+  for (const auto& hardness : stability::all_hardnesses()) names.emplace_back(hardness.name);
   return names;
 }
 

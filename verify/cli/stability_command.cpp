@@ -39,14 +39,6 @@ struct Arguments {
   std::string picture_file;
 };
 
-std::vector<const stability::Hardness*> all_hardnesses() {
-  std::vector<const stability::Hardness*> all;
-  for (const auto list : {stability::hardnesses(), stability::curve_hardnesses()}) {
-    for (const stability::Hardness& hardness : list) all.push_back(&hardness);
-  }
-  return all;
-}
-
 /// The named kinds of difficulty, in their usual order; by default those on straight lines or, for
 /// solvers that answer none of these, on curves.
 std::vector<const stability::Hardness*> chosen(const std::vector<std::string>& names,
@@ -54,13 +46,12 @@ std::vector<const stability::Hardness*> chosen(const std::vector<std::string>& n
   for (const std::string& name : names) static_cast<void>(stability::hardness_from_name(name));
   const bool is_straight = std::ranges::any_of(
       solvers.all(), [](const solvers::Solver* solver) { return solver->terms().straight; });
-  const auto straight = stability::hardnesses();
-  std::vector<const stability::Hardness*> result = all_hardnesses();
-  std::erase_if(result, [&](const stability::Hardness* hardness) {
-    if (!names.empty()) return std::ranges::find(names, hardness->name) == names.end();
-    return is_straight !=
-           (hardness >= straight.data() && hardness < straight.data() + straight.size());
-  });
+  const auto usual = is_straight ? stability::hardnesses() : stability::curve_hardnesses();
+  std::vector<const stability::Hardness*> result;
+  for (const stability::Hardness& hardness : names.empty() ? usual : stability::all_hardnesses()) {
+    const bool is_named = std::ranges::find(names, hardness.name) != names.end();
+    if (names.empty() || is_named) result.push_back(&hardness);
+  }
   return result;
 }
 
@@ -136,11 +127,10 @@ void add(CLI::App& app, Status& status) {
       app.add_subcommand("stability", "Judge solvers on queries of growing difficulty");
   add_options(*command, *arguments);
   std::string list;
-  for (const stability::Hardness* hardness : all_hardnesses()) {
-    list +=
-        fmt::format("{}{} ({}, {} to {})", list.empty() ? "" : "; ", hardness->name,
-                    hardness->measure, stability::level_text(*hardness, hardness->levels.front()),
-                    stability::level_text(*hardness, hardness->levels.back()));
+  for (const stability::Hardness& hardness : stability::all_hardnesses()) {
+    list += fmt::format("{}{} ({}, {} to {})", list.empty() ? "" : "; ", hardness.name,
+                        hardness.measure, stability::level_text(hardness, hardness.levels.front()),
+                        stability::level_text(hardness, hardness.levels.back()));
   }
   set_help(
       *command, "touchstone stability --method tight_inclusion --picture stability.html",

@@ -2,8 +2,8 @@
 
 /// \file
 /// The built-in workload of the benchmark: two patches of triangle mesh that move through
-/// each other in one step, as cloth does when its step is too long. Also
-/// simple contacts at t=1, at any scale, for the report.
+/// each other in one step, as cloth does when its step is too long. Also simple contacts at t=1, at
+/// any scale, for the report.
 ///
 /// The patches are square grids of cells, each cut into two triangles, bent like shallow bowls with
 /// their bottoms towards each other, one turned against the other so that no edges are parallel.

@@ -446,6 +446,8 @@ std::span<const Hardness> curve_hardnesses() {
   return std::span(all()).subspan(Index::curve_distance);
 }
 
+std::span<const Hardness> all_hardnesses() { return all(); }
+
 const Hardness& hardness_from_name(std::string_view name) {
   std::string known;
   for (const Hardness& hardness : all()) {

@@ -72,6 +72,9 @@ struct Hardness {
 /// All kinds on curves, always in the same order.
 [[nodiscard]] std::span<const Hardness> curve_hardnesses();
 
+/// These and those.
+[[nodiscard]] std::span<const Hardness> all_hardnesses();
+
 /// The kind of difficulty with that name, on straight lines or on curves.
 /// \throws std::invalid_argument, listing the valid names, if there is none.
 [[nodiscard]] const Hardness& hardness_from_name(std::string_view name);
