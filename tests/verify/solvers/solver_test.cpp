@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iostream>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <thread>
@@ -202,6 +203,27 @@ TEST(Solver, AsksNoQueryAgainThatEndedItsProcess) {
       {.queries = {vf, queries}, .separation = {.distance = 0.25, .norm = Norm::l2}}, answers);
   EXPECT_EQ(other.failures.size(), 2U);
   EXPECT_GT(std::filesystem::file_size(log), ends);
+}
+
+/// The rest of their kind in their source is left out, and no other queries.
+TEST(Solver, LeavesOutQueriesBehindThreeHangsOfTheirSort) {
+  const FunctionMethod method([](Kind kind, const Query& query) {
+    for (; query.coordinates[0] >= 105.0;) std::this_thread::sleep_for(std::chrono::hours(1));
+    return echo(kind, query);
+  });
+  const auto solver = solver_in_children(method, {}, {.query_limit_seconds = 0.1});
+  const Outcome outcome = ask(*solver, 20);
+  ASSERT_EQ(outcome.reply.failures.size(), 3U);
+  for (std::size_t i = 0; i < 20; ++i) {
+    EXPECT_EQ(outcome.answers[i].verdict, i < 5 ? Verdict::yes : Verdict::undecided) << i;
+    const auto why = i < 8 ? std::nullopt : std::optional(judge::Unasked::left_out);
+    EXPECT_EQ(outcome.reply.why_unasked(i), why) << i;
+  }
+  EXPECT_FALSE(outcome.reply.stopped);
+  Numbered other(3);
+  other.source = "another";
+  std::vector<Answer> answers(3);
+  EXPECT_TRUE(solver->solve(other.request(), answers).unasked.empty());
 }
 
 // ---- Shapes -------------------------------------------------------------------------------------
