@@ -89,29 +89,19 @@ static_assert(std::atomic<std::size_t>::is_always_lock_free &&
               std::atomic<double>::is_always_lock_free);
 static_assert(std::is_trivially_destructible_v<Shared>);
 
-/// Memory that children made later share with this process.
-class SharedMemory {
- public:
-  SharedMemory()
-      : memory_(::mmap(nullptr, sizeof(Shared), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS,
-                       -1, 0)) {
-    // NOLINTNEXTLINE(performance-no-int-to-ptr): the system's constant
-    if (memory_ == MAP_FAILED) fail("cannot share memory with a solver's process");
-    // The system's memory is zero, and every page that is not touched costs nothing.
-    shared_ = new (memory_) Shared;
-  }
-  SharedMemory(const SharedMemory&) = delete;
-  SharedMemory& operator=(const SharedMemory&) = delete;
-  SharedMemory(SharedMemory&&) = delete;
-  SharedMemory& operator=(SharedMemory&&) = delete;
-  ~SharedMemory() { ::munmap(memory_, sizeof(Shared)); }
-
-  [[nodiscard]] Shared& operator*() const { return *shared_; }
-
- private:
-  void* memory_;
-  Shared* shared_ = nullptr;
+struct Unmap {
+  void operator()(Shared* shared) const { ::munmap(shared, sizeof(Shared)); }
 };
+
+/// Memory that children made later share with this process.
+std::unique_ptr<Shared, Unmap> share_memory() {
+  void* const memory =
+      ::mmap(nullptr, sizeof(Shared), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+  // NOLINTNEXTLINE(performance-no-int-to-ptr): the system's constant
+  if (memory == MAP_FAILED) fail("cannot share memory with a solver's process");
+  // The system's memory is zero, and every page that is not touched costs nothing.
+  return std::unique_ptr<Shared, Unmap>(new (memory) Shared);
+}
 
 // ---- The child ----------------------------------------------------------------------------------
 
@@ -244,8 +234,8 @@ class SolverProcess::Impl {
 
   /// Answers what fits into the shared memory, which begins at number `offset` of all.
   void solve_part(const Queries& queries, std::span<fast::Answer> answers, std::size_t offset) {
-    std::ranges::copy(queries.numbers, (*memory_).numbers.begin());
-    std::ranges::fill(std::span((*memory_).has_thrown).first(answers.size()), false);
+    std::ranges::copy(queries.numbers, memory_->numbers.begin());
+    std::ranges::fill(std::span(memory_->has_thrown).first(answers.size()), false);
     answers_ = answers;
     offset_ = offset;
     for (std::size_t next = 0; next < answers.size() && goes_on();) {
@@ -379,7 +369,7 @@ class SolverProcess::Impl {
       const Event event = child_->wait(
           is_limited ? std::min(longest_sleep, limit / 10) : longest_sleep, message, output_);
       if (event != Event::none) return event;
-      const std::size_t current = (*memory_).begin;
+      const std::size_t current = memory_->begin;
       const Clock::time_point now = Clock::now();
       if (current != watched) since = now;
       watched = current;
@@ -393,12 +383,12 @@ class SolverProcess::Impl {
   [[nodiscard]] bool is_overdue(Seconds passed) const {
     const double limit = options_.query_limit_seconds;
     if (passed.count() > patience * limit || !child_->is_runnable()) return true;
-    return child_->processor_seconds() - (*memory_).started > 0.5 * limit;
+    return child_->processor_seconds() - memory_->started > 0.5 * limit;
   }
 
   const fast::Method& method_;
   SolverProcessOptions options_;
-  SharedMemory memory_;
+  std::unique_ptr<Shared, Unmap> memory_ = share_memory();
   std::optional<TemporaryFolder> folder_;
   std::unique_ptr<ChildProcess> child_;
   CapturedOutput output_;

@@ -125,22 +125,6 @@ TEST(Solver, SpansAreShortForSlowAndLongForFastSolvers) {
   EXPECT_GE(fast_solver->good_span(), 1000U);
 }
 
-TEST(Solver, TheMakingOfChildProcessesDoesNotShortenSpans) {
-  const FunctionMethod method(echo);
-  // The cost of fork() grows with the memory of the process.
-  const std::vector<char> ballast(std::size_t{1} << 29U, 1);
-  EXPECT_EQ(ballast.back(), 1);
-  // A busy machine delays some first calls, but a fork() that counted would shorten the spans of
-  // all.
-  std::size_t longest = 0;
-  for (int i = 0; i < 50 && longest < 1000; ++i) {
-    const auto in_children = solver_in_children(method, {}, {});
-    static_cast<void>(ask(*in_children, 16));
-    longest = std::max(longest, in_children->good_span());
-  }
-  EXPECT_GE(longest, 1000U);
-}
-
 TEST(Solver, KeepsWhatItsProcessesPrint) {
   const FunctionMethod method([](Kind kind, const Query& query) {
     std::printf("asked %g\n", query.coordinates[0]);
