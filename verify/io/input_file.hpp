@@ -43,8 +43,6 @@ class InputFile {
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }
   /// Size in bytes when the file was opened; 0 if it has none (a pipe).
   [[nodiscard]] std::uint64_t size() const { return size_; }
-  /// The system's handle, valid as long as this object.
-  [[nodiscard]] int descriptor() const { return descriptor_; }
   /// Bytes read so far as a fraction of the size, 0 to 1.
   [[nodiscard]] double progress() const;
 
