@@ -396,10 +396,10 @@ TEST(SolverProcess, BeginsNoBatchBehindItsTime) {
   const ScriptedMethod method;
   SolverProcess process(method);
   std::vector<Answer> answers(2000);
-  // Both together take longer than the time.
-  const std::vector<Query> queries = with(2000, Act::works, {0, 1});
+  // Together they take longer than the time.
+  const std::vector<Query> queries = with(2000, Act::works, {0, 1, 2, 3, 4, 5});
   const SolverRun cut =
-      process.solve(lines(queries), answers, {}, {.begin = base::Deadline(2.0 * work_seconds)});
+      process.solve(lines(queries), answers, {}, {.begin = base::Deadline(6.0 * work_seconds)});
   EXPECT_EQ(cut.answered, 512U);
   EXPECT_TRUE(cut.failures.empty());
 }

@@ -195,7 +195,7 @@ TEST(Solver, LeavesOutQueriesBehindThreeHangsOfTheirSort) {
     for (; query.coordinates[0] >= 105.0;) std::this_thread::sleep_for(std::chrono::hours(1));
     return echo(kind, query);
   });
-  const auto solver = solver_in_children(method, {}, {.query_limit_seconds = 0.1});
+  const auto solver = solver_in_children(method, {}, {.query_limit_seconds = 0.5});
   const Outcome outcome = ask(*solver, 20);
   ASSERT_EQ(outcome.reply.failures.size(), 3U);
   for (std::size_t i = 0; i < 20; ++i) {
