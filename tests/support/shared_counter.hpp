@@ -28,7 +28,8 @@ class SharedCounter {
   SharedCounter& operator=(SharedCounter&&) = delete;
   ~SharedCounter() { ::munmap(memory_, sizeof(Number)); }
 
-  void add() { ++*number_; }
+  /// Returns the sum.
+  std::uint64_t add(std::uint64_t summand = 1) const { return *number_ += summand; }
   [[nodiscard]] std::uint64_t value() const { return *number_; }
 
  private:

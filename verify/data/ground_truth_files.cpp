@@ -203,7 +203,6 @@ void ToiReader::seek(std::uint64_t index) {
 std::optional<ToiReader::Entry> ToiReader::next_entry() {
   const std::optional<io::Line> line = lines_.next();
   if (!line) return std::nullopt;
-  if (line->too_long) fail({.line = line->number}, "line longer than 1 MiB");
   std::array<std::string, 2> fields;
   if (!split_fields(line->text, fields)) {
     fail({.line = line->number}, "expected two columns, query and toi");

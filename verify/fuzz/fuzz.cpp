@@ -343,7 +343,7 @@ class Run {
     solver_.set_query_limit(maker_.query_limit());
     // A block of a slow method may take minutes.
     const solvers::SolverRun run =
-        solver_.solve(block_.queries(), answers_, method_options_, solver_deadline(end_));
+        solver_.solve(block_.queries(), answers_, method_options_, {.end = solver_deadline(end_)});
     result_.method_seconds += seconds() - asked;
     result_.unplaced_crashes += run.unplaced_crashes;
     limit_ = maker_.query_limit();

@@ -112,7 +112,7 @@ std::optional<Recheck::Reply> Recheck::reply_to(const AnyQuery& query,
   }
   Reply reply;
   const solvers::SolverRun run = solver_.solve(query.queries(), {&reply.answer, 1}, method_options_,
-                                               solver_deadline(deadline));
+                                               {.end = solver_deadline(deadline)});
   if (run.answered == 0) return std::nullopt;
   if (!run.failures.empty()) reply.failure = run.failures.front().failure;
   return reply;

@@ -21,6 +21,8 @@ constexpr std::size_t chunk = std::size_t{1} << 16U;
 // A line that is just not too long, its CR, and room to read on.
 constexpr std::size_t buffer_size = LineReader::longest_line + 1 + chunk;
 
+constexpr const char* too_long = "line longer than 1 MiB";
+
 std::string last_system_error() { return std::generic_category().message(errno); }
 
 }  // namespace
@@ -80,7 +82,7 @@ LineReader::LineReader(std::filesystem::path path)
 bool LineReader::at_end() {
   if (ahead_) return false;
   ahead_ = read_line();
-  while (ahead_ && !ahead_->too_long && trimmed(ahead_->text).empty()) {
+  while (ahead_ && trimmed(ahead_->text).empty()) {
     ++blank_lines_ahead_;
     ahead_ = read_line();
   }
@@ -90,7 +92,7 @@ bool LineReader::at_end() {
 std::optional<Line> LineReader::next() {
   if (at_end()) return std::nullopt;
   if (blank_lines_ahead_ > 0) {
-    return Line{.text = {}, .number = ahead_->number - blank_lines_ahead_--, .too_long = false};
+    return Line{.text = {}, .number = ahead_->number - blank_lines_ahead_--};
   }
   return std::exchange(ahead_, std::nullopt);
 }
@@ -133,8 +135,7 @@ std::optional<Line> LineReader::read_line() {
     searched = available;
     if (available > longest_line + 1) {
       require_no_carriage_return({from, available - 1});  // The last one may belong to an LF.
-      pass_over_line();
-      return Line{.text = {}, .number = ++line_number_, .too_long = true};
+      fail(too_long);
     }
     if (fill()) continue;
     if (available == 0) return std::nullopt;
@@ -147,34 +148,19 @@ Line LineReader::take_line(std::size_t length, std::size_t terminator) {
   begin_ += length + terminator;
   if (text.ends_with('\r')) text.remove_suffix(1);
   require_no_carriage_return(text);
-  const bool too_long = text.size() > longest_line;
-  return {
-      .text = too_long ? std::string_view() : text, .number = ++line_number_, .too_long = too_long};
+  if (text.size() > longest_line) fail(too_long);
+  return {.text = text, .number = ++line_number_};
 }
 
 void LineReader::require_no_carriage_return(std::string_view text) {
-  if (text.find('\r') == std::string_view::npos) return;
-  has_failed_ = true;
-  begin_ = end_;
-  throw DatasetError(path(), {.line = line_number_ + 1}, lone_carriage_return);
+  if (text.find('\r') != std::string_view::npos) fail(lone_carriage_return);
 }
 
-void LineReader::pass_over_line() {
-  std::size_t length = 0;
-  do {
-    const char* const from = buffer_.get() + begin_;
-    const void* const newline = std::memchr(from, '\n', end_ - begin_);
-    if (newline != nullptr) {
-      begin_ += static_cast<std::size_t>(static_cast<const char*>(newline) - from) + 1;
-      return;
-    }
-    length += end_ - begin_;
-    if (length > longest_passed_line) {
-      throw DatasetError(path(), {.line = line_number_ + 1},
-                         "no line end within 64 MiB: not a text file");
-    }
-    begin_ = end_;
-  } while (fill());
+/// Ends the file at the line behind the last one.
+void LineReader::fail(const char* reason) {
+  has_failed_ = true;
+  begin_ = end_;
+  throw DatasetError(path(), {.line = line_number_ + 1}, reason);
 }
 
 /// Moves the unread bytes to the front and reads a chunk after them; false at the end of the file.

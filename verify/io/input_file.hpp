@@ -4,8 +4,7 @@
 /// Sequential reading of files in bounded memory.
 ///
 /// LineReader keeps no more of its file than one chunk and one line, and a line has an upper limit:
-/// a file without line ends cannot fill the memory; it is a line that is too long. Such a line is
-/// skipped up to a second limit, beyond which it is an error, as for a device without an end.
+/// a file without line ends cannot fill the memory.
 
 #include <cstddef>
 #include <cstdint>
@@ -44,8 +43,6 @@ class InputFile {
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }
   /// Size in bytes when the file was opened; 0 if it has none (a pipe).
   [[nodiscard]] std::uint64_t size() const { return size_; }
-  /// The system's handle, valid as long as this object.
-  [[nodiscard]] int descriptor() const { return descriptor_; }
   /// Bytes read so far as a fraction of the size, 0 to 1.
   [[nodiscard]] double progress() const;
 
@@ -59,41 +56,34 @@ class InputFile {
 
 /// A line of a text file, without its line end (LF or CRLF).
 struct Line {
-  /// Refers to the reader's buffer: valid until the reader's next call. Empty if too long.
+  /// Refers to the reader's buffer: valid until the reader's next call.
   std::string_view text;
   /// Counted from 1.
   std::uint64_t number;
-  /// True if longer than LineReader::longest_line; its text was skipped.
-  bool too_long;
 };
 
 /// The lines of a text file, compressed if its name ends in ".zst" (compressor.hpp). Blank lines
 /// (nothing, or spaces and tabs) at the end of the file are no lines; all others are. A byte order
-/// mark of UTF-8 in front is passed over; one of UTF-16 is an error, and so is a CR that ends no
-/// line or all: after an error the file is treated as ended.
+/// mark of UTF-8 in front is passed over; one of UTF-16 is an error, and so are a CR that ends no
+/// line or all and a line that is too long: after an error the file is treated as ended.
 class LineReader {
  public:
   /// Maximum length of a line in bytes, without its line end.
   static constexpr std::size_t longest_line = std::size_t{1} << 20U;
-  /// Maximum length of a skipped line in bytes.
-  static constexpr std::size_t longest_passed_line = std::size_t{64} << 20U;
 
   /// \throws DatasetError if the file cannot be opened.
   explicit LineReader(std::filesystem::path path);
 
   /// The next line; empty at the end.
-  /// \throws DatasetError if the system reports an error on reading, or the file has a line longer
-  /// than longest_passed_line. Interrupted as InputFile::read.
+  /// \throws DatasetError at an error, also of the system. Interrupted as InputFile::read.
   [[nodiscard]] std::optional<Line> next();
 
-  /// True if next() has no more lines. Invalidates the text of the last line.
-  /// \throws DatasetError if the system reports an error on reading, or the file has a line longer
-  /// than longest_passed_line. Interrupted as InputFile::read.
+  /// True if next() has no more lines. Invalidates the text of the last line. Throws as next().
   [[nodiscard]] bool at_end();
 
   /// The bytes in front of next(): at least so many, or all that are left; none if at_end() has
-  /// already looked for a line. Valid until the reader's next call. \pre bytes ≤ longest_line
-  /// \throws DatasetError if the system reports an error on reading. Interrupted as InputFile::read.
+  /// already looked for a line. Valid until the reader's next call. Throws as next().
+  /// \pre bytes ≤ longest_line
   [[nodiscard]] std::string_view peek(std::size_t bytes);
 
   /// Skips bytes that peek() has returned, which are whole lines.
@@ -110,8 +100,8 @@ class LineReader {
   void begin();
   std::optional<Line> read_line();
   Line take_line(std::size_t length, std::size_t terminator);
-  void pass_over_line();
   void require_no_carriage_return(std::string_view text);
+  [[noreturn]] void fail(const char* reason);
   bool fill();
   std::size_t read(std::span<char> space);
   std::size_t decompress(std::span<char> space);

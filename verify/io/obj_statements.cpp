@@ -92,7 +92,6 @@ std::vector<std::string> ObjStatements::passed_over() const {
 
 /// The text of a line and of those in which it goes on.
 std::string_view ObjStatements::joined(const Line& line) {
-  if (line.too_long) fail(line.number, "line too long");
   if (!goes_on(line.text)) return line.text;
   joined_ = line.text;
   while (goes_on(joined_)) {
@@ -101,9 +100,7 @@ std::string_view ObjStatements::joined(const Line& line) {
     if (!more) break;
     check_joint(*more);
     joined_ += more->text;
-    if (more->too_long || joined_.size() > LineReader::longest_line) {
-      fail(more->number, "line too long");
-    }
+    if (joined_.size() > LineReader::longest_line) fail(more->number, "line longer than 1 MiB");
   }
   return joined_;
 }

@@ -4,8 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdint>
-#include <iterator>
 
 namespace touchstone::verify::io {
 namespace {
@@ -46,16 +44,12 @@ std::size_t printable_length(std::string_view text) {
   return is_character && std::ranges::none_of(unprintable, contains) ? length : 0;
 }
 
-enum class Base : std::uint8_t { hexadecimal, octal };
-
 /// The text with the bytes that are not printable written out, and a backslash in front of marks.
-std::string escaped(std::string_view text, Base base, std::string_view marks) {
+std::string escaped(std::string_view text, std::string_view marks) {
   std::string result;
-  const auto to = std::back_inserter(result);
   while (!text.empty()) {
     const std::size_t length = printable_length(text);
-    if (length == 0 && base == Base::octal) fmt::format_to(to, "\\{:03o}", byte_at(text, 0));
-    if (length == 0 && base == Base::hexadecimal) fmt::format_to(to, "\\x{:02x}", byte_at(text, 0));
+    if (length == 0) result += fmt::format("\\x{:02x}", byte_at(text, 0));
     if (marks.find(text.front()) != std::string_view::npos) result += '\\';
     result += text.substr(0, length);
     text.remove_prefix(std::max<std::size_t>(length, 1));
@@ -65,7 +59,7 @@ std::string escaped(std::string_view text, Base base, std::string_view marks) {
 
 }  // namespace
 
-std::string printable(std::string_view text) { return escaped(text, Base::hexadecimal, ""); }
+std::string printable(std::string_view text) { return escaped(text, ""); }
 
 bool is_printable(std::string_view text) { return printable(text) == text; }
 
@@ -84,7 +78,7 @@ std::string html_escaped(std::string_view text) {
 std::string shell_word(std::string_view text) {
   static constexpr std::string_view harmless =
       "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=./:,";
-  if (!is_printable(text)) return "$'" + escaped(text, Base::octal, "'\\") + "'";
+  if (!is_printable(text)) return "$'" + escaped(text, "'\\") + "'";
   if (!text.empty() && text.find_first_not_of(harmless) == std::string_view::npos) {
     return std::string(text);
   }

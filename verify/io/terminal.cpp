@@ -7,8 +7,6 @@
 #include <algorithm>
 #include <cerrno>
 #include <csignal>
-#include <cstdint>
-#include <ctime>
 #include <system_error>
 
 #include "verify/io/printable.hpp"
@@ -20,32 +18,11 @@ namespace {
 std::atomic<int> output_error = 0;
 
 std::atomic<bool> interrupt_flag = false;
-std::atomic<std::int64_t> interrupt_time = 0;  // 0: none yet
-static_assert(std::atomic<bool>::is_always_lock_free &&
-                  std::atomic<std::int64_t>::is_always_lock_free,
-              "a signal handler may touch nothing else");
-
-/// Milliseconds of a monotone clock that a signal handler may read.
-std::int64_t milliseconds() {
-  timespec now{};
-  clock_gettime(CLOCK_MONOTONIC, &now);
-  return std::int64_t{now.tv_sec} * 1000 + now.tv_nsec / 1'000'000;
-}
-
-std::atomic<std::int64_t (*)()> interrupt_clock = milliseconds;
-static_assert(std::atomic<std::int64_t (*)()>::is_always_lock_free);
+static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler may touch nothing else");
 
 extern "C" void on_signal(int signal) {
-  const int error = errno;
-  const std::int64_t now = interrupt_clock.load()();
-  std::int64_t first = 0;
-  if (interrupt_time.compare_exchange_strong(first, now)) {
-    interrupt_flag = true;
-  } else if (now - first >= same_interrupt_milliseconds) {
-    std::signal(signal, SIG_DFL);
-    std::raise(signal);
-  }
-  errno = error;
+  if (signal == SIGINT) std::signal(signal, SIG_DFL);
+  interrupt_flag = true;
 }
 
 void install_handlers() {
@@ -109,8 +86,6 @@ const std::atomic<bool>& interrupted() {
   static_cast<void>(installed);
   return interrupt_flag;
 }
-
-void set_interrupt_clock(std::int64_t (*milliseconds)()) { interrupt_clock = milliseconds; }
 
 void throw_if_interrupted() {
   if (interrupt_flag) throw Interrupted();

@@ -5,7 +5,6 @@
 
 #include <atomic>
 #include <chrono>
-#include <cstdint>
 #include <cstdio>
 #include <stdexcept>
 #include <string>
@@ -53,18 +52,11 @@ class ProgressBar {
 /// The line that a progress bar draws: title, bar of 30 characters, percentage, seconds left.
 [[nodiscard]] std::string progress_line(const std::string& title, double fraction, double seconds);
 
-/// Signals within this time after the first one are the same interrupt: timeout(1) and some shells
-/// send each signal both to the process and to its group.
-inline constexpr int same_interrupt_milliseconds = 200;
-
 /// Turns true at the first interrupt, termination or hangup signal after this function was first
-/// called; the next one (later than `same_interrupt_milliseconds`) ends the process immediately, as
-/// by default. An ignored hangup (as with nohup) stays ignored.
+/// called. A second interrupt, as of the keys, ends the process immediately; termination and hangup
+/// do not, as timeout(1) and some shells send them both to the process and to its group. An ignored
+/// hangup (as with nohup) stays ignored.
 [[nodiscard]] const std::atomic<bool>& interrupted();
-
-/// Replaces the clock that separates interrupts, for tests: monotone, positive milliseconds. Called
-/// in a signal handler.
-void set_interrupt_clock(std::int64_t (*milliseconds)());
 
 /// Thrown if an interrupt ends a wait for input, or work whose part is of no use.
 class Interrupted : public std::runtime_error {

@@ -6,32 +6,23 @@
 #include "verify/base/cores.hpp"
 
 namespace touchstone::verify::jobs {
-namespace {
 
-/// The rest is for the oracle, the reading and the writing.
-constexpr double solvers_part = 0.8;
+Budget::Budget(double seconds, std::vector<const solvers::Solver*> solvers, unsigned threads,
+               const base::SecondsClock& clock)
+    : end_(base::Deadline(seconds, clock)),
+      solvers_(std::move(solvers)),
+      threads_(base::cores_for(threads)) {}
 
-}  // namespace
-
-Budget::Budget(double seconds, std::span<const solvers::Solver* const> solvers, unsigned threads,
-               base::SecondsClock clock)
-    : end_(base::Deadline(seconds, clock)), clock_(std::move(clock)) {
-  const double all = solvers_part * seconds * base::cores_for(threads);
-  for (const solvers::Solver* solver : solvers) {
-    accounts_.push_back({.solver = solver, .seconds = all / static_cast<double>(solvers.size())});
-  }
-}
-
-base::Deadline Budget::begin_source(std::size_t sources_left) {
+base::Deadline Budget::begin_source(std::size_t sources_left) const {
   if (!end_) return {};
-  const auto left = static_cast<double>(std::max<std::size_t>(sources_left, 1));
-  for (Account& account : accounts_) {
-    if (account.given > 0.0) account.seconds += account.solver->allowance();
-    account.given = std::max(0.0, account.seconds) / left;
-    account.seconds -= account.given;
-    account.solver->allow(account.given);
+  // The rest is for the oracle, the reading and the writing.
+  constexpr double solvers_part = 0.8;
+  const double seconds =
+      end_->seconds_left() / static_cast<double>(std::max<std::size_t>(sources_left, 1));
+  for (const solvers::Solver* solver : solvers_) {
+    solver->allow(solvers_part * seconds * threads_ / static_cast<double>(solvers_.size()));
   }
-  return base::Deadline(end_->seconds_left() / left, clock_);
+  return end_->at_most(seconds);
 }
 
 }  // namespace touchstone::verify::jobs

@@ -37,7 +37,6 @@ Groups read_groups(const std::filesystem::path& path, std::size_t vertices) {
     const auto fail = [&](const std::string& reason) {
       throw io::DatasetError(path, {.line = line->number}, reason);
     };
-    if (line->too_long) fail("line too long");
     if (groups.of_vertex.size() == vertices) {
       fail(fmt::format("a group for more than the {} vertices of the mesh", vertices));
     }

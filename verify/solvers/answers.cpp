@@ -102,7 +102,6 @@ class AnswersReader {
     std::optional<io::Line> line = lines_.next();
     if (!line) return false;
     line_number_ = line->number;
-    if (line->too_long) fail(Column::whole_line, "line longer than 1 MiB");
     if (io::trimmed(line->text).empty())
       fail(Column::whole_line, "blank line before the end of the file");
     split_ = io::split_csv(line->text, fields_);
@@ -117,7 +116,7 @@ class AnswersReader {
   void continue_record(std::string record) {
     while (split_.fault == io::CsvSplit::Fault::open_quote) {
       const std::optional<io::Line> line = lines_.next();
-      if (!line || line->too_long || record.size() + line->text.size() > longest_record) {
+      if (!line || record.size() + line->text.size() > longest_record) {
         fail(Column{split_.count}, "quoted field does not end");
       }
       record.append("\n").append(line->text);

@@ -3,11 +3,11 @@
 /// \file
 /// How long a solver that hangs may take, and which queries it is asked still.
 ///
-/// A solver that hangs at every query of a sort would spend a whole run on it. So after three hangs
-/// a query may take a tenth of the limit, after thirty a hundredth, but not less than 10 ms. Of a
-/// sort of queries of which three hang every second one is asked, after six every fourth, and so
-/// on: hangs cost a time that grows with the logarithm of the number of queries. Hangs are counted,
-/// not seconds, so the same hangs give the same choice.
+/// A solver that hangs at every query of a sort would spend a whole run on it. So a sort of queries
+/// of which three hang is over: a job leaves out its other queries, and a search, which has no end
+/// of them, asks every second one, after six every fourth, and so on. There may be many sorts:
+/// after three hangs of any a query may take a tenth of the limit. Hangs are counted, not seconds,
+/// so the same hangs give the same choice.
 
 #include <algorithm>
 #include <cstdint>
@@ -18,22 +18,22 @@ namespace touchstone::verify::solvers {
 
 class HangLimits {
  public:
+  static constexpr std::uint64_t several = 3;
+
   /// \param seconds that a query may take at first; 0: no limit, and nothing ever hangs
   explicit HangLimits(double seconds) : seconds_(seconds) {}
 
   /// Seconds that a query may take now.
   [[nodiscard]] double seconds() const {
-    if (hangs_ < several) return seconds_;
-    return std::min(seconds_, std::max(least, seconds_ / (hangs_ < many ? 10.0 : 100.0)));
+    return hangs_ < several ? seconds_ : std::min(seconds_, std::max(least, seconds_ / 10.0));
   }
 
-  /// Is every query of the sort asked?
-  [[nodiscard]] bool asks_all(const std::string& sort) const {
+  [[nodiscard]] bool is_over(const std::string& sort) const {
     const auto known = sorts_.find(sort);
-    return known == sorts_.end() || known->second.hangs < several;
+    return known != sorts_.end() && known->second.hangs >= several;
   }
 
-  /// Is the next query of the sort one that is left out? Counts it.
+  /// Is the next query of the sort one that a search leaves out? Counts it.
   [[nodiscard]] bool leaves_out(const std::string& sort) {
     const auto known = sorts_.find(sort);
     if (known == sorts_.end()) return false;
@@ -50,10 +50,7 @@ class HangLimits {
     ++sorts_[sort].hangs;
   }
 
-  [[nodiscard]] std::uint64_t hangs() const { return hangs_; }
-
  private:
-  static constexpr std::uint64_t several = 3, many = 30;
   /// In less time a busy machine may not answer.
   static constexpr double least = 0.01;
 

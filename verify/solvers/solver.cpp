@@ -95,8 +95,8 @@ class InChildren final : public Solver {
         options_(options),
         process_(process),
         hangs_(process.query_limit_seconds) {
-    // Behind each the limits and the time are looked at.
-    process_.most_failures = 1;
+    // Behind so many the limits are looked at.
+    process_.most_failures = HangLimits::several;
   }
 
   [[nodiscard]] SolveReply answer(const SolveRequest& request,
@@ -140,59 +140,54 @@ class InChildren final : public Solver {
     return bits;
   }
 
-  /// Asks for the answers from number `first` to before `last`.
+  /// Asks for the answers from number `first` to before `last`, and leaves out those behind the
+  /// time that it has, and behind several hangs of the sort.
   void ask(SolverProcess& process, const SolveRequest& request, std::span<fast::Answer> answers,
            std::size_t first, std::size_t last, SolveReply& reply) const {
     const std::string sort = fmt::format("{} {}", request.source, to_string(request.queries.kind));
-    double allowed = allowance();
-    std::size_t step = std::isinf(allowed) ? answers.size() : 1;
-    while (first < last && !reply.stopped) {
-      bool asks_all = true;
-      if (!(allowed > 0.0) || is_left_out(sort, process, asks_all)) {
-        reply.unasked.push_back({.position = first++, .why = judge::Unasked::left_out});
-        continue;
-      }
-      const std::size_t count = asks_all ? std::min(step, last - first) : 1;
-      const double seconds = ask_some(process, request, answers, first, count, sort, reply);
-      allowed -= seconds;
-      // No step takes more than a small part of what is left.
-      if (!std::isinf(allowed)) step = seconds < 0.02 * allowed ? 2 * step : 1;
+    const base::Deadline deadline(std::max(0.0, allowance()));
+    while (first < last && !reply.stopped && !deadline.is_over() && !is_over(sort, process)) {
+      const std::size_t count = last - first;
+      SolverRun run =
+          process.solve(request.queries.part(first, count), answers.subspan(first, count),
+                        with_separation(options_, request), {.begin = deadline});
+      take_times(run, reply);
+      const bool has_lost = take_failures(run, request, first, sort, reply);
+      reply.stopped = run.answered < count && !has_lost && !deadline.is_over();
+      first += run.answered;
+    }
+    for (; first < last && !reply.stopped; ++first) {
+      reply.unasked.push_back({.position = first, .why = judge::Unasked::left_out});
     }
   }
 
-  /// Is the next query of the sort left out? If not, the process has its limit.
-  [[nodiscard]] bool is_left_out(const std::string& sort, SolverProcess& process,
-                                 bool& asks_all) const {
+  /// Is the sort left out? If not, the process has its limit.
+  [[nodiscard]] bool is_over(const std::string& sort, SolverProcess& process) const {
     const std::scoped_lock lock(mutex_);
     process.set_query_limit(hangs_.seconds());
-    asks_all = hangs_.asks_all(sort);
-    return !asks_all && hangs_.leaves_out(sort);
+    return hangs_.is_over(sort);
   }
 
-  /// Asks some queries from number `first` on, up to the first at which the process ends, and moves
-  /// `first` behind them. Returns the wall-clock seconds that it took.
-  double ask_some(SolverProcess& process, const SolveRequest& request,
-                  std::span<fast::Answer> answers, std::size_t& first, std::size_t count,
-                  const std::string& sort, SolveReply& reply) const {
-    const WallClock::time_point start = WallClock::now();
+  static void take_times(const SolverRun& run, SolveReply& reply) {
     SolverTime& time = reply.time.value();
-    SolverRun run = process.solve(request.queries.part(first, count), answers.subspan(first, count),
-                                  with_separation(options_, request));
     time.processor_nanoseconds += 1e9 * run.processor_seconds;
     time.wall_seconds += run.wall_seconds;
     reply.unplaced_crashes += run.unplaced_crashes;
-    bool has_ended = false;
+  }
+
+  /// Those of a run that began at a number of the request. True if one ended its process.
+  bool take_failures(SolverRun& run, const SolveRequest& request, std::size_t begin,
+                     const std::string& sort, SolveReply& reply) const {
+    bool has_lost = false;
     for (judge::QueryFailure& failure : run.failures) {
-      failure.position += first;
+      failure.position += begin;
       if (failure.failure.kind != judge::Fault::exception) {
-        has_ended = true;
+        has_lost = true;
         remember(bits_of(request, failure.position), failure.failure, sort);
       }
       reply.failures.push_back(std::move(failure));
     }
-    reply.stopped = run.answered < count && !has_ended;
-    first += run.answered;
-    return std::chrono::duration<double>(WallClock::now() - start).count();
+    return has_lost;
   }
 
   // ---- Queries that ended a process or took too long

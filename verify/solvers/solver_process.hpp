@@ -4,12 +4,12 @@
 /// A solver in a child process that lives on: asked block after block, at the price of a message
 /// each, so that a solver that crashes, hangs or takes all memory costs one query and not the run.
 ///
-/// Queries and answers lie in memory shared with the child, along with the number of the query that
-/// it is at. It works in steps: of one query at first, of more as they prove to be fast. The limit
-/// of time is that of a step. If a step ends the child or takes too long, a new child solves its
-/// queries one by one; a query that ends it is asked once more, alone in a child of its own, before
-/// that counts as its failure, and the next child goes on behind it. So the time that a solver is
-/// measured to take does not depend on the limit.
+/// Queries and answers lie in memory shared with the child, and so does its heartbeat: the number
+/// of the query that it is at. It is asked in batches of one fixed size. If a batch ends the child,
+/// or the number stays the same for longer than the limit of time, a new child solves the queries
+/// of the batch one by one; a query that ends it is asked once more, alone in a child of its own,
+/// before that counts as its failure, and the next child goes on behind it. So the limit is that of
+/// a query, and the time that a solver is measured to take does not depend on it.
 ///
 /// Limits and the relation of the child to this process: child_process.hpp.
 
@@ -37,6 +37,14 @@ struct SolverProcessOptions {
   /// May be null. Once true, the child is ended within a quarter of a second.
   const std::atomic<bool>* stop = nullptr;
   ChildLimits limits = {};
+};
+
+/// Both may be without a limit.
+struct SolverDeadlines {
+  /// Where a call stops, in the midst of a query, or a quarter of a second later.
+  base::Deadline end = {};
+  /// No query is begun behind it (but those of a batch that is); one that was begun may end.
+  base::Deadline begin = {};
 };
 
 /// The result of one call.
@@ -70,12 +78,11 @@ class SolverProcess {
 
   /// Answers query i in answers[i]: as the method does, undecided if it takes too long, error if it
   /// fails otherwise.
-  /// \param deadline where it stops, or a quarter of a second later
   /// \pre as many answers as queries.
   /// \throws std::system_error if the system has no memory, process or temporary folder to give.
   [[nodiscard]] SolverRun solve(const Queries& queries, std::span<fast::Answer> answers,
                                 const fast::MethodOptions& method_options,
-                                const base::Deadline& deadline = {});
+                                const SolverDeadlines& deadlines = {});
 
   /// The limit of the queries asked from now on, in place of that of the options.
   void set_query_limit(double seconds);

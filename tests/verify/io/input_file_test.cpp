@@ -18,7 +18,6 @@ using data::test::TemporaryFolder;
 struct OwnedLine {
   std::string text;
   std::uint64_t number;
-  bool too_long;
 
   friend bool operator==(const OwnedLine&, const OwnedLine&) = default;
 };
@@ -28,7 +27,7 @@ std::vector<OwnedLine> lines_of(const std::string& text) {
   LineReader reader(folder.file("text", text));
   std::vector<OwnedLine> lines;
   while (const auto line = reader.next()) {
-    lines.push_back({std::string(line->text), line->number, line->too_long});
+    lines.push_back({std::string(line->text), line->number});
   }
   EXPECT_TRUE(reader.at_end());
   return lines;
@@ -57,11 +56,11 @@ TEST(InputFile, IsReadWholeUpToALimit) {
 TEST(LineReader, ReadsAllLineEndsBehindAByteOrderMark) {
   const std::string mark = "\xEF\xBB\xBF";
   for (const std::string text : {"a\nb\n", "a\nb", "a\r\nb\r\n", "a\r\nb\r"}) {
-    const std::vector<OwnedLine> expected{{"a", 1, false}, {"b", 2, false}};
+    const std::vector<OwnedLine> expected{{"a", 1}, {"b", 2}};
     EXPECT_EQ(lines_of(text), expected);
     EXPECT_EQ(lines_of(mark + text), expected);
   }
-  EXPECT_EQ(lines_of("a\n" + mark), (std::vector<OwnedLine>{{"a", 1, false}, {mark, 2, false}}));
+  EXPECT_EQ(lines_of("a\n" + mark), (std::vector<OwnedLine>{{"a", 1}, {mark, 2}}));
   EXPECT_TRUE(lines_of(mark).empty());
   const TemporaryFolder folder;
   LineReader peeked(folder.file("text", mark + "1,2\n"));
@@ -95,8 +94,7 @@ TEST(LineReader, EndsAtWhatItDoesNotRead) {
 TEST(LineReader, BlankLinesCountExceptAtTheEnd) {
   EXPECT_TRUE(lines_of("").empty());
   EXPECT_TRUE(lines_of("\n \t\n\r\n").empty());
-  const std::vector<OwnedLine> expected{
-      {"", 1, false}, {"a", 2, false}, {"", 3, false}, {"", 4, false}, {"b", 5, false}};
+  const std::vector<OwnedLine> expected{{"", 1}, {"a", 2}, {"", 3}, {"", 4}, {"b", 5}};
   EXPECT_EQ(lines_of("\na\n \n\t\r\nb\n\n  \n"), expected);
 }
 
@@ -107,29 +105,23 @@ TEST(LineReader, LinesAcrossChunksStayWhole) {
   const std::vector<OwnedLine> lines = lines_of(text);
   ASSERT_EQ(lines.size(), 3000U);
   for (std::size_t i = 0; i < lines.size(); ++i) {
-    EXPECT_EQ(lines[i], (OwnedLine{std::string(i % 211, 'x') + std::to_string(i), i + 1, false}));
+    EXPECT_EQ(lines[i], (OwnedLine{std::string(i % 211, 'x') + std::to_string(i), i + 1}));
   }
 }
 
-TEST(LineReader, RefusesALineWithoutAnEnd) {
-  LineReader reader("/dev/zero");
-  EXPECT_EQ(error_of("", [&] { (void)reader.next(); }),
-            "/dev/zero:1: no line end within 64 MiB: not a text file");
-}
-
-TEST(LineReader, PassesOverLinesBeyondTheLimitAndNoOthers) {
+TEST(LineReader, RefusesLinesBeyondTheLimitAndNoOthers) {
   const std::string longest(LineReader::longest_line, 'x');
-  for (const std::string& line : {longest, longest + "x", longest + longest + longest}) {
-    const bool fits = line == longest;
-    const OwnedLine first{fits ? line : "", 1, !fits};
-    for (const std::string end : {"\n", "\r\n"}) {
-      EXPECT_EQ(lines_of(line + end + "b"), (std::vector<OwnedLine>{first, {"b", 2, false}}));
-    }
+  const TemporaryFolder folder;
+  for (const std::string end : {"\n", "\r\n"}) {
+    EXPECT_EQ(lines_of(longest + end + "b"), (std::vector<OwnedLine>{{longest, 1}, {"b", 2}}));
+    LineReader reader(folder.file("text", "b\n" + longest + "x" + end + "b"));
+    EXPECT_EQ(reader.next().value().text, "b");
+    EXPECT_EQ(error_of(folder.path(), [&] { (void)reader.next(); }),
+              "text:2: line longer than 1 MiB");
+    EXPECT_TRUE(reader.at_end());
   }
-  EXPECT_EQ(lines_of("b\n" + longest + longest),
-            (std::vector<OwnedLine>{{"b", 1, false}, {"", 2, true}}));
-  EXPECT_EQ(lines_of(std::string(longest.size() + 2, ' ') + "\n"),
-            (std::vector<OwnedLine>{{"", 1, true}}));
+  LineReader without_end("/dev/zero");
+  EXPECT_EQ(error_of("", [&] { (void)without_end.next(); }), "/dev/zero:1: line longer than 1 MiB");
 }
 
 }  // namespace

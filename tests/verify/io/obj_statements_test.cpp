@@ -54,9 +54,9 @@ TEST(ObjStatements, GoOnBehindABackslash) {
             "backslash before");
   EXPECT_EQ(error("usemtl a\\\nv 1 2 3"),
             "a.obj:2: begins with \"v\", but the line before goes on, as it ends in a backslash");
-  EXPECT_EQ(error("# " + std::string(2'000'000, 'x')), "a.obj:1: line too long");
+  EXPECT_EQ(error("# " + std::string(2'000'000, 'x')), "a.obj:1: line longer than 1 MiB");
   const std::string half(LineReader::longest_line / 2, ' ');
-  EXPECT_EQ(error("f" + half + "\\\n" + half + "\\\n1"), "a.obj:2: line too long");
+  EXPECT_EQ(error("f" + half + "\\\n" + half + "\\\n1"), "a.obj:2: line longer than 1 MiB");
 }
 
 TEST(ObjStatements, AreOfKnownKeywords) {

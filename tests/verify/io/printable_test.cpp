@@ -61,8 +61,8 @@ TEST(ShellWord, IsOneWordWithTheSameBytes) {
   EXPECT_EQ(shell_word("a/b-c.so"), "a/b-c.so");
   EXPECT_EQ(shell_word(""), "''");
   EXPECT_EQ(shell_word("it's $HOME"), "'it'\\''s $HOME'");
-  EXPECT_EQ(shell_word("\x1b[2J\n'\\1\u202e"), "$'\\033[2J\\012\\'\\\\1\\342\\200\\256'");
-  EXPECT_EQ(shell_word("caf\xe9"), "$'caf\\351'");
+  EXPECT_EQ(shell_word("\x1b[2J\n'\\1\u202e"), "$'\\x1b[2J\\x0a\\'\\\\1\\xe2\\x80\\xae'");
+  EXPECT_EQ(shell_word("caf\xe9"), "$'caf\\xe9'");
 }
 
 }  // namespace

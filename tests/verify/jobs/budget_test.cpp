@@ -27,23 +27,19 @@ TEST(Budget, SharesWhatIsLeftOverSourcesAndSolvers) {
   EXPECT_EQ(budget.begin_source(4).seconds_left(), 25.0);
   EXPECT_DOUBLE_EQ(solvers.first->allowance(), 10.0);
   EXPECT_DOUBLE_EQ(solvers.second->allowance(), 10.0);
-  // The first solver takes twice its part, the second nothing.
+  // What a solver took too much is missing for all.
   solvers.first->allow(-10.0);
   now = 40.0;
   EXPECT_EQ(budget.begin_source(3).seconds_left(), 20.0);
-  EXPECT_DOUBLE_EQ(solvers.first->allowance(), 20.0 / 3.0);
-  EXPECT_DOUBLE_EQ(solvers.second->allowance(), 40.0 / 3.0);
-  // It takes more than all.
-  solvers.first->allow(-1000.0);
-  (void)budget.begin_source(2);
-  EXPECT_EQ(solvers.first->allowance(), 0.0);
-  EXPECT_DOUBLE_EQ(solvers.second->allowance(), 20.0);
+  EXPECT_DOUBLE_EQ(solvers.first->allowance(), 8.0);
+  EXPECT_DOUBLE_EQ(solvers.second->allowance(), 8.0);
   now = 100.0;
   EXPECT_TRUE(budget.is_over());
   EXPECT_TRUE(budget.begin_source(1).is_over());
+  EXPECT_EQ(solvers.first->allowance(), 0.0);
 }
 
-TEST(Budget, AnEmptyAccountLeavesQueriesOut) {
+TEST(Budget, WithoutTimeQueriesAreLeftOut) {
   Solvers solvers;
   solvers.first->allow(0.0);
   const std::vector<Query> queries(3);

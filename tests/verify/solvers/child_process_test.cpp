@@ -2,11 +2,8 @@
 
 #include <gtest/gtest.h>
 #include <sys/resource.h>
-#include <sys/time.h>
 #include <unistd.h>
 
-#include <csignal>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <string>
@@ -60,61 +57,6 @@ TEST(ChildProcess, EndsWithStatusOneIfItsWorkThrows) {
   std::string message;
   EXPECT_EQ(next(child, message, output), Event::ended);
   EXPECT_EQ(child.end(output).failure, (judge::Failure{.kind = judge::Fault::exit, .number = 1}));
-}
-
-/// Interrupts this process again and again, each time for longer than a child needs to print and
-/// to send.
-class Interruptions {
- public:
-  Interruptions() : before_(std::signal(SIGALRM, interrupt)) { start(); }
-  Interruptions(const Interruptions&) = delete;
-  Interruptions& operator=(const Interruptions&) = delete;
-  Interruptions(Interruptions&&) = delete;
-  Interruptions& operator=(Interruptions&&) = delete;
-  ~Interruptions() {
-    std::signal(SIGALRM, SIG_IGN);
-    const itimerval none{};
-    ::setitimer(ITIMER_REAL, &none, nullptr);
-    std::signal(SIGALRM, before_);
-  }
-
- private:
-  static void interrupt(int) {
-    ::usleep(30);
-    start();
-  }
-
-  /// The time differs, to meet every step of this process.
-  static void start() {
-    static suseconds_t microseconds = 0;
-    microseconds = microseconds % 97 + 4;
-    const itimerval once{.it_interval = {}, .it_value = {.tv_sec = 0, .tv_usec = microseconds}};
-    ::setitimer(ITIMER_REAL, &once, nullptr);
-  }
-
-  void (*before_)(int);
-};
-
-/// The first text wakes the parent, which is interrupted between any two of its steps.
-TEST(ChildProcess, WhatIsPrintedBeforeAMessageIsReadWithIt) {
-  const TemporaryFolder folder;
-  ChildProcess child(
-      [](const ChildChannel& channel) {
-        while (const auto message = channel.receive()) {
-          if (::write(STDERR_FILENO, "first ", 6) != 6) return;
-          if (::write(STDOUT_FILENO, "second", 6) != 6) return;
-          if (!channel.send(*message)) return;
-        }
-      },
-      {}, folder.path());
-  const Interruptions interruptions;
-  std::string message;
-  for (int round = 0; round < 10000; ++round) {
-    CapturedOutput output;
-    child.send("go");
-    ASSERT_EQ(next(child, message, output), Event::message);
-    ASSERT_EQ(output.text, "first second") << round;
-  }
 }
 
 TEST(ChildProcess, TellsWorkFromSleep) {

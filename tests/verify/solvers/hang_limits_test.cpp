@@ -5,29 +5,15 @@
 namespace touchstone::verify::solvers::hang_limits_test {
 namespace {
 
-TEST(HangLimits, ShrinkAfterThreeAndAfterThirtyHangs) {
+TEST(HangLimits, ShrinkAfterThreeHangsAndEndTheirSort) {
   HangLimits limits(10.0);
-  for (int hang = 0; hang < 40; ++hang) {
-    EXPECT_EQ(limits.seconds(), hang < 3 ? 10.0 : hang < 30 ? 1.0 : 0.1) << hang;
+  for (int hang = 0; hang < 6; ++hang) {
+    EXPECT_EQ(limits.seconds(), hang < 3 ? 10.0 : 1.0) << hang;
+    EXPECT_EQ(limits.is_over("a"), hang >= 5) << hang;
     limits.add(hang % 2 == 0 ? "a" : "b");
   }
-}
-
-TEST(HangLimits, SampleTheSortThatHangsAlone) {
-  HangLimits limits(1.0);
-  for (int i = 0; i < 3; ++i) {
-    EXPECT_TRUE(limits.asks_all("a"));
-    EXPECT_FALSE(limits.leaves_out("a"));
-    limits.add("a");
-  }
-  EXPECT_FALSE(limits.asks_all("a"));
-  EXPECT_TRUE(limits.asks_all("b"));
-  int asked = 0;
-  for (int i = 0; i < 100; ++i) {
-    EXPECT_FALSE(limits.leaves_out("b"));
-    asked += limits.leaves_out("a") ? 0 : 1;
-  }
-  EXPECT_EQ(asked, 50);
+  EXPECT_FALSE(limits.is_over("c"));
+  EXPECT_EQ(HangLimits(0.0).seconds(), 0.0);
 }
 
 /// A sort at which every query hangs costs a logarithmic number of hangs.

@@ -476,7 +476,8 @@ class PluginEvents : public ::testing::TestWithParam<Way> {
 
 TEST_P(PluginEvents, CostOneQueryEachAndHaveTheirNames) {
   for (const bool may_fork : {false, true}) {
-    std::vector<Misbehaviour> actions(40, Misbehaviour::says_no);
+    // A batch, and one that is solved one by one.
+    std::vector<Misbehaviour> actions(512, Misbehaviour::says_no);
     std::vector<std::string> expected(actions.size(), text_of({.verdict = Verdict::no}, ""));
     for (const Event& event : events()) {
       if (event.may_fork != may_fork) continue;

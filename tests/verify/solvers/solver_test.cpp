@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iostream>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <thread>
@@ -124,22 +125,6 @@ TEST(Solver, SpansAreShortForSlowAndLongForFastSolvers) {
   EXPECT_GE(fast_solver->good_span(), 1000U);
 }
 
-TEST(Solver, TheMakingOfChildProcessesDoesNotShortenSpans) {
-  const FunctionMethod method(echo);
-  // The cost of fork() grows with the memory of the process.
-  const std::vector<char> ballast(std::size_t{1} << 29U, 1);
-  EXPECT_EQ(ballast.back(), 1);
-  // A busy machine delays some first calls, but a fork() that counted would shorten the spans of
-  // all.
-  std::size_t longest = 0;
-  for (int i = 0; i < 50 && longest < 1000; ++i) {
-    const auto in_children = solver_in_children(method, {}, {});
-    static_cast<void>(ask(*in_children, 16));
-    longest = std::max(longest, in_children->good_span());
-  }
-  EXPECT_GE(longest, 1000U);
-}
-
 TEST(Solver, KeepsWhatItsProcessesPrint) {
   const FunctionMethod method([](Kind kind, const Query& query) {
     std::printf("asked %g\n", query.coordinates[0]);
@@ -202,6 +187,27 @@ TEST(Solver, AsksNoQueryAgainThatEndedItsProcess) {
       {.queries = {vf, queries}, .separation = {.distance = 0.25, .norm = Norm::l2}}, answers);
   EXPECT_EQ(other.failures.size(), 2U);
   EXPECT_GT(std::filesystem::file_size(log), ends);
+}
+
+/// The rest of their kind in their source is left out, and no other queries.
+TEST(Solver, LeavesOutQueriesBehindThreeHangsOfTheirSort) {
+  const FunctionMethod method([](Kind kind, const Query& query) {
+    for (; query.coordinates[0] >= 105.0;) std::this_thread::sleep_for(std::chrono::hours(1));
+    return echo(kind, query);
+  });
+  const auto solver = solver_in_children(method, {}, {.query_limit_seconds = 0.5});
+  const Outcome outcome = ask(*solver, 20);
+  ASSERT_EQ(outcome.reply.failures.size(), 3U);
+  for (std::size_t i = 0; i < 20; ++i) {
+    EXPECT_EQ(outcome.answers[i].verdict, i < 5 ? Verdict::yes : Verdict::undecided) << i;
+    const auto why = i < 8 ? std::nullopt : std::optional(judge::Unasked::left_out);
+    EXPECT_EQ(outcome.reply.why_unasked(i), why) << i;
+  }
+  EXPECT_FALSE(outcome.reply.stopped);
+  Numbered other(3);
+  other.source = "another";
+  std::vector<Answer> answers(3);
+  EXPECT_TRUE(solver->solve(other.request(), answers).unasked.empty());
 }
 
 // ---- Shapes -------------------------------------------------------------------------------------

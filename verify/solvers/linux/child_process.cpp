@@ -40,24 +40,6 @@ constexpr bool is_sanitized = false;
   throw std::system_error(errno, std::generic_category(), what);
 }
 
-/// A descriptor, closed with this object.
-class Descriptor {
- public:
-  explicit Descriptor(int number) : number_(number) {}
-  Descriptor(const Descriptor&) = delete;
-  Descriptor& operator=(const Descriptor&) = delete;
-  Descriptor(Descriptor&&) = delete;
-  Descriptor& operator=(Descriptor&&) = delete;
-  ~Descriptor() {
-    if (number_ >= 0) ::close(number_);
-  }
-  [[nodiscard]] int get() const { return number_; }
-  [[nodiscard]] int release() { return std::exchange(number_, -1); }
-
- private:
-  int number_;
-};
-
 // ---- The child ----------------------------------------------------------------------------------
 
 /// Private memory that can be written, in bytes, as RLIMIT_DATA counts it.
@@ -193,16 +175,10 @@ ChildEnds keep_only(const ChildEnds& ends) {
   return {.socket = first_free, .lifeline = first_free + 1, .output = STDOUT_FILENO};
 }
 
-/// The last registered function runs first: the clean-up of the parent's copy is not for this
-/// process, whose threads it would wait for.
-void leave_without_clean_up() {
-  ::on_exit(
-      [](int status, void*) {
-        std::fflush(stdout);
-        std::cout.flush();
-        ::_exit(status);
-      },
-      nullptr);
+[[noreturn]] void leave(int status, void* = nullptr) {
+  std::fflush(stdout);
+  std::cout.flush();
+  ::_exit(status);
 }
 
 [[noreturn]] void live(const ChildProcess::Work& work, const ChildLimits& limits,
@@ -215,7 +191,9 @@ void leave_without_clean_up() {
   }
   const ChildEnds ends = keep_only(inherited);
   die_with(ends.lifeline);
-  leave_without_clean_up();
+  // The last registered function runs first: the clean-up of the parent's copy is not for this
+  // process, whose threads it would wait for.
+  ::on_exit(leave, nullptr);
   int status = 1;
   try {
     std::filesystem::current_path(folder);
@@ -225,9 +203,7 @@ void leave_without_clean_up() {
   } catch (...) {
     status = 1;
   }
-  std::fflush(stdout);
-  std::cout.flush();
-  ::_exit(status);
+  leave(status);
 }
 
 // ---- The parent ---------------------------------------------------------------------------------
@@ -236,24 +212,29 @@ double seconds(const timeval& time) {
   return static_cast<double>(time.tv_sec) + static_cast<double>(time.tv_usec) * 1e-6;
 }
 
-std::pair<int, int> make_pipe() {
-  std::array<int, 2> ends{};
-  if (::pipe2(ends.data(), O_CLOEXEC) != 0) fail("cannot talk to a solver's process");
-  return {ends[0], ends[1]};
+/// What a function of the system makes, and whose result it is.
+std::pair<Descriptor, Descriptor> checked(int result, const std::array<int, 2>& ends) {
+  if (result != 0) fail("cannot talk to a solver's process");
+  return {Descriptor(ends[0]), Descriptor(ends[1])};
 }
 
-std::pair<int, int> make_sockets() {
+std::pair<Descriptor, Descriptor> make_pipe() {
   std::array<int, 2> ends{};
-  if (::socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, ends.data()) != 0) {
-    fail("cannot talk to a solver's process");
-  }
-  return {ends[0], ends[1]};
+  const int result = ::pipe2(ends.data(), O_CLOEXEC);
+  return checked(result, ends);
 }
 
-/// Time between two looks where the system cannot report the child's end.
-constexpr ChildProcess::Seconds short_sleep(0.005);
+std::pair<Descriptor, Descriptor> make_sockets() {
+  std::array<int, 2> ends{};
+  const int result = ::socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, ends.data());
+  return checked(result, ends);
+}
 
 }  // namespace
+
+void Descriptor::close() {
+  if (number_ >= 0) ::close(std::exchange(number_, -1));
+}
 
 TemporaryFolder::TemporaryFolder() {
   std::string name = (std::filesystem::temp_directory_path() / "touchstone-XXXXXX").string();
@@ -289,62 +270,52 @@ bool ChildChannel::send(const std::string& message) const {
 
 ChildProcess::ChildProcess(const Work& work, const ChildLimits& limits,
                            const std::filesystem::path& folder) {
-  const auto [own_socket, child_socket] = make_sockets();
-  Descriptor socket(own_socket);
-  const Descriptor other_socket(child_socket);
-  const auto [child_lifeline, own_lifeline] = make_pipe();
-  Descriptor lifeline(own_lifeline);
-  const Descriptor other_lifeline(child_lifeline);
-  const auto [own_output, child_output] = make_pipe();
-  Descriptor output(own_output);
-  const Descriptor other_output(child_output);
-  ::fcntl(own_output, F_SETFL, O_NONBLOCK);
+  auto [socket, child_socket] = make_sockets();
+  auto [child_lifeline, lifeline] = make_pipe();
+  auto [output, child_output] = make_pipe();
+  ::fcntl(output.get(), F_SETFL, O_NONBLOCK);
   // Buffered output belongs to this process.
   std::fflush(stdout);
   process_ = ::fork();
   if (process_ == 0) {
     live(work, limits, folder,
-         {.socket = child_socket, .lifeline = child_lifeline, .output = child_output});
+         {.socket = child_socket.get(),
+          .lifeline = child_lifeline.get(),
+          .output = child_output.get()});
   }
   if (process_ < 0) fail("cannot make a solver's process");
   // The child does the same; whoever comes first, the group is there from now on.
   ::setpgid(process_, process_);
-  socket_ = socket.release();
-  lifeline_ = lifeline.release();
-  output_ = output.release();
-  ended_ = static_cast<int>(::syscall(SYS_pidfd_open, process_, 0U));
+  socket_ = std::move(socket);
+  lifeline_ = std::move(lifeline);
+  output_ = std::move(output);
+  ended_ = Descriptor(static_cast<int>(::syscall(SYS_pidfd_open, process_, 0U)));
 }
 
 ChildProcess::~ChildProcess() {
   CapturedOutput ignored;
   if (process_ >= 0) end(ignored);
-  for (const int descriptor : {socket_, lifeline_, output_, ended_}) {
-    if (descriptor >= 0) ::close(descriptor);
-  }
 }
 
 void ChildProcess::send(const std::string& message) const {
-  static_cast<void>(::send(socket_, message.data(), message.size(), MSG_NOSIGNAL | MSG_DONTWAIT));
+  static_cast<void>(
+      ::send(socket_.get(), message.data(), message.size(), MSG_NOSIGNAL | MSG_DONTWAIT));
 }
 
 ChildProcess::Event ChildProcess::wait(Seconds longest, std::string& message,
                                        CapturedOutput& output) {
   // poll() passes over descriptors that are none.
-  std::array<pollfd, 3> events{{{.fd = socket_, .events = POLLIN, .revents = 0},
-                                {.fd = output_, .events = POLLIN, .revents = 0},
-                                {.fd = ended_, .events = POLLIN, .revents = 0}}};
-  const Seconds sleep = ended_ < 0 ? std::min(longest, short_sleep) : longest;
+  std::array<pollfd, 3> events{{{.fd = socket_.get(), .events = POLLIN, .revents = 0},
+                                {.fd = output_.get(), .events = POLLIN, .revents = 0},
+                                {.fd = ended_.get(), .events = POLLIN, .revents = 0}}};
   // A signal to this process cuts the sleep short, which does no harm.
-  ::poll(events.data(), events.size(), static_cast<int>(sleep.count() * 1e3) + 1);
+  ::poll(events.data(), events.size(), static_cast<int>(longest.count() * 1e3) + 1);
   const bool has_ended = this->has_ended();
-  message.clear();
-  if (socket_ >= 0) {
-    message.resize(ChildChannel::most_bytes);
-    const ssize_t received = ::recv(socket_, message.data(), message.size(), MSG_DONTWAIT);
-    message.resize(static_cast<std::size_t>(std::max<ssize_t>(received, 0)));
-    // The child may have closed its end, and live on.
-    if (received == 0) ::close(std::exchange(socket_, -1));
-  }
+  message.resize(ChildChannel::most_bytes);
+  const ssize_t received = ::recv(socket_.get(), message.data(), message.size(), MSG_DONTWAIT);
+  message.resize(static_cast<std::size_t>(std::max<ssize_t>(received, 0)));
+  // The child may have closed its end, and live on.
+  if (received == 0) socket_.close();
   // After the message: what the child prints before it sends is read with it.
   take_output(output);
   if (!message.empty()) return Event::message;
@@ -355,10 +326,10 @@ void ChildProcess::take_output(CapturedOutput& output) {
   std::array<char, 4096> buffer{};
   // Not for ever: the child may print as fast as this reads.
   constexpr int most_reads = 256;
-  for (int i = 0; i < most_reads && output_ >= 0; ++i) {
-    const ssize_t count = ::read(output_, buffer.data(), buffer.size());
+  for (int i = 0; i < most_reads && output_.get() >= 0; ++i) {
+    const ssize_t count = ::read(output_.get(), buffer.data(), buffer.size());
     if (count > 0) output.append(buffer.data(), static_cast<std::size_t>(count));
-    if (count == 0) ::close(std::exchange(output_, -1));
+    if (count == 0) output_.close();
     if (count < 0 && errno != EINTR) return;
   }
 }

@@ -1,6 +1,6 @@
 /// \file
 /// A plugin that is undecided about everything. At the call that TOUCHSTONE_TEST_CALL names, of
-/// each process, it interrupts its parent process: an interrupt during the work, whatever the
+/// each process, it ends its parent as SIGTERM does: an interrupt during the work, whatever the
 /// machine's load.
 
 #include <fcntl.h>
@@ -21,7 +21,7 @@ void interrupt_parent() {
   std::array<int, 2> ends{};
   if (::pipe(ends.data()) != 0) return;
   ::fcntl(ends[0], F_SETOWN, ::getppid());
-  ::fcntl(ends[0], F_SETSIG, SIGINT);
+  ::fcntl(ends[0], F_SETSIG, SIGTERM);
   ::fcntl(ends[0], F_SETFL, O_ASYNC);
   if (::write(ends[1], "x", 1) != 1) std::abort();
 }
