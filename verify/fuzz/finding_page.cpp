@@ -91,9 +91,8 @@ constexpr std::array<Interface, 3> interfaces{{
 )"},
     {"ticcd",
      "tight_inclusion",
-     R"(// Against github.com/Continuous-Collision-Detection/Tight-Inclusion.
-#include <tight_inclusion/ccd.hpp>
-)",
+     "// Against github.com/Continuous-Collision-Detection/Tight-Inclusion.\n"
+     "#include <tight_inclusion/ccd.hpp>\n",
      "",
      {"vertexFaceCCD", "edgeEdgeCCD"},
      R"(  const auto p = [&x](int i) { return ticcd::Vector3(x[i][0], x[i][1], x[i][2]); };
@@ -105,9 +104,8 @@ constexpr std::array<Interface, 3> interfaces{{
 )"},
     {"ipc-toolkit",
      "accd",
-     R"(// Against github.com/ipc-sim/ipc-toolkit.
-#include <ipc/ccd/additive_ccd.hpp>
-)",
+     "// Against github.com/ipc-sim/ipc-toolkit.\n"
+     "#include <ipc/ccd/additive_ccd.hpp>\n",
      "",
      {"point_triangle_ccd", "edge_edge_ccd"},
      R"(  const auto p = [&x](int i) { return Eigen::Vector3d(x[i][0], x[i][1], x[i][2]); };

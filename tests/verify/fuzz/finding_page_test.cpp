@@ -73,7 +73,11 @@ TEST(Program, EndsWithOneForTheFinding) {
 }
 
 TEST(Program, CallsTheInterfaceOfTheSolver) {
-  const auto of = [](const std::string& method) { return json_of(fall(), call(method)); };
+  const auto of = [](const std::string& method) {
+    Finding finding = fall();
+    finding.method = method;
+    return json_of(finding, call(method));
+  };
   expect_part(of("rp"), "const Options options{0.125, 77, 0.25, 1, 1};");
   expect_part(of("tight_inclusion_released"),
               "ticcd::vertexFaceCCD(p(0), p(1), p(2), p(3), p(4), p(5), p(6), p(7),\n"
