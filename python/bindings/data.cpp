@@ -27,8 +27,8 @@ using verify::io::DatasetError;
 
 /// The queries of a file in memory.
 struct Dataset {
-  Kind kind = Kind::vertex_face;
-  std::vector<Query> queries{};
+  QueryShape shape = {};
+  std::vector<double> numbers{};
   std::vector<std::uint8_t> labels{};  ///< none, or one for each query
   std::vector<std::pair<std::uint64_t, exact::Rational>> times{};
 };
@@ -36,23 +36,31 @@ struct Dataset {
 Dataset read_until(const std::string& path, const verify::data::DatasetOptions& options,
                    const std::atomic<bool>& stop) {
   const auto source = verify::data::open_dataset(path, options);
-  Dataset result{.kind = source->kind()};
+  Dataset result{.shape = source->shape()};
   while (auto record = stop ? std::nullopt : source->next()) {
-    result.queries.push_back(record->query);
+    const auto numbers = record->query.numbers();
+    result.numbers.insert(result.numbers.end(), numbers.begin(), numbers.end());
     if (record->collides) result.labels.push_back(*record->collides ? 1 : 0);
     if (record->toi) result.times.emplace_back(record->index, *std::move(record->toi));
   }
   return result;
 }
 
-/// An array of shape (N, 8, 3) of their memory.
-py::array array_of(std::vector<Query> queries) {
-  auto owned = std::make_unique<std::vector<Query>>(std::move(queries));
-  const std::vector<py::ssize_t> shape{static_cast<py::ssize_t>(owned->size()), 8, 3};
-  const auto* const numbers = reinterpret_cast<const double*>(owned->data());
+/// An array of their memory, of shape (N, 8, 3), or (N, degree + 1, 4, 3 or 4) on curves.
+py::array array_of(const QueryShape& shape, std::vector<double> all) {
+  auto owned = std::make_unique<std::vector<double>>(std::move(all));
+  std::vector<py::ssize_t> extents{
+      static_cast<py::ssize_t>(owned->size() / shape.numbers_of_query())};
+  if (shape.is_straight()) {
+    extents.insert(extents.end(), {8, 3});
+  } else {
+    extents.insert(extents.end(), {static_cast<py::ssize_t>(shape.degree) + 1, 4,
+                                   static_cast<py::ssize_t>(shape.numbers_of_point())});
+  }
+  const double* const numbers = owned->data();
   const py::capsule owner(owned.release(),
-                          [](void* all) { delete static_cast<std::vector<Query>*>(all); });
-  return py::array_t<double>(shape, numbers, owner);
+                          [](void* memory) { delete static_cast<std::vector<double>*>(memory); });
+  return py::array_t<double>(extents, numbers, owner);
 }
 
 /// The kind, the queries, their labels or None, and (query, (numerator, denominator)) for each
@@ -70,7 +78,8 @@ py::tuple read(const std::string& path, const std::optional<std::string>& kind, 
   py::list times;
   for (const auto& [query, time] : found.times)
     times.append(py::make_tuple(query, to_python(time)));
-  return py::make_tuple(name_of(found.kind), array_of(std::move(found.queries)), labels, times);
+  return py::make_tuple(name_of(found.shape.kind), array_of(found.shape, std::move(found.numbers)),
+                        labels, times);
 }
 
 }  // namespace

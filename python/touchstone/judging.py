@@ -35,7 +35,7 @@ class Queries:
     ----------
     kind : {"vertex_face", "edge_edge"}
         The primitives.
-    queries : ndarray of shape (N, 8, 3)
+    queries : ndarray of shape (N, 8, 3), or (N, degree + 1, 4, 3 or 4) on curves
         Four points at t=0, then at t=1.
     collides : ndarray of bool, shape (N,), or None
         The recorded verdicts, if there are any.
