@@ -75,6 +75,7 @@ void run_stages(const KernelInput& input, KernelOutput& output) {
     }
     direction_and_determinant_stage<Lanes, separated, kind, Source>(input, open, mixed, output);
   }
+  if (mixed.count == 0) return;
   Crossings contacts, zeros;
   orientation_stage<Lanes, separated, kind, Source>(input, mixed, contacts, zeros, undecided, far,
                                                     output);

@@ -24,7 +24,7 @@ class AxisStage {
  public:
   /// \param open The queries that no axis separates.
   static void run(const KernelInput& input, Indices& open) {
-    Marks<Lanes> marks;
+    Marks<Lanes> marks(input.count);
     constexpr std::size_t words = Source::places_at_once;
     std::size_t first = 0;
     for (; first + words * word_size <= input.count; first += words * word_size) {

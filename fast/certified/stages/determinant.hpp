@@ -99,7 +99,8 @@ template <class Lanes, bool separated, Kind kind, class Source>
 inline void direction_and_determinant_stage(const KernelInput& input, const Indices& open,
                                             Indices& mixed, KernelOutput& output) {
   using Value = typename Lanes::Value;
-  Marks<Lanes> unbounded, of_direction, of_determinant, of_neither;
+  Marks<Lanes> unbounded(open.count), of_direction(open.count), of_determinant(open.count),
+      of_neither(open.count);
   const Value distance(input.separation.distance);
   for (std::size_t first = 0; first < open.count; first += Lanes::width) {
     const std::size_t count = taken<Lanes>(first, open.count);

@@ -104,6 +104,12 @@ class Marks {
  public:
   static constexpr std::size_t word_size = 64;
 
+  /// No marks. \param size the length of the list; the words of longer lists cost a single query
+  /// more than its stages
+  explicit Marks(std::size_t size) : count_((size + word_size - 1) / word_size) {
+    for (std::size_t i = 0; i < count_; ++i) words_[i] = 0;
+  }
+
   void set_word(std::size_t first, std::uint64_t word) { words_[first / word_size] = word; }
   /// Adds places from `first` on, at most to the end of its word.
   void add(std::size_t first, unsigned bits) {
@@ -112,7 +118,7 @@ class Marks {
 
   template <class Function>
   void for_each(const Function& function) const {
-    for (std::size_t i = 0; i < words_.size(); ++i) {
+    for (std::size_t i = 0; i < count_; ++i) {
       for (std::uint64_t rest = words_[i]; rest != 0; rest &= rest - 1) {
         function(word_size * i + static_cast<std::size_t>(__builtin_ctzll(rest)));
       }
@@ -120,7 +126,8 @@ class Marks {
   }
 
  private:
-  std::array<std::uint64_t, kernel_block / word_size> words_{};
+  std::array<std::uint64_t, kernel_block / word_size> words_;
+  std::size_t count_;  ///< of words in use
 };
 
 template <class Lanes, class Item>
