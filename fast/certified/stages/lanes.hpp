@@ -283,11 +283,23 @@ struct FromPairs {
   static constexpr std::size_t places_at_once = 1;
 };
 
+/// The points of one query, the same in all lanes.
+template <class Lanes>
+inline std::array<Vector<typename Lanes::Value>, query_points> in_all_lanes(const Points& points) {
+  using Value = typename Lanes::Value;
+  std::array<Vector<Value>, query_points> result;
+  for (std::size_t k = 0; k < query_points; ++k) {
+    for (std::size_t axis = 0; axis < 3; ++axis) result[k][axis] = Value(points[k][axis]);
+  }
+  return result;
+}
+
 /// The points of `width` queries, lane by lane. Lanes beyond `count` repeat the last.
 template <class Lanes, class Source>
 inline std::array<Vector<typename Lanes::Value>, query_points> load(const KernelInput& input,
                                                                     const std::uint32_t* indices,
                                                                     std::size_t count) {
+  if (count == 1) return in_all_lanes<Lanes>(Source::points(input, indices[0]));
   std::array<std::array<const double*, Lanes::width>, query_points> rows;
   for (std::size_t lane = 0; lane < Lanes::width; ++lane) {
     const Points points = Source::points(input, indices[lane < count ? lane : count - 1]);
