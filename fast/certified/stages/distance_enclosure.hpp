@@ -276,7 +276,7 @@ class DistanceEnclosure {
       rows[0][lane] = approach.begin;
       rows[1][lane] = approach.time;
     }
-    const auto points = load<Lanes, Source>(input, indices.data(), count);
+    const auto points = load<Lanes, Source>(input, indices.data(), Lanes::width);
     const PolygonVectors<Value, kind> vectors(points);
     const double distance = input.separation.distance;
     const Arrival<Lanes, kind, norm> arrival(

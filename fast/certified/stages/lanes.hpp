@@ -251,6 +251,13 @@ struct FromArray {
   static constexpr bool may_read_behind = false;
   /// Memory is faster if several places are read at once.
   static constexpr std::size_t places_at_once = 4;
+  static constexpr bool is_one = false;
+};
+
+/// An array of one query.
+template <class Lanes>
+struct FromOne : FromArray<Lanes> {
+  static constexpr bool is_one = true;
 };
 
 /// Pairs of primitives of a mesh.
@@ -281,6 +288,7 @@ struct FromPairs {
   static constexpr bool may_read_behind = true;
   /// One place at a time, because neighbours share vertices, which are in the cache.
   static constexpr std::size_t places_at_once = 1;
+  static constexpr bool is_one = false;
 };
 
 /// The points of one query, the same in all lanes.
@@ -299,7 +307,7 @@ template <class Lanes, class Source>
 inline std::array<Vector<typename Lanes::Value>, query_points> load(const KernelInput& input,
                                                                     const std::uint32_t* indices,
                                                                     std::size_t count) {
-  if (count == 1) return in_all_lanes<Lanes>(Source::points(input, indices[0]));
+  if constexpr (Source::is_one) return in_all_lanes<Lanes>(Source::points(input, indices[0]));
   std::array<std::array<const double*, Lanes::width>, query_points> rows;
   for (std::size_t lane = 0; lane < Lanes::width; ++lane) {
     const Points points = Source::points(input, indices[lane < count ? lane : count - 1]);

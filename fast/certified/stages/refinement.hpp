@@ -139,7 +139,7 @@ class Refinement {
   static void refine_lanes(const KernelInput& input, const Crossing* crossings, std::size_t count,
                            Approaches& approaches, Indices& unproved, KernelOutput& output) {
     const CrossingLanes<Lanes> lanes(crossings, count);
-    const auto points = load<Lanes, Source>(input, lanes.indices.data(), count);
+    const auto points = load<Lanes, Source>(input, lanes.indices.data(), Lanes::width);
     const Determinant determinant(points, Value(input.separation.distance));
     const Value half_width(0.4 * input.toi_tolerance);
     const Value zero = lanes.cubic.zero(0x1p-26);
