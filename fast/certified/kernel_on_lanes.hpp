@@ -72,7 +72,7 @@ void run_stages(const KernelInput& input, KernelOutput& output) {
         open.items[open.count] = static_cast<std::uint32_t>(open.count);
       }
     } else {
-      AxisStage<Lanes, separated, kind, Source>::run(input, open);
+      AxisStage<Lanes, separated, kind, First>::run(input, open);
     }
     direction_and_determinant_stage<Lanes, separated, kind, First>(input, open, mixed, output);
   }

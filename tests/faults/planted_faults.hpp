@@ -84,7 +84,7 @@ struct PlantedFaults {
   Faults<Check> checker;
   Faults<const fast::BoxKernel> box_kernel;
   Faults<MakeTightInclusion> tight_inclusion;
-  Faults<const fast::CertifiedKernel> certified_kernel, single_precision, curved_kernel;
+  Faults<const fast::CertifiedKernel> certified_kernel, single_precision, time_limit, curved_kernel;
   Faults<MakeFixedPoint> fixed_point_vertices;
   Faults<DecideRescaled> rescaling;
   Faults<DecideExactly> exact_stage;

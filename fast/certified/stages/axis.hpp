@@ -12,12 +12,12 @@
 /// than D comes from an exact one greater than D, because rounding is monotone and D is a double.
 ///
 /// **Up to a time.** Where only contacts up to a time T < 1 count, the queries that no axis
-/// separates are tested again, with the points at a time t ≥ T in place of those at t=1. Let s = 1
-/// − T, rounded, or the double before it if 1 − s < T. Then t = 1 − s is exact, and at least T. The
-/// position s x0 + t x1 has two products and a sum, so its error is at most (2 u + u²) m + 2^-1074
-/// for coordinates of magnitude up to m and u = 2^-53. The difference of two positions therefore
-/// has to exceed D by `slack`, 8 u m + 2^-1070, which is more than twice that error after all
-/// roundings. Where positions might overflow, slack is infinite.
+/// separates are tested again, with the points at T in place of those at t=1. Let u = 2^-53 and m
+/// the greatest magnitude of a coordinate on the axis. A position (1 − T) x0 + T x1 has an error of
+/// at most u m / 2 by the rounding of 1 − T and of (2 u + u²) m + 2^-1074 by that of two products
+/// and a sum. The difference of two positions has to exceed D by `slack`, 8 u m + 2^-1070, which is
+/// more than twice these errors, and monotone rounding does the rest. Where positions might
+/// overflow, slack is infinite.
 
 #include <array>
 #include <cstddef>
@@ -32,6 +32,22 @@ class AxisStage {
  public:
   /// \param open The queries that no axis separates.
   static void run(const KernelInput& input, Indices& open) {
+    if constexpr (Source::is_one) {
+      const bool is_free = is_separated(Source::points(input, 0), Row(input.separation.distance));
+      open.items[0] = 0;
+      open.count = std::size_t{!is_free};
+    } else {
+      find_open(input, open);
+    }
+    if (input.t_limit < 1.0) keep_open_until(input, open);
+  }
+
+ private:
+  using Row = typename Lanes::Row;
+  using RowMask = typename Lanes::RowMask;
+  static constexpr std::size_t word_size = Marks<Lanes>::word_size;
+
+  static void find_open(const KernelInput& input, Indices& open) {
     Marks<Lanes> marks(input.count);
     constexpr std::size_t words = Source::places_at_once;
     std::size_t first = 0;
@@ -44,13 +60,7 @@ class AxisStage {
     }
     open.count = 0;
     marks.for_each([&](std::size_t i) { append<Lanes>(open, static_cast<std::uint32_t>(i)); });
-    if (input.t_limit < 1.0) keep_open_until(input, open);
   }
-
- private:
-  using Row = typename Lanes::Row;
-  using RowMask = typename Lanes::RowMask;
-  static constexpr std::size_t word_size = Marks<Lanes>::word_size;
 
   /// Marks the queries that no axis separates: `count` in each of some words.
   template <std::size_t word_count>
@@ -91,9 +101,8 @@ class AxisStage {
 
   /// Keeps the queries that no axis separates up to t_limit.
   static void keep_open_until(const KernelInput& input, Indices& open) {
-    double before = 1.0 - input.t_limit;
-    if (1.0 - before < input.t_limit) before -= 0x1p-53;
-    const Row distance(input.separation.distance), of_start(before), of_end(1.0 - before);
+    const Row distance(input.separation.distance);
+    const Row of_start(1.0 - input.t_limit), of_end(input.t_limit);
     std::size_t count = 0;
     for (std::size_t i = 0; i < open.count; ++i) {
       const std::uint32_t index = open.items[i];
