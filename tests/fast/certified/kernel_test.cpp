@@ -397,7 +397,7 @@ TEST(Certified, OneQueryHasTheBitsOfABatch) {
       // Few queries of those that the exact stage decides, which takes most of the time.
       for (std::size_t i = 0; i < size; ++i) {
         queries[i] =
-            i % 10 == 0 ? random_query(random, kind) : tests::full_significand_query(random);
+            i % 20 == 0 ? random_query(random, kind) : tests::full_significand_query(random);
       }
       constexpr std::array<double, 5> limits{1.0, 0.5, 0.01, 0.0, 0.999};
       const CertifiedOptions options{
