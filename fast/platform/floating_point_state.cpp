@@ -10,16 +10,11 @@ namespace touchstone::fast {
 // function.
 #ifdef __SSE2__
 namespace {
-constexpr unsigned default_state = 0x1F80, flags = 0x3F;
+constexpr unsigned default_state = 0x1F80;
 }
 
-// Writing the register takes longer than reading it, which a single query would notice.
-StrictFloatingPoint::StrictFloatingPoint() : callers_(_mm_getcsr()) {
-  if ((callers_ & ~flags) != default_state) _mm_setcsr(default_state);
-}
-StrictFloatingPoint::~StrictFloatingPoint() {
-  if (_mm_getcsr() != callers_) _mm_setcsr(callers_);
-}
+StrictFloatingPoint::StrictFloatingPoint() : callers_(_mm_getcsr()) { _mm_setcsr(default_state); }
+StrictFloatingPoint::~StrictFloatingPoint() { _mm_setcsr(callers_); }
 #else
 StrictFloatingPoint::StrictFloatingPoint() : callers_{} {
   std::fegetenv(&callers_);
