@@ -8,6 +8,7 @@
 #include "fast/certified/curves.hpp"
 #include "fast/kernels.hpp"
 #include "fast/method.hpp"
+#include "fast/platform/floating_point_state.hpp"
 #include "fast/platform/threads.hpp"
 
 namespace touchstone::fast {
@@ -167,8 +168,15 @@ std::string_view to_string(Stage stage) {
 }
 
 CertifiedResult solve(Kind kind, const Query& query, const CertifiedOptions& options) {
-  CertifiedResult result;
-  solve(kind, std::span(&query, 1), std::span(&result, 1), options);
+  require_valid(options);
+  const StrictFloatingPoint strict;
+  CertifiedResult result{.verdict = Verdict::no, .stage = Stage::axis};
+  const KernelOutput& output = decide_block(
+      {.kind = kind, .count = 1, .queries = &query}, options.t_max, options,
+      certified_kernel_for_one(chosen_kernels()),
+      [&](std::size_t) -> const Query& { return query; },
+      [&](std::size_t, const CertifiedResult& found) { result = found; });
+  mark_stages(output, [&](std::size_t, Stage stage) { result.stage = stage; });
   return result;
 }
 

@@ -35,6 +35,16 @@ Distance distance_at(Kind kind, const Query& query, double t, Norm norm) {
   return exact_distance(kind, query, t, norm);
 }
 
+/// The same for a query that no kernel has seen.
+Distance distance_of_one(Kind kind, const Query& query, double t, Norm norm) {
+  if (norm == Norm::l2) {
+    Distance result;
+    distance_kernel_for_one().filter(kind, &query, 1, t, &result);
+    if (result != open_distance) return result;
+  }
+  return distance_at(kind, query, t, norm);
+}
+
 /// Answers query i in results[i].
 /// \param first the number of query 0 in messages
 void answer(Kind kind, std::span<const Query> queries, double t, Norm norm,
@@ -147,7 +157,7 @@ class LeastDistanceSearch {
 
   void consider(PairKind kind, const IndexPair& pair) {
     const Query query = step_.query_of(kind, pair);
-    const Distance distance = distance_at(Step::kind_of(kind), query, t_, norm_);
+    const Distance distance = distance_of_one(Step::kind_of(kind), query, t_, norm_);
     if (distance.lower > known_.load(std::memory_order_relaxed)) return;
     const std::scoped_lock lock(mutex_);
     if (is_less(least_, distance)) return;
@@ -177,7 +187,7 @@ Distance distance(Kind kind, const Query& query, double t, Norm norm) {
   require_time(t);
   if (!is_finite(query)) throw std::domain_error("distance: a coordinate is not finite");
   const StrictFloatingPoint strict;
-  return distance_at(kind, query, t, norm);
+  return distance_of_one(kind, query, t, norm);
 }
 
 void distances(Kind kind, std::span<const Query> queries, double t, Norm norm,

@@ -23,6 +23,14 @@ struct Kernels {
 [[nodiscard]] inline const CertifiedKernel& certified_kernel(const Kernels& chosen) {
   return chosen.certified != nullptr ? *chosen.certified : *certified_kernels().back();
 }
+/// For one query at a time: the lanes of the widest kernels would be empty, and their instructions
+/// are slower.
+[[nodiscard]] inline const CertifiedKernel& certified_kernel_for_one(const Kernels& chosen) {
+  static const CertifiedKernel* const narrow =
+      find_kernel(certified_kernels(), InstructionSet::avx2);
+  if (chosen.certified != nullptr) return *chosen.certified;
+  return narrow != nullptr ? *narrow : *certified_kernels().back();
+}
 [[nodiscard]] inline const SearchKernel& search_kernel(const Kernels& chosen) {
   return chosen.search != nullptr ? *chosen.search : *search_kernels().back();
 }

@@ -101,12 +101,14 @@ const KernelOutput& decide_block(KernelInput block, double t_limit, const Certif
   block.t_limit = t_limit;
   block.separation = options.separation;
   kernel.decide(block, output);
-  thread_local std::vector<Query> undecided;
-  undecided.clear();
-  for (std::size_t i = 0; i < output.undecided.count; ++i) {
-    undecided.push_back(query_of(output.undecided.items[i]));
+  if (output.undecided.count > 0) {
+    thread_local std::vector<Query> undecided;
+    undecided.clear();
+    for (std::size_t i = 0; i < output.undecided.count; ++i) {
+      undecided.push_back(query_of(output.undecided.items[i]));
+    }
+    decide_rescaled(block, kernel, undecided, output);
   }
-  decide_rescaled(block, kernel, undecided, output);
   report_contacts(
       output, options,
       [&](std::size_t index) { return decided_exactly(block.kind, query_of(index), options); },

@@ -31,6 +31,7 @@ struct Row {
 
   friend Row operator+(const Row& a, const Row& b) { return {a.xy + b.xy, a.z + b.z}; }
   friend Row operator-(const Row& a, const Row& b) { return {a.xy - b.xy, a.z - b.z}; }
+  friend Row operator*(const Row& a, const Row& b) { return {a.xy * b.xy, a.z * b.z}; }
   friend Row min(const Row& a, const Row& b) { return {min(a.xy, b.xy), min(a.z, b.z)}; }
   friend Row max(const Row& a, const Row& b) { return {max(a.xy, b.xy), max(a.z, b.z)}; }
   friend RowMask operator<(const Row& a, const Row& b) { return {a.xy < b.xy, a.z < b.z}; }

@@ -57,7 +57,8 @@
 
 namespace touchstone::fast::kernel {
 
-template <class Lanes, bool separated, Kind kind, class Source>
+/// \tparam First the source for the first stages: of one query, or Source
+template <class Lanes, bool separated, Kind kind, class Source, class First>
 void run_stages(const KernelInput& input, KernelOutput& output) {
   output.separated_in_direction.count = output.one_sided.count = 0;
   output.rejected.count = output.impacts.count = output.undecided.count = 0;
@@ -71,13 +72,14 @@ void run_stages(const KernelInput& input, KernelOutput& output) {
         open.items[open.count] = static_cast<std::uint32_t>(open.count);
       }
     } else {
-      AxisStage<Lanes, separated, kind, Source>::run(input, open);
+      AxisStage<Lanes, separated, kind, First>::run(input, open);
     }
-    direction_and_determinant_stage<Lanes, separated, kind, Source>(input, open, mixed, output);
+    direction_and_determinant_stage<Lanes, separated, kind, First>(input, open, mixed, output);
   }
+  if (mixed.count == 0) return;
   Crossings contacts, zeros;
-  orientation_stage<Lanes, separated, kind, Source>(input, mixed, contacts, zeros, undecided, far,
-                                                    output);
+  orientation_stage<Lanes, separated, kind, First>(input, mixed, contacts, zeros, undecided, far,
+                                                   output);
   Indices& hopeless = separated ? far : output.undecided;
   zero_stages<Lanes, separated, kind, Source>(input, zeros, contacts, undecided, hopeless, far,
                                               output);
@@ -94,10 +96,13 @@ void run_stages(const KernelInput& input, KernelOutput& output) {
 
 template <class Lanes, bool separated, Kind kind>
 void decide_kind(const KernelInput& input, KernelOutput& output) {
-  if (input.queries != nullptr) {
-    run_stages<Lanes, separated, kind, FromArray<Lanes>>(input, output);
+  using Pairs = FromPairs<Lanes, kind>;
+  if (input.queries == nullptr) {
+    run_stages<Lanes, separated, kind, Pairs, Pairs>(input, output);
+  } else if (input.count == 1) {
+    run_stages<Lanes, separated, kind, FromArray<Lanes>, FromOne<Lanes>>(input, output);
   } else {
-    run_stages<Lanes, separated, kind, FromPairs<Lanes, kind>>(input, output);
+    run_stages<Lanes, separated, kind, FromArray<Lanes>, FromArray<Lanes>>(input, output);
   }
 }
 

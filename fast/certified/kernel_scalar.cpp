@@ -41,6 +41,9 @@ struct Row {
   friend Row operator-(const Row& a, const Row& b) {
     return each(a, b, [](double p, double q) { return p - q; });
   }
+  friend Row operator*(const Row& a, const Row& b) {
+    return each(a, b, [](double p, double q) { return p * q; });
+  }
   friend Row min(const Row& a, const Row& b) {
     return each(a, b, [](double p, double q) { return p < q ? p : q; });
   }

@@ -31,4 +31,7 @@ struct DistanceKernel {
 /// \throws std::runtime_error if one was compiled so that products are contracted.
 [[nodiscard]] std::span<const DistanceKernel* const> distance_kernels();
 
+/// The one of them that is fastest for one query.
+[[nodiscard]] const DistanceKernel& distance_kernel_for_one();
+
 }  // namespace touchstone::fast

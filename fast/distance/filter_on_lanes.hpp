@@ -6,8 +6,8 @@
 /// (filter_*.cpp).
 ///
 /// The nearest feature of each lane is guessed in doubles. Corners are rotated so that it begins at
-/// the first: vertex 0, side 0 1, or the face. The three features are then evaluated for all lanes
-/// if one lane needs them. The first double to compare with is the root of the quotient, the second
+/// the first: vertex 0, side 0 1, or the face. Each of the three is then evaluated for all lanes if
+/// one lane needs it. The first double to compare with is the root of the quotient, the second
 /// its neighbour on the side of the distance. Queries that these two do not decide remain open, and
 /// so do special ones: with coincident points, or with a size that would need scaling.
 ///
@@ -57,8 +57,10 @@ class Filter {
     for (std::size_t i = 0; i < width; ++i)
       second[i] = neighbour(first[i], (goes_up >> i & 1U) != 0);
     const Value other = Value::load(second.data());
-    const unsigned sure =
-        ((above & filter.is_within(other)) | (below & filter.is_beyond(other))).bits();
+    Mask is_proved = Mask::none();
+    if (goes_up != 0) is_proved = above & filter.is_within(other);
+    if (below.bits() != 0) is_proved = is_proved | (below & filter.is_beyond(other));
+    const unsigned sure = is_proved.bits();
     for (std::size_t i = 0; i < count; ++i) {
       const bool is_sure = (sure >> i & 1U) != 0 && is_plain(queries[i]);
       const bool is_up = (goes_up >> i & 1U) != 0;
@@ -153,7 +155,8 @@ class Filter {
     guess_feature(p);
     rotate(p);
     const Mask is_vertex = kind_of_feature_ == Value(0.0), is_side = kind_of_feature_ == Value(1.0);
-    set_face();
+    const Mask is_face = kind_of_feature_ == Value(2.0);
+    if (is_face.bits() != 0) set_face();
     if (is_side.bits() != 0) set_side(is_side);
     if (is_vertex.bits() != 0) set_vertex(is_vertex);
   }
@@ -271,7 +274,7 @@ class Filter {
   Value first_;
   Polygon polygon_;  ///< rotated
   Number value_, square_;
-  Mask is_attained_;
+  Mask is_attained_ = Mask::none();
   std::array<Number, corner_count - 1> others_;
 };
 

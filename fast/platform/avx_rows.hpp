@@ -47,6 +47,9 @@ struct AvxRow {
   friend AvxRow operator-(const AvxRow& a, const AvxRow& b) {
     return AvxRow(_mm256_sub_pd(a.all, b.all));
   }
+  friend AvxRow operator*(const AvxRow& a, const AvxRow& b) {
+    return AvxRow(_mm256_mul_pd(a.all, b.all));
+  }
   friend AvxRow min(const AvxRow& a, const AvxRow& b) {
     return AvxRow(_mm256_min_pd(a.all, b.all));
   }

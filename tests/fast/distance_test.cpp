@@ -222,6 +222,76 @@ TEST(Distance, OfManyIsThatOfEachInAllInstructionSetsAndAsARuleFiltered) {
   }
 }
 
+// ---- What is kept -------------------------------------------------------------------------------
+
+/// The number of times that the inequality says too much, and that it says something.
+struct Kept {
+  int wrong = 0;
+  int said = 0;
+};
+
+template <class KeepsDistance>
+Kept ask_what_is_kept(const KeepsDistance& keeps) {
+  Kept result;
+  Random random(2011);
+  for (int round = 0; round < 20000; ++round) {
+    const Kind kind = kinds.at(static_cast<std::size_t>(round) % 2);
+    Query query = tests::random_query(
+                      random, kind, tests::all_families.at(static_cast<std::size_t>(round) / 2 % 4))
+                      .query;
+    // Steps from the whole motion to hardly any, and sizes from tiny to great.
+    const double part_of_motion = std::ldexp(1.0, -random.between(0, 8));
+    const double scale = std::ldexp(1.0, round % 5 == 0 ? random.between(-450, 450) : 0);
+    for (std::size_t i = 0; i < 12; ++i) {
+      double& end = query.coordinates[12 + i];
+      end = query.coordinates[i] + part_of_motion * (end - query.coordinates[i]);
+    }
+    for (double& x : query.coordinates) x *= scale;
+    const KeptDistance kept{.part = random.coin() ? 0.2 : random.unit(),
+                            .least = random.coin() ? 0.0 : scale * random.uniform(0.0, 0.5)};
+    const double t_max = random.coin() ? 1.0 : random.unit();
+    if (!is_finite(query) || !keeps(kind, query, t_max, kept)) continue;
+    ++result.said;
+    const double d = distance(kind, query, 0.0).upper;
+    const Separation left{.distance = kept.least + kept.part * (d - kept.least), .norm = Norm::l2};
+    const CertifiedResult near = fast::solve(kind, query, {.t_max = t_max, .separation = left});
+    result.wrong += d <= kept.least || near.verdict != Verdict::no ? 1 : 0;
+  }
+  return result;
+}
+
+TEST(KeptDistance, IsKept) {
+  const Kept kept = ask_what_is_kept(keeps_distance);
+  EXPECT_EQ(kept.wrong, 0);
+  EXPECT_GT(kept.said, 3000);
+}
+
+TEST(KeptDistance, IsSeenUntilShortlyBefore) {
+  // The height over the centroid falls from 1 to −1, so that a quarter of it is left at 3/8, and
+  // 5/8, which is 1/2 and a quarter of the rest, at 3/16.
+  const Query query = tests::over_triangle(4.0 / 3.0, 4.0 / 3.0, 1, -1).query;
+  const auto keeps = [&](double t_max, double least) {
+    return keeps_distance(Kind::vertex_face, query, t_max, {.part = 0.25, .least = least});
+  };
+  EXPECT_TRUE(keeps(0.374, 0.0));
+  EXPECT_FALSE(keeps(0.376, 0.0));
+  EXPECT_TRUE(keeps(0.187, 0.5));
+  EXPECT_FALSE(keeps(0.188, 0.5));
+  EXPECT_FALSE(keeps(0.0, 1.0));
+  const Query above = tests::over_triangle(1, 1, 100, 99).query;
+  EXPECT_TRUE(keeps_distance(Kind::vertex_face, above, 1.0, {.part = 0.25}));
+  EXPECT_FALSE(keeps_distance(Kind::vertex_face, above, 1.0, {.part = 1.0}));
+  Query unknown = above;
+  unknown.coordinates[23] = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_FALSE(keeps_distance(Kind::vertex_face, unknown, 1.0, {}));
+}
+
+TEST(KeptDistance, PlantedFaultsAreFound) {
+  for (const auto& fault : tests::planted_faults().kept_distance) {
+    EXPECT_GT(ask_what_is_kept(*fault.part).wrong, 0) << fault.name;
+  }
+}
+
 // ---- Faults -------------------------------------------------------------------------------------
 
 /// True if an answer differs from the truth in a few hundred queries of all families.

@@ -61,6 +61,7 @@ using MakeBounds = std::vector<fast::VertexBounds>(const fast::MovingVertices&, 
                                                    double distance);
 using ExactDistance = fast::Distance(Kind, const Query&, double, Norm);
 using FilteredDistance = std::optional<fast::Distance>(Kind, const Query&, double, Norm);
+using KeepsDistance = bool(Kind, const Query&, double t_max, const fast::KeptDistance&);
 using FindActive = std::vector<fast::ActiveContact>(const fast::Step&, const Separation&);
 using LimitStep = fast::LineSearchLimit(const fast::Step&, double, const fast::LineSearchOptions&);
 using Check = checker::Report(std::istream&, const checker::Options&);
@@ -79,12 +80,13 @@ struct PlantedFaults {
   Faults<const fast::SearchKernel> search, search_of_bodies, division;
   Faults<ExactDistance> exact_distance;
   Faults<FilteredDistance> filtered_distance;
+  Faults<KeepsDistance> kept_distance;
   Faults<FindActive> active_set;
   Faults<LimitStep> line_search;
   Faults<Check> checker;
   Faults<const fast::BoxKernel> box_kernel;
   Faults<MakeTightInclusion> tight_inclusion;
-  Faults<const fast::CertifiedKernel> certified_kernel, single_precision, curved_kernel;
+  Faults<const fast::CertifiedKernel> certified_kernel, single_precision, time_limit, curved_kernel;
   Faults<MakeFixedPoint> fixed_point_vertices;
   Faults<DecideRescaled> rescaling;
   Faults<DecideExactly> exact_stage;

@@ -132,6 +132,12 @@ class NarrowPhaseCCD : public ipc::NarrowPhaseCCD {
     require_valid(min_distance, tmax);
     toi = 0.0;
     if (!is_finite(query)) return true;
+    // Ends most pairs of a step, with the answer of what follows.
+    const fast::KeptDistance kept{.part = 1.0 - conservative_rescaling, .least = min_distance};
+    if (fast::keeps_distance(kind, query, tmax, kept)) {
+      toi = std::numeric_limits<double>::infinity();
+      return false;
+    }
     const fast::Distance d = fast::distance(kind, query, 0.0, Norm::l2);
     if (d.upper <= min_distance) return true;
     const fast::CertifiedResult result = fast::solve(

@@ -99,17 +99,23 @@ template <class Lanes, bool separated, Kind kind, class Source>
 inline void direction_and_determinant_stage(const KernelInput& input, const Indices& open,
                                             Indices& mixed, KernelOutput& output) {
   using Value = typename Lanes::Value;
-  Marks<Lanes> unbounded, of_direction, of_determinant, of_neither;
+  Marks<Lanes> unbounded(open.count), of_direction(open.count), of_determinant(open.count),
+      of_neither(open.count);
   const Value distance(input.separation.distance);
   for (std::size_t first = 0; first < open.count; first += Lanes::width) {
     const std::size_t count = taken<Lanes>(first, open.count);
     const auto points = load<Lanes, Source>(input, open.items.data() + first, count);
     const DirectionTest<Value, separated, kind> direction(points, distance);
-    const Ends<Value> at = vectors_of<kind>(points);
-    const DeterminantTest<Value> determinant(determinant_coefficients(at, Normals(at)),
-                                             determinant_bound<separated>(at, distance));
     const unsigned bits = valid_bits(direction.bounded, count);
-    const unsigned apart = direction.apart.bits(), one_sided = determinant.one_sided.bits();
+    const unsigned apart = direction.apart.bits();
+    unsigned one_sided = 0;
+    // Several queries are hardly ever all apart.
+    if (!Source::is_one || (bits & ~apart) != 0) {
+      const Ends<Value> at = vectors_of<kind>(points);
+      one_sided = DeterminantTest<Value>(determinant_coefficients(at, Normals(at)),
+                                         determinant_bound<separated>(at, distance))
+                      .one_sided.bits();
+    }
     unbounded.add(first, first_lanes<Lanes>(count) & ~bits);
     of_direction.add(first, bits & apart);
     of_determinant.add(first, bits & ~apart & one_sided);

@@ -104,6 +104,12 @@ class Marks {
  public:
   static constexpr std::size_t word_size = 64;
 
+  /// No marks. \param size the length of the list; the words of longer lists cost a single query
+  /// more than its stages
+  explicit Marks(std::size_t size) : count_((size + word_size - 1) / word_size) {
+    for (std::size_t i = 0; i < count_; ++i) words_[i] = 0;
+  }
+
   void set_word(std::size_t first, std::uint64_t word) { words_[first / word_size] = word; }
   /// Adds places from `first` on, at most to the end of its word.
   void add(std::size_t first, unsigned bits) {
@@ -112,7 +118,7 @@ class Marks {
 
   template <class Function>
   void for_each(const Function& function) const {
-    for (std::size_t i = 0; i < words_.size(); ++i) {
+    for (std::size_t i = 0; i < count_; ++i) {
       for (std::uint64_t rest = words_[i]; rest != 0; rest &= rest - 1) {
         function(word_size * i + static_cast<std::size_t>(__builtin_ctzll(rest)));
       }
@@ -120,7 +126,8 @@ class Marks {
   }
 
  private:
-  std::array<std::uint64_t, kernel_block / word_size> words_{};
+  std::array<std::uint64_t, kernel_block / word_size> words_;
+  std::size_t count_;  ///< of words in use
 };
 
 template <class Lanes, class Item>
@@ -244,6 +251,13 @@ struct FromArray {
   static constexpr bool may_read_behind = false;
   /// Memory is faster if several places are read at once.
   static constexpr std::size_t places_at_once = 4;
+  static constexpr bool is_one = false;
+};
+
+/// An array of one query.
+template <class Lanes>
+struct FromOne : FromArray<Lanes> {
+  static constexpr bool is_one = true;
 };
 
 /// Pairs of primitives of a mesh.
@@ -274,13 +288,26 @@ struct FromPairs {
   static constexpr bool may_read_behind = true;
   /// One place at a time, because neighbours share vertices, which are in the cache.
   static constexpr std::size_t places_at_once = 1;
+  static constexpr bool is_one = false;
 };
+
+/// The points of one query, the same in all lanes.
+template <class Lanes>
+inline std::array<Vector<typename Lanes::Value>, query_points> in_all_lanes(const Points& points) {
+  using Value = typename Lanes::Value;
+  std::array<Vector<Value>, query_points> result;
+  for (std::size_t k = 0; k < query_points; ++k) {
+    for (std::size_t axis = 0; axis < 3; ++axis) result[k][axis] = Value(points[k][axis]);
+  }
+  return result;
+}
 
 /// The points of `width` queries, lane by lane. Lanes beyond `count` repeat the last.
 template <class Lanes, class Source>
 inline std::array<Vector<typename Lanes::Value>, query_points> load(const KernelInput& input,
                                                                     const std::uint32_t* indices,
                                                                     std::size_t count) {
+  if constexpr (Source::is_one) return in_all_lanes<Lanes>(Source::points(input, indices[0]));
   std::array<std::array<const double*, Lanes::width>, query_points> rows;
   for (std::size_t lane = 0; lane < Lanes::width; ++lane) {
     const Points points = Source::points(input, indices[lane < count ? lane : count - 1]);

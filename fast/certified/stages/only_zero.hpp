@@ -37,7 +37,8 @@ inline void zero_stage(const KernelInput& input, double half, const Crossings& z
                        Crossings& contacts, Crossings& unclear, Indices& undecided, Indices& far,
                        KernelOutput& output) {
   using Value = typename Lanes::Value;
-  Marks<Lanes> of_contacts, of_rejected, of_unclear, of_rest, of_far;
+  Marks<Lanes> of_contacts(zeros.count), of_rejected(zeros.count), of_unclear(zeros.count),
+      of_rest(zeros.count), of_far(zeros.count);
   Intervals<Lanes> intervals;
   Indices all;
   all.count = zeros.count;

@@ -152,7 +152,8 @@ inline void orientation_stage(const KernelInput& input, const Indices& mixed, Cr
                               Crossings& zeros, Indices& undecided, Indices& far,
                               KernelOutput& output) {
   using Value = typename Lanes::Value;
-  Marks<Lanes> of_contacts, of_rejected, of_zeros, of_rest, of_far;
+  Marks<Lanes> of_contacts(mixed.count), of_rejected(mixed.count), of_zeros(mixed.count),
+      of_rest(mixed.count), of_far(mixed.count);
   Intervals<Lanes> intervals;
   for (std::size_t first = 0; first < mixed.count; first += Lanes::width) {
     const std::size_t count = taken<Lanes>(first, mixed.count);

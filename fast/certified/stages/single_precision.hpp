@@ -164,7 +164,7 @@ inline void parts_stage(const KernelInput& input,
                         const RoundedVertices<Lanes, kernel_block>& rounded, Indices& open,
                         KernelOutput& output) {
   using Value = typename Lanes::Single;
-  Marks<Lanes> of_possible, of_free;
+  Marks<Lanes> of_possible(open.count), of_free(open.count);
   for (std::size_t first = 0; first < open.count; first += single_width<Lanes>) {
     const auto points = load_open<Lanes>(rounded, open, first);
     const unsigned valid = first_lanes<Lanes>(
@@ -192,7 +192,8 @@ inline void parts_stage(const KernelInput& input,
 template <class Lanes, bool separated, Kind kind>
 inline void single_precision_stage(const KernelInput& input, Indices& open, KernelOutput& output) {
   using Value = typename Lanes::Single;
-  Marks<Lanes> of_direction, of_determinant, of_orientation, of_none;
+  Marks<Lanes> of_direction(input.count), of_determinant(input.count), of_orientation(input.count),
+      of_none(input.count);
   RoundedVertices<Lanes, kernel_block> rounded;
   find_rounded<Lanes, kind>(input, rounded);
   const Value distance(input.rounded_distance);

@@ -49,6 +49,19 @@ struct Distance {
 void distances(Kind kind, std::span<const Query> queries, double t, Norm norm,
                std::span<Distance> results, int max_threads = 0);
 
+/// What is to be left of a distance d in L2: more than least + part · (d − least).
+struct KeptDistance {
+  double part = 0.0;   ///< in [0,1]
+  double least = 0.0;  ///< not negative
+};
+
+/// True if one inequality shows that this is left of the distance at t=0 at all times up to t_max
+/// in [0,1], whether the expression is computed in doubles or exactly; then d is more than `least`.
+/// False shows nothing. Much faster than `distance`: to be asked before it
+/// (fast/distance/kept_distance.cpp). Never throws; false if a coordinate is not finite.
+[[nodiscard]] bool keeps_distance(Kind kind, const Query& query, double t_max,
+                                  const KeptDistance& kept);
+
 /// A pair of a step with its distance.
 struct PairDistance {
   PairKind kind = PairKind::vertex_face;

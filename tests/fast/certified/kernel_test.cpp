@@ -8,6 +8,8 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
+#include <cstddef>
 #include <cstdint>
 #include <cstdio>
 #include <cstring>
@@ -26,6 +28,7 @@
 #include "tests/support/certified.hpp"
 #include "tests/support/queries.hpp"
 #include "tests/support/random.hpp"
+#include "tests/support/trials.hpp"
 #include "touchstone/certified.hpp"
 #include "touchstone/number.hpp"
 #include "verify/fuzz/contact.hpp"
@@ -302,6 +305,114 @@ TEST(CertifiedKernels, FamiliesFindPlantedFaults) {
     std::printf("%s: found by %zu families\n", fault.name.data(), found.size());
     EXPECT_FALSE(found.empty()) << fault.name;
   }
+}
+
+// ---- With a time limit ----
+
+/// A vertex that crosses a face, or an edge that crosses another, in a plane across an axis, and no
+/// other axis separates them; the places on that axis have all bits.
+Query crossing_on_an_axis(Random& random, Kind kind) {
+  Query query = kind == Kind::vertex_face ? tests::over_triangle(1, 1, 1, -1).query
+                                          : tests::over_edge(1, 1, 1, -1).query;
+  const std::size_t firsts = kind == Kind::vertex_face ? 1 : 2;
+  for (std::size_t end = 0; end < 2; ++end) {
+    const double first = random.uniform(end == 0 ? 0.5 : -1.0, end == 0 ? 1.0 : -0.5);
+    const double second = random.uniform(-0.25, 0.25);
+    for (std::size_t i = 0; i < moving_points; ++i) {
+      query.at(end, i, 2) = i < firsts ? first : second;
+    }
+  }
+  return query;
+}
+
+/// The number of wrong answers with limits at and beside the time of impact.
+int limits_that_find(const CertifiedKernel& kernel) {
+  const UseKernels use({.certified = &kernel});
+  int found = 0;
+  for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
+    Random random(43);
+    for (int i = 0; i < 200; ++i) {
+      const Query query = crossing_on_an_axis(random, kind);
+      CertifiedOptions options{
+          .toi_tolerance = 0.0,
+          .separation = {.distance = i % 2 == 0 ? 0.0 : random.uniform(0.01, 0.1),
+                         .norm = i % 4 < 2 ? Norm::linf : Norm::l2}};
+      const auto truth = exact::decide(kind, query, options.separation);
+      const CertifiedResult whole = fast::solve(kind, query, options);
+      for (const double limit : {whole.toi_lower, whole.toi_upper, 0.5 * whole.toi_upper, 0.999}) {
+        options.t_max = limit;
+        const CertifiedResult result = fast::solve(kind, query, options);
+        found += tests::fault(kind, truth, result, options).has_value() ? 1 : 0;
+      }
+    }
+  }
+  return found;
+}
+
+TEST(CertifiedKernels, LimitsFindNoFaultInTheKernels) {
+  for (const CertifiedKernel* const kernel : all_kernels()) {
+    EXPECT_EQ(limits_that_find(*kernel), 0) << to_string(kernel->instructions);
+  }
+}
+
+TEST(CertifiedKernels, LimitsFindPlantedFaults) {
+  for (const auto& fault : tests::planted_faults().time_limit) {
+    EXPECT_GT(limits_that_find(*fault.part), 0) << fault.name;
+  }
+}
+
+TEST(CertifiedKernels, AxesEndWhatIsApartUpToTheLimit) {
+  // The height falls from 1 to −1.
+  for (const tests::PosedQuery& posed :
+       {tests::over_triangle(1, 1, 1, -1), tests::over_edge(1, 1, 1, -1)}) {
+    const auto stage = [&](double t_max, double distance) {
+      return fast::solve(posed.kind, posed.query,
+                         {.t_max = t_max, .separation = {.distance = distance}})
+          .stage;
+    };
+    EXPECT_EQ(stage(0.499, 0.0), Stage::axis);
+    EXPECT_EQ(stage(0.374, 0.25), Stage::axis);
+    EXPECT_NE(stage(0.376, 0.25), Stage::axis);
+    EXPECT_NE(stage(1.0, 0.0), Stage::axis);
+  }
+}
+
+// ---- One query ----------------------------------------------------------------------------------
+
+using Bits = std::array<std::uint64_t, 4>;
+std::tuple<Verdict, Stage, Bits> bits_of(const CertifiedResult& x) {
+  return {x.verdict, x.stage, std::bit_cast<Bits>(std::array{x.toi_lower, x.toi_upper, x.u, x.v})};
+}
+
+/// The single queries take another kernel, and other ways through it, than those of a batch.
+TEST(Certified, OneQueryHasTheBitsOfABatch) {
+  constexpr std::size_t size = 1000;
+  std::vector<Query> queries(size);
+  std::vector<CertifiedResult> batch(size);
+  const int rounds = tests::soak_trials(60, 100);
+  std::array<std::size_t, stages> reached{};
+  for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
+    Random random(44);
+    for (int round = 0; round < rounds; ++round) {
+      // Few queries of those that the exact stage decides, which takes most of the time.
+      for (std::size_t i = 0; i < size; ++i) {
+        queries[i] =
+            i % 20 == 0 ? random_query(random, kind) : tests::full_significand_query(random);
+      }
+      constexpr std::array<double, 5> limits{1.0, 0.5, 0.01, 0.0, 0.999};
+      const CertifiedOptions options{
+          .toi_tolerance = round % 7 == 0 ? 1e-6 : 1e-12,
+          .t_max = limits.at(static_cast<std::size_t>(round) % limits.size()),
+          .separation = separation_of(round)};
+      fast::solve(kind, queries, batch, options);
+      for (std::size_t i = 0; i < size; ++i) {
+        ASSERT_EQ(bits_of(fast::solve(kind, queries[i], options)), bits_of(batch[i]))
+            << tests::PosedQuery{kind, queries[i]} << ' ' << round;
+        ++reached.at(static_cast<std::size_t>(batch[i].stage));
+      }
+    }
+  }
+  for (const std::size_t count : reached) EXPECT_GT(count, 0U);
 }
 
 // ---- With a separation --------------------------------------------------------------------------
