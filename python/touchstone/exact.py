@@ -518,8 +518,8 @@ def solve(
     Raises
     ------
     ValueError
-        As for `certified`; for an unknown method, with the names there are; for a separation that
-        it does not support.
+        As for `certified`; for an unknown method, with the names there are; for a separation, or
+        curves, that it does not support.
     Interrupted
         At Ctrl-C, with the results of the first queries.
 
@@ -543,4 +543,5 @@ def solve(
                 method, kind, array, items, separation, norm, tolerance, max_checks, t_max, threads, callback
             )
         ),
+        curves=True,
     )

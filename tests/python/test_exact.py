@@ -216,7 +216,11 @@ def datasets(request, tool, tmp_path_factory) -> list[pathlib.Path]:
 WITH_TERMS = ("tight_inclusion_float", "accd_limited")
 
 
-@pytest.mark.parametrize("method", [one.name for one in touchstone.methods()])
+# They answer queries on curves alone.
+ON_CURVES = ("subdivision", "subdivision_largest_deviation", "sampling", "advancement")
+
+
+@pytest.mark.parametrize("method", [one.name for one in touchstone.methods() if one.name not in ON_CURVES])
 def test_every_method_answers_as_on_the_command_line(method, tool, datasets, tmp_path):
     """Bit for bit. Every query instead of some: TOUCHSTONE_AGREEMENT_SAMPLE= (empty)."""
     expected = answers_of_the_tool(tool, datasets, method, tmp_path)
@@ -246,3 +250,12 @@ def test_the_named_functions_answer_as_their_methods(queries):
         assert (ours.collides == method.collides).all()
         assert np.array_equal(ours.toi, method.toi_lower, equal_nan=True)
         assert (ours.checks == method.checks).all()
+
+
+def test_methods_answer_curves_of_their_degrees():
+    """A vertex falls on a parabola, touches a triangle at t = 1/2, and rises again."""
+    curves = np.array([[[[1, 1, z], [0, 0, 0], [4, 0, 0], [0, 4, 0]] for z in (1, -1, 1)]], float)
+    for method in ("certified", "tight_inclusion", "sampling"):
+        assert touchstone.solve(method, "vertex_face", curves).collides.all()
+    with pytest.raises(ValueError, match="cubic does not answer queries on curves of this degree"):
+        touchstone.solve("cubic", "vertex_face", curves)
