@@ -67,7 +67,7 @@ struct OptionRow {
   std::string type;  ///< a word for its value in the help; empty for flags
   Values values;
   std::string text;
-  std::string commands = "";  ///< those with this row; empty: those that no other row names
+  std::string commands = {};  ///< those with this row; empty: those that no other row names
   Form form = Form::usual;
 
   /// True if this is the row of the option with that name (of several the first) and command.
