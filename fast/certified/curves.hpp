@@ -28,7 +28,7 @@ namespace touchstone::fast {
 
 /// Runs the kernel on at most kernel_block queries. The output is this thread's, until the next
 /// call. \pre strict floating point
-[[nodiscard]] const KernelOutput& search_curves(const Queries& block,
+[[nodiscard]] const KernelOutput& search_curves(const Queries& queries,
                                                 const CertifiedOptions& options,
                                                 const CertifiedKernel& kernel);
 

@@ -19,13 +19,16 @@ namespace {
 
 std::vector<std::string> fault_names() {
   std::vector<std::string> names;
+  names.reserve(judge::all_faults.size());
   for (const judge::Fault fault : judge::all_faults) names.emplace_back(judge::to_string(fault));
   return names;
 }
 
 std::vector<std::string> hardness_names() {
   std::vector<std::string> names;
-  for (const auto& hardness : stability::all_hardnesses()) names.emplace_back(hardness.name);
+  const auto all = stability::all_hardnesses();
+  names.reserve(all.size());
+  for (const auto& hardness : all) names.emplace_back(hardness.name);
   return names;
 }
 

@@ -163,7 +163,8 @@ using Values = std::map<std::string_view, std::string>;
 /// The template with its values, which may contain @ themselves.
 std::string filled(std::string_view text, const Values& values) {
   std::string result;
-  for (std::size_t begin = text.find('@'); begin != text.npos; begin = text.find('@')) {
+  for (std::size_t begin = text.find('@'); begin != std::string_view::npos;
+       begin = text.find('@')) {
     const std::size_t end = text.find('@', begin + 1);
     result.append(text.substr(0, begin)) += values.at(text.substr(begin + 1, end - begin - 1));
     text.remove_prefix(end + 1);
@@ -199,7 +200,7 @@ std::string wrong_as_found(const Json& finding) {
     return fmt::format("{}", toi.at(of_toi).get<double>());
   };
   const bool collides = finding.at("collides").get<bool>();
-  const std::string yes = "answer.verdict == 1", no = "answer.verdict == 0";
+  std::string yes = "answer.verdict == 1", no = "answer.verdict == 0";
   switch (judge::fault_from_name(text_of(finding, "what")).value()) {
     case false_negative:
       return no;
@@ -271,7 +272,7 @@ Values values_of(const Json& finding) {
 const Interface& interface_of(const Json& finding, std::string_view calls) {
   const Json& solver = finding.at("solver");
   const std::string method = text_of(solver, "method");
-  const auto found = std::ranges::find_if(interfaces, [&](const Interface& interface) {
+  const auto* const found = std::ranges::find_if(interfaces, [&](const Interface& interface) {
     if (!calls.empty()) return interface.name == calls;
     return solver.at("plugin").is_null() && !interface.method.empty() &&
            method.starts_with(interface.method);

@@ -154,7 +154,7 @@ class BlockMaker {
   [[nodiscard]] std::uint64_t left_out() const { return left_out_; }
 
   /// Keeps a query as one to mutate.
-  void remember(AnyQuery query) { context_.pool(query.shape()).add(std::move(query)); }
+  void remember(const AnyQuery& query) { context_.pool(query.shape()).add(query); }
 
  private:
   static std::vector<QueryShape> answered(std::vector<QueryShape> shapes,

@@ -202,7 +202,8 @@ class Shrinker {
     std::vector<double> numbers(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(next()));
     const auto degree = static_cast<double>(shape().degree);
     for (std::size_t i = next(); i < lower.numbers_of_query(); ++i) {
-      const auto j = static_cast<double>(i / next());
+      const std::size_t row = i / next();
+      const auto j = static_cast<double>(row);
       numbers.push_back((degree * all[i] - j * numbers[i - next()]) / (degree - j));
     }
     return {lower, std::move(numbers)};

@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <ranges>
 
 #include "verify/fuzz/plainness.hpp"
 #include "verify/fuzz/recheck.hpp"
@@ -66,9 +65,9 @@ ScaleRange scale_range(const fast::Method& method, const FuzzOptions& options,
     return !recheck.ask(scaled, deadline) && !deadline.is_over();
   };
   ScaleRange result;
-  for (const int scale : scales_to_ask | std::views::reverse) {
-    if (result.end_below || scale < least) break;
-    if (scale < exponent && is_right_at(scale)) result.end_below = scale;
+  for (auto scale = scales_to_ask.rbegin(); scale != scales_to_ask.rend(); ++scale) {
+    if (result.end_below || *scale < least) break;
+    if (*scale < exponent && is_right_at(*scale)) result.end_below = *scale;
   }
   for (const int scale : scales_to_ask) {
     if (scale <= exponent || !is_right_at(scale)) continue;

@@ -167,7 +167,7 @@ data::QueryGroup end_contacts(Kind kind, const EndContactOptions& options) {
   }
   return {
       options.two_decimals ? "contact at t=1, two decimals" : "contact at t=1, full significands",
-      kind, std::move(queries)};
+      kind, queries};
 }
 
 }  // namespace touchstone::verify::generate

@@ -35,7 +35,7 @@ class AxisStage {
     if constexpr (Source::is_one) {
       const bool is_free = is_separated(Source::points(input, 0), Row(input.separation.distance));
       open.items[0] = 0;
-      open.count = std::size_t{!is_free};
+      open.count = is_free ? 0 : 1;
     } else {
       find_open(input, open);
     }
