@@ -114,7 +114,7 @@ struct Queries : QueryShape {
   Queries(Kind kind_of_all, std::span<const Query> queries)
       : QueryShape{.kind = kind_of_all},
         numbers(queries.empty() ? nullptr : queries.front().coordinates.data(),
-                queries.size() * numbers_of_query()) {}
+                queries.size() * 3 * query_points) {}
   /// \throws std::invalid_argument for a degree above greatest_degree, and unless the numbers are
   /// those of whole queries.
   Queries(const QueryShape& shape, std::span<const double> all) : QueryShape(shape), numbers(all) {
