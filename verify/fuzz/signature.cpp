@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <vector>
 
 #include "verify/fuzz/plainness.hpp"
 #include "verify/fuzz/recheck.hpp"
@@ -65,9 +66,10 @@ ScaleRange scale_range(const fast::Method& method, const FuzzOptions& options,
     return !recheck.ask(scaled, deadline) && !deadline.is_over();
   };
   ScaleRange result;
-  for (auto scale = scales_to_ask.rbegin(); scale != scales_to_ask.rend(); ++scale) {
-    if (result.end_below || *scale < least) break;
-    if (*scale < exponent && is_right_at(*scale)) result.end_below = *scale;
+  const std::vector<int> downwards(scales_to_ask.rbegin(), scales_to_ask.rend());
+  for (const int scale : downwards) {
+    if (result.end_below || scale < least) break;
+    if (scale < exponent && is_right_at(scale)) result.end_below = scale;
   }
   for (const int scale : scales_to_ask) {
     if (scale <= exponent || !is_right_at(scale)) continue;
