@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "tests/support/queries.hpp"
+#include "tests/support/trials.hpp"
 #include "tests/verify/data/dataset_fixture.hpp"
 #include "tests/verify/solvers/plugins/misbehaviour.hpp"
 #include "touchstone/oracle.hpp"
@@ -489,7 +490,9 @@ TEST_P(PluginEvents, CostOneQueryEachAndHaveTheirNames) {
     const std::vector<double> numbers = numbers_of(actions);
     const Queries queries(shape, numbers);
     std::vector<Answer> answers(queries.size());
-    SolverProcess process(*method, {.query_limit_seconds = 0.5,
+    // 2 GiB take longest under the sanitizers.
+    constexpr double limit = tests::sanitizer_divisor > 1 ? 2.0 : 0.5;
+    SolverProcess process(*method, {.query_limit_seconds = limit,
                                     .limits = {.file_bytes = 1U << 20U, .may_fork = may_fork}});
     const SolverRun run = process.solve(queries, answers, {});
     EXPECT_EQ(run.answered, queries.size());
