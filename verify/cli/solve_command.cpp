@@ -99,24 +99,19 @@ class SolveRun {
     out_.close();
     if (json_) json_.write(io::json_document(summary()));
     json_.close();
-    report_unplaced_crashes(solver_.name(), asked().unplaced_crashes);
+    report_unplaced_crashes(solver_.name(), asked_.unplaced_crashes);
     solvers_.report_output(arguments_.solver.show_output);
     print_summary();
     return status();
   }
 
  private:
-  /// What the solver was asked.
-  [[nodiscard]] judge::Judgement asked() const {
-    return sum_.methods.empty() ? judge::Judgement{} : sum_.methods.front().judgement;
-  }
-
   [[nodiscard]] std::uint64_t unasked() const {
-    return asked().missing + asked().outside + asked().left_out;
+    return asked_.missing + asked_.outside + asked_.left_out;
   }
 
   void print_summary() const {
-    if (asked().queries == 0 && reading_errors_ != 0) return;
+    if (asked_.queries == 0 && reading_errors_ != 0) return;
     std::FILE* const stream = files_.summary_stream();
     if (const auto separation = the_separation()) {
       io::print(stream, fmt::format("minimum separation {}\n", judge::to_text(*separation)));
@@ -124,8 +119,8 @@ class SolveRun {
     io::print(
         stream,
         fmt::format("{}: {} queries, {} yes, {} no, {} undecided, {} errors, {:.1f} ns/query\n",
-                    solver_.name(), asked().queries, counts_.yes, counts_.no, counts_.undecided,
-                    counts_.errors, asked().nanoseconds_per_query()));
+                    solver_.name(), asked_.queries, counts_.yes, counts_.no, counts_.undecided,
+                    counts_.errors, asked_.nanoseconds_per_query()));
     if (unasked() != 0) {
       io::print(stream, fmt::format("not asked: {} queries outside its terms{}, or like those at "
                                     "which it hangs\n",
@@ -154,6 +149,7 @@ class SolveRun {
     };
     const jobs::CertifyResult result = jobs::certify(source, options);
     sum_ += result;
+    asked_ += result.methods.front().judgement;
     if (result.error && !out_.failed()) fail(*result.error);
   }
 
@@ -169,14 +165,14 @@ class SolveRun {
 
   [[nodiscard]] nlohmann::json summary() const {
     nlohmann::json json{{"method", solver_.name()},
-                        {"queries", asked().queries},
+                        {"queries", asked_.queries},
                         {"yes", counts_.yes},
                         {"no", counts_.no},
                         {"undecided", counts_.undecided},
                         {"errors", counts_.errors},
                         {"unasked", unasked()},
-                        {"unplaced_crashes", asked().unplaced_crashes},
-                        {"ns_per_query", asked().nanoseconds_per_query()},
+                        {"unplaced_crashes", asked_.unplaced_crashes},
+                        {"ns_per_query", asked_.nanoseconds_per_query()},
                         {"skipped", sum_.skipped},
                         {"rounded", sum_.rounded},
                         {"reading_errors", reading_errors_},
@@ -198,7 +194,7 @@ class SolveRun {
     if (io::interrupted()) return Status::interrupted;
     if (arguments_.sources.is_piece) return Status::all_well;
     return status_of(solver_.name(),
-                     {.asked = asked().queries,
+                     {.asked = asked_.queries,
                       .hangs = counts_.failures[static_cast<std::size_t>(judge::Fault::hang)],
                       .errors = counts_.errors,
                       .unasked = unasked()});
@@ -211,6 +207,7 @@ class SolveRun {
   Output out_;
   Output json_;
   jobs::CertifyResult sum_;
+  judge::Judgement asked_;  ///< what the solver was asked
   AnswerCounts counts_;
   std::vector<Separation> separations_;  // of the sources
   std::uint64_t reading_errors_ = 0;
