@@ -69,7 +69,7 @@ class Recorder::File {
       const bool is_collision = collides[i] != 0;
       if (is_collision) ++collisions_;
       if (csv_) {
-        csv_->write(pending_[i], is_collision);
+        csv_->write({kind_, pending_[i]}, is_collision);
       } else {
         npy_->write(pending_[i]);
         labels_->write(is_first_ ? "" : ",");

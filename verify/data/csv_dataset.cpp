@@ -38,9 +38,10 @@ std::string shape_line(const QueryShape& shape) {
   return fmt::format("{},{}\n", shape.is_rational ? "rational" : "degree", shape.degree);
 }
 
-/// The rows of a query, each of so many numbers and the label.
-std::string rows_of(std::span<const double> numbers, std::size_t numbers_of_row,
-                    std::optional<bool> collides) {
+/// The rows of a query, each with the label.
+std::string rows_of(const base::AnyQuery& query, std::optional<bool> collides) {
+  const std::span<const double> numbers = query.numbers();
+  const std::size_t numbers_of_row = query.shape().numbers_of_point();
   const std::string_view label = !collides ? "" : *collides ? ",1" : ",0";
   std::string text;
   for (std::size_t i = 0; i < numbers.size(); ++i) {
@@ -230,24 +231,15 @@ void CsvDataset::lose_count(const io::Line& line, std::size_t column, const std:
 }
 
 std::string csv_rows(const base::AnyQuery& query, std::optional<bool> collides) {
-  return shape_line(query.shape()) +
-         rows_of(query.numbers(), query.shape().numbers_of_point(), collides);
-}
-
-std::string csv_rows(const Query& query, std::optional<bool> collides) {
-  return rows_of(query.coordinates, 3, collides);
+  return shape_line(query.shape()) + rows_of(query, collides);
 }
 
 CsvWriter::CsvWriter(std::filesystem::path path) : file_(std::move(path)) {}
 
 void CsvWriter::write(const base::AnyQuery& query, std::optional<bool> collides) {
-  const std::string rows = rows_of(query.numbers(), query.shape().numbers_of_point(), collides);
+  const std::string rows = rows_of(query, collides);
   if (std::exchange(is_empty_, false)) file_.write(shape_line(query.shape()));
   file_.write(rows);
-}
-
-void CsvWriter::write(const Query& query, std::optional<bool> collides) {
-  file_.write(csv_rows(query, collides));
 }
 
 }  // namespace touchstone::verify::data

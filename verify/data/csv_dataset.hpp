@@ -98,7 +98,6 @@ class CsvDataset final : public DatasetSource {
 /// spaces. Without a label the rows have six columns. On curves, a line of the shape and the rows.
 /// \throws std::invalid_argument if a number is not finite.
 [[nodiscard]] std::string csv_rows(const base::AnyQuery& query, std::optional<bool> collides);
-[[nodiscard]] std::string csv_rows(const Query& query, std::optional<bool> collides);
 
 /// Writes files of such rows.
 class CsvWriter {
@@ -111,7 +110,6 @@ class CsvWriter {
   /// \throws DatasetError if it cannot be written.
   /// \throws std::invalid_argument if a number is not finite; nothing is written then.
   void write(const base::AnyQuery& query, std::optional<bool> collides);
-  void write(const Query& query, std::optional<bool> collides);
 
   /// Completes the file and gives it its name; without this call there is no file.
   /// \throws DatasetError if it cannot be written.

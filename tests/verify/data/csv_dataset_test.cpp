@@ -244,7 +244,7 @@ TEST(CsvWriter, WritesThe2021FormatToTheByte) {
   Query query{};
   query.at(0, 0, 0) = 0.5;
   query.at(1, 3, 2) = -3.0;
-  writer.write(query, true);
+  writer.write({Kind::vertex_face, query}, true);
   writer.close();
   std::string expected = "1,2,0,1,0,1,1\n";
   for (int row = 1; row < 7; ++row) expected += "0,1,0,1,0,1,1\n";

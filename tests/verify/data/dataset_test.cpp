@@ -197,7 +197,9 @@ struct Csv {
   static constexpr const char* name = "a_vf.csv";
   static constexpr double zero = 0.0;
   static constexpr std::size_t many = 50'000;
-  static void write(Writer& writer, const Query& query) { writer.write(query, true); }
+  static void write(Writer& writer, const Query& query) {
+    writer.write({Kind::vertex_face, query}, true);
+  }
 };
 struct Npy {
   using Writer = NpyWriter;

@@ -58,8 +58,8 @@ class QueryFiles : public tests::FolderTest {
 };
 
 TEST_F(QueryFiles, RowsOfADataset) {
-  write("vertex-face.csv", data::csv_rows(numbered(0), false) + data::csv_rows(numbered(1), true) +
-                               data::csv_rows(numbered(2), true));
+  const auto rows = [](int i) { return data::csv_rows({Kind::vertex_face, numbered(i)}, i != 0); };
+  write("vertex-face.csv", rows(0) + rows(1) + rows(2));
   const auto all = queries("vertex-face.csv");
   ASSERT_EQ(all.size(), 3U);
   EXPECT_EQ(all[1].query, any(numbered(1)));
