@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <span>
+#include <stdexcept>
 #include <utility>
 #include <vector>
 
@@ -224,6 +226,29 @@ CurvedQuery over_a_face(const std::vector<double>& heights) {
   query[2].control = {{4, 0, 0}};
   query[3].control = {{0, 4, 0}};
   return query;
+}
+
+/// Queries of an array are decided and proved as each by itself.
+TEST(CurvedQuery, InAnArray) {
+  Random random(377);
+  for (const QueryShape& shape :
+       {QueryShape{.degree = 1}, {.kind = Kind::edge_edge, .degree = 2}, {.is_rational = true}}) {
+    std::vector<double> numbers(5 * shape.numbers_of_query());
+    for (double& x : numbers) x = random.between(1, 9);
+    const Queries queries(shape, numbers);
+    const std::vector<Decision> decisions = decide(queries);
+    const std::vector<Certificate> certificates = prove(queries, decisions);
+    ASSERT_EQ(certificates.size(), 5U);
+    for (std::size_t i = 0; i < 5; ++i) {
+      const CurvedQuery query = to_curved(queries, i);
+      const Decision alone = decide(shape.kind, query);
+      EXPECT_EQ(decisions[i].toi, alone.toi);
+      const Certificate& proved = certificates[i];
+      EXPECT_EQ(proved.query.index(), shape.is_straight() ? 0U : 1U);
+      EXPECT_EQ(proved.subintervals.size(), prove(shape.kind, query, alone).subintervals.size());
+    }
+    EXPECT_THROW((void)prove(queries, std::span(decisions).first(4)), std::invalid_argument);
+  }
 }
 
 TEST(CurvedQuery, AParabolaTouchesInItsVertex) {
