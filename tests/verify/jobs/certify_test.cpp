@@ -292,13 +292,13 @@ TEST(CertifyMethods, OnCurves) {
   CertifyOptions options;
   for (const char* name :
        {"certified", "tight_inclusion", "subdivision", "sampling", "advancement", "cubic"}) {
-    all.push_back(solvers::solver_in_process(solvers::find_method(name), {}));
+    all.push_back(solvers::solver_in_process(solvers::find_method(name), {.max_checks = 10'000}));
     options.solvers.push_back(all.back().get());
   }
   CertifyResult sum;
   for (const generate::Family& family : generate::curved_families()) {
     for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
-      sum += certify(*generate::open_family(family, kind, 5, 3), options);
+      sum += certify(*generate::open_family(family, kind, tests::trials(8U), 3), options);
     }
   }
   const auto judged = [&](std::size_t i) { return sum.methods.at(i).judgement; };
