@@ -57,17 +57,21 @@ Mesh make_mesh(std::span<const std::array<double, 3>> coordinates, std::vector<f
   return mesh;
 }
 
-std::string note_of(std::size_t polygons, std::span<const std::string> passed_over) {
+std::string note_of(std::size_t polygons, std::span<const std::string> passed_over,
+                    std::size_t of_strips) {
   static constexpr std::size_t most_named = 20;
-  std::string note;
-  if (polygons != 0) note = fmt::format("polygons read as fans of triangles: {}", polygons);
-  if (passed_over.empty()) return note;
-  if (!note.empty()) note += "; ";
-  const auto named = passed_over.first(std::min(passed_over.size(), most_named));
-  note += fmt::format("passed over: {}", fmt::join(named, ", "));
-  if (named.size() < passed_over.size())
-    note += fmt::format(" and {} more", passed_over.size() - named.size());
-  return note;
+  std::vector<std::string> notes;
+  if (polygons != 0) {
+    notes.push_back(fmt::format("polygons read as fans of triangles: {}", polygons));
+  }
+  if (of_strips != 0) notes.push_back(fmt::format("triangles read from strips: {}", of_strips));
+  if (!passed_over.empty()) {
+    const auto named = passed_over.first(std::min(passed_over.size(), most_named));
+    const std::size_t more = passed_over.size() - named.size();
+    notes.push_back(fmt::format("passed over: {}{}", fmt::join(named, ", "),
+                                more == 0 ? "" : fmt::format(" and {} more", more)));
+  }
+  return fmt::format("{}", fmt::join(notes, "; "));
 }
 
 void add_polygon(std::vector<fast::Face>& faces, std::span<const std::int32_t> vertices,
