@@ -1,5 +1,5 @@
-# An overlay port of the checkout that it stands in: vcpkg install touchstone --overlay-ports=packaging/vcpkg
-get_filename_component(SOURCE_PATH ${CURRENT_PORT_DIR}/../../.. ABSOLUTE)
+# An overlay port of the checkout that it stands in: vcpkg install touchstone --overlay-ports=packaging
+get_filename_component(SOURCE_PATH ${CURRENT_PORT_DIR}/.. ABSOLUTE)
 
 vcpkg_check_linkage(ONLY_STATIC_LIBRARY)
 vcpkg_check_features(OUT_FEATURE_OPTIONS features FEATURES

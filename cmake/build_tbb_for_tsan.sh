@@ -1,5 +1,5 @@
 #!/bin/sh
-# build_tbb.sh FOLDER: oneTBB from Debian's sources, compiled for ThreadSanitizer, installed in FOLDER/installed. The
+# build_tbb_for_tsan.sh FOLDER: oneTBB from Debian's sources, compiled for ThreadSanitizer, installed in FOLDER/installed. The
 # sanitizer does not see the atomics by which the scheduler of Debian's own library hands tasks from thread to thread,
 # so all memory of a task would look unsynchronised.
 set -eu

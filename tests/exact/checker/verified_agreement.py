@@ -263,7 +263,7 @@ def main():
                     report(f"{name}, {of}, {claim}", [Result(programs, path)])
                     if name == "built-in set":
                         originals += certificates(path)
-        cases = pathlib.Path(__file__).parents[1]
+        cases = pathlib.Path(__file__).parent
         report("list of altered certificates",
                list(list_results(programs, pathlib.Path(folder), cases / "certificates.txt")))
         report("corpus of the fuzzer", [Result(programs, file) for file in sorted((cases / "corpus").iterdir())])

@@ -3,7 +3,7 @@
 // README: the derivation
 #include <cstdio>
 
-#include "tests/filters/worked_example/orientation.hpp"
+#include "tests/filters/worked_example.hpp"
 #include "touchstone/derivation/gappa.hpp"
 #include "touchstone/derivation/shipped_bound.hpp"
 #include "touchstone/derivation/worst_case.hpp"

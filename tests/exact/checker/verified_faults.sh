@@ -1,9 +1,10 @@
 #!/usr/bin/env bash
-# faults.sh [PATTERN]: each fault of faults.txt (those whose name has the pattern) is planted in a copy of the checker's
-# definitions. They compile, and then a proof fails: the table says which. Without a fault all compiles.
+# verified_faults.sh [PATTERN]: each fault of verified_faults.txt (those whose name has the pattern) is planted in a
+# copy of the checker's definitions. They compile, and then a proof fails: the table says which. Without a fault all
+# compiles.
 set -euo pipefail
 readonly here=$(cd "$(dirname "$0")" && pwd)
-readonly sources=$here/../../../../exact/checker/verified
+readonly sources=$here/../../../exact/checker/verified
 readonly folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 cd "$folder"
@@ -21,7 +22,7 @@ failed_proof() {
 
 cp "$sources"/*.v .
 for file in Problem Form Geometry Checker Proof; do
-  compile "$file.v" || { echo "faults.sh: $file.v does not compile without a fault" >&2; cat output.txt >&2; exit 1; }
+  compile "$file.v" || { echo "verified_faults.sh: $file.v does not compile without a fault" >&2; cat output.txt >&2; exit 1; }
 done
 mkdir sound
 mv ./*.vo sound
@@ -35,7 +36,7 @@ import sys
 file, text, instead = sys.argv[1:]
 source = open(file).read()
 if source.count(text) != 1:
-    sys.exit(f"faults.sh: {file} has {source.count(text)} times: {text}")
+    sys.exit(f"verified_faults.sh: {file} has {source.count(text)} times: {text}")
 open(file, "w").write(source.replace(text, instead))
 END
   stands='' failed=''
@@ -55,5 +56,5 @@ END
     printf '%-58s NOT FOUND (%s)\n' "$name" "$(head -c 200 output.txt | tr '\n' ' ')"
     status=1
   fi
-done < <(grep -v '^#' "$here/faults.txt")
+done < <(grep -v '^#' "$here/verified_faults.txt")
 exit "$status"

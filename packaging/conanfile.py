@@ -1,4 +1,4 @@
-"""A recipe for Conan 2: conan create packaging/conan --build=missing (-o "&:exact=True" for the oracle)."""
+"""A recipe for Conan 2: conan create packaging --build=missing (-o "&:exact=True" for the oracle)."""
 
 import os
 import re
@@ -22,7 +22,7 @@ class Touchstone(ConanFile):
 
     @property
     def _root(self):
-        return os.path.join(self.recipe_folder, os.pardir, os.pardir)
+        return os.path.join(self.recipe_folder, os.pardir)
 
     def set_version(self):
         text = load(self, os.path.join(self._root, "CMakeLists.txt"))
