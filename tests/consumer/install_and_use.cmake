@@ -42,7 +42,7 @@ compile_by_pkg_config(touchstone-fast simulator ${CMAKE_CURRENT_LIST_DIR}/simula
 step(${WORK}/simulator)
 compile_by_pkg_config(touchstone-exact researcher ${CMAKE_CURRENT_LIST_DIR}/researcher.cpp c++ -std=c++20)
 step(${WORK}/researcher)
-compile_by_pkg_config(touchstone-c c_caller ${CMAKE_CURRENT_LIST_DIR}/../../examples/c/step.c cc)
+compile_by_pkg_config(touchstone-c c_caller ${CMAKE_CURRENT_LIST_DIR}/../../examples/library/step.c cc)
 set(ENV{LD_LIBRARY_PATH} ${packages}/..)
 run_program_in_c(${WORK}/c_caller)
 file(REMOVE_RECURSE ${WORK})
