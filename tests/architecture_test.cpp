@@ -79,7 +79,8 @@ constexpr std::string_view layer_lines = R"(
   verify/judge/: verify/judge/ verify/base/ verify/data/ verify/io/ REST
   verify/solvers/: verify/solvers/ verify/base/ verify/baselines/ verify/io/ verify/judge/ REST
 // All that needs Linux.
-  verify/solvers/linux/: verify/solvers/ verify/io/ fcntl.h linux/ poll.h sched.h sys/ unistd.h
+  verify/solvers/child_process.cpp: verify/solvers/ verify/io/ fcntl.h linux/ poll.h sched.h sys/ unistd.h
+  verify/solvers/own_program.cpp: verify/solvers/ verify/io/ fcntl.h sys/ unistd.h
   verify/jobs/: verify/jobs/ verify/base/ verify/data/ verify/io/ verify/judge/ verify/mesh/ verify/solvers/ REST
   verify/fuzz/: verify/fuzz/ verify/base/ verify/data/ verify/generate/ verify/io/ verify/judge/ verify/solvers/ REST
   verify/stability/: verify/stability/ verify/base/ verify/data/ verify/generate/ verify/jobs/ verify/judge/ verify/solvers/ REST
@@ -408,7 +409,7 @@ constexpr std::string_view permitted = R"(
   fast/solver.cpp: exact/query.hpp <Eigen/Core>
   fast/platform/threads.hpp: <oneapi/tbb/info.h>
   verify/jobs/prove.cpp: exact/checker/checker.hpp
-  verify/solvers/linux/a.cpp: <linux/seccomp.h>
+  verify/solvers/child_process.cpp: <linux/seccomp.h>
 )";
 
 TEST(PlantedFault, OfAnIncludeIsFoundAndNoOther) {
@@ -468,7 +469,7 @@ TEST(PlantedFault, OfAFileIsFoundAndNoOther) {
       {"verify/io/b.cpp", "\nnamespace touchstone::verify {\n", "namespace"},
       {"verify/data/c.cpp", "\nnamespace touchstone::verify::io {\n", "namespace"},
       {"verify/baselines/d.cpp", "\nnamespace touchstone::baselines {\n", ""},
-      {"verify/report/page/page.js", "", ""},
+      {"verify/report/report_page.js", "", ""},
       {"verify/cli/main.cpp", "", ""},
       {"fast/b.cc", "", "extension"},
       {"tests/hidden.h", head, "extension"},

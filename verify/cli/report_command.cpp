@@ -38,7 +38,7 @@
 #include "verify/mesh/moving_mesh.hpp"
 #include "verify/report/experiments.hpp"
 #include "verify/report/measurement_json.hpp"
-#include "verify/report/page.hpp"
+#include "verify/report/report_page.hpp"
 #include "verify/solvers/answers.hpp"
 #include "verify/solvers/registry.hpp"
 #include "verify/solvers/solver.hpp"

@@ -28,7 +28,7 @@
 #include "verify/mesh/frames.hpp"
 #include "verify/solvers/registry.hpp"
 #include "verify/view/asked_solvers.hpp"
-#include "verify/view/page.hpp"
+#include "verify/view/view_page.hpp"
 #include "verify/view/query_facts.hpp"
 #include "verify/view/query_files.hpp"
 #include "verify/view/step_facts.hpp"

@@ -15,7 +15,7 @@
 #include "verify/solvers/registry.hpp"
 #include "verify/solvers/solver.hpp"
 #include "verify/view/asked_solvers.hpp"
-#include "verify/view/page.hpp"
+#include "verify/view/view_page.hpp"
 #include "verify/view/query_facts.hpp"
 
 namespace touchstone::verify::cli {

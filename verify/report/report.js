@@ -1,6 +1,6 @@
 "use strict";
 // What a report says: tables, figures, findings and changes as data, computed from measurements (the JSON of
-// `touchstone report`) and published numbers (docs/data/published.json). page.js writes and draws them; docs/results.md
+// `touchstone report`) and published numbers (docs/data/published.json). report_page.js writes and draws them; docs/results.md
 // has the same tables.
 
 const report = (function () {

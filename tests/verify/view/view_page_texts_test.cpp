@@ -1,10 +1,10 @@
-#include "verify/view/page_texts.hpp"
+#include "verify/view/view_page_texts.hpp"
 
 #include <gtest/gtest.h>
 
 #include <string_view>
 
-namespace touchstone::verify::view::page_texts_test {
+namespace touchstone::verify::view::view_page_texts_test {
 namespace {
 
 TEST(ViewTexts, NoneEndsTheElementThatItStandsIn) {
@@ -16,4 +16,4 @@ TEST(ViewTexts, NoneEndsTheElementThatItStandsIn) {
 }
 
 }  // namespace
-}  // namespace touchstone::verify::view::page_texts_test
+}  // namespace touchstone::verify::view::view_page_texts_test

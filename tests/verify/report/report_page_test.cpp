@@ -1,4 +1,4 @@
-#include "verify/report/page.hpp"
+#include "verify/report/report_page.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,9 +6,9 @@
 #include <string>
 
 #include "tests/support/measurements.hpp"
-#include "verify/report/page_texts.hpp"
+#include "verify/report/report_page_texts.hpp"
 
-namespace touchstone::verify::report::page_test {
+namespace touchstone::verify::report::report_page_test {
 namespace {
 
 bool contains(const std::string& text, const std::string& part) {
@@ -60,4 +60,4 @@ TEST(StabilityPage, HoldsNoMarkupOfNames) {
 }
 
 }  // namespace
-}  // namespace touchstone::verify::report::page_test
+}  // namespace touchstone::verify::report::report_page_test

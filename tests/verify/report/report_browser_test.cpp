@@ -17,9 +17,9 @@
 
 #include "tests/support/browser_test.hpp"
 #include "tests/support/measurements.hpp"
-#include "verify/report/page.hpp"
+#include "verify/report/report_page.hpp"
 
-namespace touchstone::verify::report::page_browser_test {
+namespace touchstone::verify::report::report_browser_test {
 namespace {
 
 class Browser : public tests::BrowserTest {};
@@ -304,4 +304,4 @@ TEST_F(Browser, APlantedFaultIsSeen) {
 }
 
 }  // namespace
-}  // namespace touchstone::verify::report::page_browser_test
+}  // namespace touchstone::verify::report::report_browser_test

@@ -4,8 +4,8 @@
 /// A report, or a map of stability, as one HTML page that needs nothing else: no network, no other
 /// file. Its policy (Content-Security-Policy) forbids to load anything.
 ///
-/// The page holds the measurements as JSON. In the browser page/report.js computes from them all
-/// that it says, and page/page.js writes and draws it, with d3. A report opens with its findings
+/// The page holds the measurements as JSON. In the browser report.js computes from them all
+/// that it says, and report_page.js writes and draws it, with d3. A report opens with its findings
 /// and the first figure of time against error; tables and further figures follow. Every table and
 /// figure has a link to its numbers as CSV; every table has one to itself as Markdown, every figure
 /// one to itself as an SVG file. Tables are sorted by the column that the reader chooses; the first

@@ -1,4 +1,4 @@
-#include "verify/view/page.hpp"
+#include "verify/view/view_page.hpp"
 
 #include <fmt/format.h>
 
@@ -6,8 +6,8 @@
 
 #include "verify/io/html.hpp"
 #include "verify/io/printable.hpp"
-#include "verify/report/page_texts.hpp"
-#include "verify/view/page_texts.hpp"
+#include "verify/report/report_page_texts.hpp"
+#include "verify/view/view_page_texts.hpp"
 
 namespace touchstone::verify::view {
 

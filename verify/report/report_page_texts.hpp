@@ -2,7 +2,7 @@
 
 /// \file
 /// The texts that a page is made of, embedded when the tool is built: d3 as Debian packages it,
-/// report.js, page.js and page.css from verify/report/page/, and docs/data/published.json.
+/// report.js, report_page.js and report_page.css from this folder, and docs/data/published.json.
 
 #include <string_view>
 

@@ -1,10 +1,10 @@
-#include "verify/report/page_texts.hpp"
+#include "verify/report/report_page_texts.hpp"
 
 #include <gtest/gtest.h>
 
 #include <string_view>
 
-namespace touchstone::verify::report::page_texts_test {
+namespace touchstone::verify::report::report_page_texts_test {
 namespace {
 
 TEST(PageTexts, D3HasItsNotice) {
@@ -21,4 +21,4 @@ TEST(PageTexts, NoneEndsTheElementThatItStandsIn) {
 }
 
 }  // namespace
-}  // namespace touchstone::verify::report::page_texts_test
+}  // namespace touchstone::verify::report::report_page_texts_test

@@ -1,4 +1,4 @@
-#include "verify/report/page.hpp"
+#include "verify/report/report_page.hpp"
 
 #include <fmt/format.h>
 
@@ -9,7 +9,7 @@
 #include "verify/io/html.hpp"
 #include "verify/judge/separation_inference.hpp"
 #include "verify/report/measurement_json.hpp"
-#include "verify/report/page_texts.hpp"
+#include "verify/report/report_page_texts.hpp"
 #include "verify/report/stability_report.hpp"
 
 namespace touchstone::verify::report {

@@ -1,6 +1,6 @@
 # Writes texts as functions of a C++ source that return them:
 # cmake -DOUTPUT=… -DHEADER=… -DNAMESPACE=… "-DTEXTS=FUNCTION=PATH;…" -P embed.cmake
-set(source "// Made by verify/report/page/embed.cmake.\n#include \"${HEADER}\"\n\n")
+set(source "// Made by cmake/embed.cmake.\n#include \"${HEADER}\"\n\n")
 string(APPEND source "namespace ${NAMESPACE} {\n")
 foreach(pair IN LISTS TEXTS)
   string(REGEX MATCH "^([a-z0-9_]+)=(.*)$" matched "${pair}")

@@ -1,13 +1,13 @@
-#include "verify/view/page.hpp"
+#include "verify/view/view_page.hpp"
 
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "verify/view/page_texts.hpp"
+#include "verify/view/view_page_texts.hpp"
 
-namespace touchstone::verify::view::page_test {
+namespace touchstone::verify::view::view_page_test {
 namespace {
 
 bool contains(const std::string& text, std::string_view part) {
@@ -26,4 +26,4 @@ TEST(ViewPage, HoldsItsQueriesAndTheScript) {
 }
 
 }  // namespace
-}  // namespace touchstone::verify::view::page_test
+}  // namespace touchstone::verify::view::view_page_test
