@@ -75,7 +75,7 @@ constexpr std::string_view layer_lines = R"(
   verify/mesh/: verify/mesh/ verify/data/ verify/io/ REST
   verify/generate/: verify/generate/ verify/data/ verify/io/ verify/mesh/ REST
 // The published methods use packages that simulators do not need, and the rounding mode.
-  verify/baselines/: verify/baselines/ verify/generate/random.hpp fast/ filters/ gmpxx.h exact/curved_query.hpp exact/query.hpp Eigen/ boost/numeric/interval.hpp xmmintrin.h
+  verify/baselines/: verify/baselines/ verify/generate/random_stream.hpp fast/ filters/ gmpxx.h exact/curved_query.hpp exact/query.hpp Eigen/ boost/numeric/interval.hpp xmmintrin.h
   verify/judge/: verify/judge/ verify/base/ verify/data/ verify/io/ REST
   verify/solvers/: verify/solvers/ verify/base/ verify/baselines/ verify/io/ verify/judge/ REST
 // All that needs Linux.
@@ -137,12 +137,12 @@ constexpr std::string_view headers_without_test = R"(
 // and of the hard ones, hardness_test.cpp.
   verify/base/: any_query.hpp cores.hpp
   verify/baselines/: closest_features.hpp exact_number.hpp moving_polynomials.hpp query_random.hpp upward_rounding.hpp verdicts.hpp
-  verify/generate/: coordinate_sampler.hpp draws.hpp family_builder.hpp grid.hpp passing_planes.hpp random.hpp curved_families.hpp
+  verify/generate/: coordinate_sampler.hpp draws.hpp family_builder.hpp grid.hpp passing_planes.hpp random_stream.hpp curved_families.hpp
   verify/stability/: hard_curves.hpp
 // Through what uses them: certify, solve, the step's measurements, NumPy's arrays, the fuzzer.
   verify/jobs/: block_answers.hpp block_truth.hpp work_time.hpp
   verify/data/: npy_header.hpp
-  verify/fuzz/: coverage.hpp curves.hpp diagnosis.hpp fuzz_report.hpp mutation.hpp plainness.hpp scheduler.hpp signature.hpp
+  verify/fuzz/: coverage.hpp curved_generators.hpp diagnosis.hpp fuzz_report.hpp mutation.hpp plainness.hpp scheduler.hpp signature.hpp
 // By tests/transcripts, and documents_test.cpp: docs/results.md and its picture are those of their data.
   verify/cli/: certificates_file.hpp commands.hpp files.hpp group_options.hpp help.hpp options.hpp solver_options.hpp sources.hpp version.hpp view_file.hpp
   verify/mesh/: moving_mesh.hpp

@@ -23,7 +23,7 @@
 #include "verify/cli/help.hpp"
 #include "verify/cli/option_table.hpp"
 #include "verify/cli/options.hpp"
-#include "verify/cli/pieces.hpp"
+#include "verify/cli/sharded_run.hpp"
 #include "verify/cli/solver_options.hpp"
 #include "verify/cli/view_file.hpp"
 #include "verify/data/csv_dataset.hpp"

@@ -6,7 +6,7 @@
 #include "verify/cli/commands.hpp"
 #include "verify/cli/help.hpp"
 #include "verify/cli/option_table.hpp"
-#include "verify/cli/pieces.hpp"
+#include "verify/cli/sharded_run.hpp"
 
 namespace touchstone::verify::cli::merge_command {
 namespace {

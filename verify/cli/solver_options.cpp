@@ -18,7 +18,7 @@
 #include "verify/io/number_text.hpp"
 #include "verify/io/printable.hpp"
 #include "verify/io/terminal.hpp"
-#include "verify/solvers/plugin.hpp"
+#include "verify/solvers/plugin_method.hpp"
 #include "verify/solvers/registry.hpp"
 
 namespace touchstone::verify::cli {

@@ -19,7 +19,7 @@
 #include "verify/fuzz/fuzz.hpp"
 #include "verify/judge/judgement.hpp"
 #include "verify/solvers/answers.hpp"
-#include "verify/solvers/plugin.hpp"
+#include "verify/solvers/plugin_method.hpp"
 #include "verify/solvers/solver.hpp"
 
 namespace touchstone::verify::cli {

@@ -16,7 +16,7 @@
 /// An exact symmetry is then applied (symmetry.hpp).
 
 #include "touchstone/query.hpp"
-#include "verify/generate/random.hpp"
+#include "verify/generate/random_stream.hpp"
 
 namespace touchstone::verify::fuzz {
 

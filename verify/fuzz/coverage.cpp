@@ -4,7 +4,7 @@
 #include <bit>
 #include <cmath>
 
-#include "verify/generate/random.hpp"
+#include "verify/generate/random_stream.hpp"
 
 namespace touchstone::verify::fuzz {
 namespace {

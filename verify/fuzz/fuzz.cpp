@@ -16,7 +16,7 @@
 #include "touchstone/certified.hpp"
 #include "verify/base/deadline.hpp"
 #include "verify/fuzz/coverage.hpp"
-#include "verify/fuzz/curves.hpp"
+#include "verify/fuzz/curved_generators.hpp"
 #include "verify/fuzz/diagnosis.hpp"
 #include "verify/fuzz/generators.hpp"
 #include "verify/fuzz/plainness.hpp"

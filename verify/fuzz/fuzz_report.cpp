@@ -12,7 +12,7 @@
 
 #include "verify/data/csv_dataset.hpp"
 #include "verify/fuzz/signature.hpp"
-#include "verify/generate/random.hpp"
+#include "verify/generate/random_stream.hpp"
 #include "verify/io/json.hpp"
 #include "verify/io/printable.hpp"
 #include "verify/io/text_table.hpp"

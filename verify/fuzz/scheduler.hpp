@@ -15,7 +15,7 @@
 #include <vector>
 
 #include "verify/fuzz/generators.hpp"
-#include "verify/generate/random.hpp"
+#include "verify/generate/random_stream.hpp"
 
 namespace touchstone::verify::fuzz {
 

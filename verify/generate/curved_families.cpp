@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "verify/generate/random.hpp"
+#include "verify/generate/random_stream.hpp"
 
 namespace touchstone::verify::generate {
 namespace {

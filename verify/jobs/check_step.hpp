@@ -17,7 +17,7 @@
 #include "touchstone/step.hpp"
 #include "verify/jobs/prove_step.hpp"
 #include "verify/jobs/work_time.hpp"
-#include "verify/mesh/mesh.hpp"
+#include "verify/mesh/mesh_file.hpp"
 
 namespace touchstone::verify::jobs {
 

@@ -13,7 +13,7 @@
 
 #include <filesystem>
 
-#include "verify/mesh/mesh.hpp"
+#include "verify/mesh/mesh_file.hpp"
 
 namespace touchstone::verify::mesh {
 

@@ -23,7 +23,7 @@
 #include <vector>
 
 #include "touchstone/mesh.hpp"
-#include "verify/mesh/mesh.hpp"
+#include "verify/mesh/mesh_file.hpp"
 
 namespace touchstone::verify::mesh {
 

@@ -30,7 +30,7 @@
 #include "verify/data/separation_file.hpp"
 #include "verify/io/coordinate_text.hpp"
 #include "verify/io/dataset_error.hpp"
-#include "verify/mesh/mesh.hpp"
+#include "verify/mesh/mesh_file.hpp"
 #include "verify/mesh/obj.hpp"
 #include "verify/mesh/ply.hpp"
 #include "verify/solvers/answers.hpp"

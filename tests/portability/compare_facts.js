@@ -1,6 +1,6 @@
-// facts.js PLAYGROUND.js VIEW.html: the solvers in WebAssembly say of each query on a page of `touchstone view` what this
+// compare_facts.js PLAYGROUND.js VIEW.html: the solvers in WebAssembly say of each query on a page of `touchstone view` what this
 // machine says: verdict, times, certificate, and the answers of Touchstone's own methods, in all bits; other methods sum in another
-// order there, so that of them the names are compared. facts.js --methods: the options of view for all these methods.
+// order there, so that of them the names are compared. compare_facts.js --methods: the options of view for all these methods.
 
 const fs = require("fs");
 

@@ -1,4 +1,4 @@
-#include "examples/simulation/scene.hpp"
+#include "examples/simulation/simulated_scene.hpp"
 
 #include <gtest/gtest.h>
 
@@ -11,7 +11,7 @@
 #include "examples/simulation/world.hpp"
 #include "verify/mesh/self_intersection.hpp"
 
-namespace touchstone::simulation::scene_test {
+namespace touchstone::simulation::simulated_scene_test {
 namespace {
 
 class Scenes : public testing::TestWithParam<SceneDescription> {};
@@ -66,4 +66,4 @@ TEST(SceneNames, UnknownOnesAreReportedWithAllNames) {
 }
 
 }  // namespace
-}  // namespace touchstone::simulation::scene_test
+}  // namespace touchstone::simulation::simulated_scene_test

@@ -1,4 +1,4 @@
-#include "verify/cli/pieces.hpp"
+#include "verify/cli/sharded_run.hpp"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "verify/solvers/plugin.hpp"
+#include "verify/solvers/plugin_method.hpp"
 
 #include <dlfcn.h>
 #include <fmt/format.h>

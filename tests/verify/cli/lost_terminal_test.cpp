@@ -21,7 +21,7 @@
 // The tool after its user or its reader has gone, or without its input; and names from outside on a
 // terminal (verify/io/terminal.hpp, verify/io/printable.hpp).
 
-namespace touchstone::verify::cli::terminal_test {
+namespace touchstone::verify::cli::lost_terminal_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -244,4 +244,4 @@ TEST_F(TerminalTool, MessagesShowWhatTheyName) {
 }
 
 }  // namespace
-}  // namespace touchstone::verify::cli::terminal_test
+}  // namespace touchstone::verify::cli::lost_terminal_test

@@ -1,4 +1,4 @@
-#include "verify/mesh/mesh.hpp"
+#include "verify/mesh/mesh_file.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 
 #include "tests/support/mesh_files.hpp"
 
-namespace touchstone::verify::mesh::mesh_test {
+namespace touchstone::verify::mesh::mesh_file_test {
 namespace {
 
 using fast::Edge;
@@ -44,4 +44,4 @@ TEST(ReadMesh, GoesByTheExtensionInEitherCase) {
 }
 
 }  // namespace
-}  // namespace touchstone::verify::mesh::mesh_test
+}  // namespace touchstone::verify::mesh::mesh_file_test

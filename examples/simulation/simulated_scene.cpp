@@ -1,4 +1,4 @@
-#include "examples/simulation/scene.hpp"
+#include "examples/simulation/simulated_scene.hpp"
 
 #include <Eigen/Geometry>
 

@@ -1,4 +1,4 @@
-#include "verify/solvers/plugin.hpp"
+#include "verify/solvers/plugin_method.hpp"
 #include "tests/support/built_files.hpp"
 
 #include <dlfcn.h>
@@ -24,7 +24,7 @@
 #include "touchstone/oracle.hpp"
 #include "verify/solvers/solver_process.hpp"
 
-namespace touchstone::verify::solvers::plugin_test {
+namespace touchstone::verify::solvers::plugin_method_test {
 namespace {
 
 using data::test::error_of;
@@ -517,4 +517,4 @@ INSTANTIATE_TEST_SUITE_P(Of, PluginEvents,
                                            Way{"misbehaving", 2}));
 
 }  // namespace
-}  // namespace touchstone::verify::solvers::plugin_test
+}  // namespace touchstone::verify::solvers::plugin_method_test

@@ -1,4 +1,4 @@
-#include "verify/mesh/mesh.hpp"
+#include "verify/mesh/mesh_file.hpp"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "verify/fuzz/curves.hpp"
+#include "verify/fuzz/curved_generators.hpp"
 
 #include <algorithm>
 #include <array>

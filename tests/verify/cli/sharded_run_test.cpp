@@ -10,7 +10,7 @@
 
 // Kills of a run in pieces; the rest is in tests/transcripts/{merge,pieces}.md.
 
-namespace touchstone::verify::cli::pieces_test {
+namespace touchstone::verify::cli::sharded_run_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -84,4 +84,4 @@ TEST_F(PieceRuns, ThatAreKilledGoOn) {
 }
 
 }  // namespace
-}  // namespace touchstone::verify::cli::pieces_test
+}  // namespace touchstone::verify::cli::sharded_run_test
