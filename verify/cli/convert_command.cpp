@@ -76,9 +76,9 @@ std::string shard_name(const fs::path& file, const fs::path& path) {
 }
 
 /// A shard that is being written.
-class Shard {
+class StoredShard {
  public:
-  Shard(const fs::path& folder, const std::string& name, const QueryShape& shape)
+  StoredShard(const fs::path& folder, const std::string& name, const QueryShape& shape)
       : queries_file_(folder / (name + ".npy")),
         labels_file_(folder / "mma_bool" / (name + "_mma_bool.json")),
         tois_file_(folder / "toi" / (name + "_toi.csv")),
@@ -213,7 +213,7 @@ class ConvertRun {
     const fs::path folder = arguments_.folder / to_string(source->kind());
     fs::create_directories(folder);
     nlohmann::json result = nlohmann::json::array();
-    std::optional<Shard> shard;
+    std::optional<StoredShard> shard;
     std::uint64_t first = 0;
     const auto finish = [&] {
       const std::uint64_t count = shard->count();

@@ -33,7 +33,7 @@ std::vector<std::string> hardness_names() {
 }
 
 std::vector<OptionRow> make_table() {
-  using enum Form;
+  using enum OptionForm;
   const OneOf kinds{{"vertex-face", "edge-edge"}};
   const std::string certificates = "compressed if the name ends in .zst";
   return {
@@ -218,10 +218,11 @@ CLI::Option* finish_option(CLI::Option* option, const OptionRow& row) {
   if (!std::holds_alternative<Text>(row.values)) {
     option->check([&row](const std::string& text) { return fault_of_value(row.values, text); }, "");
   }
-  if (row.form == Form::required) option->required();
-  if (row.form == Form::hidden) option->group("");
-  if (row.form == Form::pair) option->expected(2);
-  if (row.form == Form::usual && option->get_expected_max() > 1) option->allow_extra_args(false);
+  if (row.form == OptionForm::required) option->required();
+  if (row.form == OptionForm::hidden) option->group("");
+  if (row.form == OptionForm::pair) option->expected(2);
+  if (row.form == OptionForm::usual && option->get_expected_max() > 1)
+    option->allow_extra_args(false);
   return option;
 }
 

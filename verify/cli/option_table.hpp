@@ -52,7 +52,7 @@ struct OneOf {
 
 using Values = std::variant<Text, Whole, Real, Distance, OneOf>;
 
-enum class Form : std::uint8_t {
+enum class OptionForm : std::uint8_t {
   usual,     ///< optional, and with one value each time that it is given
   required,  ///< has to be given
   list,      ///< with one value or more each time
@@ -68,7 +68,7 @@ struct OptionRow {
   Values values;
   std::string text;
   std::string commands = {};  ///< those with this row; empty: those that no other row names
-  Form form = Form::usual;
+  OptionForm form = OptionForm::usual;
 
   /// True if this is the row of the option with that name (of several the first) and command.
   [[nodiscard]] bool is_of(std::string_view command, std::string_view option) const;

@@ -79,7 +79,7 @@ struct Image {
 };
 
 /// Queries that are asked together: first those that generators made, then images of some of them.
-struct Block {
+struct FuzzBlock {
   QueryShape shape;
   std::vector<double> numbers;
   std::vector<std::size_t> arms;  ///< by query: whose it is
@@ -111,10 +111,10 @@ struct Block {
 };
 
 /// Makes blocks, one shape after the other.
-class BlockMaker {
+class FuzzBlockMaker {
  public:
-  BlockMaker(const fast::Terms& terms, const FuzzOptions& options,
-             const std::vector<Generator>& generators)
+  FuzzBlockMaker(const fast::Terms& terms, const FuzzOptions& options,
+                 const std::vector<Generator>& generators)
       : shapes_(answered(options.shapes, terms)),
         terms_(terms),
         hangs_(options.query_limit_seconds),
@@ -125,8 +125,8 @@ class BlockMaker {
     for (const AnyQuery& query : options.corpus) keep(query);
   }
 
-  [[nodiscard]] Block make() {
-    Block block;
+  [[nodiscard]] FuzzBlock make() {
+    FuzzBlock block;
     block.shape = shapes_[count_++ % shapes_.size()];
     for (std::size_t slices = 0; block.size() < block_queries; ++slices) {
       if (slices == most_slices && block.size() == 0) {
@@ -181,7 +181,7 @@ class BlockMaker {
   }
 
   /// A slice of a generator's queries. What is not asked teaches that the generator brings less.
-  void add_slice(std::size_t arm, Block& block) {
+  void add_slice(std::size_t arm, FuzzBlock& block) {
     for (std::size_t i = 0; i < slice_queries; ++i) {
       const AnyQuery query =
           judge::as_asked(terms_, generators_[arm].make(block.shape, context_, random_));
@@ -197,7 +197,7 @@ class BlockMaker {
     }
   }
 
-  void add_images(Block& block) {
+  void add_images(FuzzBlock& block) {
     const std::size_t made = block.size();
     for (std::size_t i = 0; i < made; ++i) {
       if (!one_in(random_, queries_an_image)) continue;
@@ -277,9 +277,9 @@ bool contradict(const Answer& a, const Answer& b, bool same_time) {
 }
 
 /// One run.
-class Run {
+class FuzzRun {
  public:
-  Run(const fast::Method& method, const FuzzOptions& options)
+  FuzzRun(const fast::Method& method, const FuzzOptions& options)
       : options_(options),
         method_(method),
         name_(method.name()),
@@ -584,7 +584,7 @@ class Run {
   judge::Standard standard_;
   double oracle_share_;
   std::vector<Generator> generators_;
-  BlockMaker maker_;
+  FuzzBlockMaker maker_;
   solvers::SolverProcess solver_;
   fast::MethodOptions method_options_;
   Random random_;
@@ -599,7 +599,7 @@ class Run {
   std::map<Signature, std::size_t> groups_;
   FuzzResult result_;
   // The block at hand.
-  Block block_;
+  FuzzBlock block_;
   std::vector<Answer> answers_;
   std::vector<CertifiedResult> judged_;
   std::vector<judge::QueryFailure> failures_;
@@ -667,7 +667,7 @@ double FuzzResult::judged_per_second() const {
 
 FuzzResult fuzz(const fast::Method& method, const FuzzOptions& options) {
   check(options);
-  return Run(method, options).run();
+  return FuzzRun(method, options).run();
 }
 
 }  // namespace touchstone::verify::fuzz

@@ -67,7 +67,7 @@ struct SolverResult {
   fast::Promise promise = fast::Promise::none;
   /// Timed on so many queries: those that it answered.
   std::size_t queries = 0;
-  Times times;
+  TimesPerQuery times;
   /// Empty if they were not timed.
   std::optional<SingleTimes> singles;
   /// Which stages ended its queries; empty if it has none.
@@ -87,7 +87,7 @@ struct BenchResult {
   std::size_t queries = 0;
   std::size_t judged = 0;      ///< queries decided by the oracle
   std::size_t collisions = 0;  ///< of these
-  Times memory_pass;
+  TimesPerQuery memory_pass;
   /// In the order of the solvers.
   std::vector<SolverResult> solvers;
   bool interrupted = false;

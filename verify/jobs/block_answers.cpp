@@ -4,7 +4,7 @@
 
 namespace touchstone::verify::jobs {
 
-BlockAnswers::BlockAnswers(const Block& block, const solvers::Solver& solver,
+BlockAnswers::BlockAnswers(const QueryBlock& block, const solvers::Solver& solver,
                            const Separation& separation, Passes& passes)
     : block_(block),
       solver_(solver),

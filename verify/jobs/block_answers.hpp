@@ -22,8 +22,8 @@ namespace touchstone::verify::jobs {
 /// counts in part.
 class BlockAnswers {
  public:
-  /// Asks the solver in one of the passes. Block and solver must live as long as this.
-  BlockAnswers(const Block& block, const solvers::Solver& solver, const Separation& separation,
+  /// Asks the solver in one of the passes. The block and the solver must live as long as this.
+  BlockAnswers(const QueryBlock& block, const solvers::Solver& solver, const Separation& separation,
                Passes& passes);
 
   /// By query.
@@ -49,7 +49,7 @@ class BlockAnswers {
     solvers::SolveReply reply;
   };
 
-  const Block& block_;
+  const QueryBlock& block_;
   const solvers::Solver& solver_;
   Separation separation_;
   std::vector<fast::Answer> answers_;

@@ -7,7 +7,7 @@
 
 namespace touchstone::verify::jobs {
 
-BlockTruth::BlockTruth(const Block& block, BlockTruthOptions options, Passes& passes)
+BlockTruth::BlockTruth(const QueryBlock& block, BlockTruthOptions options, Passes& passes)
     : block_(block),
       options_(std::move(options)),
       truths_(block.size()),

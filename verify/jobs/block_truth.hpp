@@ -40,7 +40,7 @@ struct DecidedPart {
 class BlockTruth {
  public:
   /// Decides all queries in one of the passes. The block must live as long as this.
-  BlockTruth(const Block& block, BlockTruthOptions options, Passes& passes);
+  BlockTruth(const QueryBlock& block, BlockTruthOptions options, Passes& passes);
 
   /// By query, without times where these are not needed.
   [[nodiscard]] std::span<const judge::GroundTruth> truths() const { return truths_; }
@@ -54,7 +54,7 @@ class BlockTruth {
   void prove(std::size_t first, const std::vector<exact::Decision>& verdicts,
              DecidedPart& part) const;
 
-  const Block& block_;
+  const QueryBlock& block_;
   BlockTruthOptions options_;
   std::vector<judge::GroundTruth> truths_;
   std::vector<DecidedPart> parts_;

@@ -20,7 +20,7 @@ namespace tbb = oneapi::tbb;
 
 /// A block with what becomes of it.
 struct Token {
-  Block block;
+  QueryBlock block;
   BlockResult result;
   double progress = 0.0;
 };
@@ -60,7 +60,7 @@ class Stream {
   }
 
  private:
-  void read_query(Block& block) {
+  void read_query(QueryBlock& block) {
     const bool is_late = block.size() == 0 && options_.deadline.is_over();
     if (base::is_stopped(options_.stop) || is_late) {
       ended_ = result_.interrupted = true;

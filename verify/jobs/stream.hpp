@@ -27,7 +27,7 @@
 namespace touchstone::verify::jobs {
 
 /// Some consecutive queries of a source.
-struct Block {
+struct QueryBlock {
   /// So many queries, but for the last block: as many as hide the cost of a clock call behind a
   /// solver that takes 10 ns a query.
   static constexpr std::size_t most_queries = 2048;
@@ -89,7 +89,7 @@ struct BlockResult {
 };
 
 /// The work on a block; called from several threads. The block lives until in_order has returned.
-using BlockWork = std::function<BlockResult(const Block&)>;
+using BlockWork = std::function<BlockResult(const QueryBlock&)>;
 
 struct StreamOptions {
   /// Cores to use; 0: all of them.
@@ -101,8 +101,8 @@ struct StreamOptions {
   const std::atomic<bool>* stop = nullptr;
   /// Behind it no further block is begun.
   base::Deadline deadline = {};
-  /// Queries of a block, at most Block::most_queries; fewer end sooner.
-  std::size_t block = Block::most_queries;
+  /// Queries of a block, at most QueryBlock::most_queries; fewer end sooner.
+  std::size_t block = QueryBlock::most_queries;
 };
 
 /// Outcome of a stream.
@@ -123,8 +123,9 @@ StreamResult stream(data::QuerySource& source, const BlockWork& work, const Stre
 template <class Make, class Add>
 StreamResult stream(data::QuerySource& source, const Make& make, const Add& add,
                     const StreamOptions& options) {
-  const auto work = [&](const Block& block) -> BlockResult {
-    const auto made = std::make_shared<const std::invoke_result_t<Make, const Block&>>(make(block));
+  const auto work = [&](const QueryBlock& block) -> BlockResult {
+    const auto made =
+        std::make_shared<const std::invoke_result_t<Make, const QueryBlock&>>(make(block));
     return {.in_order = [made, &add] { add(*made); }, .complete = made->complete()};
   };
   return stream(source, BlockWork(work), options);

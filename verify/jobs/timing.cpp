@@ -30,9 +30,9 @@ double nanoseconds_since(WallClock::time_point start) {
 
 }  // namespace
 
-double Times::median() const { return jobs::median(repetitions); }
+double TimesPerQuery::median() const { return jobs::median(repetitions); }
 
-double Times::min() const { return quantile(repetitions, 0.0); }
+double TimesPerQuery::min() const { return quantile(repetitions, 0.0); }
 
 std::shared_ptr<const Sample> Samples::of(std::size_t count) {
   const Queries all = group_->queries();

@@ -33,7 +33,7 @@
 namespace touchstone::verify::jobs {
 
 /// Nanoseconds a query, one number for each repetition.
-struct Times {
+struct TimesPerQuery {
   std::vector<double> repetitions;
 
   /// NaN if there was no repetition; the same below.
@@ -117,7 +117,7 @@ class TimedSolver {
   [[nodiscard]] std::optional<judge::Unasked> why_unasked(std::size_t i) const {
     return reply_.why_unasked(i);
   }
-  [[nodiscard]] const Times& times() const { return times_; }
+  [[nodiscard]] const TimesPerQuery& times() const { return times_; }
   /// Processor time of all repetitions.
   [[nodiscard]] double seconds_spent() const { return seconds_spent_; }
 
@@ -140,7 +140,7 @@ class TimedSolver {
   std::uint64_t unplaced_crashes_ = 0;
   /// In a repetition; 0: not known yet.
   std::size_t calls_ = 0;
-  Times times_;
+  TimesPerQuery times_;
   double latest_ = 0.0;  ///< nanoseconds of the latest call
   double seconds_spent_ = 0.0;
 };

@@ -190,7 +190,7 @@ std::string legend(const BenchReport& report) {
 
 // ---- JSON ---------------------------------------------------------------------------------------
 
-nlohmann::json json_of(const jobs::Times& times) {
+nlohmann::json json_of(const jobs::TimesPerQuery& times) {
   return {{"ns_per_query", io::number_to_json(times.median())},
           {"min_ns_per_query", io::number_to_json(times.min())},
           {"repetitions", times.repetitions}};

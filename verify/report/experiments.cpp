@@ -142,9 +142,9 @@ std::string today() {
                      static_cast<unsigned>(day.month()), static_cast<unsigned>(day.day()));
 }
 
-class Run {
+class ExperimentRun {
  public:
-  Run(std::span<const data::QueryGroup> groups, const ExperimentOptions& options)
+  ExperimentRun(std::span<const data::QueryGroup> groups, const ExperimentOptions& options)
       : groups_(groups), options_(options), methods_(find_methods(options.methods)) {
     if (options.budget > 0.0) deadline_ = base::Deadline(options.budget);
     if (!methods_.empty()) return;
@@ -373,7 +373,7 @@ std::vector<Trial> trials_of(std::span<const std::string> methods) {
 
 Measurements run_experiments(std::span<const data::QueryGroup> groups,
                              const ExperimentOptions& options) {
-  return Run(groups, options).result();
+  return ExperimentRun(groups, options).result();
 }
 
 }  // namespace touchstone::verify::report
