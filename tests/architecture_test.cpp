@@ -140,11 +140,11 @@ constexpr std::string_view headers_without_test = R"(
   verify/generate/: coordinate_sampler.hpp draws.hpp family_builder.hpp grid.hpp passing_planes.hpp random_stream.hpp curved_families.hpp
   verify/stability/: hard_curves.hpp
 // Through what uses them: certify, solve, the step's measurements, NumPy's arrays, the fuzzer.
-  verify/jobs/: block_answers.hpp block_truth.hpp work_time.hpp
+  verify/jobs/: truth_and_answers.hpp work_time.hpp
   verify/data/: npy_header.hpp
   verify/fuzz/: coverage.hpp curved_generators.hpp diagnosis.hpp fuzz_report.hpp mutation.hpp plainness.hpp scheduler.hpp signature.hpp
 // By tests/transcripts, and documents_test.cpp: docs/results.md and its picture are those of their data.
-  verify/cli/: certificates_file.hpp commands.hpp files.hpp group_options.hpp help.hpp options.hpp solver_options.hpp sources.hpp version.hpp view_file.hpp
+  verify/cli/: commands.hpp files.hpp group_options.hpp help.hpp options.hpp result_files.hpp solver_options.hpp sources.hpp version.hpp
   verify/mesh/: moving_mesh.hpp
   verify/report/: certify_report.hpp judgement_report.hpp stability_report.hpp step_report.hpp measurement.hpp
 )";

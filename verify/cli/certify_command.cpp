@@ -15,16 +15,15 @@
 #include <utility>
 #include <vector>
 
-#include "verify/cli/certificates_file.hpp"
 #include "verify/cli/commands.hpp"
 #include "verify/cli/files.hpp"
 #include "verify/cli/help.hpp"
 #include "verify/cli/option_table.hpp"
 #include "verify/cli/options.hpp"
+#include "verify/cli/result_files.hpp"
 #include "verify/cli/sharded_run.hpp"
 #include "verify/cli/solver_options.hpp"
 #include "verify/cli/sources.hpp"
-#include "verify/cli/view_file.hpp"
 #include "verify/io/json.hpp"
 #include "verify/io/printable.hpp"
 #include "verify/io/terminal.hpp"

@@ -11,10 +11,10 @@
 #include <string_view>
 #include <utility>
 
-#include "verify/cli/certificates_file.hpp"
 #include "verify/cli/files.hpp"
 #include "verify/cli/option_table.hpp"
 #include "verify/cli/options.hpp"
+#include "verify/cli/result_files.hpp"
 #include "verify/cli/solver_options.hpp"
 #include "verify/cli/version.hpp"
 #include "verify/data/dataset.hpp"

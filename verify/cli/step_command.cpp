@@ -17,16 +17,15 @@
 #include <vector>
 
 #include "fast/step/bodies.hpp"
-#include "verify/cli/certificates_file.hpp"
 #include "verify/cli/commands.hpp"
 #include "verify/cli/files.hpp"
 #include "verify/cli/group_options.hpp"
 #include "verify/cli/help.hpp"
 #include "verify/cli/option_table.hpp"
 #include "verify/cli/options.hpp"
+#include "verify/cli/result_files.hpp"
 #include "verify/cli/sharded_run.hpp"
 #include "verify/cli/sources.hpp"
-#include "verify/cli/view_file.hpp"
 #include "verify/io/json.hpp"
 #include "verify/io/printable.hpp"
 #include "verify/io/terminal.hpp"

@@ -28,10 +28,10 @@
 #include "verify/mesh/frames.hpp"
 #include "verify/solvers/registry.hpp"
 #include "verify/view/asked_solvers.hpp"
-#include "verify/view/view_page.hpp"
 #include "verify/view/query_facts.hpp"
 #include "verify/view/query_files.hpp"
 #include "verify/view/step_facts.hpp"
+#include "verify/view/view_page.hpp"
 
 namespace touchstone::verify::cli::view_command {
 namespace {

@@ -5,9 +5,8 @@
 #include <optional>
 #include <utility>
 
-#include "verify/jobs/block_answers.hpp"
-#include "verify/jobs/block_truth.hpp"
 #include "verify/jobs/stream.hpp"
+#include "verify/jobs/truth_and_answers.hpp"
 
 namespace touchstone::verify::jobs {
 namespace {

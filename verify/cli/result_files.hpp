@@ -1,17 +1,24 @@
 #pragma once
 
 /// \file
-/// The output file of certificates, compressed if its name ends in ".zst".
+/// The files of a command's results: a stream of certificates (--prove), compressed if the name
+/// ends in ".zst", and a page to look at (--view), as `touchstone view` writes it.
 
+#include <cstddef>
 #include <cstdint>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
+#include "fast/method.hpp"
 #include "touchstone/certificate_text.hpp"
 #include "verify/cli/files.hpp"
 #include "verify/io/compressor.hpp"
 #include "verify/jobs/prove.hpp"
+#include "verify/view/step_facts.hpp"
+#include "verify/view/viewed_query.hpp"
 
 namespace touchstone::verify::cli {
 
@@ -54,5 +61,43 @@ class CertificatesFile {
 
 /// Reports on standard error the queries without a certificate, with the reasons.
 void report_beyond_limits(const jobs::ProofCounts& counts);
+
+/// A page of the first queries that a command found, if a file is named. A failure is reported
+/// once, as by Output.
+class ViewFile {
+ public:
+  /// The maximum number of queries on a page.
+  static constexpr std::size_t most_queries = 100;
+
+  /// \throws as Output.
+  ViewFile(Files& files, const std::string& name) : name_(name), output_(files, name) {}
+
+  /// True if a file was named.
+  [[nodiscard]] explicit operator bool() const { return static_cast<bool>(output_); }
+
+  /// True if the page is full.
+  [[nodiscard]] bool is_full() const { return queries_.size() >= most_queries; }
+
+  /// Adds a query unless the page is full. If the page has the query already, its notes and answers
+  /// are extended.
+  void add(view::ViewedQuery query);
+
+  /// Adds a step, and the first of its pairs.
+  void add(const view::ViewedStep& step);
+
+  /// Writes the page, with answers of the certified solver under these options.
+  void write(const fast::MethodOptions& options = {});
+
+  /// A line about the contents of the page; empty if no file was named or it could not be written.
+  /// \param allowed false positives, which break no promise and are not on the page
+  [[nodiscard]] std::string summary(std::uint64_t allowed = 0) const;
+
+ private:
+  std::string name_;
+  Output output_;
+  std::vector<view::ViewedQuery> queries_;
+  nlohmann::json step_;
+  bool is_cut_ = false;
+};
 
 }  // namespace touchstone::verify::cli

@@ -1,21 +1,68 @@
 #pragma once
 
 /// \file
-/// The answers of one solver to a block of queries, and the judgement on them.
+/// The truth about a block of queries and the answers to it: the verdicts of the oracle, the labels
+/// compared with them, and certificates; the answers of one solver, and the judgement on them.
 
 #include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
+#include "touchstone/oracle.hpp"
 #include "touchstone/query.hpp"
+#include "verify/jobs/prove.hpp"
 #include "verify/jobs/stream.hpp"
 #include "verify/judge/ground_truth.hpp"
 #include "verify/judge/judgement.hpp"
+#include "verify/judge/label.hpp"
 #include "verify/solvers/solver.hpp"
 
 namespace touchstone::verify::jobs {
+
+struct CertifyResult;
+
+struct BlockTruthOptions {
+  Separation separation = {};
+  judge::LabelComparison comparison = {};
+  bool times = false;         ///< true if times of impact are needed
+  bool certificates = false;  ///< true if certificates are to be written
+  exact::ProveOptions proof = {};
+};
+
+/// The results of the oracle for a part of a block.
+struct DecidedPart {
+  std::vector<judge::Mismatch> mismatches;
+  double nanoseconds = 0.0;
+  std::string certificates;
+  ProofCounts proofs;
+};
+
+/// The truth about the queries of one block.
+class BlockTruth {
+ public:
+  /// Decides all queries in one of the passes. The block must live as long as this.
+  BlockTruth(const QueryBlock& block, BlockTruthOptions options, Passes& passes);
+
+  /// By query, without times where these are not needed.
+  [[nodiscard]] std::span<const judge::GroundTruth> truths() const { return truths_; }
+  /// The parts of the first `count` queries.
+  [[nodiscard]] std::span<const DecidedPart> parts(std::size_t count) const;
+  /// Adds counts and mismatches of the first `count` queries.
+  void add_to(CertifyResult& result, std::size_t count) const;
+
+ private:
+  void decide(std::size_t first, std::size_t count, DecidedPart& part);
+  void prove(std::size_t first, const std::vector<exact::Decision>& verdicts,
+             DecidedPart& part) const;
+
+  const QueryBlock& block_;
+  BlockTruthOptions options_;
+  std::vector<judge::GroundTruth> truths_;
+  std::vector<DecidedPart> parts_;
+};
 
 /// The answers of a solver to the queries of one block. All below is about the first `count` of
 /// them, no more than are complete (Passes::complete). A call may reach beyond these; it then

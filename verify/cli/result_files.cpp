@@ -1,4 +1,4 @@
-#include "verify/cli/view_file.hpp"
+#include "verify/cli/result_files.hpp"
 
 #include <fmt/format.h>
 
@@ -11,12 +11,13 @@
 #include "touchstone/certified.hpp"
 #include "verify/cli/options.hpp"
 #include "verify/io/printable.hpp"
+#include "verify/io/terminal.hpp"
 #include "verify/judge/separation_inference.hpp"
 #include "verify/solvers/registry.hpp"
 #include "verify/solvers/solver.hpp"
 #include "verify/view/asked_solvers.hpp"
-#include "verify/view/view_page.hpp"
 #include "verify/view/query_facts.hpp"
+#include "verify/view/view_page.hpp"
 
 namespace touchstone::verify::cli {
 namespace {
@@ -31,6 +32,57 @@ void append(std::vector<Thing>& all, std::vector<Thing>&& further) {
 }
 
 }  // namespace
+
+// ---- Certificates -------------------------------------------------------------------------------
+
+CertificatesFile::CertificatesFile(Files& files, const std::string& name, std::string_view header)
+    : output_(files, name) {
+  if (name.ends_with(".zst")) compressor_.emplace();
+  write(header);
+}
+
+void CertificatesFile::write(std::string_view certificates) {
+  if (!output_ || output_.failed()) return;
+  if (compressor_) {
+    put(compressor_->compress(certificates));
+  } else {
+    put(certificates);
+  }
+}
+
+void CertificatesFile::close(std::uint64_t certificates) {
+  if (io::interrupted()) {
+    close_incomplete();
+  } else {
+    close(exact::certificates_closing_line(certificates));
+  }
+}
+
+void CertificatesFile::close(std::string_view closing_line) {
+  write(closing_line);
+  finish();
+  output_.close();
+}
+
+void CertificatesFile::close_incomplete() {
+  finish();
+  output_.close_incomplete();
+}
+
+void CertificatesFile::finish() {
+  if (output_ && !output_.failed() && compressor_) put(compressor_->finish());
+}
+
+void CertificatesFile::put(std::string_view bytes) {
+  output_.write(bytes);
+  bytes_ += bytes.size();
+}
+
+void report_beyond_limits(const jobs::ProofCounts& counts) {
+  for (const std::string& reason : counts.beyond_limits) report_error(reason);
+}
+
+// ---- The page -----------------------------------------------------------------------------------
 
 void ViewFile::add(view::ViewedQuery query) {
   if (!output_) return;
