@@ -16,6 +16,7 @@
 #include <utility>
 #include <vector>
 
+#include "exact/certificate/step_certificate_text.hpp"
 #include "fast/step/bodies.hpp"
 #include "verify/cli/commands.hpp"
 #include "verify/cli/files.hpp"
@@ -58,7 +59,7 @@ class StepRun {
   explicit StepRun(const Arguments& arguments)
       : json_(files_, arguments.json_file),
         csv_(files_, arguments.csv_file),
-        proof_(files_, arguments.proof_file, jobs::step_proofs_header()),
+        proof_(files_, arguments.proof_file, exact::step_certificates_header()),
         view_(files_, arguments.view_file),
         find_piercings_(arguments.find_piercings),
         options_(arguments.check),
@@ -166,7 +167,7 @@ class StepRun {
       if (lacks_proof() || report_.interrupted) {
         proof_.close_incomplete();
       } else {
-        proof_.close(jobs::step_proofs_closing_line(report_.steps.size()));
+        proof_.close(exact::step_certificates_closing_line(report_.steps.size()));
       }
     }
     if (json_) json_.write(io::json_document(report::to_json(report_)));

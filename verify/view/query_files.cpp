@@ -12,6 +12,7 @@
 #include <string>
 #include <utility>
 
+#include "exact/certificate/step_certificate_text.hpp"
 #include "touchstone/certificate_text.hpp"
 #include "verify/data/dataset.hpp"
 #include "verify/io/coordinate_text.hpp"
@@ -20,7 +21,6 @@
 #include "verify/io/json.hpp"
 #include "verify/io/obj_statements.hpp"
 #include "verify/jobs/prove.hpp"
-#include "verify/jobs/prove_step.hpp"
 #include "verify/view/certificate_facts.hpp"
 
 namespace touchstone::verify::view {
@@ -205,7 +205,7 @@ ViewedQuery query_from(std::string stream, std::string label) {
 
 /// \throws DatasetError if it is not the first line of certificates of queries
 void check_header(const fs::path& path, std::string_view first_line) {
-  if (!first_line.empty() && jobs::step_proofs_header().starts_with(first_line)) {
+  if (!first_line.empty() && exact::step_certificates_header().starts_with(first_line)) {
     throw io::DatasetError(path, {.line = 1},
                            "these are certificates of steps, which have no query; "
                            "view --step draws the step between two frames");
