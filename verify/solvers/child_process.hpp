@@ -15,7 +15,7 @@
 /// In the child there are no other threads: fork() copies only the one that calls it. Code that
 /// hands work to threads of a pool that existed before waits for ever.
 ///
-/// The implementation is Linux's alone (linux/child_process.cpp).
+/// The implementation, child_process.cpp, is for Linux alone.
 
 #include <sys/types.h>
 
