@@ -54,7 +54,7 @@ class BlockJudgement {
   }
 
  private:
-  /// Of the complete queries; empty if none are decided.
+  /// The truth about the complete queries; empty if none are decided.
   [[nodiscard]] std::span<const judge::GroundTruth> truths() const {
     if (!truth_) return {};
     return truth_->truths().first(complete_);

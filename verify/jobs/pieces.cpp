@@ -105,7 +105,7 @@ std::optional<Plan> read_plan(const fs::path& folder) {
   }
 }
 
-/// How a plan differs from another, in the words of its user.
+/// The difference between two plans, in the words of the user.
 std::string difference(const Plan& given, const Plan& there) {
   const auto join = [](const auto& texts) { return fmt::format("{}", fmt::join(texts, " ")); };
   if (given.program != there.program)
@@ -147,9 +147,9 @@ json without_means(const json& source) {
   return result;
 }
 
-/// Adds the result of the next piece. Counts add up, greatest values stay the greatest, lists
-/// follow one another, and all else has to agree.
-/// \throws std::invalid_argument naming what does not.
+/// Adds the result of the next piece. Counts are summed, of greatest values the greater is kept,
+/// lists are joined, and everything else must agree.
+/// \throws std::invalid_argument that names the difference.
 void add(json& sum, const json& next, const std::string& key) {
   if (sum.is_object() && sum.contains("histogram")) {
     judge::ToiErrors errors = judge::toi_errors_from_json(sum);

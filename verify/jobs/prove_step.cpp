@@ -316,7 +316,7 @@ class StepProver {
   const SceneParts& parts_;
   const StepProofOptions& options_;
   StepProof proof_;
-  /// Until when there is no contact.
+  /// The time up to which there is no contact.
   exact::Rational end_;
   std::optional<StepPlaces> places_;
 };

@@ -22,7 +22,7 @@
 namespace touchstone::verify::jobs {
 
 struct StepProofOptions {
-  /// A line of text, of which the certificate keeps what its format admits (exact::label_text).
+  /// A line of text, which the certificate has in the form of exact::label_text.
   std::string label = {};
   /// Cores to use; 0: all of them.
   unsigned threads = 0;
@@ -30,7 +30,7 @@ struct StepProofOptions {
   std::function<void(std::string_view)> on_text = nullptr;
   /// Called occasionally with the completed fraction, never from two threads at once.
   std::function<void(double)> on_progress = nullptr;
-  /// When it becomes true, the certificate ends there and is invalid.
+  /// Once true, the certificate ends there and is invalid. May be null.
   const std::atomic<bool>* stop = nullptr;
 };
 

@@ -18,14 +18,14 @@ namespace {
 
 namespace tbb = oneapi::tbb;
 
-/// A block with what becomes of it.
+/// A block with its result.
 struct Token {
   QueryBlock block;
   BlockResult result;
   double progress = 0.0;
 };
 
-/// The serial ends of the pipeline: reading, and what is done in order.
+/// The serial ends of the pipeline: reading, and the work that is done in order.
 class Stream {
  public:
   Stream(data::QuerySource& source, const StreamOptions& options, std::size_t blocks_in_flight)

@@ -110,7 +110,7 @@ double TimedSolver::asked() const {
 
 void TimedSolver::repeat() {
   if (calls_ != 0 && !(solver_->allowance() > 0.0)) {
-    // The time is over. The answers are those of the latest call, and its time has to do.
+    // The time is used up: the latest call, whose answers are kept, is the only repetition.
     if (times_.repetitions.empty()) times_.repetitions.push_back(latest_ / asked());
     return;
   }

@@ -77,7 +77,7 @@ class BlockAnswers {
   [[nodiscard]] std::span<const fast::Answer> answers() const { return answers_; }
   /// The failure at query i that the solver reports with the answers, or null.
   [[nodiscard]] const judge::Failure* failure(std::size_t i) const;
-  /// Why query i was not asked; nothing if it was.
+  /// The reason why query i was not asked; nothing if it was.
   [[nodiscard]] std::optional<judge::Unasked> why_unasked(std::size_t i) const;
   /// The answer to query i as a person is shown it, unless the solver has none.
   [[nodiscard]] std::optional<judge::GivenAnswer> given(std::size_t i) const;

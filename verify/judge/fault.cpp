@@ -14,7 +14,7 @@
 namespace touchstone::verify::judge {
 namespace {
 
-/// All that a fault is called.
+/// The names of a fault.
 struct Words {
   std::string_view name;
   char letter;
