@@ -190,7 +190,7 @@ class AnswersReader {
     return io::number_from_text<double>(field(column));
   }
 
-  /// NaN where the field is empty or the time is none that counts.
+  /// NaN where the field is empty, or the verdict is not yes.
   [[nodiscard]] double read_time(Column column, fast::Verdict verdict) const {
     if (field(column).empty()) return fast::Answer::none;
     const std::optional<double> value = read_number(column);

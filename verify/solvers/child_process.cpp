@@ -75,7 +75,7 @@ sock_filter fail_with(int error) {
   return BPF_STMT(BPF_RET | BPF_K, SECCOMP_RET_ERRNO | static_cast<std::uint32_t>(error));
 }
 
-/// Skips so many rules if the value is this, and as many as the third if it is not.
+/// Skips `if_equal` rules if the value is this one, `if_not` rules if it is another.
 sock_filter jump(std::uint32_t value, std::size_t if_equal, std::size_t if_not) {
   return BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, value, static_cast<std::uint8_t>(if_equal),
                   static_cast<std::uint8_t>(if_not));
@@ -88,8 +88,9 @@ void apply(std::span<sock_filter> rules) {
   ::prctl(PR_SET_SECCOMP, SECCOMP_MODE_FILTER, &program);
 }
 
-/// Has the system refuse to make processes, but not threads. What makes a thread is known by the
-/// flags of clone(); those of clone3() lie in memory, so the C library is made to do without it.
+/// Forbids making processes; threads are still allowed. The flags of clone() tell a thread from a
+/// process; those of clone3() lie in memory, so clone3() is refused, and the C library falls back
+/// to clone().
 void forbid_processes() {
   std::array rules {
     load(offsetof(seccomp_data, arch)), jump(architecture, 0, 1), load(offsetof(seccomp_data, nr)),
@@ -104,7 +105,7 @@ void forbid_processes() {
   apply(rules);
 }
 
-/// Has the system refuse every signal to the parent, to its group and to all processes.
+/// Forbids signals to the parent, to its group and to all processes.
 void protect_parent() {
   const auto number = [](pid_t process) { return static_cast<std::uint32_t>(process); };
   const std::array targets{number(::getppid()), number(-::getpgid(::getppid())), number(-1)};
@@ -140,8 +141,9 @@ void set_limits(const ChildLimits& limits) {
   if (!limits.may_fork) forbid_processes();
 }
 
-/// Has the system kill this process and its group when all other ends of the pipe are closed: when
-/// the parent is gone. (PR_SET_PDEATHSIG would be about the thread that made this process.)
+/// Makes the system kill this process and its group when all other ends of the pipe are closed,
+/// that is, when the parent has ended. (PR_SET_PDEATHSIG would be about the thread that made this
+/// process.)
 void die_with(int lifeline) {
   ::fcntl(lifeline, F_SETOWN, -::getpid());
   ::fcntl(lifeline, F_SETSIG, SIGKILL);
@@ -150,7 +152,7 @@ void die_with(int lifeline) {
   if (::poll(&event, 1, 0) > 0) ::_exit(1);
 }
 
-/// The child's ends of what connects it with its parent.
+/// The child's ends of its connections with the parent.
 struct ChildEnds {
   int socket;
   int lifeline;
@@ -212,7 +214,8 @@ double seconds(const timeval& time) {
   return static_cast<double>(time.tv_sec) + static_cast<double>(time.tv_usec) * 1e-6;
 }
 
-/// What a function of the system makes, and whose result it is.
+/// The two descriptors that a system call has made. \param result of the call, negative if it
+/// failed
 std::pair<Descriptor, Descriptor> checked(int result, const std::array<int, 2>& ends) {
   if (result != 0) fail("cannot talk to a solver's process");
   return {Descriptor(ends[0]), Descriptor(ends[1])};
@@ -347,7 +350,7 @@ ChildEnd ChildProcess::end(CapturedOutput& output) {
   process_ = -1;
   take_output(output);
   ChildEnd result;
-  // Where the system reaps the children of this process, nothing is known.
+  // If this process lets the system reap its children, the end is not known.
   result.failure = {.kind = judge::Fault::crash};
   if (reaped > 0 && WIFEXITED(status)) {
     result.failure = {.kind = judge::Fault::exit, .number = WEXITSTATUS(status)};

@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file
-/// This program as a process of its own.
+/// A run of this program in a process of its own.
 
 #include <string>
 #include <vector>

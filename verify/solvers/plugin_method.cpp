@@ -58,7 +58,8 @@ std::string loader_reason(const std::string& file) {
   return reason.starts_with(prefix) ? reason.substr(prefix.size()) : reason;
 }
 
-/// What tells a file from one that takes its name, or from itself after a change.
+/// The state of a file: it differs from that of another file of the same name, and changes with the
+/// file.
 std::string state_of(const std::filesystem::path& path) {
   struct stat file {};
   if (::stat(path.c_str(), &file) != 0) return {};
@@ -179,7 +180,7 @@ fast::Answer checked(const TouchstonePluginAnswer& answer) {
     return {.verdict = fast::Verdict::error};
   }
   const auto verdict = static_cast<fast::Verdict>(answer.verdict);
-  // No comparison holds of a NaN: what is no tolerance becomes one.
+  // Neither a NaN nor a negative number is a tolerance; no comparison holds for a NaN.
   const double tolerance = answer.tolerance >= 0.0 ? answer.tolerance : fast::Answer::none;
   if (verdict != fast::Verdict::yes) return {.verdict = verdict, .tolerance = tolerance};
   return {.verdict = verdict,
@@ -188,8 +189,8 @@ fast::Answer checked(const TouchstonePluginAnswer& answer) {
           .tolerance = tolerance};
 }
 
-/// Ends this process if it is another at the end than at the beginning: a copy that a solver made
-/// of the one that was asked. Its answers would overwrite those of the other.
+/// Ends this process if it is a copy that the solver made of the process that was asked. The copy's
+/// answers would overwrite those of the original.
 class SameProcess {
  public:
   SameProcess() = default;
@@ -298,10 +299,10 @@ class PluginMethod final : public fast::Method {
 
 // ---- In a child process -------------------------------------------------------------------------
 
-// The child's messages: a word, and a text behind it.
-constexpr std::string_view calls = "calls ";    // what runs from now on
+// The child's messages: a word, followed by a text.
+constexpr std::string_view calls = "calls ";    // the function that runs from now on
 constexpr std::string_view named = "named ";    // the name: all is well
-constexpr std::string_view refused = "error ";  // why it is no plugin
+constexpr std::string_view refused = "error ";  // the reason why it is no plugin
 constexpr std::string_view threw = "threw ";
 constexpr std::string_view vowed = "vowed ";   // the bytes of the promise
 constexpr std::string_view curves = "curves";  // it answers queries on curves

@@ -1,11 +1,11 @@
 #pragma once
 
 /// \file
-/// Anyone's solver as a Method: a shared library that speaks the interface of touchstone/plugin.h.
+/// A plugin as a Method: a shared library with the interface of touchstone/plugin.h.
 ///
-/// The library is never loaded in this process, unless this process calls solve(): it is asked for
-/// its version and its name in a child process, and solve() loads it where it is first called,
-/// which is for a child to do (SolverProcess). What it answers is handed on as it is.
+/// Loading and solving are for child processes (SolverProcess): one child asks the library for its
+/// version and name, and solve() loads it into the process that first calls it. Answers are passed
+/// on unchanged.
 
 #include <atomic>
 #include <cstddef>
@@ -46,20 +46,20 @@ struct PluginOptions {
 /// Loads a plugin, in a child process. A path without a slash is a file in the working directory:
 /// no search takes place.
 ///
-/// The method's name is what the library calls itself, its promise and terms what the library
-/// states (touchstone_plugin_promise), else conservative. Curves are within its terms if it has a
-/// function for them and takes doubles; that function is asked straight lines, too, if there is no
-/// other, and its tolerances are dropped. solve() loads the library into the process that calls it,
-/// where it stays as long as the method lives; it throws DatasetError if the file has changed
-/// since: a run has one solver. It throws what the library throws, and answers Verdict::error for a
-/// verdict that is none. Times of impact with any other verdict than yes are dropped, and so is a
-/// tolerance that is none (negative or NaN); infinite times of impact are not: judge::failure_of()
-/// tells of them.
-/// \throws DatasetError naming the file and the reason if it cannot be loaded, lacks a function, is
-/// made for a version of the interface that this program does not know, has no name or one that is
-/// not printable, has more than 100 bytes or is that of a built-in solver, states a promise out of
-/// range, or ends its process, throws or takes too long on the way; Interrupted if the options'
-/// stop turns true; std::system_error if no process can be made.
+/// The method has the name that the library gives, and the promise and terms that it states
+/// (touchstone_plugin_promise); without a statement the promise is conservative. Curves are within
+/// its terms if it has a function for them and takes doubles; that function is asked straight
+/// lines, too, if there is no other, and its tolerances are dropped. solve() loads the library into
+/// the process that calls it, where it stays as long as the method lives; it throws DatasetError if
+/// the file has changed since: a run has one solver. Exceptions of the library pass through it; an
+/// invalid verdict becomes Verdict::error. Times of impact with any other verdict than yes are
+/// dropped, and so are invalid tolerances (negative or NaN); infinite times of impact are kept:
+/// judge::failure_of() reports them.
+/// \throws DatasetError that names the file and the reason if it cannot be loaded, lacks a
+/// function, is made for a version of the interface that this program does not know, has no name or
+/// one that is not printable, has more than 100 bytes or is that of a built-in solver, states a
+/// promise out of range, or ends its process, throws or takes too long on the way; Interrupted if
+/// the options' stop turns true; std::system_error if no process can be made.
 [[nodiscard]] std::unique_ptr<fast::Method> load_plugin(const std::filesystem::path& library,
                                                         const PluginOptions& options = {});
 
