@@ -14,7 +14,7 @@
 namespace touchstone::verify::report {
 namespace {
 
-/// Of a group and fault so many answers are printed.
+/// The number of answers of a group and fault that are printed.
 constexpr std::size_t most_printed = 20;
 
 /// The positions of answers in the order of harm, later times first, else as they are.

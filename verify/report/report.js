@@ -1,5 +1,5 @@
 "use strict";
-// What a report says: tables, figures, findings and changes as data, computed from measurements (the JSON of
+// The contents of a report: tables, figures, findings and changes as data, computed from measurements (the JSON of
 // `touchstone report`) and published numbers (docs/data/published.json). report_page.js writes and draws them; docs/results.md
 // has the same tables.
 
@@ -31,7 +31,7 @@ const report = (function () {
 
   const listed = (texts) => (texts.length === 0 ? "none" : texts.join(", "));
 
-  /// As RFC 4180 has it; no text is a formula to a spreadsheet.
+  /// A field in the form of RFC 4180; no text is a formula to a spreadsheet.
   function csvField(value) {
     let text = Number.isNaN(value) ? "" : String(value);
     if (text.length > 1 && /^'*[=+@-]/.test(text) && Number.isNaN(Number(text))) text = `'${text}`;
@@ -156,7 +156,7 @@ const report = (function () {
   /// differ, and are noisy.
   const changedTime = 1.25;
 
-  /// What has changed in the experiment "field" since an earlier report: a row for each method and place.
+  /// The changes in the experiment "field" since an earlier report: a row for each method and place.
   function changesBetween(before, after) {
     const [old, now] = [before, after].map((given) => ofExperiment(given, "field"));
     const alike = (all, m) => all.find((one) => placeOf(one) === placeOf(m) && one.method === m.method);
@@ -201,13 +201,13 @@ const report = (function () {
     return panel.series[panel.series.length - 1];
   }
 
-  /// Of the points those than which none is as small in both coordinates and smaller in one, by ascending x.
+  /// The points than which no other is as small in both coordinates and smaller in one, by ascending x.
   function paretoFront(points) {
     const beats = (a, b) => a.x <= b.x && a.y <= b.y && (a.x < b.x || a.y < b.y);
     return d3.sort(points.filter((point) => !points.some((other) => beats(other, point))), (point) => point.x);
   }
 
-  /// Which methods were asked fewer queries than others.
+  /// The methods that were asked fewer queries than others, as a sentence.
   function sampleSentence(all) {
     const most = d3.max(all, (m) => m.asked);
     const fewer = all.filter((m) => m.asked !== most).map((m) => `${m.method} (${m.asked})`);
@@ -276,7 +276,7 @@ const report = (function () {
   }
 
   /// A measure of an experiment over its parameter. \param x, y each the name of a column and its value
-  /// \param suffix of a measurement: what its series is called behind the method
+  /// \param suffix of a measurement: the name of its series after that of the method
   function linesFigure(given, slots, made, experiment, [xName, x], [yName, y], suffix) {
     made.data.columns = ["group", "kind", "method", "norm", xName, yName, "false_negatives", "asked", "at_limit"];
     for (const [place, all] of byPlace(given, experiment)) {
@@ -475,7 +475,7 @@ const report = (function () {
     return `Broke its promise: ${listed(worst.map((one) => one.text))}.`;
   }
 
-  /// Sentences on the methods of the experiment "field": queries, misses, what is right everywhere, times.
+  /// Sentences on the methods of the experiment "field": queries, misses, methods without a miss, times.
   function fieldSentences(given) {
     const methods = d3.group(ofExperiment(given, "field"), (m) => m.method);
     if (methods.size === 0) return [];

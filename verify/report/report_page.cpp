@@ -17,7 +17,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-/// What stands at the top of a page, besides what its script finds in the measurements.
+/// The top of a page, besides the findings that its script computes from the measurements.
 struct Opening {
   std::string_view title;
   std::string about;

@@ -7,7 +7,7 @@ const page = (function () {
   const contents = report.contentsOf(parsed("report"), parsed("published"));
   const { figures } = contents;
   const margin = { top: 10, right: 18, bottom: 44, left: 58 };
-  const endBand = 26;  // room below a logarithmic axis for what is zero, above any for what is infinite
+  const endBand = 26;  // room for zeros below a logarithmic axis, and for infinite values above any
 
   const color = (slot) => `var(--s${slot % 13})`;
   const symbol = (slot, size) => d3.symbol().type(d3.symbols[slot % d3.symbols.length]).size(size)();
@@ -649,7 +649,7 @@ const page = (function () {
     header.append("ul").attr("class", "findings").selectAll("li").data(contents.findings).join("li").text((text) => text);
   }
 
-  /// Where the numbers are from, and where they are on the page.
+  /// The navigation: the origin of the numbers, and their places on the page.
   function writeNavigation(main) {
     main.append("p").text(`Made${contents.origin} by`);
     main.append("pre").attr("class", "command").text(contents.command);

@@ -11,7 +11,7 @@ namespace touchstone::verify::report {
 /// The d3 library, minified, with its licence's notice at the top.
 [[nodiscard]] std::string_view d3_script();
 
-/// The numbers of published tables, and what is said of them, as JSON.
+/// The numbers of published tables, with remarks on them, as JSON.
 [[nodiscard]] std::string_view published_numbers();
 
 /// The script that computes tables, figures and sentences from measurements.
