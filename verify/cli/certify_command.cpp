@@ -199,7 +199,7 @@ class CertifyRun {
     for (const std::string& warning : solvers_.warnings()) report_warning(warning);
   }
 
-  /// The status by how the solvers took their queries; that of a piece is the merged run's to find.
+  /// The status that follows from the solvers' responses; for a piece the merged run determines it.
   [[nodiscard]] Status status_of_responses() const {
     Status status = Status::all_well;
     if (io::interrupted() || arguments_.sources.is_piece) return status;
@@ -243,7 +243,7 @@ class CertifyRun {
   ViewFile view_;
   jobs::Budget budget_;
   base::Deadline deadline_;
-  std::size_t unjudged_ = 0;  ///< sources behind the latest one
+  std::size_t unjudged_ = 0;  ///< sources after the latest one
   std::vector<jobs::CertifyResult> results_;
   jobs::CertifyResult sum_;
 };

@@ -58,7 +58,7 @@ struct Arguments {
   std::string licence;
 };
 
-/// A file that is converted, and what its shards are called.
+/// A file that is converted, and the name of its shards.
 struct Origin {
   fs::path file;
   std::string name;
@@ -154,7 +154,7 @@ class ConvertRun {
 
   Status run() {
     require_one_separation();
-    // Names no shard: what is there before the end is no store.
+    // A manifest without shards: until the end the folder is not a store.
     static_cast<void>(write_manifest());
     io::ProgressBar bar("convert");
     std::atomic<std::size_t> done = 0;

@@ -48,8 +48,8 @@ Shard checked(std::size_t index, std::size_t count) {
       fmt::format("--shard: there is no part {} of {}; parts are counted from 0", index, count));
 }
 
-/// The part of a task of a Slurm array. An array of some tasks only, as of those that failed and
-/// are submitted again, does not say of how many they are.
+/// The part of a task of a Slurm array. An array of some tasks alone, such as failed ones that are
+/// submitted again, does not tell the number of all tasks.
 Shard shard_of_array(std::size_t task) {
   const std::size_t count = variable("SLURM_ARRAY_TASK_COUNT").value_or(0);
   const bool is_whole = variable("SLURM_ARRAY_TASK_MIN") == 0U &&
@@ -71,8 +71,8 @@ Shard shard_of_environment() {
 
 // ---- The plan -----------------------------------------------------------------------------------
 
-/// The program that makes results: its version, with its digest where that does not say what
-/// sources it is made of.
+/// The identity of the program that makes results: its version, and its digest if the version does
+/// not identify the sources.
 std::string program() {
   std::string text(version());
   if (!text.ends_with(')') || text.ends_with("-dirty)")) {
@@ -120,7 +120,7 @@ void set_options(const CLI::App& command, const PieceRun& run, jobs::Plan& plan)
   plan.outputs.try_emplace(std::string(jobs::json_option), "");
 }
 
-/// Does a piece, in a process of its own. Returns its exit status.
+/// Runs a piece in a process of its own. Returns its exit status.
 int do_piece(const jobs::PieceFolder& folder, std::size_t number, const std::string& threads) {
   const jobs::Plan& plan = folder.plan();
   const jobs::Piece& piece = plan.pieces[number];
@@ -134,7 +134,7 @@ int do_piece(const jobs::PieceFolder& folder, std::size_t number, const std::str
   });
 }
 
-/// The same, with a report of what went wrong.
+/// The same, with a report of an error.
 int try_piece(const jobs::PieceFolder& folder, std::size_t number, const std::string& threads) {
   std::string reason;
   int status = static_cast<int>(Status::bad_input);
@@ -157,7 +157,7 @@ std::string number_text(const nlohmann::json& json, const char* key) {
   return json.contains(key) ? json.at(key).dump() : "0";
 }
 
-/// The counts that everyone asks for, a line a method.
+/// The main counts, a line for each method.
 std::string summary_text(const nlohmann::json& total) {
   if (total.contains("pieces")) return {};
   std::string text = fmt::format("{} queries", number_text(total, "queries"));
@@ -193,7 +193,7 @@ void write_merged_text(const jobs::PieceFolder& folder, const std::string& optio
   output.close(std::string_view());
 }
 
-/// The status by how the solvers took the queries of all pieces.
+/// The status that follows from the solvers' responses to the queries of all pieces.
 Status status_of_responses(const nlohmann::json& total) {
   const auto responses = [](const nlohmann::json& counts) -> Responses {
     return {.asked = counts.at("queries"),

@@ -34,7 +34,7 @@ void add_piece_options(CLI::App& command, PieceArguments& arguments);
 /// The pieces of the command line's queries: the sources that for_each_source passes on.
 [[nodiscard]] std::vector<jobs::Piece> pieces_of(const SourceArguments& sources);
 
-/// How a command runs in pieces.
+/// The run of a command in pieces.
 struct PieceRun {
   std::vector<jobs::Piece> pieces;
   /// The positional argument that pieces stand for.
@@ -45,8 +45,8 @@ struct PieceRun {
   std::vector<std::string> refused;
 };
 
-/// Does the pieces of the shard that are not done, in a process each, and merges the results if all
-/// are there. Errors are reported on standard error. \pre arguments.folder is not empty
+/// Runs the unfinished pieces of the shard, in a process each, and merges the results if all are
+/// there. Errors are reported on standard error. \pre arguments.folder is not empty
 [[nodiscard]] Status run_pieces(const CLI::App& command, const PieceArguments& arguments,
                                 const PieceRun& run);
 

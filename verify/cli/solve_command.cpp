@@ -53,7 +53,7 @@ SolverArguments the_solver(const Arguments& arguments) {
   return arguments.solver;
 }
 
-/// Answers by verdict. What is no answer (judge::Fault) counts as an error or as undecided, and by
+/// Answers by verdict. A missing answer (judge::Fault) counts as an error or as undecided, and by
 /// its failure.
 struct AnswerCounts {
   std::uint64_t yes = 0;
@@ -207,7 +207,7 @@ class SolveRun {
   Output out_;
   Output json_;
   jobs::CertifyResult sum_;
-  judge::Judgement asked_;  ///< what the solver was asked
+  judge::Judgement asked_;  ///< the queries that the solver was asked
   AnswerCounts counts_;
   std::vector<Separation> separations_;  // of the sources
   std::uint64_t reading_errors_ = 0;

@@ -25,13 +25,13 @@ using Point = std::array<std::int32_t, 1>;
 /// The groups of vertices that a file names.
 struct Groups {
   std::vector<std::string> names;
-  /// Of each vertex, an index of `names`; empty where the file names no group.
+  /// The group of each vertex, as an index of `names`; empty where the file names no group.
   std::vector<std::int32_t> of_vertex;
-  /// Why the groups cannot be used, with the place in the file; empty if they can.
+  /// The reason why the groups cannot be used, with the place in the file; empty if they can.
   std::string error;
 };
 
-/// A mesh at rest. Wherever a reader made it, it has a vertex, indices are in range and coordinates
+/// A mesh at rest. Readers ensure that it has a vertex, that indices are in range and coordinates
 /// finite.
 struct Mesh {
   Vertices vertices;
@@ -43,7 +43,7 @@ struct Mesh {
   /// itself: ascending, each once.
   std::vector<std::int32_t> points;
   Groups groups;
-  /// What of the file was read in another form or passed over, in a line; empty if nothing was.
+  /// A line about parts of the file that were changed or ignored; empty if none were.
   std::string note;
 };
 
@@ -57,21 +57,21 @@ struct Mesh {
 void add_polygon(std::vector<fast::Face>& faces, std::span<const std::int32_t> vertices,
                  std::size_t& polygons);
 
-/// A mesh from what a file holds: the edges of the faces join those that the file names, in
-/// whatever order and direction. An edge from a vertex to itself is a point.
+/// A mesh from the contents of a file: the edges of the faces join those that the file names, in
+/// any order and direction. An edge from a vertex to itself is a point.
 /// \param coordinates x, y, z of each vertex in turn
 /// \pre the coordinates are finite, the indices in range.
 [[nodiscard]] Mesh make_mesh(std::span<const std::array<double, 3>> coordinates,
                              std::vector<fast::Face> faces, std::span<const fast::Edge> named_edges,
                              std::span<const Point> points = {});
 
-/// Does the file's extension name a format that read_mesh knows?
+/// True if the file's extension names a format that read_mesh knows.
 [[nodiscard]] bool is_mesh_file(const std::filesystem::path& path);
 
-/// Have they as many vertices, and the same faces, edges, points and groups?
+/// True if both have the same number of vertices, and the same faces, edges, points and groups.
 [[nodiscard]] bool same_elements(const Mesh& a, const Mesh& b);
 
-/// \throws DatasetError that says what was found, if the mesh has nothing that could collide.
+/// \throws DatasetError, with the contents of the mesh, if nothing in it could collide.
 void require_elements(const Mesh& mesh, const std::filesystem::path& path);
 
 /// Reads a mesh in the format that the file's extension names, in either case: .ply or .obj.

@@ -24,7 +24,7 @@ namespace touchstone::verify::view {
 /// \param command the command line of this run
 /// \param step from step_facts(), whose first pairs are the queries; null: none
 /// \param solvers the script of verify/playground, by which the page decides other queries; empty:
-/// it does not
+/// no script
 [[nodiscard]] std::string view_page(const std::vector<nlohmann::json>& queries,
                                     const std::string& command, const nlohmann::json& step = {},
                                     const std::string& solvers = {});
