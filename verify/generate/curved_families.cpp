@@ -31,7 +31,8 @@ Coefficients times_root(const Coefficients& form, double a) {
   return product;
 }
 
-/// The control values of a form of lower or this degree, times what makes them whole.
+/// The control values of a form of this degree or a lower one, times the factor that makes them
+/// whole.
 Coefficients control_of(Coefficients form, std::size_t degree) {
   while (form.size() <= degree) {
     Coefficients raised(form.size() + 1, 0.0);
