@@ -15,14 +15,18 @@
 /// every contact. Intervals come in ascending order, so the lower end of the accepted one is not
 /// above the time of impact.
 ///
-/// **Known defects.** - Nothing bounds u and v: the inside test is as coarse as the motion of the
-/// points in that interval. - Degenerate triangles and edges on a line make every product contain
-/// 0, and all passes: false positives. The same holds for a motion in one plane wherever the inside
-/// test is near 0. (Two edges on one line, far from each other, at rest.) - A pair at rest has no
-/// tolerance to reach: [0,1] itself is decided. - f ≡ 0, motion in one plane, makes every interval
-/// a candidate: as many checks as there are small intervals. fast::MethodOptions::max_checks bounds
-/// them; the answer is then undecided, with max_checks as `checks`. - It does not support a minimum
-/// separation: queries that only come within one are false negatives.
+/// **Known defects.**
+///   - Nothing bounds u and v: the inside test is as coarse as the motion of the points in that
+///     interval.
+///   - Degenerate triangles and edges on a line make every product contain 0, and all passes: false
+///     positives. The same holds for a motion in one plane wherever the inside test is near 0. (Two
+///     edges on one line, far from each other, at rest.)
+///   - A pair at rest has no tolerance to reach: [0,1] itself is decided.
+///   - f ≡ 0, motion in one plane, makes every interval a candidate: as many checks as there are
+///     small intervals. fast::MethodOptions::max_checks bounds them; the answer is then undecided,
+///     with max_checks as `checks`.
+///   - It does not support a minimum separation: queries that only come within one are false
+///     negatives.
 
 #include <memory>
 

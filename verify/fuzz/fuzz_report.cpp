@@ -30,7 +30,7 @@ nlohmann::json texts_of(std::span<const double> numbers) {
   return list;
 }
 
-/// The numbers of a query as to_json says.
+/// Adds the numbers of a query in the form that to_json describes.
 void add_numbers(const base::AnyQuery& query, nlohmann::json& json) {
   const QueryShape& shape = query.shape();
   json["degree"] = shape.degree;
@@ -61,7 +61,7 @@ SolverCall wrong_solver(const Finding& finding, const SolverCall& asked) {
   return result;
 }
 
-/// The options of the command line that ask for what the solver was asked for.
+/// The options of the command line with which the solver was asked.
 std::string options_as_words(const SolverCall& solver) {
   const fast::MethodOptions& options = solver.options;
   const bool is_plugin = !solver.plugin.empty();
@@ -80,7 +80,7 @@ std::string options_as_words(const SolverCall& solver) {
   return solver.promise == fast::Promise::exact ? words + " --exact" : words;
 }
 
-/// Tells apart the queries of one method.
+/// A fingerprint that distinguishes the queries of one method.
 std::uint64_t fingerprint(const base::AnyQuery& query, const Separation& separation) {
   const QueryShape& shape = query.shape();
   auto hash = static_cast<std::uint64_t>(shape.kind);
@@ -95,7 +95,7 @@ std::uint64_t fingerprint(const base::AnyQuery& query, const Separation& separat
 }
 
 /// Commands for a POSIX shell that write the simplest query as a dataset and ask the solver again,
-/// with all that it was asked with; `touchstone certify` then judges it.
+/// with the same options; `touchstone certify` then judges it.
 std::string command(const Finding& finding, const SolverCall& solver) {
   const FailingCase& failing = finding.simplest;
   const Separation& separation = solver.options.separation;
@@ -180,7 +180,7 @@ std::string findings_text(const FuzzReport& report) {
   return text;
 }
 
-/// The reason for which the run ended before all was done that was asked for.
+/// The reason for an early end of the run.
 std::string end_text(const FuzzReport& report) {
   const FuzzResult& result = report.result;
   std::string text;
