@@ -117,11 +117,11 @@ class CertifyRun {
     if (!budget_.is_limited()) return;
     for (const jobs::CertifyResult& result : results_) {
       if (!result.interrupted) continue;
-      io::print(stream, fmt::format("not judged in time: {}: what follows the first {} queries\n",
+      io::print(stream, fmt::format("not judged in time: {}: all after the first {} queries\n",
                                     io::printable(result.name), result.queries));
     }
     if (budget_.is_over() && unjudged_ != 0) {
-      io::print(stream, fmt::format("not judged in time: {} sources more\n", unjudged_));
+      io::print(stream, fmt::format("not judged in time: {} further sources\n", unjudged_));
     }
   }
 

@@ -56,8 +56,8 @@ Shard shard_of_array(std::size_t task) {
                         variable("SLURM_ARRAY_TASK_MAX").value_or(0) + 1 == count;
   if (is_whole && count > 1) return checked(task, count);
   throw std::invalid_argument(
-      fmt::format("--shard auto: this Slurm array has not the tasks 0 to N-1, or one task only: of "
-                  "how many parts this is one is not known; name it: --shard {}/N",
+      fmt::format("--shard auto: the number of parts is unknown, because the tasks of this Slurm "
+                  "array are not 0 to N-1 with N > 1; pass --shard {}/N",
                   task));
 }
 

@@ -122,8 +122,8 @@ class SolveRun {
                     solver_.name(), asked_.queries, counts_.yes, counts_.no, counts_.undecided,
                     counts_.errors, asked_.nanoseconds_per_query()));
     if (unasked() != 0) {
-      io::print(stream, fmt::format("not asked: {} queries outside its terms{}, or like those at "
-                                    "which it hangs\n",
+      io::print(stream, fmt::format("not asked: {} queries outside its terms{}, or similar to "
+                                    "those at which it hangs\n",
                                     unasked(), judge::to_text(solver_.terms())));
     }
     const std::string failures = report::to_text(counts_.failures);

@@ -122,7 +122,7 @@ void settle_solver_options(const CLI::App& command, bool built_in_set, SolverArg
   for (const std::string name : {"--exact", "--query-limit", "--memory-limit", "--allow-processes",
                                  "--show-output", "--tolerance", "--max-checks"}) {
     if (arguments.empty() && is_given(name)) {
-      throw std::invalid_argument(name + " needs a solver, and none is named");
+      throw std::invalid_argument(name + " needs a solver: add --method or --plugin");
     }
   }
 }

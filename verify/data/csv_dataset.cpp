@@ -129,7 +129,7 @@ DatasetSource::StoredQuery CsvDataset::read(std::uint64_t) {
       throw io::DatasetError(
           path(), {.line = last_line},
           fmt::format("truncated query: {} of {} rows; if a row is missing further "
-                      "up, queries behind it were put together of two",
+                      "up, later queries were composed of two",
                       row, rows_of_query()));
     }
     last_line = line->number;

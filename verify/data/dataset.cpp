@@ -65,7 +65,7 @@ class Search {
 
   void visit(const fs::path& folder, bool companions) {
     if (!visited_.insert(fs::canonical(folder)).second) {
-      leave_out(folder, "leads to a folder that is searched already");
+      leave_out(folder, "leads to a folder that was searched already");
       return;
     }
     std::vector<fs::directory_entry> entries;
@@ -101,7 +101,7 @@ class Search {
     if (is_dataset && !companions) {
       found_.push_back(path);
     } else if (is_dataset) {
-      leave_out(path, "in a folder of what accompanies datasets; name the file itself to read it");
+      leave_out(path, "in a folder of companion files; name the file itself to read it");
     } else if (!companions && !is_ground_truth_name(path) && !io::is_partial(path)) {
       leave_out(path, "no dataset (.csv, .npy)");
     }

@@ -25,7 +25,7 @@ std::string name_of_queries(const Npz& archive) {
   if (names.size() == 1) return names.front();
   throw io::DatasetError(
       archive.path(), {},
-      fmt::format("no array \"{}\", nor a single one; it has: {}", queries_name,
+      fmt::format("no array \"{}\", and not a single array; the archive has: {}", queries_name,
                   names.empty() ? "none" : fmt::format("{}", fmt::join(names, ", "))));
 }
 

@@ -455,7 +455,7 @@ class FuzzRun {
     auto diagnosis = diagnose(question, truth, answers_[i], standard_);
     if (!diagnosis && missing.any()) {
       diagnosis = {judge::Fault::not_finite,
-                   fmt::format("{} is NaN, which it gives with other collisions",
+                   fmt::format("{} is NaN, but the solver gives it with other collisions",
                                missing.lower ? "toi_lower" : "toi_upper")};
       return reward + report(i, {*diagnosis, name_, missing}, verdict);
     }
@@ -630,7 +630,7 @@ void check(const FuzzOptions& options) {
   }
   if (options.seconds == 0.0 && options.most_queries == 0 && options.most_groups == 0 &&
       options.stop == nullptr) {
-    throw std::invalid_argument("fuzz: nothing ends the run");
+    throw std::invalid_argument("fuzz: the run needs a limit of time, queries or findings");
   }
 }
 

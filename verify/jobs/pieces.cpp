@@ -114,7 +114,7 @@ std::string difference(const Plan& given, const Plan& there) {
   if (given.options != there.options) {
     return fmt::format("with the options '{}', not '{}'", join(there.options), join(given.options));
   }
-  if (given.uses != there.uses) return "with another content of a file that an option names";
+  if (given.uses != there.uses) return "with other contents of a file that an option names";
   if (given.outputs != there.outputs) return "with other output files";
   return "of other inputs";
 }
@@ -300,7 +300,7 @@ std::string PieceFolder::fault_of(const std::string& text, std::size_t piece) co
     }
     if (record.at("plan") != digest_) return "of another run";
     if (record.at("piece") != piece) {
-      return fmt::format("piece {} is there under this number too", record.at("piece").dump());
+      return fmt::format("piece {} is also there under this number", record.at("piece").dump());
     }
     if (record.at("inputs") != described_inputs(piece)) return "its input has changed since";
     for (const auto& [option, name] : plan_.outputs) {

@@ -172,7 +172,7 @@ std::string legend(const BenchReport& report) {
   };
   if (std::ranges::any_of(report.groups, is_sampled)) {
     text += fmt::format(
-        "timed: where not all, an evenly spread sample that takes about {} s a repetition.\n",
+        "timed: of larger groups an evenly spread sample that takes about {} s a repetition.\n",
         report.options.seconds);
   }
   const auto is_judged_in_part = [](const jobs::BenchResult& group) {
@@ -180,9 +180,9 @@ std::string legend(const BenchReport& report) {
   };
   if (std::ranges::any_of(report.groups, is_judged_in_part)) {
     text += fmt::format(
-        "judged: where not all, an evenly spread sample of {}, and what any method calls a "
-        "collision: a false negative\n"
-        "outside of the sample is known only where another method says so.\n",
+        "judged: of larger groups an evenly spread sample of {}, and all that any method calls a "
+        "collision; a false\n"
+        "negative outside of the sample is found only if another method reports the collision.\n",
         report.options.judge);
   }
   return text;

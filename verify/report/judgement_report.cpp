@@ -89,7 +89,7 @@ std::string unasked_text(const judge::Judgement& judgement, const fast::Terms& t
     text += fmt::format("{} queries outside its terms{}", judgement.outside, judge::to_text(terms));
   }
   if (judgement.left_out != 0) {
-    text += fmt::format("{}{} queries left out, for lack of time or for hangs at others like them",
+    text += fmt::format("{}{} queries skipped, for lack of time or after hangs at similar ones",
                         text.empty() ? "" : "; ", judgement.left_out);
   }
   return text;

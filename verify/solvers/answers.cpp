@@ -221,7 +221,7 @@ class AnswersReader {
            "must be a kind of failure or empty: " + io::quote(field(Column::failure)));
     }
     if (judge::verdict_of(failure->kind) != verdict) {
-      fail(Column::failure, fmt::format("a failure of kind {} is no answer {}",
+      fail(Column::failure, fmt::format("the failure {} contradicts the verdict {}",
                                         to_string(failure->kind), judge::to_string(verdict)));
     }
     return failure->kind;

@@ -211,7 +211,7 @@ void check_header(const fs::path& path, std::string_view first_line) {
                            "view --step draws the step between two frames");
   }
   if (first_line.empty() || !exact::certificates_header().starts_with(first_line)) {
-    throw io::DatasetError(path, {.line = 1}, "this is no stream of certificates");
+    throw io::DatasetError(path, {.line = 1}, "not a stream of certificates");
   }
 }
 
