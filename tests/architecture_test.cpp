@@ -69,7 +69,7 @@ constexpr std::string_view layer_lines = R"(
 // The modules, packages (CGAL for exact predicates of meshes at rest), and POSIX.
   REST: exact/ exact/checker/ filters/ filters/derivation/ fast/ verify/plugin.h CGAL/ CLI/ Eigen/ fmt/ gmp.h gmpxx.h nlohmann/ oneapi/tbb/ zip.h zstd.h dlfcn.h fcntl.h poll.h sys/ time.h unistd.h
   verify/:
-  verify/base/: verify/base/ REST
+  verify/base/: REST
   verify/io/: verify/io/ REST
   verify/data/: verify/data/ verify/base/ verify/io/ REST
   verify/mesh/: verify/mesh/ verify/data/ verify/io/ REST
