@@ -24,7 +24,7 @@ struct Diagnosis {
   std::string detail;
 };
 
-/// True if nothing in the answer could break the promise, by what the certified solver found. An
+/// True if the certified solver's result shows that nothing in the answer breaks the promise. An
 /// answer that is not beyond doubt may still be right.
 [[nodiscard]] bool is_beyond_doubt(const judge::Question& question,
                                    const fast::CertifiedResult& judged, const fast::Answer& answer,

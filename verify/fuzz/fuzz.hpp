@@ -4,7 +4,7 @@
 /// The search for wrong answers of one solver.
 ///
 /// Blocks of queries come from generators (generators.hpp) that the scheduler (scheduler.hpp)
-/// prefers by what they have brought so far. The solver answers them in a child process
+/// prefers by their results so far. The solver answers them in a child process
 /// (solver_process.hpp), the certified solver judges (diagnosis.hpp), and the oracle judges a share
 /// again, and all doubtful answers. Some queries are asked once more as an exact image
 /// (symmetry.hpp). All queries of a block are of one shape; by default they are on straight lines.
@@ -119,7 +119,7 @@ struct FuzzResult {
   std::uint64_t unanswered = 0;        ///< asked, but the run was over before they were answered
   std::uint64_t images = 0;            ///< of those judged
   std::uint64_t collisions = 0;        ///< of these, by the judge
-  std::uint64_t judged_by_oracle = 0;  ///< its share, and what was doubtful
+  std::uint64_t judged_by_oracle = 0;  ///< its share, and doubtful answers
   double seconds = 0.0;                ///< wall clock
   double method_seconds = 0.0;         ///< of these, waiting for the method
   double shrink_seconds = 0.0;         ///< of these, making findings simpler

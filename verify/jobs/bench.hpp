@@ -47,13 +47,12 @@ struct BenchOptions {
   unsigned threads = 0;
   /// Called now and then with the fraction of the group's work that is done, from this thread.
   std::function<void(double)> on_progress = nullptr;
-  /// Once true, no further work begins, and the result has what is known by then.
+  /// Once true, no further work begins, and the result is partial.
   const std::atomic<bool>* stop = nullptr;
 };
 
-/// Nanoseconds that single queries take, one call each, without what the clock itself takes. Each
-/// is the shortest of up to three sweeps over the queries, which leaves out other work of the
-/// machine.
+/// Nanoseconds that single queries take, one call each, without the clock's own cost. Each is the
+/// shortest of up to three sweeps over the queries, which leaves out other work of the machine.
 struct SingleTimes {
   std::size_t queries = 0;
   double p50 = 0.0;

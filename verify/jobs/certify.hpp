@@ -34,7 +34,7 @@ struct CertifyOptions {
   Separation separation = {};
   /// False: the solvers are asked, and nothing is decided, compared, proved or judged.
   bool decides = true;
-  /// False: what the source records is not compared with the truth.
+  /// False: recorded labels and times are not compared with the truth.
   bool compares_labels = true;
   /// Cores to use; 0: all of them.
   unsigned threads = 0;

@@ -12,10 +12,10 @@
 /// anything that it or a child of it still writes is ignored.
 ///
 /// The results of all pieces are merged only if the records prove that they are of this plan, that
-/// each piece is there exactly once, and that inputs and outputs are what they were; everything
-/// else is an error that names the piece (the rule by which verified merges of proofs account for
-/// separate runs: Tan, Heule and Myreen 2021, "cake_lpr: Verified Propagation Redundancy Checking
-/// in CakeML", TACAS). The merged result consists of the outputs in the order of the plan, without
+/// each piece is there exactly once, and that inputs and outputs are unchanged; everything else is
+/// an error that names the piece (the rule by which verified merges of proofs account for separate
+/// runs: Tan, Heule and Myreen 2021, "cake_lpr: Verified Propagation Redundancy Checking in
+/// CakeML", TACAS). The merged result consists of the outputs in the order of the plan, without
 /// times; it does not depend on which process did which piece.
 
 #include <cstddef>

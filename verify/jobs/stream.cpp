@@ -84,9 +84,9 @@ class Stream {
 
   data::QuerySource& source_;
   const StreamOptions& options_;
-  /// The pipeline has pointers only: oneTBB may lose what it owns if work throws. Blocks begin and
-  /// end in their order, so of so many one after another the first is finished before the next is
-  /// read.
+  /// The pipeline has only pointers: oneTBB may lose objects that it owns if work throws. Blocks
+  /// begin and end in order; the size of this vector ensures that the first block is finished
+  /// before its place is needed again.
   std::vector<Token> in_flight_;
   std::size_t read_ = 0;
   StreamResult result_;

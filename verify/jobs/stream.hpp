@@ -115,7 +115,7 @@ struct StreamResult {
 };
 
 /// Sends all queries of the source through the work. Errors of the source, and exceptions of the
-/// work, end the stream and are in the result; what was done in order until then stands.
+/// work, end the stream and are in the result; the work done in order until then stands.
 StreamResult stream(data::QuerySource& source, const BlockWork& work, const StreamOptions& options);
 
 /// The same with work in two steps: what make(block) returns says by its complete() whether the

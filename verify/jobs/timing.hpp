@@ -123,7 +123,7 @@ class TimedSolver {
   [[nodiscard]] double seconds_spent() const { return seconds_spent_; }
 
  private:
-  /// Processor time in nanoseconds, the mean of so many calls.
+  /// Processor time in nanoseconds, the mean of this number of calls.
   double time_calls(const solvers::Solver& solver, std::size_t calls);
   /// Queries of the latest call that were asked, at least 1.
   [[nodiscard]] double asked() const;
@@ -154,7 +154,7 @@ class TimedSolver {
 /// so that the clock's own cost does not show.
 [[nodiscard]] std::size_t calls_for(double nanoseconds);
 
-/// Processor time of the work in this thread in nanoseconds, as the mean of so many calls.
+/// Processor time of the work in this thread in nanoseconds, as the mean of this number of calls.
 template <class Work>
 [[nodiscard]] double time_of(std::size_t calls, const Work& work) {
   const double start = base::thread_nanoseconds();

@@ -82,7 +82,7 @@ class BlockAnswers {
   /// The answer to query i as a person is shown it, unless the solver has none.
   [[nodiscard]] std::optional<judge::GivenAnswer> given(std::size_t i) const;
 
-  /// The judgement on the first `count` answers. \param truths empty: only what was asked counts
+  /// The judgement on the first `count` answers. \param truths empty: queries are only counted
   [[nodiscard]] judge::Judgement judge(std::size_t count,
                                        std::span<const judge::GroundTruth> truths) const;
   /// Processor time.

@@ -95,7 +95,7 @@ const report = (function () {
   const publishedPlace = (m, published) => placeOf({ ...m, group: published.stands_beside[m.group] || m.group });
 
   /// A table of measurements of one place. \param head columns and cells in front of the counts
-  /// \param foot those behind them \param numbers of a measurement: the published ones, if there are any
+  /// \param foot those after them \param numbers of a measurement: the published ones, if there are any
   function tableOf(title, all, head, foot, published, numbers) {
     const size = all.length === 0 ? undefined : published.sizes[publishedPlace(all[0], published)];
     const columns = [...head.map(([name]) => name), ...columnsOfCounts, ...foot.map(([name]) => name)];

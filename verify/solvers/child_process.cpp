@@ -113,7 +113,8 @@ void protect_parent() {
       SYS_kill, SYS_tkill, SYS_tgkill, SYS_rt_sigqueueinfo, SYS_rt_tgsigqueueinfo, SYS_pidfd_open};
   std::vector rules{load(offsetof(seccomp_data, arch)), jump(architecture, 1, 0), allow,
                     load(offsetof(seccomp_data, nr))};
-  // To the rule behind the one that allows all other calls; then to the one behind the last.
+  // Each jump leads to the rule after the one that allows all other calls; later ones to the rule
+  // after the last.
   for (std::size_t i = 0; i < calls.size(); ++i) {
     rules.push_back(jump(calls.at(i), calls.size() - i, 0));
   }
@@ -319,7 +320,7 @@ ChildProcess::Event ChildProcess::wait(Seconds longest, std::string& message,
   message.resize(static_cast<std::size_t>(std::max<ssize_t>(received, 0)));
   // The child may have closed its end, and live on.
   if (received == 0) socket_.close();
-  // After the message: what the child prints before it sends is read with it.
+  // The output is read after the message, so that output before the message is included.
   take_output(output);
   if (!message.empty()) return Event::message;
   return has_ended ? Event::ended : Event::none;

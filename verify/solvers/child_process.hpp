@@ -4,8 +4,8 @@
 /// A child process for code that is not trusted: a copy of this process made by fork(), of which
 /// this one survives whatever it does.
 ///
-/// - It leads a process group of its own: the keys of a terminal do not reach it, and what it has
-///   started in turn (unless that left the group) is killed when it ends.
+/// - It leads a process group of its own: the keys of a terminal do not reach it, and processes
+///   that it has started (unless they left the group) are killed when it ends.
 /// - It dies with this process, even if that is killed. It cannot send this process a signal.
 /// - Its memory, its files and their size are limited, it writes no core files and, unless allowed,
 ///   makes no processes (threads it may make). The limit of memory is of one process.

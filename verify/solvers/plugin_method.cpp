@@ -86,7 +86,7 @@ Function* find_function(const Library& library, const std::filesystem::path& pat
   return reinterpret_cast<Function*>(address);
 }
 
-/// Version 2 only added an option behind the others, so a plugin of version 1 reads what it knows.
+/// Version 2 only added an option after the others, which a plugin of version 1 does not read.
 constexpr std::int32_t oldest_version = 1;
 
 void check_version(const Library& library, const std::filesystem::path& path) {

@@ -78,12 +78,12 @@ struct Shared {
   fast::MethodOptions options;
   std::size_t first;   ///< queries from this number
   std::size_t last;    ///< to before this one are to be solved,
-  std::size_t batch;   ///< so many at once,
+  std::size_t batch;   ///< in batches of this number,
   double begin_until;  ///< the first batch, and those that begin before this time
   std::array<double, capacity * most_numbers> numbers;  ///< query after query
   std::array<fast::Answer, capacity> answers;
   std::array<bool, capacity> has_thrown;
-  std::array<ShortText, capacity> thrown;  ///< what() of what it threw
+  std::array<ShortText, capacity> thrown;  ///< what() of the exception
 };
 static_assert(std::atomic<std::size_t>::is_always_lock_free &&
               std::atomic<double>::is_always_lock_free);

@@ -31,7 +31,7 @@ export class Frame {
   }
 }
 
-/// Coordinates of a frame as those of the world, rounded to what a screen shows of them.
+/// Coordinates of a frame as those of the world, rounded to the precision of a screen.
 export function worldOf(frame, point) {
   const radius = 2 ** frame.lgRadius;
   const step = 2 ** (Math.floor(frame.lgRadius) - 12);

@@ -13,7 +13,7 @@ const distance = 1.02 / Math.sin((fieldOfView / 2) * (Math.PI / 180));
 const filledPart = 0.8;
 const mostEnlarged = 5;
 
-/// A point is grabbed within so many pixels.
+/// The distance in pixels within which a point is grabbed.
 const grabDistance = 18;
 
 /// The common viewpoint of all pictures, and their upward axis.
