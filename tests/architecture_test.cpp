@@ -80,7 +80,6 @@ constexpr std::string_view layer_lines = R"(
   verify/solvers/: verify/solvers/ verify/base/ verify/baselines/ verify/io/ verify/judge/ REST
 // All that needs Linux.
   verify/solvers/child_process.cpp: verify/solvers/ verify/io/ fcntl.h linux/ poll.h sched.h sys/ unistd.h
-  verify/solvers/own_program.cpp: verify/solvers/ verify/io/ fcntl.h sys/ unistd.h
   verify/jobs/: verify/jobs/ verify/base/ verify/data/ verify/io/ verify/judge/ verify/mesh/ verify/solvers/ REST
   verify/fuzz/: verify/fuzz/ verify/base/ verify/data/ verify/generate/ verify/io/ verify/judge/ verify/solvers/ REST
   verify/stability/: verify/stability/ verify/base/ verify/data/ verify/generate/ verify/jobs/ verify/judge/ verify/solvers/ REST
@@ -143,7 +142,7 @@ constexpr std::string_view headers_without_test = R"(
 // Through what uses them: certify, solve, the step's measurements, NumPy's arrays, the fuzzer.
   verify/jobs/: truth_and_answers.hpp work_time.hpp
   verify/data/: npy_header.hpp
-  verify/fuzz/: coverage.hpp curved_generators.hpp diagnosis.hpp fuzz_report.hpp mutation.hpp plainness.hpp scheduler.hpp signature.hpp
+  verify/fuzz/: curved_generators.hpp diagnosis.hpp fuzz_report.hpp mutation.hpp plainness.hpp scheduler.hpp signature.hpp
 // By tests/transcripts, and documents_test.cpp: docs/results.md and its picture are those of their data.
   verify/cli/: commands.hpp files.hpp group_options.hpp help.hpp options.hpp result_files.hpp solver_options.hpp sources.hpp version.hpp
   verify/mesh/: moving_mesh.hpp

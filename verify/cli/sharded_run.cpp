@@ -25,7 +25,7 @@
 #include "verify/io/number_text.hpp"
 #include "verify/io/printable.hpp"
 #include "verify/io/terminal.hpp"
-#include "verify/solvers/own_program.hpp"
+#include "verify/jobs/own_program.hpp"
 
 namespace touchstone::verify::cli {
 namespace {
@@ -130,7 +130,7 @@ int do_piece(const jobs::PieceFolder& folder, std::size_t number, const std::str
     if (!threads.empty()) arguments.push_back("--threads=" + threads);
     for (const auto& [option, file] : outputs) arguments.push_back(option + "=" + file.string());
     arguments.insert(arguments.end(), piece.arguments.begin(), piece.arguments.end());
-    return solvers::run_own_program(std::move(arguments));
+    return jobs::run_own_program(std::move(arguments));
   });
 }
 

@@ -15,7 +15,6 @@
 #include "fast/method.hpp"
 #include "touchstone/certified.hpp"
 #include "verify/base/deadline.hpp"
-#include "verify/fuzz/coverage.hpp"
 #include "verify/fuzz/curved_generators.hpp"
 #include "verify/fuzz/diagnosis.hpp"
 #include "verify/fuzz/generators.hpp"

@@ -98,7 +98,7 @@ std::optional<FirstContact> first_contact(const fast::Step& step) {
 }
 
 /// The arguments of some pairs, as text.
-struct Arguments {
+struct PairArguments {
   std::string text;
   std::uint64_t directions = 0;
   std::uint64_t certificates = 0;
@@ -193,7 +193,7 @@ class StepProver {
     put(text);
   }
 
-  // ---- Arguments ----
+  // ---- PairArguments ----
 
   void write_arguments() {
     places_.emplace(step_.vertices(), step_.certified().separation.distance, end_);
@@ -263,7 +263,7 @@ class StepProver {
 
   void write_block(std::span<const Pair> pairs) {
     static constexpr std::size_t part = 256;
-    std::vector<Arguments> parts((pairs.size() + part - 1) / part);
+    std::vector<PairArguments> parts((pairs.size() + part - 1) / part);
     tbb::task_arena arena(base::cores_for(options_.threads));
     arena.execute([&] {
       tbb::parallel_for(std::size_t{0}, parts.size(), [&](std::size_t i) {
@@ -275,7 +275,7 @@ class StepProver {
       });
     });
     proof_.interrupted = base::is_stopped(options_.stop);
-    for (const Arguments& some : parts) {
+    for (const PairArguments& some : parts) {
       if (proof_.failure.empty()) proof_.failure = some.failure;
       if (!proof_.is_complete()) return;
       put(some.text);
@@ -284,7 +284,7 @@ class StepProver {
     }
   }
 
-  void argue(const Pair& pair, Arguments& arguments) const {
+  void argue(const Pair& pair, PairArguments& arguments) const {
     const PairVertices vertices(step_, pair);
     std::string& text = arguments.text;
     fmt::format_to(std::back_inserter(text), "{} {}", pair.numbers[0], pair.numbers[1]);

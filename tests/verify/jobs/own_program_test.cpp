@@ -1,4 +1,4 @@
-#include "verify/solvers/own_program.hpp"
+#include "verify/jobs/own_program.hpp"
 
 #include <gtest/gtest.h>
 #include <sys/wait.h>
@@ -9,7 +9,7 @@
 #include <cstdlib>
 #include <string>
 
-namespace touchstone::verify::solvers::own_program_test {
+namespace touchstone::verify::jobs::own_program_test {
 namespace {
 
 /// The program is this test program, which has an option for each outcome.
@@ -63,4 +63,4 @@ TEST_F(OwnProgram, DISABLED_ChildFails) { FAIL(); }
 TEST_F(OwnProgram, DISABLED_Killed) { std::raise(SIGKILL); }
 
 }  // namespace
-}  // namespace touchstone::verify::solvers::own_program_test
+}  // namespace touchstone::verify::jobs::own_program_test

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace touchstone::verify::solvers {
+namespace touchstone::verify::jobs {
 
 /// Runs this program with other arguments, the program's name first, without standard output, and
 /// returns its exit status; 128 and the signal's number if one ended it. An interrupt of this
@@ -14,4 +14,4 @@ namespace touchstone::verify::solvers {
 /// it cannot be run.
 [[nodiscard]] int run_own_program(std::vector<std::string> arguments);
 
-}  // namespace touchstone::verify::solvers
+}  // namespace touchstone::verify::jobs

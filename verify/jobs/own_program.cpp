@@ -1,4 +1,4 @@
-#include "verify/solvers/own_program.hpp"
+#include "verify/jobs/own_program.hpp"
 
 #include <fcntl.h>
 #include <sys/prctl.h>
@@ -11,7 +11,7 @@
 
 #include "verify/io/terminal.hpp"
 
-namespace touchstone::verify::solvers {
+namespace touchstone::verify::jobs {
 namespace {
 
 /// Replaces this child by the program, which the system kills when the parent's thread ends.
@@ -42,4 +42,4 @@ int run_own_program(std::vector<std::string> arguments) {
   return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
 }
 
-}  // namespace touchstone::verify::solvers
+}  // namespace touchstone::verify::jobs
