@@ -71,8 +71,8 @@ double crossing(const RoundingPlan& plan) {
 
 std::optional<RoundingPlan> draw_plan(Random& random) {
   RoundingPlan plan{.tracks = {},
-            .n = random.coin() ? 33 : 31,
-            .speed = draws::power_of_two(-static_cast<int>(random.between(7, 10)))};
+                    .n = random.coin() ? 33 : 31,
+                    .speed = draws::power_of_two(-static_cast<int>(random.between(7, 10)))};
   const auto units = [](double x) { return static_cast<std::int64_t>(x * 0x1p52); };
   const double middle = random.uniform(1.05, 1.06), c = static_cast<double>(plan.n) / parts;
   const Track moving{units(middle - c * plan.speed), units(middle + (1.0 - c) * plan.speed)};
