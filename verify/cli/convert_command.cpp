@@ -33,7 +33,6 @@
 #include "verify/data/npy.hpp"
 #include "verify/data/separation_file.hpp"
 #include "verify/data/store.hpp"
-#include "verify/data/toi_writer.hpp"
 #include "verify/io/json.hpp"
 #include "verify/io/output_file.hpp"
 #include "verify/io/printable.hpp"

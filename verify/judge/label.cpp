@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "verify/data/toi_writer.hpp"
+#include "verify/data/ground_truth_files.hpp"
 
 namespace touchstone::verify::judge {
 namespace {
