@@ -255,9 +255,8 @@ void add(CLI::App& app, Status& status) {
            "touchstone step frames/ --free --prove steps.cert && touchstone-check steps.cert",
            "A step is the straight motion of every vertex from one frame to the next; a simulator "
            "with substeps should write each of them. Each frame is also searched for edges that "
-           "pierce faces (but for --no-piercings). Pairs that share a vertex are ignored. Numbers "
-           "begin at 0; "
-           "edges are numbered by their larger vertex, then by the smaller.\n"
+           "pierce faces (unless --no-piercings is given). Pairs that share a vertex are ignored. "
+           "Numbers begin at 0; edges are numbered by their larger vertex, then by the smaller.\n"
            "Exit status: 0 free of collisions, 1 a collision or a frame that intersects itself, 2 "
            "bad input or usage, 130 interrupted (results so far are written).");
   command->callback([arguments, command, &status] {

@@ -156,14 +156,12 @@ std::string legend(const BenchReport& report) {
       report.options.repetitions);
   if (report.step) {
     text +=
-        "Whole steps: medians of as many repetitions; wall is the time from beginning to end, "
-        "processor\n"
-        "that of all threads together, which the other tables have. trees: making them; "
-        "candidates: "
-        "finding all and\n"
-        "storing none; collisions and earliest search once more. Their memory pass reads vertices, "
-        "edges "
-        "and faces.\n";
+        "Whole steps: medians of as many repetitions; wall: time from beginning to end; processor: "
+        "time of all\n"
+        "threads, as in the other tables. trees: making them; candidates: finding all without "
+        "storing them;\n"
+        "collisions, earliest: with another search. The memory pass reads vertices, edges and "
+        "faces.\n";
   }
   const auto is_sampled = [](const jobs::BenchResult& group) {
     return std::ranges::any_of(group.solvers, [&](const jobs::SolverResult& solver) {
