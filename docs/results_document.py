@@ -1,6 +1,6 @@
 """docs/results.md and docs/results.svg, made of the page of `touchstone report` and docs/data/published.json.
 
-The page's own script computes tables and fronts and draws the picture (verify/report/page); this adds the sentences of the
+The page's own script computes tables and fronts and draws the picture (`verify/report/*.js`); this adds the sentences of the
 document.
 """
 

@@ -93,8 +93,9 @@ def stage(source):
         (source / page.relative_to(here)).parent.mkdir(exist_ok=True)
         shutil.copy(page, source / page.relative_to(here))
     shutil.copy(here / "conf.py", source)
-    shutil.copytree(here / "static", source / "static")
-    (source / "static/katex").mkdir()
+    (source / "static/katex").mkdir(parents=True)
+    for name in ("site.css", "site.js"):
+        shutil.copy(here / name, source / "static")
     for name in ("katex.min.css", "katex.min.js", "fonts"):
         copy = shutil.copytree if (KATEX / name).is_dir() else shutil.copy
         copy(KATEX / name, source / "static/katex" / name)

@@ -17,7 +17,7 @@
 
 #include "examples/simulation/collision_detector.hpp"
 #include "examples/simulation/recorder.hpp"
-#include "examples/simulation/scene.hpp"
+#include "examples/simulation/simulated_scene.hpp"
 #include "examples/simulation/simulator.hpp"
 #include "examples/simulation/tumbling.hpp"
 #include "examples/simulation/world.hpp"

@@ -25,7 +25,7 @@
 #include <span>
 #include <vector>
 
-#include "examples/simulation/scene.hpp"
+#include "examples/simulation/simulated_scene.hpp"
 #include "touchstone/step.hpp"
 
 namespace touchstone::simulation {

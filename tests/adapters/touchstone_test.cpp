@@ -17,7 +17,7 @@
 #include <utility>
 #include <vector>
 
-#include "tests/support/certified.hpp"
+#include "tests/support/certified_against_oracle.hpp"
 #include "tests/support/random.hpp"
 #include "touchstone/active_set.hpp"
 #include "touchstone/certified.hpp"

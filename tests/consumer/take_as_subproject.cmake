@@ -6,7 +6,7 @@ find_program(CCACHE ccache)
 
 # configure(NAME OPTION…): a project that takes this one.
 function(configure name)
-  execute_process(COMMAND ${CMAKE_COMMAND} -S ${CMAKE_CURRENT_LIST_DIR}/subproject -B ${WORK}/${name} -G Ninja
+  execute_process(COMMAND ${CMAKE_COMMAND} -S ${WORK}/user -B ${WORK}/${name} -G Ninja
       -DTOUCHSTONE=${source} -DCMAKE_CXX_COMPILER_LAUNCHER=${CCACHE} ${ARGN}
     COMMAND_ECHO STDOUT COMMAND_ERROR_IS_FATAL ANY)
 endfunction()
@@ -46,6 +46,8 @@ set(source "${WORK}/Quelle dafür")
 file(REMOVE_RECURSE ${WORK})
 file(MAKE_DIRECTORY ${WORK})
 file(CREATE_LINK ${TOUCHSTONE} ${source} SYMBOLIC)
+file(MAKE_DIRECTORY ${WORK}/user)
+file(COPY_FILE ${CMAKE_CURRENT_LIST_DIR}/subproject.cmake ${WORK}/user/CMakeLists.txt)
 take(FetchContent)
 take(add_subdirectory)
 run(add_subdirectory)

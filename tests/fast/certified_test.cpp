@@ -17,7 +17,7 @@
 #include "fast/certified/kernel.hpp"
 #include "fast/kernels.hpp"
 #include "fast/method.hpp"
-#include "tests/support/certified.hpp"
+#include "tests/support/certified_against_oracle.hpp"
 #include "tests/support/queries.hpp"
 #include "tests/support/random.hpp"
 #include "tests/support/scenes.hpp"

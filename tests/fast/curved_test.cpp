@@ -20,7 +20,7 @@
 #include "fast/kernels.hpp"
 #include "fast/method.hpp"
 #include "tests/faults/planted_faults.hpp"
-#include "tests/support/certified.hpp"
+#include "tests/support/certified_against_oracle.hpp"
 #include "tests/support/queries.hpp"
 #include "tests/support/random.hpp"
 #include "tests/support/trials.hpp"

@@ -21,7 +21,7 @@
 #include "fast/certified/block.hpp"
 #include "fast/certified/exact/contact_decision.hpp"
 #include "tests/fast/certified/decisions.hpp"
-#include "tests/support/certified.hpp"
+#include "tests/support/certified_against_oracle.hpp"
 #include "tests/support/contact_function.hpp"
 #include "tests/support/public_data.hpp"
 #include "tests/support/queries.hpp"

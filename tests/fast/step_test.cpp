@@ -22,7 +22,7 @@
 #include "fast/certified/kernel.hpp"
 #include "fast/kernels.hpp"
 #include "tests/faults/planted_faults.hpp"
-#include "tests/support/certified.hpp"
+#include "tests/support/certified_against_oracle.hpp"
 #include "tests/support/messages.hpp"
 #include "tests/support/process_memory.hpp"
 #include "tests/support/random.hpp"

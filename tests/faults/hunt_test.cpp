@@ -16,7 +16,7 @@
 #include "verify/fuzz/fuzz.hpp"
 #include "verify/fuzz/plainness.hpp"
 #include "verify/generate/decimal.hpp"
-#include "verify/solvers/plugin.hpp"
+#include "verify/solvers/plugin_method.hpp"
 #include "verify/solvers/registry.hpp"
 
 namespace touchstone::tests::hunt_test {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "tests/filters/support.hpp"
-#include "tests/filters/worked_example/orientation.hpp"
+#include "tests/filters/worked_example.hpp"
 #include "tests/support/built_files.hpp"
 #include "touchstone/derivation/gappa.hpp"
 #include "touchstone/derivation/shipped_bound.hpp"
@@ -40,8 +40,8 @@ std::vector<std::string> shown_parts(const std::string& text) {
 TEST(WorkedExample, IsTheTextOfTheReadme) {
   const std::string readme = read("filters/README.md");
   int shown = 0;
-  for (const std::string name : {"orientation.hpp", "derive.cpp"}) {
-    for (const std::string& part : shown_parts(read("tests/filters/worked_example/" + name))) {
+  for (const std::string name : {"worked_example.hpp", "worked_example_derive.cpp"}) {
+    for (const std::string& part : shown_parts(read("tests/filters/" + name))) {
       EXPECT_NE(readme.find("```cpp\n" + part + "```\n"), std::string::npos) << part;
       ++shown;
     }
@@ -51,8 +51,7 @@ TEST(WorkedExample, IsTheTextOfTheReadme) {
 
 TEST(WorkedExample, ShipsTheBoundThatIsDerived) {
   const std::string declaration = error_bound_declaration(record<Orientation>(), double_format);
-  EXPECT_NE(read("tests/filters/worked_example/orientation.hpp").find(declaration),
-            std::string::npos)
+  EXPECT_NE(read("tests/filters/worked_example.hpp").find(declaration), std::string::npos)
       << declaration;
 }
 

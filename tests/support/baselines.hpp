@@ -43,16 +43,16 @@ namespace touchstone::tests {
   return answer;
 }
 
-enum class Motion { independent, translation };
+enum class Movement { independent, translation };
 
 /// Random points in (−1,1), except that at t=1/2 the vertex is in the middle of the face, or the
 /// edges' middles meet: contact in the interior for any rounding. Points move independently, or
 /// each primitive translates.
-[[nodiscard]] inline PosedQuery centre_hit(Random& random, Kind kind, Motion motion) {
+[[nodiscard]] inline PosedQuery centre_hit(Random& random, Kind kind, Movement motion) {
   Query query{};
   for (double& x : query.coordinates) x = random.uniform(-1.0, 1.0);
   const bool is_face = kind == Kind::vertex_face;
-  if (motion == Motion::translation) {
+  if (motion == Movement::translation) {
     for (const std::size_t point : {is_face ? 2U : 3U, 3U}) {
       query.point(1, point) = query.point(1, point == 3 && !is_face ? 2 : 1) +
                               (query.point(0, point) - query.point(0, is_face ? 1 : 2));
@@ -72,7 +72,7 @@ enum class Motion { independent, translation };
 }
 
 /// The number of centre hits, of this many, that a method denies.
-[[nodiscard]] inline int missed_centre_hits(const fast::Method& method, Kind kind, Motion motion,
+[[nodiscard]] inline int missed_centre_hits(const fast::Method& method, Kind kind, Movement motion,
                                             const fast::MethodOptions& options, int count) {
   Random random(11);
   int missed = 0;

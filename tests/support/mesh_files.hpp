@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "tests/verify/data/dataset_fixture.hpp"
-#include "verify/mesh/mesh.hpp"
+#include "verify/mesh/mesh_file.hpp"
 
 namespace touchstone::tests {
 

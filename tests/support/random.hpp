@@ -10,7 +10,7 @@
 #include <cmath>
 #include <cstdint>
 
-#include "verify/generate/random.hpp"
+#include "verify/generate/random_stream.hpp"
 
 namespace touchstone::tests {
 

@@ -23,7 +23,7 @@
 #include "tests/support/public_data.hpp"
 #include "touchstone/mesh.hpp"
 #include "touchstone/query.hpp"
-#include "verify/mesh/mesh.hpp"
+#include "verify/mesh/mesh_file.hpp"
 
 namespace touchstone::tests {
 

@@ -1,8 +1,8 @@
 #pragma once
 
 /// \file
-/// A query of any shape that owns its numbers, for what outlives the array that it came from. One
-/// on straight lines needs no memory of its own, because readers of arrays would be slower by a
+/// A query of any shape that owns its numbers and may outlive the array that it came from. A query
+/// on straight lines needs no memory on the heap, which would make readers of arrays slower by a
 /// third.
 
 #include <algorithm>
@@ -40,9 +40,9 @@ class AnyQuery {
     if (shape_.is_straight()) return straight_.coordinates;
     return curves_;
   }
-  /// As the only one of an array.
+  /// An array of this query alone.
   [[nodiscard]] Queries queries() const { return {shape_, numbers()}; }
-  /// On straight lines. \pre shape().is_straight()
+  /// The query on straight lines. \pre shape().is_straight()
   [[nodiscard]] const Query& straight() const { return straight_; }
 
   friend bool operator==(const AnyQuery&, const AnyQuery&) = default;

@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file
-/// Number of cores of a job.
+/// The number of cores of a job.
 
 #include <oneapi/tbb/info.h>
 

@@ -5,10 +5,10 @@
 /// docs/methods.md, section 12.
 ///
 /// After subtraction of the mean displacement, no two points of the primitives approach each other
-/// faster than ℓ, the sum of each primitive's greatest displacement. So at distance d they do not
-/// come within ξ before (d − ξ)/ℓ, and may be moved by a share s = 0.9 of that: times add up to a
-/// lower bound of the impact that never passes it. It ends with yes if d − ξ is at most a share 1 −
-/// s of its initial value, and with no if the time is above t_max.
+/// faster than ℓ, the sum of each primitive's greatest displacement. At distance d they therefore
+/// do not come within ξ before (d − ξ)/ℓ, and may be moved by a share s = 0.9 of that: times add up
+/// to a lower bound of the impact that never passes it. It ends with yes if d − ξ is at most a
+/// share 1 − s of its initial value, and with no if the time is above t_max.
 ///
 /// ξ is the distance of fast::MethodOptions::separation; it is Euclidean.
 ///

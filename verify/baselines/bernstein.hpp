@@ -14,8 +14,8 @@
 /// ∎ It says nothing where k_0 = 0.
 ///
 /// **Theorem (decomposition).** For J quadratic there are linear L and K with T·Y = L·J + K, T =
-/// (2j_1 − j_0 − j_2)² ≥ 0: polynomial division with remainder. So at a root of Y, J has the sign
-/// of −K/L; and at a root of J, Y has that of K.
+/// (2j_1 − j_0 − j_2)² ≥ 0: polynomial division with remainder. At a root of Y, therefore, J has
+/// the sign of −K/L; and at a root of J, Y has that of K.
 ///
 /// A number type has a constructor from int, +, − and *, and a function half.
 ///

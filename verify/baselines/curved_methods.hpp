@@ -1,8 +1,8 @@
 #pragma once
 
 /// \file
-/// What others do with curves, for comparison (docs/methods.md, section 14). All compute in doubles
-/// without error bounds, and find a time of contact or none.
+/// Methods for curves that others use, for comparison (docs/methods.md, section 14). All compute in
+/// doubles without error bounds, and find a time of contact or none.
 ///
 /// - *subdivision*: a piece is replaced by the chords of its points, from which they deviate by a
 ///   bounded distance. If the chords do not come within the sum of the greatest deviations of both

@@ -6,7 +6,8 @@
 ///
 /// **Theorem.** Replace each operation of an expression by one on intervals whose result contains
 /// all results for operands from the intervals; then the result contains all values of the
-/// expression [moore1966]. So an interval that excludes 0 proves that the expression has no zero.
+/// expression [moore1966]. An interval that excludes 0 therefore proves that the expression has no
+/// zero.
 ///
 /// The rounding mode is switched before each operation and restored after it: the policy that Boost
 /// calls save-state, standard. Boost's own class for this policy contains the operation once for

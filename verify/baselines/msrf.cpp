@@ -13,7 +13,7 @@ namespace touchstone::baselines {
 namespace {
 
 /// Candidate times, in the order of discovery.
-class Candidates {
+class CandidateTimes {
  public:
   /// Adds the zeros in [0,1] that were computed as real.
   template <std::size_t Degree>
@@ -41,9 +41,9 @@ class Candidates {
   std::vector<double> times_;
 };
 
-Candidates vertex_face_candidates(const Query& query, double h) {
+CandidateTimes vertex_face_candidates(const Query& query, double h) {
   const auto [p, v1, v2, v3] = motions_of(query);
-  Candidates candidates;
+  CandidateTimes candidates;
   candidates.add_plane(p - v1, v2 - v1, v3 - v1, h);
   const std::array<LinearMotion, 3> face{v1, v2, v3};
   const Polynomial<0> square{{h * h}};
@@ -56,9 +56,9 @@ Candidates vertex_face_candidates(const Query& query, double h) {
   return candidates;
 }
 
-Candidates edge_edge_candidates(const Query& query, double h) {
+CandidateTimes edge_edge_candidates(const Query& query, double h) {
   const auto [a0, a1, b0, b1] = motions_of(query);
-  Candidates candidates;
+  CandidateTimes candidates;
   candidates.add_plane(b1 - a0, a1 - a0, b1 - b0, h);
   return candidates;
 }
@@ -90,7 +90,7 @@ bool msrf_rules_out_zeros(std::span<const double, 7> c) {
 fast::Answer msrf(Kind kind, const Query& query, const fast::MethodOptions& options) {
   const double h =
       options.separation.distance > 0.0 ? options.separation.distance : msrf_default_separation;
-  const Candidates candidates =
+  const CandidateTimes candidates =
       kind == Kind::vertex_face ? vertex_face_candidates(query, h) : edge_edge_candidates(query, h);
   constexpr double never = 2.0;
   double earliest = never;

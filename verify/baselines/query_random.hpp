@@ -8,7 +8,7 @@
 #include <cstdint>
 
 #include "touchstone/query.hpp"
-#include "verify/generate/random.hpp"
+#include "verify/generate/random_stream.hpp"
 
 namespace touchstone::baselines {
 

@@ -8,8 +8,8 @@
 /// of the edges, q a vector from one primitive to the other. f is evaluated in intervals over
 /// intervals of t, bisected earliest first (interval_search.hpp). On an interval narrower than δ
 /// divided by the greatest displacement whose f may vanish, an inside test in intervals decides:
-/// vertex-face, is the vertex on the inner side of each edge; edge-edge, does each edge separate
-/// the other's ends.
+/// for vertex-face that the vertex is on the inner side of each edge, for edge-edge that each edge
+/// separates the other's ends.
 ///
 /// **Promise.** Conservative: the inside tests are closed and rounded outward, so they hold at
 /// every contact. Intervals come in ascending order, so the lower end of the accepted one is not
@@ -19,8 +19,8 @@
 ///   - Nothing bounds u and v: the inside test is as coarse as the motion of the points in that
 ///     interval.
 ///   - Degenerate triangles and edges on a line make every product contain 0, and all passes: false
-///     positives. So does a motion in one plane wherever the inside test is near 0. (Two edges on
-///     one line, far from each other, at rest.)
+///     positives. The same holds for a motion in one plane wherever the inside test is near 0. (Two
+///     edges on one line, far from each other, at rest.)
 ///   - A pair at rest has no tolerance to reach: [0,1] itself is decided.
 ///   - f ≡ 0, motion in one plane, makes every interval a candidate: as many checks as there are
 ///     small intervals. fast::MethodOptions::max_checks bounds them; the answer is then undecided,

@@ -50,11 +50,12 @@ struct UpwardInterval {
   friend UpwardInterval half(const UpwardInterval& a) {
     return {0.5 * a.minus_lower, 0.5 * a.upper};
   }
-  /// May numbers of theirs have the same sign? Always where one of them holds 0.
+  /// True if a number of one may have the sign of a number of the other; always true if one holds
+  /// 0.
   friend bool same_sign(const UpwardInterval& a, const UpwardInterval& b) {
     return a.sign() * b.sign() >= 0;
   }
-  /// Is it 0 and nothing else?
+  /// True if it is the number 0 alone.
   friend bool is_zero(const UpwardInterval& a) { return a.minus_lower == 0.0 && a.upper == 0.0; }
 
  private:

@@ -26,7 +26,7 @@
 #include "verify/cli/help.hpp"
 #include "verify/cli/option_table.hpp"
 #include "verify/cli/options.hpp"
-#include "verify/cli/pieces.hpp"
+#include "verify/cli/sharded_run.hpp"
 #include "verify/cli/solver_options.hpp"
 #include "verify/cli/sources.hpp"
 #include "verify/data/query_group.hpp"
@@ -125,7 +125,7 @@ class BenchRun {
     solvers_.report_output(arguments_.solvers.show_output);
   }
 
-  /// Leaves out those that do not take the curves of the group, and says so.
+  /// Leaves out the solvers that do not take the curves of the group, and reports them.
   static void leave_out_others(const data::QueryGroup& group,
                                std::vector<const solvers::Solver*>& solvers) {
     std::erase_if(solvers, [&](const solvers::Solver* solver) {

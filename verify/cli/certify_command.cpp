@@ -15,16 +15,15 @@
 #include <utility>
 #include <vector>
 
-#include "verify/cli/certificates_file.hpp"
 #include "verify/cli/commands.hpp"
 #include "verify/cli/files.hpp"
 #include "verify/cli/help.hpp"
 #include "verify/cli/option_table.hpp"
 #include "verify/cli/options.hpp"
-#include "verify/cli/pieces.hpp"
+#include "verify/cli/result_files.hpp"
+#include "verify/cli/sharded_run.hpp"
 #include "verify/cli/solver_options.hpp"
 #include "verify/cli/sources.hpp"
-#include "verify/cli/view_file.hpp"
 #include "verify/io/json.hpp"
 #include "verify/io/printable.hpp"
 #include "verify/io/terminal.hpp"
@@ -118,11 +117,11 @@ class CertifyRun {
     if (!budget_.is_limited()) return;
     for (const jobs::CertifyResult& result : results_) {
       if (!result.interrupted) continue;
-      io::print(stream, fmt::format("not judged in time: {}: what follows the first {} queries\n",
+      io::print(stream, fmt::format("not judged in time: {}: all after the first {} queries\n",
                                     io::printable(result.name), result.queries));
     }
     if (budget_.is_over() && unjudged_ != 0) {
-      io::print(stream, fmt::format("not judged in time: {} sources more\n", unjudged_));
+      io::print(stream, fmt::format("not judged in time: {} further sources\n", unjudged_));
     }
   }
 
@@ -200,7 +199,7 @@ class CertifyRun {
     for (const std::string& warning : solvers_.warnings()) report_warning(warning);
   }
 
-  /// The status by how the solvers took their queries; that of a piece is the merged run's to find.
+  /// The status that follows from the solvers' responses; for a piece the merged run determines it.
   [[nodiscard]] Status status_of_responses() const {
     Status status = Status::all_well;
     if (io::interrupted() || arguments_.sources.is_piece) return status;
@@ -244,7 +243,7 @@ class CertifyRun {
   ViewFile view_;
   jobs::Budget budget_;
   base::Deadline deadline_;
-  std::size_t unjudged_ = 0;  ///< sources behind the latest one
+  std::size_t unjudged_ = 0;  ///< sources after the latest one
   std::vector<jobs::CertifyResult> results_;
   jobs::CertifyResult sum_;
 };

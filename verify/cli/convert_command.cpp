@@ -33,7 +33,6 @@
 #include "verify/data/npy.hpp"
 #include "verify/data/separation_file.hpp"
 #include "verify/data/store.hpp"
-#include "verify/data/toi_writer.hpp"
 #include "verify/io/json.hpp"
 #include "verify/io/output_file.hpp"
 #include "verify/io/printable.hpp"
@@ -58,7 +57,7 @@ struct Arguments {
   std::string licence;
 };
 
-/// A file that is converted, and what its shards are called.
+/// A file that is converted, and the name of its shards.
 struct Origin {
   fs::path file;
   std::string name;
@@ -76,9 +75,9 @@ std::string shard_name(const fs::path& file, const fs::path& path) {
 }
 
 /// A shard that is being written.
-class Shard {
+class StoredShard {
  public:
-  Shard(const fs::path& folder, const std::string& name, const QueryShape& shape)
+  StoredShard(const fs::path& folder, const std::string& name, const QueryShape& shape)
       : queries_file_(folder / (name + ".npy")),
         labels_file_(folder / "mma_bool" / (name + "_mma_bool.json")),
         tois_file_(folder / "toi" / (name + "_toi.csv")),
@@ -154,7 +153,7 @@ class ConvertRun {
 
   Status run() {
     require_one_separation();
-    // Names no shard: what is there before the end is no store.
+    // A manifest without shards: until the end the folder is not a store.
     static_cast<void>(write_manifest());
     io::ProgressBar bar("convert");
     std::atomic<std::size_t> done = 0;
@@ -213,7 +212,7 @@ class ConvertRun {
     const fs::path folder = arguments_.folder / to_string(source->kind());
     fs::create_directories(folder);
     nlohmann::json result = nlohmann::json::array();
-    std::optional<Shard> shard;
+    std::optional<StoredShard> shard;
     std::uint64_t first = 0;
     const auto finish = [&] {
       const std::uint64_t count = shard->count();

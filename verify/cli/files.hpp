@@ -70,8 +70,8 @@ class Output {
   void write(std::string_view text);
   /// Completes the file.
   void close();
-  /// The same for what is not all that it should be: the file gets the ending ".incomplete", one of
-  /// the name that the user gave stays as it was, and a warning says so.
+  /// Closes an incomplete file: it gets the ending ".incomplete", an existing file of the given
+  /// name stays as it was, and a warning says so.
   void close_incomplete();
 
  private:

@@ -23,9 +23,9 @@
 #include "verify/cli/help.hpp"
 #include "verify/cli/option_table.hpp"
 #include "verify/cli/options.hpp"
-#include "verify/cli/pieces.hpp"
+#include "verify/cli/result_files.hpp"
+#include "verify/cli/sharded_run.hpp"
 #include "verify/cli/solver_options.hpp"
-#include "verify/cli/view_file.hpp"
 #include "verify/data/csv_dataset.hpp"
 #include "verify/data/dataset.hpp"
 #include "verify/data/separation_file.hpp"
@@ -79,13 +79,13 @@ struct Arguments {
     return {kind_from_string(kind)};
   }
 
-  /// The degrees as they are written.
+  /// The degrees in the words of the command line.
   [[nodiscard]] std::vector<std::string> degrees() const {
     if (curved) return {"2", "3", std::string(rational)};
     return degree.empty() ? std::vector<std::string>{"1"} : degree;
   }
 
-  /// The shapes of one of them.
+  /// The shapes of a degree.
   [[nodiscard]] std::vector<QueryShape> shapes(const std::string& of_degree) const {
     std::vector<QueryShape> result;
     for (const Kind one : kinds()) {
@@ -153,7 +153,7 @@ fs::path dataset_path(const fs::path& file, const QueryShape& shape) {
     }
     if (shape.is_straight()) return file;
   } catch (const io::DatasetError&) {
-    // The kind is in no name yet.
+    // The name does not contain the kind.
   }
   std::string name = file.stem().string();
   if (!shape.is_straight()) {
@@ -195,7 +195,7 @@ class FoundQueries {
     for (const File& file : files_) {
       if (file.queries != 0) written.push_back(file.path);
     }
-    // First: without it the labels would be about contact.
+    // The separation is written first: without it the labels would be about contact.
     if (!written.empty() && !is_zero(separation_)) {
       data::write_separation(folder_.empty() ? "." : folder_, separation_);
     }
@@ -320,7 +320,7 @@ class FuzzRun {
   }
 
  private:
-  /// Writes findings; if it fails, they go on their other ways.
+  /// Writes findings. If it fails, the other outputs go on.
   void attempt(const std::function<void()>& write) {
     try {
       write();

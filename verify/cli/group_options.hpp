@@ -12,7 +12,7 @@
 
 #include "touchstone/step.hpp"
 #include "verify/cli/files.hpp"
-#include "verify/mesh/mesh.hpp"
+#include "verify/mesh/mesh_file.hpp"
 
 namespace touchstone::verify::cli {
 

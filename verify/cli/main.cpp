@@ -54,7 +54,7 @@ bool report_unknown(const CLI::App& app, const std::string& word) {
   return true;
 }
 
-/// For one version, `curved` says what does its work now.
+/// For one version, `curved` names the command that replaces it.
 void add_curved(CLI::App& app) {
   CLI::App* const command = app.add_subcommand("curved")->group("");
   command->prefix_command();
@@ -121,7 +121,7 @@ int main(int argc, char** argv) {
     std::signal(SIGPIPE, SIG_IGN);
     std::signal(SIGXFSZ, SIG_IGN);
     touchstone::fast::require_strict_arithmetic();
-    // From here on a signal ends every command with what it has.
+    // From here on a signal ends every command with its results so far.
     static_cast<void>(touchstone::verify::io::interrupted());
     const int status = run(argc, argv);
     touchstone::verify::io::finish_printing();

@@ -6,7 +6,7 @@
 #include "verify/cli/commands.hpp"
 #include "verify/cli/help.hpp"
 #include "verify/cli/option_table.hpp"
-#include "verify/cli/pieces.hpp"
+#include "verify/cli/sharded_run.hpp"
 
 namespace touchstone::verify::cli::merge_command {
 namespace {
@@ -26,16 +26,17 @@ void add(CLI::App& app, Status& status) {
   add_option(*command, "FOLDER", arguments->folder);
   command->option_defaults()->group("Output");
   add_option(*command, "--json", arguments->json_file);
-  set_help(*command,
-           "touchstone merge run   # of touchstone certify data --shard 0/2 --resume run --json "
-           "all.json",
-           "Writes the files that the command line of the run named. The result has no times and "
-           "is the same however the pieces were done. A piece that is missing, damaged, of another "
-           "run or version, or whose input has changed is an error that names it. Run it where the "
-           "pieces ran: their inputs are checked again.\n"
-           "Exit status: 0 success, 1 wrong answers or collisions in a piece, or a solver that "
-           "hangs at more than 1 % of all queries, 2 the pieces are not all there and valid, or a "
-           "solver answers nothing, 130 interrupted (nothing is written).");
+  set_help(
+      *command,
+      "touchstone merge run   # of touchstone certify data --shard 0/2 --resume run --json "
+      "all.json",
+      "Writes the files that the command line of the run named. The result has no times and "
+      "does not depend on the order of the pieces. A missing or damaged piece, one of another run "
+      "or version, and one with a changed input is an error that names it. Run it where the "
+      "pieces ran: their inputs are checked again.\n"
+      "Exit status: 0 success, 1 wrong answers or collisions in a piece, or a solver that "
+      "hangs at more than 1 % of all queries, 2 pieces are missing or invalid, or a "
+      "solver answers nothing, 130 interrupted (nothing is written).");
   command->callback(
       [arguments, &status] { status = merge_pieces(arguments->folder, arguments->json_file); });
 }

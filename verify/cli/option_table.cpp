@@ -33,7 +33,7 @@ std::vector<std::string> hardness_names() {
 }
 
 std::vector<OptionRow> make_table() {
-  using enum Form;
+  using enum OptionForm;
   const OneOf kinds{{"vertex-face", "edge-edge"}};
   const std::string certificates = "compressed if the name ends in .zst";
   return {
@@ -62,7 +62,7 @@ std::vector<OptionRow> make_table() {
       {"--count", "N", Whole{1}, "Queries of each family and kind of the built-in set"},
       {"--degree", "D", OneOf{{"1", "2", "3", "4", "5", "6", "7", "8", "rational"}}, "Degree of the Bézier curves that points move on, 1 (straight lines, the default) to 8, or rational (of degrees 1 and 2); repeatable", "fuzz"},
       {"--degree", "D", OneOf{{"1", "2", "3", "rational"}}, "Built-in queries on curves of this degree, 1 (straight lines), 2 or 3, or rational ones; repeatable"},
-      {"--curved", "", {}, "As --degree 2 --degree 3 --degree rational, as far as the solver answers them; goes with the next version"},
+      {"--curved", "", {}, "The same as --degree 2 --degree 3 --degree rational, where the solver answers them; removed in the next version"},
       {"--min-separation", "D", Distance{}, "Also pairs whose boxes are within this distance (covers both norms): decimal or 0x1p-10", "candidates"},
       {"--min-separation", "D", Distance{}, "Contact: distance ≤ D, 0.5 or 0x1p-1 (default: separation.json, or 0)"},
       {"--norm", "NORM", OneOf{{"linf", "l2"}}, "Norm of the distance: linf (greatest component, the default) or l2"},
@@ -85,7 +85,7 @@ std::vector<OptionRow> make_table() {
 
       // Runs in pieces; the last two are for their processes.
       {"--shard", "I/N", {}, "Do part I of N, from 0 on; auto: as a Slurm array or mpirun says"},
-      {"--resume", "FOLDER", {}, "Keep finished pieces there and go on with them (touchstone merge)"},
+      {"--resume", "FOLDER", {}, "Run in pieces that are kept there, or go on with them (touchstone merge)"},
       {"FOLDER", "", {}, "The folder of the pieces, as --resume named it", "merge", required},
       {"--only-source", "", Whole{}, "", "", hidden},
       {"--piece", "", {}, "", "", hidden},
@@ -95,13 +95,13 @@ std::vector<OptionRow> make_table() {
       {"--method", "NAME", {}, "Built-in solver; repeatable: " + solvers::method_names()},
       {"--plugin", "LIB.so", {}, "Your solver: a shared library (touchstone/plugin.h); repeatable"},
       {"--kinds", "KIND", kinds, "The plugin answers only vertex-face or edge-edge queries"},
-      {"--float-coordinates", "", {}, "The plugin takes float: queries are rounded first, and the truth is of these"},
+      {"--float-coordinates", "", {}, "The plugin takes float: round queries to float first, and judge by these"},
       {"--starts-apart{0}", "", Real{0.0, DBL_MAX}, "The plugin needs primitives that are apart at t=0; with =D, by more than the minimum separation plus D"},
       {"--times", "WHAT", OneOf{{"bounds", "estimates", "none"}}, "The plugin's times of impact: bounds, estimates or none"},
-      {"--time-error", "E", Real{0.0, 1.0}, "Error of estimates that is no fault, in units of the step (default 1e-6)"},
+      {"--time-error", "E", Real{0.0, 1.0}, "Allowed error of estimated times, in units of the step (default 1e-6)"},
       {"--tolerance", "X", Real{DBL_TRUE_MIN, DBL_MAX}, "Tolerance of conservative methods, in units of the coordinates"},
       {"--max-checks", "N", Whole{0, INT64_MAX}, fmt::format("Maximum steps per query (0: no limit; built-in set: {})", built_in_max_checks)},
-      {"--query-limit", "S", Real{0.0, 1e6}, "Seconds for a query in a child process, then undecided (0: no limit)"},
+      {"--query-limit", "S", Real{0.0, 1e6}, "Seconds that a query may take before it counts as undecided (0: no limit)"},
       {"--memory-limit", "GIB", Real{0.0, 1e6}, fmt::format("Memory of a child process in GiB (default {:g}, 0: no limit)", static_cast<double>(solvers::ChildLimits{}.memory_bytes) / bytes_of_gibibyte)},
       {"--allow-processes", "", {}, "Allow plugins to start processes"},
       {"--show-output", "", {}, "Show the output of plugins on standard error"},
@@ -151,23 +151,23 @@ std::vector<OptionRow> make_table() {
       {"--out", "FILE", {}, "Write file,index,kind,verdict,toi_lower,toi_upper,tolerance,failure", "solve", required},
       {"--out", "FILE.csv", {}, "Write the queries found, with their truth, as a dataset", "fuzz"},
       {"--out", "FILE.html", {}, "Write the page", "report"},
-      {"--out", "FILE.html", {}, "The page", "view", required},
+      {"--out", "FILE.html", {}, "Write the page", "view", required},
       {"--out", "FOLDER", {}, "Folder to write to", "generate"},
-      {"--out", "STORE", {}, "A new folder", "convert", required},
+      {"--out", "STORE", {}, "Folder to create", "convert", required},
       {"--out", "PREFIX", {}, "Write PREFIX_vf.npy and PREFIX_ee.npy (queries), PREFIX_vf_pairs.npy (vertex and face), PREFIX_ee_pairs.npy (two edges) and PREFIX_edges.npy", "candidates", required},
       {"--csv", "FILE", {}, "Write a row for each collision"},
       {"--list", "", {}, "List the families with the proofs of their truth"},
       {"--npy", "", {}, "Write float64 arrays of shape (N, 8, 3), on curves (N, K+1, 4, 3) or (N, K+1, 4, 4) with weights, without the truth, instead of CSV"},
-      {"--max-candidates", "N", Whole{}, "Maximum candidates of a kind; more are an error with their number (0: the memory's limit)"},
+      {"--max-candidates", "N", Whole{}, "Maximum number of candidates of a kind; a greater number is an error (0: as many as fit into memory)"},
       {"--shard-size", "N", Whole{1}, "Queries of a shard"},
-      {"--source", "TEXT", {}, "Where the data are from, for the manifest"},
+      {"--source", "TEXT", {}, "Origin of the data, for the manifest"},
       {"--licence", "TEXT", {}, "Their licence, for the manifest"},
       {"--write", "FOLDER", {}, "Write a page per group for an issue tracker, with program, proof, JSON"},
       {"--calls", "INTERFACE", OneOf{{"plugin", "ticcd", "ipc-toolkit"}}, "Interface in the programs: plugin (the default for plugins), ticcd or ipc-toolkit"},
       {"--picture", "FILE.html", {}, "Write the result as an HTML page"},
       {"--from", "FILE.json", {}, "Read the --json file of an earlier run instead of measuring"},
       {"--compare", "OLD.json", {}, "The --json file of an earlier run: the page shows the changes since"},
-      {"--live", "FILE.js", {}, "The solvers in WebAssembly (./run playground): the page decides other queries, too"},
+      {"--live", "FILE.js", {}, "Embed the solvers in WebAssembly (./run playground), so that the page decides other queries"},
       {"--emit", "FILE", {}, "Write the header of bounds (touchstone/filters/error_bounds.hpp)"},
       // clang-format on
   };
@@ -218,10 +218,11 @@ CLI::Option* finish_option(CLI::Option* option, const OptionRow& row) {
   if (!std::holds_alternative<Text>(row.values)) {
     option->check([&row](const std::string& text) { return fault_of_value(row.values, text); }, "");
   }
-  if (row.form == Form::required) option->required();
-  if (row.form == Form::hidden) option->group("");
-  if (row.form == Form::pair) option->expected(2);
-  if (row.form == Form::usual && option->get_expected_max() > 1) option->allow_extra_args(false);
+  if (row.form == OptionForm::required) option->required();
+  if (row.form == OptionForm::hidden) option->group("");
+  if (row.form == OptionForm::pair) option->expected(2);
+  if (row.form == OptionForm::usual && option->get_expected_max() > 1)
+    option->allow_extra_args(false);
   return option;
 }
 

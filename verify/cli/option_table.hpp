@@ -3,7 +3,7 @@
 /// \file
 /// The table of options: each is described once, for all commands that have it. A command takes its
 /// options from here by name and binds them to variables (add_option); --help, the page of all
-/// options (docs/site) and the test that tries every option at its limits are of the same rows.
+/// options (docs/site) and the test that tries every option at its limits use the same rows.
 
 #include <CLI/CLI.hpp>
 #include <cstdint>
@@ -52,7 +52,7 @@ struct OneOf {
 
 using Values = std::variant<Text, Whole, Real, Distance, OneOf>;
 
-enum class Form : std::uint8_t {
+enum class OptionForm : std::uint8_t {
   usual,     ///< optional, and with one value each time that it is given
   required,  ///< has to be given
   list,      ///< with one value or more each time
@@ -60,30 +60,30 @@ enum class Form : std::uint8_t {
   hidden     ///< not in the help
 };
 
-/// An option of some commands. A name in front of which there is no "--" is that of positional
-/// arguments; one that ends in {V} can be given without a value, which then is V.
+/// An option of some commands. A name without "--" is that of positional arguments; an option whose
+/// name ends in {V} can be given without a value, and then has the value V.
 struct OptionRow {
   std::string name;
   std::string type;  ///< a word for its value in the help; empty for flags
   Values values;
   std::string text;
   std::string commands = {};  ///< those with this row; empty: those that no other row names
-  Form form = Form::usual;
+  OptionForm form = OptionForm::usual;
 
   /// True if this is the row of the option with that name (of several the first) and command.
   [[nodiscard]] bool is_of(std::string_view command, std::string_view option) const;
 };
 
-/// All rows; those that name their commands stand before the one that does not.
+/// All rows; of one name, those for named commands stand before the row for all others.
 [[nodiscard]] const std::vector<OptionRow>& option_table();
 
 /// The row of an option. \throws std::logic_error if there is none.
 [[nodiscard]] const OptionRow& option_row(std::string_view command, std::string_view option);
 
-/// What is wrong with a text as one of these values; empty if nothing is.
+/// The fault of a text as one of these values; empty if it is valid.
 [[nodiscard]] std::string fault_of_value(const Values& values, const std::string& text);
 
-/// Gives the option what the row says of it.
+/// Gives the option the properties of its row.
 CLI::Option* finish_option(CLI::Option* option, const OptionRow& row);
 
 /// Adds the command's option of that name, in the present group of its help. The target is a

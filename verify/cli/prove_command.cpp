@@ -13,13 +13,13 @@
 #include <vector>
 
 #include "touchstone/number.hpp"
-#include "verify/cli/certificates_file.hpp"
 #include "verify/cli/commands.hpp"
 #include "verify/cli/files.hpp"
 #include "verify/cli/help.hpp"
 #include "verify/cli/option_table.hpp"
 #include "verify/cli/options.hpp"
-#include "verify/cli/pieces.hpp"
+#include "verify/cli/result_files.hpp"
+#include "verify/cli/sharded_run.hpp"
 #include "verify/cli/sources.hpp"
 #include "verify/io/coordinate_text.hpp"
 #include "verify/io/json.hpp"

@@ -18,7 +18,7 @@
 #include "verify/cli/help.hpp"
 #include "verify/cli/option_table.hpp"
 #include "verify/cli/options.hpp"
-#include "verify/cli/pieces.hpp"
+#include "verify/cli/sharded_run.hpp"
 #include "verify/cli/solver_options.hpp"
 #include "verify/cli/sources.hpp"
 #include "verify/io/json.hpp"
@@ -53,7 +53,7 @@ SolverArguments the_solver(const Arguments& arguments) {
   return arguments.solver;
 }
 
-/// Answers by verdict. What is no answer (judge::Fault) counts as an error or as undecided, and by
+/// Answers by verdict. A missing answer (judge::Fault) counts as an error or as undecided, and by
 /// its failure.
 struct AnswerCounts {
   std::uint64_t yes = 0;
@@ -122,8 +122,8 @@ class SolveRun {
                     solver_.name(), asked_.queries, counts_.yes, counts_.no, counts_.undecided,
                     counts_.errors, asked_.nanoseconds_per_query()));
     if (unasked() != 0) {
-      io::print(stream, fmt::format("not asked: {} queries outside its terms{}, or like those at "
-                                    "which it hangs\n",
+      io::print(stream, fmt::format("not asked: {} queries outside its terms{}, or similar to "
+                                    "those at which it hangs\n",
                                     unasked(), judge::to_text(solver_.terms())));
     }
     const std::string failures = report::to_text(counts_.failures);
@@ -207,7 +207,7 @@ class SolveRun {
   Output out_;
   Output json_;
   jobs::CertifyResult sum_;
-  judge::Judgement asked_;  ///< what the solver was asked
+  judge::Judgement asked_;  ///< the queries that the solver was asked
   AnswerCounts counts_;
   std::vector<Separation> separations_;  // of the sources
   std::uint64_t reading_errors_ = 0;

@@ -18,7 +18,7 @@
 #include "verify/io/number_text.hpp"
 #include "verify/io/printable.hpp"
 #include "verify/io/terminal.hpp"
-#include "verify/solvers/plugin.hpp"
+#include "verify/solvers/plugin_method.hpp"
 #include "verify/solvers/registry.hpp"
 
 namespace touchstone::verify::cli {
@@ -122,7 +122,7 @@ void settle_solver_options(const CLI::App& command, bool built_in_set, SolverArg
   for (const std::string name : {"--exact", "--query-limit", "--memory-limit", "--allow-processes",
                                  "--show-output", "--tolerance", "--max-checks"}) {
     if (arguments.empty() && is_given(name)) {
-      throw std::invalid_argument(name + " needs a solver, and none is named");
+      throw std::invalid_argument(name + " needs a solver: add --method or --plugin");
     }
   }
 }

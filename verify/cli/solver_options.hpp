@@ -19,7 +19,7 @@
 #include "verify/fuzz/fuzz.hpp"
 #include "verify/judge/judgement.hpp"
 #include "verify/solvers/answers.hpp"
-#include "verify/solvers/plugin.hpp"
+#include "verify/solvers/plugin_method.hpp"
 #include "verify/solvers/solver.hpp"
 
 namespace touchstone::verify::cli {
@@ -37,9 +37,9 @@ struct SolverArguments {
   /// Wall-clock seconds for a query; 0: no limit.
   double query_limit = fuzz::FuzzOptions{}.query_limit_seconds;
   bool exact = false;
-  /// The terms of plugins and of recorded answers, where they differ from what these say.
+  /// The terms of plugins and of recorded answers, where they differ from the stated ones.
   solvers::TermsChanges terms = {};
-  /// Of --starts-apart, before it is in the terms.
+  /// The text of --starts-apart, before it is in the terms.
   std::string starts_apart = {};
   /// Memory limit of a solver's process in bytes; 0: no limit.
   std::uint64_t memory_limit = solvers::ChildLimits{}.memory_bytes;
@@ -89,15 +89,15 @@ void settle_solver_options(const CLI::App& command, bool built_in_set, SolverArg
 /// (verify/io/printable.hpp); otherwise a hint. Nothing without output.
 void report_output(std::string_view solver, const solvers::CapturedOutput& output, bool show);
 
-/// Reports on standard error how often a solver ended its process, if ever.
+/// Reports on standard error the number of times that a solver ended its process, if positive.
 void report_unplaced_crashes(std::string_view solver, std::uint64_t crashes);
 
-/// How a solver took the queries of a run.
+/// The responses of a solver to the queries of a run.
 struct Responses {
   std::uint64_t asked = 0;
   std::uint64_t hangs = 0;
   std::uint64_t errors = 0;
-  std::uint64_t unasked = 0;  ///< outside its terms, or left out
+  std::uint64_t unasked = 0;  ///< outside its terms, or skipped
 
   [[nodiscard]] static Responses of(const judge::Judgement& judgement);
   Responses& operator+=(const Responses& other);

@@ -46,9 +46,9 @@ struct SourceArguments {
   SeparationArguments separation = {};
   /// The part of the sources that is used.
   Shard shard = {};
-  /// Of the built-in set only the source of that number (built_in_sources).
+  /// If set, only the source of that number of the built-in set is used (built_in_sources).
   std::optional<std::size_t> only_source = std::nullopt;
-  /// Is this a piece of another run?
+  /// True for a piece of another run.
   bool is_piece = false;
 
   /// Without a path the built-in set is used.
@@ -102,18 +102,18 @@ void for_each_source(const SourceArguments& arguments, Files& files,
 [[nodiscard]] data::QueryGroup& group_of(std::vector<data::QueryGroup>& groups,
                                          const std::string& path, const QueryShape& shape);
 
-/// Does the work up to an interrupt: the command goes on with the results so far.
+/// Works until an interrupt, after which the command goes on with the results so far.
 void until_interrupted(const std::function<void()>& work);
 
-/// The files of frames, as mesh::frame_files; says what else is in a folder.
+/// The files of frames, as mesh::frame_files. Reports the other entries of a folder.
 [[nodiscard]] std::vector<std::filesystem::path> frame_files(
     std::span<const std::filesystem::path> paths);
 
-/// Says what of a mesh's file was not read, or otherwise than it is written.
+/// Reports the parts of a mesh's file that were ignored or changed.
 void report_note(const std::filesystem::path& mesh, const std::string& note);
 
-/// Opens the frames of a mesh, as mesh::open_frames, and says what is not read. \param record
-/// records their files
+/// Opens the frames of a mesh, as mesh::open_frames, and reports the parts that are not read.
+/// \param record records their files
 [[nodiscard]] std::unique_ptr<mesh::Frames> open_frames(
     Files& record, std::span<const std::filesystem::path> paths);
 

@@ -18,7 +18,7 @@
 #include "verify/cli/solver_options.hpp"
 #include "verify/io/json.hpp"
 #include "verify/io/terminal.hpp"
-#include "verify/report/page.hpp"
+#include "verify/report/report_page.hpp"
 #include "verify/report/stability_report.hpp"
 #include "verify/solvers/registry.hpp"
 #include "verify/stability/hardness.hpp"

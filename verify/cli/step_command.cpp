@@ -16,17 +16,17 @@
 #include <utility>
 #include <vector>
 
+#include "exact/certificate/step_certificate_text.hpp"
 #include "fast/step/bodies.hpp"
-#include "verify/cli/certificates_file.hpp"
 #include "verify/cli/commands.hpp"
 #include "verify/cli/files.hpp"
 #include "verify/cli/group_options.hpp"
 #include "verify/cli/help.hpp"
 #include "verify/cli/option_table.hpp"
 #include "verify/cli/options.hpp"
-#include "verify/cli/pieces.hpp"
+#include "verify/cli/result_files.hpp"
+#include "verify/cli/sharded_run.hpp"
 #include "verify/cli/sources.hpp"
-#include "verify/cli/view_file.hpp"
 #include "verify/io/json.hpp"
 #include "verify/io/printable.hpp"
 #include "verify/io/terminal.hpp"
@@ -59,7 +59,7 @@ class StepRun {
   explicit StepRun(const Arguments& arguments)
       : json_(files_, arguments.json_file),
         csv_(files_, arguments.csv_file),
-        proof_(files_, arguments.proof_file, jobs::step_proofs_header()),
+        proof_(files_, arguments.proof_file, exact::step_certificates_header()),
         view_(files_, arguments.view_file),
         find_piercings_(arguments.find_piercings),
         options_(arguments.check),
@@ -167,7 +167,7 @@ class StepRun {
       if (lacks_proof() || report_.interrupted) {
         proof_.close_incomplete();
       } else {
-        proof_.close(jobs::step_proofs_closing_line(report_.steps.size()));
+        proof_.close(exact::step_certificates_closing_line(report_.steps.size()));
       }
     }
     if (json_) json_.write(io::json_document(report::to_json(report_)));
@@ -255,9 +255,8 @@ void add(CLI::App& app, Status& status) {
            "touchstone step frames/ --free --prove steps.cert && touchstone-check steps.cert",
            "A step is the straight motion of every vertex from one frame to the next; a simulator "
            "with substeps should write each of them. Each frame is also searched for edges that "
-           "pierce faces (but for --no-piercings). Pairs that share a vertex are ignored. Numbers "
-           "begin at 0; "
-           "edges are numbered by their larger vertex, then by the smaller.\n"
+           "pierce faces (unless --no-piercings is given). Pairs that share a vertex are ignored. "
+           "Numbers begin at 0; edges are numbered by their larger vertex, then by the smaller.\n"
            "Exit status: 0 free of collisions, 1 a collision or a frame that intersects itself, 2 "
            "bad input or usage, 130 interrupted (results so far are written).");
   command->callback([arguments, command, &status] {

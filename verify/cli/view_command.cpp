@@ -28,10 +28,10 @@
 #include "verify/mesh/frames.hpp"
 #include "verify/solvers/registry.hpp"
 #include "verify/view/asked_solvers.hpp"
-#include "verify/view/page.hpp"
 #include "verify/view/query_facts.hpp"
 #include "verify/view/query_files.hpp"
 #include "verify/view/step_facts.hpp"
+#include "verify/view/view_page.hpp"
 
 namespace touchstone::verify::cli::view_command {
 namespace {
@@ -176,9 +176,9 @@ void add(CLI::App& app, Status& status) {
       "touchstone view --step frames/92.ply frames/93.ply --out step.html\n"
       "touchstone view found.json --method tight_inclusion --plugin ./libsolver.so --out "
       "found.html",
-      "The page needs a browser with WebGL and nothing else. It shows motion and corners, the "
-      "exact time of impact, a certificate, and what each solver answers; without --method and "
-      "--plugin those that promise something are asked.\n"
+      "The page needs only a browser with WebGL. It shows motion and corners, the exact time of "
+      "impact, a certificate, and the answers of the solvers; without --method and --plugin, of "
+      "those that promise something.\n"
       "Exit status: 0 the page is written, 2 bad input or usage, 130 interrupted.");
   command->callback([arguments, command, &status] {
     settle_solver_options(*command, true, arguments->solvers);

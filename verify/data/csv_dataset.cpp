@@ -17,7 +17,7 @@
 namespace touchstone::verify::data {
 namespace {
 
-/// Bytes to look for plain rows in: more than eight of them have, as a rule.
+/// The size of the text that is searched for plain rows; as a rule it has more than eight.
 constexpr std::size_t plain_bytes = 4096;
 
 /// True if a line certainly is neither blank nor a header.
@@ -129,7 +129,7 @@ DatasetSource::StoredQuery CsvDataset::read(std::uint64_t) {
       throw io::DatasetError(
           path(), {.line = last_line},
           fmt::format("truncated query: {} of {} rows; if a row is missing further "
-                      "up, queries behind it were put together of two",
+                      "up, later queries were composed of two",
                       row, rows_of_query()));
     }
     last_line = line->number;
@@ -144,7 +144,7 @@ DatasetSource::StoredQuery CsvDataset::read(std::uint64_t) {
   return rows.query;
 }
 
-/// Splits the line into fields_, or gives up if it is no row.
+/// Splits the line into fields_. Gives up if it is not a row.
 void CsvDataset::split_row(const io::Line& line) {
   if (io::trimmed(line.text).empty()) lose_count(line, 0, "blank line inside a query");
   const io::CsvSplit split = io::split_csv(line.text, fields_);

@@ -67,7 +67,7 @@ class CsvDataset final : public DatasetSource {
   [[nodiscard]] bool is_header(const io::Line& line);
   /// True if the fields are a line of a shape, which it takes over from the file's first line.
   [[nodiscard]] bool take_shape(const io::Line& line, std::size_t count);
-  /// True if rows of queries may have so many columns.
+  /// True if rows of queries may have this number of columns.
   [[nodiscard]] bool is_format(std::size_t columns) const;
   [[nodiscard]] std::size_t rows_of_query() const { return moving_points * (shape().degree + 1); }
   void split_row(const io::Line& line);

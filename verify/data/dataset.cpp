@@ -39,9 +39,9 @@ bool is_ground_truth_name(const fs::path& path) {
          name == "separation.json" || name == manifest_name;
 }
 
-/// A folder with all below it. Links to folders are followed when all folders that are there
-/// without links have been searched, and no folder is searched twice: so that a file keeps its
-/// plain path, and links in a ring come to an end.
+/// The search of a folder and all below it. Links to folders are followed after all other folders
+/// have been searched, and no folder is searched twice: a file keeps its plain path, and a ring of
+/// links ends.
 class Search {
  public:
   explicit Search(const LeftOut& on_left_out) : on_left_out_(on_left_out) {}
@@ -65,7 +65,7 @@ class Search {
 
   void visit(const fs::path& folder, bool companions) {
     if (!visited_.insert(fs::canonical(folder)).second) {
-      leave_out(folder, "leads to a folder that is searched already");
+      leave_out(folder, "leads to a folder that was searched already");
       return;
     }
     std::vector<fs::directory_entry> entries;
@@ -101,7 +101,7 @@ class Search {
     if (is_dataset && !companions) {
       found_.push_back(path);
     } else if (is_dataset) {
-      leave_out(path, "in a folder of what accompanies datasets; name the file itself to read it");
+      leave_out(path, "in a folder of companion files; name the file itself to read it");
     } else if (!companions && !is_ground_truth_name(path) && !io::is_partial(path)) {
       leave_out(path, "no dataset (.csv, .npy)");
     }
@@ -145,7 +145,7 @@ bool contains_word(std::string_view text, std::string_view word) {
   return false;
 }
 
-/// The kind that the deepest part naming one names.
+/// The kind that the deepest part with a kind names.
 std::optional<Kind> kind_from_parts(const fs::path& path) {
   std::optional<Kind> kind;
   for (const fs::path& part : path) {
@@ -161,7 +161,7 @@ std::optional<Kind> kind_from_parts(const fs::path& path) {
 }
 
 /// True if a file's name without extension ends in this, by itself ("ee"), after a number ("326ee")
-/// or behind a separator ("x_ee", "x-326ee")? "tree" does not.
+/// or after a separator ("x_ee", "x-326ee"). "tree" does not.
 bool ends_in_word(std::string_view stem, std::string_view ending) {
   if (!stem.ends_with(ending)) return false;
   stem.remove_suffix(ending.size());

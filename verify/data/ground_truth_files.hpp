@@ -2,7 +2,8 @@
 
 /// \file
 /// Recorded truth beside a dataset: labels in <name>_mma_bool.json, times of impact in
-/// <name>_toi.csv.
+/// <name>_toi.csv (the header "query,toi", then a line for each query that has one). ToiWriter
+/// writes the latter.
 ///
 /// Both are read as streams in step with the queries: entries are requested by ascending number,
 /// and earlier ones are skipped. If the place of the next entry is certain (`null` in place of a
@@ -20,6 +21,7 @@
 #include "touchstone/number.hpp"
 #include "verify/io/dataset_error.hpp"
 #include "verify/io/input_file.hpp"
+#include "verify/io/output_file.hpp"
 
 namespace touchstone::verify::data {
 
@@ -133,6 +135,38 @@ class GroundTruthFiles {
  private:
   std::optional<LabelReader> labels_;
   std::optional<ToiReader> tois_;
+};
+
+// ---- Writing ------------------------------------------------------------------------------------
+
+/// A rational as a decimal such as "2.5E-1", rounded to the nearest of `significant_digits` > 0
+/// digits, ties away from zero.
+[[nodiscard]] std::string to_decimal(const exact::Rational& value, unsigned significant_digits);
+
+/// Significant digits of a time of impact whose decimal cannot be exact.
+inline constexpr unsigned rounded_digits = 60;
+
+/// A rational as a decimal: all digits if the denominator is a power of two, else rounded_digits.
+[[nodiscard]] std::string to_decimal(const exact::Rational& value);
+
+/// Writes a toi companion (<dir>/toi/<name>_toi.csv beside <dir>/<name>.csv).
+class ToiWriter {
+ public:
+  /// \throws DatasetError if no file can be made there.
+  explicit ToiWriter(std::filesystem::path path);
+
+  /// Appends the time of impact of a query.
+  /// \throws DatasetError if it cannot be written.
+  /// \throws std::invalid_argument if the query's number is not above that of the call before.
+  void write(std::uint64_t query, const exact::Rational& toi);
+
+  /// Completes the file and gives it its name; without this call there is no file.
+  /// \throws DatasetError if it cannot be written.
+  void close() { file_.close(); }
+
+ private:
+  io::OutputFile file_;
+  std::optional<std::uint64_t> last_query_;
 };
 
 }  // namespace touchstone::verify::data

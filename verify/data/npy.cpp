@@ -24,7 +24,7 @@ static_assert(std::endian::native == std::endian::little, "arrays are read as th
 
 constexpr std::string_view query_descr = "<f8";
 
-/// The bytes of a number of the header's type; 0 for types that are none.
+/// The bytes of a number of the header's type; 0 for any other type.
 std::size_t size_of_number(const NpyHeader& header) {
   const std::string_view descr = header.descr;
   if (descr.size() < 3 || std::string_view("biufc").find(descr[1]) == std::string_view::npos) {

@@ -4,8 +4,8 @@
 /// Arrays in NumPy's format: .npy files, and the members of .npz archives (npz.hpp).
 ///
 /// Queries are an array of float64 or float32 of shape (N, 8, 3), or on curves (N, K+1, 4, 3 or 4).
-/// One of float64 in C order has the layout of N consecutive Query objects, or of Queries, so its
-/// bytes *are* the queries, without parsing; so NpyWriter writes them. An array of no queries,
+/// An array of float64 in C order has the layout of N consecutive Query objects, or of Queries: its
+/// bytes *are* the queries, without parsing. NpyWriter writes this form. An array of no queries,
 /// shape (0, 8, 3), is valid.
 
 #include <algorithm>
@@ -57,7 +57,7 @@ class NpyArray {
     take<double, float, double>(numbers, {"<f4", "<f8"});
   }
 
-  /// \throws io::DatasetError unless the shape has so many extents, the last ones as given.
+  /// \throws io::DatasetError unless the shape has this number of extents, the last ones as given.
   void require_shape(std::size_t extents, std::span<const std::uint64_t> last,
                      std::string_view expected) const;
   [[noreturn]] void fail_for_shape(std::string_view expected) const;

@@ -12,8 +12,8 @@
 namespace touchstone::verify::data {
 namespace {
 
-/// Queries of a block, 96 KiB on straight lines: a system call is not felt, and it stays in the
-/// processor's cache.
+/// Queries of a block, 96 KiB on straight lines: large enough to hide a system call, small enough
+/// for the processor's cache.
 constexpr std::uint64_t block_size = 512;
 const std::string queries_name = "queries", labels_name = "collides";
 
@@ -25,7 +25,7 @@ std::string name_of_queries(const Npz& archive) {
   if (names.size() == 1) return names.front();
   throw io::DatasetError(
       archive.path(), {},
-      fmt::format("no array \"{}\", nor a single one; it has: {}", queries_name,
+      fmt::format("no array \"{}\", and not a single array; the archive has: {}", queries_name,
                   names.empty() ? "none" : fmt::format("{}", fmt::join(names, ", "))));
 }
 
@@ -42,7 +42,7 @@ NpyDataset::Arrays NpyDataset::open(const std::filesystem::path& path) {
 NpyDataset::NpyDataset(const std::filesystem::path& path, const DatasetOptions& options)
     : DatasetSource(path, options), arrays_(open(path)) {
   set_curves_by_extents();
-  arrays_.queries.take_numbers({});  // Is it of numbers?
+  arrays_.queries.take_numbers({});  // throws unless it is of numbers
   count_ = arrays_.queries.shape()[0];
   if (!arrays_.labels) return;
   const std::array<std::uint64_t, 1> count{count_};

@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::string_view extension = ".npy";
 
-/// What libzip's error means, and what to do.
+/// The meaning of libzip's error, and the way out.
 std::string reason_of(int error) {
   if (error == ZIP_ER_CRC)
     return "its checksum is wrong: the file is damaged; copy or write it anew";

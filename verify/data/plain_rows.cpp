@@ -214,13 +214,13 @@ class PowersOfTwo {
   };
 
   static constexpr int greatest = -least_exponent;
-  /// By the number of digits and the first of them.
+  /// The texts by their number of digits and the first digit.
   std::vector<std::array<Text, 10>> by_length_;
 };
 
 // ---- Rows ---------------------------------------------------------------------------------------
 
-/// Reads a coordinate and what ends it.
+/// Reads a coordinate and the character that ends it.
 class Reader {
  public:
   Reader(std::string_view text, std::size_t columns, bool round)

@@ -12,7 +12,7 @@
 /// which no two of them have in common, and compared as texts. Digits are read eight at a time, as
 /// the bytes of a word.
 ///
-/// Whatever else may be right or wrong is left to the caller: rational arithmetic
+/// All other texts, right or wrong, are left to the caller: rational arithmetic
 /// (verify/io/coordinate_text.hpp), and all errors.
 
 #include <cstddef>
@@ -32,7 +32,7 @@ struct PlainRows {
   std::size_t bytes;      ///< of the eight rows, line ends included
 };
 
-/// Bytes that a text must have behind a query's rows, so that they are read as words.
+/// Bytes that a text must have after a query's rows, so that they can be read as words.
 inline constexpr std::size_t plain_rows_margin = 16;
 
 /// The query whose rows begin the text; nothing if they are not plain, not whole, or end less than

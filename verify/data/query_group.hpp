@@ -24,7 +24,7 @@ struct QueryPlace {
 class QueryGroup {
  public:
   QueryGroup(std::string name, const QueryShape& shape) : name_(std::move(name)), shape_(shape) {}
-  /// On straight lines.
+  /// A group on straight lines.
   QueryGroup(std::string name, Kind kind) : QueryGroup(std::move(name), QueryShape{.kind = kind}) {}
 
   /// Generated queries: their source is the group, their index their position.

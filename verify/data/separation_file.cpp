@@ -23,7 +23,7 @@ constexpr std::size_t most_bytes = std::size_t{1} << 16U;
 constexpr const char* distance_key = "min_separation";
 constexpr const char* norm_key = "norm";
 
-/// Is there a digit other than 0 before the exponent?
+/// True if there is a digit other than 0 before the exponent.
 bool has_value(std::string_view text) {
   const bool is_hexadecimal = text.find_first_of("xX") != std::string_view::npos;
   const std::size_t end = text.find_first_of(is_hexadecimal ? "pP" : "eE");
@@ -64,7 +64,7 @@ std::optional<double> distance_from_text(const std::string& text) {
 std::optional<fs::path> find_separation_file(const fs::path& dataset) {
   const fs::path folder = dataset.parent_path();
   for (const fs::path& path : {folder / file_name, folder / ".." / file_name}) {
-    // What the system does not say of it is said when it is opened.
+    // Opening the file reports any other error.
     std::error_code error;
     if (fs::status(path, error).type() != fs::file_type::not_found) return path;
   }
@@ -78,7 +78,7 @@ Separation read_separation(const fs::path& path) {
     if (!distance) throw io::DatasetError(path, {}, "min_separation must be a finite number ≥ 0");
     return {.distance = *distance, .norm = norm_from_string(json.at(norm_key).get<std::string>())};
   } catch (const nlohmann::json::exception& error) {
-    throw io::DatasetError(path, {}, std::string("is no separation: ") + error.what());
+    throw io::DatasetError(path, {}, std::string("not a separation: ") + error.what());
   } catch (const std::invalid_argument& error) {
     throw io::DatasetError(path, {}, error.what());
   }

@@ -2,7 +2,7 @@
 
 /// \file
 /// The manifest of a store (`touchstone convert`): a folder of shards with the size and the digest
-/// of each file, so that a copy that is not complete is found before it is judged.
+/// of each file, by which an incomplete copy is found before it is judged.
 
 #include <filesystem>
 #include <map>

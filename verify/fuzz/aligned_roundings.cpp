@@ -49,7 +49,7 @@ std::optional<Track> aligned_track(const Track& about, std::int64_t n, std::int6
 }
 
 /// The deciding parts: the axis with the roundings, and the place of the contact.
-struct Plan {
+struct RoundingPlan {
   std::array<Track, moving_points> tracks;
   std::int64_t n = 0;
   double speed = 0.0;  ///< of edge a on that axis; edge b rests but for its last bits
@@ -60,7 +60,7 @@ struct Plan {
 constexpr double lag = 0.1;
 
 /// The parameter on edge a of the point at v on edge b.
-double crossing(const Plan& plan) {
+double crossing(const RoundingPlan& plan) {
   std::array<double, moving_points> away{};
   for (std::size_t i = 0; i < away.size(); ++i) {
     const std::int64_t distance = plan.tracks.at(i).at(plan.n) - plan.tracks[2].at(plan.n);
@@ -69,10 +69,10 @@ double crossing(const Plan& plan) {
   return (plan.v * away[3] - lag - away[0]) / (away[1] - away[0]);
 }
 
-std::optional<Plan> draw_plan(Random& random) {
-  Plan plan{.tracks = {},
-            .n = random.coin() ? 33 : 31,
-            .speed = draws::power_of_two(-static_cast<int>(random.between(7, 10)))};
+std::optional<RoundingPlan> draw_plan(Random& random) {
+  RoundingPlan plan{.tracks = {},
+                    .n = random.coin() ? 33 : 31,
+                    .speed = draws::power_of_two(-static_cast<int>(random.between(7, 10)))};
   const auto units = [](double x) { return static_cast<std::int64_t>(x * 0x1p52); };
   const double middle = random.uniform(1.05, 1.06), c = static_cast<double>(plan.n) / parts;
   const Track moving{units(middle - c * plan.speed), units(middle + (1.0 - c) * plan.speed)};
@@ -92,7 +92,7 @@ std::optional<Plan> draw_plan(Random& random) {
   return std::nullopt;
 }
 
-void put_tracks(Query& query, std::size_t axis, const Plan& plan) {
+void put_tracks(Query& query, std::size_t axis, const RoundingPlan& plan) {
   for (std::size_t point = 0; point < moving_points; ++point) {
     query.at(0, point, axis) = static_cast<double>(plan.tracks.at(point).start) * 0x1p-52;
     query.at(1, point, axis) = static_cast<double>(plan.tracks.at(point).end) * 0x1p-52;
@@ -101,7 +101,7 @@ void put_tracks(Query& query, std::size_t axis, const Plan& plan) {
 
 /// On this axis the edges meet exactly at that time, and earlier they are beyond rounding: on it no
 /// box that ends at n/64 has a contact.
-void put_clock(Query& query, std::size_t axis, const Plan& plan) {
+void put_clock(Query& query, std::size_t axis, const RoundingPlan& plan) {
   const double c = static_cast<double>(plan.n) / parts, late = lag * 0x1p-52 / plan.speed;
   for (std::size_t point = 0; point < moving_points; ++point) {
     const bool is_of_a = point < 2;
@@ -111,7 +111,7 @@ void put_clock(Query& query, std::size_t axis, const Plan& plan) {
 }
 
 /// Random coordinates on the third axis, except one, for which F is 0 there.
-void put_crossing(Query& query, std::size_t axis, const Plan& plan, Random& random) {
+void put_crossing(Query& query, std::size_t axis, const RoundingPlan& plan, Random& random) {
   const double t = static_cast<double>(plan.n) / parts;
   const std::array<double, moving_points> weights{1.0 - plan.u, plan.u, plan.v - 1.0, -plan.v};
   const double scale = draws::power_of_two(static_cast<int>(random.between(-3, 3)));
@@ -127,11 +127,11 @@ void put_crossing(Query& query, std::size_t axis, const Plan& plan, Random& rand
 }
 
 /// Plans take long to find, and a few are enough.
-const std::vector<Plan>& plans() {
-  static const std::vector<Plan> all = [] {
+const std::vector<RoundingPlan>& plans() {
+  static const std::vector<RoundingPlan> all = [] {
     constexpr std::size_t count = 32;
     Random random(1);
-    std::vector<Plan> found;
+    std::vector<RoundingPlan> found;
     while (found.size() < count) {
       if (const auto plan = draw_plan(random)) found.push_back(*plan);
     }
@@ -143,7 +143,7 @@ const std::vector<Plan>& plans() {
 }  // namespace
 
 Query aligned_contact(Random& random) {
-  const Plan& plan = plans()[draws::below(random, plans().size())];
+  const RoundingPlan& plan = plans()[draws::below(random, plans().size())];
   Query query{};
   const std::size_t axis = draws::below(random, 3);
   put_tracks(query, axis, plan);

@@ -9,7 +9,7 @@
 /// of Tight-Inclusion's filter for edges.
 
 #include "touchstone/query.hpp"
-#include "verify/generate/random.hpp"
+#include "verify/generate/random_stream.hpp"
 
 namespace touchstone::verify::fuzz {
 

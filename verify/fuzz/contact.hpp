@@ -16,7 +16,7 @@
 /// An exact symmetry is then applied (symmetry.hpp).
 
 #include "touchstone/query.hpp"
-#include "verify/generate/random.hpp"
+#include "verify/generate/random_stream.hpp"
 
 namespace touchstone::verify::fuzz {
 
@@ -42,8 +42,8 @@ namespace touchstone::verify::fuzz {
 
 /// A polygon r − u p − v q that tilts: it begins and ends some distances d from the origin and is
 /// closest at mid-step, at an interior point (optionally a near miss). Its normal is about as long
-/// as its sides allow. So the bounds of the change by a shift of d, from the sides' coordinates,
-/// are sharp, and the determinant's middle Bernstein coefficients are far below its values.
+/// as its sides allow. The bounds of the change by a shift of d, from the sides' coordinates, are
+/// therefore sharp, and the determinant's middle Bernstein coefficients are far below its values.
 /// \pre distance > 0
 [[nodiscard]] Query tilting(Kind kind, const Separation& separation, generate::Random& random);
 

@@ -52,7 +52,7 @@ std::string detail_of(Fault what, const judge::Question& question, const judge::
     case Fault::undecided:
       return to_text(answer) + ", but they do not collide, and it promises exactness";
     case Fault::beyond_tolerance:
-      return fmt::format("{}, but they never come within {}, as that claims", to_text(answer),
+      return fmt::format("{}, but they never come within {}, as this claims", to_text(answer),
                          judge::to_text(judge::claim_of(question, answer, standard).value()));
     default:
       return to_text(answer);

@@ -6,8 +6,8 @@
 ///
 /// The certified solver decides blocks of queries at speed. Its verdicts and enclosures show at
 /// once that most answers are right; the others are *doubtful*, and only the oracle finds them
-/// wrong. So a fault of the certified solver costs a finding, which the oracle's share of all
-/// queries brings to light, and no correct solver is reported.
+/// wrong. A fault of the certified solver can therefore hide a finding, which the oracle's share of
+/// all queries brings to light, but no correct solver is reported.
 
 #include <optional>
 #include <string>
@@ -24,7 +24,7 @@ struct Diagnosis {
   std::string detail;
 };
 
-/// True if nothing in the answer could break the promise, by what the certified solver found. An
+/// True if the certified solver's result shows that nothing in the answer breaks the promise. An
 /// answer that is not beyond doubt may still be right.
 [[nodiscard]] bool is_beyond_doubt(const judge::Question& question,
                                    const fast::CertifiedResult& judged, const fast::Answer& answer,

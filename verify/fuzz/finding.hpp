@@ -35,7 +35,7 @@ struct FailingCase {
   /// Neighbouring doubles around the exact time of impact, or one; nothing if they do not collide.
   std::optional<exact::DoubleInterval> toi = std::nullopt;
   std::string truth = {};   ///< "no collision", or "collision between … and …"
-  std::string detail = {};  ///< what is wrong, in words
+  std::string detail = {};  ///< the fault, in words
   /// The proof of the truth, as a stream of one certificate (exact/CERTIFICATES.md); empty if
   /// beyond the format's limits.
   std::string certificate = {};
@@ -52,7 +52,8 @@ enum class Shrinking : std::uint8_t {
 /// "not tried", "complete", "cut short" or "not reproduced".
 [[nodiscard]] std::string_view to_string(Shrinking shrinking);
 
-/// Bounds of a time of impact that a solver gives with nearly every collision, and not with this.
+/// Bounds of a time of impact that a solver gives with nearly every collision, but not with this
+/// one.
 struct MissingBounds {
   bool lower = false;
   bool upper = false;
@@ -60,23 +61,22 @@ struct MissingBounds {
   [[nodiscard]] bool any() const { return lower || upper; }
 };
 
-/// Binary exponents of the greatest coordinate around a finding's at which, times a power of two,
-/// the query is not answered wrongly any more: the nearest ones that were asked, nothing where none
-/// is known.
+/// The nearest scales at which a finding's query, times a power of two, is answered correctly:
+/// binary exponents of the greatest coordinate, below and above; empty where none is known.
 struct ScaleRange {
   std::optional<int> end_below = std::nullopt;
   std::optional<int> end_above = std::nullopt;
 };
 
-/// Something that a solver does wrong, confirmed by the oracle.
+/// A fault of a solver, confirmed by the oracle.
 struct Finding {
   judge::Fault what = judge::Fault::false_negative;
   Separation separation = {};
-  std::string method;         ///< that is wrong: the one asked, or "certified" where the judge is
+  std::string method;  ///< the method that is wrong: the one asked, or "certified" if the judge is
   FailingCase original = {};  ///< as it was found
   FailingCase simplest = {};  ///< the simplest query with the same fault: the original if none was
   Shrinking shrinking = Shrinking::not_tried;
-  /// Set if the fault is that alone.
+  /// Set if the fault consists in missing bounds alone.
   MissingBounds missing = {};
   /// True for a late time that is late slightly (judge::slight_lateness).
   bool is_slight = false;

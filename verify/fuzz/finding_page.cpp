@@ -191,7 +191,7 @@ std::string_view places(const QueryShape& shape) {
                            : "control points, from t=0 to t=1";
 }
 
-/// An expression of C++, true if the answer is wrong as it was found to be.
+/// A C++ expression that is true if the answer has the fault that was found.
 std::string wrong_as_found(const Json& finding) {
   using enum judge::Fault;
   const Json& toi = finding.at("toi");

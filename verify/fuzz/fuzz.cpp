@@ -15,8 +15,7 @@
 #include "fast/method.hpp"
 #include "touchstone/certified.hpp"
 #include "verify/base/deadline.hpp"
-#include "verify/fuzz/coverage.hpp"
-#include "verify/fuzz/curves.hpp"
+#include "verify/fuzz/curved_generators.hpp"
 #include "verify/fuzz/diagnosis.hpp"
 #include "verify/fuzz/generators.hpp"
 #include "verify/fuzz/plainness.hpp"
@@ -41,12 +40,13 @@ using fast::CertifiedResult;
 using fast::Verdict;
 using generate::Random;
 
-/// Queries of a block before the images: little enough that slow solvers end in time and are
-/// steered early.
+/// Queries of a block before the images: few enough that slow solvers end in time, and that the
+/// scheduler learns early.
 constexpr std::size_t block_queries = 256;
 /// Queries that one draw of the scheduler stands for.
 constexpr std::size_t slice_queries = 16;
-/// After so many slices a block is asked though it is not full, since most queries are not asked.
+/// The number of slices after which a block is asked though it is not full, because most of its
+/// queries are outside the terms.
 constexpr std::size_t most_slices = 16 * block_queries / slice_queries;
 /// Queries that are judged together: enough for the kernel, and few enough to end in time.
 constexpr std::size_t judged_together = 64;
@@ -54,10 +54,10 @@ constexpr std::size_t judged_together = 64;
 constexpr double seconds_to_judge = 1.0;
 /// The share of the time left that may go into making one finding simpler.
 constexpr double shrink_share = 0.1;
-/// One in so many queries is asked again as an image.
+/// One query in this number is asked again as an image.
 constexpr std::size_t queries_an_image = 8;
 constexpr double oracle_work = 40.0;
-/// About the microseconds of a step that a solver says it took, such as a box.
+/// The approximate microseconds of one of the steps that a solver reports, such as a box.
 constexpr double check_work = 0.05;
 
 /// The value of a finding relative to a query of a new coverage key.
@@ -79,7 +79,7 @@ struct Image {
 };
 
 /// Queries that are asked together: first those that generators made, then images of some of them.
-struct Block {
+struct FuzzBlock {
   QueryShape shape;
   std::vector<double> numbers;
   std::vector<std::size_t> arms;  ///< by query: whose it is
@@ -111,10 +111,10 @@ struct Block {
 };
 
 /// Makes blocks, one shape after the other.
-class BlockMaker {
+class FuzzBlockMaker {
  public:
-  BlockMaker(const fast::Terms& terms, const FuzzOptions& options,
-             const std::vector<Generator>& generators)
+  FuzzBlockMaker(const fast::Terms& terms, const FuzzOptions& options,
+                 const std::vector<Generator>& generators)
       : shapes_(answered(options.shapes, terms)),
         terms_(terms),
         hangs_(options.query_limit_seconds),
@@ -125,8 +125,8 @@ class BlockMaker {
     for (const AnyQuery& query : options.corpus) keep(query);
   }
 
-  [[nodiscard]] Block make() {
-    Block block;
+  [[nodiscard]] FuzzBlock make() {
+    FuzzBlock block;
     block.shape = shapes_[count_++ % shapes_.size()];
     for (std::size_t slices = 0; block.size() < block_queries; ++slices) {
       if (slices == most_slices && block.size() == 0) {
@@ -139,7 +139,7 @@ class BlockMaker {
     return block;
   }
 
-  /// Notes what a query of the block brought.
+  /// Records the reward and the work of a query of the block.
   void learn(std::size_t arm, double reward, double work) {
     scheduler_.learn(arm, reward, generators_[arm].work + work);
   }
@@ -180,8 +180,8 @@ class BlockMaker {
     return fmt::format("{} {}", generators_[arm].name, to_text(shape));
   }
 
-  /// A slice of a generator's queries. What is not asked teaches that the generator brings less.
-  void add_slice(std::size_t arm, Block& block) {
+  /// Adds a slice of a generator's queries. Queries outside the terms lower the generator's reward.
+  void add_slice(std::size_t arm, FuzzBlock& block) {
     for (std::size_t i = 0; i < slice_queries; ++i) {
       const AnyQuery query =
           judge::as_asked(terms_, generators_[arm].make(block.shape, context_, random_));
@@ -197,7 +197,7 @@ class BlockMaker {
     }
   }
 
-  void add_images(Block& block) {
+  void add_images(FuzzBlock& block) {
     const std::size_t made = block.size();
     for (std::size_t i = 0; i < made; ++i) {
       if (!one_in(random_, queries_an_image)) continue;
@@ -226,7 +226,7 @@ class BlockMaker {
 
 // ---- Judging ------------------------------------------------------------------------------------
 
-/// Bounds that a method gives with nearly every yes, and then not.
+/// Finds bounds that a method gives with nearly every yes, but not with all.
 class BoundHabit {
  public:
   /// True if the solver usually gives this bound and now does not.
@@ -277,9 +277,9 @@ bool contradict(const Answer& a, const Answer& b, bool same_time) {
 }
 
 /// One run.
-class Run {
+class FuzzRun {
  public:
-  Run(const fast::Method& method, const FuzzOptions& options)
+  FuzzRun(const fast::Method& method, const FuzzOptions& options)
       : options_(options),
         method_(method),
         name_(method.name()),
@@ -359,8 +359,8 @@ class Run {
     }
   }
 
-  /// Judges what is answered, and all of it unless the run must end: however late the answers come,
-  /// there is time to judge some, and what ended or held up the solver is reported in any case.
+  /// Judges the answers, all of them unless the run must end. Even if they come late, there is time
+  /// to judge some; crashes and hangs are always reported.
   void judge(const solvers::SolverRun& run) {
     judged_.assign(run.answered, CertifiedResult{});
     failures_ = run.failures;
@@ -377,7 +377,7 @@ class Run {
     result_.unjudged += judged_.size() - done - late;
   }
 
-  /// True if time remains to judge another query, after so many of the block.
+  /// True if time remains to judge another query, after `done` queries of the block.
   [[nodiscard]] bool may_judge(std::size_t done) const {
     return !is_stopped() && !has_found_enough() && (done == 0 || !judging_end_.is_over());
   }
@@ -432,7 +432,7 @@ class Run {
     maker_.learn(block_.arms[i], reward, work);
   }
 
-  /// Looks for all that can be wrong with an answer. Returns the reward, and adds the work.
+  /// Looks for every fault of an answer. Returns the reward, and adds the work.
   double examine_answer(std::size_t i, double& work) {
     const judge::Question question{block_.query(i), options_.separation};
     const bool is_drawn = random_.unit() < oracle_share_;
@@ -454,7 +454,7 @@ class Run {
     auto diagnosis = diagnose(question, truth, answers_[i], standard_);
     if (!diagnosis && missing.any()) {
       diagnosis = {judge::Fault::not_finite,
-                   fmt::format("{} is NaN, which it gives with other collisions",
+                   fmt::format("{} is NaN, but the solver gives it with other collisions",
                                missing.lower ? "toi_lower" : "toi_upper")};
       return reward + report(i, {*diagnosis, name_, missing}, verdict);
     }
@@ -501,7 +501,8 @@ class Run {
                                                                       answer, standard_.terms));
   }
 
-  /// Counts a finding, keeps the first of a class. Returns the reward, less for what is not new.
+  /// Counts a finding, and keeps the first of a class. Returns the reward, which is lower for known
+  /// findings.
   double report(std::size_t i, const Charge& charge, const exact::Decision& verdict) {
     if (!seeks(options_, charge.diagnosis.what)) {
       ++result_.other_findings;
@@ -557,7 +558,7 @@ class Run {
     return known->second;
   }
 
-  /// Makes its query simpler, and looks at what scales it is wrong.
+  /// Simplifies its query, and finds the scales at which it is wrong.
   void make_simpler(Finding& finding) {
     if (options_.shrink_seconds == 0.0) return;
     const double begin = seconds();
@@ -568,8 +569,8 @@ class Run {
     result_.shrink_seconds += seconds() - begin;
   }
 
-  /// The properties that make two findings alike at first sight: the method that is wrong, the
-  /// fault, the shape, the judge's stage, the generator, and if a late time is late slightly.
+  /// The class of a finding, by its obvious properties: the method that is wrong, the fault, the
+  /// shape, the judge's stage, the generator, and whether a late time is slightly late.
   using Class = std::tuple<std::string, judge::Fault, std::string, fast::Stage, std::size_t, bool>;
 
   /// The findings of a class so far.
@@ -584,7 +585,7 @@ class Run {
   judge::Standard standard_;
   double oracle_share_;
   std::vector<Generator> generators_;
-  BlockMaker maker_;
+  FuzzBlockMaker maker_;
   solvers::SolverProcess solver_;
   fast::MethodOptions method_options_;
   Random random_;
@@ -599,7 +600,7 @@ class Run {
   std::map<Signature, std::size_t> groups_;
   FuzzResult result_;
   // The block at hand.
-  Block block_;
+  FuzzBlock block_;
   std::vector<Answer> answers_;
   std::vector<CertifiedResult> judged_;
   std::vector<judge::QueryFailure> failures_;
@@ -608,7 +609,7 @@ class Run {
 };
 
 void check(const FuzzOptions& options) {
-  // Written so that NaN fails too.
+  // In this form NaN fails, too.
   if (!(options.seconds >= 0.0) || !(options.shrink_seconds >= 0.0) ||
       !(options.query_limit_seconds >= 0.0) || !std::isfinite(options.query_limit_seconds)) {
     throw std::invalid_argument("fuzz: times must not be negative");
@@ -628,7 +629,7 @@ void check(const FuzzOptions& options) {
   }
   if (options.seconds == 0.0 && options.most_queries == 0 && options.most_groups == 0 &&
       options.stop == nullptr) {
-    throw std::invalid_argument("fuzz: nothing ends the run");
+    throw std::invalid_argument("fuzz: the run needs a limit of time, queries or findings");
   }
 }
 
@@ -667,7 +668,7 @@ double FuzzResult::judged_per_second() const {
 
 FuzzResult fuzz(const fast::Method& method, const FuzzOptions& options) {
   check(options);
-  return Run(method, options).run();
+  return FuzzRun(method, options).run();
 }
 
 }  // namespace touchstone::verify::fuzz

@@ -4,14 +4,14 @@
 /// The search for wrong answers of one solver.
 ///
 /// Blocks of queries come from generators (generators.hpp) that the scheduler (scheduler.hpp)
-/// prefers by what they have brought so far. The solver answers them in a child process
+/// prefers by their results so far. The solver answers them in a child process
 /// (solver_process.hpp), the certified solver judges (diagnosis.hpp), and the oracle judges a share
-/// again and everything that is doubtful. Some queries are asked once more as an exact image
+/// again, and all doubtful answers. Some queries are asked once more as an exact image
 /// (symmetry.hpp). All queries of a block are of one shape; by default they are on straight lines.
 ///
 /// The same seed gives the same queries and findings on every machine, for any solver that answers
-/// the same: what steers is counted work, the clock only ends the run. (A query near the time limit
-/// may or may not hang.)
+/// the same: counted work steers the search, and the clock only ends it. (A query near the time
+/// limit may or may not hang.)
 
 #include <atomic>
 #include <cstddef>
@@ -39,8 +39,8 @@ struct FuzzProgress {
 };
 
 struct FuzzOptions {
-  /// Wall-clock seconds, with all that is done about findings; 0: no limit. What is answered by
-  /// then is judged, for a second more.
+  /// Wall-clock seconds, including all work on findings; 0: no limit. Answers given by then are
+  /// judged for a second more.
   double seconds = 0.0;
   /// Queries asked, images included; 0: no limit. The run ends exactly there.
   std::uint64_t most_queries = 0;
@@ -58,19 +58,20 @@ struct FuzzOptions {
   solvers::ChildLimits limits = {};
   /// Groups of findings after which the run ends; 0: never.
   std::size_t most_groups = 0;
-  /// Wall-clock seconds for making the query of a finding simpler, or a tenth of what is left of
-  /// the run if that is less; 0: it stays as it is.
+  /// Wall-clock seconds for simplifying the query of a finding, or a tenth of the rest of the run
+  /// if that is less; 0: queries are not simplified.
   double shrink_seconds = 0.0;
-  /// Kinds of findings that are sought; empty: all. Others are counted and nothing else.
+  /// Kinds of findings that are sought; empty: all. Others are only counted.
   std::vector<judge::Fault> only = {};
   /// Queries to mutate. Those on straight lines are also mutated on curves.
   std::vector<base::AnyQuery> corpus = {};
   /// Shapes of queries to ask, one a block in turn; not empty, of degrees above 0.
   std::vector<QueryShape> shapes = {{.kind = Kind::vertex_face}, {.kind = Kind::edge_edge}};
-  /// Share of the queries that the oracle judges again. Of the method `certified` it judges all.
+  /// The share of the queries that the oracle judges again; it judges all those of the method
+  /// `certified`.
   double oracle_share = 0.01;
   /// Null, or a flag: once it is true, the run ends within a quarter of a second and the time of
-  /// judging a few queries; what is answered by then is not all judged.
+  /// judging a few queries; some answers then remain unjudged.
   const std::atomic<bool>* stop = nullptr;
   /// Called now and then.
   std::function<void(const FuzzProgress&)> on_progress = nullptr;
@@ -103,8 +104,8 @@ struct GeneratorStatistics {
 
 /// Findings of one cause, as far as it can be told from outside (signature.hpp).
 struct FindingGroup {
-  /// All of them. Those that are like a kept finding in solver, kind of finding, shape of query,
-  /// generator and the judge's stage are not looked at closer, and counted in its group.
+  /// The number of all its findings. A finding with the solver, kind of finding, shape of query,
+  /// generator and judge's stage of a kept one is not examined further, but counted in its group.
   std::uint64_t count = 0;
   std::size_t best = 0;  ///< in FuzzResult::findings: the plainest kept finding
 };
@@ -118,7 +119,7 @@ struct FuzzResult {
   std::uint64_t unanswered = 0;        ///< asked, but the run was over before they were answered
   std::uint64_t images = 0;            ///< of those judged
   std::uint64_t collisions = 0;        ///< of these, by the judge
-  std::uint64_t judged_by_oracle = 0;  ///< its share, and what was doubtful
+  std::uint64_t judged_by_oracle = 0;  ///< its share, and doubtful answers
   double seconds = 0.0;                ///< wall clock
   double method_seconds = 0.0;         ///< of these, waiting for the method
   double shrink_seconds = 0.0;         ///< of these, making findings simpler
@@ -127,9 +128,9 @@ struct FuzzResult {
   std::vector<FindingGroup> groups;  ///< the most harmful first (judge::harm_of), then the plainest
   std::uint64_t all_findings = 0;    ///< kept or not
   std::uint64_t other_findings = 0;  ///< of kinds that were not sought, beside all these
-  /// Times the method ended its process at queries none of which does it alone.
+  /// The number of times that the method ended its process at queries none of which does so alone.
   std::uint64_t unplaced_crashes = 0;
-  solvers::CapturedOutput output;  ///< what the method printed
+  solvers::CapturedOutput output;  ///< the output of the method
   std::vector<GeneratorStatistics> generators;
   FuzzEnd ended_by = FuzzEnd::time;
 

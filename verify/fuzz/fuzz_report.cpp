@@ -12,7 +12,7 @@
 
 #include "verify/data/csv_dataset.hpp"
 #include "verify/fuzz/signature.hpp"
-#include "verify/generate/random.hpp"
+#include "verify/generate/random_stream.hpp"
 #include "verify/io/json.hpp"
 #include "verify/io/printable.hpp"
 #include "verify/io/text_table.hpp"
@@ -30,7 +30,7 @@ nlohmann::json texts_of(std::span<const double> numbers) {
   return list;
 }
 
-/// The numbers of a query as to_json says.
+/// Adds the numbers of a query in the form that to_json describes.
 void add_numbers(const base::AnyQuery& query, nlohmann::json& json) {
   const QueryShape& shape = query.shape();
   json["degree"] = shape.degree;
@@ -61,7 +61,7 @@ SolverCall wrong_solver(const Finding& finding, const SolverCall& asked) {
   return result;
 }
 
-/// The options of the command line that ask for what the solver was asked for.
+/// The options of the command line with which the solver was asked.
 std::string options_as_words(const SolverCall& solver) {
   const fast::MethodOptions& options = solver.options;
   const bool is_plugin = !solver.plugin.empty();
@@ -80,7 +80,7 @@ std::string options_as_words(const SolverCall& solver) {
   return solver.promise == fast::Promise::exact ? words + " --exact" : words;
 }
 
-/// Tells apart the queries of one method.
+/// A fingerprint that distinguishes the queries of one method.
 std::uint64_t fingerprint(const base::AnyQuery& query, const Separation& separation) {
   const QueryShape& shape = query.shape();
   auto hash = static_cast<std::uint64_t>(shape.kind);
@@ -95,7 +95,7 @@ std::uint64_t fingerprint(const base::AnyQuery& query, const Separation& separat
 }
 
 /// Commands for a POSIX shell that write the simplest query as a dataset and ask the solver again,
-/// with all that it was asked with; `touchstone certify` then judges it.
+/// with the same options; `touchstone certify` then judges it.
 std::string command(const Finding& finding, const SolverCall& solver) {
   const FailingCase& failing = finding.simplest;
   const Separation& separation = solver.options.separation;
@@ -131,9 +131,9 @@ std::string scale_text(const Finding& finding, const SolverCall& asked) {
 std::string_view shrinking_text(Shrinking shrinking) {
   switch (shrinking) {
     case Shrinking::cut_short:
-      return "  (the time was over before it was made simpler, or as simple as it goes)\n";
+      return "  (the time ended before its query was fully simplified)\n";
     case Shrinking::not_reproduced:
-      return "  (asked alone, it is not wrong)\n";
+      return "  (asked alone, the solver is right)\n";
     default:
       return "";
   }
@@ -171,30 +171,28 @@ std::string example_text(std::size_t number, const Finding& finding, const Solve
 std::string findings_text(const FuzzReport& report) {
   const FuzzResult& result = report.result;
   if (result.all_findings == 0) return "\nno findings\n";
-  std::string text =
-      fmt::format("\n{} findings, in {} groups by what can be told of their cause\n\n{}",
-                  result.all_findings, result.groups.size(), group_table(result));
+  std::string text = fmt::format("\n{} findings, in {} groups by probable cause\n\n{}",
+                                 result.all_findings, result.groups.size(), group_table(result));
   for (std::size_t i = 0; i < result.groups.size(); ++i) {
     text += example_text(i + 1, result.findings.at(result.groups[i].best), report.solver);
   }
   return text;
 }
 
-/// The reason for which the run ended before all was done that was asked for.
+/// The reason for an early end of the run.
 std::string end_text(const FuzzReport& report) {
   const FuzzResult& result = report.result;
   std::string text;
   if (result.ended_by == FuzzEnd::time && report.queries != 0) {
-    text += fmt::format("\nended by the time: {} of {} queries judged in {} s\n", result.queries,
-                        report.queries, report.seconds);
+    text += fmt::format("\nended by the time limit: {} of {} queries judged in {} s\n",
+                        result.queries, report.queries, report.seconds);
   }
   if (result.ended_by != FuzzEnd::findings && result.unjudged != 0) {
     text +=
-        fmt::format("\n{} queries more were answered, too late to be judged\n", result.unjudged);
+        fmt::format("\n{} further queries were answered too late to be judged\n", result.unjudged);
   }
   if (result.unanswered != 0) {
-    text +=
-        fmt::format("\n{} queries more were asked, and not answered in time\n", result.unanswered);
+    text += fmt::format("\n{} further queries were not answered in time\n", result.unanswered);
   }
   return text;
 }
@@ -311,12 +309,12 @@ std::string to_text(const FuzzReport& report) {
   }
   if (result.left_out != 0) {
     text += fmt::format(
-        "{} queries of generators at whose queries it hangs: not asked; at last a query might "
-        "take {} s\n",
+        "{} queries not asked, of generators whose queries hang; the limit of a query ended at "
+        "{} s\n",
         result.left_out, result.query_limit_seconds);
   }
   if (result.other_findings != 0) {
-    text += fmt::format("{} of kinds that were not sought\n", result.other_findings);
+    text += fmt::format("{} findings of other kinds\n", result.other_findings);
   }
   return text;
 }

@@ -1,8 +1,8 @@
 #pragma once
 
 /// \file
-/// The report of the fuzzer: as text for a person, as JSON for a program. The JSON holds all that
-/// is known of a finding; pages and programs (finding_page.hpp) are filled from it.
+/// The report of the fuzzer: as text for people, as JSON for programs. The JSON has all data of a
+/// finding; pages and programs (finding_page.hpp) are made from it.
 
 #include <cstdint>
 #include <filesystem>
@@ -17,9 +17,9 @@
 
 namespace touchstone::verify::fuzz {
 
-/// A solver, and what it is asked with besides the query.
+/// A solver, and the arguments of its calls besides the query.
 struct SolverCall {
-  /// The name of one of methods(), or what a plugin calls itself.
+  /// The name of one of methods(), or that of a plugin.
   std::string method;
   /// The plugin's library; empty for one of methods().
   std::filesystem::path plugin = {};
@@ -35,9 +35,9 @@ struct SolverCall {
   solvers::ChildLimits limits = {};
 };
 
-/// A run and what was asked for.
+/// A run and the request for it.
 struct FuzzReport {
-  SolverCall solver;  ///< that is searched for wrong answers
+  SolverCall solver;  ///< the solver under test
   std::uint64_t seed = 0;
   double seconds = 0.0;                      ///< asked for; 0: no limit
   std::uint64_t queries = 0;                 ///< asked for; 0: no limit
@@ -49,13 +49,13 @@ struct FuzzReport {
 /// "false_negative of METHOD, edge-edge: no, but they collide", for when a group is found.
 [[nodiscard]] std::string to_line(const Finding& finding);
 
-/// The numbers of a run, why it ended where not all is done that was asked for, a table of the
-/// groups of findings, and of each group the plainest finding in about ten lines: what is wrong,
-/// the truth, at what scales, and the points.
+/// The numbers of a run, the reason for an early end, a table of the groups of findings, and the
+/// plainest finding of each group in about ten lines: the fault, the truth, the scales, and the
+/// points.
 [[nodiscard]] std::string to_text(const FuzzReport& report);
 
-/// All of the report. Numbers that may be infinite or NaN are written by io::number_to_json; what
-/// there is none of is null. A finding has
+/// The whole report. Numbers that may be infinite or NaN are written by io::number_to_json; missing
+/// values are null. A finding has
 ///
 /// - `what`, `kind`, `separation` (`min_separation`, `norm`), `method`, `generator`, `seconds`,
 ///   `queries`, `shrinking` and `group`, a place in `groups`;

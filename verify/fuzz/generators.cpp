@@ -8,7 +8,7 @@
 
 #include "verify/fuzz/aligned_roundings.hpp"
 #include "verify/fuzz/contact.hpp"
-#include "verify/fuzz/curves.hpp"
+#include "verify/fuzz/curved_generators.hpp"
 #include "verify/fuzz/mutation.hpp"
 #include "verify/fuzz/plainness.hpp"
 #include "verify/generate/draws.hpp"

@@ -3,7 +3,7 @@
 /// \file
 /// The sources of the fuzzer's queries. Each generator has one kind of difficulty; it draws
 /// the scale, the closeness and all other parameters anew for each query. Those of queries on
-/// straight lines also make them queries on curves (curves.hpp).
+/// straight lines also make them queries on curves (curved_generators.hpp).
 
 #include <array>
 #include <cstddef>
@@ -16,7 +16,7 @@
 #include "touchstone/query.hpp"
 #include "verify/base/any_query.hpp"
 #include "verify/generate/families.hpp"
-#include "verify/generate/random.hpp"
+#include "verify/generate/random_stream.hpp"
 
 namespace touchstone::verify::fuzz {
 

@@ -112,7 +112,7 @@ void change_points(AnyQuery& query, Random& random) {
   }
 }
 
-/// Gives weights that may not change, or are no weights or far from 1, what they were.
+/// Restores weights that may not change, and those that are invalid or far from 1.
 void restore_weights(AnyQuery& query, const AnyQuery& before, bool changes_weights) {
   constexpr double greatest = 0x1p40;
   if (!query.shape().is_rational) return;

@@ -7,7 +7,7 @@
 
 #include "touchstone/query.hpp"
 #include "verify/base/any_query.hpp"
-#include "verify/generate/random.hpp"
+#include "verify/generate/random_stream.hpp"
 
 namespace touchstone::verify::fuzz {
 

@@ -18,8 +18,8 @@ namespace {
 using fast::Answer;
 using fast::Verdict;
 
-/// The rest of a block is not asked after so many queries that ended the solver's process or took
-/// too long.
+/// The number of queries after which the rest of a block is not asked: those that ended the
+/// solver's process or took too long.
 constexpr std::size_t most_failures = 4;
 
 /// True if the query was asked alone, in a process of its own, before it was a finding.

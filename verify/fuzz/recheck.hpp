@@ -1,8 +1,8 @@
 #pragma once
 
 /// \file
-/// Asking a solver again about what the fuzzer found: for a simpler query with the same fault, and
-/// for its evidence.
+/// Asks a solver again after a finding: for a simpler query with the same fault, and for the
+/// evidence.
 
 #include <memory>
 #include <optional>
@@ -33,7 +33,8 @@ using base::AnyQuery;
 /// Options of a solver's process in a run.
 [[nodiscard]] solvers::SolverProcessOptions process_options(const FuzzOptions& options);
 
-/// For the solver's process: as many seconds by the system's clock, at least a millisecond.
+/// The deadline of the solver's process: the seconds left, by the system's clock, at least a
+/// millisecond.
 [[nodiscard]] base::Deadline solver_deadline(const base::Deadline& deadline);
 
 /// The evidence of a fault. \param verdict of the query, at the run's separation
@@ -41,17 +42,17 @@ using base::AnyQuery;
                                        const exact::Decision& verdict, std::string detail,
                                        std::string_view label);
 
-/// Finds out if a solver does the same wrong to another query. Each call asks it alone, in a child
-/// process, and the oracle. For a finding by an image of a query any fault counts as the same. For
-/// a finding against the judge, the judge is asked.
+/// Tests whether a solver has the same fault at another query. Each call asks the solver about this
+/// query alone, in a child process, and the oracle. For a finding by an image of a query any fault
+/// counts as the same. For a finding against the judge, the judge is asked.
 class Recheck {
  public:
   /// \param options those of the run that found it
   /// The method must live as long as this object.
   Recheck(const fast::Method& method, const Finding& finding, const FuzzOptions& options);
 
-  /// The evidence, if it does; nothing if it does not, or has not answered at the deadline, or the
-  /// query is not valid.
+  /// The evidence, if the solver has the fault; nothing if it has not, or has not answered by the
+  /// deadline, or the query is not valid.
   [[nodiscard]] std::optional<FailingCase> ask(const AnyQuery& query,
                                                const base::Deadline& deadline = {});
 
@@ -77,8 +78,8 @@ class Recheck {
   fast::MethodOptions method_options_;
 };
 
-/// Makes the finding's query simpler as long as the solver does the same wrong to it (shrink.hpp),
-/// until the deadline or the options' stop. A hang is left alone if it takes longer.
+/// Simplifies the finding's query while the solver has the same fault at it (shrink.hpp), until the
+/// deadline or the options' stop. The query of a hang that takes longer is left as it is.
 void simplify(const fast::Method& method, const FuzzOptions& options,
               const base::Deadline& deadline, Finding& finding);
 

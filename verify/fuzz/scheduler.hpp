@@ -14,10 +14,23 @@
 #include <cstdint>
 #include <vector>
 
+#include "fast/method.hpp"
+#include "touchstone/certified.hpp"
+#include "touchstone/query.hpp"
 #include "verify/fuzz/generators.hpp"
-#include "verify/generate/random.hpp"
+#include "verify/generate/random_stream.hpp"
 
 namespace touchstone::verify::fuzz {
+
+/// The coverage key. That of two queries is the same if these agree: the shape; the stage and
+/// verdict of the judge; the verdict of the answer; to a factor of 256 the time of impact, or its
+/// distance from 1 if that is less; to a factor of 4 the distance of toi_lower below it, and the
+/// tolerance of the answer; whether the contact is on the boundary of (u,v); the number of zero
+/// coordinates, in steps of four; and to a factor of 2^256 the greatest coordinate. (Up to hash
+/// collisions.)
+/// \param query one
+[[nodiscard]] std::uint64_t coverage_key(const Queries& query, const fast::CertifiedResult& judged,
+                                         const fast::Answer& answer);
 
 /// The number of occurrences of each coverage key.
 class CoverageTable {

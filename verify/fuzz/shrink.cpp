@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "verify/generate/decimal.hpp"
-#include "verify/generate/random.hpp"
+#include "verify/generate/random_stream.hpp"
 
 namespace touchstone::verify::fuzz {
 namespace {

@@ -47,7 +47,7 @@ Shape shape_of(const AnyQuery& query) {
 
 int least_scale(double tolerance) {
   constexpr int margin = 4;
-  // Written so that NaN and 0 fail too.
+  // In this form NaN and 0 fail, too.
   if (!(tolerance > 0x1p-44)) return scales_to_ask.front();
   return std::min(std::ilogb(tolerance) + margin, 0);
 }
@@ -62,7 +62,7 @@ ScaleRange scale_range(const fast::Method& method, const FuzzOptions& options,
     AnyQuery scaled = query;
     for_each_coordinate(scaled, point_axes,
                         [&](double& x) { x = std::ldexp(x, scale - exponent); });
-    // Without an answer in time nothing is known.
+    // A missing answer at the deadline proves nothing.
     return !recheck.ask(scaled, deadline) && !deadline.is_over();
   };
   ScaleRange result;
@@ -87,7 +87,7 @@ Signature signature_of(const Finding& finding) {
   add_end(finding.scales.end_above, result.ends);
   if (result.ends.any()) return result;
   result.kind = finding.kind();
-  // Its query is as it was found, and says nothing of a cause.
+  // The query of a hang is not simplified, and gives no hint of the cause.
   if (finding.what == judge::Fault::hang) return result;
   result.shape = shape_of(simplest.query);
   result.is_on_curves = !simplest.query.shape().is_straight();

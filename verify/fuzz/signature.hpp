@@ -3,11 +3,11 @@
 /// \file
 /// The signs by which findings of one cause are recognized from outside.
 ///
-/// A fault of rounding depends on the scale: multiplied by powers of two, which changes nothing
-/// else, the query is right somewhere, and where that is tells one wrong bound from another. It
-/// shows in queries of any shape and time, of both kinds. A fault of logic does not depend on the
-/// scale; it shows in one kind of queries, of one degeneracy, at one time of contact. So findings
-/// are of one group if they are of one solver and kind of finding, and
+/// A fault of rounding depends on the scale: if its query is multiplied by powers of two, which
+/// changes nothing else, the answer is right at some scales, and these tell one wrong bound from
+/// another. It shows in queries of any shape and time, of both kinds. A fault of logic does not
+/// depend on the scale; it shows in one kind of queries, of one degeneracy, at one time of contact.
+/// Findings therefore are of one group if they are of one solver and kind of finding, and
 ///
 /// - the fault ends in the same ranges of scale, if it ends anywhere, or else
 /// - kind, degeneracy (plainness.hpp) and time of contact are the same, and both or none are on
@@ -45,7 +45,8 @@ struct ScaleEnds {
   friend auto operator<=>(const ScaleEnds&, const ScaleEnds&) = default;
 };
 
-/// As above. For a fault that depends on the scale, kind, shape, time and curves are not set.
+/// The signature, as above. For a fault that depends on the scale, kind, shape, time and curves are
+/// not set.
 struct Signature {
   std::string method;
   judge::Fault what = judge::Fault::false_negative;
@@ -65,13 +66,13 @@ struct Signature {
 
 inline constexpr int greatest_scale = 40;
 
-/// The least scale of which something is to be learnt, -40 or more: smaller than 16 times the
-/// tolerance that solvers are asked with, all is near all.
+/// The least scale that is asked, -40 or more. Below 16 times the tolerance of the solvers all
+/// points are close to each other.
 [[nodiscard]] int least_scale(double tolerance);
 
 /// The scales at which the finding's simplest query is wrong, around its own: it is asked again
 /// times powers of two, up and down, until it is right or the greatest coordinate is beyond
-/// 2^least_scale() to 2^greatest_scale. Of a hang, and of what is about a separation, nothing is
+/// 2^least_scale() to 2^greatest_scale. For a hang, and for findings about a separation, nothing is
 /// asked, and no end is known.
 [[nodiscard]] ScaleRange scale_range(const fast::Method& method, const FuzzOptions& options,
                                      const base::Deadline& deadline, const Finding& finding);

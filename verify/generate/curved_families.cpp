@@ -11,19 +11,19 @@
 #include <utility>
 #include <vector>
 
-#include "verify/generate/random.hpp"
+#include "verify/generate/random_stream.hpp"
 
 namespace touchstone::verify::generate {
 namespace {
 
 /// Σ c_k (1−t)^(n−k) t^k.
-using Form = std::vector<double>;
+using Coefficients = std::vector<double>;
 
 constexpr double eighths = 8.0;
 
 /// form · (8t − a): times −a (1−t) + (8−a) t.
-Form times_root(const Form& form, double a) {
-  Form product(form.size() + 1, 0.0);
+Coefficients times_root(const Coefficients& form, double a) {
+  Coefficients product(form.size() + 1, 0.0);
   for (std::size_t k = 0; k < form.size(); ++k) {
     product[k] -= a * form[k];
     product[k + 1] += (eighths - a) * form[k];
@@ -31,10 +31,11 @@ Form times_root(const Form& form, double a) {
   return product;
 }
 
-/// The control values of a form of lower or this degree, times what makes them whole.
-Form control_of(Form form, std::size_t degree) {
+/// The control values of a form of this degree or a lower one, times the factor that makes them
+/// whole.
+Coefficients control_of(Coefficients form, std::size_t degree) {
   while (form.size() <= degree) {
-    Form raised(form.size() + 1, 0.0);
+    Coefficients raised(form.size() + 1, 0.0);
     for (std::size_t k = 0; k < form.size(); ++k) {
       raised[k] += form[k];
       raised[k + 1] += form[k];
@@ -49,7 +50,7 @@ Form control_of(Form form, std::size_t degree) {
 
 /// The height of a query and its first root.
 struct Height {
-  Form control;
+  Coefficients control;
   std::optional<double> root;
 };
 
@@ -97,7 +98,7 @@ class Draws {
 
   /// A product of these roots, of either sign, times a root outside [0,1] if there is room for one.
   Height with_roots(const std::vector<double>& roots) {
-    Form form{random_.coin() ? 1.0 : -1.0};
+    Coefficients form{random_.coin() ? 1.0 : -1.0};
     for (const double a : roots) form = times_root(form, a);
     if (form.size() <= degree_ && random_.coin()) {
       form = times_root(form, static_cast<double>(random_.coin() ? -random_.between(1, 9)

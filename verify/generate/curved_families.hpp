@@ -10,10 +10,10 @@
 ///
 /// Rotations are rational curves of degree 2. A body turns about an axis: at t, the tangent of half
 /// the angle, its point at radius r is r (1−t², 2t) / (1+t²) across the axis, the curve of control
-/// points r (1,0), r (1,1), r (0,1) and weights 1, 1, 2. For n = (64−a², 16a) with length
-/// 64 + a² = r it satisfies n·x ≤ r², with equality at t = a/8 alone. So it touches a triangle or
-/// an edge of the plane n·x = r² then, and misses one of the plane n·x = (1+g) r² by g r. All
-/// numbers are multiples of 2^-38 below 2^11.
+/// points r (1,0), r (1,1), r (0,1) and weights 1, 1, 2. For n = (64−a², 16a) with length 64 + a² =
+/// r it satisfies n·x ≤ r², with equality at t = a/8 alone. It therefore touches a triangle or an
+/// edge in the plane n·x = r² then, and misses one in the plane n·x = (1+g) r² by g r. All numbers
+/// are multiples of 2^-38 below 2^11.
 
 #include <array>
 #include <cstddef>
@@ -34,7 +34,7 @@ namespace touchstone::verify::generate {
 /// The points of a query at a control point, before the whole is moved.
 using Points = std::array<std::array<double, 3>, moving_points>;
 
-/// At this height above the middle of a triangle or an edge.
+/// The points at this height above the middle of a triangle or an edge.
 [[nodiscard]] Points above(Kind kind, double height);
 
 /// A rotation that is nearest to the other primitive at t = eighth/8.
@@ -43,7 +43,8 @@ struct Rotation {
   double scale;
   /// 1, or −1 to turn the other way.
   double direction;
-  /// The least distance by the radius; if it is negative, so far one goes through the other.
+  /// The least distance by the radius; if it is negative, the depth to which one goes through the
+  /// other.
   double gap;
 };
 

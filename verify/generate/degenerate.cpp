@@ -151,8 +151,8 @@ KnownQuery zero_length_edges(Recipe& recipe) {
 
 /// All points stay on one line, at places k(t) that are linear in t between integers (the line
 /// itself may move along with a common velocity). Each edge has a leading end; the other ends stay
-/// behind the leading ones. So the edges meet iff the gap between the leading ends closes, first at
-/// t = gap(0) / (gap(0) − gap(1)). On two parallel lines, one moved by s, they never do.
+/// behind the leading ones. The edges therefore meet iff the gap between the leading ends closes,
+/// first at t = gap(0) / (gap(0) − gap(1)). On two parallel lines, one moved by s, they never do.
 KnownQuery collinear_edges(Recipe& recipe) {
   Random& random = recipe.random;
   const std::size_t variant = recipe.variant % 5;

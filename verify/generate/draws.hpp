@@ -9,7 +9,7 @@
 #include <cstdint>
 
 #include "touchstone/query.hpp"
-#include "verify/generate/random.hpp"
+#include "verify/generate/random_stream.hpp"
 
 namespace touchstone::verify::generate::draws {
 

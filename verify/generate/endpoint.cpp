@@ -1,7 +1,7 @@
 /// \file
 /// Families of contact at t = 0, 1/2 and 1 between two points that are given the same doubles.
 ///
-/// The *pair* is v and f0, or ea0 and eb0; the *rest* are the other points. Where x separates all
+/// The *pair* is v and f0, or ea0 and eb0; the *rest* are the other points. If x separates all
 /// corners but the pair's strictly, contact can only be contact of the pair.
 
 #include <array>

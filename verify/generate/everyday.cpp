@@ -18,14 +18,14 @@ namespace {
 /// Points, in units.
 using Layout = std::array<Vector, moving_points>;
 
-/// What the primitives have in common at the end of the contact.
+/// The places that the primitives share at the end of the contact.
 struct ContactPlaces {
   Layout places{};
-  /// The points that are one, if two are.
+  /// The two points that coincide, if any do.
   std::optional<std::array<std::size_t, 2>> shared;
 };
 
-/// Draws scenes of up to so many units.
+/// Draws scenes of up to a number of units.
 class Scene {
  public:
   Scene(Kind kind, std::int64_t size, Random& random) : kind_(kind), size_(size), random_(random) {}
@@ -50,8 +50,8 @@ class Scene {
     return contact;
   }
 
-  /// Where the points are at the other end: each primitive stays, moves along an axis, or anywhere,
-  /// and now and then each point by itself.
+  /// The points at the other end: each primitive stays, moves along an axis, or anywhere; sometimes
+  /// each point moves by itself.
   [[nodiscard]] Layout moved(const ContactPlaces& contact) {
     Layout result = contact.places;
     const std::array<Vector, 2> motions{draw_motion(), draw_motion()};
@@ -107,7 +107,7 @@ class Scene {
     contact.shared = {of_first, of_second};
   }
 
-  /// The first point lies between the last two, which lie along x.
+  /// Places the first point between the last two, which lie along x.
   void place_on_a_side(Layout& places) {
     const Vector middle = places[0];
     places[2] = places[3] = middle;
@@ -115,7 +115,7 @@ class Scene {
     places[3][0] += up_to(size_);
   }
 
-  /// All at one height, and about the first point, or across each other.
+  /// Places all points at one height, around the first point, or across each other.
   void place_in_a_plane(Layout& places) {
     const std::int64_t half = size_ / 2;
     const auto far = [&] { return between(half, size_); };
@@ -141,8 +141,8 @@ class Scene {
   Random& random_;
 };
 
-/// Numbers of a unit that is a power of ten: to the nearest double, or to the nearest float as one
-/// prints it.
+/// The notation of numbers of a unit that is a power of ten: rounded to the nearest double, or to
+/// the nearest float and printed.
 struct Notation {
   int places = 0;  ///< behind the point; in front of it if negative
   bool as_float = false;
@@ -156,9 +156,9 @@ struct Notation {
   }
 };
 
-/// Under a random symmetry that leaves decimals what they are: without shifts.
+/// The query under a random symmetry without shifts, which keeps decimals decimals.
 Query in_another_order(Kind kind, const Query& query, Random& random) {
-  // A distance that is none of 0 leaves out what does not keep distances.
+  // A distance above 0 excludes symmetries that change distances.
   Symmetry symmetry = draw_symmetry(kind, query, {.distance = 1.0}, random);
   symmetry.shifts = {};
   return image(symmetry, query).value_or(query);

@@ -1,9 +1,9 @@
 #pragma once
 
 /// \file
-/// Contacts as people have them: at the very beginning or end of a step, at features that both
-/// primitives share, with coordinates up to 1e-3, 1e-2, … or 1e4 that are short decimals, as people
-/// type them and exporters print them.
+/// Everyday contacts: at the very beginning or end of a step, at features that both primitives
+/// share, with coordinates up to 1e-3, 1e-2, … or 1e4 that are short decimals, as people type them
+/// and exporters print them.
 ///
 /// **Why they touch.** A scene is placed at one end of the step in whole units. There either a
 /// point of one primitive is a point of the other, or lies on a side of it along an axis, or both
@@ -15,11 +15,11 @@
 #include <cstdint>
 
 #include "touchstone/query.hpp"
-#include "verify/generate/random.hpp"
+#include "verify/generate/random_stream.hpp"
 
 namespace touchstone::verify::generate {
 
-/// When the primitives of a scene touch.
+/// The time at which the primitives of a scene touch.
 enum class ContactMoment : std::uint8_t {
   at_start,
   at_end,
@@ -30,15 +30,15 @@ enum class ContactMoment : std::uint8_t {
 struct EverydayScene {
   int digits = 3;         ///< significant decimal digits of the greatest coordinates, 1 to 15
   int exponent = 0;       ///< the greatest coordinates are below 10 to this power, -3 to 15
-  bool as_float = false;  ///< Is each decimal rounded to a float?
+  bool as_float = false;  ///< true if each decimal is rounded to a float
   ContactMoment time = ContactMoment::at_end;
-  /// Units, of the last digit, by which the first primitive is away from where it would touch, on
-  /// one axis and all the time; so much more than 10^digits that nothing touches.
+  /// Units of the last digit by which the first primitive is displaced from the contact, on one
+  /// axis, at all times; if far above 10^digits, nothing touches.
   std::int64_t clearance = 0;
 };
 
-/// A query of such a scene. Without clearance it touches then, and may touch earlier too; of those
-/// that share a point then, half share it all the time.
+/// A query of such a scene. Without clearance it touches at that moment, and may touch earlier,
+/// too. Half of those that share a point then share it all the time.
 [[nodiscard]] Query everyday_query(Kind kind, const EverydayScene& scene, Random& random);
 
 /// One that touches at t=0 or at t=1. Coordinates are decimals of at most six digits, or the floats

@@ -9,7 +9,7 @@
 
 #include "verify/generate/curved_families.hpp"
 #include "verify/generate/family_builder.hpp"
-#include "verify/generate/random.hpp"
+#include "verify/generate/random_stream.hpp"
 
 namespace touchstone::verify::generate {
 

@@ -12,7 +12,7 @@
 #include "touchstone/number.hpp"
 #include "touchstone/query.hpp"
 #include "verify/generate/families.hpp"
-#include "verify/generate/random.hpp"
+#include "verify/generate/random_stream.hpp"
 
 namespace touchstone::verify::generate {
 

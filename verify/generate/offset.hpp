@@ -7,7 +7,7 @@
 /// In L∞ each coordinate is within d during an interval of t, and the first common time is the
 /// greatest of their beginnings. In L2 the squared distance minus d² is a quadratic in t that opens
 /// upward: it is within at t = 0, or from the smaller root on if its least value on [0,1] is not
-/// positive. That root is rational iff the discriminant is the square of a rational.
+/// positive. This root is rational iff the discriminant is the square of a rational.
 
 #include <array>
 #include <optional>

@@ -11,8 +11,8 @@
 /// last corner (for edge_edge the last two), the determinant is αβγ up to sign too. While α ≠ 0
 /// only the last corner(s) have x = 0, and zero is in their hull iff β = 0 and their z have no
 /// common strict sign. When α = 0 all x are zero, and y1 and β of one strict sign (or β = 0, y1 ≠
-/// 0, which leaves the last corner(s)) exclude zero. So such a query does not collide for any
-/// roots.
+/// 0, which leaves the last corner(s)) exclude zero. Such a query therefore does not collide for
+/// any roots.
 
 #include <algorithm>
 #include <array>

@@ -28,7 +28,7 @@ std::optional<double> exact_sum(double a, double b) {
   const double sum = a + b;
   const double b_part = sum - a;
   const double error = (a - (sum - b_part)) + (b - b_part);
-  // Written so that NaN, the error of an overflow, fails too.
+  // In this form NaN, the error of an overflow, fails too.
   if (!(error == 0.0) || !std::isfinite(sum)) return std::nullopt;
   return sum;
 }

@@ -20,7 +20,7 @@
 #include <vector>
 
 #include "touchstone/query.hpp"
-#include "verify/generate/random.hpp"
+#include "verify/generate/random_stream.hpp"
 
 namespace touchstone::verify::generate {
 

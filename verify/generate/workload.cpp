@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "touchstone/broad_phase.hpp"
-#include "verify/generate/random.hpp"
+#include "verify/generate/random_stream.hpp"
 #include "verify/io/terminal.hpp"
 
 namespace touchstone::verify::generate {

@@ -35,10 +35,10 @@ class Steps {
 };
 
 /// One run, with a function for each part.
-class Run {
+class BenchRun {
  public:
-  Run(const data::QueryGroup& group, std::span<const solvers::Solver* const> solvers,
-      const BenchOptions& options)
+  BenchRun(const data::QueryGroup& group, std::span<const solvers::Solver* const> solvers,
+           const BenchOptions& options)
       : group_(group),
         samples_(group),
         options_(options),
@@ -199,7 +199,7 @@ BenchResult bench(const data::QueryGroup& group, std::span<const solvers::Solver
   if (group.queries().empty()) throw std::invalid_argument(group.name() + ": no queries");
   if (options.repetitions == 0) throw std::invalid_argument("repetitions must be at least 1");
   if (!(options.seconds > 0.0)) throw std::invalid_argument("seconds must be positive");
-  return Run(group, solvers, options).result();
+  return BenchRun(group, solvers, options).result();
 }
 
 }  // namespace touchstone::verify::jobs

@@ -4,15 +4,15 @@
 /// Speed and error of solvers on one group of queries, in one run.
 ///
 /// **Speed.** As in timing.hpp. Each repetition times every solver once and, among them, a pass
-/// that only reads the queries: the physical limit. What counts is the median of the repetitions. A
-/// solver that would take longer than BenchOptions::seconds for all queries is timed on a sample.
+/// that only reads the queries: the physical limit. The median of the repetitions counts. A solver
+/// that would take longer than BenchOptions::seconds for all queries is timed on a sample.
 /// Afterwards single queries are timed.
 ///
-/// **Error.** Queries are decided by the oracle and the answers to them judged. Of large groups not
-/// all queries are: an evenly spread sample, and those that any solver calls a collision (or is
-/// undecided about, or in error). So all that are counted are true, false positives are all there
-/// are among the answers (unless there are more than BenchOptions::judge), and a false negative
-/// outside of the sample is found only if another solver calls it a collision.
+/// **Error.** Queries are decided by the oracle and the answers to them judged. In large groups the
+/// oracle decides an evenly spread sample, and the queries that any solver calls a collision (or is
+/// undecided about, or in error). Every counted fault is real. All false positives are found
+/// (unless there are more than BenchOptions::judge); a false negative outside of the sample is
+/// found only if another solver calls it a collision.
 
 #include <atomic>
 #include <cstddef>
@@ -38,22 +38,21 @@ struct BenchOptions {
   std::size_t repetitions = 5;
   /// A solver is timed on as many queries as take it about this long; positive.
   double seconds = 2.0;
-  /// Of a group with more queries so many are judged, and at most as many again that any solver
-  /// calls a collision; 0: none.
+  /// The number of queries that are judged of a larger group, and the greatest number of further
+  /// ones that a solver calls a collision; 0: none.
   std::size_t judge = 200'000;
-  /// At most so many single queries are timed; 0: none.
+  /// The greatest number of single queries that are timed; 0: none.
   std::size_t singles = 20'000;
   /// Cores to use for the oracle; 0: all of them. Solvers run on one.
   unsigned threads = 0;
   /// Called now and then with the fraction of the group's work that is done, from this thread.
   std::function<void(double)> on_progress = nullptr;
-  /// Once true, no further work is begun and the result is what is known by then.
+  /// Once true, no further work begins, and the result is partial.
   const std::atomic<bool>* stop = nullptr;
 };
 
-/// Nanoseconds that single queries take, one call each, without what the clock itself takes. Each
-/// is the shortest of up to three sweeps over the queries, so that what else happens on the machine
-/// is left out.
+/// Nanoseconds that single queries take, one call each, without the clock's own cost. Each is the
+/// shortest of up to three sweeps over the queries, which leaves out other work of the machine.
 struct SingleTimes {
   std::size_t queries = 0;
   double p50 = 0.0;
@@ -65,17 +64,17 @@ struct SingleTimes {
 struct SolverResult {
   std::string name;
   fast::Promise promise = fast::Promise::none;
-  /// Timed on so many queries: those that it answered.
+  /// The number of queries that it is timed on: those that it answered.
   std::size_t queries = 0;
-  Times times;
+  TimesPerQuery times;
   /// Empty if they were not timed.
   std::optional<SingleTimes> singles;
-  /// Which stages ended its queries; empty if it has none.
+  /// The stages that ended its queries; empty if it has none.
   std::vector<solvers::StageCount> stages;
-  /// Of its answers to queries that were judged; `index` of a wrong answer is the position in the
-  /// group. toi_errors is the distance from toi_lower to the exact time of impact.
+  /// The judgement on its answers to the queries that were judged; `index` of a wrong answer is the
+  /// position in the group. toi_errors is the distance from toi_lower to the exact time of impact.
   judge::Judgement judgement;
-  /// Where the queries of judgement.wrong_answers come from, in the same order.
+  /// The sources of the queries of judgement.wrong_answers, in the same order.
   std::vector<data::QueryPlace> wrong_places;
 };
 
@@ -87,16 +86,17 @@ struct BenchResult {
   std::size_t queries = 0;
   std::size_t judged = 0;      ///< queries decided by the oracle
   std::size_t collisions = 0;  ///< of these
-  Times memory_pass;
+  TimesPerQuery memory_pass;
   /// In the order of the solvers.
   std::vector<SolverResult> solvers;
   bool interrupted = false;
 };
 
-/// Did the solver give a wrong answer that its promise excludes? Without a promise it breaks none.
+/// True if the solver gave a wrong answer that its promise excludes. Without a promise it breaks
+/// none.
 [[nodiscard]] bool broke_promise(const SolverResult& result);
 
-/// Does any? See broke_promise.
+/// True if any solver broke its promise.
 [[nodiscard]] bool any_broke_promise(std::span<const BenchResult> results);
 
 /// Times and judges the solvers on the group.

@@ -1,10 +1,10 @@
 #pragma once
 
 /// \file
-/// The wall-clock time of a run over several sources, shared so that neither a slow source nor a
-/// slow solver takes that of the others: each source has an equal part of what is left, and in it
-/// each solver an equal part of nearly all of that. Behind its part a solver leaves out queries
-/// (Solver::allow); a query that was begun may end.
+/// The wall-clock time of a run over several sources. The remaining sources share the remaining
+/// time equally, and within a source the solvers share nearly all of it equally, so that neither a
+/// slow source nor a slow solver takes the time of the others. When a solver's share is used up,
+/// its further queries are skipped (Solver::allow); a query that was begun may end.
 
 #include <cstddef>
 #include <optional>
@@ -25,8 +25,8 @@ class Budget {
   Budget(double seconds, std::vector<const solvers::Solver*> solvers, unsigned threads,
          const base::SecondsClock& clock = base::steady_seconds);
 
-  /// Begins one of the sources that are left: lets each solver have its part, and returns the
-  /// deadline behind which no further queries are to be read.
+  /// Begins one of the sources that are left: gives each solver its share, and returns the deadline
+  /// after which no further queries are to be read.
   [[nodiscard]] base::Deadline begin_source(std::size_t sources_left) const;
 
   [[nodiscard]] bool is_limited() const { return end_.has_value(); }

@@ -5,9 +5,8 @@
 #include <optional>
 #include <utility>
 
-#include "verify/jobs/block_answers.hpp"
-#include "verify/jobs/block_truth.hpp"
 #include "verify/jobs/stream.hpp"
+#include "verify/jobs/truth_and_answers.hpp"
 
 namespace touchstone::verify::jobs {
 namespace {
@@ -16,7 +15,7 @@ namespace {
 /// answers.
 class BlockJudgement {
  public:
-  BlockJudgement(const Block& block, const CertifyOptions& options,
+  BlockJudgement(const QueryBlock& block, const CertifyOptions& options,
                  const judge::LabelComparison& comparison)
       : block_(block), options_(options), passes_(block.size(), options.stop) {
     if (options.decides) {
@@ -55,7 +54,7 @@ class BlockJudgement {
   }
 
  private:
-  /// Of the complete queries; empty if none are decided.
+  /// The truth about the complete queries; empty if none are decided.
   [[nodiscard]] std::span<const judge::GroundTruth> truths() const {
     if (!truth_) return {};
     return truth_->truths().first(complete_);
@@ -108,7 +107,7 @@ class BlockJudgement {
     }
   }
 
-  const Block& block_;
+  const QueryBlock& block_;
   const CertifyOptions& options_;
   Passes passes_;
   std::optional<BlockTruth> truth_;
@@ -187,13 +186,13 @@ CertifyResult certify(data::QuerySource& source, const CertifyOptions& options) 
     result.methods.push_back(result_of(*solver));
   }
   const StreamResult ended = stream(
-      source, [&](const Block& block) { return BlockJudgement(block, options, comparison); },
+      source, [&](const QueryBlock& block) { return BlockJudgement(block, options, comparison); },
       [&](const BlockJudgement& judgement) { judgement.add_to(result); },
       {.threads = options.threads,
        .on_progress = options.on_progress,
        .stop = options.stop,
        .deadline = options.deadline,
-       .block = options.is_short_of_time ? short_block : Block::most_queries});
+       .block = options.is_short_of_time ? short_block : QueryBlock::most_queries});
   result.skipped = ended.skipped;
   result.rounded = ended.rounded;
   result.interrupted = ended.interrupted;

@@ -2,12 +2,12 @@
 
 /// \file
 /// The one job on the queries of a source: decide them, hold labels and solvers' answers against
-/// the truth, and hand out what is asked for: truth, certificates, answers, wrong queries.
+/// the truth, and pass on truth, certificates, answers or wrong queries, as requested.
 ///
 /// Queries stream from the source through the oracle, many at a time on all cores, and come out in
 /// the order they went in: the output does not depend on the number of threads. Time is the
 /// processor time that the oracle takes, so that it does not depend on them either, nor on reading.
-/// Solvers and their recorded answers are judged on the way: the truth is there.
+/// Solvers and recorded answers are judged in the same pass.
 
 #include <atomic>
 #include <cstdint>
@@ -34,11 +34,11 @@ struct CertifyOptions {
   Separation separation = {};
   /// False: the solvers are asked, and nothing is decided, compared, proved or judged.
   bool decides = true;
-  /// False: what the source records is not compared with the truth.
+  /// False: recorded labels and times are not compared with the truth.
   bool compares_labels = true;
   /// Cores to use; 0: all of them.
   unsigned threads = 0;
-  /// A recorded time of impact may be off by this much; 0: not at all.
+  /// The tolerated error of a recorded time of impact; 0: none.
   exact::Rational toi_tolerance = default_toi_tolerance();
   /// Called for every query, in order, never from two threads at once.
   std::function<void(const judge::GroundTruth&)> on_truth = nullptr;
@@ -46,37 +46,37 @@ struct CertifyOptions {
   /// never from two threads at once. Without it none are made.
   std::function<void(std::string_view)> on_certificates = nullptr;
   exact::ProveOptions proof = {};
-  /// Called for each answer of the solvers with the query's index and, where more is known of it
-  /// than the answer shows, its failure (else null); a block of one solver after the other, in
+  /// Called for each answer of the solvers, with the query's index and its failure, if more is
+  /// known than the answer shows (else null). The answers of a block come solver by solver, in
   /// order, never from two threads at once.
   std::function<void(std::uint64_t, const fast::Answer&, const judge::Failure*)> on_answer =
       nullptr;
   /// Called with each query that a solver answered wrongly (an answer that breaks its promise), or
   /// that has a mismatch; with the answers of all solvers; in order, never from two threads at
-  /// once. Of a great many wrong answers in a row some are left out.
+  /// once. Some of a great many wrong answers in a row are left out.
   std::function<void(judge::WrongQuery)> on_wrong = nullptr;
   /// Called now and then with the fraction of the source that is read; never from two threads at
   /// once.
   std::function<void(double)> on_progress = nullptr;
   /// Once true, no further queries are read and the result is that of those read so far.
   const std::atomic<bool>* stop = nullptr;
-  /// Behind it no further queries are read (Budget::begin_source).
+  /// No further queries are read after it (Budget::begin_source).
   base::Deadline deadline = {};
-  /// Is time short? Then queries are decided in smaller blocks.
+  /// True if time is short: queries are decided in smaller blocks.
   bool is_short_of_time = false;
   /// Judged on every query; not null.
   std::vector<const solvers::Solver*> solvers = {};
 
-  /// 1e-40: what the 45 digits of published times of impact have to offer.
+  /// 1e-40: published times of impact have 45 digits.
   static exact::Rational default_toi_tolerance();
 };
 
 /// The judgement on one solver.
 struct MethodResult {
   std::string name;
-  fast::Promise promise = fast::Promise::none;  ///< what it is held to
-  fast::Terms terms = {};                       ///< the terms of that
-  bool timed = false;                           ///< Is its processor time known?
+  fast::Promise promise = fast::Promise::none;  ///< the promise that it is judged by
+  fast::Terms terms = {};                       ///< the terms of that promise
+  bool timed = false;                           ///< true if its processor time is known
   judge::Judgement judgement;
 };
 
@@ -86,8 +86,8 @@ struct MethodResult {
 /// The judgement on one source.
 struct CertifyResult {
   std::string name;
-  Separation separation = {};  ///< what counted as contact; not set in a total
-  /// Which recorded claims were compared; not set in a total.
+  Separation separation = {};  ///< the distance that counted as contact; not set in a total
+  /// The recorded claims that were compared; not set in a total.
   judge::Inference compared = judge::Inference::all;
   std::optional<QueryShape> shape;  ///< empty for a total, and for a source that was not opened
   std::uint64_t queries = 0;        ///< decided
@@ -101,7 +101,7 @@ struct CertifyResult {
   std::uint64_t errors = 0;   ///< errors that ended the reading
   double microseconds = 0.0;  ///< processor time of the oracle, summed over the queries
   std::vector<judge::Mismatch> mismatches;
-  ProofCounts proofs;  ///< what was proved, where certificates are asked for
+  ProofCounts proofs;  ///< the proofs, where certificates are asked for
   /// In the order of CertifyOptions::solvers.
   std::vector<MethodResult> methods;
   /// The error that ended the reading before the source's end; all of the above holds up to there.

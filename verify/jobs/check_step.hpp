@@ -17,7 +17,7 @@
 #include "touchstone/step.hpp"
 #include "verify/jobs/prove_step.hpp"
 #include "verify/jobs/work_time.hpp"
-#include "verify/mesh/mesh.hpp"
+#include "verify/mesh/mesh_file.hpp"
 
 namespace touchstone::verify::jobs {
 
@@ -36,7 +36,7 @@ struct StepCheckOptions {
   std::optional<double> alpha = std::nullopt;
   /// Count the candidates also if the question is not `all`: this takes longer than the answer.
   bool count_candidates = false;
-  /// If set, receives the text of a certificate of the step.
+  /// Its on_text, if set, receives a certificate of the step.
   StepProofOptions proof = {};
 };
 

@@ -12,30 +12,30 @@ using Bits = std::uint64_t;
 
 /// Words that are read together.
 constexpr std::size_t lanes = 24;
-using Block = std::array<Bits, lanes>;
+using Lanes = std::array<Bits, lanes>;
 
 /// The number of places that are read in parallel: the processor prefetches each of them, which
 /// uses memory better than one place (a quarter less time; eight are no better than four).
 constexpr std::size_t places = 4;
 
-[[gnu::always_inline]] inline void read(const std::byte* from, std::size_t size, Block& sums) {
-  Block block{};
+[[gnu::always_inline]] inline void read(const std::byte* from, std::size_t size, Lanes& sums) {
+  Lanes block{};
   std::memcpy(block.data(), from, size);
   for (std::size_t i = 0; i < lanes; ++i) sums[i] ^= block[i];
 }
 
 [[gnu::always_inline]] inline Bits read_all(std::span<const std::byte> bytes) {
-  Block sums{};
-  const std::size_t step = bytes.size() / sizeof(Block) / places;
+  Lanes sums{};
+  const std::size_t step = bytes.size() / sizeof(Lanes) / places;
   const std::byte* const first = bytes.data();
   for (std::size_t i = 0; i < step; ++i) {
     for (std::size_t place = 0; place < places; ++place) {
-      read(first + (place * step + i) * sizeof(Block), sizeof(Block), sums);
+      read(first + (place * step + i) * sizeof(Lanes), sizeof(Lanes), sums);
     }
   }
-  for (std::span<const std::byte> rest = bytes.subspan(places * step * sizeof(Block));
+  for (std::span<const std::byte> rest = bytes.subspan(places * step * sizeof(Lanes));
        !rest.empty();) {
-    const std::size_t size = std::min(rest.size(), sizeof(Block));
+    const std::size_t size = std::min(rest.size(), sizeof(Lanes));
     read(rest.data(), size, sums);
     rest = rest.subspan(size);
   }

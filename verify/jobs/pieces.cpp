@@ -10,11 +10,11 @@
 #include <stdexcept>
 #include <utility>
 
-#include "verify/base/sha256.hpp"
 #include "verify/io/dataset_error.hpp"
 #include "verify/io/input_file.hpp"
 #include "verify/io/json.hpp"
 #include "verify/io/output_file.hpp"
+#include "verify/jobs/sha256.hpp"
 #include "verify/judge/judgement.hpp"
 
 namespace touchstone::verify::jobs {
@@ -105,7 +105,7 @@ std::optional<Plan> read_plan(const fs::path& folder) {
   }
 }
 
-/// How a plan differs from another, in the words of its user.
+/// The difference between two plans, in the words of the user.
 std::string difference(const Plan& given, const Plan& there) {
   const auto join = [](const auto& texts) { return fmt::format("{}", fmt::join(texts, " ")); };
   if (given.program != there.program)
@@ -114,7 +114,7 @@ std::string difference(const Plan& given, const Plan& there) {
   if (given.options != there.options) {
     return fmt::format("with the options '{}', not '{}'", join(there.options), join(given.options));
   }
-  if (given.uses != there.uses) return "with another content of a file that an option names";
+  if (given.uses != there.uses) return "with other contents of a file that an option names";
   if (given.outputs != there.outputs) return "with other output files";
   return "of other inputs";
 }
@@ -147,9 +147,9 @@ json without_means(const json& source) {
   return result;
 }
 
-/// Adds the result of the next piece. Counts add up, greatest values stay the greatest, lists
-/// follow one another, and all else has to agree.
-/// \throws std::invalid_argument naming what does not.
+/// Adds the result of the next piece. Counts are summed, of greatest values the greater is kept,
+/// lists are joined, and everything else must agree.
+/// \throws std::invalid_argument that names the difference.
 void add(json& sum, const json& next, const std::string& key) {
   if (sum.is_object() && sum.contains("histogram")) {
     judge::ToiErrors errors = judge::toi_errors_from_json(sum);
@@ -193,7 +193,7 @@ std::string_view closing_word(std::string_view header) {
 
 std::string digest_of(const fs::path& file) {
   io::InputFile input(file);
-  base::Sha256 digest;
+  Sha256 digest;
   std::string chunk(std::size_t{1} << 16U, '\0');
   while (const std::size_t count = input.read(chunk)) digest.add({chunk.data(), count});
   return digest.hexadecimal();
@@ -211,14 +211,14 @@ PieceFolder::PieceFolder(fs::path folder, Plan plan)
     fs::create_directories(folder_);
     write_file(folder_ / plan_name, text);
   }
-  digest_ = base::sha256(text);
+  digest_ = sha256(text);
 }
 
 PieceFolder::PieceFolder(fs::path folder) : folder_(std::move(folder)) {
   auto plan = read_plan(folder_);
   if (!plan) throw std::runtime_error(folder_.string() + ": no pieces (there is no plan.json)");
   plan_ = std::move(*plan);
-  digest_ = base::sha256(io::json_document(to_json(plan_)));
+  digest_ = sha256(io::json_document(to_json(plan_)));
 }
 
 fs::path PieceFolder::record_file(std::size_t piece) const {
@@ -283,7 +283,7 @@ int PieceFolder::finish(std::size_t piece, const Work& work) const {
   for (const auto& [option, file] : files) {
     record["outputs"][option] = described_output(file.lexically_relative(folder_).string());
   }
-  record["sha256"] = base::sha256(record.dump());
+  record["sha256"] = sha256(record.dump());
   write_file(record_file(piece), io::json_document(record));
   own.keep();
   return status;
@@ -294,13 +294,13 @@ std::string PieceFolder::fault_of(const std::string& text, std::size_t piece) co
     json record = json::parse(text);
     const std::string digest = record.at("sha256");
     record.erase("sha256");
-    if (base::sha256(record.dump()) != digest) return "its record is damaged";
+    if (sha256(record.dump()) != digest) return "its record is damaged";
     if (record.at("program") != plan_.program) {
       return fmt::format("made by version {}, not {}", record.at("program").dump(), plan_.program);
     }
     if (record.at("plan") != digest_) return "of another run";
     if (record.at("piece") != piece) {
-      return fmt::format("piece {} is there under this number too", record.at("piece").dump());
+      return fmt::format("piece {} is also there under this number", record.at("piece").dump());
     }
     if (record.at("inputs") != described_inputs(piece)) return "its input has changed since";
     for (const auto& [option, name] : plan_.outputs) {

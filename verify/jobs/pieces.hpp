@@ -6,17 +6,17 @@
 /// The **plan** of a run is a file that all processes write alike: program, command, options, the
 /// digests of the files that options name, and the pieces, each an input. A finished piece has a
 /// **record**: the plan's digest, the piece's number, the digests of its inputs, which are the same
-/// before and after the work, those of its outputs, its exit status, and a digest of all this.
-/// The outputs lie in a folder that only this work has, which the record names; the record gets its
-/// name when it is complete. So a process that is killed at any moment loses only the piece in
-/// work, and what it or a child of it still writes is nobody's result.
+/// before and after the work, those of its outputs, its exit status, and a digest of all this. The
+/// outputs lie in a folder that only this work has, which the record names; the record gets its
+/// name when it is complete. A process that is killed at any moment loses only the piece in work;
+/// anything that it or a child of it still writes is ignored.
 ///
 /// The results of all pieces are merged only if the records prove that they are of this plan, that
-/// each piece is there exactly once, and that inputs and outputs are what they were; everything
-/// else is an error that names the piece (the rule by which verified merges of proofs account for
-/// separate runs: Tan, Heule and Myreen 2021, "cake_lpr: Verified Propagation Redundancy Checking
-/// in CakeML", TACAS). The merged result is made of the outputs in the order of the plan, without
-/// times, and therefore the same whoever did the pieces.
+/// each piece is there exactly once, and that inputs and outputs are unchanged; everything else is
+/// an error that names the piece (the rule by which verified merges of proofs account for separate
+/// runs: Tan, Heule and Myreen 2021, "cake_lpr: Verified Propagation Redundancy Checking in
+/// CakeML", TACAS). The merged result consists of the outputs in the order of the plan, without
+/// times; it does not depend on which process did which piece.
 
 #include <cstddef>
 #include <filesystem>
@@ -34,7 +34,7 @@ struct Piece {
   std::string name;
   /// All files that its results depend on.
   std::vector<std::filesystem::path> files;
-  /// What selects this input on the command line.
+  /// The arguments that select this input on the command line.
   std::vector<std::string> arguments;
   /// The digests that files must have, as far as they are known before.
   std::map<std::string, std::string> digests = {};
@@ -66,13 +66,14 @@ class PieceFolder {
 
   [[nodiscard]] const Plan& plan() const { return plan_; }
 
-  /// Why the piece is not done; empty if it has a valid record. A record that is not valid counts
-  /// for nothing.
+  /// The reason why the piece is not done; empty if it has a valid record. An invalid record is
+  /// ignored.
   [[nodiscard]] std::string fault(std::size_t piece) const;
 
-  /// Does a piece: from the files for its outputs, by their options, to an exit status.
+  /// The work on a piece: it takes the files for the outputs, by their options, and returns an exit
+  /// status.
   using Work = std::function<int(const std::map<std::string, std::filesystem::path>&)>;
-  /// Has a piece done, and writes its record if the status is 0 or 1. Returns the status.
+  /// Does the work on a piece, and writes its record if the status is 0 or 1. Returns the status.
   /// \throws std::runtime_error if an input or a file that an option names cannot be read, changes
   /// meanwhile, or is not as the plan or the manifest of its store says.
   int finish(std::size_t piece, const Work& work) const;
@@ -96,10 +97,10 @@ class PieceFolder {
   /// The file that the piece's record names.
   [[nodiscard]] std::filesystem::path output(std::size_t piece, std::string_view option) const;
   [[nodiscard]] nlohmann::json described_inputs(std::size_t piece) const;
-  /// The same, after a look at all that is known of them. \throws as finish().
+  /// The same, after a check against all known digests. \throws as finish().
   [[nodiscard]] nlohmann::json checked_inputs(std::size_t piece) const;
   [[nodiscard]] nlohmann::json described_output(const std::string& name) const;
-  /// What is wrong with a record; empty if nothing is. \param text of the file
+  /// The fault of a record; empty if it is valid. \param text of the file
   [[nodiscard]] std::string fault_of(const std::string& text, std::size_t piece) const;
 
   std::filesystem::path folder_;

@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "exact/certificate/separation_intervals.hpp"
+#include "exact/certificate/step_certificate_text.hpp"
 #include "exact/contact/corner_motion.hpp"
 #include "touchstone/broad_phase.hpp"
 #include "touchstone/certificate.hpp"
@@ -25,14 +26,15 @@
 namespace touchstone::verify::jobs {
 namespace {
 
-constexpr std::array kind_names{"vertex_face", "edge_edge", "vertex_edge", "vertex_vertex"};
-
 /// A pair of the step.
 struct Pair {
   fast::PairKind kind;
   fast::IndexPair numbers;
 
   [[nodiscard]] std::size_t kind_number() const { return static_cast<std::size_t>(kind); }
+  [[nodiscard]] std::string_view kind_name() const {
+    return exact::step_pair_kinds.at(kind_number());
+  }
 };
 
 /// The vertices of a pair's primitives, each once.
@@ -96,7 +98,7 @@ std::optional<FirstContact> first_contact(const fast::Step& step) {
 }
 
 /// The arguments of some pairs, as text.
-struct Arguments {
+struct PairArguments {
   std::string text;
   std::uint64_t directions = 0;
   std::uint64_t certificates = 0;
@@ -134,13 +136,6 @@ class StepProver {
 
   // ---- What is claimed ----
 
-  template <class Items>
-  void write_list(std::string_view keyword, const Items& items) {
-    std::string text = fmt::format("{} {}\n", keyword, items.size());
-    for (const auto& item : items) text += fmt::format("{}\n", fmt::join(item, " "));
-    put(text);
-  }
-
   void write_scene() {
     const fast::MovingVertices& vertices = step_.vertices();
     const std::vector<fast::Edge> edges = bare_edges();
@@ -148,25 +143,22 @@ class StepProver {
     const auto groups = all_meet ? std::span<const std::int32_t>() : parts_.groups.of_vertices;
     const std::size_t items = vertices.size() + parts_.faces.size() + edges.size() +
                               parts_.points.size() + groups.size() + parts_.groups.apart.size();
-    if (items > proof_item_limit) {
+    if (items > exact::step_item_limit) {
       throw exact::CertificateLimitError(
-          fmt::format("the scene has more than {} items", proof_item_limit));
+          fmt::format("the scene has more than {} items", exact::step_item_limit));
     }
-    std::string text =
-        fmt::format("step {}\nvertices {}\n", exact::label_text(options_.label), vertices.size());
+    std::string text;
+    exact::write_step_head(text, options_.label, vertices.size());
     for (std::size_t i = 0; i < vertices.size(); ++i) {
-      for (std::size_t k = 0; k < 6; ++k) {
-        const auto& place = k < 3 ? vertices[i].start : vertices[i].end;
-        exact::write_hexadecimal(text, place.at(k % 3));
-        text += k < 5 ? ' ' : '\n';
-      }
+      exact::write_step_vertex(text, std::span(vertices[i].start).first<3>(),
+                               std::span(vertices[i].end).first<3>());
     }
+    exact::write_step_list(text, "faces", parts_.faces);
+    exact::write_step_list(text, "edges", edges);
+    exact::write_step_list(text, "points", as_items(parts_.points));
+    exact::write_step_list(text, "groups", as_items(groups));
+    exact::write_step_list(text, "apart", parts_.groups.apart);
     put(text);
-    write_list("faces", parts_.faces);
-    write_list("edges", edges);
-    write_list("points", as_items(parts_.points));
-    write_list("groups", as_items(groups));
-    write_list("apart", parts_.groups.apart);
   }
 
   static std::vector<std::array<std::int32_t, 1>> as_items(std::span<const std::int32_t> numbers) {
@@ -187,38 +179,34 @@ class StepProver {
   }
 
   void write_claim(const std::optional<FirstContact>& first) {
-    const Separation& separation = step_.certified().separation;
-    std::string text = "separation ";
-    exact::write_hexadecimal(text, separation.distance);
-    text += fmt::format(" {}\n", to_string(separation.norm));
     end_ = first ? first->certificate.toi.lower : exact::Rational(step_.certified().t_max);
-    proof_.claim = first ? "earliest " : "no_contact ";
-    exact::write_number(proof_.claim, end_);
-    if (first) exact::write_number(proof_.claim += ' ', first->certificate.toi.upper);
-    text += "claim " + proof_.claim + '\n';
+    exact::StepClaim claim{.separation = step_.certified().separation, .end = end_};
     if (first) {
-      const auto& [kind, numbers] = first->pair;
-      text += fmt::format("pair {} {} {}\n", kind_names.at(first->pair.kind_number()), numbers[0],
-                          numbers[1]);
-      exact::write_contact(text, *first->certificate.contact);
+      claim.earliest = {.upper = first->certificate.toi.upper,
+                        .pair_kind = first->pair.kind_name(),
+                        .pair = {first->pair.numbers[0], first->pair.numbers[1]},
+                        .proof = *first->certificate.contact};
     }
+    proof_.claim = to_text(claim);
+    std::string text;
+    exact::write_step_claim(text, claim);
     put(text);
   }
 
-  // ---- Arguments ----
+  // ---- PairArguments ----
 
   void write_arguments() {
     places_.emplace(step_.vertices(), step_.certified().separation.distance, end_);
     put(fmt::format("sweep {}\n", "xyz"[longest_axis()]));
     const std::vector<Pair> pairs = needed_pairs();
-    if (pairs.size() > proof_argument_limit) {
+    if (pairs.size() > exact::step_argument_limit) {
       throw exact::CertificateLimitError(
-          fmt::format("more than {} pairs need an argument", proof_argument_limit));
+          fmt::format("more than {} pairs need an argument", exact::step_argument_limit));
     }
     static constexpr std::size_t block = 32'768;
     std::size_t done = 0;
-    for (std::size_t kind = 0; kind < kind_names.size(); ++kind) {
-      put(fmt::format("{}\n", kind_names.at(kind)));
+    for (std::size_t kind = 0; kind < exact::step_pair_kinds.size(); ++kind) {
+      put(fmt::format("{}\n", exact::step_pair_kinds.at(kind)));
       const auto end = static_cast<std::size_t>(
           std::ranges::find_if(pairs.begin() + static_cast<std::ptrdiff_t>(done), pairs.end(),
                                [&](const Pair& pair) { return pair.kind_number() != kind; }) -
@@ -275,7 +263,7 @@ class StepProver {
 
   void write_block(std::span<const Pair> pairs) {
     static constexpr std::size_t part = 256;
-    std::vector<Arguments> parts((pairs.size() + part - 1) / part);
+    std::vector<PairArguments> parts((pairs.size() + part - 1) / part);
     tbb::task_arena arena(base::cores_for(options_.threads));
     arena.execute([&] {
       tbb::parallel_for(std::size_t{0}, parts.size(), [&](std::size_t i) {
@@ -287,7 +275,7 @@ class StepProver {
       });
     });
     proof_.interrupted = base::is_stopped(options_.stop);
-    for (const Arguments& some : parts) {
+    for (const PairArguments& some : parts) {
       if (proof_.failure.empty()) proof_.failure = some.failure;
       if (!proof_.is_complete()) return;
       put(some.text);
@@ -296,7 +284,7 @@ class StepProver {
     }
   }
 
-  void argue(const Pair& pair, Arguments& arguments) const {
+  void argue(const Pair& pair, PairArguments& arguments) const {
     const PairVertices vertices(step_, pair);
     std::string& text = arguments.text;
     fmt::format_to(std::back_inserter(text), "{} {}", pair.numbers[0], pair.numbers[1]);
@@ -319,8 +307,8 @@ class StepProver {
       }
       exact::write_subintervals(text, subintervals);
     } catch (const exact::CertificateLimitError& error) {
-      arguments.failure = fmt::format("{} {} {}: {}", kind_names.at(pair.kind_number()),
-                                      pair.numbers[0], pair.numbers[1], error.what());
+      arguments.failure = fmt::format("{} {} {}: {}", pair.kind_name(), pair.numbers[0],
+                                      pair.numbers[1], error.what());
     }
   }
 
@@ -328,18 +316,12 @@ class StepProver {
   const SceneParts& parts_;
   const StepProofOptions& options_;
   StepProof proof_;
-  /// Until when there is no contact.
+  /// The time up to which there is no contact.
   exact::Rational end_;
   std::optional<StepPlaces> places_;
 };
 
 }  // namespace
-
-std::string_view step_proofs_header() { return "touchstone-steps 1\n"; }
-
-std::string step_proofs_closing_line(std::uint64_t steps) {
-  return fmt::format("steps {}\n", steps);
-}
 
 StepProof prove_step(const fast::Step& step, const SceneParts& parts,
                      const StepProofOptions& options) {

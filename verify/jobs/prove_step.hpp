@@ -2,7 +2,8 @@
 
 /// \file
 /// The certificate of a whole step: there is no collision up to a time, or the earliest
-/// contact is between two neighbouring doubles (exact/CERTIFICATES.md, "Steps").
+/// contact is between two neighbouring doubles (exact/CERTIFICATES.md, "Steps"). Its text is
+/// written by exact/certificate/step_certificate_text.hpp.
 ///
 /// The checker needs an argument for each pair that no axis separates until then. Most have a
 /// direction of small integers (step_places.hpp), the others the subintervals of the oracle.
@@ -20,17 +21,8 @@
 
 namespace touchstone::verify::jobs {
 
-/// The first line of a stream of certificates of steps.
-[[nodiscard]] std::string_view step_proofs_header();
-/// The last line of a stream with this number of certificates. A stream without it is incomplete.
-[[nodiscard]] std::string step_proofs_closing_line(std::uint64_t steps);
-
-/// The limits of the checker (exact/CERTIFICATES.md).
-inline constexpr std::size_t proof_item_limit = std::size_t{1} << 22U;
-inline constexpr std::size_t proof_argument_limit = std::size_t{1} << 24U;
-
 struct StepProofOptions {
-  /// A line of text, of which the certificate keeps what its format admits (exact::label_text).
+  /// A line of text, which the certificate has in the form of exact::label_text.
   std::string label = {};
   /// Cores to use; 0: all of them.
   unsigned threads = 0;
@@ -38,7 +30,7 @@ struct StepProofOptions {
   std::function<void(std::string_view)> on_text = nullptr;
   /// Called occasionally with the completed fraction, never from two threads at once.
   std::function<void(double)> on_progress = nullptr;
-  /// When it becomes true, the certificate ends there and is invalid.
+  /// Once true, the certificate ends there and is invalid. May be null.
   const std::atomic<bool>* stop = nullptr;
 };
 

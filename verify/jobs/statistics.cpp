@@ -10,7 +10,7 @@ namespace {
 
 constexpr double golden_section = 0.6180339887498949;
 
-/// Without a common divisor with the size, so that its multiples meet every position.
+/// A stride without a common divisor with the size, whose multiples therefore meet every position.
 std::size_t stride_of(std::size_t size) {
   auto stride = static_cast<std::size_t>(golden_section * static_cast<double>(size));
   while (std::gcd(stride, size) != 1) ++stride;

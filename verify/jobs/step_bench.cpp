@@ -44,9 +44,9 @@ struct Series {
   Repetitions earliest = {};
 };
 
-class StepRun {
+class StepMeasurement {
  public:
-  StepRun(const mesh::MovingMesh& mesh, const StepBenchOptions& options)
+  StepMeasurement(const mesh::MovingMesh& mesh, const StepBenchOptions& options)
       : mesh_(mesh), options_(options) {
     series_.push_back({.threads = 1});
     const int most = base::cores_for(options.threads);
@@ -151,7 +151,7 @@ class StepRun {
 
 StepResult bench_step(const mesh::MovingMesh& mesh, const StepBenchOptions& options) {
   if (options.repetitions == 0) throw std::invalid_argument("repetitions must be at least 1");
-  return StepRun(mesh, options).result();
+  return StepMeasurement(mesh, options).result();
 }
 
 }  // namespace touchstone::verify::jobs

@@ -26,7 +26,7 @@ struct StepBenchOptions {
   fast::StepOptions step = {};
   /// Called occasionally with the completed fraction of the repetitions, from this thread.
   std::function<void(double)> on_progress = nullptr;
-  /// When it becomes true, no further repetition begins.
+  /// Once true, no further repetition begins. May be null.
   const std::atomic<bool>* stop = nullptr;
 };
 
@@ -61,7 +61,7 @@ struct StepResult {
   std::optional<fast::StepImpact> earliest;
   /// True if it equals that of the collisions, as fast::Step promises.
   bool earliest_agrees = true;
-  /// If true, there are fewer repetitions or, without any, no times.
+  /// True if there are fewer repetitions or, without any, no times.
   bool interrupted = false;
 };
 

@@ -18,14 +18,14 @@ namespace {
 
 namespace tbb = oneapi::tbb;
 
-/// A block with what becomes of it.
+/// A block with its result.
 struct Token {
-  Block block;
+  QueryBlock block;
   BlockResult result;
   double progress = 0.0;
 };
 
-/// The serial ends of the pipeline: reading, and what is done in order.
+/// The serial ends of the pipeline: reading, and the work that is done in order.
 class Stream {
  public:
   Stream(data::QuerySource& source, const StreamOptions& options, std::size_t blocks_in_flight)
@@ -60,7 +60,7 @@ class Stream {
   }
 
  private:
-  void read_query(Block& block) {
+  void read_query(QueryBlock& block) {
     const bool is_late = block.size() == 0 && options_.deadline.is_over();
     if (base::is_stopped(options_.stop) || is_late) {
       ended_ = result_.interrupted = true;
@@ -84,9 +84,9 @@ class Stream {
 
   data::QuerySource& source_;
   const StreamOptions& options_;
-  /// The pipeline has pointers only: oneTBB may lose what it owns if work throws. Blocks begin and
-  /// end in their order, so of so many one after another the first is finished before the next is
-  /// read.
+  /// The pipeline has only pointers: oneTBB may lose objects that it owns if work throws. Blocks
+  /// begin and end in order; the size of this vector ensures that the first block is finished
+  /// before its place is needed again.
   std::vector<Token> in_flight_;
   std::size_t read_ = 0;
   StreamResult result_;

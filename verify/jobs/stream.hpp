@@ -4,8 +4,8 @@
 /// Queries on their way from a source through work on all cores, and out in order.
 ///
 /// They travel in blocks. Blocks are worked on in parallel, and so are the parts of a block: a
-/// source of a thousand queries keeps all cores busy too. What a stop leaves unfinished is dropped
-/// from its first query on, so what comes out is always all that is true of the first queries.
+/// source of a thousand queries keeps all cores busy too. After a stop everything from the first
+/// unfinished query on is dropped: the results are always those of the first queries.
 
 #include <atomic>
 #include <cstddef>
@@ -27,9 +27,9 @@
 namespace touchstone::verify::jobs {
 
 /// Some consecutive queries of a source.
-struct Block {
-  /// So many queries, but for the last block: as many as hide the cost of a clock call behind a
-  /// solver that takes 10 ns a query.
+struct QueryBlock {
+  /// The number of queries of every block but the last: enough to hide the cost of a clock call
+  /// behind a solver that takes 10 ns a query.
   static constexpr std::size_t most_queries = 2048;
 
   const std::string* source;
@@ -66,11 +66,11 @@ class Passes {
   Passes(std::size_t queries, const std::atomic<bool>* stop);
 
   /// Calls work(first, count) for parts of about `span` queries, at least a unit, which together
-  /// are the block; from several threads. The work says whether it is done with the part: a stop
-  /// may have cut it short. Returns when all have returned.
+  /// are the block; from several threads. The work returns false if a stop has cut the part short.
+  /// Returns when all calls have returned.
   void run(std::size_t span, const std::function<bool(std::size_t, std::size_t)>& work);
 
-  /// So many queries, from the first, are done with in all passes so far.
+  /// The number of queries, from the first on, that all passes so far have completed.
   [[nodiscard]] std::size_t complete() const;
 
  private:
@@ -84,12 +84,12 @@ class Passes {
 struct BlockResult {
   /// Called once, never from two threads at once.
   std::function<void()> in_order;
-  /// False ends the stream behind this block.
+  /// If false, the stream ends after this block.
   bool complete = true;
 };
 
 /// The work on a block; called from several threads. The block lives until in_order has returned.
-using BlockWork = std::function<BlockResult(const Block&)>;
+using BlockWork = std::function<BlockResult(const QueryBlock&)>;
 
 struct StreamOptions {
   /// Cores to use; 0: all of them.
@@ -99,10 +99,10 @@ struct StreamOptions {
   std::function<void(double)> on_progress = nullptr;
   /// Once true, no further queries are read.
   const std::atomic<bool>* stop = nullptr;
-  /// Behind it no further block is begun.
+  /// No further block is begun after it.
   base::Deadline deadline = {};
-  /// Queries of a block, at most Block::most_queries; fewer end sooner.
-  std::size_t block = Block::most_queries;
+  /// Queries of a block, at most QueryBlock::most_queries; fewer end sooner.
+  std::size_t block = QueryBlock::most_queries;
 };
 
 /// Outcome of a stream.
@@ -115,7 +115,7 @@ struct StreamResult {
 };
 
 /// Sends all queries of the source through the work. Errors of the source, and exceptions of the
-/// work, end the stream and are in the result; what was done in order until then stands.
+/// work, end the stream and are in the result; the work done in order until then stands.
 StreamResult stream(data::QuerySource& source, const BlockWork& work, const StreamOptions& options);
 
 /// The same with work in two steps: what make(block) returns says by its complete() whether the
@@ -123,8 +123,9 @@ StreamResult stream(data::QuerySource& source, const BlockWork& work, const Stre
 template <class Make, class Add>
 StreamResult stream(data::QuerySource& source, const Make& make, const Add& add,
                     const StreamOptions& options) {
-  const auto work = [&](const Block& block) -> BlockResult {
-    const auto made = std::make_shared<const std::invoke_result_t<Make, const Block&>>(make(block));
+  const auto work = [&](const QueryBlock& block) -> BlockResult {
+    const auto made =
+        std::make_shared<const std::invoke_result_t<Make, const QueryBlock&>>(make(block));
     return {.in_order = [made, &add] { add(*made); }, .complete = made->complete()};
   };
   return stream(source, BlockWork(work), options);

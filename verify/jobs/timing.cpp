@@ -30,9 +30,9 @@ double nanoseconds_since(WallClock::time_point start) {
 
 }  // namespace
 
-double Times::median() const { return jobs::median(repetitions); }
+double TimesPerQuery::median() const { return jobs::median(repetitions); }
 
-double Times::min() const { return quantile(repetitions, 0.0); }
+double TimesPerQuery::min() const { return quantile(repetitions, 0.0); }
 
 std::shared_ptr<const Sample> Samples::of(std::size_t count) {
   const Queries all = group_->queries();
@@ -110,7 +110,7 @@ double TimedSolver::asked() const {
 
 void TimedSolver::repeat() {
   if (calls_ != 0 && !(solver_->allowance() > 0.0)) {
-    // The time is over. The answers are those of the latest call, and its time has to do.
+    // The time is used up: the latest call, whose answers are kept, is the only repetition.
     if (times_.repetitions.empty()) times_.repetitions.push_back(latest_ / asked());
     return;
   }

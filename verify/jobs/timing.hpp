@@ -1,18 +1,19 @@
 #pragma once
 
 /// \file
-/// The measuring engine of benchmarks and reports: how long a solver takes for queries of a group.
+/// The measuring engine of benchmarks and reports: the time that a solver takes for queries of a
+/// group.
 ///
 /// **Sample.** A solver is timed on an evenly spread sample of the group, which grows until it
-/// takes about as long as it may, or all that may be asked are in it. It has sixteen queries times
-/// a power of two, or all; smaller samples are part of larger ones, and the same sample is found
-/// again.
+/// takes about as long as it may, or has all queries that may be asked. Its size is sixteen times a
+/// power of two, or that of the group; smaller samples are part of larger ones, and a repeated
+/// choice gives the same sample.
 ///
-/// **Time.** A repetition is one call for the whole sample, or the mean of several where one takes
-/// little, and its time processor time: of the calling thread, or of the child process that it
-/// waits for. The repetitions of several solvers are to be interleaved (order_of_repetition).
-/// Single queries are timed by the wall clock, one call each; what else happens on the machine is
-/// left out by taking the shortest of up to three sweeps over them.
+/// **Time.** A repetition is one call for the whole sample, or the mean of several if one is short.
+/// Its time is processor time: of the calling thread, or of the child process that it waits for.
+/// The repetitions of several solvers are to be interleaved (order_of_repetition). Single queries
+/// are timed by the wall clock, one call each; the shortest of up to three sweeps over them leaves
+/// out other work of the machine.
 
 #include <atomic>
 #include <cstddef>
@@ -33,7 +34,7 @@
 namespace touchstone::verify::jobs {
 
 /// Nanoseconds a query, one number for each repetition.
-struct Times {
+struct TimesPerQuery {
   std::vector<double> repetitions;
 
   /// NaN if there was no repetition; the same below.
@@ -68,7 +69,7 @@ class Samples {
   /// The group must live as long as this and as its samples.
   explicit Samples(const data::QueryGroup& group) : group_(&group) {}
 
-  /// Of so many queries, or of all there are.
+  /// The sample of this number of queries, or of all there are.
   [[nodiscard]] std::shared_ptr<const Sample> of(std::size_t count);
   [[nodiscard]] const data::QueryGroup& group() const { return *group_; }
 
@@ -89,15 +90,15 @@ class TimedSolver {
   TimedSolver& operator=(TimedSolver&&) = default;
   ~TimedSolver() = default;
 
-  /// Makes the sample the evenly spread one of so many queries, or all there are.
+  /// Takes the evenly spread sample of this number of queries, or all there are.
   void take(std::size_t count);
   /// Solves larger and larger samples, and keeps the last one.
   void choose_sample(const SampleLimits& limits);
   /// Times the sample once more, unless the solver may take no more time (Solver::allow).
   void repeat();
   /// Nanoseconds of each of `count` queries that are evenly spread over the sample, each solved
-  /// alone, without what the clock itself takes, infinite if it was not asked. After `seconds` no
-  /// further sweep is begun. Nothing once *stop is true (it may be null).
+  /// alone, without the clock's own cost; infinite if it was not asked. After `seconds` no further
+  /// sweep is begun. Nothing once *stop is true (it may be null).
   [[nodiscard]] std::optional<std::vector<double>> time_singles(
       std::size_t count, double seconds, const std::atomic<bool>* stop) const;
   /// Judges the latest answers to those queries whose truth is given, by their positions in the
@@ -111,18 +112,18 @@ class TimedSolver {
   [[nodiscard]] const Queries& queries() const { return sample_->queries; }
   /// The positions of the sample in the group, ascending.
   [[nodiscard]] const std::vector<std::size_t>& positions() const { return sample_->positions; }
-  /// Of the latest call, query by query.
+  /// The answers of the latest call, query by query.
   [[nodiscard]] std::span<const fast::Answer> answers() const { return answers_; }
-  /// Why the query at a position of the sample was not asked; nothing if it was.
+  /// The reason why the query at a position of the sample was not asked; nothing if it was.
   [[nodiscard]] std::optional<judge::Unasked> why_unasked(std::size_t i) const {
     return reply_.why_unasked(i);
   }
-  [[nodiscard]] const Times& times() const { return times_; }
+  [[nodiscard]] const TimesPerQuery& times() const { return times_; }
   /// Processor time of all repetitions.
   [[nodiscard]] double seconds_spent() const { return seconds_spent_; }
 
  private:
-  /// Processor time in nanoseconds, the mean of so many calls.
+  /// Processor time in nanoseconds, the mean of this number of calls.
   double time_calls(const solvers::Solver& solver, std::size_t calls);
   /// Queries of the latest call that were asked, at least 1.
   [[nodiscard]] double asked() const;
@@ -134,13 +135,13 @@ class TimedSolver {
   Separation separation_;
   std::shared_ptr<const Sample> sample_ = std::make_shared<Sample>();
   std::vector<fast::Answer> answers_;
-  /// Of the latest call.
+  /// The reply to the latest call.
   solvers::SolveReply reply_;
-  /// Of all calls.
+  /// Crashes of all calls at no particular query.
   std::uint64_t unplaced_crashes_ = 0;
-  /// In a repetition; 0: not known yet.
+  /// Calls in a repetition; 0: not known yet.
   std::size_t calls_ = 0;
-  Times times_;
+  TimesPerQuery times_;
   double latest_ = 0.0;  ///< nanoseconds of the latest call
   double seconds_spent_ = 0.0;
 };
@@ -149,10 +150,11 @@ class TimedSolver {
 /// timed on them.
 [[nodiscard]] bool takes_curves(const fast::Terms& terms, QueryShape shape);
 
-/// So many times is work that takes this long to be done at once, so that the clock does not show.
+/// The number of times that work of this duration is to be done between two readings of the clock,
+/// so that the clock's own cost does not show.
 [[nodiscard]] std::size_t calls_for(double nanoseconds);
 
-/// Processor time of the work in this thread in nanoseconds, as the mean of so many calls.
+/// Processor time of the work in this thread in nanoseconds, as the mean of this number of calls.
 template <class Work>
 [[nodiscard]] double time_of(std::size_t calls, const Work& work) {
   const double start = base::thread_nanoseconds();
@@ -166,7 +168,7 @@ template <class Work>
                                                            std::size_t repetition);
 
 /// Nanoseconds between two readings of the clock that single queries are timed with, the median of
-/// many: what is subtracted from their times.
+/// many; they are subtracted from the times of queries.
 [[nodiscard]] double clock_nanoseconds();
 
 }  // namespace touchstone::verify::jobs

@@ -14,7 +14,7 @@
 namespace touchstone::verify::judge {
 namespace {
 
-/// All that a fault is called.
+/// The names of a fault.
 struct Words {
   std::string_view name;
   char letter;
@@ -24,7 +24,7 @@ struct Words {
 
 constexpr std::array<Words, fault_count> words{{
     {"false_negative", 'N', "false negative", "misses a collision"},
-    {"false_positive", 'P', "false positive", "reports a collision that there is not"},
+    {"false_positive", 'P', "false positive", "reports a collision where there is none"},
     {"late_toi", 'T', "late toi", "gives a time of impact that is too late"},
     {"early_toi_upper", 'T', "early toi_upper",
      "gives an upper bound of the time of impact that is too early"},
@@ -32,12 +32,12 @@ constexpr std::array<Words, fault_count> words{{
     {"exit", 'E', "error", "ends the process"},
     {"exception", 'E', "error", "throws an exception"},
     {"no_verdict", 'E', "error", "gives no verdict"},
-    {"not_finite", 'E', "error", "gives a number that is none"},
+    {"not_finite", 'E', "error", "gives an invalid number"},
     {"hang", 'H', "hang", "does not answer in time"},
     {"undecided", 'U', "undecided", "does not decide"},
     {"beyond_tolerance", 'B', "beyond tolerance",
      "reports a collision farther away than its tolerance"},
-    {"asymmetry", 'A', "asymmetry", "answers an exact image of a query in another way"},
+    {"asymmetry", 'A', "asymmetry", "contradicts its answer to an exact image of the query"},
 }};
 
 const Words& words_of(Fault fault) { return words.at(static_cast<std::size_t>(fault)); }

@@ -44,14 +44,14 @@ inline constexpr std::array<Fault, fault_count> all_faults = [] {
   return all;
 }();
 
-/// The failures, in their order.
+/// The failures, in the same order.
 inline constexpr std::span all_failures = std::span(all_faults).subspan<4, 7>();
 
 [[nodiscard]] constexpr bool is_failure(Fault fault) {
   return Fault::crash <= fault && fault <= Fault::undecided;
 }
 
-/// Is it a failure that stands for no verdict at all?
+/// True if the failure stands for no verdict at all.
 [[nodiscard]] constexpr bool is_error(Fault fault) {
   return Fault::crash <= fault && fault <= Fault::not_finite;
 }
@@ -76,7 +76,7 @@ inline constexpr std::span all_failures = std::span(all_faults).subspan<4, 7>();
 /// The verb and object behind a solver's name: "misses a collision".
 [[nodiscard]] std::string_view to_phrase(Fault fault);
 
-/// Why there is no answer to a query, in particular.
+/// The reason why there is no answer to a query, in detail.
 struct Failure {
   /// \pre is_failure
   Fault kind = Fault::no_verdict;

@@ -25,8 +25,8 @@ class GroundTruthCache {
   explicit GroundTruthCache(const data::QueryGroup& group, unsigned threads = 0);
 
   /// The truth of the queries at these positions, in their order; `index` is the position. Those
-  /// that are not known yet are decided; once *stop is true (it may be null) no more of them, and
-  /// then only those before the first unknown one are returned.
+  /// that are not known yet are decided. Once *stop is true (it may be null), no more are decided,
+  /// and only the truths before the first unknown one are returned.
   /// \param on_progress called now and then with the fraction that is done, from this thread; may be null
   /// \throws std::domain_error if a coordinate is not finite; std::invalid_argument if the separation
   /// is not valid; std::out_of_range for a position beyond the group.

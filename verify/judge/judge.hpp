@@ -7,8 +7,7 @@
 /// - A yes and an undecided both mean "take it for a collision"; so an undecided is never a false
 ///   negative, and one about a query that does not collide is a false positive, as a yes is.
 /// - Truth is about the separation that was asked for, in the norm that was asked for.
-/// - A failure that is an error is an answer to nothing, and has no other fault; a hang counts as
-/// undecided.
+/// - A query with an error has no further faults; a hang counts as undecided.
 /// - The truth is that of the query as the solver is asked it (terms.hpp); queries outside of its
 ///   terms are not judged.
 /// - Times of impact are judged for a yes to a query that does collide, and only where the solver
@@ -48,14 +47,13 @@ struct Standard {
 /// All faults of an answer, a failure first; none if it is right. Some break no promise: see
 /// breaks().
 /// \param truth of the query at the separation. \pre truth.toi is there if it collides
-/// \param failure why there is no answer; null: as the answer shows (failure_of)
+/// \param failure the reason for a missing answer; null: as the answer shows (failure_of)
 [[nodiscard]] std::vector<Fault> judge(const Question& question, const GroundTruth& truth,
                                        const fast::Answer& answer, const Standard& standard,
                                        const Failure* failure = nullptr);
 
-/// All of these but beyond_tolerance: the faults of verdict and times, for which the truth is
-/// enough. The truth may also be known less closely; then faults of times may be seen where there
-/// are none.
+/// The same without beyond_tolerance: the faults of verdict and times, which need nothing but the
+/// truth. If the truth is known less closely, correct times may be reported as faults.
 [[nodiscard]] std::vector<Fault> judge_verdict(const GroundTruth& truth, const fast::Answer& answer,
                                                const fast::Terms& terms = {},
                                                const Failure* failure = nullptr);
@@ -64,7 +62,7 @@ struct Standard {
 [[nodiscard]] fast::Answer with_claimed_bounds(const fast::Answer& answer,
                                                const fast::Terms& terms);
 
-/// How much later than the exact time of impact a time is.
+/// The lateness of a time: its distance from the exact time of impact before it.
 struct Lateness {
   double step = 0.0;  ///< in units of the step
   double ulps = 0.0;  ///< doubles from the exact time to it
@@ -79,7 +77,7 @@ inline constexpr double slight_lateness = 1e-9;
                                                   const fast::Answer& answer,
                                                   const fast::Terms& terms);
 
-/// Is the fault a late time, and only slightly?
+/// True if the fault is a late time, and only slightly late.
 [[nodiscard]] bool is_slight(Fault fault, const std::optional<Lateness>& lateness);
 
 /// The separation within which a yes claims that the primitives come, if it claims one: beyond it,
@@ -88,12 +86,12 @@ inline constexpr double slight_lateness = 1e-9;
                                                  const fast::Answer& answer,
                                                  const Standard& standard);
 
-/// Does that fault break the promise? Every solver, whatever it promises, is to be free of false
-/// negatives, of times of impact that exclude the true one, of errors, and of a yes that claims
-/// more nearness than there is; one that promises exactness also of false positives.
+/// True if the fault breaks the promise. Whatever it promises, a solver must have no false
+/// negative, no time of impact that excludes the true one, no error, and no yes that claims a
+/// smaller distance than the true one; if it promises exactness, also no false positive.
 [[nodiscard]] bool breaks(Fault fault, fast::Promise promise);
 
-/// The order of faults by what they do to a simulation, the worst first: those that break the
+/// The order of faults by their effect on a simulation, the worst first: those that break the
 /// promise before the others; a miss; a late time; an early upper bound; a yes beyond its
 /// tolerance; a false positive; an asymmetry; a time that is late slightly; no answer.
 [[nodiscard]] int harm_of(Fault fault, bool is_slight, fast::Promise promise);

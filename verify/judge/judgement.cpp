@@ -29,7 +29,7 @@ double upper_end(std::uint32_t bucket) {
                      : std::bit_cast<double>((static_cast<std::uint64_t>(bucket) << low_bits) - 1);
 }
 
-/// Is an answer wrong that has no other fault?
+/// True if an answer with this fault alone is wrong.
 bool is_wrong(Fault fault) { return fault != Fault::hang && fault != Fault::undecided; }
 
 std::string answer_text(Fault fault, const fast::Answer& answer) {

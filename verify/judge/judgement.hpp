@@ -52,12 +52,12 @@ class ToiErrors {
 /// `count`, `p50`, `p90`, `p99`, `max`, and `histogram`, a list of the number of each bucket that
 /// is not empty and its count; null if there are no errors.
 [[nodiscard]] nlohmann::json to_json(const ToiErrors& errors);
-/// The reverse. \throws nlohmann::json::exception if it is nothing of the kind.
+/// The reverse. \throws nlohmann::json::exception if it has another form.
 [[nodiscard]] ToiErrors toi_errors_from_json(const nlohmann::json& json);
 
 /// The times of impact that are later than the exact ones, bounds and estimates, of many answers.
 struct LateTimes {
-  /// Of the step: how many are later than each.
+  /// Fractions of the step; for each the number of later times is counted.
   static constexpr std::array<double, 4> thresholds{1e-12, 1e-9, 1e-6, 1e-3};
 
   std::uint64_t count = 0;
@@ -76,28 +76,28 @@ struct WrongAnswer {
   std::string answer;
   std::string truth;
   fast::Answer given = {};  ///< the answer itself
-  /// Why it is none, where that is known.
+  /// The reason for a missing answer, where it is known.
   std::optional<Failure> failure = std::nullopt;
-  /// Of a late time.
+  /// The lateness of a late time.
   std::optional<Lateness> lateness = std::nullopt;
 };
 
 /// "SOLVER: false negative: no, the truth is collision at 0.5".
 [[nodiscard]] std::string to_text(const std::string& solver, const WrongAnswer& wrong);
 
-/// Why a solver was not asked a query, or has no answer on record.
+/// The reason why a solver was not asked a query, or has no recorded answer.
 enum class Unasked : std::uint8_t {
   missing,   ///< a file of answers has none
   outside,   ///< outside the terms of its promise (terms.hpp)
-  left_out,  ///< for lack of time, or as one of many like those at which it hangs
+  left_out,  ///< for lack of time, or because the solver hangs at many queries like it
 };
 
-/// What a solver said to a query.
+/// The answer of a solver to a query.
 struct GivenAnswer {
   std::string solver;
   fast::Answer answer = {};
   std::optional<Failure> failure = std::nullopt;
-  /// What it is judged by; nothing: what is known of a solver of that name.
+  /// The standard that it is judged by; nothing: that of the solver of that name.
   std::optional<Standard> standard = std::nullopt;
 };
 
@@ -107,18 +107,18 @@ struct WrongQuery {
   std::uint64_t index = 0;
   base::AnyQuery query = {};
   Separation separation = {};
-  std::vector<std::string> faults = {};  ///< what is wrong, a text each
+  std::vector<std::string> faults = {};  ///< a text for each fault
   std::vector<GivenAnswer> answers = {};
 };
 
 /// The judgement on a method's answers to some queries of one source.
 struct Judgement {
-  /// So many wrong answers of each fault are kept; the counts count them all.
+  /// The number of wrong answers that are kept for each fault; the counts include all.
   static constexpr std::size_t most_kept = 1000;
 
   std::uint64_t queries = 0;     ///< answered
   std::uint64_t collisions = 0;  ///< of these, by the truth
-  /// Not asked, because the terms of the promise leave them out, and not in `queries`.
+  /// Queries not asked, because they are outside the terms of the promise; not in `queries`.
   std::uint64_t outside = 0;
   std::uint64_t left_out = 0;  ///< not asked for lack of time, and not in `queries`
   std::uint64_t missing = 0;   ///< not answered (in recorded answers), and not in `queries`
@@ -146,7 +146,7 @@ struct Judgement {
   [[nodiscard]] std::uint64_t undecided() const {
     return count(Fault::undecided) + count(Fault::hang);
   }
-  /// How often something of the same text (to_text) is wrong: all errors together, or that fault.
+  /// The number of faults with the same text (to_text): all errors together, or that fault.
   [[nodiscard]] std::uint64_t total(Fault fault) const {
     return is_error(fault) ? errors() : count(fault);
   }
@@ -177,7 +177,7 @@ struct WorstFault {
 };
 [[nodiscard]] std::optional<WorstFault> worst_of(const Judgement& judgement, fast::Promise promise);
 
-/// Is there no fault that breaks the promise?
+/// True if no fault breaks the promise.
 [[nodiscard]] bool keeps(const Judgement& judgement, fast::Promise promise);
 
 }  // namespace touchstone::verify::judge

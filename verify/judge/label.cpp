@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "verify/data/toi_writer.hpp"
+#include "verify/data/ground_truth_files.hpp"
 
 namespace touchstone::verify::judge {
 namespace {
@@ -23,8 +23,8 @@ std::string decimal_text(const exact::AlgebraicNumber& number, unsigned digits) 
   return data::to_decimal(refined.interval().lower, digits);
 }
 
-/// A recorded time of impact and the true one, which it is not: so many digits that the texts
-/// differ, from 45 on, as published times have them.
+/// The mismatch of a recorded time of impact and the true one, both with enough digits for the
+/// texts to differ, at least 45, as published times have.
 Mismatch toi_mismatch(std::uint64_t index, const exact::Rational& recorded,
                       const exact::AlgebraicNumber& toi) {
   Mismatch mismatch{Mismatch::Of::toi, index, {}, {}};

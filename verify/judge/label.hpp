@@ -1,11 +1,11 @@
 #pragma once
 
 /// \file
-/// Where a label is judged: what a source records of a query, its verdict and its time of impact,
-/// against the truth.
+/// The judgement of labels: the verdict and the time of impact that a source records of a query,
+/// compared with the truth.
 ///
-/// What is recorded about another separation is compared as far as something follows from it
-/// (separation_inference.hpp): collisions, which must be no later.
+/// A label for another separation is compared as far as it implies something
+/// (separation_inference.hpp): a collision, which must be no later.
 
 #include <cstdint>
 #include <optional>
@@ -18,7 +18,7 @@
 
 namespace touchstone::verify::judge {
 
-/// The label of a query: what its source claims of it.
+/// The label of a query: the claim of its source.
 struct Label {
   std::optional<bool> collides = std::nullopt;
   std::optional<exact::Rational> toi = std::nullopt;
@@ -27,12 +27,12 @@ struct Label {
 /// The comparison of labels with the truth.
 struct LabelComparison {
   Inference inference = Inference::all;
-  /// A recorded time of impact may be off by this much.
+  /// The tolerated error of a recorded time of impact.
   exact::Rational tolerance = {};
 
-  /// Is the recorded verdict compared?
+  /// True if the recorded verdict is compared.
   [[nodiscard]] bool uses_verdict(const Label& label) const;
-  /// Is the recorded time of impact compared?
+  /// True if the recorded time of impact is compared.
   [[nodiscard]] bool uses_toi(const Label& label) const;
 };
 

@@ -19,9 +19,9 @@ namespace touchstone::verify::judge {
 /// number beyond all floats becomes infinite.
 [[nodiscard]] base::AnyQuery as_asked(const fast::Terms& terms, base::AnyQuery query);
 
-/// Is that query, as_asked already, one that the promise is about: of a shape that the solver
-/// answers, finite in the solver's precision, and far enough apart at t=0? The certified solver
-/// decides the latter, exactly, in the norm of the separation.
+/// True if the query, which as_asked has returned, is within the terms: of a shape that the solver
+/// answers, finite in the solver's precision, and far enough apart at t=0. The certified solver
+/// decides the latter exactly, in the norm of the separation.
 [[nodiscard]] bool admits(const fast::Terms& terms, const base::AnyQuery& query,
                           const Separation& separation);
 

@@ -46,7 +46,7 @@ bool is_before(std::string_view a, std::string_view b) {
   return a.size() < b.size();
 }
 
-/// What the system cannot say is said by the reader of the file.
+/// Errors are left to the reader of the file.
 bool is_folder(const fs::path& path) {
   std::error_code error;
   return fs::is_directory(path, error);

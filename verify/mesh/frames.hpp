@@ -7,7 +7,7 @@
 /// numbers in their names), or from one .npz archive as NumPy's `savez` and `savez_compressed`
 /// write it: `V`, float32 or float64 of shape (T, n, 3); `F`, faces, of any type of whole numbers
 /// and of shape (m, 3); `E`, edges of their own, of shape (k, 2); and `P`, points, of shape (p,) or
-/// (p, 1). Of F, E and P two may be missing. Of `V` one frame is in memory at a time, unless it is
+/// (p, 1). Two of F, E and P may be missing. One frame of `V` is in memory at a time, unless it is
 /// in Fortran order.
 
 #include <cstddef>
@@ -17,7 +17,7 @@
 #include <string>
 #include <vector>
 
-#include "verify/mesh/mesh.hpp"
+#include "verify/mesh/mesh_file.hpp"
 
 namespace touchstone::verify::mesh {
 
@@ -35,7 +35,7 @@ class Frames {
   [[nodiscard]] virtual const Mesh& mesh() const = 0;
   /// At least 1.
   [[nodiscard]] virtual std::size_t count() const = 0;
-  /// What a user calls frame `i`: its file's name without a folder, or its number.
+  /// The name of frame `i` for users: its file's name without a folder, or its number.
   [[nodiscard]] virtual std::string name(std::size_t i) const = 0;
   /// The vertices of the next frame, the first one first. \pre it was called less than count()
   /// times.
@@ -44,14 +44,14 @@ class Frames {
 };
 
 /// The files that hold the frames: those of the folder where one is named.
-/// \param left_out gets what else is in that folder, in no order
+/// \param left_out receives the other entries of that folder, in no order
 /// \throws io::DatasetError if a folder has no mesh, or a folder or an archive is not named alone.
 [[nodiscard]] std::vector<std::filesystem::path> frame_files(
     std::span<const std::filesystem::path> paths,
     std::vector<std::filesystem::path>* left_out = nullptr);
 
-/// Opens mesh files, or one archive: the result of frame_files. \throws io::DatasetError naming
-/// what is in error, also if nothing in the mesh could collide.
+/// Opens mesh files, or one archive: the result of frame_files. \throws io::DatasetError that names
+/// the error, also if nothing in the mesh could collide.
 [[nodiscard]] std::unique_ptr<Frames> open_frames(std::vector<std::filesystem::path> files);
 
 }  // namespace touchstone::verify::mesh

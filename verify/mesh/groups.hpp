@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "verify/mesh/mesh.hpp"
+#include "verify/mesh/mesh_file.hpp"
 
 namespace touchstone::verify::mesh {
 

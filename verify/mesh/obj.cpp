@@ -34,7 +34,7 @@ bool is_corner(std::string_view word) {
   return parts <= 3;
 }
 
-/// A corner may name a vertex that comes later, so these are checked at the end.
+/// A reader of OBJ. Corners are checked at the end, because they may name later vertices.
 class ObjReader {
  public:
   explicit ObjReader(const std::filesystem::path& path) : path_(path), statements_(path) {}
@@ -58,7 +58,7 @@ class ObjReader {
   }
 
  private:
-  /// Where an element stands.
+  /// The place of an element in the file.
   struct Place {
     std::uint64_t line;
     std::int32_t group;
@@ -88,7 +88,7 @@ class ObjReader {
     group_of_line_.push_back(group_);
   }
 
-  /// What stands before the first group is in one without a name.
+  /// Elements before the first group are in a group without a name.
   void begin_group(std::string_view name) {
     if (group_names_.empty()) {
       group_names_.emplace_back();
@@ -155,7 +155,7 @@ class ObjReader {
     }
   }
 
-  /// The corners of an element, at least so many; valid until the next call.
+  /// The corners of an element, at least the given number; valid until the next call.
   [[nodiscard]] const std::vector<std::int32_t>& read_corners(std::string_view words,
                                                               std::size_t least,
                                                               std::string_view element) {
@@ -170,8 +170,7 @@ class ObjReader {
     return corners_;
   }
 
-  /// The vertex's index, counted from 0; not below 0. Behind it may be numbers of a texture and a
-  /// normal.
+  /// The vertex's index, counted from 0. Numbers of a texture and a normal may follow.
   [[nodiscard]] std::int32_t read_corner(std::string_view word) const {
     const auto number = io::parse_number<std::int32_t>(word.substr(0, word.find('/')));
     if (!number || !is_corner(word)) fail(io::quote(word) + " is no corner");

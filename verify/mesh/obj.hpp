@@ -8,12 +8,12 @@
 /// last vertex before it (−1); numbers of a texture and of a normal may follow after '/'. A face of
 /// more than three corners is a fan of triangles around its first. `o` and `g` begin a group whose
 /// name is the rest of the line: a vertex is in the group of the faces, lines and points that use
-/// it, or, without any, in the group of its own line. obj_statements.hpp says what is passed over,
-/// and what is an error.
+/// it, or, without any, in the group of its own line. obj_statements.hpp lists the statements that
+/// are ignored, and the errors.
 
 #include <filesystem>
 
-#include "verify/mesh/mesh.hpp"
+#include "verify/mesh/mesh_file.hpp"
 
 namespace touchstone::verify::mesh {
 

@@ -272,7 +272,7 @@ class TextValues {
       if (!parsed) return std::nullopt;
       return static_cast<double>(*parsed);
     });
-    if (!value) input_.fail(io::quote(word_) + " is no number of the property's type");
+    if (!value) input_.fail(io::quote(word_) + " is not a number of the property's type");
     word_ = io::take_word(rest_);
     return *value;
   }

@@ -15,7 +15,7 @@
 #include <filesystem>
 #include <span>
 
-#include "verify/mesh/mesh.hpp"
+#include "verify/mesh/mesh_file.hpp"
 
 namespace touchstone::verify::mesh {
 

@@ -26,7 +26,7 @@ bool segments_meet(const Point& a, const Point& b, const Point& p, const Point& 
   return CGAL::do_intersect(Kernel::Segment_3(a, b), Kernel::Segment_3(p, q));
 }
 
-/// Do a closed segment and the convex hull of three points have a point in common?
+/// True if a closed segment and the convex hull of three points have a point in common.
 bool meets(const Point& a, const Point& b, const std::array<Point, 3>& face) {
   const auto& [p, q, r] = face;
   if (CGAL::collinear(p, q, r)) {
@@ -36,7 +36,7 @@ bool meets(const Point& a, const Point& b, const std::array<Point, 3>& face) {
   return a == b ? triangle.has_on(a) : CGAL::do_intersect(Kernel::Segment_3(a, b), triangle);
 }
 
-/// Does the segment from the corner v of the triangle v, q, r to w meet it elsewhere too?
+/// True if the segment from the corner v of the triangle v, q, r to w meets it elsewhere, too.
 bool enters(const Point& v, const Point& q, const Point& r, const Point& w) {
   if (w == v) return false;
   if (CGAL::collinear(v, q, r)) {

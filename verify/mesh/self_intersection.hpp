@@ -4,9 +4,9 @@
 /// Edges that pierce faces in a frame.
 ///
 /// A mesh can intersect itself without a collision of considered pairs in a step: an edge may be in
-/// a face from the start to the end. So a step is safe only if its first frame is free of such
-/// pairs *and* no pair collides. Two surfaces of triangles intersect iff an edge of one meets a
-/// triangle of the other.
+/// a face from the start to the end. A step is therefore safe only if its first frame is free of
+/// such pairs *and* no pair collides. Two surfaces of triangles intersect iff an edge of one meets
+/// a triangle of the other.
 ///
 /// **Definition.** An edge without a vertex in common with a face pierces it iff the closed segment
 /// and the closed triangle have a point in common. (If they only touch, the step also finds a
@@ -23,7 +23,7 @@
 #include <vector>
 
 #include "touchstone/mesh.hpp"
-#include "verify/mesh/mesh.hpp"
+#include "verify/mesh/mesh_file.hpp"
 
 namespace touchstone::verify::mesh {
 

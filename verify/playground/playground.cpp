@@ -78,7 +78,7 @@ EMSCRIPTEN_KEEPALIVE const char* touchstone_facts(int is_edge_edge, const double
   return text.c_str();
 }
 
-/// Why this machine's arithmetic is not what the solvers need; empty if it is.
+/// The reason why the solvers cannot use this machine's arithmetic; empty if they can.
 EMSCRIPTEN_KEEPALIVE const char* touchstone_arithmetic_fault() {
   static std::string text;
   try {

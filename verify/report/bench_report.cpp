@@ -156,14 +156,12 @@ std::string legend(const BenchReport& report) {
       report.options.repetitions);
   if (report.step) {
     text +=
-        "Whole steps: medians of as many repetitions; wall is the time from beginning to end, "
-        "processor\n"
-        "that of all threads together, which the other tables have. trees: making them; "
-        "candidates: "
-        "finding all and\n"
-        "storing none; collisions and earliest search once more. Their memory pass reads vertices, "
-        "edges "
-        "and faces.\n";
+        "Whole steps: medians of as many repetitions; wall: time from beginning to end; processor: "
+        "time of all\n"
+        "threads, as in the other tables. trees: making them; candidates: finding all without "
+        "storing them;\n"
+        "collisions, earliest: with another search. The memory pass reads vertices, edges and "
+        "faces.\n";
   }
   const auto is_sampled = [](const jobs::BenchResult& group) {
     return std::ranges::any_of(group.solvers, [&](const jobs::SolverResult& solver) {
@@ -172,7 +170,7 @@ std::string legend(const BenchReport& report) {
   };
   if (std::ranges::any_of(report.groups, is_sampled)) {
     text += fmt::format(
-        "timed: where not all, an evenly spread sample that takes about {} s a repetition.\n",
+        "timed: of larger groups an evenly spread sample that takes about {} s a repetition.\n",
         report.options.seconds);
   }
   const auto is_judged_in_part = [](const jobs::BenchResult& group) {
@@ -180,9 +178,9 @@ std::string legend(const BenchReport& report) {
   };
   if (std::ranges::any_of(report.groups, is_judged_in_part)) {
     text += fmt::format(
-        "judged: where not all, an evenly spread sample of {}, and what any method calls a "
-        "collision: a false negative\n"
-        "outside of the sample is known only where another method says so.\n",
+        "judged: of larger groups an evenly spread sample of {}, and all that any method calls a "
+        "collision; a false\n"
+        "negative outside of the sample is found only if another method reports the collision.\n",
         report.options.judge);
   }
   return text;
@@ -190,7 +188,7 @@ std::string legend(const BenchReport& report) {
 
 // ---- JSON ---------------------------------------------------------------------------------------
 
-nlohmann::json json_of(const jobs::Times& times) {
+nlohmann::json json_of(const jobs::TimesPerQuery& times) {
   return {{"ns_per_query", io::number_to_json(times.median())},
           {"min_ns_per_query", io::number_to_json(times.min())},
           {"repetitions", times.repetitions}};

@@ -14,23 +14,23 @@
 
 namespace touchstone::verify::report {
 
-/// All that a run of `touchstone bench` found.
+/// The results of a run of `touchstone bench`.
 struct BenchReport {
   jobs::BenchOptions options;
   std::vector<jobs::BenchResult> groups;
-  /// Of a whole step, if one was measured.
+  /// The result of a whole step, if one was measured.
   std::optional<jobs::StepResult> step = std::nullopt;
 };
 
-/// Is a number that was timed or counted not what was promised: did a solver break its promise on
-/// judged queries, or does the earliest impact of a step contradict its collisions?
+/// True if a solver broke its promise on judged queries, or the earliest impact of a step
+/// contradicts its collisions.
 [[nodiscard]] bool has_wrong_answers(const BenchReport& report);
 
-/// A table for each group: a line for each solver with its time a query in nanoseconds, the same
-/// as a multiple of the memory pass, the times of single queries, on how many queries it was timed,
-/// how many of them were judged, the counts of the judge and the errors of the times of impact;
-/// below it the share of the queries that each of its stages ended. Then the answers that broke a
-/// promise, the first twenty of a fault and group. Then the step. Last, what the columns mean.
+/// A table for each group: a line for each solver with its time a query in nanoseconds, the same as
+/// a multiple of the memory pass, the times of single queries, the numbers of queries that were
+/// timed and judged, the counts of the judge and the errors of the times of impact; below it the
+/// share of the queries that each of its stages ended. Then the answers that broke a promise, the
+/// first twenty of a fault and group. Then the step. Last, the meaning of the columns.
 [[nodiscard]] std::string to_text(const BenchReport& report);
 
 /// `repetitions`, `seconds` and `judge` as in BenchOptions; `groups`, a list of `name`, `kind`,

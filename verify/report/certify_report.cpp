@@ -104,8 +104,8 @@ nlohmann::json counts(const jobs::CertifyResult& result) {
           {"interrupted", result.interrupted}};
 }
 
-/// Does the table of methods have a column of tolerances? It has if there is a separation, or a
-/// method claims too much.
+/// The column of tolerances in the table of methods: shown if there is a separation, or a method
+/// claims too much.
 enum class Tolerances : std::uint8_t { hidden, shown };
 
 io::TextRow method_row(const std::string& name, std::string_view kind,
@@ -154,7 +154,7 @@ std::string notes_text(const jobs::MethodResult& method) {
   return text;
 }
 
-/// What the promise is not about, last.
+/// The queries outside of the promise, as the last line.
 std::string outside_text(const jobs::MethodResult& method) {
   const std::string unasked = unasked_text(method.judgement, method.terms);
   return unasked.empty() ? "" : fmt::format("not asked: {}: {}\n", method.name, unasked);

@@ -11,13 +11,13 @@
 
 namespace touchstone::verify::report {
 
-/// With a separation a line that names it (a line for each source where they differ), and one that
-/// says what was compared if the recorded answers are about another one. Then
-/// a line for each source and one for the total, then each mismatch with source, index and both
-/// answers. Where solvers were judged follow a line for each with its total, below it a line
-/// for each source where it broke its promise, the number of its failures of each kind (if there
-/// are any but undecided answers of its own), and the answers that broke its promise: the first
-/// twenty of a fault and source, and how many more there are.
+/// With a separation, a line that names it (one for each source where they differ), and a line on
+/// the comparison if the recorded answers are about another one. Then a line for each source and
+/// one for the total, then each mismatch with source, index and both answers. If solvers were
+/// judged, a line for each with its total follows; below it a line for each source where it broke
+/// its promise, the number of its failures of each kind (if there are any but undecided answers of
+/// its own), and the answers that broke its promise: the first twenty of a fault and source, and
+/// the number of further ones.
 [[nodiscard]] std::string to_text(const std::vector<jobs::CertifyResult>& results);
 
 /// The total's fields `queries`, `collisions`, `labels`, `label_mismatches`, `tois`,
@@ -31,12 +31,12 @@ namespace touchstone::verify::report {
 /// `separation`, an object of `min_separation` and `norm`, and each file has `compared`: "all",
 /// "collisions" (recorded about another separation, so only these are compared) or "nothing".
 ///
-/// `methods`, in the total and in each file, is a list of `name`, `promise` (what it was held to:
-/// "none", "conservative", "exact"), its `terms` (as options of the command line), `queries`, the
-/// fields of a judgement (judgement_report.hpp), `missing`, `failures` (an object of the number of
-/// queries without an answer by the name of the failure), `unplaced_crashes` (errors at no
-/// particular query), `beyond_tolerance` and `ns_per_query` (null where no time was taken). In the
-/// total each has `wrong_answers`, a list of `file`, `index`, `kind`, `fault`, `answer` and
+/// `methods`, in the total and in each file, is a list of `name`, `promise` (by which it was
+/// judged: "none", "conservative", "exact"), its `terms` (as options of the command line),
+/// `queries`, the fields of a judgement (judgement_report.hpp), `missing`, `failures` (an object of
+/// the number of queries without an answer by the name of the failure), `unplaced_crashes` (errors
+/// at no particular query), `beyond_tolerance` and `ns_per_query` (null where no time was taken).
+/// In the total each has `wrong_answers`, a list of `file`, `index`, `kind`, `fault`, `answer` and
 /// `truth`, of each source and fault the first Judgement::most_kept.
 [[nodiscard]] nlohmann::json to_json(const std::vector<jobs::CertifyResult>& results);
 

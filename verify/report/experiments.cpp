@@ -36,15 +36,15 @@ constexpr std::array<double, 9> tolerances{1e-8, 1e-7, 1e-6, 1e-5, 1e-4, 1e-3, 1
 constexpr std::array<double, 7> scales{1e-3, 1e-2, 1e-1, 1.0, 10.0, 100.0, 1000.0};
 constexpr std::array<std::int64_t, 6> limits{10, 100, 1'000, 10'000, 100'000, 1'000'000};
 
-/// On the map of stability, whose queries are the hardest.
+/// The limit of checks on the map of stability, whose queries are the hardest.
 constexpr std::int64_t stability_limit = 10'000;
 
 /// The experiment on filters: checks a query, and queries of a family and of a scale.
 constexpr std::int64_t filter_limit = 100'000;
 constexpr std::size_t most_of_family = 500, most_of_scale = 10'000;
 
-/// Of a budget: the part of the trials on groups; of that, the part that is the plugins'; and how
-/// many times the seconds of a setting a setting takes.
+/// Shares of a budget: that of the trials on groups, and within it that of the plugins; and the
+/// time of a setting as a multiple of MeasureOptions::seconds.
 constexpr double trials_budget = 0.65, plugins_budget = 0.6, cost_of_setting = 8.0;
 
 /// The shares of the experiments on groups and on filters in the whole run; the rest is the map of
@@ -98,7 +98,7 @@ Trial tolerance_trial(Methods methods) {
   return trial;
 }
 
-/// Of Tight-Inclusion, which alone has a filter.
+/// The trial of Tight-Inclusion, the only method with a filter.
 Trial checks_trial(Methods methods) {
   Trial trial{.experiment = Experiment::checks};
   for (const auto* method : methods) {
@@ -142,9 +142,9 @@ std::string today() {
                      static_cast<unsigned>(day.month()), static_cast<unsigned>(day.day()));
 }
 
-class Run {
+class ExperimentRun {
  public:
-  Run(std::span<const data::QueryGroup> groups, const ExperimentOptions& options)
+  ExperimentRun(std::span<const data::QueryGroup> groups, const ExperimentOptions& options)
       : groups_(groups), options_(options), methods_(find_methods(options.methods)) {
     if (options.budget > 0.0) deadline_ = base::Deadline(options.budget);
     if (!methods_.empty()) return;
@@ -373,7 +373,7 @@ std::vector<Trial> trials_of(std::span<const std::string> methods) {
 
 Measurements run_experiments(std::span<const data::QueryGroup> groups,
                              const ExperimentOptions& options) {
-  return Run(groups, options).result();
+  return ExperimentRun(groups, options).result();
 }
 
 }  // namespace touchstone::verify::report

@@ -14,7 +14,7 @@
 namespace touchstone::verify::report {
 namespace {
 
-/// Of a group and fault so many answers are printed.
+/// The number of answers of a group and fault that are printed.
 constexpr std::size_t most_printed = 20;
 
 /// The positions of answers in the order of harm, later times first, else as they are.
@@ -89,7 +89,7 @@ std::string unasked_text(const judge::Judgement& judgement, const fast::Terms& t
     text += fmt::format("{} queries outside its terms{}", judgement.outside, judge::to_text(terms));
   }
   if (judgement.left_out != 0) {
-    text += fmt::format("{}{} queries left out, for lack of time or for hangs at others like them",
+    text += fmt::format("{}{} queries skipped, for lack of time or after hangs at similar ones",
                         text.empty() ? "" : "; ", judgement.left_out);
   }
   return text;

@@ -32,9 +32,9 @@ namespace touchstone::verify::report {
 /// Their cells.
 [[nodiscard]] io::TextRow fault_cells(const judge::Judgement& judgement);
 
-/// Is a yes beyond its tolerance?
+/// True if a yes is beyond its tolerance.
 [[nodiscard]] bool claims_too_much(const judge::Judgement& judgement);
-/// The column of these answers, for tables that have one only where it says something.
+/// The column of these answers, for tables that have it only if there are some.
 [[nodiscard]] io::TextColumn tolerance_column();
 /// Its cell.
 [[nodiscard]] std::string tolerance_cell(const judge::Judgement& judgement);
@@ -44,7 +44,7 @@ namespace touchstone::verify::report {
 /// Their cells.
 [[nodiscard]] io::TextRow toi_error_cells(const judge::ToiErrors& errors);
 
-/// A judgement, and what to call it.
+/// A judgement, and the names under which it is printed.
 struct NamedJudgement {
   std::string_view method;
   fast::Promise promise = fast::Promise::none;
@@ -60,16 +60,16 @@ struct NamedJudgement {
 [[nodiscard]] std::string unasked_text(const judge::Judgement& judgement, const fast::Terms& terms);
 
 /// The answers that broke the promise, the worst first, a line each: "false negative: METHOD:
-/// SOURCE: vertex-face query 4: answer no, truth collision at 0.5"; of a fault the first twenty,
-/// then how many more there are.
-/// \param place_of where the query of a wrong answer comes from, by the answer's position in
+/// SOURCE: vertex-face query 4: answer no, truth collision at 0.5"; the first twenty of a fault,
+/// then the number of further ones.
+/// \param place_of the source of the query of a wrong answer, by the answer's position in
 /// Judgement::wrong_answers.
 [[nodiscard]] std::string wrong_answers_text(
     const NamedJudgement& named, const std::function<data::QueryPlace(std::size_t)>& place_of);
 
 using FailureCounts = std::array<std::uint64_t, judge::fault_count>;
 
-/// "1 crash, 2 undecided": how many of each kind; empty if there are none.
+/// "1 crash, 2 undecided": the number of each kind; empty if there are none.
 [[nodiscard]] std::string to_text(const FailureCounts& failures);
 
 /// Exceptions from reading, a line each: queries in error, and rounded coordinates. Empty if all
@@ -86,8 +86,9 @@ using FailureCounts = std::array<std::uint64_t, judge::fault_count>;
 /// 1.6%.
 [[nodiscard]] nlohmann::json to_json(const judge::Judgement& judgement);
 
-/// Of times later than the exact ones: their `count`, `beyond` (how many are later by more than
-/// 1e-12, 1e-9, 1e-6 and 1e-3 of the step), `greatest` in units of the step, and `greatest_ulps`.
+/// The times later than the exact ones: their `count`, `beyond` (the numbers of those later by more
+/// than 1e-12, 1e-9, 1e-6 and 1e-3 of the step), `greatest` in units of the step, and
+/// `greatest_ulps`.
 [[nodiscard]] nlohmann::json to_json(const judge::LateTimes& late);
 
 /// `index`, `fault` (its text, verify/judge/fault.hpp), `answer` and `truth`.

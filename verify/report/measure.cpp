@@ -54,7 +54,7 @@ void set_counts(const judge::Judgement& judgement, Measurement& said) {
   said.toi_error = spread_of(judgement.toi_errors);
 }
 
-/// Hands out the wrong answers.
+/// Passes on the wrong answers.
 void tell_wrong(const data::QueryGroup& group, const Measurement& said,
                 const judge::Standard& standard, const judge::Judgement& judgement,
                 const OnWrong& on_wrong) {
@@ -141,7 +141,8 @@ class MeasureRun {
     for (jobs::TimedSolver& timed : timed_) timed.take(smallest.at(timed.solver().name()));
   }
 
-  /// A sample at a separation: which truths a solver is held against, and which reference.
+  /// A sample at a separation: the key to the truths and the reference that a solver is compared
+  /// with.
   using Key = std::tuple<std::size_t, double, Norm>;
 
   static Key key_of(const jobs::TimedSolver& timed) {
@@ -241,13 +242,13 @@ class MeasureRun {
   std::unique_ptr<solvers::Solver> reference_;
   const MeasureOptions& options_;
   std::vector<std::unique_ptr<solvers::Solver>> solvers_;
-  /// Of the settings in their order, then the reference on each of their samples.
+  /// The settings in their order, then the reference on each of their samples.
   std::vector<jobs::TimedSolver> timed_;
-  /// Of the settings, in the order of their samples; none if stopped.
+  /// The times of single queries by setting, in the order of their samples; none if stopped.
   std::vector<std::vector<double>> single_times_;
-  /// Of each sample at each separation; fewer than were asked if stopped.
+  /// The truths of each sample at each separation; fewer than were asked if stopped.
   std::map<Key, std::vector<judge::GroundTruth>> known_;
-  /// Where in timed_.
+  /// The position of the reference in timed_.
   std::map<Key, std::size_t> reference_of_;
 };
 

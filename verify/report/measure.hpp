@@ -4,14 +4,14 @@
 /// Measures methods on one group of queries, side by side.
 ///
 /// **Sample and time.** As in verify/jobs/timing.hpp. A sample grows until it would take the
-/// method, or the reference, more than MeasureOptions::seconds. Nothing is said of queries that
-/// were not asked. Each query is also timed alone, for the histograms. The reference runs on each
-/// of the samples too, so that ratios compare the same queries.
+/// method, or the reference, more than MeasureOptions::seconds. Queries that were not asked are not
+/// counted. Each query is also timed alone, for the histograms. The reference runs on each of the
+/// samples too, so that ratios compare the same queries.
 ///
 /// Where settings of a method are compared (MeasureOptions::same_sample), all of them are asked the
 /// smallest of their samples.
 ///
-/// **Truth.** The oracle's, for the separation that the method is asked for.
+/// **Truth.** That of the oracle, for the separation that the method is asked for.
 
 #include <atomic>
 #include <cstddef>
@@ -37,20 +37,20 @@ struct Setting {
   fast::MethodOptions options;
   /// In child processes, under MeasureOptions::process; else in this process.
   bool in_children = false;
-  /// Wall-clock seconds that it may take, behind which it is asked no more queries.
+  /// Wall-clock seconds that it may take; after that it is asked no more queries.
   double allowance = std::numeric_limits<double>::infinity();
 };
 
 /// Called with each query that a method answered wrongly, and that answer: one that breaks the
-/// method's promise. Of a great many some are left out.
+/// method's promise. Some of a great many are left out.
 using OnWrong = std::function<void(judge::WrongQuery)>;
 
 struct MeasureOptions {
   Experiment experiment = Experiment::field;
-  /// Of larger groups so many queries are asked at most; positive.
+  /// The greatest number of queries that are asked of a group; positive.
   std::size_t count = 10'000;
-  /// Processor seconds that the sample of a method may take; positive. All that is done with a
-  /// method takes a few times as long.
+  /// Processor seconds that the sample of a method may take; positive. All work with a method takes
+  /// a few times as long.
   double seconds = 1.0;
   /// Repetitions; times are medians, of fewer where one takes longer than `seconds`; at least 1.
   std::size_t repetitions = 5;
@@ -60,7 +60,7 @@ struct MeasureOptions {
   /// Called now and then with the fraction that is done.
   std::function<void(double)> on_progress = nullptr;
   OnWrong on_wrong = nullptr;
-  /// May be null. Once true no further work is begun.
+  /// May be null. Once true, no further work begins.
   const std::atomic<bool>* stop = nullptr;
 };
 

@@ -2,7 +2,7 @@
 
 /// \file
 /// The record of a report: measurements of a method, under some options, on a group of queries.
-/// Plain data; all that tables and figures show is computed from it and nothing else (page.hpp).
+/// Plain data, and the only source of all tables and figures (report_page.hpp).
 
 #include <cstdint>
 #include <limits>
@@ -19,13 +19,13 @@
 
 namespace touchstone::verify::report {
 
-/// Which question a measurement belongs to.
+/// The experiment that a measurement belongs to.
 enum class Experiment : std::uint8_t {
   field,       ///< all methods side by side, as each is meant to be used (the paper's table 1)
   separation,  ///< over the minimum separation d (its tables 2 and 3)
   tolerance,   ///< over the tolerance δ
   checks,      ///< over the maximum number of checks m_I
-  filter,      ///< what Tight-Inclusion misses with each of its filters; nothing is timed
+  filter,      ///< the misses of Tight-Inclusion with each of its filters; nothing is timed
 };
 
 /// "field", "separation", "tolerance", "checks" or "filter".
@@ -56,7 +56,7 @@ struct Spread {
   friend bool operator==(const Spread&, const Spread&) = default;
 };
 
-/// So many of the queries were ended by the stage of that name.
+/// The number of queries that a stage ended.
 struct StageShare {
   std::string stage;
   std::uint64_t queries = 0;
@@ -75,8 +75,9 @@ struct Measurement {
   fast::Promise promise = fast::Promise::none;
   double tolerance = 0.0;       ///< MethodOptions::tolerance
   std::int64_t max_checks = 0;  ///< MethodOptions::max_checks
-  Separation separation = {};   ///< what counts as contact, for the method and for the truth
-  /// Of groups that are made for a scale: no coordinate is greater in magnitude.
+  Separation separation =
+      {};  ///< the distance that counts as contact, for the method and for the truth
+  /// The scale of a group that is made for one: no coordinate is greater in magnitude.
   std::optional<double> scale;
 
   std::uint64_t group_queries = 0;  ///< in the group
@@ -104,9 +105,9 @@ struct Measurement {
   std::optional<Spread> toi_error;
   /// The tolerance that a yes claims, where the method gives one.
   std::optional<Spread> achieved_tolerance;
-  /// Of methods that have stages, all in their order.
+  /// The stages of a method that has some, all in their order.
   std::vector<StageShare> stages;
-  /// Of one call a query, of those that collide and of those that do not.
+  /// The times of one call a query, of those that collide and of those that do not.
   TimeHistogram collision_times;
   TimeHistogram no_collision_times;
 };
@@ -115,7 +116,7 @@ struct Measurement {
 struct StabilityMark {
   std::string method;
   std::string hardness;
-  std::string measure;  ///< what its levels are
+  std::string measure;  ///< the meaning of its levels
   int exponent = 0;     ///< the level is 2 to this power, or this itself
   bool is_power = true;
   Kind kind = Kind::vertex_face;
@@ -130,8 +131,8 @@ struct StabilityMark {
   std::uint64_t hangs = 0;  ///< of those undecided
   std::uint64_t undecided = 0;
   std::optional<judge::Fault> worst = {};     ///< nothing if nothing is wrong
-  bool is_slight = false;                     ///< Is the worst a time that is late slightly?
-  double worst_rate = 0.0;                    ///< how often, of those that it can happen to
+  bool is_slight = false;                     ///< true if the worst is a time that is late slightly
+  double worst_rate = 0.0;                    ///< its share of the queries that can have it
   std::optional<Spread> toi_error = {};       ///< as Measurement::toi_error
   double nanoseconds = Measurement::unknown;  ///< processor time a query
   double checks = Measurement::unknown;       ///< a query, where the method counts them
@@ -149,7 +150,7 @@ struct MeasuredGroup {
   friend bool operator==(const MeasuredGroup&, const MeasuredGroup&) = default;
 };
 
-/// All that a report is made of.
+/// The data of a report.
 struct Measurements {
   std::string command;  ///< the command line that made them
   std::string version;  ///< of this program, with its commit; empty if not known
@@ -161,10 +162,10 @@ struct Measurements {
   bool interrupted = false;
 };
 
-/// The same with all names and texts printable (printable.hpp): for what people read.
+/// The same with all names and texts printable (printable.hpp), for pages and tables.
 [[nodiscard]] Measurements with_printable_texts(Measurements measurements);
 
-/// Did a method give a wrong answer that its promise excludes?
+/// True if a method gave a wrong answer that its promise excludes.
 [[nodiscard]] bool has_wrong_answers(const Measurements& measurements);
 
 }  // namespace touchstone::verify::report

@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file
-/// Measurements as JSON and back, without loss: what a run found outlives it.
+/// Measurements as JSON and back, without loss.
 
 #include <nlohmann/json_fwd.hpp>
 
@@ -19,7 +19,7 @@ namespace touchstone::verify::report {
 [[nodiscard]] nlohmann::json to_json(const Measurements& measurements);
 
 /// The inverse.
-/// \throws std::runtime_error that says what is wrong if it is none of these.
+/// \throws std::runtime_error, with the reason, for anything else.
 [[nodiscard]] Measurements measurements_from_json(const nlohmann::json& json);
 
 }  // namespace touchstone::verify::report

@@ -16,7 +16,7 @@
 namespace touchstone::verify::report {
 namespace {
 
-/// Of what is found, so many lines are printed.
+/// The number of printed pairs of a step, and of piercings of a frame.
 constexpr std::size_t most_pairs = 10;
 
 std::uint64_t count_of(const jobs::PairCounts& counts, fast::PairKind kind) {
@@ -29,7 +29,7 @@ std::vector<fast::StepCollision> known_collisions(const StepRecord& step) {
   return step.earliest ? step.earliest->pairs : std::vector<fast::StepCollision>();
 }
 
-/// How many pairs pierce in one of the two frames or both, if they were searched for.
+/// The number of pairs that pierce in one of the two frames or both, if they were searched for.
 std::optional<std::size_t> pierced_in(const StepReport& report, std::size_t step) {
   const auto& before = report.frames.at(step).piercings;
   const auto& after = report.frames.at(step + 1).piercings;

@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file
-/// Steps of a simulation and what touches in them, for people (tables) and for machines (JSON,
+/// Steps of a simulation and the contacts in them, for people (tables) and for machines (JSON,
 /// CSV).
 
 #include <array>
@@ -27,7 +27,7 @@ struct FrameRecord {
 /// The step from frame i to frame i + 1.
 using StepRecord = jobs::StepCheck;
 
-/// All that a run of `touchstone step` found. The elements are those of every frame.
+/// The results of a run of `touchstone step`. The elements are those of every frame.
 struct StepReport {
   Separation separation = {};
   jobs::StepQuestion question = jobs::StepQuestion::all;
@@ -41,11 +41,11 @@ struct StepReport {
   bool interrupted = false;
 };
 
-/// Does something touch in a step, or does a frame intersect itself?
+/// True if something touches in a step, or a frame intersects itself.
 [[nodiscard]] bool has_collisions(const StepReport& report);
 
 /// A line for each step; then, for each step, the pairs that touch, the earliest ten; then the
-/// edges that pierce faces, ten of a frame; last what a verdict on frames means.
+/// edges that pierce faces, ten of a frame; last the meaning of a verdict on frames.
 [[nodiscard]] std::string to_text(const StepReport& report);
 
 /// `separation` (as in bench_report.hpp, null for contact), `alpha` (or null), `question` (all,

@@ -190,7 +190,7 @@ class AnswersReader {
     return io::number_from_text<double>(field(column));
   }
 
-  /// NaN where the field is empty or the time is none that counts.
+  /// NaN where the field is empty, or the verdict is not yes.
   [[nodiscard]] double read_time(Column column, fast::Verdict verdict) const {
     if (field(column).empty()) return fast::Answer::none;
     const std::optional<double> value = read_number(column);
@@ -221,7 +221,7 @@ class AnswersReader {
            "must be a kind of failure or empty: " + io::quote(field(Column::failure)));
     }
     if (judge::verdict_of(failure->kind) != verdict) {
-      fail(Column::failure, fmt::format("a failure of kind {} is no answer {}",
+      fail(Column::failure, fmt::format("the failure {} contradicts the verdict {}",
                                         to_string(failure->kind), judge::to_string(verdict)));
     }
     return failure->kind;

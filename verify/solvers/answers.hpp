@@ -5,11 +5,11 @@
 ///
 ///     file,index,kind,verdict,toi_lower,toi_upper,tolerance,failure
 ///
-/// file: its path, printable (printable.hpp). verdict: yes, no, undecided or error. The three
-/// fields behind are empty where a solver gives none. failure: why there is no answer (failure.hpp:
-/// "crash: SIGSEGV", "hang", …), else empty; a file may do without this column. A query is known by
-/// all of file, index and kind: the families of the built-in set have queries of both kinds under
-/// one name.
+/// file: its path, printable (printable.hpp). verdict: yes, no, undecided or error. The next three
+/// fields are empty where a solver gives no value. failure: the reason for a missing answer
+/// (fault.hpp: "crash: SIGSEGV", "hang", …), else empty; the column is optional. File, index and
+/// kind together identify a query: the families of the built-in set have queries of both kinds
+/// under one name.
 
 #include <cstdint>
 #include <deque>
@@ -36,8 +36,8 @@ namespace touchstone::verify::solvers {
 [[nodiscard]] std::string answers_header();
 
 /// A row of the file, with its line end. Numbers have as many digits as give the same double again.
-/// \param failure why there is no answer; null: as the answer shows (failure_of), of which what is not
-/// finite becomes an error and "undecided" is not said twice
+/// \param failure the reason for a missing answer; null: as the answer shows (failure_of); then an
+/// answer that is not finite becomes an error, and an undecided one has an empty field
 [[nodiscard]] std::string answer_row(std::string_view file, std::uint64_t index, Kind kind,
                                      const fast::Answer& answer,
                                      const judge::Failure* failure = nullptr);
@@ -57,7 +57,7 @@ class RecordedAnswers {
     std::string file;
     Kind kind;
     std::uint64_t answers;
-    /// Of these, those that answer_to() never gave out: answers to queries that do not exist.
+    /// The number of these that answer_to() never returned: answers to queries that do not exist.
     std::uint64_t unasked;
     /// Line of the first of them in the order of indices; 0 if there are none.
     std::uint64_t first_unasked_line;
@@ -68,8 +68,7 @@ class RecordedAnswers {
   [[nodiscard]] std::optional<RecordedAnswer> answer_to(std::string_view file, Kind kind,
                                                         std::uint64_t index) const;
 
-  /// All names and kinds with what is there of each, ordered by name and kind. Not to be called
-  /// while another thread is in answer_to().
+  /// All groups, ordered by name and kind. Not to be called while another thread is in answer_to().
   [[nodiscard]] std::vector<Group> groups() const;
 
   /// All answers.
@@ -90,7 +89,7 @@ class RecordedAnswers {
   };
   static_assert(sizeof(Row) == 40);
 
-  /// A deque grows without a second copy of all that is there.
+  /// A deque grows without a second copy of its rows.
   using Rows = std::deque<Row>;
   using Key = std::pair<std::string, Kind>;
   struct KeyLess {
@@ -108,12 +107,12 @@ class RecordedAnswers {
 /// Reads a file of answers. The header must have these columns in this order, the last one or not;
 /// rows may come in any order, lines may end in LF or CRLF, and names (or any other field) may
 /// stand in quotes, where a line end counts as LF. Times of impact are finite decimal numbers or
-/// empty; no range is asked of them, since to judge them is the judge's task. A failure must go
-/// with the verdict (verdict_of). Times with any other verdict than yes may be any number and are
-/// dropped: solvers write 1, infinity or the last step there. Tolerances are numbers from 0 on, or
-/// empty; one of "inf" claims nothing.
-/// \throws DatasetError naming line, column (number of the field) and reason if anything else is
-/// found, or two rows that answer the same query.
+/// empty; their range is not checked here, but by the judge. A failure must agree with the verdict
+/// (verdict_of). Times with any other verdict than yes may be any number and are dropped: solvers
+/// write 1, infinity or the last step there. Tolerances are numbers from 0 on, or empty; one of
+/// "inf" claims nothing.
+/// \throws DatasetError that names line, column (number of the field) and reason, for everything
+/// else, and for two rows that answer the same query.
 [[nodiscard]] RecordedAnswers load_answers(const std::filesystem::path& path);
 
 }  // namespace touchstone::verify::solvers

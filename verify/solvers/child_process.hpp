@@ -4,18 +4,18 @@
 /// A child process for code that is not trusted: a copy of this process made by fork(), of which
 /// this one survives whatever it does.
 ///
-/// - It leads a process group of its own: the keys of a terminal do not reach it, and what it has
-///   started in turn (unless that left the group) is killed when it ends.
+/// - It leads a process group of its own: the keys of a terminal do not reach it, and processes
+///   that it has started (unless they left the group) are killed when it ends.
 /// - It dies with this process, even if that is killed. It cannot send this process a signal.
 /// - Its memory, its files and their size are limited, it writes no core files and, unless allowed,
 ///   makes no processes (threads it may make). The limit of memory is of one process.
 /// - It works in a folder of its own, reads nothing from standard input, and has no descriptors of
-///   this process. What it prints is caught.
+///   this process. Its output is captured.
 ///
 /// In the child there are no other threads: fork() copies only the one that calls it. Code that
 /// hands work to threads of a pool that existed before waits for ever.
 ///
-/// The implementation is Linux's alone (linux/child_process.cpp).
+/// The implementation, child_process.cpp, is for Linux alone.
 
 #include <sys/types.h>
 
@@ -35,17 +35,17 @@ namespace touchstone::verify::solvers {
 /// Limits of a child process.
 struct ChildLimits {
   /// Bytes of memory that it may allocate (heap, stacks, private maps), beyond what it is made
-  /// with; 0: no limit. Not under the sanitizers, whose own memory has no bound.
+  /// with; 0: no limit. Ignored under the sanitizers, whose own memory has no bound.
   std::uint64_t memory_bytes = std::uint64_t{4} << 30U;
   /// Bytes of a file that it writes; 0: no limit. Beyond, the system ends it with SIGXFSZ.
   std::uint64_t file_bytes = std::uint64_t{256} << 20U;
-  /// May it make processes? If not, fork() fails with EAGAIN. (RLIMIT_NPROC counts all processes of
-  /// a user, and is nothing to root.)
+  /// True if it may make processes. Otherwise fork() fails with EAGAIN. (RLIMIT_NPROC counts all
+  /// processes of a user, and does not apply to root.)
   bool may_fork = false;
 };
 
-/// A folder of a name of its own among the system's temporary files. It goes with all that is in it
-/// when this object does.
+/// A new folder among the system's temporary files. It is removed with its contents when this
+/// object is destroyed.
 class TemporaryFolder {
  public:
   /// \throws std::system_error if none can be made.
@@ -62,7 +62,8 @@ class TemporaryFolder {
   std::filesystem::path path_;
 };
 
-/// The beginning of what children printed, standard output and error as they came.
+/// The beginning of the children's output, standard output and standard error in the order of their
+/// arrival.
 struct CapturedOutput {
   static constexpr std::size_t most_bytes = std::size_t{1} << 16U;
 
@@ -122,7 +123,7 @@ class ChildProcess {
   /// The work of the child; it exits with status 0 afterwards, with 1 if it throws.
   using Work = std::function<void(const ChildChannel&)>;
 
-  /// \throws std::system_error if the system has no process left to give.
+  /// \throws std::system_error if the system cannot make a process.
   ChildProcess(const Work& work, const ChildLimits& limits, const std::filesystem::path& folder);
   ChildProcess(const ChildProcess&) = delete;
   ChildProcess& operator=(const ChildProcess&) = delete;
@@ -131,22 +132,21 @@ class ChildProcess {
   /// Kills it and its group.
   ~ChildProcess();
 
-  /// Sends a message. To a child that is gone, it gets lost.
+  /// Sends a message. If the child has ended, the message is lost.
   void send(const std::string& message) const;
 
   enum class Event : std::uint8_t { none, message, ended };
 
-  /// Sleeps until there is a message or the end, at most for this long, and takes what it prints.
+  /// Sleeps until a message arrives or the child ends, at most for this long, and takes its output.
   [[nodiscard]] Event wait(Seconds longest, std::string& message, CapturedOutput& output);
 
-  /// Kills it if it still runs, and what is left of its group, and takes the rest of what it
-  /// printed.
+  /// Kills it if it still runs, and the rest of its group, and takes the rest of its output.
   ChildEnd end(CapturedOutput& output);
 
   /// Processor seconds so far, of all its threads; 0 if it has ended.
   [[nodiscard]] double processor_seconds() const;
 
-  /// Does its first thread have work, and maybe no processor to do it?
+  /// True if its main thread is runnable: it has work, and perhaps no processor.
   [[nodiscard]] bool is_runnable() const;
 
  private:
@@ -156,8 +156,8 @@ class ChildProcess {
   pid_t process_ = -1;
   Descriptor socket_;    ///< messages
   Descriptor lifeline_;  ///< the child is killed when this closes
-  Descriptor output_;    ///< what it prints
-  Descriptor ended_;     ///< tells of its end
+  Descriptor output_;    ///< its standard output and error
+  Descriptor ended_;     ///< readable when it has ended
 };
 
 }  // namespace touchstone::verify::solvers

@@ -1,13 +1,13 @@
 #pragma once
 
 /// \file
-/// How long a solver that hangs may take, and which queries it is asked still.
+/// Time limits for a solver that hangs, and the queries that are skipped.
 ///
-/// A solver that hangs at every query of a sort would spend a whole run on it. So a sort of queries
-/// of which three hang is over: a job leaves out its other queries, and a search, which has no end
-/// of them, asks every second one, after six every fourth, and so on. There may be many sorts:
-/// after three hangs of any a query may take a tenth of the limit. Hangs are counted, not seconds,
-/// so the same hangs give the same choice.
+/// A solver that hangs at every query of a sort would spend a whole run on it. After three hangs at
+/// queries of one sort, a job therefore skips the other queries of the sort; a search, whose
+/// queries never end, asks every second one, after six hangs every fourth, and so on. There may be
+/// many sorts: after three hangs at any queries the limit of a query falls to a tenth. Hangs are
+/// counted, not seconds, so the same hangs give the same choice.
 
 #include <algorithm>
 #include <cstdint>
@@ -33,7 +33,7 @@ class HangLimits {
     return known != sorts_.end() && known->second.hangs >= several;
   }
 
-  /// Is the next query of the sort one that a search leaves out? Counts it.
+  /// True if a search skips the next query of the sort. Counts the query.
   [[nodiscard]] bool leaves_out(const std::string& sort) {
     const auto known = sorts_.find(sort);
     if (known == sorts_.end()) return false;
@@ -51,7 +51,7 @@ class HangLimits {
   }
 
  private:
-  /// In less time a busy machine may not answer.
+  /// The least limit: a busy machine may need as long.
   static constexpr double least = 0.01;
 
   struct Sort {

@@ -1,9 +1,8 @@
 #pragma once
 
 /// \file
-/// All methods under the names that the command line knows them by. This is the one list of them: a
-/// new method is judged, timed and named in the help once it stands there. What is known of each is
-/// in its fast::MethodInfo.
+/// All methods by their names on the command line. This is the only list of methods: a new one is
+/// judged, timed and named in the help once it is in the list. fast::MethodInfo describes each.
 
 #include <memory>
 #include <string>

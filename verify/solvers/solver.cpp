@@ -95,7 +95,7 @@ class InChildren final : public Solver {
         options_(options),
         process_(process),
         hangs_(process.query_limit_seconds) {
-    // Behind so many the limits are looked at.
+    // After this number of failures the limits are checked.
     process_.most_failures = HangLimits::several;
   }
 
@@ -127,7 +127,7 @@ class InChildren final : public Solver {
   }
 
  private:
-  /// A query by its bits, with what it is asked for.
+  /// The bits of a query, of its shape and of the separation.
   using QueryBits = std::vector<std::uint64_t>;
 
   static QueryBits bits_of(const SolveRequest& request, std::size_t i) {
@@ -140,8 +140,8 @@ class InChildren final : public Solver {
     return bits;
   }
 
-  /// Asks for the answers from number `first` to before `last`, and leaves out those behind the
-  /// time that it has, and behind several hangs of the sort.
+  /// Asks for the answers from number `first` to before `last`, and skips queries after the time is
+  /// used up, and after several hangs at the sort.
   void ask(SolverProcess& process, const SolveRequest& request, std::span<fast::Answer> answers,
            std::size_t first, std::size_t last, SolveReply& reply) const {
     const std::string sort = fmt::format("{} {}", request.source, to_string(request.queries.kind));
@@ -161,7 +161,7 @@ class InChildren final : public Solver {
     }
   }
 
-  /// Is the sort left out? If not, the process has its limit.
+  /// True if the sort is skipped. Otherwise sets the limit of the process.
   [[nodiscard]] bool is_over(const std::string& sort, SolverProcess& process) const {
     const std::scoped_lock lock(mutex_);
     process.set_query_limit(hangs_.seconds());
@@ -175,7 +175,8 @@ class InChildren final : public Solver {
     reply.unplaced_crashes += run.unplaced_crashes;
   }
 
-  /// Those of a run that began at a number of the request. True if one ended its process.
+  /// Takes the failures of a run that began at a number of the request. True if one ended its
+  /// process.
   bool take_failures(SolverRun& run, const SolveRequest& request, std::size_t begin,
                      const std::string& sort, SolveReply& reply) const {
     bool has_lost = false;
@@ -235,7 +236,7 @@ class InChildren final : public Solver {
 
 // ---- Recorded -----------------------------------------------------------------------------------
 
-/// With curves, as far as their numbers are not to be rounded.
+/// The terms with curves, unless numbers are to be rounded.
 fast::Terms with_curves(fast::Terms terms) {
   if (terms.float_coordinates) return terms;
   terms.least_degree = 0;

@@ -32,7 +32,7 @@ struct SolveRequest {
   Queries queries = {};
   /// Minimum separation. Methods take it from here, whatever their MethodOptions say.
   Separation separation = {};
-  /// By which recorded answers are found: the name of the source, and the queries' numbers in it.
+  /// The key to recorded answers: the name of the source, and the queries' numbers in it.
   std::string_view source = {};
   std::span<const std::uint64_t> indices = {};
 };
@@ -53,17 +53,17 @@ struct UnaskedQuery {
 
 /// Data that comes with the answers.
 struct SolveReply {
-  /// Where that is not the time of the whole call in this thread: what the solver itself took,
-  /// without the making of child processes.
+  /// The solver's own time, without the making of child processes; empty if it is the time of the
+  /// whole call in this thread.
   std::optional<SolverTime> time = std::nullopt;
   /// The queries that were not asked, by ascending position.
   std::vector<UnaskedQuery> unasked = {};
-  /// Of queries without an answer, ascending, where more is known than the answers show: those
-  /// without a failure here may have one that judge::failure_of() tells of.
+  /// Failures that the answers themselves do not show, by ascending position. Other failures are
+  /// found by judge::failure_of().
   std::vector<judge::QueryFailure> failures = {};
   /// Processes that it ended at no particular query: see solver_process.hpp.
   std::uint64_t unplaced_crashes = 0;
-  /// Was it stopped? Then the answers are incomplete.
+  /// True if it was stopped: the answers are incomplete.
   bool stopped = false;
 
   /// The reason why the query at a position was not asked; nothing if it was.
@@ -90,9 +90,9 @@ class Solver {
   [[nodiscard]] const fast::Terms& terms() const { return info_.terms; }
   [[nodiscard]] judge::Standard standard() const { return judge::standard_of(info_); }
 
-  /// Is its processor time known?
+  /// True if its processor time is known.
   [[nodiscard]] virtual bool is_timed() const { return true; }
-  /// Does it take its queries from elsewhere, so that it can be asked for all of them only?
+  /// True if it has its queries from elsewhere, and can be asked only for all of them.
   [[nodiscard]] virtual bool only_as_a_whole() const { return false; }
 
   /// Answers query i in answers[i], in this thread or in a child process that it waits for. Queries
@@ -102,10 +102,10 @@ class Solver {
   [[nodiscard]] SolveReply solve(const SolveRequest& request,
                                  std::span<fast::Answer> answers) const;
 
-  /// From now on it may take so many wall-clock seconds, in all threads together; no query is begun
-  /// behind them, and the rest is left out. Infinite: no limit.
+  /// Sets the wall-clock seconds that it may take from now on, in all threads together. After that
+  /// no query is begun, and the rest is skipped. Infinite: no limit.
   void allow(double seconds) const { allowance_ = seconds; }
-  /// What is left of them; below 0 if the latest query took longer.
+  /// The seconds that are left; below 0 if the latest query took longer.
   [[nodiscard]] double allowance() const { return allowance_; }
 
   /// The same, with the time in any case; the processor time is 0 where it is not known.
@@ -164,7 +164,7 @@ class Solver {
                                                       const fast::Candidates& candidates,
                                                       const fast::CertifiedOptions& certified);
 
-/// So many queries were decided by a stage of that name.
+/// The number of queries that a stage decided.
 struct StageCount {
   std::string_view stage;
   std::uint64_t queries = 0;

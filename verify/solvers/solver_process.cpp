@@ -30,10 +30,10 @@ using Seconds = std::chrono::duration<double>;
 constexpr std::size_t capacity = 4096;
 /// The numbers of the largest query.
 constexpr std::size_t most_numbers = (greatest_degree + 1) * moving_points * 4;
-/// Queries in a batch, at first: of a solver that is too slow for that, fewer.
+/// Queries in a batch at first; a slow solver gets fewer.
 constexpr std::size_t longest_batch = 512;
 constexpr std::size_t batch_divisor = 8;
-/// So many times the limit may pass for what waits for a processor.
+/// A solver that waits for a processor may take this multiple of the limit.
 constexpr double patience = 5.0;
 /// The number of children in a row that may end before their first query without it being a failure
 /// of the solver. A copy of a process whose other threads hold locks may wait for one of them.
@@ -52,7 +52,7 @@ double processor_seconds() {
   return static_cast<double>(now.tv_sec) + static_cast<double>(now.tv_nsec) * 1e-9;
 }
 
-/// The end of a text as fits.
+/// The beginning of a text, as far as it fits.
 struct ShortText {
   std::array<char, 256> bytes;
 
@@ -78,12 +78,12 @@ struct Shared {
   fast::MethodOptions options;
   std::size_t first;   ///< queries from this number
   std::size_t last;    ///< to before this one are to be solved,
-  std::size_t batch;   ///< so many at once,
+  std::size_t batch;   ///< in batches of this number,
   double begin_until;  ///< the first batch, and those that begin before this time
   std::array<double, capacity * most_numbers> numbers;  ///< query after query
   std::array<fast::Answer, capacity> answers;
   std::array<bool, capacity> has_thrown;
-  std::array<ShortText, capacity> thrown;  ///< what() of what it threw
+  std::array<ShortText, capacity> thrown;  ///< what() of the exception
 };
 static_assert(std::atomic<std::size_t>::is_always_lock_free &&
               std::atomic<double>::is_always_lock_free);
@@ -105,8 +105,8 @@ std::unique_ptr<Shared, Unmap> share_memory() {
 
 // ---- The child ----------------------------------------------------------------------------------
 
-/// Has the method load what it needs, and touches the memory that answers go to: neither is time of
-/// the solver.
+/// Lets the method load what it needs, and touches the memory of the answers, so that neither
+/// counts as time of the solver.
 void warm_up(const fast::Method& method, Shared& shared) {
   std::ranges::fill(shared.answers, fast::Answer{});
   try {
@@ -117,7 +117,7 @@ void warm_up(const fast::Method& method, Shared& shared) {
   }
 }
 
-/// What is thrown, as text. \pre an exception is being handled.
+/// Notes the text of the exception. \pre an exception is being handled.
 void note_exception(ShortText& text) {
   try {
     throw;
@@ -128,8 +128,8 @@ void note_exception(ShortText& text) {
   }
 }
 
-/// Solves a batch. False if the method throws at more than one query: which of them it is, it says
-/// alone, and what it took until then is no time of the solver.
+/// Solves a batch. False if the method throws in a batch of several queries: they are then asked
+/// one by one, and the time of the batch does not count.
 bool solve_batch(const fast::Method& method, Shared& shared, std::size_t begin, std::size_t count) {
   shared.end.store(begin + count, std::memory_order_release);
   shared.begin.store(begin, std::memory_order_release);
@@ -151,7 +151,7 @@ bool solve_batch(const fast::Method& method, Shared& shared, std::size_t begin, 
   return true;
 }
 
-/// Solves what is asked, at least its first batch.
+/// Solves the requested queries, at least the first batch.
 void solve_all(const fast::Method& method, Shared& shared) {
   std::size_t begin = shared.first;
   do {
@@ -210,7 +210,7 @@ class SolverProcess::Impl {
  private:
   using Event = ChildProcess::Event;
 
-  /// Where a child has come to. If it is not done, it has ended.
+  /// The progress of a child. If it is not done, the child has ended.
   struct Stop {
     bool done = false;
     bool hang = false;
@@ -232,7 +232,7 @@ class SolverProcess::Impl {
     return !is_stopped() && !deadlines_.begin.is_over() && !has_failed_enough;
   }
 
-  /// Answers what fits into the shared memory, which begins at number `offset` of all.
+  /// Answers as many queries as fit into the shared memory, from number `offset` of all on.
   void solve_part(const Queries& queries, std::span<fast::Answer> answers, std::size_t offset) {
     std::ranges::copy(queries.numbers, memory_->numbers.begin());
     std::ranges::fill(std::span(memory_->has_thrown).first(answers.size()), false);
@@ -245,11 +245,12 @@ class SolverProcess::Impl {
     }
   }
 
-  /// Solves one by one what ended its child, or took too long, together. Returns where to go on.
+  /// Solves one by one the queries of a batch that ended its child or took too long. Returns the
+  /// next position.
   std::size_t search(const Stop& batch) {
     if (batch.end - batch.begin == 1) return ask_again(batch);
     const std::size_t failures = run_.failures.size();
-    // That a batch takes long is no fault.
+    // A batch may take long without a fault.
     bool is_explained = batch.hang;
     std::size_t next = batch.begin;
     while (next < batch.end && goes_on()) {
@@ -267,7 +268,7 @@ class SolverProcess::Impl {
     return next;
   }
 
-  /// Asks a query at which a child ended alone, in a child of its own. Returns where to go on.
+  /// Asks a query at which a child ended alone, in a child of its own. Returns the next position.
   std::size_t ask_again(const Stop& first) {
     const Stop again = run_child(first.begin, first.begin + 1, 1);
     if (!again.done) return is_stopped() ? first.begin : add_lost(again);
@@ -290,8 +291,8 @@ class SolverProcess::Impl {
     run_.failures.push_back({.position = offset_ + i, .failure = std::move(failure)});
   }
 
-  /// Has the child, a new one if need be, solve from `first` to before `last`, and takes what it
-  /// has answered. A child that ends before its first query is made again.
+  /// Lets the child, a new one if necessary, solve the queries from `first` to before `last`, and
+  /// takes its answers. A child that ends before its first query is replaced.
   Stop run_child(std::size_t first, std::size_t last, std::size_t batch) {
     Stop stop = try_child(first, last, batch);
     while (!stop.done && !stop.has_begun && lost_starts_++ < most_lost_starts && !is_stopped()) {
@@ -345,7 +346,7 @@ class SolverProcess::Impl {
         folder_->path());
   }
 
-  /// Those of the batches that are done, and the time that they took.
+  /// Takes the answers of the finished batches, and their time.
   void take_answers(std::size_t first, std::size_t last) {
     const Shared& shared = *memory_;
     run_.processor_seconds += shared.processor_seconds;
@@ -358,7 +359,7 @@ class SolverProcess::Impl {
     run_.answered = offset_ + last;
   }
 
-  /// Sleeps until the child is done or has ended. None: it takes too long, or is to stop.
+  /// Sleeps until the child is done or has ended. Nothing if it takes too long, or is to stop.
   Event wait(std::size_t first) {
     const Seconds limit(options_.query_limit_seconds);
     const bool is_limited = limit > Seconds::zero();
@@ -378,8 +379,8 @@ class SolverProcess::Impl {
     return Event::none;
   }
 
-  /// On a busy machine what gets little processor time gets more time: otherwise a solver would be
-  /// accused of hangs that are the machine's.
+  /// True if the limit has passed. On a busy machine a solver that gets little processor time has
+  /// more time, so that the machine's delays are not taken for hangs.
   [[nodiscard]] bool is_overdue(Seconds passed) const {
     const double limit = options_.query_limit_seconds;
     if (passed.count() > patience * limit || !child_->is_runnable()) return true;
@@ -396,7 +397,7 @@ class SolverProcess::Impl {
   /// Children in a row that ended before their first query.
   int lost_starts_ = 0;
 
-  // Of the present call, and its part that is in the shared memory.
+  // The state of the present call, and of its part in the shared memory.
   SolverDeadlines deadlines_;
   SolverRun run_;
   std::size_t lost_children_ = 0;

@@ -8,8 +8,8 @@
 /// of the query that it is at. It is asked in batches of one fixed size. If a batch ends the child,
 /// or the number stays the same for longer than the limit of time, a new child solves the queries
 /// of the batch one by one; a query that ends it is asked once more, alone in a child of its own,
-/// before that counts as its failure, and the next child goes on behind it. So the limit is that of
-/// a query, and the time that a solver is measured to take does not depend on it.
+/// before that counts as its failure, and the next child goes on after it. The limit is one for
+/// each query, and does not change the measured time of a solver.
 ///
 /// Limits and the relation of the child to this process: child_process.hpp.
 
@@ -32,18 +32,20 @@ struct SolverProcessOptions {
   /// Wall-clock seconds that a query may take, or up to five times as many while it waits for a
   /// processor; 0: no limit. Finite and not negative.
   double query_limit_seconds = 0.0;
-  /// After so many crashes, exits and hangs the rest of a call is left unanswered; 0: never.
+  /// The number of crashes, exits and hangs after which the rest of a call is left unanswered; 0:
+  /// no limit.
   std::size_t most_failures = 0;
   /// May be null. Once true, the child is ended within a quarter of a second.
   const std::atomic<bool>* stop = nullptr;
   ChildLimits limits = {};
 };
 
-/// Both may be without a limit.
+/// The deadlines of a call; each may be without a limit.
 struct SolverDeadlines {
-  /// Where a call stops, in the midst of a query, or a quarter of a second later.
+  /// The time at which a call stops, even in the midst of a query; at most a quarter of a second
+  /// late.
   base::Deadline end = {};
-  /// No query is begun behind it (but those of a batch that is); one that was begun may end.
+  /// No batch is begun after it; one that was begun may end.
   base::Deadline begin = {};
 };
 
@@ -52,10 +54,11 @@ struct SolverRun {
   /// Queries answered, from the first on; those with a failure count. Fewer than were asked if it
   /// was stopped, at the limit of failures, or out of time.
   std::size_t answered = 0;
-  /// Crashes, exits, exceptions and hangs, by ascending position: the query does it alone too.
-  /// (What else goes wrong, the answers show: failure_of.)
+  /// Crashes, exits, exceptions and hangs, by ascending position: the query causes it alone, too.
+  /// (All other failures are in the answers: failure_of.)
   std::vector<judge::QueryFailure> failures = {};
-  /// Times it ended its process at queries none of which does it alone. These are answered.
+  /// The number of times that it ended its process at queries none of which does so alone. These
+  /// are answered.
   std::uint64_t unplaced_crashes = 0;
   /// Processor time of the solver, all its threads, without the making of children. A query that
   /// failed counts with the time it took the last time.
@@ -68,7 +71,7 @@ struct SolverRun {
 class SolverProcess {
  public:
   /// The method must live as long as this object. Makes no process yet: the child is made at the
-  /// first call, and first asks the method no queries, which is for it to load what it needs.
+  /// first call, and first asks the method an empty array, so that it loads what it needs.
   explicit SolverProcess(const fast::Method& method, const SolverProcessOptions& options = {});
   SolverProcess(const SolverProcess&) = delete;
   SolverProcess& operator=(const SolverProcess&) = delete;
@@ -79,7 +82,7 @@ class SolverProcess {
   /// Answers query i in answers[i]: as the method does, undecided if it takes too long, error if it
   /// fails otherwise.
   /// \pre as many answers as queries.
-  /// \throws std::system_error if the system has no memory, process or temporary folder to give.
+  /// \throws std::system_error if the system has no memory, process or temporary folder left.
   [[nodiscard]] SolverRun solve(const Queries& queries, std::span<fast::Answer> answers,
                                 const fast::MethodOptions& method_options,
                                 const SolverDeadlines& deadlines = {});

@@ -16,7 +16,7 @@
 #include <cstddef>
 
 #include "verify/base/any_query.hpp"
-#include "verify/generate/random.hpp"
+#include "verify/generate/random_stream.hpp"
 
 namespace touchstone::verify::stability {
 

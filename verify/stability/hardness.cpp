@@ -15,7 +15,7 @@
 #include "verify/generate/everyday.hpp"
 #include "verify/generate/family_builder.hpp"
 #include "verify/generate/grid.hpp"
-#include "verify/generate/random.hpp"
+#include "verify/generate/random_stream.hpp"
 #include "verify/stability/hard_curves.hpp"
 
 namespace touchstone::verify::stability {

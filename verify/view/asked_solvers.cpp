@@ -13,7 +13,7 @@
 namespace touchstone::verify::view {
 namespace {
 
-/// Nothing if it is not asked.
+/// The answer of a solver; nothing if it is not asked.
 std::optional<judge::GivenAnswer> answer_of(const solvers::Solver& solver,
                                             const base::AnyQuery& query,
                                             const ViewedQuery& viewed) {
@@ -29,7 +29,7 @@ std::optional<judge::GivenAnswer> answer_of(const solvers::Solver& solver,
   return given;
 }
 
-/// Why a solver with these terms is not asked.
+/// The reason why a solver with these terms is not asked.
 /// \param query in one shape; nothing if there is none
 std::string reason_of(const fast::Terms& terms, Kind kind,
                       const std::optional<base::AnyQuery>& query) {

@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file
-/// What solvers answer to a query that is viewed, and queries of the judge as a view shows them.
+/// The answers of solvers to a viewed query, and queries of the judge as a view shows them.
 
 #include <span>
 #include <string>
@@ -13,12 +13,12 @@
 
 namespace touchstone::verify::view {
 
-/// What solvers say to a query.
+/// The replies of solvers to a query.
 struct Replies {
-  /// Of all solvers for which the query is within their terms.
+  /// The answers of all solvers for which the query is within their terms.
   std::vector<judge::GivenAnswer> answers = {};
-  /// Which of the others is not asked and why, a sentence each; of queries on straight lines only
-  /// those that take none.
+  /// The reason why a solver is not asked, a sentence each; for a query on straight lines only the
+  /// reasons of solvers that take none.
   std::vector<std::string> notes = {};
 };
 

@@ -42,7 +42,7 @@ double as_double(const mpq_class& value, std::string_view name) {
 
 std::string_view axis_name(std::size_t axis) { return std::string_view("xyz").substr(axis, 1); }
 
-/// As the certificate names it.
+/// The feature in the words of the certificate.
 std::string feature_text(const checker::Subinterval& subinterval) {
   const char sign = subinterval.is_negative ? '-' : '+';
   switch (subinterval.feature) {

@@ -18,7 +18,7 @@ exact::Decision at_distance(Kind kind, const Query& query, std::uint64_t bits) {
   return exact::decide(kind, query, {.distance = distance_of(bits), .norm = Norm::l2});
 }
 
-/// A first guess, of which nothing is expected: the length of a corner at t = 0.
+/// A first guess, which need not be close: the length of a corner at t = 0.
 double guess(Kind kind, const Query& query) {
   const Corner& corner = corners(kind).front();
   const double length = (query.point(0, corner.plus) - query.point(0, corner.minus)).stableNorm();
@@ -42,8 +42,8 @@ std::optional<NearestApproach> nearest_approach(Kind kind, const Query& query) {
     at_most = bits;
     verdict = std::move(answer);
   };
-  // From the guess downwards in steps that double, so that few of the questions are far from the
-  // answer.
+  // The search goes from the guess in steps that double, so that few decisions are about distances
+  // far from the result.
   const std::uint64_t start = bits_of(guess(kind, query));
   static constexpr std::uint64_t factor_of_two = std::uint64_t{1} << 52U;
   for (std::uint64_t step = 1; above == 0; step *= 2) {

@@ -23,7 +23,7 @@
 namespace touchstone::verify::view {
 namespace {
 
-/// Times and places are given to so many bits where they are irrational.
+/// The bits to which irrational times and places are given.
 constexpr unsigned long time_bits = 256;
 
 nlohmann::json number(double value) {

@@ -1,9 +1,9 @@
 #pragma once
 
 /// \file
-/// All that a view says about one query: what it is, the oracle's verdict, time and place, a
-/// certificate of it, how near the primitives come, and the answers of the solvers that were asked,
-/// each held against the truth.
+/// The contents of a view of one query: its points, the oracle's verdict, time and place, a
+/// certificate, the nearest approach of the primitives, and the answers of the solvers that were
+/// asked, each compared with the truth.
 
 #include <nlohmann/json_fwd.hpp>
 #include <span>
@@ -13,9 +13,9 @@
 
 namespace touchstone::verify::view {
 
-/// As the script of a page reads it, see verify/view/page/facts.js. Doubles are texts, in
-/// hexadecimal, and rationals "P/Q". A query on curves has no nearest approach, and answers to it
-/// are judged by verdict and times.
+/// The facts in the form that a page's script reads (verify/view/page/facts.js). Doubles are texts,
+/// in hexadecimal, and rationals "P/Q". A query on curves has no nearest approach, and answers to
+/// it are judged by verdict and times.
 /// \param asked answers that were given now, to be shown behind the recorded ones
 /// \pre answers, of either sort, only to a query in one shape
 /// \throws std::domain_error if a number is NaN or infinite; std::invalid_argument if a curve or the

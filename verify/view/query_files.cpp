@@ -12,6 +12,7 @@
 #include <string>
 #include <utility>
 
+#include "exact/certificate/step_certificate_text.hpp"
 #include "touchstone/certificate_text.hpp"
 #include "verify/data/dataset.hpp"
 #include "verify/io/coordinate_text.hpp"
@@ -20,7 +21,6 @@
 #include "verify/io/json.hpp"
 #include "verify/io/obj_statements.hpp"
 #include "verify/jobs/prove.hpp"
-#include "verify/jobs/prove_step.hpp"
 #include "verify/view/certificate_facts.hpp"
 
 namespace touchstone::verify::view {
@@ -29,22 +29,22 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t coordinate_count = 3 * query_points;
-/// Bytes that a file may have that is read as a whole.
+/// The greatest size of a file that is read as a whole, in bytes.
 constexpr std::size_t file_limit = std::size_t{256} << 20U;
-/// Bytes that a certificate may have that is shown.
+/// The greatest size of a certificate that is shown, in bytes.
 constexpr std::size_t certificate_limit = std::size_t{16} << 20U;
 
-/// What the options ask for of the queries of a file, which are offered one after the other.
+/// The selection of a file's queries by the options. Queries are offered one after the other.
 class Selection {
  public:
   explicit Selection(QueryFileOptions options) : options_(std::move(options)) {}
 
-  /// Is the query at that position asked for?
+  /// True if the query at the position is selected.
   [[nodiscard]] bool wants(std::uint64_t index) const {
     return !is_complete() &&
            (options_.indices.empty() || std::ranges::count(options_.indices, index) != 0);
   }
-  /// Is there nothing more to ask for?
+  /// True if nothing more can be selected.
   [[nodiscard]] bool is_complete() const { return queries_.size() >= wanted(); }
   void add(ViewedQuery query) { queries_.push_back(std::move(query)); }
 
@@ -112,7 +112,7 @@ base::AnyQuery straight_from(const nlohmann::json& coordinates, Kind kind) {
   return {kind, query};
 }
 
-/// From `control` and `weights` as a page has them (query_facts).
+/// The curves of `control` and `weights` in a page's form (query_facts).
 OwnCurves curves_from(const nlohmann::json& json, Kind kind) {
   const nlohmann::json& control = json.at("control");
   if (!control.is_array() || control.empty() || control.size() > greatest_degree + 1) {
@@ -150,14 +150,14 @@ fast::Verdict verdict_from(std::string_view text) {
   return text == "undecided" ? fast::Verdict::undecided : fast::Verdict::error;
 }
 
-/// The failure of a finding that is one.
+/// The failure of a finding, if it is about one.
 std::optional<judge::Failure> failure_of(const nlohmann::json& finding) {
   const auto kind = judge::fault_from_name(finding.at("what").get<std::string>());
   if (!kind || !judge::is_failure(*kind)) return std::nullopt;
   return judge::Failure{.kind = *kind};
 }
 
-/// What a finding of the fuzzer has beyond a query.
+/// Adds the further members of a finding of the fuzzer.
 void add_finding(const nlohmann::json& json, ViewedQuery& query) {
   const auto method = json.at("method").get<std::string>();
   query.label += fmt::format(", {} of {}", json.at("what").get<std::string>(), method);
@@ -205,13 +205,13 @@ ViewedQuery query_from(std::string stream, std::string label) {
 
 /// \throws DatasetError if it is not the first line of certificates of queries
 void check_header(const fs::path& path, std::string_view first_line) {
-  if (!first_line.empty() && jobs::step_proofs_header().starts_with(first_line)) {
+  if (!first_line.empty() && exact::step_certificates_header().starts_with(first_line)) {
     throw io::DatasetError(path, {.line = 1},
                            "these are certificates of steps, which have no query; "
                            "view --step draws the step between two frames");
   }
   if (first_line.empty() || !exact::certificates_header().starts_with(first_line)) {
-    throw io::DatasetError(path, {.line = 1}, "this is no stream of certificates");
+    throw io::DatasetError(path, {.line = 1}, "not a stream of certificates");
   }
 }
 

@@ -14,7 +14,7 @@
 
 #include "touchstone/query.hpp"
 #include "touchstone/step.hpp"
-#include "verify/mesh/mesh.hpp"
+#include "verify/mesh/mesh_file.hpp"
 #include "verify/view/viewed_query.hpp"
 
 namespace touchstone::verify::view {

@@ -1,8 +1,8 @@
 #pragma once
 
 /// \file
-/// A query to be looked at: of any shape, or, as certificates may state it, on curves of degrees of
-/// their own.
+/// A query to be looked at: of any shape, or, as in certificates, with a curve of its own degree
+/// for each point.
 
 #include <optional>
 #include <string>
@@ -18,7 +18,7 @@
 
 namespace touchstone::verify::view {
 
-/// Points on curves of degrees of their own.
+/// Points on curves that may differ in degree.
 struct OwnCurves {
   Kind kind = Kind::vertex_face;
   CurvedQuery curves = {};
@@ -28,12 +28,12 @@ struct OwnCurves {
 
 /// A query to be looked at. Texts may hold any bytes.
 struct ViewedQuery {
-  std::string label = {};                           ///< where it is from
+  std::string label = {};                           ///< its origin
   std::variant<base::AnyQuery, OwnCurves> query{};  ///< finite numbers, positive weights
   Separation separation = {};
-  std::vector<std::string> notes = {};  ///< what is recorded of it, a sentence each
+  std::vector<std::string> notes = {};  ///< recorded remarks, a sentence each
   std::vector<judge::GivenAnswer> answers = {};
-  /// False: how near the primitives come without a collision, which takes longest, is left out.
+  /// False: leaves out the nearest approach of primitives that do not collide, which takes longest.
   bool with_approach = true;
   /// A stream of one certificate; where it is empty, the oracle's own is shown.
   std::string certificate = {};
@@ -44,8 +44,8 @@ struct ViewedQuery {
 /// The curves of its points, each of its own degree.
 [[nodiscard]] CurvedQuery curves_of(const ViewedQuery& viewed);
 
-/// As solvers are asked it: curves of their own as those of one degree, where all have it or are
-/// constant; nothing if they differ.
+/// The query in the form for solvers: own curves as those of one degree, if all have this degree or
+/// are constant; else nothing.
 [[nodiscard]] std::optional<base::AnyQuery> in_one_shape(const ViewedQuery& viewed);
 
 /// The same query on straight lines; null if it is on other curves.

@@ -25,7 +25,7 @@
 #include "fast/certified/fixed_point_vertices.hpp"
 #include "fast/kernels.hpp"
 #include "tests/faults/planted_faults.hpp"
-#include "tests/support/certified.hpp"
+#include "tests/support/certified_against_oracle.hpp"
 #include "tests/support/queries.hpp"
 #include "tests/support/random.hpp"
 #include "tests/support/trials.hpp"
@@ -33,7 +33,7 @@
 #include "touchstone/number.hpp"
 #include "verify/fuzz/contact.hpp"
 #include "verify/generate/families.hpp"
-#include "verify/generate/random.hpp"
+#include "verify/generate/random_stream.hpp"
 
 namespace touchstone::fast {
 

@@ -11,7 +11,7 @@
 #include <utility>
 
 #include "tests/filters/support.hpp"
-#include "tests/filters/worked_example/orientation.hpp"
+#include "tests/filters/worked_example.hpp"
 #include "touchstone/derivation/shipped_bound.hpp"
 #include "touchstone/filters/polynomial_expressions.hpp"
 

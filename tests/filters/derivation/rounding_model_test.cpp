@@ -7,7 +7,7 @@
 #include <string_view>
 
 #include "tests/filters/support.hpp"
-#include "tests/filters/worked_example/orientation.hpp"
+#include "tests/filters/worked_example.hpp"
 #include "touchstone/filters/polynomial_expressions.hpp"
 
 namespace touchstone::filters::rounding_model_test {

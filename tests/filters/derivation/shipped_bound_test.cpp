@@ -6,7 +6,7 @@
 #include <array>
 
 #include "tests/filters/support.hpp"
-#include "tests/filters/worked_example/orientation.hpp"
+#include "tests/filters/worked_example.hpp"
 #include "touchstone/filters/error_bound.hpp"
 #include "touchstone/filters/polynomial_expressions.hpp"
 

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/filters/support.hpp"
-#include "tests/filters/worked_example/orientation.hpp"
+#include "tests/filters/worked_example.hpp"
 #include "touchstone/filters/polynomial_expressions.hpp"
 
 namespace touchstone::filters::worst_case_test {

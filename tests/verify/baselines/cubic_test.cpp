@@ -20,7 +20,7 @@ TEST(Cubic, FindsContactsInTheMiddleAndTheirTimes) {
   tests::Random random(9);
   for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
     for (int i = 0; i < 1000; ++i) {
-      const auto posed = tests::centre_hit(random, kind, tests::Motion::independent);
+      const auto posed = tests::centre_hit(random, kind, tests::Movement::independent);
       const fast::Answer answer = answer_to(*method, posed);
       ASSERT_EQ(answer.verdict, fast::Verdict::yes) << posed;
       EXPECT_LT(answer.toi_lower, 0.5 + 1e-6) << posed;

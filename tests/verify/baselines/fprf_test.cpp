@@ -11,7 +11,7 @@ namespace {
 
 using tests::answer_to;
 using tests::missed_centre_hits;
-using tests::Motion;
+using tests::Movement;
 using tests::over_edge;
 using tests::over_triangle;
 
@@ -21,17 +21,19 @@ constexpr int collisions = 2000;
 
 TEST(Fprf, MissesDeformingTrianglesWhateverItsSeparation) {
   const int missed =
-      missed_centre_hits(*method, Kind::vertex_face, Motion::independent, wide, collisions);
+      missed_centre_hits(*method, Kind::vertex_face, Movement::independent, wide, collisions);
   EXPECT_NEAR(missed, 0.288 * collisions, 0.04 * collisions);
-  EXPECT_EQ(missed_centre_hits(*method, Kind::vertex_face, Motion::translation, wide, collisions),
+  EXPECT_EQ(missed_centre_hits(*method, Kind::vertex_face, Movement::translation, wide, collisions),
             0);
-  EXPECT_EQ(missed_centre_hits(*method, Kind::edge_edge, Motion::independent, wide, collisions), 0);
-  EXPECT_EQ(missed_centre_hits(*method, Kind::edge_edge, Motion::translation, wide, collisions), 0);
+  EXPECT_EQ(missed_centre_hits(*method, Kind::edge_edge, Movement::independent, wide, collisions),
+            0);
+  EXPECT_EQ(missed_centre_hits(*method, Kind::edge_edge, Movement::translation, wide, collisions),
+            0);
 }
 
 TEST(Fprf, MissesByChanceWithoutASeparation) {
   for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
-    const int missed = missed_centre_hits(*method, kind, Motion::translation, {}, collisions);
+    const int missed = missed_centre_hits(*method, kind, Movement::translation, {}, collisions);
     EXPECT_GT(missed, collisions / 20) << to_string(kind);
     EXPECT_LT(missed, collisions) << to_string(kind);
   }

@@ -12,7 +12,7 @@ namespace {
 
 using tests::answer_to;
 using tests::missed_centre_hits;
-using tests::Motion;
+using tests::Movement;
 using tests::over_edge;
 using tests::over_triangle;
 
@@ -40,7 +40,7 @@ TEST(Msrf, AnswersThePrintedQueriesAsItWasSeenTo) {
 TEST(Msrf, MissesTheMoreTheSmallerItsSeparation) {
   const auto share = [](Kind kind, double h) {
     return static_cast<double>(
-               missed_centre_hits(*method, kind, Motion::independent, within(h), collisions)) /
+               missed_centre_hits(*method, kind, Movement::independent, within(h), collisions)) /
            collisions;
   };
   for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {

@@ -198,8 +198,8 @@ TEST(CsvDataset, ATruncatedLastQueryIsOneError) {
     lines.resize(16 + rows);
     const std::string error = std::to_string(16 + rows) +
                               ": truncated query: " + std::to_string(rows) +
-                              " of 8 rows; if a row is missing further up, queries behind it were "
-                              "put together of two";
+                              " of 8 rows; if a row is missing further up, later queries were "
+                              "composed of two";
     EXPECT_EQ(strict_error(joined(lines) + "\n\n"), error);
     const Survivors kept = survivors(joined(lines));
     expect_numbered(kept.records, {0, 1});

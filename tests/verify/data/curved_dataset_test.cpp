@@ -148,8 +148,8 @@ TEST(CurvedCsv, LosesCountAtALineThatIsNoRow) {
   EXPECT_EQ(error_in("a.csv", "rational,2\n" + rows + "degree,2\n"),
             "a.csv:14: 2 columns, expected 4 as before" + lost);
   EXPECT_EQ(error_in("a.csv", "rational,2\n" + rows + rows.substr(0, rows.find('\n') + 1)),
-            "a.csv:14: truncated query: 1 of 12 rows; if a row is missing further up, queries "
-            "behind it were put together of two");
+            "a.csv:14: truncated query: 1 of 12 rows; if a row is missing further up, later "
+            "queries were composed of two");
 }
 
 TEST(CurvedCsv, SkipsAQueryWithAnInvalidNumberOrWeight) {

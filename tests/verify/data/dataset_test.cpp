@@ -83,12 +83,12 @@ TEST(FindDatasets, SearchesNoFolderTwiceHoweverLinksLeadToIt) {
   fs::create_symlink("itself", folder.path() / "itself");
   fs::create_symlink("nothing", folder.path() / "b/nowhere.csv");
   EXPECT_EQ(found_in(folder.path()), (std::vector{file, second})) << "by their plain paths";
-  EXPECT_EQ(
-      left_out_in(folder),
-      (std::vector<std::string>{"b/nowhere.csv: left out: a link that leads to no file or folder",
-                                "itself: left out: a link that leads to no file or folder",
-                                "a: left out: leads to a folder that is searched already",
-                                "b/c/ring: left out: leads to a folder that is searched already"}));
+  EXPECT_EQ(left_out_in(folder),
+            (std::vector<std::string>{
+                "b/nowhere.csv: left out: a link that leads to no file or folder",
+                "itself: left out: a link that leads to no file or folder",
+                "a: left out: leads to a folder that was searched already",
+                "b/c/ring: left out: leads to a folder that was searched already"}));
 }
 
 TEST(FindDatasets, FindsDatasetsAndNamesWhatItLeavesOutButForCompanions) {
@@ -113,7 +113,7 @@ TEST(FindDatasets, FindsDatasetsAndNamesWhatItLeavesOutButForCompanions) {
   }
   ASSERT_EQ(::mkfifo((folder.path() / "s/pipe.csv").c_str(), 0600), 0);
   const std::string in_companions =
-      ": left out: in a folder of what accompanies datasets; name the file itself to read it";
+      ": left out: in a folder of companion files; name the file itself to read it";
   EXPECT_EQ(found_in(folder.path()), expected);
   EXPECT_EQ(
       left_out_in(folder),

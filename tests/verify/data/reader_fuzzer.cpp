@@ -3,8 +3,9 @@
 /// memory, or throw anything but its documented errors. Accepted data must be valid: finite
 /// coordinates, indices in range, and text that reads back as the same numbers.
 ///
-/// The environment variable TOUCHSTONE_READER selects the reader by one of the names below, each
-/// with its corpus in corpus/NAME. The bytes are in a file that exists only in memory.
+/// The environment variable TOUCHSTONE_READER selects the reader by one of the names below. All
+/// readers start from the files of corpus/, also from those of other formats. The bytes are in a
+/// file that exists only in memory.
 
 #include <sys/mman.h>
 #include <unistd.h>
@@ -29,7 +30,7 @@
 #include "verify/data/separation_file.hpp"
 #include "verify/io/coordinate_text.hpp"
 #include "verify/io/dataset_error.hpp"
-#include "verify/mesh/mesh.hpp"
+#include "verify/mesh/mesh_file.hpp"
 #include "verify/mesh/obj.hpp"
 #include "verify/mesh/ply.hpp"
 #include "verify/solvers/answers.hpp"

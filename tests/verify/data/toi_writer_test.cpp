@@ -1,4 +1,4 @@
-#include "verify/data/toi_writer.hpp"
+#include "verify/data/ground_truth_files.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,6 @@
 #include <string>
 
 #include "tests/verify/data/dataset_fixture.hpp"
-#include "verify/data/ground_truth_files.hpp"
 
 namespace touchstone::verify::data::toi_writer_test {
 namespace {

@@ -11,7 +11,7 @@
 #include "touchstone/number.hpp"
 #include "touchstone/oracle.hpp"
 #include "verify/generate/family_builder.hpp"
-#include "verify/generate/random.hpp"
+#include "verify/generate/random_stream.hpp"
 
 namespace touchstone::verify::fuzz::contact_test {
 namespace {

@@ -13,7 +13,7 @@
 #include "touchstone/certified.hpp"
 #include "verify/fuzz/mutation.hpp"
 #include "verify/fuzz/plainness.hpp"
-#include "verify/generate/random.hpp"
+#include "verify/generate/random_stream.hpp"
 
 namespace touchstone::verify::fuzz::generators_test {
 namespace {

@@ -16,7 +16,7 @@
 #include "tests/support/trials.hpp"
 #include "touchstone/certified.hpp"
 #include "touchstone/oracle.hpp"
-#include "verify/fuzz/curves.hpp"
+#include "verify/fuzz/curved_generators.hpp"
 #include "verify/fuzz/finding.hpp"
 #include "verify/fuzz/plainness.hpp"
 #include "verify/generate/decimal.hpp"

@@ -14,7 +14,7 @@
 #include "touchstone/oracle.hpp"
 #include "touchstone/query.hpp"
 #include "verify/fuzz/generators.hpp"
-#include "verify/generate/random.hpp"
+#include "verify/generate/random_stream.hpp"
 
 namespace touchstone::verify::generate::symmetry_test {
 namespace {

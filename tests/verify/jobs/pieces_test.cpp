@@ -121,7 +121,7 @@ TEST_F(Pieces, OfAnotherPlanAreRefused) {
   EXPECT_EQ(error_with([](Plan& plan) { plan.outputs.erase("--truth"); }),
             begin + "with other output files" + end);
   EXPECT_EQ(error_with([](Plan& plan) { plan.uses["x.so"] = "0"; }),
-            begin + "with another content of a file that an option names" + end);
+            begin + "with other contents of a file that an option names" + end);
   EXPECT_EQ(error_with([](Plan&) {}), "no error");
 }
 
@@ -179,7 +179,7 @@ INSTANTIATE_TEST_SUITE_P(
                  fs::copy_file(run + "/000002.piece", run + "/000001.piece",
                                fs::copy_options::overwrite_existing);
                },
-               {"input1: piece 2 is there under this number too"}},
+               {"input1: piece 2 is also there under this number"}},
         Damage{"beyond the plan",
                [](const std::string& run, const std::string&) {
                  fs::copy_file(run + "/000002.piece", run + "/000003.piece");

@@ -14,6 +14,7 @@
 #include <string_view>
 #include <vector>
 
+#include "exact/certificate/step_certificate_text.hpp"
 #include "exact/checker/checker.hpp"
 #include "tests/support/certificates.hpp"
 #include "tests/support/random.hpp"
@@ -49,7 +50,7 @@ Proved prove(const Scene& scene, const fast::StepOptions& step_options,
              StepProofOptions options = {}) {
   const fast::Step step = scene.step(step_options);
   Proved result;
-  result.text = step_proofs_header();
+  result.text = exact::step_certificates_header();
   options.on_text = [&](std::string_view text) { result.text += text; };
   if (options.label.empty()) options.label = "a step";
   result.proof = prove_step(step,
@@ -57,7 +58,7 @@ Proved prove(const Scene& scene, const fast::StepOptions& step_options,
                              .points = scene.points,
                              .groups = {.of_vertices = scene.groups, .apart = scene.apart}},
                             options);
-  result.text += step_proofs_closing_line(1);
+  result.text += exact::step_certificates_closing_line(1);
   return result;
 }
 
@@ -144,7 +145,7 @@ TEST(ProveStep, KeepsTheLimitOfALabel) {
 TEST(ProveStep, KeepsTheLimitOfAScene) {
   Random random(1);
   const Scene scene = with_ordered_edges(tests::random_scene(random, tests::shapes().front(), 6));
-  const std::vector<std::int32_t> points(proof_item_limit);
+  const std::vector<std::int32_t> points(exact::step_item_limit);
   const StepProof proof =
       prove_step(scene.step({}), {.faces = scene.faces, .points = points}, StepProofOptions{});
   EXPECT_EQ(proof.failure, "the scene has more than 4194304 items");

@@ -36,7 +36,7 @@ struct Collected {
 
 Collected collect(MemorySource& source, const StreamOptions& options) {
   Collected collected;
-  const auto work = [&](const Block& block) -> BlockResult {
+  const auto work = [&](const QueryBlock& block) -> BlockResult {
     return {.in_order = [&] {
       collected.indices.insert(collected.indices.end(), block.indices.begin(), block.indices.end());
     }};
@@ -47,11 +47,11 @@ Collected collect(MemorySource& source, const StreamOptions& options) {
 
 TEST(Stream, AllComesOutInOrderWhateverTheNumberOfThreads) {
   for (const unsigned threads : {1U, 2U, 5U}) {
-    MemorySource source(Kind::edge_edge, numbered(5 * Block::most_queries + 7));
+    MemorySource source(Kind::edge_edge, numbered(5 * QueryBlock::most_queries + 7));
     const Collected collected = collect(source, {.threads = threads});
-    ASSERT_EQ(collected.indices.size(), 5 * Block::most_queries + 7);
+    ASSERT_EQ(collected.indices.size(), 5 * QueryBlock::most_queries + 7);
     EXPECT_TRUE(std::ranges::is_sorted(collected.indices));
-    EXPECT_EQ(collected.indices.back(), 5 * Block::most_queries + 6);
+    EXPECT_EQ(collected.indices.back(), 5 * QueryBlock::most_queries + 6);
     EXPECT_EQ(collected.result.skipped, 3U);
     EXPECT_EQ(collected.result.rounded, 5U);
     EXPECT_FALSE(collected.result.error);
@@ -60,10 +60,10 @@ TEST(Stream, AllComesOutInOrderWhateverTheNumberOfThreads) {
 }
 
 TEST(Stream, AnErrorOfTheSourceLosesNothingBeforeIt) {
-  MemorySource source(Kind::edge_edge, numbered(3 * Block::most_queries));
-  source.fail_at(Block::most_queries + 5, "row is broken");
+  MemorySource source(Kind::edge_edge, numbered(3 * QueryBlock::most_queries));
+  source.fail_at(QueryBlock::most_queries + 5, "row is broken");
   const Collected collected = collect(source, {});
-  EXPECT_EQ(collected.indices.size(), Block::most_queries + 5);
+  EXPECT_EQ(collected.indices.size(), QueryBlock::most_queries + 5);
   EXPECT_EQ(collected.result.error, "row is broken");
   EXPECT_FALSE(collected.result.interrupted);
 }
@@ -87,7 +87,7 @@ class InterruptedSource final : public data::QuerySource {
 TEST(Stream, AnInterruptOfTheSourceIsNoErrorAndLosesNothingBeforeIt) {
   InterruptedSource source;
   std::size_t queries = 0;
-  const auto work = [&](const Block& block) -> BlockResult {
+  const auto work = [&](const QueryBlock& block) -> BlockResult {
     return {.in_order = [&] { queries += block.size(); }};
   };
   const StreamResult result = stream(source, work, {});
@@ -97,10 +97,10 @@ TEST(Stream, AnInterruptOfTheSourceIsNoErrorAndLosesNothingBeforeIt) {
 }
 
 TEST(Stream, AnExceptionOfTheWorkEndsItAndIsReported) {
-  MemorySource source(Kind::edge_edge, numbered(20 * Block::most_queries));
+  MemorySource source(Kind::edge_edge, numbered(20 * QueryBlock::most_queries));
   std::size_t blocks = 0;
-  const auto work = [&](const Block& block) -> BlockResult {
-    if (block.indices.front() == 10 * Block::most_queries)
+  const auto work = [&](const QueryBlock& block) -> BlockResult {
+    if (block.indices.front() == 10 * QueryBlock::most_queries)
       throw std::runtime_error("no memory left");
     return {.in_order = [&] { ++blocks; }};
   };
@@ -109,16 +109,17 @@ TEST(Stream, AnExceptionOfTheWorkEndsItAndIsReported) {
 }
 
 TEST(Stream, AnIncompleteBlockIsTheLast) {
-  MemorySource source(Kind::edge_edge, numbered(10 * Block::most_queries));
+  MemorySource source(Kind::edge_edge, numbered(10 * QueryBlock::most_queries));
   std::vector<std::uint64_t> firsts;
-  const auto work = [&](const Block& block) -> BlockResult {
+  const auto work = [&](const QueryBlock& block) -> BlockResult {
     const std::uint64_t first = block.indices.front();
     return {.in_order = [&firsts, first] { firsts.push_back(first); },
-            .complete = first != 2 * Block::most_queries};
+            .complete = first != 2 * QueryBlock::most_queries};
   };
   const StreamResult result = stream(source, work, {.threads = 4});
   EXPECT_TRUE(result.interrupted);
-  EXPECT_EQ(firsts, (std::vector<std::uint64_t>{0, Block::most_queries, 2 * Block::most_queries}));
+  EXPECT_EQ(firsts, (std::vector<std::uint64_t>{0, QueryBlock::most_queries,
+                                                2 * QueryBlock::most_queries}));
 }
 
 TEST(Stream, AStopEndsTheReading) {

@@ -297,8 +297,8 @@ TEST(ReadPly, NamesWhatIsWrongInText) {
   EXPECT_EQ(face("3 0 1 2 3"), "a.ply:14: face 0: too many values");
   EXPECT_EQ(face("3 0 1 4"), "a.ply:14: face 0: vertex 4, but there are 4, counted from 0");
   EXPECT_EQ(face("3 0 -1 2"), "a.ply:14: face 0: vertex -1, but there are 4, counted from 0");
-  EXPECT_EQ(face("3 0 1 1.5"), "a.ply:14: face 0: \"1.5\" is no number of the property's type");
-  EXPECT_EQ(face("256 0 1 2"), "a.ply:14: face 0: \"256\" is no number of the property's type");
+  EXPECT_EQ(face("3 0 1 1.5"), "a.ply:14: face 0: \"1.5\" is not a number of the property's type");
+  EXPECT_EQ(face("256 0 1 2"), "a.ply:14: face 0: \"256\" is not a number of the property's type");
   EXPECT_EQ(face("3 0 1 2\n\n3 0 1 2"), "a.ply:16: data after the last element");
   const auto vertex = [&folder](const std::string& line) {
     return folder.error("a.ply", ascii + "element vertex 1\n" + xyz + "end_header\n" + line);
@@ -306,8 +306,8 @@ TEST(ReadPly, NamesWhatIsWrongInText) {
   EXPECT_EQ(vertex("0 nan 0"), "a.ply:8: vertex 0: a coordinate must be finite");
   EXPECT_EQ(vertex("0 0 -inf"), "a.ply:8: vertex 0: a coordinate must be finite");
   EXPECT_EQ(vertex("0 1e400 0"),
-            "a.ply:8: vertex 0: \"1e400\" is no number of the property's type");
-  EXPECT_EQ(vertex("0 x 0"), "a.ply:8: vertex 0: \"x\" is no number of the property's type");
+            "a.ply:8: vertex 0: \"1e400\" is not a number of the property's type");
+  EXPECT_EQ(vertex("0 x 0"), "a.ply:8: vertex 0: \"x\" is not a number of the property's type");
   EXPECT_EQ(folder.error("a.ply", ascii + "element vertex 1\n" + xyz +
                                       "element edge 1\nproperty int vertex1\nproperty int vertex2\n"
                                       "end_header\n0 0 0\n0 1\n"),

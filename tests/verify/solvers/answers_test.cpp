@@ -340,7 +340,7 @@ TEST(LoadAnswers, NamesLineColumnAndReason) {
   EXPECT_EQ(error_in(full_header + "a,0,edge-edge,error,,,,bang\n"),
             "answers.csv:2:8: must be a kind of failure or empty: \"bang\"");
   EXPECT_EQ(error_in(full_header + "a,0,edge-edge,no,,,,crash\n"),
-            "answers.csv:2:8: a failure of kind crash is no answer no");
+            "answers.csv:2:8: the failure crash contradicts the verdict no");
   EXPECT_EQ(error_in(full_header + "a,0,edge-edge,no,,,\n"),
             "answers.csv:2: 7 columns, expected 8");
 }

@@ -49,7 +49,7 @@ TEST(ChildProcess, MessagesKeepTheirBoundsAndComeBeforeTheEnd) {
   EXPECT_EQ(child.end(output).failure, (judge::Failure{.kind = judge::Fault::exit, .number = 0}));
 }
 
-/// The other ends are in plugin_test.cpp.
+/// The other ends are in plugin_method_test.cpp.
 TEST(ChildProcess, EndsWithStatusOneIfItsWorkThrows) {
   const TemporaryFolder folder;
   ChildProcess child([](const ChildChannel&) { throw 7; }, {}, folder.path());

@@ -284,7 +284,7 @@ TEST(SolverProcess, AsksOneProcessThatIsNotThisOne) {
 // ---- Failures -----------------------------------------------------------------------------------
 
 /// What queries do, and what comes of it. (The ways to end, and their names, are in
-/// plugin_test.cpp.)
+/// plugin_method_test.cpp.)
 struct Event {
   const char* name;
   std::vector<Query> queries;

@@ -20,7 +20,7 @@
 #include "verify/fuzz/plainness.hpp"
 #include "verify/generate/decimal.hpp"
 #include "verify/generate/family_builder.hpp"
-#include "verify/generate/random.hpp"
+#include "verify/generate/random_stream.hpp"
 
 namespace touchstone::verify::stability::hardness_test {
 namespace {

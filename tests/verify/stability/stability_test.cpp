@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "tests/support/methods.hpp"
-#include "verify/generate/random.hpp"
+#include "verify/generate/random_stream.hpp"
 #include "verify/solvers/registry.hpp"
 
 namespace touchstone::verify::stability::stability_test {

@@ -197,7 +197,7 @@ TEST_F(QueryFiles, Certificates) {
   EXPECT_EQ(queries("curves.cert").at(0).query,
             AnyViewed(OwnCurves{.kind = Kind::vertex_face, .curves = curves}));
   write("text.cert", "no certificate\n");
-  EXPECT_EQ(reason("text.cert"), "this is no stream of certificates");
+  EXPECT_EQ(reason("text.cert"), "not a stream of certificates");
 }
 
 // A small compressed file may hold a text of any length: the memory does not follow it.

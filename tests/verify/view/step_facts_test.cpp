@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "verify/mesh/mesh.hpp"
+#include "verify/mesh/mesh_file.hpp"
 
 namespace touchstone::verify::view::step_facts_test {
 namespace {

@@ -16,12 +16,12 @@
 #include "tests/support/random.hpp"
 #include "touchstone/curved_query.hpp"
 #include "touchstone/number.hpp"
-#include "verify/mesh/mesh.hpp"
+#include "verify/mesh/mesh_file.hpp"
 #include "verify/solvers/registry.hpp"
 #include "verify/view/asked_solvers.hpp"
-#include "verify/view/page.hpp"
 #include "verify/view/query_facts.hpp"
 #include "verify/view/step_facts.hpp"
+#include "verify/view/view_page.hpp"
 
 namespace touchstone::verify::view::view_browser_test {
 namespace {

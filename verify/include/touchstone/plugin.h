@@ -8,10 +8,10 @@
 /// queries at once. It needs no other header of Touchstone. `touchstone certify --plugin
 /// ./libsolver.so` loads it and calls it for each query. `examples/plugin/` is a complete one.
 ///
-/// The problem: four points move on straight lines from t=0 to t=1. Do a vertex and a triangle, or
-/// two edges, collide at some t in [0,1], and when first? Contact at t=0, at t=1 and on the
-/// boundary of the primitives counts. With a minimum separation, contact is a distance of at most
-/// that separation.
+/// The problem: four points move on straight lines from t=0 to t=1. A solver decides whether a
+/// vertex and a triangle, or two edges, collide at some t in [0,1], and finds the first such t.
+/// Contact at t=0, at t=1 and on the boundary of the primitives counts. With a minimum separation,
+/// contact is a distance of at most that separation.
 ///
 /// Version 2 added TouchstonePluginOptions::norm at the end. Plugins of version 1 are still
 /// accepted: they receive the distance but not the norm, and are judged in the requested norm.
@@ -81,7 +81,7 @@ typedef struct TouchstonePluginAnswer {
                      ///< yes beyond that is a fault.
 } TouchstonePluginAnswer;
 
-/// What a solver promises of its answers.
+/// The promise of a solver about its answers.
 enum TouchstonePromise {
   TOUCHSTONE_PROMISES_NOTHING = 0,       ///< wrong answers of all kinds occur
   TOUCHSTONE_PROMISES_CONSERVATIVE = 1,  ///< no missed collision, no late time; false positives

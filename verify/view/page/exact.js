@@ -121,7 +121,7 @@ export function squareRoot({ n, d }) {
 
 // ---- Texts --------------------------------------------------------------------------------------
 
-/// As C's %a: "0x1.8p-3".
+/// A double in the form of C's %a: "0x1.8p-3".
 export function hexadecimalText(x) {
   const bits = bitsOf(x);
   const sign = bits >> 63n ? "-" : "";

@@ -1,9 +1,8 @@
 // The visible part: a place and a radius, and exact positions as coordinates relative to them.
 //
-// A picture shows the ball of a radius around a place. Relative to both, coordinates are computed
-// exactly and then truncated to 72 fractional bits; primitives are clipped to the cube around the
-// ball before they are rounded. So a primitive that is 1e300 times larger than the visible part is
-// as sharp as a small one.
+// A picture shows the ball of a radius around a place. Relative to both, coordinates are computed exactly and then
+// truncated to 72 fractional bits; primitives are clipped to the cube around the ball before they are rounded. A
+// primitive that is 1e300 times larger than the visible part is therefore as sharp as a small one.
 
 import { nearest } from "./exact.js";
 
@@ -32,7 +31,7 @@ export class Frame {
   }
 }
 
-/// Coordinates of a frame as those of the world, rounded to what a screen shows of them.
+/// Coordinates of a frame as those of the world, rounded to the precision of a screen.
 export function worldOf(frame, point) {
   const radius = 2 ** frame.lgRadius;
   const step = 2 ** (Math.floor(frame.lgRadius) - 12);

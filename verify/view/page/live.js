@@ -2,12 +2,12 @@
 
 import { readFacts } from "./facts.js";
 
-/// Whether this page has the solvers.
+/// True if this page has the solvers.
 export const isLive = typeof createTouchstone !== "undefined";
 
 /// Starts them. Returns a function from a query, with its label, to its facts; how near a query without a
 /// collision comes is said only if asked for.
-/// \throws Error if this browser's arithmetic is not what they need.
+/// \throws Error if the solvers cannot use this browser's arithmetic.
 export async function startLive() {
   const code = await createTouchstone(); // eslint-disable-line no-undef
   const text = (place) => code.UTF8ToString(place);

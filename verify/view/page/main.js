@@ -73,7 +73,7 @@ function controls() {
     button("tilt", "Other axis up", "u", () => viewpoint.tilt()));
 }
 
-/// What changes the query, on a page that decides it at once.
+/// The controls that change the query, on a page that decides it at once.
 function editor() {
   return make("section", { id: "edit", hidden: true },
     make("div", { class: "choice", role: "radiogroup", "aria-label": "Kind" },

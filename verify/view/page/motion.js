@@ -69,7 +69,7 @@ export class Motion {
     }));
     /// The weights of each curve as doubles; null if all are 1.
     this.weights = facts.weights ? curves.map((curve) => curve.map(({ weight }) => weight)) : null;
-    /// Do points and corners move on straight lines? Differences of rational curves do not, of any degree.
+    /// True if points and corners move on straight lines. Differences of rational curves of any degree do not.
     this.isStraight = this.weights === null && curves.every((curve) => curve.length <= 2);
   }
 

@@ -13,7 +13,7 @@ const distance = 1.02 / Math.sin((fieldOfView / 2) * (Math.PI / 180));
 const filledPart = 0.8;
 const mostEnlarged = 5;
 
-/// A point is grabbed within so many pixels.
+/// The distance in pixels within which a point is grabbed.
 const grabDistance = 18;
 
 /// The common viewpoint of all pictures, and their upward axis.
@@ -89,7 +89,7 @@ export class Scene {
     // The size of the part that is shown, of the whole picture.
     this.part = 1;
     this.zoom = zoom;
-    // What drags points: begin() says whether it may begin, move(handle, point) moves, end() ends.
+    // The object that drags points: begin() returns true if a drag may begin, move(handle, point) moves, end() ends.
     this.drag = null;
     viewpoint.listeners.push(() => this.render());
     new ResizeObserver(() => this.render()).observe(this.canvas);
@@ -179,7 +179,7 @@ export class Scene {
     this.add(geometry, material, true).position.set(...center);
   }
 
-  /// \param handle what move() is called with if the user drags the point; nothing if it stays
+  /// \param handle the argument of move() if the user drags the point; nothing if it stays
   name(point, text, color, handle = null) {
     const span = document.createElement("span");
     span.textContent = text;
@@ -290,7 +290,7 @@ export class Scene {
     return { x: ((x + 1) / 2) * this.canvas.clientWidth, y: ((1 - y) / 2) * this.canvas.clientHeight, depth: z };
   }
 
-  /// Where on the canvas a pointer is.
+  /// The position of a pointer on the canvas.
   placeOf(event) {
     const { left, top } = this.canvas.getBoundingClientRect();
     return [event.clientX - left, event.clientY - top];

@@ -15,7 +15,7 @@
 #include "fast/certified/exact/exact_stage.hpp"
 #include "tests/faults/limb_products.hpp"
 #include "tests/faults/planted_faults.hpp"
-#include "tests/support/certified.hpp"
+#include "tests/support/certified_against_oracle.hpp"
 #include "tests/support/queries.hpp"
 #include "touchstone/oracle.hpp"
 

@@ -13,7 +13,7 @@
 
 #include "fast/certified/block.hpp"
 #include "tests/faults/planted_faults.hpp"
-#include "tests/support/certified.hpp"
+#include "tests/support/certified_against_oracle.hpp"
 #include "tests/support/queries.hpp"
 #include "touchstone/oracle.hpp"
 #include "verify/generate/families.hpp"

@@ -1,7 +1,7 @@
 /// \file
 /// The certified solver in place of the solver of the templates' reader.
 
-#include "examples/plugin/templates/your_solver.hpp"
+#include "examples/plugin/your_solver.hpp"
 
 #include <cstddef>
 

@@ -1,0 +1,27 @@
+#!/bin/sh
+# build_tbb_for_tsan.sh FOLDER: oneTBB from Debian's sources, compiled for ThreadSanitizer, installed in FOLDER/installed. The
+# sanitizer does not see the atomics by which the scheduler of Debian's own library hands tasks from thread to thread,
+# so all memory of a task would look unsynchronised.
+set -eu
+folder=$1
+[ -e "$folder/installed/done" ] && exit
+rm -rf "$folder"
+mkdir -p "$folder/lists/partial" "$folder/source"
+cd "$folder"
+cat >debian.sources <<END
+Types: deb-src
+URIs: http://deb.debian.org/debian
+Suites: $(. /etc/os-release && echo "$VERSION_CODENAME")
+Components: main
+Signed-By: /usr/share/keyrings/debian-archive-keyring.gpg
+END
+# A separate list, because the machine's list may name no sources.
+as_here="-o Dir::Etc::sourcelist=$PWD/debian.sources -o Dir::Etc::sourceparts=/dev/null -o Dir::State::lists=$PWD/lists"
+apt-get $as_here update -qq
+(cd source && apt-get $as_here source -qq --only-source onetbb)
+cmake -G Ninja -S "$(echo source/onetbb-*/)" -B build -DCMAKE_BUILD_TYPE=RelWithDebInfo -DTBB_SANITIZE=thread \
+  -DTBB_TEST=OFF -DTBB_STRICT=OFF -DTBBMALLOC_BUILD=OFF -DTBB_DISABLE_HWLOC_AUTOMATIC_SEARCH=ON \
+  -DCMAKE_INSTALL_LIBDIR=lib -DCMAKE_INSTALL_PREFIX="$PWD/installed"
+cmake --build build
+cmake --install build
+touch installed/done

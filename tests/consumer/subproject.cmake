@@ -1,0 +1,17 @@
+# A simulator that takes the project by add_subdirectory or FetchContent, on a machine with Eigen, oneTBB and no other of the
+# project's packages. -DHOW=add_subdirectory|FetchContent -DTOUCHSTONE=<the project's folder>
+cmake_minimum_required(VERSION 3.25)
+project(subproject LANGUAGES CXX)
+set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
+foreach(package CGAL Boost GMP MPFR fmt CLI11 nlohmann_json zstd GTest benchmark Python3)
+  set(CMAKE_DISABLE_FIND_PACKAGE_${package} ON)
+endforeach()
+if(HOW STREQUAL "FetchContent")
+  include(FetchContent)
+  FetchContent_Declare(touchstone SOURCE_DIR ${TOUCHSTONE})
+  FetchContent_MakeAvailable(touchstone)
+else()
+  add_subdirectory(${TOUCHSTONE} touchstone)
+endif()
+add_executable(simulator ${TOUCHSTONE}/tests/consumer/simulator_author.cpp)
+target_link_libraries(simulator PRIVATE touchstone::fast)

@@ -1,0 +1,283 @@
+"""Do touchstone-check and touchstone-check-verified agree?
+
+On certificates that `touchstone prove` writes (the built-in set and, if TOUCHSTONE_DATA names them, the
+public data, in all separations), on the list of altered certificates, whose outcomes it says, on the corpus of the fuzzer,
+and on mutants of certificates. Equal are exit status and output. Of a proof that is rejected the verified program names the part; then the certificate has
+to be the same, by its label.
+"""
+
+import argparse
+import os
+import pathlib
+import random
+import re
+import subprocess
+import sys
+import tempfile
+
+# Reasons of the verified program, which knows less of them.
+UNPROVED = re.compile("the (subinterval|contact) is not proved|there is no subinterval|the (last )?subinterval does not .*")
+# The verified program proves `at axes` by a witness, and sees some contacts that the other does not see.
+UNSEEN = "an axis separates, or is not seen not to"
+SEPARATIONS = [(), ("1e-3", "linf"), ("1e-3", "l2"), ("0.5", "linf"), ("0.5", "l2")]
+# Fewer than the rejections that are printed, so that all are.
+BATCH = 90
+
+
+def run(program, path):
+    done = subprocess.run([program, str(path)], capture_output=True, text=True, timeout=600)
+    return done.returncode, done.stdout.splitlines()
+
+
+def is_same(line, verified_line):
+    if line == verified_line:
+        return True
+    one, other = (re.fullmatch(r"  line \d+( \(.*?\))?: (.*)", text) for text in (line, verified_line))
+    return bool(one and other) and UNPROVED.fullmatch(other[2]) and one[1] == other[1]
+
+
+def without_unseen_axes(lines, verified_lines):
+    """The lines of touchstone-check without the rejections of `at axes` that only it rejects."""
+    labels = [re.search(r" \(.*?\): ", line) for line in verified_lines]
+    rejected = {label[0] for label in labels if label}
+    kept = []
+    for line in lines:
+        label = re.search(r" \(.*?\): ", line)
+        if not (line.endswith(UNSEEN) and label and label[0] not in rejected):
+            kept.append(line)
+    return kept
+
+
+class Result:
+    """What both programs answered to a stream."""
+
+    def __init__(self, programs, path):
+        (status, lines), (verified_status, verified_lines) = (run(program, path) for program in programs)
+        self.accepted = self.rejected = self.unseen = 0
+        self.difference = None
+        if path.read_bytes().startswith(b"touchstone-steps"):
+            if verified_status != 2:
+                self.difference = f"status {verified_status} of certificates of steps, which are not covered"
+            return
+        self.accepted, self.rejected = (int(lines[k].split()[1]) for k in (0, 4))
+        kept = without_unseen_axes(lines, verified_lines)
+        self.unseen = len(lines) - len(kept)
+        if self.unseen:
+            kept[:5] = verified_lines[:5]
+        elif status != verified_status:
+            self.difference = f"status {status} and {verified_status}"
+        if len(kept) != len(verified_lines):
+            self.difference = f"{kept[:6]} and {verified_lines[:6]}"
+        for line, verified_line in zip(kept, verified_lines):
+            if not is_same(line, verified_line):
+                self.difference = self.difference or f"{line!r} and {verified_line!r}"
+
+
+# ---- The list ----
+
+def expanded(row):
+    """The rows for each choice in {a|b}; {} is the choice again."""
+    group = re.search(r"\{(.*?)\}", row)
+    if not group:
+        return [row]
+    choices = group[1].split("|")
+    return [one for choice in choices
+            for one in expanded((row[:group.start()] + choice + row[group.end():]).replace("{}", choice))]
+
+
+def query_lines(query):
+    kind, points = query.split(" ", 1)
+    ends = points.split(" > ") * (1 if " > " in points else 2)
+    if kind == "over":
+        kind, ends = "vertex_face", [end + ", 0 0 0, 4 0 0, 0 4 0" for end in ends]
+    return ["touchstone-certificates 2", f"query {kind}"] + [f"point {p}" for end in ends for p in end.split(", ")]
+
+
+def listed(path):
+    """The certificates of the list, as texts without their header, each with True if it is accepted."""
+    queries, last, is_after_row = [], "", False
+    for line in path.read_text().splitlines():
+        if not line or line.startswith("#") or " = " in line:
+            continue
+        is_row = line.startswith("  ")
+        if not is_row:
+            queries = (queries if not is_after_row else []) + expanded(line)
+        is_after_row = is_row
+        for query in queries if is_row else []:
+            for row in expanded(line[2:]):
+                row, arrow, _ = row.partition(" -> ")
+                last = last if row.startswith("@") else row
+                lines = query_lines(query) + last.split("; ") + ["end"]
+                if row.startswith("@"):
+                    number, text = row[1:].split(" ", 1)
+                    text = re.sub(r"\\x(..)", lambda code: chr(int(code[1], 16)), text)
+                    lines[int(number) - 1] = text.replace("; ", "\n")
+                yield "\n".join(lines[1:]) + "\n", not arrow
+
+
+def list_results(programs, folder, path):
+    """What both programs answer to the list, in the order of the expected outcomes."""
+    certificates = list(listed(path))
+    for accepted in (True, False):
+        texts = [text for text, outcome in certificates if outcome == accepted]
+        for first in range(0, len(texts), BATCH):
+            # The query's label, if it has such a line.
+            some = [re.sub("^(query .*\n)", rf"\g<1>label l{n}\n", text)
+                    for n, text in enumerate(texts[first:first + BATCH])]
+            count = sum(line.split(" ")[0] == "query" for text in some for line in text.split("\n"))
+            stream = folder / "listed.cert"
+            stream.write_bytes(("touchstone-certificates 2\n" + "".join(some) + f"certificates {count}\n").encode("latin1"))
+            result = Result(programs, stream)
+            if (result.rejected == 0) != accepted or (result.accepted == 0) == accepted:
+                result.difference = f"{result.accepted} accepted and {result.rejected} refused of the list"
+            yield result
+
+
+# ---- Mutants ----
+
+FEATURES = ["vertex 0", "vertex 1", "edge 0 1", "edge 1 2", "face +", "face -", "axis x +", "axis z -",
+            "cross y 0 1", "cross x 2 2"]
+PLACES = ["triangle 0 1 2 x", "triangle 2 1 0 y", "triangle 0 2 3 z", "segment 0 1", "segment 1 1", "vertex 0",
+          "vertex 2", "edge 0 1", "edge 2 0", "face", "axes"]
+
+
+def changed_number(draw, word):
+    digits = [i for i, c in enumerate(word) if c.isdigit()]
+    kind = draw.randrange(6)
+    if kind == 0 or not digits:
+        return draw.choice(["0", "1", "-1", "1/2", "0x1p-1", "-0x1.8p+3", "1/0", "01", "0x1p+99999"])
+    if kind == 1:
+        return word[1:] if word.startswith("-") else "-" + word
+    i = draw.choice(digits)
+    return word[:i] + draw.choice("0123456789") + word[i + 1:]
+
+
+def mutant(draw, lines):
+    """The certificate with one to three changes, but for its label."""
+    lines = list(lines)
+    for _ in range(draw.choice([1, 1, 1, 2, 3])):
+        i = draw.randrange(len(lines))
+        words = lines[i].split(" ")
+        kind = draw.randrange(12)
+        if words[0] == "label" or len(lines) < 4:
+            continue
+        if kind == 0:
+            del lines[i]
+        elif kind == 1:
+            lines.insert(draw.randrange(1, len(lines)), lines[i])
+        elif kind == 2 and words[0] == "separate":
+            lines[i] = " ".join(words[:3] + [draw.choice(FEATURES)])
+        elif kind <= 3 and words[0] == "at":
+            lines[i] = "at " + draw.choice(PLACES)
+        elif kind == 4 and words[0] == "claim":
+            lines[i] = "claim " + draw.choice(["no_collision", "collision", "time_of_impact 0 0",
+                                               "time_of_impact 1/4 1/2", "time_of_impact 0 1"])
+        elif kind == 5:
+            separation = f"separation {draw.choice(['0', '1', '1/1000', '0x1p-3'])} {draw.choice(['linf', 'l2'])}"
+            places = [n for n, line in enumerate(lines) if line.startswith("separation")]
+            claims = [n for n, line in enumerate(lines) if line.startswith("claim")]
+            if places:
+                lines[places[0]] = separation
+            elif claims:
+                lines.insert(claims[0], separation)
+        elif kind == 6 and words[0] == "query":
+            lines[i] = draw.choice(["query vertex_face", "query edge_edge"])
+        elif kind == 7 and words[0] == "point":
+            j = draw.randrange(len(lines))
+            if lines[j].startswith("point"):
+                lines[i], lines[j] = lines[j], lines[i]
+        elif len(words) > 1:
+            j = draw.randrange(1, len(words))
+            words[j] = changed_number(draw, words[j])
+            lines[i] = " ".join(words)
+    return lines
+
+
+def certificates(path):
+    """The certificates of a stream, as lists of lines."""
+    found = []
+    for line in path.read_text().splitlines()[1:-1]:
+        if line.startswith("query"):
+            found.append([])
+        found[-1].append(line)
+    return found
+
+
+def write_mutants(draw, originals, path, first, count):
+    lines = ["touchstone-certificates 2"]
+    for n in range(first, first + count):
+        original = draw.choice(originals)
+        unlabelled = [line for line in original if not line.startswith("label")]
+        changed = mutant(draw, unlabelled)
+        place = 1 if changed[0].startswith("query") else 0
+        lines += changed[:place] + [f"label m{n}"] * place + changed[place:]
+    lines.append(f"certificates {sum(line.startswith('query') for line in lines)}")
+    path.write_text("\n".join(lines) + "\n")
+
+
+# ---- The comparison ----
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--programs", default="build/release", help="folder of touchstone and touchstone-check")
+    parser.add_argument("--verified", default="build/verified/touchstone-check-verified")
+    parser.add_argument("--count", type=int, default=20, help="queries of each built-in family and kind")
+    parser.add_argument("--mutants", type=int, default=10_000)
+    parser.add_argument("--seed", type=int, default=2021)
+    parser.add_argument("--no-data", action="store_true", help="leave out the public data")
+    arguments = parser.parse_args()
+    tool = f"{arguments.programs}/touchstone"
+    programs = (f"{arguments.programs}/touchstone-check", arguments.verified)
+    draw = random.Random(arguments.seed)
+    data = os.environ.get("TOUCHSTONE_DATA", "")
+    sources = [("built-in set", ["--count", str(arguments.count)])]
+    if data and not arguments.no_data:
+        sources += [(name, [f"{data}/{name}"]) for name in ("handcrafted", "simulation")]
+    differences = 0
+
+    def report(name, results):
+        nonlocal differences
+        found = [result.difference for result in results if result.difference]
+        differences += len(found)
+        accepted, rejected, unseen = (
+            sum(getattr(result, count) for result in results) for count in ("accepted", "rejected", "unseen"))
+        print(f"{name:44} {accepted:9,} {rejected:9,} {unseen:13,} {len(found):11}", flush=True)
+        for text in found[:5]:
+            print("  " + text)
+
+    print(f"{'certificates':44} {'accepted':>9} {'rejected':>9} {'verified only':>13} {'differences':>11}")
+    with tempfile.TemporaryDirectory() as folder:
+        path = pathlib.Path(folder) / "some.cert"
+        originals = []
+        for name, source in sources:
+            for separation in SEPARATIONS:
+                for claim in ("time_of_impact", "collision"):
+                    options = ["--claim", claim]
+                    if separation:
+                        options += ["--min-separation", separation[0], "--norm", separation[1]]
+                    done = subprocess.run([tool, "prove", *source, *options, "--threads", "1", "--out", path],
+                                          capture_output=True, text=True)
+                    if done.returncode != 0:
+                        sys.exit(f"touchstone prove: {done.stderr}")
+                    of = " ".join(separation) or "contact"
+                    report(f"{name}, {of}, {claim}", [Result(programs, path)])
+                    if name == "built-in set":
+                        originals += certificates(path)
+        cases = pathlib.Path(__file__).parent
+        report("list of altered certificates",
+               list(list_results(programs, pathlib.Path(folder), cases / "certificates.txt")))
+        report("corpus of the fuzzer", [Result(programs, file) for file in sorted((cases / "corpus").iterdir())])
+        results = []
+        for first in range(0, arguments.mutants, BATCH):
+            write_mutants(draw, originals, path, first, min(BATCH, arguments.mutants - first))
+            results.append(Result(programs, path))
+            if results[-1].difference:
+                kept = pathlib.Path(f"different-{first}.cert")
+                kept.write_bytes(path.read_bytes())
+                print(f"  kept: {kept}")
+        report("mutants", results)
+    sys.exit(1 if differences else 0)
+
+
+if __name__ == "__main__":
+    main()

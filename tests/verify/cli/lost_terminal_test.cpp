@@ -1,0 +1,247 @@
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <csignal>
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "tests/support/tool_test.hpp"
+
+// The tool after its user or its reader has gone, or without its input; and names from outside on a
+// terminal (verify/io/terminal.hpp, verify/io/printable.hpp).
+
+namespace touchstone::verify::cli::lost_terminal_test {
+namespace {
+
+namespace fs = std::filesystem;
+using tests::comes_true;
+using tests::contains;
+using tests::handles;
+using tests::Outcome;
+
+/// A vertex that falls through a resting triangle.
+std::string falling_vertex() {
+  const std::string triangle = "0,1,0,1,0,1\n4,1,0,1,0,1\n0,1,4,1,0,1\n";
+  return "1,1,1,1,1,1\n" + triangle + "1,1,1,1,-3,1\n" + triangle;
+}
+
+class TerminalTool : public tests::ToolTest {
+ protected:
+  /// Runs the program, and interrupts it when it handles interrupts and the condition holds.
+  [[nodiscard]] Outcome run_interrupted(
+      const std::vector<std::string>& words,
+      const std::function<bool()>& condition = [] { return true; }) const {
+    const pid_t process = start(words);
+    EXPECT_TRUE(comes_true([&] { return handles(process, SIGINT) && condition(); }));
+    kill(process, SIGINT);
+    return finish(process);
+  }
+};
+
+// ---- Interrupts ---------------------------------------------------------------------------------
+
+TEST_F(TerminalTool, EveryCommandEndsAtAnInterrupt) {
+  const std::string out = path("result");
+  const std::vector<std::vector<std::string>> runs{
+      {"certify", "--count", "100000000"},
+      {"solve", "--count", "100000000", "--method", "certified", "--out", out},
+      {"prove", "--count", "100000000", "--out", out},
+      {"generate", "--count", "100000000", "--out", path("families")},
+      {"generate", "--patches", "1000", "--out", path("patches")},
+      {"bench", "--count", "100000000"},
+      {"fuzz", "--method", "certified"},
+      {"certify", "--degree", "rational", "--count", "1000000"},
+      {"stability"},
+      {"report", "--out", out},
+      {"derive"}};
+  for (const std::vector<std::string>& words : runs) {
+    EXPECT_EQ(run_interrupted(words).status, 130) << words[0] << " " << words.back();
+  }
+}
+
+/// A sheet whose vertices are in places all over the cube of this size: nearly all pairs of its
+/// primitives are candidates of the step between two sizes.
+std::string sheet(double size) {
+  constexpr int row = 61;
+  std::string text;
+  for (int i = 0; i < row * row; ++i) {
+    text += "v";
+    for (const int factor : {7919, 104'729, 1'299'709}) {
+      text += " " + std::to_string(size * static_cast<double>(i * std::int64_t{factor} % 1009));
+    }
+    text += '\n';
+  }
+  for (int i = 1; i <= row * (row - 1); ++i) {
+    if (i % row == 0) continue;
+    text += "f " + std::to_string(i) + " " + std::to_string(i + 1) + " " + std::to_string(i + row) +
+            '\n';
+  }
+  return text;
+}
+
+/// The second frame comes through a pipe: when it has been read, the search begins, which takes
+/// minutes.
+TEST_F(TerminalTool, ASearchOfAStepEndsAtAnInterrupt) {
+  const std::string before = write("0.obj", sheet(0.01)), after = path("1.obj");
+  const std::string text = sheet(-1.0), out = path("result");
+  ASSERT_EQ(::mkfifo(after.c_str(), 0600), 0);
+  const std::vector<std::vector<std::string>> runs{
+      {"step", before, after, "--all", "--no-piercings", "--csv", out},
+      {"step", before, after, "--free", "--json", out},
+      {"candidates", before, after, "--out", out, "--max-candidates", "1000000000"},
+      {"bench", "--step", before, after},
+      {"view", "--step", before, after, "--out", out}};
+  for (const std::vector<std::string>& words : runs) {
+    std::atomic<bool> is_written = false;
+    std::thread writer([&] {
+      std::ofstream(after) << text;  // waits for the reader
+      is_written = true;
+    });
+    const auto is_read = [&] {
+      if (!is_written) return false;
+      const int pipe = ::open(after.c_str(), O_WRONLY | O_NONBLOCK);
+      if (pipe >= 0) ::close(pipe);
+      return pipe < 0;
+    };
+    EXPECT_EQ(run_interrupted(words, is_read).status, 130) << words[0] << " " << words[3];
+    ::close(::open(after.c_str(), O_RDONLY | O_NONBLOCK));  // for a writer that nobody has read
+    writer.join();
+  }
+}
+
+TEST_F(TerminalTool, TheFirstInterruptEndsAReadThatBlocks) {
+  const std::string pipe = path("queries_vf.csv");
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+    const pid_t process = start({"certify", pipe, "--json", path("result.json")});
+    // The opening ends when the tool has opened the other end; from then on its reads block.
+    const int writer = ::open(pipe.c_str(), O_WRONLY);
+    EXPECT_TRUE(comes_true([&] { return handles(process, signal); }));
+    kill(process, signal);
+    const Outcome outcome = finish(process);
+    EXPECT_EQ(outcome.status, 130) << outcome.err;
+    EXPECT_EQ(json("result.json").at("queries"), 0) << outcome.err;
+    ::close(writer);
+  }
+}
+
+TEST_F(TerminalTool, APipeIsReadToItsEnd) {
+  const std::string pipe = path("queries_vf.csv");
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  const pid_t process = start({"certify", pipe, "--json", path("result.json")});
+  // The pipe opens when the tool has opened its end.
+  std::ofstream(pipe) << falling_vertex() << std::flush << falling_vertex();
+  const Outcome outcome = finish(process);
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_EQ(json("result.json").at("queries"), 2);
+}
+
+// ---- Output without a reader --------------------------------------------------------------------
+
+TEST_F(TerminalTool, AClosedStandardOutputEndsThePrintingOnly) {
+  std::array<int, 2> pipe{};
+  ASSERT_EQ(::pipe2(pipe.data(), O_CLOEXEC), 0);
+  ::close(pipe[0]);
+  const int without_reader = pipe[1];
+  // Findings are printed during the search.
+  const Outcome fuzz =
+      run({"fuzz", "--plugin", tests::plugin_library("box_overlap"), "--exact", "--queries", "3000",
+           "--most-findings", "2", "--out", path("found.csv"), "--json", path("fuzz.json")},
+          without_reader);
+  EXPECT_EQ(fuzz.status, 1) << fuzz.err;
+  EXPECT_EQ(json("fuzz.json").at("groups").size(), 2U);
+  EXPECT_TRUE(std::ranges::any_of(fs::directory_iterator(folder()), [](const auto& entry) {
+    return entry.path().filename().string().starts_with("found");
+  }));
+  const std::string data = write("a_vf.csv", falling_vertex());
+  const Outcome certify = run({"certify", data, "--json", path("certify.json")}, without_reader);
+  EXPECT_EQ(certify.status, 0) << certify.err;
+  EXPECT_EQ(certify.err, "");
+  EXPECT_EQ(json("certify.json").at("queries"), 1);
+  EXPECT_EQ(run({"--help"}, without_reader).status, 0);
+  ::close(without_reader);
+}
+
+/// Full, or closed: what is printed does not go into the first file that is opened.
+TEST_F(TerminalTool, AStandardOutputThatTakesNothingIsAnErrorAfterTheFiles) {
+  const int full = ::open("/dev/full", O_WRONLY | O_CLOEXEC);
+  const std::string data = write("a_vf.csv", falling_vertex());
+  for (const int output : {full, closed}) {
+    for (const std::vector<std::string>& words :
+         {std::vector<std::string>{"certify", data, "--json", path("result.json")},
+          {"generate", "--list"},
+          {"--help"}}) {
+      const Outcome outcome = run(words, output);
+      EXPECT_EQ(outcome.status, 2) << words.front();
+      EXPECT_TRUE(contains(outcome.err, "standard output: cannot be written: ")) << outcome.err;
+    }
+    EXPECT_EQ(json("result.json").at("queries"), 1);
+  }
+  ::close(full);
+}
+
+// ---- Names from outside -------------------------------------------------------------------------
+
+/// True if the text is ASCII without control characters.
+bool is_plain(const std::string& text) {
+  return std::ranges::all_of(text, [](char c) { return c == '\n' || (c >= ' ' && c <= '~'); });
+}
+
+TEST_F(TerminalTool, NamesOfFilesAreShownAndNotObeyed) {
+  const std::string name =
+      "vertex-face/\x1b[2Ja\ntotal 9\x07\u009b31m\u202eb\u2028,\"c\xe9|<b>\x7f.csv";
+  const std::string shown =
+      "\\x1b[2Ja\\x0atotal "
+      "9\\x07\\xc2\\x9b31m\\xe2\\x80\\xaeb\\xe2\\x80\\xa8,\"c\\xe9|<b>\\x7f.csv";
+  const std::string data = write(name, falling_vertex());
+  const Outcome certify =
+      run({"certify", data, "--truth", path("truth.csv"), "--json", path("result.json"), "--prove",
+           path("proofs.cert"), "--method", "certified"});
+  EXPECT_EQ(certify.status, 0) << certify.err;
+  EXPECT_TRUE(contains(certify.out, shown)) << certify.out;
+  EXPECT_FALSE(contains(certify.out, "\ntotal 9"));
+  for (const char* part : {"\x1b", "\x07", "\u009b", "\u202e", "\u2028", "\xe9", "\x7f"}) {
+    for (const std::string& text :
+         {certify.out, read("truth.csv"), read("result.json"), read("proofs.cert")}) {
+      EXPECT_FALSE(contains(text, part)) << text;
+    }
+  }
+  EXPECT_TRUE(is_plain(read("result.json")));
+  EXPECT_TRUE(contains(json("result.json").at("files")[0].at("file"), "\x1b[2Ja\ntotal 9"))
+      << "to whoever parses it the name is itself";
+  EXPECT_EQ(std::ranges::count(read("truth.csv"), '\n'), 2);
+  // The answers under the shown name are found again.
+  EXPECT_EQ(run({"solve", data, "--method", "certified", "--out", path("answers.csv")}).status, 0);
+  const Outcome judged = run({"certify", data, "--results", path("answers.csv")});
+  EXPECT_EQ(judged.status, 0) << judged.err;
+  EXPECT_EQ(judged.err, "");
+}
+
+TEST_F(TerminalTool, MessagesShowWhatTheyName) {
+  for (const std::vector<std::string>& words :
+       {std::vector<std::string>{"certify", path("missing\x1b[2J\nx\u202e_vf.csv")},
+        {"certify", "--nonsense\x1b[2J\nx\u202e"},
+        {"certify", "--kind", "\x1b[2J\nx\u202e"},
+        {"fuzz", "--queries", "1", "--method", "\x1b[2J\nx\u202e"},
+        {"certify", "--plugin", path("\x1b[2J\nx\u202e.so")},
+        {"report", "--from", path("\x1b[2J\nx\u202e.json"), "--out", path("page.html")}}) {
+    const Outcome outcome = run(words);
+    EXPECT_EQ(outcome.status, 2) << words.front();
+    EXPECT_TRUE(is_plain(outcome.err)) << outcome.err;
+    EXPECT_TRUE(contains(outcome.err, "\\x1b[2J\\x0ax\\xe2\\x80\\xae")) << outcome.err;
+  }
+}
+
+}  // namespace
+}  // namespace touchstone::verify::cli::lost_terminal_test

@@ -1,0 +1,307 @@
+/// \file
+/// The page of a report in a real browser: headless Chromium loads it from a file, runs its script
+/// and returns the resulting document.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <regex>
+#include <set>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "tests/support/browser_test.hpp"
+#include "tests/support/measurements.hpp"
+#include "verify/report/report_page.hpp"
+
+namespace touchstone::verify::report::report_browser_test {
+namespace {
+
+class Browser : public tests::BrowserTest {};
+
+std::size_t count(const std::string& text, const std::string& part) {
+  std::size_t result = 0;
+  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) {
+    ++result;
+  }
+  return result;
+}
+
+/// The widths that a section's pictures are drawn for.
+std::set<double> widths(const std::string& drawn) {
+  const std::regex width("viewBox=\"0 0 ([0-9.]+) ");
+  std::set<double> result;
+  for (std::sregex_iterator at(drawn.begin(), drawn.end(), width), end; at != end; ++at) {
+    result.insert(std::stod((*at)[1]));
+  }
+  return result;
+}
+
+/// The section of a figure in a document.
+std::string section(const std::string& dom, const std::string& id) {
+  const std::size_t start = dom.find(R"(<section class="figure" id=")" + id + "\">");
+  if (start == std::string::npos) return {};
+  return dom.substr(start, dom.find("</section>", start) - start);
+}
+
+/// The figures of the small report, and their panels.
+const std::vector<std::pair<std::string, std::size_t>> figures{
+    {"speed_false_positives", 1}, {"speed_toi_median", 1}, {"speed_toi_max", 1},
+    {"running_times", 1},         {"tolerance_time", 1},   {"tolerance_false_positives", 1},
+    {"separation_time", 1},       {"checks_early", 1},     {"checks_tolerance", 1},
+    {"filter_misses", 1},         {"stages", 1},           {"stability", 1},
+    {"stability_time", 1}};
+
+/// Clicks on the names of columns, and writes the orders of the rows.
+constexpr const char* sorting = R"(<p id="orders"></p><script>
+const table = document.querySelector("#table_1 table");
+const button = (name) => Array.from(table.querySelectorAll("thead button")).find((b) => b.textContent === name);
+const order = () => Array.from(table.tBodies[0].rows, (row) => row.cells[0].textContent).join(" ");
+const orders = [];
+for (const name of ["FN", "FN", "÷ certified", "published FN", "published FN"]) {
+  button(name).click();
+  orders.push(`${name} ${button(name).parentNode.ariaSort}: ${order()}`);
+}
+document.getElementById("orders").textContent = orders.join("; ");
+</script>)";
+
+/// Also on a telephone. A click on a column's name sorts by it, numbers by value and other texts
+/// last.
+TEST_F(Browser, DrawsEveryFigureAndSortsATable) {
+  const Measurements measurements = tests::small_report();
+  std::string page = report_page(measurements);
+  page.insert(page.rfind("</body>"), sorting);
+  for (const int width : {1200, 500}) {
+    const std::string dom = load(page, width);
+    EXPECT_EQ(complaints(), "");
+    EXPECT_EQ(count(dom, "<section class=\"figure\""), figures.size());
+    for (const auto& [id, panels] : figures) {
+      const std::string drawn = section(dom, id);
+      EXPECT_EQ(count(drawn, "role=\"img\""), panels) << id;
+      EXPECT_EQ(count(drawn, "<desc id="), panels) << id;
+      EXPECT_GE(count(drawn, "<title id="), panels) << id;
+      EXPECT_GE(count(drawn, "<rect") + count(drawn, "<path"), 1U) << id;
+      EXPECT_EQ(count(drawn, "class=\"csv\""), 1U) << id;
+      EXPECT_EQ(count(drawn, "NaN") + count(drawn, "undefined"), 0U) << id;
+    }
+    const std::set<double> speed = widths(section(dom, "speed_false_positives"));
+    ASSERT_FALSE(speed.empty());
+    EXPECT_LE(*speed.rbegin(), width) << "drawn for the width there is, not shrunk";
+    EXPECT_GE(*speed.begin(), 280.0);
+    EXPECT_EQ(count(dom,
+                    "FN ascending: certified tight_inclusion msrf; "
+                    "FN descending: msrf certified tight_inclusion; "
+                    "÷ certified ascending: certified msrf tight_inclusion; "
+                    "published FN ascending: tight_inclusion msrf certified; "
+                    "published FN descending: msrf tight_inclusion certified"),
+              1U)
+        << dom.substr(dom.find("<p id=\"orders\""), 600);
+  }
+}
+
+// ---- What it says -------------------------------------------------------------------------------
+
+/// The elements of that kind in a part of a document, each with its cells between bars.
+std::vector<std::string> texts(const std::string& part, const std::string& kind) {
+  const std::regex element("<" + kind + "(?: [^>]*)?>(.*?)</" + kind + ">");
+  std::vector<std::string> result;
+  for (std::sregex_iterator at(part.begin(), part.end(), element), end; at != end; ++at) {
+    const std::string cells =
+        std::regex_replace((*at)[1].str(), std::regex("</t[dh]><t[dh][^>]*>"), " | ");
+    result.push_back(std::regex_replace(cells, std::regex("<[^>]*>"), ""));
+  }
+  return result;
+}
+
+using Texts = std::vector<std::string>;
+
+TEST_F(Browser, OpensWithItsFindings) {
+  Measurements measurements = tests::small_report();
+  for (Measurement& m : measurements.all) m.keeps_promise = m.false_negatives == 0;
+  measurements.all[1].outside = 7;
+  const std::string dom = load(report_page(measurements));
+  EXPECT_EQ(
+      texts(dom.substr(dom.find("<header>"), dom.find("</header>")), "li"),
+      (Texts{"Broke its promise: msrf (2 missed collisions), tight_inclusion_released (4 missed "
+             "collisions).",
+             "3 methods were asked up to 100 queries, 20 of which collide.",
+             "No missed collision and no time of impact after the exact one: certified, "
+             "tight_inclusion. Some: msrf (2 of 100).",
+             "Right on every query, with no false positive either: certified.",
+             "certified takes 10 ns a query. As a multiple of that, the others that miss "
+             "nothing: tight_inclusion 250.",
+             "On the Pareto front of time against error, among those that miss nothing: "
+             "certified in 3 of 3 panels.",
+             "Not asked: tight_inclusion (7 queries outside its promise, 0 for lack of "
+             "time)."}));
+  EXPECT_NE(dom.find("<p>Made on a machine, 2026-01-31 by</p>"), std::string::npos);
+  EXPECT_NE(dom.find("touchstone report handcrafted --out 'a &lt;page&gt;.html'</pre>"),
+            std::string::npos);
+  const std::string table = dom.substr(dom.find("<section id=\"table_1\""));
+  EXPECT_EQ(
+      texts(table, "tr").at(3),
+      "msrf | ✗ 2 | 1 (1.3 %) | 0.4 | 40 | 0 | 100 of 200 | 20 | 0 | – | – | 12.90 | 16 | ✗ 386");
+}
+
+/// Of counts and times; not of times within their noise.
+TEST_F(Browser, SaysWhatHasChangedSinceAnEarlierReport) {
+  Measurements before = tests::small_report();
+  before.all.push_back(tests::measured("simulation", "fprf", 30.0, 0, 2));
+  before.all.push_back(tests::measured("simulation", "rp", 30.0));
+  before.groups = {{.name = "simulation", .kind = Kind::vertex_face, .queries = 200, .digest = 1}};
+  Measurements after = before;
+  after.groups[0].digest = 2;
+  after.all[0].nanoseconds *= 1.2;
+  after.all[1].false_positives = 3;
+  after.all[1].nanoseconds *= 0.5;
+  after.all[2].method = "mine";
+  after.all.end()[-2].false_negatives = 5;
+  after.all.end()[-1].nanoseconds *= 1.44;
+  std::string dom = load(report_page(after, &before));
+  dom = dom.substr(dom.find("<section id=\"changes\""));
+  EXPECT_EQ(
+      texts(dom.substr(0, dom.find("</section>")), "tr"),
+      (Texts{"method | FN | FP | late | ÷ certified | data",
+             "tight_inclusion | = | 8 of 100 → 3 of 100 | = | 250 → 125 | handcrafted, vertex-face",
+             "mine | new | new | new | new | handcrafted, vertex-face",
+             "fprf | ✗ 2 of 100 → 5 of 100 | = | = | = | simulation, vertex-face (other queries)",
+             "rp | = | = | = | 3 → 4.32 | simulation, vertex-face (other queries)",
+             "msrf | gone | gone | gone | gone | handcrafted, vertex-face"}));
+}
+
+/// Writes what a table is as CSV and as Markdown.
+constexpr const char* written = R"(<p id="written"></p><script>
+const hostile = { columns: ["a", "b|c"], rows: [["=1+1", 'x, "y"'], ["| **y** <b>", "_a_ tight_inclusion"],
+  ["http://a", "-1e-300"], ["-x", NaN]] };
+document.getElementById("written").textContent = encodeURI(report.csvOf(hostile)) +
+  encodeURI(report.markdownOf({ ...hostile, rows: hostile.rows.slice(0, 3) }));
+</script>)";
+
+TEST_F(Browser, NoTextOfATableIsAFormulaOrMarkup) {
+  std::string page = report_page(tests::small_report());
+  page.insert(page.rfind("</body>"), written);
+  const std::string dom = load(page);
+  EXPECT_EQ(complaints(), "");
+  EXPECT_EQ(texts(dom.substr(dom.find("<p id=\"written\"")), "p").at(0),
+            "a,b%7Cc%0D%0A"
+            "'=1+1,%22x,%20%22%22y%22%22%22%0D%0A"
+            "%7C%20**y**%20%3Cb%3E,_a_%20tight_inclusion%0D%0A"
+            "http://a,-1e-300%0D%0A"
+            "'-x,%0D%0A"
+            "%7C%20a%20%7C%20b%5C%7Cc%20%7C%0A%7C%20---%20%7C%20---%20%7C%0A"
+            "%7C%20=1+1%20%7C%20x,%20%22y%22%20%7C%0A"
+            "%7C%20%5C%7C%20%5C*%5C*y%5C*%5C*%20%5C%3Cb%5C%3E%20%7C%20%5C_a%5C_%20tight_inclusion%"
+            "20%7C%0A"
+            "%7C%20http%5C://a%20%7C%20-1e-300%20%7C%0A");
+}
+
+/// The tolerances that a method states as achieved.
+Spread& achieved(Measurements& measurements) {
+  for (Measurement& m : measurements.all) {
+    if (m.achieved_tolerance) return *m.achieved_tolerance;
+  }
+  throw std::invalid_argument("nobody achieves a tolerance");
+}
+
+/// The heights of the marks of a drawn figure with this end of its description.
+std::vector<double> heights(const std::string& drawn, const std::string& end) {
+  const std::regex mark("translate\\([0-9.]+,([0-9.]+)\\)[^>]*><title>[^<]*" + end + "</title>");
+  std::vector<double> result;
+  for (std::sregex_iterator it(drawn.begin(), drawn.end(), mark), last; it != last; ++it) {
+    result.push_back(std::stod((*it)[1]));
+  }
+  return result;
+}
+
+TEST_F(Browser, PanelsHaveOneScaleWithWhatIsInfiniteAtTheUpperEnd) {
+  Measurements measurements = tests::small_report();
+  achieved(measurements).max = std::numeric_limits<double>::infinity();
+  measurements.all.push_back(tests::measured("simulation", "certified", 10.0));
+  const std::string dom = load(report_page(measurements), 1400);
+  EXPECT_EQ(complaints(), "");
+  const std::string speed = section(dom, "speed_false_positives");
+  EXPECT_EQ(count(speed, "role=\"img\""), 2U);
+  EXPECT_EQ(widths(speed).size(), 1U);
+  const std::string drawn = section(dom, "checks_tolerance");
+  EXPECT_EQ(count(drawn, "NaN"), 0U);
+  EXPECT_EQ(count(drawn, ">∞</text>"), 1U) << drawn;
+  EXPECT_EQ(count(drawn, ">0</text>"), 0U) << "nothing is zero";
+  const std::vector<double> infinite = heights(drawn, "∞"), median = heights(drawn, "0.25");
+  ASSERT_EQ(infinite.size(), 1U) << drawn;
+  ASSERT_EQ(median.size(), 1U) << drawn;
+  EXPECT_LT(infinite[0], median[0]) << "heights are counted from the top";
+}
+
+// ---- The map of stability -----------------------------------------------------------------------
+
+/// A level for each number, as the error of the time of impact, as time in nanoseconds, and as
+/// checks; every other one has a false negative.
+stability::StabilityResult map_of(const std::vector<double>& numbers) {
+  stability::StabilityResult result;
+  result.count = 1;
+  const stability::Hardness& hardness = stability::hardness_from_name("distance");
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    stability::StabilityCell cell{
+        .hardness = &hardness,
+        .level = hardness.levels.at(i % hardness.levels.size()),
+        .kind = i < hardness.levels.size() ? Kind::vertex_face : Kind::edge_edge,
+        .judged = {}};
+    cell.judged.queries = cell.judged.collisions = 1;
+    jobs::MethodResult judged{.name = "planted", .timed = true, .judgement = {}};
+    judged.judgement.queries = judged.judgement.collisions = 1;
+    judged.judgement.toi_errors.add(numbers[i]);
+    judged.judgement.nanoseconds = numbers[i];
+    judged.judgement.checks = static_cast<std::uint64_t>(std::min(numbers[i], 1e15));
+    judged.judgement.faults[static_cast<std::size_t>(judge::Fault::false_negative)] = i % 2;
+    cell.judged.methods.push_back(judged);
+    result.total += cell.judged;
+    result.cells.push_back(cell);
+  }
+  return result;
+}
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+const std::vector<double> numbers_of_any_size{
+    0.0,     4.9e-324, 2.3e-308, 3e-100, 3.2e-13, 0.0123, 0.999,   1.5,   99.9,    999.6,   8.88e5,
+    9.996e5, 1e6,      1.2e8,    8.88e8, 9.996e8, 2.5e12, 8.88e99, 1e100, 1.7e308, infinity};
+
+/// Counts the texts in cells, and lists those wider than their cells.
+constexpr const char* measuring = R"(<p id="wide"></p><script>
+const texts = Array.from(document.querySelectorAll("text.cell"));
+const isWide = (text) =>
+  text.getBBox().width > Number(text.previousElementSibling.getAttribute("width")) + 1;
+document.getElementById("wide").textContent =
+  `of ${texts.length} too wide: ${texts.filter(isWide).map((text) => text.textContent).join(" ")}.`;
+</script>)";
+
+TEST_F(Browser, NumbersOfAnySizeFitIntoTheirCells) {
+  std::string page = stability_page(map_of(numbers_of_any_size), "touchstone stability");
+  page.insert(page.rfind("</body>"), measuring);
+  for (const int width : {1200, 500}) {
+    const std::string dom = load(page, width);
+    EXPECT_EQ(complaints(), "");
+    EXPECT_TRUE(
+        std::regex_search(dom, std::regex("<p id=\"wide\">of [1-9][0-9]* too wide: \\.</p>")))
+        << dom.substr(dom.find("<p id=\"wide\""), 600);
+  }
+}
+
+/// The test finds a page that loads something, or fails.
+TEST_F(Browser, APlantedFaultIsSeen) {
+  const auto planted = [](const std::string& fault) {
+    std::string page = report_page(tests::small_report());
+    return page.insert(page.find("</main>"), fault);
+  };
+  static_cast<void>(load(planted("<script>missing_function();</script>")));
+  EXPECT_NE(complaints().find("missing_function"), std::string::npos) << read("err");
+  static_cast<void>(load(planted("<img src=\"https://example.org/picture.png\">")));
+  EXPECT_NE(complaints().find("Content Security Policy"), std::string::npos) << read("err");
+}
+
+}  // namespace
+}  // namespace touchstone::verify::report::report_browser_test

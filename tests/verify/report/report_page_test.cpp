@@ -1,0 +1,63 @@
+#include "verify/report/report_page.hpp"
+
+#include <gtest/gtest.h>
+
+#include <regex>
+#include <string>
+
+#include "tests/support/measurements.hpp"
+#include "verify/report/report_page_texts.hpp"
+
+namespace touchstone::verify::report::report_page_test {
+namespace {
+
+bool contains(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+TEST(Page, LoadsNothingAndHoldsNoMarkupOfNames) {
+  Measurements measurements = tests::small_report();
+  measurements.command = "</pre><b>\x1b";
+  for (Measurement& measurement : measurements.all) measurement.group = "g</script>\u202e\n";
+  std::string page = report_page(measurements);
+  page.erase(page.find(d3_script()), d3_script().size());  // its comments have addresses
+  EXPECT_TRUE(contains(page, R"("command":"\u003c/pre>\u003cb>\\x1b")"));
+  EXPECT_TRUE(contains(page, R"("group":"g\u003c/script>\\xe2\\x80\\xae\\x0a")"));
+  EXPECT_FALSE(contains(page, "g</script>"));
+  EXPECT_FALSE(contains(page, "\u202e"));
+  EXPECT_FALSE(
+      std::regex_search(page, std::regex("https?:|<(link|img|iframe|object)|@import|src=|url\\(")));
+}
+
+stability::StabilityResult map_of_one_cell(const std::string& method) {
+  stability::StabilityResult result;
+  result.seed = 77;
+  result.count = 10;
+  stability::StabilityCell cell{.hardness = &stability::hardness_from_name("distance"),
+                                .level = -50,
+                                .kind = Kind::edge_edge,
+                                .judged = {}};
+  cell.judged.queries = 10;
+  cell.judged.collisions = 5;
+  jobs::MethodResult judged{
+      .name = method, .promise = fast::Promise::conservative, .timed = true, .judgement = {}};
+  judged.judgement.queries = 10;
+  judged.judgement.collisions = 5;
+  judged.judgement.nanoseconds = 1000.0;
+  judged.judgement.faults[static_cast<std::size_t>(judge::Fault::false_negative)] = 1;
+  cell.judged.methods.push_back(judged);
+  result.total += cell.judged;
+  result.cells.push_back(cell);
+  return result;
+}
+
+TEST(StabilityPage, HoldsNoMarkupOfNames) {
+  const std::string page = stability_page(map_of_one_cell("</script>&\"\xE9"), "</pre>\x1b");
+  EXPECT_TRUE(contains(page, R"("\u003c/script>&\"\\xe9 (conservative): breaks its promise.")"));
+  EXPECT_TRUE(contains(page, R"("command":"\u003c/pre>\\x1b")"));
+  EXPECT_TRUE(contains(page, R"(["\u003c/script>&\"\\xe9","false negative 20 %"])"));
+  EXPECT_FALSE(contains(page, "</script>&"));
+}
+
+}  // namespace
+}  // namespace touchstone::verify::report::report_page_test

@@ -1,0 +1,145 @@
+#include "verify/cli/result_files.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iterator>
+#include <span>
+#include <utility>
+
+#include "fast/method.hpp"
+#include "touchstone/certified.hpp"
+#include "verify/cli/options.hpp"
+#include "verify/io/printable.hpp"
+#include "verify/io/terminal.hpp"
+#include "verify/judge/separation_inference.hpp"
+#include "verify/solvers/registry.hpp"
+#include "verify/solvers/solver.hpp"
+#include "verify/view/asked_solvers.hpp"
+#include "verify/view/query_facts.hpp"
+#include "verify/view/view_page.hpp"
+
+namespace touchstone::verify::cli {
+namespace {
+
+bool is_same(const view::ViewedQuery& a, const view::ViewedQuery& b) {
+  return a.query == b.query && judge::same_separation(a.separation, b.separation);
+}
+
+template <class Thing>
+void append(std::vector<Thing>& all, std::vector<Thing>&& further) {
+  std::ranges::move(further, std::back_inserter(all));
+}
+
+}  // namespace
+
+// ---- Certificates -------------------------------------------------------------------------------
+
+CertificatesFile::CertificatesFile(Files& files, const std::string& name, std::string_view header)
+    : output_(files, name) {
+  if (name.ends_with(".zst")) compressor_.emplace();
+  write(header);
+}
+
+void CertificatesFile::write(std::string_view certificates) {
+  if (!output_ || output_.failed()) return;
+  if (compressor_) {
+    put(compressor_->compress(certificates));
+  } else {
+    put(certificates);
+  }
+}
+
+void CertificatesFile::close(std::uint64_t certificates) {
+  if (io::interrupted()) {
+    close_incomplete();
+  } else {
+    close(exact::certificates_closing_line(certificates));
+  }
+}
+
+void CertificatesFile::close(std::string_view closing_line) {
+  write(closing_line);
+  finish();
+  output_.close();
+}
+
+void CertificatesFile::close_incomplete() {
+  finish();
+  output_.close_incomplete();
+}
+
+void CertificatesFile::finish() {
+  if (output_ && !output_.failed() && compressor_) put(compressor_->finish());
+}
+
+void CertificatesFile::put(std::string_view bytes) {
+  output_.write(bytes);
+  bytes_ += bytes.size();
+}
+
+void report_beyond_limits(const jobs::ProofCounts& counts) {
+  for (const std::string& reason : counts.beyond_limits) report_error(reason);
+}
+
+// ---- The page -----------------------------------------------------------------------------------
+
+void ViewFile::add(view::ViewedQuery query) {
+  if (!output_) return;
+  const auto known = std::ranges::find_if(
+      queries_, [&](const view::ViewedQuery& other) { return is_same(other, query); });
+  if (known != queries_.end()) {
+    append(known->notes, std::move(query.notes));
+    append(known->answers, std::move(query.answers));
+  } else if (is_full()) {
+    is_cut_ = true;
+  } else {
+    queries_.push_back(std::move(query));
+  }
+}
+
+void ViewFile::add(const view::ViewedStep& step) {
+  if (!output_) return;
+  step_ = view::step_facts(step);
+  for (view::ViewedQuery& query : view::first_queries(step, most_queries)) add(std::move(query));
+}
+
+void ViewFile::write(const fast::MethodOptions& options) {
+  if (!output_) return;
+  const auto judge =
+      solvers::solver_in_process(solvers::find_method(fast::certified_info().name), options);
+  const solvers::Solver* const certified = judge.get();
+  std::vector<nlohmann::json> facts;
+  for (const view::ViewedQuery& query : queries_) {
+    const bool has_answered = std::ranges::find(query.answers, certified->name(),
+                                                &judge::GivenAnswer::solver) != query.answers.end();
+    facts.push_back(
+        view::query_facts(query, view::ask({&certified, has_answered ? 0U : 1U}, query).answers));
+  }
+  output_.write(view::view_page(facts, command_line(), step_));
+  output_.close();
+}
+
+std::string ViewFile::summary(std::uint64_t allowed) const {
+  if (!output_ || output_.failed()) return {};
+  const std::string name = io::printable(name_);
+  if (!step_.is_null()) {
+    const auto total = step_.at("total").get<std::size_t>();
+    return fmt::format("{}: {}, {}\n", name, step_.at("label").get<std::string>(),
+                       total == 0   ? "without a collision"
+                       : total == 1 ? "1 collision"
+                                    : fmt::format("{} collisions", total));
+  }
+  if (queries_.empty() && allowed != 0) {
+    return fmt::format(
+        "{}: no wrong answer to look at (false positives, which break no promise: {}; --exact "
+        "shows "
+        "them)\n",
+        name, allowed);
+  }
+  if (queries_.empty()) return fmt::format("{}: nothing was found to look at\n", name);
+  return fmt::format("{}: {}{} to look at\n", name, is_cut_ ? "the first " : "",
+                     queries_.size() == 1 ? "1 query" : fmt::format("{} queries", queries_.size()));
+}
+
+}  // namespace touchstone::verify::cli

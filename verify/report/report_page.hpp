@@ -1,0 +1,34 @@
+#pragma once
+
+/// \file
+/// A report, or a map of stability, as one HTML page that needs nothing else: no network, no other
+/// file. Its policy (Content-Security-Policy) forbids to load anything.
+///
+/// The page holds the measurements as JSON. In the browser report.js computes its contents from
+/// them, and report_page.js writes and draws them, with d3. A report opens with its findings and
+/// the first figure of time against error; tables and further figures follow. Every table and
+/// figure has a link to its numbers as CSV; every table has one to itself as Markdown, every figure
+/// one to itself as an SVG file. Tables are sorted by the column that the reader chooses; the first
+/// column, and that of the false negatives behind it, stay in view. The page fits screens from a
+/// telephone's on, and paper, and follows the reader's light or dark scheme.
+
+#include <string>
+
+#include "verify/report/measurement.hpp"
+#include "verify/stability/stability.hpp"
+
+namespace touchstone::verify::report {
+
+/// The page as HTML. \param before an earlier report, whose differences from this one stand below
+/// the first figure; may be null.
+[[nodiscard]] std::string report_page(const Measurements& measured,
+                                      const Measurements* before = nullptr);
+
+/// The map of stability as HTML: the methods that keep their promise, the worst of each hardness as
+/// a table, and as figures the worst outcome, the errors of the time of impact, time and checks of
+/// every cell.
+/// \param command the command line that made it
+[[nodiscard]] std::string stability_page(const stability::StabilityResult& result,
+                                         const std::string& command);
+
+}  // namespace touchstone::verify::report
