@@ -1,6 +1,7 @@
 #include "touchstone/oracle.hpp"
 
 #include <stdexcept>
+#include <string>
 
 #include "exact/contact/contact_oracle.hpp"
 #include "exact/contact/corner_motion.hpp"
@@ -24,8 +25,12 @@ Decision decide(Kind kind, const CurvedQuery& query, const Separation& separatio
 }
 
 Decision decide(const Queries& queries, std::size_t i, const Separation& separation) {
-  if (queries.is_straight()) return decide(queries.kind, queries.straight()[i], separation);
-  return decide(queries.kind, to_curved(queries, i), separation);
+  try {
+    if (queries.is_straight()) return decide(queries.kind, queries.straight()[i], separation);
+    return decide(queries.kind, to_curved(queries, i), separation);
+  } catch (const std::domain_error& error) {
+    throw std::domain_error("query " + std::to_string(i) + ": " + error.what());
+  }
 }
 
 std::vector<Decision> decide(const Queries& queries, const Separation& separation) {

@@ -1,7 +1,6 @@
 #include "touchstone/broad_phase.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <new>
@@ -26,7 +25,7 @@ namespace {
 constexpr std::size_t groups_of_chunk = 16;
 
 void require_valid(const BroadPhaseOptions& options) {
-  if (!std::isfinite(options.separation.distance) || options.separation.distance < 0.0) {
+  if (!is_valid(options.separation)) {
     throw std::invalid_argument("the separation must be finite and not negative");
   }
   if (options.max_threads < 0) throw std::invalid_argument("max_threads must not be negative");

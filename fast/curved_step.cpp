@@ -7,6 +7,7 @@
 #include <string>
 
 #include "fast/certified/block.hpp"
+#include "fast/platform/floating_point_state.hpp"
 #include "fast/step/scene.hpp"
 #include "touchstone/certified.hpp"
 
@@ -23,6 +24,7 @@ Step step_of_boxes(const CurvedVertices& vertices, const MeshElements& elements,
   if (vertices.numbers.size() % size != 0) {
     throw std::invalid_argument("curved step: the numbers are no whole vertices");
   }
+  const StrictFloatingPoint strict;
   const std::size_t count = vertices.numbers.size() / size;
   std::vector<double> least, greatest;
   for (std::size_t vertex = 0; vertex < count; ++vertex) {

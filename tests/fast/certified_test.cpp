@@ -160,6 +160,8 @@ TEST(Certified, CoordinatesThatAreNotFiniteAreAnErrorOfTheirQueryAlone) {
             EXPECT_EQ(results[1].verdict, Verdict::error) << bad << " at " << place;
             EXPECT_EQ(results[0].verdict, height < 0 ? Verdict::yes : Verdict::no);
             EXPECT_EQ(results[2].verdict, results[0].verdict);
+            EXPECT_THROW((void)collisions(kind, queries, {.separation = separation}),
+                         std::domain_error);
           }
         }
       }

@@ -374,6 +374,7 @@ TEST(CurvedSolver, SaysWhereInputIsNone) {
     numbers[11] = bad;
     solve(Queries({Kind::edge_edge, 1, true}, numbers), one);
     EXPECT_EQ(one[0].verdict, Verdict::error) << bad;
+    EXPECT_THROW((void)collisions(Queries({Kind::edge_edge, 1, true}, numbers)), std::domain_error);
   }
 }
 

@@ -18,6 +18,13 @@
 /// of the domain: the *corners* w_i(t), three for vertex_face, four (a parallelogram, in cyclic
 /// order) for edge_edge. Hence a query collides iff 0 ∈ conv{w_i(t)} for some t ∈ [0,1].
 ///
+/// **Coordinates that are not finite.** One rule for every function, in C++ and C. Where a query
+/// has a result with a verdict, alone or in an array, this verdict is `error` for a coordinate that
+/// is NaN or infinite, or a weight that is not positive and finite, and the other queries are
+/// answered (touchstone::fast::Verdict). All other functions throw std::domain_error, which names
+/// such a vertex or query if there are several: those of the oracle, of distances, of lists of
+/// collisions and of scenes. A caller's compiler options have no effect (is_finite).
+///
 /// All functions are thread-safe. This is the only header of exact/ that fast/ includes. It needs
 /// Eigen alone.
 

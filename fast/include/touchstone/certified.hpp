@@ -89,22 +89,23 @@ void solve(const Queries& queries, std::span<CertifiedResult> results,
 void solve(Kind kind, std::span<const Query> queries, std::span<CertifiedResult> results,
            const CertifiedOptions& options = {});
 
-/// A candidate that collides, or that has a coordinate that is not finite.
+/// A query that collides.
 struct Collision {
   std::size_t candidate = 0;  ///< index of the query or the pair
-  CertifiedResult result;     ///< yes or error
+  CertifiedResult result;     ///< its verdict is yes
 };
 
 /// The queries that collide, in order. Faster than `solve`, because queries that do not collide
 /// have no result.
-/// \throws as solve.
+/// \throws std::invalid_argument for options out of range; std::domain_error naming the first query
+/// with a number that makes its verdict `error`.
 [[nodiscard]] std::vector<Collision> collisions(const Queries& queries,
                                                 const CertifiedOptions& options = {});
 [[nodiscard]] std::vector<Collision> collisions(Kind kind, std::span<const Query> queries,
                                                 const CertifiedOptions& options = {});
 
 /// The same for candidates.
-/// \throws as solve; std::out_of_range naming the first pair with an index out of range.
+/// \throws as above; std::out_of_range naming the first pair with an index out of range.
 [[nodiscard]] std::vector<Collision> collisions(const MovingVertices& vertices,
                                                 const Candidates& candidates,
                                                 const CertifiedOptions& options = {});

@@ -12,7 +12,7 @@ enum class Verdict : std::uint8_t {
   no,
   yes,
   undecided,  ///< no decision; to be treated as a conservative yes
-  error,      ///< a coordinate is NaN or infinite
+  error,      ///< a coordinate is NaN or infinite (touchstone/query.hpp has the rule)
 };
 
 /// The value of a number that an answer does not have: NaN.
