@@ -83,8 +83,9 @@ struct MethodOptions {
   double tolerance = 1e-6;              ///< of tolerance-driven methods: Tight-Inclusion's δ
   std::int64_t max_checks = 1'000'000;  ///< of iterative methods: Tight-Inclusion's m_I; ≤ 0: none
   /// The distance at which primitives are in contact. A method that supports L∞ alone is
-  /// conservative for L2.
-  Separation separation = {};
+  /// conservative for L2. By default in L∞, as on the command line: plugins and records name the
+  /// norm of the distance 0, too.
+  Separation separation = {.distance = 0.0, .norm = Norm::linf};
   double t_max = 1.0;  ///< only impacts up to this time count (0 to 1)
 };
 

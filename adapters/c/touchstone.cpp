@@ -243,7 +243,7 @@ const char* touchstone_last_error() { return last_error().c_str(); }
 
 TouchstoneOptions touchstone_default_options() {
   const touchstone::fast::CertifiedOptions usual;
-  return {usual.separation.distance, usual.t_max, usual.toi_tolerance, TOUCHSTONE_LINF,
+  return {usual.separation.distance, usual.t_max, usual.toi_tolerance, TOUCHSTONE_L2,
           usual.max_threads};
 }
 

@@ -167,7 +167,7 @@ class Step:
         groups: npt.ArrayLike | None = None,
         apart: npt.ArrayLike | None = None,
         separation: float = 0.0,
-        norm: Norm = "linf",
+        norm: Norm = "l2",
         t_max: float = 1.0,
         toi_tolerance: float = 1e-12,
         threads: int = 0,

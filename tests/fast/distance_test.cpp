@@ -376,6 +376,17 @@ TEST(LeastDistance, IsThatOfAllPairs) {
   }
 }
 
+/// Two points at rest, 1.56 apart in l2, 0.9 in linf.
+TEST(LeastDistance, HasTheNormThatSeparationsHaveByDefault) {
+  tests::Places places(2, 3);
+  places << 0, 0, 0, 0.9, 0.9, 0.9;
+  const std::vector<std::int32_t> points{0, 1};
+  const Step step(places, places, {.points = points}, {.separation = {.distance = 1.0}});
+  EXPECT_GT(least_distance(step)->distance.lower, 1.0);
+  EXPECT_TRUE(step.is_free());
+  EXPECT_FALSE(step.with_separation({.distance = 1.0, .norm = Norm::linf}).is_free());
+}
+
 /// Two triangles in parallel planes at this distance.
 tests::Scene two_triangles(double distance) {
   tests::Scene scene{.start = tests::Places(6, 3), .end = {}, .faces = {{0, 1, 2}, {3, 4, 5}}};

@@ -159,7 +159,7 @@ struct Notation {
 /// Under a random symmetry that leaves decimals what they are: without shifts.
 Query in_another_order(Kind kind, const Query& query, Random& random) {
   // A distance that is none of 0 leaves out what does not keep distances.
-  Symmetry symmetry = draw_symmetry(kind, query, {.distance = 1.0}, random);
+  Symmetry symmetry = draw_symmetry(kind, query, {.distance = 1.0, .norm = Norm::linf}, random);
   symmetry.shifts = {};
   return image(symmetry, query).value_or(query);
 }

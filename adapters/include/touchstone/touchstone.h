@@ -86,7 +86,7 @@ TOUCHSTONE_API const char* touchstone_version(void);
 /// The message of the last call of this thread that failed; valid until its next call.
 TOUCHSTONE_API const char* touchstone_last_error(void);
 
-/// The default options: 0, 1, 1e-12, TOUCHSTONE_LINF, 0.
+/// The default options: 0, 1, 1e-12, TOUCHSTONE_L2, 0.
 TOUCHSTONE_API TouchstoneOptions touchstone_default_options(void);
 
 // ---- Queries ------------------------------------------------------------------------------------

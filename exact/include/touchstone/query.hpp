@@ -198,9 +198,12 @@ enum class Norm : std::uint8_t { linf, l2 };
 /// Minimum separation. A query *collides at distance d* iff ‖F(t,u,v)‖ ≤ d for some t ∈ [0,1]
 /// and (u,v) in the closed domain; its time of impact is the smallest such t. With d = 0 this is
 /// the collision above, in either norm. ([wang2021], section 5: "minimum separation", in L∞.)
+///
+/// Where a norm is not given, it is l2: here and in every function that takes a norm, in C++, C and
+/// Python.
 struct Separation {
   double distance = 0.0;  ///< d, finite and not negative, in units of the coordinates
-  Norm norm = Norm::linf;
+  Norm norm = Norm::l2;
 
   friend bool operator==(const Separation&, const Separation&) = default;
 };
