@@ -128,7 +128,7 @@ def certified(
     toi_tolerance : float, optional
         The maximum width of the enclosures of times, relative to their upper ends.
     threads : int, optional
-        The maximum number of threads; 0: one for each core. The results do not depend on it.
+        The maximum number of threads; 0: one for each core that the process may use. The results do not depend on it.
     progress : bool, optional
         Show a bar from the first second on; by default in terminals and notebooks.
     out : CertifiedResult, optional

@@ -433,7 +433,7 @@ def certify(
     count, seed : int, optional
         Of the built-in set: queries of each family and kind, and its seed.
     threads : int, optional
-        The number of processes; 0: one for each core.
+        The number of processes; 0: one for each core that the process may use.
     progress : bool, optional
         Show a line from the first second on; by default in terminals and notebooks.
 

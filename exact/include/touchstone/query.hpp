@@ -164,6 +164,10 @@ inline constexpr std::uint64_t infinity_bits = 0x7FF0'0000'0000'0000;
 }
 [[nodiscard]] inline bool is_finite(const Query& query) { return is_finite(query.coordinates); }
 
+/// The default of every `max_threads`: one thread for each core that the process may use. Results
+/// never depend on the number of threads.
+inline constexpr int all_cores = 0;
+
 /// A corner of F: its value at the vertex (u,v) of the domain, where it is the difference of point
 /// `plus` and point `minus` (0..3).
 struct Corner {

@@ -59,8 +59,8 @@ struct CertifiedOptions {
   double t_max = 1.0;
   /// The distance at which primitives are in contact.
   Separation separation = {};
-  /// Maximum number of threads for a batch; 0: the default of oneTBB.
-  int max_threads = 0;
+  /// Maximum number of threads; 0 (all_cores): one for each core that the process may use.
+  int max_threads = all_cores;
 };
 
 struct CertifiedResult {

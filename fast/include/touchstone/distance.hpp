@@ -43,11 +43,12 @@ struct Distance {
 [[nodiscard]] Distance distance(Kind kind, const Query& query, double t, Norm norm = Norm::l2);
 
 /// Writes the distance of query i into results[i].
-/// \param max_threads 0: one for each core.
+/// \param max_threads Maximum number of threads; 0 (all_cores): one for each core that the process
+/// may use.
 /// \throws as above, the std::domain_error naming a query; std::invalid_argument for spans of
 /// different lengths or a negative number of threads.
 void distances(Kind kind, std::span<const Query> queries, double t, Norm norm,
-               std::span<Distance> results, int max_threads = 0);
+               std::span<Distance> results, int max_threads = all_cores);
 
 /// What is to be left of a distance d in L2: more than least + part · (d − least).
 struct KeptDistance {

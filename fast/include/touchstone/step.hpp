@@ -96,8 +96,8 @@ struct StepOptions {
   double toi_tolerance = 1e-12;
   /// Only contacts up to this time count, in [0,1]. (`candidates` covers the whole step.)
   double t_max = 1.0;
-  /// 0: as many as there are cores.
-  int max_threads = 0;
+  /// Maximum number of threads; 0 (all_cores): one for each core that the process may use.
+  int max_threads = all_cores;
   CollisionGroups groups = {};
   /// May be null, else outlives the step and all made from it. While true, their searches for
   /// impacts, collisions and candidates end soon with the exception Stopped.
