@@ -15,6 +15,7 @@
 #include "fast/broad_phase/primitive_groups.hpp"
 #include "fast/broad_phase/search.hpp"
 #include "fast/broad_phase/swept_box.hpp"
+#include "fast/candidates.hpp"
 #include "fast/platform/floating_point_state.hpp"
 #include "fast/platform/threads.hpp"
 

@@ -4,6 +4,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "fast/candidates.hpp"
 #include "fast/certified/block.hpp"
 #include "fast/certified/curves.hpp"
 #include "fast/kernels.hpp"

@@ -13,10 +13,8 @@
 #include <vector>
 
 #include "touchstone/certified.hpp"
-#include "touchstone/filter.hpp"
 #include "touchstone/query.hpp"
 #include "touchstone/tight_inclusion.hpp"
-#include "touchstone/verdict.hpp"
 
 namespace touchstone::fast {
 

@@ -18,10 +18,8 @@
 #include <utility>
 #include <vector>
 
-#include "touchstone/active_set.hpp"
 #include "touchstone/certified.hpp"
-#include "touchstone/distance.hpp"
-#include "touchstone/line_search.hpp"
+#include "touchstone/contacts.hpp"
 #include "touchstone/step.hpp"
 
 // The inputs and outputs of a step.

@@ -19,10 +19,8 @@
 
 #include "tests/support/certified.hpp"
 #include "tests/support/random.hpp"
-#include "touchstone/active_set.hpp"
 #include "touchstone/certified.hpp"
-#include "touchstone/distance.hpp"
-#include "touchstone/line_search.hpp"
+#include "touchstone/contacts.hpp"
 #include "touchstone/step.hpp"
 
 namespace touchstone::adapters::touchstone_test {

@@ -14,6 +14,7 @@
 #include <tuple>
 #include <vector>
 
+#include "fast/candidates.hpp"
 #include "fast/certified/kernel.hpp"
 #include "fast/kernels.hpp"
 #include "fast/method.hpp"

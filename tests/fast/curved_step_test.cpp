@@ -1,4 +1,4 @@
-#include "touchstone/curved_step.hpp"
+#include "touchstone/step.hpp"
 
 #include <gtest/gtest.h>
 

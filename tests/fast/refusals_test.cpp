@@ -15,12 +15,9 @@
 
 #include "tests/support/messages.hpp"
 #include "tests/support/queries.hpp"
-#include "touchstone/active_set.hpp"
 #include "touchstone/broad_phase.hpp"
 #include "touchstone/certified.hpp"
-#include "touchstone/distance.hpp"
-#include "touchstone/line_search.hpp"
-#include "touchstone/primitive_pairs.hpp"
+#include "touchstone/contacts.hpp"
 #include "touchstone/step.hpp"
 #include "touchstone/tight_inclusion.hpp"
 

@@ -16,6 +16,7 @@
 #include <string_view>
 #include <vector>
 
+#include "fast/candidates.hpp"
 #include "fast/method.hpp"
 #include "touchstone/certified.hpp"
 #include "touchstone/query.hpp"
