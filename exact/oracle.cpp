@@ -10,18 +10,18 @@
 namespace touchstone::exact {
 
 Decision decide(Kind kind, const Query& query, const Separation& separation) {
-  Decision verdict = is_zero(separation)
-                         ? decide_contact(scale_to_integers(kind, query))
-                         : decide_distance(scale_uniformly(kind, query, separation));
-  verdict.separation = separation;
-  return verdict;
+  Decision decision = is_zero(separation)
+                          ? decide_contact(scale_to_integers(kind, query))
+                          : decide_distance(scale_uniformly(kind, query, separation));
+  decision.separation = separation;
+  return decision;
 }
 
 Decision decide(Kind kind, const CurvedQuery& query, const Separation& separation) {
   const MotionOf<Curved> motion = scale(kind, query, separation);
-  Decision verdict = is_zero(separation) ? decide_contact(motion) : decide_distance(motion);
-  verdict.separation = separation;
-  return verdict;
+  Decision decision = is_zero(separation) ? decide_contact(motion) : decide_distance(motion);
+  decision.separation = separation;
+  return decision;
 }
 
 Decision decide(const Queries& queries, std::size_t i, const Separation& separation) {
@@ -42,11 +42,11 @@ std::vector<Decision> decide(const Queries& queries, const Separation& separatio
   return decisions;
 }
 
-ContactParameters contact_parameters(const Decision& verdict, const Rational& width) {
-  if (!verdict.contact) throw std::invalid_argument("the place of contact is not known");
-  const auto& [u, v, denominator] = *verdict.contact;
-  return {enclose_quotient(u, denominator, *verdict.toi, width),
-          enclose_quotient(v, denominator, *verdict.toi, width)};
+ContactParameters contact_parameters(const Decision& decision, const Rational& width) {
+  if (!decision.contact) throw std::invalid_argument("the place of contact is not known");
+  const auto& [u, v, denominator] = *decision.contact;
+  return {enclose_quotient(u, denominator, *decision.toi, width),
+          enclose_quotient(v, denominator, *decision.toi, width)};
 }
 
 }  // namespace touchstone::exact

@@ -79,7 +79,7 @@ struct ContactParameters {
 
 /// (u,v) of the earliest contact, each within `width` > 0; exact (both ends equal) where the toi is
 /// known to be rational.
-/// \throws std::invalid_argument if the verdict has no contact, or the width is not positive.
-[[nodiscard]] ContactParameters contact_parameters(const Decision& verdict, const Rational& width);
+/// \throws std::invalid_argument if the decision has no contact, or the width is not positive.
+[[nodiscard]] ContactParameters contact_parameters(const Decision& decision, const Rational& width);
 
 }  // namespace touchstone::exact
