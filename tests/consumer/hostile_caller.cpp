@@ -2,6 +2,7 @@
 // bear names of the standard library: answers and checks are those of every caller.
 
 #include <Eigen/Core>
+#include <gmpxx.h>
 
 #include <algorithm>
 #include <atomic>
@@ -22,6 +23,7 @@
 #define max(a, b) ((a) > (b) ? (a) : (b))
 
 #include <tight_inclusion/ccd.hpp>
+#include <touchstone/exact.hpp>
 #include <touchstone/fast.hpp>
 #include <touchstone/query.hpp>
 
