@@ -219,7 +219,7 @@ namespace {
 
 std::vector<std::string_view> stage_names() {
   std::vector<std::string_view> names;
-  for (std::size_t i = 0; i < stages; ++i) names.push_back(to_string(static_cast<Stage>(i)));
+  for (std::size_t i = 0; i < stage_count; ++i) names.push_back(to_string(static_cast<Stage>(i)));
   return names;
 }
 

@@ -108,7 +108,7 @@ TEST(Certified, WhatCrossesThePlaneNearAnEdgeIsDecidedInFloatingPoint) {
 }
 
 TEST(Certified, EveryStageIsReached) {
-  std::array<std::size_t, stages> reached{}, separated{};
+  std::array<std::size_t, stage_count> reached{}, separated{};
   for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
     Random random(7);
     std::vector<Query> queries(3000);
@@ -125,7 +125,7 @@ TEST(Certified, EveryStageIsReached) {
       }
     }
   }
-  for (std::size_t i = 0; i < stages; ++i) {
+  for (std::size_t i = 0; i < stage_count; ++i) {
     EXPECT_GT(reached.at(i), 0U) << to_string(static_cast<Stage>(i));
     EXPECT_GT(separated.at(i), 0U) << to_string(static_cast<Stage>(i));
   }

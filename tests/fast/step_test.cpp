@@ -213,7 +213,7 @@ TEST(Step, MadeFromAnotherIsAStepOfItsOwn) {
   step.reset();
   EXPECT_TRUE(std::ranges::equal(part.edges(), edges));
   EXPECT_EQ(part.is_free(), part.collisions().empty());
-  EXPECT_EQ(wider.certified().separation, options.separation);
+  EXPECT_EQ(wider.options().separation, options.separation);
   EXPECT_EQ(in_order(wider.collisions()), in_order(expected.collisions()));
   EXPECT_EQ(in_order(back.collisions()), in_order(expected_back.collisions()));
   EXPECT_EQ(back.earliest(), expected_back.earliest());

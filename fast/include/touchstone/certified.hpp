@@ -68,7 +68,7 @@ enum class Stage : std::uint8_t {
   bisection,    ///< signs on intervals of t (stages/: orientation and all later ones)
   exact,        ///< exact arithmetic
 };
-inline constexpr std::size_t stages = 5;
+inline constexpr std::size_t stage_count = 5;
 
 /// The name of the enumerator.
 [[nodiscard]] std::string_view to_string(Stage stage);

@@ -35,6 +35,13 @@
 /// boxes are within the separation. The pairs that can collide are the same: the theorem is about
 /// the geometry at one time.
 ///
+/// | question                                        | Step | CurvedStep           |
+/// |-------------------------------------------------|------|----------------------|
+/// | earliest, collisions, is_free                   | yes  | yes                  |
+/// | candidates                                      | yes  | boxes().candidates() |
+/// | with_places, scaled, free_step_size, query_of   | yes  | no: straight lines   |
+/// | distances, active sets, limits of line searches | yes  | no: straight lines   |
+///
 /// Answers are as exact as the certified solver's (touchstone/certified.hpp), and the same for any
 /// number of threads and any instruction set. Functions and const member functions are thread-safe,
 /// as long as the elements that a step refers to do not change.
@@ -129,8 +136,9 @@ struct StepImpact {
   /// The smallest toi_lower and the smallest toi_upper of all collisions.
   double toi_lower = 0.0;
   double toi_upper = 0.0;
-  /// All collisions with a toi_lower up to that toi_upper, in order. The first one is among them;
-  /// the enclosures of several do not tell which it is.
+  /// The candidates for the first collision: all with a toi_lower up to that toi_upper, in the
+  /// order of kinds and pairs, which is not that of their times. The first one is among them; the
+  /// enclosures of several do not tell which it is.
   std::vector<StepCollision> pairs;
 
   friend bool operator==(const StepImpact&, const StepImpact&) = default;
@@ -238,7 +246,7 @@ class Step {
 
   [[nodiscard]] const MovingVertices& vertices() const;
   /// The options of the decisions on pairs.
-  [[nodiscard]] const CertifiedOptions& certified() const;
+  [[nodiscard]] const CertifiedOptions& options() const;
   /// All edges in the search.
   [[nodiscard]] std::span<const Edge> edges() const;
 
@@ -260,7 +268,7 @@ class Step {
 
 // ---- Steps on curves ----------------------------------------------------------------------------
 
-/// The motion of the vertices, by reference.
+/// The motion of vertices, by reference.
 struct CurvedVertices {
   std::size_t degree = 1;
   /// Weights follow the coordinates of each control point.
@@ -275,7 +283,7 @@ struct CurvedVertices {
 
 class CurvedStep {
  public:
-  /// Keeps references to the vertices and the elements.
+  /// The vertices are copied. Keeps references to the elements.
   /// \throws std::invalid_argument for a degree above greatest_degree, numbers that are no whole
   /// vertices, or invalid options; std::domain_error naming the first vertex with a coordinate that
   /// is not finite or a weight that is not positive and finite; otherwise as Step.
@@ -298,7 +306,8 @@ class CurvedStep {
   /// negative.
   void for_each_collision(const std::atomic<double>& limit, const Take& take) const;
 
-  CurvedVertices vertices_;
+  std::vector<double> numbers_;
+  CurvedVertices vertices_;  // refers to numbers_, whose memory a move keeps
   Step boxes_;
 };
 

@@ -390,7 +390,7 @@ TEST(Certified, OneQueryHasTheBitsOfABatch) {
   std::vector<Query> queries(size);
   std::vector<CertifiedResult> batch(size);
   const int rounds = tests::soak_trials(60, 100);
-  std::array<std::size_t, stages> reached{};
+  std::array<std::size_t, stage_count> reached{};
   for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
     Random random(44);
     for (int round = 0; round < rounds; ++round) {
