@@ -71,7 +71,7 @@ struct ScaleRange {
 /// Something that a solver does wrong, confirmed by the oracle.
 struct Finding {
   judge::Fault what = judge::Fault::false_negative;
-  Separation separation = {};
+  Separation separation = fast::no_separation;
   std::string method;         ///< that is wrong: the one asked, or "certified" where the judge is
   FailingCase original = {};  ///< as it was found
   FailingCase simplest = {};  ///< the simplest query with the same fault: the original if none was

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "fast/method.hpp"
 #include "touchstone/oracle.hpp"
 #include "touchstone/query.hpp"
 #include "verify/jobs/prove.hpp"
@@ -21,7 +22,7 @@ namespace touchstone::verify::jobs {
 struct CertifyResult;
 
 struct BlockTruthOptions {
-  Separation separation = {};
+  Separation separation = fast::no_separation;
   judge::LabelComparison comparison = {};
   bool times = false;         ///< Are times of impact needed?
   bool certificates = false;  ///< Are certificates to be written?

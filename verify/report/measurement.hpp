@@ -75,7 +75,8 @@ struct Measurement {
   fast::Promise promise = fast::Promise::none;
   double tolerance = 0.0;       ///< MethodOptions::tolerance
   std::int64_t max_checks = 0;  ///< MethodOptions::max_checks
-  Separation separation = {};   ///< what counts as contact, for the method and for the truth
+  Separation separation =
+      fast::no_separation;  ///< what counts as contact, for the method and for the truth
   /// Of groups that are made for a scale: no coordinate is greater in magnitude.
   std::optional<double> scale;
 

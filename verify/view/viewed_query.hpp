@@ -9,6 +9,7 @@
 #include <variant>
 #include <vector>
 
+#include "fast/method.hpp"
 #include "touchstone/certificate.hpp"
 #include "touchstone/curved_query.hpp"
 #include "touchstone/oracle.hpp"
@@ -30,7 +31,7 @@ struct OwnCurves {
 struct ViewedQuery {
   std::string label = {};                           ///< where it is from
   std::variant<base::AnyQuery, OwnCurves> query{};  ///< finite numbers, positive weights
-  Separation separation = {};
+  Separation separation = fast::no_separation;
   std::vector<std::string> notes = {};  ///< what is recorded of it, a sentence each
   std::vector<judge::GivenAnswer> answers = {};
   /// False: how near the primitives come without a collision, which takes longest, is left out.
