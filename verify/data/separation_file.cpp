@@ -9,7 +9,6 @@
 #include <stdexcept>
 #include <system_error>
 
-#include "fast/method.hpp"
 #include "verify/io/dataset_error.hpp"
 #include "verify/io/json.hpp"
 #include "verify/io/output_file.hpp"
@@ -87,7 +86,7 @@ Separation read_separation(const fs::path& path) {
 
 Separation recorded_separation(const fs::path& dataset) {
   const auto path = find_separation_file(dataset);
-  return path ? read_separation(*path) : fast::no_separation;
+  return path ? read_separation(*path) : Separation{.distance = 0.0, .norm = Norm::linf};
 }
 
 void write_separation(const fs::path& folder, const Separation& separation) {
