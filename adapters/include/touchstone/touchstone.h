@@ -11,7 +11,7 @@
 /// **Errors.** Functions that can fail return a TouchstoneStatus. If it is not TOUCHSTONE_OK,
 /// touchstone_last_error() describes the error, and nothing else was written. A coordinate that is
 /// NaN or infinite is TOUCHSTONE_NOT_FINITE; only touchstone_solve, whose results have a verdict,
-/// answers TOUCHSTONE_ERROR for its query, and the other queries.
+/// answers TOUCHSTONE_ERROR for its query and decides the others.
 ///
 /// **Memory.** Arrays that a function of a step hands out are valid until the next call of this
 /// function that returns TOUCHSTONE_OK with this step, or until the end of the step.
