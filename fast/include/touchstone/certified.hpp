@@ -58,8 +58,8 @@ enum class Verdict : std::uint8_t {
 /// The value of a number that an answer does not have: NaN.
 inline constexpr double no_number = std::numeric_limits<double>::quiet_NaN();
 
-/// The stages, cheapest first. Each decides a query or passes it to the next. `bisection` stands for
-/// five stages in floating point, from `orientation` on (fast/README.md).
+/// The stages, cheapest first. Each decides a query or passes it to the next. `bisection` stands
+/// for five stages in floating point, from `orientation` on (fast/README.md).
 enum class Stage : std::uint8_t {
   axis,         ///< a coordinate axis separates the primitives at all times
   direction,    ///< one fixed direction separates them at all times
