@@ -1,8 +1,8 @@
 // A caller compiled with -ffast-math, which takes every number for finite, and with macros that
 // bear names of the standard library: answers and checks are those of every caller.
 
-#include <Eigen/Core>
 #include <gmpxx.h>
+#include <Eigen/Core>
 
 #include <algorithm>
 #include <atomic>
