@@ -163,7 +163,8 @@ void prove_collision(const MotionOf<Order>& motion, const AlgebraicNumber& first
   AlgebraicNumber toi = recognised(first);
   const bool is_apart = sgn(motion.distance) > 0;
   const auto conditions = is_apart ? find_near_contact(motion, toi) : find_contact(motion, toi);
-  if (!conditions) throw std::logic_error("touchstone: no contact at the verdict's time of impact");
+  if (!conditions)
+    throw std::logic_error("touchstone: no contact at the decision's time of impact");
   RationalInterval within{Rational(0), Rational(1)};
   certificate.claim = options.collision_claim;
   if (certificate.claim == Claim::time_of_impact) {
@@ -183,7 +184,7 @@ namespace {
 
 /// \tparam AnyQuery Query or CurvedQuery.
 template <class AnyQuery>
-Certificate prove_any(Kind kind, const AnyQuery& query, const Decision& verdict,
+Certificate prove_any(Kind kind, const AnyQuery& query, const Decision& decision,
                       const ProveOptions& options) {
   if (options.width && sgn(*options.width) <= 0) {
     throw std::invalid_argument("the interval of a time of impact must have a positive width");
@@ -194,12 +195,12 @@ Certificate prove_any(Kind kind, const AnyQuery& query, const Decision& verdict,
   Certificate certificate;
   certificate.kind = kind;
   certificate.query = query;
-  certificate.separation = verdict.separation;
-  auto motion = scale_uniformly(kind, query, verdict.separation);
+  certificate.separation = decision.separation;
+  auto motion = scale_uniformly(kind, query, decision.separation);
   // At distance 0 both norms mean the same, and l2 has fewer features.
   if (sgn(motion.distance) == 0) motion.norm = Norm::l2;
-  if (verdict.toi) {
-    prove_collision(motion, *verdict.toi, options, certificate);
+  if (decision.toi) {
+    prove_collision(motion, *decision.toi, options, certificate);
   } else {
     certificate.subintervals = separate(motion, Rational(1));
   }
@@ -209,32 +210,32 @@ Certificate prove_any(Kind kind, const AnyQuery& query, const Decision& verdict,
 
 }  // namespace
 
-Certificate prove(Kind kind, const Query& query, const Decision& verdict,
+Certificate prove(Kind kind, const Query& query, const Decision& decision,
                   const ProveOptions& options) {
-  return prove_any(kind, query, verdict, options);
+  return prove_any(kind, query, decision, options);
 }
 
-Certificate prove(Kind kind, const CurvedQuery& query, const Decision& verdict,
+Certificate prove(Kind kind, const CurvedQuery& query, const Decision& decision,
                   const ProveOptions& options) {
-  return prove_any(kind, query, verdict, options);
+  return prove_any(kind, query, decision, options);
 }
 
-Certificate prove(const Queries& queries, std::size_t i, const Decision& verdict,
+Certificate prove(const Queries& queries, std::size_t i, const Decision& decision,
                   const ProveOptions& options) {
-  if (queries.is_straight()) return prove(queries.kind, queries.straight()[i], verdict, options);
-  return prove(queries.kind, to_curved(queries, i), verdict, options);
+  if (queries.is_straight()) return prove(queries.kind, queries.straight()[i], decision, options);
+  return prove(queries.kind, to_curved(queries, i), decision, options);
 }
 
-std::vector<Certificate> prove(const Queries& queries, std::span<const Decision> verdicts,
+std::vector<Certificate> prove(const Queries& queries, std::span<const Decision> decisions,
                                const ProveOptions& options) {
-  if (verdicts.size() != queries.size()) {
-    throw std::invalid_argument("prove: " + std::to_string(verdicts.size()) + " verdicts for " +
+  if (decisions.size() != queries.size()) {
+    throw std::invalid_argument("prove: " + std::to_string(decisions.size()) + " decisions for " +
                                 std::to_string(queries.size()) + " queries");
   }
   std::vector<Certificate> certificates;
   certificates.reserve(queries.size());
   for (std::size_t i = 0; i < queries.size(); ++i) {
-    certificates.push_back(prove(queries, i, verdicts[i], options));
+    certificates.push_back(prove(queries, i, decisions[i], options));
   }
   return certificates;
 }

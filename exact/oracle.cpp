@@ -1,6 +1,7 @@
 #include "touchstone/oracle.hpp"
 
 #include <stdexcept>
+#include <string>
 
 #include "exact/contact/contact_oracle.hpp"
 #include "exact/contact/corner_motion.hpp"
@@ -9,23 +10,27 @@
 namespace touchstone::exact {
 
 Decision decide(Kind kind, const Query& query, const Separation& separation) {
-  Decision verdict = is_zero(separation)
-                         ? decide_contact(scale_to_integers(kind, query))
-                         : decide_distance(scale_uniformly(kind, query, separation));
-  verdict.separation = separation;
-  return verdict;
+  Decision decision = is_zero(separation)
+                          ? decide_contact(scale_to_integers(kind, query))
+                          : decide_distance(scale_uniformly(kind, query, separation));
+  decision.separation = separation;
+  return decision;
 }
 
 Decision decide(Kind kind, const CurvedQuery& query, const Separation& separation) {
   const MotionOf<Curved> motion = scale(kind, query, separation);
-  Decision verdict = is_zero(separation) ? decide_contact(motion) : decide_distance(motion);
-  verdict.separation = separation;
-  return verdict;
+  Decision decision = is_zero(separation) ? decide_contact(motion) : decide_distance(motion);
+  decision.separation = separation;
+  return decision;
 }
 
 Decision decide(const Queries& queries, std::size_t i, const Separation& separation) {
-  if (queries.is_straight()) return decide(queries.kind, queries.straight()[i], separation);
-  return decide(queries.kind, to_curved(queries, i), separation);
+  try {
+    if (queries.is_straight()) return decide(queries.kind, queries.straight()[i], separation);
+    return decide(queries.kind, to_curved(queries, i), separation);
+  } catch (const std::domain_error& error) {
+    throw std::domain_error("query " + std::to_string(i) + ": " + error.what());
+  }
 }
 
 std::vector<Decision> decide(const Queries& queries, const Separation& separation) {
@@ -37,11 +42,11 @@ std::vector<Decision> decide(const Queries& queries, const Separation& separatio
   return decisions;
 }
 
-ContactParameters contact_parameters(const Decision& verdict, const Rational& width) {
-  if (!verdict.contact) throw std::invalid_argument("the place of contact is not known");
-  const auto& [u, v, denominator] = *verdict.contact;
-  return {enclose_quotient(u, denominator, *verdict.toi, width),
-          enclose_quotient(v, denominator, *verdict.toi, width)};
+ContactParameters contact_parameters(const Decision& decision, const Rational& width) {
+  if (!decision.contact) throw std::invalid_argument("the place of contact is not known");
+  const auto& [u, v, denominator] = *decision.contact;
+  return {enclose_quotient(u, denominator, *decision.toi, width),
+          enclose_quotient(v, denominator, *decision.toi, width)};
 }
 
 }  // namespace touchstone::exact

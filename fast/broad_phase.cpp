@@ -1,7 +1,6 @@
 #include "touchstone/broad_phase.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <new>
@@ -16,6 +15,7 @@
 #include "fast/broad_phase/primitive_groups.hpp"
 #include "fast/broad_phase/search.hpp"
 #include "fast/broad_phase/swept_box.hpp"
+#include "fast/candidates.hpp"
 #include "fast/platform/floating_point_state.hpp"
 #include "fast/platform/threads.hpp"
 
@@ -26,7 +26,7 @@ namespace {
 constexpr std::size_t groups_of_chunk = 16;
 
 void require_valid(const BroadPhaseOptions& options) {
-  if (!std::isfinite(options.separation.distance) || options.separation.distance < 0.0) {
+  if (!is_valid(options.separation)) {
     throw std::invalid_argument("the separation must be finite and not negative");
   }
   if (options.max_threads < 0) throw std::invalid_argument("max_threads must not be negative");

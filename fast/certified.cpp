@@ -4,6 +4,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "fast/candidates.hpp"
 #include "fast/certified/block.hpp"
 #include "fast/certified/curves.hpp"
 #include "fast/kernels.hpp"
@@ -120,7 +121,7 @@ void solve_blocks(const Batch& batch, std::span<Item> items, const CertifiedOpti
 
 // ---- Collisions ---------------------------------------------------------------------------------
 
-/// Appends the block's collisions, in order.
+/// Appends the block's collisions, and the queries that are an error, in order.
 void collect(const Batch& batch, std::size_t first, const CertifiedOptions& options,
              std::vector<Collision>& found) {
   const auto before = static_cast<std::ptrdiff_t>(found.size());
@@ -130,8 +131,7 @@ void collect(const Batch& batch, std::size_t first, const CertifiedOptions& opti
   std::ranges::sort(found.begin() + before, found.end(), {}, &Collision::candidate);
 }
 
-std::vector<Collision> collisions(const Batch& batch, const CertifiedOptions& options) {
-  require_valid(options);
+std::vector<Collision> all_collisions(const Batch& batch, const CertifiedOptions& options) {
   std::vector<Collision> all;
   if (options.max_threads == 1) {
     for_each_block(batch, 1, [&](std::size_t first) { collect(batch, first, options, all); });
@@ -145,6 +145,17 @@ std::vector<Collision> collisions(const Batch& batch, const CertifiedOptions& op
   }
   std::ranges::sort(all, {}, &Collision::candidate);
   return all;
+}
+
+std::vector<Collision> collisions(const Batch& batch, const CertifiedOptions& options) {
+  require_valid(options);
+  std::vector<Collision> all = all_collisions(batch, options);
+  const auto bad = std::ranges::find(all, Verdict::error,
+                                     [](const Collision& one) { return one.result.verdict; });
+  if (bad == all.end()) return all;
+  throw std::domain_error(
+      "collisions: query " + std::to_string(bad->candidate) + ": a coordinate is not finite" +
+      (batch.queries.is_rational ? ", or a weight is not positive and finite" : ""));
 }
 
 }  // namespace
@@ -208,7 +219,7 @@ namespace {
 
 std::vector<std::string_view> stage_names() {
   std::vector<std::string_view> names;
-  for (std::size_t i = 0; i < stages; ++i) names.push_back(to_string(static_cast<Stage>(i)));
+  for (std::size_t i = 0; i < stage_count; ++i) names.push_back(to_string(static_cast<Stage>(i)));
   return names;
 }
 

@@ -1,4 +1,4 @@
-#include "touchstone/curved_step.hpp"
+#include "touchstone/step.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -7,6 +7,7 @@
 #include <string>
 
 #include "fast/certified/block.hpp"
+#include "fast/platform/floating_point_state.hpp"
 #include "fast/step/scene.hpp"
 #include "touchstone/certified.hpp"
 
@@ -23,6 +24,7 @@ Step step_of_boxes(const CurvedVertices& vertices, const MeshElements& elements,
   if (vertices.numbers.size() % size != 0) {
     throw std::invalid_argument("curved step: the numbers are no whole vertices");
   }
+  const StrictFloatingPoint strict;
   const std::size_t count = vertices.numbers.size() / size;
   std::vector<double> least, greatest;
   for (std::size_t vertex = 0; vertex < count; ++vertex) {
@@ -50,12 +52,14 @@ Step step_of_boxes(const CurvedVertices& vertices, const MeshElements& elements,
 
 CurvedStep::CurvedStep(const CurvedVertices& vertices, const MeshElements& elements,
                        const StepOptions& options)
-    : vertices_(vertices), boxes_(step_of_boxes(vertices, elements, options)) {}
+    : numbers_(vertices.numbers.begin(), vertices.numbers.end()),
+      vertices_{vertices.degree, vertices.is_rational, numbers_},
+      boxes_(step_of_boxes(vertices_, elements, options)) {}
 
 void CurvedStep::for_each_collision(const std::atomic<double>& limit, const Take& take) const {
   const std::size_t size = vertices_.numbers_of_vertex(), stride = vertices_.numbers_of_point();
   boxes_.candidates([&](const StepCandidates& some) {
-    CertifiedOptions options = boxes_.certified();
+    CertifiedOptions options = boxes_.options();
     options.max_threads = 1;
     options.t_max = std::min(options.t_max, limit.load());
     if (options.t_max < 0.0) return;
@@ -110,7 +114,7 @@ std::optional<StepImpact> CurvedStep::earliest() const {
     impact.pairs.push_back(collision);
     if (collision.toi_upper > impact.toi_upper) return;
     impact.toi_upper = collision.toi_upper;
-    limit = limit_after(collision.toi_upper, boxes_.certified().toi_tolerance);
+    limit = limit_after(collision.toi_upper, boxes_.options().toi_tolerance);
   });
   if (impact.pairs.empty()) return std::nullopt;
   std::erase_if(impact.pairs, [&](const StepCollision& collision) {

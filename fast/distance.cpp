@@ -1,4 +1,4 @@
-#include "touchstone/distance.hpp"
+#include "touchstone/contacts.hpp"
 
 #include <algorithm>
 #include <array>

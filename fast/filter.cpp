@@ -1,4 +1,4 @@
-#include "touchstone/filter.hpp"
+#include "touchstone/tight_inclusion.hpp"
 
 #include <algorithm>
 #include <limits>

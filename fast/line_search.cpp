@@ -1,4 +1,4 @@
-#include "touchstone/line_search.hpp"
+#include "touchstone/contacts.hpp"
 
 #include <algorithm>
 #include <atomic>
@@ -44,7 +44,7 @@ LineSearchStatus status_of(double toi_lower) {
 LineSearchLimit limit_of_scene(const Step& step, double p, Norm norm) {
   const std::optional<LeastDistance> least = least_distance(step, 0.0, norm);
   LineSearchLimit result;
-  result.step_size = step.certified().t_max;
+  result.step_size = step.options().t_max;
   if (!least) return result;
   result.distance = least->distance;
   const std::optional<double> kept = kept_distance(p, least->distance);
@@ -134,7 +134,7 @@ class SearchOfPairs {
   /// are always examined.
   [[nodiscard]] double reach_until(double time) const {
     constexpr double least = 0x1p-1000, greatest = std::numeric_limits<double>::max();
-    const double rest = 1.0 - step_.certified().toi_tolerance;
+    const double rest = 1.0 - step_.options().toi_tolerance;
     if (!(rest > 0.0)) return greatest;
     const double reach = 4.0 * motion_ * (time / (1.0 - p_) / rest);
     // Written so that NaN also yields the greatest value.
@@ -151,7 +151,7 @@ class SearchOfPairs {
       (apart.upper == 0.0 ? touching_ : too_near_).push_back(at_start(kind, pair));
       return;
     }
-    CertifiedOptions options = step_.certified();
+    CertifiedOptions options = step_.options();
     options.separation = {.distance = *kept, .norm = norm_};
     const CertifiedResult result = solve(query_kind, query, options);
     if (result.verdict != Verdict::yes) return;
@@ -169,7 +169,7 @@ class SearchOfPairs {
   }
 
   void take_earliest() {
-    result_.step_size = step_.certified().t_max;
+    result_.step_size = step_.options().t_max;
     if (result_.pairs.empty()) return;
     std::erase_if(result_.pairs, [upper = upper_.load()](const StepCollision& one) {
       return one.toi_lower > upper;

@@ -13,10 +13,8 @@
 #include <vector>
 
 #include "touchstone/certified.hpp"
-#include "touchstone/filter.hpp"
 #include "touchstone/query.hpp"
 #include "touchstone/tight_inclusion.hpp"
-#include "touchstone/verdict.hpp"
 
 namespace touchstone::fast {
 
@@ -78,13 +76,18 @@ struct Terms {
   friend bool operator==(const Terms&, const Terms&) = default;
 };
 
+/// The separation of methods and records where none is given: the distance 0, in the norm of the
+/// command line, because plugins and records name a norm there, too, and the claim of an answer
+/// with a tolerance is a distance in that norm.
+inline constexpr Separation no_separation{.distance = 0.0, .norm = Norm::linf};
+
 /// The common options of methods. A method ignores the options that do not apply to it.
 struct MethodOptions {
   double tolerance = 1e-6;              ///< of tolerance-driven methods: Tight-Inclusion's δ
   std::int64_t max_checks = 1'000'000;  ///< of iterative methods: Tight-Inclusion's m_I; ≤ 0: none
   /// The distance at which primitives are in contact. A method that supports L∞ alone is
   /// conservative for L2.
-  Separation separation = {};
+  Separation separation = no_separation;
   double t_max = 1.0;  ///< only impacts up to this time count (0 to 1)
 };
 

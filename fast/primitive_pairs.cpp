@@ -1,4 +1,4 @@
-#include "touchstone/primitive_pairs.hpp"
+#include "touchstone/certified.hpp"
 
 #include <algorithm>
 

@@ -410,7 +410,7 @@ std::optional<double> Step::free_step_size() const {
     const bool collides_again =
         impact && std::ranges::any_of(impact->pairs, [&](const auto& one) {
           const Query query = trial.query_of(one.kind, one.pair);
-          return solve(kind_of(one.kind), query, trial.certified()).verdict == Verdict::yes;
+          return solve(kind_of(one.kind), query, trial.options()).verdict == Verdict::yes;
         });
     return !collides_again && trial.is_free();
   };
@@ -448,7 +448,7 @@ Query Step::query_of(PairKind kind, const IndexPair& pair) const {
 
 const MovingVertices& Step::vertices() const { return scene_->vertices(); }
 
-const CertifiedOptions& Step::certified() const { return scene_->certified(); }
+const CertifiedOptions& Step::options() const { return scene_->certified(); }
 
 std::span<const Edge> Step::edges() const { return scene_->elements().edges; }
 

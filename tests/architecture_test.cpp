@@ -58,8 +58,8 @@ constexpr std::string_view layer_lines = R"(
   fast/certified/stages/: fast/certified/stages/ fast/certified/fixed_point_vertices.hpp fast/certified/kernel.hpp filters/ exact/query.hpp
   fast/certified/curves/: fast/certified/curves/ fast/certified/stages/ fast/certified/kernel.hpp filters/ exact/query.hpp
   fast/certified/: fast/certified/ fast/platform/ fast/certified.hpp fast/mesh.hpp filters/ exact/curved_query.hpp exact/query.hpp immintrin.h
-  fast/distance/: fast/distance/ fast/certified/exact/ fast/platform/ fast/distance.hpp fast/kernels.hpp fast/step.hpp filters/ exact/query.hpp arm_neon.h immintrin.h
-  fast/step/: fast/step/ fast/broad_phase/ fast/certified/ fast/broad_phase.hpp fast/kernels.hpp fast/mesh.hpp fast/step.hpp
+  fast/distance/: fast/distance/ fast/certified/exact/ fast/platform/ fast/contacts.hpp fast/kernels.hpp fast/step.hpp filters/ exact/query.hpp arm_neon.h immintrin.h
+  fast/step/: fast/step/ fast/broad_phase/ fast/certified/ fast/broad_phase.hpp fast/candidates.hpp fast/kernels.hpp fast/mesh.hpp fast/step.hpp
   adapters/: adapters/ fast/ exact/query.hpp Eigen/
   adapters/ipc_toolkit.hpp: fast/ exact/query.hpp ipc/ccd/narrow_phase_ccd.hpp
   adapters/tight_inclusion/logger.hpp: spdlog/
@@ -104,7 +104,7 @@ constexpr std::string_view foreign_headers = R"(
 constexpr std::string_view headers_without_test = R"(
 // By compilation: tests/CMakeLists.txt, tests/filters/CMakeLists.txt, tests/consumer. No code.
   exact/: cxx20.hpp exact.hpp
-  fast/: fast.hpp method.hpp verdict.hpp
+  fast/: fast.hpp method.hpp
   filters/: strict_arithmetic.hpp
   verify/data/: query_source.hpp
   verify/fuzz/: finding.hpp
@@ -126,8 +126,10 @@ constexpr std::string_view headers_without_test = R"(
   fast/certified/stages/: axis.hpp bisection.hpp conservative_advancement.hpp crossing.hpp determinant.hpp direction.hpp distance_enclosure.hpp lanes.hpp moving_polygon.hpp moving_vectors.hpp only_zero.hpp orientation.hpp refinement.hpp single_precision.hpp
   fast/platform/: avx2_doubles.hpp avx2_floats.hpp avx512_doubles.hpp avx512_floats.hpp avx_rows.hpp neon_doubles.hpp neon_floats.hpp scalar_doubles.hpp scalar_floats.hpp floating_point_state.hpp
   fast/tight_inclusion/: box_kernel_on_lanes.hpp curved_box_kernel.hpp
-// In curved_parts_test.cpp and curved_test.cpp; distance_test.cpp; and against all pairs one by one:
+// In active_set_test.cpp, distance_test.cpp and line_search_test.cpp; mesh_test.cpp;
+// curved_parts_test.cpp and curved_test.cpp; distance_test.cpp; and against all pairs one by one:
 // search_test.cpp, broad_phase_test.cpp, step_test.cpp.
+  fast/: candidates.hpp contacts.hpp
   fast/certified/curves/: contact_proof.hpp control_polygon.hpp stages.hpp
   fast/distance/: exact_distance.hpp filter_kernel.hpp filter_on_lanes.hpp filtered_distance.hpp polygon_features.hpp
   fast/broad_phase/: body_tree.hpp box_tree.hpp division_on_lanes.hpp search_on_lanes.hpp seeds.hpp swept_box.hpp words_one_by_one.hpp

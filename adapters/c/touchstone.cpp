@@ -18,10 +18,8 @@
 #include <utility>
 #include <vector>
 
-#include "touchstone/active_set.hpp"
 #include "touchstone/certified.hpp"
-#include "touchstone/distance.hpp"
-#include "touchstone/line_search.hpp"
+#include "touchstone/contacts.hpp"
 #include "touchstone/step.hpp"
 
 // The inputs and outputs of a step.
@@ -243,7 +241,7 @@ const char* touchstone_last_error() { return last_error().c_str(); }
 
 TouchstoneOptions touchstone_default_options() {
   const touchstone::fast::CertifiedOptions usual;
-  return {usual.separation.distance, usual.t_max, usual.toi_tolerance, TOUCHSTONE_LINF,
+  return {usual.separation.distance, usual.t_max, usual.toi_tolerance, TOUCHSTONE_L2,
           usual.max_threads};
 }
 

@@ -28,8 +28,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 KATEX = pathlib.Path("/usr/share/javascript/katex")
 PAGES = ["docs/**/*.md", "*/README.md", "verify/baselines/README.md", "exact/CERTIFICATES.md", "CONTRIBUTING.md", "CHANGELOG.md"]
 HEADERS = [
-    ("fast", "Solvers and steps", ["certified", "primitive_pairs", "step", "mesh", "distance", "active_set", "line_search",
-                                   "tight_inclusion", "broad_phase", "verdict"]),
+    ("fast", "Solvers and steps", ["certified", "step", "mesh", "contacts", "tight_inclusion", "broad_phase"]),
     ("exact", "Ground truth and certificates", ["query", "oracle", "number", "polynomial", "algebraic_number", "certificate",
                                                 "certificate_text"]),
     ("adapters", "Adapters", ["ipc_toolkit"]),

@@ -133,7 +133,7 @@ void require_valid(const Trajectory& curve) {
   }
   for (const double weight : curve.weights) {
     if (decompose(weight).significand <= 0) {
-      throw std::invalid_argument("the weights of a trajectory must be positive");
+      throw std::domain_error("the weights of a trajectory must be positive");
     }
   }
 }

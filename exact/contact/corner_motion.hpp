@@ -245,8 +245,8 @@ void set_corners(MotionOf<Order>& motion) {
                                                                      .norm = Norm::l2});
 
 /// As scale_to_integers where the distance is 0, else as scale_uniformly.
-/// \throws std::domain_error if a number is NaN or infinite; std::invalid_argument if the
-/// separation or the query is not valid.
+/// \throws std::domain_error if a number is NaN or infinite, or a weight not positive;
+/// std::invalid_argument if the separation or the query is not valid.
 [[nodiscard]] MotionOf<Curved> scale(Kind kind, const CurvedQuery& query,
                                      const Separation& separation);
 /// The same in one unit for all axes and the distance.

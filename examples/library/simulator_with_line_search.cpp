@@ -2,9 +2,7 @@
 /// The shortest simulator with collision detection: a pyramid falls onto a resting square. Each
 /// motion is shortened by a line search, so none collides.
 
-#include <touchstone/active_set.hpp>
-#include <touchstone/distance.hpp>
-#include <touchstone/line_search.hpp>
+#include <touchstone/contacts.hpp>
 
 #include <Eigen/Core>
 

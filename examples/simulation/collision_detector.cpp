@@ -12,7 +12,7 @@
 #include <utility>
 
 #include "examples/simulation/stopwatch.hpp"
-#include "touchstone/distance.hpp"
+#include "touchstone/contacts.hpp"
 #include "verify/solvers/registry.hpp"
 
 namespace touchstone::simulation {

@@ -17,8 +17,7 @@
 #include <vector>
 
 #include "examples/simulation/recorder.hpp"
-#include "touchstone/active_set.hpp"
-#include "touchstone/line_search.hpp"
+#include "touchstone/contacts.hpp"
 #include "touchstone/step.hpp"
 #include "verify/solvers/solver.hpp"
 

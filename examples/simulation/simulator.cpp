@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "examples/simulation/stopwatch.hpp"
-#include "touchstone/active_set.hpp"
+#include "touchstone/contacts.hpp"
 
 namespace touchstone::simulation {
 namespace {

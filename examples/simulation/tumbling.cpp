@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "touchstone/certified.hpp"
-#include "touchstone/curved_step.hpp"
+#include "touchstone/step.hpp"
 #include "verify/data/npy_header.hpp"
 #include "verify/io/output_file.hpp"
 

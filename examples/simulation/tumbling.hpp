@@ -2,7 +2,7 @@
 
 /// \file
 /// Two rigid cubes that tumble into one another, again and again, with collision detection on
-/// curves: touchstone/curved_step.hpp.
+/// curves: touchstone/step.hpp.
 ///
 /// A cube turns about a fixed axis with constant angular velocity while nothing touches it, because
 /// its inertia is the same about all axes. In a step each vertex moves on the cubic Hermite curve

@@ -7,7 +7,7 @@
 /// corners, multiplied by 2^k, are integers too. Theorem 1 and theorem 3 of polygon_features.hpp
 /// then give the distance, or its square, as a fraction, which is compared with doubles.
 
-#include "touchstone/distance.hpp"
+#include "touchstone/contacts.hpp"
 #include "touchstone/query.hpp"
 
 namespace touchstone::fast {

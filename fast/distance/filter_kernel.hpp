@@ -8,7 +8,7 @@
 #include <span>
 
 #include "fast/platform/instruction_set.hpp"
-#include "touchstone/distance.hpp"
+#include "touchstone/contacts.hpp"
 #include "touchstone/query.hpp"
 
 namespace touchstone::fast {

@@ -14,7 +14,7 @@
 
 #include <optional>
 
-#include "touchstone/distance.hpp"
+#include "touchstone/contacts.hpp"
 #include "touchstone/query.hpp"
 
 namespace touchstone::fast {

@@ -28,7 +28,7 @@
 #include <cstddef>
 
 #include "fast/platform/floating_point_state.hpp"
-#include "touchstone/distance.hpp"
+#include "touchstone/contacts.hpp"
 #include "touchstone/filters/polynomial_expressions.hpp"
 
 namespace touchstone::fast {

@@ -10,7 +10,7 @@
 #include <limits>
 #include <optional>
 
-#include "touchstone/distance.hpp"
+#include "touchstone/contacts.hpp"
 
 namespace touchstone::fast {
 

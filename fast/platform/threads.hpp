@@ -133,9 +133,9 @@ class BorrowedArena {
 };
 #endif
 
-/// Calls work() in an arena of at most this number of threads (0: all cores), under strict floating
-/// point, and returns its result. It may run in another thread than the caller's. Its tasks have to
-/// establish strict floating point themselves.
+/// Calls work() in an arena of at most this number of threads (0: touchstone::all_cores), under
+/// strict floating point, and returns its result. It may run in another thread than the caller's.
+/// Its tasks have to establish strict floating point themselves.
 template <class Work>
 auto with_threads([[maybe_unused]] int max_threads, const Work& work) {
   const auto strictly = [&work] {

@@ -24,6 +24,7 @@
 #include "fast/broad_phase/float_bounds.hpp"
 #include "fast/broad_phase/primitive_groups.hpp"
 #include "fast/broad_phase/search.hpp"
+#include "fast/candidates.hpp"
 #include "fast/certified/block.hpp"
 #include "fast/certified/fixed_point_vertices.hpp"
 #include "fast/certified/kernel.hpp"

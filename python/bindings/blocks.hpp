@@ -36,7 +36,8 @@ inline constexpr std::chrono::milliseconds signal_period{50};
   return true;
 }
 
-/// The threads for a number of blocks, where a user asks for `threads`; 0: one for each core.
+/// The threads for a number of blocks, where a user asks for `threads`; 0: one for each core that
+/// the process may use.
 /// \throws std::invalid_argument for a negative number.
 [[nodiscard]] inline std::size_t team_size(int threads, std::size_t blocks) {
   if (threads < 0) throw std::invalid_argument("threads must not be negative");

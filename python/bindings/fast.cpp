@@ -16,7 +16,7 @@
 #include "python/bindings/blocks.hpp"
 #include "python/bindings/step.hpp"
 #include "touchstone/certified.hpp"
-#include "touchstone/distance.hpp"
+#include "touchstone/contacts.hpp"
 #include "touchstone/tight_inclusion.hpp"
 
 namespace touchstone::python {

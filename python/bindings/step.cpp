@@ -20,9 +20,7 @@
 
 #include "python/bindings/arguments.hpp"
 #include "python/bindings/background.hpp"
-#include "touchstone/active_set.hpp"
-#include "touchstone/distance.hpp"
-#include "touchstone/line_search.hpp"
+#include "touchstone/contacts.hpp"
 #include "touchstone/step.hpp"
 
 namespace touchstone::python {

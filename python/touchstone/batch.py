@@ -101,7 +101,7 @@ def certified(
     queries: npt.ArrayLike,
     *,
     separation: float = 0.0,
-    norm: Norm = "linf",
+    norm: Norm = "l2",
     t_max: float = 1.0,
     toi_tolerance: float = 1e-12,
     threads: int = 0,
@@ -128,7 +128,7 @@ def certified(
     toi_tolerance : float, optional
         The maximum width of the enclosures of times, relative to their upper ends.
     threads : int, optional
-        The maximum number of threads; 0: one for each core. The results do not depend on it.
+        The maximum number of threads; 0: one for each core that the process may use. The results do not depend on it.
     progress : bool, optional
         Show a bar from the first second on; by default in terminals and notebooks.
     out : CertifiedResult, optional
@@ -211,7 +211,7 @@ def tight_inclusion(
     queries: npt.ArrayLike,
     *,
     separation: float = 0.0,
-    norm: Norm = "linf",
+    norm: Norm = "l2",
     tolerance: float = 1e-6,
     max_checks: int = 1_000_000,
     t_max: float = 1.0,

@@ -133,7 +133,7 @@ def decide(
     queries: npt.ArrayLike,
     *,
     separation: float = 0.0,
-    norm: Norm = "linf",
+    norm: Norm = "l2",
     threads: int = 0,
     progress: bool | None = None,
 ) -> Decisions:
@@ -198,7 +198,7 @@ def decide_curved(
     curves: Sequence[Any],
     *,
     separation: float = 0.0,
-    norm: Norm = "linf",
+    norm: Norm = "l2",
 ) -> Decisions:
     """Decide a query whose points move on Bézier curves, each of its own degree, exactly.
 
@@ -251,7 +251,7 @@ def prove(
     queries: npt.ArrayLike,
     *,
     separation: float = 0.0,
-    norm: Norm = "linf",
+    norm: Norm = "l2",
     claim: Literal["time_of_impact", "collision"] = "time_of_impact",
     threads: int = 0,
     progress: bool | None = None,
@@ -357,7 +357,7 @@ def check(
     scenes: bytes | str | None = None,
     claim: str | None = None,
     separation: float | None = None,
-    norm: Norm = "linf",
+    norm: Norm = "l2",
 ) -> CheckReport:
     """Check certificates by the checker, which shares no code with the oracle.
 
@@ -487,7 +487,7 @@ def solve(
     queries: npt.ArrayLike,
     *,
     separation: float = 0.0,
-    norm: Norm = "linf",
+    norm: Norm = "l2",
     tolerance: float = 1e-6,
     max_checks: int = 1_000_000,
     t_max: float = 1.0,

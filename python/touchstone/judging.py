@@ -173,7 +173,7 @@ def generate(
     count: int = 100,
     seed: int = 2021,
     separation: float = 0.0,
-    norm: Norm = "linf",
+    norm: Norm = "l2",
 ) -> List[Queries]:
     """Return queries of the built-in set, whose truth is known by construction.
 
@@ -391,7 +391,7 @@ def certify(
     name: str | None = None,
     promise: Promise = "conservative",
     separation: float | None = None,
-    norm: Norm = "linf",
+    norm: Norm = "l2",
     tolerance: float = 1e-6,
     max_checks: int = 100_000,
     query_limit: float = 10.0,
@@ -433,7 +433,7 @@ def certify(
     count, seed : int, optional
         Of the built-in set: queries of each family and kind, and its seed.
     threads : int, optional
-        The number of processes; 0: one for each core.
+        The number of processes; 0: one for each core that the process may use.
     progress : bool, optional
         Show a line from the first second on; by default in terminals and notebooks.
 
@@ -580,7 +580,7 @@ def fuzz(
     promise: Promise = "conservative",
     seed: int = 2021,
     separation: float | None = None,
-    norm: Norm = "linf",
+    norm: Norm = "l2",
     tolerance: float = 1e-6,
     max_checks: int = 100_000,
     query_limit: float = 10.0,
@@ -672,7 +672,7 @@ def view(
     kind: Kind | None = None,
     *,
     separation: float | None = None,
-    norm: Norm = "linf",
+    norm: Norm = "l2",
     methods: Sequence[str] = (),
 ) -> View:
     """Show queries in an interactive page, with the truth, its proof and the answers of methods.

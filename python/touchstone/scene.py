@@ -120,7 +120,7 @@ class Step:
     toi_tolerance : float, optional
         The maximum width of enclosures of times, relative to their upper ends.
     threads : int, optional
-        The maximum number of threads; 0: one for each core.
+        The maximum number of threads; 0: one for each core that the process may use.
     progress : bool, optional
         Show the time of a search from the first second on; by default in terminals and notebooks.
 
@@ -167,7 +167,7 @@ class Step:
         groups: npt.ArrayLike | None = None,
         apart: npt.ArrayLike | None = None,
         separation: float = 0.0,
-        norm: Norm = "linf",
+        norm: Norm = "l2",
         t_max: float = 1.0,
         toi_tolerance: float = 1e-12,
         threads: int = 0,

@@ -19,10 +19,8 @@
 
 #include "tests/support/certified_against_oracle.hpp"
 #include "tests/support/random.hpp"
-#include "touchstone/active_set.hpp"
 #include "touchstone/certified.hpp"
-#include "touchstone/distance.hpp"
-#include "touchstone/line_search.hpp"
+#include "touchstone/contacts.hpp"
 #include "touchstone/step.hpp"
 
 namespace touchstone::adapters::touchstone_test {
@@ -48,7 +46,6 @@ TEST(CInterface, SolvesAsTheSolver) {
   for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
     TouchstoneOptions options = touchstone_default_options();
     options.min_separation = 0.25;
-    options.norm = TOUCHSTONE_L2;
     options.t_max = 0.75;
     std::vector<TouchstoneImpact> impacts(queries.size());
     ASSERT_EQ(
@@ -58,8 +55,8 @@ TEST(CInterface, SolvesAsTheSolver) {
         << touchstone_last_error();
     std::size_t colliding = 0;
     for (std::size_t i = 0; i < queries.size(); ++i) {
-      const fast::CertifiedResult expected = fast::solve(
-          kind, queries[i], {.t_max = 0.75, .separation = {.distance = 0.25, .norm = Norm::l2}});
+      const fast::CertifiedResult expected =
+          fast::solve(kind, queries[i], {.t_max = 0.75, .separation = {.distance = 0.25}});
       ASSERT_EQ(impacts[i].verdict, static_cast<std::int32_t>(expected.verdict)) << i;
       if (expected.verdict != fast::Verdict::yes) {
         EXPECT_TRUE(std::isnan(impacts[i].toi_lower));

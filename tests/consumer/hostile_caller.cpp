@@ -1,6 +1,7 @@
 // A caller compiled with -ffast-math, which takes every number for finite, and with macros that
 // bear names of the standard library: answers and checks are those of every caller.
 
+#include <gmpxx.h>
 #include <Eigen/Core>
 
 #include <algorithm>
@@ -22,6 +23,7 @@
 #define max(a, b) ((a) > (b) ? (a) : (b))
 
 #include <tight_inclusion/ccd.hpp>
+#include <touchstone/exact.hpp>
 #include <touchstone/fast.hpp>
 #include <touchstone/query.hpp>
 

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "tests/support/certificates.hpp"
+#include "tests/support/messages.hpp"
 #include "tests/support/polynomials.hpp"
 #include "tests/support/queries.hpp"
 #include "touchstone/certificate.hpp"
@@ -248,6 +249,10 @@ TEST(CurvedQuery, InAnArray) {
       EXPECT_EQ(proved.subintervals.size(), prove(shape.kind, query, alone).subintervals.size());
     }
     EXPECT_THROW((void)prove(queries, std::span(decisions).first(4)), std::invalid_argument);
+    numbers[3 * shape.numbers_of_query()] = std::nan("");
+    EXPECT_TRUE(tests::message_of<std::domain_error>([&] {
+                  (void)decide(queries);
+                }).starts_with("query 3: "));
   }
 }
 
@@ -304,12 +309,12 @@ TEST(CurvedQuery, ThatIsNotOneIsRefused) {
     static_cast<void>(decide(Kind::vertex_face, query));
   };
   const Point a{1, 1, 1};
-  for (const Trajectory& curve : std::vector<Trajectory>{{{}},
-                                                         {std::vector<Point>(10)},
-                                                         {{a, a, a}, {1, 2}},
-                                                         {{a, a, a}, {1, 0, 1}},
-                                                         {{a, a, a}, {1, -1, 1}}}) {
+  for (const Trajectory& curve :
+       std::vector<Trajectory>{{{}}, {std::vector<Point>(10)}, {{a, a, a}, {1, 2}}}) {
     EXPECT_THROW(decide_with(curve), std::invalid_argument);
+  }
+  for (const double weight : {0.0, -1.0}) {
+    EXPECT_THROW(decide_with({{a, a, a}, {1, weight, 1}}), std::domain_error);
   }
   constexpr double infinity = std::numeric_limits<double>::infinity();
   for (const double x : {infinity, -infinity, std::nan("")}) {

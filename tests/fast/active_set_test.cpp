@@ -1,4 +1,4 @@
-#include "touchstone/active_set.hpp"
+#include "touchstone/contacts.hpp"
 
 #include <gtest/gtest.h>
 

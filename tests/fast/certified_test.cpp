@@ -14,6 +14,7 @@
 #include <tuple>
 #include <vector>
 
+#include "fast/candidates.hpp"
 #include "fast/certified/kernel.hpp"
 #include "fast/kernels.hpp"
 #include "fast/method.hpp"
@@ -107,7 +108,7 @@ TEST(Certified, WhatCrossesThePlaneNearAnEdgeIsDecidedInFloatingPoint) {
 }
 
 TEST(Certified, EveryStageIsReached) {
-  std::array<std::size_t, stages> reached{}, separated{};
+  std::array<std::size_t, stage_count> reached{}, separated{};
   for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
     Random random(7);
     std::vector<Query> queries(3000);
@@ -124,7 +125,7 @@ TEST(Certified, EveryStageIsReached) {
       }
     }
   }
-  for (std::size_t i = 0; i < stages; ++i) {
+  for (std::size_t i = 0; i < stage_count; ++i) {
     EXPECT_GT(reached.at(i), 0U) << to_string(static_cast<Stage>(i));
     EXPECT_GT(separated.at(i), 0U) << to_string(static_cast<Stage>(i));
   }
@@ -160,6 +161,8 @@ TEST(Certified, CoordinatesThatAreNotFiniteAreAnErrorOfTheirQueryAlone) {
             EXPECT_EQ(results[1].verdict, Verdict::error) << bad << " at " << place;
             EXPECT_EQ(results[0].verdict, height < 0 ? Verdict::yes : Verdict::no);
             EXPECT_EQ(results[2].verdict, results[0].verdict);
+            EXPECT_THROW((void)collisions(kind, queries, {.separation = separation}),
+                         std::domain_error);
           }
         }
       }

@@ -58,7 +58,9 @@ OneQuery one_query(Random& random, bool is_rational, double size) {
   return result;
 }
 
-curved::Block block_of(const Queries& queries) { return {queries, {.distance = 0.25}}; }
+curved::Block block_of(const Queries& queries) {
+  return {queries, {.distance = 0.25, .norm = Norm::linf}};
+}
 
 bool load(const curved::Block& block, Polygons& polygons) {
   const curved::Rows<Lanes> rows{block, {block.numbers.data()}};

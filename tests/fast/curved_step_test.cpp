@@ -1,4 +1,4 @@
-#include "touchstone/curved_step.hpp"
+#include "touchstone/step.hpp"
 
 #include <gtest/gtest.h>
 
@@ -115,6 +115,12 @@ TEST(CurvedStep, CountsNoLaterContacts) {
   EXPECT_FALSE(CurvedStep(vertices, elements, {.t_max = 0.5}).is_free());
   EXPECT_TRUE(CurvedStep(vertices, elements, {.t_max = 0.499}).is_free());
   EXPECT_EQ(CurvedStep(vertices, elements).earliest()->pairs.size(), 1U);
+  // A step keeps its vertices, also where it is moved.
+  std::vector<double> others = numbers;
+  CurvedStep step({2, false, others}, elements);
+  others.assign(others.size(), 7.0);
+  const CurvedStep moved = std::move(step);
+  EXPECT_EQ(moved.earliest(), CurvedStep(vertices, elements).earliest());
 }
 
 TEST(CurvedStep, RefusesWhatIsNoMotion) {

@@ -110,7 +110,7 @@ auto bits_of(const CertifiedResult& x) {
 }
 
 void expect_agreement(const Queries& queries, const CertifiedOptions& options,
-                      std::array<int, stages>& decided_by, int& collisions) {
+                      std::array<int, stage_count>& decided_by, int& collisions) {
   std::vector<CertifiedResult> results(queries.size());
   solve(queries, results, options);
   for (const CertifiedKernel* const kernel : certified_kernels()) {
@@ -139,7 +139,7 @@ class CurvedSolver : public testing::TestWithParam<Sort> {};
 TEST_P(CurvedSolver, AgreesWithTheOracle) {
   const Sort sort = GetParam();
   Random random(91 + 10 * sort.degree + static_cast<std::uint64_t>(sort.weights));
-  std::array<int, stages> decided_by{};
+  std::array<int, stage_count> decided_by{};
   int collisions = 0;
   const int rounds = tests::soak_trials(12, 400);
   for (int round = 0; round < rounds; ++round) {
@@ -374,6 +374,7 @@ TEST(CurvedSolver, SaysWhereInputIsNone) {
     numbers[11] = bad;
     solve(Queries({Kind::edge_edge, 1, true}, numbers), one);
     EXPECT_EQ(one[0].verdict, Verdict::error) << bad;
+    EXPECT_THROW((void)collisions(Queries({Kind::edge_edge, 1, true}, numbers)), std::domain_error);
   }
 }
 
@@ -387,7 +388,7 @@ TEST(CurvedSolver, LeavesFewEdgesOfUnequalEndsToTheExactStage) {
       some.numbers[i] = weights.at(i / 4 % moving_points);
     }
     some.queries.numbers = some.numbers;
-    std::array<int, stages> decided_by{};
+    std::array<int, stage_count> decided_by{};
     int collisions = 0;
     expect_agreement(some.queries, {.max_threads = 1}, decided_by, collisions);
     EXPECT_GT(collisions, 20);
@@ -399,7 +400,7 @@ TEST(CurvedSolver, LeavesFewEdgesOfUnequalEndsToTheExactStage) {
 TEST(CurvedSolver, DecidesWeightsOfAnySize) {
   Random random(103);
   constexpr std::array weights{5e-324, 1e-300, 0x1p-30, 1.0, 0x1p31, 1e300, 1.7e308};
-  std::array<int, stages> decided_by{};
+  std::array<int, stage_count> decided_by{};
   int collisions = 0;
   for (const auto& [degree, sort, count] :
        {std::tuple(std::size_t{1}, Weights::of_points, std::size_t{20}),

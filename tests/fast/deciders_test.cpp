@@ -28,7 +28,6 @@
 #include "tests/support/random.hpp"
 #include "tests/support/trials.hpp"
 #include "touchstone/certified.hpp"
-#include "touchstone/primitive_pairs.hpp"
 #include "verify/data/dataset.hpp"
 #include "verify/generate/families.hpp"
 

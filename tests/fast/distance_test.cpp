@@ -1,4 +1,4 @@
-#include "touchstone/distance.hpp"
+#include "touchstone/contacts.hpp"
 
 #include <gtest/gtest.h>
 
@@ -374,6 +374,17 @@ TEST(LeastDistance, IsThatOfAllPairs) {
       expect_least(scene, t, Norm::l2, {{.max_threads = 1}, {.max_threads = 0}});
     }
   }
+}
+
+/// Two points at rest, 1.56 apart in l2, 0.9 in linf.
+TEST(LeastDistance, HasTheNormThatSeparationsHaveByDefault) {
+  tests::Places places(2, 3);
+  places << 0, 0, 0, 0.9, 0.9, 0.9;
+  const std::vector<std::int32_t> points{0, 1};
+  const Step step(places, places, {.points = points}, {.separation = {.distance = 1.0}});
+  EXPECT_GT(least_distance(step)->distance.lower, 1.0);
+  EXPECT_TRUE(step.is_free());
+  EXPECT_FALSE(step.with_separation({.distance = 1.0, .norm = Norm::linf}).is_free());
 }
 
 /// Two triangles in parallel planes at this distance.

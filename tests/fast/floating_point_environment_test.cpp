@@ -25,15 +25,12 @@
 #include "tests/support/queries.hpp"
 #include "tests/support/random.hpp"
 #include "tests/support/scenes.hpp"
-#include "touchstone/active_set.hpp"
 #include "touchstone/broad_phase.hpp"
 #include "touchstone/certificate.hpp"
 #include "touchstone/certificate_text.hpp"
 #include "touchstone/certified.hpp"
-#include "touchstone/distance.hpp"
-#include "touchstone/line_search.hpp"
+#include "touchstone/contacts.hpp"
 #include "touchstone/oracle.hpp"
-#include "touchstone/primitive_pairs.hpp"
 #include "touchstone/step.hpp"
 
 namespace touchstone::fast::floating_point_environment_test {

@@ -1,4 +1,4 @@
-#include "touchstone/line_search.hpp"
+#include "touchstone/contacts.hpp"
 
 #include <gtest/gtest.h>
 

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "fast/candidates.hpp"
 #include "tests/support/floating_point_modes.hpp"
 #include "tests/support/messages.hpp"
 #include "touchstone/query.hpp"

@@ -1,11 +1,9 @@
-#include "touchstone/primitive_pairs.hpp"
+#include "touchstone/certified.hpp"
 
 #include <gtest/gtest.h>
 
 #include <stdexcept>
 #include <vector>
-
-#include "touchstone/certified.hpp"
 
 namespace touchstone::fast::primitive_pairs_test {
 namespace {

@@ -15,12 +15,9 @@
 
 #include "tests/support/messages.hpp"
 #include "tests/support/queries.hpp"
-#include "touchstone/active_set.hpp"
 #include "touchstone/broad_phase.hpp"
 #include "touchstone/certified.hpp"
-#include "touchstone/distance.hpp"
-#include "touchstone/line_search.hpp"
-#include "touchstone/primitive_pairs.hpp"
+#include "touchstone/contacts.hpp"
 #include "touchstone/step.hpp"
 #include "touchstone/tight_inclusion.hpp"
 
@@ -177,7 +174,8 @@ TEST(Refusals, OfSpansOfOtherLengths) {
                std::invalid_argument);
 }
 
-TEST(Refusals, OfDistancesOfWhatIsNotFinite) {
+/// Functions without a verdict for each query name one, collisions() the first of them.
+TEST(Refusals, OfDistancesAndCollisionsOfWhatIsNotFinite) {
   Query query = posed.query;
   query.coordinates[5] = infinity;
   EXPECT_THROW((void)distance(posed.kind, query, 0.5), std::domain_error);
@@ -187,6 +185,12 @@ TEST(Refusals, OfDistancesOfWhatIsNotFinite) {
   const auto all = [&] { distances(posed.kind, queries, 0.0, Norm::l2, apart); };
   EXPECT_EQ(tests::message_of<std::domain_error>(all),
             "distances: query 777: a coordinate is not finite");
+  queries[900] = query;
+  for (const int threads : {0, 1}) {
+    const auto listed = [&] { (void)collisions(posed.kind, queries, {.max_threads = threads}); };
+    EXPECT_EQ(tests::message_of<std::domain_error>(listed),
+              "collisions: query 777: a coordinate is not finite");
+  }
 }
 
 /// The scene has 4 vertices, 1 face and 3 edges.

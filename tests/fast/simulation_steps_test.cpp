@@ -15,6 +15,7 @@
 #include <string_view>
 #include <vector>
 
+#include "fast/candidates.hpp"
 #include "tests/support/simulation_steps.hpp"
 #include "touchstone/broad_phase.hpp"
 #include "touchstone/certified.hpp"

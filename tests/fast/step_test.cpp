@@ -213,7 +213,7 @@ TEST(Step, MadeFromAnotherIsAStepOfItsOwn) {
   step.reset();
   EXPECT_TRUE(std::ranges::equal(part.edges(), edges));
   EXPECT_EQ(part.is_free(), part.collisions().empty());
-  EXPECT_EQ(wider.certified().separation, options.separation);
+  EXPECT_EQ(wider.options().separation, options.separation);
   EXPECT_EQ(in_order(wider.collisions()), in_order(expected.collisions()));
   EXPECT_EQ(in_order(back.collisions()), in_order(expected_back.collisions()));
   EXPECT_EQ(back.earliest(), expected_back.earliest());
@@ -257,7 +257,7 @@ TEST(Step, EndsItsSearchesWhenItIsToStop) {
   const Scene scene = soup(random, 30, 0.4);
   const Step step = scene.step({.stop = &stop});
   const std::vector<StepCollision> before = step.collisions();
-  const Step moved = step.with_places(step.vertices(), {.distance = 0.01});
+  const Step moved = step.with_places(step.vertices(), {.distance = 0.01, .norm = Norm::linf});
   const Step scaled = step.scaled(0.5);
   stop = true;
   for (const Step* one : {&step, &moved, &scaled}) {
@@ -331,7 +331,8 @@ TEST(Step, IsTheSameForAllInstructionSetsAndThreads) {
   for (const double size : {0.05, 0.15}) {
     const Scene scene = soup(random, 400, size);
     for (const double distance : {0.0, 0.01}) {
-      StepOptions options{.separation = {.distance = distance}, .max_threads = 1};
+      StepOptions options{.separation = {.distance = distance, .norm = Norm::linf},
+                          .max_threads = 1};
       const Answers expected(scene.step(options));
       EXPECT_GT(expected.collisions.size(), 100U);
       for (const SearchKernel* const search : search_kernels()) {
@@ -443,8 +444,9 @@ TEST(FreeStepSize, IsFreeAndTheNextDoubleIsNot) {
   for (int round = 0; round < 30; ++round) {
     for (const Shape& shape : {shapes()[2], shapes()[3], shapes()[1]}) {
       const Scene scene = random_scene(random, shape, 8);
-      const StepOptions options{.separation = {.distance = random.coin() ? 0.0 : 0.01},
-                                .max_threads = 1};
+      const StepOptions options{
+          .separation = {.distance = random.coin() ? 0.0 : 0.01, .norm = Norm::linf},
+          .max_threads = 1};
       const Step step = scene.step(options);
       const std::optional<double> alpha = step.free_step_size();
       if (!alpha) {
@@ -622,13 +624,14 @@ TEST(Step, IsTheSameInEveryUnit) {
   const Scene scene = soup(random, 150, 0.15);
   for (const double distance : {0.0, 0.02}) {
     const Work work = work_of(scene, {.distance = distance, .norm = Norm::l2});
-    const std::vector<NumberedPair> pairs = touching(scene, {.distance = distance});
+    const std::vector<NumberedPair> pairs =
+        touching(scene, {.distance = distance, .norm = Norm::linf});
     EXPECT_GT(pairs.size(), 20U);
     for (const double unit : {0x1p-1000, 0x1p-500, 0x1p-66, 0x1p90, 0x1p99, 0x1p150, 0x1p1020}) {
       Scene other = scene;
       other.start *= unit;
       other.end *= unit;
-      EXPECT_EQ(touching(other, {.distance = distance * unit}), pairs) << unit;
+      EXPECT_EQ(touching(other, {.distance = distance * unit, .norm = Norm::linf}), pairs) << unit;
       const Work of_other = work_of(other, {.distance = distance * unit, .norm = Norm::l2});
       EXPECT_EQ(of_other.pairs, work.pairs) << unit;
       EXPECT_LE(of_other.exact, work.exact + 2) << unit;

@@ -24,8 +24,7 @@
 #include "fast/kernels.hpp"
 #include "touchstone/broad_phase.hpp"
 #include "touchstone/certified.hpp"
-#include "touchstone/distance.hpp"
-#include "touchstone/line_search.hpp"
+#include "touchstone/contacts.hpp"
 #include "touchstone/step.hpp"
 
 namespace touchstone::tests {

@@ -73,7 +73,7 @@ def test_subnormal_floats_are_converted_exactly():
     query = np.zeros((8, 3), dtype=np.float32)
     query[0] = query[4] = np.float32(1e-45)
     assert not touchstone.certified("vertex_face", query).collides
-    assert touchstone.certified("vertex_face", query, separation=2.0**-149).collides
+    assert touchstone.certified("vertex_face", query, separation=2.0**-149, norm="linf").collides
 
 
 def test_the_memory_of_an_array_is_used_without_a_copy(queries):
@@ -95,7 +95,7 @@ def test_enclosures_and_bounds_agree(query, kind):
         assert conservative.toi <= exact.toi_upper
     # Within a distance at the start is a contact with that separation.
     at_start = touchstone.distance(kind, query, norm="linf")
-    near = touchstone.certified(kind, query, separation=at_start.upper)
+    near = touchstone.certified(kind, query, separation=at_start.upper, norm="linf")
     assert near.collides and near.toi_lower == 0.0
 
 

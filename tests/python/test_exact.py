@@ -20,6 +20,19 @@ KINDS = ["vertex_face", "edge_edge"]
 small_queries = arrays.arrays(np.float64, (8, 3), elements=st.integers(-3, 3).map(float))
 
 
+def test_the_norm_is_l2_in_every_function_by_default():
+    """Two points at rest, 0.9 apart on each axis: 1.56 apart in l2, 0.9 in linf."""
+    points = np.array([[0.0, 0, 0], [0.9, 0.9, 0.9]])
+    query = points[[0, 1, 1, 1, 0, 1, 1, 1]]
+    for norm, is_near in [({}, False), ({"norm": "linf"}, True)]:
+        near = {"separation": 1.0, **norm}
+        assert touchstone.certified("vertex_face", query, **near).collides == is_near
+        assert touchstone.decide("vertex_face", query, **near).collides == is_near
+        assert touchstone.Step(points, points, points=[0, 1], **near).is_free() != is_near
+        assert (touchstone.distance("vertex_face", query, **norm).upper <= 1.0) == is_near
+        assert (touchstone.Step(points, points, points=[0, 1]).least_distance(**norm).upper <= 1.0) == is_near
+
+
 @given(small_queries, st.sampled_from(KINDS), st.sampled_from([0.0, 0.5]), st.sampled_from(["linf", "l2"]))
 @settings(max_examples=60)
 def test_the_oracle_agrees_and_its_times_are_exact(query, kind, separation, norm):

@@ -20,6 +20,7 @@
 #include <utility>
 #include <vector>
 
+#include "fast/candidates.hpp"
 #include "tests/support/public_data.hpp"
 #include "touchstone/mesh.hpp"
 #include "touchstone/query.hpp"

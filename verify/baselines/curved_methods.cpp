@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "touchstone/certified.hpp"
+#include "touchstone/contacts.hpp"
 #include "touchstone/curved_query.hpp"
-#include "touchstone/distance.hpp"
 #include "verify/baselines/method_support.hpp"
 
 namespace touchstone::baselines {

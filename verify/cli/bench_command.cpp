@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "fast/broad_phase/search.hpp"
+#include "fast/candidates.hpp"
 #include "fast/certified/kernel.hpp"
 #include "fast/kernels.hpp"
 #include "touchstone/certified.hpp"

@@ -15,6 +15,7 @@
 #include <string_view>
 #include <vector>
 
+#include "fast/candidates.hpp"
 #include "touchstone/broad_phase.hpp"
 #include "touchstone/mesh.hpp"
 #include "verify/cli/commands.hpp"

@@ -6,6 +6,7 @@
 #include <fstream>
 #include <stdexcept>
 
+#include "fast/method.hpp"
 #include "verify/cli/option_table.hpp"
 #include "verify/data/separation_file.hpp"
 #include "verify/io/printable.hpp"
@@ -15,7 +16,7 @@
 namespace touchstone::verify::cli {
 
 Separation SeparationArguments::given() const {
-  return {.distance = distance.value_or(0.0), .norm = norm.value_or(Norm::linf)};
+  return {.distance = distance.value_or(0.0), .norm = norm.value_or(fast::no_separation.norm)};
 }
 
 Separation SeparationArguments::settle(const Separation& recorded) const {

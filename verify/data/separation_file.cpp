@@ -86,7 +86,7 @@ Separation read_separation(const fs::path& path) {
 
 Separation recorded_separation(const fs::path& dataset) {
   const auto path = find_separation_file(dataset);
-  return path ? read_separation(*path) : Separation{};
+  return path ? read_separation(*path) : Separation{.distance = 0.0, .norm = Norm::linf};
 }
 
 void write_separation(const fs::path& folder, const Separation& separation) {

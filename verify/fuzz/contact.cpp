@@ -40,7 +40,8 @@ Vector place_of(const Query& query, std::size_t end, std::size_t point) {
 /// The query under a random symmetry that keeps distances and the time.
 Query turned(Kind kind, const Query& query, Random& random) {
   // A positive distance excludes symmetries that do not keep distances.
-  generate::Symmetry symmetry = generate::draw_symmetry(kind, query, {.distance = 1.0}, random);
+  generate::Symmetry symmetry =
+      generate::draw_symmetry(kind, query, {.distance = 1.0, .norm = Norm::linf}, random);
   symmetry.reversed = false;
   return image(symmetry, query).value_or(query);
 }

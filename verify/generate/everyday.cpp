@@ -159,7 +159,7 @@ struct Notation {
 /// The query under a random symmetry without shifts, which keeps decimals decimals.
 Query in_another_order(Kind kind, const Query& query, Random& random) {
   // A distance above 0 excludes symmetries that change distances.
-  Symmetry symmetry = draw_symmetry(kind, query, {.distance = 1.0}, random);
+  Symmetry symmetry = draw_symmetry(kind, query, {.distance = 1.0, .norm = Norm::linf}, random);
   symmetry.shifts = {};
   return image(symmetry, query).value_or(query);
 }

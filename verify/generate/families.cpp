@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "fast/method.hpp"
 #include "verify/generate/curved_families.hpp"
 #include "verify/generate/family_builder.hpp"
 #include "verify/generate/random_stream.hpp"
@@ -211,11 +212,11 @@ KnownQuery make_query(const Family& family, Kind kind, std::uint64_t seed, std::
 std::unique_ptr<data::QuerySource> open_family(const Family& family, Kind kind, std::uint64_t seed,
                                                std::uint64_t count, const Separation& separation) {
   if (const Family* const curved = find_curved(family.name)) {
-    return std::make_unique<FamilySource>(*curved, kind, count, Separation{},
+    return std::make_unique<FamilySource>(*curved, kind, count, fast::no_separation,
                                           curved_draws(*curved, kind, seed));
   }
   const Definition& definition = find_definition(family, kind, separation);
-  const Separation about = is_about_separation(definition) ? separation : Separation{};
+  const Separation about = is_about_separation(definition) ? separation : fast::no_separation;
   const auto draw = [&definition, kind, seed, about](std::uint64_t index) {
     KnownQuery known = build(definition, kind, seed, index, about);
     return data::RecordedQuery{{kind, known.query}, index, known.collides, std::move(known.toi)};

@@ -9,6 +9,7 @@
 #include <optional>
 #include <span>
 
+#include "fast/method.hpp"
 #include "touchstone/number.hpp"
 #include "touchstone/query.hpp"
 #include "verify/generate/families.hpp"
@@ -29,7 +30,7 @@ struct Recipe {
   /// The query's stream of random numbers.
   Random random;
   /// Minimum separation, for families about it.
-  Separation separation = {};
+  Separation separation = fast::no_separation;
   /// Set by a builder for a query that is printed in the paper: no symmetry is applied.
   bool as_printed = false;
 

@@ -86,7 +86,7 @@ std::optional<FirstContact> first_contact(const fast::Step& step) {
     const Pair pair{collision.kind, collision.pair};
     exact::Decision verdict =
         exact::decide(fast::Step::kind_of(pair.kind), step.query_of(pair.kind, pair.numbers),
-                      step.certified().separation);
+                      step.options().separation);
     if (verdict.toi && (!first || *verdict.toi < *first->second.toi)) {
       first.emplace(pair, std::move(verdict));
     }
@@ -179,8 +179,8 @@ class StepProver {
   }
 
   void write_claim(const std::optional<FirstContact>& first) {
-    end_ = first ? first->certificate.toi.lower : exact::Rational(step_.certified().t_max);
-    exact::StepClaim claim{.separation = step_.certified().separation, .end = end_};
+    end_ = first ? first->certificate.toi.lower : exact::Rational(step_.options().t_max);
+    exact::StepClaim claim{.separation = step_.options().separation, .end = end_};
     if (first) {
       claim.earliest = {.upper = first->certificate.toi.upper,
                         .pair_kind = first->pair.kind_name(),
@@ -196,7 +196,7 @@ class StepProver {
   // ---- PairArguments ----
 
   void write_arguments() {
-    places_.emplace(step_.vertices(), step_.certified().separation.distance, end_);
+    places_.emplace(step_.vertices(), step_.options().separation.distance, end_);
     put(fmt::format("sweep {}\n", "xyz"[longest_axis()]));
     const std::vector<Pair> pairs = needed_pairs();
     if (pairs.size() > exact::step_argument_limit) {
@@ -241,7 +241,7 @@ class StepProver {
   /// The pairs that the checker does not see kept apart by an axis, in order.
   [[nodiscard]] std::vector<Pair> needed_pairs() const {
     // The checker's integers may bring boxes a little nearer.
-    Separation wider = step_.certified().separation;
+    Separation wider = step_.options().separation;
     wider.distance += places_->uncertainty();
     const fast::Step near = step_.with_separation(wider);
     std::vector<Pair> pairs;
@@ -298,7 +298,7 @@ class StepProver {
     try {
       exact::Motion motion = exact::scale_uniformly(fast::Step::kind_of(pair.kind),
                                                     step_.query_of(pair.kind, pair.numbers),
-                                                    step_.certified().separation);
+                                                    step_.options().separation);
       // At distance 0 both norms mean the same, and l2 has fewer features.
       if (sgn(motion.distance) == 0) motion.norm = Norm::l2;
       const std::vector<exact::Subinterval> subintervals = exact::separate(motion, end_);

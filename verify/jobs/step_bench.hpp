@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "fast/method.hpp"
 #include "touchstone/step.hpp"
 #include "verify/jobs/work_time.hpp"
 #include "verify/mesh/moving_mesh.hpp"
@@ -47,7 +48,7 @@ struct StepCounts {
 
 struct StepResult {
   std::string name;
-  Separation separation = {};
+  Separation separation = fast::no_separation;
   std::size_t vertices = 0;
   std::size_t edges = 0;
   std::size_t faces = 0;

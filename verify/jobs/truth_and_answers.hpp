@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "fast/method.hpp"
 #include "touchstone/oracle.hpp"
 #include "touchstone/query.hpp"
 #include "verify/jobs/prove.hpp"
@@ -25,7 +26,7 @@ namespace touchstone::verify::jobs {
 struct CertifyResult;
 
 struct BlockTruthOptions {
-  Separation separation = {};
+  Separation separation = fast::no_separation;
   judge::LabelComparison comparison = {};
   bool times = false;         ///< true if times of impact are needed
   bool certificates = false;  ///< true if certificates are to be written

@@ -18,8 +18,8 @@
 #include <optional>
 
 #include "fast/method.hpp"
-#include "touchstone/filter.hpp"
 #include "touchstone/query.hpp"
+#include "touchstone/tight_inclusion.hpp"
 
 namespace touchstone::verify::judge {
 

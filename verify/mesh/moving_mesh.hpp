@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "fast/candidates.hpp"
 #include "touchstone/mesh.hpp"
 #include "touchstone/query.hpp"
 

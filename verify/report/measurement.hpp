@@ -76,7 +76,7 @@ struct Measurement {
   double tolerance = 0.0;       ///< MethodOptions::tolerance
   std::int64_t max_checks = 0;  ///< MethodOptions::max_checks
   Separation separation =
-      {};  ///< the distance that counts as contact, for the method and for the truth
+      fast::no_separation;  ///< the distance that counts as contact, for the method and for the truth
   /// The scale of a group that is made for one: no coordinate is greater in magnitude.
   std::optional<double> scale;
 

@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "fast/method.hpp"
 #include "verify/jobs/check_step.hpp"
 #include "verify/mesh/self_intersection.hpp"
 
@@ -29,7 +30,7 @@ using StepRecord = jobs::StepCheck;
 
 /// The results of a run of `touchstone step`. The elements are those of every frame.
 struct StepReport {
-  Separation separation = {};
+  Separation separation = fast::no_separation;
   jobs::StepQuestion question = jobs::StepQuestion::all;
   std::optional<double> alpha = std::nullopt;
   std::size_t vertices = 0;

@@ -16,6 +16,7 @@
 #include <string_view>
 #include <vector>
 
+#include "fast/candidates.hpp"
 #include "fast/method.hpp"
 #include "touchstone/certified.hpp"
 #include "touchstone/query.hpp"
@@ -31,7 +32,7 @@ namespace touchstone::verify::solvers {
 struct SolveRequest {
   Queries queries = {};
   /// Minimum separation. Methods take it from here, whatever their MethodOptions say.
-  Separation separation = {};
+  Separation separation = fast::no_separation;
   /// The key to recorded answers: the name of the source, and the queries' numbers in it.
   std::string_view source = {};
   std::span<const std::uint64_t> indices = {};

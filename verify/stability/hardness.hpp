@@ -39,6 +39,7 @@
 #include <string_view>
 #include <vector>
 
+#include "fast/method.hpp"
 #include "touchstone/query.hpp"
 #include "verify/base/any_query.hpp"
 #include "verify/data/query_source.hpp"
@@ -98,7 +99,7 @@ struct HardSort {
   const Hardness* hardness = nullptr;  ///< not null
   int level = 0;                       ///< one of the kind's levels
   Kind kind = Kind::vertex_face;
-  Separation separation = {};  ///< as requested, before separation_at()
+  Separation separation = fast::no_separation;  ///< as requested, before separation_at()
 };
 
 /// A query with the verdict of the certified solver, or on curves with that of its construction.

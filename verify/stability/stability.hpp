@@ -15,6 +15,7 @@
 #include <optional>
 #include <vector>
 
+#include "fast/method.hpp"
 #include "touchstone/query.hpp"
 #include "verify/jobs/certify.hpp"
 #include "verify/judge/judgement.hpp"
@@ -25,7 +26,7 @@ namespace touchstone::verify::stability {
 
 struct StabilityOptions {
   /// Minimum separation, where the level does not scale it. \pre has_hard_queries()
-  Separation separation = {};
+  Separation separation = fast::no_separation;
   std::uint64_t seed = 0;
   /// Queries a cell, half of them collisions.
   std::uint64_t count = 200;
@@ -50,7 +51,7 @@ struct StabilityCell {
 };
 
 struct StabilityResult {
-  Separation separation = {};
+  Separation separation = fast::no_separation;
   std::uint64_t seed = 0;
   std::uint64_t count = 0;
   /// Methods with what they were held to, judged on all cells.

@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "exact/certificate/step_certificate_text.hpp"
+#include "fast/method.hpp"
 #include "touchstone/certificate_text.hpp"
 #include "verify/data/dataset.hpp"
 #include "verify/io/coordinate_text.hpp"
@@ -137,7 +138,7 @@ OwnCurves curves_from(const nlohmann::json& json, Kind kind) {
 
 Separation separation_of(const nlohmann::json& json) {
   const auto separation = json.find("separation");
-  if (separation == json.end() || separation->is_null()) return {};
+  if (separation == json.end() || separation->is_null()) return fast::no_separation;
   const Separation result{.distance = number_of(separation->at("min_separation")),
                           .norm = norm_from_string(separation->at("norm").get<std::string>())};
   if (!is_valid(result)) throw std::invalid_argument("the separation must not be negative");

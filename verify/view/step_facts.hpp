@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "fast/method.hpp"
 #include "touchstone/query.hpp"
 #include "touchstone/step.hpp"
 #include "verify/mesh/mesh_file.hpp"
@@ -25,7 +26,7 @@ struct ViewedStep {
   mesh::Vertices before, after;
   std::vector<fast::Face> faces;
   std::vector<fast::Edge> codimensional_edges;  ///< the edges of no face
-  Separation separation = {};
+  Separation separation = fast::no_separation;
   std::vector<fast::StepCollision> collisions;  ///< in the order of toi_lower
   /// Each collision as a query.
   std::vector<Query> queries;

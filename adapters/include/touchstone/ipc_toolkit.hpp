@@ -39,7 +39,7 @@
 #include <stdexcept>
 
 #include "touchstone/certified.hpp"
-#include "touchstone/distance.hpp"
+#include "touchstone/contacts.hpp"
 #include "touchstone/query.hpp"
 
 namespace touchstone::adapters {

@@ -9,7 +9,9 @@
 /// point in turn.
 ///
 /// **Errors.** Functions that can fail return a TouchstoneStatus. If it is not TOUCHSTONE_OK,
-/// touchstone_last_error() describes the error, and nothing else was written.
+/// touchstone_last_error() describes the error, and nothing else was written. A coordinate that is
+/// NaN or infinite is TOUCHSTONE_NOT_FINITE; only touchstone_solve, whose results have a verdict,
+/// answers TOUCHSTONE_ERROR for its query and decides the others.
 ///
 /// **Memory.** Arrays that a function of a step hands out are valid until the next call of this
 /// function that returns TOUCHSTONE_OK with this step, or until the end of the step.
@@ -75,7 +77,8 @@ typedef struct TouchstoneOptions {
   double t_max;           ///< only contacts up to this time count, in [0,1]
   double toi_tolerance;   ///< greatest relative width of times of impact; finite, 0 or more
   int32_t norm;           ///< one of TouchstoneNorm: of min_separation
-  int32_t max_threads;    ///< 0: the number of cores
+  /// Maximum number of threads; 0: one for each core that the process may use.
+  int32_t max_threads;
 } TouchstoneOptions;
 
 /// The version, such as "1.2.3".
@@ -84,7 +87,7 @@ TOUCHSTONE_API const char* touchstone_version(void);
 /// The message of the last call of this thread that failed; valid until its next call.
 TOUCHSTONE_API const char* touchstone_last_error(void);
 
-/// The default options: 0, 1, 1e-12, TOUCHSTONE_LINF, 0.
+/// The default options: 0, 1, 1e-12, TOUCHSTONE_L2, 0.
 TOUCHSTONE_API TouchstoneOptions touchstone_default_options(void);
 
 // ---- Queries ------------------------------------------------------------------------------------
@@ -117,7 +120,7 @@ TOUCHSTONE_API int32_t touchstone_solve(int32_t kind, size_t count, const double
 /// The distances of the primitives of `count` queries at the time t, in [0,1]. 0 iff they have a
 /// common point.
 /// \param kind and coordinates as above; all finite, else the status is TOUCHSTONE_NOT_FINITE
-/// \param max_threads 0: the number of cores
+/// \param max_threads maximum number of threads; 0: one for each core that the process may use
 /// \param distances `count` of them, for the results
 TOUCHSTONE_API int32_t touchstone_distances(int32_t kind, size_t count, const double* coordinates,
                                             double t, int32_t norm, int32_t max_threads,
@@ -137,8 +140,8 @@ typedef struct TouchstoneMesh {
   size_t points;                 ///< vertices that are part of the scene without an edge or a face
   const int32_t* point_vertices;
   const int32_t* groups;  ///< a group, from 0, for each vertex; or null: all can collide
-  size_t
-      apart;  ///< the number of pairs of groups that cannot collide; a group twice: not within it
+  /// The number of pairs of groups that cannot collide; a group twice: not within it.
+  size_t apart;
   const int32_t* apart_groups;  ///< 2 · apart
 } TouchstoneMesh;
 

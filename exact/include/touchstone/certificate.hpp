@@ -164,31 +164,31 @@ struct ProveOptions {
   std::optional<Rational> width = std::nullopt;
 };
 
-/// The proof of the oracle's verdict on a query. It always exists, and is the same on every machine
-/// and in every floating-point environment.
-/// \param verdict decide(kind, query, verdict.separation)
+/// The proof of the oracle's decision on a query. Exists for every decision; too long ones throw
+/// CertificateLimitError. The same on every machine and in every floating-point environment.
+/// \param decision decide(kind, query, decision.separation)
 /// \throws std::domain_error if a coordinate is NaN or infinite; std::invalid_argument if the
 /// separation is not valid, the width is not positive, or the claim asked for is `no_collision`.
-/// \throws std::logic_error if the verdict is not the query's.
+/// \throws std::logic_error if the decision is not the query's.
 /// \throws CertificateLimitError if the certificate would exceed number_limit or subinterval_limit.
 /// exact/certificate/separation_intervals.hpp states for which queries the break points stay within
 /// it; the interval of a contact needs no more bits.
-[[nodiscard]] Certificate prove(Kind kind, const Query& query, const Decision& verdict,
+[[nodiscard]] Certificate prove(Kind kind, const Query& query, const Decision& decision,
                                 const ProveOptions& options = {});
 
 /// The same on curves.
 /// \throws std::invalid_argument also as decide, if a trajectory is not valid.
-[[nodiscard]] Certificate prove(Kind kind, const CurvedQuery& query, const Decision& verdict,
+[[nodiscard]] Certificate prove(Kind kind, const CurvedQuery& query, const Decision& decision,
                                 const ProveOptions& options = {});
 
-/// The same for query i, decided by decide(queries, i, verdict.separation).
-[[nodiscard]] Certificate prove(const Queries& queries, std::size_t i, const Decision& verdict,
+/// The same for query i, decided by decide(queries, i, decision.separation).
+[[nodiscard]] Certificate prove(const Queries& queries, std::size_t i, const Decision& decision,
                                 const ProveOptions& options = {});
 
 /// The same for all queries, in this thread. \throws std::invalid_argument also unless there is a
-/// verdict for each.
+/// decision for each.
 [[nodiscard]] std::vector<Certificate> prove(const Queries& queries,
-                                             std::span<const Decision> verdicts,
+                                             std::span<const Decision> decisions,
                                              const ProveOptions& options = {});
 
 }  // namespace touchstone::exact

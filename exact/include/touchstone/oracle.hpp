@@ -58,12 +58,12 @@ struct Decision {
 /// Decides a query whose points move on curves. For curves of degrees up to k, polynomial or of the
 /// same weights, the degree of the toi is at most 3k, or 8k with a separation; the degrees of
 /// further weights are added to k.
-/// \throws std::domain_error if a number is NaN or infinite; std::invalid_argument if a trajectory
-/// or the separation is not valid.
+/// \throws std::domain_error if a number is NaN or infinite, or a weight not positive;
+/// std::invalid_argument if a trajectory or the separation is not valid.
 [[nodiscard]] Decision decide(Kind kind, const CurvedQuery& query,
                               const Separation& separation = {});
 
-/// Decides query i. \throws as above.
+/// Decides query i. \throws as above, the std::domain_error naming the query.
 [[nodiscard]] Decision decide(const Queries& queries, std::size_t i,
                               const Separation& separation = {});
 
@@ -79,7 +79,7 @@ struct ContactParameters {
 
 /// (u,v) of the earliest contact, each within `width` > 0; exact (both ends equal) where the toi is
 /// known to be rational.
-/// \throws std::invalid_argument if the verdict has no contact, or the width is not positive.
-[[nodiscard]] ContactParameters contact_parameters(const Decision& verdict, const Rational& width);
+/// \throws std::invalid_argument if the decision has no contact, or the width is not positive.
+[[nodiscard]] ContactParameters contact_parameters(const Decision& decision, const Rational& width);
 
 }  // namespace touchstone::exact

@@ -18,6 +18,13 @@
 /// of the domain: the *corners* w_i(t), three for vertex_face, four (a parallelogram, in cyclic
 /// order) for edge_edge. Hence a query collides iff 0 ∈ conv{w_i(t)} for some t ∈ [0,1].
 ///
+/// **Coordinates that are not finite.** One rule for every function, in C++ and C. Where a query
+/// has a result with a verdict, alone or in an array, this verdict is `error` for a coordinate that
+/// is NaN or infinite, or a weight that is not positive and finite, and the other queries are
+/// answered (touchstone::fast::Verdict). All other functions throw std::domain_error, which names
+/// such a vertex or query if there are several: those of the oracle, of distances, of lists of
+/// collisions and of scenes. A caller's compiler options have no effect (is_finite).
+///
 /// All functions are thread-safe. This is the only header of exact/ that fast/ includes. It needs
 /// Eigen alone.
 
@@ -157,6 +164,10 @@ inline constexpr std::uint64_t infinity_bits = 0x7FF0'0000'0000'0000;
 }
 [[nodiscard]] inline bool is_finite(const Query& query) { return is_finite(query.coordinates); }
 
+/// The default of every `max_threads`: one thread for each core that the process may use. Results
+/// never depend on the number of threads.
+inline constexpr int all_cores = 0;
+
 /// A corner of F: its value at the vertex (u,v) of the domain, where it is the difference of point
 /// `plus` and point `minus` (0..3).
 struct Corner {
@@ -191,9 +202,12 @@ enum class Norm : std::uint8_t { linf, l2 };
 /// Minimum separation. A query *collides at distance d* iff ‖F(t,u,v)‖ ≤ d for some t ∈ [0,1]
 /// and (u,v) in the closed domain; its time of impact is the smallest such t. With d = 0 this is
 /// the collision above, in either norm. ([wang2021], section 5: "minimum separation", in L∞.)
+///
+/// Where a norm is not given, it is l2: here and in every function that takes a norm, in C++, C and
+/// Python.
 struct Separation {
   double distance = 0.0;  ///< d, finite and not negative, in units of the coordinates
-  Norm norm = Norm::linf;
+  Norm norm = Norm::l2;
 
   friend bool operator==(const Separation&, const Separation&) = default;
 };

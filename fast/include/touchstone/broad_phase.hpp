@@ -45,8 +45,8 @@ struct BroadPhaseOptions {
   /// d: the boxes of candidates are within this distance on every axis; finite, not negative, in
   /// units of the coordinates.
   Separation separation = {};
-  /// Maximum number of cores; 0: all. The result does not depend on it.
-  int max_threads = 0;
+  /// Maximum number of threads; 0 (all_cores): one for each core that the process may use.
+  int max_threads = all_cores;
   /// More candidates are an error. Each takes eight bytes.
   std::uint64_t max_candidates = (std::numeric_limits<std::uint64_t>::max)();
   /// May be null. Once true, the search ends soon with the exception Stopped.

@@ -20,31 +20,54 @@
 /// With a minimum separation d, "contact" means distance ≤ d (L∞ or L2); all guarantees are the
 /// same. (For large d, fast/certified/stages/conservative_advancement.hpp replaces bisection.)
 ///
+/// For two primitives given by their points, as simulators have them, solve_vertex_face and the
+/// like take the points at t=0 and then, in the same order, at t=1, which move on straight lines in
+/// between. An edge or a point takes the place of a face as a triangle without an area:
+/// solve_vertex_edge uses (e0, e1, e0), solve_vertex_vertex (p1, p1, p1).
+///
 /// Thus every answer is proved, in floating point or in integers. The functions are thread-safe.
 /// The caller's floating-point state (rounding mode, flushing of subnormals, traps) has no effect
 /// and is restored.
 
+#include <Eigen/Core>
+
+#include <array>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <span>
+#include <stdexcept>
 #include <string_view>
 #include <vector>
 
 #include "touchstone/mesh.hpp"
 #include "touchstone/query.hpp"
-#include "touchstone/verdict.hpp"
 
 namespace touchstone::fast {
 
-/// The stages, cheapest first. Each decides a query or passes it to the next.
+// ---- Answers ------------------------------------------------------------------------------------
+
+/// An answer of a solver to "do they collide?".
+enum class Verdict : std::uint8_t {
+  no,
+  yes,
+  undecided,  ///< no decision; to be treated as a conservative yes
+  error,      ///< a coordinate is NaN or infinite (touchstone/query.hpp has the rule)
+};
+
+/// The value of a number that an answer does not have: NaN.
+inline constexpr double no_number = std::numeric_limits<double>::quiet_NaN();
+
+/// The stages, cheapest first. Each decides a query or passes it to the next. `bisection` stands
+/// for five stages in floating point, from `orientation` on (fast/README.md).
 enum class Stage : std::uint8_t {
   axis,         ///< a coordinate axis separates the primitives at all times
   direction,    ///< one fixed direction separates them at all times
   determinant,  ///< the determinant keeps its sign
-  bisection,    ///< signs on intervals of t (stages/: orientation and all later ones)
+  bisection,    ///< signs on intervals of t
   exact,        ///< exact arithmetic
 };
-inline constexpr std::size_t stages = 5;
+inline constexpr std::size_t stage_count = 5;
 
 /// The name of the enumerator.
 [[nodiscard]] std::string_view to_string(Stage stage);
@@ -59,8 +82,8 @@ struct CertifiedOptions {
   double t_max = 1.0;
   /// The distance at which primitives are in contact.
   Separation separation = {};
-  /// Maximum number of threads for a batch; 0: the default of oneTBB.
-  int max_threads = 0;
+  /// Maximum number of threads; 0 (all_cores): one for each core that the process may use.
+  int max_threads = all_cores;
 };
 
 struct CertifiedResult {
@@ -76,6 +99,8 @@ struct CertifiedResult {
   double v = no_number;
 };
 
+// ---- Queries ------------------------------------------------------------------------------------
+
 /// Decides one query.
 /// \throws std::invalid_argument for options out of range.
 [[nodiscard]] CertifiedResult solve(Kind kind, const Query& query,
@@ -89,24 +114,69 @@ void solve(const Queries& queries, std::span<CertifiedResult> results,
 void solve(Kind kind, std::span<const Query> queries, std::span<CertifiedResult> results,
            const CertifiedOptions& options = {});
 
-/// A candidate that collides, or that has a coordinate that is not finite.
+/// A query that collides.
 struct Collision {
-  std::size_t candidate = 0;  ///< index of the query or the pair
-  CertifiedResult result;     ///< yes or error
+  std::size_t candidate = 0;  ///< index of the query
+  CertifiedResult result;     ///< its verdict is yes
 };
 
 /// The queries that collide, in order. Faster than `solve`, because queries that do not collide
 /// have no result.
-/// \throws as solve.
+/// \throws std::invalid_argument for options out of range; std::domain_error naming the first query
+/// with a number that makes its verdict `error`.
 [[nodiscard]] std::vector<Collision> collisions(const Queries& queries,
                                                 const CertifiedOptions& options = {});
 [[nodiscard]] std::vector<Collision> collisions(Kind kind, std::span<const Query> queries,
                                                 const CertifiedOptions& options = {});
 
-/// The same for candidates.
-/// \throws as solve; std::out_of_range naming the first pair with an index out of range.
-[[nodiscard]] std::vector<Collision> collisions(const MovingVertices& vertices,
-                                                const Candidates& candidates,
+// ---- Points, as simulators have them ------------------------------------------------------------
+
+/// Three coordinates, from an Eigen vector (or a row or column of a matrix) or from a pointer to x,
+/// of floats or doubles. For use as a parameter.
+struct Point {
+  /// \throws std::invalid_argument unless there are three coefficients.
+  template <class Derived>
+  Point(const Eigen::DenseBase<Derived>& vector) {  // NOLINT(google-explicit-constructor)
+    static_assert(Derived::SizeAtCompileTime == 3 || Derived::SizeAtCompileTime == Eigen::Dynamic,
+                  "a point has three coordinates");
+    if (vector.size() != 3) throw std::invalid_argument("a point must have three coordinates");
+    const auto values = vector.derived().eval();
+    for (std::size_t i = 0; i < 3; ++i) {
+      coordinates[i] = to_double(values.coeff(static_cast<Eigen::Index>(i)));
+    }
+  }
+  Point(const double* x) : coordinates{x[0], x[1], x[2]} {}  // NOLINT(google-explicit-constructor)
+  Point(const float* x)                                      // NOLINT(google-explicit-constructor)
+      : coordinates{to_double(x[0]), to_double(x[1]), to_double(x[2])} {}
+
+  std::array<double, 3> coordinates;
+};
+
+/// Solves a point and a triangle. With yes, (u, v) is the point t0 + u (t1 − t0) + v (t2 − t0).
+/// \throws std::invalid_argument for options out of range, as the other functions do.
+[[nodiscard]] CertifiedResult solve_vertex_face(const Point& p_t0, const Point& t0_t0,
+                                                const Point& t1_t0, const Point& t2_t0,
+                                                const Point& p_t1, const Point& t0_t1,
+                                                const Point& t1_t1, const Point& t2_t1,
                                                 const CertifiedOptions& options = {});
+
+/// Solves two edges. With yes, u is the parameter on the first one, from its first point, and v on
+/// the second.
+[[nodiscard]] CertifiedResult solve_edge_edge(const Point& ea0_t0, const Point& ea1_t0,
+                                              const Point& eb0_t0, const Point& eb1_t0,
+                                              const Point& ea0_t1, const Point& ea1_t1,
+                                              const Point& eb0_t1, const Point& eb1_t1,
+                                              const CertifiedOptions& options = {});
+
+/// Solves a point and an edge. With yes, u is the parameter on the edge, and v is 0.
+[[nodiscard]] CertifiedResult solve_vertex_edge(const Point& p_t0, const Point& e0_t0,
+                                                const Point& e1_t0, const Point& p_t1,
+                                                const Point& e0_t1, const Point& e1_t1,
+                                                const CertifiedOptions& options = {});
+
+/// Solves two points. With yes, u and v are 0.
+[[nodiscard]] CertifiedResult solve_vertex_vertex(const Point& p0_t0, const Point& p1_t0,
+                                                  const Point& p0_t1, const Point& p1_t1,
+                                                  const CertifiedOptions& options = {});
 
 }  // namespace touchstone::fast

@@ -2,9 +2,9 @@
 
 /// \file
 /// A moving mesh in the form that simulators use: vertices at the start and at the end of a
-/// step, edges and faces as indices, and candidates as pairs of these. Pairs take an eighth of the
-/// memory of queries, and the vertices stay in the cache. The functions are thread-safe, and so are
-/// const member functions.
+/// step, edges and faces as indices, and pairs of these. Pairs take an eighth of the memory of
+/// queries, and the vertices stay in the cache. The functions are thread-safe, and so are const
+/// member functions.
 
 #include <Eigen/Core>
 
@@ -104,35 +104,5 @@ class MovingVertices {
  private:
   std::vector<MovingVertex> vertices_;
 };
-
-/// Pairs of one kind with the arrays that their indices refer to. Owns nothing.
-struct Candidates {
-  Kind kind = Kind::vertex_face;
-  std::span<const IndexPair> pairs;
-  std::span<const Edge> edges;  ///< needed for edge_edge
-  std::span<const Face> faces;  ///< needed for vertex_face
-};
-
-/// The vertices of a pair, in the order of a query's points. \pre its indices are in range.
-[[nodiscard]] std::array<std::int32_t, moving_points> vertices_of(const Candidates& candidates,
-                                                                  const IndexPair& pair);
-
-/// A pair as a query. \pre its indices are in range.
-[[nodiscard]] Query query_of(const MovingVertices& vertices, const Candidates& candidates,
-                             const IndexPair& pair);
-
-/// \throws std::out_of_range, naming the first pair (or edge or face of a pair) with an index that
-/// is out of range.
-void require_in_range(const MovingVertices& vertices, const Candidates& candidates);
-
-/// \throws std::domain_error naming the first vertex with a coordinate that is NaN or infinite;
-/// std::length_error if there are more than 2^31−1 vertices.
-void require_finite(const MovingVertices& vertices);
-
-/// \throws std::out_of_range naming the first edge, face or codimensional point with an index that is no
-/// vertex's; std::length_error if there are more than 2^31−1.
-void require_in_range(const MovingVertices& vertices, std::span<const Edge> edges);
-void require_in_range(const MovingVertices& vertices, std::span<const Face> faces);
-void require_in_range(const MovingVertices& vertices, std::span<const std::int32_t> points);
 
 }  // namespace touchstone::fast

@@ -30,6 +30,18 @@
 /// with contacts mostly have early ones; as soon as an impact is known, it searches only up to its
 /// time.
 ///
+/// **On curves** (CurvedStep) a vertex stays in the box around its control points, so a primitive
+/// stays in the box around those of its vertices; the candidates are the pairs of primitives whose
+/// boxes are within the separation. The pairs that can collide are the same: the theorem is about
+/// the geometry at one time.
+///
+/// | question                                        | Step | CurvedStep           |
+/// |-------------------------------------------------|------|----------------------|
+/// | earliest, collisions, is_free                   | yes  | yes                  |
+/// | candidates                                      | yes  | boxes().candidates() |
+/// | with_places, scaled, free_step_size, query_of   | yes  | no: straight lines   |
+/// | distances, active sets, limits of line searches | yes  | no: straight lines   |
+///
 /// Answers are as exact as the certified solver's (touchstone/certified.hpp), and the same for any
 /// number of threads and any instruction set. Functions and const member functions are thread-safe,
 /// as long as the elements that a step refers to do not change.
@@ -96,8 +108,8 @@ struct StepOptions {
   double toi_tolerance = 1e-12;
   /// Only contacts up to this time count, in [0,1]. (`candidates` covers the whole step.)
   double t_max = 1.0;
-  /// 0: as many as there are cores.
-  int max_threads = 0;
+  /// Maximum number of threads; 0 (all_cores): one for each core that the process may use.
+  int max_threads = all_cores;
   CollisionGroups groups = {};
   /// May be null, else outlives the step and all made from it. While true, their searches for
   /// impacts, collisions and candidates end soon with the exception Stopped.
@@ -124,8 +136,9 @@ struct StepImpact {
   /// The smallest toi_lower and the smallest toi_upper of all collisions.
   double toi_lower = 0.0;
   double toi_upper = 0.0;
-  /// All collisions with a toi_lower up to that toi_upper, in order. The first one is among them;
-  /// the enclosures of several do not tell which it is.
+  /// The candidates for the first collision: all with a toi_lower up to that toi_upper, in the
+  /// order of kinds and pairs, which is not that of their times. The first one is among them; the
+  /// enclosures of several do not tell which it is.
   std::vector<StepCollision> pairs;
 
   friend bool operator==(const StepImpact&, const StepImpact&) = default;
@@ -233,7 +246,7 @@ class Step {
 
   [[nodiscard]] const MovingVertices& vertices() const;
   /// The options of the decisions on pairs.
-  [[nodiscard]] const CertifiedOptions& certified() const;
+  [[nodiscard]] const CertifiedOptions& options() const;
   /// All edges in the search.
   [[nodiscard]] std::span<const Edge> edges() const;
 
@@ -251,6 +264,51 @@ class Step {
   }
 
   std::unique_ptr<const Scene> scene_;
+};
+
+// ---- Steps on curves ----------------------------------------------------------------------------
+
+/// The motion of vertices, by reference.
+struct CurvedVertices {
+  std::size_t degree = 1;
+  /// Weights follow the coordinates of each control point.
+  bool is_rational = false;
+  /// The control points of each vertex from t=0 to t=1: an array of shape (n, degree + 1, 3), or
+  /// (n, degree + 1, 4) with weights.
+  std::span<const double> numbers = {};
+
+  [[nodiscard]] std::size_t numbers_of_point() const { return is_rational ? 4 : 3; }
+  [[nodiscard]] std::size_t numbers_of_vertex() const { return (degree + 1) * numbers_of_point(); }
+};
+
+class CurvedStep {
+ public:
+  /// The vertices are copied. Keeps references to the elements.
+  /// \throws std::invalid_argument for a degree above greatest_degree, numbers that are no whole
+  /// vertices, or invalid options; std::domain_error naming the first vertex with a coordinate that
+  /// is not finite or a weight that is not positive and finite; otherwise as Step.
+  CurvedStep(const CurvedVertices& vertices, const MeshElements& elements,
+             const StepOptions& options = {});
+
+  /// The earliest impact; nullopt if there is no collision.
+  [[nodiscard]] std::optional<StepImpact> earliest() const;
+  /// All collisions, by kinds, then by numbers.
+  [[nodiscard]] std::vector<StepCollision> collisions() const;
+  [[nodiscard]] bool is_free() const;
+
+  /// The step from the least to the greatest corners of the vertices' boxes, whose candidates are
+  /// those of this step.
+  [[nodiscard]] const Step& boxes() const { return boxes_; }
+
+ private:
+  using Take = std::function<void(const StepCollision&)>;
+  /// Calls take, in several threads, for all collisions at times up to limit, until that is
+  /// negative.
+  void for_each_collision(const std::atomic<double>& limit, const Take& take) const;
+
+  std::vector<double> numbers_;
+  CurvedVertices vertices_;  // refers to numbers_, whose memory a move keeps
+  Step boxes_;
 };
 
 }  // namespace touchstone::fast

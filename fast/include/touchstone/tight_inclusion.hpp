@@ -24,6 +24,9 @@
 /// **Order without a heap.** Splitting u or v keeps the order of t. Splitting t sends the lower
 /// halves of boxes with equal t first, then their upper halves; the next box begins no earlier than
 /// these end. Thus each level is a sorted array, and a search holds two of them.
+///
+/// **The filter** (error_filter) is a bound, on each axis, of the error of computed values of F,
+/// for a query or for a scene. All functions are thread-safe.
 
 #include <array>
 #include <cstddef>
@@ -31,11 +34,33 @@
 #include <optional>
 #include <span>
 
-#include "touchstone/filter.hpp"
+#include "touchstone/certified.hpp"
 #include "touchstone/query.hpp"
-#include "touchstone/verdict.hpp"
 
 namespace touchstone::fast {
+
+// ---- The filter ---------------------------------------------------------------------------------
+
+/// The origin of a filter.
+enum class ErrorModel : std::uint8_t {
+  derived,  ///< touchstone/filters/error_bounds.hpp: c · x_max, proved for the operations that run
+  published,  ///< [wang2021]: a constant times max(x_max, 1)³
+  /// The public Tight-Inclusion since 2022: the same constant times min(x_max, 1)³. It is not a
+  /// bound: F is linear in the coordinates, so it is too small for x_max below about 0.9 and above
+  /// about 1.2. For comparison only (docs/methods.md, section 2).
+  released,
+  single_precision,  ///< as `derived`, for F computed in float
+};
+
+/// The filter on each axis, in units of the coordinates, for F − d and F + d with `distance`
+/// d, or F itself if d is 0. `x_max` is the maximum magnitude of the coordinates on each axis, of
+/// one query or of a scene; the filter of a scene holds for all its queries. Infinite if overflow
+/// could occur. \pre all arguments are finite and not negative; floats for `single_precision`.
+[[nodiscard]] std::array<double, 3> error_filter(Kind kind, const std::array<double, 3>& x_max,
+                                                 double distance,
+                                                 ErrorModel model = ErrorModel::derived);
+
+// ---- Tight-Inclusion ----------------------------------------------------------------------------
 
 struct TightInclusionOptions {
   /// δ: a box is small if its image is at most this wide on each axis, in units of the coordinates;
@@ -64,7 +89,7 @@ struct TightInclusionOptions {
   /// the query is rounded to float and decided in float; a coordinate greater than any float is an
   /// error.
   ErrorModel error_model = ErrorModel::derived;
-  /// The filter of a scene on each axis (touchstone/filter.hpp), which replaces the filter of each
+  /// The filter of a scene on each axis (error_filter), which replaces the filter of each
   /// query. It must be at least the filter of this kind and of the separation; the filter of
   /// vertex_face holds for both kinds.
   std::optional<std::array<double, 3>> scene_filter = std::nullopt;

@@ -4,7 +4,7 @@
 
 #include <tight_inclusion/interval_root_finder.hpp>
 
-#include "touchstone/filter.hpp"
+#include "touchstone/tight_inclusion.hpp"
 
 namespace touchstone::adapters::interval_root_finder_test {
 namespace {

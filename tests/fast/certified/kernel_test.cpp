@@ -367,7 +367,7 @@ TEST(CertifiedKernels, AxesEndWhatIsApartUpToTheLimit) {
        {tests::over_triangle(1, 1, 1, -1), tests::over_edge(1, 1, 1, -1)}) {
     const auto stage = [&](double t_max, double distance) {
       return fast::solve(posed.kind, posed.query,
-                         {.t_max = t_max, .separation = {.distance = distance}})
+                         {.t_max = t_max, .separation = {.distance = distance, .norm = Norm::linf}})
           .stage;
     };
     EXPECT_EQ(stage(0.499, 0.0), Stage::axis);
@@ -390,7 +390,7 @@ TEST(Certified, OneQueryHasTheBitsOfABatch) {
   std::vector<Query> queries(size);
   std::vector<CertifiedResult> batch(size);
   const int rounds = tests::soak_trials(60, 100);
-  std::array<std::size_t, stages> reached{};
+  std::array<std::size_t, stage_count> reached{};
   for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
     Random random(44);
     for (int round = 0; round < rounds; ++round) {
@@ -421,7 +421,7 @@ TEST(Certified, OneQueryHasTheBitsOfABatch) {
 Query query_near(Random& random, Kind kind, double distance, int i) {
   if (i % 5 == 0) {
     verify::generate::Random drawn(random.bits());
-    return verify::fuzz::tilting(kind, {.distance = distance}, drawn);
+    return verify::fuzz::tilting(kind, {.distance = distance, .norm = Norm::linf}, drawn);
   }
   return i % 3 == 0 ? tests::full_significand_query(random)
                     : tests::near_contact_query(random, kind);

@@ -11,6 +11,7 @@
 #include <memory>
 #include <vector>
 
+#include "fast/candidates.hpp"
 #include "tests/support/baselines.hpp"
 #include "tests/support/simulation_steps.hpp"
 #include "tests/support/trials.hpp"

@@ -92,7 +92,8 @@ TEST(SeparationFamilies, OddQueriesHaveFullSignificands) {
   for (const Family& family : separation_families()) {
     std::size_t full = 0;
     for (std::uint64_t index = 0; index < 40; ++index) {
-      const KnownQuery known = make_query(family, Kind::edge_edge, seed, index, {.distance = 1e-8});
+      const KnownQuery known =
+          make_query(family, Kind::edge_edge, seed, index, {.distance = 1e-8, .norm = Norm::linf});
       EXPECT_LE(known.full_significands, index % 2 == 1);
       full += known.full_significands ? 1U : 0U;
     }
@@ -104,7 +105,7 @@ TEST(SeparationFamilies, OddQueriesHaveFullSignificands) {
 TEST(SeparationFamilies, TheyNeedASeparationThatTheyCanDouble) {
   const Family& family = separation_families().front();
   for (const double distance : {0.0, 0x1p-1001, 0x1p1001}) {
-    const Separation separation{.distance = distance};
+    const Separation separation{.distance = distance, .norm = Norm::linf};
     EXPECT_FALSE(has_separation_families(separation));
     EXPECT_EQ(families(separation).size(), families().size());
     EXPECT_THROW((void)make_query(family, Kind::vertex_face, seed, 0, separation),
@@ -112,7 +113,8 @@ TEST(SeparationFamilies, TheyNeedASeparationThatTheyCanDouble) {
     EXPECT_THROW((void)open_family(family, Kind::vertex_face, seed, 1, separation),
                  std::invalid_argument);
   }
-  EXPECT_EQ(families({.distance = 1.0}).size(), families().size() + separation_families().size());
+  EXPECT_EQ(families({.distance = 1.0, .norm = Norm::linf}).size(),
+            families().size() + separation_families().size());
 }
 
 TEST(SeparationFamilies, TheyReachToBothEndsOfTheirDistances) {

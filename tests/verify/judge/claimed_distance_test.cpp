@@ -25,7 +25,8 @@ constexpr Query falling{{1, 1, 2, 0, 0, 0, 4, 0, 0, 0, 4, 0,  //
 double claimed_with_filter(double tolerance, const Query& query, double distance,
                            ErrorModel filter = ErrorModel::derived) {
   return claimed_distance(filter, Kind::vertex_face, query,
-                          {.verdict = Verdict::yes, .tolerance = tolerance}, {.distance = distance})
+                          {.verdict = Verdict::yes, .tolerance = tolerance},
+                          {.distance = distance, .norm = Norm::linf})
       .distance;
 }
 
@@ -75,14 +76,15 @@ TEST(ClaimedDistance, WithoutAToleranceOrBeyondTheScaleNothingIsClaimed) {
 TEST(ClaimedDistance, TightInclusionKeepsItOnWhatItCannotTellFromContact) {
   std::size_t claims = 0;
   for (const double distance : {0.0, 1e-8, 1e-30}) {
-    const Separation separation{.distance = distance};
+    const Separation separation{.distance = distance, .norm = Norm::linf};
     for (const generate::Family& family : generate::families(separation)) {
       for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
         if (!generate::supports(family, kind)) continue;
         for (std::uint64_t index = 0; index < 4; ++index) {
           const Query query = generate::make_query(family, kind, 7, index, separation).query;
           const auto result = fast::tight_inclusion(
-              kind, query, {.max_checks = 1000, .separation = {.distance = distance}});
+              kind, query,
+              {.max_checks = 1000, .separation = {.distance = distance, .norm = Norm::linf}});
           if (result.verdict != Verdict::yes) continue;
           const Separation claimed = claimed_distance(
               ErrorModel::derived, kind, query,
@@ -122,7 +124,8 @@ TEST(ClaimedDistance, WhatIsSeenIsTrue) {
         for (const double distance : {1e-12 * size, 1e-3 * size, 0.3 * size}) {
           if (!is_valid({.distance = distance})) continue;
           const bool is_seen = is_seen_within(kind, query, 0.375, distance);
-          const bool is_near = exact::decide(kind, query, {.distance = distance}).collides();
+          const bool is_near =
+              exact::decide(kind, query, {.distance = distance, .norm = Norm::linf}).collides();
           EXPECT_TRUE(is_near || !is_seen) << family.name << " " << index;
           seen += is_seen ? 1U : 0U;
           near += is_near ? 1U : 0U;

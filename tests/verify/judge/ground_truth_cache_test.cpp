@@ -32,7 +32,7 @@ TEST(GroundTruthCache, AskTheOracleOnceAQueryAndSeparation) {
   EXPECT_EQ(truths.decided(), 4U);
   (void)truths.of({.distance = 0.0, .norm = Norm::l2}, Positions{3});
   EXPECT_EQ(truths.decided(), 4U) << "at distance 0 the norm does not matter";
-  (void)truths.of({.distance = 0.5}, Positions{3, 3});
+  (void)truths.of({.distance = 0.5, .norm = Norm::linf}, Positions{3, 3});
   EXPECT_EQ(truths.decided(), 5U);
 }
 

@@ -21,7 +21,8 @@ TEST(GroundTruth, IsTheVerdictInDoubles) {
   EXPECT_EQ(at_two_thirds.index, 7U);
   EXPECT_TRUE(at_two_thirds.collides);
   EXPECT_EQ(at_two_thirds.toi, (DoubleInterval{0x1.5555555555555p-1, 0x1.5555555555556p-1}));
-  EXPECT_EQ(truth_about(falling, {.distance = 0.5}).toi, (DoubleInterval{0.5, 0.5}));
+  EXPECT_EQ(truth_about(falling, {.distance = 0.5, .norm = Norm::linf}).toi,
+            (DoubleInterval{0.5, 0.5}));
   const GroundTruth never = truth_about(tests::over_triangle(1, 1, 2, 1), {});
   EXPECT_FALSE(never.collides);
   EXPECT_EQ(never.toi, std::nullopt);

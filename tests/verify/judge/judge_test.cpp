@@ -182,8 +182,8 @@ TEST(Judge, HoldsAYesToItsTolerance) {
             (Faults{Fault::undecided, Fault::false_positive}));
   const Failure crash{.kind = Fault::crash};
   EXPECT_EQ(faults(yes(1.0, 1.0, 0.0), {}, &crash), Faults{Fault::crash});
-  EXPECT_EQ(judge({{never.kind, {&never.query, 1}}, {.distance = 2.0}}, collision(0.0, 0.0),
-                  yes(0.0, 0.0, 0.0), {}),
+  EXPECT_EQ(judge({{never.kind, {&never.query, 1}}, {.distance = 2.0, .norm = Norm::linf}},
+                  collision(0.0, 0.0), yes(0.0, 0.0, 0.0), {}),
             Faults{})
       << "a collision is near enough";
 }

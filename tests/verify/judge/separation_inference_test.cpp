@@ -7,7 +7,7 @@
 namespace touchstone::verify::judge::separation_inference_test {
 namespace {
 
-constexpr Separation contact{};
+constexpr Separation contact{.distance = 0.0, .norm = Norm::linf};
 constexpr Separation contact_l2{.distance = -0.0, .norm = Norm::l2};
 constexpr Separation one_linf{.distance = 1.0, .norm = Norm::linf};
 constexpr Separation one_l2{.distance = 1.0, .norm = Norm::l2};

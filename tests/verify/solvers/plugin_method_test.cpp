@@ -173,9 +173,12 @@ TEST(BoxOverlap, SaysNoWhereAnAxisSeparatesByTheLeastDouble) {
 TEST(BoxOverlap, TakesTheSeparationIntoAccount) {
   const auto method = load_plugin(box_overlap);
   const PosedQuery posed = tests::over_triangle(1, 1, 2, 1);
-  EXPECT_EQ(ask(*method, posed, {.separation = {.distance = std::nextafter(1.0, 0.0)}}).verdict,
+  EXPECT_EQ(ask(*method, posed,
+                {.separation = {.distance = std::nextafter(1.0, 0.0), .norm = Norm::linf}})
+                .verdict,
             Verdict::no);
-  EXPECT_EQ(ask(*method, posed, {.separation = {.distance = 1.0}}).verdict, Verdict::yes);
+  EXPECT_EQ(ask(*method, posed, {.separation = {.distance = 1.0, .norm = Norm::linf}}).verdict,
+            Verdict::yes);
   EXPECT_EQ(ask(*method, posed, {.separation = {.distance = -1.0}}).verdict, Verdict::error);
 }
 
@@ -370,9 +373,11 @@ TEST(Plugin, GetsTheOptions) {
                   .toi_lower,
               norm == Norm::l2 ? 1.0 : 0.0);
   }
-  const Answer answer =
-      ask(*method, Kind::vertex_face, query_for(Misbehaviour::repeats_options),
-          {.tolerance = 0.0625, .max_checks = 77, .separation = {.distance = 0.25}, .t_max = 0.5});
+  const Answer answer = ask(*method, Kind::vertex_face, query_for(Misbehaviour::repeats_options),
+                            {.tolerance = 0.0625,
+                             .max_checks = 77,
+                             .separation = {.distance = 0.25, .norm = Norm::linf},
+                             .t_max = 0.5});
   EXPECT_EQ(answer.verdict, Verdict::yes);
   EXPECT_EQ(answer.toi_lower, 0.0625);
   EXPECT_EQ(answer.toi_upper, 0.25);

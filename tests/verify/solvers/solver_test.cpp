@@ -15,6 +15,7 @@
 #include <thread>
 #include <vector>
 
+#include "fast/candidates.hpp"
 #include "tests/support/methods.hpp"
 #include "tests/support/queries.hpp"
 #include "verify/base/thread_clock.hpp"

@@ -181,7 +181,7 @@ TEST(HardQueriesOnCurves, AreAboutDistanceZeroAlone) {
   for (const Hardness& hardness : curve_hardnesses()) {
     EXPECT_THROW((void)make_hard_query({.hardness = &hardness,
                                         .level = hardness.levels.front(),
-                                        .separation = {.distance = 1e-3}},
+                                        .separation = {.distance = 1e-3, .norm = Norm::linf}},
                                        seed, 0),
                  std::invalid_argument);
   }

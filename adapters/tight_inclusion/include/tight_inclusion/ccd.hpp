@@ -34,7 +34,7 @@
 
 #include "tight_inclusion/config.hpp"
 #include "tight_inclusion/types.hpp"
-#include "touchstone/primitive_pairs.hpp"
+#include "touchstone/certified.hpp"
 
 namespace ticcd {
 

@@ -12,13 +12,13 @@
 #include <vector>
 
 #include "tight_inclusion/types.hpp"
-#include "touchstone/filter.hpp"
 #include "touchstone/mesh.hpp"
+#include "touchstone/tight_inclusion.hpp"
 
 namespace ticcd {
 
-/// The filter of a scene (touchstone/filter.hpp), for the argument `err` of vertexFaceCCD and
-/// edgeEdgeCCD, which are exact here and ignore it.
+/// The filter of a scene (touchstone/tight_inclusion.hpp), for the argument `err` of vertexFaceCCD
+/// and edgeEdgeCCD, which are exact here and ignore it.
 /// \param vertices no coordinate and no separation of a query is greater than theirs
 inline Array3 get_numerical_error(const std::vector<Vector3>& vertices, const bool is_vertex_face,
                                   const bool using_minimum_separation) {

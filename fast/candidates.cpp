@@ -1,4 +1,4 @@
-#include "touchstone/mesh.hpp"
+#include "fast/candidates.hpp"
 
 #include <algorithm>
 #include <array>
@@ -111,8 +111,7 @@ void require_elements_in_range(std::size_t vertices,
   }
 }
 
-}  // namespace
-
+/// The vertices of a pair, in the order of a query's points.
 std::array<std::int32_t, moving_points> vertices_of(const Candidates& candidates,
                                                     const IndexPair& pair) {
   const auto [first, second] = pair;
@@ -124,6 +123,8 @@ std::array<std::int32_t, moving_points> vertices_of(const Candidates& candidates
   const Edge& b = at(candidates.edges, second);
   return {a[0], a[1], b[0], b[1]};
 }
+
+}  // namespace
 
 Query query_of(const MovingVertices& vertices, const Candidates& candidates,
                const IndexPair& pair) {

@@ -1,0 +1,50 @@
+#pragma once
+
+/// \file
+/// Pairs of a moving mesh as input of the certified solver, and the checks of a mesh. The functions
+/// are thread-safe.
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "touchstone/certified.hpp"
+#include "touchstone/mesh.hpp"
+#include "touchstone/query.hpp"
+
+namespace touchstone::fast {
+
+/// Pairs of one kind with the arrays that their indices refer to. Owns nothing.
+struct Candidates {
+  Kind kind = Kind::vertex_face;
+  std::span<const IndexPair> pairs;
+  std::span<const Edge> edges;  ///< needed for edge_edge
+  std::span<const Face> faces;  ///< needed for vertex_face
+};
+
+/// A pair as a query. \pre its indices are in range.
+[[nodiscard]] Query query_of(const MovingVertices& vertices, const Candidates& candidates,
+                             const IndexPair& pair);
+
+/// The candidates that collide, in order: collisions(queries, options) without the queries.
+/// \throws as that function; std::out_of_range as require_in_range.
+[[nodiscard]] std::vector<Collision> collisions(const MovingVertices& vertices,
+                                                const Candidates& candidates,
+                                                const CertifiedOptions& options = {});
+
+/// \throws std::out_of_range, naming the first pair (or edge or face of a pair) with an index that
+/// is out of range.
+void require_in_range(const MovingVertices& vertices, const Candidates& candidates);
+
+/// \throws std::domain_error naming the first vertex with a coordinate that is NaN or infinite;
+/// std::length_error if there are more than 2^31−1 vertices.
+void require_finite(const MovingVertices& vertices);
+
+/// \throws std::out_of_range naming the first edge, face or codimensional point with an index that
+/// is no vertex's; std::length_error if there are more than 2^31−1.
+void require_in_range(const MovingVertices& vertices, std::span<const Edge> edges);
+void require_in_range(const MovingVertices& vertices, std::span<const Face> faces);
+void require_in_range(const MovingVertices& vertices, std::span<const std::int32_t> points);
+
+}  // namespace touchstone::fast
