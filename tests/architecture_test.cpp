@@ -38,7 +38,7 @@ using Words = std::vector<std::string>;
 constexpr std::string_view layer_lines = R"(
   exact/query.hpp: exact/cxx20.hpp Eigen/
   exact/curved_query.hpp: exact/query.hpp
-  exact/: exact/ CGAL/ Eigen/ gmp.h gmpxx.h mpfr.h
+  exact/: exact/ CGAL/ Eigen/ gmp.h gmpxx.h
 // The checker shares no code with anything that decides queries.
   exact/checker/: exact/checker/ gmp.h gmpxx.h
 // filters/ is two targets: what simulators include, which needs nothing, and the derivation of the
@@ -109,12 +109,11 @@ constexpr std::string_view headers_without_test = R"(
   verify/data/: query_source.hpp
   verify/fuzz/: finding.hpp
 // In a test of what they are parts of: oracle_test.cpp, distance_oracle_test.cpp,
-// separation_intervals_test.cpp, certificate_test.cpp, rigid_motion_test.cpp; error_bounds_test.cpp,
+// separation_intervals_test.cpp, certificate_test.cpp; error_bounds_test.cpp,
 // worst_case_test.cpp.
   exact/algebra/: positivity.hpp
   exact/contact/: contact_conditions.hpp contact_oracle.hpp corner_motion.hpp
   exact/distance/: separating_axes.hpp
-  exact/rigid/: rigid_place.hpp
   filters/: error_bound.hpp
   filters/derivation/: mpfr_number.hpp
 // Through the kernels, which take the same queries in the same tests, and the exact stage:

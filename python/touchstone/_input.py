@@ -231,7 +231,7 @@ def load(name: str) -> ModuleType:
         raise ImportError(
             f"{error}\ntouchstone: this needs the module {name}. A package that pip builds has the fast"
             " part alone: for all of it use ./run python in the sources. If the error above names a"
-            " library, install that: on Debian 12 libgmpxx4ldbl, libmpfr6, libtbb12, libfmt9, libzip4, libzstd1."
+            " library, install that: on Debian 12 libgmpxx4ldbl, libtbb12, libfmt9, libzip4, libzstd1."
         ) from error
 
 
