@@ -73,7 +73,7 @@ constexpr std::string_view layer_lines = R"(
   verify/io/: verify/io/ REST
   verify/data/: verify/data/ verify/base/ verify/io/ REST
   verify/mesh/: verify/mesh/ verify/data/ verify/io/ REST
-  verify/generate/: verify/generate/ verify/data/ verify/io/ verify/mesh/ REST
+  verify/generate/: verify/generate/ verify/base/ verify/data/ verify/io/ verify/mesh/ REST
 // The published methods use packages that simulators do not need, and the rounding mode.
   verify/baselines/: verify/baselines/ verify/generate/random.hpp fast/ filters/ gmpxx.h exact/curved_query.hpp exact/query.hpp Eigen/ boost/numeric/interval.hpp xmmintrin.h
   verify/judge/: verify/judge/ verify/base/ verify/data/ verify/io/ REST
@@ -82,11 +82,10 @@ constexpr std::string_view layer_lines = R"(
   verify/solvers/linux/: verify/solvers/ verify/io/ fcntl.h linux/ poll.h sched.h sys/ unistd.h
   verify/jobs/: verify/jobs/ verify/base/ verify/data/ verify/io/ verify/judge/ verify/mesh/ verify/solvers/ REST
   verify/fuzz/: verify/fuzz/ verify/base/ verify/data/ verify/generate/ verify/io/ verify/judge/ verify/solvers/ REST
-  verify/stability/: verify/stability/ verify/base/ verify/data/ verify/generate/ verify/jobs/ verify/judge/ verify/solvers/ REST
-  verify/report/: verify/report/ verify/base/ verify/data/ verify/generate/ verify/io/ verify/jobs/ verify/judge/ verify/mesh/ verify/solvers/ verify/stability/ REST
+  verify/report/: verify/report/ verify/base/ verify/data/ verify/generate/ verify/io/ verify/jobs/ verify/judge/ verify/mesh/ verify/solvers/ REST
   verify/view/: verify/view/ verify/base/ verify/data/ verify/io/ verify/jobs/ verify/judge/ verify/mesh/ verify/report/ verify/solvers/ REST
   verify/playground/: verify/base/ verify/judge/ verify/solvers/ verify/view/ fast/ nlohmann/ emscripten/emscripten.h
-  verify/cli/: verify/cli/ verify/base/ verify/data/ verify/fuzz/ verify/generate/ verify/io/ verify/jobs/ verify/judge/ verify/mesh/ verify/report/ verify/solvers/ verify/stability/ verify/view/ REST
+  verify/cli/: verify/cli/ verify/base/ verify/data/ verify/fuzz/ verify/generate/ verify/io/ verify/jobs/ verify/judge/ verify/mesh/ verify/report/ verify/solvers/ verify/view/ REST
 )";
 
 /// Parts of a module that only lines which name them include, not one for the whole module.
@@ -135,8 +134,7 @@ constexpr std::string_view headers_without_test = R"(
 // and of the hard ones, hardness_test.cpp.
   verify/base/: any_query.hpp cores.hpp
   verify/baselines/: closest_features.hpp exact_number.hpp moving_polynomials.hpp query_random.hpp upward_rounding.hpp verdicts.hpp
-  verify/generate/: coordinate_sampler.hpp draws.hpp family_builder.hpp grid.hpp passing_planes.hpp random.hpp curved_families.hpp
-  verify/stability/: hard_curves.hpp
+  verify/generate/: coordinate_sampler.hpp draws.hpp family_builder.hpp grid.hpp passing_planes.hpp random.hpp curved_families.hpp hard_curves.hpp
 // Through what uses them: certify, solve, the step's measurements, NumPy's arrays, the fuzzer.
   verify/jobs/: block_answers.hpp block_truth.hpp work_time.hpp
   verify/data/: npy_header.hpp
@@ -144,7 +142,7 @@ constexpr std::string_view headers_without_test = R"(
 // By tests/transcripts, and documents_test.cpp: docs/results.md and its picture are those of their data.
   verify/cli/: certificates_file.hpp commands.hpp files.hpp group_options.hpp help.hpp options.hpp solver_options.hpp sources.hpp version.hpp view_file.hpp
   verify/mesh/: moving_mesh.hpp
-  verify/report/: certify_report.hpp judgement_report.hpp stability_report.hpp step_report.hpp measurement.hpp
+  verify/report/: certify_report.hpp judgement_report.hpp step_report.hpp measurement.hpp
 )";
 
 /// A line of a table.
@@ -390,7 +388,7 @@ constexpr std::string_view forbidden = R"(
   verify/plugin.h: verify/data/query_source.hpp
   verify/io/csv.cpp: verify/data/dataset.hpp <linux/seccomp.h>
   verify/judge/judge.cpp: verify/solvers/solver.hpp
-  verify/stability/new.cpp: verify/fuzz/fuzz.hpp
+  verify/report/new.cpp: verify/fuzz/fuzz.hpp
   verify/unknown/new.cpp: verify/io/csv.hpp
 )";
 constexpr std::string_view permitted = R"(

@@ -217,17 +217,11 @@ class CertifyRun {
   }
 
   [[nodiscard]] Status status() const {
-    const auto is_wrong = [](const jobs::MethodResult& method) {
-      return !judge::keeps(method.judgement, method.promise);
-    };
     const auto is_incomplete = [](const jobs::MethodResult& method) {
       return method.judgement.missing != 0;
     };
     if (files_.has_failed()) return Status::bad_input;
-    if (sum_.label_mismatches + sum_.toi_mismatches != 0 ||
-        std::ranges::any_of(sum_.methods, is_wrong)) {
-      return Status::wrong_answers;
-    }
+    if (jobs::has_wrong_answers(sum_)) return Status::wrong_answers;
     if (sum_.errors + sum_.skipped != 0 || !sum_.proofs.beyond_limits.empty() ||
         std::ranges::any_of(sum_.methods, is_incomplete)) {
       return Status::bad_input;

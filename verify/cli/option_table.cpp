@@ -9,10 +9,10 @@
 
 #include "verify/cli/solver_options.hpp"
 #include "verify/data/separation_file.hpp"
+#include "verify/generate/hardness.hpp"
 #include "verify/io/number_text.hpp"
 #include "verify/judge/fault.hpp"
 #include "verify/solvers/registry.hpp"
-#include "verify/stability/hardness.hpp"
 
 namespace touchstone::verify::cli {
 namespace {
@@ -26,7 +26,7 @@ std::vector<std::string> fault_names() {
 
 std::vector<std::string> hardness_names() {
   std::vector<std::string> names;
-  const auto all = stability::all_hardnesses();
+  const auto all = generate::all_hardnesses();
   names.reserve(all.size());
   for (const auto& hardness : all) names.emplace_back(hardness.name);
   return names;

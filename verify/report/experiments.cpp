@@ -21,10 +21,9 @@
 #include "verify/jobs/timing.hpp"
 #include "verify/judge/ground_truth_cache.hpp"
 #include "verify/report/measure.hpp"
-#include "verify/report/stability_report.hpp"
+#include "verify/report/stability.hpp"
 #include "verify/solvers/registry.hpp"
 #include "verify/solvers/solver.hpp"
-#include "verify/stability/stability.hpp"
 
 namespace touchstone::verify::report {
 namespace {
@@ -336,20 +335,18 @@ class Run {
     if (asked.empty()) return;
     // The rest is for the page.
     const double left = 0.85 * deadline_.seconds_left();
-    std::vector<const stability::Hardness*> sorts;
-    for (const stability::Hardness& hardness : stability::hardnesses()) sorts.push_back(&hardness);
-    const stability::StabilityResult map = stability::measure_stability(
-        sorts, {.seed = options_.seed,
-                .count = options_.stability_count,
-                .threads = options_.threads,
-                .solvers = asked,
-                .on_progress =
-                    [&](double fraction) {
-                      constexpr double before = part_of_trials + part_of_filters;
-                      tell(before + (1.0 - before) * fraction);
-                    },
-                .stop = options_.stop,
-                .seconds = std::isinf(left) ? 0.0 : left});
+    StabilityOptions map_options{.seed = options_.seed,
+                                 .count = options_.stability_count,
+                                 .seconds = std::isinf(left) ? 0.0 : left};
+    for (const auto& hardness : generate::hardnesses()) map_options.hardnesses.push_back(&hardness);
+    map_options.certify.threads = options_.threads;
+    map_options.certify.solvers = asked;
+    map_options.certify.stop = options_.stop;
+    map_options.certify.on_progress = [&](double fraction) {
+      constexpr double before = part_of_trials + part_of_filters;
+      tell(before + (1.0 - before) * fraction);
+    };
+    const StabilityResult map = measure_stability(map_options);
     result_.stability = marks_of(map);
     result_.interrupted = result_.interrupted || map.unjudged_cells != 0;
   }

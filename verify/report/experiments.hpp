@@ -12,7 +12,7 @@
 ///   one, if more than one of them takes part: what each misses of the built-in families, and of
 ///   contacts at t=1 (verify/generate/workload.hpp) at scales from 0.001 to 1000. It has queries of
 ///   its own, of the kinds of the groups.
-/// - *stability*: every method on the hard queries of verify/stability/.
+/// - *stability*: every method on the hard queries of verify/generate/hardness.hpp.
 ///
 /// Which method takes part in which experiment, its fast::MethodInfo says. Variants of a method
 /// take part in *field*, *filter* and *stability*.
