@@ -92,6 +92,10 @@ class CertifyRun {
     report_answers();
     solvers_.report_output(arguments_.judged.show_output);
     // Files first, so that they are complete even if standard output is closed.
+    if (is_without_queries()) {
+      truth_.discard();
+      proof_.discard();
+    }
     truth_.close();
     proof_.close(sum_.proofs.certificates());
     if (json_) json_.write(io::json_document(report::to_json(results_)));
@@ -102,9 +106,12 @@ class CertifyRun {
   }
 
  private:
+  /// True if nothing could be read. Then there is no truth to write.
+  [[nodiscard]] bool is_without_queries() const { return sum_.queries == 0 && sum_.errors != 0; }
+
   void print_summary() const {
     // The errors are reported already.
-    if (sum_.queries == 0 && sum_.errors != 0) return;
+    if (is_without_queries()) return;
     std::FILE* const stream = files_.summary_stream();
     io::print(stream, report::to_text(results_));
     if (proof_) io::print(stream, fmt::format("\n{}", jobs::to_text(sum_.proofs)));

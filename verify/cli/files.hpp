@@ -70,6 +70,8 @@ class Output {
   void write(std::string_view text);
   /// Completes the file.
   void close();
+  /// Leaves the file of that name as it was; what is written later gets lost.
+  void discard() { file_.reset(); }
   /// The same for what is not all that it should be: the file gets the ending ".incomplete", one of
   /// the name that the user gave stays as it was, and a warning says so.
   void close_incomplete();

@@ -157,9 +157,14 @@ std::string number_text(const nlohmann::json& json, const char* key) {
   return json.contains(key) ? json.at(key).dump() : "0";
 }
 
-/// The counts that everyone asks for, a line a method.
+/// The counts that everyone asks for: of certificates, or of queries with a line a method.
 std::string summary_text(const nlohmann::json& total) {
   if (total.contains("pieces")) return {};
+  if (total.contains("certificates")) {
+    return fmt::format("{} certificates: {} no collision, {} collision, {} time of impact\n",
+                       number_text(total, "certificates"), number_text(total, "no_collision"),
+                       number_text(total, "collision"), number_text(total, "time_of_impact"));
+  }
   std::string text = fmt::format("{} queries", number_text(total, "queries"));
   if (total.contains("collisions")) {
     text += fmt::format(", {} collisions", number_text(total, "collisions"));

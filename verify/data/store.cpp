@@ -44,8 +44,7 @@ std::map<fs::path, std::string> store_digests(const fs::path& folder,
       }
     }
   } catch (const json::exception& error) {
-    throw io::DatasetError(manifest, {},
-                           std::string("not the manifest of a store: ") + error.what());
+    throw io::DatasetError(manifest, {}, "not the manifest of a store: " + io::reason_of(error));
   }
   for (const fs::path& dataset : datasets) {
     if (digests.contains(dataset.lexically_normal())) continue;

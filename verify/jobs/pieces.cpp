@@ -101,7 +101,7 @@ std::optional<Plan> read_plan(const fs::path& folder) {
   try {
     return plan_from_json(io::read_json(file, most_bytes));
   } catch (const std::exception& error) {
-    throw std::runtime_error(file.string() + ": not the plan of a run: " + error.what());
+    throw std::runtime_error(file.string() + ": not the plan of a run: " + io::reason_of(error));
   }
 }
 

@@ -61,6 +61,12 @@ fast::MethodOptions options_of(const fast::MethodInfo& method) {
   return options;
 }
 
+/// Settings that are measured side by side.
+struct Trial {
+  Experiment experiment = Experiment::field;
+  std::vector<Setting> settings = {};
+};
+
 Trial field_trial(Methods methods) {
   Trial trial{.experiment = Experiment::field};
   for (const auto* method : methods) trial.settings.push_back({method, options_of(method->info())});
@@ -118,7 +124,7 @@ std::vector<const fast::Method*> find_methods(std::span<const std::string> names
   return found;
 }
 
-std::vector<Trial> trials_of_methods(Methods methods) {
+std::vector<Trial> trials_of(Methods methods) {
   std::vector<Trial> trials{field_trial(methods), tolerance_trial(methods), checks_trial(methods),
                             separation_trial(methods)};
   std::erase_if(trials, [](const Trial& trial) { return trial.settings.empty(); });
@@ -213,7 +219,7 @@ class Run {
   }
 
   [[nodiscard]] std::vector<Trial> chosen_trials() const {
-    std::vector<Trial> trials = trials_of_methods(methods_);
+    std::vector<Trial> trials = trials_of(methods_);
     for (Trial& trial : trials) {
       if (trial.experiment != Experiment::field) continue;
       for (const fast::Method* const plugin : options_.plugins) {
@@ -359,14 +365,6 @@ class Run {
 };
 
 }  // namespace
-
-std::span<const double> separation_distances() { return distances; }
-
-std::span<const double> filter_scales() { return scales; }
-
-std::vector<Trial> trials_of(std::span<const std::string> methods) {
-  return trials_of_methods(find_methods(methods));
-}
 
 Measurements run_experiments(std::span<const data::QueryGroup> groups,
                              const ExperimentOptions& options) {

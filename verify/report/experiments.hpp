@@ -33,22 +33,6 @@
 
 namespace touchstone::verify::report {
 
-/// Settings that are measured side by side.
-struct Trial {
-  Experiment experiment = Experiment::field;
-  std::vector<Setting> settings = {};
-};
-
-/// The trials of a report on these methods, none of them empty.
-/// \throws std::invalid_argument for an unknown method.
-[[nodiscard]] std::vector<Trial> trials_of(std::span<const std::string> methods);
-
-/// The minimum separations of the experiment, ascending.
-[[nodiscard]] std::span<const double> separation_distances();
-
-/// The scales of the experiment on filters, ascending.
-[[nodiscard]] std::span<const double> filter_scales();
-
 struct ExperimentOptions {
   /// Names of methods; all there are if empty. Each is measured on the groups whose curves it
   /// takes.
