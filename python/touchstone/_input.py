@@ -235,6 +235,22 @@ def load(name: str) -> ModuleType:
         ) from error
 
 
+class Column(property):
+    """A field of the array of a `BatchResult`, as an attribute of the field's name."""
+
+    def __init__(self, doc: str) -> None:
+        super().__init__(lambda result: result._field(self._name))
+        self.__doc__ = doc  # that of a class derived from property would stand before its argument
+
+    def __set_name__(self, owner: type, name: str) -> None:
+        self._name = name
+
+
+def column(doc: str) -> Any:
+    """Return a `Column`, for a declaration that says the type of its values."""
+    return Column(doc)
+
+
 Result = TypeVar("Result", bound="BatchResult")
 
 
