@@ -76,7 +76,7 @@ Shard shard_of_environment() {
 std::string program() {
   std::string text(version());
   if (!text.ends_with(')') || text.ends_with("-dirty)")) {
-    text += ", SHA-256 " + jobs::digest_of("/proc/self/exe");
+    text += ", SHA-256 " + data::digest_of("/proc/self/exe");
   }
   return text;
 }
@@ -108,7 +108,7 @@ void set_options(const CLI::App& command, const PieceRun& run, jobs::Plan& plan)
       const bool is_flag = option->get_expected_min() == 0;
       plan.options.push_back(is_flag && value == "true" ? name : fmt::format("{}={}", name, value));
       for (const fs::path& file : files_below(value)) {
-        plan.uses[file.string()] = jobs::digest_of(file);
+        plan.uses[file.string()] = data::digest_of(file);
       }
     }
   }
@@ -335,18 +335,6 @@ Status run_in_pieces(const CLI::App& command, const PieceArguments& arguments,
                        .refused = outputs.refused});
   }
   sources.shard = shard_of(arguments);
-  if (sources.shard.count == 1 || sources.built_in_set()) return run();
-  const std::vector<jobs::Piece> pieces = pieces_of(sources);
-  sources.paths.clear();
-  for (std::size_t i = 0; i < pieces.size(); ++i) {
-    if (sources.shard.contains(i)) sources.paths.push_back(pieces[i].files.front());
-  }
-  if (sources.paths.empty()) {
-    report_warning(
-        fmt::format("--shard: {} files, none for part {}", pieces.size(), sources.shard.index));
-    return Status::all_well;
-  }
-  sources.shard = {};
   return run();
 }
 

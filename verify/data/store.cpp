@@ -2,11 +2,14 @@
 
 #include <fmt/format.h>
 
+#include <cstddef>
 #include <cstdint>
 #include <nlohmann/json.hpp>
 #include <system_error>
 
+#include "verify/base/sha256.hpp"
 #include "verify/io/dataset_error.hpp"
+#include "verify/io/input_file.hpp"
 #include "verify/io/json.hpp"
 
 namespace touchstone::verify::data {
@@ -27,6 +30,18 @@ void check_size(const fs::path& file, std::uint64_t expected) {
 }
 
 }  // namespace
+
+std::string digest_of(const fs::path& file) {
+  io::InputFile input(file);
+  base::Sha256 digest;
+  std::string chunk(std::size_t{1} << 16U, '\0');
+  while (const std::size_t count = input.read(chunk)) digest.add({chunk.data(), count});
+  return digest.hexadecimal();
+}
+
+json described(const fs::path& file, const std::string& name) {
+  return {{"file", name}, {"bytes", fs::file_size(file)}, {"sha256", digest_of(file)}};
+}
 
 std::map<fs::path, std::string> store_digests(const fs::path& folder,
                                               std::span<const fs::path> datasets) {
