@@ -135,7 +135,9 @@ constexpr std::string_view headers_without_test = R"(
   verify/base/: any_query.hpp cores.hpp
   verify/baselines/: closest_features.hpp exact_number.hpp moving_polynomials.hpp query_random.hpp upward_rounding.hpp verdicts.hpp
   verify/generate/: coordinate_sampler.hpp draws.hpp family_builder.hpp grid.hpp passing_planes.hpp random.hpp curved_families.hpp hard_curves.hpp
-// Through what uses them: certify, solve, the step's measurements, NumPy's arrays, the fuzzer.
+// Through what uses them: files and child processes, certify, solve, the step's measurements,
+// NumPy's arrays, the fuzzer.
+  verify/io/: descriptor.hpp
   verify/jobs/: block_answers.hpp block_truth.hpp work_time.hpp
   verify/data/: npy_header.hpp
   verify/fuzz/: coverage.hpp curves.hpp diagnosis.hpp fuzz_report.hpp mutation.hpp plainness.hpp scheduler.hpp signature.hpp
