@@ -335,6 +335,19 @@ Status run_in_pieces(const CLI::App& command, const PieceArguments& arguments,
                        .refused = outputs.refused});
   }
   sources.shard = shard_of(arguments);
+  if (sources.shard.count == 1 || sources.built_in_set()) return run();
+  // The files of all paths are counted together: some commands open one path after the other.
+  const std::vector<jobs::Piece> pieces = pieces_of(sources);
+  sources.paths.clear();
+  for (std::size_t i = 0; i < pieces.size(); ++i) {
+    if (sources.shard.contains(i)) sources.paths.push_back(pieces[i].files.front());
+  }
+  if (sources.paths.empty()) {
+    report_warning(
+        fmt::format("--shard: {} files, none for part {}", pieces.size(), sources.shard.index));
+    return Status::all_well;
+  }
+  sources.shard = {};
   return run();
 }
 

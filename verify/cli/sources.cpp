@@ -38,25 +38,15 @@ class TotalProgress {
   double sources_;
 };
 
-/// The sources that the command line selects by their numbers.
-template <class Source>
-std::vector<Source> selected(const SourceArguments& arguments, const std::vector<Source>& all) {
-  std::vector<Source> some;
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    if (arguments.shard.contains(i) && arguments.only_source.value_or(i) == i) {
-      some.push_back(all[i]);
-    }
-  }
-  if (some.empty() && !all.empty()) {
-    report_warning(
-        fmt::format("--shard: {} sources, none for part {}", all.size(), arguments.shard.index));
-  }
-  return some;
-}
-
 void for_each_family(const SourceArguments& arguments, const SourceHandlers& handlers) {
   const Separation separation = arguments.separation.given();
-  const std::vector<BuiltInSource> sources = selected(arguments, built_in_sources(arguments));
+  const std::vector<BuiltInSource> all = built_in_sources(arguments);
+  std::vector<BuiltInSource> sources;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (arguments.shard.contains(i) && arguments.only_source.value_or(i) == i) {
+      sources.push_back(all[i]);
+    }
+  }
   TotalProgress progress(handlers.title, sources.size());
   for (std::size_t i = 0; i < sources.size() && !handlers.stopped(); ++i) {
     const auto& [family, kind] = sources[i];
@@ -112,7 +102,7 @@ void for_each_file(const SourceArguments& arguments, Files& record,
   options.round = arguments.round;
   options.keep_going = arguments.keep_going;
   options.on_skip = [](const io::DatasetError& error) { report_error(error.what()); };
-  const std::vector<fs::path> files = selected(arguments, find_files(arguments, record, handlers));
+  const std::vector<fs::path> files = find_files(arguments, record, handlers);
   TotalProgress progress(handlers.title, files.size());
   for (std::size_t i = 0; i < files.size() && !handlers.stopped(); ++i) {
     if (handlers.begin) handlers.begin(files.size() - i);
