@@ -279,7 +279,7 @@ void add(CLI::App& app, Status& status) {
     settle_query_limit(*command, arguments->seconds, arguments->judged);
     status = run_in_pieces(
         *command, arguments->pieces, arguments->sources,
-        {.files = {"--json", "--truth", "--prove"}, .refused = {"--view", "--seconds"}},
+        {.outputs = {"--json", "--truth", "--prove"}, .refused = {"--view", "--seconds"}},
         [&] { return CertifyRun(*arguments).run(); });
   });
 }

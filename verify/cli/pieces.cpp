@@ -237,27 +237,7 @@ Status write_merged(const jobs::PieceFolder& folder, const std::string& json_fil
   return files.has_failed() ? Status::bad_input : status;
 }
 
-}  // namespace
-
-void add_piece_options(CLI::App& command, PieceArguments& arguments) {
-  add_option(command, shard_option, arguments.shard);
-  add_option(command, resume_option, arguments.folder);
-}
-
-Shard shard_of(const PieceArguments& arguments) {
-  if (arguments.shard.empty()) return {};
-  if (arguments.shard == "auto") return shard_of_environment();
-  const std::string_view text = arguments.shard;
-  const std::size_t slash = std::min(text.find('/'), text.size());
-  const auto index = io::number_from_text<std::size_t>(text.substr(0, slash));
-  const auto count =
-      io::number_from_text<std::size_t>(text.substr(std::min(slash + 1, text.size())));
-  if (!index || !count) {
-    throw std::invalid_argument("--shard: '" + arguments.shard + "' is not I/N, as 0/4 or 3/4");
-  }
-  return checked(*index, *count);
-}
-
+/// The pieces of the command line's queries: the sources that for_each_source passes on.
 std::vector<jobs::Piece> pieces_of(const SourceArguments& sources) {
   std::vector<jobs::Piece> pieces;
   if (sources.built_in_set()) {
@@ -290,6 +270,27 @@ std::vector<jobs::Piece> pieces_of(const SourceArguments& sources) {
     }
   }
   return pieces;
+}
+
+}  // namespace
+
+void add_piece_options(CLI::App& command, PieceArguments& arguments) {
+  add_option(command, shard_option, arguments.shard);
+  add_option(command, resume_option, arguments.folder);
+}
+
+Shard shard_of(const PieceArguments& arguments) {
+  if (arguments.shard.empty()) return {};
+  if (arguments.shard == "auto") return shard_of_environment();
+  const std::string_view text = arguments.shard;
+  const std::size_t slash = std::min(text.find('/'), text.size());
+  const auto index = io::number_from_text<std::size_t>(text.substr(0, slash));
+  const auto count =
+      io::number_from_text<std::size_t>(text.substr(std::min(slash + 1, text.size())));
+  if (!index || !count) {
+    throw std::invalid_argument("--shard: '" + arguments.shard + "' is not I/N, as 0/4 or 3/4");
+  }
+  return checked(*index, *count);
 }
 
 Status run_pieces(const CLI::App& command, const PieceArguments& arguments, const PieceRun& run) {
@@ -325,14 +326,11 @@ Status run_pieces(const CLI::App& command, const PieceArguments& arguments, cons
 }
 
 Status run_in_pieces(const CLI::App& command, const PieceArguments& arguments,
-                     SourceArguments& sources, const PieceOutputs& outputs,
+                     SourceArguments& sources, PieceRun in_pieces,
                      const std::function<Status()>& run) {
   if (!arguments.folder.empty()) {
-    return run_pieces(command, arguments,
-                      {.pieces = pieces_of(sources),
-                       .input = "PATH",
-                       .outputs = outputs.files,
-                       .refused = outputs.refused});
+    in_pieces.pieces = pieces_of(sources);
+    return run_pieces(command, arguments, in_pieces);
   }
   sources.shard = shard_of(arguments);
   if (sources.shard.count == 1 || sources.built_in_set()) return run();

@@ -191,7 +191,7 @@ void add(CLI::App& app, Status& status) {
                std::string(writing_statuses));
   command->callback([arguments, command, &status] {
     status = run_in_pieces(*command, arguments->pieces, arguments->sources,
-                           {.files = {"--json", "--prove"}, .refused = {}},
+                           {.outputs = {"--json", "--prove"}},
                            [&] { return ProveRun(*arguments).run(); });
   });
 }

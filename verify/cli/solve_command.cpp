@@ -242,9 +242,9 @@ void add(CLI::App& app, Status& status) {
       "or usage, or it answers nothing, 130 interrupted (results so far are written).");
   command->callback([arguments, command, &status] {
     settle_solver_options(*command, arguments->sources.built_in_set(), arguments->solver);
-    status = run_in_pieces(*command, arguments->pieces, arguments->sources,
-                           {.files = {"--json", "--out"}, .refused = {}},
-                           [&] { return SolveRun(*arguments).run(); });
+    status =
+        run_in_pieces(*command, arguments->pieces, arguments->sources,
+                      {.outputs = {"--json", "--out"}}, [&] { return SolveRun(*arguments).run(); });
   });
 }
 
