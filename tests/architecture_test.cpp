@@ -38,7 +38,7 @@ using Words = std::vector<std::string>;
 constexpr std::string_view layer_lines = R"(
   exact/query.hpp: exact/cxx20.hpp Eigen/
   exact/curved_query.hpp: exact/query.hpp
-  exact/: exact/ CGAL/ Eigen/ gmp.h gmpxx.h mpfr.h
+  exact/: exact/ CGAL/ Eigen/ gmp.h gmpxx.h
 // The checker shares no code with anything that decides queries.
   exact/checker/: exact/checker/ gmp.h gmpxx.h
 // filters/ is two targets: what simulators include, which needs nothing, and the derivation of the
@@ -46,7 +46,7 @@ constexpr std::string_view layer_lines = R"(
   filters/: filters/
   filters/derivation/: filters/ filters/derivation/ fmt/ gmp.h gmpxx.h mpfr.h signal.h spawn.h sys/ unistd.h
 // Vectors, the processor's floating-point control, and large pages; oneTBB is optional.
-  fast/: fast/ filters/ exact/curved_query.hpp exact/query.hpp Eigen/ hwy/ arm_neon.h immintrin.h xmmintrin.h sys/mman.h
+  fast/: fast/ filters/ exact/curved_query.hpp exact/query.hpp Eigen/ arm_neon.h immintrin.h xmmintrin.h sys/mman.h
   fast/platform/: fast/platform/ filters/ arm_neon.h immintrin.h sys/mman.h xmmintrin.h
   fast/platform/threads.hpp: fast/platform/floating_point_state.hpp oneapi/tbb/
 // Each folder of fast includes those above it, and the headers named with it.
@@ -73,7 +73,7 @@ constexpr std::string_view layer_lines = R"(
   verify/io/: verify/io/ REST
   verify/data/: verify/data/ verify/base/ verify/io/ REST
   verify/mesh/: verify/mesh/ verify/data/ verify/io/ REST
-  verify/generate/: verify/generate/ verify/data/ verify/io/ verify/mesh/ REST
+  verify/generate/: verify/generate/ verify/base/ verify/data/ verify/io/ verify/mesh/ REST
 // The published methods use packages that simulators do not need, and the rounding mode.
   verify/baselines/: verify/baselines/ verify/generate/random_stream.hpp fast/ filters/ gmpxx.h exact/curved_query.hpp exact/query.hpp Eigen/ boost/numeric/interval.hpp xmmintrin.h
   verify/judge/: verify/judge/ verify/base/ verify/data/ verify/io/ REST
@@ -82,11 +82,10 @@ constexpr std::string_view layer_lines = R"(
   verify/solvers/child_process.cpp: verify/solvers/ verify/io/ fcntl.h linux/ poll.h sched.h sys/ unistd.h
   verify/jobs/: verify/jobs/ verify/base/ verify/data/ verify/io/ verify/judge/ verify/mesh/ verify/solvers/ REST
   verify/fuzz/: verify/fuzz/ verify/base/ verify/data/ verify/generate/ verify/io/ verify/judge/ verify/solvers/ REST
-  verify/stability/: verify/stability/ verify/base/ verify/data/ verify/generate/ verify/jobs/ verify/judge/ verify/solvers/ REST
-  verify/report/: verify/report/ verify/base/ verify/data/ verify/generate/ verify/io/ verify/jobs/ verify/judge/ verify/mesh/ verify/solvers/ verify/stability/ REST
+  verify/report/: verify/report/ verify/base/ verify/data/ verify/generate/ verify/io/ verify/jobs/ verify/judge/ verify/mesh/ verify/solvers/ REST
   verify/view/: verify/view/ verify/base/ verify/data/ verify/io/ verify/jobs/ verify/judge/ verify/mesh/ verify/report/ verify/solvers/ REST
   verify/playground/: verify/base/ verify/judge/ verify/solvers/ verify/view/ fast/ nlohmann/ emscripten/emscripten.h
-  verify/cli/: verify/cli/ verify/base/ verify/data/ verify/fuzz/ verify/generate/ verify/io/ verify/jobs/ verify/judge/ verify/mesh/ verify/report/ verify/solvers/ verify/stability/ verify/view/ REST
+  verify/cli/: verify/cli/ verify/base/ verify/data/ verify/fuzz/ verify/generate/ verify/io/ verify/jobs/ verify/judge/ verify/mesh/ verify/report/ verify/solvers/ verify/view/ REST
 )";
 
 /// Parts of a module that only lines which name them include, not one for the whole module.
@@ -109,13 +108,12 @@ constexpr std::string_view headers_without_test = R"(
   verify/data/: query_source.hpp
   verify/fuzz/: finding.hpp
 // In a test of what they are parts of: oracle_test.cpp, distance_oracle_test.cpp,
-// separation_intervals_test.cpp, certificate_test.cpp, prove_step_test.cpp, rigid_motion_test.cpp;
-// error_bounds_test.cpp, worst_case_test.cpp.
+// separation_intervals_test.cpp, certificate_test.cpp, prove_step_test.cpp; error_bounds_test.cpp,
+// worst_case_test.cpp.
   exact/algebra/: positivity.hpp
   exact/certificate/: step_certificate_text.hpp
   exact/contact/: contact_conditions.hpp contact_oracle.hpp corner_motion.hpp
   exact/distance/: separating_axes.hpp
-  exact/rigid/: rigid_place.hpp
   filters/: error_bound.hpp
   filters/derivation/: mpfr_number.hpp
 // Through the kernels, which take the same queries in the same tests, and the exact stage:
@@ -139,16 +137,17 @@ constexpr std::string_view headers_without_test = R"(
 // and of the hard ones, hardness_test.cpp.
   verify/base/: any_query.hpp cores.hpp
   verify/baselines/: closest_features.hpp exact_number.hpp moving_polynomials.hpp query_random.hpp upward_rounding.hpp verdicts.hpp
-  verify/generate/: coordinate_sampler.hpp draws.hpp family_builder.hpp grid.hpp passing_planes.hpp random_stream.hpp curved_families.hpp
-  verify/stability/: hard_curves.hpp
-// Through what uses them: certify, solve, the step's measurements, NumPy's arrays, the fuzzer.
+  verify/generate/: coordinate_sampler.hpp draws.hpp family_builder.hpp grid.hpp passing_planes.hpp random_stream.hpp curved_families.hpp hard_curves.hpp
+// Through what uses them: files and child processes, certify, solve, the step's measurements,
+// NumPy's arrays, the fuzzer.
+  verify/io/: descriptor.hpp
   verify/jobs/: truth_and_answers.hpp work_time.hpp
   verify/data/: npy_header.hpp
   verify/fuzz/: curved_generators.hpp diagnosis.hpp fuzz_report.hpp mutation.hpp plainness.hpp scheduler.hpp signature.hpp
 // By tests/transcripts, and documents_test.cpp: docs/results.md and its picture are those of their data.
   verify/cli/: commands.hpp files.hpp group_options.hpp help.hpp options.hpp result_files.hpp solver_options.hpp sources.hpp version.hpp
   verify/mesh/: moving_mesh.hpp
-  verify/report/: certify_report.hpp judgement_report.hpp stability_report.hpp step_report.hpp measurement.hpp
+  verify/report/: certify_report.hpp judgement_report.hpp step_report.hpp measurement.hpp
 )";
 
 /// A line of a table.
@@ -401,7 +400,7 @@ constexpr std::string_view forbidden = R"(
   verify/plugin.h: verify/data/query_source.hpp
   verify/io/csv.cpp: verify/data/dataset.hpp <linux/seccomp.h>
   verify/judge/judge.cpp: verify/solvers/solver.hpp
-  verify/stability/new.cpp: verify/fuzz/fuzz.hpp
+  verify/report/new.cpp: verify/fuzz/fuzz.hpp
   verify/unknown/new.cpp: verify/io/csv.hpp
 )";
 constexpr std::string_view permitted = R"(

@@ -187,22 +187,6 @@ Motion scale_to_integers(Kind kind, const Query& query) {
                   {axis_exponent(query, 0), axis_exponent(query, 1), axis_exponent(query, 2)});
 }
 
-Motion sum_in_integers(Kind kind, const Query& a, const Query& b) {
-  std::array<int, 3> units{};
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    units[axis] = std::min(axis_exponent(a, axis), axis_exponent(b, axis));
-  }
-  Motion sum = in_units(kind, a, units);
-  const Motion other = in_units(kind, b, units);
-  for (std::size_t point = 0; point < moving_points; ++point) {
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      sum.points[point][axis] += other.points[point][axis];
-    }
-  }
-  set_corners(sum);
-  return sum;
-}
-
 Motion scale_uniformly(Kind kind, const Query& query, const Separation& separation) {
   const Decomposed distance = distance_of(separation);
   int unit = last_exponent(distance);

@@ -232,10 +232,6 @@ void set_corners(MotionOf<Order>& motion) {
 /// \throws std::domain_error if a coordinate is NaN or infinite.
 [[nodiscard]] Motion scale_to_integers(Kind kind, const Query& query);
 
-/// The motion whose points are the exact sums of those of two queries.
-/// \throws std::domain_error if a coordinate is NaN or infinite.
-[[nodiscard]] Motion sum_in_integers(Kind kind, const Query& a, const Query& b);
-
 /// Scales all axes and the distance by one power of two, which keeps angles and ratios of lengths.
 /// Exact for all finite doubles, in every floating-point environment.
 /// \throws std::domain_error if a coordinate is NaN or infinite; std::invalid_argument if the

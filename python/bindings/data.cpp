@@ -1,11 +1,13 @@
 /// \file
-/// touchstone._data: datasets, by the readers of the command line tool.
+/// touchstone._data: datasets, by the readers and writers of the command line tool.
 
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
 #include <atomic>
+#include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <stdexcept>
@@ -16,7 +18,9 @@
 #include "python/bindings/arguments.hpp"
 #include "python/bindings/background.hpp"
 #include "python/bindings/exact_numbers.hpp"
+#include "verify/data/csv_dataset.hpp"
 #include "verify/data/dataset.hpp"
+#include "verify/data/npy.hpp"
 #include "verify/io/dataset_error.hpp"
 #include "verify/io/printable.hpp"
 
@@ -82,6 +86,42 @@ py::tuple read(const std::string& path, const std::optional<std::string>& kind, 
                         labels, times);
 }
 
+using Labels = py::array_t<bool, py::array::c_style>;
+
+/// A file that read() reads: .csv, with labels if there are any, or .npy.
+void write(const std::string& path, const std::string& kind, const Doubles& array,
+           const std::optional<Labels>& labels) {
+  const std::filesystem::path file(path);
+  const bool is_npy = file.extension() == ".npy";
+  if (!is_npy && file.extension() != ".csv") {
+    throw std::invalid_argument(path + ": the name must end in .csv or .npy");
+  }
+  const Queries queries = queries_of(kind_from(kind), array);
+  for (std::size_t i = 0; i < queries.size(); ++i) require_valid(queries, i);
+  if (labels && (labels->ndim() != 1 || std::size_t(labels->size()) != queries.size())) {
+    throw std::invalid_argument(path + ": there must be as many labels as queries");
+  }
+  const bool* const collides = labels ? labels->data() : nullptr;
+  std::atomic<bool> stop = false;
+  const auto write_with = [&](auto& writer, const auto& write_query) {
+    for (std::size_t i = 0; i < queries.size() && !stop; ++i) write_query(i);
+    if (!stop) writer.close();
+  };
+  const auto write_all = [&] {
+    if (is_npy) {
+      verify::data::NpyWriter writer(file, queries);
+      write_with(writer, [&](std::size_t i) { writer.write(queries.row(i)); });
+    } else {
+      verify::data::CsvWriter writer(file);
+      write_with(writer, [&](std::size_t i) {
+        writer.write({queries, i}, collides ? std::optional(collides[i]) : std::nullopt);
+      });
+    }
+    return true;
+  };
+  static_cast<void>(in_background(write_all, stop));
+}
+
 }  // namespace
 
 PYBIND11_MODULE(_data, m) {
@@ -94,6 +134,8 @@ PYBIND11_MODULE(_data, m) {
     }
   });
   m.def("read", read, arg("path"), arg("kind"), arg("round"));
+  m.def("write", write, arg("path"), arg("kind"), arg("queries").noconvert(),
+        arg("labels").noconvert());
   m.def(
       "kind_of",
       [](const std::string& path) { return name_of(verify::data::kind_from_path(path)); },

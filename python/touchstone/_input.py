@@ -231,8 +231,24 @@ def load(name: str) -> ModuleType:
         raise ImportError(
             f"{error}\ntouchstone: this needs the module {name}. A package that pip builds has the fast"
             " part alone: for all of it use ./run python in the sources. If the error above names a"
-            " library, install that: on Debian 12 libgmpxx4ldbl, libmpfr6, libtbb12, libfmt9, libzip4, libzstd1."
+            " library, install that: on Debian 12 libgmpxx4ldbl, libtbb12, libfmt9, libzip4, libzstd1."
         ) from error
+
+
+class Column(property):
+    """A field of the array of a `BatchResult`, as an attribute of the field's name."""
+
+    def __init__(self, doc: str) -> None:
+        super().__init__(lambda result: result._field(self._name))
+        self.__doc__ = doc  # that of a class derived from property would stand before its argument
+
+    def __set_name__(self, owner: type, name: str) -> None:
+        self._name = name
+
+
+def column(doc: str) -> Any:
+    """Return a `Column`, for a declaration that says the type of its values."""
+    return Column(doc)
 
 
 Result = TypeVar("Result", bound="BatchResult")

@@ -9,7 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _fast
-from ._input import BatchResult, Booleans, Doubles, Interrupted, Kind, Norm, as_queries, checked
+from ._input import BatchResult, Booleans, Doubles, Interrupted, Kind, Norm, as_queries, checked, column
 from ._tool import Progress
 
 _certified_type = np.dtype(_fast.certified_layout())
@@ -64,35 +64,12 @@ class Stage(IntEnum):
 class CertifiedResult(BatchResult):
     """Answers of the certified solver."""
 
-    @property
-    def collides(self) -> Booleans:
-        """The verdicts, always right."""
-        return self._field("collides")  # type: ignore[no-any-return]
-
-    @property
-    def toi_lower(self) -> Doubles:
-        """Below the time of impact, or both are 0; NaN without a collision."""
-        return self._field("toi_lower")  # type: ignore[no-any-return]
-
-    @property
-    def toi_upper(self) -> Doubles:
-        """Not below the time of impact; NaN without a collision."""
-        return self._field("toi_upper")  # type: ignore[no-any-return]
-
-    @property
-    def u(self) -> Doubles:
-        """The first parameter of the contact, without a bound; NaN without a collision."""
-        return self._field("u")  # type: ignore[no-any-return]
-
-    @property
-    def v(self) -> Doubles:
-        """The second parameter of the contact, without a bound; NaN without a collision."""
-        return self._field("v")  # type: ignore[no-any-return]
-
-    @property
-    def stage(self) -> npt.NDArray[np.uint8]:
-        """The number of the stage that decided: see `Stage`."""
-        return self._field("stage")  # type: ignore[no-any-return]
+    collides: Booleans = column("The verdicts, always right.")
+    toi_lower: Doubles = column("Below the time of impact, or both are 0; NaN without a collision.")
+    toi_upper: Doubles = column("Not below the time of impact; NaN without a collision.")
+    u: Doubles = column("The first parameter of the contact, without a bound; NaN without a collision.")
+    v: Doubles = column("The second parameter of the contact, without a bound; NaN without a collision.")
+    stage: npt.NDArray[np.uint8] = column("The number of the stage that decided: see `Stage`.")
 
 
 @checked
@@ -184,25 +161,10 @@ def certified(
 class TightInclusionResult(BatchResult):
     """Answers of Tight-Inclusion."""
 
-    @property
-    def collides(self) -> Booleans:
-        """False: certainly no contact. True: contact, or nearly so."""
-        return self._field("collides")  # type: ignore[no-any-return]
-
-    @property
-    def toi(self) -> Doubles:
-        """Not above the time of impact; NaN where `collides` is False."""
-        return self._field("toi")  # type: ignore[no-any-return]
-
-    @property
-    def tolerance(self) -> Doubles:
-        """The tolerance that was achieved; NaN where `collides` is False."""
-        return self._field("tolerance")  # type: ignore[no-any-return]
-
-    @property
-    def checks(self) -> npt.NDArray[np.int64]:
-        """The number of boxes examined."""
-        return self._field("checks")  # type: ignore[no-any-return]
+    collides: Booleans = column("False: certainly no contact. True: contact, or nearly so.")
+    toi: Doubles = column("Not above the time of impact; NaN where `collides` is False.")
+    tolerance: Doubles = column("The tolerance that was achieved; NaN where `collides` is False.")
+    checks: npt.NDArray[np.int64] = column("The number of boxes examined.")
 
 
 @checked
@@ -270,15 +232,8 @@ def tight_inclusion(
 class DistanceResult(BatchResult):
     """Distances, each enclosed by doubles that are equal or neighbours."""
 
-    @property
-    def lower(self) -> Doubles:
-        """Not above the distances."""
-        return self._field("lower")  # type: ignore[no-any-return]
-
-    @property
-    def upper(self) -> Doubles:
-        """Not below the distances."""
-        return self._field("upper")  # type: ignore[no-any-return]
+    lower: Doubles = column("Not above the distances.")
+    upper: Doubles = column("Not below the distances.")
 
 
 @checked

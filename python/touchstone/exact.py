@@ -11,7 +11,8 @@ from typing import Any, Literal, Sequence, Tuple, Union
 import numpy as np
 import numpy.typing as npt
 
-from ._input import BatchResult, Booleans, Doubles, Interrupted, Kind, Norm, as_doubles, as_queries, checked, load
+from ._input import BatchResult, Booleans, Doubles, Interrupted, Kind, Norm
+from ._input import as_doubles, as_queries, checked, column, load
 from ._tool import Progress
 from .batch import run_batch
 
@@ -103,28 +104,13 @@ def _time_from(parts: Any) -> Time:
 class Decisions(BatchResult):
     """Verdicts of the oracle."""
 
-    @property
-    def collides(self) -> Booleans:
-        """The verdicts."""
-        return self._field("collides")  # type: ignore[no-any-return]
-
-    @property
-    def toi_lower(self) -> Doubles:
-        """The greatest double that is not above the time of impact; NaN without a collision."""
-        return self._field("toi_lower")  # type: ignore[no-any-return]
-
-    @property
-    def toi_upper(self) -> Doubles:
-        """The least double that is not below the time of impact; NaN without a collision."""
-        return self._field("toi_upper")  # type: ignore[no-any-return]
-
-    @property
-    def toi(self) -> Any:
-        """The exact times of impact: a Fraction, an `AlgebraicNumber`, or None without a collision.
-
-        Of a batch an array of these objects.
-        """
-        return self._field("toi")
+    collides: Booleans = column("The verdicts.")
+    toi_lower: Doubles = column("The greatest double that is not above the time of impact; NaN without a collision.")
+    toi_upper: Doubles = column("The least double that is not below the time of impact; NaN without a collision.")
+    toi: Any = column(
+        "The exact times of impact: a Fraction, an `AlgebraicNumber`, or None without a collision; of a batch an"
+        " array of these objects."
+    )
 
 
 @checked
@@ -414,30 +400,11 @@ class Answers(BatchResult):
         """True for yes and for undecided: what is to be taken for a collision."""
         return np.isin(self.verdict, (Verdict.YES, Verdict.UNDECIDED))[()]
 
-    @property
-    def verdict(self) -> npt.NDArray[np.uint8]:
-        """The verdicts: see `Verdict`."""
-        return self._field("verdict")  # type: ignore[no-any-return]
-
-    @property
-    def toi_lower(self) -> Doubles:
-        """Claimed not to be above the time of impact; NaN where the method has none."""
-        return self._field("toi_lower")  # type: ignore[no-any-return]
-
-    @property
-    def toi_upper(self) -> Doubles:
-        """Claimed not to be below the time of impact; NaN where the method has none."""
-        return self._field("toi_upper")  # type: ignore[no-any-return]
-
-    @property
-    def tolerance(self) -> Doubles:
-        """The claimed bound of the distance beyond contact; NaN where the method has none."""
-        return self._field("tolerance")  # type: ignore[no-any-return]
-
-    @property
-    def checks(self) -> npt.NDArray[np.uint32]:
-        """The number of steps that the method counts."""
-        return self._field("checks")  # type: ignore[no-any-return]
+    verdict: npt.NDArray[np.uint8] = column("The verdicts: see `Verdict`.")
+    toi_lower: Doubles = column("Claimed not to be above the time of impact; NaN where the method has none.")
+    toi_upper: Doubles = column("Claimed not to be below the time of impact; NaN where the method has none.")
+    tolerance: Doubles = column("The claimed bound of the distance beyond contact; NaN where the method has none.")
+    checks: npt.NDArray[np.uint32] = column("The number of steps that the method counts.")
 
 
 @dataclass(frozen=True)

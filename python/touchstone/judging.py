@@ -129,32 +129,21 @@ def write(path: PathLike, queries: Queries) -> None:
     Raises
     ------
     ValueError
-        For another ending of the name, a coordinate that is not finite, or a path that says
-        another kind.
+        For another ending of the name, a number that is not finite, a weight that is not positive,
+        a number of labels that is not that of the queries, or a path that says another kind.
     ImportError
-        If this build does not have the reader, which knows the kinds of paths.
+        If this build does not have the writer.
     """
     module = load("_data")
     if _in_our_words(lambda: module.kind_of(os.fsencode(path))) != queries.kind:
         raise ValueError(f"{path}: the path says another kind than {queries.kind}")
-    _write(pathlib.Path(path), queries)
+    _write(path, queries)
 
 
-def _write(path: pathlib.Path, queries: Queries) -> None:
-    array, _ = as_queries(queries.queries)
-    if not np.isfinite(array).all():
-        raise ValueError(f"{path}: a coordinate is NaN or infinite")
-    if path.suffix == ".npy":
-        np.save(path, array)
-        return
-    if path.suffix != ".csv":
-        raise ValueError(f"{path}: the name must end in .csv or .npy")
-    with open(path, "w") as file:
-        for i, query in enumerate(array):
-            label = [] if queries.collides is None else [str(int(queries.collides[i]))]
-            for point in query:
-                ratios = [str(part) for x in point for part in float(x).as_integer_ratio()]
-                file.write(",".join(ratios + label) + "\n")
+def _write(path: PathLike, queries: Queries) -> None:
+    array, _ = as_queries(queries.queries, curves=True)
+    labels = None if queries.collides is None else np.ascontiguousarray(queries.collides, dtype=bool)
+    load("_data").write(os.fsencode(path), queries.kind, array, labels)
 
 
 def families() -> List[str]:
@@ -412,7 +401,8 @@ def certify(
         it. Or the name of one of `methods`. A callable runs in interpreters of its own: a crash, an
         exception or a hang costs one query.
     data : path, Queries or list of Queries, optional
-        The queries: a file or a folder of datasets, or arrays; by default the built-in set.
+        The queries: a file or a folder of datasets, or arrays; by default the built-in set. Those on
+        curves are asked of methods by name; a callable takes straight lines alone.
     batch : bool, optional
         True if the solver takes arrays of shape (N, 8, 3) and returns arrays of shape (N,). N grows from
         1 to 512 as the solver proves to be fast; after a failure its queries are asked with N=1.
@@ -501,7 +491,7 @@ class Finding:
         The fault, such as "false_negative".
     kind : {"vertex_face", "edge_edge"}
         The primitives.
-    query : ndarray of shape (8, 3)
+    query : ndarray of shape (8, 3), or (degree + 1, 4, 3 or 4) on curves
         The simplest query with this fault.
     collides : bool
         The truth.
@@ -522,10 +512,12 @@ class Finding:
 
 def _finding_from(data: Dict[str, Any]) -> Finding:
     certificate = data["certificate"]
+    is_straight = data["degree"] == 1 and not data["rational"]
+    shape = (8, 3) if is_straight else (data["degree"] + 1, 4, 4 if data["rational"] else 3)
     return Finding(
         data["what"],
         data["kind"].replace("-", "_"),
-        np.array([float.fromhex(text) for text in data["coordinates"]]).reshape(8, 3),
+        np.array(data["numbers"], dtype=float).reshape(shape),
         data["collides"],
         data["truth"],
         data["detail"],
@@ -574,6 +566,7 @@ def fuzz(
     queries: int = 0,
     findings: int = 20,
     kind: Kind | None = None,
+    degrees: Sequence[Union[int, str]] = (),
     only: Sequence[str] = (),
     batch: bool = False,
     name: str | None = None,
@@ -601,6 +594,9 @@ def fuzz(
         Groups of findings after which the search ends; 0: never.
     kind : {"vertex_face", "edge_edge"}, optional
         Only queries of this kind.
+    degrees : list of int or "rational", optional
+        The degrees of the curves that points move on, 1 (straight lines, the default) to 8, or
+        rational ones, for a method by name that answers them.
     only : list of str, optional
         Only these faults, such as "false_negative".
     seed : int, optional
@@ -635,6 +631,7 @@ def fuzz(
         command += ["--seconds", seconds] if seconds else []
         command += ["--queries", queries] if queries else []
         command += [] if kind is None else ["--kind", kind.replace("_", "-")]
+        command += [word for degree in degrees for word in ("--degree", degree)]
         command += [word for fault in only for word in ("--only", fault)]
         command += _solver_arguments(run, solver, name, promise, batch)
         command += _common_arguments(separation, norm, tolerance, max_checks, query_limit, memory_limit)
@@ -679,7 +676,7 @@ def view(
 
     Parameters
     ----------
-    query : array_like of shape (8, 3) or (N, 8, 3), Finding or Queries
+    query : array_like as for `certified`, Finding or Queries
         What to show; of many the first hundred.
     kind : {"vertex_face", "edge_edge"}, optional
         The primitives of an array.
@@ -701,11 +698,11 @@ def view(
         Without the command line tool.
     """
     if isinstance(query, Finding):
-        query = Queries(query.kind, query.query.reshape(1, 8, 3), None, query.what)
+        query = Queries(query.kind, query.query[np.newaxis], None, query.what)
     if not isinstance(query, Queries):
         if kind is None:
             raise ValueError("view: name the kind of an array: kind='vertex_face' or 'edge_edge'")
-        query = Queries(kind, as_queries(query)[0])
+        query = Queries(kind, as_queries(query, curves=True)[0])
     with Run() as run:
         page = run.folder / "page.html"
         command = ["view", *_write_data(run, query), "--out", page]

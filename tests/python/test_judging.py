@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import dataclasses
 import io
+import json
 import math
 import os
 import pathlib
@@ -218,6 +220,70 @@ def test_ctrl_c_ends_a_search_with_what_was_found(tmp_path):
     process.send_signal(signal.SIGINT)
     out, _ = process.communicate(timeout=120)
     assert out == "interrupt\n" and process.returncode == 0
+
+
+def curves(columns: int) -> touchstone.Queries:
+    """A vertex on a parabola that touches the triangle, and the same moved up, on polynomial or rational curves."""
+    start, middle = query_at(0)[:4], query_at(0)[4:]
+    touching = np.array([start, middle, start])
+    both = np.array([touching, touching + [[[0, 0, 2.0**-40]], [[0, 0, 0]], [[0, 0, 0]]]])
+    both[1, :, 0, 2] += 2.0**-10
+    weights = np.broadcast_to(np.array([1.0, 1, 2]).reshape(1, 3, 1, 1), (2, 3, 4, 1))
+    numbers = both if columns == 3 else np.concatenate([both, weights], axis=-1)
+    truth = touchstone.decide("vertex_face", numbers).collides
+    return touchstone.Queries("vertex_face", numbers, truth, "curves")
+
+
+@pytest.mark.parametrize("columns", [3, 4])
+@pytest.mark.parametrize("ending", ["csv", "npy"])
+def test_curves_survive_a_file_and_are_judged(columns, ending, tmp_path):
+    written = curves(columns)
+    assert written.collides is not None and not written.collides.all()
+    path = tmp_path / f"x_vf.{ending}"
+    touchstone.write(path, written)
+    again = touchstone.read(path)
+    assert again.queries.shape == written.queries.shape and again.queries.tobytes() == written.queries.tobytes()
+    assert again.collides is None if ending == "npy" else (again.collides == written.collides).all()
+    for data in (written, path, [written, curves(7 - columns)]):
+        judgement = touchstone.certify("certified", data, promise="exact")
+        assert judgement.wrong == [] and judgement.queries == 2 * (len(data) if isinstance(data, list) else 1)
+        assert judgement.method["queries"] == judgement.queries
+    assert touchstone.view(written).page.count("<script") > 0
+
+
+@pytest.mark.parametrize("degree, rational, shape", [(1, False, (8, 3)), (3, False, (4, 4, 3)), (1, True, (2, 4, 4))])
+def test_findings_have_the_shape_of_their_degree(degree, rational, shape):
+    from touchstone.judging import _finding_from
+
+    numbers = np.random.default_rng(degree).uniform(1, 2, size=shape)
+    finding = _finding_from({
+        "what": "late_toi", "kind": "edge-edge", "degree": degree, "rational": rational,
+        "numbers": json.loads(json.dumps(numbers.ravel().tolist())),
+        "collides": True, "truth": "at 0", "detail": "", "certificate": None,
+    })
+    assert finding.query.tobytes() == numbers.tobytes() and finding.query.shape == shape
+    assert touchstone.view(finding).page.count("<script") > 0
+
+
+def test_a_search_on_curves_is_for_methods_that_answer_them():
+    with pytest.raises(ValueError, match="answers no queries on straight lines"):
+        touchstone.fuzz("subdivision", queries=10)
+    report = touchstone.fuzz("certified", queries=100, degrees=[2, "rational"])
+    assert report.findings == [] and report.queries == 100
+
+
+@pytest.mark.parametrize("change, text", [
+    ({"queries": np.full((1, 8, 3), np.nan)}, "query 0: coordinate .* is NaN"),
+    ({"queries": np.zeros((1, 3, 4, 4))}, "weight .* is not positive"),
+    ({"collides": np.array([True])}, "as many labels as queries"),
+])
+def test_what_is_no_dataset_is_not_written(change, text, tmp_path):
+    path = tmp_path / "x_vf.csv"
+    with pytest.raises(ValueError, match=text):
+        touchstone.write(path, dataclasses.replace(curves(3), **change))
+    with pytest.raises(ValueError, match=r"must end in \.csv or \.npy"):
+        touchstone.write(tmp_path / "x_vf.txt", curves(3))
+    assert list(tmp_path.iterdir()) == []
 
 
 @pytest.mark.parametrize("kind", ["vertex_face", "edge_edge"])

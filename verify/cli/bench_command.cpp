@@ -292,8 +292,7 @@ void add(CLI::App& app, Status& status) {
     if (is_in_parts && arguments->sources.built_in_set()) {
       throw std::invalid_argument("bench: --shard and --resume need a PATH");
     }
-    status = run_in_pieces(*command, arguments->pieces, arguments->sources,
-                           {.files = {"--json"}, .refused = {}},
+    status = run_in_pieces(*command, arguments->pieces, arguments->sources, {.outputs = {"--json"}},
                            [&] { return BenchRun(*arguments).run(); });
   });
 }

@@ -91,6 +91,10 @@ class CertifyRun {
     report_answers();
     solvers_.report_output(arguments_.judged.show_output);
     // Files first, so that they are complete even if standard output is closed.
+    if (is_without_queries()) {
+      truth_.discard();
+      proof_.discard();
+    }
     truth_.close();
     proof_.close(sum_.proofs.certificates());
     if (json_) json_.write(io::json_document(report::to_json(results_)));
@@ -101,9 +105,12 @@ class CertifyRun {
   }
 
  private:
+  /// True if nothing could be read. Then there is no truth to write.
+  [[nodiscard]] bool is_without_queries() const { return sum_.queries == 0 && sum_.errors != 0; }
+
   void print_summary() const {
     // The errors are reported already.
-    if (sum_.queries == 0 && sum_.errors != 0) return;
+    if (is_without_queries()) return;
     std::FILE* const stream = files_.summary_stream();
     io::print(stream, report::to_text(results_));
     if (proof_) io::print(stream, fmt::format("\n{}", jobs::to_text(sum_.proofs)));
@@ -216,17 +223,11 @@ class CertifyRun {
   }
 
   [[nodiscard]] Status status() const {
-    const auto is_wrong = [](const jobs::MethodResult& method) {
-      return !judge::keeps(method.judgement, method.promise);
-    };
     const auto is_incomplete = [](const jobs::MethodResult& method) {
       return method.judgement.missing != 0;
     };
     if (files_.has_failed()) return Status::bad_input;
-    if (sum_.label_mismatches + sum_.toi_mismatches != 0 ||
-        std::ranges::any_of(sum_.methods, is_wrong)) {
-      return Status::wrong_answers;
-    }
+    if (jobs::has_wrong_answers(sum_)) return Status::wrong_answers;
     if (sum_.errors + sum_.skipped != 0 || !sum_.proofs.beyond_limits.empty() ||
         std::ranges::any_of(sum_.methods, is_incomplete)) {
       return Status::bad_input;
@@ -277,7 +278,7 @@ void add(CLI::App& app, Status& status) {
     settle_query_limit(*command, arguments->seconds, arguments->judged);
     status = run_in_pieces(
         *command, arguments->pieces, arguments->sources,
-        {.files = {"--json", "--truth", "--prove"}, .refused = {"--view", "--seconds"}},
+        {.outputs = {"--json", "--truth", "--prove"}, .refused = {"--view", "--seconds"}},
         [&] { return CertifyRun(*arguments).run(); });
   });
 }

@@ -35,7 +35,6 @@ namespace step_command { void add(CLI::App& app, Status& status); }
 namespace view_command { void add(CLI::App& app, Status& status); }
 namespace convert_command { void add(CLI::App& app, Status& status); }
 namespace merge_command { void add(CLI::App& app, Status& status); }
-namespace rigid_command { void add(CLI::App& app, Status& status); }
 namespace derive_command { void add(CLI::App& app, Status& status); }
 // clang-format on
 

@@ -37,7 +37,6 @@
 #include "verify/io/output_file.hpp"
 #include "verify/io/printable.hpp"
 #include "verify/io/terminal.hpp"
-#include "verify/jobs/pieces.hpp"
 #include "verify/judge/separation_inference.hpp"
 
 namespace touchstone::verify::cli::convert_command {
@@ -236,9 +235,7 @@ class ConvertRun {
                                          std::uint64_t count) const {
     nlohmann::json list = nlohmann::json::array();
     for (const fs::path& file : files) {
-      list.push_back({{"file", file.lexically_relative(arguments_.folder).string()},
-                      {"bytes", fs::file_size(file)},
-                      {"sha256", jobs::digest_of(file)}});
+      list.push_back(data::described(file, file.lexically_relative(arguments_.folder).string()));
     }
     return {{"files", list},
             {"queries", count},

@@ -70,6 +70,8 @@ class Output {
   void write(std::string_view text);
   /// Completes the file.
   void close();
+  /// Leaves the file of that name as it was; text that is written later is lost.
+  void discard() { file_.reset(); }
   /// Closes an incomplete file: it gets the ending ".incomplete", an existing file of the given
   /// name stays as it was, and a warning says so.
   void close_incomplete();

@@ -513,8 +513,8 @@ void add(CLI::App& app, Status& status) {
     settle_query_limit(*command, arguments->run_seconds(), arguments->solver);
     if (!arguments->pieces.folder.empty()) {
       status = run_pieces(*command, arguments->pieces,
-                          {.pieces = pieces_of_seeds(*arguments),
-                           .input = "--seed",
+                          {.input = "--seed",
+                           .pieces = pieces_of_seeds(*arguments),
                            .outputs = {"--json"},
                            .refused = {"--out", "--write", "--view"}});
       return;

@@ -9,10 +9,10 @@
 
 #include "verify/cli/solver_options.hpp"
 #include "verify/data/separation_file.hpp"
+#include "verify/generate/hardness.hpp"
 #include "verify/io/number_text.hpp"
 #include "verify/judge/fault.hpp"
 #include "verify/solvers/registry.hpp"
-#include "verify/stability/hardness.hpp"
 
 namespace touchstone::verify::cli {
 namespace {
@@ -26,7 +26,7 @@ std::vector<std::string> fault_names() {
 
 std::vector<std::string> hardness_names() {
   std::vector<std::string> names;
-  const auto all = stability::all_hardnesses();
+  const auto all = generate::all_hardnesses();
   names.reserve(all.size());
   for (const auto& hardness : all) names.emplace_back(hardness.name);
   return names;
@@ -42,7 +42,6 @@ std::vector<OptionRow> make_table() {
       {"PATH", "", {}, "Files (.csv, .csv.zst, .npy; .npz with an array queries; .obj with eight vertices a query) or folders", "convert", required},
       {"PATH", "", {}, "Datasets (.csv, .npy), also of queries on curves, or folders of them, findings (.json of fuzz), certificates (.cert, .cert.zst), or eight lines of vertices (.obj)", "view", list},
       {"PATH", "", {}, "Dataset files (.csv, .npy) or folders; default: the built-in set", "", list},
-      {"QUERIES", "", {}, "Files of JSON as rigid-ipc writes them, and folders of such files", "rigid", required},
       {"--kind", "KIND", kinds, "Only vertex-face or edge-edge queries", "fuzz"},
       {"--kind", "KIND", kinds, "vertex-face or edge-edge, if the input does not tell", "view"},
       {"--kind", "KIND", kinds, "vertex-face or edge-edge, if the path does not tell"},
@@ -50,7 +49,6 @@ std::vector<OptionRow> make_table() {
       {"--round", "", {}, "Round coordinates of datasets that are not doubles", "view"},
       {"--round", "", {}, "Round coordinates that are not doubles, and count them"},
       {"--keep-going", "", {}, "Skip invalid queries and files (exit status 2)", "convert"},
-      {"--keep-going", "", {}, "Report and skip invalid files (exit status 2)", "rigid"},
       {"--keep-going", "", {}, "Skip and count invalid queries and files (exit status 2)"},
       {"--threads", "N", Whole{0, INT_MAX}, "Cores to use (0: all)"},
       {"--seed", "N", Whole{}, "Seed of the queries", "stability"},

@@ -75,7 +75,11 @@ class ProveRun {
                        const Progress& progress) { prove_source(source, progress); },
          .fail = [this](const fs::path&, const io::DatasetError& error) { fail(error.what()); },
          .stopped = [this] { return stopped(); }});
-    out_.close(sum_.proofs.certificates());
+    if (is_without_queries()) {
+      out_.discard();
+    } else {
+      out_.close(sum_.proofs.certificates());
+    }
     if (json_) json_.write(io::json_document(summary()));
     json_.close();
     report_beyond_limits(sum_.proofs);
@@ -132,8 +136,13 @@ class ProveRun {
     return result;
   }
 
+  /// True if nothing could be read. Then there is nothing to write.
+  [[nodiscard]] bool is_without_queries() const {
+    return sum_.proofs.certificates() == 0 && reading_errors_ != 0;
+  }
+
   void print_summary() const {
-    if (sum_.proofs.certificates() == 0 && reading_errors_ != 0) return;
+    if (is_without_queries()) return;
     std::FILE* const stream = files_.summary_stream();
     if (const auto separation = judge::common_separation(separations_)) {
       io::print(stream, fmt::format("minimum separation {}\n", judge::to_text(*separation)));
@@ -182,7 +191,7 @@ void add(CLI::App& app, Status& status) {
                std::string(writing_statuses));
   command->callback([arguments, command, &status] {
     status = run_in_pieces(*command, arguments->pieces, arguments->sources,
-                           {.files = {"--json", "--prove"}, .refused = {}},
+                           {.outputs = {"--json", "--prove"}},
                            [&] { return ProveRun(*arguments).run(); });
   });
 }

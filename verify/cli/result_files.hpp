@@ -48,6 +48,11 @@ class CertificatesFile {
   /// Closes a stream that lacks certificates: without its closing line, so that the checker takes
   /// it for cut, and in a file of another name (Output::close_incomplete).
   void close_incomplete();
+  /// Leaves the file of that name as it was.
+  void discard() {
+    output_.discard();
+    bytes_ = 0;
+  }
 
  private:
   void put(std::string_view bytes);

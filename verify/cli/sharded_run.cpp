@@ -76,7 +76,7 @@ Shard shard_of_environment() {
 std::string program() {
   std::string text(version());
   if (!text.ends_with(')') || text.ends_with("-dirty)")) {
-    text += ", SHA-256 " + jobs::digest_of("/proc/self/exe");
+    text += ", SHA-256 " + data::digest_of("/proc/self/exe");
   }
   return text;
 }
@@ -108,7 +108,7 @@ void set_options(const CLI::App& command, const PieceRun& run, jobs::Plan& plan)
       const bool is_flag = option->get_expected_min() == 0;
       plan.options.push_back(is_flag && value == "true" ? name : fmt::format("{}={}", name, value));
       for (const fs::path& file : files_below(value)) {
-        plan.uses[file.string()] = jobs::digest_of(file);
+        plan.uses[file.string()] = data::digest_of(file);
       }
     }
   }
@@ -157,9 +157,14 @@ std::string number_text(const nlohmann::json& json, const char* key) {
   return json.contains(key) ? json.at(key).dump() : "0";
 }
 
-/// The main counts, a line for each method.
+/// The main counts: of certificates, or of queries with a line for each method.
 std::string summary_text(const nlohmann::json& total) {
   if (total.contains("pieces")) return {};
+  if (total.contains("certificates")) {
+    return fmt::format("{} certificates: {} no collision, {} collision, {} time of impact\n",
+                       number_text(total, "certificates"), number_text(total, "no_collision"),
+                       number_text(total, "collision"), number_text(total, "time_of_impact"));
+  }
   std::string text = fmt::format("{} queries", number_text(total, "queries"));
   if (total.contains("collisions")) {
     text += fmt::format(", {} collisions", number_text(total, "collisions"));
@@ -232,27 +237,7 @@ Status write_merged(const jobs::PieceFolder& folder, const std::string& json_fil
   return files.has_failed() ? Status::bad_input : status;
 }
 
-}  // namespace
-
-void add_piece_options(CLI::App& command, PieceArguments& arguments) {
-  add_option(command, shard_option, arguments.shard);
-  add_option(command, resume_option, arguments.folder);
-}
-
-Shard shard_of(const PieceArguments& arguments) {
-  if (arguments.shard.empty()) return {};
-  if (arguments.shard == "auto") return shard_of_environment();
-  const std::string_view text = arguments.shard;
-  const std::size_t slash = std::min(text.find('/'), text.size());
-  const auto index = io::number_from_text<std::size_t>(text.substr(0, slash));
-  const auto count =
-      io::number_from_text<std::size_t>(text.substr(std::min(slash + 1, text.size())));
-  if (!index || !count) {
-    throw std::invalid_argument("--shard: '" + arguments.shard + "' is not I/N, as 0/4 or 3/4");
-  }
-  return checked(*index, *count);
-}
-
+/// The pieces of the command line's queries: the sources that for_each_source passes on.
 std::vector<jobs::Piece> pieces_of(const SourceArguments& sources) {
   std::vector<jobs::Piece> pieces;
   if (sources.built_in_set()) {
@@ -285,6 +270,27 @@ std::vector<jobs::Piece> pieces_of(const SourceArguments& sources) {
     }
   }
   return pieces;
+}
+
+}  // namespace
+
+void add_piece_options(CLI::App& command, PieceArguments& arguments) {
+  add_option(command, shard_option, arguments.shard);
+  add_option(command, resume_option, arguments.folder);
+}
+
+Shard shard_of(const PieceArguments& arguments) {
+  if (arguments.shard.empty()) return {};
+  if (arguments.shard == "auto") return shard_of_environment();
+  const std::string_view text = arguments.shard;
+  const std::size_t slash = std::min(text.find('/'), text.size());
+  const auto index = io::number_from_text<std::size_t>(text.substr(0, slash));
+  const auto count =
+      io::number_from_text<std::size_t>(text.substr(std::min(slash + 1, text.size())));
+  if (!index || !count) {
+    throw std::invalid_argument("--shard: '" + arguments.shard + "' is not I/N, as 0/4 or 3/4");
+  }
+  return checked(*index, *count);
 }
 
 Status run_pieces(const CLI::App& command, const PieceArguments& arguments, const PieceRun& run) {
@@ -320,17 +326,15 @@ Status run_pieces(const CLI::App& command, const PieceArguments& arguments, cons
 }
 
 Status run_in_pieces(const CLI::App& command, const PieceArguments& arguments,
-                     SourceArguments& sources, const PieceOutputs& outputs,
+                     SourceArguments& sources, PieceRun in_pieces,
                      const std::function<Status()>& run) {
   if (!arguments.folder.empty()) {
-    return run_pieces(command, arguments,
-                      {.pieces = pieces_of(sources),
-                       .input = "PATH",
-                       .outputs = outputs.files,
-                       .refused = outputs.refused});
+    in_pieces.pieces = pieces_of(sources);
+    return run_pieces(command, arguments, in_pieces);
   }
   sources.shard = shard_of(arguments);
   if (sources.shard.count == 1 || sources.built_in_set()) return run();
+  // The files of all paths are counted together: some commands open one path after the other.
   const std::vector<jobs::Piece> pieces = pieces_of(sources);
   sources.paths.clear();
   for (std::size_t i = 0; i < pieces.size(); ++i) {

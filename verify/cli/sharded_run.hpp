@@ -31,18 +31,15 @@ void add_piece_options(CLI::App& command, PieceArguments& arguments);
 /// \throws std::invalid_argument if it is none.
 [[nodiscard]] Shard shard_of(const PieceArguments& arguments);
 
-/// The pieces of the command line's queries: the sources that for_each_source passes on.
-[[nodiscard]] std::vector<jobs::Piece> pieces_of(const SourceArguments& sources);
-
 /// The run of a command in pieces.
 struct PieceRun {
-  std::vector<jobs::Piece> pieces;
-  /// The positional argument that pieces stand for.
-  std::string input;
+  /// The argument that pieces stand for.
+  std::string input = "PATH";
+  std::vector<jobs::Piece> pieces = {};
   /// Options that name output files.
-  std::vector<std::string> outputs;
+  std::vector<std::string> outputs = {};
   /// Options that name other outputs, which pieces do not have.
-  std::vector<std::string> refused;
+  std::vector<std::string> refused = {};
 };
 
 /// Runs the unfinished pieces of the shard, in a process each, and merges the results if all are
@@ -50,15 +47,10 @@ struct PieceRun {
 [[nodiscard]] Status run_pieces(const CLI::App& command, const PieceArguments& arguments,
                                 const PieceRun& run);
 
-/// The outputs of a command whose pieces are sources of queries.
-struct PieceOutputs {
-  std::vector<std::string> files;
-  std::vector<std::string> refused;
-};
-
-/// Runs the command on the sources of its shard; with a folder in pieces.
+/// Runs the command on the sources of its shard; with a folder in pieces, which are the sources.
+/// \param in_pieces without pieces
 [[nodiscard]] Status run_in_pieces(const CLI::App& command, const PieceArguments& arguments,
-                                   SourceArguments& sources, const PieceOutputs& outputs,
+                                   SourceArguments& sources, PieceRun in_pieces,
                                    const std::function<Status()>& run);
 
 /// Writes the results of all pieces as one, to the files that the run's command line named; a

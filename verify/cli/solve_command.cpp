@@ -96,7 +96,11 @@ class SolveRun {
                        const Progress& progress) { solve_source(source, progress); },
          .fail = [this](const fs::path&, const io::DatasetError& error) { fail(error.what()); },
          .stopped = [this] { return stopped(); }});
-    out_.close();
+    if (is_without_queries()) {
+      out_.discard();
+    } else {
+      out_.close();
+    }
     if (json_) json_.write(io::json_document(summary()));
     json_.close();
     report_unplaced_crashes(solver_.name(), asked_.unplaced_crashes);
@@ -110,8 +114,13 @@ class SolveRun {
     return asked_.missing + asked_.outside + asked_.left_out;
   }
 
+  /// True if nothing could be read. Then there is nothing to write.
+  [[nodiscard]] bool is_without_queries() const {
+    return asked_.queries == 0 && reading_errors_ != 0;
+  }
+
   void print_summary() const {
-    if (asked_.queries == 0 && reading_errors_ != 0) return;
+    if (is_without_queries()) return;
     std::FILE* const stream = files_.summary_stream();
     if (const auto separation = the_separation()) {
       io::print(stream, fmt::format("minimum separation {}\n", judge::to_text(*separation)));
@@ -233,9 +242,9 @@ void add(CLI::App& app, Status& status) {
       "or usage, or it answers nothing, 130 interrupted (results so far are written).");
   command->callback([arguments, command, &status] {
     settle_solver_options(*command, arguments->sources.built_in_set(), arguments->solver);
-    status = run_in_pieces(*command, arguments->pieces, arguments->sources,
-                           {.files = {"--json", "--out"}, .refused = {}},
-                           [&] { return SolveRun(*arguments).run(); });
+    status =
+        run_in_pieces(*command, arguments->pieces, arguments->sources,
+                      {.outputs = {"--json", "--out"}}, [&] { return SolveRun(*arguments).run(); });
   });
 }
 

@@ -16,13 +16,12 @@
 #include "verify/cli/option_table.hpp"
 #include "verify/cli/options.hpp"
 #include "verify/cli/solver_options.hpp"
+#include "verify/generate/hardness.hpp"
 #include "verify/io/json.hpp"
 #include "verify/io/terminal.hpp"
 #include "verify/report/report_page.hpp"
-#include "verify/report/stability_report.hpp"
+#include "verify/report/stability.hpp"
 #include "verify/solvers/registry.hpp"
-#include "verify/stability/hardness.hpp"
-#include "verify/stability/stability.hpp"
 
 namespace touchstone::verify::cli::stability_command {
 namespace {
@@ -32,7 +31,7 @@ struct Arguments {
   SeparationArguments separation;
   std::vector<std::string> hardnesses;
   std::uint64_t seed = default_seed;
-  std::uint64_t count = stability::StabilityOptions{}.count;
+  std::uint64_t count = report::StabilityOptions{}.count;
   unsigned threads = 0;
   double seconds = 0.0;
   std::string json_file;
@@ -41,14 +40,14 @@ struct Arguments {
 
 /// The named kinds of difficulty, in their usual order; by default those on straight lines or, for
 /// solvers that answer none of these, on curves.
-std::vector<const stability::Hardness*> chosen(const std::vector<std::string>& names,
-                                               const Solvers& solvers) {
-  for (const std::string& name : names) static_cast<void>(stability::hardness_from_name(name));
+std::vector<const generate::Hardness*> chosen(const std::vector<std::string>& names,
+                                              const Solvers& solvers) {
+  for (const std::string& name : names) static_cast<void>(generate::hardness_from_name(name));
   const bool is_straight = std::ranges::any_of(
       solvers.all(), [](const solvers::Solver* solver) { return solver->terms().straight; });
-  const auto usual = is_straight ? stability::hardnesses() : stability::curve_hardnesses();
-  std::vector<const stability::Hardness*> result;
-  for (const stability::Hardness& hardness : names.empty() ? usual : stability::all_hardnesses()) {
+  const auto usual = is_straight ? generate::hardnesses() : generate::curve_hardnesses();
+  std::vector<const generate::Hardness*> result;
+  for (const generate::Hardness& hardness : names.empty() ? usual : generate::all_hardnesses()) {
     const bool is_named = std::ranges::find(names, hardness.name) != names.end();
     if (names.empty() || is_named) result.push_back(&hardness);
   }
@@ -65,25 +64,25 @@ SolverArguments judged_by(const Arguments& arguments) {
   return judged;
 }
 
-stability::StabilityResult measure(const Arguments& arguments, const Solvers& solvers) {
+report::StabilityResult measure(const Arguments& arguments, const Solvers& solvers) {
   io::ProgressBar bar("stability");
-  return stability::measure_stability(
-      chosen(arguments.hardnesses, solvers),
-      {.separation = arguments.separation.given(),
-       .seed = arguments.seed,
-       .count = arguments.count,
-       .threads = arguments.threads,
-       .solvers = solvers.all(),
-       .on_progress = [&bar](double fraction) { bar.update(fraction); },
-       .stop = &io::interrupted(),
-       .seconds = arguments.seconds});
+  report::StabilityOptions options{.hardnesses = chosen(arguments.hardnesses, solvers),
+                                   .seed = arguments.seed,
+                                   .count = arguments.count,
+                                   .seconds = arguments.seconds};
+  options.certify.separation = arguments.separation.given();
+  options.certify.threads = arguments.threads;
+  options.certify.solvers = solvers.all();
+  options.certify.on_progress = [&bar](double fraction) { bar.update(fraction); };
+  options.certify.stop = &io::interrupted();
+  return report::measure_stability(options);
 }
 
 Status run(const Arguments& arguments) {
   Files files;
   const Solvers solvers(files, judged_by(arguments));
   Output json(files, arguments.json_file), picture(files, arguments.picture_file);
-  const stability::StabilityResult result = measure(arguments, solvers);
+  const report::StabilityResult result = measure(arguments, solvers);
   for (const jobs::MethodResult& method : result.total.methods) {
     report_unplaced_crashes(method.name, method.judgement.unplaced_crashes);
   }
@@ -95,7 +94,7 @@ Status run(const Arguments& arguments) {
   picture.close();
   io::print(files.summary_stream(), report::to_text(result));
   if (files.has_failed()) return Status::bad_input;
-  if (stability::has_wrong_answers(result)) return Status::wrong_answers;
+  if (jobs::has_wrong_answers(result.total)) return Status::wrong_answers;
   if (io::interrupted()) return Status::interrupted;
   Status status = Status::all_well;
   for (const jobs::MethodResult& method : result.total.methods) {
@@ -127,10 +126,10 @@ void add(CLI::App& app, Status& status) {
       app.add_subcommand("stability", "Judge solvers on queries of growing difficulty");
   add_options(*command, *arguments);
   std::string list;
-  for (const stability::Hardness& hardness : stability::all_hardnesses()) {
+  for (const generate::Hardness& hardness : generate::all_hardnesses()) {
     list += fmt::format("{}{} ({}, {} to {})", list.empty() ? "" : "; ", hardness.name,
-                        hardness.measure, stability::level_text(hardness, hardness.levels.front()),
-                        stability::level_text(hardness, hardness.levels.back()));
+                        hardness.measure, generate::level_text(hardness, hardness.levels.front()),
+                        generate::level_text(hardness, hardness.levels.back()));
   }
   set_help(
       *command, "touchstone stability --method tight_inclusion --picture stability.html",

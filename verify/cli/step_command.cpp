@@ -268,8 +268,8 @@ void add(CLI::App& app, Status& status) {
       return;
     }
     status = run_pieces(*command, arguments->pieces,
-                        {.pieces = pieces_of_frames(*arguments),
-                         .input = "frames",
+                        {.input = "frames",
+                         .pieces = pieces_of_frames(*arguments),
                          .outputs = {"--json", "--csv", "--prove"},
                          .refused = {"--view"}});
   });

@@ -78,7 +78,7 @@ Separation read_separation(const fs::path& path) {
     if (!distance) throw io::DatasetError(path, {}, "min_separation must be a finite number ≥ 0");
     return {.distance = *distance, .norm = norm_from_string(json.at(norm_key).get<std::string>())};
   } catch (const nlohmann::json::exception& error) {
-    throw io::DatasetError(path, {}, std::string("not a separation: ") + error.what());
+    throw io::DatasetError(path, {}, "not a separation: " + io::reason_of(error));
   } catch (const std::invalid_argument& error) {
     throw io::DatasetError(path, {}, error.what());
   }

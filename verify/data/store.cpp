@@ -2,12 +2,15 @@
 
 #include <fmt/format.h>
 
+#include <cstddef>
 #include <cstdint>
 #include <nlohmann/json.hpp>
 #include <system_error>
 
 #include "verify/io/dataset_error.hpp"
+#include "verify/io/input_file.hpp"
 #include "verify/io/json.hpp"
+#include "verify/io/sha256.hpp"
 
 namespace touchstone::verify::data {
 namespace {
@@ -28,6 +31,18 @@ void check_size(const fs::path& file, std::uint64_t expected) {
 
 }  // namespace
 
+std::string digest_of(const fs::path& file) {
+  io::InputFile input(file);
+  io::Sha256 digest;
+  std::string chunk(std::size_t{1} << 16U, '\0');
+  while (const std::size_t count = input.read(chunk)) digest.add({chunk.data(), count});
+  return digest.hexadecimal();
+}
+
+json described(const fs::path& file, const std::string& name) {
+  return {{"file", name}, {"bytes", fs::file_size(file)}, {"sha256", digest_of(file)}};
+}
+
 std::map<fs::path, std::string> store_digests(const fs::path& folder,
                                               std::span<const fs::path> datasets) {
   const fs::path manifest = folder / manifest_name;
@@ -44,8 +59,7 @@ std::map<fs::path, std::string> store_digests(const fs::path& folder,
       }
     }
   } catch (const json::exception& error) {
-    throw io::DatasetError(manifest, {},
-                           std::string("not the manifest of a store: ") + error.what());
+    throw io::DatasetError(manifest, {}, "not the manifest of a store: " + io::reason_of(error));
   }
   for (const fs::path& dataset : datasets) {
     if (digests.contains(dataset.lexically_normal())) continue;

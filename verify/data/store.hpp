@@ -6,6 +6,7 @@
 
 #include <filesystem>
 #include <map>
+#include <nlohmann/json_fwd.hpp>
 #include <span>
 #include <string>
 
@@ -13,6 +14,13 @@ namespace touchstone::verify::data {
 
 inline constexpr const char* store_format = "touchstone store 1";
 inline constexpr const char* manifest_name = "manifest.json";
+
+/// The SHA-256 of a file. \throws DatasetError if it cannot be read.
+[[nodiscard]] std::string digest_of(const std::filesystem::path& file);
+
+/// A file as manifests and records of runs have it: `file` (the given name), `bytes`, `sha256`.
+/// \throws as digest_of.
+[[nodiscard]] nlohmann::json described(const std::filesystem::path& file, const std::string& name);
 
 /// The SHA-256 digests of all files of a store, by their normal paths; none if the folder is no
 /// store.

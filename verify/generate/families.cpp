@@ -111,24 +111,15 @@ KnownQuery build(const Definition& definition, Kind kind, std::uint64_t seed, st
   }
 }
 
-/// Draws the queries of a family from its first one on.
-using Draw = std::function<data::RecordedQuery(std::uint64_t index)>;
-
-/// The stream of queries of open_family.
-class FamilySource final : public data::QuerySource {
+class DrawnSource final : public data::QuerySource {
  public:
-  /// \param separation of its truth
-  FamilySource(const Family& family, Kind kind, std::uint64_t count, const Separation& separation,
-               Draw draw)
-      : name_(family.name),
-        shape_{kind, family.degree, family.is_rational},
-        count_(count),
-        separation_(separation),
-        draw_(std::move(draw)) {}
+  DrawnSource(DrawnSet set, std::uint64_t count,
+              std::function<data::RecordedQuery(std::uint64_t)> draw)
+      : set_(std::move(set)), count_(count), draw_(std::move(draw)) {}
 
-  [[nodiscard]] const std::string& name() const override { return name_; }
-  [[nodiscard]] QueryShape shape() const override { return shape_; }
-  [[nodiscard]] Separation recorded_separation() const override { return separation_; }
+  [[nodiscard]] const std::string& name() const override { return set_.name; }
+  [[nodiscard]] QueryShape shape() const override { return set_.shape; }
+  [[nodiscard]] Separation recorded_separation() const override { return set_.separation; }
 
   [[nodiscard]] std::optional<data::RecordedQuery> next() override {
     if (index_ == count_) return std::nullopt;
@@ -140,13 +131,15 @@ class FamilySource final : public data::QuerySource {
   }
 
  private:
-  std::string name_;
-  QueryShape shape_;
+  DrawnSet set_;
   std::uint64_t count_;
-  Separation separation_;
-  Draw draw_;
+  std::function<data::RecordedQuery(std::uint64_t)> draw_;
   std::uint64_t index_ = 0;
 };
+
+DrawnSet set_of(const Family& family, Kind kind, const Separation& separation) {
+  return {std::string(family.name), {kind, family.degree, family.is_rational}, separation};
+}
 
 }  // namespace
 
@@ -212,8 +205,8 @@ KnownQuery make_query(const Family& family, Kind kind, std::uint64_t seed, std::
 std::unique_ptr<data::QuerySource> open_family(const Family& family, Kind kind, std::uint64_t seed,
                                                std::uint64_t count, const Separation& separation) {
   if (const Family* const curved = find_curved(family.name)) {
-    return std::make_unique<FamilySource>(*curved, kind, count, fast::no_separation,
-                                          curved_draws(*curved, kind, seed));
+    return open_drawn(set_of(*curved, kind, fast::no_separation), count,
+                      curved_draws(*curved, kind, seed));
   }
   const Definition& definition = find_definition(family, kind, separation);
   const Separation about = is_about_separation(definition) ? separation : fast::no_separation;
@@ -221,7 +214,12 @@ std::unique_ptr<data::QuerySource> open_family(const Family& family, Kind kind, 
     KnownQuery known = build(definition, kind, seed, index, about);
     return data::RecordedQuery{{kind, known.query}, index, known.collides, std::move(known.toi)};
   };
-  return std::make_unique<FamilySource>(definition.family, kind, count, about, draw);
+  return open_drawn(set_of(definition.family, kind, about), count, draw);
+}
+
+std::unique_ptr<data::QuerySource> open_drawn(
+    DrawnSet set, std::uint64_t count, std::function<data::RecordedQuery(std::uint64_t)> draw) {
+  return std::make_unique<DrawnSource>(std::move(set), count, std::move(draw));
 }
 
 }  // namespace touchstone::verify::generate

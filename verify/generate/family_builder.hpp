@@ -6,12 +6,16 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
+#include <memory>
 #include <optional>
 #include <span>
+#include <string>
 
 #include "fast/method.hpp"
 #include "touchstone/number.hpp"
 #include "touchstone/query.hpp"
+#include "verify/data/query_source.hpp"
 #include "verify/generate/families.hpp"
 #include "verify/generate/random_stream.hpp"
 
@@ -64,6 +68,19 @@ struct Definition {
 
 /// Every definition that does not build on another: all lists but the scaled ones.
 [[nodiscard]] std::span<const Definition> base_definitions();
+
+/// What is common to the queries of a family.
+struct DrawnSet {
+  std::string name;
+  QueryShape shape;
+  Separation separation = fast::no_separation;  ///< of their truth
+};
+
+/// The queries 0 to count−1 of a family as a stream.
+/// \param draw called with 0, 1, 2, … in order
+[[nodiscard]] std::unique_ptr<data::QuerySource> open_drawn(
+    DrawnSet set, std::uint64_t count,
+    std::function<data::RecordedQuery(std::uint64_t index)> draw);
 
 /// (u,v) of a contact.
 using Contact = std::array<exact::Rational, 2>;

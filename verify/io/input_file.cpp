@@ -29,24 +29,19 @@ std::string last_system_error() { return std::generic_category().message(errno);
 
 InputFile::InputFile(std::filesystem::path path)
     : path_(std::move(path)), descriptor_(::open(path_.c_str(), O_RDONLY | O_CLOEXEC)) {
-  if (descriptor_ < 0) throw DatasetError(path_, {}, "cannot open: " + last_system_error());
   struct stat status {};
-  const bool known = ::fstat(descriptor_, &status) == 0;
-  if (!known || S_ISDIR(status.st_mode)) {
-    const std::string reason = known ? "is a folder" : "cannot open: " + last_system_error();
-    ::close(descriptor_);
-    throw DatasetError(path_, {}, reason);
+  if (descriptor_.get() < 0 || ::fstat(descriptor_.get(), &status) != 0) {
+    throw DatasetError(path_, {}, "cannot open: " + last_system_error());
   }
+  if (S_ISDIR(status.st_mode)) throw DatasetError(path_, {}, "is a folder");
   size_ = static_cast<std::uint64_t>(std::max<off_t>(status.st_size, 0));
 }
-
-InputFile::~InputFile() { ::close(descriptor_); }
 
 std::size_t InputFile::read(std::span<char> buffer) {
   if (failed_) return 0;
   for (;;) {
-    wait_for_input(descriptor_);
-    const ssize_t count = ::read(descriptor_, buffer.data(), buffer.size());
+    wait_for_input(descriptor_.get());
+    const ssize_t count = ::read(descriptor_.get(), buffer.data(), buffer.size());
     if (count >= 0) {
       consumed_ += static_cast<std::uint64_t>(count);
       return static_cast<std::size_t>(count);

@@ -16,19 +16,15 @@
 #include <string_view>
 
 #include "verify/io/compressor.hpp"
+#include "verify/io/descriptor.hpp"
 
 namespace touchstone::verify::io {
 
-/// A file open for reading. Owns its descriptor.
+/// A file open for reading.
 class InputFile {
  public:
   /// \throws DatasetError if the file cannot be opened or is a folder.
   explicit InputFile(std::filesystem::path path);
-  InputFile(const InputFile&) = delete;
-  InputFile& operator=(const InputFile&) = delete;
-  InputFile(InputFile&&) = delete;
-  InputFile& operator=(InputFile&&) = delete;
-  ~InputFile();
 
   /// Reads at least one byte into the buffer, or none at the end of the file. Returns how many.
   /// \throws DatasetError if the system reports an error; the file is then treated as ended, so
@@ -48,7 +44,7 @@ class InputFile {
 
  private:
   std::filesystem::path path_;
-  int descriptor_;
+  Descriptor descriptor_;
   std::uint64_t size_ = 0;
   std::uint64_t consumed_ = 0;
   bool failed_ = false;

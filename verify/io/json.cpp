@@ -46,14 +46,20 @@ nlohmann::json read_json(const std::filesystem::path& path, std::size_t most_byt
   try {
     return nlohmann::json::parse(without_byte_order_mark(read_file(path, most_bytes), path), check);
   } catch (const nlohmann::json::parse_error& error) {
-    throw DatasetError(path, {}, std::string("no JSON: ") + error.what());
+    throw DatasetError(path, {}, "no JSON: " + reason_of(error));
   } catch (const nlohmann::json::out_of_range& error) {
-    throw DatasetError(path, {}, std::string("a number beyond the range: ") + error.what());
+    throw DatasetError(path, {}, "a number beyond the range: " + reason_of(error));
   }
 }
 
 nlohmann::json text_or_null(std::string_view text) {
   return text.empty() ? nlohmann::json() : nlohmann::json(text);
+}
+
+std::string reason_of(const std::exception& error) {
+  const std::string_view text = error.what();
+  if (!text.starts_with("[json.exception")) return std::string(text);
+  return std::string(text.substr(text.find("] ") + 2));
 }
 
 std::string json_document(const nlohmann::json& json) {

@@ -4,6 +4,7 @@
 /// JSON as all commands read and write it, and what JSON has no numbers or texts for.
 
 #include <cstddef>
+#include <exception>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -33,6 +34,10 @@ inline constexpr int deepest_json = 100;
 /// number beyond the range or a key twice in one object; whatever `accept` throws.
 [[nodiscard]] nlohmann::json read_json(const std::filesystem::path& path, std::size_t most_bytes,
                                        const nlohmann::json::parser_callback_t& accept = nullptr);
+
+/// The reason that an exception of JSON gives, without the library's name and number of it: "key
+/// 'format' not found". The text of any other exception is as it is.
+[[nodiscard]] std::string reason_of(const std::exception& error);
 
 /// JSON as it is written to a file: in ASCII, so that no name in it acts on a terminal. What is no
 /// UTF-8 becomes U+FFFD.

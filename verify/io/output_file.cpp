@@ -63,23 +63,23 @@ bool is_partial(const fs::path& path) {
 OutputFile::OutputFile(fs::path path) : path_(std::move(path)) {
   if (is_special(path_)) {
     // Never truncates: standard output may be a file that others have written to.
-    descriptor_ = ::open(path_.c_str(), O_WRONLY | O_APPEND | O_NOCTTY | O_CLOEXEC);
+    descriptor_ = Descriptor(::open(path_.c_str(), O_WRONLY | O_APPEND | O_NOCTTY | O_CLOEXEC));
   } else {
     open_temporary();
   }
-  if (descriptor_ < 0) fail();
+  if (descriptor_.get() < 0) fail();
   buffer_.reserve(output_buffer_size);
 }
 
 void OutputFile::open_temporary() {
   path_ = behind_links(path_);
   temporary_ = partial_name(path_);
-  descriptor_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-  if (descriptor_ < 0) temporary_.clear();
+  descriptor_ =
+      Descriptor(::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666));
+  if (descriptor_.get() < 0) temporary_.clear();
 }
 
 OutputFile::~OutputFile() {
-  if (descriptor_ >= 0) ::close(descriptor_);
   if (!temporary_.empty()) ::unlink(temporary_.c_str());
 }
 
@@ -92,7 +92,7 @@ void OutputFile::overwrite(std::uint64_t offset, std::string_view bytes) {
   flush();
   while (!bytes.empty()) {
     const ssize_t count =
-        ::pwrite(descriptor_, bytes.data(), bytes.size(), static_cast<off_t>(offset));
+        ::pwrite(descriptor_.get(), bytes.data(), bytes.size(), static_cast<off_t>(offset));
     if (count < 0 && errno == EINTR) continue;
     if (count < 0) fail();
     bytes.remove_prefix(static_cast<std::size_t>(count));
@@ -103,7 +103,7 @@ void OutputFile::overwrite(std::uint64_t offset, std::string_view bytes) {
 void OutputFile::close_as(const std::string& ending) {
   flush();
   // Some file systems report a full disk or quota only here.
-  if (::close(std::exchange(descriptor_, -1)) != 0) fail();
+  if (descriptor_.close() != 0) fail();
   if (is_device()) return;
   if (::rename(temporary_.c_str(), (path_.string() + ending).c_str()) != 0) fail();
   temporary_.clear();
@@ -112,7 +112,7 @@ void OutputFile::close_as(const std::string& ending) {
 void OutputFile::flush() {
   std::string_view rest = buffer_;
   while (!rest.empty()) {
-    const ssize_t count = ::write(descriptor_, rest.data(), rest.size());
+    const ssize_t count = ::write(descriptor_.get(), rest.data(), rest.size());
     if (count < 0 && errno == EINTR) continue;
     if (count < 0) fail();
     rest.remove_prefix(static_cast<std::size_t>(count));

@@ -17,6 +17,8 @@
 #include <string>
 #include <string_view>
 
+#include "verify/io/descriptor.hpp"
+
 namespace touchstone::verify::io {
 
 /// The place at which a file of this name would be created: the target of symbolic links, also if
@@ -39,8 +41,6 @@ class OutputFile {
   explicit OutputFile(std::filesystem::path path);
   OutputFile(const OutputFile&) = delete;
   OutputFile& operator=(const OutputFile&) = delete;
-  OutputFile(OutputFile&&) = delete;
-  OutputFile& operator=(OutputFile&&) = delete;
   /// Removes the temporary file unless close() gave it the target's name.
   ~OutputFile();
 
@@ -69,7 +69,7 @@ class OutputFile {
   std::filesystem::path path_;
   /// Empty for a device, and for a file that has its name.
   std::filesystem::path temporary_;
-  int descriptor_ = -1;
+  Descriptor descriptor_;
   std::string buffer_;
 };
 

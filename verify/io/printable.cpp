@@ -44,22 +44,18 @@ std::size_t printable_length(std::string_view text) {
   return is_character && std::ranges::none_of(unprintable, contains) ? length : 0;
 }
 
-/// The text with the bytes that are not printable written out, and a backslash in front of marks.
-std::string escaped(std::string_view text, std::string_view marks) {
+}  // namespace
+
+std::string printable(std::string_view text) {
   std::string result;
   while (!text.empty()) {
     const std::size_t length = printable_length(text);
     if (length == 0) result += fmt::format("\\x{:02x}", byte_at(text, 0));
-    if (marks.find(text.front()) != std::string_view::npos) result += '\\';
     result += text.substr(0, length);
     text.remove_prefix(std::max<std::size_t>(length, 1));
   }
   return result;
 }
-
-}  // namespace
-
-std::string printable(std::string_view text) { return escaped(text, ""); }
 
 bool is_printable(std::string_view text) { return printable(text) == text; }
 
@@ -78,12 +74,11 @@ std::string html_escaped(std::string_view text) {
 std::string shell_word(std::string_view text) {
   static constexpr std::string_view harmless =
       "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=./:,";
-  if (!is_printable(text)) return "$'" + escaped(text, "'\\") + "'";
   if (!text.empty() && text.find_first_not_of(harmless) == std::string_view::npos) {
     return std::string(text);
   }
   std::string result = "'";
-  for (const char c : text) result += c == '\'' ? "'\\''" : std::string(1, c);
+  for (const char c : printable(text)) result += c == '\'' ? "'\\''" : std::string(1, c);
   return result + "'";
 }
 

@@ -24,7 +24,7 @@ namespace touchstone::verify::io {
 /// The text in HTML, also in an attribute.
 [[nodiscard]] std::string html_escaped(std::string_view text);
 
-/// The bytes as a word of a shell, in $'…', as in bash and zsh, if they are not printable.
+/// The text as a word of a shell.
 [[nodiscard]] std::string shell_word(std::string_view text);
 
 }  // namespace touchstone::verify::io

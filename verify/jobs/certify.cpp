@@ -141,6 +141,16 @@ MethodResult result_of(const solvers::Solver& solver) {
           .judgement = {}};
 }
 
+std::optional<double> MethodResult::nanoseconds_per_query() const {
+  if (!timed || judgement.queries == 0) return std::nullopt;
+  return judgement.nanoseconds_per_query();
+}
+
+std::optional<double> MethodResult::checks_per_query() const {
+  if (judgement.queries == 0 || judgement.checks == 0) return std::nullopt;
+  return static_cast<double>(judgement.checks) / static_cast<double>(judgement.queries);
+}
+
 exact::Rational CertifyOptions::default_toi_tolerance() {
   return exact::rational_from_decimal("1e-40");
 }
@@ -169,6 +179,14 @@ CertifyResult& CertifyResult::operator+=(const CertifyResult& other) {
   interrupted = interrupted || other.interrupted;
   add_methods(methods, other.methods);
   return *this;
+}
+
+bool has_wrong_answers(const CertifyResult& result) {
+  const auto is_wrong = [](const MethodResult& method) {
+    return !judge::keeps(method.judgement, method.promise);
+  };
+  return result.label_mismatches + result.toi_mismatches != 0 ||
+         std::ranges::any_of(result.methods, is_wrong);
 }
 
 CertifyResult certify(data::QuerySource& source, const CertifyOptions& options) {

@@ -79,6 +79,11 @@ struct MethodResult {
   fast::Terms terms = {};                       ///< the terms of that promise
   bool timed = false;                           ///< true if its processor time is known
   judge::Judgement judgement;
+
+  /// Mean processor time of a query, where it is known.
+  [[nodiscard]] std::optional<double> nanoseconds_per_query() const;
+  /// Mean number of checks of a query, where the solver counts them.
+  [[nodiscard]] std::optional<double> checks_per_query() const;
 };
 
 /// The result of a solver that was asked nothing.
@@ -118,6 +123,9 @@ struct CertifyResult {
   /// Adds all counts of another source; the mismatches and wrong answers stay with their source.
   CertifyResult& operator+=(const CertifyResult& other);
 };
+
+/// True if a recorded answer differs from the truth, or a solver has broken its promise.
+[[nodiscard]] bool has_wrong_answers(const CertifyResult& result);
 
 /// Decides every query of the source, and judges labels (verify/judge/label.hpp) and answers
 /// (verify/judge/judge.hpp). Errors of the source end up in the result.

@@ -10,11 +10,12 @@
 #include <stdexcept>
 #include <utility>
 
+#include "verify/data/store.hpp"
 #include "verify/io/dataset_error.hpp"
 #include "verify/io/input_file.hpp"
 #include "verify/io/json.hpp"
 #include "verify/io/output_file.hpp"
-#include "verify/jobs/sha256.hpp"
+#include "verify/io/sha256.hpp"
 #include "verify/judge/judgement.hpp"
 
 namespace touchstone::verify::jobs {
@@ -32,10 +33,6 @@ void write_file(const fs::path& path, std::string_view text) {
   io::OutputFile file(path);
   file.write(text);
   file.close();
-}
-
-json described(const fs::path& file) {
-  return {{"file", file.string()}, {"bytes", fs::file_size(file)}, {"sha256", digest_of(file)}};
 }
 
 /// A folder that is removed with this object unless it is to be kept.
@@ -101,7 +98,7 @@ std::optional<Plan> read_plan(const fs::path& folder) {
   try {
     return plan_from_json(io::read_json(file, most_bytes));
   } catch (const std::exception& error) {
-    throw std::runtime_error(file.string() + ": not the plan of a run: " + error.what());
+    throw std::runtime_error(file.string() + ": not the plan of a run: " + io::reason_of(error));
   }
 }
 
@@ -191,14 +188,6 @@ std::string_view closing_word(std::string_view header) {
 
 }  // namespace
 
-std::string digest_of(const fs::path& file) {
-  io::InputFile input(file);
-  Sha256 digest;
-  std::string chunk(std::size_t{1} << 16U, '\0');
-  while (const std::size_t count = input.read(chunk)) digest.add({chunk.data(), count});
-  return digest.hexadecimal();
-}
-
 PieceFolder::PieceFolder(fs::path folder, Plan plan)
     : folder_(std::move(folder)), plan_(std::move(plan)) {
   const std::string text = io::json_document(to_json(plan_));
@@ -211,14 +200,14 @@ PieceFolder::PieceFolder(fs::path folder, Plan plan)
     fs::create_directories(folder_);
     write_file(folder_ / plan_name, text);
   }
-  digest_ = sha256(text);
+  digest_ = io::sha256(text);
 }
 
 PieceFolder::PieceFolder(fs::path folder) : folder_(std::move(folder)) {
   auto plan = read_plan(folder_);
   if (!plan) throw std::runtime_error(folder_.string() + ": no pieces (there is no plan.json)");
   plan_ = std::move(*plan);
-  digest_ = sha256(io::json_document(to_json(plan_)));
+  digest_ = io::sha256(io::json_document(to_json(plan_)));
 }
 
 fs::path PieceFolder::record_file(std::size_t piece) const {
@@ -235,13 +224,15 @@ fs::path PieceFolder::output(std::size_t piece, std::string_view option) const {
 
 json PieceFolder::described_inputs(std::size_t piece) const {
   json inputs = json::array();
-  for (const fs::path& file : plan_.pieces[piece].files) inputs.push_back(described(file));
+  for (const fs::path& file : plan_.pieces[piece].files) {
+    inputs.push_back(data::described(file, file.string()));
+  }
   return inputs;
 }
 
 json PieceFolder::checked_inputs(std::size_t piece) const {
   for (const auto& [file, digest] : plan_.uses) {
-    if (digest_of(file) != digest) {
+    if (data::digest_of(file) != digest) {
       throw std::runtime_error(file + ": has changed since the run began");
     }
   }
@@ -254,12 +245,6 @@ json PieceFolder::checked_inputs(std::size_t piece) const {
     }
   }
   return inputs;
-}
-
-json PieceFolder::described_output(const std::string& name) const {
-  json result = described(folder_ / name);
-  result["file"] = name;
-  return result;
 }
 
 int PieceFolder::finish(std::size_t piece, const Work& work) const {
@@ -281,9 +266,9 @@ int PieceFolder::finish(std::size_t piece, const Work& work) const {
   }
   record["status"] = status;
   for (const auto& [option, file] : files) {
-    record["outputs"][option] = described_output(file.lexically_relative(folder_).string());
+    record["outputs"][option] = data::described(file, file.lexically_relative(folder_).string());
   }
-  record["sha256"] = sha256(record.dump());
+  record["sha256"] = io::sha256(record.dump());
   write_file(record_file(piece), io::json_document(record));
   own.keep();
   return status;
@@ -294,7 +279,7 @@ std::string PieceFolder::fault_of(const std::string& text, std::size_t piece) co
     json record = json::parse(text);
     const std::string digest = record.at("sha256");
     record.erase("sha256");
-    if (sha256(record.dump()) != digest) return "its record is damaged";
+    if (io::sha256(record.dump()) != digest) return "its record is damaged";
     if (record.at("program") != plan_.program) {
       return fmt::format("made by version {}, not {}", record.at("program").dump(), plan_.program);
     }
@@ -305,7 +290,8 @@ std::string PieceFolder::fault_of(const std::string& text, std::size_t piece) co
     if (record.at("inputs") != described_inputs(piece)) return "its input has changed since";
     for (const auto& [option, name] : plan_.outputs) {
       const json& output = record.at("outputs").at(option);
-      if (output != described_output(output.at("file"))) return "its results have changed since";
+      const std::string file = output.at("file");
+      if (output != data::described(folder_ / file, file)) return "its results have changed since";
     }
     return {};
   } catch (const json::exception&) {

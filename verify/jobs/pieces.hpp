@@ -52,9 +52,6 @@ struct Plan {
 /// The option whose output is JSON.
 inline constexpr std::string_view json_option = "--json";
 
-/// The SHA-256 of a file. \throws DatasetError if it cannot be read.
-[[nodiscard]] std::string digest_of(const std::filesystem::path& file);
-
 /// The results of a run, in a folder.
 class PieceFolder {
  public:
@@ -99,7 +96,6 @@ class PieceFolder {
   [[nodiscard]] nlohmann::json described_inputs(std::size_t piece) const;
   /// The same, after a check against all known digests. \throws as finish().
   [[nodiscard]] nlohmann::json checked_inputs(std::size_t piece) const;
-  [[nodiscard]] nlohmann::json described_output(const std::string& name) const;
   /// The fault of a record; empty if it is valid. \param text of the file
   [[nodiscard]] std::string fault_of(const std::string& text, std::size_t piece) const;
 

@@ -55,7 +55,6 @@ void GroundTruthCache::decide(const Separation& separation, std::span<const std:
     for (std::size_t i = 0; i < count; ++i) {
       if (!found[i]) return;
       known.emplace(positions[first + i], *found[i]);
-      ++decided_;
     }
     if (on_progress) {
       on_progress(static_cast<double>(first + count) / static_cast<double>(positions.size()));

@@ -35,9 +35,6 @@ class GroundTruthCache {
       const std::atomic<bool>* stop = nullptr,
       const std::function<void(double)>& on_progress = nullptr);
 
-  /// Verdicts that the oracle was asked for so far.
-  [[nodiscard]] std::size_t decided() const { return decided_; }
-
  private:
   using Known = std::unordered_map<std::size_t, GroundTruth>;
 
@@ -49,7 +46,6 @@ class GroundTruthCache {
   const data::QueryGroup& group_;
   int threads_;
   std::vector<std::pair<Separation, Known>> known_;
-  std::size_t decided_ = 0;
 };
 
 }  // namespace touchstone::verify::judge

@@ -197,8 +197,6 @@ std::string methods_text(std::size_t width, const std::vector<jobs::CertifyResul
 
 nlohmann::json counts(const jobs::MethodResult& method) {
   const judge::Judgement& judged = method.judgement;
-  std::optional<double> time;
-  if (method.timed && judged.queries != 0) time = judged.nanoseconds_per_query();
   nlohmann::json json = to_json(judged);
   json.update({{"name", method.name},
                {"promise", solvers::to_string(method.promise)},
@@ -207,7 +205,7 @@ nlohmann::json counts(const jobs::MethodResult& method) {
                {"failures", to_json(judged.faults)},
                {"unplaced_crashes", judged.unplaced_crashes},
                {"missing", judged.missing},
-               {"ns_per_query", io::number_to_json(time)}});
+               {"ns_per_query", io::number_to_json(method.nanoseconds_per_query())}});
   return json;
 }
 

@@ -21,10 +21,9 @@
 #include "verify/jobs/timing.hpp"
 #include "verify/judge/ground_truth_cache.hpp"
 #include "verify/report/measure.hpp"
-#include "verify/report/stability_report.hpp"
+#include "verify/report/stability.hpp"
 #include "verify/solvers/registry.hpp"
 #include "verify/solvers/solver.hpp"
-#include "verify/stability/stability.hpp"
 
 namespace touchstone::verify::report {
 namespace {
@@ -61,6 +60,12 @@ fast::MethodOptions options_of(const fast::MethodInfo& method) {
   options.max_checks = method.usual_max_checks;
   return options;
 }
+
+/// Settings that are measured side by side.
+struct Trial {
+  Experiment experiment = Experiment::field;
+  std::vector<Setting> settings = {};
+};
 
 Trial field_trial(Methods methods) {
   Trial trial{.experiment = Experiment::field};
@@ -119,7 +124,7 @@ std::vector<const fast::Method*> find_methods(std::span<const std::string> names
   return found;
 }
 
-std::vector<Trial> trials_of_methods(Methods methods) {
+std::vector<Trial> trials_of(Methods methods) {
   std::vector<Trial> trials{field_trial(methods), tolerance_trial(methods), checks_trial(methods),
                             separation_trial(methods)};
   std::erase_if(trials, [](const Trial& trial) { return trial.settings.empty(); });
@@ -214,7 +219,7 @@ class ExperimentRun {
   }
 
   [[nodiscard]] std::vector<Trial> chosen_trials() const {
-    std::vector<Trial> trials = trials_of_methods(methods_);
+    std::vector<Trial> trials = trials_of(methods_);
     for (Trial& trial : trials) {
       if (trial.experiment != Experiment::field) continue;
       for (const fast::Method* const plugin : options_.plugins) {
@@ -336,20 +341,18 @@ class ExperimentRun {
     if (asked.empty()) return;
     // The rest is for the page.
     const double left = 0.85 * deadline_.seconds_left();
-    std::vector<const stability::Hardness*> sorts;
-    for (const stability::Hardness& hardness : stability::hardnesses()) sorts.push_back(&hardness);
-    const stability::StabilityResult map = stability::measure_stability(
-        sorts, {.seed = options_.seed,
-                .count = options_.stability_count,
-                .threads = options_.threads,
-                .solvers = asked,
-                .on_progress =
-                    [&](double fraction) {
-                      constexpr double before = part_of_trials + part_of_filters;
-                      tell(before + (1.0 - before) * fraction);
-                    },
-                .stop = options_.stop,
-                .seconds = std::isinf(left) ? 0.0 : left});
+    StabilityOptions map_options{.seed = options_.seed,
+                                 .count = options_.stability_count,
+                                 .seconds = std::isinf(left) ? 0.0 : left};
+    for (const auto& hardness : generate::hardnesses()) map_options.hardnesses.push_back(&hardness);
+    map_options.certify.threads = options_.threads;
+    map_options.certify.solvers = asked;
+    map_options.certify.stop = options_.stop;
+    map_options.certify.on_progress = [&](double fraction) {
+      constexpr double before = part_of_trials + part_of_filters;
+      tell(before + (1.0 - before) * fraction);
+    };
+    const StabilityResult map = measure_stability(map_options);
     result_.stability = marks_of(map);
     result_.interrupted = result_.interrupted || map.unjudged_cells != 0;
   }
@@ -362,14 +365,6 @@ class ExperimentRun {
 };
 
 }  // namespace
-
-std::span<const double> separation_distances() { return distances; }
-
-std::span<const double> filter_scales() { return scales; }
-
-std::vector<Trial> trials_of(std::span<const std::string> methods) {
-  return trials_of_methods(find_methods(methods));
-}
 
 Measurements run_experiments(std::span<const data::QueryGroup> groups,
                              const ExperimentOptions& options) {

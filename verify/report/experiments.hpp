@@ -12,7 +12,7 @@
 ///   one, if more than one of them takes part: the misses of each among the built-in families, and
 ///   among contacts at t=1 (verify/generate/workload.hpp) at scales from 0.001 to 1000. It has
 ///   queries of its own, of the kinds of the groups.
-/// - *stability*: every method on the hard queries of verify/stability/.
+/// - *stability*: every method on the hard queries of verify/generate/hardness.hpp.
 ///
 /// The fast::MethodInfo of a method says in which experiments it takes part. Variants of a method
 /// take part in *field*, *filter* and *stability*.
@@ -32,22 +32,6 @@
 #include "verify/solvers/solver.hpp"
 
 namespace touchstone::verify::report {
-
-/// Settings that are measured side by side.
-struct Trial {
-  Experiment experiment = Experiment::field;
-  std::vector<Setting> settings = {};
-};
-
-/// The trials of a report on these methods, none of them empty.
-/// \throws std::invalid_argument for an unknown method.
-[[nodiscard]] std::vector<Trial> trials_of(std::span<const std::string> methods);
-
-/// The minimum separations of the experiment, ascending.
-[[nodiscard]] std::span<const double> separation_distances();
-
-/// The scales of the experiment on filters, ascending.
-[[nodiscard]] std::span<const double> filter_scales();
 
 struct ExperimentOptions {
   /// Names of methods; all there are if empty. Each is measured on the groups whose curves it

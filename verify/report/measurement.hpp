@@ -112,7 +112,7 @@ struct Measurement {
   TimeHistogram no_collision_times;
 };
 
-/// One cell of a map of stability (verify/stability/stability.hpp).
+/// One cell of a map of stability (stability.hpp).
 struct StabilityMark {
   std::string method;
   std::string hardness;

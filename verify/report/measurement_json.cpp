@@ -278,7 +278,7 @@ Measurements measurements_from_json(const Json& json) {
   try {
     return read(json);
   } catch (const std::exception& error) {
-    throw std::runtime_error(std::string("not the measurements of a report: ") + error.what());
+    throw std::runtime_error("not the measurements of a report: " + io::reason_of(error));
   }
 }
 

@@ -10,7 +10,7 @@
 #include "verify/judge/separation_inference.hpp"
 #include "verify/report/measurement_json.hpp"
 #include "verify/report/report_page_texts.hpp"
-#include "verify/report/stability_report.hpp"
+#include "verify/report/stability.hpp"
 
 namespace touchstone::verify::report {
 namespace {
@@ -58,7 +58,7 @@ std::string report_page(const Measurements& measured, const Measurements* before
                  measured, before);
 }
 
-std::string stability_page(const stability::StabilityResult& result, const std::string& command) {
+std::string stability_page(const StabilityResult& result, const std::string& command) {
   Opening opening{
       .title = "Stability of solvers",
       .about = result.cells.empty()

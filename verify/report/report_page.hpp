@@ -15,7 +15,7 @@
 #include <string>
 
 #include "verify/report/measurement.hpp"
-#include "verify/stability/stability.hpp"
+#include "verify/report/stability.hpp"
 
 namespace touchstone::verify::report {
 
@@ -28,7 +28,6 @@ namespace touchstone::verify::report {
 /// a table, and as figures the worst outcome, the errors of the time of impact, time and checks of
 /// every cell.
 /// \param command the command line that made it
-[[nodiscard]] std::string stability_page(const stability::StabilityResult& result,
-                                         const std::string& command);
+[[nodiscard]] std::string stability_page(const StabilityResult& result, const std::string& command);
 
 }  // namespace touchstone::verify::report

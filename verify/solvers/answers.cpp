@@ -277,12 +277,6 @@ std::vector<RecordedAnswers::Group> RecordedAnswers::groups() const {
   return result;
 }
 
-std::uint64_t RecordedAnswers::size() const {
-  std::uint64_t sum = 0;
-  for (const auto& group : rows_) sum += group.second.size();
-  return sum;
-}
-
 std::uint64_t RecordedAnswers::unasked() const {
   std::uint64_t sum = 0;
   for (const Group& group : groups()) sum += group.unasked;

@@ -71,8 +71,6 @@ class RecordedAnswers {
   /// All groups, ordered by name and kind. Not to be called while another thread is in answer_to().
   [[nodiscard]] std::vector<Group> groups() const;
 
-  /// All answers.
-  [[nodiscard]] std::uint64_t size() const;
   /// Answers never asked for. Not to be called while another thread is in answer_to().
   [[nodiscard]] std::uint64_t unasked() const;
 

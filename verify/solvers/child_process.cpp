@@ -217,28 +217,24 @@ double seconds(const timeval& time) {
 
 /// The two descriptors that a system call has made. \param result of the call, negative if it
 /// failed
-std::pair<Descriptor, Descriptor> checked(int result, const std::array<int, 2>& ends) {
+std::pair<io::Descriptor, io::Descriptor> checked(int result, const std::array<int, 2>& ends) {
   if (result != 0) fail("cannot talk to a solver's process");
-  return {Descriptor(ends[0]), Descriptor(ends[1])};
+  return {io::Descriptor(ends[0]), io::Descriptor(ends[1])};
 }
 
-std::pair<Descriptor, Descriptor> make_pipe() {
+std::pair<io::Descriptor, io::Descriptor> make_pipe() {
   std::array<int, 2> ends{};
   const int result = ::pipe2(ends.data(), O_CLOEXEC);
   return checked(result, ends);
 }
 
-std::pair<Descriptor, Descriptor> make_sockets() {
+std::pair<io::Descriptor, io::Descriptor> make_sockets() {
   std::array<int, 2> ends{};
   const int result = ::socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, ends.data());
   return checked(result, ends);
 }
 
 }  // namespace
-
-void Descriptor::close() {
-  if (number_ >= 0) ::close(std::exchange(number_, -1));
-}
 
 TemporaryFolder::TemporaryFolder() {
   std::string name = (std::filesystem::temp_directory_path() / "touchstone-XXXXXX").string();
@@ -293,7 +289,7 @@ ChildProcess::ChildProcess(const Work& work, const ChildLimits& limits,
   socket_ = std::move(socket);
   lifeline_ = std::move(lifeline);
   output_ = std::move(output);
-  ended_ = Descriptor(static_cast<int>(::syscall(SYS_pidfd_open, process_, 0U)));
+  ended_ = io::Descriptor(static_cast<int>(::syscall(SYS_pidfd_open, process_, 0U)));
 }
 
 ChildProcess::~ChildProcess() {

@@ -26,8 +26,8 @@
 #include <functional>
 #include <optional>
 #include <string>
-#include <utility>
 
+#include "verify/io/descriptor.hpp"
 #include "verify/judge/fault.hpp"
 
 namespace touchstone::verify::solvers {
@@ -96,26 +96,6 @@ class ChildChannel {
   int socket_;
 };
 
-/// A descriptor of the system, closed with this object; -1: none.
-class Descriptor {
- public:
-  explicit Descriptor(int number = -1) : number_(number) {}
-  Descriptor(Descriptor&& other) noexcept : number_(std::exchange(other.number_, -1)) {}
-  Descriptor& operator=(Descriptor&& other) noexcept {
-    std::swap(number_, other.number_);
-    return *this;
-  }
-  Descriptor(const Descriptor&) = delete;
-  Descriptor& operator=(const Descriptor&) = delete;
-  ~Descriptor() { close(); }
-
-  [[nodiscard]] int get() const { return number_; }
-  void close();
-
- private:
-  int number_;
-};
-
 /// A running child. May be used by one thread after the other, by one at a time.
 class ChildProcess {
  public:
@@ -154,10 +134,10 @@ class ChildProcess {
   [[nodiscard]] bool has_ended() const;
 
   pid_t process_ = -1;
-  Descriptor socket_;    ///< messages
-  Descriptor lifeline_;  ///< the child is killed when this closes
-  Descriptor output_;    ///< its standard output and error
-  Descriptor ended_;     ///< readable when it has ended
+  io::Descriptor socket_;    ///< messages
+  io::Descriptor lifeline_;  ///< the child is killed when this closes
+  io::Descriptor output_;    ///< its standard output and error
+  io::Descriptor ended_;     ///< readable when it has ended
 };
 
 }  // namespace touchstone::verify::solvers

@@ -191,7 +191,7 @@ std::vector<ViewedQuery> read_json(const fs::path& path, const QueryFileOptions&
   } catch (const std::logic_error& error) {
     throw io::DatasetError(path, {}, fmt::format("query {}: {}", index, error.what()));
   } catch (const nlohmann::json::exception& error) {
-    throw io::DatasetError(path, {}, fmt::format("query {}: {}", index, error.what()));
+    throw io::DatasetError(path, {}, fmt::format("query {}: {}", index, io::reason_of(error)));
   }
 }
 

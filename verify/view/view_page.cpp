@@ -20,7 +20,7 @@ std::string view_page(const std::vector<nlohmann::json>& queries, const std::str
       "<noscript><p class=\"warning\">The pictures are drawn by a script.</p></noscript>\n"
       "<main id=\"view\"></main>\n";
   page += fmt::format("<footer><p>Made by</p>\n<pre class=\"command\">{}</pre></footer>\n",
-                      io::html_escaped(io::printable(command)));
+                      io::html_escaped(command));
   page += io::json_element("queries", queries);
   if (!step.is_null()) page += io::json_element("step_facts", step);
   if (!solvers.empty()) page += io::script_element(solvers);

@@ -10,4 +10,3 @@
 #include "touchstone/oracle.hpp"
 #include "touchstone/polynomial.hpp"
 #include "touchstone/query.hpp"
-#include "touchstone/rigid_motion.hpp"

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "tests/support/tool_test.hpp"
-#include "verify/jobs/pieces.hpp"
+#include "verify/data/store.hpp"
 
 // Kills of a run in pieces; the rest is in tests/transcripts/{merge,pieces}.md.
 
@@ -38,7 +38,7 @@ TEST_F(PieceRuns, AreOfAProgramKnownByItsCommitOrItsDigest) {
   version.pop_back();
   ASSERT_EQ(run({"certify", "--count", "1", "--resume", path("one")}).status, 0);
   const bool is_commit = version.ends_with(')') && !version.ends_with("-dirty)");
-  const std::string digest = jobs::digest_of(tests::touchstone_program());
+  const std::string digest = data::digest_of(tests::touchstone_program());
   EXPECT_EQ(json("one/plan.json")["program"],
             is_commit ? version : version + ", SHA-256 " + digest);
 }

@@ -118,9 +118,7 @@ void read_npy(const fs::path& path) {
 
 void read_answers(const fs::path& path) {
   const auto answers = touchstone::verify::solvers::load_answers(path);
-  std::uint64_t sum = 0;
   for (const auto& group : answers.groups()) {
-    sum += group.answers;
     require(group.unasked == group.answers);
     for (std::uint64_t index = 0; index < 10; ++index) {
       const auto recorded = answers.answer_to(group.file, group.kind, index);
@@ -131,7 +129,6 @@ void read_answers(const fs::path& path) {
       require(answer.verdict == touchstone::fast::Verdict::yes || std::isnan(answer.toi_lower));
     }
   }
-  require(sum == answers.size());
 }
 
 void check_mesh(const touchstone::verify::mesh::Mesh& mesh) {

@@ -298,7 +298,7 @@ TEST(CertifyMethods, OnCurves) {
   CertifyResult sum;
   for (const generate::Family& family : generate::curved_families()) {
     for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
-      sum += certify(*generate::open_family(family, kind, tests::trials(8U), 3), options);
+      sum += certify(*generate::open_family(family, kind, 5, 3), options);
     }
   }
   const auto judged = [&](std::size_t i) { return sum.methods.at(i).judgement; };

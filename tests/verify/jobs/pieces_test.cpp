@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "tests/support/tool_test.hpp"
+#include "verify/data/store.hpp"
 
 namespace touchstone::verify::jobs::pieces_test {
 namespace {
@@ -243,8 +244,8 @@ class ChangedPieces : public Pieces, public ::testing::WithParamInterface<Change
 TEST_P(ChangedPieces, AreNotDone) {
   const std::string library = write("x.so", "library");
   plan_.pieces[1].files.emplace_back(write("input1b", "companion"));
-  plan_.uses[library] = digest_of(library);
-  plan_.pieces[1].digests[path("input1")] = digest_of(path("input1"));
+  plan_.uses[library] = data::digest_of(library);
+  plan_.pieces[1].digests[path("input1")] = data::digest_of(path("input1"));
   const PieceFolder run = open();
   try {
     do_piece(run, 1, 0, [&](const fs::path&) { GetParam().act(folder()); });

@@ -39,35 +39,31 @@ ExperimentOptions quick() {
   return options;
 }
 
-std::size_t settings_in(const std::vector<Trial>& trials, Experiment experiment) {
-  std::size_t count = 0;
-  for (const Trial& trial : trials) {
-    if (trial.experiment == experiment) count += trial.settings.size();
-  }
-  return count;
+std::size_t settings_in(const Measurements& measured, Experiment experiment) {
+  return static_cast<std::size_t>(
+      std::ranges::count(measured.all, experiment, &Measurement::experiment));
 }
 
 TEST(Experiments, TrialsAreThoseOfTheMethodsThere) {
-  const std::vector<std::string> all{"certified", "tight_inclusion", "irf", "uirf", "fprf", "msrf",
-                                     "tccd"};
-  const std::vector<Trial> trials = trials_of(all);
-  EXPECT_EQ(settings_in(trials, Experiment::field), 7U);
-  EXPECT_EQ(settings_in(trials, Experiment::tolerance), 3U * 9U);
-  EXPECT_EQ(settings_in(trials, Experiment::checks), 6U);
-  EXPECT_EQ(settings_in(trials, Experiment::separation), 7U * (2U + 3U));
+  ExperimentOptions options = quick();
+  options.stability_count = 0;
+  options.methods = {"certified", "tight_inclusion", "irf", "uirf", "fprf", "msrf", "tccd"};
+  const std::vector<data::QueryGroup> groups = falling();
+  const Measurements all = run_experiments(groups, options);
+  EXPECT_EQ(settings_in(all, Experiment::field), 7U);
+  EXPECT_EQ(settings_in(all, Experiment::tolerance), 3U * 9U);
+  EXPECT_EQ(settings_in(all, Experiment::checks), 6U);
+  EXPECT_EQ(settings_in(all, Experiment::separation), 7U * (2U + 3U));
+  // Those of the paper's tables are among the distances, and there are two more.
+  std::set<double> distances;
+  for (const Measurement& measurement : all.all) distances.insert(measurement.separation.distance);
+  EXPECT_EQ(distances, (std::set<double>{0.0, 1e-100, 1e-30, 1e-16, 1e-8, 1e-4, 1e-2, 1.0}));
 
-  const std::vector<std::string> one{"tccd"};
-  const std::vector<Trial> few = trials_of(one);
-  ASSERT_EQ(few.size(), 1U);
-  EXPECT_EQ(few[0].experiment, Experiment::field);
-  EXPECT_EQ(few[0].settings[0].method->name(), "tccd");
-}
-
-TEST(Experiments, DistancesHoldThoseOfThePapersTables) {
-  for (const double distance : {1e-2, 1e-8, 1e-16, 1e-30, 1e-100}) {
-    EXPECT_TRUE(std::ranges::count(separation_distances(), distance) == 1) << distance;
-  }
-  EXPECT_TRUE(std::ranges::is_sorted(separation_distances()));
+  options.methods = {"tccd"};
+  const Measurements one = run_experiments(groups, options);
+  ASSERT_EQ(one.all.size(), 1U);
+  EXPECT_EQ(one.all[0].experiment, Experiment::field);
+  EXPECT_EQ(one.all[0].method, "tccd");
 }
 
 TEST(Experiments, MeasuresEveryTrialAndTheMapOfStability) {
@@ -76,10 +72,9 @@ TEST(Experiments, MeasuresEveryTrialAndTheMapOfStability) {
   EXPECT_FALSE(result.interrupted);
   EXPECT_FALSE(result.machine.empty());
   EXPECT_TRUE(std::regex_match(result.date, std::regex(R"(\d{4}-\d\d-\d\d)"))) << result.date;
-  const std::vector<std::string> methods = quick().methods;
-  std::size_t settings = 0;
-  for (const Trial& trial : trials_of(methods)) settings += trial.settings.size();
-  ASSERT_EQ(result.all.size(), settings);
+  // Of certified and tight_inclusion: the field; tolerances and checks of the second; distances in
+  // both norms, and in one.
+  ASSERT_EQ(result.all.size(), 2U + 9U + 6U + 7U * (2U + 1U));
   for (const Measurement& measurement : result.all) {
     EXPECT_EQ(measurement.group, "falling");
     EXPECT_EQ(measurement.asked, measurement.experiment == Experiment::separation ? 3U : 10U);
@@ -148,7 +143,7 @@ TEST(Experiments, FiltersAreComparedOnFamiliesAndOverTheScale) {
       missed[m.method] += m.false_negatives;
     }
   }
-  EXPECT_EQ(scales.size(), filter_scales().size());
+  EXPECT_EQ(scales.size(), 7U);
   EXPECT_EQ(missed["tight_inclusion"], 0U);
   EXPECT_GT(missed["tight_inclusion_released"], 0U);
 }

@@ -241,15 +241,15 @@ TEST_F(Browser, PanelsHaveOneScaleWithWhatIsInfiniteAtTheUpperEnd) {
 
 /// A level for each number, as the error of the time of impact, as time in nanoseconds, and as
 /// checks; every other one has a false negative.
-stability::StabilityResult map_of(const std::vector<double>& numbers) {
-  stability::StabilityResult result;
+StabilityResult map_of(const std::vector<double>& numbers) {
+  StabilityResult result;
   result.count = 1;
-  const stability::Hardness& hardness = stability::hardness_from_name("distance");
+  const generate::Hardness& hardness = generate::hardness_from_name("distance");
   for (std::size_t i = 0; i < numbers.size(); ++i) {
-    stability::StabilityCell cell{
-        .hardness = &hardness,
-        .level = hardness.levels.at(i % hardness.levels.size()),
-        .kind = i < hardness.levels.size() ? Kind::vertex_face : Kind::edge_edge,
+    StabilityCell cell{
+        .sort = {.hardness = &hardness,
+                 .level = hardness.levels.at(i % hardness.levels.size()),
+                 .kind = i < hardness.levels.size() ? Kind::vertex_face : Kind::edge_edge},
         .judged = {}};
     cell.judged.queries = cell.judged.collisions = 1;
     jobs::MethodResult judged{.name = "planted", .timed = true, .judgement = {}};

@@ -29,14 +29,14 @@ TEST(Page, LoadsNothingAndHoldsNoMarkupOfNames) {
       std::regex_search(page, std::regex("https?:|<(link|img|iframe|object)|@import|src=|url\\(")));
 }
 
-stability::StabilityResult map_of_one_cell(const std::string& method) {
-  stability::StabilityResult result;
+StabilityResult map_of_one_cell(const std::string& method) {
+  StabilityResult result;
   result.seed = 77;
   result.count = 10;
-  stability::StabilityCell cell{.hardness = &stability::hardness_from_name("distance"),
-                                .level = -50,
-                                .kind = Kind::edge_edge,
-                                .judged = {}};
+  StabilityCell cell{.sort = {.hardness = &generate::hardness_from_name("distance"),
+                              .level = -50,
+                              .kind = Kind::edge_edge},
+                     .judged = {}};
   cell.judged.queries = 10;
   cell.judged.collisions = 5;
   jobs::MethodResult judged{

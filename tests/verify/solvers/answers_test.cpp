@@ -120,7 +120,7 @@ TEST(Answers, ReadAsTheyWereWritten) {
   std::string text;
   for (std::size_t i = 0; i < written.size(); ++i) text += answer_row("n,\n\"", i, ee, written[i]);
   const RecordedAnswers answers = load_written(text);
-  ASSERT_EQ(answers.size(), written.size());
+  ASSERT_EQ(answers.unasked(), written.size());
   for (std::size_t i = 0; i < written.size(); ++i) {
     expect_same(answers.answer_to("n,\n\"", ee, i), written[i],
                 i == 2 ? std::optional(judge::Fault::no_verdict) : std::nullopt);
@@ -204,7 +204,7 @@ TEST(LoadAnswers, TakesWindowsLineEndsAndBlankLinesAtTheEnd) {
   const TemporaryFolder folder;
   const RecordedAnswers answers =
       load(folder, header.substr(0, header.size() - 1) + "\r\na,0,vertex-face,yes,0.5,,\r\n\r\n\n");
-  EXPECT_EQ(answers.size(), 1U);
+  EXPECT_EQ(answers.unasked(), 1U);
   EXPECT_EQ(answers.answer_to("a", vf, 0)->answer.toi_lower, 0.5);
 }
 
@@ -222,7 +222,6 @@ TEST(LoadAnswers, TakesQuotesAroundAnyField) {
 }
 
 TEST(LoadAnswers, TakesAFileWithoutAnswers) {
-  EXPECT_EQ(load_rows("").size(), 0U);
   EXPECT_TRUE(load_rows("").groups().empty());
 }
 
@@ -235,7 +234,6 @@ TEST(RecordedAnswers, SayWhatWasNeverAskedFor) {
       "a,0,vertex-face,no,,,\n"
       "a,1,vertex-face,no,,,\n"
       "a,1,edge-edge,no,,,\n");
-  EXPECT_EQ(answers.size(), 5U);
   EXPECT_EQ(answers.unasked(), 5U);
   static_cast<void>(answers.answer_to("a", vf, 0));
   static_cast<void>(answers.answer_to("a", vf, 0));

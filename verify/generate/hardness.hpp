@@ -41,10 +41,9 @@
 
 #include "fast/method.hpp"
 #include "touchstone/query.hpp"
-#include "verify/base/any_query.hpp"
 #include "verify/data/query_source.hpp"
 
-namespace touchstone::verify::stability {
+namespace touchstone::verify::generate {
 
 /// The meaning of a level's number.
 enum class LevelUnit : std::uint8_t {
@@ -102,23 +101,18 @@ struct HardSort {
   Separation separation = fast::no_separation;  ///< as requested, before separation_at()
 };
 
-/// A query with the verdict of the certified solver, or on curves with that of its construction.
-struct HardQuery {
-  base::AnyQuery query;
-  bool collides = false;
-};
-
 /// Query number `index`: a function of the arguments alone, the same on every machine. Even numbers
-/// collide and odd ones do not, up to the last bits of queries about a separation.
+/// collide and odd ones do not, up to the last bits of queries about a separation. Its label is the
+/// verdict of the certified solver, or on curves that of its construction.
 /// \throws std::invalid_argument if the kind does not have the level, or there are no queries for
 /// the separation: on curves, for any but 0.
-[[nodiscard]] HardQuery make_hard_query(const HardSort& sort, std::uint64_t seed,
-                                        std::uint64_t index);
+[[nodiscard]] data::RecordedQuery make_hard_query(const HardSort& sort, std::uint64_t seed,
+                                                  std::uint64_t index);
 
-/// The queries 0 to count−1 as a stream, labelled with these verdicts. Its
+/// The queries 0 to count−1 as a stream. Its
 /// name is kind and level, "distance 2^-20"; its recorded separation is that of separation_at().
 [[nodiscard]] std::unique_ptr<data::QuerySource> open_hard_queries(const HardSort& sort,
                                                                    std::uint64_t seed,
                                                                    std::uint64_t count);
 
-}  // namespace touchstone::verify::stability
+}  // namespace touchstone::verify::generate

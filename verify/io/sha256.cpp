@@ -1,10 +1,10 @@
-#include "verify/jobs/sha256.hpp"
+#include "verify/io/sha256.hpp"
 
 #include <algorithm>
 #include <bit>
 #include <cstring>
 
-namespace touchstone::verify::jobs {
+namespace touchstone::verify::io {
 namespace {
 
 constexpr std::size_t rounds = 64;
@@ -84,4 +84,4 @@ std::string sha256(std::string_view bytes) {
   return digest.hexadecimal();
 }
 
-}  // namespace touchstone::verify::jobs
+}  // namespace touchstone::verify::io

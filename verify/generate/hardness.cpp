@@ -1,4 +1,4 @@
-#include "verify/stability/hardness.hpp"
+#include "verify/generate/hardness.hpp"
 
 #include <fmt/format.h>
 
@@ -8,22 +8,17 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
-#include <utility>
 
 #include "touchstone/certified.hpp"
 #include "verify/generate/decimal.hpp"
 #include "verify/generate/everyday.hpp"
 #include "verify/generate/family_builder.hpp"
 #include "verify/generate/grid.hpp"
+#include "verify/generate/hard_curves.hpp"
 #include "verify/generate/random_stream.hpp"
-#include "verify/stability/hard_curves.hpp"
 
-namespace touchstone::verify::stability {
+namespace touchstone::verify::generate {
 namespace {
-
-using generate::operator+;
-using generate::Random;
-using generate::Vector;
 
 /// The base-2 logarithm of the maximum size of the frame. Its coordinates are up to 1.6 times the
 /// size.
@@ -31,23 +26,26 @@ constexpr int log_frame = 50;
 constexpr double greatest_distance = 0x1p14;
 constexpr int most_attempts = 16;
 
-enum Index : std::size_t {
-  distance,
-  aspect,
-  angle,
-  speed,
-  offset,
-  scale,
-  everyday_scale,
-  digits,
-  ends,
-  frame,
-  curve_distance,
-  rotation_distance,
-  curve_degree
+/// Numbers of the kinds of difficulty, in their order.
+struct Index {
+  enum : std::size_t {
+    distance,
+    aspect,
+    angle,
+    speed,
+    offset,
+    scale,
+    everyday_scale,
+    digits,
+    ends,
+    frame,
+    curve_distance,
+    rotation_distance,
+    curve_degree
+  };
 };
 
-const std::array<Hardness, 13>& all() {
+const std::array<Hardness, 13>& table() {
   static const std::array<Hardness, 13> list{{
       {"distance",
        "distance to contact, in sizes",
@@ -113,8 +111,8 @@ const std::array<Hardness, 13>& all() {
 }
 
 std::size_t index_of(const Hardness& hardness) {
-  return static_cast<std::size_t>(std::ranges::find(all(), hardness.name, &Hardness::name) -
-                                  all().begin());
+  return static_cast<std::size_t>(std::ranges::find(table(), hardness.name, &Hardness::name) -
+                                  table().begin());
 }
 
 /// The properties of a class of queries, in units of the frame.
@@ -170,9 +168,9 @@ Setup::Setup(const HardSort& sort) {
 }
 
 /// Builds one scene.
-class Scene {
+class FrameScene {
  public:
-  Scene(const Setup& setup, Kind kind, bool collides, Random& random)
+  FrameScene(const Setup& setup, Kind kind, bool collides, Random& random)
       : setup_(setup), random_(random), collides_(collides) {
     const bool beside = setup.passes_beside && random.coin() && (!collides || may_graze());
     if (kind == Kind::vertex_face) {
@@ -309,18 +307,17 @@ class Scene {
 constexpr int decimal_exponent = -1;
 constexpr int usual_digits = 3;
 
-generate::ContactMoment draw_time(std::size_t index, int level, Random& random) {
+ContactMoment draw_time(std::size_t index, int level, Random& random) {
   const bool is_at_an_end =
       index != Index::ends || random.between(1, 100) <= static_cast<std::int64_t>(level);
-  if (!is_at_an_end) return generate::ContactMoment::between;
-  return random.coin() ? generate::ContactMoment::at_start : generate::ContactMoment::at_end;
+  if (!is_at_an_end) return ContactMoment::between;
+  return random.coin() ? ContactMoment::at_start : ContactMoment::at_end;
 }
 
 /// Queries without collision have a clearance of one unit, increased with each attempt until no
 /// contact is possible.
-std::int64_t clearance_of(const generate::EverydayScene& scene, double separation_in_units,
-                          int attempt) {
-  const std::int64_t growing = generate::power_of_ten(scene.digits * attempt / (most_attempts - 2));
+std::int64_t clearance_of(const EverydayScene& scene, double separation_in_units, int attempt) {
+  const std::int64_t growing = power_of_ten(scene.digits * attempt / (most_attempts - 2));
   return (attempt == 0 ? 1 : 4 * growing) +
          static_cast<std::int64_t>(std::ceil(separation_in_units));
 }
@@ -329,23 +326,21 @@ std::int64_t clearance_of(const generate::EverydayScene& scene, double separatio
 Query decimal_query(const HardSort& sort, bool collides, const Separation& separation, int attempt,
                     Random& random) {
   const std::size_t index = index_of(*sort.hardness);
-  generate::EverydayScene scene{.digits = index == Index::digits ? sort.level : usual_digits,
-                                .exponent = decimal_exponent,
-                                .time = draw_time(index, sort.level, random)};
+  EverydayScene scene{.digits = index == Index::digits ? sort.level : usual_digits,
+                      .exponent = decimal_exponent,
+                      .time = draw_time(index, sort.level, random)};
   // A power of two does not change contact. The scene is enlarged like others.
   const int larger = enlargement(sort.separation.distance) == 0
                          ? 0
                          : enlargement(sort.separation.distance) - 3 * decimal_exponent;
   const int factor = larger + (index == Index::everyday_scale ? sort.level : 0);
   if (!collides) {
-    const double unit =
-        std::ldexp(generate::from_decimal(1, scene.exponent - scene.digits), factor);
+    const double unit = std::ldexp(from_decimal(1, scene.exponent - scene.digits), factor);
     scene.clearance = clearance_of(scene, separation.distance / unit, attempt);
   }
-  Query query = generate::everyday_query(sort.kind, scene, random);
-  const double away = index == Index::frame
-                          ? std::ldexp(generate::from_decimal(1, decimal_exponent), sort.level)
-                          : 0.0;
+  Query query = everyday_query(sort.kind, scene, random);
+  const double away =
+      index == Index::frame ? std::ldexp(from_decimal(1, decimal_exponent), sort.level) : 0.0;
   for (double& x : query.coordinates) x = std::ldexp(x + away, factor);
   return query;
 }
@@ -357,9 +352,9 @@ Query draw_query(const HardSort& sort, bool collides, const Separation& separati
     return decimal_query(sort, collides, separation, attempt, random);
   }
   const Setup setup(sort);
-  generate::KnownQuery known;
-  known.query = Scene(setup, sort.kind, collides, random).query();
-  generate::apply_random_symmetry(sort.kind, random, known);
+  KnownQuery known;
+  known.query = FrameScene(setup, sort.kind, collides, random).query();
+  apply_random_symmetry(sort.kind, random, known);
   return known.query;
 }
 
@@ -397,60 +392,25 @@ void check(const HardSort& sort) {
 
 /// A number that identifies the class.
 std::uint64_t key_of(const HardSort& sort, std::uint64_t seed, std::uint64_t index) {
-  std::uint64_t key = generate::mix(seed ^ generate::hash(sort.hardness->name));
-  key = generate::mix(key + static_cast<std::uint64_t>(sort.level));
-  key = generate::mix(key + static_cast<std::uint64_t>(sort.kind));
-  return generate::mix(key + index);
+  std::uint64_t key = mix(seed ^ hash(sort.hardness->name));
+  key = mix(key + static_cast<std::uint64_t>(sort.level));
+  key = mix(key + static_cast<std::uint64_t>(sort.kind));
+  return mix(key + index);
 }
-
-class HardSource final : public data::QuerySource {
- public:
-  HardSource(const HardSort& sort, std::uint64_t seed, std::uint64_t count)
-      : sort_(sort),
-        seed_(seed),
-        count_(count),
-        shape_(make_hard_query(sort, seed, 0).query.shape()),
-        name_(fmt::format("{} {}", sort.hardness->name, level_text(*sort.hardness, sort.level))) {}
-
-  [[nodiscard]] const std::string& name() const override { return name_; }
-  [[nodiscard]] QueryShape shape() const override { return shape_; }
-  [[nodiscard]] Separation recorded_separation() const override {
-    return separation_at(*sort_.hardness, sort_.level, sort_.separation);
-  }
-  [[nodiscard]] std::optional<data::RecordedQuery> next() override {
-    if (done_ == count_) return std::nullopt;
-    HardQuery made = make_hard_query(sort_, seed_, done_);
-    return data::RecordedQuery{.query = std::move(made.query),
-                               .index = done_++,
-                               .collides = made.collides,
-                               .toi = std::nullopt};
-  }
-  [[nodiscard]] double progress() const override {
-    return static_cast<double>(done_) / static_cast<double>(count_);
-  }
-
- private:
-  HardSort sort_;
-  std::uint64_t seed_;
-  std::uint64_t count_;
-  QueryShape shape_;
-  std::string name_;
-  std::uint64_t done_ = 0;
-};
 
 }  // namespace
 
-std::span<const Hardness> hardnesses() { return std::span(all()).first(Index::curve_distance); }
+std::span<const Hardness> hardnesses() { return std::span(table()).first(Index::curve_distance); }
 
 std::span<const Hardness> curve_hardnesses() {
-  return std::span(all()).subspan(Index::curve_distance);
+  return std::span(table()).subspan(Index::curve_distance);
 }
 
-std::span<const Hardness> all_hardnesses() { return all(); }
+std::span<const Hardness> all_hardnesses() { return table(); }
 
 const Hardness& hardness_from_name(std::string_view name) {
   std::string known;
-  for (const Hardness& hardness : all()) {
+  for (const Hardness& hardness : table()) {
     if (hardness.name == name) return hardness;
     known += fmt::format("{}{}", known.empty() ? "" : ", ", hardness.name);
   }
@@ -484,18 +444,21 @@ Separation separation_at(const Hardness& hardness, int level, const Separation& 
   return {.distance = std::ldexp(separation.distance, level), .norm = separation.norm};
 }
 
-HardQuery make_hard_query(const HardSort& sort, std::uint64_t seed, std::uint64_t index) {
+data::RecordedQuery make_hard_query(const HardSort& sort, std::uint64_t seed, std::uint64_t index) {
   check(sort);
   const Separation separation = separation_at(*sort.hardness, sort.level, sort.separation);
   const bool wanted = index % 2 == 0;
   Random random(key_of(sort, seed, index));
-  if (is_on_curves(*sort.hardness)) return {draw_curves(sort, wanted, random), wanted};
-  HardQuery made;
+  data::RecordedQuery made{.query = {}, .index = index, .collides = wanted, .toi = std::nullopt};
+  if (is_on_curves(*sort.hardness)) {
+    made.query = draw_curves(sort, wanted, random);
+    return made;
+  }
   for (int attempt = 0; attempt < most_attempts; ++attempt) {
     const Query query = draw_query(sort, wanted, separation, attempt, random);
-    made = {
-        {sort.kind, query},
-        fast::solve(sort.kind, query, {.separation = separation}).verdict == fast::Verdict::yes};
+    made.query = {sort.kind, query};
+    made.collides =
+        fast::solve(sort.kind, query, {.separation = separation}).verdict == fast::Verdict::yes;
     if (made.collides == wanted) break;
   }
   return made;
@@ -503,8 +466,12 @@ HardQuery make_hard_query(const HardSort& sort, std::uint64_t seed, std::uint64_
 
 std::unique_ptr<data::QuerySource> open_hard_queries(const HardSort& sort, std::uint64_t seed,
                                                      std::uint64_t count) {
-  check(sort);
-  return std::make_unique<HardSource>(sort, seed, count);
+  const QueryShape shape = make_hard_query(sort, seed, 0).query.shape();
+  const std::string name =
+      fmt::format("{} {}", sort.hardness->name, level_text(*sort.hardness, sort.level));
+  return open_drawn(
+      {name, shape, separation_at(*sort.hardness, sort.level, sort.separation)}, count,
+      [sort, seed](std::uint64_t index) { return make_hard_query(sort, seed, index); });
 }
 
-}  // namespace touchstone::verify::stability
+}  // namespace touchstone::verify::generate

@@ -1,4 +1,4 @@
-#include "verify/stability/hardness.hpp"
+#include "verify/generate/hardness.hpp"
 
 #include <gtest/gtest.h>
 
@@ -22,7 +22,7 @@
 #include "verify/generate/family_builder.hpp"
 #include "verify/generate/random_stream.hpp"
 
-namespace touchstone::verify::stability::hardness_test {
+namespace touchstone::verify::generate::hardness_test {
 namespace {
 
 using exact::Rational;
@@ -41,9 +41,9 @@ void for_each_query(std::string_view name, std::uint64_t count, const Use& use) 
     for (const Kind kind : kinds) {
       SCOPED_TRACE(::testing::Message() << name << " " << level << " " << to_string(kind));
       for (std::uint64_t index = 0; index < trials(count); ++index) {
-        const HardQuery made =
+        const data::RecordedQuery made =
             make_hard_query({.hardness = &hardness, .level = level, .kind = kind}, seed, index);
-        use(level, kind, made.query.straight(), made.collides);
+        use(level, kind, made.query.straight(), made.collides.value());
       }
     }
   }
@@ -98,7 +98,7 @@ TEST(HardQueries, CollideIfTheirNumberIsEvenSaysTheOracle) {
           const HardSort sort{.hardness = &hardness, .level = level, .kind = kind};
           SCOPED_TRACE(::testing::Message() << hardness.name << " " << level);
           for (std::uint64_t index = 0; index < trials(16U); ++index) {
-            const HardQuery made = make_hard_query(sort, seed, index);
+            const data::RecordedQuery made = make_hard_query(sort, seed, index);
             ASSERT_EQ(made.collides, index % 2 == 0);
             ASSERT_EQ(exact::decide(made.query.queries(), 0).collides(), made.collides) << index;
           }
@@ -149,7 +149,7 @@ TEST(HardQueriesOnCurves, MissByExactlyTheDistance) {
   for (const int level : hardness.levels) {
     for (const Kind kind : kinds) {
       for (std::uint64_t index = 1; index < trials(8U); index += 2) {
-        const HardQuery made =
+        const data::RecordedQuery made =
             make_hard_query({.hardness = &hardness, .level = level, .kind = kind}, seed, index);
         const auto collides_at = [&](double distance) {
           const Separation separation{.distance = distance, .norm = Norm::l2};
@@ -190,7 +190,7 @@ TEST(HardQueriesOnCurves, AreAboutDistanceZeroAlone) {
 TEST(HardQueriesOnCurves, HaveFullSignificands) {
   for (const Hardness& hardness : curve_hardnesses()) {
     const HardSort sort{.hardness = &hardness, .level = hardness.levels.back()};
-    const HardQuery made = make_hard_query(sort, seed, 0);
+    const data::RecordedQuery made = make_hard_query(sort, seed, 0);
     const auto has_many_bits = [](double x) {
       return std::ldexp(x, 30) != std::rint(std::ldexp(x, 30));
     };
@@ -264,7 +264,7 @@ TEST(HardQueries, HaveTheScale) {
 TEST(HardQueries, HaveFullSignificands) {
   for (const std::string_view name : {"distance", "aspect", "angle", "scale"}) {
     for_each_query(name, 8, [](int, Kind, const Query& query, bool) {
-      EXPECT_TRUE(generate::uses_full_significands(query));
+      EXPECT_TRUE(uses_full_significands(query));
     });
   }
 }
@@ -296,7 +296,7 @@ TEST(HardQueries, OfDecimalsHaveTheScale) {
     EXPECT_LE(fuzz::size_exponent({Kind::vertex_face, query}), level - 1);
     EXPECT_GE(fuzz::size_exponent({Kind::vertex_face, query}), level - 8);
     for (const double x : fuzz::magnitudes({Kind::vertex_face, query})) {
-      EXPECT_LE(generate::shortest_decimal(std::ldexp(x, -level)).count, 4) << x;
+      EXPECT_LE(shortest_decimal(std::ldexp(x, -level)).count, 4) << x;
     }
   });
 }
@@ -306,7 +306,7 @@ TEST(HardQueries, OfDecimalsHaveTheDigits) {
     int most = 0;
     for (const double x : fuzz::magnitudes({Kind::vertex_face, query})) {
       // The distance without contact may be several times the size.
-      const generate::Decimal decimal = generate::shortest_decimal(x);
+      const Decimal decimal = shortest_decimal(x);
       EXPECT_GE(decimal.exponent, -level - 1) << x;
       most = std::max(most, decimal.count);
     }
@@ -322,9 +322,10 @@ TEST(HardQueries, HaveTheShareOfContactsAtTheEnds) {
     int at_ends = 0;
     for (int i = 0; i < count; ++i) {
       const Kind kind = kinds.at(static_cast<std::size_t>(i % 2));
-      const HardQuery made = make_hard_query({.hardness = &hardness, .level = level, .kind = kind},
-                                             seed, static_cast<std::uint64_t>(2 * i));
-      ASSERT_TRUE(made.collides);
+      const data::RecordedQuery made =
+          make_hard_query({.hardness = &hardness, .level = level, .kind = kind}, seed,
+                          static_cast<std::uint64_t>(2 * i));
+      ASSERT_TRUE(made.collides.value());
       at_ends += is_at_an_end(kind, made.query.straight()) ? 1 : 0;
     }
     EXPECT_TRUE(level != 0 || at_ends == 0) << at_ends;
@@ -346,7 +347,7 @@ TEST(HardQueries, HaveTheFrame) {
 std::uint64_t hash(const base::AnyQuery& query) {
   std::uint64_t value = 0;
   for (const double x : query.numbers()) {
-    value = generate::mix(value ^ std::bit_cast<std::uint64_t>(x));
+    value = mix(value ^ std::bit_cast<std::uint64_t>(x));
   }
   return value;
 }
@@ -393,10 +394,10 @@ TEST(HardQueriesAboutASeparation, AreHalfCollisionsByTheOracle) {
         for (const Kind kind : kinds) {
           std::uint64_t collisions = 0;
           for (std::uint64_t index = 0; index < trials(16U); ++index) {
-            const HardQuery made = make_hard_query(
+            const data::RecordedQuery made = make_hard_query(
                 {.hardness = &hardness, .level = level, .kind = kind, .separation = asked}, seed,
                 index);
-            collisions += made.collides ? 1U : 0U;
+            collisions += made.collides.value() ? 1U : 0U;
             const exact::Decision truth =
                 exact::decide(kind, made.query.straight(), separation_at(hardness, level, asked));
             ASSERT_EQ(truth.collides(), made.collides);
@@ -425,4 +426,4 @@ TEST(HardQueriesAboutASeparation, AreLimitedInDistance) {
 }
 
 }  // namespace
-}  // namespace touchstone::verify::stability::hardness_test
+}  // namespace touchstone::verify::generate::hardness_test

@@ -1,18 +1,21 @@
-#include "verify/report/stability_report.hpp"
+#include "verify/report/stability.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <cstddef>
 #include <nlohmann/json.hpp>
+#include <optional>
+#include <stdexcept>
 #include <string_view>
 #include <utility>
-#include <vector>
 
+#include "verify/base/deadline.hpp"
 #include "verify/io/json.hpp"
 #include "verify/io/printable.hpp"
 #include "verify/io/text_table.hpp"
+#include "verify/jobs/budget.hpp"
 #include "verify/judge/separation_inference.hpp"
 #include "verify/judge/terms.hpp"
 #include "verify/report/judgement_report.hpp"
@@ -31,9 +34,46 @@ constexpr std::string_view map_legend =
     "hangs, "
     "# both, . none\n";
 
-std::string_view name_of(const stability::Outcome& outcome) {
-  if (outcome.is_slight) return "slightly late toi";
-  return outcome.worst ? judge::to_text(*outcome.worst) : std::string_view();
+std::vector<StabilityCell> cells_of(const StabilityOptions& options) {
+  std::vector<StabilityCell> cells;
+  for (const generate::Hardness* hardness : options.hardnesses) {
+    for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
+      for (const int level : hardness->levels) {
+        cells.push_back({{.hardness = hardness,
+                          .level = level,
+                          .kind = kind,
+                          .separation = options.certify.separation},
+                         {}});
+      }
+    }
+  }
+  return cells;
+}
+
+jobs::CertifyResult judge_cell(const generate::HardSort& sort, const StabilityOptions& options,
+                               jobs::CertifyOptions certify_options) {
+  const auto source = generate::open_hard_queries(sort, options.seed, options.count);
+  certify_options.separation = source->recorded_separation();
+  jobs::CertifyResult judged = jobs::certify(*source, certify_options);
+  if (judged.error) throw std::runtime_error(source->name() + ": " + *judged.error);
+  return judged;
+}
+
+/// The worst that a method did, and the rate of that fault.
+struct Outcome {
+  std::optional<judge::WorstFault> worst;  ///< nothing if nothing is wrong
+  double rate = 0.0;
+};
+
+Outcome outcome_of(const jobs::CertifyResult& judged, std::size_t method) {
+  const jobs::MethodResult& result = judged.methods.at(method);
+  const auto worst = judge::worst_of(result.judgement, result.promise);
+  return {worst, worst ? rate_of(worst->fault, judged, method) : 0.0};
+}
+
+std::string_view name_of(const Outcome& outcome) {
+  if (!outcome.worst) return {};
+  return outcome.worst->is_slight ? "slightly late toi" : judge::to_text(outcome.worst->fault);
 }
 
 /// "8.3 %", "100 %": two digits, or whole numbers from 100.
@@ -45,12 +85,12 @@ std::string percent(double share) {
 /// A level's cell in one character.
 char character_of(const jobs::CertifyResult& judged, std::size_t method) {
   if (judged.methods.at(method).judgement.queries == 0) return '-';
-  const stability::Outcome outcome = stability::outcome_of(judged, method);
-  if (!outcome.worst) return '.';
-  if (*outcome.worst != judge::Fault::false_positive) {
-    return judge::letter_of(*outcome.worst, outcome.is_slight);
+  const auto [worst, rate] = outcome_of(judged, method);
+  if (!worst) return '.';
+  if (worst->fault != judge::Fault::false_positive) {
+    return judge::letter_of(worst->fault, worst->is_slight);
   }
-  return static_cast<char>('0' + std::min(9, static_cast<int>(10.0 * outcome.rate)));
+  return static_cast<char>('0' + std::min(9, static_cast<int>(10.0 * rate)));
 }
 
 /// Errors and hangs of a level in one character.
@@ -62,13 +102,13 @@ char failures_of(const jobs::CertifyResult& judged, std::size_t method) {
 }
 
 /// The cells of one hardness and kind.
-using CellRow = std::vector<const stability::StabilityCell*>;
+using CellRow = std::vector<const StabilityCell*>;
 
-std::vector<CellRow> rows_of(const stability::StabilityResult& result) {
+std::vector<CellRow> rows_of(const StabilityResult& result) {
   std::vector<CellRow> rows;
-  for (const stability::StabilityCell& cell : result.cells) {
-    const bool is_new = rows.empty() || rows.back().front()->hardness != cell.hardness ||
-                        rows.back().front()->kind != cell.kind;
+  for (const StabilityCell& cell : result.cells) {
+    const bool is_new = rows.empty() || rows.back().front()->sort.hardness != cell.sort.hardness ||
+                        rows.back().front()->sort.kind != cell.sort.kind;
     if (is_new) rows.emplace_back();
     rows.back().push_back(&cell);
   }
@@ -90,26 +130,27 @@ std::vector<io::TextColumn> columns() {
 io::TextRow text_row(const CellRow& row, std::size_t method) {
   jobs::CertifyResult sum;
   std::string marks, failures;
-  for (const stability::StabilityCell* cell : row) {
+  for (const StabilityCell* cell : row) {
     sum += cell->judged;
     marks += character_of(cell->judged, method);
     failures += failures_of(cell->judged, method);
   }
   const jobs::MethodResult& all = sum.methods.at(method);
   const judge::Judgement& judged = all.judgement;
-  const stability::Hardness& hardness = *row.front()->hardness;
+  const generate::Hardness& hardness = *row.front()->sort.hardness;
   return io::joined<std::string>(
       {{std::string(hardness.name),
-        fmt::format("{} … {}", stability::level_text(hardness, hardness.levels.front()),
-                    stability::level_text(hardness, hardness.levels.back())),
-        std::string(to_string(row.front()->kind)), marks, failures, std::to_string(judged.queries)},
+        fmt::format("{} … {}", generate::level_text(hardness, hardness.levels.front()),
+                    generate::level_text(hardness, hardness.levels.back())),
+        std::string(to_string(row.front()->sort.kind)), marks, failures,
+        std::to_string(judged.queries)},
        fault_cells(judged),
-       {io::number_text(stability::nanoseconds_per_query(all), "{:.1f}"),
-        io::number_text(stability::checks_per_query(all), "{:.1f}"),
+       {io::number_text(all.nanoseconds_per_query(), "{:.1f}"),
+        io::number_text(all.checks_per_query(), "{:.1f}"),
         io::error_text(judged.toi_errors.quantile(0.5)), io::error_text(judged.toi_errors.max())}});
 }
 
-std::string method_text(const stability::StabilityResult& result, std::size_t method) {
+std::string method_text(const StabilityResult& result, std::size_t method) {
   io::TextTable table(columns());
   for (const CellRow& row : rows_of(result)) table.add(text_row(row, method));
   const jobs::MethodResult& total = result.total.methods.at(method);
@@ -123,37 +164,35 @@ std::string method_text(const stability::StabilityResult& result, std::size_t me
   return fmt::format("{}\n{}{}\n", promise_text(total), table.text(), notes);
 }
 
-nlohmann::json json_of(const stability::StabilityCell& cell, std::size_t method) {
+nlohmann::json json_of(const StabilityCell& cell, std::size_t method) {
   const jobs::MethodResult& of_method = cell.judged.methods.at(method);
   const judge::Judgement& judged = of_method.judgement;
-  const stability::Outcome outcome = stability::outcome_of(cell.judged, method);
+  const Outcome outcome = outcome_of(cell.judged, method);
   nlohmann::json json = report::to_json(judged);
-  json.update({{"hardness", cell.hardness->name},
-               {"level", stability::level_value(*cell.hardness, cell.level)},
-               {"kind", to_string(cell.kind)},
+  json.update({{"hardness", cell.sort.hardness->name},
+               {"level", generate::level_value(*cell.sort.hardness, cell.sort.level)},
+               {"kind", to_string(cell.sort.kind)},
                {"queries", judged.queries},
                {"collisions", cell.judged.collisions},
-               {"false_negative_rate",
-                stability::rate_of(judge::Fault::false_negative, cell.judged, method)},
-               {"false_positive_rate",
-                stability::rate_of(judge::Fault::false_positive, cell.judged, method)},
+               {"false_negative_rate", rate_of(judge::Fault::false_negative, cell.judged, method)},
+               {"false_positive_rate", rate_of(judge::Fault::false_positive, cell.judged, method)},
                {"worst", io::text_or_null(name_of(outcome))},
                {"worst_rate", outcome.rate},
-               {"ns_per_query", io::number_to_json(stability::nanoseconds_per_query(of_method))},
-               {"checks_per_query", io::number_to_json(stability::checks_per_query(of_method))}});
+               {"ns_per_query", io::number_to_json(of_method.nanoseconds_per_query())},
+               {"checks_per_query", io::number_to_json(of_method.checks_per_query())}});
   return json;
 }
 
-StabilityMark mark_of(const stability::StabilityCell& cell, std::size_t method) {
+StabilityMark mark_of(const StabilityCell& cell, std::size_t method) {
   const jobs::MethodResult& result = cell.judged.methods.at(method);
   const judge::Judgement& judged = result.judgement;
-  const stability::Outcome outcome = stability::outcome_of(cell.judged, method);
+  const auto [worst, rate] = outcome_of(cell.judged, method);
   return {.method = result.name,
-          .hardness = std::string(cell.hardness->name),
-          .measure = std::string(cell.hardness->measure),
-          .exponent = cell.level,
-          .is_power = cell.hardness->unit == stability::LevelUnit::power_of_two,
-          .kind = cell.kind,
+          .hardness = std::string(cell.sort.hardness->name),
+          .measure = std::string(cell.sort.hardness->measure),
+          .exponent = cell.sort.level,
+          .is_power = cell.sort.hardness->unit == generate::LevelUnit::power_of_two,
+          .kind = cell.sort.kind,
           .queries = cell.judged.queries,
           .collisions = cell.judged.collisions,
           .false_positives = judged.count(judge::Fault::false_positive),
@@ -164,15 +203,60 @@ StabilityMark mark_of(const stability::StabilityCell& cell, std::size_t method) 
           .errors = judged.errors(),
           .hangs = judged.count(judge::Fault::hang),
           .undecided = judged.undecided(),
-          .worst = outcome.worst,
-          .is_slight = outcome.is_slight,
-          .worst_rate = outcome.rate,
+          .worst = worst ? std::optional(worst->fault) : std::nullopt,
+          .is_slight = worst && worst->is_slight,
+          .worst_rate = rate,
           .toi_error = spread_of(judged.toi_errors),
-          .nanoseconds = stability::nanoseconds_per_query(result).value_or(Measurement::unknown),
-          .checks = stability::checks_per_query(result).value_or(Measurement::unknown)};
+          .nanoseconds = result.nanoseconds_per_query().value_or(Measurement::unknown),
+          .checks = result.checks_per_query().value_or(Measurement::unknown)};
 }
 
 }  // namespace
+
+StabilityResult measure_stability(const StabilityOptions& options) {
+  StabilityResult result{.separation = options.certify.separation,
+                         .seed = options.seed,
+                         .count = options.count,
+                         .total = {},
+                         .cells = cells_of(options)};
+  result.total.name = "total";
+  jobs::CertifyOptions certify_options = options.certify;
+  jobs::Budget budget;
+  if (options.seconds > 0.0) {
+    budget = jobs::Budget(options.seconds, certify_options.solvers, certify_options.threads);
+  }
+  certify_options.is_short_of_time = budget.is_limited();
+  const auto stopped = [&] { return base::is_stopped(certify_options.stop) || budget.is_over(); };
+  std::size_t done = 0;
+  certify_options.on_progress = [&](double fraction) {
+    if (!options.certify.on_progress) return;
+    options.certify.on_progress((static_cast<double>(done) + fraction) /
+                                static_cast<double>(result.cells.size()));
+  };
+  for (; done < result.cells.size() && !stopped(); ++done) {
+    StabilityCell& cell = result.cells[done];
+    certify_options.deadline = budget.begin_source(result.cells.size() - done);
+    cell.judged = judge_cell(cell.sort, options, certify_options);
+    result.total += cell.judged;
+    certify_options.on_progress(1.0);
+  }
+  result.total.interrupted = result.total.interrupted || done < result.cells.size();
+  result.unjudged_cells = result.cells.size() - done;
+  result.cells.resize(done);
+  return result;
+}
+
+double rate_of(judge::Fault fault, const jobs::CertifyResult& judged, std::size_t method) {
+  const judge::Judgement& judgement = judged.methods.at(method).judgement;
+  const std::uint64_t misses = judgement.queries - judgement.collisions;
+  const bool about_misses =
+      fault == judge::Fault::false_positive || fault == judge::Fault::beyond_tolerance;
+  const std::uint64_t among = judge::is_error(fault) ? judgement.queries
+                              : about_misses         ? misses
+                                                     : judgement.collisions;
+  const std::uint64_t count = judgement.total(fault);
+  return among == 0 ? 0.0 : static_cast<double>(count) / static_cast<double>(among);
+}
 
 std::string promise_text(const jobs::MethodResult& method) {
   const bool keeps = judge::keeps(method.judgement, method.promise);
@@ -185,7 +269,7 @@ std::string promise_text(const jobs::MethodResult& method) {
                      judge::to_text(method.terms), keeps ? "keeps" : "breaks");
 }
 
-std::string to_text(const stability::StabilityResult& result) {
+std::string to_text(const StabilityResult& result) {
   std::string text;
   if (!is_zero(result.separation)) {
     text += fmt::format("minimum separation {}\n", judge::to_text(result.separation));
@@ -195,17 +279,17 @@ std::string to_text(const stability::StabilityResult& result) {
   if (result.unjudged_cells != 0) {
     text += fmt::format("{} cells were not judged\n", result.unjudged_cells);
   }
-  for (const stability::StabilityCell& cell : result.cells) {
+  for (const StabilityCell& cell : result.cells) {
     for (const judge::Mismatch& mismatch : cell.judged.mismatches) {
       text += fmt::format("disagreement: {}: {} query {}: certified solver {}, oracle {}\n",
-                          cell.judged.name, to_string(cell.kind), mismatch.index, mismatch.recorded,
-                          mismatch.truth);
+                          cell.judged.name, to_string(cell.sort.kind), mismatch.index,
+                          mismatch.recorded, mismatch.truth);
     }
   }
   return text;
 }
 
-nlohmann::json to_json(const stability::StabilityResult& result) {
+nlohmann::json to_json(const StabilityResult& result) {
   nlohmann::json json{{"seed", result.seed},
                       {"count", result.count},
                       {"separation", nlohmann::json()},
@@ -215,12 +299,12 @@ nlohmann::json to_json(const stability::StabilityResult& result) {
                       {"hardnesses", nlohmann::json::array()},
                       {"methods", nlohmann::json::array()}};
   if (!is_zero(result.separation)) json["separation"] = judge::to_json(result.separation);
-  const stability::Hardness* latest = nullptr;
-  for (const stability::StabilityCell& cell : result.cells) {
-    if (cell.hardness == latest) continue;
-    latest = cell.hardness;
+  const generate::Hardness* latest = nullptr;
+  for (const StabilityCell& cell : result.cells) {
+    if (cell.sort.hardness == latest) continue;
+    latest = cell.sort.hardness;
     nlohmann::json levels = nlohmann::json::array();
-    for (const int level : latest->levels) levels.push_back(stability::level_value(*latest, level));
+    for (const int level : latest->levels) levels.push_back(generate::level_value(*latest, level));
     json["hardnesses"].push_back({{"name", latest->name},
                                   {"measure", latest->measure},
                                   {"reason", latest->reason},
@@ -229,7 +313,7 @@ nlohmann::json to_json(const stability::StabilityResult& result) {
   for (std::size_t i = 0; i < result.total.methods.size(); ++i) {
     const jobs::MethodResult& total = result.total.methods[i];
     nlohmann::json cells = nlohmann::json::array();
-    for (const stability::StabilityCell& cell : result.cells) cells.push_back(json_of(cell, i));
+    for (const StabilityCell& cell : result.cells) cells.push_back(json_of(cell, i));
     json["methods"].push_back({{"name", total.name},
                                {"promise", solvers::to_string(total.promise)},
                                {"keeps_promise", judge::keeps(total.judgement, total.promise)},
@@ -238,20 +322,20 @@ nlohmann::json to_json(const stability::StabilityResult& result) {
   return json;
 }
 
-std::vector<StabilityMark> marks_of(const stability::StabilityResult& result) {
+std::vector<StabilityMark> marks_of(const StabilityResult& result) {
   std::vector<StabilityMark> marks;
-  for (const stability::StabilityCell& cell : result.cells) {
+  for (const StabilityCell& cell : result.cells) {
     for (std::size_t i = 0; i < cell.judged.methods.size(); ++i) marks.push_back(mark_of(cell, i));
   }
   return marks;
 }
 
-nlohmann::json overview_of(const stability::StabilityResult& result) {
+nlohmann::json overview_of(const StabilityResult& result) {
   std::vector<std::string> columns{"method"};
   std::vector<jobs::CertifyResult> sums;
-  for (const stability::StabilityCell& cell : result.cells) {
-    if (columns.back() != cell.hardness->name) {
-      columns.emplace_back(cell.hardness->name);
+  for (const StabilityCell& cell : result.cells) {
+    if (columns.back() != cell.sort.hardness->name) {
+      columns.emplace_back(cell.sort.hardness->name);
       sums.emplace_back();
     }
     sums.back() += cell.judged;
@@ -260,7 +344,7 @@ nlohmann::json overview_of(const stability::StabilityResult& result) {
   for (std::size_t i = 0; i < result.total.methods.size(); ++i) {
     std::vector<std::string> row{io::printable(result.total.methods[i].name)};
     for (const jobs::CertifyResult& sum : sums) {
-      const stability::Outcome outcome = stability::outcome_of(sum, i);
+      const Outcome outcome = outcome_of(sum, i);
       row.push_back(outcome.worst ? fmt::format("{} {}", name_of(outcome), percent(outcome.rate))
                                   : "nothing wrong");
     }

@@ -1,10 +1,10 @@
-#include "verify/jobs/sha256.hpp"
+#include "verify/io/sha256.hpp"
 
 #include <gtest/gtest.h>
 
 #include <string>
 
-namespace touchstone::verify::jobs::sha256_test {
+namespace touchstone::verify::io::sha256_test {
 namespace {
 
 // The examples of FIPS 180-4.
@@ -32,4 +32,4 @@ TEST(Sha256, DoesNotDependOnThePartsOrTheirLengths) {
 }
 
 }  // namespace
-}  // namespace touchstone::verify::jobs::sha256_test
+}  // namespace touchstone::verify::io::sha256_test

@@ -1,4 +1,4 @@
-#include "verify/stability/hard_curves.hpp"
+#include "verify/generate/hard_curves.hpp"
 
 #include <array>
 #include <cmath>
@@ -8,11 +8,8 @@
 
 #include "verify/generate/curved_families.hpp"
 
-namespace touchstone::verify::stability {
+namespace touchstone::verify::generate {
 namespace {
-
-using generate::Points;
-using generate::Random;
 
 /// The binomials of a degree.
 std::vector<std::int64_t> binomials(std::size_t degree) {
@@ -33,7 +30,7 @@ double odd_multiple(const std::vector<std::int64_t>& numbers) {
 }
 
 /// The control values of m (t−a/8)² q(t) + gap.
-std::vector<double> heights(std::size_t degree, double gap, Random& random) {
+std::vector<double> control_heights(std::size_t degree, double gap, Random& random) {
   const double a = static_cast<double>(random.between(1, 7)) / 8.0;
   const std::array<double, 3> square{a * a, -2.0 * a * (1.0 - a), (1.0 - a) * (1.0 - a)};
   const std::vector<std::int64_t> of_factor = binomials(degree - 2), of_all = binomials(degree);
@@ -64,7 +61,7 @@ base::AnyQuery moved_and_turned(const QueryShape& shape, Random& random,
     for (const auto& point : points) {
       const double x = point[0] + moved[0], y = point[1] + moved[1], z = point[2] + moved[2];
       numbers.insert(numbers.end(), {2 * x - 2 * y + z, x + 2 * y + 2 * z, 2 * x + y - 2 * z});
-      if (shape.is_rational) numbers.push_back(generate::quarter_weights.at(k));
+      if (shape.is_rational) numbers.push_back(quarter_weights.at(k));
     }
   }
   return {shape, numbers};
@@ -74,19 +71,18 @@ base::AnyQuery moved_and_turned(const QueryShape& shape, Random& random,
 
 base::AnyQuery hard_curves(Kind kind, std::size_t degree, double gap, Random& random) {
   const double sign = random.coin() ? 1.0 : -1.0;
-  const std::vector<double> control = heights(degree, gap, random);
+  const std::vector<double> control = control_heights(degree, gap, random);
   return moved_and_turned({.kind = kind, .degree = degree}, random,
-                          [&](std::size_t k) { return generate::above(kind, sign * control[k]); });
+                          [&](std::size_t k) { return above(kind, sign * control[k]); });
 }
 
 base::AnyQuery hard_rotation(Kind kind, double gap, Random& random) {
-  const generate::Rotation rotation{
-      .eighth = static_cast<double>(random.between(1, 7)),
-      .scale = std::ldexp(1.0, static_cast<int>(random.between(-2, 2))),
-      .direction = random.coin() ? 1.0 : -1.0,
-      .gap = gap};
+  const Rotation rotation{.eighth = static_cast<double>(random.between(1, 7)),
+                          .scale = std::ldexp(1.0, static_cast<int>(random.between(-2, 2))),
+                          .direction = random.coin() ? 1.0 : -1.0,
+                          .gap = gap};
   return moved_and_turned({.kind = kind, .degree = 2, .is_rational = true}, random,
-                          [&](std::size_t k) { return generate::turning(kind, rotation, k); });
+                          [&](std::size_t k) { return turning(kind, rotation, k); });
 }
 
-}  // namespace touchstone::verify::stability
+}  // namespace touchstone::verify::generate

@@ -9,7 +9,7 @@
 #include <string>
 #include <string_view>
 
-namespace touchstone::verify::jobs {
+namespace touchstone::verify::io {
 
 /// The digest of bytes that come in parts.
 class Sha256 {
@@ -31,4 +31,4 @@ class Sha256 {
 
 [[nodiscard]] std::string sha256(std::string_view bytes);
 
-}  // namespace touchstone::verify::jobs
+}  // namespace touchstone::verify::io
