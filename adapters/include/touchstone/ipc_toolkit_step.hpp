@@ -168,26 +168,25 @@ class CollisionScene {
   std::vector<std::int32_t> points_;
 };
 
-/// The time at which the first pair comes as near as it may, rounded down as in
-/// touchstone/ipc_toolkit.hpp; nullopt if none does. \throws as above.
-[[nodiscard]] inline std::optional<double> first_limit(const ipc::CollisionMesh& mesh,
-                                                       Eigen::ConstRef<Eigen::MatrixXd> vertices_t0,
-                                                       Eigen::ConstRef<Eigen::MatrixXd> vertices_t1,
-                                                       double min_distance, double rescaling) {
-  const NarrowPhaseCCD narrow_phase(rescaling);
-  const CollisionScene scene(mesh);
-  const fast::Step step = scene.step(vertices_t0, vertices_t1, min_distance);
-  const double part = 1.0 - rescaling;
-  if (!scene.is_flat() && min_distance == 0.0 && part > 0.0 && part <= 1.0 - 0x1p-50) {
-    const fast::LineSearchLimit limit =
-        fast::line_search_limit(step, part, {.start_distance = fast::StartDistance::of_pair});
-    if (limit.status == fast::LineSearchStatus::whole) return std::nullopt;
-    return limit.step_size;
-  }
-  // A pair within the minimum distance has come as near as it may before.
+/// The time at which the first pair of a step of the scene, with the separation min_distance, comes
+/// as near as it may, rounded down as in touchstone/ipc_toolkit.hpp; nullopt if none does.
+[[nodiscard]] inline std::optional<double> first_limit(const CollisionScene& scene,
+                                                       const fast::Step& step,
+                                                       const NarrowPhaseCCD& narrow_phase,
+                                                       double min_distance) {
+  const double part = 1.0 - narrow_phase.conservative_rescaling;
   double until = 1.0;
   if (!scene.is_flat()) {
-    if (const auto impact = step.earliest()) until = (std::min)(until, impact->toi_upper);
+    if (min_distance == 0.0 && part > 0.0 && part <= 1.0 - 0x1p-50) {
+      const fast::LineSearchLimit limit =
+          fast::line_search_limit(step, part, {.start_distance = fast::StartDistance::of_pair});
+      if (limit.status == fast::LineSearchStatus::whole) return std::nullopt;
+      return limit.step_size;
+    }
+    const std::optional<fast::StepImpact> impact = step.earliest();
+    if (part == 0.0) return impact ? std::optional(impact->toi_lower) : std::nullopt;
+    // A pair within the minimum distance has come as near as it may before.
+    if (impact) until = (std::min)(until, impact->toi_upper);
   }
   std::atomic<double> first = std::numeric_limits<double>::infinity();
   step.candidates([&](const fast::StepCandidates& some) {
@@ -216,9 +215,10 @@ class CollisionScene {
     Eigen::ConstRef<Eigen::MatrixXd> vertices_t1, double min_distance = 0.0,
     const ipc::BroadPhase* /*broad_phase*/ = nullptr,
     const ipc::NarrowPhaseCCD& narrow_phase_ccd = NarrowPhaseCCD()) {
-  return first_limit(mesh, vertices_t0, vertices_t1, min_distance,
-                     narrow_phase_ccd.conservative_rescaling)
-      .value_or(1.0);
+  const NarrowPhaseCCD narrow_phase(narrow_phase_ccd.conservative_rescaling);
+  const CollisionScene scene(mesh);
+  const fast::Step step = scene.step(vertices_t0, vertices_t1, min_distance);
+  return first_limit(scene, step, narrow_phase, min_distance).value_or(1.0);
 }
 
 /// True if no pair comes nearer than it may in the whole step. With NarrowPhaseCCD(1.0): if no pair
@@ -228,8 +228,12 @@ class CollisionScene {
     Eigen::ConstRef<Eigen::MatrixXd> vertices_t1, double min_distance = 0.0,
     const ipc::BroadPhase* /*broad_phase*/ = nullptr,
     const ipc::NarrowPhaseCCD& narrow_phase_ccd = NarrowPhaseCCD()) {
-  return !first_limit(mesh, vertices_t0, vertices_t1, min_distance,
-                      narrow_phase_ccd.conservative_rescaling);
+  const NarrowPhaseCCD narrow_phase(narrow_phase_ccd.conservative_rescaling);
+  const CollisionScene scene(mesh);
+  const fast::Step step = scene.step(vertices_t0, vertices_t1, min_distance);
+  // Any collision is found sooner than the first limit.
+  if (!scene.is_flat() && !step.is_free()) return false;
+  return !first_limit(scene, step, narrow_phase, min_distance);
 }
 
 /// True if an edge and a face without a common vertex that can collide have a common point; in two
