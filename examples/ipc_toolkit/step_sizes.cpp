@@ -1,6 +1,9 @@
 /// \file
 /// The step size of one step of a mesh by the IPC Toolkit's methods and by Touchstone, and the
 /// processor time of each in one thread: step_sizes BEFORE.ply AFTER.ply [ROUNDS]
+///
+/// For a program of the toolkit's build: link ipc::toolkit, igl::core, TBB::tbb and
+/// touchstone::ipc_toolkit_adapter.
 
 #include <touchstone/ipc_toolkit_step.hpp>
 
