@@ -285,6 +285,10 @@ TEST(Step, EndsItsSearchesWhenItIsToStop) {
               step.candidates([](const StepCandidates&) { throw std::runtime_error("enough"); });
             }),
             "enough");
+  // And those of a rule.
+  Scene ruled = scene;
+  ruled.can_collide = [](std::int32_t, std::int32_t) -> bool { throw std::runtime_error("rule"); };
+  EXPECT_EQ(message_of<std::runtime_error>([&] { (void)ruled.step().earliest(); }), "rule");
 }
 
 // ---- The theorem --------------------------------------------------------------------------------
