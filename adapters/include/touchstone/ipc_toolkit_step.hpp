@@ -116,7 +116,7 @@ class CollisionScene {
       return can_collide(a, other) || can_collide(b, other);
     };
     std::atomic<bool> found = false;
-    const fast::Step step(start, end, {.faces = faces_, .points = moving},
+    const fast::Step step(start, end, {.edges = edges_, .faces = faces_, .points = moving},
                           {.groups = {.of_vertices = groups, .apart = apart},
                            .can_collide = can_meet,
                            .stop = &found});
