@@ -62,6 +62,7 @@ constexpr std::string_view layer_lines = R"(
   fast/step/: fast/step/ fast/broad_phase/ fast/certified/ fast/broad_phase.hpp fast/candidates.hpp fast/kernels.hpp fast/mesh.hpp fast/step.hpp
   adapters/: adapters/ fast/ exact/query.hpp Eigen/
   adapters/ipc_toolkit.hpp: fast/ exact/query.hpp ipc/ccd/narrow_phase_ccd.hpp
+  adapters/ipc_toolkit_step.hpp: adapters/ipc_toolkit.hpp fast/ exact/query.hpp ipc/collision_mesh.hpp
   adapters/tight_inclusion/logger.hpp: spdlog/
 // Who includes a header in C needs no other header of ours.
   adapters/touchstone.h: stddef.h stdint.h

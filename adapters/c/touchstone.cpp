@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <cstring>
 #include <exception>
+#include <functional>
 #include <limits>
 #include <memory>
 #include <new>
@@ -167,6 +168,11 @@ std::unique_ptr<TouchstoneStep> step_of(const TouchstoneMesh& mesh,
   };
   fast::CollisionGroups groups{.of_vertices = {}, .apart = apart};
   if (mesh.groups != nullptr) groups.of_vertices = std::span(mesh.groups, mesh.vertices);
+  std::function<bool(std::int32_t, std::int32_t)> can_collide;
+  if (mesh.can_collide != nullptr) {
+    can_collide = [rule = mesh.can_collide, context = mesh.can_collide_context](
+                      std::int32_t a, std::int32_t b) { return rule(context, a, b) != 0; };
+  }
   result->step.emplace(
       coordinates(before), coordinates(after),
       fast::MeshElements{.edges = result->edges, .faces = result->faces, .points = result->points},
@@ -174,7 +180,8 @@ std::unique_ptr<TouchstoneStep> step_of(const TouchstoneMesh& mesh,
                         .toi_tolerance = options.toi_tolerance,
                         .t_max = options.t_max,
                         .max_threads = options.max_threads,
-                        .groups = groups});
+                        .groups = groups,
+                        .can_collide = std::move(can_collide)});
   return result;
 }
 

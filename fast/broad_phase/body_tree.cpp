@@ -36,7 +36,8 @@ std::vector<IndexLanes> level_above(const std::vector<IndexLanes>& below) {
 
 }  // namespace
 
-BodyTree::BodyTree(const PrimitiveGroups& primitives, std::span<const std::int32_t> of_vertices) {
+BodyTree::BodyTree(const PrimitiveGroups& primitives, std::span<const std::int32_t> of_vertices,
+                   bool all_are_mixed) {
   if (primitives.members().empty()) return;
   levels_.emplace_back();
   for (const GroupMembers& members : primitives.members()) {
@@ -45,6 +46,9 @@ BodyTree::BodyTree(const PrimitiveGroups& primitives, std::span<const std::int32
   do {
     levels_.push_back(level_above(levels_.back()));
   } while (levels_.back().size() > 1);
+  if (all_are_mixed) {
+    for (IndexLanes& bodies : levels_.front()) bodies.fill(mixed);
+  }
 }
 
 }  // namespace touchstone::fast

@@ -6,7 +6,8 @@
 ///
 /// A primitive belongs to the common body of its vertices, or is *mixed*; likewise a group of
 /// primitives, and a node. A search can therefore skip whole nodes of a body that does not meet its
-/// own.
+/// own. Where bodies alone do not tell which primitives meet, each primitive counts as mixed, so
+/// that the search asks about it (PairQuestions).
 
 #include <cstddef>
 #include <cstdint>
@@ -22,7 +23,9 @@ class BodyTree {
   static constexpr std::int32_t mixed = -1;
 
   /// The tree of these primitives. \param of_vertices The body of each vertex, not negative.
-  BodyTree(const PrimitiveGroups& primitives, std::span<const std::int32_t> of_vertices);
+  /// \param all_are_mixed True if each primitive counts as mixed, but not the groups of them.
+  BodyTree(const PrimitiveGroups& primitives, std::span<const std::int32_t> of_vertices,
+           bool all_are_mixed);
 
   /// As BoxTree::levels: the bodies of each group's lanes.
   [[nodiscard]] const IndexLanes& bodies(std::size_t level, std::size_t group) const {

@@ -3,10 +3,13 @@
 #include <algorithm>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 namespace touchstone::fast {
 
-Bodies::Bodies(std::size_t vertices, const CollisionGroups& groups) {
+Bodies::Bodies(std::size_t vertices, const CollisionGroups& groups,
+               std::function<bool(std::int32_t, std::int32_t)> can_collide)
+    : can_collide_(std::move(can_collide)) {
   const std::span<const std::int32_t> of_vertices = groups.of_vertices;
   if (!of_vertices.empty() && of_vertices.size() != vertices) {
     throw std::invalid_argument("step: there are groups of " + std::to_string(of_vertices.size()) +
@@ -23,7 +26,7 @@ Bodies::Bodies(std::size_t vertices, const CollisionGroups& groups) {
     throw std::invalid_argument("step: a group of two that are apart is negative: " +
                                 std::to_string(std::min(a, b)));
   }
-  if (groups.apart.empty()) return;
+  if (groups.apart.empty() && !can_collide_) return;
   of_vertices_.assign(vertices, 0);
   std::ranges::copy(of_vertices, of_vertices_.begin());
   for (const auto& [a, b] : groups.apart) apart_.push_back({std::min(a, b), std::max(a, b)});
@@ -40,8 +43,11 @@ bool Bodies::meet(std::span<const std::int32_t> vertices,
   const auto body = [this](std::int32_t vertex) {
     return of_vertices_[static_cast<std::size_t>(vertex)];
   };
+  const auto can_collide = [&](std::int32_t a, std::int32_t b) {
+    return (apart_.empty() || meet(body(a), body(b))) && (!can_collide_ || can_collide_(a, b));
+  };
   return std::ranges::any_of(vertices, [&](std::int32_t a) {
-    return std::ranges::any_of(others, [&](std::int32_t b) { return meet(body(a), body(b)); });
+    return std::ranges::any_of(others, [&](std::int32_t b) { return can_collide(a, b); });
   });
 }
 

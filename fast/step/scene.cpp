@@ -95,7 +95,7 @@ Trees<instants> trees_of(const OfPrimitives<PrimitiveGroups>& groups, const Floa
 // ---- The mesh -----------------------------------------------------------------------------------
 
 SceneMesh::SceneMesh(std::size_t vertex_count, const MeshElements& given,
-                     const CollisionGroups& collision_groups)
+                     const StepOptions& options)
     : edges_of_faces(given.edges.empty() ? edges_of(given.faces) : std::vector<Edge>()),
       elements{.edges = given.edges.empty() ? edges_of_faces : given.edges,
                .faces = given.faces,
@@ -106,7 +106,7 @@ SceneMesh::SceneMesh(std::size_t vertex_count, const MeshElements& given,
       edges_as_faces(fast::as_faces(codimensional.edges, elements.edges)),
       numbers{{{}, {}, {}, codimensional.points, codimensional.edges}},
       as_faces{{{}, {}, elements.faces, points_as_faces, edges_as_faces}},
-      bodies(vertex_count, collision_groups) {}
+      bodies(vertex_count, options.groups, options.can_collide) {}
 
 // ---- The groups ---------------------------------------------------------------------------------
 
@@ -165,7 +165,7 @@ SceneGroups::SceneGroups(const SceneMesh& mesh, const FloatBounds& bounds)
       looseness(looseness_of(groups, bounds)) {
   if (mesh.bodies.all_meet()) return;
   bodies = each(groups, [&mesh](const PrimitiveGroups& some) {
-    return BodyTree(some, mesh.bodies.of_vertices());
+    return BodyTree(some, mesh.bodies.of_vertices(), mesh.bodies.has_rule_for_vertices());
   });
 }
 
@@ -178,7 +178,7 @@ Scene::Scene(MovingVertices vertices, const MeshElements& elements, const StepOp
       kernel_(certified_kernel(chosen_kernels())),
       search_(search_kernel(chosen_kernels())),
       bounds_(vertices_, 1.0, certified_.separation.distance),
-      mesh_(std::make_shared<const SceneMesh>(vertices_.size(), elements, options.groups)),
+      mesh_(std::make_shared<const SceneMesh>(vertices_.size(), elements, options)),
       groups_(std::make_shared<const SceneGroups>(*mesh_, bounds_)) {}
 
 Scene::Scene(MovingVertices vertices, const Scene& other)
@@ -265,7 +265,13 @@ bool Scene::confirms(const Primitive& a, const Primitive& b) const {
 bool Scene::bodies_meet(std::int32_t a, std::int32_t b) const { return mesh_->bodies.meet(a, b); }
 
 bool Scene::primitives_meet(const Primitive& a, const Primitive& b) const {
-  return mesh_->bodies.meet(a, b);
+  // Its vertices without those that stand for a missing second or third one.
+  const auto vertices = [](const Primitive& primitive) {
+    const auto& [first, second, third] = primitive;
+    const std::size_t count = third != first && third != second ? 3 : second != first ? 2 : 1;
+    return std::span(primitive).first(count);
+  };
+  return mesh_->bodies.meet(vertices(a), vertices(b));
 }
 
 // ---- Pairs --------------------------------------------------------------------------------------

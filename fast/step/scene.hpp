@@ -92,8 +92,7 @@ struct SearchPart {
 /// The data that do not depend on the places of vertices: steps of one mesh share them.
 struct SceneMesh {
   /// Keeps references to the elements. \throws as Step.
-  SceneMesh(std::size_t vertex_count, const MeshElements& given,
-            const CollisionGroups& collision_groups);
+  SceneMesh(std::size_t vertex_count, const MeshElements& given, const StepOptions& options);
   SceneMesh(const SceneMesh&) = delete;
   SceneMesh& operator=(const SceneMesh&) = delete;
   SceneMesh(SceneMesh&&) = delete;

@@ -229,17 +229,24 @@ TEST(CInterface, DecidesAndMeasuresAStep) {
   }
 }
 
-/// Groups that do not meet, and no pairs at all.
+/// Groups or vertices that do not meet, and no pairs at all.
 TEST(CInterface, AnswersWhereNothingCanMeet) {
   const Scene scene;
   const std::array<std::int32_t, 9> groups{0, 0, 0, 1, 1, 1, 0, 0, 0};
   const std::array<std::int32_t, 4> apart{0, 1, 0, 0};
-  TouchstoneMesh of_groups = scene.mesh(), of_edges = scene.mesh();
+  TouchstoneMesh of_groups = scene.mesh(), of_edges = scene.mesh(), of_rule = scene.mesh();
   of_groups.groups = groups.data();
   of_groups.apart = 2;
   of_groups.apart_groups = apart.data();
   of_edges.faces = of_edges.points = 0;
-  for (const TouchstoneMesh* const mesh : {&of_groups, &of_edges}) {
+  // The same rule for vertices.
+  std::array<std::int32_t, 9> group = groups;
+  of_rule.can_collide_context = group.data();
+  of_rule.can_collide = [](void* context, std::int32_t a, std::int32_t b) -> std::int32_t {
+    const auto* const of = static_cast<const std::int32_t*>(context);
+    return of[a] == 1 && of[b] == 1 ? 2 : 0;
+  };
+  for (const TouchstoneMesh* const mesh : {&of_groups, &of_edges, &of_rule}) {
     const StepOf owner(*mesh);
     std::int32_t is_free = 0;
     EXPECT_EQ(touchstone_step_is_free(owner.get(), &is_free), TOUCHSTONE_OK);

@@ -144,7 +144,9 @@ std::vector<Compared> compared_scenes(Random& random, int rounds) {
                               .norm = random.coin() ? Norm::l2 : Norm::linf};
       }
       if (random.between(0, 3) == 0) options.t_max = 0.25 * random.between(0, 4);
-      result.push_back({shape.name, random_scene(random, shape, random.between(1, 10)), options});
+      Scene scene = random_scene(random, shape, random.between(1, 10));
+      if (random.between(0, 2) == 0) scene.can_collide = tests::random_rule(random);
+      result.push_back({shape.name, scene, options});
     }
   }
   for (const double size : {0.1, 0.3}) {
@@ -155,6 +157,10 @@ std::vector<Compared> compared_scenes(Random& random, int rounds) {
     for (int i = 0; i < scene.start.rows(); ++i) scene.groups.push_back(i / 60);
     scene.apart = {{0, 0}, {2, 1}, {3, 3}};
     result.push_back({"soup of groups", scene, {}});
+    scene.can_collide = tests::random_rule(random);
+    result.push_back({"soup of groups and with a rule", scene, {}});
+    scene.apart.clear();
+    result.push_back({"soup with a rule", scene, {}});
   }
   for (const int vertices : {0, 1, 3}) {
     Scene scene{.start = Places::Zero(vertices, 3), .end = Places::Zero(vertices, 3)};
@@ -180,16 +186,18 @@ TEST(Step, AgreesWithTheOracleOnAllPairsOfAllScenes) {
   EXPECT_EQ(first_fault(scenes), "");
   // They have collisions of all kinds, with groups and without, and some are free.
   std::map<PairKind, int> touching;
-  int free = 0, with_groups = 0;
+  int free = 0, with_groups = 0, with_rule = 0;
   for (const auto& [name, scene, options] : scenes) {
     const std::vector<StepCollision> collisions = scene.step(options).collisions();
     for (const StepCollision& one : collisions) ++touching[one.kind];
     free += collisions.empty() ? 1 : 0;
     with_groups += !scene.apart.empty() && !collisions.empty() ? 1 : 0;
+    with_rule += scene.can_collide && !collisions.empty() ? 1 : 0;
   }
   for (const PairKind kind : kinds) EXPECT_GT(touching[kind], 5) << to_string(kind);
   EXPECT_GT(free, 20);
   EXPECT_GT(with_groups, 10);
+  EXPECT_GT(with_rule, 10);
 }
 
 /// Edges that are not given are those of the faces. A step that is made from another outlives it.
@@ -199,6 +207,7 @@ TEST(Step, MadeFromAnotherIsAStepOfItsOwn) {
   scene.groups = std::vector<std::int32_t>(static_cast<std::size_t>(scene.start.rows()), 0);
   std::fill_n(scene.groups.begin(), scene.groups.size() / 2, 1);
   scene.apart = {{0, 0}};
+  scene.can_collide = tests::random_rule(random);
   scene.edges = edges_of(scene.faces);
   const StepOptions options{.separation = {.distance = 0.02, .norm = Norm::l2}, .t_max = 0.75};
   const Step expected = scene.step(options);
@@ -276,6 +285,10 @@ TEST(Step, EndsItsSearchesWhenItIsToStop) {
               step.candidates([](const StepCandidates&) { throw std::runtime_error("enough"); });
             }),
             "enough");
+  // And those of a rule.
+  Scene ruled = scene;
+  ruled.can_collide = [](std::int32_t, std::int32_t) -> bool { throw std::runtime_error("rule"); };
+  EXPECT_EQ(message_of<std::runtime_error>([&] { (void)ruled.step().earliest(); }), "rule");
 }
 
 // ---- The theorem --------------------------------------------------------------------------------

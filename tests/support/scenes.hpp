@@ -42,12 +42,14 @@ struct Scene {
   std::vector<std::int32_t> points = {};
   std::vector<std::int32_t> groups = {};
   std::vector<std::array<std::int32_t, 2>> apart = {};
+  std::function<bool(std::int32_t, std::int32_t)> can_collide = {};
 
   [[nodiscard]] fast::MeshElements elements() const {
     return {.edges = edges, .faces = faces, .points = points};
   }
   [[nodiscard]] fast::Step step(fast::StepOptions options = {}) const {
     options.groups = {.of_vertices = groups, .apart = apart};
+    options.can_collide = can_collide;
     return fast::Step(start, end, elements(), options);
   }
 };
@@ -137,6 +139,13 @@ struct Shape {
   scene.edges = fast::edges_of(scene.faces);
   for (int i = 0; i < count; ++i) scene.edges.push_back({6 * i + 3, 6 * i + 4});
   return scene;
+}
+
+/// A rule for pairs of vertices that lets about a third of them collide.
+[[nodiscard]] inline std::function<bool(std::int32_t, std::int32_t)> random_rule(Random& random) {
+  return [seed = random.between(0, 1 << 20)](std::int32_t a, std::int32_t b) {
+    return ((std::min(a, b) + seed) * 31 + std::max(a, b)) % 3 == 0;
+  };
 }
 
 // ---- All pairs one by one -----------------------------------------------------------------------
@@ -242,9 +251,11 @@ class AllPairs {
     for (const std::int32_t a : first(pair)) {
       for (const std::int32_t b : second(pair)) {
         if (a == b) return false;
-        some_meet |= std::ranges::none_of(scene_.apart, [&](const std::array<std::int32_t, 2>& p) {
-          return ordered(p[0], p[1]) == ordered(group(a), group(b));
-        });
+        const bool groups_meet =
+            std::ranges::none_of(scene_.apart, [&](const std::array<std::int32_t, 2>& p) {
+              return ordered(p[0], p[1]) == ordered(group(a), group(b));
+            });
+        some_meet |= groups_meet && (!scene_.can_collide || scene_.can_collide(a, b));
       }
     }
     return some_meet;

@@ -56,6 +56,7 @@ struct SceneParts {
 
 /// Proves that the step is free up to its t_max, or the time of its earliest contact.
 /// \param parts the faces, points and groups of the step's elements and options
+/// \pre The step has no rule `can_collide`: certificates know groups alone.
 /// \throws the exceptions of on_text.
 [[nodiscard]] StepProof prove_step(const fast::Step& step, const SceneParts& parts,
                                    const StepProofOptions& options);

@@ -59,8 +59,9 @@ class NarrowPhaseCCD : public ipc::NarrowPhaseCCD {
                        Eigen::ConstRef<ipc::VectorMax3d> p0_t1,
                        Eigen::ConstRef<ipc::VectorMax3d> p1_t1, double& toi,
                        const double min_distance = 0.0, const double tmax = 1.0) const override {
-    return decide(Kind::vertex_face, query(p0_t0, p1_t0, p1_t0, p1_t0, p0_t1, p1_t1, p1_t1, p1_t1),
-                  min_distance, tmax, toi);
+    return query_ccd(Kind::vertex_face,
+                     query(p0_t0, p1_t0, p1_t0, p1_t0, p0_t1, p1_t1, p1_t1, p1_t1), toi,
+                     min_distance, tmax);
   }
 
   bool point_edge_ccd(Eigen::ConstRef<ipc::VectorMax3d> p_t0,
@@ -70,8 +71,8 @@ class NarrowPhaseCCD : public ipc::NarrowPhaseCCD {
                       Eigen::ConstRef<ipc::VectorMax3d> e0_t1,
                       Eigen::ConstRef<ipc::VectorMax3d> e1_t1, double& toi,
                       const double min_distance = 0.0, const double tmax = 1.0) const override {
-    return decide(Kind::vertex_face, query(p_t0, e0_t0, e1_t0, e0_t0, p_t1, e0_t1, e1_t1, e0_t1),
-                  min_distance, tmax, toi);
+    return query_ccd(Kind::vertex_face, query(p_t0, e0_t0, e1_t0, e0_t0, p_t1, e0_t1, e1_t1, e0_t1),
+                     toi, min_distance, tmax);
   }
 
   bool point_triangle_ccd(
@@ -80,8 +81,8 @@ class NarrowPhaseCCD : public ipc::NarrowPhaseCCD {
       Eigen::ConstRef<Eigen::Vector3d> p_t1, Eigen::ConstRef<Eigen::Vector3d> t0_t1,
       Eigen::ConstRef<Eigen::Vector3d> t1_t1, Eigen::ConstRef<Eigen::Vector3d> t2_t1, double& toi,
       const double min_distance = 0.0, const double tmax = 1.0) const override {
-    return decide(Kind::vertex_face, query(p_t0, t0_t0, t1_t0, t2_t0, p_t1, t0_t1, t1_t1, t2_t1),
-                  min_distance, tmax, toi);
+    return query_ccd(Kind::vertex_face, query(p_t0, t0_t0, t1_t0, t2_t0, p_t1, t0_t1, t1_t1, t2_t1),
+                     toi, min_distance, tmax);
   }
 
   bool edge_edge_ccd(
@@ -90,9 +91,32 @@ class NarrowPhaseCCD : public ipc::NarrowPhaseCCD {
       Eigen::ConstRef<Eigen::Vector3d> ea0_t1, Eigen::ConstRef<Eigen::Vector3d> ea1_t1,
       Eigen::ConstRef<Eigen::Vector3d> eb0_t1, Eigen::ConstRef<Eigen::Vector3d> eb1_t1, double& toi,
       const double min_distance = 0.0, const double tmax = 1.0) const override {
-    return decide(Kind::edge_edge,
-                  query(ea0_t0, ea1_t0, eb0_t0, eb1_t0, ea0_t1, ea1_t1, eb0_t1, eb1_t1),
-                  min_distance, tmax, toi);
+    return query_ccd(Kind::edge_edge,
+                     query(ea0_t0, ea1_t0, eb0_t0, eb1_t0, ea0_t1, ea1_t1, eb0_t1, eb1_t1), toi,
+                     min_distance, tmax);
+  }
+
+  /// The same for a query of this library, such as one of a step's (touchstone/step.hpp).
+  bool query_ccd(Kind kind, const Query& query, double& toi, double min_distance = 0.0,
+                 double tmax = 1.0) const {
+    require_valid(min_distance, tmax);
+    toi = 0.0;
+    if (!is_finite(query)) return true;
+    // Ends most pairs of a step, with the answer of what follows.
+    const fast::KeptDistance kept{.part = 1.0 - conservative_rescaling, .least = min_distance};
+    if (fast::keeps_distance(kind, query, tmax, kept)) {
+      toi = std::numeric_limits<double>::infinity();
+      return false;
+    }
+    const fast::Distance d = fast::distance(kind, query, 0.0, Norm::l2);
+    if (d.upper <= min_distance) return true;
+    const fast::CertifiedResult result = fast::solve(
+        kind, query,
+        {.t_max = tmax,
+         .separation = {.distance = effective_distance(min_distance, d), .norm = Norm::l2}});
+    const bool collides = result.verdict == fast::Verdict::yes;
+    toi = collides ? result.toi_lower : std::numeric_limits<double>::infinity();
+    return collides;
   }
 
  private:
@@ -126,27 +150,6 @@ class NarrowPhaseCCD : public ipc::NarrowPhaseCCD {
       throw std::invalid_argument("min_distance must be finite and not negative");
     }
     if (!(tmax >= 0.0 && tmax <= 1.0)) throw std::invalid_argument("tmax must be in [0,1]");
-  }
-
-  bool decide(Kind kind, const Query& query, double min_distance, double tmax, double& toi) const {
-    require_valid(min_distance, tmax);
-    toi = 0.0;
-    if (!is_finite(query)) return true;
-    // Ends most pairs of a step, with the answer of what follows.
-    const fast::KeptDistance kept{.part = 1.0 - conservative_rescaling, .least = min_distance};
-    if (fast::keeps_distance(kind, query, tmax, kept)) {
-      toi = std::numeric_limits<double>::infinity();
-      return false;
-    }
-    const fast::Distance d = fast::distance(kind, query, 0.0, Norm::l2);
-    if (d.upper <= min_distance) return true;
-    const fast::CertifiedResult result = fast::solve(
-        kind, query,
-        {.t_max = tmax,
-         .separation = {.distance = effective_distance(min_distance, d), .norm = Norm::l2}});
-    const bool collides = result.verdict == fast::Verdict::yes;
-    toi = collides ? result.toi_lower : std::numeric_limits<double>::infinity();
-    return collides;
   }
 };
 

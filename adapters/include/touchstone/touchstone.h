@@ -143,6 +143,11 @@ typedef struct TouchstoneMesh {
   /// The number of pairs of groups that cannot collide; a group twice: not within it.
   size_t apart;
   const int32_t* apart_groups;  ///< 2 · apart
+  /// A rule for pairs of vertices, or null: two primitives can collide if it is not 0 for a vertex
+  /// of one and a vertex of the other that are in groups that can collide. It must be symmetric.
+  /// Called by functions of the step, in several threads at once, with can_collide_context.
+  int32_t (*can_collide)(void* context, int32_t vertex, int32_t other);
+  void* can_collide_context;
 } TouchstoneMesh;
 
 /// A step of a mesh, made by touchstone_step_new.
@@ -164,7 +169,8 @@ typedef struct TouchstoneCollision {
   double v;
 } TouchstoneCollision;
 
-/// A new step of a mesh, to be freed by touchstone_step_free. Everything is copied.
+/// A new step of a mesh, to be freed by touchstone_step_free. Everything is copied; the context of
+/// a rule must outlive the step.
 /// \param options null for the default ones
 TOUCHSTONE_API int32_t touchstone_step_new(const TouchstoneMesh* mesh,
                                            const TouchstoneOptions* options, TouchstoneStep** step);

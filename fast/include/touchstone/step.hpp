@@ -8,7 +8,8 @@
 /// Two primitives *collide* if they have a common point at some time, or come within the
 /// separation.
 ///
-/// **Pairs in the search.** The pairs without a common vertex, of groups that can collide, that are
+/// **Pairs in the search.** The pairs without a common vertex that the rules let collide and that
+/// are
 /// - a vertex and a face,
 /// - two edges,
 /// - a codimensional point (a vertex without an edge) and a codimensional edge (of no face),
@@ -111,6 +112,11 @@ struct StepOptions {
   /// Maximum number of threads; 0 (all_cores): one for each core that the process may use.
   int max_threads = all_cores;
   CollisionGroups groups = {};
+  /// A rule for pairs of vertices, unless it is empty: two primitives can collide if it is true for
+  /// a vertex of one and a vertex of the other that are in groups that can collide. It must be
+  /// symmetric. It is kept, and called for the pairs found, in several threads at once; its
+  /// exceptions end the search.
+  std::function<bool(std::int32_t, std::int32_t)> can_collide = {};
   /// May be null, else outlives the step and all made from it. While true, their searches for
   /// impacts, collisions and candidates end soon with the exception Stopped.
   const std::atomic<bool>* stop = nullptr;
