@@ -44,7 +44,7 @@ Polynomial pseudo_remainder(Polynomial a, const Polynomial& b) {
     const BigInteger top = reduces ? a.back() : 0;
     for (BigInteger& x : a) x = x * b.back();
     if (!reduces) continue;
-    for (std::size_t k = 0; k < b.size(); ++k) a[k + left] -= top * b[k];
+    for (std::size_t k = 0; k < b.size(); ++k) a[k + left].subtract_product(top, b[k]);
     drop_top_zeros(a);
   }
   return a;
@@ -129,7 +129,7 @@ Polynomial operator-(Polynomial a) {
 Polynomial operator*(const Polynomial& a, const Polynomial& b) {
   Polynomial product(a.size() + b.size() - 1);
   for (std::size_t i = 0; i < a.size(); ++i) {
-    for (std::size_t k = 0; k < b.size(); ++k) product[i + k] += a[i] * b[k];
+    for (std::size_t k = 0; k < b.size(); ++k) product[i + k].add_product(a[i], b[k]);
   }
   return product;
 }
@@ -183,7 +183,7 @@ Polynomial scaled_quotient(Polynomial a, const Polynomial& b) {
   while (a.size() >= b.size()) {
     const std::size_t shift = a.size() - b.size();
     const BigInteger factor = quotient[shift] = a.back().divided_exactly(b.back());
-    for (std::size_t k = 0; k < b.size(); ++k) a[k + shift] -= factor * b[k];
+    for (std::size_t k = 0; k < b.size(); ++k) a[k + shift].subtract_product(factor, b[k]);
     drop_top_zeros(a);
   }
   remove_twos(quotient);

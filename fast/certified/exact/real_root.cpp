@@ -64,8 +64,8 @@ BigInteger evaluate(std::span<const BigInteger> c, const Time& t) {
 Polynomial times_linear(const Polynomial& p, const BigInteger& a, const BigInteger& b) {
   Polynomial product(p.size() + 1);
   for (std::size_t k = 0; k < p.size(); ++k) {
-    product[k] += a * p[k];
-    product[k + 1] += b * p[k];
+    product[k].add_product(a, p[k]);
+    product[k + 1].add_product(b, p[k]);
   }
   return product;
 }
@@ -76,7 +76,7 @@ Polynomial restricted(std::span<const BigInteger> c, const Time& lower, const Ti
   for (std::size_t k = 1; k < c.size(); ++k) {
     power = times_linear(power, lower.y, upper.y);
     value = times_linear(value, lower.x, upper.x);
-    for (std::size_t i = 0; i < value.size(); ++i) value[i] += c[k] * power[i];
+    for (std::size_t i = 0; i < value.size(); ++i) value[i].add_product(c[k], power[i]);
   }
   return value;
 }
@@ -100,7 +100,8 @@ IntervalSigns signs_of(const Polynomial& c) {
 
 /// A time in the units of FixedPointForm.
 std::int64_t in_fixed_point(const Dyadic& t) {
-  return t.numerator.truncated(FixedPointForm::fraction_bits - t.exponent);
+  return static_cast<std::int64_t>(
+      t.numerator.truncated(FixedPointForm::fraction_bits - t.exponent));
 }
 
 std::optional<FixedPointForm> fixed_point_form(std::span<const BigInteger> c, const Dyadic& lower,
