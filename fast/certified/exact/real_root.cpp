@@ -132,6 +132,29 @@ int sign_at(std::span<const BigInteger> c, const Dyadic& t) {
 /// doubles: next to two very close roots the first ones nearly vanish.
 using Guess = std::vector<Approximation>;
 
+/// significand · 2^exponent; 0 far below the range of doubles.
+double scaled(double significand, long exponent) {
+  // As std::ldexp, but faster if the power of two is a double.
+  if (exponent >= -1022 && exponent <= 1023) {
+    return significand * std::bit_cast<double>(static_cast<std::uint64_t>(exponent + 1023) << 52U);
+  }
+  if (exponent < -1100) return 0.0;
+  return std::ldexp(significand, static_cast<int>(std::min(exponent, 3000L)));
+}
+
+/// The same with the exponent 0 where a number is not much smaller than the greatest one.
+Guess in_one_unit(Guess c) {
+  constexpr long much = 500;
+  long top = std::numeric_limits<long>::min();
+  for (const Approximation& x : c) top = x.significand != 0.0 ? std::max(top, x.exponent) : top;
+  for (Approximation& x : c) {
+    if (x.significand == 0.0) continue;
+    x.exponent -= top;
+    if (x.exponent >= -much) x = {scaled(x.significand, x.exponent), 0};
+  }
+  return c;
+}
+
 Guess local_guess(const Polynomial& f, const Dyadic& lower, const Dyadic& upper) {
   constexpr std::int64_t accurate = std::int64_t{1} << 54;
   Guess result;
@@ -147,17 +170,7 @@ Guess local_guess(const Polynomial& f, const Dyadic& lower, const Dyadic& upper)
     if (is_accurate) return result;
   }
   for (const BigInteger& x : restricted(f, lower, upper)) result.push_back(x.approximation());
-  return result;
-}
-
-/// significand · 2^exponent; 0 far below the range of doubles.
-double scaled(double significand, long exponent) {
-  // As std::ldexp, but faster if the power of two is a double.
-  if (exponent >= -1022 && exponent <= 1023) {
-    return significand * std::bit_cast<double>(static_cast<std::uint64_t>(exponent + 1023) << 52U);
-  }
-  if (exponent < -1100) return 0.0;
-  return std::ldexp(significand, static_cast<int>(std::min(exponent, 3000L)));
+  return in_one_unit(std::move(result));
 }
 
 /// a/a_divisor − b/b_divisor.
@@ -202,9 +215,52 @@ double value_at(const Guess& c, const Position& at) {
   return value;
 }
 
-/// The place in (0,1) of the form's sign change, by bisection over the doubles: first over those
-/// with common exponents, and while it is below them, over those 2^-1000 times as large.
+/// The place of the sign change if it is not close to 0 and the coefficients have one unit: by the
+/// secant, which counts the value at an end less when that end remains, or by halving.
+std::optional<double> guess_ordinary_root(const Guess& c, int sign_below) {
+  constexpr double enough = 0x1p-50;
+  const auto degree = static_cast<long>(c.size() - 1);
+  if (!std::ranges::all_of(c, [](const Approximation& x) { return x.exponent == 0; })) return {};
+  const auto value = [&](double y) {
+    const double x = 1.0 - y;
+    double sum = 0.0, power = sign_below;
+    for (const Approximation& a : c) {
+      sum = sum * x + a.significand * power;
+      power *= y;
+    }
+    return sum;
+  };
+  double low = scaled(1.0, -500 / degree), high = 1.0;  // the powers of y are above 2^-500
+  double at_low = value(low), at_high = value(high), last = high;
+  if (!(at_low > 0.0 && at_high < 0.0)) return {};
+  int kept = 0;  // so often the same end remained: positive for the upper one
+  for (int left = 60; left > 0 && high - low > enough * high; --left) {
+    const bool halves = left % 4 == 0;
+    double y = halves ? 0.5 * (low + high) : low + (high - low) * (at_low / (at_low - at_high));
+    if (!(y > low && y < high)) y = 0.5 * (low + high);
+    const double here = value(y);
+    if (here == 0.0 || std::abs(y - last) <= enough * y) return y;
+    last = y;
+    if (here > 0.0) {
+      low = y;
+      at_low = here;
+      kept = std::max(kept, 0) + 1;
+      if (kept > 1) at_high *= 0.5;
+    } else {
+      high = y;
+      at_high = here;
+      kept = std::min(kept, 0) - 1;
+      if (kept < -1) at_low *= 0.5;
+    }
+  }
+  return high;
+}
+
+/// The place in (0,1) of the form's sign change. Close to 0 by bisection over the doubles: first
+/// over those with common exponents, and while it is below them, over those 2^-1000 times as large.
 Position guess_root(const Guess& c, int sign_below) {
+  if (const auto y = guess_ordinary_root(c, sign_below))
+    return {std::bit_cast<std::uint64_t>(*y), 0};
   constexpr auto least = std::bit_cast<std::uint64_t>(0x1p-1000);
   constexpr long most = 1000000;
   Position at;
