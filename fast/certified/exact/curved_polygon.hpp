@@ -25,13 +25,15 @@
 
 namespace touchstone::fast::exact_stage {
 
-struct CurvedPolygon {
-  MovingPolygon polygon;
+/// Points as fractions, and what they refer to.
+struct CurvedPoints {
+  MovingPoints points;
+  std::vector<Polynomial> denominators;
   ScaledDistance distance;
 };
 
 /// \pre is_valid(query), distance > 0
-[[nodiscard]] CurvedPolygon polygon_of(Kind kind, const CurvedQuery& query, double distance);
+[[nodiscard]] CurvedPoints points_of(Kind kind, const CurvedQuery& query, double distance);
 
 /// Motions one of which contains the origin where the query is in contact. \pre is_valid(query)
 [[nodiscard]] std::vector<PolynomialMotion> motions_of(Kind kind, const CurvedQuery& query);

@@ -54,7 +54,7 @@
 #include "fast/certified/exact/big_integer.hpp"
 #include "fast/certified/exact/contact_conditions.hpp"
 #include "fast/certified/exact/enclosing_doubles.hpp"
-#include "fast/certified/exact/polynomial.hpp"
+#include "fast/certified/exact/fraction.hpp"
 #include "touchstone/query.hpp"
 
 namespace touchstone::fast::exact_stage {
@@ -68,12 +68,10 @@ struct ScaledDistance {
 /// A distance > 0 in units of 2^unit.
 [[nodiscard]] ScaledDistance scaled_distance(double distance, int unit);
 
-/// The corners of a moving polygon, in cyclic order: forms of one degree, all times a denominator
-/// of that degree that is positive on [0,1].
-struct MovingPolygon {
+/// The points of a query, in the order of its kind.
+struct MovingPoints {
   Kind kind = Kind::vertex_face;
-  std::vector<std::array<Polynomial, 3>> corners;
-  Polynomial denominator;
+  std::array<std::array<Fraction, 3>, moving_points> points;
 };
 
 /// The first time, not later than the double in [0,1] of bits `latest`, at which the polygon is
@@ -81,7 +79,7 @@ struct MovingPolygon {
 /// `upper` is subnormal (lower < time ≤ upper, or both 0 if the time is 0); empty if there is no
 /// such time.
 /// \pre all axes have the same unit; 1 ≤ step.
-[[nodiscard]] std::optional<BitInterval> first_approach(const MovingPolygon& polygon,
+[[nodiscard]] std::optional<BitInterval> first_approach(const MovingPoints& points,
                                                         const ScaledDistance& distance, Norm norm,
                                                         std::uint64_t latest, std::uint64_t step);
 /// The same of a motion on straight lines.

@@ -144,6 +144,14 @@ Polynomial operator<<(Polynomial a, long bits) {
   return a;
 }
 
+Polynomial raised_to(Polynomial form, std::size_t degree) {
+  while (form.size() <= degree) {
+    form.emplace_back();
+    for (std::size_t k = form.size() - 1; k > 0; --k) form[k] += form[k - 1];
+  }
+  return form;
+}
+
 Polynomial inner_polynomial(std::span<const BigInteger> form) {
   const auto is_not_zero = [](const BigInteger& c) { return c.sign() != 0; };
   Polynomial result(std::ranges::find_if(form, is_not_zero), form.end());
