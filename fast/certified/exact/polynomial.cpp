@@ -75,10 +75,19 @@ Polynomial last_subresultant(Polynomial a, Polynomial b) {
 
 // ---- Modulo a prime -----------------------------------------------------------------------------
 
-constexpr std::uint64_t prime = (std::uint64_t{1} << 61U) - 1;
+constexpr unsigned prime_bits = 61;
+constexpr std::uint64_t prime = (std::uint64_t{1} << prime_bits) - 1;
 
+/// a b modulo the prime: 2^61 is 1.
 std::uint64_t product(std::uint64_t a, std::uint64_t b) {
-  return static_cast<std::uint64_t>(WideLimb{a} * b % prime);
+  const WideLimb whole = WideLimb{a} * b;
+  const std::uint64_t sum =
+      (static_cast<std::uint64_t>(whole) & prime) + static_cast<std::uint64_t>(whole >> prime_bits);
+  return sum >= prime ? sum - prime : sum;
+}
+
+std::uint64_t difference(std::uint64_t a, std::uint64_t b) {
+  return a >= b ? a - b : a + prime - b;
 }
 
 using Residues = std::vector<std::uint64_t>;
@@ -101,7 +110,7 @@ void reduce(Residues& a, const Residues& b) {
     const std::size_t shift = a.size() - b.size();
     for (std::uint64_t& x : a) x = product(x, b.back());
     for (std::size_t k = 0; k < b.size(); ++k) {
-      a[k + shift] = (a[k + shift] + prime - product(top, b[k])) % prime;
+      a[k + shift] = difference(a[k + shift], product(top, b[k]));
     }
     drop_top_zeros(a);
   }

@@ -110,11 +110,16 @@ std::optional<FixedPointForm> fixed_point_form(std::span<const BigInteger> c, co
   return FixedPointForm(c, in_fixed_point(lower), in_fixed_point(upper));
 }
 
+/// What fixed point says.
+std::optional<IntervalSigns> rounded_signs_between(std::span<const BigInteger> c,
+                                                   const Dyadic& lower, const Dyadic& upper) {
+  const auto form = fixed_point_form(c, lower, upper);
+  return form ? form->signs() : std::nullopt;
+}
+
 IntervalSigns signs_between(std::span<const BigInteger> c, const Dyadic& lower,
                             const Dyadic& upper) {
-  if (const auto form = fixed_point_form(c, lower, upper)) {
-    if (const auto signs = form->signs()) return *signs;
-  }
+  if (const auto signs = rounded_signs_between(c, lower, upper)) return *signs;
   return signs_of(restricted(c, lower, upper));
 }
 
@@ -355,8 +360,12 @@ class RootSearch {
   /// single one, or so close that only the extremum between them separates them.
   void divide(const Interval& interval, const IntervalSigns& local) {
     constexpr int patience = 3;
-    if (++divisions_ == patience) f_ = squarefree(f_);
-    if (divisions_ > patience) {
+    if (++divisions_ == patience) {
+      f_ = squarefree(f_);
+      open_.push_back(interval);
+      return;
+    }
+    if (divisions_ > patience + 1) {
       divide_at_extrema(interval, local);
       return;
     }
@@ -494,25 +503,31 @@ void Instant::narrow() {
   if (!is_dyadic()) static_cast<void>(cut(split(lower_, upper_)));
 }
 
+// Fixed point comes first. If it is in doubt, q may be 0, which only a divisor shows; if there is
+// none, the integers say more.
 int Instant::sign_of(std::span<const BigInteger> q) {
   if (is_zero(q)) return 0;
   constexpr int patience = 1;  // narrowing is cheaper than a divisor
-  Polynomial inner;
+  bool is_no_root = false;
   gain_ = least_gain;
   for (int round = 0;; ++round) {
     if (is_dyadic()) return sign_at(q, lower_);
-    const IntervalSigns local = signs_between(q, lower_, upper_);
-    if (local.changes == 0) return local.first;
-    if (round == 0) {
-      inner = inner_polynomial(q);
-      if (inner == f_) return 0;
+    auto local = rounded_signs_between(q, lower_, upper_);
+    if (!is_no_root && (!local || (round == patience && local->changes > 0))) {
+      if (is_root_of(q)) return 0;
+      is_no_root = true;
     }
-    if (round == patience) {
-      const Polynomial common = common_divisor(f_, inner);
-      if (signs_between(common, lower_, upper_).changes % 2 == 1) return 0;
-    }
+    if (!local) local = signs_of(restricted(q, lower_, upper_));
+    if (local->changes == 0) return local->first;
     narrow();
   }
+}
+
+bool Instant::is_root_of(std::span<const BigInteger> q) const {
+  const Polynomial inner = inner_polynomial(q);
+  if (inner == f_) return true;
+  const Polynomial common = common_divisor(f_, inner);
+  return common.size() > 1 && signs_between(common, lower_, upper_).changes % 2 == 1;
 }
 
 int Instant::compare_with(const Dyadic& t) {

@@ -94,6 +94,8 @@ class Instant {
   [[nodiscard]] bool cut(const Dyadic& t);
   /// The sign of this time minus `t`.
   [[nodiscard]] int compare_with(const Dyadic& t);
+  /// True if q is 0 at this time. \pre it is not a dyadic number
+  [[nodiscard]] bool is_root_of(std::span<const BigInteger> q) const;
   /// True if both polynomials have a common root in the intersection of the intervals.
   [[nodiscard]] bool shares_root(const Instant& other) const;
   [[nodiscard]] bool is_dyadic() const { return f_.empty(); }
