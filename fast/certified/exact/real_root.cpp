@@ -220,8 +220,9 @@ double value_at(const Guess& c, const Position& at) {
   return value;
 }
 
-/// The place of the sign change if it is not close to 0 and the coefficients have one unit: by the
-/// secant, which counts the value at an end less when that end remains, or by halving.
+/// The place of the sign change, or 1 if there is none, if it is not close to 0 and the
+/// coefficients have one unit: by the secant, which counts the value at an end less when that end
+/// remains, or by halving.
 std::optional<double> guess_ordinary_root(const Guess& c, int sign_below) {
   constexpr double enough = 0x1p-50;
   const auto degree = static_cast<long>(c.size() - 1);
@@ -237,7 +238,8 @@ std::optional<double> guess_ordinary_root(const Guess& c, int sign_below) {
   };
   double low = scaled(1.0, -500 / degree), high = 1.0;  // the powers of y are above 2^-500
   double at_low = value(low), at_high = value(high), last = high;
-  if (!(at_low > 0.0 && at_high < 0.0)) return {};
+  if (at_high >= 0.0) return high;
+  if (!(at_low > 0.0)) return {};
   int kept = 0;  // so often the same end remained: positive for the upper one
   for (int left = 60; left > 0 && high - low > enough * high; --left) {
     const bool halves = left % 4 == 0;
@@ -279,9 +281,9 @@ Position guess_root(const Guess& c, int sign_below) {
   }
 }
 
-/// The place in (0,1) of the minimum of a form that is positive at 0, if it has one extremum. With
-/// Bernstein's coefficients b_k = c_k / binomial(n,k), its derivative has n (b_(k+1) − b_k).
-Position guess_minimum(const Guess& c) {
+/// The place in (0,1) at which a form that has this sign at 0 is next to 0, if it has one extremum.
+/// With Bernstein's coefficients b_k = c_k / binomial(n,k), its derivative has n (b_(k+1) − b_k).
+Position guess_extremum(const Guess& c, int sign) {
   const auto degree = static_cast<double>(c.size() - 1);
   Guess derivative;
   double here = 1.0, next = degree, lower = 1.0;  // binomials of n over k, k + 1; of n − 1 over k
@@ -293,7 +295,7 @@ Position guess_minimum(const Guess& c) {
     next *= (degree - i - 1.0) / (i + 2.0);
     lower *= (degree - 1.0 - i) / (i + 1.0);
   }
-  return guess_root(derivative, -1);
+  return guess_root(derivative, -sign);
 }
 
 // ---- Isolation of roots -------------------------------------------------------------------------
@@ -330,9 +332,10 @@ std::optional<Around> around(const Position& guess, std::uint64_t slack, const D
 }
 
 /// The numbers between which a guess finds a cluster of the form's roots, if any.
-std::optional<Around> cluster(const Polynomial& f, const Interval& in) {
+std::optional<Around> cluster(const Polynomial& f, const Interval& in, int first_sign) {
   constexpr std::uint64_t slack = std::uint64_t{1} << 12U;
-  return around(guess_minimum(local_guess(f, in.lower, in.upper)), slack, in.lower, in.upper);
+  return around(guess_extremum(local_guess(f, in.lower, in.upper), first_sign), slack, in.lower,
+                in.upper);
 }
 
 /// The intervals that remain to be searched for roots of f, the first one last.
@@ -348,7 +351,7 @@ class RootSearch {
       open_.pop_back();
       if (equal(interval.lower, interval.upper)) return Instant(interval.lower);
       if (interval.isolates) return Instant(f_, interval.lower, interval.upper);
-      const IntervalSigns local = signs_between(f_, interval.lower, interval.upper);
+      const IntervalSigns local = signs_in(interval);
       if (local.changes == 1) return Instant(f_, interval.lower, interval.upper);
       if (local.changes > 1) divide(interval, local);
     }
@@ -356,20 +359,30 @@ class RootSearch {
   }
 
  private:
+  /// Where fixed point is in doubt, a root may be a multiple one, which a divisor shows before the
+  /// integers are asked.
+  [[nodiscard]] IntervalSigns signs_in(const Interval& interval) {
+    if (const auto local = rounded_signs_between(f_, interval.lower, interval.upper)) return *local;
+    make_squarefree();
+    return signs_between(f_, interval.lower, interval.upper);
+  }
+
+  void make_squarefree() {
+    if (!is_squarefree_) f_ = squarefree(f_);
+    is_squarefree_ = true;
+  }
+
   /// Searches the parts of an interval. Roots that are not separated after some divisions may be a
   /// single one, or so close that only the extremum between them separates them.
   void divide(const Interval& interval, const IntervalSigns& local) {
     constexpr int patience = 3;
-    if (++divisions_ == patience) {
-      f_ = squarefree(f_);
+    if (++divisions_ > patience) {
+      if (is_squarefree_) return divide_at_extrema(interval, local);
+      make_squarefree();
       open_.push_back(interval);
       return;
     }
-    if (divisions_ > patience + 1) {
-      divide_at_extrema(interval, local);
-      return;
-    }
-    const auto close = interval.guess ? cluster(f_, interval) : std::nullopt;
+    const auto close = interval.guess ? cluster(f_, interval, local.first) : std::nullopt;
     if (!close) {
       const Dyadic middle = split(interval.lower, interval.upper);
       open_.push_back({middle, interval.upper});
@@ -413,6 +426,7 @@ class RootSearch {
   Polynomial f_;
   std::vector<Interval> open_;
   int divisions_ = 0;
+  bool is_squarefree_ = false;
 };
 
 }  // namespace
