@@ -585,7 +585,17 @@ bool Instant::is_above(std::uint64_t bits) {
   return cut(t);
 }
 
-double Instant::guess() const {
+double Instant::guess() {
+  constexpr int enough = 3;
+  constexpr long accurate_bits = 53;
+  gain_ = least_gain;
+  for (int round = 0; round < enough && !is_dyadic(); ++round) {
+    const long exponent = std::max(lower_.exponent, upper_.exponent);
+    const BigInteger upper = upper_.numerator << (exponent - upper_.exponent);
+    const BigInteger length = upper - (lower_.numerator << (exponent - lower_.exponent));
+    if (upper.bit_length() - length.bit_length() > accurate_bits) break;
+    narrow();
+  }
   const BigInteger sum =
       (lower_.numerator << upper_.exponent) + (upper_.numerator << lower_.exponent);
   Approximation middle = sum.approximation();

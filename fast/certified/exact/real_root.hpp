@@ -78,8 +78,9 @@ class Instant {
   /// True if this time is later than the double with these bits (enclosing_doubles.hpp).
   [[nodiscard]] bool is_above(std::uint64_t bits);
 
-  /// An approximation of this time, for guesses.
-  [[nodiscard]] double guess() const;
+  /// An approximation of this time, for guesses. Narrows to about the accuracy of a double, unless
+  /// that takes many steps.
+  [[nodiscard]] double guess();
 
   /// numerator/denominator at this time, to about the accuracy of a double (absolute, below 1).
   /// \pre the denominator is not 0 there, and the quotient is in [0,1].
