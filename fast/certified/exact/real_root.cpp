@@ -83,6 +83,7 @@ Polynomial restricted(std::span<const BigInteger> c, const Time& lower, const Ti
 
 /// The same in parameters that are linear in t: x + y is equal at both ends.
 Polynomial restricted(std::span<const BigInteger> c, const Dyadic& lower, const Dyadic& upper) {
+  if (lower.numerator.sign() == 0 && equal(upper, {1, 0})) return {c.begin(), c.end()};
   const long exponent = std::max(lower.exponent, upper.exponent);
   const auto time = [&](const Dyadic& t) {
     return time_of({t.numerator << (exponent - t.exponent), exponent});
@@ -160,20 +161,27 @@ Guess in_one_unit(Guess c) {
   return c;
 }
 
-Guess local_guess(const Polynomial& f, const Dyadic& lower, const Dyadic& upper) {
+/// From fixed point, if that is accurate.
+std::optional<Guess> rounded_guess(const Polynomial& f, const Dyadic& lower, const Dyadic& upper) {
   constexpr std::int64_t accurate = std::int64_t{1} << 54;
-  Guess result;
-  if (const auto form = fixed_point_form(f, lower, upper)) {
-    const auto b = form->coefficients();
-    const bool is_accurate =
-        std::ranges::any_of(b, [](std::int64_t x) { return x > accurate || x < -accurate; });
-    double binomial = 0x1p-60;
-    for (std::size_t k = 0; is_accurate && k < b.size(); ++k) {
-      result.push_back({static_cast<double>(b[k]) * binomial, 0});
-      binomial *= static_cast<double>(b.size() - 1 - k) / static_cast<double>(k + 1);
-    }
-    if (is_accurate) return result;
+  const auto form = fixed_point_form(f, lower, upper);
+  if (!form) return std::nullopt;
+  const auto b = form->coefficients();
+  if (std::ranges::none_of(b, [](std::int64_t x) { return x > accurate || x < -accurate; })) {
+    return std::nullopt;
   }
+  Guess result;
+  double binomial = 0x1p-60;
+  for (std::size_t k = 0; k < b.size(); ++k) {
+    result.push_back({static_cast<double>(b[k]) * binomial, 0});
+    binomial *= static_cast<double>(b.size() - 1 - k) / static_cast<double>(k + 1);
+  }
+  return result;
+}
+
+Guess local_guess(const Polynomial& f, const Dyadic& lower, const Dyadic& upper) {
+  if (auto guess = rounded_guess(f, lower, upper)) return *std::move(guess);
+  Guess result;
   for (const BigInteger& x : restricted(f, lower, upper)) result.push_back(x.approximation());
   return in_one_unit(std::move(result));
 }
@@ -481,7 +489,13 @@ bool Instant::cut(const Dyadic& t) {
 
 bool Instant::narrow_by_guess() {
   constexpr std::uint64_t slack = std::uint64_t{1} << 8U;
-  Guess local = local_guess(f_, lower_, upper_);
+  auto rounded = rounded_guess(f_, lower_, upper_);
+  if (!rounded) {
+    // Most such intervals are so short that f is nearly linear, which takes two values.
+    if (narrow_by_secant()) return true;
+    if (is_dyadic()) return false;
+  }
+  Guess local = rounded ? *std::move(rounded) : local_guess(f_, lower_, upper_);
   // Relative to the closer end, because doubles are dense only near 0.
   const bool from_upper =
       value_at(local, {std::bit_cast<std::uint64_t>(0.5), 0}) * sign_below_ > 0.0;
