@@ -144,7 +144,7 @@ TEST_P(CurvedSolver, AgreesWithTheOracle) {
   const Sort sort = GetParam();
   Random random(91 + 10 * sort.degree + static_cast<std::uint64_t>(sort.weights));
   std::array<int, stages> decided_by{};
-  int collisions = 0;
+  int collisions = 0, queries = 0;
   const int rounds = tests::soak_trials(12, 400);
   for (int round = 0; round < rounds; ++round) {
     const Kind kind = kind_of(round);
@@ -153,6 +153,7 @@ TEST_P(CurvedSolver, AgreesWithTheOracle) {
     const bool is_slow = sort.weights == Weights::of_points && !sort.is_degenerate;
     const bool has_distance = round % 3 == 1 && (!is_slow || sort.degree == 1);
     const Numbers some = random_queries(random, sort, kind, has_distance && is_slow ? 8 : 40);
+    queries += static_cast<int>(some.queries.size());
     if (has_distance) {
       options.separation = {.distance = sort.scale * (sort.is_degenerate ? 1.0 : 0.1),
                             .norm = round % 2 == 0 ? Norm::l2 : Norm::linf};
@@ -162,8 +163,8 @@ TEST_P(CurvedSolver, AgreesWithTheOracle) {
     expect_agreement(some.queries, options, decided_by, collisions);
     if (HasFatalFailure()) return;
   }
-  EXPECT_GT(collisions, 5 * rounds);
-  EXPECT_LT(collisions, 39 * rounds);
+  EXPECT_GT(8 * collisions, queries);
+  EXPECT_LT(40 * collisions, 39 * queries);
 }
 
 INSTANTIATE_TEST_SUITE_P(

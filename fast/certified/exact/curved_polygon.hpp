@@ -26,7 +26,7 @@
 
 namespace touchstone::fast::exact_stage {
 
-/// Points as fractions, and what they refer to.
+/// Points as fractions, and what they refer to: to be moved, not copied.
 struct CurvedPoints {
   MovingPoints points;
   std::vector<Polynomial> denominators;

@@ -524,7 +524,8 @@ bool Instant::narrow_by_secant() {
 void Instant::narrow() {
   if (is_dyadic()) return;
   if (gain_ > guess_gain ? narrow_by_secant() : narrow_by_guess()) {
-    gain_ *= 2;
+    constexpr long lost_bits = 4;  // of the last step, and of the next one to the curvature
+    gain_ = 2 * gain_ - lost_bits;
     return;
   }
   gain_ = std::max(gain_ / 2, least_gain);

@@ -107,8 +107,8 @@ class Instant {
   Polynomial f_;  // empty: the time is lower_
   Dyadic lower_, upper_;
   int sign_below_ = 0;  // of f_, between lower_ and the root
-  /// The next step is to shorten the interval by the factor 2^-gain_: twice the bits of the last
-  /// one if that succeeded, else half. Steps of more than guess_gain bits are secants.
+  /// The next step is to shorten the interval by the factor 2^-gain_: nearly twice the bits of the
+  /// last one if that succeeded, else half. Steps of more than guess_gain bits are secants.
   static constexpr long guess_gain = 40, least_gain = guess_gain / 2;
   long gain_ = least_gain;
 };

@@ -61,8 +61,8 @@ RandomForm random_form(Random& random, std::size_t degree) {
 TEST(FixedPointForm, IsWithinItsBound) {
   Random random(1);
   for (int i = 0; i < 3000; ++i) {
-    const std::size_t degree = i % 300 == 0 ? FixedPointForm::largest_degree
-                                            : static_cast<std::size_t>(random.between(0, 24));
+    const std::size_t degree = i % 1500 == 0 ? FixedPointForm::largest_degree
+                                             : static_cast<std::size_t>(random.between(0, 24));
     const RandomForm form = random_form(random, degree);
     std::int64_t lower = std::abs(random.integer<std::int64_t>(60));
     std::int64_t upper = random.coin() ? one : std::abs(random.integer<std::int64_t>(60));
