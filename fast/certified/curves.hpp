@@ -12,9 +12,9 @@
 /// - weights that are not between 2^-30 and 2^30.
 ///
 /// The exact stage ends for all finite weights. Where all points have weights of their own, and
-/// coordinates up to about 1, it took at most so many milliseconds (14 to 200 random queries of each
-/// kind, one core, 27 November 2026). With numbers of thousands of bits common divisors take most
-/// of the time.
+/// coordinates up to about 1, it took at most so many milliseconds (14 to 200 random queries of
+/// each kind, one core, 27 November 2026). With numbers of thousands of bits common divisors take
+/// most of the time.
 ///
 /// | degree                                       | 1   | 2   | 3     | 8            |
 /// |----------------------------------------------|-----|-----|-------|--------------|

@@ -26,7 +26,7 @@ namespace touchstone::fast::exact_stage {
 struct Fraction {
   Polynomial numerator;
   std::array<std::uint8_t, moving_points> powers{};
-  const Polynomial* denominators = nullptr;  ///< empty if all powers are 0
+  const Polynomial* denominators = nullptr;  ///< null if all powers are 0
 
   Fraction& operator+=(const Fraction& other);
   Fraction& operator-=(const Fraction& other);
