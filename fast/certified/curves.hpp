@@ -11,14 +11,17 @@
 /// - curves of a degree above 4 with different weights, and
 /// - weights that are not between 2^-30 and 2^30.
 ///
-/// The exact stage ends for all finite weights. It took, without a distance, at most so many
-/// milliseconds (hundreds of random queries, all points with weights of their own, one core, 27
-/// November 2026); with one it takes up to seconds, more for such weights:
+/// The exact stage ends for all finite weights. Where all points have weights of their own, and
+/// coordinates up to about 1, it took at most so many milliseconds (14 to 200 random queries of
+/// each kind, one core, 27 November 2026). With numbers of thousands of bits common divisors take
+/// most of the time.
 ///
-/// | degree                        | 1   | 2   | 3   | 8     |
-/// |-------------------------------|-----|-----|-----|-------|
-/// | weights from 0.1 to 10        | 0.3 | 0.8 | 2.3 | 75    |
-/// | weights of all finite doubles | 6.5 | 62  | 220 | 2,800 |
+/// | degree                                       | 1   | 2   | 3     | 8            |
+/// |----------------------------------------------|-----|-----|-------|--------------|
+/// | weights from 0.1 to 10                       | 0.2 | 0.5 | 1.1   | 7.1          |
+/// | weights from 0.1 to 10, distance 1e-3        | 1.0 | 2.9 | 6.3   | 100          |
+/// | weights of all finite doubles                | 4.2 | 24  | 70    | 1,300        |
+/// | weights of all finite doubles, distance 1e-3 | 72  | 480 | 2,300 | not measured |
 
 #include "fast/certified/kernel.hpp"
 #include "touchstone/certified.hpp"

@@ -22,6 +22,7 @@
 #include "fast/tight_inclusion/box_kernel.hpp"
 #include "touchstone/certified.hpp"
 #include "touchstone/contacts.hpp"
+#include "touchstone/curved_query.hpp"
 #include "touchstone/mesh.hpp"
 #include "touchstone/query.hpp"
 #include "touchstone/tight_inclusion.hpp"
@@ -67,6 +68,9 @@ using DecideRescaled = void(const fast::KernelInput&, const fast::CertifiedKerne
                             std::span<const Query>, fast::KernelOutput&);
 using DecideExactly = std::optional<fast::ExactImpact>(Kind, const Query&, const Separation&,
                                                        double toi_tolerance, double t_max);
+using DecideCurvesExactly = std::optional<fast::ExactImpact>(Kind, const CurvedQuery&,
+                                                             const Separation&,
+                                                             double toi_tolerance, double t_max);
 using MakeFixedPoint = fast::FixedPointVertices(const fast::MovingVertices&, double end,
                                                 double distance);
 using MakeTightInclusion = std::unique_ptr<fast::Method>(const fast::TightInclusionOptions&);
@@ -91,6 +95,7 @@ struct PlantedFaults {
   Faults<MakeCertified> certified;
   /// The part without a fault, with a count of its work (limb_products.hpp).
   Faults<DecideExactly> counting;
+  Faults<DecideCurvesExactly> counting_on_curves;
 };
 
 [[nodiscard]] const PlantedFaults& planted_faults();

@@ -4,6 +4,7 @@
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <span>
 
 #include "fast/certified/exact/fixed_integer.hpp"
 
@@ -21,6 +22,39 @@ constexpr std::uint64_t inverse(std::uint64_t x) {
   std::uint64_t result = x;
   for (int right = 3; right < limb_bits; right *= 2) result *= 2 - x * result;
   return result;
+}
+
+/// Adds x y to the limbs. Returns true if there is a carry beyond them.
+bool add_row(std::uint64_t* limb, std::size_t size, std::uint64_t x,
+             std::span<const std::uint64_t> y) {
+  std::uint64_t carry = 0;
+  for (std::size_t j = 0; j < y.size(); ++j) {
+    const WideLimb sum = WideLimb{x} * y[j] + limb[j] + carry;
+    limb[j] = low(sum);
+    carry = high(sum);
+  }
+  for (std::size_t j = y.size(); carry != 0 && j < size; ++j) {
+    limb[j] += carry;
+    carry = limb[j] < carry ? 1 : 0;
+  }
+  return carry != 0;
+}
+
+/// Subtracts x y from the limbs, modulo their range. Returns true if it was greater.
+bool subtract_row(std::uint64_t* limb, std::size_t size, std::uint64_t x,
+                  std::span<const std::uint64_t> y) {
+  std::uint64_t borrow = 0;
+  for (std::size_t j = 0; j < y.size(); ++j) {
+    const WideLimb product = WideLimb{x} * y[j] + borrow;
+    borrow = high(product) + (limb[j] < low(product) ? 1 : 0);
+    limb[j] -= low(product);
+  }
+  for (std::size_t j = y.size(); borrow != 0 && j < size; ++j) {
+    const std::uint64_t before = limb[j];
+    limb[j] -= borrow;
+    borrow = before < borrow ? 1 : 0;
+  }
+  return borrow != 0;
 }
 
 }  // namespace
@@ -76,19 +110,19 @@ Approximation BigInteger::approximation() const {
   return {negative_ ? -significand : significand, bit_length()};
 }
 
-std::int64_t BigInteger::truncated(long shift) const {
+SignedWideLimb BigInteger::truncated(long shift) const {
   if (size_ == 0 || bit_length() + shift <= 0) return 0;
   const std::uint64_t* const limb = limbs();
-  std::uint64_t magnitude = 0;
-  if (shift >= 0) {
-    magnitude = limb[0] << shift;
-  } else {
-    const auto whole = static_cast<std::size_t>(-shift / limb_bits);
-    const long part = -shift % limb_bits;
-    magnitude = limb[whole] >> part;
-    if (part > 0 && whole + 1 < size_) magnitude |= limb[whole + 1] << (limb_bits - part);
+  // The limbs from the first that counts, the one above and the one above that.
+  const auto first = static_cast<std::size_t>(shift < 0 ? -shift / limb_bits : 0);
+  const long beyond = shift < 0 ? -shift % limb_bits : 0;
+  const auto at = [&](std::size_t i) { return first + i < size_ ? limb[first + i] : 0; };
+  WideLimb magnitude = (WideLimb{at(1)} << limb_bits) | at(0);
+  if (shift > 0) magnitude <<= shift;
+  if (beyond > 0) {
+    magnitude = (magnitude >> beyond) | (WideLimb{at(2)} << (2 * limb_bits - beyond));
   }
-  const auto value = static_cast<std::int64_t>(magnitude);
+  const auto value = static_cast<SignedWideLimb>(magnitude);
   return negative_ ? -value : value;
 }
 
@@ -181,6 +215,35 @@ BigInteger& BigInteger::add(const BigInteger& other, bool negative) {
   return *this = larger;
 }
 
+// A product of the other sign is subtracted modulo 2^(64 size). If it is the greater one, what is
+// left is 2^(64 size) minus the magnitude.
+BigInteger& BigInteger::add_product(const BigInteger& a, const BigInteger& b, bool negative) {
+  if (a.size_ == 0 || b.size_ == 0) return *this;
+  if (size_ == 0) negative_ = negative;
+  resize(size_ == 0 ? a.size_ + b.size_ : std::max(size_, a.size_ + b.size_) + 1);
+  const bool is_sum = negative_ == negative;
+  std::uint64_t* const result = limbs();
+  const std::uint64_t *const x = a.limbs(), *const y = b.limbs();
+  bool is_below_zero = false;
+  for (std::size_t i = 0; i < a.size_; ++i) {
+    // Sums of coordinates of very different size have many limbs that are 0.
+    if (x[i] == 0) continue;
+    is_below_zero |= is_sum ? add_row(result + i, size_ - i, x[i], {y, b.size_})
+                            : subtract_row(result + i, size_ - i, x[i], {y, b.size_});
+  }
+  if (is_below_zero) {
+    std::uint64_t carry = 1;
+    for (std::size_t i = 0; i < size_; ++i) {
+      const WideLimb sum = WideLimb{~result[i]} + carry;
+      result[i] = low(sum);
+      carry = high(sum);
+    }
+    negative_ = negative;
+  }
+  trim();
+  return *this;
+}
+
 BigInteger& BigInteger::operator<<=(long bits) {
   if (size_ == 0 || bits == 0) return *this;
   const auto whole = static_cast<std::size_t>(bits / limb_bits);
@@ -214,23 +277,7 @@ BigInteger& BigInteger::operator>>=(long bits) {
 
 BigInteger operator*(const BigInteger& a, const BigInteger& b) {
   BigInteger product;
-  if (a.size_ == 0 || b.size_ == 0) return product;
-  product.resize(a.size_ + b.size_);
-  std::uint64_t* const result = product.limbs();
-  const std::uint64_t *const x = a.limbs(), *const y = b.limbs();
-  for (std::size_t i = 0; i < a.size_; ++i) {
-    // Sums of coordinates of very different size have many limbs that are 0.
-    if (x[i] == 0) continue;
-    std::uint64_t carry = 0;
-    for (std::size_t j = 0; j < b.size_; ++j) {
-      const WideLimb sum = WideLimb{x[i]} * y[j] + result[i + j] + carry;
-      result[i + j] = low(sum);
-      carry = high(sum);
-    }
-    result[i + b.size_] = carry;
-  }
-  product.negative_ = a.negative_ != b.negative_;
-  product.trim();
+  product.add_product(a, b);
   return product;
 }
 

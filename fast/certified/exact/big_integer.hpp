@@ -12,6 +12,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "fast/certified/exact/fixed_integer.hpp"
+
 namespace touchstone::fast::exact_stage {
 
 /// significand · 2^exponent, an approximation with a relative error below 2^-52. The significand is
@@ -42,8 +44,8 @@ class BigInteger {
   /// The index of the lowest bit that is set. \pre not 0.
   [[nodiscard]] long trailing_zeros() const;
   [[nodiscard]] Approximation approximation() const;
-  /// This number · 2^shift without its fraction. \pre the magnitude of that is below 2^63.
-  [[nodiscard]] std::int64_t truncated(long shift) const;
+  /// This number · 2^shift without its fraction. \pre the magnitude of that is below 2^127.
+  [[nodiscard]] SignedWideLimb truncated(long shift) const;
   /// The remainder in [0, modulus). \pre the modulus is not 0.
   [[nodiscard]] std::uint64_t residue(std::uint64_t modulus) const;
   /// This number / divisor. \pre the divisor is not 0 and divides this number.
@@ -51,6 +53,13 @@ class BigInteger {
 
   BigInteger& operator+=(const BigInteger& other) { return add(other, other.negative_); }
   BigInteger& operator-=(const BigInteger& other) { return add(other, !other.negative_); }
+  /// Adds a b, without a number for the product. \pre neither is this number.
+  BigInteger& add_product(const BigInteger& a, const BigInteger& b) {
+    return add_product(a, b, a.negative_ != b.negative_);
+  }
+  BigInteger& subtract_product(const BigInteger& a, const BigInteger& b) {
+    return add_product(a, b, a.negative_ == b.negative_);
+  }
   /// Multiplies by 2^bits. \pre bits ≥ 0.
   BigInteger& operator<<=(long bits);
   /// Divides by 2^bits and drops the fraction. \pre bits ≥ 0.
@@ -78,6 +87,8 @@ class BigInteger {
   void trim();
   [[nodiscard]] int compare_magnitude(const BigInteger& other) const;
   BigInteger& add(const BigInteger& other, bool negative);
+  /// Adds |a b| with this sign.
+  BigInteger& add_product(const BigInteger& a, const BigInteger& b, bool negative);
   void add_magnitude(const BigInteger& other);
   /// |this| ← larger − smaller, one of which is |this|.
   void set_difference(const BigInteger& larger, const BigInteger& smaller);

@@ -67,16 +67,10 @@ Polynomial numerator_of(const Trajectory& curve, const Polynomial& denominator, 
   return control;
 }
 
-/// The same function as a form of this degree.
-Polynomial raised_to(Polynomial form, std::size_t degree) {
-  while (form.size() <= degree) form = form * Polynomial{1, 1};
-  return form;
-}
-
 using Vector = std::array<Polynomial, 3>;
 
-/// Raises all to the greatest degree, which is returned.
-std::size_t raise_to_one_degree(std::span<Vector> vectors, std::size_t least) {
+/// Raises all to the greatest degree.
+void raise_to_one_degree(std::span<Vector> vectors, std::size_t least) {
   std::size_t degree = least;
   for (const Vector& vector : vectors) {
     for (const Polynomial& x : vector) degree = std::max(degree, x.size() - 1);
@@ -84,7 +78,6 @@ std::size_t raise_to_one_degree(std::span<Vector> vectors, std::size_t least) {
   for (Vector& vector : vectors) {
     for (Polynomial& x : vector) x = raised_to(std::move(x), degree);
   }
-  return degree;
 }
 
 /// The points times their denominators.
@@ -157,31 +150,41 @@ MotionOf<Polynomial> motion_of(Kind kind, const Vector& first, const Vector& nex
 }
 
 /// The corners of all points times all denominators.
-MovingPolygon polygon_of(Kind kind, RationalPoints points) {
+std::vector<Vector> whole_corners(Kind kind, RationalPoints points) {
   const std::vector<Polynomial> denominators = points.distinct();
-  Polynomial common{1};
-  for (const Polynomial& denominator : denominators) common = common * denominator;
   for (std::size_t i = 0; i < moving_points; ++i) {
     for (const Polynomial& denominator : denominators) {
       if (denominator == points.denominators[i]) continue;
       for (Polynomial& x : points.numerators[i]) x = x * denominator;
     }
   }
-  const std::size_t degree =
-      raise_to_one_degree(points.numerators, std::max<std::size_t>(common.size() - 1, 1));
-  MovingPolygon polygon{
-      .kind = kind, .corners = {}, .denominator = raised_to(std::move(common), degree)};
+  raise_to_one_degree(points.numerators, 1);
+  std::vector<Vector> result;
   for (const Corner& corner : corners(kind)) {
-    polygon.corners.push_back(points.numerators[corner.plus] - points.numerators[corner.minus]);
+    result.push_back(points.numerators[corner.plus] - points.numerators[corner.minus]);
   }
-  return polygon;
+  return result;
 }
 
 }  // namespace
 
-CurvedPolygon polygon_of(Kind kind, const CurvedQuery& query, double distance) {
-  const RationalPoints points(query, true);
-  return {polygon_of(kind, points), scaled_distance(distance, points.units[0])};
+CurvedPoints points_of(Kind kind, const CurvedQuery& query, double distance) {
+  RationalPoints points(query, true);
+  CurvedPoints result{.points = {.kind = kind, .points = {}},
+                      .denominators = points.distinct(),
+                      .distance = scaled_distance(distance, points.units[0])};
+  for (std::size_t i = 0; i < moving_points; ++i) {
+    const auto own = std::ranges::find(result.denominators, points.denominators[i]);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      Fraction& x = result.points.points[i][axis];
+      x.numerator = std::move(points.numerators[i][axis]);
+      x.denominators = result.denominators.data();
+      if (own != result.denominators.end()) {
+        x.powers[static_cast<std::size_t>(own - result.denominators.begin())] = 1;
+      }
+    }
+  }
+  return result;
 }
 
 std::vector<PolynomialMotion> motions_of(Kind kind, const CurvedQuery& query) {
@@ -192,7 +195,7 @@ std::vector<PolynomialMotion> motions_of(Kind kind, const CurvedQuery& query) {
     factors.insert(factors.end(), more.begin(), more.end());
   };
   if (distinct.size() <= 2) {
-    const std::vector<Vector> w = polygon_of(kind, points).corners;
+    const std::vector<Vector> w = whole_corners(kind, points);
     for (int corner = 0; corner < 3; ++corner) add(distinct);
     return {{motion_of(kind, w[0], w[1], w.back()), other_factors(std::move(factors), points)}};
   }

@@ -3,9 +3,10 @@
 /// \file
 /// The moving polygon of a query on curves, in integers.
 ///
-/// All coordinates have one unit, a power of two, and the weights of a point another; without a
-/// distance each axis has its own. The points are multiplied by the product of all denominators,
-/// equal ones once (docs/theory.md, section 2.5).
+/// The coordinates of each axis have one unit, a power of two, and the weights of a point another.
+/// With a distance all axes have the same, and the points are fractions with denominators of their
+/// own (docs/theory.md, section 6.15). Without one the points are multiplied by the product of all
+/// denominators, equal ones once (section 2.5).
 ///
 /// With three or four denominators the degrees and the numbers are shorter if each corner is
 /// multiplied by those of its two points alone. Factors of their own keep a triangle that contains
@@ -25,13 +26,15 @@
 
 namespace touchstone::fast::exact_stage {
 
-struct CurvedPolygon {
-  MovingPolygon polygon;
+/// Points as fractions, and what they refer to: to be moved, not copied.
+struct CurvedPoints {
+  MovingPoints points;
+  std::vector<Polynomial> denominators;
   ScaledDistance distance;
 };
 
 /// \pre is_valid(query), distance > 0
-[[nodiscard]] CurvedPolygon polygon_of(Kind kind, const CurvedQuery& query, double distance);
+[[nodiscard]] CurvedPoints points_of(Kind kind, const CurvedQuery& query, double distance);
 
 /// Motions one of which contains the origin where the query is in contact. \pre is_valid(query)
 [[nodiscard]] std::vector<PolynomialMotion> motions_of(Kind kind, const CurvedQuery& query);

@@ -4,6 +4,8 @@
 #include <array>
 #include <bit>
 #include <cstddef>
+#include <initializer_list>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -12,17 +14,13 @@
 namespace touchstone::fast::exact_stage {
 namespace {
 
-using Vector = std::array<Polynomial, 3>;
-
-Vector vector_of(const MovingVector<BigInteger>& v) {
-  return {Polynomial(v[0].begin(), v[0].end()), Polynomial(v[1].begin(), v[1].end()),
-          Polynomial(v[2].begin(), v[2].end())};
-}
+using Vector = std::array<Fraction, 3>;
 
 Vector cross_product(const Vector& a, const Vector& b) {
-  const auto component = [&](std::size_t i, std::size_t j) { return a[i] * b[j] - a[j] * b[i]; };
-  return {component(1, 2), component(2, 0), component(0, 1)};
+  return {cross(a, b, 0), cross(a, b, 1), cross(a, b, 2)};
 }
+
+Fraction constant(const BigInteger& x) { return {{x}, {}, nullptr}; }
 
 // ---- Separators ---------------------------------------------------------------------------------
 
@@ -65,149 +63,192 @@ void add_both(std::vector<Separator>& to, Separator separator) {
   to.push_back(std::move(opposite));
 }
 
-/// The parts of the separators.
-struct Setting {
-  Setting(const MovingPolygon& polygon, const ScaledDistance& d)
-      : kind(polygon.kind),
-        corners(polygon.corners),
-        normal(cross_product(corners[1] - corners[0], corners.back() - corners[0])),
-        determinant(dot(normal, corners[0])),
-        reach(polygon.denominator * d.numerator),
-        squared_reach(reach * reach),
-        exponent(d.exponent) {}
-
-  [[nodiscard]] std::size_t next(std::size_t corner) const { return (corner + 1) % corners.size(); }
-
-  /// value − d² · square, times the denominator's square and 2^(2 exponent).
-  [[nodiscard]] Polynomial beyond(const Polynomial& value, const Polynomial& square) const {
-    return (value << 2 * exponent) - square * squared_reach;
-  }
-
-  Kind kind;
-  std::vector<Vector> corners;  // in cyclic order
-  Vector normal;
-  Polynomial determinant;  // normal · corner, for every corner
-  Polynomial reach;        // the distance times the denominator, times 2^-exponent
-  Polynomial squared_reach;
-  long exponent;
+/// A side of the polygon, from a corner to the next one.
+struct Side {
+  Vector e;     ///< w_j − w_i
+  Vector area;  ///< w_i × w_j = w_i × e
 };
 
-/// The axis a for linf, with its products with the corners that differ.
-Separator cube_separator(const Setting& setting, const Vector& axis,
-                         const std::vector<Polynomial>& products) {
-  Separator result;
-  for (const Polynomial& product : products) result.values.push_back(product << setting.exponent);
-  for (const Polynomial& component : axis) {
-    if (is_zero(component)) continue;
-    result.spreads.push_back(component * setting.reach);
+/// The polygon and the distance.
+class Setting {
+ public:
+  Setting(const MovingPoints& points, const ScaledDistance& d)
+      : points_(points), corners_(touchstone::corners(points.kind)), distance_(d) {
+    for (const Corner& corner : corners_) corners.push_back(between(corner.minus, corner.plus));
   }
-  return result;
-}
+
+  [[nodiscard]] Kind kind() const { return points_.kind; }
+  [[nodiscard]] std::size_t next(std::size_t corner) const { return (corner + 1) % corners.size(); }
+
+  [[nodiscard]] Side side(std::size_t i) const {
+    const Corner &from = corners_[i], &to = corners_[next(i)];
+    if (from.plus == to.plus) {
+      return {between(to.minus, from.minus), area(from.minus, to.minus, from.plus)};
+    }
+    return {between(from.plus, to.plus), area(from.plus, to.plus, from.minus)};
+  }
+
+  /// (w_1 − w_0) × (w_last − w_0), which is e × f for all neighbouring sides e and f.
+  [[nodiscard]] Vector normal() const {
+    if (kind() == Kind::vertex_face) return area(2, 3, 1);
+    return cross_product(between(0, 1), between(3, 2));
+  }
+
+  /// normal · w_i, the same for every corner: six times the volume of the tetrahedron of the
+  /// points.
+  [[nodiscard]] Fraction determinant(const Vector& normal) const {
+    if (have_one_denominator({0, 1, 2, 3})) return dot(normal, corners[0]);
+    const auto [p, q, r, s] = kind() == Kind::vertex_face ? std::array<std::size_t, 4>{1, 2, 3, 0}
+                                                          : std::array<std::size_t, 4>{1, 0, 2, 3};
+    return dot(area(p, q, r), at(s)) - dot(at(p), cross_product(at(q), at(r)));
+  }
+
+  /// value − d · spread, times 2^exponent.
+  [[nodiscard]] Polynomial beyond(const Fraction& value, const Fraction& spread) const {
+    return ((value << distance_.exponent) - spread * distance_.numerator).numerator;
+  }
+  /// value − d² · square, times 2^(2 exponent).
+  [[nodiscard]] Polynomial squarely_beyond(const Fraction& value, const Fraction& square) const {
+    return ((value << 2 * distance_.exponent) -
+            square * (distance_.numerator * distance_.numerator))
+        .numerator;
+  }
+
+  /// The axis for linf with these components and products with the corners that differ.
+  [[nodiscard]] Separator cube_separator(const std::vector<Fraction>& components,
+                                         std::vector<Fraction> products) const {
+    std::vector<Fraction> all = std::move(products);
+    const auto values = static_cast<std::ptrdiff_t>(all.size());
+    for (Fraction& product : all) product = std::move(product) << distance_.exponent;
+    for (const Fraction& component : components) {
+      if (!is_zero(component.numerator)) all.push_back(component * distance_.numerator);
+    }
+    std::vector<Polynomial> forms = common_numerators(std::move(all));
+    Separator result;
+    result.values.assign(forms.begin(), forms.begin() + values);
+    result.spreads.assign(forms.begin() + values, forms.end());
+    return result;
+  }
+
+  std::vector<Vector> corners;  // in cyclic order
+
+ private:
+  [[nodiscard]] const Vector& at(std::size_t point) const { return points_.points[point]; }
+  [[nodiscard]] Vector between(std::size_t from, std::size_t to) const { return at(to) - at(from); }
+
+  [[nodiscard]] bool have_one_denominator(std::initializer_list<std::size_t> points) const {
+    return std::ranges::all_of(
+        points, [&](std::size_t i) { return at(i)[0].powers == at(*points.begin())[0].powers; });
+  }
+
+  /// (a − c) × (b − c), with each denominator once.
+  [[nodiscard]] Vector area(std::size_t a, std::size_t b, std::size_t c) const {
+    if (have_one_denominator({a, b, c})) return cross_product(between(c, a), between(c, b));
+    Vector sum = cross_product(at(a), at(b));
+    sum += cross_product(at(b), at(c));
+    return sum += cross_product(at(c), at(a));
+  }
+
+  const MovingPoints& points_;
+  std::span<const Corner> corners_;
+  ScaledDistance distance_;
+};
 
 /// ±e_c, for both norms.
-void add_axes(const Setting& setting, std::vector<Separator>& to) {
+std::vector<Separator> axes(const Setting& setting) {
+  std::vector<Separator> result;
+  const Fraction one = constant(1);
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    for (const bool negative : {false, true}) {
-      Separator separator;
-      for (const Vector& corner : setting.corners) {
-        const Polynomial product = corner[axis] << setting.exponent;
-        separator.values.push_back((negative ? -product : product) - setting.reach);
-      }
-      to.push_back(std::move(separator));
+    Separator separator, opposite;
+    for (const Vector& corner : setting.corners) {
+      separator.values.push_back(setting.beyond(corner[axis], one));
+      opposite.values.push_back(setting.beyond(-corner[axis], one));
     }
+    result.push_back(std::move(separator));
+    result.push_back(std::move(opposite));
   }
+  return result;
 }
 
 /// ±N and ±(e_c × e). Opposite sides of a parallelogram have one direction, and a·w is the same at
-/// both ends of a side and at both of the opposite one.
+/// both ends of a side and at both of the opposite one: w·(e_c × e) = (e × w)_c, and for the other
+/// corners it is that plus N_c.
 std::vector<Separator> cube_separators(const Setting& setting) {
   std::vector<Separator> result;
-  add_axes(setting, result);
-  const std::size_t sides = setting.kind == Kind::vertex_face ? 3 : 2;
+  const Vector normal = setting.normal();
+  const std::size_t sides = setting.kind() == Kind::vertex_face ? 3 : 2;
   for (std::size_t i = 0; i < sides; ++i) {
-    const std::size_t j = setting.next(i), k = setting.next(j);
-    const Vector e = setting.corners[j] - setting.corners[i];
+    const auto [e, area] = setting.side(i);
     for (std::size_t c = 0; c < 3; ++c) {
-      Vector axis;
-      axis[c] = Polynomial(e[c].size());
-      axis[(c + 1) % 3] = -e[(c + 2) % 3];
-      axis[(c + 2) % 3] = e[(c + 1) % 3];
-      add_both(result,
-               cube_separator(setting, axis,
-                              {dot(axis, setting.corners[i]), dot(axis, setting.corners[k])}));
+      add_both(result, setting.cube_separator({e[(c + 1) % 3], e[(c + 2) % 3]},
+                                              {-area[c], normal[c] - area[c]}));
     }
   }
-  add_both(result, cube_separator(setting, setting.normal, {setting.determinant}));
+  add_both(result, setting.cube_separator({normal[0], normal[1], normal[2]},
+                                          {setting.determinant(normal)}));
   return result;
 }
 
-/// w_i·w_k, the terms of the directions of vertices and sides.
-class Gram {
+/// The parts of the separators for l2.
+class BallParts {
  public:
-  explicit Gram(const std::vector<Vector>& w) : size_(w.size()), products_(size_ * size_) {
+  explicit BallParts(const Setting& setting) : size_(setting.corners.size()) {
+    const auto& w = setting.corners;
     for (std::size_t i = 0; i < size_; ++i) {
-      for (std::size_t k = 0; k <= i; ++k) {
-        products_[i * size_ + k] = products_[k * size_ + i] = dot(w[i], w[k]);
+      for (std::size_t k = 0; k < size_; ++k) {
+        products_.push_back(k < i ? product(k, i) : dot(w[i], w[k]));
       }
+    }
+    normal = setting.normal();
+    for (std::size_t i = 0; i < size_; ++i) {
+      vertices_beyond.push_back(setting.squarely_beyond(product(i, i), constant(1)));
+      const auto [e, area] = setting.side(i);
+      SideForms& s = sides.emplace_back();
+      s.square = dot(e, e);
+      s.area = dot(area, area);
+      s.inward = dot(normal, area);
+      s.beyond = setting.squarely_beyond(s.area, s.square);
     }
   }
 
-  [[nodiscard]] const Polynomial& operator()(std::size_t i, std::size_t k) const {
+  /// w_i·w_k
+  [[nodiscard]] const Fraction& product(std::size_t i, std::size_t k) const {
     return products_[i * size_ + k];
   }
 
+  /// A side, with its direction a.
+  struct SideForms {
+    Fraction square;    ///< |e|²
+    Fraction area;      ///< C = a·w_i = a·w_j
+    Fraction inward;    ///< C − a·w_k = N·(w_i × e) for the other corners
+    Polynomial beyond;  ///< C − d²|e|²
+  };
+
+  Vector normal;
+  std::vector<SideForms> sides;
+  std::vector<Polynomial> vertices_beyond;  ///< |w_i|² − d²
+
  private:
   std::size_t size_;
-  std::vector<Polynomial> products_;
+  std::vector<Fraction> products_;
 };
 
-/// A side: |e|², C, a·w_k for the other corners (the same for both of a parallelogram), and
-/// C − d²|e|².
-struct Side {
-  Polynomial square, area, other, beyond;
-};
-
-Side side(const Setting& setting, const Gram& gram, std::size_t i) {
-  const std::size_t j = setting.next(i), k = setting.next(j);
-  const Polynomial from = gram(i, j) - gram(i, i), to = gram(j, j) - gram(i, j);  // w_i·e, w_j·e
-  Polynomial square = to - from;
-  Polynomial area = gram(i, i) * gram(j, j) - gram(i, j) * gram(i, j);
-  Polynomial other = square * gram(i, k) - from * (gram(j, k) - gram(i, k));
-  Polynomial beyond = setting.beyond(area, square);
-  return {std::move(square), std::move(area), std::move(other), std::move(beyond)};
-}
-
-/// The parts of the separators for l2.
-struct BallParts {
-  explicit BallParts(const Setting& setting) : gram(setting.corners) {
-    for (std::size_t i = 0; i < setting.corners.size(); ++i) {
-      sides.push_back(side(setting, gram, i));
-      vertices_beyond.push_back(setting.beyond(gram(i, i), {1}));
-    }
-  }
-
-  Gram gram;
-  std::vector<Side> sides;
-  std::vector<Polynomial> vertices_beyond;  // |w_i|² − d²
-};
-
-/// The coordinate axes, the vertices and sides with low forms, and the face.
+/// The vertices and sides with low forms, and the face.
 std::vector<Separator> low_ball_separators(const Setting& setting, const BallParts& parts) {
   std::vector<Separator> result;
-  add_axes(setting, result);
   for (std::size_t i = 0; i < setting.corners.size(); ++i) {
-    const Side& s = parts.sides[i];
-    result.push_back({{s.beyond, s.other - s.area}, {}});
+    const auto& s = parts.sides[i];
+    result.push_back({{s.beyond, (-s.inward).numerator}, {}});
     Separator vertex{{parts.vertices_beyond[i]}, {}};
     for (std::size_t k = 0; k < setting.corners.size(); ++k) {
-      if (k != i) vertex.values.push_back(parts.gram(i, k) - parts.gram(i, i));
+      if (k != i) vertex.values.push_back((parts.product(i, k) - parts.product(i, i)).numerator);
     }
     result.push_back(std::move(vertex));
   }
-  const Polynomial &det = setting.determinant, square = dot(setting.normal, setting.normal);
-  const Polynomial face = setting.beyond(det * det, square);
-  result.push_back({{det, face}, {}});
-  result.push_back({{-det, face}, {}});
+  const Fraction det = setting.determinant(parts.normal);
+  const Polynomial face = setting.squarely_beyond(det * det, dot(parts.normal, parts.normal));
+  result.push_back({{det.numerator, face}, {}});
+  result.push_back({{(-det).numerator, face}, {}});
   return result;
 }
 
@@ -216,18 +257,20 @@ std::vector<Separator> ball_separators_at(Instant& now, const Setting& setting,
                                           const BallParts& parts) {
   std::vector<Separator> result;
   for (std::size_t i = 0; i < setting.corners.size(); ++i) {
-    const Side& s = parts.sides[i];
+    const auto& s = parts.sides[i];
     if (now.sign_of(s.beyond) > 0) {
+      const Fraction other = s.area - s.inward;
       result.push_back(
-          {{s.beyond, s.other, setting.beyond(s.other * s.other, s.square * s.area)}, {}});
+          {{s.beyond, other.numerator, setting.squarely_beyond(other * other, s.square * s.area)},
+           {}});
     }
     if (now.sign_of(parts.vertices_beyond[i]) <= 0) continue;
     Separator vertex{{parts.vertices_beyond[i]}, {}};
     for (std::size_t k = 0; k < setting.corners.size(); ++k) {
       if (k == i) continue;
-      const Polynomial& product = parts.gram(i, k);
-      vertex.values.push_back(product);
-      vertex.values.push_back(setting.beyond(product * product, parts.gram(i, i)));
+      const Fraction& product = parts.product(i, k);
+      vertex.values.push_back(product.numerator);
+      vertex.values.push_back(setting.squarely_beyond(product * product, parts.product(i, i)));
     }
     result.push_back(std::move(vertex));
   }
@@ -333,21 +376,39 @@ End walk(ReachFrom&& reach_from, std::uint64_t latest) {
   }
 }
 
-End first_instant(const Setting& setting, Norm norm, std::uint64_t latest) {
-  if (norm == Norm::linf) {
-    const auto separators = cube_separators(setting);
-    return walk([&](Instant& now, const Dyadic& t_end) { return reach(separators, now, t_end); },
-                latest);
+/// The separators of both norms and those of one, which are made when the former do not suffice.
+class Separators {
+ public:
+  Separators(const Setting& setting, Norm norm)
+      : setting_(setting), norm_(norm), axes_(axes(setting)) {}
+
+  [[nodiscard]] Reach reach_from(Instant& now, const Dyadic& t_end) {
+    Reach found = reach(axes_, now, t_end);
+    if (found.separated) return found;
+    if (norm_ == Norm::linf) {
+      if (others_.empty()) others_ = cube_separators(setting_);
+      return reach(others_, now, t_end);
+    }
+    if (!parts_) {
+      parts_.emplace(setting_);
+      others_ = low_ball_separators(setting_, *parts_);
+    }
+    found = reach(others_, now, t_end);
+    if (found.separated) return found;
+    return reach(ball_separators_at(now, setting_, *parts_), now, t_end);
   }
-  const BallParts parts(setting);
-  const auto low = low_ball_separators(setting, parts);
-  return walk(
-      [&](Instant& now, const Dyadic& t_end) {
-        Reach found = reach(low, now, t_end);
-        if (found.separated) return found;
-        return reach(ball_separators_at(now, setting, parts), now, t_end);
-      },
-      latest);
+
+ private:
+  const Setting& setting_;
+  Norm norm_;
+  std::vector<Separator> axes_, others_;
+  std::optional<BallParts> parts_;
+};
+
+End first_instant(const Setting& setting, Norm norm, std::uint64_t latest) {
+  Separators separators(setting, norm);
+  return walk([&](Instant& now, const Dyadic& t_end) { return separators.reach_from(now, t_end); },
+              latest);
 }
 
 }  // namespace
@@ -358,10 +419,10 @@ ScaledDistance scaled_distance(double distance, int unit) {
   return {BigInteger(d.numerator) << std::max(exponent, 0), std::max(-exponent, 0)};
 }
 
-std::optional<BitInterval> first_approach(const MovingPolygon& polygon,
+std::optional<BitInterval> first_approach(const MovingPoints& points,
                                           const ScaledDistance& distance, Norm norm,
                                           std::uint64_t latest, std::uint64_t step) {
-  End end = first_instant(Setting(polygon, distance), norm, latest);
+  End end = first_instant(Setting(points, distance), norm, latest);
   if (!end) return std::nullopt;
   if (compare(end->upper(), {0, 0}) == 0) return BitInterval{bits_of_zero, bits_of_zero};
   const auto is_above = [&](std::uint64_t bits) { return end->is_above(bits); };
@@ -374,9 +435,22 @@ std::optional<BitInterval> first_approach(const MovingPolygon& polygon,
 std::optional<BitInterval> first_approach(const Motion<BigInteger>& motion,
                                           const ScaledDistance& distance, Norm norm,
                                           std::uint64_t latest, std::uint64_t step) {
-  MovingPolygon polygon{.kind = motion.kind, .corners = {}, .denominator = {1, 1}};
-  for (const auto& corner : moving_corners(motion)) polygon.corners.push_back(vector_of(corner.w));
-  return first_approach(polygon, distance, norm, latest, step);
+  const auto vector_of = [](const MovingVector<BigInteger>& v) {
+    Vector result;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      result[axis].numerator.assign(v[axis].begin(), v[axis].end());
+    }
+    return result;
+  };
+  // Points with the differences r, p and q.
+  const auto &r = motion.r, &p = motion.p, &q = motion.q;
+  const Vector origin = vector_of(MovingVector<BigInteger>{});
+  MovingPoints points{.kind = motion.kind,
+                      .points = {vector_of(r), origin, vector_of(p), vector_of(q)}};
+  if (motion.kind == Kind::edge_edge) {
+    points.points = {vector_of(r), vector_of(r - p), origin, vector_of(q)};
+  }
+  return first_approach(points, distance, norm, latest, step);
 }
 
 }  // namespace touchstone::fast::exact_stage

@@ -40,11 +40,31 @@
 /// later one of finitely many roots. ∎
 ///
 /// Every separator that holds is correct; the one that holds longest is taken. Other separating
-/// directions may be tried before those of the theorems: here for l2 the coordinate axes, and with
-/// few forms of low degree
+/// directions may be tried before those of the theorems: the coordinate axes first, for l2 too,
+/// whose forms are the lowest; and with few forms of low degree
 ///   - vertex: |w_i|² − d², and w_i·w_k − |w_i|² for every other k;
 ///   - side: C − d²|e|², and a·w_k − C for another k,
-/// which imply those above. They fail in place of theorem 1 only if the polygon degenerates.
+/// which imply those above. They fail in place of theorem 1 only if the polygon degenerates. The
+/// separators of the theorems are made when no axis holds.
+///
+/// *Denominators.* The points of curves are fractions (fraction.hpp), and only signs count.
+/// Products of corners have each denominator as often as corners do; but the forms need fewer of
+/// them, by
+/// **Theorem 4.** Let a, b, c, d be the points of the query.
+///   - Neighbouring corners share a point c up to its sign, and w_i × w_j = (a − c) × (b − c) =
+///     a × b + b × c + c × a, with each denominator once.
+///   - N = (w_1 − w_0) × (w_last − w_0) is e × f for any side e and the next one f. For a triangle
+///     it is such a sum, for a parallelogram the product of two differences.
+///   - N·w_0 is, up to its sign, (a × b + b × c + c × a)·d − a·(b × c), with each denominator once.
+///   - A side's a·w_k is (w_i × e)·(w_k × e), and (w_k − w_i) × e = −N for the other corners k. So
+///     a·w_k = C − N·(w_i × w_j), and for linf (e_c × e)·w_k = N_c − (w_i × w_j)_c.
+/// Proof. The first two lines are calculation: opposite sides of a parallelogram are opposite
+/// vectors, and the sum of a triangle's is 0. N·w_0 is the determinant of the points' differences,
+/// six times the volume of their tetrahedron, for both kinds. (w_i × e)·(w_k × e) = (w_i·w_k)|e|² −
+/// (w_i·e)(e·w_k) = a·w_k; and with f the side after e, w_k − w_i is e + f, or a vector that
+/// differs from that by a multiple of e. ∎ Four denominators of degree n thus leave the highest
+/// form the degree 14n, where corners times all denominators give 32n and most of the forms squared
+/// factors.
 
 #include <array>
 #include <cstdint>
@@ -54,7 +74,7 @@
 #include "fast/certified/exact/big_integer.hpp"
 #include "fast/certified/exact/contact_conditions.hpp"
 #include "fast/certified/exact/enclosing_doubles.hpp"
-#include "fast/certified/exact/polynomial.hpp"
+#include "fast/certified/exact/fraction.hpp"
 #include "touchstone/query.hpp"
 
 namespace touchstone::fast::exact_stage {
@@ -68,12 +88,10 @@ struct ScaledDistance {
 /// A distance > 0 in units of 2^unit.
 [[nodiscard]] ScaledDistance scaled_distance(double distance, int unit);
 
-/// The corners of a moving polygon, in cyclic order: forms of one degree, all times a denominator
-/// of that degree that is positive on [0,1].
-struct MovingPolygon {
+/// The points of a query, in the order of its kind.
+struct MovingPoints {
   Kind kind = Kind::vertex_face;
-  std::vector<std::array<Polynomial, 3>> corners;
-  Polynomial denominator;
+  std::array<std::array<Fraction, 3>, moving_points> points;
 };
 
 /// The first time, not later than the double in [0,1] of bits `latest`, at which the polygon is
@@ -81,7 +99,7 @@ struct MovingPolygon {
 /// `upper` is subnormal (lower < time ≤ upper, or both 0 if the time is 0); empty if there is no
 /// such time.
 /// \pre all axes have the same unit; 1 ≤ step.
-[[nodiscard]] std::optional<BitInterval> first_approach(const MovingPolygon& polygon,
+[[nodiscard]] std::optional<BitInterval> first_approach(const MovingPoints& points,
                                                         const ScaledDistance& distance, Norm norm,
                                                         std::uint64_t latest, std::uint64_t step);
 /// The same of a motion on straight lines.

@@ -148,8 +148,8 @@ std::optional<BitInterval> first_contact_of(Kind kind, const CurvedQuery& query,
 std::optional<BitInterval> first_approach_of(Kind kind, const CurvedQuery& query,
                                              const Separation& separation, std::uint64_t latest,
                                              std::uint64_t step) {
-  const CurvedPolygon curved = polygon_of(kind, query, separation.distance);
-  return first_approach(curved.polygon, curved.distance, separation.norm, latest, step);
+  const CurvedPoints curved = points_of(kind, query, separation.distance);
+  return first_approach(curved.points, curved.distance, separation.norm, latest, step);
 }
 
 /// The maximum width, in spacings of doubles, of an enclosure with the relative width `tolerance`:

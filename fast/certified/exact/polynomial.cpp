@@ -44,7 +44,7 @@ Polynomial pseudo_remainder(Polynomial a, const Polynomial& b) {
     const BigInteger top = reduces ? a.back() : 0;
     for (BigInteger& x : a) x = x * b.back();
     if (!reduces) continue;
-    for (std::size_t k = 0; k < b.size(); ++k) a[k + left] -= top * b[k];
+    for (std::size_t k = 0; k < b.size(); ++k) a[k + left].subtract_product(top, b[k]);
     drop_top_zeros(a);
   }
   return a;
@@ -75,10 +75,19 @@ Polynomial last_subresultant(Polynomial a, Polynomial b) {
 
 // ---- Modulo a prime -----------------------------------------------------------------------------
 
-constexpr std::uint64_t prime = (std::uint64_t{1} << 61U) - 1;
+constexpr unsigned prime_bits = 61;
+constexpr std::uint64_t prime = (std::uint64_t{1} << prime_bits) - 1;
 
+/// a b modulo the prime: 2^61 is 1.
 std::uint64_t product(std::uint64_t a, std::uint64_t b) {
-  return static_cast<std::uint64_t>(WideLimb{a} * b % prime);
+  const WideLimb whole = WideLimb{a} * b;
+  const std::uint64_t sum =
+      (static_cast<std::uint64_t>(whole) & prime) + static_cast<std::uint64_t>(whole >> prime_bits);
+  return sum >= prime ? sum - prime : sum;
+}
+
+std::uint64_t difference(std::uint64_t a, std::uint64_t b) {
+  return a >= b ? a - b : a + prime - b;
 }
 
 using Residues = std::vector<std::uint64_t>;
@@ -101,7 +110,7 @@ void reduce(Residues& a, const Residues& b) {
     const std::size_t shift = a.size() - b.size();
     for (std::uint64_t& x : a) x = product(x, b.back());
     for (std::size_t k = 0; k < b.size(); ++k) {
-      a[k + shift] = (a[k + shift] + prime - product(top, b[k])) % prime;
+      a[k + shift] = difference(a[k + shift], product(top, b[k]));
     }
     drop_top_zeros(a);
   }
@@ -129,7 +138,7 @@ Polynomial operator-(Polynomial a) {
 Polynomial operator*(const Polynomial& a, const Polynomial& b) {
   Polynomial product(a.size() + b.size() - 1);
   for (std::size_t i = 0; i < a.size(); ++i) {
-    for (std::size_t k = 0; k < b.size(); ++k) product[i + k] += a[i] * b[k];
+    for (std::size_t k = 0; k < b.size(); ++k) product[i + k].add_product(a[i], b[k]);
   }
   return product;
 }
@@ -142,6 +151,14 @@ Polynomial operator*(Polynomial a, const BigInteger& factor) {
 Polynomial operator<<(Polynomial a, long bits) {
   for (BigInteger& c : a) c <<= bits;
   return a;
+}
+
+Polynomial raised_to(Polynomial form, std::size_t degree) {
+  while (form.size() <= degree) {
+    form.emplace_back();
+    for (std::size_t k = form.size() - 1; k > 0; --k) form[k] += form[k - 1];
+  }
+  return form;
 }
 
 Polynomial inner_polynomial(std::span<const BigInteger> form) {
@@ -183,7 +200,7 @@ Polynomial scaled_quotient(Polynomial a, const Polynomial& b) {
   while (a.size() >= b.size()) {
     const std::size_t shift = a.size() - b.size();
     const BigInteger factor = quotient[shift] = a.back().divided_exactly(b.back());
-    for (std::size_t k = 0; k < b.size(); ++k) a[k + shift] -= factor * b[k];
+    for (std::size_t k = 0; k < b.size(); ++k) a[k + shift].subtract_product(factor, b[k]);
     drop_top_zeros(a);
   }
   remove_twos(quotient);

@@ -12,6 +12,7 @@
 /// a primitive common factor divides that coefficient, so the factor keeps its degree modulo the
 /// prime, where it divides both.
 
+#include <cstddef>
 #include <span>
 #include <vector>
 
@@ -31,6 +32,9 @@ Polynomial& operator-=(Polynomial& a, const Polynomial& b);
 [[nodiscard]] Polynomial operator*(const Polynomial& a, const Polynomial& b);
 [[nodiscard]] Polynomial operator*(Polynomial a, const BigInteger& factor);
 [[nodiscard]] Polynomial operator<<(Polynomial a, long bits);
+
+/// The same function as a form of this degree or of its own, which may be greater.
+[[nodiscard]] Polynomial raised_to(Polynomial form, std::size_t degree);
 
 /// The form without its roots at t=0 and t=1, and without factors x + y, which are 1 for all t: a
 /// curve that is given by more control points than it needs has them. Empty for zero.

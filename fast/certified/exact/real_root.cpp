@@ -64,8 +64,8 @@ BigInteger evaluate(std::span<const BigInteger> c, const Time& t) {
 Polynomial times_linear(const Polynomial& p, const BigInteger& a, const BigInteger& b) {
   Polynomial product(p.size() + 1);
   for (std::size_t k = 0; k < p.size(); ++k) {
-    product[k] += a * p[k];
-    product[k + 1] += b * p[k];
+    product[k].add_product(a, p[k]);
+    product[k + 1].add_product(b, p[k]);
   }
   return product;
 }
@@ -76,13 +76,14 @@ Polynomial restricted(std::span<const BigInteger> c, const Time& lower, const Ti
   for (std::size_t k = 1; k < c.size(); ++k) {
     power = times_linear(power, lower.y, upper.y);
     value = times_linear(value, lower.x, upper.x);
-    for (std::size_t i = 0; i < value.size(); ++i) value[i] += c[k] * power[i];
+    for (std::size_t i = 0; i < value.size(); ++i) value[i].add_product(c[k], power[i]);
   }
   return value;
 }
 
 /// The same in parameters that are linear in t: x + y is equal at both ends.
 Polynomial restricted(std::span<const BigInteger> c, const Dyadic& lower, const Dyadic& upper) {
+  if (lower.numerator.sign() == 0 && equal(upper, {1, 0})) return {c.begin(), c.end()};
   const long exponent = std::max(lower.exponent, upper.exponent);
   const auto time = [&](const Dyadic& t) {
     return time_of({t.numerator << (exponent - t.exponent), exponent});
@@ -100,7 +101,8 @@ IntervalSigns signs_of(const Polynomial& c) {
 
 /// A time in the units of FixedPointForm.
 std::int64_t in_fixed_point(const Dyadic& t) {
-  return t.numerator.truncated(FixedPointForm::fraction_bits - t.exponent);
+  return static_cast<std::int64_t>(
+      t.numerator.truncated(FixedPointForm::fraction_bits - t.exponent));
 }
 
 std::optional<FixedPointForm> fixed_point_form(std::span<const BigInteger> c, const Dyadic& lower,
@@ -109,11 +111,16 @@ std::optional<FixedPointForm> fixed_point_form(std::span<const BigInteger> c, co
   return FixedPointForm(c, in_fixed_point(lower), in_fixed_point(upper));
 }
 
+/// What fixed point says.
+std::optional<IntervalSigns> rounded_signs_between(std::span<const BigInteger> c,
+                                                   const Dyadic& lower, const Dyadic& upper) {
+  const auto form = fixed_point_form(c, lower, upper);
+  return form ? form->signs() : std::nullopt;
+}
+
 IntervalSigns signs_between(std::span<const BigInteger> c, const Dyadic& lower,
                             const Dyadic& upper) {
-  if (const auto form = fixed_point_form(c, lower, upper)) {
-    if (const auto signs = form->signs()) return *signs;
-  }
+  if (const auto signs = rounded_signs_between(c, lower, upper)) return *signs;
   return signs_of(restricted(c, lower, upper));
 }
 
@@ -131,24 +138,6 @@ int sign_at(std::span<const BigInteger> c, const Dyadic& t) {
 /// doubles: next to two very close roots the first ones nearly vanish.
 using Guess = std::vector<Approximation>;
 
-Guess local_guess(const Polynomial& f, const Dyadic& lower, const Dyadic& upper) {
-  constexpr std::int64_t accurate = std::int64_t{1} << 54;
-  Guess result;
-  if (const auto form = fixed_point_form(f, lower, upper)) {
-    const auto b = form->coefficients();
-    const bool is_accurate =
-        std::ranges::any_of(b, [](std::int64_t x) { return x > accurate || x < -accurate; });
-    double binomial = 0x1p-60;
-    for (std::size_t k = 0; is_accurate && k < b.size(); ++k) {
-      result.push_back({static_cast<double>(b[k]) * binomial, 0});
-      binomial *= static_cast<double>(b.size() - 1 - k) / static_cast<double>(k + 1);
-    }
-    if (is_accurate) return result;
-  }
-  for (const BigInteger& x : restricted(f, lower, upper)) result.push_back(x.approximation());
-  return result;
-}
-
 /// significand · 2^exponent; 0 far below the range of doubles.
 double scaled(double significand, long exponent) {
   // As std::ldexp, but faster if the power of two is a double.
@@ -157,6 +146,44 @@ double scaled(double significand, long exponent) {
   }
   if (exponent < -1100) return 0.0;
   return std::ldexp(significand, static_cast<int>(std::min(exponent, 3000L)));
+}
+
+/// The same with the exponent 0 where a number is not much smaller than the greatest one.
+Guess in_one_unit(Guess c) {
+  constexpr long much = 500;
+  long top = std::numeric_limits<long>::min();
+  for (const Approximation& x : c) top = x.significand != 0.0 ? std::max(top, x.exponent) : top;
+  for (Approximation& x : c) {
+    if (x.significand == 0.0) continue;
+    x.exponent -= top;
+    if (x.exponent >= -much) x = {scaled(x.significand, x.exponent), 0};
+  }
+  return c;
+}
+
+/// From fixed point, if that is accurate.
+std::optional<Guess> rounded_guess(const Polynomial& f, const Dyadic& lower, const Dyadic& upper) {
+  constexpr std::int64_t accurate = std::int64_t{1} << 54;
+  const auto form = fixed_point_form(f, lower, upper);
+  if (!form) return std::nullopt;
+  const auto b = form->coefficients();
+  if (std::ranges::none_of(b, [](std::int64_t x) { return x > accurate || x < -accurate; })) {
+    return std::nullopt;
+  }
+  Guess result;
+  double binomial = 0x1p-60;
+  for (std::size_t k = 0; k < b.size(); ++k) {
+    result.push_back({static_cast<double>(b[k]) * binomial, 0});
+    binomial *= static_cast<double>(b.size() - 1 - k) / static_cast<double>(k + 1);
+  }
+  return result;
+}
+
+Guess local_guess(const Polynomial& f, const Dyadic& lower, const Dyadic& upper) {
+  if (auto guess = rounded_guess(f, lower, upper)) return *std::move(guess);
+  Guess result;
+  for (const BigInteger& x : restricted(f, lower, upper)) result.push_back(x.approximation());
+  return in_one_unit(std::move(result));
 }
 
 /// a/a_divisor − b/b_divisor.
@@ -201,9 +228,54 @@ double value_at(const Guess& c, const Position& at) {
   return value;
 }
 
-/// The place in (0,1) of the form's sign change, by bisection over the doubles: first over those
-/// with common exponents, and while it is below them, over those 2^-1000 times as large.
+/// The place of the sign change, or 1 if there is none, if it is not close to 0 and the
+/// coefficients have one unit: by the secant, which counts the value at an end less when that end
+/// remains, or by halving.
+std::optional<double> guess_ordinary_root(const Guess& c, int sign_below) {
+  constexpr double enough = 0x1p-50;
+  const auto degree = static_cast<long>(c.size() - 1);
+  if (!std::ranges::all_of(c, [](const Approximation& x) { return x.exponent == 0; })) return {};
+  const auto value = [&](double y) {
+    const double x = 1.0 - y;
+    double sum = 0.0, power = sign_below;
+    for (const Approximation& a : c) {
+      sum = sum * x + a.significand * power;
+      power *= y;
+    }
+    return sum;
+  };
+  double low = scaled(1.0, -500 / degree), high = 1.0;  // the powers of y are above 2^-500
+  double at_low = value(low), at_high = value(high), last = high;
+  if (at_high >= 0.0) return high;
+  if (!(at_low > 0.0)) return {};
+  int kept = 0;  // so often the same end remained: positive for the upper one
+  for (int left = 60; left > 0 && high - low > enough * high; --left) {
+    const bool halves = left % 4 == 0;
+    double y = halves ? 0.5 * (low + high) : low + (high - low) * (at_low / (at_low - at_high));
+    if (!(y > low && y < high)) y = 0.5 * (low + high);
+    const double here = value(y);
+    if (here == 0.0 || std::abs(y - last) <= enough * y) return y;
+    last = y;
+    if (here > 0.0) {
+      low = y;
+      at_low = here;
+      kept = std::max(kept, 0) + 1;
+      if (kept > 1) at_high *= 0.5;
+    } else {
+      high = y;
+      at_high = here;
+      kept = std::min(kept, 0) - 1;
+      if (kept < -1) at_low *= 0.5;
+    }
+  }
+  return high;
+}
+
+/// The place in (0,1) of the form's sign change. Close to 0 by bisection over the doubles: first
+/// over those with common exponents, and while it is below them, over those 2^-1000 times as large.
 Position guess_root(const Guess& c, int sign_below) {
+  if (const auto y = guess_ordinary_root(c, sign_below))
+    return {std::bit_cast<std::uint64_t>(*y), 0};
   constexpr auto least = std::bit_cast<std::uint64_t>(0x1p-1000);
   constexpr long most = 1000000;
   Position at;
@@ -217,9 +289,9 @@ Position guess_root(const Guess& c, int sign_below) {
   }
 }
 
-/// The place in (0,1) of the minimum of a form that is positive at 0, if it has one extremum. With
-/// Bernstein's coefficients b_k = c_k / binomial(n,k), its derivative has n (b_(k+1) − b_k).
-Position guess_minimum(const Guess& c) {
+/// The place in (0,1) at which a form that has this sign at 0 is next to 0, if it has one extremum.
+/// With Bernstein's coefficients b_k = c_k / binomial(n,k), its derivative has n (b_(k+1) − b_k).
+Position guess_extremum(const Guess& c, int sign) {
   const auto degree = static_cast<double>(c.size() - 1);
   Guess derivative;
   double here = 1.0, next = degree, lower = 1.0;  // binomials of n over k, k + 1; of n − 1 over k
@@ -231,7 +303,7 @@ Position guess_minimum(const Guess& c) {
     next *= (degree - i - 1.0) / (i + 2.0);
     lower *= (degree - 1.0 - i) / (i + 1.0);
   }
-  return guess_root(derivative, -1);
+  return guess_root(derivative, -sign);
 }
 
 // ---- Isolation of roots -------------------------------------------------------------------------
@@ -268,9 +340,10 @@ std::optional<Around> around(const Position& guess, std::uint64_t slack, const D
 }
 
 /// The numbers between which a guess finds a cluster of the form's roots, if any.
-std::optional<Around> cluster(const Polynomial& f, const Interval& in) {
+std::optional<Around> cluster(const Polynomial& f, const Interval& in, int first_sign) {
   constexpr std::uint64_t slack = std::uint64_t{1} << 12U;
-  return around(guess_minimum(local_guess(f, in.lower, in.upper)), slack, in.lower, in.upper);
+  return around(guess_extremum(local_guess(f, in.lower, in.upper), first_sign), slack, in.lower,
+                in.upper);
 }
 
 /// The intervals that remain to be searched for roots of f, the first one last.
@@ -286,7 +359,7 @@ class RootSearch {
       open_.pop_back();
       if (equal(interval.lower, interval.upper)) return Instant(interval.lower);
       if (interval.isolates) return Instant(f_, interval.lower, interval.upper);
-      const IntervalSigns local = signs_between(f_, interval.lower, interval.upper);
+      const IntervalSigns local = signs_in(interval);
       if (local.changes == 1) return Instant(f_, interval.lower, interval.upper);
       if (local.changes > 1) divide(interval, local);
     }
@@ -294,16 +367,30 @@ class RootSearch {
   }
 
  private:
+  /// Where fixed point is in doubt, a root may be a multiple one, which a divisor shows before the
+  /// integers are asked.
+  [[nodiscard]] IntervalSigns signs_in(const Interval& interval) {
+    if (const auto local = rounded_signs_between(f_, interval.lower, interval.upper)) return *local;
+    make_squarefree();
+    return signs_between(f_, interval.lower, interval.upper);
+  }
+
+  void make_squarefree() {
+    if (!is_squarefree_) f_ = squarefree(f_);
+    is_squarefree_ = true;
+  }
+
   /// Searches the parts of an interval. Roots that are not separated after some divisions may be a
   /// single one, or so close that only the extremum between them separates them.
   void divide(const Interval& interval, const IntervalSigns& local) {
     constexpr int patience = 3;
-    if (++divisions_ == patience) f_ = squarefree(f_);
-    if (divisions_ > patience) {
-      divide_at_extrema(interval, local);
+    if (++divisions_ > patience) {
+      if (is_squarefree_) return divide_at_extrema(interval, local);
+      make_squarefree();
+      open_.push_back(interval);
       return;
     }
-    const auto close = interval.guess ? cluster(f_, interval) : std::nullopt;
+    const auto close = interval.guess ? cluster(f_, interval, local.first) : std::nullopt;
     if (!close) {
       const Dyadic middle = split(interval.lower, interval.upper);
       open_.push_back({middle, interval.upper});
@@ -347,6 +434,7 @@ class RootSearch {
   Polynomial f_;
   std::vector<Interval> open_;
   int divisions_ = 0;
+  bool is_squarefree_ = false;
 };
 
 }  // namespace
@@ -401,7 +489,13 @@ bool Instant::cut(const Dyadic& t) {
 
 bool Instant::narrow_by_guess() {
   constexpr std::uint64_t slack = std::uint64_t{1} << 8U;
-  Guess local = local_guess(f_, lower_, upper_);
+  auto rounded = rounded_guess(f_, lower_, upper_);
+  if (!rounded) {
+    // Most such intervals are so short that f is nearly linear, which takes two values.
+    if (narrow_by_secant()) return true;
+    if (is_dyadic()) return false;
+  }
+  Guess local = rounded ? *std::move(rounded) : local_guess(f_, lower_, upper_);
   // Relative to the closer end, because doubles are dense only near 0.
   const bool from_upper =
       value_at(local, {std::bit_cast<std::uint64_t>(0.5), 0}) * sign_below_ > 0.0;
@@ -430,32 +524,39 @@ bool Instant::narrow_by_secant() {
 void Instant::narrow() {
   if (is_dyadic()) return;
   if (gain_ > guess_gain ? narrow_by_secant() : narrow_by_guess()) {
-    gain_ *= 2;
+    constexpr long lost_bits = 4;  // of the last step, and of the next one to the curvature
+    gain_ = 2 * gain_ - lost_bits;
     return;
   }
   gain_ = std::max(gain_ / 2, least_gain);
   if (!is_dyadic()) static_cast<void>(cut(split(lower_, upper_)));
 }
 
+// Fixed point comes first. If it is in doubt, q may be 0, which only a divisor shows; if there is
+// none, the integers say more.
 int Instant::sign_of(std::span<const BigInteger> q) {
   if (is_zero(q)) return 0;
   constexpr int patience = 1;  // narrowing is cheaper than a divisor
-  Polynomial inner;
+  bool is_no_root = false;
   gain_ = least_gain;
   for (int round = 0;; ++round) {
     if (is_dyadic()) return sign_at(q, lower_);
-    const IntervalSigns local = signs_between(q, lower_, upper_);
-    if (local.changes == 0) return local.first;
-    if (round == 0) {
-      inner = inner_polynomial(q);
-      if (inner == f_) return 0;
+    auto local = rounded_signs_between(q, lower_, upper_);
+    if (!is_no_root && (!local || (round == patience && local->changes > 0))) {
+      if (is_root_of(q)) return 0;
+      is_no_root = true;
     }
-    if (round == patience) {
-      const Polynomial common = common_divisor(f_, inner);
-      if (signs_between(common, lower_, upper_).changes % 2 == 1) return 0;
-    }
+    if (!local) local = signs_of(restricted(q, lower_, upper_));
+    if (local->changes == 0) return local->first;
     narrow();
   }
+}
+
+bool Instant::is_root_of(std::span<const BigInteger> q) const {
+  const Polynomial inner = inner_polynomial(q);
+  if (inner == f_) return true;
+  const Polynomial common = common_divisor(f_, inner);
+  return common.size() > 1 && signs_between(common, lower_, upper_).changes % 2 == 1;
 }
 
 int Instant::compare_with(const Dyadic& t) {
@@ -499,7 +600,17 @@ bool Instant::is_above(std::uint64_t bits) {
   return cut(t);
 }
 
-double Instant::guess() const {
+double Instant::guess() {
+  constexpr int enough = 3;
+  constexpr long accurate_bits = 53;
+  gain_ = least_gain;
+  for (int round = 0; round < enough && !is_dyadic(); ++round) {
+    const long exponent = std::max(lower_.exponent, upper_.exponent);
+    const BigInteger upper = upper_.numerator << (exponent - upper_.exponent);
+    const BigInteger length = upper - (lower_.numerator << (exponent - lower_.exponent));
+    if (upper.bit_length() - length.bit_length() > accurate_bits) break;
+    narrow();
+  }
   const BigInteger sum =
       (lower_.numerator << upper_.exponent) + (upper_.numerator << lower_.exponent);
   Approximation middle = sum.approximation();

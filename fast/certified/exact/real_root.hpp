@@ -10,9 +10,10 @@
 /// and equal it if they are at most one. For a squarefree polynomial, intervals that are small
 /// enough have at most one sign change (Vincent), so bisection finds all roots in ascending order.
 /// If roots are very close, the interval is divided at a guess of the extremum between them.
-/// Intervals that three divisions do not resolve are cut at the roots of the derivative, which are
-/// found in the same way: between neighbouring ones f is monotone, and has a root iff its signs at
-/// them differ.
+/// Where fixed point is in doubt, or after three divisions, multiple factors are removed.
+/// Intervals that are not resolved then are cut at the roots of the derivative, which are found in
+/// the same way: between neighbouring ones f is monotone, and has a root iff its signs at them
+/// differ.
 ///
 /// An instant α is a dyadic number or the only root, a simple one, of f in an open dyadic interval.
 /// The sign of q(α): if q's form on the interval has no sign change, the sign of its coefficients.
@@ -20,14 +21,16 @@
 /// number of sign changes; if it is not 0, halving the interval leads to the first case. Two
 /// instants are equal iff the divisor of their polynomials has a root in both intervals.
 ///
-/// Fixed-point arithmetic decides most signs (fixed_point_filter.hpp).
+/// Fixed-point arithmetic decides most signs (fixed_point_filter.hpp). Those that it leaves in
+/// doubt are mostly 0, so the divisor is asked next, which mostly is 1 modulo a prime, and the
+/// integers last.
 ///
 /// Narrowing guesses the root and computes two exact signs around it; a wrong guess only costs a
-/// bisection instead. The first guesses are in floating point and shorten the interval by the
-/// factor 2^-40. Then f is nearly linear on it, and the error of the secant through its values at
-/// both ends is about the square of the length: each step shortens the interval by 2^-k, with k
-/// twice that of the step before [abbott2006]. So two roots that are 2^-50000 apart take some ten
-/// steps.
+/// bisection instead. The first guesses are in floating point, from the form in fixed point, and
+/// shorten the interval by the factor 2^-40. Then f is nearly linear on it, and the error of the
+/// secant through its values at both ends is about the square of the length: each step shortens the
+/// interval by 2^-k, with k twice that of the step before [abbott2006]. So two roots that are
+/// 2^-50000 apart take some ten steps.
 
 #include <cstdint>
 #include <functional>
@@ -78,8 +81,9 @@ class Instant {
   /// True if this time is later than the double with these bits (enclosing_doubles.hpp).
   [[nodiscard]] bool is_above(std::uint64_t bits);
 
-  /// An approximation of this time, for guesses.
-  [[nodiscard]] double guess() const;
+  /// An approximation of this time, for guesses. Narrows to about the accuracy of a double, unless
+  /// that takes many steps.
+  [[nodiscard]] double guess();
 
   /// numerator/denominator at this time, to about the accuracy of a double (absolute, below 1).
   /// \pre the denominator is not 0 there, and the quotient is in [0,1].
@@ -94,6 +98,8 @@ class Instant {
   [[nodiscard]] bool cut(const Dyadic& t);
   /// The sign of this time minus `t`.
   [[nodiscard]] int compare_with(const Dyadic& t);
+  /// True if q is 0 at this time. \pre it is not a dyadic number
+  [[nodiscard]] bool is_root_of(std::span<const BigInteger> q) const;
   /// True if both polynomials have a common root in the intersection of the intervals.
   [[nodiscard]] bool shares_root(const Instant& other) const;
   [[nodiscard]] bool is_dyadic() const { return f_.empty(); }
@@ -101,8 +107,8 @@ class Instant {
   Polynomial f_;  // empty: the time is lower_
   Dyadic lower_, upper_;
   int sign_below_ = 0;  // of f_, between lower_ and the root
-  /// The next step is to shorten the interval by the factor 2^-gain_: twice the bits of the last
-  /// one if that succeeded, else half. Steps of more than guess_gain bits are secants.
+  /// The next step is to shorten the interval by the factor 2^-gain_: nearly twice the bits of the
+  /// last one if that succeeded, else half. Steps of more than guess_gain bits are secants.
   static constexpr long guess_gain = 40, least_gain = guess_gain / 2;
   long gain_ = least_gain;
 };

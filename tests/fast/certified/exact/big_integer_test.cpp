@@ -66,6 +66,10 @@ TEST(BigInteger, CalculatesAsGmpDoes) {
     EXPECT_TRUE(big(a) - big(b) == big(a - b)) << a << ' ' << b;
     EXPECT_TRUE(big(a) * big(b) == big(a * b)) << a << ' ' << b;
     EXPECT_EQ((big(a) - big(b)).sign(), sgn(a - b));
+    const Integer c = draw(random) * draw(random);
+    EXPECT_TRUE(big(c).add_product(big(a), big(b)) == big(c + a * b)) << a << ' ' << b << ' ' << c;
+    EXPECT_TRUE(big(c).subtract_product(big(a), big(b)) == big(c - a * b)) << a << ' ' << b;
+    EXPECT_EQ(big(a * b).subtract_product(big(a), big(b)).sign(), 0);
     BigInteger sum = big(a), difference = big(a);
     const BigInteger &alias = sum, &other_alias = difference;
     sum += alias;
@@ -107,11 +111,13 @@ TEST(BigInteger, ApproximatesWithinItsBounds) {
     EXPECT_LE(abs(value - b), abs(Rational(b)) * exact::power_of_two(-52));
     EXPECT_GE(std::abs(near.significand), 0.5);
     EXPECT_LE(std::abs(near.significand), 1.0);
-    const long shift = random.between(-80, 62) - big(a).bit_length();
-    if (shift + big(a).bit_length() > 62) continue;
+    const long shift = random.between(-80, 126) - big(a).bit_length();
     const Integer cut = shift >= 0 ? Integer(a << static_cast<unsigned>(shift))
                                    : Integer(a / power(static_cast<unsigned>(-shift)));
-    EXPECT_EQ(big(a).truncated(shift), cut.get_si()) << a << ' ' << shift;
+    const SignedWideLimb truncated = big(a).truncated(shift);
+    const Integer upper = Integer(static_cast<std::int64_t>(truncated >> 64U)) * power(64);
+    EXPECT_EQ(Integer(upper + Integer(static_cast<std::uint64_t>(truncated))), cut)
+        << a << ' ' << shift;
   }
   EXPECT_EQ(approximate_quotient(5, 0, 10).sign(), 0);
   EXPECT_EQ(BigInteger(0).approximation().significand, 0.0);

@@ -20,15 +20,9 @@ using tests::Random;
 constexpr std::int64_t one = std::int64_t{1} << FixedPointForm::fraction_bits;
 
 /// Bernstein's coefficients on [lower, upper] by de Casteljau's steps without rounding.
-std::vector<Rational> exact_coefficients(const std::vector<std::int64_t>& c, const Rational& lower,
+std::vector<Rational> exact_coefficients(const std::vector<Rational>& b, const Rational& lower,
                                          const Rational& upper) {
-  std::vector<Rational> b;
-  Rational binomial = 1;
-  const std::size_t degree = c.size() - 1;
-  for (std::size_t k = 0; k <= degree; ++k) {
-    b.emplace_back(Rational(c[k]) / binomial);
-    binomial *= Rational(static_cast<long>(degree - k), static_cast<long>(k + 1));
-  }
+  const std::size_t degree = b.size() - 1;
   std::vector<Rational> result;
   for (std::size_t k = 0; k <= degree; ++k) {
     std::vector<Rational> x = b;
@@ -41,26 +35,49 @@ std::vector<Rational> exact_coefficients(const std::vector<std::int64_t>& c, con
   return result;
 }
 
+/// A form, and Bernstein's coefficients of it. The greatest of them is in [2^59, 2^60), so that the
+/// units are 1; they are whole numbers or, if the form's are, fractions.
+struct RandomForm {
+  std::vector<BigInteger> c;
+  std::vector<Rational> b;
+};
+
+RandomForm random_form(Random& random, std::size_t degree) {
+  RandomForm result;
+  const bool is_whole = random.coin();
+  std::int64_t binomial = 1;
+  for (std::size_t k = 0; k <= degree; ++k) {
+    std::int64_t x = random.integer<std::int64_t>(is_whole ? 59 : 60);
+    if (k == 0) x = std::abs(x) | (std::int64_t{1} << 59U);
+    result.c.emplace_back(is_whole ? BigInteger(x) * BigInteger(binomial) : BigInteger(x));
+    result.b.push_back(is_whole ? Rational(x) : Rational(x) / Rational(binomial));
+    const auto left = static_cast<std::int64_t>(degree - k);
+    const exact::Integer next = exact::Integer(binomial) * left / static_cast<std::int64_t>(k + 1);
+    binomial = next.get_si();
+  }
+  return result;
+}
+
 TEST(FixedPointForm, IsWithinItsBound) {
   Random random(1);
   for (int i = 0; i < 3000; ++i) {
-    const auto degree = static_cast<std::size_t>(random.between(0, 24));
-    std::vector<std::int64_t> c(degree + 1);
-    for (auto& x : c) x = random.integer<std::int64_t>(60);
-    c[0] = std::abs(c[0]) | (std::int64_t{1} << 59U);  // so that the units are 1
-    const std::vector<BigInteger> form(c.begin(), c.end());
+    const std::size_t degree = i % 1500 == 0 ? FixedPointForm::largest_degree
+                                             : static_cast<std::size_t>(random.between(0, 24));
+    const RandomForm form = random_form(random, degree);
     std::int64_t lower = std::abs(random.integer<std::int64_t>(60));
     std::int64_t upper = random.coin() ? one : std::abs(random.integer<std::int64_t>(60));
     if (lower > upper) std::swap(lower, upper);
-    const FixedPointForm rough(form, lower, upper);
+    if (random.between(0, 4) == 0) lower = 0;
+    if (random.between(0, 4) == 0) upper = lower;
+    const FixedPointForm rough(form.c, lower, upper);
     // True times may be up to a unit later.
     const Rational late = random.coin() ? Rational(0) : Rational(9, 10);
     const auto time = [&](std::int64_t t) {
       return std::min(Rational(1), Rational((Rational(t) + late) / Rational(one)));
     };
-    const auto expected = exact_coefficients(c, time(lower), time(upper));
+    const auto expected = exact_coefficients(form.b, time(lower), time(upper));
     for (std::size_t k = 0; k <= degree; ++k) {
-      EXPECT_LE(abs(Rational(rough.coefficients()[k]) - expected[k]), 2 + 3 * degree);
+      EXPECT_LE(abs(Rational(rough.coefficients()[k]) - expected[k]), 2 + 6 * degree);
     }
   }
 }
