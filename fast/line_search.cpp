@@ -1,17 +1,19 @@
 #include "touchstone/line_search.hpp"
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cmath>
-#include <cstdint>
+#include <cstddef>
 #include <limits>
 #include <mutex>
 #include <optional>
+#include <span>
 #include <stdexcept>
 #include <utility>
 #include <vector>
 
-#include "fast/distance/proximity.hpp"
+#include "fast/certified/block.hpp"
 #include "fast/platform/floating_point_state.hpp"
 #include "fast/step/scene.hpp"
 #include "touchstone/certified.hpp"
@@ -68,41 +70,114 @@ LineSearchLimit limit_of_scene(const Step& step, double p, Norm norm) {
 
 // ---- The pairs' own distances -------------------------------------------------------------------
 
-/// An upper bound of the motion of a vertex relative to another, in L2 or L∞. May be infinite.
-double greatest_relative_motion(const MovingVertices& vertices) {
-  double result = 0.0;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    double least = positive_infinity, most = -positive_infinity;
-    for (std::size_t i = 0; i < vertices.size(); ++i) {
-      const double motion = vertices[i].end[axis] - vertices[i].start[axis];
-      least = std::min(least, motion);
-      most = std::max(most, motion);
+/// Boxes of the vertices for the pairs that may come within their s up to a time T, as a motion
+/// from the lower corner to the upper one, whose swept box it is.
+///
+/// Let a(t) and b(t) be points of two primitives, with weights λ_i and μ_j of their vertices. The
+/// distance of the primitives at the start is d ≤ |a(t) − b(t)| + t V, where V is the sum of λ_i
+/// |v_i| and μ_j |v_j|, and v_i the motion of a vertex but for one that all have in common. With
+/// s ≤ c d, c = p (1 + 5u), |a(t) − b(t)| ≤ s at t ≤ T implies |a(t) − b(t)| ≤ T V c/(1 − c). So
+/// boxes around the ways of the vertices up to T overlap if each is wider by |v_i| T c/(1 − c) on
+/// both sides. Their rounding, at most 8u of a coordinate's size, and distances among the least
+/// doubles are added.
+class ReachedBoxes {
+ public:
+  ReachedBoxes(const MovingVertices& vertices, double p, double time)
+      : vertices_(vertices),
+        time_(time),
+        reach_(time * p / ((1.0 - p) - 0.625 * 0x1p-50) * (1.0 + 0x1p-40)) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      double least = positive_infinity, most = -positive_infinity;
+      for (std::size_t i = 0; i < vertices.size(); ++i) {
+        const double motion = vertices[i].end[axis] - vertices[i].start[axis];
+        least = std::min(least, motion);
+        most = std::max(most, motion);
+      }
+      common_[axis] = 0.5 * least + 0.5 * most;
     }
-    // Each difference is rounded by at most half the spacing to the next double.
-    const double range =
-        std::nextafter(most, positive_infinity) - std::nextafter(least, -positive_infinity);
-    result = std::max(result, std::nextafter(range, positive_infinity));
   }
-  constexpr double root_of_three = 1.7320508075688776;
-  return result * root_of_three;
+
+  [[nodiscard]] MovingVertices motion() const {
+    using Rows = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>;
+    Rows lower(static_cast<Eigen::Index>(vertices_.size()), 3), upper(lower);
+    for (Eigen::Index i = 0; i < lower.rows(); ++i) {
+      const MovingVertex& vertex = vertices_[static_cast<std::size_t>(i)];
+      const double width = reach_ * speed(vertex);
+      for (Eigen::Index k = 0; k < 3; ++k) {
+        const auto [from, to] = range(vertex, static_cast<std::size_t>(k), width);
+        lower(i, k) = from;
+        upper(i, k) = to;
+      }
+    }
+    return {lower, upper};
+  }
+
+ private:
+  [[nodiscard]] double speed(const MovingVertex& vertex) const {
+    const auto v = [&](std::size_t axis) {
+      return (vertex.end[axis] - vertex.start[axis]) - common_[axis];
+    };
+    return std::hypot(v(0), v(1), v(2));
+  }
+
+  [[nodiscard]] std::array<double, 2> range(const MovingVertex& vertex, std::size_t axis,
+                                            double width) const {
+    constexpr double least_distance = 0x1p-1000, greatest = std::numeric_limits<double>::max();
+    const double from = vertex.start[axis], to = vertex.end[axis];
+    const double then = from + time_ * (to - from);
+    const double size = std::max(std::abs(from), std::abs(to)) + std::abs(common_[axis]);
+    const double wider = width + 0x1p-48 * (size + width) + least_distance;
+    const double lower = std::min(from, then) - wider, upper = std::max(from, then) + wider;
+    // Written so that NaN also yields the widest range.
+    return {lower >= -greatest ? lower : -greatest, upper <= greatest ? upper : greatest};
+  }
+
+  const MovingVertices& vertices_;
+  double time_;
+  double reach_;
+  std::array<double, 3> common_{};
+};
+
+/// True if the swept boxes of a query's primitives have a common point.
+bool are_near(Kind kind, const Query& query) {
+  const std::size_t first = kind == Kind::edge_edge ? 2 : 1;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    std::array<double, 2> least{positive_infinity, positive_infinity};
+    std::array<double, 2> most{-positive_infinity, -positive_infinity};
+    for (std::size_t time = 0; time < 2; ++time) {
+      for (std::size_t point = 0; point < moving_points; ++point) {
+        const std::size_t primitive = point < first ? 0 : 1;
+        least[primitive] = std::min(least[primitive], query.at(time, point, axis));
+        most[primitive] = std::max(most[primitive], query.at(time, point, axis));
+      }
+    }
+    if (least[0] > most[1] || least[1] > most[0]) return false;
+  }
+  return true;
 }
 
 /// Each considered pair has a distance d at the start, an s with p d ≤ s < d, and a time at which
-/// it comes within s. That is (d − s) / M at the earliest, where M is the greatest relative motion.
-/// As s ≤ p (1 + 2^-50) d and p ≤ 1 − 2^-50, d − s is more than a third of (1 − p) d. Let T be the
-/// end of the earliest known enclosure. Pairs that are farther apart than 4 M T / (1 − p) come
-/// within s after T, with a margin that also covers the lower end of their enclosures, and are not
-/// examined.
+/// it comes within s. Let T be the end of the earliest known enclosure, with a margin for the lower
+/// ends of others. Only pairs that come within s up to T matter. The first known one is the
+/// earliest impact: a pair that collides comes within s before. If T is short, the search has boxes
+/// around little more than the motion up to T (ReachedBoxes); then one inequality (keeps_distance)
+/// shows of most pairs that more than s is left up to T, before their distance is computed.
 class SearchOfPairs {
  public:
-  SearchOfPairs(const Step& step, double p, Norm norm)
-      : step_(step), p_(p), norm_(norm), motion_(greatest_relative_motion(step.vertices())) {}
+  SearchOfPairs(const Step& step, double p, Norm norm) : step_(step), p_(p), norm_(norm) {}
 
   [[nodiscard]] LineSearchLimit run() {
-    const Step at_no_distance = step_.with_separation({});
-    // A pair that collides comes within s before.
-    if (const auto impact = at_no_distance.earliest()) upper_ = impact->toi_upper;
-    at_no_distance.candidates([this](const StepCandidates& some) { consider(some); });
+    if (const auto impact = step_.with_separation({}).earliest()) begin_with(*impact);
+    const auto consider_all = [this](const StepCandidates& some) {
+      for (const IndexPair& pair : some.pairs) consider(some.kind, pair);
+    };
+    constexpr double short_time = 0x1p-2;
+    if (time() * (1.0 + 2.0 * p_ / (1.0 - p_)) < short_time) {
+      const ReachedBoxes boxes(step_.vertices(), p_, time());
+      step_.with_places(boxes.motion(), {}).candidates(consider_all);
+    } else {
+      step_.with_separation({}).candidates(consider_all);
+    }
     result_.step_size = 0.0;
     if (!touching_.empty()) {
       result_.status = LineSearchStatus::in_contact;
@@ -123,27 +198,38 @@ class SearchOfPairs {
   }
 
  private:
-  void consider(const StepCandidates& some) {
-    const Separation reach{.distance = reach_until(std::min(upper_.load(), 1.0)), .norm = norm_};
-    for (const std::uint32_t i : perhaps_within(step_, some, reach)) {
-      consider(some.kind, some.pairs[i]);
+  /// Contacts after this time do not matter.
+  [[nodiscard]] double time() const {
+    const CertifiedOptions& options = step_.certified();
+    return std::min(options.t_max,
+                    limit_after(std::min(upper_.load(), 1.0), options.toi_tolerance));
+  }
+
+  /// Takes the earliest known time from an impact and from the first of its pairs.
+  void begin_with(const StepImpact& impact) {
+    constexpr std::size_t enough = 16;
+    upper_ = impact.toi_upper;
+    for (const StepCollision& one :
+         std::span(impact.pairs).first(std::min(impact.pairs.size(), enough))) {
+      const Kind kind = Step::kind_of(one.kind);
+      const Query query = step_.query_of(one.kind, one.pair);
+      const std::optional<double> kept = kept_distance(p_, distance(kind, query, 0.0, norm_));
+      if (kept) lower_time(solve_within(kind, query, *kept).toi_upper);
     }
   }
 
-  /// Pairs that are farther apart come within s after that time. Distances among the least doubles
-  /// are always examined.
-  [[nodiscard]] double reach_until(double time) const {
-    constexpr double least = 0x1p-1000, greatest = std::numeric_limits<double>::max();
-    const double rest = 1.0 - step_.certified().toi_tolerance;
-    if (!(rest > 0.0)) return greatest;
-    const double reach = 4.0 * motion_ * (time / (1.0 - p_) / rest);
-    // Written so that NaN also yields the greatest value.
-    return reach <= greatest ? std::max(reach, least) : greatest;
+  [[nodiscard]] CertifiedResult solve_within(Kind kind, const Query& query, double kept) const {
+    CertifiedOptions options = step_.certified();
+    options.separation = {.distance = kept, .norm = norm_};
+    return solve(kind, query, options);
   }
 
   void consider(PairKind kind, const IndexPair& pair) {
     const Query query = step_.query_of(kind, pair);
     const Kind query_kind = Step::kind_of(kind);
+    // (s is at most p d (1 + 5u).)
+    if (keeps_distance(query_kind, query, time(), {.part = p_, .norm = norm_})) return;
+    if (!are_near(query_kind, query)) return;
     const Distance apart = distance(query_kind, query, 0.0, norm_);
     const std::optional<double> kept = kept_distance(p_, apart);
     if (!kept) {
@@ -151,21 +237,21 @@ class SearchOfPairs {
       (apart.upper == 0.0 ? touching_ : too_near_).push_back(at_start(kind, pair));
       return;
     }
-    CertifiedOptions options = step_.certified();
-    options.separation = {.distance = *kept, .norm = norm_};
-    const CertifiedResult result = solve(query_kind, query, options);
-    if (result.verdict != Verdict::yes) return;
-    add(collision_of(kind, pair, result));
+    const CertifiedResult result = solve_within(query_kind, query, *kept);
+    if (result.verdict == Verdict::yes) add(collision_of(kind, pair, result));
   }
 
   void add(const StepCollision& collision) {
-    double known = upper_.load();
-    while (collision.toi_upper < known &&
-           !upper_.compare_exchange_weak(known, collision.toi_upper)) {
-    }
+    lower_time(collision.toi_upper);
     if (collision.toi_lower > upper_.load()) return;
     const std::scoped_lock lock(mutex_);
     result_.pairs.push_back(collision);
+  }
+
+  void lower_time(double toi_upper) {
+    double known = upper_.load();
+    while (toi_upper < known && !upper_.compare_exchange_weak(known, toi_upper)) {
+    }
   }
 
   void take_earliest() {
@@ -181,7 +267,6 @@ class SearchOfPairs {
   const Step& step_;
   double p_;
   Norm norm_;
-  double motion_;
   std::atomic<double> upper_ = positive_infinity;
   std::mutex mutex_;
   std::vector<StepCollision> touching_;  ///< at the start

@@ -238,6 +238,8 @@ class Step {
   [[nodiscard]] std::span<const Edge> edges() const;
 
  private:
+  friend const Scene& scene_of(const Step& step);
+
   explicit Step(std::unique_ptr<const Scene> scene);
 
   template <class Scalar>
