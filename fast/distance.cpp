@@ -74,12 +74,11 @@ bool is_less(const Distance& a, const Distance& b) {
   return std::tie(a.lower, a.upper) < std::tie(b.lower, b.upper);
 }
 
-/// Finds the least distance by examining all pairs whose boxes are within a radius. The radius
-/// begins with the least distance of a sample of pairs: of those whose boxes overlap, for one group
-/// of primitives in 256. It begins with less if that is not short beside an edge. Once the distance
-/// of a pair is known, only pairs with boxes within that distance remain. The stages of the
+/// Finds the least distance by examining all pairs whose boxes are within a radius, which begins
+/// with a part of a usual edge and grows until a pair is found, or until it is the distance of the
+/// nearest known pair. A sample of the pairs makes that short from the beginning. The stages of the
 /// certified solver on lanes (fast/step/sieve.hpp), then one inequality (keeps_distance), exclude
-/// nearly all pairs before their distance is computed.
+/// nearly all pairs that are farther apart, before their distance is computed.
 ///
 /// All of these use positions rounded to doubles, except at the start. The error of a coordinate is
 /// the bound of filters::Position, 2u of its magnitude, plus at most u of it for the rounding of
@@ -104,13 +103,12 @@ class LeastDistanceSearch {
   }
 
   [[nodiscard]] std::optional<LeastDistance> run() {
-    const Step resting = step_.with_places(places(), {});
+    const MovingVertices resting = places();
     // An upper bound of all distances, 2 √3 of the greatest coordinate in L2.
     const double most = 4.0 * scale_ * greatest_;
-    sample(resting);
-    const double begin = pairs_.empty() ? 0.0 : std::min(known_ * scale_, usual_length() / 16.0);
-    for (double radius = begin;;) {
-      search(resting, radius);
+    for (double radius = usual_length() / 64.0;;) {
+      const Step near = step_.with_places(resting, {.distance = radius + slack_, .norm = norm_});
+      with_threads(step_.certified().max_threads, [&] { search(near, radius); });
       const double wider = radius == 0.0
                                ? std::max(most * 0x1p-12, std::numeric_limits<double>::denorm_min())
                                : 8.0 * radius;
@@ -166,42 +164,40 @@ class LeastDistanceSearch {
     return *median;
   }
 
-  /// Examines pairs of a sample of groups. Those whose boxes are apart are left out.
-  void sample(const Step& resting) {
-    constexpr std::size_t stride = 256;
-    with_threads(step_.certified().max_threads, [&] {
-      const Scene& scene = scene_of(resting);
-      const Trees<1> trees = scene.swept_trees();
-      const std::vector<SearchPart> parts = scene.parts(stride);
-      tbb::parallel_for(std::size_t{0}, parts.size(), [&](std::size_t i) {
-        const SearchPart group{parts[i].kind, parts[i].first, parts[i].first + 1};
-        for_each_block(
-            scene, [&](PairBuffer& pairs) { scene.find(trees, group, pairs); },
-            [&](std::span<const IndexPair> pairs) {
-              for (const IndexPair& pair : pairs) {
-                consider(resting, group.kind, scene.reported(group.kind, pair));
-              }
-            });
-      });
-    });
-  }
-
   /// Examines all pairs whose boxes are within that radius, and lists the nearest.
-  void search(const Step& resting, double radius) {
+  void search(const Step& near, double radius) {
+    const Scene& scene = scene_of(near);
+    SceneInterval<1> rest{.end = 1.0, .trees = scene.swept_trees(), .rounded = {}};
+    if (known_ == infinity) sample(near, rest.trees);
     pairs_.clear();
-    const Step near = resting.with_separation({.distance = radius + slack_, .norm = norm_});
-    with_threads(step_.certified().max_threads, [&] {
-      const Scene& scene = scene_of(near);
-      for_each_possible_collision(
-          scene, scene.up_to<1>(1.0), 0.0,
-          [&](PairKind kind, const IndexPair& pair) { consider(near, kind, pair); });
+    const Separation within{.distance = std::min(radius, known_ * scale_) + slack_, .norm = norm_};
+    rest.rounded = fixed_point_vertices(near.vertices(), rest.end, within.distance);
+    for_each_possible_collision(
+        scene, rest, within, 0.0,
+        [&](PairKind kind, const IndexPair& pair) { consider(near, kind, pair); });
+  }
+
+  /// Examines the pairs of one group of primitives in 256.
+  void sample(const Step& near, const Trees<1>& trees) {
+    constexpr std::size_t stride = 256;
+    const Scene& scene = scene_of(near);
+    const std::vector<SearchPart> parts = scene.parts(stride);
+    tbb::parallel_for(std::size_t{0}, parts.size(), [&](std::size_t i) {
+      const SearchPart group{parts[i].kind, parts[i].first, parts[i].first + 1};
+      for_each_block(
+          scene, [&](PairBuffer& pairs) { scene.find(trees, group, pairs); },
+          [&](std::span<const IndexPair> pairs) {
+            for (const IndexPair& pair : pairs) {
+              consider(near, group.kind, scene.reported(group.kind, pair));
+            }
+          });
     });
   }
 
-  void consider(const Step& resting, PairKind kind, const IndexPair& pair) {
+  void consider(const Step& near, PairKind kind, const IndexPair& pair) {
     const Kind query_kind = Step::kind_of(kind);
     const double known = known_.load(std::memory_order_relaxed);
-    if (keeps_distance(query_kind, resting.query_of(kind, pair), 0.0,
+    if (keeps_distance(query_kind, near.query_of(kind, pair), 0.0,
                        {.part = 0.0, .least = known * scale_ + slack_, .norm = norm_})) {
       return;
     }

@@ -15,7 +15,9 @@
 
 #include "fast/certified/block.hpp"
 #include "fast/platform/floating_point_state.hpp"
+#include "fast/platform/threads.hpp"
 #include "fast/step/scene.hpp"
+#include "fast/step/sieve.hpp"
 #include "touchstone/certified.hpp"
 
 namespace touchstone::fast {
@@ -70,73 +72,38 @@ LineSearchLimit limit_of_scene(const Step& step, double p, Norm norm) {
 
 // ---- The pairs' own distances -------------------------------------------------------------------
 
-/// Boxes of the vertices for the pairs that may come within their s up to a time T, as a motion
-/// from the lower corner to the upper one, whose swept box it is.
-///
-/// Let a(t) and b(t) be points of two primitives, with weights λ_i and μ_j of their vertices. The
-/// distance of the primitives at the start is d ≤ |a(t) − b(t)| + t V, where V is the sum of λ_i
-/// |v_i| and μ_j |v_j|, and v_i the motion of a vertex but for one that all have in common. With
-/// s ≤ c d, c = p (1 + 5u), |a(t) − b(t)| ≤ s at t ≤ T implies |a(t) − b(t)| ≤ T V c/(1 − c). So
-/// boxes around the ways of the vertices up to T overlap if each is wider by |v_i| T c/(1 − c) on
-/// both sides. Their rounding, at most 8u of a coordinate's size, and distances among the least
-/// doubles are added.
-class ReachedBoxes {
- public:
-  ReachedBoxes(const MovingVertices& vertices, double p, double time)
-      : vertices_(vertices),
-        time_(time),
-        reach_(time * p / ((1.0 - p) - 0.625 * 0x1p-50) * (1.0 + 0x1p-40)) {
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      double least = positive_infinity, most = -positive_infinity;
-      for (std::size_t i = 0; i < vertices.size(); ++i) {
-        const double motion = vertices[i].end[axis] - vertices[i].start[axis];
-        least = std::min(least, motion);
-        most = std::max(most, motion);
-      }
-      common_[axis] = 0.5 * least + 0.5 * most;
-    }
-  }
-
-  [[nodiscard]] MovingVertices motion() const {
-    using Rows = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>;
-    Rows lower(static_cast<Eigen::Index>(vertices_.size()), 3), upper(lower);
-    for (Eigen::Index i = 0; i < lower.rows(); ++i) {
-      const MovingVertex& vertex = vertices_[static_cast<std::size_t>(i)];
-      const double width = reach_ * speed(vertex);
-      for (Eigen::Index k = 0; k < 3; ++k) {
-        const auto [from, to] = range(vertex, static_cast<std::size_t>(k), width);
-        lower(i, k) = from;
-        upper(i, k) = to;
-      }
-    }
-    return {lower, upper};
-  }
-
- private:
-  [[nodiscard]] double speed(const MovingVertex& vertex) const {
-    const auto v = [&](std::size_t axis) {
-      return (vertex.end[axis] - vertex.start[axis]) - common_[axis];
-    };
-    return std::hypot(v(0), v(1), v(2));
-  }
-
-  [[nodiscard]] std::array<double, 2> range(const MovingVertex& vertex, std::size_t axis,
-                                            double width) const {
-    constexpr double least_distance = 0x1p-1000, greatest = std::numeric_limits<double>::max();
-    const double from = vertex.start[axis], to = vertex.end[axis];
-    const double then = from + time_ * (to - from);
-    const double size = std::max(std::abs(from), std::abs(to)) + std::abs(common_[axis]);
-    const double wider = width + 0x1p-48 * (size + width) + least_distance;
-    const double lower = std::min(from, then) - wider, upper = std::max(from, then) + wider;
-    // Written so that NaN also yields the widest range.
-    return {lower >= -greatest ? lower : -greatest, upper <= greatest ? upper : greatest};
-  }
-
-  const MovingVertices& vertices_;
-  double time_;
-  double reach_;
-  std::array<double, 3> common_{};
+/// The motion of vertices.
+struct Motion {
+  double relative = 0.0;  ///< an upper bound, in L2, of that of one relative to another
+  double mean = 0.0;      ///< the mean in L∞, nearly
 };
+
+/// May be infinite or NaN.
+Motion motion_of(const MovingVertices& vertices) {
+  Motion result;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    double least = positive_infinity, most = -positive_infinity;
+    for (std::size_t i = 0; i < vertices.size(); ++i) {
+      const double motion = vertices[i].end[axis] - vertices[i].start[axis];
+      least = std::min(least, motion);
+      most = std::max(most, motion);
+    }
+    // Each difference is rounded by at most half the spacing to the next double.
+    const double range =
+        std::nextafter(most, positive_infinity) - std::nextafter(least, -positive_infinity);
+    result.relative = std::max(result.relative, std::nextafter(range, positive_infinity));
+  }
+  for (std::size_t i = 0; i < vertices.size(); ++i) {
+    double motion = 0.0;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      motion = std::max(motion, std::abs(vertices[i].end[axis] - vertices[i].start[axis]));
+    }
+    result.mean += motion / static_cast<double>(vertices.size());
+  }
+  constexpr double root_of_three = 1.7320508075688776;
+  result.relative *= root_of_three;
+  return result;
+}
 
 /// True if the swept boxes of a query's primitives have a common point.
 bool are_near(Kind kind, const Query& query) {
@@ -159,25 +126,20 @@ bool are_near(Kind kind, const Query& query) {
 /// Each considered pair has a distance d at the start, an s with p d ≤ s < d, and a time at which
 /// it comes within s. Let T be the end of the earliest known enclosure, with a margin for the lower
 /// ends of others. Only pairs that come within s up to T matter. The first known one is the
-/// earliest impact: a pair that collides comes within s before. If T is short, the search has boxes
-/// around little more than the motion up to T (ReachedBoxes); then one inequality (keeps_distance)
-/// shows of most pairs that more than s is left up to T, before their distance is computed.
+/// earliest impact: a pair that collides comes within s before.
+///
+/// s is at most c d, c = p (1 + 5u), and d − s at most T M, where M is the greatest relative
+/// motion. So a pair that comes within s up to T comes within T M c/(1 − c). If this is short, one
+/// search on lanes finds these pairs (fast/step/sieve.hpp); otherwise the search is for all
+/// considered ones. Of most of them an inequality (keeps_distance) shows that more than s is left
+/// up to T, before their distance is computed.
 class SearchOfPairs {
  public:
   SearchOfPairs(const Step& step, double p, Norm norm) : step_(step), p_(p), norm_(norm) {}
 
   [[nodiscard]] LineSearchLimit run() {
     if (const auto impact = step_.with_separation({}).earliest()) begin_with(*impact);
-    const auto consider_all = [this](const StepCandidates& some) {
-      for (const IndexPair& pair : some.pairs) consider(some.kind, pair);
-    };
-    constexpr double short_time = 0x1p-2;
-    if (time() * (1.0 + 2.0 * p_ / (1.0 - p_)) < short_time) {
-      const ReachedBoxes boxes(step_.vertices(), p_, time());
-      step_.with_places(boxes.motion(), {}).candidates(consider_all);
-    } else {
-      step_.with_separation({}).candidates(consider_all);
-    }
+    search();
     result_.step_size = 0.0;
     if (!touching_.empty()) {
       result_.status = LineSearchStatus::in_contact;
@@ -198,6 +160,28 @@ class SearchOfPairs {
   }
 
  private:
+  void search() {
+    // Distances among the least doubles are always examined.
+    constexpr double least = 0x1p-1000;
+    const Motion motion = motion_of(step_.vertices());
+    const double until = time();
+    const double within =
+        until * p_ / ((1.0 - p_) - 5.0 * 0x1p-53 * p_) * (1.0 + 0x1p-40) * motion.relative;
+    // Written so that NaN fails.
+    if (within <= motion.mean) {
+      const Step near = step_.with_separation({.distance = std::max(within, least), .norm = norm_});
+      with_threads(step_.certified().max_threads, [&] {
+        for_each_possible_collision(
+            scene_of(near), until,
+            [this](PairKind kind, const IndexPair& pair) { consider(kind, pair); });
+      });
+    } else {
+      step_.with_separation({}).candidates([this](const StepCandidates& some) {
+        for (const IndexPair& pair : some.pairs) consider(some.kind, pair);
+      });
+    }
+  }
+
   /// Contacts after this time do not matter.
   [[nodiscard]] double time() const {
     const CertifiedOptions& options = step_.certified();

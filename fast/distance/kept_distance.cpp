@@ -27,6 +27,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 
 #include "fast/platform/floating_point_state.hpp"
 #include "touchstone/distance.hpp"
@@ -44,10 +45,10 @@ double greatest(const Vector& a) {
 /// The length in L2.
 double length(const Vector& a) { return std::sqrt(filters::dot(a, a)); }
 
-/// The length of a motion.
+/// The length of a motion, or its square.
 template <Norm norm>
-double size_of(const Vector& motion) {
-  return norm == Norm::l2 ? length(motion) : greatest(motion);
+double comparable(const Vector& motion) {
+  return norm == Norm::l2 ? filters::dot(motion, motion) : greatest(motion);
 }
 
 /// The dual length of a direction.
@@ -66,6 +67,8 @@ class Polygon {
   static constexpr auto count = kind == Kind::vertex_face ? std::size_t{3} : std::size_t{4};
 
   explicit Polygon(const Query& query) {
+    // NaN and infinity, which comparisons may miss, are in the total.
+    double motion = 0.0, total = 0.0;
     for (std::size_t i = 0; i < count; ++i) {
       const Corner corner = corners(kind)[i];
       Vector moved;
@@ -75,16 +78,18 @@ class Polygon {
         moved[k] = end - w_[i][k];
         size_ = std::max(size_, std::max(std::abs(w_[i][k]), std::abs(end)));
       }
-      motion_ = std::max(motion_, size_of<norm>(moved));
+      motion = std::max(motion, comparable<norm>(moved));
+      total += filters::dot(moved, moved);
     }
-    motion_ = motion_ * (1.0 + 16.0 * u) + 8.0 * u * size_ + 0x1p-500;
+    motion_ = (norm == Norm::l2 ? std::sqrt(motion) : motion) * (1.0 + 16.0 * u) + 8.0 * u * size_ +
+              0x1p-500;
+    is_usual_ = size_ <= greatest_size && total < std::numeric_limits<double>::infinity();
   }
 
   /// True if the inequality holds with the l of a direction.
   [[nodiscard]] bool keeps(const Vector& s, double t_max, const KeptDistance& kept) const {
-    // Written so that NaN, which can be in any of them, fails too.
     const double size = greatest(s);
-    if (!(size_ <= greatest_size && size >= least_size && size <= greatest_size)) return false;
+    if (!(is_usual_ && size >= least_size && size <= greatest_size)) return false;
     double lowest = filters::dot(s, w_[0]);
     for (const Vector& corner : w_) lowest = std::min(lowest, filters::dot(s, corner));
     const double l = (lowest - 16.0 * u * size * size_) / dual_size_of<norm>(s) * (1.0 - 16.0 * u);
@@ -128,13 +133,13 @@ class Polygon {
   std::array<Vector, count> w_;  ///< the corners at t=0, in cyclic order
   double size_ = 0.0;            ///< W
   double motion_ = 0.0;          ///< an upper bound of M
+  bool is_usual_ = false;        ///< all is finite, and products do not overflow
 };
 
 /// Tries a direction that costs little, then those of the nearest point: of one on a side its own,
 /// else the normal.
 template <Kind kind, Norm norm>
 bool keeps(const Query& query, double t_max, const KeptDistance& kept) {
-  if (!is_finite(query)) return false;
   const Polygon<kind, norm> polygon(query);
   return polygon.keeps(polygon.sum_of_corners(), t_max, kept) ||
          polygon.keeps(polygon.nearest_of_sides(), t_max, kept) ||

@@ -208,14 +208,14 @@ class Scene final : private PairQuestions {
         });
   }
 
-  /// Calls report(place) for the pairs that collide up to t_limit, and possibly for others: those
-  /// that floating point does not exclude.
+  /// Calls report(place) for the pairs that collide up to t_limit at a separation, and possibly for
+  /// others: those that floating point does not exclude. \param rounded for this separation
   template <class Report>
   void sieve(PairKind kind, std::span<const IndexPair> pairs, const FixedPointVertices& rounded,
-             double t_limit, const Report& report) const {
+             const Separation& separation, double t_limit, const Report& report) const {
     PairScratch scratch;
     KernelInput block = block_of(candidates_of(kind, pairs, scratch), rounded);
-    block.separation = certified_.separation;
+    block.separation = separation;
     block.t_limit = t_limit;
     thread_local KernelOutput output;
     kernel_.decide(block, output);

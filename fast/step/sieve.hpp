@@ -19,15 +19,16 @@ namespace touchstone::fast {
 /// Calls take(kind, pair), with the numbers of the interface, for all pairs of the scene that
 /// collide up to t_limit at its separation, and possibly for others, each once. Several threads
 /// call it concurrently, in any order, under strict floating point. t_max has no effect. Uses the
-/// threads of the caller's task arena.
-/// \param interval of the scene \param t_limit in [0, interval.end] \throws Stopped as Step.
-template <std::size_t instants>
-void for_each_possible_collision(const Scene& scene, const SceneInterval<instants>& interval,
-                                 double t_limit,
+/// threads of the caller's task arena. \throws Stopped as Step.
+void for_each_possible_collision(const Scene& scene, double t_limit,
                                  const std::function<void(PairKind, const IndexPair&)>& take);
 
-/// The same with the interval that suits t_limit.
-void for_each_possible_collision(const Scene& scene, double t_limit,
+/// The same at another separation, not greater than the scene's.
+/// \param interval of the scene, with its rounded vertices for that separation
+/// \param t_limit in [0, interval.end]
+template <std::size_t instants>
+void for_each_possible_collision(const Scene& scene, const SceneInterval<instants>& interval,
+                                 const Separation& separation, double t_limit,
                                  const std::function<void(PairKind, const IndexPair&)>& take);
 
 }  // namespace touchstone::fast
