@@ -56,6 +56,7 @@ struct BenchOptions {
 /// is left out.
 struct SingleTimes {
   std::size_t queries = 0;
+  double mean = 0.0;
   double p50 = 0.0;
   double p99 = 0.0;
   double max = 0.0;
