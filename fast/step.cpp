@@ -285,13 +285,10 @@ bool collides_scaled(const Scene& scene, PairKind kind, const IndexPair& pair, d
 /// The pairs that may collide in steps scaled by any α up to `end`, for a search that tries many of
 /// these.
 ///
-/// **Theorem.** Let m be the greatest magnitude of a coordinate, and u = 2^-53. A pair that
-/// collides in the step scaled by α comes within the separation plus 32 u m + 2^-1070 in the step
-/// itself, at a time up to α. *Proof.* fl(x0 + fl(α fl(x1 − x0))) is wrong by at most 2 u m from
-/// the difference, 2 u m (1 + u) + 2^-1075 from the product and u m (1 + 5u) from the sum, together
-/// by less than 5.01 u m + 2^-1075. So at a time s, a place in the scaled step is at most that far
-/// from the place at the time α s in the step, in each coordinate. The difference of two is wrong
-/// by less than 10.1 u m + 2^-1074, and by less than 18 u m + 2^-1073 in L2. ∎
+/// **Theorem** (docs/theory.md, section 8.4). Let m be the greatest magnitude of a coordinate, and
+/// u = 2^-53. A pair that collides in the step scaled by α comes within the separation plus 32 u m
+/// + 2^-1070 in the step itself, at a time up to α. (Rounded places are wrong by less than 5.01 u
+/// m.)
 ///
 /// One search of the step with this separation finds them.
 class CloseTrials {

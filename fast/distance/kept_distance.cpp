@@ -7,9 +7,9 @@
 // than a distance e(d) = least + part (d − least) is left up to t_max if  l − t_max M > e(l):
 // d − e(d) does not decrease with d.
 //
-// Let u = 2^-53, S and W the greatest magnitudes of a component of s and of a corner; both are
-// between 2^-400 and 2^400, so that products do not overflow, and only those that are negligible
-// underflow.
+// Let u = 2^-53, S and W the greatest magnitudes of a component of s and of a corner; both are at
+// most 2^400, and S is at least 2^-400, so that products do not overflow, and only those that are
+// negligible underflow.
 // - s is computed, and needs no bound: any s will do.
 // - A product s·w_i has a rounded difference, a product and two sums: it is wrong by less than
 //   4.01 u times a sum of three products, each at most S W, and by 2^-1073: together by less than
