@@ -51,8 +51,8 @@ struct BenchReport {
 /// `collisions` each), `earliest` (null, or `toi_lower` and `toi_upper`), `earliest_agrees`,
 /// `interrupted`, `memory_pass_s` (the time of reading the mesh once), and `times`, a list of
 /// `threads` and of seconds: `trees_s`, `candidates_s`, `collisions_s`, `earliest_s`,
-/// `free_step_size_s`, `limit_of_scene_s` and `limit_of_pairs_s` (jobs::StepTimes) are wall time, `trees_processor_s` and so on processor time of all threads
-/// together.
+/// `free_step_size_s`, `limit_of_scene_s` and `limit_of_pairs_s` (jobs::StepTimes) are wall time,
+/// `trees_processor_s` and so on processor time of all threads together.
 [[nodiscard]] nlohmann::json to_json(const BenchReport& report);
 
 }  // namespace touchstone::verify::report
