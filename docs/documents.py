@@ -59,6 +59,8 @@ COMMANDS = {
     "patches": ["bench --repetitions 9"],
     "steps": [f"bench --step simulation/{step}/frames/*.ply --method certified --method tight_inclusion --judge 0 "
               f"--repetitions 7{separation}" for step, separations in STEPS.items() for separation in separations],
+    "point_of_use": [f"bench --step simulation/{step}/frames/*.ply --method certified --judge 0 --repetitions 7"
+                     for step in STEPS],
     "bounds": ["derive"],
     "certificates": [f"prove {data} --threads 1".replace("  ", " ") for data in DATA],
     "step_proofs": [f"step simulation/{step}/frames/*.ply --earliest --candidates --threads 1" for step in STEPS],
@@ -67,7 +69,7 @@ COMMANDS = {
 }
 
 # Fields that no document shows.
-DROPPED = {"wrong_answers", "failures", "mismatches", "files", "worst_input", "single"}
+DROPPED = {"wrong_answers", "failures", "mismatches", "files", "worst_input"}
 
 
 class Problem(Exception):
@@ -323,6 +325,30 @@ def whole_steps(data):
          "all collisions, trees included"], rows)
 
 
+def one_at_a_time(data):
+    rows = []
+    for one in data["runs"]:
+        for group in one["result"]["groups"]:
+            of = by_name(group)["certified"]
+            batch, single = of["time"]["ns_per_query"], of["single"]
+            rows.append([f"{scene_of(one)[0]}, {group['kind']}", rounded(batch),
+                         *(rounded(single[f"{part}_ns"]) for part in ("mean", "p50", "p99")),
+                         f"{single['mean_ns'] / batch:.1f}"])
+    return made_by(data, "touchstone bench --step FRAME0 FRAME1 …") + table(
+        ["step", "in a batch", "alone: mean", "median", "99 %", "mean, in that of a batch"], rows)
+
+
+def line_searches(data):
+    rows = []
+    for one in data["runs"]:
+        of = one["result"]["step"]["times"][0]  # one thread
+        times = [of[f"{part}_processor_s"] for part in ("earliest", "free_step_size", "limit_of_scene", "limit_of_pairs")]
+        rows.append([scene_of(one)[0], f"{1e3 * times[0]:.1f} ms",
+                     *(f"{1e3 * time:.1f} ms ({time / times[0]:.1f})" for time in times[1:])])
+    return made_by(data, "touchstone bench --step FRAME0 FRAME1 …") + table(
+        ["step", "`earliest`", "`free_step_size`", "`line_search_limit` of the scene", "of pairs"], rows)
+
+
 def bounds(data):
     rows = [[row["expression"], row["precision"], row["published_constant"] or "",
              *(f"{row[of]:.4g} u" if row[of] else ""
@@ -482,7 +508,8 @@ def large(data):
 # The marked parts of the documents, in their order, each with its file of data.
 PARTS = {"README.md": [(printed, "certify"), (results, "results")],
          "docs/benchmarks.md": [(judged, "certify"), (files, "files"), (patches, "patches"), (steps, "steps"),
-                                (whole_steps, "steps"), (bounds, "bounds"), (certificates, "certificates"),
+                                (whole_steps, "steps"), (one_at_a_time, "point_of_use"),
+                                (line_searches, "point_of_use"), (bounds, "bounds"), (certificates, "certificates"),
                                 (step_proofs, "step_proofs")],
          "docs/simulation.md": [(scenes, "simulations"), (detections, "simulations"), (distances, "simulations"),
                                 (misses, "simulations"), (one_miss, "simulations")]}

@@ -97,6 +97,19 @@ void set(Answer& to, const CertifiedResult& result) {
   set_stage(to, result.stage);
 }
 
+/// Decides a query on straight lines.
+CertifiedResult solve_one(Kind kind, const Query& query, const CertifiedOptions& options) {
+  const StrictFloatingPoint strict;
+  CertifiedResult result{.verdict = Verdict::no, .stage = Stage::axis};
+  const KernelOutput& output = decide_block(
+      {.kind = kind, .count = 1, .queries = &query}, options.t_max, options,
+      certified_kernel_for_one(chosen_kernels()),
+      [&](std::size_t) -> const Query& { return query; },
+      [&](std::size_t, const CertifiedResult& found) { result = found; });
+  mark_stages(output, [&](std::size_t, Stage stage) { result.stage = stage; });
+  return result;
+}
+
 /// Decides query i in items[i], a result or an answer.
 template <class Item>
 void solve_blocks(const Batch& batch, std::span<Item> items, const CertifiedOptions& options) {
@@ -104,6 +117,10 @@ void solve_blocks(const Batch& batch, std::span<Item> items, const CertifiedOpti
   if (items.size() != batch.size()) {
     throw std::invalid_argument("solve: " + std::to_string(items.size()) + " results for " +
                                 std::to_string(batch.size()) + " queries");
+  }
+  if (items.size() == 1 && batch.queries.is_straight()) {
+    set(items[0], solve_one(batch.queries.kind, batch.queries.straight()[0], options));
+    return;
   }
   Item free;
   set(free, {.verdict = Verdict::no, .stage = Stage::axis});
@@ -180,15 +197,7 @@ std::string_view to_string(Stage stage) {
 
 CertifiedResult solve(Kind kind, const Query& query, const CertifiedOptions& options) {
   require_valid(options);
-  const StrictFloatingPoint strict;
-  CertifiedResult result{.verdict = Verdict::no, .stage = Stage::axis};
-  const KernelOutput& output = decide_block(
-      {.kind = kind, .count = 1, .queries = &query}, options.t_max, options,
-      certified_kernel_for_one(chosen_kernels()),
-      [&](std::size_t) -> const Query& { return query; },
-      [&](std::size_t, const CertifiedResult& found) { result = found; });
-  mark_stages(output, [&](std::size_t, Stage stage) { result.stage = stage; });
-  return result;
+  return solve_one(kind, query, options);
 }
 
 void solve(const Queries& queries, std::span<CertifiedResult> results,

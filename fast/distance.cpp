@@ -15,9 +15,9 @@
 #include "fast/distance/exact_distance.hpp"
 #include "fast/distance/filter_kernel.hpp"
 #include "fast/distance/filtered_distance.hpp"
-#include "fast/distance/proximity.hpp"
 #include "fast/platform/floating_point_state.hpp"
 #include "fast/platform/threads.hpp"
+#include "fast/step/sieve.hpp"
 #include "touchstone/filters/error_bounds.hpp"
 #include "touchstone/filters/expressions.hpp"
 
@@ -74,13 +74,17 @@ bool is_less(const Distance& a, const Distance& b) {
   return std::tie(a.lower, a.upper) < std::tie(b.lower, b.upper);
 }
 
-/// Finds the least distance by examining all pairs whose boxes are within a radius, beginning with
-/// 0. Once the distance of a pair is known, only pairs with boxes within that distance remain.
+/// Finds the least distance by examining all pairs whose boxes are within a radius, which begins
+/// with a part of a usual edge and grows until a pair is found, or until it is the distance of the
+/// nearest known pair. A sample of the pairs makes that short from the beginning. The stages of the
+/// certified solver on lanes (fast/step/sieve.hpp), then one inequality (keeps_distance), exclude
+/// nearly all pairs that are farther apart, before their distance is computed.
 ///
-/// Boxes and the proximity test use positions rounded to doubles, except at the start. The error of
-/// a coordinate is the bound of filters::Position, 2u of its magnitude, plus at most u of it for
-/// the rounding of 1 − t. So the error of a distance is at most three bounds in L∞ and less than
-/// six in L2. `slack_` is eight, which also covers its own rounding.
+/// All of these use positions rounded to doubles, except at the start. The error of a coordinate is
+/// the bound of filters::Position, 2u of its magnitude, plus at most u of it for the rounding of
+/// 1 − t. So the error of a distance is at most three bounds in L∞ and less than six in L2.
+/// `slack_` is eight, which also covers its own rounding. Coordinates near the greatest double are
+/// scaled, so that distances do not overflow.
 class LeastDistanceSearch {
  public:
   LeastDistanceSearch(const Step& step, double t, Norm norm) : step_(step), t_(t), norm_(norm) {
@@ -92,21 +96,23 @@ class LeastDistanceSearch {
         }
       }
     }
-    if (greatest_ > far_from_overflow) scale_ = 0x1p-3;
+    if (greatest_ > far_from_overflow) scale_ = 0x1p-128;
     if (t > 0.0 || scale_ != 1.0) {
       slack_ = 8.0 * filters::position_double(scale_ * greatest_) + 0x1p-1070;
     }
   }
 
   [[nodiscard]] std::optional<LeastDistance> run() {
-    const Step resting = step_.with_places(places(), {});
-    // An upper bound of the distance between boxes.
-    const double most = 2.0 * scale_ * greatest_;
-    for (double radius = 0.0;;) {
-      search(resting, radius);
-      constexpr double least_radius = std::numeric_limits<double>::denorm_min();
-      const double wider = radius == 0.0 ? std::max(most * 0x1p-12, least_radius) : 8.0 * radius;
-      const double next = std::min(pairs_.empty() ? wider : least_.upper * scale_, most);
+    const MovingVertices resting = places();
+    // An upper bound of all distances, 2 √3 of the greatest coordinate in L2.
+    const double most = 4.0 * scale_ * greatest_;
+    for (double radius = usual_length() / 64.0;;) {
+      const Step near = step_.with_places(resting, {.distance = radius + slack_, .norm = norm_});
+      with_threads(step_.options().max_threads, [&] { search(near, radius); });
+      const double wider = radius == 0.0
+                               ? std::max(most * 0x1p-12, std::numeric_limits<double>::denorm_min())
+                               : 8.0 * radius;
+      const double next = std::min({pairs_.empty() ? wider : most, known_ * scale_, most});
       if (next <= radius) break;
       radius = next;
     }
@@ -118,8 +124,7 @@ class LeastDistanceSearch {
   }
 
  private:
-  static constexpr double far_from_overflow = 0x1p1000;
-  static constexpr double most_for_kernel = 0x1p1000;
+  static constexpr double far_from_overflow = 0x1p900;
 
   /// The approximate positions of the vertices, times the scale.
   [[nodiscard]] MovingVertices places() const {
@@ -139,25 +144,65 @@ class LeastDistanceSearch {
     return {rows, rows};
   }
 
+  /// The median of the lengths of a sample of edges, in L∞.
+  [[nodiscard]] double usual_length() const {
+    constexpr std::size_t sample_size = 1024;
+    const std::span<const Edge> edges = step_.edges();
+    std::vector<double> lengths;
+    for (std::size_t i = 0; i < edges.size(); i += edges.size() / sample_size + 1) {
+      const auto& a = step_.vertices()[static_cast<std::size_t>(edges[i][0])].start;
+      const auto& b = step_.vertices()[static_cast<std::size_t>(edges[i][1])].start;
+      double length = 0.0;
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        length = std::max(length, std::abs(scale_ * a[axis] - scale_ * b[axis]));
+      }
+      lengths.push_back(length);
+    }
+    if (lengths.empty()) return 0.0;
+    const auto median = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2);
+    std::ranges::nth_element(lengths, median);
+    return *median;
+  }
+
   /// Examines all pairs whose boxes are within that radius, and lists the nearest.
-  void search(const Step& resting, double radius) {
+  void search(const Step& near, double radius) {
+    const Scene& scene = scene_of(near);
+    SceneInterval<1> rest{.end = 1.0, .trees = scene.swept_trees(), .rounded = {}};
+    if (known_ == infinity) sample(near, rest.trees);
     pairs_.clear();
-    const Step near = resting.with_separation({.distance = radius + slack_});
-    near.candidates([&](const StepCandidates& some) {
-      const double known = known_.load(std::memory_order_relaxed) * scale_ + slack_;
-      if (!(known <= most_for_kernel)) {
-        for (const IndexPair& pair : some.pairs) consider(some.kind, pair);
-        return;
-      }
-      for (const std::uint32_t i : perhaps_within(near, some, {.distance = known, .norm = norm_})) {
-        consider(some.kind, some.pairs[i]);
-      }
+    const Separation within{.distance = std::min(radius, known_ * scale_) + slack_, .norm = norm_};
+    rest.rounded = fixed_point_vertices(near.vertices(), rest.end, within.distance);
+    for_each_possible_collision(
+        scene, rest, within, 0.0,
+        [&](PairKind kind, const IndexPair& pair) { consider(near, kind, pair); });
+  }
+
+  /// Examines the pairs of one group of primitives in 256.
+  void sample(const Step& near, const Trees<1>& trees) {
+    constexpr std::size_t stride = 256;
+    const Scene& scene = scene_of(near);
+    const std::vector<SearchPart> parts = scene.parts(stride);
+    tbb::parallel_for(std::size_t{0}, parts.size(), [&](std::size_t i) {
+      const SearchPart group{parts[i].kind, parts[i].first, parts[i].first + 1};
+      for_each_block(
+          scene, [&](PairBuffer& pairs) { scene.find(trees, group, pairs); },
+          [&](std::span<const IndexPair> pairs) {
+            for (const IndexPair& pair : pairs) {
+              consider(near, group.kind, scene.reported(group.kind, pair));
+            }
+          });
     });
   }
 
-  void consider(PairKind kind, const IndexPair& pair) {
+  void consider(const Step& near, PairKind kind, const IndexPair& pair) {
+    const Kind query_kind = Step::kind_of(kind);
+    const double known = known_.load(std::memory_order_relaxed);
+    if (keeps_distance(query_kind, near.query_of(kind, pair), 0.0,
+                       {.part = 0.0, .least = known * scale_ + slack_, .norm = norm_})) {
+      return;
+    }
     const Query query = step_.query_of(kind, pair);
-    const Distance distance = distance_of_one(Step::kind_of(kind), query, t_, norm_);
+    const Distance distance = distance_of_one(query_kind, query, t_, norm_);
     if (distance.lower > known_.load(std::memory_order_relaxed)) return;
     const std::scoped_lock lock(mutex_);
     if (is_less(least_, distance)) return;

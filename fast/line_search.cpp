@@ -1,19 +1,23 @@
 #include "touchstone/contacts.hpp"
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cmath>
-#include <cstdint>
+#include <cstddef>
 #include <limits>
 #include <mutex>
 #include <optional>
+#include <span>
 #include <stdexcept>
 #include <utility>
 #include <vector>
 
-#include "fast/distance/proximity.hpp"
+#include "fast/certified/block.hpp"
 #include "fast/platform/floating_point_state.hpp"
+#include "fast/platform/threads.hpp"
 #include "fast/step/scene.hpp"
+#include "fast/step/sieve.hpp"
 #include "touchstone/certified.hpp"
 
 namespace touchstone::fast {
@@ -68,9 +72,15 @@ LineSearchLimit limit_of_scene(const Step& step, double p, Norm norm) {
 
 // ---- The pairs' own distances -------------------------------------------------------------------
 
-/// An upper bound of the motion of a vertex relative to another, in L2 or L∞. May be infinite.
-double greatest_relative_motion(const MovingVertices& vertices) {
-  double result = 0.0;
+/// The motion of vertices.
+struct Motion {
+  double relative = 0.0;  ///< an upper bound, in L2, of that of one relative to another
+  double mean = 0.0;      ///< the mean in L∞, nearly
+};
+
+/// May be infinite or NaN.
+Motion motion_of(const MovingVertices& vertices) {
+  Motion result;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     double least = positive_infinity, most = -positive_infinity;
     for (std::size_t i = 0; i < vertices.size(); ++i) {
@@ -81,28 +91,55 @@ double greatest_relative_motion(const MovingVertices& vertices) {
     // Each difference is rounded by at most half the spacing to the next double.
     const double range =
         std::nextafter(most, positive_infinity) - std::nextafter(least, -positive_infinity);
-    result = std::max(result, std::nextafter(range, positive_infinity));
+    result.relative = std::max(result.relative, std::nextafter(range, positive_infinity));
+  }
+  for (std::size_t i = 0; i < vertices.size(); ++i) {
+    double motion = 0.0;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      motion = std::max(motion, std::abs(vertices[i].end[axis] - vertices[i].start[axis]));
+    }
+    result.mean += motion / static_cast<double>(vertices.size());
   }
   constexpr double root_of_three = 1.7320508075688776;
-  return result * root_of_three;
+  result.relative *= root_of_three;
+  return result;
+}
+
+/// True if the swept boxes of a query's primitives have a common point.
+bool are_near(Kind kind, const Query& query) {
+  const std::size_t first = kind == Kind::edge_edge ? 2 : 1;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    std::array<double, 2> least{positive_infinity, positive_infinity};
+    std::array<double, 2> most{-positive_infinity, -positive_infinity};
+    for (std::size_t time = 0; time < 2; ++time) {
+      for (std::size_t point = 0; point < moving_points; ++point) {
+        const std::size_t primitive = point < first ? 0 : 1;
+        least[primitive] = std::min(least[primitive], query.at(time, point, axis));
+        most[primitive] = std::max(most[primitive], query.at(time, point, axis));
+      }
+    }
+    if (least[0] > most[1] || least[1] > most[0]) return false;
+  }
+  return true;
 }
 
 /// Each considered pair has a distance d at the start, an s with p d ≤ s < d, and a time at which
-/// it comes within s. That is (d − s) / M at the earliest, where M is the greatest relative motion.
-/// As s ≤ p (1 + 2^-50) d and p ≤ 1 − 2^-50, d − s is more than a third of (1 − p) d. Let T be the
-/// end of the earliest known enclosure. Pairs that are farther apart than 4 M T / (1 − p) come
-/// within s after T, with a margin that also covers the lower end of their enclosures, and are not
-/// examined.
+/// it comes within s. Let T be the end of the earliest known enclosure, with a margin for the lower
+/// ends of others. Only pairs that come within s up to T matter. The first known one is the
+/// earliest impact: a pair that collides comes within s before.
+///
+/// s is at most c d, c = p (1 + 5u), and d − s at most T M, where M is the greatest relative
+/// motion. So a pair that comes within s up to T comes within T M c/(1 − c). If this is short, one
+/// search on lanes finds these pairs (fast/step/sieve.hpp); otherwise the search is for all
+/// considered ones. Of most of them an inequality (keeps_distance) shows that more than s is left
+/// up to T, before their distance is computed.
 class SearchOfPairs {
  public:
-  SearchOfPairs(const Step& step, double p, Norm norm)
-      : step_(step), p_(p), norm_(norm), motion_(greatest_relative_motion(step.vertices())) {}
+  SearchOfPairs(const Step& step, double p, Norm norm) : step_(step), p_(p), norm_(norm) {}
 
   [[nodiscard]] LineSearchLimit run() {
-    const Step at_no_distance = step_.with_separation({});
-    // A pair that collides comes within s before.
-    if (const auto impact = at_no_distance.earliest()) upper_ = impact->toi_upper;
-    at_no_distance.candidates([this](const StepCandidates& some) { consider(some); });
+    if (const auto impact = step_.with_separation({}).earliest()) begin_with(*impact);
+    search();
     result_.step_size = 0.0;
     if (!touching_.empty()) {
       result_.status = LineSearchStatus::in_contact;
@@ -123,27 +160,60 @@ class SearchOfPairs {
   }
 
  private:
-  void consider(const StepCandidates& some) {
-    const Separation reach{.distance = reach_until(std::min(upper_.load(), 1.0)), .norm = norm_};
-    for (const std::uint32_t i : perhaps_within(step_, some, reach)) {
-      consider(some.kind, some.pairs[i]);
+  void search() {
+    // Distances among the least doubles are always examined.
+    constexpr double least = 0x1p-1000;
+    const Motion motion = motion_of(step_.vertices());
+    const double until = time();
+    const double within =
+        until * p_ / ((1.0 - p_) - 5.0 * 0x1p-53 * p_) * (1.0 + 0x1p-40) * motion.relative;
+    // Written so that NaN fails.
+    if (within <= motion.mean) {
+      const Step near = step_.with_separation({.distance = std::max(within, least), .norm = norm_});
+      with_threads(step_.options().max_threads, [&] {
+        for_each_possible_collision(
+            scene_of(near), until,
+            [this](PairKind kind, const IndexPair& pair) { consider(kind, pair); });
+      });
+    } else {
+      step_.with_separation({}).candidates([this](const StepCandidates& some) {
+        for (const IndexPair& pair : some.pairs) consider(some.kind, pair);
+      });
     }
   }
 
-  /// Pairs that are farther apart come within s after that time. Distances among the least doubles
-  /// are always examined.
-  [[nodiscard]] double reach_until(double time) const {
-    constexpr double least = 0x1p-1000, greatest = std::numeric_limits<double>::max();
-    const double rest = 1.0 - step_.options().toi_tolerance;
-    if (!(rest > 0.0)) return greatest;
-    const double reach = 4.0 * motion_ * (time / (1.0 - p_) / rest);
-    // Written so that NaN also yields the greatest value.
-    return reach <= greatest ? std::max(reach, least) : greatest;
+  /// Contacts after this time do not matter.
+  [[nodiscard]] double time() const {
+    const CertifiedOptions& options = step_.options();
+    return std::min(options.t_max,
+                    limit_after(std::min(upper_.load(), 1.0), options.toi_tolerance));
+  }
+
+  /// Takes the earliest known time from an impact and from the first of its pairs.
+  void begin_with(const StepImpact& impact) {
+    constexpr std::size_t enough = 16;
+    upper_ = impact.toi_upper;
+    for (const StepCollision& one :
+         std::span(impact.pairs).first(std::min(impact.pairs.size(), enough))) {
+      const Kind kind = Step::kind_of(one.kind);
+      const Query query = step_.query_of(one.kind, one.pair);
+      const std::optional<double> kept = kept_distance(p_, distance(kind, query, 0.0, norm_));
+      if (kept) lower_time(solve_within(kind, query, *kept).toi_upper);
+    }
+  }
+
+  [[nodiscard]] CertifiedResult solve_within(Kind kind, const Query& query, double kept) const {
+    CertifiedOptions options = step_.options();
+    options.separation = {.distance = kept, .norm = norm_};
+    return solve(kind, query, options);
   }
 
   void consider(PairKind kind, const IndexPair& pair) {
     const Query query = step_.query_of(kind, pair);
     const Kind query_kind = Step::kind_of(kind);
+    // (s is at most p d (1 + 5u).)
+    if (keeps_distance(query_kind, query, time(), {.part = p_, .norm = norm_})) return;
+    if (!are_near(query_kind, query)) return;
     const Distance apart = distance(query_kind, query, 0.0, norm_);
     const std::optional<double> kept = kept_distance(p_, apart);
     if (!kept) {
@@ -151,21 +221,21 @@ class SearchOfPairs {
       (apart.upper == 0.0 ? touching_ : too_near_).push_back(at_start(kind, pair));
       return;
     }
-    CertifiedOptions options = step_.options();
-    options.separation = {.distance = *kept, .norm = norm_};
-    const CertifiedResult result = solve(query_kind, query, options);
-    if (result.verdict != Verdict::yes) return;
-    add(collision_of(kind, pair, result));
+    const CertifiedResult result = solve_within(query_kind, query, *kept);
+    if (result.verdict == Verdict::yes) add(collision_of(kind, pair, result));
   }
 
   void add(const StepCollision& collision) {
-    double known = upper_.load();
-    while (collision.toi_upper < known &&
-           !upper_.compare_exchange_weak(known, collision.toi_upper)) {
-    }
+    lower_time(collision.toi_upper);
     if (collision.toi_lower > upper_.load()) return;
     const std::scoped_lock lock(mutex_);
     result_.pairs.push_back(collision);
+  }
+
+  void lower_time(double toi_upper) {
+    double known = upper_.load();
+    while (toi_upper < known && !upper_.compare_exchange_weak(known, toi_upper)) {
+    }
   }
 
   void take_earliest() {
@@ -181,7 +251,6 @@ class SearchOfPairs {
   const Step& step_;
   double p_;
   Norm norm_;
-  double motion_;
   std::atomic<double> upper_ = positive_infinity;
   std::mutex mutex_;
   std::vector<StepCollision> touching_;  ///< at the start

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <mutex>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -15,36 +16,13 @@
 #include "fast/platform/floating_point_state.hpp"
 #include "fast/platform/threads.hpp"
 #include "fast/step/scene.hpp"
+#include "fast/step/sieve.hpp"
 #include "touchstone/certified.hpp"
 
 namespace touchstone::fast {
 namespace {
 
 static_assert(PairBuffer::capacity <= kernel_block);
-
-/// Groups per task.
-constexpr std::size_t groups_of_part = 32;
-
-/// The end time of the boxes, for contacts up to a time: the least power of two that is not below
-/// it, with a minimum, because at smaller ones the rounding of places in float would exceed the
-/// motion.
-double t_end_of(double time) {
-  constexpr double least_t_end = 0x1p-40;
-  if (time <= least_t_end) return least_t_end;
-  int exponent = 0;
-  const double fraction = std::frexp(time, &exponent);
-  return std::ldexp(1.0, fraction == 0.5 ? exponent - 1 : exponent);
-}
-
-/// Calls take(pairs) for the pairs that find(buffer) appends, in the strict floating-point state.
-/// \throws Stopped once the scene's stop is true.
-template <class Find, class Take>
-void for_each_block(const Scene& scene, const Find& find, Take take) {
-  const StrictFloatingPoint strict;
-  PairSink buffer(std::move(take), scene.stop());
-  find(buffer);
-  buffer.flush();
-}
 
 // ---- Collisions ---------------------------------------------------------------------------------
 
@@ -110,8 +88,6 @@ class ImpactSearch {
  private:
   /// A round has the groups whose numbers are multiples of its stride, but of none before it.
   static constexpr std::array<std::size_t, 5> strides{256, 64, 16, 4, 1};
-  /// The end of a short interval. Swept boxes suffice there, and need not be fitted again.
-  static constexpr double short_end = 0x1p-8;
   /// The rounds that search a short interval first: a sixty-fourth of the groups.
   static constexpr std::size_t first_rounds = 2;
 
@@ -252,29 +228,114 @@ class ImpactSearch {
 
 // ---- The step that is taken ---------------------------------------------------------------------
 
-/// \pre strict floating point
 /// \throws std::domain_error if a motion overflows.
+void require_finite_motions(const MovingVertices& vertices) {
+  for (std::size_t i = 0; i < vertices.size(); ++i) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      if (std::isfinite(vertices[i].end[axis] - vertices[i].start[axis])) continue;
+      throw std::domain_error("vertex " + std::to_string(i) +
+                              ": the motion x1 - x0 is greater than any double");
+    }
+  }
+}
+
+/// The place of a coordinate in the step scaled by α. \pre strict floating point
+double scaled_place(double from, double to, double alpha) {
+  const double motion = to - from;
+  const double part = alpha * motion;
+  return from + part;
+}
+
+/// \pre strict floating point; the motions are finite.
 MovingVertices scaled_vertices(const MovingVertices& vertices, double alpha) {
   using Places = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>;
   const auto count = static_cast<Eigen::Index>(vertices.size());
   Places start(count, 3), end(count, 3);
   for (Eigen::Index i = 0; i < count; ++i) {
     const MovingVertex& vertex = vertices[static_cast<std::size_t>(i)];
-    for (Eigen::Index axis = 0; axis < 3; ++axis) {
-      const double from = vertex.start[static_cast<std::size_t>(axis)];
-      const double to = vertex.end[static_cast<std::size_t>(axis)];
-      const double motion = to - from;
-      if (!std::isfinite(motion)) {
-        throw std::domain_error("vertex " + std::to_string(i) +
-                                ": the motion x1 - x0 is greater than any double");
-      }
-      const double part = alpha * motion;
-      start(i, axis) = from;
-      end(i, axis) = from + part;
+    for (Eigen::Index k = 0; k < 3; ++k) {
+      const auto axis = static_cast<std::size_t>(k);
+      start(i, k) = vertex.start[axis];
+      end(i, k) = scaled_place(vertex.start[axis], vertex.end[axis], alpha);
     }
   }
   return {start, end};
 }
+
+/// A pair of a step.
+struct NamedPair {
+  PairKind kind;
+  IndexPair pair;
+};
+
+/// True if a pair collides in the step scaled by α. \pre strict floating point
+bool collides_scaled(const Scene& scene, PairKind kind, const IndexPair& pair, double alpha) {
+  Query query = scene.query_of(kind, pair);
+  for (std::size_t point = 0; point < moving_points; ++point) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      double& end = query.at(1, point, axis);
+      end = scaled_place(query.at(0, point, axis), end, alpha);
+    }
+  }
+  CertifiedOptions options = scene.certified();
+  options.t_max = 1.0;
+  return solve(Step::kind_of(kind), query, options).verdict == Verdict::yes;
+}
+
+/// The pairs that may collide in steps scaled by any α up to `end`, for a search that tries many of
+/// these.
+///
+/// **Theorem** (docs/theory.md, section 8.4). Let m be the greatest magnitude of a coordinate, and
+/// u = 2^-53. A pair that collides in the step scaled by α comes within the separation plus 32 u m
+/// + 2^-1070 in the step itself, at a time up to α. (Rounded places are wrong by less than 5.01 u
+/// m.)
+///
+/// One search of the step with this separation finds them.
+class CloseTrials {
+ public:
+  CloseTrials(const Scene& scene, double end) : scene_(scene), end_(end) {
+    double size = 0.0;
+    for (std::size_t i = 0; i < scene.vertices().size(); ++i) {
+      const MovingVertex& vertex = scene.vertices()[i];
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        size = std::max({size, std::abs(vertex.start[axis]), std::abs(vertex.end[axis])});
+      }
+    }
+    Separation wider = scene.certified().separation;
+    wider.distance = (wider.distance + (0x1p-48 * size + 0x1p-1070)) * (1.0 + 0x1p-50);
+    is_complete_ = size <= 0x1p1000 && is_valid(wider);
+    if (is_complete_) find(wider);
+  }
+
+  /// True if `is_free` answers for α.
+  [[nodiscard]] bool covers(double alpha) const { return is_complete_ && alpha <= end_; }
+
+  /// True if no pair collides in the step scaled by α.
+  [[nodiscard]] bool is_free(double alpha) const {
+    return std::ranges::none_of(pairs_, [&](const NamedPair& one) {
+      return collides_scaled(scene_, one.kind, one.pair, alpha);
+    });
+  }
+
+ private:
+  /// To try more pairs takes as long as a search of the scaled step.
+  static constexpr std::size_t most = std::size_t{1} << 15U;
+
+  void find(const Separation& wider) {
+    const Scene near(scene_.vertices(), scene_, wider);
+    std::mutex mutex;
+    for_each_possible_collision(near, end_, [&](PairKind kind, const IndexPair& pair) {
+      const std::scoped_lock lock(mutex);
+      is_complete_ = pairs_.size() < most;
+      if (is_complete_) pairs_.push_back({kind, pair});
+    });
+  }
+
+  const Scene& scene_;
+  double end_;
+  bool is_complete_;
+  std::vector<NamedPair> pairs_;
+};
 
 /// Search for a double in [0,1] that is free while the next one is not.
 template <class IsFree>
@@ -398,23 +459,33 @@ Step Step::scaled(double alpha) const {
     throw std::invalid_argument("step: the step size must be in [0,1]");
   }
   return Step(with_threads(scene_->certified().max_threads, [&] {
+    require_finite_motions(scene_->vertices());
     return std::make_unique<const Scene>(scaled_vertices(scene_->vertices(), alpha), *scene_);
   }));
 }
 
 std::optional<double> Step::free_step_size() const {
+  const StrictFloatingPoint strict;
+  require_finite_motions(vertices());
   const std::optional<StepImpact> impact = earliest();
+  if (!impact) {
+    return StepSizeSearch([this](double alpha) { return scaled(alpha).is_free(); }).run(1.0);
+  }
+  std::optional<CloseTrials> trials;
   const auto is_free = [&](double alpha) {
-    const Step trial = scaled(alpha);
     // The pairs that collide first in the whole step mostly do in a trial step that is not free.
-    const bool collides_again =
-        impact && std::ranges::any_of(impact->pairs, [&](const auto& one) {
-          const Query query = trial.query_of(one.kind, one.pair);
-          return solve(kind_of(one.kind), query, trial.options()).verdict == Verdict::yes;
-        });
-    return !collides_again && trial.is_free();
+    const bool collides_again = std::ranges::any_of(impact->pairs, [&](const auto& one) {
+      return collides_scaled(*scene_, one.kind, one.pair, alpha);
+    });
+    if (collides_again) return false;
+    if (alpha < 1.0 && !trials) {
+      // Steps that are free beyond this are rare: rounding would have to move them as far.
+      const double end = std::min(1.0, impact->toi_upper * (1.0 + 0x1p-6));
+      with_threads(scene_->certified().max_threads, [&] { trials.emplace(*scene_, end); });
+    }
+    return trials && trials->covers(alpha) ? trials->is_free(alpha) : scaled(alpha).is_free();
   };
-  return StepSizeSearch(is_free).run(impact ? impact->toi_lower : 1.0);
+  return StepSizeSearch(is_free).run(impact->toi_lower);
 }
 
 void Step::candidates(const std::function<void(const StepCandidates&)>& take) const {
@@ -451,5 +522,7 @@ const MovingVertices& Step::vertices() const { return scene_->vertices(); }
 const CertifiedOptions& Step::options() const { return scene_->certified(); }
 
 std::span<const Edge> Step::edges() const { return scene_->elements().edges; }
+
+const Scene& scene_of(const Step& step) { return *step.scene_; }
 
 }  // namespace touchstone::fast

@@ -128,15 +128,26 @@ TouchstoneImpact impact_of(const fast::CertifiedResult& result) {
           result.v};
 }
 
+Query query_of(const double* coordinates) {
+  Query query;
+  std::memcpy(&query, &required(coordinates, "coordinates"), sizeof(Query));
+  return query;
+}
+
 void solve(std::int32_t kind, std::size_t count, const double* coordinates,
            const TouchstoneOptions& options, TouchstoneImpact* impacts) {
+  const fast::CertifiedOptions certified{.toi_tolerance = options.toi_tolerance,
+                                         .t_max = options.t_max,
+                                         .separation = separation_of(options),
+                                         .max_threads = options.max_threads};
+  if (count == 1) {
+    const Query query = query_of(coordinates);
+    required(impacts, "impacts") = impact_of(fast::solve(kind_of(kind), query, certified));
+    return;
+  }
   const auto queries = copied<Query>(coordinates, count, "coordinates");
   std::vector<fast::CertifiedResult> results(count);
-  fast::solve(kind_of(kind), queries, results,
-              {.toi_tolerance = options.toi_tolerance,
-               .t_max = options.t_max,
-               .separation = separation_of(options),
-               .max_threads = options.max_threads});
+  fast::solve(kind_of(kind), queries, results, certified);
   if (count > 0) std::ranges::transform(results, &required(impacts, "impacts"), impact_of);
 }
 
@@ -146,6 +157,12 @@ TouchstoneDistance distance_of(const fast::Distance& distance) {
 
 void measure(std::int32_t kind, std::size_t count, const double* coordinates, double t,
              std::int32_t norm, std::int32_t max_threads, TouchstoneDistance* distances) {
+  // (The function of many names the query that is not finite.)
+  if (count == 1 && max_threads >= 0 && is_finite(query_of(coordinates))) {
+    required(distances, "distances") =
+        distance_of(fast::distance(kind_of(kind), query_of(coordinates), t, norm_of(norm)));
+    return;
+  }
   const auto queries = copied<Query>(coordinates, count, "coordinates");
   std::vector<fast::Distance> results(count);
   fast::distances(kind_of(kind), queries, t, norm_of(norm), results, max_threads);

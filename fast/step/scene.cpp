@@ -1,6 +1,7 @@
 #include "fast/step/scene.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <stdexcept>
 #include <tuple>
@@ -198,6 +199,14 @@ Scene::Scene(MovingVertices vertices, const Scene& other, const Separation& sepa
 
 // ---- Searching ----------------------------------------------------------------------------------
 
+double t_end_of(double time) {
+  constexpr double least_t_end = 0x1p-40;
+  if (time <= least_t_end) return least_t_end;
+  int exponent = 0;
+  const double fraction = std::frexp(time, &exponent);
+  return std::ldexp(1.0, fraction == 0.5 ? exponent - 1 : exponent);
+}
+
 Trees<1> Scene::swept_trees() const { return trees_of<1>(groups_->groups, bounds_); }
 
 template <std::size_t instants>
@@ -213,17 +222,17 @@ SceneInterval<instants> Scene::up_to(double end) const {
 template SceneInterval<1> Scene::up_to<1>(double end) const;
 template SceneInterval<2> Scene::up_to<2>(double end) const;
 
-std::vector<SearchPart> Scene::parts(std::size_t groups_of_part) const {
+std::vector<SearchPart> Scene::parts(std::size_t most_groups) const {
   std::vector<SearchPart> result;
   for (std::size_t kind = 0; kind < pair_records.size(); ++kind) {
     const PrimitiveGroups& some = groups_->groups[pair_records[kind].some];
     const PrimitiveGroups& all = groups_->groups[pair_records[kind].all];
     if (all.size() == 0) continue;
     const std::size_t groups = some.members().size();
-    for (std::size_t first = 0; first < groups; first += groups_of_part) {
+    for (std::size_t first = 0; first < groups; first += most_groups) {
       result.push_back({.kind = static_cast<PairKind>(kind),
                         .first = first,
-                        .end = std::min(first + groups_of_part, groups)});
+                        .end = std::min(first + most_groups, groups)});
     }
   }
   return result;
@@ -295,6 +304,18 @@ Candidates Scene::candidates_of(PairKind kind, std::span<const IndexPair> pairs,
     scratch[i] = {at(numbers, pairs[i][0]), pairs[i][1]};
   result.pairs = std::span(scratch).first(pairs.size());
   return result;
+}
+
+KernelInput Scene::block_of(const Candidates& candidates, const FixedPointVertices& rounded) const {
+  return {.kind = candidates.kind,
+          .count = candidates.pairs.size(),
+          .vertices = vertices_.data(),
+          .edges = candidates.edges.data(),
+          .faces = candidates.faces.data(),
+          .pairs = candidates.pairs.data(),
+          .axis_is_done = true,
+          .rounded = rounded.vertices.data(),
+          .rounded_distance = rounded.distance};
 }
 
 StepCollision collision_of(PairKind kind, const IndexPair& pair, const CertifiedResult& result) {

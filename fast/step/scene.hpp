@@ -17,6 +17,7 @@
 #include <optional>
 #include <span>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "fast/broad_phase/body_tree.hpp"
@@ -28,6 +29,7 @@
 #include "fast/certified/block.hpp"
 #include "fast/certified/fixed_point_vertices.hpp"
 #include "fast/certified/kernel.hpp"
+#include "fast/platform/floating_point_state.hpp"
 #include "fast/step/bodies.hpp"
 #include "fast/step/codimensional.hpp"
 #include "touchstone/mesh.hpp"
@@ -69,6 +71,16 @@ inline constexpr std::array<PairRecord, 4> pair_records{
   return pair_records[static_cast<std::size_t>(kind)];
 }
 
+// ---- Intervals of time ---------------------------------------------------------------------------
+
+/// The end time of the boxes, for contacts up to a time: the least power of two that is not below
+/// it, with a minimum, because at smaller ones the rounding of places in float would exceed the
+/// motion.
+[[nodiscard]] double t_end_of(double time);
+
+/// The end of a short interval. Swept boxes suffice there, and need not be fitted again.
+inline constexpr double short_end = 0x1p-8;
+
 /// The trees of a scene.
 template <std::size_t instants>
 using Trees = OfPrimitives<BoxTree<instants>>;
@@ -81,6 +93,11 @@ struct SceneInterval {
   Trees<instants> trees;
   FixedPointVertices rounded;
 };
+
+// ---- The search ---------------------------------------------------------------------------------
+
+/// Groups per task.
+inline constexpr std::size_t groups_of_part = 32;
 
 /// A part of the search for pairs of one kind: groups of the searching tree.
 struct SearchPart {
@@ -159,8 +176,8 @@ class Scene final : private PairQuestions {
   template <std::size_t instants>
   [[nodiscard]] SceneInterval<instants> up_to(double end) const;
 
-  /// The whole search, kind by kind, in parts of at most `groups_of_part` groups.
-  [[nodiscard]] std::vector<SearchPart> parts(std::size_t groups_of_part) const;
+  /// The whole search, kind by kind, in parts of at most that many groups.
+  [[nodiscard]] std::vector<SearchPart> parts(std::size_t most_groups) const;
 
   /// Appends the pairs of a part to the buffer: those that may collide, including all that do up to
   /// the end of the trees' interval.
@@ -182,22 +199,28 @@ class Scene final : private PairQuestions {
               double t_limit, const Report& report) const {
     PairScratch scratch;
     const Candidates candidates = candidates_of(kind, pairs, scratch);
-    const KernelInput block{.kind = candidates.kind,
-                            .count = pairs.size(),
-                            .vertices = vertices_.data(),
-                            .edges = candidates.edges.data(),
-                            .faces = candidates.faces.data(),
-                            .pairs = candidates.pairs.data(),
-                            .axis_is_done = true,
-                            .rounded = rounded.vertices.data(),
-                            .rounded_distance = rounded.distance};
     decide_block(
-        block, t_limit, certified_, kernel_,
+        block_of(candidates, rounded), t_limit, certified_, kernel_,
         [&](std::size_t i) { return fast::query_of(vertices_, candidates, candidates.pairs[i]); },
         [&](std::size_t i, const CertifiedResult& result) {
           if (result.verdict != Verdict::yes) return;
           report(i, collision_of(kind, reported(kind, pairs[i]), result));
         });
+  }
+
+  /// Calls report(place) for the pairs that collide up to t_limit at a separation, and possibly for
+  /// others: those that floating point does not exclude. \param rounded for this separation
+  template <class Report>
+  void sieve(PairKind kind, std::span<const IndexPair> pairs, const FixedPointVertices& rounded,
+             const Separation& separation, double t_limit, const Report& report) const {
+    PairScratch scratch;
+    KernelInput block = block_of(candidates_of(kind, pairs, scratch), rounded);
+    block.separation = separation;
+    block.t_limit = t_limit;
+    thread_local KernelOutput output;
+    kernel_.decide(block, output);
+    for (std::size_t i = 0; i < output.impacts.count; ++i) report(output.impacts.items[i].index);
+    for (std::size_t i = 0; i < output.undecided.count; ++i) report(output.undecided.items[i]);
   }
 
   /// The vertices of a pair with the numbers of the interface, and this pair as a query: as in
@@ -219,6 +242,8 @@ class Scene final : private PairQuestions {
   /// The pairs for the certified solver. \param scratch Memory for the numbers, if they differ.
   [[nodiscard]] Candidates candidates_of(PairKind kind, std::span<const IndexPair> pairs,
                                          PairScratch& scratch) const;
+  [[nodiscard]] KernelInput block_of(const Candidates& candidates,
+                                     const FixedPointVertices& rounded) const;
 
   MovingVertices vertices_;
   CertifiedOptions certified_;
@@ -229,5 +254,18 @@ class Scene final : private PairQuestions {
   std::shared_ptr<const SceneMesh> mesh_;
   std::shared_ptr<const SceneGroups> groups_;
 };
+
+/// The scene of a step.
+[[nodiscard]] const Scene& scene_of(const Step& step);
+
+/// Calls take(pairs) for the pairs that find(buffer) appends, in the strict floating-point state.
+/// \throws Stopped once the scene's stop is true.
+template <class Find, class Take>
+void for_each_block(const Scene& scene, const Find& find, Take take) {
+  const StrictFloatingPoint strict;
+  PairSink buffer(std::move(take), scene.stop());
+  find(buffer);
+  buffer.flush();
+}
 
 }  // namespace touchstone::fast

@@ -509,6 +509,28 @@ TEST(FreeStepSize, IsTheLargestWhereRoundingIsMonotone) {
   EXPECT_EQ(falling_vertex(-0.5).step().free_step_size(), 1.0);
 }
 
+TEST(FreeStepSize, KnowsPairsThatOnlyRoundingBringsTogether) {
+  // A vertex moves along the plane z = x + y + 2^52 + 2 by (1, 1, 2), at a distance of 1 in z.
+  // Where α is between 1/2 and 3/4, that is rounded to (1, 1, 1), and the vertex is in the plane.
+  // Another pair collides first in the step, at 3/4.
+  constexpr double large = 0x1p52;
+  Scene scene = falling_vertex(3.0);
+  const Places start = scene.start, end = scene.end;
+  scene.start.resize(8, 3);
+  scene.start << start,  //
+      large - 16, -large - 18, large - 32, large + 16, -large - 18, large, large, -large + 14,
+      large + 16, large, -large - 2, large + 1;
+  scene.end = scene.start;
+  scene.end.topRows(4) = end;
+  scene.end.row(7) += Eigen::RowVector3d(1, 1, 2);
+  scene.faces.push_back({4, 5, 6});
+  scene.points.push_back(7);
+  const Step step = scene.step();
+  EXPECT_EQ(step.collisions().size(), 1U);
+  EXPECT_NEAR(step.earliest()->toi_lower, 0.75, 1e-11);
+  EXPECT_EQ(step.free_step_size(), 0.5);
+}
+
 // The coordinates are finite, but their difference is not.
 TEST(FreeStepSize, NamesTheVertexWhoseMotionOverflows) {
   Eigen::MatrixX3d before = Eigen::MatrixX3d::Identity(3, 3), after = before;

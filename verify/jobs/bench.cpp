@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <numeric>
 #include <stdexcept>
 #include <utility>
 
@@ -164,7 +165,9 @@ class BenchRun {
     auto times = timed.time_singles(options_.singles, options_.seconds, options_.stop);
     if (times) std::erase_if(*times, [](double time) { return std::isinf(time); });
     if (!times || times->empty()) return std::nullopt;
+    const double sum = std::accumulate(times->begin(), times->end(), 0.0);
     return SingleTimes{.queries = times->size(),
+                       .mean = sum / static_cast<double>(times->size()),
                        .p50 = quantile(*times, 0.5),
                        .p99 = quantile(*times, 0.99),
                        .max = quantile(*times, 1.0)};

@@ -55,6 +55,7 @@ struct BenchOptions {
 /// shortest of up to three sweeps over the queries, which leaves out other work of the machine.
 struct SingleTimes {
   std::size_t queries = 0;
+  double mean = 0.0;
   double p50 = 0.0;
   double p99 = 0.0;
   double max = 0.0;

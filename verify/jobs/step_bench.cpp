@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "touchstone/contacts.hpp"
 #include "verify/base/cores.hpp"
 #include "verify/base/deadline.hpp"
 #include "verify/jobs/memory_pass.hpp"
@@ -42,6 +43,9 @@ struct Series {
   Repetitions candidates = {};
   Repetitions collisions = {};
   Repetitions earliest = {};
+  Repetitions free_step_size = {};
+  Repetitions limit_of_scene = {};
+  Repetitions limit_of_pairs = {};
 };
 
 class StepMeasurement {
@@ -81,12 +85,15 @@ class StepMeasurement {
     result.earliest = earliest_;
     result.memory_pass = memory_pass_.median();
     for (const Series& series : series_) {
-      if (series.earliest.empty()) continue;
+      if (series.limit_of_pairs.empty()) continue;
       result.times.push_back({.threads = series.threads,
                               .trees = series.trees.median(),
                               .candidates = series.candidates.median(),
                               .collisions = series.collisions.median(),
-                              .earliest = series.earliest.median()});
+                              .earliest = series.earliest.median(),
+                              .free_step_size = series.free_step_size.median(),
+                              .limit_of_scene = series.limit_of_scene.median(),
+                              .limit_of_pairs = series.limit_of_pairs.median()});
     }
     result.earliest_agrees = result.times.empty() || earliest_agrees();
     return result;
@@ -118,6 +125,12 @@ class StepMeasurement {
     });
     series.collisions.add([&] { collisions_ = step->collisions(); });
     series.earliest.add([&] { earliest_ = step->earliest(); });
+    constexpr double part = 0.2;
+    series.free_step_size.add([&] { (void)step->free_step_size(); });
+    series.limit_of_scene.add([&] { (void)fast::line_search_limit(*step, part); });
+    series.limit_of_pairs.add([&] {
+      (void)fast::line_search_limit(*step, part, {.start_distance = fast::StartDistance::of_pair});
+    });
   }
 
   static std::size_t index_of(fast::PairKind kind) { return static_cast<std::size_t>(kind); }

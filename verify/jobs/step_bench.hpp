@@ -38,6 +38,11 @@ struct StepTimes {
   WorkTime candidates;  ///< finding all candidates, which are counted and not stored
   WorkTime collisions;  ///< all collisions with their times of impact, including the search
   WorkTime earliest;    ///< the earliest impact alone, the search included
+  // Line searches, from the step: Step::free_step_size, and fast::line_search_limit in L2 with
+  // p = 0.2 of the distance of the scene and of each pair.
+  WorkTime free_step_size;
+  WorkTime limit_of_scene;
+  WorkTime limit_of_pairs;
 };
 
 /// The counts of one kind.
@@ -66,8 +71,8 @@ struct StepResult {
   bool interrupted = false;
 };
 
-/// \throws std::domain_error if a coordinate is not finite, std::invalid_argument for options out of
-/// range.
+/// \throws std::domain_error if a coordinate or a motion is not finite, std::invalid_argument for
+/// options out of range.
 [[nodiscard]] StepResult bench_step(const mesh::MovingMesh& mesh,
                                     const StepBenchOptions& options = {});
 

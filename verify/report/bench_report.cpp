@@ -117,6 +117,16 @@ io::TextRow step_row(const jobs::StepTimes& times, std::string_view clock,
           milliseconds(times.trees, times.earliest)};
 }
 
+/// The same of line searches.
+io::TextRow line_search_row(const jobs::StepTimes& times, std::string_view clock,
+                            double jobs::WorkTime::*time) {
+  const auto milliseconds = [time](const jobs::WorkTime& of) {
+    return io::number_text(1e3 * (of.*time), "{:.1f} ms");
+  };
+  return {std::to_string(times.threads), std::string(clock), milliseconds(times.free_step_size),
+          milliseconds(times.limit_of_scene), milliseconds(times.limit_of_pairs)};
+}
+
 void append_step(std::string& text, const jobs::StepResult& step) {
   text += fmt::format(
       "{}{}: {} vertices, {} edges, {} faces; vertex-face {} candidates, {} collisions; edge-edge "
@@ -143,7 +153,17 @@ void append_step(std::string& text, const jobs::StepResult& step) {
     table.add(step_row(times, "wall", &jobs::WorkTime::wall));
     table.add(step_row(times, "processor", &jobs::WorkTime::processor));
   }
-  text += table.text() + '\n';
+  text += table.text();
+  io::TextTable line_searches({{"threads", 7},
+                               io::word_column("time", 9),
+                               {"free step size", 15},
+                               {"limit of scene", 15},
+                               {"limit of pairs", 15}});
+  for (const jobs::StepTimes& times : step.times) {
+    line_searches.add(line_search_row(times, "wall", &jobs::WorkTime::wall));
+    line_searches.add(line_search_row(times, "processor", &jobs::WorkTime::processor));
+  }
+  text += line_searches.text() + '\n';
 }
 
 std::string legend(const BenchReport& report) {
@@ -161,7 +181,10 @@ std::string legend(const BenchReport& report) {
         "threads, as in the other tables. trees: making them; candidates: finding all without "
         "storing them;\n"
         "collisions, earliest: with another search. The memory pass reads vertices, edges and "
-        "faces.\n";
+        "faces.\n"
+        "Line searches: the greatest free step size, and the limits that leave a fifth of the "
+        "scene's and of each\n"
+        "pair's distance.\n";
   }
   const auto is_sampled = [](const jobs::BenchResult& group) {
     return std::ranges::any_of(group.solvers, [&](const jobs::SolverResult& solver) {
@@ -197,6 +220,7 @@ nlohmann::json json_of(const jobs::TimesPerQuery& times) {
 nlohmann::json json_of(const std::optional<jobs::SingleTimes>& singles) {
   if (!singles) return {};
   return {{"queries", singles->queries},
+          {"mean_ns", singles->mean},
           {"p50_ns", singles->p50},
           {"p99_ns", singles->p99},
           {"max_ns", singles->max}};
@@ -268,6 +292,9 @@ nlohmann::json json_of(const std::optional<jobs::StepResult>& step) {
     add("candidates", time.candidates);
     add("collisions", time.collisions);
     add("earliest", time.earliest);
+    add("free_step_size", time.free_step_size);
+    add("limit_of_scene", time.limit_of_scene);
+    add("limit_of_pairs", time.limit_of_pairs);
   }
   nlohmann::json earliest;
   if (step->earliest) {

@@ -40,9 +40,9 @@ struct BenchReport {
 /// Times are objects of `ns_per_query` (the median), `min_ns_per_query` and `repetitions`, the
 /// first two null if there was no repetition. Each of `methods` has `name`, `promise`, `queries`
 /// (timed), `time`, `passes` (median time by that of the memory pass, or null), `single` (null, or
-/// `queries`, `p50_ns`, `p99_ns`, `max_ns`), `stages` (null, or the number of queries by the
-/// stage's name), `judged`, the fields of a judgement (judgement_report.hpp), `broke_promise`, and
-/// `wrong_answers`, a list of `source`, `index`, `fault`, `answer` and `truth`.
+/// `queries`, `mean_ns`, `p50_ns`, `p99_ns`, `max_ns`), `stages` (null, or the number of queries by
+/// the stage's name), `judged`, the fields of a judgement (judgement_report.hpp), `broke_promise`,
+/// and `wrong_answers`, a list of `source`, `index`, `fault`, `answer` and `truth`.
 ///
 /// With a separation, groups and step have it as `separation`, an object of `min_separation` and
 /// `norm`.
@@ -50,9 +50,9 @@ struct BenchReport {
 /// `step` has `name`, `vertices`, `edges`, `faces`, `vertex_face` and `edge_edge` (`candidates` and
 /// `collisions` each), `earliest` (null, or `toi_lower` and `toi_upper`), `earliest_agrees`,
 /// `interrupted`, `memory_pass_s` (the time of reading the mesh once), and `times`, a list of
-/// `threads` and of seconds: `trees_s`, `candidates_s`, `collisions_s` and `earliest_s`
-/// (jobs::StepTimes) are wall time, `trees_processor_s` and so on processor time of all threads
-/// together.
+/// `threads` and of seconds: `trees_s`, `candidates_s`, `collisions_s`, `earliest_s`,
+/// `free_step_size_s`, `limit_of_scene_s` and `limit_of_pairs_s` (jobs::StepTimes) are wall time,
+/// `trees_processor_s` and so on processor time of all threads together.
 [[nodiscard]] nlohmann::json to_json(const BenchReport& report);
 
 }  // namespace touchstone::verify::report

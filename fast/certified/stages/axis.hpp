@@ -12,12 +12,13 @@
 /// than D comes from an exact one greater than D, because rounding is monotone and D is a double.
 ///
 /// **Up to a time.** Where only contacts up to a time T < 1 count, the queries that no axis
-/// separates are tested again, with the points at T in place of those at t=1. Let u = 2^-53 and m
-/// the greatest magnitude of a coordinate on the axis. A position (1 − T) x0 + T x1 has an error of
-/// at most u m / 2 by the rounding of 1 − T and of (2 u + u²) m + 2^-1074 by that of two products
-/// and a sum. The difference of two positions has to exceed D by `slack`, 8 u m + 2^-1070, which is
-/// more than twice these errors, and monotone rounding does the rest. Where positions might
-/// overflow, slack is infinite.
+/// separates are tested again (one query here, several with the stage direction, in whose lanes
+/// they are), with the points at T in place of those at t=1. Let u = 2^-53 and m the greatest
+/// magnitude of a coordinate on the axis. A position (1 − T) x0 + T x1 has an error of at most u m
+/// / 2 by the rounding of 1 − T and of (2 u + u²) m + 2^-1074 by that of two products and a sum.
+/// The difference of two positions has to exceed D by `slack`, 8 u m + 2^-1070, which is more than
+/// twice these errors, and monotone rounding does the rest. Where positions might overflow, slack
+/// is infinite.
 
 #include <array>
 #include <cstddef>
@@ -27,25 +28,109 @@
 
 namespace touchstone::fast::kernel {
 
+/// The axes on which the first primitive is above the second by more than the distance, and those
+/// on which it is below.
+template <class X>
+struct Sides {
+  MaskOf<X> above;
+  MaskOf<X> below;
+};
+
+template <bool by_distance, class X>
+inline Sides<X> sides_of(const X& least_a, const X& greatest_a, const X& greatest_b,
+                         const X& least_b, const X& distance) {
+  if constexpr (by_distance) {
+    return {least_a - greatest_b > distance, least_b - greatest_a > distance};
+  } else {
+    return {least_a > greatest_b, greatest_a < least_b};
+  }
+}
+
+/// Of four points, coordinates of one axis or rows of all three.
+template <Kind kind, bool by_distance, class X>
+inline Sides<X> sides(const X& a, const X& b, const X& c, const X& d, const X& distance) {
+  if constexpr (kind == Kind::vertex_face) {
+    return sides_of<by_distance>(a, a, max(max(b, c), d), min(min(b, c), d), distance);
+  } else {
+    return sides_of<by_distance>(min(a, b), max(a, b), max(c, d), min(c, d), distance);
+  }
+}
+
+template <class X>
+inline MaskOf<X> on_one_side(const Sides<X>& start, const Sides<X>& end) {
+  return (start.above & end.above) | (start.below & end.below);
+}
+
+/// Is not finite if one of them is not.
+template <class X>
+inline X sum_of(const std::array<X, query_points>& x) {
+  return ((x[0] + x[1]) + (x[2] + x[3])) + ((x[4] + x[5]) + (x[6] + x[7]));
+}
+
+/// The axes that separate a query up to a time.
+template <Kind kind, bool separated, class X>
+inline MaskOf<X> separating_until(const std::array<X, query_points>& points, const X& distance,
+                                  double time) {
+  const X of_start(1.0 - time), of_end(time);
+  X least = points[0], most = points[0];
+  for (std::size_t k = 1; k < query_points; ++k) {
+    least = min(least, points[k]);
+    most = max(most, points[k]);
+  }
+  const X magnitude = max(most, X(0.0) - least);
+  const X slack = magnitude * X(0x1p50) * X(0x1p-100) + X(0x1p-1070);
+  std::array<X, moving_points> x;
+  for (std::size_t k = 0; k < moving_points; ++k) {
+    x[k] = points[k] * of_start + points[moving_points + k] * of_end;
+  }
+  return on_one_side(sides<kind, separated>(points[0], points[1], points[2], points[3], distance),
+                     sides<kind, true>(x[0], x[1], x[2], x[3], distance + slack));
+}
+
+/// The test up to a time for queries in lanes.
+template <class Value, bool separated, Kind kind>
+inline MaskOf<Value> is_separated_until(const std::array<Vector<Value>, query_points>& points,
+                                        double distance, double time) {
+  const Value zero(0.0);
+  MaskOf<Value> apart = zero < zero;
+  Value nothing(0.0);
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    std::array<Value, query_points> x;
+    for (std::size_t k = 0; k < query_points; ++k) x[k] = points[k][axis];
+    apart = apart | separating_until<kind, separated>(x, Value(distance), time);
+    const Value sum = sum_of(x);
+    nothing = nothing + (sum - sum);
+  }
+  return apart & (nothing <= zero);
+}
+
 template <class Lanes, bool separated, Kind kind, class Source>
 class AxisStage {
  public:
-  /// \param open The queries that no axis separates.
+  /// \param open The queries that no axis separates; of several, on the whole [0,1].
   static void run(const KernelInput& input, Indices& open) {
     if constexpr (Source::is_one) {
-      const bool is_free = is_separated(Source::points(input, 0), Row(input.separation.distance));
       open.items[0] = 0;
-      open.count = is_free ? 0 : 1;
+      open.count = is_free(input) ? 0 : 1;
     } else {
       find_open(input, open);
     }
-    if (input.t_limit < 1.0) keep_open_until(input, open);
   }
 
  private:
   using Row = typename Lanes::Row;
-  using RowMask = typename Lanes::RowMask;
+  using Rows = std::array<Row, query_points>;
   static constexpr std::size_t word_size = Marks<Lanes>::word_size;
+
+  /// The only query.
+  static bool is_free(const KernelInput& input) {
+    const Rows rows = load_rows(Source::points(input, 0));
+    const Row distance(input.separation.distance);
+    if (is_separated(rows, distance)) return true;
+    if (input.t_limit == 1.0) return false;
+    const auto axes = separating_until<kind, separated>(rows, distance, input.t_limit);
+    return axes.any() && sum_of(rows).is_finite();
+  }
 
   static void find_open(const KernelInput& input, Indices& open) {
     Marks<Lanes> marks(input.count);
@@ -71,24 +156,13 @@ class AxisStage {
     for (std::size_t i = 0; i < count; ++i) {
       for (std::size_t k = 0; k < word_count; ++k) {
         const Points points = Source::points(input, first + k * word_size + i);
-        words[k] |= std::uint64_t{!is_separated(points, distance)} << i;
+        words[k] |= std::uint64_t{!is_separated(load_rows(points), distance)} << i;
       }
     }
     for (std::size_t k = 0; k < word_count; ++k) {
       marks.set_word(first + k * word_size, words[k]);
     }
   }
-
-  /// True if an axis separates the query. False for coordinates that are not finite, which later
-  /// stages report.
-  static bool is_separated(const Points& points, const Row& distance) {
-    const Rows rows = load_rows(points);
-    const Sides start = sides<separated>(rows[0], rows[1], rows[2], rows[3], distance);
-    const Sides end = sides<separated>(rows[4], rows[5], rows[6], rows[7], distance);
-    return is_separated(start, end, rows);
-  }
-
-  using Rows = std::array<Row, query_points>;
 
   static Rows load_rows(const Points& points) {
     Rows rows;
@@ -97,76 +171,14 @@ class AxisStage {
     return rows;
   }
 
-  // ---- Up to a time ----
-
-  /// Keeps the queries that no axis separates up to t_limit.
-  static void keep_open_until(const KernelInput& input, Indices& open) {
-    const Row distance(input.separation.distance);
-    const Row of_start(1.0 - input.t_limit), of_end(input.t_limit);
-    std::size_t count = 0;
-    for (std::size_t i = 0; i < open.count; ++i) {
-      const std::uint32_t index = open.items[i];
-      open.items[count] = index;
-      const Points points = Source::points(input, index);
-      count += std::size_t{!is_separated_until(points, distance, of_start, of_end)};
-    }
-    open.count = count;
-  }
-
-  /// \param of_start, of_end the weights of the points at t=0 and at t=1
-  static bool is_separated_until(const Points& points, const Row& distance, const Row& of_start,
-                                 const Row& of_end) {
-    const Rows rows = load_rows(points);
-    Row least = rows[0], most = rows[0];
-    for (std::size_t k = 1; k < query_points; ++k) {
-      least = min(least, rows[k]);
-      most = max(most, rows[k]);
-    }
-    const Row magnitude = max(most, Row(0.0) - least);
-    const Row slack = magnitude * Row(0x1p50) * Row(0x1p-100) + Row(0x1p-1070);
-    std::array<Row, moving_points> x;
-    for (std::size_t k = 0; k < moving_points; ++k) {
-      x[k] = rows[k] * of_start + rows[moving_points + k] * of_end;
-    }
-    const Sides start = sides<separated>(rows[0], rows[1], rows[2], rows[3], distance);
-    const Sides end = sides<true>(x[0], x[1], x[2], x[3], distance + slack);
-    return is_separated(start, end, rows);
-  }
-
-  // ---- Sides of an axis ----
-
-  /// The axes on which the first primitive is above the second by more than the distance, and those
-  /// on which it is below.
-  struct Sides {
-    RowMask above;
-    RowMask below;
-  };
-
-  static bool is_separated(const Sides& start, const Sides& end, const Rows& rows) {
-    const Row sum =
-        ((rows[0] + rows[1]) + (rows[2] + rows[3])) + ((rows[4] + rows[5]) + (rows[6] + rows[7]));
+  /// True if an axis separates the query. False for coordinates that are not finite, which later
+  /// stages report.
+  static bool is_separated(const Rows& rows, const Row& distance) {
+    const auto axes =
+        on_one_side(sides<kind, separated>(rows[0], rows[1], rows[2], rows[3], distance),
+                    sides<kind, separated>(rows[4], rows[5], rows[6], rows[7], distance));
     // Without && because the branch is unpredictable.
-    const bool on_one_side = ((start.above & end.above) | (start.below & end.below)).any();
-    return on_one_side & sum.is_finite();
-  }
-
-  template <bool by_distance>
-  static Sides sides(const Row& a, const Row& b, const Row& c, const Row& d, const Row& distance) {
-    if constexpr (kind == Kind::vertex_face) {
-      return sides_of<by_distance>(a, a, max(max(b, c), d), min(min(b, c), d), distance);
-    } else {
-      return sides_of<by_distance>(min(a, b), max(a, b), max(c, d), min(c, d), distance);
-    }
-  }
-
-  template <bool by_distance>
-  static Sides sides_of(const Row& least_a, const Row& greatest_a, const Row& greatest_b,
-                        const Row& least_b, const Row& distance) {
-    if constexpr (by_distance) {
-      return {least_a - greatest_b > distance, least_b - greatest_a > distance};
-    } else {
-      return {least_a > greatest_b, greatest_a < least_b};
-    }
+    return axes.any() & sum_of(rows).is_finite();
   }
 };
 

@@ -14,6 +14,7 @@
 #include <array>
 #include <cstddef>
 
+#include "fast/certified/stages/axis.hpp"
 #include "fast/certified/stages/direction.hpp"
 #include "fast/certified/stages/lanes.hpp"
 #include "fast/certified/stages/moving_vectors.hpp"
@@ -94,7 +95,9 @@ struct DeterminantTest {
   }
 };
 
-/// The stages direction and determinant. \param mixed The queries that neither decides.
+/// The stages direction and determinant, and before them the stage axis for several queries up to
+/// t_limit, if it is less than 1 and they were not tested before.
+/// \param mixed The queries that none of them decides.
 template <class Lanes, bool separated, Kind kind, class Source>
 inline void direction_and_determinant_stage(const KernelInput& input, const Indices& open,
                                             Indices& mixed, KernelOutput& output) {
@@ -102,11 +105,19 @@ inline void direction_and_determinant_stage(const KernelInput& input, const Indi
   Marks<Lanes> unbounded(open.count), of_direction(open.count), of_determinant(open.count),
       of_neither(open.count);
   const Value distance(input.separation.distance);
+  const bool has_end = !Source::is_one && !input.axis_is_done && input.t_limit < 1.0;
   for (std::size_t first = 0; first < open.count; first += Lanes::width) {
     const std::size_t count = taken<Lanes>(first, open.count);
     const auto points = load<Lanes, Source>(input, open.items.data() + first, count);
+    unsigned valid = first_lanes<Lanes>(count);
+    if (has_end) {
+      valid &= ~is_separated_until<Value, separated, kind>(points, input.separation.distance,
+                                                           input.t_limit)
+                    .bits();
+      if (valid == 0) continue;
+    }
     const DirectionTest<Value, separated, kind> direction(points, distance);
-    const unsigned bits = valid_bits(direction.bounded, count);
+    const unsigned bits = valid & direction.bounded.bits();
     const unsigned apart = direction.apart.bits();
     unsigned one_sided = 0;
     // Several queries are hardly ever all apart.
@@ -116,7 +127,7 @@ inline void direction_and_determinant_stage(const KernelInput& input, const Indi
                                          determinant_bound<separated>(at, distance))
                       .one_sided.bits();
     }
-    unbounded.add(first, first_lanes<Lanes>(count) & ~bits);
+    unbounded.add(first, valid & ~bits);
     of_direction.add(first, bits & apart);
     of_determinant.add(first, bits & ~apart & one_sided);
     of_neither.add(first, bits & ~apart & ~one_sided);

@@ -118,10 +118,12 @@ inline unsigned possible_by_parts(const Ends<typename Lanes::Single>& unit,
 }
 
 /// The same by the theorem of moving_polygon.hpp, with the directions of the closest points in L∞
-/// at both ends of each part: where the distance is too large for determinants.
+/// at both ends of each part, or at t=0 alone if nothing later counts: where the distance is too
+/// large for determinants.
 template <class Lanes, Kind kind>
 inline unsigned possible_by_distance(
-    const std::array<Vector<FixedPointCoordinate<Lanes>>, query_points>& points, float distance) {
+    const std::array<Vector<FixedPointCoordinate<Lanes>>, query_points>& points, float distance,
+    double t_limit) {
   using Value = typename Lanes::Single;
   using Polygon = MovingPolygon<SingleLanes<Lanes>, kind, Norm::linf>;
   // Products of five coordinates, which are compared, stay below 2^127.
@@ -138,8 +140,9 @@ inline unsigned possible_by_distance(
     return polygon.project(
         typename Polygon::Nearest(polygon.corners_at(time_of<Value>(part))).direction);
   };
-  MaskOf<Value> free = MaskOf<Value>::all();
   auto of_begin = projections_at(0);
+  if (t_limit == 0.0) return ~polygon.ends_apart(of_begin, time_of<Value>(0)).bits();
+  MaskOf<Value> free = MaskOf<Value>::all();
   for (int part = 0; part < parts_of_unit; ++part) {
     const auto of_end = projections_at(part + 1);
     const auto begin = time_of<Value>(part), end = time_of<Value>(part + 1);
@@ -176,7 +179,8 @@ inline void parts_stage(const KernelInput& input,
     if (far != valid) possible &= possible_by_parts<Lanes, kind>(unit, distance);
     if constexpr (separated) {
       if ((possible & far) != 0) {
-        possible &= possible_by_distance<Lanes, kind>(points, input.rounded_distance);
+        possible &=
+            possible_by_distance<Lanes, kind>(points, input.rounded_distance, input.t_limit);
       }
     }
     of_possible.add(first, possible);

@@ -16,7 +16,7 @@
 /// evaluated in numbers of 106 bits with error bounds (touchstone/filters/ball.hpp), which decide
 /// nearly all queries; integers decide the others. Batches in L2 are evaluated on SIMD lanes
 /// (fast/distance/filter_on_lanes.hpp). For the least distance of a step, a test on lanes first
-/// excludes pairs that are farther apart than the nearest known pair (fast/distance/proximity.hpp).
+/// excludes pairs that are farther apart than the nearest known pair (fast/step/sieve.hpp).
 ///
 /// **The active set** of a step are the pairs that a constrained solver has to keep apart, with the
 /// time, the place and the direction of each contact ([wang2021], algorithm 3). A constraint of
@@ -90,10 +90,11 @@ struct Distance {
 void distances(Kind kind, std::span<const Query> queries, double t, Norm norm,
                std::span<Distance> results, int max_threads = all_cores);
 
-/// What is to be left of a distance d in L2: more than least + part · (d − least).
+/// What is to be left of a distance d: more than least + part · (d − least).
 struct KeptDistance {
   double part = 0.0;   ///< in [0,1]
   double least = 0.0;  ///< not negative
+  Norm norm = Norm::l2;
 };
 
 /// True if one inequality shows that this is left of the distance at t=0 at all times up to t_max

@@ -226,7 +226,8 @@ class Step {
   /// The search begins at the time of the earliest impact. It tries only some of the doubles from
   /// there. Because of rounding, a step with a larger α may avoid a contact of one with a smaller
   /// α. Therefore the result is not always the largest α with a free step, nor is the step of every
-  /// smaller α free. The search calls is_free some dozens of times.
+  /// smaller α free. One more search finds the few pairs that can collide in steps around the
+  /// earliest impact, and these are tried for some dozens of α (docs/theory.md, section 8.4).
   /// \throws std::domain_error as `scaled`.
   [[nodiscard]] std::optional<double> free_step_size() const;
 
@@ -257,6 +258,8 @@ class Step {
   [[nodiscard]] std::span<const Edge> edges() const;
 
  private:
+  friend const Scene& scene_of(const Step& step);
+
   explicit Step(std::unique_ptr<const Scene> scene);
 
   template <class Scalar>

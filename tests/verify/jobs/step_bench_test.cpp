@@ -68,7 +68,9 @@ TEST(StepBench, FindsTheCollisionsAndTheEarliestOne) {
   EXPECT_EQ(result.times[0].threads, 1);
   EXPECT_EQ(result.times[1].threads, 2);
   for (const StepTimes& times : result.times) {
-    for (const WorkTime& time : {times.trees, times.candidates, times.collisions, times.earliest}) {
+    for (const WorkTime& time :
+         {times.trees, times.candidates, times.collisions, times.earliest, times.free_step_size,
+          times.limit_of_scene, times.limit_of_pairs}) {
       EXPECT_GT(time.wall, 0.0);
       EXPECT_GT(time.processor, 0.0);
     }
