@@ -1,8 +1,8 @@
 #pragma once
 
 /// \file
-/// The work of exact_that_counts and exact_that_counts_on_curves, which are decide_exactly with this
-/// count.
+/// The work of exact_that_counts and exact_that_counts_on_curves, which are decide_exactly with
+/// this count.
 
 #include <cstdint>
 

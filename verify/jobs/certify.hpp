@@ -92,7 +92,8 @@ struct MethodResult {
 /// The judgement on one source.
 struct CertifyResult {
   std::string name;
-  Separation separation = fast::no_separation;  ///< the distance that counted as contact; not set in a total
+  Separation separation =
+      fast::no_separation;  ///< the distance that counted as contact; not set in a total
   /// The recorded claims that were compared; not set in a total.
   judge::Inference compared = judge::Inference::all;
   std::optional<QueryShape> shape;  ///< empty for a total, and for a source that was not opened

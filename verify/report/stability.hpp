@@ -15,8 +15,8 @@
 #include <string>
 #include <vector>
 
-#include "touchstone/query.hpp"
 #include "fast/method.hpp"
+#include "touchstone/query.hpp"
 #include "verify/generate/hardness.hpp"
 #include "verify/jobs/certify.hpp"
 #include "verify/report/measurement.hpp"

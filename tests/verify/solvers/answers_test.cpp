@@ -221,9 +221,7 @@ TEST(LoadAnswers, TakesQuotesAroundAnyField) {
   EXPECT_EQ(answers.answer_to("three", vf, 0)->answer.toi_lower, 0.125);
 }
 
-TEST(LoadAnswers, TakesAFileWithoutAnswers) {
-  EXPECT_TRUE(load_rows("").groups().empty());
-}
+TEST(LoadAnswers, TakesAFileWithoutAnswers) { EXPECT_TRUE(load_rows("").groups().empty()); }
 
 // ---- Requests -----------------------------------------------------------------------------------
 
