@@ -80,13 +80,14 @@ class Elements {
     }
     for (const std::int32_t point : points_) add(primitive_of(point));
     if (options.weld) weld(first_at_place(at.vertices(), options.groups.of_vertices));
-    reduce(at);
+    examine(at);
   }
 
+  /// The vertices of each element.
   [[nodiscard]] std::span<const Primitive> vertices() const { return vertices_; }
   [[nodiscard]] meeting::Element operator[](std::int32_t number) const {
     const auto i = static_cast<std::size_t>(number);
-    return {vertices_[i], simplices_.empty() ? vertices_[i] : simplices_[i]};
+    return {vertices_[i], simplices_.empty() ? vertices_[i] : simplices_[i], normals_[i]};
   }
 
   /// The kind of an element, and its number in the interface.
@@ -114,26 +115,32 @@ class Elements {
     }
   }
 
-  /// Finds the elements whose simplex does not have all their vertices, in any number of threads.
-  void reduce(const Positions& at) {
+  /// Finds the normals, and the simplices if they are not all given by all vertices.
+  void examine(const Positions& at) {
     std::atomic<bool> has_reduced = false;
     std::vector<Primitive> simplices(vertices_.size());
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, vertices_.size(), 4096),
+    normals_.resize(vertices_.size());
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, vertices_.size(), elements_of_task),
                       [&](const tbb::blocked_range<std::size_t>& range) {
                         const StrictFloatingPoint strict;
                         for (std::size_t i = range.begin(); i < range.end(); ++i) {
-                          simplices[i] = meeting::simplex_of(at, vertices_[i]);
+                          const auto element = meeting::element_of(at, vertices_[i]);
+                          simplices[i] = element.simplex;
+                          normals_[i] = element.normal;
                           if (simplices[i] != vertices_[i]) has_reduced = true;
                         }
                       });
     if (has_reduced) simplices_ = std::move(simplices);
   }
 
+  static constexpr std::size_t elements_of_task = 4096;
+
   std::size_t faces_;
   std::vector<std::int32_t> edges_;   ///< of no face
   std::vector<std::int32_t> points_;  ///< without an edge
   std::vector<Primitive> vertices_;
   std::vector<Primitive> simplices_;  ///< empty if they are the same
+  std::vector<meeting::Normal> normals_;
 };
 
 // ---- The search ---------------------------------------------------------------------------------
@@ -308,7 +315,7 @@ MeshDefects mesh_defects(const MovingVertices& vertices, const MeshElements& ele
   const Positions at(vertices);
   for (std::size_t i = 0; i < elements.faces.size(); ++i) {
     const Primitive face = meeting::in_normal_form(elements.faces[i]);
-    if (meeting::dimension(meeting::simplex_of(at, face)) != 2) {
+    if (meeting::dimension(meeting::element_of(at, face).simplex) != 2) {
       result.degenerate_faces.push_back(static_cast<std::int32_t>(i));
     }
   }

@@ -17,6 +17,10 @@ std::size_t sides_of(const Simplex& simplex) {
   return of_dimension[dimension(simplex)];
 }
 
+bool has(const Primitive& vertices, std::int32_t vertex) {
+  return std::ranges::find(vertices, vertex) != vertices.end();
+}
+
 /// The feature of a triangle that contains a point of its plane, from the signs that tell on which
 /// sides of its edges the point is: positive on one side of all edges inside.
 Feature feature_of(const std::array<int, 3>& signs) {
@@ -56,9 +60,11 @@ class Side {
       : at_(at), simplex_(simplex), dimension_(dimension(simplex)) {
     if (dimension_ != 2) return;
     for (std::size_t i = 0; i < 3; ++i) {
-      signs_[i] = i > 0 && other[i] == other[i - 1]
-                      ? signs_[i - 1]
-                      : orientation(at, simplex[0], other[i], simplex[1], simplex[2]);
+      if (i > 0 && other[i] == other[i - 1]) {
+        signs_[i] = signs_[i - 1];
+      } else if (!has(simplex, other[i])) {
+        signs_[i] = orientation(at, simplex[0], other[i], simplex[1], simplex[2]);
+      }
     }
   }
 
@@ -128,16 +134,31 @@ class Side {
   std::optional<Projection> projection_;
 };
 
-/// True if two segments in one plane, without their ends, have exactly one common point.
-bool cross_in_plane(const Positions& at, std::int32_t a0, std::int32_t a1, std::int32_t b0,
-                    std::int32_t b1) {
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    if (planar_orientation(at, axis, a0, a1, b0) * planar_orientation(at, axis, a0, a1, b1) < 0 &&
-        planar_orientation(at, axis, b0, b1, a0) * planar_orientation(at, axis, b0, b1, a1) < 0) {
-      return true;
+/// True if two segments in one plane, without their ends, have exactly one common point. \param
+/// axes Projections: one that keeps an area in the plane, or all.
+bool cross_in_plane(const Positions& at, std::span<const std::size_t> axes, const Edge& a,
+                    const Edge& b) {
+  const auto [a0, a1] = a;
+  const auto [b0, b1] = b;
+  if (a0 == b0 || a0 == b1 || a1 == b0 || a1 == b1) return false;
+  return std::ranges::any_of(axes, [&](std::size_t axis) {
+    return planar_orientation(at, axis, a0, a1, b0) * planar_orientation(at, axis, a0, a1, b1) <
+               0 &&
+           planar_orientation(at, axis, b0, b1, a0) * planar_orientation(at, axis, b0, b1, a1) < 0;
+  });
+}
+
+/// The contacts of edges of simplices in one plane.
+void add_crossings(const Positions& at, std::span<const std::size_t> axes, const Simplex& a,
+                   const Simplex& b, Contacts& contacts) {
+  for (std::size_t i = 0; i < sides_of(a); ++i) {
+    for (std::size_t k = 0; k < sides_of(b); ++k) {
+      if (cross_in_plane(at, axes, {side_start(a, i), side_end(a, i)},
+                         {side_start(b, k), side_end(b, k)})) {
+        contacts.add(first_edge + i, first_edge + k);
+      }
     }
   }
-  return false;
 }
 
 // ---- Common vertices ----------------------------------------------------------------------------
@@ -145,10 +166,6 @@ bool cross_in_plane(const Positions& at, std::int32_t a0, std::int32_t a1, std::
 /// The different vertices of an element.
 std::span<const std::int32_t> different(const Primitive& vertices) {
   return std::span(vertices).first(dimension(vertices) + 1);
-}
-
-bool has(const Primitive& vertices, std::int32_t vertex) {
-  return std::ranges::find(vertices, vertex) != vertices.end();
 }
 
 std::size_t common_vertices(const Primitive& a, const Primitive& b) {
@@ -234,102 +251,76 @@ IntersectionKind kind_of_segment(const Simplex& a, const Simplex& b, Contacts co
 
 // ---- Rounded numbers ----------------------------------------------------------------------------
 
-/// The sign on which all agree; 0 if they do not or one of them is 0.
-template <std::size_t count>
-int common_sign(const std::array<int, count>& signs) {
-  const auto [least, greatest] = std::ranges::minmax(signs);
-  return least == greatest ? least : 0;
+/// The vertices of a triangle that are also those of another one.
+using Shared = std::array<bool, 3>;
+
+Shared shared_with(const Simplex& other, const Simplex& triangle) {
+  Shared result;
+  for (std::size_t i = 0; i < 3; ++i) {
+    result[i] = (triangle[i] == other[0]) | (triangle[i] == other[1]) | (triangle[i] == other[2]);
+  }
+  return result;
 }
 
-/// The triangle with the vertex first, in the same direction around.
-Simplex beginning_with(const Simplex& triangle, std::int32_t vertex) {
-  const auto at = static_cast<std::size_t>(std::ranges::find(triangle, vertex) - triangle.begin());
-  return {triangle[at], triangle[(at + 1) % 3], triangle[(at + 2) % 3]};
+/// True if all vertices of a triangle that are not shared are certainly on one side of a plane.
+/// False if all are shared.
+bool is_beside(const Positions& at, const Element& plane, const Simplex& triangle,
+               const Shared& shared) {
+  bool above = true, below = true;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const auto [value, bound] = plane.normal.times(at.difference(plane.simplex[0], triangle[i]));
+    above &= shared[i] | (value > bound);
+    below &= shared[i] | (value < -bound);
+  }
+  return above != below;
 }
 
-/// Triangles without a common vertex: a plane of one strictly beside the other one, or such an edge
-/// in a projection.
-class ApartTriangles {
+/// True if a line through the first vertex of a triangle and another one certainly has the third
+/// one on one side and all vertices of the other triangle that are not shared with this one on the
+/// other, in a projection: then they have only shared vertices in common.
+class Projected {
  public:
-  ApartTriangles(const Positions& at, const Simplex& a, const Simplex& b) : at_(at), a_(a), b_(b) {}
+  Projected(const Positions& at, std::size_t axis) : at_(at), axis_(axis) {}
 
-  [[nodiscard]] bool run() {
-    const std::array<int, 3> of_a = signs(a_, b_);
-    if (common_sign(of_a) != 0) return true;
-    const std::array<int, 3> of_b = signs(b_, a_);
-    if (common_sign(of_b) != 0) return true;
-    const auto is_uncertain = [](const std::array<int, 3>& some) {
-      const auto [least, greatest] = std::ranges::minmax(some);
-      return least * greatest >= 0;
-    };
-    return is_uncertain(of_a) && is_uncertain(of_b) && are_apart_in_projection();
-  }
-
- private:
-  std::array<int, 3> signs(const Simplex& plane, const Simplex& other) {
-    const Normal normal(at_.difference(plane[0], plane[1]), at_.difference(plane[0], plane[2]));
-    axis_ = normal.greatest_axis();
-    return {normal.side_of(at_.difference(plane[0], other[0])),
-            normal.side_of(at_.difference(plane[0], other[1])),
-            normal.side_of(at_.difference(plane[0], other[2]))};
-  }
-
-  [[nodiscard]] bool are_apart_in_projection() const {
-    return has_edge_between(a_, b_) || has_edge_between(b_, a_);
-  }
-
-  /// True if an edge has the third vertex on one side, and the other triangle on the other.
-  [[nodiscard]] bool has_edge_between(const Simplex& triangle, const Simplex& other) const {
+  [[nodiscard]] bool has_line_between(const Simplex& triangle, const Simplex& other,
+                                      const Shared& shared) const {
     for (std::size_t i = 0; i < 3; ++i) {
-      const std::int32_t start = side_start(triangle, i);
-      const Vector along = at_.difference(start, side_end(triangle, i));
-      const auto side = [&](std::int32_t vertex) {
-        return Normal(along, at_.difference(start, vertex)).turn(axis_);
-      };
-      const int inner = side(triangle[(i + 2) % 3]);
-      if (inner != 0 &&
-          common_sign(std::array{side(other[0]), side(other[1]), side(other[2])}) == -inner) {
-        return true;
+      const int inner = side_of(triangle, i, triangle[(i + 2) % 3]);
+      if (inner == 0) continue;
+      bool is_between = true;
+      for (std::size_t k = 0; is_between && k < 3; ++k) {
+        is_between = shared[k] ? other[k] == triangle[i] || other[k] == triangle[(i + 1) % 3]
+                               : side_of(triangle, i, other[k]) == -inner;
       }
+      if (is_between) return true;
     }
     return false;
   }
 
+ private:
+  /// The certain side of a vertex from an edge; 0 if it is uncertain.
+  [[nodiscard]] int side_of(const Simplex& triangle, std::size_t edge, std::int32_t vertex) const {
+    const std::int32_t start = side_start(triangle, edge);
+    return Normal(at_.difference(start, side_end(triangle, edge)), at_.difference(start, vertex))
+        .turn(axis_);
+  }
+
   const Positions& at_;
-  const Simplex &a_, &b_;
-  std::size_t axis_ = 0;
+  std::size_t axis_;
 };
 
-/// Triangles with a common vertex: a plane of one strictly beside the opposite edge of the other,
-/// or a line through the vertex that has the triangles on different sides in a projection.
-bool are_apart_at_vertex(const Positions& at, const Simplex& a, const Simplex& b) {
-  const std::int32_t v = a[0];
-  const Vector a1 = at.difference(v, a[1]), a2 = at.difference(v, a[2]);
-  const Vector b1 = at.difference(v, b[1]), b2 = at.difference(v, b[2]);
-  const Normal of_a(a1, a2), of_b(b1, b2);
-  if (of_a.side_of(b1) * of_a.side_of(b2) > 0 || of_b.side_of(a1) * of_b.side_of(a2) > 0) {
-    return true;
+/// The simplex that is the hull of an element's vertices.
+Simplex simplex_of(const Positions& at, const Primitive& element) {
+  const auto [a, b, c] = element;
+  const std::size_t order = dimension(element);
+  if (order == 0 || (order == 1 && !at.are_equal(a, b)) ||
+      (order == 2 && !are_collinear(at, a, b, c))) {
+    return element;
   }
-  const std::size_t axis = of_a.greatest_axis();
-  const auto turn = [axis](const Vector& p, const Vector& q) { return Normal(p, q).turn(axis); };
-  const int a_turn = of_a.turn(axis), b_turn = of_b.turn(axis);
-  const int a1_b1 = turn(a1, b1), a1_b2 = turn(a1, b2);
-  const int a2_b1 = turn(a2, b1), a2_b2 = turn(a2, b2);
-  const auto differ = [](int inner, int one, int other) {
-    return inner != 0 && one == -inner && other == -inner;
-  };
-  return differ(a_turn, a1_b1, a1_b2) || differ(-a_turn, a2_b1, a2_b2) ||
-         differ(b_turn, -a1_b1, -a2_b1) || differ(-b_turn, -a1_b2, -a2_b2);
-}
-
-/// Triangles with a common edge: different planes, or different sides in a projection.
-bool are_apart_at_edge(const Positions& at, const Simplex& a, std::int32_t opposite) {
-  const Vector edge = at.difference(a[0], a[1]);
-  const Vector to_b = at.difference(a[0], opposite);
-  const Normal of_a(edge, at.difference(a[0], a[2]));
-  if (of_a.side_of(to_b) != 0) return true;
-  const std::size_t axis = of_a.greatest_axis();
-  return of_a.turn(axis) * Normal(edge, to_b).turn(axis) < 0;
+  const auto [least, greatest] =
+      std::ranges::minmax(element, {}, [&](std::int32_t vertex) { return at[vertex]; });
+  if (at.are_equal(least, greatest)) return primitive_of(least);
+  return {least, greatest, greatest};
 }
 
 }  // namespace
@@ -342,17 +333,11 @@ Primitive in_normal_form(const Primitive& vertices) {
   return {a, b, a == c ? b : c};
 }
 
-Simplex simplex_of(const Positions& at, const Primitive& element) {
-  const auto [a, b, c] = element;
-  const std::size_t order = dimension(element);
-  if (order == 0 || (order == 1 && !at.are_equal(a, b)) ||
-      (order == 2 && !are_collinear(at, a, b, c))) {
-    return element;
-  }
-  const auto [least, greatest] =
-      std::ranges::minmax(element, {}, [&](std::int32_t vertex) { return at[vertex]; });
-  if (at.are_equal(least, greatest)) return primitive_of(least);
-  return {least, greatest, greatest};
+Element element_of(const Positions& at, const Primitive& vertices) {
+  Element result{vertices, simplex_of(at, vertices), {}};
+  const auto [a, b, c] = result.simplex;
+  result.normal = Normal(at.difference(a, b), at.difference(a, c));
+  return result;
 }
 
 std::span<const std::int32_t> vertices_of(const Simplex& simplex, Feature feature,
@@ -387,46 +372,26 @@ Contacts contacts_of(const Positions& at, const Simplex& a, const Simplex& b) {
     const Feature feature = of_a.feature_crossed_by(side_start(b, i), side_end(b, i));
     if (feature != nowhere) contacts.add(feature, first_edge + i);
   }
-  const bool are_segments = dimension(a) == 1 && dimension(b) == 1;
-  if (are_segments ? orientation(at, a[0], a[1], b[0], b[1]) != 0
-                   : !of_a.is_coplanar() && !of_b.is_coplanar()) {
-    return contacts;
-  }
-  for (std::size_t i = 0; i < sides_of(a); ++i) {
-    for (std::size_t k = 0; k < sides_of(b); ++k) {
-      if (cross_in_plane(at, side_start(a, i), side_end(a, i), side_start(b, k), side_end(b, k))) {
-        contacts.add(first_edge + i, first_edge + k);
-      }
-    }
+  if (of_a.is_coplanar() || of_b.is_coplanar()) {
+    Side& triangle = of_a.is_coplanar() ? of_a : of_b;
+    add_crossings(at, std::array{triangle.projection().axis}, a, b, contacts);
+  } else if (dimension(a) == 1 && dimension(b) == 1 &&
+             orientation(at, a[0], a[1], b[0], b[1]) == 0) {
+    add_crossings(at, std::array<std::size_t, 3>{0, 1, 2}, a, b, contacts);
   }
   return contacts;
 }
 
 bool are_surely_apart(const Positions& at, const Element& a, const Element& b) {
   if (!at.has_filter() || dimension(a.simplex) != 2 || dimension(b.simplex) != 2) return false;
-  std::array<std::int32_t, 3> common{};
-  std::size_t count = 0;
-  for (const std::int32_t vertex : a.simplex) {
-    if (has(b.simplex, vertex)) common[count++] = vertex;
-  }
-  switch (count) {
-    case 0:
-      return ApartTriangles(at, a.simplex, b.simplex).run();
-    case 1:
-      return are_apart_at_vertex(at, beginning_with(a.simplex, common[0]),
-                                 beginning_with(b.simplex, common[0]));
-    case 2: {
-      const auto opposite = [&](const Simplex& triangle) {
-        return *std::ranges::find_if(triangle, [&](std::int32_t vertex) {
-          return vertex != common[0] && vertex != common[1];
-        });
-      };
-      return are_apart_at_edge(at, {common[0], common[1], opposite(a.simplex)},
-                               opposite(b.simplex));
-    }
-    default:
-      return false;
-  }
+  const Shared of_b = shared_with(a.simplex, b.simplex);
+  if (is_beside(at, a, b.simplex, of_b)) return true;
+  const Shared of_a = shared_with(b.simplex, a.simplex);
+  if (is_beside(at, b, a.simplex, of_a)) return true;
+  if (of_a == Shared{true, true, true}) return false;
+  const Projected projected(at, a.normal.greatest_axis());
+  return projected.has_line_between(a.simplex, b.simplex, of_b) ||
+         projected.has_line_between(b.simplex, a.simplex, of_a);
 }
 
 std::optional<Meeting> meeting_of(const Positions& at, const Element& a, const Element& b) {

@@ -76,9 +76,6 @@ using Simplex = Primitive;
 /// The vertices with repeated ones last, as in a simplex; their places may be on a line.
 [[nodiscard]] Primitive in_normal_form(const Primitive& vertices);
 
-/// The simplex that is the hull of an element's vertices. \pre normal form
-[[nodiscard]] Simplex simplex_of(const Positions& at, const Primitive& element);
-
 /// Features by number: vertices 0, 1, 2, then edges, from vertex i to the next: 3 + i, then the
 /// face. A segment has edge 3 only.
 using Feature = std::size_t;
@@ -115,7 +112,11 @@ class Contacts {
 struct Element {
   Primitive vertices;  ///< in normal form
   Simplex simplex;
+  Normal normal;  ///< from its first vertex, of a triangle
 };
+
+/// \param vertices in normal form
+[[nodiscard]] Element element_of(const Positions& at, const Primitive& vertices);
 
 /// True if the elements certainly do not intersect, by rounded numbers alone.
 [[nodiscard]] bool are_surely_apart(const Positions& at, const Element& a, const Element& b);

@@ -121,6 +121,15 @@ std::array<Integer, 3> between(const std::array<Number, 3>& from, const std::arr
   return {Integer(to[0] - from[0]), Integer(to[1] - from[1]), Integer(to[2] - from[2])};
 }
 
+/// True if the vertices have the same coordinate on an axis.
+template <std::size_t points>
+bool are_level(const Positions& at, const std::array<std::int32_t, points>& vertices,
+               std::size_t axis) {
+  const double first = at[vertices[0]][axis];
+  return std::ranges::all_of(vertices,
+                             [&](std::int32_t vertex) { return at[vertex][axis] == first; });
+}
+
 /// sign(points, Integer()) of the points in integers that are long enough for products of three
 /// differences: with b bits a difference has b + 1, and the sum of six products 3 (b + 1) + 3.
 template <std::size_t points, class Sign>
@@ -167,10 +176,15 @@ int orientation(const Positions& at, std::int32_t a, std::int32_t b, std::int32_
                 std::int32_t d) {
   if (at.has_filter()) {
     const Normal normal(at.difference(a, c), at.difference(a, d));
-    const int sign = normal.side_of(at.difference(a, b));
+    const auto [value, bound] = normal.times(at.difference(a, b));
+    const int sign = certain_sign(value, bound);
     if (sign != 0) return sign;
   }
-  return sign_in_integers<4>(at, {a, b, c, d}, [](const auto& x, auto zero) {
+  const std::array vertices{a, b, c, d};
+  if (are_level(at, vertices, 0) || are_level(at, vertices, 1) || are_level(at, vertices, 2)) {
+    return 0;
+  }
+  return sign_in_integers<4>(at, vertices, [](const auto& x, auto zero) {
     using Integer = decltype(zero);
     return triple(between<Integer>(x[0], x[1]), between<Integer>(x[0], x[2]),
                   between<Integer>(x[0], x[3]))
@@ -184,13 +198,19 @@ int planar_orientation(const Positions& at, std::size_t axis, std::int32_t a, st
     const int sign = Normal(at.difference(a, b), at.difference(a, c)).turn(axis);
     if (sign != 0) return sign;
   }
-  return sign_in_integers<3>(at, {a, b, c}, [axis](const auto& x, auto zero) {
+  const std::array vertices{a, b, c};
+  if (are_level(at, vertices, (axis + 1) % 3) || are_level(at, vertices, (axis + 2) % 3)) return 0;
+  return sign_in_integers<3>(at, vertices, [axis](const auto& x, auto zero) {
     using Integer = decltype(zero);
     return component(between<Integer>(x[0], x[1]), between<Integer>(x[0], x[2]), axis).sign();
   });
 }
 
 bool are_collinear(const Positions& at, std::int32_t a, std::int32_t b, std::int32_t c) {
+  if (at.has_filter()) {
+    const Normal normal(at.difference(a, b), at.difference(a, c));
+    if (normal.turn(0) != 0 || normal.turn(1) != 0 || normal.turn(2) != 0) return false;
+  }
   return planar_orientation(at, 0, a, b, c) == 0 && planar_orientation(at, 1, a, b, c) == 0 &&
          planar_orientation(at, 2, a, b, c) == 0;
 }

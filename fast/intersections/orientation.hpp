@@ -15,6 +15,7 @@
 /// as it is, and integers alone decide where the bounds do not hold.
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <utility>
@@ -65,8 +66,7 @@ class Positions {
 
 /// The greatest magnitude of the components.
 [[nodiscard]] inline double size_of(const Vector& v) {
-  const auto magnitude = [](double x) { return x < 0.0 ? -x : x; };
-  const double a = magnitude(v[0]), b = magnitude(v[1]), c = magnitude(v[2]);
+  const double a = std::fabs(v[0]), b = std::fabs(v[1]), c = std::fabs(v[2]);
   const double ab = a > b ? a : b;
   return ab > c ? ab : c;
 }
@@ -79,14 +79,18 @@ class Positions {
 /// The normal p × q of two rounded differences, with the factors of the bounds of its products with
 /// a third difference and of its components.
 struct Normal {
+  Normal() = default;
   Normal(const Vector& p, const Vector& q)
       : vector(filters::cross(p, q)), size(size_of(p) * size_of(q)) {}
 
-  /// The sign of r · N if it is certain, else 0.
-  [[nodiscard]] int side_of(const Vector& r) const {
+  /// r · N, and the bound of its error.
+  struct Product {
+    double value, bound;
+  };
+  [[nodiscard]] Product times(const Vector& r) const {
     constexpr const auto& bound = filters::measured_determinant_end_double;
     constexpr double underflow = bound.underflow(Positions::greatest_difference);
-    return certain_sign(filters::dot(r, vector), bound.rounding() * size * size_of(r) + underflow);
+    return {filters::dot(r, vector), bound.rounding() * size * size_of(r) + underflow};
   }
   /// The sign of a component if it is certain, else 0.
   [[nodiscard]] int turn(std::size_t axis) const {
@@ -97,8 +101,8 @@ struct Normal {
   /// The axis of the greatest component.
   [[nodiscard]] std::size_t greatest_axis() const;
 
-  Vector vector;
-  double size;
+  Vector vector{};
+  double size = 0.0;
 };
 
 /// The sign of (b − a) · ((c − a) × (d − a)).
