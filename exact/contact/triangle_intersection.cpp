@@ -95,6 +95,7 @@ std::vector<RationalPoint> intersection_of(const RationalTriangle& a, const Rati
   for (const HalfSpace& half_space : half_spaces_of(b)) polygon = clipped(polygon, half_space);
   std::ranges::sort(polygon);
   polygon.erase(std::unique(polygon.begin(), polygon.end()), polygon.end());
+  if (polygon.size() < 3) return polygon;
   // Points that are no corners: between two others.
   std::vector<RationalPoint> corners;
   for (const RationalPoint& point : polygon) {
