@@ -16,6 +16,7 @@
 #include "fast/platform/threads.hpp"
 #include "fast/step/scene.hpp"
 #include "touchstone/certified.hpp"
+#include "touchstone/intersections.hpp"
 
 namespace touchstone::fast {
 namespace {
@@ -250,6 +251,23 @@ class ImpactSearch {
   tbb::enumerable_thread_specific<Found> found_;
 };
 
+// ---- The start ----------------------------------------------------------------------------------
+
+MovingVertices start_of(const Scene& scene) {
+  using Places = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>;
+  static constexpr Eigen::Index stride = sizeof(MovingVertex) / sizeof(double);
+  const MovingVertices& vertices = scene.vertices();
+  const Eigen::Map<const Places, 0, Eigen::OuterStride<stride>> places(
+      vertices.size() == 0 ? nullptr : vertices.data()->start.data(),
+      static_cast<Eigen::Index>(vertices.size()), 3);
+  return {places, places};
+}
+
+IntersectionOptions options_at_start(const Scene& scene) {
+  return {
+      .groups = scene.groups(), .max_threads = scene.certified().max_threads, .stop = scene.stop()};
+}
+
 // ---- The step that is taken ---------------------------------------------------------------------
 
 /// \pre strict floating point
@@ -390,6 +408,14 @@ std::vector<StepCollision> Step::collisions() const {
 bool Step::is_free() const {
   return with_threads(scene_->certified().max_threads,
                       [this] { return !ImpactSearch(*scene_).is_any(); });
+}
+
+std::vector<Intersection> Step::intersections_at_start() const {
+  return intersections(start_of(*scene_), scene_->elements(), options_at_start(*scene_));
+}
+
+bool Step::starts_free() const {
+  return !has_intersections(start_of(*scene_), scene_->elements(), options_at_start(*scene_));
 }
 
 Step Step::scaled(double alpha) const {

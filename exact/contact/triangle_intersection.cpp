@@ -6,11 +6,11 @@
 namespace touchstone::exact {
 namespace {
 
-Rational dot(const RationalPoint& a, const RationalPoint& b) {
+Rational dot_product(const RationalPoint& a, const RationalPoint& b) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-RationalPoint cross(const RationalPoint& a, const RationalPoint& b) {
+RationalPoint cross_product(const RationalPoint& a, const RationalPoint& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 
@@ -18,7 +18,7 @@ RationalPoint difference(const RationalPoint& to, const RationalPoint& from) {
   return {to[0] - from[0], to[1] - from[1], to[2] - from[2]};
 }
 
-bool is_zero(const RationalPoint& a) { return dot(a, a) == 0; }
+bool vanishes(const RationalPoint& a) { return dot_product(a, a) == 0; }
 
 /// normal · x − offset ≥ 0.
 struct HalfSpace {
@@ -27,10 +27,10 @@ struct HalfSpace {
 
   /// With the point on its boundary.
   HalfSpace(RationalPoint direction, const RationalPoint& point)
-      : normal(std::move(direction)), offset(dot(normal, point)) {}
+      : normal(std::move(direction)), offset(dot_product(normal, point)) {}
 
   [[nodiscard]] Rational operator()(const RationalPoint& x) const {
-    return dot(normal, x) - offset;
+    return dot_product(normal, x) - offset;
   }
 };
 
@@ -44,12 +44,12 @@ void add_plane(std::vector<HalfSpace>& to, const RationalPoint& normal,
 std::vector<HalfSpace> half_spaces_of(const RationalTriangle& triangle) {
   std::vector<HalfSpace> result;
   const RationalPoint normal =
-      cross(difference(triangle[1], triangle[0]), difference(triangle[2], triangle[0]));
-  if (!is_zero(normal)) {
+      cross_product(difference(triangle[1], triangle[0]), difference(triangle[2], triangle[0]));
+  if (!vanishes(normal)) {
     add_plane(result, normal, triangle[0]);
     for (std::size_t i = 0; i < 3; ++i) {
       const RationalPoint side = difference(triangle[(i + 1) % 3], triangle[i]);
-      result.emplace_back(cross(normal, side), triangle[i]);
+      result.emplace_back(cross_product(normal, side), triangle[i]);
     }
     return result;
   }
@@ -58,7 +58,7 @@ std::vector<HalfSpace> half_spaces_of(const RationalTriangle& triangle) {
   for (std::size_t axis = 0; axis < 3; ++axis) {
     RationalPoint direction{};
     direction[axis] = 1;
-    add_plane(result, is_zero(along) ? direction : cross(along, direction), least);
+    add_plane(result, vanishes(along) ? direction : cross_product(along, direction), least);
   }
   result.emplace_back(along, least);
   result.emplace_back(difference({}, along), greatest);
@@ -84,8 +84,8 @@ std::vector<RationalPoint> clipped(const std::vector<RationalPoint>& polygon,
 
 /// True if b is between a and c, or one of them.
 bool is_between(const RationalPoint& a, const RationalPoint& b, const RationalPoint& c) {
-  return is_zero(cross(difference(b, a), difference(c, a))) &&
-         dot(difference(b, a), difference(b, c)) <= 0;
+  return vanishes(cross_product(difference(b, a), difference(c, a))) &&
+         dot_product(difference(b, a), difference(b, c)) <= 0;
 }
 
 }  // namespace

@@ -22,6 +22,10 @@ class Bodies {
 
   /// True if all bodies meet all.
   [[nodiscard]] bool all_meet() const { return apart_.empty(); }
+  /// The groups from which they were made; none if all meet all. Refers to this object.
+  [[nodiscard]] CollisionGroups groups() const {
+    return {.of_vertices = of_vertices_, .apart = apart_};
+  }
   /// The body of each vertex; empty if all meet all.
   [[nodiscard]] std::span<const std::int32_t> of_vertices() const { return of_vertices_; }
 

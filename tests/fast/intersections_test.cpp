@@ -432,6 +432,24 @@ TEST(Intersections, OfEdgesAndPointsWithFaces) {
   EXPECT_EQ(found[3].numbers, (IndexPair{3, 5}));
 }
 
+/// Those of a step at its start, of groups that can collide.
+TEST(Intersections, OfAStepsStart) {
+  const Mesh mesh{rows({{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {1, 1, -1}, {1, 1, 1}, {9, 9, 1}}),
+                  {{0, 1, 2}, {3, 4, 5}}};
+  Rows lifted = mesh.vertices;
+  lifted.bottomRows(3).col(2).array() += 5.0;
+  const std::vector<std::int32_t> groups{0, 0, 0, 1, 1, 1};
+  const std::vector<std::array<std::int32_t, 2>> apart{{0, 1}};
+  const Step meeting(mesh.vertices, lifted, mesh.elements()), free(lifted, lifted, mesh.elements());
+  const Step of_groups(mesh.vertices, lifted, mesh.elements(),
+                       {.groups = {.of_vertices = groups, .apart = apart}});
+  EXPECT_EQ(meeting.intersections_at_start(), mesh.intersections());
+  EXPECT_EQ(mesh.intersections().size(), 1U);
+  EXPECT_FALSE(meeting.starts_free());
+  EXPECT_TRUE(free.starts_free());
+  EXPECT_TRUE(of_groups.starts_free());
+}
+
 // ---- Options ------------------------------------------------------------------------------------
 
 /// Two spheres that intersect.

@@ -9,6 +9,7 @@
 #include "touchstone/curved_step.hpp"
 #include "touchstone/distance.hpp"
 #include "touchstone/filter.hpp"
+#include "touchstone/intersections.hpp"
 #include "touchstone/line_search.hpp"
 #include "touchstone/mesh.hpp"
 #include "touchstone/primitive_pairs.hpp"
