@@ -262,17 +262,26 @@ Shared shared_with(const Simplex& other, const Simplex& triangle) {
   return result;
 }
 
-/// True if all vertices of a triangle that are not shared are certainly on one side of a plane.
-/// False if all are shared.
-bool is_beside(const Positions& at, const Element& plane, const Simplex& triangle,
+/// What is certain of a triangle's vertices that are not shared, and a plane.
+enum class Sides : std::uint8_t {
+  one,      ///< they are on one side
+  both,     ///< some are on each side
+  unknown,  ///< none of these; or there are none
+};
+
+Sides sides_of(const Positions& at, const Element& plane, const Simplex& triangle,
                const Shared& shared) {
-  bool above = true, below = true;
+  bool all_above = true, all_below = true, any_above = false, any_below = false;
   for (std::size_t i = 0; i < 3; ++i) {
     const auto [value, bound] = plane.normal.times(at.difference(plane.simplex[0], triangle[i]));
-    above &= shared[i] | (value > bound);
-    below &= shared[i] | (value < -bound);
+    const bool is_above = value > bound, is_below = value < -bound;
+    all_above &= shared[i] | is_above;
+    all_below &= shared[i] | is_below;
+    any_above |= is_above;
+    any_below |= is_below;
   }
-  return above != below;
+  if (all_above != all_below) return Sides::one;
+  return any_above && any_below ? Sides::both : Sides::unknown;
 }
 
 /// True if a line through the first vertex of a triangle and another one certainly has the third
@@ -385,10 +394,14 @@ Contacts contacts_of(const Positions& at, const Simplex& a, const Simplex& b) {
 bool are_surely_apart(const Positions& at, const Element& a, const Element& b) {
   if (!at.has_filter() || dimension(a.simplex) != 2 || dimension(b.simplex) != 2) return false;
   const Shared of_b = shared_with(a.simplex, b.simplex);
-  if (is_beside(at, a, b.simplex, of_b)) return true;
+  const Sides b_sides = sides_of(at, a, b.simplex, of_b);
+  if (b_sides == Sides::one) return true;
   const Shared of_a = shared_with(b.simplex, a.simplex);
-  if (is_beside(at, b, a.simplex, of_a)) return true;
+  const Sides a_sides = sides_of(at, b, a.simplex, of_a);
+  if (a_sides == Sides::one) return true;
   if (of_a == Shared{true, true, true}) return false;
+  // Where the planes certainly cross, the orientations of few edges decide as fast.
+  if (a_sides == Sides::both && b_sides == Sides::both) return false;
   const Projected projected(at, a.normal.greatest_axis());
   return projected.has_line_between(a.simplex, b.simplex, of_b) ||
          projected.has_line_between(b.simplex, a.simplex, of_a);
