@@ -18,6 +18,7 @@
 #include "fast/step/scene.hpp"
 #include "fast/step/sieve.hpp"
 #include "touchstone/certified.hpp"
+#include "touchstone/intersections.hpp"
 
 namespace touchstone::fast {
 namespace {
@@ -225,6 +226,25 @@ class ImpactSearch {
   std::atomic<double> upper_ = std::numeric_limits<double>::infinity();
   tbb::enumerable_thread_specific<Found> found_;
 };
+
+// ---- The start ----------------------------------------------------------------------------------
+
+MovingVertices start_of(const Scene& scene) {
+  using Places = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>;
+  static constexpr Eigen::Index stride = sizeof(MovingVertex) / sizeof(double);
+  const MovingVertices& vertices = scene.vertices();
+  const Eigen::Map<const Places, 0, Eigen::OuterStride<stride>> places(
+      vertices.size() == 0 ? nullptr : vertices.data()->start.data(),
+      static_cast<Eigen::Index>(vertices.size()), 3);
+  return {places, places};
+}
+
+IntersectionOptions options_at_start(const Scene& scene) {
+  return {.groups = scene.groups(),
+          .can_collide = scene.can_collide(),
+          .max_threads = scene.certified().max_threads,
+          .stop = scene.stop()};
+}
 
 // ---- The step that is taken ---------------------------------------------------------------------
 
@@ -451,6 +471,14 @@ std::vector<StepCollision> Step::collisions() const {
 bool Step::is_free() const {
   return with_threads(scene_->certified().max_threads,
                       [this] { return !ImpactSearch(*scene_).is_any(); });
+}
+
+std::vector<Intersection> Step::intersections_at_start() const {
+  return intersections(start_of(*scene_), scene_->elements(), options_at_start(*scene_));
+}
+
+bool Step::starts_free() const {
+  return !has_intersections(start_of(*scene_), scene_->elements(), options_at_start(*scene_));
 }
 
 Step Step::scaled(double alpha) const {

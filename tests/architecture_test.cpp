@@ -59,6 +59,7 @@ constexpr std::string_view layer_lines = R"(
   fast/certified/curves/: fast/certified/curves/ fast/certified/stages/ fast/certified/kernel.hpp filters/ exact/query.hpp
   fast/certified/: fast/certified/ fast/platform/ fast/certified.hpp fast/mesh.hpp filters/ exact/curved_query.hpp exact/query.hpp immintrin.h
   fast/distance/: fast/distance/ fast/certified/exact/ fast/platform/ fast/contacts.hpp fast/kernels.hpp fast/step.hpp filters/ exact/query.hpp arm_neon.h immintrin.h
+  fast/intersections/: fast/intersections/ fast/broad_phase/ fast/certified/exact/ fast/distance/ fast/mesh.hpp fast/intersections.hpp filters/
   fast/step/: fast/step/ fast/broad_phase/ fast/certified/ fast/platform/ fast/broad_phase.hpp fast/candidates.hpp fast/kernels.hpp fast/mesh.hpp fast/step.hpp
   adapters/: adapters/ fast/ exact/query.hpp Eigen/
   adapters/ipc_toolkit.hpp: fast/ exact/query.hpp ipc/ccd/narrow_phase_ccd.hpp
@@ -67,8 +68,8 @@ constexpr std::string_view layer_lines = R"(
 // Who includes a header in C needs no other header of ours.
   adapters/touchstone.h: stddef.h stdint.h
   verify/plugin.h: stdint.h
-// The modules, packages (CGAL for exact predicates of meshes at rest), and POSIX.
-  REST: exact/ exact/checker/ filters/ filters/derivation/ fast/ verify/plugin.h CGAL/ CLI/ Eigen/ fmt/ gmp.h gmpxx.h nlohmann/ oneapi/tbb/ zip.h zstd.h dlfcn.h fcntl.h poll.h sys/ time.h unistd.h
+// The modules, packages, and POSIX.
+  REST: exact/ exact/checker/ filters/ filters/derivation/ fast/ verify/plugin.h CLI/ Eigen/ fmt/ gmp.h gmpxx.h nlohmann/ oneapi/tbb/ zip.h zstd.h dlfcn.h fcntl.h poll.h sys/ time.h unistd.h
   verify/:
   verify/base/: REST
   verify/io/: verify/io/ REST
@@ -113,7 +114,7 @@ constexpr std::string_view headers_without_test = R"(
 // worst_case_test.cpp.
   exact/algebra/: positivity.hpp
   exact/certificate/: step_certificate_text.hpp
-  exact/contact/: contact_conditions.hpp contact_oracle.hpp corner_motion.hpp
+  exact/contact/: contact_conditions.hpp contact_oracle.hpp corner_motion.hpp triangle_intersection.hpp
   exact/distance/: separating_axes.hpp
   filters/: error_bound.hpp
   filters/derivation/: mpfr_number.hpp
@@ -133,6 +134,8 @@ constexpr std::string_view headers_without_test = R"(
   fast/distance/: exact_distance.hpp filter_kernel.hpp filter_on_lanes.hpp filtered_distance.hpp polygon_features.hpp
   fast/broad_phase/: body_tree.hpp box_tree.hpp division_on_lanes.hpp search_on_lanes.hpp seeds.hpp swept_box.hpp words_one_by_one.hpp
   fast/step/: bodies.hpp codimensional.hpp
+// Beside rational arithmetic, which judges the function: intersections_test.cpp.
+  fast/intersections/: contacts.hpp orientation.hpp
   adapters/tight_inclusion/: config.hpp
 // By the answers of the methods, baselines_test.cpp, the queries of the families, families_test.cpp,
 // and of the hard ones, hardness_test.cpp.
@@ -148,7 +151,7 @@ constexpr std::string_view headers_without_test = R"(
 // By tests/transcripts, and documents_test.cpp: docs/results.md and its picture are those of their data.
   verify/cli/: commands.hpp files.hpp group_options.hpp help.hpp options.hpp result_files.hpp solver_options.hpp sources.hpp version.hpp
   verify/mesh/: moving_mesh.hpp
-  verify/report/: certify_report.hpp judgement_report.hpp step_report.hpp measurement.hpp
+  verify/report/: certify_report.hpp intersection_report.hpp judgement_report.hpp step_report.hpp measurement.hpp
 )";
 
 /// A line of a table.

@@ -47,6 +47,8 @@ class PairQuestions {
 struct PairRules {
   /// True if both primitives are edges; otherwise the first is a vertex.
   bool of_edges = false;
+  /// True if pairs that share a vertex are kept, too.
+  bool keeps_neighbours = false;
   Certainty certainty = Certainty::all;
   /// Null if all pairs are certain and all bodies meet.
   const PairQuestions* questions = nullptr;

@@ -192,7 +192,7 @@ class Search {
       unsigned overlapping = not_apart(loaded, *own_, row) & lanes;
       if (is_self) overlapping &= ~0U << (row + 1);
       if (overlapping == 0) continue;
-      overlapping &= ~sharing(own, row, others);
+      if (!rules_.keeps_neighbours) overlapping &= ~sharing(own, row, others);
       if (rules_.all_bodies != nullptr) overlapping = that_meet({group, row}, other, overlapping);
       if (rules_.certainty != Certainty::all)
         overlapping = confirmed(own, row, others, loaded, overlapping);

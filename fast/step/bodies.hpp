@@ -25,10 +25,18 @@ class Bodies {
 
   /// True if all primitives meet all.
   [[nodiscard]] bool all_meet() const { return apart_.empty() && !can_collide_; }
+  /// The groups from which they were made; none if all meet all. Refers to this object.
+  [[nodiscard]] CollisionGroups groups() const {
+    return {.of_vertices = of_vertices_, .apart = apart_};
+  }
   /// The body of each vertex; empty if all primitives meet all.
   [[nodiscard]] std::span<const std::int32_t> of_vertices() const { return of_vertices_; }
   /// True if the bodies of two primitives do not tell whether these meet.
   [[nodiscard]] bool has_rule_for_vertices() const { return static_cast<bool>(can_collide_); }
+  /// The rule for vertices; empty if there is none.
+  [[nodiscard]] const std::function<bool(std::int32_t, std::int32_t)>& can_collide() const {
+    return can_collide_;
+  }
 
   [[nodiscard]] bool meet(std::int32_t a, std::int32_t b) const;
   /// True if a vertex of one primitive and a vertex of the other can collide.

@@ -15,6 +15,8 @@ void mark(std::vector<std::uint8_t>& flags, std::span<const Element> elements) {
 
 Edge ordered(std::int32_t a, std::int32_t b) { return {std::min(a, b), std::max(a, b)}; }
 
+}  // namespace
+
 std::vector<std::int32_t> edges_without_face(const MeshElements& elements) {
   std::vector<Edge> sides;
   sides.reserve(3 * elements.faces.size());
@@ -31,8 +33,6 @@ std::vector<std::int32_t> edges_without_face(const MeshElements& elements) {
   }
   return result;
 }
-
-}  // namespace
 
 std::vector<std::int32_t> vertices_of(std::size_t vertices, const MeshElements& elements) {
   std::vector<std::uint8_t> is_named(vertices);

@@ -16,6 +16,9 @@ namespace touchstone::fast {
 [[nodiscard]] std::vector<std::int32_t> vertices_of(std::size_t vertices,
                                                     const MeshElements& elements);
 
+/// The numbers of the edges that are not edges of faces, in order.
+[[nodiscard]] std::vector<std::int32_t> edges_without_face(const MeshElements& elements);
+
 struct Codimensional {
   /// The vertices without an edge, in order.
   std::vector<std::int32_t> points;

@@ -167,6 +167,10 @@ class Scene final : private PairQuestions {
   [[nodiscard]] const CertifiedOptions& certified() const { return certified_; }
   [[nodiscard]] bool has_groups_of(const Scene& other) const { return groups_ == other.groups_; }
   [[nodiscard]] const std::atomic<bool>* stop() const { return stop_; }
+  [[nodiscard]] CollisionGroups groups() const { return mesh_->bodies.groups(); }
+  [[nodiscard]] const std::function<bool(std::int32_t, std::int32_t)>& can_collide() const {
+    return mesh_->bodies.can_collide();
+  }
 
   // ---- Searching ----
 

@@ -29,7 +29,7 @@
 #include "tests/support/scenes.hpp"
 #include "tests/support/trials.hpp"
 #include "touchstone/broad_phase.hpp"
-#include "verify/mesh/self_intersection.hpp"
+#include "touchstone/intersections.hpp"
 
 namespace touchstone::fast::step_test {
 namespace {
@@ -293,14 +293,23 @@ TEST(Step, EndsItsSearchesWhenItIsToStop) {
 
 // ---- The theorem --------------------------------------------------------------------------------
 
-/// True if an edge meets a face without a common vertex.
+/// True if an edge meets a face without a common vertex: of a mesh with the faces, and the edges
+/// between vertices of their own.
 bool intersects_itself(const Scene& scene, const Places& places) {
-  const auto shares_no_vertex = [&](std::int32_t edge, std::int32_t face) {
-    const Face& corners = scene.faces[static_cast<std::size_t>(face)];
-    return std::ranges::none_of(scene.edges[static_cast<std::size_t>(edge)],
+  const auto count = static_cast<std::int32_t>(places.rows());
+  Places twice(2 * places.rows(), 3);
+  twice << places, places;
+  std::vector<Edge> edges;
+  for (const auto& [a, b] : scene.edges) edges.push_back({a + count, b + count});
+  const auto share_no_vertex = [&](const Intersection& one) {
+    if (one.elements != std::array{ElementKind::face, ElementKind::edge}) return false;
+    const Face& corners = scene.faces[static_cast<std::size_t>(one.numbers[0])];
+    return std::ranges::none_of(scene.edges[static_cast<std::size_t>(one.numbers[1])],
                                 [&](std::int32_t i) { return std::ranges::count(corners, i) > 0; });
   };
-  return !verify::mesh::find_piercings(places, scene.edges, scene.faces, shares_no_vertex).empty();
+  return std::ranges::any_of(
+      intersections(twice, {.edges = edges, .faces = scene.faces}, {.places = false}),
+      share_no_vertex);
 }
 
 TEST(Step, IsNotFreeIfAMeshComesToIntersectItself) {

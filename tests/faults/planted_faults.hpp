@@ -23,6 +23,7 @@
 #include "touchstone/certified.hpp"
 #include "touchstone/contacts.hpp"
 #include "touchstone/curved_query.hpp"
+#include "touchstone/intersections.hpp"
 #include "touchstone/mesh.hpp"
 #include "touchstone/query.hpp"
 #include "touchstone/tight_inclusion.hpp"
@@ -62,6 +63,9 @@ using ExactDistance = fast::Distance(Kind, const Query&, double, Norm);
 using FilteredDistance = std::optional<fast::Distance>(Kind, const Query&, double, Norm);
 using KeepsDistance = bool(Kind, const Query&, double t_max, const fast::KeptDistance&);
 using FindActive = std::vector<fast::ActiveContact>(const fast::Step&, const Separation&);
+using FindIntersections = std::vector<fast::Intersection>(fast::MovingVertices,
+                                                          const fast::MeshElements&,
+                                                          const fast::IntersectionOptions&);
 using LimitStep = fast::LineSearchLimit(const fast::Step&, double, const fast::LineSearchOptions&);
 using Check = checker::Report(std::istream&, const checker::Options&);
 using DecideRescaled = void(const fast::KernelInput&, const fast::CertifiedKernel&,
@@ -85,6 +89,7 @@ struct PlantedFaults {
   Faults<KeepsDistance> kept_distance;
   Faults<FindActive> active_set;
   Faults<LimitStep> line_search;
+  Faults<FindIntersections> intersections;
   Faults<Check> checker;
   Faults<const fast::BoxKernel> box_kernel;
   Faults<MakeTightInclusion> tight_inclusion;

@@ -11,7 +11,7 @@ namespace touchstone::verify::cli {
 /// Outcome of a run, used as the exit status.
 enum class Status : int {
   all_well = 0,
-  /// A wrong recorded answer, a broken promise of a solver, or a collision in a step.
+  /// A wrong recorded answer, a broken promise of a solver, or a collision in a step, an intersection.
   wrong_answers = 1,
   bad_input = 2,      ///< invalid input or usage
   interrupted = 130,  ///< by a signal; the results so far are reported
@@ -31,6 +31,7 @@ namespace fuzz_command { void add(CLI::App& app, Status& status); }
 namespace stability_command { void add(CLI::App& app, Status& status); }
 namespace report_command { void add(CLI::App& app, Status& status); }
 namespace candidates_command { void add(CLI::App& app, Status& status); }
+namespace intersections_command { void add(CLI::App& app, Status& status); }
 namespace step_command { void add(CLI::App& app, Status& status); }
 namespace view_command { void add(CLI::App& app, Status& status); }
 namespace convert_command { void add(CLI::App& app, Status& status); }

@@ -74,11 +74,13 @@ std::vector<OptionRow> make_table() {
 
       // Meshes.
       {"frames", "FRAME", {}, "Frames in order: .ply or .obj files, a folder of them, or one .npz of V (T,n,3), F and E", "step", required},
+      {"meshes", "MESH", {}, "Meshes: .ply or .obj files; several also with each other", "intersections", required},
       {"before", "FRAME0", {}, "Mesh before the step: .ply or .obj", "candidates", required},
       {"after", "FRAME1", {}, "The same mesh after the step, with moved vertices", "candidates", required},
       {"--step", "FRAME FRAME", {}, "The step between two frames of a mesh (.ply, .obj) with its collisions", "view", pair},
       {"--step", "FRAME0 FRAME1", {}, "Measure a step instead of queries: meshes before and after it", "bench", pair},
       {"--groups", "FILE", {}, "Group names of the vertices, one per line (default: o, g of an OBJ)"},
+      {"--weld", "", {}, "Vertices at the same place, of the same group, are one"},
       {"--apart", "GROUP GROUP", {}, "Ignore collisions between groups A and B (A A: within A); repeatable", "", list},
 
       // Runs in pieces; the last two are for their processes.
@@ -128,7 +130,7 @@ std::vector<OptionRow> make_table() {
       {"--earliest", "", {}, "Find only the earliest impact and its pairs"},
       {"--free", "", {}, "Find only whether there is a collision"},
       {"--candidates", "", {}, "Count the candidate pairs also with --earliest and --free"},
-      {"--no-piercings", "", {}, "Do not search the frames for edges that pierce faces, which can take longer than --free"},
+      {"--no-intersections", "", {}, "Do not search the frames for intersections, which can take longer than --free"},
       {"--alpha", "A", Real{0.0, 1.0}, "Judge the step with this step size, to the rounded x0 + alpha (x1 - x0), and report a maximal one"},
       {"--claim", "CLAIM", OneOf{{"time_of_impact", "collision"}}, "Claim for a collision: its time_of_impact, or only the collision"},
       {"--width", "W", {}, "Width of the interval around a time of impact, a decimal number (default: neighbouring doubles)"},
@@ -153,6 +155,7 @@ std::vector<OptionRow> make_table() {
       {"--out", "FOLDER", {}, "Folder to write to", "generate"},
       {"--out", "STORE", {}, "Folder to create", "convert", required},
       {"--out", "PREFIX", {}, "Write PREFIX_vf.npy and PREFIX_ee.npy (queries), PREFIX_vf_pairs.npy (vertex and face), PREFIX_ee_pairs.npy (two edges) and PREFIX_edges.npy", "candidates", required},
+      {"--csv", "FILE", {}, "Write a row for each pair, with its place", "intersections"},
       {"--csv", "FILE", {}, "Write a row for each collision"},
       {"--list", "", {}, "List the families with the proofs of their truth"},
       {"--npy", "", {}, "Write float64 arrays of shape (N, 8, 3), on curves (N, K+1, 4, 3) or (N, K+1, 4, 4) with weights, without the truth, instead of CSV"},

@@ -17,7 +17,7 @@
 #include <vector>
 
 #include "exact/certificate/step_certificate_text.hpp"
-#include "fast/step/bodies.hpp"
+#include "touchstone/intersections.hpp"
 #include "verify/cli/commands.hpp"
 #include "verify/cli/files.hpp"
 #include "verify/cli/group_options.hpp"
@@ -32,7 +32,6 @@
 #include "verify/io/terminal.hpp"
 #include "verify/jobs/check_step.hpp"
 #include "verify/mesh/frames.hpp"
-#include "verify/mesh/self_intersection.hpp"
 #include "verify/report/step_report.hpp"
 
 namespace touchstone::verify::cli::step_command {
@@ -46,7 +45,7 @@ struct Arguments {
   SeparationArguments separation;
   jobs::StepCheckOptions check;
   GroupArguments groups;
-  bool find_piercings = true;
+  bool find_intersections = true;
   std::string json_file;
   std::string csv_file;
   std::string proof_file;
@@ -61,14 +60,14 @@ class StepRun {
         csv_(files_, arguments.csv_file),
         proof_(files_, arguments.proof_file, exact::step_certificates_header()),
         view_(files_, arguments.view_file),
-        find_piercings_(arguments.find_piercings),
+        find_intersections_(arguments.find_intersections),
         options_(arguments.check),
         frames_(open_frames(files_, arguments.frames)),
-        groups_(files_, arguments.groups, frames_->mesh()),
-        bodies_(static_cast<std::size_t>(frames_->mesh().vertices.rows()), groups_.get()) {
+        groups_(files_, arguments.groups, frames_->mesh()) {
     if (frames_->count() < 2) {
       throw std::runtime_error(arguments.frames.front().string() +
-                               ": one frame only; a step needs two");
+                               ": one frame only; a step needs two (touchstone intersections: does "
+                               "a mesh intersect itself?)");
     }
     const mesh::Mesh& mesh = frames_->mesh();
     options_.step.separation = arguments.separation.given();
@@ -109,19 +108,21 @@ class StepRun {
 
  private:
   void check_frame(std::size_t i, const mesh::Vertices& vertices) {
-    report::FrameRecord frame{.name = frames_->name(i), .piercings = {}, .time = {}};
-    if (find_piercings_)
-      frame.time = jobs::work_time_of([&] { frame.piercings = piercings_of(vertices); });
+    report::FrameRecord frame{.name = frames_->name(i), .intersections = {}, .time = {}};
+    if (find_intersections_)
+      frame.time = jobs::work_time_of([&] { frame.intersections = intersections_of(vertices); });
     report_.frames.push_back(std::move(frame));
   }
 
-  [[nodiscard]] std::vector<mesh::Piercing> piercings_of(const mesh::Vertices& vertices) const {
+  [[nodiscard]] std::vector<fast::Intersection> intersections_of(
+      const mesh::Vertices& vertices) const {
     const mesh::Mesh& mesh = frames_->mesh();
-    const auto can_meet = [&](std::int32_t edge, std::int32_t face) {
-      return bodies_.meet(mesh.edges[static_cast<std::size_t>(edge)],
-                          mesh.faces[static_cast<std::size_t>(face)]);
-    };
-    return mesh::find_piercings(vertices, mesh.edges, mesh.faces, can_meet, options_.step.stop);
+    return fast::intersections(vertices,
+                               {.edges = mesh.edges, .faces = mesh.faces, .points = mesh.points},
+                               {.groups = options_.step.groups,
+                                .places = false,
+                                .max_threads = options_.step.max_threads,
+                                .stop = options_.step.stop});
   }
 
   void check_step(std::size_t i, const mesh::Vertices& before, const mesh::Vertices& after,
@@ -186,12 +187,11 @@ class StepRun {
   CertificatesFile proof_;
   ViewFile view_;
   bool shows_contact_ = false;
-  bool find_piercings_;
+  bool find_intersections_;
   jobs::StepCheckOptions options_;
   std::unique_ptr<mesh::Frames> frames_;
   CollidingGroups groups_;
   std::optional<fast::Step> step_;  ///< the last one
-  fast::Bodies bodies_;
   report::StepReport report_;
 };
 
@@ -230,7 +230,7 @@ void add_step_options(CLI::App& command, Arguments& arguments) {
       add_option(command, "--earliest", asks(jobs::StepQuestion::earliest))->excludes(all);
   add_option(command, "--free", asks(jobs::StepQuestion::free))->excludes(all)->excludes(earliest);
   add_option(command, "--candidates", arguments.check.count_candidates);
-  add_option(command, "--no-piercings", [&arguments] { arguments.find_piercings = false; });
+  add_option(command, "--no-intersections", [&arguments] { arguments.find_intersections = false; });
   add_option(command, "--t-max", arguments.check.step.t_max);
   add_option(command, "--alpha", arguments.check.alpha);
   add_option(command, "--threads", arguments.check.step.max_threads);
@@ -254,8 +254,8 @@ void add(CLI::App& app, Status& status) {
            "touchstone step frames/ --earliest --json steps.json\n"
            "touchstone step frames/ --free --prove steps.cert && touchstone-check steps.cert",
            "A step is the straight motion of every vertex from one frame to the next; a simulator "
-           "with substeps should write each of them. Each frame is also searched for edges that "
-           "pierce faces (unless --no-piercings is given). Pairs that share a vertex are ignored. "
+           "with substeps should write each of them. Each frame is also searched for intersections "
+           "(unless --no-intersections is given). Pairs that share a vertex are ignored. "
            "Numbers begin at 0; edges are numbered by their larger vertex, then by the smaller.\n"
            "Exit status: 0 free of collisions, 1 a collision or a frame that intersects itself, 2 "
            "bad input or usage, 130 interrupted (results so far are written).");

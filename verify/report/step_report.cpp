@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <iterator>
 #include <nlohmann/json.hpp>
+#include <tuple>
 #include <utility>
 
 #include "verify/io/csv.hpp"
@@ -29,13 +30,18 @@ std::vector<fast::StepCollision> known_collisions(const StepRecord& step) {
   return step.earliest ? step.earliest->pairs : std::vector<fast::StepCollision>();
 }
 
-/// The number of pairs that pierce in one of the two frames or both, if they were searched for.
-std::optional<std::size_t> pierced_in(const StepReport& report, std::size_t step) {
-  const auto& before = report.frames.at(step).piercings;
-  const auto& after = report.frames.at(step + 1).piercings;
+/// The elements of a pair.
+auto pair_of(const fast::Intersection& one) {
+  return std::tuple(one.elements[0], one.numbers[0], one.elements[1], one.numbers[1]);
+}
+
+/// The number of pairs that intersect in one of the two frames or both, if they were searched for.
+std::optional<std::size_t> intersecting_in(const StepReport& report, std::size_t step) {
+  const auto& before = report.frames.at(step).intersections;
+  const auto& after = report.frames.at(step + 1).intersections;
   if (!before || !after) return std::nullopt;
-  std::vector<mesh::Piercing> all;
-  std::ranges::set_union(*before, *after, std::back_inserter(all));
+  std::vector<fast::Intersection> all;
+  std::ranges::set_union(*before, *after, std::back_inserter(all), {}, pair_of, pair_of);
   return all.size();
 }
 
@@ -79,9 +85,9 @@ std::string earliest_text(const StepReport& report, const StepRecord& step) {
   return fmt::format("{:.6g}", step.earliest->toi_lower);
 }
 
-bool has_piercings(const StepReport& report) {
-  return std::ranges::all_of(report.frames,
-                             [](const FrameRecord& frame) { return frame.piercings.has_value(); });
+bool has_intersections(const StepReport& report) {
+  return std::ranges::all_of(
+      report.frames, [](const FrameRecord& frame) { return frame.intersections.has_value(); });
 }
 
 io::TextTable table_of(const StepReport& report) {
@@ -94,7 +100,7 @@ io::TextTable table_of(const StepReport& report) {
   }
   columns.push_back({"earliest", 11});
   if (report.alpha) columns.push_back({"free alpha", 20});
-  if (has_piercings(report)) columns.push_back({"pierced", 7});
+  if (has_intersections(report)) columns.push_back({"intersect", 9});
   columns.push_back({"seconds", 8});
   io::TextTable table(std::move(columns));
   for (std::size_t i = 0; i < report.steps.size(); ++i) {
@@ -108,7 +114,7 @@ io::TextTable table_of(const StepReport& report) {
     }
     row.push_back(earliest_text(report, step));
     if (report.alpha) row.push_back(io::number_text(step.free_alpha, "{}"));
-    if (const auto pierced = pierced_in(report, i)) row.push_back(std::to_string(*pierced));
+    if (const auto pairs = intersecting_in(report, i)) row.push_back(std::to_string(*pairs));
     row.push_back(io::number_text((step.broad_phase + step.narrow_phase).wall, "{:.3f}"));
     table.add(std::move(row));
   }
@@ -162,17 +168,25 @@ void append_collisions(std::string& text, const StepReport& report, std::size_t 
   text += table.text() + rest_text(pairs.size(), "--csv FILE");
 }
 
-void append_piercings(std::string& text, const StepReport& report, const FrameRecord& frame) {
-  if (!frame.piercings || frame.piercings->empty()) return;
-  text += fmt::format("\n{}: the mesh intersects itself; edges that pierce faces: {}\n",
-                      io::printable(frame.name), frame.piercings->size());
-  const std::size_t printed = std::min(frame.piercings->size(), most_pairs);
-  for (const mesh::Piercing& piercing : std::span(*frame.piercings).first(printed)) {
-    text += fmt::format("  edge {} ({}), face {} ({})\n", piercing.edge,
-                        vertices_text(report.edges, piercing.edge), piercing.face,
-                        vertices_text(report.faces, piercing.face));
+std::string element_text(const StepReport& report, fast::ElementKind kind, std::int32_t number) {
+  const std::string name = fmt::format("{} {}", fast::to_string(kind), number);
+  if (kind == fast::ElementKind::point) return name;
+  return fmt::format("{} ({})", name,
+                     kind == fast::ElementKind::face ? vertices_text(report.faces, number)
+                                                     : vertices_text(report.edges, number));
+}
+
+void append_intersections(std::string& text, const StepReport& report, const FrameRecord& frame) {
+  if (!frame.intersections || frame.intersections->empty()) return;
+  text += fmt::format("\n{}: the mesh intersects itself; pairs: {}\n", io::printable(frame.name),
+                      frame.intersections->size());
+  const std::size_t printed = std::min(frame.intersections->size(), most_pairs);
+  for (const fast::Intersection& one : std::span(*frame.intersections).first(printed)) {
+    text += fmt::format("  {}, {}: {}\n", element_text(report, one.elements[0], one.numbers[0]),
+                        element_text(report, one.elements[1], one.numbers[1]),
+                        fast::to_string(one.kind));
   }
-  text += rest_text(frame.piercings->size(), "--json FILE");
+  text += rest_text(frame.intersections->size(), "touchstone intersections");
 }
 
 void append_proof(std::string& text, const StepReport& report, std::size_t i) {
@@ -230,12 +244,14 @@ nlohmann::json seconds_of(const StepRecord& step, double jobs::WorkTime::*time) 
 
 nlohmann::json json_of(const FrameRecord& frame) {
   nlohmann::json json{
-      {"name", io::printable(frame.name)}, {"pierced", nullptr}, {"piercings", nullptr}};
-  if (!frame.piercings) return json;
-  json["pierced"] = frame.piercings->size();
-  json["piercings"] = nlohmann::json::array();
-  for (const mesh::Piercing& piercing : *frame.piercings) {
-    json["piercings"].push_back({piercing.edge, piercing.face});
+      {"name", io::printable(frame.name)}, {"intersecting", nullptr}, {"intersections", nullptr}};
+  if (!frame.intersections) return json;
+  json["intersecting"] = frame.intersections->size();
+  json["intersections"] = nlohmann::json::array();
+  for (const fast::Intersection& one : *frame.intersections) {
+    json["intersections"].push_back({fast::to_string(one.kind), fast::to_string(one.elements[0]),
+                                     one.numbers[0], fast::to_string(one.elements[1]),
+                                     one.numbers[1]});
   }
   return json;
 }
@@ -245,7 +261,7 @@ nlohmann::json json_of(const StepReport& report, std::size_t i) {
   const auto toi = [&](double fast::StepImpact::*bound) {
     return step.earliest ? nlohmann::json((*step.earliest).*bound) : nlohmann::json();
   };
-  const auto pierced = pierced_in(report, i);
+  const auto intersecting = intersecting_in(report, i);
   nlohmann::json earliest = nlohmann::json::array();
   if (step.earliest) {
     for (const fast::StepCollision& pair : step.earliest->pairs) earliest.push_back(json_of(pair));
@@ -260,7 +276,7 @@ nlohmann::json json_of(const StepReport& report, std::size_t i) {
       {"toi_upper", toi(&fast::StepImpact::toi_upper)},
       {"earliest", std::move(earliest)},
       {"free", step.is_free},
-      {"pierced", pierced ? nlohmann::json(*pierced) : nlohmann::json()},
+      {"intersecting", intersecting ? nlohmann::json(*intersecting) : nlohmann::json()},
       {"seconds", seconds_of(step, &jobs::WorkTime::wall)},
       {"processor_seconds", seconds_of(step, &jobs::WorkTime::processor)}};
   if (report.alpha) json["free_alpha"] = io::number_to_json(step.free_alpha);
@@ -279,14 +295,14 @@ nlohmann::json json_of(const StepReport& report, std::size_t i) {
 bool has_collisions(const StepReport& report) {
   return !std::ranges::all_of(report.steps, &StepRecord::is_free) ||
          !std::ranges::all_of(report.frames, [](const FrameRecord& frame) {
-           return !frame.piercings || frame.piercings->empty();
+           return !frame.intersections || frame.intersections->empty();
          });
 }
 
 std::string to_text(const StepReport& report) {
   std::string text = heading(report) + table_of(report).text();
   for (std::size_t i = 0; i < report.steps.size(); ++i) append_collisions(text, report, i);
-  for (const FrameRecord& frame : report.frames) append_piercings(text, report, frame);
+  for (const FrameRecord& frame : report.frames) append_intersections(text, report, frame);
   for (std::size_t i = 0; i < report.steps.size(); ++i) append_proof(text, report, i);
   return text +
          "\nA step is the straight motion of every vertex from one frame to the next. A simulator "

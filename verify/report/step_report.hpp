@@ -13,16 +13,17 @@
 #include <vector>
 
 #include "fast/method.hpp"
+#include "touchstone/intersections.hpp"
 #include "verify/jobs/check_step.hpp"
-#include "verify/mesh/self_intersection.hpp"
 
 namespace touchstone::verify::report {
 
-/// A frame and the edges that pierce faces in it.
+/// A frame and its intersections.
 struct FrameRecord {
   std::string name;
-  std::optional<std::vector<mesh::Piercing>> piercings;  ///< if they were searched for; ascending
-  jobs::WorkTime time;                                   ///< of finding them
+  /// If they were searched for; without places.
+  std::optional<std::vector<fast::Intersection>> intersections;
+  jobs::WorkTime time;  ///< of finding them
 };
 
 /// The step from frame i to frame i + 1.
@@ -46,18 +47,19 @@ struct StepReport {
 [[nodiscard]] bool has_collisions(const StepReport& report);
 
 /// A line for each step; then, for each step, the pairs that touch, the earliest ten; then the
-/// edges that pierce faces, ten of a frame; last the meaning of a verdict on frames.
+/// pairs that intersect, ten of a frame; last the meaning of a verdict on frames.
 [[nodiscard]] std::string to_text(const StepReport& report);
 
 /// `separation` (as in bench_report.hpp, null for contact), `alpha` (or null), `question` (all,
 /// earliest or free), `vertices`, `edges`, `faces`, `interrupted`; `frames`, a list of `name`,
-/// `pierced` (how many edges pierce faces) and `piercings` (pairs of an edge and a face; both null
-/// if they were not searched for); and
+/// `intersecting` (how many pairs intersect) and `intersections` (lists of the kind, the first
+/// element and its number, the second one and its number; both null if they were not searched for);
+/// and
 /// `steps`, a list of `frames` (two names), `candidates` and `collisions`
 /// (`vertex_face`, `edge_edge`, `vertex_edge`, `vertex_vertex`; null where they were not
 /// counted or not all asked for), `toi_lower` and `toi_upper` (null if nothing touches, or only
 /// freedom was asked for), `earliest` (the pairs of the earliest impact, as below), `free`,
-/// `pierced` (how many pairs pierce in one of the two frames or both, or null), `free_alpha` (with
+/// `intersecting` (how many pairs intersect in one of the two frames or both, or null), `free_alpha` (with
 /// alpha), `proof` (if a certificate was written: `claim`, `directions` and `certificates`, the
 /// pairs that are argued by each, `bytes`, and `complete`), and `seconds` and `processor_seconds`
 /// (`broad_phase`, `narrow_phase`, `total`).

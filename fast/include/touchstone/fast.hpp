@@ -6,6 +6,7 @@
 #include "touchstone/broad_phase.hpp"
 #include "touchstone/certified.hpp"
 #include "touchstone/contacts.hpp"
+#include "touchstone/intersections.hpp"
 #include "touchstone/mesh.hpp"
 #include "touchstone/query.hpp"
 #include "touchstone/step.hpp"

@@ -19,7 +19,8 @@
 /// vertex, then at the first contact of two primitives without a common vertex one of these pairs
 /// is in contact, too. The theorem does not cover contact of a vertex with a vertex or an edge of
 /// its own 2-ring: the elements around a vertex may fold onto each other, and collapse. (An edge
-/// that pierces a face at t=0 may do so until t=1 without a collision.)
+/// that pierces a face at t=0 may do so until t=1 without a collision. `starts_free` tells whether
+/// there is one.)
 ///
 /// **Method.** Trees hold boxes in float at both ends of the step (fast/broad_phase/). An axis that
 /// separates a pair at both ends, in the same order, excludes a contact; a search finds the pairs
@@ -68,6 +69,7 @@
 namespace touchstone::fast {
 
 class Scene;
+struct Intersection;
 
 /// The primitives of a pair, and the meaning of its two numbers.
 enum class PairKind : std::uint8_t {
@@ -206,6 +208,15 @@ class Step {
 
   /// True if there is no collision.
   [[nodiscard]] bool is_free() const;
+
+  // ---- The start ----
+
+  /// The intersections of the mesh at t=0, of groups that can collide: without any, the theorem
+  /// above holds. (touchstone/intersections.hpp; `Intersection` is declared there.)
+  /// \throws Stopped
+  [[nodiscard]] std::vector<Intersection> intersections_at_start() const;
+  /// True if there is none. \throws Stopped
+  [[nodiscard]] bool starts_free() const;
 
   // ---- The step that is taken ----
 

@@ -97,7 +97,7 @@ TEST_F(TerminalTool, ASearchOfAStepEndsAtAnInterrupt) {
   const std::string text = sheet(-1.0), out = path("result");
   ASSERT_EQ(::mkfifo(after.c_str(), 0600), 0);
   const std::vector<std::vector<std::string>> runs{
-      {"step", before, after, "--all", "--no-piercings", "--csv", out},
+      {"step", before, after, "--all", "--no-intersections", "--csv", out},
       {"step", before, after, "--free", "--json", out},
       {"candidates", before, after, "--out", out, "--max-candidates", "1000000000"},
       {"bench", "--step", before, after},

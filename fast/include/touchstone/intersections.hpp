@@ -1,0 +1,153 @@
+#pragma once
+
+/// \file
+/// The intersections of a mesh at rest with itself: which elements meet other than in what they
+/// share, how, and where. Exact for all finite coordinates.
+///
+/// The *elements* are the faces, the edges of no face and the vertices without an edge. Each is the
+/// convex hull of its vertices. Two elements *intersect* if
+/// - they have a common point that is not in the hull of their common vertices, or
+/// - they have the same vertices: duplicates.
+///
+/// So neighbours that meet in their common vertex or edge do not intersect, and those that also
+/// meet elsewhere do. Vertices are common by their numbers, not by their places: the faces of a
+/// file in which every face has vertices of its own touch along all edges. With `weld`, vertices at
+/// the same place are one. Elements that are only touched count, too: a step from there collides at
+/// t=0.
+///
+/// The broad phase (touchstone/broad_phase.hpp) finds the pairs whose boxes overlap; signs of
+/// orientations decide these (fast/intersections/contacts.hpp, with theorem and proof). The
+/// functions are thread-safe, do not depend on the caller's floating-point state, and have the same
+/// results for any number of threads and any instruction set.
+
+#include <Eigen/Core>
+
+#include <array>
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <string_view>
+#include <vector>
+
+#include "touchstone/mesh.hpp"
+#include "touchstone/step.hpp"
+
+namespace touchstone::fast {
+
+enum class ElementKind : std::uint8_t {
+  face,   ///< its number among the faces
+  edge,   ///< an edge of no face; its number among the edges
+  point,  ///< a vertex without an edge; its own number
+};
+
+/// The way in which two elements intersect: the first of these that is true.
+enum class IntersectionKind : std::uint8_t {
+  duplicates,         ///< the same vertices
+  folded_faces,       ///< two faces on the same side of their common edge, in one plane
+  coplanar_overlap,   ///< faces in one plane that overlap in an area
+  edge_through_face,  ///< a point inside a face, in the other face's inside or in an edge of it
+  vertex_in_face,     ///< a vertex inside a face
+  edges_overlap,      ///< edges on one line overlap in a segment
+  edges_cross,        ///< a point inside two edges that are not on one line
+  vertex_on_edge,     ///< a vertex inside an edge
+  vertices_coincide,  ///< two vertices at one place
+};
+inline constexpr std::size_t intersection_kinds = 9;
+
+/// "face", "edge", "point".
+[[nodiscard]] std::string_view to_string(ElementKind kind);
+/// "duplicates", "folded faces", "coplanar overlap", "edge through face", "vertex in face", "edges
+/// overlap", "edges cross", "vertex on edge", "vertices coincide".
+[[nodiscard]] std::string_view to_string(IntersectionKind kind);
+
+/// A point between doubles: on each axis it is in [lower, upper], which are the same double or two
+/// neighbouring ones.
+struct PointEnclosure {
+  std::array<double, 3> lower{};
+  std::array<double, 3> upper{};
+
+  friend auto operator<=>(const PointEnclosure&, const PointEnclosure&) = default;
+};
+
+/// Two elements that intersect: the one of the earlier kind first, then that of the smaller number.
+struct Intersection {
+  std::array<ElementKind, 2> elements{};
+  IndexPair numbers{};
+  IntersectionKind kind = IntersectionKind::duplicates;
+  /// The ends of what they have in common, if it is a segment; twice the same, if it is a point. Of
+  /// an area two corners: the least and the greatest, by x, y and z in turn. (All 0 without
+  /// `places`.)
+  std::array<PointEnclosure, 2> place{};
+
+  friend bool operator==(const Intersection&, const Intersection&) = default;
+};
+
+struct IntersectionOptions {
+  CollisionGroups groups = {};
+  /// As StepOptions::can_collide.
+  std::function<bool(std::int32_t, std::int32_t)> can_collide = {};
+  /// True if vertices at the same place, of the same group, are one vertex.
+  bool weld = false;
+  /// False leaves the places out, which take longer than all else where there are many.
+  bool places = true;
+  /// Maximum number of threads; 0 (all_cores): one for each core that the process may use.
+  int max_threads = all_cores;
+  /// May be null. Once true, the search ends soon with the exception Stopped.
+  const std::atomic<bool>* stop = nullptr;
+};
+
+/// All pairs of elements that intersect, ordered by the kinds of the elements, then by their
+/// numbers.
+/// \param elements As for a step. An edge that is not among the edges of the faces is an element by
+/// itself, and so is a point without an edge.
+/// \throws std::domain_error naming the first vertex with a coordinate that is NaN or infinite;
+/// std::out_of_range naming the first element with an index out of range; std::invalid_argument for
+/// invalid groups or threads; std::length_error if there are more than 2^31−1 elements; Stopped.
+[[nodiscard]] std::vector<Intersection> intersections(MovingVertices vertices,
+                                                      const MeshElements& elements,
+                                                      const IntersectionOptions& options = {});
+
+/// True if there is one. Ends with the first that is found. (`places` has no effect.) \throws
+/// likewise
+[[nodiscard]] bool has_intersections(MovingVertices vertices, const MeshElements& elements,
+                                     const IntersectionOptions& options = {});
+
+/// Of a matrix of float or double, n×3, in any storage order. \throws also std::invalid_argument
+/// for another shape
+template <class Derived>
+[[nodiscard]] std::vector<Intersection> intersections(const Eigen::MatrixBase<Derived>& vertices,
+                                                      const MeshElements& elements,
+                                                      const IntersectionOptions& options = {}) {
+  return intersections(MovingVertices(vertices, vertices), elements, options);
+}
+template <class Derived>
+[[nodiscard]] bool has_intersections(const Eigen::MatrixBase<Derived>& vertices,
+                                     const MeshElements& elements,
+                                     const IntersectionOptions& options = {}) {
+  return has_intersections(MovingVertices(vertices, vertices), elements, options);
+}
+
+/// What is unusual in a mesh by itself, and not an intersection. All ascending.
+struct MeshDefects {
+  /// Faces without an area: their vertices are on a line. Decided exactly.
+  std::vector<std::int32_t> degenerate_faces;
+  /// Edges without a length: from a vertex to itself, or to one at the same place.
+  std::vector<std::int32_t> degenerate_edges;
+  /// Vertices at the place of another one, and the first vertex at that place.
+  std::vector<IndexPair> duplicated_vertices;
+  /// Vertices that no element names.
+  std::vector<std::int32_t> unreferenced_vertices;
+
+  friend bool operator==(const MeshDefects&, const MeshDefects&) = default;
+};
+
+/// \throws as intersections
+[[nodiscard]] MeshDefects mesh_defects(const MovingVertices& vertices,
+                                       const MeshElements& elements);
+template <class Derived>
+[[nodiscard]] MeshDefects mesh_defects(const Eigen::MatrixBase<Derived>& vertices,
+                                       const MeshElements& elements) {
+  return mesh_defects(MovingVertices(vertices, vertices), elements);
+}
+
+}  // namespace touchstone::fast

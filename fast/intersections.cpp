@@ -1,0 +1,351 @@
+#include "touchstone/intersections.hpp"
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <numeric>
+#include <optional>
+#include <span>
+#include <stdexcept>
+#include <string_view>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "fast/broad_phase/body_tree.hpp"
+#include "fast/broad_phase/box_tree.hpp"
+#include "fast/broad_phase/float_bounds.hpp"
+#include "fast/broad_phase/primitive_groups.hpp"
+#include "fast/broad_phase/search.hpp"
+#include "fast/candidates.hpp"
+#include "fast/intersections/contacts.hpp"
+#include "fast/intersections/orientation.hpp"
+#include "fast/platform/floating_point_state.hpp"
+#include "fast/platform/threads.hpp"
+#include "fast/step/bodies.hpp"
+#include "fast/step/codimensional.hpp"
+#include "touchstone/broad_phase.hpp"
+
+namespace touchstone::fast {
+namespace {
+
+using meeting::Positions;
+
+// ---- Vertices at one place ----------------------------------------------------------------------
+
+/// The first vertex at the place of each vertex, of the same group if there are groups.
+std::vector<std::int32_t> first_at_place(const MovingVertices& vertices,
+                                         std::span<const std::int32_t> groups) {
+  std::vector<std::int32_t> order(vertices.size()), result(vertices.size());
+  std::iota(order.begin(), order.end(), 0);
+  const auto key = [&](std::int32_t vertex) {
+    const auto i = static_cast<std::size_t>(vertex);
+    const auto& [x, y, z, unused] = vertices[i].start;
+    return std::tuple(x, y, z, groups.empty() ? 0 : groups[i]);
+  };
+  std::ranges::sort(order, [&](std::int32_t a, std::int32_t b) {
+    const auto key_a = key(a), key_b = key(b);
+    return key_a == key_b ? a < b : key_a < key_b;
+  });
+  std::int32_t first = 0;
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    if (i == 0 || key(order[i]) != key(first)) first = order[i];
+    result[static_cast<std::size_t>(order[i])] = first;
+  }
+  return result;
+}
+
+// ---- Elements -----------------------------------------------------------------------------------
+
+/// The elements of a mesh: all faces, then the edges of no face, then the vertices without an edge.
+class Elements {
+ public:
+  Elements(const Positions& at, const MeshElements& given, const IntersectionOptions& options)
+      : faces_(given.faces.size()) {
+    MeshElements all = given;
+    std::vector<Edge> edges_of_faces;
+    if (!given.edges.empty()) edges_ = edges_without_face(given);
+    if (!given.points.empty()) {
+      if (given.edges.empty()) all.edges = edges_of_faces = edges_of(given.faces);
+      const std::size_t count = at.vertices().size();
+      points_ = codimensional(count, vertices_of(count, all), all).points;
+    }
+    require_few(faces_ + edges_.size() + points_.size());
+    vertices_.reserve(faces_ + edges_.size() + points_.size());
+    for (const Face& face : given.faces) add(primitive_of(face));
+    for (const std::int32_t edge : edges_) {
+      add(primitive_of(given.edges[static_cast<std::size_t>(edge)]));
+    }
+    for (const std::int32_t point : points_) add(primitive_of(point));
+    if (options.weld) weld(first_at_place(at.vertices(), options.groups.of_vertices));
+    examine(at);
+  }
+
+  /// The vertices of each element.
+  [[nodiscard]] std::span<const Primitive> vertices() const { return vertices_; }
+  [[nodiscard]] meeting::Element operator[](std::int32_t number) const {
+    const auto i = static_cast<std::size_t>(number);
+    return {vertices_[i], simplices_.empty() ? vertices_[i] : simplices_[i], normals_[i]};
+  }
+
+  /// The kind of an element, and its number in the interface.
+  [[nodiscard]] std::pair<ElementKind, std::int32_t> reported(std::int32_t number) const {
+    const auto i = static_cast<std::size_t>(number);
+    if (i < faces_) return {ElementKind::face, number};
+    const std::size_t edge = i - faces_;
+    if (edge < edges_.size()) return {ElementKind::edge, edges_[edge]};
+    return {ElementKind::point, points_[edge - edges_.size()]};
+  }
+
+ private:
+  static void require_few(std::size_t count) {
+    if (count > static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max())) {
+      throw std::length_error("intersections: there are more than 2^31-1 elements");
+    }
+  }
+
+  void add(const Primitive& vertices) { vertices_.push_back(meeting::in_normal_form(vertices)); }
+
+  void weld(std::span<const std::int32_t> first) {
+    for (Primitive& element : vertices_) {
+      for (std::int32_t& vertex : element) vertex = first[static_cast<std::size_t>(vertex)];
+      element = meeting::in_normal_form(element);
+    }
+  }
+
+  /// Finds the normals, and the simplices if they are not all given by all vertices.
+  void examine(const Positions& at) {
+    std::atomic<bool> has_reduced = false;
+    std::vector<Primitive> simplices(vertices_.size());
+    normals_.resize(vertices_.size());
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, vertices_.size(), elements_of_task),
+                      [&](const tbb::blocked_range<std::size_t>& range) {
+                        const StrictFloatingPoint strict;
+                        for (std::size_t i = range.begin(); i < range.end(); ++i) {
+                          const auto element = meeting::element_of(at, vertices_[i]);
+                          simplices[i] = element.simplex;
+                          normals_[i] = element.normal;
+                          if (simplices[i] != vertices_[i]) has_reduced = true;
+                        }
+                      });
+    if (has_reduced) simplices_ = std::move(simplices);
+  }
+
+  static constexpr std::size_t elements_of_task = 4096;
+
+  std::size_t faces_;
+  std::vector<std::int32_t> edges_;   ///< of no face
+  std::vector<std::int32_t> points_;  ///< without an edge
+  std::vector<Primitive> vertices_;
+  std::vector<Primitive> simplices_;  ///< empty if they are the same
+  std::vector<meeting::Normal> normals_;
+};
+
+// ---- The search ---------------------------------------------------------------------------------
+
+/// Groups per task.
+constexpr std::size_t groups_of_part = 32;
+
+class Search final : private PairQuestions {
+ public:
+  /// Uses the threads of the caller's task arena. \pre the vertices are finite and at rest, indices
+  /// in range; strict floating point
+  Search(MovingVertices vertices, const MeshElements& elements, const IntersectionOptions& options)
+      : bodies_(vertices.size(), options.groups, options.can_collide),
+        at_(std::move(vertices)),
+        elements_(at_, elements, options),
+        bounds_(at_.vertices()),
+        groups_of_boxes_(bounds_, elements_.vertices()),
+        tree_(groups_of_boxes_),
+        options_(options) {
+    tree_.fit(bounds_);
+    if (!bodies_.all_meet()) {
+      tree_of_bodies_.emplace(groups_of_boxes_, bodies_.of_vertices(),
+                              bodies_.has_rule_for_vertices());
+    }
+  }
+
+  [[nodiscard]] std::vector<Intersection> all() {
+    std::vector<std::vector<Intersection>> of_parts(parts());
+    for_each_part([&](std::size_t part) {
+      find(part, [&](const IndexPair& pair, const meeting::Meeting& found) {
+        of_parts[part].push_back(intersection_of(pair, found));
+      });
+    });
+    std::vector<Intersection> result;
+    for (const auto& some : of_parts) result.insert(result.end(), some.begin(), some.end());
+    std::ranges::sort(result, {}, [](const Intersection& one) {
+      return std::tuple(one.elements[0], one.numbers[0], one.elements[1], one.numbers[1]);
+    });
+    return result;
+  }
+
+  [[nodiscard]] bool is_any() {
+    std::atomic<bool> found = false;
+    for_each_part([&](std::size_t part) {
+      if (found) return;
+      find(part,
+           [&](const IndexPair& /*pair*/, const meeting::Meeting& /*found*/) { found = true; });
+    });
+    return found;
+  }
+
+ private:
+  [[nodiscard]] std::size_t parts() const {
+    return (tree_.members().size() + groups_of_part - 1) / groups_of_part;
+  }
+
+  template <class Work>
+  void for_each_part(const Work& work) const {
+    tbb::parallel_for(std::size_t{0}, parts(), work);
+  }
+
+  /// Calls take(pair, meeting) for the pairs of a part that intersect.
+  template <class Take>
+  void find(std::size_t part, const Take& take) const {
+    const StrictFloatingPoint strict;
+    PairSink buffer(
+        [&](std::span<const IndexPair> pairs) {
+          for (const IndexPair& pair : pairs) {
+            const meeting::Element a = elements_[pair[0]], b = elements_[pair[1]];
+            if (meeting::are_surely_apart(at_, a, b)) continue;
+            if (const auto found = meeting::meeting_of(at_, a, b)) take(pair, *found);
+          }
+        },
+        options_.stop);
+    const PairRules rules{.keeps_neighbours = true,
+                          .questions = this,
+                          .some_bodies = tree_of_bodies_ ? &*tree_of_bodies_ : nullptr,
+                          .all_bodies = tree_of_bodies_ ? &*tree_of_bodies_ : nullptr};
+    const std::size_t first = part * groups_of_part;
+    search_kernels().back()->find(SearchInput<1>{&tree_, &tree_, rules}, first,
+                                  std::min(first + groups_of_part, tree_.members().size()), buffer);
+    buffer.flush();
+  }
+
+  [[nodiscard]] Intersection intersection_of(const IndexPair& pair,
+                                             const meeting::Meeting& found) const {
+    const auto [kind_a, a] = elements_.reported(pair[0]);
+    const auto [kind_b, b] = elements_.reported(pair[1]);
+    Intersection result{
+        .elements = {kind_a, kind_b}, .numbers = {a, b}, .kind = found.kind, .place = {}};
+    if (options_.places) {
+      result.place = meeting::place_of(at_, elements_[pair[0]], elements_[pair[1]], found.contacts);
+    }
+    return result;
+  }
+
+  [[nodiscard]] bool confirms(const Primitive& /*a*/, const Primitive& /*b*/) const override {
+    return true;
+  }
+  [[nodiscard]] bool bodies_meet(std::int32_t a, std::int32_t b) const override {
+    return bodies_.meet(a, b);
+  }
+  [[nodiscard]] bool primitives_meet(const Primitive& a, const Primitive& b) const override {
+    return bodies_.meet(a, b);
+  }
+
+  Bodies bodies_;
+  Positions at_;
+  Elements elements_;
+  FloatBounds bounds_;
+  PrimitiveGroups groups_of_boxes_;
+  BoxTree<1> tree_;
+  std::optional<BodyTree> tree_of_bodies_;
+  const IntersectionOptions& options_;
+};
+
+void require_valid(const MovingVertices& vertices, const MeshElements& elements) {
+  require_finite(vertices);
+  require_in_range(vertices, elements.faces);
+  require_in_range(vertices, elements.edges);
+  require_in_range(vertices, elements.points);
+}
+
+/// answer(search) in the threads that the options allow.
+template <class Answer>
+auto searched(MovingVertices vertices, const MeshElements& elements,
+              const IntersectionOptions& options, const Answer& answer) {
+  if (options.max_threads < 0) {
+    throw std::invalid_argument("intersections: max_threads must not be negative");
+  }
+  require_valid(vertices, elements);
+  return with_threads(options.max_threads, [&] {
+    const StrictFloatingPoint strict;
+    Search search(std::move(vertices), elements, options);
+    return answer(search);
+  });
+}
+
+template <class Item, std::size_t count>
+std::string_view name_in(const std::array<std::string_view, count>& names, Item item) {
+  return names.at(static_cast<std::size_t>(item));
+}
+
+}  // namespace
+
+// ---- Interface ----------------------------------------------------------------------------------
+
+std::string_view to_string(ElementKind kind) {
+  return name_in(std::array<std::string_view, 3>{"face", "edge", "point"}, kind);
+}
+
+std::string_view to_string(IntersectionKind kind) {
+  static constexpr std::array<std::string_view, intersection_kinds> names{
+      "duplicates",    "folded faces", "coplanar overlap", "edge through face", "vertex in face",
+      "edges overlap", "edges cross",  "vertex on edge",   "vertices coincide"};
+  return name_in(names, kind);
+}
+
+std::vector<Intersection> intersections(MovingVertices vertices, const MeshElements& elements,
+                                        const IntersectionOptions& options) {
+  return searched(std::move(vertices), elements, options,
+                  [](Search& search) { return search.all(); });
+}
+
+bool has_intersections(MovingVertices vertices, const MeshElements& elements,
+                       const IntersectionOptions& options) {
+  return searched(std::move(vertices), elements, options,
+                  [](Search& search) { return search.is_any(); });
+}
+
+MeshDefects mesh_defects(const MovingVertices& vertices, const MeshElements& elements) {
+  require_valid(vertices, elements);
+  const StrictFloatingPoint strict;
+  MeshDefects result;
+  const Positions at(vertices);
+  for (std::size_t i = 0; i < elements.faces.size(); ++i) {
+    const Primitive face = meeting::in_normal_form(elements.faces[i]);
+    if (meeting::dimension(meeting::element_of(at, face).simplex) != 2) {
+      result.degenerate_faces.push_back(static_cast<std::int32_t>(i));
+    }
+  }
+  const std::vector<std::int32_t> first = first_at_place(vertices, {});
+  for (std::int32_t i = 0; std::cmp_less(i, first.size()); ++i) {
+    const std::int32_t other = first[static_cast<std::size_t>(i)];
+    if (other != i) result.duplicated_vertices.push_back({i, other});
+  }
+  const std::vector<Edge> of_faces =
+      elements.edges.empty() ? edges_of(elements.faces) : std::vector<Edge>();
+  const std::span<const Edge> edges = elements.edges.empty() ? of_faces : elements.edges;
+  for (std::size_t i = 0; i < edges.size(); ++i) {
+    const auto [a, b] = edges[i];
+    if (first[static_cast<std::size_t>(a)] == first[static_cast<std::size_t>(b)]) {
+      result.degenerate_edges.push_back(static_cast<std::int32_t>(i));
+    }
+  }
+  const std::vector<std::int32_t> named = vertices_of(vertices.size(), elements);
+  for (std::int32_t i = 0, next = 0; std::cmp_less(i, vertices.size()); ++i) {
+    if (std::cmp_less(next, named.size()) && named[static_cast<std::size_t>(next)] == i) {
+      ++next;
+    } else {
+      result.unreferenced_vertices.push_back(i);
+    }
+  }
+  return result;
+}
+
+}  // namespace touchstone::fast

@@ -1,0 +1,568 @@
+#include "touchstone/intersections.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <set>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "exact/contact/triangle_intersection.hpp"
+#include "tests/faults/planted_faults.hpp"
+#include "tests/support/messages.hpp"
+#include "tests/support/random.hpp"
+#include "tests/support/trials.hpp"
+
+namespace touchstone::fast::intersections_test {
+namespace {
+
+using exact::RationalPoint;
+using exact::RationalTriangle;
+using tests::Random;
+using Rows = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>;
+using Found = std::vector<Intersection>;
+using Kind = IntersectionKind;
+
+Rows rows(std::initializer_list<std::array<double, 3>> points) {
+  Rows result(static_cast<Eigen::Index>(points.size()), 3);
+  Eigen::Index i = 0;
+  for (const auto& [x, y, z] : points) result.row(i++) << x, y, z;
+  return result;
+}
+
+/// A mesh.
+struct Mesh {
+  Rows vertices;
+  std::vector<Face> faces = {};
+  std::vector<Edge> edges = {};
+  std::vector<std::int32_t> points = {};
+
+  [[nodiscard]] MeshElements elements() const {
+    return {.edges = edges, .faces = faces, .points = points};
+  }
+  [[nodiscard]] Found intersections(const IntersectionOptions& options = {}) const {
+    return fast::intersections(vertices, elements(), options);
+  }
+};
+
+/// The kind of each intersection.
+std::vector<Kind> kinds_of(const Found& found) {
+  std::vector<Kind> result;
+  for (const Intersection& one : found) result.push_back(one.kind);
+  return result;
+}
+
+// ---- Beside the oracle --------------------------------------------------------------------------
+
+/// Two elements, by their vertices: the last one is repeated for an edge or a point.
+using Pair = std::array<std::array<std::int32_t, 3>, 2>;
+
+/// A power of two of which all coordinates are multiples: with integers the oracle is fast.
+exact::Rational unit_of(const Rows& vertices) {
+  exact::Rational unit = 1;
+  for (const double x : vertices.reshaped()) {
+    if (x == 0.0) continue;
+    int exponent = 0;
+    static_cast<void>(std::frexp(x, &exponent));
+    unit = std::min(unit, exact::power_of_two(std::max(exponent - 53, -1074)));
+  }
+  return unit;
+}
+
+/// In units.
+RationalTriangle hull_of(const Rows& vertices, const exact::Rational& unit,
+                         const std::array<std::int32_t, 3>& corners) {
+  RationalTriangle result;
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const double x = vertices(corners[i], static_cast<Eigen::Index>(axis));
+      result[i][axis] = exact::Rational(x) / unit;
+    }
+  }
+  return result;
+}
+
+bool contains(const RationalTriangle& triangle, const RationalPoint& x) {
+  return !exact::intersection_of({x, x, x}, triangle).empty();
+}
+
+/// 0, 1 or 2: what contains all these points of a triangle, a corner, an edge or only all of it.
+int dimension_around(const RationalTriangle& triangle, const std::vector<RationalPoint>& points) {
+  const std::vector<RationalPoint> corners = exact::intersection_of(triangle, triangle);
+  const auto is_around = [&](const RationalPoint& p, const RationalPoint& q) {
+    return std::ranges::all_of(points, [&](const RationalPoint& x) {
+      return contains({p, q, q}, x);
+    });
+  };
+  int dimension = 2;
+  for (const RationalPoint& p : corners) {
+    for (const RationalPoint& q : corners) {
+      if (is_around(p, q)) dimension = std::min(dimension, p == q ? 0 : 1);
+    }
+  }
+  return dimension;
+}
+
+PointEnclosure enclosure_of(const RationalPoint& x, const exact::Rational& unit) {
+  PointEnclosure result;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    result.lower[axis] = exact::round_down(x[axis] * unit);
+    result.upper[axis] = exact::round_up(x[axis] * unit);
+  }
+  return result;
+}
+
+/// The kind and the place by rational arithmetic; none if they do not intersect.
+std::optional<std::pair<Kind, std::array<PointEnclosure, 2>>> truth_of(const Rows& vertices,
+                                                                       const Pair& pair) {
+  const exact::Rational unit = unit_of(vertices);
+  const RationalTriangle a = hull_of(vertices, unit, pair[0]);
+  const RationalTriangle b = hull_of(vertices, unit, pair[1]);
+  const std::set<std::int32_t> of_a(pair[0].begin(), pair[0].end());
+  const std::set<std::int32_t> of_b(pair[1].begin(), pair[1].end());
+  std::vector<std::int32_t> common;
+  std::ranges::set_intersection(of_a, of_b, std::back_inserter(common));
+  const std::vector<RationalPoint> corners = exact::intersection_of(a, b);
+  const bool are_duplicates = of_a == of_b;
+  const bool is_common =
+      !common.empty() && std::ranges::all_of(corners, [&](const RationalPoint& x) {
+        return contains(
+            hull_of(vertices, unit, {common[0], common[common.size() / 2], common.back()}), x);
+      });
+  if (corners.empty() || (is_common && !are_duplicates)) return std::nullopt;
+  std::vector<PointEnclosure> places;
+  for (const RationalPoint& x : corners) places.push_back(enclosure_of(x, unit));
+  const std::array place{std::ranges::min(places), std::ranges::max(places)};
+  if (are_duplicates) return std::pair(Kind::duplicates, place);
+  if (corners.size() > 2) {
+    return std::pair(common.size() == 2 ? Kind::folded_faces : Kind::coplanar_overlap, place);
+  }
+  const int in_a = dimension_around(a, corners), in_b = dimension_around(b, corners);
+  if (corners.size() == 2) {
+    return std::pair(in_a + in_b == 2 ? Kind::edges_overlap : Kind::edge_through_face, place);
+  }
+  static constexpr std::array<std::array<Kind, 3>, 3> of_point{
+      {{Kind::vertices_coincide, Kind::vertex_on_edge, Kind::vertex_in_face},
+       {Kind::vertex_on_edge, Kind::edges_cross, Kind::edge_through_face},
+       {Kind::vertex_in_face, Kind::edge_through_face, Kind::edge_through_face}}};
+  return std::pair(of_point[static_cast<std::size_t>(in_a)][static_cast<std::size_t>(in_b)], place);
+}
+
+/// A pair as a mesh, with its edges and points as such or as faces that name a vertex twice.
+Mesh mesh_of(const Rows& vertices, const Pair& pair, bool are_faces) {
+  Mesh mesh{.vertices = vertices};
+  if (are_faces) {
+    mesh.faces.assign(pair.begin(), pair.end());
+    return mesh;
+  }
+  for (const auto& [a, b, c] : pair) {
+    if (a == b && b == c) {
+      mesh.points.push_back(a);
+    } else if (b == c) {
+      mesh.edges.push_back({a, b});
+    } else {
+      mesh.faces.push_back({a, b, c});
+    }
+  }
+  if (mesh.edges.empty()) return mesh;
+  for (const Edge& edge : edges_of(mesh.faces)) mesh.edges.push_back(edge);
+  return mesh;
+}
+
+/// An element whose vertices are partly those of `others`.
+std::array<std::int32_t, 3> random_element(Random& random, std::int32_t first,
+                                           std::span<const std::int32_t> others) {
+  std::array<std::int32_t, 3> result{first, first + 1, first + 2};
+  const int common = random.between(0, static_cast<int>(others.size()));
+  for (std::size_t i = 0; std::cmp_less(i, common); ++i) result[i] = others[i];
+  std::ranges::rotate(result, result.begin() + random.between(0, 2));
+  if (random.coin()) std::swap(result[0], result[1]);
+  const int corners = std::min(3, random.between(1, 10));
+  for (std::size_t i = static_cast<std::size_t>(corners); i < 3; ++i) result[i] = result[i - 1];
+  return result;
+}
+
+class Trial {
+ public:
+  explicit Trial(Random& random) {
+    pair_[0] = random_element(random, 0, {});
+    std::set<std::int32_t> different(pair_[0].begin(), pair_[0].end());
+    const std::vector<std::int32_t> others(different.begin(), different.end());
+    pair_[1] = random_element(random, 3, others);
+    vertices_.resize(6, 3);
+    // A point that is named twice is one element.
+    are_faces_ = random.between(0, 3) == 0 || (pair_[0] == pair_[1] && different.size() == 1);
+    const int greatest = random.between(1, 4);
+    for (double& x : vertices_.reshaped()) x = random.between(-greatest, greatest);
+    if (random.between(0, 5) == 0) {
+      for (double& x : vertices_.reshaped()) x = random.few_bit_double(53, -52, -51);
+    }
+    if (random.between(0, 3) == 0) {  // inside the first element
+      vertices_.row(random.between(3, 5)) =
+          (vertices_.row(0) + vertices_.row(1) + 2.0 * vertices_.row(2)) / 4.0;
+    }
+    // Coplanar pairs, and neighbouring doubles.
+    if (random.between(0, 3) == 0) vertices_.col(random.between(0, 2)).setConstant(1.0);
+    if (random.between(0, 3) == 0) vertices_.col(0) = vertices_.col(1) * 3.0 + vertices_.col(2);
+    if (random.between(0, 3) == 0) {
+      double& x = vertices_(random.between(0, 5), random.between(0, 2));
+      x = std::nextafter(x, x + random.between(-1, 1));
+    }
+    static constexpr std::array<int, 8> exponents{0, 0, -1000, 1000, -1074, 1018, -300, 400};
+    const int exponent = exponents[static_cast<std::size_t>(random.between(0, 7))];
+    for (double& x : vertices_.reshaped()) x = std::ldexp(x, exponent);
+    // Too much for one scale.
+    if (random.between(0, 39) == 0) vertices_.col(random.between(0, 2)) *= 0x1p-1000;
+  }
+
+  /// Expects the truth, and returns the kind.
+  [[nodiscard]] std::optional<Kind> run() const {
+    const Found found = mesh().intersections();
+    const auto truth = truth_of(vertices_, pair_);
+    EXPECT_EQ(found.size(), truth ? 1U : 0U) << text();
+    if (!truth) return std::nullopt;
+    if (found.size() == 1) {
+      EXPECT_EQ(found[0].kind, truth->first) << text() << to_string(found[0].kind);
+      EXPECT_EQ(found[0].place, truth->second) << text();
+    }
+    return truth->first;
+  }
+  [[nodiscard]] Mesh mesh() const { return mesh_of(vertices_, pair_, are_faces_); }
+
+ private:
+  [[nodiscard]] std::string text() const {
+    std::ostringstream out;
+    out << std::hexfloat << vertices_ << '\n';
+    for (const auto& [a, b, c] : pair_) out << a << ' ' << b << ' ' << c << '\n';
+    return out.str();
+  }
+
+  Rows vertices_;
+  Pair pair_;
+  bool are_faces_;
+};
+
+TEST(Intersections, OfTwoElementsAreThoseOfRationalArithmetic) {
+  Random random(540);
+  std::array<int, intersection_kinds> seen{};
+  const int count = tests::soak_trials(10000, 100);
+  for (int i = 0; i < count && !testing::Test::HasFailure(); ++i) {
+    const Trial trial(random);
+    if (const auto kind = trial.run()) ++seen.at(static_cast<std::size_t>(*kind));
+  }
+  for (std::size_t kind = 0; kind < seen.size(); ++kind) {
+    EXPECT_GT(seen[kind], tests::trials(20)) << to_string(static_cast<Kind>(kind));
+  }
+}
+
+// ---- By construction ----------------------------------------------------------------------------
+
+/// A grid of n × n squares of two faces each.
+Mesh grid(std::int32_t n) {
+  Mesh mesh{.vertices = Rows((n + 1) * (n + 1), 3)};
+  for (std::int32_t i = 0; i <= n; ++i) {
+    for (std::int32_t k = 0; k <= n; ++k) mesh.vertices.row(i * (n + 1) + k) << i, k, 0.0;
+  }
+  for (std::int32_t i = 0; i < n; ++i) {
+    for (std::int32_t k = 0; k < n; ++k) {
+      const std::int32_t a = i * (n + 1) + k, b = a + n + 1;
+      mesh.faces.push_back({a, b, b + 1});
+      mesh.faces.push_back({a, b + 1, a + 1});
+    }
+  }
+  return mesh;
+}
+
+/// A sphere without poles: rings of 2n vertices.
+Mesh sphere(std::int32_t n) {
+  Mesh mesh{.vertices = Rows(2 * n * n, 3)};
+  for (std::int32_t i = 0; i < n; ++i) {
+    for (std::int32_t k = 0; k < 2 * n; ++k) {
+      const double height = std::numbers::pi * (i + 0.5) / n, angle = std::numbers::pi * k / n;
+      mesh.vertices.row(2 * n * i + k) << std::sin(height) * std::cos(angle),
+          std::sin(height) * std::sin(angle), std::cos(height);
+    }
+  }
+  for (std::int32_t i = 0; i + 1 < n; ++i) {
+    for (std::int32_t k = 0; k < 2 * n; ++k) {
+      const std::int32_t a = 2 * n * i + k, b = 2 * n * i + (k + 1) % (2 * n);
+      mesh.faces.push_back({a, a + 2 * n, b + 2 * n});
+      mesh.faces.push_back({a, b + 2 * n, b});
+    }
+  }
+  return mesh;
+}
+
+void append(Mesh& mesh, const Mesh& other) {
+  const auto first = static_cast<std::int32_t>(mesh.vertices.rows());
+  const Rows before = mesh.vertices;
+  mesh.vertices.resize(before.rows() + other.vertices.rows(), 3);
+  mesh.vertices << before, other.vertices;
+  for (const auto& [a, b, c] : other.faces) mesh.faces.push_back({a + first, b + first, c + first});
+}
+
+constexpr std::array<int, 6> scales{0, -1000, -500, 90, 500, 1000};
+
+TEST(Intersections, OfASphereAndAPlaneAreTheFacesOnBothSides) {
+  Mesh mesh = sphere(12);
+  append(mesh, {rows({{-100, -80, 0.125}, {200, -80, 0.125}, {-100, 300, 0.125}}), {{0, 1, 2}}});
+  const auto plane = static_cast<std::int32_t>(mesh.faces.size()) - 1;
+  std::vector<std::int32_t> expected;
+  for (std::int32_t i = 0; i < plane; ++i) {
+    int above = 0;
+    for (const std::int32_t vertex : mesh.faces[static_cast<std::size_t>(i)]) {
+      if (mesh.vertices(vertex, 2) > 0.125) ++above;
+    }
+    if (above == 1 || above == 2) expected.push_back(i);
+  }
+  ASSERT_GT(expected.size(), 20U);
+  for (const int scale : scales) {
+    Mesh scaled = mesh;
+    for (double& x : scaled.vertices.reshaped()) x = std::ldexp(x, scale);
+    const Found found = scaled.intersections();
+    ASSERT_EQ(found.size(), expected.size()) << scale;
+    for (std::size_t i = 0; i < found.size(); ++i) {
+      EXPECT_EQ(found[i].numbers, (IndexPair{expected[i], plane}));
+      EXPECT_EQ(found[i].kind, Kind::edge_through_face);
+      for (const PointEnclosure& end : found[i].place) {
+        EXPECT_EQ(end.lower[2], std::ldexp(0.125, scale));
+        EXPECT_EQ(end.upper[2], std::ldexp(0.125, scale));
+      }
+    }
+  }
+}
+
+/// In one plane, tilted, or of one line.
+TEST(Intersections, OfAGridDoNotExist) {
+  for (const int scale : scales) {
+    Mesh mesh = grid(9);
+    for (double& x : mesh.vertices.reshaped()) x = std::ldexp(x, scale);
+    EXPECT_TRUE(mesh.intersections().empty());
+    mesh.vertices.col(2) = mesh.vertices.col(0) * 3.0 - mesh.vertices.col(1) * 7.0;
+    EXPECT_TRUE(mesh.intersections().empty());
+  }
+}
+
+/// A strip of squares, folded over and over. The diagonals of neighbours cross, so each face of one
+/// overlaps both of the other, one of them in a fold. Squares with the same diagonal overlap in
+/// their equal halves, and touch along the diagonal.
+TEST(Intersections, OfAFoldedStripAreItsLayers) {
+  static constexpr std::int32_t squares = 7;
+  Mesh mesh{.vertices = Rows(2 * (squares + 1), 3)};
+  for (std::int32_t i = 0; i <= squares; ++i) {
+    mesh.vertices.row(2 * i) << i % 2, 0, 5;
+    mesh.vertices.row(2 * i + 1) << i % 2, 1, 5;
+  }
+  for (std::int32_t i = 0; i < squares; ++i) {
+    mesh.faces.push_back({2 * i, 2 * i + 1, 2 * i + 2});
+    mesh.faces.push_back({2 * i + 1, 2 * i + 3, 2 * i + 2});
+  }
+  std::map<Kind, int> count;
+  for (const Intersection& one : mesh.intersections()) ++count[one.kind];
+  EXPECT_EQ(count[Kind::folded_faces], squares - 1);
+  static constexpr int crossing = 4 * 3, equal = 6 + 3;  // pairs of squares
+  EXPECT_EQ(count[Kind::coplanar_overlap], 4 * crossing + 2 * equal - (squares - 1));
+  EXPECT_EQ(count[Kind::edges_overlap], 2 * equal);
+}
+
+/// Triangles that share a vertex and touch along an edge, or in a part of it, or cross there; and
+/// coplanar neighbours. (The last vertex is the third face's.)
+TEST(Intersections, OfTrianglesAtACommonVertexAreBeyondIt) {
+  const auto kinds = [](const std::array<double, 3>& x, const std::array<double, 3>& y) {
+    const Mesh mesh{rows({{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, x, y}), {{0, 1, 2}, {3, 4, 0}}};
+    return kinds_of(mesh.intersections());
+  };
+  using Kinds = std::vector<Kind>;
+  EXPECT_EQ(kinds({0, 0, 3}, {-1, -1, 3}), Kinds{});
+  EXPECT_EQ(kinds({0, 0, 3}, {2, 0, 0}), Kinds{Kind::edges_overlap});
+  EXPECT_EQ(kinds({0, 0, 3}, {4, 0, 0}), Kinds{Kind::edges_overlap}) << "a duplicated vertex";
+  EXPECT_EQ(kinds({0, 0, 3}, {9, 0, 0}), Kinds{Kind::edges_overlap});
+  EXPECT_EQ(kinds({0, 0, 3}, {1, 1, 0}), Kinds{Kind::edge_through_face});
+  EXPECT_EQ(kinds({1, 1, 3}, {1, 1, -3}), Kinds{Kind::edge_through_face});
+  EXPECT_EQ(kinds({-1, -1, 3}, {-1, -1, -3}), Kinds{});
+  EXPECT_EQ(kinds({-1, 0, 0}, {0, -1, 0}), Kinds{}) << "coplanar, on the other side";
+  EXPECT_EQ(kinds({-1, 0, 0}, {-1, 4, 0}), Kinds{}) << "coplanar, beside";
+  EXPECT_EQ(kinds({4, -4, 0}, {4, 0, 0}), Kinds{Kind::edges_overlap}) << "coplanar, along an edge";
+  EXPECT_EQ(kinds({4, -4, 0}, {4, 1, 0}), Kinds{Kind::coplanar_overlap});
+}
+
+/// By one bit, in the plane and off it.
+TEST(Intersections, AreDecidedExactly) {
+  for (const double x : {2.0, std::nextafter(2.0, 3.0)}) {
+    const Mesh mesh{rows({{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {2, x, -1}, {2, x, 1}, {9, 9, 0}}),
+                    {{0, 1, 2}, {3, 4, 5}}};
+    const Found found = mesh.intersections();
+    ASSERT_EQ(found.size(), x == 2.0 ? 1U : 0U);
+    if (found.empty()) continue;
+    EXPECT_EQ(found[0].kind, Kind::edges_cross);
+    EXPECT_EQ(found[0].place[0].lower, (std::array{2.0, 2.0, 0.0}));
+  }
+}
+
+TEST(Intersections, OfEdgesAndPointsWithFaces) {
+  Mesh mesh{.vertices = rows({{0, 0, 0},
+                              {4, 0, 0},
+                              {0, 4, 0},
+                              {1, 1, -1},
+                              {1, 1, 1},
+                              {1, 1, 0},
+                              {2, 0, 0},
+                              {9, 9, 9}}),
+            .faces = {{0, 1, 2}},
+            .edges = {{0, 1}, {0, 2}, {1, 2}, {3, 4}},
+            .points = {5, 6, 7}};
+  const Found found = mesh.intersections();
+  ASSERT_EQ(found.size(), 4U);
+  using Kinds = std::vector<Kind>;
+  EXPECT_EQ(kinds_of(found), (Kinds{Kind::edge_through_face, Kind::vertex_in_face,
+                                    Kind::vertex_on_edge, Kind::vertex_on_edge}));
+  EXPECT_EQ(found[0].elements, (std::array{ElementKind::face, ElementKind::edge}));
+  EXPECT_EQ(found[0].numbers, (IndexPair{0, 3}));
+  EXPECT_EQ(found[1].elements, (std::array{ElementKind::face, ElementKind::point}));
+  EXPECT_EQ(found[1].numbers, (IndexPair{0, 5}));
+  EXPECT_EQ(found[2].numbers, (IndexPair{0, 6}));
+  EXPECT_EQ(found[3].elements, (std::array{ElementKind::edge, ElementKind::point}));
+  EXPECT_EQ(found[3].numbers, (IndexPair{3, 5}));
+}
+
+/// Those of a step at its start, of groups that can collide.
+TEST(Intersections, OfAStepsStart) {
+  const Mesh mesh{rows({{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {1, 1, -1}, {1, 1, 1}, {9, 9, 1}}),
+                  {{0, 1, 2}, {3, 4, 5}}};
+  Rows lifted = mesh.vertices;
+  lifted.bottomRows(3).col(2).array() += 5.0;
+  const std::vector<std::int32_t> groups{0, 0, 0, 1, 1, 1};
+  const std::vector<std::array<std::int32_t, 2>> apart{{0, 1}};
+  const Step meeting(mesh.vertices, lifted, mesh.elements()), free(lifted, lifted, mesh.elements());
+  const Step of_groups(mesh.vertices, lifted, mesh.elements(),
+                       {.groups = {.of_vertices = groups, .apart = apart}});
+  EXPECT_EQ(meeting.intersections_at_start(), mesh.intersections());
+  EXPECT_EQ(mesh.intersections().size(), 1U);
+  EXPECT_FALSE(meeting.starts_free());
+  EXPECT_TRUE(free.starts_free());
+  EXPECT_TRUE(of_groups.starts_free());
+}
+
+// ---- Options ------------------------------------------------------------------------------------
+
+/// Two spheres that intersect.
+Mesh two_spheres() {
+  Mesh mesh = sphere(9), other = mesh;
+  other.vertices.rowwise() += Eigen::RowVector3d(0.3, 0.2, 0.1);
+  append(mesh, other);
+  return mesh;
+}
+
+TEST(Intersections, AreTheSameInAnyNumberOfThreadsAndFloatingPointState) {
+  const Mesh mesh = two_spheres();
+  const Found found = mesh.intersections({.max_threads = 1});
+  EXPECT_GT(found.size(), 50U);
+  EXPECT_TRUE(std::ranges::is_sorted(found, {}, &Intersection::numbers));
+  EXPECT_EQ(mesh.intersections({.max_threads = 3}), found);
+  Found without = mesh.intersections({.places = false});
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    EXPECT_EQ(without.at(i).place, decltype(without[i].place){});
+    without[i].place = found[i].place;
+  }
+  EXPECT_EQ(without, found);
+  const Rows rounded = mesh.vertices.cast<float>().cast<double>();
+  EXPECT_EQ(intersections(rounded.cast<float>(), mesh.elements()),
+            intersections(rounded, mesh.elements()));
+}
+
+TEST(Intersections, AreOfGroupsThatAreNotApart) {
+  const Mesh mesh = two_spheres();
+  std::vector<std::int32_t> groups(static_cast<std::size_t>(mesh.vertices.rows()), 0);
+  std::fill(groups.begin() + mesh.vertices.rows() / 2, groups.end(), 1);
+  const std::vector<std::array<std::int32_t, 2>> each{{0, 0}, {1, 1}}, both{{1, 0}};
+  const auto with = [&](const std::vector<std::array<std::int32_t, 2>>& apart) {
+    return IntersectionOptions{.groups = {.of_vertices = groups, .apart = apart}};
+  };
+  EXPECT_EQ(mesh.intersections(with(each)), mesh.intersections());
+  EXPECT_TRUE(mesh.intersections(with(both)).empty());
+  EXPECT_FALSE(has_intersections(mesh.vertices, mesh.elements(), with(both)));
+  EXPECT_TRUE(has_intersections(mesh.vertices, mesh.elements(), with(each)));
+}
+
+/// A grid in which every face has vertices of its own.
+TEST(Intersections, OfASoupAreGoneWhenItIsWelded) {
+  const Mesh joined = grid(4);
+  Mesh soup{.vertices = Rows(static_cast<Eigen::Index>(3 * joined.faces.size()), 3)};
+  std::vector<std::int32_t> groups;
+  for (const Face& face : joined.faces) {
+    const auto first = static_cast<std::int32_t>(3 * soup.faces.size());
+    for (std::int32_t i = 0; i < 3; ++i) {
+      soup.vertices.row(first + i) = joined.vertices.row(face[static_cast<std::size_t>(i)]);
+      groups.push_back(first % 2);
+    }
+    soup.faces.push_back({first, first + 1, first + 2});
+  }
+  std::map<Kind, int> count;
+  for (const Intersection& one : soup.intersections()) ++count[one.kind];
+  EXPECT_EQ(count[Kind::edges_overlap], 16 + 2 * 4 * 3) << "inner edges";
+  EXPECT_EQ(count.size(), 2U) << "and faces at a vertex";
+  EXPECT_TRUE(soup.intersections({.weld = true}).empty());
+  EXPECT_FALSE(
+      soup.intersections({.groups = {.of_vertices = groups, .apart = {}}, .weld = true}).empty())
+      << "vertices of different groups stay apart";
+  const MeshDefects defects = mesh_defects(soup.vertices, soup.elements());
+  EXPECT_EQ(defects.duplicated_vertices.size(), soup.faces.size() * 3 - 25);
+}
+
+TEST(Intersections, AreNotDefects) {
+  const Mesh mesh{
+      .vertices = rows(
+          {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {0, 1, 0}, {7, 7, 7}, {0, -0.0, 0}, {0x1p-1074, 0, 0}}),
+      .faces = {{0, 1, 2}, {0, 1, 3}, {0, 0, 3}, {3, 0, 6}}};
+  const MeshDefects defects = mesh_defects(mesh.vertices, mesh.elements());
+  EXPECT_EQ(defects.degenerate_faces, (std::vector<std::int32_t>{0, 2}));
+  EXPECT_EQ(defects.degenerate_edges, (std::vector<std::int32_t>{}));
+  EXPECT_EQ(defects.duplicated_vertices, (std::vector<IndexPair>{{5, 0}}));
+  EXPECT_EQ(defects.unreferenced_vertices, (std::vector<std::int32_t>{4, 5}));
+  const std::vector<Edge> edges{{0, 1}, {0, 5}, {2, 2}};
+  EXPECT_EQ(mesh_defects(mesh.vertices, {.edges = edges}).degenerate_edges,
+            (std::vector<std::int32_t>{1, 2}));
+}
+
+TEST(Intersections, OfBadInputAreRefused) {
+  using tests::message_of;
+  Mesh mesh = grid(2);
+  mesh.faces.push_back({0, 1, 9});
+  EXPECT_EQ(message_of<std::out_of_range>([&] { (void)mesh.intersections(); }),
+            "face 8: vertex 9, but there are 9");
+  mesh.faces.pop_back();
+  EXPECT_THROW((void)mesh.intersections({.max_threads = -1}), std::invalid_argument);
+  EXPECT_THROW((void)intersections(Rows(mesh.vertices).leftCols(2), mesh.elements()),
+               std::invalid_argument);
+  const std::atomic<bool> stop = true;
+  EXPECT_THROW((void)mesh.intersections({.stop = &stop}), Stopped);
+  mesh.vertices(3, 1) = std::numeric_limits<double>::infinity();
+  EXPECT_THROW((void)mesh.intersections(), std::domain_error);
+  EXPECT_THROW((void)mesh_defects(mesh.vertices, mesh.elements()), std::domain_error);
+  EXPECT_TRUE(intersections(Rows(0, 3), {}).empty());
+}
+
+// ---- Faults -------------------------------------------------------------------------------------
+
+TEST(Intersections, PlantedFaultsAreFound) {
+  for (const auto& fault : tests::planted_faults().intersections) {
+    Random random(541);
+    bool is_found = false;
+    for (int i = 0; i < 20000 && !is_found; ++i) {
+      const Mesh mesh = Trial(random).mesh();
+      is_found = fault.part(MovingVertices(mesh.vertices, mesh.vertices), mesh.elements(),
+                            {.max_threads = 1}) != mesh.intersections({.max_threads = 1});
+    }
+    EXPECT_TRUE(is_found) << fault.name;
+  }
+}
+
+}  // namespace
+}  // namespace touchstone::fast::intersections_test

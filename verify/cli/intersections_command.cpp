@@ -1,0 +1,109 @@
+// touchstone intersections: the elements of meshes at rest that meet other than in what they share.
+
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "touchstone/intersections.hpp"
+#include "verify/cli/commands.hpp"
+#include "verify/cli/files.hpp"
+#include "verify/cli/group_options.hpp"
+#include "verify/cli/help.hpp"
+#include "verify/cli/option_table.hpp"
+#include "verify/cli/sources.hpp"
+#include "verify/io/json.hpp"
+#include "verify/io/terminal.hpp"
+#include "verify/jobs/work_time.hpp"
+#include "verify/mesh/mesh_file.hpp"
+#include "verify/report/intersection_report.hpp"
+
+namespace touchstone::verify::cli::intersections_command {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Arguments {
+  std::vector<fs::path> meshes;
+  GroupArguments groups;
+  bool weld = false;
+  int threads = 0;
+  std::string csv_file;
+  std::string json_file;
+};
+
+fast::MeshElements elements_of(const mesh::Mesh& mesh) {
+  return {.edges = mesh.edges, .faces = mesh.faces, .points = mesh.points};
+}
+
+report::RestingMesh read(Files& files, const fs::path& path) {
+  files.add_input(path);
+  report::RestingMesh result{.name = path.string(), .mesh = mesh::read_mesh(path)};
+  report_note(path, result.mesh.note);
+  mesh::require_elements(result.mesh, path);
+  result.defects = fast::mesh_defects(result.mesh.vertices, elements_of(result.mesh));
+  return result;
+}
+
+Status intersections(const Arguments& arguments) {
+  Files files;
+  Output json(files, arguments.json_file), csv(files, arguments.csv_file);
+  report::IntersectionReport report{.meshes = {}, .intersections = {}, .weld = arguments.weld};
+  for (const fs::path& path : arguments.meshes) report.meshes.push_back(read(files, path));
+  const mesh::Mesh all = report::joined(report.meshes);
+  const CollidingGroups groups(files, arguments.groups, all);
+  report.interrupted = true;
+  until_interrupted([&] {
+    const jobs::WorkTime time = jobs::work_time_of([&] {
+      report.intersections = fast::intersections(all.vertices, elements_of(all),
+                                                 {.groups = groups.get(),
+                                                  .weld = arguments.weld,
+                                                  .max_threads = arguments.threads,
+                                                  .stop = &io::interrupted()});
+    });
+    report.seconds = time.wall;
+    report.interrupted = false;
+  });
+  if (json) json.write(io::json_document(report::to_json(report)));
+  json.close();
+  if (csv) csv.write(report::to_csv(report));
+  csv.close();
+  io::print(files.summary_stream(), report::to_text(report));
+  if (files.has_failed()) return Status::bad_input;
+  if (report.interrupted) return Status::interrupted;
+  return report.intersections.empty() ? Status::all_well : Status::wrong_answers;
+}
+
+void add_options(CLI::App& command, Arguments& arguments) {
+  command.option_defaults()->group("Input");
+  add_option(command, "meshes", arguments.meshes);
+  add_group_options(command, arguments.groups);
+  add_option(command, "--weld", arguments.weld);
+  add_option(command, "--threads", arguments.threads);
+  command.option_defaults()->group("Output");
+  add_option(command, "--csv", arguments.csv_file);
+  add_option(command, "--json", arguments.json_file);
+}
+
+}  // namespace
+
+void add(CLI::App& app, Status& status) {
+  const auto arguments = std::make_shared<Arguments>();
+  CLI::App* command =
+      app.add_subcommand("intersections", "Find where a mesh intersects itself or others, exactly");
+  add_options(*command, *arguments);
+  set_help(*command,
+           "touchstone intersections bunny.obj --csv pairs.csv\n"
+           "touchstone intersections cloth.ply body.ply --apart body.ply body.ply",
+           "Faces, edges of no face and points without an edge intersect if they have a common "
+           "point beyond their common vertices, or are duplicates. With several meshes, each is a "
+           "group with the name of its file. Numbers begin at 0; edges are numbered by their "
+           "larger vertex, then by the smaller.\n"
+           "Exit status: 0 free of intersections, 1 an intersection, 2 bad input or usage, 130 "
+           "interrupted.");
+  command->callback([arguments, &status] { status = intersections(*arguments); });
+}
+
+}  // namespace touchstone::verify::cli::intersections_command

@@ -1,0 +1,53 @@
+#pragma once
+
+/// \file
+/// The intersections of meshes at rest, for people (tables) and for machines (JSON, CSV).
+
+#include <cstddef>
+#include <cstdint>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+#include "touchstone/intersections.hpp"
+#include "verify/mesh/mesh_file.hpp"
+
+namespace touchstone::verify::report {
+
+/// A mesh, and what is unusual in it by itself.
+struct RestingMesh {
+  std::string name;
+  mesh::Mesh mesh;
+  fast::MeshDefects defects = {};
+};
+
+/// Several meshes as one, whose vertices and elements are those of all in order. If there is more
+/// than one, each is a group with its name.
+[[nodiscard]] mesh::Mesh joined(const std::vector<RestingMesh>& meshes);
+
+struct IntersectionReport {
+  std::vector<RestingMesh> meshes;
+  std::vector<fast::Intersection> intersections;  ///< of the joined mesh
+  bool weld = false;
+  double seconds = 0.0;
+  bool interrupted = false;
+};
+
+/// The numbers of each kind; the first ten pairs with their places; what is unusual in each mesh.
+[[nodiscard]] std::string to_text(const IntersectionReport& report);
+
+/// A line for each of the first pairs, without line ends: "face 0 (0 1 2), face 1 (3 4 5)".
+/// \param names Whether the names of the meshes are said.
+[[nodiscard]] std::string pair_text(const std::vector<RestingMesh>& meshes,
+                                    const fast::Intersection& intersection);
+
+/// `meshes` (`name`, `vertices`, `edges`, `faces`, `degenerate_faces`, `degenerate_edges`,
+/// `duplicated_vertices`, `unreferenced_vertices`), `intersections` (`kind`, `first` and `second`:
+/// `mesh`, an index, `element`, `number`; `place`: two points of three intervals), `counts` by
+/// kind, `weld`, `seconds`, `interrupted`.
+[[nodiscard]] nlohmann::json to_json(const IntersectionReport& report);
+
+/// kind,first_mesh,first_element,first,second_mesh,second_element,second,x0_lower,x0_upper,…
+[[nodiscard]] std::string to_csv(const IntersectionReport& report);
+
+}  // namespace touchstone::verify::report
