@@ -17,14 +17,21 @@ namespace fs = std::filesystem;
 
 class PieceRuns : public tests::ToolTest {
  protected:
-  /// The words of a run in pieces, on a store of many shards.
+  /// The words of a run in pieces, on curves of three degrees and a store of many shards on lines.
   [[nodiscard]] std::vector<std::string> words(const std::string& name) const {
-    return {"certify",  path("store"),
-            "--resume", path(name),
-            "--method", "cubic",
-            "--json",   path(name + ".json"),
-            "--truth",  path(name + ".csv"),
-            "--prove",  path(name + ".cert")};
+    return {"certify",
+            path("curves"),
+            path("store"),
+            "--resume",
+            path(name),
+            "--method",
+            "cubic",
+            "--json",
+            path(name + ".json"),
+            "--truth",
+            path(name + ".csv"),
+            "--prove",
+            path(name + ".cert")};
   }
 
   /// The contents of all merged files.
@@ -49,11 +56,15 @@ TEST_F(PieceRuns, ThatAreKilledGoOn) {
     generate.insert(generate.end(), {"--family", family});
   }
   ASSERT_EQ(run(generate).status, 0);
+  ASSERT_EQ(run({"generate", "--out", path("curves"), "--count", "4", "--degree", "2", "--degree",
+                 "3", "--degree", "rational"})
+                .status,
+            0);
   ASSERT_EQ(run({"convert", path("data"), "--out", path("store"), "--shard-size", "8"}).status, 0);
   ASSERT_EQ(run(words("one")).status, 1);
   const std::string expected = results("one");
   const std::size_t all = json("one/plan.json")["pieces"].size();
-  ASSERT_EQ(all, 104U);
+  ASSERT_EQ(all, 32U + 104U);
   const auto done = [&] {
     std::size_t count = 0;
     if (!fs::exists(path("killed"))) return count;
