@@ -33,15 +33,15 @@ std::vector<std::int32_t> edges_without_face(const MeshElements& elements) {
     }
   };
   // The greater vertices of sides, in a list for each lesser one.
-  std::vector<std::size_t> ends(vertices + 1);
-  for_each_side([&](std::size_t lesser, std::int32_t /*greater*/) { ++ends[lesser + 1]; });
-  std::partial_sum(ends.begin(), ends.end(), ends.begin());
-  std::vector<std::int32_t> greater_ones(ends.back());
-  std::vector<std::size_t> next = ends;
+  std::vector<std::size_t> begins(vertices + 1);
+  for_each_side([&](std::size_t lesser, std::int32_t /*greater*/) { ++begins[lesser + 1]; });
+  std::partial_sum(begins.begin(), begins.end(), begins.begin());
+  std::vector<std::int32_t> greater_ones(begins.back());
+  std::vector<std::size_t> next = begins;
   for_each_side(
       [&](std::size_t lesser, std::int32_t greater) { greater_ones[next[lesser]++] = greater; });
   const auto list_of = [&](std::size_t lesser) {
-    return std::span(greater_ones).subspan(ends[lesser], next[lesser] - ends[lesser]);
+    return std::span(greater_ones).subspan(begins[lesser], next[lesser] - begins[lesser]);
   };
   for (std::size_t lesser = 0; lesser < vertices; ++lesser) std::ranges::sort(list_of(lesser));
   std::vector<std::int32_t> result;
