@@ -24,6 +24,7 @@
 
 #include <array>
 #include <atomic>
+#include <cstddef>
 #include <cstdint>
 #include <string_view>
 #include <vector>
@@ -41,15 +42,15 @@ enum class ElementKind : std::uint8_t {
 
 /// The way in which two elements intersect: the first of these that is true.
 enum class IntersectionKind : std::uint8_t {
-  duplicates,          ///< the same vertices
-  folded_faces,        ///< two faces on the same side of their common edge, in one plane
-  coplanar_overlap,    ///< faces in one plane that overlap in an area
-  edge_through_face,   ///< a point inside a face, in the other face's inside or in an edge of it
-  vertex_in_face,      ///< a vertex inside a face
-  edges_overlap,       ///< edges on one line overlap in a segment
-  edges_cross,         ///< a point inside two edges that are not on one line
-  vertex_on_edge,      ///< a vertex inside an edge
-  vertices_coincide,   ///< two vertices at one place
+  duplicates,         ///< the same vertices
+  folded_faces,       ///< two faces on the same side of their common edge, in one plane
+  coplanar_overlap,   ///< faces in one plane that overlap in an area
+  edge_through_face,  ///< the inside of a face meets that of another one, or that of an edge
+  vertex_in_face,     ///< a vertex inside a face
+  edges_overlap,      ///< edges on one line overlap in a segment
+  edges_cross,        ///< a point inside two edges that are not on one line
+  vertex_on_edge,     ///< a vertex inside an edge
+  vertices_coincide,  ///< two vertices at one place
 };
 inline constexpr std::size_t intersection_kinds = 9;
 
