@@ -1,6 +1,9 @@
 #include "fast/step/codimensional.hpp"
 
 #include <algorithm>
+#include <cstddef>
+#include <numeric>
+#include <span>
 
 namespace touchstone::fast {
 namespace {
@@ -18,16 +21,34 @@ Edge ordered(std::int32_t a, std::int32_t b) { return {std::min(a, b), std::max(
 }  // namespace
 
 std::vector<std::int32_t> edges_without_face(const MeshElements& elements) {
-  std::vector<Edge> sides;
-  sides.reserve(3 * elements.faces.size());
-  for (const auto& [a, b, c] : elements.faces) {
-    sides.insert(sides.end(), {ordered(a, b), ordered(b, c), ordered(c, a)});
+  std::size_t vertices = 0;
+  for (const Face& face : elements.faces) {
+    vertices = std::max(vertices, static_cast<std::size_t>(std::ranges::max(face)) + 1);
   }
-  std::ranges::sort(sides);
+  const auto for_each_side = [&](const auto& use) {
+    for (const auto& [a, b, c] : elements.faces) {
+      for (const auto& [lesser, greater] : {ordered(a, b), ordered(b, c), ordered(c, a)}) {
+        use(static_cast<std::size_t>(lesser), greater);
+      }
+    }
+  };
+  // The greater vertices of sides, in a list for each lesser one.
+  std::vector<std::size_t> begins(vertices + 1);
+  for_each_side([&](std::size_t lesser, std::int32_t /*greater*/) { ++begins[lesser + 1]; });
+  std::partial_sum(begins.begin(), begins.end(), begins.begin());
+  std::vector<std::int32_t> greater_ones(begins.back());
+  std::vector<std::size_t> next = begins;
+  for_each_side(
+      [&](std::size_t lesser, std::int32_t greater) { greater_ones[next[lesser]++] = greater; });
+  const auto list_of = [&](std::size_t lesser) {
+    return std::span(greater_ones).subspan(begins[lesser], next[lesser] - begins[lesser]);
+  };
+  for (std::size_t lesser = 0; lesser < vertices; ++lesser) std::ranges::sort(list_of(lesser));
   std::vector<std::int32_t> result;
   for (std::size_t i = 0; i < elements.edges.size(); ++i) {
-    const auto [a, b] = elements.edges[i];
-    if (!std::ranges::binary_search(sides, ordered(a, b))) {
+    const auto [lesser, greater] = ordered(elements.edges[i][0], elements.edges[i][1]);
+    const auto from = static_cast<std::size_t>(lesser);
+    if (from >= vertices || !std::ranges::binary_search(list_of(from), greater)) {
       result.push_back(static_cast<std::int32_t>(i));
     }
   }

@@ -36,8 +36,7 @@ struct IntersectionReport {
 /// The numbers of each kind; the first ten pairs with their places; what is unusual in each mesh.
 [[nodiscard]] std::string to_text(const IntersectionReport& report);
 
-/// A line for each of the first pairs, without line ends: "face 0 (0 1 2), face 1 (3 4 5)".
-/// \param names Whether the names of the meshes are said.
+/// "face 0 (0 1 2), face 1 (3 4 5)", with the names of the meshes if there are several.
 [[nodiscard]] std::string pair_text(const std::vector<RestingMesh>& meshes,
                                     const fast::Intersection& intersection);
 

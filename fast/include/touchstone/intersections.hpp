@@ -24,6 +24,7 @@
 
 #include <array>
 #include <atomic>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <string_view>
@@ -45,7 +46,7 @@ enum class IntersectionKind : std::uint8_t {
   duplicates,         ///< the same vertices
   folded_faces,       ///< two faces on the same side of their common edge, in one plane
   coplanar_overlap,   ///< faces in one plane that overlap in an area
-  edge_through_face,  ///< a point inside a face, in the other face's inside or in an edge of it
+  edge_through_face,  ///< the inside of a face meets that of another one, or that of an edge
   vertex_in_face,     ///< a vertex inside a face
   edges_overlap,      ///< edges on one line overlap in a segment
   edges_cross,        ///< a point inside two edges that are not on one line
