@@ -21,6 +21,7 @@
 #include "python/bindings/arguments.hpp"
 #include "python/bindings/background.hpp"
 #include "touchstone/contacts.hpp"
+#include "touchstone/intersections.hpp"
 #include "touchstone/step.hpp"
 
 namespace touchstone::python {
@@ -267,6 +268,44 @@ class OwningStep {
   std::shared_ptr<const fast::Step> step_;
 };
 
+// ---- At rest ------------------------------------------------------------------------------------
+
+py::dict intersection_layout() {
+  using Item = fast::Intersection;
+  static_assert(sizeof(Item::place) == 12 * sizeof(double));
+  return Layout(sizeof(Item))
+      .add("kind", "u1", offsetof(Item, kind))
+      .add("elements", "(2,)u1", offsetof(Item, elements))
+      .add("numbers", "(2,)i4", offsetof(Item, numbers))
+      .add("place", "(2,2,3)f8", offsetof(Item, place))
+      .dict();
+}
+
+py::array intersections(const Doubles& vertices, const Integers& faces, const Integers& edges,
+                        const Integers& points, const Integers& groups, const Integers& apart,
+                        bool weld, int threads, const py::object& progress) {
+  const Elements elements{.edges = rows_of<fast::Edge>(edges),
+                          .faces = rows_of<fast::Face>(faces),
+                          .points = rows_of<std::int32_t>(points),
+                          .groups = rows_of<std::int32_t>(groups),
+                          .apart = rows_of<std::array<std::int32_t, 2>>(apart)};
+  const fast::MovingVertices at_rest = vertices_of(vertices, vertices);
+  const fast::IntersectionOptions options{
+      .groups = {.of_vertices = elements.groups, .apart = elements.apart},
+      .weld = weld,
+      .max_threads = is_forked() ? 1 : threads,
+      .stop = &elements.stop};
+  const auto search = [&] { return fast::intersections(at_rest, elements.mesh(), options); };
+  std::vector<fast::Intersection> found;
+  if (is_forked()) {
+    const py::gil_scoped_release unlocked;
+    found = search();
+  } else {
+    found = in_background(search, elements.stop, progress);
+  }
+  return array_of(found, intersection_layout());
+}
+
 }  // namespace
 
 void define_step(py::module_& m) {
@@ -294,6 +333,9 @@ void define_step(py::module_& m) {
       .def("least_distance", &OwningStep::least_distance, arg("t"), arg("norm"), arg("progress"))
       .def("edges", &OwningStep::edges)
       .def("query", &OwningStep::query, arg("kind"), arg("first"), arg("second"));
+  m.def("intersections", &intersections, arg("vertices").noconvert(), arg("faces").noconvert(),
+        arg("edges").noconvert(), arg("points").noconvert(), arg("groups").noconvert(),
+        arg("apart").noconvert(), arg("weld"), arg("threads"), arg("progress"));
 }
 
 }  // namespace touchstone::python

@@ -74,3 +74,15 @@ class Step:
     ) -> tuple[float, float, _Items] | None: ...
     def edges(self) -> _Integers: ...
     def query(self, kind: int, first: int, second: int) -> _Doubles: ...
+
+def intersections(
+    vertices: _Doubles,
+    faces: _Integers,
+    edges: _Integers,
+    points: _Integers,
+    groups: _Integers,
+    apart: _Integers,
+    weld: bool,
+    threads: int,
+    progress: _Waiting | None,
+) -> _Items: ...

@@ -1,4 +1,4 @@
-"""Whole steps of a scene: impacts, distances and step sizes of a moving mesh."""
+"""Scenes: impacts, distances and step sizes of a moving mesh, and intersections of one at rest."""
 
 from __future__ import annotations
 
@@ -24,6 +24,31 @@ class PairKind(IntEnum):
     EDGE_EDGE = 1
     VERTEX_EDGE = 2
     VERTEX_VERTEX = 3
+
+
+class ElementKind(IntEnum):
+    """The elements of a mesh."""
+
+    FACE = 0
+    EDGE = 1
+    POINT = 2
+
+
+class IntersectionKind(IntEnum):
+    """The way in which two elements intersect: the first of these that is true.
+
+    An edge goes through a face if the inside of a face meets that of another one, or that of an edge.
+    """
+
+    DUPLICATES = 0
+    FOLDED_FACES = 1
+    COPLANAR_OVERLAP = 2
+    EDGE_THROUGH_FACE = 3
+    VERTEX_IN_FACE = 4
+    EDGES_OVERLAP = 5
+    EDGES_CROSS = 6
+    VERTEX_ON_EDGE = 7
+    VERTICES_COINCIDE = 8
 
 
 @dataclass(frozen=True)
@@ -386,3 +411,78 @@ class Step:
             if ": proved: " in line:
                 return line.split(": proved: ")[1].split(";")[0]
         raise ValueError("prove: no proof: " + text)
+
+
+@checked
+def intersections(
+    vertices: npt.ArrayLike,
+    faces: npt.ArrayLike | None = None,
+    *,
+    edges: npt.ArrayLike | None = None,
+    points: npt.ArrayLike | None = None,
+    groups: npt.ArrayLike | None = None,
+    apart: npt.ArrayLike | None = None,
+    weld: bool = False,
+    threads: int = 0,
+    progress: bool | None = None,
+) -> npt.NDArray[np.void]:
+    """Return where a mesh at rest intersects itself, exactly.
+
+    Elements that have vertices in common intersect if they meet elsewhere. Faces without an area and
+    edges without a length are what they are: segments and points.
+
+    Parameters
+    ----------
+    vertices : array_like of shape (n, 3)
+        The places of the vertices.
+    faces : array_like of int, shape (f, 3), optional
+        The faces by the numbers of their vertices. Vertices at the same place under two numbers are
+        two vertices; see `weld`.
+    edges : array_like of int, shape (e, 2), optional
+        Edges of no face take part, too.
+    points : array_like of int, shape (p,), optional
+        Vertices that are part of the mesh in any case.
+    groups, apart : optional
+        As for `Step`: groups of vertices, and those that are not examined.
+    weld : bool, optional
+        True: vertices at the same place, of the same group, are one.
+    threads : int, optional
+        The maximum number of threads; 0: one for each core that the process may use.
+    progress : bool, optional
+        Show the time of a search from the first second on; by default in terminals and notebooks.
+
+    Returns
+    -------
+    structured ndarray
+        An item for each pair, in order, with the fields `kind` (see `IntersectionKind`), `elements`
+        (two of `ElementKind`), `numbers` (two, of faces, edges or points) and `place` of shape
+        (2, 2, 3): for both ends of what they have in common, the same for a point, the lower and the
+        upper ends of its coordinates. Of an area it is two corners.
+
+    Raises
+    ------
+    ValueError
+        For another shape or type, and for a coordinate that is NaN or infinite, naming its vertex.
+    IndexError
+        For an index out of range, naming its element.
+
+    Examples
+    --------
+    >>> import touchstone
+    >>> vertices = [[0, 0, 0], [4, 0, 0], [0, 4, 0], [1, 1, -1], [1, 1, 1], [9, 9, 0]]
+    >>> found = touchstone.intersections(vertices, [[0, 1, 2], [3, 4, 5]])
+    >>> touchstone.IntersectionKind(found[0]["kind"]).name
+    'EDGE_THROUGH_FACE'
+    """
+    arguments = (
+        as_vertices(vertices, "vertices"),
+        as_indices(faces, "faces", 3),
+        as_indices(edges, "edges", 2),
+        as_indices(points, "points", None),
+        as_indices(groups, "groups", None),
+        as_indices(apart, "apart", 2),
+    )
+    with Progress("intersections", progress) as bar:
+        return _ending_with_interrupts(
+            lambda: _fast.intersections(*arguments, weld, threads, bar.callback)
+        )
