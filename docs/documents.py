@@ -169,7 +169,7 @@ def measure_one(name, command, options, folder):
     out, proofs = folder / "run.json", folder / "proofs.cert.zst"
     words = [path for word in command.replace(RECORDED, str(options.recorded)).split()
              for path in (sorted(glob.glob(word, root_dir=options.data)) if "*" in word else [word])]
-    words += ["--json", out] + (["--out", proofs] if name == "certificates" else [])
+    words += ["--json", out] + (["--prove", proofs] if name == "certificates" else [])
     # The exit status of certify is 1 if a method is wrong.
     printed = run([options.tool, *words], (0, 1) if name == "certify" else (0,), cwd=options.data)
     result = {"command": f"touchstone {command}", "result": reduced(json.loads(out.read_text()))}

@@ -3,7 +3,7 @@
 /// \file
 /// The map of stability: certify (jobs/certify.hpp) on the hard queries (generate/hardness.hpp) of
 /// every sort, level and kind, one cell of the map each; for people (tables), for machines (JSON)
-/// and for the page (page.hpp).
+/// and for the page (report_page.hpp).
 ///
 /// The truth of a query comes twice: from the certified solver as its label, and from the oracle,
 /// which judges; where they differ, that is counted as a wrong label. All but the times is a

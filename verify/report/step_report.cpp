@@ -17,7 +17,7 @@
 namespace touchstone::verify::report {
 namespace {
 
-/// The number of printed pairs of a step, and of piercings of a frame.
+/// The number of printed pairs of a step, and of intersections of a frame.
 constexpr std::size_t most_pairs = 10;
 
 std::uint64_t count_of(const jobs::PairCounts& counts, fast::PairKind kind) {

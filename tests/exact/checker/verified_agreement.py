@@ -255,7 +255,7 @@ def main():
                     options = ["--claim", claim]
                     if separation:
                         options += ["--min-separation", separation[0], "--norm", separation[1]]
-                    done = subprocess.run([tool, "prove", *source, *options, "--threads", "1", "--out", path],
+                    done = subprocess.run([tool, "prove", *source, *options, "--threads", "1", "--prove", path],
                                           capture_output=True, text=True)
                     if done.returncode != 0:
                         sys.exit(f"touchstone prove: {done.stderr}")
