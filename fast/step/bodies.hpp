@@ -21,7 +21,7 @@ class Bodies {
   /// \throws std::invalid_argument unless each vertex has a group, or none has, or for a negative
   /// group, also in `apart`.
   Bodies(std::size_t vertices, const CollisionGroups& groups,
-         std::function<bool(std::int32_t, std::int32_t)> can_collide = {});
+         std::function<bool(std::int32_t, std::int32_t)> can_collide = nullptr);
 
   /// True if all primitives meet all.
   [[nodiscard]] bool all_meet() const { return apart_.empty() && !can_collide_; }

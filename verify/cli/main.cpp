@@ -80,8 +80,8 @@ int run(int argc, char** argv) {
   use_help_format(app);
   set_help(app, "touchstone certify path/to/queries",
            "touchstone COMMAND --help describes a command.\n"
-           "Exit status: 0 success, 1 wrong answers or collisions, 2 bad input or usage, 130 "
-           "interrupted.");
+           "Exit status: 0 success, 1 wrong answers, collisions or intersections, 2 bad input or usage, "
+           "130 interrupted.");
   app.set_version_flag("--version", std::string(version()), "Print the version");
   // The message quotes the command line.
   app.failure_message([](const CLI::App*, const CLI::Error& error) {

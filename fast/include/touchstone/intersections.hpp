@@ -86,7 +86,7 @@ struct Intersection {
 struct IntersectionOptions {
   CollisionGroups groups = {};
   /// As StepOptions::can_collide.
-  std::function<bool(std::int32_t, std::int32_t)> can_collide = {};
+  std::function<bool(std::int32_t, std::int32_t)> can_collide = nullptr;
   /// True if vertices at the same place, of the same group, are one vertex.
   bool weld = false;
   /// False leaves the places out, which take longer than all else where there are many.

@@ -118,7 +118,7 @@ struct StepOptions {
   /// a vertex of one and a vertex of the other that are in groups that can collide. It must be
   /// symmetric. It is kept, and called for the pairs found, in several threads at once; its
   /// exceptions end the search.
-  std::function<bool(std::int32_t, std::int32_t)> can_collide = {};
+  std::function<bool(std::int32_t, std::int32_t)> can_collide = nullptr;
   /// May be null, else outlives the step and all made from it. While true, their searches for
   /// impacts, collisions and candidates end soon with the exception Stopped.
   const std::atomic<bool>* stop = nullptr;
