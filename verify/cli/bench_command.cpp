@@ -161,12 +161,12 @@ class BenchRun {
     for (const Kind kind : chosen_kinds()) bench_candidates(mesh, kind);
     if (stopped()) return;
     io::ProgressBar bar("bench " + mesh.name);
-    jobs::StepBenchOptions options{.repetitions = report_.options.repetitions,
-                                   .threads = arguments_.sources.threads,
-                                   .on_progress = [&bar](double fraction) { bar.update(fraction); },
-                                   .stop = &io::interrupted()};
-    options.step.separation = separation_;
-    report_.step = jobs::bench_step(mesh, options);
+    report_.step =
+        jobs::bench_step(mesh, {.repetitions = report_.options.repetitions,
+                                .threads = arguments_.sources.threads,
+                                .separation = separation_,
+                                .on_progress = [&bar](double fraction) { bar.update(fraction); },
+                                .stop = &io::interrupted()});
   }
 
   /// The options with the kernel of the chosen instruction set.

@@ -78,10 +78,11 @@ int run(int argc, char** argv) {
       "Exact ground truth, verified solvers and test tools for continuous collision detection",
       "touchstone"};
   use_help_format(app);
-  set_help(app, "touchstone certify path/to/queries",
-           "touchstone COMMAND --help describes a command.\n"
-           "Exit status: 0 success, 1 wrong answers, collisions or intersections, 2 bad input or usage, "
-           "130 interrupted.");
+  set_help(
+      app, "touchstone certify path/to/queries",
+      "touchstone COMMAND --help describes a command.\n"
+      "Exit status: 0 success, 1 wrong answers, collisions or intersections, 2 bad input or usage, "
+      "130 interrupted.");
   app.set_version_flag("--version", std::string(version()), "Print the version");
   // The message quotes the command line.
   app.failure_message([](const CLI::App*, const CLI::Error& error) {

@@ -60,7 +60,7 @@ class StepMeasurement {
   [[nodiscard]] StepResult result() {
     StepResult result;
     result.name = mesh_.name;
-    result.separation = options_.step.separation;
+    result.separation = options_.separation;
     result.vertices = mesh_.vertices.size();
     result.edges = mesh_.edges.size();
     result.faces = mesh_.faces.size();
@@ -111,7 +111,8 @@ class StepMeasurement {
   }
 
   void repeat(Series& series) {
-    fast::StepOptions options = options_.step;
+    fast::StepOptions options;
+    options.separation = options_.separation;
     options.max_threads = series.threads;
     options.stop = options_.stop;
     std::optional<fast::Step> step;

@@ -23,8 +23,7 @@ struct StepBenchOptions {
   std::size_t repetitions = 5;
   /// Timed with one thread and with this number of threads; 0: all cores.
   unsigned threads = 0;
-  /// max_threads is set by the benchmark.
-  fast::StepOptions step = {};
+  Separation separation = fast::no_separation;
   /// Called occasionally with the completed fraction of the repetitions, from this thread.
   std::function<void(double)> on_progress = nullptr;
   /// Once true, no further repetition begins. May be null.
