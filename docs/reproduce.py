@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Makes the tables and pictures of README.md from nothing: `./run reproduce`.
+"""Makes the tables and pictures of all methods from nothing: `./run reproduce`.
 
 Measures anew into build/reproduced, a copy of the documents, and compares all counts with those of docs/data: they do not
 depend on the machine. Times do, and are not compared. Seeds are fixed. At the end: time and disk.
@@ -30,7 +30,7 @@ def rows_of(name, root):
 
 def main():
     here = pathlib.Path(__file__).resolve().parent.parent
-    parser = argparse.ArgumentParser(prog="./run reproduce", description="Makes the tables and pictures of README.md anew.")
+    parser = argparse.ArgumentParser(prog="./run reproduce", description="Makes the tables and pictures of all methods anew.")
     parser.add_argument("--data", type=pathlib.Path, default=here / "../shared/datasets", help="the public data [wang2021]")
     parser.add_argument("--out", type=pathlib.Path, default=here / "build/reproduced")
     parser.add_argument("--built-in", action="store_true", help="only what needs no public data: the built-in set")

@@ -70,7 +70,7 @@ TEST_F(Documents, AgreeWithTheirData) { EXPECT_EQ(check(source_folder()), 0) << 
 TEST_F(Documents, ADifferenceIsNamedWithItsLine) {
   const fs::path root = copies();
   const std::string expected[] = {
-      falsify("README.md", "| `tccd` | "),
+      falsify("README.md", "(`cubic`) | "),
       falsify("docs/benchmarks.md", "| built-in set | "),
       falsify("docs/results.md", "| certified | "),
       falsify("docs/results.svg", "translate("),
@@ -98,7 +98,7 @@ document.getElementById("names").textContent = `${boxes.length > 20}: ${found.jo
 TEST_F(Documents, APartThatIsNotMarkedIsAnError) {
   const fs::path root = copies();
   std::string text = read("README.md");
-  text.erase(text.find("<!-- made by ./run results: printed -->"), 4);
+  text.erase(text.find("<!-- made by ./run results: compared -->"), 4);
   std::ofstream(path("README.md"), std::ios::binary) << text;
   EXPECT_EQ(check(root), 2);
   EXPECT_NE(read("out").find("README.md: marked are"), std::string::npos) << read("out");

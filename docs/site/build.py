@@ -19,6 +19,7 @@ import re
 import shutil
 import subprocess
 import sys
+import tempfile
 import time
 import urllib.parse
 
@@ -26,6 +27,7 @@ from PIL import Image
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 KATEX = pathlib.Path("/usr/share/javascript/katex")
+PICTURE = ROOT / "docs/contact.webp"
 PAGES = ["docs/**/*.md", "*/README.md", "verify/baselines/README.md", "exact/CERTIFICATES.md", "CONTRIBUTING.md", "CHANGELOG.md"]
 HEADERS = [
     ("fast", "Solvers and steps", ["certified", "step", "mesh", "contacts", "tight_inclusion", "broad_phase"]),
@@ -101,8 +103,8 @@ def stage(source):
 
 
 def field():
-    """Five rows of the table of README.md, on the public data."""
-    table = re.search(r"made by \./run results: results -->.*?(\|.*?)\n\n", (ROOT / "README.md").read_text(), re.DOTALL)[1]
+    """Five rows of the first table of docs/benchmarks.md, on the public data."""
+    table = re.search(r"made by \./run results: results -->.*?(\|.*?)\n\n", (ROOT / "docs/benchmarks.md").read_text(), re.DOTALL)[1]
     rows = [line.split("|")[1:6] for line in table.splitlines()]
     chosen = [row for row in rows if row[0].strip(" `") in
               ("method", "---", "certified", "tight_inclusion", "accd", "rp", "fprf")]
@@ -240,7 +242,7 @@ def build(options):
         shutil.copytree(playground, site)
     else:
         index.write_text(re.sub(r"<!-- playground -->.*?<!-- end -->\n?", "", index.read_text(), flags=re.DOTALL))
-    picture(options, source / "static", work)
+    shutil.copy(PICTURE, source / "static")
     version = run([options.tool, "--version"]).split()[0]
     environment = os.environ | {"TOUCHSTONE_VERSION": version, "TOUCHSTONE_DOXYGEN": str(xml / "xml"),
                                 "PYTHONPATH": str(package)}
@@ -276,8 +278,8 @@ addEventListener("load", () => {
 </script></body>"""
 
 
-def picture(options, folder, work):
-    """The moving picture of the landing page, drawn by the view: contact.webp."""
+def draw_picture(options, work):
+    """Draws the moving picture of README.md and of the landing page anew, by the view."""
     page = work / "view.html"
     points = "1 0.4 2.6  0 0 0  4 0 0  0 4 0   1.2 1.4 -1.4  0 0 0.3  4 0 0.6  0 4 0"
     run([options.tool, "view", "--kind", "vertex-face", "--points", points, "--out", page])
@@ -292,7 +294,7 @@ def picture(options, folder, work):
     for frame in found:
         drawn = Image.open(io.BytesIO(base64.b64decode(frame))).convert("RGBA")
         frames.append(Image.alpha_composite(Image.new("RGBA", drawn.size, "white"), drawn).convert("RGB"))
-    frames[0].save(folder / "contact.webp", save_all=True, append_images=frames[1:],
+    frames[0].save(PICTURE, save_all=True, append_images=frames[1:],
                    duration=[700, *[90] * (len(frames) - 2), 1200], loop=0, quality=80)
 
 
@@ -301,9 +303,14 @@ def main():
     parser.add_argument("--tool", type=pathlib.Path, default=ROOT / "build/release/touchstone")
     parser.add_argument("--build", type=pathlib.Path, default=ROOT / "build", help="the folder of site/ and site-source/")
     parser.add_argument("--check", action="store_true", help="only check the links of the site")
+    parser.add_argument("--picture", action="store_true", help=f"only draw {PICTURE.relative_to(ROOT)} anew")
     options = parser.parse_args()
     options.tool, options.build = options.tool.resolve(), options.build.resolve()
     begin = time.monotonic()
+    if options.picture:
+        with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as work:
+            draw_picture(options, pathlib.Path(work))
+        return 0
     site = options.build / "site" if options.check else build(options)
     faults, outside, pages = check(site)
     (site / "outside_links.txt").write_text("".join(f"{link}\t{', '.join(sorted(set(names)))}\n" for link, names in sorted(outside.items())))
