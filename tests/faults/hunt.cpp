@@ -103,7 +103,7 @@ class Named final : public fast::Method {
 
 verify::fuzz::FuzzOptions fuzz_options(const FaultySolver& solver) {
   verify::fuzz::FuzzOptions options;
-  options.separation = solver.fault.separation;
+  if (solver.fault.separation.distance > 0.0) options.separation = solver.fault.separation;
   options.method.max_checks = most_checks;
   options.most_groups = 1;
   if (!solver.is_on_curves) return options;
