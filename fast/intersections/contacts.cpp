@@ -257,7 +257,7 @@ using Shared = std::array<bool, 3>;
 Shared shared_with(const Simplex& other, const Simplex& triangle) {
   Shared result;
   for (std::size_t i = 0; i < 3; ++i) {
-    result[i] = (triangle[i] == other[0]) | (triangle[i] == other[1]) | (triangle[i] == other[2]);
+    result[i] = triangle[i] == other[0] || triangle[i] == other[1] || triangle[i] == other[2];
   }
   return result;
 }

@@ -178,7 +178,8 @@ class AxisStage {
         on_one_side(sides<kind, separated>(rows[0], rows[1], rows[2], rows[3], distance),
                     sides<kind, separated>(rows[4], rows[5], rows[6], rows[7], distance));
     // Without && because the branch is unpredictable.
-    return axes.any() & sum_of(rows).is_finite();
+    const bool on_some_axis = axes.any(), is_finite = sum_of(rows).is_finite();
+    return on_some_axis & is_finite;
   }
 };
 
