@@ -111,8 +111,8 @@ struct Normal {
 
 /// The sign of the component of (b − a) × (c − a) on an axis: the orientation of the projection
 /// along this axis.
-[[nodiscard]] int planar_orientation(const Positions& at, std::size_t axis, std::int32_t a, std::int32_t b,
-                              std::int32_t c);
+[[nodiscard]] int planar_orientation(const Positions& at, std::size_t axis, std::int32_t a,
+                                     std::int32_t b, std::int32_t c);
 
 /// True if three vertices are on a line.
 [[nodiscard]] bool are_collinear(const Positions& at, std::int32_t a, std::int32_t b,

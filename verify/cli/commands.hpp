@@ -11,7 +11,8 @@ namespace touchstone::verify::cli {
 /// Outcome of a run, used as the exit status.
 enum class Status : int {
   all_well = 0,
-  /// A wrong recorded answer, a broken promise of a solver, or a collision in a step, an intersection.
+  /// A wrong recorded answer, a broken promise of a solver, or a collision in a step, an
+  /// intersection.
   wrong_answers = 1,
   bad_input = 2,      ///< invalid input or usage
   interrupted = 130,  ///< by a signal; the results so far are reported

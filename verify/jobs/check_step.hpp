@@ -5,8 +5,8 @@
 /// of the step without any.
 ///
 /// Every vertex moves on the straight line from one frame to the next. Frames that intersect
-/// themselves are found by touchstone intersections: an edge may be in a face from the start to the end of a
-/// step without a new contact.
+/// themselves are found by touchstone intersections: an edge may be in a face from the start to the
+/// end of a step without a new contact.
 
 #include <array>
 #include <cstddef>

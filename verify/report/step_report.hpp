@@ -59,9 +59,10 @@ struct StepReport {
 /// (`vertex_face`, `edge_edge`, `vertex_edge`, `vertex_vertex`; null where they were not
 /// counted or not all asked for), `toi_lower` and `toi_upper` (null if nothing touches, or only
 /// freedom was asked for), `earliest` (the pairs of the earliest impact, as below), `free`,
-/// `intersecting` (how many pairs intersect in one of the two frames or both, or null), `free_alpha` (with
-/// alpha), `proof` (if a certificate was written: `claim`, `directions` and `certificates`, the
-/// pairs that are argued by each, `bytes`, and `complete`), and `seconds` and `processor_seconds`
+/// `intersecting` (how many pairs intersect in one of the two frames or both, or null),
+/// `free_alpha` (with alpha), `proof` (if a certificate was written: `claim`, `directions` and
+/// `certificates`, the pairs that are argued by each, `bytes`, and `complete`), and `seconds` and
+/// `processor_seconds`
 /// (`broad_phase`, `narrow_phase`, `total`).
 ///
 /// A pair has `kind`, `first`, `second` (numbers from 0), `toi_lower`, `toi_upper`, `u` and `v`.
