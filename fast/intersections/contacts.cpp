@@ -138,8 +138,7 @@ class Side {
 /// axes Projections: one that keeps an area in the plane, or all.
 bool cross_in_plane(const Positions& at, std::span<const std::size_t> axes, const Edge& a,
                     const Edge& b) {
-  const auto [a0, a1] = a;
-  const auto [b0, b1] = b;
+  const std::int32_t a0 = a[0], a1 = a[1], b0 = b[0], b1 = b[1];
   if (a0 == b0 || a0 == b1 || a1 == b0 || a1 == b1) return false;
   return std::ranges::any_of(axes, [&](std::size_t axis) {
     return planar_orientation(at, axis, a0, a1, b0) * planar_orientation(at, axis, a0, a1, b1) <
@@ -275,10 +274,10 @@ Sides sides_of(const Positions& at, const Element& plane, const Simplex& triangl
   for (std::size_t i = 0; i < 3; ++i) {
     const auto [value, bound] = plane.normal.times(at.difference(plane.simplex[0], triangle[i]));
     const bool is_above = value > bound, is_below = value < -bound;
-    all_above &= shared[i] | is_above;
-    all_below &= shared[i] | is_below;
-    any_above |= is_above;
-    any_below |= is_below;
+    all_above = all_above && (shared[i] || is_above);
+    all_below = all_below && (shared[i] || is_below);
+    any_above = any_above || is_above;
+    any_below = any_below || is_below;
   }
   if (all_above != all_below) return Sides::one;
   return any_above && any_below ? Sides::both : Sides::unknown;

@@ -72,8 +72,8 @@ struct Side {
 /// The polygon and the distance.
 class Setting {
  public:
-  Setting(const MovingPoints& points, const ScaledDistance& d)
-      : points_(points), corners_(touchstone::corners(points.kind)), distance_(d) {
+  Setting(const MovingPoints& points, ScaledDistance d)
+      : points_(points), corners_(touchstone::corners(points.kind)), distance_(std::move(d)) {
     for (const Corner& corner : corners_) corners.push_back(between(corner.minus, corner.plus));
   }
 

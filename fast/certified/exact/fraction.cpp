@@ -83,6 +83,7 @@ std::vector<Polynomial> common_numerators(std::vector<Fraction> fractions) {
   for (std::size_t i = 1; i < fractions.size(); ++i) make_common(fractions[0], fractions[i]);
   for (std::size_t i = 1; i < fractions.size(); ++i) make_common(fractions[0], fractions[i]);
   std::vector<Polynomial> result;
+  result.reserve(fractions.size());
   for (Fraction& fraction : fractions) result.push_back(std::move(fraction.numerator));
   return result;
 }
