@@ -51,7 +51,16 @@ from .judging import (
     view,
     write,
 )
-from .scene import Impact, LeastDistance, LineSearchLimit, PairKind, Step
+from .scene import (
+    ElementKind,
+    Impact,
+    IntersectionKind,
+    LeastDistance,
+    LineSearchLimit,
+    PairKind,
+    Step,
+    intersections,
+)
 
 __all__ = [
     "AlgebraicNumber",
