@@ -16,9 +16,6 @@
 namespace touchstone::verify::report {
 namespace {
 
-/// Of what is found, so many lines or numbers are printed.
-constexpr std::size_t most_printed = 10;
-
 /// An element by its mesh and its number there.
 struct NamedElement {
   std::size_t mesh = 0;
@@ -75,11 +72,6 @@ std::string point_text(const fast::PointEnclosure& point) {
   return fmt::format("{:.6g} {:.6g} {:.6g}", x, y, z);
 }
 
-std::string rest_text(std::size_t all, std::string_view where) {
-  if (all <= most_printed) return "";
-  return fmt::format("  ... and {} more ({})\n", all - most_printed, where);
-}
-
 std::string counts_text(const IntersectionReport& report) {
   if (report.intersections.empty()) {
     return report.interrupted ? "interrupted\n" : "no intersections\n";
@@ -99,7 +91,7 @@ std::string pairs_text(const IntersectionReport& report) {
   io::TextTable table(
       {io::word_column("pair", 30), io::word_column("kind", 17), {"from", 24}, {"to", 24}});
   const std::span shown(report.intersections.data(),
-                        std::min(most_printed, report.intersections.size()));
+                        std::min(most_pairs, report.intersections.size()));
   for (const fast::Intersection& one : shown) {
     table.add({pair_text(report.meshes, one), std::string(fast::to_string(one.kind)),
                point_text(one.place[0]), point_text(one.place[1])});
@@ -111,7 +103,7 @@ template <class Item>
 std::string numbers_text(std::string_view name, const std::vector<Item>& numbers) {
   if (numbers.empty()) return "";
   std::string text = fmt::format("{}: {} (", name, numbers.size());
-  for (std::size_t i = 0; i < std::min(most_printed, numbers.size()); ++i) {
+  for (std::size_t i = 0; i < std::min(most_pairs, numbers.size()); ++i) {
     if (i > 0) text += ", ";
     if constexpr (std::is_same_v<Item, fast::IndexPair>) {
       text += fmt::format("{} as {}", numbers[i][0], numbers[i][1]);
@@ -119,7 +111,7 @@ std::string numbers_text(std::string_view name, const std::vector<Item>& numbers
       text += std::to_string(numbers[i]);
     }
   }
-  return text + (numbers.size() > most_printed ? ", ...)\n" : ")\n");
+  return text + (numbers.size() > most_pairs ? ", ...)\n" : ")\n");
 }
 
 std::string defects_text(const IntersectionReport& report, const RestingMesh& mesh) {
@@ -170,6 +162,11 @@ nlohmann::json json_of(const std::vector<RestingMesh>& meshes, const fast::Inter
 }
 
 }  // namespace
+
+std::string rest_text(std::size_t all, std::string_view where) {
+  if (all <= most_pairs) return "";
+  return fmt::format("  ... and {} more ({})\n", all - most_pairs, where);
+}
 
 mesh::Mesh joined(const std::vector<RestingMesh>& meshes) {
   if (meshes.size() == 1) return meshes.front().mesh;

@@ -7,12 +7,19 @@
 #include <cstdint>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "touchstone/intersections.hpp"
 #include "verify/mesh/mesh_file.hpp"
 
 namespace touchstone::verify::report {
+
+/// The number of pairs that a text shows of a list.
+inline constexpr std::size_t most_pairs = 10;
+
+/// "  ... and 5 more (WHERE)" about a list of 15 pairs; empty if all are shown.
+[[nodiscard]] std::string rest_text(std::size_t all, std::string_view where);
 
 /// A mesh, and what is unusual in it by itself.
 struct RestingMesh {

@@ -13,12 +13,10 @@
 #include "verify/io/printable.hpp"
 #include "verify/io/text_table.hpp"
 #include "verify/judge/separation_inference.hpp"
+#include "verify/report/intersection_report.hpp"
 
 namespace touchstone::verify::report {
 namespace {
-
-/// The number of printed pairs of a step, and of intersections of a frame.
-constexpr std::size_t most_pairs = 10;
 
 std::uint64_t count_of(const jobs::PairCounts& counts, fast::PairKind kind) {
   return counts.at(static_cast<std::size_t>(kind));
@@ -145,12 +143,6 @@ std::string pair_text(const StepReport& report, const fast::StepCollision& colli
   return "";
 }
 
-/// The number of those that are not printed, and where they are.
-std::string rest_text(std::size_t all, std::string_view where) {
-  if (all <= most_pairs) return "";
-  return fmt::format("  ... and {} more ({})\n", all - most_pairs, where);
-}
-
 void append_collisions(std::string& text, const StepReport& report, std::size_t i) {
   std::vector<fast::StepCollision> pairs = known_collisions(report.steps[i]);
   if (pairs.empty()) return;
@@ -169,7 +161,7 @@ void append_collisions(std::string& text, const StepReport& report, std::size_t 
 }
 
 std::string element_text(const StepReport& report, fast::ElementKind kind, std::int32_t number) {
-  const std::string name = fmt::format("{} {}", fast::to_string(kind), number);
+  std::string name = fmt::format("{} {}", fast::to_string(kind), number);
   if (kind == fast::ElementKind::point) return name;
   return fmt::format("{} ({})", name,
                      kind == fast::ElementKind::face ? vertices_text(report.faces, number)
