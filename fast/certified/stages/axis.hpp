@@ -178,8 +178,8 @@ class AxisStage {
         on_one_side(sides<kind, separated>(rows[0], rows[1], rows[2], rows[3], distance),
                     sides<kind, separated>(rows[4], rows[5], rows[6], rows[7], distance));
     // Without && because the branch is unpredictable.
-    const bool on_some_axis = axes.any(), is_finite = sum_of(rows).is_finite();
-    return on_some_axis & is_finite;
+    const bool on_some_axis = axes.any();
+    return on_some_axis & sum_of(rows).is_finite();
   }
 };
 
