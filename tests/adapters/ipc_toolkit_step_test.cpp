@@ -237,7 +237,7 @@ TEST_P(IpcStep, GoesAsFarAsTheNarrowPhaseOfEachPairAllows) {
       ++(first == infinity ? seen.free : first == 0.0 ? seen.at_start : seen.limited);
     }
   });
-  EXPECT_GT(std::min({seen.free, seen.limited, seen.at_start}), tests::trials(50));
+  EXPECT_GT(std::min({seen.free, seen.limited, seen.at_start}), tests::trials(40));
 }
 
 /// Without rescaling, a step ends at the first contact.
@@ -257,7 +257,7 @@ TEST_P(IpcStep, EndsWhereTheOracleSaysThatContactIs) {
     EXPECT_GE(step, exact * (1.0 - 1e-11));
     ++(step == 0.0 ? seen.at_start : seen.limited);
   });
-  EXPECT_GT(std::min(seen.at_start, seen.limited), tests::trials(30));
+  EXPECT_GT(std::min(seen.at_start, seen.limited), tests::trials(15));
 }
 
 TEST_P(IpcStep, FindsIntersectionsWhereTheOracleDoes) {
