@@ -132,18 +132,33 @@ struct Elements {
   }
 };
 
+Elements elements_from(const Integers& faces, const Integers& edges, const Integers& points,
+                       const Integers& groups, const Integers& apart) {
+  return {.edges = rows_of<fast::Edge>(edges),
+          .faces = rows_of<fast::Face>(faces),
+          .points = rows_of<std::int32_t>(points),
+          .groups = rows_of<std::int32_t>(groups),
+          .apart = rows_of<std::array<std::int32_t, 2>>(apart)};
+}
+
+/// The result of work(); `progress`, unless None, is called now and then. \throws as
+/// in_background().
+template <class Work>
+auto searched(const Elements& elements, const py::object& progress, const Work& work) {
+  if (is_forked()) {
+    // The threads of the pool that the search uses are in the parent.
+    const py::gil_scoped_release unlocked;
+    return work();
+  }
+  return in_background(work, elements.stop, progress);
+}
+
 /// A step with the elements that it refers to.
 class OwningStep {
-  /// The result of work(step); `progress`, unless None, is called now and then.
-  /// \throws as in_background().
+  /// The result of work(step), as searched() has it.
   template <class Work>
   [[nodiscard]] auto search(const py::object& progress, const Work& work) const {
-    if (is_forked()) {
-      // The threads of the pool that the step uses are in the parent.
-      const py::gil_scoped_release unlocked;
-      return work(*step_);
-    }
-    return in_background([&] { return work(*step_); }, elements_->stop, progress);
+    return searched(*elements_, progress, [&] { return work(*step_); });
   }
 
  public:
@@ -151,11 +166,7 @@ class OwningStep {
              const Integers& edges, const Integers& points, const Integers& groups,
              const Integers& apart, double separation, const std::string& norm,
              double toi_tolerance, double t_max, int threads)
-      : elements_(new Elements{.edges = rows_of<fast::Edge>(edges),
-                               .faces = rows_of<fast::Face>(faces),
-                               .points = rows_of<std::int32_t>(points),
-                               .groups = rows_of<std::int32_t>(groups),
-                               .apart = rows_of<std::array<std::int32_t, 2>>(apart)}) {
+      : elements_(new Elements(elements_from(faces, edges, points, groups, apart))) {
     fast::MovingVertices vertices = vertices_of(before, after);
     const fast::StepOptions options{
         .separation = separation_from(separation, norm),
@@ -284,25 +295,15 @@ py::dict intersection_layout() {
 py::array intersections(const Doubles& vertices, const Integers& faces, const Integers& edges,
                         const Integers& points, const Integers& groups, const Integers& apart,
                         bool weld, int threads, const py::object& progress) {
-  const Elements elements{.edges = rows_of<fast::Edge>(edges),
-                          .faces = rows_of<fast::Face>(faces),
-                          .points = rows_of<std::int32_t>(points),
-                          .groups = rows_of<std::int32_t>(groups),
-                          .apart = rows_of<std::array<std::int32_t, 2>>(apart)};
+  const Elements elements = elements_from(faces, edges, points, groups, apart);
   const fast::MovingVertices at_rest = vertices_of(vertices, vertices);
   const fast::IntersectionOptions options{
       .groups = {.of_vertices = elements.groups, .apart = elements.apart},
       .weld = weld,
       .max_threads = is_forked() ? 1 : threads,
       .stop = &elements.stop};
-  const auto search = [&] { return fast::intersections(at_rest, elements.mesh(), options); };
-  std::vector<fast::Intersection> found;
-  if (is_forked()) {
-    const py::gil_scoped_release unlocked;
-    found = search();
-  } else {
-    found = in_background(search, elements.stop, progress);
-  }
+  const auto found = searched(
+      elements, progress, [&] { return fast::intersections(at_rest, elements.mesh(), options); });
   return array_of(found, intersection_layout());
 }
 

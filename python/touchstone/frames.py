@@ -265,10 +265,9 @@ def convert(paths: Sequence[Path], out: Path, *, displacement: str | None = None
         with open(places, "wb") as file:
             for path in paths:
                 for frame in frames_of(pathlib.Path(path), displacement):
-                    of_frame = elements_of(frame.mesh, frame.name)
                     if first is None or elements is None:
-                        first, elements = frame, of_frame
-                    elif not same(elements, of_frame) or frame.vertices.shape != first.vertices.shape:
+                        first, elements = frame, elements_of(frame.mesh, frame.name)
+                    elif not has_elements(frame, first, elements) or frame.vertices.shape != first.vertices.shape:
                         raise FrameError(f"{frame.name}: its elements are not those of {first.name}: all frames must have the same")
                     file.write(np.ascontiguousarray(frame.vertices, dtype="<f8").tobytes())
                     count += 1
@@ -293,9 +292,18 @@ def convert(paths: Sequence[Path], out: Path, *, displacement: str | None = None
     return elements
 
 
-def same(a: Elements, b: Elements) -> bool:
-    """Return whether two frames have the same elements."""
-    return all(np.array_equal(x, y) for x, y in ((a.faces, b.faces), (a.edges, b.edges), (a.points, b.points)))
+def has_elements(frame: Frame, first: Frame, elements: Elements) -> bool:
+    """Return whether a frame has the elements of the first one. Those of the same cells are not made again."""
+    cells, first_cells = frame.mesh.cells, first.mesh.cells
+    if len(cells) == len(first_cells) and all(
+        a.type == b.type and np.array_equal(a.data, b.data) for a, b in zip(cells, first_cells)
+    ):
+        return True
+    own = elements_of(frame.mesh, frame.name)
+    return all(
+        np.array_equal(a, b)
+        for a, b in ((own.faces, elements.faces), (own.edges, elements.edges), (own.points, elements.points))
+    )
 
 
 def by_number(name: str) -> List[Tuple[str, int]]:
