@@ -1,6 +1,7 @@
 #include "touchstone/broad_phase.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <new>
@@ -109,6 +110,26 @@ PairRules rules_of(const FloatBounds& bounds, const ExactTest& test, bool are_ed
           .questions = &test};
 }
 
+// ---- Edges of faces -----------------------------------------------------------------------------
+
+/// Sorts numbers by their digits, the lowest first. Takes time proportional to their count, and
+/// nothing for a digit that all have.
+void sort_by_digits(std::vector<std::uint64_t>& numbers) {
+  static constexpr unsigned bits_of_digit = 11;
+  static constexpr std::size_t digits = std::size_t{1} << bits_of_digit;
+  std::vector<std::uint64_t> sorted(numbers.size());
+  for (unsigned shift = 0; shift < 64; shift += bits_of_digit) {
+    const auto digit_of = [shift](std::uint64_t number) { return (number >> shift) % digits; };
+    // The place of the next number with a digit.
+    std::array<std::size_t, digits + 1> places{};
+    for (const std::uint64_t number : numbers) ++places[digit_of(number) + 1];
+    if (std::ranges::find(places, numbers.size()) != places.end()) continue;
+    std::partial_sum(places.begin(), places.end(), places.begin());
+    for (const std::uint64_t number : numbers) sorted[places[digit_of(number)]++] = number;
+    numbers.swap(sorted);
+  }
+}
+
 }  // namespace
 
 TooManyCandidates::TooManyCandidates(std::uint64_t count)
@@ -154,18 +175,24 @@ std::vector<IndexPair> edge_edge_candidates(const MovingVertices& vertices,
 }
 
 std::vector<Edge> edges_of(std::span<const Face> faces) {
-  std::vector<Edge> edges;
-  edges.reserve(3 * faces.size());
+  // The larger vertex in the upper half, the smaller one in the lower.
+  std::vector<std::uint64_t> sides;
+  sides.reserve(3 * faces.size());
   for (const Face& face : faces) {
     for (std::size_t i = 0; i < 3; ++i) {
-      const auto [lesser, greater] = std::minmax(face[i], face[(i + 1) % 3]);
-      if (lesser != greater) edges.push_back({lesser, greater});
+      const auto [smaller, larger] = std::minmax(face[i], face[(i + 1) % 3]);
+      if (smaller == larger) continue;
+      sides.push_back(std::uint64_t{static_cast<std::uint32_t>(larger)} << 32U |
+                      static_cast<std::uint32_t>(smaller));
     }
   }
-  std::ranges::sort(edges, [](const Edge& a, const Edge& b) {
-    return std::tie(a[1], a[0]) < std::tie(b[1], b[0]);
-  });
-  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+  sort_by_digits(sides);
+  sides.erase(std::unique(sides.begin(), sides.end()), sides.end());
+  std::vector<Edge> edges;
+  edges.reserve(sides.size());
+  for (const std::uint64_t side : sides) {
+    edges.push_back({static_cast<std::int32_t>(side), static_cast<std::int32_t>(side >> 32U)});
+  }
   return edges;
 }
 

@@ -50,6 +50,8 @@ struct alignas(64) GroupMembers {
 
 class PrimitiveGroups {
  public:
+  /// No primitives.
+  PrimitiveGroups() = default;
   /// `Element` is std::int32_t (a vertex), Edge or Face. The groups depend only on the arguments.
   /// Uses the threads of the caller's task arena.
   /// \param kernel For tests: a replacement of the best one for this processor. All kernels give
@@ -64,8 +66,8 @@ class PrimitiveGroups {
   [[nodiscard]] std::span<const GroupMembers> members() const { return {members_.data(), groups_}; }
 
  private:
-  std::size_t size_;
-  std::size_t groups_;
+  std::size_t size_ = 0;
+  std::size_t groups_ = 0;
   LargeArray<GroupMembers> members_;
 };
 

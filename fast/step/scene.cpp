@@ -9,6 +9,7 @@
 
 #include "fast/broad_phase/swept_box.hpp"
 #include "fast/kernels.hpp"
+#include "fast/platform/threads.hpp"
 #include "touchstone/broad_phase.hpp"
 
 namespace touchstone::fast {
@@ -77,9 +78,19 @@ std::vector<Face> as_faces(std::span<const std::int32_t> numbers, std::span<cons
   return result;
 }
 
-template <class Element>
-PrimitiveGroups groups_of(const FloatBounds& bounds, const std::vector<Element>& elements) {
-  return PrimitiveGroups(bounds, std::span<const Element>(elements));
+OfPrimitives<PrimitiveGroups> groups_of(const SceneMesh& mesh, const FloatBounds& bounds) {
+  OfPrimitives<PrimitiveGroups> groups;
+  const auto make = [&]<class Element>(std::size_t sort, std::span<const Element> elements) {
+    groups[sort] = PrimitiveGroups(bounds, elements);
+  };
+  // At the same time: the first divisions of a sort are of one task.
+  tbb::parallel_for(std::size_t{0}, groups.size(), [&](std::size_t sort) {
+    const StrictFloatingPoint strict;
+    if (sort == Sort::vertices) return make(sort, std::span(mesh.vertices));
+    if (sort == Sort::edges) return make(sort, mesh.elements.edges);
+    make(sort, mesh.as_faces[sort]);
+  });
+  return groups;
 }
 
 template <std::size_t instants>
@@ -160,10 +171,7 @@ std::shared_ptr<const SceneGroups> still_tight(const std::shared_ptr<const Scene
 }  // namespace
 
 SceneGroups::SceneGroups(const SceneMesh& mesh, const FloatBounds& bounds)
-    : groups{groups_of(bounds, mesh.vertices), PrimitiveGroups(bounds, mesh.elements.edges),
-             PrimitiveGroups(bounds, mesh.elements.faces), groups_of(bounds, mesh.points_as_faces),
-             groups_of(bounds, mesh.edges_as_faces)},
-      looseness(looseness_of(groups, bounds)) {
+    : groups(groups_of(mesh, bounds)), looseness(looseness_of(groups, bounds)) {
   if (mesh.bodies.all_meet()) return;
   bodies = each(groups, [&mesh](const PrimitiveGroups& some) {
     return BodyTree(some, mesh.bodies.of_vertices(), mesh.bodies.has_rule_for_vertices());

@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cmath>
 #include <cstddef>
@@ -13,6 +14,7 @@
 #include <limits>
 #include <map>
 #include <numeric>
+#include <set>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -245,6 +247,23 @@ TEST(EdgesOf, GoByTheirLargerVertexThenByTheSmaller) {
   EXPECT_EQ(edges_of({}), std::vector<Edge>{});
   const std::vector<Face> degenerate{{5, 5, 2}, {7, 7, 7}};
   EXPECT_EQ(edges_of(degenerate), (std::vector<Edge>{{2, 5}}));
+
+  Random random(16);
+  for (const int largest : {3, 2047, 2048, 1 << 20, std::numeric_limits<int>::max()}) {
+    std::vector<Face> many(500);
+    std::set<std::array<std::int32_t, 2>> sides;  // the larger vertex first
+    for (Face& face : many) {
+      for (std::int32_t& vertex : face)
+        vertex = random.between(largest - 3, largest) >> random.between(0, 30);
+      const auto& [a, b, c] = face;
+      for (const auto& [u, v] : {std::pair(a, b), std::pair(b, c), std::pair(c, a)}) {
+        if (u != v) sides.insert({std::max(u, v), std::min(u, v)});
+      }
+    }
+    std::vector<Edge> expected;
+    for (const auto& [larger, smaller] : sides) expected.push_back({smaller, larger});
+    EXPECT_EQ(edges_of(many), expected);
+  }
 }
 
 }  // namespace
