@@ -23,7 +23,7 @@ AlgebraicNumber recognised(const AlgebraicNumber& number) {
   AlgebraicNumber near = number;
   const Integer& leading = near.polynomial().leading();
   near.refine_to_level(mpz_sizeinbase(leading.get_mpz_t(), 2) + 1);
-  // At most one multiple is in an interval shorter than their distance.
+  // An interval shorter than the distance of the multiples contains at most one.
   const auto [lower, upper] = near.interval();
   if (near.rational()) return near;
   const Rational scaled = upper * abs(leading);
@@ -197,7 +197,7 @@ Certificate prove_any(Kind kind, const AnyQuery& query, const Decision& decision
   certificate.query = query;
   certificate.separation = decision.separation;
   auto motion = scale_uniformly(kind, query, decision.separation);
-  // At distance 0 both norms mean the same, and l2 has fewer features.
+  // Both norms mean the same at distance 0, and l2 has fewer features.
   if (sgn(motion.distance) == 0) motion.norm = Norm::l2;
   if (decision.toi) {
     prove_collision(motion, *decision.toi, options, certificate);

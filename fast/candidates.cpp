@@ -19,8 +19,8 @@ bool is_below(std::int32_t index, std::size_t size) {
   return index >= 0 && static_cast<std::size_t>(index) < size;
 }
 
-/// True if all indices of all elements are below the size. Without a branch for each element,
-/// because it runs for every batch.
+/// True if all indices of all elements are below the size. No branch for each element, because it
+/// runs for every batch.
 template <std::size_t count>
 bool are_below(std::span<const std::array<std::int32_t, count>> elements, std::size_t size) {
   std::uint32_t greatest = 0;  // a negative index becomes one of at least 2^31

@@ -88,7 +88,7 @@ void for_each_block(const Batch& batch, int max_threads, const Body& body) {
 // ---- Results and answers ------------------------------------------------------------------------
 
 void set_stage(CertifiedResult& to, Stage stage) { to.stage = stage; }
-/// The number of stages that the query went through.
+/// Counts the stages that the query went through.
 void set_stage(Answer& to, Stage stage) { to.checks = static_cast<std::uint32_t>(stage) + 1; }
 
 void set(CertifiedResult& to, const CertifiedResult& result) { to = result; }

@@ -25,7 +25,7 @@ namespace touchstone::fast {
 namespace {
 
 void require_time(double t) {
-  // Written so that NaN fails too.
+  // NaN fails, too.
   if (!(t >= 0.0 && t <= 1.0)) throw std::invalid_argument("distance: the time must be in [0,1]");
 }
 
@@ -74,11 +74,11 @@ bool is_less(const Distance& a, const Distance& b) {
   return std::tie(a.lower, a.upper) < std::tie(b.lower, b.upper);
 }
 
-/// Finds the least distance by examining all pairs whose boxes are within a radius, which begins
-/// with a part of a usual edge and grows until a pair is found, or until it is the distance of the
-/// nearest known pair. A sample of the pairs makes that short from the beginning. The stages of the
-/// certified solver on lanes (fast/step/sieve.hpp), then one inequality (keeps_distance), exclude
-/// nearly all pairs that are farther apart, before their distance is computed.
+/// Finds the least distance by examining all pairs whose boxes are within a radius. The radius
+/// begins with a part of a usual edge and grows until a pair is found, or until it is the distance
+/// of the nearest known pair. A sample of the pairs makes that short from the beginning. The stages
+/// of the certified solver on lanes (fast/step/sieve.hpp), then one inequality (keeps_distance),
+/// exclude nearly all pairs that are farther apart, before their distance is computed.
 ///
 /// All of these use positions rounded to doubles, except at the start. The error of a coordinate is
 /// the bound of filters::Position, 2u of its magnitude, plus at most u of it for the rounding of

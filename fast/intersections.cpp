@@ -265,7 +265,7 @@ void require_valid(const MovingVertices& vertices, const MeshElements& elements)
   require_in_range(vertices, elements.points);
 }
 
-/// answer(search) in the threads that the options allow.
+/// Calls answer(search) in the threads that the options allow.
 template <class Answer>
 auto searched(MovingVertices vertices, const MeshElements& elements,
               const IntersectionOptions& options, const Answer& answer) {

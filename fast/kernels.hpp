@@ -1,8 +1,8 @@
 #pragma once
 
 /// \file
-/// The kernels of the solvers: the best ones for this processor, or the ones that a test or a
-/// benchmark chooses for what it makes and solves in its thread.
+/// The kernels of the solvers: the best ones for this processor, or those that a test or a
+/// benchmark chooses for its thread.
 
 #include "fast/broad_phase/search.hpp"
 #include "fast/certified/kernel.hpp"
@@ -10,7 +10,7 @@
 
 namespace touchstone::fast {
 
-/// nullptr: the best kernel, of Tight-Inclusion for its filter.
+/// The chosen kernels; nullptr: the best one, for Tight-Inclusion the best for its filter.
 struct Kernels {
   const CertifiedKernel* certified = nullptr;
   const SearchKernel* search = nullptr;
@@ -23,8 +23,8 @@ struct Kernels {
 [[nodiscard]] inline const CertifiedKernel& certified_kernel(const Kernels& chosen) {
   return chosen.certified != nullptr ? *chosen.certified : *certified_kernels().back();
 }
-/// For one query at a time: the lanes of the widest kernels would be empty, and their instructions
-/// are slower.
+/// The kernel for one query at a time: the lanes of the widest kernels would be empty, and their
+/// instructions are slower.
 [[nodiscard]] inline const CertifiedKernel& certified_kernel_for_one(const Kernels& chosen) {
   static const CertifiedKernel* const narrow =
       find_kernel(certified_kernels(), InstructionSet::avx2);

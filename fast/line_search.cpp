@@ -78,7 +78,7 @@ struct Motion {
   double mean = 0.0;      ///< the mean in L∞, nearly
 };
 
-/// May be infinite or NaN.
+/// The motion of all vertices. May be infinite or NaN.
 Motion motion_of(const MovingVertices& vertices) {
   Motion result;
   for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -125,14 +125,14 @@ bool are_near(Kind kind, const Query& query) {
 
 /// Each considered pair has a distance d at the start, an s with p d ≤ s < d, and a time at which
 /// it comes within s. Let T be the end of the earliest known enclosure, with a margin for the lower
-/// ends of others. Only pairs that come within s up to T matter. The first known one is the
-/// earliest impact: a pair that collides comes within s before.
+/// ends of others. Only pairs that come within s up to T matter. T begins with the earliest impact:
+/// a pair that collides comes within s before.
 ///
 /// s is at most c d, c = p (1 + 5u), and d − s at most T M, where M is the greatest relative
 /// motion. So a pair that comes within s up to T comes within T M c/(1 − c). If this is short, one
 /// search on lanes finds these pairs (fast/step/sieve.hpp); otherwise the search is for all
-/// considered ones. Of most of them an inequality (keeps_distance) shows that more than s is left
-/// up to T, before their distance is computed.
+/// considered ones. For most of them an inequality (keeps_distance) shows, without the distance,
+/// that more than s is left up to T.
 class SearchOfPairs {
  public:
   SearchOfPairs(const Step& step, double p, Norm norm) : step_(step), p_(p), norm_(norm) {}
@@ -167,7 +167,7 @@ class SearchOfPairs {
     const double until = time();
     const double within =
         until * p_ / ((1.0 - p_) - 5.0 * 0x1p-53 * p_) * (1.0 + 0x1p-40) * motion.relative;
-    // Written so that NaN fails.
+    // NaN fails.
     if (within <= motion.mean) {
       const Step near = step_.with_separation({.distance = std::max(within, least), .norm = norm_});
       with_threads(step_.options().max_threads, [&] {
@@ -261,7 +261,7 @@ class SearchOfPairs {
 }  // namespace
 
 LineSearchLimit line_search_limit(const Step& step, double p, const LineSearchOptions& options) {
-  // Written so that NaN fails too.
+  // NaN fails, too.
   if (!(p > 0.0 && p <= 1.0 - 0x1p-50)) {
     throw std::invalid_argument("line search: p must be more than 0 and at most 1 - 2^-50");
   }

@@ -18,7 +18,7 @@
 
 namespace touchstone::fast {
 
-/// An answer with its uncertainty. A field that the method does not provide is NaN.
+/// An answer with its uncertainty. Fields that the method does not provide are NaN.
 struct Answer {
   static constexpr double none = no_number;
 
@@ -47,8 +47,8 @@ enum class Times : std::uint8_t {
   none,       ///< the verdict alone counts
 };
 
-/// The terms of a promise: the queries that it is about, and what it says of times. A query outside
-/// of them is not asked, and its answer is no fault.
+/// The terms of a promise: the queries and the times that it covers. Other queries are not asked,
+/// and their answers are no faults.
 struct Terms {
   bool vertex_face = true;  ///< It answers vertex-face queries.
   bool edge_edge = true;    ///< It answers edge-edge queries.
@@ -56,10 +56,10 @@ struct Terms {
   /// The degrees of the other curves that it answers; none unless least ≤ most.
   std::size_t least_degree = 1;
   std::size_t most_degree = 0;
-  bool rational = false;  ///< Of these, also rational ones.
-  /// At t=0 the distance must be more than the minimum separation plus this; nothing: any distance.
+  bool rational = false;  ///< It answers rational ones, too.
+  /// The least distance at t=0 beyond the minimum separation, exclusive; nothing: any distance.
   std::optional<double> starts_apart = std::nullopt;
-  /// It takes coordinates in single precision: queries are rounded first.
+  /// True if it takes coordinates in single precision: queries are rounded first.
   bool float_coordinates = false;
   Times times = Times::bounds;
   double time_error = 1e-6;  ///< of estimates, in units of the step; not negative
@@ -76,9 +76,8 @@ struct Terms {
   friend bool operator==(const Terms&, const Terms&) = default;
 };
 
-/// The separation of methods and records where none is given: the distance 0, in the norm of the
-/// command line, because plugins and records name a norm there, too, and the claim of an answer
-/// with a tolerance is a distance in that norm.
+/// The default separation of methods and records: distance 0 in the norm of the command line, in
+/// which the claim of an answer with a tolerance is a distance, and which plugins and records name.
 inline constexpr Separation no_separation{.distance = 0.0, .norm = Norm::linf};
 
 /// The common options of methods. A method ignores the options that do not apply to it.
@@ -93,7 +92,7 @@ struct MethodOptions {
 
 /// The description of a method, for the registry, reports and help.
 struct MethodInfo {
-  /// Its name on the command line: unique, snake_case.
+  /// The name on the command line: unique, snake_case.
   std::string_view name;
   Promise promise = Promise::none;
   Terms terms = {};

@@ -218,7 +218,7 @@ class ImpactSearch {
 
   const Scene& scene_;
   bool any_suffices_ = false;
-  /// One of them is the interval.
+  /// The interval: one of these.
   std::optional<SceneInterval<1>> short_;
   std::optional<SceneInterval<2>> long_;
   std::atomic<std::size_t> pairs_ = 0;   ///< decided so far
@@ -338,7 +338,7 @@ class CloseTrials {
   }
 
  private:
-  /// To try more pairs takes as long as a search of the scaled step.
+  /// The most pairs: to try more takes as long as a search of the scaled step.
   static constexpr std::size_t most = std::size_t{1} << 15U;
 
   void find(const Separation& wider) {
@@ -482,7 +482,7 @@ bool Step::starts_free() const {
 }
 
 Step Step::scaled(double alpha) const {
-  // Written so that NaN fails too.
+  // NaN fails, too.
   if (!(alpha >= 0.0 && alpha <= 1.0)) {
     throw std::invalid_argument("step: the step size must be in [0,1]");
   }

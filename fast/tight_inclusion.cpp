@@ -127,7 +127,7 @@ class Search {
     double greatest_ratio = 0.0;
     for (const Axis axis : {t_axis, u_axis, v_axis}) {
       const double ratio = widths_[axis] / parameter_tolerances_[axis];
-      // With as many splits as digits, parameters and their complements to 1 are exact.
+      // Parameters and their complements to 1 are exact for as many splits as digits.
       if (widths_[axis] > parameter_tolerances_[axis] && splits_[axis] < kernel_.digits &&
           ratio > greatest_ratio) {
         widest = axis;
@@ -220,7 +220,7 @@ void require_valid(const TightInclusionOptions& options) {
   const auto require = [](bool holds, const char* rule) {
     if (!holds) throw std::invalid_argument(std::string("tight_inclusion: ") + rule);
   };
-  // Written so that NaN fails too.
+  // NaN fails, too.
   const auto is_filter = [](double x) { return x >= 0.0; };
   require(options.tolerance > 0.0 && options.tolerance < infinity,
           "the tolerance must be positive and finite");

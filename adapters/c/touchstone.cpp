@@ -29,7 +29,7 @@ struct TouchstoneStep {
   std::vector<touchstone::fast::Face> faces;
   std::vector<std::int32_t> points;
   std::optional<touchstone::fast::Step> step;
-  // The arrays that are handed out.
+  // The arrays whose addresses the functions return.
   std::vector<TouchstoneCollision> collisions;
   std::vector<TouchstonePair> nearest;
   std::vector<TouchstoneActiveContact> active;
@@ -157,7 +157,7 @@ TouchstoneDistance distance_of(const fast::Distance& distance) {
 
 void measure(std::int32_t kind, std::size_t count, const double* coordinates, double t,
              std::int32_t norm, std::int32_t max_threads, TouchstoneDistance* distances) {
-  // (The function of many names the query that is not finite.)
+  // (The function for several queries names the query that is not finite.)
   if (count == 1 && max_threads >= 0 && is_finite(query_of(coordinates))) {
     required(distances, "distances") =
         distance_of(fast::distance(kind_of(kind), query_of(coordinates), t, norm_of(norm)));
@@ -219,7 +219,7 @@ TouchstoneActiveContact active_contact_of(const fast::ActiveContact& contact) {
   return result;
 }
 
-/// Fills an array that a step hands out; `convert` makes its items.
+/// Fills an array of a step for the caller; `convert` makes its items.
 template <class Item, class Given, class Convert>
 void refill(std::vector<Item>& array, const std::vector<Given>& given, const Convert& convert) {
   std::vector<Item> items;

@@ -249,7 +249,7 @@ DoubleInterval AlgebraicNumber::enclosure() const {
     if (below == above) return {below, above};
     const double next = std::nextafter(below, std::numeric_limits<double>::infinity());
     if (next >= above) return {below, above};
-    // At most one double strictly inside: the number is on one side of it, or is it.
+    // One double strictly inside at most: the number is on one side of it, or is it.
     if (std::nextafter(next, std::numeric_limits<double>::infinity()) < above) continue;
     const auto order = number <=> Rational(next);
     if (order == 0) return {next, next};

@@ -59,7 +59,7 @@ std::vector<Integer> bernstein_coefficients(std::vector<Integer> form) {
 }
 
 std::vector<Integer> bernstein_coefficients(const Polynomial& p, const RationalInterval& interval) {
-  // With t = (a (1−y) + b y)/d and 1 = (d (1−y) + d y)/d: Σ a_i t^i 1^(n−i), by Horner's rule.
+  // Compute Σ a_i t^i 1^(n−i) by Horner's rule, with t = (a (1−y) + b y)/d, 1 = (d (1−y) + d y)/d.
   const Integer d = lcm(interval.lower.get_den(), interval.upper.get_den());
   const Integer a = interval.lower.get_num() * (d / interval.lower.get_den());
   const Integer b = interval.upper.get_num() * (d / interval.upper.get_den());

@@ -6,7 +6,7 @@
 /// The Bernstein coefficients of p on [a,b] enclose its values: if all are positive, so is p. If
 /// one is not, [a,b] is halved. For a p that is positive on [a,b] the proof succeeds at some depth,
 /// about the logarithm of the distance of its nearest complex root. A checker limits the depth, so
-/// the writer of a certificate has to know the depth of a proof and its place.
+/// the writer of a certificate must know the depth of a proof and its place.
 
 #include <cstdint>
 #include <vector>

@@ -166,7 +166,7 @@ struct PlaceWriter {
   void operator()(const AxesContact&) const { text += "axes"; }
 };
 
-/// Is it a byte of a character of UTF-8 behind its first?
+/// True for a byte of a UTF-8 character after its first.
 bool is_continuation(char c) { return (static_cast<unsigned char>(c) & 0xC0U) == 0x80U; }
 
 }  // namespace

@@ -79,7 +79,7 @@ std::optional<Feature> single_feature(const std::vector<Separator>& separators) 
 // ---- Many subintervals --------------------------------------------------------------------------------
 // Here time is the fraction y of [0,until].
 
-/// As farthest, but a separator must exist.
+/// The span of the separator that holds longest. \pre one holds
 Span span_at(std::vector<Separator>& separators, const AlgebraicNumber& y) {
   std::optional<Span> span = farthest(separators, y);
   if (!span) throw std::logic_error("touchstone: no separation where there should be no contact");

@@ -29,7 +29,7 @@ mpz_class parse_decimal(std::string_view digits) {
   return number;
 }
 
-/// The parts of a text before and behind a separator, or `behind` where it is missing.
+/// The parts before and after the separator; without one, the whole text and `behind`.
 std::array<std::string_view, 2> parted(std::string_view text, char separator,
                                        std::string_view behind) {
   const std::size_t place = text.find(separator);
@@ -37,7 +37,7 @@ std::array<std::string_view, 2> parted(std::string_view text, char separator,
   return {text.substr(0, place), text.substr(place + 1)};
 }
 
-/// [±]D, decimal digits.
+/// Parses [±]D, decimal digits.
 long parse_power_of_two(std::string_view text) {
   const bool is_negative = text.starts_with('-');
   const bool is_signed = is_negative || text.starts_with('+');
@@ -47,7 +47,7 @@ long parse_power_of_two(std::string_view text) {
   return is_negative ? -power : power;
 }
 
-/// The text after 0x: H[.H]p[±]D, H hexadecimal and D decimal digits.
+/// Parses the text after 0x: H[.H]p[±]D, H hexadecimal and D decimal digits.
 mpq_class parse_hexadecimal(std::string_view text) {
   const auto [digits, power] = parted(text, 'p', "");
   const auto [whole, fraction] = parted(digits, '.', "");

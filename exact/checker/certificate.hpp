@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file
-/// A certificate as text and as what it says: syntax and limits, no mathematics.
+/// The syntax and the limits of certificates, without mathematics.
 
 #include <gmpxx.h>
 
@@ -27,8 +27,8 @@ inline constexpr std::size_t max_subintervals = 4'096;
 inline constexpr std::size_t max_root_degree = 256;
 inline constexpr std::size_t max_curve_degree = 8;
 
-/// Where a certificate proves nothing: throws, without a label.
-/// \param line at fault; 0: that at which the reader stands
+/// Rejects a certificate; the label is added later.
+/// \param line the line at fault; 0 for the reader's line
 [[noreturn]] inline void reject(std::string reason, std::size_t line = 0) {
   throw Rejection{line, "", std::move(reason)};
 }
@@ -43,32 +43,32 @@ void require_at_most(std::size_t limit, std::size_t count, std::string_view what
 
 // ---- Numbers ------------------------------------------------------------------------------------
 
-/// The number that a word is: a decimal integer, a fraction or a hexadecimal float.
-/// \throws Rejection if it is none, or beyond the limits.
+/// Parses a decimal integer, a fraction or a hexadecimal float.
+/// \throws Rejection for any other word, or beyond the limits.
 [[nodiscard]] mpq_class parse_number(std::string_view word);
 
-/// The number in one form, whatever form it was read in: the shorter of the fraction in lowest
-/// terms and, where there is one, the hexadecimal float whose first digit is 1.
+/// The number in its only form: the shorter of the fraction in lowest terms and, if there is one,
+/// the hexadecimal float whose first digit is 1.
 [[nodiscard]] std::string to_text(const mpq_class& number);
 
 // ---- The parts of a certificate -----------------------------------------------------------------
 
-/// x y z.
+/// The coordinates x y z.
 using Point = std::array<mpq_class, 3>;
-/// A moving point: its control points from t=0 to t=1, of a straight line two.
+/// A moving point: its control points from t=0 to t=1, two for a straight line.
 struct Curve {
   std::vector<Point> control;
-  /// The weights, > 0, of a rational curve; else none.
+  /// The weights, > 0, of a rational curve; otherwise none.
   std::vector<mpq_class> weights;
 };
 
 struct Query {
   bool is_edge_edge = false;
-  /// Of a vertex and a face, or of two edges, as listed.
+  /// The points of a vertex and a face, or of two edges, in this order.
   std::array<Curve, 4> points;
 };
 
-/// The minimum separation and its norm: l2, or else linf.
+/// The minimum separation and its norm: l2 or linf.
 struct Separation {
   mpq_class distance = 0;
   bool is_l2 = false;
@@ -81,9 +81,9 @@ struct Part {
   std::size_t line = 0;
   mpq_class from;
   mpq_class to;
-  /// As many as its feature or place has.
+  /// The corners of the feature or the place; the rest is unused.
   std::array<std::size_t, 3> corners{};
-  /// Of an axis, a cross or a triangle.
+  /// The coordinate axis of an axis, a cross or a triangle.
   std::size_t axis = 0;
 };
 
@@ -93,11 +93,11 @@ enum class Feature : std::uint8_t { vertex, edge, face, axis, cross };
 /// `separate`: no contact in the interval.
 struct Subinterval : Part {
   Feature feature = Feature::vertex;
-  /// Of a face or an axis.
+  /// True for the negative direction of a face or an axis.
   bool is_negative = false;
 };
 
-/// Where a contact is.
+/// The place of a contact.
 enum class Place : std::uint8_t { vertex, segment, triangle, edge, face, axes };
 
 /// `contact` and `at`: the interval is that of the root; a given time is both its ends.
@@ -109,7 +109,7 @@ struct Contact : Part {
 };
 
 struct Certificate {
-  /// That of the claim.
+  /// The line of the claim.
   std::size_t line = 0;
   std::string label;
   Query query;
@@ -126,8 +126,8 @@ struct Certificate {
   [[nodiscard]] bool has_contact() const { return claim != Claim::no_collision; }
 };
 
-/// The claim and the separation in one form, whatever form they were read in: a demand is the same
-/// text (checker.hpp). At distance 0 both norms are the same, and none is named.
+/// The claim and the separation in their only form, which a demand has too (checker.hpp). At
+/// distance 0 the norm does not matter and is not named.
 [[nodiscard]] std::string to_text(const Certificate& certificate);
 [[nodiscard]] std::string to_text(const Separation& separation);
 
@@ -137,14 +137,13 @@ void require_demanded(const Options& options, const std::string& claim,
 
 // ---- Reading ------------------------------------------------------------------------------------
 
-/// The lines of a stream without those that are empty or comments, and the words of the line at
-/// hand.
+/// The lines of a stream, except empty lines and comments, and the words of the current line.
 class Reader {
  public:
   /// Reads nothing yet.
   explicit Reader(std::istream& stream) : stream_(&stream), buffer_(max_line_bytes + 2, ' ') {}
 
-  /// Goes to the first line, or to the next that is neither empty nor a comment.
+  /// Goes to the next line that is neither empty nor a comment, at first to the first one.
   /// \throws std::runtime_error if the stream cannot be read.
   void advance();
 
@@ -157,7 +156,7 @@ class Reader {
   [[nodiscard]] std::string_view text() const { return text_; }
   [[nodiscard]] std::string_view first_word() const { return text_.substr(0, text_.find(' ')); }
 
-  /// Begins with the line, and takes its first word if it is named. \returns its number.
+  /// Begins the line, and takes its first word if there is a keyword. \returns the line's number.
   /// \throws Rejection if there is no line or the word is another.
   std::size_t begin(std::string_view keyword = {});
   [[nodiscard]] bool has_word() const { return !rest_.empty(); }
@@ -169,7 +168,7 @@ class Reader {
   void end();
 
  private:
-  /// Goes to the next line, whatever it is.
+  /// Reads the next line of any kind.
   void read_line();
 
   std::istream* stream_;
@@ -178,26 +177,25 @@ class Reader {
   std::size_t number_ = 0;
   std::int64_t bytes_ = 0;
   bool at_end_ = false;
-  /// Why the line cannot be read; null if it can.
+  /// The reason why the line cannot be read; null if it can.
   const char* fault_ = nullptr;
   std::string_view text_;
   /// The rest of the line: nothing, or a space and the words after it.
   std::string_view rest_;
 };
 
-/// Reads the certificate that begins at the present line and goes behind its `end`. Where it
-/// throws, the reader stands at the line at fault, and the certificate has its label if that came
-/// before.
-/// \throws Rejection where the text is no certificate, std::runtime_error as Reader::advance.
+/// Reads the certificate that begins at the current line, to the line after its `end`. If it
+/// throws, the reader is at the line at fault, and the certificate has its label if that was read.
+/// \throws Rejection if the text is no certificate, std::runtime_error as Reader::advance.
 void read_certificate(Reader& reader, Certificate& certificate);
 
-// What certificates of queries and of steps share. These throw as read_certificate.
+// Common parts of the certificates of queries and steps. These throw as read_certificate.
 
 [[nodiscard]] mpq_class take_number(Reader& reader);
 /// Reads a line of the keyword and a label, which is the rest of the line.
 [[nodiscard]] std::string read_label(Reader& reader, std::string_view keyword);
 [[nodiscard]] Separation read_separation(Reader& reader);
-/// Takes LO and HI, between which the first contact is.
+/// Takes LO and HI, the ends of an interval with the first contact.
 void take_time_of_impact(Reader& reader, mpq_class& lower, mpq_class& upper);
 [[nodiscard]] std::vector<Subinterval> read_subintervals(Reader& reader, const Query& query);
 [[nodiscard]] Contact read_contact(Reader& reader, const Query& query);

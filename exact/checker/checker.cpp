@@ -50,7 +50,7 @@ class StreamCheck {
   }
 
  private:
-  /// Does what may be rejected, and counts a rejection.
+  /// Runs work that may be rejected, and counts a rejection.
   template <class Work>
   void attempt(const std::string& label, const Work& work) {
     try {
@@ -73,8 +73,8 @@ class StreamCheck {
     check_end(closing_word, queries);
   }
 
-  /// Checks the certificate that begins at the present line, and goes to where the next may begin:
-  /// the line after it, or the next `query` line or closing line.
+  /// Checks the certificate that begins at the current line, and goes to the line after it or, if
+  /// it cannot be read, to the next `query` line or closing line.
   void check_one() {
     const std::size_t first = reader_.number();
     Certificate certificate;
@@ -101,7 +101,7 @@ class StreamCheck {
     if (claim == Claim::time_of_impact) ++report_.time_of_impact;
   }
 
-  /// Checks the certificates of steps to the first that is rejected.
+  /// Checks the certificates of steps up to the first that is rejected.
   void check_steps() {
     std::optional<Reader> scenes;
     if (options_.scenes != nullptr) {
@@ -116,7 +116,7 @@ class StreamCheck {
     if (scenes && !scenes->at_end()) reject("not all scenes are proved");
   }
 
-  /// Checks the end of a stream of so many certificates: the closing line, and nothing behind it.
+  /// Checks the closing line, with this number of certificates, and that nothing follows.
   void check_end(std::string_view word, std::uint64_t certificates) {
     const std::string expected = std::string(word) + ' ' + std::to_string(certificates);
     if (reader_.at_end()) reject("the stream is cut: it has no closing line '" + expected + "'");

@@ -3,11 +3,10 @@
 /// \file
 /// The checker: believes a certificate only if it proves its claim.
 ///
-/// It shares nothing with the rest of the project: the standard library and GMP are all it needs.
-/// To be read in this order: certificate.hpp/.cpp turn text into what it says
-/// (exact/CERTIFICATES.md is the format), proof.hpp/.cpp are the mathematics, checker.cpp counts.
-/// For certificates of whole steps also places.hpp/.cpp, which pairs need an argument, and
-/// step.hpp/.cpp, what is said of them.
+/// It shares nothing with the rest of the project and needs only the standard library and GMP. Read
+/// it in this order: certificate.hpp/.cpp parse (the format is exact/CERTIFICATES.md),
+/// proof.hpp/.cpp have the mathematics, checker.cpp counts. For certificates of whole steps,
+/// places.hpp/.cpp find the pairs that need an argument, and step.hpp/.cpp verify these.
 ///
 /// Four points move on straight lines or on curves, polynomial or rational in t with positive
 /// denominators. The *corners* are
@@ -20,7 +19,7 @@
 /// The *time of impact* (toi) is the least contact in [0,1]. ‖d‖* is |d| for l2, |d_x|+|d_y|+|d_z|
 /// for linf.
 ///
-/// **Theorem.** Each of these proves what it says.
+/// **Theorem.** Each of these is a proof.
 ///   - *Separation* on [a,b]: a direction d(t) with d(t)·w_i(t) > D‖d(t)‖* for all i and all
 ///     t ∈ [a,b]. Then no t ∈ [a,b] is a contact: if x = Σ α_i w_i with α_i ≥ 0, Σ α_i = 1, then
 ///     ‖d‖*‖x‖ ≥ d·x = Σ α_i (d·w_i) > D‖d‖*.
@@ -57,31 +56,28 @@ namespace touchstone::checker {
 struct Options {
   /// Number of rejections that are kept with their reason; all are counted.
   std::size_t max_rejections = 100;
-  /// The scenes that certificates of steps have to be about, in order, without labels; null: any.
+  /// The scenes that certificates of steps must have, in order, without labels; null: any.
   std::istream* scenes = nullptr;
-  /// The claim that every certificate has to make, in the form of `demanded_claim`; empty: any.
+  /// The claim that every certificate must make, as `demanded_claim` writes it; empty: any.
   std::string claim = {};
-  /// Its separation, in the form of `demanded_separation`; empty: any.
+  /// The separation of the claim, as `demanded_separation` writes it; empty: any.
   std::string separation = {};
-  /// The sizes of all polynomials that the proof of one certificate looks at, halves included, in
-  /// sum.
+  /// The total size of all polynomials in one certificate's proof, halves included.
   std::int64_t max_work_bits = std::int64_t{1} << 28U;
-  /// What the polynomials of a step may have besides, for each byte of the certificate that was
-  /// read up to their line.
+  /// The additional size for the polynomials of a step, for each byte of the certificate so far.
   std::int64_t max_step_work_bits_per_byte = std::int64_t{1} << 14U;
-  /// How often boxes may be compared in the search for the pairs of a step, for each byte of the
-  /// certificate.
+  /// The number of comparisons of boxes in a step's search, for each byte of the certificate.
   std::int64_t max_comparisons_per_byte = 256;
-  /// The items of all lists of a step's scene, in sum.
+  /// The total number of items in the lists of a step's scene.
   std::size_t max_items = std::size_t{1} << 22U;
-  /// The arguments of a step.
+  /// The number of arguments of a step.
   std::size_t max_arguments = std::size_t{1} << 24U;
 };
 
-/// Why a certificate was not accepted. The texts are printable ASCII whatever the bytes read: any
-/// other byte is written as \xHH.
+/// The reason why a certificate was rejected. The texts are printable ASCII; any other byte that
+/// was read is written as \xHH.
 struct Rejection {
-  /// The line that is at fault, counted from 1; at the end of the stream its last line.
+  /// The line at fault, from 1; at the end of the stream its last line.
   std::size_t line = 0;
   /// The certificate's label; empty if it has none.
   std::string label;
@@ -94,13 +90,12 @@ struct Report {
   std::uint64_t no_collision = 0;
   std::uint64_t collision = 0;
   std::uint64_t time_of_impact = 0;
-  /// What accepted certificates of steps prove, in some lines each.
+  /// The claims that accepted certificates of steps prove, some lines each.
   std::vector<std::string> steps;
-  /// Certificates that prove nothing, be it by their form or by their content; and one for a stream
-  /// that does not begin with its header, or one for a stream that does not end with the closing
-  /// line.
+  /// The number of rejected certificates. A stream without its header, or without its closing line,
+  /// counts as one.
   std::uint64_t rejected = 0;
-  /// The first of them, in the order of the stream.
+  /// The first rejections, in the order of the stream.
   std::vector<Rejection> rejections;
 
   [[nodiscard]] std::uint64_t accepted() const {
@@ -109,21 +104,20 @@ struct Report {
   [[nodiscard]] bool all_accepted() const { return rejected == 0; }
 };
 
-/// The claim in the words of a certificate, its numbers in one form. `time_of_impact` and
+/// The claim in the words of a certificate, its numbers in their only form. `time_of_impact` and
 /// `earliest` without numbers stand for all times; `free` is `no_contact 1`.
 /// \throws Rejection if it is no claim.
 [[nodiscard]] std::string demanded_claim(std::string_view words);
 
-/// The separation in one form. \param distance as certificates have it, or a decimal number, which
-/// stands for the double nearest to it. \param norm `linf` or `l2`
+/// The separation in its only form. \param distance as in certificates, or a decimal number, which
+/// means the double nearest to it. \param norm `linf` or `l2`
 /// \throws Rejection if it is none.
 [[nodiscard]] std::string demanded_separation(std::string_view distance, std::string_view norm);
 
-/// Reads a stream of certificates to its end and checks each. After a rejected one it goes on at
-/// the next `query` line; a stream whose first line is wrong is rejected as a whole, as one. The
-/// closing line must give the number of certificates, so that neither an empty nor a cut stream is
-/// accepted. Bounded memory and time a certificate, whatever the bytes. Thread-safe for different
-/// streams.
+/// Checks every certificate of a stream. After a rejected one it continues at the next `query`
+/// line; a stream whose first line is wrong is one rejection. The closing line must give the number
+/// of certificates, so neither an empty nor a truncated stream is accepted. Memory and time per
+/// certificate are bounded for any bytes. Thread-safe for different streams.
 /// \throws std::runtime_error if the stream cannot be read.
 [[nodiscard]] Report check(std::istream& certificates, const Options& options = {});
 

@@ -42,7 +42,7 @@ struct Arguments {
   touchstone::checker::Options options;
 };
 
-/// Nothing if the words are no command.
+/// Parses a command line; empty if the words are no command.
 std::optional<Arguments> parsed(std::span<char*> words) {
   Arguments arguments;
   std::string separation;
@@ -97,7 +97,7 @@ void print(const touchstone::checker::Report& report) {
   if (hidden > 0) std::cout << "  and " << hidden << " more\n";
 }
 
-/// Checks a file, and says what comes of it. \returns whether all was accepted.
+/// Checks a file and prints the outcome. \returns true if everything was accepted.
 bool check(Arguments arguments) {
   std::ifstream file;
   std::ifstream scenes;
@@ -116,7 +116,7 @@ bool check(Arguments arguments) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  // Without this std::cin takes an error for the end.
+  // A synchronised std::cin takes an error for the end.
   std::ios::sync_with_stdio(false);
   std::string path;
   try {

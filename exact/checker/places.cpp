@@ -62,7 +62,7 @@ struct Node {
   std::size_t count = 1;
 };
 
-/// The root is the last.
+/// The nodes, the root last.
 using Tree = std::vector<Node>;
 using Leaf = std::vector<Node>::iterator;
 

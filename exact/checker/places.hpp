@@ -1,11 +1,10 @@
 #pragma once
 
 /// \file
-/// Where the vertices of a step are, in integers, and whether a direction keeps two primitives
-/// apart.
+/// The places of a step's vertices in integers, and directions that keep two primitives apart.
 ///
 /// Space is enlarged by the power of two that brings all coordinates and the distance D just below
-/// 2^50. A coordinate at the start and at the end of a stretch of time is then enclosed by
+/// 2^50. A coordinate at the start and at the end of an interval of time is then enclosed by
 /// integers, and D is rounded up. Their sums and products are exact in 64 bits.
 ///
 /// **Theorem.** Let d be a vector of integers. If d·a > d·b + D‖d‖₁ for all vertices a of one
@@ -53,7 +52,7 @@ struct Primitive {
 /// Primitives in the order of their numbers.
 using Primitives = std::vector<Primitive>;
 
-/// x y z.
+/// The numbers x y z.
 using Integers = std::array<std::int64_t, 3>;
 using Direction = Integers;
 
@@ -61,11 +60,11 @@ struct Box {
   Integers lower{};
   Integers upper{};
 
-  /// Grows until it holds the other.
+  /// Grows to contain the other box.
   void include(const Box& other);
 };
 
-/// The boxes of something that moves.
+/// The boxes at the start and at the end of a motion.
 struct MovingBox {
   Box start;
   Box end;
@@ -77,20 +76,20 @@ using TakePair = std::function<void(const Primitive&, const Primitive&)>;
 
 class Places {
  public:
-  /// On the way from t=0 to t=end. \pre finite coordinates and D; D ≥ 0, 0 ≤ end ≤ 1
+  /// Encloses the vertices up to t=end. \pre finite coordinates and D; D ≥ 0, 0 ≤ end ≤ 1
   Places(const std::vector<Motion>& vertices, double distance, const mpq_class& end);
 
-  /// Does the direction keep a above b all the time?
+  /// True if the direction keeps a above b at all times.
   [[nodiscard]] bool is_above(const Primitive& a, const Primitive& b, const Direction& d) const;
 
   /// Calls take(a, b) for every a of `some` and b of `others` that no coordinate axis keeps apart;
   /// if both are the same list, for every two of it, the smaller number first.
-  /// \param comparisons_left how often boxes may still be compared
-  /// \throws Rejection if that is not often enough.
+  /// \param comparisons_left the remaining comparisons of boxes
+  /// \throws Rejection if they do not suffice.
   void find_near(const Primitives& some, const Primitives& others, std::int64_t& comparisons_left,
                  const TakePair& take) const;
 
-  /// Are the boxes more than D apart on an axis, at the start and at the end, in the same order?
+  /// True if the boxes are more than D apart on an axis at both ends, in the same order.
   [[nodiscard]] bool is_axis_between(const MovingBox& a, const MovingBox& b) const {
     for (std::size_t axis = 0; axis < 3; ++axis) {
       if (is_below(a, b, axis) || is_below(b, a, axis)) return true;
@@ -105,7 +104,7 @@ class Places {
            a.end.upper[axis] + distance_ < b.end.lower[axis];
   }
 
-  /// What encloses each vertex.
+  /// The boxes of each vertex.
   std::vector<MovingBox> vertices_;
   /// D.
   std::int64_t distance_ = 0;

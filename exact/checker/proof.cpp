@@ -69,8 +69,8 @@ Form substitute(Form form, const mpz_class& x, const mpz_class& y) {
   return form;
 }
 
-/// Does the polynomial g (of degree ≥ 1, its leading coefficient not 0) divide p over the
-/// rationals? Long division, each step multiplied by g's leading coefficient. Everything divides 0.
+/// True if the polynomial g (of degree ≥ 1, its leading coefficient not 0) divides p over the
+/// rationals. Long division, each step multiplied by g's leading coefficient.
 bool divides(const Form& g, Form p) {
   for (; p.size() >= g.size(); p.pop_back()) {
     const mpz_class leading = p.back();
@@ -134,7 +134,7 @@ Form bernstein_polynomial(Form c) {
   return p;
 }
 
-/// What brings all of these to integers.
+/// Makes the factor a multiple of the numbers' denominators.
 void include_denominators(mpz_class& factor, const std::vector<mpq_class>& numbers) {
   for (const mpq_class& x : numbers) factor = lcm(factor, x.get_den());
 }
@@ -188,9 +188,9 @@ class Proof {
   }
 
  private:
-  /// Brings the corners and the distance to polynomials in t of integer coefficients. At each time
-  /// all of space is enlarged by one factor, which changes no sign below: by what makes the
-  /// coordinates integers, and by the product of the denominators of all points, equal ones once.
+  /// Makes the corners and the distance polynomials in t with integer coefficients. At each time
+  /// all of space is enlarged by one factor, which changes no sign below: a common denominator of
+  /// the coordinates, times the product of the denominators of all points, equal ones once.
   void find_corners() {
     const auto& [is_edge_edge, curves] = certificate_.query;
     mpz_class factor = certificate_.separation.distance.get_den();
@@ -235,8 +235,8 @@ class Proof {
     return substitute(std::move(form), 1, 1);
   }
 
-  /// Is a form in 1−u and u seen to be positive for all u ∈ [0,1]? It is if the first and the last
-  /// coefficient, its values at 0 and 1, are positive and no other is negative; or else if it is so
+  /// True if a form in 1−u and u is proved positive for all u ∈ [0,1]: the first and the last
+  /// coefficient, its values at 0 and 1, are positive and no other is negative; or the same holds
   /// on both halves: u = (1+v)/2, where twice 1−u and u are 1−v and (1−v) + 2v, and u = (1−v)/2.
   bool is_positive(Form form, std::size_t bisections = 0) {
     for (const mpz_class& x : form) work_bits_left_ -= static_cast<std::int64_t>(bits(x));
@@ -297,8 +297,8 @@ class Proof {
     return w * dot(e, e) - e * dot(w, e);
   }
 
-  /// D (σ·d) for every vector σ of signs; the greatest is D‖d‖* in linf. Those that are surely the
-  /// same are left out. (D is enlarged as the corners are.)
+  /// D (σ·d) for every vector σ of signs, without those that are surely equal; the greatest is
+  /// D‖d‖* in linf. (D is enlarged as the corners are.)
   [[nodiscard]] std::vector<Form> reaches(const Vector& d) const {
     std::vector<Form> sums{Form{0}};
     if (certificate_.separation.distance == 0) return sums;
@@ -336,7 +336,7 @@ class Proof {
 
   // ---- A contact ----
 
-  /// Proves that there is a contact in the interval of the claim: at any root of g in its own.
+  /// Proves that there is a contact in the interval of the claim, at any root of g in g's interval.
   void prove_contact(const Contact& contact) {
     enter(contact);
     if (contact.from < certificate_.lower || contact.to > certificate_.upper) {
@@ -451,7 +451,7 @@ class Proof {
     }
   }
 
-  /// Is d·w ≤ D‖d‖* seen for some corner w? For some σ is enough.
+  /// True if d·w ≤ D‖d‖* is proved for some corner w; one σ is enough.
   bool is_reached(const Vector& d) {
     for (const Form& sum : reaches(d)) {
       for (const Vector& w : corners_) {
@@ -464,15 +464,14 @@ class Proof {
 
   const Certificate& certificate_;
   std::int64_t& work_bits_left_;
-  /// That of the part at hand.
+  /// The line of the current part.
   std::size_t line_;
   /// D, enlarged as the corners are.
   Form reach_;
   std::vector<Vector> corners_;
-  /// Why is_positive saw it not.
+  /// The reason why is_positive failed.
   const char* doubt_ = "";
-  /// The interval of the part at hand: numerators of its start and its length, and their
-  /// denominator.
+  /// The interval of the current part: numerators of start and length, and their denominator.
   mpz_class from_;
   mpz_class length_;
   mpz_class denominator_;

@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file
-/// Whether what a certificate says is a proof of its claim: the mathematics, in integers.
+/// The mathematics of the checker, in integers: the proof of a certificate's claim.
 
 #include <cstddef>
 #include <cstdint>
@@ -15,10 +15,9 @@ inline constexpr std::size_t max_bisections = 128;
 /// The size of coordinates and times once they are integers.
 inline constexpr std::size_t max_scaled_bits = 65'536;
 
-/// Verifies the proof: of no contact in [0,lower], of one in [lower,upper], or of both, as is
-/// claimed.
-/// \param work_bits_left the sizes that max_work_bits (checker.hpp) bounds are taken from it
-/// \throws Rejection, with the line of the part at fault, if it does not prove the claim, or not within the limits.
+/// Verifies the proof of the claim: no contact in [0,lower], one in [lower,upper], or both.
+/// \param work_bits_left the rest of max_work_bits (checker.hpp), which the work reduces
+/// \throws Rejection, with the line at fault, if the claim is not proved within the limits.
 void verify(const Certificate& certificate, std::int64_t& work_bits_left);
 
 }  // namespace touchstone::checker

@@ -19,7 +19,7 @@ using Face = std::array<std::int32_t, 3>;
 /// The numbers of two vertices, two groups or two primitives.
 using Two = std::array<std::int32_t, 2>;
 
-/// What is said of the scene, as it is written.
+/// The scene as it is written.
 struct Scene {
   std::vector<Motion> vertices;
   std::vector<Face> faces;
@@ -53,7 +53,7 @@ double to_double(const mpq_class& number) {
   return number.get_d();
 }
 
-/// A line of a keyword and a number, and as many lines: take() makes an item of each.
+/// Reads a line of a keyword and a number, and as many lines: take() makes an item of each.
 template <class Item, class Take>
 std::vector<Item> read_list(Reader& reader, std::string_view keyword, std::size_t& items_left,
                             const Take& take) {
@@ -98,7 +98,7 @@ Scene read_scene(Reader& reader, const Options& options) {
 
 // ---- Its primitives -----------------------------------------------------------------------------
 
-/// All that take part.
+/// The primitives that take part.
 struct Elements {
   Primitives vertices;
   Primitives edges;
@@ -118,7 +118,7 @@ std::int32_t next_number(const Primitives& primitives) {
 struct Edge {
   std::int32_t larger;
   std::int32_t smaller;
-  /// Is it an edge of no face?
+  /// True for an edge of no face.
   bool is_bare;
 };
 
@@ -134,7 +134,7 @@ std::vector<Edge> find_edges(const Scene& scene) {
     add(c, a, false);
   }
   for (const auto& [a, b] : scene.edges) add(a, b, true);
-  // Of several with the same vertices the first is that of a face, if there is one.
+  // The first of several with the same vertices is that of a face, if there is one.
   std::sort(edges.begin(), edges.end(), [](const Edge& a, const Edge& b) {
     return std::tie(a.larger, a.smaller, a.is_bare) < std::tie(b.larger, b.smaller, b.is_bare);
   });
@@ -155,7 +155,7 @@ Elements find_elements(const Scene& scene) {
   for (const auto& [larger, smaller, is_bare] : find_edges(scene)) {
     takes_part[static_cast<std::size_t>(larger)] = true;
     takes_part[static_cast<std::size_t>(smaller)] = true;
-    // From a vertex to itself there is no edge.
+    // No edge goes from a vertex to itself.
     if (larger == smaller) continue;
     has_edge[static_cast<std::size_t>(larger)] = true;
     has_edge[static_cast<std::size_t>(smaller)] = true;
@@ -379,16 +379,16 @@ class StepCheck {
     return do_groups_meet;
   }
 
-  /// Without groups all vertices are in group 0.
+  /// The group of a vertex: 0 if there are no groups.
   [[nodiscard]] std::int32_t group_of(std::int32_t vertex) const {
     return scene_.groups.empty() ? 0 : scene_.groups[static_cast<std::size_t>(vertex)];
   }
 
   Reader& reader_;
   const Options& options_;
-  /// Where the certificate begins.
+  /// The first byte of the certificate.
   std::int64_t first_byte_;
-  /// What is proved, for a reader.
+  /// The proved claims, as text.
   std::string text_;
   Scene scene_;
   Elements elements_;

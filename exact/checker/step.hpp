@@ -1,8 +1,8 @@
 #pragma once
 
 /// \file
-/// The certificate of a whole step of a scene: every pair of primitives that can collide is looked
-/// for here, and each is kept apart by an axis or by what the certificate says of it.
+/// The certificate of a whole step: the checker finds every pair of primitives that can collide,
+/// and an axis or an argument of the certificate keeps each apart.
 ///
 /// A *primitive* is a vertex, an edge or a face; two *can collide* if
 ///   - they are a vertex and a face, two edges, a point (a vertex without an edge) and a bare edge
@@ -14,10 +14,9 @@
 /// the corners of two vertices v and w those of v and the triangle w w w.
 ///
 /// **Theorem.** If a certificate is accepted, no pair that can collide has a contact in [0,T]
-/// (`no_contact T`), or in [0,LO], and one has in [LO,HI] (`earliest LO HI`). For a pair that is
-/// not kept apart by an axis (places.hpp) has an argument: a direction (places.hpp), or
-/// subintervals without a gap (proof.hpp). All arguments are verified, whether or not they are
-/// needed.
+/// (`no_contact T`), or in [0,LO], and one has in [LO,HI] (`earliest LO HI`). *Proof.* A pair that
+/// no axis keeps apart (places.hpp) has an argument: a direction (places.hpp), or subintervals
+/// without a gap (proof.hpp). All arguments are verified, needed or not.
 
 #include <cstddef>
 #include <cstdint>
@@ -27,10 +26,10 @@
 
 namespace touchstone::checker {
 
-/// Reads and verifies the certificate that begins at the present line, and goes behind its `end`.
-/// \param scenes if not null, the scene (its lines from `vertices` to `apart`) has to be the one read there
+/// Reads and verifies the certificate that begins at the current line, to the line after its `end`.
+/// \param scenes null, or the next scene there (lines `vertices` to `apart`) must be the same
 /// \param options the limits
-/// \returns what is proved, for a reader: the label, the size of the scene, separation and claim, a line each
+/// \returns the proved claims as text: label, size of the scene, separation and claim, a line each
 /// \throws Rejection if it proves nothing, std::runtime_error as Reader::advance.
 [[nodiscard]] std::string check_step(Reader& reader, Reader* scenes, const Options& options);
 

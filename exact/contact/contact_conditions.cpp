@@ -11,7 +11,7 @@ class Conditions {
  public:
   explicit Conditions(AlgebraicNumber& time) : time_(time) {}
 
-  /// The form's sign at the time. Adds the form to the conditions.
+  /// Adds the form to the conditions. \returns its sign at the time.
   template <AnyForm F>
   int sign(const F& form) {
     const int sign = sign_at(form, time_);

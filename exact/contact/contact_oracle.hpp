@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file
-/// The oracle at distance 0: whether, when and where a query collides, exactly.
+/// The oracle at distance 0: an exact decision if, when and where a query collides.
 ///
 /// **Theorem.** A query collides iff 0 ∈ conv{w_i(t)} for some t ∈ [0,1], where w_i are the corners
 /// of F.

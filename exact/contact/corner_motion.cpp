@@ -19,7 +19,7 @@ struct Decomposed {
   int exponent = 0;
 };
 
-/// Computed from the bits, because a caller's floating-point environment may flush subnormals to
+/// Decomposes by the bits, because a caller's floating-point environment may flush subnormals to
 /// zero.
 Decomposed decompose(double x) {
   static constexpr int fraction_bits = 52, exponent_bias = 1075, special_exponent = 0x7FF;
@@ -39,8 +39,7 @@ constexpr int no_exponent = std::numeric_limits<int>::max();
 /// The exponent of the last bit; no_exponent for zero.
 int last_exponent(const Decomposed& x) { return x.significand == 0 ? no_exponent : x.exponent; }
 
-/// GMP's integers are made of long, which has 32 bits on some processors, or of a double, which
-/// takes longer.
+/// Converts by long or, where that has 32 bits, by a double, which is slower.
 Integer significand_of(const Decomposed& x) {
   if constexpr (sizeof(long) >= sizeof(x.significand)) {
     return static_cast<long>(x.significand);
@@ -159,7 +158,7 @@ std::vector<CurvedForm> distinct_weights(const std::vector<CurvedForm>& weights)
 
 Polynomial to_polynomial(std::span<const Integer> form) {
   if (form.empty()) return {};
-  // With s = 1−t, one factor s at a time: Σ c_k s^(n−k) t^k by Horner's rule in s.
+  // Compute Σ c_k s^(n−k) t^k, s = 1−t, by Horner's rule in s.
   std::vector<Integer> a(form.size());
   a[0] = form[0];
   for (std::size_t k = 1; k < form.size(); ++k) {

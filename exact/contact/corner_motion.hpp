@@ -38,8 +38,7 @@ struct Form {
   }
 };
 
-/// The same of a degree that is known when the program runs. Without coefficients it is zero, of
-/// any degree.
+/// A form whose degree is known at run time. Without coefficients it is zero, of any degree.
 struct CurvedForm {
   std::vector<Integer> c;
 
@@ -54,7 +53,7 @@ concept AnyForm = requires(F form) {
   form.c;
 };
 
-/// Makes room for so many coefficients in a form without any.
+/// Gives a form without coefficients this number of them.
 template <std::size_t degree>
 void make_room(Form<degree>&, std::size_t) {}
 inline void make_room(CurvedForm& form, std::size_t size) {
@@ -78,7 +77,7 @@ template <AnyForm F>
   a += b;
   return a;
 }
-/// (Without a copy of a, whose integers would grow.)
+/// The difference, without a copy of a, whose integers would grow.
 template <AnyForm F>
 [[nodiscard]] F operator-(const F& a, const F& b) {
   F difference;
@@ -171,7 +170,7 @@ template <AnyForm F>
 struct Straight {
   template <std::size_t n>
   using Form = exact::Form<n>;
-  /// One, which is not made anew for each query.
+  /// The constant 1, made once.
   struct Denominator {
     [[nodiscard]] static const Form<1>& form() {
       static const Form<1> one = exact::one<1>();
@@ -180,8 +179,8 @@ struct Straight {
   };
 };
 
-/// Motion on curves: a coordinate is a form of any degree k, which is the same for all, and what is
-/// a form of degree n for straight lines is one of degree n k.
+/// Motion on curves: all coordinates are forms of one degree k, and a form of degree n for straight
+/// lines becomes one of degree n k.
 struct Curved {
   template <std::size_t n>
   using Form = CurvedForm;
@@ -240,7 +239,7 @@ void set_corners(MotionOf<Order>& motion) {
                                      const Separation& separation = {.distance = 0.0,
                                                                      .norm = Norm::l2});
 
-/// As scale_to_integers where the distance is 0, else as scale_uniformly.
+/// Scales as scale_to_integers if the distance is 0, otherwise as scale_uniformly.
 /// \throws std::domain_error if a number is NaN or infinite, or a weight not positive;
 /// std::invalid_argument if the separation or the query is not valid.
 [[nodiscard]] MotionOf<Curved> scale(Kind kind, const CurvedQuery& query,

@@ -20,12 +20,12 @@ RationalPoint difference(const RationalPoint& to, const RationalPoint& from) {
 
 bool vanishes(const RationalPoint& a) { return dot_product(a, a) == 0; }
 
-/// normal · x − offset ≥ 0.
+/// The points x with normal · x − offset ≥ 0.
 struct HalfSpace {
   RationalPoint normal;
   Rational offset;
 
-  /// With the point on its boundary.
+  /// The half-space with the point on its boundary.
   HalfSpace(RationalPoint direction, const RationalPoint& point)
       : normal(std::move(direction)), offset(dot_product(normal, point)) {}
 
@@ -96,7 +96,7 @@ std::vector<RationalPoint> intersection_of(const RationalTriangle& a, const Rati
   std::ranges::sort(polygon);
   polygon.erase(std::unique(polygon.begin(), polygon.end()), polygon.end());
   if (polygon.size() < 3) return polygon;
-  // Points that are no corners: between two others.
+  // Points between two others are no corners.
   std::vector<RationalPoint> corners;
   for (const RationalPoint& point : polygon) {
     const bool is_corner = std::ranges::none_of(polygon, [&](const RationalPoint& from) {

@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file
-/// The oracle at a distance: whether and when a query comes within it, exactly.
+/// The oracle at a distance: an exact decision if and when a query comes within it.
 ///
 /// **Theorem.** A query collides at distance d iff P(t) = conv{w_i(t)} has a point x with ‖x‖ ≤ d
 /// for some t ∈ [0,1], where w_i are the corners of F. Proof: F(t,·,·) has the image P(t).

@@ -105,7 +105,7 @@ class Separator {
     std::optional<Polynomial> polynomial;
     std::optional<std::vector<AlgebraicNumber>> roots;
   };
-  /// Empty for a guard.
+  /// The roots of a form; empty for a guard.
   std::vector<AlgebraicNumber>& roots(std::size_t n);
   bool is_over_before(const AlgebraicNumber& t, const AlgebraicNumber& bound);
 

@@ -27,7 +27,7 @@ class BodyTree {
   BodyTree(const PrimitiveGroups& primitives, std::span<const std::int32_t> of_vertices,
            bool all_are_mixed);
 
-  /// As BoxTree::levels: the bodies of each group's lanes.
+  /// The bodies of each group's lanes, as BoxTree::levels.
   [[nodiscard]] const IndexLanes& bodies(std::size_t level, std::size_t group) const {
     return levels_[level][group];
   }

@@ -18,7 +18,7 @@
 
 namespace touchstone::fast::division {
 
-/// `Lanes` is as in search_on_lanes.hpp.
+/// Divides seeds. \tparam Lanes as in search_on_lanes.hpp
 template <class Lanes>
 class Division {
  public:

@@ -19,7 +19,7 @@ bool PairQuestions::primitives_meet(const Primitive& /*a*/, const Primitive& /*b
 }
 
 std::span<const SearchKernel* const> search_kernels() {
-  // It multiplies nothing.
+  // The search multiplies nothing.
   static const auto kernels = runnable_kernels<SearchKernel>(
       {
           &scalar_search_kernel,

@@ -33,9 +33,9 @@ enum class Certainty : std::uint8_t {
 /// The questions of a search about the pairs that it finds.
 class PairQuestions {
  public:
-  /// True if a pair that is not certain is one.
+  /// True if an uncertain pair is a pair.
   [[nodiscard]] virtual bool confirms(const Primitive& a, const Primitive& b) const = 0;
-  /// With bodies: true if two bodies meet; true if two primitives meet, one of which is mixed.
+  /// True if two bodies meet; true if two primitives meet, one of which is mixed.
   [[nodiscard]] virtual bool bodies_meet(std::int32_t a, std::int32_t b) const;
   [[nodiscard]] virtual bool primitives_meet(const Primitive& a, const Primitive& b) const;
 
@@ -72,7 +72,7 @@ struct PairBuffer {
  protected:
   PairBuffer() = default;
   ~PairBuffer() = default;
-  /// Called with the pairs when the next ones might not fit.
+  /// Takes the pairs when the next ones might not fit.
   virtual void take(std::span<const IndexPair> found) = 0;
 };
 
@@ -103,7 +103,7 @@ class PairSink final : public PairBuffer {
 template <std::size_t instants>
 struct SearchInput {
   const BoxTree<instants>* some;
-  /// For pairs within one tree, the same tree; then each pair is found once, the smaller number
+  /// The same tree for pairs within one tree; then each pair is found once, the smaller number
   /// first.
   const BoxTree<instants>* all;
   PairRules rules;

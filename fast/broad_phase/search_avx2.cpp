@@ -11,7 +11,7 @@
 namespace touchstone::fast {
 namespace {
 
-/// For each set of eight lanes, the lanes' numbers in sequence, one byte each.
+/// The lanes' numbers in sequence, one byte each, for each set of eight lanes.
 constexpr std::array<std::uint64_t, 256> make_places() {
   std::array<std::uint64_t, 256> result{};
   for (unsigned bits = 0; bits < 256; ++bits) {

@@ -21,7 +21,7 @@ struct Seeds {
   }
 };
 
-/// Some seeds, and a second buffer for as many. \pre `capacity` is the least multiple of sixteen
+/// A part of the seeds, and a buffer for as many. \pre `capacity` is the least multiple of sixteen
 /// that is not below `count`; both have this capacity.
 struct SeedPart {
   Seeds seeds;

@@ -10,7 +10,7 @@
 namespace touchstone::fast {
 
 void require_valid(const CertifiedOptions& options) {
-  // Written so that NaN fails too.
+  // NaN fails, too.
   if (!(options.toi_tolerance >= 0.0 && std::isfinite(options.toi_tolerance))) {
     throw std::invalid_argument("certified: toi_tolerance must be finite and not negative");
   }

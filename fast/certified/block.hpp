@@ -1,8 +1,8 @@
 #pragma once
 
 /// \file
-/// A block of queries through all stages: the kernel, the kernel once more for undecided queries of
-/// unusual size, which are scaled (rescaling.hpp), and the exact stage for the rest.
+/// The stages for a block of queries: the kernel, the kernel again for undecided queries of unusual
+/// size, which are scaled (rescaling.hpp), and the exact stage for the rest.
 
 #include <algorithm>
 #include <cstddef>
@@ -32,7 +32,7 @@ void require_valid(const CertifiedOptions& options);
 [[nodiscard]] CertifiedResult decided_exactly(const Queries& queries, std::size_t i,
                                               const CertifiedOptions& options);
 
-/// The result of a impact, if its enclosure is narrow enough and on one side of t_max.
+/// The result of an impact, if its enclosure is narrow enough and on one side of t_max.
 [[nodiscard]] std::optional<CertifiedResult> result_of(const KernelImpact& impact,
                                                        const CertifiedOptions& options);
 
@@ -40,7 +40,7 @@ void require_valid(const CertifiedOptions& options);
 [[nodiscard]] double limit_after(double toi_upper, double tolerance);
 
 /// Calls body(first) for each block of the kernel, under strict floating point, in the allowed
-/// number of threads, so many blocks at once in one.
+/// number of threads, in tasks of `blocks_a_task` blocks.
 template <class Body>
 void for_each_kernel_block(std::size_t size, int max_threads, std::size_t blocks_a_task,
                            const Body& body) {

@@ -1,8 +1,8 @@
 #pragma once
 
 /// \file
-/// A block of queries on curves through the stages in floating point (docs/theory.md, section
-/// 6.15), which look at the control points of the corners:
+/// The floating-point stages for a block of queries on curves (docs/theory.md, section 6.15). They
+/// use the control points of the corners:
 ///
 ///     axis, direction, bisection    fast/certified/curves/stages.hpp
 ///
@@ -11,10 +11,10 @@
 /// - curves of a degree above 4 with different weights, and
 /// - weights that are not between 2^-30 and 2^30.
 ///
-/// The exact stage ends for all finite weights. Where all points have weights of their own, and
-/// coordinates up to about 1, it took at most so many milliseconds (14 to 200 random queries of
-/// each kind, one core, 27 November 2026). With numbers of thousands of bits common divisors take
-/// most of the time.
+/// The exact stage ends for all finite weights. If each point has its own weights, and coordinates
+/// are up to about 1, it took at most these milliseconds (14 to 200 random queries of each kind,
+/// one core, 27 November 2026). With numbers of thousands of bits, common divisors take most of the
+/// time.
 ///
 /// | degree                                       | 1   | 2   | 3     | 8            |
 /// |----------------------------------------------|-----|-----|-------|--------------|

@@ -87,7 +87,7 @@ class Rounding {
 
 FixedPointVertices fixed_point_vertices(const MovingVertices& vertices, double end,
                                         double distance) {
-  // Within them nothing overflows or underflows here, nor in the certified solver's stages.
+  // Limits within which nothing overflows or underflows, here and in the certified solver's stages.
   constexpr double greatest_coordinate = 0x1p98, least_extent = 0x1p-900;
   constexpr double greatest_distance = 0x1p29;
   const StrictFloatingPoint strict;

@@ -24,9 +24,9 @@ inline constexpr std::size_t kernel_block = 1024;
 struct KernelInput {
   Kind kind = Kind::vertex_face;
   std::size_t count = 0;  ///< at most kernel_block
-  /// With an array: its first query of the block.
+  /// The first query of the block, for an array.
   const Query* queries = nullptr;
-  /// Otherwise: all vertices, all edges or faces, and the first pair of the block.
+  /// All vertices, all edges or faces, and the first pair of the block, for pairs.
   const MovingVertex* vertices = nullptr;
   const Edge* edges = nullptr;
   const Face* faces = nullptr;
@@ -34,13 +34,13 @@ struct KernelInput {
   /// True if coordinates are known to be finite and few queries are separated on an axis. Then the
   /// first stage is omitted.
   bool axis_is_done = false;
-  /// With pairs, null or all vertices in fixed point, on an interval [0, t]. Then queries without a
-  /// contact up to t may be decided in single precision.
+  /// All vertices of pairs in fixed point, on an interval [0, t], or null. With them, queries
+  /// without a contact up to t may be decided in single precision.
   const FixedPointVertex* rounded = nullptr;
   float rounded_distance = 0.0F;  ///< of FixedPointVertices
   /// The distance at which primitives are in contact.
   Separation separation = {};
-  /// As CertifiedOptions::toi_tolerance, at least least_kernel_tolerance.
+  /// The CertifiedOptions::toi_tolerance, at least least_kernel_tolerance.
   double toi_tolerance = 1e-12;
   /// Contacts after this time may or may not be found.
   double t_limit = 1.0;
@@ -100,9 +100,9 @@ struct Block : Queries {
 struct CertifiedKernel {
   InstructionSet instructions;
   void (*decide)(const KernelInput& input, KernelOutput& output);
-  /// On curves (fast/certified/curves/stages.hpp): lists the queries that no axis separates.
+  /// Lists the queries on curves that no axis separates (fast/certified/curves/stages.hpp).
   void (*curved_axis)(const curved::Block& block, KernelOutput::List<std::uint32_t>& open);
-  /// Decides those of a list, which have control polygons of one form, and appends to the output.
+  /// Decides the queries of a list, with control polygons of one form; appends to the output.
   void (*curved_search)(const curved::Block& block,
                         const KernelOutput::List<std::uint32_t>& queries,
                         curved::Denominators denominators, KernelOutput& output);

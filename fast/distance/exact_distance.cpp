@@ -69,7 +69,7 @@ ScaledPolygon polygon_at(Kind kind, const Query& query, double t) {
           lowest + time.exponent};
 }
 
-/// Theorem 1: the square of the distance.
+/// The square of the distance, by theorem 1.
 Fraction squared_distance(const Polygon& p) {
   if (p.has_face()) {
     const auto face = polygon::face(p);
@@ -91,7 +91,7 @@ Fraction squared_distance(const Polygon& p) {
   return least;
 }
 
-/// Theorem 3: the distance.
+/// The distance, by theorem 3.
 Fraction greatest_gap(const Polygon& p) {
   Fraction greatest;
   auto axes = polygon::axes(p);

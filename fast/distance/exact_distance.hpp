@@ -12,7 +12,7 @@
 
 namespace touchstone::fast {
 
-/// As `distance`.
+/// The same as `distance`.
 /// \pre Strict floating point; all coordinates are finite; 0 ≤ t ≤ 1.
 [[nodiscard]] Distance exact_distance(Kind kind, const Query& query, double t, Norm norm);
 

@@ -54,7 +54,7 @@ std::span<const DistanceKernel* const> distance_kernels() {
 }
 
 const DistanceKernel& distance_kernel_for_one() {
-  // The fused one follows the scalar one.
+  // The fused kernel follows the scalar one.
   static const DistanceKernel& kernel =
       *distance_kernels()[std::min<std::size_t>(1, distance_kernels().size() - 1)];
   return kernel;

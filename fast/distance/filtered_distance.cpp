@@ -40,7 +40,7 @@ std::optional<int> scaling(const Query& query) {
   return -exponent;
 }
 
-/// Exactly x · 2^exponent.
+/// The exact product x · 2^exponent.
 double scaled(double x, int exponent) { return exponent == 0 ? x : std::ldexp(x, exponent); }
 
 BallPolygon polygon_at(Kind kind, const Query& query, double t, int exponent) {

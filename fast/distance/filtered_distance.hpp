@@ -19,8 +19,8 @@
 
 namespace touchstone::fast {
 
-/// As `distance`; empty if rounding, overflow or underflow leave it open, as in L2 if the distance
-/// is a double.
+/// The same as `distance`; empty if rounding, overflow or underflow leave it open: in L2 also if
+/// the distance is a double.
 /// \pre Strict floating point; all coordinates are finite; 0 ≤ t ≤ 1.
 [[nodiscard]] std::optional<Distance> filtered_distance(Kind kind, const Query& query, double t,
                                                         Norm norm);

@@ -105,7 +105,7 @@ class Polygon {
     return sum;
   }
 
-  /// The point of its sides that is nearest to the origin in L2, nearly.
+  /// The point of the polygon's sides that is nearest to the origin in L2, nearly.
   [[nodiscard]] Vector nearest_of_sides() const {
     Vector nearest = w_[0];
     for (std::size_t i = 0; i < count; ++i) {
@@ -119,7 +119,7 @@ class Polygon {
     return nearest;
   }
 
-  /// Its normal that points away from the origin.
+  /// The polygon's normal that points away from the origin.
   [[nodiscard]] Vector normal() const {
     const Vector n = filters::cross(minus(w_[1], w_[0]), minus(w_[count - 1], w_[0]));
     return filters::dot(n, w_[0]) > 0.0 ? n : Vector{-n[0], -n[1], -n[2]};
@@ -136,8 +136,7 @@ class Polygon {
   bool is_usual_ = false;        ///< all is finite, and products do not overflow
 };
 
-/// Tries a direction that costs little, then those of the nearest point: of one on a side its own,
-/// else the normal.
+/// Tries a cheap direction, then that of the nearest point of the sides, then the normal.
 template <Kind kind, Norm norm>
 bool keeps(const Query& query, double t_max, const KeptDistance& kept) {
   const Polygon<kind, norm> polygon(query);

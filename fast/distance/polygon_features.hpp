@@ -138,7 +138,7 @@ template <class Number>
   return result;
 }
 
-/// In doubles, a normal whose |N|² is not above this has no digit right. \pre p.has_face()
+/// The |N|² up to which a normal in doubles has no correct digit. \pre p.has_face()
 template <class Number>
 [[nodiscard]] Number square_of_thin_normal(const Polygon<Number>& p) {
   const Vector<Number> first = difference(p.corner[1], p.corner[0]);

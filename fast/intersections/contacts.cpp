@@ -34,7 +34,7 @@ Feature feature_of(const std::array<int, 3>& signs) {
         signs.begin());
   };
   if (zeros == 1) return first_edge + place(true);
-  // On two edges: at the vertex opposite to the third.
+  // A point on two edges is the vertex opposite to the third.
   return (place(false) + 2) % 3;
 }
 
@@ -111,7 +111,7 @@ class Side {
  private:
   [[nodiscard]] bool on_segment(std::int32_t vertex) const {
     if (!are_collinear(at_, simplex_[0], simplex_[1], vertex)) return false;
-    // In the order of places by x, y, z.
+    // The vertices in the order of places by x, y, z.
     const auto &start = at_[simplex_[0]], &end = at_[simplex_[1]], &point = at_[vertex];
     return (start < point && point < end) || (end < point && point < start);
   }
@@ -261,7 +261,7 @@ Shared shared_with(const Simplex& other, const Simplex& triangle) {
   return result;
 }
 
-/// What is certain of a triangle's vertices that are not shared, and a plane.
+/// The certain sides of a plane on which a triangle's vertices are that are not shared.
 enum class Sides : std::uint8_t {
   one,      ///< they are on one side
   both,     ///< some are on each side
@@ -399,7 +399,7 @@ bool are_surely_apart(const Positions& at, const Element& a, const Element& b) {
   const Sides a_sides = sides_of(at, b, a.simplex, of_a);
   if (a_sides == Sides::one) return true;
   if (of_a == Shared{true, true, true}) return false;
-  // Where the planes certainly cross, the orientations of few edges decide as fast.
+  // The orientations of few edges decide as fast if the planes certainly cross.
   if (a_sides == Sides::both && b_sides == Sides::both) return false;
   const Projected projected(at, a.normal.greatest_axis());
   return projected.has_line_between(a.simplex, b.simplex, of_b) ||

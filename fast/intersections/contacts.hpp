@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file
-/// The contacts of two simplices at rest, and what they tell about their intersection.
+/// The contacts of two simplices at rest, which determine their intersection.
 ///
 /// A simplex is a triangle, a segment or a point. Its *features* are its vertices, its edges and
 /// its face, without their boundaries, so that each of its points is in exactly one feature. A
@@ -121,13 +121,13 @@ struct Element {
 /// True if the elements certainly do not intersect, by rounded numbers alone.
 [[nodiscard]] bool are_surely_apart(const Positions& at, const Element& a, const Element& b);
 
-/// How two elements intersect, with their contacts.
+/// The kind of an intersection, with its contacts.
 struct Meeting {
   IntersectionKind kind;
   Contacts contacts;
 };
 
-/// nullopt if they do not intersect.
+/// The meeting of two elements; nullopt if they do not intersect.
 [[nodiscard]] std::optional<Meeting> meeting_of(const Positions& at, const Element& a,
                                                 const Element& b);
 

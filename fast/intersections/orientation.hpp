@@ -33,7 +33,7 @@ using Vector = filters::Vector3<double>;
 class Positions {
  public:
   static constexpr double greatest_coordinate = 0x1p100;
-  /// Greater than any difference of coordinates.
+  /// A bound of all differences of coordinates.
   static constexpr double greatest_difference = 0x1p102;
 
   /// \pre the vertices are finite, and at rest; strict floating point.

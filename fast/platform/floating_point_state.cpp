@@ -6,7 +6,7 @@
 
 namespace touchstone::fast {
 
-// In a separate file, because the compiler cannot move arithmetic across a call of an unknown
+// A separate file, because the compiler cannot move arithmetic across a call of an unknown
 // function.
 #ifdef __SSE2__
 namespace {

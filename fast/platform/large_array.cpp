@@ -14,7 +14,7 @@ namespace touchstone::fast {
 namespace {
 
 constexpr std::size_t large_page = std::size_t{1} << 21U;
-/// Below this size, the unused end of the last large page would be too great a part.
+/// The size below which the unused end of the last large page would be too great a part.
 constexpr std::size_t least_large = 2 * large_page;
 
 std::align_val_t alignment_of(std::size_t bytes) {
@@ -37,10 +37,10 @@ void free(const ArrayMemory& memory) {
 }
 
 /// The memory of the last arrays. While another thread uses it, `take` finds nothing and `keep`
-/// frees: nothing waits, not even in a process that was forked meanwhile.
+/// frees: nothing waits, not even in a process forked meanwhile.
 class KeptMemory {
  public:
-  /// The last one that fits; null if none does.
+  /// Takes the last array that fits; null if none does.
   ArrayMemory take(std::size_t bytes) {
     const Use use(*this);
     if (!use.is_alone) return {};
@@ -72,12 +72,12 @@ class KeptMemory {
 
  private:
 #ifdef TOUCHSTONE_SANITIZED
-  // An access to freed memory is to be found.
+  // Sanitizers find accesses to freed memory.
   static constexpr std::size_t most_bytes = 0;
 #else
   static constexpr std::size_t most_bytes = std::size_t{64} << 20U;
 #endif
-  /// The C library keeps smaller pieces itself.
+  /// The least size: the C library keeps smaller pieces itself.
   static constexpr std::size_t least_bytes = std::size_t{64} << 10U;
 
   /// The use by a thread, if no other one uses it.

@@ -19,10 +19,10 @@ struct ArrayMemory {
   std::size_t bytes = 0;
 };
 
-/// At least that many bytes, aligned to 64. May be called by several threads at once.
+/// Allocates at least that many bytes, aligned to 64. Thread-safe.
 /// \throws std::bad_alloc
 [[nodiscard]] ArrayMemory allocate_array(std::size_t bytes);
-/// Keeps the memory for the next arrays, or frees it. Likewise.
+/// Keeps the memory for the next arrays, or frees it. Thread-safe.
 void free_array(const ArrayMemory& memory) noexcept;
 
 template <class Item>

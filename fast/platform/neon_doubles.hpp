@@ -42,7 +42,7 @@ struct Value {
   friend Mask operator<=(const Value& a, const Value& b) { return {vcleq_f64(a.x, b.x)}; }
   friend Mask operator>=(const Value& a, const Value& b) { return {vcgeq_f64(a.x, b.x)}; }
   friend Mask operator==(const Value& a, const Value& b) { return {vceqq_f64(a.x, b.x)}; }
-  // As the other instruction sets: the second operand if there is a NaN or both are zeros.
+  // The second operand if there is a NaN or both are zeros, as in the other instruction sets.
   friend Value min(const Value& a, const Value& b) { return select(a < b, a, b); }
   friend Value max(const Value& a, const Value& b) { return select(a > b, a, b); }
   friend Value abs(const Value& a) { return Value(vabsq_f64(a.x)); }

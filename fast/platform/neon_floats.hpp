@@ -98,7 +98,7 @@ struct Floats {
   friend FloatMask operator==(const Floats& a, const Floats& b) {
     return each<FloatMask>([](float32x4_t x, float32x4_t y) { return vceqq_f32(x, y); }, a, b);
   }
-  // As elsewhere: the second operand if there is a NaN.
+  // The second operand if there is a NaN, as in the other instruction sets.
   friend Floats min(const Floats& a, const Floats& b) {
     return each<Floats>(
         [](float32x4_t x, float32x4_t y) { return vbslq_f32(vcltq_f32(x, y), x, y); }, a, b);

@@ -36,7 +36,7 @@ struct Value {
   friend Mask operator<=(Value a, Value b) { return {a.x <= b.x}; }
   friend Mask operator>=(Value a, Value b) { return {a.x >= b.x}; }
   friend Mask operator==(Value a, Value b) { return {a.x == b.x}; }
-  // As the vector instructions: the second operand if there is a NaN.
+  // The second operand if there is a NaN, as in the vector instructions.
   friend Value min(Value a, Value b) { return a.x < b.x ? a : b; }
   friend Value max(Value a, Value b) { return a.x > b.x ? a : b; }
   friend Value abs(Value a) { return Value(__builtin_fabs(a.x)); }

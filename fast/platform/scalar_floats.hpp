@@ -83,7 +83,7 @@ struct Floats {
   friend FloatMask operator==(const Floats& a, const Floats& b) {
     return each<FloatMask>([&](std::size_t i) { return a.lanes[i] == b.lanes[i] ? -1 : 0; });
   }
-  // As the vector instructions: the second operand if there is a NaN.
+  // The second operand if there is a NaN, as in the vector instructions.
   friend Floats min(const Floats& a, const Floats& b) {
     return each<Floats>(
         [&](std::size_t i) { return a.lanes[i] < b.lanes[i] ? a.lanes[i] : b.lanes[i]; });

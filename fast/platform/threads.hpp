@@ -3,9 +3,8 @@
 /// \file
 /// Work in a limited number of threads, through oneTBB.
 ///
-/// Without oneTBB (TOUCHSTONE_TBB is not defined) everything runs in the caller's thread, in order,
-/// by functions of the same names. Answers do not depend on the number of threads, so they are the
-/// same.
+/// Without oneTBB (TOUCHSTONE_TBB is not defined) functions of the same names run everything in the
+/// caller's thread, in order, with the same answers.
 
 #include <algorithm>
 
@@ -90,7 +89,7 @@ class enumerable_thread_specific {
 #ifdef TOUCHSTONE_TBB
 /// An arena that no other call uses. oneTBB (2021.8) loses 7 kB with each arena that it destroys,
 /// so arenas are kept for later calls: as many as there are calls at the same time. A fork can
-/// leave the lock taken for ever; whoever does not get it at once does without.
+/// leave the lock taken for ever; a call that does not get it at once does without.
 class BorrowedArena {
  public:
   explicit BorrowedArena(int threads) : threads_(threads) {
@@ -109,7 +108,7 @@ class BorrowedArena {
     try {
       idle().by_threads[threads_].push_back(std::move(arena_));
     } catch (const std::bad_alloc&) {
-      // Without memory the arena is destroyed.
+      // The arena is destroyed if there is no memory.
     }
   }
   BorrowedArena(const BorrowedArena&) = delete;
@@ -122,7 +121,7 @@ class BorrowedArena {
     std::mutex guard;
     std::map<int, std::vector<std::unique_ptr<tbb::task_arena>>> by_threads;
   };
-  /// Never destroyed: threads may search until the program has ended.
+  /// The idle arenas, never destroyed: threads may search until the program has ended.
   static Idle& idle() {
     static Idle* const all = new Idle;
     return *all;

@@ -282,7 +282,7 @@ bool Scene::confirms(const Primitive& a, const Primitive& b) const {
 bool Scene::bodies_meet(std::int32_t a, std::int32_t b) const { return mesh_->bodies.meet(a, b); }
 
 bool Scene::primitives_meet(const Primitive& a, const Primitive& b) const {
-  // Its vertices without those that stand for a missing second or third one.
+  // The vertices without those that stand for a missing second or third one.
   const auto vertices = [](const Primitive& primitive) {
     const auto& [first, second, third] = primitive;
     const std::size_t count = third != first && third != second ? 3 : second != first ? 2 : 1;

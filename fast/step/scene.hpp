@@ -145,7 +145,7 @@ struct SceneGroups {
 [[nodiscard]] StepCollision collision_of(PairKind kind, const IndexPair& pair,
                                          const CertifiedResult& result);
 
-/// By kind, then by the numbers of the primitives.
+/// Sorts by kind, then by the numbers of the primitives.
 void sort_by_pair(std::vector<StepCollision>& collisions);
 
 class Scene final : private PairQuestions {
@@ -188,7 +188,7 @@ class Scene final : private PairQuestions {
   /// the end of the trees' interval.
   template <std::size_t instants>
   void find(const Trees<instants>& trees, const SearchPart& part, PairBuffer& pairs) const;
-  /// Likewise: exactly the pairs whose swept boxes are within the separation.
+  /// Appends exactly the pairs whose swept boxes are within the separation.
   /// \param trees swept_trees()
   void find_candidates(const Trees<1>& trees, const SearchPart& part, PairBuffer& pairs) const;
 

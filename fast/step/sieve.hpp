@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file
-/// The pairs of a scene that may collide up to a time, by floating point alone.
+/// The pairs of a scene that may collide up to a time, in floating point alone.
 ///
 /// The search and the stages of the certified solver that run on lanes exclude all other pairs
 /// (docs/theory.md, sections 8.2 and 6). No pair goes to the exact stage, so this is for callers

@@ -1,8 +1,7 @@
 #pragma once
 
 /// \file
-/// The inner loop of Tight-Inclusion: F at the eight corners of a box, and the properties
-/// that follow.
+/// The inner loop of Tight-Inclusion: F at the eight corners of a box, and the box's properties.
 ///
 /// F is affine in each of t, u and v, so over a box it stays within the bounding box of its eight
 /// corner values ([wang2021], section 4.2). Both are computed on lanes, one for each corner, with
@@ -21,20 +20,20 @@ namespace touchstone::fast {
 
 /// A query in the layout of the kernel. A kernel in single precision takes floats alone.
 struct BoxProblem {
-  /// For each axis, the coordinates of the four points at t=0, then at t=1.
+  /// The coordinates on each axis of the four points at t=0, then at t=1.
   alignas(64) std::array<std::array<double, query_points>, 3> coordinates{};
-  /// For each axis, the error bound of F's computed values, in units of the coordinates; the fourth
+  /// The error bound on each axis of F's computed values, in units of the coordinates; the fourth
   /// number fills the vector and is infinite.
   std::array<double, 4> filter{0.0, 0.0, 0.0, std::numeric_limits<double>::infinity()};
   double separation = 0.0;
   Kind kind = Kind::vertex_face;
 
   static constexpr std::size_t greatest_curve_degree = 3;
-  /// On curves (curved_box_kernel.hpp): their degree, and for each axis the coordinates of the four
+  /// The degree of curves (curved_box_kernel.hpp), and for each axis the coordinates of the four
   /// points for each control point.
   std::size_t degree = 1;
   std::array<std::array<double, moving_points*(greatest_curve_degree + 1)>, 3> control{};
-  /// Of rational curves: their weights in the same order; `control` then has the products of
+  /// The weights of rational curves in the same order; `control` then has the products of
   /// coordinates and weights.
   std::array<double, moving_points*(greatest_curve_degree + 1)> curve_weights{};
 };

@@ -49,7 +49,7 @@ struct AxisBounds {
   __m256d least;     ///< on x, y, z, z
   __m256d greatest;  ///< likewise
 
-  /// From the lesser and the greater of both halves' lanes, on each axis.
+  /// Bounds from the lesser and the greater of both halves' lanes, on each axis.
   static AxisBounds from(__m256d least_x, __m256d least_y, __m256d least_z, __m256d greatest_x,
                          __m256d greatest_y, __m256d greatest_z) {
     const auto min = [](__m256d a, __m256d b) { return _mm256_min_pd(a, b); };

@@ -141,7 +141,7 @@ Range range_of_rational(const BoxProblem& problem, const Box& box, std::size_t a
           return filters::CurvedEdgeEdge<2>::from_points<double>(
               {x[0].*a, x[1].*a, x[2].*b, x[3].*b}, {1.0 - u, u, 1.0 - v, v});
         }
-        // Where a box reaches out of the domain, the weight of f0 is negative.
+        // The weight of f0 is negative where a box is beyond the domain.
         const double w = (1.0 - u) - v;
         return filters::CurvedVertexFace<2>::from_points<double>(
             {x[0].*a, x[1].*(w < 0.0 ? a : b), x[2].*b, x[3].*b}, {w, u, v});

@@ -27,7 +27,7 @@
 
 namespace touchstone::fast {
 
-/// Their `load` and `corners` are null: see load_curves.
+/// The kernel for curves. Its `load` and `corners` are null: see load_curves.
 [[nodiscard]] const BoxKernel& curved_box_kernel();
 [[nodiscard]] const BoxKernel& rational_box_kernel();
 

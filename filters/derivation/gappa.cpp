@@ -285,13 +285,13 @@ void limit_time(pid_t process, std::chrono::seconds limit) {
   }
 }
 
-/// Empty if its time was up.
+/// The exit status; empty if the time was up.
 std::optional<int> exit_status(pid_t process) {
   int status = 0;
   while (waitpid(process, &status, 0) < 0) {
     if (errno != EINTR) fail(errno, "gappa: lost");
   }
-  // Where posix_spawnp() cannot report that there is no such program (POSIX), the child exits so.
+  // The child's status if posix_spawnp() cannot report that the program is missing (POSIX).
   constexpr int not_found = 127;
   if (WIFEXITED(status) && WEXITSTATUS(status) == not_found) miss_gappa();
   if (WIFEXITED(status)) return WEXITSTATUS(status);

@@ -211,7 +211,7 @@ DerivedBound derive_bound(const ExpressionGraph& graph, const Format& format) {
     }
   }
   DerivedBound bound{.coefficients = error, .greatest_x_exponent = format.greatest_exponent};
-  // Strictly below half the overflow threshold, for any intermediate rounding.
+  // A limit strictly below half the overflow threshold, for any intermediate rounding.
   const mpq_class limit = power_of_two(format.greatest_exponent - 1);
   while (evaluate(largest, power_of_two(bound.greatest_x_exponent)) >= limit) {
     --bound.greatest_x_exponent;

@@ -19,13 +19,12 @@
 ///   by at most 1e-12 of it, and **positive** unless that time is below the least double. False if
 ///   they do not: then toi is infinity, and the step is free up to tmax.
 ///
-/// So a step of size toi leaves at least 1 − conservative_rescaling of the distance, and is never
-/// 0. There is no limit for d_e, no tolerance, no number of iterations and no repetition.
+/// A step of size toi leaves at least 1 − conservative_rescaling of the distance, and is never 0.
+/// There is no limit for d_e, no tolerance, no number of iterations and no repetition.
 /// conservative_rescaling is in [0,1]; at 1, d_e is d_min.
 ///
 /// In two dimensions the third coordinate is 0. A query with a coordinate that is NaN or infinite
-/// is a collision at 0, so that nothing moves. All functions may be called from several threads at
-/// once.
+/// is a collision at 0, so that nothing moves. All functions are thread-safe.
 ///
 /// **Bad arguments.** A `min_distance` that is negative, NaN or infinite, a `tmax` outside [0,1],
 /// and points of which some have two coordinates and others three throw std::invalid_argument, for
@@ -102,7 +101,7 @@ class NarrowPhaseCCD : public ipc::NarrowPhaseCCD {
     require_valid(min_distance, tmax);
     toi = 0.0;
     if (!is_finite(query)) return true;
-    // Ends most pairs of a step, with the answer of what follows.
+    // A test that decides most pairs of a step, with the same answer as below.
     const fast::KeptDistance kept{.part = 1.0 - conservative_rescaling, .least = min_distance};
     if (fast::keeps_distance(kind, query, tmax, kept)) {
       toi = std::numeric_limits<double>::infinity();

@@ -18,18 +18,18 @@
 /// (The toolkit numbers codimensional vertices anew before it asks whether they can collide. Here i
 /// and j always number the vertices of the mesh.)
 ///
-/// **Distances.** From the narrow phase that is given, only `conservative_rescaling` is taken: a
-/// pair at a distance d > min_distance at t=0 may come as near as
+/// **Distances.** Of the given narrow phase only `conservative_rescaling` is used: a pair at a
+/// distance d > min_distance at t=0 may come as near as
 ///
 ///     min_distance + (1 − conservative_rescaling) (d − min_distance),
 ///
-/// as in touchstone/ipc_toolkit.hpp. A broad phase that is given has no effect.
+/// as in touchstone/ipc_toolkit.hpp. A given broad phase has no effect.
 ///
 /// **Errors.** All functions throw std::invalid_argument for vertices that are not a row of two or
 /// three coordinates for each vertex of the mesh, for a bad `min_distance` or rescaling (see
-/// there), and for a mesh with `planes`, which they do not know; std::domain_error, which names the
-/// vertex, for a coordinate that is NaN or infinite. They may be called from several threads at
-/// once, and call `can_collide` in several threads. They use as many threads as oneTBB allows.
+/// there), and for a mesh with `planes`, which are not supported; std::domain_error, naming the
+/// vertex, for a coordinate that is NaN or infinite. They are thread-safe, call `can_collide` in
+/// several threads and use as many threads as oneTBB allows.
 
 #include <algorithm>
 #include <array>
@@ -73,11 +73,11 @@ class CollisionScene {
       faces_ = fast::elements_from<fast::Face>(mesh.faces());
       return;
     }
-    // The edges as triangles without an area (touchstone/certified.hpp).
+    // Edges are triangles without an area (touchstone/certified.hpp).
     for (const auto& [a, b] : edges_) faces_.push_back({a, b, a});
   }
 
-  /// True in two dimensions. Then the pairs of two edges are none of the scene's.
+  /// True in two dimensions: then two edges are no pair of the scene.
   [[nodiscard]] bool is_flat() const { return mesh_.dim() == 2; }
 
   /// Refers to this scene. \throws as above.
@@ -125,7 +125,7 @@ class CollisionScene {
         if (some.kind == fast::PairKind::vertex_face && any_meet(step, some, count)) found = true;
       });
     } catch (const fast::Stopped&) {
-      // Enough is known.
+      // One contact is enough.
     }
     return found;
   }
@@ -185,14 +185,14 @@ class CollisionScene {
     }
     const std::optional<fast::StepImpact> impact = step.earliest();
     if (part == 0.0) return impact ? std::optional(impact->toi_lower) : std::nullopt;
-    // A pair within the minimum distance has come as near as it may before.
+    // A pair reaches its limit before it reaches the minimum distance.
     if (impact) until = (std::min)(until, impact->toi_upper);
   }
   std::atomic<double> first = std::numeric_limits<double>::infinity();
   step.candidates([&](const fast::StepCandidates& some) {
     if (scene.is_flat() && some.kind == fast::PairKind::edge_edge) return;
     for (const fast::IndexPair& pair : some.pairs) {
-      // With a margin, so that the result does not depend on the order of the pairs.
+      // The margin makes the result independent of the order of the pairs.
       const double tmax = (std::min)(until, first.load() * (1.0 + 0x1p-38));
       double toi = 0.0;
       if (!narrow_phase.query_ccd(fast::Step::kind_of(some.kind), step.query_of(some.kind, pair),

@@ -13,8 +13,8 @@
 /// NaN or infinite is TOUCHSTONE_NOT_FINITE; only touchstone_solve, whose results have a verdict,
 /// answers TOUCHSTONE_ERROR for its query and decides the others.
 ///
-/// **Memory.** Arrays that a function of a step hands out are valid until the next call of this
-/// function that returns TOUCHSTONE_OK with this step, or until the end of the step.
+/// **Memory.** Arrays that a function of a step returns are valid until its next call with this
+/// step that returns TOUCHSTONE_OK, or until the step is freed.
 ///
 /// **Threads.** All functions are thread-safe, but of the functions that take a step without
 /// `const`, only one at a time may use the same step.

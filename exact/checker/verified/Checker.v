@@ -23,7 +23,7 @@ Record subinterval := Subinterval { from : Q; to : Q; feature_of : feature }.
 (** The time of a contact: a number, or a root of g_0 + g_1 t + … in (lower,upper). *)
 Inductive time := at_time (t : Q) | at_root (lower upper : Q) (g : list Z).
 
-(** Where the contact is. *)
+(** The place of the contact. *)
 Inductive place :=
 | in_triangle (i j l : nat) (k : axis)
 | on_segment (i j : nat)
@@ -74,7 +74,7 @@ Definition coordinates (q : query) : list Q :=
                       x_of (at_end p); y_of (at_end p); z_of (at_end p)])
     [point0 q; point1 q; point2 q; point3 q].
 
-(** What is known of all subintervals: the factor of space, the corners at t=0 and at t=1, and the
+(** The facts about all subintervals: the factor of space, the corners at t=0 and at t=1, and the
     distance. *)
 Record scene := Scene { factor : Z; ends : list (triple Z * triple Z); reach : Z; norm_in : norm }.
 
@@ -152,7 +152,7 @@ Definition reaches (D : form) (d : vector_form) : list form :=
   if is_zero D then [[]]
   else with_both_signs D (x_of d) (with_both_signs D (y_of d) (with_both_signs D (z_of d) [[]])).
 
-(** Is d·w > D‖d‖* on the interval? *)
+(** True if d·w > D‖d‖* on the interval. *)
 Definition is_beyond (n : norm) (D : form) (d w : vector_form) : bool :=
   let p := f_dot d w in
   match n with
@@ -162,7 +162,7 @@ Definition is_beyond (n : norm) (D : form) (d w : vector_form) : bool :=
       (is_zero D || is_positive bisections (sub (mul p p) (mul (mul D D) (f_dot d d))))
   end.
 
-(** Of a face one corner is enough: the normal's product is the same with all. *)
+(** One corner of a face is enough: the normal's product is the same with all. *)
 Definition corners_to_check (ws : list vector_form) (f : feature) : list vector_form :=
   match f, ws with
   | of_face _, w :: _ => [w]

@@ -240,7 +240,7 @@ Proof.
   split; [ring | reflexivity].
 Qed.
 
-(** Is the form positive for all u in [0,1]? *)
+(** True if the form is positive for all u in [0,1]. *)
 Fixpoint is_positive (bisections : nat) (f : form) : bool :=
   (0 <? hd 0 f)%Z && (0 <? last f 0)%Z &&
   (forallb (Z.leb 0) f ||
@@ -305,7 +305,7 @@ Fixpoint reduce (d c : Z) (p g : form) : option form :=
   | x :: p', y :: g' => option_map (cons (d * x - c * y)%Z) (reduce d c p' g')
   end.
 
-(** Does g divide p? [steps] has as many elements as p. *)
+(** True if g divides p. [steps] has as many elements as p. *)
 Fixpoint divides (steps : list Z) (g p : form) : bool :=
   is_zero p ||
   match steps, p, g with

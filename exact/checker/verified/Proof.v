@@ -135,7 +135,7 @@ Hypothesis Hms : is_moment ms u k t.
 
 Let ws := corner_forms sc ms.
 Let D := reach_form sc ms.
-(** By this all is enlarged. *)
+(** The factor by which all is enlarged. *)
 Let size := k * IZR (factor sc).
 
 Lemma size_positive : 0 < size.
@@ -309,7 +309,7 @@ Proof. unfold is_not_positive_at. intros. sign_of p. Qed.
 
 Let H := enlarged size q t.
 
-(** Something of the hull is within the distance. *)
+(** A point of the hull is within the distance. *)
 Definition is_contact_seen : Prop := exists x, H x /\ length_of (norm_of s) x <= at_u u D.
 
 Lemma distance_not_negative : 0 <= at_u u D.
@@ -525,7 +525,7 @@ Qed.
 Lemma Q2R_0 : Q2R 0 = 0. Proof. unfold Q2R. cbn. lra. Qed.
 Lemma Q2R_1 : Q2R 1 = 1. Proof. unfold Q2R. cbn. lra. Qed.
 
-(** What the checker accepts is true. *)
+(** Every accepted claim is true. *)
 Theorem check_sound q s c subintervals contact :
   check q s c subintervals contact = true -> holds q s c.
 Proof.
@@ -547,7 +547,7 @@ Proof.
       * unfold no_contact_until. rewrite <- Q2R_0. exact (separates_all_sound q s sc E _ _ _ E4).
 Qed.
 
-(** Without a separation: the two primitives have a point in common, F = 0. *)
+(** The case without a separation: the two primitives have a common point, F = 0. *)
 Corollary contact_at_distance_0 q n t :
   contact q (Separation 0 n) t <-> exists u v, in_domain (kind_of q) u v /\ F q t u v = origin.
 Proof.

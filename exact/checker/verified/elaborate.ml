@@ -23,14 +23,14 @@ let rec halved g lower upper halvings =
 
 let halvings = [ 16; 64; 256 ]
 
-(* Is the interval within the claim's, and has g opposite signs at its ends, as the format demands? *)
+(* True if the interval is within the claim's, and g has opposite signs at its ends, as the format demands. *)
 let is_interval (c : Certificate.certificate) lower upper g =
   let first, last =
     match c.claim with Time_of_impact (a, b) -> (number a, number b) | _ -> (Q.zero, Q.one)
   in
   Q.leq first lower && Q.lt lower upper && Q.leq upper last && sign_of g lower * sign_of g upper < 0
 
-(* Is the certificate accepted, as it stands or with a shorter interval? *)
+(* True if the certificate is accepted, as it stands or with a shorter interval. *)
 let check (c : Certificate.certificate) =
   let subintervals = List.map snd c.subintervals in
   let accepts contact = Checker.check c.query c.separation c.claim subintervals contact in

@@ -165,6 +165,6 @@ let () =
   match flush stdout with
   | () -> exit status
   | exception Sys_error _ ->
-      (* What cannot be written is not tried again at exit. *)
+      (* Output that cannot be written is not tried again at exit. *)
       prerr_string "touchstone-check-verified: standard output cannot be written\n";
       Unix._exit 2

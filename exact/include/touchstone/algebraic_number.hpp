@@ -67,7 +67,7 @@ class AlgebraicNumber {
   friend bool operator==(const AlgebraicNumber& a, const Rational& b) { return (a <=> b) == 0; }
   friend std::strong_ordering operator<=>(const AlgebraicNumber& a, const AlgebraicNumber& b);
 
-  /// As <=>, but keeps the refinements: faster if the same numbers are compared again.
+  /// Compares as <=>, but keeps the refinements: faster if the same numbers are compared again.
   friend std::strong_ordering compare(AlgebraicNumber& x, AlgebraicNumber& y);
   friend bool operator==(const AlgebraicNumber& a, const AlgebraicNumber& b) {
     return (a <=> b) == 0;

@@ -85,26 +85,26 @@ struct SegmentContact {
   friend bool operator==(const SegmentContact&, const SegmentContact&) = default;
 };
 
-/// In l2: this corner is within the distance.
+/// This corner is within the distance, in l2.
 struct VertexContact {
   std::size_t corner;
 
   friend bool operator==(const VertexContact&, const VertexContact&) = default;
 };
 
-/// In l2: a point between two corners is within the distance.
+/// A point between two corners is within the distance, in l2.
 struct EdgeContact {
   std::array<std::size_t, 2> corners;
 
   friend bool operator==(const EdgeContact&, const EdgeContact&) = default;
 };
 
-/// In l2: a point of the face is within the distance.
+/// A point of the face is within the distance, in l2.
 struct FaceContact {
   friend bool operator==(const FaceContact&, const FaceContact&) = default;
 };
 
-/// In linf: no axis separates.
+/// No axis separates, in linf.
 struct AxesContact {
   friend bool operator==(const AxesContact&, const AxesContact&) = default;
 };
@@ -135,10 +135,9 @@ struct Certificate {
   std::variant<Query, CurvedQuery> query{};
   Separation separation{};
   Claim claim = Claim::no_collision;
-  /// For a time of impact: lower < toi ≤ upper, or both are 0 and so is the toi.
+  /// The interval of a time of impact: lower < toi ≤ upper, or all are 0.
   RationalInterval toi;
-  /// They cover [0,1] or, for a time of impact, [0, toi.lower]. Empty for a collision and for a toi
-  /// of 0.
+  /// A cover of [0,1] or, for a time of impact, of [0, toi.lower]. Empty for a collision or toi 0.
   std::vector<Subinterval> subintervals;
   /// Present for a collision and a time of impact.
   std::optional<ContactProof> contact;
@@ -157,15 +156,15 @@ class CertificateLimitError : public std::runtime_error {
 };
 
 struct ProveOptions {
-  /// The claim about a query that collides: `collision` or `time_of_impact`.
+  /// The claim for a query that collides: `collision` or `time_of_impact`.
   Claim collision_claim = Claim::time_of_impact;
   /// The maximum width, > 0, of the interval of a time of impact. Without it the ends are
   /// neighbouring doubles; the upper one is the toi itself if that is a double.
   std::optional<Rational> width = std::nullopt;
 };
 
-/// The proof of the oracle's decision on a query. Exists for every decision; too long ones throw
-/// CertificateLimitError. The same on every machine and in every floating-point environment.
+/// The proof of the oracle's decision on a query: the same on every machine and in every
+/// floating-point environment.
 /// \param decision decide(kind, query, decision.separation)
 /// \throws std::domain_error if a coordinate is NaN or infinite; std::invalid_argument if the
 /// separation is not valid, the width is not positive, or the claim asked for is `no_collision`.

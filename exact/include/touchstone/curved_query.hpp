@@ -1,10 +1,9 @@
 #pragma once
 
 /// \file
-/// Queries whose points move on curves of degrees of their own.
+/// Queries whose points move on curves of different degrees.
 ///
-/// The trajectories are those of touchstone::QueryShape; all numbers are doubles that stand for
-/// themselves.
+/// The trajectories are those of touchstone::QueryShape; each double is taken as the number it is.
 
 #include <array>
 #include <cstddef>
@@ -19,7 +18,7 @@ namespace touchstone {
 struct Trajectory {
   /// The control points b_j: at least 1, and at most greatest_degree + 1.
   std::vector<std::array<double, 3>> control;
-  /// The weights w_j > 0, as many; empty for a polynomial curve.
+  /// The weights w_j > 0, one per control point; empty for a polynomial curve.
   std::vector<double> weights = {};
 
   [[nodiscard]] std::size_t degree() const { return control.size() - 1; }

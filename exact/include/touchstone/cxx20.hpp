@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file
-/// The language that the headers need: included first by those that every other one includes.
+/// A check of the language, before all other headers.
 
 #if __cplusplus <= 201703L
 #error "Touchstone needs C++20: compile with -std=c++20"

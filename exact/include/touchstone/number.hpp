@@ -3,8 +3,8 @@
 /// \file
 /// The exact numbers of this module, and the only conversions between them and doubles.
 ///
-/// They are CGAL::Exact_integer and CGAL::Exact_rational, under the names of GMP's classes that
-/// CGAL takes where libgmpxx is installed: algebra/number.cpp refuses to compile otherwise. Thus no
+/// The types are CGAL::Exact_integer and CGAL::Exact_rational under the names of GMP's classes,
+/// which CGAL takes if libgmpxx is installed; otherwise algebra/number.cpp does not compile. So no
 /// other source reads CGAL's headers. The functions are thread-safe.
 
 #include "touchstone/cxx20.hpp"

@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file
-/// The oracle: whether and when a query collides, decided exactly.
+/// The oracle: an exact decision if and when a query collides.
 ///
 /// At distance 0 the rules of exact/contact/contact_oracle.hpp decide, which also give the place of
 /// contact; at a greater distance those of exact/distance/distance_oracle.hpp. Both are integer

@@ -18,12 +18,12 @@
 /// of the domain: the *corners* w_i(t), three for vertex_face, four (a parallelogram, in cyclic
 /// order) for edge_edge. Hence a query collides iff 0 ∈ conv{w_i(t)} for some t ∈ [0,1].
 ///
-/// **Coordinates that are not finite.** One rule for every function, in C++ and C. Where a query
-/// has a result with a verdict, alone or in an array, this verdict is `error` for a coordinate that
-/// is NaN or infinite, or a weight that is not positive and finite, and the other queries are
-/// answered (touchstone::fast::Verdict). All other functions throw std::domain_error, which names
-/// such a vertex or query if there are several: those of the oracle, of distances, of lists of
-/// collisions and of scenes. A caller's compiler options have no effect (is_finite).
+/// **Coordinates that are not finite.** One rule for every function, in C++ and C. A function whose
+/// results have verdicts answers `error` for a query with a coordinate that is NaN or infinite, or
+/// with a weight that is not positive and finite, and decides the other queries
+/// (touchstone::fast::Verdict). All other functions (the oracle, distances, lists of collisions,
+/// scenes) throw std::domain_error, which names the vertex or query if there are several. A
+/// caller's compiler options have no effect (is_finite).
 ///
 /// All functions are thread-safe. This is the only header of exact/ that fast/ includes. It needs
 /// Eigen alone.
@@ -203,8 +203,7 @@ enum class Norm : std::uint8_t { linf, l2 };
 /// and (u,v) in the closed domain; its time of impact is the smallest such t. With d = 0 this is
 /// the collision above, in either norm. ([wang2021], section 5: "minimum separation", in L∞.)
 ///
-/// Where a norm is not given, it is l2: here and in every function that takes a norm, in C++, C and
-/// Python.
+/// The default norm is l2, here and in every function that takes a norm, in C++, C and Python.
 struct Separation {
   double distance = 0.0;  ///< d, finite and not negative, in units of the coordinates
   Norm norm = Norm::l2;

@@ -74,8 +74,8 @@ class OneChange {
   [[nodiscard]] const Mask& result() const { return after_; }
 
  private:
-  Mask before_;  ///< all have had the first sign
-  Mask after_;   ///< one has been passed over, and all behind it have had the last sign
+  Mask before_;  ///< all had the first sign
+  Mask after_;   ///< one was passed over, and all after it had the last sign
 };
 
 /// Theorem 1 for an axis of each lane.
@@ -127,7 +127,7 @@ class Crossing {
     }
   }
 
-  /// Corner i on the axis that follows the lane's in cyclic order, or on the one behind that.
+  /// Corner i on the axis `steps` after the lane's in cyclic order.
   [[nodiscard]] OfCorner chosen(std::size_t i, std::size_t steps) const {
     OfCorner result;
     const OfCorner& of_x = x_[(0 + steps) % 3 * corners + i];
@@ -257,7 +257,7 @@ inline Ball value_at(std::array<Ball, greatest_degree + 1> x, std::size_t degree
   return x[0];
 }
 
-/// Queries at a time of each lane, from their own numbers, in numbers with error bounds
+/// Queries at a time of each lane, computed from their own numbers with error bounds
 /// (touchstone/filters/ball.hpp).
 template <class Lanes, Kind kind>
 class AtTime {
@@ -356,7 +356,7 @@ class AtTime {
   Value greatest_ = Value(0.0);
   std::array<std::array<Ball, 3>, corners> w_;
   std::array<Value, moving_points> weight_;
-  Ball reach_;  ///< as far as the corners, times the denominators
+  Ball reach_;  ///< the distance times the denominators
 };
 
 // ---- A distance ---------------------------------------------------------------------------------
@@ -365,8 +365,8 @@ class AtTime {
 /// and let all v(t)·w_i(t) − n·reach(t) have positive Bernstein coefficients. Then no time of [a,b]
 /// is a contact: norms are convex, so v(t) has a dual norm of at most n as well.
 ///
-/// From the queries' own numbers, in numbers with error bounds. The coefficients are C(m,k) times
-/// those of Bernstein.
+/// Computed from the queries' own numbers with error bounds. The coefficients are C(m,k) times
+/// Bernstein's.
 template <class Lanes, Kind kind>
 class PreciseGap {
  public:
@@ -492,7 +492,7 @@ inline auto is_contact(const ControlPolygons<Lanes, kind>& polygons, std::size_t
     x[axis] = w[0][axis] + (w[1][axis] - w[0][axis]) * u + (w.back()[axis] - w[0][axis]) * v;
   }
   const Value most = kernel::greatest(x);
-  // Below the distance times the denominator; 2^-50 covers the roundings of this and what follows.
+  // A bound below the distance times the denominator; 2^-50 covers these and later roundings.
   const Value reach = (polygons.reach(k) - error) * Value(1.0 - 0x1p-50);
   if constexpr (norm == Norm::linf) {
     return (most + delta) * Value(1.0 + 0x1p-50) < reach;

@@ -10,11 +10,10 @@
 ///     Σ_{i+j=m} α_ij ω_i φ_j (a_i − b_j),   α_ij = C(k,i) C(k,j) / C(2k,m),   Σ α_ij = 1.
 ///
 /// If the weights of both are equal, one denominator is enough: degree k, ω_m (a_m − b_m); without
-/// weights a_m − b_m. Where the points of a primitive have weights in common, as on a rigid body,
-/// all corners have the same factor. The distance is multiplied by it, and its control values
-/// follow. Otherwise each corner has a positive factor of its own, which is of no consequence at
-/// distance 0: the proofs there depend only on signs of v·w_i, of components of w_i × w_j and of
-/// det.
+/// weights a_m − b_m. If the points of a primitive have common weights, as on a rigid body, all
+/// corners have the same factor. The distance is multiplied by it, and its control values follow.
+/// Otherwise each corner has its own positive factor, which does not matter at distance 0: the
+/// proofs there depend only on signs of v·w_i, of components of w_i × w_j and of det.
 ///
 /// **Errors.** Let M be the greatest magnitude of a term without its α, u = 2^-53. A control value
 /// is computed by at most k + 6 roundings of terms whose magnitudes add up to at most M: its error
@@ -39,7 +38,7 @@ namespace touchstone::fast::curved {
 
 inline constexpr double unit_roundoff = 0x1p-53;
 inline constexpr double underflow = 0x1p-1060;
-/// Greater control values are left to the exact stage: no cube of them overflows.
+/// The greatest control value: no cube overflows. Greater ones are left to the exact stage.
 inline constexpr double greatest_magnitude = 0x1p100;
 
 // ---- Polygons -----------------------------------------------------------------------------------
@@ -114,7 +113,7 @@ struct Rows {
   }
   [[nodiscard]] kernel::Vector<Value> x(std::size_t k, std::size_t point) const {
     const auto rows = addresses(offset(k, point));
-    // Nothing is read behind the last number of the array.
+    // Nothing is read after the last number of the array.
     const bool is_last = k == block.degree && point + 1 == moving_points && !block.is_rational;
     const auto x = is_last ? Lanes::load_backwards(rows) : Lanes::load(rows);
     return {x[0], x[1], x[2]};

@@ -13,17 +13,17 @@
 ///    contact: v·w_i(t) − n·reach(t) is in the hull of its control values. At distance 0 the
 ///    direction is the sum of all control points.
 /// 3. **Bisection.** The same on pieces of time in ascending order, with a coordinate axis and with
-///    the best direction of the middle. A piece without contact is left behind; a piece with one
-///    proved contact ends the search (contact_proof.hpp); another piece is halved. So nothing
-///    before the last piece is a contact, and its only contact, or its first, is the time of
-///    impact. At a distance, a contact that is proved at the end of a piece bounds the time from
-///    above, and pieces before it are left behind until the bounds meet.
+///    the best direction of the middle. A piece without contact is skipped; a piece with one proved
+///    contact ends the search (contact_proof.hpp); any other piece is halved. So there is no
+///    contact before the last piece, and its only or first contact is the time of impact. At a
+///    distance, a contact proved at the end of a piece bounds the time from above, and pieces
+///    before it are skipped until the bounds meet.
 ///
 /// The computed values have to exceed the bound of filters::CornerGap at the magnitude M of the
 /// control values, and (|v|_1 + n) times their error (control_polygon.hpp).
 ///
-/// What is not proved within some steps goes to the exact stage, as do queries with numbers that
-/// are not finite or too large, and those without a control polygon (Denominators).
+/// Queries that are not proved within some steps go to the exact stage, as do those with numbers
+/// that are not finite or too large, and those without a control polygon (Denominators).
 
 #include <array>
 #include <cstddef>
@@ -41,7 +41,7 @@ namespace touchstone::fast::curved {
 
 // ---- Axis ---------------------------------------------------------------------------------------
 
-/// Stage 1, a query at a time. False if a number is not finite or a weight is not positive.
+/// Stage 1 for one query at a time. False if a number is not finite or a weight is not positive.
 template <class Lanes, Kind kind>
 inline bool is_apart_on_axis(const Block& block, const double* numbers) {
   using Row = typename Lanes::Row;
@@ -199,7 +199,7 @@ class Search {
   static constexpr std::size_t corners = Polygons::corners;
 
   static constexpr int most_steps = 300;
-  /// Of a piece at whose end a contact is proved: it is enclosed from there.
+  /// The length of a piece at whose end a proved contact is enclosed.
   static constexpr double short_length = 0x1p-20;
   static constexpr double least_length = 0x1p-24;
 
@@ -231,7 +231,7 @@ class Search {
     busy_ |= 1U << lane;
   }
 
-  /// Loads the next queries of the list. Those that stage 2 or a contact at t = 0 does not end
+  /// Loads the next queries of the list. Those that neither stage 2 nor a contact at t = 0 decides
   /// wait.
   void load_some() {
     const std::size_t count = kernel::taken<Lanes>(next_, queries_.count);
@@ -268,7 +268,7 @@ class Search {
     const Value zero(0.0), one(1.0);
     const Value u = max(min(nearest.u, one), zero), v = max(min(nearest.v, one), zero);
     if constexpr (kind == Kind::edge_edge) return {u, v};
-    // On the side between, a little inside. (A sum above 1 may be rounded to 1: `rest` is its
+    // Move to the side u + v = 1, a little inside. (A sum above 1 may round to 1: `rest` is its
     // error.)
     const Value sum = u + v, part = sum - u;
     const Value rest = (u - (sum - part)) + (v - part);
@@ -308,8 +308,8 @@ class Search {
     });
   }
 
-  /// Leaves a piece without contact behind. The next one has the greatest length of which its begin
-  /// is a multiple: it is the second half of a piece that was halved.
+  /// Skips a piece without contact. The next one is the second half of a halved piece: it has the
+  /// greatest length of which its begin is a multiple.
   void leave(std::size_t lane) {
     const double begin = begin_[lane] + length_[lane];
     if (begin >= 1.0 || begin >= block_.t_limit) {
@@ -524,7 +524,7 @@ class Search {
   }
 
   Polygons loaded_;
-  Polygons whole_{};  // what idle lanes have is a number
+  Polygons whole_{};  // idle lanes hold numbers
   Polygons part_;
   alignas(64) kernel::Numbers<Lanes> begin_;
   alignas(64) kernel::Numbers<Lanes> length_;
@@ -536,7 +536,7 @@ class Search {
   const KernelOutput::List<std::uint32_t>& queries_;
   KernelOutput& output_;
   std::size_t next_ = 0;                           ///< in the list
-  std::array<std::uint32_t, width> loaded_index_;  ///< the lanes of what is loaded
+  std::array<std::uint32_t, width> loaded_index_;  ///< the lanes of `loaded_`
   std::array<std::uint32_t, width> index_;
   std::array<int, width> steps_;
   unsigned waiting_ = 0;  ///< the loaded lanes that have not been taken
@@ -556,7 +556,7 @@ inline void search_kind(const Block& block, const KernelOutput::List<std::uint32
   }
 }
 
-/// Stages 2 and 3.
+/// Runs stages 2 and 3.
 template <class Lanes>
 void search(const Block& block, const KernelOutput::List<std::uint32_t>& queries,
             Denominators denominators, KernelOutput& output) {

@@ -113,7 +113,7 @@ Approximation BigInteger::approximation() const {
 SignedWideLimb BigInteger::truncated(long shift) const {
   if (size_ == 0 || bit_length() + shift <= 0) return 0;
   const std::uint64_t* const limb = limbs();
-  // The limbs from the first that counts, the one above and the one above that.
+  // Three limbs, from the first that counts.
   const auto first = static_cast<std::size_t>(shift < 0 ? -shift / limb_bits : 0);
   const long beyond = shift < 0 ? -shift % limb_bits : 0;
   const auto at = [&](std::size_t i) { return first + i < size_ ? limb[first + i] : 0; };
@@ -134,8 +134,8 @@ std::uint64_t BigInteger::residue(std::uint64_t modulus) const {
   return negative_ && magnitude != 0 ? modulus - magnitude : magnitude;
 }
 
-// From the lowest limb up: the lowest limb of the remainder, divided by the divisor's modulo 2^64,
-// is the next limb of the quotient.
+// Divides from the lowest limb up: the lowest limb of the remainder, divided by the divisor's
+// modulo 2^64, is the next limb of the quotient.
 BigInteger BigInteger::divided_exactly(const BigInteger& divisor) const {
   if (size_ == 0) return {};
   const long zeros = divisor.trailing_zeros();
@@ -215,8 +215,8 @@ BigInteger& BigInteger::add(const BigInteger& other, bool negative) {
   return *this = larger;
 }
 
-// A product of the other sign is subtracted modulo 2^(64 size). If it is the greater one, what is
-// left is 2^(64 size) minus the magnitude.
+// A product of the other sign is subtracted modulo 2^(64 size). If it is greater, the difference is
+// 2^(64 size) minus the magnitude.
 BigInteger& BigInteger::add_product(const BigInteger& a, const BigInteger& b, bool negative) {
   if (a.size_ == 0 || b.size_ == 0) return *this;
   if (size_ == 0) negative_ = negative;

@@ -1,11 +1,10 @@
 #pragma once
 
 /// \file
-/// Integers of any size, with the operations of exact decisions: all divisions are without
-/// remainder.
+/// Integers of any size, with the operations of exact decisions: no division has a remainder.
 ///
-/// Sign and magnitude; the magnitude is limbs of 64 bits, the least significant first. Up to
-/// `inline_limbs` of them are stored in the object, so that common numbers need no allocation.
+/// A number is its sign and its magnitude in limbs of 64 bits, the least significant first. Up to
+/// `inline_limbs` of them are in the object, so that common numbers need no allocation.
 
 #include <array>
 #include <cstddef>
@@ -44,11 +43,11 @@ class BigInteger {
   /// The index of the lowest bit that is set. \pre not 0.
   [[nodiscard]] long trailing_zeros() const;
   [[nodiscard]] Approximation approximation() const;
-  /// This number · 2^shift without its fraction. \pre the magnitude of that is below 2^127.
+  /// The number · 2^shift without its fraction. \pre the magnitude of that is below 2^127.
   [[nodiscard]] SignedWideLimb truncated(long shift) const;
   /// The remainder in [0, modulus). \pre the modulus is not 0.
   [[nodiscard]] std::uint64_t residue(std::uint64_t modulus) const;
-  /// This number / divisor. \pre the divisor is not 0 and divides this number.
+  /// The quotient by a divisor. \pre the divisor is not 0 and divides this number.
   [[nodiscard]] BigInteger divided_exactly(const BigInteger& divisor) const;
 
   BigInteger& operator+=(const BigInteger& other) { return add(other, other.negative_); }

@@ -17,7 +17,7 @@ double dot(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-/// Does not underflow.
+/// The length, without underflow.
 double length(const Eigen::Vector3d& a) {
   const double greatest = a.cwiseAbs().maxCoeff();
   if (greatest == 0.0) return 0.0;
@@ -45,7 +45,7 @@ class Search {
  public:
   Search(const Polygon& polygon, Norm norm) : polygon_(polygon), norm_(norm) {}
 
-  /// Ignores NaN and points that are outside by more than rounding.
+  /// Takes a point if it is better. Ignores NaN and points outside by more than rounding.
   void consider(const Parameters& x) {
     constexpr double slack = 0x1p-40;
     const double farthest = polygon_.kind == Kind::vertex_face ? x.u + x.v : std::max(x.u, x.v);

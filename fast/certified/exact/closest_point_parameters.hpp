@@ -34,7 +34,7 @@ struct AffineVectors {
 /// accuracy.
 [[nodiscard]] std::array<AffineVectors, 2> scaled_vectors(Kind kind, const Query& query);
 
-/// The (u,v), up to rounding, at which ‖F(t,u,v)‖ is least. One of them if there are many.
+/// The (u,v), up to rounding, at which ‖F(t,u,v)‖ is least; one of them if there are several.
 /// \pre all coordinates are finite; 0 ≤ t ≤ 1.
 [[nodiscard]] Parameters nearest_parameters(Kind kind, const Query& query, double t, Norm norm);
 

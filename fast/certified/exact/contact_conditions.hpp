@@ -75,7 +75,7 @@ struct MotionOf {
   /// The exponent of the unit of each axis; only guesses use it.
   std::array<int, 3> unit{};
 };
-/// On straight lines.
+/// The motion on straight lines.
 template <class Number>
 using Motion = MotionOf<Form<Number, 1>>;
 

@@ -111,8 +111,7 @@ BasicTime<Weight> mirrored(const BasicTime<Weight>& t) {
   return {t.y, t.x};
 }
 
-/// With minors m_ij = f_i g_j − f_j g_i: f g_2 − g f_2 = x (m_02 x + m_12 y). This is the linear
-/// form.
+/// The linear form in f g_2 − g f_2 = x (m_02 x + m_12 y), where m_ij = f_i g_j − f_j g_i.
 template <std::size_t f_limbs, std::size_t g_limbs>
 Fixed<f_limbs + g_limbs, 1> remainder(const Fixed<f_limbs, 2>& f, const Fixed<g_limbs, 2>& g) {
   return {f[0] * g[2] - f[2] * g[0], f[1] * g[2] - f[2] * g[1]};
@@ -132,8 +131,8 @@ int sign_at_root(const Fixed<limbs, 1>& line, const Fixed<q_limbs, 2>& q) {
 /// The sign of q at f's only root α in the open interval, if q has one root β there. The linear
 /// form is f(β) times the sign of `factor` at β.
 ///
-/// If the linear form changes its sign, the sign of q at its root determines the side of that root
-/// on which β is. This gives the sign of f(β), and hence the side of α on which β is.
+/// If the linear form changes its sign, the sign of q at its root tells on which side of that root
+/// β is. This gives the sign of f(β), and hence the side of α on which β is.
 template <std::size_t limbs, std::size_t q_limbs, class Weight>
 std::optional<int> sign_by_remainder(const Fixed<limbs, 1>& line, int factor,
                                      const IntervalSigns& of_f, const Fixed<q_limbs, 2>& q,
@@ -161,7 +160,7 @@ std::optional<int> sign_at_root(const Fixed<f_limbs, 1>& f, const Fixed<q_limbs,
   return sign_at_root(f, q);
 }
 
-/// At a root β of q the remainder is f q_2 / x, and x > 0. If q_2 = 0, x and y change places.
+/// The remainder at a root β of q is f q_2 / x, and x > 0. If q_2 = 0, x and y change places.
 template <std::size_t f_limbs, std::size_t q_limbs, class Weight>
 std::optional<int> sign_at_root(const Fixed<f_limbs, 2>& f, const Fixed<q_limbs, 2>& q,
                                 const BasicTime<Weight>& lower, const BasicTime<Weight>& upper) {
@@ -172,7 +171,7 @@ std::optional<int> sign_at_root(const Fixed<f_limbs, 2>& f, const Fixed<q_limbs,
                            signs_between(FilteredForm(f), lower, upper), q, lower, upper);
 }
 
-/// With g such that x g = q_2 f − f_3 y q, the remainder at β is g q_2 / x = f q_2² / x².
+/// The remainder at β is g q_2 / x = f q_2² / x², with g such that x g = q_2 f − f_3 y q.
 template <std::size_t f_limbs, std::size_t q_limbs, class Weight>
 std::optional<int> sign_at_root(const Fixed<f_limbs, 3>& f, const Fixed<q_limbs, 2>& q,
                                 const BasicTime<Weight>& lower, const BasicTime<Weight>& upper) {
@@ -185,7 +184,7 @@ std::optional<int> sign_at_root(const Fixed<f_limbs, 3>& f, const Fixed<q_limbs,
                            lower, upper);
 }
 
-/// Special properties of the roots of a cubic form.
+/// Properties of the roots of a cubic form.
 template <std::size_t limbs>
 struct CubicRoots {
   bool is_one = false;         ///< only one is real, and it is simple
@@ -281,7 +280,7 @@ double guess_root(const std::array<double, 4>& b, double lower, double upper) {
   return t;
 }
 
-/// Useful places for a split: roots of quadratic events, extrema of a cubic one.
+/// Places for a split: roots of quadratic events, extrema of a cubic one.
 Guesses landmarks(const std::array<double, 3>& b) { return quadratic_roots(b); }
 Guesses landmarks(const std::array<double, 4>& b) {
   return quadratic_roots(b[1] - b[0], b[2] - b[1], b[3] - b[2]);
@@ -328,7 +327,7 @@ std::optional<Time> dyadic_between(double lower, double upper) {
 enum class Outcome : std::uint8_t {
   none,     ///< no first contact in the interval
   decided,  ///< the answer is known
-  unknown   ///< to be handed on
+  unknown   ///< for the general decision
 };
 
 /// An event of theorem 2.
@@ -377,7 +376,7 @@ std::optional<Time> split(std::span<const FilteredForm<limbs, count>> events, co
   return middle;
 }
 
-/// The decision for one motion in such coordinates.
+/// The decision for one motion.
 template <class Number>
 class Decision {
  public:
@@ -405,8 +404,8 @@ class Decision {
   static constexpr int deepest = 12;
   /// The depth of splitting from which roots are treated as clusters.
   static constexpr int deep = 2;
-  /// A limit of the width of enclosures: in wider ones fewer signs are certain, and (u,v) are
-  /// interpolated in them.
+  /// The greatest width of enclosures: in wider ones fewer signs are certain, and (u,v), which are
+  /// interpolated, are less accurate.
   static constexpr std::uint64_t widest_step = 1U << 12U;
 
   Outcome first() {

@@ -1,8 +1,8 @@
 #pragma once
 
 /// \file
-/// The first contact if coordinates are integers of at most 125 bits, in numbers of fixed
-/// size and without allocation. Rare cases are left to the general decision.
+/// The first contact for integer coordinates of at most 125 bits, in numbers of fixed size, without
+/// allocation. Rare cases are left to the general decision.
 ///
 /// *Search.* An interval without a root of an event has no first contact (theorem 2), nor has one
 /// on which N_k and one of its bounds keep opposite signs (theorem 1). An interval with one root of

@@ -19,7 +19,7 @@ namespace {
 
 constexpr int no_unit = std::numeric_limits<int>::max();
 
-/// The exponent of the last bit of a number, or the unit if that is lower. A zero has no last bit.
+/// Lowers the unit to the exponent of a number's last bit, if that is lower. Zero has no last bit.
 void include_last_bit(int& unit, double x) {
   const BinaryFraction fraction = odd_fraction(x);
   if (fraction.numerator != 0) unit = std::min(unit, fraction.exponent);
@@ -42,7 +42,7 @@ Polynomial form_of(Polynomial control) {
   return control;
 }
 
-/// Equal weights do not matter.
+/// True if the weights matter: equal ones do not.
 bool is_rational(const Trajectory& curve) {
   return std::ranges::adjacent_find(curve.weights, std::not_equal_to{}) != curve.weights.end();
 }
@@ -86,7 +86,7 @@ struct RationalPoints {
   std::array<Vector, moving_points> numerators;
   std::array<Polynomial, moving_points> denominators;
 
-  /// \param has_one_unit For all axes.
+  /// \param has_one_unit true for one unit of all axes
   RationalPoints(const CurvedQuery& query, bool has_one_unit) {
     for (const Trajectory& curve : query) {
       for (const auto& point : curve.control) {
@@ -132,7 +132,7 @@ Vector corner_of(const RationalPoints& points, const Corner& corner) {
   return both[0] - both[1];
 }
 
-/// What is left of the factors of three corners without the denominators of the points.
+/// The factors of three corners, except the denominators of the points.
 std::vector<Polynomial> other_factors(std::vector<Polynomial> factors,
                                       const RationalPoints& points) {
   for (const Polynomial& own : points.denominators) {
@@ -242,7 +242,7 @@ Query at_rest(const CurvedQuery& query, double time) {
   Query result{};
   for (std::size_t point = 0; point < moving_points; ++point) {
     const Trajectory& curve = query[point];
-    // Weighted coordinates and the weight, by de Casteljau's algorithm. Weights of at most 1.
+    // Weighted coordinates and the weight, at most 1, by de Casteljau's algorithm.
     const double most = curve.weights.empty() ? 1.0 : std::ranges::max(curve.weights);
     std::vector<std::array<double, 4>> row;
     for (std::size_t k = 0; k < curve.control.size(); ++k) {

@@ -3,18 +3,18 @@
 /// \file
 /// The moving polygon of a query on curves, in integers.
 ///
-/// The coordinates of each axis have one unit, a power of two, and the weights of a point another.
-/// With a distance all axes have the same, and the points are fractions with denominators of their
-/// own (docs/theory.md, section 6.15). Without one the points are multiplied by the product of all
-/// denominators, equal ones once (section 2.5).
+/// The coordinates of each axis have one unit, a power of two, and the weights of each point
+/// another. With a distance all axes have the same unit, and each point is a fraction with its own
+/// denominator (docs/theory.md, section 6.15). Without one, the points are multiplied by the
+/// product of all denominators, equal ones once (section 2.5).
 ///
-/// With three or four denominators the degrees and the numbers are shorter if each corner is
-/// multiplied by those of its two points alone. Factors of their own keep a triangle that contains
-/// the origin one that does; a parallelogram is the union of two.
+/// With three or four denominators, degrees and numbers are smaller if each corner is multiplied
+/// only by those of its two points. A triangle contains the origin for any positive factors of its
+/// corners or for none; a parallelogram is the union of two triangles.
 ///
 /// The determinant of three corners that have all four points is, up to its sign, that of the
 /// points with a fourth coordinate 1. Times the denominators of the four points it is a polynomial.
-/// So the other denominators that the corners have been multiplied by divide it.
+/// So the other denominators of the corners divide it.
 
 #include <optional>
 #include <vector>
@@ -26,7 +26,7 @@
 
 namespace touchstone::fast::exact_stage {
 
-/// Points as fractions, and what they refer to: to be moved, not copied.
+/// Points as fractions, with the data that they refer to. Move it, do not copy it.
 struct CurvedPoints {
   MovingPoints points;
   std::vector<Polynomial> denominators;
@@ -36,7 +36,7 @@ struct CurvedPoints {
 /// \pre is_valid(query), distance > 0
 [[nodiscard]] CurvedPoints points_of(Kind kind, const CurvedQuery& query, double distance);
 
-/// Motions one of which contains the origin where the query is in contact. \pre is_valid(query)
+/// Motions of which one contains the origin iff the query is in contact. \pre is_valid(query)
 [[nodiscard]] std::vector<PolynomialMotion> motions_of(Kind kind, const CurvedQuery& query);
 
 /// The same query on straight lines, if all its curves are polynomial and of a degree up to 1.

@@ -102,7 +102,7 @@ struct MovingPoints {
 [[nodiscard]] std::optional<BitInterval> first_approach(const MovingPoints& points,
                                                         const ScaledDistance& distance, Norm norm,
                                                         std::uint64_t latest, std::uint64_t step);
-/// The same of a motion on straight lines.
+/// The same for a motion on straight lines.
 [[nodiscard]] std::optional<BitInterval> first_approach(const Motion<BigInteger>& motion,
                                                         const ScaledDistance& distance, Norm norm,
                                                         std::uint64_t latest, std::uint64_t step);

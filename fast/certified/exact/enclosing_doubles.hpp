@@ -1,8 +1,8 @@
 #pragma once
 
 /// \file
-/// Doubles as integers, without floating-point arithmetic and hence without effects of
-/// rounding modes and flushed subnormals.
+/// Doubles as integers: no floating-point arithmetic, hence no effect of rounding modes and flushed
+/// subnormals.
 ///
 /// The bits of doubles that are not negative, read as integers, have the order of the doubles. So
 /// comparisons with doubles suffice to enclose a number.
@@ -14,7 +14,7 @@
 
 namespace touchstone::fast::exact_stage {
 
-/// Bits of 0 and of 1.
+/// The bits of 0 and of 1.
 inline constexpr std::uint64_t bits_of_zero = 0;
 inline constexpr std::uint64_t bits_of_one = std::bit_cast<std::uint64_t>(1.0);
 /// The bits of 2^-1022, the least normal double.

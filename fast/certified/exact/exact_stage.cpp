@@ -132,7 +132,7 @@ std::optional<BitInterval> first_approach_of(Kind kind, const Query& query,
   return before ? before : contact;
 }
 
-/// Of any of the motions.
+/// The first contact of any of the motions.
 std::optional<BitInterval> first_contact_of(Kind kind, const CurvedQuery& query,
                                             std::uint64_t latest) {
   std::optional<BitInterval> result;

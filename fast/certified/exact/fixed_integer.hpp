@@ -14,7 +14,7 @@
 
 namespace touchstone::fast::exact_stage {
 
-// A typedef, because only it permits the extension without a warning.
+// Only a typedef permits the extension without a warning.
 // NOLINTNEXTLINE(modernize-use-using)
 __extension__ typedef unsigned __int128 WideLimb;
 // NOLINTNEXTLINE(modernize-use-using)
@@ -111,8 +111,7 @@ class FixedInteger {
   friend class FixedInteger;
 
   [[nodiscard]] bool is_negative() const { return (limb_[size - 1] >> 63U) != 0; }
-  /// All bits set for a negative number, else none. A mask instead of a branch, because signs are
-  /// unpredictable.
+  /// All bits set for a negative number, else none. It replaces a branch: signs are unpredictable.
   [[nodiscard]] std::uint64_t sign_mask() const {
     return std::uint64_t{0} - (limb_[size - 1] >> 63U);
   }

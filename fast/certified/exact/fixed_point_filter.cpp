@@ -75,9 +75,9 @@ int FixedPointForm::sign(std::size_t k) const {
   return b_[k] < -error ? -1 : 0;
 }
 
-// Coefficients of uncertain sign are harmless only singly between two of opposite signs: with one
-// of them there is one change in any case. Several of them, or one between equal signs or at an
-// end, leave the number of changes open.
+// A coefficient of uncertain sign is harmless only alone between two of opposite signs, which then
+// change once in any case. Several, or one between equal signs or at an end, leave the number of
+// changes open.
 std::optional<IntervalSigns> FixedPointForm::signs() const {
   IntervalSigns result;
   int doubts = 0;

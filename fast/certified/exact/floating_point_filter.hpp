@@ -76,7 +76,7 @@ struct RoundedBlossom {
   double value;
   double magnitude;  ///< m
 
-  /// Its sign if certain, else 0.
+  /// The sign if it is certain, else 0.
   [[nodiscard]] int sign() const {
     if (!(std::abs(value) > rounding * magnitude)) return 0;
     return value > 0.0 ? 1 : -1;
@@ -94,8 +94,8 @@ class FilteredForm {
   static constexpr std::size_t degree = count - 1;
 
   FilteredForm() = default;
-  /// From Σ c_k x^(n−k) y^k, whose Bernstein coefficients are c_k / binomial(n,k); here multiplied
-  /// by n.
+  /// The form Σ c_k x^(n−k) y^k, whose Bernstein coefficients are c_k / binomial(n,k); here
+  /// multiplied by n.
   explicit FilteredForm(const std::array<FixedInteger<limbs>, count>& c) : form_(c) {
     for (std::size_t i = 0; i < count; ++i) rounded_[i] = c[i].rounded();
     rounded_.front() *= end_factor;

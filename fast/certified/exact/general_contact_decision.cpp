@@ -21,7 +21,7 @@ struct Problem {
   Polynomial determinant;
 };
 
-/// What is done with a contact that is earlier than all before.
+/// Takes a contact that is earlier than all before.
 using OnContact = std::function<void(Instant&, const Contact&, const BitInterval&)>;
 
 ExactImpact impact_at(Instant& instant, const Contact& contact, const BitInterval& time) {
@@ -47,8 +47,8 @@ std::vector<Polynomial> events(const Problem& problem) {
   return result;
 }
 
-/// Does a vertex miss another, of which this is seen without a root? If r is linear and 0 at a time
-/// t, then (1−t) r(0) = −t r(1): these are parallel.
+/// True if a vertex is seen to miss another one without a root: if r is linear and 0 at a time t,
+/// then (1−t) r(0) = −t r(1), so these are parallel.
 bool is_vertex_beside_vertex(const MotionOf<Polynomial>& motion) {
   const auto is_no_vector = [](const std::array<Polynomial, 3>& vector) {
     return std::ranges::all_of(vector, [](const auto& form) { return is_zero(form); });

@@ -17,12 +17,12 @@
 
 namespace touchstone::fast::exact_stage {
 
-/// A contact at a time that is enclosed. u and v are possibly outside of their domain, by rounding.
+/// A contact at an enclosed time. Rounding may put u and v outside of their domain.
 [[nodiscard]] inline ExactImpact impact_at(const BitInterval& time, double u, double v) {
   return {std::bit_cast<double>(time.lower), std::bit_cast<double>(time.upper), u, v};
 }
 
-/// The bits of its time.
+/// The bits of the time of an impact.
 [[nodiscard]] inline BitInterval time_of(const ExactImpact& impact) {
   return {std::bit_cast<std::uint64_t>(impact.toi_lower),
           std::bit_cast<std::uint64_t>(impact.toi_upper)};
@@ -39,7 +39,7 @@ struct PolynomialMotion {
   std::vector<Polynomial> factors;
 };
 
-/// The time of the first contact of any motion, likewise.
+/// The time of the first contact of any motion, enclosed likewise.
 [[nodiscard]] std::optional<BitInterval> first_contact(const PolynomialMotion& motion,
                                                        std::uint64_t latest);
 

@@ -36,8 +36,8 @@ Polynomial& operator-=(Polynomial& a, const Polynomial& b);
 /// The same function as a form of this degree or of its own, which may be greater.
 [[nodiscard]] Polynomial raised_to(Polynomial form, std::size_t degree);
 
-/// The form without its roots at t=0 and t=1, and without factors x + y, which are 1 for all t: a
-/// curve that is given by more control points than it needs has them. Empty for zero.
+/// The form without its roots at t=0 and t=1, and without factors x + y, which are 1 for all t and
+/// come from curves with more control points than they need. Empty for zero.
 [[nodiscard]] Polynomial inner_polynomial(std::span<const BigInteger> form);
 
 /// True if the polynomials certainly have no common factor.

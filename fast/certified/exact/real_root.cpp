@@ -37,7 +37,7 @@ Dyadic from_one(const Dyadic& t) {
 }
 
 /// lower + (upper − lower) · part, truncated below 2^-64 times the length and times the unit of
-/// `part`, which is in (0,1). The length of numbers is thus proportional to the precision of their
+/// `part`, which is in (0,1). So the length of numbers is proportional to the precision of their
 /// intervals.
 Dyadic between(const Dyadic& lower, const Dyadic& upper, const Dyadic& part) {
   constexpr long kept_bits = 64;
@@ -97,7 +97,7 @@ IntervalSigns signs_of(const Polynomial& c) {
   return interval_signs(signs);
 }
 
-// ---- What fixed point says, or else the integers ------------------------------------------------
+// ---- Signs, in fixed point or else in integers --------------------------------------------------
 
 /// A time in the units of FixedPointForm.
 std::int64_t in_fixed_point(const Dyadic& t) {
@@ -111,7 +111,7 @@ std::optional<FixedPointForm> fixed_point_form(std::span<const BigInteger> c, co
   return FixedPointForm(c, in_fixed_point(lower), in_fixed_point(upper));
 }
 
-/// What fixed point says.
+/// The signs in fixed point, if they are certain.
 std::optional<IntervalSigns> rounded_signs_between(std::span<const BigInteger> c,
                                                    const Dyadic& lower, const Dyadic& upper) {
   const auto form = fixed_point_form(c, lower, upper);
@@ -140,7 +140,7 @@ using Guess = std::vector<Approximation>;
 
 /// significand · 2^exponent; 0 far below the range of doubles.
 double scaled(double significand, long exponent) {
-  // As std::ldexp, but faster if the power of two is a double.
+  // Faster than std::ldexp if the power of two is a double.
   if (exponent >= -1022 && exponent <= 1023) {
     return significand * std::bit_cast<double>(static_cast<std::uint64_t>(exponent + 1023) << 52U);
   }
@@ -161,7 +161,7 @@ Guess in_one_unit(Guess c) {
   return c;
 }
 
-/// From fixed point, if that is accurate.
+/// A guess from fixed point, if that is accurate.
 std::optional<Guess> rounded_guess(const Polynomial& f, const Dyadic& lower, const Dyadic& upper) {
   constexpr std::int64_t accurate = std::int64_t{1} << 54;
   const auto form = fixed_point_form(f, lower, upper);
@@ -248,7 +248,7 @@ std::optional<double> guess_ordinary_root(const Guess& c, int sign_below) {
   double at_low = value(low), at_high = value(high), last = high;
   if (at_high >= 0.0) return high;
   if (!(at_low > 0.0)) return {};
-  int kept = 0;  // so often the same end remained: positive for the upper one
+  int kept = 0;  // how often the same end remained: positive for the upper one
   for (int left = 60; left > 0 && high - low > enough * high; --left) {
     const bool halves = left % 4 == 0;
     double y = halves ? 0.5 * (low + high) : low + (high - low) * (at_low / (at_low - at_high));
@@ -367,8 +367,8 @@ class RootSearch {
   }
 
  private:
-  /// Where fixed point is in doubt, a root may be a multiple one, which a divisor shows before the
-  /// integers are asked.
+  /// The signs in an interval. If fixed point is uncertain, a root may be multiple, which a divisor
+  /// shows before integers are needed.
   [[nodiscard]] IntervalSigns signs_in(const Interval& interval) {
     if (const auto local = rounded_signs_between(f_, interval.lower, interval.upper)) return *local;
     make_squarefree();
@@ -532,8 +532,8 @@ void Instant::narrow() {
   if (!is_dyadic()) static_cast<void>(cut(split(lower_, upper_)));
 }
 
-// Fixed point comes first. If it is in doubt, q may be 0, which only a divisor shows; if there is
-// none, the integers say more.
+// Fixed point comes first. If it is uncertain, q may be 0, which only a divisor shows; if there is
+// none, integers decide.
 int Instant::sign_of(std::span<const BigInteger> q) {
   if (is_zero(q)) return 0;
   constexpr int patience = 1;  // narrowing is cheaper than a divisor
@@ -664,7 +664,7 @@ bool is_positive_between(std::span<const BigInteger> form, const Dyadic& from, c
 
 std::optional<Instant> first_root_after(Instant& from, const Dyadic& end,
                                         std::span<const BigInteger> form) {
-  // With one sign on the whole interval of `from`, the first root is not inside.
+  // One sign on the whole interval of `from`: the first root is not inside.
   static_cast<void>(from.sign_of(form));
   const Dyadic& start = from.upper();
   if (sign_at(form, start) == 0) return Instant(start);

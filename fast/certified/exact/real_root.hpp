@@ -10,10 +10,9 @@
 /// and equal it if they are at most one. For a squarefree polynomial, intervals that are small
 /// enough have at most one sign change (Vincent), so bisection finds all roots in ascending order.
 /// If roots are very close, the interval is divided at a guess of the extremum between them.
-/// Where fixed point is in doubt, or after three divisions, multiple factors are removed.
-/// Intervals that are not resolved then are cut at the roots of the derivative, which are found in
-/// the same way: between neighbouring ones f is monotone, and has a root iff its signs at them
-/// differ.
+/// If fixed point is uncertain, or after three divisions, multiple factors are removed. Intervals
+/// that then remain are cut at the roots of the derivative, found in the same way: between
+/// neighbours f is monotone, and has a root iff its signs at them differ.
 ///
 /// An instant α is a dyadic number or the only root, a simple one, of f in an open dyadic interval.
 /// The sign of q(α): if q's form on the interval has no sign change, the sign of its coefficients.
@@ -21,8 +20,8 @@
 /// number of sign changes; if it is not 0, halving the interval leads to the first case. Two
 /// instants are equal iff the divisor of their polynomials has a root in both intervals.
 ///
-/// Fixed-point arithmetic decides most signs (fixed_point_filter.hpp). Those that it leaves in
-/// doubt are mostly 0, so the divisor is asked next, which mostly is 1 modulo a prime, and the
+/// Fixed-point arithmetic decides most signs (fixed_point_filter.hpp). Those that it leaves
+/// uncertain are mostly 0, so the divisor comes next, which mostly is 1 modulo a prime, and
 /// integers last.
 ///
 /// Narrowing guesses the root and computes two exact signs around it; a wrong guess only costs a
@@ -71,7 +70,7 @@ class Instant {
   /// The sign of a − b. Narrows both as far as necessary.
   friend int compare(Instant& a, Instant& b);
 
-  /// This time is not before lower() and not after upper(); strictly between if they differ.
+  /// The ends of an interval that contains this time, strictly inside unless they are equal.
   [[nodiscard]] const Dyadic& lower() const { return lower_; }
   [[nodiscard]] const Dyadic& upper() const { return upper_; }
 
@@ -107,8 +106,8 @@ class Instant {
   Polynomial f_;  // empty: the time is lower_
   Dyadic lower_, upper_;
   int sign_below_ = 0;  // of f_, between lower_ and the root
-  /// The next step is to shorten the interval by the factor 2^-gain_: nearly twice the bits of the
-  /// last one if that succeeded, else half. Steps of more than guess_gain bits are secants.
+  /// The next step shortens the interval by the factor 2^-gain_: nearly twice the bits of the last
+  /// step if that succeeded, else half. Steps of more than guess_gain bits are secants.
   static constexpr long guess_gain = 40, least_gain = guess_gain / 2;
   long gain_ = least_gain;
 };

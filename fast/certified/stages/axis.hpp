@@ -11,14 +11,13 @@
 /// No error bound is needed: signs of differences are comparisons, and a rounded difference greater
 /// than D comes from an exact one greater than D, because rounding is monotone and D is a double.
 ///
-/// **Up to a time.** Where only contacts up to a time T < 1 count, the queries that no axis
-/// separates are tested again (one query here, several with the stage direction, in whose lanes
-/// they are), with the points at T in place of those at t=1. Let u = 2^-53 and m the greatest
-/// magnitude of a coordinate on the axis. A position (1 − T) x0 + T x1 has an error of at most u m
-/// / 2 by the rounding of 1 − T and of (2 u + u²) m + 2^-1074 by that of two products and a sum.
-/// The difference of two positions has to exceed D by `slack`, 8 u m + 2^-1070, which is more than
-/// twice these errors, and monotone rounding does the rest. Where positions might overflow, slack
-/// is infinite.
+/// **Up to a time.** If only contacts up to a time T < 1 count, the queries that no axis separates
+/// are tested again with the points at T in place of those at t=1 (one query here, several in the
+/// lanes of the stage direction). Let u = 2^-53 and m the greatest magnitude of a coordinate on the
+/// axis. A position (1 − T) x0 + T x1 has an error of at most u m / 2 by the rounding of 1 − T and
+/// of (2 u + u²) m + 2^-1074 by that of two products and a sum. The difference of two positions has
+/// to exceed D by `slack`, 8 u m + 2^-1070, which is more than twice these errors, and monotone
+/// rounding does the rest. Where positions might overflow, slack is infinite.
 
 #include <array>
 #include <cstddef>
@@ -46,7 +45,7 @@ inline Sides<X> sides_of(const X& least_a, const X& greatest_a, const X& greates
   }
 }
 
-/// Of four points, coordinates of one axis or rows of all three.
+/// The sides of four points: coordinates of one axis or rows of all three.
 template <Kind kind, bool by_distance, class X>
 inline Sides<X> sides(const X& a, const X& b, const X& c, const X& d, const X& distance) {
   if constexpr (kind == Kind::vertex_face) {
@@ -61,7 +60,7 @@ inline MaskOf<X> on_one_side(const Sides<X>& start, const Sides<X>& end) {
   return (start.above & end.above) | (start.below & end.below);
 }
 
-/// Is not finite if one of them is not.
+/// The sum, which is not finite if one number is not.
 template <class X>
 inline X sum_of(const std::array<X, query_points>& x) {
   return ((x[0] + x[1]) + (x[2] + x[3])) + ((x[4] + x[5]) + (x[6] + x[7]));
@@ -107,7 +106,7 @@ inline MaskOf<Value> is_separated_until(const std::array<Vector<Value>, query_po
 template <class Lanes, bool separated, Kind kind, class Source>
 class AxisStage {
  public:
-  /// \param open The queries that no axis separates; of several, on the whole [0,1].
+  /// \param open The queries that no axis separates; for several queries, on the whole [0,1].
   static void run(const KernelInput& input, Indices& open) {
     if constexpr (Source::is_one) {
       open.items[0] = 0;
@@ -122,7 +121,7 @@ class AxisStage {
   using Rows = std::array<Row, query_points>;
   static constexpr std::size_t word_size = Marks<Lanes>::word_size;
 
-  /// The only query.
+  /// True if an axis separates the only query.
   static bool is_free(const KernelInput& input) {
     const Rows rows = load_rows(Source::points(input, 0));
     const Row distance(input.separation.distance);
@@ -177,7 +176,7 @@ class AxisStage {
     const auto axes =
         on_one_side(sides<kind, separated>(rows[0], rows[1], rows[2], rows[3], distance),
                     sides<kind, separated>(rows[4], rows[5], rows[6], rows[7], distance));
-    // Without && because the branch is unpredictable.
+    // No && because the branch is unpredictable.
     const bool on_some_axis = axes.any();
     return on_some_axis & sum_of(rows).is_finite();
   }

@@ -145,7 +145,7 @@ class Bisection {
             select(is_at_zero, Value(least_length_at_zero), Value(least_length)));
   }
 
-  // ---- What follows ----
+  // ---- The next interval ----
 
   /// Goes on to the next interval in lanes without contact, and to the first half in the others;
   /// finished lanes take other queries.

@@ -39,7 +39,7 @@ class NearestPoint {
   static constexpr std::size_t corners = kind == Kind::vertex_face ? 3 : 4;
   using Corners = std::array<Vector, corners>;
 
-  /// Its dual norm is at most unit_length; NaN if no direction separates.
+  /// The direction, of dual norm at most unit_length; NaN if none separates.
   Vector direction{};
   /// Parameters of the point, in F's domain up to rounding.
   Value u = Value(0);

@@ -1,8 +1,8 @@
 #pragma once
 
 /// \file
-/// Zeros of the determinant that are the only one in an interval of times, and their
-/// approximation, which has no error bound.
+/// Zeros of the determinant that are alone in an interval of times, and their approximation, which
+/// has no error bound.
 
 #include <array>
 #include <cstddef>
@@ -70,7 +70,7 @@ struct Cubic {
     return max(max(abs(c[0]), abs(c[1])), max(abs(c[2]), abs(c[3])));
   }
 
-  /// Its zero by Newton's method, with bisection if a step would leave the interval. A lane stops
+  /// The zero by Newton's method, with bisection if a step would leave the interval. A lane stops
   /// after a step of at most `enough`, so its result does not depend on the other lanes.
   [[nodiscard]] Value zero(double enough) const {
     using Mask = MaskOf<Value>;

@@ -21,8 +21,8 @@
 
 namespace touchstone::fast::kernel {
 
-/// The error bound of det by the magnitudes of r, p and q: `shift` is the one of a value or of
-/// coefficients.
+/// The error bound of det from the magnitudes of r, p and q. \param shift that of a value or of
+/// coefficients
 template <bool separated, class Value>
 inline Value determinant_bound(const std::array<Value, 3>& magnitudes,
                                typename Value::Scalar rounding, typename Value::Scalar underflow,

@@ -122,8 +122,7 @@ class DirectionTest {
     return gap - n * distance > bound;
   }
 
-  /// The sum of the corners has every coordinate as a term, so it is not finite if one of them is
-  /// not.
+  /// True if the sum of the corners is finite, and hence each coordinate, which is a term of it.
   static MaskOf<Value> is_number(const Vector<Value>& sum) {
     const Value zero(0);
     const Value difference = ((sum[0] - sum[0]) + (sum[1] - sum[1])) + (sum[2] - sum[2]);

@@ -285,7 +285,7 @@ class DistanceEnclosure {
         Value::load(rows[0].data()), Value(0.4 * input.toi_tolerance));
     auto found = arrival.template around<norm>(arrival.corrected(Value::load(rows[1].data())));
     if (valid_bits(found.proved, count) != first_lanes<Lanes>(count)) {
-      // In L∞ other points may have the same distance, and are easier to find in L2.
+      // Other points may have the same distance in L∞, and are easier to find in L2.
       found = found.or_else(arrival.template around<Norm::l2>(found.corrected));
     }
     const unsigned proved = valid_bits(found.proved, count);

@@ -66,7 +66,7 @@ struct StageFormat<double> {
   static_assert(filters::measured_orientation_end_double.rounding() <= orientation.rounding());
 };
 
-/// For whole numbers as coordinates (stages/single_precision.hpp).
+/// The limits for whole numbers as coordinates (stages/single_precision.hpp).
 template <>
 struct StageFormat<float> {
   static constexpr Limits<float> limits{0x1p30F, 0x1p31F, 0x1p41F};
@@ -98,14 +98,14 @@ using List = KernelOutput::List<Item>;
 using Indices = List<std::uint32_t>;
 
 /// Marks of places in a list. Lists are written from these marks at the end of a stage: a store
-/// whose address depends on a comparison delays the loads of all queries behind it.
+/// whose address depends on a comparison delays the loads of all later queries.
 template <class Lanes>
 class Marks {
  public:
   static constexpr std::size_t word_size = 64;
 
-  /// No marks. \param size the length of the list; the words of longer lists cost a single query
-  /// more than its stages
+  /// Begins without marks. \param size the length of the list (clearing unused words would take a
+  /// single query longer than its stages)
   explicit Marks(std::size_t size) : count_((size + word_size - 1) / word_size) {
     for (std::size_t i = 0; i < count_; ++i) words_[i] = 0;
   }
@@ -233,7 +233,7 @@ inline Value to_exact(const Value& time) {
   return (time + Value(1.0)) - Value(1.0);
 }
 
-// ---- Where queries come from --------------------------------------------------------------------
+// ---- Sources of queries -------------------------------------------------------------------------
 
 /// The points of a query: at t=0, then at t=1.
 using Points = std::array<const double*, query_points>;
@@ -247,9 +247,9 @@ struct FromArray {
     for (std::size_t k = 0; k < query_points; ++k) result[k] = first + 3 * k;
     return result;
   }
-  /// The memory after a query's last point may belong to other objects.
+  /// False: the memory after a query's last point may belong to other objects.
   static constexpr bool may_read_behind = false;
-  /// Memory is faster if several places are read at once.
+  /// Several places, because memory is faster then.
   static constexpr std::size_t places_at_once = 4;
   static constexpr bool is_one = false;
 };

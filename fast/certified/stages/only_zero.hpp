@@ -19,8 +19,8 @@
 
 namespace touchstone::fast::kernel {
 
-/// Half the lengths of the two intervals. If the first is not short enough, the second may be; if
-/// neither is, bisection would not end.
+/// Half the lengths of the two intervals. The second is tried if the first is too long; if both
+/// are, bisection would not end.
 inline constexpr std::array<double, 2> halves_around_zero{0x1p-10, 0x1p-32};
 
 /// The time rounded to a multiple of 2^-44, so that it and 1 minus it are exact.

@@ -33,7 +33,7 @@ struct Orientation {
   bool negative;
 };
 
-/// In this order they are proportional to the barycentric v, u, 1−u−v or v, u, 1−u, 1−v.
+/// The orientations, proportional to the barycentric v, u, 1−u−v or v, u, 1−u, 1−v in this order.
 template <Kind kind>
 consteval auto orientations() {
   if constexpr (kind == Kind::vertex_face) {
@@ -132,7 +132,7 @@ inline Value size_of(const Ends<Value>& unit) {
   return max(max(magnitude(unit[r]), magnitude(unit[p])), magnitude(unit[q]));
 }
 
-/// If the distance times this factor exceeds the size of a query, the widened bounds prove too
+/// The factor of the distance that must not exceed a query's size, or the widened bounds prove too
 /// little.
 inline constexpr double greatest_shift = 0x1p16;
 

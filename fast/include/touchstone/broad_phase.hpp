@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file
-/// Broad phase: the pairs of primitives of a moving mesh that come close enough to need a
+/// The broad phase: the pairs of primitives of a moving mesh that come close enough to need a
 /// query.
 ///
 /// **No contact is missed.** A primitive's *swept box* is the smallest box around its vertices at
@@ -49,7 +49,7 @@ struct BroadPhaseOptions {
   int max_threads = all_cores;
   /// More candidates are an error. Each takes eight bytes.
   std::uint64_t max_candidates = (std::numeric_limits<std::uint64_t>::max)();
-  /// May be null. Once true, the search ends soon with the exception Stopped.
+  /// Null, or a flag: once it is true, the search ends soon with the exception Stopped.
   const std::atomic<bool>* stop = nullptr;
 };
 
@@ -59,8 +59,8 @@ class Stopped : public std::runtime_error {
   Stopped() : std::runtime_error("the search was stopped") {}
 };
 
-/// More candidates than allowed, or than fit into memory. Counting them takes no memory, and the
-/// time of the search.
+/// More candidates than allowed, or than fit into memory. Counting them takes the time of the
+/// search and no memory.
 class TooManyCandidates : public std::runtime_error {
  public:
   explicit TooManyCandidates(std::uint64_t count);

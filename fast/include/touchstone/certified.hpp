@@ -13,17 +13,17 @@
 ///     axis, direction, determinant, bisection    fast/certified/kernel_on_lanes.hpp, stages/
 ///     exact                                      fast/certified/exact/exact_stage.hpp
 ///
-/// On Bézier curves of degrees up to 8, polynomial or rational, axis, direction and bisection look
-/// at control points (fast/certified/curves.hpp, with the times of the slowest queries;
-/// docs/theory.md, section 6.15).
+/// On Bézier curves of degrees up to 8, polynomial or rational, axis, direction and bisection use
+/// control points (docs/theory.md, section 6.15; fast/certified/curves.hpp has the times of the
+/// slowest queries).
 ///
 /// With a minimum separation d, "contact" means distance ≤ d (L∞ or L2); all guarantees are the
 /// same. (For large d, fast/certified/stages/conservative_advancement.hpp replaces bisection.)
 ///
-/// For two primitives given by their points, as simulators have them, solve_vertex_face and the
-/// like take the points at t=0 and then, in the same order, at t=1, which move on straight lines in
-/// between. An edge or a point takes the place of a face as a triangle without an area:
-/// solve_vertex_edge uses (e0, e1, e0), solve_vertex_vertex (p1, p1, p1).
+/// For two primitives given by their points, solve_vertex_face and the like take the points at t=0
+/// and then, in the same order, at t=1; in between they move on straight lines. An edge or a point
+/// replaces a face as a triangle without an area: solve_vertex_edge uses (e0, e1, e0),
+/// solve_vertex_vertex (p1, p1, p1).
 ///
 /// Thus every answer is proved, in floating point or in integers. The functions are thread-safe.
 /// The caller's floating-point state (rounding mode, flushing of subnormals, traps) has no effect
@@ -93,7 +93,7 @@ struct CertifiedResult {
   Stage stage = Stage::axis;     ///< the stage that decided
   double toi_lower = no_number;  ///< with yes: below the time of impact; 0 if that is 0
   double toi_upper = no_number;  ///< with yes: not below the time of impact; may be above t_max
-  /// With yes: the parameters in F's domain of the contact, or of the nearest points at that time.
+  /// The parameters, with yes, in F's domain, of the contact or of the nearest points at that time.
   /// An approximation without an error bound.
   double u = no_number;
   double v = no_number;

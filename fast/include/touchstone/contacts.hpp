@@ -18,12 +18,12 @@
 /// (fast/distance/filter_on_lanes.hpp). For the least distance of a step, a test on lanes first
 /// excludes pairs that are farther apart than the nearest known pair (fast/step/sieve.hpp).
 ///
-/// **The active set** of a step are the pairs that a constrained solver has to keep apart, with the
-/// time, the place and the direction of each contact ([wang2021], algorithm 3). A constraint of
-/// such a solver is n·(x − y) ≥ η at the end of the step, where x and y are points of the two
-/// primitives and n is the contact normal. It is active if the primitives come within η at some
-/// time of the step. These pairs and their times are decided exactly (touchstone/step.hpp). Points
-/// and normals are computed in doubles without a bound.
+/// **The active set** of a step is the set of pairs that a constrained solver must keep apart, with
+/// time, place and direction of each contact ([wang2021], algorithm 3). A constraint of such a
+/// solver is n·(x − y) ≥ η at the end of the step, where x and y are points of the two primitives
+/// and n is the contact normal. It is active if the primitives come within η at some time of the
+/// step. These pairs and their times are decided exactly (touchstone/step.hpp). Points and normals
+/// are computed in doubles without a bound.
 ///
 /// *The normal* is a unit vector that points from the second primitive to the first. Let F be the
 /// difference x − y of the contact points, at the upper end of the time of impact, and F' its rate.
@@ -90,16 +90,16 @@ struct Distance {
 void distances(Kind kind, std::span<const Query> queries, double t, Norm norm,
                std::span<Distance> results, int max_threads = all_cores);
 
-/// What is to be left of a distance d: more than least + part · (d − least).
+/// The part of a distance d that must be left: more than least + part · (d − least).
 struct KeptDistance {
   double part = 0.0;   ///< in [0,1]
   double least = 0.0;  ///< not negative
   Norm norm = Norm::l2;
 };
 
-/// True if one inequality shows that this is left of the distance at t=0 at all times up to t_max
-/// in [0,1], whether the expression is computed in doubles or exactly; then d is more than `least`.
-/// False shows nothing. Much faster than `distance`: to be asked before it
+/// True if one inequality shows that this part of the distance at t=0 is left at all times up to
+/// t_max in [0,1], whether the expression is computed in doubles or exactly; then d is more than
+/// `least`. False shows nothing. Much faster than `distance`: call it first
 /// (fast/distance/kept_distance.cpp). Never throws; false if a coordinate is not finite.
 [[nodiscard]] bool keeps_distance(Kind kind, const Query& query, double t_max,
                                   const KeptDistance& kept);
@@ -180,7 +180,7 @@ struct LineSearchOptions {
 
 struct LineSearchLimit {
   LineSearchStatus status = LineSearchStatus::whole;
-  /// In [0, t_max] of the step.
+  /// The step size, in [0, t_max] of the step.
   double step_size = 0.0;
   /// The least distance at the start, of the scene or of `pairs` as the options say; infinity if
   /// there are no pairs.

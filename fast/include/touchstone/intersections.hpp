@@ -1,19 +1,18 @@
 #pragma once
 
 /// \file
-/// The intersections of a mesh at rest with itself: which elements meet other than in what they
-/// share, how, and where. Exact for all finite coordinates.
+/// The intersections of a mesh at rest with itself: the elements that meet outside their common
+/// vertices, how and where. Exact for all finite coordinates.
 ///
 /// The *elements* are the faces, the edges of no face and the vertices without an edge. Each is the
 /// convex hull of its vertices. Two elements *intersect* if
 /// - they have a common point that is not in the hull of their common vertices, or
 /// - they have the same vertices: duplicates.
 ///
-/// So neighbours that meet in their common vertex or edge do not intersect, and those that also
-/// meet elsewhere do. Vertices are common by their numbers, not by their places: the faces of a
-/// file in which every face has vertices of its own touch along all edges. With `weld`, vertices at
-/// the same place are one. Elements that are only touched count, too: a step from there collides at
-/// t=0.
+/// Neighbours that meet only in their common vertex or edge do not intersect. Common vertices have
+/// the same number, not only the same place: if every face of a file has its own vertices, faces
+/// touch along all edges. With `weld`, vertices at the same place are one. Touching counts: a step
+/// from there collides at t=0.
 ///
 /// The broad phase (touchstone/broad_phase.hpp) finds the pairs whose boxes overlap; signs of
 /// orientations decide these (fast/intersections/contacts.hpp, with theorem and proof). The
@@ -41,7 +40,7 @@ enum class ElementKind : std::uint8_t {
   point,  ///< a vertex without an edge; its own number
 };
 
-/// The way in which two elements intersect: the first of these that is true.
+/// The kind of an intersection: the first of these that is true.
 enum class IntersectionKind : std::uint8_t {
   duplicates,         ///< the same vertices
   folded_faces,       ///< two faces on the same side of their common edge, in one plane
@@ -75,8 +74,8 @@ struct Intersection {
   std::array<ElementKind, 2> elements{};
   IndexPair numbers{};
   IntersectionKind kind = IntersectionKind::duplicates;
-  /// The ends of what they have in common, if it is a segment; twice the same, if it is a point. Of
-  /// an area two corners: the least and the greatest, by x, y and z in turn. (All 0 without
+  /// The ends of the common part, if it is a segment; twice the same point, if it is a point; the
+  /// least and the greatest corner, by x, y and z in turn, if it is an area. (All 0 without
   /// `places`.)
   std::array<PointEnclosure, 2> place{};
 
@@ -85,15 +84,15 @@ struct Intersection {
 
 struct IntersectionOptions {
   CollisionGroups groups = {};
-  /// As StepOptions::can_collide.
+  /// A rule for pairs of vertices, as StepOptions::can_collide.
   std::function<bool(std::int32_t, std::int32_t)> can_collide = nullptr;
   /// True if vertices at the same place, of the same group, are one vertex.
   bool weld = false;
-  /// False leaves the places out, which take longer than all else where there are many.
+  /// False leaves out the places; many of them take longer than all else.
   bool places = true;
   /// Maximum number of threads; 0 (all_cores): one for each core that the process may use.
   int max_threads = all_cores;
-  /// May be null. Once true, the search ends soon with the exception Stopped.
+  /// Null, or a flag: once it is true, the search ends soon with the exception Stopped.
   const std::atomic<bool>* stop = nullptr;
 };
 
@@ -108,13 +107,13 @@ struct IntersectionOptions {
                                                       const MeshElements& elements,
                                                       const IntersectionOptions& options = {});
 
-/// True if there is one. Ends with the first that is found. (`places` has no effect.) \throws
-/// likewise
+/// True if there is an intersection. Ends with the first one. (`places` has no effect.) \throws as
+/// above
 [[nodiscard]] bool has_intersections(MovingVertices vertices, const MeshElements& elements,
                                      const IntersectionOptions& options = {});
 
-/// Of a matrix of float or double, n×3, in any storage order. \throws also std::invalid_argument
-/// for another shape
+/// The same for a matrix of float or double, n×3, in any storage order. \throws also
+/// std::invalid_argument for another shape
 template <class Derived>
 [[nodiscard]] std::vector<Intersection> intersections(const Eigen::MatrixBase<Derived>& vertices,
                                                       const MeshElements& elements,
@@ -128,7 +127,7 @@ template <class Derived>
   return has_intersections(MovingVertices(vertices, vertices), elements, options);
 }
 
-/// What is unusual in a mesh by itself, and not an intersection. All ascending.
+/// The defects of a mesh that are no intersections. All lists are ascending.
 struct MeshDefects {
   /// Faces without an area: their vertices are on a line. Decided exactly.
   std::vector<std::int32_t> degenerate_faces;

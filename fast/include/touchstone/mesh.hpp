@@ -31,7 +31,7 @@ using Face = std::array<std::int32_t, 3>;
 using IndexPair = std::array<std::int32_t, 2>;
 
 /// Elements from a matrix of integers, such as int32 or int64, in any storage order: faces from
-/// n×3, edges from n×2. An empty matrix of any shape: none.
+/// n×3, edges from n×2. An empty matrix of any shape has none.
 /// \tparam Element Face or Edge
 /// \throws std::invalid_argument for another number of columns; std::out_of_range naming the first
 /// row with a number that is negative or above 2^31−1.
@@ -64,8 +64,8 @@ struct alignas(64) MovingVertex {
   std::array<double, 4> end;    ///< x, y, z and 0
 };
 
-/// A coordinate in double, where it is the same number. Subnormal floats too: where the caller's
-/// floating-point state takes subnormals for 0, a conversion would lose them.
+/// The same number in double, also for subnormal floats, which a conversion would lose if the
+/// caller's floating-point state takes them for 0.
 [[nodiscard]] constexpr double to_double(double x) { return x; }
 [[nodiscard]] constexpr double to_double(float x) {
   constexpr std::uint32_t exponent = 0x7F80'0000, significand = 0x007F'FFFF;
@@ -78,8 +78,8 @@ struct alignas(64) MovingVertex {
 /// The vertices of a step.
 class MovingVertices {
  public:
-  /// From two matrices of float or double in any storage order, a row for each vertex. Copies
-  /// them, which takes about as long as reading an equal number of candidates.
+  /// Copies two matrices of float or double in any storage order, a row for each vertex. This takes
+  /// about as long as reading an equal number of candidates.
   /// \throws std::invalid_argument unless both are n×3.
   template <class Start, class End>
   MovingVertices(const Eigen::MatrixBase<Start>& start, const Eigen::MatrixBase<End>& end)

@@ -107,7 +107,7 @@ struct CollisionGroups {
 struct StepOptions {
   /// Primitives within this distance are in contact.
   Separation separation = {};
-  /// As CertifiedOptions.
+  /// The width of times of impact, as in CertifiedOptions.
   double toi_tolerance = 1e-12;
   /// Only contacts up to this time count, in [0,1]. (`candidates` covers the whole step.)
   double t_max = 1.0;
@@ -119,7 +119,7 @@ struct StepOptions {
   /// symmetric. It is kept, and called for the pairs found, in several threads at once; its
   /// exceptions end the search.
   std::function<bool(std::int32_t, std::int32_t)> can_collide = nullptr;
-  /// May be null, else outlives the step and all made from it. While true, their searches for
+  /// Null, or a flag that outlives the step and all made from it. While it is true, searches for
   /// impacts, collisions and candidates end soon with the exception Stopped.
   const std::atomic<bool>* stop = nullptr;
 };
@@ -152,7 +152,7 @@ struct StepImpact {
   friend bool operator==(const StepImpact&, const StepImpact&) = default;
 };
 
-/// Some of a step's candidates.
+/// A part of a step's candidates.
 struct StepCandidates {
   PairKind kind;
   std::span<const IndexPair> pairs;  ///< at most about a thousand
@@ -160,7 +160,7 @@ struct StepCandidates {
 
 class Step {
  public:
-  /// From the vertices before and after: matrices of float or double in any storage order, a row
+  /// Makes a step from matrices before and after, of float or double in any storage order, a row
   /// for each vertex, which are copied. Keeps references to the elements, not to the groups.
   /// \pre If edges are given, those of all faces are among them.
   /// \throws std::invalid_argument unless both are n×3, or for invalid options; std::domain_error
@@ -172,7 +172,7 @@ class Step {
        const MeshElements& elements, const StepOptions& options = {})
       : Step(MovingVertices(before, after), elements, options) {}
 
-  /// From x, y, z of each vertex in turn, float or double.
+  /// Makes a step from x, y, z of each vertex in turn, float or double.
   template <class Scalar>
   Step(std::span<const Scalar> before, std::span<const Scalar> after, const MeshElements& elements,
        const StepOptions& options = {})
@@ -215,7 +215,7 @@ class Step {
   /// above holds. (touchstone/intersections.hpp; `Intersection` is declared there.)
   /// \throws Stopped
   [[nodiscard]] std::vector<Intersection> intersections_at_start() const;
-  /// True if there is none. \throws Stopped
+  /// True if there is no intersection at the start. \throws Stopped
   [[nodiscard]] bool starts_free() const;
 
   // ---- The step that is taken ----

@@ -1,18 +1,18 @@
 #pragma once
 
 /// \file
-/// Tight-Inclusion: conservative continuous collision detection by bisection of (t,u,v).
+/// The method Tight-Inclusion: conservative continuous collision detection by bisection of (t,u,v).
 /// ([wang2021], section 4, algorithm 2; section 5 for the minimum separation. docs/theory.md,
 /// section 7; docs/methods.md, section 2.)
 ///
-/// **Why no collision is missed.** F is affine in each of t, u and v, so over a box of parameters
-/// it stays within the bounding box of its values at the eight corners. These are computed in
-/// floating point with an error of at most the filter (touchstone/filters/error_bounds.hpp); the
-/// parameters are dyadic and exact. A box is dropped only if on some axis all corner values are
-/// beyond separation plus filter on one side; then it contains no contact. All other boxes are
-/// split until they are small, and every other point of the domain stays in some box.
+/// **No collision is missed.** F is affine in each of t, u and v, so over a box of parameters it
+/// stays within the bounding box of its values at the eight corners. These are computed in floating
+/// point with an error of at most the filter (touchstone/filters/error_bounds.hpp); the parameters
+/// are dyadic and exact. A box is dropped only if on some axis all corner values are beyond
+/// separation plus filter on one side; then it contains no contact. All other boxes are split until
+/// they are small, and every other point of the domain stays in some box.
 ///
-/// **Why the time is conservative.** Boxes are examined level by level (number of splits), within a
+/// **The time is conservative.** Boxes are examined level by level (number of splits), within a
 /// level by their lower t. All boxes of a level have the same size, because the axis to split
 /// depends on the size alone. The remaining boxes of a level cover all contacts, so the lower t of
 /// the level's first remaining box is not above the time of impact. The search returns this t
@@ -99,16 +99,16 @@ struct TightInclusionResult {
   /// no: certainly no contact (except with the released filter). yes: contact, or nearly so. error:
   /// a coordinate is NaN or infinite. Never undecided.
   Verdict verdict = Verdict::error;
-  /// With yes: not above the time of impact, in [0, t_max].
+  /// A time, with yes, in [0, t_max] and not above the time of impact.
   double toi = no_number;
-  /// With yes: the tolerance achieved. At some time the distance is at most this tolerance plus the
+  /// The tolerance achieved, with yes. At some time the distance is at most this tolerance plus the
   /// requested separation plus twice the filter. It is δ, more if the search ended early, or less
   /// if no_zero_toi lowered it.
   double tolerance = no_number;
   /// The separation of `toi`: there is no contact at this separation before `toi`. Below the
   /// requested one only if no_zero_toi lowered it.
   Separation separation = {};
-  /// Boxes examined, over all searches.
+  /// The number of boxes examined in all searches.
   std::int64_t checks = 0;
   /// The number of further searches of no_zero_toi.
   int refinements = 0;

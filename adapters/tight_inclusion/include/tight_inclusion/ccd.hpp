@@ -24,7 +24,7 @@
 /// 4.2; the functions that decide queries do not need them.
 ///
 /// A query with a coordinate that is NaN or infinite is a collision at 0, so that nothing moves.
-/// All functions may be called from several threads at once.
+/// All functions are thread-safe.
 
 #include <algorithm>
 #include <array>

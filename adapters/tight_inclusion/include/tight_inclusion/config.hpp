@@ -1,8 +1,8 @@
 #pragma once
 
 /// \file
-/// The macros of Tight-Inclusion's `tight_inclusion/config.hpp`: the version of the interface that
-/// is here, and the options with which that library would have been configured.
+/// The macros of Tight-Inclusion's `tight_inclusion/config.hpp`: the version of its interface, and
+/// the options with which it would be configured.
 
 #define TIGHT_INCLUSION_NAME "Touchstone"
 #define TIGHT_INCLUSION_VER "1.0.4"

@@ -28,9 +28,9 @@ struct DeriveOptions {
   std::vector<Format> formats{double_format, float_format, double_double_format};
   WorstCaseOptions search;
   unsigned threads = 0;  ///< 0: one for each core
-  /// Called with the completed fraction, from 0 to 1, from any thread, but by one at a time.
+  /// Called with the completed fraction, from 0 to 1, by any thread, one at a time.
   std::function<void(double)> progress = [](double) {};
-  /// Called before each task. Return true to skip the remaining ones.
+  /// Called before each task. Returns true to skip the remaining ones.
   std::function<bool()> stop = [] { return false; };
 };
 

@@ -1,8 +1,7 @@
 #pragma once
 
 /// \file
-/// A search for the input with the greatest error of an expression, which shows the tightness
-/// of its bound.
+/// A search for an expression's input of greatest error, which shows how tight its bound is.
 ///
 /// It draws random inputs and climbs from the best of them, repeatedly until the budget is spent.
 /// MPFR computes the exact value at a precision without rounding: coordinates are drawn between

@@ -32,7 +32,7 @@
 
 namespace touchstone::filters {
 
-/// Over double, or over lanes with the operations of double.
+/// A ball over double, or over lanes with the operations of double.
 template <class Scalar>
 struct BallOf {
   DoubleDouble<Scalar> center{Scalar(0.0), Scalar(0.0)};

@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file
-/// Every floating-point expression that the project filters, once, as a template on the scalar.
+/// All floating-point expressions that the project filters, as templates on the scalar.
 ///
 /// The same source runs in double, float and SIMD lanes, is evaluated in rationals and intervals by
 /// tests, is recorded by the derivation of its error bound, and is printed as a Gappa script.
@@ -252,7 +252,7 @@ struct CurvedEdgeEdge {
         {w[2 * degree], w[2 * degree + 1], w[2 * degree + 2], w[2 * degree + 3]});
   }
 
-  /// From the four points at the time. Weights: (1−u, u), (1−v, v).
+  /// F from the four points at the time. Weights: (1−u, u), (1−v, v).
   template <class Scalar>
   [[nodiscard]] static constexpr Scalar from_points(const std::array<Scalar, 4>& p,
                                                     const std::array<Scalar, 4>& w) {
@@ -280,7 +280,7 @@ struct CurvedVertexFace {
                                {w[2 * degree], w[2 * degree + 1], w[2 * degree + 2]});
   }
 
-  /// From the four points at the time. Weights: (1−u−v, u, v).
+  /// F from the four points at the time. Weights: (1−u−v, u, v).
   template <class Scalar>
   [[nodiscard]] static constexpr Scalar from_points(const std::array<Scalar, 4>& p,
                                                     const std::array<Scalar, 3>& w) {

@@ -15,7 +15,7 @@
 #include <cstdlib>
 #include <limits>
 
-// The single flags too: GCC defines a macro for each of them, clang for finite-math and fast-math.
+// Single flags count, too: GCC has a macro for each, clang for finite-math and fast-math.
 #if defined(__FAST_MATH__) || (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__ > 0) || \
     defined(__ASSOCIATIVE_MATH__) || defined(__RECIPROCAL_MATH__) || defined(__NO_SIGNED_ZEROS__)
 #error "touchstone: error bounds do not hold under -ffast-math or any of its value-changing parts"
