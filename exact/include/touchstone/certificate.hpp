@@ -3,6 +3,27 @@
 /// \file
 /// Verdicts with their proof, for a checker that does not trust the oracle.
 ///
+/// \code{.cpp}
+/// // The proof of a verdict, as a file for `touchstone-check`.
+/// #include <touchstone/certificate_text.hpp>
+/// #include <touchstone/oracle.hpp>
+///
+/// #include <iostream>
+///
+/// using namespace touchstone;
+///
+/// int main() {
+///   // A vertex moves towards a resting triangle, and stops before it.
+///   const Query query{{1, 1, 3, 0, 0, 0, 4, 0, 0, 0, 4, 0,
+///                      1, 1, 1, 0, 0, 0, 4, 0, 0, 0, 4, 0}};
+///   const exact::Decision decision = exact::decide(Kind::vertex_face, query);
+///   const exact::Certificate certificate = exact::prove(Kind::vertex_face, query, decision);
+///   std::cout << exact::certificate_stream(certificate, "a vertex above a face");
+/// }
+/// // claim no_collision
+/// // separate 0 1 face +
+/// \endcode
+///
 /// A certificate states a query, a separation, a claim and the proof of the claim:
 ///   - no collision: subintervals of [0,1], each with a feature whose direction separates
 ///   throughout;

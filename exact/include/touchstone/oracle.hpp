@@ -3,6 +3,36 @@
 /// \file
 /// The oracle: an exact decision if and when a query collides.
 ///
+/// \code{.cpp}
+/// // A vertex falls through a resting triangle, once on a straight line and once on a parabola.
+/// #include <touchstone/oracle.hpp>
+///
+/// #include <cstdio>
+///
+/// using namespace touchstone;
+///
+/// int main() {
+///   // v, f0, f1, f2 at t=0, then at t=1.
+///   const Query query{{1, 1, 1,  0, 0, 0, 4, 0, 0, 0, 4, 0,
+///                      1, 1, -2, 0, 0, 0, 4, 0, 0, 0, 4, 0}};
+///   const exact::Decision decision = exact::decide(Kind::vertex_face, query);
+///   if (!decision.collides()) return 1;
+///   const auto [u, v] = exact::contact_parameters(decision, exact::power_of_two(-60));
+///   std::printf("at exactly 1/3: %d, at u = 1/4: %d\n", *decision.toi == exact::Rational(1, 3),
+///               u.lower == exact::Rational(1, 4));
+///
+///   // The control points of Bezier curves; resting points have one.
+///   const CurvedQuery curved{{{.control = {{1, 1, 1}, {1, 1, -1}, {1, 1, 1}}},
+///                             {.control = {{0, 0, 0}}},
+///                             {.control = {{4, 0, 0}}},
+///                             {.control = {{0, 4, 0}}}}};
+///   const exact::Decision touch = exact::decide(Kind::vertex_face, curved);
+///   std::printf("at exactly 1/2: %d\n", *touch.toi == exact::Rational(1, 2));
+/// }
+/// // at exactly 1/3: 1, at u = 1/4: 1
+/// // at exactly 1/2: 1
+/// \endcode
+///
 /// At distance 0 the rules of exact/contact/contact_oracle.hpp decide, which also give the place of
 /// contact; at a greater distance those of exact/distance/distance_oracle.hpp. Both are integer
 /// arithmetic on scaled coordinates, without rounding and without filters. docs/theory.md, sections

@@ -3,6 +3,33 @@
 /// \file
 /// The certified solver: exact answers at the speed of approximate ones.
 ///
+/// \code{.cpp}
+/// // A vertex falls through a resting triangle: the impact, and when it is within 1/4.
+/// #include <touchstone/certified.hpp>
+///
+/// #include <cstdio>
+///
+/// using namespace touchstone;
+///
+/// int main() {
+///   const Eigen::Vector3d f0(0, 0, 0), f1(4, 0, 0), f2(0, 4, 0), above(1, 1, 1), below(1, 1, -2);
+///   const fast::CertifiedResult impact =
+///       fast::solve_vertex_face(above, f0, f1, f2, below, f0, f1, f2);
+///   if (impact.verdict != fast::Verdict::yes) return 1;  // exact
+///   std::printf("t = %.12f, u = %g, v = %g\n", impact.toi_lower, impact.u, impact.v);
+///
+///   // The same as a query: v, f0, f1, f2 at t=0, then at t=1. Contact: a distance up to 1/4.
+///   const Query query{{1, 1, 1,  0, 0, 0, 4, 0, 0, 0, 4, 0,
+///                      1, 1, -2, 0, 0, 0, 4, 0, 0, 0, 4, 0}};
+///   const Separation quarter{.distance = 0.25, .norm = Norm::l2};
+///   const fast::CertifiedResult near =
+///       fast::solve(Kind::vertex_face, query, {.separation = quarter});
+///   std::printf("within 1/4 at t = %g\n", near.toi_upper);
+/// }
+/// // t = 0.333333333333, u = 0.25, v = 0.25
+/// // within 1/4 at t = 0.25
+/// \endcode
+///
 /// Tight-Inclusion searches in (t,u,v). This solver searches in t alone: the primitives are in
 /// contact at t iff the origin is in the convex hull of the corners w_i(t) (touchstone/query.hpp),
 /// which signs of polynomials in t decide. Floating-point error bounds, derived from the

@@ -5,6 +5,37 @@
 /// primitives, the least distance of a step, its active set, and the limit of a line search. All
 /// functions are thread-safe.
 ///
+/// \code{.cpp}
+/// // A sheet falls towards the ground: what is active, and how far a line search may go.
+/// #include <touchstone/contacts.hpp>
+///
+/// #include <cstdio>
+///
+/// using namespace touchstone;
+///
+/// int main() {
+///   const Eigen::MatrixX3d before{{0, 0, 0}, {4, 0, 0}, {0, 4, 0},
+///                                 {1, 1, 1}, {2, 1, 2}, {1, 2, 2}};
+///   Eigen::MatrixX3d after = before;
+///   after.bottomRows<3>().col(2).array() -= 3;
+///   const std::vector<fast::Face> faces{{0, 1, 2}, {3, 4, 5}};
+///   const fast::Step step(before, after, {.faces = faces});
+///
+///   const auto least = fast::least_distance(step);  // at the start, of all pairs
+///   std::printf("distance at the start: %g\n", least->distance.lower);
+///   // All pairs that come within 1/4, ordered by time.
+///   const auto active = fast::active_set(step, {.distance = 0.25, .norm = Norm::l2});
+///   const fast::ActiveContact& first = active.front();
+///   std::printf("at t = %.3f a gap of %.3f\n", first.toi_lower,
+///               first.normal.dot(first.first - first.second));
+///   // No pair comes closer than half of its distance at the start.
+///   std::printf("step size %.3f\n", fast::line_search_limit(step, 0.5).step_size);
+/// }
+/// // distance at the start: 1
+/// // at t = 0.250 a gap of 0.250
+/// // step size 0.167
+/// \endcode
+///
 /// **Distances** are those at a time t, at positions that are exactly (1−t) x0 + t x1. Primitives
 /// are closed sets: the distance is 0 iff they have a common point. The answer is the greatest
 /// double that is not above the distance and the least double that is not below it. It is exact if

@@ -4,6 +4,25 @@
 /// The intersections of a mesh at rest with itself: the elements that meet outside their common
 /// vertices, how and where. Exact for all finite coordinates.
 ///
+/// \code{.cpp}
+/// // Two triangles that cross, in a mesh at rest.
+/// #include <touchstone/intersections.hpp>
+///
+/// #include <cstdio>
+///
+/// using namespace touchstone;
+///
+/// int main() {
+///   const Eigen::MatrixX3d vertices{{0, 0, 0},  {4, 0, 0}, {0, 4, 0},
+///                                   {1, 1, -1}, {1, 1, 1}, {1, 9, 0}};
+///   const std::vector<fast::Face> faces{{0, 1, 2}, {3, 4, 5}};
+///   for (const fast::Intersection& one : fast::intersections(vertices, {.faces = faces})) {
+///     std::printf("faces %d and %d\n", one.numbers[0], one.numbers[1]);
+///   }
+/// }
+/// // faces 0 and 1
+/// \endcode
+///
 /// The *elements* are the faces, the edges of no face and the vertices without an edge. Each is the
 /// convex hull of its vertices. Two elements *intersect* if
 /// - they have a common point that is not in the hull of their common vertices, or

@@ -3,6 +3,37 @@
 /// \file
 /// A whole step of a scene: freedom from collisions, the earliest impact, and all collisions.
 ///
+/// \code{.cpp}
+/// // One triangle falls onto another one.
+/// #include <touchstone/step.hpp>
+///
+/// #include <cstdio>
+///
+/// using namespace touchstone;
+///
+/// int main() {
+///   const Eigen::MatrixX3d before{{0, 0, 0}, {4, 0, 0}, {0, 4, 0},
+///                                 {1, 1, 1}, {2, 1, 2}, {1, 2, 2}};
+///   Eigen::MatrixX3d after = before;
+///   after.bottomRows<3>().col(2).array() -= 3;
+///   const std::vector<fast::Face> faces{{0, 1, 2}, {3, 4, 5}};  // must live as long as the step
+///   const fast::Step step(before, after, {.faces = faces});
+///
+///   if (step.is_free()) return 0;
+///   for (const fast::StepCollision& one : step.collisions()) {
+///     if (one.kind == fast::PairKind::edge_edge) continue;
+///     std::printf("vertex %d meets face %d at %.6f\n", one.pair[0], one.pair[1], one.toi_lower);
+///   }
+///   const double first = step.earliest()->toi_upper;  // at most 1e-12 above the exact time
+///   const double alpha = *step.free_step_size();      // the step to x0 + alpha (x1 - x0) is free
+///   std::printf("a free step ends before %.6f: %s\n", first, alpha < first ? "true" : "false");
+/// }
+/// // vertex 3 meets face 0 at 0.333333
+/// // vertex 4 meets face 0 at 0.666667
+/// // vertex 5 meets face 0 at 0.666667
+/// // a free step ends before 0.333333: true
+/// \endcode
+///
 /// A scene is a mesh before and after the step, and rules for the pairs that can collide. Its
 /// *primitives* are faces, edges and vertices. All vertices move on straight lines from t=0 to t=1.
 /// Two primitives *collide* if they have a common point at some time, or come within the

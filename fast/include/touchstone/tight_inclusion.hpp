@@ -5,6 +5,25 @@
 /// ([wang2021], section 4, algorithm 2; section 5 for the minimum separation. docs/theory.md,
 /// section 7; docs/methods.md, section 2.)
 ///
+/// \code{.cpp}
+/// // Conservative answers, for comparison.
+/// #include <touchstone/tight_inclusion.hpp>
+///
+/// #include <cstdio>
+///
+/// using namespace touchstone;
+///
+/// int main() {
+///   const Query query{{1, 1, 1,  0, 0, 0, 4, 0, 0, 0, 4, 0,
+///                      1, 1, -2, 0, 0, 0, 4, 0, 0, 0, 4, 0}};
+///   const fast::TightInclusionResult result =
+///       fast::tight_inclusion(Kind::vertex_face, query, {.separation = {.distance = 1e-8}});
+///   if (result.verdict != fast::Verdict::yes) return 1;  // no: certainly no contact
+///   std::printf("no contact before %.6f\n", result.toi);  // never late
+/// }
+/// // no contact before 0.333333
+/// \endcode
+///
 /// **No collision is missed.** F is affine in each of t, u and v, so over a box of parameters it
 /// stays within the bounding box of its values at the eight corners. These are computed in floating
 /// point with an error of at most the filter (touchstone/filters/error_bounds.hpp); the parameters

@@ -3,6 +3,31 @@
 /// \file
 /// The interface for solvers under test, for C99 and C++.
 ///
+/// \code{.c}
+/// // A solver that takes all for collisions but primitives with heights that stay apart.
+/// #include <touchstone/plugin.h>
+///
+/// int32_t touchstone_plugin_version(void) { return TOUCHSTONE_PLUGIN_VERSION; }
+/// const char* touchstone_plugin_name(void) { return "heights"; }
+///
+/// void touchstone_plugin_solve(int32_t kind, const double* x,
+///                              const TouchstonePluginOptions* options,
+///                              TouchstonePluginAnswer* answer) {
+///   const int first = kind == TOUCHSTONE_VERTEX_FACE ? 1 : 2;  // points of the first primitive
+///   int above = 1, below = 1;
+///   for (int i = 0; i < 2 * first; ++i) {       // at t=0 and t=1
+///     for (int j = 0; j < 2 * (4 - first); ++j) {
+///       const double a = x[12 * (i / first) + 3 * (i % first) + 2];
+///       const double b = x[12 * (j / (4 - first)) + 3 * (first + j % (4 - first)) + 2];
+///       above = above && a > b + options->min_separation;
+///       below = below && b > a + options->min_separation;
+///     }
+///   }
+///   answer->verdict = above || below ? TOUCHSTONE_NO : TOUCHSTONE_YES;
+///   answer->toi_lower = 0;  // no contact before this time
+/// }
+/// \endcode
+///
 /// A plugin is a shared library that defines the first three functions at the end of this header;
 /// the fourth if its promise is another than the usual one; and the fifth if it is faster with many
 /// queries at once. It needs no other header of Touchstone. `touchstone certify --plugin
