@@ -725,9 +725,10 @@ TEST(Step, PlantedFaultsInTheFusedStageAreFound) {
 TEST(Step, SearchesTakeNoMemoryThatTheyKeep) {
   const Places places = Places::Identity(3, 3);
   const std::vector<Face> faces{{0, 1, 2}};
-  const Step step(places, places, {.edges = {}, .faces = faces, .points = {}}, {.max_threads = 2});
+  Step step(places, places, {.edges = {}, .faces = faces, .points = {}}, {.max_threads = 2});
   const auto search = [&](int count) {
     for (int i = 0; i < count; ++i) {
+      step = step.with_places(MovingVertices(places, (1.0 + i) * places), {});
       EXPECT_TRUE(step.is_free());
       std::thread([&] { EXPECT_TRUE(step.collisions().empty()); }).join();
     }

@@ -1,10 +1,14 @@
 #include "verify/jobs/step_bench.hpp"
 
+#include <sys/resource.h>
+
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <fstream>
 #include <span>
 #include <stdexcept>
+#include <string>
 #include <utility>
 
 #include "touchstone/contacts.hpp"
@@ -15,6 +19,25 @@
 
 namespace touchstone::verify::jobs {
 namespace {
+
+/// The greatest resident memory since the last call, in bytes; 0: unknown. (That of getrusage never
+/// falls.)
+std::size_t take_peak() {
+  std::size_t kilobytes = 0;
+  std::ifstream status("/proc/self/status");
+  for (std::string word; status >> word;) {
+    if (word == "VmHWM:" && status >> kilobytes) break;
+  }
+  std::ofstream("/proc/self/clear_refs") << "5";
+  return 1024 * kilobytes;
+}
+
+/// The pages that this process has touched for the first time.
+std::size_t page_faults() {
+  rusage usage{};
+  ::getrusage(RUSAGE_SELF, &usage);
+  return static_cast<std::size_t>(usage.ru_minflt);
+}
 
 /// The times of one part of a step, one for each repetition.
 class Repetitions {
@@ -43,6 +66,7 @@ struct Series {
   Repetitions candidates = {};
   Repetitions collisions = {};
   Repetitions earliest = {};
+  Repetitions next = {};
   Repetitions free_step_size = {};
   Repetitions limit_of_scene = {};
   Repetitions limit_of_pairs = {};
@@ -64,6 +88,7 @@ class StepMeasurement {
     result.vertices = mesh_.vertices.size();
     result.edges = mesh_.edges.size();
     result.faces = mesh_.faces.size();
+    result.memory = memory();
     for (std::size_t i = 0; i < options_.repetitions && !stopped(); ++i) {
       pass_over_memory();
       for (Series& series : series_) {
@@ -91,6 +116,7 @@ class StepMeasurement {
                               .candidates = series.candidates.median(),
                               .collisions = series.collisions.median(),
                               .earliest = series.earliest.median(),
+                              .next = series.next.median(),
                               .free_step_size = series.free_step_size.median(),
                               .limit_of_scene = series.limit_of_scene.median(),
                               .limit_of_pairs = series.limit_of_pairs.median()});
@@ -110,14 +136,36 @@ class StepMeasurement {
     });
   }
 
-  void repeat(Series& series) {
+  [[nodiscard]] fast::Step step_with(int threads) const {
     fast::StepOptions options;
     options.separation = options_.separation;
-    options.max_threads = series.threads;
+    options.max_threads = threads;
     options.stop = options_.stop;
+    return {mesh_.vertices, {.edges = mesh_.edges, .faces = mesh_.faces, .points = {}}, options};
+  }
+
+  /// Before all other steps, whose memory would be used again.
+  [[nodiscard]] StepMemory memory() const {
+    StepMemory memory;
+    try {
+      (void)take_peak();
+      const std::size_t before = take_peak(), faults = page_faults();
+      const fast::Step step = step_with(1);
+      (void)step.collisions();
+      const std::size_t faults_of_both = page_faults(), peak = take_peak();
+      (void)step.with_separation(options_.separation).collisions();
+      memory = {.peak = peak > before ? peak - before : 0,
+                .faults_of_first = faults_of_both - faults,
+                .faults_of_next = page_faults() - faults_of_both};
+    } catch (const fast::Stopped&) {
+      // Nothing else is measured then.
+    }
+    return memory;
+  }
+
+  void repeat(Series& series) {
     std::optional<fast::Step> step;
-    const fast::MeshElements elements{.edges = mesh_.edges, .faces = mesh_.faces, .points = {}};
-    series.trees.add([&] { step.emplace(mesh_.vertices, elements, options); });
+    series.trees.add([&] { step.emplace(step_with(series.threads)); });
     for (auto& count : candidates_) count = 0;
     series.candidates.add([&] {
       step->candidates([&](const fast::StepCandidates& some) {
@@ -126,6 +174,7 @@ class StepMeasurement {
     });
     series.collisions.add([&] { collisions_ = step->collisions(); });
     series.earliest.add([&] { earliest_ = step->earliest(); });
+    series.next.add([&] { (void)step->with_separation(options_.separation); });
     constexpr double part = 0.2;
     series.free_step_size.add([&] { (void)step->free_step_size(); });
     series.limit_of_scene.add([&] { (void)fast::line_search_limit(*step, part); });

@@ -37,11 +37,21 @@ struct StepTimes {
   WorkTime candidates;  ///< finding all candidates, which are counted and not stored
   WorkTime collisions;  ///< all collisions with their times of impact, including the search
   WorkTime earliest;    ///< the earliest impact alone, the search included
+  WorkTime next;        ///< making the next step of the mesh (Step::with_places)
   // Line searches, from the step: Step::free_step_size, and fast::line_search_limit in L2 with
   // p = 0.2 of the distance of the scene and of each pair.
   WorkTime free_step_size;
   WorkTime limit_of_scene;
   WorkTime limit_of_pairs;
+};
+
+/// The memory of steps with their collisions, in one thread.
+struct StepMemory {
+  /// The greatest resident memory of the first step above that before it, in bytes; 0: unknown.
+  std::size_t peak = 0;
+  /// Pages that were touched for the first time: in this step, and in the next one of the mesh.
+  std::size_t faults_of_first = 0;
+  std::size_t faults_of_next = 0;
 };
 
 /// The counts of one kind.
@@ -60,6 +70,7 @@ struct StepResult {
   StepCounts edge_edge;
   /// Reading the vertices and the elements once, in one thread: the median.
   WorkTime memory_pass;
+  StepMemory memory;
   /// With one thread, then with the requested number if it is greater.
   std::vector<StepTimes> times;
   /// The earliest impact; empty if there is no collision.

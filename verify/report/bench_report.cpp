@@ -114,7 +114,8 @@ io::TextRow step_row(const jobs::StepTimes& times, std::string_view clock,
           milliseconds(times.collisions),
           milliseconds(times.earliest),
           milliseconds(times.trees, times.collisions),
-          milliseconds(times.trees, times.earliest)};
+          milliseconds(times.trees, times.earliest),
+          milliseconds(times.next, times.earliest)};
 }
 
 /// The same of line searches.
@@ -136,6 +137,10 @@ void append_step(std::string& text, const jobs::StepResult& step) {
       step.edge_edge.candidates, step.edge_edge.collisions,
       io::number_text(1e3 * step.memory_pass.processor, "{:.3f}"),
       step.interrupted ? " (interrupted)" : "");
+  text +=
+      fmt::format("memory of a step: {} above the mesh; {} pages touched, {} in the next step\n",
+                  io::number_text(0x1p-20 * static_cast<double>(step.memory.peak), "{:.1f} MiB"),
+                  step.memory.faults_of_first, step.memory.faults_of_next);
   if (step.earliest) {
     text += fmt::format("earliest impact between {} and {}{}\n", step.earliest->toi_lower,
                         step.earliest->toi_upper,
@@ -148,7 +153,8 @@ void append_step(std::string& text, const jobs::StepResult& step) {
                        {"collisions", 10},
                        {"earliest", 10},
                        {"step, all", 13},
-                       {"step, earliest", 15}});
+                       {"step, earliest", 15},
+                       {"next, earliest", 15}});
   for (const jobs::StepTimes& times : step.times) {
     table.add(step_row(times, "wall", &jobs::WorkTime::wall));
     table.add(step_row(times, "processor", &jobs::WorkTime::processor));
@@ -279,6 +285,12 @@ nlohmann::json json_of(const jobs::StepCounts& counts) {
   return {{"candidates", counts.candidates}, {"collisions", counts.collisions}};
 }
 
+nlohmann::json json_of(const jobs::StepMemory& memory) {
+  return {{"peak_bytes", memory.peak},
+          {"page_faults", memory.faults_of_first},
+          {"page_faults_of_next", memory.faults_of_next}};
+}
+
 nlohmann::json json_of(const std::optional<jobs::StepResult>& step) {
   if (!step) return {};
   nlohmann::json times = nlohmann::json::array();
@@ -292,6 +304,7 @@ nlohmann::json json_of(const std::optional<jobs::StepResult>& step) {
     add("candidates", time.candidates);
     add("collisions", time.collisions);
     add("earliest", time.earliest);
+    add("next", time.next);
     add("free_step_size", time.free_step_size);
     add("limit_of_scene", time.limit_of_scene);
     add("limit_of_pairs", time.limit_of_pairs);
@@ -308,6 +321,7 @@ nlohmann::json json_of(const std::optional<jobs::StepResult>& step) {
                       {"edge_edge", json_of(step->edge_edge)},
                       {"earliest", std::move(earliest)},
                       {"earliest_agrees", step->earliest_agrees},
+                      {"memory", json_of(step->memory)},
                       {"interrupted", step->interrupted},
                       {"memory_pass_s", step->memory_pass.processor},
                       {"times", std::move(times)}};

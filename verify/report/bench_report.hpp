@@ -49,8 +49,9 @@ struct BenchReport {
 ///
 /// `step` has `name`, `vertices`, `edges`, `faces`, `vertex_face` and `edge_edge` (`candidates` and
 /// `collisions` each), `earliest` (null, or `toi_lower` and `toi_upper`), `earliest_agrees`,
-/// `interrupted`, `memory_pass_s` (the time of reading the mesh once), and `times`, a list of
-/// `threads` and of seconds: `trees_s`, `candidates_s`, `collisions_s`, `earliest_s`,
+/// `interrupted`, `memory_pass_s` (the time of reading the mesh once), `memory` (`peak_bytes`,
+/// `page_faults` and `page_faults_of_next`: jobs::StepMemory), and `times`, a list of `threads` and
+/// of seconds: `trees_s`, `candidates_s`, `collisions_s`, `earliest_s`, `next_s`,
 /// `free_step_size_s`, `limit_of_scene_s` and `limit_of_pairs_s` (jobs::StepTimes) are wall time,
 /// `trees_processor_s` and so on processor time of all threads together.
 [[nodiscard]] nlohmann::json to_json(const BenchReport& report);
