@@ -131,11 +131,21 @@ class CertifyRun {
     baseline_ = report::read_baseline(path);
   }
 
-  /// The baseline, which remains as it was if not all queries were asked, and the badge.
+  /// Compares with the baseline, and writes it and the badge. A baseline remains as it was unless
+  /// all queries were asked.
   void write_gate() {
-    if (has_baseline()) change_ = report::change_of(baseline_, results_);
-    if (new_baseline_ && !sum_.interrupted && sum_.errors == 0) {
-      new_baseline_.write(report::baseline_document(change_.now));
+    const bool is_complete = !sum_.interrupted && sum_.errors == 0;
+    if (new_baseline_ && !is_complete) {
+      report_warning("the baseline remains as it was: not all queries were asked");
+    }
+    try {
+      if (has_baseline()) change_ = report::change_of(baseline_, results_);
+      if (is_complete) new_baseline_.write(report::baseline_document(change_.now));
+    } catch (const std::runtime_error& error) {
+      report_error(error.what());
+      files_.note_failure();
+    }
+    if (is_complete && !files_.has_failed()) {
       new_baseline_.close();
     } else {
       new_baseline_.discard();

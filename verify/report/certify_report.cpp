@@ -393,9 +393,14 @@ std::string to_summary(const std::vector<jobs::CertifyResult>& results, std::siz
     const auto lines = static_cast<std::size_t>(std::ranges::count(text, '\n')) + 1;
     return text + wrong_text(results, sum, lines < most_lines ? most_lines - lines : 0);
   }
-  const bool is_compared = sum.labels + sum.tois != 0 || !sum.methods.empty();
-  return text + (is_compared ? "found: nothing wrong\n"
-                             : "found: nothing to compare, without recorded answers and solvers\n");
+  if (sum.labels + sum.tois == 0 && sum.methods.empty()) {
+    return text + "found: nothing to compare, without recorded answers and solvers\n";
+  }
+  const bool has_false_alarms = std::ranges::any_of(sum.methods, [](const auto& method) {
+    return method.judgement.count(judge::Fault::false_positive) != 0;
+  });
+  return text + "found: nothing wrong" + (has_false_alarms ? "; false alarms are allowed" : "") +
+         '\n';
 }
 
 nlohmann::json to_json(const std::vector<jobs::CertifyResult>& results) {

@@ -124,8 +124,8 @@ std::string badge(const jobs::MethodResult& method) {
   const std::string score =
       fmt::format("{} misses, {} false alarms", judged.count(judge::Fault::false_negative),
                   judged.count(judge::Fault::false_positive));
-  constexpr int left = 82, padding = 8, letter = 7;
-  const int right = letter * static_cast<int>(score.size()) + 2 * padding;
+  constexpr int left = 82, padding = 8;
+  const int right = 13 * static_cast<int>(score.size()) / 2 + 2 * padding;
   const std::string_view color = judge::keeps(judged, method.promise) ? "#2a7d2e" : "#b3261e";
   return fmt::format(
       R"(<svg xmlns="http://www.w3.org/2000/svg" width="{0}" height="20" role="img" font-family="sans-serif" font-size="12" fill="#fff">
