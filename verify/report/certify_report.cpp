@@ -210,7 +210,7 @@ std::string time_text(std::optional<double> nanoseconds) {
   return io::number_text(nanoseconds, "{:.0f} ns");
 }
 
-std::string promise_text(const jobs::MethodResult& method) {
+std::string promise_cell(const jobs::MethodResult& method) {
   const std::string promise(solvers::to_string(method.promise));
   if (method.promise == fast::Promise::none) return promise;
   return promise + (judge::keeps(method.judgement, method.promise) ? ": kept" : ": broken");
@@ -228,7 +228,7 @@ std::string solvers_text(const jobs::CertifyResult& sum) {
   std::string notes;
   for (const jobs::MethodResult& method : sum.methods) {
     const judge::Judgement& judged = method.judgement;
-    table.add({io::printable(method.name), promise_text(method), std::to_string(judged.queries),
+    table.add({io::printable(method.name), promise_cell(method), std::to_string(judged.queries),
                std::to_string(judged.count(judge::Fault::false_negative)),
                std::to_string(judged.count(judge::Fault::false_positive)),
                std::to_string(judged.count(judge::Fault::late_toi) +
