@@ -171,6 +171,7 @@ def measure_one(name, command, options, folder):
     words = [path for word in command.replace(RECORDED, str(options.recorded)).split()
              for path in (sorted(glob.glob(word, root_dir=options.data)) if "*" in word else [word])]
     words += ["--json", out] + (["--prove", proofs] if name == "certificates" else [])
+    words += ["--table"] if command == "certify" else []
     # The exit status of certify is 1 if a method is wrong.
     printed = run([options.tool, *words], (0, 1) if name == "certify" else (0,), cwd=options.data)
     result = {"command": f"touchstone {command}", "result": reduced(json.loads(out.read_text()))}
@@ -269,7 +270,7 @@ def results(data):
 def printed(data):
     lines = data["runs"][-1]["printed"]
     total = next(i for i, line in enumerate(lines) if line.startswith("total"))
-    return made_by(data, "./run certify") + ["```", *lines[:2], "…", *lines[total:], "```"]
+    return made_by(data, "./run certify --table") + ["```", *lines[:2], "…", *lines[total:], "```"]
 
 
 def judged(data):

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Prints what a run of ctest did: the seconds and tests of each part, what was skipped and why, the slowest tests.
+"""Prints what a run of ctest did: the seconds and tests of each part, the slowest tests, what was skipped and why; and at the
+end what it showed, and what to run next.
 
     ctest --output-junit tests.xml --test-output-size-passed 1000000
     tests/summary.py tests.xml
@@ -22,7 +23,7 @@ def main():
     parser.add_argument("file", help="written by ctest --output-junit")
     parser.add_argument("--slowest", type=int, default=20, help="of the slowest tests so many (default: %(default)s)")
     options = parser.parse_args()
-    parts, slowest = collections.defaultdict(lambda: [0.0, 0, 0]), []
+    parts, slowest, failed = collections.defaultdict(lambda: [0.0, 0, 0]), [], []
     skipped = collections.Counter()
     for case in xml.etree.ElementTree.parse(options.file).getroot().iter("testcase"):
         name, seconds = case.get("name"), float(case.get("time"))
@@ -34,19 +35,25 @@ def main():
             skipped[name if not SKIPPED.search(text) else SKIPPED.search(text)[1]] += 1
             continue
         part[1] += len(tests)
-        part[2] += case.get("status") == "fail"
+        if case.get("status") == "fail":
+            part[2] += 1
+            failed.append(name)
         slowest += tests
         skipped.update(SKIPPED.findall(text))
     print(f"{'part':<26}{'seconds':>9}{'tests':>7}")
-    for name, (seconds, tests, failed) in sorted(parts.items(), key=lambda item: -item[1][0]):
-        print(f"{name:<26}{seconds:>9.1f}{tests:>7}{'  FAILED' if failed else ''}")
+    for name, (seconds, tests, failures) in sorted(parts.items(), key=lambda item: -item[1][0]):
+        print(f"{name:<26}{seconds:>9.1f}{tests:>7}{'  FAILED' if failures else ''}")
     total = [sum(column) for column in zip(*parts.values())] or [0, 0, 0]
     print(f"{'all':<26}{total[0]:>9.1f}{total[1]:>7}")
-    for reason, count in skipped.most_common():
-        print(f"skipped: {reason}" + (f" ({count} times)" if count > 1 else ""))
     print(f"the {options.slowest} slowest:")
     for seconds, name in sorted(slowest, reverse=True)[:options.slowest]:
         print(f"{seconds:>9.1f} s  {name}")
+    for reason, count in skipped.most_common():
+        print(f"skipped: {reason}" + (f" ({count} times)" if count > 1 else ""))
+    print(f"\nasked: {total[1]:,} tests of {len(parts)} parts; {sum(skipped.values())} skipped")
+    print(f"found: {'FAILED: ' + ', '.join(failed) if failed else 'all passed'}")
+    print("next: ", "./run test NAME runs the tests whose name matches" if failed else
+          "./run certify judges solvers; ./run test all: browsers, Python, documents too; ./run soak: hours")
 
 
 if __name__ == "__main__":

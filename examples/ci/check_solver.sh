@@ -14,6 +14,7 @@
 #   FUZZ_ONLY           the kinds of findings that fail the check (false_negative); see touchstone fuzz --help
 #   SOLVER_OPTIONS      for certify and fuzz, such as "--exact --max-checks 100000"
 #   CERTIFY_OPTIONS     for certify, such as a folder of datasets
+#   BASELINE            a file of known wrong answers, as certify --write-baseline writes it; only new ones fail
 set -u
 
 if [ $# -ne 2 ]; then
@@ -32,7 +33,8 @@ cmake -S "$1" -B "$build" -DCMAKE_BUILD_TYPE=Release -DTOUCHSTONE_INCLUDE="$incl
 mkdir -p "$findings/fuzz" || exit 2
 # The words of these variables are options.
 # shellcheck disable=SC2086
-"$touchstone" certify --plugin "$plugin" ${SOLVER_OPTIONS:-} --json "$findings/certify.json" ${CERTIFY_OPTIONS:-}
+"$touchstone" certify --plugin "$plugin" ${SOLVER_OPTIONS:-} --json "$findings/certify.json" \
+  --badge "$findings/badge.svg" ${BASELINE:+--baseline "$BASELINE"} ${CERTIFY_OPTIONS:-}
 certified=$?
 
 only=

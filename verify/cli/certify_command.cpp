@@ -30,6 +30,7 @@
 #include "verify/jobs/budget.hpp"
 #include "verify/jobs/certify.hpp"
 #include "verify/report/certify_report.hpp"
+#include "verify/report/gate.hpp"
 #include "verify/solvers/registry.hpp"
 #include "verify/view/asked_solvers.hpp"
 
@@ -48,6 +49,10 @@ struct Arguments {
   std::string truth_file;
   std::string proof_file;
   std::string view_file;
+  std::string baseline_file;
+  std::string badge_file;
+  bool writes_baseline = false;
+  bool table = false;
 };
 
 /// The solvers to judge: by default our solvers, and only on the built-in set.
@@ -68,7 +73,15 @@ class CertifyRun {
         json_(files_, arguments.json_file),
         truth_(files_, arguments.truth_file),
         proof_(files_, arguments.proof_file),
-        view_(files_, arguments.view_file) {
+        view_(files_, arguments.view_file),
+        new_baseline_(files_, arguments.writes_baseline ? arguments.baseline_file : ""),
+        badge_(files_, arguments.badge_file) {
+    if (badge_ && solvers_.all().size() != 1) {
+      throw std::runtime_error(
+          fmt::format("--badge: it shows one solver (--method, --plugin), and this run judges {}",
+                      solvers_.all().size()));
+    }
+    read_baseline();
     if (truth_) truth_.write(report::truth_header());
     if (arguments.seconds > 0.0) {
       budget_ = jobs::Budget(arguments.seconds, solvers_.all(), arguments.sources.threads);
@@ -99,6 +112,7 @@ class CertifyRun {
     proof_.close(sum_.proofs.certificates());
     if (json_) json_.write(io::json_document(report::to_json(results_)));
     json_.close();
+    write_gate();
     view_.write(arguments_.judged.options);
     print_summary();
     return worse(status_of_responses(), status());
@@ -108,15 +122,68 @@ class CertifyRun {
   /// True if nothing could be read. Then there is no truth to write.
   [[nodiscard]] bool is_without_queries() const { return sum_.queries == 0 && sum_.errors != 0; }
 
+  [[nodiscard]] bool has_baseline() const { return !arguments_.baseline_file.empty(); }
+
+  void read_baseline() {
+    const fs::path path = arguments_.baseline_file;
+    if (!has_baseline() || (arguments_.writes_baseline && !fs::exists(path))) return;
+    if (!arguments_.writes_baseline) files_.add_input(path);
+    baseline_ = report::read_baseline(path);
+  }
+
+  /// Compares with the baseline, and writes it and the badge. A baseline remains as it was unless
+  /// all queries were asked.
+  void write_gate() {
+    const bool is_complete = !sum_.interrupted && sum_.errors == 0;
+    if (new_baseline_ && !is_complete) {
+      report_warning("the baseline remains as it was: not all queries were asked");
+    }
+    try {
+      if (has_baseline()) change_ = report::change_of(baseline_, results_);
+      if (is_complete) new_baseline_.write(report::baseline_document(change_.now));
+    } catch (const std::runtime_error& error) {
+      report_error(error.what());
+      files_.note_failure();
+    }
+    if (is_complete && !files_.has_failed()) {
+      new_baseline_.close();
+    } else {
+      new_baseline_.discard();
+    }
+    if (badge_) badge_.write(report::badge(sum_.methods.at(0)));
+    badge_.close();
+  }
+
   void print_summary() const {
     // The errors are reported already.
     if (is_without_queries()) return;
     std::FILE* const stream = files_.summary_stream();
-    io::print(stream, report::to_text(results_));
+    // No more than 25 lines, with those below.
+    const std::size_t lines = has_baseline() ? 12 : 22;
+    io::print(stream,
+              arguments_.table ? report::to_text(results_) : report::to_summary(results_, lines));
+    if (has_baseline()) io::print(stream, report::to_text(change_));
+    if (!arguments_.table) io::print(stream, next_steps());
     if (proof_) io::print(stream, fmt::format("\n{}", jobs::to_text(sum_.proofs)));
     print_unjudged(stream);
     report_beyond_limits(sum_.proofs);
     io::print(stream, view_.summary(allowed_false_positives()));
+  }
+
+  /// Advice below the summary.
+  [[nodiscard]] std::string next_steps() const {
+    std::string text = "next:  --table prints every file and column";
+    if (!json_) text += ", --json FILE keeps them";
+    text += '\n';
+    if (jobs::has_wrong_answers(sum_) && !view_) {
+      text += "       --view FILE.html shows these queries in a browser\n";
+    }
+    if (!change_.mended.empty() && !new_baseline_) {
+      text += "       --write-baseline removes what is mended from the baseline\n";
+    }
+    return text + (arguments_.judged.empty()
+                       ? "       --plugin ./libsolver.so judges your solver (docs/testing.md)\n"
+                       : "       touchstone fuzz searches for further wrong answers\n");
   }
 
   /// The sources whose queries were not all judged in the time of the run.
@@ -217,6 +284,17 @@ class CertifyRun {
     return status;
   }
 
+  /// True if an answer is wrong, and not in the baseline.
+  [[nodiscard]] bool has_new_wrong_answers() const {
+    if (!has_baseline()) return jobs::has_wrong_answers(sum_);
+    const auto has_crashed = [](const jobs::MethodResult& method) {
+      return method.judgement.unplaced_crashes != 0;
+    };
+    return sum_.label_mismatches + sum_.toi_mismatches != 0 ||
+           (!change_.fresh.empty() && !new_baseline_) ||
+           std::ranges::any_of(sum_.methods, has_crashed);
+  }
+
   [[nodiscard]] bool stopped() const {
     return io::interrupted() || budget_.is_over() ||
            (sum_.errors != 0 && !arguments_.sources.keep_going);
@@ -227,7 +305,7 @@ class CertifyRun {
       return method.judgement.missing != 0;
     };
     if (files_.has_failed()) return Status::bad_input;
-    if (jobs::has_wrong_answers(sum_)) return Status::wrong_answers;
+    if (has_new_wrong_answers()) return Status::wrong_answers;
     if (sum_.errors + sum_.skipped != 0 || !sum_.proofs.beyond_limits.empty() ||
         std::ranges::any_of(sum_.methods, is_incomplete)) {
       return Status::bad_input;
@@ -242,6 +320,10 @@ class CertifyRun {
   Output truth_;
   CertificatesFile proof_;
   ViewFile view_;
+  Output new_baseline_;
+  Output badge_;
+  report::KnownAnswers baseline_;
+  report::BaselineChange change_;
   jobs::Budget budget_;
   base::Deadline deadline_;
   std::size_t unjudged_ = 0;  ///< sources after the latest one
@@ -266,6 +348,10 @@ void add(CLI::App& app, Status& status) {
   add_option(*command, "--truth", arguments->truth_file);
   add_option(*command, "--prove", arguments->proof_file);
   add_option(*command, "--view", arguments->view_file);
+  add_option(*command, "--table", arguments->table);
+  add_option(*command, "--baseline", arguments->baseline_file);
+  add_option(*command, "--write-baseline", arguments->writes_baseline)->needs("--baseline");
+  add_option(*command, "--badge", arguments->badge_file);
   set_help(*command,
            "touchstone certify data/handcrafted --json result.json\n"
            "touchstone certify --min-separation 1e-8 --norm l2 --method tight_inclusion\n"
@@ -276,10 +362,10 @@ void add(CLI::App& app, Status& status) {
   command->callback([arguments, command, &status] {
     settle_solver_options(*command, arguments->sources.built_in_set(), arguments->judged);
     settle_query_limit(*command, arguments->seconds, arguments->judged);
-    status = run_in_pieces(
-        *command, arguments->pieces, arguments->sources,
-        {.outputs = {"--json", "--truth", "--prove"}, .refused = {"--view", "--seconds"}},
-        [&] { return CertifyRun(*arguments).run(); });
+    status = run_in_pieces(*command, arguments->pieces, arguments->sources,
+                           {.outputs = {"--json", "--truth", "--prove"},
+                            .refused = {"--view", "--seconds", "--baseline", "--badge"}},
+                           [&] { return CertifyRun(*arguments).run(); });
   });
 }
 

@@ -140,6 +140,10 @@ std::vector<OptionRow> make_table() {
 
       // Output.
       {"--json", "FILE", {}, "Write the result as JSON"},
+      {"--table", "", {}, "Print every file and column instead of the summary"},
+      {"--baseline", "FILE.json", {}, "Known wrong answers: only new ones fail, mended ones are named"},
+      {"--write-baseline", "", {}, "Write what is wrong now as the baseline"},
+      {"--badge", "FILE.svg", {}, "Write an image with the solver's misses and false alarms"},
       {"--truth", "FILE", {}, "Write the truth as CSV: file,index,kind,collides,toi_lower,toi_upper"},
       {"--prove,--out", "FILE", {}, fmt::format("Write the certificates; {} (--out: its old name)", certificates), "prove", required},
       {"--prove", "FILE", {}, "Write a proof of each step, for touchstone-check: no collision (up to --t-max), or the time of the earliest contact; " + certificates, "step"},

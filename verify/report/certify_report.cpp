@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <utility>
@@ -47,6 +48,12 @@ io::TextRow row_of(const jobs::CertifyResult& result) {
 
 std::string_view name_of(judge::Mismatch::Of of) {
   return of == judge::Mismatch::Of::label ? "label" : "toi";
+}
+
+std::string mismatch_text(const jobs::CertifyResult& result, const judge::Mismatch& mismatch) {
+  return fmt::format("mismatch: {}: {} query {}: recorded {} {}, truth {}\n",
+                     io::printable(result.name), kind_text(result), mismatch.index,
+                     name_of(mismatch.of), mismatch.recorded, mismatch.truth);
 }
 
 bool has_separation(const std::vector<jobs::CertifyResult>& results) {
@@ -195,6 +202,112 @@ std::string methods_text(std::size_t width, const std::vector<jobs::CertifyResul
   return text;
 }
 
+// ---- The summary --------------------------------------------------------------------------------
+
+std::string time_text(std::optional<double> nanoseconds) {
+  if (nanoseconds && *nanoseconds >= 1e6) return fmt::format("{:.1f} ms", *nanoseconds * 1e-6);
+  if (nanoseconds && *nanoseconds >= 1e3) return fmt::format("{:.1f} µs", *nanoseconds * 1e-3);
+  return io::number_text(nanoseconds, "{:.0f} ns");
+}
+
+std::string promise_cell(const jobs::MethodResult& method) {
+  const std::string promise(solvers::to_string(method.promise));
+  if (method.promise == fast::Promise::none) return promise;
+  return promise + (judge::keeps(method.judgement, method.promise) ? ": kept" : ": broken");
+}
+
+std::string solvers_text(const jobs::CertifyResult& sum) {
+  io::TextTable table({io::word_column("solver"),
+                       io::word_column("promise"),
+                       {"queries", 7},
+                       {"misses", 6},
+                       {"false alarms", 12},
+                       {"wrong times", 11},
+                       {"no answer", 9},
+                       {"time", 8}});
+  std::string notes;
+  for (const jobs::MethodResult& method : sum.methods) {
+    const judge::Judgement& judged = method.judgement;
+    table.add({io::printable(method.name), promise_cell(method), std::to_string(judged.queries),
+               std::to_string(judged.count(judge::Fault::false_negative)),
+               std::to_string(judged.count(judge::Fault::false_positive)),
+               std::to_string(judged.count(judge::Fault::late_toi) +
+                              judged.count(judge::Fault::early_toi_upper)),
+               std::to_string(judged.undecided() + judged.errors()),
+               time_text(method.nanoseconds_per_query())});
+    notes += failures_text(method) + outside_text(method);
+  }
+  return '\n' + table.text() + notes;
+}
+
+std::uint64_t broken_answers(const jobs::MethodResult& method) {
+  std::uint64_t count = method.judgement.unplaced_crashes;
+  for (const judge::Fault fault : judge::all_faults) {
+    if (judge::breaks(fault, method.promise)) count += method.judgement.count(fault);
+  }
+  return count;
+}
+
+/// The worst answers of a solver that broke its promise, of those alike one of each source first.
+std::vector<std::string> worst_answers(const std::vector<jobs::CertifyResult>& results,
+                                       std::size_t solver, std::size_t most) {
+  struct Found {
+    std::pair<int, std::size_t> order;  ///< the harm, and the number of those alike in the source
+    const jobs::CertifyResult* result;
+    const judge::WrongAnswer* wrong;
+  };
+  std::vector<Found> all;
+  std::string_view name;
+  for (const jobs::CertifyResult& result : results) {
+    if (solver >= result.methods.size()) continue;
+    const jobs::MethodResult& method = result.methods[solver];
+    name = method.name;
+    std::map<int, std::size_t> alike;
+    for (const judge::WrongAnswer& wrong : method.judgement.wrong_answers) {
+      if (!judge::breaks(wrong.fault, method.promise)) continue;
+      const bool is_slight = judge::is_slight(wrong.fault, wrong.lateness);
+      const int harm = judge::harm_of(wrong.fault, is_slight, method.promise);
+      all.push_back({{harm, alike[harm]++}, &result, &wrong});
+    }
+  }
+  std::ranges::stable_sort(all, {}, &Found::order);
+  if (all.size() > most) all.resize(most);
+  std::vector<std::string> lines;
+  for (const Found& found : all) {
+    const data::QueryPlace place{found.result->name, found.wrong->index};
+    lines.push_back(fmt::format("  {}: {}: {}\n", common_name(found.wrong->fault),
+                                io::printable(name),
+                                answer_text(place, kind_text(*found.result), *found.wrong)));
+  }
+  return lines;
+}
+
+/// The number of wrong answers, recorded ones and those of solvers, and some of them, of each kind
+/// of answers about as many.
+std::string wrong_text(const std::vector<jobs::CertifyResult>& results,
+                       const jobs::CertifyResult& sum, std::size_t most) {
+  std::uint64_t count = sum.label_mismatches + sum.toi_mismatches;
+  std::size_t groups = count != 0 ? 1 : 0;
+  for (const jobs::MethodResult& method : sum.methods) {
+    const std::uint64_t broken = broken_answers(method);
+    count += broken;
+    groups += broken != 0 ? 1 : 0;
+  }
+  const std::size_t share = std::max<std::size_t>(1, most / std::max<std::size_t>(1, groups));
+  std::vector<std::string> lines;
+  for (const jobs::CertifyResult& result : results) {
+    for (const judge::Mismatch& mismatch : result.mismatches) {
+      if (lines.size() < share) lines.push_back("  " + mismatch_text(result, mismatch));
+    }
+  }
+  for (std::size_t i = 0; i < sum.methods.size(); ++i) {
+    lines = io::joined<std::string>({lines, worst_answers(results, i, share)});
+  }
+  if (lines.size() > most) lines.resize(most);
+  const std::string_view colon = lines.size() < count ? ", such as" : "";
+  return fmt::format("found: {} wrong{}\n{}", count, colon, fmt::join(lines, ""));
+}
+
 nlohmann::json counts(const jobs::MethodResult& method) {
   const judge::Judgement& judged = method.judgement;
   nlohmann::json json = to_json(judged);
@@ -250,13 +363,44 @@ std::string to_text(const std::vector<jobs::CertifyResult>& results) {
   text += reading_text(sum.skipped, sum.rounded);
   for (const jobs::CertifyResult& result : results) {
     for (const judge::Mismatch& mismatch : result.mismatches) {
-      text += fmt::format("mismatch: {}: {} query {}: recorded {} {}, truth {}\n",
-                          io::printable(result.name), kind_text(result), mismatch.index,
-                          name_of(mismatch.of), mismatch.recorded, mismatch.truth);
+      text += mismatch_text(result, mismatch);
     }
   }
   if (!sum.methods.empty()) text += methods_text(width, results, sum);
   return text;
+}
+
+std::string to_summary(const std::vector<jobs::CertifyResult>& results, std::size_t most_lines) {
+  const jobs::CertifyResult sum = jobs::total(results);
+  std::string text =
+      fmt::format("asked: {} queries, of which {} collide", sum.queries, sum.collisions);
+  if (const auto separation = separation_of(results)) {
+    text += " within " + judge::to_text(*separation);
+  } else if (has_separation(results)) {
+    text += " within the distances of their files";
+  }
+  text += fmt::format("\ntruth: exact, {} a query", time_text(1e3 * sum.microseconds_per_query()));
+  if (sum.labels + sum.tois != 0) {
+    text += fmt::format("; recorded: {} of {} verdicts wrong", sum.label_mismatches, sum.labels);
+    if (sum.tois != 0) {
+      text += fmt::format(", {} of {} times wrong", sum.toi_mismatches, sum.tois);
+    }
+  }
+  text += '\n' + reading_text(sum.skipped, sum.rounded);
+  if (!sum.methods.empty()) text += solvers_text(sum);
+  text += '\n';
+  if (jobs::has_wrong_answers(sum)) {
+    const auto lines = static_cast<std::size_t>(std::ranges::count(text, '\n')) + 1;
+    return text + wrong_text(results, sum, lines < most_lines ? most_lines - lines : 0);
+  }
+  if (sum.labels + sum.tois == 0 && sum.methods.empty()) {
+    return text + "found: nothing to compare, without recorded answers and solvers\n";
+  }
+  const bool has_false_alarms = std::ranges::any_of(sum.methods, [](const auto& method) {
+    return method.judgement.count(judge::Fault::false_positive) != 0;
+  });
+  return text + "found: nothing wrong" + (has_false_alarms ? "; false alarms are allowed" : "") +
+         '\n';
 }
 
 nlohmann::json to_json(const std::vector<jobs::CertifyResult>& results) {

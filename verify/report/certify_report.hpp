@@ -1,8 +1,10 @@
 #pragma once
 
 /// \file
-/// A judgement for people (a table), for machines (JSON), and as a dataset of its own (the truth).
+/// A judgement for people (a summary, or a table), for machines (JSON), and as a dataset of its own
+/// (the truth).
 
+#include <cstddef>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
@@ -19,6 +21,14 @@ namespace touchstone::verify::report {
 /// its own), and the answers that broke its promise: the first twenty of a fault and source, and
 /// the number of further ones.
 [[nodiscard]] std::string to_text(const std::vector<jobs::CertifyResult>& results);
+
+/// The same in few lines and common words: the queries that were asked, the recorded answers that
+/// are wrong, a line for each solver with its misses (false negatives), false alarms (false
+/// positives and undecided answers), wrong times, missing answers and time, and the worst wrong
+/// answers, of each solver some.
+/// \param most_lines with less than a dozen solvers there are no more than these
+[[nodiscard]] std::string to_summary(const std::vector<jobs::CertifyResult>& results,
+                                     std::size_t most_lines);
 
 /// The total's fields `queries`, `collisions`, `labels`, `label_mismatches`, `tois`,
 /// `toi_mismatches`, `us_per_query`, `skipped`, `rounded`, `errors` (that ended the reading of a

@@ -95,6 +95,26 @@ std::string unasked_text(const judge::Judgement& judgement, const fast::Terms& t
   return text;
 }
 
+std::string_view common_name(judge::Fault fault) {
+  if (fault == judge::Fault::false_negative) return "miss";
+  if (fault == judge::Fault::false_positive) return "false alarm";
+  if (fault == judge::Fault::late_toi || fault == judge::Fault::early_toi_upper) {
+    return "wrong time";
+  }
+  return judge::to_text(fault);
+}
+
+std::string answer_text(const data::QueryPlace& place, std::string_view kind,
+                        const judge::WrongAnswer& wrong) {
+  std::string text =
+      fmt::format("{}: {} query {}: answer {}, truth {}", io::printable(place.source), kind,
+                  place.index, wrong.answer, wrong.truth);
+  if (wrong.lateness) {
+    text += fmt::format(", late by {:.1e}, {:.0f} ulp", wrong.lateness->step, wrong.lateness->ulps);
+  }
+  return text;
+}
+
 std::string wrong_answers_text(const NamedJudgement& named,
                                const std::function<data::QueryPlace(std::size_t)>& place_of) {
   const judge::Judgement& judgement = named.judgement;
@@ -107,14 +127,8 @@ std::string wrong_answers_text(const NamedJudgement& named,
     std::uint64_t& count = printed[judge::to_text(wrong.fault)];
     if (!judge::breaks(wrong.fault, named.promise) || count == most_printed) continue;
     ++count;
-    const data::QueryPlace place = place_of(i);
-    text += fmt::format("{}: {}: {}: {} query {}: answer {}, truth {}\n",
-                        judge::to_text(wrong.fault), method, io::printable(place.source),
-                        named.kind, place.index, wrong.answer, wrong.truth);
-    if (wrong.lateness) {
-      text.insert(text.size() - 1, fmt::format(", late by {:.1e}, {:.0f} ulp", wrong.lateness->step,
-                                               wrong.lateness->ulps));
-    }
+    text += fmt::format("{}: {}: {}\n", judge::to_text(wrong.fault), method,
+                        answer_text(place_of(i), named.kind, wrong));
   }
   for (const judge::Fault fault : judge::all_faults) {
     const auto count = printed.extract(judge::to_text(fault));

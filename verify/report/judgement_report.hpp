@@ -59,9 +59,16 @@ struct NamedJudgement {
 /// The queries that were not asked because of the terms, and for lack of time; empty if all were.
 [[nodiscard]] std::string unasked_text(const judge::Judgement& judgement, const fast::Terms& terms);
 
-/// The answers that broke the promise, the worst first, a line each: "false negative: METHOD:
-/// SOURCE: vertex-face query 4: answer no, truth collision at 0.5"; the first twenty of a fault,
-/// then the number of further ones.
+/// The fault of an answer in common words: "miss", "false alarm", "wrong time", or as
+/// judge::to_text.
+[[nodiscard]] std::string_view common_name(judge::Fault fault);
+
+/// "SOURCE: vertex-face query 4: answer no, truth collision at 0.5".
+[[nodiscard]] std::string answer_text(const data::QueryPlace& place, std::string_view kind,
+                                      const judge::WrongAnswer& wrong);
+
+/// The answers that broke the promise, the worst first, a line each: the fault ("false negative"),
+/// the method and answer_text; the first twenty of a fault, then the number of further ones.
 /// \param place_of the source of the query of a wrong answer, by the answer's position in
 /// Judgement::wrong_answers.
 [[nodiscard]] std::string wrong_answers_text(

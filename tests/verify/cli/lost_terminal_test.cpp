@@ -207,7 +207,7 @@ TEST_F(TerminalTool, NamesOfFilesAreShownAndNotObeyed) {
   const std::string data = write(name, falling_vertex());
   const Outcome certify =
       run({"certify", data, "--truth", path("truth.csv"), "--json", path("result.json"), "--prove",
-           path("proofs.cert"), "--method", "certified"});
+           path("proofs.cert"), "--method", "certified", "--table"});
   EXPECT_EQ(certify.status, 0) << certify.err;
   EXPECT_TRUE(contains(certify.out, shown)) << certify.out;
   EXPECT_FALSE(contains(certify.out, "\ntotal 9"));
