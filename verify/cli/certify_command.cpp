@@ -186,13 +186,19 @@ class CertifyRun {
                        : "       touchstone fuzz searches for further wrong answers\n");
   }
 
-  /// The sources whose queries were not all judged in the time of the run.
+  /// The sources whose queries were not all judged in the time of the run; by name in the table.
   void print_unjudged(std::FILE* stream) const {
     if (!budget_.is_limited()) return;
+    std::size_t cut = 0;
     for (const jobs::CertifyResult& result : results_) {
       if (!result.interrupted) continue;
+      ++cut;
+      if (!arguments_.table) continue;
       io::print(stream, fmt::format("not judged in time: {}: all after the first {} queries\n",
                                     io::printable(result.name), result.queries));
+    }
+    if (cut != 0 && !arguments_.table) {
+      io::print(stream, fmt::format("not judged in time: a part of {} sources\n", cut));
     }
     if (budget_.is_over() && unjudged_ != 0) {
       io::print(stream, fmt::format("not judged in time: {} further sources\n", unjudged_));

@@ -399,8 +399,9 @@ std::string to_summary(const std::vector<jobs::CertifyResult>& results, std::siz
   const bool has_false_alarms = std::ranges::any_of(sum.methods, [](const auto& method) {
     return method.judgement.count(judge::Fault::false_positive) != 0;
   });
-  return text + "found: nothing wrong" + (has_false_alarms ? "; false alarms are allowed" : "") +
-         '\n';
+  text += "found: nothing wrong";
+  if (sum.interrupted) text += " so far";
+  return text + (has_false_alarms ? "; false alarms are allowed\n" : "\n");
 }
 
 nlohmann::json to_json(const std::vector<jobs::CertifyResult>& results) {
