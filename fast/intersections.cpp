@@ -22,7 +22,9 @@
 #include "fast/broad_phase/search.hpp"
 #include "fast/candidates.hpp"
 #include "fast/intersections/contacts.hpp"
+#include "fast/intersections/filter_kernel.hpp"
 #include "fast/intersections/orientation.hpp"
+#include "fast/intersections/pair_filter.hpp"
 #include "fast/platform/floating_point_state.hpp"
 #include "fast/platform/threads.hpp"
 #include "fast/step/bodies.hpp"
@@ -64,31 +66,39 @@ std::vector<std::int32_t> first_at_place(const MovingVertices& vertices,
 class Elements {
  public:
   Elements(const Positions& at, const MeshElements& given, const IntersectionOptions& options)
-      : faces_(given.faces.size()) {
+      : faces_(given.faces.size()), asked_(options.pairs) {
     MeshElements all = given;
     std::vector<Edge> edges_of_faces;
-    if (!given.edges.empty()) edges_ = edges_without_face(given);
-    if (!given.points.empty()) {
-      if (given.edges.empty()) all.edges = edges_of_faces = edges_of(given.faces);
-      const std::size_t count = at.vertices().size();
-      points_ = codimensional(count, vertices_of(count, all), all).points;
+    const bool has_all_edges = asked_ == IntersectingPairs::edges_with_faces;
+    if (given.edges.empty() && (has_all_edges || !given.points.empty())) {
+      all.edges = edges_of_faces = edges_of(given.faces);
+    }
+    if (has_all_edges) {
+      edges_.resize(all.edges.size());
+      std::iota(edges_.begin(), edges_.end(), 0);
+    } else {
+      if (!given.edges.empty()) edges_ = edges_without_face(given);
+      if (!given.points.empty()) {
+        const std::size_t count = at.vertices().size();
+        points_ = codimensional(count, vertices_of(count, all), all).points;
+      }
     }
     require_few(faces_ + edges_.size() + points_.size());
     vertices_.reserve(faces_ + edges_.size() + points_.size());
     for (const Face& face : given.faces) add(primitive_of(face));
     for (const std::int32_t edge : edges_) {
-      add(primitive_of(given.edges[static_cast<std::size_t>(edge)]));
+      add(primitive_of(all.edges[static_cast<std::size_t>(edge)]));
     }
     for (const std::int32_t point : points_) add(primitive_of(point));
     if (options.weld) weld(first_at_place(at.vertices(), options.groups.of_vertices));
     examine(at);
   }
 
-  /// The vertices of each element.
-  [[nodiscard]] std::span<const Primitive> vertices() const { return vertices_; }
-  [[nodiscard]] meeting::Element operator[](std::int32_t number) const {
-    const auto i = static_cast<std::size_t>(number);
-    return {vertices_[i], simplices_.empty() ? vertices_[i] : simplices_[i], normals_[i]};
+  [[nodiscard]] meeting::ElementLists lists() const {
+    return {.vertices = vertices_,
+            .simplices = simplices_.empty() ? vertices_ : simplices_,
+            .faces = faces_,
+            .asked = asked_};
   }
 
   /// The kind of an element, and its number in the interface.
@@ -116,18 +126,15 @@ class Elements {
     }
   }
 
-  /// Finds the normals, and the simplices if they are not all given by all vertices.
+  /// Finds the simplices if they are not all given by all vertices.
   void examine(const Positions& at) {
     std::atomic<bool> has_reduced = false;
     std::vector<Primitive> simplices(vertices_.size());
-    normals_.resize(vertices_.size());
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, vertices_.size(), elements_of_task),
                       [&](const tbb::blocked_range<std::size_t>& range) {
                         const StrictFloatingPoint strict;
                         for (std::size_t i = range.begin(); i < range.end(); ++i) {
-                          const auto element = meeting::element_of(at, vertices_[i]);
-                          simplices[i] = element.simplex;
-                          normals_[i] = element.normal;
+                          simplices[i] = meeting::element_of(at, vertices_[i]).simplex;
                           if (simplices[i] != vertices_[i]) has_reduced = true;
                         }
                       });
@@ -137,11 +144,11 @@ class Elements {
   static constexpr std::size_t elements_of_task = 4096;
 
   std::size_t faces_;
-  std::vector<std::int32_t> edges_;   ///< of no face
+  IntersectingPairs asked_;
+  std::vector<std::int32_t> edges_;   ///< of no face, or all
   std::vector<std::int32_t> points_;  ///< without an edge
   std::vector<Primitive> vertices_;
   std::vector<Primitive> simplices_;  ///< empty if they are the same
-  std::vector<meeting::Normal> normals_;
 };
 
 // ---- The search ---------------------------------------------------------------------------------
@@ -158,7 +165,7 @@ class Search final : private PairQuestions {
         at_(std::move(vertices)),
         elements_(at_, elements, options),
         bounds_(at_.vertices()),
-        groups_of_boxes_(bounds_, elements_.vertices()),
+        groups_of_boxes_(bounds_, elements_.lists().vertices),
         tree_(groups_of_boxes_),
         options_(options) {
     tree_.fit(bounds_);
@@ -207,12 +214,14 @@ class Search final : private PairQuestions {
   template <class Take>
   void find(std::size_t part, const Take& take) const {
     const StrictFloatingPoint strict;
+    meeting::PairFilter& filter = filters_.local();
+    const TriangleKernel& kernel = *triangle_kernels().back();
+    const meeting::ElementLists elements = elements_.lists();
     PairSink buffer(
         [&](std::span<const IndexPair> pairs) {
-          for (const IndexPair& pair : pairs) {
-            const meeting::Element a = elements_[pair[0]], b = elements_[pair[1]];
-            if (meeting::are_surely_apart(at_, a, b)) continue;
-            if (const auto found = meeting::meeting_of(at_, a, b)) take(pair, *found);
+          for (const IndexPair& pair : filter.open_pairs(at_, elements, pairs, kernel)) {
+            const auto found = meeting::meeting_of(at_, elements[pair[0]], elements[pair[1]]);
+            if (found) take(pair, *found);
           }
         },
         options_.stop);
@@ -233,7 +242,8 @@ class Search final : private PairQuestions {
     Intersection result{
         .elements = {kind_a, kind_b}, .numbers = {a, b}, .kind = found.kind, .place = {}};
     if (options_.places) {
-      result.place = meeting::place_of(at_, elements_[pair[0]], elements_[pair[1]], found.contacts);
+      const meeting::ElementLists elements = elements_.lists();
+      result.place = meeting::place_of(at_, elements[pair[0]], elements[pair[1]], found.contacts);
     }
     return result;
   }
@@ -255,6 +265,7 @@ class Search final : private PairQuestions {
   PrimitiveGroups groups_of_boxes_;
   BoxTree<1> tree_;
   std::optional<BodyTree> tree_of_bodies_;
+  mutable tbb::enumerable_thread_specific<meeting::PairFilter> filters_;
   const IntersectionOptions& options_;
 };
 

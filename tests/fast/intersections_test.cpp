@@ -7,6 +7,7 @@
 #include <atomic>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <numbers>
 #include <set>
 #include <stdexcept>
@@ -15,6 +16,7 @@
 #include <vector>
 
 #include "exact/contact/triangle_intersection.hpp"
+#include "fast/intersections/filter_kernel.hpp"
 #include "tests/faults/planted_faults.hpp"
 #include "tests/support/messages.hpp"
 #include "tests/support/random.hpp"
@@ -259,6 +261,144 @@ TEST(Intersections, OfTwoElementsAreThoseOfRationalArithmetic) {
   }
   for (std::size_t kind = 0; kind < seen.size(); ++kind) {
     EXPECT_GT(seen[kind], tests::trials(20)) << to_string(static_cast<Kind>(kind));
+  }
+}
+
+/// Of edges and faces without a common vertex, one by one.
+TEST(Intersections, OfEdgesWithFacesAreThoseOfRationalArithmetic) {
+  Random random(542);
+  int count = 0;
+  for (int i = 0; i < tests::trials(300); ++i) {
+    Mesh mesh{.vertices = Rows(8, 3)};
+    for (double& x : mesh.vertices.reshaped()) x = random.between(-2, 2);
+    for (std::int32_t a = 0; a < 3; ++a) mesh.faces.push_back({a, a + 2, a + random.between(3, 5)});
+    mesh.edges = edges_of(mesh.faces);
+    mesh.edges.push_back({6, 7});
+    const Found found = mesh.intersections({.pairs = IntersectingPairs::edges_with_faces});
+    Found expected;
+    for (std::int32_t face = 0; std::cmp_less(face, mesh.faces.size()); ++face) {
+      for (std::int32_t edge = 0; std::cmp_less(edge, mesh.edges.size()); ++edge) {
+        const Face& of_face = mesh.faces[static_cast<std::size_t>(face)];
+        const auto [a, b] = mesh.edges[static_cast<std::size_t>(edge)];
+        if (std::ranges::count(of_face, a) + std::ranges::count(of_face, b) > 0) continue;
+        const auto truth = truth_of(mesh.vertices, {of_face, {a, b, b}});
+        if (!truth) continue;
+        expected.push_back({.elements = {ElementKind::face, ElementKind::edge},
+                            .numbers = {face, edge},
+                            .kind = truth->first,
+                            .place = truth->second});
+      }
+    }
+    ASSERT_EQ(found, expected);
+    EXPECT_EQ(has_intersections(mesh.vertices, mesh.elements(),
+                                {.pairs = IntersectingPairs::edges_with_faces}),
+              !expected.empty());
+    mesh.edges.pop_back();
+    const Found of_faces = mesh.intersections({.pairs = IntersectingPairs::edges_with_faces});
+    mesh.edges.clear();
+    EXPECT_EQ(mesh.intersections({.pairs = IntersectingPairs::edges_with_faces}), of_faces)
+        << "by default the edges of the faces";
+    count += static_cast<int>(found.size());
+  }
+  EXPECT_GT(count, tests::trials(300));
+}
+
+// ---- The filter ---------------------------------------------------------------------------------
+
+/// Pairs of triangles, each of which has vertices of its own in one mesh.
+class FilterTrial {
+ public:
+  /// With that number of common vertices.
+  FilterTrial(Random& random, std::size_t common) : common_(common) {
+    const auto vertices = static_cast<std::int32_t>(6 - common);
+    const auto count = static_cast<std::int32_t>(random.between(1, 20));
+    pairs_.resize(static_cast<std::size_t>(count));
+    mesh_.vertices.resize(static_cast<Eigen::Index>(count * vertices), 3);
+    for (std::int32_t pair = 0; pair < count; ++pair) {
+      TrianglePair& one = pairs_[static_cast<std::size_t>(pair)];
+      one = {{}, {pair, pair}};
+      for (std::int32_t k = 0; k < vertices; ++k) {
+        one.vertices[static_cast<std::size_t>(k)] = pair * vertices + k;
+      }
+      place(random, mesh_.vertices.middleRows(pair * vertices, vertices));
+    }
+  }
+
+  /// The pairs that a kernel leaves.
+  [[nodiscard]] std::vector<std::int32_t> left_by(const TriangleKernel& kernel) const {
+    const MovingVertices vertices(mesh_.vertices, mesh_.vertices);
+    std::vector<IndexPair> open(pairs_.size());
+    const IndexPair* const end = kernel.find_open(vertices.data(), common_, pairs_, open.data());
+    std::vector<std::int32_t> result;
+    for (const IndexPair* pair = open.data(); pair != end; ++pair) result.push_back((*pair)[0]);
+    return result;
+  }
+  /// Those that intersect.
+  [[nodiscard]] std::vector<std::int32_t> truth() const {
+    std::vector<std::int32_t> result;
+    for (const auto& [vertices, numbers] : pairs_) {
+      const std::size_t own = 3 - common_;
+      Pair pair{};
+      for (std::size_t k = 0; k < 3; ++k) {
+        pair[0][k] = vertices[k];
+        pair[1][k] = k < common_ ? vertices[k] : vertices[k + own];
+      }
+      if (truth_of(mesh_.vertices, pair)) result.push_back(numbers[0]);
+    }
+    return result;
+  }
+  [[nodiscard]] std::size_t size() const { return pairs_.size(); }
+
+ private:
+  /// Small whole numbers, doubles, or nearly coplanar ones.
+  template <class Places>
+  static void place(Random& random, Places&& places) {
+    const int greatest = random.between(1, 4), kind = random.between(0, 3);
+    for (double& x : places.reshaped()) {
+      x = kind == 0 ? random.few_bit_double(53, -52, -51) : random.between(-greatest, greatest);
+    }
+    if (kind >= 2) places.col(2) = places.col(0) * 0.1 + places.col(1) * 0.3;
+    if (kind == 3) places.col(2) *= 1.0 + 0x1p-52 * random.between(-2, 2);
+  }
+
+  std::size_t common_;
+  Mesh mesh_;
+  std::vector<TrianglePair> pairs_;
+};
+
+TEST(TriangleFilter, LeavesWhatIntersectsAndTheSameOnAllInstructionSets) {
+  Random random(543);
+  for (std::size_t common = 0; common < 3; ++common) {
+    std::size_t pairs = 0, left = 0, intersecting = 0;
+    for (int i = 0; i < tests::soak_trials(60, 100); ++i) {
+      const FilterTrial trial(random, common);
+      const std::vector<std::int32_t> expected = trial.left_by(*triangle_kernels()[0]);
+      for (const TriangleKernel* const kernel : triangle_kernels()) {
+        ASSERT_EQ(trial.left_by(*kernel), expected) << to_string(kernel->instructions);
+      }
+      const std::vector<std::int32_t> truth = trial.truth();
+      ASSERT_TRUE(std::ranges::includes(expected, truth)) << common;
+      pairs += trial.size();
+      left += expected.size();
+      intersecting += truth.size();
+    }
+    EXPECT_GT(intersecting, pairs / 50) << common;
+    EXPECT_GT(pairs - left, (pairs - intersecting) / 3) << common;
+  }
+}
+
+TEST(TriangleFilter, PlantedFaultsAreFound) {
+  for (const auto& fault : tests::planted_faults().triangle_filter) {
+    Random random(544);
+    bool is_found = false;
+    for (int i = 0; i < 3000 && !is_found; ++i) {
+      const FilterTrial trial(random, static_cast<std::size_t>(i % 3));
+      const std::vector<std::int32_t> left = trial.left_by(*fault.part);
+      // (The truth takes longer.)
+      is_found = left != trial.left_by(*triangle_kernels()[0]) &&
+                 !std::ranges::includes(left, trial.truth());
+    }
+    EXPECT_TRUE(is_found) << fault.name;
   }
 }
 
@@ -557,8 +697,11 @@ TEST(Intersections, PlantedFaultsAreFound) {
     bool is_found = false;
     for (int i = 0; i < 20000 && !is_found; ++i) {
       const Mesh mesh = Trial(random).mesh();
+      const IntersectionOptions options{
+          .pairs = i % 4 == 0 ? IntersectingPairs::edges_with_faces : IntersectingPairs::all,
+          .max_threads = 1};
       is_found = fault.part(MovingVertices(mesh.vertices, mesh.vertices), mesh.elements(),
-                            {.max_threads = 1}) != mesh.intersections({.max_threads = 1});
+                            options) != mesh.intersections(options);
     }
     EXPECT_TRUE(is_found) << fault.name;
   }
