@@ -176,31 +176,41 @@ class Search final : private PairQuestions {
   }
 
   [[nodiscard]] std::vector<Intersection> all() {
-    std::vector<std::vector<Intersection>> of_parts(parts());
+    std::vector<std::vector<Found>> of_parts(parts());
     for_each_part([&](std::size_t part) {
-      find(part, [&](const IndexPair& pair, const meeting::Meeting& found) {
-        of_parts[part].push_back(intersection_of(pair, found));
-      });
+      find(part, options_.places, [&](const Found& found) { of_parts[part].push_back(found); });
     });
-    std::vector<Intersection> result;
-    for (const auto& some : of_parts) result.insert(result.end(), some.begin(), some.end());
-    std::ranges::sort(result, {}, [](const Intersection& one) {
-      return std::tuple(one.elements[0], one.numbers[0], one.elements[1], one.numbers[1]);
-    });
+    std::vector<Found> found;
+    for (const auto& some : of_parts) found.insert(found.end(), some.begin(), some.end());
+    // The elements are numbered in the order of their kinds and numbers.
+    std::ranges::sort(found, {}, &Found::pair);
+    std::vector<Intersection> result(found.size());
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, found.size(), found_of_task),
+                      [&](const tbb::blocked_range<std::size_t>& range) {
+                        const StrictFloatingPoint strict;
+                        for (std::size_t i = range.begin(); i < range.end(); ++i) {
+                          result[i] = intersection_of(found[i]);
+                        }
+                      });
     return result;
   }
 
   [[nodiscard]] bool is_any() {
-    std::atomic<bool> found = false;
+    std::atomic<bool> is_found = false;
     for_each_part([&](std::size_t part) {
-      if (found) return;
-      find(part,
-           [&](const IndexPair& /*pair*/, const meeting::Meeting& /*found*/) { found = true; });
+      if (is_found) return;
+      find(part, false, [&](const Found& /*found*/) { is_found = true; });
     });
-    return found;
+    return is_found;
   }
 
  private:
+  struct Found {
+    IndexPair pair;
+    meeting::Meeting meeting;
+  };
+  static constexpr std::size_t found_of_task = 256;
+
   [[nodiscard]] std::size_t parts() const {
     return (tree_.members().size() + groups_of_part - 1) / groups_of_part;
   }
@@ -210,18 +220,31 @@ class Search final : private PairQuestions {
     tbb::parallel_for(std::size_t{0}, parts(), work);
   }
 
-  /// Calls take(pair, meeting) for the pairs of a part that intersect.
+  /// Calls take(found) for the pairs of a part that intersect. \param with_contacts False if the
+  /// contacts need not be known.
   template <class Take>
-  void find(std::size_t part, const Take& take) const {
+  void find(std::size_t part, bool with_contacts, const Take& take) const {
     const StrictFloatingPoint strict;
     meeting::PairFilter& filter = filters_.local();
     const TriangleKernel& kernel = *triangle_kernels().back();
     const meeting::ElementLists elements = elements_.lists();
+    const auto examine = [&](const IndexPair& pair) {
+      const auto meeting = meeting::meeting_of(at_, elements[pair[0]], elements[pair[1]]);
+      if (meeting) take({pair, *meeting});
+    };
     PairSink buffer(
         [&](std::span<const IndexPair> pairs) {
-          for (const IndexPair& pair : filter.open_pairs(at_, elements, pairs, kernel)) {
-            const auto found = meeting::meeting_of(at_, elements[pair[0]], elements[pair[1]]);
-            if (found) take(pair, *found);
+          const FilteredPairs& filtered = filter.filtered(at_, elements, pairs, kernel);
+          for (const IndexPair& pair : std::span(filtered.open).first(filtered.open_count)) {
+            examine(pair);
+          }
+          for (const IndexPair& pair :
+               std::span(filtered.crossing).first(filtered.crossing_count)) {
+            if (with_contacts) {
+              examine(pair);
+            } else {
+              take({pair, {IntersectionKind::edge_through_face, {}}});
+            }
           }
         },
         options_.stop);
@@ -235,15 +258,15 @@ class Search final : private PairQuestions {
     buffer.flush();
   }
 
-  [[nodiscard]] Intersection intersection_of(const IndexPair& pair,
-                                             const meeting::Meeting& found) const {
+  [[nodiscard]] Intersection intersection_of(const Found& found) const {
+    const auto& [pair, meeting] = found;
     const auto [kind_a, a] = elements_.reported(pair[0]);
     const auto [kind_b, b] = elements_.reported(pair[1]);
     Intersection result{
-        .elements = {kind_a, kind_b}, .numbers = {a, b}, .kind = found.kind, .place = {}};
+        .elements = {kind_a, kind_b}, .numbers = {a, b}, .kind = meeting.kind, .place = {}};
     if (options_.places) {
       const meeting::ElementLists elements = elements_.lists();
-      result.place = meeting::place_of(at_, elements[pair[0]], elements[pair[1]], found.contacts);
+      result.place = meeting::place_of(at_, elements[pair[0]], elements[pair[1]], meeting.contacts);
     }
     return result;
   }

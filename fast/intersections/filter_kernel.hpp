@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <span>
 
+#include "fast/broad_phase/search.hpp"
 #include "fast/platform/instruction_set.hpp"
 #include "touchstone/mesh.hpp"
 
@@ -22,15 +23,27 @@ struct alignas(32) TrianglePair {
   IndexPair pair;
 };
 
-/// The functions of one instruction set. All sets leave the same pairs.
+/// What rounded numbers tell of pairs; those that certainly do not intersect are left out.
+struct FilteredPairs {
+  /// No more pairs than a search has at a time.
+  static constexpr std::size_t capacity = PairBuffer::capacity;
+
+  std::size_t open_count = 0, crossing_count = 0;
+  /// Pairs that may intersect.
+  std::array<IndexPair, capacity> open;
+  /// Pairs that certainly intersect, with the kind edge_through_face.
+  std::array<IndexPair, capacity> crossing;
+};
+
+/// The functions of one instruction set. All sets have the same results.
 struct TriangleKernel {
   InstructionSet instructions;
-  /// Writes the pairs that may intersect, as far as rounded numbers tell, in their order, and
-  /// returns the end.
+  /// Appends what is known of pairs, in their order.
   /// \param common The number of common vertices of all pairs: 0, 1 or 2.
-  /// \pre strict floating point; coordinates of magnitude up to Positions::greatest_coordinate.
-  IndexPair* (*find_open)(const MovingVertex* vertices, std::size_t common,
-                          std::span<const TrianglePair> pairs, IndexPair* open);
+  /// \pre there is room; strict floating point; coordinates of magnitude up to
+  /// Positions::greatest_coordinate.
+  void (*filter)(const MovingVertex* vertices, std::size_t common,
+                 std::span<const TrianglePair> pairs, FilteredPairs& result);
   /// a b + c on its lanes, as CertifiedKernel.
   double (*product_then_sum)(double a, double b, double c);
 };

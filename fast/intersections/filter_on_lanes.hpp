@@ -2,9 +2,9 @@
 
 /// \file
 /// The filter of pairs of triangles: those that certainly do not intersect
-/// (touchstone/intersections.hpp), by signs of rounded determinants. It is written once for lanes,
-/// with one pair in each lane. Only the kernels include this file, one file for each instruction
-/// set (filter_*.cpp).
+/// (touchstone/intersections.hpp), and those that certainly cross, by signs of rounded
+/// determinants. It is written once for lanes, with one pair in each lane. Only the kernels include
+/// this file, one file for each instruction set (filter_*.cpp).
 ///
 /// Let A and B be triangles with an area, N and M their normals. A *side* of a vertex is the sign
 /// of its determinant with a triangle; it is certain beyond the bound of measured_determinant_end.
@@ -47,6 +47,10 @@
 ///   3. if a line through an edge of one has, in the projection, its third vertex certainly on one
 ///      side and all of the other triangle on the other one.
 ///
+/// If in the second cases all signs are certain and the segments meet, they have a segment in
+/// common, because no sign is 0. An edge is not in the other triangle's plane; so the kind of the
+/// intersection is edge_through_face (contacts.hpp).
+///
 /// Where planes nearly coincide only the projection can be certain, elsewhere sides suffice; so the
 /// projection is computed only if a lane needs it.
 ///
@@ -68,11 +72,12 @@ namespace touchstone::fast::triangle_filter {
 template <class Lanes>
 class Filter {
  public:
-  /// As TriangleKernel::find_open.
-  static IndexPair* run(const MovingVertex* at, std::size_t common,
-                        std::span<const TrianglePair> pairs, IndexPair* open) {
-    if (common == 0) return find_open<0>(at, pairs, open);
-    return common == 1 ? find_open<1>(at, pairs, open) : find_open<2>(at, pairs, open);
+  /// As TriangleKernel::filter.
+  static void run(const MovingVertex* at, std::size_t common, std::span<const TrianglePair> pairs,
+                  FilteredPairs& result) {
+    if (common == 0) run<0>(at, pairs, result);
+    if (common == 1) run<1>(at, pairs, result);
+    if (common == 2) run<2>(at, pairs, result);
   }
 
  private:
@@ -82,8 +87,8 @@ class Filter {
   static constexpr std::size_t width = Lanes::width;
 
   template <std::size_t common>
-  static IndexPair* find_open(const MovingVertex* at, std::span<const TrianglePair> pairs,
-                              IndexPair* open) {
+  static void run(const MovingVertex* at, std::span<const TrianglePair> pairs,
+                  FilteredPairs& result) {
     static constexpr std::size_t different = 6 - common;
     for (std::size_t first = 0; first < pairs.size(); first += width) {
       const TrianglePair* const some = pairs.data() + first;
@@ -97,11 +102,23 @@ class Filter {
         }
         x[k] = Value::load_points(rows.data());
       }
-      unsigned bits = ~are_apart(x).bits() & ((2U << last) - 1U);
-      for (; bits != 0; bits &= bits - 1) *open++ = some[__builtin_ctz(bits)].pair;
+      const Known known = known_of(x);
+      const unsigned all = (2U << last) - 1U, crossing = known.crossing.bits() & all;
+      const unsigned open = all & ~(known.apart.bits() | crossing);
+      append(some, open, result.open, result.open_count);
+      append(some, crossing, result.crossing, result.crossing_count);
     }
-    return open;
   }
+
+  static void append(const TrianglePair* pairs, unsigned bits,
+                     std::array<IndexPair, FilteredPairs::capacity>& to, std::size_t& count) {
+    for (; bits != 0; bits &= bits - 1) to[count++] = pairs[__builtin_ctz(bits)].pair;
+  }
+
+  /// Pairs that certainly do not intersect, and those that certainly cross.
+  struct Known {
+    Mask apart, crossing;
+  };
 
   // ---- Signs ----
 
@@ -191,32 +208,33 @@ class Filter {
   // ---- With a common edge ----
 
   /// Of v, w, a, b.
-  static Mask are_apart(const std::array<Point, 4>& x) {
+  static Known known_of(const std::array<Point, 4>& x) {
     const Point edge = difference(x[0], x[1]), a = difference(x[0], x[2]);
     const Point b = difference(x[0], x[3]);
     const Normal normal(edge, a);
     const Signs side = normal.side(b);
     const Mask apart = side.positive | side.negative;
-    if (are_all(apart)) return apart;
+    if (are_all(apart)) return {apart, Mask::none()};
     const Projection projected(normal.vector);
     const Point2 along = projected(edge), to_a = projected(a), to_b = projected(b);
     const Value size = max(along.size(), max(to_a.size(), to_b.size()));
-    return apart | differ(turn(along, to_a, size * size), turn(along, to_b, size * size));
+    return {apart | differ(turn(along, to_a, size * size), turn(along, to_b, size * size)),
+            Mask::none()};
   }
 
   // ---- With a common vertex ----
 
   /// Of v, a, b, c, d.
-  static Mask are_apart(const std::array<Point, 5>& x) {
+  static Known known_of(const std::array<Point, 5>& x) {
     const Point p = difference(x[0], x[1]), q = difference(x[0], x[2]);
     const Point r = difference(x[0], x[3]), s = difference(x[0], x[4]);
     const Normal first(p, q), second(r, s);
     const Signs c = first.side(r), d = first.side(s), a = second.side(p), b = second.side(q);
-    const Mask crossing = differ(c, d) & differ(a, b);
-    const Mask one_way = (c.positive & a.positive) | (c.negative & a.negative);
-    const Mask apart = are_one(std::array{c, d}) | are_one(std::array{a, b}) | (crossing & one_way);
-    if (are_all(apart | crossing)) return apart;
-    return apart | have_line_between(Projection(first.vector), p, q, r, s);
+    const Mask are_mixed = differ(c, d) & differ(a, b), crossing = are_mixed & differ(a, c);
+    const Mask beside = (c.positive & a.positive) | (c.negative & a.negative);
+    const Mask apart = are_one(std::array{c, d}) | are_one(std::array{a, b}) | (are_mixed & beside);
+    if (are_all(apart | crossing)) return {apart, crossing};
+    return {apart | have_line_between(Projection(first.vector), p, q, r, s), crossing};
   }
 
   static Mask have_line_between(const Projection& projected, const Point& p, const Point& q,
@@ -243,18 +261,17 @@ class Filter {
             plane.side(difference(origin, triangle[2]))};
   }
 
-  static Mask are_apart(const std::array<Point, 6>& x) {
+  static Known known_of(const std::array<Point, 6>& x) {
     const Triangle a{x[0], x[1], x[2]}, b{x[3], x[4], x[5]};
     const Normal of_a(difference(a[0], a[1]), difference(a[0], a[2]));
     const Normal of_b(difference(b[0], b[1]), difference(b[0], b[2]));
     const std::array<Signs, 3> sides_of_a = sides(of_b, b[0], a), sides_of_b = sides(of_a, a[0], b);
-    Mask apart = are_one(sides_of_a) | are_one(sides_of_b);
-    if (are_all(apart)) return apart;
+    const Mask beside = are_one(sides_of_a) | are_one(sides_of_b);
+    if (are_all(beside)) return {beside, Mask::none()};
     const Rotation rotation_of_a(a, sides_of_a), rotation_of_b(b, sides_of_b);
-    const Mask crossing = rotation_of_a.is_certain & rotation_of_b.is_certain;
-    apart = apart | (crossing & are_apart_on_line(rotation_of_a, rotation_of_b));
-    if (are_all(apart | crossing)) return apart;
-    return apart | have_line_between(Projection(of_a.vector), a, b);
+    const auto [apart, crossing] = known_on_line(rotation_of_a, rotation_of_b);
+    if (are_all(beside | apart | crossing)) return {beside | apart, crossing};
+    return {beside | apart | have_line_between(Projection(of_a.vector), a, b), crossing};
   }
 
   /// A triangle whose sides of a plane are certain and different, from the vertex on that is alone
@@ -287,13 +304,16 @@ class Filter {
     return {select(mask, a[0], b[0]), select(mask, a[1], b[1]), select(mask, a[2], b[2])};
   }
 
-  static Mask are_apart_on_line(const Rotation& a, const Rotation& b) {
+  static Known known_on_line(const Rotation& a, const Rotation& b) {
     const auto from_p = [&](const Point& x) { return difference(a.p, x); };
     const Point q = from_p(chosen(b.is_below, a.r, a.q)), r = from_p(chosen(b.is_below, a.q, a.r));
     const Point other_p = from_p(b.p);
     const Point other_q = from_p(chosen(a.is_below, b.r, b.q));
     const Point other_r = from_p(chosen(a.is_below, b.q, b.r));
-    return Normal(other_p, other_q).side(q).positive | Normal(other_p, other_r).side(r).negative;
+    const Signs at_q = Normal(other_p, other_q).side(q), at_r = Normal(other_p, other_r).side(r);
+    const Mask are_certain = a.is_certain & b.is_certain;
+    return {are_certain & (at_q.positive | at_r.negative),
+            are_certain & at_q.negative & at_r.positive};
   }
 
   static Mask have_line_between(const Projection& projected, const Triangle& a, const Triangle& b) {
@@ -329,7 +349,7 @@ namespace touchstone::fast {
 template <class Lanes>
 constexpr TriangleKernel triangle_kernel_on(InstructionSet instructions) {
   return {.instructions = instructions,
-          .find_open = triangle_filter::Filter<Lanes>::run,
+          .filter = triangle_filter::Filter<Lanes>::run,
           .product_then_sum = product_then_sum<Lanes>};
 }
 

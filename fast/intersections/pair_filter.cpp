@@ -66,21 +66,21 @@ void PairFilter::sort(const ElementLists& elements, const IndexPair& pair) {
                                    pair};
 }
 
-std::span<const IndexPair> PairFilter::open_pairs(const Positions& at, const ElementLists& elements,
-                                                  std::span<const IndexPair> pairs,
-                                                  const TriangleKernel& kernel) {
+const FilteredPairs& PairFilter::filtered(const Positions& at, const ElementLists& elements,
+                                          std::span<const IndexPair> pairs,
+                                          const TriangleKernel& kernel) {
   count_.fill(0);
+  result_.open_count = result_.crossing_count = 0;
   for (const IndexPair& pair : pairs) sort(elements, pair);
-  IndexPair* open = open_.data();
   for (std::size_t common = 0; common < sorted_.size(); ++common) {
     const auto some = std::span(sorted_[common]).first(count_[common]);
     if (common < 3 && at.has_filter()) {
-      open = kernel.find_open(at.vertices().data(), common, some, open);
+      kernel.filter(at.vertices().data(), common, some, result_);
     } else {
-      for (const TrianglePair& one : some) *open++ = one.pair;
+      for (const TrianglePair& one : some) result_.open[result_.open_count++] = one.pair;
     }
   }
-  return {open_.data(), open};
+  return result_;
 }
 
 }  // namespace touchstone::fast::meeting

@@ -2,9 +2,10 @@
 
 /// \file
 /// The first step after the search for pairs of elements whose boxes overlap: it leaves out pairs
-/// that are not asked for, and those that certainly do not intersect by rounded numbers
-/// (filter_on_lanes.hpp). The pairs are sorted by the number of their common vertices, and the
-/// vertices of each are brought into one order, so that the lanes of a kernel do the same.
+/// that are not asked for, and those that certainly do not intersect by rounded numbers, and tells
+/// those that certainly cross (filter_on_lanes.hpp). The pairs are sorted by the number of their
+/// common vertices, and the vertices of each are brought into one order, so that the lanes of a
+/// kernel do the same.
 
 #include <array>
 #include <cstddef>
@@ -12,7 +13,6 @@
 #include <span>
 
 #include "fast/broad_phase/primitive_groups.hpp"
-#include "fast/broad_phase/search.hpp"
 #include "fast/intersections/contacts.hpp"
 #include "fast/intersections/filter_kernel.hpp"
 #include "fast/intersections/orientation.hpp"
@@ -36,22 +36,19 @@ struct ElementLists {
 /// The buffers of one thread.
 class PairFilter {
  public:
-  static constexpr std::size_t capacity = PairBuffer::capacity;
-
-  /// The pairs that may intersect; valid until the next call.
-  /// \pre there are at most `capacity` pairs; strict floating point.
-  [[nodiscard]] std::span<const IndexPair> open_pairs(const Positions& at,
-                                                      const ElementLists& elements,
-                                                      std::span<const IndexPair> pairs,
-                                                      const TriangleKernel& kernel);
+  /// What is known of pairs; valid until the next call.
+  /// \pre there are at most FilteredPairs::capacity pairs; strict floating point.
+  [[nodiscard]] const FilteredPairs& filtered(const Positions& at, const ElementLists& elements,
+                                              std::span<const IndexPair> pairs,
+                                              const TriangleKernel& kernel);
 
  private:
   void sort(const ElementLists& elements, const IndexPair& pair);
 
   /// By the number of common vertices. The last ones are not for the kernel.
-  std::array<std::array<TrianglePair, capacity>, 4> sorted_;
+  std::array<std::array<TrianglePair, FilteredPairs::capacity>, 4> sorted_;
   std::array<std::size_t, 4> count_{};
-  std::array<IndexPair, capacity> open_;
+  FilteredPairs result_;
 };
 
 }  // namespace touchstone::fast::meeting
