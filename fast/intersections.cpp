@@ -66,10 +66,10 @@ std::vector<std::int32_t> first_at_place(const MovingVertices& vertices,
 class Elements {
  public:
   Elements(const Positions& at, const MeshElements& given, const IntersectionOptions& options)
-      : faces_(given.faces.size()), asked_(options.pairs) {
+      : faces_(given.faces.size()) {
     MeshElements all = given;
     std::vector<Edge> edges_of_faces;
-    const bool has_all_edges = asked_ == IntersectingPairs::edges_with_faces;
+    const bool has_all_edges = options.pairs == IntersectingPairs::edges_with_faces;
     if (given.edges.empty() && (has_all_edges || !given.points.empty())) {
       all.edges = edges_of_faces = edges_of(given.faces);
     }
@@ -94,11 +94,15 @@ class Elements {
     examine(at);
   }
 
-  [[nodiscard]] meeting::ElementLists lists() const {
-    return {.vertices = vertices_,
-            .simplices = simplices_.empty() ? vertices_ : simplices_,
-            .faces = faces_,
-            .asked = asked_};
+  [[nodiscard]] std::size_t faces() const { return faces_; }
+  /// The vertices of each element.
+  [[nodiscard]] std::span<const Primitive> vertices() const { return vertices_; }
+  [[nodiscard]] std::span<const ElementRow> rows() const { return rows_; }
+  [[nodiscard]] meeting::Element element(const Positions& at, std::int32_t number) const {
+    const auto i = static_cast<std::size_t>(number);
+    const Primitive& vertices = vertices_[i];
+    if (rows_[i][3] == no_triangle) return meeting::element_of(at, vertices);
+    return {vertices, vertices};
   }
 
   /// The kind of an element, and its number in the interface.
@@ -126,29 +130,27 @@ class Elements {
     }
   }
 
-  /// Finds the simplices if they are not all given by all vertices.
+  /// Sets the rows: finds the triangles with an area.
   void examine(const Positions& at) {
-    std::atomic<bool> has_reduced = false;
-    std::vector<Primitive> simplices(vertices_.size());
+    rows_.resize(vertices_.size());
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, vertices_.size(), elements_of_task),
                       [&](const tbb::blocked_range<std::size_t>& range) {
                         const StrictFloatingPoint strict;
                         for (std::size_t i = range.begin(); i < range.end(); ++i) {
-                          simplices[i] = meeting::element_of(at, vertices_[i]).simplex;
-                          if (simplices[i] != vertices_[i]) has_reduced = true;
+                          const auto& [a, b, c] = vertices_[i];
+                          const auto simplex = meeting::element_of(at, vertices_[i]).simplex;
+                          rows_[i] = {a, b, c, meeting::dimension(simplex) == 2 ? 0 : no_triangle};
                         }
                       });
-    if (has_reduced) simplices_ = std::move(simplices);
   }
 
   static constexpr std::size_t elements_of_task = 4096;
 
   std::size_t faces_;
-  IntersectingPairs asked_;
   std::vector<std::int32_t> edges_;   ///< of no face, or all
   std::vector<std::int32_t> points_;  ///< without an edge
   std::vector<Primitive> vertices_;
-  std::vector<Primitive> simplices_;  ///< empty if they are the same
+  std::vector<ElementRow> rows_;
 };
 
 // ---- The search ---------------------------------------------------------------------------------
@@ -165,7 +167,7 @@ class Search final : private PairQuestions {
         at_(std::move(vertices)),
         elements_(at_, elements, options),
         bounds_(at_.vertices()),
-        groups_of_boxes_(bounds_, elements_.lists().vertices),
+        groups_of_boxes_(bounds_, elements_.vertices()),
         tree_(groups_of_boxes_),
         options_(options) {
     tree_.fit(bounds_);
@@ -183,7 +185,7 @@ class Search final : private PairQuestions {
     std::vector<Found> found;
     for (const auto& some : of_parts) found.insert(found.end(), some.begin(), some.end());
     // The elements are numbered in the order of their kinds and numbers.
-    std::ranges::sort(found, {}, &Found::pair);
+    std::ranges::sort(found, {}, [](const Found& one) { return one.key(); });
     std::vector<Intersection> result(found.size());
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, found.size(), found_of_task),
                       [&](const tbb::blocked_range<std::size_t>& range) {
@@ -208,6 +210,11 @@ class Search final : private PairQuestions {
   struct Found {
     IndexPair pair;
     meeting::Meeting meeting;
+
+    /// In the order of pairs.
+    [[nodiscard]] std::uint64_t key() const {
+      return static_cast<std::uint64_t>(pair[0]) << 32U | static_cast<std::uint32_t>(pair[1]);
+    }
   };
   static constexpr std::size_t found_of_task = 256;
 
@@ -227,14 +234,18 @@ class Search final : private PairQuestions {
     const StrictFloatingPoint strict;
     meeting::PairFilter& filter = filters_.local();
     const TriangleKernel& kernel = *triangle_kernels().back();
-    const meeting::ElementLists elements = elements_.lists();
     const auto examine = [&](const IndexPair& pair) {
-      const auto meeting = meeting::meeting_of(at_, elements[pair[0]], elements[pair[1]]);
+      const auto meeting = meeting::meeting_of(at_, elements_.element(at_, pair[0]),
+                                               elements_.element(at_, pair[1]));
       if (meeting) take({pair, *meeting});
     };
     PairSink buffer(
         [&](std::span<const IndexPair> pairs) {
-          const FilteredPairs& filtered = filter.filtered(at_, elements, pairs, kernel);
+          const FilteredPairs& filtered =
+              options_.pairs == IntersectingPairs::edges_with_faces
+                  ? filter.filtered_edges_with_faces(at_, elements_.rows(), elements_.faces(),
+                                                     pairs, kernel)
+                  : filter.filtered(at_, elements_.rows(), pairs, kernel);
           for (const IndexPair& pair : std::span(filtered.open).first(filtered.open_count)) {
             examine(pair);
           }
@@ -265,8 +276,8 @@ class Search final : private PairQuestions {
     Intersection result{
         .elements = {kind_a, kind_b}, .numbers = {a, b}, .kind = meeting.kind, .place = {}};
     if (options_.places) {
-      const meeting::ElementLists elements = elements_.lists();
-      result.place = meeting::place_of(at_, elements[pair[0]], elements[pair[1]], meeting.contacts);
+      result.place = meeting::place_of(at_, elements_.element(at_, pair[0]),
+                                       elements_.element(at_, pair[1]), meeting.contacts);
     }
     return result;
   }

@@ -2,12 +2,13 @@
 // instruction set and called only on processors that have it.
 
 #include "fast/intersections/filter_on_lanes.hpp"
+#include "fast/intersections/pair_order_avx2.hpp"
 #include "fast/platform/avx2_doubles.hpp"
 
 namespace touchstone::fast {
 namespace {
 
-struct Lanes {
+struct Lanes : pair_order::InOneVector {
   using Value = touchstone::fast::Value;
   using Mask = touchstone::fast::Mask;
   static constexpr std::size_t width = 4;

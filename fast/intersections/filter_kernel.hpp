@@ -15,12 +15,27 @@
 
 namespace touchstone::fast {
 
-/// A pair of triangles, and its vertices: the common ones first, then the others of the first
-/// triangle, then those of the second. (With common vertices the last places are unused.) With one
+/// The vertices of an element in normal form (contacts.hpp), and 0 if it is a triangle with an
+/// area, otherwise no_triangle.
+using ElementRow = std::array<std::int32_t, 4>;
+inline constexpr std::int32_t no_triangle = 1 << 9;
+
+/// A pair of elements, and its vertices: the common ones first, then the others of the first
+/// element, then those of the second. (With common vertices the last places are unused.) With one
 /// common vertex or none, those of each triangle keep their sense of rotation.
-struct alignas(32) TrianglePair {
+struct alignas(32) ElementPair {
   std::array<std::int32_t, 6> vertices;
   IndexPair pair;
+};
+
+/// Pairs by the number of their common vertices. The last list has those with common vertices that
+/// are not of two different triangles with an area; their `vertices` have no meaning.
+struct SortedPairs {
+  /// So many that the lists stay in the first cache.
+  static constexpr std::size_t capacity = 512;
+
+  std::array<std::size_t, 4> count;
+  std::array<std::array<ElementPair, capacity>, 4> lists;
 };
 
 /// What rounded numbers tell of pairs; those that certainly do not intersect are left out.
@@ -38,12 +53,15 @@ struct FilteredPairs {
 /// The functions of one instruction set. All sets have the same results.
 struct TriangleKernel {
   InstructionSet instructions;
-  /// Appends what is known of pairs, in their order.
-  /// \param common The number of common vertices of all pairs: 0, 1 or 2.
+  /// Sorts pairs of elements into empty lists; each keeps their order.
+  /// \pre there are at most SortedPairs::capacity pairs.
+  void (*sort)(const ElementRow* elements, std::span<const IndexPair> pairs, SortedPairs& sorted);
+  /// Appends what is known of pairs of one of the first three lists, in their order.
+  /// \param common The number of common vertices.
   /// \pre there is room; strict floating point; coordinates of magnitude up to
   /// Positions::greatest_coordinate.
   void (*filter)(const MovingVertex* vertices, std::size_t common,
-                 std::span<const TrianglePair> pairs, FilteredPairs& result);
+                 std::span<const ElementPair> pairs, FilteredPairs& result);
   /// a b + c on its lanes, as CertifiedKernel.
   double (*product_then_sum)(double a, double b, double c);
 };

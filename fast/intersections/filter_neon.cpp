@@ -6,7 +6,7 @@
 namespace touchstone::fast {
 namespace {
 
-struct Lanes {
+struct Lanes : pair_order::OneByOne {
   using Value = touchstone::fast::Value;
   using Mask = touchstone::fast::Mask;
   static constexpr std::size_t width = 2;

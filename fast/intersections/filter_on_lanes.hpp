@@ -51,11 +51,16 @@
 /// common, because no sign is 0. An edge is not in the other triangle's plane; so the kind of the
 /// intersection is edge_through_face (contacts.hpp).
 ///
+/// Without a common vertex the first case excludes most pairs; the others come into lanes anew.
 /// Where planes nearly coincide only the projection can be certain, elsewhere sides suffice; so the
 /// projection is computed only if a lane needs it.
 ///
+/// Other elements than triangles, and faces without an area, may be among pairs without a common
+/// vertex: they have no certain sign where the proof needs an area.
+///
 /// `Lanes` is a type of the file of one instruction set, in an anonymous namespace, with Value and
-/// Mask as in fast/certified/stages/lanes.hpp. No other file may link code from here.
+/// Mask as in fast/certified/stages/lanes.hpp, and the functions of pair_order.hpp. No other file
+/// may link code from here.
 
 #include <array>
 #include <cstddef>
@@ -64,6 +69,7 @@
 
 #include "fast/intersections/filter_kernel.hpp"
 #include "fast/intersections/orientation.hpp"
+#include "fast/intersections/pair_order.hpp"
 #include "touchstone/filters/error_bounds.hpp"
 #include "touchstone/filters/polynomial_expressions.hpp"
 
@@ -73,11 +79,28 @@ template <class Lanes>
 class Filter {
  public:
   /// As TriangleKernel::filter.
-  static void run(const MovingVertex* at, std::size_t common, std::span<const TrianglePair> pairs,
+  static void run(const MovingVertex* at, std::size_t common, std::span<const ElementPair> pairs,
                   FilteredPairs& result) {
-    if (common == 0) run<0>(at, pairs, result);
-    if (common == 1) run<1>(at, pairs, result);
-    if (common == 2) run<2>(at, pairs, result);
+    const auto decide = [&](const ElementPair* some, unsigned all, const auto& x) {
+      const Known known = known_of(x);
+      const unsigned crossing = known.crossing.bits() & all;
+      const unsigned open = all & ~(known.apart.bits() | crossing);
+      for_each(open, [&](std::size_t i) { result.open[result.open_count++] = some[i].pair; });
+      for_each(crossing,
+               [&](std::size_t i) { result.crossing[result.crossing_count++] = some[i].pair; });
+    };
+    if (common == 0) {
+      std::array<ElementPair, SortedPairs::capacity> rest;
+      std::size_t count = 0;
+      for_all<0>(at, pairs, [&](const ElementPair* some, unsigned all, const auto& x) {
+        for_each(all & ~are_beside(x).bits(), [&](std::size_t i) { rest[count++] = some[i]; });
+      });
+      for_all<0>(at, std::span(rest).first(count), decide);
+    } else if (common == 1) {
+      for_all<1>(at, pairs, decide);
+    } else {
+      for_all<2>(at, pairs, decide);
+    }
   }
 
  private:
@@ -86,12 +109,14 @@ class Filter {
   using Point = filters::Vector3<Value>;
   static constexpr std::size_t width = Lanes::width;
 
-  template <std::size_t common>
-  static void run(const MovingVertex* at, std::span<const TrianglePair> pairs,
-                  FilteredPairs& result) {
+  /// Calls work(pairs, bits, x) for some of the pairs after the other: the bits of their lanes, and
+  /// their vertices.
+  template <std::size_t common, class Work>
+  static void for_all(const MovingVertex* at, std::span<const ElementPair> pairs,
+                      const Work& work) {
     static constexpr std::size_t different = 6 - common;
     for (std::size_t first = 0; first < pairs.size(); first += width) {
-      const TrianglePair* const some = pairs.data() + first;
+      const ElementPair* const some = pairs.data() + first;
       const std::size_t last = (pairs.size() - first < width ? pairs.size() - first : width) - 1;
       std::array<Point, different> x;
       for (std::size_t k = 0; k < different; ++k) {
@@ -102,17 +127,13 @@ class Filter {
         }
         x[k] = Value::load_points(rows.data());
       }
-      const Known known = known_of(x);
-      const unsigned all = (2U << last) - 1U, crossing = known.crossing.bits() & all;
-      const unsigned open = all & ~(known.apart.bits() | crossing);
-      append(some, open, result.open, result.open_count);
-      append(some, crossing, result.crossing, result.crossing_count);
+      work(some, (2U << last) - 1U, x);
     }
   }
 
-  static void append(const TrianglePair* pairs, unsigned bits,
-                     std::array<IndexPair, FilteredPairs::capacity>& to, std::size_t& count) {
-    for (; bits != 0; bits &= bits - 1) to[count++] = pairs[__builtin_ctz(bits)].pair;
+  template <class Take>
+  static void for_each(unsigned bits, const Take& take) {
+    for (; bits != 0; bits &= bits - 1) take(static_cast<std::size_t>(__builtin_ctz(bits)));
   }
 
   /// Pairs that certainly do not intersect, and those that certainly cross.
@@ -261,17 +282,34 @@ class Filter {
             plane.side(difference(origin, triangle[2]))};
   }
 
+  /// Two triangles, and the sides of each one's vertices.
+  struct Two {
+    explicit Two(const std::array<Point, 6>& x)
+        : a{x[0], x[1], x[2]},
+          b{x[3], x[4], x[5]},
+          of_a(difference(a[0], a[1]), difference(a[0], a[2])),
+          of_b(difference(b[0], b[1]), difference(b[0], b[2])),
+          sides_of_a(sides(of_b, b[0], a)),
+          sides_of_b(sides(of_a, a[0], b)) {}
+
+    Triangle a, b;
+    Normal of_a, of_b;
+    std::array<Signs, 3> sides_of_a, sides_of_b;
+  };
+
+  /// True if one triangle is certainly on one side of the other's plane.
+  static Mask are_beside(const std::array<Point, 6>& x) {
+    const Two two(x);
+    return are_one(two.sides_of_a) | are_one(two.sides_of_b);
+  }
+
+  /// \pre they are not beside each other
   static Known known_of(const std::array<Point, 6>& x) {
-    const Triangle a{x[0], x[1], x[2]}, b{x[3], x[4], x[5]};
-    const Normal of_a(difference(a[0], a[1]), difference(a[0], a[2]));
-    const Normal of_b(difference(b[0], b[1]), difference(b[0], b[2]));
-    const std::array<Signs, 3> sides_of_a = sides(of_b, b[0], a), sides_of_b = sides(of_a, a[0], b);
-    const Mask beside = are_one(sides_of_a) | are_one(sides_of_b);
-    if (are_all(beside)) return {beside, Mask::none()};
-    const Rotation rotation_of_a(a, sides_of_a), rotation_of_b(b, sides_of_b);
-    const auto [apart, crossing] = known_on_line(rotation_of_a, rotation_of_b);
-    if (are_all(beside | apart | crossing)) return {beside | apart, crossing};
-    return {beside | apart | have_line_between(Projection(of_a.vector), a, b), crossing};
+    const Two two(x);
+    const auto [apart, crossing] =
+        known_on_line(Rotation(two.a, two.sides_of_a), Rotation(two.b, two.sides_of_b));
+    if (are_all(apart | crossing)) return {apart, crossing};
+    return {apart | have_line_between(Projection(two.of_a.vector), two.a, two.b), crossing};
   }
 
   /// A triangle whose sides of a plane are certain and different, from the vertex on that is alone
@@ -349,6 +387,7 @@ namespace touchstone::fast {
 template <class Lanes>
 constexpr TriangleKernel triangle_kernel_on(InstructionSet instructions) {
   return {.instructions = instructions,
+          .sort = pair_order::sort<Lanes>,
           .filter = triangle_filter::Filter<Lanes>::run,
           .product_then_sum = product_then_sum<Lanes>};
 }

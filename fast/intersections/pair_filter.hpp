@@ -1,18 +1,15 @@
 #pragma once
 
 /// \file
-/// The first step after the search for pairs of elements whose boxes overlap: it leaves out pairs
-/// that are not asked for, and those that certainly do not intersect by rounded numbers, and tells
-/// those that certainly cross (filter_on_lanes.hpp). The pairs are sorted by the number of their
-/// common vertices, and the vertices of each are brought into one order, so that the lanes of a
-/// kernel do the same.
+/// The elements of a mesh for the search, and the first step after it: pairs that are not asked for
+/// are left out, and those that certainly do not intersect by rounded numbers; those that certainly
+/// cross are told (filter_on_lanes.hpp).
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
 
-#include "fast/broad_phase/primitive_groups.hpp"
 #include "fast/intersections/contacts.hpp"
 #include "fast/intersections/filter_kernel.hpp"
 #include "fast/intersections/orientation.hpp"
@@ -20,34 +17,31 @@
 
 namespace touchstone::fast::meeting {
 
-/// The elements of a mesh: all faces first.
-struct ElementLists {
-  std::span<const Primitive> vertices;  ///< in normal form
-  std::span<const Simplex> simplices;
-  std::size_t faces = 0;
-  IntersectingPairs asked = IntersectingPairs::all;
-
-  [[nodiscard]] Element operator[](std::int32_t number) const {
-    const auto i = static_cast<std::size_t>(number);
-    return {vertices[i], simplices[i]};
-  }
-};
-
 /// The buffers of one thread.
 class PairFilter {
  public:
-  /// What is known of pairs; valid until the next call.
+  /// What is known of pairs of elements, all faces first; valid until the next call.
   /// \pre there are at most FilteredPairs::capacity pairs; strict floating point.
-  [[nodiscard]] const FilteredPairs& filtered(const Positions& at, const ElementLists& elements,
+  [[nodiscard]] const FilteredPairs& filtered(const Positions& at,
+                                              std::span<const ElementRow> elements,
                                               std::span<const IndexPair> pairs,
                                               const TriangleKernel& kernel);
 
- private:
-  void sort(const ElementLists& elements, const IndexPair& pair);
+  /// The same of pairs of an edge and a face without a common vertex; the others are left out.
+  [[nodiscard]] const FilteredPairs& filtered_edges_with_faces(const Positions& at,
+                                                               std::span<const ElementRow> elements,
+                                                               std::size_t faces,
+                                                               std::span<const IndexPair> pairs,
+                                                               const TriangleKernel& kernel);
 
-  /// By the number of common vertices. The last ones are not for the kernel.
-  std::array<std::array<TrianglePair, FilteredPairs::capacity>, 4> sorted_;
-  std::array<std::size_t, 4> count_{};
+ private:
+  /// \param lists The number of lists of sorted pairs that are asked for.
+  [[nodiscard]] const FilteredPairs& filter(const Positions& at,
+                                            std::span<const ElementRow> elements,
+                                            std::span<const IndexPair> pairs,
+                                            const TriangleKernel& kernel, std::size_t lists);
+
+  SortedPairs sorted_;
   FilteredPairs result_;
 };
 

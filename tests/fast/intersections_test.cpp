@@ -306,22 +306,29 @@ TEST(Intersections, OfEdgesWithFacesAreThoseOfRationalArithmetic) {
 
 // ---- The filter ---------------------------------------------------------------------------------
 
-/// Pairs of triangles, each of which has vertices of its own in one mesh.
+/// Pairs of triangles in one mesh, each with vertices of its own.
 class FilterTrial {
  public:
   /// With that number of common vertices.
-  FilterTrial(Random& random, std::size_t common) : common_(common) {
-    const auto vertices = static_cast<std::int32_t>(6 - common);
-    const auto count = static_cast<std::int32_t>(random.between(1, 20));
-    pairs_.resize(static_cast<std::size_t>(count));
-    mesh_.vertices.resize(static_cast<Eigen::Index>(count * vertices), 3);
-    for (std::int32_t pair = 0; pair < count; ++pair) {
-      TrianglePair& one = pairs_[static_cast<std::size_t>(pair)];
-      one = {{}, {pair, pair}};
-      for (std::int32_t k = 0; k < vertices; ++k) {
-        one.vertices[static_cast<std::size_t>(k)] = pair * vertices + k;
+  FilterTrial(Random& random, int common) {
+    const int pairs = random.between(1, 20), vertices = 6 - common;
+    mesh_.vertices.resize(static_cast<Eigen::Index>(pairs * vertices), 3);
+    for (int pair = 0; pair < pairs; ++pair) {
+      const int first = pair * vertices;
+      place(random, mesh_.vertices.middleRows(first, vertices));
+      Face a{first, first + 1, first + 2}, b{first + 3, first + 4, first + 5};
+      for (std::size_t i = 0; i < 3; ++i) b[i] -= std::cmp_less(i, common) ? 3 : common;
+      for (Face* const face : {&a, &b}) {
+        std::ranges::rotate(*face, face->begin() + random.between(0, 2));
+        if (random.coin()) std::swap((*face)[0], (*face)[1]);
+        mesh_.faces.push_back(*face);
+        rows_.push_back({(*face)[0], (*face)[1], (*face)[2], 0});
       }
-      place(random, mesh_.vertices.middleRows(pair * vertices, vertices));
+      pairs_.push_back({2 * pair, 2 * pair + 1});
+    }
+    for (const std::int32_t face :
+         mesh_defects(mesh_.vertices, mesh_.elements()).degenerate_faces) {
+      rows_[static_cast<std::size_t>(face)][3] = no_triangle;
     }
   }
 
@@ -331,30 +338,30 @@ class FilterTrial {
   /// The pairs that a kernel does not leave out.
   [[nodiscard]] Numbers left_by(const TriangleKernel& kernel) const {
     const MovingVertices vertices(mesh_.vertices, mesh_.vertices);
+    const auto sorted = std::make_unique<SortedPairs>();
     const auto filtered = std::make_unique<FilteredPairs>();
-    kernel.filter(vertices.data(), common_, pairs_, *filtered);
+    kernel.sort(rows_.data(), pairs_, *sorted);
+    for (std::size_t list = 0; list < 3; ++list) {
+      kernel.filter(vertices.data(), list,
+                    std::span(sorted->lists[list]).first(sorted->count[list]), *filtered);
+    }
     Numbers result;
-    for (std::size_t i = 0; i < filtered->open_count; ++i) {
-      result.emplace_back(filtered->open[i][0], false);
-    }
-    for (std::size_t i = 0; i < filtered->crossing_count; ++i) {
-      result.emplace_back(filtered->crossing[i][0], true);
-    }
+    const auto add = [&](const IndexPair& pair, bool crosses) {
+      result.emplace_back(pair[0] / 2, crosses);
+    };
+    for (std::size_t i = 0; i < sorted->count[3]; ++i) add(sorted->lists[3][i].pair, false);
+    for (std::size_t i = 0; i < filtered->open_count; ++i) add(filtered->open[i], false);
+    for (std::size_t i = 0; i < filtered->crossing_count; ++i) add(filtered->crossing[i], true);
     std::ranges::sort(result);
     return result;
   }
   /// Those that intersect.
   [[nodiscard]] Numbers truth() const {
     Numbers result;
-    for (const auto& [vertices, numbers] : pairs_) {
-      const std::size_t own = 3 - common_;
-      Pair pair{};
-      for (std::size_t k = 0; k < 3; ++k) {
-        pair[0][k] = vertices[k];
-        pair[1][k] = k < common_ ? vertices[k] : vertices[k + own];
-      }
-      const auto truth = truth_of(mesh_.vertices, pair);
-      if (truth) result.emplace_back(numbers[0], truth->first == Kind::edge_through_face);
+    for (const auto& [a, b] : pairs_) {
+      const auto truth = truth_of(mesh_.vertices, {mesh_.faces[static_cast<std::size_t>(a)],
+                                                   mesh_.faces[static_cast<std::size_t>(b)]});
+      if (truth) result.emplace_back(a / 2, truth->first == Kind::edge_through_face);
     }
     return result;
   }
@@ -384,14 +391,14 @@ class FilterTrial {
     if (kind == 3) places.col(2) *= 1.0 + 0x1p-52 * random.between(-2, 2);
   }
 
-  std::size_t common_;
   Mesh mesh_;
-  std::vector<TrianglePair> pairs_;
+  std::vector<ElementRow> rows_;
+  std::vector<IndexPair> pairs_;
 };
 
 TEST(TriangleFilter, LeavesWhatIntersectsAndTheSameOnAllInstructionSets) {
   Random random(543);
-  for (std::size_t common = 0; common < 3; ++common) {
+  for (int common = 0; common < 3; ++common) {
     std::size_t pairs = 0, left = 0, crossing = 0, intersecting = 0;
     for (int i = 0; i < tests::soak_trials(60, 100); ++i) {
       const FilterTrial trial(random, common);
@@ -417,7 +424,7 @@ TEST(TriangleFilter, PlantedFaultsAreFound) {
     Random random(544);
     bool is_found = false;
     for (int i = 0; i < 3000 && !is_found; ++i) {
-      const FilterTrial trial(random, static_cast<std::size_t>(i % 3));
+      const FilterTrial trial(random, i % 3);
       const FilterTrial::Numbers left = trial.left_by(*fault.part);
       // (The truth takes longer.)
       is_found =
