@@ -15,6 +15,9 @@
 
 namespace touchstone::fast {
 
+/// x, y and z of a vertex at rest, and an unused number.
+using PlaceAtRest = std::array<double, 4>;
+
 /// The vertices of an element in normal form (contacts.hpp), and 0 if it is a triangle with an
 /// area, otherwise no_triangle.
 using ElementRow = std::array<std::int32_t, 4>;
@@ -60,7 +63,7 @@ struct TriangleKernel {
   /// \param common The number of common vertices.
   /// \pre there is room; strict floating point; coordinates of magnitude up to
   /// Positions::greatest_coordinate.
-  void (*filter)(const MovingVertex* vertices, std::size_t common,
+  void (*filter)(const PlaceAtRest* vertices, std::size_t common,
                  std::span<const ElementPair> pairs, FilteredPairs& result);
   /// a b + c on its lanes, as CertifiedKernel.
   double (*product_then_sum)(double a, double b, double c);

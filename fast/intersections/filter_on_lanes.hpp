@@ -79,7 +79,7 @@ template <class Lanes>
 class Filter {
  public:
   /// As TriangleKernel::filter.
-  static void run(const MovingVertex* at, std::size_t common, std::span<const ElementPair> pairs,
+  static void run(const PlaceAtRest* at, std::size_t common, std::span<const ElementPair> pairs,
                   FilteredPairs& result) {
     const auto decide = [&](const ElementPair* some, unsigned all, const auto& x) {
       const Known known = known_of(x);
@@ -112,8 +112,7 @@ class Filter {
   /// Calls work(pairs, bits, x) for some of the pairs after the other: the bits of their lanes, and
   /// their vertices.
   template <std::size_t common, class Work>
-  static void for_all(const MovingVertex* at, std::span<const ElementPair> pairs,
-                      const Work& work) {
+  static void for_all(const PlaceAtRest* at, std::span<const ElementPair> pairs, const Work& work) {
     static constexpr std::size_t different = 6 - common;
     for (std::size_t first = 0; first < pairs.size(); first += width) {
       const ElementPair* const some = pairs.data() + first;
@@ -123,7 +122,7 @@ class Filter {
         std::array<const double*, width> rows;
         for (std::size_t lane = 0; lane < width; ++lane) {
           const auto vertex = some[lane < last ? lane : last].vertices[k];
-          rows[lane] = at[static_cast<std::size_t>(vertex)].start.data();
+          rows[lane] = at[static_cast<std::size_t>(vertex)].data();
         }
         x[k] = Value::load_points(rows.data());
       }
@@ -250,10 +249,13 @@ class Filter {
     const Point p = difference(x[0], x[1]), q = difference(x[0], x[2]);
     const Point r = difference(x[0], x[3]), s = difference(x[0], x[4]);
     const Normal first(p, q), second(r, s);
-    const Signs c = first.side(r), d = first.side(s), a = second.side(p), b = second.side(q);
+    const Signs c = first.side(r), d = first.side(s);
+    const Mask beside_first = are_one(std::array{c, d});
+    if (are_all(beside_first)) return {beside_first, Mask::none()};
+    const Signs a = second.side(p), b = second.side(q);
     const Mask are_mixed = differ(c, d) & differ(a, b), crossing = are_mixed & differ(a, c);
-    const Mask beside = (c.positive & a.positive) | (c.negative & a.negative);
-    const Mask apart = are_one(std::array{c, d}) | are_one(std::array{a, b}) | (are_mixed & beside);
+    const Mask one_way = (c.positive & a.positive) | (c.negative & a.negative);
+    const Mask apart = beside_first | are_one(std::array{a, b}) | (are_mixed & one_way);
     if (are_all(apart | crossing)) return {apart, crossing};
     return {apart | have_line_between(Projection(first.vector), p, q, r, s), crossing};
   }
@@ -274,6 +276,10 @@ class Filter {
 
   using Triangle = std::array<Point, 3>;
 
+  static Normal normal_of(const Triangle& x) {
+    return Normal(difference(x[0], x[1]), difference(x[0], x[2]));
+  }
+
   /// The sides of a triangle's vertices.
   static std::array<Signs, 3> sides(const Normal& plane, const Point& origin,
                                     const Triangle& triangle) {
@@ -287,8 +293,8 @@ class Filter {
     explicit Two(const std::array<Point, 6>& x)
         : a{x[0], x[1], x[2]},
           b{x[3], x[4], x[5]},
-          of_a(difference(a[0], a[1]), difference(a[0], a[2])),
-          of_b(difference(b[0], b[1]), difference(b[0], b[2])),
+          of_a(normal_of(a)),
+          of_b(normal_of(b)),
           sides_of_a(sides(of_b, b[0], a)),
           sides_of_b(sides(of_a, a[0], b)) {}
 
@@ -299,8 +305,10 @@ class Filter {
 
   /// True if one triangle is certainly on one side of the other's plane.
   static Mask are_beside(const std::array<Point, 6>& x) {
-    const Two two(x);
-    return are_one(two.sides_of_a) | are_one(two.sides_of_b);
+    const Triangle a{x[0], x[1], x[2]}, b{x[3], x[4], x[5]};
+    const Mask beside = are_one(sides(normal_of(a), a[0], b));
+    if (are_all(beside)) return beside;
+    return beside | are_one(sides(normal_of(b), b[0], a));
   }
 
   /// \pre they are not beside each other

@@ -35,7 +35,7 @@ const FilteredPairs& PairFilter::filter(const Positions& at, std::span<const Ele
     for (std::size_t list = 0; list < lists; ++list) {
       const auto sorted = std::span(sorted_.lists[list]).first(sorted_.count[list]);
       if (list < 3 && at.has_filter()) {
-        kernel.filter(at.vertices().data(), list, sorted, result_);
+        kernel.filter(at.data(), list, sorted, result_);
       } else {
         for (const ElementPair& one : sorted) result_.open[result_.open_count++] = one.pair;
       }

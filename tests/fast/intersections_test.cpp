@@ -337,13 +337,14 @@ class FilterTrial {
 
   /// The pairs that a kernel does not leave out.
   [[nodiscard]] Numbers left_by(const TriangleKernel& kernel) const {
-    const MovingVertices vertices(mesh_.vertices, mesh_.vertices);
+    std::vector<PlaceAtRest> places;
+    for (const auto& row : mesh_.vertices.rowwise()) places.push_back({row[0], row[1], row[2]});
     const auto sorted = std::make_unique<SortedPairs>();
     const auto filtered = std::make_unique<FilteredPairs>();
     kernel.sort(rows_.data(), pairs_, *sorted);
     for (std::size_t list = 0; list < 3; ++list) {
-      kernel.filter(vertices.data(), list,
-                    std::span(sorted->lists[list]).first(sorted->count[list]), *filtered);
+      kernel.filter(places.data(), list, std::span(sorted->lists[list]).first(sorted->count[list]),
+                    *filtered);
     }
     Numbers result;
     const auto add = [&](const IndexPair& pair, bool crosses) {
