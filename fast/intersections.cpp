@@ -22,7 +22,9 @@
 #include "fast/broad_phase/search.hpp"
 #include "fast/candidates.hpp"
 #include "fast/intersections/contacts.hpp"
+#include "fast/intersections/filter_kernel.hpp"
 #include "fast/intersections/orientation.hpp"
+#include "fast/intersections/pair_filter.hpp"
 #include "fast/platform/floating_point_state.hpp"
 #include "fast/platform/threads.hpp"
 #include "fast/step/bodies.hpp"
@@ -67,28 +69,40 @@ class Elements {
       : faces_(given.faces.size()) {
     MeshElements all = given;
     std::vector<Edge> edges_of_faces;
-    if (!given.edges.empty()) edges_ = edges_without_face(given);
-    if (!given.points.empty()) {
-      if (given.edges.empty()) all.edges = edges_of_faces = edges_of(given.faces);
-      const std::size_t count = at.vertices().size();
-      points_ = codimensional(count, vertices_of(count, all), all).points;
+    const bool has_all_edges = options.pairs == IntersectingPairs::edges_with_faces;
+    if (given.edges.empty() && (has_all_edges || !given.points.empty())) {
+      all.edges = edges_of_faces = edges_of(given.faces);
+    }
+    if (has_all_edges) {
+      edges_.resize(all.edges.size());
+      std::iota(edges_.begin(), edges_.end(), 0);
+    } else {
+      if (!given.edges.empty()) edges_ = edges_without_face(given);
+      if (!given.points.empty()) {
+        const std::size_t count = at.vertices().size();
+        points_ = codimensional(count, vertices_of(count, all), all).points;
+      }
     }
     require_few(faces_ + edges_.size() + points_.size());
     vertices_.reserve(faces_ + edges_.size() + points_.size());
     for (const Face& face : given.faces) add(primitive_of(face));
     for (const std::int32_t edge : edges_) {
-      add(primitive_of(given.edges[static_cast<std::size_t>(edge)]));
+      add(primitive_of(all.edges[static_cast<std::size_t>(edge)]));
     }
     for (const std::int32_t point : points_) add(primitive_of(point));
     if (options.weld) weld(first_at_place(at.vertices(), options.groups.of_vertices));
     examine(at);
   }
 
+  [[nodiscard]] std::size_t faces() const { return faces_; }
   /// The vertices of each element.
   [[nodiscard]] std::span<const Primitive> vertices() const { return vertices_; }
-  [[nodiscard]] meeting::Element operator[](std::int32_t number) const {
+  [[nodiscard]] std::span<const ElementRow> rows() const { return rows_; }
+  [[nodiscard]] meeting::Element element(const Positions& at, std::int32_t number) const {
     const auto i = static_cast<std::size_t>(number);
-    return {vertices_[i], simplices_.empty() ? vertices_[i] : simplices_[i], normals_[i]};
+    const Primitive& vertices = vertices_[i];
+    if (rows_[i][3] == no_triangle) return meeting::element_of(at, vertices);
+    return {vertices, vertices};
   }
 
   /// The kind of an element, and its number in the interface.
@@ -116,32 +130,27 @@ class Elements {
     }
   }
 
-  /// Finds the normals, and the simplices if they are not all given by all vertices.
+  /// Sets the rows: finds the triangles with an area.
   void examine(const Positions& at) {
-    std::atomic<bool> has_reduced = false;
-    std::vector<Primitive> simplices(vertices_.size());
-    normals_.resize(vertices_.size());
+    rows_.resize(vertices_.size());
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, vertices_.size(), elements_of_task),
                       [&](const tbb::blocked_range<std::size_t>& range) {
                         const StrictFloatingPoint strict;
                         for (std::size_t i = range.begin(); i < range.end(); ++i) {
-                          const auto element = meeting::element_of(at, vertices_[i]);
-                          simplices[i] = element.simplex;
-                          normals_[i] = element.normal;
-                          if (simplices[i] != vertices_[i]) has_reduced = true;
+                          const auto& [a, b, c] = vertices_[i];
+                          const auto simplex = meeting::element_of(at, vertices_[i]).simplex;
+                          rows_[i] = {a, b, c, meeting::dimension(simplex) == 2 ? 0 : no_triangle};
                         }
                       });
-    if (has_reduced) simplices_ = std::move(simplices);
   }
 
   static constexpr std::size_t elements_of_task = 4096;
 
   std::size_t faces_;
-  std::vector<std::int32_t> edges_;   ///< of no face
+  std::vector<std::int32_t> edges_;   ///< of no face, or all
   std::vector<std::int32_t> points_;  ///< without an edge
   std::vector<Primitive> vertices_;
-  std::vector<Primitive> simplices_;  ///< empty if they are the same
-  std::vector<meeting::Normal> normals_;
+  std::vector<ElementRow> rows_;
 };
 
 // ---- The search ---------------------------------------------------------------------------------
@@ -169,31 +178,46 @@ class Search final : private PairQuestions {
   }
 
   [[nodiscard]] std::vector<Intersection> all() {
-    std::vector<std::vector<Intersection>> of_parts(parts());
+    std::vector<std::vector<Found>> of_parts(parts());
     for_each_part([&](std::size_t part) {
-      find(part, [&](const IndexPair& pair, const meeting::Meeting& found) {
-        of_parts[part].push_back(intersection_of(pair, found));
-      });
+      find(part, options_.places, [&](const Found& found) { of_parts[part].push_back(found); });
     });
-    std::vector<Intersection> result;
-    for (const auto& some : of_parts) result.insert(result.end(), some.begin(), some.end());
-    std::ranges::sort(result, {}, [](const Intersection& one) {
-      return std::tuple(one.elements[0], one.numbers[0], one.elements[1], one.numbers[1]);
-    });
+    std::vector<Found> found;
+    for (const auto& some : of_parts) found.insert(found.end(), some.begin(), some.end());
+    // The elements are numbered in the order of their kinds and numbers.
+    std::ranges::sort(found, {}, [](const Found& one) { return one.key(); });
+    std::vector<Intersection> result(found.size());
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, found.size(), found_of_task),
+                      [&](const tbb::blocked_range<std::size_t>& range) {
+                        const StrictFloatingPoint strict;
+                        for (std::size_t i = range.begin(); i < range.end(); ++i) {
+                          result[i] = intersection_of(found[i]);
+                        }
+                      });
     return result;
   }
 
   [[nodiscard]] bool is_any() {
-    std::atomic<bool> found = false;
+    std::atomic<bool> is_found = false;
     for_each_part([&](std::size_t part) {
-      if (found) return;
-      find(part,
-           [&](const IndexPair& /*pair*/, const meeting::Meeting& /*found*/) { found = true; });
+      if (is_found) return;
+      find(part, false, [&](const Found& /*found*/) { is_found = true; });
     });
-    return found;
+    return is_found;
   }
 
  private:
+  struct Found {
+    IndexPair pair;
+    meeting::Meeting meeting;
+
+    /// In the order of pairs.
+    [[nodiscard]] std::uint64_t key() const {
+      return static_cast<std::uint64_t>(pair[0]) << 32U | static_cast<std::uint32_t>(pair[1]);
+    }
+  };
+  static constexpr std::size_t found_of_task = 256;
+
   [[nodiscard]] std::size_t parts() const {
     return (tree_.members().size() + groups_of_part - 1) / groups_of_part;
   }
@@ -203,16 +227,35 @@ class Search final : private PairQuestions {
     tbb::parallel_for(std::size_t{0}, parts(), work);
   }
 
-  /// Calls take(pair, meeting) for the pairs of a part that intersect.
+  /// Calls take(found) for the pairs of a part that intersect. \param with_contacts False if the
+  /// contacts need not be known.
   template <class Take>
-  void find(std::size_t part, const Take& take) const {
+  void find(std::size_t part, bool with_contacts, const Take& take) const {
     const StrictFloatingPoint strict;
+    meeting::PairFilter& filter = filters_.local();
+    const TriangleKernel& kernel = *triangle_kernels().back();
+    const auto examine = [&](const IndexPair& pair) {
+      const auto meeting = meeting::meeting_of(at_, elements_.element(at_, pair[0]),
+                                               elements_.element(at_, pair[1]));
+      if (meeting) take({pair, *meeting});
+    };
     PairSink buffer(
         [&](std::span<const IndexPair> pairs) {
-          for (const IndexPair& pair : pairs) {
-            const meeting::Element a = elements_[pair[0]], b = elements_[pair[1]];
-            if (meeting::are_surely_apart(at_, a, b)) continue;
-            if (const auto found = meeting::meeting_of(at_, a, b)) take(pair, *found);
+          const FilteredPairs& filtered =
+              options_.pairs == IntersectingPairs::edges_with_faces
+                  ? filter.filtered_edges_with_faces(at_, elements_.rows(), elements_.faces(),
+                                                     pairs, kernel)
+                  : filter.filtered(at_, elements_.rows(), pairs, kernel);
+          for (const IndexPair& pair : std::span(filtered.open).first(filtered.open_count)) {
+            examine(pair);
+          }
+          for (const IndexPair& pair :
+               std::span(filtered.crossing).first(filtered.crossing_count)) {
+            if (with_contacts) {
+              examine(pair);
+            } else {
+              take({pair, {IntersectionKind::edge_through_face, {}}});
+            }
           }
         },
         options_.stop);
@@ -226,14 +269,15 @@ class Search final : private PairQuestions {
     buffer.flush();
   }
 
-  [[nodiscard]] Intersection intersection_of(const IndexPair& pair,
-                                             const meeting::Meeting& found) const {
+  [[nodiscard]] Intersection intersection_of(const Found& found) const {
+    const auto& [pair, meeting] = found;
     const auto [kind_a, a] = elements_.reported(pair[0]);
     const auto [kind_b, b] = elements_.reported(pair[1]);
     Intersection result{
-        .elements = {kind_a, kind_b}, .numbers = {a, b}, .kind = found.kind, .place = {}};
+        .elements = {kind_a, kind_b}, .numbers = {a, b}, .kind = meeting.kind, .place = {}};
     if (options_.places) {
-      result.place = meeting::place_of(at_, elements_[pair[0]], elements_[pair[1]], found.contacts);
+      result.place = meeting::place_of(at_, elements_.element(at_, pair[0]),
+                                       elements_.element(at_, pair[1]), meeting.contacts);
     }
     return result;
   }
@@ -255,6 +299,7 @@ class Search final : private PairQuestions {
   PrimitiveGroups groups_of_boxes_;
   BoxTree<1> tree_;
   std::optional<BodyTree> tree_of_bodies_;
+  mutable tbb::enumerable_thread_specific<meeting::PairFilter> filters_;
   const IntersectionOptions& options_;
 };
 

@@ -59,7 +59,7 @@ constexpr std::string_view layer_lines = R"(
   fast/certified/curves/: fast/certified/curves/ fast/certified/stages/ fast/certified/kernel.hpp filters/ exact/query.hpp
   fast/certified/: fast/certified/ fast/platform/ fast/certified.hpp fast/mesh.hpp filters/ exact/curved_query.hpp exact/query.hpp immintrin.h
   fast/distance/: fast/distance/ fast/certified/exact/ fast/platform/ fast/contacts.hpp fast/kernels.hpp fast/step.hpp filters/ exact/query.hpp arm_neon.h immintrin.h
-  fast/intersections/: fast/intersections/ fast/broad_phase/ fast/certified/exact/ fast/distance/ fast/mesh.hpp fast/intersections.hpp filters/
+  fast/intersections/: fast/intersections/ fast/broad_phase/ fast/certified/exact/ fast/distance/ fast/platform/ fast/mesh.hpp fast/intersections.hpp filters/ immintrin.h
   fast/step/: fast/step/ fast/broad_phase/ fast/certified/ fast/platform/ fast/broad_phase.hpp fast/candidates.hpp fast/kernels.hpp fast/mesh.hpp fast/step.hpp
   adapters/: adapters/ fast/ exact/query.hpp Eigen/
   adapters/ipc_toolkit.hpp: fast/ exact/query.hpp ipc/ccd/narrow_phase_ccd.hpp
@@ -135,7 +135,7 @@ constexpr std::string_view headers_without_test = R"(
   fast/broad_phase/: body_tree.hpp box_tree.hpp division_on_lanes.hpp search_on_lanes.hpp seeds.hpp swept_box.hpp words_one_by_one.hpp
   fast/step/: bodies.hpp codimensional.hpp
 // Beside rational arithmetic, which judges the function: intersections_test.cpp.
-  fast/intersections/: contacts.hpp orientation.hpp
+  fast/intersections/: contacts.hpp filter_kernel.hpp filter_on_lanes.hpp orientation.hpp pair_filter.hpp pair_order.hpp pair_order_avx2.hpp
   adapters/tight_inclusion/: config.hpp
 // By the answers of the methods, baselines_test.cpp, the queries of the families, families_test.cpp,
 // and of the hard ones, hardness_test.cpp.

@@ -19,14 +19,10 @@ struct Lanes {
   static constexpr std::size_t width = 4;
 
   static std::array<Value, 3> load(const std::array<const double*, width>& rows) {
-    return values(AvxPoints<Value>::load(rows.data()));
+    return Value::load_points(rows.data());
   }
   static std::array<Value, 3> load_backwards(const std::array<const double*, width>& rows) {
-    return values(AvxPoints<Value>::load_backwards(rows.data()));
-  }
-
- private:
-  static std::array<Value, 3> values(const AvxPoints<Value>& points) {
+    const auto points = AvxPoints<Value>::load_backwards(rows.data());
     return {Value(points.x), Value(points.y), Value(points.z)};
   }
 };

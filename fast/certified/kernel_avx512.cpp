@@ -21,20 +21,14 @@ struct Lanes {
   static constexpr std::size_t width = 8;
 
   static std::array<Value, 3> load(const std::array<const double*, width>& rows) {
-    using Four = AvxPoints<Value>;
-    return joined(Four::load(rows.data()), Four::load(rows.data() + 4));
+    return Value::load_points(rows.data());
   }
   static std::array<Value, 3> load_backwards(const std::array<const double*, width>& rows) {
     using Four = AvxPoints<Value>;
-    return joined(Four::load_backwards(rows.data()), Four::load_backwards(rows.data() + 4));
-  }
-
- private:
-  static Value joined(__m256d low, __m256d high) {
-    return Value(_mm512_insertf64x4(_mm512_castpd256_pd512(low), high, 1));
-  }
-  static std::array<Value, 3> joined(const AvxPoints<Value>& low, const AvxPoints<Value>& high) {
-    return {joined(low.x, high.x), joined(low.y, high.y), joined(low.z, high.z)};
+    const auto low = Four::load_backwards(rows.data()),
+               high = Four::load_backwards(rows.data() + 4);
+    return {Value::joined(low.x, high.x), Value::joined(low.y, high.y),
+            Value::joined(low.z, high.z)};
   }
 };
 

@@ -48,9 +48,7 @@ struct Lanes {
   static constexpr std::size_t width = 2;
 
   static std::array<Value, 3> load(const std::array<const double*, width>& rows) {
-    const float64x2_t a = vld1q_f64(rows[0]), b = vld1q_f64(rows[1]);
-    return {Value(vzip1q_f64(a, b)), Value(vzip2q_f64(a, b)),
-            Value(vcombine_f64(vld1_f64(rows[0] + 2), vld1_f64(rows[1] + 2)))};
+    return Value::load_points(rows.data());
   }
   static std::array<Value, 3> load_backwards(const std::array<const double*, width>& rows) {
     return load(rows);

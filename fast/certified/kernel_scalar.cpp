@@ -66,7 +66,7 @@ struct Lanes {
   static constexpr std::size_t width = 1;
 
   static std::array<Value, 3> load(const std::array<const double*, width>& rows) {
-    return {Value(rows[0][0]), Value(rows[0][1]), Value(rows[0][2])};
+    return Value::load_points(rows.data());
   }
   static std::array<Value, 3> load_backwards(const std::array<const double*, width>& rows) {
     return load(rows);

@@ -248,75 +248,6 @@ IntersectionKind kind_of_segment(const Simplex& a, const Simplex& b, Contacts co
   return of_edges ? IntersectionKind::edges_overlap : IntersectionKind::edge_through_face;
 }
 
-// ---- Rounded numbers ----------------------------------------------------------------------------
-
-/// The vertices of a triangle that are also those of another one.
-using Shared = std::array<bool, 3>;
-
-Shared shared_with(const Simplex& other, const Simplex& triangle) {
-  Shared result;
-  for (std::size_t i = 0; i < 3; ++i) {
-    result[i] = triangle[i] == other[0] || triangle[i] == other[1] || triangle[i] == other[2];
-  }
-  return result;
-}
-
-/// The certain sides of a plane on which a triangle's vertices are that are not shared.
-enum class Sides : std::uint8_t {
-  one,      ///< they are on one side
-  both,     ///< some are on each side
-  unknown,  ///< none of these; or there are none
-};
-
-Sides sides_of(const Positions& at, const Element& plane, const Simplex& triangle,
-               const Shared& shared) {
-  bool all_above = true, all_below = true, any_above = false, any_below = false;
-  for (std::size_t i = 0; i < 3; ++i) {
-    const auto [value, bound] = plane.normal.times(at.difference(plane.simplex[0], triangle[i]));
-    const bool is_above = value > bound, is_below = value < -bound;
-    all_above = all_above && (shared[i] || is_above);
-    all_below = all_below && (shared[i] || is_below);
-    any_above = any_above || is_above;
-    any_below = any_below || is_below;
-  }
-  if (all_above != all_below) return Sides::one;
-  return any_above && any_below ? Sides::both : Sides::unknown;
-}
-
-/// True if a line through the first vertex of a triangle and another one certainly has the third
-/// one on one side and all vertices of the other triangle that are not shared with this one on the
-/// other, in a projection: then they have only shared vertices in common.
-class Projected {
- public:
-  Projected(const Positions& at, std::size_t axis) : at_(at), axis_(axis) {}
-
-  [[nodiscard]] bool has_line_between(const Simplex& triangle, const Simplex& other,
-                                      const Shared& shared) const {
-    for (std::size_t i = 0; i < 3; ++i) {
-      const int inner = side_of(triangle, i, triangle[(i + 2) % 3]);
-      if (inner == 0) continue;
-      bool is_between = true;
-      for (std::size_t k = 0; is_between && k < 3; ++k) {
-        is_between = shared[k] ? other[k] == triangle[i] || other[k] == triangle[(i + 1) % 3]
-                               : side_of(triangle, i, other[k]) == -inner;
-      }
-      if (is_between) return true;
-    }
-    return false;
-  }
-
- private:
-  /// The certain side of a vertex from an edge; 0 if it is uncertain.
-  [[nodiscard]] int side_of(const Simplex& triangle, std::size_t edge, std::int32_t vertex) const {
-    const std::int32_t start = side_start(triangle, edge);
-    return Normal(at_.difference(start, side_end(triangle, edge)), at_.difference(start, vertex))
-        .turn(axis_);
-  }
-
-  const Positions& at_;
-  std::size_t axis_;
-};
-
 /// The simplex that is the hull of an element's vertices.
 Simplex simplex_of(const Positions& at, const Primitive& element) {
   const auto [a, b, c] = element;
@@ -342,10 +273,7 @@ Primitive in_normal_form(const Primitive& vertices) {
 }
 
 Element element_of(const Positions& at, const Primitive& vertices) {
-  Element result{vertices, simplex_of(at, vertices), {}};
-  const auto [a, b, c] = result.simplex;
-  result.normal = Normal(at.difference(a, b), at.difference(a, c));
-  return result;
+  return {vertices, simplex_of(at, vertices)};
 }
 
 std::span<const std::int32_t> vertices_of(const Simplex& simplex, Feature feature,
@@ -388,22 +316,6 @@ Contacts contacts_of(const Positions& at, const Simplex& a, const Simplex& b) {
     add_crossings(at, std::array<std::size_t, 3>{0, 1, 2}, a, b, contacts);
   }
   return contacts;
-}
-
-bool are_surely_apart(const Positions& at, const Element& a, const Element& b) {
-  if (!at.has_filter() || dimension(a.simplex) != 2 || dimension(b.simplex) != 2) return false;
-  const Shared of_b = shared_with(a.simplex, b.simplex);
-  const Sides b_sides = sides_of(at, a, b.simplex, of_b);
-  if (b_sides == Sides::one) return true;
-  const Shared of_a = shared_with(b.simplex, a.simplex);
-  const Sides a_sides = sides_of(at, b, a.simplex, of_a);
-  if (a_sides == Sides::one) return true;
-  if (of_a == Shared{true, true, true}) return false;
-  // The orientations of few edges decide as fast if the planes certainly cross.
-  if (a_sides == Sides::both && b_sides == Sides::both) return false;
-  const Projected projected(at, a.normal.greatest_axis());
-  return projected.has_line_between(a.simplex, b.simplex, of_b) ||
-         projected.has_line_between(b.simplex, a.simplex, of_a);
 }
 
 std::optional<Meeting> meeting_of(const Positions& at, const Element& a, const Element& b) {

@@ -112,14 +112,10 @@ class Contacts {
 struct Element {
   Primitive vertices;  ///< in normal form
   Simplex simplex;
-  Normal normal;  ///< from its first vertex, of a triangle
 };
 
 /// \param vertices in normal form
 [[nodiscard]] Element element_of(const Positions& at, const Primitive& vertices);
-
-/// True if the elements certainly do not intersect, by rounded numbers alone.
-[[nodiscard]] bool are_surely_apart(const Positions& at, const Element& a, const Element& b);
 
 /// The kind of an intersection, with its contacts.
 struct Meeting {

@@ -150,7 +150,13 @@ int sign_in_integers(const Positions& at, const std::array<std::int32_t, points>
 
 // ---- Interface ----------------------------------------------------------------------------------
 
-Positions::Positions(MovingVertices vertices) : vertices_(std::move(vertices)) {
+Positions::Positions(MovingVertices vertices)
+    : vertices_(std::move(vertices)), places_(vertices_.size()) {
+  set_scale();
+  for (std::size_t i = 0; i < vertices_.size(); ++i) places_[i] = vertices_[i].start;
+}
+
+void Positions::set_scale() {
   static constexpr double least_size = 0x1p-100;
   const double size = greatest_coordinate_of(vertices_);
   if (size <= greatest_coordinate && (size >= least_size || size == 0.0)) return;

@@ -21,6 +21,8 @@
 #include <utility>
 
 #include "fast/certified/exact/big_integer.hpp"
+#include "fast/intersections/filter_kernel.hpp"
+#include "fast/platform/large_array.hpp"
 #include "touchstone/filters/error_bounds.hpp"
 #include "touchstone/filters/polynomial_expressions.hpp"
 #include "touchstone/mesh.hpp"
@@ -45,9 +47,11 @@ class Positions {
   /// False if only integers decide.
   [[nodiscard]] bool has_filter() const { return has_filter_; }
 
-  [[nodiscard]] const std::array<double, 4>& operator[](std::int32_t vertex) const {
-    return vertices_[static_cast<std::size_t>(vertex)].start;
+  [[nodiscard]] const PlaceAtRest& operator[](std::int32_t vertex) const {
+    return places_[static_cast<std::size_t>(vertex)];
   }
+  /// The places of all vertices.
+  [[nodiscard]] const PlaceAtRest* data() const { return places_.data(); }
   [[nodiscard]] bool are_equal(std::int32_t a, std::int32_t b) const {
     const auto &x = (*this)[a], &y = (*this)[b];
     return a == b || (x[0] == y[0] && x[1] == y[1] && x[2] == y[2]);
@@ -59,7 +63,11 @@ class Positions {
   }
 
  private:
+  void set_scale();
+
   MovingVertices vertices_;
+  /// Half as large as the vertices, because these move.
+  LargeArray<PlaceAtRest> places_;
   int exponent_ = 0;
   bool has_filter_ = true;
 };

@@ -6,6 +6,10 @@
 
 #include <immintrin.h>
 
+#include <array>
+
+#include "fast/platform/avx_rows.hpp"
+
 namespace touchstone::fast {
 namespace {  // NOLINT(cert-dcl59-cpp,google-build-namespaces): see above
 
@@ -29,6 +33,11 @@ struct Value {
   explicit Value(double value) : x(_mm256_set1_pd(value)) {}
   explicit Value(__m256d value) : x(value) {}
   static Value load(const double* from) { return Value(_mm256_loadu_pd(from)); }
+  /// x, y and z of a point at each of the addresses; a fourth number follows each.
+  static std::array<Value, 3> load_points(const double* const* rows) {
+    const auto points = AvxPoints<Value>::load(rows);
+    return {Value(points.x), Value(points.y), Value(points.z)};
+  }
   void store(double* to) const { _mm256_storeu_pd(to, x); }
 
   friend Value operator+(const Value& a, const Value& b) { return Value(_mm256_add_pd(a.x, b.x)); }

@@ -7,6 +7,10 @@
 
 #include <immintrin.h>
 
+#include <array>
+
+#include "fast/platform/avx_rows.hpp"
+
 namespace touchstone::fast {
 namespace {  // NOLINT(cert-dcl59-cpp,google-build-namespaces): see above
 
@@ -30,6 +34,14 @@ struct Value {
   explicit Value(double value) : x(_mm512_set1_pd(value)) {}
   explicit Value(__m512d value) : x(value) {}
   static Value load(const double* from) { return Value(_mm512_loadu_pd(from)); }
+  /// x, y and z of a point at each of the addresses; a fourth number follows each.
+  static std::array<Value, 3> load_points(const double* const* rows) {
+    const auto low = AvxPoints<Value>::load(rows), high = AvxPoints<Value>::load(rows + 4);
+    return {joined(low.x, high.x), joined(low.y, high.y), joined(low.z, high.z)};
+  }
+  static Value joined(__m256d low, __m256d high) {
+    return Value(_mm512_insertf64x4(_mm512_castpd256_pd512(low), high, 1));
+  }
   void store(double* to) const { _mm512_storeu_pd(to, x); }
 
   friend Value operator+(const Value& a, const Value& b) { return Value(_mm512_add_pd(a.x, b.x)); }

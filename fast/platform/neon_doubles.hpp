@@ -6,6 +6,8 @@
 
 #include <arm_neon.h>
 
+#include <array>
+
 namespace touchstone::fast {
 namespace {  // NOLINT(cert-dcl59-cpp,google-build-namespaces): see above
 
@@ -31,6 +33,12 @@ struct Value {
   explicit Value(double value) : x(vdupq_n_f64(value)) {}
   explicit Value(float64x2_t value) : x(value) {}
   static Value load(const double* from) { return Value(vld1q_f64(from)); }
+  /// x, y and z of a point at each of the addresses; a fourth number follows each.
+  static std::array<Value, 3> load_points(const double* const* rows) {
+    const float64x2_t a = vld1q_f64(rows[0]), b = vld1q_f64(rows[1]);
+    return {Value(vzip1q_f64(a, b)), Value(vzip2q_f64(a, b)),
+            Value(vcombine_f64(vld1_f64(rows[0] + 2), vld1_f64(rows[1] + 2)))};
+  }
   void store(double* to) const { vst1q_f64(to, x); }
 
   friend Value operator+(const Value& a, const Value& b) { return Value(vaddq_f64(a.x, b.x)); }

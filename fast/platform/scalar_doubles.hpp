@@ -3,6 +3,8 @@
 /// \file
 /// One double, and one truth value, for code on lanes.
 
+#include <array>
+
 namespace touchstone::fast {
 namespace {  // NOLINT(cert-dcl59-cpp,google-build-namespaces): as of other instruction sets
 
@@ -25,6 +27,10 @@ struct Value {
   Value() = default;
   explicit Value(double value) : x(value) {}
   static Value load(const double* from) { return Value(*from); }
+  /// x, y and z of a point at each of the addresses; a fourth number follows each.
+  static std::array<Value, 3> load_points(const double* const* rows) {
+    return {Value(rows[0][0]), Value(rows[0][1]), Value(rows[0][2])};
+  }
   void store(double* to) const { *to = x; }
 
   friend Value operator+(Value a, Value b) { return Value(a.x + b.x); }

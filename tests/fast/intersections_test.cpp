@@ -7,6 +7,8 @@
 #include <atomic>
 #include <cmath>
 #include <limits>
+#include <map>
+#include <memory>
 #include <numbers>
 #include <set>
 #include <stdexcept>
@@ -15,6 +17,7 @@
 #include <vector>
 
 #include "exact/contact/triangle_intersection.hpp"
+#include "fast/intersections/filter_kernel.hpp"
 #include "tests/faults/planted_faults.hpp"
 #include "tests/support/messages.hpp"
 #include "tests/support/random.hpp"
@@ -259,6 +262,176 @@ TEST(Intersections, OfTwoElementsAreThoseOfRationalArithmetic) {
   }
   for (std::size_t kind = 0; kind < seen.size(); ++kind) {
     EXPECT_GT(seen[kind], tests::trials(20)) << to_string(static_cast<Kind>(kind));
+  }
+}
+
+/// Of edges and faces without a common vertex, one by one.
+TEST(Intersections, OfEdgesWithFacesAreThoseOfRationalArithmetic) {
+  Random random(542);
+  int count = 0;
+  for (int i = 0; i < tests::trials(300); ++i) {
+    Mesh mesh{.vertices = Rows(8, 3)};
+    for (double& x : mesh.vertices.reshaped()) x = random.between(-2, 2);
+    for (std::int32_t a = 0; a < 3; ++a) mesh.faces.push_back({a, a + 2, a + random.between(3, 5)});
+    mesh.edges = edges_of(mesh.faces);
+    mesh.edges.push_back({6, 7});
+    const Found found = mesh.intersections({.pairs = IntersectingPairs::edges_with_faces});
+    Found expected;
+    for (std::int32_t face = 0; std::cmp_less(face, mesh.faces.size()); ++face) {
+      for (std::int32_t edge = 0; std::cmp_less(edge, mesh.edges.size()); ++edge) {
+        const Face& of_face = mesh.faces[static_cast<std::size_t>(face)];
+        const auto [a, b] = mesh.edges[static_cast<std::size_t>(edge)];
+        if (std::ranges::count(of_face, a) + std::ranges::count(of_face, b) > 0) continue;
+        const auto truth = truth_of(mesh.vertices, {of_face, {a, b, b}});
+        if (!truth) continue;
+        expected.push_back({.elements = {ElementKind::face, ElementKind::edge},
+                            .numbers = {face, edge},
+                            .kind = truth->first,
+                            .place = truth->second});
+      }
+    }
+    ASSERT_EQ(found, expected);
+    EXPECT_EQ(has_intersections(mesh.vertices, mesh.elements(),
+                                {.pairs = IntersectingPairs::edges_with_faces}),
+              !expected.empty());
+    mesh.edges.pop_back();
+    const Found of_faces = mesh.intersections({.pairs = IntersectingPairs::edges_with_faces});
+    mesh.edges.clear();
+    EXPECT_EQ(mesh.intersections({.pairs = IntersectingPairs::edges_with_faces}), of_faces)
+        << "by default the edges of the faces";
+    count += static_cast<int>(found.size());
+  }
+  EXPECT_GT(count, tests::trials(300));
+}
+
+// ---- The filter ---------------------------------------------------------------------------------
+
+/// Pairs of triangles in one mesh, each with vertices of its own.
+class FilterTrial {
+ public:
+  /// With that number of common vertices.
+  FilterTrial(Random& random, int common) {
+    const int pairs = random.between(1, 20), vertices = 6 - common;
+    mesh_.vertices.resize(static_cast<Eigen::Index>(pairs * vertices), 3);
+    for (int pair = 0; pair < pairs; ++pair) {
+      const int first = pair * vertices;
+      place(random, mesh_.vertices.middleRows(first, vertices));
+      Face a{first, first + 1, first + 2}, b{first + 3, first + 4, first + 5};
+      for (std::size_t i = 0; i < 3; ++i) b[i] -= std::cmp_less(i, common) ? 3 : common;
+      for (Face* const face : {&a, &b}) {
+        std::ranges::rotate(*face, face->begin() + random.between(0, 2));
+        if (random.coin()) std::swap((*face)[0], (*face)[1]);
+        mesh_.faces.push_back(*face);
+        rows_.push_back({(*face)[0], (*face)[1], (*face)[2], 0});
+      }
+      pairs_.push_back({2 * pair, 2 * pair + 1});
+    }
+    for (const std::int32_t face :
+         mesh_defects(mesh_.vertices, mesh_.elements()).degenerate_faces) {
+      rows_[static_cast<std::size_t>(face)][3] = no_triangle;
+    }
+  }
+
+  /// Numbers of pairs, and whether they certainly cross, or intersect with edge_through_face.
+  using Numbers = std::vector<std::pair<std::int32_t, bool>>;
+
+  /// The pairs that a kernel does not leave out.
+  [[nodiscard]] Numbers left_by(const TriangleKernel& kernel) const {
+    std::vector<PlaceAtRest> places;
+    for (const auto& row : mesh_.vertices.rowwise()) places.push_back({row[0], row[1], row[2]});
+    const auto sorted = std::make_unique<SortedPairs>();
+    const auto filtered = std::make_unique<FilteredPairs>();
+    kernel.sort(rows_.data(), pairs_, *sorted);
+    for (std::size_t list = 0; list < 3; ++list) {
+      kernel.filter(places.data(), list, std::span(sorted->lists[list]).first(sorted->count[list]),
+                    *filtered);
+    }
+    Numbers result;
+    const auto add = [&](const IndexPair& pair, bool crosses) {
+      result.emplace_back(pair[0] / 2, crosses);
+    };
+    for (std::size_t i = 0; i < sorted->count[3]; ++i) add(sorted->lists[3][i].pair, false);
+    for (std::size_t i = 0; i < filtered->open_count; ++i) add(filtered->open[i], false);
+    for (std::size_t i = 0; i < filtered->crossing_count; ++i) add(filtered->crossing[i], true);
+    std::ranges::sort(result);
+    return result;
+  }
+  /// Those that intersect.
+  [[nodiscard]] Numbers truth() const {
+    Numbers result;
+    for (const auto& [a, b] : pairs_) {
+      const auto truth = truth_of(mesh_.vertices, {mesh_.faces[static_cast<std::size_t>(a)],
+                                                   mesh_.faces[static_cast<std::size_t>(b)]});
+      if (truth) result.emplace_back(a / 2, truth->first == Kind::edge_through_face);
+    }
+    return result;
+  }
+  /// True if no pair is left out that intersects, and those that cross do.
+  static bool agree(const Numbers& left, const Numbers& truth) {
+    return std::ranges::all_of(truth,
+                               [&](const auto& one) {
+                                 return std::ranges::any_of(left, [&](const auto& other) {
+                                   return other.first == one.first;
+                                 });
+                               }) &&
+           std::ranges::all_of(left, [&](const auto& one) {
+             return !one.second || std::ranges::find(truth, one) != truth.end();
+           });
+  }
+  [[nodiscard]] std::size_t size() const { return pairs_.size(); }
+
+ private:
+  /// Small whole numbers, doubles, or nearly coplanar ones.
+  template <class Places>
+  static void place(Random& random, Places&& places) {
+    const int greatest = random.between(1, 4), kind = random.between(0, 3);
+    for (double& x : places.reshaped()) {
+      x = kind == 0 ? random.few_bit_double(53, -52, -51) : random.between(-greatest, greatest);
+    }
+    if (kind >= 2) places.col(2) = places.col(0) * 0.1 + places.col(1) * 0.3;
+    if (kind == 3) places.col(2) *= 1.0 + 0x1p-52 * random.between(-2, 2);
+  }
+
+  Mesh mesh_;
+  std::vector<ElementRow> rows_;
+  std::vector<IndexPair> pairs_;
+};
+
+TEST(TriangleFilter, LeavesWhatIntersectsAndTheSameOnAllInstructionSets) {
+  Random random(543);
+  for (int common = 0; common < 3; ++common) {
+    std::size_t pairs = 0, left = 0, crossing = 0, intersecting = 0;
+    for (int i = 0; i < tests::soak_trials(60, 100); ++i) {
+      const FilterTrial trial(random, common);
+      const FilterTrial::Numbers found = trial.left_by(*triangle_kernels()[0]);
+      for (const TriangleKernel* const kernel : triangle_kernels()) {
+        ASSERT_EQ(trial.left_by(*kernel), found) << to_string(kernel->instructions);
+      }
+      const FilterTrial::Numbers truth = trial.truth();
+      ASSERT_TRUE(FilterTrial::agree(found, truth)) << common;
+      pairs += trial.size();
+      left += found.size();
+      intersecting += truth.size();
+      for (const auto& [number, is_certain] : found) crossing += is_certain ? 1 : 0;
+    }
+    EXPECT_GT(intersecting, pairs / 50) << common;
+    EXPECT_GT(pairs - left, (pairs - intersecting) / 3) << common;
+    EXPECT_EQ(crossing > intersecting / 5, common < 2) << common;
+  }
+}
+
+TEST(TriangleFilter, PlantedFaultsAreFound) {
+  for (const auto& fault : tests::planted_faults().triangle_filter) {
+    Random random(544);
+    bool is_found = false;
+    for (int i = 0; i < 3000 && !is_found; ++i) {
+      const FilterTrial trial(random, i % 3);
+      const FilterTrial::Numbers left = trial.left_by(*fault.part);
+      // (The truth takes longer.)
+      is_found =
+          left != trial.left_by(*triangle_kernels()[0]) && !FilterTrial::agree(left, trial.truth());
+    }
+    EXPECT_TRUE(is_found) << fault.name;
   }
 }
 
@@ -557,8 +730,11 @@ TEST(Intersections, PlantedFaultsAreFound) {
     bool is_found = false;
     for (int i = 0; i < 20000 && !is_found; ++i) {
       const Mesh mesh = Trial(random).mesh();
+      const IntersectionOptions options{
+          .pairs = i % 4 == 0 ? IntersectingPairs::edges_with_faces : IntersectingPairs::all,
+          .max_threads = 1};
       is_found = fault.part(MovingVertices(mesh.vertices, mesh.vertices), mesh.elements(),
-                            {.max_threads = 1}) != mesh.intersections({.max_threads = 1});
+                            options) != mesh.intersections(options);
     }
     EXPECT_TRUE(is_found) << fault.name;
   }

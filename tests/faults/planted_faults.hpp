@@ -18,6 +18,7 @@
 #include "fast/certified/exact/exact_stage.hpp"
 #include "fast/certified/fixed_point_vertices.hpp"
 #include "fast/certified/kernel.hpp"
+#include "fast/intersections/filter_kernel.hpp"
 #include "fast/method.hpp"
 #include "fast/tight_inclusion/box_kernel.hpp"
 #include "touchstone/certified.hpp"
@@ -90,6 +91,7 @@ struct PlantedFaults {
   Faults<FindActive> active_set;
   Faults<LimitStep> line_search;
   Faults<FindIntersections> intersections;
+  Faults<const fast::TriangleKernel> triangle_filter;
   Faults<Check> checker;
   Faults<const fast::BoxKernel> box_kernel;
   Faults<MakeTightInclusion> tight_inclusion;

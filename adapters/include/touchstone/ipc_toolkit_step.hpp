@@ -32,21 +32,19 @@
 /// several threads and use as many threads as oneTBB allows.
 
 #include <algorithm>
-#include <array>
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <ipc/collision_mesh.hpp>
 #include <limits>
-#include <numeric>
 #include <optional>
 #include <stdexcept>
 #include <utility>
 #include <vector>
 
 #include "touchstone/broad_phase.hpp"
-#include "touchstone/certified.hpp"
 #include "touchstone/contacts.hpp"
+#include "touchstone/intersections.hpp"
 #include "touchstone/ipc_toolkit.hpp"
 #include "touchstone/mesh.hpp"
 #include "touchstone/query.hpp"
@@ -94,47 +92,13 @@ class CollisionScene {
   /// True if an edge and a face intersect that can collide; in two dimensions, two edges.
   /// \throws as above.
   [[nodiscard]] bool has_intersections(Eigen::ConstRef<Eigen::MatrixXd> vertices) const {
-    // A vertex that moves along an edge meets a resting face iff these intersect.
-    const Eigen::MatrixX3d resting = places(vertices);
-    const auto count = static_cast<std::int32_t>(resting.rows());
-    std::vector<std::int32_t> moving(edges_.size());
-    std::iota(moving.begin(), moving.end(), count);
-    Eigen::MatrixX3d start(count + static_cast<Eigen::Index>(moving.size()), 3);
-    start.topRows(count) = resting;
-    Eigen::MatrixX3d end = start;
-    for (const std::int32_t i : moving) {
-      const auto& [a, b] = edge(i - count);
-      start.row(i) = resting.row(a);
-      end.row(i) = resting.row(b);
-    }
-    std::vector<std::int32_t> groups(static_cast<std::size_t>(start.rows()), 0);
-    std::fill(groups.begin() + count, groups.end(), 1);
-    static constexpr std::array<std::array<std::int32_t, 2>, 2> apart{{{0, 0}, {1, 1}}};
-    const auto can_meet = [this, count](std::int32_t i, std::int32_t j) {
-      const auto& [a, b] = edge((std::max)(i, j) - count);
-      const std::int32_t other = (std::min)(i, j);
-      return can_collide(a, other) || can_collide(b, other);
-    };
-    std::atomic<bool> found = false;
-    const fast::Step step(start, end, {.edges = edges_, .faces = faces_, .points = moving},
-                          {.groups = {.of_vertices = groups, .apart = apart},
-                           .can_collide = can_meet,
-                           .stop = &found});
-    try {
-      step.candidates([&](const fast::StepCandidates& some) {
-        if (some.kind == fast::PairKind::vertex_face && any_meet(step, some, count)) found = true;
-      });
-    } catch (const fast::Stopped&) {
-      // One contact is enough.
-    }
-    return found;
+    return fast::has_intersections(
+        places(vertices), {.edges = edges_, .faces = faces_},
+        {.pairs = fast::IntersectingPairs::edges_with_faces,
+         .can_collide = [this](std::int32_t i, std::int32_t j) { return can_collide(i, j); }});
   }
 
  private:
-  [[nodiscard]] const fast::Edge& edge(std::int32_t i) const {
-    return edges_[static_cast<std::size_t>(i)];
-  }
-
   [[nodiscard]] bool can_collide(std::int32_t i, std::int32_t j) const {
     return mesh_.can_collide(static_cast<std::size_t>(i), static_cast<std::size_t>(j));
   }
@@ -147,19 +111,6 @@ class CollisionScene {
     Eigen::MatrixX3d result = Eigen::MatrixX3d::Zero(vertices.rows(), 3);
     result.leftCols(vertices.cols()) = vertices;
     return result;
-  }
-
-  /// True if the moving vertex of a pair, which stands for an edge, meets the face, and these have
-  /// no vertex in common.
-  [[nodiscard]] bool any_meet(const fast::Step& step, const fast::StepCandidates& some,
-                              std::int32_t count) const {
-    std::vector<Query> queries;
-    for (const fast::IndexPair& pair : some.pairs) {
-      const fast::Face& face = faces_[static_cast<std::size_t>(pair[1])];
-      if (std::ranges::find_first_of(face, edge(pair[0] - count)) != face.end()) continue;
-      queries.push_back(step.query_of(some.kind, pair));
-    }
-    return !fast::collisions(Kind::vertex_face, queries, {.max_threads = 1}).empty();
   }
 
   const ipc::CollisionMesh& mesh_;

@@ -55,7 +55,7 @@ namespace touchstone::fast {
 
 enum class ElementKind : std::uint8_t {
   face,   ///< its number among the faces
-  edge,   ///< an edge of no face; its number among the edges
+  edge,   ///< an edge, mostly of no face; its number among the edges
   point,  ///< a vertex without an edge; its own number
 };
 
@@ -101,7 +101,14 @@ struct Intersection {
   friend bool operator==(const Intersection&, const Intersection&) = default;
 };
 
+/// The pairs that are asked for.
+enum class IntersectingPairs : std::uint8_t {
+  all,               ///< of all elements
+  edges_with_faces,  ///< of any edge and a face, without a common vertex
+};
+
 struct IntersectionOptions {
+  IntersectingPairs pairs = IntersectingPairs::all;
   CollisionGroups groups = {};
   /// A rule for pairs of vertices, as StepOptions::can_collide.
   std::function<bool(std::int32_t, std::int32_t)> can_collide = nullptr;

@@ -9,6 +9,7 @@
 #include "fast/broad_phase/search.hpp"
 #include "fast/certified/kernel.hpp"
 #include "fast/distance/filter_kernel.hpp"
+#include "fast/intersections/filter_kernel.hpp"
 #include "fast/tight_inclusion/box_kernel.hpp"
 #include "tests/support/messages.hpp"
 
@@ -47,6 +48,7 @@ TEST(InstructionSet, ScalarKernelsAreFirst) {
   EXPECT_EQ(search_kernels().front()->instructions, InstructionSet::scalar);
   EXPECT_EQ(box_kernels().front()->instructions, InstructionSet::scalar);
   EXPECT_EQ(distance_kernels().front()->instructions, InstructionSet::scalar);
+  EXPECT_EQ(triangle_kernels().front()->instructions, InstructionSet::scalar);
 }
 
 }  // namespace
