@@ -222,7 +222,7 @@ class Scene final : private PairQuestions {
   void decide(PairKind kind, std::span<const IndexPair> pairs, const FixedPointVertices& rounded,
               double t_limit, const Report& report) const {
     for_each_separation(
-        kind, pairs, certified_.separation,
+        kind, pairs, rounded, certified_.separation, t_limit,
         [&](std::span<const IndexPair> some, const Separation& separation, const Places& place) {
           PairScratch scratch;
           const Candidates candidates = candidates_of(kind, some, scratch);
@@ -246,20 +246,10 @@ class Scene final : private PairQuestions {
   void sieve(PairKind kind, std::span<const IndexPair> pairs, const FixedPointVertices& rounded,
              const Separation& separation, double t_limit, const Report& report) const {
     for_each_separation(
-        kind, pairs, separation,
+        kind, pairs, rounded, separation, t_limit,
         [&](std::span<const IndexPair> some, const Separation& of_some, const Places& place) {
-          PairScratch scratch;
-          KernelInput block = block_of(candidates_of(kind, some, scratch), rounded, of_some);
-          block.separation = of_some;
-          block.t_limit = t_limit;
-          thread_local KernelOutput output;
-          kernel_.decide(block, output);
-          for (std::size_t i = 0; i < output.impacts.count; ++i) {
-            report(place(output.impacts.items[i].index));
-          }
-          for (std::size_t i = 0; i < output.undecided.count; ++i) {
-            report(place(output.undecided.items[i]));
-          }
+          sieve_alike(kind, some, rounded, of_some, t_limit,
+                      [&](std::size_t i) { report(place(i)); });
         });
   }
 
@@ -290,16 +280,40 @@ class Scene final : private PairQuestions {
   [[nodiscard]] bool bodies_meet(std::int32_t a, std::int32_t b) const override;
   [[nodiscard]] bool primitives_meet(const Primitive& a, const Primitive& b) const override;
 
+  /// `sieve` for pairs with this separation.
+  template <class Report>
+  void sieve_alike(PairKind kind, std::span<const IndexPair> pairs,
+                   const FixedPointVertices& rounded, const Separation& separation, double t_limit,
+                   const Report& report) const {
+    PairScratch scratch;
+    KernelInput block = block_of(candidates_of(kind, pairs, scratch), rounded, separation);
+    block.separation = separation;
+    block.t_limit = t_limit;
+    thread_local KernelOutput output;
+    kernel_.decide(block, output);
+    for (std::size_t i = 0; i < output.impacts.count; ++i) report(output.impacts.items[i].index);
+    for (std::size_t i = 0; i < output.undecided.count; ++i) report(output.undecided.items[i]);
+  }
+
   /// Calls take(some, separation, place) for some pairs at a time, all those of one separation in a
-  /// step of that separation, where place(i) is the place of some[i] among all.
+  /// step of that separation, where place(i) is the place of some[i] among all. Leaves out pairs
+  /// that do not collide up to t_limit by the greatest of several separations: many separations
+  /// leave few pairs for each call.
   template <class Take>
   void for_each_separation(PairKind kind, std::span<const IndexPair> pairs,
-                           const Separation& of_step, const Take& take) const {
+                           const FixedPointVertices& rounded, const Separation& of_step,
+                           double t_limit, const Take& take) const {
     if (!has_thickness()) {
       take(pairs, of_step, Places{});
       return;
     }
-    const std::vector<DistanceAndPlace> order = by_distance(kind, pairs, of_step);
+    std::vector<DistanceAndPlace> order = by_distance(kind, pairs, of_step);
+    if (order.front().first < order.back().first) {
+      std::vector<std::uint8_t> is_possible(pairs.size());
+      sieve_alike(kind, pairs, rounded, {order.back().first, of_step.norm}, t_limit,
+                  [&](std::size_t place) { is_possible[place] = 1; });
+      std::erase_if(order, [&](const auto& one) { return is_possible[one.second] == 0; });
+    }
     std::vector<IndexPair> some;
     for (std::size_t first = 0; first < order.size(); first += some.size()) {
       const double distance = order[first].first;
