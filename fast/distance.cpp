@@ -87,8 +87,10 @@ bool is_less(const Distance& a, const Distance& b) {
 /// scaled, so that distances do not overflow.
 ///
 /// With radii the distances are those of thick primitives, as are the radius and the known one. The
-/// steps in which pairs are searched have the thickness too, and slack and margin cover the rounding
-/// of sums with it. (A scaled thickness would be less than it, so the pairs found are too many.)
+/// steps in which pairs are searched have the thickness too. Slack and margin then cover the
+/// rounding of sums with it, and that of the enclosures: every pair whose enclosure overlaps the
+/// least one is examined, so that the list does not depend on the order. (A scaled thickness would
+/// be less than it, so the pairs found are too many.)
 class LeastDistanceSearch {
  public:
   LeastDistanceSearch(const Step& step, double t, Norm norm) : step_(step), t_(t), norm_(norm) {
@@ -105,7 +107,7 @@ class LeastDistanceSearch {
       slack_ = 8.0 * filters::position_double(scale_ * greatest_) + 0x1p-1070;
     }
     if (scene_of(step).has_thickness()) {
-      slack_ += 0x1p-50 * scene_of(step).greatest_thickness();
+      slack_ += 0x1p-48 * scene_of(step).greatest_thickness() + 0x1p-1070;
       margin_ = 1.0 + 0x1p-50;
     }
   }
@@ -210,7 +212,7 @@ class LeastDistanceSearch {
     const Kind query_kind = Step::kind_of(kind);
     const double known = known_.load(std::memory_order_relaxed);
     const double thickness = scene_of(step_).thickness_of(kind, pair);
-    const double within = std::max((known + thickness) * scale_ + slack_, 0.0);
+    const double within = std::max((known * scale_ + slack_) * margin_ + thickness * scale_, 0.0);
     if (keeps_distance(query_kind, near.query_of(kind, pair), 0.0,
                        {.part = 0.0, .least = within, .norm = norm_})) {
       return;

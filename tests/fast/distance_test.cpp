@@ -330,9 +330,11 @@ TEST(Distance, PlantedFaultsAreFound) {
 std::optional<LeastDistance> least_of(const tests::Scene& scene, double t, Norm norm) {
   std::optional<LeastDistance> result;
   const tests::AllPairs all(scene);
+  const bool has_thickness = !scene.separations.empty() ||
+                             std::ranges::any_of(scene.radii, [](double r) { return r > 0; });
   for (const auto& named : all.pairs()) {
     Distance found = exact_distance(Step::kind_of(named.first), all.query(named), t, norm);
-    if (scene.radii.empty() && scene.separations.empty()) {
+    if (!has_thickness) {
       const auto order = [](const Distance& d) { return std::pair(d.lower, d.upper); };
       if (!result || order(found) < order(result->distance)) result = LeastDistance{found, {}};
       if (found == result->distance) result->pairs.push_back({named.first, named.second, found});

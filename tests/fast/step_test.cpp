@@ -564,7 +564,7 @@ TEST(ScaledStep, GoesToThePlacesThatASimulatorComputes) {
 }
 
 TEST(FreeStepSize, IsFreeAndTheNextDoubleIsNot) {
-  Random random(190);
+  Random random(190), of_radii(192);
   int some = 0, whole = 0, none = 0;
   for (int round = 0; round < 30; ++round) {
     for (const Shape& shape : {shapes()[2], shapes()[3], shapes()[1]}) {
@@ -572,7 +572,8 @@ TEST(FreeStepSize, IsFreeAndTheNextDoubleIsNot) {
       const StepOptions options{
           .separation = {.distance = random.coin() ? 0.0 : 0.01, .norm = Norm::linf},
           .max_threads = 1};
-      if (round % 3 == 0) tests::add_thickness(scene, 0.01, random);
+      // (Rounding may avoid contacts of scenes on a grid that only graze.)
+      if (round % 3 == 0 && shape.motion) tests::add_thickness(scene, 0.01, of_radii);
       const Step step = scene.step(options);
       const std::optional<double> alpha = step.free_step_size();
       if (!alpha) {
