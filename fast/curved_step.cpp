@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <mutex>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include "fast/certified/block.hpp"
 #include "fast/platform/floating_point_state.hpp"
@@ -58,15 +60,17 @@ CurvedStep::CurvedStep(const CurvedVertices& vertices, const MeshElements& eleme
 
 void CurvedStep::for_each_collision(const std::atomic<double>& limit, const Take& take) const {
   const std::size_t size = vertices_.numbers_of_vertex(), stride = vertices_.numbers_of_point();
-  boxes_.candidates([&](const StepCandidates& some) {
+  const auto decide = [&](PairKind kind, std::span<const IndexPair> pairs,
+                          const Separation& separation) {
     CertifiedOptions options = boxes_.options();
+    options.separation = separation;
     options.max_threads = 1;
     options.t_max = std::min(options.t_max, limit.load());
     if (options.t_max < 0.0) return;
     std::vector<double> numbers;
-    numbers.reserve(some.pairs.size() * size * moving_points);
-    for (const IndexPair& pair : some.pairs) {
-      const auto of_pair = boxes_.vertices_of(some.kind, pair);
+    numbers.reserve(pairs.size() * size * moving_points);
+    for (const IndexPair& pair : pairs) {
+      const auto of_pair = boxes_.vertices_of(kind, pair);
       for (std::size_t k = 0; k <= vertices_.degree; ++k) {
         for (const std::int32_t vertex : of_pair) {
           const auto place = static_cast<std::size_t>(vertex) * size + k * stride;
@@ -75,15 +79,24 @@ void CurvedStep::for_each_collision(const std::atomic<double>& limit, const Take
         }
       }
     }
-    std::vector<CertifiedResult> results(some.pairs.size());
-    solve(Queries({.kind = Step::kind_of(some.kind),
+    std::vector<CertifiedResult> results(pairs.size());
+    solve(Queries({.kind = Step::kind_of(kind),
                    .degree = vertices_.degree,
                    .is_rational = vertices_.is_rational},
                   numbers),
           results, options);
     for (std::size_t i = 0; i < results.size(); ++i) {
       if (results[i].verdict != Verdict::yes) continue;
-      take(collision_of(some.kind, some.pairs[i], results[i]));
+      take(collision_of(kind, pairs[i], results[i]));
+    }
+  };
+  boxes_.candidates([&](const StepCandidates& some) {
+    std::map<double, std::vector<IndexPair>> of_distances;
+    for (const IndexPair& pair : some.pairs) {
+      of_distances[boxes_.separation_of(some.kind, pair).distance].push_back(pair);
+    }
+    for (const auto& [distance, pairs] : of_distances) {
+      decide(some.kind, pairs, {.distance = distance, .norm = boxes_.options().separation.norm});
     }
   });
 }

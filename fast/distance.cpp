@@ -85,6 +85,12 @@ bool is_less(const Distance& a, const Distance& b) {
 /// 1 − t. So the error of a distance is at most three bounds in L∞ and less than six in L2.
 /// `slack_` is eight, which also covers its own rounding. Coordinates near the greatest double are
 /// scaled, so that distances do not overflow.
+///
+/// With radii the distances are those of thick primitives, as are the radius and the known one. The
+/// steps in which pairs are searched have the thickness too. Slack and margin then cover the
+/// rounding of sums with it, and that of the enclosures: every pair whose enclosure overlaps the
+/// least one is examined, so that the list does not depend on the order. (A scaled thickness would
+/// be less than it, so the pairs found are too many.)
 class LeastDistanceSearch {
  public:
   LeastDistanceSearch(const Step& step, double t, Norm norm) : step_(step), t_(t), norm_(norm) {
@@ -100,6 +106,10 @@ class LeastDistanceSearch {
     if (t > 0.0 || scale_ != 1.0) {
       slack_ = 8.0 * filters::position_double(scale_ * greatest_) + 0x1p-1070;
     }
+    if (scene_of(step).has_thickness()) {
+      slack_ += 0x1p-48 * scene_of(step).greatest_thickness() + 0x1p-1070;
+      margin_ = 1.0 + 0x1p-50;
+    }
   }
 
   [[nodiscard]] std::optional<LeastDistance> run() {
@@ -107,7 +117,8 @@ class LeastDistanceSearch {
     // An upper bound of all distances, 2 √3 of the greatest coordinate in L2.
     const double most = 4.0 * scale_ * greatest_;
     for (double radius = usual_length() / 64.0;;) {
-      const Step near = step_.with_places(resting, {.distance = radius + slack_, .norm = norm_});
+      const Step near =
+          step_.with_places(resting, {.distance = (radius + slack_) * margin_, .norm = norm_});
       with_threads(step_.options().max_threads, [&] { search(near, radius); });
       const double wider = radius == 0.0
                                ? std::max(most * 0x1p-12, std::numeric_limits<double>::denorm_min())
@@ -117,6 +128,8 @@ class LeastDistanceSearch {
       radius = next;
     }
     if (pairs_.empty()) return std::nullopt;
+    std::erase_if(pairs_,
+                  [this](const PairDistance& one) { return one.distance.lower > least_.upper; });
     std::ranges::sort(pairs_, [](const PairDistance& a, const PairDistance& b) {
       return std::tie(a.kind, a.pair) < std::tie(b.kind, b.pair);
     });
@@ -170,7 +183,8 @@ class LeastDistanceSearch {
     SceneInterval<1> rest{.end = 1.0, .trees = scene.swept_trees(), .rounded = {}};
     if (known_ == infinity) sample(near, rest.trees);
     pairs_.clear();
-    const Separation within{.distance = std::min(radius, known_ * scale_) + slack_, .norm = norm_};
+    const double distance = std::max(std::min(radius, known_ * scale_) + slack_, 0.0);
+    const Separation within{.distance = distance * margin_, .norm = norm_};
     rest.rounded = fixed_point_vertices(near.vertices(), rest.end, within.distance);
     for_each_possible_collision(
         scene, rest, within, 0.0,
@@ -197,14 +211,22 @@ class LeastDistanceSearch {
   void consider(const Step& near, PairKind kind, const IndexPair& pair) {
     const Kind query_kind = Step::kind_of(kind);
     const double known = known_.load(std::memory_order_relaxed);
+    const double thickness = scene_of(step_).thickness_of(kind, pair);
+    const double within = std::max((known * scale_ + slack_) * margin_ + thickness * scale_, 0.0);
     if (keeps_distance(query_kind, near.query_of(kind, pair), 0.0,
-                       {.part = 0.0, .least = known * scale_ + slack_, .norm = norm_})) {
+                       {.part = 0.0, .least = within, .norm = norm_})) {
       return;
     }
     const Query query = step_.query_of(kind, pair);
-    const Distance distance = distance_of_one(query_kind, query, t_, norm_);
+    const Distance distance = less(distance_of_one(query_kind, query, t_, norm_), thickness);
     if (distance.lower > known_.load(std::memory_order_relaxed)) return;
     const std::scoped_lock lock(mutex_);
+    if (scene_of(step_).has_thickness()) {
+      least_ = {std::min(least_.lower, distance.lower), std::min(least_.upper, distance.upper)};
+      known_ = least_.upper;
+      pairs_.push_back({kind, pair, distance});
+      return;
+    }
     if (is_less(least_, distance)) return;
     if (is_less(distance, least_)) pairs_.clear();
     least_ = distance;
@@ -218,6 +240,7 @@ class LeastDistanceSearch {
   double greatest_ = 0.0;
   double scale_ = 1.0;
   double slack_ = 0.0;
+  double margin_ = 1.0;  ///< a factor
 
   std::mutex mutex_;
   static constexpr double infinity = std::numeric_limits<double>::infinity();

@@ -13,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "fast/broad_phase/swept_box.hpp"
 #include "fast/certified/block.hpp"
 #include "fast/platform/floating_point_state.hpp"
 #include "fast/platform/threads.hpp"
@@ -25,11 +26,13 @@ namespace {
 
 constexpr double positive_infinity = std::numeric_limits<double>::infinity();
 
-/// A double s with p d ≤ s < d, if one is certain. (A product is rounded by at most half the
-/// spacing to the next double. For distances beyond the greatest double, s is that double.)
-std::optional<double> kept_distance(double p, const Distance& d) {
+/// A double s with h + p (d − h) ≤ s < d, where h is the thickness, if one is certain. (A product
+/// and a sum are rounded by at most half the spacing to the next double each, which is greatest for
+/// s. For distances beyond the greatest double, s is that double.)
+std::optional<double> kept_distance(double p, const Distance& d, double thickness = 0.0) {
   const double s =
-      std::min(std::nextafter(p * d.upper, positive_infinity), std::numeric_limits<double>::max());
+      std::min(std::nextafter(thickness + p * less(d, thickness).upper, positive_infinity),
+               std::numeric_limits<double>::max());
   const bool is_below = s < d.lower || (s == d.lower && d.lower < d.upper);
   return is_below ? std::optional(s) : std::nullopt;
 }
@@ -51,11 +54,22 @@ LineSearchLimit limit_of_scene(const Step& step, double p, Norm norm) {
   result.step_size = step.options().t_max;
   if (!least) return result;
   result.distance = least->distance;
-  const std::optional<double> kept = kept_distance(p, least->distance);
+  std::optional<double> kept = kept_distance(p, least->distance);
+  if (const double thickness = scene_of(step).greatest_thickness(); kept && thickness > 0.0) {
+    // Separations of pairs, sums of s and a thickness, are rounded.
+    const double rounding = 0x1p-51 * (thickness + least->distance.upper);
+    *kept += rounding;
+    if (!(*kept + rounding < least->distance.lower)) kept.reset();
+  }
   if (!kept) {
-    const bool is_in_contact = least->distance.upper == 0.0;
+    const bool is_in_contact = least->distance.upper <= 0.0;
     result.status = is_in_contact ? LineSearchStatus::in_contact : LineSearchStatus::too_small;
     result.step_size = 0.0;
+    if (is_in_contact && scene_of(step).has_thickness()) {
+      const auto impact = step.with_separation({.distance = 0.0, .norm = norm}).earliest();
+      if (impact) result.pairs = impact->pairs;
+      return result;
+    }
     for (const PairDistance& one : least->pairs) {
       result.pairs.push_back(at_start(one.kind, one.pair));
     }
@@ -105,22 +119,20 @@ Motion motion_of(const MovingVertices& vertices) {
   return result;
 }
 
-/// True if the swept boxes of a query's primitives have a common point.
-bool are_near(Kind kind, const Query& query) {
+/// True if the swept boxes of a query's primitives are within the thickness.
+bool are_near(Kind kind, const Query& query, double thickness) {
   const std::size_t first = kind == Kind::edge_edge ? 2 : 1;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    std::array<double, 2> least{positive_infinity, positive_infinity};
-    std::array<double, 2> most{-positive_infinity, -positive_infinity};
-    for (std::size_t time = 0; time < 2; ++time) {
-      for (std::size_t point = 0; point < moving_points; ++point) {
-        const std::size_t primitive = point < first ? 0 : 1;
-        least[primitive] = std::min(least[primitive], query.at(time, point, axis));
-        most[primitive] = std::max(most[primitive], query.at(time, point, axis));
+  std::array<SweptBox, 2> boxes;
+  for (std::size_t point = 0; point < moving_points; ++point) {
+    SweptBox& box = boxes[point < first ? 0 : 1];
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      for (const std::size_t time : {0U, 1U}) {
+        box.lower[axis] = std::min(box.lower[axis], query.at(time, point, axis));
+        box.upper[axis] = std::max(box.upper[axis], query.at(time, point, axis));
       }
     }
-    if (least[0] > most[1] || least[1] > most[0]) return false;
   }
-  return true;
+  return (thickness > 0.0 ? widened(boxes[0], thickness) : boxes[0]).overlaps(boxes[1]);
 }
 
 /// Each considered pair has a distance d at the start, an s with p d ≤ s < d, and a time at which
@@ -132,13 +144,18 @@ bool are_near(Kind kind, const Query& query) {
 /// motion. So a pair that comes within s up to T comes within T M c/(1 − c). If this is short, one
 /// search on lanes finds these pairs (fast/step/sieve.hpp); otherwise the search is for all
 /// considered ones. For most of them an inequality (keeps_distance) shows, without the distance,
-/// that more than s is left up to T.
+/// that more than s is left up to T. With radii, all of this holds for the distances of thick
+/// primitives.
 class SearchOfPairs {
  public:
-  SearchOfPairs(const Step& step, double p, Norm norm) : step_(step), p_(p), norm_(norm) {}
+  SearchOfPairs(const Step& step, double p, Norm norm)
+      : step_(step), scene_(scene_of(step)), p_(p), norm_(norm) {
+    // (At distance 0 both norms mean the same.)
+    if (scene_.has_thickness()) contact_.norm = norm;
+  }
 
   [[nodiscard]] LineSearchLimit run() {
-    if (const auto impact = step_.with_separation({}).earliest()) begin_with(*impact);
+    if (const auto impact = step_.with_separation(contact_).earliest()) begin_with(*impact);
     search();
     result_.step_size = 0.0;
     if (!touching_.empty()) {
@@ -153,7 +170,8 @@ class SearchOfPairs {
     sort_by_pair(result_.pairs);
     for (const StepCollision& one : result_.pairs) {
       const Query query = step_.query_of(one.kind, one.pair);
-      const Distance apart = distance(Step::kind_of(one.kind), query, 0.0, norm_);
+      const Distance apart = less(distance(Step::kind_of(one.kind), query, 0.0, norm_),
+                                  scene_.thickness_of(one.kind, one.pair));
       if (apart.lower < result_.distance.lower) result_.distance = apart;
     }
     return std::move(result_);
@@ -167,16 +185,19 @@ class SearchOfPairs {
     const double until = time();
     const double within =
         until * p_ / ((1.0 - p_) - 5.0 * 0x1p-53 * p_) * (1.0 + 0x1p-40) * motion.relative;
+    // Separations of pairs, sums with a thickness, are rounded.
+    const double thickness = scene_.greatest_thickness(), rounding = 0x1p-50 * thickness;
     // NaN fails.
-    if (within <= motion.mean) {
-      const Step near = step_.with_separation({.distance = std::max(within, least), .norm = norm_});
+    if (within <= motion.mean && std::isfinite(within + thickness)) {
+      const Step near =
+          step_.with_separation({.distance = std::max(within, least) + rounding, .norm = norm_});
       with_threads(step_.options().max_threads, [&] {
         for_each_possible_collision(
             scene_of(near), until,
             [this](PairKind kind, const IndexPair& pair) { consider(kind, pair); });
       });
     } else {
-      step_.with_separation({}).candidates([this](const StepCandidates& some) {
+      step_.with_separation(contact_).candidates([this](const StepCandidates& some) {
         for (const IndexPair& pair : some.pairs) consider(some.kind, pair);
       });
     }
@@ -197,7 +218,8 @@ class SearchOfPairs {
          std::span(impact.pairs).first(std::min(impact.pairs.size(), enough))) {
       const Kind kind = Step::kind_of(one.kind);
       const Query query = step_.query_of(one.kind, one.pair);
-      const std::optional<double> kept = kept_distance(p_, distance(kind, query, 0.0, norm_));
+      const std::optional<double> kept = kept_distance(p_, distance(kind, query, 0.0, norm_),
+                                                       scene_.thickness_of(one.kind, one.pair));
       if (kept) lower_time(solve_within(kind, query, *kept).toi_upper);
     }
   }
@@ -211,14 +233,18 @@ class SearchOfPairs {
   void consider(PairKind kind, const IndexPair& pair) {
     const Query query = step_.query_of(kind, pair);
     const Kind query_kind = Step::kind_of(kind);
-    // (s is at most p d (1 + 5u).)
-    if (keeps_distance(query_kind, query, time(), {.part = p_, .norm = norm_})) return;
-    if (!are_near(query_kind, query)) return;
+    const double thickness = scene_.thickness_of(kind, pair);
+    // (s is at most p d (1 + 5u), or with a thickness wrong by at most 8u d.)
+    if (keeps_distance(query_kind, query, time(),
+                       {.part = p_, .least = thickness, .norm = norm_})) {
+      return;
+    }
+    if (!are_near(query_kind, query, thickness)) return;
     const Distance apart = distance(query_kind, query, 0.0, norm_);
-    const std::optional<double> kept = kept_distance(p_, apart);
+    const std::optional<double> kept = kept_distance(p_, apart, thickness);
     if (!kept) {
       const std::scoped_lock lock(mutex_);
-      (apart.upper == 0.0 ? touching_ : too_near_).push_back(at_start(kind, pair));
+      (apart.upper <= thickness ? touching_ : too_near_).push_back(at_start(kind, pair));
       return;
     }
     const CertifiedResult result = solve_within(query_kind, query, *kept);
@@ -249,8 +275,10 @@ class SearchOfPairs {
   }
 
   const Step& step_;
+  const Scene& scene_;
   double p_;
   Norm norm_;
+  Separation contact_ = {};  ///< at which thick primitives are in contact
   std::atomic<double> upper_ = positive_infinity;
   std::mutex mutex_;
   std::vector<StepCollision> touching_;  ///< at the start

@@ -298,6 +298,7 @@ bool collides_scaled(const Scene& scene, PairKind kind, const IndexPair& pair, d
     }
   }
   CertifiedOptions options = scene.certified();
+  options.separation = scene.separation_of(kind, pair, options.separation);
   options.t_max = 1.0;
   return solve(Step::kind_of(kind), query, options).verdict == Verdict::yes;
 }
@@ -322,8 +323,11 @@ class CloseTrials {
       }
     }
     Separation wider = scene.certified().separation;
-    wider.distance = (wider.distance + (0x1p-48 * size + 0x1p-1070)) * (1.0 + 0x1p-50);
-    is_complete_ = size <= 0x1p1000 && is_valid(wider);
+    // The last term covers the rounding of separations with thickness.
+    const double thickness = scene.greatest_thickness();
+    wider.distance =
+        (wider.distance + (0x1p-48 * size + 0x1p-1070)) * (1.0 + 0x1p-50) + 0x1p-50 * thickness;
+    is_complete_ = size <= 0x1p1000 && is_valid(wider) && std::isfinite(wider.distance + thickness);
     if (is_complete_) find(wider);
   }
 
@@ -543,6 +547,11 @@ std::array<std::int32_t, moving_points> Step::vertices_of(PairKind kind,
 Query Step::query_of(PairKind kind, const IndexPair& pair) const {
   require_in_range(*scene_, kind, pair);
   return scene_->query_of(kind, pair);
+}
+
+Separation Step::separation_of(PairKind kind, const IndexPair& pair) const {
+  require_in_range(*scene_, kind, pair);
+  return scene_->separation_of(kind, pair, scene_->certified().separation);
 }
 
 const MovingVertices& Step::vertices() const { return scene_->vertices(); }

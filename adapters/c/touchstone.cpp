@@ -169,6 +169,16 @@ void measure(std::int32_t kind, std::size_t count, const double* coordinates, do
   if (count > 0) std::ranges::transform(results, &required(distances, "distances"), distance_of);
 }
 
+std::vector<fast::GroupSeparation> separations_of(const TouchstoneMesh& mesh) {
+  const auto groups = copied<std::array<std::int32_t, 2>>(mesh.separated_groups, mesh.separations,
+                                                          "separated_groups");
+  const auto distances =
+      copied<double>(mesh.group_separations, mesh.separations, "group_separations");
+  std::vector<fast::GroupSeparation> result;
+  for (std::size_t i = 0; i < groups.size(); ++i) result.push_back({groups[i], distances[i]});
+  return result;
+}
+
 std::unique_ptr<TouchstoneStep> step_of(const TouchstoneMesh& mesh,
                                         const TouchstoneOptions& options) {
   auto result = std::make_unique<TouchstoneStep>();
@@ -183,7 +193,10 @@ std::unique_ptr<TouchstoneStep> step_of(const TouchstoneMesh& mesh,
     return std::span<const double>(points.empty() ? nullptr : points.front().data(),
                                    3 * points.size());
   };
-  fast::CollisionGroups groups{.of_vertices = {}, .apart = apart};
+  const auto radii = copied<double>(mesh.group_radii, mesh.radii, "group_radii");
+  const std::vector<fast::GroupSeparation> separations = separations_of(mesh);
+  fast::CollisionGroups groups{
+      .of_vertices = {}, .apart = apart, .radii = radii, .separations = separations};
   if (mesh.groups != nullptr) groups.of_vertices = std::span(mesh.groups, mesh.vertices);
   std::function<bool(std::int32_t, std::int32_t)> can_collide;
   if (mesh.can_collide != nullptr) {

@@ -4,7 +4,7 @@
 
 namespace touchstone::exact {
 
-std::string_view step_certificates_header() { return "touchstone-steps 1\n"; }
+std::string_view step_certificates_header() { return "touchstone-steps 2\n"; }
 
 std::string step_certificates_closing_line(std::uint64_t steps) {
   return "steps " + std::to_string(steps) + '\n';

@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file
-/// Certificates of steps as text: exact/CERTIFICATES.md, "Steps", version 1. The scene and the
+/// Certificates of steps as text: exact/CERTIFICATES.md, "Steps", version 2. The scene and the
 /// claim; the arguments of pairs stand between the claim and the line "end", in the order of
 /// step_pair_kinds.
 

@@ -16,7 +16,7 @@ namespace touchstone::checker {
 namespace {
 
 constexpr std::string_view header = "touchstone-certificates 2";
-constexpr std::string_view steps_header = "touchstone-steps 1";
+constexpr std::string_view steps_header = "touchstone-steps 2";
 constexpr std::string_view closing_word = "certificates";
 
 std::vector<std::string_view> words_of(std::string_view text) {

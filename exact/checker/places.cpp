@@ -12,7 +12,7 @@ namespace {
 /// All enlarged lengths are at most 2^50.
 constexpr int bits_of_lengths = 50;
 
-/// The least number whose power of two is above all coordinates and the distance.
+/// The least number whose power of two is above all coordinates and the greatest distance.
 int exponent_of_scene(const std::vector<Motion>& vertices, double distance) {
   double greatest = distance;
   for (const Motion& vertex : vertices) {
@@ -154,10 +154,13 @@ void MovingBox::include(const MovingBox& other) {
   end.include(other.end);
 }
 
-Places::Places(const std::vector<Motion>& vertices, double distance, const mpq_class& end) {
-  const int shift = bits_of_lengths - exponent_of_scene(vertices, distance);
-  distance_ = rounded_up(distance, shift);
-  vertices_.resize(vertices.size());
+Places::Places(const std::vector<Motion>& vertices, double distance, const mpq_class& end,
+               const Thickness& thickness)
+    : vertices_(vertices.size()),
+      shift_(bits_of_lengths - exponent_of_scene(vertices, std::max(distance, thickness.greatest))),
+      distance_(enlarged(distance)) {
+  const int shift = shift_;
+  for (const double reach : thickness.reaches) reaches_.push_back(enlarged(reach) + 1);
   for (std::size_t n = 0; n < vertices.size(); ++n) {
     MovingBox& box = vertices_[n];
     for (std::size_t k = 0; k < 3; ++k) {
@@ -171,9 +174,12 @@ Places::Places(const std::vector<Motion>& vertices, double distance, const mpq_c
   }
 }
 
-bool Places::is_above(const Primitive& a, const Primitive& b, const Direction& d) const {
+std::int64_t Places::enlarged(double distance) const { return rounded_up(distance, shift_); }
+
+bool Places::is_above(const Primitive& a, const Primitive& b, const Direction& d,
+                      std::int64_t distance) const {
   // No product exceeds 2^60, and no side of the comparisons below reaches 2^63.
-  const std::int64_t reach = distance_ * (std::abs(d[0]) + std::abs(d[1]) + std::abs(d[2]));
+  const std::int64_t reach = distance * (std::abs(d[0]) + std::abs(d[1]) + std::abs(d[2]));
   for (const std::int32_t v : a.vertices) {
     for (const std::int32_t w : b.vertices) {
       const MovingBox& above = vertices_[static_cast<std::size_t>(v)];
@@ -185,10 +191,27 @@ bool Places::is_above(const Primitive& a, const Primitive& b, const Direction& d
   return true;
 }
 
+bool Places::is_axis_between(const Primitive& a, const Primitive& b, std::int64_t distance) const {
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    Direction d{};
+    d[axis] = 1;
+    if (is_above(a, b, d, distance) || is_above(b, a, d, distance)) return true;
+  }
+  return false;
+}
+
 MovingBox Places::box_of(const Primitive& primitive) const {
   MovingBox box = vertices_[static_cast<std::size_t>(primitive.vertices[0])];
+  std::int64_t reach = 0;
   for (const std::int32_t vertex : primitive.vertices) {
     box.include(vertices_[static_cast<std::size_t>(vertex)]);
+    if (!reaches_.empty()) reach = std::max(reach, reaches_[static_cast<std::size_t>(vertex)]);
+  }
+  for (Box* const place : {&box.start, &box.end}) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      place->lower[axis] -= reach;
+      place->upper[axis] += reach;
+    }
   }
   return box;
 }

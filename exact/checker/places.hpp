@@ -3,7 +3,7 @@
 /// \file
 /// The places of a step's vertices in integers, and directions that keep two primitives apart.
 ///
-/// Space is enlarged by the power of two that brings all coordinates and the distance D just below
+/// Space is enlarged by the power of two that brings all coordinates and distances D just below
 /// 2^50. A coordinate at the start and at the end of an interval of time is then enclosed by
 /// integers, and D is rounded up. Their sums and products are exact in 64 bits.
 ///
@@ -20,6 +20,12 @@
 /// leaves below it. An axis that keeps the boxes of two nodes apart keeps every primitive below the
 /// one apart from every primitive below the other. All other pairs of nodes are followed down to
 /// the pairs of primitives.
+///
+/// *Thickness*: the D of two primitives may be more than that of the scene. Then vertices have
+/// reaches ρ, and D ≤ (1 + 2^-50) (the scene's + ρ + σ) for some vertices of the two with the
+/// reaches ρ and σ. The box of a primitive is enlarged by the greatest ρ of its vertices, rounded
+/// up, and by 1: twice 1 is not less than the enlarged 2^-50 D and the rounding of D. So every pair
+/// that no axis keeps apart by its D is found, and some others may be.
 
 #include <gmpxx.h>
 
@@ -74,16 +80,33 @@ struct MovingBox {
 
 using TakePair = std::function<void(const Primitive&, const Primitive&)>;
 
+/// How much more than the scene's D the distances of pairs are.
+struct Thickness {
+  /// The greatest of all pairs' D.
+  double greatest = 0.0;
+  /// Of each vertex; empty if there is no thickness.
+  std::vector<double> reaches = {};
+};
+
 class Places {
  public:
   /// Encloses the vertices up to t=end. \pre finite coordinates and D; D ≥ 0, 0 ≤ end ≤ 1
-  Places(const std::vector<Motion>& vertices, double distance, const mpq_class& end);
+  Places(const std::vector<Motion>& vertices, double distance, const mpq_class& end,
+         const Thickness& thickness = {});
 
-  /// True if the direction keeps a above b at all times.
-  [[nodiscard]] bool is_above(const Primitive& a, const Primitive& b, const Direction& d) const;
+  /// The distance of a pair, enlarged and rounded up.
+  [[nodiscard]] std::int64_t enlarged(double distance) const;
 
-  /// Calls take(a, b) for every a of `some` and b of `others` that no coordinate axis keeps apart;
-  /// if both are the same list, for every two of it, the smaller number first.
+  /// True if the direction keeps a above b by that distance at all times.
+  [[nodiscard]] bool is_above(const Primitive& a, const Primitive& b, const Direction& d,
+                              std::int64_t distance) const;
+  /// True if a coordinate axis keeps them apart by that distance.
+  [[nodiscard]] bool is_axis_between(const Primitive& a, const Primitive& b,
+                                     std::int64_t distance) const;
+
+  /// Calls take(a, b) for every a of `some` and b of `others` that no coordinate axis keeps apart
+  /// by their distance, and with thickness possibly for more; if both are the same list, for every
+  /// two of it, the smaller number first.
   /// \param comparisons_left the remaining comparisons of boxes
   /// \throws Rejection if they do not suffice.
   void find_near(const Primitives& some, const Primitives& others, std::int64_t& comparisons_left,
@@ -106,8 +129,12 @@ class Places {
 
   /// The boxes of each vertex.
   std::vector<MovingBox> vertices_;
-  /// D.
-  std::int64_t distance_ = 0;
+  /// Of each vertex, enlarged; empty without thickness.
+  std::vector<std::int64_t> reaches_;
+  /// The enlargement is by 2^shift.
+  int shift_;
+  /// The scene's D.
+  std::int64_t distance_;
 };
 
 }  // namespace touchstone::checker

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <cmath>
 #include <limits>
+#include <map>
 #include <tuple>
 #include <vector>
 
@@ -19,6 +21,14 @@ using Face = std::array<std::int32_t, 3>;
 /// The numbers of two vertices, two groups or two primitives.
 using Two = std::array<std::int32_t, 2>;
 
+/// Two groups and the thickness of their pairs.
+struct GroupSeparation {
+  Two groups{};
+  double distance = 0.0;
+
+  friend bool operator==(const GroupSeparation&, const GroupSeparation&) = default;
+};
+
 /// The scene as it is written.
 struct Scene {
   std::vector<Motion> vertices;
@@ -27,6 +37,8 @@ struct Scene {
   std::vector<std::int32_t> points;
   std::vector<std::int32_t> groups;
   std::vector<Two> apart;
+  std::vector<double> radii;
+  std::vector<GroupSeparation> separations;
 
   friend bool operator==(const Scene&, const Scene&) = default;
 };
@@ -51,6 +63,13 @@ double to_double(const mpq_class& number) {
   const bool is_in_range = abs(number) <= std::numeric_limits<double>::max();
   if (!is_in_range || number != number.get_d()) reject("a number that is not a double");
   return number.get_d();
+}
+
+/// Takes a double that is not below 0.
+double take_length(Reader& reader) {
+  const double length = to_double(take_number(reader));
+  if (length < 0.0) reject("a distance below 0");
+  return length;
 }
 
 /// Reads a line of a keyword and a number, and as many lines: take() makes an item of each.
@@ -93,6 +112,9 @@ Scene read_scene(Reader& reader, const Options& options) {
   scene.groups = read_list<std::int32_t>(reader, "groups", items_left, group);
   if (!scene.groups.empty() && scene.groups.size() != count) reject("not a group for each vertex");
   scene.apart = read_list<Two>(reader, "apart", items_left, two_groups);
+  scene.radii = read_list<double>(reader, "radii", items_left, [&] { return take_length(reader); });
+  const auto separation = [&] { return GroupSeparation{two_groups(), take_length(reader)}; };
+  scene.separations = read_list<GroupSeparation>(reader, "separations", items_left, separation);
   return scene;
 }
 
@@ -212,6 +234,7 @@ class StepCheck {
     find_what_can_collide();
     separation_ = read_separation(reader_);
     distance_ = to_double(separation_.distance);
+    find_thickness();
     read_claim();
     if (is_earliest_) prove_contact();
     const bool is_contact_at_start = is_earliest_ && upper_ == 0;
@@ -232,6 +255,36 @@ class StepCheck {
     text_ += std::to_string(elements_.vertices.size()) + " vertices, " +
              std::to_string(elements_.edges.size()) + " edges, " +
              std::to_string(elements_.faces.size()) + " faces\n";
+  }
+
+  /// Finds the separations of groups, the greatest of all, and the reach of each vertex: of the
+  /// reaches of two, the sum is not below the thickness of their groups.
+  void find_thickness() {
+    if (scene_.radii.empty() && scene_.separations.empty()) return;
+    const auto groups = static_cast<std::int32_t>(scene_.radii.size());
+    double greatest = 0.0;
+    for (const double radius : scene_.radii) greatest = std::max(greatest, 2.0 * radius);
+    std::map<std::int32_t, double> halves;
+    for (const auto& [two, distance] : scene_.separations) {
+      const auto& [one, other] = two;
+      const Two in_order{std::min(one, other), std::max(one, other)};
+      if (!separations_.emplace(in_order, distance).second) reject("two groups are listed twice");
+      greatest = std::max(greatest, distance);
+      // (Half of the least double would be 0.)
+      const double half = std::max(distance / 2.0, distance - distance / 2.0);
+      for (const std::int32_t group : two) halves[group] = std::max(halves[group], half);
+    }
+    thickness_.greatest = distance_ + greatest;
+    if (!std::isfinite(thickness_.greatest)) reject("the distances are too large");
+    for (std::size_t n = 0; n < scene_.vertices.size(); ++n) {
+      const std::int32_t group = group_of(static_cast<std::int32_t>(n));
+      if (groups > 0 && group >= groups) reject("not a radius for each group");
+      const auto half = halves.find(group);
+      thickness_.reaches.push_back(
+          std::max(radius_of(group), half == halves.end() ? 0.0 : half->second));
+    }
+    text_ += std::to_string(scene_.radii.size()) + " radii, " +
+             std::to_string(scene_.separations.size()) + " separations of groups\n";
   }
 
   void read_claim() {
@@ -268,7 +321,7 @@ class StepCheck {
 
   /// Finds all pairs that no axis keeps apart, and requires that they have an argument.
   void prove_no_contact() {
-    const Places places(scene_.vertices, distance_, lower_);
+    const Places places(scene_.vertices, distance_, lower_, thickness_);
     read_sweep();
     for (PairKind& kind : kinds_) read_arguments(kind, places);
     std::int64_t comparisons_left = options_.max_comparisons_per_byte * bytes_read();
@@ -276,6 +329,7 @@ class StepCheck {
       const auto require_argument = [&](const Primitive& a, const Primitive& b) {
         const Two numbers{a.number, b.number};
         if (std::ranges::binary_search(kind.proved, numbers) || !can_collide(a, b)) return;
+        if (places.is_axis_between(a, b, places.enlarged(distance_of(a, b)))) return;
         reject("no argument for " + std::string(kind.name) + ' ' + std::to_string(a.number) + ' ' +
                std::to_string(b.number));
       };
@@ -308,7 +362,10 @@ class StepCheck {
     kind.proved.push_back({pair.a.number, pair.b.number});
     if (reader_.has_word()) {
       const Direction direction = take_direction();
-      if (!places.is_above(pair.a, pair.b, direction)) reject("the direction separates not");
+      const std::int64_t distance = places.enlarged(distance_of(pair.a, pair.b));
+      if (!places.is_above(pair.a, pair.b, direction, distance)) {
+        reject("the direction separates not");
+      }
       reader_.end();
       return;
     }
@@ -338,6 +395,7 @@ class StepCheck {
     const Face& b = pair.b.vertices;
     Certificate certificate;
     certificate.separation = separation_;
+    certificate.separation.distance = distance_of(pair.a, pair.b);
     certificate.claim = claim;
     certificate.lower = lower_;
     certificate.upper = upper_;
@@ -379,6 +437,27 @@ class StepCheck {
     return do_groups_meet;
   }
 
+  /// The distance at which two primitives are in contact.
+  [[nodiscard]] double distance_of(const Primitive& a, const Primitive& b) const {
+    if (thickness_.reaches.empty()) return distance_;
+    double greatest = 0.0;
+    for (const std::int32_t v : a.vertices) {
+      for (const std::int32_t w : b.vertices) {
+        greatest = std::max(greatest, thickness_of(group_of(v), group_of(w)));
+      }
+    }
+    return distance_ + greatest;
+  }
+
+  [[nodiscard]] double thickness_of(std::int32_t one, std::int32_t other) const {
+    const auto listed = separations_.find({std::min(one, other), std::max(one, other)});
+    return listed != separations_.end() ? listed->second : radius_of(one) + radius_of(other);
+  }
+
+  [[nodiscard]] double radius_of(std::int32_t group) const {
+    return scene_.radii.empty() ? 0.0 : scene_.radii[static_cast<std::size_t>(group)];
+  }
+
   /// The group of a vertex: 0 if there are no groups.
   [[nodiscard]] std::int32_t group_of(std::int32_t vertex) const {
     return scene_.groups.empty() ? 0 : scene_.groups[static_cast<std::size_t>(vertex)];
@@ -396,6 +475,9 @@ class StepCheck {
   std::vector<Two> apart_;
   Separation separation_;
   double distance_ = 0.0;
+  Thickness thickness_;
+  /// The thickness of groups that are listed, the smaller number first.
+  std::map<Two, double> separations_;
   /// No contact in [0,lower]; if the claim is `earliest`, one in [lower,upper].
   bool is_earliest_ = false;
   mpq_class lower_ = 0;

@@ -9,9 +9,12 @@
 ///     (one of no face), or two points;
 ///   - they have no vertex in common; and
 ///   - the group of some vertex of the one and that of some vertex of the other are not held apart.
-/// Vertices that no face, edge or point names take no part. The edges are those of the faces and
-/// those listed. The corners of a vertex v and an edge e are those of v and the triangle e0 e1 e0,
-/// the corners of two vertices v and w those of v and the triangle w w w.
+/// Their D is fl(S + T), where S is the separation of the step, fl rounds to the nearest double,
+/// and T is the greatest thickness of a vertex of the one and a vertex of the other: the one that
+/// is listed for their groups, else the sum fl(r + s) of the groups' radii. Vertices that no face,
+/// edge or point names take no part. The edges are those of the faces and those listed. The corners
+/// of a vertex v and an edge e are those of v and the triangle e0 e1 e0, the corners of two
+/// vertices v and w those of v and the triangle w w w.
 ///
 /// **Theorem.** If a certificate is accepted, no pair that can collide has a contact in [0,T]
 /// (`no_contact T`), or in [0,LO], and one has in [LO,HI] (`earliest LO HI`). *Proof.* A pair that
@@ -27,7 +30,7 @@
 namespace touchstone::checker {
 
 /// Reads and verifies the certificate that begins at the current line, to the line after its `end`.
-/// \param scenes null, or the next scene there (lines `vertices` to `apart`) must be the same
+/// \param scenes null, or the next scene there (lines `vertices` to `separations`) must be the same
 /// \param options the limits
 /// \returns the proved claims as text: label, size of the scene, separation and claim, a line each
 /// \throws Rejection if it proves nothing, std::runtime_error as Reader::advance.

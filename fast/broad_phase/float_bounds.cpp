@@ -159,6 +159,15 @@ class BoundsMaker {
   BoundsMaker(const MovingVertices& vertices, double end, double distance)
       : round_(window_of(vertices)), end_(end), below_(distance / 2.0), above_(distance - below_) {}
 
+  /// The maker for a vertex with that reach.
+  [[nodiscard]] BoundsMaker with_reach(double reach) const {
+    constexpr double enlarged = 1.0 + 0x1p-50;
+    BoundsMaker result = *this;
+    result.below_ = (below_ + reach) * enlarged;
+    result.above_ = (above_ + reach) * enlarged;
+    return result;
+  }
+
   /// Sets the bounds of a vertex. Returns true if they are exact.
   bool set(VertexBounds& bounds, const MovingVertex& vertex) const {
     const bool is_exact = set(bounds, 0, place_of(vertex.start));
@@ -198,16 +207,18 @@ class BoundsMaker {
 
 }  // namespace
 
-FloatBounds::FloatBounds(const MovingVertices& vertices, double end, double distance)
+FloatBounds::FloatBounds(const MovingVertices& vertices, double end, double distance,
+                         std::span<const double> reaches)
     : size_(vertices.size()), bounds_(size_) {
   const StrictFloatingPoint strict;
   const BoundsMaker maker(vertices, end, distance);
   exact_ = tbb::parallel_reduce(
       tbb::blocked_range<std::size_t>(0, size_, vertices_of_task), true,
-      [this, &vertices, maker](const tbb::blocked_range<std::size_t>& range, bool exact) {
+      [this, &vertices, reaches, maker](const tbb::blocked_range<std::size_t>& range, bool exact) {
         const StrictFloatingPoint of_task;
         for (std::size_t i = range.begin(); i < range.end(); ++i) {
-          exact &= maker.set(bounds_[i], vertices[i]);
+          exact &= reaches.empty() ? maker.set(bounds_[i], vertices[i])
+                                   : maker.with_reach(reaches[i]).set(bounds_[i], vertices[i]);
         }
         return exact;
       },

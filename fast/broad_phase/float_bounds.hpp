@@ -27,6 +27,10 @@
 /// boxes that overlap without their bounds are at most d apart. Only equal floats leave the
 /// comparison undecided, unless d = 0 and no coordinate was rounded.
 ///
+/// **Reaches.** Vertices may have reaches besides. With those of two, ρ and σ, boxes that are apart
+/// in float are more than d + ρ + σ apart, or by a few ulps more: h + ρ and k + σ are then the
+/// parts, each enlarged by 2^-50 of itself, which covers its rounding and one of the sum.
+///
 /// **Part of a step.** The end t of an interval [0, t] may be less than 1. The position of a point
 /// at t is computed with an error of at most e (filters::Position), so it is in [p − e, p + e]. The
 /// bound e exceeds the rounding error of p ∓ 2e. The computed p ∓ 2e are therefore on either side
@@ -37,6 +41,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <span>
 
 #include "fast/platform/large_array.hpp"
 #include "touchstone/mesh.hpp"
@@ -81,8 +86,10 @@ class FloatBounds {
   /// Bounds of the vertices at t=0 and at the time `end`, a power of two from 2^-52 to 1. Uses the
   /// threads of the caller's task arena.
   /// \param distance d, finite and not negative.
+  /// \param reaches Those of the vertices, not negative; or empty: all are 0.
   /// \pre The coordinates are finite.
-  explicit FloatBounds(const MovingVertices& vertices, double end = 1.0, double distance = 0.0);
+  explicit FloatBounds(const MovingVertices& vertices, double end = 1.0, double distance = 0.0,
+                       std::span<const double> reaches = {});
 
   [[nodiscard]] std::size_t size() const { return size_; }
   [[nodiscard]] const VertexBounds& operator[](std::size_t i) const { return bounds_[i]; }

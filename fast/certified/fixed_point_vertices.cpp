@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <limits>
 
 #include "fast/platform/floating_point_state.hpp"
 #include "fast/platform/threads.hpp"
@@ -85,11 +86,18 @@ class Rounding {
 
 }  // namespace
 
+float FixedPointVertices::distance_for(double other) const {
+  constexpr double greatest_distance = 0x1p29;
+  const double in_units = 1.001 + (other + 2.0 * error) / unit;
+  // Written so that NaN fails too.
+  if (!(in_units <= greatest_distance)) return std::numeric_limits<float>::infinity();
+  return static_cast<float>(in_units * (1.0 + 0x1p-20));
+}
+
 FixedPointVertices fixed_point_vertices(const MovingVertices& vertices, double end,
                                         double distance) {
   // Limits within which nothing overflows or underflows, here and in the certified solver's stages.
   constexpr double greatest_coordinate = 0x1p98, least_extent = 0x1p-900;
-  constexpr double greatest_distance = 0x1p29;
   const StrictFloatingPoint strict;
   FixedPointVertices result;
   if (vertices.size() == 0) return result;
@@ -99,10 +107,10 @@ FixedPointVertices fixed_point_vertices(const MovingVertices& vertices, double e
   const double magnitude = std::max({std::abs(x), std::abs(y), std::abs(z)}) + size;
   if (!(magnitude <= greatest_coordinate && size >= least_extent)) return result;
   const double h = std::ldexp(1.0, std::ilogb(size) + 1 - 29);
-  const double error = end == 1.0 ? 0.0 : filters::position_double(2.0 * magnitude);
-  const double in_units = 1.001 + (distance + 2.0 * error) / h;
-  if (!(in_units <= greatest_distance)) return result;
-  result.distance = static_cast<float>(in_units * (1.0 + 0x1p-20));
+  result.unit = h;
+  result.error = end == 1.0 ? 0.0 : filters::position_double(2.0 * magnitude);
+  result.distance = result.distance_for(distance);
+  if (result.distance == std::numeric_limits<float>::infinity()) return result;
   result.vertices = LargeArray<FixedPointVertex>(vertices.size());
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, vertices.size(), vertices_of_task),
                     [&](const tbb::blocked_range<std::size_t>& range) {

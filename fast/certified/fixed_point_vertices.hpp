@@ -34,6 +34,11 @@ struct FixedPointVertices {
   LargeArray<FixedPointVertex> vertices;
   /// An upper bound of D + ε in units of h.
   float distance = 0.0F;
+  double unit = 1.0;   ///< h
+  double error = 0.0;  ///< e
+
+  /// The bound of D + ε for another D; infinity if that is too large for the stages.
+  [[nodiscard]] float distance_for(double other) const;
 };
 
 /// The vertices at t=0 and at the time `end`, in (0,1]. Uses the threads of the caller's task

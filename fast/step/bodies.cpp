@@ -1,11 +1,26 @@
 #include "fast/step/bodies.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <map>
 #include <stdexcept>
 #include <string>
 #include <utility>
 
 namespace touchstone::fast {
+namespace {
+
+std::array<std::int32_t, 2> ordered(const std::array<std::int32_t, 2>& groups) {
+  return {std::min(groups[0], groups[1]), std::max(groups[0], groups[1])};
+}
+
+/// \throws std::invalid_argument unless a radius or a distance is finite and not negative.
+void require_length(double x, const std::string& name) {
+  if (std::isfinite(x) && x >= 0.0) return;
+  throw std::invalid_argument("step: " + name + " must be finite and not negative");
+}
+
+}  // namespace
 
 Bodies::Bodies(std::size_t vertices, const CollisionGroups& groups,
                std::function<bool(std::int32_t, std::int32_t)> can_collide)
@@ -26,11 +41,88 @@ Bodies::Bodies(std::size_t vertices, const CollisionGroups& groups,
     throw std::invalid_argument("step: a group of two that are apart is negative: " +
                                 std::to_string(std::min(a, b)));
   }
-  if (groups.apart.empty() && !can_collide_) return;
+  take_thickness(groups);
+  if (groups.apart.empty() && !can_collide_ && !has_thickness()) return;
   of_vertices_.assign(vertices, 0);
   std::ranges::copy(of_vertices, of_vertices_.begin());
-  for (const auto& [a, b] : groups.apart) apart_.push_back({std::min(a, b), std::max(a, b)});
+  for (const auto& two : groups.apart) apart_.push_back(ordered(two));
   std::ranges::sort(apart_);
+}
+
+void Bodies::take_thickness(const CollisionGroups& groups) {
+  const std::span<const double> radii = groups.radii;
+  const std::int32_t last = groups.of_vertices.empty() ? 0 : std::ranges::max(groups.of_vertices);
+  if (!radii.empty() && std::cmp_greater_equal(last, radii.size())) {
+    throw std::invalid_argument("step: there are radii of " + std::to_string(radii.size()) +
+                                " groups, but vertices in group " + std::to_string(last));
+  }
+  for (std::size_t i = 0; i < radii.size(); ++i) {
+    require_length(radii[i], "the radius of group " + std::to_string(i));
+  }
+  for (const auto& [two, distance] : groups.separations) {
+    const auto [a, b] = ordered(two);
+    const std::string names = std::to_string(a) + " and " + std::to_string(b);
+    if (a < 0) {
+      throw std::invalid_argument("step: a group with a separation is negative: " +
+                                  std::to_string(a));
+    }
+    require_length(distance, "the separation of groups " + names);
+    separations_.push_back({{a, b}, distance});
+  }
+  std::ranges::sort(separations_, {}, &GroupSeparation::groups);
+  const auto again =
+      std::ranges::adjacent_find(separations_, std::ranges::equal_to(), &GroupSeparation::groups);
+  if (again != separations_.end()) {
+    throw std::invalid_argument("step: groups " + std::to_string(again->groups[0]) + " and " +
+                                std::to_string(again->groups[1]) + " have two separations");
+  }
+  if (std::ranges::any_of(radii, [](double radius) { return radius > 0.0; })) {
+    radii_.assign(radii.begin(), radii.end());
+  }
+  // Far from overflow in all sums of distances.
+  if (!(greatest_thickness() <= 0x1p1000)) {
+    throw std::invalid_argument("step: the separations of groups must be at most 2^1000");
+  }
+}
+
+double Bodies::thickness(std::int32_t a, std::int32_t b) const {
+  const auto two = ordered({a, b});
+  const auto listed = std::ranges::lower_bound(separations_, two, {}, &GroupSeparation::groups);
+  if (listed != separations_.end() && listed->groups == two) return listed->distance;
+  return radius(a) + radius(b);
+}
+
+double Bodies::thickness(std::span<const std::int32_t> vertices,
+                         std::span<const std::int32_t> others) const {
+  double result = 0.0;
+  for (const std::int32_t a : vertices) {
+    for (const std::int32_t b : others) result = std::max(result, thickness(body(a), body(b)));
+  }
+  return result;
+}
+
+double Bodies::greatest_thickness() const {
+  double result = radii_.empty() ? 0.0 : 2.0 * std::ranges::max(radii_);
+  for (const GroupSeparation& one : separations_) result = std::max(result, one.distance);
+  return result;
+}
+
+std::vector<double> Bodies::reaches() const {
+  // Half of the greatest separation of a body.
+  std::map<std::int32_t, double> halves;
+  for (const auto& [two, distance] : separations_) {
+    // (One of the two is rounded up.)
+    const double half = std::max(distance / 2.0, distance - distance / 2.0);
+    for (const std::int32_t one : two) halves[one] = std::max(halves[one], half);
+  }
+  std::vector<double> result;
+  if (!has_thickness()) return result;
+  result.reserve(of_vertices_.size());
+  for (const std::int32_t body : of_vertices_) {
+    const auto half = halves.find(body);
+    result.push_back(std::max(radius(body), half == halves.end() ? 0.0 : half->second));
+  }
+  return result;
 }
 
 bool Bodies::meet(std::int32_t a, std::int32_t b) const {
@@ -40,9 +132,6 @@ bool Bodies::meet(std::int32_t a, std::int32_t b) const {
 bool Bodies::meet(std::span<const std::int32_t> vertices,
                   std::span<const std::int32_t> others) const {
   if (all_meet()) return true;
-  const auto body = [this](std::int32_t vertex) {
-    return of_vertices_[static_cast<std::size_t>(vertex)];
-  };
   const auto can_collide = [&](std::int32_t a, std::int32_t b) {
     return (apart_.empty() || meet(body(a), body(b))) && (!can_collide_ || can_collide_(a, b));
   };

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <stdexcept>
 #include <tuple>
 #include <utility>
@@ -29,6 +30,15 @@ CertifiedOptions with_separation(CertifiedOptions options, const Separation& sep
   options.separation = separation;
   require_valid(options);
   return options;
+}
+
+/// \throws std::invalid_argument if a separation overflows.
+std::shared_ptr<const SceneMesh> checked(std::shared_ptr<const SceneMesh> mesh,
+                                         const Separation& separation) {
+  if (!std::isfinite(separation.distance + mesh->bodies.greatest_thickness())) {
+    throw std::invalid_argument("step: the separation of a pair would be infinite");
+  }
+  return mesh;
 }
 
 /// \throws as Step.
@@ -118,7 +128,21 @@ SceneMesh::SceneMesh(std::size_t vertex_count, const MeshElements& given,
       edges_as_faces(fast::as_faces(codimensional.edges, elements.edges)),
       numbers{{{}, {}, {}, codimensional.points, codimensional.edges}},
       as_faces{{{}, {}, elements.faces, points_as_faces, edges_as_faces}},
-      bodies(vertex_count, options.groups, options.can_collide) {}
+      bodies(vertex_count, options.groups, options.can_collide),
+      reaches(bodies.reaches()) {
+  if (!bodies.has_thickness()) return;
+  const std::vector<double> of_vertices = reaches;
+  const auto widen = [&](const auto& element) {
+    double reach = 0.0;
+    for (const std::int32_t vertex : element) reach = std::max(reach, at(of_vertices, vertex));
+    for (const std::int32_t vertex : element) {
+      double& known = reaches[static_cast<std::size_t>(vertex)];
+      known = std::max(known, reach);
+    }
+  };
+  std::ranges::for_each(elements.edges, widen);
+  std::ranges::for_each(elements.faces, widen);
+}
 
 // ---- The groups ---------------------------------------------------------------------------------
 
@@ -186,8 +210,9 @@ Scene::Scene(MovingVertices vertices, const MeshElements& elements, const StepOp
       stop_(options.stop),
       kernel_(certified_kernel(chosen_kernels())),
       search_(search_kernel(chosen_kernels())),
-      bounds_(vertices_, 1.0, certified_.separation.distance),
-      mesh_(std::make_shared<const SceneMesh>(vertices_.size(), elements, options)),
+      mesh_(checked(std::make_shared<const SceneMesh>(vertices_.size(), elements, options),
+                    certified_.separation)),
+      bounds_(bounds_up_to(1.0)),
       groups_(std::make_shared<const SceneGroups>(*mesh_, bounds_)) {}
 
 Scene::Scene(MovingVertices vertices, const Scene& other)
@@ -201,8 +226,8 @@ Scene::Scene(MovingVertices vertices, const Scene& other, const Separation& sepa
       stop_(other.stop_),
       kernel_(other.kernel_),
       search_(other.search_),
-      bounds_(vertices_, 1.0, separation.distance),
-      mesh_(other.mesh_),
+      mesh_(checked(other.mesh_, separation)),
+      bounds_(bounds_up_to(1.0)),
       groups_(still_tight(other.groups_, *mesh_, bounds_)) {}
 
 // ---- Searching ----------------------------------------------------------------------------------
@@ -215,16 +240,18 @@ double t_end_of(double time) {
   return std::ldexp(1.0, fraction == 0.5 ? exponent - 1 : exponent);
 }
 
+FloatBounds Scene::bounds_up_to(double end) const {
+  return FloatBounds(vertices_, end, certified_.separation.distance, mesh_->reaches);
+}
+
 Trees<1> Scene::swept_trees() const { return trees_of<1>(groups_->groups, bounds_); }
 
 template <std::size_t instants>
 SceneInterval<instants> Scene::up_to(double end) const {
-  const double distance = certified_.separation.distance;
   return {.end = end,
-          .trees = end == 1.0
-                       ? trees_of<instants>(groups_->groups, bounds_)
-                       : trees_of<instants>(groups_->groups, FloatBounds(vertices_, end, distance)),
-          .rounded = fixed_point_vertices(vertices_, end, distance)};
+          .trees = end == 1.0 ? trees_of<instants>(groups_->groups, bounds_)
+                              : trees_of<instants>(groups_->groups, bounds_up_to(end)),
+          .rounded = fixed_point_vertices(vertices_, end, certified_.separation.distance)};
 }
 
 template SceneInterval<1> Scene::up_to<1>(double end) const;
@@ -270,13 +297,16 @@ template void Scene::find(const Trees<2>& trees, const SearchPart& part, PairBuf
 void Scene::find_candidates(const Trees<1>& trees, const SearchPart& part,
                             PairBuffer& pairs) const {
   const PairRecord& record = record_of(part.kind);
-  const Certainty certainty = bounds_.are_exact() ? Certainty::all : Certainty::unless_close;
+  const Certainty certainty = has_thickness()       ? Certainty::none
+                              : bounds_.are_exact() ? Certainty::all
+                                                    : Certainty::unless_close;
   search_.find(SearchInput<1>{&trees[record.some], &trees[record.all], rules_of(record, certainty)},
                part.first, part.end, pairs);
 }
 
 bool Scene::confirms(const Primitive& a, const Primitive& b) const {
-  return are_within_distance(vertices_, a, b, certified_.separation.distance);
+  const double thickness = has_thickness() ? mesh_->bodies.thickness(a, b) : 0.0;
+  return are_within_distance(vertices_, a, b, certified_.separation.distance + thickness);
 }
 
 bool Scene::bodies_meet(std::int32_t a, std::int32_t b) const { return mesh_->bodies.meet(a, b); }
@@ -314,7 +344,11 @@ Candidates Scene::candidates_of(PairKind kind, std::span<const IndexPair> pairs,
   return result;
 }
 
-KernelInput Scene::block_of(const Candidates& candidates, const FixedPointVertices& rounded) const {
+KernelInput Scene::block_of(const Candidates& candidates, const FixedPointVertices& rounded,
+                            const Separation& separation) const {
+  const float distance =
+      has_thickness() ? rounded.distance_for(separation.distance) : rounded.distance;
+  const bool is_usual = distance < std::numeric_limits<float>::infinity();
   return {.kind = candidates.kind,
           .count = candidates.pairs.size(),
           .vertices = vertices_.data(),
@@ -322,8 +356,28 @@ KernelInput Scene::block_of(const Candidates& candidates, const FixedPointVertic
           .faces = candidates.faces.data(),
           .pairs = candidates.pairs.data(),
           .axis_is_done = true,
-          .rounded = rounded.vertices.data(),
-          .rounded_distance = rounded.distance};
+          .rounded = is_usual ? rounded.vertices.data() : nullptr,
+          .rounded_distance = distance};
+}
+
+double Scene::thickness_of(PairKind kind, const IndexPair& pair) const {
+  if (!has_thickness()) return 0.0;
+  const auto vertices = vertices_of(kind, pair);
+  const std::span all(vertices);
+  const std::size_t of_first = Step::kind_of(kind) == Kind::edge_edge ? 2 : 1;
+  return mesh_->bodies.thickness(all.first(of_first), all.subspan(of_first));
+}
+
+std::vector<Scene::DistanceAndPlace> Scene::by_distance(PairKind kind,
+                                                        std::span<const IndexPair> pairs,
+                                                        const Separation& of_step) const {
+  std::vector<DistanceAndPlace> result;
+  result.reserve(pairs.size());
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    result.emplace_back(separation_of(kind, reported(kind, pairs[i]), of_step).distance, i);
+  }
+  std::ranges::sort(result);
+  return result;
 }
 
 StepCollision collision_of(PairKind kind, const IndexPair& pair, const CertifiedResult& result) {
@@ -340,6 +394,24 @@ void sort_by_pair(std::vector<StepCollision>& collisions) {
   std::ranges::sort(collisions, [](const StepCollision& a, const StepCollision& b) {
     return std::tie(a.kind, a.pair) < std::tie(b.kind, b.pair);
   });
+}
+
+Distance less(const Distance& distance, double thickness) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  if (thickness == 0.0) return distance;
+  // The error of a difference of doubles [knuth1997].
+  const auto error = [thickness](double from, double difference) {
+    const double subtracted = from - difference, kept = difference + subtracted;
+    return (from - kept) + (subtracted - thickness);
+  };
+  Distance result{distance.lower - thickness, distance.upper - thickness};
+  if (error(distance.lower, result.lower) < 0.0) {
+    result.lower = std::nextafter(result.lower, -infinity);
+  }
+  if (distance.upper < infinity && error(distance.upper, result.upper) > 0.0) {
+    result.upper = std::nextafter(result.upper, infinity);
+  }
+  return result;
 }
 
 std::array<std::int32_t, moving_points> Scene::vertices_of(PairKind kind,

@@ -8,6 +8,10 @@
 /// list of its own; `reported` converts to the numbers of the interface. The certified solver gets
 /// the edge of a pair vertex-edge as the face (e0, e1, e0), and the second vertex of a pair
 /// vertex-vertex as the face (w, w, w).
+///
+/// **Thickness.** Boxes are widened by reaches: each vertex has the greatest reach of all
+/// primitives that it is a vertex of (Bodies). The pairs of a block are decided by separations,
+/// those of one separation at once.
 
 #include <array>
 #include <atomic>
@@ -32,6 +36,7 @@
 #include "fast/platform/floating_point_state.hpp"
 #include "fast/step/bodies.hpp"
 #include "fast/step/codimensional.hpp"
+#include "touchstone/contacts.hpp"
 #include "touchstone/mesh.hpp"
 #include "touchstone/step.hpp"
 
@@ -129,6 +134,8 @@ struct SceneMesh {
   /// The second primitives of pairs as input of the certified solver.
   OfPrimitives<std::span<const Face>> as_faces;
   Bodies bodies;
+  /// How far boxes are widened at each vertex for the thickness; empty without.
+  std::vector<double> reaches;
 };
 
 /// The primitives in groups. Their quality depends on the places of the vertices: steps of one mesh
@@ -165,6 +172,7 @@ class Scene final : private PairQuestions {
 
   [[nodiscard]] const MovingVertices& vertices() const { return vertices_; }
   [[nodiscard]] const MeshElements& elements() const { return mesh_->elements; }
+  /// The options of the decisions on pairs without thickness.
   [[nodiscard]] const CertifiedOptions& certified() const { return certified_; }
   [[nodiscard]] bool has_groups_of(const Scene& other) const { return groups_ == other.groups_; }
   [[nodiscard]] const std::atomic<bool>* stop() const { return stop_; }
@@ -197,19 +205,39 @@ class Scene final : private PairQuestions {
   /// The numbers of the interface.
   [[nodiscard]] IndexPair reported(PairKind kind, const IndexPair& pair) const;
 
+  /// True if the thickness of some pairs is not 0.
+  [[nodiscard]] bool has_thickness() const { return mesh_->bodies.has_thickness(); }
+  /// A bound of the thickness of all pairs.
+  [[nodiscard]] double greatest_thickness() const { return mesh_->bodies.greatest_thickness(); }
+  /// The thickness of a pair with the numbers of the interface.
+  [[nodiscard]] double thickness_of(PairKind kind, const IndexPair& pair) const;
+  /// Its separation in a step of that separation.
+  [[nodiscard]] Separation separation_of(PairKind kind, const IndexPair& pair,
+                                         const Separation& of_step) const {
+    return {.distance = of_step.distance + thickness_of(kind, pair), .norm = of_step.norm};
+  }
+
   /// Calls report(place, collision) for each pair that collides, in any order. Contacts after
   /// t_limit, or after the interval of the rounded vertices, may be ignored.
   template <class Report>
   void decide(PairKind kind, std::span<const IndexPair> pairs, const FixedPointVertices& rounded,
               double t_limit, const Report& report) const {
-    PairScratch scratch;
-    const Candidates candidates = candidates_of(kind, pairs, scratch);
-    decide_block(
-        block_of(candidates, rounded), t_limit, certified_, kernel_,
-        [&](std::size_t i) { return fast::query_of(vertices_, candidates, candidates.pairs[i]); },
-        [&](std::size_t i, const CertifiedResult& result) {
-          if (result.verdict != Verdict::yes) return;
-          report(i, collision_of(kind, reported(kind, pairs[i]), result));
+    for_each_separation(
+        kind, pairs, rounded, certified_.separation, t_limit,
+        [&](std::span<const IndexPair> some, const Separation& separation, const Places& place) {
+          PairScratch scratch;
+          const Candidates candidates = candidates_of(kind, some, scratch);
+          CertifiedOptions options = certified_;
+          options.separation = separation;
+          decide_block(
+              block_of(candidates, rounded, separation), t_limit, options, kernel_,
+              [&](std::size_t i) {
+                return fast::query_of(vertices_, candidates, candidates.pairs[i]);
+              },
+              [&](std::size_t i, const CertifiedResult& result) {
+                if (result.verdict != Verdict::yes) return;
+                report(place(i), collision_of(kind, reported(kind, some[i]), result));
+              });
         });
   }
 
@@ -218,14 +246,12 @@ class Scene final : private PairQuestions {
   template <class Report>
   void sieve(PairKind kind, std::span<const IndexPair> pairs, const FixedPointVertices& rounded,
              const Separation& separation, double t_limit, const Report& report) const {
-    PairScratch scratch;
-    KernelInput block = block_of(candidates_of(kind, pairs, scratch), rounded);
-    block.separation = separation;
-    block.t_limit = t_limit;
-    thread_local KernelOutput output;
-    kernel_.decide(block, output);
-    for (std::size_t i = 0; i < output.impacts.count; ++i) report(output.impacts.items[i].index);
-    for (std::size_t i = 0; i < output.undecided.count; ++i) report(output.undecided.items[i]);
+    for_each_separation(
+        kind, pairs, rounded, separation, t_limit,
+        [&](std::span<const IndexPair> some, const Separation& of_some, const Places& place) {
+          sieve_alike(kind, some, rounded, of_some, t_limit,
+                      [&](std::size_t i) { report(place(i)); });
+        });
   }
 
   /// The vertices of a pair with the numbers of the interface, and this pair as a query: as in
@@ -237,6 +263,17 @@ class Scene final : private PairQuestions {
  private:
   using PairScratch = std::array<IndexPair, kernel_block>;
 
+  /// The distance of a pair's separation, and the place of the pair in its block.
+  using DistanceAndPlace = std::pair<double, std::size_t>;
+  /// The places in their block of some of its pairs, or of all.
+  struct Places {
+    const DistanceAndPlace* of_some = nullptr;
+
+    std::size_t operator()(std::size_t i) const {
+      return of_some == nullptr ? i : of_some[i].second;
+    }
+  };
+
   /// The rules of the search for pairs of a kind.
   [[nodiscard]] PairRules rules_of(const PairRecord& record, Certainty certainty) const;
 
@@ -244,21 +281,76 @@ class Scene final : private PairQuestions {
   [[nodiscard]] bool bodies_meet(std::int32_t a, std::int32_t b) const override;
   [[nodiscard]] bool primitives_meet(const Primitive& a, const Primitive& b) const override;
 
+  /// `sieve` for pairs with this separation.
+  template <class Report>
+  void sieve_alike(PairKind kind, std::span<const IndexPair> pairs,
+                   const FixedPointVertices& rounded, const Separation& separation, double t_limit,
+                   const Report& report) const {
+    PairScratch scratch;
+    KernelInput block = block_of(candidates_of(kind, pairs, scratch), rounded, separation);
+    block.separation = separation;
+    block.t_limit = t_limit;
+    thread_local KernelOutput output;
+    kernel_.decide(block, output);
+    for (std::size_t i = 0; i < output.impacts.count; ++i) report(output.impacts.items[i].index);
+    for (std::size_t i = 0; i < output.undecided.count; ++i) report(output.undecided.items[i]);
+  }
+
+  /// Calls take(some, separation, place) for some pairs at a time, all those of one separation in a
+  /// step of that separation, where place(i) is the place of some[i] among all. Leaves out pairs
+  /// that do not collide up to t_limit by the greatest of several separations: many separations
+  /// leave few pairs for each call.
+  template <class Take>
+  void for_each_separation(PairKind kind, std::span<const IndexPair> pairs,
+                           const FixedPointVertices& rounded, const Separation& of_step,
+                           double t_limit, const Take& take) const {
+    if (!has_thickness()) {
+      take(pairs, of_step, Places{});
+      return;
+    }
+    std::vector<DistanceAndPlace> order = by_distance(kind, pairs, of_step);
+    if (order.front().first < order.back().first) {
+      std::vector<std::uint8_t> is_possible(pairs.size());
+      sieve_alike(kind, pairs, rounded, {order.back().first, of_step.norm}, t_limit,
+                  [&](std::size_t place) { is_possible[place] = 1; });
+      std::erase_if(order, [&](const auto& one) { return is_possible[one.second] == 0; });
+    }
+    std::vector<IndexPair> some;
+    for (std::size_t first = 0; first < order.size(); first += some.size()) {
+      const double distance = order[first].first;
+      some.clear();
+      for (std::size_t i = first; i < order.size() && order[i].first == distance; ++i) {
+        some.push_back(pairs[order[i].second]);
+      }
+      take(std::span<const IndexPair>(some), Separation{distance, of_step.norm},
+           Places{order.data() + first});
+    }
+  }
+
   /// The pairs for the certified solver. \param scratch Memory for the numbers, if they differ.
   [[nodiscard]] Candidates candidates_of(PairKind kind, std::span<const IndexPair> pairs,
                                          PairScratch& scratch) const;
   [[nodiscard]] KernelInput block_of(const Candidates& candidates,
-                                     const FixedPointVertices& rounded) const;
+                                     const FixedPointVertices& rounded,
+                                     const Separation& separation) const;
+  /// The distances of pairs' separations, and the pairs' places, in order.
+  [[nodiscard]] std::vector<DistanceAndPlace> by_distance(PairKind kind,
+                                                          std::span<const IndexPair> pairs,
+                                                          const Separation& of_step) const;
+  [[nodiscard]] FloatBounds bounds_up_to(double end) const;
 
   MovingVertices vertices_;
   CertifiedOptions certified_;
   const std::atomic<bool>* stop_;
   const CertifiedKernel& kernel_;
   const SearchKernel& search_;
-  FloatBounds bounds_;
   std::shared_ptr<const SceneMesh> mesh_;
+  FloatBounds bounds_;
   std::shared_ptr<const SceneGroups> groups_;
 };
+
+/// The distance of primitives, less a thickness, rounded outwards. \pre strict floating point
+[[nodiscard]] Distance less(const Distance& distance, double thickness);
 
 /// The scene of a step.
 [[nodiscard]] const Scene& scene_of(const Step& step);

@@ -8,6 +8,7 @@
 #include <atomic>
 #include <cstdint>
 #include <cstring>
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -117,6 +118,36 @@ py::dict pair_layout() { return collision_fields<Pair>().dict(); }
 
 // ---- The step -----------------------------------------------------------------------------------
 
+/// A rule of Python for pairs of vertices; None: empty. Called and freed with Python's lock.
+std::function<bool(std::int32_t, std::int32_t)> rule_from(const py::object& can_collide) {
+  if (can_collide.is_none()) return nullptr;
+  const std::shared_ptr<py::object> rule(new py::object(can_collide), [](py::object* one) {
+    const py::gil_scoped_acquire lock;
+    delete one;  // NOLINT(cppcoreguidelines-owning-memory)
+  });
+  return [rule](std::int32_t a, std::int32_t b) {
+    const py::gil_scoped_acquire lock;
+    const py::object answer = (*rule)(a, b);
+    const int is_true = PyObject_IsTrue(answer.ptr());
+    if (is_true < 0) throw py::error_already_set();
+    return is_true != 0;
+  };
+}
+
+/// \throws std::invalid_argument unless there is a distance for each pair of groups.
+std::vector<fast::GroupSeparation> separations_from(const Integers& groups,
+                                                    const Doubles& distances) {
+  const auto pairs = rows_of<std::array<std::int32_t, 2>>(groups);
+  if (distances.ndim() != 1 || std::size_t(distances.size()) != pairs.size()) {
+    throw std::invalid_argument("separations must have a distance for each pair of groups");
+  }
+  std::vector<fast::GroupSeparation> result;
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    result.push_back({pairs[i], distances.data()[i]});
+  }
+  return result;
+}
+
 /// What a step refers to.
 struct Elements {
   std::vector<fast::Edge> edges;
@@ -164,17 +195,22 @@ class OwningStep {
  public:
   OwningStep(const Doubles& before, const Doubles& after, const Integers& faces,
              const Integers& edges, const Integers& points, const Integers& groups,
-             const Integers& apart, double separation, const std::string& norm,
-             double toi_tolerance, double t_max, int threads)
+             const Integers& apart, const Doubles& radii, const Integers& separated,
+             const Doubles& separations, const py::object& can_collide, double separation,
+             const std::string& norm, double toi_tolerance, double t_max, int threads)
       : elements_(new Elements(elements_from(faces, edges, points, groups, apart))) {
     fast::MovingVertices vertices = vertices_of(before, after);
-    const fast::StepOptions options{
-        .separation = separation_from(separation, norm),
-        .toi_tolerance = toi_tolerance,
-        .t_max = t_max,
-        .max_threads = is_forked() ? 1 : threads,
-        .groups = {.of_vertices = elements_->groups, .apart = elements_->apart},
-        .stop = &elements_->stop};
+    const std::vector<fast::GroupSeparation> of_groups = separations_from(separated, separations);
+    const fast::StepOptions options{.separation = separation_from(separation, norm),
+                                    .toi_tolerance = toi_tolerance,
+                                    .t_max = t_max,
+                                    .max_threads = is_forked() ? 1 : threads,
+                                    .groups = {.of_vertices = elements_->groups,
+                                               .apart = elements_->apart,
+                                               .radii = {radii.data(), std::size_t(radii.size())},
+                                               .separations = of_groups},
+                                    .can_collide = rule_from(can_collide),
+                                    .stop = &elements_->stop};
     const py::gil_scoped_release unlocked;
     step_ = std::make_shared<const fast::Step>(std::move(vertices), elements_->mesh(), options);
   }
@@ -315,12 +351,14 @@ void define_step(py::module_& m) {
   // A class of the usual kind, as its stub has it.
   py::class_<OwningStep>(m, "Step", py::metaclass(reinterpret_cast<PyObject*>(&PyType_Type)))
       .def(py::init<const Doubles&, const Doubles&, const Integers&, const Integers&,
-                    const Integers&, const Integers&, const Integers&, double, const std::string&,
+                    const Integers&, const Integers&, const Integers&, const Doubles&,
+                    const Integers&, const Doubles&, const py::object&, double, const std::string&,
                     double, double, int>(),
            arg("before").noconvert(), arg("after").noconvert(), arg("faces").noconvert(),
            arg("edges").noconvert(), arg("points").noconvert(), arg("groups").noconvert(),
-           arg("apart").noconvert(), arg("separation"), arg("norm"), arg("toi_tolerance"),
-           arg("t_max"), arg("threads"))
+           arg("apart").noconvert(), arg("radii").noconvert(), arg("separated").noconvert(),
+           arg("separations").noconvert(), arg("can_collide"), arg("separation"), arg("norm"),
+           arg("toi_tolerance"), arg("t_max"), arg("threads"))
       .def("moved", &OwningStep::moved, arg("before").noconvert(), arg("after").noconvert(),
            arg("separation"), arg("norm"))
       .def("earliest", &OwningStep::earliest, arg("progress"))

@@ -8,6 +8,7 @@ _Integers = npt.NDArray[np.int32]
 _Items = npt.NDArray[np.void]
 _Progress = Callable[[int], None]
 _Waiting = Callable[[], None]
+_Rule = Callable[[int, int], bool]
 
 def certified(
     kind: str,
@@ -51,6 +52,10 @@ class Step:
         points: _Integers,
         groups: _Integers,
         apart: _Integers,
+        radii: _Doubles,
+        separated: _Integers,
+        separations: _Doubles,
+        can_collide: _Rule | None,
         separation: float,
         norm: str,
         toi_tolerance: float,

@@ -5,13 +5,13 @@ from __future__ import annotations
 import os
 from dataclasses import dataclass
 from enum import IntEnum
-from typing import Any, Callable, Literal, Tuple, TypeVar
+from typing import Any, Callable, Literal, Mapping, Tuple, TypeVar
 
 import numpy as np
 import numpy.typing as npt
 
 from . import _fast
-from ._input import Doubles, Interrupted, Norm, as_indices, as_vertices, checked
+from ._input import Doubles, Interrupted, Norm, as_doubles, as_indices, as_vertices, checked
 from ._tool import Progress, Run
 
 Value = TypeVar("Value")
@@ -115,6 +115,18 @@ def _ending_with_interrupts(work: Callable[[], Value]) -> Value:
         raise Interrupted() from interrupt
 
 
+def _as_thickness(
+    radii: npt.ArrayLike | None, separations: Mapping[Tuple[int, int], float] | None
+) -> Tuple[Doubles, npt.NDArray[np.int32], Doubles]:
+    """Return radii of shape (g,), and the groups (k, 2) and distances (k,) of separations."""
+    of_groups = as_doubles([] if radii is None else radii, "radii")
+    if of_groups.ndim != 1:
+        raise ValueError(f"radii must have the shape (g,), not {of_groups.shape}")
+    pairs = {} if separations is None else dict(separations)
+    groups = as_indices(list(pairs), "separations", 2)
+    return of_groups, groups, as_doubles(list(pairs.values()), "separations")
+
+
 class Step:
     """A step of a mesh whose vertices move on straight lines from t=0 to t=1.
 
@@ -136,6 +148,17 @@ class Step:
         The group of each vertex, from 0 on; by default all are in group 0.
     apart : array_like of int, shape (k, 2), optional
         Pairs of groups that cannot collide; the same group twice: not within it.
+    radii : array_like of float, shape (g,), optional
+        The radius of each group. Primitives are in contact within the separation and the greatest sum
+        of the radii of a vertex of one and a vertex of the other: in "l2" vertices are spheres, and
+        edges capsules. Distances are those of thick primitives, too.
+    separations : mapping of (int, int) to float, optional
+        Pairs of groups, in either order, with a distance in place of the sum of their radii.
+    can_collide : callable, optional
+        A rule for pairs of vertices: two primitives can collide if `can_collide(i, j)` is true for a
+        vertex of one and a vertex of the other that are in groups that can collide. It must be
+        symmetric. It is called for the pairs found, from several threads, one at a time; what it
+        raises ends the search.
     separation : float, optional
         Primitives within this distance are in contact.
     norm : {"linf", "l2"}, optional
@@ -191,6 +214,9 @@ class Step:
         points: npt.ArrayLike | None = None,
         groups: npt.ArrayLike | None = None,
         apart: npt.ArrayLike | None = None,
+        radii: npt.ArrayLike | None = None,
+        separations: Mapping[Tuple[int, int], float] | None = None,
+        can_collide: Callable[[int, int], bool] | None = None,
         separation: float = 0.0,
         norm: Norm = "l2",
         t_max: float = 1.0,
@@ -209,9 +235,21 @@ class Step:
             as_indices(groups, "groups", None),
             as_indices(apart, "apart", 2),
         )
+        self._thickness = _as_thickness(radii, separations)
+        if can_collide is not None and not callable(can_collide):
+            raise TypeError("can_collide: a function of two vertices is needed")
+        self._can_collide = can_collide
         self._step = _ending_with_interrupts(
             lambda: _fast.Step(
-                *self._vertices, *self._elements, separation, norm, toi_tolerance, t_max, threads
+                *self._vertices,
+                *self._elements,
+                *self._thickness,
+                can_collide,
+                separation,
+                norm,
+                toi_tolerance,
+                t_max,
+                threads,
             )
         )
 
@@ -243,6 +281,8 @@ class Step:
         result = object.__new__(Step)
         result._vertices = as_vertices(before, "before"), as_vertices(after, "after")
         result._elements = self._elements
+        result._thickness = self._thickness
+        result._can_collide = self._can_collide
         result._options = self._options
         result._progress = self._progress
         result._separation = (
@@ -384,13 +424,17 @@ class Step:
         Raises
         ------
         ValueError
-            If there is no proof within the limits of the format.
+            If there is no proof within the limits of the format, or the step has a rule `can_collide`,
+            which certificates cannot have.
         FileNotFoundError
             Without the command line tool.
         Interrupted
             At Ctrl-C.
         """
+        if self._can_collide is not None:
+            raise ValueError("prove: certificates know groups alone, not a rule can_collide")
         faces, edges, points, groups, apart = self._elements
+        radii, separated, separations = self._thickness
         with Run() as run:
             frames = run.folder / "frames.npz"
             elements = {"F": faces, **({"E": edges} if len(edges) else {}), "P": points}
@@ -404,6 +448,14 @@ class Step:
                 names.write_text("".join(f"{group}\n" for group in groups))
                 command += ["--groups", names]
             command += [word for pair in apart for word in ("--apart", *pair)]
+            for option, lines in (
+                ("--radii", [f"{group},{radius!r}" for group, radius in enumerate(radii.tolist())]),
+                ("--separations", [f"{a},{b},{d!r}" for (a, b), d in zip(separated, separations.tolist())]),
+            ):
+                if lines:
+                    table = run.folder / f"{option[2:]}.csv"
+                    table.write_text("".join(f"{line}\n" for line in lines))
+                    command += [option, table]
             text, _, interrupted = run.call(command, title="Step.prove", show=self._progress)
         if interrupted:
             raise Interrupted()

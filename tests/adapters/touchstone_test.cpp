@@ -229,6 +229,41 @@ TEST(CInterface, DecidesAndMeasuresAStep) {
   }
 }
 
+TEST(CInterface, TakesRadiiAndSeparationsOfGroups) {
+  const Scene scene;
+  const std::vector<fast::Face> faces{{0, 1, 2}, {3, 4, 5}};
+  const std::array<std::int32_t, 9> groups{0, 0, 0, 1, 1, 1, 2, 0, 0};
+  const std::array<double, 3> radii{0.125, 0.25, 0.5};
+  const std::array<std::int32_t, 2> separated{2, 1};
+  const std::array<double, 1> distance{0.0625};
+  const std::vector<fast::GroupSeparation> separations{{{2, 1}, 0.0625}};
+  TouchstoneMesh mesh = scene.mesh();
+  mesh.groups = groups.data();
+  mesh.radii = radii.size();
+  mesh.group_radii = radii.data();
+  mesh.separations = 1;
+  mesh.separated_groups = separated.data();
+  mesh.group_separations = distance.data();
+  const StepOf owner(mesh);
+  const fast::Step step(std::span<const double>(scene.before), std::span<const double>(scene.after),
+                        {.faces = faces, .points = scene.points},
+                        {.groups = {.of_vertices = std::span(groups).first(mesh.vertices),
+                                    .radii = radii,
+                                    .separations = separations}});
+  const TouchstoneCollision* collisions = nullptr;
+  std::size_t count = 0;
+  ASSERT_EQ(touchstone_step_collisions(owner.get(), &collisions, &count), TOUCHSTONE_OK);
+  EXPECT_EQ(converted(collisions, count), step.collisions());
+  const TouchstoneMesh thin_mesh = scene.mesh();
+  const StepOf thin(thin_mesh);
+  std::size_t of_thin = 0;
+  ASSERT_EQ(touchstone_step_collisions(thin.get(), &collisions, &of_thin), TOUCHSTONE_OK);
+  EXPECT_GT(count, of_thin);
+  mesh.group_separations = nullptr;
+  TouchstoneStep* none = nullptr;
+  EXPECT_EQ(touchstone_step_new(&mesh, nullptr, &none), TOUCHSTONE_INVALID_ARGUMENT);
+}
+
 /// Groups or vertices that do not meet, and no pairs at all.
 TEST(CInterface, AnswersWhereNothingCanMeet) {
   const Scene scene;

@@ -330,13 +330,28 @@ TEST(Distance, PlantedFaultsAreFound) {
 std::optional<LeastDistance> least_of(const tests::Scene& scene, double t, Norm norm) {
   std::optional<LeastDistance> result;
   const tests::AllPairs all(scene);
+  const bool has_thickness = !scene.separations.empty() ||
+                             std::ranges::any_of(scene.radii, [](double r) { return r > 0; });
   for (const auto& named : all.pairs()) {
-    const Distance found = exact_distance(Step::kind_of(named.first), all.query(named), t, norm);
-    const auto order = [](const Distance& d) { return std::pair(d.lower, d.upper); };
-    if (!result || order(found) < order(result->distance)) result = LeastDistance{found, {}};
-    if (found == result->distance) result->pairs.push_back({named.first, named.second, found});
+    Distance found = exact_distance(Step::kind_of(named.first), all.query(named), t, norm);
+    if (!has_thickness) {
+      const auto order = [](const Distance& d) { return std::pair(d.lower, d.upper); };
+      if (!result || order(found) < order(result->distance)) result = LeastDistance{found, {}};
+      if (found == result->distance) result->pairs.push_back({named.first, named.second, found});
+      continue;
+    }
+    const exact::Rational thickness(all.thickness(named));
+    found = {exact::round_down(exact::Rational(found.lower) - thickness),
+             exact::round_up(exact::Rational(found.upper) - thickness)};
+    if (!result) result = LeastDistance{found, {}};
+    result->distance = {std::min(result->distance.lower, found.lower),
+                        std::min(result->distance.upper, found.upper)};
+    result->pairs.push_back({named.first, named.second, found});
   }
   if (result) {
+    std::erase_if(result->pairs, [&](const PairDistance& one) {
+      return one.distance.lower > result->distance.upper;
+    });
     std::ranges::sort(result->pairs, {},
                       [](const PairDistance& one) { return std::pair(one.kind, one.pair); });
   }
@@ -359,6 +374,8 @@ TEST(LeastDistance, IsThatOfAllPairs) {
     for (const tests::Shape& shape : tests::shapes()) {
       tests::Scene scene = tests::random_scene(random, shape, random.between(1, 10));
       if (round % 3 == 0) scene.can_collide = tests::random_rule(random);
+      if (round % 4 == 3)
+        tests::add_thickness(scene, std::min(0.5 * shape.separation, 1e300), random);
       // Neither separation nor end of the step matter.
       const StepOptions options{.separation = {.distance = round % 2 * shape.separation},
                                 .t_max = 0.25};

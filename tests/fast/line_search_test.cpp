@@ -72,10 +72,11 @@ TEST(LineSearch, SaysWhatIsTooSmallForDoubles) {
 
 /// True if a pair, up to that time, comes nearer than p times its distance or the scene's, by the
 /// oracle.
-bool comes_nearer(Kind kind, const Query& query, double time, Norm norm, double p,
-                  double distance) {
+bool comes_nearer(Kind kind, const Query& query, double time, Norm norm, double p, double distance,
+                  double thickness) {
   // A pair is nearer than p d if it is within the next lower double.
-  const double less = std::nextafter(exact::round_down(Rational(p) * Rational(distance)), 0.0);
+  const Rational kept = Rational(thickness) + Rational(p) * Rational(distance);
+  const double less = std::nextafter(exact::round_down(kept), 0.0);
   const exact::Decision verdict = exact::decide(kind, query, {.distance = less, .norm = norm});
   return verdict.collides() && *verdict.toi <= exact::AlgebraicNumber(Rational(time));
 }
@@ -83,7 +84,7 @@ bool comes_nearer(Kind kind, const Query& query, double time, Norm norm, double 
 /// The fault of a limit by the scene's distance, or nothing.
 std::string fault(const Scene& scene, const LineSearchLimit& limit, double p, Norm norm) {
   const auto least = least_distance(scene.step(), 0.0, norm);
-  const bool is_in_contact = least && least->distance.upper == 0.0;
+  const bool is_in_contact = least && least->distance.upper <= 0.0;
   if ((limit.status == LineSearchStatus::in_contact) != is_in_contact) return "contact";
   if (!least || limit.step_size == 0.0) return "";
   if (limit.distance != least->distance) return "distance";
@@ -91,12 +92,16 @@ std::string fault(const Scene& scene, const LineSearchLimit& limit, double p, No
   for (const auto& named : all.pairs()) {
     const Kind kind = Step::kind_of(named.first);
     const double distance = least->distance.lower;
-    if (comes_nearer(kind, all.query(named), limit.step_size, norm, p, distance)) return "too far";
+    if (comes_nearer(kind, all.query(named), limit.step_size, norm, p, distance,
+                     all.thickness(named))) {
+      return "too far";
+    }
   }
   if (limit.status == LineSearchStatus::whole) return "";
   // The first pair comes to about this distance up to the upper end of its enclosure.
   const StepCollision& first = limit.pairs.at(0);
-  const double kept = p * least->distance.upper * (1.0 + 0x1p-40) + 2 * tiniest;
+  const double thickness = all.thickness({first.kind, first.pair});
+  const double kept = (thickness + p * least->distance.upper) * (1.0 + 0x1p-40) + 2 * tiniest;
   const auto verdict =
       exact::decide(Step::kind_of(first.kind), scene.step().query_of(first.kind, first.pair),
                     {.distance = kept, .norm = norm});
@@ -110,11 +115,14 @@ double limit_of_pairs(const Scene& scene, double p, Norm norm) {
   const tests::AllPairs all(scene);
   double result = 1.0;
   for (const auto& named : all.pairs()) {
-    if (!all.are_near(named, 0.0)) continue;
+    const double thickness = all.thickness(named);
+    if (!all.are_near(named, thickness)) continue;
     const Kind kind = Step::kind_of(named.first);
     const Query query = all.query(named);
     const Distance apart = exact_distance(kind, query, 0.0, norm);
-    const double kept = std::nextafter(p * apart.upper, std::numeric_limits<double>::infinity());
+    const double between = exact::round_up(Rational(apart.upper) - Rational(thickness));
+    const double kept =
+        std::nextafter(thickness + p * between, std::numeric_limits<double>::infinity());
     if (kept > apart.lower || kept == apart.upper) return 0.0;
     const auto found = fast::solve(kind, query, {.separation = {.distance = kept, .norm = norm}});
     if (found.verdict == Verdict::yes) result = std::min(result, found.toi_lower);
@@ -131,6 +139,8 @@ std::string first_fault(tests::LimitStep& limit_of, int rounds, Seen& seen) {
     for (const tests::Shape& shape : tests::shapes()) {
       Scene scene = tests::random_scene(random, shape, random.between(2, 9));
       if (round % 3 == 0) scene.can_collide = tests::random_rule(random);
+      if (round % 4 == 3)
+        tests::add_thickness(scene, std::min(0.5 * shape.separation, 1e300), random);
       const Norm norm = random.coin() ? Norm::l2 : Norm::linf;
       const double p = random.uniform(0.05, 0.95);
       const LineSearchLimit limit = limit_of(scene.step(), p, {.norm = norm});

@@ -113,6 +113,50 @@ def test_points_edges_and_groups():
     assert [(PairKind(c["kind"]), *c["pair"]) for c in apart.collisions()] == [(PairKind.VERTEX_EDGE, 0, 0)]
 
 
+def test_spheres_and_capsules_of_different_radii(tmp_path):
+    before = np.array([[0.0, 3, 9], [-9, 0, 0], [9, 0, 0], [0, 8, 9]])
+    after = before * [1, 1, 0] + [[0, 0, 0], [0, 0, 0], [0, 0, 0], [0, 0, 9]]
+    scene = dict(edges=[[1, 2]], points=[0, 3], groups=[0, 1, 1, 2])
+    step = Step(before, after, **scene, radii=[2, 3, 0.5])
+    # The axes are 5 = √(3² + 4²) apart at z = 4.
+    assert [(c["kind"], *c["pair"]) for c in step.collisions()] == [(PairKind.VERTEX_EDGE, 0, 0)]
+    assert abs(step.earliest().toi_lower - 5 / 9) < 1e-9
+    assert step.least_distance().lower == 2.5
+    assert step.moved(after, after).least_distance().lower == -2.0
+    assert step.prove(tmp_path / "step.cert").startswith("earliest 0x1.1c71c71c71c7")
+    thin = Step(before, after, **scene, radii=[2, 3, 0.5], separations={(1, 0): 2.75})
+    assert thin.is_free() and abs(thin.moved(after, after).least_distance().lower - 0.25) == 0
+    with pytest.raises(ValueError, match="groups 0 and 1 have two separations"):
+        Step(before, after, **scene, separations={(0, 1): 1.0, (1, 0): 1.0})
+
+
+def test_a_rule_for_pairs_of_vertices(tmp_path):
+    scene = soup(5, 20)
+    half = len(scene["before"]) // 2
+    asked = set()
+
+    def rule(a, b):
+        asked.add((type(a), type(b)))
+        return (a < half) != (b < half)
+
+    groups = (np.arange(2 * half) >= half).astype(int)
+    expected = Step(**scene, groups=groups, apart=[[0, 0], [1, 1]])
+    step = Step(**scene, can_collide=rule)
+    assert in_order(step.collisions()) == in_order(expected.collisions()) and len(step.collisions()) > 0
+    assert asked == {(int, int)}
+    assert step.least_distance().lower == expected.least_distance().lower
+    with pytest.raises(ValueError, match="can_collide"):
+        step.prove(tmp_path / "step.cert")
+
+    def broken(a, b):
+        raise KeyError("broken")
+
+    with pytest.raises(KeyError, match="broken"):
+        Step(**scene, can_collide=broken).earliest()
+    with pytest.raises(TypeError, match="can_collide"):
+        Step(**scene, can_collide=3)
+
+
 def test_distances_contacts_and_line_searches():
     triangle = np.array([[0.0, 0, 0], [4, 0, 0], [0, 4, 0]])
     before = np.concatenate([triangle, triangle + [0.25, 0.25, 2]])
@@ -147,6 +191,10 @@ def test_distances_contacts_and_line_searches():
         ({"edges": [[0, -1]]}, IndexError, r"edges\[0, 1\]: -1"),
         ({"points": [7]}, IndexError, "7"),
         ({"groups": [0, 1]}, ValueError, "group"),
+        ({"radii": [[1.0]]}, ValueError, r"radii must have the shape \(g,\), not \(1, 1\)"),
+        ({"radii": [-1.0]}, ValueError, "the radius of group 0 must be finite and not negative"),
+        ({"separations": {(0, 0): np.inf}}, ValueError, "the separation of groups 0 and 0"),
+        ({"separations": {0: 1.0}}, ValueError, "separations must have the shape"),
         ({"separation": -1}, ValueError, "separation must be a finite number"),
         ({"norm": "l3"}, ValueError, "norm must be"),
         ({"t_max": 3.0}, ValueError, "t_max"),

@@ -43,12 +43,15 @@ struct Scene {
   std::vector<std::int32_t> groups = {};
   std::vector<std::array<std::int32_t, 2>> apart = {};
   std::function<bool(std::int32_t, std::int32_t)> can_collide = {};
+  std::vector<double> radii = {};
+  std::vector<fast::GroupSeparation> separations = {};
 
   [[nodiscard]] fast::MeshElements elements() const {
     return {.edges = edges, .faces = faces, .points = points};
   }
   [[nodiscard]] fast::Step step(fast::StepOptions options = {}) const {
-    options.groups = {.of_vertices = groups, .apart = apart};
+    options.groups = {
+        .of_vertices = groups, .apart = apart, .radii = radii, .separations = separations};
     options.can_collide = can_collide;
     return fast::Step(start, end, elements(), options);
   }
@@ -148,6 +151,28 @@ struct Shape {
   };
 }
 
+/// Gives the groups of a scene radii and separations about as large as a length, and groups to its
+/// vertices if they have none.
+inline void add_thickness(Scene& scene, double length, Random& random) {
+  if (scene.groups.empty()) {
+    for (Eigen::Index i = 0; i < scene.start.rows(); ++i) {
+      scene.groups.push_back(random.between(0, 3));
+    }
+  }
+  const auto any = [&] {
+    return random.coin() ? 0.25 * random.between(0, 4) * length : random.uniform(0, 1) * length;
+  };
+  const int which = random.between(0, 2);
+  for (int i = 0; i < 4 && which != 0; ++i) scene.radii.push_back(any());
+  for (std::int32_t a = 0; a < 4 && which != 1; ++a) {
+    for (std::int32_t b = a; b < 4; ++b) {
+      if (random.between(0, 2) > 0) continue;
+      const auto groups = random.coin() ? std::array{a, b} : std::array{b, a};
+      scene.separations.push_back({groups, any()});
+    }
+  }
+}
+
 // ---- All pairs one by one -----------------------------------------------------------------------
 
 /// All pairs that a step examines, from its definition.
@@ -208,6 +233,26 @@ class AllPairs {
       query.point(1, i) = scene_.end.row(vertices[i]).transpose();
     }
     return query;
+  }
+
+  /// The thickness, from its definition.
+  [[nodiscard]] double thickness(const NumberedPair& pair) const {
+    double result = 0.0;
+    for (const std::int32_t a : first(pair)) {
+      for (const std::int32_t b : second(pair)) {
+        const auto two = ordered(group(a), group(b));
+        const auto listed = std::ranges::find_if(scene_.separations, [&](const auto& one) {
+          return ordered(one.groups[0], one.groups[1]) == two;
+        });
+        const bool has_radii = listed == scene_.separations.end() && !scene_.radii.empty();
+        const double of_groups = listed != scene_.separations.end() ? listed->distance
+                                 : has_radii
+                                     ? scene_.radii[size(two[0])] + scene_.radii[size(two[1])]
+                                     : 0.0;
+        result = std::max(result, of_groups);
+      }
+    }
+    return result;
   }
 
   /// True if the swept boxes are within the distance.

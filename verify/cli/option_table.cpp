@@ -82,6 +82,8 @@ std::vector<OptionRow> make_table() {
       {"--groups", "FILE", {}, "Group names of the vertices, one per line (default: o, g of an OBJ)"},
       {"--weld", "", {}, "Vertices at the same place, of the same group, are one"},
       {"--apart", "GROUP GROUP", {}, "Ignore collisions between groups A and B (A A: within A); repeatable", "", list},
+      {"--radii", "FILE", {}, "Thick groups: lines GROUP,RADIUS; in contact within the sum of two radii"},
+      {"--separations", "FILE", {}, "Lines GROUP,GROUP,DISTANCE, in place of the sum of two radii"},
 
       // Runs in pieces; the last two are for their processes.
       {"--shard", "I/N", {}, "Do part I of N, from 0 on; auto: as a Slurm array or mpirun says"},

@@ -217,6 +217,7 @@ void add_input_options(CLI::App& command, Arguments& arguments) {
   add_piece_options(command, arguments.pieces);
   add_separation_options(command, arguments.separation);
   add_group_options(command, arguments.groups);
+  add_thickness_options(command, arguments.groups);
 }
 
 void add_step_options(CLI::App& command, Arguments& arguments) {

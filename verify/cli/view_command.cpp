@@ -62,9 +62,10 @@ SolverArguments asked_by(const Arguments& arguments) {
 
 /// The step between the two frames of the command line, if any.
 std::optional<view::ViewedStep> read_step(const Arguments& arguments, Files& files) {
-  const bool has_groups = !arguments.groups.file.empty() || !arguments.groups.apart.empty();
   if (arguments.step.empty()) {
-    if (has_groups) throw std::invalid_argument("--groups and --apart need --step");
+    if (!arguments.groups.is_empty()) {
+      throw std::invalid_argument("--groups, --apart, --radii and --separations need --step");
+    }
     return std::nullopt;
   }
   const auto frames = open_frames(files, arguments.step);
@@ -151,6 +152,7 @@ void add_options(CLI::App& command, Arguments& arguments) {
   add_option(command, "PATH", arguments.paths);
   add_option(command, "--step", arguments.step);
   add_group_options(command, arguments.groups);
+  add_thickness_options(command, arguments.groups);
   add_option(command, "--index", arguments.files.indices);
   add_option(command, "--most", arguments.files.most);
   add_option(command, "--points", arguments.points);

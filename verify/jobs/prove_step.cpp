@@ -86,7 +86,7 @@ std::optional<FirstContact> first_contact(const fast::Step& step) {
     const Pair pair{collision.kind, collision.pair};
     exact::Decision verdict =
         exact::decide(fast::Step::kind_of(pair.kind), step.query_of(pair.kind, pair.numbers),
-                      step.options().separation);
+                      step.separation_of(pair.kind, pair.numbers));
     if (verdict.toi && (!first || *verdict.toi < *first->second.toi)) {
       first.emplace(pair, std::move(verdict));
     }
@@ -139,10 +139,13 @@ class StepProver {
   void write_scene() {
     const fast::MovingVertices& vertices = step_.vertices();
     const std::vector<fast::Edge> edges = bare_edges();
-    const bool all_meet = parts_.groups.apart.empty();
-    const auto groups = all_meet ? std::span<const std::int32_t>() : parts_.groups.of_vertices;
+    const fast::CollisionGroups& rules = parts_.groups;
+    const bool are_needed =
+        !rules.apart.empty() || !rules.radii.empty() || !rules.separations.empty();
+    const auto groups = are_needed ? rules.of_vertices : std::span<const std::int32_t>();
     const std::size_t items = vertices.size() + parts_.faces.size() + edges.size() +
-                              parts_.points.size() + groups.size() + parts_.groups.apart.size();
+                              parts_.points.size() + groups.size() + rules.apart.size() +
+                              rules.radii.size() + rules.separations.size();
     if (items > exact::step_item_limit) {
       throw exact::CertificateLimitError(
           fmt::format("the scene has more than {} items", exact::step_item_limit));
@@ -157,8 +160,24 @@ class StepProver {
     exact::write_step_list(text, "edges", edges);
     exact::write_step_list(text, "points", as_items(parts_.points));
     exact::write_step_list(text, "groups", as_items(groups));
-    exact::write_step_list(text, "apart", parts_.groups.apart);
+    exact::write_step_list(text, "apart", rules.apart);
+    write_thickness(text);
     put(text);
+  }
+
+  void write_thickness(std::string& text) const {
+    const auto to = std::back_inserter(text);
+    fmt::format_to(to, "radii {}\n", parts_.groups.radii.size());
+    for (const double radius : parts_.groups.radii) {
+      exact::write_hexadecimal(text, radius);
+      text += '\n';
+    }
+    fmt::format_to(to, "separations {}\n", parts_.groups.separations.size());
+    for (const auto& [groups, distance] : parts_.groups.separations) {
+      fmt::format_to(to, "{} {} ", groups[0], groups[1]);
+      exact::write_hexadecimal(text, distance);
+      text += '\n';
+    }
   }
 
   static std::vector<std::array<std::int32_t, 1>> as_items(std::span<const std::int32_t> numbers) {
@@ -196,7 +215,7 @@ class StepProver {
   // ---- PairArguments ----
 
   void write_arguments() {
-    places_.emplace(step_.vertices(), step_.options().separation.distance, end_);
+    places_.emplace(step_.vertices(), greatest_distance(), end_);
     put(fmt::format("sweep {}\n", "xyz"[longest_axis()]));
     const std::vector<Pair> pairs = needed_pairs();
     if (pairs.size() > exact::step_argument_limit) {
@@ -218,6 +237,16 @@ class StepProver {
                  static_cast<double>(pairs.size()));
       }
     }
+  }
+
+  /// A bound of the distances at which pairs are in contact.
+  [[nodiscard]] double greatest_distance() const {
+    double thickness = 0.0;
+    for (const double radius : parts_.groups.radii) thickness = std::max(thickness, 2.0 * radius);
+    for (const fast::GroupSeparation& one : parts_.groups.separations) {
+      thickness = std::max(thickness, one.distance);
+    }
+    return step_.options().separation.distance + thickness;
   }
 
   [[nodiscard]] std::size_t longest_axis() const {
@@ -251,7 +280,10 @@ class StepProver {
       for (const fast::IndexPair& numbers : some.pairs) {
         const Pair pair{some.kind, numbers};
         const PairVertices vertices(step_, pair);
-        if (!places_->is_axis_between(vertices.first, vertices.second)) needed.push_back(pair);
+        const double distance = step_.separation_of(pair.kind, pair.numbers).distance;
+        if (!places_->is_axis_between(vertices.first, vertices.second, distance)) {
+          needed.push_back(pair);
+        }
       }
       const std::scoped_lock lock(mutex);
       pairs.insert(pairs.end(), needed.begin(), needed.end());
@@ -286,9 +318,10 @@ class StepProver {
 
   void argue(const Pair& pair, PairArguments& arguments) const {
     const PairVertices vertices(step_, pair);
+    const Separation separation = step_.separation_of(pair.kind, pair.numbers);
     std::string& text = arguments.text;
     fmt::format_to(std::back_inserter(text), "{} {}", pair.numbers[0], pair.numbers[1]);
-    if (const auto d = places_->direction(vertices.first, vertices.second)) {
+    if (const auto d = places_->direction(vertices.first, vertices.second, separation.distance)) {
       ++arguments.directions;
       fmt::format_to(std::back_inserter(text), " {}\n", fmt::join(*d, " "));
       return;
@@ -296,9 +329,8 @@ class StepProver {
     ++arguments.certificates;
     text += '\n';
     try {
-      exact::Motion motion = exact::scale_uniformly(fast::Step::kind_of(pair.kind),
-                                                    step_.query_of(pair.kind, pair.numbers),
-                                                    step_.options().separation);
+      exact::Motion motion = exact::scale_uniformly(
+          fast::Step::kind_of(pair.kind), step_.query_of(pair.kind, pair.numbers), separation);
       // At distance 0 both norms mean the same, and l2 has fewer features.
       if (sgn(motion.distance) == 0) motion.norm = Norm::l2;
       const std::vector<exact::Subinterval> subintervals = exact::separate(motion, end_);

@@ -55,9 +55,8 @@ std::optional<Eigen::Vector3d> nearest(std::span<const Eigen::Vector3d> points) 
 
 }  // namespace
 
-StepPlaces::StepPlaces(const fast::MovingVertices& vertices, double distance,
+StepPlaces::StepPlaces(const fast::MovingVertices& vertices, double greatest,
                        const exact::Rational& end) {
-  double greatest = distance;
   for (std::size_t i = 0; i < vertices.size(); ++i) {
     for (std::size_t k = 0; k < 3; ++k) {
       greatest = std::max({greatest, std::abs(vertices[i].start[k]), std::abs(vertices[i].end[k])});
@@ -65,10 +64,9 @@ StepPlaces::StepPlaces(const fast::MovingVertices& vertices, double distance,
   }
   int exponent = 0;  // greatest < 2^exponent
   std::frexp(greatest, &exponent);
-  const int shift = coordinate_bits - exponent;
+  const int shift = shift_ = coordinate_bits - exponent;
   uncertainty_ = std::ldexp(8.0, -shift);
   const auto rounded_up = [&](const exact::Rational& x) { return -enlarged(-x, shift); };
-  distance_ = rounded_up(distance);
   bounds_.resize(vertices.size());
   for (std::size_t i = 0; i < vertices.size(); ++i) {
     for (std::size_t k = 0; k < 3; ++k) {
@@ -82,8 +80,12 @@ StepPlaces::StepPlaces(const fast::MovingVertices& vertices, double distance,
   }
 }
 
-bool StepPlaces::is_above(Vertices a, Vertices b, const Direction& d) const {
-  const std::int64_t reach = distance_ * (std::abs(d[0]) + std::abs(d[1]) + std::abs(d[2]));
+std::int64_t StepPlaces::enlarged_distance(double distance) const {
+  return -enlarged(-exact::Rational(distance), shift_);
+}
+
+bool StepPlaces::is_above(Vertices a, Vertices b, const Direction& d, std::int64_t distance) const {
+  const std::int64_t reach = distance * (std::abs(d[0]) + std::abs(d[1]) + std::abs(d[2]));
   for (std::size_t time = 0; time < 2; ++time) {
     const auto sum = [&](std::int32_t vertex, bool is_least) {
       std::int64_t result = 0;
@@ -102,16 +104,19 @@ bool StepPlaces::is_above(Vertices a, Vertices b, const Direction& d) const {
   return true;
 }
 
-bool StepPlaces::is_axis_between(Vertices a, Vertices b) const {
+bool StepPlaces::is_axis_between(Vertices a, Vertices b, double distance) const {
+  const std::int64_t whole = enlarged_distance(distance);
   for (std::size_t axis = 0; axis < 3; ++axis) {
     Direction d{};
     d.at(axis) = 1;
-    if (is_above(a, b, d) || is_above(b, a, d)) return true;
+    if (is_above(a, b, d, whole) || is_above(b, a, d, whole)) return true;
   }
   return false;
 }
 
-std::optional<StepPlaces::Direction> StepPlaces::direction(Vertices a, Vertices b) const {
+std::optional<StepPlaces::Direction> StepPlaces::direction(Vertices a, Vertices b,
+                                                           double distance) const {
+  const std::int64_t whole = enlarged_distance(distance);
   Corners corners;
   for (std::size_t time = 0; time < 2; ++time) {
     const auto place = [&](std::int32_t v) {
@@ -132,7 +137,7 @@ std::optional<StepPlaces::Direction> StepPlaces::direction(Vertices a, Vertices 
         result[k] =
             std::llround(d[static_cast<Eigen::Index>(k)] / greatest * static_cast<double>(size));
       }
-      if (is_above(a, b, result)) return result;
+      if (is_above(a, b, result, whole)) return result;
     }
     return std::nullopt;
   };

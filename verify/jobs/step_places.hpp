@@ -31,17 +31,21 @@ class StepPlaces {
   static constexpr std::int64_t greatest_component = 1023;
 
   /// The motion from t=0 to t=end. Refers to the vertices.
-  StepPlaces(const fast::MovingVertices& vertices, double distance, const exact::Rational& end);
+  /// \param greatest the greatest distance of a pair
+  StepPlaces(const fast::MovingVertices& vertices, double greatest, const exact::Rational& end);
 
   /// An upper bound, in the step's coordinates, of the reduction of distances by the integers.
   [[nodiscard]] double uncertainty() const { return uncertainty_; }
 
-  /// True if for the checker the direction keeps the primitive of vertices a above that of b.
-  [[nodiscard]] bool is_above(Vertices a, Vertices b, const Direction& d) const;
+  /// True if for the checker the direction keeps the primitive of vertices a above that of b, by
+  /// that distance.
+  [[nodiscard]] bool is_above(Vertices a, Vertices b, const Direction& d, double distance) const {
+    return is_above(a, b, d, enlarged_distance(distance));
+  }
   /// True if for the checker a coordinate axis separates them.
-  [[nodiscard]] bool is_axis_between(Vertices a, Vertices b) const;
+  [[nodiscard]] bool is_axis_between(Vertices a, Vertices b, double distance) const;
   /// A direction that keeps a above b.
-  [[nodiscard]] std::optional<Direction> direction(Vertices a, Vertices b) const;
+  [[nodiscard]] std::optional<Direction> direction(Vertices a, Vertices b, double distance) const;
 
  private:
   using Integers = std::array<std::int64_t, 3>;
@@ -56,8 +60,13 @@ class StepPlaces {
     return bounds_[static_cast<std::size_t>(vertex)];
   }
 
+  /// A distance in integers, rounded up.
+  [[nodiscard]] std::int64_t enlarged_distance(double distance) const;
+  [[nodiscard]] bool is_above(Vertices a, Vertices b, const Direction& d,
+                              std::int64_t distance) const;
+
   std::vector<Bounds> bounds_;
-  std::int64_t distance_ = 0;
+  int shift_ = 0;
   double uncertainty_ = 0.0;
 };
 

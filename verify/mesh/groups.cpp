@@ -3,11 +3,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <stdexcept>
+#include <string_view>
 #include <unordered_map>
 
+#include "verify/io/csv.hpp"
 #include "verify/io/dataset_error.hpp"
 #include "verify/io/input_file.hpp"
+#include "verify/io/number_text.hpp"
 
 namespace touchstone::verify::mesh {
 namespace {
@@ -25,6 +30,44 @@ std::int32_t number_of(const Groups& groups, const std::string& name) {
   }
   if (groups.names.size() > most_named) names += ", …";
   throw std::invalid_argument(fmt::format("no group {}; there are: {}", io::quote(name), names));
+}
+
+/// The numbers of many names.
+class Numbers {
+ public:
+  explicit Numbers(const Groups& groups) : groups_(groups) {
+    for (std::size_t i = 0; i < groups.names.size(); ++i) {
+      numbers_.try_emplace(groups.names[i], static_cast<std::int32_t>(i));
+    }
+  }
+
+  /// \throws std::invalid_argument if no group has this name.
+  std::int32_t operator()(std::string_view name) const {
+    const auto found = numbers_.find(std::string(io::trimmed(name)));
+    return found != numbers_.end() ? found->second : number_of(groups_, std::string(name));
+  }
+
+ private:
+  const Groups& groups_;
+  std::unordered_map<std::string, std::int32_t> numbers_;
+};
+
+/// The lines of a table of names, and a number that is not negative at their ends.
+template <std::size_t names, class Take>
+void read_table(const std::filesystem::path& path, std::string_view form, const Take& take) {
+  io::LineReader lines(path);
+  while (const auto line = lines.next()) {
+    std::array<std::string, names + 1> fields;
+    const io::CsvSplit split = io::split_csv(line->text, fields);
+    const auto number = io::number_from_text<double>(io::trimmed(fields[names]));
+    if (split.fault != io::CsvSplit::Fault::none || split.count != fields.size() || !number ||
+        !std::isfinite(*number) || *number < 0.0) {
+      throw io::DatasetError(path, {.line = line->number},
+                             fmt::format("expected {}, the last a number >= 0, found {}", form,
+                                         io::quote(line->text)));
+    }
+    take(fields, *number);
+  }
 }
 
 }  // namespace
@@ -54,6 +97,25 @@ Groups read_groups(const std::filesystem::path& path, std::size_t vertices) {
                                        groups.of_vertex.size(), vertices));
   }
   return groups;
+}
+
+std::vector<double> read_radii(const std::filesystem::path& path, const Groups& groups) {
+  std::vector<double> result(groups.names.size());
+  const Numbers number(groups);
+  read_table<1>(path, "GROUP,RADIUS", [&](const auto& fields, double radius) {
+    result[static_cast<std::size_t>(number(fields[0]))] = radius;
+  });
+  return result;
+}
+
+std::vector<fast::GroupSeparation> read_separations(const std::filesystem::path& path,
+                                                    const Groups& groups) {
+  std::vector<fast::GroupSeparation> result;
+  const Numbers number(groups);
+  read_table<2>(path, "GROUP,GROUP,DISTANCE", [&](const auto& fields, double distance) {
+    result.push_back({{number(fields[0]), number(fields[1])}, distance});
+  });
+  return result;
 }
 
 std::vector<std::array<std::int32_t, 2>> numbers_of(

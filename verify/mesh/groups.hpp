@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "touchstone/step.hpp"
 #include "verify/mesh/mesh_file.hpp"
 
 namespace touchstone::verify::mesh {
@@ -19,6 +20,16 @@ namespace touchstone::verify::mesh {
 /// \throws DatasetError if the file cannot be read, has a blank line before its end, or other than `vertices`
 /// lines.
 [[nodiscard]] Groups read_groups(const std::filesystem::path& path, std::size_t vertices);
+
+/// The radius of each group from a text file: a line NAME,RADIUS for each group that has one.
+/// \throws DatasetError if the file cannot be read or a line is no such one; std::invalid_argument
+/// naming a group that there is not, and those that there are.
+[[nodiscard]] std::vector<double> read_radii(const std::filesystem::path& path,
+                                             const Groups& groups);
+
+/// The separations of pairs of groups: lines NAME,NAME,DISTANCE. \throws likewise.
+[[nodiscard]] std::vector<fast::GroupSeparation> read_separations(const std::filesystem::path& path,
+                                                                  const Groups& groups);
 
 /// The groups' numbers of pairs of names. \throws std::invalid_argument naming one that no group
 /// has, and those that there are.

@@ -85,12 +85,14 @@ ViewedStep find_collisions(std::string label, const mesh::Mesh& mesh, mesh::Vert
                     .separation = options.separation,
                     .collisions = step.collisions(),
                     .queries = {},
+                    .separations = {},
                     .points = {}};
   std::ranges::sort(result.collisions, {}, [](const fast::StepCollision& collision) {
     return std::tuple(collision.toi_lower, collision.toi_upper, collision.kind, collision.pair);
   });
   for (const fast::StepCollision& collision : result.collisions) {
     result.queries.push_back(step.query_of(collision.kind, collision.pair));
+    result.separations.push_back(step.separation_of(collision.kind, collision.pair));
     result.points.push_back(step.vertices_of(collision.kind, collision.pair));
   }
   return result;
@@ -102,7 +104,7 @@ std::vector<ViewedQuery> first_queries(const ViewedStep& step, std::size_t most)
     queries.push_back(
         {.label = fmt::format("{}: {}", step.label, pair_text(step.collisions[i])),
          .query = base::AnyQuery(fast::Step::kind_of(step.collisions[i].kind), step.queries[i]),
-         .separation = step.separation});
+         .separation = step.separations[i]});
   }
   return queries;
 }

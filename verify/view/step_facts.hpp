@@ -28,8 +28,9 @@ struct ViewedStep {
   std::vector<fast::Edge> codimensional_edges;  ///< the edges of no face
   Separation separation = fast::no_separation;
   std::vector<fast::StepCollision> collisions;  ///< in the order of toi_lower
-  /// Each collision as a query.
+  /// Each collision as a query, and its separation.
   std::vector<Query> queries;
+  std::vector<Separation> separations;
   /// The numbers of each query's four points.
   std::vector<std::array<std::int32_t, 4>> points;
 };

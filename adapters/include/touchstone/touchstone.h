@@ -148,6 +148,15 @@ typedef struct TouchstoneMesh {
   /// Called by functions of the step, in several threads at once, with can_collide_context.
   int32_t (*can_collide)(void* context, int32_t vertex, int32_t other);
   void* can_collide_context;
+  /// The number of radii: 0, or one for each group. Primitives are in contact within the separation
+  /// and the radii of their groups in sum; of several vertices' groups, the greatest sum counts. In
+  /// TOUCHSTONE_L2 vertices then are spheres, and edges capsules.
+  size_t radii;
+  const double* group_radii;  ///< not negative
+  /// The number of pairs of groups with a distance in place of the sum of their radii.
+  size_t separations;
+  const int32_t* separated_groups;  ///< 2 · separations; each pair once, in either order
+  const double* group_separations;  ///< these distances, not negative
 } TouchstoneMesh;
 
 /// A step of a mesh, made by touchstone_step_new.
@@ -199,7 +208,8 @@ TOUCHSTONE_API int32_t touchstone_step_collisions(TouchstoneStep* step,
 TOUCHSTONE_API int32_t touchstone_step_free_step_size(const TouchstoneStep* step, double* alpha);
 
 /// The least distance of all pairs of the step at the time t, in [0,1], and all pairs with this
-/// enclosure. Infinity and no pairs if the step has none. The separation of the step has no effect.
+/// enclosure; with radii, of thick primitives, and all pairs whose enclosures overlap it. Infinity
+/// and no pairs if the step has none. The separation of the step has no effect.
 TOUCHSTONE_API int32_t touchstone_step_least_distance(TouchstoneStep* step, double t, int32_t norm,
                                                       TouchstoneDistance* distance,
                                                       const TouchstonePair** pairs, size_t* count);
@@ -214,8 +224,8 @@ typedef struct TouchstoneActiveContact {
   double normal[3];  ///< a unit vector, from the second primitive to the first
 } TouchstoneActiveContact;
 
-/// Every pair that comes within `eta` up to the step's t_max, exactly these, in the order of their
-/// times. The separation of the step has no effect.
+/// Every pair that comes within `eta`, and the radii, up to the step's t_max, exactly these, in the
+/// order of their times. The separation of the step has no effect.
 /// \param eta η, finite, 0 or more
 TOUCHSTONE_API int32_t touchstone_step_active_set(TouchstoneStep* step, double eta, int32_t norm,
                                                   const TouchstoneActiveContact** contacts,
@@ -254,8 +264,8 @@ typedef struct TouchstoneLineSearchLimit {
 TOUCHSTONE_API TouchstoneLineSearchOptions touchstone_default_line_search_options(void);
 
 /// The greatest step size, rounded down by at most the step's toi_tolerance, up to which all
-/// primitives stay at least p times as far apart as at the start. The separation of the step has no
-/// effect.
+/// primitives, with radii thick ones, stay at least p times as far apart as at the start. The
+/// separation of the step has no effect.
 /// \param p more than 0 and at most 1 − 2^-50
 /// \param options null for the default ones
 TOUCHSTONE_API int32_t touchstone_step_line_search_limit(TouchstoneStep* step, double p,

@@ -83,6 +83,12 @@
 /// ones. The time is enclosed to the step's toi_tolerance, and its lower end is positive unless the
 /// time is below two of the least doubles. There are no other tolerances or corrections: a step
 /// size of 0 always comes with a status that explains it.
+///
+/// **Radii** of a step's groups (touchstone/step.hpp) thicken its primitives. The distance of a
+/// pair is then less by its thickness, and negative where thick primitives overlap; it is enclosed
+/// by the ends for the primitives themselves, less the thickness, rounded outwards. The active set
+/// has the pairs whose thick primitives come within η, and the limit of a line search keeps a part
+/// of their distances. Contact points are those of the primitives themselves.
 
 #include <Eigen/Core>
 
@@ -147,8 +153,8 @@ struct PairDistance {
 /// The least distance of a step's pairs.
 struct LeastDistance {
   Distance distance;
-  /// All pairs with this enclosure, in order. If it is not a single double, their distances may
-  /// differ within it.
+  /// All pairs with this enclosure, in order; with radii, all whose enclosures overlap it. If it is
+  /// not a single double, their distances may differ within it.
   std::vector<PairDistance> pairs;
 
   friend bool operator==(const LeastDistance&, const LeastDistance&) = default;

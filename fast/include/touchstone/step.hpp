@@ -63,6 +63,15 @@
 /// with contacts mostly have early ones; as soon as an impact is known, it searches only up to its
 /// time.
 ///
+/// **Radii.** Groups may have radii: in L2 vertices then are spheres and edges capsules. The
+/// *thickness* of a pair is the greatest sum fl(r + s) of the radius r of a vertex of one primitive
+/// and the radius s of a vertex of the other, or the distance that is given for their two groups in
+/// its place. The separation of the pair is fl(D + thickness), where D is the separation of the
+/// step and fl rounds to the nearest double. So a step with radii is in contact where the thick
+/// primitives are within D. Steps made from a step keep the radii, and distances, active sets and
+/// limits of line searches are those of thick primitives, too (touchstone/contacts.hpp). A box is
+/// widened by its primitive's own part; the pairs of a block are decided by separations.
+///
 /// **On curves** (CurvedStep) a vertex stays in the box around its control points, so a primitive
 /// stays in the box around those of its vertices; the candidates are the pairs of primitives whose
 /// boxes are within the separation. The pairs that can collide are the same: the theorem is about
@@ -125,18 +134,32 @@ struct MeshElements {
   std::span<const std::int32_t> points = {};
 };
 
+/// Two groups, in either order, which may be the same, and the thickness of their pairs.
+struct GroupSeparation {
+  std::array<std::int32_t, 2> groups{};
+  double distance = 0.0;  ///< in [0, 2^1000], in units of the coordinates
+
+  friend bool operator==(const GroupSeparation&, const GroupSeparation&) = default;
+};
+
 /// Rules for the pairs that can collide: two primitives can if a vertex of one and a vertex of the
-/// other are in groups that can collide. By default everything collides with everything.
+/// other are in groups that can collide. By default everything collides with everything. And the
+/// thickness of pairs, see above, by default 0.
 struct CollisionGroups {
   /// The group of each vertex, from 0 on; empty: all are in group 0.
   std::span<const std::int32_t> of_vertices = {};
   /// Pairs of groups that cannot collide, in either order. The same group twice: no collisions
   /// within it, for example within an obstacle. All other pairs can collide.
   std::span<const std::array<std::int32_t, 2>> apart = {};
+  /// The radius of each group, from 0 on, up to the greatest group of a vertex or further; not
+  /// negative, in units of the coordinates. Empty: all are 0. No sum is above 2^1000.
+  std::span<const double> radii = {};
+  /// Pairs of groups whose distance is in place of the sum of their radii, each once.
+  std::span<const GroupSeparation> separations = {};
 };
 
 struct StepOptions {
-  /// Primitives within this distance are in contact.
+  /// Primitives within this distance, and the thickness of their pair, are in contact.
   Separation separation = {};
   /// The width of times of impact, as in CertifiedOptions.
   double toi_tolerance = 1e-12;
@@ -289,12 +312,15 @@ class Step {
   /// A pair as a query, whose points are these vertices.
   /// \throws std::out_of_range for numbers out of range.
   [[nodiscard]] Query query_of(PairKind kind, const IndexPair& pair) const;
+  /// The distance at which a pair is in contact: the step's separation and the thickness.
+  /// \throws std::out_of_range for numbers out of range.
+  [[nodiscard]] Separation separation_of(PairKind kind, const IndexPair& pair) const;
   [[nodiscard]] static Kind kind_of(PairKind kind) {
     return kind == PairKind::edge_edge ? Kind::edge_edge : Kind::vertex_face;
   }
 
   [[nodiscard]] const MovingVertices& vertices() const;
-  /// The options of the decisions on pairs.
+  /// The options of the decisions on pairs without thickness.
   [[nodiscard]] const CertifiedOptions& options() const;
   /// All edges in the search.
   [[nodiscard]] std::span<const Edge> edges() const;

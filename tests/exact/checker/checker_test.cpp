@@ -326,7 +326,7 @@ TEST(Manual, HasExamplesThatAreAccepted) {
   EXPECT_EQ(sum.no_collision, 2U);
   EXPECT_EQ(sum.collision, 1U);
   EXPECT_EQ(sum.time_of_impact, 3U);
-  const std::size_t steps = manual.find(fence + "touchstone-steps 1\n") + fence.size();
+  const std::size_t steps = manual.find(fence + "touchstone-steps 2\n") + fence.size();
   const Report report = check_text(manual.substr(steps, manual.find("\n```", steps) + 1 - steps));
   EXPECT_EQ(rejections(report), Texts{});
   EXPECT_EQ(report.steps.size(), 1U);

@@ -30,7 +30,8 @@ using Lines = std::vector<std::string>;
 /// A triangle that falls towards another, tilted one, and stays above it.
 const std::string scene =
     "vertices 6\n0 0 0 0 0 0\n4 0 4 4 0 4\n0 4 0 0 4 0\n1 1 2 1 1 0x1.8p+0\n2 1 3 2 1 "
-    "0x1.4p+1\n1 2 2 1 2 0x1.8p+0\nfaces 2\n0 1 2\n3 4 5\nedges 0\npoints 0\ngroups 0\napart 0\n";
+    "0x1.4p+1\n1 2 2 1 2 0x1.8p+0\nfaces 2\n0 1 2\n3 4 5\nedges 0\npoints 0\ngroups 0\napart "
+    "0\nradii 0\nseparations 0\n";
 const std::string arguments =
     "sweep x\nvertex_face\n3 0 -1 0 1\n4 0\nseparate 0 1 face +\n5 0 -1 0 1\nedge_edge\n2 3 1 0 "
     "-1\n2 4 1 0 -1\n2 5 1 0 -1\nvertex_edge\nvertex_vertex\nend\n";
@@ -39,7 +40,7 @@ const std::string no_arguments =
     "sweep x\nvertex_face\nedge_edge\nvertex_edge\nvertex_vertex\nend\n";
 
 std::string stream(const std::string& steps, std::size_t count = 1) {
-  return "touchstone-steps 1\n" + steps + "steps " + std::to_string(count) + "\n";
+  return "touchstone-steps 2\n" + steps + "steps " + std::to_string(count) + "\n";
 }
 
 std::string step(const std::string& of = scene, const std::string& rest = arguments) {
@@ -83,7 +84,8 @@ TEST(Step, MayHaveAnArgumentMoreThanNeeded) {
 std::string of_falling_vertex(std::string_view x_at_end, std::string_view argument) {
   return stream("step falling\nvertices 4\n0 -1 0 0 -1 0\n0 1 0 0 1 0\n-1 0 1 -1 0 1\n1 0 0 " +
                 std::string(x_at_end) +
-                " 0 0\nfaces 1\n0 1 2\nedges 0\npoints 1\n3\ngroups 0\napart 0\nseparation 0 "
+                " 0 0\nfaces 1\n0 1 2\nedges 0\npoints 1\n3\ngroups 0\napart 0\nradii "
+                "0\nseparations 0\nseparation 0 "
                 "linf\nclaim no_contact 1\nsweep x\nvertex_face\n" +
                 std::string(argument) + "edge_edge\nvertex_edge\nvertex_vertex\nend\n");
 }
@@ -162,11 +164,43 @@ const std::vector<Falsehood>& falsehoods() {
   return all;
 }
 
+/// Two spheres of radii 1 and 2, whose centres come 4.33 near. On each axis they are 2.5 apart.
+const std::string spheres =
+    "step spheres\nvertices 2\n0 0 0 0 0 0\n3 3 3 0x1.4p+1 0x1.4p+1 0x1.4p+1\nfaces 0\nedges "
+    "0\npoints 2\n0\n1\ngroups 2\n1\n0\napart 0\nradii 2\n2\n1\nseparations 0\nseparation 0 "
+    "l2\nclaim no_contact 1\nsweep x\nvertex_face\nedge_edge\nvertex_edge\nvertex_vertex\n0 "
+    "1\nseparate 0 1 vertex 0\nend\n";
+
+/// Others that are true of the spheres, and some that are not.
+const std::vector<Falsehood>& of_spheres() {
+  static const std::string_view too_near = "a polynomial is not positive";
+  static const std::vector<Falsehood> all{
+      {"radii 2\n2\n1", "radii 2\n2\n0x1.27p+1", ""},
+      {"radii 2\n2\n1", "radii 2\n2\n0x1.3p+1", too_near},
+      {"radii 2\n2\n1", "radii 1\n2", "not a radius for each group"},
+      {"radii 2\n2\n1", "radii 2\n2\n-1", "a distance below 0"},
+      {"radii 2\n2\n1", "radii 2\n2\n1/3", "a number that is not a double"},
+      {"radii 2\n2\n1", "radii 2\n2\n0x1p+1023", "the distances are too large"},
+      {"separation 0 l2", "separation 0x1.5p+0 l2", ""},
+      {"separation 0 l2", "separation 0x1.6p+0 l2", too_near},
+      {"separations 0", "separations 1\n1 0 0x1.15p+2", ""},
+      {"separations 0", "separations 1\n0 1 0x1.16p+2", too_near},
+      {"separations 0", "separations 1\n1 1 9", ""},
+      {"separations 0", "separations 2\n1 0 1\n0 1 1", "two groups are listed twice"},
+      {"separations 0", "separations 1\n1 0 -1", "a distance below 0"},
+      {"0 1\nseparate 0 1 vertex 0\n", "0 1 -1 -1 -1\n", "the direction separates not"},
+      {"0 1\nseparate 0 1 vertex 0\n", "", "no argument for vertex_vertex 0 1"}};
+  return all;
+}
+
 /// All certificates that have to be refused, with the reason.
 std::vector<std::pair<std::string, std::string_view>> false_streams() {
   std::vector<std::pair<std::string, std::string_view>> streams;
   for (const auto& [truth, lie, reason] : falsehoods()) {
     streams.emplace_back(replaced(stream(step()), truth, lie), reason);
+  }
+  for (const auto& [truth, lie, reason] : of_spheres()) {
+    if (!reason.empty()) streams.emplace_back(replaced(stream(spheres), truth, lie), reason);
   }
   for (const std::string_view end : {"0", "-1"}) {
     streams.emplace_back(of_falling_vertex(end, ""), "no argument for vertex_face 3 0");
@@ -179,6 +213,10 @@ TEST(Step, RefusesEveryFalsehoodWithItsReason) {
   ASSERT_EQ(refusal(stream(step())), "");
   ASSERT_EQ(refusal(of_falling_vertex("1", "3 0 1 0 0\n")), "");
   ASSERT_EQ(refusal(of_falling_vertex("0x1p-40", "")), "") << "an axis keeps it apart";
+  ASSERT_EQ(refusal(stream(spheres)), "");
+  for (const auto& [truth, other, reason] : of_spheres()) {
+    if (reason.empty()) EXPECT_EQ(refusal(replaced(stream(spheres), truth, other)), "") << other;
+  }
   for (const auto& [text, reason] : false_streams()) {
     EXPECT_EQ(refusal(text).substr(0, reason.size()), reason) << text;
   }
@@ -218,7 +256,8 @@ TEST(Step, IsHeldAgainstAScene) {
        {std::pair("0x1.8p+0", "0x1.8000000000001p+0"), std::pair("3 4 5", "3 5 4"),
         std::pair("faces 2\n0 1 2\n3 4 5", "faces 3\n0 1 2\n3 4 5\n0 1 5"),
         std::pair("points 0", "points 1\n0"), std::pair("groups 0", "groups 6\n0\n0\n0\n0\n0\n0"),
-        std::pair("apart 0", "apart 1\n0 0")}) {
+        std::pair("apart 0", "apart 1\n0 0"), std::pair("radii 0", "radii 1\n0"),
+        std::pair("separations 0", "separations 1\n0 0 0")}) {
     EXPECT_EQ(refusal_about(replaced(twice, truth, other), text), "the scene is not the one given")
         << other;
   }
@@ -287,9 +326,11 @@ TEST(Step, LimitsComparisonsItemsAndArguments) {
     points += std::to_string(n) + '\n';
     groups += "0\n";
   }
-  const std::string crowd = "step crowd\nvertices 60\n" + vertices +
-                            "faces 0\nedges 0\npoints 60\n" + points + "groups 60\n" + groups +
-                            "apart 1\n0 0\nseparation 0 linf\nclaim no_contact 1\n" + no_arguments;
+  const std::string crowd =
+      "step crowd\nvertices 60\n" + vertices + "faces 0\nedges 0\npoints 60\n" + points +
+      "groups 60\n" + groups +
+      "apart 1\n0 0\nradii 0\nseparations 0\nseparation 0 linf\nclaim no_contact 1\n" +
+      no_arguments;
   // Bytes before the certificate are no bytes of it.
   const std::string before = "# " + std::string(10'000, ' ') + '\n';
   const std::string compares = "the search for pairs takes too many comparisons",
@@ -393,7 +434,7 @@ TEST(Step, ProvesWhatIsDemandedAndNothingElse) {
 }
 
 TEST(Step, IsThereWhereItIsDemanded) {
-  const std::string none = "touchstone-steps 1\nsteps 0\n";
+  const std::string none = "touchstone-steps 2\nsteps 0\n";
   EXPECT_EQ(refusal(none), "");
   EXPECT_EQ(refusal(none, {.claim = demanded_claim("free")}),
             "there is no certificate of what is demanded");
@@ -406,7 +447,7 @@ TEST(Step, IsNoStreamOfQueriesWhereScenesAreNamed) {
       check_text("touchstone-certificates 2\ncertificates 0\n", {.scenes = &scenes});
   EXPECT_EQ(report.rejected, 1U);
   EXPECT_EQ(report.rejections.at(0).reason,
-            "the first line is not 'touchstone-steps 1', as for scenes");
+            "the first line is not 'touchstone-steps 2', as for scenes");
 }
 
 }  // namespace

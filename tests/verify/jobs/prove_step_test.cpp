@@ -56,7 +56,10 @@ Proved prove(const Scene& scene, const fast::StepOptions& step_options,
   result.proof = prove_step(step,
                             {.faces = scene.faces,
                              .points = scene.points,
-                             .groups = {.of_vertices = scene.groups, .apart = scene.apart}},
+                             .groups = {.of_vertices = scene.groups,
+                                        .apart = scene.apart,
+                                        .radii = scene.radii,
+                                        .separations = scene.separations}},
                             options);
   result.text += exact::step_certificates_closing_line(1);
   return result;
@@ -76,7 +79,8 @@ std::optional<exact::AlgebraicNumber> earliest(const Scene& scene,
   const tests::AllPairs all(scene);
   for (const tests::NumberedPair& pair : all.pairs()) {
     const exact::Decision verdict =
-        exact::decide(fast::Step::kind_of(pair.first), all.query(pair), options.separation);
+        exact::decide(fast::Step::kind_of(pair.first), all.query(pair),
+                      {options.separation.distance + all.thickness(pair), options.separation.norm});
     if (verdict.toi && *verdict.toi <= exact::Rational(options.t_max) &&
         (!first || *verdict.toi < *first)) {
       first = verdict.toi;
@@ -154,12 +158,15 @@ TEST(ProveStep, KeepsTheLimitOfAScene) {
 
 TEST(ProveStep, ProvesWhatTheOracleSaysOfAllPairs) {
   const std::uint64_t seeds = tests::is_soak() ? 400 : 25;
-  int proved = 0, free = 0, failed = 0, with_distance = 0;
+  int proved = 0, free = 0, failed = 0, with_distance = 0, with_thickness = 0;
   for (const tests::Shape& shape : tests::shapes()) {
     for (std::uint64_t seed = 0; seed < seeds; ++seed) {
       Random random(seed);
-      const Scene scene =
-          with_ordered_edges(tests::random_scene(random, shape, random.between(4, 14)));
+      Scene scene = with_ordered_edges(tests::random_scene(random, shape, random.between(4, 14)));
+      if (seed % 3 == 0) {
+        tests::add_thickness(scene, std::min(0.5 * shape.separation, 1e300), random);
+        with_thickness += scene.radii.empty() ? 0 : 1;
+      }
       fast::StepOptions options;
       if (random.coin()) options.separation.distance = shape.separation;
       options.separation.norm = random.coin() ? Norm::l2 : Norm::linf;
@@ -182,6 +189,7 @@ TEST(ProveStep, ProvesWhatTheOracleSaysOfAllPairs) {
   EXPECT_GT(free, 20);
   EXPECT_LT(failed, tests::is_soak() ? 320 : 20);
   EXPECT_GT(with_distance, proved / 4);
+  EXPECT_GT(with_thickness, 40);
   RecordProperty("with_distance", with_distance);
 }
 
@@ -216,7 +224,8 @@ TEST(ProveStep, NeedsEachOfItsArguments) {
   Random random(5);
   std::uint64_t directions = 0, certificates = 0;
   for (int trial = 0; trial < 12; ++trial) {
-    const Scene scene = with_ordered_edges(tests::soup(random, 12, 0.2));
+    Scene scene = with_ordered_edges(tests::soup(random, 12, 0.2));
+    if (trial % 3 == 2) tests::add_thickness(scene, 0.05, random);
     const auto [proof, text] = prove(scene, {.t_max = trial % 2 == 0 ? 1.0 : 1e-3});
     ASSERT_EQ(refusal(text), "");
     directions += proof.directions;

@@ -42,6 +42,9 @@ TEST(StepPlaces, AgreeWithTheCheckers) {
     const exact::Rational until = random.coin() ? 1.0 : random.uniform(0, 1);
     const StepPlaces places(vertices, distance, until);
     const checker::Places checkers(motions, distance, until);
+    // (The greatest distance, or that of another pair.)
+    const double less = random.coin() ? distance : distance * random.uniform(0, 1);
+    const std::int64_t whole = checkers.enlarged(less);
     const bool is_vertex_face = random.coin();
     const std::array<std::int32_t, 3> a{0, 1, 0}, b{3, 4, 5}, v{2, 2, 2};
     const auto first =
@@ -52,15 +55,12 @@ TEST(StepPlaces, AgreeWithTheCheckers) {
     for (int n = 0; n < 4; ++n) {
       const StepPlaces::Direction d{random.between(-3, 3), random.between(-3, 3),
                                     random.between(-3, 3)};
-      EXPECT_EQ(places.is_above(first, second, d), checkers.is_above(some, other, d));
+      EXPECT_EQ(places.is_above(first, second, d, less), checkers.is_above(some, other, d, whole));
     }
-    bool is_apart = false;
-    for (const StepPlaces::Direction& d : {StepPlaces::Direction{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}) {
-      is_apart = is_apart || checkers.is_above(some, other, d) || checkers.is_above(other, some, d);
-    }
-    EXPECT_EQ(places.is_axis_between(first, second), is_apart);
-    const auto direction = places.direction(first, second);
-    EXPECT_TRUE(!direction || checkers.is_above(some, other, *direction));
+    const bool is_apart = checkers.is_axis_between(some, other, whole);
+    EXPECT_EQ(places.is_axis_between(first, second, less), is_apart);
+    const auto direction = places.direction(first, second, less);
+    EXPECT_TRUE(!direction || checkers.is_above(some, other, *direction, whole));
     found += direction && !is_apart ? 1 : 0;
     needed += is_apart ? 0 : 1;
   }
@@ -84,7 +84,7 @@ TEST(StepPlaces, FindADirectionBetweenWhatIsNear) {
     const StepPlaces places(fast::MovingVertices(start, start), 0.0, 1);
     const std::array<std::int32_t, 4> all{0, 1, 2, 3};
     const StepPlaces::Vertices vertices(all);
-    found += places.direction(vertices.first(1), vertices.last(3)) ? 1 : 0;
+    found += places.direction(vertices.first(1), vertices.last(3), 0.0) ? 1 : 0;
   }
   EXPECT_GT(found, 950);
 }

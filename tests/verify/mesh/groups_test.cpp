@@ -2,9 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include <stdexcept>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "tests/support/mesh_files.hpp"
+#include "tests/support/messages.hpp"
 
 namespace touchstone::verify::mesh::groups_test {
 namespace {
@@ -32,6 +36,25 @@ TEST(ReadGroups, NeedsALineForEachVertex) {
   EXPECT_EQ(error("a\nb\nc\n", 2),
             "groups.txt:3: a group for more than the 2 vertices of the mesh");
   EXPECT_EQ(error("a\n\nb\n", 3), "groups.txt:2: no name of a group");
+}
+
+TEST(ReadRadii, AndSeparationsAreThoseOfNamedGroups) {
+  const MeshFolder folder;
+  const Groups groups{.names = {"cloth", "the ball", "a,b"}, .of_vertex = {0, 1, 2}, .error = ""};
+  EXPECT_EQ(read_radii(folder.file("r.csv", "the ball,0.5\n\"a,b\", 1e-3\n"), groups),
+            (std::vector<double>{0, 0.5, 1e-3}));
+  EXPECT_EQ(read_separations(folder.file("s.csv", "\"a,b\",cloth,2\ncloth, cloth ,0\n"), groups),
+            (std::vector<fast::GroupSeparation>{{{2, 0}, 2.0}, {{0, 0}, 0.0}}));
+  for (const std::string_view line : {"cloth", "cloth,", "cloth,x", "cloth,-1", "cloth,inf",
+                                      "cloth,nan", "cloth,1,1", "\"cloth,1", ""}) {
+    const std::string text = "the ball,1\n" + std::string(line) + "\ncloth,1\n";
+    EXPECT_TRUE(folder.error_of([&] { (void)read_radii(folder.file("r.csv", text), groups); })
+                    .starts_with("r.csv:2: expected GROUP,RADIUS, the last a number >= 0, found "))
+        << line;
+  }
+  EXPECT_EQ(tests::message_of<std::invalid_argument>(
+                [&] { (void)read_radii(folder.file("r.csv", "ball,1\n"), groups); }),
+            "no group \"ball\"; there are: \"cloth\", \"the ball\", \"a,b\"");
 }
 
 }  // namespace
