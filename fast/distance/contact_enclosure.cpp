@@ -555,7 +555,7 @@ ContactEnclosure enclose_contact(Kind kind, const Query& query, const TimeEnclos
   return {.at = at,
           .first = pair.in_query_units(first),
           .second = pair.in_query_units(second),
-          .normal = normal.direction.vector,
+          .normal = normal.direction.vector.array() + 0.0,  // 0 in place of −0
           .point_error = pair.in_query_units(above * std::max(first_error, second_error)),
           .normal_error = normal.direction.error,
           .has_side = normal.has_side};
