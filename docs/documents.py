@@ -44,6 +44,10 @@ RECORDED = "build/own-simulation"
 RECORDINGS = [f"simulate {scene} --record {RECORDED} --record-limit 2500 --npy"
               for scene in ("two-heads", "chain-of-rings", "dimpled-ball", "twisting-mat --steps 200")]
 
+# The adapters as plugins, which solve a query by a call, where the build has them.
+ADAPTERS = "build/adapters"
+BY_THE_CALL = {"c_function": "C, by the call", "tight_inclusion_adapter": "Tight-Inclusion's interface"}
+
 # The methods of the table `judged`.
 JUDGED = ["certified", "tight_inclusion", "tight_inclusion_published", "tight_inclusion_released", "tight_inclusion_float",
           "accd", "accd_limited", "cubic"]
@@ -60,7 +64,8 @@ COMMANDS = {
     "patches": ["bench --repetitions 9"],
     "steps": [f"bench --step simulation/{step}/frames/*.ply --method certified --method tight_inclusion --judge 0 "
               f"--repetitions 7{separation}" for step, separations in STEPS.items() for separation in separations],
-    "point_of_use": [f"bench --step simulation/{step}/frames/*.ply --method certified --judge 0 --repetitions 7"
+    "point_of_use": [f"bench --step simulation/{step}/frames/*.ply --method certified "
+                     f"{' '.join(f'--plugin {ADAPTERS}/{name}.so' for name in BY_THE_CALL)} --judge 0 --repetitions 7"
                      for step in STEPS],
     "bounds": ["derive"],
     "certificates": [f"prove {data} --threads 1".replace("  ", " ") for data in DATA],
@@ -168,7 +173,8 @@ def measure_one(name, command, options, folder):
         command = re.sub(r"--repetitions \d+", "--repetitions 1", re.sub(r"--(method-)?seconds \d+", r"--\1seconds 0.1", command))
     print(f"touchstone {command}", flush=True)
     out, proofs = folder / "run.json", folder / "proofs.cert.zst"
-    words = [path for word in command.replace(RECORDED, str(options.recorded)).split()
+    command_here = command.replace(RECORDED, str(options.recorded)).replace(ADAPTERS, str(options.tool.with_name("adapters")))
+    words = [path for word in command_here.split()
              for path in (sorted(glob.glob(word, root_dir=options.data)) if "*" in word else [word])]
     words += ["--json", out] + (["--prove", proofs] if name == "certificates" else [])
     words += ["--table"] if command == "certify" else []
@@ -361,16 +367,21 @@ def whole_steps(data):
 
 
 def one_at_a_time(data):
+    # Data from before the adapters were plugins do not have them.
+    adapters = [name for name in BY_THE_CALL if name in by_name(data["runs"][0]["result"]["groups"][0])]
     rows = []
     for one in data["runs"]:
         for group in one["result"]["groups"]:
-            of = by_name(group)["certified"]
+            methods = by_name(group)
+            of = methods["certified"]
             batch, single = of["time"]["ns_per_query"], of["single"]
             rows.append([f"{scene_of(one)[0]}, {group['kind']}", rounded(batch),
                          *(rounded(single[f"{part}_ns"]) for part in ("mean", "p50", "p99")),
-                         f"{single['mean_ns'] / batch:.1f}"])
+                         f"{single['mean_ns'] / batch:.1f}",
+                         *(rounded(methods[name]["time"]["ns_per_query"]) for name in adapters)])
     return made_by(data, "touchstone bench --step FRAME0 FRAME1 …") + table(
-        ["step", "in a batch", "alone: mean", "median", "99 %", "mean, in that of a batch"], rows)
+        ["step", "in a batch", "alone: mean", "median", "99 %", "mean, in that of a batch",
+         *(BY_THE_CALL[name] for name in adapters)], rows)
 
 
 def line_searches(data):

@@ -65,6 +65,8 @@ constexpr std::string_view layer_lines = R"(
   adapters/ipc_toolkit.hpp: fast/ exact/query.hpp ipc/ccd/narrow_phase_ccd.hpp
   adapters/ipc_toolkit_step.hpp: adapters/ipc_toolkit.hpp fast/ exact/query.hpp ipc/collision_mesh.hpp
   adapters/tight_inclusion/logger.hpp: spdlog/
+// The adapters as plugins of the tool.
+  adapters/by_the_call/: adapters/ verify/plugin.h
 // Who includes a header in C needs no other header of ours.
   adapters/touchstone.h: stddef.h stdint.h
   verify/plugin.h: stdint.h

@@ -224,8 +224,27 @@ TouchstoneCollision collision_of(const fast::StepCollision& collision) {
           collision.u, collision.v};
 }
 
+fast::StepCollision collision_from(const TouchstoneCollision& collision) {
+  const auto [kind, first, second] = collision.pair;
+  if (kind < TOUCHSTONE_VERTEX_FACE || kind > TOUCHSTONE_VERTEX_VERTEX) {
+    throw std::invalid_argument("the kind of a pair is none of TouchstoneKind");
+  }
+  return {.kind = static_cast<fast::PairKind>(kind),
+          .pair = {first, second},
+          .toi_lower = collision.toi_lower,
+          .toi_upper = collision.toi_upper,
+          .u = collision.u,
+          .v = collision.v};
+}
+
 TouchstoneActiveContact active_contact_of(const fast::ActiveContact& contact) {
-  TouchstoneActiveContact result{collision_of(contact), {}, {}, {}};
+  TouchstoneActiveContact result{.collision = collision_of(contact),
+                                 .first = {},
+                                 .second = {},
+                                 .normal = {},
+                                 .point_error = contact.point_error,
+                                 .normal_error = contact.normal_error,
+                                 .has_side = contact.has_side ? 1 : 0};
   Eigen::Vector3d::Map(result.first) = contact.first;
   Eigen::Vector3d::Map(result.second) = contact.second;
   Eigen::Vector3d::Map(result.normal) = contact.normal;
@@ -327,6 +346,22 @@ std::int32_t touchstone_step_collisions(TouchstoneStep* step,
     refill(asked.collisions, asked.step->collisions(), collision_of);
     first = asked.collisions.data();
     number = asked.collisions.size();
+  });
+}
+
+std::int32_t touchstone_step_contacts(const TouchstoneStep* step,
+                                      const TouchstoneCollision* collisions, std::size_t count,
+                                      TouchstoneActiveContact* contacts) {
+  return guarded([&] {
+    const TouchstoneStep& asked = required(step, "step");
+    if (count == 0) return;
+    const std::span given(&required(collisions, "collisions"), count);
+    TouchstoneActiveContact& written = required(contacts, "contacts");
+    std::vector<touchstone::fast::StepCollision> converted;
+    converted.reserve(count);
+    for (const TouchstoneCollision& one : given) converted.push_back(collision_from(one));
+    std::ranges::transform(touchstone::fast::contacts_of(*asked.step, converted), &written,
+                           active_contact_of);
   });
 }
 

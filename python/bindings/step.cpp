@@ -81,18 +81,55 @@ py::dict collision_layout() {
       .dict();
 }
 
+/// \throws std::invalid_argument for an array of another layout, or a kind that there is not.
+std::vector<Collision> collisions_from(const py::array& array) {
+  if (array.ndim() != 1 || array.itemsize() != py::ssize_t{sizeof(Collision)} ||
+      !(array.flags() & py::array::c_style)) {
+    throw std::invalid_argument("collisions must be an array as Step.collisions returns it");
+  }
+  std::vector<Collision> collisions(std::size_t(array.shape(0)));
+  if (collisions.empty()) return collisions;
+  std::memcpy(collisions.data(), array.data(), collisions.size() * sizeof(Collision));
+  for (const Collision& one : collisions) {
+    if (one.kind > fast::PairKind::vertex_vertex) {
+      throw std::invalid_argument("collisions: no kind has the number " +
+                                  std::to_string(static_cast<int>(one.kind)));
+    }
+  }
+  return collisions;
+}
+
 /// fast::ActiveContact in one piece.
 struct Contact {
   fast::PairKind kind;
   fast::IndexPair pair;
   double toi_lower, toi_upper, u, v;
-  std::array<double, 3> first, second, normal;
+  std::array<std::array<double, 3>, 2> points;
+  std::array<double, 3> normal;
+  double point_error, normal_error;
+  bool has_side;
 };
 
 Contact contact_from(const fast::ActiveContact& from) {
   const auto array = [](const Eigen::Vector3d& x) { return std::array{x.x(), x.y(), x.z()}; };
-  return {from.kind, from.pair,         from.toi_lower,     from.toi_upper,    from.u,
-          from.v,    array(from.first), array(from.second), array(from.normal)};
+  return {.kind = from.kind,
+          .pair = from.pair,
+          .toi_lower = from.toi_lower,
+          .toi_upper = from.toi_upper,
+          .u = from.u,
+          .v = from.v,
+          .points = {array(from.first), array(from.second)},
+          .normal = array(from.normal),
+          .point_error = from.point_error,
+          .normal_error = from.normal_error,
+          .has_side = from.has_side};
+}
+
+std::vector<Contact> contacts_from(const std::vector<fast::ActiveContact>& from) {
+  std::vector<Contact> result;
+  result.reserve(from.size());
+  for (const fast::ActiveContact& one : from) result.push_back(contact_from(one));
+  return result;
 }
 
 py::dict contact_layout() {
@@ -101,9 +138,11 @@ py::dict contact_layout() {
       .add("toi_upper", "f8", offsetof(Contact, toi_upper))
       .add("u", "f8", offsetof(Contact, u))
       .add("v", "f8", offsetof(Contact, v))
-      .add("first", "(3,)f8", offsetof(Contact, first))
-      .add("second", "(3,)f8", offsetof(Contact, second))
+      .add("points", "(2,3)f8", offsetof(Contact, points))
       .add("normal", "(3,)f8", offsetof(Contact, normal))
+      .add("point_error", "f8", offsetof(Contact, point_error))
+      .add("normal_error", "f8", offsetof(Contact, normal_error))
+      .add("has_side", "?", offsetof(Contact, has_side))
       .dict();
 }
 
@@ -247,13 +286,19 @@ class OwningStep {
                                      const py::object& progress) const {
     const Separation separation = separation_from(eta, norm);
     const auto contacts = search(progress, [separation](const fast::Step& step) {
-      std::vector<Contact> result;
-      for (const auto& contact : fast::active_set(step, separation)) {
-        result.push_back(contact_from(contact));
-      }
-      return result;
+      return contacts_from(fast::active_set(step, separation));
     });
     return array_of(contacts, contact_layout());
+  }
+  /// Of these collisions, or of all.
+  [[nodiscard]] py::array contacts(const std::optional<py::array>& given,
+                                   const py::object& progress) const {
+    std::optional<std::vector<Collision>> collisions;
+    if (given) collisions = collisions_from(*given);
+    const auto found = search(progress, [&collisions](const fast::Step& step) {
+      return contacts_from(fast::contacts_of(step, collisions ? *collisions : step.collisions()));
+    });
+    return array_of(found, contact_layout());
   }
   /// (status, step size, (lower, upper) of the distance, pairs).
   [[nodiscard]] py::tuple line_search_limit(double p, const std::string& norm, bool of_pair,
@@ -365,6 +410,7 @@ void define_step(py::module_& m) {
       .def("collisions", &OwningStep::collisions, arg("progress"))
       .def("is_free", &OwningStep::is_free, arg("progress"))
       .def("free_step_size", &OwningStep::free_step_size, arg("progress"))
+      .def("contacts", &OwningStep::contacts, arg("collisions"), arg("progress"))
       .def("active_set", &OwningStep::active_set, arg("eta"), arg("norm"), arg("progress"))
       .def("line_search_limit", &OwningStep::line_search_limit, arg("p"), arg("norm"),
            arg("of_pair"), arg("progress"))
@@ -372,6 +418,7 @@ void define_step(py::module_& m) {
       .def("least_distance", &OwningStep::least_distance, arg("t"), arg("norm"), arg("progress"))
       .def("edges", &OwningStep::edges)
       .def("query", &OwningStep::query, arg("kind"), arg("first"), arg("second"));
+  m.def("collision_layout", &collision_layout);
   m.def("intersections", &intersections, arg("vertices").noconvert(), arg("faces").noconvert(),
         arg("edges").noconvert(), arg("points").noconvert(), arg("groups").noconvert(),
         arg("apart").noconvert(), arg("weld"), arg("threads"), arg("progress"));

@@ -328,6 +328,45 @@ class Step:
         """
         return self._search(self._step.collisions)
 
+    @checked
+    def contacts(self, collisions: npt.NDArray[np.void] | None = None) -> npt.NDArray[np.void]:
+        """Return where collisions are, and from which side, with bounds of the errors.
+
+        Parameters
+        ----------
+        collisions : structured ndarray, optional
+            Some of this step's collisions, as from `collisions` or the `pairs` of `earliest`; by
+            default all.
+
+        Returns
+        -------
+        structured ndarray
+            The fields of `collisions`, in their order, and
+
+            - `points`, of shape (2, 3): on the first primitive and on the second, at the time of
+              impact, each within `point_error` of the exact one;
+            - `normal`, a unit vector from the second primitive to the first: the direction of the
+              points, or, if they touch, that of the face's normal or the edges' cross product from
+              which the first primitive comes;
+            - `normal_error`: its greatest distance from the exact normal; infinity if there is none,
+              as of parallel edges that touch, or no bound;
+            - `has_side`: False if the opposite vector may be the normal, as of primitives that
+              touch at rest.
+
+        Raises
+        ------
+        ValueError
+            For an array that is none of collisions.
+        IndexError
+            For a collision of another mesh.
+        """
+        if collisions is not None:
+            layout = np.dtype(_fast.collision_layout())
+            if getattr(collisions, "dtype", None) != layout:
+                raise ValueError("collisions must be an array as Step.collisions returns it")
+            collisions = np.ascontiguousarray(collisions)
+        return self._search(lambda progress: self._step.contacts(collisions, progress))
+
     def is_free(self) -> bool:
         """Return True if there is no collision."""
         return self._search(self._step.is_free)
@@ -354,8 +393,7 @@ class Step:
         Returns
         -------
         structured ndarray
-            The fields of `collisions`, and `first`, `second` (the contact points on both primitives)
-            and `normal` (from the second to the first), in the order of time.
+            The fields of `contacts`, in the order of time.
         """
         return self._search(lambda progress: self._step.active_set(eta, norm, progress))
 

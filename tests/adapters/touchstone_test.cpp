@@ -149,6 +149,20 @@ std::vector<fast::StepCollision> converted(const TouchstoneCollision* some, std:
   return result;
 }
 
+void expect_same(std::span<const TouchstoneActiveContact> found,
+                 const std::vector<fast::ActiveContact>& expected) {
+  ASSERT_EQ(found.size(), expected.size());
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    EXPECT_EQ(converted(found[i].collision), expected[i]);
+    EXPECT_TRUE(Eigen::Vector3d::Map(found[i].first) == expected[i].first);
+    EXPECT_TRUE(Eigen::Vector3d::Map(found[i].second) == expected[i].second);
+    EXPECT_TRUE(Eigen::Vector3d::Map(found[i].normal) == expected[i].normal);
+    EXPECT_EQ(found[i].point_error, expected[i].point_error);
+    EXPECT_EQ(found[i].normal_error, expected[i].normal_error);
+    EXPECT_EQ(found[i].has_side != 0, expected[i].has_side);
+  }
+}
+
 /// The functions of a step give what those of C++ give, for the scene with a point and without.
 TEST(CInterface, DecidesAndMeasuresAStep) {
   const Scene scene;
@@ -204,12 +218,14 @@ TEST(CInterface, DecidesAndMeasuresAStep) {
     const auto active = fast::active_set(step, {.distance = 0.25, .norm = Norm::l2});
     ASSERT_EQ(count, active.size());
     EXPECT_GT(count, 3U);
-    for (std::size_t i = 0; i < count; ++i) {
-      EXPECT_EQ(converted(contacts[i].collision), active[i]);
-      EXPECT_TRUE(Eigen::Vector3d::Map(contacts[i].first) == active[i].first);
-      EXPECT_TRUE(Eigen::Vector3d::Map(contacts[i].second) == active[i].second);
-      EXPECT_TRUE(Eigen::Vector3d::Map(contacts[i].normal) == active[i].normal);
-    }
+    expect_same(std::span(contacts, count), active);
+
+    ASSERT_EQ(touchstone_step_collisions(owner.get(), &collisions, &count), TOUCHSTONE_OK);
+    std::vector<TouchstoneActiveContact> of_collisions(count);
+    ASSERT_EQ(touchstone_step_contacts(owner.get(), collisions, count, of_collisions.data()),
+              TOUCHSTONE_OK);
+    EXPECT_GT(count, 0U);
+    expect_same(of_collisions, fast::contacts_of(step, step.collisions()));
 
     const TouchstoneLineSearchOptions of_pair{TOUCHSTONE_LINF, TOUCHSTONE_OF_PAIR};
     for (const TouchstoneLineSearchOptions* const options :
@@ -352,6 +368,11 @@ TEST(CInterface, SaysWhatIsWrongAndWritesNothing) {
   double alpha = 77.0;
   ASSERT_EQ(touchstone_step_collisions(step, &before, &of_before), TOUCHSTONE_OK);
   const double first = before[0].toi_lower;
+  TouchstoneCollision no_kind = before[0], no_time = before[0];
+  no_kind.pair.kind = 4;
+  no_time.toi_lower = nan;
+  TouchstoneActiveContact contact{};
+  contact.has_side = 77;
 
   const std::vector<std::pair<std::string_view, std::function<std::int32_t()>>> calls{
       {"kind", [&] { return solve(2, x, nullptr, &impact); }},
@@ -388,6 +409,11 @@ TEST(CInterface, SaysWhatIsWrongAndWritesNothing) {
       {"", [&] { return touchstone_step_active_set(step, 0.5, 0, &contacts, nullptr); }},
       {"", [&] { return touchstone_step_active_set(step, -0.5, 0, &contacts, &count); }},
       {"", [&] { return touchstone_step_active_set(step, 0.5, 2, &contacts, &count); }},
+      {"step is null", [&] { return touchstone_step_contacts(nullptr, before, 1, &contact); }},
+      {"collisions is null", [&] { return touchstone_step_contacts(step, nullptr, 1, &contact); }},
+      {"contacts is null", [&] { return touchstone_step_contacts(step, before, 1, nullptr); }},
+      {"kind", [&] { return touchstone_step_contacts(step, &no_kind, 1, &contact); }},
+      {"times", [&] { return touchstone_step_contacts(step, &no_time, 1, &contact); }},
       {"", [&] { return touchstone_step_line_search_limit(nullptr, 0.5, nullptr, &limit); }},
       {"", [&] { return touchstone_step_line_search_limit(step, 0.5, nullptr, nullptr); }},
       {"", [&] { return touchstone_step_line_search_limit(step, 1.0, nullptr, &limit); }},
@@ -413,6 +439,7 @@ TEST(CInterface, SaysWhatIsWrongAndWritesNothing) {
   EXPECT_EQ(limit.reason, 77);
   EXPECT_EQ(count, 77U);
   EXPECT_EQ(is_free, 77);
+  EXPECT_EQ(contact.has_side, 77);
   EXPECT_EQ(alpha, 77.0);
   EXPECT_EQ(touchstone_solve(0, 0, nullptr, nullptr, nullptr), TOUCHSTONE_OK);
 }

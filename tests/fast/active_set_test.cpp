@@ -6,6 +6,8 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <optional>
+#include <string>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -58,38 +60,110 @@ Scene falling_point(const Vector3d& motion, const std::vector<Edge>& edges) {
   return scene;
 }
 
-TEST(ActiveSet, HasTheNormalOfTheSideThatAPrimitiveComesFrom) {
+TEST(ActiveSet, HasThePointsAndTheNormalOfTheSideThatAPrimitiveComesFrom) {
   constexpr std::array<double, 12> crossed{-1, 0, 1, 1, 0, 1, 0, -1, 0, 0, 1, 0},
       parallel{-1, 0, 1, 1, 0, 1, -1, 0, 0, 1, 0, 0}, beside{-1, 1, 1, 1, 1, 1, -1, 0, 0, 1, 0, 0};
   const double root = std::sqrt(0.5);
+  const std::optional<Vector3d> many, at_origin(Vector3d::Zero()), in_face({1, 1, 0});
   struct Row {
     Scene scene;
     PairKind kind;
     std::vector<double> distances;
     Vector3d normal;
+    std::optional<Vector3d> second;  ///< the point on the second primitive, if there is only one
+    bool has_normal = true;
   };
-  for (const auto& [scene, kind, distances, normal] :
-       {Row{point_and_face(1, -2), PairKind::vertex_face, {0.0, 0.25}, {0, 0, 1}},
-        Row{point_and_face(-1, 2), PairKind::vertex_face, {0.0, 0.25}, {0, 0, -1}},
-        Row{point_and_face(-1, 2, {1, 3, 2}), PairKind::vertex_face, {0.0, 0.25}, {0, 0, -1}},
-        Row{two_edges(crossed, {0, 0, -2}), PairKind::edge_edge, {0.0, 0.25}, {0, 0, 1}},
-        Row{two_edges(parallel, {0, 0, -2}), PairKind::edge_edge, {0.25}, {0, 0, 1}},
+  for (const auto& [scene, kind, distances, normal, second, has_normal] :
+       {Row{point_and_face(1, -2), PairKind::vertex_face, {0.0, 0.25}, {0, 0, 1}, in_face},
+        Row{point_and_face(-1, 2), PairKind::vertex_face, {0.0, 0.25}, {0, 0, -1}, in_face},
+        Row{point_and_face(-1, 2, {1, 3, 2}),
+            PairKind::vertex_face,
+            {0.0, 0.25},
+            {0, 0, -1},
+            in_face},
+        Row{two_edges(crossed, {0, 0, -2}), PairKind::edge_edge, {0.0, 0.25}, {0, 0, 1}, at_origin},
+        Row{two_edges(parallel, {0, 0, -2}), PairKind::edge_edge, {0.25}, {0, 0, 1}, many},
         // Parallel edges in contact: the normal is against the motion, upright on the edge.
-        Row{two_edges(parallel, {0.5, 0, -2}), PairKind::edge_edge, {0.0}, {0, 0, 1}},
-        Row{two_edges(beside, {0.5, -2, -2}), PairKind::edge_edge, {0.0}, {0, root, root}},
+        Row{two_edges(parallel, {0.5, 0, -2}), PairKind::edge_edge, {0.0}, {0, 0, 1}, many, false},
+        Row{two_edges(beside, {0.5, -2, -2}),
+            PairKind::edge_edge,
+            {0.0},
+            {0, root, root},
+            many,
+            false},
         // The direction of the nearest points.
-        Row{falling_point({0, -6, -8}, {{1, 2}}), PairKind::vertex_edge, {0.0, 1.0}, {0, 0.6, 0.8}},
+        Row{falling_point({0, -6, -8}, {{1, 2}}),
+            PairKind::vertex_edge,
+            {0.0, 1.0},
+            {0, 0.6, 0.8},
+            Vector3d(1, 0, 0)},
         Row{falling_point({-2, -6, -8}, {}),
             PairKind::vertex_vertex,
             {0.0, 1.0},
-            Vector3d(1, 3, 4).normalized()}}) {
+            Vector3d(1, 3, 4).normalized(),
+            at_origin}}) {
     for (const double distance : distances) {
       const auto contacts = active_set(scene.step(), {.distance = distance, .norm = Norm::l2});
       ASSERT_EQ(contacts.size(), 1U);
-      EXPECT_EQ(contacts[0].kind, kind);
-      EXPECT_TRUE(contacts[0].normal.isApprox(normal)) << contacts[0].normal;
-      EXPECT_NEAR((contacts[0].first - contacts[0].second).norm(), distance, 1e-10);
+      const ActiveContact& one = contacts[0];
+      EXPECT_EQ(one.kind, kind);
+      EXPECT_TRUE(one.normal.isApprox(normal)) << one.normal;
+      EXPECT_NEAR((one.first - one.second).norm(), distance, 1e-10);
+      EXPECT_EQ(one.has_normal(), has_normal);
+      EXPECT_EQ(one.has_side, has_normal);
+      EXPECT_TRUE(!has_normal || (one.normal - normal).norm() <= one.normal_error);
+      EXPECT_LT(one.point_error, 1e-10) << to_string(kind);
+      if (!second) continue;
+      EXPECT_LE((one.second - *second).norm(), one.point_error);
+      EXPECT_LE((one.first - *second - distance * normal).norm(), one.point_error + 1e-15);
     }
+  }
+}
+
+/// A contact without a normal, or with one whose side cannot be told.
+TEST(ActiveSet, SaysWhatIsNotProved) {
+  constexpr std::array<double, 12> end_to_middle{0, 0, 0, 0, 0, 5, -1, 0, 0, 1, 0, 0},
+      overlapping{-1, 0, 0, 1, 0, 0, 0, 0, 0, 3, 0, 0};
+  const auto at_corner = [](const Vector3d& motion) {
+    Scene scene = point_and_face(0, 0);
+    scene.start.row(0) = scene.start.row(2);
+    scene.end.row(0) = scene.start.row(0) + motion.transpose();
+    return scene;
+  };
+  Scene flat = point_and_face(1, -2);  // a face whose vertices are on a line
+  flat.start.row(0) << 1, 0, 1;
+  flat.end.row(0) << 1, 0, -1;
+  for (Places* const places : {&flat.start, &flat.end}) places->row(3) << 2, 0, 0;
+  Scene along_edge = falling_point({0, 0, 0}, {{1, 2}});
+  along_edge.start.row(0) << 1, 0, 0;
+  along_edge.end.row(0) << 2, 0, 0;
+  // A face that turns, and a point at rest, which is in its plane once: det = −(t − 1/2)²/4.
+  Scene grazing = four_vertices({0.25, 0.0625, 0.25, 0, 0, 0, 1, 0, 0, 0, 0, 1}, 0, {0, 0, 0});
+  grazing.end.row(2) << 1, 1, 0;
+  grazing.end.row(3) << 1, 0, 1;
+  grazing.faces = {{1, 2, 3}};
+  grazing.edges = edges_of(grazing.faces);
+  grazing.points = {0};
+  struct Row {
+    std::string name;
+    Scene scene;
+    bool has_normal, has_side;
+  };
+  for (const auto& [name, scene, has_normal, has_side] :
+       {Row{"at rest", point_and_face(0, 0), true, false},
+        Row{"through the face", point_and_face(0, -1), true, true},
+        Row{"along the face", at_corner({-1, 1, 0}), true, false},
+        Row{"at a corner", at_corner({0, 0, -1}), true, true},
+        Row{"an end", two_edges(end_to_middle, {0, -1, 0}), true, true},
+        Row{"edges on a line", two_edges(overlapping, {0, 0, 1}), false, false},
+        Row{"a face without an area", flat, false, false},
+        Row{"a point along an edge", along_edge, false, false},
+        Row{"grazing", grazing, true, false}}) {
+    const auto contacts = active_set(scene.step(), {});
+    ASSERT_EQ(contacts.size(), 1U) << name;
+    EXPECT_EQ(contacts[0].has_normal(), has_normal) << name;
+    EXPECT_EQ(contacts[0].has_side, has_side) << name;
+    EXPECT_NEAR(contacts[0].normal.norm(), 1.0, 1e-15) << name;
   }
 }
 
@@ -114,14 +188,31 @@ TEST(ActiveSet, ContactOfAPairThatIsNotNear) {
   EXPECT_EQ(contact_at(step, PairKind::vertex_face, {0, 0}, 1.0).normal, Vector3d(0, 0, -1));
 }
 
-/// Two vertices of a face part at t=0: just after that, the face has an area and a normal.
+/// In contact at the start, the side is that of the motion continued backwards, also with a
+/// separation; a contact that is only near has the side where it is.
+TEST(ActiveSet, TellsContactAtTheStartFromADistance) {
+  for (const double height : {0.0, 0x1p-1000, 0x1p-60, 0.125}) {
+    const auto contacts = active_set(point_and_face(-height, 1).step(), {.distance = 0.25});
+    ASSERT_EQ(contacts.size(), 1U);
+    EXPECT_TRUE(contacts[0].has_normal()) << height;
+    EXPECT_TRUE(contacts[0].has_side) << height;
+    EXPECT_TRUE(contacts[0].normal.isApprox(Vector3d(0, 0, -1))) << height;
+  }
+}
+
+/// Two vertices of a face part at t=0: just after that, the face has an area and a normal. A point
+/// is in it at all times.
 TEST(ActiveSet, HasTheNormalOfAFaceAtTheLeastTime) {
-  Scene scene = point_and_face(1, -2);
+  Scene scene = point_and_face(0, 0);
   scene.start.row(2) = scene.start.row(1);
   scene.end.row(2) << 3, 0, 4;
+  scene.start.row(0) << 0, 1, 0;
+  scene.end.row(0) << 0.75, 1, 1;
   for (const double t : {0x1p-1074, 0x1p-1000, 0x1p-20, 1.0}) {
-    const Vector3d normal = contact_at(scene.step(), PairKind::vertex_face, {0, 0}, t).normal;
-    EXPECT_TRUE(normal.cwiseAbs().isApprox(Vector3d(0.8, 0, 0.6))) << t;
+    const ActiveContact contact = contact_at(scene.step(), PairKind::vertex_face, {0, 0}, t);
+    EXPECT_TRUE(contact.normal.cwiseAbs().isApprox(Vector3d(0.8, 0, 0.6))) << t;
+    EXPECT_LT(contact.normal_error, 1e-14) << t;
+    EXPECT_FALSE(contact.has_side) << t;
   }
 }
 
@@ -149,9 +240,13 @@ TEST(ActiveSet, IsTheCollisionsAtThatSeparationInOrder) {
       ASSERT_EQ(contacts.size(), collisions.size());
       for (std::size_t i = 0; i < contacts.size(); ++i) {
         const ActiveContact& one = contacts[i];
-        EXPECT_EQ((StepCollision{one.kind, one.pair, one.toi_lower, one.toi_upper, one.u, one.v}),
-                  collisions[i]);
+        EXPECT_EQ(std::tie(one.kind, one.pair, one.toi_lower, one.toi_upper),
+                  std::tie(collisions[i].kind, collisions[i].pair, collisions[i].toi_lower,
+                           collisions[i].toi_upper));
         EXPECT_NEAR(one.normal.norm(), 1.0, 1e-14) << shape.name;
+        EXPECT_TRUE(one.first.allFinite() && one.second.allFinite()) << shape.name;
+        EXPECT_GE(one.point_error, 0.0) << shape.name;
+        EXPECT_GT(one.normal_error, 0.0) << shape.name;
       }
       found += contacts.size();
     }

@@ -185,6 +185,7 @@ void ask_step(Bits& bits, const Step& step) {
     for (const Eigen::Vector3d& x : {one.first, one.second, one.normal}) {
       put(bits, x[0], x[1], x[2]);
     }
+    put(bits, one.point_error, one.normal_error, std::size_t{one.has_side});
   }
 }
 

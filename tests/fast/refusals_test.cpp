@@ -102,6 +102,15 @@ std::vector<Refusal> refusals() {
        [](double x) {
          (void)contact_at(step(), PairKind::vertex_face, {3, 0}, x);
        }},
+      {"time_of_collision", no_time,
+       [](double x) {
+         (void)contact_of(step(), {.pair = {3, 0}, .toi_lower = 0.0, .toi_upper = x});
+       }},
+      {"time_before_collision",
+       {-1.0, 0.75, nan},
+       [](double x) {
+         (void)contact_of(step(), {.pair = {3, 0}, .toi_lower = x, .toi_upper = 0.5});
+       }},
       {"time_of_distance", no_time, [](double x) { (void)distance(posed.kind, posed.query, x); }},
       {"time_of_least_distance", no_time, [](double x) { (void)least_distance(step(), x); }},
       {"threads_of_distances", no_count,
@@ -209,6 +218,7 @@ TEST(Refusals, OfPairsOutOfRange) {
         EXPECT_THROW((void)asked.query_of(kind, bad), std::out_of_range);
         EXPECT_THROW((void)asked.vertices_of(kind, bad), std::out_of_range);
         EXPECT_THROW((void)contact_at(asked, kind, bad, 0.5), std::out_of_range);
+        EXPECT_THROW((void)contact_of(asked, {.kind = kind, .pair = bad}), std::out_of_range);
       }
     }
   }

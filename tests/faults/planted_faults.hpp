@@ -18,6 +18,7 @@
 #include "fast/certified/exact/exact_stage.hpp"
 #include "fast/certified/fixed_point_vertices.hpp"
 #include "fast/certified/kernel.hpp"
+#include "fast/distance/contact_enclosure.hpp"
 #include "fast/intersections/filter_kernel.hpp"
 #include "fast/method.hpp"
 #include "fast/tight_inclusion/box_kernel.hpp"
@@ -64,6 +65,9 @@ using ExactDistance = fast::Distance(Kind, const Query&, double, Norm);
 using FilteredDistance = std::optional<fast::Distance>(Kind, const Query&, double, Norm);
 using KeepsDistance = bool(Kind, const Query&, double t_max, const fast::KeptDistance&);
 using FindActive = std::vector<fast::ActiveContact>(const fast::Step&, const Separation&);
+using EncloseContact = fast::ContactEnclosure(Kind, const Query&, const fast::TimeEnclosure&,
+                                              const fast::exact_stage::Parameters&,
+                                              bool is_touching);
 using FindIntersections = std::vector<fast::Intersection>(fast::MovingVertices,
                                                           const fast::MeshElements&,
                                                           const fast::IntersectionOptions&);
@@ -88,6 +92,7 @@ struct PlantedFaults {
   Faults<ExactDistance> exact_distance;
   Faults<FilteredDistance> filtered_distance;
   Faults<KeepsDistance> kept_distance;
+  Faults<EncloseContact> contact_enclosure;
   Faults<FindActive> active_set;
   Faults<LimitStep> line_search;
   Faults<FindIntersections> intersections;

@@ -171,11 +171,41 @@ def test_distances_contacts_and_line_searches():
     contacts = step.active_set(0.5)
     assert len(contacts) > 0 and (np.diff(contacts["toi_lower"]) >= 0).all()
     assert np.allclose(np.linalg.norm(contacts["normal"], axis=1), 1)
+    assert (contacts["normal_error"] < 1e-9).all() and contacts["has_side"].all()
+    gap = contacts["points"][:, 0] - contacts["points"][:, 1]
+    assert np.allclose(gap, 0.5 * contacts["normal"], rtol=0, atol=2 * contacts["point_error"].max() + 1e-9)
     touching = step.moved(np.concatenate([triangle, triangle]), after)
     assert touching.line_search_limit(0.5).status == "in_contact"
     assert touching.free_step_size() is None
     alone = Step(triangle, triangle, faces=[[0, 1, 2]])
     assert alone.earliest() is None and alone.least_distance() is None and alone.free_step_size() == 1.0
+
+
+def test_contacts_of_collisions():
+    triangle = np.array([[0.0, 0, 0], [4, 0, 0], [0, 4, 0]])
+    step = Step(
+        np.concatenate([triangle, triangle / 4 + [0.5, 0.5, 2]]),
+        np.concatenate([triangle, triangle / 4 + [0.5, 0.5, -2]]),
+        faces=[[0, 1, 2], [3, 4, 5]],
+    )
+    contacts = step.contacts()
+    collisions = step.collisions()
+    assert contacts["pair"].tolist() == collisions["pair"].tolist() and len(contacts) == 3
+    assert contacts["points"].shape == (3, 2, 3) and contacts["normal"].tolist() == [[0, 0, 1]] * 3
+    exact = [[0.5 + x, 0.5 + y, 0] for x, y in [(0, 0), (1, 0), (0, 1)]]
+    distance = np.linalg.norm(contacts["points"] - np.array(exact)[:, None], axis=2)
+    assert (distance <= contacts["point_error"][:, None]).all() and contacts["point_error"].max() < 1e-9
+    some = step.contacts(step.earliest().pairs[::2])
+    assert some["pair"].tolist() == step.earliest().pairs["pair"][::2].tolist()
+    assert len(step.contacts(collisions[:0])) == 0
+    for wrong, error in [(contacts, ValueError), (np.zeros(3), ValueError), ([1], ValueError)]:
+        with pytest.raises(error, match="collisions"):
+            step.contacts(wrong)
+    for field, value, error in [("pair", 9, IndexError), ("kind", 7, ValueError), ("toi_lower", 2.0, ValueError)]:
+        wrong = collisions.copy()
+        wrong[field] = value
+        with pytest.raises(error):
+            step.contacts(wrong)
 
 
 @pytest.mark.parametrize(

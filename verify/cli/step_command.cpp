@@ -73,6 +73,7 @@ class StepRun {
     options_.step.separation = arguments.separation.given();
     options_.step.groups = groups_.get();
     options_.step.stop = &io::interrupted();
+    options_.find_contacts = json_ || csv_;
     report_ = {.separation = options_.step.separation,
                .question = options_.question,
                .alpha = options_.alpha,

@@ -91,6 +91,10 @@ StepCheck check_step(std::optional<fast::Step>& step, const mesh::Mesh& mesh,
     }
   });
   check.narrow_phase = work_time_of([&] { answer(part ? *part : *step, options.question, check); });
+  if (options.find_contacts && check.earliest) {
+    check.contacts = fast::contacts_of(
+        part ? *part : *step, check.collisions ? *check.collisions : check.earliest->pairs);
+  }
   if (options.proof.on_text) {
     check.proof = prove_step(
         part ? *part : *step,

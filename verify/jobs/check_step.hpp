@@ -14,6 +14,7 @@
 #include <optional>
 #include <vector>
 
+#include "touchstone/contacts.hpp"
 #include "touchstone/step.hpp"
 #include "verify/jobs/prove_step.hpp"
 #include "verify/jobs/work_time.hpp"
@@ -36,6 +37,8 @@ struct StepCheckOptions {
   std::optional<double> alpha = std::nullopt;
   /// Count the candidates also if the question is not `all`: this takes longer than the answer.
   bool count_candidates = false;
+  /// Find the places and normals of the collisions.
+  bool find_contacts = false;
   /// Its on_text, if set, receives a certificate of the step.
   StepProofOptions proof = {};
 };
@@ -55,6 +58,9 @@ struct StepCheck {
   std::optional<fast::StepImpact> earliest;
   /// The pairs that collide, if the question was `all`; by kinds, then by numbers.
   std::optional<std::vector<fast::StepCollision>> collisions;
+  /// The contacts of `collisions`, or of the pairs of `earliest` if the question was that, if they
+  /// were asked for; in their order, which is by kinds, then by numbers.
+  std::vector<fast::ActiveContact> contacts = {};
   /// With alpha: a maximal step size that is free (fast::Step::free_step_size); empty if there is
   /// contact at the start.
   std::optional<double> free_alpha;

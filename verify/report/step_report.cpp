@@ -218,14 +218,31 @@ nlohmann::json json_of(const jobs::PairCounts& counts) {
   return json;
 }
 
-nlohmann::json json_of(const fast::StepCollision& pair) {
-  return {{"kind", fast::to_string(pair.kind)},
-          {"first", pair.pair[0]},
-          {"second", pair.pair[1]},
-          {"toi_lower", pair.toi_lower},
-          {"toi_upper", pair.toi_upper},
-          {"u", pair.u},
-          {"v", pair.v}};
+nlohmann::json json_of(const Eigen::Vector3d& x) { return {x[0], x[1], x[2]}; }
+
+nlohmann::json json_of(const fast::ActiveContact& contact) {
+  return {{"kind", fast::to_string(contact.kind)},
+          {"first", contact.pair[0]},
+          {"second", contact.pair[1]},
+          {"toi_lower", contact.toi_lower},
+          {"toi_upper", contact.toi_upper},
+          {"u", contact.u},
+          {"v", contact.v},
+          {"points", {json_of(contact.first), json_of(contact.second)}},
+          {"normal", json_of(contact.normal)},
+          {"point_error", io::number_to_json(contact.point_error)},
+          {"normal_error", io::number_to_json(contact.normal_error)},
+          {"has_side", contact.has_side}};
+}
+
+/// The contacts of the pairs of the earliest impact, in their order.
+nlohmann::json earliest_contacts(const StepRecord& step) {
+  nlohmann::json contacts = nlohmann::json::array();
+  if (!step.earliest) return contacts;
+  for (const fast::ActiveContact& contact : step.contacts) {
+    if (contact.toi_lower <= step.earliest->toi_upper) contacts.push_back(json_of(contact));
+  }
+  return contacts;
 }
 
 nlohmann::json seconds_of(const StepRecord& step, double jobs::WorkTime::*time) {
@@ -254,10 +271,6 @@ nlohmann::json json_of(const StepReport& report, std::size_t i) {
     return step.earliest ? nlohmann::json((*step.earliest).*bound) : nlohmann::json();
   };
   const auto intersecting = intersecting_in(report, i);
-  nlohmann::json earliest = nlohmann::json::array();
-  if (step.earliest) {
-    for (const fast::StepCollision& pair : step.earliest->pairs) earliest.push_back(json_of(pair));
-  }
   nlohmann::json json{
       {"frames",
        {io::printable(report.frames.at(i).name), io::printable(report.frames.at(i + 1).name)}},
@@ -266,7 +279,7 @@ nlohmann::json json_of(const StepReport& report, std::size_t i) {
        step.collisions ? json_of(jobs::counts_of(*step.collisions)) : nlohmann::json()},
       {"toi_lower", toi(&fast::StepImpact::toi_lower)},
       {"toi_upper", toi(&fast::StepImpact::toi_upper)},
-      {"earliest", std::move(earliest)},
+      {"earliest", earliest_contacts(step)},
       {"free", step.is_free},
       {"intersecting", intersecting ? nlohmann::json(*intersecting) : nlohmann::json()},
       {"seconds", seconds_of(step, &jobs::WorkTime::wall)},
@@ -320,18 +333,31 @@ nlohmann::json to_json(const StepReport& report) {
 }
 
 std::string step_csv_header() {
-  return io::csv_row(
-      {"step", "frame0", "frame1", "kind", "first", "second", "toi_lower", "toi_upper", "u", "v"});
+  return io::csv_row({"step",         "frame0",    "frame1",    "kind",     "first",
+                      "second",       "toi_lower", "toi_upper", "u",        "v",
+                      "first_x",      "first_y",   "first_z",   "second_x", "second_y",
+                      "second_z",     "normal_x",  "normal_y",  "normal_z", "point_error",
+                      "normal_error", "has_side"});
 }
 
 std::string step_csv_rows(const StepReport& report, std::size_t i) {
   std::string rows;
-  for (const fast::StepCollision& pair : known_collisions(report.steps.at(i))) {
-    rows += io::csv_row({std::to_string(i), report.frames.at(i).name, report.frames.at(i + 1).name,
-                         std::string(fast::to_string(pair.kind)), std::to_string(pair.pair[0]),
-                         std::to_string(pair.pair[1]), io::csv_number(pair.toi_lower),
-                         io::csv_number(pair.toi_upper), io::csv_number(pair.u),
-                         io::csv_number(pair.v)});
+  for (const fast::ActiveContact& contact : report.steps.at(i).contacts) {
+    std::vector<std::string> row{std::to_string(i),
+                                 report.frames.at(i).name,
+                                 report.frames.at(i + 1).name,
+                                 std::string(fast::to_string(contact.kind)),
+                                 std::to_string(contact.pair[0]),
+                                 std::to_string(contact.pair[1])};
+    const auto add = [&row](double number) { row.push_back(io::csv_number(number)); };
+    for (const double x : {contact.toi_lower, contact.toi_upper, contact.u, contact.v}) add(x);
+    for (const Eigen::Vector3d& x : {contact.first, contact.second, contact.normal}) {
+      for (const double component : x) add(component);
+    }
+    add(contact.point_error);
+    add(contact.normal_error);
+    row.emplace_back(contact.has_side ? "1" : "0");
+    rows += io::csv_row(row);
   }
   return rows;
 }

@@ -65,13 +65,18 @@ struct StepReport {
 /// `processor_seconds`
 /// (`broad_phase`, `narrow_phase`, `total`).
 ///
-/// A pair has `kind`, `first`, `second` (numbers from 0), `toi_lower`, `toi_upper`, `u` and `v`.
+/// A pair of `earliest`, if contacts were asked for, has `kind`, `first`, `second` (numbers from
+/// 0), `toi_lower`, `toi_upper`, `u`, `v`, `points` (on the first primitive and on the second),
+/// `normal`, `point_error`, `normal_error` ("Infinity" where there is no normal, or no bound) and
+/// `has_side`, as fast::ActiveContact.
 [[nodiscard]] nlohmann::json to_json(const StepReport& report);
 
-/// step,frame0,frame1,kind,first,second,toi_lower,toi_upper,u,v
+/// step,frame0,frame1,kind,first,second,toi_lower,toi_upper,u,v,first_x,first_y,first_z,second_x,
+/// second_y,second_z,normal_x,normal_y,normal_z,point_error,normal_error,has_side
 [[nodiscard]] std::string step_csv_header();
 
-/// A row for each pair of step `i` that touches: all that were asked for.
+/// A row for each contact of step `i`. `normal_error` is inf where there is no normal, or no bound;
+/// `has_side` is 0 or 1.
 [[nodiscard]] std::string step_csv_rows(const StepReport& report, std::size_t i);
 
 }  // namespace touchstone::verify::report

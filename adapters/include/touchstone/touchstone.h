@@ -214,15 +214,27 @@ TOUCHSTONE_API int32_t touchstone_step_least_distance(TouchstoneStep* step, doub
                                                       TouchstoneDistance* distance,
                                                       const TouchstonePair** pairs, size_t* count);
 
-// ---- Active sets --------------------------------------------------------------------------------
+// ---- Contacts -----------------------------------------------------------------------------------
 
-/// Two primitives that come within a distance η, with the place of contact.
+/// Two primitives that touch, or come within a distance, with the place of contact at the time of
+/// impact. The head of touchstone/contacts.hpp says what is exact, and the rule for contact that is
+/// degenerate.
 typedef struct TouchstoneActiveContact {
-  TouchstoneCollision collision;
-  double first[3];   ///< the contact point on the first primitive, at toi_upper
-  double second[3];  ///< and on the second
-  double normal[3];  ///< a unit vector, from the second primitive to the first
+  TouchstoneCollision collision;  ///< u and v are those of the points
+  double first[3];                ///< the contact point on the first primitive
+  double second[3];               ///< and on the second
+  double normal[3];               ///< a unit vector, from the second primitive to the first
+  double point_error;   ///< the greatest distance of both points from the exact ones, in L2
+  double normal_error;  ///< of the normal from the exact one; infinity: there is none, or no bound
+  int32_t has_side;     ///< 1: it points to the side that the first primitive comes from; 0: that
+                        ///< side is not proved, and the opposite vector may be the normal
 } TouchstoneActiveContact;
+
+/// The contacts of `count` collisions of this step, as from touchstone_step_collisions.
+/// \param contacts `count` of them, for the results
+TOUCHSTONE_API int32_t touchstone_step_contacts(const TouchstoneStep* step,
+                                                const TouchstoneCollision* collisions, size_t count,
+                                                TouchstoneActiveContact* contacts);
 
 /// Every pair that comes within `eta`, and the radii, up to the step's t_max, exactly these, in the
 /// order of their times. The separation of the step has no effect.

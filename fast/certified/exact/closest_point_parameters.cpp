@@ -4,8 +4,10 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <span>
 
@@ -160,6 +162,16 @@ std::array<AffineVectors, 2> scaled_vectors(Kind kind, const Query& query) {
     return {vector(vectors[0]), vector(vectors[1]), vector(vectors[2])};
   };
   return {at(0), at(1)};
+}
+
+Parameters inside_domain(Kind kind, Parameters x) {
+  constexpr double least = 0x1p-200;  // smaller values count as 0: no sum is subnormal
+  for (double* const one : {&x.u, &x.v}) *one = *one >= least ? std::min(*one, 1.0) : 0.0;
+  if (kind == Kind::edge_edge) return x;
+  double rest = 1.0 - x.u;  // exact, or rounded within [1/2, 1]; there 1 − rest is exact
+  if (1.0 - rest < x.u) rest = std::bit_cast<double>(std::bit_cast<std::uint64_t>(rest) - 1);
+  x.v = std::min(x.v, rest);
+  return x;
 }
 
 Parameters nearest_parameters(Kind kind, const Query& query, double t, Norm norm) {

@@ -34,6 +34,10 @@ struct AffineVectors {
 /// accuracy.
 [[nodiscard]] std::array<AffineVectors, 2> scaled_vectors(Kind kind, const Query& query);
 
+/// An approximation of the point of F's domain that is nearest to these parameters, exactly inside
+/// it.
+[[nodiscard]] Parameters inside_domain(Kind kind, Parameters x);
+
 /// The (u,v), up to rounding, at which ‖F(t,u,v)‖ is least; one of them if there are several.
 /// \pre all coordinates are finite; 0 ≤ t ≤ 1.
 [[nodiscard]] Parameters nearest_parameters(Kind kind, const Query& query, double t, Norm norm);

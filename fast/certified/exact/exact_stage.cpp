@@ -161,21 +161,9 @@ std::uint64_t step_of(double tolerance) {
                   std::uint64_t{1});
 }
 
-/// An approximation of the nearest point of the domain, exactly inside it.
-void move_into_domain(Kind kind, double& u, double& v) {
-  constexpr double least = 0x1p-200;  // smaller values count as 0: no sum is subnormal
-  u = u >= least ? std::min(u, 1.0) : 0.0;
-  v = v >= least ? std::min(v, 1.0) : 0.0;
-  if (kind == Kind::edge_edge) return;
-  double rest = 1.0 - u;  // exact, or rounded within [1/2, 1]; there 1 − rest is exact
-  if (1.0 - rest < u) rest = std::bit_cast<double>(std::bit_cast<std::uint64_t>(rest) - 1);
-  v = std::min(v, rest);
-}
-
 ExactImpact approach_at(Kind kind, const BitInterval& time, const Parameters& nearest) {
-  ExactImpact result = impact_at(time, nearest.u, nearest.v);
-  move_into_domain(kind, result.u, result.v);
-  return result;
+  const auto [u, v] = inside_domain(kind, nearest);
+  return impact_at(time, u, v);
 }
 
 }  // namespace
@@ -183,7 +171,11 @@ ExactImpact approach_at(Kind kind, const BitInterval& time, const Parameters& ne
 std::optional<ExactImpact> decide_exactly(Kind kind, const Query& query, double toi_tolerance,
                                           double t_max) {
   auto impact = first_impact_of(kind, query, unit_bits(t_max), step_of(toi_tolerance));
-  if (impact) move_into_domain(kind, impact->u, impact->v);
+  if (impact) {
+    const auto [u, v] = inside_domain(kind, {impact->u, impact->v});
+    impact->u = u;
+    impact->v = v;
+  }
   return impact;
 }
 

@@ -2,8 +2,8 @@
 
 /// \file
 /// Distances and contacts, for line searches and constrained solvers: the distance of two
-/// primitives, the least distance of a step, its active set, and the limit of a line search. All
-/// functions are thread-safe.
+/// primitives, the least distance of a step, its contacts and active set, and the limit of a line
+/// search. All functions are thread-safe.
 ///
 /// \code{.cpp}
 /// // A sheet falls towards the ground: what is active, and how far a line search may go.
@@ -49,27 +49,42 @@
 /// (fast/distance/filter_on_lanes.hpp). For the least distance of a step, a test on lanes first
 /// excludes pairs that are farther apart than the nearest known pair (fast/step/sieve.hpp).
 ///
-/// **The active set** of a step is the set of pairs that a constrained solver must keep apart, with
-/// time, place and direction of each contact ([wang2021], algorithm 3). A constraint of such a
-/// solver is n·(x − y) ≥ η at the end of the step, where x and y are points of the two primitives
-/// and n is the contact normal. It is active if the primitives come within η at some time of the
-/// step. These pairs and their times are decided exactly (touchstone/step.hpp). Points and normals
-/// are computed in doubles without a bound.
+/// **Contacts.** A collision says which primitives meet and when; its contact says where, and from
+/// which side. Let τ be its exact time of impact, and x* and y* points of the two primitives that
+/// are nearest to each other at τ in L2, whichever the norm of the separation: if they touch, a
+/// common point. The points `first` and `second` are those at the parameters u and v, and each is
+/// within `point_error` of such a pair.
 ///
-/// *The normal* is a unit vector that points from the second primitive to the first. Let F be the
-/// difference x − y of the contact points, at the upper end of the time of impact, and F' its rate.
-/// - It is parallel to the face's normal, or to the cross product of the edges. Of the two
-///   directions it is the one with n·F > 0; if the points coincide, the one with n·F' < 0, from
-///   which the first primitive comes; otherwise the direction of the product itself.
-/// - *Degenerate pairs* have no such product: parallel edges, a face without an area, a vertex and
-///   an edge, two vertices. Their normal is the direction of F; if the points coincide, the
-///   direction of −F' without its component along the edge; otherwise any direction perpendicular
-///   to the edge.
+/// *The normal* is a unit vector that points from the second primitive to the first:
+/// - *apart*, as with a separation: the direction of x* − y*. The plane through either point
+///   perpendicular to it has all of that primitive on its far side.
+/// - *touching*: the face's normal, or the cross product of the edges, at τ, even if the common
+///   point is on the boundary of the face or an end of an edge. Of the two directions it is the one
+///   from which the first primitive comes: n·(x − y) > 0 just before τ. If τ is 0, the motion is
+///   continued backwards. `has_side` is false if this side is not proved: both are at rest, slide
+///   along each other, or only graze. Then either direction may be right.
+/// - *touching a segment or a point*, which is codimensional or an edge without length: against the
+///   relative motion, without its component along the segment. That is the direction of the nearest
+///   points just before τ.
 ///
-/// Edges are treated as parallel, and a face as one without an area, if the sine of the angle is
-/// below 2^-20: about half of a normal's digits are right then. Points are treated as coincident if
-/// F is below 2^-40 of the size of the pair, or below the motion of the pair within the enclosure
-/// of the time of impact.
+/// `normal_error` bounds the distance of the vector from this exact one (the nearer of the two, if
+/// the side is not proved). It is infinity where no bound below 1/2 is found, and in *degenerate
+/// contact*, which has no such vector: touching edges that are parallel, or a touching face without
+/// an area. `normal` is then only a unit vector to go on with: of primitives apart, the computed
+/// direction of the points; else the vector of the third rule with the longer edge, or one
+/// perpendicular to that.
+///
+/// The bounds follow from the enclosure of τ by arithmetic with error bounds
+/// (fast/distance/contact_enclosure.hpp; docs/theory.md, section 8.9). In well-conditioned contact
+/// they are near the width of that enclosure, times the motion. Parallel edges that touch have a
+/// whole segment in common. Nearly parallel ones do not, and no error of a point is greater than
+/// its edge.
+///
+/// **The active set** of a step are the pairs that a constrained solver has to keep apart, with
+/// their contacts ([wang2021], algorithm 3). A constraint of such a solver is n·(x − y) ≥ η at the
+/// end of the step, where x and y are the points of contact and n is the normal. It is active if
+/// the primitives come within η at some time of the step. These pairs and their times are decided
+/// exactly (touchstone/step.hpp).
 ///
 /// **The limit of a line search** is the step size up to which all primitives stay at least p times
 /// as far apart as at the start ([wang2021], algorithm 4, without its corrections).
@@ -166,29 +181,52 @@ struct LeastDistance {
 [[nodiscard]] std::optional<LeastDistance> least_distance(const Step& step, double t = 0.0,
                                                           Norm norm = Norm::l2);
 
-// ---- Active sets --------------------------------------------------------------------------------
+// ---- Contacts -----------------------------------------------------------------------------------
 
-/// Two primitives that come within η, with the place of contact.
+/// Two primitives that touch, or come within a distance, with the place of contact. u and v are the
+/// parameters of its points.
 struct ActiveContact : StepCollision {
-  /// The contact points at toi_upper: on the first primitive and on the second.
+  /// The points at the time of impact: on the first primitive and on the second.
   Eigen::Vector3d first = Eigen::Vector3d::Zero();
   Eigen::Vector3d second = Eigen::Vector3d::Zero();
   Eigen::Vector3d normal = Eigen::Vector3d::UnitX();
+  /// The greatest distance, in L2, of each of these points from the exact one. Finite, unless the
+  /// coordinates are near the greatest double.
+  double point_error = std::numeric_limits<double>::infinity();
+  /// The greatest distance of the normal from the exact one: at most 1/2, or infinity.
+  double normal_error = std::numeric_limits<double>::infinity();
+  /// True if the normal points to the proved side. False if there is no normal.
+  bool has_side = false;
+
+  /// True if the contact has a normal, which is known but for normal_error.
+  [[nodiscard]] bool has_normal() const {
+    return normal_error < std::numeric_limits<double>::infinity();
+  }
 };
 
-/// Every pair of the step that comes within η, the distance of `separation`, up to the step's
-/// t_max, exactly these, in the order of toi_lower, toi_upper, kind and pair. The separation of the
-/// step itself has no effect.
+/// The contact of a collision of this step, as from its `earliest` or `collisions`.
+/// \throws std::out_of_range for numbers out of range; std::invalid_argument unless the times are
+/// in [0,1], in order.
+[[nodiscard]] ActiveContact contact_of(const Step& step, const StepCollision& collision);
+
+/// The contacts of several, in their order, in the step's number of threads.
+/// \throws as above.
+[[nodiscard]] std::vector<ActiveContact> contacts_of(const Step& step,
+                                                     std::span<const StepCollision> collisions);
+
+/// The contact of a pair at a given time, at any distance: for pairs and times that another solver
+/// has found. Its toi_lower and toi_upper are t.
+/// \throws std::invalid_argument unless 0 ≤ t ≤ 1; std::out_of_range for numbers out of range.
+[[nodiscard]] ActiveContact contact_at(const Step& step, PairKind kind, const IndexPair& pair,
+                                       double t);
+
+/// The contacts of every pair of the step that comes within η, the distance of `separation`, up to
+/// the step's t_max, exactly these, in the order of toi_lower, toi_upper, kind and pair. The
+/// separation of the step itself has no effect.
 /// \param separation Its distance η is finite and not negative, in units of the coordinates; 0: the
 /// pairs that collide.
 /// \throws std::invalid_argument for another η.
 [[nodiscard]] std::vector<ActiveContact> active_set(const Step& step, const Separation& separation);
-
-/// The contact of a pair at a given time, at any distance: for pairs and times that another solver
-/// has found. Its toi_lower and toi_upper are t; u and v are the parameters of the nearest points.
-/// \throws std::invalid_argument unless 0 ≤ t ≤ 1; std::out_of_range for numbers out of range.
-[[nodiscard]] ActiveContact contact_at(const Step& step, PairKind kind, const IndexPair& pair,
-                                       double t, Norm norm = Norm::l2);
 
 // ---- Line searches ------------------------------------------------------------------------------
 
