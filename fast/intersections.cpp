@@ -71,7 +71,7 @@ class Elements {
     if (!given.points.empty()) {
       if (given.edges.empty()) all.edges = edges_of_faces = edges_of(given.faces);
       const std::size_t count = at.vertices().size();
-      points_ = codimensional(count, vertices_of(count, all), all).points;
+      points_ = codimensional(count, vertices_of(count, {.points = given.points}), all).points;
     }
     require_few(faces_ + edges_.size() + points_.size());
     vertices_.reserve(faces_ + edges_.size() + points_.size());

@@ -57,7 +57,8 @@ namespace touchstone::checker {
 struct Options {
   /// Number of rejections that are kept with their reason; all are counted.
   std::size_t max_rejections = 100;
-  /// The scenes that certificates of steps have to be about, in order, without labels; null: any.
+  /// The scenes that certificates of steps or of meshes have to be about, in order, without labels;
+  /// null: any.
   std::istream* scenes = nullptr;
   /// The claim that every certificate has to make, in the form of `demanded_claim`; empty: any.
   std::string claim = {};
@@ -69,12 +70,12 @@ struct Options {
   /// What the polynomials of a step may have besides, for each byte of the certificate that was
   /// read up to their line.
   std::int64_t max_step_work_bits_per_byte = std::int64_t{1} << 14U;
-  /// How often boxes may be compared in the search for the pairs of a step, for each byte of the
+  /// How often boxes may be compared in the search for the pairs of a scene, for each byte of the
   /// certificate.
   std::int64_t max_comparisons_per_byte = 256;
-  /// The items of all lists of a step's scene, in sum.
+  /// The items of all lists of a scene, in sum.
   std::size_t max_items = std::size_t{1} << 22U;
-  /// The arguments of a step.
+  /// The arguments of a step or a mesh.
   std::size_t max_arguments = std::size_t{1} << 24U;
 };
 
@@ -96,6 +97,8 @@ struct Report {
   std::uint64_t time_of_impact = 0;
   /// What accepted certificates of steps prove, in some lines each.
   std::vector<std::string> steps;
+  /// The same of meshes at rest.
+  std::vector<std::string> meshes;
   /// Certificates that prove nothing, be it by their form or by their content; and one for a stream
   /// that does not begin with its header, or one for a stream that does not end with the closing
   /// line.
@@ -104,13 +107,14 @@ struct Report {
   std::vector<Rejection> rejections;
 
   [[nodiscard]] std::uint64_t accepted() const {
-    return no_collision + collision + time_of_impact + steps.size();
+    return no_collision + collision + time_of_impact + steps.size() + meshes.size();
   }
   [[nodiscard]] bool all_accepted() const { return rejected == 0; }
 };
 
 /// The claim in the words of a certificate, its numbers in one form. `time_of_impact` and
-/// `earliest` without numbers stand for all times; `free` is `no_contact 1`.
+/// `earliest` without numbers stand for all times, `intersections` and `welded_intersections` for
+/// all counts; `free` is `no_contact 1` of a step and `intersections 0` of a mesh.
 /// \throws Rejection if it is no claim.
 [[nodiscard]] std::string demanded_claim(std::string_view words);
 

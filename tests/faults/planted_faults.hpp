@@ -90,7 +90,7 @@ struct PlantedFaults {
   Faults<FindActive> active_set;
   Faults<LimitStep> line_search;
   Faults<FindIntersections> intersections;
-  Faults<Check> checker;
+  Faults<Check> checker, mesh_checker;
   Faults<const fast::BoxKernel> box_kernel;
   Faults<MakeTightInclusion> tight_inclusion;
   Faults<const fast::CertifiedKernel> certified_kernel, single_precision, time_limit, curved_kernel;

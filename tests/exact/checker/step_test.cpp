@@ -406,7 +406,7 @@ TEST(Step, IsNoStreamOfQueriesWhereScenesAreNamed) {
       check_text("touchstone-certificates 2\ncertificates 0\n", {.scenes = &scenes});
   EXPECT_EQ(report.rejected, 1U);
   EXPECT_EQ(report.rejections.at(0).reason,
-            "the first line is not 'touchstone-steps 1', as for scenes");
+            "the first line is not 'touchstone-steps 1' or 'touchstone-meshes 1', as for scenes");
 }
 
 }  // namespace
