@@ -215,12 +215,13 @@ std::vector<Integer> weights_of(const RationalPoint& x, const RationalTriangle& 
           normal, cross(difference(corners[(i + 1) % 3], x), difference(corners[(i + 2) % 3], x)));
     }
   } else {
-    // The number of the first is taken of corners at one place.
-    const auto [least, greatest] = std::ranges::minmax_element(corners);
-    const RationalPoint along = difference(*greatest, *least);
+    // Of corners at one place the first, because an edge repeats one and a point is repeated twice.
     const auto at = [&](auto corner) { return static_cast<std::size_t>(corner - corners.begin()); };
-    weights[at(least)] = is_zero(along) ? Rational(1) : dot(along, difference(*greatest, x));
-    if (!is_zero(along)) weights[at(greatest)] = dot(along, difference(x, *least));
+    const std::size_t least = at(std::ranges::min_element(corners)),
+                      greatest = at(std::ranges::max_element(corners));
+    const RationalPoint along = difference(corners[greatest], corners[least]);
+    weights[greatest] = dot(along, difference(x, corners[least]));
+    weights[least] = is_zero(along) ? Rational(1) : dot(along, difference(corners[greatest], x));
   }
   const Triple<Integer> integers = primitive_integers(weights);
   return {integers.begin(), integers.end()};

@@ -45,7 +45,8 @@ Proved prove(const mesh::Mesh& mesh, const fast::IntersectionOptions& search = {
              StepProofOptions options = {}) {
   const auto found = fast::intersections(
       mesh.vertices, {.edges = mesh.edges, .faces = mesh.faces, .points = mesh.points}, search);
-  Proved result{.proof = {}, .intersections = found.size(), .text{mesh_certificates_header}};
+  Proved result{
+      .proof = {}, .intersections = found.size(), .text = std::string(mesh_certificates_header)};
   options.on_text = [&](std::string_view text) { result.text += text; };
   result.proof = prove_mesh(mesh, search, found, options);
   result.text += mesh_certificates_closing_line;
@@ -175,9 +176,9 @@ TEST(ProveMesh, OfKnownMeshesIsAccepted) {
 
 // Any line left out, of the arguments or of the intersections; the claim follows.
 TEST(ProveMesh, WithoutALineIsRefused) {
-  const auto [proof, found, text] = prove(spheres({0.0, 1.3}, 4));
+  const auto [proof, found, text] = prove(spheres({0.0, 1.3}, 3));
   ASSERT_GT(found, 4U);
-  ASSERT_GT(proof.arguments, 100U);
+  ASSERT_GT(proof.arguments, 50U);
   std::vector<std::string> lines = tests::split(text, "\n");
   const auto claim = std::ranges::find(lines, "claim intersections " + std::to_string(found));
   ASSERT_NE(claim, lines.end());
@@ -228,7 +229,7 @@ TEST(ProveMesh, OfRandomMeshesIsAccepted) {
     }
   }
   EXPECT_GT(pairs, 500U);
-  EXPECT_GT(intersections, 500U);
+  EXPECT_GT(intersections, 100U);
   EXPECT_GT(free, 30U);
 }
 
@@ -264,9 +265,9 @@ bool intersect(const checker::Scene& scene, const checker::Primitive& a,
   });
 }
 
-// Two faces of few vertices on a small grid, each with arguments of small numbers: one that the
-// checker accepts is never false.
-TEST(ProveMesh, NoArgumentContradictsRationalArithmetic) {
+// Two faces of few vertices on a small grid, most of them without an area or with common vertices:
+// the truth has a proof, and no argument of small numbers that the checker accepts is false.
+TEST(ProveMesh, OfTwoFacesIsTheTruthOfRationalArithmetic) {
   int separated = 0, on_lines = 0, common = 0;
   for (std::uint64_t seed = 0; seed < tests::trials(4'000U); ++seed) {
     Random random(seed);
@@ -281,6 +282,12 @@ TEST(ProveMesh, NoArgumentContradictsRationalArithmetic) {
     for (int i = 0; i < 2; ++i) scene.faces.push_back({vertex(), vertex(), vertex()});
     const checker::RestingMesh mesh(scene, false);
     const bool truth = intersect(scene, mesh[0], mesh[1]);
+    Coordinates coordinates;
+    for (const checker::Motion& one : scene.vertices) coordinates.push_back(one.start);
+    EXPECT_EQ(refusal(prove(mesh::make_mesh(coordinates, scene.faces, {})).text,
+                      demanding(truth ? 1 : 0)),
+              "")
+        << seed;
     const checker::RestingPair pair = mesh.pair(0, 1);
     const auto expect = [&](bool is_accepted, bool claim, int& count) {
       if (!is_accepted) return;
@@ -303,7 +310,7 @@ TEST(ProveMesh, NoArgumentContradictsRationalArithmetic) {
   }
   EXPECT_GT(separated, tests::trials(2'000));
   EXPECT_GT(on_lines, tests::trials(5));
-  EXPECT_GT(common, tests::trials(200));
+  EXPECT_GT(common, tests::trials(50));
 }
 
 // ---- Limits and interruption --------------------------------------------------------------------
