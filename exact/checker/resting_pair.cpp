@@ -108,7 +108,6 @@ bool RestingPair::is_separated_by(const Vector& d) const {
   if (common_.empty()) return std::ranges::min(of_a) > std::ranges::max(of_b);
   const mpz_class h = value(common_.front());
   const auto is_on_plane = [&](const Vector& c) { return value(c) == h; };
-  if (!std::ranges::all_of(common_, is_on_plane)) return false;
   if (std::ranges::min(of_a) < h || std::ranges::max(of_b) > h) return false;
   const auto is_beyond_or_common = [&](const Vector& x) {
     return !is_on_plane(x) || is_in_common_hull(x);

@@ -11,9 +11,9 @@
 ///
 /// **Theorem 1.** Let d be a vector.
 ///   - If C is empty and d·a > d·b for all a of A and b of B, the elements have no point in common.
-///   - Let d·c be the same number h for all c of C, d·a ≥ h for all a of A, d·b ≤ h for all b of B,
-///     and let the vertices a with d·a = h all be in the hull of C, or the vertices b with d·b = h.
-///     Then every point that the elements have in common is in the hull of C.
+///   - Let h = d·c for a vertex c of C, d·a ≥ h for all a of A, d·b ≤ h for all b of B (so d·c = h
+///     for all of C), and let the vertices a with d·a = h all be in the hull of C, or the vertices
+///     b with d·b = h. Then every point that the elements have in common is in the hull of C.
 ///
 /// Proof. The first is clear. A common point x is Σ α_a a with α_a ≥ 0 and Σ α_a = 1, so d·x ≥ h,
 /// and likewise d·x ≤ h. So d·x = h, and α_a > 0 only if d·a = h: x is in the hull of such a, and
