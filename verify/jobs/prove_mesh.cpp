@@ -280,19 +280,21 @@ class MeshProver {
       proof_.failure = fmt::format("the mesh has more than {} items", exact::step_item_limit);
       return proof_;
     }
-    write_scene();
     for (const fast::Intersection& one : found) intersecting_.push_back(pair_of(one));
     std::ranges::sort(intersecting_);
+    const std::vector<fast::IndexPair> apart = pairs_to_argue();
+    proof_.arguments = apart.size();
+    lines_ = intersecting_.size() + apart.size();
+    if (lines_ > exact::step_argument_limit) {
+      proof_.failure =
+          fmt::format("more than {} pairs need an argument", exact::step_argument_limit);
+      return proof_;
+    }
+    write_scene();
     put(fmt::format("claim {}intersections {}\n", is_welded_ ? "welded_" : "",
                     intersecting_.size()));
     write_lines(intersecting_, [&](const fast::IndexPair& pair) { return common_point(pair); });
     put("separations\n");
-    const std::vector<fast::IndexPair> apart = pairs_to_argue();
-    proof_.arguments = apart.size();
-    if (apart.size() + intersecting_.size() > exact::step_argument_limit) {
-      proof_.failure =
-          fmt::format("more than {} pairs need an argument", exact::step_argument_limit);
-    }
     write_lines(apart, [&](const fast::IndexPair& pair) { return argument(pair); });
     if (proof_.is_complete()) put("end\n");
     return std::move(proof_);
@@ -351,15 +353,16 @@ class MeshProver {
     return static_cast<std::int32_t>(place);
   }
 
+  /// Those that the checker asks for; more than the limit if there are more.
   [[nodiscard]] std::vector<fast::IndexPair> pairs_to_argue() const {
     std::vector<fast::IndexPair> pairs;
     std::int64_t comparisons = std::numeric_limits<std::int64_t>::max();
-    elements_.find_pairs(comparisons,
-                         [&](const checker::Primitive& a, const checker::Primitive& b) {
-                           const fast::IndexPair pair{a.number, b.number};
-                           if (!std::ranges::binary_search(intersecting_, pair))
-                             pairs.push_back(pair);
-                         });
+    const auto take = [&](const checker::Primitive& a, const checker::Primitive& b) {
+      const fast::IndexPair pair{a.number, b.number};
+      if (pairs.size() > exact::step_argument_limit) return;
+      if (!std::ranges::binary_search(intersecting_, pair)) pairs.push_back(pair);
+    };
+    elements_.find_pairs(comparisons, take);
     std::ranges::sort(pairs);
     return pairs;
   }
@@ -385,8 +388,9 @@ class MeshProver {
       }
       if (!proof_.is_complete()) return;
       put(fmt::format("{}", fmt::join(lines, "")));
+      lines_written_ += some.size();
       if (options_.on_progress) {
-        options_.on_progress(static_cast<double>(done) / static_cast<double>(pairs.size()));
+        options_.on_progress(static_cast<double>(lines_written_) / static_cast<double>(lines_));
       }
     }
   }
@@ -465,6 +469,8 @@ class MeshProver {
   /// The vertices of the elements that are points, in order.
   std::vector<std::int32_t> points_;
   std::vector<fast::IndexPair> intersecting_;  ///< in order
+  std::size_t lines_ = 0;                      ///< of all pairs
+  std::size_t lines_written_ = 0;
 };
 
 }  // namespace

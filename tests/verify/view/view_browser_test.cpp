@@ -475,7 +475,7 @@ TEST_F(ViewBrowser, PairsOfAStepLeadToTheirQueries) {
   for (const nlohmann::json& count : result.at("drawn")) EXPECT_GT(count, 200);
 }
 
-/// A square that a needle passes through and another square crosses; a click enlarges the pair.
+/// A triangle that a needle passes through and another triangle crosses; a click enlarges the pair.
 TEST_F(ViewBrowser, ShowsWhatIntersectsAtRest) {
   const std::vector<std::array<double, 3>> coordinates{{-1, 0, -1},   {1, 0, -1},  {0, 0, 1},
                                                        {0, -1, 0},    {0, 1, 0},   {0, 0, -2},
@@ -486,12 +486,14 @@ TEST_F(ViewBrowser, ShowsWhatIntersectsAtRest) {
       fast::intersections(mesh.vertices, {.edges = mesh.edges, .faces = mesh.faces});
   ASSERT_EQ(found.size(), 2U);
   const auto name = [](const fast::Intersection& one) {
-    return fmt::format("pair with {}", one.numbers[1]);
+    return fmt::format("pair with {} (6 7)", one.numbers[1]);
   };
   for (const int width : {1400, 390}) {
-    const nlohmann::json result = result_on(
-        view_page({}, "touchstone intersections", resting_facts("at rest", mesh, found, name)), R"(
-      const look = () => [text("#pairs .chosen span"), find("step_now").textContent, pixels("mesh")];
+    const nlohmann::json result =
+        result_on(view_page({}, "touchstone intersections",
+                            resting_facts("a/" + std::string(300, 'x'), mesh, found, name)),
+                  R"(
+      const look = () => [text("#pairs .chosen span"), text("#mesh .names span"), find("step_now").textContent, pixels("mesh")];
       const first = look();
       all("#pairs button")[1].click();
       const second = look();
@@ -500,15 +502,17 @@ TEST_F(ViewBrowser, ShowsWhatIntersectsAtRest) {
       say({ verdict: find("step_verdict").textContent, pairs: text("#pairs button"), first, second, all: pixels("mesh"), unseen,
         wide: document.documentElement.scrollWidth - window.innerWidth });
     )",
-        width);
+                  width);
     EXPECT_EQ(result.at("verdict"), "2 intersections.");
-    EXPECT_EQ(result.at("pairs"),
-              (nlohmann::json{"pair with 1 edge through face",
-                              fmt::format("pair with {} edge through face", found[1].numbers[1])}));
-    EXPECT_EQ(result.at("first").at(0), nlohmann::json::array({"pair with 1"}));
-    EXPECT_EQ(result.at("first").at(1), "edge through face: 0 0 -1 to 0 0 0");
-    EXPECT_EQ(result.at("second").at(1), "edge through face: 0.25 0 0");
-    for (const char* const moment : {"first", "second"}) EXPECT_GT(result.at(moment).at(2), 200);
+    EXPECT_EQ(
+        result.at("pairs"),
+        (nlohmann::json{"pair with 1 (6 7) edge through face",
+                        fmt::format("pair with {} (6 7) edge through face", found[1].numbers[1])}));
+    EXPECT_EQ(result.at("first").at(0), nlohmann::json::array({"pair with 1 (6 7)"}));
+    EXPECT_EQ(result.at("first").at(1), nlohmann::json::array({"pair with 1"}));
+    EXPECT_EQ(result.at("first").at(2), "edge through face: 0 0 -1 to 0 0 0");
+    EXPECT_EQ(result.at("second").at(2), "edge through face: 0.25 0 0");
+    for (const char* const moment : {"first", "second"}) EXPECT_GT(result.at(moment).at(3), 200);
     EXPECT_GT(result.at("all"), 200);
     EXPECT_EQ(result.at("unseen"), nlohmann::json::array());
     EXPECT_LE(result.at("wide"), 0);

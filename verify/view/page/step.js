@@ -239,7 +239,8 @@ export class StepPicture {
       object.renderOrder = i + 1;
     });
     const place = seen(this.contactPlace(n));
-    if (Math.hypot(...place) < 1.2) scene.name(place, name, "ink");
+    // Without the numbers of vertices, which are in the list.
+    if (Math.hypot(...place) < 1.2) scene.name(place, name.replace(/ \([\d ]*\)/g, ""), "ink");
   }
 
   // ---- The visible part -------------------------------------------------------------------------
