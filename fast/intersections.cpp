@@ -80,7 +80,7 @@ class Elements {
       if (!given.edges.empty()) edges_ = edges_without_face(given);
       if (!given.points.empty()) {
         const std::size_t count = at.vertices().size();
-        points_ = codimensional(count, vertices_of(count, all), all).points;
+        points_ = codimensional(count, vertices_of(count, {.points = given.points}), all).points;
       }
     }
     require_few(faces_ + edges_.size() + points_.size());

@@ -112,10 +112,11 @@ constexpr std::string_view headers_without_test = R"(
   verify/data/: query_source.hpp
   verify/fuzz/: finding.hpp
 // In a test of what they are parts of: oracle_test.cpp, distance_oracle_test.cpp,
-// separation_intervals_test.cpp, certificate_test.cpp, prove_step_test.cpp; error_bounds_test.cpp,
-// worst_case_test.cpp.
+// separation_intervals_test.cpp, certificate_test.cpp, prove_step_test.cpp; mesh_test.cpp,
+// step_test.cpp; error_bounds_test.cpp, worst_case_test.cpp.
   exact/algebra/: positivity.hpp
   exact/certificate/: step_certificate_text.hpp
+  exact/checker/: resting_mesh.hpp resting_pair.hpp scene.hpp
   exact/contact/: contact_conditions.hpp contact_oracle.hpp corner_motion.hpp triangle_intersection.hpp
   exact/distance/: separating_axes.hpp
   filters/: error_bound.hpp

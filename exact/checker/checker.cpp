@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "exact/checker/certificate.hpp"
+#include "exact/checker/mesh.hpp"
 #include "exact/checker/proof.hpp"
 #include "exact/checker/step.hpp"
 
@@ -17,6 +18,7 @@ namespace {
 
 constexpr std::string_view header = "touchstone-certificates 2";
 constexpr std::string_view steps_header = "touchstone-steps 2";
+constexpr std::string_view meshes_header = "touchstone-meshes 1";
 constexpr std::string_view closing_word = "certificates";
 
 std::vector<std::string_view> words_of(std::string_view text) {
@@ -37,9 +39,13 @@ class StreamCheck {
     attempt("", [&] {
       reader_.advance();
       if (reader_.text() == steps_header) {
-        check_steps();
+        check_scenes("step", "steps", check_step, report_.steps);
+      } else if (reader_.text() == meshes_header) {
+        check_scenes("mesh", "meshes", check_mesh, report_.meshes);
       } else if (options_.scenes != nullptr) {
-        reject("the first line is not '" + std::string(steps_header) + "', as for scenes", 1);
+        reject("the first line is not '" + std::string(steps_header) + "' or '" +
+                   std::string(meshes_header) + "', as for scenes",
+               1);
       } else if (reader_.text() == header) {
         check_certificates();
       } else {
@@ -101,18 +107,21 @@ class StreamCheck {
     if (claim == Claim::time_of_impact) ++report_.time_of_impact;
   }
 
-  /// Checks the certificates of steps up to the first that is rejected.
-  void check_steps() {
+  using CheckScene = std::string(Reader&, Reader*, const Options&);
+
+  /// Checks the certificates of steps or of meshes to the first that is rejected.
+  void check_scenes(std::string_view first_word, std::string_view last_word, CheckScene& check,
+                    std::vector<std::string>& proved) {
     std::optional<Reader> scenes;
     if (options_.scenes != nullptr) {
       scenes.emplace(*options_.scenes);
       scenes->advance();
     }
     reader_.advance();
-    while (reader_.first_word() == "step") {
-      report_.steps.push_back(check_step(reader_, scenes ? &*scenes : nullptr, options_));
+    while (reader_.first_word() == first_word) {
+      proved.push_back(check(reader_, scenes ? &*scenes : nullptr, options_));
     }
-    check_end("steps", report_.steps.size());
+    check_end(last_word, proved.size());
     if (scenes && !scenes->at_end()) reject("not all scenes are proved");
   }
 
@@ -139,15 +148,19 @@ class StreamCheck {
 }  // namespace
 
 std::string demanded_claim(std::string_view words) {
-  if (words == "free") return "no_contact 1";
+  if (words == "free") return "free";
   struct Form {
     std::string_view name;
     std::size_t numbers;
     bool may_be_without;
   };
-  static constexpr std::array forms{Form{"no_collision", 0, true}, Form{"collision", 0, true},
-                                    Form{"time_of_impact", 2, true}, Form{"no_contact", 1, false},
-                                    Form{"earliest", 2, true}};
+  static constexpr std::array forms{Form{"no_collision", 0, true},
+                                    Form{"collision", 0, true},
+                                    Form{"time_of_impact", 2, true},
+                                    Form{"no_contact", 1, false},
+                                    Form{"earliest", 2, true},
+                                    Form{"intersections", 1, true},
+                                    Form{"welded_intersections", 1, true}};
   const std::vector<std::string_view> parts = words_of(words);
   for (const auto& [name, numbers, may_be_without] : forms) {
     if (parts[0] != name) continue;
@@ -178,7 +191,8 @@ void require_demanded(const Options& options, const std::string& claim,
   const auto is_demanded = [](const std::string& demand, const std::string& text) {
     return demand.empty() || text == demand || text.starts_with(demand + ' ');
   };
-  if (!is_demanded(options.claim, claim)) {
+  const bool is_free = claim == "no_contact 1" || claim == "intersections 0";
+  if (options.claim == "free" ? !is_free : !is_demanded(options.claim, claim)) {
     reject("the claim is not the one demanded: " + claim, line);
   }
   if (!options.separation.empty() && options.separation != separation) {

@@ -56,7 +56,8 @@ namespace touchstone::checker {
 struct Options {
   /// Number of rejections that are kept with their reason; all are counted.
   std::size_t max_rejections = 100;
-  /// The scenes that certificates of steps must have, in order, without labels; null: any.
+  /// The scenes that certificates of steps or of meshes must have, in order, without labels; null:
+  /// any.
   std::istream* scenes = nullptr;
   /// The claim that every certificate must make, as `demanded_claim` writes it; empty: any.
   std::string claim = {};
@@ -66,11 +67,12 @@ struct Options {
   std::int64_t max_work_bits = std::int64_t{1} << 28U;
   /// The additional size for the polynomials of a step, for each byte of the certificate so far.
   std::int64_t max_step_work_bits_per_byte = std::int64_t{1} << 14U;
-  /// The number of comparisons of boxes in a step's search, for each byte of the certificate.
+  /// The number of comparisons of boxes in the search for the pairs of a scene, for each byte of
+  /// the certificate.
   std::int64_t max_comparisons_per_byte = 256;
-  /// The total number of items in the lists of a step's scene.
+  /// The total number of items in the lists of a scene.
   std::size_t max_items = std::size_t{1} << 22U;
-  /// The number of arguments of a step.
+  /// The number of arguments of a step or a mesh.
   std::size_t max_arguments = std::size_t{1} << 24U;
 };
 
@@ -92,6 +94,8 @@ struct Report {
   std::uint64_t time_of_impact = 0;
   /// The claims that accepted certificates of steps prove, some lines each.
   std::vector<std::string> steps;
+  /// The same of meshes at rest.
+  std::vector<std::string> meshes;
   /// The number of rejected certificates. A stream without its header, or without its closing line,
   /// counts as one.
   std::uint64_t rejected = 0;
@@ -99,13 +103,14 @@ struct Report {
   std::vector<Rejection> rejections;
 
   [[nodiscard]] std::uint64_t accepted() const {
-    return no_collision + collision + time_of_impact + steps.size();
+    return no_collision + collision + time_of_impact + steps.size() + meshes.size();
   }
   [[nodiscard]] bool all_accepted() const { return rejected == 0; }
 };
 
 /// The claim in the words of a certificate, its numbers in their only form. `time_of_impact` and
-/// `earliest` without numbers stand for all times; `free` is `no_contact 1`.
+/// `earliest` without numbers stand for all times, `intersections` and `welded_intersections` for
+/// all counts; `free` is `no_contact 1` of a step and `intersections 0` of a mesh.
 /// \throws Rejection if it is no claim.
 [[nodiscard]] std::string demanded_claim(std::string_view words);
 

@@ -20,11 +20,12 @@ constexpr std::string_view usage =
     "\n"
     "Checks the certificates in a file, or on standard input for '-': each is accepted only if it\n"
     "proves its claim. The format and what is proved: exact/CERTIFICATES.md.\n"
-    "SCENES: the certificates are of steps, and of these scenes.\n"
+    "SCENES: the certificates are of steps or of meshes, and of these scenes.\n"
     "\n"
     "--claim CLAIM     Reject whatever claims anything else: no_collision, collision,\n"
     "                  'time_of_impact [LO HI]'; of steps free, 'no_contact T', 'earliest [LO "
-    "HI]'\n"
+    "HI]';\n"
+    "                  of meshes free, 'intersections [N]', 'welded_intersections [N]'\n"
     "--separation D    Reject whatever is about another distance (0: contact itself)\n"
     "--norm NORM       The norm of --separation: linf (the default) or l2\n"
     "\n"
@@ -89,6 +90,7 @@ void print(const touchstone::checker::Report& report) {
             << "\n  time_of_impact " << report.time_of_impact << "\nrejected         "
             << report.rejected << '\n';
   for (const std::string& step : report.steps) std::cout << step;
+  for (const std::string& mesh : report.meshes) std::cout << mesh;
   for (const auto& [line, label, reason] : report.rejections) {
     const std::string name = label.empty() ? "" : " (" + label + ")";
     std::cout << "  line " << line << name << ": " << reason << '\n';

@@ -2,200 +2,16 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
-#include <limits>
 #include <map>
-#include <tuple>
 #include <vector>
 
 #include "exact/checker/places.hpp"
 #include "exact/checker/proof.hpp"
+#include "exact/checker/scene.hpp"
 
 namespace touchstone::checker {
 namespace {
-
-// ---- The scene ----------------------------------------------------------------------------------
-
-using Face = std::array<std::int32_t, 3>;
-/// The numbers of two vertices, two groups or two primitives.
-using Two = std::array<std::int32_t, 2>;
-
-/// Two groups and the thickness of their pairs.
-struct GroupSeparation {
-  Two groups{};
-  double distance = 0.0;
-
-  friend bool operator==(const GroupSeparation&, const GroupSeparation&) = default;
-};
-
-/// The scene as it is written.
-struct Scene {
-  std::vector<Motion> vertices;
-  std::vector<Face> faces;
-  std::vector<Two> edges;
-  std::vector<std::int32_t> points;
-  std::vector<std::int32_t> groups;
-  std::vector<Two> apart;
-  std::vector<double> radii;
-  std::vector<GroupSeparation> separations;
-
-  friend bool operator==(const Scene&, const Scene&) = default;
-};
-
-/// Takes a word that is a decimal integer from `least` to below `limit`, in its only form.
-std::int32_t take_integer(Reader& reader, std::int32_t least, std::size_t limit) {
-  const std::string_view word = reader.word();
-  std::int32_t x = 0;
-  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), x);
-  const bool is_integer = error == std::errc() && std::to_string(x) == word;
-  const bool is_in_range = x >= least && x < static_cast<std::int64_t>(limit);
-  if (!is_integer || !is_in_range) reject("not an integer, or out of range: " + quoted(word));
-  return x;
-}
-
-/// Takes any integer that is not below 0.
-std::int32_t take_count(Reader& reader) {
-  return take_integer(reader, 0, std::numeric_limits<std::int32_t>::max());
-}
-
-double to_double(const mpq_class& number) {
-  const bool is_in_range = abs(number) <= std::numeric_limits<double>::max();
-  if (!is_in_range || number != number.get_d()) reject("a number that is not a double");
-  return number.get_d();
-}
-
-/// Takes a double that is not below 0.
-double take_length(Reader& reader) {
-  const double length = to_double(take_number(reader));
-  if (length < 0.0) reject("a distance below 0");
-  return length;
-}
-
-/// Reads a line of a keyword and a number, and as many lines: take() makes an item of each.
-template <class Item, class Take>
-std::vector<Item> read_list(Reader& reader, std::string_view keyword, std::size_t& items_left,
-                            const Take& take) {
-  reader.begin(keyword);
-  const auto count = static_cast<std::size_t>(take_count(reader));
-  if (count > items_left) reject("the scene has too many items");
-  items_left -= count;
-  reader.end();
-  std::vector<Item> list;
-  for (std::size_t n = 0; n < count; ++n) {
-    reader.begin();
-    list.push_back(take());
-    reader.end();
-  }
-  return list;
-}
-
-Scene read_scene(Reader& reader, const Options& options) {
-  std::size_t items_left = options.max_items;
-  Scene scene;
-  scene.vertices = read_list<Motion>(reader, "vertices", items_left, [&] {
-    Motion motion;
-    for (double& x : motion.start) x = to_double(take_number(reader));
-    for (double& x : motion.end) x = to_double(take_number(reader));
-    return motion;
-  });
-  const std::size_t count = scene.vertices.size();
-  const auto vertex = [&] { return take_integer(reader, 0, count); };
-  const auto group = [&] { return take_count(reader); };
-  // The numbers in braces are taken from the left to the right.
-  const auto three_vertices = [&] { return Face{vertex(), vertex(), vertex()}; };
-  const auto two_vertices = [&] { return Two{vertex(), vertex()}; };
-  const auto two_groups = [&] { return Two{group(), group()}; };
-  scene.faces = read_list<Face>(reader, "faces", items_left, three_vertices);
-  scene.edges = read_list<Two>(reader, "edges", items_left, two_vertices);
-  scene.points = read_list<std::int32_t>(reader, "points", items_left, vertex);
-  scene.groups = read_list<std::int32_t>(reader, "groups", items_left, group);
-  if (!scene.groups.empty() && scene.groups.size() != count) reject("not a group for each vertex");
-  scene.apart = read_list<Two>(reader, "apart", items_left, two_groups);
-  scene.radii = read_list<double>(reader, "radii", items_left, [&] { return take_length(reader); });
-  const auto separation = [&] { return GroupSeparation{two_groups(), take_length(reader)}; };
-  scene.separations = read_list<GroupSeparation>(reader, "separations", items_left, separation);
-  return scene;
-}
-
-// ---- Its primitives -----------------------------------------------------------------------------
-
-/// The primitives that take part.
-struct Elements {
-  Primitives vertices;
-  Primitives edges;
-  Primitives faces;
-  /// The vertices without an edge.
-  Primitives points;
-  /// The edges of no face.
-  Primitives bare_edges;
-};
-
-/// The next number of a list.
-std::int32_t next_number(const Primitives& primitives) {
-  return static_cast<std::int32_t>(primitives.size());
-}
-
-/// An edge by its vertices. Edges are numbered in the order of these.
-struct Edge {
-  std::int32_t larger;
-  std::int32_t smaller;
-  /// True for an edge of no face.
-  bool is_bare;
-};
-
-/// All edges of the scene, each once, in the order of their numbers.
-std::vector<Edge> find_edges(const Scene& scene) {
-  std::vector<Edge> edges;
-  const auto add = [&](std::int32_t a, std::int32_t b, bool is_bare) {
-    edges.push_back({std::max(a, b), std::min(a, b), is_bare});
-  };
-  for (const auto& [a, b, c] : scene.faces) {
-    add(a, b, false);
-    add(b, c, false);
-    add(c, a, false);
-  }
-  for (const auto& [a, b] : scene.edges) add(a, b, true);
-  // The first of several with the same vertices is that of a face, if there is one.
-  std::sort(edges.begin(), edges.end(), [](const Edge& a, const Edge& b) {
-    return std::tie(a.larger, a.smaller, a.is_bare) < std::tie(b.larger, b.smaller, b.is_bare);
-  });
-  const auto repeated = std::unique(edges.begin(), edges.end(), [](const Edge& a, const Edge& b) {
-    return a.larger == b.larger && a.smaller == b.smaller;
-  });
-  edges.erase(repeated, edges.end());
-  return edges;
-}
-
-Elements find_elements(const Scene& scene) {
-  Elements elements;
-  for (const Face& face : scene.faces) {
-    elements.faces.push_back({next_number(elements.faces), face});
-  }
-  std::vector<bool> takes_part(scene.vertices.size());
-  std::vector<bool> has_edge(scene.vertices.size());
-  for (const auto& [larger, smaller, is_bare] : find_edges(scene)) {
-    takes_part[static_cast<std::size_t>(larger)] = true;
-    takes_part[static_cast<std::size_t>(smaller)] = true;
-    // No edge goes from a vertex to itself.
-    if (larger == smaller) continue;
-    has_edge[static_cast<std::size_t>(larger)] = true;
-    has_edge[static_cast<std::size_t>(smaller)] = true;
-    const Primitive edge{next_number(elements.edges), {smaller, larger, smaller}};
-    elements.edges.push_back(edge);
-    if (is_bare) elements.bare_edges.push_back(edge);
-  }
-  for (const std::int32_t vertex : scene.points) {
-    takes_part[static_cast<std::size_t>(vertex)] = true;
-  }
-  for (std::size_t n = 0; n < scene.vertices.size(); ++n) {
-    const auto number = static_cast<std::int32_t>(n);
-    const Primitive vertex{number, {number, number, number}};
-    if (takes_part[n]) elements.vertices.push_back(vertex);
-    if (takes_part[n] && !has_edge[n]) elements.points.push_back(vertex);
-  }
-  return elements;
-}
 
 /// \throws Rejection if there is none of this number.
 const Primitive& find(const Primitives& primitives, std::int32_t number) {
@@ -227,8 +43,8 @@ class StepCheck {
 
   std::string run(Reader* scenes) {
     text_ = "step " + printable(read_label(reader_, "step")) + '\n';
-    scene_ = read_scene(reader_, options_);
-    if (scenes != nullptr && read_scene(*scenes, options_) != scene_) {
+    scene_ = read_scene(reader_, options_, Time::step);
+    if (scenes != nullptr && read_scene(*scenes, options_, Time::step) != scene_) {
       reject("the scene is not the one given");
     }
     find_what_can_collide();
@@ -247,11 +63,7 @@ class StepCheck {
  private:
   void find_what_can_collide() {
     elements_ = find_elements(scene_);
-    for (const auto& [one, other] : scene_.apart) {
-      apart_.push_back({one, other});
-      apart_.push_back({other, one});
-    }
-    std::ranges::sort(apart_);
+    groups_ = Groups(scene_);
     text_ += std::to_string(elements_.vertices.size()) + " vertices, " +
              std::to_string(elements_.edges.size()) + " edges, " +
              std::to_string(elements_.faces.size()) + " faces\n";
@@ -277,7 +89,7 @@ class StepCheck {
     thickness_.greatest = distance_ + greatest;
     if (!std::isfinite(thickness_.greatest)) reject("the distances are too large");
     for (std::size_t n = 0; n < scene_.vertices.size(); ++n) {
-      const std::int32_t group = group_of(static_cast<std::int32_t>(n));
+      const std::int32_t group = groups_.of(static_cast<std::int32_t>(n));
       if (groups > 0 && group >= groups) reject("not a radius for each group");
       const auto half = halves.find(group);
       thickness_.reaches.push_back(
@@ -426,15 +238,8 @@ class StepCheck {
   [[nodiscard]] std::int64_t bytes_read() const { return reader_.bytes() - first_byte_; }
 
   [[nodiscard]] bool can_collide(const Primitive& a, const Primitive& b) const {
-    bool do_groups_meet = false;
-    for (const std::int32_t v : a.vertices) {
-      for (const std::int32_t w : b.vertices) {
-        if (v == w) return false;
-        const Two groups{group_of(v), group_of(w)};
-        if (!std::ranges::binary_search(apart_, groups)) do_groups_meet = true;
-      }
-    }
-    return do_groups_meet;
+    const auto is_of_b = [&](std::int32_t v) { return std::ranges::count(b.vertices, v) > 0; };
+    return std::ranges::none_of(a.vertices, is_of_b) && groups_.meet(a, b);
   }
 
   /// The distance at which two primitives are in contact.
@@ -443,7 +248,7 @@ class StepCheck {
     double greatest = 0.0;
     for (const std::int32_t v : a.vertices) {
       for (const std::int32_t w : b.vertices) {
-        greatest = std::max(greatest, thickness_of(group_of(v), group_of(w)));
+        greatest = std::max(greatest, thickness_of(groups_.of(v), groups_.of(w)));
       }
     }
     return distance_ + greatest;
@@ -458,11 +263,6 @@ class StepCheck {
     return scene_.radii.empty() ? 0.0 : scene_.radii[static_cast<std::size_t>(group)];
   }
 
-  /// The group of a vertex: 0 if there are no groups.
-  [[nodiscard]] std::int32_t group_of(std::int32_t vertex) const {
-    return scene_.groups.empty() ? 0 : scene_.groups[static_cast<std::size_t>(vertex)];
-  }
-
   Reader& reader_;
   const Options& options_;
   /// The first byte of the certificate.
@@ -471,8 +271,7 @@ class StepCheck {
   std::string text_;
   Scene scene_;
   Elements elements_;
-  /// The groups that are held apart, each two in both orders; sorted.
-  std::vector<Two> apart_;
+  Groups groups_;
   Separation separation_;
   double distance_ = 0.0;
   Thickness thickness_;

@@ -200,6 +200,7 @@ py::dict check(const std::string& certificates, const std::optional<std::string>
   result["collision"] = report.collision;
   result["time_of_impact"] = report.time_of_impact;
   result["steps"] = py::tuple(py::cast(report.steps));
+  result["meshes"] = py::tuple(py::cast(report.meshes));
   result["rejected"] = report.rejected;
   py::list rejections;
   for (const auto& [line, label, reason] : report.rejections) {

@@ -308,8 +308,8 @@ class CheckReport:
     ----------
     no_collision, collision, time_of_impact : int
         The numbers of accepted certificates of queries, by their claims.
-    steps : tuple of str
-        What accepted certificates of steps prove.
+    steps, meshes : tuple of str
+        What accepted certificates of steps and of meshes at rest prove.
     rejected : int
         The number of rejected ones.
     rejections : tuple of Rejection
@@ -320,13 +320,15 @@ class CheckReport:
     collision: int
     time_of_impact: int
     steps: Tuple[str, ...]
+    meshes: Tuple[str, ...]
     rejected: int
     rejections: Tuple[Rejection, ...]
 
     @property
     def accepted(self) -> int:
         """The number of accepted certificates."""
-        return self.no_collision + self.collision + self.time_of_impact + len(self.steps)
+        of_queries = self.no_collision + self.collision + self.time_of_impact
+        return of_queries + len(self.steps) + len(self.meshes)
 
     def __bool__(self) -> bool:
         """Return True if nothing was rejected."""
@@ -350,12 +352,12 @@ def check(
     Parameters
     ----------
     certificates : bytes or str
-        A stream of certificates, as `prove` and `Step.prove` write it.
+        A stream of certificates, as `prove`, `Step.prove` and the commands write it.
     scenes : bytes or str, optional
-        The scenes that certificates of steps have to be about.
+        The scenes that certificates of steps or of meshes have to be about.
     claim : str, optional
         Reject every other claim: "no_collision", "collision", "time_of_impact"; of steps "free",
-        "no_contact T" or "earliest".
+        "no_contact T" or "earliest"; of meshes "free" or "intersections N".
     separation : float, optional
         Reject what is about another distance.
     norm : {"linf", "l2"}, optional

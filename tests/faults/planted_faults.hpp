@@ -97,7 +97,7 @@ struct PlantedFaults {
   Faults<LimitStep> line_search;
   Faults<FindIntersections> intersections;
   Faults<const fast::TriangleKernel> triangle_filter;
-  Faults<Check> checker;
+  Faults<Check> checker, mesh_checker;
   Faults<const fast::BoxKernel> box_kernel;
   Faults<MakeTightInclusion> tight_inclusion;
   Faults<const fast::CertifiedKernel> certified_kernel, single_precision, time_limit, curved_kernel;

@@ -4,6 +4,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -13,12 +14,17 @@
 #include "verify/cli/group_options.hpp"
 #include "verify/cli/help.hpp"
 #include "verify/cli/option_table.hpp"
+#include "verify/cli/options.hpp"
+#include "verify/cli/result_files.hpp"
 #include "verify/cli/sources.hpp"
 #include "verify/io/json.hpp"
+#include "verify/io/printable.hpp"
 #include "verify/io/terminal.hpp"
+#include "verify/jobs/prove_mesh.hpp"
 #include "verify/jobs/work_time.hpp"
 #include "verify/mesh/mesh_file.hpp"
 #include "verify/report/intersection_report.hpp"
+#include "verify/view/step_facts.hpp"
 
 namespace touchstone::verify::cli::intersections_command {
 namespace {
@@ -32,6 +38,8 @@ struct Arguments {
   int threads = 0;
   std::string csv_file;
   std::string json_file;
+  std::string proof_file;
+  std::string view_file;
 };
 
 fast::MeshElements elements_of(const mesh::Mesh& mesh) {
@@ -47,32 +55,73 @@ report::RestingMesh read(Files& files, const fs::path& path) {
   return result;
 }
 
+std::string names_of(const report::IntersectionReport& report) {
+  std::string names;
+  for (const report::RestingMesh& mesh : report.meshes) {
+    names += (names.empty() ? "" : " ") + io::printable(mesh.name);
+  }
+  return names;
+}
+
+/// Writes the certificate. \returns what is missing in the proof; empty if there is one.
+std::string prove(CertificatesFile& file, const mesh::Mesh& mesh,
+                  const fast::IntersectionOptions& search,
+                  const report::IntersectionReport& report) {
+  io::ProgressBar bar("prove");
+  const jobs::MeshProof proof =
+      jobs::prove_mesh(mesh, search, report.intersections,
+                       {.label = names_of(report),
+                        .threads = static_cast<unsigned>(search.max_threads),
+                        .on_text = [&file](std::string_view text) { file.write(text); },
+                        .on_progress = [&bar](double fraction) { bar.update(fraction); },
+                        .stop = search.stop});
+  bar.clear();
+  if (proof.is_complete()) {
+    file.close(jobs::mesh_certificates_closing_line);
+  } else {
+    file.close_incomplete();
+  }
+  return proof.failure;
+}
+
 Status intersections(const Arguments& arguments) {
   Files files;
   Output json(files, arguments.json_file), csv(files, arguments.csv_file);
+  CertificatesFile certificate(files, arguments.proof_file, jobs::mesh_certificates_header);
+  ViewFile view(files, arguments.view_file);
   report::IntersectionReport report{.meshes = {}, .intersections = {}, .weld = arguments.weld};
   for (const fs::path& path : arguments.meshes) report.meshes.push_back(read(files, path));
   const mesh::Mesh all = report::joined(report.meshes);
   const CollidingGroups groups(files, arguments.groups, all);
+  const fast::IntersectionOptions search{.groups = groups.get(),
+                                         .weld = arguments.weld,
+                                         .max_threads = arguments.threads,
+                                         .stop = &io::interrupted()};
+  std::string failure;
   report.interrupted = true;
   until_interrupted([&] {
     const jobs::WorkTime time = jobs::work_time_of([&] {
-      report.intersections = fast::intersections(all.vertices, elements_of(all),
-                                                 {.groups = groups.get(),
-                                                  .weld = arguments.weld,
-                                                  .max_threads = arguments.threads,
-                                                  .stop = &io::interrupted()});
+      report.intersections = fast::intersections(all.vertices, elements_of(all), search);
     });
     report.seconds = time.wall;
     report.interrupted = false;
+    if (certificate) failure = prove(certificate, all, search, report);
   });
+  if (report.interrupted) certificate.close_incomplete();
+  if (view) {
+    view.add(view::resting_facts(
+        names_of(report), all, report.intersections,
+        [&](const fast::Intersection& one) { return report::pair_text(report.meshes, one); }));
+  }
+  view.write();
   if (json) json.write(io::json_document(report::to_json(report)));
   json.close();
   if (csv) csv.write(report::to_csv(report));
   csv.close();
-  io::print(files.summary_stream(), report::to_text(report));
-  if (files.has_failed()) return Status::bad_input;
-  if (report.interrupted) return Status::interrupted;
+  io::print(files.summary_stream(), report::to_text(report) + view.summary());
+  if (!failure.empty()) report_error("no proof: " + failure);
+  if (files.has_failed() || !failure.empty()) return Status::bad_input;
+  if (io::interrupted()) return Status::interrupted;
   return report.intersections.empty() ? Status::all_well : Status::wrong_answers;
 }
 
@@ -84,7 +133,9 @@ void add_options(CLI::App& command, Arguments& arguments) {
   add_option(command, "--threads", arguments.threads);
   command.option_defaults()->group("Output");
   add_option(command, "--csv", arguments.csv_file);
+  add_option(command, "--prove", arguments.proof_file);
   add_option(command, "--json", arguments.json_file);
+  add_option(command, "--view", arguments.view_file);
 }
 
 }  // namespace
@@ -95,7 +146,8 @@ void add(CLI::App& app, Status& status) {
       app.add_subcommand("intersections", "Find where a mesh intersects itself or others, exactly");
   add_options(*command, *arguments);
   set_help(*command,
-           "touchstone intersections bunny.obj --csv pairs.csv\n"
+           "touchstone intersections bunny.obj --csv pairs.csv --view pairs.html\n"
+           "touchstone intersections bunny.obj --prove bunny.cert && touchstone-check bunny.cert\n"
            "touchstone intersections cloth.ply body.ply --apart body.ply body.ply",
            "Faces, edges of no face and points without an edge intersect if they have a common "
            "point beyond their common vertices, or are duplicates. With several meshes, each is a "

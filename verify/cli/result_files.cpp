@@ -104,6 +104,8 @@ void ViewFile::add(const view::ViewedStep& step) {
   for (view::ViewedQuery& query : view::first_queries(step, most_queries)) add(std::move(query));
 }
 
+void ViewFile::add(nlohmann::json resting_mesh) { step_ = std::move(resting_mesh); }
+
 void ViewFile::write(const fast::MethodOptions& options) {
   if (!output_) return;
   const auto judge =
@@ -125,10 +127,12 @@ std::string ViewFile::summary(std::uint64_t allowed) const {
   const std::string name = io::printable(name_);
   if (!step_.is_null()) {
     const auto total = step_.at("total").get<std::size_t>();
+    const bool is_at_rest = !step_.contains("after");
+    const std::string one = is_at_rest ? "intersection" : "collision";
     return fmt::format("{}: {}, {}\n", name, step_.at("label").get<std::string>(),
-                       total == 0   ? "without a collision"
-                       : total == 1 ? "1 collision"
-                                    : fmt::format("{} collisions", total));
+                       total == 0   ? (is_at_rest ? "without an " : "without a ") + one
+                       : total == 1 ? "1 " + one
+                                    : fmt::format("{} {}s", total, one));
   }
   if (queries_.empty() && allowed != 0) {
     return fmt::format(

@@ -90,6 +90,9 @@ class ViewFile {
   /// Adds a step, and the first of its pairs.
   void add(const view::ViewedStep& step);
 
+  /// Adds a mesh at rest, from view::resting_facts().
+  void add(nlohmann::json resting_mesh);
+
   /// Writes the page, with answers of the certified solver under these options.
   void write(const fast::MethodOptions& options = {});
 

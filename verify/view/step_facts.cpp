@@ -66,6 +66,17 @@ std::string array_text(const std::vector<std::array<std::int32_t, count>>& eleme
       std::span(elements.empty() ? nullptr : elements.front().data(), count * elements.size()));
 }
 
+/// The vertices of an element at rest.
+std::vector<std::int32_t> vertices_of(const mesh::Mesh& mesh, fast::ElementKind kind,
+                                      std::int32_t number) {
+  const auto as_list = [](const auto& element) {
+    return std::vector<std::int32_t>(element.begin(), element.end());
+  };
+  const auto i = static_cast<std::size_t>(number);
+  if (kind == fast::ElementKind::face) return as_list(mesh.faces[i]);
+  return kind == fast::ElementKind::edge ? as_list(mesh.edges[i]) : std::vector{number};
+}
+
 }  // namespace
 
 ViewedStep find_collisions(std::string label, const mesh::Mesh& mesh, mesh::Vertices before,
@@ -128,6 +139,23 @@ nlohmann::json step_facts(const ViewedStep& step) {
           {"total", step.collisions.size()},
           {"min_separation", step.separation.distance},
           {"norm", to_string(step.separation.norm)}};
+}
+
+nlohmann::json resting_facts(std::string_view label, const mesh::Mesh& mesh,
+                             std::span<const fast::Intersection> found,
+                             const std::function<std::string(const fast::Intersection&)>& name) {
+  nlohmann::json pairs = nlohmann::json::array();
+  for (const fast::Intersection& one : found.first(std::min(most_listed_pairs, found.size()))) {
+    pairs.push_back({{"kind", to_string(one.kind)},
+                     {"name", name(one)},
+                     {"elements",
+                      {vertices_of(mesh, one.elements[0], one.numbers[0]),
+                       vertices_of(mesh, one.elements[1], one.numbers[1])}},
+                     {"place", {one.place[0].lower, one.place[1].lower}}});
+  }
+  return {{"label", io::printable(label)},   {"before", array_text(mesh.vertices)},
+          {"faces", array_text(mesh.faces)}, {"edges", array_text(edges_of_no_face(mesh))},
+          {"pairs", std::move(pairs)},       {"total", found.size()}};
 }
 
 }  // namespace touchstone::verify::view

@@ -2,17 +2,21 @@
 
 /// \file
 /// The contents of a view of a step: the mesh before and after, and the colliding pairs by
-/// time.
+/// time. And of a mesh at rest: the mesh, and the pairs that intersect.
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "fast/method.hpp"
+#include "touchstone/intersections.hpp"
 #include "touchstone/query.hpp"
 #include "touchstone/step.hpp"
 #include "verify/mesh/mesh_file.hpp"
@@ -56,5 +60,13 @@ inline constexpr std::size_t most_listed_pairs = 20'000;
 /// `toi` (lower and upper), `place` (u and v), `total`, the number of collisions, and
 /// `min_separation` and `norm`.
 [[nodiscard]] nlohmann::json step_facts(const ViewedStep& step);
+
+/// The same of a mesh at rest: an object of `label`, `before`, `faces`, `edges`, `pairs`, a list of
+/// the first most_listed_pairs of `kind` (of the intersection), `name`, `elements` (the vertices of
+/// both) and `place` (its two ends, rounded down), and `total`.
+/// \param name the name of a pair
+[[nodiscard]] nlohmann::json resting_facts(
+    std::string_view label, const mesh::Mesh& mesh, std::span<const fast::Intersection> found,
+    const std::function<std::string(const fast::Intersection&)>& name);
 
 }  // namespace touchstone::verify::view

@@ -23,7 +23,7 @@
 /// // faces 0 and 1
 /// \endcode
 ///
-/// The *elements* are the faces, the edges of no face and the vertices without an edge. Each is the
+/// The *elements* are the faces, the edges of no face and the points without an edge. Each is the
 /// convex hull of its vertices. Two elements *intersect* if
 /// - they have a common point that is not in the hull of their common vertices, or
 /// - they have the same vertices: duplicates.

@@ -77,7 +77,7 @@ class Mutator {
             "axis cross axes separation linf l2 x y z time root no_collision collision "
             "time_of_impact vertex_face edge_edge nan certificates vertices faces edges "
             "points groups apart sweep no_contact earliest pair vertex_edge vertex_vertex "
-            "step steps  ",
+            "step steps mesh meshes intersections separations plane line  ",
             ' ');
     Words words = cut(line, ' ');
     const Words from = cut(other, ' ');
@@ -130,9 +130,11 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   require(report.time_of_impact <= count_lines(lines, "claim time_of_impact "));
   require(!report.all_accepted() ||
           count_lines(lines, "certificates " + std::to_string(report.accepted()) + "\n") +
-                  count_lines(lines, "steps " + std::to_string(report.accepted()) + "\n") >
+                  count_lines(lines, "steps " + std::to_string(report.accepted()) + "\n") +
+                  count_lines(lines, "meshes " + std::to_string(report.accepted()) + "\n") >
               0);
   require(report.steps.size() <= count_lines(lines, "step "));
+  require(report.meshes.size() <= count_lines(lines, "mesh "));
   require(report.rejections.size() == std::min<std::uint64_t>(report.rejected, 3));
   for (const auto& rejection : report.rejections) {
     require(rejection.line >= 1 && rejection.line <= lines.size() + 1 && !rejection.reason.empty());

@@ -295,7 +295,7 @@ TEST(Corpus, HasTheOutcomeThatItShould) {
       {"false.cert", {0, 7}},    {"broken.cert", {1, 7}},    {"wrong_header.cert", {0, 1}},
       {"cut.cert", {2, 1}},      {"empty.cert", {0, 0}},     {"miscounted.cert", {2, 1}},
       {"deep.cert", {1, 1}},     {"distances.cert", {8, 0}}, {"false_distances.cert", {0, 6}},
-      {"steps.cert", {3, 0}}};
+      {"steps.cert", {3, 0}},    {"meshes.cert", {1, 0}}};
   std::size_t found = 0;
   for (const auto& entry :
        std::filesystem::directory_iterator(root / "tests/exact/checker/corpus")) {
@@ -326,10 +326,12 @@ TEST(Manual, HasExamplesThatAreAccepted) {
   EXPECT_EQ(sum.no_collision, 2U);
   EXPECT_EQ(sum.collision, 1U);
   EXPECT_EQ(sum.time_of_impact, 3U);
-  const std::size_t steps = manual.find(fence + "touchstone-steps 2\n") + fence.size();
-  const Report report = check_text(manual.substr(steps, manual.find("\n```", steps) + 1 - steps));
-  EXPECT_EQ(rejections(report), Texts{});
-  EXPECT_EQ(report.steps.size(), 1U);
+  for (const std::string first_line : {"touchstone-steps 2\n", "touchstone-meshes 1\n"}) {
+    const std::size_t begin = manual.find(fence + first_line) + fence.size();
+    const Report report = check_text(manual.substr(begin, manual.find("\n```", begin) + 1 - begin));
+    EXPECT_EQ(rejections(report), Texts{});
+    EXPECT_EQ(report.steps.size() + report.meshes.size(), 1U);
+  }
 }
 
 }  // namespace

@@ -447,7 +447,7 @@ TEST(Step, IsNoStreamOfQueriesWhereScenesAreNamed) {
       check_text("touchstone-certificates 2\ncertificates 0\n", {.scenes = &scenes});
   EXPECT_EQ(report.rejected, 1U);
   EXPECT_EQ(report.rejections.at(0).reason,
-            "the first line is not 'touchstone-steps 2', as for scenes");
+            "the first line is not 'touchstone-steps 2' or 'touchstone-meshes 1', as for scenes");
 }
 
 }  // namespace

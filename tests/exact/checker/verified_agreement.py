@@ -55,9 +55,9 @@ class Result:
         (status, lines), (verified_status, verified_lines) = (run(program, path) for program in programs)
         self.accepted = self.rejected = self.unseen = 0
         self.difference = None
-        if path.read_bytes().startswith(b"touchstone-steps"):
+        if path.read_bytes().startswith((b"touchstone-steps", b"touchstone-meshes")):
             if verified_status != 2:
-                self.difference = f"status {verified_status} of certificates of steps, which are not covered"
+                self.difference = f"status {verified_status} of certificates of scenes, which are not covered"
             return
         self.accepted, self.rejected = (int(lines[k].split()[1]) for k in (0, 4))
         kept = without_unseen_axes(lines, verified_lines)

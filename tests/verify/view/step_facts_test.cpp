@@ -112,5 +112,28 @@ TEST(StepFacts, AtASeparation) {
   EXPECT_EQ(first_queries(near, 1)[0].separation.distance, 1.0);
 }
 
+TEST(RestingFacts, OfEveryKindOfElement) {
+  const mesh::Mesh mesh = scene();
+  const std::vector<fast::Intersection> found{
+      {.elements = {fast::ElementKind::face, fast::ElementKind::edge},
+       .numbers = {0, static_cast<std::int32_t>(mesh.edges.size()) - 1},
+       .kind = fast::IntersectionKind::edge_through_face,
+       .place = {{{{1, 2, 3}, {1, 2, 3}}, {{4, 5, 6}, {4, 5, 6}}}}},
+      {.elements = {fast::ElementKind::point, fast::ElementKind::point}, .numbers = {3, 4}}};
+  const nlohmann::json facts =
+      resting_facts("at rest", mesh, found,
+                    [](const fast::Intersection& one) { return std::to_string(one.numbers[1]); });
+  EXPECT_EQ(facts.at("faces"), "AAAAAAEAAAACAAAA");
+  EXPECT_EQ(facts.at("edges"), "BQAAAAYAAAA=");
+  EXPECT_FALSE(facts.contains("after"));
+  EXPECT_EQ(facts.at("total"), 2);
+  const nlohmann::json &first = facts.at("pairs").at(0), &second = facts.at("pairs").at(1);
+  EXPECT_EQ(first.at("kind"), "edge through face");
+  EXPECT_EQ(first.at("elements"), (nlohmann::json{{0, 1, 2}, {5, 6}}));
+  EXPECT_EQ(first.at("place"), (nlohmann::json{{1.0, 2.0, 3.0}, {4.0, 5.0, 6.0}}));
+  EXPECT_EQ(second.at("name"), "4");
+  EXPECT_EQ(second.at("elements"), (nlohmann::json{{3}, {4}}));
+}
+
 }  // namespace
 }  // namespace touchstone::verify::view::step_facts_test

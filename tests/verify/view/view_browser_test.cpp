@@ -475,6 +475,50 @@ TEST_F(ViewBrowser, PairsOfAStepLeadToTheirQueries) {
   for (const nlohmann::json& count : result.at("drawn")) EXPECT_GT(count, 200);
 }
 
+/// A triangle that a needle passes through and another triangle crosses; a click enlarges the pair.
+TEST_F(ViewBrowser, ShowsWhatIntersectsAtRest) {
+  const std::vector<std::array<double, 3>> coordinates{{-1, 0, -1},   {1, 0, -1},  {0, 0, 1},
+                                                       {0, -1, 0},    {0, 1, 0},   {0, 0, -2},
+                                                       {0.25, -1, 0}, {0.25, 1, 0}};
+  const mesh::Mesh mesh =
+      mesh::make_mesh(coordinates, {{0, 1, 2}, {3, 4, 5}}, std::vector<fast::Edge>{{6, 7}});
+  const std::vector<fast::Intersection> found =
+      fast::intersections(mesh.vertices, {.edges = mesh.edges, .faces = mesh.faces});
+  ASSERT_EQ(found.size(), 2U);
+  const auto name = [](const fast::Intersection& one) {
+    return fmt::format("pair with {} (6 7)", one.numbers[1]);
+  };
+  for (const int width : {1400, 390}) {
+    const nlohmann::json result =
+        result_on(view_page({}, "touchstone intersections",
+                            resting_facts("a/" + std::string(300, 'x'), mesh, found, name)),
+                  R"(
+      const look = () => [text("#pairs .chosen span"), text("#mesh .names span"), find("step_now").textContent, pixels("mesh")];
+      const first = look();
+      all("#pairs button")[1].click();
+      const second = look();
+      find("step_all").click();
+      const unseen = ["step_play", "step_time", "query", "exchange", "nothing"].filter((id) => find(id).offsetParent !== null);
+      say({ verdict: find("step_verdict").textContent, pairs: text("#pairs button"), first, second, all: pixels("mesh"), unseen,
+        wide: document.documentElement.scrollWidth - window.innerWidth });
+    )",
+                  width);
+    EXPECT_EQ(result.at("verdict"), "2 intersections.");
+    EXPECT_EQ(
+        result.at("pairs"),
+        (nlohmann::json{"pair with 1 (6 7) edge through face",
+                        fmt::format("pair with {} (6 7) edge through face", found[1].numbers[1])}));
+    EXPECT_EQ(result.at("first").at(0), nlohmann::json::array({"pair with 1 (6 7)"}));
+    EXPECT_EQ(result.at("first").at(1), nlohmann::json::array({"pair with 1"}));
+    EXPECT_EQ(result.at("first").at(2), "edge through face: 0 0 -1 to 0 0 0");
+    EXPECT_EQ(result.at("second").at(2), "edge through face: 0.25 0 0");
+    for (const char* const moment : {"first", "second"}) EXPECT_GT(result.at(moment).at(3), 200);
+    EXPECT_GT(result.at("all"), 200);
+    EXPECT_EQ(result.at("unseen"), nlohmann::json::array());
+    EXPECT_LE(result.at("wide"), 0);
+  }
+}
+
 // ---- A page that decides ------------------------------------------------------------------------
 
 /// In the place of the solvers in WebAssembly: what it is asked is kept, and a query collides if

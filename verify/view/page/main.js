@@ -89,7 +89,7 @@ function editor() {
 function page() {
   find("view").append(
     make("header", {}, make("h1", {}, isLive ? "Touchstone playground" : "Touchstone view"), make("p", { id: "common", hidden: true }),
-      make("nav", { id: "list", "aria-label": "Queries" })),
+      make("nav", { id: "list", hidden: true, "aria-label": "Queries" })),
     make("p", { id: "nothing", hidden: step !== null || queries.length > 0 }, "Nothing was found: this page has no query."),
     make("section", { id: "step", hidden: step === null }),
     make("section", { id: "query", hidden: true },
@@ -118,7 +118,7 @@ function page() {
           writeTable();
         })),
       make("div", { class: "scroll", tabindex: "0" }, make("table", { id: "points" }))),
-    make("section", { id: "exchange" },
+    make("section", { id: "exchange", hidden: step !== null && step.isAtRest },
       make("h2", {}, "Copy and paste"),
       make("p", {}, "Text of another query (C++, rows of CSV, JSON, OBJ v lines, or 24 numbers), pasted here, is drawn."),
       make("div", { class: "choice" },
@@ -518,7 +518,10 @@ function makePictures() {
     new CornerPicture(new Scene(find("corners"), viewpoint, zoom))];
   pictures[0].scene.drag = drag;
   for (const query of ["(prefers-color-scheme: dark)", "print"]) {
-    matchMedia(query).addEventListener("change", () => update(true));
+    matchMedia(query).addEventListener("change", () => {
+      if (look !== null) update(true);
+      if (stepPart) stepPart.update();
+    });
   }
 }
 
@@ -532,6 +535,7 @@ function showPair(n) {
 page();
 makePictures();
 document.addEventListener("keydown", onKey);
-if (step) new StepPart(step, viewpoint, canDraw(), showPair);
+// Elements at rest are no query.
+const stepPart = step && new StepPart(step, viewpoint, canDraw(), step.isAtRest ? () => {} : showPair);
 if (isLive) goLive();
 else if (!openLink() && queries.length > 0) show(0);

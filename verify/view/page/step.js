@@ -1,4 +1,5 @@
-// A step: a mesh at the time of a slider, and the colliding pairs by time.
+// A step: a mesh at the time of a slider, and the colliding pairs by time. Or a mesh at rest, and the pairs that
+// intersect.
 //
 // Both ends of every vertex are on the graphics processor, which computes the positions between, so
 // that a slider moves a mesh of any size at the cost of drawing it. For the pictures positions are
@@ -20,14 +21,25 @@ function bytesOf(text) {
   return bytes.buffer;
 }
 
-/// The output of the tool (verify/view/step_facts.cpp), with arrays of numbers.
+/// The vertices of both elements of a pair of a step.
+const elementsOf = ({ kind, points }) => {
+  const split = kind === "vertex-face" ? 1 : 2;
+  return [points.slice(0, split), points.slice(split)];
+};
+
+/// The output of the tool (verify/view/step_facts.cpp), with arrays of numbers. A mesh at rest has one array of
+/// positions, and its pairs have a place instead of a time: they are in contact all the time.
 export function readStep(facts) {
+  const isAtRest = facts.after === undefined;
+  const before = new Float64Array(bytesOf(facts.before));
   return {
     ...facts,
-    before: new Float64Array(bytesOf(facts.before)),
-    after: new Float64Array(bytesOf(facts.after)),
+    isAtRest,
+    before,
+    after: isAtRest ? before : new Float64Array(bytesOf(facts.after)),
     faces: new Uint32Array(bytesOf(facts.faces)),
     edges: new Uint32Array(bytesOf(facts.edges)),
+    pairs: facts.pairs.map((pair) => (isAtRest ? { toi: [0, 0], ...pair } : { elements: elementsOf(pair), ...pair })),
   };
 }
 
@@ -142,15 +154,15 @@ export class StepPicture {
     const near = { polygonOffset: true, polygonOffsetFactor: -2, polygonOffsetUnits: -2 };
     add(new THREE.Mesh(geometry(step.faces), this.material(surfaceShaders, "mesh")));
     if (step.edges.length > 0) add(new THREE.LineSegments(geometry(step.edges), this.material(markShaders, "ink", this.look(1, -1))));
-    const pairs = step.pairs.map(({ points }) => points);
-    const faces = step.pairs.filter(({ kind }) => kind === "vertex-face").flatMap(({ points }) => points.slice(1));
-    const edges = step.pairs.filter(({ kind }) => kind === "edge-edge").flatMap(({ points }) => points);
+    const { pairs } = step;
+    const elements = pairs.flatMap((pair) => pair.elements);
+    const [edges, faces] = [2, 3].map((corners) => elements.filter(({ length }) => length === corners).flat());
     add(new THREE.Mesh(geometry(Uint32Array.from(faces)), this.material(surfaceShaders, "s3", {}, near)));
     add(new THREE.LineSegments(geometry(Uint32Array.from(edges)), this.material(markShaders, "s1", this.look(1, -1), { depthTest: false })));
     // The places of collisions: hollow marks, full after the time of impact; smaller if there are
     // many.
     const size = Math.max(3, 10 * Math.min(1, (200 / pairs.length) ** 0.3));
-    const places = this.contactPlaces(pairs);
+    const places = this.contactPlaces();
     const contacts = { position: places, next: places };
     const mark = (size, hollow, color) => add(new THREE.Points(geometry(null, contacts),
       this.material(markShaders, color, this.look(size, hollow), { depthTest: false })));
@@ -165,18 +177,28 @@ export class StepPicture {
     return { size: { value: size * Math.min(window.devicePixelRatio || 1, 2) }, hollow: { value: hollow } };
   }
 
-  /// The middle of the points at the place of contact, at its time.
-  contactPlaces(pairs) {
+  /// The places of contact at its time.
+  contactPlaces() {
+    const { pairs, isAtRest } = this.step;
+    return new THREE.BufferAttribute(Float32Array.from(pairs.flatMap((pair) => (isAtRest ? this.restingPlace(pair) : this.impactPlace(pair)))), 3);
+  }
+
+  /// The middle of the points at the place.
+  impactPlace({ kind, points, toi: [t], place: [u, v] }) {
+    const weights = kind === "vertex-face" ? [0, 1 - u - v, u, v] : [1 - u, u, 0, 0];
+    return points.map((i) => this.vertex(i, t))
+      .reduce((sum, point, i) => sum.map((x, k) => x + weights[i] * point[k]), [0, 0, 0]);
+  }
+
+  /// The middle between both ends of what two elements have in common.
+  restingPlace({ place: [from, to] }) {
+    return from.map((x, k) => this.unit(x, k) / 2 + this.unit(to[k], k) / 2);
+  }
+
+  /// A vertex at a time, in units of the picture.
+  vertex(i, t) {
     const { before, after } = this.step;
-    const places = new Float32Array(3 * pairs.length);
-    this.step.pairs.forEach(({ kind, points, toi, place: [u, v] }, n) => {
-      const weights = kind === "vertex-face" ? [0, 1 - u - v, u, v] : [1 - u, u, 0, 0];
-      for (let k = 0; k < 3; ++k) {
-        const at = points.map((i) => this.unit(before[3 * i + k], k) * (1 - toi[0]) + this.unit(after[3 * i + k], k) * toi[0]);
-        places[3 * n + k] = at.reduce((sum, x, i) => sum + weights[i] * x, 0);
-      }
-    });
-    return new THREE.BufferAttribute(places, 3);
+    return [0, 1, 2].map((k) => this.unit(before[3 * i + k], k) * (1 - t) + this.unit(after[3 * i + k], k) * t);
   }
 
   /// \param collidedSoFar the number of pairs whose time of impact has passed
@@ -196,11 +218,8 @@ export class StepPicture {
     scene.begin(scene.moving);
     if (n === null) return;
     const seen = (place) => place.map((x, k) => (x - this.focus[k]) * this.scale);
-    const { kind, name, points } = step.pairs[n];
-    const ends = points.map((i) => seen([0, 1, 2].map((k) =>
-      this.unit(step.before[3 * i + k], k) * (1 - t) + this.unit(step.after[3 * i + k], k) * t)));
-    const split = kind === "vertex-face" ? 1 : 2;
-    const primitives = [ends.slice(0, split), ends.slice(split)];
+    const { name, elements, place: [from, to] } = step.pairs[n];
+    const primitives = elements.map((corners) => corners.map((i) => seen(this.vertex(i, t))));
     for (const corners of primitives) {
       for (const [a, b] of sides(outline(corners))) scene.rod(a, b, "paper", 0.012);
     }
@@ -209,13 +228,19 @@ export class StepPicture {
       for (const [a, b] of sides(outline(corners))) scene.rod(a, b, color, 0.006);
       for (const corner of corners) scene.dot(corner, color, shape, 0.01);
     });
+    if (step.isAtRest) {
+      const [a, b] = [from, to].map((end) => seen(end.map((x, k) => this.unit(x, k))));
+      scene.rod(a, b, "bad", 0.011);
+      for (const end of [a, b]) scene.dot(end, "bad", "ball", 0.016);
+    }
     // Drawn through all parts before it, in this order.
     scene.moving.children.forEach((object, i) => {
       object.material.depthTest = false;
       object.renderOrder = i + 1;
     });
     const place = seen(this.contactPlace(n));
-    if (Math.hypot(...place) < 1.2) scene.name(place, name, "ink");
+    // Without the numbers of vertices, which are in the list.
+    if (Math.hypot(...place) < 1.2) scene.name(place, name.replace(/ \([\d ]*\)/g, ""), "ink");
   }
 
   // ---- The visible part -------------------------------------------------------------------------
@@ -238,6 +263,15 @@ export class StepPicture {
   /// Moves the place of a collision to the centre.
   goTo(n) {
     this.focus = this.contactPlace(n);
+    this.place();
+  }
+
+  /// Enlarges a pair, its place in the centre, until it fills the picture.
+  fit(n) {
+    this.goTo(n);
+    const corners = this.step.pairs[n].elements.flat().map((i) => this.vertex(i, this.step.pairs[n].toi[0]));
+    const reach = Math.max(...corners.map((corner) => Math.hypot(...corner.map((x, k) => x - this.focus[k]))));
+    this.scale = Math.max(1, Math.min(mostScale, 0.6 / reach));
     this.place();
   }
 
@@ -275,27 +309,28 @@ export class StepPart {
 
   parts() {
     const { step } = this;
-    const count = step.total === 1 ? "1 collision" : `${step.total} collisions`;
-    const first = step.pairs.length > 0 ? `, the first at t = ${doubleText(step.pairs[0].toi[0])}` : "";
+    const one = step.isAtRest ? "intersection" : "collision";
+    const count = step.total === 1 ? `1 ${one}` : `${step.total} ${one}s`;
+    const first = step.pairs.length > 0 && !step.isAtRest ? `, the first at t = ${doubleText(step.pairs[0].toi[0])}` : "";
     const separation = step.min_separation > 0 ? ` within ${doubleText(step.min_separation)} (${step.norm})` : "";
     const elements = `${step.before.length / 3} vertices, ${step.faces.length / 3} faces`;
     return [
       make("h2", {}, step.label),
-      make("p", {}, make("strong", { id: "step_verdict" }, `${step.total === 0 ? "No collision" : count + first}${separation}.`), ` ${elements}.`),
+      make("p", {}, make("strong", { id: "step_verdict" }, `${step.total === 0 ? `No ${one}` : count + first}${separation}.`), ` ${elements}.`),
       make("div", { class: "step" },
         make("figure", { id: "mesh" },
-          make("figcaption", {}, "The mesh; a diamond at the place of each collision, full after its time of impact"),
+          make("figcaption", {}, `The mesh; a diamond at the place of each ${one}${step.isAtRest ? "" : ", full after its time of impact"}`),
           make("div", { class: "canvas" },
             make("canvas", { tabindex: "0", role: "img", "aria-label": "The mesh. Arrow keys turn it, plus and minus zoom." }),
             make("div", { class: "names" }))),
         make("div", {},
-          make("ol", { id: "pairs", tabindex: "0", "aria-label": "Collisions, by time" },
+          make("ol", { id: "pairs", tabindex: "0", "aria-label": step.isAtRest ? "Intersections" : "Collisions, by time" },
             ...step.pairs.slice(0, listed).map((pair, i) => make("li", {}, make("button", { type: "button", onclick: () => this.choose(i) },
-              make("span", {}, pair.name), ` t ≈ ${doubleText(Number(pair.toi[0].toPrecision(6)))}`)))),
+              make("span", {}, pair.name), step.isAtRest ? ` ${pair.kind}` : ` t ≈ ${doubleText(Number(pair.toi[0].toPrecision(6)))}`)))),
           step.total > listed ? make("p", {}, `and ${step.total - listed} more`) : null)),
       make("div", { class: "controls" },
-        make("button", { type: "button", id: "step_play", onclick: () => this.togglePlay() }, "Play"),
-        make("label", { class: "wide" }, "time t", make("input", { type: "range", id: "step_time", min: 0, max: steps,
+        make("button", { type: "button", id: "step_play", hidden: step.isAtRest, onclick: () => this.togglePlay() }, "Play"),
+        make("label", { class: "wide", hidden: step.isAtRest }, "time t", make("input", { type: "range", id: "step_time", min: 0, max: steps,
           oninput: (event) => this.setTime(event.target.valueAsNumber / steps) })),
         make("output", { id: "step_now" }),
         make("button", { type: "button", id: "step_near", disabled: step.pairs.length === 0, onclick: () => this.goNear() }, "To the pair"),
@@ -329,24 +364,34 @@ export class StepPart {
     find("step_time").value = Math.round(this.t * steps);
     const { pairs, total } = this.step;
     const all = total > pairs.length ? `the first ${pairs.length}` : String(total);
-    find("step_now").textContent = `t = ${doubleText(this.t)}, ${collidedSoFar} of ${all} have collided`;
+    find("step_now").textContent = this.step.isAtRest ? this.placeText() : `t = ${doubleText(this.t)}, ${collidedSoFar} of ${all} have collided`;
     for (const [i, item] of [...find("pairs").children].entries()) {
       item.classList.toggle("past", i < collidedSoFar);
       item.classList.toggle("chosen", i === this.chosen);
     }
   }
 
+  /// What the elements of the shown pair have in common.
+  placeText() {
+    if (this.chosen === null) return "";
+    const { kind, place } = this.step.pairs[this.chosen];
+    const [from, to] = place.map((point) => point.map((x) => doubleText(Number(x.toPrecision(6)))).join(" "));
+    return `${kind}: ${from}${from === to ? "" : ` to ${to}`}`;
+  }
+
   choose(n) {
     this.chosen = n;
-    if (this.picture) this.picture.goTo(n);
+    if (this.picture) {
+      if (this.step.isAtRest) this.picture.fit(n);
+      else this.picture.goTo(n);
+    }
     this.setTime(this.step.pairs[n].toi[1]);
     this.show(n);
   }
 
   goNear() {
     if (this.picture) {
-      this.picture.goTo(this.chosen);
-      this.picture.zoom(4);
+      this.picture.fit(this.chosen);
     }
     this.update();
   }

@@ -1,0 +1,483 @@
+#include "verify/jobs/prove_mesh.hpp"
+
+#include <fmt/format.h>
+#include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/task_arena.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <iterator>
+#include <limits>
+#include <optional>
+#include <tuple>
+#include <vector>
+
+#include "exact/certificate/step_certificate_text.hpp"
+#include "exact/checker/resting_mesh.hpp"
+#include "exact/contact/triangle_intersection.hpp"
+#include "touchstone/certificate_text.hpp"
+#include "touchstone/number.hpp"
+#include "verify/base/cores.hpp"
+#include "verify/base/deadline.hpp"
+
+namespace touchstone::verify::jobs {
+namespace {
+
+using exact::Integer;
+using exact::Rational;
+using exact::RationalPoint;
+using exact::RationalTriangle;
+
+// ---- Vectors ------------------------------------------------------------------------------------
+
+/// x y z.
+template <class Number>
+using Triple = std::array<Number, 3>;
+
+template <class Number>
+Triple<Number> difference(const Triple<Number>& a, const Triple<Number>& b) {
+  return {Number(a[0] - b[0]), Number(a[1] - b[1]), Number(a[2] - b[2])};
+}
+
+template <class Number>
+Number dot(const Triple<Number>& a, const Triple<Number>& b) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+template <class Number>
+Triple<Number> cross(const Triple<Number>& a, const Triple<Number>& b) {
+  return {Number(a[1] * b[2] - a[2] * b[1]), Number(a[2] * b[0] - a[0] * b[2]),
+          Number(a[0] * b[1] - a[1] * b[0])};
+}
+
+template <class Number>
+Triple<Number> negated(const Triple<Number>& a) {
+  return difference({}, a);
+}
+
+template <class Number>
+bool is_zero(const Triple<Number>& a) {
+  return a[0] == 0 && a[1] == 0 && a[2] == 0;
+}
+
+/// A vector of about the same length as any other, in the same direction.
+Triple<double> normalized(const Triple<double>& a) {
+  const double length = std::hypot(a[0], a[1], a[2]);
+  return {a[0] / length, a[1] / length, a[2] / length};
+}
+
+const Triple<Rational>& normalized(const Triple<Rational>& a) { return a; }
+
+/// The integers without a common factor in the direction of a vector.
+Triple<Integer> primitive_integers(const Triple<Rational>& a) {
+  Integer denominator = 1, divisor = 0;
+  for (const Rational& x : a) denominator = lcm(denominator, x.get_den());
+  Triple<Integer> result;
+  for (std::size_t k = 0; k < 3; ++k) {
+    result[k] = denominator / a[k].get_den() * a[k].get_num();
+    divisor = gcd(divisor, result[k]);
+  }
+  if (divisor != 0) {
+    for (Integer& x : result) x /= divisor;
+  }
+  return result;
+}
+
+/// A direction d with d·g > 0 for all of these vectors, if there is one: the sum of the extreme
+/// rays of all d with d·g ≥ 0, which are products of two of them or, if all are in a plane, are in
+/// it.
+/// \param tolerance of zero, relative to the lengths
+template <class Number>
+Triple<Number> central_direction(const std::vector<Triple<Number>>& all, const Number& tolerance) {
+  Triple<Number> sum = all.empty() ? Triple<Number>{} : normalized(all.front());
+  if (all.size() < 2) return sum;
+  const auto is_feasible = [&](const Triple<Number>& d) {
+    return std::ranges::all_of(all, [&](const auto& g) { return dot(d, g) >= -tolerance; });
+  };
+  if (!is_feasible(sum)) sum = {};
+  const auto add = [&](const Triple<Number>& ray) {
+    if (is_zero(ray)) return;
+    for (const Triple<Number>& d : {normalized(ray), normalized(negated(ray))}) {
+      if (!is_feasible(d)) continue;
+      for (std::size_t k = 0; k < 3; ++k) sum[k] += d[k];
+    }
+  };
+  bool is_flat = false;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    for (std::size_t j = 0; j < i && !is_flat; ++j) {
+      const Triple<Number> product = cross(all[i], all[j]);
+      if (dot(product, product) <= tolerance) continue;
+      const Triple<Number> normal = normalized(product);
+      is_flat = is_feasible(normal) && is_feasible(negated(normal));
+      if (!is_flat) {
+        add(normal);
+        continue;
+      }
+      for (const Triple<Number>& g : all) add(cross(normal, g));
+    }
+  }
+  return sum;
+}
+
+// ---- A pair -------------------------------------------------------------------------------------
+
+/// The places of two elements, and of what they share.
+struct PairPlaces {
+  PairPlaces(const checker::Scene& scene, const checker::Primitive& a,
+             const checker::Primitive& b) {
+    const auto has = [](const checker::Primitive& element, std::int32_t v) {
+      return std::ranges::find(element.vertices, v) != element.vertices.end();
+    };
+    const auto place = [&](std::int32_t v) {
+      return scene.vertices[static_cast<std::size_t>(v)].start;
+    };
+    for (const std::int32_t v : a.vertices) (has(b, v) ? common : first).push_back(place(v));
+    for (const std::int32_t v : b.vertices) {
+      if (!has(a, v)) second.push_back(place(v));
+    }
+  }
+
+  using Places = std::vector<Triple<double>>;
+
+  Places first;   ///< of the first alone
+  Places second;  ///< of the second alone
+  Places common;
+};
+
+/// What a normal must have on one side: the differences that are not 0 of what the elements do not
+/// share, or of each of it and what they share.
+template <class Number>
+std::vector<Triple<Number>> differences(const PairPlaces& places) {
+  const auto exactly = [](const Triple<double>& x) {
+    return Triple<Number>{Number(x[0]), Number(x[1]), Number(x[2])};
+  };
+  std::vector<Triple<Number>> result;
+  const auto add = [&](const Triple<double>& upper, const Triple<double>& lower) {
+    if (upper != lower) result.push_back(difference(exactly(upper), exactly(lower)));
+  };
+  for (const auto& a : places.first) {
+    if (!places.common.empty()) add(a, places.common.front());
+  }
+  for (const auto& b : places.second) {
+    if (!places.common.empty()) add(places.common.front(), b);
+    if (!places.common.empty()) continue;
+    for (const auto& a : places.first) add(a, b);
+  }
+  return result;
+}
+
+/// A direction of a line in the plane that is sought: through what the elements share, or along one
+/// whose vertices are on a line. 0 if there is none.
+Triple<Rational> line_in_plane(const PairPlaces& places) {
+  const auto exactly = [](const Triple<double>& x) {
+    return Triple<Rational>{Rational(x[0]), Rational(x[1]), Rational(x[2])};
+  };
+  if (places.common.empty()) return {};
+  const Triple<Rational> c = exactly(places.common.front());
+  for (const auto& other : places.common) {
+    if (other != places.common.front()) return difference(exactly(other), c);
+  }
+  for (const auto* own : {&places.first, &places.second}) {
+    for (const auto& x : *own) {
+      for (const auto& y : *own) {
+        const Triple<Rational> to_x = difference(exactly(x), c), to_y = difference(exactly(y), c);
+        if (is_zero(cross(to_x, to_y)) && dot(to_x, to_y) < 0) return to_x;
+      }
+    }
+  }
+  return {};
+}
+
+/// Normals of a plane between two elements, one of which is accepted if there is one plane.
+std::vector<Triple<Rational>> exact_normals(const PairPlaces& places) {
+  const auto all = differences<Rational>(places);
+  const Triple<Rational> line = line_in_plane(places);
+  if (is_zero(line)) return {central_direction<Rational>(all, 0)};
+  std::vector<Triple<Rational>> across, result;
+  for (const Triple<Rational>& g : all) {
+    if (const auto h = cross(g, line); !is_zero(h)) across.push_back(h);
+  }
+  for (const Triple<Rational>& h : across) result.push_back(cross(line, h));
+  result.push_back(cross(line, central_direction<Rational>(across, 0)));
+  return result;
+}
+
+/// The weights of the corners with which a point of their hull is their mean, as integers.
+std::vector<Integer> weights_of(const RationalPoint& x, const RationalTriangle& corners) {
+  std::array<Rational, 3> weights;
+  const auto& [p, q, r] = corners;
+  const RationalPoint normal = cross(difference(q, p), difference(r, p));
+  if (!is_zero(normal)) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      weights[i] = dot(
+          normal, cross(difference(corners[(i + 1) % 3], x), difference(corners[(i + 2) % 3], x)));
+    }
+  } else {
+    // Of corners at one place the first, because an edge repeats one and a point is repeated twice.
+    const auto at = [&](auto corner) { return static_cast<std::size_t>(corner - corners.begin()); };
+    const std::size_t least = at(std::ranges::min_element(corners)),
+                      greatest = at(std::ranges::max_element(corners));
+    const RationalPoint along = difference(corners[greatest], corners[least]);
+    weights[greatest] = dot(along, difference(x, corners[least]));
+    weights[least] = is_zero(along) ? Rational(1) : dot(along, difference(corners[greatest], x));
+  }
+  const Triple<Integer> integers = primitive_integers(weights);
+  return {integers.begin(), integers.end()};
+}
+
+RationalTriangle triangle_of(const checker::Scene& scene, const checker::Primitive& element) {
+  RationalTriangle result;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const auto& start = scene.vertices[static_cast<std::size_t>(element.vertices[i])].start;
+    for (std::size_t k = 0; k < 3; ++k) result[i][k] = start[k];
+  }
+  return result;
+}
+
+// ---- The certificate ----------------------------------------------------------------------------
+
+checker::Scene scene_of(const mesh::Mesh& mesh, const fast::IntersectionOptions& search) {
+  checker::Scene scene;
+  for (Eigen::Index i = 0; i < mesh.vertices.rows(); ++i) {
+    const Triple<double> place{mesh.vertices(i, 0), mesh.vertices(i, 1), mesh.vertices(i, 2)};
+    scene.vertices.push_back({place, place});
+  }
+  scene.faces = mesh.faces;
+  const std::vector<fast::Edge> sides = fast::edges_of(mesh.faces);
+  std::ranges::set_difference(mesh.edges, sides, std::back_inserter(scene.edges),
+                              [](const fast::Edge& a, const fast::Edge& b) {
+                                return std::tie(a[1], a[0]) < std::tie(b[1], b[0]);
+                              });
+  scene.points = mesh.points;
+  if (search.weld || !search.groups.apart.empty()) {
+    scene.groups.assign(search.groups.of_vertices.begin(), search.groups.of_vertices.end());
+    scene.apart.assign(search.groups.apart.begin(), search.groups.apart.end());
+  }
+  return scene;
+}
+
+class MeshProver {
+ public:
+  MeshProver(const mesh::Mesh& mesh, const fast::IntersectionOptions& search,
+             const StepProofOptions& options)
+      : mesh_(mesh),
+        is_welded_(search.weld),
+        scene_(scene_of(mesh, search)),
+        elements_(scene_, search.weld),
+        options_(options) {
+    if (elements_.points() == 0) return;
+    for (const checker::Primitive& point : checker::find_elements(scene_).points) {
+      if (std::ranges::binary_search(scene_.points, point.number)) points_.push_back(point.number);
+    }
+  }
+
+  MeshProof run(std::span<const fast::Intersection> found) {
+    const std::size_t items = scene_.vertices.size() + scene_.faces.size() + scene_.edges.size() +
+                              scene_.points.size() + scene_.groups.size() + scene_.apart.size();
+    if (items > exact::step_item_limit) {
+      proof_.failure = fmt::format("the mesh has more than {} items", exact::step_item_limit);
+      return proof_;
+    }
+    for (const fast::Intersection& one : found) intersecting_.push_back(pair_of(one));
+    std::ranges::sort(intersecting_);
+    const std::vector<fast::IndexPair> apart = pairs_to_argue();
+    proof_.arguments = apart.size();
+    lines_ = intersecting_.size() + apart.size();
+    if (lines_ > exact::step_argument_limit) {
+      proof_.failure =
+          fmt::format("more than {} pairs need an argument", exact::step_argument_limit);
+      return proof_;
+    }
+    write_scene();
+    put(fmt::format("claim {}intersections {}\n", is_welded_ ? "welded_" : "",
+                    intersecting_.size()));
+    write_lines(intersecting_, [&](const fast::IndexPair& pair) { return common_point(pair); });
+    put("separations\n");
+    write_lines(apart, [&](const fast::IndexPair& pair) { return argument(pair); });
+    if (proof_.is_complete()) put("end\n");
+    return std::move(proof_);
+  }
+
+ private:
+  void put(std::string_view text) {
+    proof_.bytes += text.size();
+    if (options_.on_text) options_.on_text(text);
+  }
+
+  void write_scene() {
+    std::string text = "mesh " + exact::label_text(options_.label) + '\n';
+    text += fmt::format("vertices {}\n", scene_.vertices.size());
+    for (const checker::Motion& vertex : scene_.vertices) {
+      for (const double x : vertex.start) {
+        exact::write_hexadecimal(text, x);
+        text += ' ';
+      }
+      text.back() = '\n';
+    }
+    const auto one_by_one = [](const std::vector<std::int32_t>& numbers) {
+      std::vector<std::array<std::int32_t, 1>> items;
+      for (const std::int32_t number : numbers) items.push_back({number});
+      return items;
+    };
+    exact::write_step_list(text, "faces", scene_.faces);
+    exact::write_step_list(text, "edges", scene_.edges);
+    exact::write_step_list(text, "points", one_by_one(scene_.points));
+    exact::write_step_list(text, "groups", one_by_one(scene_.groups));
+    exact::write_step_list(text, "apart", scene_.apart);
+    put(text);
+  }
+
+  /// The numbers of the elements in the certificate, the smaller one first.
+  [[nodiscard]] fast::IndexPair pair_of(const fast::Intersection& found) const {
+    fast::IndexPair result{};
+    for (std::size_t i = 0; i < 2; ++i) result[i] = number_of(found.elements[i], found.numbers[i]);
+    return {std::min(result[0], result[1]), std::max(result[0], result[1])};
+  }
+
+  [[nodiscard]] std::int32_t number_of(fast::ElementKind kind, std::int32_t number) const {
+    if (kind == fast::ElementKind::face) return number;
+    const auto place_in = [&](const auto& list, const auto& item, auto order) {
+      return static_cast<std::size_t>(std::ranges::lower_bound(list, item, order) - list.begin());
+    };
+    std::size_t place = elements_.faces();
+    if (kind == fast::ElementKind::edge) {
+      place += place_in(scene_.edges, mesh_.edges[static_cast<std::size_t>(number)],
+                        [](const fast::Edge& a, const fast::Edge& b) {
+                          return std::tie(a[1], a[0]) < std::tie(b[1], b[0]);
+                        });
+    } else {
+      place += elements_.edges() + place_in(points_, number, std::ranges::less{});
+    }
+    return static_cast<std::int32_t>(place);
+  }
+
+  /// Those that the checker asks for; more than the limit if there are more.
+  [[nodiscard]] std::vector<fast::IndexPair> pairs_to_argue() const {
+    std::vector<fast::IndexPair> pairs;
+    std::int64_t comparisons = std::numeric_limits<std::int64_t>::max();
+    const auto take = [&](const checker::Primitive& a, const checker::Primitive& b) {
+      const fast::IndexPair pair{a.number, b.number};
+      if (pairs.size() > exact::step_argument_limit) return;
+      if (!std::ranges::binary_search(intersecting_, pair)) pairs.push_back(pair);
+    };
+    elements_.find_pairs(comparisons, take);
+    std::ranges::sort(pairs);
+    return pairs;
+  }
+
+  /// Writes a line for each pair, which line(pair) makes; empty if it cannot.
+  template <class Line>
+  void write_lines(std::span<const fast::IndexPair> pairs, const Line& line) {
+    static constexpr std::size_t block = 4'096;
+    tbb::task_arena arena(base::cores_for(options_.threads));
+    for (std::size_t done = 0; done < pairs.size() && proof_.is_complete(); done += block) {
+      const auto some = pairs.subspan(done, std::min(block, pairs.size() - done));
+      std::vector<std::string> lines(some.size());
+      arena.execute([&] {
+        tbb::parallel_for(std::size_t{0}, some.size(), [&](std::size_t i) {
+          if (!base::is_stopped(options_.stop)) lines[i] = line(some[i]);
+        });
+      });
+      proof_.interrupted = base::is_stopped(options_.stop);
+      const auto missing = std::ranges::find(lines, "");
+      if (!proof_.interrupted && missing != lines.end()) {
+        const auto& [a, b] = some[static_cast<std::size_t>(missing - lines.begin())];
+        proof_.failure = fmt::format("no argument for the elements {} and {}", a, b);
+      }
+      if (!proof_.is_complete()) return;
+      put(fmt::format("{}", fmt::join(lines, "")));
+      lines_written_ += some.size();
+      if (options_.on_progress) {
+        options_.on_progress(static_cast<double>(lines_written_) / static_cast<double>(lines_));
+      }
+    }
+  }
+
+  /// The weights of a point that both have beyond what they share.
+  [[nodiscard]] std::string common_point(const fast::IndexPair& numbers) const {
+    const auto& [a, b] = numbers;
+    const checker::RestingPair pair = elements_.pair(a, b);
+    if (pair.are_duplicates()) return fmt::format("{} {}\n", a, b);
+    const RationalTriangle first = triangle_of(scene_, elements_[a]);
+    const RationalTriangle second = triangle_of(scene_, elements_[b]);
+    for (const RationalPoint& x : exact::intersection_of(first, second)) {
+      std::vector<Integer> of_a = weights_of(x, first), of_b = weights_of(x, second);
+      of_a.resize(elements_.corners(a));
+      of_b.resize(elements_.corners(b));
+      if (!pair.is_common_point(of_a, of_b)) continue;
+      std::string text = fmt::format("{} {}", a, b);
+      for (const auto* weights : {&of_a, &of_b}) {
+        for (const Integer& weight : *weights) text += ' ' + weight.get_str();
+      }
+      return text + '\n';
+    }
+    return "";
+  }
+
+  /// The line of an argument.
+  [[nodiscard]] std::string argument(const fast::IndexPair& numbers) const {
+    const auto& [a, b] = numbers;
+    const PairPlaces places(scene_, elements_[a], elements_[b]);
+    const bool is_edge_shared = places.common.size() > 1;
+    if (!is_edge_shared) {
+      if (const auto d = small_normal(numbers, places)) {
+        return fmt::format("{} {} {}\n", a, b, fmt::join(*d, " "));
+      }
+    }
+    const checker::RestingPair pair = elements_.pair(a, b);
+    if (pair.is_separated_by_first_plane()) return fmt::format("{} {} plane\n", a, b);
+    if (elements_.pair(b, a).is_separated_by_first_plane()) {
+      return fmt::format("{} {} plane\n", b, a);
+    }
+    for (const Triple<Rational>& normal : exact_normals(places)) {
+      const Triple<Integer> d = primitive_integers(normal);
+      if (!pair.is_separated_by(d)) continue;
+      return fmt::format("{} {} {} {} {}\n", a, b, d[0].get_str(), d[1].get_str(), d[2].get_str());
+    }
+    return pair.are_separated_on_lines() ? fmt::format("{} {} line\n", a, b) : "";
+  }
+
+  /// A normal of small integers.
+  [[nodiscard]] std::optional<std::array<std::int64_t, 3>> small_normal(
+      const fast::IndexPair& numbers, const PairPlaces& places) const {
+    static constexpr double tolerance = 1e-12;
+    std::vector<Triple<double>> all = differences<double>(places);
+    for (Triple<double>& g : all) g = normalized(g);
+    const Triple<double> d = central_direction(all, tolerance);
+    const double greatest = std::max({std::abs(d[0]), std::abs(d[1]), std::abs(d[2])});
+    if (!(greatest > 0.0) || !std::isfinite(greatest)) return std::nullopt;
+    for (const double size : {1., 2., 3., 5., 8., 13., 24., 44., 80., 150., 290., 550., 1023.}) {
+      std::array<std::int64_t, 3> rounded{};
+      checker::Vector normal;
+      for (std::size_t k = 0; k < 3; ++k) {
+        rounded[k] = std::llround(d[k] / greatest * size);
+        normal[k] = static_cast<long>(rounded[k]);
+      }
+      if (elements_.is_separated_by(numbers[0], numbers[1], normal)) return rounded;
+    }
+    return std::nullopt;
+  }
+
+  const mesh::Mesh& mesh_;
+  bool is_welded_;
+  checker::Scene scene_;
+  checker::RestingMesh elements_;
+  const StepProofOptions& options_;
+  MeshProof proof_;
+  /// The vertices of the elements that are points, in order.
+  std::vector<std::int32_t> points_;
+  std::vector<fast::IndexPair> intersecting_;  ///< in order
+  std::size_t lines_ = 0;                      ///< of all pairs
+  std::size_t lines_written_ = 0;
+};
+
+}  // namespace
+
+MeshProof prove_mesh(const mesh::Mesh& mesh, const fast::IntersectionOptions& search,
+                     std::span<const fast::Intersection> found, const StepProofOptions& options) {
+  return MeshProver(mesh, search, options).run(found);
+}
+
+}  // namespace touchstone::verify::jobs
