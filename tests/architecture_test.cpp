@@ -38,6 +38,7 @@ using Words = std::vector<std::string>;
 constexpr std::string_view layer_lines = R"(
   exact/query.hpp: exact/cxx20.hpp Eigen/
   exact/curved_query.hpp: exact/query.hpp
+  exact/element.hpp: exact/curved_query.hpp exact/query.hpp
   exact/: exact/ CGAL/ Eigen/ gmp.h gmpxx.h
 // The checker shares no code with anything that decides queries.
   exact/checker/: exact/checker/ gmp.h gmpxx.h
