@@ -24,6 +24,7 @@
 #include "touchstone/contacts.hpp"
 #include "touchstone/curved_query.hpp"
 #include "touchstone/intersections.hpp"
+#include "touchstone/inversion.hpp"
 #include "touchstone/mesh.hpp"
 #include "touchstone/query.hpp"
 #include "touchstone/tight_inclusion.hpp"
@@ -66,10 +67,11 @@ using FindActive = std::vector<fast::ActiveContact>(const fast::Step&, const Sep
 using FindIntersections = std::vector<fast::Intersection>(fast::MovingVertices,
                                                           const fast::MeshElements&,
                                                           const fast::IntersectionOptions&);
+using DecideInversion = fast::InversionResult(const Query&, const fast::InversionOptions&);
 using LimitStep = fast::LineSearchLimit(const fast::Step&, double, const fast::LineSearchOptions&);
 using Check = checker::Report(std::istream&, const checker::Options&);
-using DecideRescaled = void(const fast::KernelInput&, const fast::CertifiedKernel&,
-                            std::span<const Query>, fast::KernelOutput&);
+using DecideRescaled = void(const fast::KernelInput&, fast::KernelFunction&, std::span<const Query>,
+                            fast::KernelOutput&);
 using DecideExactly = std::optional<fast::ExactImpact>(Kind, const Query&, const Separation&,
                                                        double toi_tolerance, double t_max);
 using DecideCurvesExactly = std::optional<fast::ExactImpact>(Kind, const CurvedQuery&,
@@ -90,6 +92,8 @@ struct PlantedFaults {
   Faults<FindActive> active_set;
   Faults<LimitStep> line_search;
   Faults<FindIntersections> intersections;
+  Faults<DecideInversion> inversion;
+  Faults<const fast::CertifiedKernel> inversion_kernel;
   Faults<Check> checker;
   Faults<const fast::BoxKernel> box_kernel;
   Faults<MakeTightInclusion> tight_inclusion;
