@@ -42,6 +42,38 @@ namespace touchstone::fast::kernel {
 
 // ---- Where elements come from -------------------------------------------------------------------
 
+/// `width` consecutive items of an array, lane by lane, each of so many rows of three numbers.
+/// Their addresses differ by constants. Lanes beyond `count` repeat the last.
+template <class Lanes, std::size_t rows>
+inline std::array<Vector<typename Lanes::Value>, rows> load_consecutive(const double* first,
+                                                                        std::size_t count) {
+  const auto load = [&](const auto& place) {
+    std::array<Vector<typename Lanes::Value>, rows> result;
+    for (std::size_t k = 0; k < rows; ++k) {
+      std::array<const double*, Lanes::width> row;
+      for (std::size_t lane = 0; lane < Lanes::width; ++lane) {
+        row[lane] = first + 3 * (rows * place(lane) + k);
+      }
+      // The memory after the last one may belong to other objects.
+      result[k] = k + 1 < rows ? Lanes::load(row) : Lanes::load_backwards(row);
+    }
+    return result;
+  };
+  if (count == Lanes::width) return load([](std::size_t lane) { return lane; });
+  return load([&](std::size_t lane) { return lane < count ? lane : count - 1; });
+}
+
+/// An array of tetrahedra in its order, as the first stage takes them.
+template <class Lanes>
+struct TetrahedraInOrder {
+  static std::array<Vector<typename Lanes::Value>, query_points> load(const KernelInput& input,
+                                                                      const std::uint32_t* indices,
+                                                                      std::size_t count) {
+    return load_consecutive<Lanes, query_points>(input.queries[indices[0]].coordinates.data(),
+                                                 count);
+  }
+};
+
 /// Tetrahedra of a mesh.
 template <class Lanes>
 struct FromTetrahedra {
@@ -73,7 +105,19 @@ inline std::array<Vector<Value>, query_points> above(
   return result;
 }
 
-/// An array of triangles in the plane, as four rows of three numbers each.
+/// The same from the four rows of three numbers that a triangle in the plane is in an array.
+template <class Value>
+inline std::array<Vector<Value>, query_points> above(const std::array<Vector<Value>, 4>& row) {
+  const Value nothing(0.0);
+  const auto half = [&](const Vector<Value>& first, const Vector<Value>& second) {
+    return std::array<Vector<Value>, 3>{{{first[0], first[1], nothing},
+                                         {first[2], second[0], nothing},
+                                         {second[1], second[2], nothing}}};
+  };
+  return above<Value>({half(row[0], row[1]), half(row[2], row[3])});
+}
+
+/// An array of triangles in the plane.
 template <class Lanes>
 struct FromTriangles {
   using Value = typename Lanes::Value;
@@ -81,20 +125,24 @@ struct FromTriangles {
   static std::array<Vector<Value>, query_points> load(const KernelInput& input,
                                                       const std::uint32_t* indices,
                                                       std::size_t count) {
-    std::array<std::array<const double*, Lanes::width>, 4> rows;
-    for (std::size_t lane = 0; lane < Lanes::width; ++lane) {
-      const double* const first =
-          input.triangles[indices[lane < count ? lane : count - 1]].coordinates.data();
-      for (std::size_t k = 0; k < rows.size(); ++k) rows[k][lane] = first + 3 * k;
+    std::array<Vector<Value>, 4> rows;
+    for (std::size_t k = 0; k < rows.size(); ++k) {
+      std::array<const double*, Lanes::width> row;
+      for (std::size_t lane = 0; lane < Lanes::width; ++lane) {
+        const PlaneTriangle& triangle = input.triangles[indices[lane < count ? lane : count - 1]];
+        row[lane] = triangle.coordinates.data() + 3 * k;
+      }
+      rows[k] = k + 1 < rows.size() ? Lanes::load(row) : Lanes::load_backwards(row);
     }
-    const auto half = [](const Vector<Value>& first, const Vector<Value>& second) {
-      const Value nothing(0.0);
-      return std::array<Vector<Value>, 3>{{{first[0], first[1], nothing},
-                                           {first[2], second[0], nothing},
-                                           {second[1], second[2], nothing}}};
-    };
-    return above<Value>({half(Lanes::load(rows[0]), Lanes::load(rows[1])),
-                         half(Lanes::load(rows[2]), Lanes::load_backwards(rows[3]))});
+    return above(rows);
+  }
+};
+template <class Lanes>
+struct TrianglesInOrder {
+  static std::array<Vector<typename Lanes::Value>, query_points> load(const KernelInput& input,
+                                                                      const std::uint32_t* indices,
+                                                                      std::size_t count) {
+    return above(load_consecutive<Lanes, 4>(input.triangles[indices[0]].coordinates.data(), count));
   }
 };
 
@@ -187,7 +235,7 @@ inline void volume_stage(const KernelInput& input, const Indices& all, Crossings
   });
 }
 
-/// \tparam First the source for the first stage: of one element, or Source
+/// \tparam First the source for the first stage: of one element, of elements in order, or Source
 template <class Lanes, class Source, class First = Source>
 void invert_from(const KernelInput& input, KernelOutput& output) {
   constexpr Kind kind = Kind::vertex_face;
@@ -210,7 +258,7 @@ void invert_from(const KernelInput& input, KernelOutput& output) {
 template <class Lanes>
 void invert(const KernelInput& input, KernelOutput& output) {
   if (input.triangles != nullptr) {
-    invert_from<Lanes, FromTriangles<Lanes>>(input, output);
+    invert_from<Lanes, FromTriangles<Lanes>, TrianglesInOrder<Lanes>>(input, output);
   } else if (input.tetrahedra != nullptr) {
     invert_from<Lanes, FromTetrahedra<Lanes>>(input, output);
   } else if (input.faces != nullptr) {
@@ -218,7 +266,7 @@ void invert(const KernelInput& input, KernelOutput& output) {
   } else if (input.count == 1) {
     invert_from<Lanes, FromArray<Lanes>, FromOne<Lanes>>(input, output);
   } else {
-    invert_from<Lanes, FromArray<Lanes>>(input, output);
+    invert_from<Lanes, FromArray<Lanes>, TetrahedraInOrder<Lanes>>(input, output);
   }
 }
 
