@@ -163,6 +163,11 @@ void require_in_range(const MovingVertices& vertices, std::span<const Face> face
   require_elements_in_range(vertices.size(), faces, "face");
 }
 
+void require_in_range(const MovingVertices& vertices,
+                      std::span<const std::array<std::int32_t, 4>> tetrahedra) {
+  require_elements_in_range(vertices.size(), tetrahedra, "tetrahedron");
+}
+
 void require_in_range(const MovingVertices& vertices, std::span<const std::int32_t> points) {
   require_countable(points.size(), "points");
   for (std::size_t i = 0; i < points.size(); ++i) {

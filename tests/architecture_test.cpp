@@ -38,6 +38,7 @@ using Words = std::vector<std::string>;
 constexpr std::string_view layer_lines = R"(
   exact/query.hpp: exact/cxx20.hpp Eigen/
   exact/curved_query.hpp: exact/query.hpp
+  exact/element.hpp: exact/curved_query.hpp exact/query.hpp
   exact/: exact/ CGAL/ Eigen/ gmp.h gmpxx.h
 // The checker shares no code with anything that decides queries.
   exact/checker/: exact/checker/ gmp.h gmpxx.h
@@ -46,7 +47,7 @@ constexpr std::string_view layer_lines = R"(
   filters/: filters/
   filters/derivation/: filters/ filters/derivation/ fmt/ gmp.h gmpxx.h mpfr.h signal.h spawn.h sys/ unistd.h
 // Vectors, the processor's floating-point control, and large pages; oneTBB is optional.
-  fast/: fast/ filters/ exact/curved_query.hpp exact/query.hpp Eigen/ arm_neon.h immintrin.h xmmintrin.h sys/mman.h
+  fast/: fast/ filters/ exact/curved_query.hpp exact/element.hpp exact/query.hpp Eigen/ arm_neon.h immintrin.h xmmintrin.h sys/mman.h
   fast/platform/: fast/platform/ filters/ arm_neon.h immintrin.h sys/mman.h xmmintrin.h
   fast/platform/threads.hpp: fast/platform/floating_point_state.hpp oneapi/tbb/
 // Each folder of fast includes those above it, and the headers named with it.
@@ -54,7 +55,7 @@ constexpr std::string_view layer_lines = R"(
   fast/tight_inclusion/: fast/tight_inclusion/ fast/platform/ filters/ exact/query.hpp immintrin.h
   fast/certified/exact/: fast/certified/exact/ exact/curved_query.hpp exact/query.hpp Eigen/
   fast/certified/fixed_point_vertices.hpp: fast/platform/ fast/mesh.hpp
-  fast/certified/kernel.hpp: fast/certified/fixed_point_vertices.hpp fast/platform/ fast/mesh.hpp exact/query.hpp
+  fast/certified/kernel.hpp: fast/certified/fixed_point_vertices.hpp fast/platform/ fast/mesh.hpp exact/element.hpp exact/query.hpp
   fast/certified/stages/: fast/certified/stages/ fast/certified/fixed_point_vertices.hpp fast/certified/kernel.hpp filters/ exact/query.hpp
   fast/certified/curves/: fast/certified/curves/ fast/certified/stages/ fast/certified/kernel.hpp filters/ exact/query.hpp
   fast/certified/: fast/certified/ fast/platform/ fast/certified.hpp fast/mesh.hpp filters/ exact/curved_query.hpp exact/query.hpp immintrin.h
@@ -126,7 +127,7 @@ constexpr std::string_view headers_without_test = R"(
   fast/: kernels.hpp
   fast/certified/: block.hpp curves.hpp kernel_on_lanes.hpp
   fast/certified/exact/: curved_polygon.hpp fixed_integer.hpp fraction.hpp contact_conditions.hpp general_contact_decision.hpp polynomial.hpp
-  fast/certified/stages/: axis.hpp bisection.hpp conservative_advancement.hpp crossing.hpp determinant.hpp direction.hpp distance_enclosure.hpp lanes.hpp moving_polygon.hpp moving_vectors.hpp only_zero.hpp orientation.hpp refinement.hpp single_precision.hpp
+  fast/certified/stages/: axis.hpp bisection.hpp conservative_advancement.hpp crossing.hpp determinant.hpp direction.hpp distance_enclosure.hpp inversion.hpp lanes.hpp moving_polygon.hpp moving_vectors.hpp only_zero.hpp orientation.hpp refinement.hpp single_precision.hpp
   fast/platform/: avx2_doubles.hpp avx2_floats.hpp avx512_doubles.hpp avx512_floats.hpp avx_rows.hpp neon_doubles.hpp neon_floats.hpp scalar_doubles.hpp scalar_floats.hpp floating_point_state.hpp
   fast/tight_inclusion/: box_kernel_on_lanes.hpp curved_box_kernel.hpp
 // In active_set_test.cpp, distance_test.cpp and line_search_test.cpp; mesh_test.cpp;

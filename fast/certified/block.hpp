@@ -107,7 +107,7 @@ const KernelOutput& decide_block(KernelInput block, double t_limit, const Certif
     for (std::size_t i = 0; i < output.undecided.count; ++i) {
       undecided.push_back(query_of(output.undecided.items[i]));
     }
-    decide_rescaled(block, kernel, undecided, output);
+    decide_rescaled(block, *kernel.decide, undecided, output);
   }
   report_contacts(
       output, options,

@@ -11,6 +11,7 @@
 
 #include "fast/certified/fixed_point_vertices.hpp"
 #include "fast/platform/instruction_set.hpp"
+#include "touchstone/element.hpp"
 #include "touchstone/mesh.hpp"
 #include "touchstone/query.hpp"
 
@@ -31,6 +32,11 @@ struct KernelInput {
   const Edge* edges = nullptr;
   const Face* faces = nullptr;
   const IndexPair* pairs = nullptr;
+  /// A block of elements (CertifiedKernel::invert) is one of queries, which are tetrahedra, of
+  /// triangles in the plane, or, with vertices, of tetrahedra or faces; the third coordinates of
+  /// faces' vertices have no effect. Here its first ones.
+  const PlaneTriangle* triangles = nullptr;
+  const std::array<std::int32_t, 4>* tetrahedra = nullptr;
   /// True if coordinates are known to be finite and few queries are separated on an axis. Then the
   /// first stage is omitted.
   bool axis_is_done = false;
@@ -96,10 +102,18 @@ struct Block : Queries {
 
 }  // namespace curved
 
+/// A function that decides a block of queries or elements.
+using KernelFunction = void(const KernelInput& input, KernelOutput& output);
+
 /// The functions of one instruction set. All sets make the same decisions.
 struct CertifiedKernel {
   InstructionSet instructions;
-  void (*decide)(const KernelInput& input, KernelOutput& output);
+  KernelFunction* decide;
+  /// Inversions of elements (fast/certified/stages/inversion.hpp). Elements that are in no list
+  /// have a positive volume at all times, as have the rejected ones up to t_limit; those in
+  /// `one_sided` are inverted at t=0; impacts are the first times of those with a positive volume
+  /// at t=0.
+  KernelFunction* invert;
   /// Lists the queries on curves that no axis separates (fast/certified/curves/stages.hpp).
   void (*curved_axis)(const curved::Block& block, KernelOutput::List<std::uint32_t>& open);
   /// Decides the queries of a list, with control polygons of one form; appends to the output.

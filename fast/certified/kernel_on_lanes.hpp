@@ -34,6 +34,8 @@
 /// Pairs of a mesh may come with their vertices in fixed point. Then stages/single_precision.hpp,
 /// with the theorems of 2. to 4., takes the place of 2. and 3.
 ///
+/// Inversions of elements are decided by 3., 6. and 7. alone (stages/inversion.hpp).
+///
 /// The stages for curves are in fast/certified/curves/stages.hpp.
 ///
 /// Queries that no stage decides remain undecided, as do those with coordinates that are not finite
@@ -49,6 +51,7 @@
 #include "fast/certified/stages/crossing.hpp"
 #include "fast/certified/stages/determinant.hpp"
 #include "fast/certified/stages/distance_enclosure.hpp"
+#include "fast/certified/stages/inversion.hpp"
 #include "fast/certified/stages/lanes.hpp"
 #include "fast/certified/stages/only_zero.hpp"
 #include "fast/certified/stages/orientation.hpp"
@@ -132,6 +135,7 @@ template <class Lanes>
 constexpr CertifiedKernel certified_kernel_on(InstructionSet instructions) {
   return {.instructions = instructions,
           .decide = kernel::decide<Lanes>,
+          .invert = kernel::invert<Lanes>,
           .curved_axis = curved::axis_stage<Lanes>,
           .curved_search = curved::search<Lanes>,
           .product_then_sum = product_then_sum<Lanes>};

@@ -106,15 +106,15 @@ void append(KernelOutput::List<T>& list, const T& item) {
 }
 
 /// Runs the kernel on scaled queries and appends its results.
-void decide(const Rescaled& some, KernelInput block, const CertifiedKernel& kernel,
-            KernelOutput& output) {
+void decide_batch(const Rescaled& some, KernelInput block, KernelFunction& function,
+                  KernelOutput& output) {
   thread_local KernelOutput result;
   block.count = some.queries.size();
   block.queries = some.queries.data();
   block.axis_is_done = false;
   block.rounded = nullptr;
   block.separation.distance = some.distance;
-  kernel.decide(block, result);
+  function(block, result);
   const auto move = [&](auto list) {
     const auto& from = result.*list;
     for (std::size_t i = 0; i < from.count; ++i) {
@@ -134,7 +134,7 @@ void decide(const Rescaled& some, KernelInput block, const CertifiedKernel& kern
 
 }  // namespace
 
-void decide_rescaled(const KernelInput& block, const CertifiedKernel& kernel,
+void decide_rescaled(const KernelInput& block, KernelFunction& decide,
                      std::span<const Query> queries, KernelOutput& output) {
   Batches batches;
   output.undecided.count = 0;
@@ -150,7 +150,7 @@ void decide_rescaled(const KernelInput& block, const CertifiedKernel& kernel,
       append(output.undecided, number);
     }
   }
-  for (const Rescaled& some : batches.all()) decide(some, block, kernel, output);
+  for (const Rescaled& some : batches.all()) decide_batch(some, block, decide, output);
 }
 
 }  // namespace touchstone::fast

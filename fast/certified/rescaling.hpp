@@ -13,6 +13,7 @@
 /// separation this holds if the factors are equal and the distance is multiplied by them as well.
 /// Proof. F is linear in the coordinates of each axis, so it is 0 at the same (t,u,v). A norm with
 /// equal factors is multiplied by them too. ∎
+/// The volume of a tetrahedron is multiplied by the factors, which keeps its sign and its zeros.
 
 #include <span>
 
@@ -23,7 +24,8 @@ namespace touchstone::fast {
 
 /// Moves queries of unusual size that the kernel can decide from the undecided ones of the output
 /// to other lists. \param queries the undecided ones, in their order
-void decide_rescaled(const KernelInput& block, const CertifiedKernel& kernel,
+/// \param decide the kernel's function that left them undecided
+void decide_rescaled(const KernelInput& block, KernelFunction& decide,
                      std::span<const Query> queries, KernelOutput& output);
 
 }  // namespace touchstone::fast

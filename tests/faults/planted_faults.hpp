@@ -26,6 +26,7 @@
 #include "touchstone/contacts.hpp"
 #include "touchstone/curved_query.hpp"
 #include "touchstone/intersections.hpp"
+#include "touchstone/inversion.hpp"
 #include "touchstone/mesh.hpp"
 #include "touchstone/query.hpp"
 #include "touchstone/tight_inclusion.hpp"
@@ -71,10 +72,11 @@ using EncloseContact = fast::ContactEnclosure(Kind, const Query&, const fast::Ti
 using FindIntersections = std::vector<fast::Intersection>(fast::MovingVertices,
                                                           const fast::MeshElements&,
                                                           const fast::IntersectionOptions&);
+using DecideInversion = fast::InversionResult(const Query&, const fast::InversionOptions&);
 using LimitStep = fast::LineSearchLimit(const fast::Step&, double, const fast::LineSearchOptions&);
 using Check = checker::Report(std::istream&, const checker::Options&);
-using DecideRescaled = void(const fast::KernelInput&, const fast::CertifiedKernel&,
-                            std::span<const Query>, fast::KernelOutput&);
+using DecideRescaled = void(const fast::KernelInput&, fast::KernelFunction&, std::span<const Query>,
+                            fast::KernelOutput&);
 using DecideExactly = std::optional<fast::ExactImpact>(Kind, const Query&, const Separation&,
                                                        double toi_tolerance, double t_max);
 using DecideCurvesExactly = std::optional<fast::ExactImpact>(Kind, const CurvedQuery&,
@@ -97,6 +99,8 @@ struct PlantedFaults {
   Faults<LimitStep> line_search;
   Faults<FindIntersections> intersections;
   Faults<const fast::TriangleKernel> triangle_filter;
+  Faults<DecideInversion> inversion;
+  Faults<const fast::CertifiedKernel> inversion_kernel;
   Faults<Check> checker, mesh_checker;
   Faults<const fast::BoxKernel> box_kernel;
   Faults<MakeTightInclusion> tight_inclusion;

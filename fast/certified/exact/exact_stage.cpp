@@ -16,6 +16,7 @@
 #include "fast/certified/exact/enclosing_doubles.hpp"
 #include "fast/certified/exact/fixed_integer.hpp"
 #include "fast/certified/exact/general_contact_decision.hpp"
+#include "fast/certified/exact/real_root.hpp"
 
 namespace touchstone::fast {
 namespace {
@@ -203,6 +204,32 @@ std::optional<ExactImpact> decide_exactly(Kind kind, const CurvedQuery& query,
   if (!time) return std::nullopt;
   const Query at_impact = at_rest(query, std::bit_cast<double>(time->upper));
   return approach_at(kind, *time, nearest_parameters(kind, at_impact, 0.0, separation.norm));
+}
+
+ExactInversion decide_inversion_exactly(const Query& tetrahedron, double t_max) {
+  const auto motion = motion_of<BigInteger, BigInteger>(
+      Kind::vertex_face,
+      {axis_of(tetrahedron, 0), axis_of(tetrahedron, 1), axis_of(tetrahedron, 2)});
+  const auto det = determinant(motion, normal(motion));
+  ExactInversion result{.start = -det.front().sign()};
+  if (result.start <= 0) {
+    result.inverts = true;
+    return result;
+  }
+  const auto end_at = [&](Instant& first) {
+    if (first.is_above(unit_bits(t_max))) return true;
+    const auto [lower, upper] =
+        enclose(first.guess(), 1, [&](std::uint64_t bits) { return first.is_above(bits); });
+    result.inverts = true;
+    result.toi_lower = std::bit_cast<double>(lower);
+    result.toi_upper = std::bit_cast<double>(upper);
+    return true;
+  };
+  if (!visit_roots(inner_polynomial(det), end_at) && det.back().sign() == 0) {
+    Instant end(Dyadic{1, 0});
+    static_cast<void>(end_at(end));
+  }
+  return result;
 }
 
 }  // namespace touchstone::fast

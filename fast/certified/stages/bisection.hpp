@@ -84,9 +84,21 @@ inline void load_moving(const KernelInput& input, const Indices& indices,
   }
 }
 
+/// What is proved of contacts on an interval, from the vectors at its ends.
+template <Kind kind>
+struct ExamineContacts {
+  template <class Value>
+  [[nodiscard]] static Examination<Value> on(const Ends<Value>& at,
+                                             const Bounds<Value, kind>& bounds) {
+    return examine<kind>(at, bounds);
+  }
+};
+
 /// Runs `width` queries at a time, each with its own interval; a lane that is finished takes the
 /// next query.
-template <class Lanes, Kind kind>
+/// \tparam Examine as ExamineContacts, with its own proofs of "no contact" and of "one, at the only
+/// zero of det"
+template <class Lanes, Kind kind, class Examine = ExamineContacts<kind>>
 class Bisection {
  public:
   Bisection(const KernelInput& input, const Moving<Lanes, kind>& moving, Crossings& contacts,
@@ -135,8 +147,7 @@ class Bisection {
 
   void step() {
     const Value begin = load(begin_), length = load(length_);
-    const Examination<Value> found =
-        examine<kind>(between(lanes_.unit(), begin, begin + length), lanes_.bounds());
+    const auto found = Examine::on(between(lanes_.unit(), begin, begin + length), lanes_.bounds());
     const unsigned contact = found.has_contact().bits() & active_;
     if (contact != 0) keep_contacts(contact, begin, length, found.coefficients);
     const auto& c = found.coefficients;

@@ -302,21 +302,27 @@ inline std::array<Vector<typename Lanes::Value>, query_points> in_all_lanes(cons
   return result;
 }
 
-/// The points of `width` queries, lane by lane. Lanes beyond `count` repeat the last.
+/// The points of `width` queries, lane by lane. Lanes beyond `count` repeat the last. A source
+/// whose points are not in memory as such has a function for it.
 template <class Lanes, class Source>
 inline std::array<Vector<typename Lanes::Value>, query_points> load(const KernelInput& input,
                                                                     const std::uint32_t* indices,
                                                                     std::size_t count) {
-  if constexpr (Source::is_one) return in_all_lanes<Lanes>(Source::points(input, indices[0]));
-  std::array<std::array<const double*, Lanes::width>, query_points> rows;
-  for (std::size_t lane = 0; lane < Lanes::width; ++lane) {
-    const Points points = Source::points(input, indices[lane < count ? lane : count - 1]);
-    for (std::size_t k = 0; k < query_points; ++k) rows[k][lane] = points[k];
+  if constexpr (requires { Source::load(input, indices, count); }) {
+    return Source::load(input, indices, count);
+  } else if constexpr (Source::is_one) {
+    return in_all_lanes<Lanes>(Source::points(input, indices[0]));
+  } else {
+    std::array<std::array<const double*, Lanes::width>, query_points> rows;
+    for (std::size_t lane = 0; lane < Lanes::width; ++lane) {
+      const Points points = Source::points(input, indices[lane < count ? lane : count - 1]);
+      for (std::size_t k = 0; k < query_points; ++k) rows[k][lane] = points[k];
+    }
+    std::array<Vector<typename Lanes::Value>, query_points> result;
+    for (std::size_t k = 0; k + 1 < query_points; ++k) result[k] = Lanes::load(rows[k]);
+    result[7] = Source::may_read_behind ? Lanes::load(rows[7]) : Lanes::load_backwards(rows[7]);
+    return result;
   }
-  std::array<Vector<typename Lanes::Value>, query_points> result;
-  for (std::size_t k = 0; k + 1 < query_points; ++k) result[k] = Lanes::load(rows[k]);
-  result[7] = Source::may_read_behind ? Lanes::load(rows[7]) : Lanes::load_backwards(rows[7]);
-  return result;
 }
 
 }  // namespace touchstone::fast::kernel

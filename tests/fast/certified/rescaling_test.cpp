@@ -45,7 +45,7 @@ Outcome outcome(tests::DecideRescaled& decide, const Block& block) {
   }
   output->undecided.count = block.queries.size();
   decide({.kind = block.kind, .count = block.queries.size(), .separation = block.separation},
-         *certified_kernels().back(), block.queries, *output);
+         *certified_kernels().back()->decide, block.queries, *output);
   for (std::size_t i = 0; i < output->impacts.count; ++i) {
     impacts[output->impacts.items[i].index] = output->impacts.items[i];
   }

@@ -1,0 +1,273 @@
+#pragma once
+
+/// \file
+/// Inversions of elements (docs/theory.md, section 10).
+///
+/// The volume of a tetrahedron a, b, c, d is that of the stage determinant: with r = a − b,
+/// p = c − b and q = d − b,
+///
+///     det = r·(p×q) = −6 V,
+///
+/// so its Bernstein coefficients and error bounds are those of stages/determinant.hpp. A triangle
+/// in the plane is the tetrahedron with d = b + (0,0,1) (touchstone/element.hpp): q is exact.
+///
+/// **Theorem.** On [0,1]:
+/// 1. If the first coefficient of det is certainly positive, the element is inverted at t=0.
+/// 2. If all are certainly negative, V > 0 throughout.
+/// 3. If they certainly change sign once, from negative to positive, V has exactly one zero
+///    (Descartes), and that is the first time.
+/// If the first one is certainly negative and neither 2. nor 3. holds, intervals are examined in
+/// ascending order (stages/bisection.hpp). V is positive at the beginning of each, for it is so at
+/// 0 and up to the end of each interval that is skipped. So an interval on which all coefficients
+/// have one sign is skipped, and the only zero in the first other one that is decided is the first
+/// time. stages/refinement.hpp encloses it.
+///
+/// An element with another first coefficient is left to the exact stage, as is one that is too
+/// large for the bounds or not finite. If the coefficients of det at both ends, products with each
+/// coordinate of r, p and q as a factor, are finite, so are these.
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "fast/certified/stages/bisection.hpp"
+#include "fast/certified/stages/crossing.hpp"
+#include "fast/certified/stages/determinant.hpp"
+#include "fast/certified/stages/lanes.hpp"
+#include "fast/certified/stages/moving_vectors.hpp"
+#include "fast/certified/stages/orientation.hpp"
+#include "fast/certified/stages/refinement.hpp"
+
+namespace touchstone::fast::kernel {
+
+// ---- Where elements come from -------------------------------------------------------------------
+
+/// `width` consecutive items of an array, lane by lane, each of so many rows of three numbers.
+/// Their addresses differ by constants. Lanes beyond `count` repeat the last.
+template <class Lanes, std::size_t rows>
+inline std::array<Vector<typename Lanes::Value>, rows> load_consecutive(const double* first,
+                                                                        std::size_t count) {
+  const auto load = [&](const auto& place) {
+    std::array<Vector<typename Lanes::Value>, rows> result;
+    for (std::size_t k = 0; k < rows; ++k) {
+      std::array<const double*, Lanes::width> row;
+      for (std::size_t lane = 0; lane < Lanes::width; ++lane) {
+        row[lane] = first + 3 * (rows * place(lane) + k);
+      }
+      // The memory after the last one may belong to other objects.
+      result[k] = k + 1 < rows ? Lanes::load(row) : Lanes::load_backwards(row);
+    }
+    return result;
+  };
+  if (count == Lanes::width) return load([](std::size_t lane) { return lane; });
+  return load([&](std::size_t lane) { return lane < count ? lane : count - 1; });
+}
+
+/// An array of tetrahedra in its order, as the first stage takes them.
+template <class Lanes>
+struct TetrahedraInOrder {
+  static std::array<Vector<typename Lanes::Value>, query_points> load(const KernelInput& input,
+                                                                      const std::uint32_t* indices,
+                                                                      std::size_t count) {
+    return load_consecutive<Lanes, query_points>(input.queries[indices[0]].coordinates.data(),
+                                                 count);
+  }
+};
+
+/// Tetrahedra of a mesh.
+template <class Lanes>
+struct FromTetrahedra {
+  static Points points(const KernelInput& input, std::size_t i) {
+    Points result;
+    for (std::size_t k = 0; k < moving_points; ++k) {
+      const auto number = static_cast<std::size_t>(input.tetrahedra[i][k]);
+      result[k] = input.vertices[number].start.data();
+      result[moving_points + k] = input.vertices[number].end.data();
+    }
+    return result;
+  }
+  static constexpr bool may_read_behind = true;
+  static constexpr bool is_one = false;
+};
+
+/// The points of tetrahedra from those of triangles at t=0 and t=1; the third coordinates of these
+/// have no effect.
+template <class Value>
+inline std::array<Vector<Value>, query_points> above(
+    const std::array<std::array<Vector<Value>, 3>, 2>& triangle) {
+  std::array<Vector<Value>, query_points> result;
+  for (std::size_t end = 0; end < 2; ++end) {
+    for (std::size_t k = 0; k < moving_points; ++k) {
+      const Vector<Value>& x = triangle[end][k == 3 ? 1 : k];
+      result[moving_points * end + k] = {x[0], x[1], Value(k == 3 ? 1.0 : 0.0)};
+    }
+  }
+  return result;
+}
+
+/// The same from the four rows of three numbers that a triangle in the plane is in an array.
+template <class Value>
+inline std::array<Vector<Value>, query_points> above(const std::array<Vector<Value>, 4>& row) {
+  const Value nothing(0.0);
+  const auto half = [&](const Vector<Value>& first, const Vector<Value>& second) {
+    return std::array<Vector<Value>, 3>{{{first[0], first[1], nothing},
+                                         {first[2], second[0], nothing},
+                                         {second[1], second[2], nothing}}};
+  };
+  return above<Value>({half(row[0], row[1]), half(row[2], row[3])});
+}
+
+/// An array of triangles in the plane.
+template <class Lanes>
+struct FromTriangles {
+  using Value = typename Lanes::Value;
+
+  static std::array<Vector<Value>, query_points> load(const KernelInput& input,
+                                                      const std::uint32_t* indices,
+                                                      std::size_t count) {
+    std::array<Vector<Value>, 4> rows;
+    for (std::size_t k = 0; k < rows.size(); ++k) {
+      std::array<const double*, Lanes::width> row;
+      for (std::size_t lane = 0; lane < Lanes::width; ++lane) {
+        const PlaneTriangle& triangle = input.triangles[indices[lane < count ? lane : count - 1]];
+        row[lane] = triangle.coordinates.data() + 3 * k;
+      }
+      rows[k] = k + 1 < rows.size() ? Lanes::load(row) : Lanes::load_backwards(row);
+    }
+    return above(rows);
+  }
+};
+template <class Lanes>
+struct TrianglesInOrder {
+  static std::array<Vector<typename Lanes::Value>, query_points> load(const KernelInput& input,
+                                                                      const std::uint32_t* indices,
+                                                                      std::size_t count) {
+    return above(load_consecutive<Lanes, 4>(input.triangles[indices[0]].coordinates.data(), count));
+  }
+};
+
+/// Faces of a mesh in the plane.
+template <class Lanes>
+struct FromFaces {
+  using Value = typename Lanes::Value;
+
+  static std::array<Vector<Value>, query_points> load(const KernelInput& input,
+                                                      const std::uint32_t* indices,
+                                                      std::size_t count) {
+    std::array<std::array<Vector<Value>, 3>, 2> triangle;
+    for (std::size_t k = 0; k < 3; ++k) {
+      std::array<std::array<const double*, Lanes::width>, 2> rows;
+      for (std::size_t lane = 0; lane < Lanes::width; ++lane) {
+        const Face& face = input.faces[indices[lane < count ? lane : count - 1]];
+        const MovingVertex& vertex = input.vertices[static_cast<std::size_t>(face[k])];
+        rows[0][lane] = vertex.start.data();
+        rows[1][lane] = vertex.end.data();
+      }
+      triangle[0][k] = Lanes::load(rows[0]);
+      triangle[1][k] = Lanes::load(rows[1]);
+    }
+    return above(triangle);
+  }
+};
+
+// ---- The stages ---------------------------------------------------------------------------------
+
+/// What is proved of the volume on an interval at whose beginning it is positive.
+struct ExamineVolume {
+  template <class Value>
+  struct Found {
+    std::array<Value, 4> coefficients;  ///< of det
+    DeterminantTest<Value> determinant;
+
+    [[nodiscard]] MaskOf<Value> has_no_contact() const { return determinant.one_sided; }
+    [[nodiscard]] MaskOf<Value> has_contact() const { return determinant.crosses_once; }
+  };
+
+  template <class Value>
+  [[nodiscard]] static Found<Value> on(const Ends<Value>& at, const Value& bound) {
+    const std::array<Value, 4> coefficients = determinant_coefficients(at, Normals<Value>(at));
+    return {coefficients, {coefficients, bound}};
+  }
+  template <class Value>
+  [[nodiscard]] static Found<Value> on(const Ends<Value>& at,
+                                       const Bounds<Value, Kind::vertex_face>& bounds) {
+    return on(at, bounds.determinant);
+  }
+};
+
+/// Examines [0,1]. \param crossings The elements whose first time is the only zero of det.
+/// \param mixed Those with a positive volume at t=0 of which nothing else is proved.
+template <class Lanes, class Source>
+inline void volume_stage(const KernelInput& input, const Indices& all, Crossings& crossings,
+                         Indices& mixed, KernelOutput& output) {
+  using Value = typename Lanes::Value;
+  using Mask = MaskOf<Value>;
+  Marks<Lanes> of_inverted(all.count), of_crossings(all.count), of_mixed(all.count),
+      of_rest(all.count);
+  Intervals<Lanes> intervals;
+  const Value zero(0.0), limit(StageFormat<double>::limits.difference);
+  for (std::size_t first = 0; first < all.count; first += Lanes::width) {
+    const std::size_t count = taken<Lanes>(first, all.count);
+    const Ends<Value> unit =
+        vectors_of<Kind::vertex_face>(load<Lanes, Source>(input, all.items.data() + first, count));
+    const Value bound = determinant_bound<false>(unit, zero);
+    const auto found = ExamineVolume::on(unit, bound);
+    const auto& c = found.coefficients;
+    const Mask is_bounded = (size_of(unit) <= limit) & ((c[0] - c[0]) + (c[3] - c[3]) <= zero);
+    const Mask is_positive = is_bounded & (c[0] < zero - bound);
+    const unsigned valid = first_lanes<Lanes>(count);
+    const unsigned positive = is_positive.bits() & valid;
+    const unsigned free = positive & found.determinant.one_sided.bits();
+    if (free == valid) continue;
+    const unsigned inverted = (is_bounded & (c[0] > bound)).bits() & valid;
+    const unsigned crossing = positive & found.determinant.crosses_once.bits();
+    if (crossing != 0) intervals.store(first, zero, Value(1.0), c);
+    of_inverted.add(first, inverted);
+    of_crossings.add(first, crossing);
+    of_mixed.add(first, positive & ~free & ~crossing);
+    of_rest.add(first, valid & ~positive & ~inverted);
+  }
+  append_marked(output.one_sided, all, of_inverted);
+  append_marked(output.undecided, all, of_rest);
+  append_marked(mixed, all, of_mixed);
+  of_crossings.for_each([&](std::size_t place) {
+    append<Lanes>(crossings, intervals.crossing(place, all.items[place]));
+  });
+}
+
+/// \tparam First the source for the first stage: of one element, of elements in order, or Source
+template <class Lanes, class Source, class First = Source>
+void invert_from(const KernelInput& input, KernelOutput& output) {
+  constexpr Kind kind = Kind::vertex_face;
+  output.separated_in_direction.count = output.one_sided.count = 0;
+  output.rejected.count = output.impacts.count = output.undecided.count = 0;
+  Indices all, mixed;
+  for (; all.count < input.count; ++all.count) {
+    all.items[all.count] = static_cast<std::uint32_t>(all.count);
+  }
+  Crossings crossings;
+  volume_stage<Lanes, First>(input, all, crossings, mixed, output);
+  if (crossings.count + mixed.count == 0) return;
+  Moving<Lanes, kind> moving;
+  load_moving<Lanes, false, kind, Source>(input, mixed, moving);
+  Bisection<Lanes, kind, ExamineVolume>(input, moving, crossings, output.rejected, output.undecided)
+      .run();
+  Refinement<Lanes, false, kind, Source>::run(input, crossings, output.undecided, output);
+}
+
+template <class Lanes>
+void invert(const KernelInput& input, KernelOutput& output) {
+  if (input.triangles != nullptr) {
+    invert_from<Lanes, FromTriangles<Lanes>, TrianglesInOrder<Lanes>>(input, output);
+  } else if (input.tetrahedra != nullptr) {
+    invert_from<Lanes, FromTetrahedra<Lanes>>(input, output);
+  } else if (input.faces != nullptr) {
+    invert_from<Lanes, FromFaces<Lanes>>(input, output);
+  } else if (input.count == 1) {
+    invert_from<Lanes, FromArray<Lanes>, FromOne<Lanes>>(input, output);
+  } else {
+    invert_from<Lanes, FromArray<Lanes>, TetrahedraInOrder<Lanes>>(input, output);
+  }
+}
+
+}  // namespace touchstone::fast::kernel

@@ -1,0 +1,200 @@
+#pragma once
+
+/// \file
+/// Moving elements whose inversion is known by construction.
+///
+/// The edges from a are the rows of a triangular matrix whose diagonal is f1, f2, f3, each linear
+/// in time between integers, and whose other numbers below it move anyhow. So 6 V = f1 f2 f3: the
+/// first time is the least root of a factor, and equal factors make double and triple roots. Maps
+/// of determinant 1 (a shear, a cyclic change of the axes), a moving translation, and a power of
+/// two for each axis keep the truth. All of it is exact in doubles.
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <span>
+#include <utility>
+
+#include "tests/support/queries.hpp"
+#include "tests/support/random.hpp"
+#include "touchstone/element.hpp"
+#include "touchstone/query.hpp"
+
+namespace touchstone::tests {
+
+/// An element with its truth.
+struct KnownInversion {
+  Query tetrahedron{};
+  int start = 0;  ///< sign of the volume
+  /// The first time with a volume that is not positive; −1/1 if there is none.
+  int numerator = -1;
+  int denominator = 1;
+};
+
+namespace inverting_elements {
+
+/// A number that moves from the first value to the second.
+using Moving = std::array<int, 2>;
+
+[[nodiscard]] inline Moving moving(Random& random, int most) {
+  return {random.between(-most, most), random.between(-most, most)};
+}
+
+/// The sign and the first root of a product of factors.
+inline void set_truth(KnownInversion& known, std::span<const Moving> factors) {
+  known.start = 1;
+  for (const auto& [from, to] : factors) known.start *= (from > 0 ? 1 : 0) - (from < 0 ? 1 : 0);
+  if (known.start <= 0) {
+    known.numerator = 0;
+    return;
+  }
+  for (const auto& [from, to] : factors) {
+    // From a positive number to one that is not, or the other way round: the root is in (0,1].
+    const bool has_root = from > 0 ? to <= 0 : to >= 0;
+    const int sign = from > 0 ? 1 : -1, numerator = sign * from, denominator = sign * (from - to);
+    if (!has_root) continue;
+    if (known.numerator < 0 || numerator * known.denominator < known.numerator * denominator) {
+      known.numerator = numerator;
+      known.denominator = denominator;
+    }
+  }
+}
+
+/// Mostly positive at the start, often the same as the one before.
+[[nodiscard]] inline std::array<Moving, 3> factors(Random& random) {
+  std::array<Moving, 3> result;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const int most = random.coin() ? 3 : 1000;
+    result.at(i) = moving(random, most);
+    if (random.between(0, 3) != 0) result.at(i)[0] = random.between(1, most);
+    if (random.coin()) result.at(i)[1] = random.between(0, most);
+    if (random.between(0, 15) == 0) result.at(i)[0] = 0;
+    if (i > 0 && random.between(0, 3) == 0) result.at(i) = result.at(i - 1);
+    if (i > 0 && random.between(0, 7) == 0) {
+      result.at(i) = {-result.at(i - 1)[0], -result.at(i - 1)[1]};
+    }
+  }
+  return result;
+}
+
+}  // namespace inverting_elements
+
+/// A tetrahedron of any size, from subnormal to nearly the greatest, and of any place.
+[[nodiscard]] inline KnownInversion product_of_factors(Random& random) {
+  using inverting_elements::Moving;
+  const std::array<Moving, 3> f = inverting_elements::factors(random);
+  KnownInversion known;
+  inverting_elements::set_truth(known, f);
+  const int most = random.coin() ? 2 : 1000;
+  // Their products with the shear and the translation stay below 2^53.
+  const auto shear = static_cast<double>(random.between(-4, 4));
+  const double place = random.coin() ? 0.0 : std::ldexp(1.0, random.between(0, 44));
+  const auto first_axis = static_cast<std::size_t>(random.between(0, 2));
+  std::array<int, 3> exponent{};
+  const int all = random.coin() ? 0 : random.between(-1074, 970);
+  for (int& x : exponent) x = random.between(0, 3) == 0 ? random.between(-1074, 970) : all;
+  std::array<Moving, 3> below;
+  for (Moving& x : below) x = inverting_elements::moving(random, most);
+  for (std::size_t end = 0; end < 2; ++end) {
+    const auto at = [&](const Moving& x) { return static_cast<double>(x.at(end)); };
+    std::array<std::array<double, 3>, 4> points{{{},
+                                                 {at(f[0]), 0, 0},
+                                                 {at(below[0]), at(f[1]), 0},
+                                                 {at(below[1]), at(below[2]), at(f[2])}}};
+    const std::array<double, 3> translation{std::round(place * random.uniform(-1.0, 1.0)),
+                                            std::round(place * random.uniform(-1.0, 1.0)), place};
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      auto& x = points.at(i);
+      x[1] += shear * x[0];
+      x[0] -= shear * x[2];
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        const std::size_t to = (axis + first_axis) % 3;
+        known.tetrahedron.at(end, i, to) =
+            std::ldexp(x.at(axis) + translation.at(axis), exponent.at(to));
+      }
+    }
+  }
+  return known;
+}
+
+/// The same in the plane, with two factors. The truth's tetrahedron is that of the triangle.
+[[nodiscard]] inline std::pair<PlaneTriangle, KnownInversion> triangle_of_factors(Random& random) {
+  using inverting_elements::Moving;
+  const std::array<Moving, 3> f = inverting_elements::factors(random);
+  KnownInversion known;
+  inverting_elements::set_truth(known, std::span(f).first<2>());
+  const Moving below = inverting_elements::moving(random, 1000);
+  const auto shear = static_cast<double>(random.between(-4, 4));
+  const double place = random.coin() ? 0.0 : std::ldexp(1.0, random.between(0, 44));
+  const int all = random.coin() ? 0 : random.between(-1074, 970);
+  const std::array<int, 2> exponent{all, random.between(0, 3) == 0 ? 0 : all};
+  PlaneTriangle triangle{};
+  for (std::size_t end = 0; end < 2; ++end) {
+    const auto at = [&](const Moving& x) { return static_cast<double>(x.at(end)); };
+    std::array<std::array<double, 2>, 3> points{{{}, {at(f[0]), 0}, {at(below), at(f[1])}}};
+    const std::array<double, 2> translation{std::round(place * random.uniform(-1.0, 1.0)), place};
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      points.at(i)[1] += shear * points.at(i)[0];
+      for (std::size_t axis = 0; axis < 2; ++axis) {
+        triangle.at(end, i, axis) =
+            std::ldexp(points.at(i).at(axis) + translation.at(axis), exponent.at(axis));
+      }
+    }
+  }
+  known.tetrahedron = to_tetrahedron(triangle);
+  return {triangle, known};
+}
+
+/// A tetrahedron of this size at this distance from the origin, whose points move by up to `motion`
+/// times the size.
+[[nodiscard]] inline Query deforming_tetrahedron(Random& random, double size, double place,
+                                                 double motion) {
+  Query query{};
+  for (std::size_t point = 0; point < moving_points; ++point) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const double corner = point == axis + 1 ? 1.0 : 0.0;
+      const double start = corner + random.uniform(-0.2, 0.2);
+      query.at(0, point, axis) = place + size * start;
+      query.at(1, point, axis) = place + size * (start + motion * random.uniform(-1.0, 1.0));
+    }
+  }
+  return query;
+}
+
+/// One of all sorts, the first half of them degenerate: exactly so, or up to one spacing of
+/// doubles.
+inline constexpr int sorts_of_elements = 8;
+[[nodiscard]] inline Query element_of_sort(Random& random, int sort) {
+  Query query{};
+  switch (sort) {
+    case 0:
+    case 1:
+      return product_of_factors(random).tetrahedron;
+    case 2: {
+      query = product_of_factors(random).tetrahedron;
+      double& x = query.coordinates.at(static_cast<std::size_t>(random.between(0, 23)));
+      x = std::nextafter(x, random.coin() ? 2 * x : -x);
+      return query;
+    }
+    case 3:
+      // The last point is in the plane of the others at a time, up to rounding.
+      query = near_contact_query(random, Kind::vertex_face);
+      if (random.coin())
+        std::swap_ranges(query.coordinates.begin(), query.coordinates.begin() + 3,
+                         query.coordinates.begin() + 3);
+      return query;
+    case 4:
+      return deforming_tetrahedron(random, 1.0, 0.0, random.uniform(0.0, 2.0));
+    case 5:
+      return deforming_tetrahedron(random, std::ldexp(1.0, random.between(-1050, 1000)), 0.0, 1.0);
+    case 6:
+      return deforming_tetrahedron(random, 1e-3, random.uniform(0.0, 1e6), 0.5);
+    default:
+      if (random.between(0, 15) != 0) return full_significand_query(random);
+      for (double& x : query.coordinates) x = random.finite_double();
+      return query;
+  }
+}
+
+}  // namespace touchstone::tests
