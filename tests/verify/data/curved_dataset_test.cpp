@@ -170,14 +170,6 @@ TEST(CurvedCsv, SkipsAQueryWithAnInvalidNumberOrWeight) {
   }
 }
 
-TEST(CurvedCsv, IsRoundedWhereAsked) {
-  const TemporaryFolder folder;
-  const auto path = folder.file("a_ee.csv", "rational,0\n1,2,3,0.1\n1,2,3,1\n1,2,3,1\n0.3,2,3,1\n");
-  const auto source = open_dataset(path, {.round = true});
-  EXPECT_EQ(read_all(*source).at(0).query.numbers()[3], 0.1);
-  EXPECT_EQ(source->rounded(), 2U);
-}
-
 TEST(CurvedCsv, IsReadBackAsItWasWritten) {
   for (const ShapeCase& of : all) {
     const TemporaryFolder folder;

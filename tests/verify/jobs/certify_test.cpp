@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <chrono>
-#include <csignal>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -72,26 +71,6 @@ TEST(Certify, PrintsTimesOfImpactUntilTheyDiffer) {
 
 // ---- Separations --------------------------------------------------------------------------------
 
-/// Records of the built-in families about a separation are compared in full.
-TEST(CertifySeparation, WhatIsAboutTheSameSeparationIsComparedInFull) {
-  const Separation separation{.distance = 0.75, .norm = Norm::l2};
-  const auto certified = [&](const Separation& asked) {
-    CertifyOptions options;
-    options.separation = asked;
-    options.toi_tolerance = 0;
-    return certify(*generate::open_family(generate::family_from_name("separation-endpoint"),
-                                          Kind::edge_edge, 5, 60, separation),
-                   options);
-  };
-  const CertifyResult same = certified(separation);
-  EXPECT_EQ(same.compared, judge::Inference::all);
-  EXPECT_EQ(same.labels, 60U);
-  EXPECT_EQ(same.label_mismatches + same.toi_mismatches, 0U);
-  const CertifyResult other = certified({.distance = 0.5, .norm = Norm::l2});
-  EXPECT_EQ(other.compared, judge::Inference::nothing);
-  EXPECT_EQ(other.labels, 0U);
-}
-
 TEST(Certify, ShowsFortyFiveDigitsOfATrueTimeHoweverSmall) {
   // The vertex rises from 2^-1000 below the sinking face: toi = 2^-1000 / (2^-1000 + 3), not
   // dyadic.
@@ -159,44 +138,6 @@ std::uint64_t number_of(const Query& query) {
 
 std::uint64_t all_faults(const judge::Judgement& judgement) {
   return judgement.wrong_answers.size();
-}
-
-TEST(CertifyMethods, ThePerfectMethodIsPerfectOnTheBuiltInSet) {
-  const FunctionMethod perfect(true_answer, Promise::exact);
-  const auto solver = solvers::solver_in_process(perfect, {});
-  CertifyOptions options;
-  options.solvers = {solver.get()};
-  for (const generate::Family& family : generate::families()) {
-    for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
-      if (!generate::supports(family, kind)) continue;
-      const CertifyResult result = certify(*generate::open_family(family, kind, 3, 20), options);
-      EXPECT_EQ(all_faults(result.methods.at(0).judgement), 0U) << family.name;
-      EXPECT_EQ(result.methods.at(0).judgement.toi_errors.count(), result.collisions);
-    }
-  }
-}
-
-TEST(CertifyMethods, ACrashIsAnErrorAndAHangIsUndecided) {
-  const FunctionMethod method([](Kind kind, const Query& query) {
-    if (number_of(query) == 7) std::raise(SIGKILL);
-    while (number_of(query) == 11) std::this_thread::sleep_for(std::chrono::seconds(1));
-    return true_answer(kind, query);
-  });
-  const auto solver = solvers::solver_in_children(method, {}, {.query_limit_seconds = 1.0});
-  CertifyOptions options;
-  options.solvers = {solver.get()};
-  const CertifyResult result = certify_records(numbered_records(30), options);
-  const judge::Judgement& judgement = result.methods.at(0).judgement;
-  EXPECT_EQ(judgement.queries, 30U);
-  EXPECT_EQ(judgement.undecided(), 1U);
-  EXPECT_EQ(all_faults(judgement), 1U);
-  ASSERT_EQ(judgement.wrong_answers.size(), 1U);
-  EXPECT_EQ(judgement.wrong_answers[0].index, 7U);
-  EXPECT_EQ(judgement.wrong_answers[0].fault, judge::Fault::crash);
-  EXPECT_EQ(judgement.wrong_answers[0].answer, "crash: SIGKILL");
-  EXPECT_EQ(judgement.count(judge::Fault::crash), 1U);
-  EXPECT_EQ(judgement.count(judge::Fault::hang), 1U);
-  EXPECT_EQ(judgement.count(judge::Fault::undecided), 0U);
 }
 
 TEST(CertifyMethods, FaultsAreFoundWhereverTheyAreInALongSource) {

@@ -169,18 +169,6 @@ TEST(Measure, ASampleIsNoLargerThanTheTimeAllows) {
   }
 }
 
-TEST(Measure, ASampleIsNoLargerThanTheReferenceCanTake) {
-  const FunctionMethod slow(slow_no, Promise::none, "slow");
-  Field field;
-  field.add(tests::true_answer, Promise::exact, "fast");
-  MeasureOptions options;
-  options.seconds = 0.05;
-  const std::vector<Measurement> all = field.run(falling(1000), options, slow);
-  ASSERT_EQ(all.size(), 1U);
-  EXPECT_GE(all[0].asked, 16U);
-  EXPECT_LE(all[0].asked, 64U) << "a millisecond each";
-}
-
 TEST(Measure, TheTruthIsAboutTheSeparation) {
   const data::QueryGroup group = falling(10);
   Field field;

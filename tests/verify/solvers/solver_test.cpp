@@ -69,24 +69,6 @@ Outcome ask(const Solver& solver, std::uint64_t count) {
   return outcome;
 }
 
-TEST(Solver, InThisAndInChildProcessesGivesTheMethodsAnswers) {
-  const FunctionMethod method(echo, Promise::conservative, "echo");
-  const auto in_process = solver_in_process(method, {}),
-             in_children = solver_in_children(method, {}, {});
-  for (const Solver* solver : {in_process.get(), in_children.get()}) {
-    EXPECT_EQ(solver->name(), "echo");
-    EXPECT_EQ(solver->promise(), Promise::conservative);
-    EXPECT_TRUE(solver->is_timed());
-    const Outcome outcome = ask(*solver, 50);
-    EXPECT_TRUE(outcome.reply.unasked.empty());
-    EXPECT_GT(outcome.nanoseconds(), 0.0);
-    for (std::size_t i = 0; i < 50; ++i) {
-      EXPECT_EQ(outcome.answers[i].verdict, Verdict::yes);
-      EXPECT_EQ(outcome.answers[i].toi_lower, 100.0 + static_cast<double>(i));
-    }
-  }
-}
-
 TEST(Solver, TimeIsTheProcessorTimeOfTheMethod) {
   const FunctionMethod burner([](Kind, const Query&) -> Answer {
     const double start = base::thread_nanoseconds();
