@@ -17,10 +17,8 @@
 #include <utility>
 #include <vector>
 
-#include "tests/support/curved_group.hpp"
 #include "tests/support/methods.hpp"
-#include "tests/support/queries.hpp"
-#include "verify/base/thread_clock.hpp"
+#include "tests/support/query_groups.hpp"
 #include "verify/jobs/statistics.hpp"
 
 namespace touchstone::verify::jobs::bench_test {
@@ -29,21 +27,16 @@ namespace {
 using fast::Answer;
 using fast::Promise;
 using fast::Verdict;
+using tests::always_no;
+using tests::burn;
 using tests::FunctionMethod;
 
-constexpr int hit_every = 10;
+constexpr std::size_t hit_every = 10;
 
 bool collides(std::size_t position) { return position % hit_every == 0; }
 
-/// Vertices over a triangle; those at multiples of ten fall through it, each at a different time.
-/// The first coordinate of the face's first point is their number.
 data::QueryGroup falling_vertices(std::size_t count) {
-  std::vector<Query> queries;
-  for (std::size_t i = 0; i < count; ++i) {
-    const double start = 1.0 + 0.001 * static_cast<double>(i % 97);
-    queries.push_back(tests::over_triangle(1.0, 1.0, start, collides(i) ? -1.0 : 0.5).query);
-  }
-  return {"falling", Kind::vertex_face, std::move(queries)};
+  return tests::falling_group(count, hit_every, 0.001);
 }
 
 BenchOptions quick() {
@@ -77,7 +70,6 @@ class Field {
   std::vector<std::unique_ptr<solvers::Solver>> solvers_;
 };
 
-Answer always_no(Kind, const Query&) { return {.verdict = Verdict::no}; }
 Answer always_yes(Kind, const Query&) { return {.verdict = Verdict::yes}; }
 
 Answer late(Kind kind, const Query& query) {
@@ -206,12 +198,6 @@ TEST(Bench, JudgesASampleAndWhatAnySolverCallsACollision) {
 }
 
 // ---- Speed --------------------------------------------------------------------------------------
-
-void burn(double nanoseconds) {
-  const double start = base::thread_nanoseconds();
-  while (base::thread_nanoseconds() - start < nanoseconds) {
-  }
-}
 
 /// A solver that spends time on each query, records every call, and answers yes.
 class Burner final : public solvers::Solver {

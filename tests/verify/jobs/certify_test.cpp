@@ -12,6 +12,7 @@
 #include "tests/support/memory_source.hpp"
 #include "tests/support/methods.hpp"
 #include "tests/support/public_data.hpp"
+#include "tests/support/queries.hpp"
 #include "tests/support/trials.hpp"
 #include "verify/data/dataset.hpp"
 #include "verify/generate/families.hpp"
@@ -26,8 +27,7 @@ using tests::MemorySource;
 /// A vertex falls from height `above` to height −`below` through the middle of a resting triangle:
 /// they collide iff below ≥ 0, at above/(above + below).
 base::AnyQuery falling_vertex(double above, double below) {
-  return {Kind::vertex_face, Query{{1, 1, above,  0, 0, 0, 4, 0, 0, 0, 4, 0,  //
-                                    1, 1, -below, 0, 0, 0, 4, 0, 0, 0, 4, 0}}};
+  return {Kind::vertex_face, tests::over_triangle(1, 1, above, -below).query};
 }
 
 /// Collisions at t=1/4, and none if the index is divisible by 3, all with true records.
