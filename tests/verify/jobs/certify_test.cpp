@@ -16,7 +16,6 @@
 #include "tests/support/trials.hpp"
 #include "verify/data/dataset.hpp"
 #include "verify/generate/families.hpp"
-#include "verify/solvers/registry.hpp"
 
 namespace touchstone::verify::jobs::certify_test {
 namespace {
@@ -226,33 +225,6 @@ std::vector<generate::Family> all_families() {
 }
 
 INSTANTIATE_TEST_SUITE_P(Families, BuiltInSet, ::testing::ValuesIn(all_families()), family_name);
-
-/// Solvers on curves: ours keep their promises, and what others miss is known.
-TEST(CertifyMethods, OnCurves) {
-  std::vector<std::unique_ptr<solvers::Solver>> all;
-  CertifyOptions options;
-  for (const char* name :
-       {"certified", "tight_inclusion", "subdivision", "sampling", "advancement", "cubic"}) {
-    all.push_back(solvers::solver_in_process(solvers::find_method(name), {.max_checks = 10'000}));
-    options.solvers.push_back(all.back().get());
-  }
-  CertifyResult sum;
-  for (const generate::Family& family : generate::curved_families()) {
-    for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
-      sum += certify(*generate::open_family(family, kind, 5, 3), options);
-    }
-  }
-  const auto judged = [&](std::size_t i) { return sum.methods.at(i).judgement; };
-  EXPECT_TRUE(judge::keeps(judged(0), Promise::exact));
-  EXPECT_EQ(judged(0).queries, sum.queries);
-  EXPECT_TRUE(judge::keeps(judged(1), Promise::conservative));
-  EXPECT_EQ(judged(2).count(judge::Fault::false_negative), 0U);
-  EXPECT_GT(judged(2).outside, 0U) << "rational curves";
-  EXPECT_GT(judged(3).count(judge::Fault::false_negative), 0U);
-  EXPECT_GT(judged(3).count(judge::Fault::late_toi), 0U);
-  EXPECT_GT(judged(4).count(judge::Fault::false_positive), 0U);
-  EXPECT_EQ(judged(5).outside, sum.queries) << "straight lines alone";
-}
 
 /// Answers alone: nothing is decided, and all are handed out in order.
 TEST(CertifyMethods, AnswersWithoutATruth) {

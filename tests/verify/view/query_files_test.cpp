@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <array>
-#include <cstdint>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
@@ -17,7 +16,6 @@
 #include "touchstone/certificate_text.hpp"
 #include "touchstone/oracle.hpp"
 #include "verify/data/csv_dataset.hpp"
-#include "verify/data/npy_header.hpp"
 #include "verify/io/compressor.hpp"
 #include "verify/io/dataset_error.hpp"
 #include "verify/view/query_facts.hpp"
@@ -91,18 +89,6 @@ TEST_F(QueryFiles, QueriesOnCurves) {
   EXPECT_EQ(kind_of(queries("edge-edge.csv", {.kind = Kind::vertex_face}).at(0)),
             Kind::vertex_face);
   EXPECT_EQ(reason("edge-edge.csv", {.indices = {2}}), "there is no query 2; it has 2");
-}
-
-TEST_F(QueryFiles, AnArrayOfFourExtentsIsOfCurves) {
-  const std::vector<double> numbers(96, 0.5);
-  const void* const bytes = numbers.data();
-  const std::string data(static_cast<const char*>(bytes), numbers.size() * sizeof(double));
-  const std::array<std::uint64_t, 3> curves{4, 4, 3};
-  const std::array<std::uint64_t, 2> lines{8, 3};
-  write("vertex-face.npy", data::npy_header_text("<f8", 2, curves) + data);
-  EXPECT_EQ(curves_of(queries("vertex-face.npy").at(1))[3].degree(), 3U);
-  write("vertex-face.npy", data::npy_header_text("<f8", 4, lines) + data);
-  EXPECT_NE(straight_of(queries("vertex-face.npy").at(3)), nullptr);
 }
 
 TEST_F(QueryFiles, AFindingOfTheFuzzer) {
