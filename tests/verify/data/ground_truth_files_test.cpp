@@ -109,11 +109,6 @@ TEST(LabelReader, ReportsWhatIsWrongBehindTheLastLabel) {
   EXPECT_EQ(labels("[true,]", 1), (Answers{"1", "behind f:1:7: expected true or false"}));
 }
 
-TEST(LabelReader, AReadErrorIsNoEndOfTheArray) {
-  EXPECT_EQ(error_of("", [] { LabelReader reader("/proc/self/mem"); }),
-            "/proc/self/mem: cannot read: Input/output error");
-}
-
 TEST(ToiReader, ReadsWhatIsThere) {
   EXPECT_EQ(tois("query,toi\n0,2.5E-1\n2,1\n3,0.125\n", 5), (Answers{"1/4", "-", "1", "1/8", "-"}));
   EXPECT_EQ(tois(" query , toi \r\n 1 , 5e-1 \r\n\r\n", 2), (Answers{"-", "1/2"}));
