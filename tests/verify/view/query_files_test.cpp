@@ -22,10 +22,7 @@ namespace touchstone::verify::view::query_files_test {
 namespace {
 
 /// Queries that differ in one number.
-Query numbered(int number) {
-  return tests::moving({1, 1, 1, 0, 0, 0, 4, 0, 0, 0, 4, 0},
-                       {1, 1, -0.1 * number, 0, 0, 0, 4, 0, 0, 0, 4, 0});
-}
+Query numbered(int number) { return tests::over_triangle(1, 1, 1, -0.1 * number).query; }
 
 /// A query as it is viewed.
 using AnyViewed = decltype(ViewedQuery::query);
