@@ -342,6 +342,8 @@ TEST(KnownDefects, OfSingleQueries) {
 TEST(Accd, StopsStrictlyBeforeContactAndCubicEstimatesIt) {
   EXPECT_EQ(method("cubic").info().terms.times, fast::Times::estimates);
   EXPECT_EQ(method("accd_limited").info().terms.starts_apart, 0.0);
+  EXPECT_GT(tests::answer_to(method("accd"), beside_triangle(0x1p-20, 0), {.max_checks = 0}).checks,
+            500'000U);
   Random random(9);
   for (const Kind kind : kinds) {
     for (int i = 0; i < 1000; ++i) {
