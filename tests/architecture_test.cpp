@@ -141,14 +141,18 @@ constexpr std::string_view headers_without_test = R"(
 // Beside rational arithmetic, which judges the function: intersections_test.cpp.
   fast/intersections/: contacts.hpp filter_kernel.hpp filter_on_lanes.hpp orientation.hpp pair_filter.hpp pair_order.hpp pair_order_avx2.hpp
   adapters/tight_inclusion/: config.hpp
-// By the answers of the methods, baselines_test.cpp, the queries of the families, families_test.cpp,
-// and of the hard ones, hardness_test.cpp.
+// By the answers of the methods, baselines_test.cpp and known_defects_test.cpp, the queries of the
+// families, families_test.cpp, and of the hard ones, hardness_test.cpp.
   verify/base/: any_query.hpp cores.hpp
-  verify/baselines/: closest_features.hpp exact_number.hpp moving_polynomials.hpp query_random.hpp upward_rounding.hpp verdicts.hpp
+  verify/baselines/: accd.hpp bsc.hpp closest_features.hpp cubic.hpp exact_number.hpp fprf.hpp irf.hpp moving_polynomials.hpp msrf.hpp query_random.hpp rp.hpp rrp.hpp tccd.hpp uirf.hpp upward_rounding.hpp verdicts.hpp
   verify/generate/: coordinate_sampler.hpp draws.hpp family_builder.hpp grid.hpp passing_planes.hpp random_stream.hpp curved_families.hpp hard_curves.hpp
-// Through what uses them: files and child processes, certify, solve, the step's measurements,
-// NumPy's arrays, the fuzzer.
-  verify/io/: descriptor.hpp
+// Through what uses them: files and child processes, the tables of all commands, number_text_test.cpp
+// and meshes; certify, solve, the step's measurements, NumPy's arrays, the fuzzer; judge_test.cpp;
+// the pages' own tests.
+  verify/io/: descriptor.hpp text_table.hpp words.hpp
+  verify/judge/: ground_truth.hpp
+  verify/report/: report_page_texts.hpp
+  verify/view/: view_page_texts.hpp
   verify/jobs/: truth_and_answers.hpp work_time.hpp
   verify/data/: npy_header.hpp
   verify/fuzz/: curved_generators.hpp diagnosis.hpp fuzz_report.hpp mutation.hpp plainness.hpp scheduler.hpp signature.hpp

@@ -251,40 +251,19 @@ def test_errors_of_methods():
     assert Fraction(step.free_step_size()) == 1
 
 
-def grid(side: int, at: float) -> tuple[np.ndarray, np.ndarray]:
-    """A flat grid of triangles in z=0, and one in the plane y=at that stands on end across it."""
-    x, y = np.meshgrid(np.arange(side + 1.0), np.arange(side + 1.0))
-    flat = np.stack([x.ravel(), y.ravel(), np.zeros(x.size)], axis=1)
-    corner = (np.arange(side)[:, None] * (side + 1) + np.arange(side)).ravel()
-    faces = np.stack([[corner, corner + 1, corner + side + 2], [corner, corner + side + 2, corner + side + 1]], axis=1)
-    upright = np.stack([flat[:, 0] + 0.25, np.full(len(flat), at), flat[:, 1] - side / 2], axis=1)
-    faces = faces.transpose(2, 1, 0).reshape(-1, 3)
-    return np.concatenate([flat, upright]), np.concatenate([faces, faces + len(flat)])
-
-
 @pytest.mark.parametrize("scale", [2.0**-900, 1.0, 2.0**900])
-def test_intersections_of_a_mesh_are_those_of_its_planes(scale):
-    """Two grids meet in the line of their planes, and nowhere if a group of each is apart from the other."""
-    vertices, faces = grid(3, 1.5)
-    found = touchstone.intersections(vertices * scale, faces)
-    assert set(found["kind"]) == {touchstone.IntersectionKind.EDGE_THROUGH_FACE}
-    assert (found["elements"] == touchstone.ElementKind.FACE).all()
-    flat = len(faces) // 2
-    assert (found["numbers"][:, 0] < flat).all() and (found["numbers"][:, 1] >= flat).all()
-    lower, upper = found["place"][:, :, 0], found["place"][:, :, 1]
-    assert (lower <= upper).all()
-    # On the line y = 1.5, z = 0, whose x between 0.25 and 3 is covered by the segments.
-    assert (lower[..., 1:] == np.array([1.5 * scale, 0])).all() and (upper[..., 1:] == lower[..., 1:]).all()
-    ends = np.sort((lower[..., 0] + upper[..., 0]) / 2 / scale, axis=1)
-    covered = 0.25
-    for first, last in sorted(ends.tolist()):
-        assert first <= covered + 1e-12
-        covered = max(covered, last)
-    assert covered == 3.0
-    groups = np.repeat([0, 1], len(vertices) // 2)
-    assert len(touchstone.intersections(vertices * scale, faces, groups=groups, apart=[[0, 1]])) == 0
-    assert len(touchstone.intersections(vertices[: len(vertices) // 2] * scale, faces[:flat])) == 0
-    np.testing.assert_array_equal(touchstone.intersections(vertices * scale, faces, threads=1), found)
+def test_intersections_are_enclosed_and_named(scale):
+    """An edge of the second face passes through the first one; the segment that they share is between doubles."""
+    vertices = np.array([[0, 0, 0], [4, 0, 0], [0, 4, 0], [1, 1, -1], [1, 1, 2], [9, 9, 0]]) * scale
+    faces = [[0, 1, 2], [3, 4, 5]]
+    found = touchstone.intersections(vertices, faces)
+    assert found["kind"].tolist() == [touchstone.IntersectionKind.EDGE_THROUGH_FACE]
+    assert (found["elements"] == touchstone.ElementKind.FACE).all() and found["numbers"].tolist() == [[0, 1]]
+    ends = np.array([[1, 1, 0], [2, 2, 0]]) * scale
+    assert (found["place"][0, :, 0] <= ends).all() and (ends <= found["place"][0, :, 1]).all()
+    assert len(touchstone.intersections(vertices, faces, groups=[0, 0, 0, 1, 1, 1], apart=[[0, 1]])) == 0
+    assert len(touchstone.intersections(vertices[:3], faces[:1])) == 0
+    np.testing.assert_array_equal(touchstone.intersections(vertices, faces, threads=1), found)
 
 
 def test_intersections_of_vertices_at_one_place_need_a_weld():

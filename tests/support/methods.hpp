@@ -12,6 +12,7 @@
 #include "fast/method.hpp"
 #include "touchstone/oracle.hpp"
 #include "touchstone/query.hpp"
+#include "verify/base/thread_clock.hpp"
 
 namespace touchstone::tests {
 
@@ -62,6 +63,22 @@ class FunctionMethod final : public fast::Method {
 }
 [[nodiscard]] inline fast::Answer true_answer(Kind kind, const Query& query) {
   return true_answer_to(Queries(kind, {&query, 1}));
+}
+
+/// Spends processor time.
+inline void burn(double nanoseconds) {
+  const double start = verify::base::thread_nanoseconds();
+  while (verify::base::thread_nanoseconds() < start + nanoseconds) continue;
+}
+
+[[nodiscard]] inline fast::Answer always_no(Kind, const Query&) {
+  return {.verdict = fast::Verdict::no};
+}
+
+/// In a millisecond.
+[[nodiscard]] inline fast::Answer slow_no(Kind kind, const Query& query) {
+  burn(1e6);
+  return always_no(kind, query);
 }
 
 }  // namespace touchstone::tests

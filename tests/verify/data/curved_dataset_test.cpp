@@ -23,6 +23,8 @@ namespace {
 using base::AnyQuery;
 using test::contents;
 using test::error_of;
+using test::expect_numbered;
+using test::numbered;
 using test::read_all;
 using test::read_survivors;
 using test::Survivors;
@@ -43,16 +45,7 @@ const ShapeCase lines{{Kind::edge_edge, 1, false}, "degree,1", {2, 4, 3}};
 const ShapeCase highest{{Kind::edge_edge, 8, true}, "rational,8", {9, 4, 4}};
 const std::array all{cubic, rational, at_rest, weighted_rest, lines, highest};
 
-/// Numbers that differ by query and place, all positive and quarters.
-AnyQuery numbered(const QueryShape& shape, std::size_t index) {
-  std::vector<double> numbers(shape.numbers_of_query());
-  for (std::size_t i = 0; i < numbers.size(); ++i) {
-    numbers[i] = static_cast<double>(1000 * index + i + 1) / 4.0;
-  }
-  return {shape, numbers};
-}
-
-/// The rows of such queries, as quarters or as decimals, odd queries labelled as collisions.
+/// The rows of numbered queries, as quarters or as decimals, odd queries labelled as collisions.
 std::string numbered_text(const QueryShape& shape, std::size_t count, bool fractions, bool labels) {
   std::string text;
   for (std::size_t index = 0; index < count; ++index) {
@@ -66,15 +59,6 @@ std::string numbered_text(const QueryShape& shape, std::size_t count, bool fract
     }
   }
   return text;
-}
-
-void expect_numbered(const std::vector<RecordedQuery>& records, const QueryShape& shape,
-                     const std::vector<std::uint64_t>& indices) {
-  ASSERT_EQ(records.size(), indices.size());
-  for (std::size_t i = 0; i < records.size(); ++i) {
-    EXPECT_EQ(records[i].index, indices[i]);
-    EXPECT_EQ(records[i].query, numbered(shape, indices[i]));
-  }
 }
 
 std::string array_text(const ShapeCase& of, std::size_t count) {
@@ -107,7 +91,7 @@ TEST(CurvedCsv, IsReadInEveryShapeAndFormatOfNumbers) {
         const auto source = open_dataset(folder.file("a_ee.csv", of.line + "\n" + text));
         EXPECT_EQ(source->shape(), of.shape);
         const auto records = read_all(*source);
-        expect_numbered(records, of.shape, {0, 1, 2});
+        expect_numbered(records, {0, 1, 2}, of.shape);
         EXPECT_EQ(records.at(0).collides, labels ? std::optional(false) : std::nullopt);
         EXPECT_EQ(records.at(1).collides, labels ? std::optional(true) : std::nullopt);
       }
@@ -170,14 +154,6 @@ TEST(CurvedCsv, SkipsAQueryWithAnInvalidNumberOrWeight) {
   }
 }
 
-TEST(CurvedCsv, IsRoundedWhereAsked) {
-  const TemporaryFolder folder;
-  const auto path = folder.file("a_ee.csv", "rational,0\n1,2,3,0.1\n1,2,3,1\n1,2,3,1\n0.3,2,3,1\n");
-  const auto source = open_dataset(path, {.round = true});
-  EXPECT_EQ(read_all(*source).at(0).query.numbers()[3], 0.1);
-  EXPECT_EQ(source->rounded(), 2U);
-}
-
 TEST(CurvedCsv, IsReadBackAsItWasWritten) {
   for (const ShapeCase& of : all) {
     const TemporaryFolder folder;
@@ -186,13 +162,13 @@ TEST(CurvedCsv, IsReadBackAsItWasWritten) {
     for (std::size_t i = 0; i < 3; ++i) writer.write(numbered(of.shape, i), i % 2 == 1);
     writer.close();
     const std::string line = of.shape.is_straight() ? "" : of.line + "\n";
-    EXPECT_TRUE(contents(path).starts_with(line + "1,4,1,2,3,4,"));
+    EXPECT_TRUE(contents(path).starts_with(line + "0,1,1,4,1,2,"));
     const auto records = read_all(*open_dataset(path));
-    expect_numbered(records, of.shape, {0, 1, 2});
+    expect_numbered(records, {0, 1, 2}, of.shape);
     EXPECT_EQ(records[1].collides, std::optional(true));
     const std::string rows = csv_rows(numbered(of.shape, 0), std::nullopt);
     EXPECT_TRUE(rows.starts_with(line));
-    expect_numbered(read_all(*open_dataset(folder.file("b_ee.csv", rows))), of.shape, {0});
+    expect_numbered(read_all(*open_dataset(folder.file("b_ee.csv", rows))), {0}, of.shape);
     const auto twice = read_all(*open_dataset(folder.file("c_ee.csv", rows + rows)));
     EXPECT_EQ(twice.size(), 2U);
   }
@@ -203,12 +179,12 @@ TEST(CurvedNpy, IsReadInEveryShapeAndFromArchives) {
     const TemporaryFolder folder;
     const auto source = open_dataset(folder.file("a_ee.npy", array_text(of, 3)));
     EXPECT_EQ(source->shape(), of.shape);
-    expect_numbered(read_all(*source), of.shape, {0, 1, 2});
+    expect_numbered(read_all(*source), {0, 1, 2}, of.shape);
     const std::vector<std::uint8_t> labels{0, 1, 0};
     const auto archived = read_all(*open_dataset(tests::archive(
         folder.path() / "b_ee.npz",
         {{"queries.npy", array_text(of, 3)}, {"collides.npy", tests::array("|b1", {3}, labels)}})));
-    expect_numbered(archived, of.shape, {0, 1, 2});
+    expect_numbered(archived, {0, 1, 2}, of.shape);
     EXPECT_EQ(archived.at(1).collides, std::optional(true));
   }
 }
@@ -226,7 +202,7 @@ TEST(CurvedNpy, IsReadBackAsItWasWritten) {
     EXPECT_EQ(array.shape().size(), of.shape.is_straight() ? 3U : 4U);
     std::vector<std::uint64_t> indices(600);
     for (std::size_t i = 0; i < indices.size(); ++i) indices[i] = i;
-    expect_numbered(read_all(*open_dataset(path)), of.shape, indices);
+    expect_numbered(read_all(*open_dataset(path)), indices, of.shape);
   }
 }
 
@@ -269,7 +245,7 @@ TEST(CurvedDatasets, HaveCompanions) {
         std::pair{"a_ee.csv",
                   rational.line + "\n" + numbered_text(rational.shape, 3, true, false)}}) {
     const auto records = read_all(*open_dataset(folder.file(name, text)));
-    expect_numbered(records, rational.shape, {0, 1, 2});
+    expect_numbered(records, {0, 1, 2}, rational.shape);
     EXPECT_EQ(records.at(1).collides, std::optional(true));
     EXPECT_EQ(records.at(1).toi, std::optional(exact::Rational(1, 2)));
     EXPECT_EQ(records.at(2).collides, std::optional(false));

@@ -79,13 +79,16 @@ struct Survivors {
   return survivors;
 }
 
-/// A query whose coordinates all differ from query to query, point to point and axis to axis.
-[[nodiscard]] inline Query numbered_query(std::size_t index) {
-  Query query{};
-  for (std::size_t i = 0; i < query.coordinates.size(); ++i) {
-    query.coordinates.at(i) = static_cast<double>(100 * index + i) / 4.0;
+/// A query whose numbers all differ from place to place, are quarters, and no weight is 0.
+[[nodiscard]] inline base::AnyQuery numbered(const QueryShape& shape, std::size_t index) {
+  std::vector<double> numbers(shape.numbers_of_query());
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    numbers[i] = static_cast<double>(100 * index + i) / 4.0;
   }
-  return query;
+  return {shape, numbers};
+}
+[[nodiscard]] inline Query numbered_query(std::size_t index) {
+  return numbered({}, index).straight();
 }
 
 /// The eight lines of numbered_query(index) without line ends; labelled so that odd ones collide.
@@ -119,13 +122,14 @@ struct Survivors {
   return text;
 }
 
-/// Expects exactly the numbered queries of these indices, each with its index.
+/// Expects exactly the numbered queries of these indices, each with its index, of any kind.
 inline void expect_numbered(const std::vector<RecordedQuery>& records,
-                            const std::vector<std::uint64_t>& indices) {
+                            const std::vector<std::uint64_t>& indices, QueryShape shape = {}) {
   ASSERT_EQ(records.size(), indices.size());
   for (std::size_t i = 0; i < records.size(); ++i) {
     EXPECT_EQ(records[i].index, indices[i]);
-    EXPECT_EQ(records[i].query.straight(), numbered_query(indices[i]));
+    shape.kind = records[i].query.kind();
+    EXPECT_EQ(records[i].query, numbered(shape, indices[i]));
   }
 }
 

@@ -243,62 +243,12 @@ TYPED_TEST(WrittenDataset, TakesMemoryThatDoesNotGrowWithTheFile) {
   EXPECT_GT(whole, 30'000'000U) << "the measure must see a reader that keeps the file";
 }
 
-/// The public data, which the project does not contain.
-class PublicData : public ::testing::Test {
- protected:
-  void SetUp() override {
-    folder_ = tests::public_data_folder();
-    if (folder_.empty()) GTEST_SKIP() << "no public data";
-  }
-
-  struct Counts {
-    std::uint64_t queries = 0, collisions = 0, labels = 0, tois = 0;
-
-    friend bool operator==(const Counts&, const Counts&) = default;
-  };
-
-  [[nodiscard]] Counts count(const fs::path& path) const {
-    Counts counts;
-    for (const fs::path& file : found_in(folder_ / path)) {
-      const auto source = open_dataset(file);
-      for (const RecordedQuery& record : read_all(*source)) {
-        ++counts.queries;
-        counts.labels += record.collides.has_value() ? 1U : 0U;
-        counts.collisions += record.collides.value_or(false) ? 1U : 0U;
-        counts.tois += record.toi.has_value() ? 1U : 0U;
-        EXPECT_TRUE(!record.toi || record.collides.value_or(false)) << file << record.index;
-      }
-    }
-    return counts;
-  }
-
-  [[nodiscard]] const fs::path& folder() const { return folder_; }
-
- private:
-  fs::path folder_;
-};
-
-TEST_F(PublicData, HandcraftedHas4884LabelledQueriesIn22Files) {
-  EXPECT_EQ(found_in(folder() / "handcrafted").size(), 22U);
-  const Counts counts = count("handcrafted");
-  EXPECT_EQ(counts.queries, 4884U);
-  EXPECT_EQ(counts.labels, 4884U);
-  EXPECT_EQ(counts.tois, 0U);
-}
-
-TEST_F(PublicData, SimulationHasThePublishedLabelsAndTimes) {
-  EXPECT_EQ(found_in(folder() / "simulation").size(), 3U);
-  EXPECT_EQ(count("simulation/armadillo-rollers"),
-            (Counts{.queries = 4652, .collisions = 4650, .labels = 4652, .tois = 4650}));
-  EXPECT_EQ(count("simulation/cloth-funnel/queries/227vf.csv"),
-            (Counts{.queries = 92, .collisions = 27, .labels = 92, .tois = 27}));
-  EXPECT_EQ(count("simulation/cloth-funnel/queries/227ee.csv"),
-            (Counts{.queries = 263, .collisions = 107, .labels = 263, .tois = 107}));
-}
-
-TEST_F(PublicData, WritingAHandcraftedFileAgainGivesTheSameBytes) {
+/// What its labels and times are is in certify_test.cpp.
+TEST(PublicData, WritingAHandcraftedFileAgainGivesTheSameBytes) {
+  const fs::path folder = tests::public_data_folder();
+  if (folder.empty()) GTEST_SKIP() << "no public data";
   const TemporaryFolder temporary;
-  for (const fs::path& original : found_in(folder() / "handcrafted")) {
+  for (const fs::path& original : found_in(folder / "handcrafted")) {
     const fs::path copy = temporary.path() / "copy.csv";
     CsvWriter writer(copy);
     for (const RecordedQuery& record : read_all(*open_dataset(original))) {

@@ -78,6 +78,13 @@ struct Planted {
   std::function<void(const Query&, Answer&)> change;
 };
 
+/// What is done at some queries instead of an answer.
+std::function<void(const Query&, Answer&)> at_some(const std::function<void()>& act) {
+  return [act](const Query& query, Answer&) {
+    if (query.at(0, 1, 1) == query.at(1, 1, 1) && query.at(0, 1, 1) != 0.0) act();
+  };
+}
+
 TEST(Fuzz, FindsEveryPlantedFault) {
   using enum judge::Fault;
   const std::vector<Planted> all{
@@ -108,7 +115,11 @@ TEST(Fuzz, FindsEveryPlantedFault) {
        }},
       {"an error", no_verdict, Promise::none,
        [](const Query&, Answer& answer) { answer = {.verdict = Verdict::error}; }},
-      {"undecided", undecided, Promise::exact, [](const Query&, Answer& answer) { answer = {}; }}};
+      {"undecided", undecided, Promise::exact, [](const Query&, Answer& answer) { answer = {}; }},
+      {"crash: SIGABRT", crash, Promise::none, at_some([] { std::abort(); })},
+      {"exit: status 3", exit, Promise::none, at_some([] { std::_Exit(3); })},
+      {"exception: thrown", exception, Promise::none,
+       at_some([] { throw std::runtime_error("thrown"); })}};
   for (const Planted& planted : all) {
     SCOPED_TRACE(planted.name);
     const auto altered = [&](Kind kind, const Query& query) {
@@ -120,6 +131,9 @@ TEST(Fuzz, FindsEveryPlantedFault) {
     const FuzzResult result = search(altered, planted.promise, {.oracle_share = 0.0});
     expect_found(planted.fault, result);
     EXPECT_TRUE(planted.fault != false_negative || result.queries < 2000U);
+    if (planted.fault == crash || planted.fault == exit || planted.fault == exception) {
+      EXPECT_EQ(result.findings.at(0).original.detail, planted.name);
+    }
   }
 }
 
@@ -186,29 +200,6 @@ TEST(Fuzz, TakesMethodsWithoutTimes) {
   };
   EXPECT_TRUE(search(timeless, Promise::exact, {.most_queries = tests::trials(std::uint64_t{2400})})
                   .findings.empty());
-}
-
-/// Each failure is a fault of a separate kind.
-TEST(Fuzz, FindsCrashesExitsAndExceptions) {
-  const auto with = [](const std::function<void()>& act) {
-    return [act](Kind kind, const Query& query) {
-      if (query.at(0, 1, 1) == query.at(1, 1, 1) && query.at(0, 1, 1) != 0.0) act();
-      return honest(kind, query);
-    };
-  };
-  const auto expect_detail = [](judge::Fault what, const FuzzResult& result,
-                                const std::string& detail) {
-    expect_found(what, result);
-    ASSERT_FALSE(result.findings.empty());
-    EXPECT_EQ(result.findings.front().original.detail, detail);
-  };
-  expect_detail(judge::Fault::crash, search(with([] { std::abort(); }), Promise::none),
-                "crash: SIGABRT");
-  expect_detail(judge::Fault::exit, search(with([] { std::_Exit(3); }), Promise::none),
-                "exit: status 3");
-  expect_detail(judge::Fault::exception,
-                search(with([] { throw std::runtime_error("thrown"); }), Promise::none),
-                "exception: thrown");
 }
 
 TEST(Fuzz, FindsNothingWhereNothingIsWrong) {

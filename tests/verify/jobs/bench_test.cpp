@@ -17,10 +17,8 @@
 #include <utility>
 #include <vector>
 
-#include "tests/support/curved_group.hpp"
 #include "tests/support/methods.hpp"
-#include "tests/support/queries.hpp"
-#include "verify/base/thread_clock.hpp"
+#include "tests/support/query_groups.hpp"
 #include "verify/jobs/statistics.hpp"
 
 namespace touchstone::verify::jobs::bench_test {
@@ -29,21 +27,16 @@ namespace {
 using fast::Answer;
 using fast::Promise;
 using fast::Verdict;
+using tests::always_no;
+using tests::burn;
 using tests::FunctionMethod;
 
-constexpr int hit_every = 10;
+constexpr std::size_t hit_every = 10;
 
 bool collides(std::size_t position) { return position % hit_every == 0; }
 
-/// Vertices over a triangle; those at multiples of ten fall through it, each at a different time.
-/// The first coordinate of the face's first point is their number.
 data::QueryGroup falling_vertices(std::size_t count) {
-  std::vector<Query> queries;
-  for (std::size_t i = 0; i < count; ++i) {
-    const double start = 1.0 + 0.001 * static_cast<double>(i % 97);
-    queries.push_back(tests::over_triangle(1.0, 1.0, start, collides(i) ? -1.0 : 0.5).query);
-  }
-  return {"falling", Kind::vertex_face, std::move(queries)};
+  return tests::falling_group(count, hit_every, 0.001);
 }
 
 BenchOptions quick() {
@@ -77,7 +70,6 @@ class Field {
   std::vector<std::unique_ptr<solvers::Solver>> solvers_;
 };
 
-Answer always_no(Kind, const Query&) { return {.verdict = Verdict::no}; }
 Answer always_yes(Kind, const Query&) { return {.verdict = Verdict::yes}; }
 
 Answer late(Kind kind, const Query& query) {
@@ -169,54 +161,43 @@ TEST(Bench, OnCurvesCountsTheSame) {
   EXPECT_FALSE(broke_promise(result.solvers[4]));
 }
 
-TEST(Bench, JudgesASampleOfManyQueries) {
-  BenchOptions options = quick();
-  options.judge = 50;
-  Field field;
-  field.add(always_no, Promise::conservative, "no");
-  const BenchResult result = field.run(falling_vertices(1000), options);
-  const auto sample = spread_sample(1000, 50);
-  const auto colliding = static_cast<std::size_t>(std::ranges::count_if(sample, collides));
-  ASSERT_GT(colliding, 0U);
-  EXPECT_EQ(result.judged, 50U);
-  EXPECT_EQ(result.collisions, colliding);
-  EXPECT_EQ(result.solvers[0].judgement.queries, 50U);
-  EXPECT_EQ(result.solvers[0].judgement.count(judge::Fault::false_negative), colliding);
-}
-
-TEST(Bench, JudgesWhatAnySolverCallsACollisionToo) {
-  BenchOptions options = quick();
-  options.judge = 150;
-  Field field;
-  field.add(always_no, Promise::conservative, "no");
-  field.add(tests::true_answer, Promise::exact, "truth");
-  const BenchResult result = field.run(falling_vertices(1000), options);
-  const auto sample = spread_sample(1000, 150);
-  const auto colliding = static_cast<std::size_t>(std::ranges::count_if(sample, collides));
-  EXPECT_EQ(result.judged, 150 - colliding + 100);
-  EXPECT_EQ(result.collisions, 100U);
-  EXPECT_EQ(result.solvers[0].judgement.count(judge::Fault::false_negative), 100U);
-  EXPECT_EQ(all_faults(result.solvers[1].judgement), 0U);
-}
-
-TEST(Bench, JudgesNoMoreCallsThanTheLimit) {
-  BenchOptions options = quick();
-  options.judge = 50;
-  Field field;
-  field.add(always_yes, Promise::conservative, "yes");
-  const BenchResult result = field.run(falling_vertices(1000), options);
-  EXPECT_EQ(result.judged, 50U) << "the sample of the calls is that of the queries";
-  EXPECT_EQ(result.solvers[0].judgement.count(judge::Fault::false_positive),
-            50 - result.collisions);
+/// A sample of the queries, which is that of the calls too, and all that any solver calls a
+/// collision, up to the limit.
+TEST(Bench, JudgesASampleAndWhatAnySolverCallsACollision) {
+  const auto judged = [](FunctionMethod::Function function, std::size_t most) {
+    BenchOptions options = quick();
+    options.judge = most;
+    Field field;
+    field.add(always_no, Promise::conservative, "no");
+    field.add(std::move(function), Promise::exact, "other");
+    return field.run(falling_vertices(1000), options);
+  };
+  const auto colliding = [](std::size_t most) {
+    const auto sample = spread_sample(1000, most);
+    return static_cast<std::size_t>(std::ranges::count_if(sample, collides));
+  };
+  struct Row {
+    Answer (*function)(Kind, const Query&);
+    std::size_t most, count, collisions;
+  };
+  for (const auto& [function, most, count, collisions] :
+       {Row{always_no, 50, 50, colliding(50)},
+        {tests::true_answer, 150, 250 - colliding(150), 100},
+        {always_yes, 50, 50, colliding(50)}}) {
+    const BenchResult result = judged(function, most);
+    ASSERT_GT(collisions, 0U);
+    EXPECT_EQ(result.judged, count);
+    EXPECT_EQ(result.collisions, collisions);
+    const judge::Judgement &no = result.solvers[0].judgement, &other = result.solvers[1].judgement;
+    EXPECT_EQ(no.queries, count);
+    EXPECT_EQ(no.count(judge::Fault::false_negative), collisions);
+    const bool says_yes = function == always_yes;
+    EXPECT_EQ(other.count(judge::Fault::false_positive), says_yes ? count - collisions : 0U);
+    EXPECT_EQ(all_faults(other) == 0, function == tests::true_answer);
+  }
 }
 
 // ---- Speed --------------------------------------------------------------------------------------
-
-void burn(double nanoseconds) {
-  const double start = base::thread_nanoseconds();
-  while (base::thread_nanoseconds() - start < nanoseconds) {
-  }
-}
 
 /// A solver that spends time on each query, records every call, and answers yes.
 class Burner final : public solvers::Solver {

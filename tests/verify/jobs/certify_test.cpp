@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <chrono>
-#include <csignal>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -13,10 +12,10 @@
 #include "tests/support/memory_source.hpp"
 #include "tests/support/methods.hpp"
 #include "tests/support/public_data.hpp"
+#include "tests/support/queries.hpp"
 #include "tests/support/trials.hpp"
 #include "verify/data/dataset.hpp"
 #include "verify/generate/families.hpp"
-#include "verify/solvers/registry.hpp"
 
 namespace touchstone::verify::jobs::certify_test {
 namespace {
@@ -27,8 +26,7 @@ using tests::MemorySource;
 /// A vertex falls from height `above` to height −`below` through the middle of a resting triangle:
 /// they collide iff below ≥ 0, at above/(above + below).
 base::AnyQuery falling_vertex(double above, double below) {
-  return {Kind::vertex_face, Query{{1, 1, above,  0, 0, 0, 4, 0, 0, 0, 4, 0,  //
-                                    1, 1, -below, 0, 0, 0, 4, 0, 0, 0, 4, 0}}};
+  return {Kind::vertex_face, tests::over_triangle(1, 1, above, -below).query};
 }
 
 /// Collisions at t=1/4, and none if the index is divisible by 3, all with true records.
@@ -71,26 +69,6 @@ TEST(Certify, PrintsTimesOfImpactUntilTheyDiffer) {
 }
 
 // ---- Separations --------------------------------------------------------------------------------
-
-/// Records of the built-in families about a separation are compared in full.
-TEST(CertifySeparation, WhatIsAboutTheSameSeparationIsComparedInFull) {
-  const Separation separation{.distance = 0.75, .norm = Norm::l2};
-  const auto certified = [&](const Separation& asked) {
-    CertifyOptions options;
-    options.separation = asked;
-    options.toi_tolerance = 0;
-    return certify(*generate::open_family(generate::family_from_name("separation-endpoint"),
-                                          Kind::edge_edge, 5, 60, separation),
-                   options);
-  };
-  const CertifyResult same = certified(separation);
-  EXPECT_EQ(same.compared, judge::Inference::all);
-  EXPECT_EQ(same.labels, 60U);
-  EXPECT_EQ(same.label_mismatches + same.toi_mismatches, 0U);
-  const CertifyResult other = certified({.distance = 0.5, .norm = Norm::l2});
-  EXPECT_EQ(other.compared, judge::Inference::nothing);
-  EXPECT_EQ(other.labels, 0U);
-}
 
 TEST(Certify, ShowsFortyFiveDigitsOfATrueTimeHoweverSmall) {
   // The vertex rises from 2^-1000 below the sinking face: toi = 2^-1000 / (2^-1000 + 3), not
@@ -159,44 +137,6 @@ std::uint64_t number_of(const Query& query) {
 
 std::uint64_t all_faults(const judge::Judgement& judgement) {
   return judgement.wrong_answers.size();
-}
-
-TEST(CertifyMethods, ThePerfectMethodIsPerfectOnTheBuiltInSet) {
-  const FunctionMethod perfect(true_answer, Promise::exact);
-  const auto solver = solvers::solver_in_process(perfect, {});
-  CertifyOptions options;
-  options.solvers = {solver.get()};
-  for (const generate::Family& family : generate::families()) {
-    for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
-      if (!generate::supports(family, kind)) continue;
-      const CertifyResult result = certify(*generate::open_family(family, kind, 3, 20), options);
-      EXPECT_EQ(all_faults(result.methods.at(0).judgement), 0U) << family.name;
-      EXPECT_EQ(result.methods.at(0).judgement.toi_errors.count(), result.collisions);
-    }
-  }
-}
-
-TEST(CertifyMethods, ACrashIsAnErrorAndAHangIsUndecided) {
-  const FunctionMethod method([](Kind kind, const Query& query) {
-    if (number_of(query) == 7) std::raise(SIGKILL);
-    while (number_of(query) == 11) std::this_thread::sleep_for(std::chrono::seconds(1));
-    return true_answer(kind, query);
-  });
-  const auto solver = solvers::solver_in_children(method, {}, {.query_limit_seconds = 1.0});
-  CertifyOptions options;
-  options.solvers = {solver.get()};
-  const CertifyResult result = certify_records(numbered_records(30), options);
-  const judge::Judgement& judgement = result.methods.at(0).judgement;
-  EXPECT_EQ(judgement.queries, 30U);
-  EXPECT_EQ(judgement.undecided(), 1U);
-  EXPECT_EQ(all_faults(judgement), 1U);
-  ASSERT_EQ(judgement.wrong_answers.size(), 1U);
-  EXPECT_EQ(judgement.wrong_answers[0].index, 7U);
-  EXPECT_EQ(judgement.wrong_answers[0].fault, judge::Fault::crash);
-  EXPECT_EQ(judgement.wrong_answers[0].answer, "crash: SIGKILL");
-  EXPECT_EQ(judgement.count(judge::Fault::crash), 1U);
-  EXPECT_EQ(judgement.count(judge::Fault::hang), 1U);
-  EXPECT_EQ(judgement.count(judge::Fault::undecided), 0U);
 }
 
 TEST(CertifyMethods, FaultsAreFoundWhereverTheyAreInALongSource) {
@@ -285,33 +225,6 @@ std::vector<generate::Family> all_families() {
 }
 
 INSTANTIATE_TEST_SUITE_P(Families, BuiltInSet, ::testing::ValuesIn(all_families()), family_name);
-
-/// Solvers on curves: ours keep their promises, and what others miss is known.
-TEST(CertifyMethods, OnCurves) {
-  std::vector<std::unique_ptr<solvers::Solver>> all;
-  CertifyOptions options;
-  for (const char* name :
-       {"certified", "tight_inclusion", "subdivision", "sampling", "advancement", "cubic"}) {
-    all.push_back(solvers::solver_in_process(solvers::find_method(name), {.max_checks = 10'000}));
-    options.solvers.push_back(all.back().get());
-  }
-  CertifyResult sum;
-  for (const generate::Family& family : generate::curved_families()) {
-    for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
-      sum += certify(*generate::open_family(family, kind, 5, 3), options);
-    }
-  }
-  const auto judged = [&](std::size_t i) { return sum.methods.at(i).judgement; };
-  EXPECT_TRUE(judge::keeps(judged(0), Promise::exact));
-  EXPECT_EQ(judged(0).queries, sum.queries);
-  EXPECT_TRUE(judge::keeps(judged(1), Promise::conservative));
-  EXPECT_EQ(judged(2).count(judge::Fault::false_negative), 0U);
-  EXPECT_GT(judged(2).outside, 0U) << "rational curves";
-  EXPECT_GT(judged(3).count(judge::Fault::false_negative), 0U);
-  EXPECT_GT(judged(3).count(judge::Fault::late_toi), 0U);
-  EXPECT_GT(judged(4).count(judge::Fault::false_positive), 0U);
-  EXPECT_EQ(judged(5).outside, sum.queries) << "straight lines alone";
-}
 
 /// Answers alone: nothing is decided, and all are handed out in order.
 TEST(CertifyMethods, AnswersWithoutATruth) {

@@ -2,15 +2,17 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
+#include <array>
 #include <filesystem>
 #include <fstream>
 #include <functional>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "tests/support/messages.hpp"
 #include "tests/support/tool_test.hpp"
 #include "verify/data/store.hpp"
 
@@ -31,6 +33,13 @@ class Pieces : public tests::ToolTest {
              .uses = {},
              .outputs = {{"--json", "a.json"}, {"--truth", "a.csv"}},
              .pieces = {}};
+    begin();
+  }
+
+  /// Begins anew, with the inputs as they were.
+  void begin() {
+    fs::remove_all(path("run"));
+    plan_.pieces.clear();
     for (int i = 0; i < 3; ++i) {
       const std::string name = "input" + std::to_string(i);
       const std::string file = write(name, name);
@@ -99,15 +108,11 @@ TEST_F(Pieces, ThatAreDoneAreKnownToANewProcess) {
 
 TEST_F(Pieces, OfAnotherPlanAreRefused) {
   (void)open();
-  const auto error_with = [&](const std::function<void(Plan&)>& change) -> std::string {
+  const auto error_with = [&](const std::function<void(Plan&)>& change) {
     Plan other = plan_;
     change(other);
-    try {
-      const PieceFolder run(path("run"), other);
-    } catch (const std::runtime_error& error) {
-      return error.what();
-    }
-    return "no error";
+    return tests::message_of<std::runtime_error>(
+        [&] { const PieceFolder run(path("run"), other); });
   };
   const std::string begin = path("run") + ": has the pieces of a run ";
   const std::string end = "; choose another folder";
@@ -123,26 +128,7 @@ TEST_F(Pieces, OfAnotherPlanAreRefused) {
             begin + "with other output files" + end);
   EXPECT_EQ(error_with([](Plan& plan) { plan.uses["x.so"] = "0"; }),
             begin + "with other contents of a file that an option names" + end);
-  EXPECT_EQ(error_with([](Plan&) {}), "no error");
-}
-
-/// What is done to a complete run, and the faults that the merge then names.
-struct Damage {
-  std::string what;
-  std::function<void(const std::string& folder, const std::string& inputs)> act;
-  std::vector<std::string> faults;
-};
-
-class DamagedPieces : public Pieces, public ::testing::WithParamInterface<Damage> {};
-
-TEST_P(DamagedPieces, AreNamed) {
-  const PieceFolder run = all_done();
-  GetParam().act(path("run"), path("input"));
-  const std::vector<std::string> faults = run.faults();
-  ASSERT_EQ(faults.size(), GetParam().faults.size());
-  for (std::size_t i = 0; i < faults.size(); ++i) {
-    EXPECT_TRUE(tests::contains(faults[i], GetParam().faults[i])) << faults[i];
-  }
+  EXPECT_EQ(error_with([](Plan&) {}), "");
 }
 
 /// The folder of a piece's results.
@@ -168,49 +154,33 @@ void replace(const fs::path& file, const std::string& from, const std::string& t
   std::ofstream(file, std::ios::binary) << text;
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    Table, DamagedPieces,
-    ::testing::Values(
-        Damage{
-            "missing",
-            [](const std::string& run, const std::string&) { fs::remove(run + "/000001.piece"); },
-            {"000001.piece: piece 1, input1: missing"}},
-        Damage{"twice",
-               [](const std::string& run, const std::string&) {
-                 fs::copy_file(run + "/000002.piece", run + "/000001.piece",
-                               fs::copy_options::overwrite_existing);
-               },
-               {"input1: piece 2 is also there under this number"}},
-        Damage{"beyond the plan",
-               [](const std::string& run, const std::string&) {
-                 fs::copy_file(run + "/000002.piece", run + "/000003.piece");
-               },
-               {"000003.piece: no piece of this run has that name"}},
-        Damage{"a bit of a record",
-               [](const std::string& run, const std::string&) { flip(run + "/000000.piece", 30); },
-               {"piece 0, input0: its record is damaged"}},
-        Damage{"a count in a record",
-               [](const std::string& run, const std::string&) {
-                 replace(run + "/000001.piece", "\"status\": 1", "\"status\": 0");
-               },
-               {"piece 1, input1: its record is damaged"}},
-        Damage{
-            "a bit of a result",
-            [](const std::string& run, const std::string&) { flip(results(run, 0) / "truth", 9); },
-            {"piece 0, input0: its results have changed since"}},
-        Damage{"no result",
-               [](const std::string& run, const std::string&) {
-                 fs::remove(results(run, 2) / "json");
-               },
-               {"No such file or directory"}},
-        Damage{"another input",
-               [](const std::string&, const std::string& input) { flip(input + "2", 0); },
-               {"piece 2, input2: its input has changed since"}}),
-    [](const auto& damage) {
-      std::string name = damage.param.what;
-      std::ranges::replace(name, ' ', '_');
-      return name;
-    });
+/// What is done to a complete run and its inputs, and the fault that the merge then names.
+TEST_F(Pieces, ThatAreDamagedAreNamed) {
+  const std::string run = path("run"), input = path("input");
+  const std::vector<std::pair<std::string, std::function<void()>>> damages{
+      {"000001.piece: piece 1, input1: missing", [&] { fs::remove(run + "/000001.piece"); }},
+      {"input1: piece 2 is also there under this number",
+       [&] {
+         fs::copy_file(run + "/000002.piece", run + "/000001.piece",
+                       fs::copy_options::overwrite_existing);
+       }},
+      {"000003.piece: no piece of this run has that name",
+       [&] { fs::copy_file(run + "/000002.piece", run + "/000003.piece"); }},
+      {"piece 0, input0: its record is damaged", [&] { flip(run + "/000000.piece", 30); }},
+      {"piece 1, input1: its record is damaged",
+       [&] { replace(run + "/000001.piece", "\"status\": 1", "\"status\": 0"); }},
+      {"piece 0, input0: its results have changed since",
+       [&] { flip(results(run, 0) / "truth", 9); }},
+      {"No such file or directory", [&] { fs::remove(results(run, 2) / "json"); }},
+      {"piece 2, input2: its input has changed since", [&] { flip(input + "2", 0); }}};
+  for (const auto& [fault, act] : damages) {
+    begin();
+    const PieceFolder done = all_done();
+    act();
+    ASSERT_EQ(done.faults().size(), 1U) << fault;
+    EXPECT_TRUE(tests::contains(done.faults()[0], fault)) << done.faults()[0];
+  }
+}
 
 TEST_F(Pieces, OfAnotherRunOrVersionAreNamed) {
   const PieceFolder run = all_done();
@@ -233,48 +203,33 @@ TEST_F(Pieces, OfAnotherRunOrVersionAreNamed) {
 }
 
 /// What happens to the files of a piece in work, and why it is not done.
-struct Change {
-  std::string what;
-  std::function<void(const std::string& folder)> act;
-  std::string reason;
-};
-
-class ChangedPieces : public Pieces, public ::testing::WithParamInterface<Change> {};
-
-TEST_P(ChangedPieces, AreNotDone) {
-  const std::string library = write("x.so", "library");
-  plan_.pieces[1].files.emplace_back(write("input1b", "companion"));
-  plan_.uses[library] = data::digest_of(library);
-  plan_.pieces[1].digests[path("input1")] = data::digest_of(path("input1"));
-  const PieceFolder run = open();
-  try {
-    do_piece(run, 1, 0, [&](const fs::path&) { GetParam().act(folder()); });
-    FAIL();
-  } catch (const std::exception& error) {
-    EXPECT_TRUE(tests::contains(error.what(), GetParam().reason)) << error.what();
+TEST_F(Pieces, WhoseFilesChangeInWorkAreNotDone) {
+  const std::vector<std::array<std::string, 2>> changes{
+      {"input1b", "an input has changed while it was read"},
+      {"input1", "input1 is not as the manifest of its store says"},
+      {"x.so", "x.so: has changed since the run began"},
+      {"", "x.so: cannot open"}};
+  for (const auto& [changed, reason] : changes) {
+    begin();
+    const std::string library = write("x.so", "library");
+    plan_.pieces[1].files.emplace_back(write("input1b", "companion"));
+    plan_.uses[library] = data::digest_of(library);
+    plan_.pieces[1].digests[path("input1")] = data::digest_of(path("input1"));
+    const PieceFolder run = open();
+    const auto change = [&, &name = changed](const fs::path&) {
+      if (name.empty()) {
+        fs::remove(library);
+      } else {
+        write(name, "x");
+      }
+    };
+    const std::string error =
+        tests::message_of<std::exception>([&] { do_piece(run, 1, 0, change); });
+    EXPECT_TRUE(tests::contains(error, reason)) << error;
+    EXPECT_EQ(run.fault(1), "missing");
+    EXPECT_EQ(results(path("run"), 1), "") << "results of nobody are left";
   }
-  EXPECT_EQ(run.fault(1), "missing");
-  EXPECT_EQ(results(path("run"), 1), "") << "results of nobody are left";
 }
-
-INSTANTIATE_TEST_SUITE_P(
-    Table, ChangedPieces,
-    ::testing::Values(
-        Change{"input",
-               [](const std::string& folder) { std::ofstream(folder + "/input1b") << "x"; },
-               "an input has changed while it was read"},
-        Change{"input of a store",
-               [](const std::string& folder) { std::ofstream(folder + "/input1") << "x"; },
-               "input1 is not as the manifest of its store says"},
-        Change{"plugin", [](const std::string& folder) { std::ofstream(folder + "/x.so") << "x"; },
-               "x.so: has changed since the run began"},
-        Change{"no plugin", [](const std::string& folder) { fs::remove(folder + "/x.so"); },
-               "x.so: cannot open"}),
-    [](const auto& change) {
-      std::string name = change.param.what;
-      std::ranges::replace(name, ' ', '_');
-      return name;
-    });
 
 /// A process that was killed, and its child, which writes on.
 TEST_F(Pieces, AreNotWhatALaterChildOfAKilledProcessWrites) {
@@ -302,13 +257,8 @@ TEST_F(Pieces, WithoutAResultLeaveNothing) {
 TEST_F(Pieces, ThatContradictEachOtherAreNotAdded) {
   const PieceFolder run = all_done();
   std::ofstream(results(path("run"), 2) / "json") << R"({"queries": 1, "interrupted": true})";
-  try {
-    (void)run.merged_json();
-    FAIL();
-  } catch (const std::runtime_error& error) {
-    EXPECT_TRUE(tests::contains(error.what(), "interrupted is true, elsewhere false"))
-        << error.what();
-  }
+  const std::string error = tests::message_of<std::runtime_error>([&] { (void)run.merged_json(); });
+  EXPECT_TRUE(tests::contains(error, "interrupted is true, elsewhere false")) << error;
 }
 
 }  // namespace

@@ -79,22 +79,6 @@ TEST(Prove, WritesEveryCertificateInOrderWhateverTheThreads) {
   EXPECT_EQ(report.time_of_impact, 3000U);
 }
 
-TEST(Prove, ProvesAtADistanceInEitherNorm) {
-  for (const Norm norm : {Norm::linf, Norm::l2}) {
-    MemorySource source(Kind::vertex_face, falling_vertices(90));
-    // Six of each nine end ½ above the face, within the separation.
-    const ProofRun result = run(source, {.separation = {.distance = 0.5, .norm = norm}});
-    EXPECT_EQ(result.proof.proofs.time_of_impact, 90U);
-    MemorySource again(Kind::vertex_face, falling_vertices(90));
-    const ProofRun less = run(again, {.separation = {.distance = 0.25, .norm = norm}});
-    EXPECT_EQ(less.proof.proofs.no_collision, 60U);
-    for (const std::string& text : {result.stream(), less.stream()}) {
-      EXPECT_TRUE(tests::check(text).all_accepted());
-      EXPECT_EQ(tests::check(text).accepted(), 90U);
-    }
-  }
-}
-
 TEST(Prove, AnErrorOrAStopLeavesWholeCertificates) {
   MemorySource broken(Kind::vertex_face, falling_vertices(3000));
   broken.fail_at(2500, "row is broken");

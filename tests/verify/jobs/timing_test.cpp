@@ -5,37 +5,14 @@
 #include <algorithm>
 #include <atomic>
 #include <cstddef>
-#include <utility>
-#include <vector>
 
-#include "tests/support/curved_group.hpp"
 #include "tests/support/methods.hpp"
-#include "tests/support/queries.hpp"
+#include "tests/support/query_groups.hpp"
 
 namespace touchstone::verify::jobs::timing_test {
 namespace {
 
-using fast::Answer;
-using fast::Verdict;
 using tests::FunctionMethod;
-
-/// Vertices over a triangle at different heights, of which every tenth falls through it.
-data::QueryGroup falling(std::size_t count) {
-  std::vector<Query> queries;
-  for (std::size_t i = 0; i < count; ++i) {
-    const double start = 1.0 + 0.001 * static_cast<double>(i);
-    queries.push_back(tests::over_triangle(1, 1, start, i % 10 == 0 ? -1.0 : 0.5).query);
-  }
-  return {"falling", Kind::vertex_face, std::move(queries)};
-}
-
-Answer no(Kind, const Query&) { return {.verdict = Verdict::no}; }
-
-Answer slow_no(Kind, const Query&) {
-  const double start = base::thread_nanoseconds();
-  while (base::thread_nanoseconds() - start < 1e6) continue;
-  return {.verdict = Verdict::no};
-}
 
 TEST(Timing, ShortWorkIsDoneSeveralTimes) {
   EXPECT_EQ(calls_for(1e9), 1U);
@@ -46,9 +23,9 @@ TEST(Timing, ShortWorkIsDoneSeveralTimes) {
 }
 
 TEST(TimedSolver, ItsSampleGrowsAsLongAsItAndItsCompanionAreFast) {
-  const data::QueryGroup group = falling(1000);
+  const data::QueryGroup group = tests::falling_group(1000);
   Samples samples(group);
-  const FunctionMethod fast_one(no), slow_one(slow_no);
+  const FunctionMethod fast_one(tests::always_no), slow_one(tests::slow_no);
   const auto quick = solvers::solver_in_process(fast_one, {}),
              slow = solvers::solver_in_process(slow_one, {});
   const auto size_with = [&](const solvers::Solver& solver, const SampleLimits& limits) {
@@ -93,9 +70,9 @@ TEST(TimedSolver, TakesCurvesOrLinesOfWhateverKind) {
 }
 
 TEST(TimedSolver, TimesQueriesAlone) {
-  const data::QueryGroup group = falling(40);
+  const data::QueryGroup group = tests::falling_group(40);
   Samples samples(group);
-  const FunctionMethod method(slow_no);
+  const FunctionMethod method(tests::slow_no);
   const auto solver = solvers::solver_in_process(method, {});
   TimedSolver timed(*solver, samples, {});
   timed.take(20);

@@ -87,6 +87,11 @@ TEST(ReadObj, NamesTheLineAndTheReason) {
   EXPECT_EQ(error("v 1 nan 3"), "a.obj:5: a coordinate must be finite");
   EXPECT_EQ(error("v 1 -inf 3"), "a.obj:5: a coordinate must be finite");
   EXPECT_EQ(error("v 1 2 3 x"), "a.obj:5: \"x\" is no number, or none that a double holds");
+  EXPECT_EQ(error("v -1.#IND 0 0"),
+            "a.obj:5: \"-1.#IND\" is no number, or none that a double holds");
+  EXPECT_EQ(error("v 0 4 0 1 2"),
+            "a.obj:5: three coordinates and 2 more numbers; only a weight or three of a colour may "
+            "follow");
   EXPECT_EQ(error("f"), "a.obj:5: corners: 0; a face must have 3 or more");
   EXPECT_EQ(error("p"), "a.obj:5: corners: 0; a point must have 1 or more");
   EXPECT_EQ(error("f 1 2 3//4/"), "a.obj:5: \"3//4/\" is no corner");

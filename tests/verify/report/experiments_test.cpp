@@ -11,21 +11,15 @@
 #include <utility>
 #include <vector>
 
-#include "tests/support/curved_group.hpp"
-#include "tests/support/queries.hpp"
+#include "tests/support/query_groups.hpp"
 
 namespace touchstone::verify::report::experiments_test {
 namespace {
 
 /// Vertices over a triangle, every second of which falls through it.
 std::vector<data::QueryGroup> falling() {
-  std::vector<Query> queries;
-  queries.reserve(20);
-  for (int i = 0; i < 20; ++i) {
-    queries.push_back(tests::over_triangle(1, 1, 1, i % 2 == 0 ? -1.0 : 0.5).query);
-  }
   std::vector<data::QueryGroup> groups;
-  groups.emplace_back("falling", Kind::vertex_face, std::move(queries));
+  groups.push_back(tests::falling_group(20, 2));
   return groups;
 }
 

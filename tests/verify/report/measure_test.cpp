@@ -12,9 +12,8 @@
 
 #include "fast/method.hpp"
 #include "tests/support/methods.hpp"
-#include "tests/support/queries.hpp"
+#include "tests/support/query_groups.hpp"
 #include "touchstone/certified.hpp"
-#include "verify/base/thread_clock.hpp"
 
 namespace touchstone::verify::report::measure_test {
 namespace {
@@ -28,16 +27,6 @@ std::uint64_t count(const TimeHistogram& times) {
   std::uint64_t sum = 0;
   for (const auto& [bin, queries] : times.bins) sum += queries;
   return sum;
-}
-
-/// Vertices of which every tenth falls through the triangle, at ½, and the others to half their
-/// height.
-data::QueryGroup falling(std::size_t count) {
-  std::vector<Query> queries;
-  for (std::size_t i = 0; i < count; ++i) {
-    queries.push_back(tests::over_triangle(1, 1, 1, i % 10 == 0 ? -1.0 : 0.5).query);
-  }
-  return {"falling", Kind::vertex_face, std::move(queries)};
 }
 
 bool truly_collides(const Query& query) { return query.at(1, 0, 2) < 0.0; }
@@ -72,10 +61,9 @@ class Field {
 };
 
 TEST(Measure, CountsExactlyTheFaultsThatAMethodHas) {
-  const data::QueryGroup group = falling(200);
+  const data::QueryGroup group = tests::falling_group(200);
   Field field;
-  field.add([](Kind, const Query&) { return Answer{.verdict = Verdict::no}; },
-            Promise::conservative, "no");
+  field.add(tests::always_no, Promise::conservative, "no");
   field.add([](Kind, const Query&) { return yes_at(0.375, 0.25, 7); }, Promise::conservative,
             "early yes", {.tolerance = 0.125, .max_checks = 7});
   field.add(
@@ -132,23 +120,14 @@ TEST(Measure, CountsExactlyTheFaultsThatAMethodHas) {
   EXPECT_EQ(all[3].false_negatives, 0U);
 }
 
-/// An answer that takes processor time.
-Answer slow_no(Kind, const Query&) {
-  const double start = base::thread_nanoseconds();
-  while (base::thread_nanoseconds() - start < 1e6) continue;
-  return {.verdict = Verdict::no};
-}
-
-Answer quick_no(Kind, const Query&) { return {.verdict = Verdict::no}; }
-
 /// Slow methods get a smaller sample and their own reference; settings of a method may share the
 /// smallest sample.
 TEST(Measure, ASampleIsNoLargerThanTheTimeAllows) {
-  const data::QueryGroup group = falling(1000);
+  const data::QueryGroup group = tests::falling_group(1000);
   Field field;
-  field.add(slow_no, Promise::none, "method", {.tolerance = 1e-8});
-  field.add(quick_no, Promise::none, "method", {.tolerance = 1.0});
-  field.add(quick_no, Promise::none, "other");
+  field.add(tests::slow_no, Promise::none, "method", {.tolerance = 1e-8});
+  field.add(tests::always_no, Promise::none, "method", {.tolerance = 1.0});
+  field.add(tests::always_no, Promise::none, "other");
   for (const bool same_sample : {false, true}) {
     MeasureOptions options;
     options.seconds = 0.05;
@@ -169,20 +148,8 @@ TEST(Measure, ASampleIsNoLargerThanTheTimeAllows) {
   }
 }
 
-TEST(Measure, ASampleIsNoLargerThanTheReferenceCanTake) {
-  const FunctionMethod slow(slow_no, Promise::none, "slow");
-  Field field;
-  field.add(tests::true_answer, Promise::exact, "fast");
-  MeasureOptions options;
-  options.seconds = 0.05;
-  const std::vector<Measurement> all = field.run(falling(1000), options, slow);
-  ASSERT_EQ(all.size(), 1U);
-  EXPECT_GE(all[0].asked, 16U);
-  EXPECT_LE(all[0].asked, 64U) << "a millisecond each";
-}
-
 TEST(Measure, TheTruthIsAboutTheSeparation) {
-  const data::QueryGroup group = falling(10);
+  const data::QueryGroup group = tests::falling_group(10);
   Field field;
   field.add(tests::true_answer, Promise::none, "contact only",
             {.separation = {.distance = 0.5, .norm = Norm::l2}});
@@ -197,7 +164,7 @@ TEST(Measure, TheTruthIsAboutTheSeparation) {
 }
 
 TEST(Measure, StoppedBetweenRepetitionsItKeepsThoseThatAreDone) {
-  const data::QueryGroup group = falling(10);
+  const data::QueryGroup group = tests::falling_group(10);
   Field field;
   field.add(tests::true_answer, Promise::exact, "truth");
   std::atomic<bool> stop = false;

@@ -4,6 +4,7 @@
 
 #include <regex>
 #include <string>
+#include <string_view>
 
 #include "tests/support/measurements.hpp"
 #include "verify/report/report_page_texts.hpp"
@@ -27,6 +28,16 @@ TEST(Page, LoadsNothingAndHoldsNoMarkupOfNames) {
   EXPECT_FALSE(contains(page, "\u202e"));
   EXPECT_FALSE(
       std::regex_search(page, std::regex("https?:|<(link|img|iframe|object)|@import|src=|url\\(")));
+}
+
+TEST(Page, HasTextsThatEndNoElementAndTheNoticeOfD3) {
+  EXPECT_TRUE(d3_script().starts_with("// https://d3js.org v")) << d3_script().substr(0, 80);
+  EXPECT_NE(d3_script().find("Copyright"), std::string_view::npos);
+  for (const std::string_view text : {d3_script(), report_script(), page_script(), page_style()}) {
+    for (const std::string_view end : {"</script", "</style", "<!--"}) {
+      EXPECT_EQ(text.find(end), std::string_view::npos) << end;
+    }
+  }
 }
 
 StabilityResult map_of_one_cell(const std::string& method) {

@@ -200,14 +200,6 @@ TEST(LoadAnswers, TakesRowsInAnyOrderAndKnowsNoOtherQueries) {
   EXPECT_FALSE(answers.answer_to("", vf, 1).has_value());
 }
 
-TEST(LoadAnswers, TakesWindowsLineEndsAndBlankLinesAtTheEnd) {
-  const TemporaryFolder folder;
-  const RecordedAnswers answers =
-      load(folder, header.substr(0, header.size() - 1) + "\r\na,0,vertex-face,yes,0.5,,\r\n\r\n\n");
-  EXPECT_EQ(answers.unasked(), 1U);
-  EXPECT_EQ(answers.answer_to("a", vf, 0)->answer.toi_lower, 0.5);
-}
-
 TEST(LoadAnswers, TakesQuotesAroundAnyField) {
   const TemporaryFolder folder;
   const RecordedAnswers answers =
@@ -358,11 +350,6 @@ TEST(LoadAnswers, FindsQuotesThatDoNotEnd) {
   std::string many = good + "\"a,1,vertex-face,no,,,\n";
   for (int i = 0; i < 20'000; ++i) many += "b,0,vertex-face,no,,,\n";
   EXPECT_EQ(error_in_rows(many), error);
-}
-
-TEST(LoadAnswers, FindsLinesThatAreTooLong) {
-  EXPECT_EQ(error_in_rows(std::string((1U << 20U) + 1, 'x') + "\n"),
-            "answers.csv:2: line longer than 1 MiB");
 }
 
 }  // namespace

@@ -60,13 +60,6 @@ Answer ask(const fast::Method& method, const PosedQuery& posed,
   return ask(method, posed.kind, posed.query, options);
 }
 
-void expect_nothing_but(const Answer& answer, Verdict verdict) {
-  EXPECT_EQ(answer.verdict, verdict);
-  EXPECT_TRUE(std::isnan(answer.toi_lower));
-  EXPECT_TRUE(std::isnan(answer.toi_upper));
-  EXPECT_TRUE(std::isnan(answer.tolerance));
-}
-
 std::string load_error(const std::filesystem::path& path) {
   return error_of(path.parent_path(), [&] { static_cast<void>(load_plugin(path)); });
 }
@@ -142,52 +135,41 @@ TEST(PluginPromise, OutOfRangeIsRefused) {
             "touchstone/plugin.h names the values");
 }
 
-TEST(BoxOverlap, SaysYesFromTheStartWhereBoxesOverlap) {
-  const auto method = load_plugin(box_overlap);
-  // The last answer is a false positive: the boxes overlap, the primitives do not.
-  for (const PosedQuery& posed :
-       {tests::over_triangle(1, 1, 1, -2), tests::over_edge(1, 1, 1, -2),
-        tests::over_triangle(1, 1, 1, 0), tests::over_triangle(3, 3, 1, -2)}) {
-    const Answer answer = ask(*method, posed);
-    EXPECT_EQ(answer.verdict, Verdict::yes) << posed;
-    EXPECT_EQ(answer.toi_lower, 0.0) << posed;
-    EXPECT_TRUE(std::isnan(answer.toi_upper)) << posed;
-    EXPECT_TRUE(std::isnan(answer.tolerance)) << posed;
-  }
-  EXPECT_FALSE(
-      exact::decide(Kind::vertex_face, tests::over_triangle(3, 3, 1, -2).query).collides());
-}
-
-TEST(BoxOverlap, SaysNoWhereAnAxisSeparatesByTheLeastDouble) {
+/// Yes from the start where boxes overlap, though the primitives do not always; no where an axis
+/// separates them by the least double; and an error where the query or the distance is none.
+TEST(BoxOverlap, ComparesBoxesToTheLastBit) {
   const auto method = load_plugin(box_overlap);
   const double above_zero = std::numeric_limits<double>::denorm_min();
-  const double above_four = std::nextafter(4.0, 5.0);
-  for (const PosedQuery& posed :
-       {tests::over_triangle(1, 1, above_zero, 2), tests::over_triangle(1, 1, -2, -above_zero),
-        tests::over_triangle(above_four, 1, 1, -2), tests::over_triangle(1, above_four, 1, -2),
-        tests::over_edge(1, 1, above_zero, 2), tests::over_edge(above_four, 1, 1, -2)}) {
-    expect_nothing_but(ask(*method, posed), Verdict::no);
-  }
-}
-
-TEST(BoxOverlap, TakesTheSeparationIntoAccount) {
-  const auto method = load_plugin(box_overlap);
-  const PosedQuery posed = tests::over_triangle(1, 1, 2, 1);
-  EXPECT_EQ(ask(*method, posed,
-                {.separation = {.distance = std::nextafter(1.0, 0.0), .norm = Norm::linf}})
-                .verdict,
-            Verdict::no);
-  EXPECT_EQ(ask(*method, posed, {.separation = {.distance = 1.0, .norm = Norm::linf}}).verdict,
-            Verdict::yes);
-  EXPECT_EQ(ask(*method, posed, {.separation = {.distance = -1.0}}).verdict, Verdict::error);
-}
-
-TEST(BoxOverlap, RefusesNaN) {
-  const auto method = load_plugin(box_overlap);
+  const double above_four = std::nextafter(4.0, 5.0), below_one = std::nextafter(1.0, 0.0);
+  struct Row {
+    PosedQuery posed;
+    Verdict verdict;
+    double distance = 0.0;
+  };
+  const PosedQuery through = tests::over_triangle(1, 1, 1, -2);
+  std::vector<Row> rows{{through, Verdict::yes},
+                        {tests::over_edge(1, 1, 1, -2), Verdict::yes},
+                        {tests::over_triangle(1, 1, 1, 0), Verdict::yes},
+                        {tests::over_triangle(3, 3, 1, -2), Verdict::yes},
+                        {tests::over_triangle(1, 1, above_zero, 2), Verdict::no},
+                        {tests::over_triangle(1, 1, -2, -above_zero), Verdict::no},
+                        {tests::over_triangle(above_four, 1, 1, -2), Verdict::no},
+                        {tests::over_triangle(1, above_four, 1, -2), Verdict::no},
+                        {tests::over_edge(1, 1, above_zero, 2), Verdict::no},
+                        {tests::over_edge(above_four, 1, 1, -2), Verdict::no},
+                        {tests::over_triangle(1, 1, 2, 1), Verdict::no, below_one},
+                        {tests::over_triangle(1, 1, 2, 1), Verdict::yes, 1.0},
+                        {tests::over_triangle(1, 1, 2, 1), Verdict::error, -1.0}};
   for (std::size_t i = 0; i < 24; ++i) {
-    Query query = tests::over_triangle(1, 1, 1, -2).query;
-    query.coordinates.at(i) = std::nan("");
-    expect_nothing_but(ask(*method, Kind::vertex_face, query), Verdict::error);
+    rows.push_back({through, Verdict::error});
+    rows.back().posed.query.coordinates.at(i) = std::nan("");
+  }
+  for (const auto& [posed, verdict, distance] : rows) {
+    const Answer answer =
+        ask(*method, posed, {.separation = {.distance = distance, .norm = Norm::linf}});
+    EXPECT_EQ(answer.verdict, verdict) << posed;
+    EXPECT_TRUE(verdict == Verdict::yes ? answer.toi_lower == 0.0 : std::isnan(answer.toi_lower));
+    EXPECT_TRUE(std::isnan(answer.toi_upper) && std::isnan(answer.tolerance)) << posed;
   }
 }
 

@@ -19,9 +19,8 @@ namespace {
 
 /// A vertex in a resting triangle.
 ViewedQuery resting() {
-  const tests::PosedQuery posed = tests::vertex_face({1, 1, 0, 0, 0, 0, 4, 0, 0, 0, 4, 0},
-                                                     {1, 1, 0, 0, 0, 0, 4, 0, 0, 0, 4, 0});
-  return {.label = "a label", .query = base::AnyQuery(posed.kind, posed.query)};
+  const Query query = tests::over_triangle(1, 1, 0, 0).query;
+  return {.label = "a label", .query = base::AnyQuery(Kind::vertex_face, query)};
 }
 
 /// What these methods say.

@@ -16,15 +16,9 @@ using tests::PosedQuery;
 
 constexpr double least = std::numeric_limits<double>::denorm_min();
 
-/// A vertex above the middle of a triangle, which moves from height 1 to the given one.
-PosedQuery falling_to(double height) {
-  return tests::vertex_face({1, 1, 1, 0, 0, 0, 4, 0, 0, 0, 4, 0},
-                            {1, 1, height, 0, 0, 0, 4, 0, 0, 0, 4, 0});
-}
-
 TEST(NearestApproach, IsBetweenNeighbouringDoubles) {
   for (const double height : {0.5, 1e-9, 0x1p-53, 1e-310, least}) {
-    const PosedQuery posed = falling_to(height);
+    const PosedQuery posed = tests::over_triangle(1, 1, 1, height);
     const auto approach = nearest_approach(posed.kind, posed.query);
     ASSERT_TRUE(approach);
     EXPECT_EQ(approach->at_most, height);

@@ -19,9 +19,8 @@ namespace {
 
 /// A vertex falls through a resting triangle at t = 1/3, above (u,v) = (1/4, 1/4).
 ViewedQuery falling() {
-  const tests::PosedQuery posed = tests::vertex_face({1, 1, 1, 0, 0, 0, 4, 0, 0, 0, 4, 0},
-                                                     {1, 1, -2, 0, 0, 0, 4, 0, 0, 0, 4, 0});
-  return {.label = "a label", .query = base::AnyQuery(posed.kind, posed.query)};
+  const Query query = tests::over_triangle(1, 1, 1, -2).query;
+  return {.label = "a label", .query = base::AnyQuery(Kind::vertex_face, query)};
 }
 
 /// √½: the third example of exact/CERTIFICATES.md.

@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <array>
-#include <cstdint>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
@@ -13,11 +12,8 @@
 
 #include "tests/support/folder_test.hpp"
 #include "tests/support/queries.hpp"
-#include "touchstone/certificate.hpp"
 #include "touchstone/certificate_text.hpp"
-#include "touchstone/oracle.hpp"
 #include "verify/data/csv_dataset.hpp"
-#include "verify/data/npy_header.hpp"
 #include "verify/io/compressor.hpp"
 #include "verify/io/dataset_error.hpp"
 #include "verify/view/query_facts.hpp"
@@ -26,10 +22,7 @@ namespace touchstone::verify::view::query_files_test {
 namespace {
 
 /// Queries that differ in one number.
-Query numbered(int number) {
-  return tests::moving({1, 1, 1, 0, 0, 0, 4, 0, 0, 0, 4, 0},
-                       {1, 1, -0.1 * number, 0, 0, 0, 4, 0, 0, 0, 4, 0});
-}
+Query numbered(int number) { return tests::over_triangle(1, 1, 1, -0.1 * number).query; }
 
 /// A query as it is viewed.
 using AnyViewed = decltype(ViewedQuery::query);
@@ -91,18 +84,6 @@ TEST_F(QueryFiles, QueriesOnCurves) {
   EXPECT_EQ(kind_of(queries("edge-edge.csv", {.kind = Kind::vertex_face}).at(0)),
             Kind::vertex_face);
   EXPECT_EQ(reason("edge-edge.csv", {.indices = {2}}), "there is no query 2; it has 2");
-}
-
-TEST_F(QueryFiles, AnArrayOfFourExtentsIsOfCurves) {
-  const std::vector<double> numbers(96, 0.5);
-  const void* const bytes = numbers.data();
-  const std::string data(static_cast<const char*>(bytes), numbers.size() * sizeof(double));
-  const std::array<std::uint64_t, 3> curves{4, 4, 3};
-  const std::array<std::uint64_t, 2> lines{8, 3};
-  write("vertex-face.npy", data::npy_header_text("<f8", 2, curves) + data);
-  EXPECT_EQ(curves_of(queries("vertex-face.npy").at(1))[3].degree(), 3U);
-  write("vertex-face.npy", data::npy_header_text("<f8", 4, lines) + data);
-  EXPECT_NE(straight_of(queries("vertex-face.npy").at(3)), nullptr);
 }
 
 TEST_F(QueryFiles, AFindingOfTheFuzzer) {
@@ -172,34 +153,6 @@ TEST_F(QueryFiles, FaultyJson) {
   EXPECT_EQ(reason("empty.json"), "there is no query in it");
 }
 
-TEST_F(QueryFiles, Certificates) {
-  std::string text(exact::certificates_header());
-  for (int i = 0; i < 3; ++i) {
-    const Query query = numbered(i);
-    const exact::Decision verdict = exact::decide(Kind::vertex_face, query);
-    exact::write(text, exact::prove(Kind::vertex_face, query, verdict), "label");
-  }
-  write("proofs.cert", text + exact::certificates_closing_line(3));
-  const auto all = queries("proofs.cert");
-  ASSERT_EQ(all.size(), 3U);
-  EXPECT_EQ(all[2].query, any(numbered(2)));
-  EXPECT_EQ(all[2].label, path("proofs.cert") + ":2, label");
-  EXPECT_TRUE(all[2].certificate.ends_with("end\ncertificates 1\n"));
-  EXPECT_EQ(queries("proofs.cert", {.indices = {1}}).at(0).query, any(numbered(1)));
-  const CurvedQuery curves{{{.control = {{1, 1, 1}, {1, 1, -1}, {1, 1, 1}}},
-                            {.control = {{0, 0, 0}}},
-                            {.control = {{4, 0, 0}}},
-                            {.control = {{0, 4, 0}}}}};
-  write("curves.cert",
-        exact::certificate_stream(
-            exact::prove(Kind::vertex_face, curves, exact::decide(Kind::vertex_face, curves)),
-            "on curves"));
-  EXPECT_EQ(queries("curves.cert").at(0).query,
-            AnyViewed(OwnCurves{.kind = Kind::vertex_face, .curves = curves}));
-  write("text.cert", "no certificate\n");
-  EXPECT_EQ(reason("text.cert"), "not a stream of certificates");
-}
-
 // A small compressed file may hold a text of any length: the memory does not follow it.
 TEST_F(QueryFiles, ACertificateIsBounded) {
   const auto write_compressed = [this](const std::string& name, const std::string& beginning,
@@ -218,6 +171,8 @@ TEST_F(QueryFiles, ACertificateIsBounded) {
             "a certificate of more than 16 MiB; is its line 'end' missing?");
   write_compressed("comments.cert.zst", header, mebibyte, 17);
   EXPECT_EQ(reason("comments.cert.zst"), "there is no query in it");
+  write("text.cert", "no certificate\n");
+  EXPECT_EQ(reason("text.cert"), "not a stream of certificates");
 }
 
 TEST_F(QueryFiles, LinesOfVertices) {

@@ -93,16 +93,6 @@ TEST(StepFacts, OfTheStepThatIsTaken) {
   EXPECT_EQ(straight_of(first_queries(taken, 1)[0])->at(1, 0, 2), 0.0);
 }
 
-TEST(StepFacts, BetweenGroupsThatMeet) {
-  const mesh::Mesh mesh = scene();
-  const std::vector<std::int32_t> groups{0, 0, 0, 0, 1, 1, 1};
-  const std::vector<std::array<std::int32_t, 2>> apart{{1, 0}};
-  const ViewedStep found = find_collisions("a step", mesh, mesh.vertices, after(mesh),
-                                           {.groups = {.of_vertices = groups, .apart = apart}});
-  ASSERT_EQ(found.collisions.size(), 1U);
-  EXPECT_EQ(found.points[0], (std::array<std::int32_t, 4>{3, 0, 1, 2}));
-}
-
 TEST(StepFacts, AtASeparation) {
   const mesh::Mesh mesh = scene();
   const ViewedStep near = find_collisions("a step", mesh, mesh.vertices, mesh.vertices,

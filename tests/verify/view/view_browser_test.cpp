@@ -102,10 +102,7 @@ class ViewBrowser : public tests::BrowserTest {
   std::vector<const solvers::Solver*> asked_;
 };
 
-PosedQuery falling(double end = -2.0) {
-  return tests::vertex_face({1, 1, 1, 0, 0, 0, 4, 0, 0, 0, 4, 0},
-                            {1, 1, end, 0, 0, 0, 4, 0, 0, 0, 4, 0});
-}
+PosedQuery falling(double end = -2.0) { return tests::over_triangle(1, 1, 1, end); }
 
 /// A query with coordinates of every exponent.
 PosedQuery of_any_size(Kind kind) {

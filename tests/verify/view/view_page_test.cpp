@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 #include <string>
+#include <string_view>
 
 #include "verify/view/view_page_texts.hpp"
 
@@ -23,6 +24,14 @@ TEST(ViewPage, HoldsItsQueriesAndTheScript) {
   EXPECT_TRUE(contains(page, view_style()));
   EXPECT_TRUE(contains(page, "touchstone view a&lt;b"));
   EXPECT_TRUE(contains(page, "default-src 'none'"));
+}
+
+TEST(ViewPage, NoTextEndsTheElementThatItStandsIn) {
+  for (const std::string_view text : {view_script(), view_style()}) {
+    for (const std::string_view end : {"</script", "</style", "<!--"}) {
+      EXPECT_EQ(text.find(end), std::string_view::npos) << end;
+    }
+  }
 }
 
 }  // namespace

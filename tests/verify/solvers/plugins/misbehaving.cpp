@@ -14,6 +14,7 @@
 #include <cstdlib>
 #include <fstream>
 #include <limits>
+#include <map>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -25,8 +26,10 @@
 namespace {
 
 using touchstone::tests::Misbehaviour;
+using enum Misbehaviour;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 /// The sanitizer must not stop this before it happens.
 [[gnu::no_sanitize("undefined")]] void write_to_null() {
@@ -83,19 +86,46 @@ int calls = 0;
 
 /// Acts that end without an answer.
 void fail(Misbehaviour what) {
-  if (what == Misbehaviour::dies_at_call_1500 && ++calls == 1500) std::abort();
-  if (what == Misbehaviour::throws) throw std::runtime_error("thrown by a plugin");
-  if (what == Misbehaviour::throws_a_number) throw 7;
-  if (what == Misbehaviour::exits_with_3) std::exit(3);
-  if (what == Misbehaviour::exits_at_once) ::_exit(0);
-  if (what == Misbehaviour::kills_itself) std::raise(SIGKILL);
-  if (what == Misbehaviour::writes_without_end) write_without_end();
-  if (what == Misbehaviour::closes_all) ::syscall(SYS_close_range, 0, ~0U, 0U);
-  if (what == Misbehaviour::closes_all || what == Misbehaviour::sleeps) sleep_for_ever();
-  if (what == Misbehaviour::aborts) std::abort();
-  if (what == Misbehaviour::hangs) hang();
-  if (what == Misbehaviour::writes_to_null) write_to_null();
+  if (what == dies_at_call_1500 && ++calls == 1500) std::abort();
+  if (what == throws) throw std::runtime_error("thrown by a plugin");
+  if (what == throws_a_number) throw 7;
+  if (what == exits_with_3) std::exit(3);
+  if (what == exits_at_once) ::_exit(0);
+  if (what == kills_itself) std::raise(SIGKILL);
+  if (what == writes_without_end) write_without_end();
+  if (what == closes_all) ::syscall(SYS_close_range, 0, ~0U, 0U);
+  if (what == closes_all || what == sleeps) sleep_for_ever();
+  if (what == aborts) std::abort();
+  if (what == hangs) hang();
+  if (what == writes_to_null) write_to_null();
 }
+
+/// Acts before the answer no; true if it is yes instead.
+bool act(Misbehaviour what) {
+  if (what == forks) fork_often();
+  if (what == copies_itself) return copy();
+  if (what == signals_parent) return may_signal_parent() || ::kill(::getpid(), 0) != 0;
+  if (what == allocates) allocate_much();
+  if (what == prints) {
+    std::puts("printed by a plugin\x1b[31m");
+    std::fputs("and as error\n", stderr);
+  }
+  return what == writes_a_file && !(std::ofstream("written_by_a_plugin") << "x");
+}
+
+/// The answers of those that only answer.
+const std::map<Misbehaviour, TouchstonePluginAnswer> answers_alone{
+    {yes_with_tolerance_0, {TOUCHSTONE_YES, 0.0, nan, 0.0}},
+    {says_no_with_toi, {TOUCHSTONE_NO, 0.25, 0.5, 1e-9}},
+    {is_undecided, {TOUCHSTONE_UNDECIDED, nan, nan, nan}},
+    {verdict_too_large, {TOUCHSTONE_ERROR + 1, 0.25, 0.5, 1e-9}},
+    {verdict_negative, {-1, 0.25, 0.5, 1e-9}},
+    {infinite_toi_lower, {TOUCHSTONE_YES, -infinity, 0.5, 1e-9}},
+    {infinite_toi_upper, {TOUCHSTONE_YES, 0.25, infinity, 1e-9}},
+    {yes_without_toi, {TOUCHSTONE_YES, nan, nan, nan}},
+    {negative_tolerance, {TOUCHSTONE_YES, 0.25, 0.5, -1e-9}},
+    {nan_tolerance, {TOUCHSTONE_YES, 0.25, 0.5, nan}},
+    {infinite_tolerance, {TOUCHSTONE_YES, 0.25, 0.5, infinity}}};
 
 }  // namespace
 
@@ -108,83 +138,18 @@ void touchstone_plugin_solve(std::int32_t kind, const double* coordinates,
                              TouchstonePluginAnswer* answer) {
   const auto what = static_cast<Misbehaviour>(static_cast<int>(coordinates[0]));
   fail(what);
-  switch (what) {
-    case Misbehaviour::forks:
-      fork_often();
-      answer->verdict = TOUCHSTONE_NO;
-      return;
-    case Misbehaviour::copies_itself:
-      answer->verdict = copy() ? TOUCHSTONE_YES : TOUCHSTONE_NO;
-      return;
-    case Misbehaviour::signals_parent:
-      answer->verdict =
-          may_signal_parent() || ::kill(::getpid(), 0) != 0 ? TOUCHSTONE_YES : TOUCHSTONE_NO;
-      return;
-    case Misbehaviour::allocates:
-      allocate_much();
-      answer->verdict = TOUCHSTONE_NO;
-      return;
-    case Misbehaviour::prints:
-      std::puts("printed by a plugin\x1b[31m");
-      std::fputs("and as error\n", stderr);
-      answer->verdict = TOUCHSTONE_NO;
-      return;
-    case Misbehaviour::writes_a_file:
-      answer->verdict =
-          std::ofstream("written_by_a_plugin") << "x" ? TOUCHSTONE_NO : TOUCHSTONE_YES;
-      return;
-    case Misbehaviour::yes_with_tolerance_0:
-      answer->verdict = TOUCHSTONE_YES;
-      answer->toi_lower = 0.0;
-      answer->tolerance = 0.0;
-      return;
-    case Misbehaviour::says_no:
-    case Misbehaviour::dies_at_call_1500:
-      answer->verdict = TOUCHSTONE_NO;
-      return;
-    case Misbehaviour::says_no_with_toi:
-      *answer = {TOUCHSTONE_NO, 0.25, 0.5, 1e-9};
-      return;
-    case Misbehaviour::is_undecided:
-      answer->verdict = TOUCHSTONE_UNDECIDED;
-      return;
-    case Misbehaviour::verdict_too_large:
-      *answer = {TOUCHSTONE_ERROR + 1, 0.25, 0.5, 1e-9};
-      return;
-    case Misbehaviour::verdict_negative:
-      *answer = {-1, 0.25, 0.5, 1e-9};
-      return;
-    case Misbehaviour::infinite_toi_lower:
-      *answer = {TOUCHSTONE_YES, -infinity, 0.5, 1e-9};
-      return;
-    case Misbehaviour::infinite_toi_upper:
-      *answer = {TOUCHSTONE_YES, 0.25, infinity, 1e-9};
-      return;
-    case Misbehaviour::yes_without_toi:
-      answer->verdict = TOUCHSTONE_YES;
-      return;
-    case Misbehaviour::negative_tolerance:
-      *answer = {TOUCHSTONE_YES, 0.25, 0.5, -1e-9};
-      return;
-    case Misbehaviour::nan_tolerance:
-      *answer = {TOUCHSTONE_YES, 0.25, 0.5, std::numeric_limits<double>::quiet_NaN()};
-      return;
-    case Misbehaviour::infinite_tolerance:
-      *answer = {TOUCHSTONE_YES, 0.25, 0.5, infinity};
-      return;
-    case Misbehaviour::repeats_query:
-      *answer = {TOUCHSTONE_YES, coordinates[1], coordinates[23], static_cast<double>(kind)};
-      return;
-    case Misbehaviour::repeats_norm:
-      answer->verdict = TOUCHSTONE_YES;
-      answer->toi_lower = static_cast<double>(options->norm);
-      return;
-    case Misbehaviour::repeats_options:
-      *answer = {options->max_checks == 77 ? TOUCHSTONE_YES : TOUCHSTONE_NO, options->tolerance,
-                 options->min_separation, options->t_max};
-      return;
-    default:
-      return;
+  if (what == leaves_answer_alone) return;
+  if (what == repeats_query) {
+    *answer = {TOUCHSTONE_YES, coordinates[1], coordinates[23], static_cast<double>(kind)};
+  } else if (what == repeats_norm) {
+    *answer = {TOUCHSTONE_YES, static_cast<double>(options->norm), nan, nan};
+  } else if (what == repeats_options) {
+    *answer = {options->max_checks == 77 ? TOUCHSTONE_YES : TOUCHSTONE_NO, options->tolerance,
+               options->min_separation, options->t_max};
+  } else if (const auto known = answers_alone.find(what); known != answers_alone.end()) {
+    *answer = known->second;
+  } else {
+    answer->verdict = act(what) ? TOUCHSTONE_YES : TOUCHSTONE_NO;
   }
 }
 
@@ -193,7 +158,7 @@ void touchstone_plugin_solve_curved(std::int32_t kind, std::int32_t degree,
                                     const TouchstonePluginOptions* options,
                                     TouchstonePluginAnswer* answer) {
   touchstone_plugin_solve(kind, control, options, answer);
-  if (static_cast<int>(control[0]) != static_cast<int>(Misbehaviour::repeats_query)) return;
+  if (static_cast<int>(control[0]) != static_cast<int>(repeats_query)) return;
   answer->toi_lower = kind + 10 * degree + 100 * is_rational;
   answer->toi_upper = control[(degree + 1) * 4 * (3 + is_rational) - 1];
 }
