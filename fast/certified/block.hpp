@@ -89,6 +89,13 @@ void report_contacts(const KernelOutput& output, const CertifiedOptions& options
   }
 }
 
+/// The output of blocks in this thread: one for all instances of decide_block, whose callers do not
+/// decide another block while they use it.
+[[nodiscard]] inline KernelOutput& block_output() {
+  thread_local KernelOutput output;
+  return output;
+}
+
 /// Runs the kernel on a block, ignoring contacts after t_limit, and passes on the results of
 /// queries that may have a contact: report(index, result). \pre strict floating point. \param
 /// query_of(index) a query of the block
@@ -96,7 +103,7 @@ template <class QueryOf, class Report>
 const KernelOutput& decide_block(KernelInput block, double t_limit, const CertifiedOptions& options,
                                  const CertifiedKernel& kernel, const QueryOf& query_of,
                                  const Report& report) {
-  thread_local KernelOutput output;
+  KernelOutput& output = block_output();
   block.toi_tolerance = std::max(options.toi_tolerance, least_kernel_tolerance);
   block.t_limit = t_limit;
   block.separation = options.separation;

@@ -47,6 +47,8 @@ Bodies::Bodies(std::size_t vertices, const CollisionGroups& groups,
   std::ranges::copy(of_vertices, of_vertices_.begin());
   for (const auto& two : groups.apart) apart_.push_back(ordered(two));
   std::ranges::sort(apart_);
+  if (radii_.empty()) return;
+  for (const std::int32_t body : of_vertices_) radii_of_vertices_.push_back(radius(body));
 }
 
 void Bodies::take_thickness(const CollisionGroups& groups) {
@@ -92,8 +94,17 @@ double Bodies::thickness(std::int32_t a, std::int32_t b) const {
   return radius(a) + radius(b);
 }
 
+double Bodies::greatest_radius(std::span<const std::int32_t> vertices) const {
+  double result = 0.0;
+  for (const std::int32_t vertex : vertices) {
+    result = std::max(result, radii_of_vertices_[static_cast<std::size_t>(vertex)]);
+  }
+  return result;
+}
+
 double Bodies::thickness(std::span<const std::int32_t> vertices,
                          std::span<const std::int32_t> others) const {
+  if (separations_.empty()) return greatest_radius(vertices) + greatest_radius(others);
   double result = 0.0;
   for (const std::int32_t a : vertices) {
     for (const std::int32_t b : others) result = std::max(result, thickness(body(a), body(b)));

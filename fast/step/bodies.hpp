@@ -66,6 +66,7 @@ class Bodies {
   [[nodiscard]] double radius(std::int32_t body) const {
     return radii_.empty() ? 0.0 : radii_[static_cast<std::size_t>(body)];
   }
+  [[nodiscard]] double greatest_radius(std::span<const std::int32_t> vertices) const;
   [[nodiscard]] double thickness(std::int32_t a, std::int32_t b) const;
 
   std::vector<std::int32_t> of_vertices_;
@@ -73,6 +74,7 @@ class Bodies {
   std::vector<std::array<std::int32_t, 2>> apart_;
   std::function<bool(std::int32_t, std::int32_t)> can_collide_;
   std::vector<double> radii_;                 ///< of the bodies; empty if all are 0
+  std::vector<double> radii_of_vertices_;     ///< likewise
   std::vector<GroupSeparation> separations_;  ///< in order, the smaller body first
 };
 

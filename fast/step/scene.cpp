@@ -368,16 +368,28 @@ double Scene::thickness_of(PairKind kind, const IndexPair& pair) const {
   return mesh_->bodies.thickness(all.first(of_first), all.subspan(of_first));
 }
 
-std::vector<Scene::DistanceAndPlace> Scene::by_distance(PairKind kind,
-                                                        std::span<const IndexPair> pairs,
-                                                        const Separation& of_step) const {
-  std::vector<DistanceAndPlace> result;
-  result.reserve(pairs.size());
+std::pair<double, double> Scene::find_distances(PairKind kind, std::span<const IndexPair> pairs,
+                                                const Separation& of_step,
+                                                std::span<double> distances) const {
+  double least = std::numeric_limits<double>::infinity(), greatest = 0.0;
   for (std::size_t i = 0; i < pairs.size(); ++i) {
-    result.emplace_back(separation_of(kind, reported(kind, pairs[i]), of_step).distance, i);
+    distances[i] = separation_of(kind, reported(kind, pairs[i]), of_step).distance;
+    least = std::min(least, distances[i]);
+    greatest = std::max(greatest, distances[i]);
   }
-  std::ranges::sort(result);
-  return result;
+  return {least, greatest};
+}
+
+const KernelOutput& Scene::decided_on_lanes(PairKind kind, std::span<const IndexPair> pairs,
+                                            const FixedPointVertices& rounded,
+                                            const Separation& separation, double t_limit) const {
+  thread_local KernelOutput output;
+  PairScratch scratch;
+  KernelInput block = block_of(candidates_of(kind, pairs, scratch), rounded, separation);
+  block.separation = separation;
+  block.t_limit = t_limit;
+  kernel_.decide(block, output);
+  return output;
 }
 
 StepCollision collision_of(PairKind kind, const IndexPair& pair, const CertifiedResult& result) {

@@ -281,17 +281,18 @@ class Scene final : private PairQuestions {
   [[nodiscard]] bool bodies_meet(std::int32_t a, std::int32_t b) const override;
   [[nodiscard]] bool primitives_meet(const Primitive& a, const Primitive& b) const override;
 
+  /// The kernel's output for pairs with this separation, valid until the thread's next call.
+  [[nodiscard]] const KernelOutput& decided_on_lanes(PairKind kind,
+                                                     std::span<const IndexPair> pairs,
+                                                     const FixedPointVertices& rounded,
+                                                     const Separation& separation,
+                                                     double t_limit) const;
   /// `sieve` for pairs with this separation.
   template <class Report>
   void sieve_alike(PairKind kind, std::span<const IndexPair> pairs,
                    const FixedPointVertices& rounded, const Separation& separation, double t_limit,
                    const Report& report) const {
-    PairScratch scratch;
-    KernelInput block = block_of(candidates_of(kind, pairs, scratch), rounded, separation);
-    block.separation = separation;
-    block.t_limit = t_limit;
-    thread_local KernelOutput output;
-    kernel_.decide(block, output);
+    const KernelOutput& output = decided_on_lanes(kind, pairs, rounded, separation, t_limit);
     for (std::size_t i = 0; i < output.impacts.count; ++i) report(output.impacts.items[i].index);
     for (std::size_t i = 0; i < output.undecided.count; ++i) report(output.undecided.items[i]);
   }
@@ -308,13 +309,16 @@ class Scene final : private PairQuestions {
       take(pairs, of_step, Places{});
       return;
     }
-    std::vector<DistanceAndPlace> order = by_distance(kind, pairs, of_step);
-    if (order.front().first < order.back().first) {
-      std::vector<std::uint8_t> is_possible(pairs.size());
-      sieve_alike(kind, pairs, rounded, {order.back().first, of_step.norm}, t_limit,
-                  [&](std::size_t place) { is_possible[place] = 1; });
-      std::erase_if(order, [&](const auto& one) { return is_possible[one.second] == 0; });
+    std::array<double, kernel_block> distances;
+    const auto [least, greatest] = find_distances(kind, pairs, of_step, distances);
+    if (least == greatest) {
+      take(pairs, Separation{greatest, of_step.norm}, Places{});
+      return;
     }
+    std::vector<DistanceAndPlace> order;
+    sieve_alike(kind, pairs, rounded, {greatest, of_step.norm}, t_limit,
+                [&](std::size_t place) { order.emplace_back(distances[place], place); });
+    std::ranges::sort(order);
     std::vector<IndexPair> some;
     for (std::size_t first = 0; first < order.size(); first += some.size()) {
       const double distance = order[first].first;
@@ -333,10 +337,10 @@ class Scene final : private PairQuestions {
   [[nodiscard]] KernelInput block_of(const Candidates& candidates,
                                      const FixedPointVertices& rounded,
                                      const Separation& separation) const;
-  /// The distances of pairs' separations, and the pairs' places, in order.
-  [[nodiscard]] std::vector<DistanceAndPlace> by_distance(PairKind kind,
-                                                          std::span<const IndexPair> pairs,
-                                                          const Separation& of_step) const;
+  /// Finds the distances of pairs' separations. Returns the least and the greatest.
+  std::pair<double, double> find_distances(PairKind kind, std::span<const IndexPair> pairs,
+                                           const Separation& of_step,
+                                           std::span<double> distances) const;
   [[nodiscard]] FloatBounds bounds_up_to(double end) const;
 
   MovingVertices vertices_;

@@ -215,7 +215,8 @@ TEST(Step, RefusesEveryFalsehoodWithItsReason) {
   ASSERT_EQ(refusal(of_falling_vertex("0x1p-40", "")), "") << "an axis keeps it apart";
   ASSERT_EQ(refusal(stream(spheres)), "");
   for (const auto& [truth, other, reason] : of_spheres()) {
-    if (reason.empty()) EXPECT_EQ(refusal(replaced(stream(spheres), truth, other)), "") << other;
+    if (!reason.empty()) continue;
+    EXPECT_EQ(refusal(replaced(stream(spheres), truth, other)), "") << other;
   }
   for (const auto& [text, reason] : false_streams()) {
     EXPECT_EQ(refusal(text).substr(0, reason.size()), reason) << text;
