@@ -22,11 +22,15 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 
 // ---- Bounds in doubles --------------------------------------------------------------------------
 
-/// Bounds are computed from numbers that are not negative, in fewer than a hundred operations: this
-/// factor covers their rounding. Underflow is covered by `least_error`, at the end.
+/// Bounds are computed from numbers that are not negative, in fewer than a hundred operations:
+/// these factors cover their rounding.
 constexpr double above = 1.0 + 0x1p-44, below = 1.0 - 0x1p-44;
-/// In the units of the computation, in which the greatest coordinate is at least 2^-64.
-constexpr double least_error = 0x1p-1000;
+/// A bound of what underflow takes from a bound of an error. In the units of the computation the
+/// greatest coordinate is from 2^-64 to 2^65, or about 2^400, so lengths are below 2^403. An
+/// operation loses at most 2^-1074, which is multiplied by no more than two of these lengths, or by
+/// `greatest_inverse_sine` twice and one of them.
+constexpr double least_error = 0x1p-264;
+constexpr double greatest_inverse_sine = 0x1p100;
 
 /// |a|, to a few places; neither overflows nor underflows.
 double length(const Doubles& a) {
@@ -55,6 +59,14 @@ double least(const Balls& a) {
 
 bool is_exact_zero(const Balls& a) {
   return std::ranges::all_of(a, [](const Ball& x) { return filters::is_exact_zero(x); });
+}
+/// True if both are the same number, without error.
+bool is_exactly(const Ball& a, const Ball& b) {
+  return a.radius == 0.0 && b.radius == 0.0 && a.center.high == b.center.high &&
+         a.center.low == b.center.low;
+}
+bool is_exactly(const Balls& a, const Balls& b) {
+  return is_exactly(a[0], b[0]) && is_exactly(a[1], b[1]) && is_exactly(a[2], b[2]);
 }
 
 Balls plus(const Balls& a, const Balls& b) { return {a[0] + b[0], a[1] + b[1], a[2] + b[2]}; }
@@ -102,9 +114,8 @@ struct Direction {
   double error = infinity;  ///< infinity if the direction is not known at all
 };
 
-/// a/|a| for any vector of the ball, or one at most that far from it: |a/|a| − b/|b|| ≤ 2|a −
-/// b|/|b|.
-/// \pre the vector is normalised
+/// The direction of the center, for any vector of the ball or one at most that far from it: those
+/// of a and b differ by at most 2 |a − b| / |a|. \pre the vector is normalised
 Direction direction_of(const Balls& a, double farther = 0.0) {
   constexpr double greatest_error = 0.5, rounding = 0x1p-49;
   const Doubles middle = center(a);
@@ -128,8 +139,17 @@ Direction opposite(Direction direction) {
 /// A point or a vector at the time, and its rate of change.
 struct Moving {
   Balls now, rate;
-  bool is_always_zero = false;
+  Balls start = {}, end = {};  ///< at t=0 and at t=1
+
+  [[nodiscard]] bool is_always_zero() const { return is_exact_zero(start) && is_exact_zero(end); }
 };
+
+/// True if two vectors are equal or opposite at all times.
+bool are_parallel(const Moving& p, const Moving& q) {
+  const auto opposite = [](const Balls& a) -> Balls { return {-a[0], -a[1], -a[2]}; };
+  return (is_exactly(p.start, q.start) && is_exactly(p.end, q.end)) ||
+         (is_exactly(p.start, opposite(q.start)) && is_exactly(p.end, opposite(q.end)));
+}
 
 /// The time as a ball.
 Ball ball_of(const TimeEnclosure& time) {
@@ -191,7 +211,7 @@ class MovingPair {
   [[nodiscard]] double rounding() const { return exponent_ < 0 ? 0x1p-1070 : 0.0; }
 
   [[nodiscard]] Moving moving(const Balls& start, const Balls& end) const {
-    Moving result{start, minus(end, start), is_exact_zero(start) && is_exact_zero(end)};
+    Moving result{.now = start, .rate = minus(end, start), .start = start, .end = end};
     if (time_.lower == 1.0) {
       result.now = end;
     } else if (time_.upper > 0.0) {
@@ -280,13 +300,16 @@ class Polygon {
         p_length_(most(pair.p.now)),
         q_length_(most(pair.q.now)) {
     const double area = least(product_);
-    if (area > 0.0) inverse_sine_ = above * most(p_.vector) * most(q_.vector) / area;
+    const double product = above * most(p_.vector) * most(q_.vector);
+    if (area * greatest_inverse_sine > product) inverse_sine_ = product / area;
   }
 
   /// F, and p × q, normalised.
   [[nodiscard]] const Normalised& difference() const { return f_; }
   [[nodiscard]] const Balls& product() const { return product_; }
-  [[nodiscard]] bool is_parallel() const { return is_exact_zero(product_); }
+  [[nodiscard]] bool is_parallel() const {
+    return is_exact_zero(product_) || are_parallel(pair_.p, pair_.q);
+  }
 
   /// If the primitives have a common point at the time.
   [[nodiscard]] Errors touching() const {
@@ -322,8 +345,9 @@ class Polygon {
     if (!(inverse_sine_ < infinity && least(pair_.p.now) > 0.0 && least(pair_.q.now) > 0.0)) {
       return false;
     }
-    const double du = above * errors.difference * inverse_sine_ / least(pair_.p.now);
-    const double dv = above * errors.difference * inverse_sine_ / least(pair_.q.now);
+    const double along = above * (errors.difference + least_error) * inverse_sine_;
+    const double du = above * along / least(pair_.p.now);
+    const double dv = above * along / least(pair_.q.now);
     const auto [u, v] = at_;
     if (!(u > du && v > dv)) return false;
     constexpr double rounding = 0x1p-50;
@@ -355,7 +379,7 @@ class Polygon {
 
   /// True if corners whose parameters differ by this coincide at all times.
   [[nodiscard]] bool coincide(int du, int dv) const {
-    return (du == 0 || pair_.p.is_always_zero) && (dv == 0 || pair_.q.is_always_zero);
+    return (du == 0 || pair_.p.is_always_zero()) && (dv == 0 || pair_.q.is_always_zero());
   }
   [[nodiscard]] bool coincide(const Corner& a, const Corner& b) const {
     return coincide(a.u - b.u, a.v - b.v);
@@ -422,7 +446,7 @@ class Polygon {
     if (!(rise > 0.0 && above * 2.0 * slope_of_side * reach <= rise)) return;
     const double bound = unnormalised(slope_of_side);
     // The weight of the corners that are not on the side.
-    const double others = rise == infinity ? 0.0 : above * 2.0 * slope_of_side * bound / rise;
+    const double others = rise == infinity ? 0.0 : above * 2.0 * (slope_of_side / rise) * bound;
     const double across = above * others * (has_p ? q_length_ : p_length_);
     const double along = above * (bound + across);
     errors.take(has_p ? Errors{bound, along, across} : Errors{bound, across, along});
@@ -446,11 +470,11 @@ struct Normal {
 
 int sign_of(const Ball& x) { return is_positive(x) ? 1 : is_positive(-x) ? -1 : 0; }
 
-/// A moving vector in units in which neither it nor its rate is great or small.
+/// A vector and its rate, without its ends, in units in which neither is great or small.
 Moving normalised(const Moving& x) {
   const int exponent =
       -exponent_for(std::max(greatest_component(x.now), greatest_component(x.rate)));
-  return {scaled(x.now, exponent), scaled(x.rate, exponent), x.is_always_zero};
+  return {.now = scaled(x.now, exponent), .rate = scaled(x.rate, exponent)};
 }
 
 /// The rate of det = (p × q)·r, up to a positive factor.
@@ -471,12 +495,13 @@ Normal normal_of_product(const Polygon& polygon, int side) {
 /// −F' without its component along the segment e, that is −(e × F') × e.
 Normal normal_of_segment(const MovingPair& pair, const Parameters& at, double error) {
   Balls rate = difference_at(at, pair.r.rate, pair.p.rate, pair.q.rate);
-  const bool is_point = pair.p.is_always_zero && pair.q.is_always_zero;
+  const bool is_point = pair.p.is_always_zero() && pair.q.is_always_zero();
   if (is_point) return {opposite(direction_of(normalised(rate).vector)), true};
-  const Moving& e = pair.p.is_always_zero ? pair.q : pair.p;
+  const Moving& e = pair.p.is_always_zero() ? pair.q : pair.p;
   const double size = least(e.now);
   // F' changes by e' with the parameter, which is known to error / |e|.
-  const double slack = size > 0.0 ? above * error * most(e.rate) / size : infinity;
+  const double slack =
+      size > 0.0 ? above * ((error + least_error) / size) * most(e.rate) : infinity;
   if (slack == infinity) return {};
   for (Ball& x : rate) x.radius = above * (x.radius + slack);
   const Balls along = normalised(e.now).vector;
@@ -511,7 +536,7 @@ Eigen::Vector3d perpendicular(const MovingPair& pair, const Parameters& at) {
 
 Normal normal_of_touching(const MovingPair& pair, const Polygon& polygon, const Parameters& at,
                           const Errors& errors) {
-  const bool is_segment = pair.p.is_always_zero || pair.q.is_always_zero;
+  const bool is_segment = pair.p.is_always_zero() || pair.q.is_always_zero();
   Normal result = is_segment ? normal_of_segment(pair, at, errors.difference)
                              : normal_of_product(polygon, -sign_of(rate_of_determinant(pair)));
   if (result.direction.error == infinity) result = {{.vector = perpendicular(pair, at)}, false};

@@ -16,7 +16,8 @@
 ///   - side e, if F^ is on it, and G = |F^·e|/|e| ≤ m/(2R) with the least m of m_k for the other
 ///     corners and R = |p| + |q|: G;
 ///   - interior: (|F^·p|/|p| + |F^·q|/|q|) / sin(p,q);
-///   - parallel, if p × q = 0 exactly: |F^·e|/|e| with the longer e of p and q;
+///   - parallel, if p × q = 0 exactly (they are along an axis, equal or opposite): |F^·e|/|e| with
+///     the longer e of p and q;
 ///   - otherwise √(max_k −m_k).
 ///
 /// **Points.** x* of a vertex has no error but that of the time, and y* = x* − F* differs from ŷ by

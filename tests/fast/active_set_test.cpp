@@ -62,7 +62,9 @@ Scene falling_point(const Vector3d& motion, const std::vector<Edge>& edges) {
 
 TEST(ActiveSet, HasThePointsAndTheNormalOfTheSideThatAPrimitiveComesFrom) {
   constexpr std::array<double, 12> crossed{-1, 0, 1, 1, 0, 1, 0, -1, 0, 0, 1, 0},
-      parallel{-1, 0, 1, 1, 0, 1, -1, 0, 0, 1, 0, 0}, beside{-1, 1, 1, 1, 1, 1, -1, 0, 0, 1, 0, 0};
+      parallel{-1, 0, 1, 1, 0, 1, -1, 0, 0, 1, 0, 0},
+      slanting{-1, 0.3, 1, 1, 0.9, 1, 1, 0.9, 0, -1, 0.3, 0},
+      beside{-1, 1, 1, 1, 1, 1, -1, 0, 0, 1, 0, 0};
   const double root = std::sqrt(0.5);
   const std::optional<Vector3d> many, at_origin(Vector3d::Zero()), in_face({1, 1, 0});
   struct Row {
@@ -83,6 +85,8 @@ TEST(ActiveSet, HasThePointsAndTheNormalOfTheSideThatAPrimitiveComesFrom) {
             in_face},
         Row{two_edges(crossed, {0, 0, -2}), PairKind::edge_edge, {0.0, 0.25}, {0, 0, 1}, at_origin},
         Row{two_edges(parallel, {0, 0, -2}), PairKind::edge_edge, {0.25}, {0, 0, 1}, many},
+        Row{two_edges(slanting, {0, 0, -2}), PairKind::edge_edge, {0.25}, {0, 0, 1}, many},
+        Row{two_edges(slanting, {0, 0, -2}), PairKind::edge_edge, {0.0}, {0, 0, 1}, many, false},
         // Parallel edges in contact: the normal is against the motion, upright on the edge.
         Row{two_edges(parallel, {0.5, 0, -2}), PairKind::edge_edge, {0.0}, {0, 0, 1}, many, false},
         Row{two_edges(beside, {0.5, -2, -2}),
