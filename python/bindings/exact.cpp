@@ -191,7 +191,7 @@ py::dict check(const std::string& certificates, const std::optional<std::string>
   std::atomic<bool> stop = false;
   StoppableText text(certificates, stop);
   std::istream stream(&text);
-  StoppableText scenes_text(scenes ? *scenes : "", stop);
+  StoppableText scenes_text(scenes ? std::string_view(*scenes) : std::string_view(), stop);
   std::istream scenes_stream(&scenes_text);
   if (scenes) options.scenes = &scenes_stream;
   const auto report = in_background([&] { return checker::check(stream, options); }, stop);

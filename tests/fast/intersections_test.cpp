@@ -603,6 +603,10 @@ TEST(Intersections, OfEdgesAndPointsWithFaces) {
   EXPECT_EQ(found[2].numbers, (IndexPair{0, 6}));
   EXPECT_EQ(found[3].elements, (std::array{ElementKind::edge, ElementKind::point}));
   EXPECT_EQ(found[3].numbers, (IndexPair{3, 5}));
+  // A vertex that only a face names is no point, and so no duplicate of that face.
+  mesh.faces.push_back({7, 7, 7});
+  mesh.points = {5};
+  EXPECT_EQ(mesh.intersections().size(), 3U);
 }
 
 /// Those of a step at its start, of groups that can collide.

@@ -161,6 +161,16 @@ def test_certificates_are_accepted_and_changed_ones_are_not(queries, kind, claim
     assert not cut and cut.rejections[0].line > 0 and cut.rejections[0].reason
 
 
+def test_certificates_of_meshes():
+    mesh = "vertices 2\n0 0 0\n0 0 0\nfaces 0\nedges 0\npoints 2\n0\n1\ngroups 0\napart 0\n"
+    stream = f"touchstone-meshes 1\nmesh a\n{mesh}claim intersections 1\n0 1 1 1\nseparations\nend\nmeshes 1\n"
+    report = touchstone.check(stream, scenes=mesh, claim="intersections 1")
+    assert report and report.accepted == 1
+    assert report.meshes == ("mesh a\n2 vertices, 0 faces, 0 edges of no face, 2 points\nclaim intersections 1\n",)
+    assert not touchstone.check(stream, claim="free")
+    assert not touchstone.check(stream.replace("0 1 1 1\n", "0 1\n"))
+
+
 def test_errors(queries):
     for call, text in [
         (lambda: touchstone.decide("edge_edge", np.stack([queries[0], queries[0] * np.inf])), "query 1: coordinate"),
