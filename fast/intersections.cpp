@@ -39,14 +39,13 @@ using meeting::Positions;
 // ---- Vertices at one place ----------------------------------------------------------------------
 
 /// The first vertex at the place of each vertex, of the same group if there are groups.
-std::vector<std::int32_t> first_at_place(const MovingVertices& vertices,
+std::vector<std::int32_t> first_at_place(const Positions& at,
                                          std::span<const std::int32_t> groups) {
-  std::vector<std::int32_t> order(vertices.size()), result(vertices.size());
+  std::vector<std::int32_t> order(at.size()), result(at.size());
   std::iota(order.begin(), order.end(), 0);
   const auto key = [&](std::int32_t vertex) {
-    const auto i = static_cast<std::size_t>(vertex);
-    const auto& [x, y, z, unused] = vertices[i].start;
-    return std::tuple(x, y, z, groups.empty() ? 0 : groups[i]);
+    const auto& [x, y, z, unused] = at[vertex];
+    return std::tuple(x, y, z, groups.empty() ? 0 : groups[static_cast<std::size_t>(vertex)]);
   };
   std::ranges::sort(order, [&](std::int32_t a, std::int32_t b) {
     const auto key_a = key(a), key_b = key(b);
@@ -79,7 +78,7 @@ class Elements {
     } else {
       if (!given.edges.empty()) edges_ = edges_without_face(given);
       if (!given.points.empty()) {
-        const std::size_t count = at.vertices().size();
+        const std::size_t count = at.size();
         points_ = codimensional(count, vertices_of(count, {.points = given.points}), all).points;
       }
     }
@@ -90,7 +89,7 @@ class Elements {
       add(primitive_of(all.edges[static_cast<std::size_t>(edge)]));
     }
     for (const std::int32_t point : points_) add(primitive_of(point));
-    if (options.weld) weld(first_at_place(at.vertices(), options.groups.of_vertices));
+    if (options.weld) weld(first_at_place(at, options.groups.of_vertices));
     examine(at);
   }
 
@@ -164,9 +163,10 @@ class Search final : private PairQuestions {
   /// in range; strict floating point
   Search(MovingVertices vertices, const MeshElements& elements, const IntersectionOptions& options)
       : bodies_(vertices.size(), options.groups, options.can_collide),
-        at_(std::move(vertices)),
+        bounds_(vertices),
+        // The vertices take more memory than their places, and are not needed from here on.
+        at_(MovingVertices(std::move(vertices))),
         elements_(at_, elements, options),
-        bounds_(at_.vertices()),
         groups_of_boxes_(bounds_, elements_.vertices()),
         tree_(groups_of_boxes_),
         options_(options) {
@@ -293,9 +293,9 @@ class Search final : private PairQuestions {
   }
 
   Bodies bodies_;
+  FloatBounds bounds_;
   Positions at_;
   Elements elements_;
-  FloatBounds bounds_;
   PrimitiveGroups groups_of_boxes_;
   BoxTree<1> tree_;
   std::optional<BodyTree> tree_of_bodies_;
@@ -368,7 +368,7 @@ MeshDefects mesh_defects(const MovingVertices& vertices, const MeshElements& ele
       result.degenerate_faces.push_back(static_cast<std::int32_t>(i));
     }
   }
-  const std::vector<std::int32_t> first = first_at_place(vertices, {});
+  const std::vector<std::int32_t> first = first_at_place(at, {});
   for (std::int32_t i = 0; std::cmp_less(i, first.size()); ++i) {
     const std::int32_t other = first[static_cast<std::size_t>(i)];
     if (other != i) result.duplicated_vertices.push_back({i, other});

@@ -4,7 +4,6 @@
 #include <bit>
 #include <cmath>
 #include <limits>
-#include <optional>
 #include <span>
 #include <type_traits>
 
@@ -22,27 +21,21 @@ using exact_stage::SignedWideLimb;
 // ---- Scale --------------------------------------------------------------------------------------
 
 /// The greatest magnitude of a coordinate.
-double greatest_coordinate_of(const MovingVertices& vertices) {
+double greatest_coordinate_of(std::span<const PlaceAtRest> places) {
   double size = 0.0;
-  for (std::size_t i = 0; i < vertices.size(); ++i) {
-    for (const double x : vertices[i].start) size = std::max(size, std::fabs(x));
+  for (const PlaceAtRest& place : places) {
+    for (const double x : place) size = std::max(size, std::fabs(x));
   }
   return size;
 }
 
-using Rows = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>;
-
-/// The vertices times 2^exponent; nullopt if a coordinate would be rounded.
-std::optional<MovingVertices> scaled(const MovingVertices& vertices, int exponent) {
-  Rows rows(static_cast<Eigen::Index>(vertices.size()), 3);
-  for (Eigen::Index i = 0; i < rows.rows(); ++i) {
-    for (Eigen::Index axis = 0; axis < 3; ++axis) {
-      const double x = vertices[static_cast<std::size_t>(i)].start[static_cast<std::size_t>(axis)];
-      rows(i, axis) = std::ldexp(x, exponent);
-      if (std::ldexp(rows(i, axis), -exponent) != x) return std::nullopt;
-    }
-  }
-  return MovingVertices(rows, rows);
+/// True if no coordinate times 2^exponent is rounded.
+bool can_be_scaled(std::span<const PlaceAtRest> places, int exponent) {
+  return std::ranges::all_of(places, [exponent](const PlaceAtRest& place) {
+    return std::ranges::all_of(place, [exponent](double x) {
+      return std::ldexp(std::ldexp(x, exponent), -exponent) == x;
+    });
+  });
 }
 
 // ---- Integers -----------------------------------------------------------------------------------
@@ -150,20 +143,19 @@ int sign_in_integers(const Positions& at, const std::array<std::int32_t, points>
 
 // ---- Interface ----------------------------------------------------------------------------------
 
-Positions::Positions(MovingVertices vertices)
-    : vertices_(std::move(vertices)), places_(vertices_.size()) {
-  set_scale();
-  for (std::size_t i = 0; i < vertices_.size(); ++i) places_[i] = vertices_[i].start;
-}
-
-void Positions::set_scale() {
+Positions::Positions(const MovingVertices& vertices)
+    : size_(vertices.size()), places_(vertices.size()) {
+  for (std::size_t i = 0; i < size_; ++i) places_[i] = vertices[i].start;
+  const std::span all(places_.data(), size_);
   static constexpr double least_size = 0x1p-100;
-  const double size = greatest_coordinate_of(vertices_);
+  const double size = greatest_coordinate_of(all);
   if (size <= greatest_coordinate && (size >= least_size || size == 0.0)) return;
   int exponent = 0;
   static_cast<void>(std::frexp(size, &exponent));
-  if (std::optional<MovingVertices> result = scaled(vertices_, -exponent)) {
-    vertices_ = *std::move(result);
+  if (can_be_scaled(all, -exponent)) {
+    for (PlaceAtRest& place : all) {
+      for (double& x : place) x = std::ldexp(x, -exponent);
+    }
     exponent_ = exponent;
   } else {
     has_filter_ = size <= greatest_coordinate;

@@ -39,10 +39,11 @@ class Positions {
   static constexpr double greatest_difference = 0x1p102;
 
   /// \pre the vertices are finite, and at rest; strict floating point.
-  explicit Positions(MovingVertices vertices);
+  explicit Positions(const MovingVertices& vertices);
 
-  /// The vertices in the scale of the signs: 2^exponent times these are the given ones.
-  [[nodiscard]] const MovingVertices& vertices() const { return vertices_; }
+  [[nodiscard]] std::size_t size() const { return size_; }
+  /// The places in the scale of the signs: 2^exponent times these are the given ones.
+  [[nodiscard]] const PlaceAtRest* data() const { return places_.data(); }
   [[nodiscard]] int exponent() const { return exponent_; }
   /// False if only integers decide.
   [[nodiscard]] bool has_filter() const { return has_filter_; }
@@ -50,8 +51,6 @@ class Positions {
   [[nodiscard]] const PlaceAtRest& operator[](std::int32_t vertex) const {
     return places_[static_cast<std::size_t>(vertex)];
   }
-  /// The places of all vertices.
-  [[nodiscard]] const PlaceAtRest* data() const { return places_.data(); }
   [[nodiscard]] bool are_equal(std::int32_t a, std::int32_t b) const {
     const auto &x = (*this)[a], &y = (*this)[b];
     return a == b || (x[0] == y[0] && x[1] == y[1] && x[2] == y[2]);
@@ -63,10 +62,7 @@ class Positions {
   }
 
  private:
-  void set_scale();
-
-  MovingVertices vertices_;
-  /// Half as large as the vertices, because these move.
+  std::size_t size_;
   LargeArray<PlaceAtRest> places_;
   int exponent_ = 0;
   bool has_filter_ = true;

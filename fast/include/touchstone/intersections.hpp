@@ -103,8 +103,10 @@ struct Intersection {
 
 /// The pairs that are asked for.
 enum class IntersectingPairs : std::uint8_t {
-  all,               ///< of all elements
-  edges_with_faces,  ///< of any edge and a face, without a common vertex
+  all,  ///< of all elements
+  /// Of an edge and a face without a common vertex, as the IPC Toolkit asks. The elements are the
+  /// faces and all edges; points have no effect.
+  edges_with_faces,
 };
 
 struct IntersectionOptions {
