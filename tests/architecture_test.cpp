@@ -62,7 +62,7 @@ constexpr std::string_view layer_lines = R"(
   fast/distance/: fast/distance/ fast/certified/exact/ fast/platform/ fast/contacts.hpp fast/kernels.hpp fast/step.hpp filters/ exact/query.hpp arm_neon.h immintrin.h
   fast/intersections/: fast/intersections/ fast/broad_phase/ fast/certified/exact/ fast/distance/ fast/mesh.hpp fast/intersections.hpp filters/
   fast/step/: fast/step/ fast/broad_phase/ fast/certified/ fast/platform/ fast/broad_phase.hpp fast/candidates.hpp fast/kernels.hpp fast/mesh.hpp fast/step.hpp
-  adapters/: adapters/ fast/ exact/query.hpp Eigen/
+  adapters/: adapters/ fast/ exact/element.hpp exact/query.hpp Eigen/
   adapters/ipc_toolkit.hpp: fast/ exact/query.hpp ipc/ccd/narrow_phase_ccd.hpp
   adapters/ipc_toolkit_step.hpp: adapters/ipc_toolkit.hpp fast/ exact/query.hpp ipc/collision_mesh.hpp
   adapters/tight_inclusion/logger.hpp: spdlog/
@@ -110,9 +110,10 @@ constexpr std::string_view headers_without_test = R"(
   filters/: strict_arithmetic.hpp
   verify/data/: query_source.hpp
   verify/fuzz/: finding.hpp
-// In a test of what they are parts of: oracle_test.cpp, distance_oracle_test.cpp,
-// separation_intervals_test.cpp, certificate_test.cpp, prove_step_test.cpp; error_bounds_test.cpp,
+// In a test of what they are parts of: inversion_oracle_test.cpp, oracle_test.cpp,
+// distance_oracle_test.cpp, separation_intervals_test.cpp, certificate_test.cpp, prove_step_test.cpp; error_bounds_test.cpp,
 // worst_case_test.cpp.
+  exact/: element.hpp
   exact/algebra/: positivity.hpp
   exact/certificate/: step_certificate_text.hpp
   exact/contact/: contact_conditions.hpp contact_oracle.hpp corner_motion.hpp triangle_intersection.hpp
