@@ -145,7 +145,8 @@ InversionResult decide_one(const KernelInput& element, const InversionOptions& o
   const CertifiedOptions checked = valid(options);
   const StrictFloatingPoint strict;
   InversionResult result = free_of_inversion;
-  decide_block(element, checked, certified_kernel_for_one(chosen_kernels()),
+  // The widest lanes for one, too: they have registers for all vectors.
+  decide_block(element, checked, certified_kernel(chosen_kernels()),
                [&](std::size_t, const InversionResult& found) { result = found; });
   return result;
 }

@@ -112,9 +112,10 @@ constexpr std::string_view headers_without_test = R"(
   filters/: strict_arithmetic.hpp
   verify/data/: query_source.hpp
   verify/fuzz/: finding.hpp
-// In a test of what they are parts of: oracle_test.cpp, distance_oracle_test.cpp,
-// separation_intervals_test.cpp, certificate_test.cpp, prove_step_test.cpp; mesh_test.cpp,
-// step_test.cpp; error_bounds_test.cpp, worst_case_test.cpp.
+// In a test of what they are parts of: inversion_oracle_test.cpp, oracle_test.cpp,
+// distance_oracle_test.cpp, separation_intervals_test.cpp, certificate_test.cpp, prove_step_test.cpp;
+// mesh_test.cpp, step_test.cpp; error_bounds_test.cpp, worst_case_test.cpp.
+  exact/: element.hpp
   exact/algebra/: positivity.hpp
   exact/certificate/: step_certificate_text.hpp
   exact/checker/: resting_mesh.hpp resting_pair.hpp scene.hpp

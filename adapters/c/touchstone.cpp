@@ -21,6 +21,7 @@
 
 #include "touchstone/certified.hpp"
 #include "touchstone/contacts.hpp"
+#include "touchstone/inversion.hpp"
 #include "touchstone/step.hpp"
 
 // The inputs and outputs of a step.
@@ -149,6 +150,23 @@ void solve(std::int32_t kind, std::size_t count, const double* coordinates,
   std::vector<fast::CertifiedResult> results(count);
   fast::solve(kind_of(kind), queries, results, certified);
   if (count > 0) std::ranges::transform(results, &required(impacts, "impacts"), impact_of);
+}
+
+TouchstoneInversion inversion_of(const fast::InversionResult& result) {
+  return {static_cast<std::int32_t>(result.verdict), result.start, result.toi_lower,
+          result.toi_upper};
+}
+
+template <class Element>
+void invert(std::size_t count, const double* coordinates, const TouchstoneOptions& options,
+            TouchstoneInversion* inversions) {
+  const auto elements = copied<Element>(coordinates, count, "coordinates");
+  std::vector<fast::InversionResult> results(count);
+  fast::inversions(elements, results,
+                   {.toi_tolerance = options.toi_tolerance,
+                    .t_max = options.t_max,
+                    .max_threads = options.max_threads});
+  if (count > 0) std::ranges::transform(results, &required(inversions, "inversions"), inversion_of);
 }
 
 TouchstoneDistance distance_of(const fast::Distance& distance) {
@@ -310,6 +328,18 @@ std::int32_t touchstone_distances(std::int32_t kind, std::size_t count, const do
                                   double t, std::int32_t norm, std::int32_t max_threads,
                                   TouchstoneDistance* distances) {
   return guarded([&] { measure(kind, count, coordinates, t, norm, max_threads, distances); });
+}
+
+std::int32_t touchstone_invert(std::int32_t dimension, std::size_t count, const double* coordinates,
+                               const TouchstoneOptions* options, TouchstoneInversion* inversions) {
+  return guarded([&] {
+    if (dimension != 2 && dimension != 3) {
+      throw std::invalid_argument("dimension is neither 2 nor 3");
+    }
+    const auto& decide =
+        dimension == 3 ? invert<touchstone::Query> : invert<touchstone::PlaneTriangle>;
+    decide(count, coordinates, given(options), inversions);
+  });
 }
 
 std::int32_t touchstone_step_new(const TouchstoneMesh* mesh, const TouchstoneOptions* options,

@@ -60,6 +60,7 @@ from .scene import (
     PairKind,
     Step,
     intersections,
+    inversions,
 )
 
 __all__ = [
@@ -102,6 +103,7 @@ __all__ = [
     "generate",
     "instruction_set",
     "intersections",
+    "inversions",
     "methods",
     "prove",
     "read",

@@ -93,3 +93,11 @@ def intersections(
     threads: int,
     progress: _Waiting | None,
 ) -> _Items: ...
+def inversions(
+    before: _Doubles,
+    after: _Doubles,
+    elements: _Integers,
+    toi_tolerance: float,
+    t_max: float,
+    threads: int,
+) -> _Items: ...

@@ -21,6 +21,7 @@
 #include "tests/support/random.hpp"
 #include "touchstone/certified.hpp"
 #include "touchstone/contacts.hpp"
+#include "touchstone/inversion.hpp"
 #include "touchstone/step.hpp"
 
 namespace touchstone::adapters::touchstone_test {
@@ -132,6 +133,35 @@ TEST(CInterface, MeasuresDistances) {
     }
   }
   EXPECT_EQ(touchstone_distances(0, 0, nullptr, 0.0, 0, 0, nullptr), TOUCHSTONE_OK);
+}
+
+TEST(CInterface, DecidesInversions) {
+  std::vector<Query> tetrahedra = random_queries(1000);
+  tetrahedra[7].coordinates[5] = std::numeric_limits<double>::quiet_NaN();
+  std::vector<PlaneTriangle> triangles(tetrahedra.size());
+  for (std::size_t i = 0; i < triangles.size(); ++i) {
+    std::ranges::copy_n(tetrahedra[i].coordinates.begin(), 12, triangles[i].coordinates.begin());
+  }
+  const auto expect_same = [](std::int32_t dimension, const auto& elements) {
+    std::vector<fast::InversionResult> expected(elements.size());
+    fast::inversions(elements, expected);
+    std::vector<TouchstoneInversion> found(elements.size());
+    ASSERT_EQ(touchstone_invert(dimension, elements.size(), elements[0].coordinates.data(), nullptr,
+                                found.data()),
+              TOUCHSTONE_OK)
+        << touchstone_last_error();
+    for (std::size_t i = 0; i < elements.size(); ++i) {
+      ASSERT_EQ(found[i].verdict, static_cast<std::int32_t>(expected[i].verdict));
+      EXPECT_EQ(found[i].start, expected[i].start);
+      if (found[i].verdict != TOUCHSTONE_YES) continue;
+      EXPECT_EQ(found[i].toi_lower, expected[i].toi_lower);
+      EXPECT_EQ(found[i].toi_upper, expected[i].toi_upper);
+    }
+    EXPECT_EQ(found[7].verdict, TOUCHSTONE_ERROR);
+  };
+  expect_same(3, tetrahedra);
+  expect_same(2, triangles);
+  EXPECT_EQ(touchstone_invert(3, 0, nullptr, nullptr, nullptr), TOUCHSTONE_OK);
 }
 
 fast::StepCollision converted(const TouchstoneCollision& one) {
@@ -356,6 +386,8 @@ TEST(CInterface, SaysWhatIsWrongAndWritesNothing) {
 
   TouchstoneImpact impact{};
   impact.verdict = 77;
+  TouchstoneInversion inversion{};
+  inversion.verdict = 77;
   TouchstoneDistance distance{77.0, 77.0};
   const TouchstoneCollision none{};
   const TouchstoneCollision *collisions = &none, *before = nullptr;
@@ -387,6 +419,11 @@ TEST(CInterface, SaysWhatIsWrongAndWritesNothing) {
       {"", [&] { return touchstone_distances(0, 1, nullptr, 0.0, 0, 1, &distance); }},
       {"", [&] { return touchstone_distances(0, 1, x, 0.0, 0, -1, &distance); }},
       {"", [&] { return touchstone_distances(0, 1, x, 0.0, 0, 1, nullptr); }},
+      {"dimension", [&] { return touchstone_invert(4, 1, x, nullptr, &inversion); }},
+      {"coordinates is null",
+       [&] { return touchstone_invert(3, 1, nullptr, nullptr, &inversion); }},
+      {"inversions is null", [&] { return touchstone_invert(2, 1, x, nullptr, nullptr); }},
+      {"", [&] { return touchstone_invert(3, 1, x, &bad_time, &inversion); }},
       {"step is null", [&] { return touchstone_step_new(&mesh, nullptr, nullptr); }},
       {"count is null", [&] { return touchstone_step_collisions(step, &collisions, nullptr); }},
       {"collisions is null", [&] { return touchstone_step_collisions(step, nullptr, &count); }},
@@ -430,6 +467,7 @@ TEST(CInterface, SaysWhatIsWrongAndWritesNothing) {
   expect_message("vertex 0");
 
   EXPECT_EQ(impact.verdict, 77);
+  EXPECT_EQ(inversion.verdict, 77);
   EXPECT_EQ(distance.lower, 77.0);
   EXPECT_EQ(distance.upper, 77.0);
   EXPECT_EQ(collisions, &none);

@@ -18,6 +18,7 @@
 #include "touchstone/broad_phase.hpp"
 #include "touchstone/certified.hpp"
 #include "touchstone/contacts.hpp"
+#include "touchstone/inversion.hpp"
 #include "touchstone/step.hpp"
 #include "touchstone/tight_inclusion.hpp"
 
@@ -138,6 +139,15 @@ std::vector<Refusal> refusals() {
          (void)tight_inclusion(posed.kind, posed.query, {.scene_filter = {{0.0, x, 0.0}}});
        }},
       {"size_of_scaled_step", no_time, [](double x) { (void)step().scaled(x); }},
+      {"tolerance_of_inversion", no_distance,
+       [](double x) { (void)inversion(posed.query, {.toi_tolerance = x}); }},
+      {"time_of_inversion", no_time,
+       [](double x) { (void)inversion(PlaneTriangle{}, {.t_max = x}); }},
+      {"threads_of_inversions", no_count,
+       [](double x) {
+         (void)inversions(step().vertices(), std::vector<Tetrahedron>(),
+                          {.max_threads = static_cast<int>(x)});
+       }},
       {"share_of_line_search", {0.0, -0.5, 1.0, 1.0 - 0x1p-52, nan}, [](double x) {
          (void)line_search_limit(step(), x);
        }}};

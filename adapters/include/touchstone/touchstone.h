@@ -10,8 +10,8 @@
 ///
 /// **Errors.** Functions that can fail return a TouchstoneStatus. If it is not TOUCHSTONE_OK,
 /// touchstone_last_error() describes the error, and nothing else was written. A coordinate that is
-/// NaN or infinite is TOUCHSTONE_NOT_FINITE; only touchstone_solve, whose results have a verdict,
-/// answers TOUCHSTONE_ERROR for its query and decides the others.
+/// NaN or infinite is TOUCHSTONE_NOT_FINITE; only touchstone_solve and touchstone_invert, whose
+/// results have a verdict, answer TOUCHSTONE_ERROR for it and decide the others.
 ///
 /// **Memory.** Arrays that a function of a step returns are valid until its next call with this
 /// step that returns TOUCHSTONE_OK, or until the step is freed.
@@ -125,6 +125,28 @@ TOUCHSTONE_API int32_t touchstone_solve(int32_t kind, size_t count, const double
 TOUCHSTONE_API int32_t touchstone_distances(int32_t kind, size_t count, const double* coordinates,
                                             double t, int32_t norm, int32_t max_threads,
                                             TouchstoneDistance* distances);
+
+// ---- Elements -----------------------------------------------------------------------------------
+
+/// Whether and when an element loses its volume.
+typedef struct TouchstoneInversion {
+  int32_t verdict;   ///< TOUCHSTONE_YES: 0 or negative at some time; _NO: positive; _ERROR
+  int32_t start;     ///< the sign of the volume at t=0: 1, 0 or −1; 0 with an error
+  double toi_lower;  ///< with yes: before the first such time, or 0 if that is 0; else NaN
+  double toi_upper;  ///< with yes: not before the first such time
+} TouchstoneInversion;
+
+/// Decides `count` moving elements: tetrahedra a, b, c, d, whose volume has the sign of
+/// det(b − a, c − a, d − a), or triangles in the plane, positive if counterclockwise. An element
+/// with a coordinate that is NaN or infinite has the verdict TOUCHSTONE_ERROR; the others are
+/// decided.
+/// \param dimension 3: tetrahedra; 2: triangles in the plane
+/// \param coordinates 24 or 12 for each element: its points at t=0, then the same at t=1
+/// \param options null for the default ones; min_separation and norm have no effect
+/// \param inversions `count` of them, for the results
+TOUCHSTONE_API int32_t touchstone_invert(int32_t dimension, size_t count, const double* coordinates,
+                                         const TouchstoneOptions* options,
+                                         TouchstoneInversion* inversions);
 
 // ---- Steps --------------------------------------------------------------------------------------
 

@@ -195,11 +195,13 @@ struct ExamineVolume {
   }
 };
 
-/// Examines [0,1]. \param crossings The elements whose first time is the only zero of det.
+/// Examines [0,1]. (Flattened: calls would pass all vectors through memory.)
+/// \param crossings The elements whose first time is the only zero of det.
 /// \param mixed Those with a positive volume at t=0 of which nothing else is proved.
 template <class Lanes, class Source>
-inline void volume_stage(const KernelInput& input, const Indices& all, Crossings& crossings,
-                         Indices& mixed, KernelOutput& output) {
+[[gnu::flatten]] inline void volume_stage(const KernelInput& input, const Indices& all,
+                                          Crossings& crossings, Indices& mixed,
+                                          KernelOutput& output) {
   using Value = typename Lanes::Value;
   using Mask = MaskOf<Value>;
   Marks<Lanes> of_inverted(all.count), of_crossings(all.count), of_mixed(all.count),

@@ -26,6 +26,7 @@
 #include "fast/kernels.hpp"
 #include "tests/faults/planted_faults.hpp"
 #include "tests/support/certified_against_oracle.hpp"
+#include "tests/support/inverting_elements.hpp"
 #include "tests/support/queries.hpp"
 #include "tests/support/random.hpp"
 #include "tests/support/trials.hpp"
@@ -109,6 +110,26 @@ void expect_same_bits(const KernelInput& input, KernelOutput& plain) {
     SCOPED_TRACE(to_string(kernel->instructions));
     kernel->decide(input, *other);
     expect_same(plain, *other);
+  }
+}
+
+TEST(CertifiedKernels, InvertWithTheSameBits) {
+  const auto plain = std::make_unique<KernelOutput>(), other = std::make_unique<KernelOutput>();
+  Random random(3);
+  for (int round = 0; round < 60; ++round) {
+    std::vector<Query> elements(static_cast<std::size_t>(random.between(1, kernel_block)));
+    for (Query& element : elements) {
+      element = tests::element_of_sort(random, random.between(0, tests::sorts_of_elements - 1));
+    }
+    const KernelInput input{.count = elements.size(),
+                            .queries = elements.data(),
+                            .t_limit = round % 3 == 0 ? random.uniform() : 1.0};
+    certified_kernels().front()->invert(input, *plain);
+    for (const CertifiedKernel* const kernel : all_kernels()) {
+      SCOPED_TRACE(to_string(kernel->instructions));
+      kernel->invert(input, *other);
+      expect_same(*plain, *other);
+    }
   }
 }
 
@@ -235,6 +256,11 @@ TEST(CertifiedKernels, ReadNothingBehindTheLastQuery) {
     for (const CertifiedKernel* const kernel : all_kernels()) {
       kernel->decide({.kind = Kind::edge_edge, .count = count, .queries = queries.data()}, *output);
       EXPECT_LE(output->impacts.count, count);
+      kernel->invert({.count = count, .queries = queries.data()}, *output);
+      EXPECT_LE(output->impacts.count, count);
+      const std::vector<PlaneTriangle> triangles(count);
+      kernel->invert({.count = count, .triangles = triangles.data()}, *output);
+      EXPECT_EQ(output->undecided.count, count);  // flat
     }
   }
 }
