@@ -288,13 +288,13 @@ std::string read(const std::filesystem::path& path) {
 
 const std::filesystem::path root = tests::source_folder();
 
-/// What becomes of each file of the fuzzer's corpus: accepted / rejected.
+/// What becomes of each file of the fuzzer's corpus: accepted / rejected. (It begins with the
+/// certificates of certificates.txt besides.)
 TEST(Corpus, HasTheOutcomeThatItShould) {
   const std::map<std::string, std::pair<std::uint64_t, std::uint64_t>> expected{
-      {"contacts.cert", {7, 0}}, {"features.cert", {6, 0}},  {"numbers.cert", {2, 0}},
-      {"false.cert", {0, 7}},    {"broken.cert", {1, 7}},    {"wrong_header.cert", {0, 1}},
-      {"cut.cert", {2, 1}},      {"empty.cert", {0, 0}},     {"miscounted.cert", {2, 1}},
-      {"deep.cert", {1, 1}},     {"distances.cert", {8, 0}}, {"false_distances.cert", {0, 6}},
+      {"broken.cert", {1, 7}},
+      {"wrong_header.cert", {0, 1}},
+      {"empty.cert", {0, 0}},
       {"steps.cert", {3, 0}}};
   std::size_t found = 0;
   for (const auto& entry :

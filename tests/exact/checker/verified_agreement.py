@@ -115,6 +115,14 @@ def listed(path):
                 yield "\n".join(lines[1:]) + "\n", not arrow
 
 
+def write_list(path, folder):
+    """Write each certificate of the list as a stream, for the fuzzer to begin with."""
+    folder.mkdir(exist_ok=True)
+    for n, (text, _) in enumerate(listed(path)):
+        stream = f"touchstone-certificates 2\n{text}certificates 1\n"
+        (folder / f"{n}.cert").write_bytes(stream.encode("latin1"))
+
+
 def list_results(programs, folder, path):
     """What both programs answer to the list, in the order of the expected outcomes."""
     certificates = list(listed(path))
@@ -225,7 +233,11 @@ def main():
     parser.add_argument("--mutants", type=int, default=10_000)
     parser.add_argument("--seed", type=int, default=2021)
     parser.add_argument("--no-data", action="store_true", help="leave out the public data")
+    parser.add_argument("--write-list", type=pathlib.Path, metavar="FOLDER", help="write the list there, and nothing else")
     arguments = parser.parse_args()
+    cases = pathlib.Path(__file__).parent
+    if arguments.write_list:
+        return write_list(cases / "certificates.txt", arguments.write_list)
     tool = f"{arguments.programs}/touchstone"
     programs = (f"{arguments.programs}/touchstone-check", arguments.verified)
     draw = random.Random(arguments.seed)
@@ -263,7 +275,6 @@ def main():
                     report(f"{name}, {of}, {claim}", [Result(programs, path)])
                     if name == "built-in set":
                         originals += certificates(path)
-        cases = pathlib.Path(__file__).parent
         report("list of altered certificates",
                list(list_results(programs, pathlib.Path(folder), cases / "certificates.txt")))
         report("corpus of the fuzzer", [Result(programs, file) for file in sorted((cases / "corpus").iterdir())])
