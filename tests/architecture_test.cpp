@@ -111,18 +111,18 @@ constexpr std::string_view headers_without_test = R"(
   verify/fuzz/: finding.hpp
 // In a test of what they are parts of: oracle_test.cpp, distance_oracle_test.cpp,
 // separation_intervals_test.cpp, certificate_test.cpp, prove_step_test.cpp; error_bounds_test.cpp,
-// worst_case_test.cpp.
+// expressions_test.cpp, worst_case_test.cpp.
   exact/algebra/: positivity.hpp
   exact/certificate/: step_certificate_text.hpp
   exact/contact/: contact_conditions.hpp contact_oracle.hpp corner_motion.hpp triangle_intersection.hpp
   exact/distance/: separating_axes.hpp
-  filters/: error_bound.hpp
+  filters/: error_bound.hpp polynomial_expressions.hpp separation_expressions.hpp
   filters/derivation/: mpfr_number.hpp
 // Through the kernels, which take the same queries in the same tests, and the exact stage:
 // kernel_test.cpp, deciders_test.cpp, real_root_test.cpp, big_integer_test.cpp.
   fast/: kernels.hpp
   fast/certified/: block.hpp curves.hpp kernel_on_lanes.hpp
-  fast/certified/exact/: curved_polygon.hpp fixed_integer.hpp fraction.hpp contact_conditions.hpp general_contact_decision.hpp polynomial.hpp
+  fast/certified/exact/: curved_polygon.hpp distance_decision.hpp fixed_integer.hpp fraction.hpp contact_conditions.hpp general_contact_decision.hpp polynomial.hpp
   fast/certified/stages/: axis.hpp bisection.hpp conservative_advancement.hpp crossing.hpp determinant.hpp direction.hpp distance_enclosure.hpp lanes.hpp moving_polygon.hpp moving_vectors.hpp only_zero.hpp orientation.hpp refinement.hpp single_precision.hpp
   fast/platform/: avx2_doubles.hpp avx2_floats.hpp avx512_doubles.hpp avx512_floats.hpp avx_rows.hpp neon_doubles.hpp neon_floats.hpp scalar_doubles.hpp scalar_floats.hpp floating_point_state.hpp
   fast/tight_inclusion/: box_kernel_on_lanes.hpp curved_box_kernel.hpp
@@ -136,7 +136,7 @@ constexpr std::string_view headers_without_test = R"(
   fast/step/: bodies.hpp codimensional.hpp
 // Beside rational arithmetic, which judges the function: intersections_test.cpp.
   fast/intersections/: contacts.hpp orientation.hpp
-  adapters/tight_inclusion/: config.hpp
+  adapters/tight_inclusion/: config.hpp interval_root_finder.hpp logger.hpp timer.hpp
 // By the answers of the methods, baselines_test.cpp, the queries of the families, families_test.cpp,
 // and of the hard ones, hardness_test.cpp.
   verify/base/: any_query.hpp cores.hpp

@@ -11,6 +11,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <initializer_list>
 #include <limits>
 #include <ostream>
 #include <span>
@@ -281,6 +282,70 @@ std::vector<QueryFamily> query_families() {
        [](Random&, Kind kind, std::size_t i) { return public_queries(kind).at(i); }}};
 }
 
+// ---- Queries by hand ----------------------------------------------------------------------------
+
+/// A query at a separation that is reached exactly, or missed by a bit.
+struct ByHand {
+  PosedQuery posed;
+  Separation separation = {};
+};
+
+/// Primitives over each other, at height z0 and then z1.
+PosedQuery over(Kind kind, double z0, double z1) {
+  return kind == Kind::vertex_face ? tests::over_triangle(1, 1, z0, z1)
+                                   : tests::over_edge(1, 1, z0, z1);
+}
+
+/// Primitives of a size beside each other, nearest at corners with the difference (3,4,z), z from
+/// −8 to 8.
+PosedQuery beside(Kind kind, double size) {
+  const auto at = [&](double z) {
+    return kind == Kind::vertex_face
+               ? tests::FourPoints{-3, -4, z, 0, 0, 0, size, 0, 0, 0, size, 0}
+               : tests::FourPoints{0, 0, 0, size, 0, 0, -3, 4, z, -3, 4 + size, z};
+  };
+  return {kind, tests::moving(at(-8), at(8))};
+}
+
+std::vector<ByHand> queries_by_hand(Kind kind) {
+  constexpr double largest = std::numeric_limits<double>::max();
+  const auto below = [](double x) { return std::nextafter(x, 0.0); };
+  std::vector<ByHand> all;
+  for (const Norm norm : {Norm::linf, Norm::l2}) {
+    // (Between heights 2 and −2 the least distance is reached shortly before 1/2.)
+    for (const auto& [z0, z1, distance] :
+         std::initializer_list<std::array<double, 3>>{{3, -1, 1},
+                                                      {1, 3, 1},
+                                                      {0.5, 3, 1},
+                                                      {3, 1, 1},
+                                                      {3, 1, below(1)},
+                                                      {1, 3, below(1)},
+                                                      {1, 0x1p-60, largest},
+                                                      {1, tiniest, tiniest},
+                                                      {1, 2 * tiniest, tiniest},
+                                                      {largest, tiniest, tiniest},
+                                                      {2, -2, tiniest}}) {
+      all.push_back({over(kind, z0, z1), {distance, norm}});
+    }
+    // From 1 + k 2^-52 to 1 at about k 2^-1052, a subnormal time.
+    for (const int k : {1, 3, 1000}) {
+      all.push_back({over(kind, 1.0 + k * 0x1p-52, -0x1p1000), {1.0, norm}});
+    }
+  }
+  for (const double size : {0.0, 4.0}) {
+    for (const Separation& separation :
+         {Separation{5.0, Norm::l2}, Separation{below(5.0), Norm::l2}, Separation{13.0, Norm::l2},
+          Separation{4.0, Norm::linf}, Separation{below(4.0), Norm::linf},
+          Separation{5.0, Norm::linf}}) {
+      all.push_back({beside(kind, size), separation});
+    }
+  }
+  // A time far below the least double, and one of 2^-1000 + 2^-1040.
+  all.push_back({over(kind, tiniest, -1e308)});
+  all.push_back({over(kind, 0x1p-500, 0x1p-500 - 0x1p500)});
+  return all;
+}
+
 // ---- The suite ----------------------------------------------------------------------------------
 
 /// A thousand times the count in the soak.
@@ -408,6 +473,25 @@ TEST_P(Deciders, AreRightAtSeparations) {
       }
     }
   }
+}
+
+TEST(DecidersByHand, AreRightWhereABitDecides) {
+  int collisions = 0, no_collisions = 0;
+  for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
+    for (const auto& [posed, separation] : queries_by_hand(kind)) {
+      const exact::Decision truth = exact::decide(kind, posed.query, separation);
+      ++(truth.collides() ? collisions : no_collisions);
+      for (CertifiedOptions options : options_in_turn) {
+        options.separation = separation;
+        for (const Decider& decider : deciders) {
+          expect_truth(decider, posed, truth, decider(posed, options), options);
+        }
+        if (HasFailure()) return;
+      }
+    }
+  }
+  EXPECT_GT(collisions, 40);
+  EXPECT_GT(no_collisions, 15);
 }
 
 INSTANTIATE_TEST_SUITE_P(On, Deciders, testing::ValuesIn(query_families()),

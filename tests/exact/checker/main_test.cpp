@@ -35,39 +35,41 @@ Outcome run(const std::string& arguments) {
   return outcome;
 }
 
-const std::string broken = tests::source_folder() + "/tests/exact/checker/corpus/broken.cert";
+const std::string apart =
+    "touchstone-certificates 2\nquery vertex_face\npoint 1 1 1\npoint 0 0 0\npoint 4 0 0\npoint 0 "
+    "4 "
+    "0\npoint 1 1 2\npoint 0 0 0\npoint 4 0 0\npoint 0 4 0\nclaim no_collision\nseparate 0 1 face "
+    "+\nend\n";
 
 class Command : public testing::Test {
  protected:
   const tests::TemporaryFolder folder_;
-  /// One certificate, which is accepted.
-  const std::string apart_ = folder_.file(
-      "apart.cert",
-      "touchstone-certificates 2\nquery vertex_face\npoint 1 1 1\npoint 0 0 0\npoint 4 0 0\npoint 0 "
-      "4 0\npoint 1 1 2\npoint 0 0 0\npoint 4 0 0\npoint 0 4 0\nclaim no_collision\nseparate 0 1 "
-      "face +\nend\ncertificates 1\n");
+  /// One certificate, which is accepted, and others that are not.
+  const std::string apart_ = folder_.file("apart.cert", apart + "certificates 1\n"),
+                    broken_ =
+                        folder_.file("broken.cert",
+                                     apart + "query vertex_face\npoint 1 1 nan\nend\n" +
+                                         "query vertex_face\npoint 1 1 " + std::string(5'000, '9') +
+                                         "\nend\nquery edge_edge\n" + "label \x1b[2J\npoint 1 2");
 };
 
 TEST_F(Command, ReadsStandardInput) {
   EXPECT_EQ(run("- < " + apart_).status, 0);
   EXPECT_EQ(run("- < " + apart_).output, run(apart_).output);
-  EXPECT_EQ(run("- < " + broken).status, 1);
+  EXPECT_EQ(run("- < " + broken_).status, 1);
 }
 
 TEST_F(Command, NamesLinesLabelsAndReasons) {
-  const auto [status, output] = run(broken);
+  const auto [status, output] = run(broken_);
   EXPECT_EQ(status, 1);
   EXPECT_EQ(output,
             "accepted         1\n  no_collision   1\n  collision      0\n  time_of_impact "
-            "0\nrejected         7\n"
-            "  line 10: expected 'point', found 'claim'\n"
-            "  line 14: not a number: 'nan'\n"
-            "  line 37: expected 'end', found 'query'\n"
-            "  line 59: unknown word: '*'\n"
-            "  line 62: more than 4933 digits in a number: "
+            "0\nrejected         4\n"
+            "  line 15: not a number: 'nan'\n"
+            "  line 18: more than 4933 digits in a number: "
             "'9999999999999999999999999999999999999999...'\n"
-            "  line 75 (\\x1b[2J): the last line is not ended by a newline\n"
-            "  line 75: the stream is cut: it has no closing line 'certificates 7'\n");
+            "  line 22 (\\x1b[2J): the last line is not ended by a newline\n"
+            "  line 22: the stream is cut: it has no closing line 'certificates 4'\n");
 }
 
 TEST_F(Command, SaysHowManyRejectionsItDoesNotShow) {

@@ -1,19 +1,14 @@
 #pragma once
 
 /// \file
-/// Comparison of impacts of integer motions with the oracle, for the tests of both decisions.
+/// Queries of integers as motions, for the tests of decisions.
 
-#include <gtest/gtest.h>
-
-#include <bit>
 #include <cstddef>
 #include <cstdint>
-#include <optional>
 
 #include "fast/certified/exact/contact_conditions.hpp"
 #include "fast/certified/exact/general_contact_decision.hpp"
 #include "tests/support/queries.hpp"
-#include "touchstone/oracle.hpp"
 
 namespace touchstone::tests {
 
@@ -36,25 +31,6 @@ template <class Number>
     motion.q[k] = face ? line(3, 1, k) : line(3, 2, k);
   }
   return motion;
-}
-
-/// Expects the query's first contact, enclosed within at most `step` spacings of doubles.
-inline void expect_truth(const PosedQuery& posed, const std::optional<fast::ExactImpact>& impact,
-                         std::uint64_t step) {
-  const exact::Decision truth = exact::decide(posed.kind, posed.query);
-  ASSERT_EQ(impact.has_value(), truth.collides()) << posed;
-  if (!impact) return;
-  const exact::AlgebraicNumber& toi = *truth.toi;
-  const exact::Rational lower(impact->toi_lower);
-  const exact::Rational upper(impact->toi_upper);
-  EXPECT_TRUE(toi <= upper) << posed;
-  if (toi == exact::Rational(0)) {
-    EXPECT_TRUE(lower == 0 && upper == 0) << posed;
-  } else {
-    EXPECT_TRUE(toi > lower) << posed;
-    const auto [first, last] = fast::exact_stage::time_of(*impact);
-    EXPECT_LE(last - first, step) << posed;
-  }
 }
 
 }  // namespace touchstone::tests

@@ -6,7 +6,9 @@
 #include <cstdint>
 #include <span>
 
+#include "fast/certified/block.hpp"
 #include "tests/fast/certified/decisions.hpp"
+#include "tests/support/certified_against_oracle.hpp"
 
 namespace touchstone::fast::exact_stage::contact_decision_test {
 namespace {
@@ -16,9 +18,18 @@ using tests::PosedQuery;
 using tests::Random;
 
 template <class Number>
-FixedSizeAnswer decide(const PosedQuery& posed, std::uint64_t step = 1,
-                       std::uint64_t latest = bits_of_one, double scale = 1.0) {
-  return fixed_size_first_impact(integer_motion<Number>(posed, scale), latest, step);
+FixedSizeAnswer decide(const PosedQuery& posed, double scale = 1.0, std::uint64_t step = 1) {
+  return fixed_size_first_impact(integer_motion<Number>(posed, scale), bits_of_one, step);
+}
+
+/// Expects the query's first contact, enclosed within the tolerance or one spacing of doubles. (The
+/// place is not yet in the domain.)
+void expect_truth(const PosedQuery& posed, const FixedSizeAnswer& answer, double tolerance = 0.0) {
+  ASSERT_TRUE(answer.decided) << posed;
+  CertifiedResult result = result_of(answer.impact);
+  result.u = result.v = 0.0;
+  const auto wrong = tests::fault(posed.kind, posed.query, result, {.toi_tolerance = tolerance});
+  EXPECT_EQ(wrong.value_or(""), "") << posed;
 }
 
 TEST(FixedSizeDecision, DecidesAlmostAllSmallIntegers) {
@@ -29,11 +40,11 @@ TEST(FixedSizeDecision, DecidesAlmostAllSmallIntegers) {
     for (int i = 0; i < count; ++i) {
       const Kind kind = i % 2 == 0 ? Kind::vertex_face : Kind::edge_edge;
       const PosedQuery posed{kind, tests::integer_query(random, 1 + i % 4)};
-      undecided += decide<FixedInteger<1>>(posed, 1, bits_of_one, scale).decided ? 0 : 1;
-      // An enclosure of more than a spacing.
-      const FixedSizeAnswer wide = decide<FixedInteger<2>>(posed, 4503, bits_of_one, scale);
-      if (wide.decided) tests::expect_truth(posed, wide.impact, 4503);
-      if (testing::Test::HasFatalFailure()) return;
+      undecided += decide<FixedInteger<1>>(posed, scale).decided ? 0 : 1;
+      // An enclosure of 4503 spacings.
+      const FixedSizeAnswer wide = decide<FixedInteger<2>>(posed, scale, 4503);
+      if (wide.decided) expect_truth(posed, wide, 1e-12);
+      if (testing::Test::HasFailure()) return;
     }
     EXPECT_LT(undecided, count / 50);
   }
@@ -41,23 +52,17 @@ TEST(FixedSizeDecision, DecidesAlmostAllSmallIntegers) {
 
 TEST(FixedSizeDecision, FindsATinyTimeThatIsNoSmallFraction) {
   const PosedQuery posed = tests::over_triangle(1, 1, 3, -0x1p43 - 1);
-  const FixedSizeAnswer answer = decide<FixedInteger<1>>(posed);
-  ASSERT_TRUE(answer.decided);
-  tests::expect_truth(posed, answer.impact, 1);
+  expect_truth(posed, decide<FixedInteger<1>>(posed));
 }
 
 TEST(FixedSizeDecision, DecidesSignsFarBelowTheWidthOfItsEnclosure) {
   // A vertex over the triangle's side x + y = 4, and one part in 2^52 beside it on either side.
   for (const double x : {1.0, std::nextafter(1.0, 2.0), std::nextafter(1.0, 0.0)}) {
     PosedQuery posed = tests::over_triangle(0x1p53 * x, 0x1p53 * 3, 0x1p20 + 1, -0x1p21);
-    for (double& coordinate : std::span(posed.query.coordinates).subspan(3, 9))
-      coordinate *= 0x1p53;
-    for (double& coordinate : std::span(posed.query.coordinates).subspan(15, 9)) {
-      coordinate *= 0x1p53;
+    for (const std::size_t first : {3U, 15U}) {
+      for (double& c : std::span(posed.query.coordinates).subspan(first, 9)) c *= 0x1p53;
     }
-    const FixedSizeAnswer answer = decide<FixedInteger<1>>(posed);
-    ASSERT_TRUE(answer.decided);
-    tests::expect_truth(posed, answer.impact, 1);
+    expect_truth(posed, decide<FixedInteger<1>>(posed));
   }
 }
 
