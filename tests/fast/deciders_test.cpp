@@ -21,7 +21,7 @@
 
 #include "fast/certified/block.hpp"
 #include "fast/certified/exact/contact_decision.hpp"
-#include "tests/fast/certified/decisions.hpp"
+#include "fast/certified/exact/general_contact_decision.hpp"
 #include "tests/support/certified_against_oracle.hpp"
 #include "tests/support/contact_function.hpp"
 #include "tests/support/public_data.hpp"
@@ -74,6 +74,26 @@ void solve_points(Kind kind, std::span<const Query> queries, std::span<Certified
   }
 }
 
+/// r, p and q of a query with integer coordinates, times a power of two; all below 2^63.
+template <class Number>
+exact_stage::Motion<Number> integer_motion(const PosedQuery& posed, double scale = 1.0) {
+  exact_stage::Motion<Number> motion{posed.kind, {}, {}, {}, {}};
+  const auto line = [&](std::size_t a, std::size_t b, std::size_t k) {
+    const auto at = [&](std::size_t end) {
+      const double difference = posed.query.at(end, a, k) - posed.query.at(end, b, k);
+      return Number(static_cast<std::int64_t>(difference * scale));
+    };
+    return exact_stage::Form<Number, 1>{at(0), at(1)};
+  };
+  const bool face = posed.kind == Kind::vertex_face;
+  for (std::size_t k = 0; k < 3; ++k) {
+    motion.r[k] = face ? line(0, 1, k) : line(0, 2, k);
+    motion.p[k] = face ? line(2, 1, k) : line(0, 1, k);
+    motion.q[k] = face ? line(3, 1, k) : line(3, 2, k);
+  }
+  return motion;
+}
+
 /// The answer of a part of the exact stage, where it is one: if coordinates are small integers.
 template <class Decide>
 void solve_integers(Kind kind, std::span<const Query> queries, std::span<CertifiedResult> results,
@@ -94,7 +114,7 @@ void solve_generally(Kind kind, std::span<const Query> queries, std::span<Certif
   solve_integers(kind, queries, results, options,
                  [](const PosedQuery& posed, std::uint64_t latest, CertifiedResult& result) {
                    result = result_of(exact_stage::first_impact(
-                       tests::integer_motion<exact_stage::BigInteger>(posed), latest));
+                       integer_motion<exact_stage::BigInteger>(posed), latest));
                  });
 }
 
@@ -106,7 +126,7 @@ void solve_in_limbs(Kind kind, std::span<const Query> queries, std::span<Certifi
                  [](const PosedQuery& posed, std::uint64_t latest, CertifiedResult& result) {
                    using Number = exact_stage::FixedInteger<limbs>;
                    const auto answer = exact_stage::fixed_size_first_impact(
-                       tests::integer_motion<Number>(posed, 0x1p57), latest, 1);
+                       integer_motion<Number>(posed, 0x1p57), latest, 1);
                    if (answer.decided) result = result_of(answer.impact);
                  });
 }
@@ -496,6 +516,69 @@ TEST(DecidersByHand, AreRightWhereABitDecides) {
 
 INSTANTIATE_TEST_SUITE_P(On, Deciders, testing::ValuesIn(query_families()),
                          [](const auto& tested) { return tested.param.name; });
+
+// ---- The decision of a fixed size -----------------------------------------------------------------
+
+using exact_stage::bits_of_one;
+using exact_stage::FixedInteger;
+using exact_stage::FixedSizeAnswer;
+
+template <class Number>
+FixedSizeAnswer decide_in(const PosedQuery& posed, double scale = 1.0, std::uint64_t step = 1) {
+  return fixed_size_first_impact(integer_motion<Number>(posed, scale), bits_of_one, step);
+}
+
+/// Expects the query's first contact, enclosed within the tolerance or one spacing of doubles. (The
+/// place is not yet in the domain.)
+void expect_contact(const PosedQuery& posed, const FixedSizeAnswer& answer,
+                    double tolerance = 0.0) {
+  ASSERT_TRUE(answer.decided) << posed;
+  CertifiedResult result = result_of(answer.impact);
+  result.u = result.v = 0.0;
+  const auto wrong = tests::fault(posed.kind, posed.query, result, {.toi_tolerance = tolerance});
+  EXPECT_EQ(wrong.value_or(""), "") << posed;
+}
+
+TEST(FixedSizeDecision, DecidesAlmostAllSmallIntegers) {
+  Random random(1);
+  for (const double scale : {1.0, 0x1p57}) {
+    int undecided = 0;
+    constexpr int count = 4000;
+    for (int i = 0; i < count; ++i) {
+      const Kind kind = i % 2 == 0 ? Kind::vertex_face : Kind::edge_edge;
+      const PosedQuery posed{kind, tests::integer_query(random, 1 + i % 4)};
+      undecided += decide_in<FixedInteger<1>>(posed, scale).decided ? 0 : 1;
+      // An enclosure of 4503 spacings.
+      const FixedSizeAnswer wide = decide_in<FixedInteger<2>>(posed, scale, 4503);
+      if (wide.decided) expect_contact(posed, wide, 1e-12);
+      if (HasFailure()) return;
+    }
+    EXPECT_LT(undecided, count / 50);
+  }
+}
+
+TEST(FixedSizeDecision, FindsATinyTimeThatIsNoSmallFraction) {
+  const PosedQuery posed = tests::over_triangle(1, 1, 3, -0x1p43 - 1);
+  expect_contact(posed, decide_in<FixedInteger<1>>(posed));
+}
+
+TEST(FixedSizeDecision, DecidesSignsFarBelowTheWidthOfItsEnclosure) {
+  // A vertex over the triangle's side x + y = 4, and one part in 2^52 beside it on either side.
+  for (const double x : {1.0, std::nextafter(1.0, 2.0), std::nextafter(1.0, 0.0)}) {
+    PosedQuery posed = tests::over_triangle(0x1p53 * x, 0x1p53 * 3, 0x1p20 + 1, -0x1p21);
+    for (const std::size_t first : {3U, 15U}) {
+      for (double& c : std::span(posed.query.coordinates).subspan(first, 9)) c *= 0x1p53;
+    }
+    expect_contact(posed, decide_in<FixedInteger<1>>(posed));
+  }
+}
+
+TEST(FixedSizeDecision, HandsOnWhatItCannotHold) {
+  // A time near 3·2^-120.
+  auto motion = integer_motion<FixedInteger<2>>(tests::over_triangle(1, 1, 3, -1));
+  motion.r[2][1] = FixedInteger<2>(-(exact_stage::SignedWideLimb{1} << 120U));
+  EXPECT_FALSE(fixed_size_first_impact(motion, bits_of_one, 1).decided);
+}
 
 }  // namespace
 }  // namespace touchstone::fast::deciders_test

@@ -648,10 +648,10 @@ TEST(Method, AnswersAsTheFunction) {
     numbers[5] = infinity;
     const Queries queries(shape, numbers);
     std::vector<TightInclusionResult> found(queries.size());
-    tight_inclusion(queries, found, {.tolerance = 1e-2, .t_max = 0.75, .max_checks = 500});
+    tight_inclusion(queries, found, {.tolerance = 1e-2, .max_checks = 500, .t_max = 0.75});
     std::vector<Answer> answers(found.size());
     tight_inclusion_method()->solve(queries, answers,
-                                    {.tolerance = 1e-2, .t_max = 0.75, .max_checks = 500});
+                                    {.tolerance = 1e-2, .max_checks = 500, .t_max = 0.75});
     EXPECT_EQ(answers[0].verdict, Verdict::error);
     for (std::size_t i = 0; i < found.size(); ++i) {
       EXPECT_EQ(answers[i].verdict, found[i].verdict);
