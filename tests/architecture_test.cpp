@@ -119,8 +119,8 @@ constexpr std::string_view headers_without_test = R"(
   filters/: error_bound.hpp polynomial_expressions.hpp separation_expressions.hpp
   filters/derivation/: mpfr_number.hpp
 // Through the kernels, which take the same queries in the same tests, and the exact stage:
-// kernel_test.cpp, deciders_test.cpp, exact_stage_test.cpp, closest_point_test.cpp, real_root_test.cpp,
-// big_integer_test.cpp.
+// kernel_test.cpp, deciders_test.cpp, exact_stage_test.cpp, closest_point_test.cpp,
+// real_root_test.cpp, big_integer_test.cpp.
   fast/: kernels.hpp
   fast/certified/: block.hpp curves.hpp kernel_on_lanes.hpp
   fast/certified/exact/: closest_point_parameters.hpp contact_decision.hpp curved_polygon.hpp distance_decision.hpp fixed_integer.hpp fraction.hpp contact_conditions.hpp general_contact_decision.hpp polynomial.hpp

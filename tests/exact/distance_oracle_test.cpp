@@ -123,7 +123,7 @@ TEST(DistanceOracle, AgreesWithTheEvaluationOfAllCandidates) {
   EXPECT_GT(no_collisions, count / 8);
 }
 
-// ---- Relations between distances -----------------------------------------------------------------
+// ---- Relations between distances ----------------------------------------------------------------
 
 TEST(DistanceOracle, GreaterDistancesAndTheOtherNormBoundTheToi) {
   Random random(14);

@@ -148,7 +148,7 @@ TEST(NearestPoint, WhatIsNoDirectionSeparatesNothing) {
   EXPECT_FALSE((nearest<Kind::vertex_face, Norm::l2>(zero).direction.array().abs() > 0.0).any());
 }
 
-// ---- The exact stage's parameters -------------------------------------------------------------------
+// ---- The exact stage's parameters ---------------------------------------------------------------
 
 /// ‖F(t,u,v)‖, up to rounding.
 double distance(const tests::PosedQuery& posed, double t, const exact_stage::Parameters& x,

@@ -17,6 +17,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <vector>
 
 #include "fast/certified/block.hpp"
@@ -94,41 +95,28 @@ exact_stage::Motion<Number> integer_motion(const PosedQuery& posed, double scale
   return motion;
 }
 
-/// The answer of a part of the exact stage, where it is one: if coordinates are small integers.
-template <class Decide>
-void solve_integers(Kind kind, std::span<const Query> queries, std::span<CertifiedResult> results,
-                    const CertifiedOptions& options, const Decide& decide) {
+/// A part of the exact stage, where it decides, if coordinates are small integers: the case of a
+/// fixed size, with coordinates that just fit, or the general one, which other queries come to if
+/// they are large.
+template <class Number>
+void solve_in(Kind kind, std::span<const Query> queries, std::span<CertifiedResult> results,
+              const CertifiedOptions& options) {
+  const auto latest = std::bit_cast<std::uint64_t>(options.t_max);
   for (std::size_t i = 0; i < queries.size(); ++i) {
+    const PosedQuery posed{kind, queries[i]};
     const bool is_small = std::ranges::all_of(
         queries[i].coordinates, [](double x) { return std::abs(x) <= 8.0 && std::trunc(x) == x; });
     results[i] = decided_exactly(kind, queries[i], options);
     if (!is_small || !is_zero(options.separation)) continue;
-    decide(PosedQuery{kind, queries[i]}, std::bit_cast<std::uint64_t>(options.t_max), results[i]);
+    if constexpr (std::is_same_v<Number, exact_stage::BigInteger>) {
+      results[i] = result_of(exact_stage::first_impact(integer_motion<Number>(posed), latest));
+    } else {
+      const auto motion = integer_motion<Number>(posed, 0x1p57);
+      const auto answer = exact_stage::fixed_size_first_impact(motion, latest, 1);
+      if (answer.decided) results[i] = result_of(answer.impact);
+    }
     results[i].u = results[i].v = 0.0;  // the whole moves the place into the domain
   }
-}
-
-/// The general case, which other queries of the exact stage come to if they are large.
-void solve_generally(Kind kind, std::span<const Query> queries, std::span<CertifiedResult> results,
-                     const CertifiedOptions& options) {
-  solve_integers(kind, queries, results, options,
-                 [](const PosedQuery& posed, std::uint64_t latest, CertifiedResult& result) {
-                   result = result_of(exact_stage::first_impact(
-                       integer_motion<exact_stage::BigInteger>(posed), latest));
-                 });
-}
-
-/// The case of a fixed size, with coordinates that just fit.
-template <std::size_t limbs>
-void solve_in_limbs(Kind kind, std::span<const Query> queries, std::span<CertifiedResult> results,
-                    const CertifiedOptions& options) {
-  solve_integers(kind, queries, results, options,
-                 [](const PosedQuery& posed, std::uint64_t latest, CertifiedResult& result) {
-                   using Number = exact_stage::FixedInteger<limbs>;
-                   const auto answer = exact_stage::fixed_size_first_impact(
-                       integer_motion<Number>(posed, 0x1p57), latest, 1);
-                   if (answer.decided) result = result_of(answer.impact);
-                 });
 }
 
 /// Lines as curves, of degree 2 where the control point in the middle is a double, else of degree 1
@@ -162,13 +150,14 @@ void solve_curves(Kind kind, std::span<const Query> queries, std::span<Certified
   }
 }
 
-constexpr std::array<Decider, 7> deciders{{{"certified", &solve, false},
-                                           {"exact stage", &solve_exactly, true},
-                                           {"general exact stage", &solve_generally, false},
-                                           {"exact stage in one limb", &solve_in_limbs<1>, false},
-                                           {"exact stage in two limbs", &solve_in_limbs<2>, false},
-                                           {"points", &solve_points, false},
-                                           {"curves", &solve_curves, false, 12}}};
+constexpr std::array<Decider, 7> deciders{
+    {{"certified", &solve, false},
+     {"exact stage", &solve_exactly, true},
+     {"general exact stage", &solve_in<exact_stage::BigInteger>, false},
+     {"exact stage in one limb", &solve_in<exact_stage::FixedInteger<1>>, false},
+     {"exact stage in two limbs", &solve_in<exact_stage::FixedInteger<2>>, false},
+     {"points", &solve_points, false},
+     {"curves", &solve_curves, false, 12}}};
 
 // ---- Families of queries ------------------------------------------------------------------------
 
@@ -517,7 +506,7 @@ TEST(DecidersByHand, AreRightWhereABitDecides) {
 INSTANTIATE_TEST_SUITE_P(On, Deciders, testing::ValuesIn(query_families()),
                          [](const auto& tested) { return tested.param.name; });
 
-// ---- The decision of a fixed size -----------------------------------------------------------------
+// ---- The decision of a fixed size ---------------------------------------------------------------
 
 using exact_stage::bits_of_one;
 using exact_stage::FixedInteger;

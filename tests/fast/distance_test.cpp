@@ -160,7 +160,7 @@ TEST(Distance, IsThatOfRationals) {
   }
 }
 
-// ---- Neighbouring doubles -------------------------------------------------------------------------
+// ---- Neighbouring doubles -----------------------------------------------------------------------
 
 /// The sign of (x, or a number between it and the next double) − s.
 auto sign_against(double x, bool is_between) {

@@ -117,7 +117,7 @@ TEST(Scene, AnySequenceGivesTheAnswersOfFreshSteps) {
   EXPECT_GT(collisions, 1000U);
 }
 
-// ---- The sieve of its pairs -----------------------------------------------------------------------
+// ---- The sieve of its pairs ---------------------------------------------------------------------
 
 tests::Pairs possible(const Step& step, double t_limit) {
   tests::Pairs result;

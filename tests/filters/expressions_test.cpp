@@ -91,7 +91,7 @@ TEST(Expressions, CanRunAtCompileTime) {
                                                       {.5, .5, -1, 1, 1}) == -1.25);
 }
 
-// ---- Polynomials in time ---------------------------------------------------------------------------
+// ---- Polynomials in time ------------------------------------------------------------------------
 
 constexpr int trials = 300;
 
@@ -187,7 +187,7 @@ TEST(PolynomialExpressions, GapIsTheProjectionOfTheDifference) {
   }
 }
 
-// ---- Separations ----------------------------------------------------------------------------------
+// ---- Separations --------------------------------------------------------------------------------
 
 TEST(SeparationExpressions, GapIsHowFarACornerIsBeyondTheDistance) {
   SmallRationals random;

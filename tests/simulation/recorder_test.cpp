@@ -80,7 +80,7 @@ TEST_F(RecordedPart, IsSoManyOfEachMotionEvenlySpread) {
   }
 }
 
-// ---- Of a tumbling body ---------------------------------------------------------------------------
+// ---- Of a tumbling body -------------------------------------------------------------------------
 
 class Tumbling : public tests::FolderTest {};
 

@@ -115,7 +115,7 @@ TEST(TightInclusionAdapter, HasTheTolerancesOfTheParameters) {
   EXPECT_EQ(ticcd::return_queue_size(), 0);
 }
 
-// ---- Its other headers ------------------------------------------------------------------------------
+// ---- Its other headers --------------------------------------------------------------------------
 
 TEST(TightInclusionFilter, IsThatOfTheGreatestCoordinates) {
   for (const bool is_vertex_face : {false, true}) {
