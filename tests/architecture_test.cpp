@@ -114,34 +114,35 @@ constexpr std::string_view headers_without_test = R"(
   verify/fuzz/: finding.hpp
 // In a test of what they are parts of: inversion_oracle_test.cpp, oracle_test.cpp,
 // distance_oracle_test.cpp, separation_intervals_test.cpp, certificate_test.cpp, prove_step_test.cpp;
-// mesh_test.cpp, step_test.cpp; error_bounds_test.cpp, worst_case_test.cpp.
+// mesh_test.cpp, step_test.cpp; error_bounds_test.cpp, expressions_test.cpp, worst_case_test.cpp.
   exact/: element.hpp
   exact/algebra/: positivity.hpp
   exact/certificate/: step_certificate_text.hpp
   exact/checker/: resting_mesh.hpp resting_pair.hpp scene.hpp
   exact/contact/: contact_conditions.hpp contact_oracle.hpp corner_motion.hpp triangle_intersection.hpp
   exact/distance/: separating_axes.hpp
-  filters/: error_bound.hpp
+  filters/: error_bound.hpp polynomial_expressions.hpp separation_expressions.hpp
   filters/derivation/: mpfr_number.hpp
 // Through the kernels, which take the same queries in the same tests, and the exact stage:
-// kernel_test.cpp, deciders_test.cpp, real_root_test.cpp, big_integer_test.cpp.
+// kernel_test.cpp, deciders_test.cpp, exact_stage_test.cpp, closest_point_test.cpp,
+// real_root_test.cpp, big_integer_test.cpp.
   fast/: kernels.hpp
   fast/certified/: block.hpp curves.hpp kernel_on_lanes.hpp
-  fast/certified/exact/: curved_polygon.hpp fixed_integer.hpp fraction.hpp contact_conditions.hpp general_contact_decision.hpp polynomial.hpp
+  fast/certified/exact/: closest_point_parameters.hpp contact_decision.hpp curved_polygon.hpp distance_decision.hpp fixed_integer.hpp fraction.hpp contact_conditions.hpp general_contact_decision.hpp polynomial.hpp
   fast/certified/stages/: axis.hpp bisection.hpp conservative_advancement.hpp crossing.hpp determinant.hpp direction.hpp distance_enclosure.hpp inversion.hpp lanes.hpp moving_polygon.hpp moving_vectors.hpp only_zero.hpp orientation.hpp refinement.hpp single_precision.hpp
   fast/platform/: avx2_doubles.hpp avx2_floats.hpp avx512_doubles.hpp avx512_floats.hpp avx_rows.hpp neon_doubles.hpp neon_floats.hpp scalar_doubles.hpp scalar_floats.hpp floating_point_state.hpp
   fast/tight_inclusion/: box_kernel_on_lanes.hpp curved_box_kernel.hpp
-// In active_set_test.cpp, distance_test.cpp and line_search_test.cpp; mesh_test.cpp;
+// In active_set_test.cpp, distance_test.cpp and line_search_test.cpp; mesh_test.cpp; scene_test.cpp;
 // curved_parts_test.cpp and curved_test.cpp; distance_test.cpp; and against all pairs one by one:
 // search_test.cpp, broad_phase_test.cpp, step_test.cpp.
   fast/: candidates.hpp contacts.hpp
   fast/certified/curves/: contact_proof.hpp control_polygon.hpp stages.hpp
-  fast/distance/: exact_distance.hpp filter_kernel.hpp filter_on_lanes.hpp filtered_distance.hpp polygon_features.hpp
+  fast/distance/: exact_distance.hpp filter_kernel.hpp filter_on_lanes.hpp filtered_distance.hpp neighbouring_doubles.hpp polygon_features.hpp
   fast/broad_phase/: body_tree.hpp box_tree.hpp division_on_lanes.hpp search_on_lanes.hpp seeds.hpp swept_box.hpp words_one_by_one.hpp
-  fast/step/: bodies.hpp codimensional.hpp
+  fast/step/: bodies.hpp codimensional.hpp sieve.hpp
 // Beside rational arithmetic, which judges the function: intersections_test.cpp.
   fast/intersections/: contacts.hpp filter_kernel.hpp filter_on_lanes.hpp orientation.hpp pair_filter.hpp pair_order.hpp pair_order_avx2.hpp
-  adapters/tight_inclusion/: config.hpp
+  adapters/tight_inclusion/: config.hpp interval_root_finder.hpp logger.hpp timer.hpp
 // By the answers of the methods, baselines_test.cpp and known_defects_test.cpp, the queries of the
 // families, families_test.cpp, and of the hard ones, hardness_test.cpp.
   verify/base/: any_query.hpp cores.hpp

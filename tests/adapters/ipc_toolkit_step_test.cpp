@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "tests/support/random.hpp"
+#include "tests/support/scenes.hpp"
 #include "tests/support/trials.hpp"
 #include "touchstone/number.hpp"
 #include "touchstone/oracle.hpp"
@@ -36,6 +37,7 @@ struct Scene {
   ipc::CollisionMesh mesh;
   MatrixXd start;
   MatrixXd end;
+  tests::Scene step;  ///< the same in three dimensions
 };
 
 template <class Element>
@@ -73,10 +75,17 @@ Scene random_scene(Random& random, int dim, int motion) {
     });
     if (is_new) edges.push_back({a, b});
   }
-  Scene scene{ipc::CollisionMesh(start, matrix(edges), matrix(faces)), start, end};
+  Scene scene{ipc::CollisionMesh(start, matrix(edges), matrix(faces)), start, end, {}};
+  scene.step.start = scene.step.end = tests::Places::Zero(vertices, 3);
+  scene.step.start.leftCols(dim) = start;
+  scene.step.end.leftCols(dim) = end;
+  scene.step.edges = edges;
+  scene.step.faces = faces;
+  for (const int i : scene.mesh.codim_vertices()) scene.step.points.push_back(i);
   if (random.between(0, 3) == 0) return scene;
-  scene.mesh.can_collide = [seed = random.between(0, 1 << 20)](std::size_t i, std::size_t j) {
-    return ((std::min(i, j) + static_cast<std::size_t>(seed)) * 31 + std::max(i, j)) % 3 == 0;
+  scene.step.can_collide = tests::random_rule(random);
+  scene.mesh.can_collide = [rule = scene.step.can_collide](std::size_t i, std::size_t j) {
+    return rule(static_cast<std::int32_t>(i), static_cast<std::int32_t>(j));
   };
   return scene;
 }
@@ -90,12 +99,6 @@ Vertices of(const Row& row) {
   return {row.begin(), row.end()};
 }
 
-struct Pair {
-  Kind kind;
-  Vertices first;
-  Vertices second;
-};
-
 bool can_collide(const ipc::CollisionMesh& mesh, const Vertices& first, const Vertices& second) {
   bool some_can = false;
   for (const int i : first) {
@@ -107,81 +110,32 @@ bool can_collide(const ipc::CollisionMesh& mesh, const Vertices& first, const Ve
   return some_can;
 }
 
-/// The pairs that can collide, as the toolkit defines them.
-std::vector<Pair> all_pairs(const ipc::CollisionMesh& mesh) {
-  std::vector<Pair> result;
-  const auto add = [&](Kind kind, const Vertices& first, const Vertices& second) {
-    if (can_collide(mesh, first, second)) result.push_back({kind, first, second});
-  };
-  const MatrixXi &edges = mesh.edges(), &faces = mesh.faces();
-  const Vertices codimensional = of(mesh.codim_vertices());
-  const auto is_of_face = [&](const Vertices& edge) {
-    return std::ranges::any_of(faces.rowwise(), [&](const auto& face) {
-      return std::ranges::count_if(face, [&](int i) { return i == edge[0] || i == edge[1]; }) == 2;
-    });
-  };
-  for (int i = 0; i < static_cast<int>(mesh.num_vertices()); ++i) {
-    for (const auto& face : faces.rowwise()) add(Kind::vertex_face, {i}, of(face));
-    if (mesh.dim() == 3) continue;
-    for (const auto& edge : edges.rowwise()) add(Kind::vertex_face, {i}, of(edge));
-  }
-  for (Eigen::Index i = 0; mesh.dim() == 3 && i < edges.rows(); ++i) {
-    for (Eigen::Index k = 0; k < i; ++k) {
-      add(Kind::edge_edge, of(edges.row(i)), of(edges.row(k)));
-    }
-    if (is_of_face(of(edges.row(i)))) continue;
-    for (const int vertex : codimensional) add(Kind::vertex_face, {vertex}, of(edges.row(i)));
-  }
-  for (const int i : codimensional) {
-    for (const int j : codimensional) {
-      if (i < j) add(Kind::vertex_face, {i}, {j});
+/// The pairs that can collide, as the toolkit defines them: those of a step, and in two dimensions
+/// each vertex with each edge, not edges with edges.
+tests::Pairs pairs_of(const Scene& scene, const tests::AllPairs& all) {
+  if (scene.mesh.dim() == 3) return all.pairs();
+  tests::Pairs result;
+  std::ranges::copy_if(all.pairs(), std::back_inserter(result), [](const auto& pair) {
+    return pair.first == fast::PairKind::vertex_vertex;
+  });
+  for (std::int32_t i = 0; i < scene.start.rows(); ++i) {
+    for (std::int32_t k = 0; k < scene.mesh.edges().rows(); ++k) {
+      if (!can_collide(scene.mesh, {i}, of(scene.mesh.edges().row(k)))) continue;
+      result.push_back({fast::PairKind::vertex_edge, {i, k}});
     }
   }
   return result;
-}
-
-/// The swept boxes are within the distance.
-bool are_near(const Scene& scene, const Pair& pair, double distance) {
-  for (Eigen::Index axis = 0; axis < scene.start.cols(); ++axis) {
-    const auto range = [&](const Vertices& vertices) {
-      std::pair<double, double> result{infinity, -infinity};
-      for (const int i : vertices) {
-        for (const double x : {scene.start(i, axis), scene.end(i, axis)}) {
-          result = {std::min(result.first, x), std::max(result.second, x)};
-        }
-      }
-      return result;
-    };
-    const auto [low, high] = range(pair.first);
-    const auto [other_low, other_high] = range(pair.second);
-    if (low - other_high > distance || other_low - high > distance) return false;
-  }
-  return true;
-}
-
-Query query_of(const Pair& pair, const MatrixXd& start, const MatrixXd& end) {
-  Vertices vertices = pair.first;
-  vertices.insert(vertices.end(), pair.second.begin(), pair.second.end());
-  // A missing vertex of a face is its first one again.
-  vertices.resize(moving_points, pair.second[0]);
-  Query query{};
-  for (std::size_t i = 0; i < moving_points; ++i) {
-    for (Eigen::Index k = 0; k < start.cols(); ++k) {
-      query.point(0, i)[k] = start(vertices[i], k);
-      query.point(1, i)[k] = end(vertices[i], k);
-    }
-  }
-  return query;
 }
 
 /// The least time of the pairs by the narrow phase; infinity if there is none.
 double first_by_narrow_phase(const Scene& scene, double min_distance, double rescaling) {
   const NarrowPhaseCCD narrow_phase(rescaling);
   double first = infinity;
-  for (const Pair& pair : all_pairs(scene.mesh)) {
-    if (!are_near(scene, pair, min_distance)) continue;
+  const tests::AllPairs all(scene.step);
+  for (const tests::NumberedPair& pair : pairs_of(scene, all)) {
+    if (!all.are_near(pair, min_distance)) continue;
     double toi = infinity;
-    (void)narrow_phase.query_ccd(pair.kind, query_of(pair, scene.start, scene.end), toi,
+    (void)narrow_phase.query_ccd(fast::Step::kind_of(pair.first), all.query(pair), toi,
                                  min_distance);
     first = std::min(first, toi);
   }
@@ -191,10 +145,10 @@ double first_by_narrow_phase(const Scene& scene, double min_distance, double res
 /// The exact time at which the first pair comes within the distance.
 std::optional<exact::AlgebraicNumber> first_by_oracle(const Scene& scene, double min_distance) {
   std::optional<exact::AlgebraicNumber> first;
-  for (const Pair& pair : all_pairs(scene.mesh)) {
-    const exact::Decision decision =
-        exact::decide(pair.kind, query_of(pair, scene.start, scene.end),
-                      {.distance = min_distance, .norm = Norm::l2});
+  const tests::AllPairs all(scene.step);
+  for (const tests::NumberedPair& pair : pairs_of(scene, all)) {
+    const exact::Decision decision = exact::decide(fast::Step::kind_of(pair.first), all.query(pair),
+                                                   {.distance = min_distance, .norm = Norm::l2});
     if (decision.collides() && (!first || *decision.toi <= *first)) first = decision.toi;
   }
   return first;
@@ -268,13 +222,18 @@ TEST_P(IpcStep, FindsIntersectionsWhereTheOracleDoes) {
     for (const auto& edge : mesh.edges().rowwise()) {
       for (const auto& other : (mesh.dim() == 3 ? mesh.faces() : mesh.edges()).rowwise()) {
         if (!can_collide(mesh, of(edge), of(other))) continue;
-        // A vertex on its way along the edge.
-        const Pair pair{Kind::vertex_face, {edge[0]}, of(other)};
-        Query query = query_of(pair, scene.start, scene.start);
-        for (Eigen::Index k = 0; k < scene.start.cols(); ++k) {
-          query.point(1, 0)[k] = scene.start(edge[1], k);
+        // A vertex on its way along the edge. (A missing vertex of a face is its first one again.)
+        Vertices vertices{edge[0]};
+        std::ranges::copy(other, std::back_inserter(vertices));
+        vertices.resize(moving_points, other[0]);
+        Query query{};
+        for (const std::size_t end : {0U, 1U}) {
+          for (std::size_t i = 0; i < moving_points; ++i) {
+            query.point(end, i) = scene.step.start.row(vertices[i]).transpose();
+          }
         }
-        expected = expected || exact::decide(pair.kind, query).collides();
+        query.point(1, 0) = scene.step.start.row(edge[1]).transpose();
+        expected = expected || exact::decide(Kind::vertex_face, query).collides();
       }
     }
     EXPECT_EQ(adapters::has_intersections(mesh, scene.start), expected);

@@ -279,20 +279,6 @@ TEST(CurvedQuery, AParabolaTouchesInItsVertex) {
   }
 }
 
-TEST(CurvedQuery, AQuarterOfACircleIsExact) {
-  // (1 − t², 2t)/(1 + t²) is in the plane x = 3/5 at t = 1/2, at y = 4/5.
-  CurvedQuery query;
-  query[0] = {.control = {{5, 0, 0}, {5, 5, 0}, {0, 5, 0}}, .weights = {1, 1, 2}};
-  query[1].control = {{3, 4, -1}};
-  query[2].control = {{3, 4, 1}};
-  query[3].control = {{3, 6, 0}};
-  const Decision found = decide(Kind::vertex_face, query);
-  ASSERT_TRUE(found.collides());
-  EXPECT_EQ(*found.toi, Rational(1, 2));
-  query[1].control[0][1] = query[2].control[0][1] = std::nextafter(4.0, 5.0);
-  EXPECT_FALSE(decide(Kind::vertex_face, query).collides());
-}
-
 TEST(CurvedQuery, OfDoublesOfAnySizeIsDecided) {
   const double large = std::numeric_limits<double>::max();
   const double least = std::numeric_limits<double>::denorm_min();

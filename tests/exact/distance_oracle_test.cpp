@@ -5,14 +5,11 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <cstdint>
 #include <limits>
 #include <optional>
 #include <stdexcept>
-#include <vector>
 
 #include "tests/support/distance_reference.hpp"
-#include "tests/support/floating_point_modes.hpp"
 #include "tests/support/queries.hpp"
 #include "tests/support/random.hpp"
 #include "tests/support/trials.hpp"
@@ -21,12 +18,9 @@
 namespace touchstone::exact::distance_oracle_test {
 namespace {
 
-using tests::edge_edge;
-using tests::over_edge;
 using tests::over_triangle;
 using tests::PosedQuery;
 using tests::Random;
-using tests::vertex_face;
 
 constexpr std::array<Norm, 2> both_norms{Norm::linf, Norm::l2};
 using Limits = std::numeric_limits<double>;
@@ -39,15 +33,6 @@ void expect_toi(const PosedQuery& posed, double distance, Norm norm, const Ratio
   const auto found = toi(posed, distance, norm);
   ASSERT_TRUE(found) << to_string(norm) << ' ' << distance << ' ' << posed;
   EXPECT_TRUE(*found == expected) << to_string(norm) << ' ' << distance << ' ' << posed;
-}
-
-/// Expects contact at this distance from `time` on, and at no smaller distance before.
-void expect_from(const PosedQuery& posed, double distance, Norm norm, const Rational& time) {
-  expect_toi(posed, distance, norm, time);
-  const auto later = toi(posed, std::nextafter(distance, 0.0), norm);
-  EXPECT_TRUE(!later || *later > time) << posed;
-  const auto earlier = toi(posed, std::nextafter(distance, 100 * distance), norm);
-  EXPECT_TRUE(earlier && (*earlier < time || *earlier == Rational(0))) << posed;
 }
 
 /// Expects that a is no later than b, if b exists.
@@ -66,80 +51,7 @@ void expect_same(const std::optional<AlgebraicNumber>& a, const std::optional<Al
   }
 }
 
-// ---- Known answers ------------------------------------------------------------------------------
-
-/// A query with a distance in l2 and one in linf, each reached exactly at its time.
-struct Known {
-  PosedQuery posed;
-  double in_l2, in_linf;
-  Rational time_in_l2, time_in_linf;
-};
-
-PosedQuery at_rest(Kind kind, const tests::FourPoints& points) {
-  return {kind, tests::moving(points, points)};
-}
-
-TEST(DistanceOracle, KnowsWhenDistancesAreReached) {
-  const Rational half(1, 2), eighths(3, 8);
-  // (−3,−4,12) is 13 from the corner, and 12 in linf; (2,−3) is 3 from the side, (7,2) 3 from the
-  // end of an edge; the heights are 3 − 4t, 16 − 8t and 8 − 8t.
-  std::vector<Known> all{
-      {over_triangle(-3, -4, 16, 8), 13, 13, half, eighths},
-      {edge_edge({0, 0, 0, 4, 0, 0, -1, 3, 0, 3, 3, 0}, {0, 0, 0, 4, 0, 0, -1, 1, 0, 3, 1, 0}), 2,
-       2, half, half},
-      // A path past a point, nearest at t=1/2 with sides of 3 and 4.
-      {vertex_face({-1, 3, 4, 0, 0, 0, 0, 0, 0, 0, 0, 0}, {1, 3, 4, 0, 0, 0, 0, 0, 0, 0, 0, 0}), 5,
-       4, half, 0},
-      // Primitives that are points or segments, and a place inside of one.
-      {at_rest(Kind::vertex_face, {3, 4, 12, 0, 0, 0, 0, 0, 0, 0, 0, 0}), 13, 12, 0, 0},
-      {at_rest(Kind::edge_edge, {3, 4, 12, 3, 4, 12, 0, 0, 0, 0, 0, 0}), 13, 12, 0, 0},
-      {at_rest(Kind::vertex_face, {3, 4, 12, 0, 0, 0, -4, 0, 0, -2, 0, 0}), 13, 12, 0, 0},
-      {at_rest(Kind::edge_edge, {3, 4, 12, 3, 4, 12, 0, 0, 0, 0, -5, 0}), 13, 12, 0, 0},
-      {at_rest(Kind::edge_edge, {3, 4, 12, 5, 4, 12, 0, 0, 0, -1, 0, 0}), 13, 12, 0, 0},
-      {at_rest(Kind::vertex_face, {2, 3, 4, 0, 0, 0, 4, 0, 0, 1, 0, 0}), 5, 4, 0, 0},
-      {at_rest(Kind::edge_edge, {2, 3, 4, 2, 3, 4, 0, 0, 0, 4, 0, 0}), 5, 4, 0, 0}};
-  for (const PosedQuery& posed : {over_triangle(1, 1, 3, -1), over_edge(1, 2, 3, -1)}) {
-    all.push_back({posed, 1, 2.5, half, Rational(1, 8)});
-    all.push_back({posed, 2.5, 1, Rational(1, 8), half});
-    all.push_back({posed, 3, 3, 0, 0});
-    for (const Norm norm : both_norms) expect_toi(posed, 1e-100, norm, (3 - Rational(1e-100)) / 4);
-  }
-  for (const PosedQuery& posed : {over_triangle(2, -3, 8, 0), over_edge(7, 2, 8, 0)}) {
-    all.push_back({posed, 5, 5, half, eighths});
-    all.push_back({posed, 3, 3, 1, Rational(5, 8)});
-  }
-  for (const auto& [posed, in_l2, in_linf, time_in_l2, time_in_linf] : all) {
-    expect_from(posed, in_l2, Norm::l2, time_in_l2);
-    expect_from(posed, in_linf, Norm::linf, time_in_linf);
-  }
-  for (const Norm norm : both_norms) {
-    EXPECT_FALSE(toi(over_triangle(1, 1, 3, 1.5), 1, norm));
-    EXPECT_FALSE(toi(over_triangle(1, 1, -3, -1.5), 1, norm));
-  }
-}
-
-TEST(DistanceOracle, AnIrrationalTime) {
-  // From (s,s,s), s = 3 − 2t, to a triangle that is the origin: |(s,s,s)|² = 3s² = 4.
-  const PosedQuery posed =
-      vertex_face({3, 3, 3, 0, 0, 0, 0, 0, 0, 0, 0, 0}, {1, 1, 1, 0, 0, 0, 0, 0, 0, 0, 0, 0});
-  expect_from(posed, 2, Norm::linf, Rational(1, 2));
-  auto found = toi(posed, 2, Norm::l2);
-  ASSERT_TRUE(found);
-  EXPECT_EQ(found->sign_of(Polynomial(Integer(23), Integer(-36), Integer(12))), 0);
-  EXPECT_TRUE(*found < Rational(1));
-}
-
-TEST(DistanceOracle, ACubesEdgeAgainstASide) {
-  // The triangle's side lies in x = y, z = 0, and an edge of the cube about the vertex meets it
-  // when the vertex is at (1 + s, 1 − s, 0), at distance s in linf and √2 s in l2.
-  const std::array<double, 9> face{0, 0, 0, 8, 8, 0, 4, 4, -8};
-  const PosedQuery posed =
-      vertex_face(tests::with_vertex(5, -3, 0, face), tests::with_vertex(1, 1, 0, face));
-  expect_from(posed, 1, Norm::linf, Rational(3, 4));
-  auto found = toi(posed, 1, Norm::l2);  // s = 4 − 4t, 2s² = 1
-  ASSERT_TRUE(found);
-  EXPECT_EQ(found->sign_of(Polynomial(Integer(31), Integer(-64), Integer(32))), 0);
-}
+// ---- By itself ------------------------------------------------------------------------------
 
 TEST(DistanceOracle, AnyMagnitude) {
   for (const Norm norm : both_norms) {
@@ -151,28 +63,6 @@ TEST(DistanceOracle, AnyMagnitude) {
     expect_toi(over_triangle(1, 1, 3, -1), u, norm, (3 - Rational(u)) / 4);
     EXPECT_FALSE(toi(over_triangle(1, 1, 3, 2 * u), u, norm));
   }
-}
-
-TEST(DistanceOracle, FlushedSubnormalsChangeNothing) {
-  const double u = Limits::denorm_min();
-  const PosedQuery posed = over_triangle(1, 1, 3 * u, 2 * u);
-  const std::uint64_t modes = tests::floating_point_modes();
-  tests::set_floating_point_modes(modes | tests::flush_to_zero | tests::subnormals_are_zero);
-  std::vector<bool> collisions;
-  for (const Norm norm : both_norms) {
-    collisions.push_back(decide(posed.kind, posed.query, {u, norm}).collides());
-    collisions.push_back(decide(posed.kind, posed.query, {2 * Limits::min(), norm}).collides());
-  }
-  bool is_refused = false;
-  try {
-    static_cast<void>(decide(posed.kind, posed.query, {-u, Norm::l2}));
-  } catch (const std::invalid_argument&) {
-    is_refused = true;
-  }
-  tests::set_floating_point_modes(modes);
-  EXPECT_EQ(collisions, (std::vector<bool>{false, true, false, true}));
-  EXPECT_TRUE(is_refused);
-  expect_toi(posed, 2 * u, Norm::l2, 1);
 }
 
 TEST(DistanceOracle, RefusesInvalidQueriesAndSeparations) {
@@ -233,7 +123,7 @@ TEST(DistanceOracle, AgreesWithTheEvaluationOfAllCandidates) {
   EXPECT_GT(no_collisions, count / 8);
 }
 
-// ---- Relations between distances -----------------------------------------------------------------
+// ---- Relations between distances ----------------------------------------------------------------
 
 TEST(DistanceOracle, GreaterDistancesAndTheOtherNormBoundTheToi) {
   Random random(14);

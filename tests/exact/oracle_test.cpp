@@ -16,11 +16,9 @@
 #include <cstddef>
 #include <cstdlib>
 #include <fstream>
-#include <future>
 #include <latch>
 #include <limits>
 #include <optional>
-#include <span>
 #include <sstream>
 #include <stdexcept>
 #include <string>
@@ -248,10 +246,10 @@ void expect_contact(const PosedQuery& posed, const Rational& toi, const Rational
 }
 
 /// Expects a collision at the irrational root of `polynomial` that has this decimal value.
-void expect_irrational_toi(const PosedQuery& posed, const Polynomial& polynomial,
-                           std::string_view decimal) {
+void expect_irrational_toi(const PosedQuery& posed, const Separation& separation,
+                           const Polynomial& polynomial, std::string_view decimal) {
   SCOPED_TRACE(posed);
-  const Decision verdict = decide(posed);
+  const Decision verdict = exact::decide(posed.kind, posed.query, separation);
   ASSERT_TRUE(verdict.collides());
   const AlgebraicNumber& toi = *verdict.toi;
   EXPECT_FALSE(toi.rational());
@@ -259,10 +257,56 @@ void expect_irrational_toi(const PosedQuery& posed, const Polynomial& polynomial
   const Rational value = rational_from_decimal(decimal), ulp = rational_from_decimal("1e-18");
   EXPECT_TRUE(toi > Rational(value - ulp));
   EXPECT_TRUE(toi < Rational(value + ulp));
-  check_contact(posed, verdict);
+  if (is_zero(separation)) check_contact(posed, verdict);
+}
+
+/// Expects the first time within a distance, later or never at the next double below it, and no
+/// later at the next one above.
+void expect_toi_at(const PosedQuery& posed, const Separation& separation, const Rational& toi) {
+  const double distance = separation.distance;
+  const auto toi_at = [&](double some) {
+    return exact::decide(posed.kind, posed.query, {some, separation.norm}).toi;
+  };
+  const auto found = toi_at(distance), later = toi_at(std::nextafter(distance, 0.0)),
+             earlier = toi_at(std::nextafter(distance, greatest));
+  EXPECT_TRUE(found && *found == toi) << posed << ' ' << distance;
+  EXPECT_TRUE(!later || *later > toi) << posed << ' ' << distance;
+  EXPECT_TRUE(earlier && (*earlier < toi || *earlier == Rational(0))) << posed << ' ' << distance;
 }
 
 // ------------------------------------------------------------------ known answers
+
+PosedQuery posed_of(const std::string& row) {
+  const tests::QueryRow query(row);
+  PosedQuery posed{kind_from_string(tests::replaced(query.kind, "_", "-")), {}};
+  std::istringstream coordinates(tests::joined(query.points, " "));
+  for (double& x : posed.query.coordinates) {
+    std::string word;
+    coordinates >> word;
+    x = std::strtod(word.c_str(), nullptr);
+  }
+  return posed;
+}
+
+/// Expects what is written of a query: `none`, `root C… ~ VALUE`, the time, or the time and place.
+void expect_as_written(const PosedQuery& posed, const Separation& separation,
+                       const std::string& text) {
+  const auto words = tests::split(text, " ");
+  const auto number = [&](std::size_t i) { return tests::read_number(words.at(i)); };
+  if (words[0] == "none") {
+    EXPECT_FALSE(exact::decide(posed.kind, posed.query, separation).collides()) << posed;
+  } else if (words[0] == "root") {
+    std::vector<Integer> coefficients;
+    for (std::size_t i = 1; words[i] != "~"; ++i) coefficients.emplace_back(words[i]);
+    expect_irrational_toi(posed, separation, Polynomial(std::move(coefficients)), words.back());
+  } else if (!is_zero(separation)) {
+    expect_toi_at(posed, separation, number(0));
+  } else if (words.size() == 1) {
+    expect_toi(posed, number(0));
+  } else {
+    expect_contact(posed, number(0), number(1), number(2));
+  }
+}
 
 /// The queries of contacts.txt.
 TEST(Oracle, KnowsTheContactsOfTheList) {
@@ -273,30 +317,16 @@ TEST(Oracle, KnowsTheContactsOfTheList) {
     for (const std::string& row : tests::expanded(line)) {
       ++rows;
       const auto sides = tests::split(row, " -> ");
-      const tests::QueryRow query(sides.at(0));
-      PosedQuery posed{kind_from_string(tests::replaced(query.kind, "_", "-")), {}};
-      std::istringstream coordinates(tests::joined(query.points, " "));
-      for (double& x : posed.query.coordinates) {
-        std::string word;
-        coordinates >> word;
-        x = std::strtod(word.c_str(), nullptr);
+      const auto asked = tests::split(sides.at(0), " at ");
+      Separation separation;
+      if (asked.size() == 2) {
+        separation = {std::strtod(asked[1].c_str(), nullptr),
+                      norm_from_string(tests::split(asked[1], " ").back())};
       }
-      const auto words = tests::split(sides.at(1), " ");
-      if (words[0] == "none") {
-        expect_no_collision(posed);
-      } else if (words[0] == "root") {
-        std::vector<Integer> coefficients;
-        for (std::size_t i = 1; words[i] != "~"; ++i) coefficients.emplace_back(words[i]);
-        expect_irrational_toi(posed, Polynomial(std::move(coefficients)), words.back());
-      } else if (words.size() == 1) {
-        expect_toi(posed, tests::read_number(words[0]));
-      } else {
-        expect_contact(posed, tests::read_number(words[0]), tests::read_number(words[1]),
-                       tests::read_number(words[2]));
-      }
+      expect_as_written(posed_of(asked[0]), separation, sides.at(1));
     }
   }
-  EXPECT_GT(rows, 80U);
+  EXPECT_GT(rows, 130U);
 }
 
 /// The time of impact of a query that collides; all else about the contact is checked.
@@ -417,24 +447,6 @@ TEST(Oracle, RejectsEveryCoordinateThatIsNotFinite) {
 
 // ------------------------------------------------------------------ threads
 
-constexpr std::size_t thread_count = 4;
-
-std::vector<PosedQuery> mixed_queries(std::size_t count) {
-  Random random(7);
-  std::vector<PosedQuery> queries;
-  while (queries.size() < count) {
-    const Kind kind = random.coin() ? Kind::vertex_face : Kind::edge_edge;
-    queries.push_back(random_query(random, kind, tests::all_families.at(queries.size() % 4)));
-  }
-  return queries;
-}
-
-std::vector<Decision> decide_all(std::span<const PosedQuery> queries) {
-  std::vector<Decision> verdicts;
-  for (const PosedQuery& posed : queries) verdicts.push_back(decide(posed));
-  return verdicts;
-}
-
 void expect_same(const Decision& verdict, const Decision& expected) {
   ASSERT_EQ(verdict.collides(), expected.collides());
   if (!verdict.collides()) return;
@@ -448,48 +460,33 @@ void expect_same(const Decision& verdict, const Decision& expected) {
   EXPECT_EQ(verdict.contact->denominator, expected.contact->denominator);
 }
 
+/// Threads decide the same queries at once, and copy the same verdicts, of which copies could share
+/// parts.
 TEST(Oracle, GivesTheSameAnswersInFourThreadsAsInOne) {
-  const std::vector<PosedQuery> queries = mixed_queries(2000);
-  std::vector<std::future<std::vector<Decision>>> threads;
-  for (std::size_t i = 0; i < thread_count; ++i) {
-    threads.push_back(std::async(std::launch::async, decide_all, std::span(queries)));
+  Random random(7);
+  std::vector<PosedQuery> queries;
+  std::vector<Decision> expected;
+  while (queries.size() < 2000) {
+    const Kind kind = random.coin() ? Kind::vertex_face : Kind::edge_edge;
+    queries.push_back(random_query(random, kind, tests::all_families.at(queries.size() % 4)));
+    expected.push_back(decide(queries.back()));
   }
-  const std::vector<Decision> expected = decide_all(queries);
-  for (auto& thread : threads) {
-    const std::vector<Decision> answer = thread.get();
-    ASSERT_EQ(answer.size(), expected.size());
-    for (std::size_t i = 0; i < answer.size(); ++i) {
-      SCOPED_TRACE(queries[i]);
-      expect_same(answer[i], expected[i]);
-    }
+  const std::vector<Decision> originals = expected;
+  std::latch all_started(4);
+  std::vector<std::jthread> threads;
+  for (int i = 0; i < 4; ++i) {
+    threads.emplace_back([&] {
+      all_started.arrive_and_wait();
+      for (std::size_t k = 0; k < queries.size(); ++k) {
+        SCOPED_TRACE(queries[k]);
+        const Decision copy = originals[k];
+        const std::vector<Decision> copies(20, copy);
+        expect_same(decide(queries[k]), copies.back());
+      }
+    });
   }
-}
-
-TEST(Oracle, GivesVerdictsWhoseCopiesCanBeUsedByDistinctThreads) {
-  // Each thread copies its own copy. Parts that the copies still share must survive this.
-  const PosedQuery query = twisting_triangle({0.75, 0.125, 0}, {0.75, 0.125, 1});
-  const Decision original = decide(query);
-  ASSERT_TRUE(original.collides());
-  const DoubleInterval expected = original.toi->enclosure();
-  std::array<int, thread_count> wrong{};
-  std::latch all_started(thread_count);
-  {
-    std::vector<std::jthread> threads;
-    threads.reserve(thread_count);
-    for (int& count : wrong) {
-      threads.emplace_back([own = original, &count, &expected, &all_started] {
-        all_started.arrive_and_wait();
-        for (int i = 0; i < 10000; ++i) {
-          const std::vector<Contact> contacts(100, *own.contact);
-          const Decision copy = own;
-          if (i % 100 == 0 && copy.toi->enclosure() != expected) ++count;
-        }
-      });
-    }
-  }
-  EXPECT_EQ(wrong, (std::array<int, thread_count>{}));
-  EXPECT_EQ(original.toi->enclosure(), expected);
-  check_contact(query, original);
+  threads.clear();
+  for (std::size_t k = 0; k < queries.size(); ++k) expect_same(originals[k], expected[k]);
 }
 
 // ------------------------------------------------------------------ the second way to decide

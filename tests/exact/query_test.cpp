@@ -20,32 +20,19 @@ using Vector = std::array<Rational, 3>;
 
 constexpr std::array kinds{Kind::vertex_face, Kind::edge_edge};
 
-/// The query whose coordinates are 1, 2, …, 24.
-Query counting_query() {
-  Query query{};
-  std::iota(query.coordinates.begin(), query.coordinates.end(), 1.0);
-  return query;
-}
-
-TEST(Query, AnArrayOfDoublesIsASpanOfQueries) {
-  static constexpr std::size_t count = 5;
-  std::vector<double> values(count * 24);
+TEST(Query, AnArrayOfDoublesIsASpanOfQueriesInTheOrderEndPointAxis) {
+  std::vector<double> values(5 * 24);
   std::iota(values.begin(), values.end(), 0.0);
-  const std::span<const Query> queries(reinterpret_cast<const Query*>(values.data()), count);
+  const std::span<const Query> queries(reinterpret_cast<const Query*>(values.data()), 5);
   ASSERT_EQ(queries.size_bytes(), values.size() * sizeof(double));
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    EXPECT_EQ(&queries[i / 24].coordinates[i % 24], &values[i]);
-  }
-}
-
-TEST(Query, CoordinatesStandInTheOrderEndPointAxis) {
-  const Query query = counting_query();
-  double expected = 1.0;
-  for (std::size_t end = 0; end < 2; ++end) {
-    for (std::size_t point = 0; point < moving_points; ++point) {
-      for (std::size_t axis = 0; axis < 3; ++axis, ++expected) {
-        EXPECT_EQ(query.at(end, point, axis), expected);
-        EXPECT_EQ(query.point(end, point)[static_cast<Eigen::Index>(axis)], expected);
+  const double* expected = values.data();
+  for (const Query& query : queries) {
+    for (std::size_t end = 0; end < 2; ++end) {
+      for (std::size_t point = 0; point < moving_points; ++point) {
+        for (std::size_t axis = 0; axis < 3; ++axis, ++expected) {
+          EXPECT_EQ(query.at(end, point, axis), *expected);
+          EXPECT_EQ(query.point(end, point).data() + axis, expected);
+        }
       }
     }
   }

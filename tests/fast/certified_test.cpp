@@ -1,5 +1,5 @@
 /// \file
-/// The certified solver by hand, in batches and as a method, at contact and at separations.
+/// The certified solver by hand and in batches, at contact and at separations.
 /// (deciders_test.cpp compares it with the oracle.)
 
 #include "touchstone/certified.hpp"
@@ -7,17 +7,15 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
 #include <limits>
-#include <span>
+#include <stdexcept>
 #include <tuple>
 #include <vector>
 
 #include "fast/candidates.hpp"
 #include "fast/certified/kernel.hpp"
 #include "fast/kernels.hpp"
-#include "fast/method.hpp"
 #include "tests/support/certified_against_oracle.hpp"
 #include "tests/support/queries.hpp"
 #include "tests/support/random.hpp"
@@ -26,6 +24,8 @@
 namespace touchstone::fast::certified_test {
 namespace {
 
+using Eigen::RowVector3d;
+using Eigen::Vector3d;
 using tests::fault;
 using tests::over_edge;
 using tests::over_triangle;
@@ -105,30 +105,6 @@ TEST(Certified, WhatCrossesThePlaneNearAnEdgeIsDecidedInFloatingPoint) {
     }
   }
   EXPECT_EQ(fast::solve(Kind::vertex_face, beside_edge(0x1p-50)).stage, Stage::exact);
-}
-
-TEST(Certified, EveryStageIsReached) {
-  std::array<std::size_t, stage_count> reached{}, separated{};
-  for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
-    Random random(7);
-    std::vector<Query> queries(3000);
-    for (std::size_t i = 0; i < queries.size(); ++i) {
-      queries[i] = i % 10 == 0 ? tests::near_contact_query(random, kind)
-                               : tests::full_significand_query(random);
-    }
-    std::vector<CertifiedResult> results(queries.size());
-    for (const Separation& separation : separations) {
-      solve(kind, queries, results, {.separation = separation});
-      for (const CertifiedResult& result : results) {
-        ++(separation == Separation{} ? reached : separated)
-              .at(static_cast<std::size_t>(result.stage));
-      }
-    }
-  }
-  for (std::size_t i = 0; i < stage_count; ++i) {
-    EXPECT_GT(reached.at(i), 0U) << to_string(static_cast<Stage>(i));
-    EXPECT_GT(separated.at(i), 0U) << to_string(static_cast<Stage>(i));
-  }
 }
 
 /// Contact at t_max counts, though the enclosure ends beyond it (certified.hpp).
@@ -215,27 +191,69 @@ TEST(Certified, IndexPairsGiveWhatTheirQueriesGive) {
   }
 }
 
-// ---- As a method --------------------------------------------------------------------------------
+// ---- Points and edges ---------------------------------------------------------------------------
 
-TEST(CertifiedMethod, HeedsTMaxAndTheSeparation) {
-  EXPECT_EQ(certified_method()->name(), "certified");
-  EXPECT_EQ(certified_method()->promise(), Promise::exact);
-  const Query query = over_triangle(1, 1, 1, -1).query;
-  const auto answer_to = [&query](const MethodOptions& options) {
-    Answer answer;
-    certified_method()->solve({Kind::vertex_face, {&query, 1}}, std::span(&answer, 1), options);
-    return answer;
+TEST(PrimitivePairs, PointAndEdgeMeetOnTheEdgeAlone) {
+  const Vector3d a(0, 0, 0), b(4, 0, 0);
+  const CertifiedResult result =
+      solve_vertex_edge(Vector3d(3, 0, 1), a, b, Vector3d(3, 0, -1), a, b);
+  expect_within(result, 0.5);
+  EXPECT_DOUBLE_EQ(result.u, 0.75);
+  EXPECT_EQ(result.v, 0.0);
+  EXPECT_EQ(solve_vertex_edge(Vector3d(3, 1e-300, 1), a, b, Vector3d(3, 1e-300, -1), a, b).verdict,
+            Verdict::no);
+  EXPECT_EQ(solve_vertex_edge(Vector3d(5, 0, 1), a, b, Vector3d(5, 0, -1), a, b).verdict,
+            Verdict::no);
+}
+
+TEST(PrimitivePairs, PointsMeetInOnePlaceAlone) {
+  const CertifiedResult result = solve_vertex_vertex(Vector3d(0, 0, 0), Vector3d(3, 0, 0),
+                                                     Vector3d(2, 0, 0), Vector3d(-1, 0, 0));
+  expect_within(result, 0.5);
+  EXPECT_EQ(result.u, 0.0);
+  EXPECT_EQ(result.v, 0.0);
+  EXPECT_EQ(solve_vertex_vertex(Vector3d(0, 0, 0), Vector3d(3, 0, 1e-300), Vector3d(2, 0, 0),
+                                Vector3d(-1, 0, 1e-300))
+                .verdict,
+            Verdict::no);
+  // With the options of the solver.
+  const Vector3d o(0, 0, 0), before(3, 0, 0), after(-3, 0, 0);
+  const CertifiedOptions near{.separation = {.distance = 1.0, .norm = Norm::l2}};
+  expect_within(solve_vertex_vertex(before, o, after, o, near), 1.0 / 3.0);
+  EXPECT_EQ(solve_vertex_vertex(before, o, after, o, {.t_max = 0.25}).verdict, Verdict::no);
+}
+
+TEST(PrimitivePairs, MayBeGivenInAnyShape) {
+  const std::vector<double> doubles{3, 0, 1, 3, 0, -1, 0, 0, 0, 4, 0, 0};
+  const std::vector<float> floats(doubles.begin(), doubles.end());
+  const CertifiedResult expected = solve_vertex_edge(&doubles[0], &doubles[6], &doubles[9],
+                                                     &doubles[3], &doubles[6], &doubles[9]);
+  ASSERT_EQ(expected.verdict, Verdict::yes);
+  const auto expect_same = [&](const CertifiedResult& result) {
+    EXPECT_EQ(result.toi_lower, expected.toi_lower);
+    EXPECT_EQ(result.toi_upper, expected.toi_upper);
+    EXPECT_EQ(result.u, expected.u);
   };
-  EXPECT_EQ(answer_to({.t_max = 0.25}).verdict, Verdict::no);
-  // Contact at a distance of 1/2 is at t = 1/4.
-  const Answer near = answer_to({.separation = {.distance = 0.5, .norm = Norm::l2}, .t_max = 0.25});
-  EXPECT_EQ(near.verdict, Verdict::yes);
-  EXPECT_LT(near.toi_lower, 0.25);
-  EXPECT_GE(near.toi_upper, 0.25);
-  EXPECT_LE(near.toi_upper, 0.25 + 1e-12);
-  for (const double bad : {-1.0, infinity, std::numeric_limits<double>::quiet_NaN()}) {
-    EXPECT_EQ(answer_to({.separation = {.distance = bad}}).verdict, Verdict::error) << bad;
-  }
+  expect_same(
+      solve_vertex_edge(&floats[0], &floats[6], &floats[9], &floats[3], &floats[6], &floats[9]));
+  const Eigen::Map<const Eigen::Matrix<float, 4, 3, Eigen::RowMajor>> rows(floats.data());
+  expect_same(solve_vertex_edge(rows.row(0), rows.row(2), rows.row(3), rows.row(1), rows.row(2),
+                                rows.row(3)));
+  const Eigen::MatrixXd columns = rows.cast<double>().transpose();
+  expect_same(solve_vertex_edge(columns.col(0), columns.col(2), columns.col(3), columns.col(1),
+                                columns.col(2), columns.col(3)));
+  const Eigen::VectorXd of_any_size = columns.col(0);
+  expect_same(solve_vertex_edge(of_any_size, RowVector3d(0, 0, 0), Vector3d(4, 0, 0),
+                                columns.col(1) + Vector3d::Zero(), &doubles[6], columns.col(3)));
+  const double plain[3] = {3, 0, 1};  // NOLINT(modernize-avoid-c-arrays)
+  expect_same(
+      solve_vertex_edge(plain, &doubles[6], &doubles[9], &doubles[3], &doubles[6], &doubles[9]));
+}
+
+TEST(PrimitivePairs, RefuseAnythingElse) {
+  const Vector3d o(0, 0, 0);
+  EXPECT_THROW((void)solve_vertex_vertex(Eigen::VectorXd(2), o, o, o), std::invalid_argument);
+  EXPECT_EQ(solve_vertex_vertex(Vector3d(std::nan(""), 0, 0), o, o, o).verdict, Verdict::error);
 }
 
 }  // namespace

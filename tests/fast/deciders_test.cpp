@@ -11,16 +11,18 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <initializer_list>
 #include <limits>
 #include <ostream>
 #include <span>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <vector>
 
 #include "fast/certified/block.hpp"
 #include "fast/certified/exact/contact_decision.hpp"
-#include "tests/fast/certified/decisions.hpp"
+#include "fast/certified/exact/general_contact_decision.hpp"
 #include "tests/support/certified_against_oracle.hpp"
 #include "tests/support/contact_function.hpp"
 #include "tests/support/public_data.hpp"
@@ -73,41 +75,48 @@ void solve_points(Kind kind, std::span<const Query> queries, std::span<Certified
   }
 }
 
-/// The answer of a part of the exact stage, where it is one: if coordinates are small integers.
-template <class Decide>
-void solve_integers(Kind kind, std::span<const Query> queries, std::span<CertifiedResult> results,
-                    const CertifiedOptions& options, const Decide& decide) {
+/// r, p and q of a query with integer coordinates, times a power of two; all below 2^63.
+template <class Number>
+exact_stage::Motion<Number> integer_motion(const PosedQuery& posed, double scale = 1.0) {
+  exact_stage::Motion<Number> motion{posed.kind, {}, {}, {}, {}};
+  const auto line = [&](std::size_t a, std::size_t b, std::size_t k) {
+    const auto at = [&](std::size_t end) {
+      const double difference = posed.query.at(end, a, k) - posed.query.at(end, b, k);
+      return Number(static_cast<std::int64_t>(difference * scale));
+    };
+    return exact_stage::Form<Number, 1>{at(0), at(1)};
+  };
+  const bool face = posed.kind == Kind::vertex_face;
+  for (std::size_t k = 0; k < 3; ++k) {
+    motion.r[k] = face ? line(0, 1, k) : line(0, 2, k);
+    motion.p[k] = face ? line(2, 1, k) : line(0, 1, k);
+    motion.q[k] = face ? line(3, 1, k) : line(3, 2, k);
+  }
+  return motion;
+}
+
+/// A part of the exact stage, where it decides, if coordinates are small integers: the case of a
+/// fixed size, with coordinates that just fit, or the general one, which other queries come to if
+/// they are large.
+template <class Number>
+void solve_in(Kind kind, std::span<const Query> queries, std::span<CertifiedResult> results,
+              const CertifiedOptions& options) {
+  const auto latest = std::bit_cast<std::uint64_t>(options.t_max);
   for (std::size_t i = 0; i < queries.size(); ++i) {
+    const PosedQuery posed{kind, queries[i]};
     const bool is_small = std::ranges::all_of(
         queries[i].coordinates, [](double x) { return std::abs(x) <= 8.0 && std::trunc(x) == x; });
     results[i] = decided_exactly(kind, queries[i], options);
     if (!is_small || !is_zero(options.separation)) continue;
-    decide(PosedQuery{kind, queries[i]}, std::bit_cast<std::uint64_t>(options.t_max), results[i]);
+    if constexpr (std::is_same_v<Number, exact_stage::BigInteger>) {
+      results[i] = result_of(exact_stage::first_impact(integer_motion<Number>(posed), latest));
+    } else {
+      const auto motion = integer_motion<Number>(posed, 0x1p57);
+      const auto answer = exact_stage::fixed_size_first_impact(motion, latest, 1);
+      if (answer.decided) results[i] = result_of(answer.impact);
+    }
     results[i].u = results[i].v = 0.0;  // the whole moves the place into the domain
   }
-}
-
-/// The general case, which other queries of the exact stage come to if they are large.
-void solve_generally(Kind kind, std::span<const Query> queries, std::span<CertifiedResult> results,
-                     const CertifiedOptions& options) {
-  solve_integers(kind, queries, results, options,
-                 [](const PosedQuery& posed, std::uint64_t latest, CertifiedResult& result) {
-                   result = result_of(exact_stage::first_impact(
-                       tests::integer_motion<exact_stage::BigInteger>(posed), latest));
-                 });
-}
-
-/// The case of a fixed size, with coordinates that just fit.
-template <std::size_t limbs>
-void solve_in_limbs(Kind kind, std::span<const Query> queries, std::span<CertifiedResult> results,
-                    const CertifiedOptions& options) {
-  solve_integers(kind, queries, results, options,
-                 [](const PosedQuery& posed, std::uint64_t latest, CertifiedResult& result) {
-                   using Number = exact_stage::FixedInteger<limbs>;
-                   const auto answer = exact_stage::fixed_size_first_impact(
-                       tests::integer_motion<Number>(posed, 0x1p57), latest, 1);
-                   if (answer.decided) result = result_of(answer.impact);
-                 });
 }
 
 /// Lines as curves, of degree 2 where the control point in the middle is a double, else of degree 1
@@ -141,13 +150,14 @@ void solve_curves(Kind kind, std::span<const Query> queries, std::span<Certified
   }
 }
 
-constexpr std::array<Decider, 7> deciders{{{"certified", &solve, false},
-                                           {"exact stage", &solve_exactly, true},
-                                           {"general exact stage", &solve_generally, false},
-                                           {"exact stage in one limb", &solve_in_limbs<1>, false},
-                                           {"exact stage in two limbs", &solve_in_limbs<2>, false},
-                                           {"points", &solve_points, false},
-                                           {"curves", &solve_curves, false, 12}}};
+constexpr std::array<Decider, 7> deciders{
+    {{"certified", &solve, false},
+     {"exact stage", &solve_exactly, true},
+     {"general exact stage", &solve_in<exact_stage::BigInteger>, false},
+     {"exact stage in one limb", &solve_in<exact_stage::FixedInteger<1>>, false},
+     {"exact stage in two limbs", &solve_in<exact_stage::FixedInteger<2>>, false},
+     {"points", &solve_points, false},
+     {"curves", &solve_curves, false, 12}}};
 
 // ---- Families of queries ------------------------------------------------------------------------
 
@@ -281,6 +291,70 @@ std::vector<QueryFamily> query_families() {
        [](Random&, Kind kind, std::size_t i) { return public_queries(kind).at(i); }}};
 }
 
+// ---- Queries by hand ----------------------------------------------------------------------------
+
+/// A query at a separation that is reached exactly, or missed by a bit.
+struct ByHand {
+  PosedQuery posed;
+  Separation separation = {};
+};
+
+/// Primitives over each other, at height z0 and then z1.
+PosedQuery over(Kind kind, double z0, double z1) {
+  return kind == Kind::vertex_face ? tests::over_triangle(1, 1, z0, z1)
+                                   : tests::over_edge(1, 1, z0, z1);
+}
+
+/// Primitives of a size beside each other, nearest at corners with the difference (3,4,z), z from
+/// −8 to 8.
+PosedQuery beside(Kind kind, double size) {
+  const auto at = [&](double z) {
+    return kind == Kind::vertex_face
+               ? tests::FourPoints{-3, -4, z, 0, 0, 0, size, 0, 0, 0, size, 0}
+               : tests::FourPoints{0, 0, 0, size, 0, 0, -3, 4, z, -3, 4 + size, z};
+  };
+  return {kind, tests::moving(at(-8), at(8))};
+}
+
+std::vector<ByHand> queries_by_hand(Kind kind) {
+  constexpr double largest = std::numeric_limits<double>::max();
+  const auto below = [](double x) { return std::nextafter(x, 0.0); };
+  std::vector<ByHand> all;
+  for (const Norm norm : {Norm::linf, Norm::l2}) {
+    // (Between heights 2 and −2 the least distance is reached shortly before 1/2.)
+    for (const auto& [z0, z1, distance] :
+         std::initializer_list<std::array<double, 3>>{{3, -1, 1},
+                                                      {1, 3, 1},
+                                                      {0.5, 3, 1},
+                                                      {3, 1, 1},
+                                                      {3, 1, below(1)},
+                                                      {1, 3, below(1)},
+                                                      {1, 0x1p-60, largest},
+                                                      {1, tiniest, tiniest},
+                                                      {1, 2 * tiniest, tiniest},
+                                                      {largest, tiniest, tiniest},
+                                                      {2, -2, tiniest}}) {
+      all.push_back({over(kind, z0, z1), {distance, norm}});
+    }
+    // From 1 + k 2^-52 to 1 at about k 2^-1052, a subnormal time.
+    for (const int k : {1, 3, 1000}) {
+      all.push_back({over(kind, 1.0 + k * 0x1p-52, -0x1p1000), {1.0, norm}});
+    }
+  }
+  for (const double size : {0.0, 4.0}) {
+    for (const Separation& separation :
+         {Separation{5.0, Norm::l2}, Separation{below(5.0), Norm::l2}, Separation{13.0, Norm::l2},
+          Separation{4.0, Norm::linf}, Separation{below(4.0), Norm::linf},
+          Separation{5.0, Norm::linf}}) {
+      all.push_back({beside(kind, size), separation});
+    }
+  }
+  // A time far below the least double, and one of 2^-1000 + 2^-1040.
+  all.push_back({over(kind, tiniest, -1e308)});
+  all.push_back({over(kind, 0x1p-500, 0x1p-500 - 0x1p500)});
+  return all;
+}
+
 // ---- The suite ----------------------------------------------------------------------------------
 
 /// A thousand times the count in the soak.
@@ -410,8 +484,90 @@ TEST_P(Deciders, AreRightAtSeparations) {
   }
 }
 
+TEST(DecidersByHand, AreRightWhereABitDecides) {
+  int collisions = 0, no_collisions = 0;
+  for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
+    for (const auto& [posed, separation] : queries_by_hand(kind)) {
+      const exact::Decision truth = exact::decide(kind, posed.query, separation);
+      ++(truth.collides() ? collisions : no_collisions);
+      for (CertifiedOptions options : options_in_turn) {
+        options.separation = separation;
+        for (const Decider& decider : deciders) {
+          expect_truth(decider, posed, truth, decider(posed, options), options);
+        }
+        if (HasFailure()) return;
+      }
+    }
+  }
+  EXPECT_GT(collisions, 40);
+  EXPECT_GT(no_collisions, 15);
+}
+
 INSTANTIATE_TEST_SUITE_P(On, Deciders, testing::ValuesIn(query_families()),
                          [](const auto& tested) { return tested.param.name; });
+
+// ---- The decision of a fixed size ---------------------------------------------------------------
+
+using exact_stage::bits_of_one;
+using exact_stage::FixedInteger;
+using exact_stage::FixedSizeAnswer;
+
+template <class Number>
+FixedSizeAnswer decide_in(const PosedQuery& posed, double scale = 1.0, std::uint64_t step = 1) {
+  return fixed_size_first_impact(integer_motion<Number>(posed, scale), bits_of_one, step);
+}
+
+/// Expects the query's first contact, enclosed within the tolerance or one spacing of doubles. (The
+/// place is not yet in the domain.)
+void expect_contact(const PosedQuery& posed, const FixedSizeAnswer& answer,
+                    double tolerance = 0.0) {
+  ASSERT_TRUE(answer.decided) << posed;
+  CertifiedResult result = result_of(answer.impact);
+  result.u = result.v = 0.0;
+  const auto wrong = tests::fault(posed.kind, posed.query, result, {.toi_tolerance = tolerance});
+  EXPECT_EQ(wrong.value_or(""), "") << posed;
+}
+
+TEST(FixedSizeDecision, DecidesAlmostAllSmallIntegers) {
+  Random random(1);
+  for (const double scale : {1.0, 0x1p57}) {
+    int undecided = 0;
+    constexpr int count = 4000;
+    for (int i = 0; i < count; ++i) {
+      const Kind kind = i % 2 == 0 ? Kind::vertex_face : Kind::edge_edge;
+      const PosedQuery posed{kind, tests::integer_query(random, 1 + i % 4)};
+      undecided += decide_in<FixedInteger<1>>(posed, scale).decided ? 0 : 1;
+      // An enclosure of 4503 spacings.
+      const FixedSizeAnswer wide = decide_in<FixedInteger<2>>(posed, scale, 4503);
+      if (wide.decided) expect_contact(posed, wide, 1e-12);
+      if (HasFailure()) return;
+    }
+    EXPECT_LT(undecided, count / 50);
+  }
+}
+
+TEST(FixedSizeDecision, FindsATinyTimeThatIsNoSmallFraction) {
+  const PosedQuery posed = tests::over_triangle(1, 1, 3, -0x1p43 - 1);
+  expect_contact(posed, decide_in<FixedInteger<1>>(posed));
+}
+
+TEST(FixedSizeDecision, DecidesSignsFarBelowTheWidthOfItsEnclosure) {
+  // A vertex over the triangle's side x + y = 4, and one part in 2^52 beside it on either side.
+  for (const double x : {1.0, std::nextafter(1.0, 2.0), std::nextafter(1.0, 0.0)}) {
+    PosedQuery posed = tests::over_triangle(0x1p53 * x, 0x1p53 * 3, 0x1p20 + 1, -0x1p21);
+    for (const std::size_t first : {3U, 15U}) {
+      for (double& c : std::span(posed.query.coordinates).subspan(first, 9)) c *= 0x1p53;
+    }
+    expect_contact(posed, decide_in<FixedInteger<1>>(posed));
+  }
+}
+
+TEST(FixedSizeDecision, HandsOnWhatItCannotHold) {
+  // A time near 3·2^-120.
+  auto motion = integer_motion<FixedInteger<2>>(tests::over_triangle(1, 1, 3, -1));
+  motion.r[2][1] = FixedInteger<2>(-(exact_stage::SignedWideLimb{1} << 120U));
+  EXPECT_FALSE(fixed_size_first_impact(motion, bits_of_one, 1).decided);
+}
 
 }  // namespace
 }  // namespace touchstone::fast::deciders_test

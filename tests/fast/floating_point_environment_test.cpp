@@ -15,6 +15,7 @@
 #include <cstdlib>
 #include <functional>
 #include <ostream>
+#include <stdexcept>
 #include <string>
 #include <tuple>
 #include <type_traits>
@@ -22,6 +23,7 @@
 #include <vector>
 
 #include "tests/support/floating_point_modes.hpp"
+#include "tests/support/messages.hpp"
 #include "tests/support/queries.hpp"
 #include "tests/support/random.hpp"
 #include "tests/support/scenes.hpp"
@@ -134,6 +136,9 @@ std::function<Bits()> of_queries(const Ask& ask, std::size_t count) {
 }
 
 void ask_oracle(Bits& bits, Kind kind, const Query& query, const Separation& separation) {
+  // A distance below 0, though a caller that flushes it sees 0, is refused.
+  const auto refused = [&] { (void)exact::decide(kind, query, {-0x1p-1074, Norm::l2}); };
+  put(bits, std::size_t{tests::message_of<std::invalid_argument>(refused).empty()});
   const exact::Decision verdict = exact::decide(kind, query, separation);
   put(bits, std::size_t{verdict.collides()});
   if (!verdict.collides()) return;

@@ -1,10 +1,12 @@
 /// \file
-/// Time per query of each solver, beside one pass that only reads the queries: the physical limit.
+/// Time per query of the oracle and of each solver, beside one pass that only reads the queries:
+/// the physical limit.
 ///
-/// Sets: the handcrafted and the simulation part of TOUCHSTONE_DATA (by default ../shared/datasets
-/// beside the project), each kind by itself, and each .npy file named in TOUCHSTONE_BENCH (names
-/// separated by colons). The pass is timed before each repetition, so that both are of one moment;
-/// `passes` is the time of the solver as a multiple of it.
+/// Sets: random queries by kind and class, the handcrafted and the simulation part of
+/// TOUCHSTONE_DATA (by default ../shared/datasets beside the project), each kind by itself, and
+/// each .npy file named in TOUCHSTONE_BENCH (names separated by colons). The pass is timed before
+/// each repetition, so that both are of one moment; `passes` is the time of the solver as a
+/// multiple of it.
 ///
 /// curved/…: the certified solver on curves, beside that on the lines between their ends: `lines`
 /// is the ratio of both. The queries are random; the primitives' places differ by up to 2 on each
@@ -19,6 +21,7 @@
 #include <filesystem>
 #include <functional>
 #include <map>
+#include <optional>
 #include <sstream>
 #include <string>
 #include <string_view>
@@ -26,8 +29,10 @@
 #include <vector>
 
 #include "tests/support/public_data.hpp"
+#include "tests/support/queries.hpp"
 #include "tests/support/random.hpp"
 #include "touchstone/certified.hpp"
+#include "touchstone/oracle.hpp"
 #include "verify/data/dataset.hpp"
 #include "verify/solvers/registry.hpp"
 
@@ -53,8 +58,45 @@ std::string variable(const char* name, const std::string& otherwise) {
   return value == nullptr ? otherwise : value;
 }
 
+/// The common property of random queries.
+struct QueryClass {
+  std::string name;
+  /// Draws a query that may belong to the class.
+  std::function<Query(tests::Random&, Kind)> draw;
+  /// The verdict of the class; if empty, all queries belong to it.
+  std::optional<bool> collides;
+};
+
+void add_random(QuerySets& sets, const QueryClass& query_class, Kind kind) {
+  tests::Random random(5);
+  QuerySet& set = sets[query_class.name + "/" + std::string(to_string(kind))];
+  set.kind = kind;
+  while (set.queries.size() < 256) {
+    const Query query = query_class.draw(random, kind);
+    const auto& collides = query_class.collides;
+    if (collides && exact::decide(kind, query).collides() != *collides) continue;
+    set.queries.push_back(query);
+  }
+}
+
 QuerySets read_sets() {
   QuerySets sets;
+  const auto generic = [](tests::Random& random, Kind) {
+    return tests::full_significand_query(random);
+  };
+  const auto coplanar = [](tests::Random& random, Kind) {
+    Query query = tests::full_significand_query(random);
+    tests::flatten(query, 2);
+    return query;
+  };
+  for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
+    for (const QueryClass& one : {QueryClass{"miss", generic, false},
+                                  {"hit", generic, true},
+                                  {"coplanar", coplanar, std::nullopt},
+                                  {"near-miss", tests::near_contact_query, false}}) {
+      add_random(sets, one, kind);
+    }
+  }
   const std::filesystem::path folder = tests::public_data_folder();
   for (const auto& file : tests::public_datasets()) {
     add(sets, file.lexically_relative(folder).begin()->string(), file);
@@ -95,6 +137,16 @@ void time_method(benchmark::State& state, const fast::Method& method, const Quer
       static_cast<double>(state.iterations()) * static_cast<double>(set.queries.size());
   state.counters["us/query"] = 1e6 * solve / solved;
   state.counters["passes"] = solve / pass;
+}
+
+/// One query in each iteration.
+void time_oracle(benchmark::State& state, const QuerySet& set) {
+  std::size_t next = 0;
+  for (auto iteration : state) {
+    static_cast<void>(iteration);
+    benchmark::DoNotOptimize(exact::decide(set.kind, set.queries[next]));
+    next = (next + 1) % set.queries.size();
+  }
 }
 
 // ---- Curves -------------------------------------------------------------------------------------
@@ -180,8 +232,10 @@ void register_curves() {
 
 void register_benchmarks(const QuerySets& sets) {
   for (const auto& [name, set] : sets) {
+    const QuerySet& queries = set;
+    benchmark::RegisterBenchmark(("oracle/" + name).c_str(),
+                                 [&](benchmark::State& state) { time_oracle(state, queries); });
     for (const auto& method : solvers::methods()) {
-      const QuerySet& queries = set;
       const fast::Method& solver = *method;
       benchmark::RegisterBenchmark(
           (std::string(solver.name()) + "/" + name).c_str(),

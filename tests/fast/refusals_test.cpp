@@ -58,12 +58,16 @@ void solve_one(const CertifiedOptions& options) {
   solve(posed.kind, std::span(&posed.query, 1), std::span(&result, 1), options);
 }
 
-/// All functions that take the options of the certified solver, with one option changed.
-template <class Change>
+/// All functions that take the options of the certified solver, with one option set.
+template <class Set>
 std::vector<Refusal> of_solver(const std::string& name, const std::vector<double>& bad,
-                               const Change& change) {
-  const auto with = [change](const auto& use) {
-    return [=](double x) { use(change(CertifiedOptions{}, x)); };
+                               const Set& set) {
+  const auto with = [set](const auto& use) {
+    return [=](double x) {
+      CertifiedOptions options;
+      set(options, x);
+      use(options);
+    };
   };
   return {{name + "_of_certified", bad,
            with([](const auto& o) { (void)fast::solve(posed.kind, posed.query, o); })},
@@ -151,25 +155,14 @@ std::vector<Refusal> refusals() {
       {"share_of_line_search", {0.0, -0.5, 1.0, 1.0 - 0x1p-52, nan}, [](double x) {
          (void)line_search_limit(step(), x);
        }}};
-  const auto add = [&](std::vector<Refusal> some) {
-    all.insert(all.end(), some.begin(), some.end());
+  const auto add = [&](const char* name, const std::vector<double>& bad, auto set) {
+    for (Refusal& one : of_solver(name, bad, set)) all.push_back(std::move(one));
   };
-  add(of_solver("separation", no_distance, [](CertifiedOptions options, double x) {
-    options.separation.distance = x;
-    return options;
-  }));
-  add(of_solver("tolerance", no_distance, [](CertifiedOptions options, double x) {
-    options.toi_tolerance = x;
-    return options;
-  }));
-  add(of_solver("t_max", no_time, [](CertifiedOptions options, double x) {
-    options.t_max = x;
-    return options;
-  }));
-  add(of_solver("threads", no_count, [](CertifiedOptions options, double x) {
-    options.max_threads = static_cast<int>(x);
-    return options;
-  }));
+  add("separation", no_distance, [](auto& options, double x) { options.separation.distance = x; });
+  add("tolerance", no_distance, [](auto& options, double x) { options.toi_tolerance = x; });
+  add("t_max", no_time, [](auto& options, double x) { options.t_max = x; });
+  add("threads", no_count,
+      [](auto& options, double x) { options.max_threads = static_cast<int>(x); });
   return all;
 }
 

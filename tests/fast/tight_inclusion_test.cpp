@@ -28,6 +28,7 @@
 #include "tests/support/public_data.hpp"
 #include "tests/support/queries.hpp"
 #include "tests/support/random.hpp"
+#include "touchstone/filters/error_bounds.hpp"
 #include "touchstone/number.hpp"
 #include "touchstone/oracle.hpp"
 #include "verify/data/dataset.hpp"
@@ -215,21 +216,6 @@ TEST(MinimumSeparation, ReachesExactlyAsFarAsItSays) {
   }
 }
 
-TEST(MinimumSeparation, IsReachedAtTheTimeItSays) {
-  // The height falls from 1 to −1, and is d at t = (1 − d)/2.
-  for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
-    for (const double d : {0x1p-1, 0x1p-3, 0x1p-10, 0x1p-30}) {
-      const TightInclusionOptions options{.separation = {.distance = d}};
-      const auto result = solve(stops_above(kind, 1.0, -1.0), options);
-      ASSERT_EQ(result.verdict, Verdict::yes);
-      EXPECT_LE(result.toi, (1.0 - d) / 2);
-      EXPECT_GT(result.toi, (1.0 - d) / 2 - result.tolerance);
-      EXPECT_LT(result.tolerance, 1e-2);
-      EXPECT_EQ(result.separation.distance, d);
-    }
-  }
-}
-
 // ---- A plain reading of the description ---------------------------------------------------------
 
 /// Algorithm 2 of [wang2021] with a priority queue, directly from its description (docs/methods.md,
@@ -345,14 +331,34 @@ TEST(TightInclusion, AgreesWithAPlainReadingOfItsDescription) {
 
 // ---- Options ------------------------------------------------------------------------------------
 
+/// A height falls at this speed, and is the distance at `toi`: it is within δ of that not before
+/// toi − δ / speed.
 TEST(Tolerance, BoundsTheErrorOfTheTime) {
-  // The vertex falls from 1 to −2, in contact at 1/3: within δ of contact not before (1 − δ)/3.
+  struct Row {
+    PosedQuery posed;
+    TightInclusionOptions options;
+    Rational toi;
+    double speed;
+  };
+  std::vector<Row> rows;
   for (const double tolerance : {1e-1, 1e-3, 1e-6, 1e-9}) {
-    const auto result = solve(over_triangle(1, 1, 1, -2), {.tolerance = tolerance});
+    rows.push_back({over_triangle(1, 1, 1, -2), {.tolerance = tolerance}, Rational(1, 3), 3.0});
+  }
+  for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
+    for (const double d : {0x1p-1, 0x1p-3, 0x1p-10, 0x1p-30}) {
+      rows.push_back({stops_above(kind, 1.0, -1.0),
+                      {.separation = {.distance = d}},
+                      (1 - Rational(d)) / 2,
+                      2.0});
+    }
+  }
+  for (const auto& [posed, options, toi, speed] : rows) {
+    const auto result = solve(posed, options);
     ASSERT_EQ(result.verdict, Verdict::yes);
-    EXPECT_LE(Rational(result.toi), Rational(1, 3));
-    EXPECT_GE(result.toi, (1.0 - 2 * tolerance) / 3);
-    EXPECT_EQ(result.tolerance, tolerance);
+    EXPECT_LE(Rational(result.toi), toi);
+    EXPECT_GE(Rational(result.toi + 2 * result.tolerance / speed), toi);
+    EXPECT_LE(result.tolerance, is_zero(options.separation) ? options.tolerance : 1e-2);
+    EXPECT_EQ(result.separation.distance, options.separation.distance);
   }
 }
 
@@ -633,29 +639,119 @@ TEST(Method, RefusesToRunWithSubnormalsFlushed) {
   EXPECT_EQ(solve(over_triangle(1, 1, 1, -1)).verdict, Verdict::yes);
 }
 
-TEST(Method, AnswersASpanAsQueryByQuery) {
-  std::vector<Query> queries{over_triangle(1, 1, 1, -1).query, over_triangle(1, 1, 1, 2).query,
-                             over_triangle(1, 1, 1, -2).query};
-  queries.push_back(queries.front());
-  queries.back().coordinates[5] = infinity;
-  std::vector<Answer> answers(queries.size());
-  MethodOptions options;
-  options.tolerance = 1e-3;
-  options.t_max = 0.75;
-  tight_inclusion_method()->solve({Kind::vertex_face, queries}, answers, options);
-  EXPECT_EQ(answers[0].verdict, Verdict::yes);
-  EXPECT_EQ(answers[1].verdict, Verdict::no);
-  EXPECT_TRUE(std::isnan(answers[1].toi_lower));
-  EXPECT_EQ(answers[2].verdict, Verdict::yes);
-  EXPECT_EQ(answers[2].toi_lower,
-            solve(over_triangle(1, 1, 1, -2), {.tolerance = 1e-3, .t_max = 0.75}).toi);
-  EXPECT_EQ(answers[2].tolerance, 1e-3);
-  EXPECT_EQ(answers[2].checks,
-            solve(over_triangle(1, 1, 1, -2), {.tolerance = 1e-3, .t_max = 0.75}).checks);
-  EXPECT_GT(answers[2].checks, 1U);
-  EXPECT_TRUE(std::isnan(answers[2].toi_upper));
-  EXPECT_EQ(answers[3].verdict, Verdict::error);
-  EXPECT_TRUE(std::isnan(answers[3].toi_lower));
+/// As the function, on lines and on curves; one query is not finite.
+TEST(Method, AnswersAsTheFunction) {
+  Random random(105);
+  for (const QueryShape& shape : {QueryShape{}, {.kind = Kind::edge_edge, .degree = 3}}) {
+    std::vector<double> numbers(100 * shape.numbers_of_query());
+    for (double& x : numbers) x = random.uniform(-1, 1);
+    numbers[5] = infinity;
+    const Queries queries(shape, numbers);
+    std::vector<TightInclusionResult> found(queries.size());
+    tight_inclusion(queries, found, {.tolerance = 1e-2, .max_checks = 500, .t_max = 0.75});
+    std::vector<Answer> answers(found.size());
+    tight_inclusion_method()->solve(queries, answers,
+                                    {.tolerance = 1e-2, .max_checks = 500, .t_max = 0.75});
+    EXPECT_EQ(answers[0].verdict, Verdict::error);
+    for (std::size_t i = 0; i < found.size(); ++i) {
+      EXPECT_EQ(answers[i].verdict, found[i].verdict);
+      EXPECT_EQ(answers[i].checks, found[i].checks);
+      EXPECT_TRUE(std::isnan(answers[i].toi_upper));
+      EXPECT_EQ(std::isnan(answers[i].toi_lower), found[i].verdict != Verdict::yes);
+      if (found[i].verdict != Verdict::yes) continue;
+      EXPECT_EQ(answers[i].toi_lower, found[i].toi);
+      EXPECT_EQ(answers[i].tolerance, found[i].tolerance);
+    }
+    for (const Verdict verdict : {Verdict::yes, Verdict::no}) {
+      EXPECT_GT(std::ranges::count(found, verdict, &TightInclusionResult::verdict), 5);
+    }
+  }
+}
+
+// ---- Filters ------------------------------------------------------------------------------------
+
+constexpr double least = std::numeric_limits<double>::denorm_min();
+
+double on_first_axis(Kind kind, double x_max, double d, ErrorModel model = ErrorModel::derived) {
+  return error_filter(kind, {x_max, 0.0, 0.0}, d, model)[0];
+}
+
+TEST(ErrorFilter, IsTheDerivedBoundAndTakesTheSeparationForACoordinate) {
+  EXPECT_EQ(on_first_axis(Kind::edge_edge, 3.0, 2.0), filters::edge_edge_separated_double(3.0));
+  EXPECT_EQ(on_first_axis(Kind::vertex_face, 3.0, 5.0), filters::vertex_face_separated_double(5.0));
+  EXPECT_EQ(on_first_axis(Kind::vertex_face, 3.0, least),
+            filters::vertex_face_separated_double(3.0));
+  const auto in_float = [](Kind kind, double x_max, double d) {
+    return on_first_axis(kind, x_max, d, ErrorModel::single_precision);
+  };
+  EXPECT_EQ(in_float(Kind::edge_edge, 3.0, 0.0), filters::edge_edge_float(3.0F));
+  EXPECT_EQ(in_float(Kind::vertex_face, 0.0, 0.0), filters::vertex_face_float(0.0F));
+  EXPECT_EQ(in_float(Kind::edge_edge, 3.0, 5.0), filters::edge_edge_separated_float(5.0F));
+  EXPECT_EQ(in_float(Kind::vertex_face, 3.0, 1.0), filters::vertex_face_separated_float(3.0F));
+}
+
+TEST(ErrorFilter, GivesThePublishedConstantsUpToSizeOneAndReleasedScalesBelow) {
+  struct Row {
+    Kind kind;
+    double d, constant;
+  };
+  for (const auto& [kind, d, constant] : {Row{Kind::edge_edge, 0.0, 6.217248937900877e-15},
+                                          Row{Kind::vertex_face, 0.0, 6.661338147750939e-15},
+                                          Row{Kind::edge_edge, 1e-8, 7.105427357601002e-15},
+                                          Row{Kind::vertex_face, 1e-8, 7.549516567451064e-15}}) {
+    for (const double x_max : {0.0, 1e-300, 0.5, 1.0}) {
+      EXPECT_EQ(on_first_axis(kind, x_max, d, ErrorModel::published), constant);
+    }
+    // The release has the least of one and x_max for the greatest.
+    for (const double x_max : {0.0, 0x1p-20, 0.5, 1.0, 3.0, 1e6}) {
+      const double least_of_both = std::min(1.0, x_max);
+      EXPECT_EQ(on_first_axis(kind, x_max, d, ErrorModel::released),
+                constant * (least_of_both * least_of_both * least_of_both));
+    }
+  }
+  EXPECT_EQ(on_first_axis(Kind::edge_edge, 10.0, 0.0, ErrorModel::published),
+            6.217248937900877e-12);
+}
+
+TEST(ErrorFilter, IsBelowThePublishedAtEveryScale) {
+  for (const Kind kind : {Kind::edge_edge, Kind::vertex_face}) {
+    for (const double d : {0.0, 1e-30}) {
+      for (int exponent = -1074; exponent <= 300; ++exponent) {
+        for (const double factor : {1.0, 1.25, 1.5, 1.999}) {
+          const double x_max = std::ldexp(factor, exponent);
+          EXPECT_LT(on_first_axis(kind, x_max, d),
+                    on_first_axis(kind, x_max, d, ErrorModel::published))
+              << x_max;
+        }
+      }
+    }
+  }
+}
+
+/// The released bound is not one: it is below half a unit in the last place, an error that F's
+/// values have at least, for small or large coordinates.
+TEST(ErrorFilter, ReleasedIsBelowHalfAUnitInTheLastPlaceAtMostScales) {
+  for (const double x_max : {1e-3, 1e-2, 1e3}) {
+    EXPECT_LT(on_first_axis(Kind::vertex_face, x_max, 0.0, ErrorModel::released), 0x1p-53 * x_max);
+  }
+}
+
+TEST(ErrorFilter, IsInfiniteWhereOverflowCouldOccurAndNeverZero) {
+  for (const ErrorModel model :
+       {ErrorModel::derived, ErrorModel::published, ErrorModel::released}) {
+    EXPECT_EQ(on_first_axis(Kind::edge_edge, std::numeric_limits<double>::max(), 0.0, model),
+              infinity);
+    EXPECT_EQ(on_first_axis(Kind::vertex_face, 1.0, 0x1p1022, model), infinity);
+  }
+  EXPECT_LT(on_first_axis(Kind::edge_edge, 0x1p1020, 0.0), infinity);
+  for (const auto& [x_max, is_infinite] : {std::pair(0x1p120, false), {0x1p126, true}}) {
+    const double filter =
+        on_first_axis(Kind::vertex_face, x_max, 0.0, ErrorModel::single_precision);
+    EXPECT_EQ(filter == infinity, is_infinite) << x_max;
+  }
+  // Nothing but underflow.
+  EXPECT_GT(on_first_axis(Kind::edge_edge, 0.0, 0.0), 0.0);
+  EXPECT_GT(on_first_axis(Kind::vertex_face, least, 0.0), least);
 }
 
 }  // namespace

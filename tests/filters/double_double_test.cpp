@@ -6,8 +6,8 @@
 #include <cmath>
 #include <cstdint>
 #include <functional>
-#include <random>
 
+#include "tests/support/random.hpp"
 #include "tests/support/trials.hpp"
 #include "touchstone/derivation/mpfr_number.hpp"
 
@@ -36,20 +36,17 @@ struct Fused {
 
 // ---- Inputs -------------------------------------------------------------------------------------
 
-class Numbers {
+class Numbers : public tests::Random {
  public:
-  explicit Numbers(std::uint64_t seed) : random_(seed) {}
+  using tests::Random::Random;
 
-  std::uint64_t below(std::uint64_t end) { return random_() % end; }
+  std::uint64_t below(std::uint64_t end) { return bits() % end; }
   bool one_in(std::uint64_t n) { return below(n) == 0; }
-  int between(int least, int greatest) {
-    return least + static_cast<int>(below(static_cast<std::uint64_t>(greatest - least) + 1));
-  }
-  double sign() { return one_in(2) ? 1 : -1; }
+  double sign() { return coin() ? 1 : -1; }
 
   /// A significand in [1,2): of all bits, of few bits, or next to a power of two.
   double significand() {
-    const auto all = static_cast<double>(random_() >> 12U);
+    const auto all = static_cast<double>(bits() >> 12U);
     switch (below(4)) {
       case 0:
         return 1 + std::ldexp(static_cast<double>(below(8)), -52);
@@ -86,9 +83,6 @@ class Numbers {
     const Pair high = exact_sum(-a.high, difference);
     return exact_sum(high.high, high.low - a.low);
   }
-
- private:
-  std::mt19937_64 random_;
 };
 
 // ---- Exactness ----------------------------------------------------------------------------------

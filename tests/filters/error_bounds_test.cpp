@@ -1,15 +1,14 @@
 #include "touchstone/filters/error_bounds.hpp"
-#include "tests/support/built_files.hpp"
 
 #include <gtest/gtest.h>
 
-#include <fstream>
-#include <iterator>
 #include <limits>
 #include <string>
 #include <utility>
 
 #include "tests/filters/support.hpp"
+#include "tests/support/built_files.hpp"
+#include "tests/support/folder_test.hpp"
 #include "touchstone/derivation/catalogue.hpp"
 #include "touchstone/derivation/gappa.hpp"
 #include "touchstone/filters/polynomial_expressions.hpp"
@@ -19,12 +18,11 @@ namespace touchstone::filters::error_bounds_test {
 namespace {
 
 TEST(ErrorBounds, StandAsTheDerivationGivesThem) {
-  std::ifstream file(
-      tests::source_folder() + "/filters/include/touchstone/filters/error_bounds.hpp",
-      std::ios::binary);
-  const std::string text{std::istreambuf_iterator<char>(file), {}};
-  EXPECT_EQ(text, error_bounds_header()) << "write it anew: touchstone derive --emit "
-                                            "filters/include/touchstone/filters/error_bounds.hpp";
+  EXPECT_EQ(tests::read_file(tests::source_folder() +
+                             "/filters/include/touchstone/filters/error_bounds.hpp"),
+            error_bounds_header())
+      << "write it anew: touchstone derive --emit "
+         "filters/include/touchstone/filters/error_bounds.hpp";
 }
 
 /// A shipped bound, with its expression and precision.

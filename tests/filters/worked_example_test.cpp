@@ -2,14 +2,13 @@
 
 #include <gtest/gtest.h>
 
-#include <fstream>
-#include <iterator>
 #include <string>
 #include <vector>
 
 #include "tests/filters/support.hpp"
 #include "tests/filters/worked_example.hpp"
 #include "tests/support/built_files.hpp"
+#include "tests/support/folder_test.hpp"
 #include "touchstone/derivation/gappa.hpp"
 #include "touchstone/derivation/shipped_bound.hpp"
 
@@ -19,8 +18,7 @@ namespace {
 using researcher::Orientation;
 
 std::string read(const std::string& path) {
-  std::ifstream file(tests::source_folder() + "/" + path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
+  return tests::read_file(tests::source_folder() + "/" + path);
 }
 
 /// The parts of a file between "// README: …" and the next such line or the end.

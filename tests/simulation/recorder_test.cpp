@@ -6,10 +6,13 @@
 #include <vector>
 
 #include "examples/simulation/collision_detector.hpp"
+#include "examples/simulation/tumbling.hpp"
 #include "examples/simulation/world.hpp"
 #include "tests/support/folder_test.hpp"
 #include "touchstone/oracle.hpp"
 #include "verify/data/dataset.hpp"
+#include "verify/jobs/certify.hpp"
+#include "verify/solvers/registry.hpp"
 
 namespace touchstone::simulation::recorder_test {
 namespace {
@@ -21,16 +24,21 @@ INSTANTIATE_TEST_SUITE_P(Formats, Recorded, testing::Bool(),
 
 class RecordedPart : public tests::FolderTest {};
 
-TEST_P(Recorded, QueriesComeBackWithTheTruth) {
+/// Records `motions` times that a box falls onto a wedge.
+void record(Recorder& recorder, int motions, std::size_t limit = SIZE_MAX) {
   const World world(make_scene("wedge"));
   Eigen::VectorXd end = world.start();
   for (Eigen::Index i = 2; i < end.size(); i += 3) {
     if (!world.is_held(i)) end[i] -= 0.05;
   }
-  Recorder recorder({.folder = path("recorded"), .name = "wedge", .as_npy = GetParam()});
-  CollisionDetector detector({.recorder = &recorder});
-  (void)detector.step_size(world.step(world.start(), end));
+  CollisionDetector detector({.recorder = &recorder, .record_limit = limit});
+  for (int i = 0; i < motions; ++i) (void)detector.step_size(world.step(world.start(), end));
   recorder.close();
+}
+
+TEST_P(Recorded, QueriesComeBackWithTheTruth) {
+  Recorder recorder({.folder = path("recorded"), .name = "wedge", .as_npy = GetParam()});
+  record(recorder, 1);
   EXPECT_GT(recorder.collisions(Kind::edge_edge), 0);
   for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
     std::uint64_t queries = 0, collisions = 0;
@@ -50,15 +58,8 @@ TEST_P(Recorded, QueriesComeBackWithTheTruth) {
 
 /// The queries of two motions: all, or at most `limit` of each motion and kind.
 std::vector<Query> recorded(const std::string& folder, Kind kind, std::size_t limit) {
-  const World world(make_scene("wedge"));
-  Eigen::VectorXd end = world.start();
-  for (Eigen::Index i = 2; i < end.size(); i += 3) {
-    if (!world.is_held(i)) end[i] -= 0.05;
-  }
   Recorder recorder({.folder = folder, .name = "wedge", .as_npy = true});
-  CollisionDetector detector({.recorder = &recorder, .record_limit = limit});
-  for (int i = 0; i < 2; ++i) (void)detector.step_size(world.step(world.start(), end));
-  recorder.close();
+  record(recorder, 2, limit);
   const std::string file = folder + "/" + std::string(to_string(kind)) + "/wedge.npy";
   std::vector<Query> queries;
   const auto source = verify::data::open_dataset(file, {});
@@ -77,6 +78,38 @@ TEST_F(RecordedPart, IsSoManyOfEachMotionEvenlySpread) {
       EXPECT_EQ(some[i], all[i / 4 * of_motion + i % 4 * of_motion / 4]) << i;
     }
   }
+}
+
+// ---- Of a tumbling body -------------------------------------------------------------------------
+
+class Tumbling : public tests::FolderTest {};
+
+TEST_F(Tumbling, RecordsQueriesThatAreSolvedRightly) {
+  const TumblingResult result = tumble({.steps = 120, .folder = path("recorded")});
+  EXPECT_GT(result.impacts, 3);
+  EXPECT_LT(result.worst_change, 1e-9);
+  for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
+    const auto index = static_cast<std::size_t>(kind);
+    const auto source = verify::data::open_dataset(
+        path(kind == Kind::vertex_face ? "recorded/tumbling-vf.npy" : "recorded/tumbling-ee.npy"));
+    EXPECT_EQ(source->shape(), (QueryShape{.kind = kind, .degree = 3}));
+    const auto certified =
+        verify::solvers::solver_in_process(verify::solvers::find_method("certified"), {});
+    const auto judged = verify::jobs::certify(*source, {.solvers = {certified.get()}});
+    const auto& method = judged.methods.at(0);
+    EXPECT_EQ(judged.queries, result.queries.at(index));
+    EXPECT_EQ(judged.collisions, result.collisions.at(index));
+    EXPECT_EQ(method.judgement.queries, judged.queries);
+    EXPECT_TRUE(verify::judge::keeps(method.judgement, method.promise));
+  }
+  EXPECT_GT(result.collisions[0] + result.collisions[1], 0U);
+}
+
+TEST_F(Tumbling, IsTheSameWithoutFiles) {
+  const TumblingResult with = tumble({.steps = 60, .folder = path("recorded")});
+  const TumblingResult without = tumble({.steps = 60});
+  EXPECT_EQ(with.queries, without.queries);
+  EXPECT_EQ(with.collisions, without.collisions);
 }
 
 }  // namespace

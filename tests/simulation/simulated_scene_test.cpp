@@ -5,7 +5,6 @@
 #include <Eigen/LU>
 
 #include <algorithm>
-#include <stdexcept>
 #include <string>
 
 #include "examples/simulation/world.hpp"
@@ -53,15 +52,6 @@ TEST_P(Scenes, HaveClosedSurfacesAroundElasticBodies) {
       }
     }
     for (const auto& [edge, times] : passed) EXPECT_EQ(times, 2);
-  }
-}
-
-TEST(SceneNames, UnknownOnesAreReportedWithAllNames) {
-  try {
-    (void)make_scene("nowhere");
-    FAIL();
-  } catch (const std::invalid_argument& error) {
-    EXPECT_NE(std::string(error.what()).find("torus-on-cone"), std::string::npos);
   }
 }
 

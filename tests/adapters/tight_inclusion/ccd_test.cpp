@@ -2,12 +2,17 @@
 
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <stdexcept>
 
 #include <tight_inclusion/ccd.hpp>
+#include <tight_inclusion/interval_root_finder.hpp>
+#include <tight_inclusion/logger.hpp>
+#include <tight_inclusion/timer.hpp>
 
 #include "tests/support/random.hpp"
 #include "touchstone/certified.hpp"
+#include "touchstone/tight_inclusion.hpp"
 
 namespace touchstone::adapters::ccd_test {
 namespace {
@@ -108,6 +113,57 @@ TEST(TightInclusionAdapter, HasTheTolerancesOfTheParameters) {
       << of_edges;
   EXPECT_EQ(ticcd::compute_edge_edge_tolerances(o, a, v, below, o, a, v, below)[1], 1e-6 / 12.0);
   EXPECT_EQ(ticcd::return_queue_size(), 0);
+}
+
+// ---- Its other headers --------------------------------------------------------------------------
+
+TEST(TightInclusionFilter, IsThatOfTheGreatestCoordinates) {
+  for (const bool is_vertex_face : {false, true}) {
+    for (const bool is_separated : {false, true}) {
+      const ticcd::Array3 filter = ticcd::get_numerical_error(
+          {Vector3(-8, 1, 0), Vector3(3, -2, 1e9)}, is_vertex_face, is_separated);
+      const auto expected = fast::error_filter(is_vertex_face ? Kind::vertex_face : Kind::edge_edge,
+                                               {8, 2, 1e9}, is_separated ? 1e-300 : 0.0);
+      for (Eigen::Index axis = 0; axis < 3; ++axis) {
+        EXPECT_EQ(filter[axis], expected[static_cast<std::size_t>(axis)]);
+      }
+    }
+  }
+}
+
+TEST(TightInclusionTimer, StandsAfterItsStop) {
+  ticcd::Timer timer;
+  EXPECT_EQ(timer.getElapsedTime(), 0.0);
+  timer.start();
+  const double first = timer.getElapsedTimeInMicroSec();
+  EXPECT_GE(timer.getElapsedTimeInMicroSec(), first);
+  timer.stop();
+  const double seconds = timer.getElapsedTime();
+  EXPECT_GE(1e6 * seconds, 0.999 * first);
+  EXPECT_EQ(timer.getElapsedTimeInSec(), seconds);
+  EXPECT_NEAR(timer.getElapsedTimeInMilliSec(), 1e3 * seconds, 1e-9 * seconds);
+  EXPECT_NEAR(timer.getElapsedTimeInMicroSec(), 1e6 * seconds, 1e-6 * seconds);
+}
+
+TEST(TightInclusionTimer, AddsItsLifeTimeOnce) {
+  double total = 1.0;
+  {
+    TIGHT_INCLUSION_SCOPED_TIMER(total);
+    ticcd::ScopedTimer timer(total);
+    while (timer.getElapsedTimeInMicroSec() == 0.0) {
+    }
+    timer.stop();
+    EXPECT_EQ(total, 1.0 + timer.getElapsedTimeInMicroSec());
+  }
+  EXPECT_GT(total, 1.0);
+}
+
+TEST(TightInclusionLogger, IsOfItsNameUntilAnotherIsSet) {
+  EXPECT_EQ(ticcd::logger().name(), "ticcd");
+  EXPECT_NE(&ticcd::logger(), spdlog::default_logger().get());
+  const auto other = std::make_shared<spdlog::logger>("other");
+  ticcd::set_logger(other);
+  EXPECT_EQ(&ticcd::logger(), other.get());
 }
 
 }  // namespace

@@ -1,6 +1,6 @@
 /// \file
 /// The checker on streams: what it counts, how it goes on after a rejection, what it does with
-/// bytes that are no certificates; the corpus of the fuzzer, and the examples of the manual.
+/// bytes that are no certificates; and the examples of the manual.
 
 #include "exact/checker/checker.hpp"
 
@@ -9,21 +9,18 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <locale>
-#include <map>
 #include <sstream>
 #include <stdexcept>
 #include <streambuf>
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 #include "tests/support/built_files.hpp"
 #include "tests/support/checker_outcome.hpp"
+#include "tests/support/folder_test.hpp"
 #include "tests/support/rows.hpp"
 
 namespace touchstone::checker::checker_test {
@@ -281,38 +278,11 @@ TEST(Check, TellsAnErrorFromTheEnd) {
 
 // ---- Files --------------------------------------------------------------------------------------
 
-std::string read(const std::filesystem::path& path) {
-  std::ifstream stream(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
-}
-
-const std::filesystem::path root = tests::source_folder();
-
-/// What becomes of each file of the fuzzer's corpus: accepted / rejected.
-TEST(Corpus, HasTheOutcomeThatItShould) {
-  const std::map<std::string, std::pair<std::uint64_t, std::uint64_t>> expected{
-      {"contacts.cert", {7, 0}}, {"features.cert", {6, 0}},  {"numbers.cert", {2, 0}},
-      {"false.cert", {0, 7}},    {"broken.cert", {1, 7}},    {"wrong_header.cert", {0, 1}},
-      {"cut.cert", {2, 1}},      {"empty.cert", {0, 0}},     {"miscounted.cert", {2, 1}},
-      {"deep.cert", {1, 1}},     {"distances.cert", {8, 0}}, {"false_distances.cert", {0, 6}},
-      {"steps.cert", {3, 0}},    {"meshes.cert", {1, 0}}};
-  std::size_t found = 0;
-  for (const auto& entry :
-       std::filesystem::directory_iterator(root / "tests/exact/checker/corpus")) {
-    const std::string name = entry.path().filename().string();
-    ASSERT_TRUE(expected.contains(name)) << name;
-    const Report report = check_text(read(entry.path()));
-    EXPECT_EQ(std::pair(report.accepted(), report.rejected), expected.at(name))
-        << name << testing::PrintToString(rejections(report));
-    ++found;
-  }
-  EXPECT_EQ(found, expected.size());
-}
-
 /// The blocks of the manual that hold certificates: all are accepted, and every claim is among
 /// them.
 TEST(Manual, HasExamplesThatAreAccepted) {
-  const std::string manual = read(root / "exact/CERTIFICATES.md"), fence = "```\n";
+  const std::string manual = tests::read_file(tests::source_folder() + "/exact/CERTIFICATES.md"),
+                    fence = "```\n";
   Report sum;
   for (std::size_t at = 0; (at = manual.find(fence + header, at)) != std::string::npos;) {
     const std::size_t begin = at + fence.size(), end = manual.find("\n```", begin) + 1;

@@ -3,16 +3,14 @@
 
 #include <gtest/gtest.h>
 #include <sys/wait.h>
-#include <unistd.h>
 
 #include <cstdio>
 #include <cstdlib>
-#include <filesystem>
-#include <fstream>
 #include <string>
 #include <utility>
 
 #include "tests/support/built_files.hpp"
+#include "tests/support/folder_test.hpp"
 
 namespace touchstone::checker::main_test {
 namespace {
@@ -37,48 +35,54 @@ Outcome run(const std::string& arguments) {
   return outcome;
 }
 
-const std::string corpus = tests::source_folder() + "/tests/exact/checker/corpus/";
+const std::string apart =
+    "touchstone-certificates 2\nquery vertex_face\npoint 1 1 1\npoint 0 0 0\npoint 4 0 0\npoint 0 "
+    "4 "
+    "0\npoint 1 1 2\npoint 0 0 0\npoint 4 0 0\npoint 0 4 0\nclaim no_collision\nseparate 0 1 face "
+    "+\nend\n";
 
-TEST(Command, ReadsStandardInput) {
-  EXPECT_EQ(run("- < " + corpus + "features.cert").status, 0);
-  EXPECT_EQ(run("- < " + corpus + "features.cert").output, run(corpus + "features.cert").output);
-  EXPECT_EQ(run("- < " + corpus + "false.cert").status, 1);
+class Command : public testing::Test {
+ protected:
+  const tests::TemporaryFolder folder_;
+  /// One certificate, which is accepted, and others that are not.
+  const std::string apart_ = folder_.file("apart.cert", apart + "certificates 1\n"),
+                    broken_ =
+                        folder_.file("broken.cert",
+                                     apart + "query vertex_face\npoint 1 1 nan\nend\n" +
+                                         "query vertex_face\npoint 1 1 " + std::string(5'000, '9') +
+                                         "\nend\nquery edge_edge\n" + "label \x1b[2J\npoint 1 2");
+};
+
+TEST_F(Command, ReadsStandardInput) {
+  EXPECT_EQ(run("- < " + apart_).status, 0);
+  EXPECT_EQ(run("- < " + apart_).output, run(apart_).output);
+  EXPECT_EQ(run("- < " + broken_).status, 1);
 }
 
-TEST(Command, NamesLinesLabelsAndReasons) {
-  const auto [status, output] = run(corpus + "broken.cert");
+TEST_F(Command, NamesLinesLabelsAndReasons) {
+  const auto [status, output] = run(broken_);
   EXPECT_EQ(status, 1);
   EXPECT_EQ(output,
             "accepted         1\n  no_collision   1\n  collision      0\n  time_of_impact "
-            "0\nrejected         7\n"
-            "  line 10: expected 'point', found 'claim'\n"
-            "  line 14: not a number: 'nan'\n"
-            "  line 37: expected 'end', found 'query'\n"
-            "  line 59: unknown word: '*'\n"
-            "  line 62: more than 4933 digits in a number: "
+            "0\nrejected         4\n"
+            "  line 15: not a number: 'nan'\n"
+            "  line 18: more than 4933 digits in a number: "
             "'9999999999999999999999999999999999999999...'\n"
-            "  line 75 (\\x1b[2J): the last line is not ended by a newline\n"
-            "  line 75: the stream is cut: it has no closing line 'certificates 7'\n");
+            "  line 22 (\\x1b[2J): the last line is not ended by a newline\n"
+            "  line 22: the stream is cut: it has no closing line 'certificates 4'\n");
 }
 
-TEST(Command, SaysHowManyRejectionsItDoesNotShow) {
-  const std::string path =
-      ::testing::TempDir() + "touchstone_check_" + std::to_string(getpid()) + ".cert";
-  {
-    std::ofstream file(path, std::ios::binary);
-    file << "touchstone-certificates 2\n";
-    for (int n = 0; n < 103; ++n) file << "query\n";
-    file << "certificates 103\n";
-  }
-  const auto [status, output] = run(path);
-  std::filesystem::remove(path);
+TEST_F(Command, SaysHowManyRejectionsItDoesNotShow) {
+  std::string text = "touchstone-certificates 2\n";
+  for (int n = 0; n < 103; ++n) text += "query\n";
+  const auto [status, output] = run(folder_.file("some.cert", text + "certificates 103\n"));
   EXPECT_EQ(status, 1);
   EXPECT_NE(output.find("rejected         103\n"), std::string::npos);
   EXPECT_NE(output.find("  line 101: the line has too few words\n  and 3 more\n"),
             std::string::npos);
 }
 
-TEST(Command, TellsBadInputFromRejection) {
+TEST_F(Command, TellsBadInputFromRejection) {
   for (const auto& [arguments, reason] :
        {std::pair("/does/not/exist",
                   "touchstone-check: /does/not/exist: the file cannot be opened\n"),
@@ -91,24 +95,23 @@ TEST(Command, TellsBadInputFromRejection) {
   EXPECT_EQ(run("/dev/null").status, 1);
 }
 
-TEST(Command, FailsIfItsOutputCannotBeWritten) {
-  for (const std::string& arguments : {corpus + "contacts.cert", std::string("--help")}) {
+TEST_F(Command, FailsIfItsOutputCannotBeWritten) {
+  for (const std::string& arguments : {apart_, std::string("--help")}) {
     const auto [status, output] = run(arguments + " 2>&1 > /dev/full");
     EXPECT_EQ(status, 2) << arguments;
     EXPECT_TRUE(output.ends_with(": standard output cannot be written\n")) << output;
   }
 }
 
-TEST(Command, DemandsAClaimAndASeparation) {
-  const std::string features = corpus + "features.cert";
-  EXPECT_EQ(run("--claim no_collision " + features).status, 0);
-  EXPECT_EQ(run("--claim collision " + features).status, 1);
-  const auto [status, output] = run("--claim free --separation 1e-8 --norm l2 " + features);
+TEST_F(Command, DemandsAClaimAndASeparation) {
+  EXPECT_EQ(run("--claim no_collision " + apart_).status, 0);
+  EXPECT_EQ(run("--claim collision " + apart_).status, 1);
+  const auto [status, output] = run("--claim free --separation 1e-8 --norm l2 " + apart_);
   EXPECT_EQ(status, 1);
   EXPECT_NE(output.find("the claim is not the one demanded: "), std::string::npos) << output;
 }
 
-TEST(Command, KnowsItsUsage) {
+TEST_F(Command, KnowsItsUsage) {
   const auto [status, help] = run("--help");
   EXPECT_EQ(status, 0);
   EXPECT_TRUE(help.starts_with("usage: touchstone-check [OPTIONS] FILE|- [SCENES]\n"));

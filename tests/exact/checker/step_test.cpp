@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <fstream>
-#include <iterator>
 #include <sstream>
 #include <string>
 #include <string_view>
@@ -17,6 +15,7 @@
 #include "tests/faults/planted_faults.hpp"
 #include "tests/support/built_files.hpp"
 #include "tests/support/checker_outcome.hpp"
+#include "tests/support/folder_test.hpp"
 #include "tests/support/rows.hpp"
 
 // Certificates of steps: what is accepted, and that every falsehood in one is refused.
@@ -269,15 +268,21 @@ TEST(Step, IsHeldAgainstAScene) {
   EXPECT_EQ(refusal_about(scene, proof), "the scene is not the one given");
 }
 
-/// The second step of the corpus: the earliest contact, at 1/2.
+/// Three steps.
+std::string corpus() {
+  return tests::read_file(tests::source_folder() + "/tests/exact/checker/corpus/steps.cert");
+}
+
+/// The second of them: the earliest contact, at 1/2.
 std::string earliest() {
-  std::ifstream file(tests::source_folder() + "/tests/exact/checker/corpus/steps.cert");
-  const std::string text{std::istreambuf_iterator<char>(file), {}};
+  const std::string text = corpus();
   const std::size_t first = text.find("step and"), last = text.find("step at once");
   return stream(text.substr(first, last - first));
 }
 
 TEST(Step, ProvesTheEarliestContact) {
+  EXPECT_EQ(check_text(corpus()).steps.size(), 3U);
+  EXPECT_EQ(refusal(corpus()), "");
   const std::string text = earliest();
   ASSERT_EQ(refusal(text), "");
   const std::string lower = "0x1.fffffffffffffp-2", below = "0x1.ffffffffffffep-2",

@@ -1,8 +1,8 @@
 """Do touchstone-check and touchstone-check-verified agree?
 
 On certificates that `touchstone prove` writes (the built-in set and, if TOUCHSTONE_DATA names them, the
-public data, in all separations), on the list of altered certificates, whose outcomes it says, on the corpus of the fuzzer,
-and on mutants of certificates. Equal are exit status and output. Of a proof that is rejected the verified program names the part; then the certificate has
+public data, in all separations), on the list of altered certificates, whose outcomes it says, on certificates of steps, which
+are not covered, and on mutants of certificates. Equal are exit status and output. Of a proof that is rejected the verified program names the part; then the certificate has
 to be the same, by its label.
 """
 
@@ -115,6 +115,14 @@ def listed(path):
                 yield "\n".join(lines[1:]) + "\n", not arrow
 
 
+def write_list(path, folder):
+    """Write each certificate of the list as a stream, for the fuzzer to begin with."""
+    folder.mkdir(exist_ok=True)
+    for n, (text, _) in enumerate(listed(path)):
+        stream = f"touchstone-certificates 2\n{text}certificates 1\n"
+        (folder / f"{n}.cert").write_bytes(stream.encode("latin1"))
+
+
 def list_results(programs, folder, path):
     """What both programs answer to the list, in the order of the expected outcomes."""
     certificates = list(listed(path))
@@ -225,7 +233,11 @@ def main():
     parser.add_argument("--mutants", type=int, default=10_000)
     parser.add_argument("--seed", type=int, default=2021)
     parser.add_argument("--no-data", action="store_true", help="leave out the public data")
+    parser.add_argument("--write-list", type=pathlib.Path, metavar="FOLDER", help="write the list there, and nothing else")
     arguments = parser.parse_args()
+    cases = pathlib.Path(__file__).parent
+    if arguments.write_list:
+        return write_list(cases / "certificates.txt", arguments.write_list)
     tool = f"{arguments.programs}/touchstone"
     programs = (f"{arguments.programs}/touchstone-check", arguments.verified)
     draw = random.Random(arguments.seed)
@@ -263,10 +275,9 @@ def main():
                     report(f"{name}, {of}, {claim}", [Result(programs, path)])
                     if name == "built-in set":
                         originals += certificates(path)
-        cases = pathlib.Path(__file__).parent
         report("list of altered certificates",
                list(list_results(programs, pathlib.Path(folder), cases / "certificates.txt")))
-        report("corpus of the fuzzer", [Result(programs, file) for file in sorted((cases / "corpus").iterdir())])
+        report("certificates of steps", [Result(programs, cases / "corpus/steps.cert")])
         results = []
         for first in range(0, arguments.mutants, BATCH):
             write_mutants(draw, originals, path, first, min(BATCH, arguments.mutants - first))

@@ -1,17 +1,16 @@
 #include "touchstone/derivation/gappa.hpp"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <chrono>
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
 #include <string>
 #include <utility>
 
 #include "tests/filters/support.hpp"
 #include "tests/filters/worked_example.hpp"
+#include "tests/support/folder_test.hpp"
 #include "touchstone/derivation/shipped_bound.hpp"
 #include "touchstone/filters/polynomial_expressions.hpp"
 
@@ -162,25 +161,19 @@ TEST(Gappa, RefusesGoalsThatItsModelDoesNotHave) {
 /// A program called gappa, alone in PATH, during the life of this object.
 class FakeGappa {
  public:
-  explicit FakeGappa(const std::string& body)
-      : folder_(fs::path(::testing::TempDir()) / ("touchstone_gappa_" + std::to_string(getpid()))) {
-    fs::create_directories(folder_);
-    std::ofstream(folder_ / "gappa") << "#!/bin/sh\n" << body << "\n";
-    fs::permissions(folder_ / "gappa", fs::perms::owner_all);
+  explicit FakeGappa(const std::string& body) {
+    fs::permissions(folder_.file("gappa", "#!/bin/sh\n" + body + "\n"), fs::perms::owner_all);
     if (const char* const before = std::getenv("PATH")) path_before_ = before;
-    setenv("PATH", folder_.c_str(), 1);
+    setenv("PATH", folder_.path().c_str(), 1);
   }
   FakeGappa(const FakeGappa&) = delete;
   FakeGappa& operator=(const FakeGappa&) = delete;
   FakeGappa(FakeGappa&&) = delete;
   FakeGappa& operator=(FakeGappa&&) = delete;
-  ~FakeGappa() {
-    setenv("PATH", path_before_.c_str(), 1);
-    fs::remove_all(folder_);
-  }
+  ~FakeGappa() { setenv("PATH", path_before_.c_str(), 1); }
 
  private:
-  fs::path folder_;
+  tests::TemporaryFolder folder_;
   std::string path_before_;
 };
 
