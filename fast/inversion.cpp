@@ -152,7 +152,7 @@ InversionResult decide_one(const KernelInput& element, const InversionOptions& o
 }
 
 /// So many blocks at once in one thread.
-constexpr std::size_t blocks_a_task = 8;
+constexpr std::size_t blocks_of_task = 8;
 
 void decide_all(const KernelInput& all, std::size_t size, std::span<InversionResult> results,
                 const InversionOptions& options) {
@@ -162,7 +162,7 @@ void decide_all(const KernelInput& all, std::size_t size, std::span<InversionRes
                                 std::to_string(size) + " elements");
   }
   const CertifiedKernel& kernel = certified_kernel(chosen_kernels());
-  for_each_kernel_block(size, options.max_threads, blocks_a_task, [&](std::size_t first) {
+  for_each_kernel_block(size, options.max_threads, blocks_of_task, [&](std::size_t first) {
     const KernelInput block = block_at(all, size, first);
     const auto of_block = results.subspan(first, block.count);
     std::ranges::fill(of_block, free_of_inversion);
@@ -178,7 +178,7 @@ std::vector<Inversion> find_all(const KernelInput& all, std::size_t size,
   const CertifiedOptions checked = valid(options);
   const CertifiedKernel& kernel = certified_kernel(chosen_kernels());
   std::vector<std::vector<Inversion>> of_blocks((size + kernel_block - 1) / kernel_block);
-  for_each_kernel_block(size, options.max_threads, blocks_a_task, [&](std::size_t first) {
+  for_each_kernel_block(size, options.max_threads, blocks_of_task, [&](std::size_t first) {
     std::vector<Inversion>& found = of_blocks[first / kernel_block];
     decide_block(block_at(all, size, first), checked, kernel,
                  [&](std::size_t index, const InversionResult& result) {
