@@ -182,7 +182,8 @@ Triple<Rational> line_in_plane(const PairPlaces& places) {
   for (const auto* own : {&places.first, &places.second}) {
     for (const auto& x : *own) {
       for (const auto& y : *own) {
-        const Triple<Rational> to_x = difference(exactly(x), c), to_y = difference(exactly(y), c);
+        Triple<Rational> to_x = difference(exactly(x), c);
+        const Triple<Rational> to_y = difference(exactly(y), c);
         if (is_zero(cross(to_x, to_y)) && dot(to_x, to_y) < 0) return to_x;
       }
     }
@@ -317,8 +318,8 @@ class MeshProver {
       text.back() = '\n';
     }
     const auto one_by_one = [](const std::vector<std::int32_t>& numbers) {
-      std::vector<std::array<std::int32_t, 1>> items;
-      for (const std::int32_t number : numbers) items.push_back({number});
+      std::vector<std::array<std::int32_t, 1>> items(numbers.size());
+      for (std::size_t i = 0; i < numbers.size(); ++i) items[i] = {numbers[i]};
       return items;
     };
     exact::write_step_list(text, "faces", scene_.faces);
