@@ -303,7 +303,8 @@ TEST(ActiveSet, NormalsAndContactsAgreeWithEachOther) {
 
 /// The active sets of a scene by hand and of random ones with radii differ.
 bool is_found(tests::FindActive& find) {
-  const Step falling = point_and_face(1, -2).step();
+  const Scene by_hand = point_and_face(1, -2);
+  const Step falling = by_hand.step();
   if (find(falling, {}) != active_set(falling, {})) return true;
   Random random(2203);
   for (int round = 0; round < 200; ++round) {
