@@ -198,10 +198,9 @@ struct ActiveContact : StepCollision {
   /// True if the normal points to the proved side. False if there is no normal.
   bool has_side = false;
 
-  /// True if the contact has a normal, which is known but for normal_error.
-  [[nodiscard]] bool has_normal() const {
-    return normal_error < std::numeric_limits<double>::infinity();
-  }
+  /// True if the contact has a normal, which is known but for normal_error. (Compared so that it
+  /// holds where a caller's compiler takes every number for finite.)
+  [[nodiscard]] bool has_normal() const { return normal_error < 1.0; }
 };
 
 /// The contact of a collision of this step, as from its `earliest` or `collisions`.
