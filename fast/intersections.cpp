@@ -90,20 +90,14 @@ class Elements {
     }
     for (const std::int32_t point : points_) add(primitive_of(point));
     if (options.weld) weld(first_at_place(at, options.groups.of_vertices));
-    examine(at);
+    rows_.reserve(vertices_.size());
+    for (const auto& [a, b, c] : vertices_) rows_.push_back({a, b, c, 0});
   }
 
   [[nodiscard]] std::size_t faces() const { return faces_; }
   /// The vertices of each element.
   [[nodiscard]] std::span<const Primitive> vertices() const { return vertices_; }
   [[nodiscard]] std::span<const ElementRow> rows() const { return rows_; }
-  [[nodiscard]] meeting::Element element(const Positions& at, std::int32_t number) const {
-    const auto i = static_cast<std::size_t>(number);
-    const Primitive& vertices = vertices_[i];
-    if (rows_[i][3] == no_triangle) return meeting::element_of(at, vertices);
-    return {vertices, vertices};
-  }
-
   /// The kind of an element, and its number in the interface.
   [[nodiscard]] std::pair<ElementKind, std::int32_t> reported(std::int32_t number) const {
     const auto i = static_cast<std::size_t>(number);
@@ -128,22 +122,6 @@ class Elements {
       element = meeting::in_normal_form(element);
     }
   }
-
-  /// Sets the rows: finds the triangles with an area.
-  void examine(const Positions& at) {
-    rows_.resize(vertices_.size());
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, vertices_.size(), elements_of_task),
-                      [&](const tbb::blocked_range<std::size_t>& range) {
-                        const StrictFloatingPoint strict;
-                        for (std::size_t i = range.begin(); i < range.end(); ++i) {
-                          const auto& [a, b, c] = vertices_[i];
-                          const auto simplex = meeting::element_of(at, vertices_[i]).simplex;
-                          rows_[i] = {a, b, c, meeting::dimension(simplex) == 2 ? 0 : no_triangle};
-                        }
-                      });
-  }
-
-  static constexpr std::size_t elements_of_task = 4096;
 
   std::size_t faces_;
   std::vector<std::int32_t> edges_;   ///< of no face, or all
@@ -235,8 +213,7 @@ class Search final : private PairQuestions {
     meeting::PairFilter& filter = filters_.local();
     const TriangleKernel& kernel = *triangle_kernels().back();
     const auto examine = [&](const IndexPair& pair) {
-      const auto meeting = meeting::meeting_of(at_, elements_.element(at_, pair[0]),
-                                               elements_.element(at_, pair[1]));
+      const auto meeting = meeting::meeting_of(at_, element(pair[0]), element(pair[1]));
       if (meeting) take({pair, *meeting});
     };
     PairSink buffer(
@@ -269,6 +246,10 @@ class Search final : private PairQuestions {
     buffer.flush();
   }
 
+  [[nodiscard]] meeting::Element element(std::int32_t number) const {
+    return meeting::element_of(at_, elements_.vertices()[static_cast<std::size_t>(number)]);
+  }
+
   [[nodiscard]] Intersection intersection_of(const Found& found) const {
     const auto& [pair, meeting] = found;
     const auto [kind_a, a] = elements_.reported(pair[0]);
@@ -276,8 +257,7 @@ class Search final : private PairQuestions {
     Intersection result{
         .elements = {kind_a, kind_b}, .numbers = {a, b}, .kind = meeting.kind, .place = {}};
     if (options_.places) {
-      result.place = meeting::place_of(at_, elements_.element(at_, pair[0]),
-                                       elements_.element(at_, pair[1]), meeting.contacts);
+      result.place = meeting::place_of(at_, element(pair[0]), element(pair[1]), meeting.contacts);
     }
     return result;
   }

@@ -18,10 +18,8 @@ namespace touchstone::fast {
 /// x, y and z of a vertex at rest, and an unused number.
 using PlaceAtRest = std::array<double, 4>;
 
-/// The vertices of an element in normal form (contacts.hpp), and 0 if it is a triangle with an
-/// area, otherwise no_triangle.
+/// The vertices of an element in normal form (contacts.hpp), and 0.
 using ElementRow = std::array<std::int32_t, 4>;
-inline constexpr std::int32_t no_triangle = 1 << 9;
 
 /// A pair of elements, and its vertices: the common ones first, then the others of the first
 /// element, then those of the second. (With common vertices the last places are unused.) With one
@@ -31,8 +29,8 @@ struct alignas(32) ElementPair {
   IndexPair pair;
 };
 
-/// Pairs by the number of their common vertices. The last list has those with common vertices that
-/// are not of two different triangles with an area; their `vertices` have no meaning.
+/// Pairs by the number of their common vertices. The last list has those with the same vertices,
+/// and those of which one element has a common vertex twice; their `vertices` have no meaning.
 struct SortedPairs {
   /// So many that the lists stay in the first cache.
   static constexpr std::size_t capacity = 512;

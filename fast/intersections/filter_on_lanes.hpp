@@ -55,8 +55,8 @@
 /// Where planes nearly coincide only the projection can be certain, elsewhere sides suffice; so the
 /// projection is computed only if a lane needs it.
 ///
-/// Other elements than triangles, and faces without an area, may be among pairs without a common
-/// vertex: they have no certain sign where the proof needs an area.
+/// All of this holds for other elements, too, as triangles without an area: where a proof needs an
+/// area, a sign is certain only with one.
 ///
 /// `Lanes` is a type of the file of one instruction set, in an anonymous namespace, with Value and
 /// Mask as in fast/certified/stages/lanes.hpp, and the functions of pair_order.hpp. No other file

@@ -7,8 +7,7 @@
 /// `Lanes`, besides what the filter needs, has
 /// - Both: the rows of two elements;
 /// - both(a, b);
-/// - equal_vertices(both): bit 3 k + i if vertex i of the first is vertex k of the second, and the
-///   bit no_triangle if one of them is no triangle;
+/// - equal_vertices(both): bit 3 k + i if vertex i of the first is vertex k of the second;
 /// - write(to, both, order, pair): the pair, with the vertices in that order.
 
 #include <array>
@@ -34,11 +33,7 @@ constexpr Order order_of(unsigned equal) {
     for (std::size_t n = 0; n < 6; ++n) result.places[n] = static_cast<std::uint8_t>(places[n]);
     return result;
   };
-  const bool are_triangles = equal < static_cast<unsigned>(no_triangle);
-  if (equal == 0 || equal == static_cast<unsigned>(no_triangle)) {
-    return order(0, {0, 1, 2, 4, 5, 6});
-  }
-  if (!are_triangles) return {};
+  if (equal == 0) return order(0, {0, 1, 2, 4, 5, 6});
   const auto first = static_cast<unsigned>(std::countr_zero(equal)), i = first % 3, k = first / 3;
   const auto last = static_cast<unsigned>(std::bit_width(equal)) - 1, j = last % 3, l = last / 3;
   if (std::popcount(equal) == 1) {
@@ -51,7 +46,7 @@ constexpr Order order_of(unsigned equal) {
 }
 
 constexpr auto orders = [] {
-  std::array<Order, 2 * no_triangle> result;
+  std::array<Order, 512> result;
   for (unsigned equal = 0; equal < result.size(); ++equal) result[equal] = order_of(equal);
   return result;
 }();
@@ -85,7 +80,7 @@ struct OneByOne {
     const Row of_a{a[0], a[1], a[2], 0};
     const Row bits = ((of_a == b[0]) & Row{1, 2, 4, 0}) | ((of_a == b[1]) & Row{8, 16, 32, 0}) |
                      ((of_a == b[2]) & Row{64, 128, 256, 0});
-    return static_cast<unsigned>(bits[0] | bits[1] | bits[2] | a[3] | b[3]);
+    return static_cast<unsigned>(bits[0] | bits[1] | bits[2]);
   }
 
   static void write(ElementPair* to, const Both& both, const Order& order, const IndexPair& pair) {

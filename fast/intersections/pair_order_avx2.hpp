@@ -25,11 +25,9 @@ struct InOneVector {
     const __m256i equal = _mm256_cmpeq_epi32(_mm256_permutevar8x32_epi32(both, first),
                                              _mm256_permutevar8x32_epi32(both, second));
     const auto bits = static_cast<unsigned>(_mm256_movemask_ps(_mm256_castsi256_ps(equal)));
-    // The third vertices, and what is no triangle.
     const __m128i a = _mm256_castsi256_si128(both), b = _mm256_extracti128_si256(both, 1);
-    const bool is_last = _mm_extract_epi32(a, 2) == _mm_extract_epi32(b, 2);
-    return bits | static_cast<unsigned>(is_last) << 8U |
-           static_cast<unsigned>(_mm_extract_epi32(_mm_or_si128(a, b), 3));
+    const bool are_thirds_equal = _mm_extract_epi32(a, 2) == _mm_extract_epi32(b, 2);
+    return bits | static_cast<unsigned>(are_thirds_equal) << 8U;
   }
 
   static void write(ElementPair* to, const Both& both, const Order& order, const IndexPair& pair) {

@@ -326,10 +326,6 @@ class FilterTrial {
       }
       pairs_.push_back({2 * pair, 2 * pair + 1});
     }
-    for (const std::int32_t face :
-         mesh_defects(mesh_.vertices, mesh_.elements()).degenerate_faces) {
-      rows_[static_cast<std::size_t>(face)][3] = no_triangle;
-    }
   }
 
   /// Numbers of pairs, and whether they certainly cross, or intersect with edge_through_face.
