@@ -15,7 +15,9 @@
 #include "exact/checker/resting_mesh.hpp"
 #include "exact/checker/resting_pair.hpp"
 #include "tests/faults/planted_faults.hpp"
+#include "tests/support/built_files.hpp"
 #include "tests/support/checker_outcome.hpp"
+#include "tests/support/folder_test.hpp"
 #include "tests/support/rows.hpp"
 
 // Certificates of meshes at rest: what is accepted, and that every falsehood in one is refused.
@@ -254,6 +256,9 @@ const std::vector<std::array<std::string_view, 3>>& alterations() {
 
 TEST(MeshCertificate, WithOneAlterationIsRefused) {
   ASSERT_EQ(refusal(proved), "");
+  ASSERT_EQ(
+      refusal(tests::read_file(tests::source_folder() + "/tests/exact/checker/corpus/meshes.cert")),
+      "");
   for (const auto& [truth, lie, reason] : alterations()) {
     EXPECT_EQ(refusal(replaced(proved, truth, lie)), reason) << lie;
   }
