@@ -481,14 +481,20 @@ class Step:
             command: list[Any] = ["step", frames, "--earliest", "--prove", os.path.abspath(path)]
             command += ["--min-separation", float(separation).hex(), "--norm", norm]
             command += ["--t-max", repr(float(self._options[0])), "--threads", self._options[2]]
+            if len(radii) + len(separated) and not len(groups):
+                groups = np.zeros(len(self._vertices[0]), dtype=np.int32)
+            used = set(groups.tolist())
             if len(groups):
                 names = run.folder / "groups.txt"
                 names.write_text("".join(f"{group}\n" for group in groups))
                 command += ["--groups", names]
             command += [word for pair in apart for word in ("--apart", *pair)]
             for option, lines in (
-                ("--radii", [f"{group},{radius!r}" for group, radius in enumerate(radii.tolist())]),
-                ("--separations", [f"{a},{b},{d!r}" for (a, b), d in zip(separated, separations.tolist())]),
+                ("--radii", [f"{g},{radius!r}" for g, radius in enumerate(radii.tolist()) if g in used]),
+                (
+                    "--separations",
+                    [f"{a},{b},{d!r}" for (a, b), d in zip(separated, separations.tolist()) if {a, b} <= used],
+                ),
             ):
                 if lines:
                     table = run.folder / f"{option[2:]}.csv"

@@ -144,7 +144,8 @@ struct GroupSeparation {
 
 /// Rules for the pairs that can collide: two primitives can if a vertex of one and a vertex of the
 /// other are in groups that can collide. By default everything collides with everything. And the
-/// thickness of pairs, see above, by default 0.
+/// thickness of pairs, see above, by default 0; intersections of a mesh at rest do not depend on
+/// it.
 struct CollisionGroups {
   /// The group of each vertex, from 0 on; empty: all are in group 0.
   std::span<const std::int32_t> of_vertices = {};
@@ -298,10 +299,10 @@ class Step {
 
   // ---- Pairs ----
 
-  /// Calls take(candidates) for all pairs in the search whose swept boxes are within the separation
-  /// on every axis (exactly these: touchstone/broad_phase.hpp), some at a time, each once. Does not
-  /// store them. Several threads call `take` concurrently, in any order. An exception from `take`
-  /// ends the search and is rethrown.
+  /// Calls take(candidates) for all pairs in the search whose swept boxes are within their
+  /// separation on every axis (exactly these: touchstone/broad_phase.hpp), some at a time, each
+  /// once. Does not store them. Several threads call `take` concurrently, in any order. An
+  /// exception from `take` ends the search and is rethrown.
   void candidates(const std::function<void(const StepCandidates&)>& take) const;
 
   /// The vertices of a pair as input of the certified solver: a vertex and an edge as vertex and
