@@ -22,8 +22,7 @@ using PlaceAtRest = std::array<double, 4>;
 using ElementRow = std::array<std::int32_t, 4>;
 
 /// A pair of elements, and its vertices: the common ones first, then the others of the first
-/// element, then those of the second. (With common vertices the last places are unused.) With one
-/// common vertex or none, those of each triangle keep their sense of rotation.
+/// element, then those of the second. (With common vertices the last places are unused.)
 struct alignas(32) ElementPair {
   std::array<std::int32_t, 6> vertices;
   IndexPair pair;

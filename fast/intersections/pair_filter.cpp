@@ -1,6 +1,7 @@
 #include "fast/intersections/pair_filter.hpp"
 
 #include <algorithm>
+#include <array>
 #include <utility>
 
 namespace touchstone::fast::meeting {

@@ -1,19 +1,16 @@
 #pragma once
 
 /// \file
-/// The elements of a mesh for the search, and the first step after it: pairs that are not asked for
-/// are left out, and those that certainly do not intersect by rounded numbers; those that certainly
-/// cross are told (filter_on_lanes.hpp).
+/// The first step after the search for pairs of elements whose boxes overlap: it leaves out pairs
+/// that are not asked for, and those that certainly do not intersect by rounded numbers, and tells
+/// those that certainly cross (filter_on_lanes.hpp).
 
-#include <array>
 #include <cstddef>
-#include <cstdint>
 #include <span>
 
-#include "fast/intersections/contacts.hpp"
 #include "fast/intersections/filter_kernel.hpp"
 #include "fast/intersections/orientation.hpp"
-#include "touchstone/intersections.hpp"
+#include "touchstone/mesh.hpp"
 
 namespace touchstone::fast::meeting {
 
