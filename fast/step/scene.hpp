@@ -101,8 +101,8 @@ struct SceneInterval {
 
 // ---- The search ---------------------------------------------------------------------------------
 
-/// Groups per task: few, because contacts are mostly in a few places, and the task with most of them
-/// is the last one to end.
+/// Groups per task: few, because contacts are mostly in a few places, and the task with most of
+/// them is the last one to end.
 inline constexpr std::size_t groups_of_part = 8;
 
 /// A part of the search for pairs of one kind: groups of the searching tree.
