@@ -685,6 +685,7 @@ void decide_and_count(const KernelInput& input, KernelOutput& output) {
 Work work_of(const Scene& scene, const Separation& separation = {}) {
   static const CertifiedKernel counting{.instructions = InstructionSet::scalar,
                                         .decide = decide_and_count,
+                                        .invert = nullptr,
                                         .curved_axis = nullptr,
                                         .curved_search = nullptr,
                                         .product_then_sum = nullptr};
