@@ -247,7 +247,7 @@ const std::vector<std::array<std::string_view, 3>>& alterations() {
       {"\nmeshes 1\n", "\nmeshes 2\n", "expected the closing line 'meshes 1', found 'meshes 2'"},
       {"\nmeshes 1\n", "\nsteps 1\n", "expected 'meshes', found 'steps'"},
       {"\nmeshes 1\n", "\n", "the stream is cut: it has no closing line 'meshes 1'"},
-      {"touchstone-meshes 1\n", "touchstone-steps 1\n", "expected 'steps', found 'mesh'"},
+      {"touchstone-meshes 1\n", "touchstone-steps 2\n", "expected 'steps', found 'mesh'"},
       {"touchstone-meshes 1\n", "touchstone-meshes 2\n",
        "the first line is not 'touchstone-certificates 2'"},
       {"mesh a label\n", "step a label\n", "expected 'meshes', found 'step'"}};
