@@ -580,10 +580,10 @@ def with_parts(document, text, root):
     return mark.sub(made, text)
 
 
-def with_examples(text, root):
+def with_examples(text):
     """The same, whose marked parts are the examples with which public headers open."""
     def made(match):
-        example = re.search(r"\\code\{\.(\w+)\}\n(.*?)\n/// \\endcode", (root / match[2]).read_text(), re.DOTALL)
+        example = re.search(r"\\code\{\.(\w+)\}\n(.*?)\n/// \\endcode", (pathlib.Path(__file__).resolve().parent.parent / match[2]).read_text(), re.DOTALL)
         code = [line[4:] for line in example[2].split("\n")]
         return "\n".join([match[1], "", f"```{example[1]}", *code, "```", "", "<!-- end -->"])
 
@@ -593,7 +593,7 @@ def with_examples(text, root):
 def documents(options, folder):
     """The correct texts of all documents, by name."""
     made = {document: with_parts(document, (options.root / document).read_text(), options.root) for document in PARTS}
-    made["docs/library.md"] = with_examples((options.root / "docs/library.md").read_text(), options.root)
+    made["docs/library.md"] = with_examples((options.root / "docs/library.md").read_text())
     page = folder / "page.html"
     run([options.tool, "report", "--from", options.root / "docs/data/results.json", "--out", page])
     said = results_document.read_page(page, folder, run)

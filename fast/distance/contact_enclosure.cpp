@@ -18,7 +18,7 @@ using filters::Ball;
 using Balls = filters::Vector3<Ball>;
 using Doubles = std::array<double, 3>;
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double unbounded = std::numeric_limits<double>::infinity();
 
 // ---- Bounds in doubles --------------------------------------------------------------------------
 
@@ -111,7 +111,7 @@ Normalised normalised(const Balls& a) {
 /// A unit vector with a bound of its distance from the exact one.
 struct Direction {
   Eigen::Vector3d vector = Eigen::Vector3d::UnitX();
-  double error = infinity;  ///< infinity if the direction is not known at all
+  double error = unbounded;  ///< unbounded if nothing is known of the direction
 };
 
 /// The direction of the center, for any vector of the ball or one at most that far from it: those
@@ -122,7 +122,7 @@ Direction direction_of(const Balls& a, double farther = 0.0) {
   const double size = length(middle);
   if (!(size > 0.0)) return {};
   const double error = above * 2.0 * (error_of(a) + farther) / (below * size) + rounding;
-  Direction result{.error = error <= greatest_error ? error : infinity};
+  Direction result{.error = error <= greatest_error ? error : unbounded};
   const double greatest = std::max({std::abs(middle[0]), std::abs(middle[1]), std::abs(middle[2])});
   const Eigen::Vector3d x = Eigen::Vector3d(middle[0], middle[1], middle[2]) / greatest;
   result.vector = x / (size / greatest);
@@ -260,9 +260,9 @@ Balls difference_at(const Parameters& x, const Balls& r, const Balls& p, const B
 
 /// Bounds of the errors at given parameters.
 struct Errors {
-  double difference = infinity;  ///< of F
-  double first = infinity;       ///< of a point on the first edge, along it
-  double second = infinity;      ///< on the second edge
+  double difference = unbounded;  ///< of F
+  double first = unbounded;       ///< of a point on the first edge, along it
+  double second = unbounded;      ///< on the second edge
 
   void take(const Errors& other) {
     difference = std::min(difference, other.difference);
@@ -287,9 +287,9 @@ Parameters on_boundary(Kind kind, Parameters x) {
 }
 
 /// The polygon at the time, and F at the given parameters.
-class Polygon {
+class ContactPolygon {
  public:
-  Polygon(Kind kind, const MovingPair& pair, const Parameters& at)
+  ContactPolygon(Kind kind, const MovingPair& pair, const Parameters& at)
       : kind_(kind),
         pair_(pair),
         at_(at),
@@ -325,7 +325,7 @@ class Polygon {
     const Ball along_p = filters::dot(f_.vector, pair_.p.now);
     const Ball along_q = filters::dot(f_.vector, pair_.q.now);
     Errors result{.difference = unnormalised(most(f_.vector))};
-    if (inverse_sine_ < infinity) {
+    if (inverse_sine_ < unbounded) {
       const double slopes = slope(along_p, pair_.p.now) + slope(along_q, pair_.q.now);
       result.take(at_sine(unnormalised(above * inverse_sine_ * slopes)));
     }
@@ -342,7 +342,7 @@ class Polygon {
   /// True if with these errors the nearest points are certainly inside the face, or inside both
   /// edges.
   [[nodiscard]] bool is_inside(const Errors& errors) const {
-    if (!(inverse_sine_ < infinity && least(pair_.p.now) > 0.0 && least(pair_.q.now) > 0.0)) {
+    if (!(inverse_sine_ < unbounded && least(pair_.p.now) > 0.0 && least(pair_.q.now) > 0.0)) {
       return false;
     }
     const double along = above * (errors.difference + least_error) * inverse_sine_;
@@ -361,7 +361,7 @@ class Polygon {
 
   /// The bounds of edges that are not parallel.
   [[nodiscard]] Errors at_sine(double difference) const {
-    if (inverse_sine_ == infinity) return {.difference = difference};
+    if (inverse_sine_ == unbounded) return {.difference = difference};
     const double along = above * difference * inverse_sine_;
     return {difference, along, along};
   }
@@ -374,7 +374,7 @@ class Polygon {
   static double slope(const Ball& product, const Balls& e) {
     if (is_exact_zero(e)) return 0.0;
     const double size = least(e);
-    return size > 0.0 ? above * most(product) / size : infinity;
+    return size > 0.0 ? above * most(product) / size : unbounded;
   }
 
   /// True if corners whose parameters differ by this coincide at all times.
@@ -425,7 +425,7 @@ class Polygon {
   [[nodiscard]] double least_rise(const std::array<Ball, 4>& rises, std::size_t i,
                                   std::size_t j) const {
     const std::span<const Corner> all = corners(kind_);
-    double result = infinity;
+    double result = unbounded;
     for (std::size_t k = 0; k < all.size(); ++k) {
       if (coincide(all[k], all[i]) || coincide(all[k], all[j])) continue;
       result = std::min(result, least(rises[k]));
@@ -446,7 +446,7 @@ class Polygon {
     if (!(rise > 0.0 && above * 2.0 * slope_of_side * reach <= rise)) return;
     const double bound = unnormalised(slope_of_side);
     // The weight of the corners that are not on the side.
-    const double others = rise == infinity ? 0.0 : above * 2.0 * (slope_of_side / rise) * bound;
+    const double others = rise == unbounded ? 0.0 : above * 2.0 * (slope_of_side / rise) * bound;
     const double across = above * others * (has_p ? q_length_ : p_length_);
     const double along = above * (bound + across);
     errors.take(has_p ? Errors{bound, along, across} : Errors{bound, across, along});
@@ -458,7 +458,7 @@ class Polygon {
   Normalised p_, q_, f_;
   Balls product_;
   double p_length_, q_length_;
-  double inverse_sine_ = infinity;
+  double inverse_sine_ = unbounded;
 };
 
 // ---- The normal ---------------------------------------------------------------------------------
@@ -486,7 +486,7 @@ Ball rate_of_determinant(const MovingPair& pair) {
 
 /// The direction of the product, towards the side with this sign of det; if it is unknown, that of
 /// the product itself.
-Normal normal_of_product(const Polygon& polygon, int side) {
+Normal normal_of_product(const ContactPolygon& polygon, int side) {
   const Direction direction = direction_of(polygon.product());
   return {side < 0 ? opposite(direction) : direction, side != 0};
 }
@@ -501,8 +501,8 @@ Normal normal_of_segment(const MovingPair& pair, const Parameters& at, double er
   const double size = least(e.now);
   // F' changes by e' with the parameter, which is known to error / |e|.
   const double slack =
-      size > 0.0 ? above * ((error + least_error) / size) * most(e.rate) : infinity;
-  if (slack == infinity) return {};
+      size > 0.0 ? above * ((error + least_error) / size) * most(e.rate) : unbounded;
+  if (slack == unbounded) return {};
   for (Ball& x : rate) x.radius = above * (x.radius + slack);
   const Balls along = normalised(e.now).vector;
   const Balls upright = filters::cross(filters::cross(along, normalised(rate).vector), along);
@@ -534,27 +534,27 @@ Eigen::Vector3d perpendicular(const MovingPair& pair, const Parameters& at) {
   return any / std::sqrt(product(any, any));
 }
 
-Normal normal_of_touching(const MovingPair& pair, const Polygon& polygon, const Parameters& at,
-                          const Errors& errors) {
+Normal normal_of_touching(const MovingPair& pair, const ContactPolygon& polygon,
+                          const Parameters& at, const Errors& errors) {
   const bool is_segment = pair.p.is_always_zero() || pair.q.is_always_zero();
   Normal result = is_segment ? normal_of_segment(pair, at, errors.difference)
                              : normal_of_product(polygon, -sign_of(rate_of_determinant(pair)));
-  if (result.direction.error == infinity) result = {{.vector = perpendicular(pair, at)}, false};
+  if (result.direction.error == unbounded) result = {{.vector = perpendicular(pair, at)}, false};
   return result;
 }
 
-Normal normal_of_apart(const MovingPair& pair, const Polygon& polygon, const Parameters& at,
+Normal normal_of_apart(const MovingPair& pair, const ContactPolygon& polygon, const Parameters& at,
                        const Errors& errors) {
   const Normalised& f = polygon.difference();
   Normal result{direction_of(f.vector, std::ldexp(errors.difference + least_error, -f.exponent)),
                 true};
   if (polygon.is_inside(errors)) {
     const int side = sign_of(filters::dot(polygon.product(), normalised(pair.r.now).vector));
-    const Normal of_product = normal_of_product(polygon, side);
+    Normal of_product = normal_of_product(polygon, side);
     if (side != 0 && of_product.direction.error < result.direction.error) return of_product;
-    if (result.direction.error == infinity) result = of_product;
+    if (result.direction.error == unbounded) result = of_product;
   }
-  if (result.direction.error == infinity) {
+  if (result.direction.error == unbounded) {
     result.has_side = false;
     if (!(length(center(f.vector)) > 0.0)) result.direction.vector = perpendicular(pair, at);
   }
@@ -567,7 +567,7 @@ ContactEnclosure enclose_contact(Kind kind, const Query& query, const TimeEnclos
                                  const Parameters& approximate, bool is_touching) {
   const Parameters at = on_boundary(kind, exact_stage::inside_domain(kind, approximate));
   const MovingPair pair(kind, query, time);
-  const Polygon polygon(kind, pair, at);
+  const ContactPolygon polygon(kind, pair, at);
   const Errors errors = is_touching ? polygon.touching() : polygon.apart();
   const Normal normal = is_touching ? normal_of_touching(pair, polygon, at, errors)
                                     : normal_of_apart(pair, polygon, at, errors);

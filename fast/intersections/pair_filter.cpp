@@ -21,8 +21,8 @@ const FilteredPairs& PairFilter::filtered_edges_with_faces(const Positions& at,
   const auto is_asked = [faces](const IndexPair& pair) {
     return std::cmp_less(pair[0], faces) != std::cmp_less(pair[1], faces);
   };
-  const auto end = std::ranges::copy_if(pairs, asked.begin(), is_asked).out;
-  return filter(at, elements, {asked.begin(), end}, kernel, 1);
+  const auto count = std::ranges::copy_if(pairs, asked.begin(), is_asked).out - asked.begin();
+  return filter(at, elements, std::span(asked).first(static_cast<std::size_t>(count)), kernel, 1);
 }
 
 const FilteredPairs& PairFilter::filter(const Positions& at, std::span<const ElementRow> elements,

@@ -69,7 +69,7 @@ def test_faults_are_placed(eight):
     assert judgement.count("errors") == 4 and judgement.count("false_negatives") == 1
     # A hang counts as undecided.
     assert judgement.to_dict()["methods"][0]["failures"]["hang"] == 1
-    assert "misbehaving" in repr(judgement) and "false neg" in str(judgement)
+    assert "misbehaving" in repr(judgement) and "misses" in str(judgement)
     assert judgement._repr_html_().count("<table>") == 2
 
 

@@ -131,7 +131,7 @@ def test_spheres_and_capsules_of_different_radii(tmp_path):
 
 
 def test_a_rule_for_pairs_of_vertices(tmp_path):
-    scene = soup(5, 20)
+    scene = soup(4, 20)
     half = len(scene["before"]) // 2
     asked = set()
 

@@ -31,7 +31,7 @@ namespace touchstone {
 /// t=1. An array of float64 of shape (N, 6, 2) is an array of these.
 struct PlaneTriangle {
   static constexpr std::size_t points = 3;
-  std::array<double, 2 * 2 * points> coordinates;
+  std::array<double, 4 * points> coordinates;
 
   /// Coordinate `axis` (0 or 1) of point `point` (0..2) at time `end` (0 or 1).
   [[nodiscard]] double at(std::size_t end, std::size_t point, std::size_t axis) const {
