@@ -211,7 +211,7 @@ std::string time_text(std::optional<double> nanoseconds) {
 }
 
 std::string promise_cell(const jobs::MethodResult& method) {
-  const std::string promise(solvers::to_string(method.promise));
+  std::string promise(solvers::to_string(method.promise));
   if (method.promise == fast::Promise::none) return promise;
   return promise + (judge::keeps(method.judgement, method.promise) ? ": kept" : ": broken");
 }
