@@ -1,8 +1,8 @@
 """Do touchstone-check and touchstone-check-verified agree?
 
 On certificates that `touchstone prove` writes (the built-in set and, if TOUCHSTONE_DATA names them, the
-public data, in all separations), on the list of altered certificates, whose outcomes it says, on certificates of steps, which
-are not covered, and on mutants of certificates. Equal are exit status and output. Of a proof that is rejected the verified program names the part; then the certificate has
+public data, in all separations), on the list of altered certificates, whose outcomes it says, on those of steps and meshes,
+which are not covered, and on mutants of certificates. Equal are exit status and output. Of a proof that is rejected the verified program names the part; then the certificate has
 to be the same, by its label.
 """
 
@@ -277,7 +277,7 @@ def main():
                         originals += certificates(path)
         report("list of altered certificates",
                list(list_results(programs, pathlib.Path(folder), cases / "certificates.txt")))
-        report("certificates of steps", [Result(programs, cases / "corpus/steps.cert")])
+        report("not covered: steps and meshes", [Result(programs, cases / f"corpus/{name}.cert") for name in ("steps", "meshes")])
         results = []
         for first in range(0, arguments.mutants, BATCH):
             write_mutants(draw, originals, path, first, min(BATCH, arguments.mutants - first))
