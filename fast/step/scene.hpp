@@ -103,7 +103,7 @@ struct SceneInterval {
 
 /// Groups per task: few, because contacts are mostly in a few places, and the task with most of
 /// them is the last one to end.
-inline constexpr std::size_t groups_of_part = 8;
+inline constexpr std::size_t groups_of_part = 16;
 
 /// A part of the search for pairs of one kind: groups of the searching tree.
 struct SearchPart {
