@@ -22,6 +22,8 @@ import tempfile
 import large_run
 import results_document
 
+PROJECT = pathlib.Path(__file__).resolve().parent.parent
+
 DATA = ["handcrafted", "simulation", ""]  # "": the built-in set
 STEPS = {"cloth-ball": ["", *(f" --min-separation {d} --norm {norm}" for d in ("1e-8", "1e-2") for norm in ("linf", "l2"))],
          "armadillo-rollers": [""], "cloth-funnel": [""]}
@@ -583,7 +585,8 @@ def with_parts(document, text, root):
 def with_examples(text):
     """The same, whose marked parts are the examples with which public headers open."""
     def made(match):
-        example = re.search(r"\\code\{\.(\w+)\}\n(.*?)\n/// \\endcode", (pathlib.Path(__file__).resolve().parent.parent / match[2]).read_text(), re.DOTALL)
+        header = (PROJECT / match[2]).read_text()
+        example = re.search(r"\\code\{\.(\w+)\}\n(.*?)\n/// \\endcode", header, re.DOTALL)
         code = [line[4:] for line in example[2].split("\n")]
         return "\n".join([match[1], "", f"```{example[1]}", *code, "```", "", "<!-- end -->"])
 
@@ -618,15 +621,14 @@ def differences(root, made):
 
 
 def main():
-    here = pathlib.Path(__file__).resolve().parent.parent
     parser = argparse.ArgumentParser(prog="./run results", description="Measures, and writes the documents' numbers.")
     parser.add_argument("names", nargs="*", metavar="NAME", help=f"measure only: {' '.join(COMMANDS)} (default: all but large)")
     parser.add_argument("--check", action="store_true", help="only check that data and documents agree")
     parser.add_argument("--write", action="store_true", help="write the documents from docs/data, without measuring")
     parser.add_argument("--quick", action="store_true", help="measure times briefly, for a test of this program")
-    parser.add_argument("--data", type=pathlib.Path, default=here / "../shared/datasets", help="the public data")
-    parser.add_argument("--tool", type=pathlib.Path, default=here / "build/release/touchstone")
-    parser.add_argument("--root", type=pathlib.Path, default=here, help="the folder of the documents")
+    parser.add_argument("--data", type=pathlib.Path, default=PROJECT / "../shared/datasets", help="the public data")
+    parser.add_argument("--tool", type=pathlib.Path, default=PROJECT / "build/release/touchstone")
+    parser.add_argument("--root", type=pathlib.Path, default=PROJECT, help="the folder of the documents")
     options = parser.parse_args()
     options.tool = options.tool.resolve()  # commands run in another folder
     options.recorded = options.tool.parent.parent / pathlib.Path(RECORDED).name
