@@ -67,9 +67,11 @@ inline void find_rounded(const KernelInput& input, RoundedVertices<Lanes, kernel
   }
 }
 
-/// The points of the queries that fill the lanes, from `first` on.
+/// The points of the queries that fill the lanes, from `first` on. Inlined always, because the
+/// compiler does not in large kernels, and the points then pass through memory.
 template <class Lanes, std::size_t count>
-inline auto load_rounded(const RoundedVertices<Lanes, count>& rounded, std::size_t first) {
+[[gnu::always_inline]] inline auto load_rounded(const RoundedVertices<Lanes, count>& rounded,
+                                                std::size_t first) {
   std::array<Vector<FixedPointCoordinate<Lanes>>, query_points> result;
   for (std::size_t k = 0; k < moving_points; ++k) {
     const FixedPointVertex* const* const vertices = rounded[k].data() + first;
