@@ -117,10 +117,12 @@ Lemma four_are_dependent a b c e :
 Proof.
   destruct (Req_dec (det a b c) 0) as [D | D].
   - destruct (three_are_dependent a b c D) as (k & l & m & H & E). exists k, l, m, 0.
-    split; [tauto |]. rewrite E. by_coordinates. f_equal; ring.
+    split; [tauto |]. rewrite E. by_vectors.
   - exists (det e b c), (det a e c), (det a b e), (- det a b c). split; [right; right; right; lra |].
-    unfold combination, det. clear. by_components. f_equal; ring.
+    unfold combination, det. by_vectors.
 Qed.
+
+Ltac each_weight I := cbn [In] in I; repeat destruct I as [[= <- <-] | I]; try contradiction.
 
 (** Weights w ≥ 0 that change by rates r, one of them negative: the greatest step that leaves all at least 0. *)
 Lemma greatest_step (l : list (R * R)) : (forall w r, In (w, r) l -> 0 <= w) -> (exists w r, In (w, r) l /\ r < 0) ->
@@ -132,21 +134,20 @@ Proof.
   { intros [C | (h & _ & C)]; [specialize (C _ _ I0); lra | eauto]. }
   clear w0 r0 I0 R0. induction l as [| [w r] l IH]; [left; intros ? ? [] |].
   pose proof (W w r (or_introl eq_refl)) as Hw.
+  assert (G : r < 0 -> (forall w0 r0, In (w0, r0) l -> 0 <= w0 + w / - r * r0) ->
+    exists h, 0 <= h /\ (forall w0 r0, In (w0, r0) ((w, r) :: l) -> 0 <= w0 + h * r0) /\
+      exists w0 r0, In (w0, r0) ((w, r) :: l) /\ w0 + h * r0 = 0).
+  { intros Hr C. assert (w + w / - r * r = 0) by (field; lra). exists (w / - r).
+    repeat split; [| intros w0 r0 [[= <- <-] | I]; [lra | auto] | exists w, r; cbn; auto].
+    apply Rmult_le_pos; [| apply Rlt_le, Rinv_0_lt_compat]; lra. }
   destruct IH as [C | (h & Hh & C & w1 & r1 & I1 & E1)]; [intros; apply (W w0 r0); right; assumption | |].
-  - destruct (Rle_lt_dec 0 r) as [Hr | Hr].
-    + left. intros w0 r0 [[= <- <-] | I]; eauto.
-    + assert (E : w + w / - r * r = 0) by (field; lra).
-      assert (0 <= w / - r) by (apply Rmult_le_pos; [| apply Rlt_le, Rinv_0_lt_compat]; lra).
-      right. exists (w / - r). repeat split; [assumption | | exists w, r; split; [left |]; auto].
-      intros w0 r0 [[= <- <-] | I]; [lra |]. pose proof (C _ _ I). pose proof (W _ _ (or_intror I)). nra.
+  - destruct (Rle_lt_dec 0 r) as [Hr | Hr]; [left; intros w0 r0 [[= <- <-] | I]; eauto |].
+    right. apply G; [exact Hr |]. intros w0 r0 I. pose proof (C _ _ I). pose proof (W _ _ (or_intror I)).
+    assert (0 <= w / - r) by (apply Rmult_le_pos; [| apply Rlt_le, Rinv_0_lt_compat]; lra). nra.
   - right. destruct (Rle_lt_dec 0 (w + h * r)) as [Hr | Hr].
-    + exists h. repeat split; [assumption | | exists w1, r1; split; [right |]; auto].
-      intros w0 r0 [[= <- <-] | I]; eauto.
-    + assert (r < 0) by nra. assert (E : w + w / - r * r = 0) by (field; lra).
-      assert (0 <= w / - r) by (apply Rmult_le_pos; [| apply Rlt_le, Rinv_0_lt_compat]; lra).
-      assert (w / - r <= h) by nra.
-      exists (w / - r). repeat split; [assumption | | exists w, r; split; [left |]; auto].
-      intros w0 r0 [[= <- <-] | I]; [lra |]. pose proof (C _ _ I). pose proof (W _ _ (or_intror I)). nra.
+    + exists h. repeat split; [assumption | intros w0 r0 [[= <- <-] | I]; auto | exists w1, r1; cbn; auto].
+    + apply G; [nra |]. intros w0 r0 I. pose proof (C _ _ I). pose proof (W _ _ (or_intror I)).
+      assert (r < 0) by nra. assert (w / - r * - r = w) by (field; lra). assert (0 <= w / - r <= h) by nra. nra.
 Qed.
 
 (** ** Two faces that meet: an edge of one of them meets the other *)
@@ -167,7 +168,7 @@ Proof.
     (minus (x_of g) (y_of g)) (minus (x_of g) (z_of g))) as (k & l & m & n & N & D).
   destruct (greatest_step [(u, k); (v, l); (1 - u - v, - k - l); (u', m); (v', n); (1 - u' - v', - m - n)])
     as (h & W & w & r & I & Z).
-  - intros w r I. cbn [In] in I. repeat destruct I as [[= <- <-] | I]; try contradiction; lra.
+  - intros w r I. each_weight I; lra.
   - destruct (Rlt_le_dec k 0); [exists u, k; cbn; auto 9 |]. destruct (Rlt_le_dec l 0); [exists v, l; cbn; auto 9 |].
     destruct (Rlt_le_dec m 0); [exists u', m; cbn; auto 9 |]. destruct (Rlt_le_dec n 0); [exists v', n; cbn; auto 9 |].
     destruct (Rlt_le_dec (- k - l) 0); [exists (1 - u - v), (- k - l); cbn; auto 9 |].
@@ -181,8 +182,7 @@ Proof.
         lra. }
     assert (Z' : (u + h * k = 0 \/ v + h * l = 0 \/ 1 - (u + h * k) - (v + h * l) = 0) \/
       (u' + h * m = 0 \/ v' + h * n = 0 \/ 1 - (u' + h * m) - (v' + h * n) = 0)).
-    { cbn [In] in I.
-      repeat destruct I as [[= <- <-] | I]; try contradiction; [left | left | left | right | right | right]; lra. }
+    { each_weight I; [left | left | left | right | right | right]; lra. }
     destruct Z' as [Z' | Z']; [destruct (side_of_triangle f (u + h * k) (v + h * l)) as (a & b & Hab & S); try lra |
       destruct (side_of_triangle g (u' + h * m) (v' + h * n)) as (a & b & Hab & S); try lra];
       exists a, b; [left | right]; (split; [exact Hab |]); eexists; (split; [exact S |]).
@@ -199,8 +199,8 @@ Proof.
   intros Hs Hu Hv Hw E B. unfold edge_touches.
   assert (T : on_triangle f (segment_point p q s)) by (rewrite E; exists u, v; repeat split; lra).
   destruct B as [-> | [-> | B]].
-  - left. replace p with (segment_point p q 0); [exact T |]. clear. destruct p. by_coordinates. f_equal; ring.
-  - right. left. replace q with (segment_point p q 1); [exact T |]. clear. destruct q. by_coordinates. f_equal; ring.
+  - left. replace p with (segment_point p q 0); [exact T |]. by_vectors.
+  - right. left. replace q with (segment_point p q 1); [exact T |]. by_vectors.
   - right. right. destruct (side_of_triangle f u v Hu Hv Hw B) as (a & b & Hab & S). exists a, b. split; [exact Hab |].
     exists (segment_point p q s). split; [exists s; auto | rewrite E; exact S].
 Qed.
@@ -214,7 +214,7 @@ Proof.
   pose proof (fun B => N (touches_at_boundary p q f s u v Hs Hu Hv Hw E B)). split; [lra |]. intros D.
   destruct (three_are_dependent _ _ _ D) as (k & l & m & N' & C).
   destruct (greatest_step [(s, k); (1 - s, - k); (u, l); (v, m); (1 - u - v, - l - m)]) as (h & W & w & r & I & Z).
-  - intros w r I. cbn [In] in I. repeat destruct I as [[= <- <-] | I]; try contradiction; lra.
+  - intros w r I. each_weight I; lra.
   - destruct (Rlt_le_dec k 0); [exists s, k; cbn; auto 9 |].
     destruct (Rlt_le_dec (- k) 0); [exists (1 - s), (- k); cbn; auto 9 |].
     destruct (Rlt_le_dec l 0); [exists u, l; cbn; auto 9 |]. destruct (Rlt_le_dec m 0); [exists v, m; cbn; auto 9 |].
@@ -226,7 +226,7 @@ Proof.
     + unfold combination in C. by_coordinates. injection E as Ex Ey Ez. injection C as Cx Cy Cz.
       f_equal; [apply (f_equal (Rmult h)) in Cx | apply (f_equal (Rmult h)) in Cy | apply (f_equal (Rmult h)) in Cz];
         lra.
-    + cbn [In] in I. repeat destruct I as [[= <- <-] | I]; try contradiction; lra.
+    + each_weight I; lra.
 Qed.
 
 (** ** A crossing is open in time *)
@@ -362,7 +362,7 @@ Proof. unfold size, times. cbn [x_of y_of z_of]. rewrite !Rabs_mult. ring. Qed.
 
 Lemma size_minus a b : size (minus a b) <= size a + size b.
 Proof.
-  replace (minus a b) with (plus a (times (-1) b)) by (clear; by_coordinates; f_equal; ring).
+  replace (minus a b) with (plus a (times (-1) b)) by by_vectors.
   pose proof (size_plus a (times (-1) b)) as H. rewrite size_times in H. rewrite Rabs_left in H; lra.
 Qed.
 
@@ -386,7 +386,7 @@ Proof.
     + eapply Rle_trans; [apply Rmin_l |]. destruct (Lip s m a) as (a' & Ga' & La); [lra | lra | exact Ga |].
       specialize (S a' Ga'). assert (Rabs (m - s) <= d) by (apply Rabs_le; lra).
       pose proof (size_plus (minus a' a) a) as T. replace (plus (minus a' a) a) with a' in T
-        by (clear; destruct a'; by_coordinates; f_equal; ring). nra.
+        by by_vectors. nra.
   - intros (e & He & S). apply N. exists e. split; [exact He |]. intros x (s & Hs & Gx). apply (S s x); auto; lra.
 Qed.
 
@@ -399,12 +399,12 @@ Proof.
     exists s, 0 <= s <= 1 /\ exists w, 0 <= w <= 1 /\ exists v, 0 <= v <= 1 /\ x = point s w v)).
   { apply (sweep (fun s x => _)) with (size (minus q p)); [apply size_nonnegative | |].
     { intros s s' x Hs Hs' (w & Hw & v & Hv & ->). exists (point s' w v). split; [eauto 6 |].
-      rewrite <- size_times. apply Req_le. f_equal. unfold point. clear. by_coordinates. f_equal; ring. }
+      rewrite <- size_times. apply Req_le. f_equal. unfold point. by_vectors. }
     intros s Hs. apply (sweep (fun w x => _)) with (size (minus b a) + size (minus c a)).
     { pose proof (size_nonnegative (minus b a)). pose proof (size_nonnegative (minus c a)). lra. }
     { intros w w' x Hw Hw' (v & Hv & ->). exists (point s w' v). split; [eauto 6 |].
       replace (minus _ _) with (times (w' - w) (minus (times (v - 1) (minus b a)) (times v (minus c a))))
-        by (unfold point; clear; by_coordinates; f_equal; ring).
+        by (unfold point; by_vectors).
       rewrite size_times. apply Rmult_le_compat_l; [apply Rabs_pos |].
       pose proof (size_minus (times (v - 1) (minus b a)) (times v (minus c a))) as T. rewrite !size_times in T.
       pose proof (size_nonnegative (minus b a)). pose proof (size_nonnegative (minus c a)).
@@ -412,7 +412,7 @@ Proof.
     intros w Hw. apply (sweep (fun v x => _)) with (size (minus b c)); [apply size_nonnegative | |].
     { intros v v' x Hv Hv' ->. exists (point s w v'). split; [reflexivity |].
       replace (minus (point _ _ _) _) with (times w (times (v' - v) (minus b c)))
-        by (unfold point; clear; by_coordinates; f_equal; ring).
+        by (unfold point; by_vectors).
       rewrite !size_times. rewrite (Rabs_right w) by lra. pose proof (size_nonnegative (minus b c)).
       assert (0 <= Rabs (v' - v) * size (minus b c)) by (apply Rmult_le_pos; [apply Rabs_pos | assumption]). nra. }
     intros v Hv C. apply C. exists (size (point s w v)). split; [| intros x ->; lra].
@@ -835,7 +835,7 @@ Lemma contact_in_any_order p q a b s t : contact (Query edge_edge p q a b) s t -
 Proof.
   unfold contact, F. cbn. intros (u & v & D & L). split; [exists (1 - u), v | exists v, u]; (split; [lra |]).
   - replace (plus (times (1 - (1 - u)) _) _) with (plus (times (1 - u) (position p t)) (times u (position q t)))
-      by (clear; by_coordinates; f_equal; ring). exact L.
+      by by_vectors. exact L.
   - rewrite length_of_opposite. exact L.
 Qed.
 
