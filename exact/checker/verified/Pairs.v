@@ -1,0 +1,864 @@
+(** The theorem of pairs (docs/theory.md, section 8.3): primitives without a common vertex come within a distance
+    only if a vertex and a face do, or two edges. The vertices move on continuous paths.
+
+    1. Two faces that meet do so at an edge of one of them ([faces_meet_at_an_edge]): four parameters and three
+       equations leave a direction in which the two points stay equal, and along it a weight becomes 0.
+    2. An edge and a face that meet, while no vertex of the one is on the other and no edges meet, have independent
+       directions ([crossing]): otherwise three parameters leave such a direction, too. So they meet at all times
+       nearby: the weights are continuous by Cramer's rule ([crossing_is_open]).
+    3. If they do not meet, they do not at all times nearby either ([apart_is_open]): they have a distance.
+    4. So an edge and a face that do not meet at t=0 never do ([edge_and_face]), and neither do two faces.
+    5. Faces that come within a distance meet if one of them moves by the difference, on a straight line: the case
+       before, with another time ([theorem_of_pairs]).
+    6. In a mesh, an edge or a face of two equal vertices and vertices without edges are cases of these
+       ([theorem_of_pairs_in_a_mesh]).
+
+    The axioms of the reals do not have the excluded middle. What is stated is a negation, so that each step may say
+    that something cannot be refuted. *)
+
+Require Import Reals QArith Qreals List Lra Psatz.
+Import ListNotations.
+Require Import Verified.Problem Verified.Geometry.
+Open Scope R_scope.
+
+(** ** What is stated *)
+
+Definition segment_point (a b : vector) (u : R) : vector := plus (times (1 - u) a) (times u b).
+Definition triangle_point (f : triple vector) (u v : R) : vector :=
+  plus (plus (times (1 - u - v) (x_of f)) (times u (y_of f))) (times v (z_of f)).
+
+Definition on_segment (a b x : vector) : Prop := exists u, 0 <= u <= 1 /\ x = segment_point a b u.
+Definition on_triangle (f : triple vector) (x : vector) : Prop :=
+  exists u v, (0 <= u /\ 0 <= v /\ u + v <= 1) /\ x = triangle_point f u v.
+
+(** A face has three vertices: points or paths. Some of them may be equal: an edge is the face of its ends, one of
+    them twice. *)
+Definition vertex_of {A} (f : triple A) (v : A) : Prop := v = x_of f \/ v = y_of f \/ v = z_of f.
+Definition edge_of {A} (f : triple A) (a b : A) : Prop :=
+  (a = x_of f /\ b = y_of f) \/ (a = y_of f /\ b = z_of f) \/ (a = z_of f /\ b = x_of f).
+
+Definition image {A B} (m : A -> B) (f : triple A) : triple B := Triple (m (x_of f)) (m (y_of f)) (m (z_of f)).
+
+Definition path := R -> vector.
+Definition at_time (f : triple path) (t : R) : triple vector := image (fun p => p t) f.
+
+Definition continuous_at (t : R) (p : path) : Prop :=
+  continuity_pt (fun t => x_of (p t)) t /\ continuity_pt (fun t => y_of (p t)) t /\
+  continuity_pt (fun t => z_of (p t)) t.
+
+(** Two sets of points have a common one; they are within a distance. *)
+Definition meet (P Q : vector -> Prop) : Prop := exists x, P x /\ Q x.
+Definition within (n : norm) (d : R) (P Q : vector -> Prop) : Prop :=
+  exists x y, P x /\ Q y /\ length_of n (minus x y) <= d.
+
+(** A vertex of the one and the other face are near each other, or an edge of each: these pairs are searched. *)
+Definition a_pair_is (near : (vector -> Prop) -> (vector -> Prop) -> Prop) (f g : triple vector) : Prop :=
+  (exists v, vertex_of f v /\ near (eq v) (on_triangle g)) \/
+  (exists v, vertex_of g v /\ near (eq v) (on_triangle f)) \/
+  (exists p q a b, edge_of f p q /\ edge_of g a b /\ near (on_segment p q) (on_segment a b)).
+
+(** An edge of one has a common point with the other: what must not be at t=0. *)
+Definition an_edge_meets (f g : triple vector) : Prop := exists a b,
+  edge_of f a b /\ meet (on_segment a b) (on_triangle g) \/ edge_of g a b /\ meet (on_segment a b) (on_triangle f).
+
+Ltac by_vectors := clear; unfold segment_point, triangle_point in *; by_components; f_equal; ring.
+
+Lemma vertices_of_edge {A} (f : triple A) a b : edge_of f a b -> vertex_of f a /\ vertex_of f b.
+Proof. unfold edge_of, vertex_of. tauto. Qed.
+
+Lemma vertex_of_image {A B} (m : A -> B) f b : vertex_of (image m f) b <-> exists a, vertex_of f a /\ b = m a.
+Proof.
+  split; [intros [-> | [-> | ->]] | intros (a & [-> | [-> | ->]] & ->)]; unfold vertex_of, image; cbn; eauto.
+Qed.
+
+Lemma edge_of_image {A B} (m : A -> B) f c d :
+  edge_of (image m f) c d <-> exists a b, edge_of f a b /\ c = m a /\ d = m b.
+Proof.
+  unfold edge_of, image. cbn [x_of y_of z_of]. split.
+  - intros [[-> ->] | [[-> ->] | [-> ->]]]; eauto 9.
+  - intros (a & b & [[-> ->] | [[-> ->] | [-> ->]]] & -> & ->); auto.
+Qed.
+
+Lemma start_of_segment a b : on_segment a b a.
+Proof. exists 0. split; [lra | by_vectors]. Qed.
+
+(** ** Directions in which two points stay equal *)
+
+(** An end of the edge is on the face, or the edge meets one of the face's. *)
+Definition edge_touches (p q : vector) (f : triple vector) : Prop :=
+  on_triangle f p \/ on_triangle f q \/
+  exists a b, edge_of f a b /\ meet (on_segment p q) (on_segment a b).
+
+Ltac by_coordinates :=
+  unfold segment_point, triangle_point, plus, minus, times, origin in *; cbn [x_of y_of z_of] in *.
+
+Definition det (a b c : vector) : R := dot a (cross b c).
+Definition combination (k l m : R) (a b c : vector) : vector := plus (plus (times k a) (times l b)) (times m c).
+
+Lemma three_are_dependent a b c : det a b c = 0 ->
+  exists k l m, (k <> 0 \/ l <> 0 \/ m <> 0) /\ combination k l m a b c = origin.
+Proof.
+  intros D. unfold combination. destruct a as [ax ay az], b as [bx b_y bz], c as [cx cy cz].
+  unfold det in D. unfold cross, dot in D. by_coordinates.
+  destruct (Req_dec (b_y * cz - bz * cy) 0) as [X |].
+  2: { exists (b_y * cz - bz * cy), (cy * az - cz * ay), (ay * bz - az * b_y). split; [auto |]. f_equal; lra. }
+  destruct (Req_dec (bz * cx - bx * cz) 0) as [Y |].
+  2: { exists (bz * cx - bx * cz), (cz * ax - cx * az), (az * bx - ax * bz). split; [auto |]. f_equal; lra. }
+  destruct (Req_dec (bx * cy - b_y * cx) 0) as [Z |].
+  2: { exists (bx * cy - b_y * cx), (cx * ay - cy * ax), (ax * b_y - ay * bx). split; [auto |]. f_equal; lra. }
+  destruct (Req_dec cx 0) as [-> |]; [| exists 0, cx, (- bx); split; [auto | f_equal; lra]].
+  destruct (Req_dec cy 0) as [-> |]; [| exists 0, cy, (- b_y); split; [auto | f_equal; lra]].
+  destruct (Req_dec cz 0) as [-> |]; [| exists 0, cz, (- bz); split; [auto | f_equal; lra]].
+  exists 0, 0, 1. split; [lra | f_equal; lra].
+Qed.
+
+Lemma four_are_dependent a b c e :
+  exists k l m n, (k <> 0 \/ l <> 0 \/ m <> 0 \/ n <> 0) /\ plus (combination k l m a b c) (times n e) = origin.
+Proof.
+  destruct (Req_dec (det a b c) 0) as [D | D].
+  - destruct (three_are_dependent a b c D) as (k & l & m & H & E). exists k, l, m, 0.
+    split; [tauto |]. rewrite E. by_vectors.
+  - exists (det e b c), (det a e c), (det a b e), (- det a b c). split; [right; right; right; lra |].
+    unfold combination, det. by_vectors.
+Qed.
+
+Ltac each_weight I := cbn [In] in I; repeat destruct I as [[= <- <-] | I]; try contradiction.
+
+(** Weights w ≥ 0 that change by rates r, one of them negative: the greatest step that leaves all at least 0. *)
+Lemma greatest_step (l : list (R * R)) : (forall w r, In (w, r) l -> 0 <= w) -> (exists w r, In (w, r) l /\ r < 0) ->
+  exists h, (forall w r, In (w, r) l -> 0 <= w + h * r) /\ exists w r, In (w, r) l /\ w + h * r = 0.
+Proof.
+  intros W (w0 & r0 & I0 & R0).
+  cut ((forall w r, In (w, r) l -> 0 <= r) \/
+    exists h, 0 <= h /\ (forall w r, In (w, r) l -> 0 <= w + h * r) /\ exists w r, In (w, r) l /\ w + h * r = 0).
+  { intros [C | (h & _ & C)]; [specialize (C _ _ I0); lra | eauto]. }
+  clear w0 r0 I0 R0. induction l as [| [w r] l IH]; [left; intros ? ? [] |].
+  pose proof (W w r (or_introl eq_refl)) as Hw.
+  assert (G : r < 0 -> (forall w0 r0, In (w0, r0) l -> 0 <= w0 + w / - r * r0) ->
+    exists h, 0 <= h /\ (forall w0 r0, In (w0, r0) ((w, r) :: l) -> 0 <= w0 + h * r0) /\
+      exists w0 r0, In (w0, r0) ((w, r) :: l) /\ w0 + h * r0 = 0).
+  { intros Hr C. assert (w + w / - r * r = 0) by (field; lra). exists (w / - r).
+    repeat split; [| intros w0 r0 [[= <- <-] | I]; [lra | auto] | exists w, r; cbn; auto].
+    apply Rmult_le_pos; [| apply Rlt_le, Rinv_0_lt_compat]; lra. }
+  destruct IH as [C | (h & Hh & C & w1 & r1 & I1 & E1)]; [intros; apply (W w0 r0); right; assumption | |].
+  - destruct (Rle_lt_dec 0 r) as [Hr | Hr]; [left; intros w0 r0 [[= <- <-] | I]; eauto |].
+    right. apply G; [exact Hr |]. intros w0 r0 I. pose proof (C _ _ I). pose proof (W _ _ (or_intror I)).
+    assert (0 <= w / - r) by (apply Rmult_le_pos; [| apply Rlt_le, Rinv_0_lt_compat]; lra). nra.
+  - right. destruct (Rle_lt_dec 0 (w + h * r)) as [Hr | Hr].
+    + exists h. repeat split; [assumption | intros w0 r0 [[= <- <-] | I]; auto | exists w1, r1; cbn; auto].
+    + apply G; [nra |]. intros w0 r0 I. pose proof (C _ _ I). pose proof (W _ _ (or_intror I)).
+      assert (r < 0) by nra. assert (w / - r * - r = w) by (field; lra). assert (0 <= w / - r <= h) by nra. nra.
+Qed.
+
+(** ** Two faces that meet: an edge of one of them meets the other *)
+
+Lemma side_of_triangle f u v : 0 <= u -> 0 <= v -> u + v <= 1 -> u = 0 \/ v = 0 \/ 1 - u - v = 0 ->
+  exists a b, edge_of f a b /\ on_segment a b (triangle_point f u v).
+Proof.
+  intros Hu Hv Hw. unfold edge_of, on_segment. destruct f as [a b c]. by_coordinates. intros [-> | [-> | E]].
+  - exists c, a. split; [tauto |]. exists (1 - v). split; [lra |]. f_equal; ring.
+  - exists a, b. split; [tauto |]. exists u. split; [lra |]. f_equal; ring.
+  - exists b, c. split; [tauto |]. exists v. split; [lra |]. replace u with (1 - v) by lra. f_equal; ring.
+Qed.
+
+Theorem faces_meet_at_an_edge f g : meet (on_triangle f) (on_triangle g) -> an_edge_meets f g.
+Proof.
+  intros (x & (u & v & (Hu & Hv & Hs) & ->) & u' & v' & (Hu' & Hv' & Hs') & E).
+  destruct (four_are_dependent (minus (y_of f) (x_of f)) (minus (z_of f) (x_of f))
+    (minus (x_of g) (y_of g)) (minus (x_of g) (z_of g))) as (k & l & m & n & N & D).
+  destruct (greatest_step [(u, k); (v, l); (1 - u - v, - k - l); (u', m); (v', n); (1 - u' - v', - m - n)])
+    as (h & W & w & r & I & Z).
+  - intros w r I. each_weight I; lra.
+  - destruct (Rlt_le_dec k 0); [exists u, k; cbn; auto 9 |]. destruct (Rlt_le_dec l 0); [exists v, l; cbn; auto 9 |].
+    destruct (Rlt_le_dec m 0); [exists u', m; cbn; auto 9 |]. destruct (Rlt_le_dec n 0); [exists v', n; cbn; auto 9 |].
+    destruct (Rlt_le_dec (- k - l) 0); [exists (1 - u - v), (- k - l); cbn; auto 9 |].
+    exists (1 - u' - v'), (- m - n); cbn; split; [auto 9 | lra].
+  - pose proof (W u k ltac:(cbn; auto 9)). pose proof (W v l ltac:(cbn; auto 9)).
+    pose proof (W _ (- k - l) ltac:(cbn; auto 9)). pose proof (W u' m ltac:(cbn; auto 9)).
+    pose proof (W v' n ltac:(cbn; auto 9)). pose proof (W _ (- m - n) ltac:(cbn; auto 9)).
+    assert (E' : triangle_point f (u + h * k) (v + h * l) = triangle_point g (u' + h * m) (v' + h * n)).
+    { unfold combination in D. by_coordinates. injection E as Ex Ey Ez. injection D as Dx Dy Dz.
+      f_equal; [apply (f_equal (Rmult h)) in Dx | apply (f_equal (Rmult h)) in Dy | apply (f_equal (Rmult h)) in Dz];
+        lra. }
+    assert (Z' : (u + h * k = 0 \/ v + h * l = 0 \/ 1 - (u + h * k) - (v + h * l) = 0) \/
+      (u' + h * m = 0 \/ v' + h * n = 0 \/ 1 - (u' + h * m) - (v' + h * n) = 0)).
+    { each_weight I; [left | left | left | right | right | right]; lra. }
+    destruct Z' as [Z' | Z']; [destruct (side_of_triangle f (u + h * k) (v + h * l)) as (a & b & Hab & S); try lra |
+      destruct (side_of_triangle g (u' + h * m) (v' + h * n)) as (a & b & Hab & S); try lra];
+      exists a, b; [left | right]; (split; [exact Hab |]); eexists; (split; [exact S |]).
+    + rewrite E'. do 2 eexists. split; [| reflexivity]. lra.
+    + rewrite <- E'. do 2 eexists. split; [| reflexivity]. lra.
+Qed.
+
+(** ** An edge and a face that meet and do not touch *)
+
+Lemma touches_at_boundary p q f s u v : 0 <= s <= 1 -> 0 <= u -> 0 <= v -> u + v <= 1 ->
+  segment_point p q s = triangle_point f u v -> s = 0 \/ s = 1 \/ u = 0 \/ v = 0 \/ 1 - u - v = 0 ->
+  edge_touches p q f.
+Proof.
+  intros Hs Hu Hv Hw E B. unfold edge_touches.
+  assert (T : on_triangle f (segment_point p q s)) by (rewrite E; exists u, v; repeat split; lra).
+  destruct B as [-> | [-> | B]].
+  - left. replace p with (segment_point p q 0); [exact T |]. by_vectors.
+  - right. left. replace q with (segment_point p q 1); [exact T |]. by_vectors.
+  - right. right. destruct (side_of_triangle f u v Hu Hv Hw B) as (a & b & Hab & S). exists a, b. split; [exact Hab |].
+    exists (segment_point p q s). split; [exists s; auto | rewrite E; exact S].
+Qed.
+
+Lemma crossing p q f s u v : 0 <= s <= 1 -> 0 <= u -> 0 <= v -> u + v <= 1 ->
+  segment_point p q s = triangle_point f u v -> ~ edge_touches p q f ->
+  (0 < s /\ 0 < 1 - s /\ 0 < u /\ 0 < v /\ 0 < 1 - u - v) /\
+  det (minus q p) (minus (x_of f) (y_of f)) (minus (x_of f) (z_of f)) <> 0.
+Proof.
+  intros Hs Hu Hv Hw E N.
+  pose proof (fun B => N (touches_at_boundary p q f s u v Hs Hu Hv Hw E B)). split; [lra |]. intros D.
+  destruct (three_are_dependent _ _ _ D) as (k & l & m & N' & C).
+  destruct (greatest_step [(s, k); (1 - s, - k); (u, l); (v, m); (1 - u - v, - l - m)]) as (h & W & w & r & I & Z).
+  - intros w r I. each_weight I; lra.
+  - destruct (Rlt_le_dec k 0); [exists s, k; cbn; auto 9 |].
+    destruct (Rlt_le_dec (- k) 0); [exists (1 - s), (- k); cbn; auto 9 |].
+    destruct (Rlt_le_dec l 0); [exists u, l; cbn; auto 9 |]. destruct (Rlt_le_dec m 0); [exists v, m; cbn; auto 9 |].
+    exists (1 - u - v), (- l - m); cbn; split; [auto 9 | lra].
+  - apply N. pose proof (W s k ltac:(cbn; auto 9)). pose proof (W _ (- k) ltac:(cbn; auto 9)).
+    pose proof (W u l ltac:(cbn; auto 9)). pose proof (W v m ltac:(cbn; auto 9)).
+    pose proof (W _ (- l - m) ltac:(cbn; auto 9)).
+    apply touches_at_boundary with (s + h * k) (u + h * l) (v + h * m); try lra.
+    + unfold combination in C. by_coordinates. injection E as Ex Ey Ez. injection C as Cx Cy Cz.
+      f_equal; [apply (f_equal (Rmult h)) in Cx | apply (f_equal (Rmult h)) in Cy | apply (f_equal (Rmult h)) in Cz];
+        lra.
+    + each_weight I; lra.
+Qed.
+
+(** ** A crossing is open in time *)
+
+(** True if P is true at all times close to t. *)
+Definition around (t : R) (P : R -> Prop) : Prop := exists d, 0 < d /\ forall s, Rabs (s - t) < d -> P s.
+
+Lemma around_both t P Q : around t P -> around t Q -> around t (fun s => P s /\ Q s).
+Proof.
+  intros (d & Hd & HP) (e & He & HQ). exists (Rmin d e). split; [apply Rmin_pos; assumption |].
+  intros s Hs. pose proof (Rmin_l d e). pose proof (Rmin_r d e). split; [apply HP | apply HQ]; lra.
+Qed.
+
+Lemma around_close t f e : continuity_pt f t -> 0 < e -> around t (fun s => Rabs (f s - f t) < e).
+Proof.
+  intros C He. destruct (C e He) as (d & Hd & H). exists d. split; [exact Hd |]. intros s Hs.
+  destruct (Req_dec t s) as [-> | N]; [rewrite Rminus_diag_eq, Rabs_R0; auto |].
+  apply H. split; [split; [exact I | exact N] | exact Hs].
+Qed.
+
+Lemma around_positive t f : continuity_pt f t -> 0 < f t -> around t (fun s => 0 < f s).
+Proof.
+  intros C H. destruct (around_close t f (f t) C H) as (d & Hd & D). exists d. split; [exact Hd |].
+  intros s Hs. specialize (D s Hs). apply Rabs_def2 in D. lra.
+Qed.
+
+Ltac continuous := cbv beta; repeat match goal with
+  | |- _ => assumption
+  | |- continuity_pt (fun t => @?f t + @?g t) _ => apply (continuity_pt_plus f g)
+  | |- continuity_pt (fun t => @?f t - @?g t) _ => apply (continuity_pt_minus f g)
+  | |- continuity_pt (fun t => @?f t * @?g t) _ => apply (continuity_pt_mult f g)
+  | |- continuity_pt (fun t => @?f t / @?g t) _ => apply (continuity_pt_div f g)
+  | |- continuity_pt (fun t => t) _ => apply derivable_continuous_pt, derivable_pt_id
+  | |- continuity_pt (fun _ => _) _ => apply continuity_pt_const; intros ? ?; reflexivity
+  end.
+
+Lemma det_is_continuous t (a b c : path) : continuous_at t a -> continuous_at t b -> continuous_at t c ->
+  continuity_pt (fun t => det (a t) (b t) (c t)) t.
+Proof.
+  intros (? & ? & ?) (? & ? & ?) (? & ? & ?). unfold det, dot, cross. cbn [x_of y_of z_of]. continuous.
+Qed.
+
+Lemma cramer a b c r : det a b c <> 0 ->
+  combination (det r b c / det a b c) (det a r c / det a b c) (det a b r / det a b c) a b c = r.
+Proof.
+  intros D. unfold combination. set (k := det a b c) in *. unfold det in k. clear - D.
+  subst k. unfold det in *. by_components. f_equal; field; exact D.
+Qed.
+
+Lemma crossing_is_open (p q : path) (f : triple path) t :
+  continuous_at t p -> continuous_at t q -> (forall v, vertex_of f v -> continuous_at t v) ->
+  ~ edge_touches (p t) (q t) (at_time f t) -> meet (on_segment (p t) (q t)) (on_triangle (at_time f t)) ->
+  around t (fun t' => meet (on_segment (p t') (q t')) (on_triangle (at_time f t'))).
+Proof.
+  intros Cp Cq Cf N (x & (s & Hs & ->) & u & v & (Hu & Hv & Hw) & E).
+  pose proof (crossing _ _ _ s u v Hs Hu Hv Hw E N) as (Hs' & D).
+  destruct f as [a b c]. unfold at_time, image in *. cbn [x_of y_of z_of] in *.
+  pose proof (Cf a (or_introl eq_refl)) as (? & ? & ?). destruct Cp as (? & ? & ?), Cq as (? & ? & ?).
+  pose proof (Cf b (or_intror (or_introl eq_refl))) as (? & ? & ?).
+  pose proof (Cf c (or_intror (or_intror eq_refl))) as (? & ? & ?).
+  pose (e1 := fun t => minus (q t) (p t)). pose (e2 := fun t => minus (a t) (b t)).
+  pose (e3 := fun t => minus (a t) (c t)).
+  pose (r := fun t => minus (triangle_point (Triple (a t) (b t) (c t)) u v) (segment_point (p t) (q t) s)).
+  assert (continuous_at t e1 /\ continuous_at t e2 /\ continuous_at t e3 /\ continuous_at t r) as (C1 & C2 & C3 & Cr).
+  { unfold continuous_at, e1, e2, e3, r. by_coordinates. repeat split; continuous. }
+  pose (d := fun t => det (e1 t) (e2 t) (e3 t)). change (d t <> 0) in D.
+  assert (Cd : continuity_pt d t) by (apply det_is_continuous; assumption).
+  assert (W : forall w g, continuity_pt g t -> g t = 0 ->
+    continuity_pt (fun t => w + g t / d t) t /\ w + g t / d t = w).
+  { intros w g Cg Zg. split; [continuous; exact D | rewrite Zg; field; exact D]. }
+  assert (R0 : r t = origin) by (unfold r; rewrite E; by_vectors).
+  assert (O : forall a b, det origin a b = 0 /\ det a origin b = 0 /\ det a b origin = 0)
+    by (clear; intros; unfold det; by_components; repeat split; ring).
+  pose proof (W s _ (det_is_continuous t _ _ _ Cr C2 C3) ltac:(cbv beta; rewrite R0; apply O)) as (CS & ES).
+  pose proof (W u _ (det_is_continuous t _ _ _ C1 Cr C3) ltac:(cbv beta; rewrite R0; apply O)) as (CU & EU).
+  pose proof (W v _ (det_is_continuous t _ _ _ C1 C2 Cr) ltac:(cbv beta; rewrite R0; apply O)) as (CV & EV).
+  pose (S := fun t => s + det (r t) (e2 t) (e3 t) / d t). pose (U := fun t => u + det (e1 t) (r t) (e3 t) / d t).
+  pose (V := fun t => v + det (e1 t) (e2 t) (r t) / d t).
+  change (continuity_pt S t) in CS. change (continuity_pt U t) in CU. change (continuity_pt V t) in CV.
+  change (S t = s) in ES. change (U t = u) in EU. change (V t = v) in EV.
+  destruct (around_both _ _ _ (around_both _ _ _ (around_positive t S CS ltac:(lra))
+      (around_both _ _ _ (around_positive t U CU ltac:(lra)) (around_positive t V CV ltac:(lra))))
+    (around_both _ _ _ (around_positive t (fun t => 1 - S t) ltac:(continuous) ltac:(lra))
+      (around_both _ _ _ (around_positive t (fun t => 1 - U t - V t) ltac:(continuous) ltac:(lra))
+        (around_positive t (fun t => d t * d t) ltac:(continuous) ltac:(apply Rsqr_pos_lt; exact D)))))
+    as (e & He & A).
+  exists e. split; [exact He |]. intros t' Ht. specialize (A t' Ht) as ((? & ? & ?) & ? & ? & P).
+  exists (segment_point (p t') (q t') (S t')). split; [exists (S t'); split; [lra | reflexivity] |].
+  exists (U t'), (V t'). split; [lra |].
+  assert (Dt : d t' <> 0) by (intros Z; rewrite Z in P; lra).
+  pose proof (cramer (e1 t') (e2 t') (e3 t') (r t') Dt) as K. clear - K. unfold S, U, V, d in *.
+  set (k := det (r t') _ _ / _) in *. set (l := det _ (r t') _ / _) in *. set (m := det _ _ (r t') / _) in *.
+  unfold combination, e1, e2, e3, r in K. clearbody k l m. by_coordinates. injection K as Kx Ky Kz. f_equal; lra.
+Qed.
+
+(** ** To have a distance is open in time *)
+
+(** Induction along [0,b], without the excluded middle: the conclusion is not refutable. *)
+Lemma continuation (E : R -> Prop) b : 0 <= b -> E 0 ->
+  (forall m, 0 <= m <= b -> ~ ~ exists d, 0 < d /\
+    forall x y, 0 <= x <= m -> m - d < x -> x <= y <= b -> y < m + d -> E x -> E y) ->
+  ~ ~ E b.
+Proof.
+  intros Hb E0 L N. destruct (completeness (fun x => 0 <= x <= b /\ E x)) as (m & U & Least).
+  - exists b. intros x (? & _). lra.
+  - exists 0. split; [lra | exact E0].
+  - assert (0 <= m) by (apply U; split; [lra | exact E0]).
+    assert (m <= b) by (apply Least; intros x (? & _); lra).
+    apply (L m); [lra |]. intros (d & Hd & D).
+    assert (m <= m - d); [| lra]. apply Least. intros x (Hx & Ex). apply Rnot_lt_le. intros G.
+    assert (x <= m) by (apply U; auto). destruct (Rle_lt_dec b (m + d / 2)).
+    + apply N. apply (D x b); auto; lra.
+    + assert (m + d / 2 <= m); [| lra]. apply U. split; [lra |]. apply (D x); auto; lra.
+Qed.
+
+Definition size (a : vector) : R := Rabs (x_of a) + Rabs (y_of a) + Rabs (z_of a).
+Definition apart (S : vector -> Prop) : Prop := ~ ~ exists e, 0 < e /\ forall x, S x -> e <= size x.
+
+Lemma size_nonnegative a : 0 <= size a.
+Proof. unfold size. split_Rabs; lra. Qed.
+
+Lemma size_zero a : size a <= 0 -> a = origin.
+Proof. unfold size. destruct a as [x y z]. cbn [x_of y_of z_of]. intros H. unfold origin. f_equal; split_Rabs; lra. Qed.
+
+Lemma size_plus a b : size (plus a b) <= size a + size b.
+Proof.
+  unfold size, plus. cbn [x_of y_of z_of]. pose proof (Rabs_triang (x_of a) (x_of b)).
+  pose proof (Rabs_triang (y_of a) (y_of b)). pose proof (Rabs_triang (z_of a) (z_of b)). lra.
+Qed.
+
+Lemma size_times k a : size (times k a) = Rabs k * size a.
+Proof. unfold size, times. cbn [x_of y_of z_of]. rewrite !Rabs_mult. ring. Qed.
+
+Lemma size_minus a b : size (minus a b) <= size a + size b.
+Proof.
+  replace (minus a b) with (plus a (times (-1) b)) by by_vectors.
+  pose proof (size_plus a (times (-1) b)) as H. rewrite size_times in H. rewrite Rabs_left in H; lra.
+Qed.
+
+(** A union of sets that change at a limited rate. *)
+Lemma sweep (G : R -> vector -> Prop) L : 0 <= L ->
+  (forall s s' x, 0 <= s <= 1 -> 0 <= s' <= 1 -> G s x ->
+    exists x', G s' x' /\ size (minus x' x) <= Rabs (s' - s) * L) ->
+  (forall s, 0 <= s <= 1 -> apart (G s)) -> apart (fun x => exists s, 0 <= s <= 1 /\ G s x).
+Proof.
+  intros HL Lip A N. apply (A 0); [lra |]. intros (e0 & He0 & S0).
+  apply (continuation (fun b => exists e, 0 < e /\ forall s x, 0 <= s <= b -> s <= 1 -> G s x -> e <= size x) 1).
+  - lra.
+  - exists e0. split; [exact He0 |]. intros s x Hs _ Gx. replace s with 0 in Gx by lra. auto.
+  - intros m Hm C. apply (A m Hm). intros (e & He & S). apply C. exists (e / 2 / (L + 1)).
+    assert (B : e / 2 / (L + 1) * (L + 1) = e / 2) by (field; lra).
+    assert (0 < e / 2 / (L + 1)) by (apply Rdiv_lt_0_compat; lra).
+    set (d := e / 2 / (L + 1)) in *. split; [assumption |].
+    intros x y Hx Hd Hy Hyd (e' & He' & S'). exists (Rmin (e / 2) e'). split; [apply Rmin_pos; lra |].
+    intros s a Hs Hs1 Ga. destruct (Rle_lt_dec s x).
+    + eapply Rle_trans; [apply Rmin_r | apply (S' s); auto; lra].
+    + eapply Rle_trans; [apply Rmin_l |]. destruct (Lip s m a) as (a' & Ga' & La); [lra | lra | exact Ga |].
+      specialize (S a' Ga'). assert (Rabs (m - s) <= d) by (apply Rabs_le; lra).
+      pose proof (size_plus (minus a' a) a) as T. replace (plus (minus a' a) a) with a' in T
+        by by_vectors. nra.
+  - intros (e & He & S). apply N. exists e. split; [exact He |]. intros x (s & Hs & Gx). apply (S s x); auto; lra.
+Qed.
+
+Lemma segment_and_triangle_are_apart p q f : ~ meet (on_segment p q) (on_triangle f) ->
+  apart (fun x => exists s y, 0 <= s <= 1 /\ on_triangle f y /\ x = minus (segment_point p q s) y).
+Proof.
+  intros N. pose (point s w v := minus (segment_point p q s) (triangle_point f (w * (1 - v)) (w * v))).
+  destruct f as [a b c].
+  assert (A : apart (fun x =>
+    exists s, 0 <= s <= 1 /\ exists w, 0 <= w <= 1 /\ exists v, 0 <= v <= 1 /\ x = point s w v)).
+  { apply (sweep (fun s x => _)) with (size (minus q p)); [apply size_nonnegative | |].
+    { intros s s' x Hs Hs' (w & Hw & v & Hv & ->). exists (point s' w v). split; [eauto 6 |].
+      rewrite <- size_times. apply Req_le. f_equal. unfold point. by_vectors. }
+    intros s Hs. apply (sweep (fun w x => _)) with (size (minus b a) + size (minus c a)).
+    { pose proof (size_nonnegative (minus b a)). pose proof (size_nonnegative (minus c a)). lra. }
+    { intros w w' x Hw Hw' (v & Hv & ->). exists (point s w' v). split; [eauto 6 |].
+      replace (minus _ _) with (times (w' - w) (minus (times (v - 1) (minus b a)) (times v (minus c a))))
+        by (unfold point; by_vectors).
+      rewrite size_times. apply Rmult_le_compat_l; [apply Rabs_pos |].
+      pose proof (size_minus (times (v - 1) (minus b a)) (times v (minus c a))) as T. rewrite !size_times in T.
+      pose proof (size_nonnegative (minus b a)). pose proof (size_nonnegative (minus c a)).
+      assert (Rabs (v - 1) <= 1) by (apply Rabs_le; lra). assert (Rabs v <= 1) by (apply Rabs_le; lra). nra. }
+    intros w Hw. apply (sweep (fun v x => _)) with (size (minus b c)); [apply size_nonnegative | |].
+    { intros v v' x Hv Hv' ->. exists (point s w v'). split; [reflexivity |].
+      replace (minus (point _ _ _) _) with (times w (times (v' - v) (minus b c)))
+        by (unfold point; by_vectors).
+      rewrite !size_times. rewrite (Rabs_right w) by lra. pose proof (size_nonnegative (minus b c)).
+      assert (0 <= Rabs (v' - v) * size (minus b c)) by (apply Rmult_le_pos; [apply Rabs_pos | assumption]). nra. }
+    intros v Hv C. apply C. exists (size (point s w v)). split; [| intros x ->; lra].
+    apply Rnot_le_lt. intros Z. apply N. exists (segment_point p q s). split; [exists s; auto |].
+    exists (w * (1 - v)), (w * v). split; [nra |]. apply size_zero in Z. unfold point in Z. clear - Z.
+    by_coordinates. injection Z as X Y Z. f_equal; lra. }
+  intros C. apply A. intros (e & He & S). apply C. exists e. split; [exact He |].
+  intros x (s & y & Hs & (u & v & (Hu & Hv & Hw) & ->) & ->). apply S. exists s. split; [exact Hs |].
+  exists (u + v). split; [lra |]. destruct (Req_dec (u + v) 0).
+  - exists 0. split; [lra |]. unfold point. f_equal. f_equal; nra.
+  - exists (v / (u + v)). assert (E : v / (u + v) * (u + v) = v) by (field; lra). set (k := v / (u + v)) in *.
+    split; [split; nra |]. unfold point. f_equal. f_equal; lra.
+Qed.
+
+Lemma around_near (p : path) t e : continuous_at t p -> 0 < e -> around t (fun t' => size (minus (p t') (p t)) < e).
+Proof.
+  intros (Cx & Cy & Cz) He. assert (H : 0 < e / 3) by lra.
+  destruct (around_both _ _ _ (around_close _ _ _ Cx H) (around_both _ _ _ (around_close _ _ _ Cy H)
+    (around_close _ _ _ Cz H))) as (d & Hd & D).
+  exists d. split; [exact Hd |]. intros t' Ht. specialize (D t' Ht). unfold size, minus. cbn [x_of y_of z_of]. lra.
+Qed.
+
+Lemma apart_is_open (p q : path) (f : triple path) t :
+  continuous_at t p -> continuous_at t q -> (forall v, vertex_of f v -> continuous_at t v) ->
+  ~ meet (on_segment (p t) (q t)) (on_triangle (at_time f t)) ->
+  ~ ~ around t (fun t' => ~ meet (on_segment (p t') (q t')) (on_triangle (at_time f t'))).
+Proof.
+  intros Cp Cq Cf N C. apply (segment_and_triangle_are_apart _ _ _ N). intros (e & He & S). apply C. clear C N.
+  pose (close (v : path) t' := size (minus (v t') (v t)) < e / 2).
+  assert (A : forall v, continuous_at t v -> around t (close v)) by (intros v Cv; apply around_near; [exact Cv | lra]).
+  destruct f as [a b c]. unfold at_time, image in *. cbn [x_of y_of z_of] in *.
+  destruct (around_both _ _ _ (around_both _ _ _ (A p Cp) (A q Cq)) (around_both _ _ _ (A a (Cf a ltac:(cbv; auto)))
+    (around_both _ _ _ (A b (Cf b ltac:(cbv; auto))) (A c (Cf c ltac:(cbv; auto)))))) as (d & Hd & D).
+  exists d. split; [exact Hd |]. intros t' Ht (x & (s & Hs & ->) & u & v & (Hu & Hv & Hw) & E).
+  destruct (D t' Ht) as ((Dp & Dq) & Da & Db & Dc). unfold close in *. clear - Hs Hu Hv Hw E S Dp Dq Da Db Dc.
+  set (z := minus (segment_point (p t) (q t) s) (triangle_point (Triple (a t) (b t) (c t)) u v)).
+  assert (B : e <= size z).
+  { apply S. exists s. eexists. split; [exact Hs |]. split; [exists u, v; split; [lra |] |]; reflexivity. }
+  replace z with (minus
+      (triangle_point (Triple (minus (a t') (a t)) (minus (b t') (b t)) (minus (c t') (c t))) u v)
+      (segment_point (minus (p t') (p t)) (minus (q t') (q t)) s)) in B
+    by (unfold z; clear - E; by_coordinates; injection E as Ex Ey Ez; f_equal; lra).
+  clear z S E. unfold triangle_point, segment_point in B. cbn [x_of y_of z_of] in B.
+  pose proof (Rle_trans _ _ _ B (size_minus _ _)) as B1.
+  pose proof (size_plus (plus (times (1 - u - v) (minus (a t') (a t))) (times u (minus (b t') (b t))))
+    (times v (minus (c t') (c t)))).
+  pose proof (size_plus (times (1 - u - v) (minus (a t') (a t))) (times u (minus (b t') (b t)))).
+  pose proof (size_plus (times (1 - s) (minus (p t') (p t))) (times s (minus (q t') (q t)))).
+  rewrite !size_times in *. rewrite (Rabs_right u), (Rabs_right v), (Rabs_right s), (Rabs_right (1 - s)),
+    (Rabs_right (1 - u - v)) in * by lra.
+  set (sa := size (minus (a t') (a t))) in *. set (sb := size (minus (b t') (b t))) in *.
+  set (sc := size (minus (c t') (c t))) in *. set (sp := size (minus (p t') (p t))) in *.
+  set (sq := size (minus (q t') (q t))) in *. clearbody sa sb sc sp sq.
+  assert ((1 - s) * (e / 2 - sp) + s * (e / 2 - sq) > 0) by (destruct (Req_dec s 0); nra).
+  assert (0 <= u * (e / 2 - sb)) by (apply Rmult_le_pos; lra).
+  assert (0 <= v * (e / 2 - sc)) by (apply Rmult_le_pos; lra).
+  assert (0 <= (1 - u - v) * (e / 2 - sa)) by (apply Rmult_le_pos; lra). lra.
+Qed.
+
+(** ** The theorem for an edge and a face *)
+
+Theorem edge_and_face (p q : path) (f : triple path) T :
+  (forall t, 0 <= t <= T -> continuous_at t p /\ continuous_at t q /\ forall v, vertex_of f v -> continuous_at t v) ->
+  ~ meet (on_segment (p 0) (q 0)) (on_triangle (at_time f 0)) ->
+  (forall t, 0 <= t <= T -> ~ edge_touches (p t) (q t) (at_time f t)) ->
+  forall t, 0 <= t <= T -> ~ meet (on_segment (p t) (q t)) (on_triangle (at_time f t)).
+Proof.
+  intros C N0 N t Ht.
+  pose (E x := forall t, 0 <= t <= x -> ~ meet (on_segment (p t) (q t)) (on_triangle (at_time f t))).
+  cut (~ ~ E T); [intros G M; apply G; intros ET; apply (ET t Ht M) |].
+  apply continuation; [lra | intros s Hs; replace s with 0 by lra; exact N0 |].
+  intros m Hm G. destruct (C m Hm) as (Cp & Cq & Cf).
+  assert (X : ~ meet (on_segment (p m) (q m)) (on_triangle (at_time f m))).
+  { intros M. destruct (crossing_is_open p q f m Cp Cq Cf (N m Hm) M) as (d & Hd & D). apply G. exists d.
+    split; [exact Hd |]. intros x y Hx Hxd Hy _ Ex. exfalso. apply (Ex x); [lra |]. apply D. apply Rabs_def1; lra. }
+  apply (apart_is_open p q f m Cp Cq Cf X). intros (d & Hd & D). apply G. exists d. split; [exact Hd |].
+  intros x y Hx Hxd Hy Hyd Ex s Hs. destruct (Rle_lt_dec s x); [apply Ex; lra |]. apply D. apply Rabs_def1; lra.
+Qed.
+
+(** ** The theorem for two faces *)
+
+Definition continuous_until (T : R) (f : triple path) : Prop :=
+  forall t, 0 <= t <= T -> forall v, vertex_of f v -> continuous_at t v.
+
+Lemma edge_of_one (f g : triple path) T p q : continuous_until T f -> continuous_until T g ->
+  ~ an_edge_meets (at_time f 0) (at_time g 0) ->
+  (forall t, 0 <= t <= T -> ~ a_pair_is meet (at_time f t) (at_time g t)) ->
+  edge_of f p q -> forall t, 0 <= t <= T -> ~ meet (on_segment (p t) (q t)) (on_triangle (at_time g t)).
+Proof.
+  intros Cf Cg N0 N Hpq. pose proof (vertices_of_edge _ _ _ Hpq) as V.
+  assert (Et : forall t, edge_of (at_time f t) (p t) (q t)) by (intros t; apply edge_of_image; eauto).
+  assert (Vt : forall t v, vertex_of f v -> vertex_of (at_time f t) (v t)) by (intros; apply vertex_of_image; eauto).
+  apply edge_and_face.
+  - intros t Ht. repeat split; first [apply (Cf t Ht); apply V | apply (Cg t Ht); assumption].
+  - intros M. apply N0. exists (p 0), (q 0). auto.
+  - intros t Ht [P | [P | (a & b & Hab & M)]]; apply (N t Ht); [left; exists (p t) | left; exists (q t) | right; right].
+    + split; [apply Vt, V | exists (p t); auto].
+    + split; [apply Vt, V | exists (q t); auto].
+    + exists (p t), (q t), a, b. auto.
+Qed.
+
+Theorem faces_that_never_meet (f g : triple path) T : continuous_until T f -> continuous_until T g ->
+  ~ an_edge_meets (at_time f 0) (at_time g 0) ->
+  (forall t, 0 <= t <= T -> ~ a_pair_is meet (at_time f t) (at_time g t)) ->
+  forall t, 0 <= t <= T -> ~ meet (on_triangle (at_time f t)) (on_triangle (at_time g t)).
+Proof.
+  intros Cf Cg N0 N t Ht M. destruct (faces_meet_at_an_edge _ _ M) as (a & b & [(Hab & E) | (Hab & E)]);
+    apply edge_of_image in Hab as (p & q & Hpq & -> & ->).
+  - exact (edge_of_one f g T p q Cf Cg N0 N Hpq t Ht E).
+  - refine (edge_of_one g f T p q Cg Cf _ _ Hpq t Ht E).
+    + intros (x & y & [X | X]); apply N0; exists x, y; auto.
+    + intros s Hs [P | [P | (p' & q' & a & b & Hp & Ha & x & X & Y)]]; apply (N s Hs);
+        [right; left; exact P | left; exact P | right; right]. exists a, b, p', q'. repeat split; auto. exists x. auto.
+Qed.
+
+(** ** Within a distance *)
+
+Lemma length_of_opposite n a b : length_of n (minus a b) = length_of n (minus b a).
+Proof.
+  replace (minus a b) with (times (-1) (minus b a)) by by_vectors. destruct n; cbn [length_of times x_of y_of z_of].
+  - rewrite !Rabs_mult, (Rabs_left (-1)) by lra. replace (- -1) with 1 by lra. rewrite !Rmult_1_l. reflexivity.
+  - f_equal. clear; by_components; ring.
+Qed.
+
+Lemma within_symmetric n d P Q : within n d P Q -> within n d Q P.
+Proof. intros (x & y & X & Y & L). exists y, x. rewrite length_of_opposite. auto. Qed.
+
+Lemma within_larger n d (P Q P' Q' : vector -> Prop) : within n d P Q ->
+  (forall x, P x -> P' x) -> (forall x, Q x -> Q' x) -> within n d P' Q'.
+Proof. intros (x & y & X & Y & L) HP HQ. exists x, y. auto. Qed.
+
+(** The face is moved by k c, while k grows. *)
+Definition moved (f : triple vector) (c : vector) : triple path := image (fun a k => plus a (times k c)) f.
+
+Lemma on_moved_triangle f c k x : on_triangle (at_time (moved f c) k) x <->
+  exists y, on_triangle f y /\ x = plus y (times k c).
+Proof.
+  unfold on_triangle, at_time, moved, image. cbn [x_of y_of z_of]. split.
+  - intros (u & v & D & ->). eexists. split; [exists u, v; auto |]. by_coordinates. f_equal; ring.
+  - intros (y & (u & v & D & ->) & ->). exists u, v. split; [exact D |]. by_coordinates. f_equal; ring.
+Qed.
+
+Lemma segment_is_in_face f a b x : vertex_of f a -> vertex_of f b -> on_segment a b x -> on_triangle f x.
+Proof.
+  assert (V : forall a, vertex_of f a -> exists u v, (0 <= u /\ 0 <= v /\ u + v <= 1) /\ a = triangle_point f u v).
+  { intros c [-> | [-> | ->]]; [exists 0, 0 | exists 1, 0 | exists 0, 1]; (split; [lra |]);
+      destruct f as [p q r]; cbv [triangle_point x_of y_of z_of]; by_vectors. }
+  intros Ha Hb (k & Hk & ->). apply V in Ha as (u & v & D & ->). apply V in Hb as (u' & v' & D' & ->).
+  exists ((1 - k) * u + k * u'), ((1 - k) * v + k * v'). split; [nra |]. by_coordinates. f_equal; ring.
+Qed.
+
+Theorem theorem_of_pairs (f g : triple path) n d T : continuous_until T f -> continuous_until T g ->
+  ~ an_edge_meets (at_time f 0) (at_time g 0) ->
+  (forall t, 0 <= t <= T -> ~ a_pair_is (within n d) (at_time f t) (at_time g t)) ->
+  forall t, 0 <= t <= T -> ~ within n d (on_triangle (at_time f t)) (on_triangle (at_time g t)).
+Proof.
+  intros Cf Cg N0 N t Ht (x & y & X & Y & L). pose proof (length_nonnegative n (minus x y)).
+  set (c := minus x y) in *.
+  assert (W : forall k a, 0 <= k <= 1 -> length_of n (minus (plus a (times k c)) a) <= d).
+  { intros k a Hk. replace (minus _ a) with (times k c) by by_vectors. rewrite length_times by lra. nra. }
+  assert (N' : ~ meet (on_triangle (at_time f t)) (on_triangle (at_time g t))).
+  { assert (M : forall P Q : vector -> Prop, meet P Q -> within n d P Q).
+    { intros P Q (z & Hp & Hq). exists z, z. repeat split; auto.
+      replace (minus z z) with (minus (plus z (times 0 c)) z) by by_vectors. apply W. lra. }
+    apply (faces_that_never_meet f g T Cf Cg N0); [| exact Ht]. intros s Hs P. apply (N s Hs).
+    destruct P as [(v & Hv & P) | [(v & Hv & P) | (p & q & a & b & Hp & Ha & P)]];
+      [left; exists v | right; left; exists v | right; right; exists p, q, a, b]; auto 6. }
+  specialize (N t Ht). set (F0 := at_time f t) in *. set (G0 := at_time g t) in *. clearbody F0 G0.
+  clear f g Cf Cg N0. destruct F0 as [a b e].
+  refine (faces_that_never_meet (Triple (fun _ => a) (fun _ => b) (fun _ => e)) (moved G0 c) 1 _ _ _ _ 1 ltac:(lra) _).
+  - intros k _ v [-> | [-> | ->]]; repeat split; continuous.
+  - intros k _ v V. apply vertex_of_image in V as (w & _ & ->). clear. unfold continuous_at. by_coordinates.
+    repeat split; continuous.
+  - assert (Z0 : forall z, on_triangle (at_time (moved G0 c) 0) z -> on_triangle G0 z).
+    { intros z Z. apply on_moved_triangle in Z as (y' & Y' & ->).
+      replace (plus y' (times 0 c)) with y' by by_vectors. exact Y'. }
+    intros (p & q & [(Hp & z & Z & Z') | (Hp & z & Z & Z')]); apply N'; exists z;
+      destruct (vertices_of_edge _ _ _ Hp) as (Vp & Vq); apply (segment_is_in_face _ p q z Vp Vq) in Z; auto.
+  - intros k Hk P. apply N.
+    destruct P as [(v & Hv & z & <- & Z) | [(v & Hv & z & <- & Z) | (p & q & p' & q' & Hp & Hq & z & Z & u & D & ->)]].
+    + left. exists v. split; [exact Hv |]. apply on_moved_triangle in Z as (y' & Z & ->).
+      exists (plus y' (times k c)), y'. auto.
+    + right. left. apply vertex_of_image in Hv as (w' & Hw & ->). apply vertex_of_image in Hw as (w & Hw & ->).
+      exists w. split; [exact Hw |]. apply within_symmetric. exists (plus w (times k c)), w. auto.
+    + right. right. apply edge_of_image in Hq as (p1' & q1' & Hq & -> & ->).
+      apply edge_of_image in Hq as (p1 & q1 & Hq & -> & ->). exists p, q, p1, q1. repeat split; auto.
+      eexists _, (segment_point p1 q1 u). repeat split; [exact Z | exists u; auto |].
+      replace (segment_point _ _ u) with (plus (segment_point p1 q1 u) (times k c)) by by_vectors. auto.
+  - exists x. split; [exact X |]. apply on_moved_triangle. exists y. split; [exact Y |]. subst c. by_vectors.
+Qed.
+
+(** ** The theorem for an edge and a face: the edge is a face of which two vertices are equal *)
+
+Lemma on_face_of_edge p q x : on_triangle (Triple p q q) x <-> on_segment p q x.
+Proof.
+  split.
+  - intros (u & v & D & ->). exists (u + v). split; [lra |]. by_coordinates. f_equal; ring.
+  - intros (u & D & ->). exists u, 0. split; [lra |]. by_coordinates. f_equal; ring.
+Qed.
+
+Theorem theorem_of_pairs_with_an_edge (p q : path) (g : triple path) n d T :
+  (forall t, 0 <= t <= T -> continuous_at t p /\ continuous_at t q) -> continuous_until T g ->
+  ~ meet (on_segment (p 0) (q 0)) (on_triangle (at_time g 0)) ->
+  (forall t, 0 <= t <= T -> ~ within n d (eq (p t)) (on_triangle (at_time g t)) /\
+    ~ within n d (eq (q t)) (on_triangle (at_time g t)) /\
+    forall a b, edge_of (at_time g t) a b -> ~ within n d (on_segment (p t) (q t)) (on_segment a b)) ->
+  forall t, 0 <= t <= T -> ~ within n d (on_segment (p t) (q t)) (on_triangle (at_time g t)).
+Proof.
+  intros C Cg N0 N t Ht W. refine (theorem_of_pairs (Triple p q q) g n d T _ Cg _ _ t Ht _).
+  - intros s Hs v [-> | [-> | ->]]; apply (C s Hs).
+  - intros (a & b & [(Hab & x & X & Y) | (Hab & x & X & Y)]); apply vertices_of_edge in Hab as (Ha & Hb);
+      apply (segment_is_in_face _ a b x Ha Hb) in X; apply N0; exists x; split; auto; apply on_face_of_edge; auto.
+  - clear t Ht W. intros t Ht P. destruct (N t Ht) as (Np & Nq & Ne). set (G := at_time g t) in *.
+    destruct P as [(v & [-> | [-> | ->]] & P) | [(v & Hv & P) | (a & b & a' & b' & Hab & Hab' & P)]];
+      [exact (Np P) | exact (Nq P) | exact (Nq P) | |].
+    + assert (exists a b, edge_of G a b /\ on_segment a b v) as (a & b & Hab & V).
+      { destruct Hv as [-> | [-> | ->]]; do 2 eexists; (split; [| apply start_of_segment]); unfold edge_of; auto. }
+      apply (Ne a b Hab), within_symmetric.
+      refine (within_larger _ _ _ _ _ _ P _ (fun x => proj1 (on_face_of_edge _ _ x))). intros x <-. exact V.
+    + apply (Ne a' b' Hab'). refine (within_larger _ _ _ _ _ _ P _ (fun x X => X)). intros x X.
+      apply vertices_of_edge in Hab as (Ha & Hb). apply on_face_of_edge. exact (segment_is_in_face _ a b x Ha Hb X).
+  - exact (within_larger _ _ _ _ _ _ W (fun x => proj2 (on_face_of_edge _ _ x)) (fun x X => X)).
+Qed.
+
+(** ** The theorem for a mesh *)
+
+Section Mesh.
+
+(** Vertices, of which some have edges, of which some are in faces. *)
+Variable V : Type.
+Variable place : V -> path.
+Variable is_edge : V -> V -> Prop.
+Variable is_face : triple V -> Prop.
+
+Inductive primitive := a_vertex (v : V) | an_edge (a b : V) | a_face (f : triple V).
+
+Definition in_mesh (P : primitive) : Prop :=
+  match P with a_vertex _ => True | an_edge a b => is_edge a b | a_face f => is_face f end.
+
+Definition has_vertex (P : primitive) (v : V) : Prop :=
+  match P with a_vertex w => v = w | an_edge a b => v = a \/ v = b | a_face f => vertex_of f v end.
+
+Definition points (P : primitive) (t : R) : vector -> Prop :=
+  match P with
+  | a_vertex v => eq (place v t)
+  | an_edge a b => on_segment (place a t) (place b t)
+  | a_face f => on_triangle (at_time (image place f) t)
+  end.
+
+Definition without_common_vertex (P Q : primitive) : Prop := forall v, has_vertex P v -> ~ has_vertex Q v.
+
+(** The pairs that are searched, if they have no common vertex. *)
+Definition without_edge (v : V) : Prop := forall w, ~ is_edge v w.
+Definition without_face (a b : V) : Prop := forall f, is_face f -> ~ (vertex_of f a /\ vertex_of f b).
+Definition is_searched (P Q : primitive) : Prop :=
+  match P, Q with
+  | a_vertex _, a_face _ => True
+  | an_edge _ _, an_edge _ _ => True
+  | a_vertex v, an_edge a b => without_edge v /\ without_face a b
+  | a_vertex v, a_vertex w => without_edge v /\ without_edge w
+  | _, _ => False
+  end.
+
+(** The pairs of which nothing is said: an edge leads from the vertex to the edge, or one or two to the vertex. *)
+Definition is_excluded (P Q : primitive) : Prop :=
+  match P, Q with
+  | a_vertex v, an_edge a b | an_edge a b, a_vertex v => is_edge v a \/ is_edge v b
+  | a_vertex v, a_vertex w => is_edge v w \/ exists x, is_edge v x /\ is_edge x w
+  | _, _ => False
+  end.
+
+Hypothesis edges_have_no_direction : forall a b, is_edge a b -> is_edge b a.
+Hypothesis faces_have_edges : forall f a b, is_face f -> edge_of f a b -> a = b \/ is_edge a b.
+Hypothesis no_vertex_is_named_three_times : forall f, is_face f -> ~ (x_of f = y_of f /\ y_of f = z_of f).
+
+Variable n : norm.
+Variables d T : R.
+Hypothesis places_are_continuous : forall v t, 0 <= t <= T -> continuous_at t (place v).
+Hypothesis free_at_start : forall a b f, is_edge a b -> is_face f ->
+  without_common_vertex (an_edge a b) (a_face f) -> ~ meet (points (an_edge a b) 0) (points (a_face f) 0).
+Hypothesis searched_are_apart : forall P Q, in_mesh P -> in_mesh Q -> without_common_vertex P Q -> is_searched P Q ->
+  forall t, 0 <= t <= T -> ~ within n d (points P t) (points Q t).
+
+Lemma vertex_has_edge f v : is_face f -> vertex_of f v -> exists w, is_edge v w /\ vertex_of f w.
+Proof.
+  intros Hf. pose proof (no_vertex_is_named_three_times f Hf) as N. pose proof (faces_have_edges f) as E.
+  unfold edge_of, vertex_of in *. destruct f as [a b c]. cbn [x_of y_of z_of] in *.
+  destruct (E a b Hf ltac:(auto)), (E b c Hf ltac:(auto)), (E c a Hf ltac:(auto));
+    try (exfalso; apply N; split; congruence); intros [-> | [-> | ->]]; subst; eauto 6.
+Qed.
+
+(** An edge from a vertex to itself is a part of another. *)
+Lemma proper_edge f t a b : is_face f -> edge_of (at_time (image place f) t) a b ->
+  exists x y, is_edge x y /\ vertex_of f x /\ vertex_of f y /\
+    forall c, on_segment a b c -> on_segment (place x t) (place y t) c.
+Proof.
+  intros Hf H. apply edge_of_image in H as (p & q & H & -> & ->). apply edge_of_image in H as (x & y & H & -> & ->).
+  pose proof (vertices_of_edge _ _ _ H) as (Vx & Vy).
+  destruct (faces_have_edges f x y Hf H) as [<- | E]; [| exists x, y; auto].
+  destruct (vertex_has_edge f x Hf Vx) as (z & E & Vz). exists x, z. repeat split; auto.
+  intros c (u & _ & ->). exists 0. split; [lra | by_vectors].
+Qed.
+
+Lemma face_is_continuous f : continuous_until T (image place f).
+Proof. intros t Ht v Hv. apply vertex_of_image in Hv as (x & _ & ->). exact (places_are_continuous x t Ht). Qed.
+
+Lemma vertex_and_face_are_apart v f t : is_face f -> ~ vertex_of f v -> 0 <= t <= T ->
+  ~ within n d (points (a_vertex v) t) (points (a_face f) t).
+Proof.
+  intros Hf N Ht. refine (searched_are_apart (a_vertex v) (a_face f) I Hf _ I t Ht). intros w -> W. exact (N W).
+Qed.
+
+Lemma edges_are_apart a b a' b' t : is_edge a b -> is_edge a' b' ->
+  without_common_vertex (an_edge a b) (an_edge a' b') -> 0 <= t <= T ->
+  ~ within n d (points (an_edge a b) t) (points (an_edge a' b') t).
+Proof. intros E E' N Ht. exact (searched_are_apart (an_edge a b) (an_edge a' b') E E' N I t Ht). Qed.
+
+Lemma edge_and_face_are_apart a b f t : is_edge a b -> is_face f ->
+  without_common_vertex (an_edge a b) (a_face f) -> 0 <= t <= T ->
+  ~ within n d (points (an_edge a b) t) (points (a_face f) t).
+Proof.
+  intros E Hf N Ht. revert t Ht. apply theorem_of_pairs_with_an_edge.
+  - intros t Ht. split; apply places_are_continuous; exact Ht.
+  - apply face_is_continuous.
+  - exact (free_at_start a b f E Hf N).
+  - intros t Ht. repeat split.
+    + apply (vertex_and_face_are_apart a f t Hf); [apply N; cbn; auto | exact Ht].
+    + apply (vertex_and_face_are_apart b f t Hf); [apply N; cbn; auto | exact Ht].
+    + intros a' b' H W. destruct (proper_edge f t a' b' Hf H) as (x & y & Exy & Vx & Vy & S).
+      apply (edges_are_apart a b x y t E Exy); [| exact Ht | exact (within_larger _ _ _ _ _ _ W (fun c C => C) S)].
+      intros v Hv [-> | ->]; apply (N _ Hv); assumption.
+Qed.
+
+Lemma faces_are_apart f g t : is_face f -> is_face g -> without_common_vertex (a_face f) (a_face g) -> 0 <= t <= T ->
+  ~ within n d (points (a_face f) t) (points (a_face g) t).
+Proof.
+  intros Hf Hg N Ht. assert (N' : without_common_vertex (a_face g) (a_face f)) by (intros v Vg Vf; exact (N v Vf Vg)).
+  assert (Free : forall f g, is_face f -> is_face g -> without_common_vertex (a_face f) (a_face g) -> forall a b,
+    edge_of (at_time (image place f) 0) a b -> ~ meet (on_segment a b) (points (a_face g) 0)).
+  { intros h k Hh Hk M a b Hab (z & Z & Z'). destruct (proper_edge h 0 a b Hh Hab) as (x & y & E & Vx & Vy & S).
+    apply (free_at_start x y k E Hk); [| exists z; split; [apply S, Z | exact Z']].
+    intros v [-> | ->]; apply M; assumption. }
+  revert t Ht. apply theorem_of_pairs; try apply face_is_continuous.
+  - intros (a & b & [(Hab & M) | (Hab & M)]); [apply (Free f g Hf Hg N a b Hab M) |].
+    apply (Free g f Hg Hf N' a b Hab M).
+  - intros t Ht [(v & Hv & W) | [(v & Hv & W) | (a & b & a' & b' & Hab & Hab' & W)]].
+    + apply vertex_of_image in Hv as (p & Hv & ->). apply vertex_of_image in Hv as (x & Hx & ->).
+      exact (vertex_and_face_are_apart x g t Hg (N x Hx) Ht W).
+    + apply vertex_of_image in Hv as (p & Hv & ->). apply vertex_of_image in Hv as (x & Hx & ->).
+      exact (vertex_and_face_are_apart x f t Hf (N' x Hx) Ht W).
+    + destruct (proper_edge f t a b Hf Hab) as (x & y & E & Vx & Vy & S).
+      destruct (proper_edge g t a' b' Hg Hab') as (x' & y' & E' & Vx' & Vy' & S').
+      apply (edges_are_apart x y x' y' t E E'); [| exact Ht | exact (within_larger _ _ _ _ _ _ W S S')].
+      intros v Hv Hv'. apply (N v); [destruct Hv as [-> | ->] | destruct Hv' as [-> | ->]]; assumption.
+Qed.
+
+Lemma vertex_and_edge_are_apart v a b t : is_edge a b -> without_common_vertex (a_vertex v) (an_edge a b) ->
+  ~ is_excluded (a_vertex v) (an_edge a b) -> 0 <= t <= T ->
+  ~ within n d (points (a_vertex v) t) (points (an_edge a b) t).
+Proof.
+  intros E N X Ht W. cbn [is_excluded] in X. assert (F : without_edge v).
+  { intros x Ex. apply (edges_are_apart v x a b t Ex E); [| exact Ht |].
+    - intros w [-> | ->] Hw; [exact (N v eq_refl Hw) | destruct Hw as [-> | ->]; auto].
+    - refine (within_larger _ _ _ _ _ _ W _ (fun c C => C)). intros c <-. apply start_of_segment. }
+  refine (searched_are_apart (a_vertex v) (an_edge a b) I E N _ t Ht W). split; [exact F |].
+  intros f Hf (Ha & Hb). apply (vertex_and_face_are_apart v f t Hf); [| exact Ht |].
+  - intros Hv. destruct (vertex_has_edge f v Hf Hv) as (w & Ew & _). exact (F w Ew).
+  - refine (within_larger _ _ _ _ _ _ W (fun c C => C) _). intros c.
+    apply segment_is_in_face; apply vertex_of_image; [exists (place a) | exists (place b)];
+      (split; [apply vertex_of_image; eauto | reflexivity]).
+Qed.
+
+Lemma vertices_are_apart v w t : v <> w -> ~ is_excluded (a_vertex v) (a_vertex w) -> 0 <= t <= T ->
+  ~ within n d (points (a_vertex v) t) (points (a_vertex w) t).
+Proof.
+  intros N X Ht W. assert (F : forall v w, v <> w -> ~ is_excluded (a_vertex v) (a_vertex w) ->
+    within n d (points (a_vertex v) t) (points (a_vertex w) t) -> without_edge v).
+  { clear v w N X W. cbn [is_excluded]. intros v w N X W x E. apply (vertex_and_edge_are_apart w v x t E); auto.
+    - intros y -> [-> | ->]; auto.
+    - cbn [is_excluded]. intros [E' | E']; apply X; eauto 6.
+    - apply within_symmetric in W. refine (within_larger _ _ _ _ _ _ W (fun c C => C) _).
+      intros c <-. apply start_of_segment. }
+  refine (searched_are_apart (a_vertex v) (a_vertex w) I I _ _ t Ht W).
+  - intros x -> E. exact (N E).
+  - split; [exact (F v w N X W) |]. apply (F w v); [auto | | apply within_symmetric, W].
+    cbn [is_excluded] in *. intros [E | (x & E & E')]; apply X; eauto 7.
+Qed.
+
+Theorem theorem_of_pairs_in_a_mesh P Q t : in_mesh P -> in_mesh Q -> without_common_vertex P Q -> ~ is_excluded P Q ->
+  0 <= t <= T -> ~ within n d (points P t) (points Q t).
+Proof.
+  intros HP HQ N X Ht. assert (N' : without_common_vertex Q P) by (intros v Hq Hp; exact (N v Hp Hq)).
+  assert (S : ~ within n d (points Q t) (points P t) -> ~ within n d (points P t) (points Q t))
+    by auto using within_symmetric.
+  destruct P as [v | a b | f], Q as [w | a' b' | g]; cbn [in_mesh] in HP, HQ.
+  - apply vertices_are_apart; auto. intros <-. exact (N v eq_refl eq_refl).
+  - apply vertex_and_edge_are_apart; auto.
+  - apply vertex_and_face_are_apart; auto. exact (N v eq_refl).
+  - apply S, vertex_and_edge_are_apart; auto.
+  - apply edges_are_apart; auto.
+  - apply edge_and_face_are_apart; auto.
+  - apply S, vertex_and_face_are_apart; auto. exact (N' w eq_refl).
+  - apply S, edge_and_face_are_apart; auto.
+  - apply faces_are_apart; auto.
+Qed.
+
+End Mesh.
+
+(** ** The theorem for two faces and queries *)
+
+(** The queries of the pairs of two faces. *)
+Inductive query_of (f g : triple motion) : query -> Prop :=
+  | vertex_of_first v : vertex_of f v -> query_of f g (Query vertex_face v (x_of g) (y_of g) (z_of g))
+  | vertex_of_second v : vertex_of g v -> query_of f g (Query vertex_face v (x_of f) (y_of f) (z_of f))
+  | edges_of_both p q a b : edge_of f p q -> edge_of g a b -> query_of f g (Query edge_edge p q a b).
+
+(** The order of the ends, and that of the edges, does not matter. *)
+Lemma contact_in_any_order p q a b s t : contact (Query edge_edge p q a b) s t ->
+  contact (Query edge_edge q p a b) s t /\ contact (Query edge_edge a b p q) s t.
+Proof.
+  unfold contact, F. cbn. intros (u & v & D & L). split; [exists (1 - u), v | exists v, u]; (split; [lra |]).
+  - replace (plus (times (1 - (1 - u)) _) _) with (plus (times (1 - u) (position p t)) (times u (position q t)))
+      by by_vectors. exact L.
+  - rewrite length_of_opposite. exact L.
+Qed.
+
+Theorem no_two_faces_touch (f g : triple motion) s T :
+  ~ an_edge_meets (image (fun m => position m 0) f) (image (fun m => position m 0) g) ->
+  (forall q, query_of f g q -> no_contact_until q s T) ->
+  forall t, 0 <= t <= T -> ~ within (norm_of s) (Q2R (distance_of s))
+    (on_triangle (image (fun m => position m t) f)) (on_triangle (image (fun m => position m t) g)).
+Proof.
+  intros N0 N. assert (C : forall h, continuous_until T (image position h)).
+  { intros h t _ v Hv. apply vertex_of_image in Hv as (m & _ & ->). unfold continuous_at, position. by_coordinates.
+    repeat split; continuous. }
+  apply (theorem_of_pairs (image position f) (image position g) _ _ T (C f) (C g) N0).
+  intros t Ht [(v & Hv & x & y & <- & (a & b & D & ->) & L) | [(v & Hv & x & y & <- & (a & b & D & ->) & L) |
+    (p & q & a & b & Hp & Ha & x & y & (u & D & ->) & (v & D' & ->) & L)]].
+  - apply (vertex_of_image (fun m => position m t)) in Hv as (m & Hm & ->).
+    apply (N _ (vertex_of_first f g m Hm) t Ht). exists a, b. auto.
+  - apply (vertex_of_image (fun m => position m t)) in Hv as (m & Hm & ->).
+    apply (N _ (vertex_of_second f g m Hm) t Ht). exists a, b. auto.
+  - apply (edge_of_image (fun m => position m t)) in Hp as (p' & q' & Hp & -> & ->).
+    apply (edge_of_image (fun m => position m t)) in Ha as (a' & b' & Ha & -> & ->).
+    apply (N _ (edges_of_both f g p' q' a' b' Hp Ha) t Ht). exists u, v. cbn. auto.
+Qed.
+
+Print Assumptions theorem_of_pairs_in_a_mesh.
+Print Assumptions no_two_faces_touch.
