@@ -4,7 +4,6 @@
 
 #include <cstddef>
 #include <optional>
-#include <string_view>
 #include <utility>
 
 #include "touchstone/oracle.hpp"

@@ -2,7 +2,6 @@
 
 #include <cstddef>
 #include <stdexcept>
-#include <string>
 
 #include "verify/cli/option_table.hpp"
 #include "verify/mesh/groups.hpp"

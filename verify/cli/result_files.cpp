@@ -4,10 +4,8 @@
 
 #include <algorithm>
 #include <iterator>
-#include <span>
 #include <utility>
 
-#include "fast/method.hpp"
 #include "touchstone/certified.hpp"
 #include "verify/cli/options.hpp"
 #include "verify/io/printable.hpp"

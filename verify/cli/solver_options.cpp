@@ -3,14 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstdint>
 #include <stdexcept>
-#include <string>
-#include <string_view>
 #include <utility>
 
 #include "fast/kernels.hpp"
-#include "fast/method.hpp"
 #include "touchstone/certified.hpp"
 #include "touchstone/query.hpp"
 #include "verify/cli/option_table.hpp"
@@ -18,7 +14,6 @@
 #include "verify/io/number_text.hpp"
 #include "verify/io/printable.hpp"
 #include "verify/io/terminal.hpp"
-#include "verify/solvers/plugin_method.hpp"
 #include "verify/solvers/registry.hpp"
 
 namespace touchstone::verify::cli {

@@ -2,17 +2,14 @@
 
 #include <fmt/format.h>
 
-#include <cstddef>
 #include <set>
 #include <stdexcept>
 #include <utility>
-#include <vector>
 
 #include "touchstone/broad_phase.hpp"
 #include "touchstone/query.hpp"
 #include "verify/cli/option_table.hpp"
 #include "verify/data/dataset.hpp"
-#include "verify/generate/families.hpp"
 #include "verify/io/terminal.hpp"
 
 namespace touchstone::verify::cli {

@@ -12,9 +12,7 @@
 #include <tuple>
 #include <utility>
 
-#include "fast/method.hpp"
 #include "touchstone/certified.hpp"
-#include "verify/base/deadline.hpp"
 #include "verify/fuzz/curved_generators.hpp"
 #include "verify/fuzz/diagnosis.hpp"
 #include "verify/fuzz/generators.hpp"

@@ -1,10 +1,8 @@
 #include "verify/fuzz/generators.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <iterator>
-#include <utility>
 
 #include "verify/fuzz/aligned_roundings.hpp"
 #include "verify/fuzz/contact.hpp"

@@ -4,10 +4,8 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <bit>
-#include <charconv>
 #include <cmath>
 #include <cstdlib>
-#include <string_view>
 
 namespace touchstone::verify::fuzz {
 namespace {

@@ -7,7 +7,6 @@
 
 #include "touchstone/certificate.hpp"
 #include "touchstone/certificate_text.hpp"
-#include "verify/base/deadline.hpp"
 #include "verify/fuzz/plainness.hpp"
 #include "verify/fuzz/shrink.hpp"
 #include "verify/judge/terms.hpp"

@@ -4,7 +4,6 @@
 /// Asks a solver again after a finding: for a simpler query with the same fault, and for the
 /// evidence.
 
-#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>

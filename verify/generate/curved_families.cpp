@@ -1,7 +1,6 @@
 #include "verify/generate/curved_families.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <deque>
 #include <optional>

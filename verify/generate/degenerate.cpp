@@ -7,9 +7,6 @@
 /// of the corners only at t = τ, and there iff the ranges of the two primitives' places meet. With
 /// the first primitive moved by s the corners are s + (…) g + (t−τ) 2^k r, never zero.
 
-#include <algorithm>
-#include <utility>
-
 #include "verify/generate/family_builder.hpp"
 #include "verify/generate/grid.hpp"
 

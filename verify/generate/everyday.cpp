@@ -3,9 +3,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <cstdint>
 #include <optional>
-#include <utility>
 
 #include "verify/generate/decimal.hpp"
 #include "verify/generate/draws.hpp"

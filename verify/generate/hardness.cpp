@@ -7,7 +7,6 @@
 #include <cstddef>
 #include <optional>
 #include <stdexcept>
-#include <string>
 
 #include "touchstone/certified.hpp"
 #include "verify/generate/decimal.hpp"

@@ -8,8 +8,6 @@
 #include <fstream>
 #include <span>
 #include <stdexcept>
-#include <string>
-#include <utility>
 
 #include "touchstone/contacts.hpp"
 #include "verify/base/cores.hpp"

@@ -9,7 +9,6 @@
 #include <optional>
 #include <system_error>
 #include <utility>
-#include <vector>
 
 #include "verify/data/npz.hpp"
 #include "verify/io/dataset_error.hpp"

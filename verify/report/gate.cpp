@@ -7,7 +7,6 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <string_view>
-#include <utility>
 
 #include "touchstone/query.hpp"
 #include "verify/io/dataset_error.hpp"

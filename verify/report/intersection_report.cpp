@@ -6,7 +6,6 @@
 #include <array>
 #include <nlohmann/json.hpp>
 #include <span>
-#include <string_view>
 #include <utility>
 
 #include "verify/io/csv.hpp"

@@ -4,7 +4,6 @@
 /// The intersections of meshes at rest, for people (tables) and for machines (JSON, CSV).
 
 #include <cstddef>
-#include <cstdint>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <string_view>

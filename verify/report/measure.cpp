@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <map>
 #include <memory>
 #include <numeric>
@@ -14,7 +13,6 @@
 #include "verify/base/deadline.hpp"
 #include "verify/jobs/statistics.hpp"
 #include "verify/jobs/timing.hpp"
-#include "verify/judge/judgement.hpp"
 #include "verify/report/judgement_report.hpp"
 
 namespace touchstone::verify::report {

@@ -4,8 +4,6 @@
 /// Steps of a simulation and the contacts in them, for people (tables) and for machines (JSON,
 /// CSV).
 
-#include <array>
-#include <cstdint>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <span>

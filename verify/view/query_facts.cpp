@@ -1,7 +1,5 @@
 #include "verify/view/query_facts.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -14,7 +12,6 @@
 #include "touchstone/oracle.hpp"
 #include "verify/io/printable.hpp"
 #include "verify/judge/ground_truth.hpp"
-#include "verify/judge/judgement.hpp"
 #include "verify/judge/terms.hpp"
 #include "verify/solvers/registry.hpp"
 #include "verify/view/certificate_facts.hpp"

@@ -6,8 +6,6 @@
 #include <limits>
 #include <span>
 
-#include "fast/certified/exact/fixed_integer.hpp"
-
 namespace touchstone::fast::exact_stage {
 namespace {
 

@@ -1,13 +1,11 @@
 #include "fast/certified/exact/distance_decision.hpp"
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <cstddef>
 #include <initializer_list>
 #include <span>
 #include <utility>
-#include <vector>
 
 #include "fast/certified/exact/real_root.hpp"
 
