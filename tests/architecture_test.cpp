@@ -151,15 +151,13 @@ constexpr std::string_view headers_without_test = R"(
 // Through what uses them: files and child processes, the tables of all commands, number_text_test.cpp
 // and meshes; certify, solve, the step's measurements, NumPy's arrays, the fuzzer; judge_test.cpp;
 // the pages' own tests.
-  verify/io/: descriptor.hpp text_table.hpp words.hpp
+  verify/io/: descriptor.hpp text_table.hpp
   verify/judge/: ground_truth.hpp
-  verify/report/: report_page_texts.hpp
-  verify/view/: view_page_texts.hpp
   verify/jobs/: truth_and_answers.hpp work_time.hpp
   verify/data/: npy_header.hpp
   verify/fuzz/: curved_generators.hpp diagnosis.hpp fuzz_report.hpp mutation.hpp plainness.hpp scheduler.hpp signature.hpp
 // By tests/transcripts, and documents_test.cpp: docs/results.md and its picture are those of their data.
-  verify/cli/: commands.hpp files.hpp group_options.hpp help.hpp options.hpp result_files.hpp solver_options.hpp sources.hpp version.hpp
+  verify/cli/: commands.hpp files.hpp help.hpp options.hpp result_files.hpp solver_options.hpp sources.hpp
   verify/mesh/: moving_mesh.hpp
   verify/report/: certify_report.hpp intersection_report.hpp judgement_report.hpp step_report.hpp measurement.hpp
 )";

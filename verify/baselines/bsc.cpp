@@ -37,8 +37,8 @@
 
 #include "verify/baselines/bernstein.hpp"
 #include "verify/baselines/exact_number.hpp"
-#include "verify/baselines/upward_interval.hpp"
 #include "verify/baselines/method_support.hpp"
+#include "verify/baselines/upward_interval.hpp"
 
 namespace touchstone::baselines {
 namespace {

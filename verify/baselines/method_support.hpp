@@ -51,8 +51,8 @@ using AnyAnswerFunction = fast::Answer (*)(const Queries& queries, std::size_t i
 
 using Random = verify::generate::Random;
 
-/// The stream of a method that tries random directions. Its seed is the query's own bits, so a query
-/// gets the same answer every time, in any order and in any thread.
+/// The stream of a method that tries random directions. Its seed is the query's own bits, so a
+/// query gets the same answer every time, in any order and in any thread.
 [[nodiscard]] Random random_of(const Query& query);
 
 /// Saturates a number of steps at the maximum of an answer.

@@ -42,9 +42,9 @@
 #include <stdexcept>
 
 #include "verify/baselines/exact_number.hpp"
+#include "verify/baselines/method_support.hpp"
 #include "verify/baselines/planar_overlap.hpp"
 #include "verify/baselines/upward_interval.hpp"
-#include "verify/baselines/method_support.hpp"
 
 namespace touchstone::baselines {
 namespace {

@@ -26,7 +26,6 @@
 #include "verify/cli/help.hpp"
 #include "verify/cli/option_table.hpp"
 #include "verify/cli/options.hpp"
-#include "verify/cli/version.hpp"
 #include "verify/data/dataset.hpp"
 #include "verify/data/ground_truth_files.hpp"
 #include "verify/data/npy.hpp"

@@ -18,7 +18,6 @@
 #include "verify/cli/commands.hpp"
 #include "verify/cli/help.hpp"
 #include "verify/cli/options.hpp"
-#include "verify/cli/version.hpp"
 #include "verify/io/printable.hpp"
 #include "verify/io/terminal.hpp"
 

@@ -16,7 +16,6 @@
 #include "verify/cli/options.hpp"
 #include "verify/cli/result_files.hpp"
 #include "verify/cli/solver_options.hpp"
-#include "verify/cli/version.hpp"
 #include "verify/data/dataset.hpp"
 #include "verify/data/ground_truth_files.hpp"
 #include "verify/data/store.hpp"
@@ -25,7 +24,7 @@
 #include "verify/io/number_text.hpp"
 #include "verify/io/printable.hpp"
 #include "verify/io/terminal.hpp"
-#include "verify/jobs/own_program.hpp"
+#include "verify/jobs/pieces.hpp"
 
 namespace touchstone::verify::cli {
 namespace {

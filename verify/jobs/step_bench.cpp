@@ -13,7 +13,7 @@
 #include "verify/base/cores.hpp"
 #include "verify/base/deadline.hpp"
 #include "verify/jobs/memory_pass.hpp"
-#include "verify/jobs/statistics.hpp"
+#include "verify/jobs/timing.hpp"
 
 namespace touchstone::verify::jobs {
 namespace {

@@ -11,7 +11,6 @@
 #include <utility>
 
 #include "verify/base/deadline.hpp"
-#include "verify/jobs/statistics.hpp"
 #include "verify/jobs/timing.hpp"
 #include "verify/report/judgement_report.hpp"
 

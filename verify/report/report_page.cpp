@@ -7,8 +7,7 @@
 
 #include "verify/io/html.hpp"
 #include "verify/judge/separation_inference.hpp"
-#include "verify/report/measurement_json.hpp"
-#include "verify/report/report_page_texts.hpp"
+#include "verify/report/measurement.hpp"
 
 namespace touchstone::verify::report {
 namespace {

@@ -20,7 +20,7 @@
 #include "verify/io/json.hpp"
 #include "verify/io/obj_statements.hpp"
 #include "verify/jobs/prove.hpp"
-#include "verify/view/certificate_facts.hpp"
+#include "verify/view/query_facts.hpp"
 
 namespace touchstone::verify::view {
 namespace {

@@ -1,4 +1,4 @@
-#include "verify/report/measurement_json.hpp"
+#include "verify/report/measurement.hpp"
 
 #include <gtest/gtest.h>
 
