@@ -279,10 +279,8 @@ void add(CLI::App& app, Status& status) {
            "touchstone bench --step 92.ply 93.ply --method certified",
            "Without PATH: two patches of mesh that move through each other, and the built-in set. "
            "Built-in solvers run in this process, in one thread; plugins run in child processes. "
-           "With --step the "
-           "queries are the "
-           "candidates of the broad phase, and the whole step is timed, with one thread and with "
-           "--threads.\n" +
+           "With --step the queries are the candidates of the broad phase, and the whole step is "
+           "timed, with one thread and with --threads.\n" +
                std::string(judging_statuses));
   command->callback([arguments, command, &status] {
     settle(*command, *arguments);

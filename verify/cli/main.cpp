@@ -60,9 +60,8 @@ void add_curved(CLI::App& app) {
   command->callback([] {
     throw std::invalid_argument(
         "curved is now certify, which decides queries on curves of every degree: touchstone "
-        "certify "
-        "FILE, or --degree 2 --degree 3 --degree rational for the families, with --prove for "
-        "--proof and --method subdivision and so on for --others");
+        "certify FILE, or --degree 2 --degree 3 --degree rational for the families, with --prove "
+        "for --proof and --method subdivision and so on for --others");
   });
 }
 

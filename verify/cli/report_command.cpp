@@ -351,9 +351,8 @@ void add(CLI::App& app, Status& status) {
       *command,
       "touchstone report data/handcrafted --out report.html --json report.json\n"
       "touchstone report data/handcrafted --plugin mine.so --compare report.json --out new.html",
-      "Without PATH: two patches of mesh that move through each other, and the built-in set. "
-      "The page needs no "
-      "network; its path is printed. Times are those of one thread.\n" +
+      "Without PATH: two patches of mesh that move through each other, and the built-in set. The "
+      "page needs no network; its path is printed. Times are those of one thread.\n" +
           std::string(judging_statuses));
   command->callback([arguments, command, &status] {
     report::ExperimentOptions& options = arguments->experiments;

@@ -135,8 +135,7 @@ std::string ViewFile::summary(std::uint64_t allowed) const {
   if (queries_.empty() && allowed != 0) {
     return fmt::format(
         "{}: no wrong answer to look at (false positives, which break no promise: {}; --exact "
-        "shows "
-        "them)\n",
+        "shows them)\n",
         name, allowed);
   }
   if (queries_.empty()) return fmt::format("{}: nothing was found to look at\n", name);

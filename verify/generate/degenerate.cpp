@@ -195,8 +195,7 @@ constexpr std::array<Definition, 6> degenerate_list{{
      point_point},
     {{"point-edge",
       "A point and a segment in rigid relative motion not along the segment meet at the dyadic "
-      "time "
-      "where they are on one line, or never.",
+      "time where they are on one line, or never.",
       Verdicts::both},
      point_edge},
     {{"parallel-edges",

@@ -49,8 +49,7 @@ const std::array<Hardness, 13>& table() {
       {"distance",
        "distance to contact, in sizes",
        "At the nearest they are so far apart, or overlap by so little: the motion ends there, or "
-       "one "
-       "passes beside the other's border.",
+       "one passes beside the other's border.",
        {-1, -5, -10, -15, -20, -25, -30, -35, -40, -45, -50}},
       {"aspect",
        "triangle: height by longest side; edges: shorter by longer",

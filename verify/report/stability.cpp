@@ -24,13 +24,9 @@ namespace {
 
 constexpr std::string_view map_legend =
     "worst by level, a character each: . every answer is right; - nothing was asked; 0 to 9 false "
-    "positives, up to so "
-    "many tenths of "
-    "the misses\nand more (9 with all); N false negatives, T a time of impact excludes the true "
-    "one (t: late by at most 1e-9), "
-    "E errors, B a yes beyond its tolerance\nfailures by level, whatever is worse: E errors, H "
-    "hangs, "
-    "# both, . none\n";
+    "positives, up to so many tenths of the misses\nand more (9 with all); N false negatives, T a "
+    "time of impact excludes the true one (t: late by at most 1e-9), E errors, B a yes beyond its "
+    "tolerance\nfailures by level, whatever is worse: E errors, H hangs, # both, . none\n";
 
 std::vector<StabilityCell> cells_of(const StabilityOptions& options) {
   std::vector<StabilityCell> cells;
