@@ -9,7 +9,6 @@
 #include <tuple>
 #include <utility>
 
-#include "examples/simulation/stopwatch.hpp"
 #include "verify/solvers/registry.hpp"
 
 namespace touchstone::simulation {
