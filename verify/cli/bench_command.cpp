@@ -87,8 +87,7 @@ class BenchRun {
 
   Status run() {
     until_interrupted([&] { bench_all(); });
-    if (json_) json_.write(io::json_document(report::to_json(report_)));
-    json_.close();
+    if (json_) json_.complete(io::json_document(report::to_json(report_)));
     if (!report_.groups.empty() || errors_.empty()) {
       io::print(files_.summary_stream(), report::to_text(report_));
     }

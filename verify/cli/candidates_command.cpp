@@ -168,8 +168,7 @@ Status candidates(const Arguments& arguments) {
     write_queries(arrays.vertex_face, mesh, all[0]);
     write_queries(arrays.edge_edge, mesh, all[1]);
   });
-  if (json) json.write(io::json_document(summary(mesh, all)));
-  json.close();
+  if (json) json.complete(io::json_document(summary(mesh, all)));
   io::print(files.summary_stream(), table_of(mesh, all));
   if (files.has_failed()) return Status::bad_input;
   return io::interrupted() ? Status::interrupted : Status::all_well;

@@ -110,8 +110,7 @@ class CertifyRun {
     }
     truth_.close();
     proof_.close(sum_.proofs.certificates());
-    if (json_) json_.write(io::json_document(report::to_json(results_)));
-    json_.close();
+    if (json_) json_.complete(io::json_document(report::to_json(results_)));
     write_gate();
     view_.write(arguments_.judged.options);
     print_summary();
@@ -150,8 +149,7 @@ class CertifyRun {
     } else {
       new_baseline_.discard();
     }
-    if (badge_) badge_.write(report::badge(sum_.methods.at(0)));
-    badge_.close();
+    if (badge_) badge_.complete(report::badge(sum_.methods.at(0)));
   }
 
   void print_summary() const {

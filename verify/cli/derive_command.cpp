@@ -113,10 +113,8 @@ Status derive(const Arguments& arguments) {
     options.progress = [&progress](double fraction) { progress.update(fraction); };
     result = filters::derive(options);
   }
-  if (header) header.write(filters::error_bounds_header());
-  if (json) json.write(io::json_document(to_json(arguments, result)));
-  header.close();
-  json.close();
+  if (header) header.complete(filters::error_bounds_header());
+  if (json) json.complete(io::json_document(to_json(arguments, result)));
   io::print(files.summary_stream(), to_table(result));
   return files.has_failed() ? Status::bad_input : status_of(arguments, result);
 }

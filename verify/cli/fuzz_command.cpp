@@ -306,8 +306,7 @@ class FuzzRun {
     report_output(asked_.method, report.result.output, arguments_.solver.show_output);
     std::vector<fs::path> written;
     attempt([&] { written = found_.close(); });
-    if (json_) json_.write(io::json_document(json));
-    json_.close();
+    if (json_) json_.complete(io::json_document(json));
     write_view(json);
     attempt([&] {
       for (fs::path& page : write_pages(json)) written.push_back(std::move(page));

@@ -219,8 +219,7 @@ Status generate(const Arguments& arguments) {
         written.is_known ? nlohmann::json(written.collisions) : nlohmann::json();
     if (!is_zero(separation)) json.back()["separation"] = judge::to_json(separation);
   }
-  if (json_output) json_output.write(io::json_document(json));
-  json_output.close();
+  if (json_output) json_output.complete(io::json_document(json));
   io::print(record.summary_stream(),
             fmt::format(
                 "{} queries, {} of them collisions{}, in {} files below {}\n", queries, collisions,

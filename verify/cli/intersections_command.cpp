@@ -112,10 +112,8 @@ Status intersections(const Arguments& arguments) {
         [&](const fast::Intersection& one) { return report::pair_text(report.meshes, one); }));
   }
   view.write();
-  if (json) json.write(io::json_document(report::to_json(report)));
-  json.close();
-  if (csv) csv.write(report::to_csv(report));
-  csv.close();
+  if (json) json.complete(io::json_document(report::to_json(report)));
+  if (csv) csv.complete(report::to_csv(report));
   io::print(files.summary_stream(), report::to_text(report) + view.summary());
   if (!failure.empty()) report_error("no proof: " + failure);
   if (files.has_failed() || !failure.empty()) return Status::bad_input;

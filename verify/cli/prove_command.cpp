@@ -80,8 +80,7 @@ class ProveRun {
     } else {
       out_.close(sum_.proofs.certificates());
     }
-    if (json_) json_.write(io::json_document(summary()));
-    json_.close();
+    if (json_) json_.complete(io::json_document(summary()));
     report_beyond_limits(sum_.proofs);
     print_summary();
     return status();

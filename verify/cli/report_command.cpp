@@ -268,10 +268,8 @@ class ReportRun {
 
   void write(const report::Measurements& measurements) {
     // The measurements first, because all other outputs can be derived from them.
-    if (json_) json_.write(io::json_document(report::to_json(measurements)));
-    json_.close();
-    if (page_) page_.write(report::report_page(measurements, before_ ? &*before_ : nullptr));
-    page_.close();
+    if (json_) json_.complete(io::json_document(report::to_json(measurements)));
+    if (page_) page_.complete(report::report_page(measurements, before_ ? &*before_ : nullptr));
     wrong_.add_to(view_);
     view_.write();
     std::FILE* const out = files_.summary_stream();

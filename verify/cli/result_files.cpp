@@ -116,8 +116,7 @@ void ViewFile::write(const fast::MethodOptions& options) {
     facts.push_back(
         view::query_facts(query, view::ask({&certified, has_answered ? 0U : 1U}, query).answers));
   }
-  output_.write(view::view_page(facts, command_line(), step_));
-  output_.close();
+  output_.complete(view::view_page(facts, command_line(), step_));
 }
 
 std::string ViewFile::summary(std::uint64_t allowed) const {

@@ -223,9 +223,7 @@ Status write_merged(const jobs::PieceFolder& folder, const std::string& json_fil
   const nlohmann::json total = folder.merged_json();
   for (const auto& [option, name] : folder.plan().outputs) {
     if (option == jobs::json_option) {
-      Output output(files, json_file.empty() ? name : json_file);
-      output.write(io::json_document(total));
-      output.close();
+      Output(files, json_file.empty() ? name : json_file).complete(io::json_document(total));
     } else {
       write_merged_text(folder, option, name, files);
     }

@@ -101,8 +101,7 @@ class SolveRun {
     } else {
       out_.close();
     }
-    if (json_) json_.write(io::json_document(summary()));
-    json_.close();
+    if (json_) json_.complete(io::json_document(summary()));
     report_unplaced_crashes(solver_.name(), asked_.unplaced_crashes);
     solvers_.report_output(arguments_.solver.show_output);
     print_summary();

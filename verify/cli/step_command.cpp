@@ -169,8 +169,7 @@ class StepRun {
         proof_.close(exact::step_certificates_closing_line(report_.steps.size()));
       }
     }
-    if (json_) json_.write(io::json_document(report::to_json(report_)));
-    json_.close();
+    if (json_) json_.complete(io::json_document(report::to_json(report_)));
     csv_.close();
     view_.write();
     io::print(files_.summary_stream(), report::to_text(report_) + view_.summary());
