@@ -147,15 +147,14 @@ constexpr std::string_view headers_without_test = R"(
 // families, families_test.cpp, and of the hard ones, hardness_test.cpp.
   verify/base/: any_query.hpp cores.hpp
   verify/baselines/: closest_features.hpp exact_number.hpp moving_polynomials.hpp
-  verify/generate/: coordinate_sampler.hpp draws.hpp family_builder.hpp grid.hpp passing_planes.hpp random_stream.hpp curved_families.hpp hard_curves.hpp
+  verify/generate/: coordinate_sampler.hpp draws.hpp family_builder.hpp grid.hpp passing_planes.hpp random_stream.hpp curved_families.hpp
 // Through what uses them: files and child processes, the tables of all commands, number_text_test.cpp
 // and meshes; certify, solve, the step's measurements, NumPy's arrays, the fuzzer; judge_test.cpp;
 // the pages' own tests.
   verify/io/: descriptor.hpp text_table.hpp
   verify/judge/: ground_truth.hpp
   verify/jobs/: truth_and_answers.hpp work_time.hpp
-  verify/data/: npy_header.hpp
-  verify/fuzz/: curved_generators.hpp diagnosis.hpp fuzz_report.hpp mutation.hpp plainness.hpp scheduler.hpp signature.hpp
+  verify/fuzz/: curved_generators.hpp fuzz_report.hpp mutation.hpp plainness.hpp scheduler.hpp signature.hpp
 // By tests/transcripts, and documents_test.cpp: docs/results.md and its picture are those of their data.
   verify/cli/: commands.hpp files.hpp help.hpp options.hpp result_files.hpp solver_options.hpp sources.hpp
   verify/mesh/: moving_mesh.hpp

@@ -30,7 +30,6 @@
 #include "verify/jobs/budget.hpp"
 #include "verify/jobs/certify.hpp"
 #include "verify/report/certify_report.hpp"
-#include "verify/report/gate.hpp"
 #include "verify/solvers/registry.hpp"
 #include "verify/view/asked_solvers.hpp"
 

@@ -14,7 +14,6 @@
 
 #include "touchstone/certified.hpp"
 #include "verify/fuzz/curved_generators.hpp"
-#include "verify/fuzz/diagnosis.hpp"
 #include "verify/fuzz/generators.hpp"
 #include "verify/fuzz/plainness.hpp"
 #include "verify/fuzz/recheck.hpp"

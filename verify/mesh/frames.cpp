@@ -10,7 +10,7 @@
 #include <system_error>
 #include <utility>
 
-#include "verify/data/npz.hpp"
+#include "verify/data/npy.hpp"
 #include "verify/io/dataset_error.hpp"
 #include "verify/io/output_file.hpp"
 

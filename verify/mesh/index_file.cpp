@@ -4,7 +4,7 @@
 #include <bit>
 #include <cstddef>
 
-#include "verify/data/npy_header.hpp"
+#include "verify/data/npy.hpp"
 #include "verify/io/output_file.hpp"
 #include "verify/io/terminal.hpp"
 
