@@ -158,7 +158,7 @@ constexpr std::string_view headers_without_test = R"(
 // By tests/transcripts, and documents_test.cpp: docs/results.md and its picture are those of their data.
   verify/cli/: commands.hpp files.hpp help.hpp options.hpp result_files.hpp solver_options.hpp sources.hpp
   verify/mesh/: moving_mesh.hpp
-  verify/report/: certify_report.hpp intersection_report.hpp judgement_report.hpp step_report.hpp measurement.hpp
+  verify/report/: certify_report.hpp judgement_report.hpp step_report.hpp measurement.hpp
 )";
 
 /// A line of a table.

@@ -27,7 +27,6 @@
 #include "verify/io/json.hpp"
 #include "verify/io/terminal.hpp"
 #include "verify/io/text_table.hpp"
-#include "verify/mesh/index_file.hpp"
 #include "verify/mesh/moving_mesh.hpp"
 
 namespace touchstone::verify::cli::candidates_command {
@@ -162,9 +161,9 @@ Status candidates(const Arguments& arguments) {
     }
     const fs::path folder = arrays.edges.parent_path();
     if (!folder.empty()) fs::create_directories(folder);
-    mesh::write_index_pairs(arrays.edges, mesh.edges);
-    mesh::write_index_pairs(arrays.vertex_face_pairs, all[0].pairs);
-    mesh::write_index_pairs(arrays.edge_edge_pairs, all[1].pairs);
+    data::write_index_pairs(arrays.edges, mesh.edges);
+    data::write_index_pairs(arrays.vertex_face_pairs, all[0].pairs);
+    data::write_index_pairs(arrays.edge_edge_pairs, all[1].pairs);
     write_queries(arrays.vertex_face, mesh, all[0]);
     write_queries(arrays.edge_edge, mesh, all[1]);
   });

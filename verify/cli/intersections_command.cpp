@@ -21,7 +21,7 @@
 #include "verify/jobs/prove_mesh.hpp"
 #include "verify/jobs/work_time.hpp"
 #include "verify/mesh/mesh_file.hpp"
-#include "verify/report/intersection_report.hpp"
+#include "verify/report/step_report.hpp"
 #include "verify/view/step_facts.hpp"
 
 namespace touchstone::verify::cli::intersections_command {

@@ -5,7 +5,7 @@
 ///
 /// Blocks of queries come from generators (generators.hpp) that the scheduler (scheduler.hpp)
 /// prefers by their results so far. The solver answers them in a child process
-/// (solver_process.hpp), the certified solver judges (diagnosis.hpp), and the oracle judges a share
+/// (solver_process.hpp), the certified solver judges (recheck.hpp), and the oracle judges a share
 /// again, and all doubtful answers. Some queries are asked once more as an exact image
 /// (symmetry.hpp). All queries of a block are of one shape; by default they are on straight lines.
 ///

@@ -25,7 +25,7 @@
 /// or t=1, and whose other queries have the least possible clearance. They have size 1/10, times
 /// the level's factor if it has one.
 ///
-/// Three kinds are about curves (hard_curves.hpp), at distance 0 alone.
+/// Three kinds are about curves, at distance 0 alone.
 ///
 /// With a separation, contact is at that distance, except in scenes of decimals; the size is at
 /// least 16 times as much. Irrational lengths are then rounded to the grid of the frame, so each
