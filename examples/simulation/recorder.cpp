@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <optional>
 #include <utility>
+#include <vector>
 
 #include "touchstone/oracle.hpp"
 #include "verify/data/csv_dataset.hpp"

@@ -13,6 +13,7 @@
 #include <exception>
 #include <mutex>
 #include <span>
+#include <string>
 #include <string_view>
 #include <utility>
 #include <vector>

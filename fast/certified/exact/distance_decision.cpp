@@ -6,6 +6,7 @@
 #include <initializer_list>
 #include <span>
 #include <utility>
+#include <vector>
 
 #include "fast/certified/exact/real_root.hpp"
 
