@@ -6,6 +6,8 @@
 #include <limits>
 #include <span>
 
+#include "fast/certified/exact/fixed_integer.hpp"
+
 namespace touchstone::fast::exact_stage {
 namespace {
 
