@@ -29,7 +29,6 @@
 #include "verify/data/dataset.hpp"
 #include "verify/data/ground_truth_files.hpp"
 #include "verify/data/npy.hpp"
-#include "verify/data/separation_file.hpp"
 #include "verify/data/store.hpp"
 #include "verify/io/json.hpp"
 #include "verify/io/output_file.hpp"

@@ -28,7 +28,7 @@
 #include "verify/cli/solver_options.hpp"
 #include "verify/data/csv_dataset.hpp"
 #include "verify/data/dataset.hpp"
-#include "verify/data/separation_file.hpp"
+#include "verify/data/ground_truth_files.hpp"
 #include "verify/fuzz/finding_page.hpp"
 #include "verify/fuzz/fuzz.hpp"
 #include "verify/fuzz/fuzz_report.hpp"

@@ -18,7 +18,6 @@
 #include "verify/data/csv_dataset.hpp"
 #include "verify/data/ground_truth_files.hpp"
 #include "verify/data/npy.hpp"
-#include "verify/data/separation_file.hpp"
 #include "verify/generate/families.hpp"
 #include "verify/generate/workload.hpp"
 #include "verify/io/json.hpp"

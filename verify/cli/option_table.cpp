@@ -8,7 +8,7 @@
 #include <stdexcept>
 
 #include "verify/cli/solver_options.hpp"
-#include "verify/data/separation_file.hpp"
+#include "verify/data/ground_truth_files.hpp"
 #include "verify/generate/hardness.hpp"
 #include "verify/io/number_text.hpp"
 #include "verify/judge/fault.hpp"

@@ -17,8 +17,6 @@
 #include "verify/fuzz/generators.hpp"
 #include "verify/fuzz/plainness.hpp"
 #include "verify/fuzz/recheck.hpp"
-#include "verify/fuzz/scheduler.hpp"
-#include "verify/fuzz/signature.hpp"
 #include "verify/generate/draws.hpp"
 #include "verify/generate/symmetry.hpp"
 #include "verify/judge/ground_truth.hpp"

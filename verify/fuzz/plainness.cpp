@@ -1,5 +1,5 @@
 #include "verify/fuzz/plainness.hpp"
-#include "verify/generate/decimal.hpp"
+#include "verify/generate/everyday.hpp"
 
 #include <Eigen/Geometry>
 #include <algorithm>

@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "verify/generate/decimal.hpp"
+#include "verify/generate/everyday.hpp"
 #include "verify/generate/random_stream.hpp"
 
 namespace touchstone::verify::fuzz {

@@ -14,7 +14,6 @@
 
 #include "touchstone/certified.hpp"
 #include "verify/generate/curved_families.hpp"
-#include "verify/generate/decimal.hpp"
 #include "verify/generate/everyday.hpp"
 #include "verify/generate/family_builder.hpp"
 #include "verify/generate/grid.hpp"

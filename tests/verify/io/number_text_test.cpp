@@ -10,8 +10,8 @@
 #include <utility>
 #include <vector>
 
+#include "verify/data/ground_truth_files.hpp"
 #include "verify/data/plain_rows.hpp"
-#include "verify/data/separation_file.hpp"
 #include "verify/io/coordinate_text.hpp"
 
 namespace touchstone::verify::io::number_text_test {
