@@ -122,49 +122,63 @@ fast::Promise promise_from(const std::string& name) {
   throw std::invalid_argument("no promise is called " + name);
 }
 
-Json json_of(const Measurement& measurement) {
-  const Measurement& m = measurement;
-  return {{"experiment", to_string(m.experiment)},
-          {"group", m.group},
-          {"kind", to_string(m.kind)},
-          {"method", m.method},
-          {"promise", solvers::to_string(m.promise)},
-          {"tolerance", io::number_to_json(m.tolerance)},
-          {"max_checks", m.max_checks},
-          {"separation", judge::to_json(m.separation)},
-          {"scale", io::number_to_json(m.scale)},
-          {"group_queries", m.group_queries},
-          {"asked", m.asked},
-          {"outside", m.outside},
-          {"left_out", m.left_out},
-          {"collisions", m.collisions},
-          {"false_positives", m.false_positives},
-          {"false_negatives", m.false_negatives},
-          {"late_tois", m.late_tois},
-          {"late", report::to_json(m.late)},
-          {"early_upper_tois", m.early_upper_tois},
-          {"beyond_tolerance", m.beyond_tolerance},
-          {"errors", m.errors},
-          {"undecided", m.undecided},
-          {"at_limit", m.at_limit},
-          {"keeps_promise", m.keeps_promise},
-          {"ns_per_query", io::number_to_json(m.nanoseconds)},
-          {"repetitions", m.repetitions},
-          {"certified_ns_per_query", io::number_to_json(m.certified_nanoseconds)},
-          {"toi_error", json_of(m.toi_error)},
-          {"achieved_tolerance", json_of(m.achieved_tolerance)},
-          {"stages", json_of(m.stages)},
-          {"collision_times", json_of(m.collision_times)},
-          {"no_collision_times", json_of(m.no_collision_times)}};
+Json json_of(const JudgedAnswers& judged) {
+  return {{"collisions", judged.collisions},
+          {"false_positives", judged.false_positives},
+          {"false_negatives", judged.false_negatives},
+          {"late_tois", judged.late_tois},
+          {"early_upper_tois", judged.early_upper_tois},
+          {"beyond_tolerance", judged.beyond_tolerance},
+          {"errors", judged.errors},
+          {"undecided", judged.undecided},
+          {"toi_error", json_of(judged.toi_error)},
+          {"ns_per_query", io::number_to_json(judged.nanoseconds)}};
 }
 
-Separation separation_from(const Json& json) {
-  return {.distance = json.at("min_separation").get<double>(),
-          .norm = norm_from_string(json.at("norm").get<std::string>())};
+void read(const Json& json, JudgedAnswers& judged) {
+  json.at("collisions").get_to(judged.collisions);
+  json.at("false_positives").get_to(judged.false_positives);
+  json.at("false_negatives").get_to(judged.false_negatives);
+  judged.nanoseconds = io::number_from_json(json.at("ns_per_query"));
+  // (Earlier files do not have all of these.)
+  judged.late_tois = json.value("late_tois", judged.late_tois);
+  judged.early_upper_tois = json.value("early_upper_tois", judged.early_upper_tois);
+  judged.beyond_tolerance = json.value("beyond_tolerance", judged.beyond_tolerance);
+  judged.errors = json.value("errors", judged.errors);
+  judged.undecided = json.value("undecided", judged.undecided);
+  judged.toi_error = spread_from(json.value("toi_error", Json()));
 }
 
-/// The method, and the options and queries of the call.
-void read_question(const Json& json, Measurement& m) {
+Json json_of(const Measurement& m) {
+  Json json = json_of(static_cast<const JudgedAnswers&>(m));
+  json.update({{"experiment", to_string(m.experiment)},
+               {"group", m.group},
+               {"kind", to_string(m.kind)},
+               {"method", m.method},
+               {"promise", solvers::to_string(m.promise)},
+               {"tolerance", io::number_to_json(m.tolerance)},
+               {"max_checks", m.max_checks},
+               {"separation", judge::to_json(m.separation)},
+               {"scale", io::number_to_json(m.scale)},
+               {"group_queries", m.group_queries},
+               {"asked", m.asked},
+               {"outside", m.outside},
+               {"left_out", m.left_out},
+               {"late", report::to_json(m.late)},
+               {"at_limit", m.at_limit},
+               {"keeps_promise", m.keeps_promise},
+               {"repetitions", m.repetitions},
+               {"certified_ns_per_query", io::number_to_json(m.certified_nanoseconds)},
+               {"achieved_tolerance", json_of(m.achieved_tolerance)},
+               {"stages", json_of(m.stages)},
+               {"collision_times", json_of(m.collision_times)},
+               {"no_collision_times", json_of(m.no_collision_times)}});
+  return json;
+}
+
+Measurement measurement_from(const Json& json) {
+  Measurement m;
+  read(json, m);
   m.experiment = experiment_from_string(json.at("experiment").get<std::string>());
   json.at("group").get_to(m.group);
   m.kind = kind_from_string(json.at("kind").get<std::string>());
@@ -172,40 +186,21 @@ void read_question(const Json& json, Measurement& m) {
   m.promise = promise_from(json.at("promise").get<std::string>());
   m.tolerance = io::number_from_json(json.at("tolerance"));
   json.at("max_checks").get_to(m.max_checks);
-  m.separation = separation_from(json.at("separation"));
-  // (Files from before there was a scale have none.)
-  const Json scale = json.value("scale", Json());
-  if (!scale.is_null()) m.scale = io::number_from_json(scale);
+  const Json& separation = json.at("separation");
+  separation.at("min_separation").get_to(m.separation.distance);
+  m.separation.norm = norm_from_string(separation.at("norm").get<std::string>());
   json.at("group_queries").get_to(m.group_queries);
   json.at("asked").get_to(m.asked);
-  // (Earlier files were made by solvers that answered all.)
+  // (Files from before there was a scale have none, and their solvers answered all.)
+  const Json scale = json.value("scale", Json());
+  if (!scale.is_null()) m.scale = io::number_from_json(scale);
   m.outside = json.value("outside", m.outside);
   m.left_out = json.value("left_out", m.left_out);
-}
-
-void read_faults(const Json& json, Measurement& m) {
-  json.at("collisions").get_to(m.collisions);
-  json.at("false_positives").get_to(m.false_positives);
-  json.at("false_negatives").get_to(m.false_negatives);
-  json.at("late_tois").get_to(m.late_tois);
-  json.at("early_upper_tois").get_to(m.early_upper_tois);
-  // (Earlier files do not count them.)
-  m.beyond_tolerance = json.value("beyond_tolerance", m.beyond_tolerance);
   m.late = late_times_from(json.value("late", Json()));
-  json.at("errors").get_to(m.errors);
-  json.at("undecided").get_to(m.undecided);
   json.at("at_limit").get_to(m.at_limit);
   json.at("keeps_promise").get_to(m.keeps_promise);
-}
-
-Measurement measurement_from(const Json& json) {
-  Measurement m;
-  read_question(json, m);
-  read_faults(json, m);
-  m.nanoseconds = io::number_from_json(json.at("ns_per_query"));
   json.at("repetitions").get_to(m.repetitions);
   m.certified_nanoseconds = io::number_from_json(json.at("certified_ns_per_query"));
-  m.toi_error = spread_from(json.at("toi_error"));
   m.achieved_tolerance = spread_from(json.at("achieved_tolerance"));
   for (const Json& stage : json.at("stages")) {
     m.stages.push_back({stage.at(0).get<std::string>(), stage.at(1).get<std::uint64_t>()});
@@ -216,60 +211,39 @@ Measurement measurement_from(const Json& json) {
 }
 
 Json json_of(const StabilityMark& mark) {
-  return {{"method", mark.method},
-          {"hardness", mark.hardness},
-          {"measure", mark.measure},
-          {"exponent", mark.exponent},
-          {"is_power", mark.is_power},
-          {"kind", to_string(mark.kind)},
-          {"queries", mark.queries},
-          {"collisions", mark.collisions},
-          {"false_positives", mark.false_positives},
-          {"false_negatives", mark.false_negatives},
-          {"late_tois", mark.late_tois},
-          {"early_upper_tois", mark.early_upper_tois},
-          {"beyond_tolerance", mark.beyond_tolerance},
-          {"errors", mark.errors},
-          {"hangs", mark.hangs},
-          {"undecided", mark.undecided},
-          {"worst", mark.worst ? judge::to_text(*mark.worst) : ""},
-          {"is_slight", mark.is_slight},
-          {"worst_rate", mark.worst_rate},
-          {"toi_error", json_of(mark.toi_error)},
-          {"ns_per_query", io::number_to_json(mark.nanoseconds)},
-          {"checks_per_query", io::number_to_json(mark.checks)}};
-}
-
-std::optional<judge::Fault> worst_from(const std::string& text) {
-  const auto fault = judge::fault_from_text(text);
-  if (!fault && !text.empty()) throw std::invalid_argument("no fault is called " + text);
-  return fault;
+  Json json = json_of(static_cast<const JudgedAnswers&>(mark));
+  json.update({{"method", mark.method},
+               {"hardness", mark.hardness},
+               {"measure", mark.measure},
+               {"exponent", mark.exponent},
+               {"is_power", mark.is_power},
+               {"kind", to_string(mark.kind)},
+               {"queries", mark.queries},
+               {"hangs", mark.hangs},
+               {"worst", mark.worst ? judge::to_text(*mark.worst) : ""},
+               {"is_slight", mark.is_slight},
+               {"worst_rate", mark.worst_rate},
+               {"checks_per_query", io::number_to_json(mark.checks)}});
+  return json;
 }
 
 StabilityMark mark_from(const Json& json) {
   StabilityMark mark;
+  read(json, mark);
   json.at("method").get_to(mark.method);
   json.at("hardness").get_to(mark.hardness);
   json.at("measure").get_to(mark.measure);
   json.at("exponent").get_to(mark.exponent);
   mark.kind = kind_from_string(json.at("kind").get<std::string>());
   json.at("queries").get_to(mark.queries);
-  json.at("collisions").get_to(mark.collisions);
-  json.at("false_positives").get_to(mark.false_positives);
-  json.at("false_negatives").get_to(mark.false_negatives);
-  mark.worst = worst_from(json.at("worst").get<std::string>());
+  const auto worst = json.at("worst").get<std::string>();
+  mark.worst = judge::fault_from_text(worst);
+  if (!mark.worst && !worst.empty()) throw std::invalid_argument("no fault is called " + worst);
   json.at("worst_rate").get_to(mark.worst_rate);
-  mark.nanoseconds = io::number_from_json(json.at("ns_per_query"));
   // (Earlier files have no more than that.)
-  mark.late_tois = json.value("late_tois", mark.late_tois);
-  mark.early_upper_tois = json.value("early_upper_tois", mark.early_upper_tois);
-  mark.beyond_tolerance = json.value("beyond_tolerance", mark.beyond_tolerance);
-  mark.errors = json.value("errors", mark.errors);
-  mark.undecided = json.value("undecided", mark.undecided);
   mark.is_power = json.value("is_power", mark.is_power);
   mark.is_slight = json.value("is_slight", mark.is_slight);
   mark.hangs = json.value("hangs", mark.hangs);
-  mark.toi_error = spread_from(json.value("toi_error", Json()));
   mark.checks = io::number_from_json(json.value("checks_per_query", Json()));
   return mark;
 }

@@ -181,28 +181,22 @@ StabilityMark mark_of(const StabilityCell& cell, std::size_t method) {
   const jobs::MethodResult& result = cell.judged.methods.at(method);
   const judge::Judgement& judged = result.judgement;
   const auto [worst, rate] = outcome_of(cell.judged, method);
-  return {.method = result.name,
-          .hardness = std::string(cell.sort.hardness->name),
-          .measure = std::string(cell.sort.hardness->measure),
-          .exponent = cell.sort.level,
-          .is_power = cell.sort.hardness->unit == generate::LevelUnit::power_of_two,
-          .kind = cell.sort.kind,
-          .queries = cell.judged.queries,
-          .collisions = cell.judged.collisions,
-          .false_positives = judged.count(judge::Fault::false_positive),
-          .false_negatives = judged.count(judge::Fault::false_negative),
-          .late_tois = judged.count(judge::Fault::late_toi),
-          .early_upper_tois = judged.count(judge::Fault::early_toi_upper),
-          .beyond_tolerance = judged.count(judge::Fault::beyond_tolerance),
-          .errors = judged.errors(),
-          .hangs = judged.count(judge::Fault::hang),
-          .undecided = judged.undecided(),
-          .worst = worst ? std::optional(worst->fault) : std::nullopt,
-          .is_slight = worst && worst->is_slight,
-          .worst_rate = rate,
-          .toi_error = spread_of(judged.toi_errors),
-          .nanoseconds = result.nanoseconds_per_query().value_or(Measurement::unknown),
-          .checks = result.checks_per_query().value_or(Measurement::unknown)};
+  StabilityMark mark{counts_of(judged)};
+  mark.collisions = cell.judged.collisions;
+  mark.nanoseconds = result.nanoseconds_per_query().value_or(StabilityMark::unknown);
+  mark.method = result.name;
+  mark.hardness = cell.sort.hardness->name;
+  mark.measure = cell.sort.hardness->measure;
+  mark.exponent = cell.sort.level;
+  mark.is_power = cell.sort.hardness->unit == generate::LevelUnit::power_of_two;
+  mark.kind = cell.sort.kind;
+  mark.queries = cell.judged.queries;
+  mark.hangs = judged.count(judge::Fault::hang);
+  if (worst) mark.worst = worst->fault;
+  mark.is_slight = worst && worst->is_slight;
+  mark.worst_rate = rate;
+  mark.checks = result.checks_per_query().value_or(StabilityMark::unknown);
+  return mark;
 }
 
 }  // namespace
