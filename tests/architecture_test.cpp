@@ -153,7 +153,7 @@ constexpr std::string_view headers_without_test = R"(
 // the pages' own tests.
   verify/io/: descriptor.hpp text_table.hpp
   verify/judge/: ground_truth.hpp
-  verify/jobs/: truth_and_answers.hpp work_time.hpp
+  verify/jobs/: work_time.hpp
   verify/fuzz/: curved_generators.hpp fuzz_report.hpp mutation.hpp plainness.hpp
 // By tests/transcripts, and documents_test.cpp: docs/results.md and its picture are those of their data.
   verify/cli/: commands.hpp files.hpp help.hpp options.hpp result_files.hpp solver_options.hpp sources.hpp
