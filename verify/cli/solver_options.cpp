@@ -153,14 +153,6 @@ Responses Responses::of(const judge::Judgement& judgement) {
           .unasked = judgement.outside + judgement.left_out};
 }
 
-Responses& Responses::operator+=(const Responses& other) {
-  asked += other.asked;
-  hangs += other.hangs;
-  errors += other.errors;
-  unasked += other.unasked;
-  return *this;
-}
-
 Status status_of(std::string_view solver, const Responses& responses) {
   const auto& [asked, hangs, errors, unasked] = responses;
   if (asked + unasked == 0) return Status::all_well;
