@@ -1,6 +1,7 @@
 #include "verify/view/query_facts.hpp"
 
 #include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <bit>
