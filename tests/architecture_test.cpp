@@ -154,9 +154,9 @@ constexpr std::string_view headers_without_test = R"(
   verify/io/: descriptor.hpp text_table.hpp
   verify/judge/: ground_truth.hpp
   verify/jobs/: work_time.hpp
-  verify/fuzz/: curved_generators.hpp fuzz_report.hpp mutation.hpp plainness.hpp
+  verify/fuzz/: curved_generators.hpp fuzz_report.hpp plainness.hpp
 // By tests/transcripts, and documents_test.cpp: docs/results.md and its picture are those of their data.
-  verify/cli/: commands.hpp files.hpp help.hpp options.hpp result_files.hpp solver_options.hpp sources.hpp
+  verify/cli/: commands.hpp files.hpp options.hpp result_files.hpp solver_options.hpp sources.hpp
   verify/mesh/: moving_mesh.hpp
   verify/report/: certify_report.hpp judgement_report.hpp step_report.hpp measurement.hpp
 )";

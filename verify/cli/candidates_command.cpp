@@ -19,7 +19,6 @@
 #include "touchstone/mesh.hpp"
 #include "verify/cli/commands.hpp"
 #include "verify/cli/files.hpp"
-#include "verify/cli/help.hpp"
 #include "verify/cli/option_table.hpp"
 #include "verify/cli/sources.hpp"
 #include "verify/data/ground_truth_files.hpp"

@@ -17,7 +17,6 @@
 
 #include "verify/cli/commands.hpp"
 #include "verify/cli/files.hpp"
-#include "verify/cli/help.hpp"
 #include "verify/cli/option_table.hpp"
 #include "verify/cli/options.hpp"
 #include "verify/cli/result_files.hpp"
@@ -27,7 +26,6 @@
 #include "verify/io/json.hpp"
 #include "verify/io/printable.hpp"
 #include "verify/io/terminal.hpp"
-#include "verify/jobs/budget.hpp"
 #include "verify/jobs/certify.hpp"
 #include "verify/report/certify_report.hpp"
 #include "verify/solvers/registry.hpp"

@@ -23,7 +23,6 @@
 
 #include "verify/base/cores.hpp"
 #include "verify/cli/commands.hpp"
-#include "verify/cli/help.hpp"
 #include "verify/cli/option_table.hpp"
 #include "verify/cli/options.hpp"
 #include "verify/data/dataset.hpp"

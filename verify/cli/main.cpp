@@ -16,7 +16,7 @@
 #include "fast/platform/arithmetic_check.hpp"
 #include "touchstone/broad_phase.hpp"
 #include "verify/cli/commands.hpp"
-#include "verify/cli/help.hpp"
+#include "verify/cli/option_table.hpp"
 #include "verify/cli/options.hpp"
 #include "verify/io/printable.hpp"
 #include "verify/io/terminal.hpp"

@@ -13,7 +13,7 @@
 #include "verify/io/json.hpp"
 #include "verify/io/printable.hpp"
 #include "verify/io/text_table.hpp"
-#include "verify/jobs/budget.hpp"
+#include "verify/jobs/certify.hpp"
 #include "verify/judge/separation_inference.hpp"
 #include "verify/judge/terms.hpp"
 #include "verify/report/judgement_report.hpp"
