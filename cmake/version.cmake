@@ -1,5 +1,5 @@
 # cmake -DVERSION=… -DSOURCE=FOLDER -DOUTPUT=FILE -P version.cmake: writes the version, with the commit of FOLDER, as the
-# function version() of verify/cli/version.hpp (FILE.cpp) or as Python (FILE.py). The file is touched only if its text
+# function version() of verify/cli/options.hpp (FILE.cpp) or as Python (FILE.py). The file is touched only if its text
 # changes.
 set(text "${VERSION}")
 execute_process(COMMAND git describe --always --dirty --abbrev=10 --exclude=*
@@ -17,7 +17,7 @@ commit = "@commit@"
   return()
 endif()
 file(CONFIGURE OUTPUT ${OUTPUT} CONTENT [[
-#include "verify/cli/version.hpp"
+#include "verify/cli/options.hpp"
 
 namespace touchstone::verify::cli {
 

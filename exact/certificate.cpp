@@ -1,7 +1,6 @@
 #include "touchstone/certificate.hpp"
 
 #include <algorithm>
-#include <stdexcept>
 #include <string>
 #include <utility>
 

@@ -3,12 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
-#include <cstdint>
 #include <new>
 #include <numeric>
-#include <stdexcept>
 #include <string>
-#include <tuple>
 #include <utility>
 
 #include "fast/broad_phase/box_tree.hpp"

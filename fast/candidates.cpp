@@ -1,9 +1,7 @@
 #include "fast/candidates.hpp"
 
 #include <algorithm>
-#include <array>
 #include <limits>
-#include <span>
 #include <string>
 #include <string_view>
 

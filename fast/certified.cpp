@@ -1,7 +1,6 @@
 #include "touchstone/certified.hpp"
 
 #include <algorithm>
-#include <stdexcept>
 #include <string>
 
 #include "fast/candidates.hpp"

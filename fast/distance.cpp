@@ -4,7 +4,6 @@
 #include <array>
 #include <atomic>
 #include <cmath>
-#include <cstdint>
 #include <limits>
 #include <mutex>
 #include <stdexcept>

@@ -1,19 +1,13 @@
 #include "touchstone/intersections.hpp"
 
 #include <algorithm>
-#include <array>
-#include <atomic>
-#include <cstddef>
-#include <cstdint>
 #include <limits>
 #include <numeric>
 #include <optional>
 #include <span>
 #include <stdexcept>
-#include <string_view>
 #include <tuple>
 #include <utility>
-#include <vector>
 
 #include "fast/broad_phase/body_tree.hpp"
 #include "fast/broad_phase/box_tree.hpp"

@@ -1,7 +1,6 @@
 #include "touchstone/inversion.hpp"
 
 #include <algorithm>
-#include <optional>
 #include <stdexcept>
 #include <string>
 

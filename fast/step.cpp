@@ -1,13 +1,10 @@
 #include "touchstone/step.hpp"
 
 #include <algorithm>
-#include <atomic>
 #include <bit>
 #include <cmath>
-#include <cstddef>
 #include <limits>
 #include <mutex>
-#include <optional>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -17,7 +14,6 @@
 #include "fast/platform/threads.hpp"
 #include "fast/step/scene.hpp"
 #include "fast/step/sieve.hpp"
-#include "touchstone/certified.hpp"
 #include "touchstone/intersections.hpp"
 
 namespace touchstone::fast {

@@ -146,22 +146,19 @@ constexpr std::string_view headers_without_test = R"(
 // By the answers of the methods, baselines_test.cpp and known_defects_test.cpp, the queries of the
 // families, families_test.cpp, and of the hard ones, hardness_test.cpp.
   verify/base/: any_query.hpp cores.hpp
-  verify/baselines/: accd.hpp bsc.hpp closest_features.hpp cubic.hpp exact_number.hpp fprf.hpp irf.hpp moving_polynomials.hpp msrf.hpp query_random.hpp rp.hpp rrp.hpp tccd.hpp uirf.hpp upward_rounding.hpp verdicts.hpp
-  verify/generate/: coordinate_sampler.hpp draws.hpp family_builder.hpp grid.hpp passing_planes.hpp random_stream.hpp curved_families.hpp hard_curves.hpp
+  verify/baselines/: closest_features.hpp exact_number.hpp moving_polynomials.hpp
+  verify/generate/: coordinate_sampler.hpp draws.hpp family_builder.hpp grid.hpp passing_planes.hpp random_stream.hpp curved_families.hpp
 // Through what uses them: files and child processes, the tables of all commands, number_text_test.cpp
 // and meshes; certify, solve, the step's measurements, NumPy's arrays, the fuzzer; judge_test.cpp;
 // the pages' own tests.
-  verify/io/: descriptor.hpp text_table.hpp words.hpp
+  verify/io/: descriptor.hpp text_table.hpp
   verify/judge/: ground_truth.hpp
-  verify/report/: report_page_texts.hpp
-  verify/view/: view_page_texts.hpp
-  verify/jobs/: truth_and_answers.hpp work_time.hpp
-  verify/data/: npy_header.hpp
-  verify/fuzz/: curved_generators.hpp diagnosis.hpp fuzz_report.hpp mutation.hpp plainness.hpp scheduler.hpp signature.hpp
+  verify/jobs/: work_time.hpp
+  verify/fuzz/: curved_generators.hpp fuzz_report.hpp plainness.hpp
 // By tests/transcripts, and documents_test.cpp: docs/results.md and its picture are those of their data.
-  verify/cli/: commands.hpp files.hpp group_options.hpp help.hpp options.hpp result_files.hpp solver_options.hpp sources.hpp version.hpp
+  verify/cli/: commands.hpp files.hpp options.hpp result_files.hpp solver_options.hpp sources.hpp
   verify/mesh/: moving_mesh.hpp
-  verify/report/: certify_report.hpp intersection_report.hpp judgement_report.hpp step_report.hpp measurement.hpp
+  verify/report/: certify_report.hpp judgement_report.hpp step_report.hpp measurement.hpp
 )";
 
 /// A line of a table.

@@ -6,7 +6,6 @@
 #include <optional>
 #include <stdexcept>
 #include <system_error>
-#include <vector>
 
 #include "exact/checker/certificate.hpp"
 #include "exact/checker/mesh.hpp"

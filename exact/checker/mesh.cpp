@@ -1,7 +1,6 @@
 #include "exact/checker/mesh.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>

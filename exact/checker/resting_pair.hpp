@@ -31,7 +31,6 @@
 #include <gmpxx.h>
 
 #include <array>
-#include <cstdint>
 #include <span>
 #include <vector>
 

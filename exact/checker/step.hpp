@@ -21,8 +21,6 @@
 /// no axis keeps apart (places.hpp) has an argument: a direction (places.hpp), or subintervals
 /// without a gap (proof.hpp). All arguments are verified, needed or not.
 
-#include <cstddef>
-#include <cstdint>
 #include <string>
 
 #include "exact/checker/certificate.hpp"

@@ -1,6 +1,5 @@
 #include "exact/contact/contact_conditions.hpp"
 
-#include <algorithm>
 #include <utility>
 
 namespace touchstone::exact {

@@ -1,12 +1,10 @@
 #include "exact/contact/corner_motion.hpp"
 
-#include <algorithm>
 #include <bit>
 #include <cstdint>
 #include <limits>
 #include <stdexcept>
 #include <utility>
-#include <vector>
 
 #include "exact/algebra/positivity.hpp"
 

@@ -17,7 +17,6 @@
 #include <concepts>
 #include <cstddef>
 #include <span>
-#include <utility>
 #include <vector>
 
 #include "touchstone/algebraic_number.hpp"

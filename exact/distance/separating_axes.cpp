@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <functional>
-#include <iterator>
+#include <span>
 #include <utility>
 
 namespace touchstone::exact {

@@ -45,7 +45,6 @@
 
 #include <cstddef>
 #include <optional>
-#include <span>
 #include <vector>
 
 #include "exact/contact/corner_motion.hpp"

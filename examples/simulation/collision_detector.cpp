@@ -4,15 +4,11 @@
 #include <array>
 #include <cstddef>
 #include <cstring>
-#include <limits>
 #include <mutex>
 #include <optional>
-#include <span>
 #include <tuple>
 #include <utility>
 
-#include "examples/simulation/stopwatch.hpp"
-#include "touchstone/contacts.hpp"
 #include "verify/solvers/registry.hpp"
 
 namespace touchstone::simulation {

@@ -11,6 +11,7 @@
 /// times the least distance of the scene; for the rest the step is (1 − p) of the time of impact.
 /// Either may be 0 or wrong; simulations show the effects.
 
+#include <chrono>
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -82,6 +83,25 @@ class CollisionDetector {
   DetectorOptions options_;
   std::unique_ptr<verify::solvers::Solver> solver_;
   DetectorStatistics statistics_;
+};
+
+// ---- Seconds of wall-clock time -----------------------------------------------------------------
+
+/// Adds the time until its end.
+class Stopwatch {
+ public:
+  explicit Stopwatch(double& seconds) : seconds_(seconds) {}
+  Stopwatch(const Stopwatch&) = delete;
+  Stopwatch& operator=(const Stopwatch&) = delete;
+  Stopwatch(Stopwatch&&) = delete;
+  Stopwatch& operator=(Stopwatch&&) = delete;
+  ~Stopwatch() { seconds_ += std::chrono::duration<double>(Clock::now() - start_).count(); }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  double& seconds_;
+  Clock::time_point start_ = Clock::now();
 };
 
 }  // namespace touchstone::simulation

@@ -260,8 +260,7 @@ int run(int argc, char** argv) {
   app.add_option("--json", arguments.json_file, "Write the result as JSON")->type_name("FILE");
   app.footer(scene_list() +
              "\nExit status: 0 all is well, 2 bad input or usage\n\nExample: ./run simulate "
-             "torus-on-cone --out /tmp/torus && "
-             "./run step /tmp/torus");
+             "torus-on-cone --out /tmp/torus && ./run step /tmp/torus");
   try {
     app.parse(argc, argv);
     if (arguments.scene == tumbling) return simulate_tumbling(arguments);

@@ -4,8 +4,8 @@
 
 #include <cstddef>
 #include <optional>
-#include <string_view>
 #include <utility>
+#include <vector>
 
 #include "touchstone/oracle.hpp"
 #include "verify/data/csv_dataset.hpp"

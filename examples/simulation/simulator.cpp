@@ -13,7 +13,7 @@
 #include <utility>
 #include <vector>
 
-#include "examples/simulation/stopwatch.hpp"
+#include "examples/simulation/collision_detector.hpp"
 #include "touchstone/contacts.hpp"
 
 namespace touchstone::simulation {

@@ -11,8 +11,7 @@
 
 #include "touchstone/certified.hpp"
 #include "touchstone/step.hpp"
-#include "verify/data/npy_header.hpp"
-#include "verify/io/output_file.hpp"
+#include "verify/data/npy.hpp"
 
 namespace touchstone::simulation {
 namespace {
@@ -129,11 +128,8 @@ class CurveRecorder {
     result.collisions.at(index) = static_cast<std::uint64_t>(
         std::ranges::count(answers, fast::Verdict::yes, &fast::CertifiedResult::verdict));
     if (path_.empty()) return;
-    static constexpr std::array<std::uint64_t, 3> extents{degree + 1, moving_points, 3};
-    verify::io::OutputFile file(path_);
-    file.write(verify::data::npy_header_text("<f8", queries.size(), extents));
-    const void* const bytes = numbers_.data();
-    file.write({static_cast<const char*>(bytes), numbers_.size() * sizeof(double)});
+    verify::data::NpyWriter file(path_, queries);
+    for (std::size_t i = 0; i < queries.size(); ++i) file.write(queries.row(i));
     file.close();
   }
 

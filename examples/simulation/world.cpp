@@ -4,9 +4,7 @@
 #include <Eigen/Eigenvalues>
 
 #include <cmath>
-#include <cstddef>
 #include <map>
-#include <utility>
 
 namespace touchstone::simulation {
 namespace {

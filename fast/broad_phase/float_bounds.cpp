@@ -1,13 +1,8 @@
 #include "fast/broad_phase/float_bounds.hpp"
 
 #include <algorithm>
-#include <array>
-#include <bit>
 #include <cmath>
-#include <cstdint>
-#include <cstring>
 #include <functional>
-#include <limits>
 #include <vector>
 
 #include "fast/platform/floating_point_state.hpp"

@@ -1,8 +1,6 @@
 #include "fast/broad_phase/primitive_groups.hpp"
 
 #include <algorithm>
-#include <array>
-#include <cstdint>
 #include <type_traits>
 
 #include "fast/broad_phase/search.hpp"

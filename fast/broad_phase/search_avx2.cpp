@@ -3,8 +3,6 @@
 
 #include <immintrin.h>
 
-#include <utility>
-
 #include "fast/broad_phase/search_on_lanes.hpp"
 #include "fast/platform/avx2_floats.hpp"
 

@@ -6,7 +6,6 @@
 /// Their bounds are minima and maxima of coordinates, so bounds and comparisons are exact.
 
 #include <array>
-#include <cstddef>
 #include <limits>
 
 #include "fast/broad_phase/primitive_groups.hpp"

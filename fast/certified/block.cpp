@@ -1,6 +1,5 @@
 #include "fast/certified/block.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 

@@ -15,7 +15,6 @@
 /// and a corner, the difference of two, by ε = (1 + 2^-23) h + 2 e in each coordinate.
 
 #include <array>
-#include <cstddef>
 #include <cstdint>
 
 #include "fast/platform/large_array.hpp"

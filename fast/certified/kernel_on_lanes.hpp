@@ -41,8 +41,6 @@
 /// Queries that no stage decides remain undecided, as do those with coordinates that are not finite
 /// or too large for the bounds.
 
-#include <array>
-
 #include "fast/certified/curves/stages.hpp"
 #include "fast/certified/kernel.hpp"
 #include "fast/certified/stages/axis.hpp"

@@ -1,7 +1,6 @@
 #include "fast/distance/exact_distance.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <limits>

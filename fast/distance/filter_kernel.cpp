@@ -1,7 +1,6 @@
 #include "fast/distance/filter_kernel.hpp"
 
 #include <algorithm>
-#include <cstddef>
 
 #include "fast/distance/filtered_distance.hpp"
 

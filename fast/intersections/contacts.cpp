@@ -1,7 +1,6 @@
 #include "fast/intersections/contacts.hpp"
 
 #include <algorithm>
-#include <utility>
 
 namespace touchstone::fast::meeting {
 namespace {

@@ -64,7 +64,6 @@
 
 #include <array>
 #include <cstddef>
-#include <cstdint>
 #include <span>
 
 #include "fast/intersections/filter_kernel.hpp"

@@ -18,7 +18,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <utility>
 
 #include "fast/certified/exact/big_integer.hpp"
 #include "fast/intersections/filter_kernel.hpp"

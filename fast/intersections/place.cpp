@@ -11,7 +11,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <cstdlib>
 
 #include "fast/certified/exact/enclosing_doubles.hpp"
 #include "fast/distance/neighbouring_doubles.hpp"

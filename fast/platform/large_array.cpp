@@ -1,10 +1,8 @@
 #include "fast/platform/large_array.hpp"
 
-#include <algorithm>
 #include <array>
 #include <atomic>
 #include <new>
-#include <type_traits>
 
 #ifdef __linux__
 #include <sys/mman.h>

@@ -1,7 +1,6 @@
 #include "fast/step/codimensional.hpp"
 
 #include <algorithm>
-#include <cstddef>
 #include <numeric>
 #include <span>
 

@@ -2,11 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstddef>
 #include <limits>
 #include <stdexcept>
 #include <tuple>
-#include <utility>
 
 #include "fast/broad_phase/swept_box.hpp"
 #include "fast/kernels.hpp"

@@ -1,6 +1,5 @@
 #include "fast/step/sieve.hpp"
 
-#include <cstddef>
 #include <span>
 #include <vector>
 

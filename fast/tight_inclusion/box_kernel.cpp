@@ -1,7 +1,5 @@
 #include "fast/tight_inclusion/box_kernel.hpp"
 
-#include <limits>
-
 namespace touchstone::fast {
 
 // One definition a file, each compiled for its instruction set (box_kernel_*.cpp).

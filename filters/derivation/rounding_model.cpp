@@ -2,9 +2,7 @@
 
 #include <algorithm>
 #include <map>
-#include <numeric>
 #include <stdexcept>
-#include <utility>
 
 namespace touchstone::filters {
 namespace {

@@ -3,6 +3,7 @@
 #include <pthread.h>
 
 #include <exception>
+#include <future>
 #include <thread>
 #include <utility>
 

@@ -26,7 +26,6 @@
 #include <stdexcept>
 #include <string>
 #include <system_error>
-#include <vector>
 
 #include "touchstone/plugin.h"
 

@@ -243,9 +243,7 @@ class Step:
             lambda: _fast.Step(
                 *self._vertices,
                 *self._elements,
-                self._thickness[0],
-                self._thickness[1],
-                self._thickness[2],
+                *self._thickness,
                 can_collide,
                 separation,
                 norm,

@@ -19,7 +19,7 @@
 #include "tests/faults/hunt.hpp"
 #include "touchstone/oracle.hpp"
 #include "verify/data/csv_dataset.hpp"
-#include "verify/data/separation_file.hpp"
+#include "verify/data/ground_truth_files.hpp"
 #include "verify/fuzz/finding.hpp"
 
 namespace touchstone::tests {

@@ -15,7 +15,7 @@
 #include "tests/support/built_files.hpp"
 #include "verify/fuzz/fuzz.hpp"
 #include "verify/fuzz/plainness.hpp"
-#include "verify/generate/decimal.hpp"
+#include "verify/generate/everyday.hpp"
 #include "verify/solvers/plugin_method.hpp"
 #include "verify/solvers/registry.hpp"
 

@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "verify/data/npy_header.hpp"
+#include "verify/data/npy.hpp"
 
 namespace touchstone::tests {
 

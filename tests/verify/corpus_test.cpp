@@ -15,7 +15,7 @@
 
 #include "tests/support/built_files.hpp"
 #include "verify/data/dataset.hpp"
-#include "verify/data/separation_file.hpp"
+#include "verify/data/ground_truth_files.hpp"
 #include "verify/jobs/certify.hpp"
 #include "verify/solvers/registry.hpp"
 #include "verify/solvers/solver.hpp"

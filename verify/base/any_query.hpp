@@ -6,7 +6,6 @@
 /// third.
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
 #include <span>
 #include <vector>

@@ -1,4 +1,23 @@
-#include "verify/baselines/cubic.hpp"
+// CUBIC: the zeros of the coplanarity cubic with a tolerance, as simulators of cloth run it
+// ([provot1997]; the public ARCSim and El Topo). docs/methods.md, section 13.
+//
+// det = r·(p×q), a cubic in t, is 0 at a contact. Its zeros are computed in double precision
+// (rpoly.hpp). *Filtered*: a zero whose imaginary part and distance from [0,1] are at most 1e-6
+// counts, moved to the nearest time of [0,1]; t=0 and t=1 are added. The earliest of these times
+// at which the primitives are within δ is the impact. δ is fast::MethodOptions::tolerance.
+//
+// **Promise.** None: nothing bounds the rounding. Times are estimates.
+//
+// **Known defects.**
+//   - δ and the filter of zeros are absolute: a pass within δ is a false positive; where
+//     coordinates are large, the primitives are farther apart than δ at the rounded zero, and the
+//     contact is a false negative.
+//   - Where all points move in one plane the cubic is 0 throughout, or consists of rounding
+//   errors:
+//     contacts between t=0 and t=1 are false negatives.
+//   - A triple zero is computed as a cluster with a third of the digits.
+
+#include "verify/baselines/baselines.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -36,8 +55,6 @@ std::vector<double> candidate_times(const Polynomial<3>& f) {
   return times;
 }
 
-}  // namespace
-
 fast::Answer cubic(Kind kind, const Query& query, const fast::MethodOptions& options) {
   for (const double t : candidate_times(coplanarity(kind, query))) {
     if (t > options.t_max) break;
@@ -47,6 +64,8 @@ fast::Answer cubic(Kind kind, const Query& query, const fast::MethodOptions& opt
   }
   return {.verdict = fast::Verdict::no};
 }
+
+}  // namespace
 
 std::unique_ptr<fast::Method> cubic_method() {
   return baseline_method({.name = "cubic",

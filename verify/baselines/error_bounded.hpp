@@ -8,7 +8,7 @@
 /// that, which also covers that the bounds are themselves rounded to nearest.
 ///
 /// **Underflow breaks it**: bounds are about 2^-52 of the values, so they vanish first. A value
-/// with a bound of 0 is then treated as exact, and a 0 with a bound of 0 as exactly zero. tccd.hpp
+/// with a bound of 0 is then treated as exact, and a 0 with a bound of 0 as exactly zero. tccd.cpp
 /// describes the consequences.
 
 #include <cmath>

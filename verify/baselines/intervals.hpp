@@ -17,7 +17,6 @@
 
 #include <array>
 #include <boost/numeric/interval.hpp>
-#include <cstddef>
 
 #include "touchstone/query.hpp"
 

@@ -1,4 +1,27 @@
-#include "verify/baselines/irf.hpp"
+// IRF: the multivariate interval root finder ([snyder1992]; as compared by [wang2021]).
+// docs/methods.md, section 3.
+//
+// F(t,u,v) is evaluated in intervals over boxes of parameters, first the points at t, then their
+// combination. A box for which a component of F excludes 0 holds no root and is dropped; the
+// others are bisected, t, u and v in turn, depth first (interval_search.hpp). A box narrower than
+// δ divided by the greatest displacement in t, and by the lengths of the edges in u and v, is a
+// collision.
+//
+// **Promise.** Conservative: rounding is outward and no box that holds a root is dropped.
+//
+// **Known defects.**
+//   - The box that ends the search is small in its parameters and need not hold a root, nor be
+//     within δ in F: near misses of δ's order are false positives. (A vertex that passes the side
+//     u + v = 1 of a face, δ/16 away.)
+//   - With rotating dimensions that box need not be the earliest: its time bounds nothing, so
+//     answers have none.
+//   - Only fast::MethodOptions::max_checks bounds the work: after that number of boxes the answer
+//     is undecided, with max_checks as `checks`. Motion in a plane takes longest if the primitives
+//     barely avoid a contact.
+//   - It does not support a minimum separation: queries that only come within one are false
+//     negatives.
+
+#include "verify/baselines/baselines.hpp"
 
 #include <algorithm>
 #include <array>
@@ -58,8 +81,6 @@ std::array<double, 3> parameter_tolerances(Kind kind, const Query& query, double
           tolerance / greatest_length(query, is_face ? 1 : 2, 3)};
 }
 
-}  // namespace
-
 fast::Answer irf(Kind kind, const Query& query, const fast::MethodOptions& options) {
   const Box domain{Interval(0.0, options.t_max), Interval(0.0, 1.0), Interval(0.0, 1.0)};
   const auto found =
@@ -67,6 +88,8 @@ fast::Answer irf(Kind kind, const Query& query, const fast::MethodOptions& optio
                  parameter_tolerances(kind, query, options.tolerance), options.max_checks);
   return {.verdict = found.verdict, .checks = to_checks(found.checks)};
 }
+
+}  // namespace
 
 std::unique_ptr<fast::Method> irf_method() {
   return baseline_method({.name = "irf",

@@ -1,10 +1,14 @@
 #include "verify/baselines/method_support.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
+#include <new>
+#include <type_traits>
 #include <utility>
 
+#include "fast/platform/floating_point_state.hpp"
 #include "verify/baselines/closest_features.hpp"
 
 namespace touchstone::baselines {
@@ -13,6 +17,11 @@ namespace {
 fast::Answer call(AnswerFunction answer, const Queries& queries, std::size_t i,
                   const fast::MethodOptions& options) {
   return answer(queries.kind, queries.straight()[i], options);
+}
+fast::Answer call(VerdictFunction collides, const Queries& queries, std::size_t i,
+                  const fast::MethodOptions& /*options*/) {
+  const bool is_yes = collides(queries.kind, queries.straight()[i]);
+  return {.verdict = is_yes ? fast::Verdict::yes : fast::Verdict::no};
 }
 fast::Answer call(AnyAnswerFunction answer, const Queries& queries, std::size_t i,
                   const fast::MethodOptions& options) {
@@ -25,6 +34,8 @@ fast::Answer answer_of(Function answer, const Queries& queries, std::size_t i,
   if (!is_finite(queries.row(i))) return {.verdict = fast::Verdict::error};
   try {
     return call(answer, queries, i, options);
+  } catch (const std::bad_alloc&) {
+    throw;
   } catch (...) {
     return {.verdict = fast::Verdict::yes};
   }
@@ -45,7 +56,10 @@ class BaselineMethod final : public fast::Method {
       std::ranges::fill(answers, fast::Answer{.verdict = fast::Verdict::error});
       return;
     }
-    const NearestRounding state;
+    // (Of verdicts none uses Boost.Interval.)
+    const std::conditional_t<std::is_same_v<Function, VerdictFunction>, fast::StrictFloatingPoint,
+                             NearestRounding>
+        state;
     for (std::size_t i = 0; i < answers.size(); ++i) {
       answers[i] = answer_of(answer_, queries, i, options);
     }
@@ -55,6 +69,11 @@ class BaselineMethod final : public fast::Method {
   fast::MethodInfo info_;
   Function answer_;
 };
+
+template <class Function>
+std::unique_ptr<fast::Method> method_of(fast::MethodInfo&& info, Function answer) {
+  return std::make_unique<BaselineMethod<Function>>(std::move(info), answer);
+}
 
 }  // namespace
 
@@ -69,6 +88,14 @@ bool are_valid(const fast::MethodOptions& options) {
   return std::isfinite(options.tolerance) && options.tolerance > 0.0 &&
          std::isfinite(options.separation.distance) && options.separation.distance >= 0.0 &&
          options.t_max >= 0.0 && options.t_max <= 1.0;
+}
+
+Random random_of(const Query& query) {
+  std::uint64_t seed = Random::golden_ratio;
+  for (const double x : query.coordinates) {
+    seed = verify::generate::mix(seed ^ std::bit_cast<std::uint64_t>(x));
+  }
+  return Random(seed);
 }
 
 std::uint32_t to_checks(std::int64_t steps) {
@@ -88,11 +115,13 @@ double squared_distance_at(Kind kind, const Query& query, double t) {
 }
 
 std::unique_ptr<fast::Method> baseline_method(fast::MethodInfo info, AnswerFunction answer) {
-  return std::make_unique<BaselineMethod<AnswerFunction>>(std::move(info), answer);
+  return method_of(std::move(info), answer);
 }
-
+std::unique_ptr<fast::Method> baseline_method(fast::MethodInfo info, VerdictFunction collides) {
+  return method_of(std::move(info), collides);
+}
 std::unique_ptr<fast::Method> baseline_method(fast::MethodInfo info, AnyAnswerFunction answer) {
-  return std::make_unique<BaselineMethod<AnyAnswerFunction>>(std::move(info), answer);
+  return method_of(std::move(info), answer);
 }
 
 }  // namespace touchstone::baselines

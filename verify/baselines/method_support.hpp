@@ -14,6 +14,7 @@
 
 #include "fast/method.hpp"
 #include "touchstone/query.hpp"
+#include "verify/generate/random_stream.hpp"
 
 namespace touchstone::baselines {
 
@@ -38,6 +39,8 @@ class NearestRounding {
 /// are_valid(), rounding to nearest.
 using AnswerFunction = fast::Answer (*)(Kind kind, const Query& query,
                                         const fast::MethodOptions& options);
+/// The same as a verdict alone, of a method that ignores all options.
+using VerdictFunction = bool (*)(Kind kind, const Query& query);
 /// The same of query i, of any shape that the method's terms name.
 using AnyAnswerFunction = fast::Answer (*)(const Queries& queries, std::size_t i,
                                            const fast::MethodOptions& options);
@@ -45,6 +48,12 @@ using AnyAnswerFunction = fast::Answer (*)(const Queries& queries, std::size_t i
 /// True if the tolerance is positive and finite, the separation finite and not negative, and t_max
 /// in [0,1].
 [[nodiscard]] bool are_valid(const fast::MethodOptions& options);
+
+using Random = verify::generate::Random;
+
+/// The stream of a method that tries random directions. Its seed is the query's own bits, so a
+/// query gets the same answer every time, in any order and in any thread.
+[[nodiscard]] Random random_of(const Query& query);
 
 /// Saturates a number of steps at the maximum of an answer.
 [[nodiscard]] std::uint32_t to_checks(std::int64_t steps);
@@ -59,9 +68,12 @@ using AnyAnswerFunction = fast::Answer (*)(const Queries& queries, std::size_t i
 
 /// The baseline of that description (is_baseline is set) as a fast::Method. Its answer is
 /// fast::Verdict::error for coordinates that are not finite and options that are not valid, and
-/// yes, without times, if the function throws.
+/// yes, without times, if the function throws. That rule of the harness decides most answers of
+/// some methods (bsc.cpp).
 [[nodiscard]] std::unique_ptr<fast::Method> baseline_method(fast::MethodInfo info,
                                                             AnswerFunction answer);
+[[nodiscard]] std::unique_ptr<fast::Method> baseline_method(fast::MethodInfo info,
+                                                            VerdictFunction collides);
 [[nodiscard]] std::unique_ptr<fast::Method> baseline_method(fast::MethodInfo info,
                                                             AnyAnswerFunction answer);
 

@@ -10,7 +10,7 @@
 /// −∞, so sums are never NaN; a product is where an end 0 meets an infinite one, and there the
 /// bound is 0 since the numbers themselves are finite.
 ///
-/// The rounding mode is the caller's duty: upward_rounding.hpp.
+/// The rounding mode is the caller's duty: UpwardRounding.
 
 #include <algorithm>
 
@@ -70,6 +70,25 @@ struct UpwardInterval {
     return {bound(b.minus_lower >= 0.0 ? a.upper : least, b.minus_lower),
             bound(b.upper >= 0.0 ? a.upper : least, b.upper)};
   }
+};
+
+/// While it lives, this thread rounds towards +∞; then the mode before it is back, also where an
+/// exception ended its life. (BSC's published code forgets that, bsc.cpp.)
+///
+/// The compiler knows of no mode, and may move arithmetic across the guard within a function. So
+/// the arithmetic belongs in a function that is called, and not inlined, while the guard lives, and
+/// in a file compiled with -frounding-math.
+class UpwardRounding {
+ public:
+  UpwardRounding();
+  ~UpwardRounding();
+  UpwardRounding(const UpwardRounding&) = delete;
+  UpwardRounding& operator=(const UpwardRounding&) = delete;
+  UpwardRounding(UpwardRounding&&) = delete;
+  UpwardRounding& operator=(UpwardRounding&&) = delete;
+
+ private:
+  int callers_;
 };
 
 }  // namespace touchstone::baselines

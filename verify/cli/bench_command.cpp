@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cstdint>
 #include <cstdio>
 #include <filesystem>
@@ -14,7 +13,6 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 #include "fast/broad_phase/search.hpp"
@@ -24,7 +22,6 @@
 #include "touchstone/certified.hpp"
 #include "verify/cli/commands.hpp"
 #include "verify/cli/files.hpp"
-#include "verify/cli/help.hpp"
 #include "verify/cli/option_table.hpp"
 #include "verify/cli/options.hpp"
 #include "verify/cli/sharded_run.hpp"
@@ -89,8 +86,7 @@ class BenchRun {
 
   Status run() {
     until_interrupted([&] { bench_all(); });
-    if (json_) json_.write(io::json_document(report::to_json(report_)));
-    json_.close();
+    if (json_) json_.complete(io::json_document(report::to_json(report_)));
     if (!report_.groups.empty() || errors_.empty()) {
       io::print(files_.summary_stream(), report::to_text(report_));
     }
@@ -281,10 +277,8 @@ void add(CLI::App& app, Status& status) {
            "touchstone bench --step 92.ply 93.ply --method certified",
            "Without PATH: two patches of mesh that move through each other, and the built-in set. "
            "Built-in solvers run in this process, in one thread; plugins run in child processes. "
-           "With --step the "
-           "queries are the "
-           "candidates of the broad phase, and the whole step is timed, with one thread and with "
-           "--threads.\n" +
+           "With --step the queries are the candidates of the broad phase, and the whole step is "
+           "timed, with one thread and with --threads.\n" +
                std::string(judging_statuses));
   command->callback([arguments, command, &status] {
     settle(*command, *arguments);

@@ -12,7 +12,6 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "fast/candidates.hpp"
@@ -20,15 +19,13 @@
 #include "touchstone/mesh.hpp"
 #include "verify/cli/commands.hpp"
 #include "verify/cli/files.hpp"
-#include "verify/cli/help.hpp"
 #include "verify/cli/option_table.hpp"
 #include "verify/cli/sources.hpp"
+#include "verify/data/ground_truth_files.hpp"
 #include "verify/data/npy.hpp"
-#include "verify/data/separation_file.hpp"
 #include "verify/io/json.hpp"
 #include "verify/io/terminal.hpp"
 #include "verify/io/text_table.hpp"
-#include "verify/mesh/index_file.hpp"
 #include "verify/mesh/moving_mesh.hpp"
 
 namespace touchstone::verify::cli::candidates_command {
@@ -163,14 +160,13 @@ Status candidates(const Arguments& arguments) {
     }
     const fs::path folder = arrays.edges.parent_path();
     if (!folder.empty()) fs::create_directories(folder);
-    mesh::write_index_pairs(arrays.edges, mesh.edges);
-    mesh::write_index_pairs(arrays.vertex_face_pairs, all[0].pairs);
-    mesh::write_index_pairs(arrays.edge_edge_pairs, all[1].pairs);
+    data::write_index_pairs(arrays.edges, mesh.edges);
+    data::write_index_pairs(arrays.vertex_face_pairs, all[0].pairs);
+    data::write_index_pairs(arrays.edge_edge_pairs, all[1].pairs);
     write_queries(arrays.vertex_face, mesh, all[0]);
     write_queries(arrays.edge_edge, mesh, all[1]);
   });
-  if (json) json.write(io::json_document(summary(mesh, all)));
-  json.close();
+  if (json) json.complete(io::json_document(summary(mesh, all)));
   io::print(files.summary_stream(), table_of(mesh, all));
   if (files.has_failed()) return Status::bad_input;
   return io::interrupted() ? Status::interrupted : Status::all_well;

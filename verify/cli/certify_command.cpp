@@ -17,7 +17,6 @@
 
 #include "verify/cli/commands.hpp"
 #include "verify/cli/files.hpp"
-#include "verify/cli/help.hpp"
 #include "verify/cli/option_table.hpp"
 #include "verify/cli/options.hpp"
 #include "verify/cli/result_files.hpp"
@@ -27,10 +26,8 @@
 #include "verify/io/json.hpp"
 #include "verify/io/printable.hpp"
 #include "verify/io/terminal.hpp"
-#include "verify/jobs/budget.hpp"
 #include "verify/jobs/certify.hpp"
 #include "verify/report/certify_report.hpp"
-#include "verify/report/gate.hpp"
 #include "verify/solvers/registry.hpp"
 #include "verify/view/asked_solvers.hpp"
 
@@ -110,8 +107,7 @@ class CertifyRun {
     }
     truth_.close();
     proof_.close(sum_.proofs.certificates());
-    if (json_) json_.write(io::json_document(report::to_json(results_)));
-    json_.close();
+    if (json_) json_.complete(io::json_document(report::to_json(results_)));
     write_gate();
     view_.write(arguments_.judged.options);
     print_summary();
@@ -150,8 +146,7 @@ class CertifyRun {
     } else {
       new_baseline_.discard();
     }
-    if (badge_) badge_.write(report::badge(sum_.methods.at(0)));
-    badge_.close();
+    if (badge_) badge_.complete(report::badge(sum_.methods.at(0)));
   }
 
   void print_summary() const {

@@ -18,9 +18,6 @@ enum class Status : int {
   interrupted = 130,  ///< by a signal; the results so far are reported
 };
 
-/// Adds all subcommands.
-void add_commands(CLI::App& app, Status& status);
-
 // The command `touchstone certify`, and so on with the other commands.
 // clang-format off
 namespace certify_command { void add(CLI::App& app, Status& status); }
@@ -39,5 +36,16 @@ namespace convert_command { void add(CLI::App& app, Status& status); }
 namespace merge_command { void add(CLI::App& app, Status& status); }
 namespace derive_command { void add(CLI::App& app, Status& status); }
 // clang-format on
+
+/// Adds all subcommands.
+inline void add_commands(CLI::App& app, Status& status) {
+  for (const auto add :
+       {certify_command::add, solve_command::add, prove_command::add, generate_command::add,
+        candidates_command::add, step_command::add, intersections_command::add, bench_command::add,
+        fuzz_command::add, convert_command::add, merge_command::add, stability_command::add,
+        report_command::add, view_command::add, derive_command::add}) {
+    add(app, status);
+  }
+}
 
 }  // namespace touchstone::verify::cli

@@ -9,7 +9,6 @@
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/task_arena.h>
 
-#include <algorithm>
 #include <atomic>
 #include <filesystem>
 #include <memory>
@@ -24,14 +23,11 @@
 
 #include "verify/base/cores.hpp"
 #include "verify/cli/commands.hpp"
-#include "verify/cli/help.hpp"
 #include "verify/cli/option_table.hpp"
 #include "verify/cli/options.hpp"
-#include "verify/cli/version.hpp"
 #include "verify/data/dataset.hpp"
 #include "verify/data/ground_truth_files.hpp"
 #include "verify/data/npy.hpp"
-#include "verify/data/separation_file.hpp"
 #include "verify/data/store.hpp"
 #include "verify/io/json.hpp"
 #include "verify/io/output_file.hpp"

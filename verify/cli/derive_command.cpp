@@ -4,7 +4,6 @@
 #include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
-#include <set>
 #include <string>
 #include <vector>
 
@@ -12,7 +11,6 @@
 #include "touchstone/derivation/catalogue.hpp"
 #include "verify/cli/commands.hpp"
 #include "verify/cli/files.hpp"
-#include "verify/cli/help.hpp"
 #include "verify/cli/option_table.hpp"
 #include "verify/cli/options.hpp"
 #include "verify/io/json.hpp"
@@ -114,10 +112,8 @@ Status derive(const Arguments& arguments) {
     options.progress = [&progress](double fraction) { progress.update(fraction); };
     result = filters::derive(options);
   }
-  if (header) header.write(filters::error_bounds_header());
-  if (json) json.write(io::json_document(to_json(arguments, result)));
-  header.close();
-  json.close();
+  if (header) header.complete(filters::error_bounds_header());
+  if (json) json.complete(io::json_document(to_json(arguments, result)));
   io::print(files.summary_stream(), to_table(result));
   return files.has_failed() ? Status::bad_input : status_of(arguments, result);
 }

@@ -3,7 +3,6 @@
 #include <exception>
 #include <stdexcept>
 #include <system_error>
-#include <vector>
 
 #include "verify/cli/options.hpp"
 #include "verify/data/ground_truth_files.hpp"

@@ -70,6 +70,11 @@ class Output {
   void write(std::string_view text);
   /// Completes the file.
   void close();
+  /// Writes the text, and completes the file.
+  void complete(std::string_view text) {
+    write(text);
+    close();
+  }
   /// Leaves the file of that name as it was; text that is written later is lost.
   void discard() { file_.reset(); }
   /// Closes an incomplete file: it gets the ending ".incomplete", an existing file of the given

@@ -20,7 +20,6 @@
 
 #include "verify/cli/commands.hpp"
 #include "verify/cli/files.hpp"
-#include "verify/cli/help.hpp"
 #include "verify/cli/option_table.hpp"
 #include "verify/cli/options.hpp"
 #include "verify/cli/result_files.hpp"
@@ -28,7 +27,7 @@
 #include "verify/cli/solver_options.hpp"
 #include "verify/data/csv_dataset.hpp"
 #include "verify/data/dataset.hpp"
-#include "verify/data/separation_file.hpp"
+#include "verify/data/ground_truth_files.hpp"
 #include "verify/fuzz/finding_page.hpp"
 #include "verify/fuzz/fuzz.hpp"
 #include "verify/fuzz/fuzz_report.hpp"
@@ -306,8 +305,7 @@ class FuzzRun {
     report_output(asked_.method, report.result.output, arguments_.solver.show_output);
     std::vector<fs::path> written;
     attempt([&] { written = found_.close(); });
-    if (json_) json_.write(io::json_document(json));
-    json_.close();
+    if (json_) json_.complete(io::json_document(json));
     write_view(json);
     attempt([&] {
       for (fs::path& page : write_pages(json)) written.push_back(std::move(page));

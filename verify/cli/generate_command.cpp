@@ -12,13 +12,11 @@
 
 #include "verify/cli/commands.hpp"
 #include "verify/cli/files.hpp"
-#include "verify/cli/help.hpp"
 #include "verify/cli/option_table.hpp"
 #include "verify/cli/options.hpp"
 #include "verify/data/csv_dataset.hpp"
 #include "verify/data/ground_truth_files.hpp"
 #include "verify/data/npy.hpp"
-#include "verify/data/separation_file.hpp"
 #include "verify/generate/families.hpp"
 #include "verify/generate/workload.hpp"
 #include "verify/io/json.hpp"
@@ -219,8 +217,7 @@ Status generate(const Arguments& arguments) {
         written.is_known ? nlohmann::json(written.collisions) : nlohmann::json();
     if (!is_zero(separation)) json.back()["separation"] = judge::to_json(separation);
   }
-  if (json_output) json_output.write(io::json_document(json));
-  json_output.close();
+  if (json_output) json_output.complete(io::json_document(json));
   io::print(record.summary_stream(),
             fmt::format(
                 "{} queries, {} of them collisions{}, in {} files below {}\n", queries, collisions,

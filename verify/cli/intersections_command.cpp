@@ -5,14 +5,11 @@
 #include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 #include "touchstone/intersections.hpp"
 #include "verify/cli/commands.hpp"
 #include "verify/cli/files.hpp"
-#include "verify/cli/group_options.hpp"
-#include "verify/cli/help.hpp"
 #include "verify/cli/option_table.hpp"
 #include "verify/cli/options.hpp"
 #include "verify/cli/result_files.hpp"
@@ -23,7 +20,7 @@
 #include "verify/jobs/prove_mesh.hpp"
 #include "verify/jobs/work_time.hpp"
 #include "verify/mesh/mesh_file.hpp"
-#include "verify/report/intersection_report.hpp"
+#include "verify/report/step_report.hpp"
 #include "verify/view/step_facts.hpp"
 
 namespace touchstone::verify::cli::intersections_command {
@@ -114,10 +111,8 @@ Status intersections(const Arguments& arguments) {
         [&](const fast::Intersection& one) { return report::pair_text(report.meshes, one); }));
   }
   view.write();
-  if (json) json.write(io::json_document(report::to_json(report)));
-  json.close();
-  if (csv) csv.write(report::to_csv(report));
-  csv.close();
+  if (json) json.complete(io::json_document(report::to_json(report)));
+  if (csv) csv.complete(report::to_csv(report));
   io::print(files.summary_stream(), report::to_text(report) + view.summary());
   if (!failure.empty()) report_error("no proof: " + failure);
   if (files.has_failed() || !failure.empty()) return Status::bad_input;

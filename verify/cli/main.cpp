@@ -16,9 +16,8 @@
 #include "fast/platform/arithmetic_check.hpp"
 #include "touchstone/broad_phase.hpp"
 #include "verify/cli/commands.hpp"
-#include "verify/cli/help.hpp"
+#include "verify/cli/option_table.hpp"
 #include "verify/cli/options.hpp"
-#include "verify/cli/version.hpp"
 #include "verify/io/printable.hpp"
 #include "verify/io/terminal.hpp"
 
@@ -61,9 +60,8 @@ void add_curved(CLI::App& app) {
   command->callback([] {
     throw std::invalid_argument(
         "curved is now certify, which decides queries on curves of every degree: touchstone "
-        "certify "
-        "FILE, or --degree 2 --degree 3 --degree rational for the families, with --prove for "
-        "--proof and --method subdivision and so on for --others");
+        "certify FILE, or --degree 2 --degree 3 --degree rational for the families, with --prove "
+        "for --proof and --method subdivision and so on for --others");
   });
 }
 

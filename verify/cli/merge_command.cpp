@@ -4,7 +4,6 @@
 #include <string>
 
 #include "verify/cli/commands.hpp"
-#include "verify/cli/help.hpp"
 #include "verify/cli/option_table.hpp"
 #include "verify/cli/sharded_run.hpp"
 

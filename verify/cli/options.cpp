@@ -8,7 +8,7 @@
 
 #include "fast/method.hpp"
 #include "verify/cli/option_table.hpp"
-#include "verify/data/separation_file.hpp"
+#include "verify/data/ground_truth_files.hpp"
 #include "verify/io/printable.hpp"
 #include "verify/io/terminal.hpp"
 #include "verify/judge/separation_inference.hpp"

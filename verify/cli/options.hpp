@@ -42,4 +42,10 @@ void report_warning(std::string_view message);
 /// The command line of this process, quoted for a shell, with the program's name without a path.
 [[nodiscard]] std::string command_line();
 
+// The version of the program.
+
+/// "1.2.3 (0123456789)": the version, and the commit of the build, followed by "-dirty" if files
+/// were changed; the version alone if the commit is unknown.
+[[nodiscard]] std::string_view version();
+
 }  // namespace touchstone::verify::cli

@@ -15,7 +15,6 @@
 #include "touchstone/number.hpp"
 #include "verify/cli/commands.hpp"
 #include "verify/cli/files.hpp"
-#include "verify/cli/help.hpp"
 #include "verify/cli/option_table.hpp"
 #include "verify/cli/options.hpp"
 #include "verify/cli/result_files.hpp"
@@ -80,8 +79,7 @@ class ProveRun {
     } else {
       out_.close(sum_.proofs.certificates());
     }
-    if (json_) json_.write(io::json_document(summary()));
-    json_.close();
+    if (json_) json_.complete(io::json_document(summary()));
     report_beyond_limits(sum_.proofs);
     print_summary();
     return status();

@@ -21,13 +21,11 @@
 
 #include "verify/cli/commands.hpp"
 #include "verify/cli/files.hpp"
-#include "verify/cli/help.hpp"
 #include "verify/cli/option_table.hpp"
 #include "verify/cli/options.hpp"
 #include "verify/cli/result_files.hpp"
 #include "verify/cli/solver_options.hpp"
 #include "verify/cli/sources.hpp"
-#include "verify/cli/version.hpp"
 #include "verify/data/query_group.hpp"
 #include "verify/generate/families.hpp"
 #include "verify/generate/workload.hpp"
@@ -37,7 +35,7 @@
 #include "verify/judge/separation_inference.hpp"
 #include "verify/mesh/moving_mesh.hpp"
 #include "verify/report/experiments.hpp"
-#include "verify/report/measurement_json.hpp"
+#include "verify/report/measurement.hpp"
 #include "verify/report/report_page.hpp"
 #include "verify/solvers/answers.hpp"
 #include "verify/solvers/registry.hpp"
@@ -269,10 +267,8 @@ class ReportRun {
 
   void write(const report::Measurements& measurements) {
     // The measurements first, because all other outputs can be derived from them.
-    if (json_) json_.write(io::json_document(report::to_json(measurements)));
-    json_.close();
-    if (page_) page_.write(report::report_page(measurements, before_ ? &*before_ : nullptr));
-    page_.close();
+    if (json_) json_.complete(io::json_document(report::to_json(measurements)));
+    if (page_) page_.complete(report::report_page(measurements, before_ ? &*before_ : nullptr));
     wrong_.add_to(view_);
     view_.write();
     std::FILE* const out = files_.summary_stream();
@@ -352,9 +348,8 @@ void add(CLI::App& app, Status& status) {
       *command,
       "touchstone report data/handcrafted --out report.html --json report.json\n"
       "touchstone report data/handcrafted --plugin mine.so --compare report.json --out new.html",
-      "Without PATH: two patches of mesh that move through each other, and the built-in set. "
-      "The page needs no "
-      "network; its path is printed. Times are those of one thread.\n" +
+      "Without PATH: two patches of mesh that move through each other, and the built-in set. The "
+      "page needs no network; its path is printed. Times are those of one thread.\n" +
           std::string(judging_statuses));
   command->callback([arguments, command, &status] {
     report::ExperimentOptions& options = arguments->experiments;

@@ -4,10 +4,8 @@
 
 #include <algorithm>
 #include <iterator>
-#include <span>
 #include <utility>
 
-#include "fast/method.hpp"
 #include "touchstone/certified.hpp"
 #include "verify/cli/options.hpp"
 #include "verify/io/printable.hpp"
@@ -118,8 +116,7 @@ void ViewFile::write(const fast::MethodOptions& options) {
     facts.push_back(
         view::query_facts(query, view::ask({&certified, has_answered ? 0U : 1U}, query).answers));
   }
-  output_.write(view::view_page(facts, command_line(), step_));
-  output_.close();
+  output_.complete(view::view_page(facts, command_line(), step_));
 }
 
 std::string ViewFile::summary(std::uint64_t allowed) const {
@@ -137,8 +134,7 @@ std::string ViewFile::summary(std::uint64_t allowed) const {
   if (queries_.empty() && allowed != 0) {
     return fmt::format(
         "{}: no wrong answer to look at (false positives, which break no promise: {}; --exact "
-        "shows "
-        "them)\n",
+        "shows them)\n",
         name, allowed);
   }
   if (queries_.empty()) return fmt::format("{}: nothing was found to look at\n", name);

@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <set>
 #include <stdexcept>
 #include <string_view>
@@ -16,7 +17,6 @@
 #include "verify/cli/options.hpp"
 #include "verify/cli/result_files.hpp"
 #include "verify/cli/solver_options.hpp"
-#include "verify/cli/version.hpp"
 #include "verify/data/dataset.hpp"
 #include "verify/data/ground_truth_files.hpp"
 #include "verify/data/store.hpp"
@@ -25,7 +25,7 @@
 #include "verify/io/number_text.hpp"
 #include "verify/io/printable.hpp"
 #include "verify/io/terminal.hpp"
-#include "verify/jobs/own_program.hpp"
+#include "verify/jobs/pieces.hpp"
 
 namespace touchstone::verify::cli {
 namespace {
@@ -224,9 +224,7 @@ Status write_merged(const jobs::PieceFolder& folder, const std::string& json_fil
   const nlohmann::json total = folder.merged_json();
   for (const auto& [option, name] : folder.plan().outputs) {
     if (option == jobs::json_option) {
-      Output output(files, json_file.empty() ? name : json_file);
-      output.write(io::json_document(total));
-      output.close();
+      Output(files, json_file.empty() ? name : json_file).complete(io::json_document(total));
     } else {
       write_merged_text(folder, option, name, files);
     }

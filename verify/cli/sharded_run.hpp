@@ -5,10 +5,8 @@
 /// of commands, which run themselves as a process for each piece.
 
 #include <CLI/CLI.hpp>
-#include <cstddef>
 #include <filesystem>
 #include <functional>
-#include <optional>
 #include <string>
 #include <vector>
 

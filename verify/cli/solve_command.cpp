@@ -15,7 +15,6 @@
 
 #include "verify/cli/commands.hpp"
 #include "verify/cli/files.hpp"
-#include "verify/cli/help.hpp"
 #include "verify/cli/option_table.hpp"
 #include "verify/cli/options.hpp"
 #include "verify/cli/sharded_run.hpp"
@@ -101,8 +100,7 @@ class SolveRun {
     } else {
       out_.close();
     }
-    if (json_) json_.write(io::json_document(summary()));
-    json_.close();
+    if (json_) json_.complete(io::json_document(summary()));
     report_unplaced_crashes(solver_.name(), asked_.unplaced_crashes);
     solvers_.report_output(arguments_.solver.show_output);
     print_summary();

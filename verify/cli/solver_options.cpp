@@ -3,14 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstdint>
 #include <stdexcept>
-#include <string>
-#include <string_view>
 #include <utility>
 
 #include "fast/kernels.hpp"
-#include "fast/method.hpp"
 #include "touchstone/certified.hpp"
 #include "touchstone/query.hpp"
 #include "verify/cli/option_table.hpp"
@@ -18,7 +14,6 @@
 #include "verify/io/number_text.hpp"
 #include "verify/io/printable.hpp"
 #include "verify/io/terminal.hpp"
-#include "verify/solvers/plugin_method.hpp"
 #include "verify/solvers/registry.hpp"
 
 namespace touchstone::verify::cli {
@@ -156,14 +151,6 @@ Responses Responses::of(const judge::Judgement& judgement) {
           .hangs = judgement.count(judge::Fault::hang),
           .errors = judgement.errors(),
           .unasked = judgement.outside + judgement.left_out};
-}
-
-Responses& Responses::operator+=(const Responses& other) {
-  asked += other.asked;
-  hangs += other.hangs;
-  errors += other.errors;
-  unasked += other.unasked;
-  return *this;
 }
 
 Status status_of(std::string_view solver, const Responses& responses) {

@@ -100,7 +100,6 @@ struct Responses {
   std::uint64_t unasked = 0;  ///< outside its terms, or skipped
 
   [[nodiscard]] static Responses of(const judge::Judgement& judgement);
-  Responses& operator+=(const Responses& other);
 };
 
 /// The status of a run by its solver's responses: bad_input if it answered nothing,

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <cstdio>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -12,7 +11,6 @@
 
 #include "verify/cli/commands.hpp"
 #include "verify/cli/files.hpp"
-#include "verify/cli/help.hpp"
 #include "verify/cli/option_table.hpp"
 #include "verify/cli/options.hpp"
 #include "verify/cli/solver_options.hpp"
@@ -88,10 +86,8 @@ Status run(const Arguments& arguments) {
   }
   solvers.report_output(arguments.judged.show_output);
   // Files first, so that they are complete even if standard output is closed.
-  if (json) json.write(io::json_document(report::to_json(result)));
-  json.close();
-  if (picture) picture.write(report::stability_page(result, command_line()));
-  picture.close();
+  if (json) json.complete(io::json_document(report::to_json(result)));
+  if (picture) picture.complete(report::stability_page(result, command_line()));
   io::print(files.summary_stream(), report::to_text(result));
   if (files.has_failed()) return Status::bad_input;
   if (jobs::has_wrong_answers(result.total)) return Status::wrong_answers;

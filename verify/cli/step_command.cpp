@@ -3,8 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
-#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <memory>
@@ -20,8 +18,6 @@
 #include "touchstone/intersections.hpp"
 #include "verify/cli/commands.hpp"
 #include "verify/cli/files.hpp"
-#include "verify/cli/group_options.hpp"
-#include "verify/cli/help.hpp"
 #include "verify/cli/option_table.hpp"
 #include "verify/cli/options.hpp"
 #include "verify/cli/result_files.hpp"
@@ -172,8 +168,7 @@ class StepRun {
         proof_.close(exact::step_certificates_closing_line(report_.steps.size()));
       }
     }
-    if (json_) json_.write(io::json_document(report::to_json(report_)));
-    json_.close();
+    if (json_) json_.complete(io::json_document(report::to_json(report_)));
     csv_.close();
     view_.write();
     io::print(files_.summary_stream(), report::to_text(report_) + view_.summary());

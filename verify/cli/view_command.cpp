@@ -15,8 +15,6 @@
 
 #include "verify/cli/commands.hpp"
 #include "verify/cli/files.hpp"
-#include "verify/cli/group_options.hpp"
-#include "verify/cli/help.hpp"
 #include "verify/cli/option_table.hpp"
 #include "verify/cli/options.hpp"
 #include "verify/cli/solver_options.hpp"
@@ -137,9 +135,8 @@ Status run(const Arguments& arguments) {
   bar.clear();
   solvers.report_output(arguments.solvers.show_output);
   if (facts.empty() && io::interrupted()) return Status::interrupted;
-  out.write(view::view_page(facts, command_line(),
-                            step ? view::step_facts(*step) : nlohmann::json(), live));
-  out.close();
+  out.complete(view::view_page(facts, command_line(),
+                               step ? view::step_facts(*step) : nlohmann::json(), live));
   if (files.has_failed()) return Status::bad_input;
   if (files.summary_stream() == stdout) {
     io::print(stdout, fmt::format("{}\n", io::printable(arguments.out_file)));

@@ -9,7 +9,7 @@
 #include <string_view>
 #include <utility>
 
-#include "verify/data/separation_file.hpp"
+#include "verify/data/ground_truth_files.hpp"
 
 namespace touchstone::verify::data {
 

@@ -2,20 +2,22 @@
 
 #include <fmt/format.h>
 
+#include <zip.h>
+
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <charconv>
 #include <memory>
-#include <span>
+#include <optional>
 #include <stdexcept>
-#include <string>
-#include <string_view>
+#include <system_error>
 #include <utility>
-#include <vector>
 
 #include "verify/io/dataset_error.hpp"
 #include "verify/io/input_file.hpp"
 #include "verify/io/number_text.hpp"
+#include "verify/io/terminal.hpp"
 
 namespace touchstone::verify::data {
 namespace {
@@ -146,6 +148,291 @@ void NpyWriter::write(std::span<const double> numbers) {
 void NpyWriter::close() {
   file_.overwrite(0, npy_header_text(query_descr, count_, extents_));
   file_.close();
+}
+
+namespace {
+
+constexpr std::string_view magic = "\x93NUMPY";
+constexpr std::size_t version_1_prefix = 10;
+constexpr std::size_t version_2_prefix = 12;
+
+/// The dictionary's entries, as far as they were read.
+struct Entries {
+  std::optional<std::string> descr;
+  std::optional<bool> fortran_order;
+  std::optional<std::vector<std::uint64_t>> shape;
+};
+
+/// Reads the header's dictionary: of Python's literals only strings without escapes, True, False
+/// and tuples of integers.
+class HeaderParser {
+ public:
+  explicit HeaderParser(std::string_view text) : rest_(text) {}
+
+  [[nodiscard]] Entries parse() {
+    Entries entries;
+    expect('{');
+    while (!accept('}')) {
+      read_entry(entries);
+      if (accept(',')) continue;
+      expect('}');
+      break;
+    }
+    skip_space();
+    if (!rest_.empty()) throw NpyHeaderError("malformed header");
+    return entries;
+  }
+
+ private:
+  void read_entry(Entries& entries) {
+    const std::string key = read_string();
+    expect(':');
+    if (key == "descr" && !entries.descr) {
+      entries.descr = read_descr();
+    } else if (key == "fortran_order" && !entries.fortran_order) {
+      entries.fortran_order = read_bool();
+    } else if (key == "shape" && !entries.shape) {
+      entries.shape = read_tuple();
+    } else {
+      throw NpyHeaderError("unknown or repeated key in the header: " + io::quote(key));
+    }
+  }
+
+  std::string read_descr() {
+    skip_space();
+    if (rest_.starts_with('['))
+      throw NpyHeaderError("the array has named fields, expected numbers");
+    return read_string();
+  }
+
+  std::string read_string() {
+    skip_space();
+    if (!rest_.starts_with('\'') && !rest_.starts_with('"'))
+      throw NpyHeaderError("malformed header");
+    const std::size_t end = rest_.find(rest_.front(), 1);
+    if (end == std::string_view::npos) throw NpyHeaderError("malformed header");
+    std::string value(rest_.substr(1, end - 1));
+    rest_.remove_prefix(end + 1);
+    return value;
+  }
+
+  bool read_bool() {
+    skip_space();
+    for (const bool value : {false, true}) {
+      const std::string_view text = value ? "True" : "False";
+      if (!rest_.starts_with(text)) continue;
+      rest_.remove_prefix(text.size());
+      return value;
+    }
+    throw NpyHeaderError("malformed header");
+  }
+
+  std::vector<std::uint64_t> read_tuple() {
+    std::vector<std::uint64_t> values;
+    expect('(');
+    while (!accept(')')) {
+      values.push_back(read_integer());
+      if (accept(',')) continue;
+      expect(')');
+      break;
+    }
+    return values;
+  }
+
+  std::uint64_t read_integer() {
+    skip_space();
+    std::uint64_t value = 0;
+    const auto [stop, error] = std::from_chars(rest_.data(), rest_.data() + rest_.size(), value);
+    if (error != std::errc()) throw NpyHeaderError("malformed header");
+    rest_.remove_prefix(static_cast<std::size_t>(stop - rest_.data()));
+    if (rest_.starts_with('L')) rest_.remove_prefix(1);  // Python 2
+    return value;
+  }
+
+  void skip_space() {
+    rest_.remove_prefix(std::min(rest_.find_first_not_of(" \t\r\n"), rest_.size()));
+  }
+
+  bool accept(char c) {
+    skip_space();
+    if (!rest_.starts_with(c)) return false;
+    rest_.remove_prefix(1);
+    return true;
+  }
+
+  void expect(char c) {
+    if (!accept(c)) throw NpyHeaderError("malformed header");
+  }
+
+  std::string_view rest_;
+};
+
+std::size_t little_endian(std::string_view bytes) {
+  std::size_t value = 0;
+  for (std::size_t i = bytes.size(); i-- > 0;) {
+    value = 256 * value + static_cast<unsigned char>(bytes[i]);
+  }
+  return value;
+}
+
+/// The next `size` bytes of the header.
+std::string read_exactly(const ReadBytes& read, std::size_t size) {
+  std::string bytes(size, '\0');
+  if (read(bytes) < size) throw NpyHeaderError("truncated header");
+  return bytes;
+}
+
+}  // namespace
+
+NpyHeader read_npy_header(const ReadBytes& read) {
+  static constexpr std::size_t longest_header = std::size_t{1} << 20U;
+  std::string prefix(version_1_prefix, '\0');
+  if (read(prefix) < prefix.size() || !prefix.starts_with(magic)) {
+    throw NpyHeaderError("not a NumPy file");
+  }
+  const auto version = static_cast<unsigned char>(prefix[magic.size()]);
+  if (version < 1 || version > 3) {
+    throw NpyHeaderError(
+        fmt::format("version {} of the NumPy format, expected 1, 2 or 3", version));
+  }
+  if (version != 1) prefix += read_exactly(read, version_2_prefix - version_1_prefix);
+  const std::size_t length = little_endian(std::string_view(prefix).substr(magic.size() + 2));
+  if (length > longest_header) throw NpyHeaderError("header longer than 1 MiB");
+  Entries entries = HeaderParser(read_exactly(read, length)).parse();
+  if (!entries.descr || !entries.fortran_order || !entries.shape) {
+    throw NpyHeaderError("the header lacks descr, fortran_order or shape");
+  }
+  return {.descr = std::move(*entries.descr),
+          .fortran_order = *entries.fortran_order,
+          .shape = std::move(*entries.shape),
+          .size = prefix.size() + length};
+}
+
+std::string shape_text(const NpyHeader& header) {
+  return fmt::format("({})", fmt::join(header.shape, ", "));
+}
+
+std::string npy_header_text(std::string_view descr, std::uint64_t count,
+                            std::span<const std::uint64_t> extents) {
+  // Room for the largest count; a multiple of 64 in all, as NumPy pads it.
+  static constexpr std::size_t total = 128;
+  std::string text(magic);
+  text += '\x01';
+  text += '\x00';
+  text += static_cast<char>(total - version_1_prefix);
+  text += '\x00';
+  text += fmt::format("{{'descr': '{}', 'fortran_order': False, 'shape': ({}, {}), }}", descr,
+                      count, fmt::join(extents, ", "));
+  text.resize(total - 1, ' ');
+  return text + '\n';
+}
+
+namespace {
+
+constexpr std::string_view extension = ".npy";
+
+/// The meaning of libzip's error, and the way out.
+std::string reason_of(int error) {
+  if (error == ZIP_ER_CRC)
+    return "its checksum is wrong: the file is damaged; copy or write it anew";
+  if (error == ZIP_ER_EXISTS) return "two members have one name; write it anew";
+  if (error == ZIP_ER_INCONS) {
+    return "bytes follow the archive, or its directory is damaged; write it anew";
+  }
+  zip_error_t reason;
+  zip_error_init_with_code(&reason, error);
+  std::string text = zip_error_strerror(&reason);
+  zip_error_fini(&reason);
+  return text;
+}
+
+/// A member that is open for reading, and its archive, which has to stay open as long.
+struct OpenMember {
+  std::shared_ptr<zip> archive;
+  zip_file* file;
+
+  explicit OpenMember(std::shared_ptr<zip> of, const std::string& name)
+      : archive(std::move(of)), file(zip_fopen(archive.get(), name.c_str(), 0)) {}
+  OpenMember(const OpenMember&) = delete;
+  OpenMember& operator=(const OpenMember&) = delete;
+  OpenMember(OpenMember&&) = delete;
+  OpenMember& operator=(OpenMember&&) = delete;
+  ~OpenMember() {
+    if (file != nullptr) zip_fclose(file);
+  }
+};
+
+/// Reads a member from its first byte on.
+ReadBytes reader_of(const std::shared_ptr<zip>& archive, const std::filesystem::path& path,
+                    const std::string& name) {
+  const auto member = std::make_shared<OpenMember>(archive, name + std::string(extension));
+  if (member->file == nullptr) {
+    throw io::DatasetError(path, {}, name + ": " + zip_strerror(archive.get()));
+  }
+  return [member, path, name](std::span<char> buffer) {
+    const zip_int64_t count = zip_fread(member->file, buffer.data(), buffer.size());
+    if (count >= 0) return static_cast<std::size_t>(count);
+    throw io::DatasetError(
+        path, {}, name + ": " + reason_of(zip_error_code_zip(zip_file_get_error(member->file))));
+  };
+}
+
+}  // namespace
+
+Npz::Npz(std::filesystem::path path) : path_(std::move(path)) {
+  int error = 0;
+  // The flag also refuses bytes behind the archive and names that come twice.
+  archive_ = {zip_open(path_.c_str(), ZIP_RDONLY | ZIP_CHECKCONS, &error), [](zip* archive) {
+                if (archive != nullptr) zip_discard(archive);
+              }};
+  if (!archive_) throw io::DatasetError(path_, {}, "cannot open: " + reason_of(error));
+}
+
+bool Npz::has(const std::string& array) const {
+  return zip_name_locate(archive_.get(), (array + std::string(extension)).c_str(), 0) >= 0;
+}
+
+std::vector<std::string> Npz::names() const {
+  std::vector<std::string> result;
+  const zip_int64_t count = zip_get_num_entries(archive_.get(), 0);
+  for (zip_int64_t i = 0; i < count; ++i) {
+    const char* const text = zip_get_name(archive_.get(), static_cast<zip_uint64_t>(i), 0);
+    std::string_view name = text == nullptr ? "" : text;
+    if (!name.ends_with(extension)) continue;
+    name.remove_suffix(extension.size());
+    result.emplace_back(name);
+  }
+  return result;
+}
+
+NpyArray::NpyArray(const Npz& archive, const std::string& name)
+    : path_(archive.path()), name_(name) {
+  if (!archive.has(name)) {
+    fail(fmt::format("no such array; the archive has: {}", fmt::join(archive.names(), ", ")));
+  }
+  const auto reader = [&] { return reader_of(archive.archive_, path_, name); };
+  // libzip compares the checksum where the member ends.
+  std::array<char, 1U << 16U> part{};
+  std::uint64_t size = 0;
+  const ReadBytes whole = reader();
+  while (const std::size_t count = whole(part)) size += count;
+  open(reader(), size);
+}
+
+void write_index_pairs(const std::filesystem::path& path,
+                       std::span<const std::array<std::int32_t, 2>> pairs) {
+  io::OutputFile file(path);
+  static constexpr std::array<std::uint64_t, 1> extents{2};
+  file.write(npy_header_text("<i4", pairs.size(), extents));
+  // The writer buffers each call as a whole.
+  static constexpr std::size_t part = 4096;
+  for (; !pairs.empty(); pairs = pairs.subspan(std::min(part, pairs.size()))) {
+    io::throw_if_interrupted();
+    const auto bytes = pairs.first(std::min(part, pairs.size()));
+    const void* const data = bytes.data();
+    file.write({static_cast<const char*>(data), bytes.size_bytes()});
+  }
+  file.close();
 }
 
 }  // namespace touchstone::verify::data

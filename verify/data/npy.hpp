@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file
-/// Arrays in NumPy's format: .npy files, and the members of .npz archives (npz.hpp).
+/// Arrays in NumPy's format: .npy files, and the members of .npz archives.
 ///
 /// Queries are an array of float64 or float32 of shape (N, 8, 3), or on curves (N, K+1, 4, 3 or 4).
 /// An array of float64 in C order has the layout of N consecutive Query objects, or of Queries: its
@@ -13,19 +13,58 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
+#include <memory>
 #include <span>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <type_traits>
 #include <vector>
 
 #include "touchstone/query.hpp"
-#include "verify/data/npy_header.hpp"
 #include "verify/io/output_file.hpp"
+
+struct zip;
 
 namespace touchstone::verify::data {
 
 class Npz;
+
+// The header of NumPy's .npy files: "\x93NUMPY", two bytes of version (1 to 3), the length of the
+// dictionary (2 bytes in version 1, else 4, little-endian) and the dictionary, of exactly descr,
+// fortran_order and shape; then the data. NumPy of Python 2 wrote extents as "8L".
+
+/// The error for a file without such a header, or with that of another array; what() is the reason.
+class NpyHeaderError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// The contents of the header.
+struct NpyHeader {
+  std::string descr;           ///< the type: "<f8" is little-endian float64
+  bool fortran_order = false;  ///< the first index fastest
+  std::vector<std::uint64_t> shape;
+  /// Bytes before the data.
+  std::size_t size = 0;
+};
+
+/// Fills the buffer, or a part of it at the end of the file; returns the number of bytes.
+using ReadBytes = std::function<std::size_t(std::span<char>)>;
+
+/// Reads the header and no byte more.
+/// \throws NpyHeaderError and the exceptions of `read`.
+[[nodiscard]] NpyHeader read_npy_header(const ReadBytes& read);
+
+/// "(3, 8, 3)"
+[[nodiscard]] std::string shape_text(const NpyHeader& header);
+
+/// The header of an array in C order whose first extent is `count`, always 128 bytes, so that it
+/// can be rewritten when the number is known.
+/// \param descr the type \param extents the further extents
+[[nodiscard]] std::string npy_header_text(std::string_view descr, std::uint64_t count,
+                                          std::span<const std::uint64_t> extents);
 
 /// An array that is read front to back, a part at a time; only one in Fortran order is in memory as
 /// a whole. A file is not mapped into memory, because the system ends a process that reads mapped
@@ -121,6 +160,32 @@ class NpyWriter {
   io::OutputFile file_;
   std::vector<std::uint64_t> extents_;
   std::uint64_t count_ = 0;
+};
+
+/// Writes pairs of indices, such as those of a mesh's primitives in each query, as an array of
+/// little-endian int32 of shape (N, 2), which appears completely or not at all.
+/// \throws DatasetError if it cannot be written, Interrupted (terminal.hpp) if the user interrupts.
+void write_index_pairs(const std::filesystem::path& path,
+                       std::span<const std::array<std::int32_t, 2>> pairs);
+
+// NumPy's .npz archives, as `savez` and `savez_compressed` write them: a zip of .npy files.
+
+/// An archive that is open for reading.
+class Npz {
+ public:
+  /// \throws io::DatasetError if it cannot be opened, bytes follow it, or two members have one name.
+  explicit Npz(std::filesystem::path path);
+
+  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+  [[nodiscard]] bool has(const std::string& array) const;
+  /// The names of all arrays, in the order of the archive.
+  [[nodiscard]] std::vector<std::string> names() const;
+
+ private:
+  friend class NpyArray;
+
+  std::filesystem::path path_;
+  std::shared_ptr<zip> archive_;
 };
 
 }  // namespace touchstone::verify::data

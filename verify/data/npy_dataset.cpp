@@ -7,7 +7,7 @@
 #include <span>
 #include <string>
 
-#include "verify/data/npz.hpp"
+#include "verify/data/npy.hpp"
 
 namespace touchstone::verify::data {
 namespace {

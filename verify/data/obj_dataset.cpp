@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "verify/io/coordinate_text.hpp"
-#include "verify/io/words.hpp"
+#include "verify/io/number_text.hpp"
 
 namespace touchstone::verify::data {
 

@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <optional>
 
 #include "verify/generate/draws.hpp"
 #include "verify/generate/symmetry.hpp"

@@ -1,9 +1,7 @@
 #include "verify/fuzz/curved_generators.hpp"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
-#include <optional>
 #include <utility>
 #include <vector>
 

@@ -5,7 +5,6 @@
 /// programs, which the authors of a solver compile with their own code. Both are texts with places
 /// that the JSON of the findings fills (fuzz_report.hpp).
 
-#include <cstddef>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>

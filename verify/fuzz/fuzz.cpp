@@ -12,16 +12,11 @@
 #include <tuple>
 #include <utility>
 
-#include "fast/method.hpp"
 #include "touchstone/certified.hpp"
-#include "verify/base/deadline.hpp"
 #include "verify/fuzz/curved_generators.hpp"
-#include "verify/fuzz/diagnosis.hpp"
 #include "verify/fuzz/generators.hpp"
 #include "verify/fuzz/plainness.hpp"
 #include "verify/fuzz/recheck.hpp"
-#include "verify/fuzz/scheduler.hpp"
-#include "verify/fuzz/signature.hpp"
 #include "verify/generate/draws.hpp"
 #include "verify/generate/symmetry.hpp"
 #include "verify/judge/ground_truth.hpp"

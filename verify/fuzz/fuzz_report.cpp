@@ -11,7 +11,7 @@
 #include <string_view>
 
 #include "verify/data/csv_dataset.hpp"
-#include "verify/fuzz/signature.hpp"
+#include "verify/fuzz/recheck.hpp"
 #include "verify/generate/random_stream.hpp"
 #include "verify/io/json.hpp"
 #include "verify/io/printable.hpp"

@@ -72,7 +72,7 @@ struct FuzzReport {
 ///   bytes), and `command`, which asks again.
 ///
 /// `findings` is a list of these, and a group in `groups` has `best`, a place in `findings`, and in
-/// words its signature (signature.hpp).
+/// words its signature (recheck.hpp).
 [[nodiscard]] nlohmann::json to_json(const FuzzReport& report);
 
 }  // namespace touchstone::verify::fuzz

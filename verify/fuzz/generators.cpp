@@ -1,15 +1,16 @@
 #include "verify/fuzz/generators.hpp"
 
 #include <algorithm>
-#include <array>
+#include <bit>
 #include <cmath>
+#include <functional>
 #include <iterator>
-#include <utility>
+#include <limits>
+#include <span>
 
 #include "verify/fuzz/aligned_roundings.hpp"
 #include "verify/fuzz/contact.hpp"
 #include "verify/fuzz/curved_generators.hpp"
-#include "verify/fuzz/mutation.hpp"
 #include "verify/fuzz/plainness.hpp"
 #include "verify/generate/draws.hpp"
 #include "verify/generate/everyday.hpp"
@@ -306,6 +307,272 @@ std::vector<Generator> generators(const Separation& separation, bool on_curves) 
     return (!generator.needs_distance || !is_zero(separation)) &&
            (!generator.is_of_curves || on_curves);
   });
+  return result;
+}
+
+namespace {
+
+/// The exponent field of a double, 0 (zeros, subnormals) to 2047 (infinities, NaN).
+std::uint64_t exponent_field(double x) { return (std::bit_cast<std::uint64_t>(x) >> 52U) & 0x7ffU; }
+
+/// The exponent of numbers up to 1, from 0 to 64, which stands for all below 2^-64.
+std::uint64_t small_exponent(double x) {
+  static constexpr std::uint64_t bias = 1023, least = bias - 64;
+  return std::max(exponent_field(x), least) - least;
+}
+
+/// The class of a time in [0,1]: the exponent of its distance from the closer end.
+std::uint64_t time_place(double t) {
+  return t < 0.5 ? small_exponent(t) / 8 : 16 + small_exponent(1.0 - t) / 8;
+}
+
+std::uint64_t boundary_place(Kind kind, double u, double v) {
+  std::uint64_t place = 0;
+  place |= u == 0.0 ? 1U : 0U;
+  place |= v == 0.0 ? 2U : 0U;
+  place |= (kind == Kind::vertex_face ? u + v == 1.0 : u == 1.0) ? 4U : 0U;
+  place |= v == 1.0 ? 8U : 0U;
+  return place;
+}
+
+class Hash {
+ public:
+  void add(std::uint64_t value) { state_ = generate::mix(state_ + value + 0x9e3779b97f4a7c15ULL); }
+  [[nodiscard]] std::uint64_t value() const { return state_; }
+
+ private:
+  std::uint64_t state_ = 0;
+};
+
+constexpr unsigned table_bits = 16;
+
+/// The assumed reward and work of an arm without results: little, but not less than that of an
+/// unproductive one.
+constexpr double first_reward = 1.0;
+constexpr double first_work = 100.0;
+/// The factor by which the weight of earlier results decreases with each unit of later work: half
+/// after 0.7 / this.
+constexpr double forgetting = 1e-4;
+/// The share of draws for exploration, which is divided by the parts of the arms, independent of
+/// their rewards.
+constexpr double explored = 0.25;
+
+}  // namespace
+
+std::uint64_t coverage_key(const Queries& query, const fast::CertifiedResult& judged,
+                           const fast::Answer& answer) {
+  double greatest = 0.0;
+  std::uint64_t zeros = 0;
+  for (const double x : query.numbers) {
+    greatest = std::max(greatest, std::abs(x));
+    zeros += x == 0.0 ? 1U : 0U;
+  }
+  Hash hash;
+  if (!query.is_straight()) hash.add(2 * query.degree + (query.is_rational ? 1U : 0U));
+  hash.add(static_cast<std::uint64_t>(query.kind) + 2 * static_cast<std::uint64_t>(judged.stage) +
+           16 * static_cast<std::uint64_t>(judged.verdict) +
+           64 * static_cast<std::uint64_t>(answer.verdict) + 256 * (zeros / 4) +
+           4096 * (exponent_field(greatest) / 256));
+  if (judged.verdict == fast::Verdict::yes) {
+    hash.add(time_place(judged.toi_upper) + 64 * boundary_place(query.kind, judged.u, judged.v));
+    hash.add(small_exponent(judged.toi_upper - answer.toi_lower) / 2);
+  }
+  hash.add(answer.verdict == fast::Verdict::yes ? exponent_field(answer.tolerance) / 2 : 0);
+  return hash.value();
+}
+
+CoverageTable::CoverageTable() : counts_(std::size_t{1} << table_bits) {}
+
+std::uint32_t CoverageTable::add(std::uint64_t coverage_key) {
+  std::uint32_t& count = counts_[generate::mix(coverage_key) >> (64U - table_bits)];
+  const std::uint32_t before = count;
+  if (count != std::numeric_limits<std::uint32_t>::max()) ++count;
+  return before;
+}
+
+Scheduler::Scheduler(const std::vector<Generator>& generators, std::uint64_t seed)
+    : random_(generate::mix(seed)) {
+  double sum = 0.0;
+  for (const Generator& generator : generators) sum += generator.explored;
+  for (const Generator& generator : generators) {
+    arms_.push_back({.explored = explored * generator.explored / sum});
+  }
+}
+
+double Scheduler::rate(const Arm& arm) {
+  return (arm.reward + first_reward) / (arm.work + first_work);
+}
+
+std::size_t Scheduler::choose() {
+  double sum = 0.0;
+  for (const Arm& arm : arms_) sum += rate(arm);
+  double left = random_.unit();
+  for (std::size_t i = 0; i + 1 < arms_.size(); ++i) {
+    left -= arms_[i].explored + (1.0 - explored) * rate(arms_[i]) / sum;
+    if (left < 0.0) return i;
+  }
+  return arms_.size() - 1;
+}
+
+void Scheduler::learn(std::size_t arm, double reward, double work) {
+  // 1/(1+x), not exp: the same on every machine.
+  const double kept = 1.0 / (1.0 + forgetting * work);
+  for (Arm& other : arms_) {
+    other.reward *= kept;
+    other.work *= kept;
+  }
+  arms_.at(arm).reward += reward;
+  arms_.at(arm).work += work;
+}
+
+namespace {
+
+namespace draws = generate::draws;
+using base::AnyQuery;
+using draws::below;
+using draws::one_in;
+using generate::Random;
+
+/// Maps doubles to integers in the same order: ±0 to 0.
+std::int64_t rank(double x) {
+  const auto bits = std::bit_cast<std::int64_t>(std::abs(x));
+  return std::signbit(x) ? -bits : bits;
+}
+
+double& some_number(std::span<double> numbers, Random& random) {
+  return numbers[below(random, numbers.size())];
+}
+
+/// Another coordinate of the same axis, for equal coordinates, or another weight.
+double some_like(const AnyQuery& query, const double& number, Random& random) {
+  const std::span<const double> all = query.numbers();
+  const std::size_t size = query.shape().numbers_of_point();
+  const auto index = static_cast<std::size_t>(&number - all.data());
+  return all[size * below(random, all.size() / size) + index % size];
+}
+
+void nudge_numbers(std::span<double> numbers, Random& random) {
+  const std::size_t count = 1 + below(random, 3);
+  for (std::size_t i = 0; i < count; ++i) {
+    double& x = some_number(numbers, random);
+    const std::int64_t steps =
+        one_in(random, 4) ? std::int64_t{1} << below(random, 40) : random.between(1, 4);
+    x = stepped(x, random.coin() ? steps : -steps);
+  }
+}
+
+void flip_bit(double& x, Random& random) {
+  const std::uint64_t bit = std::uint64_t{1} << below(random, 64);
+  const auto flipped = std::bit_cast<double>(std::bit_cast<std::uint64_t>(x) ^ bit);
+  if (std::isfinite(flipped)) x = flipped;
+}
+
+/// Keeps the leading bits only.
+void shorten(double& x, Random& random) {
+  const std::uint64_t dropped = (std::uint64_t{1} << (28 + below(random, 25))) - 1;
+  x = std::bit_cast<double>(std::bit_cast<std::uint64_t>(x) & ~dropped);
+}
+
+void rescale(double& x, Random& random) {
+  const double scaled = std::ldexp(x, static_cast<int>(random.between(-8, 8)));
+  if (std::isfinite(scaled)) x = scaled;
+}
+
+void change_number(AnyQuery& query, Random& random) {
+  double& x = some_number(query.numbers(), random);
+  switch (below(random, 7)) {
+    case 0:
+      flip_bit(x, random);
+      break;
+    case 1:
+      x = some_like(query, x, random);
+      break;
+    case 2:
+      x = -x;
+      break;
+    case 3:
+      x = 0.0;
+      break;
+    case 4:
+      shorten(x, random);
+      break;
+    case 5:
+      rescale(x, random);
+      break;
+    default:
+      nudge_numbers(query.numbers(), random);
+  }
+}
+
+void change_points(AnyQuery& query, Random& random) {
+  const std::size_t point = below(random, moving_points), other = below(random, moving_points);
+  const std::size_t degree = query.shape().degree, control = below(random, degree + 1);
+  const auto at = [&](std::size_t j, std::size_t index) {
+    const std::size_t size = query.shape().numbers_of_point();
+    return query.numbers().subspan((moving_points * j + index) * size, size);
+  };
+  switch (below(random, 4)) {
+    case 0:
+      std::ranges::swap_ranges(at(0, point), at(degree, point));
+      break;
+    case 1:
+      std::ranges::transform(at(control, other), at(control, point).begin(), std::identity{});
+      break;
+    case 2:
+      std::ranges::transform(at(control, point), at(degree - control, point).begin(),
+                             std::identity{});
+      break;
+    default:
+      std::ranges::swap_ranges(at(control, point), at(control, other));
+  }
+}
+
+/// Restores weights that may not change, and those that are invalid or far from 1.
+void restore_weights(AnyQuery& query, const AnyQuery& before, bool changes_weights) {
+  constexpr double greatest = 0x1p40;
+  if (!query.shape().is_rational) return;
+  for (std::size_t i = 3; i < query.numbers().size(); i += 4) {
+    double& weight = query.numbers()[i];
+    const bool is_moderate = weight <= greatest && weight >= 1.0 / greatest;
+    if (!changes_weights || !is_moderate) weight = before.numbers()[i];
+  }
+}
+
+}  // namespace
+
+double stepped(double x, std::int64_t steps) {
+  static constexpr auto greatest = std::bit_cast<std::int64_t>(std::numeric_limits<double>::max());
+  const std::int64_t target = std::clamp(rank(x) + steps, -greatest, greatest);
+  const auto magnitude = std::bit_cast<double>(std::abs(target));
+  return target < 0 ? -magnitude : magnitude;
+}
+
+void nudge(Query& query, Random& random) { nudge_numbers(query.coordinates, random); }
+
+void overshoot(Kind kind, Query& query, Random& random) {
+  const std::size_t end = below(random, 2);
+  const std::size_t first_primitive = kind == Kind::vertex_face ? 1 : 2;
+  const std::size_t count = random.coin() ? moving_points : first_primitive;
+  const double part =
+      std::ldexp(random.coin() ? 1.0 : -1.0, -static_cast<int>(random.between(20, 52)));
+  Query moved = query;
+  for (std::size_t point = 0; point < count; ++point) {
+    moved.point(end, point) += part * (query.point(end, point) - query.point(1 - end, point));
+  }
+  if (is_finite(moved)) query = moved;
+}
+
+AnyQuery mutated(const AnyQuery& query, bool changes_weights, Random& random) {
+  AnyQuery result = query;
+  const std::size_t count = 1 + below(random, 3);
+  for (std::size_t i = 0; i < count; ++i) {
+    if (one_in(random, 4)) {
+      change_points(result, random);
+    } else {
+      change_number(result, random);
+    }
+  }
+  restore_weights(result, query, changes_weights);
   return result;
 }
 

@@ -1,13 +1,11 @@
 #include "verify/fuzz/plainness.hpp"
-#include "verify/generate/decimal.hpp"
+#include "verify/generate/everyday.hpp"
 
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <bit>
-#include <charconv>
 #include <cmath>
 #include <cstdlib>
-#include <string_view>
 
 namespace touchstone::verify::fuzz {
 namespace {

@@ -1,15 +1,20 @@
 #include "verify/fuzz/recheck.hpp"
 
+#include <fmt/format.h>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
+#include <string_view>
 #include <utility>
+#include <vector>
 
 #include "touchstone/certificate.hpp"
 #include "touchstone/certificate_text.hpp"
-#include "verify/base/deadline.hpp"
 #include "verify/fuzz/plainness.hpp"
 #include "verify/fuzz/shrink.hpp"
+#include "verify/judge/claimed_distance.hpp"
+#include "verify/judge/separation_inference.hpp"
 #include "verify/judge/terms.hpp"
 
 namespace touchstone::verify::fuzz {
@@ -152,6 +157,208 @@ void simplify(const fast::Method& method, const FuzzOptions& options,
   }
   static_cast<void>(shrink(finding.original.query, fails, {.must_end = must_end}));
   finding.shrinking = must_end() ? Shrinking::cut_short : Shrinking::complete;
+}
+
+namespace {
+
+using fast::Answer;
+using fast::CertifiedResult;
+using fast::Verdict;
+using judge::Fault;
+
+/// The first of the faults that breaks the promise.
+std::optional<Fault> broken(const std::vector<Fault>& faults, fast::Promise promise) {
+  const auto first =
+      std::ranges::find_if(faults, [&](Fault fault) { return judge::breaks(fault, promise); });
+  if (first == faults.end()) return std::nullopt;
+  const bool is_undecided = *first == Fault::false_positive && faults.front() == Fault::undecided;
+  return is_undecided ? Fault::undecided : *first;
+}
+
+std::string late_text(const judge::GroundTruth& truth, const Answer& answer,
+                      const fast::Terms& terms) {
+  const judge::Lateness late = judge::lateness_of(truth, answer, terms).value_or(judge::Lateness{});
+  return fmt::format("{} {} is late by {:.1e} of the step, {:.0f} ulp",
+                     terms.times == fast::Times::estimates ? "estimate" : "toi_lower",
+                     answer.toi_lower, late.step, late.ulps);
+}
+
+std::string detail_of(Fault what, const judge::Question& question, const judge::GroundTruth& truth,
+                      const Answer& answer, const judge::Standard& standard) {
+  switch (what) {
+    case Fault::no_verdict:
+      return "error or no verdict, of a valid query";
+    case Fault::false_negative:
+      return "no, but they collide";
+    case Fault::late_toi:
+      return late_text(truth, answer, standard.terms);
+    case Fault::early_toi_upper:
+      return standard.terms.times == fast::Times::estimates
+                 ? fmt::format("estimate {} is early", answer.toi_lower)
+                 : fmt::format("toi_upper {} is early", answer.toi_upper);
+    case Fault::false_positive:
+    case Fault::undecided:
+      return to_text(answer) + ", but they do not collide, and it promises exactness";
+    case Fault::beyond_tolerance:
+      return fmt::format("{}, but they never come within {}, as this claims", to_text(answer),
+                         judge::to_text(judge::claim_of(question, answer, standard).value()));
+    default:
+      return to_text(answer);
+  }
+}
+
+}  // namespace
+
+bool is_beyond_doubt(const judge::Question& question, const CertifiedResult& judged,
+                     const Answer& answer, const judge::Standard& standard) {
+  if (judged.verdict == Verdict::error) return false;
+  judge::GroundTruth truth{.index = 0, .collides = judged.verdict == Verdict::yes, .toi = {}};
+  if (truth.collides) truth.toi = exact::DoubleInterval{judged.toi_lower, judged.toi_upper};
+  if (broken(judge::judge_verdict(truth, answer, standard.terms), standard.promise)) return false;
+  if (truth.collides) return true;
+  const auto claimed = judge::claim_of(question, answer, standard);
+  if (!claimed) return true;
+  const Kind kind = question.query.kind;
+  const Query& query = question.query.straight().front();
+  return (claimed->norm == Norm::linf &&
+          judge::is_seen_within(kind, query, answer.toi_lower, claimed->distance)) ||
+         fast::solve(kind, query, {.separation = *claimed}).verdict == Verdict::yes;
+}
+
+std::optional<Diagnosis> diagnose(const judge::Question& question, const judge::GroundTruth& truth,
+                                  const Answer& answer, const judge::Standard& standard) {
+  const auto what = broken(judge::judge(question, truth, answer, standard), standard.promise);
+  if (!what) return std::nullopt;
+  return Diagnosis{*what, detail_of(*what, question, truth, answer, standard)};
+}
+
+Diagnosis diagnose_failure(const judge::Failure& failure, double limit_seconds) {
+  switch (failure.kind) {
+    case Fault::hang:
+      return {failure.kind, fmt::format("takes more than {} s", limit_seconds)};
+    case Fault::no_verdict:
+      return {failure.kind, "error or no verdict, of a valid query"};
+    default:
+      return {failure.kind, judge::to_text(failure)};
+  }
+}
+
+std::string to_text(const Answer& answer) {
+  std::string text(judge::to_string(answer.verdict));
+  const auto add = [&text](std::string_view name, double value) {
+    if (!std::isnan(value)) text += fmt::format(", {} {}", name, value);
+  };
+  add("toi_lower", answer.toi_lower);
+  add("toi_upper", answer.toi_upper);
+  add("tolerance", answer.tolerance);
+  return text;
+}
+
+namespace {
+
+/// Binary exponents of the greatest coordinate to ask at: close to 1 each, then fewer.
+constexpr std::array scales_to_ask{-40, -30, -24, -20, -17, -14, -12, -10, -8, -7, -6,
+                                   -5,  -4,  -3,  -2,  -1,  0,   1,   2,   3,  4,  5,
+                                   6,   7,   8,   10,  12,  14,  17,  20,  24, 30, 40};
+
+/// True if it has a reason that tells one fault from another.
+bool has_reason(judge::Fault what) {
+  return what == judge::Fault::crash || what == judge::Fault::exit ||
+         what == judge::Fault::exception;
+}
+
+void add_end(const std::optional<int>& exponent, ScaleEnds& all) {
+  if (!exponent) return;
+  const bool is_below = *exponent < least_everyday;
+  const bool is_above = *exponent > greatest_everyday;
+  all.below_everyday = all.below_everyday || is_below;
+  all.above_everyday = all.above_everyday || is_above;
+  all.everyday = all.everyday || (!is_below && !is_above);
+}
+
+ContactTime time_of(const FailingCase& failing) {
+  if (!failing.toi) return ContactTime::never;
+  if (failing.toi->upper == 0.0) return ContactTime::at_start;
+  return failing.toi->lower == 1.0 ? ContactTime::at_end : ContactTime::between;
+}
+
+Shape shape_of(const AnyQuery& query) {
+  if (collapsed_elements(query) != 0) return Shape::collapsed;
+  return degeneracy(query) != 0 ? Shape::coplanar : Shape::general;
+}
+
+}  // namespace
+
+int least_scale(double tolerance) {
+  constexpr int margin = 4;
+  // In this form NaN and 0 fail, too.
+  if (!(tolerance > 0x1p-44)) return scales_to_ask.front();
+  return std::min(std::ilogb(tolerance) + margin, 0);
+}
+
+ScaleRange scale_range(const fast::Method& method, const FuzzOptions& options,
+                       const base::Deadline& deadline, const Finding& finding) {
+  if (finding.what == judge::Fault::hang || !is_zero(finding.separation)) return {};
+  const AnyQuery& query = finding.simplest.query;
+  const int exponent = size_exponent(query), least = least_scale(options.method.tolerance);
+  Recheck recheck(method, finding, options);
+  const auto is_right_at = [&](int scale) {
+    AnyQuery scaled = query;
+    for_each_coordinate(scaled, point_axes,
+                        [&](double& x) { x = std::ldexp(x, scale - exponent); });
+    // A missing answer at the deadline proves nothing.
+    return !recheck.ask(scaled, deadline) && !deadline.is_over();
+  };
+  ScaleRange result;
+  const std::vector<int> downwards(scales_to_ask.rbegin(), scales_to_ask.rend());
+  for (const int scale : downwards) {
+    if (result.end_below || scale < least) break;
+    if (scale < exponent && is_right_at(scale)) result.end_below = scale;
+  }
+  for (const int scale : scales_to_ask) {
+    if (scale <= exponent || !is_right_at(scale)) continue;
+    result.end_above = scale;
+    break;
+  }
+  return result;
+}
+
+Signature signature_of(const Finding& finding) {
+  const FailingCase& simplest = finding.simplest;
+  Signature result{.method = finding.method, .what = finding.what, .is_slight = finding.is_slight};
+  if (has_reason(finding.what)) result.reason = simplest.detail;
+  add_end(finding.scales.end_below, result.ends);
+  add_end(finding.scales.end_above, result.ends);
+  if (result.ends.any()) return result;
+  result.kind = finding.kind();
+  // The query of a hang is not simplified, and gives no hint of the cause.
+  if (finding.what == judge::Fault::hang) return result;
+  result.shape = shape_of(simplest.query);
+  result.is_on_curves = !simplest.query.shape().is_straight();
+  result.time = time_of(simplest);
+  return result;
+}
+
+std::string to_text(const ScaleEnds& scales) {
+  if (!scales.any()) return "any scale";
+  std::string text;
+  const auto add = [&text](bool is_there, const char* words) {
+    if (is_there) text += (text.empty() ? "ends " : " and ") + std::string(words);
+  };
+  add(scales.below_everyday, "below 2^-10");
+  add(scales.everyday, "near 1");
+  add(scales.above_everyday, "above 2^10");
+  return text;
+}
+
+std::string to_text(const std::optional<ContactTime>& time) {
+  static constexpr std::array<const char*, 4> names{"none", "t=0", "between", "t=1"};
+  return time ? names.at(static_cast<std::size_t>(*time)) : "any";
+}
+
+std::string to_text(const std::optional<Shape>& shape) {
+  static constexpr std::array<const char*, 3> names{"general", "coplanar", "collapsed"};
+  return shape ? names.at(static_cast<std::size_t>(*shape)) : "any";
 }
 
 }  // namespace touchstone::verify::fuzz

@@ -6,12 +6,11 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdlib>
-#include <limits>
 #include <unordered_set>
 #include <utility>
 #include <vector>
 
-#include "verify/generate/decimal.hpp"
+#include "verify/generate/everyday.hpp"
 #include "verify/generate/random_stream.hpp"
 
 namespace touchstone::verify::fuzz {

@@ -159,8 +159,7 @@ KnownQuery isolated_instant(Recipe& recipe) {
 constexpr std::array<Definition, 3> coplanar_list{{
     {{"coplanar-interval",
       "All points share z, so the plane decides: the vertex (or end) crosses the line of a side at "
-      "a "
-      "rational time, well between its ends, and x separates before.",
+      "a rational time, well between its ends, and x separates before.",
       Verdicts::both},
      coplanar_interval},
     {{"coplanar-instant",

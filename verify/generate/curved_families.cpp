@@ -1,7 +1,6 @@
 #include "verify/generate/curved_families.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <deque>
 #include <optional>
@@ -170,8 +169,7 @@ constexpr std::array<HeightConstruction, 7> heights{
      {"twice", "The height has two roots in [0,1]: through and back.", &Draws::twice},
      {"in_plane",
       "All is in one plane: the vertex enters the triangle, or one edge comes into the other's "
-      "way, "
-      "at a known root.",
+      "way, at a known root.",
       &Draws::falling, Verdicts::collisions, &beside},
      {"near_miss", "The height is a positive multiple of (8t−a)² plus 2^-20.", &Draws::near_miss,
       Verdicts::no_collisions}}};

@@ -7,9 +7,6 @@
 /// of the corners only at t = τ, and there iff the ranges of the two primitives' places meet. With
 /// the first primitive moved by s the corners are s + (…) g + (t−τ) 2^k r, never zero.
 
-#include <algorithm>
-#include <utility>
-
 #include "verify/generate/family_builder.hpp"
 #include "verify/generate/grid.hpp"
 
@@ -198,8 +195,7 @@ constexpr std::array<Definition, 6> degenerate_list{{
      point_point},
     {{"point-edge",
       "A point and a segment in rigid relative motion not along the segment meet at the dyadic "
-      "time "
-      "where they are on one line, or never.",
+      "time where they are on one line, or never.",
       Verdicts::both},
      point_edge},
     {{"parallel-edges",

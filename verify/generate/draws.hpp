@@ -6,7 +6,6 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <cstdint>
 
 #include "touchstone/query.hpp"
 #include "verify/generate/random_stream.hpp"

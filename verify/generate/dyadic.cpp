@@ -8,8 +8,6 @@
 /// edges ea0 = P − i·g, ea1 = P + (T−i)·g and eb0 = P − j·h, eb1 = P + (T−j)·h have P at u = i/T
 /// and v = j/T.
 
-#include <utility>
-
 #include "verify/generate/family_builder.hpp"
 #include "verify/generate/grid.hpp"
 

@@ -137,8 +137,7 @@ KnownQuery swap_at_half(Recipe& recipe) {
 constexpr std::array<Definition, 3> endpoint_list{{
     {{"contact-at-end",
       "Two points have the same doubles at t=1 and x separates everything before; or flat "
-      "primitives "
-      "whose projections always meet reach the same height at t=1.",
+      "primitives whose projections always meet reach the same height at t=1.",
       Verdicts::collisions},
      contact_at_end},
     {{"start-left",
@@ -148,8 +147,7 @@ constexpr std::array<Definition, 3> endpoint_list{{
      start_left},
     {{"swap-at-half",
       "Two points exchange their places, so their difference changes its sign exactly and they "
-      "meet "
-      "at t=1/2; x separates before, or y for all t.",
+      "meet at t=1/2; x separates before, or y for all t.",
       Verdicts::both},
      swap_at_half},
 }};

@@ -3,9 +3,7 @@
 #include <algorithm>
 #include <functional>
 #include <stdexcept>
-#include <string>
 #include <utility>
-#include <vector>
 
 #include "fast/method.hpp"
 #include "verify/generate/curved_families.hpp"

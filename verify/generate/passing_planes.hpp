@@ -8,7 +8,6 @@
 /// primitives' projections to the x-y plane meet. A *plan* fixes the projections so that they meet
 /// at all times, in a known way, or at no time.
 
-#include <cstddef>
 #include <cstdint>
 
 #include "touchstone/query.hpp"

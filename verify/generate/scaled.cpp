@@ -78,14 +78,12 @@ constexpr std::array<Definition, 3> scaled_list{{
      scaled_by_200},
     {{"mixed-scales",
       "A query of another family with each axis times its own power of two between 2^-200 and "
-      "2^200: "
-      "an exact diagonal map, under which roots of F stay roots.",
+      "2^200: an exact diagonal map, under which roots of F stay roots.",
       Verdicts::both},
      mixed_scales},
     {{"extreme-range",
       "As the silhouette families, which only compare coordinates and divide exact differences, "
-      "with "
-      "coordinates near the largest and near the smallest doubles in one query.",
+      "with coordinates near the largest and near the smallest doubles in one query.",
       Verdicts::both},
      extreme_range},
 }};

@@ -424,8 +424,7 @@ constexpr std::array<Definition, 7> separated_list{{
      grazing},
     {{"separation-endpoint",
       "The same at a height that reaches exactly d, or a neighbouring double, only at t=1, or "
-      "leaves "
-      "it at t=0.",
+      "leaves it at t=0.",
       Verdicts::both},
      endpoint},
     {{"separation-corner",
@@ -440,8 +439,7 @@ constexpr std::array<Definition, 7> separated_list{{
      side},
     {{"separation-tilted",
       "Large flat primitives in a plane with a normal of integer length: the distance is a "
-      "rational "
-      "multiple of the height in either norm, on an integer grid.",
+      "rational multiple of the height in either norm, on an integer grid.",
       Verdicts::both},
      tilted},
     {{"separation-degenerate",

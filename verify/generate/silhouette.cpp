@@ -85,8 +85,7 @@ constexpr std::array<Definition, 4> silhouette_list{{
      silhouette_edge},
     {{"silhouette-vertex",
       "As silhouette-edge with the vertex (or end) on a vertex: x and y are shared, and one unit "
-      "in "
-      "the last place away x separates everything.",
+      "in the last place away x separates everything.",
       Verdicts::both},
      silhouette_vertex},
     {{"end-approached",
@@ -96,8 +95,7 @@ constexpr std::array<Definition, 4> silhouette_list{{
      end_approached},
     {{"needle-triangle",
       "As silhouette-edge with a face eight units in the last place wide; the vertex is on its "
-      "side, "
-      "in its middle, or one unit beside it where x separates.",
+      "side, in its middle, or one unit beside it where x separates.",
       Verdicts::both},
      needle_triangle,
      true,

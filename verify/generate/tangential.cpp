@@ -115,8 +115,7 @@ KnownQuery tangential(Recipe& recipe) {
 constexpr std::array<Definition, 1> tangential_list{{
     {{"tangential",
       "The height of the vertex over the face (of edge over edge) is a constant times (t−τ)², "
-      "exactly "
-      "on the integer grid; moved by one unit it has two roots or none.",
+      "exactly on the integer grid; moved by one unit it has two roots or none.",
       Verdicts::both},
      tangential},
 }};

@@ -3,9 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstddef>
 #include <stdexcept>
-#include <utility>
 #include <vector>
 
 #include "touchstone/broad_phase.hpp"

@@ -4,7 +4,6 @@
 #include <limits>
 #include <map>
 #include <set>
-#include <string>
 
 #include "verify/io/dataset_error.hpp"
 #include "verify/io/input_file.hpp"

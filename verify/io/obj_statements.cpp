@@ -5,7 +5,7 @@
 #include <span>
 
 #include "verify/io/dataset_error.hpp"
-#include "verify/io/words.hpp"
+#include "verify/io/number_text.hpp"
 
 namespace touchstone::verify::io {
 namespace {

@@ -11,7 +11,6 @@
 /// Devices and pipes, and all files below /dev and /proc, are written to directly; a symbolic link
 /// remains one.
 
-#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <string>

@@ -9,7 +9,7 @@
 
 #include "verify/base/deadline.hpp"
 #include "verify/jobs/memory_pass.hpp"
-#include "verify/jobs/statistics.hpp"
+#include "verify/jobs/timing.hpp"
 #include "verify/judge/ground_truth_cache.hpp"
 
 namespace touchstone::verify::jobs {

@@ -10,6 +10,7 @@
 /// Solvers and recorded answers are judged in the same pass.
 
 #include <atomic>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -135,5 +136,32 @@ struct CertifyResult {
 /// Sums of all counts, in a result called "total"; the mismatches and wrong answers stay with their
 /// sources. \pre all were judged with the same solvers.
 [[nodiscard]] CertifyResult total(const std::vector<CertifyResult>& results);
+
+/// The wall-clock time of a run over several sources. The remaining sources share the remaining
+/// time equally, and within a source the solvers share nearly all of it equally, so that neither a
+/// slow source nor a slow solver takes the time of the others. When a solver's share is used up,
+/// its further queries are skipped (Solver::allow); a query that was begun may end.
+class Budget {
+ public:
+  /// No limit.
+  Budget() = default;
+
+  /// \param seconds positive
+  /// \param threads that ask each solver, 0: all cores
+  Budget(double seconds, std::vector<const solvers::Solver*> solvers, unsigned threads,
+         const base::SecondsClock& clock = base::steady_seconds);
+
+  /// Begins one of the sources that are left: gives each solver its share, and returns the deadline
+  /// after which no further queries are to be read.
+  [[nodiscard]] base::Deadline begin_source(std::size_t sources_left) const;
+
+  [[nodiscard]] bool is_limited() const { return end_.has_value(); }
+  [[nodiscard]] bool is_over() const { return end_ && end_->is_over(); }
+
+ private:
+  std::optional<base::Deadline> end_;
+  std::vector<const solvers::Solver*> solvers_;
+  int threads_ = 1;
+};
 
 }  // namespace touchstone::verify::jobs

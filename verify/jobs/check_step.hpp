@@ -9,7 +9,6 @@
 /// end of a step without a new contact.
 
 #include <array>
-#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <vector>

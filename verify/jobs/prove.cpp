@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "touchstone/certificate_text.hpp"
-#include "verify/base/thread_clock.hpp"
 #include "verify/io/printable.hpp"
 #include "verify/io/text_table.hpp"
 #include "verify/jobs/stream.hpp"

@@ -3,13 +3,10 @@
 /// \file
 /// Certificates of a source's queries, in the order of the queries, computed on all cores.
 
-#include <atomic>
 #include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <map>
 #include <nlohmann/json.hpp>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>

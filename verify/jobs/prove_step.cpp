@@ -11,6 +11,7 @@
 #include <optional>
 #include <tuple>
 #include <utility>
+#include <vector>
 
 #include "exact/certificate/separation_intervals.hpp"
 #include "exact/certificate/step_certificate_text.hpp"

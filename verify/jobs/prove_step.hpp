@@ -9,13 +9,11 @@
 /// direction of small integers (step_places.hpp), the others the subintervals of the oracle.
 
 #include <atomic>
-#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <span>
 #include <string>
 #include <string_view>
-#include <vector>
 
 #include "touchstone/step.hpp"
 

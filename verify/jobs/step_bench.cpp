@@ -8,14 +8,12 @@
 #include <fstream>
 #include <span>
 #include <stdexcept>
-#include <string>
-#include <utility>
 
 #include "touchstone/contacts.hpp"
 #include "verify/base/cores.hpp"
 #include "verify/base/deadline.hpp"
 #include "verify/jobs/memory_pass.hpp"
-#include "verify/jobs/statistics.hpp"
+#include "verify/jobs/timing.hpp"
 
 namespace touchstone::verify::jobs {
 namespace {

@@ -7,10 +7,8 @@
 #include <algorithm>
 #include <exception>
 #include <utility>
-#include <vector>
 
 #include "verify/base/cores.hpp"
-#include "verify/base/deadline.hpp"
 #include "verify/io/terminal.hpp"
 
 namespace touchstone::verify::jobs {

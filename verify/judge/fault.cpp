@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <csignal>
-#include <cstring>
 #include <stdexcept>
 
 #include "verify/io/number_text.hpp"

@@ -9,9 +9,8 @@
 #include <optional>
 #include <system_error>
 #include <utility>
-#include <vector>
 
-#include "verify/data/npz.hpp"
+#include "verify/data/npy.hpp"
 #include "verify/io/dataset_error.hpp"
 #include "verify/io/output_file.hpp"
 

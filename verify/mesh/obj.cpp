@@ -12,8 +12,8 @@
 
 #include "verify/io/dataset_error.hpp"
 #include "verify/io/input_file.hpp"
+#include "verify/io/number_text.hpp"
 #include "verify/io/obj_statements.hpp"
-#include "verify/io/words.hpp"
 
 namespace touchstone::verify::mesh {
 namespace {

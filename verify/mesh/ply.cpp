@@ -16,9 +16,9 @@
 #include "touchstone/query.hpp"
 #include "verify/io/dataset_error.hpp"
 #include "verify/io/input_file.hpp"
+#include "verify/io/number_text.hpp"
 #include "verify/io/output_file.hpp"
 #include "verify/io/terminal.hpp"
-#include "verify/io/words.hpp"
 
 namespace touchstone::verify::mesh {
 namespace {

@@ -13,17 +13,14 @@
 #include <optional>
 #include <utility>
 
-#include "fast/method.hpp"
 #include "touchstone/certified.hpp"
 #include "verify/base/deadline.hpp"
 #include "verify/generate/families.hpp"
 #include "verify/generate/workload.hpp"
 #include "verify/jobs/timing.hpp"
 #include "verify/judge/ground_truth_cache.hpp"
-#include "verify/report/measure.hpp"
 #include "verify/report/stability.hpp"
 #include "verify/solvers/registry.hpp"
-#include "verify/solvers/solver.hpp"
 
 namespace touchstone::verify::report {
 namespace {

@@ -24,6 +24,9 @@ namespace touchstone::verify::report {
 /// The numbers that stand for the errors; nothing if there are none.
 [[nodiscard]] std::optional<Spread> spread_of(const judge::ToiErrors& errors);
 
+/// The counts of a judgement, without a time.
+[[nodiscard]] JudgedAnswers counts_of(const judge::Judgement& judgement);
+
 // ---- Text ---------------------------------------------------------------------------------------
 
 /// The columns of false negatives, false positives, late and early times of impact, undecided

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <map>
 #include <memory>
 #include <numeric>
@@ -12,9 +11,7 @@
 #include <utility>
 
 #include "verify/base/deadline.hpp"
-#include "verify/jobs/statistics.hpp"
 #include "verify/jobs/timing.hpp"
-#include "verify/judge/judgement.hpp"
 #include "verify/report/judgement_report.hpp"
 
 namespace touchstone::verify::report {
@@ -42,16 +39,10 @@ bool is_at_limit(const fast::Answer& answer, std::int64_t max_checks) {
 }
 
 void set_counts(const judge::Judgement& judgement, Measurement& said) {
-  said.false_positives = judgement.count(judge::Fault::false_positive);
-  said.false_negatives = judgement.count(judge::Fault::false_negative);
-  said.late_tois = judgement.count(judge::Fault::late_toi);
-  said.early_upper_tois = judgement.count(judge::Fault::early_toi_upper);
-  said.beyond_tolerance = judgement.count(judge::Fault::beyond_tolerance);
-  said.errors = judgement.errors();
-  said.undecided = judgement.undecided();
+  static_cast<JudgedAnswers&>(said) = counts_of(judgement);
+  said.asked = judgement.queries;
   said.late = judgement.late;
   said.keeps_promise = said.promise == fast::Promise::none || judge::keeps(judgement, said.promise);
-  said.toi_error = spread_of(judgement.toi_errors);
 }
 
 /// Passes on the wrong answers.
@@ -201,10 +192,9 @@ class MeasureRun {
     const jobs::TimedSolver& timed = timed_[index];
     Measurement said = of_separation(group_, options_.experiment, settings_[index]);
     const judge::Judgement judgement = timed.judge(known_of(timed));
-    said.asked = judgement.queries;
+    set_counts(judgement, said);
     said.outside = judgement.outside;
     said.left_out = judgement.left_out;
-    said.collisions = judgement.collisions;
     said.nanoseconds = timed.times().median();
     said.repetitions = timed.times().repetitions.size();
     said.certified_nanoseconds = reference_for(timed).times().median();
@@ -212,7 +202,6 @@ class MeasureRun {
          solvers::count_stages(timed.solver().info(), timed.answers())) {
       said.stages.push_back({std::string(stage.stage), stage.queries});
     }
-    set_counts(judgement, said);
     tell_wrong(group_, said, timed.solver().standard(), judgement, options_.on_wrong);
     describe_queries(index, said);
     return said;
@@ -289,8 +278,6 @@ std::optional<Measurement> judge_all(const data::QueryGroup& group, judge::Groun
                   standard, judge::failure_at(reply.failures, truth.index));
     said.at_limit += is_at_limit(answers[truth.index], said.max_checks) ? 1U : 0U;
   }
-  said.asked = judgement.queries;
-  said.collisions = judgement.collisions;
   set_counts(judgement, said);
   tell_wrong(group, said, standard, judgement, on_wrong);
   return said;
@@ -330,14 +317,12 @@ std::optional<Measurement> judge_recorded(const data::QueryGroup& group,
   said.method = recorded.name();
   said.promise = recorded.promise();
   said.group_queries = queries.size();
-  said.asked = positions.size();
   said.outside = outside;
   const judge::Standard standard = recorded.standard();
   judge::Judgement judgement;
   for (std::size_t i = 0; i < known.size(); ++i) {
     judgement.add({queries.part(positions[i], 1)}, known[i], answers[i], standard,
                   judge::failure_at(failures, i));
-    said.collisions += known[i].collides ? 1U : 0U;
   }
   set_counts(judgement, said);
   tell_wrong(group, said, standard, judgement, on_wrong);

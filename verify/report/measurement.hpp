@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <limits>
 #include <map>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -64,10 +65,28 @@ struct StageShare {
   friend bool operator==(const StageShare&, const StageShare&) = default;
 };
 
-/// A method, under some options, on a group of queries.
-struct Measurement {
+/// The faults of answers to some queries, and what they cost.
+struct JudgedAnswers {
   static constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
+  std::uint64_t collisions = 0;  ///< by the oracle
+  std::uint64_t false_positives = 0;
+  std::uint64_t false_negatives = 0;
+  std::uint64_t late_tois = 0;         ///< toi_lower above the exact time of impact
+  std::uint64_t early_upper_tois = 0;  ///< toi_upper below the exact time of impact
+  std::uint64_t beyond_tolerance = 0;  ///< yes, but never as near as the tolerance claims
+  std::uint64_t errors = 0;
+  std::uint64_t undecided = 0;
+  /// From toi_lower to the exact time of impact; of collisions whose time the method gives.
+  std::optional<Spread> toi_error = {};
+  double nanoseconds = unknown;  ///< processor time a query
+
+  friend bool operator==(const JudgedAnswers&, const JudgedAnswers&) = default;
+};
+
+/// A method, under some options, on a group of queries. Its time is that of all of them in one
+/// call, in one thread; the median of `repetitions`.
+struct Measurement : JudgedAnswers {
   Experiment experiment = Experiment::field;
   std::string group;
   Kind kind = Kind::vertex_face;
@@ -84,25 +103,13 @@ struct Measurement {
   std::uint64_t asked = 0;          ///< of these, an evenly spread sample; all below is about them
   std::uint64_t outside = 0;        ///< of the sample, not asked: outside the terms of its promise
   std::uint64_t left_out = 0;       ///< of the sample, not asked for lack of time
-  std::uint64_t collisions = 0;     ///< by the oracle
-  std::uint64_t false_positives = 0;
-  std::uint64_t false_negatives = 0;
-  std::uint64_t late_tois = 0;         ///< toi_lower above the exact time of impact
-  std::uint64_t early_upper_tois = 0;  ///< toi_upper below the exact time of impact
-  std::uint64_t beyond_tolerance = 0;  ///< yes, but never as near as the tolerance claims
-  std::uint64_t errors = 0;
-  std::uint64_t undecided = 0;
-  std::uint64_t at_limit = 0;  ///< queries that took max_checks or more, or were given up
+  std::uint64_t at_limit = 0;       ///< queries that took max_checks or more, or were given up
   bool keeps_promise = true;
   judge::LateTimes late = {};  ///< the late times, bounds and estimates
 
-  /// Processor time a query, all of them in one call, in one thread; the median of `repetitions`.
-  double nanoseconds = unknown;
   std::uint64_t repetitions = 0;
-  /// The same of the certified solver on the same queries in the same run.
+  /// The time of the certified solver on the same queries in the same run.
   double certified_nanoseconds = unknown;
-  /// From toi_lower to the exact time of impact; of collisions whose time the method gives.
-  std::optional<Spread> toi_error;
   /// The tolerance that a yes claims, where the method gives one.
   std::optional<Spread> achieved_tolerance;
   /// The stages of a method that has some, all in their order.
@@ -113,29 +120,19 @@ struct Measurement {
 };
 
 /// One cell of a map of stability (stability.hpp).
-struct StabilityMark {
-  std::string method;
-  std::string hardness;
-  std::string measure;  ///< the meaning of its levels
-  int exponent = 0;     ///< the level is 2 to this power, or this itself
+struct StabilityMark : JudgedAnswers {
+  std::string method = {};
+  std::string hardness = {};
+  std::string measure = {};  ///< the meaning of its levels
+  int exponent = 0;          ///< the level is 2 to this power, or this itself
   bool is_power = true;
   Kind kind = Kind::vertex_face;
   std::uint64_t queries = 0;
-  std::uint64_t collisions = 0;
-  std::uint64_t false_positives = 0;
-  std::uint64_t false_negatives = 0;
-  std::uint64_t late_tois = 0;
-  std::uint64_t early_upper_tois = 0;
-  std::uint64_t beyond_tolerance = 0;
-  std::uint64_t errors = 0;
-  std::uint64_t hangs = 0;  ///< of those undecided
-  std::uint64_t undecided = 0;
-  std::optional<judge::Fault> worst = {};     ///< nothing if nothing is wrong
-  bool is_slight = false;                     ///< true if the worst is a time that is late slightly
-  double worst_rate = 0.0;                    ///< its share of the queries that can have it
-  std::optional<Spread> toi_error = {};       ///< as Measurement::toi_error
-  double nanoseconds = Measurement::unknown;  ///< processor time a query
-  double checks = Measurement::unknown;       ///< a query, where the method counts them
+  std::uint64_t hangs = 0;                 ///< of those undecided
+  std::optional<judge::Fault> worst = {};  ///< nothing if nothing is wrong
+  bool is_slight = false;                  ///< true if the worst is a time that is late slightly
+  double worst_rate = 0.0;                 ///< its share of the queries that can have it
+  double checks = unknown;                 ///< a query, where the method counts them
 
   friend bool operator==(const StabilityMark&, const StabilityMark&) = default;
 };
@@ -167,5 +164,20 @@ struct Measurements {
 
 /// True if a method gave a wrong answer that its promise excludes.
 [[nodiscard]] bool has_wrong_answers(const Measurements& measurements);
+
+// Measurements as JSON and back, without loss.
+
+/// `format` (its name and version), `command`, `machine`, `interrupted`; `measurements`, a list of
+/// objects with the fields of Measurement under their names, `separation` as an object of
+/// `min_separation` and `norm`, `scale` as null where there is none, times in `ns_per_query` and
+/// `certified_ns_per_query`, spreads as null or an object of `count`, `median` and `max`,
+/// histograms as lists of `[bin, count]`, stages as a list of `[name, queries]`; `stability`, a
+/// list of objects with the fields of StabilityMark. Numbers are as number_to_json (io/json.hpp)
+/// writes them.
+[[nodiscard]] nlohmann::json to_json(const Measurements& measurements);
+
+/// The inverse.
+/// \throws std::runtime_error, with the reason, for anything else.
+[[nodiscard]] Measurements measurements_from_json(const nlohmann::json& json);
 
 }  // namespace touchstone::verify::report

@@ -4,13 +4,10 @@
 
 #include <nlohmann/json.hpp>
 #include <string_view>
-#include <utility>
 
 #include "verify/io/html.hpp"
 #include "verify/judge/separation_inference.hpp"
-#include "verify/report/measurement_json.hpp"
-#include "verify/report/report_page_texts.hpp"
-#include "verify/report/stability.hpp"
+#include "verify/report/measurement.hpp"
 
 namespace touchstone::verify::report {
 namespace {

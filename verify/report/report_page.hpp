@@ -13,6 +13,7 @@
 /// telephone's on, and paper, and follows the reader's light or dark scheme.
 
 #include <string>
+#include <string_view>
 
 #include "verify/report/measurement.hpp"
 #include "verify/report/stability.hpp"
@@ -29,5 +30,23 @@ namespace touchstone::verify::report {
 /// every cell.
 /// \param command the command line that made it
 [[nodiscard]] std::string stability_page(const StabilityResult& result, const std::string& command);
+
+// The texts that a page is made of, embedded when the tool is built: d3 as Debian packages it,
+// report.js, report_page.js and report_page.css from this folder, and docs/data/published.json.
+
+/// The d3 library, minified, with its licence's notice at the top.
+[[nodiscard]] std::string_view d3_script();
+
+/// The numbers of published tables, with remarks on them, as JSON.
+[[nodiscard]] std::string_view published_numbers();
+
+/// The script that computes tables, figures and sentences from measurements.
+[[nodiscard]] std::string_view report_script();
+
+/// The script that writes and draws a page.
+[[nodiscard]] std::string_view page_script();
+
+/// The style of a page.
+[[nodiscard]] std::string_view page_style();
 
 }  // namespace touchstone::verify::report

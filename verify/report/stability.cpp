@@ -3,8 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <stdexcept>
@@ -15,7 +13,7 @@
 #include "verify/io/json.hpp"
 #include "verify/io/printable.hpp"
 #include "verify/io/text_table.hpp"
-#include "verify/jobs/budget.hpp"
+#include "verify/jobs/certify.hpp"
 #include "verify/judge/separation_inference.hpp"
 #include "verify/judge/terms.hpp"
 #include "verify/report/judgement_report.hpp"
@@ -26,13 +24,9 @@ namespace {
 
 constexpr std::string_view map_legend =
     "worst by level, a character each: . every answer is right; - nothing was asked; 0 to 9 false "
-    "positives, up to so "
-    "many tenths of "
-    "the misses\nand more (9 with all); N false negatives, T a time of impact excludes the true "
-    "one (t: late by at most 1e-9), "
-    "E errors, B a yes beyond its tolerance\nfailures by level, whatever is worse: E errors, H "
-    "hangs, "
-    "# both, . none\n";
+    "positives, up to so many tenths of the misses\nand more (9 with all); N false negatives, T a "
+    "time of impact excludes the true one (t: late by at most 1e-9), E errors, B a yes beyond its "
+    "tolerance\nfailures by level, whatever is worse: E errors, H hangs, # both, . none\n";
 
 std::vector<StabilityCell> cells_of(const StabilityOptions& options) {
   std::vector<StabilityCell> cells;
@@ -187,28 +181,22 @@ StabilityMark mark_of(const StabilityCell& cell, std::size_t method) {
   const jobs::MethodResult& result = cell.judged.methods.at(method);
   const judge::Judgement& judged = result.judgement;
   const auto [worst, rate] = outcome_of(cell.judged, method);
-  return {.method = result.name,
-          .hardness = std::string(cell.sort.hardness->name),
-          .measure = std::string(cell.sort.hardness->measure),
-          .exponent = cell.sort.level,
-          .is_power = cell.sort.hardness->unit == generate::LevelUnit::power_of_two,
-          .kind = cell.sort.kind,
-          .queries = cell.judged.queries,
-          .collisions = cell.judged.collisions,
-          .false_positives = judged.count(judge::Fault::false_positive),
-          .false_negatives = judged.count(judge::Fault::false_negative),
-          .late_tois = judged.count(judge::Fault::late_toi),
-          .early_upper_tois = judged.count(judge::Fault::early_toi_upper),
-          .beyond_tolerance = judged.count(judge::Fault::beyond_tolerance),
-          .errors = judged.errors(),
-          .hangs = judged.count(judge::Fault::hang),
-          .undecided = judged.undecided(),
-          .worst = worst ? std::optional(worst->fault) : std::nullopt,
-          .is_slight = worst && worst->is_slight,
-          .worst_rate = rate,
-          .toi_error = spread_of(judged.toi_errors),
-          .nanoseconds = result.nanoseconds_per_query().value_or(Measurement::unknown),
-          .checks = result.checks_per_query().value_or(Measurement::unknown)};
+  StabilityMark mark{counts_of(judged)};
+  mark.collisions = cell.judged.collisions;
+  mark.nanoseconds = result.nanoseconds_per_query().value_or(StabilityMark::unknown);
+  mark.method = result.name;
+  mark.hardness = cell.sort.hardness->name;
+  mark.measure = cell.sort.hardness->measure;
+  mark.exponent = cell.sort.level;
+  mark.is_power = cell.sort.hardness->unit == generate::LevelUnit::power_of_two;
+  mark.kind = cell.sort.kind;
+  mark.queries = cell.judged.queries;
+  mark.hangs = judged.count(judge::Fault::hang);
+  if (worst) mark.worst = worst->fault;
+  mark.is_slight = worst && worst->is_slight;
+  mark.worst_rate = rate;
+  mark.checks = result.checks_per_query().value_or(StabilityMark::unknown);
+  return mark;
 }
 
 }  // namespace

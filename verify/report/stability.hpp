@@ -28,7 +28,7 @@ struct StabilityOptions {
   std::uint64_t seed = 0;
   /// Queries a cell, half of them collisions.
   std::uint64_t count = 200;
-  /// Wall-clock time, shared over cells and solvers (jobs/budget.hpp); 0: no limit.
+  /// Wall-clock time, shared over cells and solvers (jobs::Budget); 0: no limit.
   double seconds = 0.0;
   /// The solvers, and how they are judged. The separation is that where the level does not scale
   /// it (generate::separation_at); the progress is that of all cells; deadlines are set here.

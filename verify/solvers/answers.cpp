@@ -8,7 +8,6 @@
 #include <cmath>
 #include <limits>
 #include <span>
-#include <stdexcept>
 
 #include "verify/io/csv.hpp"
 #include "verify/io/dataset_error.hpp"

@@ -8,12 +8,10 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <cstddef>
 #include <cstdint>
 #include <cstring>
 #include <exception>
 #include <mutex>
-#include <optional>
 #include <span>
 #include <string>
 #include <string_view>

@@ -8,11 +8,9 @@
 /// on unchanged.
 
 #include <atomic>
-#include <cstddef>
 #include <filesystem>
 #include <memory>
 #include <optional>
-#include <string>
 
 #include "fast/method.hpp"
 #include "verify/solvers/child_process.hpp"

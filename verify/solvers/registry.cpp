@@ -6,20 +6,9 @@
 #include <array>
 #include <stdexcept>
 
-#include "fast/method.hpp"
 #include "touchstone/certified.hpp"
 #include "touchstone/tight_inclusion.hpp"
-#include "verify/baselines/accd.hpp"
-#include "verify/baselines/bsc.hpp"
-#include "verify/baselines/cubic.hpp"
-#include "verify/baselines/curved_methods.hpp"
-#include "verify/baselines/fprf.hpp"
-#include "verify/baselines/irf.hpp"
-#include "verify/baselines/msrf.hpp"
-#include "verify/baselines/rp.hpp"
-#include "verify/baselines/rrp.hpp"
-#include "verify/baselines/tccd.hpp"
-#include "verify/baselines/uirf.hpp"
+#include "verify/baselines/baselines.hpp"
 
 namespace touchstone::verify::solvers {
 

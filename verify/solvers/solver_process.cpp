@@ -18,8 +18,6 @@
 #include <type_traits>
 #include <utility>
 
-#include "verify/base/deadline.hpp"
-
 namespace touchstone::verify::solvers {
 namespace {
 

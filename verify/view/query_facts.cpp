@@ -3,22 +3,28 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <sstream>
+#include <stdexcept>
+#include <utility>
 
+#include "exact/checker/certificate.hpp"
+#include "exact/checker/checker.hpp"
 #include "touchstone/algebraic_number.hpp"
 #include "touchstone/certificate.hpp"
 #include "touchstone/certificate_text.hpp"
+#include "touchstone/number.hpp"
 #include "touchstone/oracle.hpp"
 #include "verify/io/printable.hpp"
 #include "verify/judge/ground_truth.hpp"
-#include "verify/judge/judgement.hpp"
 #include "verify/judge/terms.hpp"
 #include "verify/solvers/registry.hpp"
-#include "verify/view/certificate_facts.hpp"
-#include "verify/view/nearest_approach.hpp"
 
 namespace touchstone::verify::view {
 namespace {
@@ -230,6 +236,167 @@ nlohmann::json query_facts(const ViewedQuery& viewed, std::span<const judge::Giv
       {"answers", answers_of({.viewed = viewed, .truth = judge::truth_of(0, verdict)}, asked)}};
   add_points(viewed, facts);
   return facts;
+}
+
+namespace {
+
+/// Doubles that are not negative are in the order of their bits.
+std::uint64_t bits_of(double distance) { return std::bit_cast<std::uint64_t>(distance); }
+double distance_of(std::uint64_t bits) { return std::bit_cast<double>(bits); }
+
+exact::Decision at_distance(Kind kind, const Query& query, std::uint64_t bits) {
+  return exact::decide(kind, query, {.distance = distance_of(bits), .norm = Norm::l2});
+}
+
+/// A first guess, which need not be close: the length of a corner at t = 0.
+double guess(Kind kind, const Query& query) {
+  const Corner& corner = corners(kind).front();
+  const double length = (query.point(0, corner.plus) - query.point(0, corner.minus)).stableNorm();
+  return std::min(length, std::numeric_limits<double>::max());
+}
+
+}  // namespace
+
+std::optional<NearestApproach> nearest_approach(Kind kind, const Query& query) {
+  if (exact::decide(kind, query).collides()) return std::nullopt;
+  std::uint64_t above = 0;
+  std::uint64_t at_most = bits_of(std::numeric_limits<double>::max());
+  exact::Decision verdict = at_distance(kind, query, at_most);
+  if (!verdict.collides()) return std::nullopt;
+  const auto ask = [&](std::uint64_t bits) {
+    exact::Decision answer = at_distance(kind, query, bits);
+    if (!answer.collides()) {
+      above = bits;
+      return;
+    }
+    at_most = bits;
+    verdict = std::move(answer);
+  };
+  // The search goes from the guess in steps that double, so that few decisions are about distances
+  // far from the result.
+  const std::uint64_t start = bits_of(guess(kind, query));
+  static constexpr std::uint64_t factor_of_two = std::uint64_t{1} << 52U;
+  for (std::uint64_t step = 1; above == 0; step *= 2) {
+    const std::uint64_t down = step * factor_of_two;
+    if (start <= down) break;
+    ask(start - down);
+  }
+  while (at_most - above > 1) ask(above + (at_most - above) / 2);
+  return NearestApproach{
+      .above = distance_of(above), .at_most = distance_of(at_most), .time = *verdict.toi};
+}
+
+namespace {
+
+checker::Certificate parsed(std::string_view stream) {
+  std::istringstream lines{std::string(stream)};
+  checker::Reader reader(lines);
+  checker::Certificate certificate;
+  try {
+    reader.advance();
+    if (!stream.starts_with(exact::certificates_header())) checker::reject("it is no certificate");
+    reader.advance();
+    checker::read_certificate(reader, certificate);
+  } catch (const checker::Rejection& rejection) {
+    throw std::invalid_argument(rejection.reason);
+  }
+  return certificate;
+}
+
+double as_double(const mpq_class& value, std::string_view name) {
+  const double nearest = exact::round_to_nearest(value);
+  if (!is_finite({&nearest, 1}) || exact::Rational(nearest) != value) {
+    throw std::invalid_argument(fmt::format("{} is no double", name));
+  }
+  return nearest;
+}
+
+std::string_view axis_name(std::size_t axis) { return std::string_view("xyz").substr(axis, 1); }
+
+/// The feature in the words of the certificate.
+std::string feature_text(const checker::Subinterval& subinterval) {
+  const char sign = subinterval.is_negative ? '-' : '+';
+  switch (subinterval.feature) {
+    case checker::Feature::vertex:
+      return fmt::format("vertex {}", subinterval.corners[0]);
+    case checker::Feature::edge:
+      return fmt::format("edge {} {}", subinterval.corners[0], subinterval.corners[1]);
+    case checker::Feature::face:
+      return fmt::format("face {}", sign);
+    case checker::Feature::axis:
+      return fmt::format("axis {} {}", axis_name(subinterval.axis), sign);
+    default:
+      return fmt::format("cross {} {} {}", axis_name(subinterval.axis), subinterval.corners[0],
+                         subinterval.corners[1]);
+  }
+}
+
+std::string_view claim_text(checker::Claim claim) {
+  switch (claim) {
+    case checker::Claim::no_collision:
+      return "no_collision";
+    case checker::Claim::collision:
+      return "collision";
+    default:
+      return "time_of_impact";
+  }
+}
+
+bool is_straight(const checker::Curve& curve) {
+  return curve.control.size() == 2 && curve.weights.empty();
+}
+
+Trajectory trajectory_of(const checker::Curve& curve) {
+  Trajectory result;
+  for (const checker::Point& point : curve.control) {
+    std::array<double, 3>& control = result.control.emplace_back();
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      control.at(axis) = as_double(point.at(axis), "a coordinate");
+    }
+  }
+  for (const mpq_class& weight : curve.weights) {
+    result.weights.push_back(as_double(weight, "a weight"));
+  }
+  return result;
+}
+
+OwnCurves curves_of(const checker::Query& query) {
+  OwnCurves result{.kind = query.is_edge_edge ? Kind::edge_edge : Kind::vertex_face};
+  std::ranges::transform(query.points, result.curves.begin(), trajectory_of);
+  return result;
+}
+
+}  // namespace
+
+ViewedQuery certified_query(std::string stream) {
+  const checker::Certificate certificate = parsed(stream);
+  ViewedQuery result{.label = checker::printable(certificate.label),
+                     .query = curves_of(certificate.query)};
+  if (std::ranges::all_of(certificate.query.points, is_straight)) {
+    result.query = in_one_shape(result).value();
+  }
+  const auto& [distance, is_l2] = certificate.separation;
+  result.separation = {.distance = as_double(distance, "the distance"),
+                       .norm = is_l2 ? Norm::l2 : Norm::linf};
+  result.certificate = std::move(stream);
+  return result;
+}
+
+nlohmann::json certificate_facts(const std::string& stream) {
+  const checker::Certificate certificate = parsed(stream);
+  nlohmann::json subintervals = nlohmann::json::array();
+  for (const checker::Subinterval& subinterval : certificate.subintervals) {
+    subintervals.push_back({{"from", subinterval.from.get_str()},
+                            {"to", subinterval.to.get_str()},
+                            {"feature", feature_text(subinterval)}});
+  }
+  std::istringstream lines(stream);
+  const checker::Report report = checker::check(lines);
+  return {{"claim", claim_text(certificate.claim)},
+          {"accepted", report.all_accepted()},
+          {"reason", report.rejections.empty() ? "" : report.rejections.front().reason},
+          {"subintervals", subintervals},
+          {"text", stream}};
 }
 
 }  // namespace touchstone::verify::view

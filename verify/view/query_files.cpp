@@ -5,11 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <functional>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
-#include <string>
 #include <utility>
 
 #include "exact/certificate/step_certificate_text.hpp"
@@ -22,7 +20,7 @@
 #include "verify/io/json.hpp"
 #include "verify/io/obj_statements.hpp"
 #include "verify/jobs/prove.hpp"
-#include "verify/view/certificate_facts.hpp"
+#include "verify/view/query_facts.hpp"
 
 namespace touchstone::verify::view {
 namespace {

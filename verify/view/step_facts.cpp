@@ -3,13 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <bit>
-#include <cstdint>
 #include <iterator>
 #include <nlohmann/json.hpp>
-#include <span>
-#include <string_view>
 #include <tuple>
 #include <utility>
 

@@ -6,8 +6,7 @@
 
 #include "verify/io/html.hpp"
 #include "verify/io/printable.hpp"
-#include "verify/report/report_page_texts.hpp"
-#include "verify/view/view_page_texts.hpp"
+#include "verify/report/report_page.hpp"
 
 namespace touchstone::verify::view {
 

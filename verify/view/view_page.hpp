@@ -15,6 +15,7 @@
 
 #include <nlohmann/json.hpp>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace touchstone::verify::view {
@@ -28,5 +29,14 @@ namespace touchstone::verify::view {
 [[nodiscard]] std::string view_page(const std::vector<nlohmann::json>& queries,
                                     const std::string& command, const nlohmann::json& step = {},
                                     const std::string& solvers = {});
+
+// The texts of a view, embedded in the tool at build time: the modules of verify/view/page/
+// with three.js as one script, and their style.
+
+/// The script of a view, three.js with its licence's notice included.
+[[nodiscard]] std::string_view view_script();
+
+/// The style of a view in addition to that of a report.
+[[nodiscard]] std::string_view view_style();
 
 }  // namespace touchstone::verify::view

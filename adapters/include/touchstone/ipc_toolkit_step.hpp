@@ -39,7 +39,6 @@
 #include <limits>
 #include <optional>
 #include <stdexcept>
-#include <utility>
 #include <vector>
 
 #include "touchstone/broad_phase.hpp"

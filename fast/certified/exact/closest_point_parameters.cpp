@@ -1,9 +1,7 @@
 #include "fast/certified/exact/closest_point_parameters.hpp"
 
-#include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <cmath>
 #include <cstddef>

@@ -5,12 +5,9 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <limits>
-#include <optional>
 #include <span>
 #include <utility>
-#include <vector>
 
 #include "fast/certified/exact/enclosing_doubles.hpp"
 

@@ -1,7 +1,6 @@
 #include "fast/certified/exact/distance_decision.hpp"
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <cstddef>
 #include <initializer_list>

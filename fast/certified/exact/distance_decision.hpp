@@ -69,7 +69,6 @@
 #include <array>
 #include <cstdint>
 #include <optional>
-#include <vector>
 
 #include "fast/certified/exact/big_integer.hpp"
 #include "fast/certified/exact/contact_conditions.hpp"

@@ -26,7 +26,6 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <cstdint>
 
 #include "fast/certified/exact/fixed_integer.hpp"
 

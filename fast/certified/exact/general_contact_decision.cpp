@@ -5,7 +5,6 @@
 #include <cstddef>
 #include <functional>
 #include <utility>
-#include <vector>
 
 #include "fast/certified/exact/real_root.hpp"
 

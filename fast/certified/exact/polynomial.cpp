@@ -1,7 +1,6 @@
 #include "fast/certified/exact/polynomial.hpp"
 
 #include <algorithm>
-#include <cstddef>
 #include <cstdint>
 #include <utility>
 

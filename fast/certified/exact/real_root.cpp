@@ -4,9 +4,7 @@
 #include <bit>
 #include <cmath>
 #include <cstddef>
-#include <cstdint>
 #include <limits>
-#include <span>
 #include <utility>
 
 #include "fast/certified/exact/enclosing_doubles.hpp"

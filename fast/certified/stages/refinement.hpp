@@ -19,7 +19,6 @@
 
 #include <array>
 #include <cstddef>
-#include <cstdint>
 
 #include "fast/certified/stages/crossing.hpp"
 #include "fast/certified/stages/determinant.hpp"

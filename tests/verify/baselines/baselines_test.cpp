@@ -14,16 +14,7 @@
 #include <string_view>
 
 #include "tests/support/baselines.hpp"
-#include "verify/baselines/accd.hpp"
-#include "verify/baselines/bsc.hpp"
-#include "verify/baselines/cubic.hpp"
-#include "verify/baselines/fprf.hpp"
-#include "verify/baselines/irf.hpp"
-#include "verify/baselines/msrf.hpp"
-#include "verify/baselines/rp.hpp"
-#include "verify/baselines/rrp.hpp"
-#include "verify/baselines/tccd.hpp"
-#include "verify/baselines/uirf.hpp"
+#include "verify/baselines/baselines.hpp"
 
 namespace touchstone::baselines::baselines_test {
 namespace {

@@ -1,7 +1,7 @@
 /// \file
 /// The methods for curves side by side: what each says to queries that tell them apart.
 
-#include "verify/baselines/curved_methods.hpp"
+#include "verify/baselines/baselines.hpp"
 
 #include <gtest/gtest.h>
 

@@ -21,10 +21,8 @@
 #include "tests/support/root_count.hpp"
 #include "tests/support/simulation_steps.hpp"
 #include "tests/support/trials.hpp"
+#include "verify/baselines/baselines.hpp"
 #include "verify/baselines/bernstein.hpp"
-#include "verify/baselines/bsc.hpp"
-#include "verify/baselines/msrf.hpp"
-#include "verify/baselines/rp.hpp"
 #include "verify/solvers/registry.hpp"
 
 namespace touchstone::baselines::known_defects_test {

@@ -13,7 +13,6 @@
 #include "tests/support/random.hpp"
 #include "tests/support/trials.hpp"
 #include "touchstone/number.hpp"
-#include "verify/baselines/upward_rounding.hpp"
 
 namespace touchstone::baselines::upward_interval_test {
 namespace {

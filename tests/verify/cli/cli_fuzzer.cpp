@@ -20,7 +20,6 @@
 #include "verify/cli/options.hpp"
 #include "verify/cli/solver_options.hpp"
 #include "verify/cli/sources.hpp"
-#include "verify/cli/version.hpp"
 
 /// The build of the tool has a different definition.
 std::string_view touchstone::verify::cli::version() { return "fuzzed"; }

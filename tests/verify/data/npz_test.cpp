@@ -1,4 +1,4 @@
-#include "verify/data/npz.hpp"
+#include "verify/data/npy.hpp"
 
 #include <gtest/gtest.h>
 

@@ -27,7 +27,6 @@
 #include "verify/data/dataset.hpp"
 #include "verify/data/ground_truth_files.hpp"
 #include "verify/data/npy_dataset.hpp"
-#include "verify/data/separation_file.hpp"
 #include "verify/io/coordinate_text.hpp"
 #include "verify/io/dataset_error.hpp"
 #include "verify/mesh/mesh_file.hpp"

@@ -1,4 +1,4 @@
-#include "verify/data/separation_file.hpp"
+#include "verify/data/ground_truth_files.hpp"
 
 #include <gtest/gtest.h>
 

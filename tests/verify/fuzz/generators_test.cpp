@@ -11,7 +11,6 @@
 
 #include "tests/support/trials.hpp"
 #include "touchstone/certified.hpp"
-#include "verify/fuzz/mutation.hpp"
 #include "verify/fuzz/plainness.hpp"
 #include "verify/generate/random_stream.hpp"
 

@@ -19,7 +19,7 @@
 #include "verify/fuzz/curved_generators.hpp"
 #include "verify/fuzz/finding.hpp"
 #include "verify/fuzz/plainness.hpp"
-#include "verify/generate/decimal.hpp"
+#include "verify/generate/everyday.hpp"
 
 namespace touchstone::verify::fuzz::shrink_test {
 namespace {

@@ -1,4 +1,4 @@
-#include "verify/generate/decimal.hpp"
+#include "verify/generate/everyday.hpp"
 
 #include <gtest/gtest.h>
 

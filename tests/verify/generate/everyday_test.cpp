@@ -8,7 +8,6 @@
 #include "tests/support/trials.hpp"
 #include "touchstone/oracle.hpp"
 #include "verify/fuzz/plainness.hpp"
-#include "verify/generate/decimal.hpp"
 
 namespace touchstone::verify::generate::everyday_test {
 namespace {

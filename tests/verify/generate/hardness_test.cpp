@@ -18,7 +18,7 @@
 #include "touchstone/number.hpp"
 #include "touchstone/oracle.hpp"
 #include "verify/fuzz/plainness.hpp"
-#include "verify/generate/decimal.hpp"
+#include "verify/generate/everyday.hpp"
 #include "verify/generate/family_builder.hpp"
 #include "verify/generate/random_stream.hpp"
 

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "touchstone/oracle.hpp"
-#include "verify/jobs/statistics.hpp"
+#include "verify/jobs/timing.hpp"
 
 namespace touchstone::verify::generate::workload_test {
 namespace {

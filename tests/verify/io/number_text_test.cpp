@@ -10,10 +10,9 @@
 #include <utility>
 #include <vector>
 
+#include "verify/data/ground_truth_files.hpp"
 #include "verify/data/plain_rows.hpp"
-#include "verify/data/separation_file.hpp"
 #include "verify/io/coordinate_text.hpp"
-#include "verify/io/words.hpp"
 
 namespace touchstone::verify::io::number_text_test {
 namespace {

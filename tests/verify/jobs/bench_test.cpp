@@ -19,7 +19,7 @@
 
 #include "tests/support/methods.hpp"
 #include "tests/support/query_groups.hpp"
-#include "verify/jobs/statistics.hpp"
+#include "verify/jobs/timing.hpp"
 
 namespace touchstone::verify::jobs::bench_test {
 namespace {

@@ -1,4 +1,4 @@
-#include "verify/jobs/budget.hpp"
+#include "verify/jobs/certify.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "verify/jobs/own_program.hpp"
+#include "verify/jobs/pieces.hpp"
 
 #include <gtest/gtest.h>
 #include <sys/wait.h>

@@ -1,4 +1,4 @@
-#include "verify/jobs/statistics.hpp"
+#include "verify/jobs/timing.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,3 @@
-#include "verify/mesh/index_file.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cstring>
@@ -7,6 +5,7 @@
 #include <vector>
 
 #include "tests/support/mesh_files.hpp"
+#include "verify/data/npy.hpp"
 
 namespace touchstone::verify::mesh::index_file_test {
 namespace {
@@ -19,7 +18,7 @@ TEST(WriteIndexPairs, WritesMoreThanItsBufferHolds) {
     pairs[i] = {static_cast<std::int32_t>(i), -static_cast<std::int32_t>(i)};
   }
   const MeshFolder folder;
-  write_index_pairs(folder.path() / "a.npy", pairs);
+  data::write_index_pairs(folder.path() / "a.npy", pairs);
   const std::string bytes = data::test::contents(folder.path() / "a.npy");
   ASSERT_EQ(bytes.size(), 128 + 8 * pairs.size());
   EXPECT_EQ(bytes.substr(0, 10), std::string("\x93NUMPY\x01\x00\x76\x00", 10));

@@ -1,4 +1,4 @@
-#include "verify/report/gate.hpp"
+#include "verify/report/certify_report.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "verify/report/measurement_json.hpp"
+#include "verify/report/measurement.hpp"
 
 #include <gtest/gtest.h>
 
@@ -51,26 +51,27 @@ Measurements example() {
   measurements.date = "2026-01-31";
   measurements.interrupted = true;
   measurements.all = {with_all_fields(), Measurement{}};
-  measurements.stability.push_back({.method = "certified",
-                                    .hardness = "angle",
-                                    .measure = "angle to parallel",
-                                    .exponent = -50,
-                                    .kind = Kind::edge_edge,
-                                    .queries = 20,
-                                    .collisions = 10,
-                                    .false_positives = 1,
-                                    .false_negatives = 2,
-                                    .late_tois = 3,
-                                    .early_upper_tois = 4,
-                                    .beyond_tolerance = 5,
-                                    .errors = 6,
-                                    .undecided = 7,
-                                    .worst = judge::Fault::late_toi,
-                                    .is_slight = true,
-                                    .worst_rate = 0.2,
-                                    .toi_error = Spread{.count = 8, .median = 0.0, .max = 1e-9},
-                                    .nanoseconds = 1e3,
-                                    .checks = 2.5});
+  StabilityMark mark{{.collisions = 10,
+                      .false_positives = 1,
+                      .false_negatives = 2,
+                      .late_tois = 3,
+                      .early_upper_tois = 4,
+                      .beyond_tolerance = 5,
+                      .errors = 6,
+                      .undecided = 7,
+                      .toi_error = Spread{.count = 8, .median = 0.0, .max = 1e-9},
+                      .nanoseconds = 1e3}};
+  mark.method = "certified";
+  mark.hardness = "angle";
+  mark.measure = "angle to parallel";
+  mark.exponent = -50;
+  mark.kind = Kind::edge_edge;
+  mark.queries = 20;
+  mark.worst = judge::Fault::late_toi;
+  mark.is_slight = true;
+  mark.worst_rate = 0.2;
+  mark.checks = 2.5;
+  measurements.stability.push_back(mark);
   return measurements;
 }
 

@@ -7,7 +7,6 @@
 #include <string_view>
 
 #include "tests/support/measurements.hpp"
-#include "verify/report/report_page_texts.hpp"
 
 namespace touchstone::verify::report::report_page_test {
 namespace {

@@ -1,4 +1,4 @@
-#include "verify/view/certificate_facts.hpp"
+#include "verify/view/query_facts.hpp"
 
 #include <gtest/gtest.h>
 

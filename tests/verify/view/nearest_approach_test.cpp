@@ -1,4 +1,4 @@
-#include "verify/view/nearest_approach.hpp"
+#include "verify/view/query_facts.hpp"
 
 #include <gtest/gtest.h>
 

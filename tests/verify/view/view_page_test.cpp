@@ -6,8 +6,6 @@
 #include <string>
 #include <string_view>
 
-#include "verify/view/view_page_texts.hpp"
-
 namespace touchstone::verify::view::view_page_test {
 namespace {
 

@@ -91,6 +91,21 @@ function drawPlane(scene, place, normal, color) {
   scene.lines([[...square, square[0]]], color, 0.7);
 }
 
+/// The hull of some points: its surface, its sides, and the points with their names.
+function drawHull(scene, points, { color, shape }, nameOf) {
+  if (points.length > 2) drawSurface(scene, points, color);
+  for (const side of sides(outline(points))) {
+    const seen = clipped(side);
+    if (seen.length === 2) scene.rod(...seen, color);
+  }
+  points.forEach((point, i) => {
+    const seen = seenPoint(point);
+    if (seen === null) return;
+    scene.dot(seen, color, shape, points.length === 1 ? 0.04 : 0.026);
+    scene.name(seen, ...nameOf(i));
+  });
+}
+
 /// The primitives of a query.
 export class MotionPicture {
   constructor(scene) {
@@ -109,18 +124,7 @@ export class MotionPicture {
     scene.begin(scene.moving);
     motion.primitives.forEach((indices, k) => {
       const points = indices.map((i) => frame.place(state.points[i], state.d));
-      const { color, shape } = looks[k];
-      if (points.length > 2) drawSurface(scene, points, color);
-      for (const side of sides(outline(points))) {
-        const seen = clipped(side);
-        if (seen.length === 2) scene.rod(...seen, color);
-      }
-      points.forEach((point, i) => {
-        const seen = seenPoint(point);
-        if (seen === null) return;
-        scene.dot(seen, color, shape, points.length === 1 ? 0.04 : 0.026);
-        scene.name(seen, motion.names[indices[i]], color, indices[i]);
-      });
+      drawHull(scene, points, looks[k], (i) => [motion.names[indices[i]], looks[k].color, indices[i]]);
     });
     this.drawGap(near, frame, direction);
     if (place) {
@@ -162,17 +166,7 @@ export class CornerPicture {
     scene.begin(scene.moving);
     const points = motion.corners(state).map((w) => frame.place(w, state.d));
     const { color } = looks[0];
-    drawSurface(scene, points, color);
-    for (const side of sides(outline(points))) {
-      const seen = clipped(side);
-      if (seen.length === 2) scene.rod(...seen, color);
-    }
-    points.forEach((point, i) => {
-      const seen = seenPoint(point);
-      if (seen === null) return;
-      scene.dot(seen, color, "ball", 0.026);
-      scene.name(seen, `w${"₀₁₂₃"[i]}`, color);
-    });
+    drawHull(scene, points, { color, shape: "ball" }, (i) => [`w${"₀₁₂₃"[i]}`, color]);
     scene.dot([0, 0, 0], "toi", "star", 0.03);
     scene.name([0, 0, 0], isInside ? "0: contact" : "0", "toi");
     if (direction !== null) {

@@ -70,18 +70,23 @@ inline constexpr Group<2, 2> unit_segment{{{1, 0}, {0, 1}}};
 /// (1−u−v, u, v) for (u,v) ∈ [0,1]²: the boxes of a subdivision reach beyond the triangle.
 inline constexpr Group<4, 3> unit_square{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {-1, 1, 1}}};
 
+/// The inputs of an expression: so many coordinates, and the weights of these groups.
+template <std::size_t count, auto... groups>
+struct Inputs {
+  static constexpr std::size_t coordinates = count;
+  static constexpr std::size_t weights = (std::size_t{0} + ... + groups.front().size());
+
+  template <class Visitor>
+  static constexpr void visit_groups([[maybe_unused]] const Visitor& visit) {
+    (visit(groups), ...);
+  }
+};
+
 // ---- The position of a point at a time ----------------------------------------------------------
 
 /// One coordinate of a moving point. Coordinates: at t=0 and at t=1. Weights: (1−t, t).
-struct Position {
+struct Position : Inputs<2, unit_segment> {
   static constexpr std::string_view name = "position";
-  static constexpr std::size_t coordinates = 2;
-  static constexpr std::size_t weights = 2;
-
-  template <class Visitor>
-  static constexpr void visit_groups(const Visitor& visit) {
-    visit(unit_segment);
-  }
 
   template <class Scalar>
   [[nodiscard]] static constexpr Scalar evaluate(const std::array<Scalar, coordinates>& x,
@@ -94,17 +99,8 @@ struct Position {
 
 /// F of edge_edge on one axis. Coordinates: ea0, ea1, eb0, eb1 at t=0, then at t=1. Weights:
 /// (1−t, t), (1−u, u), (1−v, v).
-struct EdgeEdge {
+struct EdgeEdge : Inputs<8, unit_segment, unit_segment, unit_segment> {
   static constexpr std::string_view name = "edge_edge";
-  static constexpr std::size_t coordinates = 8;
-  static constexpr std::size_t weights = 6;
-
-  template <class Visitor>
-  static constexpr void visit_groups(const Visitor& visit) {
-    visit(unit_segment);
-    visit(unit_segment);
-    visit(unit_segment);
-  }
 
   template <class Scalar>
   [[nodiscard]] static constexpr Scalar evaluate(const std::array<Scalar, coordinates>& x,
@@ -116,16 +112,8 @@ struct EdgeEdge {
 
 /// F of vertex_face on one axis. Coordinates: v, f0, f1, f2 at t=0, then at t=1. Weights: (1−t, t),
 /// (1−u−v, u, v).
-struct VertexFace {
+struct VertexFace : Inputs<8, unit_segment, unit_square> {
   static constexpr std::string_view name = "vertex_face";
-  static constexpr std::size_t coordinates = 8;
-  static constexpr std::size_t weights = 5;
-
-  template <class Visitor>
-  static constexpr void visit_groups(const Visitor& visit) {
-    visit(unit_segment);
-    visit(unit_square);
-  }
 
   template <class Scalar>
   [[nodiscard]] static constexpr Scalar evaluate(const std::array<Scalar, coordinates>& x,
@@ -166,15 +154,8 @@ struct ReleasedVertexFace : VertexFace {
 // ---- The same in the order of operations of [wang2021] (docs/theory.md, section 4.10) ----------
 
 /// F of edge_edge on one axis in the paper's order. Inputs as EdgeEdge.
-struct PaperEdgeEdge {
+struct PaperEdgeEdge : EdgeEdge {
   static constexpr std::string_view name = "paper_edge_edge";
-  static constexpr std::size_t coordinates = EdgeEdge::coordinates;
-  static constexpr std::size_t weights = EdgeEdge::weights;
-
-  template <class Visitor>
-  static constexpr void visit_groups(const Visitor& visit) {
-    EdgeEdge::visit_groups(visit);
-  }
 
   template <class Scalar>
   [[nodiscard]] static constexpr Scalar evaluate(const std::array<Scalar, coordinates>& x,
@@ -186,15 +167,8 @@ struct PaperEdgeEdge {
 };
 
 /// F of vertex_face on one axis in the paper's order. Inputs as VertexFace.
-struct PaperVertexFace {
+struct PaperVertexFace : VertexFace {
   static constexpr std::string_view name = "paper_vertex_face";
-  static constexpr std::size_t coordinates = VertexFace::coordinates;
-  static constexpr std::size_t weights = VertexFace::weights;
-
-  template <class Visitor>
-  static constexpr void visit_groups(const Visitor& visit) {
-    VertexFace::visit_groups(visit);
-  }
 
   template <class Scalar>
   [[nodiscard]] static constexpr Scalar evaluate(const std::array<Scalar, coordinates>& x,

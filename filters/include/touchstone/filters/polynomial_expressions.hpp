@@ -110,20 +110,26 @@ template <std::size_t start, std::size_t end, std::size_t weight, class Scalar, 
 }
 
 /// d·a − d·b: the distance by which a is beyond b in a fixed direction d. Coordinates: d, a, b.
-struct ProjectedGap {
+struct ProjectedGap : Inputs<9> {
   static constexpr std::string_view name = "projected_gap";
-  static constexpr std::size_t coordinates = 9;
-  static constexpr std::size_t weights = 0;
   static constexpr std::array<std::size_t, coordinates> classes{0, 0, 0, 1, 1, 1, 1, 1, 1};
-
-  template <class Visitor>
-  static constexpr void visit_groups(const Visitor& /*visit*/) {}
 
   template <class Scalar>
   [[nodiscard]] static constexpr Scalar evaluate(const std::array<Scalar, coordinates>& x,
                                                  const std::array<Scalar, weights>& /*w*/) {
     const Vector3<Scalar> d = vector_of<0>(x);
     return dot(d, vector_of<3>(x)) - dot(d, vector_of<6>(x));
+  }
+};
+
+/// Inputs whose weights are (1−t, t) for so many times t.
+template <class Coordinates, std::size_t times>
+struct AtTimes : Coordinates {
+  static constexpr std::size_t weights = 2 * times;
+
+  template <class Visitor>
+  static constexpr void visit_groups(const Visitor& visit) {
+    for (std::size_t i = 0; i < times; ++i) visit(unit_segment);
   }
 };
 
@@ -137,14 +143,8 @@ struct DeterminantInputs {
 
 /// r · (p × q) at a time t. Weights: (1−t, t) of r, of p and of q. (The code uses one t. The
 /// theorem needs separate groups, so the bound holds for three.)
-struct DeterminantEnd : DeterminantInputs {
+struct DeterminantEnd : AtTimes<DeterminantInputs, 3> {
   static constexpr std::string_view name = "determinant_end";
-  static constexpr std::size_t weights = 6;
-
-  template <class Visitor>
-  static constexpr void visit_groups(const Visitor& visit) {
-    for (std::size_t i = 0; i < weights / 2; ++i) visit(unit_segment);
-  }
 
   template <class Scalar>
   [[nodiscard]] static constexpr Scalar evaluate(const std::array<Scalar, coordinates>& x,
@@ -156,14 +156,8 @@ struct DeterminantEnd : DeterminantInputs {
 
 /// Three times the second Bernstein coefficient of det on [a,b]. Weights: (1−a, a), (1−b, b) of r,
 /// of p and of q.
-struct DeterminantMiddle : DeterminantInputs {
+struct DeterminantMiddle : AtTimes<DeterminantInputs, 6> {
   static constexpr std::string_view name = "determinant_middle";
-  static constexpr std::size_t weights = 12;
-
-  template <class Visitor>
-  static constexpr void visit_groups(const Visitor& visit) {
-    for (std::size_t i = 0; i < weights / 2; ++i) visit(unit_segment);
-  }
 
   template <class Scalar>
   [[nodiscard]] static constexpr Scalar evaluate(const std::array<Scalar, coordinates>& x,
@@ -184,14 +178,8 @@ struct OrientationInputs {
 };
 
 /// x · (d × y) at a time t, for a fixed direction d. Weights: (1−t, t) of x and of y.
-struct OrientationEnd : OrientationInputs {
+struct OrientationEnd : AtTimes<OrientationInputs, 2> {
   static constexpr std::string_view name = "orientation_end";
-  static constexpr std::size_t weights = 4;
-
-  template <class Visitor>
-  static constexpr void visit_groups(const Visitor& visit) {
-    for (std::size_t i = 0; i < weights / 2; ++i) visit(unit_segment);
-  }
 
   template <class Scalar>
   [[nodiscard]] static constexpr Scalar evaluate(const std::array<Scalar, coordinates>& x,
@@ -202,14 +190,8 @@ struct OrientationEnd : OrientationInputs {
 
 /// Twice the middle Bernstein coefficient of x · (d × y) on [a,b]. Weights: (1−a, a), (1−b, b) of x
 /// and of y.
-struct OrientationMiddle : OrientationInputs {
+struct OrientationMiddle : AtTimes<OrientationInputs, 4> {
   static constexpr std::string_view name = "orientation_middle";
-  static constexpr std::size_t weights = 8;
-
-  template <class Visitor>
-  static constexpr void visit_groups(const Visitor& visit) {
-    for (std::size_t i = 0; i < weights / 2; ++i) visit(unit_segment);
-  }
 
   template <class Scalar>
   [[nodiscard]] static constexpr Scalar evaluate(const std::array<Scalar, coordinates>& x,

@@ -23,17 +23,10 @@ inline constexpr Group<2, 1> unit_interval{{{0}, {1}}};
 
 /// d·(a − b) − D n, a and b moving, at a time t. Coordinates: d, n, then a, b at t=0, a, b at t=1,
 /// D. Weights: (1−t, t).
-struct AdvancedGap {
+struct AdvancedGap : Inputs<17, unit_segment> {
   static constexpr std::string_view name = "advanced_gap";
-  static constexpr std::size_t coordinates = 17;
-  static constexpr std::size_t weights = 2;
   static constexpr std::array<std::size_t, coordinates> classes{0, 0, 0, 0, 1, 1, 1, 1, 1,
                                                                 1, 1, 1, 1, 1, 1, 1, 1};
-
-  template <class Visitor>
-  static constexpr void visit_groups(const Visitor& visit) {
-    visit(unit_segment);
-  }
 
   template <class Scalar>
   [[nodiscard]] static constexpr Scalar evaluate(const std::array<Scalar, coordinates>& x,
@@ -51,14 +44,9 @@ struct MeasuredAdvancedGap : Measured<AdvancedGap> {
 };
 
 /// d·w − D n: the same of a corner w. Coordinates: d, n, w, D.
-struct CornerGap {
+struct CornerGap : Inputs<8> {
   static constexpr std::string_view name = "corner_gap";
-  static constexpr std::size_t coordinates = 8;
-  static constexpr std::size_t weights = 0;
   static constexpr std::array<std::size_t, coordinates> classes{0, 0, 0, 0, 1, 1, 1, 1};
-
-  template <class Visitor>
-  static constexpr void visit_groups(const Visitor& /*visit*/) {}
 
   template <class Scalar>
   [[nodiscard]] static constexpr Scalar evaluate(const std::array<Scalar, coordinates>& x,
@@ -68,13 +56,8 @@ struct CornerGap {
 };
 
 /// x + y + z: the L1 norm of a vector with the magnitudes x, y, z, dual to L∞.
-struct ComponentSum {
+struct ComponentSum : Inputs<3> {
   static constexpr std::string_view name = "component_sum";
-  static constexpr std::size_t coordinates = 3;
-  static constexpr std::size_t weights = 0;
-
-  template <class Visitor>
-  static constexpr void visit_groups(const Visitor& /*visit*/) {}
 
   template <class Scalar>
   [[nodiscard]] static constexpr Scalar evaluate(const std::array<Scalar, coordinates>& x,
@@ -84,13 +67,8 @@ struct ComponentSum {
 };
 
 /// x·x, the square of the L2 norm, dual to itself.
-struct SquaredLength {
+struct SquaredLength : Inputs<3> {
   static constexpr std::string_view name = "squared_length";
-  static constexpr std::size_t coordinates = 3;
-  static constexpr std::size_t weights = 0;
-
-  template <class Visitor>
-  static constexpr void visit_groups(const Visitor& /*visit*/) {}
 
   template <class Scalar>
   [[nodiscard]] static constexpr Scalar evaluate(const std::array<Scalar, coordinates>& x,
@@ -100,13 +78,8 @@ struct SquaredLength {
 };
 
 /// D² − x·x. Coordinates: x, D.
-struct LengthDefect {
+struct LengthDefect : Inputs<4> {
   static constexpr std::string_view name = "length_defect";
-  static constexpr std::size_t coordinates = 4;
-  static constexpr std::size_t weights = 0;
-
-  template <class Visitor>
-  static constexpr void visit_groups(const Visitor& /*visit*/) {}
 
   template <class Scalar>
   [[nodiscard]] static constexpr Scalar evaluate(const std::array<Scalar, coordinates>& x,
@@ -118,17 +91,8 @@ struct LengthDefect {
 
 /// One axis of F = r − u p − v q at (t,u,v), beyond D: F − D. Coordinates: r, p, q at t=0, then at
 /// t=1, D. Weights: (1−t, t), u, v.
-struct ContactComponent {
+struct ContactComponent : Inputs<7, unit_segment, unit_interval, unit_interval> {
   static constexpr std::string_view name = "contact_component";
-  static constexpr std::size_t coordinates = 7;
-  static constexpr std::size_t weights = 4;
-
-  template <class Visitor>
-  static constexpr void visit_groups(const Visitor& visit) {
-    visit(unit_segment);
-    visit(unit_interval);
-    visit(unit_interval);
-  }
 
   template <class Scalar>
   [[nodiscard]] static constexpr Scalar evaluate(const std::array<Scalar, coordinates>& x,

@@ -1,4 +1,4 @@
-#include "verify/baselines/upward_rounding.hpp"
+#include "verify/baselines/upward_interval.hpp"
 
 #include <cfenv>
 
