@@ -114,12 +114,23 @@ std::string numbers_text(std::string_view name, const std::vector<Item>& numbers
   return text + (numbers.size() > most_pairs ? ", ...)\n" : ")\n");
 }
 
+/// The tetrahedra whose volume has this sign at rest.
+std::vector<std::size_t> tetrahedra_with(const RestingMesh& mesh, int sign) {
+  std::vector<std::size_t> result;
+  for (const fast::Inversion& one : mesh.inversions) {
+    if (one.result.start == sign) result.push_back(one.element);
+  }
+  return result;
+}
+
 std::string defects_text(const IntersectionReport& report, const RestingMesh& mesh) {
   const fast::MeshDefects& defects = mesh.defects;
   std::string text = numbers_text("faces without an area", defects.degenerate_faces) +
                      numbers_text("edges without a length", defects.degenerate_edges) +
                      numbers_text("vertices at the place of another", defects.duplicated_vertices) +
-                     numbers_text("vertices of no element", defects.unreferenced_vertices);
+                     numbers_text("vertices of no element", defects.unreferenced_vertices) +
+                     numbers_text("tetrahedra without a volume", tetrahedra_with(mesh, 0)) +
+                     numbers_text("inverted tetrahedra", tetrahedra_with(mesh, -1));
   if (!defects.duplicated_vertices.empty() && !report.weld) {
     text +=
         "Elements that meet at vertices at one place intersect. With --weld these are one "
@@ -139,7 +150,10 @@ nlohmann::json json_of(const RestingMesh& mesh) {
           {"degenerate_faces", mesh.defects.degenerate_faces},
           {"degenerate_edges", mesh.defects.degenerate_edges},
           {"duplicated_vertices", mesh.defects.duplicated_vertices},
-          {"unreferenced_vertices", mesh.defects.unreferenced_vertices}};
+          {"unreferenced_vertices", mesh.defects.unreferenced_vertices},
+          {"tetrahedra", mesh.mesh.tetrahedra.size()},
+          {"flat_tetrahedra", tetrahedra_with(mesh, 0)},
+          {"inverted_tetrahedra", tetrahedra_with(mesh, -1)}};
 }
 
 nlohmann::json json_of(const fast::PointEnclosure& point) {
@@ -171,7 +185,7 @@ std::string rest_text(std::size_t all, std::string_view where) {
 mesh::Mesh joined(const std::vector<RestingMesh>& meshes) {
   if (meshes.size() == 1) return meshes.front().mesh;
   mesh::Mesh result;
-  for (const auto& [name, mesh, defects] : meshes) {
+  for (const auto& [name, mesh, defects, inversions] : meshes) {
     const auto first = static_cast<std::int32_t>(result.vertices.rows());
     result.vertices.conservativeResize(result.vertices.rows() + mesh.vertices.rows(), 3);
     result.vertices.bottomRows(mesh.vertices.rows()) = mesh.vertices;

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "touchstone/intersections.hpp"
+#include "touchstone/inversion.hpp"
 #include "verify/mesh/mesh_file.hpp"
 
 namespace touchstone::verify::report {
@@ -26,6 +27,7 @@ struct RestingMesh {
   std::string name;
   mesh::Mesh mesh;
   fast::MeshDefects defects = {};
+  std::vector<fast::Inversion> inversions = {};  ///< the tetrahedra that are flat or inverted
 };
 
 /// Several meshes as one, whose vertices and elements are those of all in order. If there is more
@@ -48,7 +50,8 @@ struct IntersectionReport {
                                     const fast::Intersection& intersection);
 
 /// `meshes` (`name`, `vertices`, `edges`, `faces`, `degenerate_faces`, `degenerate_edges`,
-/// `duplicated_vertices`, `unreferenced_vertices`), `intersections` (`kind`, `first` and `second`:
+/// `duplicated_vertices`, `unreferenced_vertices`, `tetrahedra`, `flat_tetrahedra`,
+/// `inverted_tetrahedra`), `intersections` (`kind`, `first` and `second`:
 /// `mesh`, an index, `element`, `number`; `place`: two points of three intervals), `counts` by
 /// kind, `weld`, `seconds`, `interrupted`.
 [[nodiscard]] nlohmann::json to_json(const IntersectionReport& report);
