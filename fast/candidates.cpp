@@ -126,7 +126,10 @@ std::array<std::int32_t, moving_points> vertices_of(const Candidates& candidates
 
 Query query_of(const MovingVertices& vertices, const Candidates& candidates,
                const IndexPair& pair) {
-  const auto points = vertices_of(candidates, pair);
+  return query_of(vertices, vertices_of(candidates, pair));
+}
+
+Query query_of(const MovingVertices& vertices, const Tetrahedron& points) {
   Query query;
   for (std::size_t point = 0; point < moving_points; ++point) {
     const MovingVertex& vertex = vertices[static_cast<std::size_t>(points[point])];

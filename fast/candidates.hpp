@@ -23,7 +23,9 @@ struct Candidates {
   std::span<const Face> faces;  ///< needed for vertex_face
 };
 
-/// A pair as a query. \pre its indices are in range.
+/// The query whose points are these vertices, and a pair as a query. \pre their numbers are in
+/// range.
+[[nodiscard]] Query query_of(const MovingVertices& vertices, const Tetrahedron& points);
 [[nodiscard]] Query query_of(const MovingVertices& vertices, const Candidates& candidates,
                              const IndexPair& pair);
 

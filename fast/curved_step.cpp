@@ -23,6 +23,9 @@ Step step_of_boxes(const CurvedVertices& vertices, const MeshElements& elements,
   if (vertices.degree > greatest_degree) {
     throw std::invalid_argument("curved step: a degree above 8");
   }
+  if (!elements.tetrahedra.empty() || !elements.plane_triangles.empty()) {
+    throw std::invalid_argument("curved step: volumes are known on straight lines only");
+  }
   if (vertices.numbers.size() % size != 0) {
     throw std::invalid_argument("curved step: the numbers are no whole vertices");
   }

@@ -356,7 +356,14 @@ MeshDefects mesh_defects(const MovingVertices& vertices, const MeshElements& ele
       result.degenerate_edges.push_back(static_cast<std::int32_t>(i));
     }
   }
-  const std::vector<std::int32_t> named = vertices_of(vertices.size(), elements);
+  std::vector<std::int32_t> named = vertices_of(vertices.size(), elements);
+  const auto add = [&named](const auto& element) {
+    named.insert(named.end(), element.begin(), element.end());
+  };
+  std::ranges::for_each(elements.tetrahedra, add);
+  std::ranges::for_each(elements.plane_triangles, add);
+  std::ranges::sort(named);
+  named.erase(std::ranges::unique(named).begin(), named.end());
   for (std::int32_t i = 0, next = 0; std::cmp_less(i, vertices.size()); ++i) {
     if (std::cmp_less(next, named.size()) && named[static_cast<std::size_t>(next)] == i) {
       ++next;

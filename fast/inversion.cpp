@@ -66,20 +66,22 @@ KernelInput block_at(const KernelInput& all, std::size_t size, std::size_t first
 
 // ---- Blocks -------------------------------------------------------------------------------------
 
-CertifiedOptions valid(const InversionOptions& options) {
-  CertifiedOptions result{.toi_tolerance = options.toi_tolerance,
-                          .t_max = options.t_max,
-                          .max_threads = options.max_threads};
-  require_valid(result);
-  return result;
+void require_valid(const InversionOptions& options) {
+  fast::require_valid(CertifiedOptions{.toi_tolerance = options.toi_tolerance,
+                                       .t_max = options.t_max,
+                                       .max_threads = options.max_threads});
+  // NaN fails, too.
+  if (!(options.kept_volume >= 0.0 && options.kept_volume < 1.0)) {
+    throw std::invalid_argument("inversions: kept_volume must be in [0,1)");
+  }
 }
 
 constexpr InversionResult free_of_inversion{
     .verdict = Verdict::no, .stage = Stage::determinant, .start = 1};
 
-InversionResult decided_exactly(const Query& query, const CertifiedOptions& options) {
+InversionResult decided_exactly(const Query& query, const InversionOptions& options) {
   if (!is_finite(query)) return {};
-  const ExactInversion found = decide_inversion_exactly(query, options.t_max);
+  const ExactInversion found = decide_inversion_exactly(query, options.t_max, options.kept_volume);
   InversionResult result{.verdict = found.inverts ? Verdict::yes : Verdict::no,
                          .stage = Stage::exact,
                          .start = static_cast<std::int8_t>(found.start)};
@@ -98,14 +100,17 @@ InversionResult result_of(const CertifiedResult& contact) {
           .toi_upper = contact.toi_upper};
 }
 
-/// Decides a block and passes on the results that are not free_of_inversion: report(index, result).
-/// \pre strict floating point
+/// Decides a block, ignoring inversions after t_limit, and passes on the results that are not
+/// free_of_inversion: report(index, result). \pre strict floating point
 template <class Report>
-void decide_block(KernelInput block, const CertifiedOptions& options, const CertifiedKernel& kernel,
-                  const Report& report) {
+void decide_block(KernelInput block, double t_limit, const InversionOptions& options,
+                  const CertifiedKernel& kernel, const Report& report) {
   thread_local KernelOutput output;
+  const CertifiedOptions for_impacts{.toi_tolerance = options.toi_tolerance,
+                                     .t_max = options.t_max};
   block.toi_tolerance = std::max(options.toi_tolerance, least_kernel_tolerance);
-  block.t_limit = options.t_max;
+  block.t_limit = t_limit;
+  block.kept_volume = options.kept_volume;
   kernel.invert(block, output);
   if (output.undecided.count > 0) {
     thread_local std::vector<Query> undecided;
@@ -113,7 +118,9 @@ void decide_block(KernelInput block, const CertifiedOptions& options, const Cert
     for (std::size_t i = 0; i < output.undecided.count; ++i) {
       undecided.push_back(tetrahedron(block, output.undecided.items[i]));
     }
-    decide_rescaled({.toi_tolerance = block.toi_tolerance, .t_limit = block.t_limit},
+    decide_rescaled({.toi_tolerance = block.toi_tolerance,
+                     .t_limit = block.t_limit,
+                     .kept_volume = block.kept_volume},
                     *kernel.invert, undecided, output);
   }
   const auto report_exact = [&](std::size_t index) {
@@ -131,7 +138,7 @@ void decide_block(KernelInput block, const CertifiedOptions& options, const Cert
   }
   for (std::size_t i = 0; i < output.impacts.count; ++i) {
     const KernelImpact& impact = output.impacts.items[i];
-    if (const auto contact = fast::result_of(impact, options)) {
+    if (const auto contact = fast::result_of(impact, for_impacts)) {
       report(impact.index, result_of(*contact));
     } else {
       report_exact(impact.index);
@@ -141,11 +148,11 @@ void decide_block(KernelInput block, const CertifiedOptions& options, const Cert
 }
 
 InversionResult decide_one(const KernelInput& element, const InversionOptions& options) {
-  const CertifiedOptions checked = valid(options);
+  require_valid(options);
   const StrictFloatingPoint strict;
   InversionResult result = free_of_inversion;
   // The widest lanes for one, too: they have registers for all vectors.
-  decide_block(element, checked, certified_kernel(chosen_kernels()),
+  decide_block(element, options.t_max, options, certified_kernel(chosen_kernels()),
                [&](std::size_t, const InversionResult& found) { result = found; });
   return result;
 }
@@ -155,7 +162,7 @@ constexpr std::size_t blocks_of_task = 8;
 
 void decide_all(const KernelInput& all, std::size_t size, std::span<InversionResult> results,
                 const InversionOptions& options) {
-  const CertifiedOptions checked = valid(options);
+  require_valid(options);
   if (results.size() != size) {
     throw std::invalid_argument("inversions: " + std::to_string(results.size()) + " results for " +
                                 std::to_string(size) + " elements");
@@ -165,25 +172,23 @@ void decide_all(const KernelInput& all, std::size_t size, std::span<InversionRes
     const KernelInput block = block_at(all, size, first);
     const auto of_block = results.subspan(first, block.count);
     std::ranges::fill(of_block, free_of_inversion);
-    decide_block(block, checked, kernel, [&](std::size_t index, const InversionResult& result) {
-      of_block[index] = result;
-    });
+    decide_block(
+        block, options.t_max, options, kernel,
+        [&](std::size_t index, const InversionResult& result) { of_block[index] = result; });
   });
 }
 
 /// Of a mesh.
 std::vector<Inversion> find_all(const KernelInput& all, std::size_t size,
                                 const InversionOptions& options) {
-  const CertifiedOptions checked = valid(options);
-  const CertifiedKernel& kernel = certified_kernel(chosen_kernels());
+  require_valid(options);
   std::vector<std::vector<Inversion>> of_blocks((size + kernel_block - 1) / kernel_block);
   for_each_kernel_block(size, options.max_threads, blocks_of_task, [&](std::size_t first) {
     std::vector<Inversion>& found = of_blocks[first / kernel_block];
-    decide_block(block_at(all, size, first), checked, kernel,
-                 [&](std::size_t index, const InversionResult& result) {
-                   if (result.verdict == Verdict::yes) found.push_back({first + index, result});
-                 });
-    std::ranges::sort(found, {}, &Inversion::element);
+    decide_elements(all, size, first, options.t_max, options,
+                    [&](std::size_t element, const InversionResult& result) {
+                      found.push_back({element, result});
+                    });
   });
   std::vector<Inversion> result;
   for (const auto& some : of_blocks) result.insert(result.end(), some.begin(), some.end());
@@ -191,6 +196,19 @@ std::vector<Inversion> find_all(const KernelInput& all, std::size_t size,
 }
 
 }  // namespace
+
+void decide_elements(const KernelInput& elements, std::size_t size, std::size_t first,
+                     double t_limit, const InversionOptions& options,
+                     const std::function<void(std::size_t, const InversionResult&)>& report) {
+  std::vector<Inversion> found;
+  decide_block(block_at(elements, size, first), t_limit, options,
+               certified_kernel(chosen_kernels()),
+               [&](std::size_t index, const InversionResult& result) {
+                 if (result.verdict == Verdict::yes) found.push_back({first + index, result});
+               });
+  std::ranges::sort(found, {}, &Inversion::element);
+  for (const auto& [element, result] : found) report(element, result);
+}
 
 // ---- Interface ----------------------------------------------------------------------------------
 

@@ -41,7 +41,7 @@ StepCollision at_start(PairKind kind, const IndexPair& pair) {
   return {.kind = kind, .pair = pair, .toi_lower = 0.0, .toi_upper = 0.0};
 }
 
-/// The status for an impact with these times.
+/// The status for an impact with this time.
 LineSearchStatus status_of(double toi_lower) {
   return toi_lower > 0.0 ? LineSearchStatus::limited : LineSearchStatus::too_small;
 }
@@ -77,7 +77,7 @@ LineSearchLimit limit_of_scene(const Step& step, double p, Norm norm) {
   }
   std::optional<StepImpact> impact =
       step.with_separation({.distance = *kept, .norm = norm}).earliest();
-  if (!impact) return result;
+  if (!impact || impact->pairs.empty()) return result;
   result.status = status_of(impact->toi_lower);
   result.step_size = impact->toi_lower;
   result.pairs = std::move(impact->pairs);
@@ -270,6 +270,7 @@ class SearchOfPairs {
     std::erase_if(result_.pairs, [upper = upper_.load()](const StepCollision& one) {
       return one.toi_lower > upper;
     });
+    if (result_.pairs.empty()) return;  // an element is earlier
     result_.step_size = std::ranges::min(result_.pairs, {}, &StepCollision::toi_lower).toi_lower;
     result_.status = status_of(result_.step_size);
   }
@@ -286,6 +287,44 @@ class SearchOfPairs {
   LineSearchLimit result_;
 };
 
+// ---- Elements -----------------------------------------------------------------------------------
+
+/// Lowers the limit that pairs set to that of the elements, if it is earlier.
+void limit_by_volumes(const Step& step, double kept_volume, LineSearchLimit& result) {
+  const Scene& scene = scene_of(step);
+  InversionOptions options = scene.inversion_options();
+  options.kept_volume = kept_volume;
+  std::atomic<double> upper = positive_infinity;
+  for (const StepCollision& one : result.pairs) upper = std::min(upper.load(), one.toi_upper);
+  std::vector<StepInversion>& found = result.inversions;
+  std::mutex mutex;
+  with_threads(step.options().max_threads, [&] {
+    scene.find_inversions(
+        options,
+        [&] {
+          return std::min(options.t_max,
+                          limit_after(std::min(upper.load(), 1.0), options.toi_tolerance));
+        },
+        [&](const StepInversion& one) {
+          const std::scoped_lock lock(mutex);
+          upper = std::min(upper.load(), one.toi_upper);
+          if (one.toi_lower <= upper) found.push_back(one);
+        });
+  });
+  const auto is_late = [&](const auto& one) { return one.toi_lower > upper; };
+  std::erase_if(found, is_late);
+  if (found.empty()) return;
+  sort_by_number(found);
+  std::erase_if(result.pairs, is_late);
+  const auto is_inverted = [](const StepInversion& one) { return one.start != 1; };
+  const double first = std::ranges::min(found, {}, &StepInversion::toi_lower).toi_lower;
+  if (result.pairs.empty() || first < result.step_size) {
+    result.status =
+        std::ranges::any_of(found, is_inverted) ? LineSearchStatus::inverted : status_of(first);
+  }
+  result.step_size = std::min(result.step_size, first);
+}
+
 }  // namespace
 
 LineSearchLimit line_search_limit(const Step& step, double p, const LineSearchOptions& options) {
@@ -293,11 +332,15 @@ LineSearchLimit line_search_limit(const Step& step, double p, const LineSearchOp
   if (!(p > 0.0 && p <= 1.0 - 0x1p-50)) {
     throw std::invalid_argument("line search: p must be more than 0 and at most 1 - 2^-50");
   }
-  const StrictFloatingPoint strict;
-  if (options.start_distance == StartDistance::of_pair) {
-    return SearchOfPairs(step, p, options.norm).run();
+  if (!(options.kept_volume >= 0.0 && options.kept_volume < 1.0)) {
+    throw std::invalid_argument("line search: kept_volume must be in [0,1)");
   }
-  return limit_of_scene(step, p, options.norm);
+  const StrictFloatingPoint strict;
+  LineSearchLimit result = options.start_distance == StartDistance::of_pair
+                               ? SearchOfPairs(step, p, options.norm).run()
+                               : limit_of_scene(step, p, options.norm);
+  limit_by_volumes(step, options.kept_volume, result);
+  return result;
 }
 
 }  // namespace touchstone::fast

@@ -1,5 +1,7 @@
 #include "touchstone/step.hpp"
 
+#include <Eigen/Geometry>
+
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -15,6 +17,7 @@
 #include "fast/step/scene.hpp"
 #include "fast/step/sieve.hpp"
 #include "touchstone/intersections.hpp"
+#include "touchstone/inversion.hpp"
 
 namespace touchstone::fast {
 namespace {
@@ -61,12 +64,13 @@ std::vector<StepCollision> all_collisions(const Scene& scene) {
 
 // ---- The earliest -------------------------------------------------------------------------------
 
-/// Search for the earliest impact, or for any. The groups of the scene are searched in rounds:
-/// first a few from all over the scene, then more and more. Steps with contacts mostly have early
-/// ones, and on a short interval little moves. So the first rounds search such an interval, and all
-/// rounds do if these find a contact in it. Otherwise the whole step is searched from the first
-/// round on, and between rounds the boxes are fitted again if the earliest known impact leaves much
-/// less to search.
+/// Search for the earliest impact, or for any. Elements are examined first, which takes little;
+/// their first inversion limits the search for pairs. The groups of the scene are searched in
+/// rounds: first a few from all over the scene, then more and more. Steps with contacts mostly have
+/// early ones, and on a short interval little moves. So the first rounds search such an interval,
+/// and all rounds do if these find a contact in it. Otherwise the whole step is searched from the
+/// first round on, and between rounds the boxes are fitted again if the earliest known impact
+/// leaves much less to search.
 class ImpactSearch {
  public:
   explicit ImpactSearch(const Scene& scene) : scene_(scene) {}
@@ -88,12 +92,17 @@ class ImpactSearch {
   /// The rounds that search a short interval first: a sixty-fourth of the groups.
   static constexpr std::size_t first_rounds = 2;
 
-  using Found = std::vector<StepCollision>;
+  template <class One>
+  using Found = tbb::enumerable_thread_specific<std::vector<One>>;
 
   void run() {
+    scene_.find_inversions(
+        scene_.inversion_options(), [this] { return is_enough() ? -1.0 : limit(); },
+        [this](const StepInversion& one) { add(one, inversions_); });
+    if (is_enough()) return;
     // (Any contact is found as fast in the whole step.)
     const bool is_short = !any_suffices_ && is_early();
-    if (!is_short) take_interval(t_end_of(scene_.certified().t_max));
+    if (!is_short) take_interval(t_end_of(limit()));
     for (std::size_t round = is_short ? first_rounds : 0; round < strides.size() && !is_enough();
          ++round) {
       search(round);
@@ -104,12 +113,12 @@ class ImpactSearch {
   /// Searches a short interval in the first rounds. Returns true if contacts after it do not
   /// matter; otherwise this was in vain, and cost a fit of all boxes.
   bool is_early() {
-    if (t_end_of(scene_.certified().t_max) <= short_end) return false;
+    if (t_end_of(limit()) <= short_end) return false;
     take_interval(short_end);
     for (std::size_t round = 0; round < first_rounds; ++round) search(round);
     if (limit() <= short_end) return true;
     // The search of the whole step finds these collisions again.
-    for (Found& found : found_) found.clear();
+    for (auto& found : collisions_) found.clear();
     pairs_ = groups_ = 0;
     return false;
   }
@@ -177,38 +186,49 @@ class ImpactSearch {
             if (is_enough()) return;
             pairs_ += pairs.size();
             scene_.decide(part.kind, pairs, interval.rounded, std::min(limit(), interval.end),
-                          [this](std::size_t, const StepCollision& collision) { add(collision); });
+                          [this](std::size_t, const StepCollision& one) { add(one, collisions_); });
           });
     });
   }
 
-  void add(const StepCollision& collision) {
+  template <class One>
+  void add(const One& one, Found<One>& all) {
     double known = upper_.load();
-    while (collision.toi_upper < known &&
-           !upper_.compare_exchange_weak(known, collision.toi_upper)) {
+    while (one.toi_upper < known && !upper_.compare_exchange_weak(known, one.toi_upper)) {
     }
-    if (collision.toi_lower > upper_.load()) return;
-    Found& found = found_.local();
-    found.push_back(collision);
-    // Collisions that are too late by now are dropped before the list would grow.
+    if (one.toi_lower > upper_.load()) return;
+    std::vector<One>& found = all.local();
+    found.push_back(one);
+    // Those that are too late by now are dropped before the list would grow.
     if (found.size() == found.capacity()) drop_late(found);
   }
 
-  void drop_late(Found& found) const {
+  template <class One>
+  void drop_late(std::vector<One>& found) const {
     const double upper = upper_.load();
-    std::erase_if(found, [upper](const StepCollision& one) { return one.toi_lower > upper; });
+    std::erase_if(found, [upper](const One& one) { return one.toi_lower > upper; });
+  }
+
+  /// Those that may be the first, and the least of their lower ends in `lower`.
+  template <class One>
+  [[nodiscard]] std::vector<One> firsts(Found<One>& all, double& lower) const {
+    std::vector<One> result;
+    for (std::vector<One>& found : all) {
+      drop_late(found);
+      result.insert(result.end(), found.begin(), found.end());
+    }
+    for (const One& one : result) lower = std::min(lower, one.toi_lower);
+    return result;
   }
 
   [[nodiscard]] std::optional<StepImpact> result() {
+    if (!has_any()) return std::nullopt;
     StepImpact impact;
-    for (Found& found : found_) {
-      drop_late(found);
-      impact.pairs.insert(impact.pairs.end(), found.begin(), found.end());
-    }
-    if (impact.pairs.empty()) return std::nullopt;
+    impact.toi_lower = impact.toi_upper = upper_.load();
+    impact.pairs = firsts(collisions_, impact.toi_lower);
+    impact.inversions = firsts(inversions_, impact.toi_lower);
     sort_by_pair(impact.pairs);
-    impact.toi_upper = upper_.load();
-    impact.toi_lower = std::ranges::min(impact.pairs, {}, &StepCollision::toi_lower).toi_lower;
+    sort_by_number(impact.inversions);
     return impact;
   }
 
@@ -220,7 +240,8 @@ class ImpactSearch {
   std::atomic<std::size_t> pairs_ = 0;   ///< decided so far
   std::atomic<std::size_t> groups_ = 0;  ///< searched so far
   std::atomic<double> upper_ = std::numeric_limits<double>::infinity();
-  tbb::enumerable_thread_specific<Found> found_;
+  Found<StepCollision> collisions_;
+  Found<StepInversion> inversions_;
 };
 
 // ---- The start ----------------------------------------------------------------------------------
@@ -284,23 +305,39 @@ struct NamedPair {
   IndexPair pair;
 };
 
-/// True if a pair collides in the step scaled by α. \pre strict floating point
-bool collides_scaled(const Scene& scene, PairKind kind, const IndexPair& pair, double alpha) {
-  Query query = scene.query_of(kind, pair);
+/// The query in the step scaled by α. \pre strict floating point
+Query scaled_query(Query query, double alpha) {
   for (std::size_t point = 0; point < moving_points; ++point) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
       double& end = query.at(1, point, axis);
       end = scaled_place(query.at(0, point, axis), end, alpha);
     }
   }
+  return query;
+}
+
+/// True if a pair collides in the step scaled by α. \pre strict floating point
+bool collides_scaled(const Scene& scene, PairKind kind, const IndexPair& pair, double alpha) {
   CertifiedOptions options = scene.certified();
   options.separation = scene.separation_of(kind, pair, options.separation);
   options.t_max = 1.0;
+  const Query query = scaled_query(scene.query_of(kind, pair), alpha);
   return solve(Step::kind_of(kind), query, options).verdict == Verdict::yes;
 }
 
-/// The pairs that may collide in steps scaled by any α up to `end`, for a search that tries many of
-/// these.
+/// An element of a step.
+struct NamedElement {
+  VolumeKind kind;
+  std::int32_t number;
+};
+
+/// True if an element inverts in the step scaled by α. \pre strict floating point
+bool inverts_scaled(const Scene& scene, VolumeKind kind, std::int32_t element, double alpha) {
+  return inversion(scaled_query(scene.query_of(kind, element), alpha)).verdict == Verdict::yes;
+}
+
+/// The pairs that may collide, and the elements that may invert, in steps scaled by any α up to
+/// `end`, for a search that tries many of these.
 ///
 /// **Theorem** (docs/theory.md, section 8.4). Let m be the greatest magnitude of a coordinate, and
 /// u = 2^-53. A pair that collides in the step scaled by α comes within the separation plus 32 u m
@@ -308,6 +345,12 @@ bool collides_scaled(const Scene& scene, PairKind kind, const IndexPair& pair, d
 /// m.)
 ///
 /// One search of the step with this separation finds them.
+///
+/// **Theorem** (docs/theory.md, section 10). Let R be the greatest coordinate of the edges from a
+/// vertex of an element at both ends of the step, and e = 11 u m. If 6 V(0) ≥ 2^10 · 18 e (R + e)²,
+/// and more than 2^-10 V(0) is left in the step up to `end`, it does not invert in such a step.
+///
+/// So the others are tried.
 class CloseTrials {
  public:
   CloseTrials(const Scene& scene, double end) : scene_(scene), end_(end) {
@@ -324,21 +367,27 @@ class CloseTrials {
     wider.distance =
         (wider.distance + (0x1p-48 * size + 0x1p-1070)) * (1.0 + 0x1p-50) + 0x1p-50 * thickness;
     is_complete_ = size <= 0x1p1000 && is_valid(wider) && std::isfinite(wider.distance + thickness);
-    if (is_complete_) find(wider);
+    if (!is_complete_) return;
+    find(wider);
+    find_elements(11.0 * 0x1p-53 * size + 0x1p-1070);
   }
 
   /// True if `is_free` answers for α.
   [[nodiscard]] bool covers(double alpha) const { return is_complete_ && alpha <= end_; }
 
-  /// True if no pair collides in the step scaled by α.
+  /// True if no pair collides and no element inverts in the step scaled by α.
   [[nodiscard]] bool is_free(double alpha) const {
-    return std::ranges::none_of(pairs_, [&](const NamedPair& one) {
-      return collides_scaled(scene_, one.kind, one.pair, alpha);
-    });
+    return std::ranges::none_of(elements_,
+                                [&](const NamedElement& one) {
+                                  return inverts_scaled(scene_, one.kind, one.number, alpha);
+                                }) &&
+           std::ranges::none_of(pairs_, [&](const NamedPair& one) {
+             return collides_scaled(scene_, one.kind, one.pair, alpha);
+           });
   }
 
  private:
-  /// The most pairs: to try more takes as long as a search of the scaled step.
+  /// The most pairs, and elements: to try more takes as long as a search of the scaled step.
   static constexpr std::size_t most = std::size_t{1} << 15U;
 
   void find(const Separation& wider) {
@@ -346,15 +395,53 @@ class CloseTrials {
     std::mutex mutex;
     for_each_possible_collision(near, end_, [&](PairKind kind, const IndexPair& pair) {
       const std::scoped_lock lock(mutex);
-      is_complete_ = pairs_.size() < most;
+      is_complete_ = is_complete_ && pairs_.size() < most;
       if (is_complete_) pairs_.push_back({kind, pair});
     });
   }
 
+  /// \param error e
+  void find_elements(double error) {
+    std::mutex mutex;
+    const auto take = [&](VolumeKind kind, std::int32_t number) {
+      const std::scoped_lock lock(mutex);
+      is_complete_ = is_complete_ && elements_.size() < most;
+      if (is_complete_) elements_.push_back({kind, number});
+    };
+    scene_.find_inversions(
+        {.kept_volume = 0x1p-10}, [&] { return is_complete_ ? end_ : -1.0; },
+        [&](const StepInversion& one) { take(one.kind, one.element); });
+    const auto take_thin = [&](VolumeKind kind, std::size_t size) {
+      for (std::size_t i = 0; i < size && is_complete_; ++i) {
+        const auto number = static_cast<std::int32_t>(i);
+        if (is_thin(scene_.query_of(kind, number), error)) take(kind, number);
+      }
+    };
+    take_thin(VolumeKind::tetrahedron, scene_.elements().tetrahedra.size());
+    take_thin(VolumeKind::plane_triangle, scene_.elements().plane_triangles.size());
+  }
+
+  /// True unless the inequality of the theorem is certain. (The computed determinant is wrong by
+  /// less than 2^-47 R³, and the rest of the factor is more than the other roundings.)
+  static bool is_thin(const Query& query, double error) {
+    std::array<Eigen::Vector3d, 3> edge;
+    double reach = 0.0;
+    for (const std::size_t end : {1U, 0U}) {
+      for (std::size_t i = 0; i < 3; ++i) {
+        edge.at(i) = query.point(end, i + 1) - query.point(end, 0);
+        reach = std::max(reach, edge.at(i).cwiseAbs().maxCoeff());
+      }
+    }
+    const double volume = edge[0].dot(edge[1].cross(edge[2])), wide = reach + error;
+    // NaN fails.
+    return !(volume > 0x1p16 * error * wide * wide + 0x1p-46 * wide * wide * wide + 0x1p-1000);
+  }
+
   const Scene& scene_;
   double end_;
-  bool is_complete_;
+  std::atomic<bool> is_complete_;
   std::vector<NamedPair> pairs_;
+  std::vector<NamedElement> elements_;
 };
 
 /// Search for a double in [0,1] that is free while the next one is not.
@@ -438,6 +525,10 @@ void require_in_range(const Scene& scene, PairKind kind, const IndexPair& pair) 
 
 std::string_view to_string(PairKind kind) { return record_of(kind).name; }
 
+std::string_view to_string(VolumeKind kind) {
+  return kind == VolumeKind::tetrahedron ? "tetrahedron" : "plane-triangle";
+}
+
 Step::Step(MovingVertices vertices, const MeshElements& elements, const StepOptions& options) {
   if (options.max_threads < 0) {
     throw std::invalid_argument("step: max_threads must not be negative");
@@ -468,6 +559,21 @@ std::vector<StepCollision> Step::collisions() const {
   return with_threads(scene_->certified().max_threads, [this] { return all_collisions(*scene_); });
 }
 
+std::vector<StepInversion> Step::inversions() const {
+  std::vector<StepInversion> result;
+  std::mutex mutex;
+  with_threads(scene_->certified().max_threads, [&] {
+    scene_->find_inversions(
+        scene_->inversion_options(), [this] { return scene_->certified().t_max; },
+        [&](const StepInversion& one) {
+          const std::scoped_lock lock(mutex);
+          result.push_back(one);
+        });
+  });
+  sort_by_number(result);
+  return result;
+}
+
 bool Step::is_free() const {
   return with_threads(scene_->certified().max_threads,
                       [this] { return !ImpactSearch(*scene_).is_any(); });
@@ -478,7 +584,16 @@ std::vector<Intersection> Step::intersections_at_start() const {
 }
 
 bool Step::starts_free() const {
-  return !has_intersections(start_of(*scene_), scene_->elements(), options_at_start(*scene_));
+  std::atomic<bool> is_free = true;
+  with_threads(scene_->certified().max_threads, [&] {
+    scene_->find_inversions(
+        scene_->inversion_options(), [&] { return is_free ? 0.0 : -1.0; },
+        [&](const StepInversion& one) {
+          if (one.start != 1) is_free = false;
+        });
+  });
+  return is_free &&
+         !has_intersections(start_of(*scene_), scene_->elements(), options_at_start(*scene_));
 }
 
 Step Step::scaled(double alpha) const {
@@ -501,11 +616,16 @@ std::optional<double> Step::free_step_size() const {
   }
   std::optional<CloseTrials> trials;
   const auto is_free = [&](double alpha) {
-    // The pairs that collide first in the whole step mostly do in a trial step that is not free.
-    const bool collides_again = std::ranges::any_of(impact->pairs, [&](const auto& one) {
-      return collides_scaled(*scene_, one.kind, one.pair, alpha);
-    });
-    if (collides_again) return false;
+    // Those that collide or invert first in the whole step mostly do in a trial step that is not
+    // free.
+    const bool is_hit_again =
+        std::ranges::any_of(
+            impact->pairs,
+            [&](const auto& one) { return collides_scaled(*scene_, one.kind, one.pair, alpha); }) ||
+        std::ranges::any_of(impact->inversions, [&](const auto& one) {
+          return inverts_scaled(*scene_, one.kind, one.element, alpha);
+        });
+    if (is_hit_again) return false;
     if (alpha < 1.0 && !trials) {
       // Steps that are free beyond this are rare: rounding would have to move them as far.
       const double end = std::min(1.0, impact->toi_upper * (1.0 + 0x1p-6));

@@ -29,12 +29,16 @@ struct TouchstoneStep {
   std::vector<touchstone::fast::Edge> edges;
   std::vector<touchstone::fast::Face> faces;
   std::vector<std::int32_t> points;
+  std::vector<touchstone::fast::Tetrahedron> tetrahedra;
+  std::vector<touchstone::fast::Face> plane_triangles;
   std::optional<touchstone::fast::Step> step;
   // The arrays whose addresses the functions return.
   std::vector<TouchstoneCollision> collisions;
   std::vector<TouchstonePair> nearest;
   std::vector<TouchstoneActiveContact> active;
+  std::vector<TouchstoneStepInversion> inversions;
   std::vector<TouchstoneCollision> limiting;
+  std::vector<TouchstoneStepInversion> limiting_elements;
 };
 
 namespace touchstone::adapters {
@@ -203,6 +207,10 @@ std::unique_ptr<TouchstoneStep> step_of(const TouchstoneMesh& mesh,
   result->edges = copied<fast::Edge>(mesh.edge_vertices, mesh.edges, "edge_vertices");
   result->faces = copied<fast::Face>(mesh.face_vertices, mesh.faces, "face_vertices");
   result->points = copied<std::int32_t>(mesh.point_vertices, mesh.points, "point_vertices");
+  result->tetrahedra =
+      copied<fast::Tetrahedron>(mesh.tetrahedron_vertices, mesh.tetrahedra, "tetrahedron_vertices");
+  result->plane_triangles = copied<fast::Face>(mesh.plane_triangle_vertices, mesh.plane_triangles,
+                                               "plane_triangle_vertices");
   const auto apart =
       copied<std::array<std::int32_t, 2>>(mesh.apart_groups, mesh.apart, "apart_groups");
   const auto before = copied<std::array<double, 3>>(mesh.before, mesh.vertices, "before");
@@ -221,15 +229,18 @@ std::unique_ptr<TouchstoneStep> step_of(const TouchstoneMesh& mesh,
     can_collide = [rule = mesh.can_collide, context = mesh.can_collide_context](
                       std::int32_t a, std::int32_t b) { return rule(context, a, b) != 0; };
   }
-  result->step.emplace(
-      coordinates(before), coordinates(after),
-      fast::MeshElements{.edges = result->edges, .faces = result->faces, .points = result->points},
-      fast::StepOptions{.separation = separation_of(options),
-                        .toi_tolerance = options.toi_tolerance,
-                        .t_max = options.t_max,
-                        .max_threads = options.max_threads,
-                        .groups = groups,
-                        .can_collide = std::move(can_collide)});
+  result->step.emplace(coordinates(before), coordinates(after),
+                       fast::MeshElements{.edges = result->edges,
+                                          .faces = result->faces,
+                                          .points = result->points,
+                                          .tetrahedra = result->tetrahedra,
+                                          .plane_triangles = result->plane_triangles},
+                       fast::StepOptions{.separation = separation_of(options),
+                                         .toi_tolerance = options.toi_tolerance,
+                                         .t_max = options.t_max,
+                                         .max_threads = options.max_threads,
+                                         .groups = groups,
+                                         .can_collide = std::move(can_collide)});
   return result;
 }
 
@@ -240,6 +251,11 @@ TouchstonePair pair_of(fast::PairKind kind, const fast::IndexPair& pair) {
 TouchstoneCollision collision_of(const fast::StepCollision& collision) {
   return {pair_of(collision.kind, collision.pair), collision.toi_lower, collision.toi_upper,
           collision.u, collision.v};
+}
+
+TouchstoneStepInversion inversion_in_step(const fast::StepInversion& one) {
+  return {static_cast<std::int32_t>(one.kind), one.element, one.start, one.toi_lower,
+          one.toi_upper};
 }
 
 fast::StepCollision collision_from(const TouchstoneCollision& collision) {
@@ -285,7 +301,8 @@ fast::LineSearchOptions line_search_options_of(const TouchstoneLineSearchOptions
         "start_distance is neither TOUCHSTONE_OF_SCENE nor TOUCHSTONE_OF_PAIR");
   }
   return {.norm = norm_of(options.norm),
-          .start_distance = static_cast<fast::StartDistance>(options.start_distance)};
+          .start_distance = static_cast<fast::StartDistance>(options.start_distance),
+          .kept_volume = options.kept_volume};
 }
 
 static_assert(static_cast<int>(fast::Verdict::no) == TOUCHSTONE_NO);
@@ -297,6 +314,10 @@ static_assert(static_cast<int>(fast::LineSearchStatus::whole) == TOUCHSTONE_WHOL
 static_assert(static_cast<int>(fast::LineSearchStatus::limited) == TOUCHSTONE_LIMITED);
 static_assert(static_cast<int>(fast::LineSearchStatus::in_contact) == TOUCHSTONE_IN_CONTACT);
 static_assert(static_cast<int>(fast::LineSearchStatus::too_small) == TOUCHSTONE_TOO_SMALL);
+static_assert(static_cast<int>(fast::LineSearchStatus::inverted) == TOUCHSTONE_INVERTED);
+
+static_assert(static_cast<int>(fast::VolumeKind::tetrahedron) == TOUCHSTONE_TETRAHEDRON);
+static_assert(static_cast<int>(fast::VolumeKind::plane_triangle) == TOUCHSTONE_PLANE_TRIANGLE);
 
 static_assert(static_cast<int>(fast::PairKind::vertex_face) == TOUCHSTONE_VERTEX_FACE);
 static_assert(static_cast<int>(fast::PairKind::edge_edge) == TOUCHSTONE_EDGE_EDGE);
@@ -379,6 +400,19 @@ std::int32_t touchstone_step_collisions(TouchstoneStep* step,
   });
 }
 
+std::int32_t touchstone_step_inversions(TouchstoneStep* step,
+                                        const TouchstoneStepInversion** inversions,
+                                        std::size_t* count) {
+  return guarded([&] {
+    TouchstoneStep& asked = required(step, "step");
+    const TouchstoneStepInversion*& first = required(inversions, "inversions");
+    std::size_t& number = required(count, "count");
+    refill(asked.inversions, asked.step->inversions(), inversion_in_step);
+    first = asked.inversions.data();
+    number = asked.inversions.size();
+  });
+}
+
 std::int32_t touchstone_step_contacts(const TouchstoneStep* step,
                                       const TouchstoneCollision* collisions, std::size_t count,
                                       TouchstoneActiveContact* contacts) {
@@ -435,7 +469,7 @@ std::int32_t touchstone_step_active_set(TouchstoneStep* step, double eta, std::i
 }
 
 TouchstoneLineSearchOptions touchstone_default_line_search_options() {
-  return {TOUCHSTONE_L2, TOUCHSTONE_OF_SCENE};
+  return {TOUCHSTONE_L2, TOUCHSTONE_OF_SCENE, 0.0};
 }
 
 std::int32_t touchstone_step_line_search_limit(TouchstoneStep* step, double p,
@@ -449,7 +483,13 @@ std::int32_t touchstone_step_line_search_limit(TouchstoneStep* step, double p,
         line_search_options_of(options != nullptr ? *options
                                                   : touchstone_default_line_search_options()));
     refill(asked.limiting, found.pairs, collision_of);
-    written = {static_cast<std::int32_t>(found.status), found.step_size,
-               distance_of(found.distance), asked.limiting.data(), asked.limiting.size()};
+    refill(asked.limiting_elements, found.inversions, inversion_in_step);
+    written = {static_cast<std::int32_t>(found.status),
+               found.step_size,
+               distance_of(found.distance),
+               asked.limiting.data(),
+               asked.limiting.size(),
+               asked.limiting_elements.data(),
+               asked.limiting_elements.size()};
   });
 }

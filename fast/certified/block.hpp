@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -16,6 +17,7 @@
 #include "fast/platform/floating_point_state.hpp"
 #include "fast/platform/threads.hpp"
 #include "touchstone/certified.hpp"
+#include "touchstone/inversion.hpp"
 #include "touchstone/query.hpp"
 
 namespace touchstone::fast {
@@ -122,5 +124,12 @@ const KernelOutput& decide_block(KernelInput block, double t_limit, const Certif
       report);
   return output;
 }
+
+/// The same for the elements of a mesh from number `first` on, a block at most: report(number,
+/// result) for those that invert, in order. Inversions after t_limit may be left out; the results
+/// of the others do not depend on it. \pre strict floating point
+void decide_elements(const KernelInput& elements, std::size_t size, std::size_t first,
+                     double t_limit, const InversionOptions& options,
+                     const std::function<void(std::size_t, const InversionResult&)>& report);
 
 }  // namespace touchstone::fast

@@ -50,6 +50,8 @@ struct KernelInput {
   double toi_tolerance = 1e-12;
   /// Contacts after this time may or may not be found.
   double t_limit = 1.0;
+  /// Elements invert when no more than this part of their volume at t=0 is left, in [0,1).
+  double kept_volume = 0.0;
 };
 
 /// The least tolerance for which the rounding of the enclosure's ends is negligible.
@@ -109,10 +111,9 @@ using KernelFunction = void(const KernelInput& input, KernelOutput& output);
 struct CertifiedKernel {
   InstructionSet instructions;
   KernelFunction* decide;
-  /// Inversions of elements (fast/certified/stages/inversion.hpp). Elements that are in no list
-  /// have a positive volume at all times, as have the rejected ones up to t_limit; those in
-  /// `one_sided` are inverted at t=0; impacts are the first times of those with a positive volume
-  /// at t=0.
+  /// Inversions of elements (fast/certified/stages/inversion.hpp). Elements that are in no list,
+  /// and the rejected ones, do not invert up to t_limit; those in `one_sided` are inverted at t=0;
+  /// impacts are the first times of those with a positive volume at t=0.
   KernelFunction* invert;
   /// Lists the queries on curves that no axis separates (fast/certified/curves/stages.hpp).
   void (*curved_axis)(const curved::Block& block, KernelOutput::List<std::uint32_t>& open);

@@ -45,6 +45,8 @@ MovingVertices checked(MovingVertices vertices, const MeshElements& elements) {
   require_in_range(vertices, elements.edges);
   require_in_range(vertices, elements.faces);
   require_in_range(vertices, elements.points);
+  require_in_range(vertices, elements.tetrahedra);
+  require_in_range(vertices, elements.plane_triangles);
   return vertices;
 }
 
@@ -119,7 +121,9 @@ SceneMesh::SceneMesh(std::size_t vertex_count, const MeshElements& given,
     : edges_of_faces(given.edges.empty() ? edges_of(given.faces) : std::vector<Edge>()),
       elements{.edges = given.edges.empty() ? edges_of_faces : given.edges,
                .faces = given.faces,
-               .points = given.points},
+               .points = given.points,
+               .tetrahedra = given.tetrahedra,
+               .plane_triangles = given.plane_triangles},
       vertices(vertices_of(vertex_count, elements)),
       codimensional(fast::codimensional(vertex_count, vertices, elements)),
       points_as_faces(fast::as_faces(codimensional.points)),
@@ -319,6 +323,46 @@ bool Scene::primitives_meet(const Primitive& a, const Primitive& b) const {
   return mesh_->bodies.meet(vertices(a), vertices(b));
 }
 
+// ---- Elements -----------------------------------------------------------------------------------
+
+void Scene::find_inversions(const InversionOptions& options, const std::function<double()>& limit,
+                            const std::function<void(const StepInversion&)>& report) const {
+  const auto find = [&](VolumeKind kind, const KernelInput& input, std::size_t size) {
+    tbb::parallel_for(std::size_t{0}, (size + kernel_block - 1) / kernel_block, [&](std::size_t i) {
+      if (stop_ != nullptr && stop_->load(std::memory_order_relaxed)) throw Stopped();
+      const double t_limit = limit();
+      if (t_limit < 0.0) return;
+      const StrictFloatingPoint strict;
+      decide_elements(input, size, i * kernel_block, t_limit, options,
+                      [&](std::size_t element, const InversionResult& result) {
+                        report({.kind = kind,
+                                .element = static_cast<std::int32_t>(element),
+                                .start = result.start,
+                                .toi_lower = result.toi_lower,
+                                .toi_upper = result.toi_upper});
+                      });
+    });
+  };
+  find(VolumeKind::tetrahedron,
+       {.vertices = vertices_.data(), .tetrahedra = elements().tetrahedra.data()},
+       elements().tetrahedra.size());
+  find(VolumeKind::plane_triangle,
+       {.vertices = vertices_.data(), .faces = elements().plane_triangles.data()},
+       elements().plane_triangles.size());
+}
+
+Query Scene::query_of(VolumeKind kind, std::int32_t element) const {
+  if (kind == VolumeKind::tetrahedron) {
+    return fast::query_of(vertices_, at(elements().tetrahedra, element));
+  }
+  const auto [a, b, c] = at(elements().plane_triangles, element);
+  Query query = fast::query_of(vertices_, {a, b, c, b});
+  for (std::size_t i = 2; i < query.coordinates.size(); i += 3) {
+    query.coordinates[i] = i % 12 == 11 ? 1.0 : 0.0;
+  }
+  return query;
+}
+
 // ---- Pairs --------------------------------------------------------------------------------------
 
 IndexPair Scene::reported(PairKind kind, const IndexPair& pair) const {
@@ -406,6 +450,12 @@ void sort_by_pair(std::vector<StepCollision>& collisions) {
   });
 }
 
+void sort_by_number(std::vector<StepInversion>& inversions) {
+  std::ranges::sort(inversions, [](const StepInversion& a, const StepInversion& b) {
+    return std::tie(a.kind, a.element) < std::tie(b.kind, b.element);
+  });
+}
+
 Distance less(const Distance& distance, double thickness) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   if (thickness == 0.0) return distance;
@@ -440,12 +490,7 @@ std::array<std::int32_t, moving_points> Scene::vertices_of(PairKind kind,
 }
 
 Query Scene::query_of(PairKind kind, const IndexPair& pair) const {
-  const auto [a, b, c, d] = vertices_of(kind, pair);
-  const std::array<Edge, 2> edges{{{a, b}, {c, d}}};
-  const std::array<Face, 1> faces{{{b, c, d}}};
-  const Candidates of_one{.kind = Step::kind_of(kind), .pairs = {}, .edges = edges, .faces = faces};
-  return fast::query_of(vertices_, of_one,
-                        of_one.kind == Kind::edge_edge ? IndexPair{0, 1} : IndexPair{a, 0});
+  return fast::query_of(vertices_, vertices_of(kind, pair));
 }
 
 }  // namespace touchstone::fast

@@ -154,6 +154,7 @@ struct SceneGroups {
 
 /// Sorts by kind, then by the numbers of the primitives.
 void sort_by_pair(std::vector<StepCollision>& collisions);
+void sort_by_number(std::vector<StepInversion>& inversions);
 
 class Scene final : private PairQuestions {
  public:
@@ -199,6 +200,20 @@ class Scene final : private PairQuestions {
   /// Appends exactly the pairs whose swept boxes are within the separation.
   /// \param trees swept_trees()
   void find_candidates(const Trees<1>& trees, const SearchPart& part, PairBuffer& pairs) const;
+
+  // ---- Elements ----
+
+  /// The options of the step.
+  [[nodiscard]] InversionOptions inversion_options() const {
+    return {.toi_tolerance = certified_.toi_tolerance, .t_max = certified_.t_max};
+  }
+  /// Calls report(inversion), in several threads, for the elements that invert at times up to
+  /// limit(), which may fall, and is negative to end the search; later inversions may be reported,
+  /// too. Uses the threads of the caller's task arena. \throws Stopped
+  void find_inversions(const InversionOptions& options, const std::function<double()>& limit,
+                       const std::function<void(const StepInversion&)>& report) const;
+  /// An element as a tetrahedron.
+  [[nodiscard]] Query query_of(VolumeKind kind, std::int32_t element) const;
 
   // ---- Pairs ----
 

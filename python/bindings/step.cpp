@@ -146,6 +146,17 @@ py::dict contact_layout() {
       .dict();
 }
 
+py::dict step_inversion_layout() {
+  using Item = fast::StepInversion;
+  return Layout(sizeof(Item))
+      .add("kind", "u1", offsetof(Item, kind))
+      .add("element", "i4", offsetof(Item, element))
+      .add("start", "i1", offsetof(Item, start))
+      .add("toi_lower", "f8", offsetof(Item, toi_lower))
+      .add("toi_upper", "f8", offsetof(Item, toi_upper))
+      .dict();
+}
+
 struct Pair {
   fast::PairKind kind;
   fast::IndexPair pair;
@@ -194,21 +205,31 @@ struct Elements {
   std::vector<std::int32_t> points;
   std::vector<std::int32_t> groups;
   std::vector<std::array<std::int32_t, 2>> apart;
+  std::vector<fast::Tetrahedron> tetrahedra = {};
+  std::vector<fast::Face> plane_triangles = {};
   /// Ends the searches of all steps of these elements.
   mutable std::atomic<bool> stop = false;
 
   [[nodiscard]] fast::MeshElements mesh() const {
-    return {.edges = edges, .faces = faces, .points = points};
+    return {.edges = edges,
+            .faces = faces,
+            .points = points,
+            .tetrahedra = tetrahedra,
+            .plane_triangles = plane_triangles};
   }
 };
 
 Elements elements_from(const Integers& faces, const Integers& edges, const Integers& points,
-                       const Integers& groups, const Integers& apart) {
+                       const Integers& groups, const Integers& apart,
+                       const std::vector<fast::Tetrahedron>& tetrahedra = {},
+                       const std::vector<fast::Face>& plane_triangles = {}) {
   return {.edges = rows_of<fast::Edge>(edges),
           .faces = rows_of<fast::Face>(faces),
           .points = rows_of<std::int32_t>(points),
           .groups = rows_of<std::int32_t>(groups),
-          .apart = rows_of<std::array<std::int32_t, 2>>(apart)};
+          .apart = rows_of<std::array<std::int32_t, 2>>(apart),
+          .tetrahedra = tetrahedra,
+          .plane_triangles = plane_triangles};
 }
 
 /// The result of work(); `progress`, unless None, is called now and then. \throws as
@@ -234,10 +255,13 @@ class OwningStep {
  public:
   OwningStep(const Doubles& before, const Doubles& after, const Integers& faces,
              const Integers& edges, const Integers& points, const Integers& groups,
-             const Integers& apart, const Doubles& radii, const Integers& separated,
-             const Doubles& separations, const py::object& can_collide, double separation,
-             const std::string& norm, double toi_tolerance, double t_max, int threads)
-      : elements_(new Elements(elements_from(faces, edges, points, groups, apart))) {
+             const Integers& apart, const Integers& tetrahedra, const Integers& plane_triangles,
+             const Doubles& radii, const Integers& separated, const Doubles& separations,
+             const py::object& can_collide, double separation, const std::string& norm,
+             double toi_tolerance, double t_max, int threads)
+      : elements_(new Elements(elements_from(faces, edges, points, groups, apart,
+                                             rows_of<fast::Tetrahedron>(tetrahedra),
+                                             rows_of<fast::Face>(plane_triangles)))) {
     fast::MovingVertices vertices = vertices_of(before, after);
     const std::vector<fast::GroupSeparation> of_groups = separations_from(separated, separations);
     const fast::StepOptions options{.separation = separation_from(separation, norm),
@@ -265,16 +289,24 @@ class OwningStep {
     return result;
   }
 
-  /// (toi_lower, toi_upper, collisions), or None.
+  /// (toi_lower, toi_upper, collisions, inversions), or None.
   [[nodiscard]] py::object earliest(const py::object& progress) const {
     const auto impact = search(progress, [](const fast::Step& step) { return step.earliest(); });
     if (!impact) return py::none();
     return py::make_tuple(impact->toi_lower, impact->toi_upper,
-                          array_of(impact->pairs, collision_layout()));
+                          array_of(impact->pairs, collision_layout()),
+                          array_of(impact->inversions, step_inversion_layout()));
   }
   [[nodiscard]] py::array collisions(const py::object& progress) const {
     return array_of(search(progress, [](const fast::Step& step) { return step.collisions(); }),
                     collision_layout());
+  }
+  [[nodiscard]] py::array inversions(const py::object& progress) const {
+    return array_of(search(progress, [](const fast::Step& step) { return step.inversions(); }),
+                    step_inversion_layout());
+  }
+  [[nodiscard]] bool starts_free(const py::object& progress) const {
+    return search(progress, [](const fast::Step& step) { return step.starts_free(); });
   }
   [[nodiscard]] bool is_free(const py::object& progress) const {
     return search(progress, [](const fast::Step& step) { return step.is_free(); });
@@ -300,19 +332,21 @@ class OwningStep {
     });
     return array_of(found, contact_layout());
   }
-  /// (status, step size, (lower, upper) of the distance, pairs).
+  /// (status, step size, (lower, upper) of the distance, pairs, inversions).
   [[nodiscard]] py::tuple line_search_limit(double p, const std::string& norm, bool of_pair,
-                                            const py::object& progress) const {
+                                            double kept_volume, const py::object& progress) const {
     const fast::LineSearchOptions options{
         .norm = separation_from(0.0, norm).norm,
-        .start_distance = of_pair ? fast::StartDistance::of_pair : fast::StartDistance::of_scene};
+        .start_distance = of_pair ? fast::StartDistance::of_pair : fast::StartDistance::of_scene,
+        .kept_volume = kept_volume};
     const auto limit = search(progress, [p, options](const fast::Step& step) {
       return fast::line_search_limit(step, p, options);
     });
-    constexpr std::array statuses{"whole", "limited", "in_contact", "too_small"};
+    constexpr std::array statuses{"whole", "limited", "in_contact", "too_small", "inverted"};
     return py::make_tuple(statuses.at(static_cast<std::size_t>(limit.status)), limit.step_size,
                           py::make_tuple(limit.distance.lower, limit.distance.upper),
-                          array_of(limit.pairs, collision_layout()));
+                          array_of(limit.pairs, collision_layout()),
+                          array_of(limit.inversions, step_inversion_layout()));
   }
   [[nodiscard]] py::array candidates(const py::object& progress) const {
     const auto pairs = search(progress, [](const fast::Step& step) {
@@ -426,24 +460,27 @@ void define_step(py::module_& m) {
   // A class of the usual kind, as its stub has it.
   py::class_<OwningStep>(m, "Step", py::metaclass(reinterpret_cast<PyObject*>(&PyType_Type)))
       .def(py::init<const Doubles&, const Doubles&, const Integers&, const Integers&,
-                    const Integers&, const Integers&, const Integers&, const Doubles&,
-                    const Integers&, const Doubles&, const py::object&, double, const std::string&,
-                    double, double, int>(),
+                    const Integers&, const Integers&, const Integers&, const Integers&,
+                    const Integers&, const Doubles&, const Integers&, const Doubles&,
+                    const py::object&, double, const std::string&, double, double, int>(),
            arg("before").noconvert(), arg("after").noconvert(), arg("faces").noconvert(),
            arg("edges").noconvert(), arg("points").noconvert(), arg("groups").noconvert(),
-           arg("apart").noconvert(), arg("radii").noconvert(), arg("separated").noconvert(),
-           arg("separations").noconvert(), arg("can_collide"), arg("separation"), arg("norm"),
-           arg("toi_tolerance"), arg("t_max"), arg("threads"))
+           arg("apart").noconvert(), arg("tetrahedra").noconvert(),
+           arg("plane_triangles").noconvert(), arg("radii").noconvert(),
+           arg("separated").noconvert(), arg("separations").noconvert(), arg("can_collide"),
+           arg("separation"), arg("norm"), arg("toi_tolerance"), arg("t_max"), arg("threads"))
       .def("moved", &OwningStep::moved, arg("before").noconvert(), arg("after").noconvert(),
            arg("separation"), arg("norm"))
       .def("earliest", &OwningStep::earliest, arg("progress"))
       .def("collisions", &OwningStep::collisions, arg("progress"))
+      .def("inversions", &OwningStep::inversions, arg("progress"))
+      .def("starts_free", &OwningStep::starts_free, arg("progress"))
       .def("is_free", &OwningStep::is_free, arg("progress"))
       .def("free_step_size", &OwningStep::free_step_size, arg("progress"))
       .def("contacts", &OwningStep::contacts, arg("collisions"), arg("progress"))
       .def("active_set", &OwningStep::active_set, arg("eta"), arg("norm"), arg("progress"))
       .def("line_search_limit", &OwningStep::line_search_limit, arg("p"), arg("norm"),
-           arg("of_pair"), arg("progress"))
+           arg("of_pair"), arg("kept_volume"), arg("progress"))
       .def("candidates", &OwningStep::candidates, arg("progress"))
       .def("least_distance", &OwningStep::least_distance, arg("t"), arg("norm"), arg("progress"))
       .def("edges", &OwningStep::edges)

@@ -59,6 +59,7 @@ from .scene import (
     LineSearchLimit,
     PairKind,
     Step,
+    VolumeKind,
     intersections,
     inversions,
 )
@@ -89,6 +90,7 @@ __all__ = [
     "TightInclusionResult",
     "Verdict",
     "View",
+    "VolumeKind",
     "WrongAnswer",
     "__commit__",
     "__version__",

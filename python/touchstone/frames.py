@@ -4,8 +4,8 @@
     touchstone step run.npz
 
 VTK, VTU, XDMF, Gmsh and others are read by meshio (Debian's python3-meshio). Triangles are faces, quads and polygons fans of
-triangles; of tetrahedra, hexahedra, wedges and pyramids the surface is taken: the faces of one cell only. Lines are edges of
-their own, vertices points. Cells with nodes on their edges are curved, and refused.
+triangles; of tetrahedra, hexahedra, wedges and pyramids the surface is taken: the faces of one cell only. Tetrahedra are also
+elements whose volume is to stay positive. Lines are edges of their own, vertices points. Cells with nodes on their edges are curved, and refused.
 """
 
 from __future__ import annotations
@@ -53,6 +53,7 @@ class Elements:
     edges : ndarray of shape (k, 2)
         Those of no face.
     points : ndarray of shape (p,)
+    tetrahedra : ndarray of shape (q, 4)
     notes : list of str
         What was read in another form.
     """
@@ -60,7 +61,13 @@ class Elements:
     faces: Indices
     edges: Indices
     points: Indices
+    tetrahedra: Indices
     notes: List[str]
+
+    @property
+    def arrays(self) -> Dict[str, Indices]:
+        """The arrays that an archive has, by their names."""
+        return {"F": self.faces, "E": self.edges, "P": self.points, "T": self.tetrahedra}
 
 
 @dataclass(frozen=True)
@@ -118,7 +125,7 @@ def elements_of(mesh: Any, name: str) -> Elements:
     """
     cells = [(str(block.type), np.asarray(block.data)) for block in mesh.cells]
     of_faces: List[Indices] = []
-    of: Dict[str, List[Indices]] = {"line": [], "vertex": []}
+    of: Dict[str, List[Indices]] = {"line": [], "vertex": [], "tetra": []}
     polygons = 0
     for kind, corners in cells:
         if kind in of:
@@ -143,6 +150,7 @@ def elements_of(mesh: Any, name: str) -> Elements:
         faces[first],
         np.concatenate(of["line"] or [np.empty((0, 2), np.int64)]),
         np.concatenate(of["vertex"] or [np.empty((0, 1), np.int64)]).reshape(-1),
+        np.concatenate(of["tetra"] or [np.empty((0, 4), np.int64)]),
         notes,
     )
     if not len(result.faces) + len(result.edges) + len(result.points):
@@ -239,7 +247,7 @@ def convert(paths: Sequence[Path], out: Path, *, displacement: str | None = None
     paths : sequence of path-like
         The files in the order of time, a frame each; an XDMF file has all its steps.
     out : path-like
-        The archive (.npz): `V` of the shape (T, n, 3), `F` (m, 3), `E` (k, 2), `P` (p,). It appears when it is whole.
+        The archive (.npz): `V` of the shape (T, n, 3), `F` (m, 3), `E` (k, 2), `P` (p,), `T` (q, 4). It appears when it is whole.
     displacement : str, optional
         A field of the vertices that is added to their places, as `solution` in polyfem's output.
     groups : str, optional
@@ -280,7 +288,7 @@ def convert(paths: Sequence[Path], out: Path, *, displacement: str | None = None
                 numpy_format.write_array_header_2_0(entry, {"descr": "<f8", "fortran_order": False, "shape": shape})
                 while block := file.read(1 << 20):
                     entry.write(block)
-            for name, array in (("F", elements.faces), ("E", elements.edges), ("P", elements.points)):
+            for name, array in elements.arrays.items():
                 if len(array):
                     with archive.open(f"{name}.npy", "w") as entry:
                         numpy_format.write_array(entry, array)
@@ -300,10 +308,7 @@ def has_elements(frame: Frame, first: Frame, elements: Elements) -> bool:
     ):
         return True
     own = elements_of(frame.mesh, frame.name)
-    return all(
-        np.array_equal(a, b)
-        for a, b in ((own.faces, elements.faces), (own.edges, elements.edges), (own.points, elements.points))
-    )
+    return all(np.array_equal(array, elements.arrays[name]) for name, array in own.arrays.items())
 
 
 def by_number(name: str) -> List[Tuple[str, int]]:
@@ -335,7 +340,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
         return 2
     for note in elements.notes:
         print(f"touchstone.frames: {note}", file=sys.stderr)
-    counts = ((len(elements.faces), "faces"), (len(elements.edges), "edges of their own"), (len(elements.points), "points"))
+    names = ("faces", "edges of their own", "points", "tetrahedra")
+    counts = zip(map(len, elements.arrays.values()), names)
     print(f"written: {options.out}: " + ", ".join(f"{count} {what}" for count, what in counts if count))
     if options.groups:
         print(f"written: {pathlib.Path(options.out).with_suffix('.groups')}")

@@ -26,6 +26,13 @@ class PairKind(IntEnum):
     VERTEX_VERTEX = 3
 
 
+class VolumeKind(IntEnum):
+    """The elements that have a volume, or an area in the plane."""
+
+    TETRAHEDRON = 0
+    PLANE_TRIANGLE = 1
+
+
 class ElementKind(IntEnum):
     """The elements of a mesh."""
 
@@ -61,11 +68,14 @@ class Impact:
         An enclosure of its time.
     pairs : structured ndarray
         The collisions that may be the first one, as `Step.collisions` has them.
+    inversions : structured ndarray
+        Likewise the inversions, as `Step.inversions` has them.
     """
 
     toi_lower: float
     toi_upper: float
     pairs: npt.NDArray[np.void]
+    inversions: npt.NDArray[np.void]
 
 
 @dataclass(frozen=True)
@@ -91,21 +101,24 @@ class LineSearchLimit:
 
     Attributes
     ----------
-    status : {"whole", "limited", "in_contact", "too_small"}
-        The reason for the step size.
+    status : {"whole", "limited", "in_contact", "too_small", "inverted"}
+        The reason for the step size; "inverted": an element is flat or inverted at the start.
     step_size : float
         The step size that is allowed, rounded down.
     distance_lower, distance_upper : float
         An enclosure of the least distance at the start.
     pairs : structured ndarray
         The pairs that limit the step, or are in contact, as `Step.collisions` has them.
+    inversions : structured ndarray
+        The elements that limit the step, as `Step.inversions` has them.
     """
 
-    status: Literal["whole", "limited", "in_contact", "too_small"]
+    status: Literal["whole", "limited", "in_contact", "too_small", "inverted"]
     step_size: float
     distance_lower: float
     distance_upper: float
     pairs: npt.NDArray[np.void]
+    inversions: npt.NDArray[np.void]
 
 
 def _ending_with_interrupts(work: Callable[[], Value]) -> Value:
@@ -130,7 +143,8 @@ def _as_thickness(
 class Step:
     """A step of a mesh whose vertices move on straight lines from t=0 to t=1.
 
-    Two primitives collide if they have a common point at some time, or come within the separation.
+    Two primitives collide if they have a common point at some time, or come within the separation. An
+    element inverts if its volume is 0 or negative at some time.
     Answers are exact, and the same for any number of threads. Vertices alone collide with nothing: a
     step without faces, edges and points is free, and `prove` refuses it.
 
@@ -148,6 +162,12 @@ class Step:
         The group of each vertex, from 0 on; by default all are in group 0.
     apart : array_like of int, shape (k, 2), optional
         Pairs of groups that cannot collide; the same group twice: not within it.
+    tetrahedra : array_like of int, shape (m, 4), optional
+        Elements a, b, c, d whose volume, with the sign of det(b - a, c - a, d - a), is to stay positive.
+        They do not collide.
+    plane_triangles : array_like of int, shape (k, 3), optional
+        Elements whose area in the plane of x and y, positive if counterclockwise, is to stay so. They
+        do not collide.
     radii : array_like of float, shape (g,), optional
         The radius of each group. Primitives are in contact within the separation and the greatest sum
         of the radii of a vertex of one and a vertex of the other: in "l2" vertices are spheres, and
@@ -214,6 +234,8 @@ class Step:
         points: npt.ArrayLike | None = None,
         groups: npt.ArrayLike | None = None,
         apart: npt.ArrayLike | None = None,
+        tetrahedra: npt.ArrayLike | None = None,
+        plane_triangles: npt.ArrayLike | None = None,
         radii: npt.ArrayLike | None = None,
         separations: Mapping[Tuple[int, int], float] | None = None,
         can_collide: Callable[[int, int], bool] | None = None,
@@ -234,6 +256,8 @@ class Step:
             as_indices(points, "points", None),
             as_indices(groups, "groups", None),
             as_indices(apart, "apart", 2),
+            as_indices(tetrahedra, "tetrahedra", 4),
+            as_indices(plane_triangles, "plane_triangles", 3),
         )
         self._thickness = _as_thickness(radii, separations)
         if can_collide is not None and not callable(can_collide):
@@ -367,8 +391,24 @@ class Step:
             collisions = np.ascontiguousarray(collisions)
         return self._search(lambda progress: self._step.contacts(collisions, progress))
 
+    def inversions(self) -> npt.NDArray[np.void]:
+        """Return all elements that invert, an item each, tetrahedra first.
+
+        Returns
+        -------
+        structured ndarray
+            With the fields `kind` (see `VolumeKind`), `element` (its number among those of its kind),
+            `start` (the sign of its volume at t=0: 1, 0 or -1), `toi_lower` and `toi_upper`; both are
+            0 if it is flat or inverted at t=0.
+        """
+        return self._search(self._step.inversions)
+
+    def starts_free(self) -> bool:
+        """Return True if at t=0 the mesh does not intersect itself, and no element is flat or inverted."""
+        return self._search(self._step.starts_free)
+
     def is_free(self) -> bool:
-        """Return True if there is no collision."""
+        """Return True if there is no collision and no inversion."""
         return self._search(self._step.is_free)
 
     def free_step_size(self) -> float | None:
@@ -399,9 +439,11 @@ class Step:
 
     @checked
     def line_search_limit(
-        self, p: float, *, norm: Norm = "l2", of_pair: bool = False
+        self, p: float, *, norm: Norm = "l2", of_pair: bool = False, kept_volume: float = 0.0
     ) -> LineSearchLimit:
         """Return the step size up to which all primitives stay p times as far apart as at the start.
+
+        Up to it, all elements keep more than a part of their volumes, too.
 
         Parameters
         ----------
@@ -411,16 +453,19 @@ class Step:
             The norm of distances.
         of_pair : bool, optional
             False: the reference is the least distance of the scene. True: each pair's own.
+        kept_volume : float, optional
+            The part of its volume at t=0 of which an element must keep more, in [0, 1). With 0, no
+            element inverts.
 
         Returns
         -------
         LineSearchLimit
-            The step size, the reason for it, and the pairs that limit it.
+            The step size, the reason for it, and the pairs and elements that limit it.
         """
-        status, size, (lower, upper), pairs = self._search(
-            lambda progress: self._step.line_search_limit(p, norm, of_pair, progress)
+        status, size, (lower, upper), pairs, inversions = self._search(
+            lambda progress: self._step.line_search_limit(p, norm, of_pair, kept_volume, progress)
         )
-        return LineSearchLimit(status, size, lower, upper, pairs)
+        return LineSearchLimit(status, size, lower, upper, pairs, inversions)
 
     def candidates(self) -> npt.NDArray[np.void]:
         """Return all pairs whose swept boxes are within the separation, sorted.
@@ -462,8 +507,8 @@ class Step:
         Raises
         ------
         ValueError
-            If there is no proof within the limits of the format, or the step has a rule `can_collide`,
-            which certificates cannot have.
+            If there is no proof within the limits of the format, or the step has a rule `can_collide` or
+            elements with volumes, which certificates cannot have.
         FileNotFoundError
             Without the command line tool.
         Interrupted
@@ -471,7 +516,9 @@ class Step:
         """
         if self._can_collide is not None:
             raise ValueError("prove: certificates know groups alone, not a rule can_collide")
-        faces, edges, points, groups, apart = self._elements
+        faces, edges, points, groups, apart, *volumes = self._elements
+        if any(len(elements) for elements in volumes):
+            raise ValueError("prove: certificates of steps know no tetrahedra and plane triangles")
         radii, separated, separations = self._thickness
         with Run() as run:
             frames = run.folder / "frames.npz"

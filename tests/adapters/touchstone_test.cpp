@@ -257,7 +257,7 @@ TEST(CInterface, DecidesAndMeasuresAStep) {
     EXPECT_GT(count, 0U);
     expect_same(of_collisions, fast::contacts_of(step, step.collisions()));
 
-    const TouchstoneLineSearchOptions of_pair{TOUCHSTONE_LINF, TOUCHSTONE_OF_PAIR};
+    const TouchstoneLineSearchOptions of_pair{TOUCHSTONE_LINF, TOUCHSTONE_OF_PAIR, 0.0};
     for (const TouchstoneLineSearchOptions* const options :
          {&of_pair, static_cast<const TouchstoneLineSearchOptions*>(nullptr)}) {
       TouchstoneLineSearchLimit limit{};
@@ -312,6 +312,56 @@ TEST(CInterface, TakesRadiiAndSeparationsOfGroups) {
 }
 
 /// Groups or vertices that do not meet, and no pairs at all.
+/// A tetrahedron that turns over, one that is flat at the start, and their shadows in the plane.
+TEST(CInterface, KeepsElementsFromInverting) {
+  const std::vector<double> before{0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1};
+  std::vector<double> after = before;
+  after.back() = -3.0;
+  after[3] = -2.0;
+  const std::vector<fast::Tetrahedron> tetrahedra{{0, 1, 2, 3}, {0, 1, 1, 3}};
+  const std::vector<fast::Face> triangles{{0, 1, 2}};
+  for (const std::size_t count : {1U, 2U}) {
+    TouchstoneMesh mesh{};
+    mesh.vertices = 4;
+    mesh.before = before.data();
+    mesh.after = after.data();
+    mesh.tetrahedra = count;
+    mesh.tetrahedron_vertices = tetrahedra.front().data();
+    mesh.plane_triangles = 1;
+    mesh.plane_triangle_vertices = triangles.front().data();
+    const StepOf owner(mesh);
+    const fast::Step step(
+        std::span<const double>(before), std::span<const double>(after),
+        {.tetrahedra = std::span(tetrahedra).first(count), .plane_triangles = triangles});
+    const auto expect_same = [](const TouchstoneStepInversion* found, std::size_t size,
+                                const std::vector<fast::StepInversion>& expected) {
+      ASSERT_EQ(size, expected.size());
+      for (std::size_t i = 0; i < size; ++i) {
+        EXPECT_EQ((fast::StepInversion{static_cast<fast::VolumeKind>(found[i].kind),
+                                       found[i].element, static_cast<std::int8_t>(found[i].start),
+                                       found[i].toi_lower, found[i].toi_upper}),
+                  expected[i]);
+      }
+    };
+    const TouchstoneStepInversion* inversions = nullptr;
+    std::size_t size = 0;
+    ASSERT_EQ(touchstone_step_inversions(owner.get(), &inversions, &size), TOUCHSTONE_OK);
+    EXPECT_EQ(size, count + 1);
+    expect_same(inversions, size, step.inversions());
+    TouchstoneImpact impact{};
+    ASSERT_EQ(touchstone_step_earliest(owner.get(), &impact), TOUCHSTONE_OK);
+    EXPECT_EQ(impact.toi_upper, count == 1 ? step.earliest()->toi_upper : 0.0);
+    TouchstoneLineSearchOptions options = touchstone_default_line_search_options();
+    options.kept_volume = 0.25;
+    TouchstoneLineSearchLimit limit{};
+    ASSERT_EQ(touchstone_step_line_search_limit(owner.get(), 0.5, &options, &limit), TOUCHSTONE_OK);
+    EXPECT_EQ(limit.reason, count == 1 ? TOUCHSTONE_LIMITED : TOUCHSTONE_INVERTED);
+    const auto expected = fast::line_search_limit(step, 0.5, {.kept_volume = 0.25});
+    EXPECT_EQ(limit.step_size, expected.step_size);
+    expect_same(limit.inversions, limit.inversion_count, expected.inversions);
+  }
+}
+
 TEST(CInterface, AnswersWhereNothingCanMeet) {
   const Scene scene;
   const std::array<std::int32_t, 9> groups{0, 0, 0, 1, 1, 1, 0, 0, 0};
@@ -365,7 +415,7 @@ TEST(CInterface, SaysWhatIsWrongAndWritesNothing) {
   const TouchstoneOptions bad_norm = with([](auto&o) { o.norm = 5; }),
                           bad_time = with([](auto&o) { o.t_max = 2.0; }),
                           bad_distance = with([](auto&o) { o.min_separation = -1.0; });
-  const TouchstoneLineSearchOptions other_norm{2, TOUCHSTONE_OF_PAIR},
+  const TouchstoneLineSearchOptions other_norm{2, TOUCHSTONE_OF_PAIR, 0.0},
       other_start{TOUCHSTONE_L2, 2};
   const std::vector<Query> queries = random_queries(1);
   const double* const x = queries[0].coordinates.data();

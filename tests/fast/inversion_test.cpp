@@ -36,26 +36,12 @@
 namespace touchstone::fast::inversion_test {
 namespace {
 
+using tests::inversion_fault;
 using tests::Random;
 using tests::soak_trials;
 using tests::trials;
 
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
-
-/// The fault of an answer, or nothing.
-std::optional<std::string> fault(const exact::InversionDecision& truth,
-                                 const InversionResult& result,
-                                 const InversionOptions& options = {}) {
-  bool inverts = truth.inverts();
-  if (inverts && options.t_max < 1.0) inverts = tests::compare(*truth.time, options.t_max) <= 0;
-  if (result.start != truth.start) return "the start is another";
-  if (result.verdict != (inverts ? Verdict::yes : Verdict::no)) {
-    return inverts ? "an inversion is missed" : "an inversion is made up";
-  }
-  if (!inverts) return std::nullopt;
-  return tests::enclosure_fault(*truth.time, result.toi_lower, result.toi_upper,
-                                options.toi_tolerance);
-}
 
 std::string printed(const Query& query) {
   std::ostringstream out;
@@ -152,7 +138,7 @@ TEST(Inversion, AgreesWithTheOracleOnTetrahedra) {
   int first_times = 0;
   for (std::size_t i = 0; i < all.size(); ++i) {
     const exact::InversionDecision truth = exact::decide_inversion(all[i]);
-    ASSERT_EQ(fault(truth, results[i]), std::nullopt) << i << ' ' << printed(all[i]);
+    ASSERT_EQ(inversion_fault(truth, results[i]), std::nullopt) << i << ' ' << printed(all[i]);
     ++starts.at(static_cast<std::size_t>(truth.start + 1));
     ++stages.at(static_cast<std::size_t>(results[i].stage));
     first_times += truth.start > 0 && truth.inverts() ? 1 : 0;
@@ -189,7 +175,7 @@ TEST(Inversion, AgreesWithTheOracleOnTriangles) {
   int first_times = 0;
   for (std::size_t i = 0; i < all.size(); ++i) {
     const exact::InversionDecision truth = exact::decide_inversion(all[i]);
-    ASSERT_EQ(fault(truth, results[i]), std::nullopt)
+    ASSERT_EQ(inversion_fault(truth, results[i]), std::nullopt)
         << i << ' ' << printed(to_tetrahedron(all[i]));
     first_times += truth.start > 0 && truth.inverts() ? 1 : 0;
   }
@@ -210,11 +196,32 @@ TEST(Inversion, KeepsLimitAndTolerance) {
     for (const double t_max : limits) {
       for (const double tolerance : {0.0, 1e-12, 1e-3}) {
         const InversionOptions options{.toi_tolerance = tolerance, .t_max = t_max};
-        ASSERT_EQ(fault(truth, inversion(query, options), options), std::nullopt)
+        ASSERT_EQ(inversion_fault(truth, inversion(query, options), options), std::nullopt)
             << t_max << ' ' << tolerance << ' ' << printed(query);
       }
     }
   }
+}
+
+/// The part of the volume at the start that is to be kept, with the truth from roots of V − f V(0).
+TEST(Inversion, KeepsAPartOfTheVolume) {
+  Random random(6);
+  int limited = 0;
+  for (const double kept : {0.5, 0.1, 1 - 0x1p-53, 0x1p-1074, random.uniform(0.0, 1.0)}) {
+    const std::vector<Query> all = elements(random, soak_trials(2000, 10));
+    for (const double t_max : {1.0, 0.5}) {
+      const InversionOptions options{.t_max = t_max, .kept_volume = kept};
+      std::vector<InversionResult> results(all.size());
+      inversions(all, results, options);
+      for (std::size_t i = 0; i < all.size(); ++i) {
+        const exact::InversionDecision truth = tests::inversion_keeping(all[i], kept);
+        ASSERT_EQ(inversion_fault(truth, results[i], options), std::nullopt)
+            << kept << ' ' << printed(all[i]);
+        limited += results[i].toi_upper > 0.0 && !exact::decide_inversion(all[i]).inverts() ? 1 : 0;
+      }
+    }
+  }
+  EXPECT_GT(limited, 500);
 }
 
 // ---- Ways to ask --------------------------------------------------------------------------------
@@ -263,7 +270,10 @@ TEST(Inversion, HasTheSameBitsAnyWay) {
     }
     EXPECT_EQ(count, found.size());
   };
-  std::vector<InversionResult> of_tetrahedra(all.size()), of_triangles(all.size());
+  std::vector<InversionResult> of_tetrahedra(all.size()), of_triangles(all.size()),
+      of_kept(all.size());
+  const InversionOptions keeping{.t_max = 0.75, .kept_volume = 0.25};
+  inversions(all, of_kept, keeping);
   inversions(all, of_tetrahedra);
   inversions(triangles, of_triangles);
   for (std::size_t i = 0; i < all.size(); ++i) {
@@ -279,6 +289,10 @@ TEST(Inversion, HasTheSameBitsAnyWay) {
     inversions(all, results, {.max_threads = 1});
     for (std::size_t i = 0; i < all.size(); ++i) {
       ASSERT_EQ(bits_of(results[i]), bits_of(of_tetrahedra[i])) << printed(all[i]);
+    }
+    inversions(all, results, keeping);
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      ASSERT_EQ(bits_of(results[i]), bits_of(of_kept[i])) << printed(all[i]);
     }
     inversions(triangles, results);
     for (std::size_t i = 0; i < all.size(); ++i) {
@@ -297,10 +311,12 @@ int elements_that_find(const Decide& decide) {
   Random random(5);
   int found = 0;
   for (const Query& query : elements(random, 4000)) {
-    const exact::InversionDecision truth = exact::decide_inversion(query);
-    for (const double t_max : {1.0, 0.5}) {
-      const InversionOptions options{.t_max = t_max};
-      found += fault(truth, decide(query, options), options) ? 1 : 0;
+    for (const double kept : {0.0, 0.25}) {
+      const exact::InversionDecision truth = tests::inversion_keeping(query, kept);
+      for (const double t_max : {1.0, 0.5}) {
+        const InversionOptions options{.t_max = t_max, .kept_volume = kept};
+        found += inversion_fault(truth, decide(query, options), options) ? 1 : 0;
+      }
     }
   }
   for (std::size_t i = 0; i < 24; ++i) {

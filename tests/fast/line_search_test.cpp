@@ -15,6 +15,7 @@
 #include "tests/support/random.hpp"
 #include "tests/support/scenes.hpp"
 #include "tests/support/trials.hpp"
+#include "touchstone/inversion.hpp"
 #include "touchstone/number.hpp"
 #include "touchstone/oracle.hpp"
 
@@ -165,10 +166,68 @@ TEST(LineSearch, KeepsAllApartAndGoesAsFarAsThatAllows) {
   EXPECT_GT((seen[{StartDistance::of_scene, LineSearchStatus::whole}]), tests::trials(20));
 }
 
+/// The first fault of a limit with elements: it has to be the lesser one of the limit without them
+/// and of their own first times, and to name all that may set it.
+std::string fault_of_volumes(tests::LimitStep& limit_of, int rounds,
+                             std::map<LineSearchStatus, int>& seen) {
+  Random random(2302);
+  for (int round = 0; round < rounds; ++round) {
+    for (const tests::Shape& shape : tests::shapes()) {
+      Scene scene = tests::random_scene(random, shape, random.between(4, 9));
+      const Scene of_pairs = scene;
+      tests::add_volumes(scene, 4, 20, random);
+      const double p = random.uniform(0.05, 0.95);
+      LineSearchOptions options{.start_distance = round % 2 == 0 ? StartDistance::of_scene
+                                                                 : StartDistance::of_pair};
+      LineSearchLimit expected = limit_of(of_pairs.step(), p, options);
+      options.kept_volume = random.coin() ? 0.0 : random.uniform(0.0, 1.0);
+      double upper = 2.0, lower = expected.step_size;
+      for (const auto& one : expected.pairs) upper = std::min(upper, one.toi_upper);
+      bool all_start = true;
+      tests::for_each_volume(scene, [&](VolumeKind kind, std::size_t i, const Query& query) {
+        const auto truth = inversion(query, {.kept_volume = options.kept_volume});
+        if (truth.verdict != Verdict::yes) return;
+        all_start = all_start && truth.start > 0;
+        upper = std::min(upper, truth.toi_upper);
+        lower = std::min(lower, truth.toi_lower);
+        expected.inversions.push_back({.kind = kind,
+                                       .element = static_cast<std::int32_t>(i),
+                                       .start = truth.start,
+                                       .toi_lower = truth.toi_lower,
+                                       .toi_upper = truth.toi_upper});
+      });
+      const auto is_late = [&](const auto& one) { return one.toi_lower > upper; };
+      std::erase_if(expected.inversions, is_late);
+      std::erase_if(expected.pairs, is_late);
+      if (lower < expected.step_size) {
+        expected.status = !all_start    ? LineSearchStatus::inverted
+                          : lower > 0.0 ? LineSearchStatus::limited
+                                        : LineSearchStatus::too_small;
+      }
+      const LineSearchLimit limit = limit_of(scene.step(), p, options);
+      ++seen[limit.inversions.empty() ? LineSearchStatus::whole : limit.status];
+      if (limit.step_size != lower || limit.status != expected.status) return shape.name;
+      if (limit.inversions != expected.inversions) return shape.name + ": other elements";
+      if (limit.pairs != expected.pairs) return shape.name + ": other pairs";
+    }
+  }
+  return "";
+}
+
+TEST(LineSearch, KeepsVolumes) {
+  std::map<LineSearchStatus, int> seen;
+  EXPECT_EQ(fault_of_volumes(line_search_limit, tests::trials(60), seen), "");
+  EXPECT_GT(seen[LineSearchStatus::limited], 100);
+  EXPECT_GT(seen[LineSearchStatus::inverted], 10);
+}
+
 TEST(LineSearch, PlantedFaultsAreFound) {
   for (const auto& fault : tests::planted_faults().line_search) {
     Seen seen;
-    EXPECT_NE(first_fault(*fault.part, 40, seen), "") << fault.name;
+    std::map<LineSearchStatus, int> seen_of_volumes;
+    EXPECT_NE(
+        first_fault(*fault.part, 40, seen) + fault_of_volumes(*fault.part, 40, seen_of_volumes), "")
+        << fault.name;
   }
 }
 

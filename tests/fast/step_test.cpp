@@ -23,6 +23,7 @@
 #include "fast/kernels.hpp"
 #include "tests/faults/planted_faults.hpp"
 #include "tests/support/certified_against_oracle.hpp"
+#include "tests/support/inverting_elements.hpp"
 #include "tests/support/messages.hpp"
 #include "tests/support/process_memory.hpp"
 #include "tests/support/random.hpp"
@@ -66,16 +67,49 @@ std::vector<StepCollision> in_order(std::vector<StepCollision> collisions) {
   return collisions;
 }
 
-/// The value of `earliest` that follows from all collisions.
-std::optional<StepImpact> earliest_of(const std::vector<StepCollision>& collisions) {
-  if (collisions.empty()) return std::nullopt;
-  StepImpact impact{
-      .toi_lower = std::ranges::min(collisions, {}, &StepCollision::toi_lower).toi_lower,
-      .toi_upper = std::ranges::min(collisions, {}, &StepCollision::toi_upper).toi_upper,
-      .pairs = {}};
-  std::ranges::copy_if(in_order(collisions), std::back_inserter(impact.pairs),
-                       [&](const StepCollision& one) { return one.toi_lower <= impact.toi_upper; });
+/// The value of `earliest` that follows from all collisions and inversions.
+std::optional<StepImpact> earliest_of(const std::vector<StepCollision>& collisions,
+                                      const std::vector<StepInversion>& inversions = {}) {
+  if (collisions.empty() && inversions.empty()) return std::nullopt;
+  StepImpact impact{.toi_lower = 2.0, .toi_upper = 2.0, .pairs = {}};
+  const auto take_times = [&](const auto& one) {
+    impact.toi_lower = std::min(impact.toi_lower, one.toi_lower);
+    impact.toi_upper = std::min(impact.toi_upper, one.toi_upper);
+  };
+  std::ranges::for_each(collisions, take_times);
+  std::ranges::for_each(inversions, take_times);
+  const auto is_first = [&](const auto& one) { return one.toi_lower <= impact.toi_upper; };
+  std::ranges::copy_if(in_order(collisions), std::back_inserter(impact.pairs), is_first);
+  std::ranges::copy_if(inversions, std::back_inserter(impact.inversions), is_first);
   return impact;
+}
+
+/// The first difference between a step's inversions and the oracle, or nothing. \param all_start
+/// set to true if all volumes are positive at the start
+std::string fault_of_volumes(const Scene& scene, const StepOptions& options,
+                             const std::vector<StepInversion>& inversions, bool& all_start) {
+  std::string what;
+  std::size_t next = 0;
+  all_start = true;
+  tests::for_each_volume(scene, [&](VolumeKind kind, std::size_t i, const Query& query) {
+    const exact::InversionDecision truth = exact::decide_inversion(query);
+    all_start = all_start && truth.start > 0;
+    InversionResult result{.verdict = Verdict::no, .start = 1};
+    if (next < inversions.size() && inversions[next].kind == kind &&
+        std::cmp_equal(inversions[next].element, i)) {
+      const StepInversion& one = inversions[next++];
+      result = {.verdict = Verdict::yes,
+                .start = one.start,
+                .toi_lower = one.toi_lower,
+                .toi_upper = one.toi_upper};
+    }
+    const auto fault = tests::inversion_fault(
+        truth, result, {.toi_tolerance = options.toi_tolerance, .t_max = options.t_max});
+    if (fault && what.empty()) {
+      what = *fault + ": " + std::string(to_string(kind)) + " " + std::to_string(i);
+    }
+  });
+  return what.empty() && next < inversions.size() ? "no element in order" : what;
 }
 
 std::string named(const NumberedPair& pair) {
@@ -123,8 +157,15 @@ std::string fault(const Scene& scene, const StepOptions& options) {
   if (!found.empty()) return "no pair of this scene: " + named(found.begin()->first);
   std::ranges::sort(near);
   if (candidates_of(step) != near) return "other candidates";
-  if (step.is_free() != collisions.empty()) return "free or not";
-  if (step.earliest() != earliest_of(collisions)) return "another earliest impact";
+  bool all_start = true;
+  const std::vector<StepInversion> inversions = step.inversions();
+  const std::string what = fault_of_volumes(scene, options, inversions, all_start);
+  if (!what.empty()) return what;
+  if (step.starts_free() != (all_start && step.intersections_at_start().empty())) {
+    return "starts free or not";
+  }
+  if (step.is_free() != (collisions.empty() && inversions.empty())) return "free or not";
+  if (step.earliest() != earliest_of(collisions, inversions)) return "another earliest impact";
   return "";
 }
 
@@ -202,6 +243,30 @@ TEST(Step, AgreesWithTheOracleOnAllPairsOfAllScenes) {
   EXPECT_GT(free, 20);
   EXPECT_GT(with_groups, 10);
   EXPECT_GT(with_rule, 10);
+}
+
+TEST(Step, WithVolumesAgreesWithTheOracleOnAllElements) {
+  Random random(193);
+  std::vector<Compared> scenes = compared_scenes(random, tests::trials(40));
+  for (Compared& one : scenes) {
+    if (one.scene.start.rows() > 2) tests::add_volumes(one.scene, 6, 20, random);
+  }
+  EXPECT_EQ(first_fault(scenes), "");
+  // First come collisions, inversions, and both; elements are flat, inverted and neither at first.
+  std::map<int, int> starts;
+  int contacts = 0, volumes = 0, free = 0;
+  for (const auto& [name, scene, options] : scenes) {
+    const Step step = scene.step(options);
+    for (const StepInversion& one : step.inversions()) ++starts[one.start];
+    const auto impact = step.earliest();
+    contacts += impact && impact->inversions.empty() && !step.inversions().empty() ? 1 : 0;
+    volumes += impact && impact->pairs.empty() && !step.collisions().empty() ? 1 : 0;
+    free += !impact && scene.tetrahedra.size() + scene.plane_triangles.size() > 0 ? 1 : 0;
+  }
+  for (const int start : {-1, 0, 1}) EXPECT_GT(starts[start], 5) << start;
+  EXPECT_GT(contacts, 10);
+  EXPECT_GT(volumes, 10);
+  EXPECT_GT(free, 5);
 }
 
 /// Small scenes of all shapes, some with primitives of several groups, and larger ones.
@@ -437,12 +502,14 @@ TEST(Step, IsNotFreeIfAMeshComesToIntersectItself) {
 /// All answers of a step.
 struct Answers {
   std::vector<StepCollision> collisions;
+  std::vector<StepInversion> inversions;
   std::optional<StepImpact> earliest;
   Pairs candidates;
   bool is_free = false;
 
   explicit Answers(const Step& step)
       : collisions(step.collisions()),
+        inversions(step.inversions()),
         earliest(step.earliest()),
         candidates(candidates_of(step)),
         is_free(step.is_free()) {}
@@ -455,6 +522,7 @@ TEST(Step, IsTheSameForAllInstructionSetsAndThreads) {
   for (const double size : {0.05, 0.15}) {
     Scene scene = soup(random, 400, size);
     for (const double distance : {0.0, 0.01}) {
+      if (distance > 0.0) tests::add_volumes(scene, 3000, 1000, random);
       if (distance > 0.0 && size > 0.1) tests::add_thickness(scene, 0.02, random);
       StepOptions options{.separation = {.distance = distance, .norm = Norm::linf},
                           .max_threads = 1};
@@ -542,7 +610,8 @@ TEST(Step, EarliestFindsImpactsAtAnyTime) {
 
 TEST(ScaledStep, GoesToThePlacesThatASimulatorComputes) {
   Random random(189);
-  const Scene scene = soup(random, 20, 0.5);
+  Scene scene = soup(random, 20, 0.5);
+  tests::add_volumes(scene, 100, 10, random);
   for (const double alpha : {0.0, 1.0, 0.1, 1e-300, 0.7}) {
     const Step step = scene.step({.t_max = 0.25}).scaled(alpha);
     Scene taken = scene;
@@ -560,13 +629,14 @@ TEST(ScaledStep, GoesToThePlacesThatASimulatorComputes) {
     EXPECT_EQ(in_order(step.collisions()), in_order(taken.step().collisions()));
     EXPECT_EQ(step.earliest(), taken.step().earliest());
     EXPECT_EQ(candidates_of(step), candidates_of(taken.step()));
+    EXPECT_EQ(step.inversions(), taken.step().inversions());
   }
 }
 
 TEST(FreeStepSize, IsFreeAndTheNextDoubleIsNot) {
   Random random(190), of_radii(192);
-  int some = 0, whole = 0, none = 0;
-  for (int round = 0; round < 30; ++round) {
+  int some = 0, whole = 0, none = 0, of_volumes = 0;
+  for (int round = 0; round < 60; ++round) {
     for (const Shape& shape : {shapes()[2], shapes()[3], shapes()[1]}) {
       Scene scene = random_scene(random, shape, 8);
       const StepOptions options{
@@ -574,6 +644,7 @@ TEST(FreeStepSize, IsFreeAndTheNextDoubleIsNot) {
           .max_threads = 1};
       // (Rounding may avoid contacts of scenes on a grid that only graze.)
       if (round % 3 == 0 && shape.motion) tests::add_thickness(scene, 0.01, of_radii);
+      if (round % 2 == 0) tests::add_volumes(scene, 4, 100, of_radii);
       const Step step = scene.step(options);
       const std::optional<double> alpha = step.free_step_size();
       if (!alpha) {
@@ -587,13 +658,16 @@ TEST(FreeStepSize, IsFreeAndTheNextDoubleIsNot) {
         EXPECT_TRUE(step.scaled(*alpha).is_free());
         EXPECT_FALSE(step.scaled(std::nextafter(*alpha, 1.0)).is_free());
         // The impact of the exact step, up to rounding.
-        EXPECT_NEAR(*alpha, step.earliest()->toi_lower, 1e-12);
+        const StepImpact first = step.earliest().value();
+        EXPECT_NEAR(*alpha, first.toi_lower, 1e-12);
+        of_volumes += first.pairs.empty() ? 1 : 0;
       }
     }
   }
   EXPECT_GT(some, 5);
   EXPECT_GT(whole, 5);
   EXPECT_GT(none, 0);
+  EXPECT_GT(of_volumes, 10);
 }
 
 /// A vertex that falls from a height to one below a resting triangle, which is at the height

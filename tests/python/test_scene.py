@@ -293,6 +293,37 @@ def test_inversions_are_those_of_the_last_vertex():
         touchstone.inversions(before * np.nan, after, elements)
 
 
+def test_a_step_keeps_its_elements_from_inverting():
+    """Tetrahedra that turn over, are flat, and grow; and a triangle that turns over in the plane."""
+    before = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]], dtype=float)
+    after = before * [-2, 1, 1]
+    elements = [[0, 1, 2, 3], [0, 1, 1, 3], [1, 0, 2, 3]]
+    step = touchstone.Step(before, after, tetrahedra=elements[:1], plane_triangles=[[0, 1, 2]])
+    assert step.starts_free() and not step.is_free()
+    found = step.inversions()
+    assert found["kind"].tolist() == [touchstone.VolumeKind.TETRAHEDRON, touchstone.VolumeKind.PLANE_TRIANGLE]
+    assert found["element"].tolist() == [0, 0] and found["start"].tolist() == [1, 1]
+    assert (found["toi_lower"] < 1 / 3).all() and (found["toi_upper"] >= 1 / 3).all()
+    impact = step.earliest()
+    assert len(impact.pairs) == 0 and impact.inversions.tolist() == found.tolist()
+    assert 0.333 < step.free_step_size() < 1 / 3
+    limit = step.line_search_limit(0.5, kept_volume=0.25)  # 1 - 3 t > 1/4
+    assert limit.status == "limited" and 0.2499 < limit.step_size < 0.25
+    assert limit.inversions["element"].tolist() == [0, 0] and len(limit.pairs) == 0
+    at_rest = touchstone.Step(before, before, tetrahedra=elements)
+    assert not at_rest.starts_free() and at_rest.free_step_size() is None
+    assert at_rest.inversions()["start"].tolist() == [0, -1]
+    assert at_rest.inversions()["element"].tolist() == [1, 2]
+    assert at_rest.line_search_limit(0.5).status == "inverted"
+    assert step.moved(before, before).is_free()
+    with pytest.raises(ValueError, match="certificates"):
+        step.prove("none")
+    with pytest.raises(IndexError, match="tetrahedron 0: vertex 4"):
+        touchstone.Step(before, after, tetrahedra=[[0, 1, 2, 4]])
+    with pytest.raises(ValueError, match="kept_volume"):
+        step.line_search_limit(0.5, kept_volume=1.0)
+
+
 def test_inversions_of_triangles_are_in_the_plane():
     before = np.array([[0.0, 0], [1, 0], [0, 1]])
     found = touchstone.inversions(before, before * [1, -1], [[0, 1, 2]])

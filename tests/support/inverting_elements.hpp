@@ -13,12 +13,19 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <optional>
 #include <span>
+#include <string>
 #include <utility>
 
+#include "tests/support/certified_against_oracle.hpp"
 #include "tests/support/queries.hpp"
 #include "tests/support/random.hpp"
+#include "tests/support/root_count.hpp"
+#include "touchstone/algebraic_number.hpp"
 #include "touchstone/element.hpp"
+#include "touchstone/inversion.hpp"
+#include "touchstone/inversion_oracle.hpp"
 #include "touchstone/query.hpp"
 
 namespace touchstone::tests {
@@ -160,6 +167,54 @@ inline void set_truth(KnownInversion& known, std::span<const Moving> factors) {
     }
   }
   return query;
+}
+
+/// The exact decision on the first time at which at most this part of the volume at t=0 is left:
+/// from the roots of V − f V(0), a polynomial with integer coefficients.
+[[nodiscard]] inline exact::InversionDecision inversion_keeping(const Query& tetrahedron,
+                                                                double kept) {
+  using exact::Integer, exact::Rational, exact::Polynomial;
+  std::array<root_count::Vector, moving_points> points;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    Integer unit = 1;
+    for (std::size_t i = axis; i < 24; i += 3) {
+      unit = std::max(unit, Integer(Rational(tetrahedron.coordinates.at(i)).get_den()));
+    }
+    for (std::size_t point = 0; point < moving_points; ++point) {
+      const auto at = [&](std::size_t end) {
+        return Integer(Rational(Rational(tetrahedron.at(end, point, axis)) * unit).get_num());
+      };
+      points.at(point).at(axis) = Polynomial(at(0), Integer(at(1) - at(0)));
+    }
+  }
+  const auto& [a, b, c, d] = points;
+  const Polynomial volume = root_count::dot(
+      root_count::minus(b, a), root_count::cross(root_count::minus(c, a), root_count::minus(d, a)));
+  const Integer at_start = volume[0];
+  const Rational part(kept);
+  const Polynomial left =
+      Polynomial(part.get_den()) * volume - Polynomial(Integer(part.get_num() * at_start));
+  exact::InversionDecision result{.start = sgn(at_start), .time = std::nullopt};
+  if (result.start <= 0) {
+    result.time = exact::AlgebraicNumber(Rational(0));
+  } else if (const auto roots = exact::roots_in_unit_interval(left); !roots.empty()) {
+    result.time = roots.front();
+  }
+  return result;
+}
+
+/// The fault of an answer, or nothing.
+[[nodiscard]] inline std::optional<std::string> inversion_fault(
+    const exact::InversionDecision& truth, const fast::InversionResult& result,
+    const fast::InversionOptions& options = {}) {
+  bool inverts = truth.inverts();
+  if (inverts && options.t_max < 1.0) inverts = compare(*truth.time, options.t_max) <= 0;
+  if (result.start != truth.start) return "the start is another";
+  if (result.verdict != (inverts ? fast::Verdict::yes : fast::Verdict::no)) {
+    return inverts ? "an inversion is missed" : "an inversion is made up";
+  }
+  if (!inverts) return std::nullopt;
+  return enclosure_fault(*truth.time, result.toi_lower, result.toi_upper, options.toi_tolerance);
 }
 
 /// One of all sorts, the first half of them degenerate: exactly so, or up to one spacing of

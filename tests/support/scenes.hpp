@@ -18,6 +18,7 @@
 
 #include "tests/support/random.hpp"
 #include "touchstone/broad_phase.hpp"
+#include "touchstone/inversion.hpp"
 #include "touchstone/number.hpp"
 #include "touchstone/step.hpp"
 
@@ -45,9 +46,15 @@ struct Scene {
   std::function<bool(std::int32_t, std::int32_t)> can_collide = {};
   std::vector<double> radii = {};
   std::vector<fast::GroupSeparation> separations = {};
+  std::vector<fast::Tetrahedron> tetrahedra = {};
+  std::vector<Face> plane_triangles = {};
 
   [[nodiscard]] fast::MeshElements elements() const {
-    return {.edges = edges, .faces = faces, .points = points};
+    return {.edges = edges,
+            .faces = faces,
+            .points = points,
+            .tetrahedra = tetrahedra,
+            .plane_triangles = plane_triangles};
   }
   [[nodiscard]] fast::Step step(fast::StepOptions options = {}) const {
     options.groups = {
@@ -169,6 +176,60 @@ inline void add_thickness(Scene& scene, double length, Random& random) {
       if (random.between(0, 2) > 0) continue;
       const auto groups = random.coin() ? std::array{a, b} : std::array{b, a};
       scene.separations.push_back({groups, any()});
+    }
+  }
+}
+
+/// The query of an element: its points, with the one above a triangle of the plane.
+[[nodiscard]] inline Query element_query(const Scene& scene, fast::VolumeKind kind, std::size_t i) {
+  const bool is_plane = kind == fast::VolumeKind::plane_triangle;
+  fast::Tetrahedron points{};
+  if (is_plane) {
+    const auto [a, b, c] = scene.plane_triangles.at(i);
+    points = {a, b, c, b};
+  } else {
+    points = scene.tetrahedra.at(i);
+  }
+  Query query;
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    query.point(0, k) = scene.start.row(points.at(k)).transpose();
+    query.point(1, k) = scene.end.row(points.at(k)).transpose();
+    for (std::size_t end = 0; is_plane && end < 2; ++end) query.at(end, k, 2) = k == 3 ? 1.0 : 0.0;
+  }
+  return query;
+}
+
+/// Calls visit(kind, number, query) for all elements with volumes, in order.
+template <class Visit>
+void for_each_volume(const Scene& scene, const Visit& visit) {
+  using Kind = fast::VolumeKind;
+  for (std::size_t i = 0; i < scene.tetrahedra.size(); ++i) {
+    visit(Kind::tetrahedron, i, element_query(scene, Kind::tetrahedron, i));
+  }
+  for (std::size_t i = 0; i < scene.plane_triangles.size(); ++i) {
+    visit(Kind::plane_triangle, i, element_query(scene, Kind::plane_triangle, i));
+  }
+}
+
+/// Adds up to so many tetrahedra and triangles of the plane of any vertices; of those that are flat
+/// or inverted at the start, one of `rare` stays.
+inline void add_volumes(Scene& scene, int most, int rare, Random& random) {
+  const auto vertices = static_cast<int>(scene.start.rows());
+  const auto any = [&] { return random.between(0, vertices - 1); };
+  const auto add = [&](auto& elements, fast::VolumeKind kind, const auto& element) {
+    elements.push_back(element);
+    const auto start = [&] {
+      return fast::inversion(element_query(scene, kind, elements.size() - 1), {.t_max = 0.0}).start;
+    };
+    if (start() < 0) std::swap(elements.back()[0], elements.back()[1]);
+    if (start() <= 0 && random.between(1, rare) != 1) elements.pop_back();
+  };
+  for (int i = random.between(0, most); i > 0; --i) {
+    add(scene.tetrahedra, fast::VolumeKind::tetrahedron,
+        fast::Tetrahedron{any(), any(), any(), any()});
+    add(scene.plane_triangles, fast::VolumeKind::plane_triangle, Face{any(), any(), any()});
+    if (random.between(1, rare) == 1 && !scene.tetrahedra.empty()) {
+      std::swap(scene.tetrahedra.back()[2], scene.tetrahedra.back()[3]);
     }
   }
 }

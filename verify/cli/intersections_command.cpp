@@ -1,5 +1,6 @@
 // touchstone intersections: the elements of meshes at rest that meet other than in what they share.
 
+#include <algorithm>
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -8,6 +9,7 @@
 #include <vector>
 
 #include "touchstone/intersections.hpp"
+#include "touchstone/inversion.hpp"
 #include "verify/cli/commands.hpp"
 #include "verify/cli/files.hpp"
 #include "verify/cli/option_table.hpp"
@@ -19,6 +21,7 @@
 #include "verify/io/terminal.hpp"
 #include "verify/jobs/prove_mesh.hpp"
 #include "verify/jobs/work_time.hpp"
+#include "verify/mesh/frames.hpp"
 #include "verify/mesh/mesh_file.hpp"
 #include "verify/report/step_report.hpp"
 #include "verify/view/step_facts.hpp"
@@ -39,16 +42,17 @@ struct Arguments {
   std::string view_file;
 };
 
-fast::MeshElements elements_of(const mesh::Mesh& mesh) {
-  return {.edges = mesh.edges, .faces = mesh.faces, .points = mesh.points};
-}
-
 report::RestingMesh read(Files& files, const fs::path& path) {
   files.add_input(path);
-  report::RestingMesh result{.name = path.string(), .mesh = mesh::read_mesh(path)};
+  const bool is_archive = path.extension() == ".npz";
+  report::RestingMesh result{
+      .name = path.string(),
+      .mesh = is_archive ? mesh::open_frames({path})->mesh() : mesh::read_mesh(path)};
   report_note(path, result.mesh.note);
   mesh::require_elements(result.mesh, path);
-  result.defects = fast::mesh_defects(result.mesh.vertices, elements_of(result.mesh));
+  result.defects = fast::mesh_defects(result.mesh.vertices, result.mesh.elements());
+  const fast::MovingVertices at_rest(result.mesh.vertices, result.mesh.vertices);
+  result.inversions = fast::inversions(at_rest, result.mesh.tetrahedra);
   return result;
 }
 
@@ -97,9 +101,8 @@ Status intersections(const Arguments& arguments) {
   std::string failure;
   report.interrupted = true;
   until_interrupted([&] {
-    const jobs::WorkTime time = jobs::work_time_of([&] {
-      report.intersections = fast::intersections(all.vertices, elements_of(all), search);
-    });
+    const jobs::WorkTime time = jobs::work_time_of(
+        [&] { report.intersections = fast::intersections(all.vertices, all.elements(), search); });
     report.seconds = time.wall;
     report.interrupted = false;
     if (certificate) failure = prove(certificate, all, search, report);
@@ -117,7 +120,11 @@ Status intersections(const Arguments& arguments) {
   if (!failure.empty()) report_error("no proof: " + failure);
   if (files.has_failed() || !failure.empty()) return Status::bad_input;
   if (io::interrupted()) return Status::interrupted;
-  return report.intersections.empty() ? Status::all_well : Status::wrong_answers;
+  const bool is_well = report.intersections.empty() &&
+                       std::ranges::all_of(report.meshes, [](const report::RestingMesh& mesh) {
+                         return mesh.inversions.empty();
+                       });
+  return is_well ? Status::all_well : Status::wrong_answers;
 }
 
 void add_options(CLI::App& command, Arguments& arguments) {
@@ -148,7 +155,9 @@ void add(CLI::App& app, Status& status) {
            "point beyond their common vertices, or are duplicates. With several meshes, each is a "
            "group with the name of its file. Numbers begin at 0; edges are numbered by their "
            "larger vertex, then by the smaller.\n"
-           "Exit status: 0 free of intersections, 1 an intersection, 2 bad input or usage, 130 "
+           "Of an archive, the first frame is taken, and flat and inverted tetrahedra are named.\n"
+           "Exit status: 0 free of intersections, 1 an intersection or such a tetrahedron, 2 bad "
+           "input or usage, 130 "
            "interrupted.");
   command->callback([arguments, &status] { status = intersections(*arguments); });
 }

@@ -77,8 +77,8 @@ std::vector<OptionRow> make_table() {
       {"--points", "NUMBERS", {}, "The 24 coordinates of a query, in one word: decimal, hexadecimal or fractions"},
 
       // Meshes.
-      {"frames", "FRAME", {}, "Frames in order: .ply or .obj files, a folder of them, or one .npz of V (T,n,3), F and E", "step", required},
-      {"meshes", "MESH", {}, "Meshes: .ply or .obj files; several also with each other", "intersections", required},
+      {"frames", "FRAME", {}, "Frames in order: .ply or .obj files, a folder of them, or one .npz of V (T,n,3), F, E and T", "step", required},
+      {"meshes", "MESH", {}, "Meshes: .ply, .obj or .npz files; several also with each other", "intersections", required},
       {"before", "FRAME0", {}, "Mesh before the step: .ply or .obj", "candidates", required},
       {"after", "FRAME1", {}, "The same mesh after the step, with moved vertices", "candidates", required},
       {"--step", "FRAME FRAME", {}, "The step between two frames of a mesh (.ply, .obj) with its collisions", "view", pair},

@@ -66,6 +66,10 @@ class StepRun {
                                "a mesh intersect itself?)");
     }
     const mesh::Mesh& mesh = frames_->mesh();
+    if (proof_ && !mesh.tetrahedra.empty()) {
+      throw std::runtime_error(arguments.frames.front().string() +
+                               ": --prove: certificates of steps do not have tetrahedra");
+    }
     options_.step.separation = arguments.separation.given();
     options_.step.groups = groups_.get();
     options_.step.stop = &io::interrupted();
@@ -76,6 +80,7 @@ class StepRun {
                .vertices = static_cast<std::size_t>(mesh.vertices.rows()),
                .edges = mesh.edges,
                .faces = mesh.faces,
+               .tetrahedra = mesh.tetrahedra,
                .frames = {},
                .steps = {}};
   }
@@ -114,8 +119,7 @@ class StepRun {
   [[nodiscard]] std::vector<fast::Intersection> intersections_of(
       const mesh::Vertices& vertices) const {
     const mesh::Mesh& mesh = frames_->mesh();
-    return fast::intersections(vertices,
-                               {.edges = mesh.edges, .faces = mesh.faces, .points = mesh.points},
+    return fast::intersections(vertices, mesh.elements(),
                                {.groups = options_.step.groups,
                                 .places = false,
                                 .max_threads = options_.step.max_threads,
@@ -135,8 +139,15 @@ class StepRun {
     const bool is_free = report_.steps.back().is_free;
     if (!view_ || shows_contact_ || (is_free && i > 1)) return;
     shows_contact_ = !is_free;
-    view_.add(view::find_collisions(fmt::format("{} to {}", frames_->name(i - 1), frames_->name(i)),
-                                    frames_->mesh(), before, after, options_.step, options_.alpha));
+    std::string label = fmt::format("{} to {}", frames_->name(i - 1), frames_->name(i));
+    if (const auto& earliest = report_.steps.back().earliest) {
+      for (const fast::StepInversion& one : earliest->inversions) {
+        label += fmt::format("; {} {} inverts at t = {:.6g}", fast::to_string(one.kind),
+                             one.element, one.toi_upper);
+      }
+    }
+    view_.add(view::find_collisions(std::move(label), frames_->mesh(), before, after, options_.step,
+                                    options_.alpha));
   }
 
   void ask_for_proof(std::size_t i, const std::function<void(double)>& progress) {
@@ -246,16 +257,19 @@ void add(CLI::App& app, Status& status) {
       app.add_subcommand("step", "Find the collisions in the steps of a simulation, exactly");
   add_input_options(*command, *arguments);
   add_step_options(*command, *arguments);
-  set_help(*command,
-           "touchstone step frames/92.ply frames/93.ply --csv pairs.csv\n"
-           "touchstone step frames/ --earliest --json steps.json\n"
-           "touchstone step frames/ --free --prove steps.cert && touchstone-check steps.cert",
-           "A step is the straight motion of every vertex from one frame to the next; a simulator "
-           "with substeps should write each of them. Each frame is also searched for intersections "
-           "(unless --no-intersections is given). Pairs that share a vertex are ignored. "
-           "Numbers begin at 0; edges are numbered by their larger vertex, then by the smaller.\n"
-           "Exit status: 0 free of collisions, 1 a collision or a frame that intersects itself, 2 "
-           "bad input or usage, 130 interrupted (results so far are written).");
+  set_help(
+      *command,
+      "touchstone step frames/92.ply frames/93.ply --csv pairs.csv\n"
+      "touchstone step frames/ --earliest --json steps.json\n"
+      "touchstone step frames/ --free --prove steps.cert && touchstone-check steps.cert",
+      "A step is the straight motion of every vertex from one frame to the next; a simulator "
+      "with substeps should write each of them. Each frame is also searched for intersections "
+      "(unless --no-intersections is given). Pairs that share a vertex are ignored. The volumes of "
+      "tetrahedra (T of an archive) must stay positive. "
+      "Numbers begin at 0; edges are numbered by their larger vertex, then by the smaller.\n"
+      "Exit status: 0 free of collisions and inversions, 1 one of these or a frame that intersects "
+      "itself, 2 "
+      "bad input or usage, 130 interrupted (results so far are written).");
   command->callback([arguments, command, &status] {
     if (arguments->pieces.folder.empty()) {
       if (!arguments->pieces.shard.empty()) {

@@ -19,20 +19,23 @@ PairCounts count_candidates(const fast::Step& step) {
   return result;
 }
 
-/// The earliest impact of all pairs that collide, as from fast::Step::earliest.
-std::optional<fast::StepImpact> earliest_of(const std::vector<fast::StepCollision>& collisions) {
-  if (collisions.empty()) return std::nullopt;
+/// The earliest impact of all pairs that collide and elements that invert, as from
+/// fast::Step::earliest.
+std::optional<fast::StepImpact> earliest_of(const std::vector<fast::StepCollision>& collisions,
+                                            const std::vector<fast::StepInversion>& inversions) {
+  if (collisions.empty() && inversions.empty()) return std::nullopt;
   fast::StepImpact impact{.toi_lower = std::numeric_limits<double>::infinity(),
                           .toi_upper = std::numeric_limits<double>::infinity(),
                           .pairs = {}};
-  for (const fast::StepCollision& collision : collisions) {
-    impact.toi_lower = std::min(impact.toi_lower, collision.toi_lower);
-    impact.toi_upper = std::min(impact.toi_upper, collision.toi_upper);
-  }
-  std::ranges::copy_if(collisions, std::back_inserter(impact.pairs),
-                       [&](const fast::StepCollision& collision) {
-                         return collision.toi_lower <= impact.toi_upper;
-                       });
+  const auto take_times = [&](const auto& one) {
+    impact.toi_lower = std::min(impact.toi_lower, one.toi_lower);
+    impact.toi_upper = std::min(impact.toi_upper, one.toi_upper);
+  };
+  std::ranges::for_each(collisions, take_times);
+  std::ranges::for_each(inversions, take_times);
+  const auto may_be_first = [&](const auto& one) { return one.toi_lower <= impact.toi_upper; };
+  std::ranges::copy_if(collisions, std::back_inserter(impact.pairs), may_be_first);
+  std::ranges::copy_if(inversions, std::back_inserter(impact.inversions), may_be_first);
   return impact;
 }
 
@@ -47,8 +50,9 @@ void answer(const fast::Step& step, StepQuestion question, StepCheck& check) {
     case StepQuestion::all:
       check.collisions = step.collisions();
       sort_by_numbers(*check.collisions);
-      check.earliest = earliest_of(*check.collisions);
-      check.is_free = check.collisions->empty();
+      check.inversions = step.inversions();
+      check.earliest = earliest_of(*check.collisions, *check.inversions);
+      check.is_free = !check.earliest;
       return;
     case StepQuestion::earliest:
       check.earliest = step.earliest();
@@ -80,10 +84,7 @@ StepCheck check_step(std::optional<fast::Step>& step, const mesh::Mesh& mesh,
     if (step) {
       step.emplace(step->with_places(std::move(vertices), options.step.separation));
     } else {
-      step.emplace(
-          std::move(vertices),
-          fast::MeshElements{.edges = mesh.edges, .faces = mesh.faces, .points = mesh.points},
-          options.step);
+      step.emplace(std::move(vertices), mesh.elements(), options.step);
     }
     if (options.alpha) part.emplace(step->scaled(*options.alpha));
     if (options.question == StepQuestion::all || options.count_candidates) {

@@ -1,8 +1,8 @@
 #pragma once
 
 /// \file
-/// A step of a simulation between two frames: its collisions with their times, and the part
-/// of the step without any.
+/// A step of a simulation between two frames: its collisions and inversions with their times, and
+/// the part of the step without any.
 ///
 /// Every vertex moves on the straight line from one frame to the next. Frames that intersect
 /// themselves are found by touchstone intersections: an edge may be in a face from the start to the
@@ -23,9 +23,9 @@ namespace touchstone::verify::jobs {
 
 /// The question about a step.
 enum class StepQuestion : std::uint8_t {
-  all,       ///< every pair that collides
+  all,       ///< every pair that collides, and every element that inverts
   earliest,  ///< the earliest impact and the pairs that realise it
-  free,      ///< only whether there is a collision
+  free,      ///< only whether there is one
 };
 
 struct StepCheckOptions {
@@ -57,6 +57,8 @@ struct StepCheck {
   std::optional<fast::StepImpact> earliest;
   /// The pairs that collide, if the question was `all`; by kinds, then by numbers.
   std::optional<std::vector<fast::StepCollision>> collisions;
+  /// The elements that invert, if the question was `all`.
+  std::optional<std::vector<fast::StepInversion>> inversions = {};
   /// The contacts of `collisions`, or of the pairs of `earliest` if the question was that, if they
   /// were asked for; in their order, which is by kinds, then by numbers.
   std::vector<fast::ActiveContact> contacts = {};

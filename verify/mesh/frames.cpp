@@ -115,10 +115,11 @@ class ArchivedFrames : public Frames {
       vertices_->fail("more than 2^31-1 vertices");
     const std::vector<fast::Edge> edges = elements<2>("E", "(k, 2)");
     mesh_ = make_mesh({}, elements<3>("F", "(m, 3)"), edges, elements<1>("P", "(p,) or (p, 1)"));
+    mesh_.tetrahedra = elements<4>("T", "(q, 4)");
     mesh_.vertices = read_frame(0);
     std::vector<std::string> others = archive_.names();
     std::erase_if(others, [](const std::string& name) {
-      return name == "V" || name == "F" || name == "E" || name == "P";
+      return name == "V" || name == "F" || name == "E" || name == "P" || name == "T";
     });
     std::ranges::for_each(others, [](std::string& name) { name.insert(0, "array "); });
     mesh_.note = note_of(0, others);

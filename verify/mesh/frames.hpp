@@ -6,9 +6,9 @@
 /// They come from mesh files (.ply, .obj; a file each, or all of a folder in the order of the
 /// numbers in their names), or from one .npz archive as NumPy's `savez` and `savez_compressed`
 /// write it: `V`, float32 or float64 of shape (T, n, 3); `F`, faces, of any type of whole numbers
-/// and of shape (m, 3); `E`, edges of their own, of shape (k, 2); and `P`, points, of shape (p,) or
-/// (p, 1). Two of F, E and P may be missing. One frame of `V` is in memory at a time, unless it is
-/// in Fortran order.
+/// and of shape (m, 3); `E`, edges of their own, of shape (k, 2); `P`, points, of shape (p,) or (p,
+/// 1); and `T`, tetrahedra, of shape (q, 4). All of these but one may be missing. One frame of `V`
+/// is in memory at a time, unless it is in Fortran order.
 
 #include <cstddef>
 #include <filesystem>

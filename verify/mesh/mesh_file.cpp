@@ -82,7 +82,9 @@ void add_polygon(std::vector<fast::Face>& faces, std::span<const std::int32_t> v
 }
 
 void require_elements(const Mesh& mesh, const std::filesystem::path& path) {
-  if (!mesh.faces.empty() || !mesh.edges.empty() || !mesh.points.empty()) return;
+  if (!mesh.faces.empty() || !mesh.edges.empty() || !mesh.points.empty() ||
+      !mesh.tetrahedra.empty())
+    return;
   throw io::DatasetError(
       path, {},
       fmt::format("nothing in it can collide: no face, edge or point, only vertices: {}{}{}",
@@ -96,7 +98,7 @@ bool is_mesh_file(const std::filesystem::path& path) {
 
 bool same_elements(const Mesh& a, const Mesh& b) {
   return a.vertices.rows() == b.vertices.rows() && a.faces == b.faces && a.edges == b.edges &&
-         a.points == b.points && a.groups.names == b.groups.names &&
+         a.points == b.points && a.tetrahedra == b.tetrahedra && a.groups.names == b.groups.names &&
          a.groups.of_vertex == b.groups.of_vertex;
 }
 

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "touchstone/mesh.hpp"
+#include "touchstone/step.hpp"
 
 namespace touchstone::verify::mesh {
 
@@ -42,9 +43,15 @@ struct Mesh {
   /// The vertices that the file names as points by themselves, or by an edge from a vertex to
   /// itself: ascending, each once.
   std::vector<std::int32_t> points;
+  std::vector<fast::Tetrahedron> tetrahedra;
   Groups groups;
   /// A line about parts of the file that were changed or ignored; empty if none were.
   std::string note;
+
+  /// Refers to this mesh.
+  [[nodiscard]] fast::MeshElements elements() const {
+    return {.edges = edges, .faces = faces, .points = points, .tetrahedra = tetrahedra};
+  }
 };
 
 /// The note of a mesh. \param polygons those with more than three vertices \param passed_over
@@ -69,10 +76,10 @@ void add_polygon(std::vector<fast::Face>& faces, std::span<const std::int32_t> v
 /// True if the file's extension names a format that read_mesh knows.
 [[nodiscard]] bool is_mesh_file(const std::filesystem::path& path);
 
-/// True if both have the same number of vertices, and the same faces, edges, points and groups.
+/// True if both have the same number of vertices, and the same elements and groups.
 [[nodiscard]] bool same_elements(const Mesh& a, const Mesh& b);
 
-/// \throws DatasetError, with the contents of the mesh, if nothing in it could collide.
+/// \throws DatasetError, with the contents of the mesh, if nothing in it could collide or invert.
 void require_elements(const Mesh& mesh, const std::filesystem::path& path);
 
 /// Reads a mesh in the format that the file's extension names, in either case: .ply or .obj.

@@ -38,6 +38,12 @@ std::vector<fast::StepCollision> known_collisions(const StepRecord& step) {
   return step.earliest ? step.earliest->pairs : std::vector<fast::StepCollision>();
 }
 
+/// Likewise the elements that invert.
+std::vector<fast::StepInversion> known_inversions(const StepRecord& step) {
+  if (step.inversions) return *step.inversions;
+  return step.earliest ? step.earliest->inversions : std::vector<fast::StepInversion>();
+}
+
 /// The elements of a pair.
 auto pair_of(const fast::Intersection& one) {
   return std::tuple(one.elements[0], one.numbers[0], one.elements[1], one.numbers[1]);
@@ -52,6 +58,9 @@ std::optional<std::size_t> intersecting_in(const StepReport& report, std::size_t
   std::ranges::set_union(*before, *after, std::back_inserter(all), {}, pair_of, pair_of);
   return all.size();
 }
+
+/// Of a row of step_csv_rows.
+constexpr std::size_t step_csv_columns = 22;
 
 std::string_view name_of(jobs::StepQuestion question) {
   switch (question) {
@@ -106,6 +115,8 @@ io::TextTable table_of(const StepReport& report) {
     columns.push_back({std::string(fast::to_string(kind)), 11});
     if (has_counts) columns.push_back({"collide", 7});
   }
+  const bool has_inversions = has_counts && !report.tetrahedra.empty();
+  if (has_inversions) columns.push_back({"invert", 7});
   columns.push_back({"earliest", 11});
   if (report.alpha) columns.push_back({"free alpha", 20});
   if (has_intersections(report)) columns.push_back({"intersect", 9});
@@ -120,6 +131,7 @@ io::TextTable table_of(const StepReport& report) {
       row.push_back(std::to_string(count_of(*step.candidates, kind)));
       if (has_counts) row.push_back(std::to_string(count_of(colliding, kind)));
     }
+    if (has_inversions) row.push_back(std::to_string(step.inversions->size()));
     row.push_back(earliest_text(report, step));
     if (report.alpha) row.push_back(io::number_text(step.free_alpha, "{}"));
     if (const auto pairs = intersecting_in(report, i)) row.push_back(std::to_string(*pairs));
@@ -170,6 +182,25 @@ void append_collisions(std::string& text, const StepReport& report, std::size_t 
   text += table.text() + rest_text(pairs.size(), "--csv FILE");
 }
 
+void append_inversions(std::string& text, const StepReport& report, std::size_t i) {
+  std::vector<fast::StepInversion> elements = known_inversions(report.steps[i]);
+  if (elements.empty()) return;
+  std::ranges::stable_sort(elements, {}, &fast::StepInversion::toi_lower);
+  text += fmt::format("\n{}: elements that invert{}\n", step_name(report, i),
+                      report.question == jobs::StepQuestion::earliest ? " first" : "");
+  io::TextTable table(
+      {io::word_column("  element", 30), {"from t", 24}, {"to", 24}, io::word_column("start", 8)});
+  constexpr std::array<std::string_view, 3> starts{"inverted", "flat", "positive"};
+  for (const fast::StepInversion& one :
+       std::span(elements).first(std::min(elements.size(), most_pairs))) {
+    table.add({fmt::format("  {} {} ({})", fast::to_string(one.kind), one.element,
+                           vertices_text(report.tetrahedra, one.element)),
+               fmt::format("{}", one.toi_lower), fmt::format("{}", one.toi_upper),
+               std::string(starts.at(static_cast<std::size_t>(one.start + 1)))});
+  }
+  text += table.text() + rest_text(elements.size(), "--csv FILE");
+}
+
 /// "face 7 (1 2 3)".
 std::string element_text(std::span<const fast::Face> faces, std::span<const fast::Edge> edges,
                          fast::ElementKind kind, std::int32_t number) {
@@ -211,6 +242,7 @@ void append_proof(std::string& text, const StepReport& report, std::size_t i) {
 std::string heading(const StepReport& report) {
   std::string text = fmt::format("{} vertices, {} edges, {} faces", report.vertices,
                                  report.edges.size(), report.faces.size());
+  if (!report.tetrahedra.empty()) text += fmt::format(", {} tetrahedra", report.tetrahedra.size());
   if (!is_zero(report.separation)) {
     text += ", minimum separation " + judge::to_text(report.separation);
   }
@@ -250,12 +282,19 @@ nlohmann::json json_of(const fast::ActiveContact& contact) {
           {"has_side", contact.has_side}};
 }
 
-/// The contacts of the pairs of the earliest impact, in their order.
+/// The contacts of the pairs of the earliest impact, in their order, and its inversions.
 nlohmann::json earliest_contacts(const StepRecord& step) {
   nlohmann::json contacts = nlohmann::json::array();
   if (!step.earliest) return contacts;
   for (const fast::ActiveContact& contact : step.contacts) {
     if (contact.toi_lower <= step.earliest->toi_upper) contacts.push_back(json_of(contact));
+  }
+  for (const fast::StepInversion& one : step.earliest->inversions) {
+    contacts.push_back({{"kind", fast::to_string(one.kind)},
+                        {"element", one.element},
+                        {"start", one.start},
+                        {"toi_lower", one.toi_lower},
+                        {"toi_upper", one.toi_upper}});
   }
   return contacts;
 }
@@ -292,6 +331,7 @@ nlohmann::json json_of(const StepReport& report, std::size_t i) {
       {"candidates", step.candidates ? json_of(*step.candidates) : nlohmann::json()},
       {"collisions",
        step.collisions ? json_of(jobs::counts_of(*step.collisions)) : nlohmann::json()},
+      {"inversions", step.inversions ? nlohmann::json(step.inversions->size()) : nlohmann::json()},
       {"toi_lower", toi(&fast::StepImpact::toi_lower)},
       {"toi_upper", toi(&fast::StepImpact::toi_upper)},
       {"earliest", earliest_contacts(step)},
@@ -321,7 +361,10 @@ bool has_collisions(const StepReport& report) {
 
 std::string to_text(const StepReport& report) {
   std::string text = heading(report) + table_of(report).text();
-  for (std::size_t i = 0; i < report.steps.size(); ++i) append_collisions(text, report, i);
+  for (std::size_t i = 0; i < report.steps.size(); ++i) {
+    append_collisions(text, report, i);
+    append_inversions(text, report, i);
+  }
   for (const FrameRecord& frame : report.frames) append_intersections(text, report, frame);
   for (std::size_t i = 0; i < report.steps.size(); ++i) append_proof(text, report, i);
   return text +
@@ -342,6 +385,7 @@ nlohmann::json to_json(const StepReport& report) {
           {"vertices", report.vertices},
           {"edges", report.edges.size()},
           {"faces", report.faces.size()},
+          {"tetrahedra", report.tetrahedra.size()},
           {"interrupted", report.interrupted},
           {"frames", std::move(frames)},
           {"steps", std::move(steps)}};
@@ -372,6 +416,18 @@ std::string step_csv_rows(const StepReport& report, std::size_t i) {
     add(contact.point_error);
     add(contact.normal_error);
     row.emplace_back(contact.has_side ? "1" : "0");
+    rows += io::csv_row(row);
+  }
+  for (const fast::StepInversion& one : known_inversions(report.steps.at(i))) {
+    std::vector<std::string> row{std::to_string(i),
+                                 report.frames.at(i).name,
+                                 report.frames.at(i + 1).name,
+                                 std::string(fast::to_string(one.kind)),
+                                 std::to_string(one.element),
+                                 "",
+                                 io::csv_number(one.toi_lower),
+                                 io::csv_number(one.toi_upper)};
+    row.resize(step_csv_columns);
     rows += io::csv_row(row);
   }
   return rows;
@@ -405,7 +461,7 @@ NamedElement named(const std::vector<RestingMesh>& meshes, fast::ElementKind kin
 std::string element_text(const std::vector<RestingMesh>& meshes, fast::ElementKind kind,
                          std::int32_t number) {
   const auto [mesh, own] = named(meshes, kind, number);
-  const auto& [name, of, defects] = meshes[mesh];
+  const auto& [name, of, defects, inversions] = meshes[mesh];
   return (meshes.size() > 1 ? io::printable(name) + ": " : "") +
          element_text(of.faces, of.edges, kind, own);
 }
@@ -471,12 +527,23 @@ std::string numbers_text(std::string_view name, const std::vector<Item>& numbers
   return text + (numbers.size() > most_pairs ? ", ...)\n" : ")\n");
 }
 
+/// The tetrahedra whose volume has this sign at rest.
+std::vector<std::size_t> tetrahedra_with(const RestingMesh& mesh, int sign) {
+  std::vector<std::size_t> result;
+  for (const fast::Inversion& one : mesh.inversions) {
+    if (one.result.start == sign) result.push_back(one.element);
+  }
+  return result;
+}
+
 std::string defects_text(const IntersectionReport& report, const RestingMesh& mesh) {
   const fast::MeshDefects& defects = mesh.defects;
   std::string text = numbers_text("faces without an area", defects.degenerate_faces) +
                      numbers_text("edges without a length", defects.degenerate_edges) +
                      numbers_text("vertices at the place of another", defects.duplicated_vertices) +
-                     numbers_text("vertices of no element", defects.unreferenced_vertices);
+                     numbers_text("vertices of no element", defects.unreferenced_vertices) +
+                     numbers_text("tetrahedra without a volume", tetrahedra_with(mesh, 0)) +
+                     numbers_text("inverted tetrahedra", tetrahedra_with(mesh, -1));
   if (!defects.duplicated_vertices.empty() && !report.weld) {
     text +=
         "Elements that meet at vertices at one place intersect. With --weld these are one "
@@ -496,7 +563,10 @@ nlohmann::json json_of(const RestingMesh& mesh) {
           {"degenerate_faces", mesh.defects.degenerate_faces},
           {"degenerate_edges", mesh.defects.degenerate_edges},
           {"duplicated_vertices", mesh.defects.duplicated_vertices},
-          {"unreferenced_vertices", mesh.defects.unreferenced_vertices}};
+          {"unreferenced_vertices", mesh.defects.unreferenced_vertices},
+          {"tetrahedra", mesh.mesh.tetrahedra.size()},
+          {"flat_tetrahedra", tetrahedra_with(mesh, 0)},
+          {"inverted_tetrahedra", tetrahedra_with(mesh, -1)}};
 }
 
 nlohmann::json json_of(const fast::PointEnclosure& point) {
@@ -523,7 +593,7 @@ nlohmann::json json_of(const std::vector<RestingMesh>& meshes, const fast::Inter
 mesh::Mesh joined(const std::vector<RestingMesh>& meshes) {
   if (meshes.size() == 1) return meshes.front().mesh;
   mesh::Mesh result;
-  for (const auto& [name, mesh, defects] : meshes) {
+  for (const auto& [name, mesh, defects, inversions] : meshes) {
     const auto first = static_cast<std::int32_t>(result.vertices.rows());
     result.vertices.conservativeResize(result.vertices.rows() + mesh.vertices.rows(), 3);
     result.vertices.bottomRows(mesh.vertices.rows()) = mesh.vertices;

@@ -14,6 +14,7 @@
 
 #include "fast/method.hpp"
 #include "touchstone/intersections.hpp"
+#include "touchstone/inversion.hpp"
 #include "verify/jobs/check_step.hpp"
 #include "verify/mesh/mesh_file.hpp"
 
@@ -38,46 +39,49 @@ struct StepReport {
   std::size_t vertices = 0;
   std::span<const fast::Edge> edges;
   std::span<const fast::Face> faces;
+  std::span<const fast::Tetrahedron> tetrahedra;
   /// One more than steps; an interrupted run may have one more, or none.
   std::vector<FrameRecord> frames;
   std::vector<StepRecord> steps;
   bool interrupted = false;
 };
 
-/// True if something touches in a step, or a frame intersects itself.
+/// True if something touches or inverts in a step, or a frame intersects itself.
 [[nodiscard]] bool has_collisions(const StepReport& report);
 
-/// A line for each step; then, for each step, the pairs that touch, the earliest ten; then the
-/// pairs that intersect, ten of a frame; last the meaning of a verdict on frames.
+/// A line for each step; then, for each step, the pairs that touch and the elements that invert,
+/// the earliest ten of each; then the pairs that intersect, ten of a frame; last the meaning of a
+/// verdict on frames.
 [[nodiscard]] std::string to_text(const StepReport& report);
 
 /// `separation` (as in bench_report.hpp, null for contact), `alpha` (or null), `question` (all,
-/// earliest or free), `vertices`, `edges`, `faces`, `interrupted`; `frames`, a list of `name`,
-/// `intersecting` (how many pairs intersect) and `intersections` (lists of the kind, the first
-/// element and its number, the second one and its number; both null if they were not searched for);
-/// and
-/// `steps`, a list of `frames` (two names), `candidates` and `collisions`
+/// earliest or free), `vertices`, `edges`, `faces`, `tetrahedra`, `interrupted`; `frames`, a list
+/// of `name`, `intersecting` (how many pairs intersect) and `intersections` (lists of the kind, the
+/// first element and its number, the second one and its number; both null if they were not searched
+/// for); and `steps`, a list of `frames` (two names), `candidates` and `collisions`
 /// (`vertex_face`, `edge_edge`, `vertex_edge`, `vertex_vertex`; null where they were not
-/// counted or not all asked for), `toi_lower` and `toi_upper` (null if nothing touches, or only
-/// freedom was asked for), `earliest` (the pairs of the earliest impact, as below), `free`,
-/// `intersecting` (how many pairs intersect in one of the two frames or both, or null),
-/// `free_alpha` (with alpha), `proof` (if a certificate was written: `claim`, `directions` and
-/// `certificates`, the pairs that are argued by each, `bytes`, and `complete`), and `seconds` and
-/// `processor_seconds`
+/// counted or not all asked for), `inversions` (how many elements invert, or null), `toi_lower` and
+/// `toi_upper` (null if nothing touches, or only freedom was asked for), `earliest` (the pairs of
+/// the earliest impact, as below), `free`, `intersecting` (how many pairs intersect in one of the
+/// two frames or both, or null), `free_alpha` (with alpha), `proof` (if a certificate was written:
+/// `claim`, `directions` and `certificates`, the pairs that are argued by each, `bytes`, and
+/// `complete`), and `seconds` and `processor_seconds`
 /// (`broad_phase`, `narrow_phase`, `total`).
 ///
 /// A pair of `earliest`, if contacts were asked for, has `kind`, `first`, `second` (numbers from
 /// 0), `toi_lower`, `toi_upper`, `u`, `v`, `points` (on the first primitive and on the second),
 /// `normal`, `point_error`, `normal_error` ("Infinity" where there is no normal, or no bound) and
-/// `has_side`, as fast::ActiveContact.
+/// `has_side`, as fast::ActiveContact. An element of `earliest` follows the pairs, with `kind`
+/// (tetrahedron), `element`, `start`, `toi_lower` and `toi_upper`, as fast::StepInversion.
 [[nodiscard]] nlohmann::json to_json(const StepReport& report);
 
 /// step,frame0,frame1,kind,first,second,toi_lower,toi_upper,u,v,first_x,first_y,first_z,second_x,
 /// second_y,second_z,normal_x,normal_y,normal_z,point_error,normal_error,has_side
 [[nodiscard]] std::string step_csv_header();
 
-/// A row for each contact of step `i`. `normal_error` is inf where there is no normal, or no bound;
-/// `has_side` is 0 or 1.
+/// A row for each contact of step `i`, then for each inversion, with the kind, its element as
+/// `first` and its times. `normal_error` is inf where there is no normal, or no bound; `has_side`
+/// is 0 or 1.
 [[nodiscard]] std::string step_csv_rows(const StepReport& report, std::size_t i);
 
 // The intersections of meshes at rest, for people (tables) and for machines (JSON, CSV).
@@ -87,6 +91,7 @@ struct RestingMesh {
   std::string name;
   mesh::Mesh mesh;
   fast::MeshDefects defects = {};
+  std::vector<fast::Inversion> inversions = {};  ///< the tetrahedra that are flat or inverted
 };
 
 /// Several meshes as one, whose vertices and elements are those of all in order. If there is more
@@ -109,7 +114,8 @@ struct IntersectionReport {
                                     const fast::Intersection& intersection);
 
 /// `meshes` (`name`, `vertices`, `edges`, `faces`, `degenerate_faces`, `degenerate_edges`,
-/// `duplicated_vertices`, `unreferenced_vertices`), `intersections` (`kind`, `first` and `second`:
+/// `duplicated_vertices`, `unreferenced_vertices`, `tetrahedra`, `flat_tetrahedra`,
+/// `inverted_tetrahedra`), `intersections` (`kind`, `first` and `second`:
 /// `mesh`, an index, `element`, `number`; `place`: two points of three intervals), `counts` by
 /// kind, `weld`, `seconds`, `interrupted`.
 [[nodiscard]] nlohmann::json to_json(const IntersectionReport& report);

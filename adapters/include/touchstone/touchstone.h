@@ -179,6 +179,12 @@ typedef struct TouchstoneMesh {
   size_t separations;
   const int32_t* separated_groups;  ///< 2 · separations; each pair once, in either order
   const double* group_separations;  ///< these distances, not negative
+  /// Elements whose volume, or area in the plane of x and y, is to stay positive, as for
+  /// touchstone_invert. They do not collide.
+  size_t tetrahedra;
+  const int32_t* tetrahedron_vertices;  ///< 4 · tetrahedra
+  size_t plane_triangles;
+  const int32_t* plane_triangle_vertices;  ///< 3 · plane_triangles
 } TouchstoneMesh;
 
 /// A step of a mesh, made by touchstone_step_new.
@@ -200,6 +206,18 @@ typedef struct TouchstoneCollision {
   double v;
 } TouchstoneCollision;
 
+/// The elements of a mesh that have a volume, or an area in the plane.
+enum TouchstoneVolume { TOUCHSTONE_TETRAHEDRON = 0, TOUCHSTONE_PLANE_TRIANGLE = 1 };
+
+/// An element of a mesh that inverts.
+typedef struct TouchstoneStepInversion {
+  int32_t kind;      ///< one of TouchstoneVolume
+  int32_t element;   ///< its number among those of its kind
+  int32_t start;     ///< the sign of its volume at t=0: 1, 0 (flat) or −1 (inverted)
+  double toi_lower;  ///< as in TouchstoneInversion
+  double toi_upper;
+} TouchstoneStepInversion;
+
 /// A new step of a mesh, to be freed by touchstone_step_free. Everything is copied; the context of
 /// a rule must outlive the step.
 /// \param options null for the default ones
@@ -209,17 +227,22 @@ TOUCHSTONE_API int32_t touchstone_step_new(const TouchstoneMesh* mesh,
 /// \param step may be null
 TOUCHSTONE_API void touchstone_step_free(TouchstoneStep* step);
 
-/// Writes 1 if the step is free, else 0.
+/// Writes 1 if the step is free, of collisions and inversions, else 0.
 TOUCHSTONE_API int32_t touchstone_step_is_free(const TouchstoneStep* step, int32_t* is_free);
 
-/// The earliest impact, with the smallest toi_lower and toi_upper of all pairs; verdict
-/// TOUCHSTONE_NO and NaN if the step is free. u and v are NaN.
+/// The earliest impact, with the smallest toi_lower and toi_upper of all pairs and elements;
+/// verdict TOUCHSTONE_NO and NaN if the step is free. u and v are NaN.
 TOUCHSTONE_API int32_t touchstone_step_earliest(const TouchstoneStep* step,
                                                 TouchstoneImpact* impact);
 
 /// All pairs in contact.
 TOUCHSTONE_API int32_t touchstone_step_collisions(TouchstoneStep* step,
                                                   const TouchstoneCollision** collisions,
+                                                  size_t* count);
+
+/// All elements that invert, tetrahedra first, in the order of their numbers.
+TOUCHSTONE_API int32_t touchstone_step_inversions(TouchstoneStep* step,
+                                                  const TouchstoneStepInversion** inversions,
                                                   size_t* count);
 
 /// A maximal step size: the step from x0 to fl(x0 + fl(alpha fl(x1 − x0))) is free and, unless
@@ -276,30 +299,34 @@ enum TouchstoneStartDistance {
 /// The reason for a step size.
 enum TouchstoneLimitReason {
   TOUCHSTONE_WHOLE = 0,       ///< the whole step is allowed
-  TOUCHSTONE_LIMITED = 1,     ///< a pair limits the step
+  TOUCHSTONE_LIMITED = 1,     ///< a pair or an element limits the step
   TOUCHSTONE_IN_CONTACT = 2,  ///< a pair is in contact at the start; the step size is 0
-  TOUCHSTONE_TOO_SMALL = 3    ///< the step size would be below the least doubles; it is 0
+  TOUCHSTONE_TOO_SMALL = 3,   ///< the step size would be below the least doubles; it is 0
+  TOUCHSTONE_INVERTED = 4     ///< an element is flat or inverted at the start; the step size is 0
 };
 
 typedef struct TouchstoneLineSearchOptions {
   int32_t norm;            ///< one of TouchstoneNorm
   int32_t start_distance;  ///< one of TouchstoneStartDistance
+  double kept_volume;  ///< the part of its volume at t=0 of which an element keeps more, in [0,1)
 } TouchstoneLineSearchOptions;
 
 typedef struct TouchstoneLineSearchLimit {
   int32_t reason;               ///< one of TouchstoneLimitReason
   double step_size;             ///< in [0, t_max] of the step
   TouchstoneDistance distance;  ///< the least distance at the start; infinity if there are no pairs
-  const TouchstoneCollision* pairs;  ///< the pairs that limit the step
-  size_t count;                      ///< the number of pairs
+  const TouchstoneCollision* pairs;           ///< the pairs that limit the step
+  size_t count;                               ///< the number of pairs
+  const TouchstoneStepInversion* inversions;  ///< the elements that limit the step
+  size_t inversion_count;                     ///< the number of elements
 } TouchstoneLineSearchLimit;
 
-/// The default options: TOUCHSTONE_L2, TOUCHSTONE_OF_SCENE.
+/// The default options: TOUCHSTONE_L2, TOUCHSTONE_OF_SCENE, 0.
 TOUCHSTONE_API TouchstoneLineSearchOptions touchstone_default_line_search_options(void);
 
 /// The greatest step size, rounded down by at most the step's toi_tolerance, up to which all
-/// primitives, with radii thick ones, stay at least p times as far apart as at the start. The
-/// separation of the step has no effect.
+/// primitives, with radii thick ones, stay at least p times as far apart as at the start, and all
+/// elements keep their volumes. The separation of the step has no effect.
 /// \param p more than 0 and at most 1 − 2^-50
 /// \param options null for the default ones
 TOUCHSTONE_API int32_t touchstone_step_line_search_limit(TouchstoneStep* step, double p,

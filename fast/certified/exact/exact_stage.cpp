@@ -206,15 +206,24 @@ std::optional<ExactImpact> decide_exactly(Kind kind, const CurvedQuery& query,
   return approach_at(kind, *time, nearest_parameters(kind, at_impact, 0.0, separation.norm));
 }
 
-ExactInversion decide_inversion_exactly(const Query& tetrahedron, double t_max) {
+ExactInversion decide_inversion_exactly(const Query& tetrahedron, double t_max,
+                                        double kept_volume) {
   const auto motion = motion_of<BigInteger, BigInteger>(
       Kind::vertex_face,
       {axis_of(tetrahedron, 0), axis_of(tetrahedron, 1), axis_of(tetrahedron, 2)});
-  const auto det = determinant(motion, normal(motion));
+  auto det = determinant(motion, normal(motion));
   ExactInversion result{.start = -det.front().sign()};
   if (result.start <= 0) {
     result.inverts = true;
     return result;
+  }
+  if (kept_volume > 0.0) {
+    const BinaryFraction kept = odd_fraction(kept_volume);  // its exponent is negative
+    const BigInteger of_start = det.front() * BigInteger(kept.numerator);
+    for (std::size_t i = 0; i < det.size(); ++i) {
+      det[i] <<= -kept.exponent;
+      det[i] -= of_start * BigInteger(i % 3 == 0 ? 1 : 3);
+    }
   }
   const auto end_at = [&](Instant& first) {
     if (first.is_above(unit_bits(t_max))) return true;

@@ -48,13 +48,15 @@ struct ExactImpact {
 /// The answer about a tetrahedron (touchstone/element.hpp).
 struct ExactInversion {
   int start = 0;           ///< the sign of the volume at t=0
-  bool inverts = false;    ///< the volume is 0 or negative at a time of at most t_max
+  bool inverts = false;    ///< it is so at a time of at most t_max
   double toi_lower = 0.0;  ///< if it inverts: below the first such time; 0 if that is 0
   double toi_upper = 0.0;  ///< not below that time
 };
 
-/// The first inversion, exact for all finite coordinates: D of contact_conditions.hpp is −6 times
-/// the volume. The enclosure is of neighbouring doubles. \pre as above.
-[[nodiscard]] ExactInversion decide_inversion_exactly(const Query& tetrahedron, double t_max);
+/// The first time at which at most this part of the volume at t=0 is left, exact for all finite
+/// coordinates: D of contact_conditions.hpp is −6 times the volume. The enclosure is of
+/// neighbouring doubles. \pre as above; kept_volume in [0,1).
+[[nodiscard]] ExactInversion decide_inversion_exactly(const Query& tetrahedron, double t_max,
+                                                      double kept_volume);
 
 }  // namespace touchstone::fast

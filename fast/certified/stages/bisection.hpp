@@ -71,17 +71,25 @@ struct Moving {
   std::array<MovingLanes<Lanes, kind>, groups_of_block<Lanes>> groups;
 };
 
-template <class Lanes, bool separated, Kind kind, class Source>
+/// \param bounds of queries from their vectors
+template <class Lanes, Kind kind, class Source, class MakeBounds>
 inline void load_moving(const KernelInput& input, const Indices& indices,
-                        Moving<Lanes, kind>& moving) {
+                        Moving<Lanes, kind>& moving, const MakeBounds& bounds) {
   moving.indices = &indices;
   for (std::size_t first = 0; first < indices.count; first += Lanes::width) {
     const std::size_t count = taken<Lanes>(first, indices.count);
     const auto unit =
         vectors_of<kind>(load<Lanes, Source>(input, indices.items.data() + first, count));
-    moving.groups[first / Lanes::width].store(
-        unit, bounds_of<kind, separated>(unit, typename Lanes::Value(input.separation.distance)));
+    moving.groups[first / Lanes::width].store(unit, bounds(unit));
   }
+}
+template <class Lanes, bool separated, Kind kind, class Source>
+inline void load_moving(const KernelInput& input, const Indices& indices,
+                        Moving<Lanes, kind>& moving) {
+  using Value = typename Lanes::Value;
+  load_moving<Lanes, kind, Source>(input, indices, moving, [&](const Ends<Value>& unit) {
+    return bounds_of<kind, separated>(unit, Value(input.separation.distance));
+  });
 }
 
 /// What is proved of contacts on an interval, from the vectors at its ends.

@@ -36,13 +36,17 @@ inline constexpr double double_double_underflow =
     filters::determinant_end_double_double.underflow(StageFormat<double>::limits.difference);
 static_assert(StageFormat<double>::limits.difference <=
               filters::determinant_end_double_double.greatest_x);
+/// The factor of the bounds of det that also covers a part of det at t=0 (inversion.hpp).
+inline constexpr double kept_growth = 5.0;
 
-/// det in double-double, at any time.
+/// det in double-double, at any time; less the part of det at t=0 that is to be kept, if any
+/// (inversion.hpp has the bound).
 template <class Value, bool separated, Kind kind>
 class PreciseDeterminant {
  public:
-  PreciseDeterminant(const std::array<Vector<Value>, query_points>& x, const Value& distance)
-      : distance_(distance) {
+  PreciseDeterminant(const std::array<Vector<Value>, query_points>& x, const Value& distance,
+                     double kept)
+      : distance_(distance), kept_(kept) {
     constexpr auto ends = ends_of_vectors<kind>();
     for (std::size_t end = 0; end < 2; ++end) {
       for (std::size_t i = 0; i < 3; ++i) {
@@ -57,14 +61,14 @@ class PreciseDeterminant {
     bound_ =
         determinant_bound<separated>(magnitudes_, filters::determinant_end_double_double.rounding(),
                                      double_double_underflow, distance, shift_of_value<double>);
+    if (kept_ == 0.0) return;
+    bound_ = bound_ * Value(kept_growth);
+    of_start_ = evaluate(Value(0.0)) * Precise{Value(kept_), Value(0.0)};
   }
 
   [[nodiscard]] Value at(const Value& time) const {
-    const Precise end{time, Value(0.0)};
-    const Precise start = filters::exact_difference(Value(1.0), time);
-    return filters::DeterminantEnd::evaluate<Precise>(coordinates_,
-                                                      {start, end, start, end, start, end})
-        .high;
+    const Precise value = evaluate(time);
+    return kept_ == 0.0 ? value.high : (value - of_start_).high;
   }
 
   [[nodiscard]] const Value& bound() const { return bound_; }
@@ -76,10 +80,19 @@ class PreciseDeterminant {
  private:
   using Precise = filters::DoubleDouble<Value>;
 
+  [[nodiscard]] Precise evaluate(const Value& time) const {
+    const Precise end{time, Value(0.0)};
+    const Precise start = filters::exact_difference(Value(1.0), time);
+    return filters::DeterminantEnd::evaluate<Precise>(coordinates_,
+                                                      {start, end, start, end, start, end});
+  }
+
   std::array<Precise, filters::DeterminantEnd::coordinates> coordinates_;
   std::array<Value, 3> magnitudes_{Value(0.0), Value(0.0), Value(0.0)};
   Value distance_;
   Value bound_;
+  double kept_;
+  Precise of_start_{Value(0.0), Value(0.0)};
 };
 
 /// u and v of the contact at a time, from the orientations, which are proportional to the
@@ -139,7 +152,7 @@ class Refinement {
                            Approaches& approaches, Indices& unproved, KernelOutput& output) {
     const CrossingLanes<Lanes> lanes(crossings, count);
     const auto points = load<Lanes, Source>(input, lanes.indices.data(), Lanes::width);
-    const Determinant determinant(points, Value(input.separation.distance));
+    const Determinant determinant(points, Value(input.separation.distance), input.kept_volume);
     const Value half_width(0.4 * input.toi_tolerance);
     const Value zero = lanes.cubic.zero(0x1p-26);
     const Value newton = lanes.begin + lanes.length * zero;

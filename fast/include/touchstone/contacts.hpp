@@ -99,6 +99,10 @@
 /// time is below two of the least doubles. There are no other tolerances or corrections: a step
 /// size of 0 always comes with a status that explains it.
 ///
+/// Elements with volumes (MeshElements) limit it, too: each keeps more than the part `kept_volume`
+/// of its volume at the start. V(t) − f V(0) is a cubic polynomial, whose sign is decided exactly,
+/// like that of V; f = 0 says that no element inverts.
+///
 /// **Radii** of a step's groups (touchstone/step.hpp) thicken its primitives. The distance of a
 /// pair is then less by its thickness, and negative where thick primitives overlap; it is enclosed
 /// by the ends for the primitives themselves, less the thickness, rounded outwards. The active set
@@ -241,15 +245,18 @@ enum class StartDistance : std::uint8_t {
 
 enum class LineSearchStatus : std::uint8_t {
   whole,       ///< the whole step is allowed
-  limited,     ///< a pair limits the step
+  limited,     ///< a pair or an element limits the step
   in_contact,  ///< a pair is in contact at the start; the step size is 0
   too_small,   ///< the step size, or a distance s as above, would be below the least doubles; it is
                ///< 0
+  inverted,    ///< an element is flat or inverted at the start; the step size is 0
 };
 
 struct LineSearchOptions {
   Norm norm = Norm::l2;
   StartDistance start_distance = StartDistance::of_scene;
+  /// The part of its volume at the start of which an element must keep more, in [0,1).
+  double kept_volume = 0.0;
 };
 
 struct LineSearchLimit {
@@ -264,13 +271,17 @@ struct LineSearchLimit {
   /// contact at the start. too_small: the pairs that limit the step at a time or a distance too
   /// small for doubles.
   std::vector<StepCollision> pairs = {};
+  /// Likewise the elements: those that limit the step first, are flat or inverted at the start, or
+  /// limit it at a time too small for doubles. Their times are those at which no more than the kept
+  /// part is left.
+  std::vector<StepInversion> inversions = {};
 };
 
 /// The greatest step size, rounded down by at most the step's toi_tolerance, up to which all
-/// primitives stay at least p times as far apart as at the start. The separation of the step has no
-/// effect.
+/// primitives stay at least p times as far apart as at the start, and all elements keep more than
+/// the part of their volume. The separation of the step has no effect.
 /// \param p more than 0 and at most 1 − 2^-50.
-/// \throws std::invalid_argument for another p.
+/// \throws std::invalid_argument for another p, or a kept_volume out of range.
 [[nodiscard]] LineSearchLimit line_search_limit(const Step& step, double p,
                                                 const LineSearchOptions& options = {});
 

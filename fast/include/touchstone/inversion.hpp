@@ -50,9 +50,6 @@
 
 namespace touchstone::fast {
 
-/// The four vertices of a tetrahedron, in the order of touchstone/element.hpp.
-using Tetrahedron = std::array<std::int32_t, 4>;
-
 /// As in CertifiedOptions.
 struct InversionOptions {
   /// The maximum width of the enclosure of the first time, relative to its upper end; finite, not
@@ -61,19 +58,23 @@ struct InversionOptions {
   /// Only inversions up to this time, in [0,1], count; this limit is exact. toi_upper may exceed it
   /// by the width of the enclosure.
   double t_max = 1.0;
+  /// In [0,1): an element counts as inverted as soon as no more than this part of its volume at t=0
+  /// is left, exactly.
+  double kept_volume = 0.0;
   /// Maximum number of threads; 0 (all_cores): one for each core that the process may use.
   int max_threads = all_cores;
 };
 
 struct InversionResult {
-  /// yes: the volume is 0 or negative at some time in [0, t_max]; no: it is positive throughout;
+  /// yes: the volume is 0 or negative, or no more than the kept part, at some time in [0, t_max];
+  /// no: it is more throughout;
   /// always right. error if a coordinate is not finite. Never undecided.
   Verdict verdict = Verdict::error;
   Stage stage = Stage::exact;  ///< the stage that decided: determinant, bisection or exact
   /// The sign of the volume at t=0: 1, 0 (flat) or −1 (inverted); 0 with error.
   std::int8_t start = 0;
-  /// With yes: the first time at which the volume is not positive is above toi_lower and not above
-  /// toi_upper; both are 0 if that time is 0, as it is unless `start` is 1.
+  /// With yes: the first such time is above toi_lower and not above toi_upper; both are 0 if that
+  /// time is 0, as it is unless `start` is 1.
   double toi_lower = no_number;
   double toi_upper = no_number;
 };

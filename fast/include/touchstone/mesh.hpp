@@ -26,12 +26,14 @@ namespace touchstone::fast {
 using Edge = std::array<std::int32_t, 2>;
 /// The three vertices of a face.
 using Face = std::array<std::int32_t, 3>;
+/// The four vertices of a tetrahedron, in the order of touchstone/element.hpp.
+using Tetrahedron = std::array<std::int32_t, 4>;
 /// The two indices of a pair. vertex_face: a vertex and a face; edge_edge: two edges.
 using IndexPair = std::array<std::int32_t, 2>;
 
-/// Elements from a matrix of integers, such as int32 or int64, in any storage order: faces from
-/// n×3, edges from n×2. An empty matrix of any shape has none.
-/// \tparam Element Face or Edge
+/// Elements from a matrix of integers, such as int32 or int64, in any storage order: tetrahedra
+/// from n×4, faces from n×3, edges from n×2. An empty matrix of any shape has none.
+/// \tparam Element Tetrahedron, Face or Edge
 /// \throws std::invalid_argument for another number of columns; std::out_of_range naming the first
 /// row with a number that is negative or above 2^31−1.
 template <class Element, class Matrix>

@@ -1,7 +1,8 @@
 #pragma once
 
 /// \file
-/// A whole step of a scene: freedom from collisions, the earliest impact, and all collisions.
+/// A whole step of a scene: freedom from collisions and inversions, the earliest impact, and all of
+/// them.
 ///
 /// \code{.cpp}
 /// // One triangle falls onto another one.
@@ -72,6 +73,15 @@
 /// limits of line searches are those of thick primitives, too (touchstone/contacts.hpp). A box is
 /// widened by its primitive's own part; the pairs of a block are decided by separations.
 ///
+/// **Elements.** A scene may have tetrahedra and triangles of the plane, whose volumes and areas
+/// are to stay positive (touchstone/element.hpp). One *inverts* if its volume is 0 or negative at
+/// some time; `earliest`, `is_free`, `starts_free`, `scaled`, `free_step_size` and limits of line
+/// searches count this as they count collisions, as exactly, and name the elements in lists of
+/// their own. An element that is flat or inverted at the start inverts at time 0, and its `start`
+/// says so. All are examined by their volumes on lanes before the search for pairs
+/// (touchstone/inversion.hpp), which then ends at the first inversion. Elements do not collide; the
+/// surface of a solid does, if it is given as faces.
+///
 /// **On curves** (CurvedStep) a vertex stays in the box around its control points, so a primitive
 /// stays in the box around those of its vertices; the candidates are the pairs of primitives whose
 /// boxes are within the separation. The pairs that can collide are the same: the theorem is about
@@ -80,6 +90,7 @@
 /// | question                                        | Step | CurvedStep           |
 /// |-------------------------------------------------|------|----------------------|
 /// | earliest, collisions, is_free                   | yes  | yes                  |
+/// | inversions of elements                          | yes  | no: straight lines   |
 /// | candidates                                      | yes  | boxes().candidates() |
 /// | with_places, scaled, free_step_size, query_of   | yes  | no: straight lines   |
 /// | distances, active sets, limits of line searches | yes  | no: straight lines   |
@@ -122,6 +133,12 @@ enum class PairKind : std::uint8_t {
 /// "vertex-face", "edge-edge", "vertex-edge", "vertex-vertex".
 [[nodiscard]] std::string_view to_string(PairKind kind);
 
+/// The elements that have a volume, or an area in the plane.
+enum class VolumeKind : std::uint8_t { tetrahedron, plane_triangle };
+
+/// "tetrahedron", "plane-triangle".
+[[nodiscard]] std::string_view to_string(VolumeKind kind);
+
 /// The elements of a scene, by vertex numbers. A vertex that no element names is not part of the
 /// scene.
 struct MeshElements {
@@ -132,6 +149,12 @@ struct MeshElements {
   std::span<const Face> faces = {};
   /// Vertices that are part of the scene in any case, with or without an edge or a face.
   std::span<const std::int32_t> points = {};
+  /// Elements whose volume is to stay positive. They do not collide, and intersections at rest do
+  /// not depend on them; nor are their vertices part of the scene by this.
+  std::span<const Tetrahedron> tetrahedra = {};
+  /// Elements whose area in the plane of x and y is to stay positive, likewise; the vertices' third
+  /// coordinates have no effect on it.
+  std::span<const Face> plane_triangles = {};
 };
 
 /// Two groups, in either order, which may be the same, and the thickness of their pairs.
@@ -194,15 +217,32 @@ struct StepCollision {
   friend bool operator==(const StepCollision&, const StepCollision&) = default;
 };
 
-/// The earliest impact of a step.
+/// An element that inverts.
+struct StepInversion {
+  VolumeKind kind = VolumeKind::tetrahedron;
+  std::int32_t element = 0;  ///< its number among those of its kind
+  /// The sign of its volume at the start, as in InversionResult: 0 (flat) and −1 (inverted) have
+  /// the time 0.
+  std::int8_t start = 0;
+  /// Enclosure of the first time at which its volume is 0 or negative, as in InversionResult.
+  double toi_lower = 0.0;
+  double toi_upper = 0.0;
+
+  friend bool operator==(const StepInversion&, const StepInversion&) = default;
+};
+
+/// The earliest impact of a step: a collision or an inversion.
 struct StepImpact {
-  /// The smallest toi_lower and the smallest toi_upper of all collisions.
+  /// The smallest toi_lower and the smallest toi_upper of all collisions and inversions.
   double toi_lower = 0.0;
   double toi_upper = 0.0;
   /// The candidates for the first collision: all with a toi_lower up to that toi_upper, in the
   /// order of kinds and pairs, which is not that of their times. The first one is among them; the
   /// enclosures of several do not tell which it is.
   std::vector<StepCollision> pairs;
+  /// Likewise the candidates among the elements, tetrahedra first. One of the two lists may be
+  /// empty.
+  std::vector<StepInversion> inversions = {};
 
   friend bool operator==(const StepImpact&, const StepImpact&) = default;
 };
@@ -254,14 +294,17 @@ class Step {
 
   // ---- Impacts ----
 
-  /// The earliest impact; nullopt if there is no collision.
+  /// The earliest impact; nullopt if there is no collision and no inversion.
   [[nodiscard]] std::optional<StepImpact> earliest() const;
 
   /// All collisions, by kinds. The order depends only on the step and those that it was made from;
   /// pairs that are close in space are mostly close in the list.
   [[nodiscard]] std::vector<StepCollision> collisions() const;
 
-  /// True if there is no collision.
+  /// All elements that invert, tetrahedra first, in the order of their numbers.
+  [[nodiscard]] std::vector<StepInversion> inversions() const;
+
+  /// True if there is no collision and no inversion.
   [[nodiscard]] bool is_free() const;
 
   // ---- The start ----
@@ -270,7 +313,8 @@ class Step {
   /// above holds. (touchstone/intersections.hpp; `Intersection` is declared there.)
   /// \throws Stopped
   [[nodiscard]] std::vector<Intersection> intersections_at_start() const;
-  /// True if there is no intersection at the start. \throws Stopped
+  /// True if there is no intersection at the start, and no element is flat or inverted there: of
+  /// inversions(), none has a `start` that is not 1. \throws Stopped
   [[nodiscard]] bool starts_free() const;
 
   // ---- The step that is taken ----
@@ -363,8 +407,9 @@ class CurvedStep {
  public:
   /// The vertices are copied. Keeps references to the elements.
   /// \throws std::invalid_argument for a degree above greatest_degree, numbers that are no whole
-  /// vertices, or invalid options; std::domain_error naming the first vertex with a coordinate that
-  /// is not finite or a weight that is not positive and finite; otherwise as Step.
+  /// vertices, elements with volumes, or invalid options; std::domain_error naming the first vertex
+  /// with a coordinate that is not finite or a weight that is not positive and finite; otherwise as
+  /// Step.
   CurvedStep(const CurvedVertices& vertices, const MeshElements& elements,
              const StepOptions& options = {});
 
