@@ -215,7 +215,7 @@ class StepCheck {
     const bool is_edge_edge = a[0] != a[1];
     const std::array<std::int32_t, 4> of_vertex_and_face{a[0], b[0], b[1], b[2]};
     const std::array<std::int32_t, 4> of_edges{a[0], a[1], b[0], b[1]};
-    certificate.query.is_edge_edge = is_edge_edge;
+    certificate.query.kind = is_edge_edge ? Kind::edge_edge : Kind::vertex_face;
     for (std::size_t n = 0; n < 4; ++n) {
       const std::int32_t number = is_edge_edge ? of_edges[n] : of_vertex_and_face[n];
       const Motion& vertex = scene_.vertices[static_cast<std::size_t>(number)];
