@@ -21,7 +21,7 @@ failed_proof() {
 }
 
 cp "$sources"/*.v .
-for file in Problem Form Geometry Checker Proof; do
+for file in Problem Form Geometry Checker Proof Inversion; do
   compile "$file.v" || { echo "verified_faults.sh: $file.v does not compile without a fault" >&2; cat output.txt >&2; exit 1; }
 done
 mkdir sound
@@ -40,7 +40,7 @@ if source.count(text) != 1:
 open(file, "w").write(source.replace(text, instead))
 END
   stands='' failed=''
-  for source in Form Checker Proof; do
+  for source in Form Checker Proof Inversion; do
     [ "$source" = Form ] && [ "$file" != Form.v ] && continue
     if ! compile "$source.v"; then
       failed=$(failed_proof "$source.v" || true)
