@@ -130,7 +130,7 @@ std::optional<FirstInversion> first_inversion(const Elements& elements, double t
   double limit = 1.0;
   for (std::size_t kind = 0; kind < all.size(); ++kind) {
     all.at(kind) = elements.inversions(kind, t_max);
-    for (const auto& [_, result] : all.at(kind)) limit = std::min(limit, result.toi_upper);
+    for (const fast::Inversion& one : all.at(kind)) limit = std::min(limit, one.result.toi_upper);
   }
   std::optional<FirstInversion> first;
   for (std::size_t kind = 0; kind < all.size(); ++kind) {
@@ -161,7 +161,9 @@ std::optional<std::pair<Pair, exact::Decision>> first_collision(const fast::Step
       first.emplace(pair, std::move(verdict));
     }
   }
-  if (!first) throw std::logic_error("touchstone: the earliest impact is none");
+  if (!first && !impact->pairs.empty()) {
+    throw std::logic_error("touchstone: the earliest impact is none");
+  }
   return first;
 }
 
