@@ -364,9 +364,12 @@ TEST(ProveInversion, OfAllSortsOfElementsIsAccepted) {
   }
 }
 
-TEST(ProveInversion, OfCurvesIsAccepted) {
+/// On curves, too; with the proof of another element one is accepted only where the claim is true
+/// of it.
+TEST(ProveInversion, OfCurvesIsAcceptedAndNoneOfWhatIsFalse) {
   tests::Random random(9);
   std::array<int, 3> claims{};
+  int kept = 0, rejected = 0;
   for (int round = 0; round < tests::soak_trials(300, 20); ++round) {
     CurvedQuery element;
     for (Trajectory& curve : element) {
@@ -378,12 +381,26 @@ TEST(ProveInversion, OfCurvesIsAccepted) {
     }
     if (round % 3 == 0)
       element = to_tetrahedron(CurvedTriangle{element[0], element[1], element[2]});
-    const Certificate certificate =
+    Certificate certificate =
         accepted(element, decide_inversion(element),
                  {.collision_claim = round % 4 == 0 ? Claim::collision : Claim::time_of_impact});
     ++claims.at(static_cast<std::size_t>(certificate.claim));
+    Trajectory& curve = element.at(static_cast<std::size_t>(random.between(0, 3)));
+    curve.control.back().at(static_cast<std::size_t>(random.between(0, 2))) +=
+        random.coin() ? 1 : -1;
+    certificate.query = element;
+    const bool is_kept = rejection(certificate).empty();
+    ++(is_kept ? kept : rejected);
+    if (!is_kept) continue;
+    const InversionDecision truth = decide_inversion(element);
+    ASSERT_EQ(truth.inverts(), certificate.claim != Claim::no_collision);
+    if (certificate.claim != Claim::time_of_impact) continue;
+    EXPECT_GE(*truth.time, certificate.toi.lower);
+    EXPECT_LE(*truth.time, certificate.toi.upper);
   }
   for (const int count : claims) EXPECT_GT(count, tests::trials(20));
+  EXPECT_GT(kept, tests::trials(20));
+  EXPECT_GT(rejected, tests::trials(20));
 }
 
 /// The volume is (1 − 3t)² + h², too near to 0 at 1/3 for the checker's bisections.
