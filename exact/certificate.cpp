@@ -156,12 +156,38 @@ void require_limits(const Certificate& certificate) {
   }
 }
 
+/// The one condition of an inversion; empty if the volume is positive at the time.
+template <class Order>
+std::optional<ContactConditions> find_inversion(const MotionOf<Order>& motion,
+                                                AlgebraicNumber& time) {
+  const auto volume = -determinant(motion);
+  const int sign = sign_at(volume, time);
+  if (sign > 0) return std::nullopt;
+  ContactConditions conditions{PlaneContact{}, {}, {}};
+  auto& polynomials = sign == 0 ? conditions.zero : conditions.nonzero;
+  if (!volume.is_zero()) polynomials.push_back(to_polynomial(volume));
+  return conditions;
+}
+
+template <class Order>
+std::optional<ContactConditions> conditions_at(const MotionOf<Order>& motion, bool is_tetrahedron,
+                                               AlgebraicNumber& time) {
+  if (is_tetrahedron) return find_inversion(motion, time);
+  return sgn(motion.distance) > 0 ? find_near_contact(motion, time) : find_contact(motion, time);
+}
+
+template <class Order>
+std::vector<Subinterval> free_until(const MotionOf<Order>& motion, bool is_tetrahedron,
+                                    const Rational& until) {
+  return is_tetrahedron ? keep_volume(motion, until) : separate(motion, until);
+}
+
 template <class Order>
 void prove_collision(const MotionOf<Order>& motion, const AlgebraicNumber& first,
                      const ProveOptions& options, Certificate& certificate) {
   AlgebraicNumber toi = recognised(first);
-  const bool is_apart = sgn(motion.distance) > 0;
-  const auto conditions = is_apart ? find_near_contact(motion, toi) : find_contact(motion, toi);
+  const bool is_tetrahedron = certificate.is_tetrahedron;
+  const auto conditions = conditions_at(motion, is_tetrahedron, toi);
   if (!conditions)
     throw std::logic_error("touchstone: no contact at the decision's time of impact");
   RationalInterval within{Rational(0), Rational(1)};
@@ -170,41 +196,41 @@ void prove_collision(const MotionOf<Order>& motion, const AlgebraicNumber& first
     certificate.toi = RationalInterval{Rational(0), Rational(0)};
     if (toi != Rational(0)) {
       certificate.toi = toi_interval(toi, options.width);
-      certificate.subintervals = separate(motion, certificate.toi.lower);
+      certificate.subintervals = free_until(motion, is_tetrahedron, certificate.toi.lower);
     }
     within = certificate.toi;
   }
   certificate.contact = {proved_time(std::move(toi), *conditions, within), conditions->place};
 }
 
-}  // namespace
-
-namespace {
-
-/// \tparam AnyQuery Query or CurvedQuery.
-template <class AnyQuery>
-Certificate prove_any(Kind kind, const AnyQuery& query, const Decision& decision,
-                      const ProveOptions& options) {
+/// Proves the first contact, or that there is none, of a certificate that has its query.
+template <class Order>
+Certificate prove_motion(Certificate certificate, const MotionOf<Order>& motion,
+                         const std::optional<AlgebraicNumber>& first, const ProveOptions& options) {
   if (options.width && sgn(*options.width) <= 0) {
     throw std::invalid_argument("the interval of a time of impact must have a positive width");
   }
   if (options.collision_claim == Claim::no_collision) {
     throw std::invalid_argument("no collision cannot be claimed of a query that collides");
   }
-  Certificate certificate;
-  certificate.kind = kind;
-  certificate.query = query;
-  certificate.separation = decision.separation;
-  auto motion = scale_uniformly(kind, query, decision.separation);
-  // Both norms mean the same at distance 0, and l2 has fewer features.
-  if (sgn(motion.distance) == 0) motion.norm = Norm::l2;
-  if (decision.toi) {
-    prove_collision(motion, *decision.toi, options, certificate);
+  if (first) {
+    prove_collision(motion, *first, options, certificate);
   } else {
-    certificate.subintervals = separate(motion, Rational(1));
+    certificate.subintervals = free_until(motion, certificate.is_tetrahedron, Rational(1));
   }
   require_limits(certificate);
   return certificate;
+}
+
+/// \tparam AnyQuery Query or CurvedQuery.
+template <class AnyQuery>
+Certificate prove_any(Kind kind, const AnyQuery& query, const Decision& decision,
+                      const ProveOptions& options) {
+  auto motion = scale_uniformly(kind, query, decision.separation);
+  // Both norms mean the same at distance 0, and l2 has fewer features.
+  if (sgn(motion.distance) == 0) motion.norm = Norm::l2;
+  return prove_motion({.kind = kind, .query = query, .separation = decision.separation}, motion,
+                      decision.toi, options);
 }
 
 }  // namespace
@@ -237,6 +263,18 @@ std::vector<Certificate> prove(const Queries& queries, std::span<const Decision>
     certificates.push_back(prove(queries, i, decisions[i], options));
   }
   return certificates;
+}
+
+Certificate prove_inversion(const Query& tetrahedron, const InversionDecision& decision,
+                            const ProveOptions& options) {
+  return prove_motion({.is_tetrahedron = true, .query = tetrahedron},
+                      scale_to_integers(Kind::vertex_face, tetrahedron), decision.time, options);
+}
+
+Certificate prove_inversion(const CurvedQuery& tetrahedron, const InversionDecision& decision,
+                            const ProveOptions& options) {
+  return prove_motion({.is_tetrahedron = true, .query = tetrahedron},
+                      scale(Kind::vertex_face, tetrahedron, {}), decision.time, options);
 }
 
 }  // namespace touchstone::exact

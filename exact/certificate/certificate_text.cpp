@@ -55,8 +55,11 @@ void write_bits(std::string& text, std::uint64_t bits) {
   text += std::to_string(exponent);
 }
 
-void write_kind(std::string& text, Kind kind) {
-  text += kind == Kind::vertex_face ? "query vertex_face\n" : "query edge_edge\n";
+void write_kind(std::string& text, const Certificate& certificate) {
+  const bool is_edge_edge = certificate.kind == Kind::edge_edge;
+  text += certificate.is_tetrahedron ? "query tetrahedron\n"
+          : is_edge_edge             ? "query edge_edge\n"
+                                     : "query vertex_face\n";
 }
 
 void write_label(std::string& text, std::string_view label) {
@@ -102,15 +105,16 @@ void write_interval(std::string& text, const RationalInterval& interval) {
 }
 
 void write_claim(std::string& text, const Certificate& certificate) {
+  const bool is_tetrahedron = certificate.is_tetrahedron;
   switch (certificate.claim) {
     case Claim::no_collision:
-      text += "claim no_collision\n";
+      text += is_tetrahedron ? "claim no_inversion\n" : "claim no_collision\n";
       break;
     case Claim::collision:
-      text += "claim collision\n";
+      text += is_tetrahedron ? "claim inversion\n" : "claim collision\n";
       break;
     default:
-      text += "claim time_of_impact ";
+      text += is_tetrahedron ? "claim time_of_inversion " : "claim time_of_impact ";
       write_interval(text, certificate.toi);
       text += '\n';
   }
@@ -162,6 +166,7 @@ struct PlaceWriter {
   void operator()(const EdgeContact& place) const { write_corners(text += "edge", place.corners); }
   void operator()(const FaceContact&) const { text += "face"; }
   void operator()(const AxesContact&) const { text += "axes"; }
+  void operator()(const PlaneContact&) const { text += "plane"; }
 };
 
 /// True for a byte of a UTF-8 character after its first.
@@ -193,7 +198,7 @@ std::string certificates_closing_line(std::uint64_t certificates) {
 }
 
 void write(std::string& text, const Certificate& certificate, std::string_view label) {
-  write_kind(text, certificate.kind);
+  write_kind(text, certificate);
   write_label(text, label);
   std::visit([&](const auto& query) { write_points(text, query); }, certificate.query);
   write_separation(text, certificate.separation);

@@ -189,16 +189,8 @@ void append_visible(const LongSubinterval& whole, const Rational& until,
   }
 }
 
-}  // namespace
-
-bool is_within_limit(const Rational& number) {
-  return mpz_sizeinbase(number.get_num_mpz_t(), 2) <= number_limit &&
-         mpz_sizeinbase(number.get_den_mpz_t(), 2) <= number_limit;
-}
-
-template <class Order>
-std::vector<Subinterval> separate(const MotionOf<Order>& motion, const Rational& until) {
-  std::vector<Separator> separators = exact::separators(restricted(motion, until));
+/// The fewest subintervals of these separators that a checker can verify.
+std::vector<Subinterval> cover(std::vector<Separator> separators, const Rational& until) {
   if (const auto feature = single_feature(separators)) return {{Rational(0), until, *feature}};
   std::vector<Subinterval> subintervals;
   for (const LongSubinterval& subinterval : fewest_subintervals(separators, until)) {
@@ -213,7 +205,28 @@ std::vector<Subinterval> separate(const MotionOf<Order>& motion, const Rational&
   return subintervals;
 }
 
+}  // namespace
+
+bool is_within_limit(const Rational& number) {
+  return mpz_sizeinbase(number.get_num_mpz_t(), 2) <= number_limit &&
+         mpz_sizeinbase(number.get_den_mpz_t(), 2) <= number_limit;
+}
+
+template <class Order>
+std::vector<Subinterval> separate(const MotionOf<Order>& motion, const Rational& until) {
+  return cover(separators(restricted(motion, until)), until);
+}
+
+template <class Order>
+std::vector<Subinterval> keep_volume(const MotionOf<Order>& motion, const Rational& until) {
+  const auto volume = -determinant(restricted(motion, until));
+  return cover({{{.sort = Feature::Sort::negative_face}, {{{volume.c.begin(), volume.c.end()}}}}},
+               until);
+}
+
 template std::vector<Subinterval> separate(const MotionOf<Straight>&, const Rational&);
 template std::vector<Subinterval> separate(const MotionOf<Curved>&, const Rational&);
+template std::vector<Subinterval> keep_volume(const MotionOf<Straight>&, const Rational&);
+template std::vector<Subinterval> keep_volume(const MotionOf<Curved>&, const Rational&);
 
 }  // namespace touchstone::exact

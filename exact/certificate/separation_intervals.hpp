@@ -40,6 +40,15 @@ template <class Order>
 [[nodiscard]] std::vector<Subinterval> separate(const MotionOf<Order>& motion,
                                                 const Rational& until);
 
+/// The same of positive volume: subintervals of the feature `negative_face`, whose condition at
+/// distance 0 is −det(a − b, a − c, a − d) = det(b − a, c − a, d − a) > 0 (touchstone/element.hpp).
+/// There are several only where a checker would have to bisect too often.
+/// \param motion a tetrahedron as a vertex and a face, in any units
+/// \pre the volume is positive in [0,until]. \throws as separate.
+template <class Order>
+[[nodiscard]] std::vector<Subinterval> keep_volume(const MotionOf<Order>& motion,
+                                                   const Rational& until);
+
 /// True if numerator and denominator have at most number_limit bits.
 [[nodiscard]] bool is_within_limit(const Rational& number);
 

@@ -46,8 +46,7 @@ void write_step_claim(std::string& text, const StepClaim& claim) {
   text.append(" ").append(to_string(claim.separation.norm)).append("\n");
   text.append("claim ").append(to_text(claim)).append("\n");
   if (!claim.earliest) return;
-  text.append("pair ").append(claim.earliest->pair_kind).append(" ");
-  write_step_numbers(text, claim.earliest->pair);
+  text.append(claim.earliest->name).append("\n");
   write_contact(text, claim.earliest->proof);
 }
 

@@ -3,7 +3,7 @@
 /// \file
 /// Certificates of steps as text: exact/CERTIFICATES.md, "Steps", version 2. The scene and the
 /// claim; the arguments of pairs stand between the claim and the line "end", in the order of
-/// step_pair_kinds.
+/// step_pair_kinds, and those of elements follow.
 
 #include <array>
 #include <cstddef>
@@ -21,6 +21,12 @@ namespace touchstone::exact {
 /// The kinds of pairs in a step's certificate, in its order.
 inline constexpr std::array<std::string_view, 4> step_pair_kinds{"vertex_face", "edge_edge",
                                                                  "vertex_edge", "vertex_vertex"};
+
+/// The kinds of elements, and the keywords of their lists, which are left out where they are empty.
+inline constexpr std::array<std::string_view, 2> step_element_kinds{"tetrahedron",
+                                                                    "plane_triangle"};
+inline constexpr std::array<std::string_view, 2> step_element_lists{"tetrahedra",
+                                                                    "plane_triangles"};
 
 /// The limits of the checker: items of a scene, and pairs with an argument.
 inline constexpr std::size_t step_item_limit = std::size_t{1} << 22U;
@@ -56,8 +62,7 @@ struct StepClaim {
   /// A contact in (end, upper]; at 0 if both are.
   struct Contact {
     Rational upper;
-    std::string_view pair_kind;             ///< one of step_pair_kinds
-    std::array<std::int32_t, 2> pair = {};  ///< the numbers of its primitives
+    std::string name;  ///< "pair KIND I J" or "element KIND I"
     ContactProof proof;
   };
 

@@ -93,7 +93,9 @@ void read_claim(Reader& reader, Certificate& certificate) {
   certificate.line = reader.begin("claim");
   // The words are in the order of the enumeration, here and below.
   certificate.claim =
-      static_cast<Claim>(reader.one_of({"no_collision", "collision", "time_of_impact"}));
+      static_cast<Claim>(certificate.query.kind == Kind::tetrahedron
+                             ? reader.one_of({"no_inversion", "inversion", "time_of_inversion"})
+                             : reader.one_of({"no_collision", "collision", "time_of_impact"}));
   if (certificate.claim == Claim::no_collision) certificate.lower = 1;
   if (certificate.claim == Claim::time_of_impact) {
     take_time_of_impact(reader, certificate.lower, certificate.upper);
@@ -142,13 +144,18 @@ std::size_t take_axis(Reader& reader) { return reader.one_of({"x", "y", "z"}); }
 void take_corners(Reader& reader, const Query& query, std::size_t count, Part& part) {
   for (std::size_t n = 0; n < count; ++n) {
     const std::size_t corner = reader.one_of({"0", "1", "2", "3"});
-    if (corner == 3 && !query.is_edge_edge) reject("a vertex_face has no corner 3");
+    if (corner == 3 && query.kind != Kind::edge_edge) reject("a vertex_face has no corner 3");
     part.corners.at(n) = corner;
   }
 }
 
 void take_feature(Reader& reader, const Query& query, Subinterval& subinterval) {
   using enum Feature;
+  if (query.kind == Kind::tetrahedron) {
+    reader.one_of({"face"});
+    reader.one_of({"-"});
+    return;
+  }
   const Feature feature =
       static_cast<Feature>(reader.one_of({"vertex", "edge", "face", "axis", "cross"}));
   subinterval.feature = feature;
@@ -175,6 +182,10 @@ void take_time(Reader& reader, Contact& contact) {
 
 void take_place(Reader& reader, const Query& query, Contact& contact) {
   using enum Place;
+  if (query.kind == Kind::tetrahedron) {
+    reader.one_of({"plane"});
+    return;
+  }
   const Place place =
       static_cast<Place>(reader.one_of({"vertex", "segment", "triangle", "edge", "face", "axes"}));
   contact.place = place;
@@ -235,9 +246,13 @@ std::string to_text(const mpq_class& number) {
 }
 
 std::string to_text(const Certificate& certificate) {
-  if (certificate.claim == Claim::no_collision) return "no_collision";
-  if (certificate.claim == Claim::collision) return "collision";
-  return "time_of_impact " + to_text(certificate.lower) + ' ' + to_text(certificate.upper);
+  const bool is_tetrahedron = certificate.query.kind == Kind::tetrahedron;
+  if (certificate.claim == Claim::no_collision) {
+    return is_tetrahedron ? "no_inversion" : "no_collision";
+  }
+  if (certificate.claim == Claim::collision) return is_tetrahedron ? "inversion" : "collision";
+  return (is_tetrahedron ? "time_of_inversion " : "time_of_impact ") + to_text(certificate.lower) +
+         ' ' + to_text(certificate.upper);
 }
 
 std::string to_text(const Separation& separation) {
@@ -370,7 +385,7 @@ Contact read_contact(Reader& reader, const Query& query) {
 void read_certificate(Reader& reader, Certificate& certificate) {
   Query& query = certificate.query;
   reader.begin("query");
-  query.is_edge_edge = reader.one_of({"vertex_face", "edge_edge"}) == 1;
+  query.kind = static_cast<Kind>(reader.one_of({"vertex_face", "edge_edge", "tetrahedron"}));
   reader.end();
   if (reader.first_word() == "label") certificate.label = read_label(reader, "label");
   if (reader.first_word() == "curve" || reader.first_word() == "rational") {
@@ -378,7 +393,9 @@ void read_certificate(Reader& reader, Certificate& certificate) {
   } else {
     read_lines(reader, query);
   }
-  if (reader.first_word() == "separation") certificate.separation = read_separation(reader);
+  if (reader.first_word() == "separation" && query.kind != Kind::tetrahedron) {
+    certificate.separation = read_separation(reader);
+  }
   read_claim(reader, certificate);
   if (certificate.has_subintervals()) certificate.subintervals = read_subintervals(reader, query);
   if (certificate.has_contact()) certificate.contact = read_contact(reader, query);

@@ -62,8 +62,12 @@ struct Curve {
   std::vector<mpq_class> weights;
 };
 
+/// A vertex and a face, two edges, or a tetrahedron, whose contacts are its inversions: a vertex
+/// and a face, the plane of which it must not reach.
+enum class Kind : std::uint8_t { vertex_face, edge_edge, tetrahedron };
+
 struct Query {
-  bool is_edge_edge = false;
+  Kind kind = Kind::vertex_face;
   /// The points of a vertex and a face, or of two edges, in this order.
   std::array<Curve, 4> points;
 };
@@ -74,6 +78,7 @@ struct Separation {
   bool is_l2 = false;
 };
 
+/// Of a tetrahedron they are called no_inversion, inversion, time_of_inversion.
 enum class Claim : std::uint8_t { no_collision, collision, time_of_impact };
 
 /// A statement about [from, to] on a line of its own.

@@ -91,7 +91,7 @@ class StreamCheck {
                        certificate.line);
       std::int64_t work_bits_left = options_.max_work_bits;
       verify(certificate, work_bits_left);
-      count(certificate.claim);
+      count(certificate);
     });
     if (is_read) return;
     const auto may_begin = [&] {
@@ -100,10 +100,13 @@ class StreamCheck {
     while (!reader_.at_end() && (reader_.number() == first || !may_begin())) reader_.advance();
   }
 
-  void count(Claim claim) {
-    if (claim == Claim::no_collision) ++report_.no_collision;
-    if (claim == Claim::collision) ++report_.collision;
-    if (claim == Claim::time_of_impact) ++report_.time_of_impact;
+  void count(const Certificate& certificate) {
+    const bool is_tetrahedron = certificate.query.kind == Kind::tetrahedron;
+    using Count = std::uint64_t Report::*;
+    static constexpr std::array<std::array<Count, 3>, 2> counts{
+        {{&Report::no_collision, &Report::collision, &Report::time_of_impact},
+         {&Report::no_inversion, &Report::inversion, &Report::time_of_inversion}}};
+    ++(report_.*counts.at(is_tetrahedron ? 1 : 0).at(static_cast<std::size_t>(certificate.claim)));
   }
 
   using CheckScene = std::string(Reader&, Reader*, const Options&);
@@ -153,13 +156,12 @@ std::string demanded_claim(std::string_view words) {
     std::size_t numbers;
     bool may_be_without;
   };
-  static constexpr std::array forms{Form{"no_collision", 0, true},
-                                    Form{"collision", 0, true},
-                                    Form{"time_of_impact", 2, true},
-                                    Form{"no_contact", 1, false},
-                                    Form{"earliest", 2, true},
-                                    Form{"intersections", 1, true},
-                                    Form{"welded_intersections", 1, true}};
+  static constexpr std::array forms{
+      Form{"no_collision", 0, true},   Form{"collision", 0, true},
+      Form{"time_of_impact", 2, true}, Form{"no_inversion", 0, true},
+      Form{"inversion", 0, true},      Form{"time_of_inversion", 2, true},
+      Form{"no_contact", 1, false},    Form{"earliest", 2, true},
+      Form{"intersections", 1, true},  Form{"welded_intersections", 1, true}};
   const std::vector<std::string_view> parts = words_of(words);
   for (const auto& [name, numbers, may_be_without] : forms) {
     if (parts[0] != name) continue;

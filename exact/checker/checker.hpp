@@ -17,7 +17,8 @@
 /// and the primitives touch at time t iff 0 ∈ conv{w_i(t)}. A certificate may name a distance D ≥ 0
 /// and a norm, l2 or linf: then t is a *contact* iff ‖x‖ ≤ D for some x ∈ conv{w_i(t)}; else D = 0.
 /// The *time of impact* (toi) is the least contact in [0,1]. ‖d‖* is |d| for l2, |d_x|+|d_y|+|d_z|
-/// for linf.
+/// for linf. A *tetrahedron* a, b, c, d has the corners a−b, a−c, a−d and the volume V, 6V =
+/// det(b−a,c−a,d−a) = −det(w_0,w_1,w_2); its contacts are the times with V ≤ 0.
 ///
 /// **Theorem.** Each of these is a proof.
 ///   - *Separation* on [a,b]: a direction d(t) with d(t)·w_i(t) > D‖d(t)‖* for all i and all
@@ -38,6 +39,7 @@
 ///     as a, some corner has a·w ≤ D‖a‖* and some −a·w ≤ D‖a‖*. Then t is a contact: were there
 ///     none, a facet's normal of the polytope cube ⊕ −conv{w_i} would be an axis for which one
 ///     fails.
+///   - *Volume*: 6V > 0 on [a,b], or 6V ≤ 0 at t, of a tetrahedron.
 ///   - *Root*: if a polynomial g has strictly opposite signs at LO < HI, it has a root t ∈ (LO,HI).
 ///     A polynomial that g divides is 0 at t; one that has a strict sign on [LO,HI] has it at t.
 /// So: separations of subintervals that cover [0,1] prove `no_collision`; a contact in [0,1] proves
@@ -92,6 +94,9 @@ struct Report {
   std::uint64_t no_collision = 0;
   std::uint64_t collision = 0;
   std::uint64_t time_of_impact = 0;
+  std::uint64_t no_inversion = 0;
+  std::uint64_t inversion = 0;
+  std::uint64_t time_of_inversion = 0;
   /// The claims that accepted certificates of steps prove, some lines each.
   std::vector<std::string> steps;
   /// The same of meshes at rest.
@@ -103,7 +108,11 @@ struct Report {
   std::vector<Rejection> rejections;
 
   [[nodiscard]] std::uint64_t accepted() const {
-    return no_collision + collision + time_of_impact + steps.size() + meshes.size();
+    return no_collision + collision + time_of_impact + inversions() + steps.size() + meshes.size();
+  }
+  /// Those about tetrahedra.
+  [[nodiscard]] std::uint64_t inversions() const {
+    return no_inversion + inversion + time_of_inversion;
   }
   [[nodiscard]] bool all_accepted() const { return rejected == 0; }
 };

@@ -23,8 +23,8 @@ constexpr std::string_view usage =
     "SCENES: the certificates are of steps or of meshes, and of these scenes.\n"
     "\n"
     "--claim CLAIM     Reject whatever claims anything else: no_collision, collision,\n"
-    "                  'time_of_impact [LO HI]'; of steps free, 'no_contact T', 'earliest [LO "
-    "HI]';\n"
+    "                  'time_of_impact [LO HI]', no_inversion, inversion, 'time_of_inversion [LO\n"
+    "                  HI]'; of steps free, 'no_contact T', 'earliest [LO HI]';\n"
     "                  of meshes free, 'intersections [N]', 'welded_intersections [N]'\n"
     "--separation D    Reject whatever is about another distance (0: contact itself)\n"
     "--norm NORM       The norm of --separation: linf (the default) or l2\n"
@@ -87,8 +87,12 @@ std::optional<Arguments> parsed(std::span<char*> words) {
 void print(const touchstone::checker::Report& report) {
   std::cout << "accepted         " << report.accepted() << "\n  no_collision   "
             << report.no_collision << "\n  collision      " << report.collision
-            << "\n  time_of_impact " << report.time_of_impact << "\nrejected         "
-            << report.rejected << '\n';
+            << "\n  time_of_impact " << report.time_of_impact << '\n';
+  if (report.inversions() > 0) {
+    std::cout << "  no_inversion      " << report.no_inversion << "\n  inversion         "
+              << report.inversion << "\n  time_of_inversion " << report.time_of_inversion << '\n';
+  }
+  std::cout << "rejected         " << report.rejected << '\n';
   for (const std::string& step : report.steps) std::cout << step;
   for (const std::string& mesh : report.meshes) std::cout << mesh;
   for (const auto& [line, label, reason] : report.rejections) {

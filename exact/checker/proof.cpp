@@ -192,7 +192,7 @@ class Proof {
   /// all of space is enlarged by one factor, which changes no sign below: a common denominator of
   /// the coordinates, times the product of the denominators of all points, equal ones once.
   void find_corners() {
-    const auto& [is_edge_edge, curves] = certificate_.query;
+    const auto& [kind, curves] = certificate_.query;
     mpz_class factor = certificate_.separation.distance.get_den();
     std::array<Form, 4> own;
     std::vector<Form> denominators;
@@ -214,7 +214,7 @@ class Proof {
         if (denominator != own[i]) points[i] = points[i] * denominator;
       }
     }
-    for (const auto& [a, b] : is_edge_edge ? edge_edge_corners : vertex_face_corners) {
+    for (const auto& [a, b] : kind == Kind::edge_edge ? edge_edge_corners : vertex_face_corners) {
       corners_.push_back(points[a] - points[b]);
     }
   }
@@ -279,6 +279,8 @@ class Proof {
     return cross(corners_[1] - corners_[0], corners_[2] - corners_[0]);
   }
 
+  [[nodiscard]] bool is_tetrahedron() const { return certificate_.query.kind == Kind::tetrahedron; }
+
   /// The next corner in cyclic order.
   [[nodiscard]] const Vector& next(std::size_t corner) const {
     return corners_[(corner + 1) % corners_.size()];
@@ -319,8 +321,13 @@ class Proof {
     return subtract_product(value, dot(d, d), reach_ * reach_);
   }
 
-  /// Proves d·w > D‖d‖* for all corners w, d the direction of the subinterval's feature.
+  /// Six times the volume of a tetrahedron, enlarged: −det(w_0,w_1,w_2) = −N·w_0.
+  [[nodiscard]] Form volume() const { return dot(normal(), corners_[0]) * Form{-1}; }
+
+  /// Proves d·w > D‖d‖* for all corners w, d the direction of the subinterval's feature; or that
+  /// the volume is positive.
   void prove_separation(const Subinterval& subinterval) {
+    if (is_tetrahedron()) return prove_positive(volume());
     const Vector d = direction(subinterval) * Form{subinterval.is_negative ? -1 : 1};
     const bool is_l2 = certificate_.separation.is_l2;
     const std::vector<Form> sums = is_l2 ? std::vector<Form>{Form{0}} : reaches(d);
@@ -343,6 +350,10 @@ class Proof {
       reject("the contact is not in the interval of the claim");
     }
     find_time(contact);
+    if (is_tetrahedron()) {
+      if (sign(volume()) > 0) reject("the volume is positive");
+      return;
+    }
     if (contact.place == Place::vertex) prove_vertex(contact);
     if (contact.place == Place::segment) prove_segment(contact);
     if (contact.place == Place::triangle) prove_triangle(contact);

@@ -120,6 +120,14 @@ Scene read_scene(Reader& reader, const Options& options, Time time) {
   scene.radii = read_list<double>(reader, "radii", items_left, [&] { return take_length(reader); });
   const auto separation = [&] { return GroupSeparation{two_groups(), take_length(reader)}; };
   scene.separations = read_list<GroupSeparation>(reader, "separations", items_left, separation);
+  if (reader.first_word() == "tetrahedra") {
+    scene.tetrahedra = read_list<Tetrahedron>(reader, "tetrahedra", items_left, [&] {
+      return Tetrahedron{vertex(), vertex(), vertex(), vertex()};
+    });
+  }
+  if (reader.first_word() == "plane_triangles") {
+    scene.plane_triangles = read_list<Face>(reader, "plane_triangles", items_left, three_vertices);
+  }
   return scene;
 }
 

@@ -14,6 +14,7 @@
 namespace touchstone::checker {
 
 using Face = std::array<std::int32_t, 3>;
+using Tetrahedron = std::array<std::int32_t, 4>;
 /// The numbers of two vertices, two groups or two primitives.
 using Two = std::array<std::int32_t, 2>;
 
@@ -35,6 +36,8 @@ struct Scene {
   std::vector<Two> apart;
   std::vector<double> radii;                 ///< of a step only
   std::vector<GroupSeparation> separations;  ///< of a step only
+  std::vector<Tetrahedron> tetrahedra;       ///< of a step only
+  std::vector<Face> plane_triangles;         ///< of a step only
 
   friend bool operator==(const Scene&, const Scene&) = default;
 };
@@ -51,7 +54,8 @@ enum class Time : std::uint8_t { step, rest };
 [[nodiscard]] std::int32_t take_count(Reader& reader);
 /// \throws Rejection unless the number is a double.
 [[nodiscard]] double to_double(const mpq_class& number);
-/// Reads the lines from `vertices` to `separations`, or to `apart` of a mesh at rest.
+/// Reads the lines from `vertices` to `separations`, and the elements if there are any, or to
+/// `apart` of a mesh at rest.
 [[nodiscard]] Scene read_scene(Reader& reader, const Options& options, Time time);
 
 /// The primitives that take part.

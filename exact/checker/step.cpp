@@ -34,6 +34,8 @@ struct Pair {
   const Primitive& b;
 };
 
+constexpr std::array<const char*, 2> element_kinds{"tetrahedron", "plane_triangle"};
+
 // ---- The certificate ----------------------------------------------------------------------------
 
 class StepCheck {
@@ -54,7 +56,10 @@ class StepCheck {
     read_claim();
     if (is_earliest_) prove_contact();
     const bool is_contact_at_start = is_earliest_ && upper_ == 0;
-    if (!is_contact_at_start) prove_no_contact();
+    if (!is_contact_at_start) {
+      prove_no_contact();
+      for (const std::size_t kind : {0U, 1U}) prove_volumes(kind);
+    }
     reader_.begin("end");
     reader_.end();
     return text_;
@@ -67,6 +72,9 @@ class StepCheck {
     text_ += std::to_string(elements_.vertices.size()) + " vertices, " +
              std::to_string(elements_.edges.size()) + " edges, " +
              std::to_string(elements_.faces.size()) + " faces\n";
+    if (count_of(0) + count_of(1) == 0) return;
+    text_ += std::to_string(count_of(0)) + " tetrahedra, " + std::to_string(count_of(1)) +
+             " plane triangles\n";
   }
 
   /// Finds the separations of groups, the greatest of all, and the reach of each vertex: of the
@@ -117,18 +125,31 @@ class StepCheck {
     text_ += "separation " + separation + "\nclaim " + claim + '\n';
   }
 
-  /// Reads the pair of the earliest contact and its contact, and verifies both.
+  /// Reads the pair or the element of the earliest contact and its contact, and verifies both.
   void prove_contact() {
     text_ += printable(reader_.text()) + '\n';
+    Certificate certificate =
+        reader_.first_word() == "element" ? inverting_element() : colliding_pair();
+    certificate.contact = read_contact(reader_, certificate.query);
+    verify_within_limits(certificate);
+  }
+
+  Certificate inverting_element() {
+    reader_.begin("element");
+    const std::size_t kind = reader_.one_of({element_kinds[0], element_kinds[1]});
+    const auto number = static_cast<std::size_t>(take_integer(reader_, 0, count_of(kind)));
+    reader_.end();
+    return certificate_of_element(kind, number, Claim::collision);
+  }
+
+  Certificate colliding_pair() {
     reader_.begin("pair");
     const std::size_t kind =
         reader_.one_of({"vertex_face", "edge_edge", "vertex_edge", "vertex_vertex"});
     const Pair pair = take_pair(kinds_.at(kind));
     if (!can_collide(pair.a, pair.b)) reject("these two cannot collide");
     reader_.end();
-    Certificate certificate = certificate_of(pair, Claim::collision);
-    certificate.contact = read_contact(reader_, certificate.query);
-    verify_within_limits(certificate);
+    return certificate_of(pair, Claim::collision);
   }
 
   /// Finds all pairs that no axis keeps apart, and requires that they have an argument.
@@ -188,6 +209,74 @@ class StepCheck {
     verify_within_limits(certificate);
   }
 
+  [[nodiscard]] std::size_t count_of(std::size_t kind) const {
+    return kind == 0 ? scene_.tetrahedra.size() : scene_.plane_triangles.size();
+  }
+
+  /// Proves that no element of a kind has a contact: each is listed with its subintervals, in the
+  /// order of the numbers, or needs none.
+  void prove_volumes(std::size_t kind) {
+    if (count_of(kind) == 0) return;
+    reader_.begin(element_kinds.at(kind));
+    reader_.end();
+    for (std::size_t number = 0; number < count_of(kind); ++number) {
+      Certificate certificate = certificate_of_element(kind, number, Claim::no_collision);
+      const std::string name = std::to_string(number);
+      try {
+        read_subintervals_of_element(name, certificate);
+        verify_within_limits(certificate);
+      } catch (const Rejection& rejection) {
+        reject(element_kinds.at(kind) + (' ' + name) + ": " + rejection.reason, rejection.line);
+      }
+    }
+  }
+
+  void read_subintervals_of_element(const std::string& name, Certificate& certificate) {
+    if (reader_.first_word() != name) {
+      certificate.subintervals.resize(1);
+      certificate.subintervals[0].to = lower_;
+      return;
+    }
+    require_at_most(options_.max_arguments, ++arguments_, "arguments");
+    certificate.line = reader_.begin(name);
+    reader_.end();
+    certificate.subintervals = read_subintervals(reader_, certificate.query);
+  }
+
+  /// A certificate of an element, without its proof.
+  [[nodiscard]] Certificate certificate_of_element(std::size_t kind, std::size_t number,
+                                                   Claim claim) const {
+    Certificate certificate = empty_certificate(claim);
+    certificate.query.kind = Kind::tetrahedron;
+    if (kind == 0) {
+      set_points(scene_.tetrahedra[number], certificate.query);
+      return certificate;
+    }
+    const auto& [a, b, c] = scene_.plane_triangles[number];
+    set_points({a, b, c, b}, certificate.query);
+    for (std::size_t n = 0; n < 4; ++n) {
+      for (Point& point : certificate.query.points[n].control) point[2] = n == 3 ? 1 : 0;
+    }
+    return certificate;
+  }
+
+  void set_points(const std::array<std::int32_t, 4>& vertices, Query& query) const {
+    for (std::size_t n = 0; n < 4; ++n) {
+      const Motion& vertex = scene_.vertices[static_cast<std::size_t>(vertices[n])];
+      for (const auto& [x, y, z] : {vertex.start, vertex.end}) {
+        query.points[n].control.push_back({x, y, z});
+      }
+    }
+  }
+
+  [[nodiscard]] Certificate empty_certificate(Claim claim) const {
+    Certificate certificate;
+    certificate.claim = claim;
+    certificate.lower = lower_;
+    certificate.upper = upper_;
+    return certificate;
+  }
+
   Direction take_direction() {
     Direction direction{};
     for (auto& x : direction) x = take_integer(reader_, 1 - max_direction, max_direction);
@@ -205,24 +294,15 @@ class StepCheck {
   [[nodiscard]] Certificate certificate_of(const Pair& pair, Claim claim) const {
     const Face& a = pair.a.vertices;
     const Face& b = pair.b.vertices;
-    Certificate certificate;
+    Certificate certificate = empty_certificate(claim);
     certificate.separation = separation_;
     certificate.separation.distance = distance_of(pair.a, pair.b);
-    certificate.claim = claim;
-    certificate.lower = lower_;
-    certificate.upper = upper_;
     // The first of two is a vertex, all of whose numbers are the same, or an edge.
     const bool is_edge_edge = a[0] != a[1];
     const std::array<std::int32_t, 4> of_vertex_and_face{a[0], b[0], b[1], b[2]};
     const std::array<std::int32_t, 4> of_edges{a[0], a[1], b[0], b[1]};
-    certificate.query.is_edge_edge = is_edge_edge;
-    for (std::size_t n = 0; n < 4; ++n) {
-      const std::int32_t number = is_edge_edge ? of_edges[n] : of_vertex_and_face[n];
-      const Motion& vertex = scene_.vertices[static_cast<std::size_t>(number)];
-      for (const auto& [x, y, z] : {vertex.start, vertex.end}) {
-        certificate.query.points[n].control.push_back({x, y, z});
-      }
-    }
+    certificate.query.kind = is_edge_edge ? Kind::edge_edge : Kind::vertex_face;
+    set_points(is_edge_edge ? of_edges : of_vertex_and_face, certificate.query);
     return certificate;
   }
 

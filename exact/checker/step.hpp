@@ -2,7 +2,8 @@
 
 /// \file
 /// The certificate of a whole step: the checker finds every pair of primitives that can collide,
-/// and an axis or an argument of the certificate keeps each apart.
+/// and an axis or an argument of the certificate keeps each apart; and every element keeps its
+/// volume.
 ///
 /// A *primitive* is a vertex, an edge or a face; two *can collide* if
 ///   - they are a vertex and a face, two edges, a point (a vertex without an edge) and a bare edge
@@ -16,10 +17,15 @@
 /// of a vertex v and an edge e are those of v and the triangle e0 e1 e0, the corners of two
 /// vertices v and w those of v and the triangle w w w.
 ///
-/// **Theorem.** If a certificate is accepted, no pair that can collide has a contact in [0,T]
-/// (`no_contact T`), or in [0,LO], and one has in [LO,HI] (`earliest LO HI`). *Proof.* A pair that
-/// no axis keeps apart (places.hpp) has an argument: a direction (places.hpp), or subintervals
-/// without a gap (proof.hpp). All arguments are verified, needed or not.
+/// An *element* is a tetrahedron, or a triangle in the plane z = 0 of the vertices' x and y, which
+/// counts as a tetrahedron (exact/CERTIFICATES.md). Its contacts are the times at which its volume
+/// is 0 or negative.
+///
+/// **Theorem.** If a certificate is accepted, no pair that can collide and no element has a contact
+/// in [0,T] (`no_contact T`), or in [0,LO], and one has in [LO,HI] (`earliest LO HI`). *Proof.* A
+/// pair that no axis keeps apart (places.hpp) has an argument: a direction (places.hpp), or
+/// subintervals without a gap (proof.hpp). All arguments are verified, needed or not. An element
+/// has subintervals, or is verified in all of the time as in one.
 
 #include <string>
 

@@ -198,6 +198,9 @@ py::dict check(const std::string& certificates, const std::optional<std::string>
   result["no_collision"] = report.no_collision;
   result["collision"] = report.collision;
   result["time_of_impact"] = report.time_of_impact;
+  result["no_inversion"] = report.no_inversion;
+  result["inversion"] = report.inversion;
+  result["time_of_inversion"] = report.time_of_inversion;
   result["steps"] = py::tuple(py::cast(report.steps));
   result["meshes"] = py::tuple(py::cast(report.meshes));
   result["rejected"] = report.rejected;

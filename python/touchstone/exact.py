@@ -308,6 +308,8 @@ class CheckReport:
     ----------
     no_collision, collision, time_of_impact : int
         The numbers of accepted certificates of queries, by their claims.
+    no_inversion, inversion, time_of_inversion : int
+        The same of tetrahedra.
     steps, meshes : tuple of str
         What accepted certificates of steps and of meshes at rest prove.
     rejected : int
@@ -319,6 +321,9 @@ class CheckReport:
     no_collision: int
     collision: int
     time_of_impact: int
+    no_inversion: int
+    inversion: int
+    time_of_inversion: int
     steps: Tuple[str, ...]
     meshes: Tuple[str, ...]
     rejected: int
@@ -328,7 +333,8 @@ class CheckReport:
     def accepted(self) -> int:
         """The number of accepted certificates."""
         of_queries = self.no_collision + self.collision + self.time_of_impact
-        return of_queries + len(self.steps) + len(self.meshes)
+        of_elements = self.no_inversion + self.inversion + self.time_of_inversion
+        return of_queries + of_elements + len(self.steps) + len(self.meshes)
 
     def __bool__(self) -> bool:
         """Return True if nothing was rejected."""
@@ -356,7 +362,8 @@ def check(
     scenes : bytes or str, optional
         The scenes that certificates of steps or of meshes have to be about.
     claim : str, optional
-        Reject every other claim: "no_collision", "collision", "time_of_impact"; of steps "free",
+        Reject every other claim: "no_collision", "collision", "time_of_impact"; of tetrahedra
+        "no_inversion", "inversion", "time_of_inversion"; of steps "free",
         "no_contact T" or "earliest"; of meshes "free" or "intersections N".
     separation : float, optional
         Reject what is about another distance.

@@ -14,6 +14,7 @@
 
 #include "exact/contact/corner_motion.hpp"
 #include "tests/support/certificates.hpp"
+#include "tests/support/inverting_elements.hpp"
 #include "tests/support/queries.hpp"
 #include "tests/support/random.hpp"
 #include "tests/support/rows.hpp"
@@ -48,18 +49,19 @@ struct Rest {
 
 const std::vector<Rest>& rests() {
   static const std::string corner = "{0|1|2|3|4}", axis = "{x|y|z}";
-  static const std::vector<Rest> all{{"query", 1, "{vertex_face|edge_edge}"},
-                                     {"claim", 1, "{no_collision|collision}"},
-                                     {"claim", 1, "time_of_impact {0 1|0 0|1 1|0 1/2}"},
-                                     {"separation", 2, "{linf|l2}"},
-                                     {"separate", 3, "vertex " + corner},
-                                     {"separate", 3, "edge " + corner + " " + corner},
-                                     {"separate", 3, "{face|axis x|axis y|axis z} {+|-}"},
-                                     {"separate", 3, "cross " + axis + " " + corner + " " + corner},
-                                     {"contact root", 4, "{-1 2|0 1|-1 0 2}"},
-                                     {"at", 1, "{segment|edge} " + corner + " " + corner},
-                                     {"at", 1, "triangle {0|1|2|3} {0|1|2|3} {1|3} " + axis},
-                                     {"at", 1, "{face|axes|vertex 0|vertex 1|vertex 2|vertex 3}"}};
+  static const std::vector<Rest> all{
+      {"query", 1, "{vertex_face|edge_edge|tetrahedron}"},
+      {"claim", 1, "{no_collision|collision|no_inversion|inversion}"},
+      {"claim", 1, "{time_of_impact|time_of_inversion} {0 1|0 0|1 1|0 1/2}"},
+      {"separation", 2, "{linf|l2}"},
+      {"separate", 3, "vertex " + corner},
+      {"separate", 3, "edge " + corner + " " + corner},
+      {"separate", 3, "{face|axis x|axis y|axis z} {+|-}"},
+      {"separate", 3, "cross " + axis + " " + corner + " " + corner},
+      {"contact root", 4, "{-1 2|0 1|-1 0 2}"},
+      {"at", 1, "{segment|edge} " + corner + " " + corner},
+      {"at", 1, "triangle {0|1|2|3} {0|1|2|3} {1|3} " + axis},
+      {"at", 1, "{face|axes|plane|vertex 0|vertex 1|vertex 2|vertex 3}"}};
   return all;
 }
 
@@ -162,7 +164,8 @@ class Mutations {
     if (words_[0] == "claim") {
       for (const std::string& toi :
            {upper + " " + upper, lower + " " + lower, "0 " + lower, lower + " 1", upper + " 1"}) {
-        replace(line, "claim time_of_impact " + toi);
+        replace(line, std::string("claim time_of_") +
+                          (certificate_.is_tetrahedron ? "inversion " : "impact ") + toi);
       }
     }
   }
@@ -181,10 +184,10 @@ class Mutations {
       add(lines);
     }
     if (words_[0] == "claim") {  // with and without the lines of the other claims
-      for (const char* const claim : {"claim no_collision", "claim collision"}) {
+      for (const std::string claim : {"claim no_", "claim "}) {
         for (const char* const part : {"separate", "contact", "at "}) {
           Lines lines = lines_;
-          lines[line] = claim;
+          lines[line] = claim + (certificate_.is_tetrahedron ? "inversion" : "collision");
           std::erase_if(lines, [&](const std::string& l) { return l.starts_with(part); });
           add(lines);
           std::erase_if(lines, [&](const std::string& l) { return l.starts_with("at "); });
@@ -255,8 +258,10 @@ class MutationTest : public ::testing::Test {
   /// Judges about one of `stride` mutants of the certificate.
   void judge_all(const PosedQuery& posed, const ProveOptions& options, unsigned stride,
                  const Separation& separation = {}) {
-    const Certificate certificate = tests::prove(posed, separation, options);
-    ASSERT_EQ(tests::rejection(certificate), "") << posed;
+    judge_all(tests::prove(posed, separation, options), stride);
+  }
+  void judge_all(const Certificate& certificate, unsigned stride) {
+    ASSERT_EQ(tests::rejection(certificate), "") << certificate_stream(certificate);
     for (const Mutant& mutant : Mutations(certificate, ++seed_).all()) {
       if (random_.bits() % stride == 0) judge(mutant);
     }
@@ -305,6 +310,10 @@ TEST_F(MutationTest, WhatIsAcceptedIsTrue) {
         judge_with({}, near);
         judge_with({}, {0x1p-60, norm});
         judge_with(collision, near);
+      }
+      const Query element = tests::element_of_sort(random, static_cast<int>(i));
+      for (const ProveOptions& options : {ProveOptions{}, collision, wide}) {
+        judge_all(prove_inversion(element, decide_inversion(element), options), stride);
       }
     }
   }

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "tests/support/certificates.hpp"
+#include "tests/support/inverting_elements.hpp"
 #include "tests/support/public_data.hpp"
 #include "tests/support/queries.hpp"
 #include "tests/support/random.hpp"
@@ -318,6 +319,110 @@ INSTANTIATE_TEST_SUITE_P(Of, RoundTrips,
                          testing::Values(Trip{"contact", contact, 20, 50},
                                          Trip{"distances", distances, 2, 50}),
                          [](const auto& tested) { return tested.param.name; });
+
+// ---- Inversions ---------------------------------------------------------------------------------
+
+/// The certificate of an element, which claims what the oracle says and is accepted.
+template <class AnyQuery>
+Certificate accepted(const AnyQuery& tetrahedron, const InversionDecision& decision,
+                     const ProveOptions& options = {}) {
+  const Certificate certificate = prove_inversion(tetrahedron, decision, options);
+  EXPECT_EQ(rejection(certificate), "") << certificate_stream(certificate);
+  EXPECT_EQ(certificate.claim, decision.inverts() ? options.collision_claim : Claim::no_collision);
+  EXPECT_EQ(certificate.contact.has_value(), decision.inverts());
+  if (certificate.claim == Claim::time_of_impact && !options.width) {
+    // Neighbouring doubles, of which the upper one may be the time; or 0 twice.
+    EXPECT_EQ(certificate.toi.upper, Rational(decision.time->enclosure().upper));
+    EXPECT_EQ(certificate.toi.lower, Rational(std::nextafter(certificate.toi.upper.get_d(), 0.0)));
+  }
+  return certificate;
+}
+
+/// Elements of all sorts, half of them degenerate; of products of factors the time is known.
+TEST(ProveInversion, OfAllSortsOfElementsIsAccepted) {
+  tests::Random random(8);
+  std::array<int, 3> claims{};
+  for (int round = 0; round < tests::soak_trials(2000, 50); ++round) {
+    const Query element = tests::element_of_sort(random, round % tests::sorts_of_elements);
+    ProveOptions options;
+    if (round % 3 == 0) options.collision_claim = Claim::collision;
+    if (round % 5 == 0) options.width = Rational(1, 1000);
+    const Certificate certificate = accepted(element, decide_inversion(element), options);
+    ++claims.at(static_cast<std::size_t>(certificate.claim));
+  }
+  for (const int count : claims) EXPECT_GT(count, tests::trials(200));
+  for (int round = 0; round < tests::soak_trials(500, 20); ++round) {
+    const tests::KnownInversion known = round % 2 == 0 ? tests::product_of_factors(random)
+                                                       : tests::triangle_of_factors(random).second;
+    const Query& element = known.tetrahedron;
+    const Certificate certificate = accepted(element, decide_inversion(element));
+    ASSERT_EQ(certificate.claim == Claim::time_of_impact, known.numerator >= 0);
+    if (known.numerator >= 0) {
+      EXPECT_EQ(std::get<Rational>(certificate.contact->time),
+                Rational(known.numerator) / known.denominator);
+    }
+  }
+}
+
+/// On curves, too; with the proof of another element one is accepted only where the claim is true
+/// of it.
+TEST(ProveInversion, OfCurvesIsAcceptedAndNoneOfWhatIsFalse) {
+  tests::Random random(9);
+  std::array<int, 3> claims{};
+  int kept = 0, rejected = 0;
+  for (int round = 0; round < tests::soak_trials(300, 20); ++round) {
+    CurvedQuery element;
+    for (Trajectory& curve : element) {
+      const int degree = random.between(0, 3);
+      for (int j = 0; j <= degree; ++j) {
+        for (double& x : curve.control.emplace_back()) x = random.between(-3, 3);
+        if (round % 2 == 0) curve.weights.push_back(random.between(1, 3));
+      }
+    }
+    if (round % 3 == 0)
+      element = to_tetrahedron(CurvedTriangle{element[0], element[1], element[2]});
+    Certificate certificate =
+        accepted(element, decide_inversion(element),
+                 {.collision_claim = round % 4 == 0 ? Claim::collision : Claim::time_of_impact});
+    ++claims.at(static_cast<std::size_t>(certificate.claim));
+    Trajectory& curve = element.at(static_cast<std::size_t>(random.between(0, 3)));
+    curve.control.back().at(static_cast<std::size_t>(random.between(0, 2))) +=
+        random.coin() ? 1 : -1;
+    certificate.query = element;
+    const bool is_kept = rejection(certificate).empty();
+    ++(is_kept ? kept : rejected);
+    if (!is_kept) continue;
+    const InversionDecision truth = decide_inversion(element);
+    ASSERT_EQ(truth.inverts(), certificate.claim != Claim::no_collision);
+    if (certificate.claim != Claim::time_of_impact) continue;
+    EXPECT_GE(*truth.time, certificate.toi.lower);
+    EXPECT_LE(*truth.time, certificate.toi.upper);
+  }
+  for (const int count : claims) EXPECT_GT(count, tests::trials(20));
+  EXPECT_GT(kept, tests::trials(20));
+  EXPECT_GT(rejected, tests::trials(20));
+}
+
+/// The volume is (1 − 3t)² + h², too near to 0 at 1/3 for the checker's bisections.
+TEST(ProveInversion, DividesWhatTheCheckerCannotSee) {
+  for (const double h : {0x1p-10, 0x1p-60, 0x1p-200}) {
+    const Query element{
+        {0, 0, 0, 1, h, 0, -h, 1, 0, 0, 0, 1, 0, 0, 0, -2, h, 0, -h, -2, 0, 0, 0, 1}};
+    const Certificate certificate = accepted(element, decide_inversion(element));
+    EXPECT_EQ(certificate.subintervals.size(), h < 0x1p-100 ? 3U : 1U);
+  }
+}
+
+TEST(ProveInversion, CannotProveAWrongVerdict) {
+  tests::Random random(10);
+  for (int round = 0; round < tests::trials(100); ++round) {
+    const Query element = tests::product_of_factors(random).tetrahedron;
+    const InversionDecision decision = decide_inversion(element);
+    InversionDecision wrong = decision;
+    wrong.time = decision.inverts() ? std::nullopt : std::optional(AlgebraicNumber(Rational(1, 2)));
+    EXPECT_THROW(static_cast<void>(prove_inversion(element, wrong)), std::logic_error);
+  }
+}
 
 }  // namespace
 }  // namespace touchstone::exact::certificate_test

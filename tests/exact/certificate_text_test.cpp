@@ -87,7 +87,8 @@ TEST(WriteCertificate, NamesEveryPlaceOfContactAndDistancesAboveZero) {
          {std::pair<ContactPlace, const char*>(VertexContact{2}, "at vertex 2"),
           {EdgeContact{{1, 2}}, "at edge 1 2"},
           {FaceContact{}, "at face"},
-          {AxesContact{}, "at axes"}}) {
+          {AxesContact{}, "at axes"},
+          {PlaneContact{}, "at plane"}}) {
       certificate.contact = {Rational(1, 2), place};
       EXPECT_EQ(end_of(certificate),
                 line + std::string("claim collision\ncontact time 1/2\n") + text + "\nend\n");

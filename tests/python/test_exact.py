@@ -161,6 +161,15 @@ def test_certificates_are_accepted_and_changed_ones_are_not(queries, kind, claim
     assert not cut and cut.rejections[0].line > 0 and cut.rejections[0].reason
 
 
+def test_certificates_of_tetrahedra():
+    points = "point 0 0 0\npoint 1 0 0\npoint 0 1 0\npoint 0 0 1\n"
+    flat = points.replace("0 0 1", "0 0 0")
+    query = f"touchstone-certificates 2\nquery tetrahedron\n{points}{flat}claim inversion\n"
+    report = touchstone.check(query + "contact time 1\nat plane\nend\ncertificates 1\n", claim="inversion")
+    assert report and report.accepted == report.inversion == 1
+    assert report.no_inversion == report.time_of_inversion == report.collision == 0
+
+
 def test_certificates_of_meshes():
     mesh = "vertices 2\n0 0 0\n0 0 0\nfaces 0\nedges 0\npoints 2\n0\n1\ngroups 0\napart 0\n"
     stream = f"touchstone-meshes 1\nmesh a\n{mesh}claim intersections 1\n0 1 1 1\nseparations\nend\nmeshes 1\n"

@@ -50,6 +50,7 @@ struct ReadClaim {
   Separation separation;
   exact::Claim claim = exact::Claim::no_collision;
   exact::RationalInterval toi;
+  bool is_tetrahedron = false;
 };
 
 /// A number as certificates write it.
@@ -106,7 +107,8 @@ struct ReadClaim {
     if (word == "query") {
       words >> word;
       result = {};
-      result.posed.kind = word == "vertex_face" ? Kind::vertex_face : Kind::edge_edge;
+      result.posed.kind = word == "edge_edge" ? Kind::edge_edge : Kind::vertex_face;
+      result.is_tetrahedron = word == "tetrahedron";
       coordinate = 0;
     } else if (word == "point") {
       while (words >> word && coordinate < result.posed.query.coordinates.size()) {
@@ -123,9 +125,9 @@ struct ReadClaim {
     } else if (word == "claim") {
       std::string lower, upper;
       words >> word >> lower >> upper;
-      result.claim = word == "no_collision" ? exact::Claim::no_collision
-                     : word == "collision"  ? exact::Claim::collision
-                                            : exact::Claim::time_of_impact;
+      result.claim = word.starts_with("no_")     ? exact::Claim::no_collision
+                     : word.starts_with("time_") ? exact::Claim::time_of_impact
+                                                 : exact::Claim::collision;
       if (!upper.empty()) result.toi = {read_number(lower), read_number(upper)};
     }
   }
@@ -135,7 +137,8 @@ struct ReadClaim {
 /// True if the claim is true by the oracle.
 [[nodiscard]] inline bool is_true(const ReadClaim& claim) {
   const auto& [kind, query] = claim.posed;
-  const auto first = exact::decide(kind, query, claim.separation).toi;
+  const auto first = claim.is_tetrahedron ? exact::decide_inversion(query).time
+                                          : exact::decide(kind, query, claim.separation).toi;
   if (claim.claim == exact::Claim::no_collision) return !first;
   if (claim.claim == exact::Claim::collision || !first) return first.has_value();
   const exact::AlgebraicNumber& toi = *first;

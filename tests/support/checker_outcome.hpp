@@ -41,6 +41,10 @@ inline constexpr std::string_view certificate_header = "touchstone-certificates 
   if (report.rejected == 1) {
     return std::to_string(report.rejections[0].line) + ": " + report.rejections[0].reason;
   }
+  if (report.inversions() == 1) {
+    if (report.no_inversion == 1) return "no_inversion";
+    return report.inversion == 1 ? "inversion" : "time_of_inversion";
+  }
   if (report.no_collision == 1) return "no_collision";
   return report.collision == 1 ? "collision" : "time_of_impact";
 }

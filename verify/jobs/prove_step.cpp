@@ -72,16 +72,86 @@ struct PairVertices {
   StepPlaces::Vertices second;
 };
 
-/// The earliest contact: a pair and the certificate of its time of impact.
+/// The elements of both kinds, in the order of exact::step_element_kinds.
+class Elements {
+ public:
+  Elements(const fast::MovingVertices& vertices, const SceneParts& parts)
+      : vertices_(vertices), parts_(parts) {}
+
+  [[nodiscard]] std::size_t count(std::size_t kind) const {
+    return kind == 0 ? parts_.tetrahedra.size() : parts_.plane_triangles.size();
+  }
+
+  [[nodiscard]] Query query(std::size_t kind, std::size_t number) const {
+    if (kind == 0) return points_of<Query, 3>(parts_.tetrahedra[number]);
+    return to_tetrahedron(points_of<PlaneTriangle, 2>(parts_.plane_triangles[number]));
+  }
+
+  /// Those that invert.
+  [[nodiscard]] std::vector<fast::Inversion> inversions(std::size_t kind, double t_max) const {
+    const fast::InversionOptions options{.t_max = t_max};
+    return kind == 0 ? fast::inversions(vertices_, parts_.tetrahedra, options)
+                     : fast::inversions(vertices_, parts_.plane_triangles, options);
+  }
+
+ private:
+  template <class Points, std::size_t axes, class Numbers>
+  [[nodiscard]] Points points_of(const Numbers& numbers) const {
+    Points points{};
+    for (std::size_t i = 0; i < numbers.size(); ++i) {
+      const auto& vertex = vertices_[static_cast<std::size_t>(numbers[i])];
+      for (std::size_t axis = 0; axis < axes; ++axis) {
+        points.at(0, i, axis) = vertex.start[axis];
+        points.at(1, i, axis) = vertex.end[axis];
+      }
+    }
+    return points;
+  }
+
+  const fast::MovingVertices& vertices_;
+  const SceneParts& parts_;
+};
+
+/// The earliest contact: the pair or the element, and the certificate of its time.
 struct FirstContact {
-  Pair pair;
+  std::string name;
   exact::Certificate certificate;
 };
 
-std::optional<FirstContact> first_contact(const fast::Step& step) {
+/// An element that inverts.
+struct FirstInversion {
+  std::string name;
+  Query query;
+  exact::InversionDecision decision;
+};
+
+/// The inversion with the least time. Enclosures do not tell which it is: the oracle does.
+std::optional<FirstInversion> first_inversion(const Elements& elements, double t_max) {
+  std::array<std::vector<fast::Inversion>, 2> all;
+  double limit = 1.0;
+  for (std::size_t kind = 0; kind < all.size(); ++kind) {
+    all.at(kind) = elements.inversions(kind, t_max);
+    for (const fast::Inversion& one : all.at(kind)) limit = std::min(limit, one.result.toi_upper);
+  }
+  std::optional<FirstInversion> first;
+  for (std::size_t kind = 0; kind < all.size(); ++kind) {
+    for (const auto& [number, result] : all.at(kind)) {
+      if (result.toi_lower > limit || (first && *first->decision.time == exact::Rational(0)))
+        continue;
+      const Query query = elements.query(kind, number);
+      exact::InversionDecision decision = exact::decide_inversion(query);
+      if (first && *decision.time >= *first->decision.time) continue;
+      first = {fmt::format("element {} {}", exact::step_element_kinds.at(kind), number), query,
+               std::move(decision)};
+    }
+  }
+  return first;
+}
+
+/// The collision with the least time.
+std::optional<std::pair<Pair, exact::Decision>> first_collision(const fast::Step& step) {
   const std::optional<fast::StepImpact> impact = step.earliest();
   if (!impact) return std::nullopt;
-  // Their enclosures do not tell which is the first: the oracle does.
   std::optional<std::pair<Pair, exact::Decision>> first;
   for (const fast::StepCollision& collision : impact->pairs) {
     const Pair pair{collision.kind, collision.pair};
@@ -92,10 +162,25 @@ std::optional<FirstContact> first_contact(const fast::Step& step) {
       first.emplace(pair, std::move(verdict));
     }
   }
-  if (!first) throw std::logic_error("touchstone: the earliest impact is none");
-  const Pair& pair = first->first;
-  return FirstContact{pair, exact::prove(fast::Step::kind_of(pair.kind),
-                                         step.query_of(pair.kind, pair.numbers), first->second)};
+  if (!first && !impact->pairs.empty()) {
+    throw std::logic_error("touchstone: the earliest impact is none");
+  }
+  return first;
+}
+
+std::optional<FirstContact> first_contact(const fast::Step& step, const Elements& elements) {
+  const auto collision = first_collision(step);
+  const auto inversion = first_inversion(elements, step.options().t_max);
+  if (inversion && (!collision || *inversion->decision.time < *collision->second.toi)) {
+    return FirstContact{inversion->name,
+                        exact::prove_inversion(inversion->query, inversion->decision)};
+  }
+  if (!collision) return std::nullopt;
+  const auto& [pair, decision] = *collision;
+  const auto& [i, j] = pair.numbers;
+  return FirstContact{fmt::format("pair {} {} {}", pair.kind_name(), i, j),
+                      exact::prove(fast::Step::kind_of(pair.kind),
+                                   step.query_of(pair.kind, pair.numbers), decision)};
 }
 
 /// The arguments of some pairs, as text.
@@ -109,15 +194,18 @@ struct PairArguments {
 class StepProver {
  public:
   StepProver(const fast::Step& step, const SceneParts& parts, const StepProofOptions& options)
-      : step_(step), parts_(parts), options_(options) {}
+      : step_(step), parts_(parts), elements_(step.vertices(), parts), options_(options) {}
 
   StepProof run() {
     try {
-      const std::optional<FirstContact> first = first_contact(step_);
+      const std::optional<FirstContact> first = first_contact(step_, elements_);
       write_scene();
       write_claim(first);
       const bool is_at_zero = first && sgn(first->certificate.toi.upper) == 0;
       if (!is_at_zero) write_arguments();
+      for (std::size_t kind = 0; kind < exact::step_element_kinds.size() && !is_at_zero; ++kind) {
+        write_volumes(kind);
+      }
     } catch (const exact::CertificateLimitError& error) {
       proof_.failure = error.what();
     }
@@ -146,7 +234,8 @@ class StepProver {
     const auto groups = are_needed ? rules.of_vertices : std::span<const std::int32_t>();
     const std::size_t items = vertices.size() + parts_.faces.size() + edges.size() +
                               parts_.points.size() + groups.size() + rules.apart.size() +
-                              rules.radii.size() + rules.separations.size();
+                              rules.radii.size() + rules.separations.size() +
+                              parts_.tetrahedra.size() + parts_.plane_triangles.size();
     if (items > exact::step_item_limit) {
       throw exact::CertificateLimitError(
           fmt::format("the scene has more than {} items", exact::step_item_limit));
@@ -163,6 +252,11 @@ class StepProver {
     exact::write_step_list(text, "groups", as_items(groups));
     exact::write_step_list(text, "apart", rules.apart);
     write_thickness(text);
+    const auto& [tetrahedra, plane_triangles] = exact::step_element_lists;
+    if (!parts_.tetrahedra.empty()) exact::write_step_list(text, tetrahedra, parts_.tetrahedra);
+    if (!parts_.plane_triangles.empty()) {
+      exact::write_step_list(text, plane_triangles, parts_.plane_triangles);
+    }
     put(text);
   }
 
@@ -203,8 +297,7 @@ class StepProver {
     exact::StepClaim claim{.separation = step_.options().separation, .end = end_};
     if (first) {
       claim.earliest = {.upper = first->certificate.toi.upper,
-                        .pair_kind = first->pair.kind_name(),
-                        .pair = {first->pair.numbers[0], first->pair.numbers[1]},
+                        .name = first->name,
                         .proof = *first->certificate.contact};
     }
     proof_.claim = to_text(claim);
@@ -295,15 +388,21 @@ class StepProver {
   }
 
   void write_block(std::span<const Pair> pairs) {
+    write_parts(pairs.size(),
+                [&](std::size_t i, PairArguments& arguments) { argue(pairs[i], arguments); });
+  }
+
+  /// Writes the arguments that argue(i, arguments) adds for each i < count.
+  template <class Argue>
+  void write_parts(std::size_t count, const Argue& argue_one) {
     static constexpr std::size_t part = 256;
-    std::vector<PairArguments> parts((pairs.size() + part - 1) / part);
+    std::vector<PairArguments> parts((count + part - 1) / part);
     tbb::task_arena arena(base::cores_for(options_.threads));
     arena.execute([&] {
-      tbb::parallel_for(std::size_t{0}, parts.size(), [&](std::size_t i) {
+      tbb::parallel_for(std::size_t{0}, parts.size(), [&](std::size_t n) {
         if (base::is_stopped(options_.stop)) return;
-        const std::size_t first = i * part;
-        for (const Pair& pair : pairs.subspan(first, std::min(part, pairs.size() - first))) {
-          argue(pair, parts[i]);
+        for (std::size_t i = n * part; i < std::min(count, (n + 1) * part); ++i) {
+          argue_one(i, parts[n]);
         }
       });
     });
@@ -315,6 +414,36 @@ class StepProver {
       proof_.directions += some.directions;
       proof_.certificates += some.certificates;
     }
+  }
+
+  /// Writes the subintervals of the elements of a kind that need several.
+  void write_volumes(std::size_t kind) {
+    const std::size_t count = elements_.count(kind);
+    if (count == 0 || !proof_.is_complete()) return;
+    put(fmt::format("{}\n", exact::step_element_kinds.at(kind)));
+    write_parts(count, [&](std::size_t number, PairArguments& arguments) {
+      argue_volume(kind, number, arguments);
+    });
+  }
+
+  void argue_volume(std::size_t kind, std::size_t number, PairArguments& arguments) const try {
+    const auto subintervals = exact::keep_volume(
+        exact::scale_to_integers(Kind::vertex_face, elements_.query(kind, number)), end_);
+    if (subintervals.size() == 1) return;
+    ++arguments.certificates;
+    fmt::format_to(std::back_inserter(arguments.text), "{}\n", number);
+    write_subintervals(subintervals, arguments.text);
+  } catch (const exact::CertificateLimitError& error) {
+    arguments.failure =
+        fmt::format("{} {}: {}", exact::step_element_kinds.at(kind), number, error.what());
+  }
+
+  static void write_subintervals(const std::vector<exact::Subinterval>& subintervals,
+                                 std::string& text) {
+    if (subintervals.size() > exact::subinterval_limit) {
+      throw exact::CertificateLimitError("a separation needs too many subintervals");
+    }
+    exact::write_subintervals(text, subintervals);
   }
 
   void argue(const Pair& pair, PairArguments& arguments) const {
@@ -334,11 +463,7 @@ class StepProver {
           fast::Step::kind_of(pair.kind), step_.query_of(pair.kind, pair.numbers), separation);
       // At distance 0 both norms mean the same, and l2 has fewer features.
       if (sgn(motion.distance) == 0) motion.norm = Norm::l2;
-      const std::vector<exact::Subinterval> subintervals = exact::separate(motion, end_);
-      if (subintervals.size() > exact::subinterval_limit) {
-        throw exact::CertificateLimitError("a separation needs too many subintervals");
-      }
-      exact::write_subintervals(text, subintervals);
+      write_subintervals(exact::separate(motion, end_), text);
     } catch (const exact::CertificateLimitError& error) {
       arguments.failure = fmt::format("{} {} {}: {}", pair.kind_name(), pair.numbers[0],
                                       pair.numbers[1], error.what());
@@ -347,6 +472,7 @@ class StepProver {
 
   const fast::Step& step_;
   const SceneParts& parts_;
+  const Elements elements_;
   const StepProofOptions& options_;
   StepProof proof_;
   /// The time up to which there is no contact.

@@ -6,7 +6,9 @@
 /// written by exact/certificate/step_certificate_text.hpp.
 ///
 /// The checker needs an argument for each pair that no axis separates until then. Most have a
-/// direction of small integers (step_places.hpp), the others the subintervals of the oracle.
+/// direction of small integers (step_places.hpp), the others the subintervals of the oracle. It
+/// verifies the volumes of all elements, and needs subintervals only for those that are nearly
+/// flat.
 
 #include <atomic>
 #include <cstdint>
@@ -15,6 +17,7 @@
 #include <string>
 #include <string_view>
 
+#include "touchstone/inversion.hpp"
 #include "touchstone/step.hpp"
 
 namespace touchstone::verify::jobs {
@@ -36,7 +39,7 @@ struct StepProof {
   /// The claim, as in the certificate: "no_contact T" or "earliest LO HI".
   std::string claim = {};
   std::uint64_t directions = 0;    ///< pairs with a direction
-  std::uint64_t certificates = 0;  ///< pairs with subintervals
+  std::uint64_t certificates = 0;  ///< pairs and elements with subintervals
   std::uint64_t bytes = 0;
   /// The reason for a missing proof; empty if there is one.
   std::string failure = {};
@@ -50,9 +53,12 @@ struct SceneParts {
   std::span<const fast::Face> faces;
   std::span<const std::int32_t> points;
   fast::CollisionGroups groups = {};
+  /// Elements that must keep their volume.
+  std::span<const fast::Tetrahedron> tetrahedra = {};
+  std::span<const fast::Face> plane_triangles = {};
 };
 
-/// Proves that the step is free up to its t_max, or the time of its earliest contact.
+/// Proves that the step is free up to its t_max, or the time of its earliest contact or inversion.
 /// \param parts the faces, points and groups of the step's elements and options
 /// \pre The step has no rule `can_collide`: certificates know groups alone.
 /// \throws the exceptions of on_text.

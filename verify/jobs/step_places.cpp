@@ -144,8 +144,9 @@ std::optional<StepPlaces::Direction> StepPlaces::direction(Vertices a, Vertices 
   if (const auto x = nearest(corners.all())) {
     if (const auto result = rounded(*x)) return result;
   }
-  // The normals at both ends and between.
+  // The normals at both ends and between, of three corners or more.
   const std::size_t half = corners.count / 2;
+  if (half < 3) return std::nullopt;
   const auto normal = [&](std::size_t first) -> Eigen::Vector3d {
     const auto& w = corners.points;
     return (w[first + 1] - w[first]).cross(w[first + 2] - w[first]);

@@ -206,6 +206,7 @@ type certificate = {
   claim_line : int;
   label : string;
   query : query;
+  is_tetrahedron : bool;  (* its contacts are inversions *)
   separation : separation;
   claim : claim;
   subintervals : (int * subinterval) list;  (* with their lines *)
@@ -227,19 +228,25 @@ let take_corner r kind =
 let take_is_negative r = one_of r [ ("+", false); ("-", true) ]
 
 (* Words are taken in the order of the line. *)
-let take_feature r kind =
+let take_feature ~is_tetrahedron r kind =
   let corner () = take_corner r kind in
   let take =
-    one_of r
-      [
-        ("vertex", fun () -> Of_vertex (corner ()));
-        ("edge", fun () -> let i = corner () in Of_edge (i, corner ()));
-        ("face", fun () -> Of_face (take_is_negative r));
-        ("axis", fun () -> let k = take_axis r in Of_axis (k, take_is_negative r));
-        ("cross", fun () -> let k = take_axis r in let i = corner () in Of_cross (k, i, corner ()));
-      ]
+    if is_tetrahedron then one_of r [ ("face", fun () -> one_of r [ ("-", Of_face true) ]) ]
+    else
+      one_of r
+        [
+          ("vertex", fun () -> Of_vertex (corner ()));
+          ("edge", fun () -> let i = corner () in Of_edge (i, corner ()));
+          ("face", fun () -> Of_face (take_is_negative r));
+          ("axis", fun () -> let k = take_axis r in Of_axis (k, take_is_negative r));
+          ("cross", fun () -> let k = take_axis r in let i = corner () in Of_cross (k, i, corner ()));
+        ]
   in
   take ()
+
+let claim_words is_tetrahedron =
+  if is_tetrahedron then ("no_inversion", "inversion", "time_of_inversion")
+  else ("no_collision", "collision", "time_of_impact")
 
 let take_place r kind =
   let corner () = take_corner r kind in
@@ -298,7 +305,7 @@ let read_separation r =
   end_line r;
   { distance_of = to_coq distance; norm_of = norm }
 
-let read_claim r =
+let read_claim ~is_tetrahedron r =
   begin_keyword r "claim";
   let take_times () =
     let lower = take_number r in
@@ -309,16 +316,17 @@ let read_claim r =
       reject "a time of impact is 0 0, or LO HI with 0 <= LO < HI <= 1";
     Time_of_impact (to_coq lower, to_coq upper)
   in
+  let no_collision, collision, time_of_impact = claim_words is_tetrahedron in
   let take =
     one_of r
-      [ ("no_collision", fun () -> No_collision); ("collision", fun () -> Collision);
-        ("time_of_impact", take_times) ]
+      [ (no_collision, fun () -> No_collision); (collision, fun () -> Collision);
+        (time_of_impact, take_times) ]
   in
   let claim = take () in
   end_line r;
   claim
 
-let rec read_subintervals r kind count =
+let rec read_subintervals ?(is_tetrahedron = false) r kind count =
   if first_word r <> "separate" then []
   else begin
     require_at_most max_subintervals (count + 1) "subintervals";
@@ -326,18 +334,19 @@ let rec read_subintervals r kind count =
     begin_keyword r "separate";
     let from = to_coq (take_number r) in
     let to0 = to_coq (take_number r) in
-    let feature_of = take_feature r kind in
+    let feature_of = take_feature ~is_tetrahedron r kind in
     end_line r;
     let subinterval = (line, { from; to0; feature_of }) in
-    subinterval :: read_subintervals r kind (count + 1)
+    subinterval :: read_subintervals ~is_tetrahedron r kind (count + 1)
   end
 
-let read_contact r kind =
+(* The place of an inversion is not looked at. *)
+let read_contact ?(is_tetrahedron = false) r kind =
   begin_keyword r "contact";
   let time_of = take_time r in
   end_line r;
   begin_keyword r "at";
-  let place_of = take_place r kind in
+  let place_of = if is_tetrahedron then one_of r [ ("plane", Near_face) ] else take_place r kind in
   end_line r;
   { time_of; place_of }
 
@@ -352,7 +361,11 @@ let read_point r =
 (* Reads the certificate that begins at the present line and goes behind its `end`. *)
 let read_certificate r take_label =
   begin_keyword r "query";
-  let kind = one_of r [ ("vertex_face", Vertex_face); ("edge_edge", Edge_edge) ] in
+  let kind, is_tetrahedron =
+    one_of r
+      [ ("vertex_face", (Vertex_face, false)); ("edge_edge", (Edge_edge, false));
+        ("tetrahedron", (Vertex_face, true)) ]
+  in
   end_line r;
   let label = if first_word r = "label" then read_label r else "" in
   take_label label;
@@ -363,20 +376,20 @@ let read_certificate r take_label =
     { kind_of = kind; point0 = motion 0; point1 = motion 1; point2 = motion 2; point3 = motion 3 }
   in
   let separation =
-    if first_word r = "separation" then read_separation r
+    if first_word r = "separation" && not is_tetrahedron then read_separation r
     else { distance_of = to_coq Q.zero; norm_of = Linf }
   in
   let claim_line = r.number in
-  let claim = read_claim r in
+  let claim = read_claim ~is_tetrahedron r in
   let is_at_start = match claim with Time_of_impact (_, b) -> Z.sign b.qnum = 0 | _ -> false in
   let subintervals =
-    if claim = Collision || is_at_start then [] else read_subintervals r kind 0
+    if claim = Collision || is_at_start then [] else read_subintervals ~is_tetrahedron r kind 0
   in
   let contact_line = r.number in
-  let contact = if claim = No_collision then None else Some (read_contact r kind) in
+  let contact = if claim = No_collision then None else Some (read_contact ~is_tetrahedron r kind) in
   begin_keyword r "end";
   end_line r;
-  { claim_line; label; query; separation; claim; subintervals; contact_line; contact }
+  { claim_line; label; query; is_tetrahedron; separation; claim; subintervals; contact_line; contact }
 
 (* Rejects coordinates and times that are too large over their common denominator. *)
 let require_small numbers line =
@@ -404,11 +417,13 @@ let require_small_numbers c =
 
 (* ---- Demands ---- *)
 
-let text_of_claim = function
-  | No_collision -> "no_collision"
-  | Collision -> "collision"
+let text_of_claim is_tetrahedron claim =
+  let no_collision, collision, time_of_impact = claim_words is_tetrahedron in
+  match claim with
+  | No_collision -> no_collision
+  | Collision -> collision
   | Time_of_impact (lower, upper) ->
-      Printf.sprintf "time_of_impact %s %s"
+      Printf.sprintf "%s %s %s" time_of_impact
         (text_of_number (of_coq lower)) (text_of_number (of_coq upper))
 
 let text_of_separation distance norm =
@@ -423,8 +438,8 @@ let demanded_claim words =
     let count = List.length numbers in
     let is_form =
       match List.hd parts with
-      | "no_collision" | "collision" -> count = 0
-      | "time_of_impact" | "earliest" -> count = 0 || count = 2
+      | "no_collision" | "collision" | "no_inversion" | "inversion" -> count = 0
+      | "time_of_impact" | "time_of_inversion" | "earliest" -> count = 0 || count = 2
       | "no_contact" -> count = 1
       | _ -> false
     in

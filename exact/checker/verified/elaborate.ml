@@ -30,8 +30,13 @@ let is_interval (c : Certificate.certificate) lower upper g =
   in
   Q.leq first lower && Q.lt lower upper && Q.leq upper last && sign_of g lower * sign_of g upper < 0
 
+let check_inversion (c : Certificate.certificate) =
+  Checker.check_inversion c.query c.claim
+    (List.map (fun (_, s) -> (s.from, s.to0)) c.subintervals)
+    (Option.map (fun contact -> contact.time_of) c.contact)
+
 (* True if the certificate is accepted, as it stands or with a shorter interval. *)
-let check (c : Certificate.certificate) =
+let check_collision (c : Certificate.certificate) =
   let subintervals = List.map snd c.subintervals in
   let accepts contact = Checker.check c.query c.separation c.claim subintervals contact in
   let accepts_halved contact lower upper g count =
@@ -45,10 +50,14 @@ let check (c : Certificate.certificate) =
       List.exists (accepts_halved contact lower upper g) halvings
   | _ -> false
 
+let check (c : Certificate.certificate) =
+  if c.is_tetrahedron then check_inversion c else check_collision c
+
 (* The line and the reason of a certificate that was not accepted. *)
 let fault (c : Certificate.certificate) =
   let separates (_, subinterval) =
     match Checker.scene_of c.query c.separation with
+    | Some scene when c.is_tetrahedron -> Checker.keeps_volume scene subinterval.from subinterval.to0
     | Some scene -> Checker.separates scene subinterval
     | None -> false
   in

@@ -11,7 +11,7 @@ let usage =
    if it proves its claim, by a checker that is itself proved. The format: exact/CERTIFICATES.md; what\n\
    has to be believed: docs/trust.md.\n\n\
    --claim CLAIM     Reject whatever claims anything else: no_collision, collision,\n\
-  \                  'time_of_impact [LO HI]'\n\
+  \                  'time_of_impact [LO HI]', no_inversion, inversion, 'time_of_inversion [LO HI]'\n\
    --separation D    Reject whatever is about another distance (0: contact itself)\n\
    --norm NORM       The norm of --separation: linf (the default) or l2\n\n\
    Exit status: 0 all accepted and the stream complete, 1 one rejected or the stream cut, 2\n\
@@ -21,9 +21,7 @@ let usage =
 type options = { claim : string; separation : string }
 
 type report = {
-  mutable no_collision : int;
-  mutable collision : int;
-  mutable time_of_impact : int;
+  accepted : int array;  (* by claim: of collisions, then of inversions *)
   mutable rejected : int;
   mutable rejections : (int * string * string) list;  (* the first ones: line, label, reason *)
 }
@@ -40,7 +38,7 @@ let is_demanded demand text = demand = "" || text = demand || starts_with (deman
 
 let require_demanded options (c : certificate) =
   let line = c.claim_line in
-  let claim = text_of_claim c.claim in
+  let claim = text_of_claim c.is_tetrahedron c.claim in
   let separation = text_of_separation (of_coq c.separation.distance_of) c.separation.norm_of in
   if not (is_demanded options.claim claim) then
     reject ~line ("the claim is not the one demanded: " ^ claim);
@@ -61,10 +59,11 @@ let check_one report options r =
        let line, reason = Elaborate.fault c in
        reject ~line reason
      end;
-     match c.claim with
-     | Checker.No_collision -> report.no_collision <- report.no_collision + 1
-     | Checker.Collision -> report.collision <- report.collision + 1
-     | Checker.Time_of_impact _ -> report.time_of_impact <- report.time_of_impact + 1
+     let claim =
+       match c.claim with Checker.No_collision -> 0 | Checker.Collision -> 1 | Checker.Time_of_impact _ -> 2
+     in
+     let place = if c.is_tetrahedron then 3 + claim else claim in
+     report.accepted.(place) <- report.accepted.(place) + 1
    with Rejection (line, reason) -> note_rejection report r !label line reason);
   let may_begin () = first_word r = "query" || first_word r = "certificates" in
   if not !is_read then
@@ -83,7 +82,7 @@ let check_end options r certificates =
 
 let check options channel =
   let report =
-    { no_collision = 0; collision = 0; time_of_impact = 0; rejected = 0; rejections = [] }
+    { accepted = Array.make 6 0; rejected = 0; rejections = [] }
   in
   let r = reader_of channel in
   let header = "touchstone-certificates 2" in
@@ -103,10 +102,12 @@ let check options channel =
   report
 
 let print report =
-  Printf.printf "accepted         %d\n  no_collision   %d\n  collision      %d\n"
-    (report.no_collision + report.collision + report.time_of_impact)
-    report.no_collision report.collision;
-  Printf.printf "  time_of_impact %d\nrejected         %d\n" report.time_of_impact report.rejected;
+  let n = report.accepted in
+  Printf.printf "accepted         %d\n  no_collision   %d\n  collision      %d\n  time_of_impact %d\n"
+    (Array.fold_left ( + ) 0 n) n.(0) n.(1) n.(2);
+  if n.(3) + n.(4) + n.(5) > 0 then
+    Printf.printf "  no_inversion      %d\n  inversion         %d\n  time_of_inversion %d\n" n.(3) n.(4) n.(5);
+  Printf.printf "rejected         %d\n" report.rejected;
   let print_rejection (line, label, reason) =
     let name = if label = "" then "" else " (" ^ label ^ ")" in
     Printf.printf "  line %d%s: %s\n" line name reason

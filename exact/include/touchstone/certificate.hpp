@@ -29,6 +29,9 @@
 ///   throughout;
 ///   - collision: a contact;
 ///   - time of impact in (lower, upper]: a contact there, and subintervals of [0,lower].
+/// Of an element of a mesh (touchstone/element.hpp) the same is said with inversion in the place of
+/// collision: a contact is then a time at which the volume is not positive, that is, at which its
+/// first point touches the plane of the others, or is behind it.
 ///
 /// **A contact** is a time t* and a place with its sign conditions. The time is a rational number,
 /// or a root of an integer polynomial g in an interval at whose ends g has opposite signs. Then g
@@ -51,6 +54,7 @@
 #include <vector>
 
 #include "touchstone/curved_query.hpp"
+#include "touchstone/inversion_oracle.hpp"
 #include "touchstone/number.hpp"
 #include "touchstone/oracle.hpp"
 #include "touchstone/polynomial.hpp"
@@ -130,8 +134,13 @@ struct AxesContact {
   friend bool operator==(const AxesContact&, const AxesContact&) = default;
 };
 
+/// The volume is 0 or negative, of an element.
+struct PlaneContact {
+  friend bool operator==(const PlaneContact&, const PlaneContact&) = default;
+};
+
 using ContactPlace = std::variant<TriangleContact, SegmentContact, VertexContact, EdgeContact,
-                                  FaceContact, AxesContact>;
+                                  FaceContact, AxesContact, PlaneContact>;
 
 /// A root of the polynomial strictly inside the interval, where its ends' signs are opposite.
 struct RootTime {
@@ -147,21 +156,22 @@ struct ContactProof {
 
 // ---- The certificate ----------------------------------------------------------------------------
 
-/// The kinds of claims about a query.
+/// The kinds of claims about a query; of an element: no inversion, inversion, time of inversion.
 enum class Claim : std::uint8_t { no_collision, collision, time_of_impact };
 
 /// A claim about a query with its proof.
 struct Certificate {
-  Kind kind = Kind::vertex_face;
+  Kind kind = Kind::vertex_face;  ///< that of a tetrahedron, too
+  bool is_tetrahedron = false;    ///< The query is a tetrahedron, whose inversions are contacts.
   std::variant<Query, CurvedQuery> query{};
   Separation separation{};
   Claim claim = Claim::no_collision;
   /// The interval of a time of impact: lower < toi ≤ upper, or all are 0.
-  RationalInterval toi;
+  RationalInterval toi = {};
   /// A cover of [0,1] or, for a time of impact, of [0, toi.lower]. Empty for a collision or toi 0.
-  std::vector<Subinterval> subintervals;
+  std::vector<Subinterval> subintervals = {};
   /// Present for a collision and a time of impact.
-  std::optional<ContactProof> contact;
+  std::optional<ContactProof> contact = std::nullopt;
 };
 
 /// The maximum number of subintervals of a certificate.
@@ -210,5 +220,17 @@ struct ProveOptions {
 [[nodiscard]] std::vector<Certificate> prove(const Queries& queries,
                                              std::span<const Decision> decisions,
                                              const ProveOptions& options = {});
+
+/// The proof of the oracle's decision on a tetrahedron. A triangle in the plane is proved as its
+/// tetrahedron (touchstone/element.hpp).
+/// \param decision decide_inversion(tetrahedron)
+/// \param options a collision there is an inversion here
+/// \throws as prove.
+[[nodiscard]] Certificate prove_inversion(const Query& tetrahedron,
+                                          const InversionDecision& decision,
+                                          const ProveOptions& options = {});
+[[nodiscard]] Certificate prove_inversion(const CurvedQuery& tetrahedron,
+                                          const InversionDecision& decision,
+                                          const ProveOptions& options = {});
 
 }  // namespace touchstone::exact

@@ -291,11 +291,13 @@ TEST(Manual, HasExamplesThatAreAccepted) {
     sum.no_collision += report.no_collision;
     sum.collision += report.collision;
     sum.time_of_impact += report.time_of_impact;
+    sum.time_of_inversion += report.time_of_inversion;
     at = end;
   }
   EXPECT_EQ(sum.no_collision, 2U);
   EXPECT_EQ(sum.collision, 1U);
   EXPECT_EQ(sum.time_of_impact, 3U);
+  EXPECT_EQ(sum.time_of_inversion, 1U);
   for (const std::string first_line : {"touchstone-steps 2\n", "touchstone-meshes 1\n"}) {
     const std::size_t begin = manual.find(fence + first_line) + fence.size();
     const Report report = check_text(manual.substr(begin, manual.find("\n```", begin) + 1 - begin));

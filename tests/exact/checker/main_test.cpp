@@ -72,6 +72,20 @@ TEST_F(Command, NamesLinesLabelsAndReasons) {
             "  line 22: the stream is cut: it has no closing line 'certificates 4'\n");
 }
 
+TEST_F(Command, CountsInversionsIfThereAreAny) {
+  const std::string flat = folder_.file(
+      "flat.cert", apart +
+                       "query tetrahedron\npoint 0 0 0\npoint 1 0 0\npoint 0 1 0\npoint 0 0 1\n" +
+                       "point 0 0 0\npoint 1 0 0\npoint 0 1 0\npoint 0 0 0\nclaim inversion\n" +
+                       "contact time 1\nat plane\nend\ncertificates 2\n");
+  EXPECT_EQ(run(flat).output,
+            "accepted         2\n  no_collision   1\n  collision      0\n  time_of_impact 0\n"
+            "  no_inversion      0\n  inversion         1\n  time_of_inversion 0\n"
+            "rejected         0\n");
+  EXPECT_EQ(run("--claim inversion " + flat).status, 1);
+  EXPECT_EQ(run("--claim time_of_inversion " + flat).status, 1);
+}
+
 TEST_F(Command, SaysHowManyRejectionsItDoesNotShow) {
   std::string text = "touchstone-certificates 2\n";
   for (int n = 0; n < 103; ++n) text += "query\n";

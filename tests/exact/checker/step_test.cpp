@@ -66,14 +66,6 @@ std::string replaced(std::string text, std::string_view what, std::string_view b
   return text.replace(place, what.size(), by);
 }
 
-TEST(Step, SaysWhatItProves) {
-  const Report report = check_text(stream(step()));
-  ASSERT_EQ(report.steps.size(), 1U);
-  EXPECT_EQ(report.steps[0],
-            "step a label\n6 vertices, 6 edges, 2 faces\nseparation 0\nclaim no_contact 1\n");
-  EXPECT_EQ(report.accepted(), 1U);
-}
-
 TEST(Step, MayHaveAnArgumentMoreThanNeeded) {
   EXPECT_EQ(refusal(stream(replaced(step(), "2 4 1 0 -1\n", "2 4 1 0 -1\n0 3 0 -1 0\n"))), "");
 }
@@ -192,6 +184,65 @@ const std::vector<Falsehood>& of_spheres() {
   return all;
 }
 
+/// A tetrahedron whose volume is 1 - t/2, and a triangle in the plane whose area is that of
+/// (1-3t)² + 2^-258, which needs three subintervals.
+const std::string elements =
+    "step elements\nvertices 7\n0 0 0 0 0 0\n1 0 0 1 0 0\n0 1 0 0 1 0\n0 0 1 0 0 1/2\n"
+    "0 0 7 0 0 -9\n1 0x1p-129 0 -2 0x1p-129 3\n-0x1p-129 1 2 -0x1p-129 -2 0\nfaces 0\nedges "
+    "0\npoints 0\ngroups 0\napart 0\nradii 0\nseparations 0\ntetrahedra 1\n0 1 2 3\n"
+    "plane_triangles 1\n4 5 6\nseparation 0 l2\nclaim no_contact 1\n" +
+    no_arguments.substr(0, no_arguments.size() - 4) +
+    "tetrahedron\nplane_triangle\n0\nseparate 0 1/4 face -\nseparate 1/4 3/8 face -\n"
+    "separate 3/8 1 face -\nend\n";
+
+/// Others that are true of the elements, and some that are not.
+const std::vector<Falsehood>& of_elements() {
+  static const std::string_view flat = "tetrahedron 0: a polynomial is not positive at a point",
+                                proof =
+                                    "0\nseparate 0 1/4 face -\nseparate 1/4 3/8 face -\n"
+                                    "separate 3/8 1 face -\n",
+                                claim = "no_contact 1\nsweep", range = "not an integer, or out";
+  static const std::vector<Falsehood> all{
+      {"0 0 1 0 0 1/2", "0 0 1 0 0 0x1p-1074", ""},
+      {"0 0 1 0 0 1/2", "0 0 1 0 0 0", flat},
+      {"0 0 1 0 0 1/2", "0 0 0 0 0 1/2", flat},
+      {"0 0 1 0 0 1/2", "0 0 -1 0 0 -1/2", flat},
+      {"\n0 1 2 3\n", "\n0 2 1 3\n", flat},
+      {"\n0 1 2 3\n", "\n1 2 0 3\n", ""},
+      {"\n0 1 2 3\n", "\n0 1 2 7\n", range},
+      {"\n0 1 2 3\n", "\n0 1 2\n", "the line has too few words"},
+      {"\n4 5 6\n", "\n4 6 5\n", "plane_triangle 0: a polynomial is not positive at a point"},
+      {"\n4 5 6\n", "\n4 5 5\n", "plane_triangle 0: a polynomial is not positive at a point"},
+      {"tetrahedra 1\n0 1 2 3\n", "tetrahedra 0\n", "expected 'plane_triangle', found 'tetra"},
+      {"tetrahedra 1\n0 1 2 3\n", "tetrahedra 2\n0 1 2 3\n3 1 2 0\n", "tetrahedron 1: a polyn"},
+      {proof, "", "plane_triangle 0: a polynomial is not seen to be positive"},
+      {proof, "0\n", "plane_triangle 0: there is no subinterval"},
+      {"separate 3/8 1 face -\n", "", "plane_triangle 0: the last subinterval does not end"},
+      {"tetrahedron\nplane", "tetrahedron\n0\nseparate 0 1 face -\nplane", ""},
+      {"tetrahedron\nplane", "tetrahedron\n0\nseparate 0 1/2 face -\nplane",
+       "tetrahedron 0: the l"},
+      {"tetrahedron\nplane", "tetrahedron\n1\nplane", "expected 'plane_triangle', found '1'"},
+      {"tetrahedron\nplane", "plane", "expected 'tetrahedron', found 'plane_triangle'"},
+      // A claim up to a time that an element does not reach, and one that it does.
+      {"0 0 1 0 0 1/2", "0 0 1 0 0 -1", flat},
+      {claim, "earliest 0 0\nelement tetrahedron 0\ncontact time 0\nat plane\nend\nsweep",
+       "the volume is positive"},
+      {claim, "earliest 0 0\nelement tetrahedron 1\ncontact time 0\nat plane\nend\nsweep", range},
+      {claim, "earliest 0 0\nelement edge 0\ncontact time 0\nat plane\nend\nsweep",
+       "unknown word: 'edge'"},
+      {claim, "earliest 0 0\nelement plane_triangle 0\ncontact time 1/3\nat plane\nend\nsweep",
+       "the contact is not in the interval of the claim"}};
+  return all;
+}
+
+/// The first time at which the volume of the tetrahedron is 0, before the triangle is nearly flat.
+std::string of_first_inversion() {
+  return stream(
+      replaced(replaced(replaced(elements, "0 0 1 0 0 1/2", "0 0 1 0 0 -4"), "no_contact 1\n",
+                        "earliest 1/8 1/5\nelement tetrahedron 0\ncontact time 1/5\nat plane\n"),
+               "0\nseparate 0 1/4 face -\nseparate 1/4 3/8 face -\nseparate 3/8 1 face -\n", ""));
+}
+
 /// All certificates that have to be refused, with the reason.
 std::vector<std::pair<std::string, std::string_view>> false_streams() {
   std::vector<std::pair<std::string, std::string_view>> streams;
@@ -201,6 +252,13 @@ std::vector<std::pair<std::string, std::string_view>> false_streams() {
   for (const auto& [truth, lie, reason] : of_spheres()) {
     if (!reason.empty()) streams.emplace_back(replaced(stream(spheres), truth, lie), reason);
   }
+  for (const auto& [truth, lie, reason] : of_elements()) {
+    if (!reason.empty()) streams.emplace_back(replaced(stream(elements), truth, lie), reason);
+  }
+  streams.emplace_back(replaced(of_first_inversion(), "contact time 1/5", "contact time 1/6"),
+                       "the volume is positive");
+  streams.emplace_back(replaced(of_first_inversion(), "earliest 1/8 1/5", "earliest 1/5 1/4"),
+                       "tetrahedron 0: a polynomial is not positive");
   for (const std::string_view end : {"0", "-1"}) {
     streams.emplace_back(of_falling_vertex(end, ""), "no argument for vertex_face 3 0");
     streams.emplace_back(of_falling_vertex(end, "3 0 1 0 0\n"), "the direction separates not");
@@ -208,14 +266,32 @@ std::vector<std::pair<std::string, std::string_view>> false_streams() {
   return streams;
 }
 
+TEST(Step, SaysWhatItProves) {
+  const Report report = check_text(stream(step()));
+  ASSERT_EQ(report.steps.size(), 1U);
+  EXPECT_EQ(report.steps[0],
+            "step a label\n6 vertices, 6 edges, 2 faces\nseparation 0\nclaim no_contact 1\n");
+  EXPECT_EQ(report.accepted(), 1U);
+  const Report of_inversion = check_text(of_first_inversion());
+  ASSERT_EQ(of_inversion.steps.size(), 1U);
+  EXPECT_EQ(of_inversion.steps[0],
+            "step elements\n0 vertices, 0 edges, 0 faces\n1 tetrahedra, 1 plane triangles\n"
+            "separation 0\nclaim earliest 1/8 1/5\nelement tetrahedron 0\n");
+}
+
 TEST(Step, RefusesEveryFalsehoodWithItsReason) {
   ASSERT_EQ(refusal(stream(step())), "");
   ASSERT_EQ(refusal(of_falling_vertex("1", "3 0 1 0 0\n")), "");
   ASSERT_EQ(refusal(of_falling_vertex("0x1p-40", "")), "") << "an axis keeps it apart";
   ASSERT_EQ(refusal(stream(spheres)), "");
-  for (const auto& [truth, other, reason] : of_spheres()) {
-    if (!reason.empty()) continue;
-    EXPECT_EQ(refusal(replaced(stream(spheres), truth, other)), "") << other;
+  ASSERT_EQ(refusal(stream(elements)), "");
+  ASSERT_EQ(refusal(of_first_inversion()), "");
+  for (const auto& [of, text] :
+       {std::pair(&of_spheres(), &spheres), std::pair(&of_elements(), &elements)}) {
+    for (const auto& [truth, other, reason] : *of) {
+      if (!reason.empty()) continue;
+      EXPECT_EQ(refusal(replaced(stream(*text), truth, other)), "") << other;
+    }
   }
   for (const auto& [text, reason] : false_streams()) {
     EXPECT_EQ(refusal(text).substr(0, reason.size()), reason) << text;
@@ -257,7 +333,9 @@ TEST(Step, IsHeldAgainstAScene) {
         std::pair("faces 2\n0 1 2\n3 4 5", "faces 3\n0 1 2\n3 4 5\n0 1 5"),
         std::pair("points 0", "points 1\n0"), std::pair("groups 0", "groups 6\n0\n0\n0\n0\n0\n0"),
         std::pair("apart 0", "apart 1\n0 0"), std::pair("radii 0", "radii 1\n0"),
-        std::pair("separations 0", "separations 1\n0 0 0")}) {
+        std::pair("separations 0", "separations 1\n0 0 0"),
+        std::pair("separations 0\n", "separations 0\ntetrahedra 1\n0 1 2 3\n"),
+        std::pair("separations 0\n", "separations 0\nplane_triangles 1\n0 1 2\n")}) {
     EXPECT_EQ(refusal_about(replaced(twice, truth, other), text), "the scene is not the one given")
         << other;
   }

@@ -59,11 +59,12 @@ class Result:
             if verified_status != 2:
                 self.difference = f"status {verified_status} of certificates of scenes, which are not covered"
             return
-        self.accepted, self.rejected = (int(lines[k].split()[1]) for k in (0, 4))
+        counts = next(k for k, line in enumerate(lines) if line.startswith("rejected")) + 1
+        self.accepted, self.rejected = (int(lines[k].split()[1]) for k in (0, counts - 1))
         kept = without_unseen_axes(lines, verified_lines)
         self.unseen = len(lines) - len(kept)
         if self.unseen:
-            kept[:5] = verified_lines[:5]
+            kept[:counts] = verified_lines[:counts]
         elif status != verified_status:
             self.difference = f"status {status} and {verified_status}"
         if len(kept) != len(verified_lines):
@@ -146,7 +147,7 @@ def list_results(programs, folder, path):
 FEATURES = ["vertex 0", "vertex 1", "edge 0 1", "edge 1 2", "face +", "face -", "axis x +", "axis z -",
             "cross y 0 1", "cross x 2 2"]
 PLACES = ["triangle 0 1 2 x", "triangle 2 1 0 y", "triangle 0 2 3 z", "segment 0 1", "segment 1 1", "vertex 0",
-          "vertex 2", "edge 0 1", "edge 2 0", "face", "axes"]
+          "vertex 2", "edge 0 1", "edge 2 0", "face", "axes", "plane"]
 
 
 def changed_number(draw, word):
@@ -178,8 +179,9 @@ def mutant(draw, lines):
         elif kind <= 3 and words[0] == "at":
             lines[i] = "at " + draw.choice(PLACES)
         elif kind == 4 and words[0] == "claim":
-            lines[i] = "claim " + draw.choice(["no_collision", "collision", "time_of_impact 0 0",
-                                               "time_of_impact 1/4 1/2", "time_of_impact 0 1"])
+            end = draw.choice([" 0 0", " 1/4 1/2", " 0 1"])
+            lines[i] = "claim " + draw.choice(["no_collision", "collision", "time_of_impact" + end,
+                                               "no_inversion", "inversion", "time_of_inversion" + end])
         elif kind == 5:
             separation = f"separation {draw.choice(['0', '1', '1/1000', '0x1p-3'])} {draw.choice(['linf', 'l2'])}"
             places = [n for n, line in enumerate(lines) if line.startswith("separation")]
@@ -189,7 +191,7 @@ def mutant(draw, lines):
             elif claims:
                 lines.insert(claims[0], separation)
         elif kind == 6 and words[0] == "query":
-            lines[i] = draw.choice(["query vertex_face", "query edge_edge"])
+            lines[i] = draw.choice(["query vertex_face", "query edge_edge", "query tetrahedron"])
         elif kind == 7 and words[0] == "point":
             j = draw.randrange(len(lines))
             if lines[j].startswith("point"):
@@ -278,6 +280,10 @@ def main():
         report("list of altered certificates",
                list(list_results(programs, pathlib.Path(folder), cases / "certificates.txt")))
         report("not covered: steps and meshes", [Result(programs, cases / f"corpus/{name}.cert") for name in ("steps", "meshes")])
+        # A fifth of the mutants are of tetrahedra.
+        elements = [text.splitlines() for text, outcome in listed(cases / "certificates.txt")
+                    if outcome and text.startswith("query tetrahedron")]
+        originals += elements * (len(originals) // (4 * len(elements)))
         results = []
         for first in range(0, arguments.mutants, BATCH):
             write_mutants(draw, originals, path, first, min(BATCH, arguments.mutants - first))

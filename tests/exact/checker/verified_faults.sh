@@ -21,7 +21,7 @@ failed_proof() {
 }
 
 cp "$sources"/*.v .
-for file in Problem Form Geometry Checker Proof Pairs; do
+for file in Problem Form Geometry Checker Proof Pairs Inversion; do
   compile "$file.v" || { echo "verified_faults.sh: $file.v does not compile without a fault" >&2; cat output.txt >&2; exit 1; }
 done
 mkdir sound
@@ -40,7 +40,11 @@ if source.count(text) != 1:
 open(file, "w").write(source.replace(text, instead))
 END
   stands='' failed=''
-  case $file in Form.v) sources_after="Form Checker Proof" ;; Pairs.v) sources_after=Pairs ;; *) sources_after="Checker Proof" ;; esac
+  case $file in
+    Form.v) sources_after="Form Checker Proof Inversion" ;;
+    Pairs.v | Inversion.v) sources_after=${file%.v} ;;
+    *) sources_after="Checker Proof Inversion" ;;
+  esac
   for source in $sources_after; do
     if ! compile "$source.v"; then
       failed=$(failed_proof "$source.v" || true)
