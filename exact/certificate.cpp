@@ -186,6 +186,7 @@ namespace {
 template <class AnyQuery>
 Certificate prove_any(Kind kind, const AnyQuery& query, const Decision& decision,
                       const ProveOptions& options) {
+  require_contact(kind);
   if (options.width && sgn(*options.width) <= 0) {
     throw std::invalid_argument("the interval of a time of impact must have a positive width");
   }

@@ -146,7 +146,7 @@ constexpr std::string_view headers_without_test = R"(
 // By the answers of the methods, baselines_test.cpp and known_defects_test.cpp, the queries of the
 // families, families_test.cpp, and of the hard ones, hardness_test.cpp.
   verify/base/: any_query.hpp cores.hpp
-  verify/baselines/: accd.hpp bsc.hpp closest_features.hpp cubic.hpp exact_number.hpp fprf.hpp irf.hpp moving_polynomials.hpp msrf.hpp query_random.hpp rp.hpp rrp.hpp tccd.hpp uirf.hpp upward_rounding.hpp verdicts.hpp
+  verify/baselines/: accd.hpp bsc.hpp closest_features.hpp cubic.hpp exact_number.hpp fprf.hpp inversion.hpp irf.hpp moving_polynomials.hpp msrf.hpp query_random.hpp rp.hpp rrp.hpp tccd.hpp uirf.hpp upward_rounding.hpp verdicts.hpp
   verify/generate/: coordinate_sampler.hpp draws.hpp family_builder.hpp grid.hpp passing_planes.hpp random_stream.hpp curved_families.hpp hard_curves.hpp
 // Through what uses them: files and child processes, the tables of all commands, number_text_test.cpp
 // and meshes; certify, solve, the step's measurements, NumPy's arrays, the fuzzer; judge_test.cpp;
