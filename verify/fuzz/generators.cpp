@@ -205,6 +205,7 @@ AnyQuery from_pool(const QueryShape& shape, const GeneratorContext& context, Ran
 AnyQuery mutate(const QueryShape& shape, const GeneratorContext& context, Random& random) {
   const bool changes_weights = may_weights_differ(shape, context.separation());
   AnyQuery query = mutated(from_pool(shape, context, random), changes_weights, random);
+  if (is_element(shape.kind)) return {shape.kind, upright(shape.kind, query.straight(), random)};
   return decided_soon(std::move(query), context, random);
 }
 
