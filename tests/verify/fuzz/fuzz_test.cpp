@@ -339,6 +339,7 @@ TEST(FuzzOfElements, FindsTheMissesOfFormulasAndNoneOfTheCertifiedSolver) {
       SCOPED_TRACE(name);
       const FuzzResult result =
           fuzz(solvers::find_method(name), {.most_queries = enough,
+                                            .method = {.max_checks = 200},
                                             .promise = Promise::conservative,
                                             .most_groups = 1,
                                             .shrink_seconds = 60.0,
