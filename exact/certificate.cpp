@@ -186,7 +186,7 @@ template <class Order>
 void prove_collision(const MotionOf<Order>& motion, const AlgebraicNumber& first,
                      const ProveOptions& options, Certificate& certificate) {
   AlgebraicNumber toi = recognised(first);
-  const bool is_tetrahedron = certificate.is_tetrahedron;
+  const bool is_tetrahedron = is_element(certificate.kind);
   const auto conditions = conditions_at(motion, is_tetrahedron, toi);
   if (!conditions)
     throw std::logic_error("touchstone: no contact at the decision's time of impact");
@@ -216,16 +216,25 @@ Certificate prove_motion(Certificate certificate, const MotionOf<Order>& motion,
   if (first) {
     prove_collision(motion, *first, options, certificate);
   } else {
-    certificate.subintervals = free_until(motion, certificate.is_tetrahedron, Rational(1));
+    certificate.subintervals = free_until(motion, is_element(certificate.kind), Rational(1));
   }
   require_limits(certificate);
   return certificate;
 }
 
-/// \tparam AnyQuery Query or CurvedQuery.
+/// Proves of a tetrahedron that it does not invert, or when it does first.
+/// \tparam AnyQuery Query or CurvedQuery, here and below.
+template <class AnyQuery, class Order>
+Certificate prove_element(const AnyQuery& tetrahedron, const MotionOf<Order>& motion,
+                          const Decision& decision, const ProveOptions& options) {
+  if (!is_zero(decision.separation)) throw std::invalid_argument("an element has no separation");
+  return prove_motion({.kind = Kind::tetrahedron, .query = tetrahedron}, motion, decision.toi,
+                      options);
+}
+
 template <class AnyQuery>
-Certificate prove_any(Kind kind, const AnyQuery& query, const Decision& decision,
-                      const ProveOptions& options) {
+Certificate prove_contact(Kind kind, const AnyQuery& query, const Decision& decision,
+                          const ProveOptions& options) {
   auto motion = scale_uniformly(kind, query, decision.separation);
   // Both norms mean the same at distance 0, and l2 has fewer features.
   if (sgn(motion.distance) == 0) motion.norm = Norm::l2;
@@ -237,12 +246,20 @@ Certificate prove_any(Kind kind, const AnyQuery& query, const Decision& decision
 
 Certificate prove(Kind kind, const Query& query, const Decision& decision,
                   const ProveOptions& options) {
-  return prove_any(kind, query, decision, options);
+  if (!is_element(kind)) return prove_contact(kind, query, decision, options);
+  const Query tetrahedron =
+      kind == Kind::tetrahedron ? query : to_tetrahedron(to_plane_triangle(query));
+  return prove_element(tetrahedron, scale_to_integers(Kind::vertex_face, tetrahedron), decision,
+                       options);
 }
 
 Certificate prove(Kind kind, const CurvedQuery& query, const Decision& decision,
                   const ProveOptions& options) {
-  return prove_any(kind, query, decision, options);
+  if (!is_element(kind)) return prove_contact(kind, query, decision, options);
+  const CurvedQuery tetrahedron =
+      kind == Kind::tetrahedron ? query
+                                : to_tetrahedron(CurvedTriangle{query[0], query[1], query[2]});
+  return prove_element(tetrahedron, scale(Kind::vertex_face, tetrahedron, {}), decision, options);
 }
 
 Certificate prove(const Queries& queries, std::size_t i, const Decision& decision,
@@ -263,18 +280,6 @@ std::vector<Certificate> prove(const Queries& queries, std::span<const Decision>
     certificates.push_back(prove(queries, i, decisions[i], options));
   }
   return certificates;
-}
-
-Certificate prove_inversion(const Query& tetrahedron, const InversionDecision& decision,
-                            const ProveOptions& options) {
-  return prove_motion({.is_tetrahedron = true, .query = tetrahedron},
-                      scale_to_integers(Kind::vertex_face, tetrahedron), decision.time, options);
-}
-
-Certificate prove_inversion(const CurvedQuery& tetrahedron, const InversionDecision& decision,
-                            const ProveOptions& options) {
-  return prove_motion({.is_tetrahedron = true, .query = tetrahedron},
-                      scale(Kind::vertex_face, tetrahedron, {}), decision.time, options);
 }
 
 }  // namespace touchstone::exact

@@ -6,10 +6,26 @@
 #include "exact/contact/contact_oracle.hpp"
 #include "exact/contact/corner_motion.hpp"
 #include "exact/distance/distance_oracle.hpp"
+#include "touchstone/inversion_oracle.hpp"
 
 namespace touchstone::exact {
+namespace {
+
+/// The first time at which an element's volume is not positive, as a time of impact.
+/// \param triangle its first three points
+template <class AnyQuery, class Triangle>
+Decision decide_element(Kind kind, const AnyQuery& query, const Triangle& triangle,
+                        const Separation& separation) {
+  if (!is_zero(separation)) throw std::invalid_argument("an element has no separation");
+  return {.separation = separation,
+          .toi = kind == Kind::tetrahedron ? decide_inversion(query).time
+                                           : decide_inversion(triangle).time};
+}
+
+}  // namespace
 
 Decision decide(Kind kind, const Query& query, const Separation& separation) {
+  if (is_element(kind)) return decide_element(kind, query, to_plane_triangle(query), separation);
   Decision decision = is_zero(separation)
                           ? decide_contact(scale_to_integers(kind, query))
                           : decide_distance(scale_uniformly(kind, query, separation));
@@ -18,6 +34,9 @@ Decision decide(Kind kind, const Query& query, const Separation& separation) {
 }
 
 Decision decide(Kind kind, const CurvedQuery& query, const Separation& separation) {
+  if (is_element(kind)) {
+    return decide_element(kind, query, CurvedTriangle{query[0], query[1], query[2]}, separation);
+  }
   const MotionOf<Curved> motion = scale(kind, query, separation);
   Decision decision = is_zero(separation) ? decide_contact(motion) : decide_distance(motion);
   decision.separation = separation;

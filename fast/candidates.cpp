@@ -142,6 +142,7 @@ Query query_of(const MovingVertices& vertices, const Tetrahedron& points) {
 }
 
 void require_in_range(const MovingVertices& vertices, const Candidates& candidates) {
+  require_contact(candidates.kind);
   if (are_plainly_in_range(vertices, candidates)) return;
   const RangeCheck check(vertices, candidates);
   for (std::size_t pair = 0; pair < candidates.pairs.size(); ++pair) check.require(pair);

@@ -1,6 +1,8 @@
 #include "touchstone/certified.hpp"
 
 #include <algorithm>
+#include <iterator>
+#include <stdexcept>
 #include <string>
 
 #include "fast/candidates.hpp"
@@ -10,6 +12,7 @@
 #include "fast/method.hpp"
 #include "fast/platform/floating_point_state.hpp"
 #include "fast/platform/threads.hpp"
+#include "touchstone/inversion.hpp"
 
 namespace touchstone::fast {
 namespace {
@@ -53,6 +56,31 @@ Batch batch_of(const MovingVertices& vertices, const Candidates& candidates) {
   return {.queries = {}, .vertices = &vertices, .candidates = candidates};
 }
 
+// ---- Elements -----------------------------------------------------------------------------------
+
+/// Passes on the results of all elements of a block, which touchstone/inversion.hpp decides.
+template <class Report>
+void decide_elements(const Queries& block, const CertifiedOptions& options, const Report& report) {
+  if (!block.is_straight() || !is_zero(options.separation)) {
+    throw std::invalid_argument("solve: an element moves on straight lines, without a separation");
+  }
+  std::vector<InversionResult> found(block.size());
+  const InversionOptions alike{options.toi_tolerance, options.t_max, 1};
+  if (block.kind == Kind::tetrahedron) {
+    inversions(block.straight(), found, alike);
+  } else {
+    std::vector<PlaneTriangle> triangles;
+    std::ranges::transform(block.straight(), std::back_inserter(triangles), to_plane_triangle);
+    inversions(triangles, found, alike);
+  }
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    report(i, CertifiedResult{.verdict = found[i].verdict,
+                              .stage = found[i].stage,
+                              .toi_lower = found[i].toi_lower,
+                              .toi_upper = found[i].toi_upper});
+  }
+}
+
 // ---- Blocks -------------------------------------------------------------------------------------
 
 /// Decides the block that begins at `first` and passes on the results of queries that may have a
@@ -64,6 +92,11 @@ const KernelOutput& decide(const Batch& batch, std::size_t first, const Certifie
   const auto report_of_block = [&](std::size_t index, const CertifiedResult& result) {
     report(first + index, result);
   };
+  if (is_element(batch.queries.kind)) {
+    static const KernelOutput none_by_stage{};
+    decide_elements(batch.queries.part(first, count), options, report_of_block);
+    return none_by_stage;
+  }
   if (batch.queries.is_straight()) {
     return decide_block(
         batch.block(first, count), options.t_max, options, batch.kernel,
@@ -117,8 +150,9 @@ void solve_blocks(const Batch& batch, std::span<Item> items, const CertifiedOpti
     throw std::invalid_argument("solve: " + std::to_string(items.size()) + " results for " +
                                 std::to_string(batch.size()) + " queries");
   }
-  if (items.size() == 1 && batch.queries.is_straight()) {
-    set(items[0], solve_one(batch.queries.kind, batch.queries.straight()[0], options));
+  const QueryShape& shape = batch.queries;
+  if (items.size() == 1 && shape.is_straight() && !is_element(shape.kind)) {
+    set(items[0], solve_one(shape.kind, batch.queries.straight()[0], options));
     return;
   }
   Item free;
@@ -195,6 +229,11 @@ std::string_view to_string(Stage stage) {
 }
 
 CertifiedResult solve(Kind kind, const Query& query, const CertifiedOptions& options) {
+  if (is_element(kind)) {
+    CertifiedResult result;
+    solve(kind, {&query, 1}, {&result, 1}, options);
+    return result;
+  }
   require_valid(options);
   return solve_one(kind, query, options);
 }
@@ -259,12 +298,14 @@ class CertifiedMethod : public Method {
 }  // namespace
 
 const MethodInfo& certified_info() {
-  static const MethodInfo info{
-      .name = "certified",
-      .promise = Promise::exact,
-      .terms = {.least_degree = 0, .most_degree = greatest_degree, .rational = true},
-      .norms = {Norm::linf, Norm::l2},
-      .stages = stage_names()};
+  static const MethodInfo info{.name = "certified",
+                               .promise = Promise::exact,
+                               .terms = {.kinds = {true, true, true, true},
+                                         .least_degree = 0,
+                                         .most_degree = greatest_degree,
+                                         .rational = true},
+                               .norms = {Norm::linf, Norm::l2},
+                               .stages = stage_names()};
   return info;
 }
 

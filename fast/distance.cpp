@@ -251,6 +251,7 @@ class LeastDistanceSearch {
 }  // namespace
 
 Distance distance(Kind kind, const Query& query, double t, Norm norm) {
+  require_contact(kind);
   require_time(t);
   if (!is_finite(query)) throw std::domain_error("distance: a coordinate is not finite");
   const StrictFloatingPoint strict;
@@ -259,6 +260,7 @@ Distance distance(Kind kind, const Query& query, double t, Norm norm) {
 
 void distances(Kind kind, std::span<const Query> queries, double t, Norm norm,
                std::span<Distance> results, int max_threads) {
+  require_contact(kind);
   require_time(t);
   if (queries.size() != results.size()) {
     throw std::invalid_argument("distances: there must be as many results as queries");

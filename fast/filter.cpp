@@ -53,6 +53,7 @@ double filter_on_axis(Kind kind, double x_max, double separation, ErrorModel mod
 
 std::array<double, 3> error_filter(Kind kind, const std::array<double, 3>& x_max, double distance,
                                    ErrorModel model) {
+  require_contact(kind);
   std::array<double, 3> result{};
   for (std::size_t axis = 0; axis < 3; ++axis) {
     result[axis] = filter_on_axis(kind, x_max[axis], distance, model);

@@ -29,24 +29,12 @@ Query points_of(const KernelInput& input, std::span<const std::int32_t> numbers)
   return query;
 }
 
-PlaneTriangle triangle_of(const KernelInput& input, const Face& face) {
-  const Query points = points_of(input, face);
-  PlaneTriangle triangle;
-  for (std::size_t end = 0; end < 2; ++end) {
-    for (std::size_t point = 0; point < face.size(); ++point) {
-      for (std::size_t axis = 0; axis < 2; ++axis) {
-        triangle.at(end, point, axis) = points.at(end, point, axis);
-      }
-    }
-  }
-  return triangle;
-}
-
 /// Element i as a tetrahedron.
 Query tetrahedron(const KernelInput& input, std::size_t i) {
   if (input.triangles != nullptr) return to_tetrahedron(input.triangles[i]);
   if (input.tetrahedra != nullptr) return points_of(input, input.tetrahedra[i]);
-  if (input.faces != nullptr) return to_tetrahedron(triangle_of(input, input.faces[i]));
+  if (input.faces != nullptr)
+    return to_tetrahedron(to_plane_triangle(points_of(input, input.faces[i])));
   return input.queries[i];
 }
 

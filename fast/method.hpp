@@ -5,6 +5,8 @@
 /// uses solvers through it alone.
 
 #include <algorithm>
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -50,26 +52,26 @@ enum class Times : std::uint8_t {
 /// The terms of a promise: the queries and the times that it covers. Other queries are not asked,
 /// and their answers are no faults.
 struct Terms {
-  bool vertex_face = true;  ///< It answers vertex-face queries.
-  bool edge_edge = true;    ///< It answers edge-edge queries.
-  bool straight = true;     ///< It answers queries on straight lines.
-  /// The degrees of the other curves that it answers; none unless least ≤ most.
+  /// By Kind: true if it answers these queries.
+  std::array<bool, all_kinds.size()> kinds{true, true, false, false};
+  bool straight = true;  ///< It answers queries on straight lines.
+  /// The degrees of the other curves that it answers, if not elements; none unless least ≤ most.
   std::size_t least_degree = 1;
   std::size_t most_degree = 0;
   bool rational = false;  ///< It answers rational ones, too.
   /// The least distance at t=0 beyond the minimum separation, exclusive; nothing: any distance.
+  /// Elements must have a positive volume at t=0, unless there is nothing here.
   std::optional<double> starts_apart = std::nullopt;
   /// True if it takes coordinates in single precision: queries are rounded first.
   bool float_coordinates = false;
   Times times = Times::bounds;
   double time_error = 1e-6;  ///< of estimates, in units of the step; not negative
 
-  [[nodiscard]] bool answers(Kind kind) const {
-    return kind == Kind::vertex_face ? vertex_face : edge_edge;
-  }
+  [[nodiscard]] bool answers(Kind kind) const { return kinds[static_cast<std::size_t>(kind)]; }
   [[nodiscard]] bool answers(const QueryShape& shape) const {
     if (!answers(shape.kind)) return false;
     if (shape.is_straight()) return straight;
+    if (is_element(shape.kind)) return false;
     return least_degree <= shape.degree && shape.degree <= most_degree &&
            (rational || !shape.is_rational);
   }

@@ -399,6 +399,7 @@ Workspace& workspace_of_this_thread() {
 /// Passes on the result of each query: take(i, result).
 template <class Take>
 void solve_all(const Queries& queries, const TightInclusionOptions& options, const Take& take) {
+  require_contact(queries.kind);
   require_strict_environment();
   require_valid(options);
   const BoxKernel& kernel = kernel_of(queries, options);

@@ -28,4 +28,9 @@ bool edge_edge(const FloatPoints& start, const FloatPoints& end, float& toi);
 bool vertex_face(const Trajectories& points, double& toi);
 bool edge_edge(const Trajectories& points, double& toi);
 
+/// Does the volume, or the area of the first three points in the plane, become 0 or negative?
+/// `toi` is a lower bound of the first time if it does.
+bool tetrahedron(const Points& start, const Points& end, double& toi);
+bool plane_triangle(const Points& start, const Points& end, double& toi);
+
 }  // namespace yours

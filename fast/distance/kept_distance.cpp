@@ -148,6 +148,7 @@ bool keeps(const Query& query, double t_max, const KeptDistance& kept) {
 }  // namespace
 
 bool keeps_distance(Kind kind, const Query& query, double t_max, const KeptDistance& kept) {
+  require_contact(kind);
   const StrictFloatingPoint strict;
   const bool is_l2 = kept.norm == Norm::l2;
   if (kind == Kind::vertex_face) {

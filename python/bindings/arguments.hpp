@@ -25,16 +25,20 @@ using Doubles = py::array_t<double, py::array::c_style>;
 /// An array of 32-bit integers in C's order, never converted.
 using Integers = py::array_t<std::int32_t, py::array::c_style>;
 
-/// \throws std::invalid_argument for another text.
-[[nodiscard]] inline Kind kind_from(std::string_view text) {
-  if (text == "vertex_face") return Kind::vertex_face;
-  if (text == "edge_edge") return Kind::edge_edge;
-  throw std::invalid_argument("kind must be 'vertex_face' or 'edge_edge', not '" +
-                              std::string(text) + "'");
+[[nodiscard]] inline std::string name_of(Kind kind) {
+  std::string name(to_string(kind));
+  std::ranges::replace(name, '-', '_');
+  return name;
 }
 
-[[nodiscard]] inline const char* name_of(Kind kind) {
-  return kind == Kind::vertex_face ? "vertex_face" : "edge_edge";
+/// \throws std::invalid_argument for another text.
+[[nodiscard]] inline Kind kind_from(std::string_view text) {
+  for (const Kind kind : all_kinds) {
+    if (text == name_of(kind)) return kind;
+  }
+  throw std::invalid_argument(
+      "kind must be 'vertex_face', 'edge_edge', 'tetrahedron' or 'plane_triangle', not '" +
+      std::string(text) + "'");
 }
 
 /// \throws std::invalid_argument for another norm, or a distance that is negative or not finite.

@@ -20,7 +20,8 @@ REQUEST = struct.Struct("=qqqdqddi4x")
 REPLY = struct.Struct("=qqq")
 ANSWER = struct.Struct("=i4xddd")
 QUERY_BYTES = 24 * 8
-KINDS = ("vertex_face", "edge_edge")
+#: By their numbers in touchstone/plugin.h.
+KINDS = {0: "vertex_face", 1: "edge_edge", 4: "tetrahedron", 5: "plane_triangle"}
 NO, YES, UNDECIDED, ERROR = 0, 1, 2, 3
 
 Answer = Tuple[int, float, float]

@@ -14,7 +14,7 @@ from typing import Any, Callable, Dict, Literal, Tuple, TypeVar, cast, get_args
 import numpy as np
 import numpy.typing as npt
 
-Kind = Literal["vertex_face", "edge_edge"]
+Kind = Literal["vertex_face", "edge_edge", "tetrahedron", "plane_triangle"]
 Norm = Literal["linf", "l2"]
 Doubles = npt.NDArray[np.float64]
 Booleans = npt.NDArray[np.bool_]

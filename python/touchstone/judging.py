@@ -33,8 +33,8 @@ class Queries:
 
     Attributes
     ----------
-    kind : {"vertex_face", "edge_edge"}
-        The primitives.
+    kind : {"vertex_face", "edge_edge", "tetrahedron", "plane_triangle"}
+        The primitives, or the element, which "collides" if it inverts.
     queries : ndarray of shape (N, 8, 3), or (N, degree + 1, 4, 3 or 4) on curves
         Four points at t=0, then at t=1.
     collides : ndarray of bool, shape (N,), or None
@@ -147,7 +147,7 @@ def _write(path: PathLike, queries: Queries) -> None:
 
 
 def families() -> List[str]:
-    """Return the names of the families of the built-in set about contact."""
+    """Return the names of the families of the built-in set, about contact and about inversion."""
     with Run() as run:
         text, _, _ = run.call(["generate", "--list"])
     names = [line.split()[0] for line in text.splitlines() if line[:1].strip()]
@@ -168,8 +168,8 @@ def generate(
 
     Parameters
     ----------
-    kind : {"vertex_face", "edge_edge"}
-        The primitives.
+    kind : {"vertex_face", "edge_edge", "tetrahedron", "plane_triangle"}
+        The primitives, or the element, which "collides" if it inverts.
     family : str, optional
         The name of one of `families`; by default all.
     count : int, optional
@@ -192,6 +192,7 @@ def generate(
     """
     with Run() as run:
         command = ["generate", "--out", run.folder / "set", "--count", count, "--seed", seed]
+        command += ["--kind", kind.replace("_", "-")]
         if separation:
             command += ["--min-separation", separation.hex(), "--norm", norm]
         run.call(command + ([] if family is None else ["--family", family]))
@@ -376,6 +377,7 @@ def certify(
     solver: Solver,
     data: Data = None,
     *,
+    kind: Kind | None = None,
     batch: bool = False,
     name: str | None = None,
     promise: Promise = "conservative",
@@ -403,6 +405,10 @@ def certify(
     data : path, Queries or list of Queries, optional
         The queries: a file or a folder of datasets, or arrays; by default the built-in set. Those on
         curves are asked of methods by name; a callable takes straight lines alone.
+    kind : {"vertex_face", "edge_edge", "tetrahedron", "plane_triangle"}, optional
+        That of the built-in set, by default both about contact; or of files whose path does not tell.
+        An element "collides" if it inverts; its queries have the shape (N, 8, 3), too, and of a
+        triangle in the plane x and y of the first three points count.
     batch : bool, optional
         True if the solver takes arrays of shape (N, 8, 3) and returns arrays of shape (N,). N grows from
         1 to 512 as the solver proves to be fast; after a failure its queries are asked with N=1.
@@ -454,6 +460,7 @@ def certify(
     with Run() as run:
         result = run.folder / "result.json"
         command = ["certify", *_write_data(run, data), "--json", result, "--threads", threads]
+        command += [] if kind is None else ["--kind", kind.replace("_", "-")]
         if data is None:
             command += ["--count", count, "--seed", seed]
         command += _solver_arguments(run, solver, name, promise, batch)
@@ -592,8 +599,8 @@ def fuzz(
         The number of queries to ask; 0: no limit.
     findings : int, optional
         Groups of findings after which the search ends; 0: never.
-    kind : {"vertex_face", "edge_edge"}, optional
-        Only queries of this kind.
+    kind : {"vertex_face", "edge_edge", "tetrahedron", "plane_triangle"}, optional
+        Only queries of this kind; by default those about contact.
     degrees : list of int or "rational", optional
         The degrees of the curves that points move on, 1 (straight lines, the default) to 8, or
         rational ones, for a method by name that answers them.

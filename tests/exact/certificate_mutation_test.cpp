@@ -165,7 +165,7 @@ class Mutations {
       for (const std::string& toi :
            {upper + " " + upper, lower + " " + lower, "0 " + lower, lower + " 1", upper + " 1"}) {
         replace(line, std::string("claim time_of_") +
-                          (certificate_.is_tetrahedron ? "inversion " : "impact ") + toi);
+                          (is_element(certificate_.kind) ? "inversion " : "impact ") + toi);
       }
     }
   }
@@ -187,7 +187,7 @@ class Mutations {
       for (const std::string claim : {"claim no_", "claim "}) {
         for (const char* const part : {"separate", "contact", "at "}) {
           Lines lines = lines_;
-          lines[line] = claim + (certificate_.is_tetrahedron ? "inversion" : "collision");
+          lines[line] = claim + (is_element(certificate_.kind) ? "inversion" : "collision");
           std::erase_if(lines, [&](const std::string& l) { return l.starts_with(part); });
           add(lines);
           std::erase_if(lines, [&](const std::string& l) { return l.starts_with("at "); });
@@ -313,7 +313,7 @@ TEST_F(MutationTest, WhatIsAcceptedIsTrue) {
       }
       const Query element = tests::element_of_sort(random, static_cast<int>(i));
       for (const ProveOptions& options : {ProveOptions{}, collision, wide}) {
-        judge_all(prove_inversion(element, decide_inversion(element), options), stride);
+        judge_all({Kind::tetrahedron, element}, options, stride);
       }
     }
   }

@@ -326,7 +326,8 @@ INSTANTIATE_TEST_SUITE_P(Of, RoundTrips,
 template <class AnyQuery>
 Certificate accepted(const AnyQuery& tetrahedron, const InversionDecision& decision,
                      const ProveOptions& options = {}) {
-  const Certificate certificate = prove_inversion(tetrahedron, decision, options);
+  const Certificate certificate =
+      prove(Kind::tetrahedron, tetrahedron, {.toi = decision.time}, options);
   EXPECT_EQ(rejection(certificate), "") << certificate_stream(certificate);
   EXPECT_EQ(certificate.claim, decision.inverts() ? options.collision_claim : Claim::no_collision);
   EXPECT_EQ(certificate.contact.has_value(), decision.inverts());
@@ -418,9 +419,9 @@ TEST(ProveInversion, CannotProveAWrongVerdict) {
   for (int round = 0; round < tests::trials(100); ++round) {
     const Query element = tests::product_of_factors(random).tetrahedron;
     const InversionDecision decision = decide_inversion(element);
-    InversionDecision wrong = decision;
-    wrong.time = decision.inverts() ? std::nullopt : std::optional(AlgebraicNumber(Rational(1, 2)));
-    EXPECT_THROW(static_cast<void>(prove_inversion(element, wrong)), std::logic_error);
+    Decision wrong;
+    if (!decision.inverts()) wrong.toi = AlgebraicNumber(Rational(1, 2));
+    EXPECT_THROW(static_cast<void>(prove(Kind::tetrahedron, element, wrong)), std::logic_error);
   }
 }
 

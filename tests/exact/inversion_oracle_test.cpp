@@ -4,6 +4,8 @@
 /// through its values at some times, each from the positions of the points.
 
 #include "touchstone/inversion_oracle.hpp"
+#include "touchstone/certificate.hpp"
+#include "touchstone/oracle.hpp"
 
 #include <gtest/gtest.h>
 
@@ -308,6 +310,25 @@ TEST(InversionOracle, ChangesItsSignWithTheOrientation) {
     EXPECT_EQ(negated.start, -decision.start);
     EXPECT_EQ(decide_inversion(reflected).start, negated.start);
     EXPECT_EQ(decide_inversion(reflected).time, negated.time);
+  }
+}
+
+TEST(InversionOracle, DecidesQueriesAboutElements) {
+  Random random(6);
+  for (int round = 0; round < trials(400); ++round) {
+    const Query query = tests::product_of_factors(random).tetrahedron;
+    EXPECT_EQ(decide(Kind::tetrahedron, query).toi, decide_inversion(query).time);
+    EXPECT_EQ(decide(Kind::tetrahedron, to_curved(query)).toi, decide_inversion(query).time);
+    const PlaneTriangle triangle = to_plane_triangle(query);
+    EXPECT_EQ(decide(Kind::plane_triangle, query).toi, decide_inversion(triangle).time);
+    EXPECT_EQ(decide(Kind::plane_triangle, to_curved(query)).toi, decide_inversion(triangle).time);
+    EXPECT_EQ(to_plane_triangle(to_tetrahedron(triangle)), triangle);
+  }
+  for (const Kind kind : {Kind::tetrahedron, Kind::plane_triangle}) {
+    EXPECT_THROW(static_cast<void>(decide(kind, Query{}, {.distance = 1.0})),
+                 std::invalid_argument);
+    EXPECT_THROW(static_cast<void>(prove(kind, Query{}, decide(kind, Query{}))),
+                 std::invalid_argument);
   }
 }
 

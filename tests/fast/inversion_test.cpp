@@ -31,7 +31,10 @@
 #include "tests/support/queries.hpp"
 #include "tests/support/random.hpp"
 #include "tests/support/trials.hpp"
+#include "touchstone/certified.hpp"
+#include "touchstone/contacts.hpp"
 #include "touchstone/inversion_oracle.hpp"
+#include "touchstone/tight_inclusion.hpp"
 
 namespace touchstone::fast::inversion_test {
 namespace {
@@ -47,6 +50,46 @@ std::string printed(const Query& query) {
   std::ostringstream out;
   out << tests::PosedQuery{Kind::vertex_face, query};
   return out.str();
+}
+
+// ---- As queries ---------------------------------------------------------------------------------
+
+TEST(Inversion, AnswersQueriesAboutElements) {
+  Random random(7);
+  std::vector<Query> queries;
+  std::vector<PlaneTriangle> triangles;
+  for (int i = 0; i < 1200; ++i) {
+    queries.push_back(tests::element_of_sort(random, i % tests::sorts_of_elements));
+    triangles.push_back(to_plane_triangle(queries.back()));
+  }
+  queries[5].at(0, 1, 0) = triangles[5].at(0, 1, 0) = not_a_number;
+  std::vector<InversionResult> expected(queries.size());
+  for (const Kind kind : {Kind::tetrahedron, Kind::plane_triangle}) {
+    if (kind == Kind::tetrahedron) {
+      inversions(queries, expected);
+    } else {
+      inversions(triangles, expected);
+    }
+    std::vector<CertifiedResult> results(queries.size());
+    solve(kind, queries, results);
+    for (std::size_t i = 0; i < queries.size(); ++i) {
+      for (const CertifiedResult& result : {results[i], solve(kind, queries[i])}) {
+        EXPECT_EQ(result.verdict, expected[i].verdict);
+        EXPECT_EQ(result.stage, expected[i].stage);
+        EXPECT_EQ(std::bit_cast<std::uint64_t>(result.toi_lower),
+                  std::bit_cast<std::uint64_t>(expected[i].toi_lower));
+        EXPECT_EQ(std::bit_cast<std::uint64_t>(result.toi_upper),
+                  std::bit_cast<std::uint64_t>(expected[i].toi_upper));
+      }
+    }
+    EXPECT_THROW(static_cast<void>(solve(kind, queries[0], {.separation = {.distance = 1.0}})),
+                 std::invalid_argument);
+    EXPECT_THROW(static_cast<void>(distance(kind, queries[0], 0.0)), std::invalid_argument);
+    EXPECT_THROW(static_cast<void>(tight_inclusion(kind, queries[0])), std::invalid_argument);
+    const std::vector<double> curve(36);
+    EXPECT_THROW(solve(Queries({.kind = kind, .degree = 2}, curve), std::span(results).first(1)),
+                 std::invalid_argument);
+  }
 }
 
 // ---- By hand ------------------------------------------------------------------------------------

@@ -50,7 +50,6 @@ struct ReadClaim {
   Separation separation;
   exact::Claim claim = exact::Claim::no_collision;
   exact::RationalInterval toi;
-  bool is_tetrahedron = false;
 };
 
 /// A number as certificates write it.
@@ -107,8 +106,9 @@ struct ReadClaim {
     if (word == "query") {
       words >> word;
       result = {};
-      result.posed.kind = word == "edge_edge" ? Kind::edge_edge : Kind::vertex_face;
-      result.is_tetrahedron = word == "tetrahedron";
+      result.posed.kind = word == "edge_edge"     ? Kind::edge_edge
+                          : word == "tetrahedron" ? Kind::tetrahedron
+                                                  : Kind::vertex_face;
       coordinate = 0;
     } else if (word == "point") {
       while (words >> word && coordinate < result.posed.query.coordinates.size()) {
@@ -137,8 +137,7 @@ struct ReadClaim {
 /// True if the claim is true by the oracle.
 [[nodiscard]] inline bool is_true(const ReadClaim& claim) {
   const auto& [kind, query] = claim.posed;
-  const auto first = claim.is_tetrahedron ? exact::decide_inversion(query).time
-                                          : exact::decide(kind, query, claim.separation).toi;
+  const auto first = exact::decide(kind, query, claim.separation).toi;
   if (claim.claim == exact::Claim::no_collision) return !first;
   if (claim.claim == exact::Claim::collision || !first) return first.has_value();
   const exact::AlgebraicNumber& toi = *first;

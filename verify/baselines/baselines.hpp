@@ -37,6 +37,11 @@ namespace touchstone::baselines {
 [[nodiscard]] std::unique_ptr<fast::Method> sampling_method();
 [[nodiscard]] std::unique_ptr<fast::Method> advancement_method();
 
+// For elements, without a promise (inversion.cpp). Both use t_max; the second the tolerance, of the
+// volume, and max_checks, after which the answer is yes.
+[[nodiscard]] std::unique_ptr<fast::Method> inversion_cubic_method();
+[[nodiscard]] std::unique_ptr<fast::Method> inversion_additive_method();
+
 /// RP's verdict. \pre all coordinates are finite, and the rounding is to nearest.
 /// \throws std::overflow_error if the segment does not fit into doubles, to be treated as a
 /// collision.

@@ -56,7 +56,7 @@ struct Arguments {
 SolverArguments judged_by(const Arguments& arguments) {
   SolverArguments judged = arguments.judged;
   if (judged.empty() && arguments.sources.built_in_set()) {
-    judged.methods = solvers::default_methods();
+    judged.methods = solvers::default_methods(kinds_of(arguments.sources.kind));
   }
   return judged;
 }
@@ -170,7 +170,7 @@ class CertifyRun {
     std::string text = "next:  --table prints every file and column";
     if (!json_) text += ", --json FILE keeps them";
     text += '\n';
-    if (jobs::has_wrong_answers(sum_) && !view_) {
+    if (jobs::has_wrong_answers(sum_) && !view_ && has_contacts_) {
       text += "       --view FILE.html shows these queries in a browser\n";
     }
     if (!change_.mended.empty() && !new_baseline_) {
@@ -212,6 +212,7 @@ class CertifyRun {
   void certify_source(data::QuerySource& source, const Progress& progress) {
     jobs::CertifyOptions options;
     options.separation = separation_for(arguments_.sources, source);
+    has_contacts_ = has_contacts_ || !is_element(source.kind());
     // The truth of the families is exact.
     if (arguments_.sources.built_in_set()) options.toi_tolerance = 0;
     options.threads = arguments_.sources.threads;
@@ -229,6 +230,7 @@ class CertifyRun {
       options.on_certificates = [this](std::string_view text) { proof_.write(text); };
     }
     if (view_) {
+      require_contact(source.kind());
       options.on_wrong = [this](judge::WrongQuery wrong) {
         view_.add(view::viewed_query(std::move(wrong)));
       };
@@ -321,6 +323,7 @@ class CertifyRun {
   Output truth_;
   CertificatesFile proof_;
   ViewFile view_;
+  bool has_contacts_ = false;  ///< in some source; the view shows no elements
   Output new_baseline_;
   Output badge_;
   report::KnownAnswers baseline_;

@@ -63,8 +63,8 @@ std::string shard_name(const fs::path& file, const fs::path& path) {
   const fs::path inside = fs::is_directory(path) ? file.lexically_relative(path) : file.filename();
   std::string name;
   for (const fs::path& part : inside.parent_path()) {
-    const bool is_kind = part == to_string(Kind::vertex_face) || part == to_string(Kind::edge_edge);
-    if (!is_kind) name += part.string() + "_";
+    const auto is_part = [&](Kind kind) { return part == to_string(kind); };
+    if (std::ranges::none_of(all_kinds, is_part)) name += part.string() + "_";
   }
   return name + data::dataset_stem(file);
 }

@@ -25,6 +25,7 @@
 #include "verify/cli/result_files.hpp"
 #include "verify/cli/sharded_run.hpp"
 #include "verify/cli/solver_options.hpp"
+#include "verify/cli/sources.hpp"
 #include "verify/data/csv_dataset.hpp"
 #include "verify/data/dataset.hpp"
 #include "verify/data/ground_truth_files.hpp"
@@ -73,11 +74,6 @@ struct Arguments {
     return seconds == 0.0 && queries == 0 ? usual_fuzz_seconds : seconds;
   }
 
-  [[nodiscard]] std::vector<Kind> kinds() const {
-    if (kind.empty()) return {Kind::vertex_face, Kind::edge_edge};
-    return {kind_from_string(kind)};
-  }
-
   /// The degrees in the words of the command line.
   [[nodiscard]] std::vector<std::string> degrees() const {
     if (curved) return {"2", "3", std::string(rational)};
@@ -87,7 +83,7 @@ struct Arguments {
   /// The shapes of a degree.
   [[nodiscard]] std::vector<QueryShape> shapes(const std::string& of_degree) const {
     std::vector<QueryShape> result;
-    for (const Kind one : kinds()) {
+    for (const Kind one : kinds_of(kind)) {
       if (of_degree != rational) {
         result.push_back({.kind = one, .degree = std::stoul(of_degree)});
         continue;
@@ -382,6 +378,7 @@ class FuzzRun {
       if (result.size() == before && !arguments_.curved) refuse(degree);
     }
     if (result.empty()) refuse("");
+    if (!arguments_.view_file.empty()) require_contact(result.front().kind);
     if (!arguments_.calls.empty() && arguments_.calls != "plugin" &&
         !std::ranges::all_of(result, &QueryShape::is_straight)) {
       throw std::invalid_argument(

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -14,6 +15,7 @@
 #include "verify/cli/files.hpp"
 #include "verify/cli/option_table.hpp"
 #include "verify/cli/options.hpp"
+#include "verify/cli/sources.hpp"
 #include "verify/data/csv_dataset.hpp"
 #include "verify/data/ground_truth_files.hpp"
 #include "verify/data/npy.hpp"
@@ -34,6 +36,7 @@ struct Arguments {
   std::string folder;
   std::vector<std::string> names;
   std::vector<std::string> degrees;
+  std::string kind;
   std::uint64_t seed = default_seed;
   std::uint64_t count = 1000;
   SeparationArguments separation;
@@ -59,8 +62,9 @@ std::vector<generate::Family> chosen(const Arguments& arguments) {
   if (!arguments.degrees.empty()) return generate::families(separation, arguments.degrees);
   if (arguments.names.empty()) {
     std::vector<generate::Family> result = generate::families(separation);
-    const auto curved = generate::curved_families();
+    const auto curved = generate::curved_families(), elements = generate::element_families();
     if (arguments.list) result.insert(result.end(), curved.begin(), curved.end());
+    result.insert(result.end(), elements.begin(), elements.end());
     return result;
   }
   std::vector<generate::Family> result;
@@ -142,8 +146,8 @@ Written write_npy(data::QuerySource& source, const Separation& separation, const
 
 /// \throws std::runtime_error if the folder has queries for another separation.
 void require_same_separation(const fs::path& folder, const Separation& separation) {
-  const bool has_queries = fs::exists(folder / to_string(Kind::vertex_face)) ||
-                           fs::exists(folder / to_string(Kind::edge_edge));
+  const bool has_queries = std::ranges::any_of(
+      all_kinds, [&](Kind kind) { return fs::exists(folder / to_string(kind)); });
   const Separation recorded = data::recorded_separation(folder / "any");
   if ((!has_queries && is_zero(recorded)) || judge::same_separation(recorded, separation)) return;
   throw std::runtime_error(
@@ -157,12 +161,13 @@ std::vector<Written> write_families(const Arguments& arguments, Files& files) {
   require_same_separation(arguments.folder, separation);
   const std::vector<generate::Family> chosen_families = chosen(arguments);
   if (!is_zero(separation)) {
+    std::ranges::for_each(kinds_of(arguments.kind), require_contact);
     fs::create_directories(arguments.folder);
     data::write_separation(arguments.folder, separation);
   }
   io::ProgressBar progress("generate");
   for (std::size_t i = 0; i < chosen_families.size(); ++i) {
-    for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
+    for (const Kind kind : kinds_of(arguments.kind)) {
       if (io::interrupted() || !generate::supports(chosen_families[i], kind)) continue;
       const auto source = generate::open_family(chosen_families[i], kind, arguments.seed,
                                                 arguments.count, separation);
@@ -238,6 +243,7 @@ void add(CLI::App& app, Status& status) {
   command->option_defaults()->group("Input");
   auto* const family = add_option(*command, "--family", arguments->names);
   auto* const degree = add_option(*command, "--degree", arguments->degrees)->excludes(family);
+  add_option(*command, "--kind", arguments->kind);
   add_option(*command, "--seed", arguments->seed);
   add_option(*command, "--count", arguments->count);
   add_separation_options(*command, arguments->separation);
@@ -254,6 +260,7 @@ void add(CLI::App& app, Status& status) {
       "touchstone generate --out hard --count 100 --family hourglass\n"
       "touchstone generate --out near --min-separation 1e-8 --norm l2\n"
       "touchstone generate --out curves --degree 2 --degree rational\n"
+      "touchstone generate --out elements --kind tetrahedron\n"
       "touchstone generate --out patches --patches 500",
       "With --min-separation there are additional families, with contact at exactly that distance; "
       "the others are written without truth. FOLDER/separation.json records the separation.\n" +

@@ -38,7 +38,8 @@ std::vector<std::string> hardness_names() {
 
 std::vector<OptionRow> make_table() {
   using enum OptionForm;
-  const OneOf kinds{{"vertex-face", "edge-edge"}};
+  const OneOf contact{{"vertex-face", "edge-edge"}};
+  const OneOf kinds{{"vertex-face", "edge-edge", "tetrahedron", "plane-triangle"}};
   const std::string certificates = "compressed if the name ends in .zst";
   return {
       // clang-format off
@@ -46,9 +47,13 @@ std::vector<OptionRow> make_table() {
       {"PATH", "", {}, "Files (.csv, .csv.zst, .npy; .npz with an array queries; .obj with eight vertices a query) or folders", "convert", required},
       {"PATH", "", {}, "Datasets (.csv, .npy), also of queries on curves, or folders of them, findings (.json of fuzz), certificates (.cert, .cert.zst), or eight lines of vertices (.obj)", "view", list},
       {"PATH", "", {}, "Dataset files (.csv, .npy) or folders; default: the built-in set", "", list},
-      {"--kind", "KIND", kinds, "Only vertex-face or edge-edge queries", "fuzz"},
-      {"--kind", "KIND", kinds, "vertex-face or edge-edge, if the input does not tell", "view"},
-      {"--kind", "KIND", kinds, "vertex-face or edge-edge, if the path does not tell"},
+      {"--kind", "KIND", kinds, "Only these queries; otherwise vertex-face and edge-edge", "fuzz"},
+      {"--kind", "KIND", kinds, "Only these queries; otherwise vertex-face and edge-edge", "generate"},
+      {"--kind", "KIND", contact, "vertex-face or edge-edge, if the input does not tell", "view"},
+      {"--kind", "KIND", contact, "vertex-face or edge-edge, if the path does not tell", "bench"},
+      {"--kind", "KIND", contact, "vertex-face or edge-edge, if the path does not tell", "report"},
+      {"--kind", "KIND", contact, "vertex-face or edge-edge, if the path does not tell", "prove"},
+      {"--kind", "KIND", kinds, "vertex-face, edge-edge, or an element, if the path does not tell; also: only these of the built-in set"},
       {"--round", "", {}, "Round coordinates that are not doubles", "convert"},
       {"--round", "", {}, "Round coordinates of datasets that are not doubles", "view"},
       {"--round", "", {}, "Round coordinates that are not doubles, and count them"},
@@ -100,7 +105,7 @@ std::vector<OptionRow> make_table() {
       {"--method", "NAME", {}, "Only these; repeatable: " + solvers::method_names(), "report"},
       {"--method", "NAME", {}, "Built-in solver; repeatable: " + solvers::method_names()},
       {"--plugin", "LIB.so", {}, "Your solver: a shared library (touchstone/plugin.h); repeatable"},
-      {"--kinds", "KIND", kinds, "The plugin answers only vertex-face or edge-edge queries"},
+      {"--kinds", "KIND", kinds, "The plugin answers only these queries; repeatable"},
       {"--float-coordinates", "", {}, "The plugin takes float: round queries to float first, and judge by these"},
       {"--starts-apart{0}", "", Real{0.0, DBL_MAX}, "The plugin needs primitives that are apart at t=0; with =D, by more than the minimum separation plus D"},
       {"--times", "WHAT", OneOf{{"bounds", "estimates", "none"}}, "The plugin's times of impact: bounds, estimates or none"},

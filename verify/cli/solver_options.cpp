@@ -52,9 +52,9 @@ void add_solver_options(CLI::App& command, SolverArguments& arguments) {
 void add_plugin_option(CLI::App& command, SolverArguments& arguments) {
   solvers::TermsChanges& terms = arguments.terms;
   add_option(command, "--plugin", arguments.plugins);
-  add_option(command, "--kinds", [&terms](const std::string& name) {
-    terms.vertex_face = kind_from_string(name) == Kind::vertex_face;
-    terms.edge_edge = !*terms.vertex_face;
+  add_option(command, "--kinds", arguments.kinds)->each([&terms](const std::string& name) {
+    if (!terms.kinds) terms.kinds.emplace().fill(false);
+    terms.kinds->at(static_cast<std::size_t>(kind_from_string(name))) = true;
   });
   add_option(command, "--float-coordinates", [&terms] { terms.float_coordinates = true; });
   add_option(command, "--starts-apart", arguments.starts_apart)

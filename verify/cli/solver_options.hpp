@@ -40,6 +40,7 @@ struct SolverArguments {
   /// The terms of plugins and of recorded answers, where they differ from the stated ones.
   solvers::TermsChanges terms = {};
   /// The text of --starts-apart, before it is in the terms.
+  std::vector<std::string> kinds;  ///< as in `terms`
   std::string starts_apart = {};
   /// Memory limit of a solver's process in bytes; 0: no limit.
   std::uint64_t memory_limit = solvers::ChildLimits{}.memory_bytes;

@@ -117,13 +117,21 @@ void for_each_file(const SourceArguments& arguments, Files& record,
 
 std::vector<BuiltInSource> built_in_sources(const SourceArguments& arguments) {
   std::vector<BuiltInSource> sources;
-  for (const generate::Family& family :
-       generate::families(arguments.separation.given(), arguments.degrees)) {
-    for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
+  const Separation separation = arguments.separation.given();
+  std::vector<generate::Family> families = generate::families(separation, arguments.degrees);
+  const auto elements = generate::element_families();
+  families.insert(families.end(), elements.begin(), elements.end());
+  for (const generate::Family& family : families) {
+    for (const Kind kind : kinds_of(arguments.kind)) {
       if (generate::supports(family, kind)) sources.push_back({family, kind});
     }
   }
   return sources;
+}
+
+std::vector<Kind> kinds_of(const std::string& option) {
+  if (option.empty()) return {contact_kinds.begin(), contact_kinds.end()};
+  return {kind_from_string(option)};
 }
 
 void add_path_options(CLI::App& command, SourceArguments& arguments) {
@@ -147,7 +155,9 @@ void add_source_options(CLI::App& command, SourceArguments& arguments) {
 
 Separation separation_for(const SourceArguments& arguments, const data::QuerySource& source) {
   try {
-    return arguments.separation.settle(source.recorded_separation());
+    const Separation settled = arguments.separation.settle(source.recorded_separation());
+    if (!is_zero(settled)) require_contact(source.kind());
+    return settled;
   } catch (const std::invalid_argument& error) {
     throw io::DatasetError(source.name(), {}, error.what());
   }

@@ -66,6 +66,9 @@ struct BuiltInSource {
 };
 [[nodiscard]] std::vector<BuiltInSource> built_in_sources(const SourceArguments& arguments);
 
+/// The kinds that --kind asks for: without it, those about contact.
+[[nodiscard]] std::vector<Kind> kinds_of(const std::string& option);
+
 /// Adds PATH, --kind, --round, --keep-going, --threads and --seed; the arguments must live until
 /// the command line is parsed.
 void add_path_options(CLI::App& command, SourceArguments& arguments);

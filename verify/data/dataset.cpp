@@ -10,6 +10,7 @@
 #include <string_view>
 #include <system_error>
 #include <utility>
+#include <vector>
 
 #include "verify/data/csv_dataset.hpp"
 #include "verify/data/npy_dataset.hpp"
@@ -150,12 +151,13 @@ std::optional<Kind> kind_from_parts(const fs::path& path) {
   std::optional<Kind> kind;
   for (const fs::path& part : path) {
     const std::string name = part.string();
-    const bool vertex_face = contains_word(name, to_string(Kind::vertex_face));
-    const bool edge_edge = contains_word(name, to_string(Kind::edge_edge));
-    if (vertex_face && edge_edge) {
-      throw io::DatasetError(path, {}, io::quote(name) + " names both kinds; pass --kind");
+    std::vector<Kind> named;
+    std::ranges::copy_if(all_kinds, std::back_inserter(named),
+                         [&](Kind one) { return contains_word(name, to_string(one)); });
+    if (named.size() > 1) {
+      throw io::DatasetError(path, {}, io::quote(name) + " names several kinds; pass --kind");
     }
-    if (vertex_face || edge_edge) kind = vertex_face ? Kind::vertex_face : Kind::edge_edge;
+    if (!named.empty()) kind = named.front();
   }
   return kind;
 }

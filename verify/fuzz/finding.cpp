@@ -29,6 +29,8 @@ std::string to_text(const QueryShape& shape) {
 std::string_view point_name(Kind kind, std::size_t point) {
   static constexpr std::array<std::string_view, moving_points> of_face{"v", "f0", "f1", "f2"};
   static constexpr std::array<std::string_view, moving_points> of_edges{"ea0", "ea1", "eb0", "eb1"};
+  static constexpr std::array<std::string_view, moving_points> of_element{"a", "b", "c", "d"};
+  if (is_element(kind)) return of_element.at(point);
   return kind == Kind::vertex_face ? of_face.at(point) : of_edges.at(point);
 }
 

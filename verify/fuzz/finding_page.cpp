@@ -14,6 +14,7 @@
 #include "verify/io/printable.hpp"
 #include "verify/judge/fault.hpp"
 #include "verify/judge/separation_inference.hpp"
+#include "verify/solvers/plugin_method.hpp"
 
 namespace touchstone::verify::fuzz {
 namespace {
@@ -259,7 +260,7 @@ Values values_of(const Json& finding) {
           {"max_checks", std::to_string(checks)},
           {"max_iterations", std::to_string(checks > 0 ? checks : -1)},
           {"norm", std::to_string(static_cast<int>(norm))},
-          {"kind", std::to_string(static_cast<int>(shape.kind))},
+          {"kind", std::to_string(solvers::plugin_kind(shape.kind))},
           {"degree", std::to_string(shape.degree)},
           {"is_rational", std::to_string(shape.is_rational ? 1 : 0)},
           {"rows", std::to_string((shape.degree + 1) * moving_points)},
@@ -276,8 +277,9 @@ const Interface& interface_of(const Json& finding, std::string_view calls) {
     return solver.at("plugin").is_null() && !interface.method.empty() &&
            method.starts_with(interface.method);
   });
-  const bool is_straight = query_of(finding).shape().is_straight();
-  return found == interfaces.end() || !is_straight ? interfaces.front() : *found;
+  const QueryShape shape = query_of(finding).shape();
+  const bool is_usual = shape.is_straight() && !is_element(shape.kind);
+  return found == interfaces.end() || !is_usual ? interfaces.front() : *found;
 }
 
 /// Texts from outside, such as the message of an exception, in a cell of a table.

@@ -622,6 +622,9 @@ void check(const FuzzOptions& options) {
   if (!is_valid(options.separation)) {
     throw std::invalid_argument("fuzz: the separation must be finite and not negative");
   }
+  if (!is_zero(options.separation)) {
+    for (const QueryShape& shape : options.shapes) require_contact(shape.kind);
+  }
   if (options.seconds == 0.0 && options.most_queries == 0 && options.most_groups == 0 &&
       options.stop == nullptr) {
     throw std::invalid_argument("fuzz: the run needs a limit of time, queries or findings");

@@ -8,6 +8,7 @@
 #include <limits>
 #include <span>
 
+#include "touchstone/certified.hpp"
 #include "verify/fuzz/aligned_roundings.hpp"
 #include "verify/fuzz/contact.hpp"
 #include "verify/fuzz/curved_generators.hpp"
@@ -165,10 +166,24 @@ AnyQuery decided_soon(AnyQuery query, const GeneratorContext& context, Random& r
   return of_numbers(query.shape(), context.separation(), random);
 }
 
-/// A generator of queries on straight lines, which also makes them queries on curves.
+/// The element with a positive volume at t=0, mostly.
+Query upright(Kind kind, Query query, Random& random) {
+  Query at_rest = query;
+  for (std::size_t point = 0; point < moving_points; ++point) {
+    at_rest.point(1, point) = query.point(0, point);
+  }
+  const bool starts_inverted = fast::solve(kind, at_rest).verdict == fast::Verdict::yes;
+  if (!starts_inverted || one_in(random, 8)) return query;
+  for (const std::size_t end : {0U, 1U}) query.point(end, 1).swap(query.point(end, 2));
+  return query;
+}
+
+/// A generator of queries on straight lines, which also makes them queries on curves. Points that
+/// touch as two edges are in one plane: the volume of a tetrahedron is 0.
 template <Query (*make)(Kind, const GeneratorContext&, Random&)>
 AnyQuery lines(const QueryShape& shape, const GeneratorContext& context, Random& random) {
   const Query query = make(shape.kind, context, random);
+  if (is_element(shape.kind)) return {shape.kind, upright(shape.kind, query, random)};
   if (shape.is_straight()) return {shape.kind, query};
   return decided_soon(on_curves(shape, query, random), context, random);
 }
@@ -191,6 +206,7 @@ AnyQuery from_pool(const QueryShape& shape, const GeneratorContext& context, Ran
 AnyQuery mutate(const QueryShape& shape, const GeneratorContext& context, Random& random) {
   const bool changes_weights = may_weights_differ(shape, context.separation());
   AnyQuery query = mutated(from_pool(shape, context, random), changes_weights, random);
+  if (is_element(shape.kind)) return {shape.kind, upright(shape.kind, query.straight(), random)};
   return decided_soon(std::move(query), context, random);
 }
 
@@ -291,8 +307,10 @@ const AnyQuery& QueryPool::draw(Random& random) const {
 }
 
 GeneratorContext::GeneratorContext(const Separation& separation) : separation_(separation) {
-  for (const generate::Family& family : verify::generate::families(separation)) {
-    for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
+  std::vector<generate::Family> all = verify::generate::families(separation);
+  std::ranges::copy(generate::element_families(), std::back_inserter(all));
+  for (const generate::Family& family : all) {
+    for (const Kind kind : all_kinds) {
       if (generate::supports(family, kind))
         families_.at(static_cast<std::size_t>(kind)).push_back(family);
     }

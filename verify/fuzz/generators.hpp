@@ -63,12 +63,13 @@ class GeneratorContext {
 
  private:
   static std::size_t place_of(const QueryShape& shape) {
-    return 4 * shape.degree + (shape.is_rational ? 2 : 0) + static_cast<std::size_t>(shape.kind);
+    const std::size_t curves = 2 * shape.degree + (shape.is_rational ? 1 : 0);
+    return all_kinds.size() * curves + static_cast<std::size_t>(shape.kind);
   }
 
   Separation separation_;
-  std::array<std::vector<generate::Family>, 2> families_;
-  std::array<QueryPool, 4 * (greatest_degree + 1)> pools_;
+  std::array<std::vector<generate::Family>, all_kinds.size()> families_;
+  std::array<QueryPool, 2 * all_kinds.size() * (greatest_degree + 1)> pools_;
 };
 
 /// A named generator of queries.

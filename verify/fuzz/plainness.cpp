@@ -107,6 +107,7 @@ std::uint64_t collapsed_edge(const Places& places, std::size_t first) {
 
 std::uint64_t collapsed_in_shape(const AnyQuery& shape) {
   std::uint64_t result = 0;
+  if (is_element(shape.kind())) return result;
   for (const double end : {0.0, 1.0}) {
     const Places places = places_at(shape, end);
     result += shape.kind() == Kind::vertex_face
@@ -229,6 +230,7 @@ std::uint64_t writing_length(double magnitude) {
 std::span<const PointPair> exchangeable(Kind kind) {
   static constexpr std::array<PointPair, 3> of_face{{{1, 2}, {1, 3}, {2, 3}}};
   static constexpr std::array<PointPair, 2> of_edges{{{0, 1}, {2, 3}}};
+  if (is_element(kind)) return {};  // an exchange turns it inside out
   if (kind == Kind::vertex_face) return of_face;
   return of_edges;
 }

@@ -42,6 +42,10 @@ Line scaled(const Line& line, int exponent) {
   return {std::ldexp(line.start, exponent), std::ldexp(line.end, exponent)};
 }
 
+Line line_of(const Query& query, std::size_t point, std::size_t axis) {
+  return {query.at(0, point, axis), query.at(1, point, axis)};
+}
+
 void set(Query& query, std::size_t point, std::size_t axis, const Line& line) {
   query.at(0, point, axis) = line.start;
   query.at(1, point, axis) = line.end;

@@ -40,6 +40,9 @@ inline constexpr Zone anywhere{-3.0, 3.0};
 /// The line times 2^exponent, which must be exact.
 [[nodiscard]] Line scaled(const Line& line, int exponent);
 
+/// One coordinate of a point.
+[[nodiscard]] Line line_of(const Query& query, std::size_t point, std::size_t axis);
+
 /// Sets one coordinate of a point at both ends.
 void set(Query& query, std::size_t point, std::size_t axis, const Line& line);
 

@@ -41,7 +41,7 @@ std::span<const Definition> all_definitions() {
 }
 
 const Definition& find_definition(std::string_view name) {
-  for (const auto list : {all_definitions(), separated_definitions()}) {
+  for (const auto list : {all_definitions(), separated_definitions(), element_definitions()}) {
     const auto found = std::ranges::find(
         list, name, [](const Definition& definition) { return definition.family.name; });
     if (found != list.end()) return *found;
@@ -84,7 +84,7 @@ std::vector<Family> families_of(std::span<const Definition> definitions) {
 Random stream_of(std::string_view name, Kind kind, std::uint64_t seed, std::uint64_t index,
                  std::uint64_t attempt) {
   std::uint64_t state = mix(seed ^ hash(name));
-  state = mix(state + (kind == Kind::vertex_face ? 1 : 2));
+  state = mix(state + 1 + static_cast<std::uint64_t>(kind));
   state = mix(state + index);
   return Random(mix(state + attempt));
 }
@@ -156,6 +156,11 @@ std::span<const Family> separation_families() {
   return all;
 }
 
+std::span<const Family> element_families() {
+  static const std::vector<Family> all = families_of(element_definitions());
+  return all;
+}
+
 bool has_separation_families(const Separation& separation) {
   return separation.distance >= 0x1p-1000 && separation.distance <= 0x1p1000;
 }
@@ -186,8 +191,9 @@ const Family& family_from_name(std::string_view name) {
 }
 
 bool supports(const Family& family, Kind kind) {
-  if (find_curved(family.name) != nullptr) return true;
+  if (find_curved(family.name) != nullptr) return !is_element(kind);
   const Definition& definition = find_definition(family.name);
+  if (is_element(kind)) return definition.elements;
   return kind == Kind::vertex_face ? definition.vertex_face : definition.edge_edge;
 }
 

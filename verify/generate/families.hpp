@@ -72,6 +72,10 @@ struct KnownQuery {
 /// All families about a separation, always in the same order.
 [[nodiscard]] std::span<const Family> separation_families();
 
+/// All families about the inversion of elements, always in the same order; they "collide" as
+/// touchstone/query.hpp says.
+[[nodiscard]] std::span<const Family> element_families();
+
 /// True if those families have queries for this separation: for distances from 2^-1000 to 2^1000.
 [[nodiscard]] bool has_separation_families(const Separation& separation);
 
@@ -91,7 +95,7 @@ struct KnownQuery {
 /// "1", "2", "3" or "rational".
 [[nodiscard]] std::string degree_text(const Family& family);
 
-/// The family of that name, about contact, about a separation or on curves.
+/// The family of that name, about contact, a separation or inversion, or on curves.
 /// \throws std::invalid_argument if there is none.
 [[nodiscard]] const Family& family_from_name(std::string_view name);
 

@@ -5,6 +5,8 @@
 #include <set>
 #include <utility>
 
+#include "verify/generate/symmetry.hpp"
+
 namespace touchstone::verify::generate {
 
 using exact::Rational;
@@ -147,6 +149,10 @@ bool uses_full_significands(const Query& query) {
 }
 
 void apply_random_symmetry(Kind kind, Random& random, KnownQuery& known) {
+  if (is_element(kind)) {
+    known.query = image(draw_isometry(kind, random), known.query).value();
+    return;
+  }
   for (std::size_t axis = 0; axis < 3; ++axis) {
     swap_axes(known, axis, static_cast<std::size_t>(random.between(static_cast<int>(axis), 2)));
     if (random.coin()) mirror_axis(known, axis);

@@ -50,6 +50,7 @@ struct Definition {
   /// The kinds it has.
   bool vertex_face = true;
   bool edge_edge = true;
+  bool elements = false;
 };
 
 /// The definitions in dyadic.cpp, degenerate.cpp and so on, one list for each file.
@@ -65,6 +66,9 @@ struct Definition {
 
 /// The definitions of the families about a separation, in separated.cpp.
 [[nodiscard]] std::span<const Definition> separated_definitions();
+
+/// The definitions of the families about inversion, in elements.cpp.
+[[nodiscard]] std::span<const Definition> element_definitions();
 
 /// Every definition that does not build on another: all lists but the scaled ones.
 [[nodiscard]] std::span<const Definition> base_definitions();

@@ -26,10 +26,6 @@ Query to_query(const Points& points) {
   return query;
 }
 
-Line line_of(const Query& query, std::size_t point, std::size_t axis) {
-  return {query.at(0, point, axis), query.at(1, point, axis)};
-}
-
 bool in_domain(Kind kind, const Contact& contact) {
   const auto& [u, v] = contact;
   if (u < 0 || v < 0) return false;

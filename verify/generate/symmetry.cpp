@@ -41,7 +41,29 @@ void shuffle(std::array<std::size_t, Size>& items, std::size_t first, std::size_
   }
 }
 
+/// The sign of a permutation.
+template <std::size_t Size>
+double sign_of(const std::array<std::size_t, Size>& items) {
+  double sign = 1.0;
+  for (std::size_t i = 0; i < Size; ++i) {
+    for (std::size_t j = 0; j < i; ++j) sign = items.at(j) > items.at(i) ? -sign : sign;
+  }
+  return sign;
+}
+
+/// The sign by which it multiplies the volume of a tetrahedron, and if it leaves the last point and
+/// axis as they are, the area of a triangle in the plane.
+double sign_of(const Symmetry& symmetry) {
+  double sign = sign_of(symmetry.points) * sign_of(symmetry.axes);
+  for (const double factor : symmetry.factors) sign = factor < 0.0 ? -sign : sign;
+  return sign;
+}
+
 void renumber(Kind kind, Random& random, Symmetry& symmetry) {
+  if (is_element(kind)) {
+    shuffle(symmetry.points, 0, kind == Kind::tetrahedron ? 4 : 3, random);
+    return;
+  }
   if (kind == Kind::vertex_face) {
     shuffle(symmetry.points, 1, moving_points, random);
     return;
@@ -124,11 +146,19 @@ Symmetry draw_symmetry(Kind kind, const Query& query, const Separation& separati
   return draw_symmetry(Queries(kind, {&query, 1}), separation, random);
 }
 
-Symmetry draw_symmetry(const Queries& query, const Separation& separation, Random& random) {
+Symmetry draw_isometry(Kind kind, Random& random) {
+  const bool is_plane = kind == Kind::plane_triangle;
   Symmetry symmetry;
-  if (random.coin()) renumber(query.kind, random, symmetry);
-  if (random.coin()) shuffle(symmetry.axes, 0, 3, random);
+  if (random.coin()) renumber(kind, random, symmetry);
+  if (random.coin()) shuffle(symmetry.axes, 0, is_plane ? 2 : 3, random);
   for (double& factor : symmetry.factors) factor = random.coin() ? 1.0 : -1.0;
+  if (is_plane) symmetry.factors[2] = 1.0;
+  if (is_element(kind)) symmetry.factors[0] *= sign_of(symmetry);
+  return symmetry;
+}
+
+Symmetry draw_symmetry(const Queries& query, const Separation& separation, Random& random) {
+  Symmetry symmetry = draw_isometry(query.kind, random);
   symmetry.reversed = draws::one_in(random, 4);
   const Symmetry isometry = symmetry;
   if (is_zero(separation) && draws::one_in(random, 3)) multiply(random, symmetry);

@@ -5,6 +5,8 @@
 ///
 /// - The points of a primitive may be renumbered, edges exchanged: the same sets of points.
 /// - Axes may be permuted and mirrored: an isometry in both norms, without a rounding.
+/// - An element's points and axes may be, if its volume keeps its sign: an even number of exchanges
+///   and mirrors; of a triangle in the plane its three points, and the first two axes.
 /// - Each axis may be multiplied by a power of two without rounding: a linear map of full rank maps
 ///   roots of F to roots. It changes distances, so it needs separation 0.
 /// - All points may be shifted by one vector if all sums are exact: F does not change.
@@ -41,6 +43,9 @@ struct Symmetry {
 /// The numbers of the image of one query of any shape; empty as above.
 [[nodiscard]] std::optional<std::vector<double>> image(const Symmetry& symmetry,
                                                        const Queries& query);
+
+/// A random renumbering of the points, and permutation and mirroring of axes.
+[[nodiscard]] Symmetry draw_isometry(Kind kind, Random& random);
 
 /// A random symmetry with an exact image of this query, one of any shape. Without powers of two if
 /// there is a separation.

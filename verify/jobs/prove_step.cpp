@@ -172,8 +172,8 @@ std::optional<FirstContact> first_contact(const fast::Step& step, const Elements
   const auto collision = first_collision(step);
   const auto inversion = first_inversion(elements, step.options().t_max);
   if (inversion && (!collision || *inversion->decision.time < *collision->second.toi)) {
-    return FirstContact{inversion->name,
-                        exact::prove_inversion(inversion->query, inversion->decision)};
+    return FirstContact{inversion->name, exact::prove(Kind::tetrahedron, inversion->query,
+                                                      {.toi = inversion->decision.time})};
   }
   if (!collision) return std::nullopt;
   const auto& [pair, decision] = *collision;

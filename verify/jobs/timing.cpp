@@ -164,8 +164,11 @@ judge::Judgement TimedSolver::judge(std::span<const judge::GroundTruth> truths) 
 }
 
 bool takes_curves(const fast::Terms& terms, QueryShape shape) {
-  shape.kind = terms.vertex_face ? Kind::vertex_face : Kind::edge_edge;
-  return terms.answers(shape);
+  const bool of_elements = is_element(shape.kind);
+  return std::ranges::any_of(all_kinds, [&](Kind kind) {
+    shape.kind = kind;
+    return is_element(kind) == of_elements && terms.answers(shape);
+  });
 }
 
 std::size_t calls_for(double nanoseconds) {

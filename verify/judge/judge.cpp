@@ -105,7 +105,8 @@ bool is_slight(Fault fault, const std::optional<Lateness>& lateness) {
 
 std::optional<Separation> claim_of(const Question& question, const fast::Answer& answer,
                                    const Standard& standard) {
-  if (answer.verdict != fast::Verdict::yes || !question.query.is_straight()) return std::nullopt;
+  const bool has_distance = question.query.is_straight() && !is_element(question.query.kind);
+  if (answer.verdict != fast::Verdict::yes || !has_distance) return std::nullopt;
   const Separation claimed =
       claimed_distance(standard.filter, question.query.kind, question.query.straight().front(),
                        answer, question.separation);

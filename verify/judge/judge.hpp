@@ -15,7 +15,10 @@
 ///   comparisons are exact: the truth is enclosed by neighbouring doubles, or is one, so a double t
 ///   is above it iff t > lower, and below it iff t < upper.
 /// - The tolerance is judged for a yes to a query on straight lines that does not collide: a
-///   colliding pair satisfies any claimed distance.
+///   colliding pair satisfies any claimed distance. An element has no distance.
+/// - An element that inverts collides, and the first time at which its volume is not positive is
+/// its
+///   time of impact.
 
 #include <optional>
 #include <vector>

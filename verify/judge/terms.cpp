@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <string>
+#include <string_view>
 
 #include "touchstone/certified.hpp"
 
@@ -19,7 +21,7 @@ double nearest_float(double x) {
 }
 
 /// The distance at t=0, where each point is its first control point, is that at all times of a
-/// query that does not move.
+/// query that does not move; so is the sign of an element's volume.
 bool starts_within(const Queries& query, Separation distance) {
   Query at_rest{};
   for (std::size_t i = 0; i < at_rest.coordinates.size(); ++i) {
@@ -27,6 +29,18 @@ bool starts_within(const Queries& query, Separation distance) {
     at_rest.coordinates[i] = query.numbers[point * query.numbers_of_point() + i % 3];
   }
   return fast::solve(query.kind, at_rest, {.separation = distance}).verdict == fast::Verdict::yes;
+}
+
+/// The kinds that it answers; empty if those are all about contact, and perhaps others.
+std::string other_kinds(const fast::Terms& terms, std::string_view separator) {
+  std::string text;
+  if (std::ranges::all_of(contact_kinds, [&](Kind kind) { return terms.answers(kind); })) return {};
+  for (const Kind kind : all_kinds) {
+    if (!terms.answers(kind)) continue;
+    text += text.empty() ? "" : separator;
+    text += to_string(kind);
+  }
+  return text;
 }
 
 }  // namespace
@@ -47,14 +61,16 @@ bool admits(const fast::Terms& terms, const base::AnyQuery& query, const Separat
   const bool is_finite = touchstone::is_finite(query.numbers());
   if (terms.float_coordinates && !(is_finite && as_asked(terms, query) == query)) return false;
   if (!terms.starts_apart || !is_finite) return true;
+  if (is_element(query.kind())) return !starts_within(query.queries(), {});
   return !starts_within(query.queries(),
                         {separation.distance + *terms.starts_apart, separation.norm});
 }
 
 std::string to_text(const fast::Terms& terms) {
   std::string text;
-  if (!terms.edge_edge) text += ", vertex-face alone";
-  if (!terms.vertex_face) text += ", edge-edge alone";
+  if (const std::string kinds = other_kinds(terms, " and "); !kinds.empty()) {
+    text += ", " + kinds + " alone";
+  }
   if (terms.starts_apart) {
     text += *terms.starts_apart == 0.0 ? ", starts apart"
                                        : fmt::format(", starts apart by {}", *terms.starts_apart);
@@ -68,9 +84,8 @@ std::string to_text(const fast::Terms& terms) {
 }
 
 std::string as_options(const fast::Terms& terms) {
-  std::string words;
-  if (!terms.edge_edge) words += " --kinds vertex-face";
-  if (!terms.vertex_face) words += " --kinds edge-edge";
+  std::string words = other_kinds(terms, " --kinds ");
+  if (!words.empty()) words.insert(0, " --kinds ");
   if (terms.starts_apart) words += fmt::format(" --starts-apart={}", *terms.starts_apart);
   if (terms.float_coordinates) words += " --float-coordinates";
   if (terms.times == fast::Times::none) words += " --times none";

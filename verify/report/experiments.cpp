@@ -192,7 +192,8 @@ class ExperimentRun {
 
   /// The map of stability is of straight lines.
   [[nodiscard]] bool is_asked(const fast::Terms& terms) const {
-    return terms.straight || std::ranges::any_of(groups_, [&](const data::QueryGroup& group) {
+    const bool takes_lines = jobs::takes_curves(terms, QueryShape{});
+    return takes_lines || std::ranges::any_of(groups_, [&](const data::QueryGroup& group) {
              return jobs::takes_curves(terms, group.shape());
            });
   }

@@ -169,10 +169,11 @@ class AnswersReader {
   }
 
   [[nodiscard]] Kind read_kind() const {
-    for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
-      if (field(Column::kind) == to_string(kind)) return kind;
+    try {
+      return kind_from_string(field(Column::kind));
+    } catch (const std::invalid_argument& error) {
+      fail(Column::kind, std::string(error.what()) + ": " + io::quote(field(Column::kind)));
     }
-    fail(Column::kind, "kind must be vertex-face or edge-edge: " + io::quote(field(Column::kind)));
   }
 
   [[nodiscard]] fast::Verdict read_verdict() const {

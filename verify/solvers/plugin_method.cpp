@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <cstdint>
@@ -15,6 +16,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -28,8 +30,6 @@
 namespace touchstone::verify::solvers {
 namespace {
 
-static_assert(static_cast<int>(Kind::vertex_face) == TOUCHSTONE_VERTEX_FACE &&
-              static_cast<int>(Kind::edge_edge) == TOUCHSTONE_EDGE_EDGE);
 static_assert(static_cast<int>(fast::Promise::none) == TOUCHSTONE_PROMISES_NOTHING &&
               static_cast<int>(fast::Promise::conservative) == TOUCHSTONE_PROMISES_CONSERVATIVE &&
               static_cast<int>(fast::Promise::exact) == TOUCHSTONE_PROMISES_EXACT);
@@ -133,20 +133,21 @@ Stated checked(const TouchstonePluginPromise& stated, const std::filesystem::pat
   require(
       stated.promise >= TOUCHSTONE_PROMISES_NOTHING && stated.promise <= TOUCHSTONE_PROMISES_EXACT,
       "promise");
-  require(is_flag(stated.kinds[0]) && is_flag(stated.kinds[1]) &&
-              stated.kinds[0] + stated.kinds[1] != 0,
-          "kinds");
+  const auto& [contacts, elements] = std::tie(stated.kinds, stated.elements);
+  require(std::ranges::all_of(contacts, is_flag) && std::ranges::all_of(elements, is_flag) &&
+              contacts[0] + contacts[1] + elements[0] + elements[1] != 0,
+          "kinds or elements");
   require(is_flag(stated.is_float), "is_float");
   require(stated.times >= TOUCHSTONE_TIMES_BOUNDS && stated.times <= TOUCHSTONE_TIMES_NONE,
           "times");
   require(std::isfinite(stated.starts_apart), "starts_apart");
   require(std::isfinite(stated.time_error) && stated.time_error >= 0.0, "time_error");
-  Stated result{.promise = static_cast<fast::Promise>(stated.promise),
-                .terms = {.vertex_face = stated.kinds[TOUCHSTONE_VERTEX_FACE] == 1,
-                          .edge_edge = stated.kinds[TOUCHSTONE_EDGE_EDGE] == 1,
-                          .float_coordinates = stated.is_float == 1,
-                          .times = static_cast<fast::Times>(stated.times),
-                          .time_error = stated.time_error}};
+  Stated result{
+      .promise = static_cast<fast::Promise>(stated.promise),
+      .terms = {.kinds = {contacts[0] == 1, contacts[1] == 1, elements[0] == 1, elements[1] == 1},
+                .float_coordinates = stated.is_float == 1,
+                .times = static_cast<fast::Times>(stated.times),
+                .time_error = stated.time_error}};
   if (stated.starts_apart >= 0.0) result.terms.starts_apart = stated.starts_apart;
   return result;
 }
@@ -165,7 +166,8 @@ TouchstonePluginPromise read_promise(const Library& library) {
                                   .is_float = 0,
                                   .times = TOUCHSTONE_TIMES_BOUNDS,
                                   .starts_apart = -1.0,
-                                  .time_error = fast::Terms{}.time_error};
+                                  .time_error = fast::Terms{}.time_error,
+                                  .elements = {0, 0}};
   const auto state =
       find_optional<decltype(touchstone_plugin_promise)>(library, "touchstone_plugin_promise");
   if (state != nullptr) state(&promise);
@@ -267,7 +269,7 @@ class PluginMethod final : public fast::Method {
   void ask(const Queries& queries, const TouchstonePluginOptions& options,
            std::span<TouchstonePluginAnswer> found) const {
     const SameProcess same;
-    const auto kind = static_cast<std::int32_t>(queries.kind);
+    const std::int32_t kind = plugin_kind(queries.kind);
     if (queries.is_straight() && functions_.solve_batch != nullptr) {
       functions_.solve_batch(kind, std::ssize(found), queries.numbers.data(), &options,
                              found.data());
@@ -422,9 +424,15 @@ static_assert(calls.size() == named.size() && named.size() == refused.size() &&
 
 }  // namespace
 
+std::int32_t plugin_kind(Kind kind) {
+  static constexpr std::array<std::int32_t, all_kinds.size()> numbers{
+      TOUCHSTONE_VERTEX_FACE, TOUCHSTONE_EDGE_EDGE, TOUCHSTONE_TETRAHEDRON,
+      TOUCHSTONE_PLANE_TRIANGLE};
+  return numbers.at(static_cast<std::size_t>(kind));
+}
+
 fast::Terms changed(fast::Terms terms, const TermsChanges& changes) {
-  terms.vertex_face = changes.vertex_face.value_or(terms.vertex_face);
-  terms.edge_edge = changes.edge_edge.value_or(terms.edge_edge);
+  terms.kinds = changes.kinds.value_or(terms.kinds);
   if (changes.starts_apart) terms.starts_apart = changes.starts_apart;
   terms.float_coordinates = changes.float_coordinates.value_or(terms.float_coordinates);
   terms.times = changes.times.value_or(terms.times);

@@ -8,24 +8,28 @@
 /// on unchanged.
 
 #include <atomic>
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <optional>
 
 #include "fast/method.hpp"
+#include "touchstone/query.hpp"
 #include "verify/solvers/child_process.hpp"
 
 namespace touchstone::verify::solvers {
 
 /// Terms in place of those that a solver states itself.
 struct TermsChanges {
-  std::optional<bool> vertex_face = std::nullopt;
-  std::optional<bool> edge_edge = std::nullopt;
+  std::optional<decltype(fast::Terms::kinds)> kinds = std::nullopt;
   std::optional<double> starts_apart = std::nullopt;
   std::optional<bool> float_coordinates = std::nullopt;
   std::optional<fast::Times> times = std::nullopt;
   std::optional<double> time_error = std::nullopt;
 };
+
+/// The number by which plugins know a kind: one of TouchstoneKind.
+[[nodiscard]] std::int32_t plugin_kind(Kind kind);
 
 /// The terms with the changes made.
 [[nodiscard]] fast::Terms changed(fast::Terms terms, const TermsChanges& changes);

@@ -40,6 +40,8 @@ constexpr auto factories = std::to_array<std::unique_ptr<fast::Method> (*)()>({
     baselines::accd_method,
     baselines::accd_limited_method,
     baselines::cubic_method,
+    baselines::inversion_cubic_method,
+    baselines::inversion_additive_method,
     baselines::subdivision_method,
     baselines::subdivision_largest_deviation_method,
     baselines::sampling_method,
@@ -68,11 +70,13 @@ std::string method_names() {
   return names;
 }
 
-std::vector<std::string> default_methods() {
+std::vector<std::string> default_methods(std::span<const Kind> kinds) {
   std::vector<std::string> names;
   for (const auto& method : methods()) {
     const fast::MethodInfo& info = method->info();
-    const bool promises = info.promise != fast::Promise::none;
+    const bool promises =
+        info.promise != fast::Promise::none &&
+        std::ranges::any_of(kinds, [&](Kind kind) { return info.terms.answers(kind); });
     if (promises && info.variant_of.empty() && !info.is_baseline) names.emplace_back(info.name);
   }
   return names;

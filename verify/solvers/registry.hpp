@@ -5,11 +5,13 @@
 /// judged, timed and named in the help once it is in the list. fast::MethodInfo describes each.
 
 #include <memory>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "fast/method.hpp"
+#include "touchstone/query.hpp"
 
 namespace touchstone::verify::solvers {
 
@@ -20,8 +22,8 @@ namespace touchstone::verify::solvers {
 [[nodiscard]] std::string method_names();
 
 /// The names of those that are judged where the user names none: all that promise something, in
-/// their default setting, without the baselines.
-[[nodiscard]] std::vector<std::string> default_methods();
+/// their default setting, and answer one of the kinds, without the baselines.
+[[nodiscard]] std::vector<std::string> default_methods(std::span<const Kind> kinds = contact_kinds);
 
 /// The method of that name.
 /// \throws std::invalid_argument, with the names there are, if there is none.

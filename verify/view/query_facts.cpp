@@ -221,6 +221,7 @@ nlohmann::json answers_of(const Judged& judged, std::span<const judge::GivenAnsw
 }  // namespace
 
 nlohmann::json query_facts(const ViewedQuery& viewed, std::span<const judge::GivenAnswer> asked) {
+  require_contact(kind_of(viewed));
   const exact::Decision verdict = decide(viewed);
   nlohmann::json notes = nlohmann::json::array();
   for (const std::string& note : viewed.notes) notes.push_back(io::printable(note));

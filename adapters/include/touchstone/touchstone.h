@@ -36,12 +36,15 @@ extern "C" {
 #define TOUCHSTONE_API
 #endif
 
-/// The primitives of a query, with its points in their order, or of a pair of a mesh.
+/// The primitives of a query, with its points in their order, or of a pair of a mesh; or the
+/// element of a query about inversion.
 enum TouchstoneKind {
-  TOUCHSTONE_VERTEX_FACE = 0,   ///< v, f0, f1, f2; of a mesh: a vertex and a face
-  TOUCHSTONE_EDGE_EDGE = 1,     ///< ea0, ea1, eb0, eb1; of a mesh: the smaller number first
-  TOUCHSTONE_VERTEX_EDGE = 2,   ///< of a mesh only: a codimensional point and edge
-  TOUCHSTONE_VERTEX_VERTEX = 3  ///< of a mesh only: codimensional points, the smaller number first
+  TOUCHSTONE_VERTEX_FACE = 0,    ///< v, f0, f1, f2; of a mesh: a vertex and a face
+  TOUCHSTONE_EDGE_EDGE = 1,      ///< ea0, ea1, eb0, eb1; of a mesh: the smaller number first
+  TOUCHSTONE_VERTEX_EDGE = 2,    ///< of a mesh only: a codimensional point and edge
+  TOUCHSTONE_VERTEX_VERTEX = 3,  ///< of a mesh only: codimensional points, the smaller number first
+  TOUCHSTONE_TETRAHEDRON = 4,    ///< of plugins only: a, b, c, d; det(b-a, c-a, d-a) > 0 upright
+  TOUCHSTONE_PLANE_TRIANGLE = 5  ///< of plugins only: x and y of a, b, c; the rest has no effect
 };
 
 /// Norm of the distance of two points.

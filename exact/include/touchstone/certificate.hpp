@@ -54,7 +54,6 @@
 #include <vector>
 
 #include "touchstone/curved_query.hpp"
-#include "touchstone/inversion_oracle.hpp"
 #include "touchstone/number.hpp"
 #include "touchstone/oracle.hpp"
 #include "touchstone/polynomial.hpp"
@@ -161,8 +160,8 @@ enum class Claim : std::uint8_t { no_collision, collision, time_of_impact };
 
 /// A claim about a query with its proof.
 struct Certificate {
-  Kind kind = Kind::vertex_face;  ///< that of a tetrahedron, too
-  bool is_tetrahedron = false;    ///< The query is a tetrahedron, whose inversions are contacts.
+  /// A triangle in the plane is proved as its tetrahedron (touchstone/element.hpp).
+  Kind kind = Kind::vertex_face;
   std::variant<Query, CurvedQuery> query{};
   Separation separation{};
   Claim claim = Claim::no_collision;
@@ -220,17 +219,5 @@ struct ProveOptions {
 [[nodiscard]] std::vector<Certificate> prove(const Queries& queries,
                                              std::span<const Decision> decisions,
                                              const ProveOptions& options = {});
-
-/// The proof of the oracle's decision on a tetrahedron. A triangle in the plane is proved as its
-/// tetrahedron (touchstone/element.hpp).
-/// \param decision decide_inversion(tetrahedron)
-/// \param options a collision there is an inversion here
-/// \throws as prove.
-[[nodiscard]] Certificate prove_inversion(const Query& tetrahedron,
-                                          const InversionDecision& decision,
-                                          const ProveOptions& options = {});
-[[nodiscard]] Certificate prove_inversion(const CurvedQuery& tetrahedron,
-                                          const InversionDecision& decision,
-                                          const ProveOptions& options = {});
 
 }  // namespace touchstone::exact

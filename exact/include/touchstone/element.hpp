@@ -62,6 +62,18 @@ using CurvedTriangle = std::array<Trajectory, PlaneTriangle::points>;
   }
   return result;
 }
+/// The triangle of a query of Kind::plane_triangle.
+[[nodiscard]] inline PlaneTriangle to_plane_triangle(const Query& points) {
+  PlaneTriangle result{};
+  for (std::size_t end = 0; end < 2; ++end) {
+    for (std::size_t point = 0; point < PlaneTriangle::points; ++point) {
+      for (std::size_t axis = 0; axis < 2; ++axis) {
+        result.at(end, point, axis) = points.at(end, point, axis);
+      }
+    }
+  }
+  return result;
+}
 [[nodiscard]] inline CurvedQuery to_tetrahedron(const CurvedTriangle& triangle) {
   CurvedQuery result{triangle[0], triangle[1], triangle[2], triangle[1]};
   for (std::size_t point = 0; point < result.size(); ++point) {

@@ -80,9 +80,9 @@ struct Decision {
 };
 
 /// Decides a query exactly, independent of the floating-point environment (rounding mode, flushed
-/// subnormals).
+/// subnormals). An element collides if it inverts (touchstone/inversion_oracle.hpp).
 /// \throws std::domain_error if a coordinate is NaN or infinite; std::invalid_argument if the
-/// separation is not valid.
+/// separation is not valid, or not 0 for an element.
 [[nodiscard]] Decision decide(Kind kind, const Query& query, const Separation& separation = {});
 
 /// Decides a query whose points move on curves. For curves of degrees up to k, polynomial or of the

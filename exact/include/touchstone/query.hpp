@@ -18,6 +18,11 @@
 /// of the domain: the *corners* w_i(t), three for vertex_face, four (a parallelogram, in cyclic
 /// order) for edge_edge. Hence a query collides iff 0 ∈ conv{w_i(t)} for some t ∈ [0,1].
 ///
+/// The four points may also be those of an *element* of a mesh (touchstone/element.hpp): of a
+/// tetrahedron, or of a triangle in the plane. Such a query "collides" iff the element inverts: its
+/// volume is 0 or negative at some t ∈ [0,1], of which its time of impact is the smallest. It has
+/// no F and no separation; require_contact refuses it where these are needed.
+///
 /// **Coordinates that are not finite.** One rule for every function, in C++ and C. A function whose
 /// results have verdicts answers `error` for a query with a coordinate that is NaN or infinite, or
 /// with a weight that is not positive and finite, and decides the other queries
@@ -45,15 +50,27 @@
 
 namespace touchstone {
 
-/// The two primitives of a query.
-enum class Kind : std::uint8_t { vertex_face, edge_edge };
+/// The two primitives of a query, or its element.
+enum class Kind : std::uint8_t {
+  vertex_face,
+  edge_edge,
+  tetrahedron,
+  plane_triangle,  ///< x and y of the first three points; the other coordinates have no effect
+};
+
+/// All kinds, first those about contact, then those about inversion.
+inline constexpr std::array all_kinds{Kind::vertex_face, Kind::edge_edge, Kind::tetrahedron,
+                                      Kind::plane_triangle};
+inline constexpr std::array contact_kinds{Kind::vertex_face, Kind::edge_edge};
+
+[[nodiscard]] constexpr bool is_element(Kind kind) { return kind >= Kind::tetrahedron; }
 
 /// Number of points that move, and number of points in a query (start and end of each).
 inline constexpr std::size_t moving_points = 4;
 inline constexpr std::size_t query_points = 2 * moving_points;
 
 /// Eight points as 24 contiguous doubles, in the order of the public data: at t=0 then at t=1;
-/// vertex_face: v, f0, f1, f2; edge_edge: ea0, ea1, eb0, eb1; x, y, z each.
+/// vertex_face: v, f0, f1, f2; edge_edge: ea0, ea1, eb0, eb1; an element: a, b, c, d; x, y, z each.
 ///
 /// The layout is the file layout of a float64 array of shape (N, 8, 3), so such an array in memory
 /// is a `std::span<const Query>` without a copy. The kind is not stored in it, because all queries
@@ -183,6 +200,7 @@ inline constexpr std::array<Corner, 4> edge_edge_corners{
     {{0, 2, 0, 0}, {1, 2, 1, 0}, {1, 3, 1, 1}, {0, 3, 0, 1}}};
 
 /// The corners of a kind: v−f0, v−f1, v−f2, or ea0−eb0, ea1−eb0, ea1−eb1, ea0−eb1 in cyclic order.
+/// \pre the kind is one of contact, here and below.
 [[nodiscard]] constexpr std::span<const Corner> corners(Kind kind) {
   if (kind == Kind::vertex_face) return vertex_face_corners;
   return edge_edge_corners;
@@ -235,17 +253,35 @@ struct Separation {
   throw std::invalid_argument("norm must be linf or l2");
 }
 
-/// "vertex-face" or "edge-edge", as datasets and the command line spell them.
+/// "vertex-face", "edge-edge", "tetrahedron" or "plane-triangle", as datasets and the command line
+/// spell them.
 [[nodiscard]] inline std::string_view to_string(Kind kind) {
-  return kind == Kind::vertex_face ? "vertex-face" : "edge-edge";
+  switch (kind) {
+    case Kind::vertex_face:
+      return "vertex-face";
+    case Kind::edge_edge:
+      return "edge-edge";
+    case Kind::tetrahedron:
+      return "tetrahedron";
+    default:
+      return "plane-triangle";
+  }
+}
+
+/// \throws std::invalid_argument for an element.
+inline void require_contact(Kind kind) {
+  if (!is_element(kind)) return;
+  throw std::invalid_argument("a " + std::string(to_string(kind)) +
+                              " inverts or not; vertex-face or edge-edge is needed here");
 }
 
 /// The inverse of to_string.
 /// \throws std::invalid_argument for any other text.
 [[nodiscard]] inline Kind kind_from_string(std::string_view text) {
-  if (text == to_string(Kind::vertex_face)) return Kind::vertex_face;
-  if (text == to_string(Kind::edge_edge)) return Kind::edge_edge;
-  throw std::invalid_argument("kind must be vertex-face or edge-edge");
+  for (const Kind kind : all_kinds) {
+    if (text == to_string(kind)) return kind;
+  }
+  throw std::invalid_argument("kind must be vertex-face, edge-edge, tetrahedron or plane-triangle");
 }
 
 }  // namespace touchstone

@@ -128,8 +128,9 @@ struct CertifiedResult {
 
 // ---- Queries ------------------------------------------------------------------------------------
 
-/// Decides one query.
-/// \throws std::invalid_argument for options out of range.
+/// Decides one query. An element, on straight lines, collides if it inverts
+/// (touchstone/inversion.hpp).
+/// \throws std::invalid_argument for options out of range, such as a separation of an element.
 [[nodiscard]] CertifiedResult solve(Kind kind, const Query& query,
                                     const CertifiedOptions& options = {});
 

@@ -323,6 +323,73 @@ TEST(Fuzz, MutatesTheCorpus) {
   expect_found(judge::Fault::false_negative, search(wrong, Promise::none, options));
 }
 
+// ---- Elements -----------------------------------------------------------------------------------
+
+const std::vector<QueryShape> elements{{Kind::tetrahedron}, {Kind::plane_triangle}};
+
+TEST(FuzzOfElements, FindsTheMissesOfFormulasAndNoneOfTheCertifiedSolver) {
+  const FuzzResult certified =
+      fuzz(solvers::find_method("certified"),
+           {.most_queries = tests::trials(std::uint64_t{6000}), .shapes = elements});
+  EXPECT_EQ(certified.all_findings, 0U);
+  EXPECT_GT(certified.collisions, certified.queries / 4);
+  EXPECT_LT(certified.collisions, certified.queries / 10 * 9);
+  for (const char* const name : {"inversion_cubic", "inversion_additive"}) {
+    for (const QueryShape& shape : elements) {
+      SCOPED_TRACE(name);
+      const FuzzResult result =
+          fuzz(solvers::find_method(name), {.most_queries = enough,
+                                            .method = {.max_checks = 200},
+                                            .promise = Promise::conservative,
+                                            .most_groups = 1,
+                                            .shrink_seconds = 60.0,
+                                            .only = {judge::Fault::false_negative},
+                                            .shapes = {shape}});
+      ASSERT_FALSE(result.findings.empty());
+      const FailingCase& plain = result.findings.front().simplest;
+      EXPECT_TRUE(exact::decide(plain.query.queries(), 0).collides());
+      EXPECT_EQ(plain.answer.verdict, Verdict::no);
+      EXPECT_EQ(plain.query.shape(), shape);
+      EXPECT_EQ(plain.certificate, "");
+    }
+  }
+}
+
+/// Right but where a volume only touches 0, where points rest, or at an orientation.
+TEST(FuzzOfElements, FindsEveryPlantedFault) {
+  using Fault = bool (*)(const Query&, const Answer&);
+  const auto touches = [](const Query& query, const Answer&) {
+    Query end = query;
+    for (std::size_t i = 0; i < 12; ++i) end.coordinates.at(i) = end.coordinates.at(i + 12);
+    return !exact::decide(Kind::tetrahedron, end).collides();
+  };
+  const auto at_end = [](const Query&, const Answer& answer) { return answer.toi_upper == 1.0; };
+  const auto turned = [](const Query& query, const Answer&) {
+    return query.at(0, 1, 0) < query.at(0, 0, 0) && query.at(0, 2, 0) > query.at(0, 0, 0);
+  };
+  for (const Fault is_missed : std::initializer_list<Fault>{touches, at_end, turned}) {
+    const auto altered = [&](Kind kind, const Query& query) {
+      Answer answer = honest(kind, query);
+      if (answer.verdict == Verdict::yes && is_missed(query, answer))
+        answer = {.verdict = Verdict::no};
+      return answer;
+    };
+    expect_found(judge::Fault::false_negative,
+                 search(altered,
+                        {.name = "function",
+                         .promise = Promise::conservative,
+                         .terms = {.kinds = {false, false, true}}},
+                        {.shapes = {{Kind::tetrahedron}}, .oracle_share = 0.0}));
+  }
+}
+
+TEST(FuzzOfElements, HaveNoSeparation) {
+  EXPECT_THROW(static_cast<void>(
+                   fuzz(solvers::find_method("certified"),
+                        {.most_queries = 1, .separation = {.distance = 1.0}, .shapes = elements})),
+               std::invalid_argument);
+}
+
 // ---- Curves -------------------------------------------------------------------------------------
 
 std::vector<QueryShape> shapes(std::size_t degree, bool is_rational = false) {

@@ -22,7 +22,10 @@
 
 #include "tests/support/contact_function.hpp"
 #include "tests/support/trials.hpp"
+#include "touchstone/certified.hpp"
+#include "touchstone/element.hpp"
 #include "touchstone/number.hpp"
+#include "touchstone/oracle.hpp"
 #include "touchstone/query.hpp"
 
 namespace touchstone::verify::generate::families_test {
@@ -517,6 +520,69 @@ TEST(CurvedFamilies, DrawTheSameBitsEverywhere) {
     add(record.toi ? record.toi->get_d() : -1.0);
   });
   EXPECT_EQ(digest, 10030151229226999845ULL);
+}
+
+// ---- Elements -----------------------------------------------------------------------------------
+
+/// Six times the volume of a tetrahedron at time t.
+Rational volume_at(const Query& tetrahedron, const Rational& t) {
+  std::array<std::array<Rational, 3>, 3> e;
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const auto at = [&](std::size_t point) {
+        return Rational((1 - t) * Rational(tetrahedron.at(0, point, axis)) +
+                        t * Rational(tetrahedron.at(1, point, axis)));
+      };
+      e.at(i).at(axis) = at(i + 1) - at(0);
+    }
+  }
+  return e[0][0] * (e[1][1] * e[2][2] - e[1][2] * e[2][1]) +
+         e[0][1] * (e[1][2] * e[2][0] - e[1][0] * e[2][2]) +
+         e[0][2] * (e[1][0] * e[2][1] - e[1][1] * e[2][0]);
+}
+
+/// The claim of one query, at rational times, by the oracle, and by the certified solver.
+void expect_true_claim(Kind kind, const KnownQuery& known) {
+  const Query element =
+      kind == Kind::tetrahedron ? known.query : to_tetrahedron(to_plane_triangle(known.query));
+  const exact::Decision truth = exact::decide(kind, known.query);
+  ASSERT_EQ(known.collides, truth.collides());
+  const fast::CertifiedResult certified = fast::solve(kind, known.query, {.toi_tolerance = 0.0});
+  ASSERT_EQ(certified.verdict, known.collides ? fast::Verdict::yes : fast::Verdict::no);
+  if (known.toi) {
+    ASSERT_EQ(*truth.toi, *known.toi);
+    EXPECT_TRUE(*known.toi == 0 ? volume_at(element, 0) <= 0 : volume_at(element, *known.toi) == 0);
+    EXPECT_LE(*known.toi, Rational(certified.toi_upper));
+    EXPECT_TRUE(*known.toi == 0 || *known.toi > Rational(certified.toi_lower));
+  }
+  if (known.collides && !(known.toi && *known.toi > 0)) return;
+  const Rational end = known.toi.value_or(Rational(1));
+  for (int k = 0; k < (known.toi ? 8 : 9); ++k) {
+    EXPECT_GT(volume_at(element, end * Rational(k, 8)), 0) << k;
+  }
+}
+
+TEST(ElementFamilies, ClaimTheFirstTimeWithoutVolume) {
+  for (const Family& family : element_families()) {
+    EXPECT_EQ(family_from_name(family.name).reason, family.reason);
+    EXPECT_FALSE(supports(family, Kind::vertex_face));
+    for (const Kind kind : {Kind::tetrahedron, Kind::plane_triangle}) {
+      std::uint64_t collisions = 0, full = 0;
+      constexpr std::uint64_t count = tests::trials(240U);
+      for (std::uint64_t index = 0; index < count; ++index) {
+        SCOPED_TRACE(std::string(family.name) + " " + std::string(to_string(kind)) + " " +
+                     std::to_string(index));
+        const KnownQuery known = make_query(family, kind, seed, index);
+        EXPECT_TRUE(is_finite(known.query));
+        expect_true_claim(kind, known);
+        collisions += known.collides ? 1U : 0U;
+        full += known.full_significands ? 1U : 0U;
+      }
+      EXPECT_EQ(full, count / 2);
+      EXPECT_GT(collisions, count / 8) << family.name;
+      EXPECT_EQ(collisions == count, family.verdicts == Verdicts::collisions) << family.name;
+    }
+  }
 }
 
 }  // namespace

@@ -118,11 +118,13 @@ TEST(Symmetry, KeepsTheOraclesVerdictAndTime) {
   int collisions = 0, others = 0;
   for (const Separation& separation : separations) {
     const fuzz::GeneratorContext context(separation);
-    for (int i = 0; i < tests::trials(160); ++i) {
-      const Kind kind = both_kinds.at(static_cast<std::size_t>(i % 2));
+    for (int i = 0; i < tests::trials(240); ++i) {
+      const Kind kind = all_kinds.at(static_cast<std::size_t>(i % 4));
+      if (is_element(kind) && !is_zero(separation)) continue;
       const auto& generator = fuzz::generators()[1 + static_cast<std::size_t>(i % 7)];
       // Half of them on curves.
-      const QueryShape shape{kind, i % 4 < 2 ? 1U : 2U, i % 8 > 5};
+      const bool is_curved = !is_element(kind) && i % 8 > 3;
+      const QueryShape shape{kind, is_curved ? 2U : 1U, is_curved && i % 16 > 7};
       const base::AnyQuery query = generator.make(shape, context, random);
       const Symmetry symmetry = draw_symmetry(query.queries(), separation, random);
       expect_same_truth(query.queries(), separation, symmetry);

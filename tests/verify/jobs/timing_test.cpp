@@ -61,8 +61,8 @@ TEST(Samples, OfCurvesAreCopiedWhole) {
 
 TEST(TimedSolver, TakesCurvesOrLinesOfWhateverKind) {
   const QueryShape line{.kind = Kind::edge_edge}, parabola{.kind = Kind::edge_edge, .degree = 2};
-  const fast::Terms lines{.edge_edge = false},
-      curves{.edge_edge = false, .straight = false, .most_degree = 8};
+  const fast::Terms lines{.kinds = {true, false}},
+      curves{.kinds = {true, false}, .straight = false, .most_degree = 8};
   EXPECT_TRUE(takes_curves(lines, line));
   EXPECT_FALSE(takes_curves(lines, parabola));
   EXPECT_TRUE(takes_curves(curves, parabola));

@@ -52,5 +52,25 @@ TEST(Terms, CurvesStartAtTheirFirstControlPointsAndAreAnsweredByDegree) {
   EXPECT_FALSE(terms.answers(QueryShape{.degree = 2, .is_rational = true}));
 }
 
+TEST(Terms, ElementsStartWithAPositiveVolume) {
+  const Terms terms{.kinds = {false, false, true}, .starts_apart = 0.0};
+  const Query resting = tests::moving({0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 0x1p-1000},
+                                      {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, -1});
+  Query flat = resting;
+  flat.at(0, 3, 2) = 0.0;
+  EXPECT_TRUE(admits(terms, {Kind::tetrahedron, resting}, {}));
+  EXPECT_FALSE(admits(terms, {Kind::tetrahedron, flat}, {}));
+  EXPECT_FALSE(admits(terms, {Kind::plane_triangle, resting}, {}));
+  EXPECT_FALSE(admits({}, {Kind::tetrahedron, resting}, {}));
+}
+
+TEST(Terms, NameTheKindsWhereTheyAreNotBothAboutContact) {
+  EXPECT_EQ(to_text({.kinds = {true, true, true}}), "");
+  EXPECT_EQ(to_text({.kinds = {true, false}}), ", vertex-face alone");
+  const Terms of_elements{.kinds = {false, false, true, true}};
+  EXPECT_EQ(to_text(of_elements), ", tetrahedron and plane-triangle alone");
+  EXPECT_EQ(as_options(of_elements), " --kinds tetrahedron --kinds plane-triangle");
+}
+
 }  // namespace
 }  // namespace touchstone::verify::judge::terms_test

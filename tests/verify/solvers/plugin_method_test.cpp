@@ -86,7 +86,7 @@ class WorkingDirectory {
 TEST(PluginPromise, IsWhatTheLibraryStates) {
   const auto method = load_plugin(tests::plugin_library("states_terms"));
   EXPECT_EQ(method->promise(), fast::Promise::exact);
-  const fast::Terms stated{.edge_edge = false,
+  const fast::Terms stated{.kinds = {true, false, false, true},
                            .starts_apart = 0.5,
                            .float_coordinates = true,
                            .times = fast::Times::estimates,
@@ -95,8 +95,7 @@ TEST(PluginPromise, IsWhatTheLibraryStates) {
 }
 
 TEST(PluginPromise, ChangesReplaceWhatItStates) {
-  const TermsChanges changes{.vertex_face = false,
-                             .edge_edge = true,
+  const TermsChanges changes{.kinds = {{false, true}},
                              .starts_apart = 0.0,
                              .float_coordinates = false,
                              .times = fast::Times::none,
@@ -104,8 +103,10 @@ TEST(PluginPromise, ChangesReplaceWhatItStates) {
   for (const char* const name : {"states_terms", "always_no"}) {
     const fast::Terms terms =
         load_plugin(tests::plugin_library(name), {.terms = changes})->info().terms;
-    const fast::Terms expected{
-        .vertex_face = false, .starts_apart = 0.0, .times = fast::Times::none, .time_error = 0.125};
+    const fast::Terms expected{.kinds = {false, true},
+                               .starts_apart = 0.0,
+                               .times = fast::Times::none,
+                               .time_error = 0.125};
     EXPECT_EQ(terms, expected) << name;
   }
 }
@@ -131,7 +132,7 @@ TEST(PluginPromise, IncludesCurvesIfItHasAFunctionForThemAndTakesDoubles) {
 
 TEST(PluginPromise, OutOfRangeIsRefused) {
   EXPECT_EQ(load_error(tests::plugin_library("states_nonsense")),
-            "states_nonsense.so: touchstone_plugin_promise() sets kinds out of range; "
+            "states_nonsense.so: touchstone_plugin_promise() sets kinds or elements out of range; "
             "touchstone/plugin.h names the values");
 }
 

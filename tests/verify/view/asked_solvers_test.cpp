@@ -138,8 +138,8 @@ TEST(Ask, NotesSayWhoIsNotAskedAndWhy) {
       {"the curves differ in degree", polynomial, mixed},
       {"it takes curves of one degree, 2 or 3", two_or_three, mixed},
       {"it takes no straight lines", polynomial, resting()},
-      {"the query is outside the terms of its promise", {.vertex_face = false}, rational},
-      {"", {.vertex_face = false}, resting()},
+      {"the query is outside the terms of its promise", {.kinds = {false, true}}, rational},
+      {"", {.kinds = {false, true}}, resting()},
   };
   for (const auto& [reason, terms, query] : rows) {
     std::vector<std::string> expected;

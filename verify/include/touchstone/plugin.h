@@ -38,6 +38,11 @@
 /// Contact at t=0, at t=1 and on the boundary of the primitives counts. With a minimum separation,
 /// contact is a distance of at most that separation.
 ///
+/// A solver may also, or only, answer queries about the inversion of elements, if its promise says
+/// so (TouchstonePluginPromise::elements): "yes" if the volume of a tetrahedron with these four
+/// points, or the area of a triangle in the plane, is 0 or negative at some t, the first of which
+/// is its time. There is no separation then.
+///
 /// Version 2 added TouchstonePluginOptions::norm at the end. Plugins of version 1 are still
 /// accepted: they receive the distance but not the norm, and are judged in the requested norm.
 
@@ -57,12 +62,15 @@ extern "C" {
 #define TOUCHSTONE_API
 #endif
 
-/// The primitives of a query, with its points in their order, or of a pair of a mesh.
+/// The primitives of a query, with its points in their order, or of a pair of a mesh; or the
+/// element of a query about inversion.
 enum TouchstoneKind {
-  TOUCHSTONE_VERTEX_FACE = 0,   ///< v, f0, f1, f2; of a mesh: a vertex and a face
-  TOUCHSTONE_EDGE_EDGE = 1,     ///< ea0, ea1, eb0, eb1; of a mesh: the smaller number first
-  TOUCHSTONE_VERTEX_EDGE = 2,   ///< of a mesh only: a codimensional point and edge
-  TOUCHSTONE_VERTEX_VERTEX = 3  ///< of a mesh only: codimensional points, the smaller number first
+  TOUCHSTONE_VERTEX_FACE = 0,    ///< v, f0, f1, f2; of a mesh: a vertex and a face
+  TOUCHSTONE_EDGE_EDGE = 1,      ///< ea0, ea1, eb0, eb1; of a mesh: the smaller number first
+  TOUCHSTONE_VERTEX_EDGE = 2,    ///< of a mesh only: a codimensional point and edge
+  TOUCHSTONE_VERTEX_VERTEX = 3,  ///< of a mesh only: codimensional points, the smaller number first
+  TOUCHSTONE_TETRAHEDRON = 4,    ///< of plugins only: a, b, c, d; det(b-a, c-a, d-a) > 0 upright
+  TOUCHSTONE_PLANE_TRIANGLE = 5  ///< of plugins only: x and y of a, b, c; the rest has no effect
 };
 
 /// Norm of the distance of two points.
@@ -129,9 +137,11 @@ typedef struct TouchstonePluginPromise {
   int32_t is_float;     ///< 1 if it takes coordinates in single precision: queries are rounded to
                         ///< float before it is asked, and the truth is that of the rounded query; 0
   int32_t times;        ///< one of TouchstoneTimes; bounds
-  double starts_apart;  ///< the distance at t=0 must be more than min_separation plus this;
-                        ///< negative: any distance; -1
+  double starts_apart;  ///< the distance at t=0 must be more than min_separation plus this, and the
+                        ///< volume of an element positive; negative: any start; -1
   double time_error;  ///< of estimates, in units of the step: an error up to this is no fault; 1e-6
+  int32_t elements[2];  ///< 1 if it answers queries about tetrahedra, and about triangles in the
+                        ///< plane; 0, 0. An addition: set it only if size is that of this struct.
 } TouchstonePluginPromise;
 
 /// Defined by the plugin: returns TOUCHSTONE_PLUGIN_VERSION.
@@ -147,16 +157,16 @@ TOUCHSTONE_API const char* touchstone_plugin_name(void);
 /// file size are limited, and which may create threads but no processes (options of the command
 /// line change both), in a temporary working directory. Its output is captured.
 ///
-/// \param kind TOUCHSTONE_VERTEX_FACE or TOUCHSTONE_EDGE_EDGE.
+/// \param kind TOUCHSTONE_VERTEX_FACE or TOUCHSTONE_EDGE_EDGE, or an element that it has promised.
 /// \param coordinates 24 finite doubles: x, y, z of the four points at t=0, then of the same four
-///        at t=1. Vertex-face: v, f0, f1, f2. Edge-edge: ea0, ea1, eb0, eb1.
+///        at t=1, in the order that TouchstoneKind names.
 /// \param options the user's options.
 /// \param answer to be filled in.
 TOUCHSTONE_API void touchstone_plugin_solve(int32_t kind, const double* coordinates,
                                             const TouchstonePluginOptions* options,
                                             TouchstonePluginAnswer* answer);
 
-/// Defined by the plugin if its promise is not: conservative, both kinds, any start, double
+/// Defined by the plugin if its promise is not: conservative, both contacts, any start, double
 /// precision, bounds of the time. Queries outside of the promise are not asked, and are no faults.
 /// \param promise to be changed where it differs.
 TOUCHSTONE_API void touchstone_plugin_promise(TouchstonePluginPromise* promise);

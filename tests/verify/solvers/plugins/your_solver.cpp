@@ -74,4 +74,11 @@ bool edge_edge(const Trajectories& points, double& toi) {
   return note(solve(Kind::edge_edge, points), toi);
 }
 
+bool tetrahedron(const Points& start, const Points& end, double& toi) {
+  return note(solve(Kind::tetrahedron, start, end), toi);
+}
+bool plane_triangle(const Points& start, const Points& end, double& toi) {
+  return note(solve(Kind::plane_triangle, start, end), toi);
+}
+
 }  // namespace yours
