@@ -26,7 +26,7 @@ def project():
 
 def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
     options = {"CMAKE_BUILD_TYPE": "Release", "Python_EXECUTABLE": sys.executable, "TOUCHSTONE_BUILD_PYTHON": "ON",
-               "TOUCHSTONE_WERROR": "OFF", **PARTS, **(config_settings or {})}
+               "TOUCHSTONE_WERROR": "OFF", "CMAKE_UNITY_BUILD": "ON", "CMAKE_UNITY_BUILD_BATCH_SIZE": "16", **PARTS, **(config_settings or {})}
     try:
         import pybind11
 
