@@ -116,7 +116,9 @@ void sort_by_digits(std::vector<std::uint64_t>& numbers) {
   static constexpr std::size_t digits = std::size_t{1} << bits_of_digit;
   std::vector<std::uint64_t> sorted(numbers.size());
   for (unsigned shift = 0; shift < 64; shift += bits_of_digit) {
-    const auto digit_of = [shift](std::uint64_t number) { return (number >> shift) % digits; };
+    const auto digit_of = [shift](std::uint64_t number) {
+      return static_cast<std::size_t>((number >> shift) % digits);
+    };
     // The place of the next number with a digit.
     std::array<std::size_t, digits + 1> places{};
     for (const std::uint64_t number : numbers) ++places[digit_of(number) + 1];

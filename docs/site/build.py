@@ -103,12 +103,8 @@ def stage(source):
 
 
 def field():
-    """Five rows of the first table of docs/benchmarks.md, on the public data."""
-    table = re.search(r"made by \./run results: results -->.*?(\|.*?)\n\n", (ROOT / "docs/benchmarks.md").read_text(), re.DOTALL)[1]
-    rows = [line.split("|")[1:6] for line in table.splitlines()]
-    chosen = [row for row in rows if row[0].strip(" `") in
-              ("method", "---", "certified", "tight_inclusion", "accd", "rp", "fprf")]
-    return "\n".join(f"|{'|'.join(row)}|" for row in chosen)
+    """The table of README.md that compares solvers."""
+    return re.search(r"made by \./run results: compared -->\n\n(\|.*?)\n\n", (ROOT / "README.md").read_text(), re.DOTALL)[1]
 
 
 def help_page(tool):
@@ -257,8 +253,11 @@ def build(options):
     run(["esbuild", script, "--bundle", "--minify", "--allow-overwrite", f"--outfile={script}"])
     # Its style imports another from the folder of Debian's web servers.
     style = site / "_static/styles/furo.css"
-    style.write_text(re.sub(r'@import\s*(?:url\()?["\']?/javascript/([^"\')]+)["\']?\)?;?',
-                            lambda found: pathlib.Path("/usr/share/javascript", found[1]).read_text(), style.read_text()))
+    text = re.sub(r'@import\s*(?:url\()?["\']?/javascript/([^"\')]+)["\']?\)?;?',
+                  lambda found: pathlib.Path("/usr/share/javascript", found[1]).read_text(), style.read_text())
+    # It has lost the dark colours of a browser in dark mode, which its style of code and our pictures follow.
+    dark = re.search(r'@media not print (\{\s*body\[data-theme="dark"\].*?\} \})', text, re.DOTALL)[1]
+    style.write_text(text + "\n@media screen and (prefers-color-scheme: dark) " + dark.replace('="dark"', '="auto"'))
     for rest in (".buildinfo", "objects.inv"):
         (site / rest).unlink(missing_ok=True)
     return site

@@ -1,4 +1,4 @@
-// Formulas, and tables that are sorted by a click or Enter on the head of a column.
+// Formulas, and tables that are sorted by a click, Enter or Space on the head of a column.
 "use strict";
 
 function set_formulas() {
@@ -30,12 +30,21 @@ function sort_by(table, column, head) {
 }
 
 function make_sortable(table) {
+  for (const cell of table.querySelectorAll("td")) {
+    const text = cell.textContent.trim();
+    if (text.length < 24 && number_of(text) !== null) cell.classList.add("number");
+  }
   if (!table.tHead || table.tBodies[0].rows.length < 3) return;
   [...table.tHead.rows[0].cells].forEach((head, column) => {
+    if (head.textContent.trim() === "") return;
     head.classList.add("sortable");
     head.tabIndex = 0;
     head.addEventListener("click", () => sort_by(table, column, head));
-    head.addEventListener("keydown", (event) => { if (event.key === "Enter") sort_by(table, column, head); });
+    head.addEventListener("keydown", (event) => {
+      if (event.key !== "Enter" && event.key !== " ") return;
+      event.preventDefault();
+      sort_by(table, column, head);
+    });
   });
 }
 

@@ -28,31 +28,31 @@ template <class SignOf>
   std::optional<int> sign = sign_of(at(start));
   // The bits of doubles, which have the order of the doubles: one below α, and one above or after
   // the last.
-  std::uint64_t below = start, above = start;
+  std::uint64_t lower = start, upper = start;
   if (sign && *sign > 0) {
     for (std::uint64_t stride = 1; sign && *sign > 0; stride *= 2) {
-      below = above;
-      if (below == last) return Distance{greatest, std::numeric_limits<double>::infinity()};
-      above = below + std::min(stride, last - below);
-      sign = sign_of(at(above));
+      lower = upper;
+      if (lower == last) return Distance{greatest, std::numeric_limits<double>::infinity()};
+      upper = lower + std::min(stride, last - lower);
+      sign = sign_of(at(upper));
     }
-    if (sign && *sign == 0) return Distance{at(above), at(above)};
+    if (sign && *sign == 0) return Distance{at(upper), at(upper)};
   } else {
     for (std::uint64_t stride = 1; sign && *sign < 0; stride *= 2) {
-      above = below;
-      below -= std::min(stride, below);
-      sign = sign_of(at(below));
+      upper = lower;
+      lower -= std::min(stride, lower);
+      sign = sign_of(at(lower));
     }
-    if (sign && *sign == 0) return Distance{at(below), at(below)};
+    if (sign && *sign == 0) return Distance{at(lower), at(lower)};
   }
-  while (sign && above - below > 1) {
-    const std::uint64_t middle = below + (above - below) / 2;
+  while (sign && upper - lower > 1) {
+    const std::uint64_t middle = lower + (upper - lower) / 2;
     sign = sign_of(at(middle));
     if (sign && *sign == 0) return Distance{at(middle), at(middle)};
-    if (sign) (*sign > 0 ? below : above) = middle;
+    if (sign) (*sign > 0 ? lower : upper) = middle;
   }
   if (!sign) return std::nullopt;
-  return Distance{at(below), at(above)};
+  return Distance{at(lower), at(upper)};
 }
 
 }  // namespace touchstone::fast

@@ -560,7 +560,7 @@ TEST(CInterface, KeepsTheErrorsOfThreadsApart) {
   EXPECT_EQ(touchstone_step_new(nullptr, nullptr, &step), TOUCHSTONE_INVALID_ARGUMENT);
   std::thread([] { EXPECT_STREQ(touchstone_last_error(), ""); }).join();
   expect_message("mesh is null");
-  EXPECT_STREQ(touchstone_version(), "0.2.0");
+  EXPECT_STREQ(touchstone_version(), TOUCHSTONE_VERSION);
 }
 
 }  // namespace

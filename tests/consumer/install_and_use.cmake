@@ -1,5 +1,5 @@
 # Installs the build into a separate folder, builds the consumer against it and runs its programs; then by pkg-config.
-#   cmake -DBUILD=<build folder> -DWORK=<scratch folder> -P install_and_use.cmake
+#   cmake -DBUILD=<build folder> -DWORK=<scratch folder> -DVERSION=<major.minor> -P install_and_use.cmake
 function(step)
   execute_process(COMMAND ${ARGV} COMMAND_ECHO STDOUT COMMAND_ERROR_IS_FATAL ANY)
 endfunction()
@@ -7,7 +7,7 @@ endfunction()
 file(REMOVE_RECURSE ${WORK})
 step(${CMAKE_COMMAND} --install ${BUILD} --prefix ${WORK}/prefix)
 step(${CMAKE_COMMAND} -S ${CMAKE_CURRENT_LIST_DIR} -B ${WORK}/build -G Ninja -DCMAKE_BUILD_TYPE=Release
-     -DCMAKE_PREFIX_PATH=${WORK}/prefix)
+     -DCMAKE_PREFIX_PATH=${WORK}/prefix -DVERSION=${VERSION})
 step(${CMAKE_COMMAND} --build ${WORK}/build)
 step(${WORK}/build/researcher)
 step(${WORK}/build/simulator)

@@ -10,7 +10,9 @@
 #if defined(_LIBCPP_VERSION) && _LIBCPP_VERSION < 16000
 
 #include <algorithm>
+#include <array>
 #include <charconv>
+#include <compare>
 #include <cstddef>
 #include <cstdlib>
 #include <functional>
@@ -33,6 +35,13 @@ template <class Array>
   return unique_ptr<Array>(new remove_extent_t<Array>[size]);
 }
 
+template <class T, size_t n>
+constexpr auto operator<=>(const array<T, n>& a, const array<T, n>& b) -> decltype(a[0] <=> b[0]) {
+  size_t i = 0;
+  while (i + 1 < n && a[i] == b[i]) ++i;
+  return a[i] <=> b[i];
+}
+
 /// Numbers in C's format, which has more of them than C++'s: for texts that end with a zero.
 inline from_chars_result from_chars(const char* first, const char* last, double& value) {
   const string text(first, last);
@@ -45,7 +54,7 @@ inline from_chars_result from_chars(const char* first, const char* last, double&
 
 namespace ranges {
 
-/// The order of projections.
+/// The order of projections, or their equality.
 template <class Less, class Projection>
 struct ProjectedLess {
   Less less;
@@ -112,9 +121,11 @@ template <class Range, class Value>
 constexpr void replace(Range&& range, const Value& from, const Value& to) {
   std::replace(std::begin(range), std::end(range), from, to);
 }
-template <class Range, class Same = std::equal_to<>>
-[[nodiscard]] constexpr auto adjacent_find(Range&& range, Same same = {}) {
-  return std::adjacent_find(std::begin(range), std::end(range), same);
+template <class Range, class Same = std::equal_to<>, class Projection = identity>
+[[nodiscard]] constexpr auto adjacent_find(Range&& range, Same same = {},
+                                           Projection projection = {}) {
+  return std::adjacent_find(std::begin(range), std::end(range),
+                            ProjectedLess<Same, Projection>{same, projection});
 }
 template <class Range, class Value>
 [[nodiscard]] constexpr auto count(Range&& range, const Value& value) {
@@ -160,8 +171,12 @@ constexpr CopyResult<Iterator> copy(Range&& range, Iterator to) {
   return {std::copy(std::begin(range), std::end(range), to)};
 }
 template <class Range, class Iterator, class Condition>
-constexpr void copy_if(Range&& range, Iterator to, Condition condition) {
-  std::copy_if(std::begin(range), std::end(range), to, condition);
+constexpr CopyResult<Iterator> copy_if(Range&& range, Iterator to, Condition condition) {
+  return {std::copy_if(std::begin(range), std::end(range), to, condition)};
+}
+template <class A, class B>
+[[nodiscard]] constexpr bool equal(const A& a, const B& b) {
+  return std::equal(std::begin(a), std::end(a), std::begin(b), std::end(b));
 }
 template <class Range, class Iterator, class Function>
 constexpr void transform(Range&& range, Iterator to, Function function) {

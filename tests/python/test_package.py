@@ -48,32 +48,30 @@ def test_the_version_is_that_of_the_project():
     assert touchstone.instruction_set() in {"scalar", "avx2", "avx512", "neon"}
 
 
-def project_file() -> dict:
+def test_the_source_archive_has_what_its_build_needs():
+    sys.path.insert(0, str(ROOT / "python"))
+    import build_backend
+
     tomllib = pytest.importorskip("tomllib")  # of Python 3.11
-    return tomllib.loads((ROOT / "pyproject.toml").read_text())
-
-
-@pytest.mark.parametrize("extra, valid", [({}, True), ({"licence": "none"}, False), ({"version": 2}, False)])
-def test_the_project_file_is_valid(extra, valid):
-    """By the schemas of setuptools, and by packaging for the requirements."""
-    validate = pytest.importorskip("setuptools.config._validate_pyproject")
     packaging = pytest.importorskip("packaging.requirements")
-    data = project_file()
-    data["project"].update(extra)
-    try:
-        assert validate.validate({name: data[name] for name in ("project", "build-system")}) == valid
-    except validate.ValidationError:
-        assert not valid
-    for one in data["build-system"]["requires"] + data["project"]["dependencies"]:
+    data = tomllib.loads((ROOT / "pyproject.toml").read_text())["build-system"]
+    assert data["build-backend"] == "build_backend" and data["backend-path"] == ["python"]
+    for one in data["requires"]:
         packaging.Requirement(one)
-
-
-def test_the_project_file_says_what_cmake_says():
-    data = project_file()
     options = "".join(path.read_text() for path in (ROOT / "CMakeLists.txt", *(ROOT / "cmake").glob("*.cmake")))
-    assert data["project"]["version"] == touchstone.__version__
-    assert [one for one in data["tool"]["scikit-build"]["cmake"]["define"] if f"option({one} " not in options] == []
-    assert [one for one in data["tool"]["scikit-build"]["sdist"]["include"] if not (ROOT / one).exists()] == []
+    assert [one for one in build_backend.PARTS if f"option({one} " not in options] == []
+    assert [one for one in build_backend.SOURCES if not (ROOT / one).exists()] == []
+
+
+def test_the_recipe_of_conda_says_what_the_project_says():
+    recipe = (ROOT / "packaging/meta.yaml").read_text()
+    pattern = re.search(r'load_file="../CMakeLists.txt", regex_pattern="(.*?)"', recipe)[1]
+    assert re.search(pattern, (ROOT / "CMakeLists.txt").read_text())[1] == touchstone.__version__
+    needed = re.findall(r"Requires-Dist: (.*?)(>=.*)", (ROOT / "python/METADATA.in").read_text())
+    run = re.search(r"^  run: \[(.*)\]$", recipe, re.MULTILINE)[1].split(", ")
+    assert {f"{name} {version}" for name, version in needed} | {"python", "tbb"} == set(run)
+    options = "".join(path.read_text() for path in (ROOT / "CMakeLists.txt", *(ROOT / "cmake").glob("*.cmake")))
+    assert [one for one in re.findall(r"-D(TOUCHSTONE_\w+)", recipe) if f"option({one} " not in options] == []
 
 
 def test_all_names_exist():

@@ -8,15 +8,16 @@
 namespace touchstone::verify::io {
 namespace {
 
-/// Nothing may be loaded from anywhere. (WebAssembly is in the page, as an address of data.)
+/// Nothing may be loaded from anywhere. (WebAssembly and its workers are in the page, as addresses
+/// of data.)
 constexpr std::string_view policy =
     "default-src 'none'; script-src 'unsafe-inline'{}; style-src 'unsafe-inline'; img-src data:";
 
 }  // namespace
 
 std::string html_beginning(std::string_view title, std::string_view style, bool has_webassembly) {
-  const std::string allowed =
-      fmt::format(policy, has_webassembly ? " 'wasm-unsafe-eval'; connect-src data:" : "");
+  const std::string allowed = fmt::format(
+      policy, has_webassembly ? " 'wasm-unsafe-eval'; worker-src blob:; connect-src data:" : "");
   return fmt::format(
       "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
       "<meta http-equiv=\"Content-Security-Policy\" content=\"{}\">\n"
@@ -26,8 +27,9 @@ std::string html_beginning(std::string_view title, std::string_view style, bool 
       allowed, title, style);
 }
 
-std::string script_element(std::string_view script) {
-  return fmt::format("<script>\n{}</script>\n", script);
+std::string script_element(std::string_view script, std::string_view id) {
+  const std::string kept = id.empty() ? "" : fmt::format(" type=\"text/plain\" id=\"{}\"", id);
+  return fmt::format("<script{}>\n{}</script>\n", kept, script);
 }
 
 std::string json_element(std::string_view id, const nlohmann::json& json) {

@@ -1,6 +1,7 @@
-// The facts of a view (verify/view/query_facts.hpp) as functions of WebAssembly, for pages that
-// decide a query in the browser. One thread. The methods are those that need no rounding mode,
-// which WebAssembly has not.
+// The facts of a view (verify/view/query_facts.hpp), the certified solver and the checker as
+// functions of WebAssembly, for the playground and for JavaScript (touchstone.js, which is
+// appended). One thread. The methods are those that need no rounding mode, which WebAssembly has
+// not.
 
 #include <emscripten/emscripten.h>
 
@@ -15,9 +16,11 @@
 
 #include "fast/method.hpp"
 #include "fast/platform/arithmetic_check.hpp"
+#include "touchstone/certified.hpp"
 #include "verify/base/any_query.hpp"
 #include "verify/judge/terms.hpp"
 #include "verify/solvers/registry.hpp"
+#include "verify/view/certificate_facts.hpp"
 #include "verify/view/query_facts.hpp"
 
 namespace touchstone::verify::playground {
@@ -44,15 +47,51 @@ std::optional<judge::GivenAnswer> answer_of(const fast::Method& method, const ba
   return given;
 }
 
-nlohmann::json facts_of(const base::AnyQuery& query, const Separation& separation,
-                        bool with_approach) {
+nlohmann::json facts_of(const base::AnyQuery& query, const Separation& separation, int parts) {
   std::vector<judge::GivenAnswer> answers;
-  for (const auto& method : solvers::methods()) {
-    if (auto given = answer_of(*method, query, separation)) answers.push_back(*std::move(given));
+  if ((parts & 1) != 0) {
+    for (const auto& method : solvers::methods()) {
+      if (auto given = answer_of(*method, query, separation)) answers.push_back(*std::move(given));
+    }
   }
   return view::query_facts(
-      {.label = "", .query = query, .separation = separation, .with_approach = with_approach},
+      {.label = "", .query = query, .separation = separation, .with_approach = (parts & 2) != 0},
       answers);
+}
+
+nlohmann::json certified_answer(const base::AnyQuery& query, const Separation& separation) {
+  fast::CertifiedResult result;
+  fast::solve(query.queries(), {&result, 1}, {.separation = separation});
+  return {{"verdict", judge::to_string(result.verdict)},
+          {"toi_lower", result.toi_lower},
+          {"toi_upper", result.toi_upper},
+          {"u", result.u},
+          {"v", result.v}};
+}
+
+/// What a function says, as JSON; {"error": REASON} instead of an exception. Valid until the next
+/// call.
+template <class Function>
+const char* said(const Function& function) {
+  static std::string text;
+  try {
+    text = function().dump();
+  } catch (const std::exception& error) {
+    text = nlohmann::json{{"error", error.what()}}.dump();
+  }
+  return text.c_str();
+}
+
+/// What the function says of a query of 24 coordinates.
+template <class Function>
+const char* said_of(int is_edge_edge, const double* coordinates, double distance, int is_l2,
+                    const Function& function) {
+  return said([&] {
+    const QueryShape lines{.kind = is_edge_edge != 0 ? Kind::edge_edge : Kind::vertex_face};
+    const Separation separation{.distance = distance, .norm = is_l2 != 0 ? Norm::l2 : Norm::linf};
+    const base::AnyQuery query({lines, {coordinates, lines.numbers_of_query()}}, 0);
+    return function(query, separation);
+  });
 }
 
 }  // namespace
@@ -60,22 +99,31 @@ nlohmann::json facts_of(const base::AnyQuery& query, const Separation& separatio
 
 extern "C" {
 
-/// The facts of a query as JSON, valid until the next call; {"error": REASON} if there are none.
-/// \param coordinates 24
-/// \param with_approach the distance of queries without a collision, too, which takes longest
+/// The facts of a query as JSON. The oracle's are always among them.
+/// \param parts 1: answers of solvers; 2: the distance of queries without a collision, which takes
+/// longest; 3: both
 EMSCRIPTEN_KEEPALIVE const char* touchstone_facts(int is_edge_edge, const double* coordinates,
-                                                  double distance, int is_l2, int with_approach) {
-  using namespace touchstone;
-  static std::string text;
-  try {
-    const QueryShape lines{.kind = is_edge_edge != 0 ? Kind::edge_edge : Kind::vertex_face};
-    const Separation separation{.distance = distance, .norm = is_l2 != 0 ? Norm::l2 : Norm::linf};
-    const verify::base::AnyQuery query({lines, {coordinates, lines.numbers_of_query()}}, 0);
-    text = verify::playground::facts_of(query, separation, with_approach != 0).dump();
-  } catch (const std::exception& error) {
-    text = nlohmann::json{{"error", error.what()}}.dump();
-  }
-  return text.c_str();
+                                                  double distance, int is_l2, int parts) {
+  namespace playground = touchstone::verify::playground;
+  return playground::said_of(is_edge_edge, coordinates, distance, is_l2,
+                             [&](const auto& query, const auto& separation) {
+                               return playground::facts_of(query, separation, parts);
+                             });
+}
+
+/// The answer of the certified solver as JSON; numbers that there are not are null.
+EMSCRIPTEN_KEEPALIVE const char* touchstone_solve(int is_edge_edge, const double* coordinates,
+                                                  double distance, int is_l2) {
+  namespace playground = touchstone::verify::playground;
+  return playground::said_of(is_edge_edge, coordinates, distance, is_l2,
+                             playground::certified_answer);
+}
+
+/// What the checker says of a certificate of one query (verify/view/certificate_facts.hpp), as
+/// JSON.
+EMSCRIPTEN_KEEPALIVE const char* touchstone_check(const char* certificate) {
+  using namespace touchstone::verify;
+  return playground::said([&] { return view::certificate_facts(certificate); });
 }
 
 /// The reason why the solvers cannot use this machine's arithmetic; empty if they can.

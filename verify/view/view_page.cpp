@@ -22,7 +22,7 @@ std::string view_page(const std::vector<nlohmann::json>& queries, const std::str
                       io::html_escaped(command));
   page += io::json_element("queries", queries);
   if (!step.is_null()) page += io::json_element("step_facts", step);
-  if (!solvers.empty()) page += io::script_element(solvers);
+  if (!solvers.empty()) page += io::script_element(solvers, "solvers");
   page += io::script_element(view_script());
   return page + "</body>\n</html>\n";
 }

@@ -518,56 +518,69 @@ TEST_F(ViewBrowser, ShowsWhatIntersectsAtRest) {
 
 // ---- A page that decides ------------------------------------------------------------------------
 
-/// In the place of the solvers in WebAssembly: what it is asked is kept, and a query collides if
-/// its first point ends below 0.
-constexpr const char* fake_solvers = R"(
-const asked = [];
-async function createTouchstone() {
-  const memory = new Float64Array(40);
-  let text = "";
-  return { HEAPF64: memory, _malloc: () => 8, _touchstone_arithmetic_fault: () => 0,
-    UTF8ToString: (place) => (place === 0 ? "" : text),
-    _touchstone_facts: (edge, place, distance, l2, near) => {
-      const coordinates = Array.from(memory.slice(place / 8, place / 8 + 24));
-      asked.push({ edge, coordinates, distance, l2, near });
-      text = JSON.stringify({ label: "", kind: edge ? "edge-edge" : "vertex-face", coordinates: coordinates.map(String),
-        min_separation: String(distance), norm: l2 ? "l2" : "linf", notes: [], approach: null, certificate: null,
-        answers: [], truth: { collides: coordinates[14] < 0, text: "" } });
-      return 1;
-    } };
+/// In the place of workers with the solvers in WebAssembly: what they are asked is kept. A query
+/// collides if its first point ends below 0; the distance of one that does not is never found.
+constexpr const char* fake_workers = R"(
+let ended = 0;
+const asked = [], measured = [];
+class Worker {
+  constructor() { setTimeout(() => this.onmessage({ data: {} })); }
+  terminate() { ended += 1; }
+  postMessage({ query, parts }) {
+    (parts === 1 ? asked : measured).push(query);
+    if (parts !== 1) return;
+    const { kind, coordinates, separation, norm } = query;
+    const facts = { label: "", kind, coordinates: coordinates.map(String), min_separation: String(separation), norm, notes: [],
+      approach: null, certificate: null, answers: [], truth: { collides: coordinates[14] < 0, text: "" } };
+    setTimeout(() => this.onmessage({ data: { facts } }));
+  }
 }
 )";
 
-/// A page that decides after each change, follows its address, and whose points can be dragged.
+/// A page that decides after each change, follows its address, and whose points can be dragged. Of
+/// changes that come faster than answers the last is asked; no distance keeps the page waiting.
 TEST_F(ViewBrowser, DecidesAfterEachChange) {
-  solvers_ = fake_solvers;
-  const nlohmann::json result = result_of({falling(1)}, R"(
+  solvers_ = "// not read\n";
+  const nlohmann::json result = result_on(
+      page_of({{.label = "query", .query = base::AnyQuery(falling(1).kind, falling(1).query)}}),
+      R"((async () => {
+    const later = () => new Promise((next) => setTimeout(next, 20));
+    const until = async (isSo) => { while (!isSo()) await later(); };
+    const settled = async () => { for (let i = 0; i < 9; ++i) await later(); };
+    await until(() => find("verdict"));
     const seen = () => [find("verdict").textContent, asked.length];
     const last = () => asked[asked.length - 1];
     const change = (element, value) => { element.value = value; element.dispatchEvent(new Event("change")); };
     const input = (label) => document.querySelector(`#points input[aria-label="${label}"]`);
     const edits = [seen()];
     change(input("z of v at t = 1"), "-0x1p-3");
+    await settled();
     edits.push(seen());
     change(find("distance"), "0.5");
     choose("asked_norm", "l2");
     choose("asked_kind", "edge-edge");
+    await settled();
     edits.push(seen());
     change(input("x of ea1 at t = 0"), "nonsense");
+    await settled();
     edits.push(seen());
     const edited = last();
-    edits.push([paste("edge-edge 0 0 1 0 0 0 1 0 0 2 0 0  0 0 3 0 0 0 1 0 0 2 0 0"), find("verdict").textContent]);
+    paste("edge-edge 0 0 1 0 0 0 1 0 0 2 0 0  0 0 3 0 0 0 1 0 0 2 0 0");
+    await settled();
+    edits.push([find("drawn").textContent, find("verdict").textContent]);
     const pasted = location.hash;
 
-    const go = (hash) => {
+    const go = async (hash) => {
       history.replaceState(null, "", hash);
       window.dispatchEvent(new HashChangeEvent("hashchange"));
+      await settled();
       return find("query").hidden ? find("nothing").textContent : find("verdict").textContent;
     };
     const query = (kind, end) => `#q=${kind},1,1,0.5,0,0,0,4,0,0,0,4,0,1,1,${end},0,0,0,4,0,0,0,4,0`;
-    const separated = [go(`${query("edge_edge", "1e-3")}&d=0.25&norm=l2`), last()];
-    const visited = [go(query("vertex-face", "-0x1p-3")), go("#q=vertex_face,1,2"), go("#q=face_face"),
-      go(`${query("vertex_face", 1)}&d=-1`), go(query("vertex_face", 1))];
+    const separated = [await go(`${query("edge_edge", "1e-3")}&d=0.25&norm=l2`), last()];
+    const visited = [];
+    for (const hash of [query("vertex-face", "-0x1p-3"), "#q=vertex_face,1,2", "#q=face_face", `${query("vertex_face", 1)}&d=-1`,
+      query("vertex_face", 1)]) visited.push(await go(hash));
 
     find("move").click();
     move("time", 4096);
@@ -583,26 +596,29 @@ TEST_F(ViewBrowser, DecidesAfterEachChange) {
       send("pointermove", x, top + 21);
       if (asked.length > count) send("pointermove", x, top + 60);
       send("pointerup", x, top + 60);
+      await settled();
       if (asked.length > count) break;
     }
-    say({ edits, edited, pasted, separated, visited, start, dragged: last().coordinates, label: find("label").textContent });
-  )");
+    say({ edits, edited, pasted, separated, visited, start, dragged: last().coordinates, label: find("label").textContent,
+      ended });
+  })();)",
+      1200, fake_workers);
   EXPECT_EQ(
       result.at("edits"),
       nlohmann::json::array(
-          {{"free", 0}, {"collides", 1}, {"collides", 4}, {"collides", 4}, {"Decided.", "free"}}));
+          {{"free", 0}, {"collides", 1}, {"collides", 3}, {"collides", 3}, {"Decided.", "free"}}));
   const nlohmann::json& edited = result.at("edited");
   EXPECT_EQ(edited.at("coordinates").at(14), -0.125);
-  EXPECT_EQ(edited.at("distance"), 0.5);
-  EXPECT_EQ(edited.at("l2"), 1);
-  EXPECT_EQ(edited.at("edge"), 1);
+  EXPECT_EQ(edited.at("separation"), 0.5);
+  EXPECT_EQ(edited.at("norm"), "l2");
+  EXPECT_EQ(edited.at("kind"), "edge-edge");
   EXPECT_EQ(result.at("pasted"), "#q=edge_edge,0,0,1,0,0,0,1,0,0,2,0,0,0,0,3,0,0,0,1,0,0,2,0,0");
 
   EXPECT_EQ(result.at("separated").at(0), "free");
   const nlohmann::json& separated = result.at("separated").at(1);
-  EXPECT_EQ(separated.at("edge"), 1);
-  EXPECT_EQ(separated.at("distance"), 0.25);
-  EXPECT_EQ(separated.at("l2"), 1);
+  EXPECT_EQ(separated.at("kind"), "edge-edge");
+  EXPECT_EQ(separated.at("separation"), 0.25);
+  EXPECT_EQ(separated.at("norm"), "l2");
   const std::string reason = "The link holds no query: ";
   EXPECT_EQ(result.at("visited"),
             (nlohmann::json{
@@ -618,6 +634,7 @@ TEST_F(ViewBrowser, DecidesAfterEachChange) {
     EXPECT_TRUE(dragged.at(i) == start.at(i) || (12 <= i && i < 15)) << "one point moves: " << i;
   }
   EXPECT_EQ(result.at("label"), "your query");
+  EXPECT_GE(result.at("ended"), 3) << "another question ends the search for a distance";
 }
 
 }  // namespace

@@ -5,7 +5,7 @@ import { find, make } from "./elements.js";
 import { isCurved, momentText, placeText, readFacts, verdictText, withoutAnswer } from "./facts.js";
 import { linkOf, readLink, readQuery, writers } from "./formats.js";
 import { worldOf } from "./frame.js";
-import { isLive, startLive } from "./live.js";
+import { answersOfSolvers, isLive, nearestApproach, startSolvers } from "./live.js";
 import { Look, steps } from "./look.js";
 import { axes, directionOf } from "./motion.js";
 import { CornerPicture, MotionPicture } from "./pictures.js";
@@ -15,8 +15,8 @@ import { drawTimeline } from "./timeline.js";
 
 const zoomSteps = 1000;
 const secondsOfPlay = 4;
-/// Powers of two between the coordinates of a query whose least distance is computed here, and a pause in ms before.
-const widestRange = 60, pauseBeforeApproach = 150;
+/// In ms.
+const pauseBeforeApproach = 150;
 /// log2 of the smallest visible gap, in units of the radius.
 const lgSmallest = -5;
 
@@ -27,8 +27,10 @@ const viewpoint = new Viewpoint(step ? 1 : 2);
 let look = null;
 let pictures = [];
 let isPlaying = false;
-/// Decides a query in this page; null as long as it cannot.
-let decide = null;
+/// Decides a query in this page, and finds the least distance of one that is free; null as long as it cannot.
+let decide = null, measure = null;
+/// What the user asks for: its number, of which the newest is shown, and the query, as long as it is not shown.
+let turn = 0, wanted = null;
 /// The number of the query that the user made.
 let edited = null;
 let format = "decimal";
@@ -144,6 +146,8 @@ const shortName = (facts) => (facts.label.startsWith(commonFolder) ? facts.label
 
 function show(index) {
   isPlaying = false;
+  turn += 1;
+  wanted = null;
   look = new Look(queries[index]);
   look.index = index;
   const { facts } = look;
@@ -310,34 +314,48 @@ function indexOf(query) {
 /// Shows the query in a text, with its answers if the page contains it.
 function draw() {
   const said = find("drawn");
+  const fail = (error) => { said.textContent = `Not drawn: ${error.message}.`; };
   try {
     const read = readQuery(find("text").value);
     const kind = read.kind || document.querySelector("input[name=kind]:checked").value;
-    show(indexOf(decided({ ...read, kind }, "pasted")));
-    rememberLink();
-    said.textContent = decide ? "Decided." : look.facts.truth ? "This page holds its answer." : "Drawn. This page holds no answer to it.";
-    find("query").scrollIntoView();
+    decided({ ...read, kind }, "pasted", (facts) => {
+      show(indexOf(facts));
+      rememberLink();
+      said.textContent = decide ? "Decided." : look.facts.truth ? "This page holds its answer." : "Drawn. This page holds no answer to it.";
+      find("query").scrollIntoView();
+    }, fail);
   } catch (error) {
-    said.textContent = `Not drawn: ${error.message}.`;
+    fail(error);
   }
 }
 
 // ---- Another query, on a page that decides it ---------------------------------------------------
 
-/// The query with its answers, if this page decides. The distance of one that is free follows, if its numbers are
-/// of a size that does not take seconds.
-function decided(query, label) {
-  if (decide === null) return withoutAnswer(query, label);
-  const facts = decide({ ...query, label });
-  const sizes = facts.coordinates.filter((x) => x !== 0).map((x) => Math.log2(Math.abs(x)));
-  if (!facts.truth.collides && Math.max(...sizes) - Math.min(...sizes) < widestRange) {
-    setTimeout(() => {
-      if (look === null || look.facts !== facts) return;
-      facts.approach = decide(facts, true).approach;
-      update(false);
-    }, pauseBeforeApproach);
+/// Calls found with the query and its answers, if this page decides; the distance of one that is free follows. Calls nothing if
+/// the user asks for another one before.
+function decided(query, label, found, failed = (error) => { throw error; }) {
+  if (decide === null) {
+    found(withoutAnswer(query, label));
+    return;
   }
-  return facts;
+  const mine = turn += 1;
+  wanted = query;
+  const ifNewest = (call) => (result) => {
+    if (mine !== turn) return;
+    wanted = null;
+    call(result);
+  };
+  decide({ ...query, label }).then(ifNewest((facts) => {
+    found(facts);
+    if (!facts.truth.collides) setTimeout(addApproach, pauseBeforeApproach, facts);
+  }), ifNewest(failed));
+}
+
+/// The least distance of a query that is shown for a while.
+async function addApproach(facts) {
+  if (look.facts !== facts) return;
+  facts.approach = (await measure(facts)).approach;
+  if (look.facts === facts) update(false);
 }
 
 function writeEditor({ kind, min_separation, norm }) {
@@ -348,22 +366,25 @@ function writeEditor({ kind, min_separation, norm }) {
 }
 
 /// Shows the query with this change. \param isKept the pictures keep their place, scale and time
-function edit(change, isKept = false) {
-  const { kind, coordinates, min_separation, norm } = look.facts;
-  const before = look;
-  const facts = decided({ kind, coordinates, min_separation, norm, ...change }, "your query");
-  if (edited === null) edited = queries.push(facts) - 1;
-  else queries[edited] = facts;
-  if (isKept) {
-    look = new Look(facts);
-    look.index = edited;
-    for (const part of ["t", "zoom", "frame", "cornerFrame", "window"]) look[part] = before[part];
-    writeVerdict(facts);
-    update(true);
-  } else {
-    show(edited);
-    rememberLink();
-  }
+/// \param shown is called when it is shown
+function edit(change, isKept = false, shown = () => {}) {
+  const { kind, coordinates, min_separation, norm } = wanted || look.facts;
+  decided({ kind, coordinates, min_separation, norm, ...change }, "your query", (facts) => {
+    if (edited === null) edited = queries.push(facts) - 1;
+    else queries[edited] = facts;
+    if (isKept) {
+      const before = look;
+      look = new Look(facts);
+      look.index = edited;
+      for (const part of ["t", "zoom", "frame", "cornerFrame", "window"]) look[part] = before[part];
+      writeVerdict(facts);
+      update(true);
+    } else {
+      show(edited);
+      rememberLink();
+    }
+    shown();
+  });
 }
 
 function changeSeparation() {
@@ -377,7 +398,7 @@ function typeCoordinate(at, input) {
   const value = parseDouble(input.value.replace("≈", ""));
   input.blur();
   if (Number.isNaN(value)) writeTable();
-  else edit({ coordinates: look.facts.coordinates.map((x, i) => (i === at ? value : x)) });
+  else edit({ coordinates: (wanted || look.facts).coordinates.map((x, i) => (i === at ? value : x)) });
 }
 
 /// Dragging moves the points of the end of the motion that is shown.
@@ -399,10 +420,11 @@ const drag = {
   },
   end() {
     const { t } = look;
-    edit({});
-    look.window = { from: zero, to: one };
-    look.t = t;
-    update(true);
+    edit({}, false, () => {
+      look.window = { from: zero, to: one };
+      look.t = t;
+      update(true);
+    });
   },
 };
 
@@ -418,21 +440,25 @@ function copyLink() {
 /// Shows the query of the address. Returns whether there is one.
 function openLink() {
   const said = find("nothing");
-  try {
-    const query = readLink(location.hash);
-    if (query === null) return false;
-    show(indexOf(decided(query, "from the link")));
-  } catch (error) {
+  const fail = (error) => {
     said.textContent = `The link holds no query: ${error.message}.`;
     said.hidden = false;
     find("query").hidden = find("numbers").hidden = true;
+  };
+  try {
+    const query = readLink(location.hash);
+    if (query === null) return false;
+    decided(query, "from the link", (facts) => show(indexOf(facts)), fail);
+  } catch (error) {
+    fail(error);
   }
   return true;
 }
 
 async function goLive() {
   try {
-    decide = await startLive();
+    measure = await startSolvers(nearestApproach, true);
+    decide = await startSolvers(answersOfSolvers);
   } catch (error) {
     find("nothing").textContent = `This browser cannot decide queries: ${error.message}.`;
     find("nothing").hidden = false;
