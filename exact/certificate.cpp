@@ -9,6 +9,7 @@
 #include "exact/contact/contact_conditions.hpp"
 #include "exact/contact/corner_motion.hpp"
 #include "touchstone/algebraic_number.hpp"
+#include "touchstone/element.hpp"
 
 namespace touchstone::exact {
 namespace {
