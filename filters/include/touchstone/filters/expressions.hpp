@@ -72,7 +72,7 @@ inline constexpr Group<4, 3> unit_square{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {-1, 
 
 /// The inputs of an expression: so many coordinates, and the weights of these groups.
 template <std::size_t count, auto... groups>
-struct InputShape {
+struct ExpressionInputs {
   static constexpr std::size_t coordinates = count;
   static constexpr std::size_t weights = (std::size_t{0} + ... + groups.front().size());
 
@@ -85,7 +85,7 @@ struct InputShape {
 // ---- The position of a point at a time ----------------------------------------------------------
 
 /// One coordinate of a moving point. Coordinates: at t=0 and at t=1. Weights: (1−t, t).
-struct Position : InputShape<2, unit_segment> {
+struct Position : ExpressionInputs<2, unit_segment> {
   static constexpr std::string_view name = "position";
 
   template <class Scalar>
@@ -99,7 +99,7 @@ struct Position : InputShape<2, unit_segment> {
 
 /// F of edge_edge on one axis. Coordinates: ea0, ea1, eb0, eb1 at t=0, then at t=1. Weights:
 /// (1−t, t), (1−u, u), (1−v, v).
-struct EdgeEdge : InputShape<8, unit_segment, unit_segment, unit_segment> {
+struct EdgeEdge : ExpressionInputs<8, unit_segment, unit_segment, unit_segment> {
   static constexpr std::string_view name = "edge_edge";
 
   template <class Scalar>
@@ -112,7 +112,7 @@ struct EdgeEdge : InputShape<8, unit_segment, unit_segment, unit_segment> {
 
 /// F of vertex_face on one axis. Coordinates: v, f0, f1, f2 at t=0, then at t=1. Weights: (1−t, t),
 /// (1−u−v, u, v).
-struct VertexFace : InputShape<8, unit_segment, unit_square> {
+struct VertexFace : ExpressionInputs<8, unit_segment, unit_square> {
   static constexpr std::string_view name = "vertex_face";
 
   template <class Scalar>

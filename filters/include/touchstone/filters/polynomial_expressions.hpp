@@ -110,7 +110,7 @@ template <std::size_t start, std::size_t end, std::size_t weight, class Scalar, 
 }
 
 /// d·a − d·b: the distance by which a is beyond b in a fixed direction d. Coordinates: d, a, b.
-struct ProjectedGap : InputShape<9> {
+struct ProjectedGap : ExpressionInputs<9> {
   static constexpr std::string_view name = "projected_gap";
   static constexpr std::array<std::size_t, coordinates> classes{0, 0, 0, 1, 1, 1, 1, 1, 1};
 

@@ -23,7 +23,7 @@ inline constexpr Group<2, 1> unit_interval{{{0}, {1}}};
 
 /// d·(a − b) − D n, a and b moving, at a time t. Coordinates: d, n, then a, b at t=0, a, b at t=1,
 /// D. Weights: (1−t, t).
-struct AdvancedGap : InputShape<17, unit_segment> {
+struct AdvancedGap : ExpressionInputs<17, unit_segment> {
   static constexpr std::string_view name = "advanced_gap";
   static constexpr std::array<std::size_t, coordinates> classes{0, 0, 0, 0, 1, 1, 1, 1, 1,
                                                                 1, 1, 1, 1, 1, 1, 1, 1};
@@ -44,7 +44,7 @@ struct MeasuredAdvancedGap : Measured<AdvancedGap> {
 };
 
 /// d·w − D n: the same of a corner w. Coordinates: d, n, w, D.
-struct CornerGap : InputShape<8> {
+struct CornerGap : ExpressionInputs<8> {
   static constexpr std::string_view name = "corner_gap";
   static constexpr std::array<std::size_t, coordinates> classes{0, 0, 0, 0, 1, 1, 1, 1};
 
@@ -56,7 +56,7 @@ struct CornerGap : InputShape<8> {
 };
 
 /// x + y + z: the L1 norm of a vector with the magnitudes x, y, z, dual to L∞.
-struct ComponentSum : InputShape<3> {
+struct ComponentSum : ExpressionInputs<3> {
   static constexpr std::string_view name = "component_sum";
 
   template <class Scalar>
@@ -67,7 +67,7 @@ struct ComponentSum : InputShape<3> {
 };
 
 /// x·x, the square of the L2 norm, dual to itself.
-struct SquaredLength : InputShape<3> {
+struct SquaredLength : ExpressionInputs<3> {
   static constexpr std::string_view name = "squared_length";
 
   template <class Scalar>
@@ -78,7 +78,7 @@ struct SquaredLength : InputShape<3> {
 };
 
 /// D² − x·x. Coordinates: x, D.
-struct LengthDefect : InputShape<4> {
+struct LengthDefect : ExpressionInputs<4> {
   static constexpr std::string_view name = "length_defect";
 
   template <class Scalar>
@@ -91,7 +91,7 @@ struct LengthDefect : InputShape<4> {
 
 /// One axis of F = r − u p − v q at (t,u,v), beyond D: F − D. Coordinates: r, p, q at t=0, then at
 /// t=1, D. Weights: (1−t, t), u, v.
-struct ContactComponent : InputShape<7, unit_segment, unit_interval, unit_interval> {
+struct ContactComponent : ExpressionInputs<7, unit_segment, unit_interval, unit_interval> {
   static constexpr std::string_view name = "contact_component";
 
   template <class Scalar>
