@@ -178,6 +178,22 @@ INSTANTIATE_TEST_SUITE_P(Is, Refused, testing::ValuesIn(refusals()),
                          [](const auto& tested) { return tested.param.name; });
 
 /// Spans of results that do not fit the queries.
+TEST(Refusals, OfElementsWithVolumes) {
+  const Eigen::MatrixX3d x = Eigen::MatrixX3d::Zero(4, 3);
+  const std::vector<Tetrahedron> beyond{{0, 1, 2, 4}};
+  const std::vector<Face> flat{{0, 1, 2}};
+  EXPECT_THROW(Step(x, x, {.tetrahedra = beyond}), std::out_of_range);
+  EXPECT_EQ(Step(x, x, {.plane_triangles = flat}).inversions().size(), 1U);
+  const std::vector<double> curves(24);
+  EXPECT_THROW(CurvedStep({.degree = 1, .numbers = curves}, {.plane_triangles = flat}),
+               std::invalid_argument);
+  for (const double kept : {-0x1p-1074, 1.0, infinity, nan}) {
+    EXPECT_THROW((void)line_search_limit(step(), 0.5, {.kept_volume = kept}),
+                 std::invalid_argument);
+    EXPECT_THROW((void)inversion(posed.query, {.kept_volume = kept}), std::invalid_argument);
+  }
+}
+
 TEST(Refusals, OfSpansOfOtherLengths) {
   std::vector<CertifiedResult> results(2);
   EXPECT_THROW(solve(posed.kind, std::span(&posed.query, 1), results), std::invalid_argument);

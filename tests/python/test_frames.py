@@ -96,6 +96,7 @@ def test_the_tool_judges_what_is_written(tmp_path):
         meshio.Mesh(points, cells, cell_data={"body": [[1], [2]]}).write(tmp_path / f"{i}.vtk")
     command = [sys.executable, "-m", "touchstone.frames", "0.vtk", "1.vtk", "--out", "run.npz", "--groups", "body"]
     subprocess.run(command, cwd=tmp_path, check=True, stdout=subprocess.DEVNULL)
+    assert np.load(tmp_path / "run.npz")["T"].tolist() == [[0, 1, 2, 3]]
     step = [tool(), "step", "run.npz", "--groups", "run.groups", "--earliest", "--json", "step.json"]
     assert subprocess.run(step, cwd=tmp_path, stdout=subprocess.DEVNULL).returncode == 1
     found = json.loads((tmp_path / "step.json").read_text())["steps"][0]
