@@ -66,10 +66,6 @@ class StepRun {
                                "a mesh intersect itself?)");
     }
     const mesh::Mesh& mesh = frames_->mesh();
-    if (proof_ && !mesh.tetrahedra.empty()) {
-      throw std::runtime_error(arguments.frames.front().string() +
-                               ": --prove: certificates of steps do not have tetrahedra");
-    }
     options_.step.separation = arguments.separation.given();
     options_.step.groups = groups_.get();
     options_.step.stop = &io::interrupted();

@@ -97,9 +97,12 @@ StepCheck check_step(std::optional<fast::Step>& step, const mesh::Mesh& mesh,
         part ? *part : *step, check.collisions ? *check.collisions : check.earliest->pairs);
   }
   if (options.proof.on_text) {
-    check.proof = prove_step(
-        part ? *part : *step,
-        {.faces = mesh.faces, .points = mesh.points, .groups = options.step.groups}, options.proof);
+    check.proof = prove_step(part ? *part : *step,
+                             {.faces = mesh.faces,
+                              .points = mesh.points,
+                              .groups = options.step.groups,
+                              .tetrahedra = mesh.tetrahedra},
+                             options.proof);
   }
   if (options.alpha) check.free_alpha = step->free_step_size();
   return check;

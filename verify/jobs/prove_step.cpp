@@ -87,13 +87,6 @@ class Elements {
     return to_tetrahedron(points_of<PlaneTriangle, 2>(parts_.plane_triangles[number]));
   }
 
-  /// Those that invert.
-  [[nodiscard]] std::vector<fast::Inversion> inversions(std::size_t kind, double t_max) const {
-    const fast::InversionOptions options{.t_max = t_max};
-    return kind == 0 ? fast::inversions(vertices_, parts_.tetrahedra, options)
-                     : fast::inversions(vertices_, parts_.plane_triangles, options);
-  }
-
  private:
   template <class Points, std::size_t axes, class Numbers>
   [[nodiscard]] Points points_of(const Numbers& numbers) const {
@@ -118,69 +111,38 @@ struct FirstContact {
   exact::Certificate certificate;
 };
 
-/// An element that inverts.
-struct FirstInversion {
-  std::string name;
-  Query query;
-  exact::InversionDecision decision;
-};
-
-/// The inversion with the least time. Enclosures do not tell which it is: the oracle does.
-std::optional<FirstInversion> first_inversion(const Elements& elements, double t_max) {
-  std::array<std::vector<fast::Inversion>, 2> all;
-  double limit = 1.0;
-  for (std::size_t kind = 0; kind < all.size(); ++kind) {
-    all.at(kind) = elements.inversions(kind, t_max);
-    for (const fast::Inversion& one : all.at(kind)) limit = std::min(limit, one.result.toi_upper);
-  }
-  std::optional<FirstInversion> first;
-  for (std::size_t kind = 0; kind < all.size(); ++kind) {
-    for (const auto& [number, result] : all.at(kind)) {
-      if (result.toi_lower > limit || (first && *first->decision.time == exact::Rational(0)))
-        continue;
-      const Query query = elements.query(kind, number);
-      exact::InversionDecision decision = exact::decide_inversion(query);
-      if (first && *decision.time >= *first->decision.time) continue;
-      first = {fmt::format("element {} {}", exact::step_element_kinds.at(kind), number), query,
-               std::move(decision)};
-    }
-  }
-  return first;
-}
-
-/// The collision with the least time.
-std::optional<std::pair<Pair, exact::Decision>> first_collision(const fast::Step& step) {
+/// The contact with the least time. Enclosures do not tell which it is: the oracle does.
+std::optional<FirstContact> first_contact(const fast::Step& step, const Elements& elements) {
   const std::optional<fast::StepImpact> impact = step.earliest();
   if (!impact) return std::nullopt;
-  std::optional<std::pair<Pair, exact::Decision>> first;
+  struct Candidate {
+    std::string name;
+    Kind kind;
+    Query query;
+    exact::Decision decision;
+  };
+  std::optional<Candidate> first;
+  const auto consider = [&](std::string name, Kind kind, const Query& query,
+                            const Separation& separation) {
+    exact::Decision decision = exact::decide(kind, query, separation);
+    if (!decision.toi || (first && *decision.toi >= *first->decision.toi)) return;
+    first = {std::move(name), kind, query, std::move(decision)};
+  };
   for (const fast::StepCollision& collision : impact->pairs) {
     const Pair pair{collision.kind, collision.pair};
-    exact::Decision verdict =
-        exact::decide(fast::Step::kind_of(pair.kind), step.query_of(pair.kind, pair.numbers),
-                      step.separation_of(pair.kind, pair.numbers));
-    if (verdict.toi && (!first || *verdict.toi < *first->second.toi)) {
-      first.emplace(pair, std::move(verdict));
-    }
+    const auto& [i, j] = pair.numbers;
+    consider(fmt::format("pair {} {} {}", pair.kind_name(), i, j), fast::Step::kind_of(pair.kind),
+             step.query_of(pair.kind, pair.numbers), step.separation_of(pair.kind, pair.numbers));
   }
-  if (!first && !impact->pairs.empty()) {
-    throw std::logic_error("touchstone: the earliest impact is none");
+  for (const fast::StepInversion& one : impact->inversions) {
+    if (first && *first->decision.toi == exact::Rational(0)) break;
+    const auto kind = static_cast<std::size_t>(one.kind);
+    consider(fmt::format("element {} {}", exact::step_element_kinds.at(kind), one.element),
+             Kind::tetrahedron, elements.query(kind, static_cast<std::size_t>(one.element)), {});
   }
-  return first;
-}
-
-std::optional<FirstContact> first_contact(const fast::Step& step, const Elements& elements) {
-  const auto collision = first_collision(step);
-  const auto inversion = first_inversion(elements, step.options().t_max);
-  if (inversion && (!collision || *inversion->decision.time < *collision->second.toi)) {
-    return FirstContact{inversion->name, exact::prove(Kind::tetrahedron, inversion->query,
-                                                      {.toi = inversion->decision.time})};
-  }
-  if (!collision) return std::nullopt;
-  const auto& [pair, decision] = *collision;
-  const auto& [i, j] = pair.numbers;
-  return FirstContact{fmt::format("pair {} {} {}", pair.kind_name(), i, j),
-                      exact::prove(fast::Step::kind_of(pair.kind),
-                                   step.query_of(pair.kind, pair.numbers), decision)};
+  if (!first) throw std::logic_error("touchstone: the earliest impact is none");
+  return FirstContact{std::move(first->name),
+                      exact::prove(first->kind, first->query, first->decision)};
 }
 
 /// The arguments of some pairs, as text.

@@ -41,63 +41,13 @@ Scene with_ordered_edges(Scene scene) {
   return scene;
 }
 
-/// Elements of a scene.
-struct Elements {
-  std::vector<fast::Tetrahedron> tetrahedra = {};
-  std::vector<fast::Face> plane_triangles = {};
-
-  /// Each as a tetrahedron.
-  [[nodiscard]] std::vector<Query> queries(const Scene& scene) const {
-    std::vector<Query> all;
-    for (const fast::Tetrahedron& element : tetrahedra) {
-      Query& query = all.emplace_back();
-      for (std::size_t i = 0; i < 4; ++i) {
-        query.point(0, i) = scene.start.row(element.at(i));
-        query.point(1, i) = scene.end.row(element.at(i));
-      }
-    }
-    for (const fast::Face& element : plane_triangles) {
-      PlaneTriangle triangle{};
-      for (std::size_t i = 0; i < 3; ++i) {
-        for (const std::size_t axis : {0U, 1U}) {
-          triangle.at(0, i, axis) = scene.start(element.at(i), static_cast<int>(axis));
-          triangle.at(1, i, axis) = scene.end(element.at(i), static_cast<int>(axis));
-        }
-      }
-      all.push_back(to_tetrahedron(triangle));
-    }
-    return all;
-  }
-};
-
-/// Some elements of any vertices, most of them with a positive volume at the start.
-Elements random_elements(const Scene& scene, Random& random) {
-  Elements elements;
-  const auto vertex = [&] { return random.between(0, static_cast<int>(scene.start.rows()) - 1); };
-  const auto turned = [&](Elements one) {
-    const int start = exact::decide_inversion(one.queries(scene).front()).start;
-    return start < 0 || (start == 0 && random.between(0, 7) != 0);
-  };
-  for (int n = random.between(0, 3); n > 0; --n) {
-    fast::Tetrahedron element{vertex(), vertex(), vertex(), vertex()};
-    if (turned({.tetrahedra = {element}})) std::swap(element[0], element[1]);
-    if (!turned({.tetrahedra = {element}})) elements.tetrahedra.push_back(element);
-  }
-  for (int n = random.between(0, 3); n > 0; --n) {
-    fast::Face element{vertex(), vertex(), vertex()};
-    if (turned({.plane_triangles = {element}})) std::swap(element[0], element[1]);
-    if (!turned({.plane_triangles = {element}})) elements.plane_triangles.push_back(element);
-  }
-  return elements;
-}
-
 struct Proved {
   StepProof proof;
   std::string text;
 };
 
 Proved prove(const Scene& scene, const fast::StepOptions& step_options,
-             StepProofOptions options = {}, const Elements& elements = {}) {
+             StepProofOptions options = {}) {
   const fast::Step step = scene.step(step_options);
   Proved result;
   result.text = exact::step_certificates_header();
@@ -110,8 +60,8 @@ Proved prove(const Scene& scene, const fast::StepOptions& step_options,
                                         .apart = scene.apart,
                                         .radii = scene.radii,
                                         .separations = scene.separations},
-                             .tetrahedra = elements.tetrahedra,
-                             .plane_triangles = elements.plane_triangles},
+                             .tetrahedra = scene.tetrahedra,
+                             .plane_triangles = scene.plane_triangles},
                             options);
   result.text += exact::step_certificates_closing_line(1);
   return result;
@@ -125,7 +75,7 @@ std::string refusal(const std::string& text, const checker::Options& options = {
 }
 
 /// The earliest contact of all pairs and elements, by the oracle.
-std::optional<exact::AlgebraicNumber> earliest(const Scene& scene, const Elements& elements,
+std::optional<exact::AlgebraicNumber> earliest(const Scene& scene,
                                                const fast::StepOptions& options) {
   std::optional<exact::AlgebraicNumber> first;
   const tests::AllPairs all(scene);
@@ -135,10 +85,10 @@ std::optional<exact::AlgebraicNumber> earliest(const Scene& scene, const Element
                       {options.separation.distance + all.thickness(pair), options.separation.norm});
     if (verdict.toi && (!first || *verdict.toi < *first)) first = verdict.toi;
   }
-  for (const Query& element : elements.queries(scene)) {
+  tests::for_each_volume(scene, [&](fast::VolumeKind, std::size_t, const Query& element) {
     const auto time = exact::decide_inversion(element).time;
     if (time && (!first || *time < *first)) first = time;
-  }
+  });
   if (first && *first > exact::Rational(options.t_max)) return std::nullopt;
   return first;
 }
@@ -151,9 +101,8 @@ std::vector<double> numbers_of(const std::string& claim) {
   return numbers;
 }
 
-void expect_true(const Scene& scene, const Elements& elements, const fast::StepOptions& options,
-                 const StepProof& proof) {
-  const auto first = earliest(scene, elements, options);
+void expect_true(const Scene& scene, const fast::StepOptions& options, const StepProof& proof) {
+  const auto first = earliest(scene, options);
   const std::vector<double> times = numbers_of(proof.claim);
   if (!first) {
     EXPECT_TRUE(proof.claim.starts_with("no_contact ")) << proof.claim;
@@ -227,8 +176,8 @@ TEST(ProveStep, ProvesWhatTheOracleSaysOfAllPairs) {
       if (random.coin()) options.separation.distance = shape.separation;
       options.separation.norm = random.coin() ? Norm::l2 : Norm::linf;
       if (random.coin()) options.t_max = random.coin() ? 0.25 : 0.0;
-      const Elements elements = seed % 2 == 0 ? random_elements(scene, random) : Elements{};
-      const auto [proof, text] = prove(scene, options, {}, elements);
+      if (seed % 2 == 0) tests::add_volumes(scene, 3, 8, random);
+      const auto [proof, text] = prove(scene, options);
       if (!proof.failure.empty()) {
         ++failed;
         EXPECT_EQ(shape.name, "all scales") << proof.failure;
@@ -236,7 +185,7 @@ TEST(ProveStep, ProvesWhatTheOracleSaysOfAllPairs) {
       }
       ++proved;
       EXPECT_EQ(refusal(text), "") << shape.name << ' ' << seed;
-      expect_true(scene, elements, options, proof);
+      expect_true(scene, options, proof);
       inverted += text.find("\nelement ") != std::string::npos ? 1 : 0;
       free_elements += text.find("\ntetrahedron\n") != std::string::npos ? 1 : 0;
       expect_demand_kept(text, options, proof);
@@ -332,11 +281,11 @@ TEST(ProveStep, DividesTheTimeOfNearlyFlatElements) {
   constexpr double h = 0x1p-200;
   Scene scene{.start = tests::Places{{0, 0, 0}, {1, h, 0}, {-h, 1, 0}, {0, 0, 1}},
               .end = tests::Places{{0, 0, 0}, {-2, h, 0}, {-h, -2, 0}, {0, 0, 1}}};
-  const Elements elements{.tetrahedra = {{0, 1, 2, 3}}, .plane_triangles = {{0, 1, 2}, {0, 2, 1}}};
+  scene.tetrahedra = {{0, 1, 2, 3}};
+  const std::vector<fast::Face> all{{0, 1, 2}, {0, 2, 1}};
   for (const std::size_t triangles : {0U, 1U, 2U}) {
-    Elements some = elements;
-    some.plane_triangles.resize(triangles);
-    const auto [proof, text] = prove(scene, {}, {}, some);
+    scene.plane_triangles.assign(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(triangles));
+    const auto [proof, text] = prove(scene, {});
     EXPECT_EQ(refusal(text), "");
     EXPECT_EQ(proof.claim, triangles == 2 ? "earliest 0 0" : "no_contact 1");
     EXPECT_EQ(proof.certificates, triangles == 2 ? 0U : 1 + triangles);

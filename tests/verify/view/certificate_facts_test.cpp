@@ -85,7 +85,8 @@ TEST(CertificateFacts, InvalidTextIsAnError) {
   }
   EXPECT_THROW((void)certified_query(""), std::invalid_argument);
   EXPECT_THROW((void)certified_query("touchstone-certificates 1\n"), std::invalid_argument);
-  const exact::Certificate element = exact::prove(Kind::tetrahedron, Query{}, exact::decide(Kind::tetrahedron, Query{}));
+  const exact::Certificate element =
+      exact::prove(Kind::tetrahedron, Query{}, exact::decide(Kind::tetrahedron, Query{}));
   EXPECT_THROW((void)certified_query(certificate_stream(element)), std::invalid_argument);
   EXPECT_THROW((void)certified_query(replaced(over_an_edge, "4 0 0", "4 0")),
                std::invalid_argument);
