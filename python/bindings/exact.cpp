@@ -243,8 +243,10 @@ std::size_t solve(const std::string& name, const std::string& kind_name, const D
                   std::int64_t max_checks, double t_max, int threads, const py::object& progress) {
   const fast::Method& method = verify::solvers::find_method(name);
   const Queries queries = queries_of(kind_from(kind_name), array);
-  if (!method.info().terms.answers(queries)) {
-    throw std::invalid_argument(name + " does not answer queries on curves of this degree");
+  const fast::Terms& terms = method.info().terms;
+  if (!terms.answers(queries)) {
+    throw std::invalid_argument(name + " does not answer queries on curves of this degree" +
+                                (terms.answers(queries.kind) ? "" : ", or about a " + kind_name));
   }
   const auto items = items_of<fast::Answer>(results, queries.size());
   const fast::MethodOptions options{.tolerance = tolerance,

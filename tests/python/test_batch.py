@@ -169,7 +169,7 @@ def test_out_is_overwritten_and_returned(solve, queries):
 @pytest.mark.parametrize(
     "solve, options, error, text",
     [
-        *((one, {"kind": "face"}, ValueError, "'vertex_face' or 'edge_edge', not 'face'") for one in BATCHES.values()),
+        *((one, {"kind": "face"}, ValueError, "'tetrahedron' or 'plane_triangle', not 'face'") for one in BATCHES.values()),
         *((one, {"norm": "l1"}, ValueError, "norm must be 'linf' or 'l2', not 'l1'") for one in BATCHES.values()),
         *((one, {"threads": -1}, ValueError, "threads must not be negative") for one in BATCHES.values()),
         (touchstone.certified, {"separation": -1.0}, ValueError, "separation must be a finite number"),
@@ -179,7 +179,7 @@ def test_out_is_overwritten_and_returned(solve, queries):
         (touchstone.tight_inclusion, {"tolerance": 0.0}, ValueError, "tolerance"),
         (touchstone.tight_inclusion, {"t_max": -1.0}, ValueError, "t_max"),
         (touchstone.distance, {"t": 1.5}, ValueError, "time|t must"),
-        (touchstone.certified, {"kind": 0}, TypeError, "kind must be 'vertex_face' or 'edge_edge', not 0 of type int"),
+        (touchstone.certified, {"kind": 0}, TypeError, "or 'plane_triangle', not 0 of type int"),
         (touchstone.certified, {"threads": 1.5}, TypeError, "threads: a whole number is needed, not 1.5 of type float"),
         (touchstone.certified, {"progress": "no"}, TypeError, "progress: True or False is needed, not 'no' of type str"),
         (touchstone.certified, {"t_max": None}, TypeError, "t_max: a real number is needed, not None of type NoneType"),

@@ -248,11 +248,12 @@ def datasets(request, tool, tmp_path_factory) -> list[pathlib.Path]:
 WITH_TERMS = ("tight_inclusion_float", "accd_limited")
 
 
-# They answer queries on curves alone.
-ON_CURVES = ("subdivision", "subdivision_largest_deviation", "sampling", "advancement")
+# They answer queries on curves, or about elements, alone.
+OTHERS = ("subdivision", "subdivision_largest_deviation", "sampling", "advancement")
+OTHERS += ("inversion_cubic", "inversion_additive")
 
 
-@pytest.mark.parametrize("method", [one.name for one in touchstone.methods() if one.name not in ON_CURVES])
+@pytest.mark.parametrize("method", [one.name for one in touchstone.methods() if one.name not in OTHERS])
 def test_every_method_answers_as_on_the_command_line(method, tool, datasets, tmp_path):
     """Bit for bit. Every query instead of some: TOUCHSTONE_AGREEMENT_SAMPLE= (empty)."""
     expected = answers_of_the_tool(tool, datasets, method, tmp_path)
@@ -291,3 +292,5 @@ def test_methods_answer_curves_of_their_degrees():
         assert touchstone.solve(method, "vertex_face", curves).collides.all()
     with pytest.raises(ValueError, match="cubic does not answer queries on curves of this degree"):
         touchstone.solve("cubic", "vertex_face", curves)
+    with pytest.raises(ValueError, match="inversion_cubic does not answer .* about a vertex_face"):
+        touchstone.solve("inversion_cubic", "vertex_face", curves[:, [0, 2]].reshape(1, 8, 3))

@@ -29,7 +29,7 @@
 #include <numbers>
 #include <vector>
 
-#include "touchstone/element.hpp"
+#include "touchstone/inversion.hpp"
 #include "verify/baselines/method_support.hpp"
 #include "verify/baselines/moving_polynomials.hpp"
 

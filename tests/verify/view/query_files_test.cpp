@@ -146,7 +146,8 @@ TEST_F(QueryFiles, FaultyJson) {
   write("few.json", R"({"kind": "edge-edge", "coordinates": [1, 2]})");
   EXPECT_EQ(reason("few.json"), "query 0: coordinates must be a list of 24 numbers");
   write("kind.json", R"([{"kind": "both", "coordinates": []}])");
-  EXPECT_EQ(reason("kind.json"), "query 0: kind must be vertex-face, edge-edge, tetrahedron or plane-triangle");
+  EXPECT_EQ(reason("kind.json"),
+            "query 0: kind must be vertex-face, edge-edge, tetrahedron or plane-triangle");
   write("none.json", R"({"coordinates": []})");
   EXPECT_EQ(reason("none.json"), "query 0: nothing says the kind; add --kind");
   write("empty.json", R"({"findings": []})");
