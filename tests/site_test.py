@@ -102,7 +102,8 @@ def main():
         # The proxy does not exist: every access to the network is an error.
         with (folder / "err").open("w") as err:
             browser = subprocess.Popen(
-                ["chromium", "--headless", "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage", "--enable-logging=stderr",
+                ["chromium", "--headless", "--no-sandbox", "--disable-gpu", "--use-angle=swiftshader", "--enable-unsafe-swiftshader",
+                 "--disable-dev-shm-usage", "--enable-logging=stderr",
                  "--proxy-server=127.0.0.1:9", "--proxy-bypass-list=127.0.0.1", "--window-size=1500,1000",
                  f"--user-data-dir={folder}/profile", "--remote-debugging-port=0",
                  f"http://127.0.0.1:{server.server_port}/loader.html"], stdout=subprocess.DEVNULL, stderr=err)
