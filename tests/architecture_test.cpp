@@ -58,10 +58,10 @@ constexpr std::string_view layer_lines = R"(
   fast/certified/kernel.hpp: fast/certified/fixed_point_vertices.hpp fast/platform/ fast/mesh.hpp exact/element.hpp exact/query.hpp
   fast/certified/stages/: fast/certified/stages/ fast/certified/fixed_point_vertices.hpp fast/certified/kernel.hpp filters/ exact/query.hpp
   fast/certified/curves/: fast/certified/curves/ fast/certified/stages/ fast/certified/kernel.hpp filters/ exact/query.hpp
-  fast/certified/: fast/certified/ fast/platform/ fast/certified.hpp fast/mesh.hpp filters/ exact/curved_query.hpp exact/query.hpp immintrin.h
+  fast/certified/: fast/certified/ fast/platform/ fast/certified.hpp fast/inversion.hpp fast/mesh.hpp filters/ exact/curved_query.hpp exact/query.hpp immintrin.h
   fast/distance/: fast/distance/ fast/certified/exact/ fast/platform/ fast/contacts.hpp fast/kernels.hpp fast/step.hpp filters/ exact/query.hpp Eigen/ arm_neon.h immintrin.h
   fast/intersections/: fast/intersections/ fast/broad_phase/ fast/certified/exact/ fast/distance/ fast/platform/ fast/mesh.hpp fast/intersections.hpp filters/ immintrin.h
-  fast/step/: fast/step/ fast/broad_phase/ fast/certified/ fast/platform/ fast/broad_phase.hpp fast/candidates.hpp fast/contacts.hpp fast/kernels.hpp fast/mesh.hpp fast/step.hpp
+  fast/step/: fast/step/ fast/broad_phase/ fast/certified/ fast/platform/ fast/broad_phase.hpp fast/candidates.hpp fast/contacts.hpp fast/inversion.hpp fast/kernels.hpp fast/mesh.hpp fast/step.hpp
   adapters/: adapters/ fast/ exact/query.hpp Eigen/
   adapters/ipc_toolkit.hpp: fast/ exact/query.hpp ipc/ccd/narrow_phase_ccd.hpp
   adapters/ipc_toolkit_step.hpp: adapters/ipc_toolkit.hpp fast/ exact/query.hpp ipc/collision_mesh.hpp

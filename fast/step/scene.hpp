@@ -17,6 +17,7 @@
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -37,6 +38,7 @@
 #include "fast/step/bodies.hpp"
 #include "fast/step/codimensional.hpp"
 #include "touchstone/contacts.hpp"
+#include "touchstone/inversion.hpp"
 #include "touchstone/mesh.hpp"
 #include "touchstone/step.hpp"
 
