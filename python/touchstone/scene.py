@@ -507,8 +507,8 @@ class Step:
         Raises
         ------
         ValueError
-            If there is no proof within the limits of the format, or the step has a rule `can_collide` or
-            elements with volumes, which certificates cannot have.
+            If there is no proof within the limits of the format, or the step has a rule `can_collide`, which
+            certificates cannot have, or triangles of the plane, which the command line tool does not read.
         FileNotFoundError
             Without the command line tool.
         Interrupted
@@ -516,13 +516,13 @@ class Step:
         """
         if self._can_collide is not None:
             raise ValueError("prove: certificates know groups alone, not a rule can_collide")
-        faces, edges, points, groups, apart, *volumes = self._elements
-        if any(len(elements) for elements in volumes):
-            raise ValueError("prove: certificates of steps know no tetrahedra and plane triangles")
+        faces, edges, points, groups, apart, tetrahedra, plane_triangles = self._elements
+        if len(plane_triangles):
+            raise ValueError("prove: the command line tool reads no triangles of the plane")
         radii, separated, separations = self._thickness
         with Run() as run:
             frames = run.folder / "frames.npz"
-            elements = {"F": faces, **({"E": edges} if len(edges) else {}), "P": points}
+            elements = {"F": faces, **({"E": edges} if len(edges) else {}), "P": points, "T": tetrahedra}
             np.savez(frames, V=np.stack(self._vertices), **elements)
             separation, norm = self._separation
             command: list[Any] = ["step", frames, "--earliest", "--prove", os.path.abspath(path)]

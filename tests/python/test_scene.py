@@ -293,7 +293,7 @@ def test_inversions_are_those_of_the_last_vertex():
         touchstone.inversions(before * np.nan, after, elements)
 
 
-def test_a_step_keeps_its_elements_from_inverting():
+def test_a_step_keeps_its_elements_from_inverting(tmp_path):
     """Tetrahedra that turn over, are flat, and grow; and a triangle that turns over in the plane."""
     before = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]], dtype=float)
     after = before * [-2, 1, 1]
@@ -316,8 +316,11 @@ def test_a_step_keeps_its_elements_from_inverting():
     assert at_rest.inversions()["element"].tolist() == [1, 2]
     assert at_rest.line_search_limit(0.5).status == "inverted"
     assert step.moved(before, before).is_free()
-    with pytest.raises(ValueError, match="certificates"):
+    with pytest.raises(ValueError, match="triangles of the plane"):
         step.prove("none")
+    proof = tmp_path / "step.cert"
+    assert touchstone.Step(before, after, tetrahedra=elements[:1]).prove(proof).startswith("earliest 0x0.555555555555")
+    assert len(touchstone.check(proof.read_bytes()).steps) == 1
     with pytest.raises(IndexError, match="tetrahedron 0: vertex 4"):
         touchstone.Step(before, after, tetrahedra=[[0, 1, 2, 4]])
     with pytest.raises(ValueError, match="kept_volume"):

@@ -52,7 +52,7 @@ std::vector<OptionRow> make_table() {
       {"--kind", "KIND", contact, "vertex-face or edge-edge, if the input does not tell", "view"},
       {"--kind", "KIND", contact, "vertex-face or edge-edge, if the path does not tell", "bench"},
       {"--kind", "KIND", contact, "vertex-face or edge-edge, if the path does not tell", "report"},
-      {"--kind", "KIND", contact, "vertex-face or edge-edge, if the path does not tell", "prove"},
+      {"--kind", "KIND", kinds, "vertex-face, edge-edge, or an element, if the path does not tell", "prove"},
       {"--kind", "KIND", kinds, "vertex-face, edge-edge, or an element, if the path does not tell; also: only these of the built-in set"},
       {"--round", "", {}, "Round coordinates that are not doubles", "convert"},
       {"--round", "", {}, "Round coordinates of datasets that are not doubles", "view"},

@@ -38,10 +38,9 @@ bool lacks_same_bounds(const Answer& a, const Answer& b) {
          std::isnan(a.toi_upper) == std::isnan(b.toi_upper);
 }
 
-/// Empty where it would exceed the format's limits, and for elements, which it has no form for.
+/// Empty where it would exceed the format's limits.
 std::string certificate(const AnyQuery& query, const exact::Decision& verdict,
                         std::string_view label) {
-  if (is_element(query.kind())) return {};
   try {
     return exact::certificate_stream(exact::prove(query.queries(), 0, verdict, {}), label);
   } catch (const exact::CertificateLimitError&) {
