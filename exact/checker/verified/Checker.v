@@ -235,15 +235,21 @@ Fixpoint separates_all (sc : scene) (a b : Q) (subintervals : list subinterval) 
 
 (** ** Contact *)
 
-(** The sign of p at the root of g, or at the start. *)
+(** The sign of p on the interval, if it is seen. *)
+Definition sign_on (bisections : nat) (p : form) : option comparison :=
+  if is_positive bisections p then Some Gt
+  else if is_positive bisections (scale (-1) p) then Some Lt
+  else None.
+
+(** The sign of p at the root of g, or at the start. What costs least is tried first. *)
 Definition sign_at (g : option form) (p : form) : option comparison :=
   match g with
   | None => Some (hd 0 p ?= 0)
   | Some g =>
-      if divides p g p then Some Eq
-      else if is_positive bisections p then Some Gt
-      else if is_positive bisections (scale (-1) p) then Some Lt
-      else None
+      match sign_on 0 p with
+      | Some sign => Some sign
+      | None => if divides p g p then Some Eq else sign_on bisections p
+      end
   end.
 
 Definition is_zero_at g p := match sign_at g p with Some Eq => true | _ => false end.

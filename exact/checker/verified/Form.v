@@ -412,12 +412,13 @@ Fixpoint reduce (d c : Z) (p g : form) : option form :=
   | x :: p', y :: g' => option_map (cons (d * x - c * y)%Z) (reduce d c p' g')
   end.
 
-(** True if g divides p. [steps] has as many elements as p. *)
+(** True if g divides p. [steps] has as many elements as p. Where d divides c already, p is not multiplied. *)
 Fixpoint divides (steps : list Z) (g p : form) : bool :=
   is_zero p ||
   match steps, p, g with
   | _ :: steps', c :: p', d :: g' =>
-      match reduce d c p' g' with
+      let k := (c / d)%Z in
+      match (if (k * d =? c)%Z then reduce 1 k p' g' else reduce d c p' g') with
       | Some rest => divides steps' g rest
       | None => false
       end
@@ -450,18 +451,22 @@ Proof.
   induction steps as [| x steps IH]; intros g p Hg Hroot E; cbn [divides] in E;
     apply orb_prop in E as [E | E]; try (apply is_zero_value; exact E); try discriminate E.
   destruct p as [| c p]; [reflexivity |]. destruct g as [| d g]; [discriminate |].
-  destruct (reduce d c p g) as [rest |] eqn:Er; [| discriminate].
-  specialize (IH _ _ Hg Hroot E). destruct (reduce_value d c r s _ _ _ Er) as (k & L & _ & V).
-  cbn [hd] in Hg. cbn [value] in *. rewrite L, pow_add.
-  assert (Hd : IZR d <> 0) by (intros H; apply Hg; apply eq_IZR; exact H).
-  apply (Rmult_eq_reg_l (IZR d)); [| exact Hd].
-  replace (s * value p r s) with (s * value p r s) by ring.
-  assert (IZR d * value p r s = IZR c * r ^ k * value g r s) as Hv by lra.
-  replace (IZR d * (IZR c * (r ^ length g * r ^ k) + s * value p r s))
-    with (IZR c * r ^ k * (IZR d * r ^ length g) + s * (IZR d * value p r s)) by ring.
-  rewrite Hv.
-  replace (IZR c * r ^ k * (IZR d * r ^ length g) + s * (IZR c * r ^ k * value g r s))
-    with (IZR c * r ^ k * (IZR d * r ^ length g + s * value g r s)) by ring.
+  cbv zeta in E. cbn [hd] in Hg. assert (Hd : IZR d <> 0) by (intros H; apply Hg; apply eq_IZR; exact H).
+  assert (exists d' c', d' <> 0%Z /\ IZR c * IZR d' = IZR c' * IZR d /\
+    match reduce d' c' p g with Some rest => divides steps (d :: g) rest | None => false end = true)
+    as (d' & c' & Hd' & Ec & E').
+  { destruct (_ =? c)%Z eqn:Ek; [exists 1%Z, (c / d)%Z | exists d, c]; repeat split; auto; try lia; try ring.
+    apply Z.eqb_eq in Ek. rewrite <- Ek at 1. rewrite mult_IZR. ring. }
+  clear E. destruct (reduce d' c' p g) as [rest |] eqn:Er; [| discriminate].
+  specialize (IH (d :: g) _ Hg Hroot E'). destruct (reduce_value d' c' r s _ _ _ Er) as (k & L & _ & V).
+  cbn [value] in *. rewrite L, pow_add.
+  apply (Rmult_eq_reg_l (IZR d')); [| intros H; apply Hd', eq_IZR; exact H].
+  assert (IZR d' * value p r s = IZR c' * r ^ k * value g r s) as Hv by lra.
+  replace (IZR d' * (IZR c * (r ^ length g * r ^ k) + s * value p r s))
+    with (r ^ k * r ^ length g * (IZR c * IZR d') + s * (IZR d' * value p r s)) by ring.
+  rewrite Hv, Ec.
+  replace (r ^ k * r ^ length g * (IZR c' * IZR d) + s * (IZR c' * r ^ k * value g r s))
+    with (IZR c' * r ^ k * (IZR d * r ^ length g + s * value g r s)) by ring.
   rewrite Hroot. ring.
 Qed.
 

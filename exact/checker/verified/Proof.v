@@ -388,22 +388,29 @@ Variable g : option form.
 (** The time of the contact is that of the form g, or the start. *)
 Hypothesis Hg : match g with None => u = 0 | Some g => hd 0%Z g <> 0%Z /\ at_u u g = 0 end.
 
-Lemma sign_at_sound p : match sign_at g p with
+Definition has_sign (p : form) (sign : option comparison) : Prop :=
+  match sign with
   | Some Eq => at_u u p = 0 | Some Gt => 0 < at_u u p | Some Lt => at_u u p < 0 | None => True end.
+
+Lemma sign_on_sound n p : has_sign p (sign_on n p).
+Proof.
+  unfold sign_on. destruct (is_positive n p) eqn:E1; [eapply is_positive_sound; eassumption |].
+  destruct (is_positive n (scale (-1) p)) eqn:E2; [| exact I].
+  pose proof (is_positive_sound _ _ u E2 Hu) as P. rewrite at_u_scale in P. cbn [has_sign]. lra.
+Qed.
+
+Lemma sign_at_sound p : has_sign p (sign_at g p).
 Proof.
   unfold sign_at. destruct g as [h |].
-  - destruct Hg as [H0 Hr]. destruct (divides p h p) eqn:E.
-    + eapply divides_sound; eassumption.
-    + destruct (is_positive _ p) eqn:E1; [eapply is_positive_sound; eassumption |].
-      destruct (is_positive _ (scale (-1) p)) eqn:E2; [| exact I].
-      pose proof (is_positive_sound _ _ u E2 Hu) as P. rewrite at_u_scale in P. lra.
-  - rewrite Hg. assert (at_u 0 p = IZR (hd 0%Z p)) as ->.
+  - destruct Hg as [H0 Hr]. pose proof (sign_on_sound 0 p) as S. destruct (sign_on 0 p); [exact S |].
+    destruct (divides p h p) eqn:E; [eapply divides_sound; eassumption | apply sign_on_sound].
+  - unfold has_sign. rewrite Hg. assert (at_u 0 p = IZR (hd 0%Z p)) as ->.
     { unfold at_u. destruct p as [| c p]; cbn [value hd]; [reflexivity |].
       rewrite Rminus_0_r, pow1. ring. }
     destruct (Z.compare_spec (hd 0%Z p) 0) as [-> | L | L]; [reflexivity | |]; apply IZR_lt in L; exact L.
 Qed.
 
-Ltac sign_of p := pose proof (sign_at_sound p); destruct (sign_at g p) as [[] |]; try discriminate; lra.
+Ltac sign_of p := pose proof (sign_at_sound p); unfold has_sign in *; destruct (sign_at g p) as [[] |]; try discriminate; lra.
 Lemma zero_at p : is_zero_at g p = true -> at_u u p = 0.
 Proof. unfold is_zero_at. intros. sign_of p. Qed.
 Lemma positive_at p : is_positive_at g p = true -> 0 < at_u u p.
