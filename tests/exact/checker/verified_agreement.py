@@ -371,8 +371,9 @@ def main():
             if result.rejected > 0:
                 result.difference = result.difference or f"{result.rejected} refused"
         report("curves written otherwise", results)
-        for name, some in (("mutants", [originals]), ("mutants of curves", [curved, rewritten])):
-            mutants = (mutant(draw, without_label(draw.choice(draw.choice(some)))) for _ in range(arguments.mutants))
+        for name, some, count in (("mutants", originals, arguments.mutants), ("mutants of curves", curved, arguments.mutants),
+                                  ("mutants of curves written otherwise", rewritten, arguments.mutants // 50)):
+            mutants = (mutant(draw, without_label(draw.choice(some))) for _ in range(count))
             report(name, list(stream_results(programs, path, mutants)))
     sys.exit(1 if differences else 0)
 
