@@ -404,7 +404,7 @@ let read_certificate r take_label =
   end_line r;
   { claim_line; label; query; separation; claim; subintervals; contact_line; contact }
 
-(* Rejects coordinates and times that are too large over their common denominator. *)
+(* Rejects coordinates, weights and times that are too large over their common denominator. *)
 let require_small numbers line =
   let sum = List.fold_left (fun sum x -> sum + bits x.qden) 0 numbers in
   let greatest = List.fold_left (fun most x -> max most (bits x.qnum)) 0 numbers in
