@@ -62,60 +62,103 @@ Definition f_origin : vector_form := Triple [] [] [].
 
 (** ** Integers
 
-    Coordinates and distance are multiplied by a common multiple of their denominators, times by one
-    of theirs. That it is a common multiple is seen, not assumed. *)
+    Coordinates and distance are multiplied by a common multiple of their denominators, weights and
+    times by one of theirs. That it is a common multiple is seen, not assumed. *)
 
 Definition scaled (m : Z) (x : Q) : Z := Qnum x * (m / Zpos (Qden x)).
 Definition is_multiple (m : Z) (x : Q) : bool := m / Zpos (Qden x) * Zpos (Qden x) =? m.
 Definition common_multiple (xs : list Q) : Z := fold_left (fun m x => Z.lcm m (Zpos (Qden x))) xs 1.
 
 Definition coordinates (q : query) : list Q :=
-  flat_map (fun p => [x_of (at_start p); y_of (at_start p); z_of (at_start p);
-                      x_of (at_end p); y_of (at_end p); z_of (at_end p)])
+  flat_map (flat_map (fun p => [x_of (point_of p); y_of (point_of p); z_of (point_of p)]))
     [point0 q; point1 q; point2 q; point3 q].
 
-(** The facts about all subintervals: the factor of space, the corners at t=0 and at t=1, and the
-    distance. *)
-Record scene := Scene { factor : Z; ends : list (triple Z * triple Z); reach : Z; norm_in : norm }.
+(** True if there are weights, all positive. *)
+Definition are_weights (weights : list Q) : bool :=
+  negb (Nat.eqb (length weights) 0) && forallb (fun w => negb (Qle_bool w 0)) weights &&
+  forallb (is_multiple (common_multiple weights)) weights.
 
-Definition difference (m : Z) (a b : triple Q) : triple Z :=
-  Triple (scaled m (x_of a) - scaled m (x_of b)) (scaled m (y_of a) - scaled m (y_of b))
-    (scaled m (z_of a) - scaled m (z_of b)).
-Definition corner_ends (m : Z) (a b : motion) : triple Z * triple Z :=
-  (difference m (at_start a) (at_start b), difference m (at_end a) (at_end b)).
+(** ** Curves *)
+
+(** The position of a point, enlarged. *)
+Record fraction := Fraction { numerator : vector_form; denominator : form }.
+
+Definition times_each (a b : list Z) : list Z := map (fun p => fst p * snd p) (combine a b).
+
+Definition fraction_of (m : Z) (p : motion) : fraction :=
+  let weights := map weight_of p in
+  let ws := map (scaled (common_multiple weights)) weights in
+  let c := times_each (binomials (length p - 1)) ws in
+  let times_coordinate (x : triple Q -> Q) := times_each c (map (fun p => scaled m (x (point_of p))) p) in
+  Fraction (Triple (times_coordinate x_of) (times_coordinate y_of) (times_coordinate z_of))
+    (if forallb (Z.eqb 1) ws then [1] else c).
+
+Definition is_same (a b : form) : bool := is_zero (sub a b).
+
+(** The different forms that are not 1. *)
+Definition distinct (fs : list form) : list form :=
+  fold_right (fun f rest => if existsb (is_same f) ([1] :: rest) then rest else f :: rest) [] fs.
+
+(** The fraction, multiplied by all denominators but its own. *)
+Definition over (denominators : list form) (p : fraction) : fraction :=
+  fold_right (fun d p => Fraction (f_times d (numerator p)) (mul d (denominator p))) p
+    (filter (fun d => negb (is_same d (denominator p))) denominators).
+
+(** The facts about all subintervals, as forms of t in [0,1]: the factor of space, positive, and
+    enlarged by it the corners and the distance; these are of one degree. *)
+Record scene := Scene { factor : form; corners_in : list vector_form; reach : form; norm_in : norm }.
+
+Definition elevated_to (n : nat) (f : form) : form := elevate (n - length f) f.
+
+Definition of_length (n : nat) (w : vector_form) : bool :=
+  Nat.eqb (length (x_of w)) n && Nat.eqb (length (y_of w)) n && Nat.eqb (length (z_of w)) n.
 
 Definition scene_of (q : query) (s : separation) : option scene :=
+  let points := [point0 q; point1 q; point2 q; point3 q] in
   let numbers := distance_of s :: coordinates q in
   let m := common_multiple numbers in
-  if (0 <? m) && forallb (is_multiple m) numbers && Qle_bool 0 (distance_of s) then
-    let w := fun a b => corner_ends m (a q) (b q) in
-    Some (Scene m
-      (match kind_of q with
-       | vertex_face => [w point0 point1; w point0 point2; w point0 point3]
-       | edge_edge => [w point0 point2; w point1 point2; w point1 point3; w point0 point3]
-       end)
-      (scaled m (distance_of s)) (norm_of s))
+  if (0 <? m) && forallb (is_multiple m) numbers &&
+     forallb (fun p => are_weights (map weight_of p)) points && Qle_bool 0 (distance_of s) then
+    let fractions := map (fraction_of m) points in
+    match map (over (distinct (map denominator fractions))) fractions with
+    | [p0; p1; p2; p3] =>
+        let common := denominator p0 in
+        let w := fun a b => f_minus (numerator a) (numerator b) in
+        let corners :=
+          match kind_of q with
+          | vertex_face => [w p0 p1; w p0 p2; w p0 p3]
+          | edge_edge => [w p0 p2; w p1 p2; w p1 p3; w p0 p3]
+          end in
+        let n := fold_right (fun w n => Nat.max (length (x_of w)) n) (length common) corners in
+        let even := elevated_to n in
+        let corners := map (fun w => Triple (even (x_of w)) (even (y_of w)) (even (z_of w))) corners in
+        let reach := even (scale (scaled m (distance_of s)) common) in
+        if forallb (fun p => is_same (denominator p) common) [p1; p2; p3] && is_positive 0 common &&
+           forallb (of_length (length reach)) corners then
+          Some (Scene (scale m common) corners reach (norm_of s))
+        else None
+    | _ => None
+    end
   else None.
 
-(** A time a/m stands as (m-a, a): the corner is there (m-a) w(0) + a w(1), divided by m. The ends of
-    an interval are two moments, a single time is one. *)
-Definition moment := (Z * Z)%type.
+(** 1-t and t, both multiplied by one number, as forms of an interval from its start to its end; of a
+    single time, constants. *)
+Definition interval := (form * form)%type.
 
-Definition moments (times : list Q) : option (list moment) :=
+Definition moments (times : list Q) : option interval :=
   let m := common_multiple times in
   if (0 <? m) && forallb (is_multiple m) times then
-    Some (map (fun t => (m - scaled m t, scaled m t)) times)
+    Some (map (fun t => m - scaled m t) times, map (scaled m) times)
   else None.
 
-(** The form of x(t) from x(0) and x(1). *)
-Definition moving (ms : list moment) (a b : Z) : form := map (fun p => fst p * a + snd p * b) ms.
+(** A form of the scene on the interval. *)
+Definition restrict (sc : scene) (ms : interval) : form -> form :=
+  substitute (powers (fst ms) (reach sc)) (snd ms).
 
-Definition corner (ms : list moment) (w : triple Z * triple Z) : vector_form :=
-  Triple (moving ms (x_of (fst w)) (x_of (snd w))) (moving ms (y_of (fst w)) (y_of (snd w)))
-    (moving ms (z_of (fst w)) (z_of (snd w))).
-
-Definition corner_forms (sc : scene) (ms : list moment) : list vector_form := map (corner ms) (ends sc).
-Definition reach_form (sc : scene) (ms : list moment) : form := moving ms (reach sc) (reach sc).
+Definition corner_forms (sc : scene) (ms : interval) : list vector_form :=
+  let restrict := restrict sc ms in
+  map (fun w => Triple (restrict (x_of w)) (restrict (y_of w)) (restrict (z_of w))) (corners_in sc).
+Definition reach_form (sc : scene) (ms : interval) : form := restrict sc ms (reach sc).
 
 Definition get (ws : list vector_form) (i : nat) : vector_form := nth i ws (hd f_origin ws).
 
@@ -192,15 +235,21 @@ Fixpoint separates_all (sc : scene) (a b : Q) (subintervals : list subinterval) 
 
 (** ** Contact *)
 
-(** The sign of p at the root of g, or at the start. *)
+(** The sign of p on the interval, if it is seen. *)
+Definition sign_on (bisections : nat) (p : form) : option comparison :=
+  if is_positive bisections p then Some Gt
+  else if is_positive bisections (scale (-1) p) then Some Lt
+  else None.
+
+(** The sign of p at the root of g, or at the start. What costs least is tried first. *)
 Definition sign_at (g : option form) (p : form) : option comparison :=
   match g with
   | None => Some (hd 0 p ?= 0)
   | Some g =>
-      if divides p g p then Some Eq
-      else if is_positive bisections p then Some Gt
-      else if is_positive bisections (scale (-1) p) then Some Lt
-      else None
+      match sign_on 0 p with
+      | Some sign => Some sign
+      | None => if divides p g p then Some Eq else sign_on bisections p
+      end
   end.
 
 Definition is_zero_at g p := match sign_at g p with Some Eq => true | _ => false end.
@@ -305,15 +354,10 @@ Definition proves_place g (sc : scene) (D : form) (ws : list vector_form) (p : p
   | near_axes => match norm_in sc with linf => proves_axes g D ws | l2 => false end
   end.
 
-(** g_0 + g_1 t + … as a form: t = (a r + b s) / m, times m^n. What it says of t is of no account: any
-    form that changes its sign will do. *)
-Fixpoint on_interval (ms : list moment) (g : list Z) : form :=
-  match g with
-  | [] => []
-  | c :: g' =>
-      let power := fold_left (fun x _ => mul x (moving ms 1 1)) g' [1] in
-      add (scale c power) (mul (moving ms 0 1) (on_interval ms g'))
-  end.
+(** g_0 + g_1 t + … as a form, enlarged. What it says of t is of no account: any form that changes its
+    sign will do. *)
+Definition on_interval (ms : interval) (g : list Z) : form :=
+  substitute (powers (add (fst ms) (snd ms)) g) (snd ms) g.
 
 (** A contact in [a,b]. *)
 Definition proves_contact (sc : scene) (a b : Q) (c : contact_proof) : bool :=

@@ -172,6 +172,113 @@ Proof. unfold at_u. cbn [value length]. simpl. ring. Qed.
 Lemma at_u_linear u a b : at_u u [a; b] = (1 - u) * IZR a + u * IZR b.
 Proof. unfold at_u. cbn [value length]. simpl. ring. Qed.
 
+(** ** Substitution
+
+    A form of r and s, where these are forms themselves. *)
+
+(** The powers of r that belong to the coefficients of a form. *)
+Fixpoint powers (r f : form) : list form :=
+  match f with
+  | [] => []
+  | _ :: f' =>
+      let rest := powers r f' in
+      match rest with [] => [1%Z] | p :: _ => mul r p end :: rest
+  end.
+
+Fixpoint substitute (powers : list form) (s f : form) : form :=
+  match f, powers with
+  | c :: f', p :: rest => add_multiple c p (mul s (substitute rest s f'))
+  | _, _ => []
+  end.
+
+Section Substitution.
+Variables (r s : form) (x y : R).
+Hypothesis Hr : r <> [].
+Hypothesis Hrs : length r = length s.
+
+Let degree := pred (length r).
+
+Lemma mul_length_by_degree g b : length g = length r -> b <> [] -> length (mul g b) = (degree + length b)%nat.
+Proof.
+  unfold degree. intros E Hb. destruct g as [| c g], b as [| z b]; try congruence; [destruct r; [congruence | discriminate] |].
+  rewrite mul_length, <- E. cbn [length pred]. lia.
+Qed.
+
+Lemma powers_value c : forall f, exists p, powers r (c :: f) = p :: powers r f /\
+  value p x y = value r x y ^ length f /\ length p = S (length f * degree).
+Proof.
+  intros f. revert c. induction f as [| d f IH]; intros c.
+  - exists [1%Z]. repeat split. cbn [value length]. simpl. ring.
+  - destruct (IH d) as (p & E & V & L). exists (mul r p). split; [injection E as E'; cbn [powers]; rewrite E'; reflexivity |].
+    rewrite mul_value, V, mul_length_by_degree, L by (reflexivity || (intros ->; discriminate)).
+    cbn [length]. split; [reflexivity | lia].
+Qed.
+
+Theorem substitute_value f : value (substitute (powers r f) s f) x y = value f (value r x y) (value s x y) /\
+  length (substitute (powers r f) s f) = match f with [] => O | _ :: f' => S (length f' * degree) end.
+Proof.
+  induction f as [| c f [IH L]]; [split; reflexivity |].
+  destruct (powers_value c f) as (p & E & V & Lp). rewrite E. cbn [substitute value].
+  destruct f as [| d f].
+  - replace (mul s _) with (@nil Z) by (cbn [substitute]; destruct s; reflexivity).
+    destruct (add_multiple_nil c p x y) as [Va La]. rewrite Va, La, V, Lp. cbn [value length]. split; [ring | reflexivity].
+  - destruct (add_multiple_value c 0 x y p (mul s (substitute (powers r (d :: f)) s (d :: f)))) as [Va La].
+    + rewrite mul_length_by_degree, L, Lp; [cbn [length]; lia | congruence | intros N; rewrite N in L; discriminate].
+    + rewrite Va, La, mul_value, IH, V, mul_length_by_degree, L; [| congruence | intros N; rewrite N in L; discriminate].
+      cbn [length]. simpl (value r x y ^ 0). split; [simpl; ring | lia].
+Qed.
+End Substitution.
+
+Lemma powers_of_same_length r : forall f g, length f = length g -> powers r f = powers r g.
+Proof.
+  induction f as [| c f IH]; intros [| d g] E; try discriminate; [reflexivity |].
+  cbn [powers]. rewrite (IH g) by (cbn [length] in E; lia). reflexivity.
+Qed.
+
+(** ** Binomials *)
+
+Definition binomials (n : nat) : form := elevate n [1%Z].
+
+Lemma nth_add_multiple c : forall b t k,
+  nth k (add_multiple c b t) 0%Z = (c * nth k b 0 + nth k t 0)%Z.
+Proof.
+  induction b as [| x b IH]; intros t k; [destruct k, t; cbn [add_multiple nth]; lia |].
+  destruct t as [| y t], k; cbn [add_multiple nth]; rewrite ?IH; cbn [nth]; try lia. destruct k; lia.
+Qed.
+
+Lemma elevate_last n : forall f, elevate (S n) f = mul [1%Z; 1%Z] (elevate n f).
+Proof. induction n as [| n IH]; intros f; [reflexivity |]. exact (IH (mul [1%Z; 1%Z] f)). Qed.
+
+Lemma pascal_rule f k : nth (S k) (mul [1%Z; 1%Z] f) 0%Z = (nth k f 0 + nth (S k) f 0)%Z.
+Proof.
+  destruct f as [| x f]; [destruct k; reflexivity |]. cbn [mul nth]. rewrite nth_add_multiple.
+  destruct k as [| k]; cbn [nth mul]; [lia |]. rewrite nth_add_multiple. destruct k; cbn [nth]; lia.
+Qed.
+
+Lemma C_0 n : C n 0 = 1.
+Proof. unfold C. rewrite Nat.sub_0_r. simpl (INR (fact 0)). field. apply INR_fact_neq_0. Qed.
+
+Lemma binomials_are_C : forall n k, (k <= n)%nat -> IZR (nth k (binomials n) 0%Z) = C n k.
+Proof.
+  unfold binomials. induction n as [| n IH]; intros k Hk; [replace k with O by lia; rewrite C_0; reflexivity |].
+  rewrite elevate_last. destruct k as [| k].
+  - rewrite C_0, <- (C_0 n), <- (IH O ltac:(lia)). destruct (elevate n [1%Z]); cbn [mul nth]; [reflexivity | f_equal; lia].
+  - rewrite pascal_rule, plus_IZR, (IH k ltac:(lia)). destruct (Nat.eq_dec k n) as [-> | N].
+    + rewrite (pascal_step1 n n), (pascal_step1 (S n) (S n)), !Nat.sub_diag, !C_0, nth_overflow by
+        (rewrite ?elevate_length; cbn [length]; lia). simpl. ring.
+    + rewrite IH, pascal by lia. reflexivity.
+Qed.
+
+Lemma value_is_sum r s f : value f r s =
+  let n := (length f - 1)%nat in sum_f_R0 (fun k => IZR (nth k f 0%Z) * r ^ (n - k) * s ^ k) n.
+Proof.
+  cbv zeta. induction f as [| c f IH]; [simpl; ring |]. destruct f as [| d f]; [simpl; ring |].
+  remember (d :: f) as g. cbn [value length]. rewrite IH, (decomp_sum _ (S (length g) - 1)) by (subst g; cbn [length]; lia).
+  rewrite scal_sum. replace (S (length g) - 1)%nat with (length g) by lia.
+  replace (pred (length g)) with (length g - 1)%nat by lia. f_equal; [cbn [nth]; rewrite Nat.sub_0_r; simpl; ring |].
+  apply sum_eq. intros k Hk. cbn [nth]. replace (length g - S k)%nat with (length g - 1 - k)%nat by lia. simpl pow. ring.
+Qed.
+
 Definition is_zero (f : form) : bool := forallb (Z.eqb 0) f.
 
 Lemma is_zero_value f r s : is_zero f = true -> value f r s = 0.
@@ -305,12 +412,13 @@ Fixpoint reduce (d c : Z) (p g : form) : option form :=
   | x :: p', y :: g' => option_map (cons (d * x - c * y)%Z) (reduce d c p' g')
   end.
 
-(** True if g divides p. [steps] has as many elements as p. *)
+(** True if g divides p. [steps] has as many elements as p. Where d divides c already, p is not multiplied. *)
 Fixpoint divides (steps : list Z) (g p : form) : bool :=
   is_zero p ||
   match steps, p, g with
   | _ :: steps', c :: p', d :: g' =>
-      match reduce d c p' g' with
+      let k := (c / d)%Z in
+      match (if (k * d =? c)%Z then reduce 1 k p' g' else reduce d c p' g') with
       | Some rest => divides steps' g rest
       | None => false
       end
@@ -343,18 +451,22 @@ Proof.
   induction steps as [| x steps IH]; intros g p Hg Hroot E; cbn [divides] in E;
     apply orb_prop in E as [E | E]; try (apply is_zero_value; exact E); try discriminate E.
   destruct p as [| c p]; [reflexivity |]. destruct g as [| d g]; [discriminate |].
-  destruct (reduce d c p g) as [rest |] eqn:Er; [| discriminate].
-  specialize (IH _ _ Hg Hroot E). destruct (reduce_value d c r s _ _ _ Er) as (k & L & _ & V).
-  cbn [hd] in Hg. cbn [value] in *. rewrite L, pow_add.
-  assert (Hd : IZR d <> 0) by (intros H; apply Hg; apply eq_IZR; exact H).
-  apply (Rmult_eq_reg_l (IZR d)); [| exact Hd].
-  replace (s * value p r s) with (s * value p r s) by ring.
-  assert (IZR d * value p r s = IZR c * r ^ k * value g r s) as Hv by lra.
-  replace (IZR d * (IZR c * (r ^ length g * r ^ k) + s * value p r s))
-    with (IZR c * r ^ k * (IZR d * r ^ length g) + s * (IZR d * value p r s)) by ring.
-  rewrite Hv.
-  replace (IZR c * r ^ k * (IZR d * r ^ length g) + s * (IZR c * r ^ k * value g r s))
-    with (IZR c * r ^ k * (IZR d * r ^ length g + s * value g r s)) by ring.
+  cbv zeta in E. cbn [hd] in Hg. assert (Hd : IZR d <> 0) by (intros H; apply Hg; apply eq_IZR; exact H).
+  assert (exists d' c', d' <> 0%Z /\ IZR c * IZR d' = IZR c' * IZR d /\
+    match reduce d' c' p g with Some rest => divides steps (d :: g) rest | None => false end = true)
+    as (d' & c' & Hd' & Ec & E').
+  { destruct (_ =? c)%Z eqn:Ek; [exists 1%Z, (c / d)%Z | exists d, c]; repeat split; auto; try lia; try ring.
+    apply Z.eqb_eq in Ek. rewrite <- Ek at 1. rewrite mult_IZR. ring. }
+  clear E. destruct (reduce d' c' p g) as [rest |] eqn:Er; [| discriminate].
+  specialize (IH (d :: g) _ Hg Hroot E'). destruct (reduce_value d' c' r s _ _ _ Er) as (k & L & _ & V).
+  cbn [value] in *. rewrite L, pow_add.
+  apply (Rmult_eq_reg_l (IZR d')); [| intros H; apply Hd', eq_IZR; exact H].
+  assert (IZR d' * value p r s = IZR c' * r ^ k * value g r s) as Hv by lra.
+  replace (IZR d' * (IZR c * (r ^ length g * r ^ k) + s * value p r s))
+    with (r ^ k * r ^ length g * (IZR c * IZR d') + s * (IZR d' * value p r s)) by ring.
+  rewrite Hv, Ec.
+  replace (r ^ k * r ^ length g * (IZR c' * IZR d) + s * (IZR c' * r ^ k * value g r s))
+    with (IZR c' * r ^ k * (IZR d * r ^ length g + s * value g r s)) by ring.
   rewrite Hroot. ring.
 Qed.
 

@@ -100,12 +100,12 @@ Hypothesis Hkind : kind_of q = vertex_face.
 Hypothesis Hsc : is_scene_of sc q (Separation 0 l2).
 
 (** The form is the volume, enlarged. *)
-Lemma volume_form_value ms u k t : is_moment ms u k t ->
+Lemma volume_form_value ms u k t : is_moment ms u k t -> 0 <= t <= 1 ->
   exists n, 0 < n /\ at_u u (volume_form (corner_forms sc ms)) = n * volume q t.
 Proof.
-  intros Hms. pose proof (corner_values q _ sc ms u k t Hsc Hms) as V.
-  pose proof (size_positive q _ sc ms u k t Hsc Hms) as P. cbv zeta in V, P.
-  set (n := k * IZR (factor sc)) in *. unfold corners in V. rewrite Hkind in V. cbn [map] in V.
+  intros Hms Ht. pose proof (corner_values q _ sc ms u k t Hsc Hms Ht) as V.
+  pose proof (size_positive q _ sc ms u k t Hsc Hms Ht) as P. cbv zeta in V, P.
+  set (n := k ^ pred (length (reach sc)) * at_u t (factor sc)) in *. unfold corners in V. rewrite Hkind in V. cbn [map] in V.
   destruct (corner_forms sc ms) as [| a [| b [| c [| ? ?]]]]; cbn [map] in V; try discriminate.
   pose proof (f_equal (fun ws => nth 0 ws origin) V) as Va. pose proof (f_equal (fun ws => nth 1 ws origin) V) as Vb.
   pose proof (f_equal (fun ws => nth 2 ws origin) V) as Vc. cbn [nth] in Va, Vb, Vc. exists (n * n * n).
@@ -115,44 +115,46 @@ Proof.
   clear. intros. by_components. ring.
 Qed.
 
-Lemma keeps_volume_sound a b t : keeps_volume sc a b = true -> Q2R a <= t <= Q2R b -> 0 < volume q t.
+Lemma keeps_volume_sound a b t : keeps_volume sc a b = true -> Q2R a <= t <= Q2R b -> 0 <= t <= 1 ->
+  0 < volume q t.
 Proof.
-  unfold keeps_volume. destruct (moments [a; b]) as [ms |] eqn:Em; [| discriminate]. intros E Ht.
-  destruct (moments_of_interval _ _ _ _ Em Ht) as (u & k & Hu & Hms).
-  destruct (volume_form_value ms u k t Hms) as (n & Hn & V).
+  unfold keeps_volume. destruct (moments [a; b]) as [ms |] eqn:Em; [| discriminate]. intros E Hab Ht.
+  destruct (moments_of_interval _ _ _ _ Em Hab) as (u & k & Hu & Hms).
+  destruct (volume_form_value ms u k t Hms Ht) as (n & Hn & V).
   pose proof (is_positive_sound _ _ u E Hu) as P. rewrite V in P.
   apply Rmult_lt_reg_l with n; [exact Hn |]. lra.
 Qed.
 
 Lemma keeps_volume_in_all_sound : forall xs a b, keeps_volume_in_all sc a b xs = true ->
-  forall t, Q2R a <= t <= Q2R b -> 0 < volume q t.
+  forall t, Q2R a <= t <= Q2R b -> 0 <= t <= 1 -> 0 < volume q t.
 Proof.
-  induction xs as [| [x y] xs IH]; intros a b E t Ht; [discriminate |].
+  induction xs as [| [x y] xs IH]; intros a b E t Hab Ht; [discriminate |].
   cbn [keeps_volume_in_all] in E. rewrite !andb_true_iff in E. destruct E as ((Ex & Ek) & Er).
   apply Qeq_bool_eq, Qeq_eqR in Ex.
-  destruct (Rle_dec t (Q2R y)); [apply (keeps_volume_sound x y); [exact Ek | lra] |].
+  destruct (Rle_dec t (Q2R y)); [apply (keeps_volume_sound x y); [exact Ek | lra | exact Ht] |].
   destruct xs as [| z xs]; [apply Qeq_bool_eq, Qeq_eqR in Er; lra |].
-  apply (IH _ _ Er). lra.
+  apply (IH _ _ Er); lra.
 Qed.
 
-Lemma is_inverted_at_sound a b t : is_inverted_at sc a b t = true -> inverted_between q (Q2R a) (Q2R b).
+Lemma is_inverted_at_sound a b t : is_inverted_at sc a b t = true -> 0 <= Q2R a -> Q2R b <= 1 ->
+  inverted_between q (Q2R a) (Q2R b).
 Proof.
-  assert (S : forall g ms u k t, is_moment ms u k t -> 0 <= u <= 1 ->
+  assert (S : forall g ms u k t, is_moment ms u k t -> 0 <= t <= 1 -> 0 <= u <= 1 ->
     match g with None => u = 0 | Some g => hd 0%Z g <> 0%Z /\ at_u u g = 0 end ->
     is_not_positive_at g (volume_form (corner_forms sc ms)) = true -> volume q t <= 0).
-  { intros g ms u k x Hms Hu Hg N. destruct (volume_form_value ms u k x Hms) as (n & Hn & V).
+  { intros g ms u k x Hms Hx Hu Hg N. destruct (volume_form_value ms u k x Hms Hx) as (n & Hn & V).
     pose proof (not_positive_at u Hu g Hg _ N) as P. rewrite V in P. nra. }
-  unfold is_inverted_at. destruct t as [t | lower upper g]; intros E.
+  unfold is_inverted_at. destruct t as [t | lower upper g]; intros E Ha Hb.
   - destruct (moments [t]) as [ms |] eqn:Em; [| rewrite andb_false_r in E; discriminate].
     rewrite !andb_true_iff in E. destruct E as ((Ea & Eb) & Ep).
     apply Qle_bool_iff, Qle_Rle in Ea, Eb. destruct (moments_of_time _ _ Em) as (k & Hms).
-    exists (Q2R t). split; [lra |]. exact (S None ms 0 k _ Hms ltac:(lra) eq_refl Ep).
+    exists (Q2R t). split; [lra |]. exact (S None ms 0 k _ Hms ltac:(lra) ltac:(lra) eq_refl Ep).
   - destruct (moments [lower; upper]) as [ms |] eqn:Em; [| rewrite andb_false_r in E; discriminate].
     rewrite !andb_true_iff in E. destruct E as (((Ea & Eab) & Eb) & Eg & Ep).
     apply Qle_bool_iff, Qle_Rle in Ea, Eb, Eab.
     destruct (changes_sign_sound _ Eg) as (H0 & u & Hu & Hr).
-    destruct (moments_at_u _ _ _ u Em Hu Eab) as (k & t & Hms & Ht).
-    exists t. split; [lra |]. exact (S (Some (on_interval ms g)) ms u k t Hms Hu (conj H0 Hr) Ep).
+    destruct (moments_at_u _ _ _ u Em) as (k & Hms). eexists. split; [|
+      exact (S (Some (on_interval ms g)) ms u k _ Hms ltac:(nra) Hu (conj H0 Hr) Ep)]. nra.
 Qed.
 End Tetrahedron.
 
@@ -162,20 +164,22 @@ Theorem check_inversion_sound q c intervals t :
 Proof.
   unfold check_inversion. destruct (kind_of q) eqn:K; [| discriminate].
   destruct (scene_of q (Separation 0 l2)) as [sc |] eqn:E; [| discriminate]. apply scene_of_sound in E.
+  pose proof Q2R_0 as E0. pose proof Q2R_1 as E1.
   assert (C : forall a b, match t with Some t => is_inverted_at sc a b t | None => false end = true ->
-    inverted_between q (Q2R a) (Q2R b)).
+    0 <= Q2R a -> Q2R b <= 1 -> inverted_between q (Q2R a) (Q2R b)).
   { intros a b Ec. destruct t; [| discriminate]. eapply is_inverted_at_sound; eassumption. }
   destruct c as [| | lower upper]; cbv zeta; intros Ec; cbn [holds_of_element].
-  - intros x Hx. apply (keeps_volume_in_all_sound q sc K E _ _ _ Ec). rewrite Q2R_0, Q2R_1. exact Hx.
-  - rewrite <- Q2R_0, <- Q2R_1. exact (C _ _ Ec).
-  - destruct (Qeq_bool lower 0 && Qeq_bool upper 0) eqn:E0.
-    + apply andb_prop in E0 as [El Eu]. apply Qeq_bool_eq, Qeq_eqR in El, Eu.
-      rewrite El, Eu, Q2R_0. apply C in Ec. rewrite Q2R_0 in Ec. repeat split; auto; lra.
-    + rewrite !andb_true_iff in Ec. destruct Ec as ((((E1 & E2) & E3) & E4) & E5).
-      apply Qle_bool_iff, Qle_Rle in E1, E2. rewrite Q2R_0 in E1. rewrite Q2R_1 in E2.
-      repeat split; [exact (C _ _ E5) | exact E1 | exact E2 |]. right. split.
-      * apply Rnot_le_lt. intros L. apply Rle_Qle in L. apply Qle_bool_iff in L. rewrite L in E3. discriminate.
-      * intros x Hx. apply (keeps_volume_in_all_sound q sc K E _ _ _ E4). rewrite Q2R_0. exact Hx.
+  - intros x Hx. apply (keeps_volume_in_all_sound q sc K E _ _ _ Ec); lra.
+  - rewrite <- E0, <- E1. apply (C _ _ Ec); lra.
+  - destruct (Qeq_bool lower 0 && Qeq_bool upper 0) eqn:El.
+    + apply andb_prop in El as [El Eu]. apply Qeq_bool_eq, Qeq_eqR in El, Eu.
+      rewrite El, Eu. apply C in Ec; [| lra ..]. rewrite E0 in *. repeat split; auto; lra.
+    + rewrite !andb_true_iff in Ec. destruct Ec as ((((Hl & Hu) & Hlu) & Es) & Ec).
+      apply Qle_bool_iff, Qle_Rle in Hl, Hu. rewrite E0 in Hl. rewrite E1 in Hu.
+      repeat split; [apply (C _ _ Ec); assumption | exact Hl | exact Hu |]. right.
+      assert (Q2R lower < Q2R upper) by (apply Rnot_le_lt; intros L; apply Rle_Qle in L;
+        apply Qle_bool_iff in L; rewrite L in Hlu; discriminate).
+      split; [assumption |]. intros x Hx. apply (keeps_volume_in_all_sound q sc K E _ _ _ Es); lra.
 Qed.
 
 Print Assumptions check_inversion_sound.

@@ -1,12 +1,14 @@
 (** The problem, and what a certificate claims of it: all that has to be read to understand the
     theorem of Proof.v.
 
-    Four points move on straight lines, x(t) = (1-t) x(0) + t x(1) for t in [0,1]; their coordinates
-    are rational. [F] is the difference of a point of the one primitive and a point of the other, as
+    Four points move on Bézier curves, x(t) = Σ B_k(t) ω_k b_k / Σ B_k(t) ω_k for t in [0,1]. The
+    control points b_0 … b_n are rational, and the weights ω_k, all positive; if these are equal the curve is
+    a polynomial. [F] is the difference of a point of the one primitive and a point of the other, as
     in Wang et al. 2021, equations 3 and 4. There is a contact at the time t within the distance d if
     a difference is not longer than d. *)
 
-Require Import Reals QArith Qreals.
+Require Import Reals QArith Qreals List.
+Import ListNotations.
 Open Scope R_scope.
 
 (** ** Vectors *)
@@ -38,16 +40,27 @@ Definition length_of (n : norm) (a : vector) : R :=
 
 Inductive kind := vertex_face | edge_edge.
 
-(** The coordinates at t=0 and at t=1. *)
-Record motion := Motion { at_start : triple Q; at_end : triple Q }.
+(** The control points, in the order of time: one more than the degree. *)
+Record control := Control { point_of : triple Q; weight_of : Q }.
+Definition motion := list control.
 
 (** The four points: v f0 f1 f2, or ea0 ea1 eb0 eb1. *)
 Record query := Query { kind_of : kind; point0 : motion; point1 : motion; point2 : motion; point3 : motion }.
 
-Definition to_vector (a : triple Q) : vector := Triple (Q2R (x_of a)) (Q2R (y_of a)) (Q2R (z_of a)).
+(** The Bernstein polynomials B_k of degree n; [C] is the binomial coefficient. *)
+Definition bernstein (n k : nat) (t : R) : R := C n k * (1 - t) ^ (n - k) * t ^ k.
+
+Definition bernstein_sum (c : list R) (t : R) : R :=
+  let n := (length c - 1)%nat in sum_f_R0 (fun k => bernstein n k t * nth k c 0) n.
 
 Definition position (m : motion) (t : R) : vector :=
-  plus (times (1 - t) (to_vector (at_start m))) (times t (to_vector (at_end m))).
+  let sum (f : control -> R) := bernstein_sum (map f m) t in
+  let weight (p : control) := Q2R (weight_of p) in
+  let mean (x : triple Q -> Q) := sum (fun p => weight p * Q2R (x (point_of p))) / sum weight in
+  Triple (mean x_of) (mean y_of) (mean z_of).
+
+(** On a straight line x(t) = (1-t) a + t b: [straight_line] of Proof.v. *)
+Definition straight (a b : triple Q) : motion := [Control a 1; Control b 1].
 
 (** The parameters of a point of the triangle, or of both edges. *)
 Definition in_domain (k : kind) (u v : R) : Prop :=

@@ -39,82 +39,178 @@ Proof.
   rewrite <- E at 2. rewrite !mult_IZR. field. apply not_0_IZR. lia.
 Qed.
 
-Definition to_R (a : triple Z) : vector := Triple (IZR (x_of a)) (IZR (y_of a)) (IZR (z_of a)).
+(** ** Curves *)
+
+Lemma nth_times_each a b k : length a = length b ->
+  nth k (times_each a b) 0%Z = (nth k a 0 * nth k b 0)%Z.
+Proof.
+  intros L. unfold times_each. change 0%Z with ((fun p : Z * Z => (fst p * snd p)%Z) (0, 0)%Z).
+  rewrite map_nth, combine_nth by exact L. reflexivity.
+Qed.
+
+Lemma length_times_each a b : length a = length b -> length (times_each a b) = length a.
+Proof. intros L. unfold times_each. rewrite map_length, combine_length, L. apply Nat.min_id. Qed.
+
+(** Forms with binomials are Bernstein sums. *)
+Lemma bernstein_form k t (z : list Z) (y : list R) : (length z > 0)%nat -> map IZR z = map (Rmult k) y ->
+  at_u t (times_each (binomials (length z - 1)) z) = k * bernstein_sum y t.
+Proof.
+  intros L E. assert (Ly : length z = length y) by (rewrite <- (map_length IZR z), E; apply map_length).
+  assert (Lb : length (binomials (length z - 1)) = length z)
+    by (unfold binomials; rewrite elevate_length; cbn [length]; lia).
+  unfold at_u, bernstein_sum. rewrite value_is_sum, length_times_each, Lb, <- Ly by exact Lb. cbv zeta.
+  rewrite scal_sum. apply sum_eq. intros i Hi. rewrite nth_times_each, mult_IZR, binomials_are_C by (exact Lb || lia).
+  assert (Ei : IZR (nth i z 0%Z) = k * nth i y 0).
+  { rewrite <- (map_nth IZR), E. rewrite <- (map_nth (Rmult k)). rewrite Rmult_0_r. reflexivity. }
+  rewrite Ei. unfold bernstein. ring.
+Qed.
+
+(** A fraction stands for a position, enlarged by m. *)
+Definition is_fraction_of (p : fraction) (m : Z) (x : vector) (t : R) : Prop :=
+  at_u t (denominator p) <> 0 ->
+  vector_at t (numerator p) = times (IZR m * at_u t (denominator p)) x.
+
+Lemma times_each_of_maps {A} (f g : A -> Z) l : times_each (map f l) (map g l) = map (fun x => (f x * g x)%Z) l.
+Proof. induction l as [| x l IH]; [reflexivity |]. cbn [map]. rewrite <- IH. reflexivity. Qed.
+
+Lemma times_each_associative : forall a b c, times_each (times_each a b) c = times_each a (times_each b c).
+Proof.
+  unfold times_each. induction a as [| x a IH]; intros [| y b] [| z c]; try reflexivity.
+  cbn [combine map fst snd]. rewrite IH, Z.mul_assoc. reflexivity.
+Qed.
+
+Lemma times_each_1 : forall b a, length a = length b -> forallb (Z.eqb 1) b = true -> times_each a b = a.
+Proof.
+  induction b as [| y b IH]; intros [| x a] L E; try discriminate; [reflexivity |].
+  cbn [forallb] in E. apply andb_prop in E as [Ey E]. apply Z.eqb_eq in Ey. subst y.
+  unfold times_each in *. cbn [combine map fst snd]. rewrite IH by (auto; cbn [length] in L; lia). f_equal. lia.
+Qed.
+
+Definition coordinates_of (p : motion) : list Q :=
+  flat_map (fun p => [x_of (point_of p); y_of (point_of p); z_of (point_of p)]) p.
+
+Lemma fraction_of_sound m p t : are_weights (map weight_of p) = true ->
+  forallb (is_multiple m) (coordinates_of p) = true ->
+  is_fraction_of (fraction_of m p) m (position p t) t.
+Proof.
+  unfold are_weights, fraction_of, is_fraction_of. rewrite map_length, !andb_true_iff.
+  intros ((L & _) & W) X. cbv zeta. set (k := common_multiple _) in *.
+  assert (Lp : (length p > 0)%nat) by (destruct p; [discriminate | cbn [length]; lia]). clear L.
+  set (ws := map (scaled k) (map weight_of p)). cbn [numerator denominator].
+  assert (Lw : length ws = length p) by (unfold ws; rewrite !map_length; reflexivity).
+  rewrite forallb_forall in W, X.
+  assert (Sw : at_u t (times_each (binomials (length p - 1)) ws) =
+    IZR k * bernstein_sum (map (fun p => Q2R (weight_of p)) p) t).
+  { rewrite <- Lw. apply bernstein_form; [lia |]. unfold ws. rewrite !map_map. apply map_ext_in.
+    intros c Ic. apply scaled_is_multiple, W, in_map, Ic. }
+  assert (Sx : forall x : triple Q -> Q, (forall c, In c p -> is_multiple m (x (point_of c)) = true) ->
+    at_u t (times_each (times_each (binomials (length p - 1)) ws) (map (fun c => scaled m (x (point_of c))) p)) =
+    IZR k * IZR m * bernstein_sum (map (fun c => Q2R (weight_of c) * Q2R (x (point_of c))) p) t).
+  { intros x Ix. rewrite times_each_associative. unfold ws. rewrite map_map, times_each_of_maps.
+    rewrite <- (map_length (fun c => (scaled k (weight_of c) * scaled m (x (point_of c)))%Z) p) at 1.
+    apply bernstein_form; [rewrite map_length; exact Lp |]. rewrite !map_map. apply map_ext_in. intros c Ic.
+    rewrite mult_IZR, !scaled_is_multiple by (try apply W, in_map; auto). ring. }
+  assert (Ed : at_u t (if forallb (Z.eqb 1) ws then [1%Z] else times_each (binomials (length p - 1)) ws) =
+    IZR k * bernstein_sum (map (fun p => Q2R (weight_of p)) p) t).
+  { rewrite <- Sw. destruct (forallb _ ws) eqn:E; [| reflexivity].
+    rewrite times_each_1 by (auto; unfold binomials; rewrite elevate_length; cbn [length]; lia).
+    unfold at_u, binomials. rewrite elevate_value by ring. simpl. ring. }
+  rewrite Ed. intros N.
+  assert (I : forall c, In c p -> forall x : triple Q -> Q, In (x (point_of c))
+      [x_of (point_of c); y_of (point_of c); z_of (point_of c)] -> is_multiple m (x (point_of c)) = true).
+  { intros c Ic x Ix. apply X, in_flat_map. exists c. split; assumption. }
+  unfold vector_at, position, times. cbn [x_of y_of z_of].
+  rewrite !Sx by (intros c Ic; apply (I c Ic); cbn [In]; auto).
+  f_equal; field; intros Z; apply N; rewrite Z; ring.
+Qed.
+
+Lemma over_sound m ds p x t : is_fraction_of p m x t -> is_fraction_of (over ds p) m x t.
+Proof.
+  intros S. unfold over. induction (filter _ ds) as [| d rest IH]; [exact S |].
+  unfold is_fraction_of in *. cbn [fold_right numerator denominator]. rewrite at_u_mul, at_times.
+  intros N. rewrite IH; [clear; unfold times; cbn [x_of y_of z_of]; f_equal; ring |].
+  intros Z. apply N. rewrite Z. ring.
+Qed.
 
 (** A scene stands for a query and a separation, enlarged. *)
 Definition is_scene_of (sc : scene) (q : query) (s : separation) : Prop :=
-  (0 < factor sc)%Z /\ norm_in sc = norm_of s /\ 0 <= Q2R (distance_of s) /\
-  IZR (reach sc) = IZR (factor sc) * Q2R (distance_of s) /\
-  forall t, map (fun w => plus (times (1 - t) (to_R (fst w))) (times t (to_R (snd w)))) (ends sc) =
-            map (times (IZR (factor sc))) (corners q t).
+  norm_in sc = norm_of s /\ 0 <= Q2R (distance_of s) /\
+  (forall w, In w (corners_in sc) -> of_length (length (reach sc)) w = true) /\
+  forall t, 0 <= t <= 1 -> 0 < at_u t (factor sc) /\
+    at_u t (reach sc) = at_u t (factor sc) * Q2R (distance_of s) /\
+    map (vector_at t) (corners_in sc) = map (times (at_u t (factor sc))) (corners q t).
 
-Lemma difference_value m a b :
-  forallb (is_multiple m) [x_of a; y_of a; z_of a] = true ->
-  forallb (is_multiple m) [x_of b; y_of b; z_of b] = true ->
-  to_R (difference m a b) = times (IZR m) (minus (to_vector a) (to_vector b)).
-Proof.
-  cbn [forallb]. rewrite !andb_true_iff. intros (A1 & A2 & A3 & _) (B1 & B2 & B3 & _).
-  unfold to_R, difference, to_vector, times, minus. cbn [x_of y_of z_of].
-  rewrite !minus_IZR, !scaled_is_multiple by assumption. f_equal; ring.
-Qed.
+Lemma at_elevated n t f : at_u t (elevated_to n f) = at_u t f.
+Proof. apply elevate_value. ring. Qed.
 
-Lemma corner_ends_value m a b t :
-  forallb (is_multiple m) [x_of (at_start a); y_of (at_start a); z_of (at_start a);
-    x_of (at_end a); y_of (at_end a); z_of (at_end a)] = true ->
-  forallb (is_multiple m) [x_of (at_start b); y_of (at_start b); z_of (at_start b);
-    x_of (at_end b); y_of (at_end b); z_of (at_end b)] = true ->
-  let w := corner_ends m a b in
-  plus (times (1 - t) (to_R (fst w))) (times t (to_R (snd w))) =
-  times (IZR m) (minus (position a t) (position b t)).
+Lemma at_even n t w : vector_at t (Triple (elevated_to n (x_of w)) (elevated_to n (y_of w))
+  (elevated_to n (z_of w))) = vector_at t w.
+Proof. unfold vector_at. cbn [x_of y_of z_of]. rewrite !at_elevated. reflexivity. Qed.
+
+Lemma minus_times k a b : minus (times k a) (times k b) = times k (minus a b).
+Proof. by_components. f_equal; ring. Qed.
+
+Lemma same_denominator f g t : is_same f g = true -> at_u t f = at_u t g.
 Proof.
-  intros A B. cbn [forallb] in A, B. rewrite !andb_true_iff in A, B.
-  unfold corner_ends. cbn [fst snd]. rewrite !difference_value by (cbn [forallb]; rewrite !andb_true_iff; tauto).
-  unfold position, plus, minus, times. cbn [x_of y_of z_of]. f_equal; ring.
+  intros E. apply (is_zero_value _ (1 - t) t) in E. fold (at_u t (sub f g)) in E. rewrite at_u_sub in E. lra.
 Qed.
 
 Lemma scene_of_sound q s sc : scene_of q s = Some sc -> is_scene_of sc q s.
 Proof.
-  unfold scene_of. generalize (common_multiple (distance_of s :: coordinates q)). intros m. destruct (_ && _ && _) eqn:E; [| discriminate].
-  apply andb_prop in E as [E Ed]. apply andb_prop in E as [Em E]. apply Z.ltb_lt in Em.
-  cbn [forallb] in E. apply andb_prop in E as [Es E]. unfold coordinates in E.
-  cbn [flat_map] in E. rewrite !forallb_app, !andb_true_iff in E.
-  destruct E as (E0 & E1 & E2 & E3 & _).
-  intros H. inversion H; subst sc; clear H. unfold is_scene_of.
-  cbn [factor ends reach norm_in].
+  unfold scene_of. cbv zeta. generalize (common_multiple (distance_of s :: coordinates q)). intros m.
+  destruct (_ && _ && _ && _) eqn:E; [| discriminate].
+  rewrite !andb_true_iff in E. destruct E as (((Em & E) & Ew) & Ed). apply Z.ltb_lt in Em.
+  cbn [forallb] in E, Ew. rewrite !andb_true_iff in Ew. destruct Ew as (W0 & W1 & W2 & W3 & _).
+  apply andb_prop in E as [Es E]. unfold coordinates in E. cbn [flat_map] in E.
+  rewrite !forallb_app, !andb_true_iff in E. destruct E as (E0 & E1 & E2 & E3 & _).
+  cbn [map]. set (ds := distinct _). clearbody ds.
+  pose proof (fun t => over_sound m ds _ _ t (fraction_of_sound m _ t W0 E0)) as P0.
+  pose proof (fun t => over_sound m ds _ _ t (fraction_of_sound m _ t W1 E1)) as P1.
+  pose proof (fun t => over_sound m ds _ _ t (fraction_of_sound m _ t W2 E2)) as P2.
+  pose proof (fun t => over_sound m ds _ _ t (fraction_of_sound m _ t W3 E3)) as P3.
+  set (p0 := over ds _) in *. set (p1 := over ds (fraction_of m (point1 q))) in *.
+  set (p2 := over ds (fraction_of m (point2 q))) in *. set (p3 := over ds (fraction_of m (point3 q))) in *.
+  clearbody p0 p1 p2 p3.
+  destruct (_ && _ && _) eqn:E; [| discriminate]. rewrite !andb_true_iff in E. destruct E as ((Es' & Ep) & El).
+  cbn [forallb] in Es'. rewrite !andb_true_iff in Es'. destruct Es' as (S1 & S2 & S3 & _).
+  intros H. inversion H; subst sc; clear H. unfold is_scene_of. cbn [factor corners_in reach norm_in].
   apply Qle_bool_iff, Qle_Rle in Ed. replace (Q2R 0) with 0 in Ed by (unfold Q2R; cbn; lra).
-  repeat split; auto.
-  - apply scaled_is_multiple. exact Es.
-  - intros t. unfold corners. destruct (kind_of q); cbn [map];
-      rewrite !corner_ends_value by assumption; reflexivity.
+  split; [reflexivity |]. split; [exact Ed |]. rewrite forallb_forall in El. 
+  split; [exact El |]. intros t Ht. pose proof (is_positive_sound _ _ t Ep Ht) as Hp.
+  rewrite at_elevated, !at_u_scale, scaled_is_multiple by exact Es.
+  split; [apply Rmult_lt_0_compat; [apply IZR_lt; exact Em | exact Hp] |]. split; [ring |].
+  specialize (P0 t ltac:(lra)). specialize (P1 t). specialize (P2 t). specialize (P3 t).
+  unfold is_fraction_of in P1, P2, P3. rewrite (same_denominator _ _ t S1) in P1.
+  rewrite (same_denominator _ _ t S2) in P2. rewrite (same_denominator _ _ t S3) in P3.
+  specialize (P1 ltac:(lra)). specialize (P2 ltac:(lra)). specialize (P3 ltac:(lra)).
+  unfold corners. destruct (kind_of q); cbn [map];
+    rewrite !at_even, !at_minus, ?P0, ?P1, ?P2, ?P3, !minus_times; reflexivity.
 Qed.
 
-(** Moments stand for the time t at u, enlarged by k. *)
-Definition is_moment (ms : list moment) (u k t : R) : Prop :=
-  0 < k /\ forall a b, at_u u (moving ms a b) = k * ((1 - t) * IZR a + t * IZR b).
+(** An interval at u stands for the time t, enlarged by k. *)
+Definition is_moment (ms : interval) (u k t : R) : Prop :=
+  0 < k /\ at_u u (fst ms) = k * (1 - t) /\ at_u u (snd ms) = k * t /\
+  fst ms <> [] /\ length (fst ms) = length (snd ms).
+
+Lemma moments_at_u a b ms u : moments [a; b] = Some ms ->
+  exists k, is_moment ms u k ((1 - u) * Q2R a + u * Q2R b).
+Proof.
+  unfold moments. generalize (common_multiple [a; b]). intros m. destruct (_ && _) eqn:E; [| discriminate].
+  cbn [forallb] in E. rewrite !andb_true_iff in E. destruct E as (Em & Ea & Eb & _).
+  apply Z.ltb_lt, IZR_lt in Em. intros H. inversion H; subst ms; clear H.
+  exists (IZR m). unfold is_moment. cbn [map fst snd]. rewrite !at_u_linear, !minus_IZR, !scaled_is_multiple by assumption.
+  repeat split; try exact Em; try discriminate; ring.
+Qed.
 
 Lemma moments_of_interval a b ms t : moments [a; b] = Some ms -> Q2R a <= t <= Q2R b ->
   exists u k, 0 <= u <= 1 /\ is_moment ms u k t.
 Proof.
-  unfold moments. generalize (common_multiple [a; b]). intros m. destruct (_ && _) eqn:E; [| discriminate].
-  cbn [forallb] in E. rewrite !andb_true_iff in E. destruct E as (Em & Ea & Eb & _).
-  apply Z.ltb_lt, IZR_lt in Em. intros H. inversion H; subst ms; clear H. intros Ht.
+  intros E Ht.
   assert (exists u, 0 <= u <= 1 /\ t = (1 - u) * Q2R a + u * Q2R b) as (u & Hu & ->).
-  { destruct (Req_dec (Q2R a) (Q2R b)) as [E | N]; [exists 0; split; [lra |]; lra |].
+  { destruct (Req_dec (Q2R a) (Q2R b)) as [E' | N]; [exists 0; split; lra |].
     exists ((t - Q2R a) / (Q2R b - Q2R a)). split; [| field; lra].
     apply quotient_in_unit with (Q2R b - t); lra. }
-  exists u, (IZR m). split; [exact Hu |]. split; [exact Em |]. intros x y. cbn [map moving fst snd].
-  rewrite at_u_linear, !plus_IZR, !mult_IZR, !minus_IZR, !scaled_is_multiple by assumption. ring.
-Qed.
-
-Lemma moments_at_u a b ms u : moments [a; b] = Some ms -> 0 <= u <= 1 -> Q2R a <= Q2R b ->
-  exists k t, is_moment ms u k t /\ Q2R a <= t <= Q2R b.
-Proof.
-  unfold moments. generalize (common_multiple [a; b]). intros m. destruct (_ && _) eqn:E; [| discriminate].
-  cbn [forallb] in E. rewrite !andb_true_iff in E. destruct E as (Em & Ea & Eb & _).
-  apply Z.ltb_lt, IZR_lt in Em. intros H. inversion H; subst ms; clear H. intros Hu Hab.
-  exists (IZR m), ((1 - u) * Q2R a + u * Q2R b). split; [| nra].
-  split; [exact Em |]. intros x y. cbn [map moving fst snd].
-  rewrite at_u_linear, !plus_IZR, !mult_IZR, !minus_IZR, !scaled_is_multiple by assumption. ring.
+  exists u. destruct (moments_at_u a b ms u E) as (k & M). exists k. split; assumption.
 Qed.
 
 Lemma moments_of_time a ms : moments [a] = Some ms -> exists k, is_moment ms 0 k (Q2R a).
@@ -122,43 +218,53 @@ Proof.
   unfold moments. generalize (common_multiple [a]). intros m. destruct (_ && _) eqn:E; [| discriminate].
   cbn [forallb] in E. rewrite !andb_true_iff in E. destruct E as (Em & Ea & _).
   apply Z.ltb_lt, IZR_lt in Em. intros H. inversion H; subst ms; clear H.
-  exists (IZR m). split; [exact Em |]. intros x y. cbn [map moving fst snd].
-  rewrite at_u_constant, !plus_IZR, !mult_IZR, !minus_IZR, !scaled_is_multiple by assumption. ring.
+  exists (IZR m). unfold is_moment. cbn [map fst snd]. rewrite !at_u_constant, !minus_IZR, !scaled_is_multiple by assumption.
+  repeat split; try exact Em; try discriminate; ring.
 Qed.
 
 (** ** What a scene is at a moment *)
 
 Section Moment.
-Variables (q : query) (s : separation) (sc : scene) (ms : list moment) (u k t : R).
+Variables (q : query) (s : separation) (sc : scene) (ms : interval) (u k t : R).
 Hypothesis Hsc : is_scene_of sc q s.
 Hypothesis Hms : is_moment ms u k t.
+Hypothesis Ht : 0 <= t <= 1.
 
 Let ws := corner_forms sc ms.
 Let D := reach_form sc ms.
 (** The factor by which all is enlarged. *)
-Let size := k * IZR (factor sc).
+Let size := k ^ pred (length (reach sc)) * at_u t (factor sc).
 
 Lemma size_positive : 0 < size.
 Proof.
-  unfold size. destruct Hsc as (H & _), Hms as (Hk & _). apply IZR_lt in H.
-  apply Rmult_lt_0_compat; assumption.
+  destruct Hsc as (_ & _ & _ & E), Hms as (Hk & _). destruct (E t Ht) as (H & _).
+  apply Rmult_lt_0_compat; [apply pow_lt; exact Hk | exact H].
+Qed.
+
+Lemma restrict_value f : length f = length (reach sc) ->
+  at_u u (restrict sc ms f) = k ^ pred (length (reach sc)) * at_u t f.
+Proof.
+  destruct Hms as (_ & Er & Es & Hr & Hrs). unfold restrict. intros L.
+  rewrite <- L, (powers_of_same_length _ _ f) by (symmetry; exact L). unfold at_u in *.
+  rewrite (proj1 (substitute_value _ _ _ _ Hr Hrs f)), Er, Es.
+  destruct f as [| c f]; [cbn [value]; ring | apply value_homogeneous].
 Qed.
 
 Lemma reach_value : at_u u D = size * Q2R (distance_of s).
 Proof.
-  unfold D, reach_form, size. destruct Hsc as (_ & _ & _ & E & _), Hms as (_ & M).
-  rewrite M. replace ((1 - t) * IZR (reach sc) + t * IZR (reach sc)) with (IZR (reach sc)) by ring.
-  rewrite E. ring.
+  destruct Hsc as (_ & _ & _ & E). destruct (E t Ht) as (_ & Er & _).
+  unfold D, reach_form, size. rewrite restrict_value, Er by reflexivity. ring.
 Qed.
 
 Lemma corner_values : map (vector_at u) ws = map (times size) (corners q t).
 Proof.
-  destruct Hsc as (_ & _ & _ & _ & E), Hms as (_ & M). specialize (E t).
-  unfold ws, corner_forms. rewrite map_map.
-  assert (map (times size) (corners q t) = map (times k) (map (times (IZR (factor sc))) (corners q t))) as ->.
+  destruct Hsc as (_ & _ & L & E). destruct (E t Ht) as (_ & _ & Ec).
+  assert (map (times size) (corners q t) =
+    map (times (k ^ pred (length (reach sc)))) (map (times (at_u t (factor sc))) (corners q t))) as ->.
   { rewrite map_map. apply map_ext. intros a. unfold size. clear. by_components. f_equal; ring. }
-  rewrite <- E, map_map. apply map_ext. intros [a b]. unfold vector_at, corner, to_R, plus, times.
-  cbn [x_of y_of z_of fst snd]. rewrite !M. f_equal; ring.
+  rewrite <- Ec. unfold ws, corner_forms. cbv zeta. rewrite !map_map. apply map_ext_in. intros w Iw.
+  specialize (L w Iw). unfold of_length in L. rewrite !andb_true_iff, !Nat.eqb_eq in L. destruct L as ((Lx & Ly) & Lz).
+  unfold vector_at, times. cbn [x_of y_of z_of]. rewrite !restrict_value by assumption. reflexivity.
 Qed.
 
 Lemma corner_of_form w : In w ws -> exists y, In y (corners q t) /\ vector_at u w = times size y.
@@ -282,22 +388,29 @@ Variable g : option form.
 (** The time of the contact is that of the form g, or the start. *)
 Hypothesis Hg : match g with None => u = 0 | Some g => hd 0%Z g <> 0%Z /\ at_u u g = 0 end.
 
-Lemma sign_at_sound p : match sign_at g p with
+Definition has_sign (p : form) (sign : option comparison) : Prop :=
+  match sign with
   | Some Eq => at_u u p = 0 | Some Gt => 0 < at_u u p | Some Lt => at_u u p < 0 | None => True end.
+
+Lemma sign_on_sound n p : has_sign p (sign_on n p).
+Proof.
+  unfold sign_on. destruct (is_positive n p) eqn:E1; [eapply is_positive_sound; eassumption |].
+  destruct (is_positive n (scale (-1) p)) eqn:E2; [| exact I].
+  pose proof (is_positive_sound _ _ u E2 Hu) as P. rewrite at_u_scale in P. cbn [has_sign]. lra.
+Qed.
+
+Lemma sign_at_sound p : has_sign p (sign_at g p).
 Proof.
   unfold sign_at. destruct g as [h |].
-  - destruct Hg as [H0 Hr]. destruct (divides p h p) eqn:E.
-    + eapply divides_sound; eassumption.
-    + destruct (is_positive _ p) eqn:E1; [eapply is_positive_sound; eassumption |].
-      destruct (is_positive _ (scale (-1) p)) eqn:E2; [| exact I].
-      pose proof (is_positive_sound _ _ u E2 Hu) as P. rewrite at_u_scale in P. lra.
-  - rewrite Hg. assert (at_u 0 p = IZR (hd 0%Z p)) as ->.
+  - destruct Hg as [H0 Hr]. pose proof (sign_on_sound 0 p) as S. destruct (sign_on 0 p); [exact S |].
+    destruct (divides p h p) eqn:E; [eapply divides_sound; eassumption | apply sign_on_sound].
+  - unfold has_sign. rewrite Hg. assert (at_u 0 p = IZR (hd 0%Z p)) as ->.
     { unfold at_u. destruct p as [| c p]; cbn [value hd]; [reflexivity |].
       rewrite Rminus_0_r, pow1. ring. }
     destruct (Z.compare_spec (hd 0%Z p) 0) as [-> | L | L]; [reflexivity | |]; apply IZR_lt in L; exact L.
 Qed.
 
-Ltac sign_of p := pose proof (sign_at_sound p); destruct (sign_at g p) as [[] |]; try discriminate; lra.
+Ltac sign_of p := pose proof (sign_at_sound p); unfold has_sign in *; destruct (sign_at g p) as [[] |]; try discriminate; lra.
 Lemma zero_at p : is_zero_at g p = true -> at_u u p = 0.
 Proof. unfold is_zero_at. intros. sign_of p. Qed.
 Lemma positive_at p : is_positive_at g p = true -> 0 < at_u u p.
@@ -314,7 +427,7 @@ Definition is_contact_seen : Prop := exists x, H x /\ length_of (norm_of s) x <=
 
 Lemma distance_not_negative : 0 <= at_u u D.
 Proof.
-  rewrite reach_value. destruct Hsc as (_ & _ & Hd & _). pose proof size_positive.
+  rewrite reach_value. destruct Hsc as (_ & Hd & _). pose proof size_positive.
   apply Rmult_le_pos; lra.
 Qed.
 
@@ -475,51 +588,50 @@ Proof.
   - eapply vertex_sound; [apply G | exact E].
   - eapply edge_sound; [apply G .. | exact E].
   - apply face_sound. exact E.
-  - destruct Hsc as (_ & Hn & _). rewrite Hn in E. apply axes_sound; destruct (norm_of s); auto; discriminate.
+  - destruct Hsc as (Hn & _). rewrite Hn in E. apply axes_sound; destruct (norm_of s); auto; discriminate.
 Qed.
 End Moment.
 
 (** ** The claims *)
 
 Lemma separates_sound q s sc x : is_scene_of sc q s -> separates sc x = true ->
-  forall t, Q2R (from x) <= t <= Q2R (to x) -> ~ contact q s t.
+  forall t, Q2R (from x) <= t <= Q2R (to x) -> 0 <= t <= 1 -> ~ contact q s t.
 Proof.
-  intros Hsc E t Ht. unfold separates in E.
+  intros Hsc E t Hx Ht. unfold separates in E.
   destruct (moments [from x; to x]) as [ms |] eqn:Em; [| discriminate].
-  destruct (moments_of_interval _ _ _ _ Em Ht) as (u & k & Hu & Hms).
-  pose proof Hsc as (_ & Hn & _). rewrite Hn in E.
-  exact (beyond_corners_no_contact q s sc ms u k t Hsc Hms Hu _ E).
+  destruct (moments_of_interval _ _ _ _ Em Hx) as (u & k & Hu & Hms).
+  pose proof Hsc as (Hn & _). rewrite Hn in E.
+  exact (beyond_corners_no_contact q s sc ms u k t Hsc Hms Ht Hu _ E).
 Qed.
 
 Lemma separates_all_sound q s sc : is_scene_of sc q s -> forall xs a b,
-  separates_all sc a b xs = true -> forall t, Q2R a <= t <= Q2R b -> ~ contact q s t.
+  separates_all sc a b xs = true -> forall t, Q2R a <= t <= Q2R b -> 0 <= t <= 1 -> ~ contact q s t.
 Proof.
-  intros Hsc. induction xs as [| x xs IH]; intros a b E t Ht; [discriminate |].
+  intros Hsc. induction xs as [| x xs IH]; intros a b E t Hab Ht; [discriminate |].
   cbn [separates_all] in E. apply andb_prop in E as [E Er]. rewrite !andb_true_iff in E.
   destruct E as ((Ea & _) & Es). apply Qeq_bool_eq, Qeq_eqR in Ea.
   destruct (Rle_dec t (Q2R (to x))) as [Hle | Hgt].
-  - apply (separates_sound q s sc x Hsc Es). lra.
+  - apply (separates_sound q s sc x Hsc Es); lra.
   - destruct xs as [| y xs].
     + apply Qeq_bool_eq, Qeq_eqR in Er. lra.
-    + apply (IH _ _ Er). lra.
+    + apply (IH _ _ Er); lra.
 Qed.
 
 Lemma contact_sound q s sc a b c : is_scene_of sc q s -> proves_contact sc a b c = true ->
-  contact_between q s (Q2R a) (Q2R b).
+  0 <= Q2R a -> Q2R b <= 1 -> contact_between q s (Q2R a) (Q2R b).
 Proof.
-  intros Hsc E. unfold proves_contact in E. destruct (time_of c) as [t | lower upper g].
+  intros Hsc E Ha Hb. unfold proves_contact in E. destruct (time_of c) as [t | lower upper g].
   - destruct (moments [t]) as [ms |] eqn:Em; [| rewrite andb_false_r in E; discriminate].
     rewrite !andb_true_iff in E. destruct E as ((Ea & Eb) & Ep).
     apply Qle_bool_iff, Qle_Rle in Ea, Eb. destruct (moments_of_time _ _ Em) as (k & Hms).
     exists (Q2R t). split; [lra |].
-    apply (place_sound q s sc ms 0 k (Q2R t) Hsc Hms ltac:(lra) None eq_refl _ Ep).
+    apply (place_sound q s sc ms 0 k (Q2R t) Hsc Hms ltac:(lra) ltac:(lra) None eq_refl _ Ep).
   - destruct (moments [lower; upper]) as [ms |] eqn:Em; [| rewrite andb_false_r in E; discriminate].
     rewrite !andb_true_iff in E. destruct E as (((Ea & Eab) & Eb) & Eg & Ep).
     apply Qle_bool_iff, Qle_Rle in Ea, Eb, Eab.
     destruct (changes_sign_sound _ Eg) as (H0 & u & Hu & Hr).
-    destruct (moments_at_u _ _ _ u Em Hu Eab) as (k & t & Hms & Ht).
-    exists t. split; [lra |].
-    apply (place_sound q s sc ms u k t Hsc Hms Hu (Some (on_interval ms g)) (conj H0 Hr) _ Ep).
+    destruct (moments_at_u _ _ _ u Em) as (k & Hms). eexists. split; [|
+      apply (place_sound q s sc ms u k _ Hsc Hms ltac:(nra) Hu (Some (on_interval ms g)) (conj H0 Hr) _ Ep)]. nra.
 Qed.
 
 Lemma Q2R_0 : Q2R 0 = 0. Proof. unfold Q2R. cbn. lra. Qed.
@@ -530,21 +642,22 @@ Theorem check_sound q s c subintervals contact :
   check q s c subintervals contact = true -> holds q s c.
 Proof.
   unfold check. destruct (scene_of q s) as [sc |] eqn:E; [| discriminate].
-  apply scene_of_sound in E.
+  apply scene_of_sound in E. pose proof Q2R_0 as E0. pose proof Q2R_1 as E1.
   assert (C : forall a b, match contact with Some p => proves_contact sc a b p | None => false end = true ->
-    contact_between q s (Q2R a) (Q2R b)).
+    0 <= Q2R a -> Q2R b <= 1 -> contact_between q s (Q2R a) (Q2R b)).
   { intros a b Ec. destruct contact as [p |]; [| discriminate]. eapply contact_sound; eassumption. }
   destruct c as [| | lower upper]; cbv zeta; intros Ec; cbn [holds].
-  - unfold no_contact_until. rewrite <- Q2R_0, <- Q2R_1. exact (separates_all_sound q s sc E _ _ _ Ec).
-  - rewrite <- Q2R_0, <- Q2R_1. exact (C _ _ Ec).
-  - destruct (Qeq_bool lower 0 && Qeq_bool upper 0) eqn:E0.
-    + apply andb_prop in E0 as [El Eu]. apply Qeq_bool_eq, Qeq_eqR in El, Eu.
-      rewrite El, Eu, Q2R_0. apply C in Ec. rewrite Q2R_0 in Ec. repeat split; auto; lra.
-    + rewrite !andb_true_iff in Ec. destruct Ec as ((((E1 & E2) & E3) & E4) & E5).
-      apply Qle_bool_iff, Qle_Rle in E1, E2. rewrite Q2R_0 in E1. rewrite Q2R_1 in E2.
-      repeat split; [exact (C _ _ E5) | exact E1 | exact E2 |]. right. split.
-      * apply Rnot_le_lt. intros L. apply Rle_Qle in L. apply Qle_bool_iff in L. rewrite L in E3. discriminate.
-      * unfold no_contact_until. rewrite <- Q2R_0. exact (separates_all_sound q s sc E _ _ _ E4).
+  - intros t Ht. apply (separates_all_sound q s sc E _ _ _ Ec); lra.
+  - rewrite <- E0, <- E1. apply (C _ _ Ec); lra.
+  - destruct (Qeq_bool lower 0 && Qeq_bool upper 0) eqn:El.
+    + apply andb_prop in El as [El Eu]. apply Qeq_bool_eq, Qeq_eqR in El, Eu.
+      rewrite El, Eu. apply C in Ec; [| lra ..]. rewrite E0 in *. repeat split; auto; lra.
+    + rewrite !andb_true_iff in Ec. destruct Ec as ((((Hl & Hu) & Hlu) & Es) & Ec).
+      apply Qle_bool_iff, Qle_Rle in Hl, Hu. rewrite E0 in Hl. rewrite E1 in Hu.
+      repeat split; [apply (C _ _ Ec); assumption | exact Hl | exact Hu |]. right.
+      assert (Q2R lower < Q2R upper).
+      { apply Rnot_le_lt. intros L. apply Rle_Qle in L. apply Qle_bool_iff in L. rewrite L in Hlu. discriminate. }
+      split; [assumption |]. intros t Ht. apply (separates_all_sound q s sc E _ _ _ Es); lra.
 Qed.
 
 (** The case without a separation: the two primitives have a common point, F = 0. *)
@@ -565,5 +678,29 @@ Proof.
   apply (check_sound _ _ _ _ _ E t Ht). exists u, v. split; assumption.
 Qed.
 
+(** What is accepted is a curve: the weights are positive. *)
+Corollary accepted_weights q s c subintervals contact : check q s c subintervals contact = true ->
+  forall p, In p [point0 q; point1 q; point2 q; point3 q] ->
+  p <> [] /\ forall b, In b p -> 0 < Q2R (weight_of b).
+Proof.
+  unfold check, scene_of. cbv zeta. destruct (_ && _ && _ && _) eqn:E; [| discriminate]. intros _ p Ip.
+  rewrite !andb_true_iff, !forallb_forall in E. destruct E as ((_ & W) & _). specialize (W p Ip).
+  unfold are_weights in W. rewrite !andb_true_iff, forallb_forall in W. destruct W as ((L & W) & _).
+  split; [intros ->; discriminate |]. intros b Ib. specialize (W _ (in_map weight_of _ _ Ib)).
+  apply Rnot_le_lt. rewrite <- Q2R_0. intros N. apply Rle_Qle, Qle_bool_iff in N. rewrite N in W. discriminate.
+Qed.
+
+Definition to_vector (a : triple Q) : vector := Triple (Q2R (x_of a)) (Q2R (y_of a)) (Q2R (z_of a)).
+
+(** Straight lines are the curves of degree 1. *)
+Corollary straight_line a b t :
+  position (straight a b) t = plus (times (1 - t) (to_vector a)) (times t (to_vector b)).
+Proof.
+  unfold position, straight, bernstein_sum, bernstein, to_vector, plus, times, C.
+  cbn [map length Nat.sub sum_f_R0 nth x_of y_of z_of point_of weight_of]. rewrite Q2R_1. simpl. f_equal; field; lra.
+Qed.
+
 Print Assumptions check_sound.
 Print Assumptions contact_at_distance_0.
+Print Assumptions accepted_weights.
+Print Assumptions straight_line.

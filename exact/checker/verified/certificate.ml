@@ -6,6 +6,7 @@ let max_label_bytes = 1_024
 let max_number_bits = 16_384
 let max_subintervals = 4_096
 let max_root_degree = 256
+let max_curve_degree = 8
 let max_scaled_bits = 65_536
 
 (* The line at fault, or 0 for that at which the reader stands, and the reason. *)
@@ -350,13 +351,39 @@ let read_contact ?(is_tetrahedron = false) r kind =
   end_line r;
   { time_of; place_of }
 
-let read_point r =
+let weight_1 = to_coq Q.one
+
+(* A line `point X Y Z`, or `point X Y Z W` on a rational curve. *)
+let read_point r is_rational =
   begin_keyword r "point";
   let x_of = to_coq (take_number r) in
   let y_of = to_coq (take_number r) in
   let z_of = to_coq (take_number r) in
+  let weight_of = if is_rational then to_coq (take_number r) else weight_1 in
+  if Z.sign weight_of.qnum <= 0 then reject "a weight that is not positive";
   end_line r;
-  { x_of; y_of; z_of }
+  { point_of = { x_of; y_of; z_of }; weight_of }
+
+(* [count] times what [read] reads, in this order. *)
+let rec repeated count read =
+  if count = 0 then [] else let first = read () in first :: repeated (count - 1) read
+
+let read_curve r =
+  begin_line r;
+  let is_rational = one_of r [ ("curve", false); ("rational", true) ] in
+  let degree = parse_integer (word r) in
+  if Z.sign degree < 0 || Z.gt degree (Z.of_int max_curve_degree) then
+    reject (Printf.sprintf "a degree that is not 0 to %d" max_curve_degree);
+  end_line r;
+  repeated (Z.to_int degree + 1) (fun () -> read_point r is_rational)
+
+(* Straight lines: all points at t=0, then at t=1; or four curves. *)
+let read_motions r =
+  if List.mem (first_word r) [ "curve"; "rational" ] then repeated 4 (fun () -> read_curve r)
+  else
+    let starts = repeated 4 (fun () -> read_point r false) in
+    let ends = repeated 4 (fun () -> read_point r false) in
+    List.map2 (fun start last -> [ start; last ]) starts ends
 
 (* Reads the certificate that begins at the present line and goes behind its `end`. *)
 let read_certificate r take_label =
@@ -369,11 +396,10 @@ let read_certificate r take_label =
   end_line r;
   let label = if first_word r = "label" then read_label r else "" in
   take_label label;
-  let points = Array.make 8 { x_of = to_coq Q.zero; y_of = to_coq Q.zero; z_of = to_coq Q.zero } in
-  for n = 0 to 7 do points.(n) <- read_point r done;
-  let motion n = { at_start = points.(n); at_end = points.(n + 4) } in
   let query =
-    { kind_of = kind; point0 = motion 0; point1 = motion 1; point2 = motion 2; point3 = motion 3 }
+    match read_motions r with
+    | [ point0; point1; point2; point3 ] -> { kind_of = kind; point0; point1; point2; point3 }
+    | _ -> assert false
   in
   let separation =
     if first_word r = "separation" && not is_tetrahedron then read_separation r
@@ -391,7 +417,7 @@ let read_certificate r take_label =
   end_line r;
   { claim_line; label; query; is_tetrahedron; separation; claim; subintervals; contact_line; contact }
 
-(* Rejects coordinates and times that are too large over their common denominator. *)
+(* Rejects coordinates, weights and times that are too large over their common denominator. *)
 let require_small numbers line =
   let sum = List.fold_left (fun sum x -> sum + bits x.qden) 0 numbers in
   let greatest = List.fold_left (fun most x -> max most (bits x.qnum)) 0 numbers in
@@ -403,12 +429,14 @@ let require_small numbers line =
   end
 
 let require_small_numbers c =
-  let of_point p = [ p.x_of; p.y_of; p.z_of ] in
-  let of_motion m = of_point m.at_start @ of_point m.at_end in
+  let of_control p = [ p.point_of.x_of; p.point_of.y_of; p.point_of.z_of ] in
   let q = c.query in
+  let points = [ q.point0; q.point1; q.point2; q.point3 ] in
+  List.iter
+    (fun point -> require_small (List.map (fun p -> p.weight_of) point) c.claim_line)
+    points;
   require_small
-    (c.separation.distance_of
-    :: List.concat_map of_motion [ q.point0; q.point1; q.point2; q.point3 ])
+    (c.separation.distance_of :: List.concat_map (List.concat_map of_control) points)
     c.claim_line;
   List.iter (fun (line, s) -> require_small [ s.from; s.to0 ] line) c.subintervals;
   match c.contact with

@@ -1,12 +1,14 @@
 """Do touchstone-check and touchstone-check-verified agree?
 
-On certificates that `touchstone prove` writes (the built-in set and, if TOUCHSTONE_DATA names them, the
-public data, in all separations), on the list of altered certificates, whose outcomes it says, on those of steps and meshes,
-which are not covered, and on mutants of certificates. Equal are exit status and output. Of a proof that is rejected the verified program names the part; then the certificate has
+On certificates that `touchstone prove` writes (the built-in set, random curves and, if TOUCHSTONE_DATA names them, the
+public data, in all separations), on the same with their curves written otherwise, on the list of altered certificates, whose
+outcomes it says, on those of steps and meshes, which are not covered, and on mutants of certificates. Equal are exit status and output. Of a proof that is rejected the verified program names the part; then the certificate has
 to be the same, by its label.
 """
 
 import argparse
+import fractions
+import itertools
 import os
 import pathlib
 import random
@@ -142,6 +144,67 @@ def list_results(programs, folder, path):
             yield result
 
 
+# ---- Curves ----
+
+GREATEST_DEGREE = 8
+
+
+def write_random_curves(draw, folder, count):
+    """Queries of all degrees, of rational curves up to 3 as the oracle is slow on others: files for `touchstone prove`."""
+    starts = {"vf": [(1, 1, 0), (0, 0, 0), (4, 0, 0), (0, 4, 0)], "ee": [(-2, 0, 0), (2, 0, 0), (0, -2, 1), (0, 2, 1)]}
+    folder.mkdir()
+    for kind, points in starts.items():
+        for form, greatest in (("degree", GREATEST_DEGREE), ("rational", 3)):
+            for degree in range(greatest + 1):
+                rows = [f"{form},{degree}"]
+                for _ in range(count):
+                    size = draw.choice([1, 2, 4])
+                    for point in points:
+                        for _ in range(degree + 1):
+                            row = [x + size * draw.randint(-8, 8) / 4 for x in point]
+                            rows.append(",".join(map(str, row + [draw.choice([0.5, 1, 2, 3])] * (form == "rational"))))
+                (folder / f"{form}{degree}_{kind}.csv").write_text("\n".join(rows) + "\n")
+
+
+def number(word):
+    return fractions.Fraction(float.fromhex(word)) if "x" in word else fractions.Fraction(word)
+
+
+def curves_of(lines):
+    """The first line of the points of a certificate, their control points (x, y, z, weight), and the line behind them."""
+    begin = next(n for n, line in enumerate(lines) if line.startswith(("point", "curve", "rational")))
+    end = next(n for n, line in enumerate(lines) if line.startswith(("separation", "claim")))
+    curves = [[]]
+    for line in lines[begin:end]:
+        word, *words = line.split(" ")
+        if word == "point":
+            curves[-1].append(([number(word) for word in words] + [fractions.Fraction(1)])[:4])
+        else:
+            curves.append([])
+    if curves[0]:  # straight lines: all points at t=0, then at t=1
+        curves += [list(ends) for ends in zip(curves[0][:4], curves[0][4:])]
+    return begin, curves[1:], end
+
+
+def written_otherwise(draw, lines):
+    """The certificate with points on the same curves of higher degrees, their weights multiplied by a number."""
+    begin, curves, end = curves_of(lines)
+    rewritten = []
+    for control in curves:
+        control = [[x * w for x in p] + [w] for *p, w in control]
+        for _ in range(draw.choice([0, 0, 1, 2, GREATEST_DEGREE])):
+            n = len(control)
+            if n > GREATEST_DEGREE:
+                break
+            pairs = zip([control[0]] + control, control + [control[-1]])
+            control = [[(k * x + (n - k) * y) / n for x, y in zip(p, q)] for k, (p, q) in enumerate(pairs)]
+        size = fractions.Fraction(draw.choice([1, 1, 3]), draw.choice([1, 1, 7]))
+        is_rational = size != 1 or any(w != 1 for *_, w in control)
+        rewritten.append(f"{'rational' if is_rational else 'curve'} {len(control) - 1}")
+        rewritten += [" ".join(map(str, ["point"] + [x / w for x in p] + [w * size] * is_rational)) for *p, w in control]
+    return lines[:begin] + rewritten + lines[end:]
+
+
 # ---- Mutants ----
 
 FEATURES = ["vertex 0", "vertex 1", "edge 0 1", "edge 1 2", "face +", "face -", "axis x +", "axis z -",
@@ -192,6 +255,8 @@ def mutant(draw, lines):
                 lines.insert(claims[0], separation)
         elif kind == 6 and words[0] == "query":
             lines[i] = draw.choice(["query vertex_face", "query edge_edge", "query tetrahedron"])
+        elif kind == 6 and words[0] in ("curve", "rational"):
+            lines[i] = " ".join([draw.choice(["curve", "rational"])] + words[1:])
         elif kind == 7 and words[0] == "point":
             j = draw.randrange(len(lines))
             if lines[j].startswith("point"):
@@ -213,16 +278,34 @@ def certificates(path):
     return found
 
 
-def write_mutants(draw, originals, path, first, count):
+def without_label(lines):
+    return [line for line in lines if not line.startswith("label")]
+
+
+def write_stream(path, some, first=0):
+    """Some certificates, each with a label of its own if it begins with its kind."""
     lines = ["touchstone-certificates 2"]
-    for n in range(first, first + count):
-        original = draw.choice(originals)
-        unlabelled = [line for line in original if not line.startswith("label")]
-        changed = mutant(draw, unlabelled)
-        place = 1 if changed[0].startswith("query") else 0
-        lines += changed[:place] + [f"label m{n}"] * place + changed[place:]
+    for n, certificate in enumerate(some, first):
+        place = 1 if certificate[0].startswith("query") else 0
+        lines += certificate[:place] + [f"label m{n}"] * place + without_label(certificate[place:])
     lines.append(f"certificates {sum(line.startswith('query') for line in lines)}")
     path.write_text("\n".join(lines) + "\n")
+
+
+def stream_results(programs, path, some):
+    """What both programs answer to many certificates; streams on which they differ are kept."""
+    some = iter(some)
+    for first in itertools.count(0, BATCH):
+        batch = list(itertools.islice(some, BATCH))
+        if not batch:
+            return
+        write_stream(path, batch, first)
+        result = Result(programs, path)
+        if result.difference:
+            kept = pathlib.Path(f"different-{first}.cert")
+            kept.write_bytes(path.read_bytes())
+            print(f"  kept: {kept}")
+        yield result
 
 
 # ---- The comparison ----
@@ -244,7 +327,8 @@ def main():
     programs = (f"{arguments.programs}/touchstone-check", arguments.verified)
     draw = random.Random(arguments.seed)
     data = os.environ.get("TOUCHSTONE_DATA", "")
-    sources = [("built-in set", ["--count", str(arguments.count)])]
+    count = ["--count", str(arguments.count)]
+    sources = [("built-in set", count), ("built-in curves", ["--degree", "2", "--degree", "3", "--degree", "rational", *count])]
     if data and not arguments.no_data:
         sources += [(name, [f"{data}/{name}"]) for name in ("handcrafted", "simulation")]
     differences = 0
@@ -262,8 +346,9 @@ def main():
     print(f"{'certificates':44} {'accepted':>9} {'rejected':>9} {'verified only':>13} {'differences':>11}")
     with tempfile.TemporaryDirectory() as folder:
         path = pathlib.Path(folder) / "some.cert"
-        originals = []
-        for name, source in sources:
+        originals, curved = [], []
+        write_random_curves(draw, pathlib.Path(folder) / "curves", 1 + arguments.count // 10)
+        for name, source in sources + [("random curves", [f"{folder}/curves"])]:
             for separation in SEPARATIONS:
                 for claim in ("time_of_impact", "collision"):
                     options = ["--claim", claim]
@@ -277,22 +362,24 @@ def main():
                     report(f"{name}, {of}, {claim}", [Result(programs, path)])
                     if name == "built-in set":
                         originals += certificates(path)
+                    elif name.endswith("curves"):
+                        curved += certificates(path)
         report("list of altered certificates",
                list(list_results(programs, pathlib.Path(folder), cases / "certificates.txt")))
         report("not covered: steps and meshes", [Result(programs, cases / f"corpus/{name}.cert") for name in ("steps", "meshes")])
-        # A fifth of the mutants are of tetrahedra.
+        rewritten = [written_otherwise(draw, draw.choice(curved)) for _ in range(10 * arguments.count)]
+        results = list(stream_results(programs, path, rewritten))
+        for result in results:
+            if result.rejected > 0:
+                result.difference = result.difference or f"{result.rejected} refused"
+        report("curves written otherwise", results)
         elements = [text.splitlines() for text, outcome in listed(cases / "certificates.txt")
                     if outcome and text.startswith("query tetrahedron")]
-        originals += elements * (len(originals) // (4 * len(elements)))
-        results = []
-        for first in range(0, arguments.mutants, BATCH):
-            write_mutants(draw, originals, path, first, min(BATCH, arguments.mutants - first))
-            results.append(Result(programs, path))
-            if results[-1].difference:
-                kept = pathlib.Path(f"different-{first}.cert")
-                kept.write_bytes(path.read_bytes())
-                print(f"  kept: {kept}")
-        report("mutants", results)
+        for name, some, count in (("mutants", originals, arguments.mutants), ("mutants of curves", curved, arguments.mutants),
+                                  ("mutants of tetrahedra", elements, arguments.mutants // 5),
+                                  ("mutants of curves written otherwise", rewritten, arguments.mutants // 50)):
+            mutants = (mutant(draw, without_label(draw.choice(some))) for _ in range(count))
+            report(name, list(stream_results(programs, path, mutants)))
     sys.exit(1 if differences else 0)
 
 
