@@ -18,7 +18,8 @@
 
 Require Import Reals QArith Qreals List Lra Psatz.
 Import ListNotations.
-Require Import Verified.Problem Verified.Geometry.
+Require Import FunctionalExtensionality.
+Require Import Verified.Problem Verified.Geometry Verified.Proof.
 Open Scope R_scope.
 
 (** ** What is stated *)
@@ -839,16 +840,23 @@ Proof.
   - rewrite length_of_opposite. exact L.
 Qed.
 
+Definition on_a_straight_line (m : motion) : Prop := exists a b, m = straight a b.
+
 Theorem no_two_faces_touch (f g : triple motion) s T :
+  (forall m, vertex_of f m \/ vertex_of g m -> on_a_straight_line m) ->
   ~ an_edge_meets (image (fun m => position m 0) f) (image (fun m => position m 0) g) ->
   (forall q, query_of f g q -> no_contact_until q s T) ->
   forall t, 0 <= t <= T -> ~ within (norm_of s) (Q2R (distance_of s))
     (on_triangle (image (fun m => position m t) f)) (on_triangle (image (fun m => position m t) g)).
 Proof.
-  intros N0 N. assert (C : forall h, continuous_until T (image position h)).
-  { intros h t _ v Hv. apply vertex_of_image in Hv as (m & _ & ->). unfold continuous_at, position. by_coordinates.
+  intros L0 N0 N. assert (C : forall h, (forall m, vertex_of h m -> on_a_straight_line m) ->
+    continuous_until T (image position h)).
+  { intros h Hh t _ v Hv. apply vertex_of_image in Hv as (m & Hm & ->). destruct (Hh m Hm) as (a & b & ->).
+    rewrite (functional_extensionality _ _ (straight_line a b)). unfold continuous_at, to_vector. by_coordinates.
     repeat split; continuous. }
-  apply (theorem_of_pairs (image position f) (image position g) _ _ T (C f) (C g) N0).
+  assert (Cf : continuous_until T (image position f)) by auto.
+  assert (Cg : continuous_until T (image position g)) by auto.
+  apply (theorem_of_pairs (image position f) (image position g) _ _ T Cf Cg N0).
   intros t Ht [(v & Hv & x & y & <- & (a & b & D & ->) & L) | [(v & Hv & x & y & <- & (a & b & D & ->) & L) |
     (p & q & a & b & Hp & Ha & x & y & (u & D & ->) & (v & D' & ->) & L)]].
   - apply (vertex_of_image (fun m => position m t)) in Hv as (m & Hm & ->).
