@@ -254,8 +254,9 @@ TouchstoneCollision collision_of(const fast::StepCollision& collision) {
 }
 
 TouchstoneStepInversion inversion_in_step(const fast::StepInversion& one) {
-  return {static_cast<std::int32_t>(one.kind), one.element, one.start, one.toi_lower,
-          one.toi_upper};
+  const bool is_tetrahedron = one.kind == fast::VolumeKind::tetrahedron;
+  return {is_tetrahedron ? TOUCHSTONE_TETRAHEDRON : TOUCHSTONE_PLANE_TRIANGLE, one.element,
+          one.start, one.toi_lower, one.toi_upper};
 }
 
 fast::StepCollision collision_from(const TouchstoneCollision& collision) {
@@ -315,9 +316,6 @@ static_assert(static_cast<int>(fast::LineSearchStatus::limited) == TOUCHSTONE_LI
 static_assert(static_cast<int>(fast::LineSearchStatus::in_contact) == TOUCHSTONE_IN_CONTACT);
 static_assert(static_cast<int>(fast::LineSearchStatus::too_small) == TOUCHSTONE_TOO_SMALL);
 static_assert(static_cast<int>(fast::LineSearchStatus::inverted) == TOUCHSTONE_INVERTED);
-
-static_assert(static_cast<int>(fast::VolumeKind::tetrahedron) == TOUCHSTONE_TETRAHEDRON);
-static_assert(static_cast<int>(fast::VolumeKind::plane_triangle) == TOUCHSTONE_PLANE_TRIANGLE);
 
 static_assert(static_cast<int>(fast::PairKind::vertex_face) == TOUCHSTONE_VERTEX_FACE);
 static_assert(static_cast<int>(fast::PairKind::edge_edge) == TOUCHSTONE_EDGE_EDGE);

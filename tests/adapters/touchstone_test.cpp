@@ -337,9 +337,10 @@ TEST(CInterface, KeepsElementsFromInverting) {
                                 const std::vector<fast::StepInversion>& expected) {
       ASSERT_EQ(size, expected.size());
       for (std::size_t i = 0; i < size; ++i) {
-        EXPECT_EQ((fast::StepInversion{static_cast<fast::VolumeKind>(found[i].kind),
-                                       found[i].element, static_cast<std::int8_t>(found[i].start),
-                                       found[i].toi_lower, found[i].toi_upper}),
+        EXPECT_EQ((fast::StepInversion{
+                      static_cast<fast::VolumeKind>(found[i].kind - TOUCHSTONE_TETRAHEDRON),
+                      found[i].element, static_cast<std::int8_t>(found[i].start),
+                      found[i].toi_lower, found[i].toi_upper}),
                   expected[i]);
       }
     };

@@ -43,8 +43,8 @@ enum TouchstoneKind {
   TOUCHSTONE_EDGE_EDGE = 1,      ///< ea0, ea1, eb0, eb1; of a mesh: the smaller number first
   TOUCHSTONE_VERTEX_EDGE = 2,    ///< of a mesh only: a codimensional point and edge
   TOUCHSTONE_VERTEX_VERTEX = 3,  ///< of a mesh only: codimensional points, the smaller number first
-  TOUCHSTONE_TETRAHEDRON = 4,    ///< of plugins only: a, b, c, d; det(b-a, c-a, d-a) > 0 upright
-  TOUCHSTONE_PLANE_TRIANGLE = 5  ///< of plugins only: x and y of a, b, c; the rest has no effect
+  TOUCHSTONE_TETRAHEDRON = 4,    ///< an element a, b, c, d; det(b-a, c-a, d-a) > 0 upright
+  TOUCHSTONE_PLANE_TRIANGLE = 5  ///< an element: x and y of a, b, c; the rest has no effect
 };
 
 /// Norm of the distance of two points.
@@ -209,12 +209,9 @@ typedef struct TouchstoneCollision {
   double v;
 } TouchstoneCollision;
 
-/// The elements of a mesh that have a volume, or an area in the plane.
-enum TouchstoneVolume { TOUCHSTONE_TETRAHEDRON = 0, TOUCHSTONE_PLANE_TRIANGLE = 1 };
-
 /// An element of a mesh that inverts.
 typedef struct TouchstoneStepInversion {
-  int32_t kind;      ///< one of TouchstoneVolume
+  int32_t kind;      ///< TOUCHSTONE_TETRAHEDRON or TOUCHSTONE_PLANE_TRIANGLE
   int32_t element;   ///< its number among those of its kind
   int32_t start;     ///< the sign of its volume at t=0: 1, 0 (flat) or −1 (inverted)
   double toi_lower;  ///< as in TouchstoneInversion

@@ -69,8 +69,8 @@ enum TouchstoneKind {
   TOUCHSTONE_EDGE_EDGE = 1,      ///< ea0, ea1, eb0, eb1; of a mesh: the smaller number first
   TOUCHSTONE_VERTEX_EDGE = 2,    ///< of a mesh only: a codimensional point and edge
   TOUCHSTONE_VERTEX_VERTEX = 3,  ///< of a mesh only: codimensional points, the smaller number first
-  TOUCHSTONE_TETRAHEDRON = 4,    ///< of plugins only: a, b, c, d; det(b-a, c-a, d-a) > 0 upright
-  TOUCHSTONE_PLANE_TRIANGLE = 5  ///< of plugins only: x and y of a, b, c; the rest has no effect
+  TOUCHSTONE_TETRAHEDRON = 4,    ///< an element a, b, c, d; det(b-a, c-a, d-a) > 0 upright
+  TOUCHSTONE_PLANE_TRIANGLE = 5  ///< an element: x and y of a, b, c; the rest has no effect
 };
 
 /// Norm of the distance of two points.
