@@ -283,9 +283,10 @@ let take_time r =
     At_root (lower, upper, g)
   end
 
-let read_label r =
-  begin_keyword r "label";
-  let label = if String.length r.text > 6 then behind 6 r.text else "" in
+let read_label r keyword =
+  begin_keyword r keyword;
+  let place = String.length keyword + 1 in
+  let label = if String.length r.text > place then behind place r.text else "" in
   require_at_most max_label_bytes (String.length label) "bytes in a label";
   advance r;
   label
@@ -298,15 +299,19 @@ let read_separation r =
   end_line r;
   { distance_of = to_coq distance; norm_of = norm }
 
+let take_time_of_impact r =
+  let lower = take_number r in
+  let upper = take_number r in
+  let is_at_start = Q.sign lower = 0 && Q.sign upper = 0 in
+  let is_interval = Q.sign lower >= 0 && Q.lt lower upper && Q.leq upper Q.one in
+  if not (is_at_start || is_interval) then
+    reject "a time of impact is 0 0, or LO HI with 0 <= LO < HI <= 1";
+  (lower, upper)
+
 let read_claim r =
   begin_keyword r "claim";
   let take_times () =
-    let lower = take_number r in
-    let upper = take_number r in
-    let is_at_start = Q.sign lower = 0 && Q.sign upper = 0 in
-    let is_interval = Q.sign lower >= 0 && Q.lt lower upper && Q.leq upper Q.one in
-    if not (is_at_start || is_interval) then
-      reject "a time of impact is 0 0, or LO HI with 0 <= LO < HI <= 1";
+    let lower, upper = take_time_of_impact r in
     Time_of_impact (to_coq lower, to_coq upper)
   in
   let take =
@@ -354,7 +359,7 @@ let read_certificate r take_label =
   begin_keyword r "query";
   let kind = one_of r [ ("vertex_face", Vertex_face); ("edge_edge", Edge_edge) ] in
   end_line r;
-  let label = if first_word r = "label" then read_label r else "" in
+  let label = if first_word r = "label" then read_label r "label" else "" in
   take_label label;
   let points = Array.make 8 { x_of = to_coq Q.zero; y_of = to_coq Q.zero; z_of = to_coq Q.zero } in
   for n = 0 to 7 do points.(n) <- read_point r done;
@@ -425,6 +430,7 @@ let demanded_claim words =
       match List.hd parts with
       | "no_collision" | "collision" -> count = 0
       | "time_of_impact" | "earliest" -> count = 0 || count = 2
+      | "intersections" | "welded_intersections" -> count = 0 || count = 1
       | "no_contact" -> count = 1
       | _ -> false
     in
