@@ -21,7 +21,7 @@ failed_proof() {
 }
 
 cp "$sources"/*.v .
-for file in Problem Form Geometry Checker Proof; do
+for file in Problem StepProblem Form Geometry Checker Step Proof StepProof; do
   compile "$file.v" || { echo "verified_faults.sh: $file.v does not compile without a fault" >&2; cat output.txt >&2; exit 1; }
 done
 mkdir sound
@@ -40,8 +40,12 @@ if source.count(text) != 1:
 open(file, "w").write(source.replace(text, instead))
 END
   stands='' failed=''
-  for source in Form Checker Proof; do
-    [ "$source" = Form ] && [ "$file" != Form.v ] && continue
+  case "$file" in
+    Form.v) sources_to_compile=(Form Checker Proof) ;;
+    Checker.v) sources_to_compile=(Checker Proof) ;;
+    *) sources_to_compile=(Step StepProof) ;;
+  esac
+  for source in "${sources_to_compile[@]}"; do
     if ! compile "$source.v"; then
       failed=$(failed_proof "$source.v" || true)
       [ -n "$failed" ] && stands="$source.v, $failed"
