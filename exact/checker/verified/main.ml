@@ -15,7 +15,7 @@ let usage =
    --norm NORM       The norm of --separation: linf (the default) or l2\n\n\
    Exit status: 0 all accepted and the stream complete, 1 one rejected or the stream cut, 2\n\
    unreadable input, unwritable output, wrong usage, or what is not covered: meshes, and thickness\n\
-   of more than 2,000 groups.\n\n\
+   of more than 200 groups or of one above 1000.\n\n\
    Example: zstdcat proofs.cert.zst | touchstone-check-verified -\n\
   \         touchstone-check-verified --claim free --separation 0 step.cert scenes.txt\n"
 

@@ -10,7 +10,9 @@ exception Not_covered of string
 let max_items = 1 lsl 22
 let max_arguments = 1 lsl 24
 let max_direction = 1_024
-let max_groups = 2_000
+(* Of a scene with thickness. *)
+let max_groups = 200
+let max_group = 1_000
 
 let take_integer r least limit =
   let text = word r in
@@ -257,8 +259,8 @@ let check r scenes require_demanded =
   let greatest, reaches = if is_thick then find_thickness s distance else (distance, []) in
   if is_thick then
     say (Printf.sprintf "%d radii, %d separations of groups" (List.length s.radii) (List.length s.distances));
-  if List.length reaches > max_groups then
-    raise (Not_covered (Printf.sprintf "thickness of more than %d groups" max_groups));
+  if List.length reaches > max_groups || List.exists (fun (group, _) -> Z.gt group (Z.of_int max_group)) reaches then
+    raise (Not_covered (Printf.sprintf "thickness of more than %d groups, or one above %d" max_groups max_group));
   let line = r.number in
   begin_keyword r "claim";
   let is_earliest = one_of r [ ("no_contact", false); ("earliest", true) ] in
