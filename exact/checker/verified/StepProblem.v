@@ -10,34 +10,25 @@ Open Scope Z_scope.
     thickness of two groups is their distance, or else the sum of their radii. *)
 Record step := Step {
   vertices : list (triple Q * triple Q);  (* at t=0 and at t=1 *)
-  faces : list (Z * Z * Z);
-  edges : list (Z * Z);
-  points : list Z;
-  groups : list Z;
-  apart : list (Z * Z);
-  radii : list Q;
-  distances : list (Z * Z * Q);
+  faces : list (Z * Z * Z); edges : list (Z * Z); points : list Z;
+  groups : list Z; apart : list (Z * Z); radii : list Q; distances : list (Z * Z * Q);
   separation_of : separation }.
 
 (** An element is the list of its vertices: [v], an edge [a; b] with a < b, or a face [a; b; c]. *)
 Definition element := list Z.
-
 Inductive step_claim := no_contact (upper : Q) | earliest (lower upper : Q) (p q : element).
 
 Section Step.
 Variable s : step.
-
 Definition sides : list (Z * Z) := flat_map (fun f => let '(a, b, c) := f in [(a, b); (b, c); (c, a)]) (faces s).
 Definition is_edge_of (l : list (Z * Z)) (e : element) : Prop :=
   exists a b, e = [a; b] /\ a < b /\ (In (a, b) l \/ In (b, a) l).
-
 Definition is_face (f : element) : Prop := exists a b c, f = [a; b; c] /\ In (a, b, c) (faces s).
 Definition is_edge (e : element) : Prop := is_edge_of (sides ++ edges s) e.
 Definition is_vertex (p : element) : Prop :=
   exists v, p = [v] /\ (In v (points s) \/ exists a b, In (a, b) (sides ++ edges s) /\ (v = a \/ v = b)).
 Definition is_bare_edge (e : element) : Prop := is_edge e /\ ~ is_edge_of sides e.
 Definition is_point (p : element) : Prop := is_vertex p /\ forall e v, is_edge e -> In v e -> ~ In v p.
-
 Definition is_before (p q : element) : Prop := last p 0 < last q 0.
 Definition group_of (v : Z) : Z := nth (Z.to_nat v) (groups s) 0.
 Definition is_held_apart (v w : Z) : Prop :=
@@ -50,7 +41,6 @@ Definition can_collide (p q : element) : Prop :=
 
 (** The double nearest to a sum. *)
 Variable sum : Q -> Q -> Q.
-
 Definition thickness (g h : Z) : Q :=
   match find (fun d => let '(a, b, _) := d in (a =? g) && (b =? h) || (a =? h) && (b =? g))%bool (distances s) with
   | Some (_, distance) => distance
@@ -60,10 +50,8 @@ Definition greatest (xs : list Q) : Q := fold_right (fun x y => if Qle_bool x y 
 Definition distance_between (gs hs : list Z) : Q :=
   match radii s, distances s with
   | [], [] => distance_of (separation_of s)
-  | _, _ => sum (distance_of (separation_of s))
-              (greatest (flat_map (fun g => map (thickness g) hs) gs))
+  | _, _ => sum (distance_of (separation_of s)) (greatest (flat_map (fun g => map (thickness g) hs) gs))
   end.
-
 Definition separation_between (p q : element) : separation :=
   Separation (distance_between (map group_of p) (map group_of q)) (norm_of (separation_of s)).
 
@@ -77,10 +65,8 @@ Definition query_of (p q : element) : query :=
   end%nat.
 
 Open Scope R_scope.
-
 Definition no_contact_to (upper : Q) : Prop :=
   forall p q, can_collide p q -> no_contact_until (query_of p q) (separation_between p q) (Q2R upper).
-
 Definition step_holds (c : step_claim) : Prop :=
   match c with
   | no_contact upper => 0 <= Q2R upper <= 1 /\ no_contact_to upper

@@ -328,7 +328,7 @@ Definition motion_of (v : Z) : triple Q * triple Q := nth (Z.to_nat v) (vertices
 Definition vertex_at (v : Z) (t : R) : vector :=
   position (let '(a, b) := motion_of v in Motion a b) t.
 
-(** A place as it should be. *)
+(** A site as it should be. *)
 Definition is_site (p : site) : Prop :=
   moves p = motion_of (number p) /\ group p = group_of s (number p) /\ reach_in s h (group p) = Some (reach_of p) /\
   forall i, is_in_range k E (component i (fst (moves p))) (component i (snd (moves p))) (component i (ranges p)).
@@ -374,7 +374,6 @@ Qed.
 
 Definition to_vector_of_integers (d : triple Z) : vector := Triple (IZR (x_of d)) (IZR (y_of d)) (IZR (z_of d)).
 
-(** The vertex of a place, enlarged, at the start and at the end. *)
 Lemma vertex_coordinate p i t : is_site p ->
   component i (vertex_at (number p) t) =
   (1 - t) * Q2R (component i (fst (moves p))) + t * Q2R (component i (snd (moves p))).
@@ -482,10 +481,7 @@ Lemma corners_are_differences p q t y : p <> [] -> q <> [] -> In y (corners (que
   exists v w, In v p /\ In w q /\ y = minus (vertex_at v t) (vertex_at w t).
 Proof.
   intros Np Nq I. pose proof (fun i => nth_is_in p i Np) as Ip. pose proof (fun i => nth_is_in q i Nq) as Iq.
-  unfold query_of in I.
-  assert (kind_of (query_of s p q) = edge_edge \/ kind_of (query_of s p q) = vertex_face) as _ by
-    (destruct (kind_of (query_of s p q)); auto).
-  destruct p as [| a [| b [| c' p]]]; try contradiction; unfold corners in I;
+  unfold query_of in I. destruct p as [| a [| b [| c' p]]]; try contradiction; unfold corners in I;
     cbn [kind_of point0 point1 point2 point3 In] in I; repeat destruct I as [<- | I]; try contradiction;
     (do 2 eexists; split; [| split; [| reflexivity]]; [apply Ip | apply Iq]).
 Qed.
@@ -514,8 +510,6 @@ Proof.
 Qed.
 
 (** ** Distances *)
-
-Definition numbers_of (ps : list site) : element := map number ps.
 
 Lemma groups_of_sites ps : Forall is_site ps -> map group ps = map (group_of s) (map number ps).
 Proof.
@@ -645,7 +639,7 @@ Proof.
   destruct (G ps (reach_of p0)) as [L H]. intros [-> | I]; [exact L | auto].
 Qed.
 
-(** The box contains all places of the element, enlarged. *)
+(** The box contains all sites of the element, enlarged. *)
 Definition is_around (b : box) (x : item) : Prop := forall p, In p (sites x) -> forall i,
   let r := component i (ranges p) in
   let o := component i b in
@@ -814,8 +808,6 @@ Qed.
 
 Lemma sound_halves b l r : is_sound (box_node b l r) -> is_sound l /\ is_sound r.
 Proof. intros [_ H]. exact H. Qed.
-
-Definition is_pair_of_items (x y : item) : Prop := is_item x /\ is_item y.
 
 (** What holds of two if they are proved, and if their boxes are apart, holds of all. *)
 Lemma search_sound (R : item -> item -> Prop) f :

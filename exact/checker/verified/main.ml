@@ -139,8 +139,10 @@ let print report =
   let hidden = report.rejected - List.length report.rejections in
   if hidden > 0 then Printf.printf "  and %d more\n" hidden;
   let is_free text = List.mem "claim no_contact 1" (String.split_on_char '\n' text) in
-  if report.rejected = 0 && report.steps <> [] && List.for_all is_free report.steps then
-    Printf.printf "%d steps: no two primitives touch\n" (List.length report.steps)
+  if report.rejected = 0 && report.steps <> [] && List.for_all is_free report.steps then begin
+    let count = List.length report.steps in
+    Printf.printf "%d step%s: no two primitives touch\n" count (if count = 1 then "" else "s")
+  end
 
 type arguments = Help | Wrong | Check of string list * options
 

@@ -21,7 +21,7 @@ UNPROVED = re.compile("the (subinterval|contact) is not proved|there is no subin
 # Which of several pairs without an argument is found first depends on the tree.
 PAIR = re.compile(r"(no argument for \w+) \d+ \d+")
 # Of steps without any contact the verified program says so in a last line.
-SUMMARY = re.compile(r"\d+ steps: no two primitives touch")
+SUMMARY = re.compile(r"\d+ steps?: no two primitives touch")
 # The verified program proves `at axes` by a witness, and sees some contacts that the other does not see.
 UNSEEN = "an axis separates, or is not seen not to"
 SEPARATIONS = [(), ("1e-3", "linf"), ("1e-3", "l2"), ("0.5", "linf"), ("0.5", "l2")]
