@@ -6,10 +6,10 @@ readonly sources=$(cd "$(dirname "$0")" && pwd)
 mkdir -p "$1"
 cd "$1"
 cp "$sources"/*.v "$sources"/*.ml .
-for file in Problem Form Geometry Checker; do
+for file in Problem StepProblem Form Geometry Checker Step; do
   coqc -q -Q . Verified "$file.v"
 done
-for file in Proof Pairs Inversion; do
+for file in Proof Pairs Inversion StepProof; do
   coqc -q -Q . Verified "$file.v"
 done | tee assumptions.txt
 # Axioms begin a line. No one is allowed that the real numbers of Coq's standard library do not have.
@@ -20,4 +20,4 @@ if grep -E '^[^ ]' assumptions.txt | grep -vE "^($real_numbers)( :|$)"; then
 fi
 coqc -q -Q . Verified Extract.v
 ocamlfind ocamlopt -package zarith,unix -linkpkg -w -a -inline 100 integers.ml checker.mli checker.ml certificate.ml \
-  elaborate.ml main.ml -o touchstone-check-verified
+  elaborate.ml step_hints.ml step_certificate.ml main.ml -o touchstone-check-verified

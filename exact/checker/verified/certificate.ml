@@ -291,9 +291,10 @@ let take_time r =
     At_root (lower, upper, g)
   end
 
-let read_label r =
-  begin_keyword r "label";
-  let label = if String.length r.text > 6 then behind 6 r.text else "" in
+let read_label r keyword =
+  begin_keyword r keyword;
+  let place = String.length keyword + 1 in
+  let label = if String.length r.text > place then behind place r.text else "" in
   require_at_most max_label_bytes (String.length label) "bytes in a label";
   advance r;
   label
@@ -306,15 +307,19 @@ let read_separation r =
   end_line r;
   { distance_of = to_coq distance; norm_of = norm }
 
+let take_time_of_impact r =
+  let lower = take_number r in
+  let upper = take_number r in
+  let is_at_start = Q.sign lower = 0 && Q.sign upper = 0 in
+  let is_interval = Q.sign lower >= 0 && Q.lt lower upper && Q.leq upper Q.one in
+  if not (is_at_start || is_interval) then
+    reject "a time of impact is 0 0, or LO HI with 0 <= LO < HI <= 1";
+  (lower, upper)
+
 let read_claim ~is_tetrahedron r =
   begin_keyword r "claim";
   let take_times () =
-    let lower = take_number r in
-    let upper = take_number r in
-    let is_at_start = Q.sign lower = 0 && Q.sign upper = 0 in
-    let is_interval = Q.sign lower >= 0 && Q.lt lower upper && Q.leq upper Q.one in
-    if not (is_at_start || is_interval) then
-      reject "a time of impact is 0 0, or LO HI with 0 <= LO < HI <= 1";
+    let lower, upper = take_time_of_impact r in
     Time_of_impact (to_coq lower, to_coq upper)
   in
   let no_collision, collision, time_of_impact = claim_words is_tetrahedron in
@@ -394,7 +399,7 @@ let read_certificate r take_label =
         ("tetrahedron", (Vertex_face, true)) ]
   in
   end_line r;
-  let label = if first_word r = "label" then read_label r else "" in
+  let label = if first_word r = "label" then read_label r "label" else "" in
   take_label label;
   let query =
     match read_motions r with
@@ -468,6 +473,7 @@ let demanded_claim words =
       match List.hd parts with
       | "no_collision" | "collision" | "no_inversion" | "inversion" -> count = 0
       | "time_of_impact" | "time_of_inversion" | "earliest" -> count = 0 || count = 2
+      | "intersections" | "welded_intersections" -> count = 0 || count = 1
       | "no_contact" -> count = 1
       | _ -> false
     in

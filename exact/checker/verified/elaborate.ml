@@ -23,38 +23,44 @@ let rec halved g lower upper halvings =
 
 let halvings = [ 16; 64; 256 ]
 
-(* True if the interval is within the claim's, and g has opposite signs at its ends, as the format demands. *)
-let is_interval (c : Certificate.certificate) lower upper g =
-  let first, last =
-    match c.claim with Time_of_impact (a, b) -> (number a, number b) | _ -> (Q.zero, Q.one)
-  in
+(* True if the interval is within [first,last], and g has opposite signs at its ends, as the format demands. *)
+let is_interval first last lower upper g =
   Q.leq first lower && Q.lt lower upper && Q.leq upper last && sign_of g lower * sign_of g upper < 0
+
+(* The contact that is accepted, as it stands or with a shorter interval; it is to be in [first,last]. *)
+let accepted first last norm contact accepts =
+  let with_halvings contact lower upper g count =
+    Some { contact with time_of = halved g (number lower) (number upper) count }
+  in
+  let shorter =
+    match contact with
+    | Some ({ place_of = Near_axes; time_of = At_root (lower, upper, g) } as contact)
+      when norm = Linf && is_interval first last (number lower) (number upper) g ->
+        List.map (with_halvings contact lower upper g) halvings
+    | _ -> []
+  in
+  List.find_opt accepts (contact :: shorter)
 
 let check_inversion (c : Certificate.certificate) =
   Checker.check_inversion c.query c.claim
     (List.map (fun (_, s) -> (s.from, s.to0)) c.subintervals)
     (Option.map (fun contact -> contact.time_of) c.contact)
 
-(* True if the certificate is accepted, as it stands or with a shorter interval. *)
 let check_collision (c : Certificate.certificate) =
   let subintervals = List.map snd c.subintervals in
-  let accepts contact = Checker.check c.query c.separation c.claim subintervals contact in
-  let accepts_halved contact lower upper g count =
-    accepts (Some { contact with time_of = halved g (number lower) (number upper) count })
+  let first, last =
+    match c.claim with Time_of_impact (a, b) -> (number a, number b) | _ -> (Q.zero, Q.one)
   in
-  accepts c.contact
-  ||
-  match c.contact with
-  | Some ({ place_of = Near_axes; time_of = At_root (lower, upper, g) } as contact)
-    when c.separation.norm_of = Linf && is_interval c (number lower) (number upper) g ->
-      List.exists (accepts_halved contact lower upper g) halvings
-  | _ -> false
+  accepted first last c.separation.norm_of c.contact
+    (Checker.check c.query c.separation c.claim subintervals)
+  <> None
 
+(* True if the certificate is accepted. *)
 let check (c : Certificate.certificate) =
   if c.is_tetrahedron then check_inversion c else check_collision c
 
-(* The line and the reason of a certificate that was not accepted. *)
-let fault (c : Certificate.certificate) =
+(* The line and the reason of a certificate that was not accepted; [until]: its subintervals are to end there. *)
+let fault ?until (c : Certificate.certificate) =
   let separates (_, subinterval) =
     match Checker.scene_of c.query c.separation with
     | Some scene when c.is_tetrahedron -> Checker.keeps_volume scene subinterval.from subinterval.to0
@@ -69,7 +75,7 @@ let fault (c : Certificate.certificate) =
   in
   let separated_end =
     match c.claim with
-    | No_collision -> Some Q.one
+    | No_collision -> Some (Option.value until ~default:Q.one)
     | Time_of_impact (lower, upper) when Q.sign (number upper) > 0 -> Some (number lower)
     | _ -> None
   in

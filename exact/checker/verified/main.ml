@@ -3,25 +3,28 @@
 
 open Certificate
 
-exception Not_covered of string
-
 let usage =
-  "usage: touchstone-check-verified [OPTIONS] FILE|-\n\n\
-   Checks the certificates of queries in a file, or on standard input for '-': each is accepted only\n\
-   if it proves its claim, by a checker that is itself proved. The format: exact/CERTIFICATES.md; what\n\
-   has to be believed: docs/trust.md.\n\n\
+  "usage: touchstone-check-verified [OPTIONS] FILE|- [SCENES]\n\n\
+   Checks the certificates of queries and of steps in a file, or on standard input for '-': each is\n\
+   accepted only if it proves its claim, by a checker that is itself proved. The format:\n\
+   exact/CERTIFICATES.md; what has to be believed: docs/trust.md.\n\
+   SCENES: the certificates are of steps, and of these scenes.\n\n\
    --claim CLAIM     Reject whatever claims anything else: no_collision, collision,\n\
-  \                  'time_of_impact [LO HI]', no_inversion, inversion, 'time_of_inversion [LO HI]'\n\
+  \                  'time_of_impact [LO HI]', no_inversion, inversion, 'time_of_inversion [LO HI]';\n\
+  \                  of steps free, 'no_contact T', 'earliest [LO HI]'\n\
    --separation D    Reject whatever is about another distance (0: contact itself)\n\
    --norm NORM       The norm of --separation: linf (the default) or l2\n\n\
    Exit status: 0 all accepted and the stream complete, 1 one rejected or the stream cut, 2\n\
-   unreadable input, unwritable output, wrong usage, or certificates of steps, which are not covered.\n\n\
-   Example: zstdcat proofs.cert.zst | touchstone-check-verified -\n"
+   unreadable input, unwritable output, wrong usage, or what is not covered: meshes, and thickness\n\
+   of more than 200 groups or of one above 1000.\n\n\
+   Example: zstdcat proofs.cert.zst | touchstone-check-verified -\n\
+  \         touchstone-check-verified --claim free --separation 0 step.cert scenes.txt\n"
 
 type options = { claim : string; separation : string }
 
 type report = {
   accepted : int array;  (* by claim: of collisions, then of inversions *)
+  mutable steps : string list;  (* what the accepted ones prove, the last first *)
   mutable rejected : int;
   mutable rejections : (int * string * string) list;  (* the first ones: line, label, reason *)
 }
@@ -36,10 +39,7 @@ let note_rejection report r label line reason =
 
 let is_demanded demand text = demand = "" || text = demand || starts_with (demand ^ " ") text
 
-let require_demanded options (c : certificate) =
-  let line = c.claim_line in
-  let claim = text_of_claim c.is_tetrahedron c.claim in
-  let separation = text_of_separation (of_coq c.separation.distance_of) c.separation.norm_of in
+let require_demanded options line claim separation =
   if not (is_demanded options.claim claim) then
     reject ~line ("the claim is not the one demanded: " ^ claim);
   if options.separation <> "" && options.separation <> separation then
@@ -53,7 +53,8 @@ let check_one report options r =
   (try
      let c = read_certificate r (fun text -> label := text) in
      is_read := true;
-     require_demanded options c;
+     require_demanded options c.claim_line (text_of_claim c.is_tetrahedron c.claim)
+       (text_of_separation (of_coq c.separation.distance_of) c.separation.norm_of);
      require_small_numbers c;
      if not (Elaborate.check c) then begin
        let line, reason = Elaborate.fault c in
@@ -69,52 +70,81 @@ let check_one report options r =
   if not !is_read then
     while (not r.at_end) && (r.number = first || not (may_begin ())) do advance r done
 
-let check_end options r certificates =
-  let expected = "certificates " ^ string_of_int certificates in
+let check_end options r scenes word certificates =
+  let expected = word ^ " " ^ string_of_int certificates in
   if r.at_end then reject ("the stream is cut: it has no closing line '" ^ expected ^ "'");
-  if certificates = 0 && (options.claim <> "" || options.separation <> "") then
+  if certificates = 0 && (options.claim <> "" || options.separation <> "" || scenes <> None) then
     reject "there is no certificate of what is demanded";
-  begin_keyword r "certificates";
+  begin_keyword r word;
   if r.text <> expected then
     reject (Printf.sprintf "expected the closing line '%s', found %s" expected (quoted r.text));
   advance r;
   if not r.at_end then reject "a line after the closing line"
 
-let check options channel =
+let check_queries report options r =
+  let queries = ref 0 in
+  while (not r.at_end) && first_word r <> "certificates" do
+    if first_word r = "query" then incr queries;
+    check_one report options r
+  done;
+  check_end options r None "certificates" !queries
+
+(* Checks the certificates of steps to the first that is rejected. *)
+let check_steps report options r scenes =
+  Option.iter advance scenes;
+  while first_word r = "step" do
+    report.steps <- Step_certificate.check r scenes (require_demanded options) :: report.steps
+  done;
+  check_end options r scenes "steps" (List.length report.steps);
+  Option.iter (fun scenes -> if not scenes.at_end then reject "not all scenes are proved") scenes
+
+let check options channel scenes =
   let report =
-    { accepted = Array.make 6 0; rejected = 0; rejections = [] }
+    { accepted = Array.make 6 0; steps = []; rejected = 0; rejections = [] }
   in
   let r = reader_of channel in
   let header = "touchstone-certificates 2" in
+  let steps_header = "touchstone-steps 2" in
+  let meshes_header = "touchstone-meshes 1" in
   (try
      advance r;
-     if r.text = "touchstone-steps 2" then raise (Not_covered "certificates of steps");
-     if r.text = "touchstone-meshes 1" then raise (Not_covered "certificates of meshes");
-     if r.text <> header then reject ~line:1 ("the first line is not '" ^ header ^ "'");
-     advance r;
-     let queries = ref 0 in
-     while (not r.at_end) && first_word r <> "certificates" do
-       if first_word r = "query" then incr queries;
-       check_one report options r
-     done;
-     check_end options r !queries
+     let first = r.text in
+     if first = meshes_header then raise (Step_certificate.Not_covered "certificates of meshes");
+     if first = steps_header then begin
+       advance r;
+       check_steps report options r (Option.map reader_of scenes)
+     end
+     else if scenes <> None then
+       reject ~line:1
+         (Printf.sprintf "the first line is not '%s' or '%s', as for scenes" steps_header meshes_header)
+     else if first <> header then reject ~line:1 ("the first line is not '" ^ header ^ "'")
+     else begin
+       advance r;
+       check_queries report options r
+     end
    with Rejection (line, reason) -> note_rejection report r "" line reason);
   report
 
 let print report =
   let n = report.accepted in
   Printf.printf "accepted         %d\n  no_collision   %d\n  collision      %d\n  time_of_impact %d\n"
-    (Array.fold_left ( + ) 0 n) n.(0) n.(1) n.(2);
+    (Array.fold_left ( + ) (List.length report.steps) n) n.(0) n.(1) n.(2);
   if n.(3) + n.(4) + n.(5) > 0 then
     Printf.printf "  no_inversion      %d\n  inversion         %d\n  time_of_inversion %d\n" n.(3) n.(4) n.(5);
   Printf.printf "rejected         %d\n" report.rejected;
+  List.iter print_string (List.rev report.steps);
   let print_rejection (line, label, reason) =
     let name = if label = "" then "" else " (" ^ label ^ ")" in
     Printf.printf "  line %d%s: %s\n" line name reason
   in
   List.iter print_rejection report.rejections;
   let hidden = report.rejected - List.length report.rejections in
-  if hidden > 0 then Printf.printf "  and %d more\n" hidden
+  if hidden > 0 then Printf.printf "  and %d more\n" hidden;
+  let is_free text = List.mem "claim no_contact 1" (String.split_on_char '\n' text) in
+  if report.rejected = 0 && report.steps <> [] && List.for_all is_free report.steps then begin
+    let count = List.length report.steps in
+    Printf.printf "%d step%s: no two primitives touch\n" count (if count = 1 then "" else "s")
+  end
 
 type arguments = Help | Wrong | Check of string list * options
 
@@ -139,14 +169,19 @@ let rec parsed words files claim separation norm =
 
 let fail message = prerr_string ("touchstone-check-verified: " ^ message ^ "\n"); 2
 
-let check_file path options =
-  let channel =
-    if path = "-" then stdin
-    else try open_in_bin path with Sys_error _ -> failwith "the file cannot be opened"
+let check_file path scenes options =
+  let opened path =
+    let channel =
+      if path = "-" then stdin
+      else try open_in_bin path with Sys_error _ -> failwith "the file cannot be opened"
+    in
+    set_binary_mode_in channel true;
+    channel
   in
-  set_binary_mode_in channel true;
+  let channel = opened path in
   let report =
-    try check options channel with Sys_error _ -> failwith "the stream cannot be read"
+    try check options channel (Option.map opened scenes)
+    with Sys_error _ -> failwith "the stream cannot be read"
   in
   print report;
   if report.rejected = 0 then 0 else 1
@@ -156,11 +191,11 @@ let run () =
   | Help -> print_string usage; 0
   | Wrong -> prerr_string usage; 2
   | exception Rejection (_, reason) -> fail reason
-  | Check ([ path ], options) -> (
-      try check_file path options with
+  | Check (files, options) -> (
+      let path = List.hd files in
+      try check_file path (List.nth_opt files 1) options with
       | Failure reason -> fail (path ^ ": " ^ reason)
-      | Not_covered what -> fail (path ^ ": not covered: " ^ what))
-  | Check (files, _) -> fail (List.hd files ^ ": not covered: certificates of steps, and scenes")
+      | Step_certificate.Not_covered what -> fail (path ^ ": not covered: " ^ what))
 
 let () =
   let status = run () in

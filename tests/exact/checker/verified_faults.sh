@@ -21,7 +21,7 @@ failed_proof() {
 }
 
 cp "$sources"/*.v .
-for file in Problem Form Geometry Checker Proof Pairs Inversion; do
+for file in Problem StepProblem Form Geometry Checker Step Proof Pairs Inversion StepProof; do
   compile "$file.v" || { echo "verified_faults.sh: $file.v does not compile without a fault" >&2; cat output.txt >&2; exit 1; }
 done
 mkdir sound
@@ -43,6 +43,7 @@ END
   case $file in
     Form.v) sources_after="Form Checker Proof Inversion" ;;
     Pairs.v | Inversion.v) sources_after=${file%.v} ;;
+    Step.v) sources_after="Step StepProof" ;;
     *) sources_after="Checker Proof Inversion" ;;
   esac
   for source in $sources_after; do

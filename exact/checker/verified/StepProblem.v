@@ -1,0 +1,78 @@
+(** A step of a scene, and what a certificate claims of it: what has to be read, besides Problem.v, to
+    understand the theorem of StepProof.v. *)
+
+Require Import ZArith QArith Reals Qreals List.
+Import ListNotations.
+Require Import Verified.Problem.
+Open Scope Z_scope.
+
+(** Vertices are numbered from 0. Without [groups] all are in group 0. [apart] are groups that are held apart; the
+    thickness of two groups is their distance, or else the sum of their radii. *)
+Record step := Step {
+  vertices : list (triple Q * triple Q);  (* at t=0 and at t=1 *)
+  faces : list (Z * Z * Z); edges : list (Z * Z); points : list Z;
+  groups : list Z; apart : list (Z * Z); radii : list Q; distances : list (Z * Z * Q);
+  separation_of : separation }.
+
+(** An element is the list of its vertices: [v], an edge [a; b] with a < b, or a face [a; b; c]. *)
+Definition element := list Z.
+Inductive step_claim := no_contact (upper : Q) | earliest (lower upper : Q) (p q : element).
+
+Section Step.
+Variable s : step.
+Definition sides : list (Z * Z) := flat_map (fun f => let '(a, b, c) := f in [(a, b); (b, c); (c, a)]) (faces s).
+Definition is_edge_of (l : list (Z * Z)) (e : element) : Prop :=
+  exists a b, e = [a; b] /\ a < b /\ (In (a, b) l \/ In (b, a) l).
+Definition is_face (f : element) : Prop := exists a b c, f = [a; b; c] /\ In (a, b, c) (faces s).
+Definition is_edge (e : element) : Prop := is_edge_of (sides ++ edges s) e.
+Definition is_vertex (p : element) : Prop :=
+  exists v, p = [v] /\ (In v (points s) \/ exists a b, In (a, b) (sides ++ edges s) /\ (v = a \/ v = b)).
+Definition is_bare_edge (e : element) : Prop := is_edge e /\ ~ is_edge_of sides e.
+Definition is_point (p : element) : Prop := is_vertex p /\ forall e v, is_edge e -> In v e -> ~ In v p.
+Definition is_before (p q : element) : Prop := last p 0 < last q 0.
+Definition group_of (v : Z) : Z := nth (Z.to_nat v) (groups s) 0.
+Definition is_held_apart (v w : Z) : Prop :=
+  In (group_of v, group_of w) (apart s) \/ In (group_of w, group_of v) (apart s).
+
+Definition can_collide (p q : element) : Prop :=
+  (is_vertex p /\ is_face q \/ is_edge p /\ is_edge q /\ is_before p q \/
+   is_point p /\ is_bare_edge q \/ is_point p /\ is_point q /\ is_before p q) /\
+  (forall v, In v p -> ~ In v q) /\ (exists v w, In v p /\ In w q /\ ~ is_held_apart v w).
+
+(** The double nearest to a sum. *)
+Variable sum : Q -> Q -> Q.
+Definition thickness (g h : Z) : Q :=
+  match find (fun d => let '(a, b, _) := d in (a =? g) && (b =? h) || (a =? h) && (b =? g))%bool (distances s) with
+  | Some (_, distance) => distance
+  | None => sum (nth (Z.to_nat g) (radii s) 0) (nth (Z.to_nat h) (radii s) 0)
+  end%Q.
+Definition greatest (xs : list Q) : Q := fold_right (fun x y => if Qle_bool x y then y else x) 0%Q xs.
+Definition distance_between (gs hs : list Z) : Q :=
+  match radii s, distances s with
+  | [], [] => distance_of (separation_of s)
+  | _, _ => sum (distance_of (separation_of s)) (greatest (flat_map (fun g => map (thickness g) hs) gs))
+  end.
+Definition separation_between (p q : element) : separation :=
+  Separation (distance_between (map group_of p) (map group_of q)) (norm_of (separation_of s)).
+
+(** A vertex and an edge are as a vertex and the face e0 e1 e0, two vertices as v and the face w w w. *)
+Definition query_of (p q : element) : query :=
+  let moving (e : element) (i : nat) :=
+    let '(a, b) := nth (Z.to_nat (nth i e (hd 0 e))) (vertices s) (Triple 0 0 0, Triple 0 0 0)%Q in straight a b in
+  match p with
+  | [_; _] => Query edge_edge (moving p 0) (moving p 1) (moving q 0) (moving q 1)
+  | _ => Query vertex_face (moving p 0) (moving q 0) (moving q 1) (moving q 2)
+  end%nat.
+
+Open Scope R_scope.
+Definition no_contact_to (upper : Q) : Prop :=
+  forall p q, can_collide p q -> no_contact_until (query_of p q) (separation_between p q) (Q2R upper).
+Definition step_holds (c : step_claim) : Prop :=
+  match c with
+  | no_contact upper => 0 <= Q2R upper <= 1 /\ no_contact_to upper
+  | earliest lower upper p q =>
+      can_collide p q /\ contact_between (query_of p q) (separation_between p q) (Q2R lower) (Q2R upper) /\
+      0 <= Q2R lower /\ Q2R upper <= 1 /\
+      (Q2R lower = 0 /\ Q2R upper = 0 \/ Q2R lower < Q2R upper /\ no_contact_to lower)
+  end.
+End Step.
