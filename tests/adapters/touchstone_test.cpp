@@ -417,7 +417,7 @@ TEST(CInterface, SaysWhatIsWrongAndWritesNothing) {
                           bad_time = with([](auto&o) { o.t_max = 2.0; }),
                           bad_distance = with([](auto&o) { o.min_separation = -1.0; });
   const TouchstoneLineSearchOptions other_norm{2, TOUCHSTONE_OF_PAIR, 0.0},
-      other_start{TOUCHSTONE_L2, 2};
+      other_start{TOUCHSTONE_L2, 2, 0.0};
   const std::vector<Query> queries = random_queries(1);
   const double* const x = queries[0].coordinates.data();
   Query far = queries[0];
