@@ -18,7 +18,7 @@
 
 Require Import Reals QArith Qreals List Lra Psatz.
 Import ListNotations.
-Require Import FunctionalExtensionality.
+Require FunctionalExtensionality.
 Require Import Verified.Problem Verified.Geometry Verified.Proof.
 Open Scope R_scope.
 
@@ -852,7 +852,7 @@ Proof.
   intros L0 N0 N. assert (C : forall h, (forall m, vertex_of h m -> on_a_straight_line m) ->
     continuous_until T (image position h)).
   { intros h Hh t _ v Hv. apply vertex_of_image in Hv as (m & Hm & ->). destruct (Hh m Hm) as (a & b & ->).
-    rewrite (functional_extensionality _ _ (straight_line a b)). unfold continuous_at, to_vector. by_coordinates.
+    rewrite (FunctionalExtensionality.functional_extensionality _ _ (straight_line a b)). unfold continuous_at, to_vector. by_coordinates.
     repeat split; continuous. }
   assert (Cf : continuous_until T (image position f)) by auto.
   assert (Cg : continuous_until T (image position g)) by auto.

@@ -318,6 +318,7 @@ def stream_results(programs, path, some):
             kept = pathlib.Path(f"different-{first}.cert")
             kept.write_bytes(path.read_bytes())
             print(f"  kept: {kept}")
+        yield result
 
 
 # ---- Steps ----

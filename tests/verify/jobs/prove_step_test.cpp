@@ -22,6 +22,7 @@
 #include "tests/support/trials.hpp"
 #include "touchstone/broad_phase.hpp"
 #include "touchstone/certificate_text.hpp"
+#include "touchstone/inversion_oracle.hpp"
 #include "touchstone/oracle.hpp"
 
 // Proofs of steps: the checker accepts each, its claim agrees with the oracle on all pairs one by
