@@ -65,7 +65,8 @@ void decide_elements(const Queries& block, const CertifiedOptions& options, cons
     throw std::invalid_argument("solve: an element moves on straight lines, without a separation");
   }
   std::vector<InversionResult> found(block.size());
-  const InversionOptions alike{options.toi_tolerance, options.t_max, 1};
+  const InversionOptions alike{
+      .toi_tolerance = options.toi_tolerance, .t_max = options.t_max, .max_threads = 1};
   if (block.kind == Kind::tetrahedron) {
     inversions(block.straight(), found, alike);
   } else {

@@ -43,7 +43,7 @@ TEST(PluginInterface, StructsHaveTheirLayout) {
   EXPECT_EQ(offsetof(TouchstonePluginAnswer, toi_upper), 16U);
   EXPECT_EQ(offsetof(TouchstonePluginAnswer, tolerance), 24U);
 
-  EXPECT_EQ(sizeof(TouchstonePluginPromise), 40U);
+  EXPECT_EQ(sizeof(TouchstonePluginPromise), 48U);
   EXPECT_EQ(offsetof(TouchstonePluginPromise, size), 0U);
   EXPECT_EQ(offsetof(TouchstonePluginPromise, promise), 4U);
   EXPECT_EQ(offsetof(TouchstonePluginPromise, kinds), 8U);
@@ -51,6 +51,7 @@ TEST(PluginInterface, StructsHaveTheirLayout) {
   EXPECT_EQ(offsetof(TouchstonePluginPromise, times), 20U);
   EXPECT_EQ(offsetof(TouchstonePluginPromise, starts_apart), 24U);
   EXPECT_EQ(offsetof(TouchstonePluginPromise, time_error), 32U);
+  EXPECT_EQ(offsetof(TouchstonePluginPromise, elements), 40U);
 }
 
 TEST(PluginInterface, FunctionsHaveTheirTypes) {

@@ -150,7 +150,7 @@ TEST(KindFromPath, IsThatOfItsDeepestWordIfThereIsOne) {
   }
   EXPECT_EQ(
       error_of("", [] { (void)kind_from_path("vertex-face/edge-edge-vertex-face.csv"); }),
-      "vertex-face/edge-edge-vertex-face.csv: \"edge-edge-vertex-face.csv\" names both kinds; "
+      "vertex-face/edge-edge-vertex-face.csv: \"edge-edge-vertex-face.csv\" names several kinds; "
       "pass --kind");
 }
 

@@ -64,7 +64,7 @@ void touchstone_plugin_promise(TouchstonePluginPromise* promise) {
   promise->promise = TOUCHSTONE_PROMISES_EXACT;
   promise->kinds[TOUCHSTONE_VERTEX_FACE] = behaviour == states_nonsense ? 0 : 1;
   promise->kinds[TOUCHSTONE_EDGE_EDGE] = 0;
-  promise->elements[1] = 1;
+  promise->elements[1] = behaviour == states_nonsense ? 0 : 1;
   promise->is_float = 1;
   promise->times = TOUCHSTONE_TIMES_ESTIMATES;
   promise->starts_apart = 0.5;
