@@ -14,6 +14,7 @@ import glob
 import json
 import pathlib
 import re
+import shutil
 import resource
 import subprocess
 import sys
@@ -139,12 +140,14 @@ def simulate(command, options, folder):
     print(f"./run {command}", flush=True)
     frames, out, judged = folder / "frames", folder / "run.json", folder / "steps.json"
     words = command.split()[1:] + (["--steps", "3"] if options.quick else [])
+    shutil.rmtree(frames, ignore_errors=True)
     run([options.tool.with_name("touchstone-simulate"), *words, "--out", frames, "--json", out])
-    # Its exit status is 1 if there is a collision.
-    run([options.tool, "step", frames, "--json", judged], (0, 1))
-    steps_ = json.loads(judged.read_text())["steps"]
+    result, steps_ = json.loads(out.read_text()), []
+    if result["frames"] > 1:  # its exit status is 1 if there is a collision
+        run([options.tool, "step", frames, "--json", judged], (0, 1))
+        steps_ = json.loads(judged.read_text())["steps"]
     colliding = sum(not step["free"] for step in steps_)
-    return {"command": f"./run {command}", "result": json.loads(out.read_text()) | {"colliding": colliding, "motions": len(steps_)}}
+    return {"command": f"./run {command}", "result": result | {"colliding": colliding, "motions": len(steps_)}}
 
 
 def record(options):
