@@ -363,7 +363,7 @@ MeshDefects mesh_defects(const MovingVertices& vertices, const MeshElements& ele
   std::ranges::for_each(elements.tetrahedra, add);
   std::ranges::for_each(elements.plane_triangles, add);
   std::ranges::sort(named);
-  named.erase(std::ranges::unique(named).begin(), named.end());
+  named.erase(std::unique(named.begin(), named.end()), named.end());
   for (std::int32_t i = 0, next = 0; std::cmp_less(i, vertices.size()); ++i) {
     if (std::cmp_less(next, named.size()) && named[static_cast<std::size_t>(next)] == i) {
       ++next;

@@ -28,7 +28,7 @@ std::string html_beginning(std::string_view title, std::string_view style, bool 
 }
 
 std::string script_element(std::string_view script, std::string_view id) {
-  const std::string kept = id.empty() ? "" : fmt::format(" type=\"text/plain\" id=\"{}\"", id);
+  const std::string kept = id.empty() ? "" : fmt::format(R"( type="text/plain" id="{}")", id);
   return fmt::format("<script{}>\n{}</script>\n", kept, script);
 }
 
