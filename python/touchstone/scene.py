@@ -267,7 +267,9 @@ class Step:
             lambda: _fast.Step(
                 *self._vertices,
                 *self._elements,
-                *self._thickness,
+                self._thickness[0],
+                self._thickness[1],
+                self._thickness[2],
                 can_collide,
                 separation,
                 norm,
