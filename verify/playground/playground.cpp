@@ -20,7 +20,6 @@
 #include "verify/base/any_query.hpp"
 #include "verify/judge/terms.hpp"
 #include "verify/solvers/registry.hpp"
-#include "verify/view/certificate_facts.hpp"
 #include "verify/view/query_facts.hpp"
 
 namespace touchstone::verify::playground {
@@ -119,7 +118,7 @@ EMSCRIPTEN_KEEPALIVE const char* touchstone_solve(int is_edge_edge, const double
                              playground::certified_answer);
 }
 
-/// What the checker says of a certificate of one query (verify/view/certificate_facts.hpp), as
+/// What the checker says of a certificate of one query (verify/view/query_facts.hpp), as
 /// JSON.
 EMSCRIPTEN_KEEPALIVE const char* touchstone_check(const char* certificate) {
   using namespace touchstone::verify;
