@@ -17,10 +17,11 @@ commit = "@commit@"
   return()
 endif()
 file(CONFIGURE OUTPUT ${OUTPUT} CONTENT [[
-#include "verify/cli/options.hpp"
+#include <string_view>
 
 namespace touchstone::verify::cli {
 
+std::string_view version();  // verify/cli/options.hpp, which takes seconds to compile
 std::string_view version() { return "@text@"; }
 
 }  // namespace touchstone::verify::cli
