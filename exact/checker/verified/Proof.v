@@ -209,7 +209,7 @@ Proof.
   assert (exists u, 0 <= u <= 1 /\ t = (1 - u) * Q2R a + u * Q2R b) as (u & Hu & ->).
   { destruct (Req_dec (Q2R a) (Q2R b)) as [E' | N]; [exists 0; split; lra |].
     exists ((t - Q2R a) / (Q2R b - Q2R a)). split; [| field; lra].
-    apply quotient_in_unit with (Q2R b - t); lra. }
+    apply quotient_in_unit; lra. }
   exists u. destruct (moments_at_u a b ms u E) as (k & M). exists k. split; assumption.
 Qed.
 
@@ -267,12 +267,6 @@ Proof.
   unfold vector_at, times. cbn [x_of y_of z_of]. rewrite !restrict_value by assumption. reflexivity.
 Qed.
 
-Lemma corner_of_form w : In w ws -> exists y, In y (corners q t) /\ vector_at u w = times size y.
-Proof.
-  intros I. apply (in_map (vector_at u)) in I. rewrite corner_values in I.
-  apply in_map_iff in I as (y & E & Iy). eauto.
-Qed.
-
 Lemma form_of_corner y : In y (corners q t) -> exists w, In w ws /\ vector_at u w = times size y.
 Proof.
   intros I. apply (in_map (times size)) in I. rewrite <- corner_values in I.
@@ -286,6 +280,16 @@ Qed.
 
 Lemma forms_are_polygon : is_polygon (map (vector_at u) ws).
 Proof. rewrite corner_values. apply enlarged_polygon, corners_are_polygon. Qed.
+
+Lemma polygon_of_forms a b c rest : ws = a :: b :: c :: rest ->
+  is_polygon_in (enlarged size q t) (vector_at u a) (vector_at u b) (vector_at u c)
+    (vector_at u (match rest with [] => c | f :: _ => f end)) (map (vector_at u) rest).
+Proof.
+  intros E. pose proof forms_are_polygon as P. rewrite E in P. repeat split; [apply enlarged_is_convex | exact P | |].
+  - intros w I. apply (in_map_iff (vector_at u) (a :: b :: c :: rest)) in I as (y & <- & Iy).
+    apply form_is_in_hull. rewrite E. exact Iy.
+  - destruct rest; reflexivity.
+Qed.
 
 Lemma get_is_in_hull i : enlarged size q t (vector_at u (get ws i)).
 Proof.
@@ -500,22 +504,18 @@ Proof. intros E. apply not_negative_at in E. rewrite at_dot, at_cross in E. exac
 
 Lemma face_sound : proves_face g D ws = true -> is_contact_seen.
 Proof.
-  pose proof forms_are_polygon as P. pose proof form_is_in_hull as I. fold H in I.
-  destruct ws as [| a [| b [| c rest]]]; cbn [map is_polygon] in P; try contradiction.
-  intros E. unfold proves_face in E. cbv zeta in E. rewrite !andb_true_iff in E.
+  pose proof polygon_of_forms as P. destruct ws as [| a [| b [| c rest]]]; try discriminate.
+  specialize (P a b c rest eq_refl). intros E. unfold proves_face in E. cbv zeta in E. rewrite !andb_true_iff in E.
   destruct E as ((((E1 & E2) & E3) & E4) & E5). apply positive_at in E1. apply near_sound in E2.
   rewrite at_u_mul, !at_dot in E2. rewrite at_dot in E1. apply inwards_sound in E3, E4.
   assert (En : vector_at u (normal (a :: b :: c :: rest)) =
     cross (minus (vector_at u b) (vector_at u a)) (minus (vector_at u c) (vector_at u a))).
   { cbn [normal]. rewrite at_cross, !at_minus. reflexivity. }
   apply seen_by_square.
-  destruct rest as [| f [| ? ?]]; cbn [map] in P; [| | contradiction].
-  - apply inwards_sound in E5. rewrite En in *.
-    apply (triangle_face_contact H (vector_at u a) (vector_at u b) (vector_at u c));
-      try (apply I; cbn [In]; tauto); try apply enlarged_is_convex; assumption.
-  - apply andb_prop in E5 as [E5 E6]. apply inwards_sound in E5, E6. rewrite En in *.
-    apply (parallelogram_face_contact H (vector_at u a) (vector_at u b) (vector_at u c) (vector_at u f));
-      try (apply I; cbn [In]; tauto); try apply enlarged_is_convex; assumption.
+  apply (face_contact H (vector_at u a) (vector_at u b) (vector_at u c) (vector_at u (match rest with [] => c | f :: _ => f end))
+    (map (vector_at u) rest)); rewrite <- ?En; try assumption.
+  destruct rest; [exact (inwards_sound _ _ _ E5) |]. apply andb_prop in E5 as [E5 E6].
+  split; apply inwards_sound; assumption.
 Qed.
 
 (** A witness in linf. *)
@@ -536,9 +536,8 @@ Qed.
 
 Lemma axes_sound : norm_of s = linf -> proves_axes g D ws = true -> is_contact_seen.
 Proof.
-  intros Hn. pose proof forms_are_polygon as P. pose proof form_is_in_hull as I. fold H in I.
-  destruct ws as [| a [| b [| c rest]]]; cbn [map is_polygon] in P; try contradiction.
-  unfold proves_axes. cbv zeta. set (is_triangle := match rest with [] => true | _ => false end).
+  intros Hn. pose proof polygon_of_forms as P. destruct ws as [| a [| b [| c rest]]]; try discriminate.
+  specialize (P a b c rest eq_refl). unfold proves_axes. cbv zeta. set (is_triangle := match rest with [] => true | _ => false end).
   set (f := match rest with [] => c | f :: _ => f end).
   intros E. apply some_pair_sound in E as (line & other & E). unfold is_witness in E.
   set (e := f_minus b a) in *. set (f' := f_minus f a) in *.
@@ -561,13 +560,9 @@ Proof.
   { unfold x, point. rewrite !at_plus, !at_times. symmetry. apply point_of_quotients. exact Em. }
   exists point. split.
   - unfold point, e, f'. rewrite !at_minus. unfold is_triangle, f in Et |- *.
-    destruct rest as [| h [| ? ?]]; cbn [map] in P; [| | contradiction].
-    + apply not_negative_at in Et. rewrite at_u_sub, at_u_add in Et.
-      apply triangle_point; try (apply I; cbn [In]; tauto); try apply enlarged_is_convex; lra.
-    + apply andb_prop in Et as [Et1 Et2]. apply not_negative_at in Et1, Et2.
-      rewrite at_u_sub in Et1, Et2.
-      apply (parallelogram_point H (vector_at u a) (vector_at u b) (vector_at u c) (vector_at u h));
-        try (apply I; cbn [In]; tauto); try apply enlarged_is_convex; try assumption; lra.
+    apply (polygon_point H _ _ (vector_at u c) _ (map (vector_at u) rest)); try assumption.
+    destruct rest; cbn [map]; [| apply andb_prop in Et as [Et Et2]; apply not_negative_at in Et2; rewrite at_u_sub in Et2];
+      apply not_negative_at in Et; rewrite at_u_sub, ?at_u_add in Et; lra.
   - assert (W : forall y, In y [x_of x; y_of x; z_of x] ->
       - (at_u u D * at_u u m) <= at_u u y <= at_u u D * at_u u m).
     { intros y Iy. destruct (Ex y Iy) as [E1 E2]. apply not_negative_at in E1, E2.
@@ -666,16 +661,6 @@ Corollary contact_at_distance_0 q n t :
 Proof.
   unfold contact. cbn [distance_of norm_of]. rewrite Q2R_0.
   split; intros (u & v & D & E); exists u, v; (split; [exact D | apply (length_zero n); exact E]).
-Qed.
-
-(** The first claim in full. *)
-Corollary no_collision_sound q s subintervals contact :
-  check q s no_collision subintervals contact = true ->
-  forall t u v, 0 <= t <= 1 -> in_domain (kind_of q) u v ->
-  Q2R (distance_of s) < length_of (norm_of s) (F q t u v).
-Proof.
-  intros E t u v Ht D. apply Rnot_le_lt. intros L.
-  apply (check_sound _ _ _ _ _ E t Ht). exists u, v. split; assumption.
 Qed.
 
 (** What is accepted is a curve: the weights are positive. *)
