@@ -154,7 +154,7 @@ Definition proves (c : setting) (ps qs : list site) (a : argument) : bool :=
   | by_direction d => is_above (enlarged_between c ps qs) d ps qs
   | by_subintervals subintervals =>
       match scene_between c ps qs with
-      | Some sc => separates_all sc 0 (upper c) subintervals
+      | Some sc => all_are_free (separates sc) 0 (upper c) subintervals
       | None => false
       end
   end.
@@ -398,7 +398,7 @@ Definition proves_contact_of (c : setting) (m : map_of site) (lower upper : Q) (
   match contact, find_sites m p, find_sites m q with
   | Some x, Some ps, Some qs =>
       seem_to_collide c ps qs &&
-      match scene_between c ps qs with Some sc => proves_contact sc lower upper x | None => false end
+      match scene_between c ps qs with Some sc => proves_event (is_contact sc) lower upper x | None => false end
   | _, _, _ => false
   end.
 

@@ -584,7 +584,7 @@ Proof.
   - exact (above_never_touch d ps qs P Q Np Nq (or_introl H)).
   - destruct (scene_between c ps qs) as [sc |] eqn:Es; [| discriminate H].
     apply scene_between_sound in Es; try assumption. intros t Ht.
-    apply (separates_all_sound _ _ sc Es _ _ _ H); rewrite ?Q2R_0; unfold E in *; lra.
+    apply (all_are_free_sound _ _ (separates_sound _ _ sc Es) _ _ _ H); rewrite ?Q2R_0; unfold E in *; lra.
 Qed.
 
 Lemma common_vertex_sound ps qs : have_common_vertex ps qs = true ->
@@ -992,7 +992,7 @@ Proof.
   split; [exact K |]. destruct K as (_ & _ & v & w & Iv & Iw & _).
   assert (ps <> [] /\ qs <> []) as [Np Nq] by (split; intros ->; contradiction).
   destruct (scene_between c ps qs) as [sc |] eqn:Es; [| discriminate H].
-  apply (scene_between_sound c h) in Es; try assumption. exact (contact_sound _ _ sc _ _ _ Es H).
+  apply (scene_between_sound c h) in Es; try assumption. exact (event_sound _ _ (contact_sound _ _ sc Es) _ _ _ H).
 Qed.
 
 (** Every accepted claim is true. *)
@@ -1005,8 +1005,7 @@ Proof.
     apply orb_prop in H as [H | H]; rewrite !andb_true_iff in H.
     + destruct H as [L U]. apply Qeq_bool_eq, Qeq_eqR in L, U. rewrite Q2R_0 in L, U. split; [apply T |]; lra.
     + destruct H as [[[L U] N] H]. apply Qle_bool_iff, Qle_Rle in L, U. rewrite Q2R_0 in L. rewrite Q2R_1 in U.
-      assert (Q2R lower < Q2R upper).
-      { apply Rnot_le_lt. intros G. apply Rle_Qle in G. apply Qle_bool_iff in G. rewrite G in N. discriminate N. }
+      apply less_by_bool in N.
       split; [exact (T L U) |]. split; [exact L |]. split; [exact U |]. right.
       split; [assumption | apply (no_contact_sound s sum h lower H); lra].
 Qed.
