@@ -12,7 +12,6 @@ Open Scope R_scope.
 Definition cross (a b : vector) : vector :=
   Triple (y_of a * z_of b - z_of a * y_of b) (z_of a * x_of b - x_of a * z_of b)
     (x_of a * y_of b - y_of a * x_of b).
-Definition origin : vector := Triple 0 0 0.
 
 Inductive axis := x_axis | y_axis | z_axis.
 Definition component {A} (k : axis) (a : triple A) : A :=
@@ -44,16 +43,6 @@ Ltac by_components :=
 (** ** The corner theorem
 
     The differences F(t,·,·) are the convex combinations of the corners. *)
-
-Fixpoint combination (weights : list R) (ws : list vector) : vector :=
-  match weights, ws with
-  | k :: weights', w :: ws' => plus (times k w) (combination weights' ws')
-  | _, _ => origin
-  end.
-
-Definition is_convex_combination (x : vector) (ws : list vector) : Prop :=
-  exists weights, length weights = length ws /\ Forall (Rle 0) weights /\
-    fold_right Rplus 0 weights = 1 /\ combination weights ws = x.
 
 Lemma hull_is_convex q t : convex (in_hull q t).
 Proof.

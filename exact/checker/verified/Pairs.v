@@ -672,8 +672,6 @@ Variables d T : R.
 Hypothesis places_are_continuous : forall v t, 0 <= t <= T -> continuous_at t (place v).
 Hypothesis free_at_start : forall a b f, is_edge a b -> is_face f ->
   without_common_vertex (an_edge a b) (a_face f) -> ~ meet (points (an_edge a b) 0) (points (a_face f) 0).
-Hypothesis searched_are_apart : forall P Q, in_mesh P -> in_mesh Q -> without_common_vertex P Q -> is_searched P Q ->
-  forall t, 0 <= t <= T -> ~ within n d (points P t) (points Q t).
 
 Lemma vertex_has_edge f v : is_face f -> vertex_of f v -> exists w, is_edge v w /\ vertex_of f w.
 Proof.
@@ -698,16 +696,13 @@ Qed.
 Lemma face_is_continuous f : continuous_until T (image place f).
 Proof. intros t Ht v Hv. apply vertex_of_image in Hv as (x & _ & ->). exact (places_are_continuous x t Ht). Qed.
 
-Lemma vertex_and_face_are_apart v f t : is_face f -> ~ vertex_of f v -> 0 <= t <= T ->
+(** Edges and faces: of the pairs that are searched these two kinds suffice. *)
+Section Faces.
+Hypothesis vertices_and_faces : forall v w f t, is_edge v w -> is_face f -> ~ vertex_of f v -> 0 <= t <= T ->
   ~ within n d (points (a_vertex v) t) (points (a_face f) t).
-Proof.
-  intros Hf N Ht. refine (searched_are_apart (a_vertex v) (a_face f) I Hf _ I t Ht). intros w -> W. exact (N W).
-Qed.
-
-Lemma edges_are_apart a b a' b' t : is_edge a b -> is_edge a' b' ->
+Hypothesis edges_and_edges : forall a b a' b' t, is_edge a b -> is_edge a' b' ->
   without_common_vertex (an_edge a b) (an_edge a' b') -> 0 <= t <= T ->
   ~ within n d (points (an_edge a b) t) (points (an_edge a' b') t).
-Proof. intros E E' N Ht. exact (searched_are_apart (an_edge a b) (an_edge a' b') E E' N I t Ht). Qed.
 
 Lemma edge_and_face_are_apart a b f t : is_edge a b -> is_face f ->
   without_common_vertex (an_edge a b) (a_face f) -> 0 <= t <= T ->
@@ -718,10 +713,10 @@ Proof.
   - apply face_is_continuous.
   - exact (free_at_start a b f E Hf N).
   - intros t Ht. repeat split.
-    + apply (vertex_and_face_are_apart a f t Hf); [apply N; cbn; auto | exact Ht].
-    + apply (vertex_and_face_are_apart b f t Hf); [apply N; cbn; auto | exact Ht].
+    + apply (vertices_and_faces a b f t E Hf); [apply N; cbn; auto | exact Ht].
+    + apply (vertices_and_faces b a f t (edges_have_no_direction _ _ E) Hf); [apply N; cbn; auto | exact Ht].
     + intros a' b' H W. destruct (proper_edge f t a' b' Hf H) as (x & y & Exy & Vx & Vy & S).
-      apply (edges_are_apart a b x y t E Exy); [| exact Ht | exact (within_larger _ _ _ _ _ _ W (fun c C => C) S)].
+      apply (edges_and_edges a b x y t E Exy); [| exact Ht | exact (within_larger _ _ _ _ _ _ W (fun c C => C) S)].
       intros v Hv [-> | ->]; apply (N _ Hv); assumption.
 Qed.
 
@@ -739,14 +734,30 @@ Proof.
     apply (Free g f Hg Hf N' a b Hab M).
   - intros t Ht [(v & Hv & W) | [(v & Hv & W) | (a & b & a' & b' & Hab & Hab' & W)]].
     + apply vertex_of_image in Hv as (p & Hv & ->). apply vertex_of_image in Hv as (x & Hx & ->).
-      exact (vertex_and_face_are_apart x g t Hg (N x Hx) Ht W).
+      destruct (vertex_has_edge f x Hf Hx) as (y & E & _). exact (vertices_and_faces x y g t E Hg (N x Hx) Ht W).
     + apply vertex_of_image in Hv as (p & Hv & ->). apply vertex_of_image in Hv as (x & Hx & ->).
-      exact (vertex_and_face_are_apart x f t Hf (N' x Hx) Ht W).
+      destruct (vertex_has_edge g x Hg Hx) as (y & E & _). exact (vertices_and_faces x y f t E Hf (N' x Hx) Ht W).
     + destruct (proper_edge f t a b Hf Hab) as (x & y & E & Vx & Vy & S).
       destruct (proper_edge g t a' b' Hg Hab') as (x' & y' & E' & Vx' & Vy' & S').
-      apply (edges_are_apart x y x' y' t E E'); [| exact Ht | exact (within_larger _ _ _ _ _ _ W S S')].
+      apply (edges_and_edges x y x' y' t E E'); [| exact Ht | exact (within_larger _ _ _ _ _ _ W S S')].
       intros v Hv Hv'. apply (N v); [destruct Hv as [-> | ->] | destruct Hv' as [-> | ->]]; assumption.
 Qed.
+
+End Faces.
+
+Hypothesis searched_are_apart : forall P Q, in_mesh P -> in_mesh Q -> without_common_vertex P Q -> is_searched P Q ->
+  forall t, 0 <= t <= T -> ~ within n d (points P t) (points Q t).
+
+Lemma vertex_and_face_are_apart v f t : is_face f -> ~ vertex_of f v -> 0 <= t <= T ->
+  ~ within n d (points (a_vertex v) t) (points (a_face f) t).
+Proof.
+  intros Hf N Ht. refine (searched_are_apart (a_vertex v) (a_face f) I Hf _ I t Ht). intros w -> W. exact (N W).
+Qed.
+
+Lemma edges_are_apart a b a' b' t : is_edge a b -> is_edge a' b' ->
+  without_common_vertex (an_edge a b) (an_edge a' b') -> 0 <= t <= T ->
+  ~ within n d (points (an_edge a b) t) (points (an_edge a' b') t).
+Proof. intros E E' N Ht. exact (searched_are_apart (an_edge a b) (an_edge a' b') E E' N I t Ht). Qed.
 
 Lemma vertex_and_edge_are_apart v a b t : is_edge a b -> without_common_vertex (a_vertex v) (an_edge a b) ->
   ~ is_excluded (a_vertex v) (an_edge a b) -> 0 <= t <= T ->
@@ -792,10 +803,10 @@ Proof.
   - apply vertex_and_face_are_apart; auto. exact (N v eq_refl).
   - apply S, vertex_and_edge_are_apart; auto.
   - apply edges_are_apart; auto.
-  - apply edge_and_face_are_apart; auto.
+  - apply edge_and_face_are_apart; eauto using vertex_and_face_are_apart, edges_are_apart.
   - apply S, vertex_and_face_are_apart; auto. exact (N' w eq_refl).
-  - apply S, edge_and_face_are_apart; auto.
-  - apply faces_are_apart; auto.
+  - apply S, edge_and_face_are_apart; eauto using vertex_and_face_are_apart, edges_are_apart.
+  - apply faces_are_apart; eauto using vertex_and_face_are_apart, edges_are_apart.
 Qed.
 
 End Mesh.
@@ -807,16 +818,6 @@ Inductive query_of (f g : triple motion) : query -> Prop :=
   | vertex_of_first v : vertex_of f v -> query_of f g (Query vertex_face v (x_of g) (y_of g) (z_of g))
   | vertex_of_second v : vertex_of g v -> query_of f g (Query vertex_face v (x_of f) (y_of f) (z_of f))
   | edges_of_both p q a b : edge_of f p q -> edge_of g a b -> query_of f g (Query edge_edge p q a b).
-
-(** The order of the ends, and that of the edges, does not matter. *)
-Lemma contact_in_any_order p q a b s t : contact (Query edge_edge p q a b) s t ->
-  contact (Query edge_edge q p a b) s t /\ contact (Query edge_edge a b p q) s t.
-Proof.
-  unfold contact, F. cbn. intros (u & v & D & L). split; [exists (1 - u), v | exists v, u]; (split; [lra |]).
-  - replace (plus (times (1 - (1 - u)) _) _) with (plus (times (1 - u) (position p t)) (times u (position q t)))
-      by by_vectors. exact L.
-  - rewrite length_of_opposite. exact L.
-Qed.
 
 Definition on_a_straight_line (m : motion) : Prop := exists a b, m = straight a b.
 

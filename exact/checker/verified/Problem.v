@@ -28,6 +28,18 @@ Definition minus (a b : vector) : vector :=
 Definition times (k : R) (a : vector) : vector := Triple (k * x_of a) (k * y_of a) (k * z_of a).
 Definition dot (a b : vector) : R := x_of a * x_of b + y_of a * y_of b + z_of a * z_of b.
 
+Definition origin : vector := Triple 0 0 0.
+
+Fixpoint combination (weights : list R) (ws : list vector) : vector :=
+  match weights, ws with
+  | k :: weights', w :: ws' => plus (times k w) (combination weights' ws')
+  | _, _ => origin
+  end.
+
+Definition is_convex_combination (x : vector) (ws : list vector) : Prop :=
+  exists weights, length weights = length ws /\ Forall (Rle 0) weights /\
+    fold_right Rplus 0 weights = 1 /\ combination weights ws = x.
+
 Inductive norm := linf | l2.
 
 Definition length_of (n : norm) (a : vector) : R :=

@@ -137,12 +137,7 @@ Definition enlarged_between (c : setting) (ps qs : list site) : Z :=
   end.
 
 Definition query_between (ps qs : list site) : query :=
-  let moving (e : list site) (i : nat) :=
-    let '(a, b) := nth i (map moves e) (hd (Triple 0 0 0, Triple 0 0 0)%Q (map moves e)) in straight a b in
-  match ps with
-  | [_; _] => Query edge_edge (moving ps 0) (moving ps 1) (moving qs 0) (moving qs 1)
-  | _ => Query vertex_face (moving ps 0) (moving qs 0) (moving qs 1) (moving qs 2)
-  end%nat.
+  query_of_motions (map (fun p => line (moves p)) ps) (map (fun q => line (moves q)) qs).
 
 Definition scene_between (c : setting) (ps qs : list site) : option scene :=
   scene_of (query_between ps qs)

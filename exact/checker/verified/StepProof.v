@@ -324,14 +324,11 @@ Hypothesis Hm : m = add_sites (space c) (upper c) (reach_in s h) 0 (vertices s) 
 Hypothesis Hgap : gap c = enlarged_distance (space c) (distance_of (separation_of s)).
 Hypothesis Hheld : forall g l, has_pair (held c) g l = true -> In (g, l) (apart s) \/ In (l, g) (apart s).
 
-Definition nowhere : triple Q * triple Q := (Triple 0 0 0, Triple 0 0 0)%Q.
-Definition motion_of (v : Z) : triple Q * triple Q := nth (Z.to_nat v) (vertices s) nowhere.
-Definition vertex_at (v : Z) (t : R) : vector :=
-  position (let '(a, b) := motion_of v in straight a b) t.
+Definition vertex_at (v : Z) (t : R) : vector := position (motion_of s v) t.
 
 (** A site as it should be. *)
 Definition is_site (p : site) : Prop :=
-  moves p = motion_of (number p) /\ group p = group_of s (number p) /\ reach_in s h (group p) = Some (reach_of p) /\
+  moves p = ends_of s (number p) /\ group p = group_of s (number p) /\ reach_in s h (group p) = Some (reach_of p) /\
   forall i, is_in_range k E (component i (fst (moves p))) (component i (snd (moves p))) (component i (ranges p)).
 
 Lemma add_sites_sound x p vs : forall n gs o,
@@ -354,8 +351,8 @@ Lemma sites_sound x p : find_in m (key x) = Some p -> number p = x /\ is_site p.
 Proof.
   rewrite Hm. intros F. apply add_sites_sound in F as [F | (i & v & -> & Ev & Ex & Em & Eg & Er & Eb)];
     [destruct (find_empty _ _ F) |].
-  split; [exact Ex |]. rewrite Z.add_0_l in *. unfold is_site, motion_of, group_of. rewrite Ex, Nat2Z.id, Em, Eb.
-  rewrite (nth_error_nth _ _ nowhere Ev). split; [reflexivity |]. split; [exact Eg |]. split; [exact Er |].
+  split; [exact Ex |]. rewrite Z.add_0_l in *. unfold is_site, ends_of, group_of. rewrite Ex, Nat2Z.id, Em, Eb.
+  rewrite (nth_error_nth _ _ _ Ev). split; [reflexivity |]. split; [exact Eg |]. split; [exact Er |].
   destruct v as [a b]. intros j. unfold box_of_motion. cbn [fst snd].
   destruct j; cbn [component x_of y_of z_of]; apply range_of_sound.
 Qed.
@@ -379,7 +376,7 @@ Lemma vertex_coordinate p i t : is_site p ->
   component i (vertex_at (number p) t) =
   (1 - t) * Q2R (component i (fst (moves p))) + t * Q2R (component i (snd (moves p))).
 Proof.
-  intros (Em & _). unfold vertex_at. rewrite <- Em. destruct (moves p) as [a b]. rewrite straight_line. destruct i; reflexivity.
+  intros (Em & _). unfold vertex_at, motion_of, line. rewrite <- Em, straight_line. destruct i; reflexivity.
 Qed.
 
 Lemma product_bounds d lo hi x : IZR lo <= x <= IZR hi ->
@@ -457,9 +454,8 @@ Qed.
 Lemma vertex_on_the_way v w d t :
   let f t := dot d (minus (vertex_at v t) (vertex_at w t)) in f t = (1 - t) * f 0 + t * f 1.
 Proof.
-  intros f. unfold f, vertex_at. destruct (motion_of v) as [a b], (motion_of w) as [a' b'].
-  rewrite !straight_line.
-  generalize (to_vector a), (to_vector b), (to_vector a'), (to_vector b'). intros. clear. by_components. ring.
+  intros f. unfold f, vertex_at, motion_of, line. rewrite !straight_line.
+  repeat match goal with |- context [to_vector ?a] => generalize (to_vector a) end. intros. clear. by_components. ring.
 Qed.
 
 Lemma above_on_the_way D d p q : keeps_above D d p q -> forall t, 0 <= t <= E ->
@@ -472,19 +468,19 @@ Proof.
   rewrite EE in H1. rewrite Et. destruct (Rle_dec f0 f1); nra.
 Qed.
 
-Lemma nth_is_in (p : element) i : p <> [] -> In (nth i p (hd 0%Z p)) p.
-Proof.
-  destruct p as [| a p]; [contradiction |]. intros _. cbn [hd].
-  destruct (nth_in_or_default i (a :: p) a) as [I | ->]; [exact I | left; reflexivity].
-Qed.
-
 Lemma corners_are_differences p q t y : p <> [] -> q <> [] -> In y (corners (query_of s p q) t) ->
   exists v w, In v p /\ In w q /\ y = minus (vertex_at v t) (vertex_at w t).
 Proof.
-  intros Np Nq I. pose proof (fun i => nth_is_in p i Np) as Ip. pose proof (fun i => nth_is_in q i Nq) as Iq.
-  unfold query_of in I. destruct p as [| a [| b [| c' p]]]; try contradiction; unfold corners in I;
-    cbn [kind_of point0 point1 point2 point3 In] in I; repeat destruct I as [<- | I]; try contradiction;
-    (do 2 eexists; split; [| split; [| reflexivity]]; [apply Ip | apply Iq]).
+  assert (M : forall e i, e <> [] -> exists v, In v e /\ nth i (map (motion_of s) e) (hd [] (map (motion_of s) e)) = motion_of s v).
+  { intros [| v e] i N; [contradiction |]. cbn [map hd]. change (motion_of s v :: map (motion_of s) e) with (map (motion_of s) (v :: e)).
+    rewrite map_nth. exists (nth i (v :: e) v). split; [| reflexivity].
+    destruct (nth_in_or_default i (v :: e) v) as [I | ->]; [exact I | left; reflexivity]. }
+  intros Np Nq I. pose proof (fun i => M p i Np) as Mp. pose proof (fun i => M q i Nq) as Mq. clear M.
+  assert (exists i j, y = minus (position (nth i (map (motion_of s) p) (hd [] (map (motion_of s) p))) t)
+    (position (nth j (map (motion_of s) q) (hd [] (map (motion_of s) q))) t)) as (i & j & ->).
+  { unfold query_of, query_of_motions, corners in I. destruct (map (motion_of s) p) as [| a [| b [| d l]]];
+      cbn [kind_of point0 point1 point2 point3 In] in I; repeat destruct I as [<- | I]; try contradiction; eauto. }
+  destruct (Mp i) as (v & Iv & ->), (Mq j) as (w & Iw & ->). exists v, w. auto.
 Qed.
 
 Lemma no_contact_above D d p q x : p <> [] -> q <> [] -> keeps_above D d p q -> Q2R (distance_of x) <= D -> 0 <= D ->
@@ -494,9 +490,7 @@ Proof.
   apply (corners_are_differences p q t y Np Nq) in I as (v & w & Iv & Iw & ->).
   eapply Rle_lt_trans; [| exact (above_on_the_way D d p q H t Ht v w Iv Iw)].
   pose proof (dual_length_le d (norm_of x)).
-  assert (0 <= dual_length (norm_of x) d).
-  { destruct (norm_of x); cbn [dual_length]; [| apply sqrt_pos].
-    pose proof (Rabs_pos (x_of d)). pose proof (Rabs_pos (y_of d)). pose proof (Rabs_pos (z_of d)). lra. }
+  pose proof (dual_length_nonnegative (norm_of x) d).
   apply Rle_trans with (D * dual_length (norm_of x) d);
     [apply Rmult_le_compat_r | apply Rmult_le_compat_l]; assumption.
 Qed.
@@ -513,9 +507,7 @@ Qed.
 (** ** Distances *)
 
 Lemma groups_of_sites ps : Forall is_site ps -> map group ps = map (group_of s) (map number ps).
-Proof.
-  rewrite map_map. induction 1 as [| p ps (_ & Eg & _) _ IH]; [reflexivity |]. cbn [map]. rewrite Eg, IH. reflexivity.
-Qed.
+Proof. intros F. rewrite map_map. apply map_ext_in. rewrite Forall_forall in F. intros p I. apply (F p I). Qed.
 
 Lemma distance_of_sites ps qs : Forall is_site ps -> Forall is_site qs ->
   distance_of_pair c ps qs = distance_of (separation_between s sum (map number ps) (map number qs)).
@@ -552,21 +544,13 @@ Proof.
     exact (no_contact_above _ _ _ _ _ Mp Mq A L N).
 Qed.
 
-Lemma query_of_sites ps qs : Forall is_site ps -> Forall is_site qs -> ps <> [] -> qs <> [] ->
+Lemma query_of_sites ps qs : Forall is_site ps -> Forall is_site qs ->
   query_between ps qs = query_of s (map number ps) (map number qs).
 Proof.
-  assert (M : forall es i, Forall is_site es -> es <> [] ->
-    nth i (map moves es) (hd nowhere (map moves es)) = motion_of (nth i (map number es) (hd 0%Z (map number es)))).
-  { intros es i F N. rewrite Forall_forall in F. destruct es as [| p es]; [contradiction |]. cbn [map hd].
-    change (moves p :: map moves es) with (map moves (p :: es)). change (number p :: map number es) with (map number (p :: es)).
-    rewrite !map_nth. apply F. destruct (nth_in_or_default i (p :: es) p) as [I | ->]; [exact I | left; reflexivity]. }
-  intros P Q Np Nq. unfold query_between, query_of. fold nowhere.
-  assert (forall es i, Forall is_site es -> es <> [] ->
-    (let '(a, b) := nth i (map moves es) (hd nowhere (map moves es)) in straight a b) =
-    (let '(a, b) := nth (Z.to_nat (nth i (map number es) (hd 0%Z (map number es)))) (vertices s) nowhere in straight a b))
-    as M' by (intros es i F N; rewrite M by assumption; reflexivity).
-  destruct ps as [| p [| p' [| p'' ps]]]; [contradiction | | |]; cbn [map]; f_equal;
-    first [exact (M' _ _ P Np) | exact (M' _ _ Q Nq)].
+  assert (M : forall es, Forall is_site es -> map (fun p => line (moves p)) es = map (motion_of s) (map number es)).
+  { intros es F. rewrite map_map. apply map_ext_in. rewrite Forall_forall in F. intros p I.
+    unfold motion_of. destruct (F p I) as (-> & _). reflexivity. }
+  intros P Q. unfold query_between, query_of. rewrite !M by assumption. reflexivity.
 Qed.
 
 Lemma scene_between_sound ps qs sc : Forall is_site ps -> Forall is_site qs -> ps <> [] -> qs <> [] ->
