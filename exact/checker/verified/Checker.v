@@ -221,18 +221,6 @@ Definition separates (sc : scene) (s : subinterval) : bool :=
       forallb (is_beyond (norm_in sc) (reach_form sc ms) d) (corners_to_check ws (feature_of s))
   end.
 
-(** The subintervals follow one another from a to b without a gap. *)
-Fixpoint separates_all (sc : scene) (a b : Q) (subintervals : list subinterval) : bool :=
-  match subintervals with
-  | [] => false
-  | s :: rest =>
-      Qeq_bool (from s) a && Qle_bool (from s) (to s) && separates sc s &&
-      match rest with
-      | [] => Qeq_bool (to s) b
-      | _ => separates_all sc (to s) b rest
-      end
-  end.
-
 (** ** Contact *)
 
 (** The sign of p on the interval, if it is seen. *)
@@ -254,7 +242,6 @@ Definition sign_at (g : option form) (p : form) : option comparison :=
 
 Definition is_zero_at g p := match sign_at g p with Some Eq => true | _ => false end.
 Definition is_positive_at g p := match sign_at g p with Some Gt => true | _ => false end.
-Definition is_negative_at g p := match sign_at g p with Some Lt => true | _ => false end.
 Definition is_not_negative_at g p := match sign_at g p with Some Gt | Some Eq => true | _ => false end.
 Definition is_not_positive_at g p := match sign_at g p with Some Lt | Some Eq => true | _ => false end.
 
@@ -359,42 +346,58 @@ Definition proves_place g (sc : scene) (D : form) (ws : list vector_form) (p : p
 Definition on_interval (ms : interval) (g : list Z) : form :=
   substitute (powers (add (fst ms) (snd ms)) g) (snd ms) g.
 
-(** A contact in [a,b]. *)
-Definition proves_contact (sc : scene) (a b : Q) (c : contact_proof) : bool :=
-  match time_of c with
-  | at_time t =>
-      Qle_bool a t && Qle_bool t b &&
-      match moments [t] with
-      | None => false
-      | Some ms => proves_place None sc (reach_form sc ms) (corner_forms sc ms) (place_of c)
-      end
-  | at_root lower upper g =>
-      Qle_bool a lower && Qle_bool lower upper && Qle_bool upper b &&
-      match moments [lower; upper] with
-      | None => false
-      | Some ms =>
-          let g := on_interval ms g in
-          changes_sign g &&
-          proves_place (Some g) sc (reach_form sc ms) (corner_forms sc ms) (place_of c)
+(** ** The checker *)
+
+Section Claim.
+(** What is seen on a subinterval: no event; at the root of a form, or at the start of an interval: an event. *)
+Variable is_free : subinterval -> bool.
+Variable is_event : place -> option form -> interval -> bool.
+
+(** The subintervals follow one another from a to b without a gap. *)
+Fixpoint all_are_free (a b : Q) (subintervals : list subinterval) : bool :=
+  match subintervals with
+  | [] => false
+  | s :: rest =>
+      Qeq_bool (from s) a && Qle_bool (from s) (to s) && is_free s &&
+      match rest with
+      | [] => Qeq_bool (to s) b
+      | _ => all_are_free (to s) b rest
       end
   end.
 
-(** ** The checker *)
+(** An event in [a,b]. *)
+Definition proves_event (a b : Q) (c : contact_proof) : bool :=
+  match time_of c with
+  | at_time t =>
+      Qle_bool a t && Qle_bool t b &&
+      match moments [t] with Some ms => is_event (place_of c) None ms | None => false end
+  | at_root lower upper g =>
+      Qle_bool a lower && Qle_bool lower upper && Qle_bool upper b &&
+      match moments [lower; upper] with
+      | Some ms => let g := on_interval ms g in changes_sign g && is_event (place_of c) (Some g) ms
+      | None => false
+      end
+  end.
+
+Definition check_claim (c : claim) (subintervals : list subinterval) (contact : option contact_proof) : bool :=
+  let event_in (a b : Q) := match contact with Some p => proves_event a b p | None => false end in
+  match c with
+  | no_collision => all_are_free 0 1 subintervals
+  | collision => event_in 0 1
+  | time_of_impact lower upper =>
+      if Qeq_bool lower 0 && Qeq_bool upper 0 then event_in 0 0
+      else
+        Qle_bool 0 lower && Qle_bool upper 1 && negb (Qle_bool upper lower) &&
+        all_are_free 0 lower subintervals && event_in lower upper
+  end%Q.
+End Claim.
+
+Definition is_contact (sc : scene) (p : place) (g : option form) (ms : interval) : bool :=
+  proves_place g sc (reach_form sc ms) (corner_forms sc ms) p.
 
 Definition check (q : query) (s : separation) (c : claim) (subintervals : list subinterval)
     (contact : option contact_proof) : bool :=
   match scene_of q s with
+  | Some sc => check_claim (separates sc) (is_contact sc) c subintervals contact
   | None => false
-  | Some sc =>
-      let contact_in (a b : Q) :=
-        match contact with Some p => proves_contact sc a b p | None => false end in
-      match c with
-      | no_collision => separates_all sc 0 1 subintervals
-      | collision => contact_in 0 1
-      | time_of_impact lower upper =>
-          if Qeq_bool lower 0 && Qeq_bool upper 0 then contact_in 0 0
-          else
-            Qle_bool 0 lower && Qle_bool upper 1 && negb (Qle_bool upper lower) &&
-            separates_all sc 0 lower subintervals && contact_in lower upper
-      end
-  end%Q.
+  end.

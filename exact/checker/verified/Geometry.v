@@ -12,7 +12,6 @@ Open Scope R_scope.
 Definition cross (a b : vector) : vector :=
   Triple (y_of a * z_of b - z_of a * y_of b) (z_of a * x_of b - x_of a * z_of b)
     (x_of a * y_of b - y_of a * x_of b).
-Definition origin : vector := Triple 0 0 0.
 
 Inductive axis := x_axis | y_axis | z_axis.
 Definition component {A} (k : axis) (a : triple A) : A :=
@@ -33,22 +32,24 @@ Definition corners (q : query) (t : R) : list vector :=
 Definition in_hull (q : query) (t : R) (x : vector) : Prop :=
   exists u v, in_domain (kind_of q) u v /\ F q t u v = x.
 
-Definition convex (H : vector -> Prop) : Prop :=
-  forall a b k, H a -> H b -> 0 <= k <= 1 -> H (plus (times (1 - k) a) (times k b)).
+(** Three points suffice in what follows. *)
+Definition convex (H : vector -> Prop) : Prop := forall a b c i j k, H a -> H b -> H c ->
+  0 <= i -> 0 <= j -> 0 <= k -> i + j + k = 1 -> H (plus (plus (times i a) (times j b)) (times k c)).
 
 Ltac by_components :=
   repeat match goal with a : vector |- _ => destruct a end;
   unfold plus, minus, times, cross, dot, origin in *; cbn [x_of y_of z_of component] in *.
 
-(** The corner theorem, first part: the hull is convex and has the corners. *)
+(** ** The corner theorem
+
+    The differences F(t,·,·) are the convex combinations of the corners. *)
 
 Lemma hull_is_convex q t : convex (in_hull q t).
 Proof.
-  intros a b k (u & v & D & <-) (u' & v' & D' & <-) Hk.
-  exists ((1 - k) * u + k * u'), ((1 - k) * v + k * v'). split.
-  - destruct (kind_of q); cbn [in_domain] in *; nra.
-  - unfold F. destruct (kind_of q);
-      unfold plus, minus, times; cbn [x_of y_of z_of]; f_equal; ring.
+  intros a b c i j k (u & v & D & <-) (u' & v' & D' & <-) (u'' & v'' & D'' & <-) Hi Hj Hk E.
+  exists (i * u + j * u' + k * u''), (i * v + j * v' + k * v''). assert (k = 1 - i - j) as -> by lra. split.
+  - destruct (kind_of q); cbn [in_domain] in *; repeat split; nra.
+  - unfold F. destruct (kind_of q); unfold plus, minus, times; cbn [x_of y_of z_of]; f_equal; ring.
 Qed.
 
 Lemma corners_are_in_hull q t w : In w (corners q t) -> in_hull q t w.
@@ -59,42 +60,40 @@ Proof.
     (split; [lra |]); unfold plus, minus, times; cbn [x_of y_of z_of]; f_equal; ring.
 Qed.
 
-(** The corner theorem, second part: nothing else is in it. Where all corners are beyond a plane, so
-    is the hull. *)
-
-Lemma dot_F q t u v d : dot d (F q t u v) =
-  match corners q t, kind_of q with
-  | [a; b; c], vertex_face => (1 - u - v) * dot d a + u * dot d b + v * dot d c
-  | [a; b; c; e], edge_edge =>
-      (1 - u) * (1 - v) * dot d a + u * (1 - v) * dot d b + u * v * dot d c + (1 - u) * v * dot d e
-  | _, _ => 0
-  end.
+Theorem corner_theorem q t x : in_hull q t x <-> is_convex_combination x (corners q t).
 Proof.
-  unfold F, corners. destruct (kind_of q); unfold dot, plus, minus, times; cbn [x_of y_of z_of]; ring.
+  split.
+  - intros (u & v & D & <-). unfold F, corners, is_convex_combination in *.
+    destruct (kind_of q); cbn [in_domain] in D;
+      [exists [1 - u - v; u; v] | exists [(1 - u) * (1 - v); u * (1 - v); u * v; (1 - u) * v]];
+      (split; [reflexivity |]; split; [repeat (apply Forall_cons; [nra |]); apply Forall_nil |]; split; [cbn [fold_right]; ring |]);
+      cbn [combination]; unfold plus, minus, times, origin; cbn [x_of y_of z_of]; f_equal; ring.
+  - intros (weights & L & P & S & <-). unfold in_hull, F, corners in *.
+    destruct (kind_of q); destruct weights as [| i [| j [| k [| m weights]]]]; try destruct weights; try discriminate L;
+      cbn [fold_right] in S; repeat match goal with P : Forall _ (_ :: _) |- _ => inversion_clear P end;
+      [exists j, k; assert (i = 1 - j - k) as -> by lra |
+       exists (j + k), (k + m); assert (i = 1 - j - k - m) as -> by lra]; (split; [cbn [in_domain]; lra |]);
+      cbn [combination]; unfold plus, minus, times, origin; cbn [x_of y_of z_of]; f_equal; ring.
+Qed.
+
+(** Where all of them are beyond a plane, so are their convex combinations. *)
+Lemma combination_is_beyond d k : forall ws, (forall w, In w ws -> k < dot d w) ->
+  forall weights, length weights = length ws -> Forall (Rle 0) weights -> let sum := fold_right Rplus 0 weights in
+  k * sum <= dot d (combination weights ws) /\ (0 < sum -> k * sum < dot d (combination weights ws)).
+Proof.
+  induction ws as [| w ws IH]; intros C [| x weights] L P; try discriminate; cbn [combination fold_right].
+  - unfold dot, origin. cbn [x_of y_of z_of]. lra.
+  - inversion_clear P as [| ? ? Hx P']. pose proof (C w (or_introl eq_refl)).
+    destruct (IH (fun v I => C v (or_intror I)) weights ltac:(cbn in L; lia) P') as [A B].
+    replace (dot d (plus _ _)) with (x * dot d w + dot d (combination weights ws)) by (clear; by_components; ring).
+    split; [nra |]. intros S. destruct (Rle_lt_or_eq_dec 0 x Hx) as [G | <-]; [nra |]. specialize (B ltac:(lra)). lra.
 Qed.
 
 Lemma hull_is_beyond q t d k : (forall w, In w (corners q t) -> k < dot d w) ->
   forall x, in_hull q t x -> k < dot d x.
 Proof.
-  intros C x (u & v & D & <-). rewrite dot_F. unfold corners in *.
-  destruct (kind_of q); cbn [In in_domain] in *.
-  all: set (p0 := position _ _) in *; set (p1 := position (point1 q) t) in *;
-    set (p2 := position (point2 q) t) in *; set (p3 := position (point3 q) t) in *.
-  - pose proof (C (minus p0 p1) ltac:(auto)). pose proof (C (minus p0 p2) ltac:(auto)).
-    pose proof (C (minus p0 p3) ltac:(auto)).
-    set (a := dot d (minus p0 p1)) in *. set (b := dot d (minus p0 p2)) in *.
-    set (c := dot d (minus p0 p3)) in *. clearbody a b c.
-    assert (0 <= u * (b - k)) by (apply Rmult_le_pos; lra).
-    assert (0 <= v * (c - k)) by (apply Rmult_le_pos; lra).
-    assert (0 <= (1 - u - v) * (a - k)) by (apply Rmult_le_pos; lra).
-    destruct (Req_dec u 0); [destruct (Req_dec v 0) |]; nra.
-  - pose proof (C (minus p0 p2) ltac:(auto)). pose proof (C (minus p1 p2) ltac:(auto)).
-    pose proof (C (minus p1 p3) ltac:(auto)). pose proof (C (minus p0 p3) ltac:(auto)).
-    set (a := dot d (minus p0 p2)) in *. set (b := dot d (minus p1 p2)) in *.
-    set (c := dot d (minus p1 p3)) in *. set (e := dot d (minus p0 p3)) in *. clearbody a b c e.
-    assert (k < (1 - u) * a + u * b) by (destruct (Req_dec u 0); nra).
-    assert (k < (1 - u) * e + u * c) by (destruct (Req_dec u 0); nra).
-    destruct (Req_dec v 0); nra.
+  intros C x I. apply corner_theorem in I as (weights & L & P & S & <-).
+  destruct (combination_is_beyond d k _ C _ L P) as [_ B]. rewrite S in B. lra.
 Qed.
 
 (** ** Norms *)
@@ -113,6 +112,9 @@ Proof.
   destruct n; cbn [length_of]; [| apply sqrt_pos].
   eapply Rle_trans; [apply Rabs_pos | apply Rmax_l].
 Qed.
+
+Lemma dual_length_nonnegative n a : 0 <= dual_length n a.
+Proof. destruct n; [| apply sqrt_pos]. repeat apply Rplus_le_le_0_compat; apply Rabs_pos. Qed.
 
 Lemma lagrange a b : dot a a * dot b b - dot a b * dot a b = dot (cross a b) (cross a b).
 Proof. by_components. ring. Qed.
@@ -164,12 +166,7 @@ Proof.
   intros C (u & v & D & H).
   pose proof (hull_is_beyond q t d _ C (F q t u v) ltac:(exists u, v; auto)) as B.
   pose proof (dot_le_lengths (norm_of s) d (F q t u v)) as L.
-  assert (0 <= dual_length (norm_of s) d).
-  { destruct (norm_of s); cbn [dual_length]; [| apply sqrt_pos].
-    pose proof (Rabs_pos (x_of d)). pose proof (Rabs_pos (y_of d)). pose proof (Rabs_pos (z_of d)). lra. }
-  assert (dual_length (norm_of s) d * length_of (norm_of s) (F q t u v) <=
-          dual_length (norm_of s) d * Q2R (distance_of s)) by (apply Rmult_le_compat_l; assumption).
-  lra.
+  pose proof (Rmult_le_compat_l _ _ _ (dual_length_nonnegative (norm_of s) d) H). lra.
 Qed.
 
 (** L2, without square roots. *)
@@ -183,32 +180,7 @@ Proof.
   nra.
 Qed.
 
-(** The polygon's normal has one product with all corners. *)
-
-Lemma normal_first_three a b c :
-  let n := cross (minus b a) (minus c a) in dot n b = dot n a /\ dot n c = dot n a.
-Proof. intros n. unfold n. by_components. split; ring. Qed.
-
 (** ** Contact *)
-
-Lemma three_in_hull H a b c i j k : convex H -> H a -> H b -> H c ->
-  0 <= i -> 0 <= j -> 0 <= k -> i + j + k = 1 ->
-  H (plus (plus (times i a) (times j b)) (times k c)).
-Proof.
-  intros C Ha Hb Hc Hi Hj Hk E. destruct (Req_dec k 1) as [E1 | N].
-  - subst k. assert (i = 0) as -> by lra. assert (j = 0) as -> by lra.
-    replace (plus (plus (times 0 a) (times 0 b)) (times 1 c)) with c; [exact Hc |].
-    by_components. f_equal; ring.
-  - assert (Hj' : 0 <= j / (1 - k) <= 1).
-    { split; [apply Rmult_le_pos; [lra | left; apply Rinv_0_lt_compat; lra] |].
-      apply (Rmult_le_reg_r (1 - k)); [lra |]. unfold Rdiv. rewrite Rmult_assoc, Rinv_l by lra. lra. }
-    pose proof (C _ _ (j / (1 - k)) Ha Hb Hj') as H1.
-    pose proof (C _ _ k H1 Hc ltac:(lra)) as H2.
-    replace (plus (plus (times i a) (times j b)) (times k c)) with
-      (plus (times (1 - k) (plus (times (1 - j / (1 - k)) a) (times (j / (1 - k)) b))) (times k c));
-      [exact H2 |].
-    assert (i = 1 - j - k) as -> by lra. by_components. f_equal; field; lra.
-Qed.
 
 (** Triangle: Cramer's rule. *)
 Lemma triangle_contact H a b c k : convex H -> H a -> H b -> H c ->
@@ -226,7 +198,7 @@ Proof.
     - apply Rmult_le_pos; [exact Hx | left; apply Rinv_0_lt_compat; exact Hm'].
     - replace (x / m) with ((- x) / (- m)) by (field; lra).
       apply Rmult_le_pos; [lra | left; apply Rinv_0_lt_compat; lra]. }
-  pose proof (three_in_hull H a b c (i / m) (j / m) (l / m) C Ha Hb Hc
+  pose proof (C a b c (i / m) (j / m) (l / m) Ha Hb Hc
     ltac:(apply W; lra) ltac:(apply W; lra) ltac:(apply W; lra) ltac:(unfold m; field; exact Hm)) as P.
   replace origin with (plus (plus (times (i / m) a) (times (j / m) b)) (times (l / m) c)); [exact P |].
   assert (G : forall x y z, i * x + j * y + l * z = 0 -> i / m * x + j / m * y + l / m * z = 0).
@@ -248,10 +220,10 @@ Proof.
   set (k := - dot a e / dot e e).
   assert (Ek : k * dot e e = - dot a e) by (unfold k; field; lra).
   assert (Eb : dot b e = dot a e + dot e e) by (unfold e; by_components; ring).
-  exists (plus (times (1 - k) a) (times k b)). split; [apply C; auto; split; nra |].
+  assert (0 <= k <= 1) by (split; nra).
+  exists (plus (plus (times (1 - k) a) (times k b)) (times 0 b)). split; [apply C; auto; lra |].
   apply (Rmult_le_reg_r (dot e e)); [exact He |].
-  replace (dot (plus (times (1 - k) a) (times k b)) (plus (times (1 - k) a) (times k b)))
-    with (dot a a + 2 * k * dot a e + k * (k * dot e e)) by (unfold e; by_components; ring).
+  replace (dot (plus _ _) _) with (dot a a + 2 * k * dot a e + k * (k * dot e e)) by (unfold e; by_components; ring).
   rewrite Ek.
   replace ((dot a a + 2 * k * dot a e + k * - dot a e) * dot e e)
     with (dot a a * dot e e + dot a e * (k * dot e e)) by ring.
@@ -303,141 +275,10 @@ Proof.
   apply Rmult_le_compat_r; lra.
 Qed.
 
-Lemma quotient_in_unit x y m : 0 < m -> 0 <= x -> 0 <= y -> x + y = m -> 0 <= x / m <= 1.
+Lemma quotient_in_unit x m : 0 < m -> 0 <= x <= m -> 0 <= x / m <= 1.
 Proof.
-  intros Hm Hx Hy E. split.
-  - apply Rmult_le_pos; [exact Hx | left; apply Rinv_0_lt_compat; exact Hm].
-  - apply (Rmult_le_reg_r m); [exact Hm |]. unfold Rdiv. rewrite Rmult_assoc, Rinv_l by lra. lra.
-Qed.
-
-Lemma triangle_face_contact H a b c D : convex H -> H a -> H b -> H c ->
-  let n := cross (minus b a) (minus c a) in
-  0 < dot n n -> 0 <= dot n (cross a b) -> 0 <= dot n (cross b c) -> 0 <= dot n (cross c a) ->
-  dot n a * dot n a <= D * D * dot n n -> exists x, H x /\ dot x x <= D * D.
-Proof.
-  intros C Ha Hb Hc n Hn Hab Hbc Hca Hd.
-  pose proof (foot_in_plane a (minus b a) (minus c a) D Hn Hd) as P. fold n in P.
-  cbv zeta in P.
-  replace (cross (minus c a) a) with (cross c a) in P by (clear; by_components; f_equal; ring).
-  replace (cross a (minus b a)) with (cross a b) in P by (clear; by_components; f_equal; ring).
-  set (u := dot n (cross c a) / dot n n) in *. set (v := dot n (cross a b) / dot n n) in *.
-  assert (Es : dot n n = dot n (cross b c) + dot n (cross c a) + dot n (cross a b)).
-  { unfold n. clear. by_components. ring. }
-  eexists. split; [| exact P].
-  replace (plus (plus a (times u (minus b a))) (times v (minus c a))) with
-    (plus (plus (times (1 - u - v) a) (times u b)) (times v c))
-    by (clear; by_components; f_equal; ring).
-  assert (0 <= u) by (apply Rmult_le_pos; [lra | left; apply Rinv_0_lt_compat; lra]).
-  assert (0 <= v) by (apply Rmult_le_pos; [lra | left; apply Rinv_0_lt_compat; lra]).
-  assert (0 <= 1 - u - v).
-  { replace (1 - u - v) with (dot n (cross b c) / dot n n).
-    - apply Rmult_le_pos; [lra | left; apply Rinv_0_lt_compat; lra].
-    - unfold u, v. replace (dot n (cross b c)) with (dot n n - dot n (cross c a) - dot n (cross a b)) by lra.
-      field. lra. }
-  apply three_in_hull; auto. ring.
-Qed.
-
-Lemma parallelogram_face_contact H a b c f D : convex H -> H a -> H b -> H c -> H f ->
-  f = plus (minus a b) c ->
-  let n := cross (minus b a) (minus c a) in
-  0 < dot n n -> 0 <= dot n (cross a b) -> 0 <= dot n (cross b c) -> 0 <= dot n (cross c f) ->
-  0 <= dot n (cross f a) ->
-  dot n a * dot n a <= D * D * dot n n -> exists x, H x /\ dot x x <= D * D.
-Proof.
-  intros C Ha Hb Hc Hf Ef n Hn Hab Hbc Hcf Hfa Hd.
-  assert (En : n = cross (minus b a) (minus f a)).
-  { unfold n. rewrite Ef. clear. by_components. f_equal; ring. }
-  assert (E1 : dot n (cross f a) + dot n (cross b c) = dot n n).
-  { unfold n. rewrite Ef. clear. by_components. ring. }
-  assert (E2 : dot n (cross a b) + dot n (cross c f) = dot n n).
-  { unfold n. rewrite Ef. clear. by_components. ring. }
-  clearbody n. subst n. set (n := cross (minus b a) (minus f a)) in *.
-  pose proof (foot_in_plane a (minus b a) (minus f a) D Hn Hd) as P. fold n in P.
-  cbv zeta in P.
-  replace (cross (minus f a) a) with (cross f a) in P by (clear; by_components; f_equal; ring).
-  replace (cross a (minus b a)) with (cross a b) in P by (clear; by_components; f_equal; ring).
-  set (u := dot n (cross f a) / dot n n) in *. set (v := dot n (cross a b) / dot n n) in *.
-  assert (0 <= u <= 1) by (apply quotient_in_unit with (dot n (cross b c)); lra).
-  assert (0 <= v <= 1) by (apply quotient_in_unit with (dot n (cross c f)); lra).
-  eexists. split; [| exact P].
-  replace (plus (plus a (times u (minus b a))) (times v (minus f a))) with
-    (plus (times (1 - v) (plus (times (1 - u) a) (times u b)))
-          (times v (plus (times (1 - u) f) (times u c)))).
-  - apply C; auto.
-  - clearbody u v n. rewrite Ef. clear. by_components. f_equal; ring.
-Qed.
-
-(** ** The corner theorem
-
-    The differences F(t,·,·) are the convex combinations of the corners. *)
-
-Fixpoint combination (weights : list R) (ws : list vector) : vector :=
-  match weights, ws with
-  | k :: weights', w :: ws' => plus (times k w) (combination weights' ws')
-  | _, _ => origin
-  end.
-
-Definition is_convex_combination (x : vector) (ws : list vector) : Prop :=
-  exists weights, length weights = length ws /\ Forall (Rle 0) weights /\
-    fold_right Rplus 0 weights = 1 /\ combination weights ws = x.
-
-Theorem corner_theorem q t x : in_hull q t x <-> is_convex_combination x (corners q t).
-Proof.
-  split.
-  - intros (u & v & D & <-). unfold F, corners, is_convex_combination in *.
-    destruct (kind_of q); cbn [in_domain] in D;
-      [exists [1 - u - v; u; v] | exists [(1 - u) * (1 - v); u * (1 - v); u * v; (1 - u) * v]];
-      (split; [reflexivity |]; split; [repeat (apply Forall_cons; [nra |]); apply Forall_nil |]; split; [cbn [fold_right]; ring |]);
-      cbn [combination]; unfold plus, minus, times, origin; cbn [x_of y_of z_of]; f_equal; ring.
-  - intros (weights & L & P & S & <-). pose proof (hull_is_convex q t) as C.
-    pose proof (corners_are_in_hull q t) as I. unfold corners in *.
-    destruct (kind_of q) eqn:K; cbn [length] in L.
-    + destruct weights as [| i [| j [| k [|]]]]; try discriminate.
-      cbn [fold_right] in S. inversion_clear P as [| ? ? Hi P']. inversion_clear P' as [| ? ? Hj P].
-      inversion_clear P as [| ? ? Hk _].
-      match goal with |- in_hull _ _ (combination _ [?a; ?b; ?c]) =>
-        replace (combination _ _) with (plus (plus (times i a) (times j b)) (times k c))
-          by (cbn [combination]; clear; by_components; f_equal; ring);
-        apply three_in_hull; auto; try (apply I; cbn [In]; tauto) end. lra.
-    + destruct weights as [| i [| j [| k [| m [|]]]]]; try discriminate.
-      cbn [fold_right] in S. inversion_clear P as [| ? ? Hi P']. inversion_clear P' as [| ? ? Hj P].
-      inversion_clear P as [| ? ? Hk P']. inversion_clear P' as [| ? ? Hm _].
-      exists (j + k), (k + m). split; [rewrite K; cbn [in_domain]; lra |].
-      assert (i = 1 - j - k - m) as -> by lra. unfold F. rewrite K.
-      cbn [combination]. unfold plus, minus, times, origin. cbn [x_of y_of z_of]. f_equal; ring.
-Qed.
-
-(** A point of a norm of at most D in linf, as the polygon's point a + (p e + q f) / m. *)
-Lemma point_of_quotients a e f m p q : 0 < m ->
-  times m (plus (plus a (times (p / m) e)) (times (q / m) f)) =
-  plus (plus (times m a) (times p e)) (times q f).
-Proof. intros Hm. by_components. f_equal; field; lra. Qed.
-
-Lemma triangle_point H a b c p q m : convex H -> H a -> H b -> H c ->
-  0 < m -> 0 <= p -> 0 <= q -> p + q <= m ->
-  H (plus (plus a (times (p / m) (minus b a))) (times (q / m) (minus c a))).
-Proof.
-  intros C Ha Hb Hc Hm Hp Hq E.
-  assert (I : 0 < / m) by (apply Rinv_0_lt_compat; exact Hm).
-  replace (plus (plus a (times (p / m) (minus b a))) (times (q / m) (minus c a))) with
-    (plus (plus (times (1 - p / m - q / m) a) (times (p / m) b)) (times (q / m) c))
-    by (clear; by_components; f_equal; ring).
-  apply three_in_hull; auto; try ring; try (apply Rmult_le_pos; lra).
-  replace (1 - p / m - q / m) with ((m - p - q) * / m) by (field; lra). apply Rmult_le_pos; lra.
-Qed.
-
-Lemma parallelogram_point H a b c f p q m : convex H -> H a -> H b -> H c -> H f ->
-  f = plus (minus a b) c -> 0 < m -> 0 <= p -> 0 <= q -> p <= m -> q <= m ->
-  H (plus (plus a (times (p / m) (minus b a))) (times (q / m) (minus f a))).
-Proof.
-  intros C Ha Hb Hc Hf Ef Hm Hp Hq Hpm Hqm.
-  assert (0 <= p / m <= 1) by (apply quotient_in_unit with (m - p); lra).
-  assert (0 <= q / m <= 1) by (apply quotient_in_unit with (m - q); lra).
-  replace (plus (plus a (times (p / m) (minus b a))) (times (q / m) (minus f a))) with
-    (plus (times (1 - q / m) (plus (times (1 - p / m) a) (times (p / m) b)))
-          (times (q / m) (plus (times (1 - p / m) f) (times (p / m) c)))).
-  - apply C; auto.
-  - rewrite Ef. generalize (p / m), (q / m). intros. clear. by_components. f_equal; ring.
+  intros Hm Hx. split; [apply Rmult_le_pos; [| left; apply Rinv_0_lt_compat]; lra |].
+  apply (Rmult_le_reg_r m); [exact Hm |]. unfold Rdiv. rewrite Rmult_assoc, Rinv_l; lra.
 Qed.
 
 (** ** Polygons: what all queries have in common *)
@@ -448,6 +289,59 @@ Definition is_polygon (ws : list vector) : Prop :=
   | [a; b; c; f] => f = plus (minus a b) c
   | _ => False
   end.
+
+(** A polygon in a convex set; f is the corner before a. *)
+Definition is_polygon_in (H : vector -> Prop) (a b c f : vector) (rest : list vector) : Prop :=
+  convex H /\ is_polygon (a :: b :: c :: rest) /\ (forall w, In w (a :: b :: c :: rest) -> H w) /\
+  f = match rest with [] => c | f :: _ => f end.
+
+Lemma polygon_point H a b c f rest p q m : is_polygon_in H a b c f rest -> 0 < m -> 0 <= p -> 0 <= q ->
+  match rest with [] => p + q <= m | _ => p <= m /\ q <= m end ->
+  H (plus (plus a (times (p / m) (minus b a))) (times (q / m) (minus f a))).
+Proof.
+  intros (C & P & J & Ef) Hm Hp Hq E. assert (p <= m /\ q <= m) by (destruct rest; lra).
+  assert (S : (p + q) / m = p / m + q / m) by (field; lra). pose proof (quotient_in_unit (p + q) m Hm).
+  pose proof (quotient_in_unit p m Hm ltac:(lra)). pose proof (quotient_in_unit q m Hm ltac:(lra)).
+  set (x := p / m) in *. set (y := q / m) in *. clearbody x y.
+  assert (T : x + y <= 1 -> H (plus (plus a (times x (minus b a))) (times y (minus f a)))).
+  { intros L. replace (plus _ _) with (plus (plus (times (1 - x - y) a) (times x b)) (times y f))
+      by (clear; by_components; f_equal; ring).
+    assert (H f) by (apply J; subst f; destruct rest; cbn [In]; auto).
+    apply C; try assumption; try (apply J; cbn [In]; tauto); lra. }
+  destruct (Rle_lt_dec (x + y) 1) as [L | L]; [exact (T L) |].
+  destruct rest as [| f' [|]]; [lra | | contradiction]. cbn [is_polygon] in P. subst f'. subst f.
+  replace (plus _ _) with (plus (plus (times (x + y - 1) c) (times (1 - y) b)) (times (1 - x) (plus (minus a b) c)))
+    by (clear; by_components; f_equal; ring).
+  apply C; try (apply J; cbn [In]; tauto); lra.
+Qed.
+
+Lemma face_contact H a b c f rest D : is_polygon_in H a b c f rest -> let n := cross (minus b a) (minus c a) in
+  0 < dot n n -> 0 <= dot n (cross a b) -> 0 <= dot n (cross b c) ->
+  match rest with [] => 0 <= dot n (cross c a) | f :: _ => 0 <= dot n (cross c f) /\ 0 <= dot n (cross f a) end ->
+  dot n a * dot n a <= D * D * dot n n -> exists x, H x /\ dot x x <= D * D.
+Proof.
+  intros I n Hn Hab Hbc Hca Hd. pose proof I as (_ & P & _ & Ef).
+  assert (En : n = cross (minus b a) (minus f a) /\ 0 <= dot n (cross f a) /\
+    match rest with [] => dot n (cross f a) + dot n (cross a b) <= dot n n
+    | _ => dot n (cross f a) <= dot n n /\ dot n (cross a b) <= dot n n end).
+  { subst f. destruct rest as [| f [|]]; [| cbn [is_polygon] in P | contradiction].
+    - repeat split; [exact Hca |]. replace (dot n n) with (dot n (cross b c) + dot n (cross c a) + dot n (cross a b))
+        by (unfold n; clear; by_components; ring). lra.
+    - assert (dot n (cross f a) + dot n (cross b c) = dot n n) by (subst n f; clear; by_components; ring).
+      assert (dot n (cross a b) + dot n (cross c f) = dot n n) by (subst n f; clear; by_components; ring).
+      repeat split; try lra. subst n f. clear. by_components. f_equal; ring. }
+  destruct En as (En & Hfa & Hr). clear P. clearbody n. subst n.
+  pose proof (foot_in_plane a (minus b a) (minus f a) D Hn Hd) as P. set (n := cross (minus b a) (minus f a)) in *. cbv zeta in P.
+  replace (cross (minus f a) a) with (cross f a) in P by (clear; by_components; f_equal; ring).
+  replace (cross a (minus b a)) with (cross a b) in P by (clear; by_components; f_equal; ring).
+  eexists. split; [| exact P]. exact (polygon_point H a b c f rest _ _ _ I Hn Hfa Hab Hr).
+Qed.
+
+(** A point of a norm of at most D in linf, as the polygon's point a + (p e + q f) / m. *)
+Lemma point_of_quotients a e f m p q : 0 < m ->
+  times m (plus (plus a (times (p / m) e)) (times (q / m) f)) =
+  plus (plus (times m a) (times p e)) (times q f).
+Proof. intros Hm. by_components. f_equal; field; lra. Qed.
 
 Lemma corners_are_polygon q t : is_polygon (corners q t).
 Proof.
@@ -476,8 +370,8 @@ Definition enlarged (k : R) (q : query) (t : R) (x : vector) : Prop :=
 
 Lemma enlarged_is_convex k q t : convex (enlarged k q t).
 Proof.
-  intros a b m (y & Hy & ->) (z & Hz & ->) Hm. exists (plus (times (1 - m) y) (times m z)).
-  split; [apply hull_is_convex; assumption |]. clear. by_components. f_equal; ring.
+  intros a b c i j l (x & Hx & ->) (y & Hy & ->) (z & Hz & ->) Hi Hj Hl E.
+  exists (plus (plus (times i x) (times j y)) (times l z)). split; [apply hull_is_convex; assumption |]. clear. by_components. f_equal; ring.
 Qed.
 
 Lemma enlarged_has_corners k q t w : In w (map (times k) (corners q t)) -> enlarged k q t w.

@@ -6,15 +6,13 @@
     2. An edge and a face that meet, while no vertex of the one is on the other and no edges meet, have independent
        directions ([crossing]): otherwise three parameters leave such a direction, too. So they meet at all times
        nearby: the weights are continuous by Cramer's rule ([crossing_is_open]).
-    3. If they do not meet, they do not at all times nearby either ([apart_is_open]): they have a distance.
+    3. If they do not meet, they do not at all times nearby either ([apart_is_open]): a direction keeps their vertices
+       apart ([direction_or_combination]).
     4. So an edge and a face that do not meet at t=0 never do ([edge_and_face]), and neither do two faces.
     5. Faces that come within a distance meet if one of them moves by the difference, on a straight line: the case
        before, with another time ([theorem_of_pairs]).
     6. In a mesh, an edge or a face of two equal vertices and vertices without edges are cases of these
-       ([theorem_of_pairs_in_a_mesh]).
-
-    The axioms of the reals do not have the excluded middle. What is stated is a negation, so that each step may say
-    that something cannot be refuted. *)
+       ([theorem_of_pairs_in_a_mesh]). *)
 
 Require Import Reals QArith Qreals List Lra Psatz.
 Import ListNotations.
@@ -94,12 +92,12 @@ Ltac by_coordinates :=
   unfold segment_point, triangle_point, plus, minus, times, origin in *; cbn [x_of y_of z_of] in *.
 
 Definition det (a b c : vector) : R := dot a (cross b c).
-Definition combination (k l m : R) (a b c : vector) : vector := plus (plus (times k a) (times l b)) (times m c).
+Definition combination_of_three (k l m : R) (a b c : vector) : vector := plus (plus (times k a) (times l b)) (times m c).
 
 Lemma three_are_dependent a b c : det a b c = 0 ->
-  exists k l m, (k <> 0 \/ l <> 0 \/ m <> 0) /\ combination k l m a b c = origin.
+  exists k l m, (k <> 0 \/ l <> 0 \/ m <> 0) /\ combination_of_three k l m a b c = origin.
 Proof.
-  intros D. unfold combination. destruct a as [ax ay az], b as [bx b_y bz], c as [cx cy cz].
+  intros D. unfold combination_of_three. destruct a as [ax ay az], b as [bx b_y bz], c as [cx cy cz].
   unfold det in D. unfold cross, dot in D. by_coordinates.
   destruct (Req_dec (b_y * cz - bz * cy) 0) as [X |].
   2: { exists (b_y * cz - bz * cy), (cy * az - cz * ay), (ay * bz - az * b_y). split; [auto |]. f_equal; lra. }
@@ -114,13 +112,13 @@ Proof.
 Qed.
 
 Lemma four_are_dependent a b c e :
-  exists k l m n, (k <> 0 \/ l <> 0 \/ m <> 0 \/ n <> 0) /\ plus (combination k l m a b c) (times n e) = origin.
+  exists k l m n, (k <> 0 \/ l <> 0 \/ m <> 0 \/ n <> 0) /\ plus (combination_of_three k l m a b c) (times n e) = origin.
 Proof.
   destruct (Req_dec (det a b c) 0) as [D | D].
   - destruct (three_are_dependent a b c D) as (k & l & m & H & E). exists k, l, m, 0.
     split; [tauto |]. rewrite E. by_vectors.
   - exists (det e b c), (det a e c), (det a b e), (- det a b c). split; [right; right; right; lra |].
-    unfold combination, det. by_vectors.
+    unfold combination_of_three, det. by_vectors.
 Qed.
 
 Ltac each_weight I := cbn [In] in I; repeat destruct I as [[= <- <-] | I]; try contradiction.
@@ -178,7 +176,7 @@ Proof.
     pose proof (W _ (- k - l) ltac:(cbn; auto 9)). pose proof (W u' m ltac:(cbn; auto 9)).
     pose proof (W v' n ltac:(cbn; auto 9)). pose proof (W _ (- m - n) ltac:(cbn; auto 9)).
     assert (E' : triangle_point f (u + h * k) (v + h * l) = triangle_point g (u' + h * m) (v' + h * n)).
-    { unfold combination in D. by_coordinates. injection E as Ex Ey Ez. injection D as Dx Dy Dz.
+    { unfold combination_of_three in D. by_coordinates. injection E as Ex Ey Ez. injection D as Dx Dy Dz.
       f_equal; [apply (f_equal (Rmult h)) in Dx | apply (f_equal (Rmult h)) in Dy | apply (f_equal (Rmult h)) in Dz];
         lra. }
     assert (Z' : (u + h * k = 0 \/ v + h * l = 0 \/ 1 - (u + h * k) - (v + h * l) = 0) \/
@@ -224,7 +222,7 @@ Proof.
     pose proof (W u l ltac:(cbn; auto 9)). pose proof (W v m ltac:(cbn; auto 9)).
     pose proof (W _ (- l - m) ltac:(cbn; auto 9)).
     apply touches_at_boundary with (s + h * k) (u + h * l) (v + h * m); try lra.
-    + unfold combination in C. by_coordinates. injection E as Ex Ey Ez. injection C as Cx Cy Cz.
+    + unfold combination_of_three in C. by_coordinates. injection E as Ex Ey Ez. injection C as Cx Cy Cz.
       f_equal; [apply (f_equal (Rmult h)) in Cx | apply (f_equal (Rmult h)) in Cy | apply (f_equal (Rmult h)) in Cz];
         lra.
     + each_weight I; lra.
@@ -271,9 +269,9 @@ Proof.
 Qed.
 
 Lemma cramer a b c r : det a b c <> 0 ->
-  combination (det r b c / det a b c) (det a r c / det a b c) (det a b r / det a b c) a b c = r.
+  combination_of_three (det r b c / det a b c) (det a r c / det a b c) (det a b r / det a b c) a b c = r.
 Proof.
-  intros D. unfold combination. set (k := det a b c) in *. unfold det in k. clear - D.
+  intros D. unfold combination_of_three. set (k := det a b c) in *. unfold det in k. clear - D.
   subst k. unfold det in *. by_components. f_equal; field; exact D.
 Qed.
 
@@ -320,157 +318,128 @@ Proof.
   assert (Dt : d t' <> 0) by (intros Z; rewrite Z in P; lra).
   pose proof (cramer (e1 t') (e2 t') (e3 t') (r t') Dt) as K. clear - K. unfold S, U, V, d in *.
   set (k := det (r t') _ _ / _) in *. set (l := det _ (r t') _ / _) in *. set (m := det _ _ (r t') / _) in *.
-  unfold combination, e1, e2, e3, r in K. clearbody k l m. by_coordinates. injection K as Kx Ky Kz. f_equal; lra.
+  unfold combination_of_three, e1, e2, e3, r in K. clearbody k l m. by_coordinates. injection K as Kx Ky Kz. f_equal; lra.
 Qed.
 
-(** ** To have a distance is open in time *)
+(** ** To be apart is open in time *)
 
-(** Induction along [0,b], without the excluded middle: the conclusion is not refutable. *)
-Lemma continuation (E : R -> Prop) b : 0 <= b -> E 0 ->
-  (forall m, 0 <= m <= b -> ~ ~ exists d, 0 < d /\
-    forall x y, 0 <= x <= m -> m - d < x -> x <= y <= b -> y < m + d -> E x -> E y) ->
-  ~ ~ E b.
+Lemma small_step d w ws : (forall x, In x ws -> 0 < dot d x) ->
+  exists e, 0 < e /\ forall k x, 0 < k <= e -> In x ws -> 0 < dot (plus d (times k w)) x.
 Proof.
-  intros Hb E0 L N. destruct (completeness (fun x => 0 <= x <= b /\ E x)) as (m & U & Least).
-  - exists b. intros x (? & _). lra.
-  - exists 0. split; [lra | exact E0].
-  - assert (0 <= m) by (apply U; split; [lra | exact E0]).
-    assert (m <= b) by (apply Least; intros x (? & _); lra).
-    apply (L m); [lra |]. intros (d & Hd & D).
-    assert (m <= m - d); [| lra]. apply Least. intros x (Hx & Ex). apply Rnot_lt_le. intros G.
-    assert (x <= m) by (apply U; auto). destruct (Rle_lt_dec b (m + d / 2)).
-    + apply N. apply (D x b); auto; lra.
-    + assert (m + d / 2 <= m); [| lra]. apply U. split; [lra |]. apply (D x); auto; lra.
+  induction ws as [| x ws IH]; intros P; [exists 1; split; [lra | intros ? ? ? []] |].
+  destruct IH as (e & He & G); [intros; apply P; right; assumption |]. pose proof (P x (or_introl eq_refl)) as Px.
+  pose proof (Rabs_pos (dot w x)). assert (N : - Rabs (dot w x) <= dot w x) by (split_Rabs; lra).
+  set (r := Rabs (dot w x)) in *. assert (L : dot d x / (r + 1) * (r + 1) = dot d x) by (field; lra).
+  assert (0 < dot d x / (r + 1)) by (apply Rdiv_lt_0_compat; lra). set (h := dot d x / (r + 1)) in *.
+  exists (Rmin e h). split; [apply Rmin_pos; assumption |]. intros k y Hk [<- | I].
+  - pose proof (Rmin_r e h). replace (dot (plus d (times k w)) x) with (dot d x + k * dot w x) by (clear; by_components; ring). nra.
+  - pose proof (Rmin_l e h). apply G; [lra | exact I].
 Qed.
 
-Definition size (a : vector) : R := Rabs (x_of a) + Rabs (y_of a) + Rabs (z_of a).
-Definition apart (S : vector -> Prop) : Prop := ~ ~ exists e, 0 < e /\ forall x, S x -> e <= size x.
-
-Lemma size_nonnegative a : 0 <= size a.
-Proof. unfold size. split_Rabs; lra. Qed.
-
-Lemma size_zero a : size a <= 0 -> a = origin.
-Proof. unfold size. destruct a as [x y z]. cbn [x_of y_of z_of]. intros H. unfold origin. f_equal; split_Rabs; lra. Qed.
-
-Lemma size_plus a b : size (plus a b) <= size a + size b.
+Lemma combination_times c ws : forall weights,
+  combination (map (Rmult c) weights) ws = times c (combination weights ws) /\
+  fold_right Rplus 0 (map (Rmult c) weights) = c * fold_right Rplus 0 weights.
 Proof.
-  unfold size, plus. cbn [x_of y_of z_of]. pose proof (Rabs_triang (x_of a) (x_of b)).
-  pose proof (Rabs_triang (y_of a) (y_of b)). pose proof (Rabs_triang (z_of a) (z_of b)). lra.
+  induction ws as [| w ws IH]; intros [| k weights]; cbn [combination map fold_right]; try (split; [by_vectors | ring]).
+  - split; [by_vectors |]. induction weights as [| l weights IHw]; cbn [map fold_right] in *; lra.
+  - destruct (IH weights) as [-> ->]. split; [by_vectors | ring].
 Qed.
 
-Lemma size_times k a : size (times k a) = Rabs k * size a.
-Proof. unfold size, times. cbn [x_of y_of z_of]. rewrite !Rabs_mult. ring. Qed.
-
-Lemma size_minus a b : size (minus a b) <= size a + size b.
+(** Vectors have a direction in common, or the origin is among their convex combinations: by induction, with the others
+    moved along one of the vectors until they are perpendicular to the direction found. *)
+Theorem direction_or_combination : forall n ws, length ws = n ->
+  (exists d, forall w, In w ws -> 0 < dot d w) \/ is_convex_combination origin ws.
 Proof.
-  replace (minus a b) with (plus a (times (-1) b)) by by_vectors.
-  pose proof (size_plus a (times (-1) b)) as H. rewrite size_times in H. rewrite Rabs_left in H; lra.
+  induction n as [| n IH]; intros [| w ws] L; try discriminate; [left; exists origin; intros ? [] |]. injection L as L.
+  destruct (Req_dec (dot w w) 0) as [Z | Z].
+  { right. exists (1 :: map (fun _ => 0) ws). assert (w = origin) as -> by (clear - Z; by_components; f_equal; nra).
+    cbn [length combination fold_right]. rewrite map_length. clear. repeat split.
+    - constructor; [lra |]. apply Forall_forall. intros x I. apply in_map_iff in I as (? & <- & _). lra.
+    - induction ws; cbn [map fold_right]; lra.
+    - assert (combination (map (fun _ => 0) ws) ws = origin) as ->; [| by_vectors].
+      induction ws as [| x ws E]; cbn [map combination]; [reflexivity |]. rewrite E. by_vectors. }
+  pose proof (square_nonnegative w). destruct (IH ws L) as [(d & D) | (weights & Lw & P & S & E)].
+  2: { right. exists (0 :: weights). cbn [length combination fold_right]. rewrite E, S, Lw.
+    repeat split; [constructor; [lra | exact P] | lra | by_vectors]. }
+  destruct (Rlt_le_dec 0 (dot d w)) as [G | G]; [left; exists d; intros x [<- | I]; auto |].
+  set (move := fun x => minus (times (dot d x) w) (times (dot d w) x)).
+  destruct (IH (map move ws) ltac:(rewrite map_length; exact L)) as [(d' & D') | (weights & Lw & P & S & E)].
+  - left. pose (d'' := minus (times (dot d' w) d) (times (dot d w) d')).
+    destruct (small_step d'' w ws) as (e & He & P).
+    { intros x I. specialize (D' (move x) (in_map move ws x I)). unfold d'', move in *.
+      replace (dot (minus _ _) x) with (dot d' (minus (times (dot d x) w) (times (dot d w) x)))
+        by (clear; by_components; ring). exact D'. }
+    exists (plus d'' (times e w)). intros x [<- | I]; [| apply P; [lra | exact I]].
+    replace (dot (plus d'' _) w) with (e * dot w w) by (unfold d''; clear; by_components; ring). nra.
+  - right. rewrite map_length in Lw.
+    assert (T : forall weights, combination weights (map move ws) =
+      minus (times (dot d (combination weights ws)) w) (times (dot d w) (combination weights ws))).
+    { unfold move. clear. induction ws as [| x ws IH]; intros [| k weights]; cbn [combination map]; [by_vectors .. |].
+      rewrite IH. by_vectors. }
+    destruct (combination_is_beyond d 0 ws D weights Lw P) as [_ B]. rewrite T in E. rewrite S in B.
+    set (x := combination weights ws) in *. assert (K : 0 < dot d x - dot d w) by lra.
+    exists (map (Rmult (/ (dot d x - dot d w))) (dot d x :: map (Rmult (- dot d w)) weights)).
+    destruct (combination_times (/ (dot d x - dot d w)) (w :: ws) (dot d x :: map (Rmult (- dot d w)) weights)) as [-> ->].
+    cbn [combination fold_right]. destruct (combination_times (- dot d w) ws weights) as [-> ->]. fold x. rewrite S.
+    pose proof (Rinv_0_lt_compat _ K). repeat split.
+    + cbn [length map]. rewrite !map_length, Lw. reflexivity.
+    + apply Forall_forall. intros y I. apply in_map_iff in I as (z & <- & I). apply Rmult_le_pos; [lra |].
+      destruct I as [<- | I]; [lra |]. apply in_map_iff in I as (k & <- & I). rewrite Forall_forall in P. specialize (P k I). nra.
+    + field. lra.
+    + replace (plus _ _) with (minus (times (dot d x) w) (times (dot d w) x)) by by_vectors. rewrite E. by_vectors.
 Qed.
 
-(** A union of sets that change at a limited rate. *)
-Lemma sweep (G : R -> vector -> Prop) L : 0 <= L ->
-  (forall s s' x, 0 <= s <= 1 -> 0 <= s' <= 1 -> G s x ->
-    exists x', G s' x' /\ size (minus x' x) <= Rabs (s' - s) * L) ->
-  (forall s, 0 <= s <= 1 -> apart (G s)) -> apart (fun x => exists s, 0 <= s <= 1 /\ G s x).
+(** An edge and a face meet where the origin is a convex combination of the differences of their vertices. *)
+Definition differences (p q : vector) (f : triple vector) : list vector :=
+  [minus p (x_of f); minus p (y_of f); minus p (z_of f); minus q (x_of f); minus q (y_of f); minus q (z_of f)].
+
+Lemma meet_iff p q f :
+  meet (on_segment p q) (on_triangle f) <-> is_convex_combination origin (differences p q f).
 Proof.
-  intros HL Lip A N. apply (A 0); [lra |]. intros (e0 & He0 & S0).
-  apply (continuation (fun b => exists e, 0 < e /\ forall s x, 0 <= s <= b -> s <= 1 -> G s x -> e <= size x) 1).
-  - lra.
-  - exists e0. split; [exact He0 |]. intros s x Hs _ Gx. replace s with 0 in Gx by lra. auto.
-  - intros m Hm C. apply (A m Hm). intros (e & He & S). apply C. exists (e / 2 / (L + 1)).
-    assert (B : e / 2 / (L + 1) * (L + 1) = e / 2) by (field; lra).
-    assert (0 < e / 2 / (L + 1)) by (apply Rdiv_lt_0_compat; lra).
-    set (d := e / 2 / (L + 1)) in *. split; [assumption |].
-    intros x y Hx Hd Hy Hyd (e' & He' & S'). exists (Rmin (e / 2) e'). split; [apply Rmin_pos; lra |].
-    intros s a Hs Hs1 Ga. destruct (Rle_lt_dec s x).
-    + eapply Rle_trans; [apply Rmin_r | apply (S' s); auto; lra].
-    + eapply Rle_trans; [apply Rmin_l |]. destruct (Lip s m a) as (a' & Ga' & La); [lra | lra | exact Ga |].
-      specialize (S a' Ga'). assert (Rabs (m - s) <= d) by (apply Rabs_le; lra).
-      pose proof (size_plus (minus a' a) a) as T. replace (plus (minus a' a) a) with a' in T
-        by by_vectors. nra.
-  - intros (e & He & S). apply N. exists e. split; [exact He |]. intros x (s & Hs & Gx). apply (S s x); auto; lra.
+  unfold differences. destruct f as [a b c]. cbn [x_of y_of z_of]. split.
+  - intros (x & (s & Hs & ->) & u & v & D & E).
+    exists [(1 - s) * (1 - u - v); (1 - s) * u; (1 - s) * v; s * (1 - u - v); s * u; s * v].
+    split; [reflexivity |]. split; [repeat (apply Forall_cons; [apply Rmult_le_pos; lra |]); apply Forall_nil |].
+    split; [cbn [fold_right]; ring |].
+    transitivity (minus (segment_point p q s) (triangle_point (Triple a b c) u v)); [cbn [combination] | rewrite E]; by_vectors.
+  - intros (weights & L & P & S & E).
+    destruct weights as [| k [| l [| m [| k' [| l' [| m' [|]]]]]]]; try discriminate L. cbn [fold_right] in S.
+    repeat match goal with P : Forall _ (_ :: _) |- _ => inversion_clear P end.
+    exists (segment_point p q (k' + l' + m')). split; [exists (k' + l' + m'); split; [lra | reflexivity] |].
+    exists (l + l'), (m + m'). split; [lra |]. assert (k = 1 - l - m - k' - l' - m') as -> by lra. clear - E.
+    cbn [combination] in E. by_coordinates. injection E as Ex Ey Ez. f_equal; lra.
 Qed.
 
-Lemma segment_and_triangle_are_apart p q f : ~ meet (on_segment p q) (on_triangle f) ->
-  apart (fun x => exists s y, 0 <= s <= 1 /\ on_triangle f y /\ x = minus (segment_point p q s) y).
+Lemma around_all t d (ws : list path) : (forall w, In w ws -> continuous_at t w /\ 0 < dot d (w t)) ->
+  around t (fun t' => forall w, In w ws -> 0 < dot d (w t')).
 Proof.
-  intros N. pose (point s w v := minus (segment_point p q s) (triangle_point f (w * (1 - v)) (w * v))).
-  destruct f as [a b c].
-  assert (A : apart (fun x =>
-    exists s, 0 <= s <= 1 /\ exists w, 0 <= w <= 1 /\ exists v, 0 <= v <= 1 /\ x = point s w v)).
-  { apply (sweep (fun s x => _)) with (size (minus q p)); [apply size_nonnegative | |].
-    { intros s s' x Hs Hs' (w & Hw & v & Hv & ->). exists (point s' w v). split; [eauto 6 |].
-      rewrite <- size_times. apply Req_le. f_equal. unfold point. by_vectors. }
-    intros s Hs. apply (sweep (fun w x => _)) with (size (minus b a) + size (minus c a)).
-    { pose proof (size_nonnegative (minus b a)). pose proof (size_nonnegative (minus c a)). lra. }
-    { intros w w' x Hw Hw' (v & Hv & ->). exists (point s w' v). split; [eauto 6 |].
-      replace (minus _ _) with (times (w' - w) (minus (times (v - 1) (minus b a)) (times v (minus c a))))
-        by (unfold point; by_vectors).
-      rewrite size_times. apply Rmult_le_compat_l; [apply Rabs_pos |].
-      pose proof (size_minus (times (v - 1) (minus b a)) (times v (minus c a))) as T. rewrite !size_times in T.
-      pose proof (size_nonnegative (minus b a)). pose proof (size_nonnegative (minus c a)).
-      assert (Rabs (v - 1) <= 1) by (apply Rabs_le; lra). assert (Rabs v <= 1) by (apply Rabs_le; lra). nra. }
-    intros w Hw. apply (sweep (fun v x => _)) with (size (minus b c)); [apply size_nonnegative | |].
-    { intros v v' x Hv Hv' ->. exists (point s w v'). split; [reflexivity |].
-      replace (minus (point _ _ _) _) with (times w (times (v' - v) (minus b c)))
-        by (unfold point; by_vectors).
-      rewrite !size_times. rewrite (Rabs_right w) by lra. pose proof (size_nonnegative (minus b c)).
-      assert (0 <= Rabs (v' - v) * size (minus b c)) by (apply Rmult_le_pos; [apply Rabs_pos | assumption]). nra. }
-    intros v Hv C. apply C. exists (size (point s w v)). split; [| intros x ->; lra].
-    apply Rnot_le_lt. intros Z. apply N. exists (segment_point p q s). split; [exists s; auto |].
-    exists (w * (1 - v)), (w * v). split; [nra |]. apply size_zero in Z. unfold point in Z. clear - Z.
-    by_coordinates. injection Z as X Y Z. f_equal; lra. }
-  intros C. apply A. intros (e & He & S). apply C. exists e. split; [exact He |].
-  intros x (s & y & Hs & (u & v & (Hu & Hv & Hw) & ->) & ->). apply S. exists s. split; [exact Hs |].
-  exists (u + v). split; [lra |]. destruct (Req_dec (u + v) 0).
-  - exists 0. split; [lra |]. unfold point. f_equal. f_equal; nra.
-  - exists (v / (u + v)). assert (E : v / (u + v) * (u + v) = v) by (field; lra). set (k := v / (u + v)) in *.
-    split; [split; nra |]. unfold point. f_equal. f_equal; lra.
-Qed.
-
-Lemma around_near (p : path) t e : continuous_at t p -> 0 < e -> around t (fun t' => size (minus (p t') (p t)) < e).
-Proof.
-  intros (Cx & Cy & Cz) He. assert (H : 0 < e / 3) by lra.
-  destruct (around_both _ _ _ (around_close _ _ _ Cx H) (around_both _ _ _ (around_close _ _ _ Cy H)
-    (around_close _ _ _ Cz H))) as (d & Hd & D).
-  exists d. split; [exact Hd |]. intros t' Ht. specialize (D t' Ht). unfold size, minus. cbn [x_of y_of z_of]. lra.
+  induction ws as [| w ws IH]; intros H; [exists 1; split; [lra | intros ? ? ? []] |].
+  destruct (H w (or_introl eq_refl)) as ((Cx & Cy & Cz) & P).
+  destruct (around_both t _ _ (around_positive t (fun t => dot d (w t)) ltac:(unfold dot; continuous) P)
+    (IH (fun v I => H v (or_intror I)))) as (e & He & A).
+  exists e. split; [exact He |]. intros s Hs. destruct (A s Hs). intros v [<- | I]; auto.
 Qed.
 
 Lemma apart_is_open (p q : path) (f : triple path) t :
   continuous_at t p -> continuous_at t q -> (forall v, vertex_of f v -> continuous_at t v) ->
   ~ meet (on_segment (p t) (q t)) (on_triangle (at_time f t)) ->
-  ~ ~ around t (fun t' => ~ meet (on_segment (p t') (q t')) (on_triangle (at_time f t'))).
+  around t (fun t' => ~ meet (on_segment (p t') (q t')) (on_triangle (at_time f t'))).
 Proof.
-  intros Cp Cq Cf N C. apply (segment_and_triangle_are_apart _ _ _ N). intros (e & He & S). apply C. clear C N.
-  pose (close (v : path) t' := size (minus (v t') (v t)) < e / 2).
-  assert (A : forall v, continuous_at t v -> around t (close v)) by (intros v Cv; apply around_near; [exact Cv | lra]).
-  destruct f as [a b c]. unfold at_time, image in *. cbn [x_of y_of z_of] in *.
-  destruct (around_both _ _ _ (around_both _ _ _ (A p Cp) (A q Cq)) (around_both _ _ _ (A a (Cf a ltac:(cbv; auto)))
-    (around_both _ _ _ (A b (Cf b ltac:(cbv; auto))) (A c (Cf c ltac:(cbv; auto)))))) as (d & Hd & D).
-  exists d. split; [exact Hd |]. intros t' Ht (x & (s & Hs & ->) & u & v & (Hu & Hv & Hw) & E).
-  destruct (D t' Ht) as ((Dp & Dq) & Da & Db & Dc). unfold close in *. clear - Hs Hu Hv Hw E S Dp Dq Da Db Dc.
-  set (z := minus (segment_point (p t) (q t) s) (triangle_point (Triple (a t) (b t) (c t)) u v)).
-  assert (B : e <= size z).
-  { apply S. exists s. eexists. split; [exact Hs |]. split; [exists u, v; split; [lra |] |]; reflexivity. }
-  replace z with (minus
-      (triangle_point (Triple (minus (a t') (a t)) (minus (b t') (b t)) (minus (c t') (c t))) u v)
-      (segment_point (minus (p t') (p t)) (minus (q t') (q t)) s)) in B
-    by (unfold z; clear - E; by_coordinates; injection E as Ex Ey Ez; f_equal; lra).
-  clear z S E. unfold triangle_point, segment_point in B. cbn [x_of y_of z_of] in B.
-  pose proof (Rle_trans _ _ _ B (size_minus _ _)) as B1.
-  pose proof (size_plus (plus (times (1 - u - v) (minus (a t') (a t))) (times u (minus (b t') (b t))))
-    (times v (minus (c t') (c t)))).
-  pose proof (size_plus (times (1 - u - v) (minus (a t') (a t))) (times u (minus (b t') (b t)))).
-  pose proof (size_plus (times (1 - s) (minus (p t') (p t))) (times s (minus (q t') (q t)))).
-  rewrite !size_times in *. rewrite (Rabs_right u), (Rabs_right v), (Rabs_right s), (Rabs_right (1 - s)),
-    (Rabs_right (1 - u - v)) in * by lra.
-  set (sa := size (minus (a t') (a t))) in *. set (sb := size (minus (b t') (b t))) in *.
-  set (sc := size (minus (c t') (c t))) in *. set (sp := size (minus (p t') (p t))) in *.
-  set (sq := size (minus (q t') (q t))) in *. clearbody sa sb sc sp sq.
-  assert ((1 - s) * (e / 2 - sp) + s * (e / 2 - sq) > 0) by (destruct (Req_dec s 0); nra).
-  assert (0 <= u * (e / 2 - sb)) by (apply Rmult_le_pos; lra).
-  assert (0 <= v * (e / 2 - sc)) by (apply Rmult_le_pos; lra).
-  assert (0 <= (1 - u - v) * (e / 2 - sa)) by (apply Rmult_le_pos; lra). lra.
+  intros Cp Cq Cf N. destruct (direction_or_combination _ (differences (p t) (q t) (at_time f t)) eq_refl) as [(d & D) | O]; [| destruct (N (proj2 (meet_iff _ _ _) O))].
+  pose (between (x y : path) (t : R) := minus (x t) (y t)).
+  pose (ws := [between p (x_of f); between p (y_of f); between p (z_of f);
+    between q (x_of f); between q (y_of f); between q (z_of f)]).
+  assert (Ew : forall t', differences (p t') (q t') (at_time f t') = map (fun w => w t') ws) by reflexivity.
+  destruct (around_all t d ws) as (e & He & A).
+  { intros w I. split; [| apply D; rewrite Ew; apply (in_map (fun w => w t) ws w I)].
+    destruct (Cf (x_of f) (or_introl eq_refl)) as (? & ? & ?), (Cf (y_of f) (or_intror (or_introl eq_refl))) as (? & ? & ?),
+      (Cf (z_of f) (or_intror (or_intror eq_refl))) as (? & ? & ?), Cp as (? & ? & ?), Cq as (? & ? & ?).
+    cbn [In ws] in I. unfold continuous_at.
+    repeat destruct I as [<- | I]; try contradiction; unfold between, minus; cbn [x_of y_of z_of]; repeat split; continuous. }
+  exists e. split; [exact He |]. intros t' Ht M. apply meet_iff in M as (weights & L & P & S & E). rewrite Ew in L, E.
+  destruct (combination_is_beyond d 0 (map (fun w => w t') ws)) with (weights := weights) as [_ B]; try assumption.
+  - intros w I. apply in_map_iff in I as (v & <- & I). exact (A t' Ht v I).
+  - rewrite S, E in B. specialize (B ltac:(lra)). unfold dot, origin in B. cbn [x_of y_of z_of] in B. lra.
 Qed.
 
 (** ** The theorem for an edge and a face *)
@@ -481,16 +450,25 @@ Theorem edge_and_face (p q : path) (f : triple path) T :
   (forall t, 0 <= t <= T -> ~ edge_touches (p t) (q t) (at_time f t)) ->
   forall t, 0 <= t <= T -> ~ meet (on_segment (p t) (q t)) (on_triangle (at_time f t)).
 Proof.
-  intros C N0 N t Ht.
-  pose (E x := forall t, 0 <= t <= x -> ~ meet (on_segment (p t) (q t)) (on_triangle (at_time f t))).
-  cut (~ ~ E T); [intros G M; apply G; intros ET; apply (ET t Ht M) |].
-  apply continuation; [lra | intros s Hs; replace s with 0 by lra; exact N0 |].
-  intros m Hm G. destruct (C m Hm) as (Cp & Cq & Cf).
-  assert (X : ~ meet (on_segment (p m) (q m)) (on_triangle (at_time f m))).
-  { intros M. destruct (crossing_is_open p q f m Cp Cq Cf (N m Hm) M) as (d & Hd & D). apply G. exists d.
-    split; [exact Hd |]. intros x y Hx Hxd Hy _ Ex. exfalso. apply (Ex x); [lra |]. apply D. apply Rabs_def1; lra. }
-  apply (apart_is_open p q f m Cp Cq Cf X). intros (d & Hd & D). apply G. exists d. split; [exact Hd |].
-  intros x y Hx Hxd Hy Hyd Ex s Hs. destruct (Rle_lt_dec s x); [apply Ex; lra |]. apply D. apply Rabs_def1; lra.
+  intros C N0 N t Ht M. pose (free x := forall s, 0 <= s <= x -> ~ meet (on_segment (p s) (q s)) (on_triangle (at_time f s))).
+  destruct (completeness (fun x => 0 <= x <= t /\ free x)) as (m & U & Least).
+  - exists t. intros x (? & _). lra.
+  - exists 0. split; [lra |]. intros s Hs. replace s with 0 by lra. exact N0.
+  - assert (Hm : 0 <= m <= t).
+    { split; [| apply Least; intros x (? & _); lra]. apply U. split; [lra |]. intros s Hs. replace s with 0 by lra. exact N0. }
+    destruct (C m ltac:(lra)) as (Cp & Cq & Cf).
+    assert (X : ~ meet (on_segment (p m) (q m)) (on_triangle (at_time f m))).
+    { intros X. destruct (crossing_is_open p q f m Cp Cq Cf (N m ltac:(lra)) X) as (d & Hd & D).
+      assert (m <= m - d); [| lra]. apply Least. intros x (Hx & F). apply Rnot_lt_le. intros G.
+      pose proof (U x (conj Hx F)). apply (F x ltac:(lra)), D, Rabs_def1; lra. }
+    destruct (apart_is_open p q f m Cp Cq Cf X) as (d & Hd & D).
+    pose proof (Rmin_l t (m + d / 2)) as Hl. pose proof (Rmin_r t (m + d / 2)) as Hr.
+    set (x := Rmin t (m + d / 2)) in *. assert (F : free x).
+    { intros s Hs X'. destruct (Rlt_le_dec (m - d) s) as [G | G]; [exact (D s ltac:(apply Rabs_def1; lra) X') |].
+      assert (m <= s); [| lra]. apply Least. intros y (Hy & F). apply Rnot_lt_le. intros G'. exact (F s ltac:(lra) X'). }
+    assert (0 <= x) by (apply Rmin_glb; lra). pose proof (U x (conj (conj H Hl) F)).
+    assert (x = t) by (unfold x, Rmin in *; destruct (Rle_dec t (m + d / 2)); lra).
+    apply (F t); [lra | exact M].
 Qed.
 
 (** ** The theorem for two faces *)
@@ -694,8 +672,6 @@ Variables d T : R.
 Hypothesis places_are_continuous : forall v t, 0 <= t <= T -> continuous_at t (place v).
 Hypothesis free_at_start : forall a b f, is_edge a b -> is_face f ->
   without_common_vertex (an_edge a b) (a_face f) -> ~ meet (points (an_edge a b) 0) (points (a_face f) 0).
-Hypothesis searched_are_apart : forall P Q, in_mesh P -> in_mesh Q -> without_common_vertex P Q -> is_searched P Q ->
-  forall t, 0 <= t <= T -> ~ within n d (points P t) (points Q t).
 
 Lemma vertex_has_edge f v : is_face f -> vertex_of f v -> exists w, is_edge v w /\ vertex_of f w.
 Proof.
@@ -720,16 +696,13 @@ Qed.
 Lemma face_is_continuous f : continuous_until T (image place f).
 Proof. intros t Ht v Hv. apply vertex_of_image in Hv as (x & _ & ->). exact (places_are_continuous x t Ht). Qed.
 
-Lemma vertex_and_face_are_apart v f t : is_face f -> ~ vertex_of f v -> 0 <= t <= T ->
+(** Edges and faces: of the pairs that are searched these two kinds suffice. *)
+Section Faces.
+Hypothesis vertices_and_faces : forall v w f t, is_edge v w -> is_face f -> ~ vertex_of f v -> 0 <= t <= T ->
   ~ within n d (points (a_vertex v) t) (points (a_face f) t).
-Proof.
-  intros Hf N Ht. refine (searched_are_apart (a_vertex v) (a_face f) I Hf _ I t Ht). intros w -> W. exact (N W).
-Qed.
-
-Lemma edges_are_apart a b a' b' t : is_edge a b -> is_edge a' b' ->
+Hypothesis edges_and_edges : forall a b a' b' t, is_edge a b -> is_edge a' b' ->
   without_common_vertex (an_edge a b) (an_edge a' b') -> 0 <= t <= T ->
   ~ within n d (points (an_edge a b) t) (points (an_edge a' b') t).
-Proof. intros E E' N Ht. exact (searched_are_apart (an_edge a b) (an_edge a' b') E E' N I t Ht). Qed.
 
 Lemma edge_and_face_are_apart a b f t : is_edge a b -> is_face f ->
   without_common_vertex (an_edge a b) (a_face f) -> 0 <= t <= T ->
@@ -740,10 +713,10 @@ Proof.
   - apply face_is_continuous.
   - exact (free_at_start a b f E Hf N).
   - intros t Ht. repeat split.
-    + apply (vertex_and_face_are_apart a f t Hf); [apply N; cbn; auto | exact Ht].
-    + apply (vertex_and_face_are_apart b f t Hf); [apply N; cbn; auto | exact Ht].
+    + apply (vertices_and_faces a b f t E Hf); [apply N; cbn; auto | exact Ht].
+    + apply (vertices_and_faces b a f t (edges_have_no_direction _ _ E) Hf); [apply N; cbn; auto | exact Ht].
     + intros a' b' H W. destruct (proper_edge f t a' b' Hf H) as (x & y & Exy & Vx & Vy & S).
-      apply (edges_are_apart a b x y t E Exy); [| exact Ht | exact (within_larger _ _ _ _ _ _ W (fun c C => C) S)].
+      apply (edges_and_edges a b x y t E Exy); [| exact Ht | exact (within_larger _ _ _ _ _ _ W (fun c C => C) S)].
       intros v Hv [-> | ->]; apply (N _ Hv); assumption.
 Qed.
 
@@ -761,14 +734,30 @@ Proof.
     apply (Free g f Hg Hf N' a b Hab M).
   - intros t Ht [(v & Hv & W) | [(v & Hv & W) | (a & b & a' & b' & Hab & Hab' & W)]].
     + apply vertex_of_image in Hv as (p & Hv & ->). apply vertex_of_image in Hv as (x & Hx & ->).
-      exact (vertex_and_face_are_apart x g t Hg (N x Hx) Ht W).
+      destruct (vertex_has_edge f x Hf Hx) as (y & E & _). exact (vertices_and_faces x y g t E Hg (N x Hx) Ht W).
     + apply vertex_of_image in Hv as (p & Hv & ->). apply vertex_of_image in Hv as (x & Hx & ->).
-      exact (vertex_and_face_are_apart x f t Hf (N' x Hx) Ht W).
+      destruct (vertex_has_edge g x Hg Hx) as (y & E & _). exact (vertices_and_faces x y f t E Hf (N' x Hx) Ht W).
     + destruct (proper_edge f t a b Hf Hab) as (x & y & E & Vx & Vy & S).
       destruct (proper_edge g t a' b' Hg Hab') as (x' & y' & E' & Vx' & Vy' & S').
-      apply (edges_are_apart x y x' y' t E E'); [| exact Ht | exact (within_larger _ _ _ _ _ _ W S S')].
+      apply (edges_and_edges x y x' y' t E E'); [| exact Ht | exact (within_larger _ _ _ _ _ _ W S S')].
       intros v Hv Hv'. apply (N v); [destruct Hv as [-> | ->] | destruct Hv' as [-> | ->]]; assumption.
 Qed.
+
+End Faces.
+
+Hypothesis searched_are_apart : forall P Q, in_mesh P -> in_mesh Q -> without_common_vertex P Q -> is_searched P Q ->
+  forall t, 0 <= t <= T -> ~ within n d (points P t) (points Q t).
+
+Lemma vertex_and_face_are_apart v f t : is_face f -> ~ vertex_of f v -> 0 <= t <= T ->
+  ~ within n d (points (a_vertex v) t) (points (a_face f) t).
+Proof.
+  intros Hf N Ht. refine (searched_are_apart (a_vertex v) (a_face f) I Hf _ I t Ht). intros w -> W. exact (N W).
+Qed.
+
+Lemma edges_are_apart a b a' b' t : is_edge a b -> is_edge a' b' ->
+  without_common_vertex (an_edge a b) (an_edge a' b') -> 0 <= t <= T ->
+  ~ within n d (points (an_edge a b) t) (points (an_edge a' b') t).
+Proof. intros E E' N Ht. exact (searched_are_apart (an_edge a b) (an_edge a' b') E E' N I t Ht). Qed.
 
 Lemma vertex_and_edge_are_apart v a b t : is_edge a b -> without_common_vertex (a_vertex v) (an_edge a b) ->
   ~ is_excluded (a_vertex v) (an_edge a b) -> 0 <= t <= T ->
@@ -814,10 +803,10 @@ Proof.
   - apply vertex_and_face_are_apart; auto. exact (N v eq_refl).
   - apply S, vertex_and_edge_are_apart; auto.
   - apply edges_are_apart; auto.
-  - apply edge_and_face_are_apart; auto.
+  - apply edge_and_face_are_apart; eauto using vertex_and_face_are_apart, edges_are_apart.
   - apply S, vertex_and_face_are_apart; auto. exact (N' w eq_refl).
-  - apply S, edge_and_face_are_apart; auto.
-  - apply faces_are_apart; auto.
+  - apply S, edge_and_face_are_apart; eauto using vertex_and_face_are_apart, edges_are_apart.
+  - apply faces_are_apart; eauto using vertex_and_face_are_apart, edges_are_apart.
 Qed.
 
 End Mesh.
@@ -830,17 +819,10 @@ Inductive query_of (f g : triple motion) : query -> Prop :=
   | vertex_of_second v : vertex_of g v -> query_of f g (Query vertex_face v (x_of f) (y_of f) (z_of f))
   | edges_of_both p q a b : edge_of f p q -> edge_of g a b -> query_of f g (Query edge_edge p q a b).
 
-(** The order of the ends, and that of the edges, does not matter. *)
-Lemma contact_in_any_order p q a b s t : contact (Query edge_edge p q a b) s t ->
-  contact (Query edge_edge q p a b) s t /\ contact (Query edge_edge a b p q) s t.
-Proof.
-  unfold contact, F. cbn. intros (u & v & D & L). split; [exists (1 - u), v | exists v, u]; (split; [lra |]).
-  - replace (plus (times (1 - (1 - u)) _) _) with (plus (times (1 - u) (position p t)) (times u (position q t)))
-      by by_vectors. exact L.
-  - rewrite length_of_opposite. exact L.
-Qed.
-
 Definition on_a_straight_line (m : motion) : Prop := exists a b, m = straight a b.
+
+(* Unfolding it would take long. *)
+Local Opaque position.
 
 Theorem no_two_faces_touch (f g : triple motion) s T :
   (forall m, vertex_of f m \/ vertex_of g m -> on_a_straight_line m) ->

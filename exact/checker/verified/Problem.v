@@ -28,6 +28,18 @@ Definition minus (a b : vector) : vector :=
 Definition times (k : R) (a : vector) : vector := Triple (k * x_of a) (k * y_of a) (k * z_of a).
 Definition dot (a b : vector) : R := x_of a * x_of b + y_of a * y_of b + z_of a * z_of b.
 
+Definition origin : vector := Triple 0 0 0.
+
+Fixpoint combination (weights : list R) (ws : list vector) : vector :=
+  match weights, ws with
+  | k :: weights', w :: ws' => plus (times k w) (combination weights' ws')
+  | _, _ => origin
+  end.
+
+Definition is_convex_combination (x : vector) (ws : list vector) : Prop :=
+  exists weights, length weights = length ws /\ Forall (Rle 0) weights /\
+    fold_right Rplus 0 weights = 1 /\ combination weights ws = x.
+
 Inductive norm := linf | l2.
 
 Definition length_of (n : norm) (a : vector) : R :=
@@ -82,28 +94,29 @@ Definition F (q : query) (t u v : R) : vector :=
 
 (** ** Claims *)
 
+Inductive claim := no_collision | collision | time_of_impact (lower upper : Q).
+
+(** What a claim says of an event: a contact, or an inversion (Inversion.v). *)
+Definition never_until (event : R -> Prop) (b : R) : Prop := forall t, 0 <= t <= b -> ~ event t.
+Definition once_between (event : R -> Prop) (a b : R) : Prop := exists t, a <= t <= b /\ event t.
+
+(** A time of impact [0 0] says that there is an event at 0. All other say that there is none up
+    to [lower], and one between [lower] and [upper]. *)
+Definition holds_of (event : R -> Prop) (c : claim) : Prop :=
+  match c with
+  | no_collision => never_until event 1
+  | collision => once_between event 0 1
+  | time_of_impact lower upper =>
+      once_between event (Q2R lower) (Q2R upper) /\ 0 <= Q2R lower /\ Q2R upper <= 1 /\
+      (Q2R lower = 0 /\ Q2R upper = 0 \/ Q2R lower < Q2R upper /\ never_until event (Q2R lower))
+  end.
+
 (** The distance that counts as contact, at least 0, and its norm. *)
 Record separation := Separation { distance_of : Q; norm_of : norm }.
 
 Definition contact (q : query) (s : separation) (t : R) : Prop :=
   exists u v, in_domain (kind_of q) u v /\ length_of (norm_of s) (F q t u v) <= Q2R (distance_of s).
 
-Inductive claim := no_collision | collision | time_of_impact (lower upper : Q).
-
-Definition no_contact_until (q : query) (s : separation) (b : R) : Prop :=
-  forall t, 0 <= t <= b -> ~ contact q s t.
-
-Definition contact_between (q : query) (s : separation) (a b : R) : Prop :=
-  exists t, a <= t <= b /\ contact q s t.
-
-(** A time of impact [0 0] says that there is a contact at 0. All other say that there is none up
-    to [lower], and one between [lower] and [upper]. *)
-Definition holds (q : query) (s : separation) (c : claim) : Prop :=
-  match c with
-  | no_collision => no_contact_until q s 1
-  | collision => contact_between q s 0 1
-  | time_of_impact lower upper =>
-      contact_between q s (Q2R lower) (Q2R upper) /\ 0 <= Q2R lower /\ Q2R upper <= 1 /\
-      (Q2R lower = 0 /\ Q2R upper = 0 \/
-       Q2R lower < Q2R upper /\ no_contact_until q s (Q2R lower))
-  end.
+Definition no_contact_until (q : query) (s : separation) : R -> Prop := never_until (contact q s).
+Definition contact_between (q : query) (s : separation) : R -> R -> Prop := once_between (contact q s).
+Definition holds (q : query) (s : separation) : claim -> Prop := holds_of (contact q s).

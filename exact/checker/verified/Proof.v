@@ -31,7 +31,13 @@ Lemma at_component k a : at_u u (component k a) = component k (vector_at u a).
 Proof. destruct k; reflexivity. Qed.
 End AtU.
 
-(** ** Integers *)
+(** ** Numbers *)
+
+Lemma Q2R_0 : Q2R 0 = 0. Proof. unfold Q2R. cbn. lra. Qed.
+Lemma Q2R_1 : Q2R 1 = 1. Proof. unfold Q2R. cbn. lra. Qed.
+
+Lemma less_by_bool x y : negb (Qle_bool y x) = true -> Q2R x < Q2R y.
+Proof. intros N. apply Rnot_le_lt. intros L. apply Rle_Qle, Qle_bool_iff in L. rewrite L in N. discriminate. Qed.
 
 Lemma scaled_is_multiple m x : is_multiple m x = true -> IZR (scaled m x) = IZR m * Q2R x.
 Proof.
@@ -174,7 +180,7 @@ Proof.
   destruct (_ && _ && _) eqn:E; [| discriminate]. rewrite !andb_true_iff in E. destruct E as ((Es' & Ep) & El).
   cbn [forallb] in Es'. rewrite !andb_true_iff in Es'. destruct Es' as (S1 & S2 & S3 & _).
   intros H. inversion H; subst sc; clear H. unfold is_scene_of. cbn [factor corners_in reach norm_in].
-  apply Qle_bool_iff, Qle_Rle in Ed. replace (Q2R 0) with 0 in Ed by (unfold Q2R; cbn; lra).
+  apply Qle_bool_iff, Qle_Rle in Ed. rewrite Q2R_0 in Ed.
   split; [reflexivity |]. split; [exact Ed |]. rewrite forallb_forall in El. 
   split; [exact El |]. intros t Ht. pose proof (is_positive_sound _ _ t Ep Ht) as Hp.
   rewrite at_elevated, !at_u_scale, scaled_is_multiple by exact Es.
@@ -209,7 +215,7 @@ Proof.
   assert (exists u, 0 <= u <= 1 /\ t = (1 - u) * Q2R a + u * Q2R b) as (u & Hu & ->).
   { destruct (Req_dec (Q2R a) (Q2R b)) as [E' | N]; [exists 0; split; lra |].
     exists ((t - Q2R a) / (Q2R b - Q2R a)). split; [| field; lra].
-    apply quotient_in_unit with (Q2R b - t); lra. }
+    apply quotient_in_unit; lra. }
   exists u. destruct (moments_at_u a b ms u E) as (k & M). exists k. split; assumption.
 Qed.
 
@@ -221,6 +227,10 @@ Proof.
   exists (IZR m). unfold is_moment. cbn [map fst snd]. rewrite !at_u_constant, !minus_IZR, !scaled_is_multiple by assumption.
   repeat split; try exact Em; try discriminate; ring.
 Qed.
+
+(** The time of an event is a root of the form g, or the start. *)
+Definition is_time_of (g : option form) (u : R) : Prop :=
+  match g with None => u = 0 | Some g => hd 0%Z g <> 0%Z /\ at_u u g = 0 end.
 
 (** ** What a scene is at a moment *)
 
@@ -267,12 +277,6 @@ Proof.
   unfold vector_at, times. cbn [x_of y_of z_of]. rewrite !restrict_value by assumption. reflexivity.
 Qed.
 
-Lemma corner_of_form w : In w ws -> exists y, In y (corners q t) /\ vector_at u w = times size y.
-Proof.
-  intros I. apply (in_map (vector_at u)) in I. rewrite corner_values in I.
-  apply in_map_iff in I as (y & E & Iy). eauto.
-Qed.
-
 Lemma form_of_corner y : In y (corners q t) -> exists w, In w ws /\ vector_at u w = times size y.
 Proof.
   intros I. apply (in_map (times size)) in I. rewrite <- corner_values in I.
@@ -286,6 +290,16 @@ Qed.
 
 Lemma forms_are_polygon : is_polygon (map (vector_at u) ws).
 Proof. rewrite corner_values. apply enlarged_polygon, corners_are_polygon. Qed.
+
+Lemma polygon_of_forms a b c rest : ws = a :: b :: c :: rest ->
+  is_polygon_in (enlarged size q t) (vector_at u a) (vector_at u b) (vector_at u c)
+    (vector_at u (match rest with [] => c | f :: _ => f end)) (map (vector_at u) rest).
+Proof.
+  intros E. pose proof forms_are_polygon as P. rewrite E in P. repeat split; [apply enlarged_is_convex | exact P | |].
+  - intros w I. apply (in_map_iff (vector_at u) (a :: b :: c :: rest)) in I as (y & <- & Iy).
+    apply form_is_in_hull. rewrite E. exact Iy.
+  - destruct rest; reflexivity.
+Qed.
 
 Lemma get_is_in_hull i : enlarged size q t (vector_at u (get ws i)).
 Proof.
@@ -385,8 +399,7 @@ Qed.
 (** ** Contact *)
 
 Variable g : option form.
-(** The time of the contact is that of the form g, or the start. *)
-Hypothesis Hg : match g with None => u = 0 | Some g => hd 0%Z g <> 0%Z /\ at_u u g = 0 end.
+Hypothesis Hg : is_time_of g u.
 
 Definition has_sign (p : form) (sign : option comparison) : Prop :=
   match sign with
@@ -500,22 +513,18 @@ Proof. intros E. apply not_negative_at in E. rewrite at_dot, at_cross in E. exac
 
 Lemma face_sound : proves_face g D ws = true -> is_contact_seen.
 Proof.
-  pose proof forms_are_polygon as P. pose proof form_is_in_hull as I. fold H in I.
-  destruct ws as [| a [| b [| c rest]]]; cbn [map is_polygon] in P; try contradiction.
-  intros E. unfold proves_face in E. cbv zeta in E. rewrite !andb_true_iff in E.
+  pose proof polygon_of_forms as P. destruct ws as [| a [| b [| c rest]]]; try discriminate.
+  specialize (P a b c rest eq_refl). intros E. unfold proves_face in E. cbv zeta in E. rewrite !andb_true_iff in E.
   destruct E as ((((E1 & E2) & E3) & E4) & E5). apply positive_at in E1. apply near_sound in E2.
   rewrite at_u_mul, !at_dot in E2. rewrite at_dot in E1. apply inwards_sound in E3, E4.
   assert (En : vector_at u (normal (a :: b :: c :: rest)) =
     cross (minus (vector_at u b) (vector_at u a)) (minus (vector_at u c) (vector_at u a))).
   { cbn [normal]. rewrite at_cross, !at_minus. reflexivity. }
   apply seen_by_square.
-  destruct rest as [| f [| ? ?]]; cbn [map] in P; [| | contradiction].
-  - apply inwards_sound in E5. rewrite En in *.
-    apply (triangle_face_contact H (vector_at u a) (vector_at u b) (vector_at u c));
-      try (apply I; cbn [In]; tauto); try apply enlarged_is_convex; assumption.
-  - apply andb_prop in E5 as [E5 E6]. apply inwards_sound in E5, E6. rewrite En in *.
-    apply (parallelogram_face_contact H (vector_at u a) (vector_at u b) (vector_at u c) (vector_at u f));
-      try (apply I; cbn [In]; tauto); try apply enlarged_is_convex; assumption.
+  apply (face_contact H (vector_at u a) (vector_at u b) (vector_at u c) (vector_at u (match rest with [] => c | f :: _ => f end))
+    (map (vector_at u) rest)); rewrite <- ?En; try assumption.
+  destruct rest; [exact (inwards_sound _ _ _ E5) |]. apply andb_prop in E5 as [E5 E6].
+  split; apply inwards_sound; assumption.
 Qed.
 
 (** A witness in linf. *)
@@ -536,9 +545,8 @@ Qed.
 
 Lemma axes_sound : norm_of s = linf -> proves_axes g D ws = true -> is_contact_seen.
 Proof.
-  intros Hn. pose proof forms_are_polygon as P. pose proof form_is_in_hull as I. fold H in I.
-  destruct ws as [| a [| b [| c rest]]]; cbn [map is_polygon] in P; try contradiction.
-  unfold proves_axes. cbv zeta. set (is_triangle := match rest with [] => true | _ => false end).
+  intros Hn. pose proof polygon_of_forms as P. destruct ws as [| a [| b [| c rest]]]; try discriminate.
+  specialize (P a b c rest eq_refl). unfold proves_axes. cbv zeta. set (is_triangle := match rest with [] => true | _ => false end).
   set (f := match rest with [] => c | f :: _ => f end).
   intros E. apply some_pair_sound in E as (line & other & E). unfold is_witness in E.
   set (e := f_minus b a) in *. set (f' := f_minus f a) in *.
@@ -561,13 +569,9 @@ Proof.
   { unfold x, point. rewrite !at_plus, !at_times. symmetry. apply point_of_quotients. exact Em. }
   exists point. split.
   - unfold point, e, f'. rewrite !at_minus. unfold is_triangle, f in Et |- *.
-    destruct rest as [| h [| ? ?]]; cbn [map] in P; [| | contradiction].
-    + apply not_negative_at in Et. rewrite at_u_sub, at_u_add in Et.
-      apply triangle_point; try (apply I; cbn [In]; tauto); try apply enlarged_is_convex; lra.
-    + apply andb_prop in Et as [Et1 Et2]. apply not_negative_at in Et1, Et2.
-      rewrite at_u_sub in Et1, Et2.
-      apply (parallelogram_point H (vector_at u a) (vector_at u b) (vector_at u c) (vector_at u h));
-        try (apply I; cbn [In]; tauto); try apply enlarged_is_convex; try assumption; lra.
+    apply (polygon_point H _ _ (vector_at u c) _ (map (vector_at u) rest)); try assumption.
+    destruct rest; cbn [map]; [| apply andb_prop in Et as [Et Et2]; apply not_negative_at in Et2; rewrite at_u_sub in Et2];
+      apply not_negative_at in Et; rewrite at_u_sub, ?at_u_add in Et; lra.
   - assert (W : forall y, In y [x_of x; y_of x; z_of x] ->
       - (at_u u D * at_u u m) <= at_u u y <= at_u u D * at_u u m).
     { intros y Iy. destruct (Ex y Iy) as [E1 E2]. apply not_negative_at in E1, E2.
@@ -594,70 +598,77 @@ End Moment.
 
 (** ** The claims *)
 
-Lemma separates_sound q s sc x : is_scene_of sc q s -> separates sc x = true ->
-  forall t, Q2R (from x) <= t <= Q2R (to x) -> 0 <= t <= 1 -> ~ contact q s t.
+Lemma separates_sound q s sc : is_scene_of sc q s -> forall x t, separates sc x = true ->
+  Q2R (from x) <= t <= Q2R (to x) -> 0 <= t <= 1 -> ~ contact q s t.
 Proof.
-  intros Hsc E t Hx Ht. unfold separates in E.
+  intros Hsc x t E Hx Ht. unfold separates in E.
   destruct (moments [from x; to x]) as [ms |] eqn:Em; [| discriminate].
   destruct (moments_of_interval _ _ _ _ Em Hx) as (u & k & Hu & Hms).
   pose proof Hsc as (Hn & _). rewrite Hn in E.
   exact (beyond_corners_no_contact q s sc ms u k t Hsc Hms Ht Hu _ E).
 Qed.
 
-Lemma separates_all_sound q s sc : is_scene_of sc q s -> forall xs a b,
-  separates_all sc a b xs = true -> forall t, Q2R a <= t <= Q2R b -> 0 <= t <= 1 -> ~ contact q s t.
+(** An event is a contact here, and elsewhere an inversion. *)
+Section Claim.
+Variables (event : R -> Prop) (is_free : subinterval -> bool) (is_event : place -> option form -> interval -> bool).
+Hypothesis Hfree : forall x t, is_free x = true -> Q2R (from x) <= t <= Q2R (to x) -> 0 <= t <= 1 -> ~ event t.
+Hypothesis Hevent : forall p g ms u k t, is_moment ms u k t -> 0 <= t <= 1 -> 0 <= u <= 1 -> is_time_of g u ->
+  is_event p g ms = true -> event t.
+
+Lemma all_are_free_sound : forall xs a b, all_are_free is_free a b xs = true ->
+  forall t, Q2R a <= t <= Q2R b -> 0 <= t <= 1 -> ~ event t.
 Proof.
-  intros Hsc. induction xs as [| x xs IH]; intros a b E t Hab Ht; [discriminate |].
-  cbn [separates_all] in E. apply andb_prop in E as [E Er]. rewrite !andb_true_iff in E.
+  induction xs as [| x xs IH]; intros a b E t Hab Ht; [discriminate |].
+  cbn [all_are_free] in E. apply andb_prop in E as [E Er]. rewrite !andb_true_iff in E.
   destruct E as ((Ea & _) & Es). apply Qeq_bool_eq, Qeq_eqR in Ea.
-  destruct (Rle_dec t (Q2R (to x))) as [Hle | Hgt].
-  - apply (separates_sound q s sc x Hsc Es); lra.
-  - destruct xs as [| y xs].
-    + apply Qeq_bool_eq, Qeq_eqR in Er. lra.
-    + apply (IH _ _ Er); lra.
+  destruct (Rle_dec t (Q2R (to x))) as [Hle | Hgt]; [apply (Hfree x t Es); lra |].
+  destruct xs as [| y xs]; [apply Qeq_bool_eq, Qeq_eqR in Er; lra |]. apply (IH _ _ Er); lra.
 Qed.
 
-Lemma contact_sound q s sc a b c : is_scene_of sc q s -> proves_contact sc a b c = true ->
-  0 <= Q2R a -> Q2R b <= 1 -> contact_between q s (Q2R a) (Q2R b).
+Lemma event_sound a b c : proves_event is_event a b c = true -> 0 <= Q2R a -> Q2R b <= 1 ->
+  once_between event (Q2R a) (Q2R b).
 Proof.
-  intros Hsc E Ha Hb. unfold proves_contact in E. destruct (time_of c) as [t | lower upper g].
+  unfold proves_event. intros E Ha Hb. destruct (time_of c) as [t | lower upper g].
   - destruct (moments [t]) as [ms |] eqn:Em; [| rewrite andb_false_r in E; discriminate].
     rewrite !andb_true_iff in E. destruct E as ((Ea & Eb) & Ep).
     apply Qle_bool_iff, Qle_Rle in Ea, Eb. destruct (moments_of_time _ _ Em) as (k & Hms).
-    exists (Q2R t). split; [lra |].
-    apply (place_sound q s sc ms 0 k (Q2R t) Hsc Hms ltac:(lra) ltac:(lra) None eq_refl _ Ep).
+    exists (Q2R t). split; [lra |]. exact (Hevent _ None ms 0 k _ Hms ltac:(lra) ltac:(lra) eq_refl Ep).
   - destruct (moments [lower; upper]) as [ms |] eqn:Em; [| rewrite andb_false_r in E; discriminate].
     rewrite !andb_true_iff in E. destruct E as (((Ea & Eab) & Eb) & Eg & Ep).
-    apply Qle_bool_iff, Qle_Rle in Ea, Eb, Eab.
-    destruct (changes_sign_sound _ Eg) as (H0 & u & Hu & Hr).
+    apply Qle_bool_iff, Qle_Rle in Ea, Eb, Eab. destruct (changes_sign_sound _ Eg) as (H0 & u & Hu & Hr).
     destruct (moments_at_u _ _ _ u Em) as (k & Hms). eexists. split; [|
-      apply (place_sound q s sc ms u k _ Hsc Hms ltac:(nra) Hu (Some (on_interval ms g)) (conj H0 Hr) _ Ep)]. nra.
+      exact (Hevent _ (Some (on_interval ms g)) ms u k _ Hms ltac:(nra) Hu (conj H0 Hr) Ep)]. nra.
 Qed.
 
-Lemma Q2R_0 : Q2R 0 = 0. Proof. unfold Q2R. cbn. lra. Qed.
-Lemma Q2R_1 : Q2R 1 = 1. Proof. unfold Q2R. cbn. lra. Qed.
-
-(** Every accepted claim is true. *)
-Theorem check_sound q s c subintervals contact :
-  check q s c subintervals contact = true -> holds q s c.
+Lemma check_claim_sound c xs contact : check_claim is_free is_event c xs contact = true -> holds_of event c.
 Proof.
-  unfold check. destruct (scene_of q s) as [sc |] eqn:E; [| discriminate].
-  apply scene_of_sound in E. pose proof Q2R_0 as E0. pose proof Q2R_1 as E1.
-  assert (C : forall a b, match contact with Some p => proves_contact sc a b p | None => false end = true ->
-    0 <= Q2R a -> Q2R b <= 1 -> contact_between q s (Q2R a) (Q2R b)).
-  { intros a b Ec. destruct contact as [p |]; [| discriminate]. eapply contact_sound; eassumption. }
-  destruct c as [| | lower upper]; cbv zeta; intros Ec; cbn [holds].
-  - intros t Ht. apply (separates_all_sound q s sc E _ _ _ Ec); lra.
+  pose proof Q2R_0 as E0. pose proof Q2R_1 as E1. unfold check_claim. cbv zeta.
+  assert (C : forall a b, match contact with Some p => proves_event is_event a b p | None => false end = true ->
+    0 <= Q2R a -> Q2R b <= 1 -> once_between event (Q2R a) (Q2R b))
+    by (intros a b; destruct contact; [apply event_sound | discriminate]).
+  destruct c as [| | lower upper]; intros Ec; cbn [holds_of].
+  - intros t Ht. apply (all_are_free_sound _ _ _ Ec); lra.
   - rewrite <- E0, <- E1. apply (C _ _ Ec); lra.
   - destruct (Qeq_bool lower 0 && Qeq_bool upper 0) eqn:El.
     + apply andb_prop in El as [El Eu]. apply Qeq_bool_eq, Qeq_eqR in El, Eu.
       rewrite El, Eu. apply C in Ec; [| lra ..]. rewrite E0 in *. repeat split; auto; lra.
     + rewrite !andb_true_iff in Ec. destruct Ec as ((((Hl & Hu) & Hlu) & Es) & Ec).
-      apply Qle_bool_iff, Qle_Rle in Hl, Hu. rewrite E0 in Hl. rewrite E1 in Hu.
+      apply Qle_bool_iff, Qle_Rle in Hl, Hu. apply less_by_bool in Hlu. rewrite E0 in Hl. rewrite E1 in Hu.
       repeat split; [apply (C _ _ Ec); assumption | exact Hl | exact Hu |]. right.
-      assert (Q2R lower < Q2R upper).
-      { apply Rnot_le_lt. intros L. apply Rle_Qle in L. apply Qle_bool_iff in L. rewrite L in Hlu. discriminate. }
-      split; [assumption |]. intros t Ht. apply (separates_all_sound q s sc E _ _ _ Es); lra.
+      split; [assumption |]. intros t Ht. apply (all_are_free_sound _ _ _ Es); lra.
+Qed.
+End Claim.
+
+Lemma contact_sound q s sc : is_scene_of sc q s -> forall p g ms u k t, is_moment ms u k t -> 0 <= t <= 1 ->
+  0 <= u <= 1 -> is_time_of g u -> is_contact sc p g ms = true -> contact q s t.
+Proof. intros Hsc p g ms u k t Hms Ht Hu Hg E. exact (place_sound q s sc ms u k t Hsc Hms Ht Hu g Hg _ E). Qed.
+
+(** Every accepted claim is true. *)
+Theorem check_sound q s c subintervals contact :
+  check q s c subintervals contact = true -> holds q s c.
+Proof.
+  unfold check. destruct (scene_of q s) as [sc |] eqn:E; [| discriminate]. apply scene_of_sound in E.
+  apply check_claim_sound; [exact (separates_sound q s sc E) | exact (contact_sound q s sc E)].
 Qed.
 
 (** The case without a separation: the two primitives have a common point, F = 0. *)
@@ -666,16 +677,6 @@ Corollary contact_at_distance_0 q n t :
 Proof.
   unfold contact. cbn [distance_of norm_of]. rewrite Q2R_0.
   split; intros (u & v & D & E); exists u, v; (split; [exact D | apply (length_zero n); exact E]).
-Qed.
-
-(** The first claim in full. *)
-Corollary no_collision_sound q s subintervals contact :
-  check q s no_collision subintervals contact = true ->
-  forall t u v, 0 <= t <= 1 -> in_domain (kind_of q) u v ->
-  Q2R (distance_of s) < length_of (norm_of s) (F q t u v).
-Proof.
-  intros E t u v Ht D. apply Rnot_le_lt. intros L.
-  apply (check_sound _ _ _ _ _ E t Ht). exists u, v. split; assumption.
 Qed.
 
 (** What is accepted is a curve: the weights are positive. *)
@@ -687,7 +688,7 @@ Proof.
   rewrite !andb_true_iff, !forallb_forall in E. destruct E as ((_ & W) & _). specialize (W p Ip).
   unfold are_weights in W. rewrite !andb_true_iff, forallb_forall in W. destruct W as ((L & W) & _).
   split; [intros ->; discriminate |]. intros b Ib. specialize (W _ (in_map weight_of _ _ Ib)).
-  apply Rnot_le_lt. rewrite <- Q2R_0. intros N. apply Rle_Qle, Qle_bool_iff in N. rewrite N in W. discriminate.
+  rewrite <- Q2R_0. exact (less_by_bool _ _ W).
 Qed.
 
 Definition to_vector (a : triple Q) : vector := Triple (Q2R (x_of a)) (Q2R (y_of a)) (Q2R (z_of a)).

@@ -137,12 +137,7 @@ Definition enlarged_between (c : setting) (ps qs : list site) : Z :=
   end.
 
 Definition query_between (ps qs : list site) : query :=
-  let moving (e : list site) (i : nat) :=
-    let '(a, b) := nth i (map moves e) (hd (Triple 0 0 0, Triple 0 0 0)%Q (map moves e)) in straight a b in
-  match ps with
-  | [_; _] => Query edge_edge (moving ps 0) (moving ps 1) (moving qs 0) (moving qs 1)
-  | _ => Query vertex_face (moving ps 0) (moving qs 0) (moving qs 1) (moving qs 2)
-  end%nat.
+  query_of_motions (map (fun p => line (moves p)) ps) (map (fun q => line (moves q)) qs).
 
 Definition scene_between (c : setting) (ps qs : list site) : option scene :=
   scene_of (query_between ps qs)
@@ -154,7 +149,7 @@ Definition proves (c : setting) (ps qs : list site) (a : argument) : bool :=
   | by_direction d => is_above (enlarged_between c ps qs) d ps qs
   | by_subintervals subintervals =>
       match scene_between c ps qs with
-      | Some sc => separates_all sc 0 (upper c) subintervals
+      | Some sc => all_are_free (separates sc) 0 (upper c) subintervals
       | None => false
       end
   end.
@@ -244,11 +239,10 @@ Fixpoint search_within (is_pair_proved : item -> item -> bool) (a : box_tree) : 
 
 (** ** All elements are there *)
 
-(** Each side of a face, and each edge, is given to f, as in the list of all. *)
-Definition fold_sides {A} (f : Z -> Z -> A -> A) (s : step) (x : A) : A :=
-  fold_left (fun x t => let '(a, b, c) := t in f c a (f b c (f a b x))) (faces s) x.
-Definition fold_lines {A} (f : Z -> Z -> A -> A) (s : step) (x : A) : A :=
-  fold_left (fun x e => f (fst e) (snd e) x) (edges s) (fold_sides f s x).
+(** The sides of faces; these and the edges. (The lists of StepProblem.v would take a deep stack.) *)
+Definition side_list (s : step) : list (Z * Z) :=
+  fold_left (fun l t => let '(a, b, c) := t in (a, b) :: (b, c) :: (c, a) :: l) (faces s) [].
+Definition line_list (s : step) : list (Z * Z) := rev_append (edges s) (side_list s).
 
 Fixpoint fold_plan {A} (f : element -> Z -> A -> A) (p : plan) (x : A) : A :=
   match p with
@@ -266,7 +260,7 @@ Definition labelled (p : option plan) : map_of element :=
   fold_plans (fun e l m => add_to (key l) e m) p (@empty element).
 
 Definition has_vertices (s : step) (m : numbers) : bool :=
-  fold_lines (fun a b x => x && (has m a && has m b)) s true && forallb (has m) (points s).
+  forallb (fun e => has m (fst e) && has m (snd e)) (line_list s) && forallb (has m) (points s).
 
 (** Faces have their numbers as labels. *)
 Fixpoint has_faces (m : map_of element) (n : Z) (fs : list (Z * Z * Z)) : bool :=
@@ -279,22 +273,23 @@ Fixpoint has_faces (m : map_of element) (n : Z) (fs : list (Z * Z * Z)) : bool :
       end
   end.
 
-Definition has_edge (m : pairs) (a b : Z) : bool := (a =? b) || has_pair m (Z.min a b) (Z.max a b).
-Definition has_edges (s : step) (m : pairs) : bool := fold_lines (fun a b x => x && has_edge m a b) s true.
+Definition is_loop (e : Z * Z) : bool := fst e =? snd e.
+Definition has_edge (m : pairs) (e : Z * Z) : bool :=
+  is_loop e || has_pair m (Z.min (fst e) (snd e)) (Z.max (fst e) (snd e)).
+Definition has_edges (s : step) (m : pairs) : bool := forallb (has_edge m) (line_list s).
 
 (** Vertices without an edge are points, or the ends of an edge that is none. *)
 Definition ends (s : step) : numbers :=
-  fold_lines (fun a b m => if a =? b then m else with_number a (with_number b m)) s (@empty unit).
+  fold_left (fun m e => if is_loop e then m else with_number (fst e) (with_number (snd e) m)) (line_list s) (@empty unit).
 Definition has_points (s : step) (m : numbers) : bool :=
   let all (is_there : Z -> bool) :=
-    forallb is_there (points s) && fold_lines (fun a b x => x && (negb (a =? b) || is_there a)) s true in
+    forallb is_there (points s) && forallb (fun e => negb (is_loop e) || is_there (fst e)) (line_list s) in
   all (has m) || (let m' := ends s in all (fun v => has m v || has m' v)).
 
 Definition sides_in (s : step) : pairs :=
-  fold_sides (fun a b m => with_pair (Z.min a b) (Z.max a b) m) s (@empty numbers).
+  fold_left (fun m e => with_pair (Z.min (fst e) (snd e)) (Z.max (fst e) (snd e)) m) (side_list s) (@empty numbers).
 Definition has_bare_edges (s : step) (m : pairs) : bool :=
-  let all (is_there : Z -> Z -> bool) := forallb (fun e => is_there (fst e) (snd e)) (edges s) in
-  all (has_edge m) || (let m' := sides_in s in all (fun a b => has_edge m a b || has_edge m' a b)).
+  forallb (has_edge m) (edges s) || (let m' := sides_in s in forallb (fun e => has_edge m e || has_edge m' e) (edges s)).
 
 (** ** No contact *)
 
@@ -358,27 +353,28 @@ Definition proves_no_contact (c : setting) (m : map_of site) (h : hints) : bool 
 
 (** ** A contact of two that can collide *)
 
-Definition some_side (s : step) (f : Z -> Z -> bool) : bool := fold_sides (fun a b x => x || f a b) s false.
-Definition some_line (s : step) (f : Z -> Z -> bool) : bool := fold_lines (fun a b x => x || f a b) s false.
-Definition joins (a b x y : Z) : bool := (x =? a) && (y =? b) || (x =? b) && (y =? a).
+Definition joins (a b : Z) (e : Z * Z) : bool :=
+  (fst e =? a) && (snd e =? b) || (fst e =? b) && (snd e =? a).
 
 Definition seems_face (s : step) (p : element) : bool :=
   match p with
   | [a; b; c] => existsb (fun t => let '(x, y, z) := t in (x =? a) && (y =? b) && (z =? c)) (faces s)
   | _ => false
   end.
-Definition seems_edge (s : step) (p : element) : bool :=
-  match p with [a; b] => (a <? b) && some_line s (joins a b) | _ => false end.
+Definition seems_edge_of (l : list (Z * Z)) (p : element) : bool :=
+  match p with [a; b] => (a <? b) && existsb (joins a b) l | _ => false end.
+Definition seems_edge (s : step) : element -> bool := seems_edge_of (line_list s).
 Definition seems_bare_edge (s : step) (p : element) : bool :=
-  match p with [a; b] => seems_edge s p && negb (some_side s (joins a b)) | _ => false end.
+  seems_edge s p && negb (seems_edge_of (side_list s) p).
+Definition has_end (v : Z) (e : Z * Z) : bool := (v =? fst e) || (v =? snd e).
 Definition seems_vertex (s : step) (p : element) : bool :=
   match p with
-  | [v] => existsb (Z.eqb v) (points s) || some_line s (fun a b => (v =? a) || (v =? b))
+  | [v] => existsb (Z.eqb v) (points s) || existsb (has_end v) (line_list s)
   | _ => false
   end.
 Definition seems_point (s : step) (p : element) : bool :=
   match p with
-  | [v] => seems_vertex s p && negb (some_line s (fun a b => negb (a =? b) && ((v =? a) || (v =? b))))
+  | [v] => seems_vertex s p && negb (existsb (fun e => negb (is_loop e) && has_end v e) (line_list s))
   | _ => false
   end.
 Definition seems_before (p q : element) : bool := last p 0 <? last q 0.
@@ -391,14 +387,14 @@ Definition seem_to_collide (c : setting) (ps qs : list site) : bool :=
    seems_point s p && seems_bare_edge s q || seems_point s p && seems_point s q && seems_before p q) &&
   negb (have_common_vertex ps qs) &&
   existsb (fun x => existsb (fun y =>
-    negb (existsb (fun e => joins (group x) (group y) (fst e) (snd e)) (apart s))) qs) ps.
+    negb (existsb (joins (group x) (group y)) (apart s))) qs) ps.
 
 Definition proves_contact_of (c : setting) (m : map_of site) (lower upper : Q) (p q : element)
     (contact : option contact_proof) : bool :=
   match contact, find_sites m p, find_sites m q with
   | Some x, Some ps, Some qs =>
       seem_to_collide c ps qs &&
-      match scene_between c ps qs with Some sc => proves_contact sc lower upper x | None => false end
+      match scene_between c ps qs with Some sc => proves_event (is_contact sc) lower upper x | None => false end
   | _, _, _ => false
   end.
 

@@ -16,6 +16,7 @@ Record step := Step {
 
 (** An element is the list of its vertices: [v], an edge [a; b] with a < b, or a face [a; b; c]. *)
 Definition element := list Z.
+Definition without_common_vertex (p q : element) : Prop := forall v, In v p -> ~ In v q.
 Inductive step_claim := no_contact (upper : Q) | earliest (lower upper : Q) (p q : element).
 
 Section Step.
@@ -37,7 +38,7 @@ Definition is_held_apart (v w : Z) : Prop :=
 Definition can_collide (p q : element) : Prop :=
   (is_vertex p /\ is_face q \/ is_edge p /\ is_edge q /\ is_before p q \/
    is_point p /\ is_bare_edge q \/ is_point p /\ is_point q /\ is_before p q) /\
-  (forall v, In v p -> ~ In v q) /\ (exists v w, In v p /\ In w q /\ ~ is_held_apart v w).
+  without_common_vertex p q /\ (exists v w, In v p /\ In w q /\ ~ is_held_apart v w).
 
 (** The double nearest to a sum. *)
 Variable sum : Q -> Q -> Q.
@@ -55,14 +56,18 @@ Definition distance_between (gs hs : list Z) : Q :=
 Definition separation_between (p q : element) : separation :=
   Separation (distance_between (map group_of p) (map group_of q)) (norm_of (separation_of s)).
 
-(** A vertex and an edge are as a vertex and the face e0 e1 e0, two vertices as v and the face w w w. *)
-Definition query_of (p q : element) : query :=
-  let moving (e : element) (i : nat) :=
-    let '(a, b) := nth (Z.to_nat (nth i e (hd 0 e))) (vertices s) (Triple 0 0 0, Triple 0 0 0)%Q in straight a b in
-  match p with
-  | [_; _] => Query edge_edge (moving p 0) (moving p 1) (moving q 0) (moving q 1)
-  | _ => Query vertex_face (moving p 0) (moving q 0) (moving q 1) (moving q 2)
+(** Vertices move on straight lines. A vertex and an edge are as a vertex and the face e0 e1 e0, two vertices as v and the
+    face w w w. *)
+Definition ends_of (v : Z) : triple Q * triple Q := nth (Z.to_nat v) (vertices s) (Triple 0 0 0, Triple 0 0 0)%Q.
+Definition line (e : triple Q * triple Q) : motion := straight (fst e) (snd e).
+Definition query_of_motions (ps qs : list motion) : query :=
+  let moving (e : list motion) (i : nat) := nth i e (hd [] e) in
+  match ps with
+  | [_; _] => Query edge_edge (moving ps 0) (moving ps 1) (moving qs 0) (moving qs 1)
+  | _ => Query vertex_face (moving ps 0) (moving qs 0) (moving qs 1) (moving qs 2)
   end%nat.
+Definition motion_of (v : Z) : motion := line (ends_of v).
+Definition query_of (p q : element) : query := query_of_motions (map motion_of p) (map motion_of q).
 
 Open Scope R_scope.
 Definition no_contact_to (upper : Q) : Prop :=
@@ -75,4 +80,14 @@ Definition step_holds (c : step_claim) : Prop :=
       0 <= Q2R lower /\ Q2R upper <= 1 /\
       (Q2R lower = 0 /\ Q2R upper = 0 \/ Q2R lower < Q2R upper /\ no_contact_to lower)
   end.
+
+(** What follows for whole faces (StepPairs.v), where one distance is that of all. *)
+Definition is_on (e : element) (t : R) (x : vector) : Prop :=
+  is_convex_combination x (map (fun v => position (motion_of v) t) e).
+Definition touch (p q : element) (t : R) : Prop := exists x y, is_on p t x /\ is_on q t y /\
+  length_of (norm_of (separation_of s)) (minus x y) <= Q2R (distance_of (separation_of s)).
+Definition has_one_distance : Prop := radii s = [] /\ distances s = [] /\ apart s = [].
+Definition no_face_is_a_point : Prop := forall a b c, In (a, b, c) (faces s) -> ~ (a = b /\ b = c).
+Definition no_edge_meets_a_face_at_start : Prop := forall e f x, is_edge e -> is_face f -> without_common_vertex e f ->
+  is_on e 0 x -> ~ is_on f 0 x.
 End Step.

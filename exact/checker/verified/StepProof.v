@@ -56,47 +56,21 @@ Proof. rewrite has_find. intros [u E]. exact (find_empty _ _ E). Qed.
 Lemma no_pair_in_empty x y : has_pair (@empty numbers) x y = true -> False.
 Proof. unfold has_pair, at_number. cbn [find_in]. apply nothing_in_empty. Qed.
 
-(** ** Folds over sides and lines *)
+(** ** Lists *)
 
-Lemma fold_sides_list {A} (f : Z -> Z -> A -> A) s : forall x,
-  fold_sides f s x = fold_left (fun x e => f (fst e) (snd e) x) (sides s) x.
+Lemma in_sides s e : In e (side_list s) <-> In e (sides s).
 Proof.
-  unfold fold_sides, sides. induction (faces s) as [| [[a b] c] fs IH]; intros x; [reflexivity |].
-  cbn [flat_map app fold_left fst snd]. apply IH.
+  unfold side_list, sides. cut (forall fs l, In e (fold_left (fun l t => let '(a, b, c) := t in
+    (a, b) :: (b, c) :: (c, a) :: l) fs l) <-> In e l \/ In e (flat_map (fun f => let '(a, b, c) := f in [(a, b); (b, c); (c, a)]) fs)).
+  { intros H. rewrite H. cbn. tauto. }
+  induction fs as [| [[a b] c] fs IH]; intros l; cbn [fold_left flat_map app In]; [tauto |]. rewrite IH. cbn [In]. tauto.
 Qed.
 
-Lemma fold_lines_list {A} (f : Z -> Z -> A -> A) s x :
-  fold_lines f s x = fold_left (fun x e => f (fst e) (snd e) x) (sides s ++ edges s) x.
-Proof. unfold fold_lines. rewrite fold_left_app, <- fold_sides_list. reflexivity. Qed.
+Lemma in_lines s e : In e (line_list s) <-> In e (sides s ++ edges s).
+Proof. unfold line_list. rewrite rev_append_rev, !in_app_iff, <- in_rev, in_sides. tauto. Qed.
 
-Lemma fold_and (f : Z -> Z -> bool) l : forall x,
-  fold_left (fun x (e : Z * Z) => x && f (fst e) (snd e)) l x = true ->
-  x = true /\ forall a b, In (a, b) l -> f a b = true.
-Proof.
-  induction l as [| [a b] l IH]; cbn [fold_left fst snd]; intros x E; [split; [exact E | intros ? ? []] |].
-  apply IH in E as [E H]. apply andb_prop in E as [E E']. split; [exact E |].
-  intros c d [I | I]; [inversion I; subst; exact E' | auto].
-Qed.
-
-Lemma fold_or (f : Z -> Z -> bool) l : forall x,
-  fold_left (fun x (e : Z * Z) => x || f (fst e) (snd e)) l x = true <->
-  x = true \/ exists a b, In (a, b) l /\ f a b = true.
-Proof.
-  induction l as [| [a b] l IH]; cbn [fold_left fst snd]; intros x.
-  - split; [auto | intros [E | (? & ? & [] & _)]; exact E].
-  - rewrite IH, orb_true_iff. split.
-    + intros [[E | E] | (c & d & I & E)]; [auto | right; exists a, b; cbn; auto | right; exists c, d; cbn; auto].
-    + intros [E | (c & d & [I | I] & E)]; [auto | inversion I; subst; auto | right; eauto].
-Qed.
-
-Lemma every_line f s : fold_lines (fun a b x => x && f a b) s true = true ->
-  forall a b, In (a, b) (sides s ++ edges s) -> f a b = true.
-Proof. rewrite fold_lines_list. intros E. apply fold_and in E. apply E. Qed.
-
-Lemma some_line_iff s f : some_line s f = true <-> exists a b, In (a, b) (sides s ++ edges s) /\ f a b = true.
-Proof. unfold some_line. rewrite fold_lines_list, fold_or. split; [intros [E | E]; [discriminate | exact E] | auto]. Qed.
-Lemma some_side_iff s f : some_side s f = true <-> exists a b, In (a, b) (sides s) /\ f a b = true.
-Proof. unfold some_side. rewrite fold_sides_list, fold_or. split; [intros [E | E]; [discriminate | exact E] | auto]. Qed.
+Lemma every_line f s : forallb f (line_list s) = true -> forall a b, In (a, b) (sides s ++ edges s) -> f (a, b) = true.
+Proof. rewrite forallb_forall. intros E a b I. apply E, in_lines, I. Qed.
 
 (** What a fold gathers has come from somewhere. *)
 Lemma fold_from {A B} (P : A -> Prop) (f : A -> B -> A) l :
@@ -109,10 +83,10 @@ Qed.
 Lemma ends_sound s v : has (ends s) v = true ->
   exists a b, In (a, b) (sides s ++ edges s) /\ a <> b /\ (v = a \/ v = b).
 Proof.
-  unfold ends. rewrite fold_lines_list. revert v.
+  unfold ends. revert v.
   apply (fold_from (fun m => forall v, has m v = true ->
     exists a b, In (a, b) (sides s ++ edges s) /\ a <> b /\ (v = a \/ v = b))).
-  - intros m [a b] I H v. cbn [fst snd]. destruct (Z.eqb_spec a b) as [_ | N]; [apply H |].
+  - intros m [a b] I H v. apply in_lines in I. unfold is_loop. cbn [fst snd]. destruct (Z.eqb_spec a b) as [_ | N]; [apply H |].
     intros E. apply has_added in E as [-> | E]; [exists a, b; auto |].
     apply has_added in E as [-> | E]; [exists a, b; auto | apply H, E].
   - intros v E. destruct (nothing_in_empty _ E).
@@ -121,10 +95,10 @@ Qed.
 Lemma sides_in_sound s x y : has_pair (sides_in s) x y = true ->
   exists a b, In (a, b) (sides s) /\ x = Z.min a b /\ y = Z.max a b.
 Proof.
-  unfold sides_in. rewrite fold_sides_list. revert x y.
+  unfold sides_in. revert x y.
   apply (fold_from (fun m => forall x y, has_pair m x y = true ->
     exists a b, In (a, b) (sides s) /\ x = Z.min a b /\ y = Z.max a b)).
-  - intros m [a b] I H x y E. cbn [fst snd] in E. apply has_pair_added in E as [[-> ->] | E];
+  - intros m [a b] I H x y E. apply in_sides in I. cbn [fst snd] in E. apply has_pair_added in E as [[-> ->] | E];
       [exists a, b; auto | apply H, E].
   - intros x y E. destruct (no_pair_in_empty _ _ E).
 Qed.
@@ -194,14 +168,11 @@ Qed.
 Lemma faces_are_there s p e : has_faces (labelled p) 0 (faces s) = true -> is_face s e -> is_in_plan e p.
 Proof. intros E (a & b & c & -> & I). eapply has_faces_sound; eassumption. Qed.
 
-Lemma min_max a b x y : a < b -> (x = a /\ y = b) \/ (x = b /\ y = a) -> Z.min x y = a /\ Z.max x y = b.
-Proof. lia. Qed.
-
 Lemma has_edge_sound m a b x y : a < b -> (x = a /\ y = b) \/ (x = b /\ y = a) ->
-  has_edge m x y = true -> has_pair m a b = true.
+  has_edge m (x, y) = true -> has_pair m a b = true.
 Proof.
-  intros L C E. unfold has_edge in E. apply orb_prop in E as [E | E]; [apply Z.eqb_eq in E; lia |].
-  destruct (min_max a b x y L C) as [-> ->] in E. exact E.
+  intros L C E. unfold has_edge, is_loop in E. cbn [fst snd] in E. apply orb_prop in E as [E | E]; [apply Z.eqb_eq in E; lia |].
+  replace (Z.min x y) with a in E by lia. replace (Z.max x y) with b in E by lia. exact E.
 Qed.
 
 Lemma edges_are_there s p e : has_edges s (edges_in p) = true -> is_edge s e -> is_in_plan e p.
@@ -232,15 +203,15 @@ Proof.
   unfold has_points. intros E P. pose proof P as [(v & -> & C) _]. apply vertices_in_sound.
   set (m := vertices_in p) in *. clearbody m.
   assert (A : forall is_there, (is_there v = true -> has m v = true) ->
-    forallb is_there (points s) && fold_lines (fun a b x => x && (negb (a =? b) || is_there a)) s true = true ->
+    forallb is_there (points s) && forallb (fun e => negb (is_loop e) || is_there (fst e)) (line_list s) = true ->
     has m v = true).
   { intros is_there T H. apply andb_prop in H as [H1 H2]. apply T. destruct C as [I | (a & b & I & C)].
     - rewrite forallb_forall in H1. apply H1, I.
-    - pose proof (every_line _ _ H2 _ _ I) as H. cbn beta in H. destruct (Z.eqb_spec a b) as [-> | N].
+    - pose proof (every_line _ _ H2 _ _ I) as H. unfold is_loop in H. cbn [fst snd] in H. destruct (Z.eqb_spec a b) as [-> | N].
       + destruct C as [-> | ->]; exact H.
       + destruct (no_end_of_line s v a b P I N C). }
   apply orb_prop in E as [E | E]; [apply (A _ (fun H => H) E) |].
-  apply (A _) in E; [exact E |]. intros H. apply orb_prop in H as [H | H]; [exact H |].
+  apply (A (fun v => has m v || has (ends s) v)) in E; [exact E |]. intros H. apply orb_prop in H as [H | H]; [exact H |].
   apply ends_sound in H as (a & b & I & N & D). destruct (no_end_of_line s v a b P I N D).
 Qed.
 
@@ -251,13 +222,9 @@ Proof.
   assert (exists x y, In (x, y) (edges s) /\ ((x = a /\ y = b) \/ (x = b /\ y = a))) as (x & y & I' & C).
   { destruct I as [I | I]; apply in_app_or in I as [I | I]; eauto 6;
       (exfalso; apply N; exists a, b; auto). }
-  assert (A : forall is_there, (is_there x y = true -> has_pair m a b = true) ->
-    forallb (fun e => is_there (fst e) (snd e)) (edges s) = true -> has_pair m a b = true).
-  { intros is_there T H. rewrite forallb_forall in H. apply T, (H _ I'). }
   pose proof (fun m => has_edge_sound m a b x y L C) as S.
-  apply orb_prop in E as [E | E]; [exact (A (has_edge m) (S m) E) |].
-  apply (A (fun x y => has_edge m x y || has_edge (sides_in s) x y)) in E; [exact E |].
-  intros H. apply orb_prop in H as [H | H]; [exact (S m H) |]. apply S in H.
+  apply orb_prop in E as [E | E]; rewrite forallb_forall in E; specialize (E _ I'); [exact (S m E) |].
+  apply orb_prop in E as [H | H]; [exact (S m H) |]. apply S in H.
   apply sides_in_sound in H as (c & d & J & Ea & Eb). exfalso. apply N.
   subst. apply line_is_edge; [exact J | lia].
 Qed.
@@ -324,14 +291,11 @@ Hypothesis Hm : m = add_sites (space c) (upper c) (reach_in s h) 0 (vertices s) 
 Hypothesis Hgap : gap c = enlarged_distance (space c) (distance_of (separation_of s)).
 Hypothesis Hheld : forall g l, has_pair (held c) g l = true -> In (g, l) (apart s) \/ In (l, g) (apart s).
 
-Definition nowhere : triple Q * triple Q := (Triple 0 0 0, Triple 0 0 0)%Q.
-Definition motion_of (v : Z) : triple Q * triple Q := nth (Z.to_nat v) (vertices s) nowhere.
-Definition vertex_at (v : Z) (t : R) : vector :=
-  position (let '(a, b) := motion_of v in straight a b) t.
+Definition vertex_at (v : Z) (t : R) : vector := position (motion_of s v) t.
 
 (** A site as it should be. *)
 Definition is_site (p : site) : Prop :=
-  moves p = motion_of (number p) /\ group p = group_of s (number p) /\ reach_in s h (group p) = Some (reach_of p) /\
+  moves p = ends_of s (number p) /\ group p = group_of s (number p) /\ reach_in s h (group p) = Some (reach_of p) /\
   forall i, is_in_range k E (component i (fst (moves p))) (component i (snd (moves p))) (component i (ranges p)).
 
 Lemma add_sites_sound x p vs : forall n gs o,
@@ -354,8 +318,8 @@ Lemma sites_sound x p : find_in m (key x) = Some p -> number p = x /\ is_site p.
 Proof.
   rewrite Hm. intros F. apply add_sites_sound in F as [F | (i & v & -> & Ev & Ex & Em & Eg & Er & Eb)];
     [destruct (find_empty _ _ F) |].
-  split; [exact Ex |]. rewrite Z.add_0_l in *. unfold is_site, motion_of, group_of. rewrite Ex, Nat2Z.id, Em, Eb.
-  rewrite (nth_error_nth _ _ nowhere Ev). split; [reflexivity |]. split; [exact Eg |]. split; [exact Er |].
+  split; [exact Ex |]. rewrite Z.add_0_l in *. unfold is_site, ends_of, group_of. rewrite Ex, Nat2Z.id, Em, Eb.
+  rewrite (nth_error_nth _ _ _ Ev). split; [reflexivity |]. split; [exact Eg |]. split; [exact Er |].
   destruct v as [a b]. intros j. unfold box_of_motion. cbn [fst snd].
   destruct j; cbn [component x_of y_of z_of]; apply range_of_sound.
 Qed.
@@ -379,7 +343,7 @@ Lemma vertex_coordinate p i t : is_site p ->
   component i (vertex_at (number p) t) =
   (1 - t) * Q2R (component i (fst (moves p))) + t * Q2R (component i (snd (moves p))).
 Proof.
-  intros (Em & _). unfold vertex_at. rewrite <- Em. destruct (moves p) as [a b]. rewrite straight_line. destruct i; reflexivity.
+  intros (Em & _). unfold vertex_at, motion_of, line. rewrite <- Em, straight_line. destruct i; reflexivity.
 Qed.
 
 Lemma product_bounds d lo hi x : IZR lo <= x <= IZR hi ->
@@ -457,9 +421,8 @@ Qed.
 Lemma vertex_on_the_way v w d t :
   let f t := dot d (minus (vertex_at v t) (vertex_at w t)) in f t = (1 - t) * f 0 + t * f 1.
 Proof.
-  intros f. unfold f, vertex_at. destruct (motion_of v) as [a b], (motion_of w) as [a' b'].
-  rewrite !straight_line.
-  generalize (to_vector a), (to_vector b), (to_vector a'), (to_vector b'). intros. clear. by_components. ring.
+  intros f. unfold f, vertex_at, motion_of, line. rewrite !straight_line.
+  repeat match goal with |- context [to_vector ?a] => generalize (to_vector a) end. intros. clear. by_components. ring.
 Qed.
 
 Lemma above_on_the_way D d p q : keeps_above D d p q -> forall t, 0 <= t <= E ->
@@ -472,19 +435,19 @@ Proof.
   rewrite EE in H1. rewrite Et. destruct (Rle_dec f0 f1); nra.
 Qed.
 
-Lemma nth_is_in (p : element) i : p <> [] -> In (nth i p (hd 0%Z p)) p.
-Proof.
-  destruct p as [| a p]; [contradiction |]. intros _. cbn [hd].
-  destruct (nth_in_or_default i (a :: p) a) as [I | ->]; [exact I | left; reflexivity].
-Qed.
-
 Lemma corners_are_differences p q t y : p <> [] -> q <> [] -> In y (corners (query_of s p q) t) ->
   exists v w, In v p /\ In w q /\ y = minus (vertex_at v t) (vertex_at w t).
 Proof.
-  intros Np Nq I. pose proof (fun i => nth_is_in p i Np) as Ip. pose proof (fun i => nth_is_in q i Nq) as Iq.
-  unfold query_of in I. destruct p as [| a [| b [| c' p]]]; try contradiction; unfold corners in I;
-    cbn [kind_of point0 point1 point2 point3 In] in I; repeat destruct I as [<- | I]; try contradiction;
-    (do 2 eexists; split; [| split; [| reflexivity]]; [apply Ip | apply Iq]).
+  assert (M : forall e i, e <> [] -> exists v, In v e /\ nth i (map (motion_of s) e) (hd [] (map (motion_of s) e)) = motion_of s v).
+  { intros [| v e] i N; [contradiction |]. cbn [map hd]. change (motion_of s v :: map (motion_of s) e) with (map (motion_of s) (v :: e)).
+    rewrite map_nth. exists (nth i (v :: e) v). split; [| reflexivity].
+    destruct (nth_in_or_default i (v :: e) v) as [I | ->]; [exact I | left; reflexivity]. }
+  intros Np Nq I. pose proof (fun i => M p i Np) as Mp. pose proof (fun i => M q i Nq) as Mq. clear M.
+  assert (exists i j, y = minus (position (nth i (map (motion_of s) p) (hd [] (map (motion_of s) p))) t)
+    (position (nth j (map (motion_of s) q) (hd [] (map (motion_of s) q))) t)) as (i & j & ->).
+  { unfold query_of, query_of_motions, corners in I. destruct (map (motion_of s) p) as [| a [| b [| d l]]];
+      cbn [kind_of point0 point1 point2 point3 In] in I; repeat destruct I as [<- | I]; try contradiction; eauto. }
+  destruct (Mp i) as (v & Iv & ->), (Mq j) as (w & Iw & ->). exists v, w. auto.
 Qed.
 
 Lemma no_contact_above D d p q x : p <> [] -> q <> [] -> keeps_above D d p q -> Q2R (distance_of x) <= D -> 0 <= D ->
@@ -494,9 +457,7 @@ Proof.
   apply (corners_are_differences p q t y Np Nq) in I as (v & w & Iv & Iw & ->).
   eapply Rle_lt_trans; [| exact (above_on_the_way D d p q H t Ht v w Iv Iw)].
   pose proof (dual_length_le d (norm_of x)).
-  assert (0 <= dual_length (norm_of x) d).
-  { destruct (norm_of x); cbn [dual_length]; [| apply sqrt_pos].
-    pose proof (Rabs_pos (x_of d)). pose proof (Rabs_pos (y_of d)). pose proof (Rabs_pos (z_of d)). lra. }
+  pose proof (dual_length_nonnegative (norm_of x) d).
   apply Rle_trans with (D * dual_length (norm_of x) d);
     [apply Rmult_le_compat_r | apply Rmult_le_compat_l]; assumption.
 Qed.
@@ -513,9 +474,7 @@ Qed.
 (** ** Distances *)
 
 Lemma groups_of_sites ps : Forall is_site ps -> map group ps = map (group_of s) (map number ps).
-Proof.
-  rewrite map_map. induction 1 as [| p ps (_ & Eg & _) _ IH]; [reflexivity |]. cbn [map]. rewrite Eg, IH. reflexivity.
-Qed.
+Proof. intros F. rewrite map_map. apply map_ext_in. rewrite Forall_forall in F. intros p I. apply (F p I). Qed.
 
 Lemma distance_of_sites ps qs : Forall is_site ps -> Forall is_site qs ->
   distance_of_pair c ps qs = distance_of (separation_between s sum (map number ps) (map number qs)).
@@ -552,21 +511,13 @@ Proof.
     exact (no_contact_above _ _ _ _ _ Mp Mq A L N).
 Qed.
 
-Lemma query_of_sites ps qs : Forall is_site ps -> Forall is_site qs -> ps <> [] -> qs <> [] ->
+Lemma query_of_sites ps qs : Forall is_site ps -> Forall is_site qs ->
   query_between ps qs = query_of s (map number ps) (map number qs).
 Proof.
-  assert (M : forall es i, Forall is_site es -> es <> [] ->
-    nth i (map moves es) (hd nowhere (map moves es)) = motion_of (nth i (map number es) (hd 0%Z (map number es)))).
-  { intros es i F N. rewrite Forall_forall in F. destruct es as [| p es]; [contradiction |]. cbn [map hd].
-    change (moves p :: map moves es) with (map moves (p :: es)). change (number p :: map number es) with (map number (p :: es)).
-    rewrite !map_nth. apply F. destruct (nth_in_or_default i (p :: es) p) as [I | ->]; [exact I | left; reflexivity]. }
-  intros P Q Np Nq. unfold query_between, query_of. fold nowhere.
-  assert (forall es i, Forall is_site es -> es <> [] ->
-    (let '(a, b) := nth i (map moves es) (hd nowhere (map moves es)) in straight a b) =
-    (let '(a, b) := nth (Z.to_nat (nth i (map number es) (hd 0%Z (map number es)))) (vertices s) nowhere in straight a b))
-    as M' by (intros es i F N; rewrite M by assumption; reflexivity).
-  destruct ps as [| p [| p' [| p'' ps]]]; [contradiction | | |]; cbn [map]; f_equal;
-    first [exact (M' _ _ P Np) | exact (M' _ _ Q Nq)].
+  assert (M : forall es, Forall is_site es -> map (fun p => line (moves p)) es = map (motion_of s) (map number es)).
+  { intros es F. rewrite map_map. apply map_ext_in. rewrite Forall_forall in F. intros p I.
+    unfold motion_of. destruct (F p I) as (-> & _). reflexivity. }
+  intros P Q. unfold query_between, query_of. rewrite !M by assumption. reflexivity.
 Qed.
 
 Lemma scene_between_sound ps qs sc : Forall is_site ps -> Forall is_site qs -> ps <> [] -> qs <> [] ->
@@ -584,7 +535,7 @@ Proof.
   - exact (above_never_touch d ps qs P Q Np Nq (or_introl H)).
   - destruct (scene_between c ps qs) as [sc |] eqn:Es; [| discriminate H].
     apply scene_between_sound in Es; try assumption. intros t Ht.
-    apply (separates_all_sound _ _ sc Es _ _ _ H); rewrite ?Q2R_0; unfold E in *; lra.
+    apply (all_are_free_sound _ _ (separates_sound _ _ sc Es) _ _ _ H); rewrite ?Q2R_0; unfold E in *; lra.
 Qed.
 
 Lemma common_vertex_sound ps qs : have_common_vertex ps qs = true ->
@@ -921,44 +872,46 @@ Proof.
   destruct H as [[-> ->] ->]. exists a, b, d. auto.
 Qed.
 
-Lemma joins_iff l a b : (exists x y, In (x, y) l /\ joins a b x y = true) <-> In (a, b) l \/ In (b, a) l.
+Lemma joins_iff l a b : existsb (joins a b) l = true <-> In (a, b) l \/ In (b, a) l.
 Proof.
-  unfold joins. split.
-  - intros (x & y & I & H). rewrite orb_true_iff, !andb_true_iff, !Z.eqb_eq in H.
+  rewrite existsb_exists. unfold joins. split.
+  - intros ([x y] & I & H). cbn [fst snd] in H. rewrite orb_true_iff, !andb_true_iff, !Z.eqb_eq in H.
     destruct H as [[-> ->] | [-> ->]]; auto.
-  - intros [I | I]; [exists a, b | exists b, a]; (split; [exact I |]);
-      rewrite orb_true_iff, !andb_true_iff, !Z.eqb_eq; auto.
+  - intros [I | I]; eexists; (split; [exact I |]); cbn [fst snd]; rewrite !Z.eqb_refl, ?orb_true_r; reflexivity.
 Qed.
 
-Lemma seems_edge_sound s p : seems_edge s p = true -> is_edge s p.
+Lemma seems_edge_iff l l' p : (forall e, In e l <-> In e l') -> seems_edge_of l p = true <-> is_edge_of l' p.
 Proof.
-  destruct p as [| a [| b [|]]]; try discriminate. cbn [seems_edge]. intros H. apply andb_prop in H as [L H].
-  apply some_line_iff, joins_iff in H. apply Z.ltb_lt in L. exists a, b. auto.
+  intros S. unfold is_edge_of. destruct p as [| a [| b [| c p]]]; cbn [seems_edge_of];
+    try (split; [discriminate | intros (? & ? & E & _); discriminate E]).
+  rewrite andb_true_iff, Z.ltb_lt, joins_iff, !S. split; [intros [L I]; exists a, b; auto |].
+  intros (x & y & E & L & I). injection E as -> ->. auto.
 Qed.
 
 Lemma seems_bare_edge_sound s p : seems_bare_edge s p = true -> is_bare_edge s p.
 Proof.
-  destruct p as [| a [| b [|]]]; try discriminate. cbn [seems_bare_edge]. intros H. apply andb_prop in H as [E N].
-  split; [apply seems_edge_sound, E |]. intros (x & y & F & _ & I). inversion F; subst x y.
-  apply negb_true_iff in N. apply not_true_iff_false in N. apply N, some_side_iff, joins_iff, I.
+  intros H. apply andb_prop in H as [E N]. split; [apply (seems_edge_iff _ _ _ (in_lines s)), E |]. intros G.
+  apply (seems_edge_iff _ _ _ (in_sides s)) in G. rewrite G in N. discriminate N.
 Qed.
+
+Lemma has_end_iff v e : has_end v e = true <-> v = fst e \/ v = snd e.
+Proof. unfold has_end. rewrite orb_true_iff, !Z.eqb_eq. tauto. Qed.
 
 Lemma seems_vertex_sound s p : seems_vertex s p = true -> is_vertex s p.
 Proof.
   destruct p as [| v [|]]; try discriminate. cbn [seems_vertex]. intros H. exists v. split; [reflexivity |].
-  apply orb_prop in H as [H | H].
-  - left. apply existsb_exists in H as (w & I & H). apply Z.eqb_eq in H. subst. exact I.
-  - right. apply some_line_iff in H as (a & b & I & H). exists a, b. split; [exact I |].
-    rewrite orb_true_iff, !Z.eqb_eq in H. exact H.
+  rewrite orb_true_iff, !existsb_exists in H. destruct H as [(w & I & H) | ([a b] & I & H)].
+  - left. apply Z.eqb_eq in H. subst. exact I.
+  - right. exists a, b. split; [apply in_lines, I | exact (proj1 (has_end_iff v (a, b)) H)].
 Qed.
 
 Lemma seems_point_sound s p : seems_point s p = true -> is_point s p.
 Proof.
   destruct p as [| v [|]]; try discriminate. cbn [seems_point]. intros H. apply andb_prop in H as [V N].
   split; [apply seems_vertex_sound, V |]. intros e w (a & b & -> & L & I) Iw [-> | []].
-  apply negb_true_iff in N. apply not_true_iff_false in N. apply N, some_line_iff.
-  cbn [In] in Iw. destruct I as [I | I]; [exists a, b | exists b, a]; (split; [exact I |]);
-    rewrite andb_true_iff, negb_true_iff, Z.eqb_neq, orb_true_iff, !Z.eqb_eq; lia.
+  apply negb_true_iff in N. apply not_true_iff_false in N. apply N, existsb_exists.
+  destruct I as [I | I]; apply in_lines in I; eexists; (split; [exact I |]); unfold is_loop;
+    rewrite andb_true_iff, negb_true_iff, Z.eqb_neq, has_end_iff; cbn [fst snd In] in *; lia.
 Qed.
 
 Lemma contact_of_sound s sum h e lower upper p q x :
@@ -976,7 +929,8 @@ Proof.
     - rewrite !orb_true_iff, !andb_true_iff in S. unfold seems_before in S. rewrite !Z.ltb_lt in S.
       destruct S as [[[[S1 S2] | [[S1 S2] S3]] | [S1 S2]] | [[S1 S2] S3]].
       + left. split; [apply seems_vertex_sound, S1 | apply seems_face_sound, S2].
-      + right. left. split; [apply seems_edge_sound, S1 |]. split; [apply seems_edge_sound, S2 | exact S3].
+      + right. left. split; [apply (seems_edge_iff _ _ _ (in_lines s)), S1 |].
+        split; [apply (seems_edge_iff _ _ _ (in_lines s)), S2 | exact S3].
       + right. right. left. split; [apply seems_point_sound, S1 | apply seems_bare_edge_sound, S2].
       + right. right. right. split; [apply seems_point_sound, S1 |]. split; [apply seems_point_sound, S2 | exact S3].
     - intros v Iv Iw. apply negb_true_iff in N. apply not_true_iff_false in N. apply N.
@@ -987,12 +941,11 @@ Proof.
       exists (number x'), (number y'). split; [apply in_map, Ix |]. split; [apply in_map, Iy |]. intros G.
       rewrite Forall_forall in P, Q. destruct (P _ Ix) as (_ & Gx & _), (Q _ Iy) as (_ & Gy & _).
       change (the_step c) with s in Gx, Gy. unfold is_held_apart in G. rewrite <- Gx, <- Gy in G.
-      apply negb_true_iff in A. apply not_true_iff_false in A. apply A. apply joins_iff in G as (g & l & I & J).
-      apply existsb_exists. exists (g, l). auto. }
+      apply joins_iff in G. rewrite G in A. discriminate A. }
   split; [exact K |]. destruct K as (_ & _ & v & w & Iv & Iw & _).
   assert (ps <> [] /\ qs <> []) as [Np Nq] by (split; intros ->; contradiction).
   destruct (scene_between c ps qs) as [sc |] eqn:Es; [| discriminate H].
-  apply (scene_between_sound c h) in Es; try assumption. exact (contact_sound _ _ sc _ _ _ Es H).
+  apply (scene_between_sound c h) in Es; try assumption. exact (event_sound _ _ (contact_sound _ _ sc Es) _ _ _ H).
 Qed.
 
 (** Every accepted claim is true. *)
@@ -1005,8 +958,7 @@ Proof.
     apply orb_prop in H as [H | H]; rewrite !andb_true_iff in H.
     + destruct H as [L U]. apply Qeq_bool_eq, Qeq_eqR in L, U. rewrite Q2R_0 in L, U. split; [apply T |]; lra.
     + destruct H as [[[L U] N] H]. apply Qle_bool_iff, Qle_Rle in L, U. rewrite Q2R_0 in L. rewrite Q2R_1 in U.
-      assert (Q2R lower < Q2R upper).
-      { apply Rnot_le_lt. intros G. apply Rle_Qle in G. apply Qle_bool_iff in G. rewrite G in N. discriminate N. }
+      apply less_by_bool in N.
       split; [exact (T L U) |]. split; [exact L |]. split; [exact U |]. right.
       split; [assumption | apply (no_contact_sound s sum h lower H); lra].
 Qed.

@@ -41,30 +41,23 @@ let accepted first last norm contact accepts =
   in
   List.find_opt accepts (contact :: shorter)
 
-let check_inversion (c : Certificate.certificate) =
-  Checker.check_inversion c.query c.claim
-    (List.map (fun (_, s) -> (s.from, s.to0)) c.subintervals)
-    (Option.map (fun contact -> contact.time_of) c.contact)
-
-let check_collision (c : Certificate.certificate) =
+(* True if the certificate is accepted. *)
+let check (c : Certificate.certificate) =
   let subintervals = List.map snd c.subintervals in
   let first, last =
     match c.claim with Time_of_impact (a, b) -> (number a, number b) | _ -> (Q.zero, Q.one)
   in
-  accepted first last c.separation.norm_of c.contact
-    (Checker.check c.query c.separation c.claim subintervals)
-  <> None
-
-(* True if the certificate is accepted. *)
-let check (c : Certificate.certificate) =
-  if c.is_tetrahedron then check_inversion c else check_collision c
+  if c.is_tetrahedron then check_inversion c.query c.claim subintervals c.contact
+  else
+    accepted first last c.separation.norm_of c.contact
+      (Checker.check c.query c.separation c.claim subintervals)
+    <> None
 
 (* The line and the reason of a certificate that was not accepted; [until]: its subintervals are to end there. *)
 let fault ?until (c : Certificate.certificate) =
   let separates (_, subinterval) =
     match Checker.scene_of c.query c.separation with
-    | Some scene when c.is_tetrahedron -> Checker.keeps_volume scene subinterval.from subinterval.to0
-    | Some scene -> Checker.separates scene subinterval
+    | Some scene -> (if c.is_tetrahedron then keeps_volume else separates) scene subinterval
     | None -> false
   in
   let rec first_gap reached = function
