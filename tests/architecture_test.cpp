@@ -141,7 +141,7 @@ constexpr std::string_view headers_without_test = R"(
   fast/step/: bodies.hpp codimensional.hpp sieve.hpp
 // Beside rational arithmetic, which judges the function: intersections_test.cpp.
   fast/intersections/: contacts.hpp filter_kernel.hpp filter_on_lanes.hpp orientation.hpp pair_filter.hpp pair_order.hpp pair_order_avx2.hpp
-  adapters/tight_inclusion/: config.hpp interval_root_finder.hpp logger.hpp timer.hpp
+  adapters/tight_inclusion/: config.hpp interval_root_finder.hpp logger.hpp
 // By the answers of the methods, baselines_test.cpp and known_defects_test.cpp, the queries of the
 // families, families_test.cpp, and of the hard ones, hardness_test.cpp.
   verify/base/: any_query.hpp cores.hpp
