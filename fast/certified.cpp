@@ -50,11 +50,6 @@ struct Batch {
   }
 };
 
-Batch batch_of(const MovingVertices& vertices, const Candidates& candidates) {
-  require_in_range(vertices, candidates);
-  return {.queries = {}, .vertices = &vertices, .candidates = candidates};
-}
-
 // ---- Elements -----------------------------------------------------------------------------------
 
 /// The result of queries that no stage reports.
@@ -255,7 +250,7 @@ std::vector<Collision> collisions(Kind kind, std::span<const Query> queries,
 
 std::vector<Collision> collisions(const MovingVertices& vertices, const Candidates& candidates,
                                   const CertifiedOptions& options) {
-  return collisions(batch_of(vertices, candidates), options);
+  return collisions(Batch{.queries = {}, .vertices = &vertices, .candidates = candidates}, options);
 }
 
 namespace {
