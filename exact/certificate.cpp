@@ -223,19 +223,17 @@ Certificate prove_motion(Certificate certificate, const MotionOf<Order>& motion,
   return certificate;
 }
 
-/// Proves of a tetrahedron that it does not invert, or when it does first.
-/// \tparam AnyQuery Query or CurvedQuery, here and below.
-template <class AnyQuery, class Order>
-Certificate prove_element(const AnyQuery& tetrahedron, const MotionOf<Order>& motion,
-                          const Decision& decision, const ProveOptions& options) {
-  if (!is_zero(decision.separation)) throw std::invalid_argument("an element has no separation");
-  return prove_motion({.kind = Kind::tetrahedron, .query = tetrahedron}, motion, decision.toi,
-                      options);
-}
-
+/// Proves the first contact or inversion, or that there is none.
+/// \tparam AnyQuery Query or CurvedQuery.
 template <class AnyQuery>
-Certificate prove_contact(Kind kind, const AnyQuery& query, const Decision& decision,
-                          const ProveOptions& options) {
+Certificate prove_any(Kind kind, const AnyQuery& query, const Decision& decision,
+                      const ProveOptions& options) {
+  if (is_element(kind)) {
+    if (!is_zero(decision.separation)) throw std::invalid_argument("an element has no separation");
+    const AnyQuery tetrahedron = to_tetrahedron(kind, query);
+    return prove_motion({.kind = Kind::tetrahedron, .query = tetrahedron},
+                        scale(Kind::vertex_face, tetrahedron), decision.toi, options);
+  }
   auto motion = scale_uniformly(kind, query, decision.separation);
   // Both norms mean the same at distance 0, and l2 has fewer features.
   if (sgn(motion.distance) == 0) motion.norm = Norm::l2;
@@ -247,20 +245,12 @@ Certificate prove_contact(Kind kind, const AnyQuery& query, const Decision& deci
 
 Certificate prove(Kind kind, const Query& query, const Decision& decision,
                   const ProveOptions& options) {
-  if (!is_element(kind)) return prove_contact(kind, query, decision, options);
-  const Query tetrahedron =
-      kind == Kind::tetrahedron ? query : to_tetrahedron(to_plane_triangle(query));
-  return prove_element(tetrahedron, scale_to_integers(Kind::vertex_face, tetrahedron), decision,
-                       options);
+  return prove_any(kind, query, decision, options);
 }
 
 Certificate prove(Kind kind, const CurvedQuery& query, const Decision& decision,
                   const ProveOptions& options) {
-  if (!is_element(kind)) return prove_contact(kind, query, decision, options);
-  const CurvedQuery tetrahedron =
-      kind == Kind::tetrahedron ? query
-                                : to_tetrahedron(CurvedTriangle{query[0], query[1], query[2]});
-  return prove_element(tetrahedron, scale(Kind::vertex_face, tetrahedron, {}), decision, options);
+  return prove_any(kind, query, decision, options);
 }
 
 Certificate prove(const Queries& queries, std::size_t i, const Decision& decision,

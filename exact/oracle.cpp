@@ -1,46 +1,54 @@
 #include "touchstone/oracle.hpp"
 
+#include <algorithm>
 #include <stdexcept>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "exact/contact/contact_oracle.hpp"
 #include "exact/contact/corner_motion.hpp"
 #include "exact/distance/distance_oracle.hpp"
-#include "touchstone/inversion_oracle.hpp"
+#include "touchstone/element.hpp"
 
 namespace touchstone::exact {
 namespace {
 
-/// The first time at which an element's volume is not positive, as a time of impact.
-/// \param triangle its first three points
-template <class AnyQuery, class Triangle>
-Decision decide_element(Kind kind, const AnyQuery& query, const Triangle& triangle,
-                        const Separation& separation) {
-  if (!is_zero(separation)) throw std::invalid_argument("an element has no separation");
-  return {.separation = separation,
-          .toi = kind == Kind::tetrahedron ? decide_inversion(query).time
-                                           : decide_inversion(triangle).time};
+/// The first time at which the volume V of a tetrahedron is not positive. (The corners of a vertex
+/// a and a face b, c, d are a − b, a − c, a − d, whose determinant is −6 V.)
+template <class Order>
+std::optional<AlgebraicNumber> time_of_inversion(const MotionOf<Order>& tetrahedron) {
+  const auto volume = -determinant(tetrahedron);
+  if (sgn(volume.c.front()) <= 0) return AlgebraicNumber(0);
+  if (std::ranges::all_of(volume.c, [](const Integer& c) { return sgn(c) > 0; })) return {};
+  std::vector<AlgebraicNumber> roots = roots_in_unit_interval(to_polynomial(volume));
+  if (roots.empty()) return {};
+  return std::move(roots.front());
+}
+
+/// \tparam AnyQuery Query or CurvedQuery
+template <class AnyQuery>
+Decision decide_any(Kind kind, const AnyQuery& query, const Separation& separation) {
+  Decision decision;
+  if (is_element(kind)) {
+    if (!is_zero(separation)) throw std::invalid_argument("an element has no separation");
+    decision.toi = time_of_inversion(scale(Kind::vertex_face, to_tetrahedron(kind, query)));
+  } else {
+    const auto motion = scale(kind, query, separation);
+    decision = is_zero(separation) ? decide_contact(motion) : decide_distance(motion);
+  }
+  decision.separation = separation;
+  return decision;
 }
 
 }  // namespace
 
 Decision decide(Kind kind, const Query& query, const Separation& separation) {
-  if (is_element(kind)) return decide_element(kind, query, to_plane_triangle(query), separation);
-  Decision decision = is_zero(separation)
-                          ? decide_contact(scale_to_integers(kind, query))
-                          : decide_distance(scale_uniformly(kind, query, separation));
-  decision.separation = separation;
-  return decision;
+  return decide_any(kind, query, separation);
 }
 
 Decision decide(Kind kind, const CurvedQuery& query, const Separation& separation) {
-  if (is_element(kind)) {
-    return decide_element(kind, query, CurvedTriangle{query[0], query[1], query[2]}, separation);
-  }
-  const MotionOf<Curved> motion = scale(kind, query, separation);
-  Decision decision = is_zero(separation) ? decide_contact(motion) : decide_distance(motion);
-  decision.separation = separation;
-  return decision;
+  return decide_any(kind, query, separation);
 }
 
 Decision decide(const Queries& queries, std::size_t i, const Separation& separation) {

@@ -30,63 +30,6 @@ bool are_below(std::span<const std::array<std::int32_t, count>> elements, std::s
   return elements.empty() || greatest < size;
 }
 
-/// Checks the indices of pairs, one pair after the other.
-class RangeCheck {
- public:
-  RangeCheck(const MovingVertices& vertices, const Candidates& candidates)
-      : vertices_(vertices), candidates_(candidates) {}
-
-  void require(std::size_t pair) const {
-    const auto [first, second] = candidates_.pairs[pair];
-    if (candidates_.kind == Kind::vertex_face) {
-      if (!is_below(first, vertices_.size())) fail(pair, "vertex", first, vertices_.size());
-      require_primitive(pair, "face", candidates_.faces, second);
-    } else {
-      require_primitive(pair, "edge", candidates_.edges, first);
-      require_primitive(pair, "edge", candidates_.edges, second);
-    }
-  }
-
- private:
-  template <class Primitive>
-  void require_primitive(std::size_t pair, std::string_view name,
-                         std::span<const Primitive> primitives, std::int32_t index) const {
-    if (!is_below(index, primitives.size())) fail(pair, name, index, primitives.size());
-    for (const std::int32_t vertex : at(primitives, index)) {
-      if (is_below(vertex, vertices_.size())) continue;
-      fail(pair, std::string(name) + " " + std::to_string(index) + ", vertex", vertex,
-           vertices_.size());
-    }
-  }
-
-  [[noreturn]] static void fail(std::size_t pair, std::string_view what, std::int32_t index,
-                                std::size_t size) {
-    throw std::out_of_range("pair " + std::to_string(pair) + ": " + std::string(what) + " " +
-                            std::to_string(index) + ", but there are " + std::to_string(size));
-  }
-
-  const MovingVertices& vertices_;
-  const Candidates& candidates_;
-};
-
-/// True if all edges or faces are in range, and all pairs. Then no pair needs to be resolved to its
-/// vertices.
-bool are_plainly_in_range(const MovingVertices& vertices, const Candidates& candidates) {
-  constexpr std::size_t beyond_any_index = std::size_t{1} << 31U;
-  if (vertices.size() > beyond_any_index) return false;
-  if (candidates.kind == Kind::edge_edge) {
-    return candidates.edges.size() <= candidates.pairs.size() &&
-           are_below(candidates.edges, vertices.size()) &&
-           are_below(candidates.pairs, candidates.edges.size());
-  }
-  const auto in_range = [&](const IndexPair& pair) {
-    return is_below(pair[0], vertices.size()) && is_below(pair[1], candidates.faces.size());
-  };
-  return candidates.faces.size() <= candidates.pairs.size() &&
-         are_below(candidates.faces, vertices.size()) &&
-         std::ranges::all_of(candidates.pairs, in_range);
-}
-
 void require_countable(std::size_t count, std::string_view name) {
   if (count <= static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max())) return;
   throw std::length_error(std::string(name) + ": more than 2^31-1 of them");
@@ -139,13 +82,6 @@ Query query_of(const MovingVertices& vertices, const Tetrahedron& points) {
     }
   }
   return query;
-}
-
-void require_in_range(const MovingVertices& vertices, const Candidates& candidates) {
-  require_contact(candidates.kind);
-  if (are_plainly_in_range(vertices, candidates)) return;
-  const RangeCheck check(vertices, candidates);
-  for (std::size_t pair = 0; pair < candidates.pairs.size(); ++pair) check.require(pair);
 }
 
 void require_finite(const MovingVertices& vertices) {

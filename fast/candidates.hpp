@@ -30,14 +30,10 @@ struct Candidates {
                              const IndexPair& pair);
 
 /// The candidates that collide, in order: collisions(queries, options) without the queries.
-/// \throws as that function; std::out_of_range as require_in_range.
+/// \throws as that function. \pre their numbers are in range.
 [[nodiscard]] std::vector<Collision> collisions(const MovingVertices& vertices,
                                                 const Candidates& candidates,
                                                 const CertifiedOptions& options = {});
-
-/// \throws std::out_of_range, naming the first pair (or edge or face of a pair) with an index that
-/// is out of range.
-void require_in_range(const MovingVertices& vertices, const Candidates& candidates);
 
 /// \throws std::domain_error naming the first vertex with a coordinate that is NaN or infinite;
 /// std::length_error if there are more than 2^31−1 vertices.

@@ -1,7 +1,6 @@
 #include "touchstone/certified.hpp"
 
 #include <algorithm>
-#include <iterator>
 #include <stdexcept>
 #include <string>
 
@@ -12,7 +11,7 @@
 #include "fast/method.hpp"
 #include "fast/platform/floating_point_state.hpp"
 #include "fast/platform/threads.hpp"
-#include "touchstone/inversion.hpp"
+#include "touchstone/element.hpp"
 
 namespace touchstone::fast {
 namespace {
@@ -51,35 +50,17 @@ struct Batch {
   }
 };
 
-Batch batch_of(const MovingVertices& vertices, const Candidates& candidates) {
-  require_in_range(vertices, candidates);
-  return {.queries = {}, .vertices = &vertices, .candidates = candidates};
-}
-
 // ---- Elements -----------------------------------------------------------------------------------
 
-/// Passes on the results of all elements of a block, which touchstone/inversion.hpp decides.
-template <class Report>
-void decide_elements(const Queries& block, const CertifiedOptions& options, const Report& report) {
-  if (!block.is_straight() || !is_zero(options.separation)) {
-    throw std::invalid_argument("solve: an element moves on straight lines, without a separation");
-  }
-  std::vector<InversionResult> found(block.size());
-  const InversionOptions alike{
-      .toi_tolerance = options.toi_tolerance, .t_max = options.t_max, .max_threads = 1};
-  if (block.kind == Kind::tetrahedron) {
-    inversions(block.straight(), found, alike);
-  } else {
-    std::vector<PlaneTriangle> triangles;
-    std::ranges::transform(block.straight(), std::back_inserter(triangles), to_plane_triangle);
-    inversions(triangles, found, alike);
-  }
-  for (std::size_t i = 0; i < found.size(); ++i) {
-    report(i, CertifiedResult{.verdict = found[i].verdict,
-                              .stage = found[i].stage,
-                              .toi_lower = found[i].toi_lower,
-                              .toi_upper = found[i].toi_upper});
-  }
+/// The result of queries that no stage reports.
+constexpr CertifiedResult result_of_no(Kind kind) {
+  if (is_element(kind)) return free_of_inversion;
+  return {.verdict = Verdict::no, .stage = Stage::axis};
+}
+
+void require_element(const QueryShape& shape, const CertifiedOptions& options) {
+  if (shape.is_straight() && is_zero(options.separation)) return;
+  throw std::invalid_argument("solve: an element moves on straight lines, without a separation");
 }
 
 // ---- Blocks -------------------------------------------------------------------------------------
@@ -95,7 +76,13 @@ const KernelOutput& decide(const Batch& batch, std::size_t first, const Certifie
   };
   if (is_element(batch.queries.kind)) {
     static const KernelOutput none_by_stage{};
-    decide_elements(batch.queries.part(first, count), options, report_of_block);
+    require_element(batch.queries, options);
+    decide_elements(
+        batch.block(first, count), options.t_max, options, batch.kernel,
+        [&](std::size_t index) {
+          return to_tetrahedron(batch.queries.kind, batch.query(first + index));
+        },
+        report_of_block);
     return none_by_stage;
   }
   if (batch.queries.is_straight()) {
@@ -133,12 +120,20 @@ void set(Answer& to, const CertifiedResult& result) {
 /// Decides a query on straight lines.
 CertifiedResult solve_one(Kind kind, const Query& query, const CertifiedOptions& options) {
   const StrictFloatingPoint strict;
-  CertifiedResult result{.verdict = Verdict::no, .stage = Stage::axis};
+  CertifiedResult result = result_of_no(kind);
+  const KernelInput one{.kind = kind, .count = 1, .queries = &query};
+  const auto take = [&](std::size_t, const CertifiedResult& found) { result = found; };
+  if (is_element(kind)) {
+    require_element({.kind = kind}, options);
+    // The widest lanes: they have registers for all vectors.
+    decide_elements(
+        one, options.t_max, options, certified_kernel(chosen_kernels()),
+        [&](std::size_t) { return to_tetrahedron(kind, query); }, take);
+    return result;
+  }
   const KernelOutput& output = decide_block(
-      {.kind = kind, .count = 1, .queries = &query}, options.t_max, options,
-      certified_kernel_for_one(chosen_kernels()),
-      [&](std::size_t) -> const Query& { return query; },
-      [&](std::size_t, const CertifiedResult& found) { result = found; });
+      one, options.t_max, options, certified_kernel_for_one(chosen_kernels()),
+      [&](std::size_t) -> const Query& { return query; }, take);
   mark_stages(output, [&](std::size_t, Stage stage) { result.stage = stage; });
   return result;
 }
@@ -152,12 +147,12 @@ void solve_blocks(const Batch& batch, std::span<Item> items, const CertifiedOpti
                                 std::to_string(batch.size()) + " queries");
   }
   const QueryShape& shape = batch.queries;
-  if (items.size() == 1 && shape.is_straight() && !is_element(shape.kind)) {
+  if (items.size() == 1 && shape.is_straight()) {
     set(items[0], solve_one(shape.kind, batch.queries.straight()[0], options));
     return;
   }
   Item free;
-  set(free, {.verdict = Verdict::no, .stage = Stage::axis});
+  set(free, result_of_no(shape.kind));
   for_each_block(batch, options.max_threads, [&](std::size_t first) {
     const std::size_t count = std::min(kernel_block, items.size() - first);
     const std::span<Item> of_block = items.subspan(first, count);
@@ -230,11 +225,6 @@ std::string_view to_string(Stage stage) {
 }
 
 CertifiedResult solve(Kind kind, const Query& query, const CertifiedOptions& options) {
-  if (is_element(kind)) {
-    CertifiedResult result;
-    solve(kind, {&query, 1}, {&result, 1}, options);
-    return result;
-  }
   require_valid(options);
   return solve_one(kind, query, options);
 }
@@ -260,7 +250,7 @@ std::vector<Collision> collisions(Kind kind, std::span<const Query> queries,
 
 std::vector<Collision> collisions(const MovingVertices& vertices, const Candidates& candidates,
                                   const CertifiedOptions& options) {
-  return collisions(batch_of(vertices, candidates), options);
+  return collisions(Batch{.queries = {}, .vertices = &vertices, .candidates = candidates}, options);
 }
 
 namespace {

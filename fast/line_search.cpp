@@ -292,15 +292,14 @@ class SearchOfPairs {
 /// Lowers the limit that pairs set to that of the elements, if it is earlier.
 void limit_by_volumes(const Step& step, double kept_volume, LineSearchLimit& result) {
   const Scene& scene = scene_of(step);
-  InversionOptions options = scene.inversion_options();
-  options.kept_volume = kept_volume;
+  const CertifiedOptions& options = scene.certified();
   std::atomic<double> upper = positive_infinity;
   for (const StepCollision& one : result.pairs) upper = std::min(upper.load(), one.toi_upper);
   std::vector<StepInversion>& found = result.inversions;
   std::mutex mutex;
   with_threads(step.options().max_threads, [&] {
     scene.find_inversions(
-        options,
+        options, kept_volume,
         [&] {
           return std::min(options.t_max,
                           limit_after(std::min(upper.load(), 1.0), options.toi_tolerance));

@@ -17,7 +17,6 @@
 #include "fast/step/scene.hpp"
 #include "fast/step/sieve.hpp"
 #include "touchstone/intersections.hpp"
-#include "touchstone/inversion.hpp"
 
 namespace touchstone::fast {
 namespace {
@@ -97,7 +96,7 @@ class ImpactSearch {
 
   void run() {
     scene_.find_inversions(
-        scene_.inversion_options(), [this] { return is_enough() ? -1.0 : limit(); },
+        scene_.certified(), 0.0, [this] { return is_enough() ? -1.0 : limit(); },
         [this](const StepInversion& one) { add(one, inversions_); });
     if (is_enough()) return;
     // (Any contact is found as fast in the whole step.)
@@ -327,13 +326,14 @@ bool collides_scaled(const Scene& scene, PairKind kind, const IndexPair& pair, d
 
 /// An element of a step.
 struct NamedElement {
-  VolumeKind kind;
+  Kind kind;
   std::int32_t number;
 };
 
 /// True if an element inverts in the step scaled by α. \pre strict floating point
-bool inverts_scaled(const Scene& scene, VolumeKind kind, std::int32_t element, double alpha) {
-  return inversion(scaled_query(scene.query_of(kind, element), alpha)).verdict == Verdict::yes;
+bool inverts_scaled(const Scene& scene, Kind kind, std::int32_t element, double alpha) {
+  return solve(Kind::tetrahedron, scaled_query(scene.query_of(kind, element), alpha)).verdict ==
+         Verdict::yes;
 }
 
 /// The pairs that may collide, and the elements that may invert, in steps scaled by any α up to
@@ -403,22 +403,22 @@ class CloseTrials {
   /// \param error e
   void find_elements(double error) {
     std::mutex mutex;
-    const auto take = [&](VolumeKind kind, std::int32_t number) {
+    const auto take = [&](Kind kind, std::int32_t number) {
       const std::scoped_lock lock(mutex);
       is_complete_ = is_complete_ && elements_.size() < most;
       if (is_complete_) elements_.push_back({kind, number});
     };
     scene_.find_inversions(
-        {.kept_volume = 0x1p-10}, [&] { return is_complete_ ? end_ : -1.0; },
+        {}, 0x1p-10, [&] { return is_complete_ ? end_ : -1.0; },
         [&](const StepInversion& one) { take(one.kind, one.element); });
-    const auto take_thin = [&](VolumeKind kind, std::size_t size) {
+    const auto take_thin = [&](Kind kind, std::size_t size) {
       for (std::size_t i = 0; i < size && is_complete_; ++i) {
         const auto number = static_cast<std::int32_t>(i);
         if (is_thin(scene_.query_of(kind, number), error)) take(kind, number);
       }
     };
-    take_thin(VolumeKind::tetrahedron, scene_.elements().tetrahedra.size());
-    take_thin(VolumeKind::plane_triangle, scene_.elements().plane_triangles.size());
+    take_thin(Kind::tetrahedron, scene_.elements().tetrahedra.size());
+    take_thin(Kind::plane_triangle, scene_.elements().plane_triangles.size());
   }
 
   /// True unless the inequality of the theorem is certain. (The computed determinant is wrong by
@@ -525,10 +525,6 @@ void require_in_range(const Scene& scene, PairKind kind, const IndexPair& pair) 
 
 std::string_view to_string(PairKind kind) { return record_of(kind).name; }
 
-std::string_view to_string(VolumeKind kind) {
-  return kind == VolumeKind::tetrahedron ? "tetrahedron" : "plane-triangle";
-}
-
 Step::Step(MovingVertices vertices, const MeshElements& elements, const StepOptions& options) {
   if (options.max_threads < 0) {
     throw std::invalid_argument("step: max_threads must not be negative");
@@ -564,7 +560,7 @@ std::vector<StepInversion> Step::inversions() const {
   std::mutex mutex;
   with_threads(scene_->certified().max_threads, [&] {
     scene_->find_inversions(
-        scene_->inversion_options(), [this] { return scene_->certified().t_max; },
+        scene_->certified(), 0.0, [this] { return scene_->certified().t_max; },
         [&](const StepInversion& one) {
           const std::scoped_lock lock(mutex);
           result.push_back(one);
@@ -587,7 +583,7 @@ bool Step::starts_free() const {
   std::atomic<bool> is_free = true;
   with_threads(scene_->certified().max_threads, [&] {
     scene_->find_inversions(
-        scene_->inversion_options(), [&] { return is_free ? 0.0 : -1.0; },
+        scene_->certified(), 0.0, [&] { return is_free ? 0.0 : -1.0; },
         [&](const StepInversion& one) {
           if (one.start != 1) is_free = false;
         });
@@ -663,6 +659,18 @@ std::array<std::int32_t, moving_points> Step::vertices_of(PairKind kind,
 Query Step::query_of(PairKind kind, const IndexPair& pair) const {
   require_in_range(*scene_, kind, pair);
   return scene_->query_of(kind, pair);
+}
+
+Query Step::query_of(Kind kind, std::int32_t element) const {
+  const MeshElements& elements = scene_->elements();
+  const std::size_t count = kind == Kind::tetrahedron      ? elements.tetrahedra.size()
+                            : kind == Kind::plane_triangle ? elements.plane_triangles.size()
+                                                           : 0;
+  if (element < 0 || std::cmp_greater_equal(element, count)) {
+    throw std::out_of_range("step: there is no " + std::string(to_string(kind)) + " " +
+                            std::to_string(element));
+  }
+  return scene_->query_of(kind, element);
 }
 
 Separation Step::separation_of(PairKind kind, const IndexPair& pair) const {

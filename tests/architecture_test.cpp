@@ -55,13 +55,13 @@ constexpr std::string_view layer_lines = R"(
   fast/tight_inclusion/: fast/tight_inclusion/ fast/platform/ filters/ exact/query.hpp immintrin.h
   fast/certified/exact/: fast/certified/exact/ exact/curved_query.hpp exact/query.hpp Eigen/
   fast/certified/fixed_point_vertices.hpp: fast/platform/ fast/mesh.hpp
-  fast/certified/kernel.hpp: fast/certified/fixed_point_vertices.hpp fast/platform/ fast/mesh.hpp exact/element.hpp exact/query.hpp
+  fast/certified/kernel.hpp: fast/certified/fixed_point_vertices.hpp fast/platform/ fast/mesh.hpp exact/query.hpp
   fast/certified/stages/: fast/certified/stages/ fast/certified/fixed_point_vertices.hpp fast/certified/kernel.hpp filters/ exact/query.hpp
   fast/certified/curves/: fast/certified/curves/ fast/certified/stages/ fast/certified/kernel.hpp filters/ exact/query.hpp
-  fast/certified/: fast/certified/ fast/platform/ fast/certified.hpp fast/inversion.hpp fast/mesh.hpp filters/ exact/curved_query.hpp exact/query.hpp immintrin.h
+  fast/certified/: fast/certified/ fast/platform/ fast/certified.hpp fast/mesh.hpp filters/ exact/curved_query.hpp exact/query.hpp immintrin.h
   fast/distance/: fast/distance/ fast/certified/exact/ fast/platform/ fast/contacts.hpp fast/kernels.hpp fast/step.hpp filters/ exact/query.hpp Eigen/ arm_neon.h immintrin.h
   fast/intersections/: fast/intersections/ fast/broad_phase/ fast/certified/exact/ fast/distance/ fast/platform/ fast/mesh.hpp fast/intersections.hpp filters/ immintrin.h
-  fast/step/: fast/step/ fast/broad_phase/ fast/certified/ fast/platform/ fast/broad_phase.hpp fast/candidates.hpp fast/contacts.hpp fast/inversion.hpp fast/kernels.hpp fast/mesh.hpp fast/step.hpp
+  fast/step/: fast/step/ fast/broad_phase/ fast/certified/ fast/platform/ fast/broad_phase.hpp fast/candidates.hpp fast/contacts.hpp fast/kernels.hpp fast/mesh.hpp fast/step.hpp exact/element.hpp
   adapters/: adapters/ fast/ exact/query.hpp Eigen/
   adapters/ipc_toolkit.hpp: fast/ exact/query.hpp ipc/ccd/narrow_phase_ccd.hpp
   adapters/ipc_toolkit_step.hpp: adapters/ipc_toolkit.hpp fast/ exact/query.hpp ipc/collision_mesh.hpp
@@ -80,7 +80,7 @@ constexpr std::string_view layer_lines = R"(
   verify/mesh/: verify/mesh/ verify/data/ verify/io/ REST
   verify/generate/: verify/generate/ verify/base/ verify/data/ verify/io/ verify/mesh/ REST
 // The published methods use packages that simulators do not need, and the rounding mode.
-  verify/baselines/: verify/baselines/ verify/generate/random_stream.hpp fast/ filters/ gmpxx.h exact/curved_query.hpp exact/query.hpp Eigen/ boost/numeric/interval.hpp xmmintrin.h
+  verify/baselines/: verify/baselines/ verify/generate/random_stream.hpp fast/ filters/ gmpxx.h exact/curved_query.hpp exact/element.hpp exact/query.hpp Eigen/ boost/numeric/interval.hpp xmmintrin.h
   verify/judge/: verify/judge/ verify/base/ verify/data/ verify/io/ REST
   verify/solvers/: verify/solvers/ verify/base/ verify/baselines/ verify/io/ verify/judge/ REST
 // All that needs Linux.
@@ -112,10 +112,9 @@ constexpr std::string_view headers_without_test = R"(
   filters/: strict_arithmetic.hpp
   verify/data/: query_source.hpp
   verify/fuzz/: finding.hpp
-// In a test of what they are parts of: inversion_oracle_test.cpp, oracle_test.cpp,
+// In a test of what they are parts of: oracle_test.cpp,
 // distance_oracle_test.cpp, separation_intervals_test.cpp, certificate_test.cpp, prove_step_test.cpp;
 // mesh_test.cpp, step_test.cpp; error_bounds_test.cpp, expressions_test.cpp, worst_case_test.cpp.
-  exact/: element.hpp
   exact/algebra/: positivity.hpp
   exact/certificate/: step_certificate_text.hpp
   exact/checker/: resting_mesh.hpp resting_pair.hpp scene.hpp
@@ -142,7 +141,7 @@ constexpr std::string_view headers_without_test = R"(
   fast/step/: bodies.hpp codimensional.hpp sieve.hpp
 // Beside rational arithmetic, which judges the function: intersections_test.cpp.
   fast/intersections/: contacts.hpp filter_kernel.hpp filter_on_lanes.hpp orientation.hpp pair_filter.hpp pair_order.hpp pair_order_avx2.hpp
-  adapters/tight_inclusion/: config.hpp interval_root_finder.hpp logger.hpp timer.hpp
+  adapters/tight_inclusion/: config.hpp interval_root_finder.hpp logger.hpp
 // By the answers of the methods, baselines_test.cpp and known_defects_test.cpp, the queries of the
 // families, families_test.cpp, and of the hard ones, hardness_test.cpp.
   verify/base/: any_query.hpp cores.hpp

@@ -21,7 +21,6 @@
 
 #include "touchstone/certified.hpp"
 #include "touchstone/contacts.hpp"
-#include "touchstone/inversion.hpp"
 #include "touchstone/step.hpp"
 
 // The inputs and outputs of a step.
@@ -117,7 +116,9 @@ Norm norm_of(std::int32_t norm) {
 Kind kind_of(std::int32_t kind) {
   if (kind == TOUCHSTONE_VERTEX_FACE) return Kind::vertex_face;
   if (kind == TOUCHSTONE_EDGE_EDGE) return Kind::edge_edge;
-  throw std::invalid_argument("kind is neither TOUCHSTONE_VERTEX_FACE nor TOUCHSTONE_EDGE_EDGE");
+  if (kind == TOUCHSTONE_TETRAHEDRON) return Kind::tetrahedron;
+  if (kind == TOUCHSTONE_PLANE_TRIANGLE) return Kind::plane_triangle;
+  throw std::invalid_argument("kind is none of TouchstoneKind that queries have");
 }
 
 TouchstoneOptions given(const TouchstoneOptions* options) {
@@ -154,23 +155,6 @@ void solve(std::int32_t kind, std::size_t count, const double* coordinates,
   std::vector<fast::CertifiedResult> results(count);
   fast::solve(kind_of(kind), queries, results, certified);
   if (count > 0) std::ranges::transform(results, &required(impacts, "impacts"), impact_of);
-}
-
-TouchstoneInversion inversion_of(const fast::InversionResult& result) {
-  return {static_cast<std::int32_t>(result.verdict), result.start, result.toi_lower,
-          result.toi_upper};
-}
-
-template <class Element>
-void invert(std::size_t count, const double* coordinates, const TouchstoneOptions& options,
-            TouchstoneInversion* inversions) {
-  const auto elements = copied<Element>(coordinates, count, "coordinates");
-  std::vector<fast::InversionResult> results(count);
-  fast::inversions(elements, results,
-                   {.toi_tolerance = options.toi_tolerance,
-                    .t_max = options.t_max,
-                    .max_threads = options.max_threads});
-  if (count > 0) std::ranges::transform(results, &required(inversions, "inversions"), inversion_of);
 }
 
 TouchstoneDistance distance_of(const fast::Distance& distance) {
@@ -254,7 +238,7 @@ TouchstoneCollision collision_of(const fast::StepCollision& collision) {
 }
 
 TouchstoneStepInversion inversion_in_step(const fast::StepInversion& one) {
-  const bool is_tetrahedron = one.kind == fast::VolumeKind::tetrahedron;
+  const bool is_tetrahedron = one.kind == Kind::tetrahedron;
   return {is_tetrahedron ? TOUCHSTONE_TETRAHEDRON : TOUCHSTONE_PLANE_TRIANGLE, one.element,
           one.start, one.toi_lower, one.toi_upper};
 }
@@ -347,18 +331,6 @@ std::int32_t touchstone_distances(std::int32_t kind, std::size_t count, const do
                                   double t, std::int32_t norm, std::int32_t max_threads,
                                   TouchstoneDistance* distances) {
   return guarded([&] { measure(kind, count, coordinates, t, norm, max_threads, distances); });
-}
-
-std::int32_t touchstone_invert(std::int32_t dimension, std::size_t count, const double* coordinates,
-                               const TouchstoneOptions* options, TouchstoneInversion* inversions) {
-  return guarded([&] {
-    if (dimension != 2 && dimension != 3) {
-      throw std::invalid_argument("dimension is neither 2 nor 3");
-    }
-    const auto& decide =
-        dimension == 3 ? invert<touchstone::Query> : invert<touchstone::PlaneTriangle>;
-    decide(count, coordinates, given(options), inversions);
-  });
 }
 
 std::int32_t touchstone_step_new(const TouchstoneMesh* mesh, const TouchstoneOptions* options,

@@ -179,7 +179,8 @@ int sign_at(std::span<const Integer> form, AlgebraicNumber& t) {
   return (positive ? 1 : 0) - (negative ? 1 : 0);
 }
 
-Motion scale_to_integers(Kind kind, const Query& query) {
+Motion scale(Kind kind, const Query& query, const Separation& separation) {
+  if (!is_zero(separation)) return scale_uniformly(kind, query, separation);
   return in_units(kind, query,
                   {axis_exponent(query, 0), axis_exponent(query, 1), axis_exponent(query, 2)});
 }

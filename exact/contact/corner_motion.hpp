@@ -226,10 +226,6 @@ void set_corners(MotionOf<Order>& motion) {
   }
 }
 
-/// Scales each axis by its own power of two.
-/// \throws std::domain_error if a coordinate is NaN or infinite.
-[[nodiscard]] Motion scale_to_integers(Kind kind, const Query& query);
-
 /// Scales all axes and the distance by one power of two, which keeps angles and ratios of lengths.
 /// Exact for all finite doubles, in every floating-point environment.
 /// \throws std::domain_error if a coordinate is NaN or infinite; std::invalid_argument if the
@@ -238,14 +234,15 @@ void set_corners(MotionOf<Order>& motion) {
                                      const Separation& separation = {.distance = 0.0,
                                                                      .norm = Norm::l2});
 
-/// Scales as scale_to_integers if the distance is 0, otherwise as scale_uniformly.
-/// \throws std::domain_error if a number is NaN or infinite, or a weight not positive;
-/// std::invalid_argument if the separation or the query is not valid.
-[[nodiscard]] MotionOf<Curved> scale(Kind kind, const CurvedQuery& query,
-                                     const Separation& separation);
-/// The same in one unit for all axes and the distance.
+/// \throws std::domain_error also if a weight is not positive; std::invalid_argument also if the
+/// query is not valid.
 [[nodiscard]] MotionOf<Curved> scale_uniformly(Kind kind, const CurvedQuery& query,
                                                const Separation& separation);
+
+/// The same, but if the distance is 0, each axis is scaled by its own power of two.
+[[nodiscard]] Motion scale(Kind kind, const Query& query, const Separation& separation = {});
+[[nodiscard]] MotionOf<Curved> scale(Kind kind, const CurvedQuery& query,
+                                     const Separation& separation = {});
 
 /// Component `axis` of w_i × w_j as a function of time.
 template <class Order>

@@ -5,7 +5,7 @@
 /// the exact time, or at the root of the usual closed formula, which takes coefficients below
 /// 1e-10 for 0.
 
-#include <touchstone/inversion.hpp>
+#include <touchstone/step.hpp>
 
 #include <Eigen/Dense>
 
@@ -21,8 +21,8 @@ using Limit = double (*)(const Places&, const Places&, const std::vector<fast::F
 
 double exact_limit(const Places& x, const Places& end, const std::vector<fast::Face>& faces) {
   double limit = 1.0;
-  for (const fast::Inversion& each : fast::inversions(fast::MovingVertices(x, end), faces)) {
-    limit = std::min(limit, each.result.toi_lower);
+  for (const auto& each : fast::Step(x, end, {.plane_triangles = faces}).inversions()) {
+    limit = std::min(limit, each.toi_lower);
   }
   return limit;
 }
@@ -79,7 +79,7 @@ double energy(const Places& rest, const Places& x, const std::vector<fast::Face>
 }
 
 std::size_t count_inverted(const Places& x, const std::vector<fast::Face>& faces) {
-  return fast::inversions(fast::MovingVertices(x, x), faces).size();
+  return fast::Step(x, x, {.plane_triangles = faces}).inversions().size();
 }
 
 std::size_t turned_over(Limit limit, double width) {

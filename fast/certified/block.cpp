@@ -66,6 +66,44 @@ std::optional<CertifiedResult> result_of(const KernelImpact& impact,
                          .v = impact.v};
 }
 
+void decide_elements(KernelInput block, double t_limit, const CertifiedOptions& options,
+                     const CertifiedKernel& kernel,
+                     const std::function<Query(std::size_t)>& tetrahedron,
+                     const std::function<void(std::size_t, const CertifiedResult&)>& report) {
+  const KernelOutput& output = run_kernel(block, t_limit, options, kernel, tetrahedron);
+  for (std::size_t i = 0; i < output.one_sided.count; ++i) {
+    report(output.one_sided.items[i], {.verdict = Verdict::yes,
+                                       .stage = Stage::determinant,
+                                       .start = -1,
+                                       .toi_lower = 0.0,
+                                       .toi_upper = 0.0});
+  }
+  for (std::size_t i = 0; i < output.rejected.count; ++i) {
+    report(output.rejected.items[i],
+           {.verdict = Verdict::no, .stage = Stage::bisection, .start = 1});
+  }
+  report_contacts(
+      output, options,
+      [&](std::size_t index) {
+        const Query element = tetrahedron(index);
+        CertifiedResult result{.stage = Stage::exact};
+        if (!is_finite(element)) return result;
+        const ExactInversion found =
+            decide_inversion_exactly(element, options.t_max, block.kept_volume);
+        result.verdict = found.inverts ? Verdict::yes : Verdict::no;
+        result.start = static_cast<std::int8_t>(found.start);
+        if (!found.inverts) return result;
+        result.toi_lower = found.toi_lower;
+        result.toi_upper = found.toi_upper;
+        return result;
+      },
+      [&](std::size_t index, CertifiedResult result) {
+        if (result.stage == Stage::bisection) result.start = 1;
+        result.u = result.v = no_number;
+        report(index, result);
+      });
+}
+
 double limit_after(double toi_upper, double tolerance) {
   // The lower end of an enclosure is above the upper end times (1 − tolerance − 2^-52).
   constexpr double far_from_subnormal = 0x1p-900;

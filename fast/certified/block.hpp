@@ -17,7 +17,6 @@
 #include "fast/platform/floating_point_state.hpp"
 #include "fast/platform/threads.hpp"
 #include "touchstone/certified.hpp"
-#include "touchstone/inversion.hpp"
 #include "touchstone/query.hpp"
 
 namespace touchstone::fast {
@@ -28,7 +27,7 @@ void require_valid(const CertifiedOptions& options);
 /// The result of an exact decision.
 [[nodiscard]] CertifiedResult result_of(const std::optional<ExactImpact>& impact);
 
-/// The result of the exact stage.
+/// The result of the exact stage, of contact.
 [[nodiscard]] CertifiedResult decided_exactly(Kind kind, const Query& query,
                                               const CertifiedOptions& options);
 [[nodiscard]] CertifiedResult decided_exactly(const Queries& queries, std::size_t i,
@@ -98,26 +97,37 @@ void report_contacts(const KernelOutput& output, const CertifiedOptions& options
   return output;
 }
 
-/// Runs the kernel on a block, ignoring contacts after t_limit, and passes on the results of
-/// queries that may have a contact: report(index, result). \pre strict floating point. \param
-/// query_of(index) a query of the block
-template <class QueryOf, class Report>
-const KernelOutput& decide_block(KernelInput block, double t_limit, const CertifiedOptions& options,
-                                 const CertifiedKernel& kernel, const QueryOf& query_of,
-                                 const Report& report) {
+/// Runs the kernel on a block, ignoring contacts, or inversions of elements, after t_limit.
+/// \pre strict floating point. \param query_of(index) a query of the block, a tetrahedron of
+/// elements
+template <class QueryOf>
+KernelOutput& run_kernel(KernelInput& block, double t_limit, const CertifiedOptions& options,
+                         const CertifiedKernel& kernel, const QueryOf& query_of) {
   KernelOutput& output = block_output();
+  const bool is_of_elements = is_element(block.kind);
+  KernelFunction& stages = is_of_elements ? *kernel.invert : *kernel.decide;
   block.toi_tolerance = std::max(options.toi_tolerance, least_kernel_tolerance);
   block.t_limit = t_limit;
-  block.separation = options.separation;
-  kernel.decide(block, output);
+  if (!is_of_elements) block.separation = options.separation;
+  stages(block, output);
   if (output.undecided.count > 0) {
     thread_local std::vector<Query> undecided;
     undecided.clear();
     for (std::size_t i = 0; i < output.undecided.count; ++i) {
       undecided.push_back(query_of(output.undecided.items[i]));
     }
-    decide_rescaled(block, *kernel.decide, undecided, output);
+    decide_rescaled(block, stages, undecided, output);
   }
+  return output;
+}
+
+/// Decides a block of queries about contact and passes on the results of those that may have one:
+/// report(index, result). \pre as above
+template <class QueryOf, class Report>
+const KernelOutput& decide_block(KernelInput block, double t_limit, const CertifiedOptions& options,
+                                 const CertifiedKernel& kernel, const QueryOf& query_of,
+                                 const Report& report) {
+  KernelOutput& output = run_kernel(block, t_limit, options, kernel, query_of);
   report_contacts(
       output, options,
       [&](std::size_t index) { return decided_exactly(block.kind, query_of(index), options); },
@@ -125,11 +135,16 @@ const KernelOutput& decide_block(KernelInput block, double t_limit, const Certif
   return output;
 }
 
-/// The same for the elements of a mesh from number `first` on, a block at most: report(number,
-/// result) for those that invert, in order. Inversions after t_limit may be left out; the results
-/// of the others do not depend on it. \pre strict floating point
-void decide_elements(const KernelInput& elements, std::size_t size, std::size_t first,
-                     double t_limit, const InversionOptions& options,
-                     const std::function<void(std::size_t, const InversionResult&)>& report);
+/// The result of elements that decide_elements reports none of.
+inline constexpr CertifiedResult free_of_inversion{
+    .verdict = Verdict::no, .stage = Stage::determinant, .start = 1};
+
+/// The same of elements, which invert when no more than `block.kept_volume` of their volume is
+/// left. Inversions after t_limit may be left out; the results of the others do not depend on it.
+/// \param tetrahedron(index) an element of the block
+void decide_elements(KernelInput block, double t_limit, const CertifiedOptions& options,
+                     const CertifiedKernel& kernel,
+                     const std::function<Query(std::size_t)>& tetrahedron,
+                     const std::function<void(std::size_t, const CertifiedResult&)>& report);
 
 }  // namespace touchstone::fast

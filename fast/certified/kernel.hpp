@@ -11,7 +11,6 @@
 
 #include "fast/certified/fixed_point_vertices.hpp"
 #include "fast/platform/instruction_set.hpp"
-#include "touchstone/element.hpp"
 #include "touchstone/mesh.hpp"
 #include "touchstone/query.hpp"
 
@@ -32,10 +31,8 @@ struct KernelInput {
   const Edge* edges = nullptr;
   const Face* faces = nullptr;
   const IndexPair* pairs = nullptr;
-  /// A block of elements (CertifiedKernel::invert) is one of queries, which are tetrahedra, of
-  /// triangles in the plane, or, with vertices, of tetrahedra or faces; the third coordinates of
-  /// faces' vertices have no effect. Here its first ones.
-  const PlaneTriangle* triangles = nullptr;
+  /// A block of elements (CertifiedKernel::invert) is one of queries or, with vertices, of
+  /// tetrahedra or faces, which are triangles in the plane. Here its first ones.
   const std::array<std::int32_t, 4>* tetrahedra = nullptr;
   /// True if coordinates are known to be finite and few queries are separated on an axis. Then the
   /// first stage is omitted.

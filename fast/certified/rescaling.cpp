@@ -111,6 +111,7 @@ void decide_batch(const Rescaled& some, KernelInput block, KernelFunction& funct
   thread_local KernelOutput result;
   block.count = some.queries.size();
   block.queries = some.queries.data();
+  if (block.kind == Kind::plane_triangle) block.kind = Kind::tetrahedron;
   block.axis_is_done = false;
   block.rounded = nullptr;
   block.separation.distance = some.distance;

@@ -10,6 +10,7 @@
 #include "fast/kernels.hpp"
 #include "fast/platform/threads.hpp"
 #include "touchstone/broad_phase.hpp"
+#include "touchstone/element.hpp"
 
 namespace touchstone::fast {
 namespace {
@@ -243,6 +244,9 @@ double t_end_of(double time) {
 }
 
 FloatBounds Scene::bounds_up_to(double end) const {
+  // Elements alone do not collide.
+  if (mesh_->vertices.empty())
+    return FloatBounds(MovingVertices(Eigen::MatrixX3d(), Eigen::MatrixX3d()));
   return FloatBounds(vertices_, end, certified_.separation.distance, mesh_->reaches);
 }
 
@@ -325,42 +329,53 @@ bool Scene::primitives_meet(const Primitive& a, const Primitive& b) const {
 
 // ---- Elements -----------------------------------------------------------------------------------
 
-void Scene::find_inversions(const InversionOptions& options, const std::function<double()>& limit,
+void Scene::find_inversions(const CertifiedOptions& options, double kept_volume,
+                            const std::function<double()>& limit,
                             const std::function<void(const StepInversion&)>& report) const {
-  const auto find = [&](VolumeKind kind, const KernelInput& input, std::size_t size) {
+  const std::span tetrahedra = elements().tetrahedra;
+  const std::span triangles = elements().plane_triangles;
+  const auto find = [&](Kind kind, std::size_t size) {
     tbb::parallel_for(std::size_t{0}, (size + kernel_block - 1) / kernel_block, [&](std::size_t i) {
       if (stop_ != nullptr && stop_->load(std::memory_order_relaxed)) throw Stopped();
       const double t_limit = limit();
       if (t_limit < 0.0) return;
       const StrictFloatingPoint strict;
-      decide_elements(input, size, i * kernel_block, t_limit, options,
-                      [&](std::size_t element, const InversionResult& result) {
-                        report({.kind = kind,
-                                .element = static_cast<std::int32_t>(element),
-                                .start = result.start,
-                                .toi_lower = result.toi_lower,
-                                .toi_upper = result.toi_upper});
-                      });
+      const std::size_t first = i * kernel_block;
+      const auto number = [&](std::size_t index) {
+        return static_cast<std::int32_t>(first + index);
+      };
+      KernelInput block{.kind = kind,
+                        .count = std::min(kernel_block, size - first),
+                        .vertices = vertices_.data(),
+                        .kept_volume = kept_volume};
+      if (kind == Kind::tetrahedron) {
+        block.tetrahedra = tetrahedra.data() + first;
+      } else {
+        block.faces = triangles.data() + first;
+      }
+      decide_elements(
+          block, t_limit, options, certified_kernel(chosen_kernels()),
+          [&](std::size_t index) { return query_of(kind, number(index)); },
+          [&](std::size_t index, const CertifiedResult& result) {
+            if (result.verdict != Verdict::yes) return;
+            report({.kind = kind,
+                    .element = number(index),
+                    .start = result.start,
+                    .toi_lower = result.toi_lower,
+                    .toi_upper = result.toi_upper});
+          });
     });
   };
-  find(VolumeKind::tetrahedron,
-       {.vertices = vertices_.data(), .tetrahedra = elements().tetrahedra.data()},
-       elements().tetrahedra.size());
-  find(VolumeKind::plane_triangle,
-       {.vertices = vertices_.data(), .faces = elements().plane_triangles.data()},
-       elements().plane_triangles.size());
+  find(Kind::tetrahedron, tetrahedra.size());
+  find(Kind::plane_triangle, triangles.size());
 }
 
-Query Scene::query_of(VolumeKind kind, std::int32_t element) const {
-  if (kind == VolumeKind::tetrahedron) {
+Query Scene::query_of(Kind kind, std::int32_t element) const {
+  if (kind == Kind::tetrahedron) {
     return fast::query_of(vertices_, at(elements().tetrahedra, element));
   }
   const auto [a, b, c] = at(elements().plane_triangles, element);
-  Query query = fast::query_of(vertices_, {a, b, c, b});
-  for (std::size_t i = 2; i < query.coordinates.size(); i += 3) {
-    query.coordinates[i] = i % 12 == 11 ? 1.0 : 0.0;
-  }
-  return query;
+  return to_tetrahedron(kind, fast::query_of(vertices_, {a, b, c, b}));
 }
 
 // ---- Pairs --------------------------------------------------------------------------------------

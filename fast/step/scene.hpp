@@ -38,7 +38,6 @@
 #include "fast/step/bodies.hpp"
 #include "fast/step/codimensional.hpp"
 #include "touchstone/contacts.hpp"
-#include "touchstone/inversion.hpp"
 #include "touchstone/mesh.hpp"
 #include "touchstone/step.hpp"
 
@@ -205,17 +204,15 @@ class Scene final : private PairQuestions {
 
   // ---- Elements ----
 
-  /// The options of the step.
-  [[nodiscard]] InversionOptions inversion_options() const {
-    return {.toi_tolerance = certified_.toi_tolerance, .t_max = certified_.t_max};
-  }
-  /// Calls report(inversion), in several threads, for the elements that invert at times up to
-  /// limit(), which may fall, and is negative to end the search; later inversions may be reported,
-  /// too. Uses the threads of the caller's task arena. \throws Stopped
-  void find_inversions(const InversionOptions& options, const std::function<double()>& limit,
+  /// Calls report(inversion), in several threads, for the elements that keep no more than this part
+  /// of their volume at times up to limit(), which may fall, and is negative to end the search;
+  /// later inversions may be reported, too. Uses the threads of the caller's task arena.
+  /// \param options certified(), or others \throws Stopped
+  void find_inversions(const CertifiedOptions& options, double kept_volume,
+                       const std::function<double()>& limit,
                        const std::function<void(const StepInversion&)>& report) const;
   /// An element as a tetrahedron.
-  [[nodiscard]] Query query_of(VolumeKind kind, std::int32_t element) const;
+  [[nodiscard]] Query query_of(Kind kind, std::int32_t element) const;
 
   // ---- Pairs ----
 

@@ -22,7 +22,6 @@
 #include "python/bindings/background.hpp"
 #include "touchstone/contacts.hpp"
 #include "touchstone/intersections.hpp"
-#include "touchstone/inversion.hpp"
 #include "touchstone/step.hpp"
 
 namespace touchstone::python {
@@ -422,36 +421,6 @@ py::array intersections(const Doubles& vertices, const Integers& faces, const In
   return array_of(found, intersection_layout());
 }
 
-// ---- Elements -----------------------------------------------------------------------------------
-
-py::dict inversion_layout() {
-  using Item = fast::Inversion;
-  using Result = fast::InversionResult;
-  constexpr std::size_t result = offsetof(Item, result);
-  return Layout(sizeof(Item))
-      .add("element", "u8", offsetof(Item, element))
-      .add("start", "i1", result + offsetof(Result, start))
-      .add("toi_lower", "f8", result + offsetof(Result, toi_lower))
-      .add("toi_upper", "f8", result + offsetof(Result, toi_upper))
-      .dict();
-}
-
-/// Of tetrahedra, or of triangles in the plane.
-py::array inversions(const Doubles& before, const Doubles& after, const Integers& elements,
-                     double toi_tolerance, double t_max, int threads) {
-  const fast::MovingVertices vertices = vertices_of(before, after);
-  const fast::InversionOptions options{
-      .toi_tolerance = toi_tolerance, .t_max = t_max, .max_threads = is_forked() ? 1 : threads};
-  const auto found = [&](const auto& rows) {
-    const py::gil_scoped_release release;
-    return fast::inversions(vertices, rows, options);
-  };
-  return array_of(elements.ndim() == 2 && elements.shape(1) == 3
-                      ? found(rows_of<fast::Face>(elements))
-                      : found(rows_of<fast::Tetrahedron>(elements)),
-                  inversion_layout());
-}
-
 }  // namespace
 
 void define_step(py::module_& m) {
@@ -489,8 +458,6 @@ void define_step(py::module_& m) {
   m.def("intersections", &intersections, arg("vertices").noconvert(), arg("faces").noconvert(),
         arg("edges").noconvert(), arg("points").noconvert(), arg("groups").noconvert(),
         arg("apart").noconvert(), arg("weld"), arg("threads"), arg("progress"));
-  m.def("inversions", &inversions, arg("before").noconvert(), arg("after").noconvert(),
-        arg("elements").noconvert(), arg("toi_tolerance"), arg("t_max"), arg("threads"));
 }
 
 }  // namespace touchstone::python

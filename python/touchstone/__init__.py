@@ -61,7 +61,6 @@ from .scene import (
     Step,
     VolumeKind,
     intersections,
-    inversions,
 )
 
 __all__ = [
@@ -105,7 +104,6 @@ __all__ = [
     "generate",
     "instruction_set",
     "intersections",
-    "inversions",
     "methods",
     "prove",
     "read",

@@ -101,11 +101,3 @@ def intersections(
     threads: int,
     progress: _Waiting | None,
 ) -> _Items: ...
-def inversions(
-    before: _Doubles,
-    after: _Doubles,
-    elements: _Integers,
-    toi_tolerance: float,
-    t_max: float,
-    threads: int,
-) -> _Items: ...

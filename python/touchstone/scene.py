@@ -29,8 +29,8 @@ class PairKind(IntEnum):
 class VolumeKind(IntEnum):
     """The elements that have a volume, or an area in the plane."""
 
-    TETRAHEDRON = 0
-    PLANE_TRIANGLE = 1
+    TETRAHEDRON = 2
+    PLANE_TRIANGLE = 3
 
 
 class ElementKind(IntEnum):
@@ -631,77 +631,3 @@ def intersections(
         return _ending_with_interrupts(
             lambda: _fast.intersections(*arguments, weld, threads, bar.callback)
         )
-
-
-@checked
-def inversions(
-    before: npt.ArrayLike,
-    after: npt.ArrayLike,
-    elements: npt.ArrayLike,
-    *,
-    toi_tolerance: float = 1e-12,
-    t_max: float = 1.0,
-    threads: int = 0,
-) -> npt.NDArray[np.void]:
-    """Return the elements whose volume is 0 or negative at some time, exactly.
-
-    The vertices move on straight lines from t=0 to t=1. The volume of a tetrahedron a, b, c, d is
-    positive if det(b - a, c - a, d - a) is, the area of a triangle in the plane if it is
-    counterclockwise.
-
-    Parameters
-    ----------
-    before, after : array_like of shape (n, 3), or (n, 2) for triangles
-        The places of the vertices at t=0 and t=1.
-    elements : array_like of int, shape (m, 4) or (m, 3)
-        Tetrahedra, or triangles in the plane, by the numbers of their vertices.
-    toi_tolerance : float, optional
-        The maximum width of the enclosures of times, relative to their upper ends.
-    t_max : float, optional
-        Only inversions up to this time, in [0,1], count.
-    threads : int, optional
-        The maximum number of threads; 0: one for each core that the process may use.
-
-    Returns
-    -------
-    structured ndarray
-        An item for each element that inverts, in order, with the fields `element`, its number;
-        `start`, the sign of its volume at t=0; `toi_lower` and `toi_upper`, an enclosure of the
-        first time, 0 if it is flat or inverted at t=0. Up to the least `toi_lower` all volumes are
-        positive.
-
-    Raises
-    ------
-    ValueError
-        For another shape or type, and for a coordinate that is NaN or infinite, naming its vertex.
-    IndexError
-        For an index out of range, naming its element.
-
-    Examples
-    --------
-    >>> import touchstone
-    >>> before = [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]]
-    >>> after = [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, -3]]
-    >>> found = touchstone.inversions(before, after, [[0, 1, 2, 3]])
-    >>> round(float(found["toi_lower"].min()), 6)
-    0.25
-    """
-    is_plane = np.ndim(elements) == 2 and np.shape(elements)[1] == 3
-    return _fast.inversions(
-        _as_places(before, "before", is_plane),
-        _as_places(after, "after", is_plane),
-        as_indices(elements, "elements", 3 if is_plane else 4),
-        toi_tolerance,
-        t_max,
-        threads,
-    )
-
-
-def _as_places(values: npt.ArrayLike, name: str, is_plane: bool) -> Doubles:
-    """Return places in space, also of vertices in the plane."""
-    if not is_plane:
-        return as_vertices(values, name)
-    array = as_doubles(values, name)
-    if array.ndim != 2 or array.shape[1] != 2:
-        raise ValueError(f"{name} must have the shape (n, 2), not {array.shape}")
-    return np.pad(array, ((0, 0), (0, 1)))

@@ -21,7 +21,6 @@
 #include "tests/support/random.hpp"
 #include "touchstone/certified.hpp"
 #include "touchstone/contacts.hpp"
-#include "touchstone/inversion.hpp"
 #include "touchstone/step.hpp"
 
 namespace touchstone::adapters::touchstone_test {
@@ -136,32 +135,26 @@ TEST(CInterface, MeasuresDistances) {
 }
 
 TEST(CInterface, DecidesInversions) {
-  std::vector<Query> tetrahedra = random_queries(1000);
-  tetrahedra[7].coordinates[5] = std::numeric_limits<double>::quiet_NaN();
-  std::vector<PlaneTriangle> triangles(tetrahedra.size());
-  for (std::size_t i = 0; i < triangles.size(); ++i) {
-    std::ranges::copy_n(tetrahedra[i].coordinates.begin(), 12, triangles[i].coordinates.begin());
-  }
-  const auto expect_same = [](std::int32_t dimension, const auto& elements) {
-    std::vector<fast::InversionResult> expected(elements.size());
-    fast::inversions(elements, expected);
-    std::vector<TouchstoneInversion> found(elements.size());
-    ASSERT_EQ(touchstone_invert(dimension, elements.size(), elements[0].coordinates.data(), nullptr,
-                                found.data()),
+  std::vector<Query> queries = random_queries(1000);
+  queries[7].coordinates[5] = std::numeric_limits<double>::quiet_NaN();
+  for (const auto& [kind, code] : {std::pair(Kind::tetrahedron, TOUCHSTONE_TETRAHEDRON),
+                                   std::pair(Kind::plane_triangle, TOUCHSTONE_PLANE_TRIANGLE)}) {
+    std::vector<fast::CertifiedResult> expected(queries.size());
+    fast::solve(kind, queries, expected);
+    std::vector<TouchstoneImpact> found(queries.size());
+    ASSERT_EQ(touchstone_solve(code, queries.size(), queries[0].coordinates.data(), nullptr,
+                               found.data()),
               TOUCHSTONE_OK)
         << touchstone_last_error();
-    for (std::size_t i = 0; i < elements.size(); ++i) {
+    for (std::size_t i = 0; i < queries.size(); ++i) {
       ASSERT_EQ(found[i].verdict, static_cast<std::int32_t>(expected[i].verdict));
-      EXPECT_EQ(found[i].start, expected[i].start);
       if (found[i].verdict != TOUCHSTONE_YES) continue;
       EXPECT_EQ(found[i].toi_lower, expected[i].toi_lower);
       EXPECT_EQ(found[i].toi_upper, expected[i].toi_upper);
     }
-    EXPECT_EQ(found[7].verdict, TOUCHSTONE_ERROR);
-  };
-  expect_same(3, tetrahedra);
-  expect_same(2, triangles);
-  EXPECT_EQ(touchstone_invert(3, 0, nullptr, nullptr, nullptr), TOUCHSTONE_OK);
+    // (That is the z of a point.)
+    EXPECT_EQ(found[7].verdict == TOUCHSTONE_ERROR, kind == Kind::tetrahedron);
+  }
 }
 
 fast::StepCollision converted(const TouchstoneCollision& one) {
@@ -337,11 +330,12 @@ TEST(CInterface, KeepsElementsFromInverting) {
                                 const std::vector<fast::StepInversion>& expected) {
       ASSERT_EQ(size, expected.size());
       for (std::size_t i = 0; i < size; ++i) {
-        EXPECT_EQ((fast::StepInversion{
-                      static_cast<fast::VolumeKind>(found[i].kind - TOUCHSTONE_TETRAHEDRON),
-                      found[i].element, static_cast<std::int8_t>(found[i].start),
-                      found[i].toi_lower, found[i].toi_upper}),
-                  expected[i]);
+        EXPECT_EQ(
+            (fast::StepInversion{
+                found[i].kind == TOUCHSTONE_TETRAHEDRON ? Kind::tetrahedron : Kind::plane_triangle,
+                found[i].element, static_cast<std::int8_t>(found[i].start), found[i].toi_lower,
+                found[i].toi_upper}),
+            expected[i]);
       }
     };
     const TouchstoneStepInversion* inversions = nullptr;
@@ -415,7 +409,8 @@ TEST(CInterface, SaysWhatIsWrongAndWritesNothing) {
   };
   const TouchstoneOptions bad_norm = with([](auto&o) { o.norm = 5; }),
                           bad_time = with([](auto&o) { o.t_max = 2.0; }),
-                          bad_distance = with([](auto&o) { o.min_separation = -1.0; });
+                          bad_distance = with([](auto&o) { o.min_separation = -1.0; }),
+                          distant = with([](auto&o) { o.min_separation = 1.0; });
   const TouchstoneLineSearchOptions other_norm{2, TOUCHSTONE_OF_PAIR, 0.0},
       other_start{TOUCHSTONE_L2, 2, 0.0};
   const std::vector<Query> queries = random_queries(1);
@@ -438,8 +433,6 @@ TEST(CInterface, SaysWhatIsWrongAndWritesNothing) {
 
   TouchstoneImpact impact{};
   impact.verdict = 77;
-  TouchstoneInversion inversion{};
-  inversion.verdict = 77;
   TouchstoneDistance distance{77.0, 77.0};
   const TouchstoneCollision none{};
   const TouchstoneCollision *collisions = &none, *before = nullptr;
@@ -471,11 +464,8 @@ TEST(CInterface, SaysWhatIsWrongAndWritesNothing) {
       {"", [&] { return touchstone_distances(0, 1, nullptr, 0.0, 0, 1, &distance); }},
       {"", [&] { return touchstone_distances(0, 1, x, 0.0, 0, -1, &distance); }},
       {"", [&] { return touchstone_distances(0, 1, x, 0.0, 0, 1, nullptr); }},
-      {"dimension", [&] { return touchstone_invert(4, 1, x, nullptr, &inversion); }},
-      {"coordinates is null",
-       [&] { return touchstone_invert(3, 1, nullptr, nullptr, &inversion); }},
-      {"inversions is null", [&] { return touchstone_invert(2, 1, x, nullptr, nullptr); }},
-      {"", [&] { return touchstone_invert(3, 1, x, &bad_time, &inversion); }},
+      {"", [&] { return touchstone_distances(4, 1, x, 0.0, 0, 1, &distance); }},
+      {"without a separation", [&] { return solve(4, x, &distant, &impact); }},
       {"step is null", [&] { return touchstone_step_new(&mesh, nullptr, nullptr); }},
       {"count is null", [&] { return touchstone_step_collisions(step, &collisions, nullptr); }},
       {"collisions is null", [&] { return touchstone_step_collisions(step, nullptr, &count); }},
@@ -519,7 +509,6 @@ TEST(CInterface, SaysWhatIsWrongAndWritesNothing) {
   expect_message("vertex 0");
 
   EXPECT_EQ(impact.verdict, 77);
-  EXPECT_EQ(inversion.verdict, 77);
   EXPECT_EQ(distance.lower, 77.0);
   EXPECT_EQ(distance.upper, 77.0);
   EXPECT_EQ(collisions, &none);

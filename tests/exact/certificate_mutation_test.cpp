@@ -399,7 +399,7 @@ TEST(Forgery, IsAcceptedOnlyWhereItsClaimIsTrue) {
       ASSERT_TRUE(tests::is_true({posed, {}, forged.claim, forged.toi}))
           << certificate_stream(forged);
     };
-    const Motion motion = scale_to_integers(kind, posed.query);
+    const Motion motion = scale(kind, posed.query);
     const Rational middle = Rational(random.between(0, 8)) / 8;
     const std::vector<Feature> all = features(motion.corner_count);
     for (const Feature& first : all) {

@@ -324,16 +324,15 @@ INSTANTIATE_TEST_SUITE_P(Of, RoundTrips,
 
 /// The certificate of an element, which claims what the oracle says and is accepted.
 template <class AnyQuery>
-Certificate accepted(const AnyQuery& tetrahedron, const InversionDecision& decision,
-                     const ProveOptions& options = {}) {
-  const Certificate certificate =
-      prove(Kind::tetrahedron, tetrahedron, {.toi = decision.time}, options);
+Certificate accepted(const AnyQuery& tetrahedron, const ProveOptions& options = {}) {
+  const Decision decision = decide(Kind::tetrahedron, tetrahedron);
+  const Certificate certificate = prove(Kind::tetrahedron, tetrahedron, decision, options);
   EXPECT_EQ(rejection(certificate), "") << certificate_stream(certificate);
-  EXPECT_EQ(certificate.claim, decision.inverts() ? options.collision_claim : Claim::no_collision);
-  EXPECT_EQ(certificate.contact.has_value(), decision.inverts());
+  EXPECT_EQ(certificate.claim, decision.collides() ? options.collision_claim : Claim::no_collision);
+  EXPECT_EQ(certificate.contact.has_value(), decision.collides());
   if (certificate.claim == Claim::time_of_impact && !options.width) {
     // Neighbouring doubles, of which the upper one may be the time; or 0 twice.
-    EXPECT_EQ(certificate.toi.upper, Rational(decision.time->enclosure().upper));
+    EXPECT_EQ(certificate.toi.upper, Rational(decision.toi->enclosure().upper));
     EXPECT_EQ(certificate.toi.lower, Rational(std::nextafter(certificate.toi.upper.get_d(), 0.0)));
   }
   return certificate;
@@ -348,15 +347,15 @@ TEST(ProveInversion, OfAllSortsOfElementsIsAccepted) {
     ProveOptions options;
     if (round % 3 == 0) options.collision_claim = Claim::collision;
     if (round % 5 == 0) options.width = Rational(1, 1000);
-    const Certificate certificate = accepted(element, decide_inversion(element), options);
+    const Certificate certificate = accepted(element, options);
     ++claims.at(static_cast<std::size_t>(certificate.claim));
   }
   for (const int count : claims) EXPECT_GT(count, tests::trials(200));
   for (int round = 0; round < tests::soak_trials(500, 20); ++round) {
-    const tests::KnownInversion known = round % 2 == 0 ? tests::product_of_factors(random)
-                                                       : tests::triangle_of_factors(random).second;
+    const tests::KnownInversion known =
+        round % 2 == 0 ? tests::product_of_factors(random) : tests::triangle_of_factors(random);
     const Query& element = known.tetrahedron;
-    const Certificate certificate = accepted(element, decide_inversion(element));
+    const Certificate certificate = accepted(element);
     ASSERT_EQ(certificate.claim == Claim::time_of_impact, known.numerator >= 0);
     if (known.numerator >= 0) {
       EXPECT_EQ(std::get<Rational>(certificate.contact->time),
@@ -380,11 +379,9 @@ TEST(ProveInversion, OfCurvesIsAcceptedAndNoneOfWhatIsFalse) {
         if (round % 2 == 0) curve.weights.push_back(random.between(1, 3));
       }
     }
-    if (round % 3 == 0)
-      element = to_tetrahedron(CurvedTriangle{element[0], element[1], element[2]});
-    Certificate certificate =
-        accepted(element, decide_inversion(element),
-                 {.collision_claim = round % 4 == 0 ? Claim::collision : Claim::time_of_impact});
+    if (round % 3 == 0) element = to_tetrahedron(Kind::plane_triangle, element);
+    Certificate certificate = accepted(
+        element, {.collision_claim = round % 4 == 0 ? Claim::collision : Claim::time_of_impact});
     ++claims.at(static_cast<std::size_t>(certificate.claim));
     Trajectory& curve = element.at(static_cast<std::size_t>(random.between(0, 3)));
     curve.control.back().at(static_cast<std::size_t>(random.between(0, 2))) +=
@@ -393,11 +390,11 @@ TEST(ProveInversion, OfCurvesIsAcceptedAndNoneOfWhatIsFalse) {
     const bool is_kept = rejection(certificate).empty();
     ++(is_kept ? kept : rejected);
     if (!is_kept) continue;
-    const InversionDecision truth = decide_inversion(element);
-    ASSERT_EQ(truth.inverts(), certificate.claim != Claim::no_collision);
+    const Decision truth = decide(Kind::tetrahedron, element);
+    ASSERT_EQ(truth.collides(), certificate.claim != Claim::no_collision);
     if (certificate.claim != Claim::time_of_impact) continue;
-    EXPECT_GE(*truth.time, certificate.toi.lower);
-    EXPECT_LE(*truth.time, certificate.toi.upper);
+    EXPECT_GE(*truth.toi, certificate.toi.lower);
+    EXPECT_LE(*truth.toi, certificate.toi.upper);
   }
   for (const int count : claims) EXPECT_GT(count, tests::trials(20));
   EXPECT_GT(kept, tests::trials(20));
@@ -409,7 +406,7 @@ TEST(ProveInversion, DividesWhatTheCheckerCannotSee) {
   for (const double h : {0x1p-10, 0x1p-60, 0x1p-200}) {
     const Query element{
         {0, 0, 0, 1, h, 0, -h, 1, 0, 0, 0, 1, 0, 0, 0, -2, h, 0, -h, -2, 0, 0, 0, 1}};
-    const Certificate certificate = accepted(element, decide_inversion(element));
+    const Certificate certificate = accepted(element);
     EXPECT_EQ(certificate.subintervals.size(), h < 0x1p-100 ? 3U : 1U);
   }
 }
@@ -418,9 +415,8 @@ TEST(ProveInversion, CannotProveAWrongVerdict) {
   tests::Random random(10);
   for (int round = 0; round < tests::trials(100); ++round) {
     const Query element = tests::product_of_factors(random).tetrahedron;
-    const InversionDecision decision = decide_inversion(element);
     Decision wrong;
-    if (!decision.inverts()) wrong.toi = AlgebraicNumber(Rational(1, 2));
+    if (!decide(Kind::tetrahedron, element).collides()) wrong.toi = AlgebraicNumber(Rational(1, 2));
     EXPECT_THROW(static_cast<void>(prove(Kind::tetrahedron, element, wrong)), std::logic_error);
   }
 }

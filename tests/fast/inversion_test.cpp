@@ -2,8 +2,6 @@
 /// Inversions in floating point and integers beside the oracle: of all sorts of elements, a half of
 /// them degenerate; alone, in batches and of meshes; by every kernel.
 
-#include "touchstone/inversion.hpp"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -33,13 +31,16 @@
 #include "tests/support/trials.hpp"
 #include "touchstone/certified.hpp"
 #include "touchstone/contacts.hpp"
-#include "touchstone/inversion_oracle.hpp"
+#include "touchstone/element.hpp"
+#include "touchstone/step.hpp"
 #include "touchstone/tight_inclusion.hpp"
 
 namespace touchstone::fast::inversion_test {
 namespace {
 
 using tests::inversion_fault;
+using tests::inversion_truth;
+using tests::inversions_keeping;
 using tests::Random;
 using tests::soak_trials;
 using tests::trials;
@@ -52,44 +53,15 @@ std::string printed(const Query& query) {
   return out.str();
 }
 
-// ---- As queries ---------------------------------------------------------------------------------
+CertifiedResult inversion(const Query& tetrahedron, const CertifiedOptions& options = {}) {
+  return solve(Kind::tetrahedron, tetrahedron, options);
+}
 
-TEST(Inversion, AnswersQueriesAboutElements) {
-  Random random(7);
-  std::vector<Query> queries;
-  std::vector<PlaneTriangle> triangles;
-  for (int i = 0; i < 1200; ++i) {
-    queries.push_back(tests::element_of_sort(random, i % tests::sorts_of_elements));
-    triangles.push_back(to_plane_triangle(queries.back()));
-  }
-  queries[5].at(0, 1, 0) = triangles[5].at(0, 1, 0) = not_a_number;
-  std::vector<InversionResult> expected(queries.size());
-  for (const Kind kind : {Kind::tetrahedron, Kind::plane_triangle}) {
-    if (kind == Kind::tetrahedron) {
-      inversions(queries, expected);
-    } else {
-      inversions(triangles, expected);
-    }
-    std::vector<CertifiedResult> results(queries.size());
-    solve(kind, queries, results);
-    for (std::size_t i = 0; i < queries.size(); ++i) {
-      for (const CertifiedResult& result : {results[i], solve(kind, queries[i])}) {
-        EXPECT_EQ(result.verdict, expected[i].verdict);
-        EXPECT_EQ(result.stage, expected[i].stage);
-        EXPECT_EQ(std::bit_cast<std::uint64_t>(result.toi_lower),
-                  std::bit_cast<std::uint64_t>(expected[i].toi_lower));
-        EXPECT_EQ(std::bit_cast<std::uint64_t>(result.toi_upper),
-                  std::bit_cast<std::uint64_t>(expected[i].toi_upper));
-      }
-    }
-    EXPECT_THROW(static_cast<void>(solve(kind, queries[0], {.separation = {.distance = 1.0}})),
-                 std::invalid_argument);
-    EXPECT_THROW(static_cast<void>(distance(kind, queries[0], 0.0)), std::invalid_argument);
-    EXPECT_THROW(static_cast<void>(tight_inclusion(kind, queries[0])), std::invalid_argument);
-    const std::vector<double> curve(36);
-    EXPECT_THROW(solve(Queries({.kind = kind, .degree = 2}, curve), std::span(results).first(1)),
-                 std::invalid_argument);
-  }
+std::vector<CertifiedResult> inversions(Kind kind, const std::vector<Query>& queries,
+                                        const CertifiedOptions& options = {}) {
+  std::vector<CertifiedResult> results(queries.size());
+  solve(kind, queries, results, options);
+  return results;
 }
 
 // ---- By hand ------------------------------------------------------------------------------------
@@ -103,7 +75,7 @@ Query falling_to(double height) {
 TEST(Inversion, EndsEachSortOfElementInItsStage) {
   EXPECT_EQ(inversion(falling_to(0.5)).stage, Stage::determinant);
   EXPECT_EQ(inversion(falling_to(0.5)).verdict, Verdict::no);
-  const InversionResult through = inversion(falling_to(-3.0));
+  const CertifiedResult through = inversion(falling_to(-3.0));
   EXPECT_EQ(through.stage, Stage::bisection);
   EXPECT_EQ(through.verdict, Verdict::yes);
   EXPECT_LT(through.toi_lower, 0.25);
@@ -115,7 +87,7 @@ TEST(Inversion, EndsEachSortOfElementInItsStage) {
   // Turned by 160 degrees about the z axis on straight lines: 6 V = 1 − 4 s² t (1−t) with s = sin
   // 80°.
   const double c = std::cos(160 * 0x1.921fb54442d18p+1 / 180), s = std::sqrt(1 - c * c);
-  const InversionResult turned = inversion(
+  const CertifiedResult turned = inversion(
       tests::moving({0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1}, {0, 0, 0, c, s, 0, -s, c, 0, 0, 0, 1}));
   EXPECT_EQ(turned.stage, Stage::bisection);
   EXPECT_EQ(turned.verdict, Verdict::no);
@@ -123,11 +95,11 @@ TEST(Inversion, EndsEachSortOfElementInItsStage) {
   // The other orientation, and none.
   Query mirrored = falling_to(-3.0);
   for (const std::size_t end : {0U, 1U}) mirrored.at(end, 3, 2) = -mirrored.at(end, 3, 2);
-  const InversionResult inverted = inversion(mirrored);
+  const CertifiedResult inverted = inversion(mirrored);
   EXPECT_EQ(std::tuple(inverted.verdict, inverted.start, inverted.stage),
             std::tuple(Verdict::yes, -1, Stage::determinant));
   EXPECT_EQ(std::pair(inverted.toi_lower, inverted.toi_upper), std::pair(0.0, 0.0));
-  const InversionResult flat = inversion(Query{});
+  const CertifiedResult flat = inversion(Query{});
   EXPECT_EQ(std::tuple(flat.verdict, flat.start, flat.toi_upper), std::tuple(Verdict::yes, 0, 0.0));
 }
 
@@ -140,23 +112,23 @@ TEST(Inversion, RefusesWhatIsNoInput) {
     for (const double number : {not_a_number, std::numeric_limits<double>::infinity()}) {
       std::vector<Query> several(9, falling_to(-3.0));
       several[4].coordinates.at(i) = number;
-      std::vector<InversionResult> results(several.size());
-      inversions(several, results);
+      const auto results = inversions(Kind::tetrahedron, several);
       for (std::size_t k = 0; k < results.size(); ++k) {
         EXPECT_EQ(results[k].verdict, k == 4 ? Verdict::error : Verdict::yes) << i;
       }
     }
   }
-  std::vector<InversionResult> one(1);
-  EXPECT_THROW(inversions(std::vector<Query>(2), one), std::invalid_argument);
-  Eigen::MatrixXd x = Eigen::MatrixXd::Zero(4, 3);
-  const std::vector<Tetrahedron> beyond{{0, 1, 2, 3}, {0, 1, 2, 4}};
-  EXPECT_EQ(tests::message_of<std::out_of_range>(
-                [&] { static_cast<void>(inversions(MovingVertices(x, x), beyond)); }),
-            "tetrahedron 1: vertex 4, but there are 4");
-  x(2, 1) = not_a_number;
-  EXPECT_THROW(static_cast<void>(inversions(MovingVertices(x, x), std::vector<Tetrahedron>())),
-               std::domain_error);
+  for (const Kind kind : {Kind::tetrahedron, Kind::plane_triangle}) {
+    const Query element = falling_to(1.0);
+    const CertifiedOptions near{.separation = {.distance = 1.0}};
+    EXPECT_THROW(static_cast<void>(solve(kind, element, near)), std::invalid_argument);
+    EXPECT_THROW(static_cast<void>(inversions(kind, {2, element}, near)), std::invalid_argument);
+    EXPECT_THROW(static_cast<void>(distance(kind, element, 0.0)), std::invalid_argument);
+    EXPECT_THROW(static_cast<void>(tight_inclusion(kind, element)), std::invalid_argument);
+    const std::vector<double> curve(36);
+    std::vector<CertifiedResult> one(1);
+    EXPECT_THROW(solve(Queries({.kind = kind, .degree = 2}, curve), one), std::invalid_argument);
+  }
 }
 
 // ---- Beside the oracle --------------------------------------------------------------------------
@@ -174,13 +146,12 @@ TEST(Inversion, AgreesWithTheOracleOnTetrahedra) {
   const int count = soak_trials(100'000, 10);
   Random random(1);
   const std::vector<Query> all = elements(random, count);
-  std::vector<InversionResult> results(all.size());
-  inversions(all, results);
+  const auto results = inversions(Kind::tetrahedron, all);
   std::array<int, 3> starts{};
   std::array<int, stage_count> stages{};
   int first_times = 0;
   for (std::size_t i = 0; i < all.size(); ++i) {
-    const exact::InversionDecision truth = exact::decide_inversion(all[i]);
+    const tests::InversionTruth truth = inversion_truth(all[i]);
     ASSERT_EQ(inversion_fault(truth, results[i]), std::nullopt) << i << ' ' << printed(all[i]);
     ++starts.at(static_cast<std::size_t>(truth.start + 1));
     ++stages.at(static_cast<std::size_t>(results[i].stage));
@@ -198,28 +169,29 @@ TEST(Inversion, AgreesWithTheOracleOnTetrahedra) {
 TEST(Inversion, AgreesWithTheOracleOnTriangles) {
   const int count = soak_trials(100'000, 10);
   Random random(2);
-  std::vector<PlaneTriangle> all;
+  std::vector<Query> all;
   for (int i = 0; i < count; ++i) {
-    PlaneTriangle triangle = tests::triangle_of_factors(random).first;
+    Query triangle = tests::triangle_of_factors(random).tetrahedron;
+    const std::size_t end = random.coin() ? 0 : 1, point = random.coin() ? 1 : 2;
     if (i % 4 == 1) {
-      double& x = triangle.coordinates.at(static_cast<std::size_t>(random.between(0, 11)));
+      double& x = triangle.at(end, point, random.coin() ? 0 : 1);
       x = std::nextafter(x, -x);
     } else if (i % 4 > 1) {
       const double size = std::ldexp(1.0, i % 4 == 2 ? 0 : random.between(-1000, 1000));
-      for (std::size_t k = 0; k < 12; ++k) {
-        const double corner = k % 6 == 2 || k % 6 == 5 ? 1.0 : 0.0;
+      for (std::size_t k = 0; k < 24; ++k) {
+        const double corner = k % 12 == 3 || k % 12 == 7 ? 1.0 : 0.0;
         triangle.coordinates.at(k) = size * (corner + random.uniform(-0.7, 0.7));
       }
     }
+    triangle.at(end, 3, random.coin() ? 0 : 2) = not_a_number;  // has no effect
     all.push_back(triangle);
   }
-  std::vector<InversionResult> results(all.size());
-  inversions(all, results);
+  const auto results = inversions(Kind::plane_triangle, all);
   int first_times = 0;
   for (std::size_t i = 0; i < all.size(); ++i) {
-    const exact::InversionDecision truth = exact::decide_inversion(all[i]);
-    ASSERT_EQ(inversion_fault(truth, results[i]), std::nullopt)
-        << i << ' ' << printed(to_tetrahedron(all[i]));
+    const Query tetrahedron = to_tetrahedron(Kind::plane_triangle, all[i]);
+    const tests::InversionTruth truth = inversion_truth(tetrahedron);
+    ASSERT_EQ(inversion_fault(truth, results[i]), std::nullopt) << i << ' ' << printed(tetrahedron);
     first_times += truth.start > 0 && truth.inverts() ? 1 : 0;
   }
   EXPECT_GT(first_times, count / 5);
@@ -229,8 +201,8 @@ TEST(Inversion, AgreesWithTheOracleOnTriangles) {
 TEST(Inversion, KeepsLimitAndTolerance) {
   Random random(3);
   for (const Query& query : elements(random, soak_trials(4000, 10))) {
-    const exact::InversionDecision truth = exact::decide_inversion(query);
-    const InversionResult result = inversion(query);
+    const tests::InversionTruth truth = inversion_truth(query);
+    const CertifiedResult result = inversion(query);
     std::vector<double> limits{0.0, 0.5};
     if (result.verdict == Verdict::yes) {
       limits.insert(limits.end(), {result.toi_lower, result.toi_upper,
@@ -238,7 +210,7 @@ TEST(Inversion, KeepsLimitAndTolerance) {
     }
     for (const double t_max : limits) {
       for (const double tolerance : {0.0, 1e-12, 1e-3}) {
-        const InversionOptions options{.toi_tolerance = tolerance, .t_max = t_max};
+        const CertifiedOptions options{.toi_tolerance = tolerance, .t_max = t_max};
         ASSERT_EQ(inversion_fault(truth, inversion(query, options), options), std::nullopt)
             << t_max << ' ' << tolerance << ' ' << printed(query);
       }
@@ -253,14 +225,13 @@ TEST(Inversion, KeepsAPartOfTheVolume) {
   for (const double kept : {0.5, 0.1, 1 - 0x1p-53, 0x1p-1074, random.uniform(0.0, 1.0)}) {
     const std::vector<Query> all = elements(random, soak_trials(2000, 10));
     for (const double t_max : {1.0, 0.5}) {
-      const InversionOptions options{.t_max = t_max, .kept_volume = kept};
-      std::vector<InversionResult> results(all.size());
-      inversions(all, results, options);
+      const CertifiedOptions options{.t_max = t_max};
+      const auto results = inversions_keeping(all, kept, options);
       for (std::size_t i = 0; i < all.size(); ++i) {
-        const exact::InversionDecision truth = tests::inversion_keeping(all[i], kept);
+        const tests::InversionTruth truth = inversion_truth(all[i], kept);
         ASSERT_EQ(inversion_fault(truth, results[i], options), std::nullopt)
             << kept << ' ' << printed(all[i]);
-        limited += results[i].toi_upper > 0.0 && !exact::decide_inversion(all[i]).inverts() ? 1 : 0;
+        limited += results[i].toi_upper > 0.0 && !inversion_truth(all[i]).inverts() ? 1 : 0;
       }
     }
   }
@@ -270,7 +241,7 @@ TEST(Inversion, KeepsAPartOfTheVolume) {
 // ---- Ways to ask --------------------------------------------------------------------------------
 
 using Bits = std::array<std::uint64_t, 2>;
-std::tuple<Verdict, Stage, int, Bits> bits_of(const InversionResult& x) {
+std::tuple<Verdict, Stage, int, Bits> bits_of(const CertifiedResult& x) {
   return {x.verdict, x.stage, x.start, std::bit_cast<Bits>(std::array{x.toi_lower, x.toi_upper})};
 }
 
@@ -282,67 +253,49 @@ TEST(Inversion, HasTheSameBitsAnyWay) {
   Eigen::MatrixXd start(rows, 3), end(rows, 3);
   std::vector<Tetrahedron> tetrahedra;
   std::vector<Face> faces;
-  std::vector<PlaneTriangle> triangles(all.size());
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    for (std::size_t point = 0; point < 4; ++point) {
-      const auto row = static_cast<Eigen::Index>(4 * i + point);
-      start.row(row) = all[i].point(0, point).transpose();
-      end.row(row) = all[i].point(1, point).transpose();
+  for (const Query& query : all) {
+    const auto first = static_cast<std::int32_t>(4 * tetrahedra.size());
+    for (int point = 0; point < 4; ++point) {
+      start.row(first + point) = query.point(0, static_cast<std::size_t>(point)).transpose();
+      end.row(first + point) = query.point(1, static_cast<std::size_t>(point)).transpose();
     }
-    const auto first = static_cast<std::int32_t>(4 * i);
     tetrahedra.push_back({first, first + 1, first + 2, first + 3});
-    faces.push_back({first, first + 2, first + 3});
-    for (const std::size_t at : {0U, 1U}) {
-      for (std::size_t point = 0; point < 3; ++point) {
-        for (std::size_t axis = 0; axis < 2; ++axis) {
-          triangles[i].at(at, point, axis) = all[i].at(at, point == 0 ? 0 : point + 1, axis);
-        }
-      }
-    }
+    faces.push_back({first, first + 1, first + 2});
   }
-  const MovingVertices vertices(start, end);
-  const auto expect_mesh = [](const std::vector<Inversion>& found,
-                              const std::vector<InversionResult>& results) {
-    std::size_t count = 0;
-    for (std::size_t i = 0; i < results.size(); ++i) {
-      if (results[i].verdict != Verdict::yes) continue;
-      ASSERT_LT(count, found.size());
-      ASSERT_EQ(found[count].element, i);
-      ASSERT_EQ(bits_of(found[count].result), bits_of(results[i]));
-      ++count;
-    }
-    EXPECT_EQ(count, found.size());
-  };
-  std::vector<InversionResult> of_tetrahedra(all.size()), of_triangles(all.size()),
-      of_kept(all.size());
-  const InversionOptions keeping{.t_max = 0.75, .kept_volume = 0.25};
-  inversions(all, of_kept, keeping);
-  inversions(all, of_tetrahedra);
-  inversions(triangles, of_triangles);
+  const auto of_tetrahedra = inversions(Kind::tetrahedron, all);
+  const auto of_triangles = inversions(Kind::plane_triangle, all);
+  const auto of_kept = inversions_keeping(all, 0.25, {.t_max = 0.75});
   for (std::size_t i = 0; i < all.size(); ++i) {
     ASSERT_EQ(bits_of(inversion(all[i])), bits_of(of_tetrahedra[i])) << printed(all[i]);
-    ASSERT_EQ(bits_of(inversion(triangles[i])), bits_of(of_triangles[i]));
+    ASSERT_EQ(bits_of(solve(Kind::plane_triangle, all[i])), bits_of(of_triangles[i]));
+    const Query raised = to_tetrahedron(Kind::plane_triangle, all[i]);
+    ASSERT_EQ(bits_of(inversion(raised)), bits_of(of_triangles[i])) << printed(all[i]);
   }
   for (const CertifiedKernel* const kernel : certified_kernels()) {
     SCOPED_TRACE(to_string(kernel->instructions));
     const UseKernels use({.certified = kernel});
     const tests::ChangedModes changed(tests::flush_to_zero | tests::subnormals_are_zero |
                                       tests::round_up);
-    std::vector<InversionResult> results(all.size());
-    inversions(all, results, {.max_threads = 1});
+    const auto again = inversions(Kind::tetrahedron, all, {.max_threads = 1});
+    const auto triangles_again = inversions(Kind::plane_triangle, all);
+    const auto kept_again = inversions_keeping(all, 0.25, {.t_max = 0.75});
     for (std::size_t i = 0; i < all.size(); ++i) {
-      ASSERT_EQ(bits_of(results[i]), bits_of(of_tetrahedra[i])) << printed(all[i]);
+      ASSERT_EQ(bits_of(again[i]), bits_of(of_tetrahedra[i])) << printed(all[i]);
+      ASSERT_EQ(bits_of(triangles_again[i]), bits_of(of_triangles[i])) << printed(all[i]);
+      ASSERT_EQ(bits_of(kept_again[i]), bits_of(of_kept[i])) << printed(all[i]);
     }
-    inversions(all, results, keeping);
-    for (std::size_t i = 0; i < all.size(); ++i) {
-      ASSERT_EQ(bits_of(results[i]), bits_of(of_kept[i])) << printed(all[i]);
+    const Step step(start, end, {.tetrahedra = tetrahedra, .plane_triangles = faces});
+    std::vector<StepInversion> expected;
+    for (const auto& [kind, results] : {std::pair(Kind::tetrahedron, &of_tetrahedra),
+                                        std::pair(Kind::plane_triangle, &of_triangles)}) {
+      for (std::size_t i = 0; i < results->size(); ++i) {
+        const CertifiedResult& one = results->at(i);
+        if (one.verdict != Verdict::yes) continue;
+        expected.push_back(
+            {kind, static_cast<std::int32_t>(i), one.start, one.toi_lower, one.toi_upper});
+      }
     }
-    inversions(triangles, results);
-    for (std::size_t i = 0; i < all.size(); ++i) {
-      ASSERT_EQ(bits_of(results[i]), bits_of(of_triangles[i]));
-    }
-    expect_mesh(inversions(vertices, tetrahedra), of_tetrahedra);
-    expect_mesh(inversions(vertices, faces, {.max_threads = 2}), of_triangles);
+    EXPECT_EQ(step.inversions(), expected);
   }
 }
 
@@ -350,43 +303,41 @@ TEST(Inversion, HasTheSameBitsAnyWay) {
 
 /// The number of elements with a wrong answer.
 template <class Decide>
-int elements_that_find(const Decide& decide) {
+int elements_that_find(Decide& decide) {
   Random random(5);
   int found = 0;
-  for (const Query& query : elements(random, 4000)) {
-    for (const double kept : {0.0, 0.25}) {
-      const exact::InversionDecision truth = tests::inversion_keeping(query, kept);
-      for (const double t_max : {1.0, 0.5}) {
-        const InversionOptions options{.t_max = t_max, .kept_volume = kept};
-        found += inversion_fault(truth, decide(query, options), options) ? 1 : 0;
+  const std::vector<Query> all = elements(random, 4000);
+  for (const double kept : {0.0, 0.25}) {
+    for (const double t_max : {1.0, 0.5}) {
+      const CertifiedOptions options{.t_max = t_max};
+      const auto results = inversions_keeping(all, kept, options, decide);
+      for (std::size_t i = 0; i < all.size(); ++i) {
+        found += inversion_fault(inversion_truth(all[i], kept), results[i], options) ? 1 : 0;
       }
     }
   }
   for (std::size_t i = 0; i < 24; ++i) {
     Query query = falling_to(0.5);
     query.coordinates.at(i) = not_a_number;
-    found += decide(query, {}).verdict == Verdict::error ? 0 : 1;
+    const auto results = inversions_keeping({&query, 1}, 0.0, {}, decide);
+    found += results[0].verdict == Verdict::error ? 0 : 1;
   }
   return found;
 }
 
 TEST(Inversion, ElementsFindPlantedFaults) {
+  const auto expect_found = [](std::string_view name, auto& decide) {
+    const int found = elements_that_find(decide);
+    std::printf("%s: found by %d elements\n", name.data(), found);
+    EXPECT_GT(found, 0) << name;
+  };
   for (const auto& planted : tests::planted_faults().inversion) {
-    if (!planted.is_to_be_found()) continue;
-    const int found = elements_that_find([&](const Query& query, const InversionOptions& options) {
-      return planted.part(query, options);
-    });
-    std::printf("%s: found by %d elements\n", planted.name.data(), found);
-    EXPECT_GT(found, 0) << planted.name;
+    if (planted.is_to_be_found()) expect_found(planted.name, *planted.part);
   }
   for (const auto& planted : tests::planted_faults().inversion_kernel) {
     if (!planted.is_to_be_found()) continue;
     const UseKernels use({.certified = planted.part});
-    const int found = elements_that_find([](const Query& query, const InversionOptions& options) {
-      return inversion(query, options);
-    });
-    std::printf("%s: found by %d elements\n", planted.name.data(), found);
-    EXPECT_GT(found, 0) << planted.name;
+    expect_found(planted.name, decide_elements);
   }
 }
 

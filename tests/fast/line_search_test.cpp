@@ -12,10 +12,10 @@
 
 #include "fast/distance/exact_distance.hpp"
 #include "tests/faults/planted_faults.hpp"
+#include "tests/support/inverting_elements.hpp"
 #include "tests/support/random.hpp"
 #include "tests/support/scenes.hpp"
 #include "tests/support/trials.hpp"
-#include "touchstone/inversion.hpp"
 #include "touchstone/number.hpp"
 #include "touchstone/oracle.hpp"
 
@@ -184,8 +184,8 @@ std::string fault_of_volumes(tests::LimitStep& limit_of, int rounds,
       double upper = 2.0, lower = expected.step_size;
       for (const auto& one : expected.pairs) upper = std::min(upper, one.toi_upper);
       bool all_start = true;
-      tests::for_each_volume(scene, [&](VolumeKind kind, std::size_t i, const Query& query) {
-        const auto truth = inversion(query, {.kept_volume = options.kept_volume});
+      tests::for_each_volume(scene, [&](Kind kind, std::size_t i, const Query& query) {
+        const auto truth = tests::inversions_keeping({&query, 1}, options.kept_volume)[0];
         if (truth.verdict != Verdict::yes) return;
         all_start = all_start && truth.start > 0;
         upper = std::min(upper, truth.toi_upper);

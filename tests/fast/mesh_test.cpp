@@ -37,11 +37,6 @@ Candidates candidates(Kind kind, const std::vector<IndexPair>& pairs) {
   return {.kind = kind, .pairs = pairs, .edges = some_edges, .faces = some_faces};
 }
 
-/// The message of require_in_range with five vertices, or "".
-std::string range_error(const Candidates& given) {
-  return tests::message_of<std::out_of_range>([&] { require_in_range(counted(5), given); });
-}
-
 TEST(MovingVertices, HoldsWhatItIsMadeFromWhateverTheStorage) {
   const Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor> start =
       places(5, 0).cast<float>();
@@ -120,48 +115,6 @@ TEST(Candidates, AreQueries) {
   const Query edge_edge = query_of(counted(5), candidates(Kind::edge_edge, {}), {1, 0});
   EXPECT_EQ(edge_edge, (Query{{12,  13,  14,  6,   7,   8,   0,   1,   2,   3,   4,   5,
                                112, 113, 114, 106, 107, 108, 100, 101, 102, 103, 104, 105}}));
-}
-
-TEST(RequireInRange, NamesTheFirstPairAndWhatIsWrongThere) {
-  struct Row {
-    Kind kind;
-    std::vector<IndexPair> bad;
-    std::string expected;
-  };
-  constexpr int least = std::numeric_limits<int>::min(), most = std::numeric_limits<int>::max();
-  constexpr Kind face = Kind::vertex_face, edges = Kind::edge_edge;
-  for (const auto& [kind, bad, expected] :
-       {Row{face, {{4, 1}}, ""}, Row{edges, {{1, 0}}, ""},
-        Row{face, {{5, 1}, {-1, 0}}, "vertex 5, but there are 5"},
-        Row{face, {{-1, 0}}, "vertex -1, but there are 5"},
-        Row{face, {{0, 2}}, "face 2, but there are 2"},
-        Row{face, {{0, -1}}, "face -1, but there are 2"},
-        Row{edges, {{2, 0}}, "edge 2, but there are 2"},
-        Row{edges, {{5, 0}}, "edge 5, but there are 2"},
-        Row{edges, {{-1, 0}}, "edge -1, but there are 2"},
-        Row{edges, {{0, most}}, "edge 2147483647, but there are 2"},
-        Row{edges, {{0, least}}, "edge -2147483648, but there are 2"}}) {
-    for (const std::size_t place : {0U, 50U, 98U}) {
-      std::vector<IndexPair> pairs(100, IndexPair{0, 1});
-      std::ranges::copy(bad, pairs.begin() + static_cast<std::ptrdiff_t>(place));
-      EXPECT_EQ(range_error(candidates(kind, pairs)),
-                expected.empty() ? "" : "pair " + std::to_string(place) + ": " + expected);
-    }
-  }
-  EXPECT_EQ(range_error(candidates(edges, {})), "");
-}
-
-TEST(RequireInRange, MindsNoEdgeOrFaceThatNoPairHas) {
-  const std::vector<Edge> edges{{0, 1}, {1, 2}, {0, 5}};
-  const std::vector<Face> faces{{0, 1, 2}, {0, 1, 3}, {0, 1, -2}};
-  std::vector<IndexPair> pairs(100, IndexPair{0, 1});
-  EXPECT_EQ(range_error({Kind::vertex_face, pairs, edges, faces}), "");
-  EXPECT_EQ(range_error({Kind::edge_edge, pairs, edges, faces}), "");
-  pairs[70] = {0, 2};
-  EXPECT_EQ(range_error({Kind::vertex_face, pairs, edges, faces}),
-            "pair 70: face 2, vertex -2, but there are 5");
-  EXPECT_EQ(range_error({Kind::edge_edge, pairs, edges, faces}),
-            "pair 70: edge 2, vertex 5, but there are 5");
 }
 
 }  // namespace

@@ -18,7 +18,6 @@
 #include "touchstone/broad_phase.hpp"
 #include "touchstone/certified.hpp"
 #include "touchstone/contacts.hpp"
-#include "touchstone/inversion.hpp"
 #include "touchstone/step.hpp"
 #include "touchstone/tight_inclusion.hpp"
 
@@ -143,15 +142,8 @@ std::vector<Refusal> refusals() {
          (void)tight_inclusion(posed.kind, posed.query, {.scene_filter = {{0.0, x, 0.0}}});
        }},
       {"size_of_scaled_step", no_time, [](double x) { (void)step().scaled(x); }},
-      {"tolerance_of_inversion", no_distance,
-       [](double x) { (void)inversion(posed.query, {.toi_tolerance = x}); }},
       {"time_of_inversion", no_time,
-       [](double x) { (void)inversion(PlaneTriangle{}, {.t_max = x}); }},
-      {"threads_of_inversions", no_count,
-       [](double x) {
-         (void)inversions(step().vertices(), std::vector<Tetrahedron>(),
-                          {.max_threads = static_cast<int>(x)});
-       }},
+       [](double x) { (void)solve(Kind::tetrahedron, posed.query, {.t_max = x}); }},
       {"share_of_line_search", {0.0, -0.5, 1.0, 1.0 - 0x1p-52, nan}, [](double x) {
          (void)line_search_limit(step(), x);
        }}};
@@ -183,14 +175,20 @@ TEST(Refusals, OfElementsWithVolumes) {
   const std::vector<Tetrahedron> beyond{{0, 1, 2, 4}};
   const std::vector<Face> flat{{0, 1, 2}};
   EXPECT_THROW(Step(x, x, {.tetrahedra = beyond}), std::out_of_range);
-  EXPECT_EQ(Step(x, x, {.plane_triangles = flat}).inversions().size(), 1U);
+  const Step of_flat(x, x, {.plane_triangles = flat});
+  EXPECT_EQ(of_flat.inversions().size(), 1U);
+  for (const auto& [kind, number] : {std::pair(Kind::plane_triangle, 1),
+                                     {Kind::plane_triangle, -1},
+                                     {Kind::tetrahedron, 0},
+                                     {Kind::vertex_face, 0}}) {
+    EXPECT_THROW((void)of_flat.query_of(kind, number), std::out_of_range);
+  }
   const std::vector<double> curves(24);
   EXPECT_THROW(CurvedStep({.degree = 1, .numbers = curves}, {.plane_triangles = flat}),
                std::invalid_argument);
   for (const double kept : {-0x1p-1074, 1.0, infinity, nan}) {
     EXPECT_THROW((void)line_search_limit(step(), 0.5, {.kept_volume = kept}),
                  std::invalid_argument);
-    EXPECT_THROW((void)inversion(posed.query, {.kept_volume = kept}), std::invalid_argument);
   }
 }
 

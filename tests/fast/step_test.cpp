@@ -91,10 +91,10 @@ std::string fault_of_volumes(const Scene& scene, const StepOptions& options,
   std::string what;
   std::size_t next = 0;
   all_start = true;
-  tests::for_each_volume(scene, [&](VolumeKind kind, std::size_t i, const Query& query) {
-    const exact::InversionDecision truth = exact::decide_inversion(query);
+  tests::for_each_volume(scene, [&](Kind kind, std::size_t i, const Query& query) {
+    const tests::InversionTruth truth = tests::inversion_truth(query);
     all_start = all_start && truth.start > 0;
-    InversionResult result{.verdict = Verdict::no, .start = 1};
+    CertifiedResult result{.verdict = Verdict::no, .start = 1};
     if (next < inversions.size() && inversions[next].kind == kind &&
         std::cmp_equal(inversions[next].element, i)) {
       const StepInversion& one = inversions[next++];
@@ -157,8 +157,12 @@ std::string fault(const Scene& scene, const StepOptions& options) {
   if (!found.empty()) return "no pair of this scene: " + named(found.begin()->first);
   std::ranges::sort(near);
   if (candidates_of(step) != near) return "other candidates";
-  bool all_start = true;
+  bool all_start = true, has_queries = true;
   const std::vector<StepInversion> inversions = step.inversions();
+  tests::for_each_volume(scene, [&](Kind kind, std::size_t i, const Query& query) {
+    has_queries = has_queries && step.query_of(kind, static_cast<std::int32_t>(i)) == query;
+  });
+  if (!has_queries) return "another query of an element";
   const std::string what = fault_of_volumes(scene, options, inversions, all_start);
   if (!what.empty()) return what;
   if (step.starts_free() != (all_start && step.intersections_at_start().empty())) {

@@ -26,7 +26,6 @@
 #include "touchstone/contacts.hpp"
 #include "touchstone/curved_query.hpp"
 #include "touchstone/intersections.hpp"
-#include "touchstone/inversion.hpp"
 #include "touchstone/mesh.hpp"
 #include "touchstone/query.hpp"
 #include "touchstone/tight_inclusion.hpp"
@@ -72,7 +71,9 @@ using EncloseContact = fast::ContactEnclosure(Kind, const Query&, const fast::Ti
 using FindIntersections = std::vector<fast::Intersection>(fast::MovingVertices,
                                                           const fast::MeshElements&,
                                                           const fast::IntersectionOptions&);
-using DecideInversion = fast::InversionResult(const Query&, const fast::InversionOptions&);
+using DecideElements = void(fast::KernelInput, double t_limit, const fast::CertifiedOptions&,
+                            const fast::CertifiedKernel&, const std::function<Query(std::size_t)>&,
+                            const std::function<void(std::size_t, const fast::CertifiedResult&)>&);
 using LimitStep = fast::LineSearchLimit(const fast::Step&, double, const fast::LineSearchOptions&);
 using Check = checker::Report(std::istream&, const checker::Options&);
 using DecideRescaled = void(const fast::KernelInput&, fast::KernelFunction&, std::span<const Query>,
@@ -99,7 +100,7 @@ struct PlantedFaults {
   Faults<LimitStep> line_search;
   Faults<FindIntersections> intersections;
   Faults<const fast::TriangleKernel> triangle_filter;
-  Faults<DecideInversion> inversion;
+  Faults<DecideElements> inversion;
   Faults<const fast::CertifiedKernel> inversion_kernel;
   Faults<Check> checker, mesh_checker;
   Faults<const fast::BoxKernel> box_kernel;

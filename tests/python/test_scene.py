@@ -277,22 +277,6 @@ def test_intersections_of_vertices_at_one_place_need_a_weld():
         touchstone.intersections(soup, [[0, 1, 6]])
 
 
-def test_inversions_are_those_of_the_last_vertex():
-    before = np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1], [0, 0, -1]])
-    after = before * [1, 1, -3]
-    elements = [[0, 1, 2, 3], [0, 2, 1, 4], [1, 0, 2, 3], [0, 1, 2, 2]]
-    found = touchstone.inversions(before, after, elements)
-    np.testing.assert_array_equal(found["element"], [0, 1, 2, 3])
-    np.testing.assert_array_equal(found["start"], [1, 1, -1, 0])
-    assert (found["toi_lower"][:2] < 0.25).all() and (found["toi_upper"][:2] >= 0.25).all()
-    assert (found["toi_upper"][2:] == 0).all()
-    assert len(touchstone.inversions(before, after, elements[:2], t_max=0.125)) == 0
-    with pytest.raises(IndexError, match="tetrahedron 0"):
-        touchstone.inversions(before, after, [[0, 1, 2, 5]])
-    with pytest.raises(ValueError, match="vertex 0"):
-        touchstone.inversions(before * np.nan, after, elements)
-
-
 def test_a_step_keeps_its_elements_from_inverting(tmp_path):
     """Tetrahedra that turn over, are flat, and grow; and a triangle that turns over in the plane."""
     before = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]], dtype=float)
@@ -325,12 +309,3 @@ def test_a_step_keeps_its_elements_from_inverting(tmp_path):
         touchstone.Step(before, after, tetrahedra=[[0, 1, 2, 4]])
     with pytest.raises(ValueError, match="kept_volume"):
         step.line_search_limit(0.5, kept_volume=1.0)
-
-
-def test_inversions_of_triangles_are_in_the_plane():
-    before = np.array([[0.0, 0], [1, 0], [0, 1]])
-    found = touchstone.inversions(before, before * [1, -1], [[0, 1, 2]])
-    assert found["toi_lower"][0] < 0.5 <= found["toi_upper"][0]
-    assert len(touchstone.inversions(before, before * 2, [[0, 1, 2]])) == 0
-    with pytest.raises(ValueError, match="before"):
-        touchstone.inversions(np.zeros((3, 3)), np.zeros((3, 3)), [[0, 1, 2]])

@@ -16,16 +16,20 @@
 #include <optional>
 #include <span>
 #include <string>
-#include <utility>
+#include <vector>
 
+#include "fast/certified/block.hpp"
+#include "fast/certified/kernel.hpp"
+#include "fast/kernels.hpp"
+#include "fast/platform/floating_point_state.hpp"
 #include "tests/support/certified_against_oracle.hpp"
 #include "tests/support/queries.hpp"
 #include "tests/support/random.hpp"
 #include "tests/support/root_count.hpp"
 #include "touchstone/algebraic_number.hpp"
+#include "touchstone/certified.hpp"
 #include "touchstone/element.hpp"
-#include "touchstone/inversion.hpp"
-#include "touchstone/inversion_oracle.hpp"
+#include "touchstone/oracle.hpp"
 #include "touchstone/query.hpp"
 
 namespace touchstone::tests {
@@ -125,8 +129,8 @@ inline void set_truth(KnownInversion& known, std::span<const Moving> factors) {
   return known;
 }
 
-/// The same in the plane, with two factors. The truth's tetrahedron is that of the triangle.
-[[nodiscard]] inline std::pair<PlaneTriangle, KnownInversion> triangle_of_factors(Random& random) {
+/// The same of a triangle in the plane, with two factors.
+[[nodiscard]] inline KnownInversion triangle_of_factors(Random& random) {
   using inverting_elements::Moving;
   const std::array<Moving, 3> f = inverting_elements::factors(random);
   KnownInversion known;
@@ -136,7 +140,6 @@ inline void set_truth(KnownInversion& known, std::span<const Moving> factors) {
   const double place = random.coin() ? 0.0 : std::ldexp(1.0, random.between(0, 44));
   const int all = random.coin() ? 0 : random.between(-1074, 970);
   const std::array<int, 2> exponent{all, random.between(0, 3) == 0 ? 0 : all};
-  PlaneTriangle triangle{};
   for (std::size_t end = 0; end < 2; ++end) {
     const auto at = [&](const Moving& x) { return static_cast<double>(x.at(end)); };
     std::array<std::array<double, 2>, 3> points{{{}, {at(f[0]), 0}, {at(below), at(f[1])}}};
@@ -144,13 +147,13 @@ inline void set_truth(KnownInversion& known, std::span<const Moving> factors) {
     for (std::size_t i = 0; i < points.size(); ++i) {
       points.at(i)[1] += shear * points.at(i)[0];
       for (std::size_t axis = 0; axis < 2; ++axis) {
-        triangle.at(end, i, axis) =
+        known.tetrahedron.at(end, i, axis) =
             std::ldexp(points.at(i).at(axis) + translation.at(axis), exponent.at(axis));
       }
     }
   }
-  known.tetrahedron = to_tetrahedron(triangle);
-  return {triangle, known};
+  known.tetrahedron = to_tetrahedron(Kind::plane_triangle, known.tetrahedron);
+  return known;
 }
 
 /// A tetrahedron of this size at this distance from the origin, whose points move by up to `motion`
@@ -169,10 +172,18 @@ inline void set_truth(KnownInversion& known, std::span<const Moving> factors) {
   return query;
 }
 
-/// The exact decision on the first time at which at most this part of the volume at t=0 is left:
-/// from the roots of V − f V(0), a polynomial with integer coefficients.
-[[nodiscard]] inline exact::InversionDecision inversion_keeping(const Query& tetrahedron,
-                                                                double kept) {
+/// The truth about a tetrahedron.
+struct InversionTruth {
+  int start = 0;  ///< the sign of the volume at t=0
+  std::optional<exact::AlgebraicNumber> time = std::nullopt;
+
+  [[nodiscard]] bool inverts() const { return time.has_value(); }
+};
+
+/// The exact decision on the first time at which at most this part of the volume at t=0 is left: by
+/// the oracle if it is 0, else from the roots of V − f V(0), a polynomial with integer
+/// coefficients.
+[[nodiscard]] inline InversionTruth inversion_truth(const Query& tetrahedron, double kept = 0.0) {
   using exact::Integer, exact::Rational, exact::Polynomial;
   std::array<root_count::Vector, moving_points> points;
   for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -191,10 +202,11 @@ inline void set_truth(KnownInversion& known, std::span<const Moving> factors) {
   const Polynomial volume = root_count::dot(
       root_count::minus(b, a), root_count::cross(root_count::minus(c, a), root_count::minus(d, a)));
   const Integer at_start = volume[0];
+  if (kept == 0.0) return {sgn(at_start), exact::decide(Kind::tetrahedron, tetrahedron).toi};
   const Rational part(kept);
   const Polynomial left =
       Polynomial(part.get_den()) * volume - Polynomial(Integer(part.get_num() * at_start));
-  exact::InversionDecision result{.start = sgn(at_start), .time = std::nullopt};
+  InversionTruth result{.start = sgn(at_start)};
   if (result.start <= 0) {
     result.time = exact::AlgebraicNumber(Rational(0));
   } else if (const auto roots = exact::roots_in_unit_interval(left); !roots.empty()) {
@@ -203,10 +215,32 @@ inline void set_truth(KnownInversion& known, std::span<const Moving> factors) {
   return result;
 }
 
+/// The results of elements of which this part of the volume is to be kept.
+/// \param decide fast::decide_elements, or one with a fault
+template <class Decide = decltype(fast::decide_elements)>
+[[nodiscard]] std::vector<fast::CertifiedResult> inversions_keeping(
+    std::span<const Query> tetrahedra, double kept, const fast::CertifiedOptions& options = {},
+    Decide& decide = fast::decide_elements) {
+  const fast::StrictFloatingPoint strict;
+  std::vector<fast::CertifiedResult> results(tetrahedra.size(), fast::free_of_inversion);
+  for (std::size_t first = 0; first < tetrahedra.size(); first += fast::kernel_block) {
+    const std::size_t count = std::min(fast::kernel_block, tetrahedra.size() - first);
+    decide(
+        {.kind = Kind::tetrahedron,
+         .count = count,
+         .queries = &tetrahedra[first],
+         .kept_volume = kept},
+        options.t_max, options, fast::certified_kernel(fast::chosen_kernels()),
+        [&](std::size_t i) { return tetrahedra[first + i]; },
+        [&](std::size_t i, const fast::CertifiedResult& found) { results[first + i] = found; });
+  }
+  return results;
+}
+
 /// The fault of an answer, or nothing.
 [[nodiscard]] inline std::optional<std::string> inversion_fault(
-    const exact::InversionDecision& truth, const fast::InversionResult& result,
-    const fast::InversionOptions& options = {}) {
+    const InversionTruth& truth, const fast::CertifiedResult& result,
+    const fast::CertifiedOptions& options = {}) {
   bool inverts = truth.inverts();
   if (inverts && options.t_max < 1.0) inverts = compare(*truth.time, options.t_max) <= 0;
   if (result.start != truth.start) return "the start is another";

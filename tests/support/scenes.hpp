@@ -18,7 +18,7 @@
 
 #include "tests/support/random.hpp"
 #include "touchstone/broad_phase.hpp"
-#include "touchstone/inversion.hpp"
+#include "touchstone/element.hpp"
 #include "touchstone/number.hpp"
 #include "touchstone/step.hpp"
 
@@ -180,29 +180,25 @@ inline void add_thickness(Scene& scene, double length, Random& random) {
   }
 }
 
-/// The query of an element: its points, with the one above a triangle of the plane.
-[[nodiscard]] inline Query element_query(const Scene& scene, fast::VolumeKind kind, std::size_t i) {
-  const bool is_plane = kind == fast::VolumeKind::plane_triangle;
+/// An element as a query about a tetrahedron.
+[[nodiscard]] inline Query element_query(const Scene& scene, Kind kind, std::size_t i) {
   fast::Tetrahedron points{};
-  if (is_plane) {
-    const auto [a, b, c] = scene.plane_triangles.at(i);
-    points = {a, b, c, b};
-  } else {
+  if (kind == Kind::tetrahedron) {
     points = scene.tetrahedra.at(i);
+  } else {
+    std::ranges::copy(scene.plane_triangles.at(i), points.begin());
   }
   Query query;
   for (std::size_t k = 0; k < points.size(); ++k) {
     query.point(0, k) = scene.start.row(points.at(k)).transpose();
     query.point(1, k) = scene.end.row(points.at(k)).transpose();
-    for (std::size_t end = 0; is_plane && end < 2; ++end) query.at(end, k, 2) = k == 3 ? 1.0 : 0.0;
   }
-  return query;
+  return to_tetrahedron(kind, query);
 }
 
 /// Calls visit(kind, number, query) for all elements with volumes, in order.
 template <class Visit>
 void for_each_volume(const Scene& scene, const Visit& visit) {
-  using Kind = fast::VolumeKind;
   for (std::size_t i = 0; i < scene.tetrahedra.size(); ++i) {
     visit(Kind::tetrahedron, i, element_query(scene, Kind::tetrahedron, i));
   }
@@ -216,18 +212,19 @@ void for_each_volume(const Scene& scene, const Visit& visit) {
 inline void add_volumes(Scene& scene, int most, int rare, Random& random) {
   const auto vertices = static_cast<int>(scene.start.rows());
   const auto any = [&] { return random.between(0, vertices - 1); };
-  const auto add = [&](auto& elements, fast::VolumeKind kind, const auto& element) {
+  const auto add = [&](auto& elements, Kind kind, const auto& element) {
     elements.push_back(element);
     const auto start = [&] {
-      return fast::inversion(element_query(scene, kind, elements.size() - 1), {.t_max = 0.0}).start;
+      return fast::solve(Kind::tetrahedron, element_query(scene, kind, elements.size() - 1),
+                         {.t_max = 0.0})
+          .start;
     };
     if (start() < 0) std::swap(elements.back()[0], elements.back()[1]);
     if (start() <= 0 && random.between(1, rare) != 1) elements.pop_back();
   };
   for (int i = random.between(0, most); i > 0; --i) {
-    add(scene.tetrahedra, fast::VolumeKind::tetrahedron,
-        fast::Tetrahedron{any(), any(), any(), any()});
-    add(scene.plane_triangles, fast::VolumeKind::plane_triangle, Face{any(), any(), any()});
+    add(scene.tetrahedra, Kind::tetrahedron, fast::Tetrahedron{any(), any(), any(), any()});
+    add(scene.plane_triangles, Kind::plane_triangle, Face{any(), any(), any()});
     if (random.between(1, rare) == 1 && !scene.tetrahedra.empty()) {
       std::swap(scene.tetrahedra.back()[2], scene.tetrahedra.back()[3]);
     }

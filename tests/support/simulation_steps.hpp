@@ -98,7 +98,7 @@ struct SimulationStep {
 
 /// Loads the step of a scene: its two frames and its labelled pairs.
 /// \param folder from simulation_folder
-/// \throws std::exception if a file is unreadable, or a pair is not one of the mesh.
+/// \throws std::exception if a file is unreadable.
 [[nodiscard]] inline SimulationStep load_simulation_step(const std::filesystem::path& folder,
                                                          std::string_view scene_name) {
   const std::filesystem::path scene = folder / scene_name;
@@ -108,7 +108,7 @@ struct SimulationStep {
   if (before.faces != after.faces) throw std::runtime_error(scene.string() + ": faces differ");
   const auto vertices = static_cast<std::size_t>(before.vertices.rows());
   const std::size_t first_face = vertices + before.edges.size();
-  SimulationStep step{
+  return {
       .scene = std::string(scene_name),
       .vertices = fast::MovingVertices(before.vertices, after.vertices),
       .edges = std::move(before.edges),
@@ -116,10 +116,6 @@ struct SimulationStep {
       .vertex_face = read_labelled_pairs(scene, "vf", {0, first_face}),
       .edge_edge = read_labelled_pairs(scene, "ee", {vertices, vertices}),
   };
-  for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
-    fast::require_in_range(step.vertices, step.candidates(kind, step.labelled(kind).pairs));
-  }
-  return step;
 }
 
 }  // namespace touchstone::tests

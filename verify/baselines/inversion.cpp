@@ -29,7 +29,7 @@
 #include <numbers>
 #include <vector>
 
-#include "touchstone/inversion.hpp"
+#include "touchstone/element.hpp"
 #include "verify/baselines/method_support.hpp"
 #include "verify/baselines/moving_polynomials.hpp"
 
@@ -38,10 +38,6 @@ namespace {
 
 /// Leading coefficients of at most this count as 0.
 constexpr double leading_tolerance = 1e-10;
-
-Query tetrahedron_of(Kind kind, const Query& query) {
-  return kind == Kind::tetrahedron ? query : to_tetrahedron(to_plane_triangle(query));
-}
 
 std::vector<double> zeros_of_quadratic(double c, double b, double a) {
   if (std::abs(a) <= leading_tolerance) {
@@ -96,7 +92,7 @@ constexpr fast::Terms terms_of(fast::Times times) {
 }
 
 fast::Answer inversion_cubic(Kind kind, const Query& query, const fast::MethodOptions& options) {
-  const auto [a, b, c, d] = motions_of(tetrahedron_of(kind, query));
+  const auto [a, b, c, d] = motions_of(to_tetrahedron(kind, query));
   double first = 2.0;
   for (const double t : zeros_of(dot(b - a, cross(c - a, d - a)))) {
     if (t >= 0.0) first = std::min(first, t);
@@ -106,7 +102,7 @@ fast::Answer inversion_cubic(Kind kind, const Query& query, const fast::MethodOp
 }
 
 fast::Answer inversion_additive(Kind kind, const Query& query, const fast::MethodOptions& options) {
-  const Query element = tetrahedron_of(kind, query);
+  const Query element = to_tetrahedron(kind, query);
   const double change = greatest_change(element);
   double t = 0.0;
   for (std::int64_t steps = 1; t <= options.t_max; ++steps) {

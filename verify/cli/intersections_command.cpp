@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "touchstone/intersections.hpp"
-#include "touchstone/inversion.hpp"
+#include "touchstone/step.hpp"
 #include "verify/cli/commands.hpp"
 #include "verify/cli/files.hpp"
 #include "verify/cli/option_table.hpp"
@@ -51,8 +51,9 @@ report::RestingMesh read(Files& files, const fs::path& path) {
   report_note(path, result.mesh.note);
   mesh::require_elements(result.mesh, path);
   result.defects = fast::mesh_defects(result.mesh.vertices, result.mesh.elements());
-  const fast::MovingVertices at_rest(result.mesh.vertices, result.mesh.vertices);
-  result.inversions = fast::inversions(at_rest, result.mesh.tetrahedra);
+  const fast::Step at_rest(result.mesh.vertices, result.mesh.vertices,
+                           {.tetrahedra = result.mesh.tetrahedra});
+  result.inversions = at_rest.inversions();
   return result;
 }
 

@@ -138,8 +138,8 @@ class StepRun {
     std::string label = fmt::format("{} to {}", frames_->name(i - 1), frames_->name(i));
     if (const auto& earliest = report_.steps.back().earliest) {
       for (const fast::StepInversion& one : earliest->inversions) {
-        label += fmt::format("; {} {} inverts at t = {:.6g}", fast::to_string(one.kind),
-                             one.element, one.toi_upper);
+        label += fmt::format("; {} {} inverts at t = {:.6g}", to_string(one.kind), one.element,
+                             one.toi_upper);
       }
     }
     view_.add(view::find_collisions(std::move(label), frames_->mesh(), before, after, options_.step,

@@ -72,38 +72,10 @@ struct PairVertices {
   StepPlaces::Vertices second;
 };
 
-/// The elements of both kinds, in the order of exact::step_element_kinds.
-class Elements {
- public:
-  Elements(const fast::MovingVertices& vertices, const SceneParts& parts)
-      : vertices_(vertices), parts_(parts) {}
-
-  [[nodiscard]] std::size_t count(std::size_t kind) const {
-    return kind == 0 ? parts_.tetrahedra.size() : parts_.plane_triangles.size();
-  }
-
-  [[nodiscard]] Query query(std::size_t kind, std::size_t number) const {
-    if (kind == 0) return points_of<Query, 3>(parts_.tetrahedra[number]);
-    return to_tetrahedron(points_of<PlaneTriangle, 2>(parts_.plane_triangles[number]));
-  }
-
- private:
-  template <class Points, std::size_t axes, class Numbers>
-  [[nodiscard]] Points points_of(const Numbers& numbers) const {
-    Points points{};
-    for (std::size_t i = 0; i < numbers.size(); ++i) {
-      const auto& vertex = vertices_[static_cast<std::size_t>(numbers[i])];
-      for (std::size_t axis = 0; axis < axes; ++axis) {
-        points.at(0, i, axis) = vertex.start[axis];
-        points.at(1, i, axis) = vertex.end[axis];
-      }
-    }
-    return points;
-  }
-
-  const fast::MovingVertices& vertices_;
-  const SceneParts& parts_;
-};
+/// The name of a kind of elements in certificates.
+std::string_view keyword_of(Kind kind) {
+  return exact::step_element_kinds.at(kind == Kind::plane_triangle ? 1 : 0);
+}
 
 /// The earliest contact: the pair or the element, and the certificate of its time.
 struct FirstContact {
@@ -112,7 +84,7 @@ struct FirstContact {
 };
 
 /// The contact with the least time. Enclosures do not tell which it is: the oracle does.
-std::optional<FirstContact> first_contact(const fast::Step& step, const Elements& elements) {
+std::optional<FirstContact> first_contact(const fast::Step& step) {
   const std::optional<fast::StepImpact> impact = step.earliest();
   if (!impact) return std::nullopt;
   struct Candidate {
@@ -136,9 +108,8 @@ std::optional<FirstContact> first_contact(const fast::Step& step, const Elements
   }
   for (const fast::StepInversion& one : impact->inversions) {
     if (first && *first->decision.toi == exact::Rational(0)) break;
-    const auto kind = static_cast<std::size_t>(one.kind);
-    consider(fmt::format("element {} {}", exact::step_element_kinds.at(kind), one.element),
-             Kind::tetrahedron, elements.query(kind, static_cast<std::size_t>(one.element)), {});
+    consider(fmt::format("element {} {}", keyword_of(one.kind), one.element), Kind::tetrahedron,
+             step.query_of(one.kind, one.element), {});
   }
   if (!first) throw std::logic_error("touchstone: the earliest impact is none");
   return FirstContact{std::move(first->name),
@@ -156,17 +127,18 @@ struct PairArguments {
 class StepProver {
  public:
   StepProver(const fast::Step& step, const SceneParts& parts, const StepProofOptions& options)
-      : step_(step), parts_(parts), elements_(step.vertices(), parts), options_(options) {}
+      : step_(step), parts_(parts), options_(options) {}
 
   StepProof run() {
     try {
-      const std::optional<FirstContact> first = first_contact(step_, elements_);
+      const std::optional<FirstContact> first = first_contact(step_);
       write_scene();
       write_claim(first);
       const bool is_at_zero = first && sgn(first->certificate.toi.upper) == 0;
       if (!is_at_zero) write_arguments();
-      for (std::size_t kind = 0; kind < exact::step_element_kinds.size() && !is_at_zero; ++kind) {
-        write_volumes(kind);
+      if (!is_at_zero) {
+        write_volumes(Kind::tetrahedron, parts_.tetrahedra.size());
+        write_volumes(Kind::plane_triangle, parts_.plane_triangles.size());
       }
     } catch (const exact::CertificateLimitError& error) {
       proof_.failure = error.what();
@@ -379,25 +351,23 @@ class StepProver {
   }
 
   /// Writes the subintervals of the elements of a kind that need several.
-  void write_volumes(std::size_t kind) {
-    const std::size_t count = elements_.count(kind);
+  void write_volumes(Kind kind, std::size_t count) {
     if (count == 0 || !proof_.is_complete()) return;
-    put(fmt::format("{}\n", exact::step_element_kinds.at(kind)));
+    put(fmt::format("{}\n", keyword_of(kind)));
     write_parts(count, [&](std::size_t number, PairArguments& arguments) {
       argue_volume(kind, number, arguments);
     });
   }
 
-  void argue_volume(std::size_t kind, std::size_t number, PairArguments& arguments) const try {
-    const auto subintervals = exact::keep_volume(
-        exact::scale_to_integers(Kind::vertex_face, elements_.query(kind, number)), end_);
+  void argue_volume(Kind kind, std::size_t number, PairArguments& arguments) const try {
+    const Query element = step_.query_of(kind, static_cast<std::int32_t>(number));
+    const auto subintervals = exact::keep_volume(exact::scale(Kind::vertex_face, element), end_);
     if (subintervals.size() == 1) return;
     ++arguments.certificates;
     fmt::format_to(std::back_inserter(arguments.text), "{}\n", number);
     write_subintervals(subintervals, arguments.text);
   } catch (const exact::CertificateLimitError& error) {
-    arguments.failure =
-        fmt::format("{} {}: {}", exact::step_element_kinds.at(kind), number, error.what());
+    arguments.failure = fmt::format("{} {}: {}", keyword_of(kind), number, error.what());
   }
 
   static void write_subintervals(const std::vector<exact::Subinterval>& subintervals,
@@ -434,7 +404,6 @@ class StepProver {
 
   const fast::Step& step_;
   const SceneParts& parts_;
-  const Elements elements_;
   const StepProofOptions& options_;
   StepProof proof_;
   /// The time up to which there is no contact.

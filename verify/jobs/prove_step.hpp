@@ -17,7 +17,6 @@
 #include <string>
 #include <string_view>
 
-#include "touchstone/inversion.hpp"
 #include "touchstone/step.hpp"
 
 namespace touchstone::verify::jobs {

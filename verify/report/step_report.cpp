@@ -193,7 +193,7 @@ void append_inversions(std::string& text, const StepReport& report, std::size_t 
   constexpr std::array<std::string_view, 3> starts{"inverted", "flat", "positive"};
   for (const fast::StepInversion& one :
        std::span(elements).first(std::min(elements.size(), most_pairs))) {
-    table.add({fmt::format("  {} {} ({})", fast::to_string(one.kind), one.element,
+    table.add({fmt::format("  {} {} ({})", to_string(one.kind), one.element,
                            vertices_text(report.tetrahedra, one.element)),
                fmt::format("{}", one.toi_lower), fmt::format("{}", one.toi_upper),
                std::string(starts.at(static_cast<std::size_t>(one.start + 1)))});
@@ -290,7 +290,7 @@ nlohmann::json earliest_contacts(const StepRecord& step) {
     if (contact.toi_lower <= step.earliest->toi_upper) contacts.push_back(json_of(contact));
   }
   for (const fast::StepInversion& one : step.earliest->inversions) {
-    contacts.push_back({{"kind", fast::to_string(one.kind)},
+    contacts.push_back({{"kind", to_string(one.kind)},
                         {"element", one.element},
                         {"start", one.start},
                         {"toi_lower", one.toi_lower},
@@ -422,7 +422,7 @@ std::string step_csv_rows(const StepReport& report, std::size_t i) {
     std::vector<std::string> row{std::to_string(i),
                                  report.frames.at(i).name,
                                  report.frames.at(i + 1).name,
-                                 std::string(fast::to_string(one.kind)),
+                                 std::string(to_string(one.kind)),
                                  std::to_string(one.element),
                                  "",
                                  io::csv_number(one.toi_lower),
@@ -528,10 +528,10 @@ std::string numbers_text(std::string_view name, const std::vector<Item>& numbers
 }
 
 /// The tetrahedra whose volume has this sign at rest.
-std::vector<std::size_t> tetrahedra_with(const RestingMesh& mesh, int sign) {
-  std::vector<std::size_t> result;
-  for (const fast::Inversion& one : mesh.inversions) {
-    if (one.result.start == sign) result.push_back(one.element);
+std::vector<std::int32_t> tetrahedra_with(const RestingMesh& mesh, int sign) {
+  std::vector<std::int32_t> result;
+  for (const fast::StepInversion& one : mesh.inversions) {
+    if (one.start == sign) result.push_back(one.element);
   }
   return result;
 }

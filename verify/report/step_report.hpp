@@ -14,7 +14,6 @@
 
 #include "fast/method.hpp"
 #include "touchstone/intersections.hpp"
-#include "touchstone/inversion.hpp"
 #include "verify/jobs/check_step.hpp"
 #include "verify/mesh/mesh_file.hpp"
 
@@ -91,7 +90,7 @@ struct RestingMesh {
   std::string name;
   mesh::Mesh mesh;
   fast::MeshDefects defects = {};
-  std::vector<fast::Inversion> inversions = {};  ///< the tetrahedra that are flat or inverted
+  std::vector<fast::StepInversion> inversions = {};  ///< the tetrahedra that are flat or inverted
 };
 
 /// Several meshes as one, whose vertices and elements are those of all in order. If there is more

@@ -10,8 +10,8 @@
 ///
 /// **Errors.** Functions that can fail return a TouchstoneStatus. If it is not TOUCHSTONE_OK,
 /// touchstone_last_error() describes the error, and nothing else was written. A coordinate that is
-/// NaN or infinite is TOUCHSTONE_NOT_FINITE; only touchstone_solve and touchstone_invert, whose
-/// results have a verdict, answer TOUCHSTONE_ERROR for it and decide the others.
+/// NaN or infinite is TOUCHSTONE_NOT_FINITE; only touchstone_solve, whose results have a verdict,
+/// answers TOUCHSTONE_ERROR for it and decides the others.
 ///
 /// **Memory.** Arrays that a function of a step returns are valid until its next call with this
 /// step that returns TOUCHSTONE_OK, or until the step is freed.
@@ -111,8 +111,10 @@ typedef struct TouchstoneDistance {
 } TouchstoneDistance;
 
 /// Decides `count` queries. A query with a coordinate that is NaN or infinite has the verdict
-/// TOUCHSTONE_ERROR; the others are decided.
-/// \param kind TOUCHSTONE_VERTEX_FACE or TOUCHSTONE_EDGE_EDGE, of all queries
+/// TOUCHSTONE_ERROR; the others are decided. An element collides if its volume, or area in the
+/// plane, is 0 or negative at some time; its min_separation must be 0, u and v are NaN, and
+/// toi_upper is 0 iff it is flat or inverted at t=0.
+/// \param kind of all queries; a query has none of TOUCHSTONE_VERTEX_EDGE and _VERTEX_VERTEX
 /// \param coordinates 24 for each query: its four points at t=0, then the same at t=1
 /// \param options null for the default ones
 /// \param impacts `count` of them, for the results
@@ -122,34 +124,13 @@ TOUCHSTONE_API int32_t touchstone_solve(int32_t kind, size_t count, const double
 
 /// The distances of the primitives of `count` queries at the time t, in [0,1]. 0 iff they have a
 /// common point.
-/// \param kind and coordinates as above; all finite, else the status is TOUCHSTONE_NOT_FINITE
+/// \param kind and coordinates as above, but no element; all finite, else the status is
+/// TOUCHSTONE_NOT_FINITE
 /// \param max_threads maximum number of threads; 0: one for each core that the process may use
 /// \param distances `count` of them, for the results
 TOUCHSTONE_API int32_t touchstone_distances(int32_t kind, size_t count, const double* coordinates,
                                             double t, int32_t norm, int32_t max_threads,
                                             TouchstoneDistance* distances);
-
-// ---- Elements -----------------------------------------------------------------------------------
-
-/// Whether and when an element loses its volume.
-typedef struct TouchstoneInversion {
-  int32_t verdict;   ///< TOUCHSTONE_YES: 0 or negative at some time; _NO: positive; _ERROR
-  int32_t start;     ///< the sign of the volume at t=0: 1, 0 or −1; 0 with an error
-  double toi_lower;  ///< with yes: before the first such time, or 0 if that is 0; else NaN
-  double toi_upper;  ///< with yes: not before the first such time
-} TouchstoneInversion;
-
-/// Decides `count` moving elements: tetrahedra a, b, c, d, whose volume has the sign of
-/// det(b − a, c − a, d − a), or triangles in the plane, positive if counterclockwise. An element
-/// with a coordinate that is NaN or infinite has the verdict TOUCHSTONE_ERROR; the others are
-/// decided.
-/// \param dimension 3: tetrahedra; 2: triangles in the plane
-/// \param coordinates 24 or 12 for each element: its points at t=0, then the same at t=1
-/// \param options null for the default ones; min_separation and norm have no effect
-/// \param inversions `count` of them, for the results
-TOUCHSTONE_API int32_t touchstone_invert(int32_t dimension, size_t count, const double* coordinates,
-                                         const TouchstoneOptions* options,
-                                         TouchstoneInversion* inversions);
 
 // ---- Steps --------------------------------------------------------------------------------------
 
@@ -182,8 +163,8 @@ typedef struct TouchstoneMesh {
   size_t separations;
   const int32_t* separated_groups;  ///< 2 · separations; each pair once, in either order
   const double* group_separations;  ///< these distances, not negative
-  /// Elements whose volume, or area in the plane of x and y, is to stay positive, as for
-  /// touchstone_invert. They do not collide.
+  /// Elements whose volume, or area in the plane of x and y, is to stay positive. They do not
+  /// collide.
   size_t tetrahedra;
   const int32_t* tetrahedron_vertices;  ///< 4 · tetrahedra
   size_t plane_triangles;
@@ -214,8 +195,8 @@ typedef struct TouchstoneStepInversion {
   int32_t kind;      ///< TOUCHSTONE_TETRAHEDRON or TOUCHSTONE_PLANE_TRIANGLE
   int32_t element;   ///< its number among those of its kind
   int32_t start;     ///< the sign of its volume at t=0: 1, 0 (flat) or −1 (inverted)
-  double toi_lower;  ///< as in TouchstoneInversion
-  double toi_upper;
+  double toi_lower;  ///< before the first time at which it is 0 or negative, or 0 if that is 0
+  double toi_upper;  ///< not before that time
 } TouchstoneStepInversion;
 
 /// A new step of a mesh, to be freed by touchstone_step_free. Everything is copied; the context of

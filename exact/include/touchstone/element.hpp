@@ -18,68 +18,32 @@
 ///
 /// All functions are thread-safe.
 
-#include <array>
 #include <cstddef>
-#include <type_traits>
 
 #include "touchstone/curved_query.hpp"
 #include "touchstone/query.hpp"
 
 namespace touchstone {
 
-/// Three points that move in the plane, on straight lines: x and y of a, b and c at t=0, then at
-/// t=1. An array of float64 of shape (N, 6, 2) is an array of these.
-struct PlaneTriangle {
-  static constexpr std::size_t points = 3;
-  std::array<double, 4 * points> coordinates;
-
-  /// Coordinate `axis` (0 or 1) of point `point` (0..2) at time `end` (0 or 1).
-  [[nodiscard]] double at(std::size_t end, std::size_t point, std::size_t axis) const {
-    return coordinates[2 * (points * end + point) + axis];
-  }
-  [[nodiscard]] double& at(std::size_t end, std::size_t point, std::size_t axis) {
-    return coordinates[2 * (points * end + point) + axis];
-  }
-
-  friend bool operator==(const PlaneTriangle&, const PlaneTriangle&) = default;
-};
-static_assert(std::is_trivially_copyable_v<PlaneTriangle> && std::is_aggregate_v<PlaneTriangle>);
-
-/// Three points that move in the plane on curves; their third coordinates have no effect.
-using CurvedTriangle = std::array<Trajectory, PlaneTriangle::points>;
-
-/// The tetrahedron with six times the volume that the triangle has twice as area, at all times.
-[[nodiscard]] inline Query to_tetrahedron(const PlaneTriangle& triangle) {
-  Query result{};
-  for (std::size_t end = 0; end < 2; ++end) {
-    for (std::size_t axis = 0; axis < 2; ++axis) {
-      for (std::size_t point = 0; point < PlaneTriangle::points; ++point) {
-        result.at(end, point, axis) = triangle.at(end, point, axis);
-      }
-      result.at(end, 3, axis) = triangle.at(end, 1, axis);
-    }
-    result.at(end, 3, 2) = 1.0;
-  }
-  return result;
-}
-/// The triangle of a query of Kind::plane_triangle.
-[[nodiscard]] inline PlaneTriangle to_plane_triangle(const Query& points) {
-  PlaneTriangle result{};
-  for (std::size_t end = 0; end < 2; ++end) {
-    for (std::size_t point = 0; point < PlaneTriangle::points; ++point) {
-      for (std::size_t axis = 0; axis < 2; ++axis) {
-        result.at(end, point, axis) = points.at(end, point, axis);
-      }
+/// The tetrahedron of a query about an element: the query itself, or the one with six times the
+/// volume that the triangle has twice as area, at all times.
+[[nodiscard]] inline Query to_tetrahedron(Kind kind, Query query) {
+  if (kind != Kind::plane_triangle) return query;
+  for (const std::size_t end : {0U, 1U}) {
+    query.point(end, 3) = query.point(end, 1);
+    for (std::size_t point = 0; point < moving_points; ++point) {
+      query.at(end, point, 2) = point == 3 ? 1.0 : 0.0;
     }
   }
-  return result;
+  return query;
 }
-[[nodiscard]] inline CurvedQuery to_tetrahedron(const CurvedTriangle& triangle) {
-  CurvedQuery result{triangle[0], triangle[1], triangle[2], triangle[1]};
-  for (std::size_t point = 0; point < result.size(); ++point) {
-    for (auto& position : result[point].control) position[2] = point == 3 ? 1.0 : 0.0;
+[[nodiscard]] inline CurvedQuery to_tetrahedron(Kind kind, CurvedQuery query) {
+  if (kind != Kind::plane_triangle) return query;
+  query[3] = query[1];
+  for (std::size_t point = 0; point < moving_points; ++point) {
+    for (auto& position : query[point].control) position[2] = point == 3 ? 1.0 : 0.0;
   }
-  return result;
+  return query;
 }
 
 }  // namespace touchstone

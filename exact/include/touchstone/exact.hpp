@@ -7,7 +7,6 @@
 #include "touchstone/certificate.hpp"
 #include "touchstone/certificate_text.hpp"
 #include "touchstone/element.hpp"
-#include "touchstone/inversion_oracle.hpp"
 #include "touchstone/number.hpp"
 #include "touchstone/oracle.hpp"
 #include "touchstone/polynomial.hpp"

@@ -36,7 +36,15 @@
 /// At distance 0 the rules of exact/contact/contact_oracle.hpp decide, which also give the place of
 /// contact; at a greater distance those of exact/distance/distance_oracle.hpp. Both are integer
 /// arithmetic on scaled coordinates, without rounding and without filters. docs/theory.md, sections
-/// 2 and 3. All functions are thread-safe.
+/// 2, 3 and 10. All functions are thread-safe.
+///
+/// **Elements.** *Theorem.* Let V be the signed volume (touchstone/element.hpp), a continuous
+/// function of time. If V(0) ≤ 0, the first time with V ≤ 0 is 0. Otherwise it is the least root of
+/// V in [0,1], and there is none if V has no root there. Proof. Before its least root a continuous
+/// function has the sign that it has at 0. ∎
+///
+/// On straight lines V is a polynomial of degree 3 (2 for triangles); on curves of degree k, of
+/// degree 3k, divided by a polynomial that is positive on [0,1]. Roots of every multiplicity count.
 
 #include <cstddef>
 #include <optional>
@@ -80,7 +88,8 @@ struct Decision {
 };
 
 /// Decides a query exactly, independent of the floating-point environment (rounding mode, flushed
-/// subnormals). An element collides if it inverts (touchstone/inversion_oracle.hpp).
+/// subnormals). An element collides if it inverts: its toi is the first time at which its volume is
+/// 0 or negative, 0 iff it is so at t=0.
 /// \throws std::domain_error if a coordinate is NaN or infinite; std::invalid_argument if the
 /// separation is not valid, or not 0 for an element.
 [[nodiscard]] Decision decide(Kind kind, const Query& query, const Separation& separation = {});

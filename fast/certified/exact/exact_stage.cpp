@@ -169,23 +169,17 @@ ExactImpact approach_at(Kind kind, const BitInterval& time, const Parameters& ne
 
 }  // namespace
 
-std::optional<ExactImpact> decide_exactly(Kind kind, const Query& query, double toi_tolerance,
-                                          double t_max) {
-  auto impact = first_impact_of(kind, query, unit_bits(t_max), step_of(toi_tolerance));
-  if (impact) {
-    const auto [u, v] = inside_domain(kind, {impact->u, impact->v});
-    impact->u = u;
-    impact->v = v;
-  }
-  return impact;
-}
-
 std::optional<ExactImpact> decide_exactly(Kind kind, const Query& query,
                                           const Separation& separation, double toi_tolerance,
                                           double t_max) {
-  if (separation.distance == 0.0) return decide_exactly(kind, query, toi_tolerance, t_max);
-  const auto time =
-      first_approach_of(kind, query, separation, unit_bits(t_max), step_of(toi_tolerance));
+  const std::uint64_t latest = unit_bits(t_max), step = step_of(toi_tolerance);
+  if (separation.distance == 0.0) {
+    const auto impact = first_impact_of(kind, query, latest, step);
+    if (!impact) return std::nullopt;
+    const auto [u, v] = inside_domain(kind, {impact->u, impact->v});
+    return ExactImpact{impact->toi_lower, impact->toi_upper, u, v};
+  }
+  const auto time = first_approach_of(kind, query, separation, latest, step);
   if (!time) return std::nullopt;
   const auto toi_upper = std::bit_cast<double>(time->upper);
   return approach_at(kind, *time, nearest_parameters(kind, query, toi_upper, separation.norm));

@@ -26,16 +26,9 @@ struct ExactImpact {
 /// The first contact up to t_max; empty if there is none: exact for every query of finite doubles.
 /// The enclosure of the time of impact is at most toi_tolerance wide, relative to its upper end, or
 /// one spacing of doubles; its upper end may be above t_max. If there are several contact points,
-/// (u,v) is one of them. Independent of the floating-point environment (rounding mode, flushed
-/// subnormals).
-/// \pre all coordinates are finite; 0 ≤ toi_tolerance; 0 ≤ t_max ≤ 1.
-[[nodiscard]] std::optional<ExactImpact> decide_exactly(Kind kind, const Query& query,
-                                                        double toi_tolerance, double t_max);
-
-/// The same at a distance: the first time at which the primitives are within the separation, and
-/// parameters (u,v), in the domain, of about their nearest points then, without an error bound. At
-/// distance 0 this is the function above.
-/// \pre as above, and the separation is valid.
+/// (u,v) is one of them; at a positive separation, of about the nearest points, without an error
+/// bound. Independent of the floating-point environment (rounding mode, flushed subnormals).
+/// \pre all coordinates are finite; the separation is valid; 0 ≤ toi_tolerance; 0 ≤ t_max ≤ 1.
 [[nodiscard]] std::optional<ExactImpact> decide_exactly(Kind kind, const Query& query,
                                                         const Separation& separation,
                                                         double toi_tolerance, double t_max);

@@ -55,35 +55,30 @@ namespace touchstone::fast::kernel {
 
 // ---- Where elements come from -------------------------------------------------------------------
 
-/// `width` consecutive items of an array, lane by lane, each of so many rows of three numbers.
-/// Their addresses differ by constants. Lanes beyond `count` repeat the last.
-template <class Lanes, std::size_t rows>
-inline std::array<Vector<typename Lanes::Value>, rows> load_consecutive(const double* first,
-                                                                        std::size_t count) {
-  const auto load = [&](const auto& place) {
-    std::array<Vector<typename Lanes::Value>, rows> result;
-    for (std::size_t k = 0; k < rows; ++k) {
-      std::array<const double*, Lanes::width> row;
-      for (std::size_t lane = 0; lane < Lanes::width; ++lane) {
-        row[lane] = first + 3 * (rows * place(lane) + k);
-      }
-      // The memory after the last one may belong to other objects.
-      result[k] = k + 1 < rows ? Lanes::load(row) : Lanes::load_backwards(row);
-    }
-    return result;
-  };
-  if (count == Lanes::width) return load([](std::size_t lane) { return lane; });
-  return load([&](std::size_t lane) { return lane < count ? lane : count - 1; });
-}
+template <class Value>
+using Tetrahedra = std::array<Vector<Value>, query_points>;
 
-/// An array of tetrahedra in its order, as the first stage takes them.
+/// An array of queries in its order, as the first stage takes them: their addresses differ by
+/// constants. Lanes beyond `count` repeat the last.
 template <class Lanes>
-struct TetrahedraInOrder {
-  static std::array<Vector<typename Lanes::Value>, query_points> load(const KernelInput& input,
-                                                                      const std::uint32_t* indices,
-                                                                      std::size_t count) {
-    return load_consecutive<Lanes, query_points>(input.queries[indices[0]].coordinates.data(),
-                                                 count);
+struct InOrder {
+  static Tetrahedra<typename Lanes::Value> load(const KernelInput& input,
+                                                const std::uint32_t* indices, std::size_t count) {
+    const double* const first = input.queries[indices[0]].coordinates.data();
+    const auto load_places = [&](const auto& place) {
+      Tetrahedra<typename Lanes::Value> result;
+      for (std::size_t k = 0; k < query_points; ++k) {
+        std::array<const double*, Lanes::width> row;
+        for (std::size_t lane = 0; lane < Lanes::width; ++lane) {
+          row[lane] = first + 3 * (query_points * place(lane) + k);
+        }
+        // The memory after the last one may belong to other objects.
+        result[k] = k + 1 < query_points ? Lanes::load(row) : Lanes::load_backwards(row);
+      }
+      return result;
+    };
+    if (count == Lanes::width) return load_places([](std::size_t lane) { return lane; });
+    return load_places([&](std::size_t lane) { return lane < count ? lane : count - 1; });
   }
 };
 
@@ -103,59 +98,24 @@ struct FromTetrahedra {
   static constexpr bool is_one = false;
 };
 
-/// The points of tetrahedra from those of triangles at t=0 and t=1; the third coordinates of these
-/// have no effect.
+/// Makes the points of triangles in the plane, at t=0 and t=1, those of tetrahedra; the third
+/// coordinates and the fourth points have no effect.
 template <class Value>
-inline std::array<Vector<Value>, query_points> above(
-    const std::array<std::array<Vector<Value>, 3>, 2>& triangle) {
-  std::array<Vector<Value>, query_points> result;
-  for (std::size_t end = 0; end < 2; ++end) {
-    for (std::size_t k = 0; k < moving_points; ++k) {
-      const Vector<Value>& x = triangle[end][k == 3 ? 1 : k];
-      result[moving_points * end + k] = {x[0], x[1], Value(k == 3 ? 1.0 : 0.0)};
-    }
+inline void raise(Tetrahedra<Value>& points) {
+  for (std::size_t k = 0; k < query_points; ++k) {
+    if (k % moving_points == 3) points[k] = points[k - 2];
+    points[k][2] = Value(k % moving_points == 3 ? 1.0 : 0.0);
   }
-  return result;
 }
 
-/// The same from the four rows of three numbers that a triangle in the plane is in an array.
-template <class Value>
-inline std::array<Vector<Value>, query_points> above(const std::array<Vector<Value>, 4>& row) {
-  const Value nothing(0.0);
-  const auto half = [&](const Vector<Value>& first, const Vector<Value>& second) {
-    return std::array<Vector<Value>, 3>{{{first[0], first[1], nothing},
-                                         {first[2], second[0], nothing},
-                                         {second[1], second[2], nothing}}};
-  };
-  return above<Value>({half(row[0], row[1]), half(row[2], row[3])});
-}
-
-/// An array of triangles in the plane.
-template <class Lanes>
-struct FromTriangles {
-  using Value = typename Lanes::Value;
-
-  static std::array<Vector<Value>, query_points> load(const KernelInput& input,
-                                                      const std::uint32_t* indices,
-                                                      std::size_t count) {
-    std::array<Vector<Value>, 4> rows;
-    for (std::size_t k = 0; k < rows.size(); ++k) {
-      std::array<const double*, Lanes::width> row;
-      for (std::size_t lane = 0; lane < Lanes::width; ++lane) {
-        const PlaneTriangle& triangle = input.triangles[indices[lane < count ? lane : count - 1]];
-        row[lane] = triangle.coordinates.data() + 3 * k;
-      }
-      rows[k] = k + 1 < rows.size() ? Lanes::load(row) : Lanes::load_backwards(row);
-    }
-    return above(rows);
-  }
-};
-template <class Lanes>
-struct TrianglesInOrder {
-  static std::array<Vector<typename Lanes::Value>, query_points> load(const KernelInput& input,
-                                                                      const std::uint32_t* indices,
-                                                                      std::size_t count) {
-    return above(load_consecutive<Lanes, 4>(input.triangles[indices[0]].coordinates.data(), count));
+/// Triangles in the plane of a source.
+template <class Lanes, class Source>
+struct InPlane {
+  static Tetrahedra<typename Lanes::Value> load(const KernelInput& input,
+                                                const std::uint32_t* indices, std::size_t count) {
+    auto points = kernel::load<Lanes, Source>(input, indices, count);
+    raise(points);
+    return points;
   }
 };
 
@@ -164,10 +124,9 @@ template <class Lanes>
 struct FromFaces {
   using Value = typename Lanes::Value;
 
-  static std::array<Vector<Value>, query_points> load(const KernelInput& input,
-                                                      const std::uint32_t* indices,
-                                                      std::size_t count) {
-    std::array<std::array<Vector<Value>, 3>, 2> triangle;
+  static Tetrahedra<Value> load(const KernelInput& input, const std::uint32_t* indices,
+                                std::size_t count) {
+    Tetrahedra<Value> points;
     for (std::size_t k = 0; k < 3; ++k) {
       std::array<std::array<const double*, Lanes::width>, 2> rows;
       for (std::size_t lane = 0; lane < Lanes::width; ++lane) {
@@ -176,10 +135,11 @@ struct FromFaces {
         rows[0][lane] = vertex.start.data();
         rows[1][lane] = vertex.end.data();
       }
-      triangle[0][k] = Lanes::load(rows[0]);
-      triangle[1][k] = Lanes::load(rows[1]);
+      points[k] = Lanes::load(rows[0]);
+      points[moving_points + k] = Lanes::load(rows[1]);
     }
-    return above(triangle);
+    raise(points);
+    return points;
   }
 };
 
@@ -300,16 +260,17 @@ void invert_from(const KernelInput& input, KernelOutput& output) {
 
 template <class Lanes>
 void invert(const KernelInput& input, KernelOutput& output) {
-  if (input.triangles != nullptr) {
-    invert_from<Lanes, FromTriangles<Lanes>, TrianglesInOrder<Lanes>>(input, output);
-  } else if (input.tetrahedra != nullptr) {
+  if (input.queries == nullptr && input.kind == Kind::tetrahedron) {
     invert_from<Lanes, FromTetrahedra<Lanes>>(input, output);
-  } else if (input.faces != nullptr) {
+  } else if (input.queries == nullptr) {
     invert_from<Lanes, FromFaces<Lanes>>(input, output);
+  } else if (input.kind == Kind::plane_triangle) {
+    invert_from<Lanes, InPlane<Lanes, FromArray<Lanes>>, InPlane<Lanes, InOrder<Lanes>>>(input,
+                                                                                         output);
   } else if (input.count == 1) {
     invert_from<Lanes, FromArray<Lanes>, FromOne<Lanes>>(input, output);
   } else {
-    invert_from<Lanes, FromArray<Lanes>, TetrahedraInOrder<Lanes>>(input, output);
+    invert_from<Lanes, FromArray<Lanes>, InOrder<Lanes>>(input, output);
   }
 }
 

@@ -117,7 +117,9 @@ struct CertifiedResult {
   /// yes or no, always right; error if a coordinate is not finite, or a weight not positive and
   /// finite. Never undecided.
   Verdict verdict = Verdict::error;
-  Stage stage = Stage::axis;     ///< the stage that decided
+  Stage stage = Stage::axis;  ///< the stage that decided
+  /// Of an element: the sign of its volume at t=0, 1, 0 (flat) or −1 (inverted); 0 with error.
+  std::int8_t start = 0;
   double toi_lower = no_number;  ///< with yes: below the time of impact; 0 if that is 0
   double toi_upper = no_number;  ///< with yes: not below the time of impact; may be above t_max
   /// The parameters, with yes, in F's domain, of the contact or of the nearest points at that time.
@@ -129,7 +131,7 @@ struct CertifiedResult {
 // ---- Queries ------------------------------------------------------------------------------------
 
 /// Decides one query. An element, on straight lines, collides if it inverts
-/// (touchstone/inversion.hpp).
+/// (touchstone/element.hpp); both ends of its first time are 0 unless `start` is 1.
 /// \throws std::invalid_argument for options out of range, such as a separation of an element.
 [[nodiscard]] CertifiedResult solve(Kind kind, const Query& query,
                                     const CertifiedOptions& options = {});

@@ -79,8 +79,8 @@
 /// searches count this as they count collisions, as exactly, and name the elements in lists of
 /// their own. An element that is flat or inverted at the start inverts at time 0, and its `start`
 /// says so. All are examined by their volumes on lanes before the search for pairs
-/// (touchstone/inversion.hpp), which then ends at the first inversion. Elements do not collide; the
-/// surface of a solid does, if it is given as faces.
+/// (docs/theory.md, section 10), which then ends at the first inversion. Elements do not collide;
+/// the surface of a solid does, if it is given as faces.
 ///
 /// **On curves** (CurvedStep) a vertex stays in the box around its control points, so a primitive
 /// stays in the box around those of its vertices; the candidates are the pairs of primitives whose
@@ -132,12 +132,6 @@ enum class PairKind : std::uint8_t {
 
 /// "vertex-face", "edge-edge", "vertex-edge", "vertex-vertex".
 [[nodiscard]] std::string_view to_string(PairKind kind);
-
-/// The elements that have a volume, or an area in the plane.
-enum class VolumeKind : std::uint8_t { tetrahedron, plane_triangle };
-
-/// "tetrahedron", "plane-triangle".
-[[nodiscard]] std::string_view to_string(VolumeKind kind);
 
 /// The elements of a scene, by vertex numbers. A vertex that no element names is not part of the
 /// scene.
@@ -219,12 +213,12 @@ struct StepCollision {
 
 /// An element that inverts.
 struct StepInversion {
-  VolumeKind kind = VolumeKind::tetrahedron;
-  std::int32_t element = 0;  ///< its number among those of its kind
-  /// The sign of its volume at the start, as in InversionResult: 0 (flat) and −1 (inverted) have
+  Kind kind = Kind::tetrahedron;  ///< or plane_triangle
+  std::int32_t element = 0;       ///< its number among those of its kind
+  /// The sign of its volume at the start, as in CertifiedResult: 0 (flat) and −1 (inverted) have
   /// the time 0.
   std::int8_t start = 0;
-  /// Enclosure of the first time at which its volume is 0 or negative, as in InversionResult.
+  /// Enclosure of the first time at which its volume is 0 or negative, as in CertifiedResult.
   double toi_lower = 0.0;
   double toi_upper = 0.0;
 
@@ -357,6 +351,9 @@ class Step {
   /// A pair as a query, whose points are these vertices.
   /// \throws std::out_of_range for numbers out of range.
   [[nodiscard]] Query query_of(PairKind kind, const IndexPair& pair) const;
+  /// An element of its kind as a query about a tetrahedron (touchstone/element.hpp).
+  /// \throws std::out_of_range for a number out of range.
+  [[nodiscard]] Query query_of(Kind kind, std::int32_t element) const;
   /// The distance at which a pair is in contact: the step's separation and the thickness.
   /// \throws std::out_of_range for numbers out of range.
   [[nodiscard]] Separation separation_of(PairKind kind, const IndexPair& pair) const;

@@ -543,8 +543,7 @@ Rational volume_at(const Query& tetrahedron, const Rational& t) {
 
 /// The claim of one query, at rational times, by the oracle, and by the certified solver.
 void expect_true_claim(Kind kind, const KnownQuery& known) {
-  const Query element =
-      kind == Kind::tetrahedron ? known.query : to_tetrahedron(to_plane_triangle(known.query));
+  const Query element = to_tetrahedron(kind, known.query);
   const exact::Decision truth = exact::decide(kind, known.query);
   ASSERT_EQ(known.collides, truth.collides());
   const fast::CertifiedResult certified = fast::solve(kind, known.query, {.toi_tolerance = 0.0});

@@ -22,7 +22,6 @@
 #include "tests/support/trials.hpp"
 #include "touchstone/broad_phase.hpp"
 #include "touchstone/certificate_text.hpp"
-#include "touchstone/inversion_oracle.hpp"
 #include "touchstone/oracle.hpp"
 
 // Proofs of steps: the checker accepts each, its claim agrees with the oracle on all pairs one by
@@ -86,8 +85,8 @@ std::optional<exact::AlgebraicNumber> earliest(const Scene& scene,
                       {options.separation.distance + all.thickness(pair), options.separation.norm});
     if (verdict.toi && (!first || *verdict.toi < *first)) first = verdict.toi;
   }
-  tests::for_each_volume(scene, [&](fast::VolumeKind, std::size_t, const Query& element) {
-    const auto time = exact::decide_inversion(element).time;
+  tests::for_each_volume(scene, [&](Kind, std::size_t, const Query& element) {
+    const auto time = exact::decide(Kind::tetrahedron, element).toi;
     if (time && (!first || *time < *first)) first = time;
   });
   if (first && *first > exact::Rational(options.t_max)) return std::nullopt;

@@ -1,11 +1,9 @@
 /// \file
-/// The oracle of inversions: elements whose volume is a known product of linear factors, at all
+/// The oracle on elements: those whose volume is a known product of linear factors, at all
 /// scales and places; and any elements beside Sturm's theorem, on the volume as a polynomial
 /// through its values at some times, each from the positions of the points.
 
-#include "touchstone/inversion_oracle.hpp"
-#include "touchstone/certificate.hpp"
-#include "touchstone/oracle.hpp"
+#include "touchstone/element.hpp"
 
 #include <gtest/gtest.h>
 
@@ -23,8 +21,10 @@
 #include "tests/support/queries.hpp"
 #include "tests/support/random.hpp"
 #include "tests/support/trials.hpp"
+#include "touchstone/certificate.hpp"
+#include "touchstone/oracle.hpp"
 
-namespace touchstone::exact::inversion_oracle_test {
+namespace touchstone::exact::element_test {
 namespace {
 
 using tests::Random;
@@ -32,22 +32,23 @@ using tests::trials;
 
 // ---- By construction ----------------------------------------------------------------------------
 
-void expect_truth(const InversionDecision& decision, const tests::KnownInversion& known) {
-  EXPECT_EQ(decision.start, known.start);
-  ASSERT_EQ(decision.inverts(), known.numerator >= 0);
-  if (!decision.inverts()) return;
-  EXPECT_TRUE(*decision.time == Rational(known.numerator, known.denominator));
+/// Also on curves of degree 1.
+void expect_truth(Kind kind, const Query& query, const tests::KnownInversion& known) {
+  for (const Decision& decision : {decide(kind, query), decide(kind, to_curved(query))}) {
+    ASSERT_EQ(decision.collides(), known.numerator >= 0);
+    if (!decision.collides()) return;
+    EXPECT_TRUE(*decision.toi == Rational(known.numerator, known.denominator));
+  }
 }
 
-TEST(InversionOracle, DecidesProductsOfFactors) {
+TEST(Elements, DecidesProductsOfFactors) {
   Random random(1);
   std::array<int, 3> starts{};
   int at_end = 0, free = 0;
   for (int round = 0; round < trials(20'000); ++round) {
     const tests::KnownInversion known = tests::product_of_factors(random);
     SCOPED_TRACE(round);
-    expect_truth(decide_inversion(known.tetrahedron), known);
-    expect_truth(decide_inversion(to_curved(known.tetrahedron)), known);
+    expect_truth(Kind::tetrahedron, known.tetrahedron, known);
     ++starts.at(static_cast<std::size_t>(known.start + 1));
     at_end += known.numerator > 0 && known.numerator == known.denominator ? 1 : 0;
     free += known.numerator < 0 ? 1 : 0;
@@ -57,21 +58,20 @@ TEST(InversionOracle, DecidesProductsOfFactors) {
   EXPECT_GT(free, trials(1000));
 }
 
-TEST(InversionOracle, DecidesTrianglesInThePlane) {
+TEST(Elements, DecidesTrianglesInThePlane) {
   Random random(2);
   for (int round = 0; round < trials(10'000); ++round) {
-    const auto [triangle, known] = tests::triangle_of_factors(random);
+    const tests::KnownInversion known = tests::triangle_of_factors(random);
     SCOPED_TRACE(round);
-    expect_truth(decide_inversion(triangle), known);
-    CurvedTriangle curves;
-    for (std::size_t point = 0; point < curves.size(); ++point) {
-      for (const std::size_t end : {0U, 1U}) {
-        // The third coordinate has no effect.
-        curves.at(point).control.push_back(
-            {triangle.at(end, point, 0), triangle.at(end, point, 1), random.uniform()});
-      }
+    Query triangle = known.tetrahedron;
+    expect_truth(Kind::tetrahedron, triangle, known);
+    // The rest has no effect.
+    for (const std::size_t end : {0U, 1U}) {
+      triangle.point(end, 3).setConstant(std::numeric_limits<double>::infinity());
+      for (std::size_t point = 0; point < 3; ++point) triangle.at(end, point, 2) = random.uniform();
     }
-    expect_truth(decide_inversion(curves), known);
+    expect_truth(Kind::plane_triangle, triangle, known);
+    EXPECT_EQ(to_tetrahedron(Kind::plane_triangle, triangle), known.tetrahedron);
   }
 }
 
@@ -208,7 +208,7 @@ Coefficients interpolated(std::vector<Rational> values) {
 }
 
 /// Compares a decision with the volume's roots by Sturm's theorem.
-void expect_sturm_agrees(const CurvedQuery& tetrahedron, const InversionDecision& decision) {
+void expect_sturm_agrees(const CurvedQuery& tetrahedron, const Decision& decision) {
   std::size_t degree = 0;
   for (const Trajectory& curve : tetrahedron) degree += curve.degree();
   const Rational scale(static_cast<long>(std::max<std::size_t>(degree, 1)));
@@ -216,18 +216,18 @@ void expect_sturm_agrees(const CurvedQuery& tetrahedron, const InversionDecision
   for (std::size_t i = 0; i <= degree; ++i) {
     values.push_back(weighted_volume(tetrahedron, Rational(static_cast<long>(i)) / scale));
   }
-  EXPECT_EQ(decision.start, sgn(values.front()));
-  EXPECT_EQ(decision.inverts() && *decision.time == Rational(0), decision.start <= 0);
-  if (decision.start <= 0) return;
+  const bool inverts_at_once = sgn(values.front()) <= 0;
+  EXPECT_EQ(decision.collides() && *decision.toi == Rational(0), inverts_at_once);
+  if (inverts_at_once) return;
   const Coefficients volume = interpolated(std::move(values));
   const auto sequence = sturm_sequence(volume);
-  if (!decision.inverts()) {
+  if (!decision.collides()) {
     EXPECT_EQ(roots_between(sequence, 0, scale), 0);
     EXPECT_GT(sgn(value(volume, scale)), 0);
     return;
   }
   // The interval isolates it from roots of its own polynomial; those of V may have to be parted.
-  AlgebraicNumber time = *decision.time;
+  AlgebraicNumber time = *decision.toi;
   for (unsigned long level = 1; level < 256; level *= 2) {
     const auto [lower, upper] = time.interval();
     if (lower == upper || roots_between(sequence, lower * scale, upper * scale) == 1) break;
@@ -243,22 +243,22 @@ void expect_sturm_agrees(const CurvedQuery& tetrahedron, const InversionDecision
   }
 }
 
-TEST(InversionOracle, AgreesWithSturmOnLines) {
+TEST(Elements, AgreesWithSturmOnLines) {
   Random random(3);
   int roots = 0;
   for (int round = 0; round < trials(3000); ++round) {
     const auto family = tests::all_families.at(static_cast<std::size_t>(round) % 4);
     const Query query = tests::random_query(random, Kind::vertex_face, family).query;
-    const InversionDecision decision = decide_inversion(query);
+    const Decision decision = decide(Kind::tetrahedron, query);
     const tests::PosedQuery posed{Kind::vertex_face, query};
     SCOPED_TRACE(testing::Message() << posed);
     expect_sturm_agrees(to_curved(query), decision);
-    roots += decision.start > 0 && decision.inverts() ? 1 : 0;
+    roots += decision.collides() && *decision.toi > Rational(0) ? 1 : 0;
   }
   EXPECT_GT(roots, trials(500));
 }
 
-TEST(InversionOracle, AgreesWithSturmOnCurves) {
+TEST(Elements, AgreesWithSturmOnCurves) {
   Random random(4);
   int roots = 0;
   for (int round = 0; round < trials(300); ++round) {
@@ -272,11 +272,11 @@ TEST(InversionOracle, AgreesWithSturmOnCurves) {
         if (round % 2 == 0) curve.weights.push_back(random.between(1, 3));
       }
     }
-    const InversionDecision decision = decide_inversion(curves);
+    const Decision decision = decide(Kind::tetrahedron, curves);
     const tests::PosedCurves posed{Kind::vertex_face, curves};
     SCOPED_TRACE(testing::Message() << posed);
     expect_sturm_agrees(curves, decision);
-    roots += decision.start > 0 && decision.inverts() ? 1 : 0;
+    roots += decision.collides() && *decision.toi > Rational(0) ? 1 : 0;
   }
   EXPECT_GT(roots, trials(50));
 }
@@ -284,7 +284,7 @@ TEST(InversionOracle, AgreesWithSturmOnCurves) {
 // ---- Changes that keep the answer ---------------------------------------------------------------
 
 /// An even permutation of the points keeps the volume, an odd one and a reflection negate it.
-TEST(InversionOracle, ChangesItsSignWithTheOrientation) {
+TEST(Elements, ChangesItsSignWithTheOrientation) {
   Random random(5);
   const auto permuted = [](const Query& query, const std::array<std::size_t, 4>& order) {
     Query result{};
@@ -296,34 +296,22 @@ TEST(InversionOracle, ChangesItsSignWithTheOrientation) {
   for (int round = 0; round < trials(2000); ++round) {
     const auto family = tests::all_families.at(static_cast<std::size_t>(round) % 4);
     const Query query = tests::random_query(random, Kind::vertex_face, family).query;
-    const InversionDecision decision = decide_inversion(query);
+    const auto toi_of = [](const Query& element) { return decide(Kind::tetrahedron, element).toi; };
+    const auto toi = toi_of(query);
     for (const auto& order : {std::array<std::size_t, 4>{1, 2, 0, 3}, {3, 2, 1, 0}, {2, 0, 1, 3}}) {
-      const InversionDecision same = decide_inversion(permuted(query, order));
-      EXPECT_EQ(same.start, decision.start);
-      EXPECT_EQ(same.time, decision.time);
+      EXPECT_EQ(toi_of(permuted(query, order)), toi);
     }
     Query reflected = query;
     for (const std::size_t end : {0U, 1U}) {
       for (std::size_t i = 0; i < 4; ++i) reflected.at(end, i, 1) = -query.at(end, i, 1);
     }
-    const InversionDecision negated = decide_inversion(permuted(query, {1, 0, 2, 3}));
-    EXPECT_EQ(negated.start, -decision.start);
-    EXPECT_EQ(decide_inversion(reflected).start, negated.start);
-    EXPECT_EQ(decide_inversion(reflected).time, negated.time);
+    const auto negated = toi_of(permuted(query, {1, 0, 2, 3}));
+    EXPECT_TRUE(toi == AlgebraicNumber(0) || negated == AlgebraicNumber(0));
+    EXPECT_EQ(toi_of(reflected), negated);
   }
 }
 
-TEST(InversionOracle, DecidesQueriesAboutElements) {
-  Random random(6);
-  for (int round = 0; round < trials(400); ++round) {
-    const Query query = tests::product_of_factors(random).tetrahedron;
-    EXPECT_EQ(decide(Kind::tetrahedron, query).toi, decide_inversion(query).time);
-    EXPECT_EQ(decide(Kind::tetrahedron, to_curved(query)).toi, decide_inversion(query).time);
-    const PlaneTriangle triangle = to_plane_triangle(query);
-    EXPECT_EQ(decide(Kind::plane_triangle, query).toi, decide_inversion(triangle).time);
-    EXPECT_EQ(decide(Kind::plane_triangle, to_curved(query)).toi, decide_inversion(triangle).time);
-    EXPECT_EQ(to_plane_triangle(to_tetrahedron(triangle)), triangle);
-  }
+TEST(Elements, HaveNoSeparationAndTheProofsOfTetrahedra) {
   for (const Kind kind : {Kind::tetrahedron, Kind::plane_triangle}) {
     EXPECT_THROW(static_cast<void>(decide(kind, Query{}, {.distance = 1.0})),
                  std::invalid_argument);
@@ -332,17 +320,16 @@ TEST(InversionOracle, DecidesQueriesAboutElements) {
 }
 
 /// What is to be finite is.
-TEST(InversionOracle, RefusesNumbersThatAreNotFinite) {
+TEST(Elements, RefusesNumbersThatAreNotFinite) {
   for (const double bad :
        {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
     Query query{};
     query.at(1, 3, 2) = bad;
-    EXPECT_THROW(static_cast<void>(decide_inversion(query)), std::domain_error);
-    PlaneTriangle triangle{};
-    triangle.at(1, 2, 1) = bad;
-    EXPECT_THROW(static_cast<void>(decide_inversion(triangle)), std::domain_error);
+    EXPECT_THROW(static_cast<void>(decide(Kind::tetrahedron, query)), std::domain_error);
+    query.at(1, 2, 1) = bad;
+    EXPECT_THROW(static_cast<void>(decide(Kind::plane_triangle, query)), std::domain_error);
   }
 }
 
 }  // namespace
-}  // namespace touchstone::exact::inversion_oracle_test
+}  // namespace touchstone::exact::element_test
