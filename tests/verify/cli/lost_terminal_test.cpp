@@ -56,7 +56,7 @@ TEST_F(TerminalTool, EveryCommandEndsAtAnInterrupt) {
   const std::vector<std::vector<std::string>> runs{
       {"certify", "--count", "100000000"},
       {"solve", "--count", "100000000", "--method", "certified", "--out", out},
-      {"prove", "--count", "100000000", "--out", out},
+      {"prove", "--count", "100000000", "--prove", out},
       {"generate", "--count", "100000000", "--out", path("families")},
       {"generate", "--patches", "1000", "--out", path("patches")},
       {"bench", "--count", "100000000"},
