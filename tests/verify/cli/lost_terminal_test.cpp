@@ -99,7 +99,6 @@ TEST_F(TerminalTool, ASearchOfAStepEndsAtAnInterrupt) {
   const std::vector<std::vector<std::string>> runs{
       {"step", before, after, "--all", "--no-intersections", "--csv", out},
       {"step", before, after, "--free", "--json", out},
-      {"candidates", before, after, "--out", out, "--max-candidates", "1000000000"},
       {"bench", "--step", before, after},
       {"view", "--step", before, after, "--out", out}};
   for (const std::vector<std::string>& words : runs) {
