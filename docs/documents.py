@@ -4,8 +4,7 @@
 docs/data contains the measurements as JSON, each file with its commands, their date and their results; published.json has what
 others published, and its sources. They are the source of docs/results.md and docs/results.svg (results_document.py), and of the
 marked parts of README.md, docs/benchmarks.md and docs/simulation.md. A marked part is between
-<!-- made by ./run results: NAME --> and <!-- end -->; the function NAME below writes it. The code of docs/library.md is that of
-the public headers, between <!-- from HEADER --> and <!-- end -->.
+<!-- made by ./run results: NAME --> and <!-- end -->; the function NAME below writes it.
 """
 
 import argparse
@@ -585,21 +584,9 @@ def with_parts(document, text, root):
     return mark.sub(made, text)
 
 
-def with_examples(text):
-    """The same, whose marked parts are the examples with which public headers open."""
-    def made(match):
-        header = (PROJECT / match[2]).read_text()
-        example = re.search(r"\\code\{\.(\w+)\}\n(.*?)\n/// \\endcode", header, re.DOTALL)
-        code = [line[4:] for line in example[2].split("\n")]
-        return "\n".join([match[1], "", f"```{example[1]}", *code, "```", "", "<!-- end -->"])
-
-    return re.sub(r"(<!-- from (\S+) -->)\n.*?<!-- end -->", made, text, flags=re.DOTALL)
-
-
 def documents(options, folder):
     """The correct texts of all documents, by name."""
     made = {document: with_parts(document, (options.root / document).read_text(), options.root) for document in PARTS}
-    made["docs/library.md"] = with_examples((options.root / "docs/library.md").read_text())
     page = folder / "page.html"
     run([options.tool, "report", "--from", options.root / "docs/data/results.json", "--out", page])
     said = results_document.read_page(page, folder, run)

@@ -28,7 +28,7 @@ from PIL import Image
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 KATEX = pathlib.Path("/usr/share/javascript/katex")
 PICTURE = ROOT / "docs/contact.webp"
-PAGES = ["docs/**/*.md", "*/README.md", "verify/baselines/README.md", "exact/CERTIFICATES.md", "CONTRIBUTING.md", "CHANGELOG.md"]
+PAGES = ["docs/**/*.md", "*/README.md", "exact/CERTIFICATES.md", "CONTRIBUTING.md", "CHANGELOG.md"]
 HEADERS = [
     ("fast", "Solvers and steps", ["certified", "step", "mesh", "contacts", "tight_inclusion", "broad_phase"]),
     ("exact", "Ground truth and certificates", ["query", "oracle", "number", "polynomial", "algebraic_number", "certificate",

@@ -1,6 +1,6 @@
 #!/bin/sh
 # Builds a solver as a plugin, judges it on queries of known truth, then searches for false negatives. The findings
-# stay in their folder, a page for each cause. Exit status: 0 no fault, 1 wrong answers, 2 another error.
+# stay in their folder, and a page that shows them. Exit status: 0 no fault, 1 wrong answers, 2 another error.
 #
 #   check_solver.sh SOURCE LIBRARY
 #
@@ -30,7 +30,7 @@ plugin=$build/$2
 cmake -S "$1" -B "$build" -DCMAKE_BUILD_TYPE=Release -DTOUCHSTONE_INCLUDE="$include" && cmake --build "$build" || exit 2
 
 # Both run whatever the result of the first, so that the folder holds all findings.
-mkdir -p "$findings/fuzz" || exit 2
+mkdir -p "$findings" || exit 2
 # The words of these variables are options.
 # shellcheck disable=SC2086
 "$touchstone" certify --plugin "$plugin" ${SOLVER_OPTIONS:-} --json "$findings/certify.json" \
@@ -40,8 +40,9 @@ certified=$?
 only=
 for kind in ${FUZZ_ONLY:-false_negative}; do only="$only --only $kind"; done
 # shellcheck disable=SC2086
-"$touchstone" fuzz --plugin "$plugin" ${SOLVER_OPTIONS:-} $only ${FUZZ_LIMIT:---seconds 120} --write "$findings/fuzz"
+"$touchstone" fuzz --plugin "$plugin" ${SOLVER_OPTIONS:-} $only ${FUZZ_LIMIT:---seconds 120} --json "$findings/fuzz.json"
 fuzzed=$?
+if [ $fuzzed -eq 1 ]; then "$touchstone" view "$findings/fuzz.json" --out "$findings/fuzz.html"; fi
 
 echo "certify: $certified, fuzz: $fuzzed (0 nothing is wrong, 1 wrong answers); see $findings"
 if [ $certified -eq 1 ] || [ $fuzzed -eq 1 ]; then exit 1; fi

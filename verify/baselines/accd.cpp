@@ -1,5 +1,4 @@
 // ACCD: additive continuous collision detection ([li2021], as in the public IPC Toolkit).
-// docs/methods.md, section 12.
 //
 // After subtraction of the mean displacement, no two points of the primitives approach each other
 // faster than ℓ, the sum of each primitive's greatest displacement. At distance d they therefore

@@ -1,8 +1,8 @@
 #pragma once
 
 /// \file
-/// The published methods. The source of each says its idea, its promise and its known defects, as
-/// docs/methods.md does.
+/// The published methods. The source of each says its idea, its promise and its known defects;
+/// docs/methods.md lists them.
 
 #include <memory>
 #include <span>

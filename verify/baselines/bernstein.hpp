@@ -1,8 +1,7 @@
 #pragma once
 
 /// \file
-/// The Bernstein forms that TCCD [wang2015] and BSC [tang2014] share, over any number type
-/// (docs/methods.md, section 6).
+/// The Bernstein forms that TCCD [wang2015] and BSC [tang2014] share, over any number type.
 ///
 /// Four points a, b, c, d move on straight lines: the face and the vertex, or the edges ab and cd.
 ///   - *Coplanarity*, a cubic Y: Y(t) = 0 where they lie in a plane.

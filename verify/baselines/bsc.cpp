@@ -1,5 +1,4 @@
-// BSC: Bernstein sign classification [tang2014], as patched for the comparison of [wang2021]
-// (docs/methods.md, sections 6 and 8).
+// BSC: Bernstein sign classification [tang2014], as patched for the comparison of [wang2021].
 //
 // **Algorithm.** The coplanarity cubic is classified by its Bernstein coefficients: monotone, one
 // extremum, or an inflection; its roots are counted, and at each the signs of three inside

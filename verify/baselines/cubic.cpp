@@ -1,5 +1,5 @@
 // CUBIC: the zeros of the coplanarity cubic with a tolerance, as simulators of cloth run it
-// ([provot1997]; the public ARCSim and El Topo). docs/methods.md, section 13.
+// ([provot1997]; the public ARCSim and El Topo).
 //
 // det = r·(p×q), a cubic in t, is 0 at a contact. Its zeros are computed in double precision
 // (rpoly.hpp). *Filtered*: a zero whose imaginary part and distance from [0,1] are at most 1e-6

@@ -1,4 +1,4 @@
-// Methods for curves that others use, for comparison (docs/methods.md, section 14). All compute in
+// Methods for curves that others use, for comparison (docs/methods.md, section 3). All compute in
 // doubles without error bounds, and find a time of contact or none.
 //
 // - *subdivision*: a piece is replaced by the chords of its points, from which they deviate by a

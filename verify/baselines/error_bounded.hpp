@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file
-/// A double with a bound of its error, as TCCD computes ([wang2015]; docs/methods.md, section 7).
+/// A double with a bound of its error, as TCCD computes ([wang2015]).
 ///
 /// **Theorem.** Without underflow the true value is within the bound of the double. A sum or
 /// product rounds by at most 2^-53 of its magnitude; the unit below is a little more than twice

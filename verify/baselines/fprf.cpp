@@ -1,5 +1,5 @@
 // FPRF: the floating-point root finder ([provot1997]; in the interval form of E. Vouga's
-// public code [vouga2010], as compared by [wang2021]). docs/methods.md, section 5.
+// public code [vouga2010], as compared by [wang2021]).
 //
 // The primitives' planes, or lines, are within η of each other where D(t) = f(t)² − η²‖n(t)‖² ≤ 0,
 // f being the triple product n·q that vanishes in coplanarity. Further polynomials are not

@@ -1,5 +1,5 @@
 // INVERSION_CUBIC and INVERSION_ADDITIVE: when an element loses its volume, in floating point, as
-// line searches of injective maps and simulators of solids ask it. docs/methods.md, section 15.
+// line searches of injective maps and simulators of solids ask it. docs/methods.md, section 4.
 //
 // Six times the volume V is a cubic in t; for a triangle in the plane twice the area, a quadratic.
 //

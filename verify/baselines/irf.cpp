@@ -1,5 +1,4 @@
 // IRF: the multivariate interval root finder ([snyder1992]; as compared by [wang2021]).
-// docs/methods.md, section 3.
 //
 // F(t,u,v) is evaluated in intervals over boxes of parameters, first the points at t, then their
 // combination. A box for which a component of F excludes 0 holds no root and is dropped; the

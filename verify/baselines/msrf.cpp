@@ -1,5 +1,5 @@
 // MSRF: the minimum-separation root finder ([harmon2011], [lu2019]; as compared by
-// [wang2021]). docs/methods.md, section 11.
+// [wang2021]).
 //
 // At a first contact within h the distance of two features is h. For each pair of features that is
 // a polynomial equation: degree 6 for a vertex and the face or two edges (f(t)² = h²‖n(t)‖²), 4

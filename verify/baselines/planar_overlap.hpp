@@ -1,8 +1,7 @@
 #pragma once
 
 /// \file
-/// The overlap of a segment and a triangle in one plane: RP's fallback (docs/methods.md,
-/// section 9).
+/// The overlap of a segment and a triangle in one plane: RP's fallback (rp.cpp).
 ///
 /// Both are projected along each coordinate axis and tested there, exactly. In a common plane they
 /// meet iff they meet in every projection: if they meet, their projections meet; and some

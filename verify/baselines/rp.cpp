@@ -1,4 +1,4 @@
-// RP: root parity ([brochu2012]; docs/methods.md, section 9).
+// RP: root parity [brochu2012].
 //
 // **Theorem.** F maps the boundary of its domain (a prism for vertex-face, a cube for edge-edge)
 // to a closed surface of triangles and bilinear patches. If 0 is not on it, the number of roots of

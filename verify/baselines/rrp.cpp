@@ -1,5 +1,5 @@
-// RRP: rational root parity, after [brochu2012] with degenerate patches handled ([wang2021];
-// docs/methods.md, section 10). In verify/ because its numbers are GMP's.
+// RRP: rational root parity, after [brochu2012] with degenerate patches handled ([wang2021]).
+// In verify/ because its numbers are GMP's.
 //
 // **Algorithm.** As RP (rp.cpp), the crossings of a ray from 0 with the image of
 // the domain's boundary are counted, everything in rationals. A flat patch is replaced by the

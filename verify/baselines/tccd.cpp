@@ -1,5 +1,4 @@
-// TCCD: Bernstein sign classification in floating point with running error bounds ([wang2015];
-// docs/methods.md, sections 6 and 7).
+// TCCD: Bernstein sign classification in floating point with running error bounds [wang2015].
 //
 // **Algorithm.** The coplanarity cubic Y is examined on [0,1], or, if it has an inflection, on the
 // parts before and after it, so that on each it has at most two roots. Counting them needs the

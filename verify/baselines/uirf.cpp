@@ -1,5 +1,5 @@
 // UIRF: the univariate interval root finder ([redon2002], for linear paths; as compared by
-// [wang2021]). docs/methods.md, section 4.
+// [wang2021]).
 //
 // The four points are in one plane where f(t) = n(t)·q(t) = 0: n the face's normal, or the product
 // of the edges, q a vector from one primitive to the other. f is evaluated in intervals over

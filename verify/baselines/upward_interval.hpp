@@ -2,7 +2,7 @@
 
 /// \file
 /// Intervals whose lower end is stored negated, so that one rounding mode, upward, serves both ends
-/// ([brochu2012], [tang2014]; docs/methods.md, sections 8 and 9).
+/// ([brochu2012], [tang2014]).
 ///
 /// **Theorem.** Under upward rounding the result of an operation holds every result of it on
 /// numbers of the operands, also where ends overflow or underflow: −lower and upper are each

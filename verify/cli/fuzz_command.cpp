@@ -29,7 +29,6 @@
 #include "verify/data/csv_dataset.hpp"
 #include "verify/data/dataset.hpp"
 #include "verify/data/ground_truth_files.hpp"
-#include "verify/fuzz/finding_page.hpp"
 #include "verify/fuzz/fuzz.hpp"
 #include "verify/fuzz/fuzz_report.hpp"
 #include "verify/io/json.hpp"
@@ -60,13 +59,10 @@ struct Arguments {
   std::uint64_t most_findings = 20;
   std::string kind;
   std::vector<std::string> degree;
-  bool curved = false;
   std::vector<std::string> only;
   std::vector<fs::path> corpus;
   std::string out_file;
   std::string json_file;
-  fs::path page_folder;
-  std::string calls;
   std::string view_file;
 
   /// Seconds of the run; 0: no limit.
@@ -76,7 +72,6 @@ struct Arguments {
 
   /// The degrees in the words of the command line.
   [[nodiscard]] std::vector<std::string> degrees() const {
-    if (curved) return {"2", "3", std::string(rational)};
     return degree.empty() ? std::vector<std::string>{"1"} : degree;
   }
 
@@ -255,11 +250,6 @@ class FuzzRun {
         view_(files_, arguments.view_file),
         found_(files_, arguments, arguments.separation.given()),
         bar_("fuzz") {
-    if (!arguments.page_folder.empty() && fs::exists(arguments.page_folder) &&
-        !fs::is_empty(arguments.page_folder)) {
-      throw std::runtime_error(arguments.page_folder.string() +
-                               ": is not an empty folder; name a new one");
-    }
     files_.add_inputs(arguments.solver.files());
     load_method();
     options_.seconds = arguments.run_seconds();
@@ -303,9 +293,6 @@ class FuzzRun {
     attempt([&] { written = found_.close(); });
     if (json_) json_.complete(io::json_document(json));
     write_view(json);
-    attempt([&] {
-      for (fs::path& page : write_pages(json)) written.push_back(std::move(page));
-    });
     io::print(out(), fuzz::to_text(report));
     for (const fs::path& file : written)
       io::print(out(), fmt::format("written: {}\n", io::printable(file.string())));
@@ -323,24 +310,6 @@ class FuzzRun {
       report_error(error.what());
       files_.note_failure();
     }
-  }
-
-  /// The folder appears when it is complete, as files do.
-  [[nodiscard]] std::vector<fs::path> write_pages(const nlohmann::json& report) const {
-    if (arguments_.page_folder.empty()) return {};
-    fs::path folder = fs::weakly_canonical(arguments_.page_folder);
-    if (!folder.has_filename()) folder = folder.parent_path();  // a slash at the end
-    const fs::path partial = io::partial_name(folder);
-    std::vector<fs::path> pages;
-    try {
-      pages = fuzz::write_pages(report, arguments_.calls, partial);
-      fs::rename(partial, folder);
-    } catch (...) {
-      fs::remove_all(partial);
-      throw;
-    }
-    for (fs::path& page : pages) page = arguments_.page_folder / page.filename();
-    return pages;
   }
 
   void write_view(const nlohmann::json& report) {
@@ -367,7 +336,7 @@ class FuzzRun {
   }
 
   /// The shapes that the command line names and the solver answers.
-  /// \throws std::invalid_argument if it answers none of a degree, or with --curved none at all
+  /// \throws std::invalid_argument if it answers none of a degree, 
   [[nodiscard]] std::vector<QueryShape> chosen_shapes() const {
     std::vector<QueryShape> result;
     for (const std::string& degree : arguments_.degrees()) {
@@ -375,21 +344,14 @@ class FuzzRun {
       std::ranges::copy_if(
           arguments_.shapes(degree), std::back_inserter(result),
           [&](const QueryShape& shape) { return method_->info().terms.answers(shape); });
-      if (result.size() == before && !arguments_.curved) refuse(degree);
+      if (result.size() == before) refuse(degree);
     }
-    if (result.empty()) refuse("");
     if (!arguments_.view_file.empty()) require_contact(result.front().kind);
-    if (!arguments_.calls.empty() && arguments_.calls != "plugin" &&
-        !std::ranges::all_of(result, &QueryShape::is_straight)) {
-      throw std::invalid_argument(
-          fmt::format("the interface {} is of queries on straight lines alone", arguments_.calls));
-    }
     return result;
   }
 
   [[noreturn]] void refuse(const std::string& degree) const {
     const std::string what = degree == "1"        ? "straight lines; add --degree for curves"
-                             : degree.empty()     ? "curves"
                              : degree == rational ? "rational curves"
                                                   : "curves of degree " + degree;
     throw std::invalid_argument(fmt::format("{} answers no {}queries on {}", method_->name(),
@@ -464,8 +426,7 @@ void add_search_options(CLI::App& command, Arguments& arguments) {
   add_option(command, "--seconds", arguments.seconds);
   add_option(command, "--queries", arguments.queries);
   add_option(command, "--seed", arguments.seed);
-  auto* const degree = add_option(command, "--degree", arguments.degree);
-  add_option(command, "--curved", arguments.curved)->excludes(degree);
+  add_option(command, "--degree", arguments.degree);
   add_piece_options(command, arguments.pieces);
   add_option(command, "--most-findings", arguments.most_findings);
   add_option(command, "--only", arguments.only);
@@ -477,8 +438,6 @@ void add_search_options(CLI::App& command, Arguments& arguments) {
 void add_output_options(CLI::App& command, Arguments& arguments) {
   command.option_defaults()->group("Output");
   add_option(command, "--out", arguments.out_file);
-  add_option(command, "--write", arguments.page_folder);
-  add_option(command, "--calls", arguments.calls);
   add_option(command, "--json", arguments.json_file);
   add_option(command, "--view", arguments.view_file);
 }
@@ -496,7 +455,7 @@ void add(CLI::App& app, Status& status) {
   set_help(
       *command,
       "touchstone fuzz --plugin ./libsolver.so --only false_negative --seconds 600\n"
-      "touchstone fuzz --plugin ./libsolver.so --exact --write findings --corpus data\n"
+      "touchstone fuzz --plugin ./libsolver.so --exact --json findings.json --corpus data\n"
       "touchstone fuzz --plugin ./libsolver.so --degree 2 --degree 3",
       "The solver runs in a child process. Findings are simplified, grouped by their probable "
       "cause, and printed with one example per group. The same --seed and --queries give the same "
@@ -511,7 +470,7 @@ void add(CLI::App& app, Status& status) {
                           {.input = "--seed",
                            .pieces = pieces_of_seeds(*arguments),
                            .outputs = {"--json"},
-                           .refused = {"--out", "--write", "--view"}});
+                           .refused = {"--out", "--view"}});
       return;
     }
     arguments->seed += shard_of(arguments->pieces).index;

@@ -162,12 +162,6 @@ class NpyWriter {
   std::uint64_t count_ = 0;
 };
 
-/// Writes pairs of indices, such as those of a mesh's primitives in each query, as an array of
-/// little-endian int32 of shape (N, 2), which appears completely or not at all.
-/// \throws DatasetError if it cannot be written, Interrupted (terminal.hpp) if the user interrupts.
-void write_index_pairs(const std::filesystem::path& path,
-                       std::span<const std::array<std::int32_t, 2>> pairs);
-
 // NumPy's .npz archives, as `savez` and `savez_compressed` write them: a zip of .npy files.
 
 /// An archive that is open for reading.

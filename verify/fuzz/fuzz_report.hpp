@@ -2,7 +2,7 @@
 
 /// \file
 /// The report of the fuzzer: as text for people, as JSON for programs. The JSON has all data of a
-/// finding; pages and programs (finding_page.hpp) are made from it.
+/// finding.
 
 #include <cstdint>
 #include <filesystem>
