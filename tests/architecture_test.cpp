@@ -128,7 +128,7 @@ constexpr std::string_view headers_without_test = R"(
 // real_root_test.cpp, big_integer_test.cpp.
   fast/: kernels.hpp
   fast/certified/: block.hpp curves.hpp kernel_on_lanes.hpp
-  fast/certified/exact/: closest_point_parameters.hpp contact_decision.hpp curved_polygon.hpp distance_decision.hpp fixed_integer.hpp fraction.hpp contact_conditions.hpp general_contact_decision.hpp polynomial.hpp
+  fast/certified/exact/: closest_point_parameters.hpp contact_decision.hpp curved_polygon.hpp distance_decision.hpp enclosing_doubles.hpp fixed_integer.hpp fixed_point_filter.hpp floating_point_filter.hpp fraction.hpp contact_conditions.hpp general_contact_decision.hpp polynomial.hpp
   fast/certified/stages/: axis.hpp bisection.hpp conservative_advancement.hpp crossing.hpp determinant.hpp direction.hpp distance_enclosure.hpp inversion.hpp lanes.hpp moving_polygon.hpp moving_vectors.hpp only_zero.hpp orientation.hpp refinement.hpp single_precision.hpp
   fast/platform/: avx2_doubles.hpp avx2_floats.hpp avx512_doubles.hpp avx512_floats.hpp avx_rows.hpp neon_doubles.hpp neon_floats.hpp scalar_doubles.hpp scalar_floats.hpp floating_point_state.hpp
   fast/tight_inclusion/: box_kernel_on_lanes.hpp curved_box_kernel.hpp
