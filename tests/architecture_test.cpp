@@ -114,15 +114,17 @@ constexpr std::string_view headers_without_test = R"(
   verify/fuzz/: finding.hpp
 // In a test of what they are parts of: inversion_oracle_test.cpp, oracle_test.cpp,
 // distance_oracle_test.cpp, separation_intervals_test.cpp, certificate_test.cpp, prove_step_test.cpp;
-// mesh_test.cpp, step_test.cpp; error_bounds_test.cpp, expressions_test.cpp, worst_case_test.cpp.
+// mesh_test.cpp, step_test.cpp; error_bounds_test.cpp, expressions_test.cpp, double_double_test.cpp,
+// worst_case_test.cpp, derivation_test.cpp; platform_test.cpp.
   exact/: element.hpp
   exact/algebra/: positivity.hpp
   exact/certificate/: step_certificate_text.hpp
   exact/checker/: resting_mesh.hpp resting_pair.hpp scene.hpp
   exact/contact/: contact_conditions.hpp contact_oracle.hpp corner_motion.hpp triangle_intersection.hpp
   exact/distance/: separating_axes.hpp
-  filters/: error_bound.hpp polynomial_expressions.hpp separation_expressions.hpp
-  filters/derivation/: mpfr_number.hpp
+  filters/: ball.hpp error_bound.hpp polynomial_expressions.hpp separation_expressions.hpp
+  filters/derivation/: bound_table.hpp catalogue.hpp expression_graph.hpp mpfr_number.hpp published_model.hpp rounding_model.hpp shipped_bound.hpp
+  fast/platform/: arithmetic_check.hpp instruction_set.hpp large_array.hpp threads.hpp
 // Through the kernels, which take the same queries in the same tests, and the exact stage:
 // kernel_test.cpp, deciders_test.cpp, exact_stage_test.cpp, closest_point_test.cpp,
 // real_root_test.cpp, big_integer_test.cpp.
@@ -138,10 +140,12 @@ constexpr std::string_view headers_without_test = R"(
   fast/: candidates.hpp contacts.hpp
   fast/certified/curves/: contact_proof.hpp control_polygon.hpp stages.hpp
   fast/distance/: exact_distance.hpp filter_kernel.hpp filter_on_lanes.hpp filtered_distance.hpp neighbouring_doubles.hpp polygon_features.hpp
-  fast/broad_phase/: body_tree.hpp box_tree.hpp division_on_lanes.hpp search_on_lanes.hpp seeds.hpp swept_box.hpp words_one_by_one.hpp
+  fast/broad_phase/: body_tree.hpp box_tree.hpp division_on_lanes.hpp primitive_groups.hpp search_on_lanes.hpp seeds.hpp swept_box.hpp words_one_by_one.hpp
   fast/step/: bodies.hpp codimensional.hpp sieve.hpp
 // Beside rational arithmetic, which judges the function: intersections_test.cpp.
   fast/intersections/: contacts.hpp filter_kernel.hpp filter_on_lanes.hpp orientation.hpp pair_filter.hpp pair_order.hpp pair_order_avx2.hpp
+// In ipc_toolkit_step_test.cpp and ccd_test.cpp.
+  adapters/: ipc_toolkit.hpp
   adapters/tight_inclusion/: config.hpp interval_root_finder.hpp logger.hpp timer.hpp
 // By the answers of the methods, baselines_test.cpp and known_defects_test.cpp, the queries of the
 // families, families_test.cpp, and of the hard ones, hardness_test.cpp.

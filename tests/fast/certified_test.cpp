@@ -43,33 +43,6 @@ CertifiedResult solve(const PosedQuery& posed, const CertifiedOptions& options =
 /// Contact, and separations in both norms.
 const std::vector<Separation> separations{{}, {0.01, Norm::linf}, {0.01, Norm::l2}};
 
-void expect_within(const CertifiedResult& result, double toi) {
-  ASSERT_EQ(result.verdict, Verdict::yes);
-  EXPECT_LT(result.toi_lower, toi);
-  EXPECT_GE(result.toi_upper, toi);
-  EXPECT_LE(result.toi_upper - result.toi_lower, 1e-12);
-}
-
-TEST(Certified, FindsAnImpactAndItsPlace) {
-  for (const PosedQuery& posed : {over_triangle(1, 2, 3, -1), over_edge(1, 2, 3, -1)}) {
-    const CertifiedResult result = solve(posed);
-    expect_within(result, 0.75);
-    EXPECT_NEAR(result.u, 0.25, 1e-9);
-    EXPECT_NEAR(result.v, 0.5, 1e-9);
-  }
-  // The height falls from 1 to −1, and is d at the time (1 − d)/2.
-  for (const PosedQuery& posed : {over_triangle(1, 1, 1, -1), over_edge(1, 1, 1, -1)}) {
-    for (const Norm norm : {Norm::linf, Norm::l2}) {
-      for (const double distance : {0.5, 0.25, 0x1p-20, 0x1p-40}) {
-        const CertifiedResult result = solve(posed, {.separation = {distance, norm}});
-        expect_within(result, (1.0 - distance) / 2.0);
-        EXPECT_EQ(result.stage, Stage::bisection);
-        EXPECT_NEAR(result.u, 0.25, 1e-6);
-      }
-    }
-  }
-}
-
 TEST(Certified, EndsEachSortOfQueryInItsStage) {
   // Far above; beyond the slanted side; never crossing the plane of the triangle (always above it,
   // in a tilted frame); crossing it beside the triangle; in contact with an edge.

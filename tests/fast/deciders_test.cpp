@@ -159,7 +159,7 @@ void solve_curves(Kind kind, std::span<const Query> queries, std::span<Certified
 }
 
 constexpr std::array<Decider, 7> deciders{
-    {{"certified", &solve, false},
+    {{"certified", &solve, true},
      {"exact stage", &solve_exactly, true},
      {"general exact stage", &solve_in<exact_stage::BigInteger>, false},
      {"exact stage in one limb", &solve_in<exact_stage::FixedInteger<1>>, false},
@@ -406,19 +406,27 @@ Separation draw_separation(Random& random, const Query& query) {
   return {.distance = std::max(distance, tiniest), .norm = norm};
 }
 
-/// Expects F near 0 on every axis at toi_upper and (u,v), relative to its coordinates. F has moved
-/// on by then: corners are differences of coordinates, at most 4 of these apart.
-void expect_contact_at_place(const PosedQuery& posed, const CertifiedResult& result) {
-  const Rational upper(result.toi_upper);
+/// Expects ‖F‖ at toi_upper and (u,v) to be hardly more than the separation, relative to the
+/// coordinates of each axis. F has moved on by then: corners are differences of coordinates, at
+/// most 4 of these apart.
+void expect_place(const PosedQuery& posed, const CertifiedResult& result,
+                  const Separation& separation, const Rational& accuracy) {
+  const Rational upper(result.toi_upper), moved = 4 * (upper - Rational(result.toi_lower));
   const auto f = tests::contact_function<Rational>(posed.kind, posed.query, upper,
                                                    Rational(result.u), Rational(result.v));
-  const Rational moved = 4 * (upper - Rational(result.toi_lower));
+  Rational square, reach(separation.distance);
   for (std::size_t axis = 0; axis < 3; ++axis) {
     double largest = 0.0;
     for (std::size_t i = axis; i < posed.query.coordinates.size(); i += 3) {
       largest = std::max(largest, std::abs(posed.query.coordinates.at(i)));
     }
-    EXPECT_LE(abs(f[axis]), Rational(largest) * (exact::power_of_two(-43) + moved)) << posed;
+    const Rational slack = Rational(largest) * (accuracy + moved);
+    EXPECT_LE(abs(f[axis]), Rational(separation.distance) + slack) << posed;
+    square += f[axis] * f[axis];
+    reach += slack;
+  }
+  if (separation.norm == Norm::l2) {
+    EXPECT_LE(square, reach * reach) << posed;
   }
 }
 
@@ -440,8 +448,11 @@ void expect_truth(const Decider& decider, const PosedQuery& posed, const exact::
   if (least_time > 0.0) {
     EXPECT_FALSE(collides_until(std::nextafter(least_time, 0.0))) << decider.name << ' ' << posed;
   }
-  const bool is_narrow = is_zero(options.separation) && options.toi_tolerance <= 1e-12;
-  if (decider.knows_the_place && is_narrow) expect_contact_at_place(posed, result);
+  if (options.toi_tolerance > 1e-12) return;
+  const bool is_close = result.stage == Stage::exact && is_zero(options.separation);
+  if (decider.knows_the_place) {
+    expect_place(posed, result, options.separation, exact::power_of_two(is_close ? -43 : -20));
+  }
 }
 
 class Deciders : public testing::TestWithParam<QueryFamily> {
