@@ -17,10 +17,11 @@
 #include "tests/support/random.hpp"
 #include "tests/support/scenes.hpp"
 #include "tests/support/trials.hpp"
+#include "touchstone/ipc_toolkit.hpp"
 #include "touchstone/number.hpp"
 #include "touchstone/oracle.hpp"
 
-namespace touchstone::adapters::ipc_toolkit_step_test {
+namespace touchstone::adapters::ipc_toolkit_test {
 namespace {
 
 using Eigen::MatrixXd;
@@ -28,6 +29,117 @@ using Eigen::MatrixXi;
 using tests::Random;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
+
+// ---- Pairs --------------------------------------------------------------------------------------
+
+struct Said {
+  bool collision = false;
+  double toi = -1.0;
+};
+
+/// The answer about a pair of these points, in two or three dimensions.
+Said ask(const ipc::NarrowPhaseCCD& ccd, fast::PairKind kind, const Query& query,
+         double min_distance = 0.0, double tmax = 1.0, Eigen::Index dim = 3) {
+  const auto point = [&](std::size_t end, std::size_t i) {
+    return ipc::VectorMax3d(query.point(end, i).head(dim));
+  };
+  std::array<ipc::VectorMax3d, 4> p, q;
+  for (std::size_t i = 0; i < p.size(); ++i) p[i] = point(0, i), q[i] = point(1, i);
+  Said said;
+  switch (kind) {
+    case fast::PairKind::vertex_face:
+      said.collision = ccd.point_triangle_ccd(p[0], p[1], p[2], p[3], q[0], q[1], q[2], q[3],
+                                              said.toi, min_distance, tmax);
+      break;
+    case fast::PairKind::edge_edge:
+      said.collision = ccd.edge_edge_ccd(p[0], p[1], p[2], p[3], q[0], q[1], q[2], q[3], said.toi,
+                                         min_distance, tmax);
+      break;
+    case fast::PairKind::vertex_edge:
+      said.collision =
+          ccd.point_edge_ccd(p[0], p[1], p[2], q[0], q[1], q[2], said.toi, min_distance, tmax);
+      break;
+    case fast::PairKind::vertex_vertex:
+      said.collision = ccd.point_point_ccd(p[0], p[1], q[0], q[1], said.toi, min_distance, tmax);
+  }
+  return said;
+}
+
+/// The same about a vertex and a face.
+Said ask_face(const ipc::NarrowPhaseCCD& ccd, const Query& query, double min_distance = 0.0,
+              double tmax = 1.0) {
+  return ask(ccd, fast::PairKind::vertex_face, query, min_distance, tmax);
+}
+
+/// A vertex that falls by two from a height onto a face.
+Query falling(double height) {
+  return {{1, 1, height, 0, 0, 0, 4, 0, 0, 0, 4, 0, 1, 1, height - 2, 0, 0, 0, 4, 0, 0, 0, 4, 0}};
+}
+
+TEST(IpcAdapter, LeavesItsPartOfTheDistance) {
+  const NarrowPhaseCCD ccd(0.75);
+  // From 1 to 1/4 at 3/8, from 1 to 1/2 + 1/8 at 3/16.
+  EXPECT_NEAR(ask_face(ccd, falling(1)).toi, 0.375, 1e-12);
+  EXPECT_LT(ask_face(ccd, falling(1)).toi, 0.375);
+  EXPECT_NEAR(ask_face(ccd, falling(1), 0.5).toi, 0.1875, 1e-12);
+  EXPECT_FALSE(ask_face(ccd, falling(1), 0.0, 0.25).collision);
+  EXPECT_EQ(ask_face(ccd, falling(1), 0.0, 0.25).toi, infinity);
+  EXPECT_NEAR(ask_face(NarrowPhaseCCD(1.0), falling(1)).toi, 0.5, 1e-12);
+}
+
+TEST(IpcAdapter, IsInContactAtZeroExactlyWhereItIs) {
+  const NarrowPhaseCCD ccd;
+  EXPECT_TRUE(ask_face(ccd, falling(0)).collision);
+  EXPECT_EQ(ask_face(ccd, falling(0)).toi, 0.0);
+  EXPECT_EQ(ask_face(ccd, falling(0.5), 0.5).toi, 0.0);
+  EXPECT_GT(ask_face(ccd, falling(std::nextafter(0.5, 1.0)), 0.5).toi, 0.0);
+  // The distance sqrt(2) is between two neighbouring doubles.
+  const Query away{{-1, -1, 0, 0, 0, 0, 4, 0, 0, 0, 4, 0, 1, 1, 0, 0, 0, 0, 4, 0, 0, 0, 4, 0}};
+  const double below =
+      std::sqrt(2.0) * std::sqrt(2.0) > 2.0 ? std::nextafter(std::sqrt(2.0), 0.0) : std::sqrt(2.0);
+  EXPECT_GT(ask_face(ccd, away, below).toi, 0.0);
+  EXPECT_EQ(ask_face(ccd, away, std::nextafter(below, 2.0)).toi, 0.0);
+}
+
+/// The time is positive for every start without contact, and before the exact impact.
+TEST(IpcAdapter, NeverStalls) {
+  const NarrowPhaseCCD ccd;
+  for (double height = 1.0; height > 1e-300; height *= 0x1p-20) {
+    const Said said = ask_face(ccd, falling(height));
+    EXPECT_TRUE(said.collision);
+    EXPECT_NEAR(said.toi / (0.8 * height / 2.0), 1.0, 1e-9) << height;
+  }
+}
+
+TEST(IpcAdapter, StopsWhatIsNotFinite) {
+  const Said said = ask_face(NarrowPhaseCCD(), falling(std::numeric_limits<double>::quiet_NaN()));
+  EXPECT_TRUE(said.collision);
+  EXPECT_EQ(said.toi, 0.0);
+}
+
+/// Bad arguments are refused for all points: also at distance 0, in contact, or not finite.
+TEST(IpcAdapter, RefusesBadArgumentsAndLeavesTheTime) {
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_THROW(static_cast<void>(NarrowPhaseCCD(2.0)), std::invalid_argument);
+  const NarrowPhaseCCD ccd;
+  for (const double height : {0.0, 1.0, nan}) {
+    const Query query = falling(height);
+    for (const double min_distance : {-1.0, -1e-300, nan, infinity}) {
+      EXPECT_THROW(ask_face(ccd, query, min_distance), std::invalid_argument);
+    }
+    for (const double tmax : {-0.5, 1.5, nan}) {
+      EXPECT_THROW(ask_face(ccd, query, 0.0, tmax), std::invalid_argument);
+    }
+  }
+  double toi = 7.0;
+  const Eigen::Vector2d p(0, 0), q(2, 0);
+  const Eigen::Vector3d r(1, 1, 1), s(1, -1, 1);
+  EXPECT_THROW(ccd.point_point_ccd(p, r, p, s, toi), std::invalid_argument);
+  EXPECT_THROW(ccd.point_point_ccd(p, q, p, s, toi), std::invalid_argument);
+  EXPECT_THROW(ccd.point_edge_ccd(r, p, q, s, p, q, toi), std::invalid_argument);
+  EXPECT_THROW(ccd.point_point_ccd(p, q, p, q, toi, -1.0), std::invalid_argument);
+  EXPECT_EQ(toi, 7.0);
+}
 
 // ---- Scenes -------------------------------------------------------------------------------------
 
@@ -134,10 +246,10 @@ double first_by_narrow_phase(const Scene& scene, double min_distance, double res
   const tests::AllPairs all(scene.step);
   for (const tests::NumberedPair& pair : pairs_of(scene, all)) {
     if (!all.are_near(pair, min_distance)) continue;
-    double toi = infinity;
-    (void)narrow_phase.query_ccd(fast::Step::kind_of(pair.first), all.query(pair), toi,
-                                 min_distance);
-    first = std::min(first, toi);
+    const Said said = ask(narrow_phase, pair.first, all.query(pair), min_distance, 1.0,
+                          static_cast<Eigen::Index>(scene.mesh.dim()));
+    EXPECT_EQ(said.collision, said.toi < infinity);
+    first = std::min(first, said.toi);
   }
   return first;
 }
@@ -273,4 +385,4 @@ TEST(IpcStepErrors, NameWhatIsWrong) {
 }
 
 }  // namespace
-}  // namespace touchstone::adapters::ipc_toolkit_step_test
+}  // namespace touchstone::adapters::ipc_toolkit_test

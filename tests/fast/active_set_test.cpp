@@ -171,27 +171,6 @@ TEST(ActiveSet, SaysWhatIsNotProved) {
   }
 }
 
-TEST(ActiveSet, HasADefinedNormalForEdgesThatAreAlwaysInContact) {
-  static constexpr std::array<double, 12> same{-1, 0, 0, 1, 0, 0, -1, 0, 0, 1, 0, 0};
-  const auto normal = [](const Vector3d& motion) {
-    return active_set(two_edges(same, motion).step(), {}).at(0).normal;
-  };
-  const Vector3d any = normal({0, 0, 0});
-  EXPECT_NEAR(any.norm(), 1.0, 1e-15);
-  EXPECT_EQ(any.x(), 0.0);
-  EXPECT_EQ(normal({0.5, 0, 0}), any);
-}
-
-TEST(ActiveSet, ContactOfAPairThatIsNotNear) {
-  const Scene scene = point_and_face(1, -2);
-  const Step step = scene.step();
-  const ActiveContact at_start = contact_at(step, PairKind::vertex_face, {0, 0}, 0.0);
-  EXPECT_TRUE(at_start.first.isApprox(Vector3d(1, 1, 1)));
-  EXPECT_TRUE(at_start.second.isApprox(Vector3d(1, 1, 0)));
-  EXPECT_EQ(at_start.normal, Vector3d(0, 0, 1));
-  EXPECT_EQ(contact_at(step, PairKind::vertex_face, {0, 0}, 1.0).normal, Vector3d(0, 0, -1));
-}
-
 /// In contact at the start, the side is that of the motion continued backwards, also with a
 /// separation; a contact that is only near has the side where it is.
 TEST(ActiveSet, TellsContactAtTheStartFromADistance) {

@@ -43,33 +43,6 @@ CertifiedResult solve(const PosedQuery& posed, const CertifiedOptions& options =
 /// Contact, and separations in both norms.
 const std::vector<Separation> separations{{}, {0.01, Norm::linf}, {0.01, Norm::l2}};
 
-void expect_within(const CertifiedResult& result, double toi) {
-  ASSERT_EQ(result.verdict, Verdict::yes);
-  EXPECT_LT(result.toi_lower, toi);
-  EXPECT_GE(result.toi_upper, toi);
-  EXPECT_LE(result.toi_upper - result.toi_lower, 1e-12);
-}
-
-TEST(Certified, FindsAnImpactAndItsPlace) {
-  for (const PosedQuery& posed : {over_triangle(1, 2, 3, -1), over_edge(1, 2, 3, -1)}) {
-    const CertifiedResult result = solve(posed);
-    expect_within(result, 0.75);
-    EXPECT_NEAR(result.u, 0.25, 1e-9);
-    EXPECT_NEAR(result.v, 0.5, 1e-9);
-  }
-  // The height falls from 1 to −1, and is d at the time (1 − d)/2.
-  for (const PosedQuery& posed : {over_triangle(1, 1, 1, -1), over_edge(1, 1, 1, -1)}) {
-    for (const Norm norm : {Norm::linf, Norm::l2}) {
-      for (const double distance : {0.5, 0.25, 0x1p-20, 0x1p-40}) {
-        const CertifiedResult result = solve(posed, {.separation = {distance, norm}});
-        expect_within(result, (1.0 - distance) / 2.0);
-        EXPECT_EQ(result.stage, Stage::bisection);
-        EXPECT_NEAR(result.u, 0.25, 1e-6);
-      }
-    }
-  }
-}
-
 TEST(Certified, EndsEachSortOfQueryInItsStage) {
   // Far above; beyond the slanted side; never crossing the plane of the triangle (always above it,
   // in a tilted frame); crossing it beside the triangle; in contact with an edge.
@@ -193,34 +166,29 @@ TEST(Certified, IndexPairsGiveWhatTheirQueriesGive) {
 
 // ---- Points and edges ---------------------------------------------------------------------------
 
-TEST(PrimitivePairs, PointAndEdgeMeetOnTheEdgeAlone) {
-  const Vector3d a(0, 0, 0), b(4, 0, 0);
-  const CertifiedResult result =
-      solve_vertex_edge(Vector3d(3, 0, 1), a, b, Vector3d(3, 0, -1), a, b);
-  expect_within(result, 0.5);
-  EXPECT_DOUBLE_EQ(result.u, 0.75);
-  EXPECT_EQ(result.v, 0.0);
-  EXPECT_EQ(solve_vertex_edge(Vector3d(3, 1e-300, 1), a, b, Vector3d(3, 1e-300, -1), a, b).verdict,
-            Verdict::no);
-  EXPECT_EQ(solve_vertex_edge(Vector3d(5, 0, 1), a, b, Vector3d(5, 0, -1), a, b).verdict,
-            Verdict::no);
-}
-
-TEST(PrimitivePairs, PointsMeetInOnePlaceAlone) {
-  const CertifiedResult result = solve_vertex_vertex(Vector3d(0, 0, 0), Vector3d(3, 0, 0),
-                                                     Vector3d(2, 0, 0), Vector3d(-1, 0, 0));
-  expect_within(result, 0.5);
-  EXPECT_EQ(result.u, 0.0);
-  EXPECT_EQ(result.v, 0.0);
-  EXPECT_EQ(solve_vertex_vertex(Vector3d(0, 0, 0), Vector3d(3, 0, 1e-300), Vector3d(2, 0, 0),
-                                Vector3d(-1, 0, 1e-300))
-                .verdict,
-            Verdict::no);
-  // With the options of the solver.
-  const Vector3d o(0, 0, 0), before(3, 0, 0), after(-3, 0, 0);
-  const CertifiedOptions near{.separation = {.distance = 1.0, .norm = Norm::l2}};
-  expect_within(solve_vertex_vertex(before, o, after, o, near), 1.0 / 3.0);
-  EXPECT_EQ(solve_vertex_vertex(before, o, after, o, {.t_max = 0.25}).verdict, Verdict::no);
+/// A point that passes an edge along z at a distance d on y; at 3 on x it meets it, at 5 it does
+/// not.
+TEST(PrimitivePairs, AreTheirDegenerateQueriesWithTheSameOptions) {
+  for (const double d : {0.0, 1e-300, 0.5}) {
+    for (const double x : {3.0, 5.0}) {
+      const Vector3d p(x, d, 1), q(x, d, -1), a(0, 0, 0), b(4, 0, 0);
+      for (const CertifiedOptions& options :
+           {CertifiedOptions{},
+            {.t_max = 0.25},
+            {.separation = {.distance = 1.0, .norm = Norm::l2}}}) {
+        const auto expect_same = [&](const CertifiedResult& found, const Vector3d& end, double u) {
+          const CertifiedResult expected = solve_vertex_face(p, a, end, a, q, a, end, a, options);
+          EXPECT_EQ(found.verdict, expected.verdict) << d << ' ' << x;
+          if (found.verdict != Verdict::yes) return;
+          EXPECT_EQ(found.toi_lower, expected.toi_lower);
+          EXPECT_NEAR(found.u, u, 1e-9);
+          EXPECT_EQ(found.v, 0.0);
+        };
+        expect_same(solve_vertex_edge(p, a, b, q, a, b, options), b, std::min(x / 4, 1.0));
+        expect_same(solve_vertex_vertex(p, a, q, a, options), a, 0.0);
+      }
+    }
+  }
 }
 
 TEST(PrimitivePairs, MayBeGivenInAnyShape) {

@@ -15,6 +15,7 @@
 
 #include "fast/certified/exact/closest_point_parameters.hpp"
 #include "tests/faults/planted_faults.hpp"
+#include "tests/support/distance_at_time.hpp"
 #include "tests/support/queries.hpp"
 #include "tests/support/random.hpp"
 #include "tests/support/trials.hpp"
@@ -30,80 +31,12 @@ using exact::Rational;
 using exact_stage::Parameters;
 using tests::PosedQuery;
 using tests::Random;
-using Vector = std::array<Rational, 3>;
+using namespace tests::exact_pair;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr auto kinds = std::to_array<Kind>({Kind::vertex_face, Kind::edge_edge});
 
 // ---- The truth ----------------------------------------------------------------------------------
-
-Vector sum(const Vector& a, const Rational& s, const Vector& b) {
-  return {a[0] + s * b[0], a[1] + s * b[1], a[2] + s * b[2]};
-}
-Rational dot(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-Vector cross(const Vector& a, const Vector& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-Vector negative(const Vector& a) { return {-a[0], -a[1], -a[2]}; }
-bool is_zero(const Vector& a) { return dot(a, a) == 0; }
-Vector rational(const Eigen::Vector3d& x) {
-  return {Rational(x[0]), Rational(x[1]), Rational(x[2])};
-}
-
-/// A query in rationals.
-struct ExactPair {
-  const PosedQuery& posed;
-
-  [[nodiscard]] Vector point(std::size_t i, const Rational& t) const {
-    const Vector start = rational(posed.query.point(0, i)), end = rational(posed.query.point(1, i));
-    return sum(start, t, sum(end, -1, start));
-  }
-  /// r, p or q at a time.
-  [[nodiscard]] Vector vector(std::size_t i, const Rational& t) const {
-    const auto points = affine_vectors(posed.kind)[i];
-    return sum(point(points[0], t), -1, point(points[1], t));
-  }
-  [[nodiscard]] Vector difference(const Rational& t, const Rational& u, const Rational& v) const {
-    return sum(sum(vector(0, t), -u, vector(1, t)), -v, vector(2, t));
-  }
-  [[nodiscard]] Vector product(const Rational& t) const {
-    return cross(vector(1, t), vector(2, t));
-  }
-  [[nodiscard]] Vector rate(const Rational& u, const Rational& v) const {
-    return sum(difference(1, u, v), -1, difference(0, u, v));
-  }
-};
-
-/// The parameters of the nearest points, of all feet and corners in the domain.
-std::pair<Rational, Rational> nearest_exactly(const ExactPair& pair, const Rational& t) {
-  const Vector r = pair.vector(0, t), p = pair.vector(1, t), q = pair.vector(2, t);
-  const bool is_face = pair.posed.kind == Kind::vertex_face;
-  std::optional<Rational> least;
-  std::pair<Rational, Rational> best;
-  const auto consider = [&](const Rational& u, const Rational& v) {
-    if (u < 0 || v < 0 || (is_face ? u + v > 1 : u > 1 || v > 1)) return;
-    const Vector f = pair.difference(t, u, v);
-    const Rational square = dot(f, f);
-    if (least && square >= *least) return;
-    least = square;
-    best = {u, v};
-  };
-  /// From (u,v) by (du,dv).
-  const auto side = [&](int u, int v, int du, int dv) {
-    const Vector f = pair.difference(t, u, v), e = sum(pair.difference(t, u + du, v + dv), -1, f);
-    const Rational square = dot(e, e);
-    Rational s = square == 0 ? Rational(0) : Rational(-dot(f, e) / square);
-    s = s < 0 ? Rational(0) : s > 1 ? Rational(1) : s;
-    consider(u + s * du, v + s * dv);
-  };
-  side(0, 0, 1, 0), side(0, 0, 0, 1);
-  is_face ? side(1, 0, -1, 1) : (side(1, 0, 0, 1), side(0, 1, 1, 0));
-  const Vector n = cross(p, q);
-  if (const Rational square = dot(n, n); square != 0) {
-    consider(dot(n, cross(r, q)) / square, dot(n, cross(p, r)) / square);
-  }
-  return best;
-}
 
 /// The contact at a time that is known to 2^-300 of itself, or exactly.
 struct Truth {

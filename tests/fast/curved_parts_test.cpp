@@ -14,6 +14,7 @@
 #include "fast/certified/curves/stages.hpp"
 #include "fast/certified/exact/curved_polygon.hpp"
 #include "fast/platform/scalar_doubles.hpp"
+#include "tests/support/polynomials.hpp"
 #include "tests/support/random.hpp"
 #include "touchstone/curved_query.hpp"
 #include "touchstone/oracle.hpp"
@@ -93,23 +94,6 @@ std::vector<mpq_class> exact_values(const curved::Block& block, std::size_t plac
   return values;
 }
 
-/// The Bernstein coefficients on [a,b].
-std::vector<mpq_class> on_part(const std::vector<mpq_class>& values, const mpq_class& a,
-                               const mpq_class& b) {
-  std::vector<mpq_class> result;
-  for (std::size_t times_b = 0; times_b < values.size(); ++times_b) {
-    std::vector<mpq_class> row = values;
-    for (std::size_t level = 1; level < values.size(); ++level) {
-      const mpq_class& t = level <= times_b ? b : a;
-      for (std::size_t j = 0; j + level < values.size(); ++j) {
-        row[j] = row[j] * (1 - t) + row[j + 1] * t;
-      }
-    }
-    result.push_back(row[0]);
-  }
-  return result;
-}
-
 TEST(ControlPolygon, HasItsErrorOnAnyPart) {
   Random random(94);
   for (int round = 0; round < 3000; ++round) {
@@ -124,7 +108,7 @@ TEST(ControlPolygon, HasItsErrorOnAnyPart) {
     curved::restrict_to<true>(whole, Value(begin), Value(end), part);
     for (std::size_t place = 0; place < Polygons::size; ++place) {
       const std::vector<mpq_class> of_whole = exact_values(block, place);
-      const std::vector<mpq_class> of_part = on_part(of_whole, begin, end);
+      const auto of_part = tests::bernstein_on(of_whole, begin, end);
       ASSERT_EQ(part.degree + 1, of_part.size());
       for (std::size_t k = 0; k <= part.degree; ++k) {
         const mpq_class bound = part.error[0];
@@ -201,37 +185,6 @@ TEST(ContactProof, HasTheSignOfTheDeterminant) {
     const int sign = exact::sign_at(exact::determinant(motion), at);
     EXPECT_EQ(signs.is_positive.set, sign > 0);
     EXPECT_EQ(signs.is_negative.set, sign < 0);
-  }
-}
-
-/// No direction proves anything of a piece with a contact.
-TEST(CurvedStages, SeparateNoContact) {
-  Random random(96);
-  for (int round = 0; round < 2000; ++round) {
-    // The last corner is the negative of the first: the origin is in the triangle at the middle.
-    Polygons polygons;
-    polygons.degree = 2;
-    polygons.magnitude = {1.0};
-    polygons.error = {0x1p-52};
-    for (std::size_t k = 0; k < 3; ++k) {
-      for (std::size_t axis = 0; axis < 3; ++axis) {
-        polygons.set(k, 3 * axis, Value(random.uniform(-1, 1)));
-        polygons.set(k, 3 * axis + 2, Value(0.5));
-      }
-      polygons.set(k, Polygons::size - 1, Value(0.0));
-    }
-    for (std::size_t k = 0; k < 3; ++k) {
-      for (std::size_t axis = 0; axis < 3; ++axis) {
-        polygons.set(k, 3 * axis + 1, Value(-polygons.at(2 - k, 3 * axis).x));
-      }
-    }
-    kernel::Vector<Value> any{Value(random.uniform(-1, 1)), Value(random.uniform(-1, 1)),
-                              Value(random.uniform(-1, 1))};
-    EXPECT_FALSE(curved::separates<true>(polygons, any, Value(2.0)).set);
-    EXPECT_FALSE(curved::separates<false>(polygons, any, Value(2.0)).set);
-    EXPECT_FALSE(curved::separates_on_axis<false>(polygons).set);
-    any.at(static_cast<std::size_t>(round) % 3) = Value(std::nan(""));
-    EXPECT_FALSE(curved::separates<true>(polygons, any, Value(2.0)).set);
   }
 }
 

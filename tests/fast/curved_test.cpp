@@ -166,6 +166,9 @@ TEST_P(CurvedSolver, AgreesWithTheOracle) {
   }
   EXPECT_GT(8 * collisions, queries);
   EXPECT_LT(40 * collisions, 39 * queries);
+  // Floating point decides nearly all of usual size.
+  const bool is_usual = !sort.is_degenerate && sort.scale == 1.0 && sort.degree < 4;
+  EXPECT_TRUE(!is_usual || 50 * decided_by.at(static_cast<std::size_t>(Stage::exact)) < queries);
 }
 
 INSTANTIATE_TEST_SUITE_P(
@@ -356,25 +359,6 @@ TEST(TightInclusionOnCurves, FindsContactsAtTheThirdSide) {
     ASSERT_EQ(found.verdict, Verdict::yes) << round;
     EXPECT_LE(exact::Rational(found.toi), *truth.toi);
     EXPECT_GE(exact::Rational(found.toi + 1e-4), *truth.toi);
-  }
-}
-
-TEST(CurvedSolverInFloatingPoint, DecidesNearlyAll) {
-  Random random(92);
-  for (const Sort sort : {Sort{2, Weights::none, false}, Sort{3, Weights::none, false},
-                          Sort{2, Weights::of_primitives, false}}) {
-    int exact = 0, collisions = 0;
-    for (int round = 0; round < 4; ++round) {
-      const Numbers some = random_queries(random, sort, kind_of(round), 500);
-      std::vector<CertifiedResult> results(some.queries.size());
-      solve(some.queries, results, {.max_threads = 2});
-      for (const CertifiedResult& result : results) {
-        exact += result.stage == Stage::exact ? 1 : 0;
-        collisions += result.verdict == Verdict::yes ? 1 : 0;
-      }
-    }
-    EXPECT_GT(collisions, 200);
-    EXPECT_LT(exact, 20);
   }
 }
 

@@ -75,7 +75,14 @@ void solve_points(Kind kind, std::span<const Query> queries, std::span<Certified
   }
 }
 
-/// r, p and q of a query with integer coordinates, times a power of two; all below 2^63.
+/// The greatest power of two that leaves differences of the coordinates below 2^62.
+double greatest_scale(const Query& query) {
+  double size = 1.0;
+  for (const double x : query.coordinates) size = std::max(size, std::abs(x));
+  return std::ldexp(1.0, 60 - std::ilogb(size));
+}
+
+/// r, p and q of a query with integer coordinates, times a power of two.
 template <class Number>
 exact_stage::Motion<Number> integer_motion(const PosedQuery& posed, double scale = 1.0) {
   exact_stage::Motion<Number> motion{posed.kind, {}, {}, {}, {}};
@@ -95,8 +102,8 @@ exact_stage::Motion<Number> integer_motion(const PosedQuery& posed, double scale
   return motion;
 }
 
-/// A part of the exact stage, where it decides, if coordinates are small integers: the case of a
-/// fixed size, with coordinates that just fit, or the general one, which other queries come to if
+/// A part of the exact stage, where it decides, if coordinates are integers below 2^61: the case of
+/// a fixed size, with coordinates that just fit, or the general one, which other queries come to if
 /// they are large.
 template <class Number>
 void solve_in(Kind kind, std::span<const Query> queries, std::span<CertifiedResult> results,
@@ -104,14 +111,15 @@ void solve_in(Kind kind, std::span<const Query> queries, std::span<CertifiedResu
   const auto latest = std::bit_cast<std::uint64_t>(options.t_max);
   for (std::size_t i = 0; i < queries.size(); ++i) {
     const PosedQuery posed{kind, queries[i]};
-    const bool is_small = std::ranges::all_of(
-        queries[i].coordinates, [](double x) { return std::abs(x) <= 8.0 && std::trunc(x) == x; });
+    const bool is_small = std::ranges::all_of(queries[i].coordinates, [](double x) {
+      return std::abs(x) < 0x1p61 && std::trunc(x) == x;
+    });
     results[i] = decided_exactly(kind, queries[i], options);
     if (!is_small || !is_zero(options.separation)) continue;
     if constexpr (std::is_same_v<Number, exact_stage::BigInteger>) {
       results[i] = result_of(exact_stage::first_impact(integer_motion<Number>(posed), latest));
     } else {
-      const auto motion = integer_motion<Number>(posed, 0x1p57);
+      const auto motion = integer_motion<Number>(posed, greatest_scale(queries[i]));
       const auto answer = exact_stage::fixed_size_first_impact(motion, latest, 1);
       if (answer.decided) results[i] = result_of(answer.impact);
     }
@@ -151,7 +159,7 @@ void solve_curves(Kind kind, std::span<const Query> queries, std::span<Certified
 }
 
 constexpr std::array<Decider, 7> deciders{
-    {{"certified", &solve, false},
+    {{"certified", &solve, true},
      {"exact stage", &solve_exactly, true},
      {"general exact stage", &solve_in<exact_stage::BigInteger>, false},
      {"exact stage in one limb", &solve_in<exact_stage::FixedInteger<1>>, false},
@@ -352,6 +360,16 @@ std::vector<ByHand> queries_by_hand(Kind kind) {
   // A time far below the least double, and one of 2^-1000 + 2^-1040.
   all.push_back({over(kind, tiniest, -1e308)});
   all.push_back({over(kind, 0x1p-500, 0x1p-500 - 0x1p500)});
+  // Whole numbers: a tiny time that is no small fraction, and times that only 2^-60 tells from it.
+  for (const double end : {-0x1p43, -0x1p43 - 1, -0x1p60}) all.push_back({over(kind, 3, end)});
+  // A vertex over the triangle's side x + y = 4, and one part in 2^52 beside it on either side.
+  for (const double x : {1.0, std::nextafter(1.0, 2.0), std::nextafter(1.0, 0.0)}) {
+    PosedQuery beside_side = tests::over_triangle(0x1p53 * x, 0x1p53 * 3, 0x1p20 + 1, -0x1p21);
+    for (const std::size_t first : {3U, 15U}) {
+      for (double& c : std::span(beside_side.query.coordinates).subspan(first, 9)) c *= 0x1p53;
+    }
+    all.push_back({beside_side});
+  }
   return all;
 }
 
@@ -388,19 +406,27 @@ Separation draw_separation(Random& random, const Query& query) {
   return {.distance = std::max(distance, tiniest), .norm = norm};
 }
 
-/// Expects F near 0 on every axis at toi_upper and (u,v), relative to its coordinates. F has moved
-/// on by then: corners are differences of coordinates, at most 4 of these apart.
-void expect_contact_at_place(const PosedQuery& posed, const CertifiedResult& result) {
-  const Rational upper(result.toi_upper);
+/// Expects ‖F‖ at toi_upper and (u,v) to be hardly more than the separation, relative to the
+/// coordinates of each axis. F has moved on by then: corners are differences of coordinates, at
+/// most 4 of these apart.
+void expect_place(const PosedQuery& posed, const CertifiedResult& result,
+                  const Separation& separation, const Rational& accuracy) {
+  const Rational upper(result.toi_upper), moved = 4 * (upper - Rational(result.toi_lower));
   const auto f = tests::contact_function<Rational>(posed.kind, posed.query, upper,
                                                    Rational(result.u), Rational(result.v));
-  const Rational moved = 4 * (upper - Rational(result.toi_lower));
+  Rational square, reach(separation.distance);
   for (std::size_t axis = 0; axis < 3; ++axis) {
     double largest = 0.0;
     for (std::size_t i = axis; i < posed.query.coordinates.size(); i += 3) {
       largest = std::max(largest, std::abs(posed.query.coordinates.at(i)));
     }
-    EXPECT_LE(abs(f[axis]), Rational(largest) * (exact::power_of_two(-43) + moved)) << posed;
+    const Rational slack = Rational(largest) * (accuracy + moved);
+    EXPECT_LE(abs(f[axis]), Rational(separation.distance) + slack) << posed;
+    square += f[axis] * f[axis];
+    reach += slack;
+  }
+  if (separation.norm == Norm::l2) {
+    EXPECT_LE(square, reach * reach) << posed;
   }
 }
 
@@ -422,8 +448,11 @@ void expect_truth(const Decider& decider, const PosedQuery& posed, const exact::
   if (least_time > 0.0) {
     EXPECT_FALSE(collides_until(std::nextafter(least_time, 0.0))) << decider.name << ' ' << posed;
   }
-  const bool is_narrow = is_zero(options.separation) && options.toi_tolerance <= 1e-12;
-  if (decider.knows_the_place && is_narrow) expect_contact_at_place(posed, result);
+  if (options.toi_tolerance > 1e-12) return;
+  const bool is_close = result.stage == Stage::exact && is_zero(options.separation);
+  if (decider.knows_the_place) {
+    expect_place(posed, result, options.separation, exact::power_of_two(is_close ? -43 : -20));
+  }
 }
 
 class Deciders : public testing::TestWithParam<QueryFamily> {
@@ -506,67 +535,23 @@ TEST(DecidersByHand, AreRightWhereABitDecides) {
 INSTANTIATE_TEST_SUITE_P(On, Deciders, testing::ValuesIn(query_families()),
                          [](const auto& tested) { return tested.param.name; });
 
-// ---- The decision of a fixed size ---------------------------------------------------------------
+// ---- Work ---------------------------------------------------------------------------------------
 
-using exact_stage::bits_of_one;
-using exact_stage::FixedInteger;
-using exact_stage::FixedSizeAnswer;
-
-template <class Number>
-FixedSizeAnswer decide_in(const PosedQuery& posed, double scale = 1.0, std::uint64_t step = 1) {
-  return fixed_size_first_impact(integer_motion<Number>(posed, scale), bits_of_one, step);
-}
-
-/// Expects the query's first contact, enclosed within the tolerance or one spacing of doubles. (The
-/// place is not yet in the domain.)
-void expect_contact(const PosedQuery& posed, const FixedSizeAnswer& answer,
-                    double tolerance = 0.0) {
-  ASSERT_TRUE(answer.decided) << posed;
-  CertifiedResult result = result_of(answer.impact);
-  result.u = result.v = 0.0;
-  const auto wrong = tests::fault(posed.kind, posed.query, result, {.toi_tolerance = tolerance});
-  EXPECT_EQ(wrong.value_or(""), "") << posed;
-}
-
+/// The general decision is for the rare query whose numbers do not fit.
 TEST(FixedSizeDecision, DecidesAlmostAllSmallIntegers) {
+  using Number = exact_stage::FixedInteger<1>;
   Random random(1);
-  for (const double scale : {1.0, 0x1p57}) {
-    int undecided = 0;
-    constexpr int count = 4000;
-    for (int i = 0; i < count; ++i) {
-      const Kind kind = i % 2 == 0 ? Kind::vertex_face : Kind::edge_edge;
-      const PosedQuery posed{kind, tests::integer_query(random, 1 + i % 4)};
-      undecided += decide_in<FixedInteger<1>>(posed, scale).decided ? 0 : 1;
-      // An enclosure of 4503 spacings.
-      const FixedSizeAnswer wide = decide_in<FixedInteger<2>>(posed, scale, 4503);
-      if (wide.decided) expect_contact(posed, wide, 1e-12);
-      if (HasFailure()) return;
+  int undecided = 0;
+  constexpr int count = 4000;
+  for (int i = 0; i < count; ++i) {
+    const Kind kind = i % 2 == 0 ? Kind::vertex_face : Kind::edge_edge;
+    const PosedQuery posed{kind, tests::integer_query(random, 1 + i % 4)};
+    for (const double scale : {1.0, greatest_scale(posed.query)}) {
+      const auto motion = integer_motion<Number>(posed, scale);
+      undecided += fixed_size_first_impact(motion, exact_stage::bits_of_one, 1).decided ? 0 : 1;
     }
-    EXPECT_LT(undecided, count / 50);
   }
-}
-
-TEST(FixedSizeDecision, FindsATinyTimeThatIsNoSmallFraction) {
-  const PosedQuery posed = tests::over_triangle(1, 1, 3, -0x1p43 - 1);
-  expect_contact(posed, decide_in<FixedInteger<1>>(posed));
-}
-
-TEST(FixedSizeDecision, DecidesSignsFarBelowTheWidthOfItsEnclosure) {
-  // A vertex over the triangle's side x + y = 4, and one part in 2^52 beside it on either side.
-  for (const double x : {1.0, std::nextafter(1.0, 2.0), std::nextafter(1.0, 0.0)}) {
-    PosedQuery posed = tests::over_triangle(0x1p53 * x, 0x1p53 * 3, 0x1p20 + 1, -0x1p21);
-    for (const std::size_t first : {3U, 15U}) {
-      for (double& c : std::span(posed.query.coordinates).subspan(first, 9)) c *= 0x1p53;
-    }
-    expect_contact(posed, decide_in<FixedInteger<1>>(posed));
-  }
-}
-
-TEST(FixedSizeDecision, HandsOnWhatItCannotHold) {
-  // A time near 3·2^-120.
-  auto motion = integer_motion<FixedInteger<2>>(tests::over_triangle(1, 1, 3, -1));
-  motion.r[2][1] = FixedInteger<2>(-(exact_stage::SignedWideLimb{1} << 120U));
-  EXPECT_FALSE(fixed_size_first_impact(motion, bits_of_one, 1).decided);
+  EXPECT_LT(undecided, count / 50);
 }
 
 }  // namespace

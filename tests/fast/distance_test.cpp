@@ -53,7 +53,7 @@ double approximately(const Rational& measure, Norm norm) {
 
 /// The doubles around the true distance.
 Distance truth(const PosedQuery& posed, double t, Norm norm) {
-  const Rational measure = tests::DistanceAtTime(posed.kind, posed.query, t).measure(norm);
+  const Rational measure = tests::exact_pair::distance_at_time(posed, t, norm);
   const auto sign_of = [&](double x) -> std::optional<int> {
     return tests::compare_distance(measure, norm, Rational(x));
   };
@@ -158,6 +158,20 @@ TEST(Distance, IsThatOfRationals) {
       if (HasFatalFailure()) return;
     }
   }
+  // Distances that are doubles, the least one and parts of it; and one beyond the greatest double.
+  constexpr double m = greatest;
+  std::vector<PosedQuery> by_hand{tests::vertex_face({m, m, m, -m, 0, 0, -m, 0, 0, -m, 0, 0}, {})};
+  for (const double height : {1.0, 0.1, 1e-300, tiniest, 1e300, 0.0}) {
+    for (const double end : {-height, 0.0, height}) {
+      by_hand.push_back(tests::over_triangle(1, 1, height, end));
+      by_hand.push_back(tests::over_edge(1, 1, height, end));
+    }
+  }
+  for (const PosedQuery& posed : by_hand) {
+    for (const double t : {0.0, 0.5, 0.75, 1.0}) {
+      for (const Norm norm : norms) EXPECT_EQ(fault(posed, t, norm), "");
+    }
+  }
 }
 
 // ---- Neighbouring doubles -----------------------------------------------------------------------
@@ -185,35 +199,7 @@ TEST(NeighbouringDoubles, AreFoundFromAnyGuess) {
   }
 }
 
-TEST(NeighbouringDoubles, NeedFewComparisonsNearby) {
-  for (const double guess : {0.1, std::nextafter(0.1, 0.0), std::nextafter(0.1, 1.0)}) {
-    int comparisons = 0;
-    const auto sign_of = sign_against(0.1, true);
-    (void)neighbouring_doubles(guess, [&](double s) { return ++comparisons, sign_of(s); });
-    EXPECT_LE(comparisons, 4);
-  }
-}
-
 // ---- What follows -------------------------------------------------------------------------------
-
-TEST(Distance, IsADoubleWhereThereIsOneAndNoOverflowOrUnderflow) {
-  for (const Norm norm : norms) {
-    const auto expect = [norm](const PosedQuery& posed, double t, const Distance& expected) {
-      EXPECT_EQ(distance(posed.kind, posed.query, t, norm), expected) << posed << " at " << t;
-    };
-    for (const double height : {1.0, 0.1, 1e-300, tiniest, 1e300, 0.0}) {
-      expect(tests::over_triangle(1, 1, height, -height), 0.0, {height, height});
-      expect(tests::over_triangle(1, 1, height, -height), 0.5, {0.0, 0.0});
-      expect(tests::over_edge(1, 1, height, height), 0.5, {height, height});
-    }
-    expect(tests::over_triangle(1, 1, tiniest, 0.0), 0.75, {0.0, tiniest});
-    expect(tests::over_triangle(1, 1, tiniest, 0.0), 1.0, {0.0, 0.0});
-    expect(tests::vertex_face(
-               {greatest, greatest, greatest, -greatest, 0, 0, -greatest, 0, 0, -greatest, 0, 0},
-               {0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0}),
-           0.0, {greatest, infinity});
-  }
-}
 
 TEST(Distance, OfManyIsThatOfEachInAllInstructionSetsAndAsARuleFiltered) {
   Random random(2006);
@@ -437,35 +423,6 @@ TEST(LeastDistance, HasTheNormThatSeparationsHaveByDefault) {
   EXPECT_GT(least_distance(step)->distance.lower, 1.0);
   EXPECT_TRUE(step.is_free());
   EXPECT_FALSE(step.with_separation({.distance = 1.0, .norm = Norm::linf}).is_free());
-}
-
-/// Two triangles in parallel planes at this distance.
-tests::Scene two_triangles(double distance) {
-  tests::Scene scene{.start = tests::Places(6, 3), .end = {}, .faces = {{0, 1, 2}, {3, 4, 5}}};
-  scene.start << 0, 0, 0, 4, 0, 0, 0, 4, 0, 1, 1, distance, 2, 1, distance, 1, 2, distance;
-  scene.end = scene.start;
-  scene.edges = edges_of(scene.faces);
-  return scene;
-}
-
-TEST(LeastDistance, IsAsExactForPrimitivesFarFromEachOther) {
-  for (const double distance : {1e-300, 1e-3, 1.0, 1e3, 1e17, 1e300}) {
-    const auto least = least_distance(two_triangles(distance).step());
-    ASSERT_TRUE(least);
-    EXPECT_EQ(least->distance, (Distance{distance, distance}));
-    // Three vertices over the face.
-    EXPECT_GE(least->pairs.size(), 3U);
-  }
-}
-
-TEST(LeastDistance, OfNoPairIsEmpty) {
-  tests::Scene scene = two_triangles(1.0);
-  // Without groups all vertices are in one.
-  scene.apart = {{0, 0}};
-  EXPECT_EQ(least_distance(scene.step()), std::nullopt);
-  scene.faces.clear();
-  scene.edges.clear();
-  EXPECT_EQ(least_distance(scene.step()), std::nullopt);
 }
 
 }  // namespace

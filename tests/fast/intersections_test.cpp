@@ -9,7 +9,6 @@
 #include <limits>
 #include <map>
 #include <memory>
-#include <numbers>
 #include <set>
 #include <stdexcept>
 #include <string>
@@ -21,6 +20,7 @@
 #include "tests/faults/planted_faults.hpp"
 #include "tests/support/messages.hpp"
 #include "tests/support/random.hpp"
+#include "tests/support/scenes.hpp"
 #include "tests/support/trials.hpp"
 
 namespace touchstone::fast::intersections_test {
@@ -54,13 +54,6 @@ struct Mesh {
     return fast::intersections(vertices, elements(), options);
   }
 };
-
-/// The kind of each intersection.
-std::vector<Kind> kinds_of(const Found& found) {
-  std::vector<Kind> result;
-  for (const Intersection& one : found) result.push_back(one.kind);
-  return result;
-}
 
 // ---- Beside the oracle --------------------------------------------------------------------------
 
@@ -265,43 +258,146 @@ TEST(Intersections, OfTwoElementsAreThoseOfRationalArithmetic) {
   }
 }
 
-/// Of edges and faces without a common vertex, one by one.
-TEST(Intersections, OfEdgesWithFacesAreThoseOfRationalArithmetic) {
-  Random random(542);
-  int count = 0;
-  for (int i = 0; i < tests::trials(300); ++i) {
-    Mesh mesh{.vertices = Rows(8, 3)};
-    for (double& x : mesh.vertices.reshaped()) x = random.between(-2, 2);
-    for (std::int32_t a = 0; a < 3; ++a) mesh.faces.push_back({a, a + 2, a + random.between(3, 5)});
+/// A mesh of few vertices of small whole numbers, so that elements have common vertices, are
+/// coplanar, folded over each other, and touch; and what is asked of it.
+struct Asked {
+  Mesh mesh;
+  std::vector<std::int32_t> groups = {};
+  std::vector<std::array<std::int32_t, 2>> apart = {};
+  bool weld = false;
+  IntersectingPairs pairs = IntersectingPairs::all;
+
+  explicit Asked(Random& random) {
+    const int vertices = random.between(4, 12), greatest = random.between(1, 3);
+    mesh.vertices.resize(vertices, 3);
+    for (double& x : mesh.vertices.reshaped()) x = random.between(-greatest, greatest);
+    if (random.between(0, 2) == 0) mesh.vertices.col(random.between(0, 2)).setConstant(5.0);
+    const auto any = [&] { return random.between(0, vertices - 1); };
+    for (int i = random.between(0, 5); i > 0; --i) mesh.faces.push_back({any(), any(), any()});
     mesh.edges = edges_of(mesh.faces);
-    mesh.edges.push_back({6, 7});
-    const Found found = mesh.intersections({.pairs = IntersectingPairs::edges_with_faces});
+    for (int i = random.between(0, 3); i > 0; --i) mesh.edges.push_back({any(), any()});
+    for (int i = random.between(0, 3); i > 0; --i) mesh.points.push_back(any());
+    for (int i = 0; i < vertices; ++i) groups.push_back(random.between(0, 2));
+    for (int i = random.between(0, 2); i > 0; --i) {
+      apart.push_back({random.between(0, 2), random.between(0, 2)});
+    }
+    weld = random.between(0, 2) == 0;
+    if (random.coin()) pairs = IntersectingPairs::edges_with_faces;
+  }
+
+  [[nodiscard]] IntersectionOptions options() const {
+    return {.pairs = pairs, .groups = {.of_vertices = groups, .apart = apart}, .weld = weld};
+  }
+
+  /// The intersections of all pairs, one by one.
+  [[nodiscard]] Found truth() const {
     Found expected;
-    for (std::int32_t face = 0; std::cmp_less(face, mesh.faces.size()); ++face) {
-      for (std::int32_t edge = 0; std::cmp_less(edge, mesh.edges.size()); ++edge) {
-        const Face& of_face = mesh.faces[static_cast<std::size_t>(face)];
-        const auto [a, b] = mesh.edges[static_cast<std::size_t>(edge)];
-        if (std::ranges::count(of_face, a) + std::ranges::count(of_face, b) > 0) continue;
-        const auto truth = truth_of(mesh.vertices, {of_face, {a, b, b}});
+    const std::vector<Element> elements = this->elements();
+    for (std::size_t i = 0; i < elements.size(); ++i) {
+      for (std::size_t k = i + 1; k < elements.size(); ++k) {
+        const Element &a = elements[i], &b = elements[k];
+        if (!is_asked(a, b)) continue;
+        const auto truth = truth_of(mesh.vertices, {a.corners, b.corners});
         if (!truth) continue;
-        expected.push_back({.elements = {ElementKind::face, ElementKind::edge},
-                            .numbers = {face, edge},
+        expected.push_back({.elements = {a.kind, b.kind},
+                            .numbers = {a.number, b.number},
                             .kind = truth->first,
                             .place = truth->second});
       }
     }
-    ASSERT_EQ(found, expected);
-    EXPECT_EQ(has_intersections(mesh.vertices, mesh.elements(),
-                                {.pairs = IntersectingPairs::edges_with_faces}),
-              !expected.empty());
-    mesh.edges.pop_back();
-    const Found of_faces = mesh.intersections({.pairs = IntersectingPairs::edges_with_faces});
-    mesh.edges.clear();
-    EXPECT_EQ(mesh.intersections({.pairs = IntersectingPairs::edges_with_faces}), of_faces)
-        << "by default the edges of the faces";
-    count += static_cast<int>(found.size());
+    return expected;
   }
-  EXPECT_GT(count, tests::trials(300));
+
+ private:
+  using Corners = std::array<std::int32_t, 3>;
+  /// The last corner is repeated for an edge or a point.
+  struct Element {
+    ElementKind kind;
+    std::int32_t number;
+    Corners corners;
+  };
+
+  [[nodiscard]] std::int32_t group(std::int32_t vertex) const {
+    return groups[static_cast<std::size_t>(vertex)];
+  }
+  /// The first vertex at its place, of its group, if they are welded.
+  [[nodiscard]] std::int32_t welded(std::int32_t vertex) const {
+    std::int32_t first = 0;
+    while (group(first) != group(vertex) || mesh.vertices.row(first) != mesh.vertices.row(vertex)) {
+      ++first;
+    }
+    return weld ? first : vertex;
+  }
+
+  /// Faces, edges of none (all edges to be asked about with faces), points without an edge.
+  [[nodiscard]] std::vector<Element> elements() const {
+    std::vector<Element> result;
+    const auto add = [&](ElementKind kind, auto number, const Corners& corners) {
+      result.push_back({kind,
+                        static_cast<std::int32_t>(number),
+                        {welded(corners[0]), welded(corners[1]), welded(corners[2])}});
+    };
+    std::set<Edge> sides;
+    std::set<std::int32_t> with_edge;
+    for (std::size_t i = 0; i < mesh.faces.size(); ++i) {
+      add(ElementKind::face, i, mesh.faces[i]);
+      const auto [a, b, c] = mesh.faces[i];
+      sides.insert({tests::ordered(a, b), tests::ordered(b, c), tests::ordered(c, a)});
+    }
+    for (std::size_t i = 0; i < mesh.edges.size(); ++i) {
+      const auto [a, b] = mesh.edges[i];
+      with_edge.insert({a, b});
+      const bool is_side = sides.contains(tests::ordered(a, b));
+      if (!is_side || pairs != IntersectingPairs::all) add(ElementKind::edge, i, {a, b, b});
+    }
+    for (const std::int32_t i : std::set<std::int32_t>(mesh.points.begin(), mesh.points.end())) {
+      if (!with_edge.contains(i)) add(ElementKind::point, i, {i, i, i});
+    }
+    return result;
+  }
+
+  [[nodiscard]] bool is_asked(const Element& a, const Element& b) const {
+    bool some_meet = false, share_vertex = false;
+    for (const std::int32_t i : a.corners) {
+      for (const std::int32_t k : b.corners) {
+        share_vertex |= i == k;
+        some_meet |= std::ranges::none_of(apart, [&](const auto& two) {
+          return tests::ordered(two[0], two[1]) == tests::ordered(group(i), group(k));
+        });
+      }
+    }
+    if (!some_meet || pairs == IntersectingPairs::all) return some_meet;
+    return a.kind == ElementKind::face && b.kind == ElementKind::edge && !share_vertex;
+  }
+};
+
+TEST(Intersections, OfAMeshAreThoseOfRationalArithmetic) {
+  Random random(542);
+  std::map<IntersectingPairs, std::size_t> count;
+  for (int i = 0; i < tests::trials(400); ++i) {
+    const Asked asked(random);
+    const auto& [vertices, faces, edges, points] = asked.mesh;
+    const Found found = asked.mesh.intersections(asked.options());
+    ASSERT_EQ(found, asked.truth()) << i;
+    EXPECT_EQ(has_intersections(vertices, asked.mesh.elements(), asked.options()), !found.empty());
+    count[asked.pairs] += found.size();
+  }
+  for (const auto& [pairs, found] : count) EXPECT_GT(found, tests::trials(100U));
+}
+
+TEST(Intersections, OfEdgesWithFacesAreByDefaultOfTheirOwnEdges) {
+  Random random(546);
+  std::size_t count = 0;
+  for (int i = 0; i < 100; ++i) {
+    Mesh mesh = Asked(random).mesh;
+    mesh.edges = edges_of(mesh.faces);
+    const IntersectionOptions options{.pairs = IntersectingPairs::edges_with_faces};
+    const Found found = mesh.intersections(options);
+    mesh.edges.clear();
+    EXPECT_EQ(mesh.intersections(options), found);
+    count += found.size();
+  }
+  EXPECT_GT(count, 20U);
 }
 
 // ---- The filter ---------------------------------------------------------------------------------
@@ -439,179 +535,7 @@ TEST(TriangleFilter, PlantedFaultsAreFound) {
   }
 }
 
-// ---- By construction ----------------------------------------------------------------------------
-
-/// A grid of n × n squares of two faces each.
-Mesh grid(std::int32_t n) {
-  Mesh mesh{.vertices = Rows((n + 1) * (n + 1), 3)};
-  for (std::int32_t i = 0; i <= n; ++i) {
-    for (std::int32_t k = 0; k <= n; ++k) mesh.vertices.row(i * (n + 1) + k) << i, k, 0.0;
-  }
-  for (std::int32_t i = 0; i < n; ++i) {
-    for (std::int32_t k = 0; k < n; ++k) {
-      const std::int32_t a = i * (n + 1) + k, b = a + n + 1;
-      mesh.faces.push_back({a, b, b + 1});
-      mesh.faces.push_back({a, b + 1, a + 1});
-    }
-  }
-  return mesh;
-}
-
-/// A sphere without poles: rings of 2n vertices.
-Mesh sphere(std::int32_t n) {
-  Mesh mesh{.vertices = Rows(2 * n * n, 3)};
-  for (std::int32_t i = 0; i < n; ++i) {
-    for (std::int32_t k = 0; k < 2 * n; ++k) {
-      const double height = std::numbers::pi * (i + 0.5) / n, angle = std::numbers::pi * k / n;
-      mesh.vertices.row(2 * n * i + k) << std::sin(height) * std::cos(angle),
-          std::sin(height) * std::sin(angle), std::cos(height);
-    }
-  }
-  for (std::int32_t i = 0; i + 1 < n; ++i) {
-    for (std::int32_t k = 0; k < 2 * n; ++k) {
-      const std::int32_t a = 2 * n * i + k, b = 2 * n * i + (k + 1) % (2 * n);
-      mesh.faces.push_back({a, a + 2 * n, b + 2 * n});
-      mesh.faces.push_back({a, b + 2 * n, b});
-    }
-  }
-  return mesh;
-}
-
-void append(Mesh& mesh, const Mesh& other) {
-  const auto first = static_cast<std::int32_t>(mesh.vertices.rows());
-  const Rows before = mesh.vertices;
-  mesh.vertices.resize(before.rows() + other.vertices.rows(), 3);
-  mesh.vertices << before, other.vertices;
-  for (const auto& [a, b, c] : other.faces) mesh.faces.push_back({a + first, b + first, c + first});
-}
-
-constexpr std::array<int, 6> scales{0, -1000, -500, 90, 500, 1000};
-
-TEST(Intersections, OfASphereAndAPlaneAreTheFacesOnBothSides) {
-  Mesh mesh = sphere(12);
-  append(mesh, {rows({{-100, -80, 0.125}, {200, -80, 0.125}, {-100, 300, 0.125}}), {{0, 1, 2}}});
-  const auto plane = static_cast<std::int32_t>(mesh.faces.size()) - 1;
-  std::vector<std::int32_t> expected;
-  for (std::int32_t i = 0; i < plane; ++i) {
-    int above = 0;
-    for (const std::int32_t vertex : mesh.faces[static_cast<std::size_t>(i)]) {
-      if (mesh.vertices(vertex, 2) > 0.125) ++above;
-    }
-    if (above == 1 || above == 2) expected.push_back(i);
-  }
-  ASSERT_GT(expected.size(), 20U);
-  for (const int scale : scales) {
-    Mesh scaled = mesh;
-    for (double& x : scaled.vertices.reshaped()) x = std::ldexp(x, scale);
-    const Found found = scaled.intersections();
-    ASSERT_EQ(found.size(), expected.size()) << scale;
-    for (std::size_t i = 0; i < found.size(); ++i) {
-      EXPECT_EQ(found[i].numbers, (IndexPair{expected[i], plane}));
-      EXPECT_EQ(found[i].kind, Kind::edge_through_face);
-      for (const PointEnclosure& end : found[i].place) {
-        EXPECT_EQ(end.lower[2], std::ldexp(0.125, scale));
-        EXPECT_EQ(end.upper[2], std::ldexp(0.125, scale));
-      }
-    }
-  }
-}
-
-/// In one plane, tilted, or of one line.
-TEST(Intersections, OfAGridDoNotExist) {
-  for (const int scale : scales) {
-    Mesh mesh = grid(9);
-    for (double& x : mesh.vertices.reshaped()) x = std::ldexp(x, scale);
-    EXPECT_TRUE(mesh.intersections().empty());
-    mesh.vertices.col(2) = mesh.vertices.col(0) * 3.0 - mesh.vertices.col(1) * 7.0;
-    EXPECT_TRUE(mesh.intersections().empty());
-  }
-}
-
-/// A strip of squares, folded over and over. The diagonals of neighbours cross, so each face of one
-/// overlaps both of the other, one of them in a fold. Squares with the same diagonal overlap in
-/// their equal halves, and touch along the diagonal.
-TEST(Intersections, OfAFoldedStripAreItsLayers) {
-  static constexpr std::int32_t squares = 7;
-  Mesh mesh{.vertices = Rows(2 * (squares + 1), 3)};
-  for (std::int32_t i = 0; i <= squares; ++i) {
-    mesh.vertices.row(2 * i) << i % 2, 0, 5;
-    mesh.vertices.row(2 * i + 1) << i % 2, 1, 5;
-  }
-  for (std::int32_t i = 0; i < squares; ++i) {
-    mesh.faces.push_back({2 * i, 2 * i + 1, 2 * i + 2});
-    mesh.faces.push_back({2 * i + 1, 2 * i + 3, 2 * i + 2});
-  }
-  std::map<Kind, int> count;
-  for (const Intersection& one : mesh.intersections()) ++count[one.kind];
-  EXPECT_EQ(count[Kind::folded_faces], squares - 1);
-  static constexpr int crossing = 4 * 3, equal = 6 + 3;  // pairs of squares
-  EXPECT_EQ(count[Kind::coplanar_overlap], 4 * crossing + 2 * equal - (squares - 1));
-  EXPECT_EQ(count[Kind::edges_overlap], 2 * equal);
-}
-
-/// Triangles that share a vertex and touch along an edge, or in a part of it, or cross there; and
-/// coplanar neighbours. (The last vertex is the third face's.)
-TEST(Intersections, OfTrianglesAtACommonVertexAreBeyondIt) {
-  const auto kinds = [](const std::array<double, 3>& x, const std::array<double, 3>& y) {
-    const Mesh mesh{rows({{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, x, y}), {{0, 1, 2}, {3, 4, 0}}};
-    return kinds_of(mesh.intersections());
-  };
-  using Kinds = std::vector<Kind>;
-  EXPECT_EQ(kinds({0, 0, 3}, {-1, -1, 3}), Kinds{});
-  EXPECT_EQ(kinds({0, 0, 3}, {2, 0, 0}), Kinds{Kind::edges_overlap});
-  EXPECT_EQ(kinds({0, 0, 3}, {4, 0, 0}), Kinds{Kind::edges_overlap}) << "a duplicated vertex";
-  EXPECT_EQ(kinds({0, 0, 3}, {9, 0, 0}), Kinds{Kind::edges_overlap});
-  EXPECT_EQ(kinds({0, 0, 3}, {1, 1, 0}), Kinds{Kind::edge_through_face});
-  EXPECT_EQ(kinds({1, 1, 3}, {1, 1, -3}), Kinds{Kind::edge_through_face});
-  EXPECT_EQ(kinds({-1, -1, 3}, {-1, -1, -3}), Kinds{});
-  EXPECT_EQ(kinds({-1, 0, 0}, {0, -1, 0}), Kinds{}) << "coplanar, on the other side";
-  EXPECT_EQ(kinds({-1, 0, 0}, {-1, 4, 0}), Kinds{}) << "coplanar, beside";
-  EXPECT_EQ(kinds({4, -4, 0}, {4, 0, 0}), Kinds{Kind::edges_overlap}) << "coplanar, along an edge";
-  EXPECT_EQ(kinds({4, -4, 0}, {4, 1, 0}), Kinds{Kind::coplanar_overlap});
-}
-
-/// By one bit, in the plane and off it.
-TEST(Intersections, AreDecidedExactly) {
-  for (const double x : {2.0, std::nextafter(2.0, 3.0)}) {
-    const Mesh mesh{rows({{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {2, x, -1}, {2, x, 1}, {9, 9, 0}}),
-                    {{0, 1, 2}, {3, 4, 5}}};
-    const Found found = mesh.intersections();
-    ASSERT_EQ(found.size(), x == 2.0 ? 1U : 0U);
-    if (found.empty()) continue;
-    EXPECT_EQ(found[0].kind, Kind::edges_cross);
-    EXPECT_EQ(found[0].place[0].lower, (std::array{2.0, 2.0, 0.0}));
-  }
-}
-
-TEST(Intersections, OfEdgesAndPointsWithFaces) {
-  Mesh mesh{.vertices = rows({{0, 0, 0},
-                              {4, 0, 0},
-                              {0, 4, 0},
-                              {1, 1, -1},
-                              {1, 1, 1},
-                              {1, 1, 0},
-                              {2, 0, 0},
-                              {9, 9, 9}}),
-            .faces = {{0, 1, 2}},
-            .edges = {{0, 1}, {0, 2}, {1, 2}, {3, 4}},
-            .points = {5, 6, 7}};
-  const Found found = mesh.intersections();
-  ASSERT_EQ(found.size(), 4U);
-  using Kinds = std::vector<Kind>;
-  EXPECT_EQ(kinds_of(found), (Kinds{Kind::edge_through_face, Kind::vertex_in_face,
-                                    Kind::vertex_on_edge, Kind::vertex_on_edge}));
-  EXPECT_EQ(found[0].elements, (std::array{ElementKind::face, ElementKind::edge}));
-  EXPECT_EQ(found[0].numbers, (IndexPair{0, 3}));
-  EXPECT_EQ(found[1].elements, (std::array{ElementKind::face, ElementKind::point}));
-  EXPECT_EQ(found[1].numbers, (IndexPair{0, 5}));
-  EXPECT_EQ(found[2].numbers, (IndexPair{0, 6}));
-  EXPECT_EQ(found[3].elements, (std::array{ElementKind::edge, ElementKind::point}));
-  EXPECT_EQ(found[3].numbers, (IndexPair{3, 5}));
-  // A vertex that only a face names is no point, and so no duplicate of that face.
-  mesh.faces.push_back({7, 7, 7});
-  mesh.points = {5};
-  EXPECT_EQ(mesh.intersections().size(), 3U);
-}
+// ---- Steps and options --------------------------------------------------------------------------
 
 /// Those of a step at its start, of groups that can collide.
 TEST(Intersections, OfAStepsStart) {
@@ -631,21 +555,12 @@ TEST(Intersections, OfAStepsStart) {
   EXPECT_TRUE(of_groups.starts_free());
 }
 
-// ---- Options ------------------------------------------------------------------------------------
-
-/// Two spheres that intersect.
-Mesh two_spheres() {
-  Mesh mesh = sphere(9), other = mesh;
-  other.vertices.rowwise() += Eigen::RowVector3d(0.3, 0.2, 0.1);
-  append(mesh, other);
-  return mesh;
-}
-
 TEST(Intersections, AreTheSameInAnyNumberOfThreadsAndFloatingPointState) {
-  const Mesh mesh = two_spheres();
+  Random random(545);
+  const tests::Scene soup = tests::soup(random, 100, 0.3);
+  const Mesh mesh{soup.start, soup.faces, soup.edges, soup.points};
   const Found found = mesh.intersections({.max_threads = 1});
   EXPECT_GT(found.size(), 50U);
-  EXPECT_TRUE(std::ranges::is_sorted(found, {}, &Intersection::numbers));
   EXPECT_EQ(mesh.intersections({.max_threads = 3}), found);
   Found without = mesh.intersections({.places = false});
   for (std::size_t i = 0; i < found.size(); ++i) {
@@ -656,45 +571,6 @@ TEST(Intersections, AreTheSameInAnyNumberOfThreadsAndFloatingPointState) {
   const Rows rounded = mesh.vertices.cast<float>().cast<double>();
   EXPECT_EQ(intersections(rounded.cast<float>(), mesh.elements()),
             intersections(rounded, mesh.elements()));
-}
-
-TEST(Intersections, AreOfGroupsThatAreNotApart) {
-  const Mesh mesh = two_spheres();
-  std::vector<std::int32_t> groups(static_cast<std::size_t>(mesh.vertices.rows()), 0);
-  std::fill(groups.begin() + mesh.vertices.rows() / 2, groups.end(), 1);
-  const std::vector<std::array<std::int32_t, 2>> each{{0, 0}, {1, 1}}, both{{1, 0}};
-  const auto with = [&](const std::vector<std::array<std::int32_t, 2>>& apart) {
-    return IntersectionOptions{.groups = {.of_vertices = groups, .apart = apart}};
-  };
-  EXPECT_EQ(mesh.intersections(with(each)), mesh.intersections());
-  EXPECT_TRUE(mesh.intersections(with(both)).empty());
-  EXPECT_FALSE(has_intersections(mesh.vertices, mesh.elements(), with(both)));
-  EXPECT_TRUE(has_intersections(mesh.vertices, mesh.elements(), with(each)));
-}
-
-/// A grid in which every face has vertices of its own.
-TEST(Intersections, OfASoupAreGoneWhenItIsWelded) {
-  const Mesh joined = grid(4);
-  Mesh soup{.vertices = Rows(static_cast<Eigen::Index>(3 * joined.faces.size()), 3)};
-  std::vector<std::int32_t> groups;
-  for (const Face& face : joined.faces) {
-    const auto first = static_cast<std::int32_t>(3 * soup.faces.size());
-    for (std::int32_t i = 0; i < 3; ++i) {
-      soup.vertices.row(first + i) = joined.vertices.row(face[static_cast<std::size_t>(i)]);
-      groups.push_back(first % 2);
-    }
-    soup.faces.push_back({first, first + 1, first + 2});
-  }
-  std::map<Kind, int> count;
-  for (const Intersection& one : soup.intersections()) ++count[one.kind];
-  EXPECT_EQ(count[Kind::edges_overlap], 16 + 2 * 4 * 3) << "inner edges";
-  EXPECT_EQ(count.size(), 2U) << "and faces at a vertex";
-  EXPECT_TRUE(soup.intersections({.weld = true}).empty());
-  EXPECT_FALSE(
-      soup.intersections({.groups = {.of_vertices = groups, .apart = {}}, .weld = true}).empty())
-      << "vertices of different groups stay apart";
-  const MeshDefects defects = mesh_defects(soup.vertices, soup.elements());
-  EXPECT_EQ(defects.duplicated_vertices.size(), soup.faces.size() * 3 - 25);
 }
 
 TEST(Intersections, AreNotDefects) {
@@ -714,14 +590,14 @@ TEST(Intersections, AreNotDefects) {
 
 TEST(Intersections, OfBadInputAreRefused) {
   using tests::message_of;
-  Mesh mesh = grid(2);
-  mesh.faces.push_back({0, 1, 9});
+  Mesh mesh{.vertices = Rows::Zero(4, 3), .faces = {{0, 1, 4}}};
   EXPECT_EQ(message_of<std::out_of_range>([&] { (void)mesh.intersections(); }),
-            "face 8: vertex 9, but there are 9");
+            "face 0: vertex 4, but there are 4");
   mesh.faces.pop_back();
   EXPECT_THROW((void)mesh.intersections({.max_threads = -1}), std::invalid_argument);
   EXPECT_THROW((void)intersections(Rows(mesh.vertices).leftCols(2), mesh.elements()),
                std::invalid_argument);
+  mesh.faces.push_back({3, 1, 2});
   const std::atomic<bool> stop = true;
   EXPECT_THROW((void)mesh.intersections({.stop = &stop}), Stopped);
   mesh.vertices(3, 1) = std::numeric_limits<double>::infinity();

@@ -42,15 +42,6 @@ Scene falling_triangle(double height, double end) {
 
 // ---- One step -----------------------------------------------------------------------------------
 
-TEST(LineSearch, GoesNoFartherThanTheStep) {
-  for (const StartDistance start : {StartDistance::of_scene, StartDistance::of_pair}) {
-    const auto part = line_search_limit(falling_triangle(1.0, -1.0).step({.t_max = 0.125}), 0.5,
-                                        {.start_distance = start});
-    EXPECT_EQ(part.status, LineSearchStatus::whole);
-    EXPECT_EQ(part.step_size, 0.125);
-  }
-}
-
 TEST(LineSearch, SaysWhatIsTooSmallForDoubles) {
   for (const StartDistance start : {StartDistance::of_scene, StartDistance::of_pair}) {
     const LineSearchOptions options{.start_distance = start};
@@ -112,9 +103,9 @@ std::string fault(const Scene& scene, const LineSearchLimit& limit, double p, No
 }
 
 /// The limit by the rule for pairs, from all pairs one by one; 0 if there is none.
-double limit_of_pairs(const Scene& scene, double p, Norm norm) {
+double limit_of_pairs(const Scene& scene, double p, Norm norm, double t_max) {
   const tests::AllPairs all(scene);
-  double result = 1.0;
+  double result = t_max;
   for (const auto& named : all.pairs()) {
     const double thickness = all.thickness(named);
     if (!all.are_near(named, thickness)) continue;
@@ -125,7 +116,8 @@ double limit_of_pairs(const Scene& scene, double p, Norm norm) {
     const double kept =
         std::nextafter(thickness + p * between, std::numeric_limits<double>::infinity());
     if (kept > apart.lower || kept == apart.upper) return 0.0;
-    const auto found = fast::solve(kind, query, {.separation = {.distance = kept, .norm = norm}});
+    const auto found =
+        fast::solve(kind, query, {.t_max = t_max, .separation = {.distance = kept, .norm = norm}});
     if (found.verdict == Verdict::yes) result = std::min(result, found.toi_lower);
   }
   return result;
@@ -144,12 +136,16 @@ std::string first_fault(tests::LimitStep& limit_of, int rounds, Seen& seen) {
         tests::add_thickness(scene, std::min(0.5 * shape.separation, 1e300), random);
       const Norm norm = random.coin() ? Norm::l2 : Norm::linf;
       const double p = random.uniform(0.05, 0.95);
-      const LineSearchLimit limit = limit_of(scene.step(), p, {.norm = norm});
-      const std::string what = fault(scene, limit, p, norm);
+      const double t_max = random.between(0, 3) == 0 ? 0.25 * random.between(1, 4) : 1.0;
+      const Step step = scene.step({.t_max = t_max});
+      const LineSearchLimit limit = limit_of(step, p, {.norm = norm});
+      std::string what = fault(scene, limit, p, norm);
+      if (limit.status == LineSearchStatus::whole && limit.step_size != t_max) what = "not whole";
       if (!what.empty()) return shape.name + ": " + what;
       const LineSearchLimit of_pairs =
-          limit_of(scene.step(), p, {.norm = norm, .start_distance = StartDistance::of_pair});
-      if (of_pairs.step_size != limit_of_pairs(scene, p, norm)) return shape.name + ": of pairs";
+          limit_of(step, p, {.norm = norm, .start_distance = StartDistance::of_pair});
+      if (of_pairs.step_size != limit_of_pairs(scene, p, norm, t_max))
+        return shape.name + ": of pairs";
       ++seen[{StartDistance::of_scene, limit.status}];
       ++seen[{StartDistance::of_pair, of_pairs.status}];
     }

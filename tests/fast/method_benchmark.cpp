@@ -1,12 +1,6 @@
 /// \file
-/// Time per query of the oracle and of each solver, beside one pass that only reads the queries:
-/// the physical limit.
-///
-/// Sets: random queries by kind and class, the handcrafted and the simulation part of
-/// TOUCHSTONE_DATA (by default ../shared/datasets beside the project), each kind by itself, and
-/// each .npy file named in TOUCHSTONE_BENCH (names separated by colons). The pass is timed before
-/// each repetition, so that both are of one moment; `passes` is the time of the solver as a
-/// multiple of it.
+/// Time per query of the oracle by kind and class of random queries. (`touchstone bench` times the
+/// solvers, beside a pass that only reads the queries.)
 ///
 /// curved/…: the certified solver on curves, beside that on the lines between their ends: `lines`
 /// is the ratio of both. The queries are random; the primitives' places differ by up to 2 on each
@@ -17,139 +11,69 @@
 
 #include <array>
 #include <chrono>
-#include <cstdlib>
-#include <filesystem>
 #include <functional>
-#include <map>
 #include <optional>
-#include <sstream>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
 
-#include "tests/support/public_data.hpp"
 #include "tests/support/queries.hpp"
 #include "tests/support/random.hpp"
 #include "touchstone/certified.hpp"
 #include "touchstone/oracle.hpp"
-#include "verify/data/dataset.hpp"
-#include "verify/solvers/registry.hpp"
 
-namespace touchstone::verify {
+namespace touchstone {
 namespace {
 
-struct QuerySet {
-  Kind kind = Kind::vertex_face;
-  std::vector<Query> queries;
-};
+/// Draws a query that may belong to a class.
+using Draw = Query (*)(tests::Random&, Kind);
 
-using QuerySets = std::map<std::string, QuerySet>;
-
-void add(QuerySets& sets, const std::string& name, const std::filesystem::path& path) {
-  const auto source = data::open_dataset(path);
-  QuerySet& set = sets[name + "/" + std::string(to_string(source->kind()))];
-  set.kind = source->kind();
-  while (const auto query = source->next()) set.queries.push_back(query->query.straight());
+Query generic(tests::Random& random, Kind /*kind*/) {
+  return tests::full_significand_query(random);
 }
 
-std::string variable(const char* name, const std::string& otherwise) {
-  const char* const value = std::getenv(name);  // NOLINT(concurrency-mt-unsafe)
-  return value == nullptr ? otherwise : value;
+Query coplanar(tests::Random& random, Kind kind) {
+  Query query = generic(random, kind);
+  tests::flatten(query, 2);
+  return query;
 }
 
-/// The common property of random queries.
-struct QueryClass {
-  std::string name;
-  /// Draws a query that may belong to the class.
-  std::function<Query(tests::Random&, Kind)> draw;
-  /// The verdict of the class; if empty, all queries belong to it.
-  std::optional<bool> collides;
-};
-
-void add_random(QuerySets& sets, const QueryClass& query_class, Kind kind) {
+/// Random queries, of this verdict if there is one.
+std::vector<Query> random_queries(Kind kind, Draw draw, std::optional<bool> collides) {
   tests::Random random(5);
-  QuerySet& set = sets[query_class.name + "/" + std::string(to_string(kind))];
-  set.kind = kind;
-  while (set.queries.size() < 256) {
-    const Query query = query_class.draw(random, kind);
-    const auto& collides = query_class.collides;
+  std::vector<Query> queries;
+  while (queries.size() < 256) {
+    const Query query = draw(random, kind);
     if (collides && exact::decide(kind, query).collides() != *collides) continue;
-    set.queries.push_back(query);
+    queries.push_back(query);
   }
+  return queries;
 }
 
-QuerySets read_sets() {
-  QuerySets sets;
-  const auto generic = [](tests::Random& random, Kind) {
-    return tests::full_significand_query(random);
-  };
-  const auto coplanar = [](tests::Random& random, Kind) {
-    Query query = tests::full_significand_query(random);
-    tests::flatten(query, 2);
-    return query;
-  };
+/// One query in each iteration.
+void register_oracle(const std::string& name, Draw draw, std::optional<bool> collides) {
   for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
-    for (const QueryClass& one : {QueryClass{"miss", generic, false},
-                                  {"hit", generic, true},
-                                  {"coplanar", coplanar, std::nullopt},
-                                  {"near-miss", tests::near_contact_query, false}}) {
-      add_random(sets, one, kind);
-    }
+    benchmark::RegisterBenchmark(
+        ("oracle/" + name + "/" + std::string(to_string(kind))).c_str(),
+        [kind, queries = random_queries(kind, draw, collides)](benchmark::State& state) {
+          std::size_t next = 0;
+          for (auto iteration : state) {
+            static_cast<void>(iteration);
+            benchmark::DoNotOptimize(exact::decide(kind, queries[next]));
+            next = (next + 1) % queries.size();
+          }
+        });
   }
-  const std::filesystem::path folder = tests::public_data_folder();
-  for (const auto& file : tests::public_datasets()) {
-    add(sets, file.lexically_relative(folder).begin()->string(), file);
-  }
-  std::istringstream files(variable("TOUCHSTONE_BENCH", ""));
-  for (std::string file; std::getline(files, file, ':');) {
-    add(sets, std::filesystem::path(file).stem().string(), file);
-  }
-  return sets;
 }
 
-/// Reads every coordinate once, into eight sums, so that reading is the limit, not addition.
-void read_all(const std::vector<Query>& queries) {
-  std::array<double, 8> sums{};
-  for (const Query& query : queries) {
-    for (std::size_t i = 0; i < query.coordinates.size(); ++i) sums[i % 8] += query.coordinates[i];
-  }
-  benchmark::DoNotOptimize(sums);
-}
+// ---- Curves -------------------------------------------------------------------------------------
 
 double seconds(const std::function<void()>& work) {
   const auto start = std::chrono::steady_clock::now();
   work();
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
-
-void time_method(benchmark::State& state, const fast::Method& method, const QuerySet& set) {
-  std::vector<fast::Answer> answers(set.queries.size());
-  double pass = 0.0, solve = 0.0;
-  for (auto iteration : state) {
-    static_cast<void>(iteration);
-    pass += seconds([&] { read_all(set.queries); });
-    const double time = seconds([&] { method.solve({set.kind, set.queries}, answers, {}); });
-    state.SetIterationTime(time);
-    solve += time;
-  }
-  const auto solved =
-      static_cast<double>(state.iterations()) * static_cast<double>(set.queries.size());
-  state.counters["us/query"] = 1e6 * solve / solved;
-  state.counters["passes"] = solve / pass;
-}
-
-/// One query in each iteration.
-void time_oracle(benchmark::State& state, const QuerySet& set) {
-  std::size_t next = 0;
-  for (auto iteration : state) {
-    static_cast<void>(iteration);
-    benchmark::DoNotOptimize(exact::decide(set.kind, set.queries[next]));
-    next = (next + 1) % set.queries.size();
-  }
-}
-
-// ---- Curves -------------------------------------------------------------------------------------
 
 struct CurvedSet {
   Kind kind;
@@ -230,30 +154,17 @@ void register_curves() {
   }
 }
 
-void register_benchmarks(const QuerySets& sets) {
-  for (const auto& [name, set] : sets) {
-    const QuerySet& queries = set;
-    benchmark::RegisterBenchmark(("oracle/" + name).c_str(),
-                                 [&](benchmark::State& state) { time_oracle(state, queries); });
-    for (const auto& method : solvers::methods()) {
-      const fast::Method& solver = *method;
-      benchmark::RegisterBenchmark(
-          (std::string(solver.name()) + "/" + name).c_str(),
-          [&](benchmark::State& state) { time_method(state, solver, queries); })
-          ->UseManualTime()
-          ->Unit(benchmark::kMillisecond);
-    }
-  }
-}
-
 }  // namespace
-}  // namespace touchstone::verify
+}  // namespace touchstone
 
 int main(int argc, char** argv) {
+  using namespace touchstone;
   benchmark::Initialize(&argc, argv);
-  const auto sets = touchstone::verify::read_sets();
-  touchstone::verify::register_benchmarks(sets);
-  touchstone::verify::register_curves();
+  register_oracle("miss", generic, false);
+  register_oracle("hit", generic, true);
+  register_oracle("coplanar", coplanar, std::nullopt);
+  register_oracle("near-miss", tests::near_contact_query, false);
+  register_curves();
   benchmark::RunSpecifiedBenchmarks();
   return 0;
 }

@@ -8,10 +8,14 @@
 #include <array>
 #include <atomic>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
 #include <map>
 #include <mutex>
 #include <optional>
 #include <random>
+#include <set>
 #include <stdexcept>
 #include <string>
 #include <thread>
@@ -182,28 +186,32 @@ struct Compared {
   StepOptions options;
 };
 
-/// Small scenes of all shapes, and larger ones with groups.
-std::vector<Compared> compared_scenes(Random& random, int rounds) {
+/// Small scenes of all shapes, and larger ones with groups. Thick ones have radii and separations
+/// of groups, and primitives of several groups.
+std::vector<Compared> compared_scenes(Random& random, int rounds, bool are_thick = false) {
   std::vector<Compared> result;
   for (int round = 0; round < rounds; ++round) {
     for (const Shape& shape : shapes()) {
       StepOptions options;
-      if (random.between(0, 2) == 0) {
-        options.separation = {.distance = shape.separation,
-                              .norm = random.coin() ? Norm::l2 : Norm::linf};
-      }
+      options.separation.norm = random.coin() ? Norm::l2 : Norm::linf;
+      if (random.between(0, 2) == 0) options.separation.distance = shape.separation;
       if (random.between(0, 3) == 0) options.t_max = 0.25 * random.between(0, 4);
       Scene scene = random_scene(random, shape, random.between(1, 10));
+      // (No thickness is above 2^1000, about 1e301.)
+      if (are_thick) tests::add_thickness(scene, std::min(shape.separation, 1e300), random);
       if (random.between(0, 2) == 0) scene.can_collide = tests::random_rule(random);
       result.push_back({shape.name, scene, options});
     }
   }
   for (const double size : {0.1, 0.3}) {
     Scene scene = soup(random, 40, size);
+    if (are_thick) tests::add_thickness(scene, 0.05, random);
     result.push_back({"soup", scene, {}});
     result.push_back({"soup", scene, {.separation = {.distance = 0.02, .norm = Norm::l2}}});
     result.push_back({"soup", scene, {.t_max = 0.3}});
-    for (int i = 0; i < scene.start.rows(); ++i) scene.groups.push_back(i / 60);
+    if (!are_thick) {
+      for (int i = 0; i < scene.start.rows(); ++i) scene.groups.push_back(i / 60);
+    }
     scene.apart = {{0, 0}, {2, 1}, {3, 3}};
     result.push_back({"soup of groups", scene, {}});
     scene.can_collide = tests::random_rule(random);
@@ -229,123 +237,50 @@ std::string first_fault(const std::vector<Compared>& scenes) {
   return "";
 }
 
-TEST(Step, AgreesWithTheOracleOnAllPairsOfAllScenes) {
-  Random random(180);
-  const std::vector<Compared> scenes = compared_scenes(random, tests::trials(40));
-  EXPECT_EQ(first_fault(scenes), "");
-  // They have collisions of all kinds, with groups and without, and some are free.
-  std::map<PairKind, int> touching;
-  int free = 0, with_groups = 0, with_rule = 0;
-  for (const auto& [name, scene, options] : scenes) {
-    const std::vector<StepCollision> collisions = scene.step(options).collisions();
-    for (const StepCollision& one : collisions) ++touching[one.kind];
-    free += collisions.empty() ? 1 : 0;
-    with_groups += !scene.apart.empty() && !collisions.empty() ? 1 : 0;
-    with_rule += scene.can_collide && !collisions.empty() ? 1 : 0;
-  }
-  for (const PairKind kind : kinds) EXPECT_GT(touching[kind], 5) << to_string(kind);
-  EXPECT_GT(free, 20);
-  EXPECT_GT(with_groups, 10);
-  EXPECT_GT(with_rule, 10);
-}
+enum class Sort : std::uint8_t { plain, thick, with_volumes };
 
-TEST(Step, WithVolumesAgreesWithTheOracleOnAllElements) {
-  Random random(193);
-  std::vector<Compared> scenes = compared_scenes(random, tests::trials(40));
+class StepOnScenes : public testing::TestWithParam<Sort> {};
+
+INSTANTIATE_TEST_SUITE_P(All, StepOnScenes,
+                         testing::Values(Sort::plain, Sort::thick, Sort::with_volumes));
+
+TEST_P(StepOnScenes, AgreesWithTheOracleOnAllPairsAndElements) {
+  const bool are_thick = GetParam() == Sort::thick, have_volumes = GetParam() == Sort::with_volumes;
+  Random random(180);
+  auto scenes = compared_scenes(random, tests::soak_trials(40, 250), are_thick);
   for (Compared& one : scenes) {
-    if (one.scene.start.rows() > 2) tests::add_volumes(one.scene, 6, 20, random);
+    if (have_volumes && one.scene.start.rows() > 2) tests::add_volumes(one.scene, 6, 20, random);
   }
   EXPECT_EQ(first_fault(scenes), "");
-  // First come collisions, inversions, and both; elements are flat, inverted and neither at first.
+  // They have collisions of all kinds, with groups and without, and some are free; most need their
+  // thickness. First come collisions, and inversions; elements are flat, inverted, or neither.
+  std::map<PairKind, int> touching;
   std::map<int, int> starts;
-  int contacts = 0, volumes = 0, free = 0;
+  int free = 0, with_groups = 0, with_rule = 0, contacts_first = 0, inversions_first = 0;
+  std::size_t thin = 0, all = 0;
   for (const auto& [name, scene, options] : scenes) {
     const Step step = scene.step(options);
-    for (const StepInversion& one : step.inversions()) ++starts[one.start];
+    const auto collisions = step.collisions();
+    const auto inversions = step.inversions();
     const auto impact = step.earliest();
-    contacts += impact && impact->inversions.empty() && !step.inversions().empty() ? 1 : 0;
-    volumes += impact && impact->pairs.empty() && !step.collisions().empty() ? 1 : 0;
-    free += !impact && scene.tetrahedra.size() + scene.plane_triangles.size() > 0 ? 1 : 0;
-  }
-  for (const int start : {-1, 0, 1}) EXPECT_GT(starts[start], 5) << start;
-  EXPECT_GT(contacts, 10);
-  EXPECT_GT(volumes, 10);
-  EXPECT_GT(free, 5);
-}
-
-/// Small scenes of all shapes, some with primitives of several groups, and larger ones.
-std::vector<Compared> thick_scenes(Random& random, int rounds) {
-  std::vector<Compared> result;
-  for (int round = 0; round < rounds; ++round) {
-    for (const Shape& shape : shapes()) {
-      StepOptions options;
-      options.separation.norm = random.coin() ? Norm::l2 : Norm::linf;
-      if (random.between(0, 2) == 0) options.separation.distance = shape.separation;
-      if (random.between(0, 3) == 0) options.t_max = 0.25 * random.between(0, 4);
-      Scene scene = random_scene(random, shape, random.between(2, 10));
-      // (No thickness is above 2^1000, about 1e301.)
-      tests::add_thickness(scene, std::min(shape.separation, 1e300), random);
-      if (random.between(0, 2) == 0) scene.can_collide = tests::random_rule(random);
-      result.push_back({shape.name, scene, options});
-    }
-  }
-  for (const double size : {0.02, 0.2}) {
-    Scene scene = soup(random, 40, size);
-    tests::add_thickness(scene, 0.05, random);
-    result.push_back({"soup", scene, {}});
-    scene.apart = {{0, 0}, {2, 1}};
-    result.push_back({"soup of groups", scene, {.separation = {.distance = 0.01}}});
-  }
-  return result;
-}
-
-TEST(Step, WithRadiiAgreesWithTheOracleOnAllPairsOfAllScenes) {
-  Random random(181);
-  const std::vector<Compared> scenes = thick_scenes(random, tests::soak_trials(40, 250));
-  EXPECT_EQ(first_fault(scenes), "");
-  // They have collisions of all kinds, most of which need the thickness, and some are free.
-  std::map<PairKind, int> touching;
-  int free = 0, thin = 0, thick = 0;
-  for (const auto& [name, scene, options] : scenes) {
-    const std::vector<StepCollision> collisions = scene.step(options).collisions();
     for (const StepCollision& one : collisions) ++touching[one.kind];
-    free += collisions.empty() ? 1 : 0;
+    for (const StepInversion& one : inversions) ++starts[one.start];
+    free += impact ? 0 : 1;
+    with_groups += !scene.apart.empty() && !collisions.empty() ? 1 : 0;
+    with_rule += scene.can_collide && !collisions.empty() ? 1 : 0;
+    contacts_first += impact && impact->inversions.empty() && !inversions.empty() ? 1 : 0;
+    inversions_first += impact && impact->pairs.empty() && !collisions.empty() ? 1 : 0;
     Scene without = scene;
     without.radii.clear();
     without.separations.clear();
-    thin += static_cast<int>(without.step(options).collisions().size());
-    thick += static_cast<int>(collisions.size());
+    thin += without.step(options).collisions().size();
+    all += collisions.size();
   }
   for (const PairKind kind : kinds) EXPECT_GT(touching[kind], 5) << to_string(kind);
-  EXPECT_GT(free, 20);
-  EXPECT_GT(thick, thin + thin / 10);
-}
-
-/// Spheres and a capsule of different radii: √(3² + 4²) = 5.
-TEST(Step, OfSpheresAndCapsulesIsThatOfTheirSurfaces) {
-  Scene scene{.start = Places(4, 3), .end = {}, .edges = {{1, 2}}, .points = {0, 3}};
-  scene.start << 0, 3, 9, -9, 0, 0, 9, 0, 0, 3, 3, 9;
-  scene.end = scene.start;
-  scene.end(0, 2) = scene.end(3, 2) = -1;
-  scene.groups = {0, 1, 1, 2};
-  scene.radii = {2, 3, 0.5};
-  const auto collisions = scene.step().collisions();
-  ASSERT_EQ(collisions.size(), 2U);
-  const auto time = [&](std::int32_t vertex) {
-    const auto found = std::ranges::find_if(
-        collisions, [&](const StepCollision& one) { return one.pair[0] == vertex; });
-    return found == collisions.end() ? -1.0 : found->toi_upper;
-  };
-  EXPECT_NEAR(time(0), 0.5, 1e-11);  // at z = 4
-  EXPECT_NEAR(time(3), (9 - std::sqrt(3.5 * 3.5 - 9)) / 10, 1e-11);
-  // In place of the sum of two radii.
-  scene.separations = {{{1, 0}, 3.0}, {{2, 0}, 3.0}};
-  const Step step = scene.step();
-  EXPECT_EQ(step.separation_of(PairKind::vertex_edge, {0, 0}).distance, 3.0);
-  EXPECT_EQ(step.separation_of(PairKind::vertex_edge, {3, 0}).distance, 3.5);
-  EXPECT_EQ(step.collisions().size(), 3U);
-  EXPECT_EQ(step.with_separation({.distance = 0.25}).separation_of(PairKind::vertex_edge, {3, 0}),
-            (Separation{.distance = 3.75}));
+  EXPECT_GT(std::min({free, with_groups, with_rule}), 10);
+  EXPECT_EQ(all > thin + thin / 10, are_thick);
+  for (const int start : {-1, 0, 1}) EXPECT_EQ(starts[start] > 5, have_volumes) << start;
+  EXPECT_EQ(std::min(contacts_first, inversions_first) > 10, have_volumes);
 }
 
 /// Edges that are not given are those of the faces. A step that is made from another outlives it.
@@ -882,6 +817,121 @@ TEST(Step, HasTheSameCandidatesInEveryIncreasingFunctionOfCoordinates) {
     std::ranges::transform(scene.end.reshaped(), stretched.end.reshaped().begin(), function);
     EXPECT_EQ(candidates_of(stretched.step()), pairs);
     EXPECT_LE(work_of(stretched).pairs, 2 * work_of(scene).pairs);
+  }
+}
+
+// ---- On curves ----------------------------------------------------------------------------------
+
+/// Some triangles, a bare edge and some points, all moving on curves.
+struct CurvedScene {
+  std::size_t degree;
+  bool is_rational;
+  std::vector<double> numbers;
+  Scene mesh;  ///< its places count nothing
+
+  [[nodiscard]] CurvedVertices vertices() const { return {degree, is_rational, numbers}; }
+
+  [[nodiscard]] CurvedQuery query(const std::vector<std::int32_t>& vertices) const {
+    const std::size_t stride = is_rational ? 4 : 3, size = (degree + 1) * stride;
+    CurvedQuery query;
+    for (std::size_t point = 0; point < moving_points; ++point) {
+      const double* x = numbers.data() + static_cast<std::size_t>(vertices[point]) * size;
+      for (std::size_t k = 0; k <= degree; ++k, x += stride) {
+        query.at(point).control.push_back({x[0], x[1], x[2]});
+        if (is_rational) query.at(point).weights.push_back(x[3]);
+      }
+    }
+    return query;
+  }
+};
+
+CurvedScene curved_scene(Random& random, std::size_t degree, bool is_rational) {
+  const int triangles = 6, vertices = 3 * triangles + 4;
+  const Places none = Places::Zero(vertices, 3);
+  CurvedScene scene{degree, is_rational, {}, {.start = none, .end = none}};
+  for (int vertex = 0; vertex < vertices; ++vertex) {
+    const int body = vertex / 3;
+    for (std::size_t k = 0; k <= degree; ++k) {
+      for (int axis = 0; axis < 3; ++axis) {
+        const double place = axis == 0 ? body % 3 : axis == 1 ? body / 3 : 0;
+        scene.numbers.push_back(place + 0.9 * random.uniform(-1, 1));
+      }
+      if (is_rational) scene.numbers.push_back(k == 1 ? 2.0 : 1.0);
+    }
+  }
+  for (int i = 0; i < triangles; ++i) scene.mesh.faces.push_back({3 * i, 3 * i + 1, 3 * i + 2});
+  scene.mesh.edges = edges_of(scene.mesh.faces);
+  scene.mesh.edges.push_back({3 * triangles, 3 * triangles + 1});
+  scene.mesh.points = {3 * triangles + 2, 3 * triangles + 3};
+  return scene;
+}
+
+TEST(CurvedStep, HasTheCollisionsOfAllPairs) {
+  Random random(97);
+  int free = 0, collide = 0;
+  for (int round = 0; round < 24; ++round) {
+    const CurvedScene scene =
+        curved_scene(random, 1 + static_cast<std::size_t>(round) % 3, round % 4 == 1);
+    const Separation separation =
+        round % 2 == 0 ? Separation{} : Separation{.distance = 0.05, .norm = Norm::l2};
+    std::set<NumberedPair> found, expected;
+    std::optional<std::pair<exact::AlgebraicNumber, NumberedPair>> first;
+    const AllPairs all(scene.mesh);
+    for (const NumberedPair& pair : all.pairs()) {
+      const exact::Decision truth =
+          exact::decide(Step::kind_of(pair.first), scene.query(all.vertices(pair)), separation);
+      if (!truth.toi) continue;
+      expected.insert(pair);
+      if (!first || *truth.toi < first->first) first = {*truth.toi, pair};
+    }
+    const CurvedStep step(scene.vertices(), scene.mesh.elements(),
+                          {.separation = separation, .max_threads = 1 + round % 2});
+    for (const StepCollision& one : step.collisions()) found.insert({one.kind, one.pair});
+    EXPECT_EQ(found, expected) << round;
+    EXPECT_EQ(step.is_free(), expected.empty());
+    const auto earliest = step.earliest();
+    ASSERT_EQ(earliest.has_value(), !expected.empty());
+    ++(earliest ? collide : free);
+    if (!earliest) continue;
+    EXPECT_GE(exact::Rational(earliest->toi_upper), first->first);
+    EXPECT_LE(exact::Rational(earliest->toi_lower), first->first);
+    EXPECT_TRUE(std::ranges::any_of(earliest->pairs, [&](const StepCollision& one) {
+      return NumberedPair(one.kind, one.pair) == first->second;
+    }));
+  }
+  EXPECT_GT(collide, 5);
+  EXPECT_GT(free, 1);
+}
+
+TEST(CurvedStep, CountsNoLaterContacts) {
+  // A vertex falls to a face at rest, at t = 1/2.
+  const std::vector<double> numbers{1, 1, 1, 1, 1, 0, 1, 1, -1, 0, 0, 0, 0, 0, 0, 0, 0, 0,
+                                    4, 0, 0, 4, 0, 0, 4, 0, 0,  0, 4, 0, 0, 4, 0, 0, 4, 0};
+  const std::vector<Face> faces{{1, 2, 3}};
+  const std::vector<std::int32_t> points{0};
+  const CurvedVertices vertices{2, false, numbers};
+  const MeshElements elements{.faces = faces, .points = points};
+  EXPECT_FALSE(CurvedStep(vertices, elements, {.t_max = 0.5}).is_free());
+  EXPECT_TRUE(CurvedStep(vertices, elements, {.t_max = 0.499}).is_free());
+  EXPECT_EQ(CurvedStep(vertices, elements).earliest()->pairs.size(), 1U);
+  // A step keeps its vertices, also where it is moved.
+  std::vector<double> others = numbers;
+  CurvedStep step({2, false, others}, elements);
+  others.assign(others.size(), 7.0);
+  const CurvedStep moved = std::move(step);
+  EXPECT_EQ(moved.earliest(), CurvedStep(vertices, elements).earliest());
+}
+
+TEST(CurvedStep, RefusesWhatIsNoMotion) {
+  std::vector<double> numbers(2 * 4 * 2, 1.0);
+  const std::vector<std::int32_t> points{0, 1};
+  const MeshElements elements{.points = points};
+  EXPECT_NO_THROW(CurvedStep({1, true, numbers}, elements));
+  EXPECT_THROW(CurvedStep({2, true, numbers}, elements), std::invalid_argument);
+  EXPECT_THROW(CurvedStep({9, false, {}}, {}), std::invalid_argument);
+  for (const double bad : {0.0, -1.0, std::numeric_limits<double>::infinity()}) {
+    numbers[11] = bad;
+    EXPECT_THROW(CurvedStep({1, true, numbers}, elements), std::domain_error);
   }
 }
 

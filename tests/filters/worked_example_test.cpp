@@ -9,7 +9,6 @@
 #include "tests/filters/worked_example.hpp"
 #include "tests/support/built_files.hpp"
 #include "tests/support/folder_test.hpp"
-#include "touchstone/derivation/gappa.hpp"
 #include "touchstone/derivation/shipped_bound.hpp"
 
 namespace touchstone::filters::worked_example_test {
@@ -51,11 +50,6 @@ TEST(WorkedExample, ShipsTheBoundThatIsDerived) {
   const std::string declaration = error_bound_declaration(record<Orientation>(), double_format);
   EXPECT_NE(read("tests/filters/worked_example.hpp").find(declaration), std::string::npos)
       << declaration;
-}
-
-TEST(WorkedExample, ItsBoundIsProvedAndHolds) {
-  const mpq_class rounding(researcher::orientation_double.coefficients[2]);
-  EXPECT_TRUE(gappa_proves(record<Orientation>(), double_format, GappaGoal::rounding, rounding));
 }
 
 TEST(WorkedExample, ItsFilterIsNeverWrongAndOftenSure) {

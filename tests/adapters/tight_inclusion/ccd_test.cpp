@@ -63,23 +63,6 @@ TEST(TightInclusionAdapter, AnswersAsTheSolver) {
   EXPECT_GT(no_collisions, 200);
 }
 
-/// The case that the released library misses.
-TEST(TightInclusionAdapter, FindsAContactAtTheEnd) {
-  const Said said = ask(Kind::vertex_face,
-                        {{-0.01, 0, 0, 0.02, -0.01, -0.01, 0.02, 0.02, -0.01, 0.02, -0.01, 0.02,
-                          0.02,  0, 0, 0.02, -0.01, -0.01, 0.02, 0.02, -0.01, 0.02, -0.01, 0.02}});
-  EXPECT_TRUE(said.collision);
-  EXPECT_GT(said.toi, 0.999);
-  EXPECT_LT(said.toi, 1.0);
-}
-
-TEST(TightInclusionAdapter, ATimeOfZeroIsAContactAtZero) {
-  Query query{{1, 1, 1e-300, 0, 0, 0, 4, 0, 0, 0, 4, 0, 1, 1, -1, 0, 0, 0, 4, 0, 0, 0, 4, 0}};
-  EXPECT_GT(ask(Kind::vertex_face, query).toi, 0.0);
-  query.coordinates[2] = 0;
-  EXPECT_EQ(ask(Kind::vertex_face, query).toi, 0.0);
-}
-
 // The usage of a program that knows both libraries.
 #if !defined(TIGHT_INCLUSION_WITH_DOUBLE_PRECISION) || !defined(TIGHT_INCLUSION_VER)
 #error "the macros of config.hpp are not there"

@@ -90,22 +90,6 @@ TEST(ExactStage, SeparatesARootFromOneBesideItAndSeesADip) {
   }
 }
 
-TEST(ExactStage, NearestParametersAreThoseOfTheCorner) {
-  // Nearest at the corner, with the difference (3,4,z), z from −8 to 8.
-  const auto beside = [](double z) {
-    return tests::FourPoints{-3, -4, z, 0, 0, 0, 4, 0, 0, 0, 4, 0};
-  };
-  const PosedQuery face = tests::vertex_face(beside(-8), beside(8));
-  const PosedQuery edges = tests::over_edge(1, 1, 3, -1);
-  for (const auto& [posed, distance, place] :
-       {std::tuple(face, 5.0, 0.0), std::tuple(edges, 1.0, 0.25)}) {
-    const auto impact = decide_exactly(posed.kind, posed.query, {distance, Norm::l2}, 0.0, 1.0);
-    ASSERT_TRUE(impact.has_value());
-    EXPECT_EQ(impact->u, place);
-    EXPECT_EQ(impact->v, place);
-  }
-}
-
 // ---- Work ---------------------------------------------------------------------------------------
 
 /// Queries whose roots are almost equal: tiny coordinates among those that nearly overflow make

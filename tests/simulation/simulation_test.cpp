@@ -1,0 +1,482 @@
+/// \file
+/// The example's simulators: energies, scenes, collisions, whole runs, and what they record.
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+#include <Eigen/SparseCore>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "examples/simulation/collision_detector.hpp"
+#include "examples/simulation/recorder.hpp"
+#include "examples/simulation/simulated_scene.hpp"
+#include "examples/simulation/simulator.hpp"
+#include "examples/simulation/tumbling.hpp"
+#include "examples/simulation/world.hpp"
+#include "tests/support/folder_test.hpp"
+#include "tests/support/random.hpp"
+#include "touchstone/oracle.hpp"
+#include "verify/data/dataset.hpp"
+#include "verify/jobs/certify.hpp"
+#include "verify/solvers/registry.hpp"
+
+namespace touchstone::simulation::simulation_test {
+namespace {
+
+// ---- Energies -----------------------------------------------------------------------------------
+
+using Eigen::VectorXd;
+
+Scene scene_of(Body body) {
+  Scene scene;
+  scene.bodies = {std::move(body)};
+  return scene;
+}
+
+Body small_block() {
+  return block({2, 1, 1}, [](const Eigen::Vector3d& x) -> Eigen::Vector3d {
+    return {x.x(), 0.7 * x.y(), 0.4 * x.z()};
+  });
+}
+
+Body small_cloth() {
+  return cloth({3, 3}, [](const Eigen::Vector3d& x) -> Eigen::Vector3d {
+    return {x.x(), 0.8 * x.y(), 0.0};
+  });
+}
+
+VectorXd random_vector(Eigen::Index size, unsigned seed) {
+  tests::Random random(seed);
+  VectorXd result(size);
+  for (double& x : result) x = random.between(-1000, 1000) / 1000.0;
+  return result;
+}
+
+class Energies : public testing::TestWithParam<bool> {
+ protected:
+  World world{scene_of(GetParam() ? small_cloth() : small_block())};
+};
+
+INSTANTIATE_TEST_SUITE_P(Bodies, Energies, testing::Bool(),
+                         [](const auto& of) { return of.param ? "Cloth" : "Block"; });
+
+TEST_P(Energies, AreNothingAtRestAndAfterARotation) {
+  const Eigen::Matrix3d turn =
+      Eigen::AngleAxisd(0.7, Eigen::Vector3d(1, 2, 3).normalized()).toRotationMatrix();
+  VectorXd turned = world.start();
+  for (Eigen::Index i = 0; i < turned.size(); i += 3) {
+    turned.segment<3>(i) = (turn * turned.segment<3>(i) + Eigen::Vector3d(1, -2, 0.5)).eval();
+  }
+  for (const VectorXd& x : {world.start(), turned}) {
+    Derivatives derivatives(x.size());
+    EXPECT_NEAR(world.energy(x, 0.0, &derivatives), 0.0, 1e-8);
+    EXPECT_LT(derivatives.gradient.lpNorm<Eigen::Infinity>(), 1e-8);
+  }
+}
+
+/// The energy along a line is a polynomial of degree at most 6, and seven values determine its
+/// derivatives exactly. At rest no eigenvalue of the Hessian is negative.
+TEST_P(Energies, HaveTheDerivativesOfThePolynomialsThatTheyAre) {
+  for (const unsigned seed : {0U, 1U, 2U, 3U}) {
+    const bool is_at_rest = seed == 0;
+    const VectorXd x =
+        world.start() + (is_at_rest ? 0.0 : 0.1) * random_vector(world.coordinates(), seed);
+    const VectorXd direction = random_vector(world.coordinates(), 10 + seed);
+    constexpr double step = 0.125;
+    std::array<double, 7> values{};
+    for (int k = -3; k <= 3; ++k) {
+      values[static_cast<std::size_t>(k + 3)] = world.energy(x + k * step * direction, 0.0);
+    }
+    const double slope =
+        (45.0 * (values[4] - values[2]) - 9.0 * (values[5] - values[1]) + values[6] - values[0]) /
+        (60.0 * step);
+    const double curvature = (2.0 * (values[6] + values[0]) - 27.0 * (values[5] + values[1]) +
+                              270.0 * (values[4] + values[2]) - 490.0 * values[3]) /
+                             (180.0 * step * step);
+    Derivatives derivatives(x.size());
+    const double energy = world.energy(x, 0.0, &derivatives);
+    EXPECT_NEAR(energy, values[3], 1e-12 * energy);
+    EXPECT_NEAR(derivatives.gradient.dot(direction), slope, 1e-9 * values[6]);
+    Eigen::SparseMatrix<double> hessian(x.size(), x.size());
+    hessian.setFromTriplets(derivatives.hessian.begin(), derivatives.hessian.end());
+    EXPECT_LT((hessian - Eigen::SparseMatrix<double>(hessian.transpose())).norm(),
+              1e-9 * hessian.norm());
+    // Omitting negative eigenvalues can only add.
+    const double found = direction.dot(hessian * direction);
+    EXPECT_GE(found, curvature - 1e-8 * values[6]);
+    if (is_at_rest) {
+      EXPECT_NEAR(found, curvature, 1e-9 * curvature);
+    }
+  }
+}
+
+TEST(World, BendsClothThatIsFoldedOnly) {
+  // Cloth stays plane under an affine map: the weights of a hinge add up to zero.
+  Scene scene = scene_of(small_cloth());
+  scene.bodies[0].youngs_modulus = 0.0;
+  const World world(scene);
+  VectorXd sheared = world.start(), folded = world.start();
+  for (Eigen::Index i = 0; i < sheared.size(); i += 3) {
+    sheared[i] += 0.5 * sheared[i + 1] + 3.0;
+    folded[i + 2] = std::abs(folded[i]);
+  }
+  EXPECT_NEAR(world.energy(sheared, 0.0), 0.0, 1e-15);
+  EXPECT_GT(world.energy(folded, 0.0), 1e-6);
+}
+
+TEST(World, PullsPinsWhereTheyAreToBe) {
+  Scene scene = scene_of(small_block());
+  scene.pins.push_back({0, 0, [](double t) -> Eigen::Vector3d { return {t, 0.0, 0.0}; }});
+  const World world(scene);
+  Derivatives derivatives(world.coordinates());
+  world.energy(world.start(), 2.0, &derivatives);
+  const Eigen::Vector3d away = world.start().head<3>() - Eigen::Vector3d(2.0, 0.0, 0.0);
+  EXPECT_LT(derivatives.gradient.head<3>().cross(away).norm(), 1e-6);
+  EXPECT_GT(derivatives.gradient.head<3>().dot(away), 0.0);
+}
+
+// ---- Scenes -------------------------------------------------------------------------------------
+
+class Scenes : public testing::TestWithParam<SceneDescription> {};
+
+INSTANTIATE_TEST_SUITE_P(All, Scenes, testing::ValuesIn(scenes()), [](const auto& of) {
+  std::string name(of.param.name);
+  std::ranges::replace(name, '-', '_');
+  return name;
+});
+
+TEST_P(Scenes, BeginWithoutContact) {
+  const World world(GetParam().make());
+  EXPECT_TRUE(world.step(world.start(), world.start()).is_free());
+  EXPECT_TRUE(world.step(world.start(), world.start()).starts_free());
+}
+
+TEST_P(Scenes, HaveNoFlatElements) {
+  for (const Body& body : GetParam().make().bodies) {
+    for (const Tetrahedron& tetrahedron : body.tetrahedra) {
+      Eigen::Matrix3d edges;
+      for (std::size_t k = 0; k < 3; ++k) {
+        edges.col(static_cast<Eigen::Index>(k)) =
+            (body.vertices.row(tetrahedron[k + 1]) - body.vertices.row(tetrahedron[0])).transpose();
+      }
+      const double longest = edges.colwise().norm().maxCoeff();
+      EXPECT_GT(std::abs(edges.determinant()), 5e-4 * longest * longest * longest);
+    }
+  }
+}
+
+TEST_P(Scenes, HaveClosedSurfacesAroundElasticBodies) {
+  for (const Body& body : GetParam().make().bodies) {
+    if (body.kind != BodyKind::elastic) continue;
+    // Each edge has two faces.
+    std::map<std::array<std::int32_t, 2>, int> passed;
+    for (const fast::Face& face : body.faces) {
+      for (std::size_t i = 0; i < 3; ++i) {
+        const std::int32_t a = face[i], b = face[(i + 1) % 3];
+        passed[{std::min(a, b), std::max(a, b)}] += 1;
+      }
+    }
+    for (const auto& [edge, times] : passed) EXPECT_EQ(times, 2);
+  }
+}
+
+// ---- Collisions ---------------------------------------------------------------------------------
+
+/// A box over a spike, and the box a tenth of a metre lower.
+class FallingBox : public testing::Test {
+ protected:
+  FallingBox() : end_(world_.start()) {
+    for (Eigen::Index i = 2; i < end_.size(); i += 3) {
+      if (!world_.is_held(i)) end_[i] -= 0.1;
+    }
+  }
+
+  [[nodiscard]] fast::Step step() const { return world_.step(world_.start(), end_); }
+
+  World world_{make_scene("spike")};
+  VectorXd end_;
+};
+
+using Pairs = std::vector<std::pair<fast::PairKind, fast::IndexPair>>;
+
+Pairs pairs_of(const std::vector<fast::ActiveContact>& contacts) {
+  Pairs result;
+  for (const fast::ActiveContact& one : contacts) result.emplace_back(one.kind, one.pair);
+  std::ranges::sort(result);
+  return result;
+}
+
+// The box starts 5 mm above the tip: the step is free until t = 0.05.
+TEST_F(FallingBox, MayMoveAsFarAsTheTip) {
+  for (const char* method : {"certified", "tight_inclusion"}) {
+    CollisionDetector detector({.method = method});
+    const double found = detector.step_size(step());
+    EXPECT_GT(found, 0.0) << method;
+    EXPECT_LT(found, 0.05) << method;
+    EXPECT_EQ(detector.statistics().calls, 1) << method;
+    EXPECT_EQ(detector.statistics().steps_of_zero, 0) << method;
+  }
+  CollisionDetector certified({.p = 0.25});
+  // A quarter of the initial 5 mm stays.
+  EXPECT_NEAR(certified.step_size(step()), 0.75 * 0.05, 1e-9);
+}
+
+TEST_F(FallingBox, HasTheSameActiveSetPairByPair) {
+  CollisionDetector whole({}), by_pairs({.missed_one_in = 1'000'000'000'000});
+  const auto expected = whole.active_set(step(), 1e-3), found = by_pairs.active_set(step(), 1e-3);
+  EXPECT_FALSE(expected.empty());
+  EXPECT_EQ(pairs_of(expected), pairs_of(found));
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    EXPECT_LT((found[i].first - expected[i].first).norm(), 1e-6);
+    EXPECT_LT((found[i].normal - expected[i].normal).norm(), 1e-4);
+  }
+}
+
+TEST_F(FallingBox, HasAllOfItInTheActiveSetOfAConservativeMethod) {
+  CollisionDetector certified({}), conservative({.method = "tight_inclusion"});
+  const Pairs expected = pairs_of(certified.active_set(step(), 1e-3));
+  const Pairs found = pairs_of(conservative.active_set(step(), 1e-3));
+  EXPECT_TRUE(std::ranges::includes(found, expected));
+}
+
+TEST_F(FallingBox, FallsThroughIfAllIsMissed) {
+  CollisionDetector blind({.missed_one_in = 1});
+  EXPECT_EQ(blind.step_size(step()), 1.0);
+  EXPECT_TRUE(blind.active_set(step(), 1e-3).empty());
+  EXPECT_GT(blind.statistics().missed, 0);
+}
+
+TEST_F(FallingBox, IsStoppedByAnotherPairIfOneIsMissedOnce) {
+  CollisionDetector all({.missed_one_in = 1'000'000'000'000}), second({.missed_limit = 2});
+  const double limit = all.step_size(step());
+  EXPECT_EQ(second.step_size(step()), limit);
+  // The tip meets an inner vertex of the box's mesh first, or one of many faces around it: another
+  // pair is later or at the same time, and none is missed.
+  EXPECT_GE(second.step_size(step()), limit);
+  EXPECT_EQ(second.statistics().missed, 1);
+  EXPECT_EQ(second.step_size(step()), limit);
+  EXPECT_EQ(second.statistics().missed, 1);
+  EXPECT_EQ(second.statistics().limited, 3);
+}
+
+// Two points that approach each other are neither a vertex and a face nor two edges.
+TEST(CollisionDetector, LooksAtPointsToo) {
+  const Eigen::RowVector3d away(1, 0, 0);
+  Eigen::Matrix<double, 2, 3> before, after;
+  before << Eigen::RowVector3d::Zero(), away;
+  after << away, Eigen::RowVector3d::Zero();
+  const std::vector<std::int32_t> points{0, 1};
+  const fast::Step step(before, after, {.edges = {}, .faces = {}, .points = points});
+  for (const char* method : {"certified", "tight_inclusion"}) {
+    CollisionDetector detector({.method = method});
+    EXPECT_LE(detector.step_size(step), 0.5) << method;
+  }
+}
+
+TEST(CollisionDetector, RefusesAnUnknownMethod) {
+  EXPECT_THROW(CollisionDetector({.method = "guess"}), std::invalid_argument);
+}
+
+// ---- Simulators ---------------------------------------------------------------------------------
+
+/// The result of a scene.
+struct Outcome {
+  std::vector<VectorXd> frames;
+  SimulatorStatistics simulator;
+  DetectorStatistics detector;
+  bool is_free = true;  ///< no contact from any frame to the next
+};
+
+template <class OfSimulator>
+Outcome run(const Scene& scene, int steps, const DetectorOptions& detection = {}) {
+  const World world(scene);
+  CollisionDetector detector(detection);
+  OfSimulator simulator(world, detector,
+                        {.gravity = scene.gravity,
+                         .time_step = scene.time_step,
+                         .activation_distance = scene.activation_distance});
+  Outcome result;
+  result.frames = {world.start()};
+  for (int i = 0; i < steps; ++i) {
+    simulator.take_time_step([&](const VectorXd& x) {
+      result.is_free = result.is_free && world.step(result.frames.back(), x).is_free();
+      result.frames.push_back(x);
+    });
+  }
+  result.simulator = simulator.statistics();
+  result.detector = detector.statistics();
+  return result;
+}
+
+class BarrierScenes : public testing::TestWithParam<std::string> {};
+
+INSTANTIATE_TEST_SUITE_P(Erlebens, BarrierScenes,
+                         testing::Values("spike", "wedge", "cliff-edge", "internal-edges", "crack",
+                                         "hole"),
+                         [](const auto& of) {
+                           std::string name = of.param;
+                           std::ranges::replace(name, '-', '_');
+                           return name;
+                         });
+
+TEST_P(BarrierScenes, AreFreeOfContact) {
+  const Outcome result = run<BarrierSimulator>(make_scene(GetParam()), 10);
+  EXPECT_TRUE(result.is_free);
+  EXPECT_GT(result.simulator.contacts, 0) << "nothing came near";
+  EXPECT_EQ(result.simulator.unfinished, 0);
+  EXPECT_EQ(result.detector.steps_of_zero, 0);
+}
+
+// At the rim of the hole the barrier alone suffices, so that scene is not tested.
+TEST_P(BarrierScenes, AreNotIfCollisionsAreMissed) {
+  if (GetParam() == "hole") return;
+  const Outcome result = run<BarrierSimulator>(make_scene(GetParam()), 10, {.missed_one_in = 1});
+  EXPECT_FALSE(result.is_free);
+  EXPECT_GT(result.detector.missed, 0);
+}
+
+TEST(BarrierSimulator, FallsFreelyWhereNothingIsNear) {
+  Scene scene = make_scene("spike");
+  scene.bodies.pop_back();
+  const Outcome result = run<BarrierSimulator>(scene, 5);
+  // Implicit Euler: the path after n steps is g h² n (n + 1) / 2.
+  const double way = 9.81 * scene.time_step * scene.time_step * 15.0;
+  EXPECT_NEAR((result.frames.front() - result.frames.back())(2), way, 1e-9);
+  EXPECT_NEAR((result.frames.front() - result.frames.back())(0), 0.0, 1e-9);
+}
+
+TEST(BarrierSimulator, IsTheSameEachTime) {
+  const Scene scene = make_scene("crack");
+  EXPECT_EQ(run<BarrierSimulator>(scene, 6).frames, run<BarrierSimulator>(scene, 6).frames);
+}
+
+TEST(BarrierSimulator, IsFreeOfContactWithAConservativeMethod) {
+  const Outcome result =
+      run<BarrierSimulator>(make_scene("wedge"), 10, {.method = "tight_inclusion"});
+  EXPECT_TRUE(result.is_free);
+  EXPECT_GT(result.detector.candidates, 0);
+}
+
+TEST(ConstraintSimulator, KeepsABoxOnAPlane) {
+  const Outcome result = run<ConstraintSimulator>(make_scene("internal-edges"), 10);
+  EXPECT_TRUE(result.is_free);
+  EXPECT_GT(result.simulator.contacts, 0);
+  EXPECT_EQ(result.frames.size(), 11);
+}
+
+TEST(ConstraintSimulator, LetsItFallThroughIfCollisionsAreMissed) {
+  const Outcome result =
+      run<ConstraintSimulator>(make_scene("internal-edges"), 10, {.missed_one_in = 1});
+  EXPECT_FALSE(result.is_free);
+}
+
+// ---- Recordings ---------------------------------------------------------------------------------
+
+class Recorded : public tests::FolderTest, public testing::WithParamInterface<bool> {};
+
+INSTANTIATE_TEST_SUITE_P(Formats, Recorded, testing::Bool(),
+                         [](const auto& of) { return of.param ? "Npy" : "Csv"; });
+
+class RecordedPart : public tests::FolderTest {};
+
+/// Records `motions` times that a box falls onto a wedge.
+void record(Recorder& recorder, int motions, std::size_t limit = SIZE_MAX) {
+  const World world(make_scene("wedge"));
+  VectorXd end = world.start();
+  for (Eigen::Index i = 2; i < end.size(); i += 3) {
+    if (!world.is_held(i)) end[i] -= 0.05;
+  }
+  CollisionDetector detector({.recorder = &recorder, .record_limit = limit});
+  for (int i = 0; i < motions; ++i) (void)detector.step_size(world.step(world.start(), end));
+  recorder.close();
+}
+
+TEST_P(Recorded, QueriesComeBackWithTheTruth) {
+  Recorder recorder({.folder = path("recorded"), .name = "wedge", .as_npy = GetParam()});
+  record(recorder, 1);
+  EXPECT_GT(recorder.collisions(Kind::edge_edge), 0);
+  for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
+    std::uint64_t queries = 0, collisions = 0;
+    const std::string file = path("recorded") + "/" + std::string(to_string(kind)) + "/wedge" +
+                             (GetParam() ? ".npy" : ".csv");
+    const auto source = verify::data::open_dataset(file, {});
+    while (const auto query = source->next()) {
+      ++queries;
+      ASSERT_TRUE(query->collides.has_value());
+      EXPECT_EQ(*query->collides, exact::decide(query->query.queries(), 0).collides());
+      if (*query->collides) ++collisions;
+    }
+    EXPECT_EQ(queries, recorder.queries(kind));
+    EXPECT_EQ(collisions, recorder.collisions(kind));
+  }
+}
+
+/// The queries of two motions: all, or at most `limit` of each motion and kind.
+std::vector<Query> recorded(const std::string& folder, Kind kind, std::size_t limit) {
+  Recorder recorder({.folder = folder, .name = "wedge", .as_npy = true});
+  record(recorder, 2, limit);
+  const std::string file = folder + "/" + std::string(to_string(kind)) + "/wedge.npy";
+  std::vector<Query> queries;
+  const auto source = verify::data::open_dataset(file, {});
+  while (const auto query = source->next()) queries.push_back(query->query.straight());
+  return queries;
+}
+
+TEST_F(RecordedPart, IsSoManyOfEachMotionEvenlySpread) {
+  for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
+    const std::vector<Query> all = recorded(path("all"), kind, SIZE_MAX);
+    const std::size_t of_motion = all.size() / 2;
+    ASSERT_GT(of_motion, 8);
+    const std::vector<Query> some = recorded(path("some"), kind, 4);
+    ASSERT_EQ(some.size(), 8);
+    for (std::size_t i = 0; i < some.size(); ++i) {
+      EXPECT_EQ(some[i], all[i / 4 * of_motion + i % 4 * of_motion / 4]) << i;
+    }
+  }
+}
+
+// ---- Of a tumbling body -------------------------------------------------------------------------
+
+class Tumbling : public tests::FolderTest {};
+
+TEST_F(Tumbling, RecordsQueriesThatAreSolvedRightly) {
+  const TumblingResult result = tumble({.steps = 120, .folder = path("recorded")});
+  EXPECT_GT(result.impacts, 3);
+  EXPECT_LT(result.worst_change, 1e-9);
+  for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
+    const auto index = static_cast<std::size_t>(kind);
+    const auto source = verify::data::open_dataset(
+        path(kind == Kind::vertex_face ? "recorded/tumbling-vf.npy" : "recorded/tumbling-ee.npy"));
+    EXPECT_EQ(source->shape(), (QueryShape{.kind = kind, .degree = 3}));
+    const auto certified =
+        verify::solvers::solver_in_process(verify::solvers::find_method("certified"), {});
+    const auto judged = verify::jobs::certify(*source, {.solvers = {certified.get()}});
+    const auto& method = judged.methods.at(0);
+    EXPECT_EQ(judged.queries, result.queries.at(index));
+    EXPECT_EQ(judged.collisions, result.collisions.at(index));
+    EXPECT_EQ(method.judgement.queries, judged.queries);
+    EXPECT_TRUE(verify::judge::keeps(method.judgement, method.promise));
+  }
+  EXPECT_GT(result.collisions[0] + result.collisions[1], 0U);
+}
+
+TEST_F(Tumbling, IsTheSameWithoutFiles) {
+  const TumblingResult with = tumble({.steps = 60, .folder = path("recorded")});
+  const TumblingResult without = tumble({.steps = 60});
+  EXPECT_EQ(with.queries, without.queries);
+  EXPECT_EQ(with.collisions, without.collisions);
+}
+
+}  // namespace
+}  // namespace touchstone::simulation::simulation_test
