@@ -143,11 +143,14 @@ constexpr std::string_view headers_without_test = R"(
 // Beside rational arithmetic, which judges the function: intersections_test.cpp.
   fast/intersections/: contacts.hpp filter_kernel.hpp filter_on_lanes.hpp orientation.hpp pair_filter.hpp pair_order.hpp pair_order_avx2.hpp
   adapters/tight_inclusion/: config.hpp interval_root_finder.hpp logger.hpp timer.hpp
-// By the answers of the methods, baselines_test.cpp and known_defects_test.cpp, the queries of the
-// families, families_test.cpp, and of the hard ones, hardness_test.cpp.
+// By the answers of the methods, baselines_test.cpp and known_defects_test.cpp (arithmetics:
+// intervals_test.cpp; signs: rpoly_test.cpp), the queries of the families, families_test.cpp and
+// separation_families_test.cpp, and of the hard ones, hardness_test.cpp; in solver_process_test.cpp
+// and solver_test.cpp.
   verify/base/: any_query.hpp cores.hpp
-  verify/baselines/: closest_features.hpp exact_number.hpp moving_polynomials.hpp
-  verify/generate/: coordinate_sampler.hpp draws.hpp family_builder.hpp grid.hpp passing_planes.hpp random_stream.hpp curved_families.hpp
+  verify/baselines/: bernstein.hpp closest_features.hpp error_bounded.hpp exact_number.hpp interval_search.hpp method_support.hpp moving_polynomials.hpp sign_intervals.hpp upward_interval.hpp
+  verify/generate/: coordinate_sampler.hpp draws.hpp family_builder.hpp grid.hpp offset.hpp passing_planes.hpp random_stream.hpp curved_families.hpp
+  verify/solvers/: child_process.hpp hang_limits.hpp
 // Through what uses them: files and child processes, the tables of all commands, number_text_test.cpp
 // and meshes; certify, solve, the step's measurements, NumPy's arrays, the fuzzer; judge_test.cpp;
 // the pages' own tests.
