@@ -6,6 +6,8 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <bit>
+#include <cfenv>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -138,9 +140,13 @@ TEST_P(Baselines, TellCollisionsFromWideGaps) {
     EXPECT_EQ(answer.verdict, yes) << collision;
     EXPECT_TRUE(std::isnan(answer.toi_lower) || std::abs(answer.toi_lower - 0.25) < 0.06)
         << collision << ' ' << answer.toi_lower;
-    PosedQuery bad = collision;
-    bad.query.coordinates[7] = fast::Answer::none;
-    EXPECT_EQ(verdict(bad), Verdict::error);
+    for (const double number : {fast::Answer::none, infinity, -infinity}) {
+      for (const std::size_t place : {0U, 11U, 23U}) {
+        PosedQuery bad = collision;
+        bad.query.coordinates[place] = number;
+        EXPECT_EQ(verdict(bad), Verdict::error);
+      }
+    }
   }
   for (const PosedQuery& no_collision : {over_triangle(1, 1, 3, 1), over_edge(1, 2, 3, 1)}) {
     EXPECT_EQ(verdict(no_collision), no) << no_collision;
@@ -153,6 +159,34 @@ TEST_P(Baselines, HeedTheOptionsThatTheyKnow) {
   EXPECT_EQ(verdict(collision, {.t_max = 0.25}), baseline.counts_up_to_t_max ? no : yes);
   const bool knows = method->info().measures_in(Norm::l2);
   EXPECT_EQ(verdict(near, {.separation = {.distance = 1.5, .norm = Norm::l2}}), knows ? yes : no);
+}
+
+TEST_P(Baselines, RefuseOptionsThatMeanNothing) {
+  for (const double bad : {-0.5, infinity, fast::Answer::none}) {
+    for (const fast::MethodOptions& options : {fast::MethodOptions{.tolerance = bad},
+                                               {.tolerance = 0.0},
+                                               {.t_max = bad},
+                                               {.separation = {.distance = bad}}}) {
+      EXPECT_EQ(verdict(over_triangle(1, 1, 1, -1), options), Verdict::error);
+    }
+  }
+  EXPECT_EQ(verdict(over_triangle(1, 1, 1, -1), {.t_max = 1.5}), Verdict::error);
+  EXPECT_NE(verdict(over_triangle(1, 1, 1, -1), {.t_max = 0.0}), Verdict::error);
+}
+
+TEST_P(Baselines, RoundToNearestWhateverTheCallerDoes) {
+  const PosedQuery collision = over_triangle(0.1, 0.3, 0.7, -1.3);
+  const fast::Answer expected = answer_to(*method, collision);
+  for (const int mode : {FE_UPWARD, FE_DOWNWARD, FE_TOWARDZERO, FE_TONEAREST}) {
+    std::fesetround(mode);
+    const fast::Answer answer = answer_to(*method, collision);
+    const int after = std::fegetround();
+    std::fesetround(FE_TONEAREST);
+    EXPECT_EQ(after, mode);
+    EXPECT_EQ(answer.verdict, yes);
+    EXPECT_EQ(std::bit_cast<std::uint64_t>(answer.toi_lower),
+              std::bit_cast<std::uint64_t>(expected.toi_lower));
+  }
 }
 
 TEST_P(Baselines, AreWrongOnThePublicDataAsOftenAsKnown) {

@@ -4,6 +4,8 @@
 
 #include <array>
 #include <cstddef>
+#include <limits>
+#include <tuple>
 
 #include "tests/support/trials.hpp"
 #include "touchstone/oracle.hpp"
@@ -20,6 +22,25 @@ void for_each_query(Query (*make)(Kind, Random&), int count, const Use& use) {
   for (int i = 0; i < count; ++i) {
     const Kind kind = both_kinds.at(static_cast<std::size_t>(i % 2));
     use(kind, make(kind, random));
+  }
+}
+
+TEST(ShortestDecimal, IsTheUsualNotation) {
+  struct Row {
+    double x;
+    Decimal decimal;
+  };
+  for (const auto& [x, decimal] :
+       {Row{0.1, {1, 1, -1}},
+        {0.25, {25, 2, -2}},
+        {300.0, {3, 1, 2}},
+        {0.1 + 0.2, {30000000000000004, 17, -17}},
+        {std::numeric_limits<double>::denorm_min(), {5, 1, -324}},
+        {std::numeric_limits<double>::max(), {17976931348623157, 17, 292}}}) {
+    const auto [digits, count, exponent] = shortest_decimal(x);
+    EXPECT_EQ(std::tuple(digits, count, exponent),
+              std::tuple(decimal.digits, decimal.count, decimal.exponent));
+    EXPECT_EQ(from_decimal(digits, exponent), x);
   }
 }
 

@@ -33,9 +33,9 @@ constexpr std::uint64_t seed = 7;
 /// The size of every scene without scaling, in its coordinates.
 constexpr double size = 3.0;
 
-/// Calls use(level, kind, query, collides) for some queries of every level.
+/// Calls use(level, kind, query, collides) for some queries of every level, on curves or lines.
 template <class Use>
-void for_each_query(std::string_view name, std::uint64_t count, const Use& use) {
+void for_each_query_of_any_shape(std::string_view name, std::uint64_t count, const Use& use) {
   const Hardness& hardness = hardness_from_name(name);
   for (const int level : hardness.levels) {
     for (const Kind kind : kinds) {
@@ -43,25 +43,22 @@ void for_each_query(std::string_view name, std::uint64_t count, const Use& use) 
       for (std::uint64_t index = 0; index < trials(count); ++index) {
         const data::RecordedQuery made =
             make_hard_query({.hardness = &hardness, .level = level, .kind = kind}, seed, index);
-        use(level, kind, made.query.straight(), made.collides.value());
+        use(level, kind, made.query, made.collides.value());
       }
     }
   }
 }
 
-void expect_between(double value, double low, double high) {
-  EXPECT_GE(value, low);
-  EXPECT_LE(value, high);
+template <class Use>
+void for_each_query(std::string_view name, std::uint64_t count, const Use& use) {
+  for_each_query_of_any_shape(
+      name, count, [&](int level, Kind kind, const base::AnyQuery& query, bool collides) {
+        use(level, kind, query.straight(), collides);
+      });
 }
 
 /// The number of the second primitive's first point.
 std::size_t second(Kind kind) { return kind == Kind::vertex_face ? 1 : 2; }
-
-/// The motion of the first primitive relative to the second one's first point.
-Eigen::Vector3d relative_motion(Kind kind, const Query& query) {
-  const std::size_t other = second(kind);
-  return (query.point(1, 0) - query.point(0, 0)) - (query.point(1, other) - query.point(0, other));
-}
 
 using Vector = std::array<Rational, 3>;
 
@@ -90,18 +87,30 @@ Vector normal(Kind kind, const Query& query, std::size_t end) {
                                    : cross(vector(query, end, 0, 1), vector(query, end, 2, 3));
 }
 
-TEST(HardQueries, CollideIfTheirNumberIsEvenSaysTheOracle) {
-  for (const auto list : {hardnesses(), curve_hardnesses()}) {
-    for (const Hardness& hardness : list) {
+/// Without a separation those of even numbers collide, which are half of the others too.
+TEST(HardQueries, AreHalfCollisionsByTheOracle) {
+  const Separation contact{};
+  for (const Separation& asked : {contact, Separation{.distance = 1e-3, .norm = Norm::l2},
+                                  Separation{.distance = 0.7, .norm = Norm::linf},
+                                  Separation{.distance = 300.0, .norm = Norm::l2}}) {
+    for (const Hardness& hardness : asked == contact ? all_hardnesses() : hardnesses()) {
       for (const int level : hardness.levels) {
+        const bool is_end = level == hardness.levels.front() || level == hardness.levels.back();
+        if (asked != contact && !is_end) continue;
+        const Separation separation = separation_at(hardness, level, asked);
         for (const Kind kind : kinds) {
-          const HardSort sort{.hardness = &hardness, .level = level, .kind = kind};
-          SCOPED_TRACE(::testing::Message() << hardness.name << " " << level);
+          SCOPED_TRACE(::testing::Message() << hardness.name << " " << level << " "
+                                            << to_string(kind) << " " << asked.distance);
+          std::uint64_t collisions = 0;
           for (std::uint64_t index = 0; index < trials(16U); ++index) {
-            const data::RecordedQuery made = make_hard_query(sort, seed, index);
-            ASSERT_EQ(made.collides, index % 2 == 0);
-            ASSERT_EQ(exact::decide(made.query.queries(), 0).collides(), made.collides) << index;
+            const data::RecordedQuery made = make_hard_query(
+                {.hardness = &hardness, .level = level, .kind = kind, .separation = asked}, seed,
+                index);
+            ASSERT_EQ(exact::decide(made.query.queries(), 0, separation).collides(), made.collides);
+            ASSERT_TRUE(asked != contact || made.collides == (index % 2 == 0)) << index;
+            collisions += made.collides.value() ? 1U : 0U;
           }
+          EXPECT_EQ(collisions, trials(16U) / 2);
         }
       }
     }
@@ -110,13 +119,20 @@ TEST(HardQueries, CollideIfTheirNumberIsEvenSaysTheOracle) {
 
 /// The least distance is that of the level, to the last bit.
 TEST(HardQueries, MissByExactlyTheDistance) {
-  for_each_query("distance", 16, [](int exponent, Kind kind, const Query& query, bool collides) {
-    if (collides) return;
-    const double distance = size * std::ldexp(1.0, exponent);
-    const double less = std::nextafter(distance, 0.0);
-    EXPECT_TRUE(exact::decide(kind, query, {.distance = distance, .norm = Norm::l2}).collides());
-    EXPECT_FALSE(exact::decide(kind, query, {.distance = less, .norm = Norm::l2}).collides());
-  });
+  for (const std::string_view name : {"distance", "curve-distance"}) {
+    const double unit = name == "distance" ? size : 4.0 * size;
+    for_each_query_of_any_shape(
+        name, 16, [&](int exponent, Kind, const base::AnyQuery& query, bool collides) {
+          if (collides) return;
+          const auto collides_at = [&](double distance) {
+            return exact::decide(query.queries(), 0, {.distance = distance, .norm = Norm::l2})
+                .collides();
+          };
+          const double distance = std::ldexp(unit, exponent);
+          EXPECT_TRUE(collides_at(distance));
+          EXPECT_FALSE(collides_at(std::nextafter(distance, 0.0)));
+        });
+  }
 }
 
 /// The overlap of collisions is the distance: across the plane at the end, or across a side within
@@ -142,27 +158,6 @@ TEST(HardQueries, OverlapByExactlyTheDistance) {
   });
 }
 
-// ---- Curves -------------------------------------------------------------------------------------
-
-TEST(HardQueriesOnCurves, MissByExactlyTheDistance) {
-  const Hardness& hardness = hardness_from_name("curve-distance");
-  for (const int level : hardness.levels) {
-    for (const Kind kind : kinds) {
-      for (std::uint64_t index = 1; index < trials(8U); index += 2) {
-        const data::RecordedQuery made =
-            make_hard_query({.hardness = &hardness, .level = level, .kind = kind}, seed, index);
-        const auto collides_at = [&](double distance) {
-          const Separation separation{.distance = distance, .norm = Norm::l2};
-          return exact::decide(made.query.queries(), 0, separation).collides();
-        };
-        const double distance = size * std::ldexp(4.0, level);
-        EXPECT_TRUE(collides_at(distance));
-        EXPECT_FALSE(collides_at(std::nextafter(distance, 0.0)));
-      }
-    }
-  }
-}
-
 TEST(HardQueriesOnCurves, HaveTheirShapes) {
   const auto shape = [](std::string_view name, int level) {
     const HardSort sort{.hardness = &hardness_from_name(name), .level = level};
@@ -177,87 +172,71 @@ TEST(HardQueriesOnCurves, HaveTheirShapes) {
   EXPECT_EQ(level_text(hardness_from_name("curve-degree"), 5), "degree 5");
 }
 
-TEST(HardQueriesOnCurves, AreAboutDistanceZeroAlone) {
-  for (const Hardness& hardness : curve_hardnesses()) {
-    EXPECT_THROW((void)make_hard_query({.hardness = &hardness,
-                                        .level = hardness.levels.front(),
-                                        .separation = {.distance = 1e-3, .norm = Norm::linf}},
-                                       seed, 0),
-                 std::invalid_argument);
-  }
-}
-
-TEST(HardQueriesOnCurves, HaveFullSignificands) {
-  for (const Hardness& hardness : curve_hardnesses()) {
-    const HardSort sort{.hardness = &hardness, .level = hardness.levels.back()};
-    const data::RecordedQuery made = make_hard_query(sort, seed, 0);
-    const auto has_many_bits = [](double x) {
-      return std::ldexp(x, 30) != std::rint(std::ldexp(x, 30));
-    };
-    EXPECT_GT(2 * std::ranges::count_if(made.query.numbers(), has_many_bits),
-              std::ssize(made.query.numbers()));
-  }
-}
-
 // ---- Scenes in a frame --------------------------------------------------------------------------
 
-TEST(HardQueries, HaveTheAspect) {
-  for_each_query("aspect", 16, [](int exponent, Kind kind, const Query& query, bool) {
-    const auto side = [&](std::size_t a, std::size_t b) {
-      return Eigen::Vector3d(query.point(0, b) - query.point(0, a));
-    };
-    const double level = std::ldexp(1.0, exponent);
-    if (kind == Kind::edge_edge) {
-      const double a = side(0, 1).norm(), b = side(2, 3).norm();
-      // The symmetry chooses the shorter edge; at level 1 the lengths are equal.
-      expect_between(std::min(a, b) / std::max(a, b) / level, 0.65, 1.5);
-      return;
-    }
-    const double longest = std::max({side(1, 2).norm(), side(1, 3).norm(), side(2, 3).norm()});
-    const double height =
-        std::sqrt(mpq_class(dot(normal(kind, query, 0), normal(kind, query, 0))).get_d()) / longest;
-    expect_between(height / longest / level, 0.65, 1.2);
-  });
+/// The least height of a triangle over its longest side; or the lengths of two edges, of which the
+/// symmetry chooses the shorter one.
+double aspect(Kind kind, const Query& query) {
+  const auto side = [&](std::size_t a, std::size_t b) {
+    return Eigen::Vector3d(query.point(0, b) - query.point(0, a)).norm();
+  };
+  if (kind == Kind::edge_edge) {
+    return std::min(side(0, 1), side(2, 3)) / std::max(side(0, 1), side(2, 3));
+  }
+  const double longest = std::max({side(1, 2), side(1, 3), side(2, 3)});
+  const Vector up = normal(kind, query, 0);
+  return std::sqrt(dot(up, up).get_d()) / longest / longest;
 }
 
-TEST(HardQueries, HaveTheAngle) {
-  for_each_query("angle", 16, [](int exponent, Kind kind, const Query& query, bool) {
-    const Vector up = normal(kind, query, 0);
-    const double level = std::ldexp(1.0, exponent);
-    if (kind == Kind::edge_edge) {
-      const Rational along = dot(vector(query, 0, 0, 1), vector(query, 0, 2, 3));
-      expect_between(std::sqrt(Rational(dot(up, up) / (along * along)).get_d()) / level, 0.85, 1.2);
-      return;
-    }
-    Vector motion = vector(query, 1, 1, 0);
-    const Vector before = vector(query, 0, 1, 0);
-    for (std::size_t axis = 0; axis < 3; ++axis) motion[axis] -= before[axis];
-    const Rational down = square_along(motion, up);
-    expect_between(std::sqrt(Rational(down / (dot(motion, motion) - down)).get_d()) / level, 0.85,
-                   1.2);
-  });
+/// The tangent of the angle between the edges, or between the motion and the face.
+double angle(Kind kind, const Query& query) {
+  const Vector up = normal(kind, query, 0);
+  if (kind == Kind::edge_edge) {
+    const Rational along = dot(vector(query, 0, 0, 1), vector(query, 0, 2, 3));
+    return std::sqrt(Rational(dot(up, up) / (along * along)).get_d());
+  }
+  Vector motion = vector(query, 1, 1, 0);
+  const Vector before = vector(query, 0, 1, 0);
+  for (std::size_t axis = 0; axis < 3; ++axis) motion[axis] -= before[axis];
+  const Rational down = square_along(motion, up);
+  return std::sqrt(Rational(down / (dot(motion, motion) - down)).get_d());
 }
 
-TEST(HardQueries, HaveTheSpeed) {
-  for_each_query("speed", 16, [](int exponent, Kind kind, const Query& query, bool) {
-    const double motion = relative_motion(kind, query).norm() / size;
-    expect_between(motion / std::ldexp(1.0, exponent), 0.7, 1.1);
-  });
+/// The motion of the first primitive relative to the second one's first point.
+double speed(Kind kind, const Query& query) {
+  const std::size_t other = second(kind);
+  const Eigen::Vector3d motion =
+      (query.point(1, 0) - query.point(0, 0)) - (query.point(1, other) - query.point(0, other));
+  return motion.norm() / size;
 }
 
-TEST(HardQueries, HaveTheOffset) {
-  for_each_query("offset", 16, [](int exponent, Kind, const Query& query, bool) {
-    if (exponent == 0) return;
-    expect_between(query.point(0, 0).norm() / size / std::ldexp(1.0, exponent), 0.7, 1.9);
-  });
+double offset(Kind, const Query& query) { return query.point(0, 0).norm() / size; }
+
+double scale(Kind, const Query& query) {
+  double greatest = 0.0;
+  for (const double x : query.coordinates) greatest = std::max(greatest, std::abs(x));
+  return greatest / size;
 }
 
-TEST(HardQueries, HaveTheScale) {
-  for_each_query("scale", 16, [](int exponent, Kind, const Query& query, bool) {
-    double greatest = 0.0;
-    for (const double x : query.coordinates) greatest = std::max(greatest, std::abs(x));
-    expect_between(std::ldexp(greatest, -exponent) / size, 0.3, 3.0);
-  });
+TEST(HardQueries, HaveTheirLevel) {
+  struct Row {
+    const char* name;
+    double (*measure)(Kind, const Query&);
+    double low;
+    std::array<double, 2> high;  // of both kinds
+  };
+  for (const auto& [name, measure, low, high] : {Row{"aspect", aspect, 0.65, {1.2, 1.5}},
+                                                 {"angle", angle, 0.85, {1.2, 1.2}},
+                                                 {"speed", speed, 0.7, {1.1, 1.1}},
+                                                 {"offset", offset, 0.7, {1.9, 1.9}},
+                                                 {"scale", scale, 0.3, {3.0, 3.0}}}) {
+    for_each_query(name, 16, [&](int exponent, Kind kind, const Query& query, bool) {
+      if (measure == offset && exponent == 0) return;
+      const double found = std::ldexp(measure(kind, query), -exponent);
+      EXPECT_GE(found, low);
+      EXPECT_LE(found, high.at(kind == Kind::edge_edge ? 1 : 0));
+    });
+  }
 }
 
 /// Only rounded values test a filter.
@@ -266,6 +245,15 @@ TEST(HardQueries, HaveFullSignificands) {
     for_each_query(name, 8, [](int, Kind, const Query& query, bool) {
       EXPECT_TRUE(uses_full_significands(query));
     });
+  }
+  for (const Hardness& hardness : curve_hardnesses()) {
+    const HardSort sort{.hardness = &hardness, .level = hardness.levels.back()};
+    const data::RecordedQuery made = make_hard_query(sort, seed, 0);
+    const auto has_many_bits = [](double x) {
+      return std::ldexp(x, 30) != std::rint(std::ldexp(x, 30));
+    };
+    EXPECT_GT(2 * std::ranges::count_if(made.query.numbers(), has_many_bits),
+              std::ssize(made.query.numbers()));
   }
 }
 
@@ -344,85 +332,48 @@ TEST(HardQueries, HaveTheFrame) {
   });
 }
 
-std::uint64_t hash(const base::AnyQuery& query) {
-  std::uint64_t value = 0;
-  for (const double x : query.numbers()) {
-    value = mix(value ^ std::bit_cast<std::uint64_t>(x));
-  }
-  return value;
-}
-
 TEST(HardQueries, AreTheSameEverywhereAndDifferByEveryArgument) {
   const HardSort sort{.hardness = &hardness_from_name("distance"), .level = -20};
   HardSort other_level = sort, other_kind = sort, other_hardness = sort;
   other_level.level = -25;
   other_kind.kind = Kind::edge_edge;
   other_hardness.hardness = &hardness_from_name("angle");
-  const std::uint64_t here = hash(make_hard_query(sort, seed, 3).query);
-  EXPECT_EQ(here, hash(make_hard_query(sort, seed, 3).query));
-  const std::set<std::uint64_t> all{here,
-                                    hash(make_hard_query(sort, seed, 4).query),
-                                    hash(make_hard_query(sort, seed + 1, 3).query),
-                                    hash(make_hard_query(other_level, seed, 3).query),
-                                    hash(make_hard_query(other_kind, seed, 3).query),
-                                    hash(make_hard_query(other_hardness, seed, 3).query)};
-  EXPECT_EQ(all.size(), 6U);
-  EXPECT_EQ(here, 10027675287850289189U);
-}
-
-TEST(HardQueries, AreOfTheLevelsThereAre) {
-  const Hardness& distance = hardness_from_name("distance");
-  EXPECT_THROW((void)make_hard_query({.hardness = &distance, .level = -2}, seed, 0),
-               std::invalid_argument);
-  EXPECT_THROW((void)open_hard_queries({.hardness = &distance, .level = 0}, seed, 1),
-               std::invalid_argument);
-}
-
-TEST(SeparationAt, IsScaledWithTheCoordinates) {
-  const Separation asked{.distance = 1e-3, .norm = Norm::l2};
-  EXPECT_EQ(separation_at(hardness_from_name("distance"), -50, asked), asked);
-  EXPECT_EQ(separation_at(hardness_from_name("scale"), 200, asked),
-            (Separation{.distance = std::ldexp(1e-3, 200), .norm = Norm::l2}));
-}
-
-TEST(HardQueriesAboutASeparation, AreHalfCollisionsByTheOracle) {
-  for (const Separation& asked : {Separation{.distance = 1e-3, .norm = Norm::l2},
-                                  Separation{.distance = 0.7, .norm = Norm::linf},
-                                  Separation{.distance = 300.0, .norm = Norm::l2}}) {
-    for (const Hardness& hardness : hardnesses()) {
-      for (const int level : {hardness.levels.front(), hardness.levels.back()}) {
-        for (const Kind kind : kinds) {
-          std::uint64_t collisions = 0;
-          for (std::uint64_t index = 0; index < trials(16U); ++index) {
-            const data::RecordedQuery made = make_hard_query(
-                {.hardness = &hardness, .level = level, .kind = kind, .separation = asked}, seed,
-                index);
-            collisions += made.collides.value() ? 1U : 0U;
-            const exact::Decision truth =
-                exact::decide(kind, made.query.straight(), separation_at(hardness, level, asked));
-            ASSERT_EQ(truth.collides(), made.collides);
-          }
-          EXPECT_EQ(collisions, trials(16U) / 2)
-              << hardness.name << " " << level << " " << to_string(kind) << " " << asked.distance;
-        }
-      }
+  const auto hash = [&](const HardSort& some, std::uint64_t of_seed, std::uint64_t index) {
+    std::uint64_t value = 0;
+    for (const double x : make_hard_query(some, of_seed, index).query.numbers()) {
+      value = mix(value ^ std::bit_cast<std::uint64_t>(x));
     }
-  }
+    return value;
+  };
+  const std::set<std::uint64_t> all{hash(sort, seed, 3),       hash(sort, seed, 4),
+                                    hash(sort, seed + 1, 3),   hash(other_level, seed, 3),
+                                    hash(other_kind, seed, 3), hash(other_hardness, seed, 3)};
+  EXPECT_EQ(all.size(), 6U);
+  EXPECT_EQ(hash(sort, seed, 3), 10027675287850289189U);
 }
 
-TEST(HardQueriesAboutASeparation, AreLimitedInDistance) {
+/// Curves are about contact alone, and the others about a limited distance.
+TEST(HardQueries, AreOfTheLevelsAndDistancesThereAre) {
+  const auto refused = [](std::string_view name, int level, double distance) {
+    const HardSort sort{.hardness = &hardness_from_name(name),
+                        .level = level,
+                        .separation = {.distance = distance, .norm = Norm::l2}};
+    EXPECT_THROW((void)make_hard_query(sort, seed, 0), std::invalid_argument) << name;
+    EXPECT_THROW((void)open_hard_queries(sort, seed, 1), std::invalid_argument) << name;
+  };
+  refused("distance", -2, 0.0);
+  refused("scale", 1000, 1e5);
+  for (const Hardness& hardness : curve_hardnesses()) {
+    refused(hardness.name, hardness.levels.front(), 1e-3);
+  }
   EXPECT_TRUE(has_hard_queries({}));
   EXPECT_TRUE(has_hard_queries({.distance = 0x1p14, .norm = Norm::linf}));
   EXPECT_FALSE(has_hard_queries({.distance = 0x1.1p14, .norm = Norm::linf}));
   EXPECT_FALSE(has_hard_queries({.distance = -1.0, .norm = Norm::linf}));
-  const HardSort sort{.hardness = &hardness_from_name("scale"),
-                      .level = 1000,
-                      .separation = {.distance = 0x1p14, .norm = Norm::l2}};
-  EXPECT_TRUE(std::ranges::all_of(make_hard_query(sort, seed, 0).query.numbers(),
-                                  [](double x) { return std::isfinite(x); }));
-  HardSort beyond = sort;
-  beyond.separation.distance = 1e5;
-  EXPECT_THROW((void)make_hard_query(beyond, seed, 0), std::invalid_argument);
+  const HardSort greatest{.hardness = &hardness_from_name("scale"),
+                          .level = 1000,
+                          .separation = {.distance = 0x1p14, .norm = Norm::l2}};
+  EXPECT_TRUE(is_finite(make_hard_query(greatest, seed, 0).query.numbers()));
 }
 
 }  // namespace

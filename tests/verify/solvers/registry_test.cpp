@@ -11,7 +11,6 @@
 #include <vector>
 
 #include "tests/support/built_files.hpp"
-#include "tests/support/queries.hpp"
 
 namespace touchstone::verify::solvers::registry_test {
 namespace {
@@ -65,19 +64,6 @@ TEST(Registry, DescriptionsHold) {
     EXPECT_GT(info.usual_max_checks, 0) << name;
   }
   EXPECT_EQ(method_names().substr(0, 27), "certified, tight_inclusion,");
-}
-
-/// Methods that measure a distance find contact within it that they miss without it.
-TEST(Registry, MethodsHeedTheDistancesThatTheySayTheyMeasure) {
-  const Query query = tests::over_triangle(1, 1, 3, 1).query;
-  for (const auto& method : methods()) {
-    for (const Norm norm : method->info().norms) {
-      fast::Answer answer;
-      method->solve(Queries(Kind::vertex_face, {&query, 1}), {&answer, 1},
-                    {.separation = {.distance = 1.5, .norm = norm}});
-      EXPECT_EQ(answer.verdict, fast::Verdict::yes) << method->name();
-    }
-  }
 }
 
 }  // namespace

@@ -2,8 +2,10 @@
 #include "tests/support/shared_counter.hpp"
 #include "tests/support/trials.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <sys/prctl.h>
+#include <sys/resource.h>
 #include <sys/time.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -18,6 +20,7 @@
 #include <cstdlib>
 #include <ctime>
 #include <filesystem>
+#include <fstream>
 #include <functional>
 #include <iostream>
 #include <limits>
@@ -29,7 +32,8 @@
 #include <utility>
 #include <vector>
 
-// A separate program, because it makes processes, which copy no threads.
+// A separate program, because it makes processes, which copy no threads. The ways of a plugin to
+// end are in plugin_method_test.cpp.
 
 namespace touchstone::verify::solvers::solver_process_test {
 namespace {
@@ -250,14 +254,6 @@ TEST(SolverProcess, AnswersQueriesOfAllShapes) {
   }
 }
 
-/// A limit does not change the spans, and so costs no time.
-TEST(SolverProcess, ShowsTheMethodLongSpansWithALimitAndWithout) {
-  for (const double limit : {0.0, long_limit}) {
-    const Outcome outcome = run(numbered(3000), {.query_limit_seconds = limit});
-    for (const std::size_t i : {0U, 2000U}) EXPECT_EQ(outcome.answers[i].tolerance, 512.0);
-  }
-}
-
 /// The same process stays, as the method's memory shows.
 TEST(SolverProcess, AsksOneProcessThatIsNotThisOne) {
   int calls = 0;
@@ -283,8 +279,7 @@ TEST(SolverProcess, AsksOneProcessThatIsNotThisOne) {
 
 // ---- Failures -----------------------------------------------------------------------------------
 
-/// What queries do, and what comes of it. (The ways to end, and their names, are in
-/// plugin_method_test.cpp.)
+/// What queries do, and what comes of it.
 struct Event {
   const char* name;
   std::vector<Query> queries;
@@ -319,11 +314,16 @@ TEST(SolverProcess, AnEndCostsOneQueryAndOneThatDoesNotRepeatNone) {
   }
 }
 
-/// Behind the batch of the query that ends its process, spans are long again.
+/// With a limit, which costs no time, and without; behind the batch of the query that ends its
+/// process, spans are long again.
 TEST(SolverProcess, OneBatchIsSolvedOneByOne) {
-  const Outcome outcome = run(with(3000, Act::dies_in_spans, {1500}));
-  for (const auto& [i, span] : {std::pair(1000, 512.0), {1024, 1.0}, {1535, 1.0}, {1536, 512.0}}) {
-    EXPECT_EQ(outcome.answers.at(static_cast<std::size_t>(i)).tolerance, span) << i;
+  for (const double limit : {0.0, long_limit}) {
+    const Outcome outcome =
+        run(with(3000, Act::dies_in_spans, {1500}), {.query_limit_seconds = limit});
+    for (const auto& [i, span] :
+         {std::pair(0U, 512.0), {1000U, 512.0}, {1024U, 1.0}, {1535U, 1.0}, {1536U, 512.0}}) {
+      EXPECT_EQ(outcome.answers.at(i).tolerance, span) << i;
+    }
   }
 }
 
@@ -451,14 +451,19 @@ TEST(SolverProcess, KeepsTheBeginningOfALotAndNeverBlocks) {
 
 // ---- Time ---------------------------------------------------------------------------------------
 
+/// Without what it had to search for a query that ends its process; but what a hang burnt counts.
 TEST(SolverProcess, CountsProcessorTimeOfEveryQueryOnce) {
-  const std::vector<Query> queries = all_of(Act::works, 6);
-  for (const double limit : {0.0, long_limit}) {
-    const SolverRun solved = run(queries, {.query_limit_seconds = limit}).run;
-    EXPECT_GE(solved.processor_seconds, 6 * work_seconds);
-    EXPECT_LT(solved.processor_seconds, 9 * work_seconds);
-    EXPECT_GE(solved.wall_seconds, 6 * work_seconds);
+  std::vector<Query> queries = all_of(Act::works, 7);
+  for (const bool is_deadly : {false, true}) {
+    if (is_deadly) queries.push_back(scripted(Act::dies, 7));
+    for (const double limit : {0.0, long_limit}) {
+      const SolverRun solved = run(queries, {.query_limit_seconds = limit}).run;
+      EXPECT_GE(solved.processor_seconds, 7 * work_seconds);
+      EXPECT_LT(solved.processor_seconds, 10 * work_seconds);
+      EXPECT_GE(solved.wall_seconds, 7 * work_seconds);
+    }
   }
+  EXPECT_GT(run(all_of(Act::burns, 1), {.query_limit_seconds = 0.5}).run.processor_seconds, 0.02);
 }
 
 /// A child is made, and asked no queries at first, which is for the method to load what it needs.
@@ -473,20 +478,70 @@ TEST(SolverProcess, DoesNotCountTheMakingOfAChild) {
   EXPECT_LT(solved.wall_seconds, work_seconds);
 }
 
-TEST(SolverProcess, CountsWhatAHangBurntAndNotWhatItHadToSearch) {
-  std::vector<Query> queries = all_of(Act::works, 8);
-  queries[7] = scripted(Act::dies, 7);
-  const SolverRun solved = run(queries, {.query_limit_seconds = long_limit}).run;
-  EXPECT_GE(solved.processor_seconds, 7 * work_seconds);
-  EXPECT_LT(solved.processor_seconds, 10 * work_seconds);
-  EXPECT_GT(run(all_of(Act::burns, 1), {.query_limit_seconds = 0.5}).run.processor_seconds, 0.02);
-}
-
-// ---- The process around it ----------------------------------------------------------------------
-
 std::ptrdiff_t open_descriptors() {
   return std::distance(std::filesystem::directory_iterator("/proc/self/fd"), {});
 }
+
+// ---- A child of any work ------------------------------------------------------------------------
+
+/// Waits for a message or the end.
+ChildProcess::Event next(ChildProcess& child, std::string& message) {
+  CapturedOutput output;
+  for (;;) {
+    const auto event = child.wait(ChildProcess::Seconds(60.0), message, output);
+    if (event != ChildProcess::Event::none) return event;
+  }
+}
+
+/// Standard descriptors, connection, lifeline, and the listed folder; no input, no core.
+TEST(ChildProcess, HasAWorldOfItsOwn) {
+  std::filesystem::path folder;
+  {
+    const TemporaryFolder its_own;
+    folder = its_own.path();
+    const std::ifstream of_parent("/proc/self/stat");
+    ChildProcess child(
+        [](const ChildChannel& channel) {
+          std::ofstream("written") << "x";
+          rlimit core{};
+          ::getrlimit(RLIMIT_CORE, &core);
+          char byte = 0;
+          static_cast<void>(channel.send(fmt::format(
+              "{} {} {} {} {}", std::filesystem::current_path().string(), open_descriptors(),
+              core.rlim_cur, ::read(STDIN_FILENO, &byte, 1), ::getpgrp() == ::getpid())));
+          throw 7;
+        },
+        {}, folder);
+    std::string message;
+    ASSERT_EQ(next(child, message), ChildProcess::Event::message);
+    EXPECT_EQ(message, folder.string() + " 6 0 0 true");
+    EXPECT_EQ(next(child, message), ChildProcess::Event::ended);
+    CapturedOutput output;
+    EXPECT_EQ(child.end(output).failure, (judge::Failure{.kind = judge::Fault::exit, .number = 1}));
+    EXPECT_TRUE(std::filesystem::exists(folder / "written"));
+  }
+  EXPECT_FALSE(std::filesystem::exists(folder));
+}
+
+TEST(ChildProcess, TellsWorkFromSleep) {
+  const TemporaryFolder folder;
+  ChildProcess busy(
+      [](const ChildChannel& channel) {
+        static_cast<void>(channel.send("up"));
+        burn();
+      },
+      {}, folder.path());
+  ChildProcess idle([](const ChildChannel& channel) { static_cast<void>(channel.receive()); }, {},
+                    folder.path());
+  std::string message;
+  ASSERT_EQ(next(busy, message), ChildProcess::Event::message);
+  EXPECT_TRUE(busy.is_runnable());
+  while (busy.processor_seconds() < 0.01) std::this_thread::yield();
+  // The child sleeps as soon as it gets there.
+  while (idle.is_runnable()) std::this_thread::yield();
+}
+
+// ---- The process around it ----------------------------------------------------------------------
 
 TEST(SolverProcess, LeavesNeitherChildrenNorDescriptors) {
   const std::ptrdiff_t before = open_descriptors();

@@ -5,14 +5,12 @@
 #include <algorithm>
 #include <chrono>
 #include <csignal>
-#include <cstdio>
-#include <filesystem>
-#include <fstream>
 #include <iostream>
 #include <optional>
 #include <stdexcept>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "fast/candidates.hpp"
@@ -20,6 +18,7 @@
 #include "tests/support/queries.hpp"
 #include "verify/generate/workload.hpp"
 #include "verify/mesh/moving_mesh.hpp"
+#include "verify/solvers/hang_limits.hpp"
 
 // A separate program, because it makes processes, which copy no threads.
 
@@ -103,69 +102,9 @@ TEST(Solver, SpansAreShortForSlowAndLongForFastSolvers) {
   EXPECT_GE(fast_solver->good_span(), 1000U);
 }
 
-TEST(Solver, KeepsWhatItsProcessesPrint) {
-  const FunctionMethod method([](Kind kind, const Query& query) {
-    std::printf("asked %g\n", query.coordinates[0]);
-    return echo(kind, query);
-  });
-  const auto in_children = solver_in_children(method, {}, {});
-  static_cast<void>(ask(*in_children, 2));
-  EXPECT_EQ(in_children->take_output().text, "asked 100\nasked 101\n");
-  static_cast<void>(ask(*in_children, 1));
-  EXPECT_EQ(in_children->take_output().text, "asked 100\n");
-  EXPECT_EQ(solver_in_process(method, {})->take_output().text, "");
-}
-
 // ---- In child processes -------------------------------------------------------------------------
 
 constexpr auto vf = Kind::vertex_face;
-
-/// Vertices that fall onto a triangle from different heights.
-std::vector<Query> falling(std::size_t count) {
-  std::vector<Query> queries;
-  for (std::size_t i = 0; i < count; ++i) {
-    queries.push_back(tests::over_triangle(1, 1, 1.0 + static_cast<double>(i), -1).query);
-  }
-  return queries;
-}
-
-double height(const Query& query) { return query.at(0, 0, 2); }
-
-TEST(Solver, AsksNoQueryAgainThatEndedItsProcess) {
-  // A file records the processes that ended.
-  const TemporaryFolder folder;
-  const std::string log = (folder.path() / "log").string();
-  const FunctionMethod method([&log](Kind kind, const Query& query) {
-    if (height(query) == 3.0) {
-      std::ofstream(log, std::ios::app) << "x";
-      std::raise(SIGKILL);
-    }
-    if (height(query) == 5.0) throw std::runtime_error("thrown");
-    return tests::true_answer(kind, query);
-  });
-  const auto solver = solver_in_children(method, {}, {});
-  const std::vector<Query> queries = falling(8);
-  std::vector<Answer> answers(queries.size());
-  std::uintmax_t ends = 0;
-  for (int round = 0; round < 3; ++round) {
-    const SolveReply reply = solver->solve({.queries = {vf, queries}}, answers);
-    for (std::size_t i = 0; i < queries.size(); ++i) {
-      EXPECT_EQ(answers[i].verdict, i == 2 || i == 4 ? Verdict::error : Verdict::yes) << i;
-    }
-    ASSERT_EQ(reply.failures.size(), 2U);
-    EXPECT_EQ(reply.failures[0].position, 2U);
-    EXPECT_EQ(to_text(reply.failures[0].failure), "crash: SIGKILL");
-    EXPECT_EQ(reply.failures[1].position, 4U);
-    EXPECT_EQ(to_text(reply.failures[1].failure), "exception: thrown");
-    if (round == 0) ends = std::filesystem::file_size(log);
-  }
-  EXPECT_EQ(std::filesystem::file_size(log), ends);
-  // The same points with another distance are another query.
-  const SolveReply other = solver->solve(
-      {.queries = {vf, queries}, .separation = {.distance = 0.25, .norm = Norm::l2}}, answers);
-  EXPECT_EQ(other.failures.size(), 2U);
-  EXPECT_GT(std::filesystem::file_size(log), ends);
-}
 
 /// The rest of their kind in their source is left out, and no other queries.
 TEST(Solver, LeavesOutQueriesBehindThreeHangsOfTheirSort) {
@@ -186,6 +125,30 @@ TEST(Solver, LeavesOutQueriesBehindThreeHangsOfTheirSort) {
   other.source = "another";
   std::vector<Answer> answers(3);
   EXPECT_TRUE(solver->solve(other.request(), answers).unasked.empty());
+}
+
+TEST(HangLimits, ShrinkAfterThreeHangsAndEndTheirSort) {
+  HangLimits limits(10.0);
+  for (int hang = 0; hang < 6; ++hang) {
+    EXPECT_EQ(limits.seconds(), hang < 3 ? 10.0 : 1.0) << hang;
+    EXPECT_EQ(limits.is_over("a"), hang >= 5) << hang;
+    limits.add(hang % 2 == 0 ? "a" : "b");
+  }
+  EXPECT_FALSE(limits.is_over("c"));
+  EXPECT_EQ(HangLimits(0.0).seconds(), 0.0);
+}
+
+/// A sort at which every query hangs costs a logarithmic number of hangs.
+TEST(HangLimits, AskFewOfASortThatAlwaysHangs) {
+  HangLimits limits(1.0);
+  int asked = 0;
+  for (int i = 0; i < 100'000; ++i) {
+    if (limits.leaves_out("a")) continue;
+    ++asked;
+    limits.add("a");
+  }
+  EXPECT_GT(asked, 3 * 10);
+  EXPECT_LT(asked, 3 * 18);
 }
 
 // ---- Shapes -------------------------------------------------------------------------------------
@@ -248,8 +211,9 @@ TEST(Solver, RecordedAnswersAreLookedUpForAllShapesInDoubles) {
   }
 }
 
-/// Rational curves of degree 2 and others of degree 3 have as many numbers.
-TEST(Solver, ALostQueryOnCurvesIsThatOfItsShape) {
+/// A query that ended its process is not asked again. The same points with another distance are
+/// another query, and so are curves of degree 3, which have as many numbers as rational ones of 2.
+TEST(Solver, ALostQueryIsThatOfItsShapeAndSeparation) {
   const FunctionMethod method(
       [](const Queries& one) -> Answer {
         if (one.is_rational && one.numbers[1] == 101.0) {
@@ -263,12 +227,15 @@ TEST(Solver, ALostQueryOnCurvesIsThatOfItsShape) {
   constexpr QueryShape rational{.kind = vf, .degree = 2, .is_rational = true},
       polynomial{.kind = vf, .degree = 3};
   std::vector<double> numbers(4 * rational.numbers_of_query());
-  const SolveRequest request{.queries = numbered(rational, numbers)};
-  for (const bool is_known : {false, true}) {
+  SolveRequest request{.queries = numbered(rational, numbers)};
+  for (const auto& [distance, is_known] :
+       {std::pair(0.0, false), {0.0, true}, {0.25, false}, {0.0, true}}) {
+    request.separation = {.distance = distance, .norm = Norm::l2};
     std::vector<Answer> answers(4);
     const SolveReply reply = solver->solve(request, answers);
     ASSERT_EQ(reply.failures.size(), 1U);
     EXPECT_EQ(reply.failures[0].position, 1U);
+    EXPECT_EQ(to_text(reply.failures[0].failure), "crash: SIGKILL");
     for (std::size_t i = 0; i < 4; ++i) {
       EXPECT_EQ(answers[i].verdict, i == 1 ? Verdict::error : Verdict::no) << i;
     }
