@@ -98,6 +98,8 @@ class CertifyRun {
                deadline_ = budget_.begin_source(left);
                unjudged_ = left - 1;
              }});
+    // Also between two sources.
+    sum_.interrupted = sum_.interrupted || io::interrupted();
     report_answers();
     solvers_.report_output(arguments_.judged.show_output);
     // Files first, so that they are complete even if standard output is closed.
@@ -107,7 +109,9 @@ class CertifyRun {
     }
     truth_.close();
     proof_.close(sum_.proofs.certificates());
-    if (json_) json_.complete(io::json_document(report::to_json(results_)));
+    nlohmann::json results = report::to_json(results_);
+    results["interrupted"] = sum_.interrupted;
+    if (json_) json_.complete(io::json_document(results));
     write_gate();
     view_.write(arguments_.judged.options);
     print_summary();

@@ -95,6 +95,8 @@ class SolveRun {
                        const Progress& progress) { solve_source(source, progress); },
          .fail = [this](const fs::path&, const io::DatasetError& error) { fail(error.what()); },
          .stopped = [this] { return stopped(); }});
+    // Also between two sources.
+    sum_.interrupted = sum_.interrupted || io::interrupted();
     if (is_without_queries()) {
       out_.discard();
     } else {

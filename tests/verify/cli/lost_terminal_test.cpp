@@ -52,21 +52,25 @@ class TerminalTool : public tests::ToolTest {
 // ---- Interrupts ---------------------------------------------------------------------------------
 
 TEST_F(TerminalTool, EveryCommandEndsAtAnInterrupt) {
-  const std::string out = path("result");
+  const std::string out = path("result"), summary = path("summary.json");
   const std::vector<std::vector<std::string>> runs{
-      {"certify", "--count", "100000000"},
-      {"solve", "--count", "100000000", "--method", "certified", "--out", out},
-      {"prove", "--count", "100000000", "--prove", out},
+      {"certify", "--count", "100000000", "--json", summary},
+      {"solve", "--count", "100000000", "--method", "certified", "--out", out, "--json", summary},
+      {"prove", "--count", "100000000", "--prove", out, "--json", summary},
       {"generate", "--count", "100000000", "--out", path("families")},
       {"generate", "--patches", "1000", "--out", path("patches")},
       {"bench", "--count", "100000000"},
-      {"fuzz", "--method", "certified"},
-      {"certify", "--degree", "rational", "--count", "1000000"},
-      {"stability"},
+      {"fuzz", "--method", "certified", "--json", summary},
+      {"certify", "--degree", "rational", "--count", "1000000", "--json", summary},
+      {"stability", "--json", summary},
       {"report", "--out", out},
-      {"derive"}};
+      {"derive", "--json", summary}};
   for (const std::vector<std::string>& words : runs) {
     EXPECT_EQ(run_interrupted(words).status, 130) << words[0] << " " << words.back();
+    if (words.back() == summary) {
+      EXPECT_EQ(json("summary.json").at("interrupted"), true) << words[0];
+      fs::remove(summary);
+    }
   }
 }
 
@@ -220,6 +224,11 @@ TEST_F(TerminalTool, NamesOfFilesAreShownAndNotObeyed) {
   EXPECT_TRUE(contains(json("result.json").at("files")[0].at("file"), "\x1b[2Ja\ntotal 9"))
       << "to whoever parses it the name is itself";
   EXPECT_EQ(std::ranges::count(read("truth.csv"), '\n'), 2);
+  const Outcome bench = run({"bench", data, "--method", "certified", "--seconds", "0.01"});
+  EXPECT_TRUE(contains(bench.out, shown)) << bench.out;
+  const std::string mesh = write("\x1b\n,.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  EXPECT_TRUE(
+      contains(run({"step", mesh, mesh, "--csv", path("pairs.csv")}).out, "\\x1b\\x0a,.obj"));
   // The answers under the shown name are found again.
   EXPECT_EQ(run({"solve", data, "--method", "certified", "--out", path("answers.csv")}).status, 0);
   const Outcome judged = run({"certify", data, "--results", path("answers.csv")});

@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "tests/verify/data/dataset_fixture.hpp"
@@ -101,16 +100,6 @@ TEST(CsvDataset, ALineThatIsNoRowEndsTheFile) {
   }
 }
 
-TEST(CsvDataset, AMissingRowIsFoundAtTheFirstLabelThatDiffers) {
-  std::vector<std::string> lines = numbered_lines(6, true);
-  lines.erase(lines.begin() + 19);
-  const Survivors kept = survivors(joined(lines));
-  expect_numbered(kept.records, {0, 1});
-  EXPECT_EQ(kept.messages,
-            std::vector<std::string>{
-                "a.csv:24:7: label differs from that of the query's first row" + rest_is_left_out});
-}
-
 TEST(CsvDataset, WhatCompanionsHoldBehindALostPlaceIsNoFurtherFault) {
   const TemporaryFolder folder;
   (void)folder.file("a_mma_bool.json", "[0,1,0,1]");
@@ -171,25 +160,6 @@ TEST(CsvDataset, ALineThatIsNoHeaderBeginsNoFile) {
   EXPECT_EQ(error("nan,nan,nan,nan,nan,nan"), "1:1: not a finite number: \"nan\"");
   EXPECT_EQ(error("a,b,c,d,e,f\nA,B,C,D,E,F"), "2: no number in the line" + rest_is_left_out);
   EXPECT_EQ(strict_error("a,b,c,d,e,f\n\n"), " no queries");
-}
-
-TEST(CsvDataset, CoordinatesMayBeDecimalsInOneColumnOrTwo) {
-  const std::string six = "-0.75,1,0.5,2,3e2,1", three = "-0.75, 0.25 ,300";
-  for (const auto& [header, row] :
-       std::vector<std::pair<std::string, std::string>>{{"", six},
-                                                        {"", three},
-                                                        {"x,y,z", three},
-                                                        {"", six + ",1"},
-                                                        {"x,y,z,collides", three + ",1"}}) {
-    const Survivors kept = survivors(joined({header, row, row, row, row, row, row, row, row}));
-    ASSERT_EQ(kept.records.size(), 1U) << header << row;
-    EXPECT_EQ(kept.records[0].collides.has_value(), row.ends_with(",1") && row != six) << row;
-    for (std::size_t i = 0; i < 24; i += 3) {
-      EXPECT_EQ(kept.records[0].query.straight().coordinates.at(i), -0.75);
-      EXPECT_EQ(kept.records[0].query.straight().coordinates.at(i + 1), 0.25);
-      EXPECT_EQ(kept.records[0].query.straight().coordinates.at(i + 2), 300.0);
-    }
-  }
 }
 
 TEST(CsvDataset, ATruncatedLastQueryIsOneError) {

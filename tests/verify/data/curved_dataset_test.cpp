@@ -1,13 +1,14 @@
 /// \file
-/// Queries on curves as all readers and writers of datasets have them: csv_dataset.hpp,
-/// npy_dataset.hpp and npy.hpp. The rules that do not depend on the shape are held by the tests of
-/// these headers.
+/// Queries of every shape, on lines and on curves, as all readers and writers of datasets have
+/// them: csv_dataset.hpp, npy_dataset.hpp and npy.hpp. What does not depend on the shape is in
+/// csv_dataset_test.cpp and npy_test.cpp.
 
 #include <gtest/gtest.h>
 
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <numeric>
 #include <span>
 #include <string>
 #include <vector>
@@ -61,15 +62,22 @@ std::string numbered_text(const QueryShape& shape, std::size_t count, bool fract
   return text;
 }
 
-std::string array_text(const ShapeCase& of, std::size_t count) {
+template <class Number = double>
+std::string array_text(const ShapeCase& of, std::size_t count, const std::string& descr = "<f8") {
   std::vector<std::uint64_t> extents{count};
   extents.insert(extents.end(), of.extents.begin(), of.extents.end());
-  std::vector<double> numbers;
+  std::vector<Number> numbers;
   for (std::size_t index = 0; index < count; ++index) {
     const AnyQuery query = numbered(of.shape, index);
     numbers.insert(numbers.end(), query.numbers().begin(), query.numbers().end());
   }
-  return tests::array("<f8", extents, numbers);
+  return tests::array(descr, extents, numbers);
+}
+
+std::vector<std::uint64_t> indices_up_to(std::size_t count) {
+  std::vector<std::uint64_t> indices(count);
+  std::iota(indices.begin(), indices.end(), 0);
+  return indices;
 }
 
 /// The first error of a file of queries.
@@ -174,19 +182,41 @@ TEST(CurvedCsv, IsReadBackAsItWasWritten) {
   }
 }
 
-TEST(CurvedNpy, IsReadInEveryShapeAndFromArchives) {
+/// More queries than a block has.
+TEST(CurvedNpy, IsReadInEveryShapeAndFromArchivesWithLabels) {
+  constexpr std::size_t count = 600;
+  std::vector<std::uint8_t> labels(count);
+  for (std::size_t i = 0; i < count; i += 3) labels[i] = 1;
   for (const ShapeCase& of : all) {
     const TemporaryFolder folder;
-    const auto source = open_dataset(folder.file("a_ee.npy", array_text(of, 3)));
-    EXPECT_EQ(source->shape(), of.shape);
-    expect_numbered(read_all(*source), {0, 1, 2}, of.shape);
-    const std::vector<std::uint8_t> labels{0, 1, 0};
-    const auto archived = read_all(*open_dataset(tests::archive(
-        folder.path() / "b_ee.npz",
-        {{"queries.npy", array_text(of, 3)}, {"collides.npy", tests::array("|b1", {3}, labels)}})));
-    expect_numbered(archived, {0, 1, 2}, of.shape);
-    EXPECT_EQ(archived.at(1).collides, std::optional(true));
+    NpyDataset source(folder.file("a_ee.npy", array_text(of, 4)), {});
+    EXPECT_EQ(source.shape(), of.shape);
+    EXPECT_EQ(source.progress(), 0.0);
+    EXPECT_EQ(source.next().value().collides, std::nullopt);
+    EXPECT_EQ(source.progress(), 0.25);
+    expect_numbered(read_all(source), {1, 2, 3}, of.shape);
+    EXPECT_EQ(source.progress(), 1.0);
+    for (const std::string& queries :
+         {array_text(of, count), array_text<float>(of, count, "<f4")}) {
+      for (const bool is_compressed : {false, true}) {
+        const auto archived = read_all(*open_dataset(tests::archive(
+            folder.path() / "b_ee.npz",
+            {{"queries.npy", queries}, {"collides.npy", tests::array("|b1", {count}, labels)}},
+            is_compressed)));
+        expect_numbered(archived, indices_up_to(count), of.shape);
+        for (std::size_t i = 0; i < count; ++i) EXPECT_EQ(archived[i].collides, i % 3 == 0);
+      }
+    }
   }
+  const TemporaryFolder folder;
+  EXPECT_EQ(error_of(folder.path(),
+                     [&] {
+                       (void)open_dataset(tests::archive(
+                           folder.path() / "c_ee.npz",
+                           {{"queries.npy", array_text(lines, 3)},
+                            {"collides.npy", tests::array("|b1", {count}, labels)}}));
+                     }),
+            "c_ee.npz: collides: shape (600), expected (3)");
 }
 
 TEST(CurvedNpy, IsReadBackAsItWasWritten) {
@@ -198,11 +228,27 @@ TEST(CurvedNpy, IsReadBackAsItWasWritten) {
     std::vector<double> infinite(of.shape.numbers_of_query(), HUGE_VAL);
     EXPECT_THROW(writer.write(infinite), std::invalid_argument);
     writer.close();
-    const NpyArray array(path);
-    EXPECT_EQ(array.shape().size(), of.shape.is_straight() ? 3U : 4U);
-    std::vector<std::uint64_t> indices(600);
-    for (std::size_t i = 0; i < indices.size(); ++i) indices[i] = i;
-    expect_numbered(read_all(*open_dataset(path)), indices, of.shape);
+    EXPECT_EQ(NpyArray(path).shape().size(), of.shape.is_straight() ? 3U : 4U);
+    expect_numbered(read_all(*open_dataset(path)), indices_up_to(600), of.shape);
+  }
+}
+
+TEST(NpyDataset, NamesTheCoordinateThatIsNotFiniteAndSkipsItsQueryOnly) {
+  const TemporaryFolder folder;
+  for (std::size_t coordinate = 0; coordinate < 24; ++coordinate) {
+    std::vector<double> numbers;
+    for (std::size_t i = 0; i < 4; ++i) {
+      const auto query = numbered(lines.shape, i).numbers();
+      numbers.insert(numbers.end(), query.begin(), query.end());
+    }
+    numbers[48 + coordinate] = std::array{std::nan(""), HUGE_VAL, -HUGE_VAL}.at(coordinate % 3);
+    const auto path = folder.file("a_ee.npy", tests::array("<f8", {4, 8, 3}, numbers));
+    const std::string expected = "a_ee.npy: query 2, point " + std::to_string(coordinate / 3) +
+                                 ", " + "xyz"[coordinate % 3] + ": not finite";
+    EXPECT_EQ(error_of(folder.path(), [&] { (void)read_all(*open_dataset(path)); }), expected);
+    const Survivors kept = read_survivors(path, folder.path());
+    expect_numbered(kept.records, {0, 1, 3});
+    EXPECT_EQ(kept.messages, std::vector<std::string>{expected});
   }
 }
 
@@ -219,6 +265,32 @@ TEST(CurvedNpy, SkipsAQueryWithAnInvalidNumberOrWeight) {
         folder.file("a_ee.npy", tests::array("<f8", {3, 1, 4, 4}, numbers)), folder.path());
     EXPECT_EQ(kept.messages, std::vector<std::string>{std::string("a_ee.npy: query 1, ") + fault});
     EXPECT_EQ(kept.records.size(), 2U);
+  }
+}
+
+TEST(NpyDataset, ThatBecomesShorterGivesWhatIsThereAndThenOneError) {
+  const TemporaryFolder folder;
+  const auto path = folder.path() / "a_vf.npy";
+  for (const bool keep_going : {false, true}) {
+    NpyWriter writer(path);
+    for (std::size_t i = 0; i < 3000; ++i) writer.write(test::numbered_query(i));
+    writer.close();
+    std::vector<std::string> messages;
+    NpyDataset source(path,
+                      {.keep_going = keep_going, .on_skip = [&](const io::DatasetError& fault) {
+                         messages.emplace_back(fault.reason());
+                       }});
+    std::vector<RecordedQuery> records{source.next().value()};
+    std::filesystem::resize_file(path, 128 + 192 * 2000);
+    const std::string error = error_of(folder.path(), [&] {
+      while (auto record = source.next()) records.push_back(*record);
+    });
+    expect_numbered(records, indices_up_to(1536));  // whole blocks
+    const std::string reason = "the array ends early: it has become shorter while it was read";
+    EXPECT_EQ(error, keep_going ? "no DatasetError" : "a_vf.npy: " + reason);
+    EXPECT_EQ(messages, std::vector<std::string>(keep_going ? 1 : 0, reason));
+    EXPECT_EQ(source.skipped(), keep_going ? 1U : 0U);
+    EXPECT_FALSE(source.next().has_value()) << "it has ended";
   }
 }
 

@@ -72,51 +72,37 @@ TEST(DatasetSource, ASkippedQueryDoesNotShiftTheTruthOfTheOthers) {
   EXPECT_EQ(kept.records[1].toi, exact::Rational(1));
 }
 
-TEST(DatasetSource, ATruncatedQueryTakesItsLabelWithIt) {
-  Scene scene{.labels = "[true,false,true]", .tois = "query,toi\n2,1\n"};
-  scene.lines.resize(20);
-  const Survivors kept = scene.read();
-  expect_numbered(kept.records, {0, 1});
-  ASSERT_EQ(kept.messages.size(), 1U);
-  EXPECT_TRUE(
-      kept.messages[0].starts_with("s/queries/7vf.csv:20: truncated query: 4 of 8 rows; if "));
-}
-
-TEST(DatasetSource, ABadLabelOrToiCostsItsQueryOnly) {
-  Survivors kept = Scene{.labels = "[true,null,true]"}.read();
-  expect_numbered(kept.records, {0, 2});
-  EXPECT_EQ(kept.messages, Messages{"mma_bool/7vf_mma_bool.json:1:7: not a boolean: \"null\""});
-  kept = Scene{.tois = "query,toi\n1,half\n2,1\n"}.read();
-  expect_numbered(kept.records, {0, 2});
-  EXPECT_EQ(kept.messages, Messages{"toi/7vf_toi.csv:2:2: not a number: \"half\""});
-  EXPECT_EQ(kept.records[1].toi, exact::Rational(1));
-}
-
-TEST(DatasetSource, ABrokenCompanionCostsEveryLaterQuery) {
-  Survivors kept = Scene{.labels = "[true;false]"}.read();
-  expect_numbered(kept.records, {0});
-  EXPECT_EQ(kept.messages, Messages(2, "mma_bool/7vf_mma_bool.json:1:6: expected ',' or ']'"));
-  kept = Scene{.tois = "query,toi\n0,1\n0,1\n"}.read();
-  expect_numbered(kept.records, {0});
-  EXPECT_EQ(kept.messages, Messages(2, "toi/7vf_toi.csv:3:1: query numbers do not ascend"));
-}
-
-TEST(DatasetSource, MissingLabelsCostTheirQueries) {
-  const Survivors kept = Scene{.labels = "[true]"}.read();
-  expect_numbered(kept.records, {0});
-  EXPECT_EQ(
-      kept.messages,
-      (Messages{"mma_bool/7vf_mma_bool.json:1:6: no label for query 1: the array has only 1",
-                "mma_bool/7vf_mma_bool.json:1:6: no label for query 2: the array has only 1"}));
-}
-
-TEST(DatasetSource, WhatGoesOnBehindTheQueriesCountsOnceAFile) {
-  const Survivors kept =
-      Scene{.labels = "[true,false,true,true,true]", .tois = "query,toi\n3,1\n4,1\n"}.read();
-  expect_numbered(kept.records, {0, 1, 2});
-  EXPECT_EQ(kept.messages,
-            (Messages{"mma_bool/7vf_mma_bool.json:1:18: more labels than the 3 queries",
-                      "toi/7vf_toi.csv:2:1: toi of query 3, but there are 3 queries"}));
+/// A bad label or time costs its query, a broken file every later one; what goes on behind the
+/// queries counts once a file.
+TEST(DatasetSource, AFaultyCompanionCostsTheQueriesWhoseTruthIsLost) {
+  struct Faulty {
+    std::string labels, tois;
+    std::vector<std::uint64_t> kept;
+    Messages messages;
+  };
+  const std::string json = "mma_bool/7vf_mma_bool.json:1:", csv = "toi/7vf_toi.csv:";
+  for (const auto& [labels, tois, kept, messages] : std::vector<Faulty>{
+           {"[true,null,true]", "", {0, 2}, {json + "7: not a boolean: \"null\""}},
+           {"", "query,toi\n1,half\n2,1\n", {0, 2}, {csv + "2:2: not a number: \"half\""}},
+           {"[true;false]", "", {0}, Messages(2, json + "6: expected ',' or ']'")},
+           {"",
+            "query,toi\n0,1\n0,1\n",
+            {0},
+            Messages(2, csv + "3:1: query numbers do not ascend")},
+           {"[true]",
+            "",
+            {0},
+            {json + "6: no label for query 1: the array has only 1",
+             json + "6: no label for query 2: the array has only 1"}},
+           {"[true,false,true,true,true]",
+            "query,toi\n3,1\n4,1\n",
+            {0, 1, 2},
+            {json + "18: more labels than the 3 queries",
+             csv + "2:1: toi of query 3, but there are 3 queries"}}}) {
+    const Survivors found = Scene{.labels = labels, .tois = tois}.read();
+    expect_numbered(found.records, kept);
+    EXPECT_EQ(found.messages, messages);
+  }
 }
 
 TEST(DatasetSource, TwoSourcesOfLabelsMustAgree) {

@@ -31,14 +31,6 @@ std::vector<fs::path> found_in(const fs::path& path) {
   return find_datasets(std::vector<fs::path>{path});
 }
 
-TEST(FindDatasets, KeepsTheGivenOrderAndTakesNamedFilesAsTheyAre) {
-  const TemporaryFolder folder;
-  const fs::path toi = folder.file("toi/1vf_toi.csv", ""), text = folder.file("x.txt", "");
-  const fs::path second = folder.file("d/b.csv", ""), first = folder.file("d/a.csv", "");
-  const std::vector<fs::path> given{text, folder.path() / "d", toi};
-  EXPECT_EQ(find_datasets(given), (std::vector<fs::path>{text, first, second, toi}));
-}
-
 TEST(FindDatasets, AFolderNamedLikeACompanionIsSearchedIfItIsNamedItself) {
   const TemporaryFolder folder;
   const fs::path path = folder.file("boxes/data.csv/1vf.csv", "");
@@ -69,8 +61,12 @@ TEST(FindDatasets, FollowsLinksToFilesAndFolders) {
   (void)elsewhere.file("deep/er/2vf.csv", "");
   fs::create_symlink(elsewhere.path() / "deep", folder.path() / "link");
   fs::create_symlink(elsewhere.path() / "deep/er/2vf.csv", folder.path() / "z.csv");
-  EXPECT_EQ(found_in(folder.path()), (std::vector<fs::path>{file, folder.path() / "link/er/2vf.csv",
-                                                            folder.path() / "z.csv"}));
+  const fs::path linked = folder.path() / "link/er/2vf.csv", z = folder.path() / "z.csv";
+  EXPECT_EQ(found_in(folder.path()), (std::vector{file, linked, z}));
+  const fs::path text = elsewhere.file("x.txt", ""), toi = elsewhere.file("toi/1vf_toi.csv", "");
+  EXPECT_EQ(find_datasets(std::vector{toi, folder.path(), text}),
+            (std::vector{toi, file, linked, z, text}))
+      << "in the given order, and named files as they are";
   EXPECT_EQ(left_out_in(folder), std::vector<std::string>{});
   EXPECT_EQ(found_in(folder.path() / "link"), std::vector{folder.path() / "link/er/2vf.csv"});
 }
@@ -173,74 +169,40 @@ TEST(OpenDataset, OpeningErrorsThrowEvenIfItKeepsGoing) {
                   .ends_with("pass --kind vertex-face or --kind edge-edge"));
 }
 
-/// Both formats that are written and read.
-template <class Format>
-class WrittenDataset : public ::testing::Test {
- protected:
-  void write(const std::vector<Query>& queries) {
-    typename Format::Writer writer(path_);
-    for (const double bad : {Limits::quiet_NaN(), Limits::infinity(), -Limits::infinity()}) {
-      Query query = queries[0];
-      query.at(1, 3, 2) = bad;
-      EXPECT_THROW(Format::write(writer, query), std::invalid_argument) << "and stays usable";
-    }
-    for (const Query& query : queries) Format::write(writer, query);
-    writer.close();
-  }
-
-  TemporaryFolder folder_;
-  const fs::path path_ = folder_.path() / Format::name;
-};
-
-struct Csv {
-  using Writer = CsvWriter;
-  static constexpr const char* name = "a_vf.csv";
-  static constexpr double zero = 0.0;
-  static constexpr std::size_t many = 50'000;
-  static void write(Writer& writer, const Query& query) {
-    writer.write({Kind::vertex_face, query}, true);
-  }
-};
-struct Npy {
-  using Writer = NpyWriter;
-  static constexpr const char* name = "a_vf.npy";
-  static constexpr double zero = -0.0;
-  static constexpr std::size_t many = 250'000;
-  static void write(Writer& writer, const Query& query) { writer.write(query); }
-};
-using Formats = ::testing::Types<Csv, Npy>;
-TYPED_TEST_SUITE(WrittenDataset, Formats, );
-
-TYPED_TEST(WrittenDataset, IsReadBitForBit) {
-  std::mt19937_64 random(7);
-  std::vector<Query> queries(2000);
-  for (Query& query : queries) query = test::random_query(random);
-  queries[5].coordinates = {4.9e-324, 1.797e308, -Limits::max(), Limits::min(), TypeParam::zero};
-  this->write(queries);
-  const auto records = read_all(*open_dataset(this->path_));
-  ASSERT_EQ(records.size(), queries.size());
-  for (std::size_t i = 0; i < queries.size(); ++i) {
-    EXPECT_EQ(std::memcmp(&records[i].query.straight(), &queries[i], sizeof(Query)), 0) << i;
-    EXPECT_EQ(records[i].index, i);
-  }
-}
-
-TYPED_TEST(WrittenDataset, TakesMemoryThatDoesNotGrowWithTheFile) {
-  Query query{};
+/// Writes this query so many times, and reads it as a stream. What is not finite is refused, and
+/// the writer stays usable.
+template <class Writer, class Write>
+void expect_streamed(const fs::path& path, std::size_t count, const Write& write) {
+  Query query{}, bad{};
   for (double& x : query.coordinates) x = 0x1.fffffffffffffp-11;
-  const std::vector<Query> queries(TypeParam::many, query);
-  this->write(queries);
-  ASSERT_GT(fs::file_size(this->path_), 40'000'000U);
+  Writer writer(path);
+  for (const double x : {Limits::quiet_NaN(), Limits::infinity(), -Limits::infinity()}) {
+    bad.at(1, 3, 2) = x;
+    EXPECT_THROW(write(writer, bad), std::invalid_argument);
+  }
+  for (std::size_t i = 0; i < count; ++i) write(writer, query);
+  writer.close();
+  ASSERT_GT(fs::file_size(path), 40'000'000U);
   const std::size_t streamed = test::resident_growth([&] {
-    const auto source = open_dataset(this->path_);
-    std::size_t count = 0;
-    while (source->next()) ++count;
-    EXPECT_EQ(count, queries.size());
+    const auto source = open_dataset(path);
+    std::size_t read = 0;
+    while (source->next()) ++read;
+    EXPECT_EQ(read, count);
   });
   EXPECT_LT(streamed, 8'000'000U);
-  const std::size_t whole = test::resident_growth(
-      [&] { EXPECT_EQ(test::contents(this->path_).size(), fs::file_size(this->path_)); });
+  const std::size_t whole =
+      test::resident_growth([&] { EXPECT_EQ(test::contents(path).size(), fs::file_size(path)); });
   EXPECT_GT(whole, 30'000'000U) << "the measure must see a reader that keeps the file";
+}
+
+TEST(WrittenDataset, TakesMemoryThatDoesNotGrowWithTheFile) {
+  const TemporaryFolder folder;
+  expect_streamed<CsvWriter>(folder.path() / "a_vf.csv", 50'000,
+                             [](CsvWriter& writer, const Query& query) {
+                               writer.write({Kind::vertex_face, query}, true);
+                             });
+  expect_streamed<NpyWriter>(folder.path() / "a_vf.npy", 250'000,
+                             [](NpyWriter& writer, const Query& query) { writer.write(query); });
 }
 
 /// What its labels and times are is in certify_test.cpp.

@@ -1,15 +1,25 @@
+/// \file
+/// Texts of numbers: number_text.hpp, words.hpp, coordinate_text.hpp, and the faster path of
+/// plain_rows.hpp. The judge is rational arithmetic.
+
 #include "verify/io/number_text.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <limits>
 #include <optional>
+#include <random>
+#include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "tests/verify/data/dataset_fixture.hpp"
+#include "touchstone/number.hpp"
 #include "verify/data/ground_truth_files.hpp"
 #include "verify/data/plain_rows.hpp"
 #include "verify/io/coordinate_text.hpp"
@@ -19,27 +29,203 @@ namespace {
 
 using Limits = std::numeric_limits<double>;
 
-/// What a coordinate over 1 is, or why it is none.
-struct Coordinate {
-  std::optional<double> value;
-  std::string fault;
-};
+std::string text_of(const exact::Integer& n) { return n.get_str(); }
+exact::Integer power(unsigned long exponent) { return exact::Integer(1) << exponent; }
 
-Coordinate coordinate(const std::string& numerator, const std::string& denominator = "1") {
+/// "numerator: reason" or "denominator: reason".
+std::string fault_of(std::string_view numerator, std::string_view denominator = "1") {
   try {
-    return {.value = parse_coordinate(numerator, denominator).value, .fault = {}};
+    (void)parse_coordinate(numerator, denominator);
   } catch (const CoordinateError& error) {
     const bool at_numerator = error.part() == CoordinateError::Part::numerator;
-    return {.value = {},
-            .fault = (at_numerator ? "numerator: " : "denominator: ") + std::string(error.what())};
+    return (at_numerator ? "numerator: " : "denominator: ") + std::string(error.what());
+  }
+  return "no error";
+}
+
+/// What plain rows say of eight rows "0,…,0" but for one coordinate.
+std::optional<data::PlainRows> plain_rows(const std::string& numerator,
+                                          const std::string& denominator, bool round,
+                                          std::size_t place = 13) {
+  const bool has_denominator = !denominator.empty();
+  std::string text;
+  for (std::size_t i = 0; i < 24; ++i) {
+    if (i == place) {
+      text += has_denominator ? numerator + ',' + denominator : numerator;
+    } else {
+      text += has_denominator ? "0,1" : "0";
+    }
+    text += i % 3 == 2 ? '\n' : ',';
+  }
+  const auto rows = data::read_plain_rows(text + std::string(data::plain_rows_margin, '\n'),
+                                          has_denominator ? 6 : 3, round);
+  if (rows) {
+    EXPECT_EQ(rows->bytes, text.size());
+  }
+  return rows;
+}
+
+/// Expects the nearest double to the quotient; so do plain rows, if they take it. True if they do.
+bool expect_nearest(const std::string& numerator, const std::string& denominator, bool round,
+                    std::size_t place = 13) {
+  SCOPED_TRACE(numerator + " / " + denominator);
+  const std::string over = denominator.empty() ? "1" : denominator;
+  const exact::Rational quotient =
+      exact::rational_from_decimal(numerator) / exact::rational_from_decimal(over);
+  const ParsedCoordinate parsed = parse_coordinate(numerator, over);
+  EXPECT_EQ(parsed.value, exact::round_to_nearest(quotient));
+  EXPECT_EQ(parsed.exact, exact::Rational(parsed.value) == quotient);
+  EXPECT_FALSE(std::signbit(parsed.value) && parsed.value == 0.0);
+  const auto plain = plain_rows(numerator, denominator, round, place);
+  if (!plain) return false;
+  EXPECT_EQ(std::bit_cast<std::uint64_t>(plain->query.coordinates.at(place)),
+            std::bit_cast<std::uint64_t>(parsed.value));
+  EXPECT_EQ(plain->rounded, parsed.exact ? 0U : 1U);
+  EXPECT_TRUE(parsed.exact || round);
+  return true;
+}
+
+/// Signs, leading zeros, fractions of any terms, decimals that are doubles and others, and both
+/// ends of the range.
+TEST(Coordinate, IsTheNearestDouble) {
+  const std::string largest = text_of(power(1024) - power(971)),
+                    half_past = text_of(power(1024) - power(970));
+  const std::string smallest = text_of(power(1074)), half = text_of(power(1075));
+  const std::string sevens = "3" + std::string(400, '7');
+  std::istringstream fractions(
+      "+3/+4 3/-4 -3/-4 007/002 9/12 0/7 -0/1 -0/-3 -0.0/1 -0e-9999/1 +.5/1 15E-1/3 3/0.5 0.3/0.1 "
+      "4.0e-1/6.4e0 -0.00058163201902061701/1 "
+      "0.1000000000000000055511151231257827021181583404541015625/1 1.7976931348623158e308/1 "
+      "1e-330/1 -1e-330/1 -2.5e-324/1 9223372036854775807/9223372036854775807 "
+      "-9223372036854775808/9223372036854775808 18014398509481982/1 18014398509481983/1 "
+      "4503599627370495/" +
+      smallest + " 1/" + smallest + " -1/" + smallest + " -1/" + half + " " + sevens + "/" +
+      sevens + " " + largest + "/1 -" + largest + "/1 " + text_of(exact::Integer(half_past) - 1) +
+      "/1");
+  for (std::string fraction; fractions >> fraction;) {
+    const std::size_t slash = fraction.find('/');
+    expect_nearest(fraction.substr(0, slash), fraction.substr(slash + 1), true);
+  }
+  // clang-format off
+  const std::vector<std::string> numbers{
+      "0", "-0", "-0.0", "0e5", "00012", "3.", ".5", "1e19", "1e18", "1e22",
+      "9999999999999999999", "9007199254740991", "9007199254740993", "18014398509481984",
+      "9223372036854775808", "18446744073709551616", "1e-27", "7450580596923828125e-27", "1e-28",
+      "0e-400", "1e-400", "4.9406564584124654e-324", "2.2250738585072014e-308",
+      "1.7976931348623157e308", "1e308", "0.000000000000000000000000000000000000000000001",
+      "00000000000000000000000000000000001", "1234567812345678", "12345678", "123456781", "1.25e+2",
+      "125E-2"};
+  // clang-format on
+  for (const std::string& number : numbers) {
+    for (const char* denominator : {"", "1", "2", "1024", "1.0", "3"}) {
+      for (const bool round : {false, true}) expect_nearest(number, denominator, round);
+    }
+  }
+  for (const std::string& beyond : {half_past, text_of(-power(1024)), std::string("-1.8e308")}) {
+    EXPECT_EQ(fault_of(beyond), "numerator: beyond the range of double");
+  }
+  EXPECT_EQ(fault_of("1", "1e-400"), "numerator: beyond the range of double");
+}
+
+TEST(Coordinate, IsTheNearestDoubleOfRandomFractions) {
+  std::mt19937_64 random(20210814);
+  for (int i = 0; i < 20000; ++i) {
+    const auto signed_bits = [&](unsigned bits) {
+      return exact::Integer(static_cast<long>(random()) >> (64U - bits));
+    };
+    const auto bits = static_cast<unsigned>(2 + random() % 63);
+    const exact::Integer n = signed_bits(bits), odd = abs(signed_bits(bits)) + 1;
+    for (const auto& [numerator, denominator] :
+         std::vector<std::pair<exact::Integer, exact::Integer>>{
+             {n, power(random() % 64)},
+             {n, power(random() % 1200)},
+             {n * power(random() % 900), power(random() % 1200)},
+             {n, odd},
+             {-n * power(random() % 20), power(random() % 80) + random() % 3},
+             {n * odd * power(random() % 80), odd * power(random() % 80)}}) {
+      expect_nearest(text_of(numerator), text_of(denominator), i % 2 == 0);
+    }
+    const std::string digits(1 + random() % 30, static_cast<char>('1' + random() % 9));
+    expect_nearest(text_of(n), digits, i % 2 == 0);
   }
 }
 
-/// The places of a text in eight rows of three numbers.
-std::string rows_with(const std::string& text) {
-  std::string rows = text + ",0,0\n";
-  for (int row = 1; row < 8; ++row) rows += "0,0,0\n";
-  return rows + std::string(data::plain_rows_margin, '\n');
+TEST(Coordinate, What17DigitsGiveBackIsTheDouble) {
+  std::mt19937_64 random(9);
+  for (const double x : data::test::random_query(random).coordinates) {
+    EXPECT_EQ(parse_coordinate(fmt::format("{:.17g}", x), "1").value, x);
+    EXPECT_EQ(parse_coordinate(fmt::format("{:.1100f}", x), "1").value, x);
+    EXPECT_TRUE(parse_coordinate(fmt::format("{:.1100f}", x), "1").exact);
+  }
+}
+
+/// Fractions of doubles and of floats, and decimals of up to 19 digits.
+TEST(PlainRows, TakeOrdinaryNumbers) {
+  std::mt19937_64 random(1);
+  const auto random_double = [&random](int least, int greatest) {
+    const double fraction = std::ldexp(static_cast<double>(random() >> 11U), -53);
+    const auto range = static_cast<std::uint64_t>(greatest - least + 1);
+    const int exponent = least + static_cast<int>(random() % range);
+    return std::ldexp(random() % 2 == 0 ? fraction : -fraction, exponent);
+  };
+  for (int i = 0; i < 20000; ++i) {
+    const double wide = random_double(-900, 62);
+    const exact::Rational exact(i % 2 == 0 ? wide : static_cast<double>(static_cast<float>(wide)));
+    EXPECT_TRUE(expect_nearest(text_of(exact.get_num()), text_of(exact.get_den()), false,
+                               static_cast<std::size_t>(i) % 24));
+    const double x = random_double(-900, 20), near_one = random_double(-10, 20);
+    for (const int digits : {1, 5, 9, 17}) {
+      EXPECT_TRUE(expect_nearest(fmt::format("{:.{}e}", x, digits), "", true));
+    }
+    EXPECT_TRUE(expect_nearest(fmt::format("{:.10f}", near_one), "", true));
+    EXPECT_TRUE(
+        expect_nearest(fmt::format("{}", std::ldexp(std::round(near_one * 64), -6)), "", false));
+  }
+}
+
+TEST(PlainRows, LeaveEverythingElse) {
+  for (const std::string bad : {"+1", "0x10", "\"1\"", "nan", "inf", "1e99999", "1e309",
+                                "12345678901234567890", "\t1", "1:", "1/"}) {
+    EXPECT_FALSE(plain_rows(bad, "", true)) << bad;
+    EXPECT_FALSE(plain_rows(bad, "1", true)) << bad;
+    EXPECT_FALSE(plain_rows("1", bad, true)) << bad;
+  }
+  for (const std::string& denominator :
+       {std::string("0"), std::string("3"), std::string("-1"), std::string("1.0"),
+        std::string("18446744073709551617"), text_of(power(1022))}) {
+    EXPECT_FALSE(plain_rows("1", denominator, true)) << denominator;
+  }
+  EXPECT_FALSE(plain_rows("0.1", "", false));
+  EXPECT_FALSE(plain_rows("0.1", "2", true));
+}
+
+TEST(PlainRows, LeaveRowsThatAreNotWhole) {
+  const std::string margin(data::plain_rows_margin + 1, ' ');
+  for (const std::string end : {"\n", "\r\n"}) {
+    std::string text;
+    for (int row = 0; row < 8; ++row) text += "1,1,-5,2,7,4,1" + end;
+    const auto rows = data::read_plain_rows(text + margin, 7, false);
+    ASSERT_TRUE(rows.has_value());
+    EXPECT_TRUE(rows->label.value());
+    EXPECT_EQ(rows->bytes, text.size());
+    EXPECT_EQ(rows->query.at(1, 3, 1), -2.5);
+    // A cut at each place; only the one that is there is read.
+    for (std::size_t length = 0; length < text.size() + data::plain_rows_margin; ++length) {
+      const std::string cut = (text + margin).substr(0, length);
+      const std::vector<char> bytes(cut.begin(), cut.end());
+      EXPECT_FALSE(data::read_plain_rows({bytes.data(), bytes.size()}, 7, false)) << length;
+    }
+    std::string spaced = text, differing = text + margin;
+    for (std::size_t at = 0; (at = spaced.find(",1,", at)) != std::string::npos; at += 4) {
+      spaced.insert(at + 1, "  ");
+    }
+    EXPECT_EQ(data::read_plain_rows(spaced + margin, 7, false).value().query, rows->query);
+    differing[differing.rfind('1')] = '0';
+    EXPECT_FALSE(data::read_plain_rows(differing, 7, false));
+    for (const std::size_t columns : {6U, 4U}) {
+      EXPECT_FALSE(data::read_plain_rows(text + margin, columns, false));
+    }
+  }
 }
 
 /// A text, its number, and the parsers that take it: c coordinates, n numbers (number_from_text),
@@ -62,9 +248,13 @@ TEST(NumberText, IsReadAlikeByAllParsersThatTakeIt) {
       {"nan", nan, "nw"},          {"-inf", -Limits::infinity(), "nw"},
       {"1e400", nan, ""},          {"0x1p-1080", nan, ""},
   };
+  const auto coordinate = [](const std::string& text) {
+    return fault_of(text) == "no error" ? std::optional(parse_coordinate(text, "1").value)
+                                        : std::nullopt;
+  };
   for (const auto& [text, number, takers] : texts) {
     const std::vector<std::pair<char, std::optional<double>>> readings{
-        {'c', coordinate(text).value},
+        {'c', coordinate(text)},
         {'n', number_from_text<double>(text)},
         {'w', parse_number<double>(text)},
         {'d', data::distance_from_text(text)}};
@@ -80,17 +270,36 @@ TEST(NumberText, IsReadAlikeByAllParsersThatTakeIt) {
 }
 
 TEST(NumberText, ThatIsNoNumberIsRefusedByAll) {
-  for (const std::string text : {"", "-", "+", ".", "--1", "+-1", "-+1", "++1", "1.5.0", "1e", "e3",
-                                 "1e3.5", "1 2", "1,5", "a", "1a", "1x", "1 ", "one"}) {
+  for (const std::string text :
+       {"",   "-",     "+",   ".",   "--1", "+-1", "-+1", "++1", "1.5.0", "1e",
+        "e3", "1e3.5", "1 2", "1,5", "a",   "1a",  "1x",  "1 ",  "one",   "1e99999x"}) {
     SCOPED_TRACE(text);
-    EXPECT_EQ(coordinate(text).fault, "numerator: not a number: \"" + text + "\"");
-    EXPECT_EQ(coordinate("1", text).fault, "denominator: not a number: \"" + text + "\"");
-    EXPECT_FALSE(data::read_plain_rows(rows_with(text), 3, true));
+    EXPECT_EQ(fault_of(text), "numerator: not a number: \"" + text + "\"");
+    EXPECT_EQ(fault_of("1", text), "denominator: not a number: \"" + text + "\"");
+    EXPECT_FALSE(plain_rows(text, "", true));
     EXPECT_FALSE(number_from_text<double>(text));
     EXPECT_FALSE(parse_number<double>(text));
     EXPECT_FALSE(data::distance_from_text(text));
     EXPECT_FALSE(number_from_text<std::uint64_t>(text));
     EXPECT_FALSE(parse_number<std::int32_t>(text));
+  }
+}
+
+TEST(Coordinate, NamesWhatItRefuses) {
+  EXPECT_EQ(fault_of("0x10"), "numerator: not a number: \"0x10\"");
+  EXPECT_EQ(fault_of(std::string_view("1\0", 2)), "numerator: not a number: \"1?\"");
+  for (const std::string bad :
+       {"1e10001", "+1e999999999", "-1e-999999999", "0e99999", "1e99999999999999999999999"}) {
+    const std::string reason = "beyond the range, exponents up to 10000: \"" + bad + "\"";
+    EXPECT_EQ(fault_of(bad), "numerator: " + reason);
+    EXPECT_EQ(fault_of("1", bad), "denominator: " + reason);
+  }
+  for (const std::string bad : {"nan", "-nan", "NaN", "inf", "-Inf", "+infinity"}) {
+    EXPECT_EQ(fault_of(bad), "numerator: not a finite number: \"" + bad + "\"");
+  }
+  for (const std::string zero : {"0", "-0", "+0", "000", "0.0", "0e5"}) {
+    EXPECT_EQ(fault_of("1", zero), "denominator: zero denominator");
+    EXPECT_EQ(fault_of("0", zero), "denominator: zero denominator");
   }
 }
 
@@ -106,6 +315,35 @@ TEST(NumberText, IsInTheRangeOfItsType) {
   EXPECT_FALSE(parse_number<std::int32_t>("2147483648"));
   EXPECT_FALSE(parse_number<std::uint8_t>("256"));
   EXPECT_FALSE(parse_number<float>("1e39"));
+}
+
+TEST(IsNumeric, TellsWhatBeginsLikeANumberFromNames) {
+  for (const char* numeric : {"0", "-1", "+.5", "1x", "1e", "--1", "nan", "+inf"}) {
+    EXPECT_TRUE(is_numeric(numeric)) << numeric;
+  }
+  for (const char* other : {"", "-", "x", "x1", "e3", "_1", "#1", "nano", " 1"}) {
+    EXPECT_FALSE(is_numeric(other)) << other;
+  }
+}
+
+TEST(AppendCoordinate, WritesLowestTermsOfFiniteNumbers) {
+  for (const auto& [x, expected] : std::vector<std::pair<double, std::string>>{
+           {-0.0, "0,1"},
+           {-0.75, "-3,4"},
+           {6.0, "6,1"},
+           {0x1p70, "1180591620717411303424,1"},
+           {0.1, "3602879701896397,36028797018963968"},
+           {Limits::denorm_min(), "1," + text_of(power(1074))},
+           {Limits::max(), text_of(power(1024) - power(971)) + ",1"}}) {
+    std::string text;
+    append_coordinate(text, x);
+    EXPECT_EQ(text, expected);
+  }
+  std::string text = "kept";
+  for (const double bad : {Limits::quiet_NaN(), Limits::infinity(), -Limits::infinity()}) {
+    EXPECT_THROW(append_coordinate(text, bad), std::invalid_argument);
+  }
+  EXPECT_EQ(text, "kept");
 }
 
 }  // namespace

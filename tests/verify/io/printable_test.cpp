@@ -1,10 +1,18 @@
+// Texts for people: printable.hpp, dataset_error.hpp, html.hpp.
+
 #include "verify/io/printable.hpp"
 
 #include <gtest/gtest.h>
 
+#include <nlohmann/json.hpp>
+#include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
+
+#include "verify/io/dataset_error.hpp"
+#include "verify/io/html.hpp"
 
 namespace touchstone::verify::io::printable_test {
 namespace {
@@ -62,6 +70,74 @@ TEST(ShellWord, IsOnePrintableWord) {
   EXPECT_EQ(shell_word(""), "''");
   EXPECT_EQ(shell_word("it's $HOME"), "'it'\\''s $HOME'");
   EXPECT_EQ(shell_word("\x1b[2J\n'\\1\u202e"), "'\\x1b[2J\\x0a'\\''\\1\\xe2\\x80\\xae'");
+}
+
+TEST(DatasetError, SaysPathLineColumnAndReasonWithoutThePartsThatAreZero) {
+  EXPECT_STREQ(DatasetError("a/b.csv", {.line = 12, .column = 3}, "bad").what(),
+               "a/b.csv:12:3: bad");
+  EXPECT_STREQ(DatasetError("a/b.csv", {.line = 12}, "bad").what(), "a/b.csv:12: bad");
+  EXPECT_STREQ(DatasetError("a/b.csv", {}, "bad").what(), "a/b.csv: bad");
+}
+
+TEST(DatasetError, HasABoundedLength) {
+  const DatasetError error(std::string(100000, 'p'), {.line = 12, .column = 3},
+                           std::string(100000, 'r'));
+  EXPECT_EQ(error.what(), std::string(4096, 'p') + "...:12:3: " + std::string(1000, 'r') + "...");
+  EXPECT_EQ(error.reason(), std::string(1000, 'r') + "...");
+  EXPECT_EQ(error.path().string().size(), 100000U) << "only what is printed is cut";
+  EXPECT_EQ(DatasetError("p", {}, std::string(1000, 'r')).reason(), std::string(1000, 'r'));
+  EXPECT_EQ(DatasetError("p", {}, std::string(999, 'r') + "\xF0\x9F\x98\x80").reason(),
+            std::string(999, 'r') + "...")
+      << "no character is cut in two";
+}
+
+TEST(Beginning, TakesWholeCharacters) {
+  EXPECT_EQ(beginning("abc", 3), "abc");
+  EXPECT_EQ(beginning("abc", 2), "ab");
+  EXPECT_EQ(beginning("", 0), "");
+  EXPECT_EQ(beginning("a\xC3\xA9", 2), "a");
+  EXPECT_EQ(beginning("a\xC3\xA9", 3), "a\xC3\xA9");
+  EXPECT_EQ(beginning("\xF0\x9F\x98\x80", 3), "");
+  EXPECT_EQ(beginning(std::string(10, '\x80'), 5).size(), 2U) << "where it is not UTF-8 it ends";
+}
+
+TEST(Quote, CutsLongTextAndHidesWhatATerminalWouldObey) {
+  EXPECT_EQ(quote("1.5"), "\"1.5\"");
+  EXPECT_EQ(quote(std::string_view("a\x1b[31m\0\n", 7)), "\"a?[31m?\"");
+  EXPECT_EQ(quote("\xc3\xa9"), "\"??\"");
+  EXPECT_EQ(quote(std::string(40, 'x')), "\"" + std::string(40, 'x') + "\"");
+  EXPECT_EQ(quote(std::string(41, 'x')), "\"" + std::string(40, 'x') + "...\"");
+}
+
+TEST(Html, ThePolicyLetsNothingBeLoaded) {
+  const std::string page = html_beginning("A title", "p { margin: 0; }\n");
+  EXPECT_TRUE(page.starts_with("<!DOCTYPE html>\n<html lang=\"en\">\n"));
+  EXPECT_NE(page.find("content=\"default-src 'none'; script-src 'unsafe-inline'; style-src "
+                      "'unsafe-inline'; img-src data:\""),
+            std::string::npos);
+  EXPECT_NE(page.find("<title>A title</title>\n<style>\np { margin: 0; }\n</style>"),
+            std::string::npos);
+  EXPECT_TRUE(page.ends_with("<body>\n"));
+}
+
+TEST(Html, JsonDoesNotEndItsElement) {
+  EXPECT_EQ(json_element("data", {{"name", "</script><b>"}}),
+            "<script type=\"application/json\" id=\"data\">"
+            "{\"name\":\"\\u003c/script>\\u003cb>\"}</script>\n");
+  EXPECT_EQ(json_element("data", "\xff"),
+            "<script type=\"application/json\" id=\"data\">\"\xef\xbf\xbd\"</script>\n");
+}
+
+TEST(Html, BytesInBase64) {
+  const auto encoded = [](std::string_view text) {
+    return base64(std::as_bytes(std::span(text.data(), text.size())));
+  };
+  EXPECT_EQ(encoded(""), "");
+  EXPECT_EQ(encoded("f"), "Zg==");
+  EXPECT_EQ(encoded("fo"), "Zm8=");
+  EXPECT_EQ(encoded("foo"), "Zm9v");
+  EXPECT_EQ(encoded("foob"), "Zm9vYg==");
+  EXPECT_EQ(encoded("\xff\xfe\xfb"), "//77");
 }
 
 }  // namespace

@@ -113,17 +113,15 @@ TEST(Frames, SayWhatIsWrongWithAnArchive) {
             "a.npz: V: no frame, or no vertex");
   EXPECT_EQ(error({{"V.npy", array<std::int32_t>("<i4", {1, 1, 3}, {0, 0, 0})}}),
             "a.npz: V: dtype \"<i4\", expected <f4 or <f8");
-  EXPECT_EQ(error({{"V.npy", array<double>("<f8", {1, 2, 3}, {0, 0, 0})}}),
-            "a.npz: V: 24 bytes of data do not fit shape (1, 2, 3) of dtype \"<f8\"");
-  const std::uint64_t huge = 2'000'000'000;
-  EXPECT_EQ(error({{"V.npy", array<double>("<f8", {1, huge, 3}, {0, 0, 0})}}),
-            "a.npz: V: 24 bytes of data do not fit shape (1, 2000000000, 3) of dtype \"<f8\"");
   EXPECT_EQ(error({{"V.npy", array<double>("<f8", {1, 1, 3},
                                            {0, 0, std::numeric_limits<double>::infinity()})}}),
             "a.npz: V: frame 0: a coordinate must be finite");
-  EXPECT_EQ(error({{"V.npy", "nonsense"}}), "a.npz: V: not a NumPy file");
   EXPECT_EQ(error({{"V.npy", square}, {"F.npy", array<std::int32_t>("<i4", {1, 3}, {0, 0, 1})}}),
             "a.npz: F: row 0: vertex 1, but there are 1, counted from 0");
+  EXPECT_EQ(error({{"V.npy", square}, {"F.npy", array<std::int32_t>("<i4", {1, 3}, {0, 0, -1})}}),
+            "a.npz: F: row 0: vertex -1, but there are 1, counted from 0");
+  EXPECT_TRUE(error({{"V.npy", square}, {"F.npy", array<double>("<f8", {1, 3}, {0, 0, 0})}})
+                  .starts_with("a.npz: F: dtype \"<f8\", expected "));
   EXPECT_EQ(error({{"V.npy", square}, {"E.npy", array<std::int32_t>("<i4", {1, 3}, {0, 0, 0})}}),
             "a.npz: E: shape (1, 3), expected (k, 2)");
   EXPECT_EQ(folder.error_of([&] { (void)open({folder.file("b.npz", "PK nothing")}); }),

@@ -82,15 +82,6 @@ TEST(Ask, TheCertifiedSolverOnCurves) {
             fast::Verdict::yes);
 }
 
-TEST(Ask, TightInclusionOnCurvesOfItsDegrees) {
-  const auto answer = asked(on_curves({0.5, 0.5, -1.5}), "tight_inclusion");
-  ASSERT_TRUE(answer.has_value());
-  EXPECT_EQ(answer->verdict, fast::Verdict::yes);
-  EXPECT_LE(answer->toi_lower, 0.5);
-  EXPECT_GT(answer->tolerance, 0.0);
-  EXPECT_EQ(asked(on_curves({1, 1, 1}), "tight_inclusion")->verdict, fast::Verdict::no);
-}
-
 TEST(Ask, CurvesOfDegreeOneAsStraightLines) {
   OwnCurves lines = on_curves({1, -1});
   lines.curves[3] = {.control = {{0, 4, 0}}};
@@ -100,12 +91,6 @@ TEST(Ask, CurvesOfDegreeOneAsStraightLines) {
   for (const judge::GivenAnswer& given : replies.answers) {
     EXPECT_EQ(given.answer.verdict, fast::Verdict::yes) << given.solver;
   }
-}
-
-TEST(Ask, CurvesOfOneDegreeOrConstant) {
-  EXPECT_TRUE(asked(on_curves({1, 1, 1})).has_value());
-  EXPECT_TRUE(asked(on_curves({1})).has_value());
-  EXPECT_FALSE(asked(on_curves({1, 1})).has_value());
 }
 
 /// A method of these terms that is never asked.

@@ -1,3 +1,6 @@
+// What a page says of a step is in tests/transcripts/view.md, of a mesh at rest in
+// intersections.md.
+
 #include "verify/view/step_facts.hpp"
 
 #include <gtest/gtest.h>
@@ -27,39 +30,6 @@ mesh::Vertices after(const mesh::Mesh& mesh) {
   vertices(3, 2) = -2;
   vertices(4, 2) = -3;
   return vertices;
-}
-
-ViewedStep step() {
-  const mesh::Mesh mesh = scene();
-  return find_collisions("a step", mesh, mesh.vertices, after(mesh), {});
-}
-
-TEST(StepFacts, PairsAreInTheOrderOfTheirTimes) {
-  const ViewedStep found = step();
-  ASSERT_EQ(found.collisions.size(), 2U);
-  EXPECT_EQ(found.points[0], (std::array<std::int32_t, 4>{4, 0, 1, 2}));
-  EXPECT_EQ(found.points[1], (std::array<std::int32_t, 4>{3, 0, 1, 2}));
-  EXPECT_LE(found.collisions[0].toi_lower, 0.25);
-  EXPECT_LE(found.collisions[1].toi_lower, 0.5);
-  EXPECT_EQ(found.codimensional_edges, (std::vector<fast::Edge>{{5, 6}}));
-  const auto queries = first_queries(found, 1);
-  ASSERT_EQ(queries.size(), 1U);
-  EXPECT_EQ(queries[0].label, "a step: vertex 4, face 0");
-  EXPECT_EQ(straight_of(queries[0])->at(1, 0, 2), -3.0);
-  EXPECT_EQ(first_queries(found, 9).size(), 2U);
-}
-
-TEST(StepFacts, ArraysAreGivenByteForByte) {
-  const nlohmann::json facts = step_facts(step());
-  EXPECT_EQ(facts.at("faces"), "AAAAAAEAAAACAAAA");
-  EXPECT_EQ(facts.at("edges"), "BQAAAAYAAAA=");
-  EXPECT_EQ(facts.at("before").get<std::string>().size(), 7U * 24 / 3 * 4);
-  EXPECT_EQ(facts.at("total"), 2);
-  ASSERT_EQ(facts.at("pairs").size(), 2U);
-  EXPECT_EQ(facts.at("pairs")[1].at("name"), "vertex 3, face 0");
-  EXPECT_EQ(facts.at("pairs")[1].at("kind"), "vertex-face");
-  EXPECT_EQ(facts.at("pairs")[1].at("points"), nlohmann::json::array({3, 0, 1, 2}));
-  EXPECT_NEAR(facts.at("pairs")[1].at("place")[0].get<double>(), 0.25, 1e-9);
 }
 
 /// The points of a pair are those of its query.
@@ -100,29 +70,6 @@ TEST(StepFacts, AtASeparation) {
   ASSERT_EQ(near.collisions.size(), 1U) << "one point is 1 above the triangle, the other 2";
   EXPECT_EQ(near.points[0], (std::array<std::int32_t, 4>{4, 0, 1, 2}));
   EXPECT_EQ(first_queries(near, 1)[0].separation.distance, 1.0);
-}
-
-TEST(RestingFacts, OfEveryKindOfElement) {
-  const mesh::Mesh mesh = scene();
-  const std::vector<fast::Intersection> found{
-      {.elements = {fast::ElementKind::face, fast::ElementKind::edge},
-       .numbers = {0, static_cast<std::int32_t>(mesh.edges.size()) - 1},
-       .kind = fast::IntersectionKind::edge_through_face,
-       .place = {{{{1, 2, 3}, {1, 2, 3}}, {{4, 5, 6}, {4, 5, 6}}}}},
-      {.elements = {fast::ElementKind::point, fast::ElementKind::point}, .numbers = {3, 4}}};
-  const nlohmann::json facts =
-      resting_facts("at rest", mesh, found,
-                    [](const fast::Intersection& one) { return std::to_string(one.numbers[1]); });
-  EXPECT_EQ(facts.at("faces"), "AAAAAAEAAAACAAAA");
-  EXPECT_EQ(facts.at("edges"), "BQAAAAYAAAA=");
-  EXPECT_FALSE(facts.contains("after"));
-  EXPECT_EQ(facts.at("total"), 2);
-  const nlohmann::json &first = facts.at("pairs").at(0), &second = facts.at("pairs").at(1);
-  EXPECT_EQ(first.at("kind"), "edge through face");
-  EXPECT_EQ(first.at("elements"), (nlohmann::json{{0, 1, 2}, {5, 6}}));
-  EXPECT_EQ(first.at("place"), (nlohmann::json{{1.0, 2.0, 3.0}, {4.0, 5.0, 6.0}}));
-  EXPECT_EQ(second.at("name"), "4");
-  EXPECT_EQ(second.at("elements"), (nlohmann::json{{3}, {4}}));
 }
 
 }  // namespace
