@@ -112,15 +112,15 @@ constexpr std::string_view headers_without_test = R"(
   filters/: strict_arithmetic.hpp
   verify/data/: query_source.hpp
   verify/fuzz/: finding.hpp
-// In a test of what they are parts of: inversion_oracle_test.cpp, oracle_test.cpp,
-// distance_oracle_test.cpp, separation_intervals_test.cpp, certificate_test.cpp, prove_step_test.cpp;
+// In a test of what they are parts of: inversion_oracle_test.cpp, algebraic_number_test.cpp, oracle_test.cpp,
+// certificate_test.cpp, prove_step_test.cpp;
 // mesh_test.cpp, step_test.cpp; error_bounds_test.cpp, expressions_test.cpp, worst_case_test.cpp.
-  exact/: element.hpp
+  exact/: certificate_text.hpp element.hpp polynomial.hpp
   exact/algebra/: positivity.hpp
-  exact/certificate/: step_certificate_text.hpp
-  exact/checker/: resting_mesh.hpp resting_pair.hpp scene.hpp
+  exact/certificate/: separation_intervals.hpp step_certificate_text.hpp
+  exact/checker/: proof.hpp resting_mesh.hpp resting_pair.hpp scene.hpp
   exact/contact/: contact_conditions.hpp contact_oracle.hpp corner_motion.hpp triangle_intersection.hpp
-  exact/distance/: separating_axes.hpp
+  exact/distance/: distance_oracle.hpp separating_axes.hpp
   filters/: error_bound.hpp polynomial_expressions.hpp separation_expressions.hpp
   filters/derivation/: mpfr_number.hpp
 // Through the kernels, which take the same queries in the same tests, and the exact stage:
