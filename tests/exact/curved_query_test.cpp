@@ -5,15 +5,12 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <optional>
 #include <span>
 #include <stdexcept>
-#include <utility>
 #include <vector>
 
 #include "tests/support/certificates.hpp"
 #include "tests/support/messages.hpp"
-#include "tests/support/polynomials.hpp"
 #include "tests/support/queries.hpp"
 #include "touchstone/certificate.hpp"
 #include "touchstone/oracle.hpp"
@@ -21,159 +18,32 @@
 namespace touchstone::exact::curved_query_test {
 namespace {
 
-using tests::polynomial;
-using tests::power;
 using tests::Random;
 using Point = std::array<double, 3>;
 
 Kind kind_of(int round) { return round % 2 == 0 ? Kind::vertex_face : Kind::edge_edge; }
 
-/// Divisible by all degrees and by 2^8: multiples of it have exact control points of any degree.
-constexpr double unit = 840.0 * 256.0;
-
-/// Small multiples of the unit: many contacts, at ends and sides, and common planes.
-double small(Random& random, int most = 2) { return unit * random.between(-most, most); }
-
-Query small_query(Random& random) {
-  Query query{};
-  for (double& x : query.coordinates) x = small(random);
-  return query;
-}
+/// Small numbers: many contacts, at ends and sides, and common planes.
+double small(Random& random, int most = 2) { return random.between(-most, most); }
 
 /// Distance 0 mostly, or one that small queries often have exactly.
 Separation small_separation(Random& random) {
   if (random.between(0, 2) != 0) return {};
-  return {.distance = unit * random.between(1, 2) / 2,
-          .norm = random.coin() ? Norm::l2 : Norm::linf};
-}
-
-/// The polynomial q^n p(numerator / q) of degree n of p.
-Polynomial composed(const Polynomial& p, const Polynomial& numerator, const Polynomial& q) {
-  Polynomial sum;
-  for (std::size_t i = 0; i <= p.degree(); ++i) {
-    Polynomial term{p[i]};
-    for (std::size_t k = 0; k < p.degree(); ++k) term = term * (k < i ? numerator : q);
-    sum = sum + term;
-  }
-  return sum;
-}
-
-/// The curved query collides iff the straight one does, at a time that the rational function
-/// numerator / denominator, increasing on [0,1], takes to that of the straight one.
-void expect_reparametrized(const Decision& curved, const Decision& straight,
-                           const Polynomial& numerator, const Polynomial& denominator) {
-  ASSERT_EQ(curved.collides(), straight.collides());
-  ASSERT_EQ(curved.contact.has_value(), straight.contact.has_value());
-  if (!curved.collides()) return;
-  EXPECT_TRUE(curved.toi->is_root_of(composed(straight.toi->polynomial(), numerator, denominator)));
-  AlgebraicNumber toi = *curved.toi;
-  toi.refine_to_level(60);
-  const auto at = [&](const Rational& t) -> Rational {
-    const auto value = [&](const Polynomial& p) {
-      Rational sum = 0;
-      for (std::size_t i = p.degree() + 1; i-- > 0;) sum = sum * t + p[i];
-      return sum;
-    };
-    return value(numerator) / value(denominator);
-  };
-  const RationalInterval interval = toi.interval();
-  EXPECT_LE(at(interval.lower), *straight.toi);
-  EXPECT_GE(at(interval.upper), *straight.toi);
-}
-
-// ---- Straight lines as curves -------------------------------------------------------------------
-
-/// The same lines, each as a curve of its own degree.
-CurvedQuery elevated(Random& random, CurvedQuery lines, int greatest) {
-  for (Trajectory& curve : lines) {
-    const Point a = curve.control[0], b = curve.control[1];
-    const int degree = random.between(1, greatest);
-    curve.control.clear();
-    for (int j = 0; j <= degree; ++j) {
-      Point& point = curve.control.emplace_back();
-      for (std::size_t axis = 0; axis < 3; ++axis) {
-        point[axis] = ((degree - j) * a[axis] + j * b[axis]) / degree;
-      }
-    }
-    if (a == b && random.coin()) curve.control.resize(1);
-  }
-  return lines;
-}
-
-TEST(CurvedQuery, OtherTimesOnStraightLinesAreThoseOfTheSameContacts) {
-  Random random(371);
-  int collisions = 0;
-  const Polynomial one = polynomial({1});
-  for (int round = 0; round < 500; ++round) {
-    const Kind kind = kind_of(round);
-    const Query query = small_query(random);
-    const Separation separation = small_separation(random);
-    const Decision straight = decide(kind, query, separation);
-    collisions += straight.collides() ? 1 : 0;
-    const auto expect = [&](const CurvedQuery& curves, const Polynomial& numerator,
-                            const Polynomial& denominator) {
-      expect_reparametrized(decide(kind, curves, separation), straight, numerator, denominator);
-    };
-    const CurvedQuery lines = to_curved(query);
-    expect(elevated(random, lines, separation.distance > 0 ? 4 : 8), polynomial({0, 1}), one);
-    // a + (b − a) t^m
-    const int m = random.between(2, 4);
-    CurvedQuery late = lines;
-    for (Trajectory& curve : late) {
-      curve.control.insert(curve.control.begin(), static_cast<std::size_t>(m - 1),
-                           Point(curve.control[0]));
-    }
-    expect(late, power(polynomial({0, 1}), m), one);
-    // Weights 1 and w: the time is w t / (1 − t + w t).
-    const int w = random.between(2, 7);
-    CurvedQuery rational = lines;
-    for (Trajectory& curve : rational) curve.weights = {0.5, 0.5 * w};
-    expect(rational, polynomial({0, w}), polynomial({1, w - 1}));
-  }
-  EXPECT_GT(collisions, 100);
-}
-
-TEST(CurvedQuery, WeightsOfRestingPointsDoNotMatter) {
-  Random random(373);
-  for (int round = 0; round < 200; ++round) {
-    const Kind kind = kind_of(round);
-    Query query = small_query(random);
-    const std::size_t bodies = kind == Kind::vertex_face ? 1 : 2;
-    for (std::size_t point = bodies; point < moving_points; ++point) {
-      for (std::size_t axis = 0; axis < 3; ++axis) {
-        query.at(1, point, axis) = query.at(0, point, axis);
-      }
-    }
-    CurvedQuery plain = to_curved(query), weighted = plain;
-    for (std::size_t point = 0; point < bodies; ++point) {
-      plain[point].weights = weighted[point].weights = {1.0, 3.0};
-    }
-    for (std::size_t point = bodies; point < moving_points; ++point) {
-      weighted[point].weights = {2.0, static_cast<double>(point) + 4.0};
-      if (random.coin()) {
-        weighted[point].control.resize(1);
-        weighted[point].weights = {7.0};
-      }
-    }
-    const Separation separation = small_separation(random);
-    const Decision expected = decide(kind, plain, separation);
-    const Decision found = decide(kind, weighted, separation);
-    ASSERT_EQ(found.collides(), expected.collides());
-    EXPECT_TRUE(!found.collides() || *found.toi == *expected.toi);
-  }
+  return {.distance = 0.5 * random.between(1, 2), .norm = random.coin() ? Norm::l2 : Norm::linf};
 }
 
 // ---- Certificates -------------------------------------------------------------------------------
 
-/// Each point on a curve of its own degree, some of them rational.
+/// Each point on a curve of its own degree, some of them rational, with weights of their own.
 CurvedQuery curved_query(Random& random, int greatest) {
   CurvedQuery query;
   for (Trajectory& curve : query) {
     const int degree = random.between(0, greatest);
+    const bool is_rational = greatest <= 2 && random.between(0, 3) == 0;
     for (int j = 0; j <= degree; ++j) {
       curve.control.push_back({small(random), small(random), small(random)});
+      if (is_rational) curve.weights.push_back(random.between(1, 3));
     }
-    if (degree == 2 && random.coin()) curve.weights = {1.0, 1.0, 2.0};
   }
   return query;
 }
@@ -184,10 +54,13 @@ TEST(CurvedQuery, HasAProofAndNoneOfWhatIsFalse) {
   Random random(378);
   std::array<int, 3> claims{};
   int rejected = 0, accepted = 0;
-  for (int round = 0; round < 2000; ++round) {
+  for (int round = 0; round < 1500; ++round) {
     const Kind kind = kind_of(round);
-    const CurvedQuery query = curved_query(random, round % 5 == 0 ? random.between(3, 4) : 2);
-    const Separation separation = small_separation(random);
+    const bool is_high = round % 100 == 0;
+    const CurvedQuery query = curved_query(random, is_high          ? 8
+                                                   : round % 5 == 0 ? random.between(3, 4)
+                                                                    : 2);
+    const Separation separation = is_high ? Separation{} : small_separation(random);
     const ProveOptions options{.collision_claim =
                                    random.coin() ? Claim::time_of_impact : Claim::collision};
     Certificate certificate = prove(kind, query, decide(kind, query, separation), options);
@@ -199,7 +72,7 @@ TEST(CurvedQuery, HasAProofAndNoneOfWhatIsFalse) {
     };
     Trajectory& curve = other.at(index(moving_points));
     curve.control.at(index(curve.control.size())).at(index(3)) += small(random, 1);
-    if (!curve.weights.empty() && random.coin()) curve.weights[1] *= 2;
+    if (!curve.weights.empty() && random.coin()) curve.weights.back() *= 2;
     certificate.query = other;
     if (!tests::rejection(certificate).empty()) {
       ++rejected;

@@ -5,9 +5,9 @@
 /// Renaming points, invertible linear maps of space and a common motion of all points change no
 /// root of F: verdict and toi stay. At a distance they do so if the map keeps the norm, or scales
 /// it with the distance. Reversing time keeps the verdict. Cutting time at τ maps contact at t to
-/// contact at t/τ or (t−τ)/(1−τ). At distance 0 two rules find the same. None of this requires the
-/// answer. Every change is exact; what cannot be exact in doubles is left out, and the rest
-/// counted.
+/// contact at t/τ or (t−τ)/(1−τ). At distance 0 two rules find the same, and a greater distance is
+/// reached no later. None of this requires the answer. Every change is exact; what cannot be exact
+/// in doubles is left out, and the rest counted.
 
 #include <gtest/gtest.h>
 
@@ -294,6 +294,26 @@ TEST(OracleMetamorphic, TheRulesOfDistancesFindTheContactsAtDistanceZero) {
       ASSERT_EQ(found.collides(), verdict.collides());
       EXPECT_TRUE(!found.collides() || *found.toi == *verdict.toi);
     }
+  });
+}
+
+TEST(OracleMetamorphic, GreaterDistancesAndTheOtherNormBoundTheToi) {
+  Random random(14);
+  for_queries(Of::every_source, [&](const PosedCurves& posed, const Decision& verdict) {
+    if (is_zero(posed.separation) || !straight(posed) || !verdict.collides()) return;
+    const auto expect_no_later = [&](const Separation& separation) {
+      PosedCurves changed = posed;
+      changed.separation = separation;
+      const Decision found = decide(changed);
+      ASSERT_TRUE(found.collides()) << changed;
+      EXPECT_TRUE(*found.toi <= *verdict.toi) << changed;
+    };
+    const auto& [distance, norm] = posed.separation;
+    expect_no_later({std::nextafter(distance, HUGE_VAL), norm});
+    expect_no_later({distance + random.uniform(), norm});
+    // 7/4 > √3, and the product is rounded up.
+    if (norm == Norm::l2) expect_no_later({distance, Norm::linf});
+    if (norm == Norm::linf) expect_no_later({std::nextafter(1.75 * distance, HUGE_VAL), Norm::l2});
   });
 }
 

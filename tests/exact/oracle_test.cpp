@@ -338,13 +338,6 @@ AlgebraicNumber checked_toi(const PosedQuery& posed) {
   return verdict.toi.value();
 }
 
-TEST(Oracle, FindsTheFirstOfTwoRootsBesideADoubleOne) {
-  // t(1−t) = y: 1/4 − 2^-55 = t(1−t) at 1/2 − 2^-27.5, which is irrational.
-  const AlgebraicNumber toi = checked_toi(turning_triangle(1, 1, 0, std::nextafter(0.25, 0.0)));
-  EXPECT_TRUE(toi < Rational(ratio(1, 2) - power_of_two(-28)));
-  EXPECT_TRUE(toi > Rational(ratio(1, 2) - power_of_two(-27)));
-}
-
 // ------------------------------------------------------------------ the limits of doubles
 
 /// A triangle of the greatest width in doubles, with one side on x=0, and a vertex over (x,0).
@@ -405,6 +398,18 @@ TEST(Oracle, EnclosesTimesThatAreTinyOrNextToADouble) {
   }
 }
 
+TEST(Oracle, IsExactAtDistancesOfAnyMagnitude) {
+  for (const Norm norm : {Norm::linf, Norm::l2}) {
+    // The height 3u − 4ut at distance u, the least double.
+    expect_toi_at(over_triangle(1, 1, 3 * least, -least), {least, norm}, ratio(1, 2));
+    expect_toi_at(over_triangle(1, 1, greatest, 0), {1, norm}, 1 - 1 / Rational(greatest));
+    expect_toi_at(over_triangle(1, 1, 3, -1), {least, norm}, (3 - Rational(least)) / 4);
+    const PosedQuery apart = over_triangle(1, 1, 3, 2 * least);
+    EXPECT_FALSE(exact::decide(apart.kind, apart.query, {least, norm}).collides());
+    EXPECT_TRUE(exact::decide(apart.kind, apart.query, {greatest, norm}).collides());
+  }
+}
+
 TEST(Oracle, KnowsThePlaceOfContactAtDistanceZeroOnly) {
   const PosedQuery falling = over_triangle(1, 1, 2, 0);
   const auto at = [&](double distance, Norm norm) {
@@ -432,14 +437,20 @@ TEST(Oracle, KnowsThePlaceOfContactAtDistanceZeroOnly) {
   }
 }
 
-TEST(Oracle, RejectsEveryCoordinateThatIsNotFinite) {
+TEST(Oracle, RejectsEveryCoordinateThatIsNotFiniteAndDistancesBelowZero) {
   for (const PosedQuery& good : {over_triangle(1, 1, 1, -1), over_edge(1, 1, 1, -1)}) {
     ASSERT_TRUE(decide(good).collides());
+    for (const double bad : {-1.0, -least, infinity, std::numeric_limits<double>::quiet_NaN()}) {
+      EXPECT_THROW(static_cast<void>(exact::decide(good.kind, good.query, {bad, Norm::l2})),
+                   std::invalid_argument);
+    }
     for (std::size_t i = 0; i < good.query.coordinates.size(); ++i) {
       for (const double bad : {std::numeric_limits<double>::quiet_NaN(), infinity, -infinity}) {
         PosedQuery query = good;
         query.query.coordinates.at(i) = bad;
         EXPECT_THROW(static_cast<void>(decide(query)), std::domain_error) << i << ' ' << bad;
+        EXPECT_THROW(static_cast<void>(exact::decide(query.kind, query.query, {1, Norm::linf})),
+                     std::domain_error);
       }
     }
   }

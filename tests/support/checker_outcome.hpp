@@ -49,4 +49,26 @@ inline constexpr std::string_view certificate_header = "touchstone-certificates 
   return report.collision == 1 ? "collision" : "time_of_impact";
 }
 
+/// Why a stream is refused; empty if all of it is accepted.
+[[nodiscard]] inline std::string refusal(const std::string& text,
+                                         const checker::Options& options = {}) {
+  const checker::Report report = check_text(text, options);
+  EXPECT_EQ(report.rejections.size(), report.rejected);
+  return report.all_accepted() ? "" : report.rejections.at(0).reason;
+}
+
+/// Why the stream is refused of one who has the scenes.
+[[nodiscard]] inline std::string refusal_about(const std::string& scenes, const std::string& text) {
+  std::istringstream given(scenes);
+  return refusal(text, {.scenes = &given});
+}
+
+/// A text with the first occurrence of some words replaced.
+[[nodiscard]] inline std::string altered(std::string text, std::string_view what,
+                                         std::string_view by) {
+  const std::size_t place = text.find(what);
+  EXPECT_NE(place, std::string::npos) << what;
+  return text.replace(place, what.size(), by);
+}
+
 }  // namespace touchstone::tests

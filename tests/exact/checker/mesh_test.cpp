@@ -25,8 +25,9 @@
 namespace touchstone::checker::mesh_test {
 namespace {
 
-using tests::check_text;
-using Lines = std::vector<std::string>;
+using tests::altered;
+using tests::refusal;
+using tests::refusal_about;
 
 /// A mesh in the words of a certificate; its lists end with /.
 std::string mesh(std::string_view vertices, std::string_view faces, std::string_view edges = "",
@@ -52,20 +53,6 @@ std::string certificate(const std::string& of, std::string_view lines) {
 
 std::string stream(const std::string& certificates, std::size_t count = 1) {
   return "touchstone-meshes 1\n" + certificates + "meshes " + std::to_string(count) + "\n";
-}
-
-/// Why the stream is refused; empty if it is not.
-std::string refusal(const std::string& text, const Options& options = {}) {
-  const Report report = check_text(text, options);
-  EXPECT_EQ(report.rejections.size(), report.rejected);
-  EXPECT_EQ(report.meshes.size(), report.accepted());
-  return report.all_accepted() ? "" : report.rejections.at(0).reason;
-}
-
-std::string replaced(std::string text, std::string_view what, std::string_view by) {
-  const std::size_t place = text.find(what);
-  EXPECT_NE(place, std::string::npos) << what;
-  return text.replace(place, what.size(), by);
 }
 
 // ---- Truths -------------------------------------------------------------------------------------
@@ -260,7 +247,7 @@ TEST(MeshCertificate, WithOneAlterationIsRefused) {
       refusal(tests::read_file(tests::source_folder() + "/tests/exact/checker/corpus/meshes.cert")),
       "");
   for (const auto& [truth, lie, reason] : alterations()) {
-    EXPECT_EQ(refusal(replaced(proved, truth, lie)), reason) << lie;
+    EXPECT_EQ(refusal(altered(proved, truth, lie)), reason) << lie;
   }
 }
 
@@ -291,7 +278,7 @@ TEST(MeshCertificate, PlantedFaultsAreFound) {
 }
 
 TEST(MeshCertificate, SaysWhatItProves) {
-  const Report report = check_text(proved);
+  const Report report = tests::check_text(proved);
   ASSERT_EQ(report.meshes.size(), 1U);
   EXPECT_EQ(report.meshes[0],
             "mesh a label\n4 vertices, 2 faces, 0 edges of no face, 0 points\nclaim intersections "
@@ -300,16 +287,13 @@ TEST(MeshCertificate, SaysWhatItProves) {
 }
 
 TEST(MeshCertificate, IsHeldAgainstAMesh) {
-  const auto refusal_about = [](const std::string& meshes) {
-    std::istringstream given(meshes);
-    return refusal(proved, {.scenes = &given});
-  };
-  EXPECT_EQ(refusal_about(tent), "");
-  EXPECT_EQ(refusal_about(replaced(tent, "1 -1 1", "0x1p0 -1 3/3")), "");
-  EXPECT_EQ(refusal_about(replaced(tent, "1 -1 1", "0x1.0000000000001p+0 -1 1")),
+  EXPECT_EQ(refusal_about(tent, proved), "");
+  EXPECT_EQ(refusal_about(altered(tent, "1 -1 1", "0x1p0 -1 3/3"), proved), "");
+  EXPECT_EQ(refusal_about(altered(tent, "1 -1 1", "0x1.0000000000001p+0 -1 1"), proved),
             "the scene is not the one given");
-  EXPECT_EQ(refusal_about(replaced(tent, "1 0 3", "0 3 1")), "the scene is not the one given");
-  EXPECT_EQ(refusal_about(tent + tent), "not all scenes are proved");
+  EXPECT_EQ(refusal_about(altered(tent, "1 0 3", "0 3 1"), proved),
+            "the scene is not the one given");
+  EXPECT_EQ(refusal_about(tent + tent, proved), "not all scenes are proved");
 }
 
 TEST(MeshCertificate, ProvesWhatIsDemandedAndNothingElse) {
@@ -318,7 +302,7 @@ TEST(MeshCertificate, ProvesWhatIsDemandedAndNothingElse) {
                    {.claim = demanded_claim(claim), .separation = demanded_separation("0", "l2")});
   };
   const std::string other = "the claim is not the one demanded: ",
-                    welded = replaced(proved, "intersections", "welded_intersections"),
+                    welded = altered(proved, "intersections", "welded_intersections"),
                     one = stream(certificate(mesh("0 0 0/0 0 0/", "", "", "0/1/"),
                                              "intersections 1/0 1 1 1/separations/"));
   for (const char* const claim :
