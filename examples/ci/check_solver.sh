@@ -34,7 +34,7 @@ mkdir -p "$findings" || exit 2
 # The words of these variables are options.
 # shellcheck disable=SC2086
 "$touchstone" certify --plugin "$plugin" ${SOLVER_OPTIONS:-} --json "$findings/certify.json" \
-  --badge "$findings/badge.svg" ${BASELINE:+--baseline "$BASELINE"} ${CERTIFY_OPTIONS:-}
+  ${BASELINE:+--baseline "$BASELINE"} ${CERTIFY_OPTIONS:-}
 certified=$?
 
 only=

@@ -47,7 +47,6 @@ struct Arguments {
   std::string proof_file;
   std::string view_file;
   std::string baseline_file;
-  std::string badge_file;
   bool writes_baseline = false;
   bool table = false;
 };
@@ -71,13 +70,7 @@ class CertifyRun {
         truth_(files_, arguments.truth_file),
         proof_(files_, arguments.proof_file),
         view_(files_, arguments.view_file),
-        new_baseline_(files_, arguments.writes_baseline ? arguments.baseline_file : ""),
-        badge_(files_, arguments.badge_file) {
-    if (badge_ && solvers_.all().size() != 1) {
-      throw std::runtime_error(
-          fmt::format("--badge: it shows one solver (--method, --plugin), and this run judges {}",
-                      solvers_.all().size()));
-    }
+        new_baseline_(files_, arguments.writes_baseline ? arguments.baseline_file : "") {
     read_baseline();
     if (truth_) truth_.write(report::truth_header());
     if (arguments.seconds > 0.0) {
@@ -127,8 +120,7 @@ class CertifyRun {
     baseline_ = report::read_baseline(path);
   }
 
-  /// Compares with the baseline, and writes it and the badge. A baseline remains as it was unless
-  /// all queries were asked.
+  /// Compares with the baseline, and writes it. It remains as it was unless all queries were asked.
   void write_gate() {
     const bool is_complete = !sum_.interrupted && sum_.errors == 0;
     if (new_baseline_ && !is_complete) {
@@ -146,7 +138,6 @@ class CertifyRun {
     } else {
       new_baseline_.discard();
     }
-    if (badge_) badge_.complete(report::badge(sum_.methods.at(0)));
   }
 
   void print_summary() const {
@@ -325,7 +316,6 @@ class CertifyRun {
   ViewFile view_;
   bool has_contacts_ = false;  ///< in some source; the view shows no elements
   Output new_baseline_;
-  Output badge_;
   report::KnownAnswers baseline_;
   report::BaselineChange change_;
   jobs::Budget budget_;
@@ -355,7 +345,6 @@ void add(CLI::App& app, Status& status) {
   add_option(*command, "--table", arguments->table);
   add_option(*command, "--baseline", arguments->baseline_file);
   add_option(*command, "--write-baseline", arguments->writes_baseline)->needs("--baseline");
-  add_option(*command, "--badge", arguments->badge_file);
   set_help(*command,
            "touchstone certify data/handcrafted --json result.json\n"
            "touchstone certify --min-separation 1e-8 --norm l2 --method tight_inclusion\n"
@@ -368,7 +357,7 @@ void add(CLI::App& app, Status& status) {
     settle_query_limit(*command, arguments->seconds, arguments->judged);
     status = run_in_pieces(*command, arguments->pieces, arguments->sources,
                            {.outputs = {"--json", "--truth", "--prove"},
-                            .refused = {"--view", "--seconds", "--baseline", "--badge"}},
+                            .refused = {"--view", "--seconds", "--baseline"}},
                            [&] { return CertifyRun(*arguments).run(); });
   });
 }

@@ -23,7 +23,6 @@
 #include "verify/cli/option_table.hpp"
 #include "verify/cli/options.hpp"
 #include "verify/cli/result_files.hpp"
-#include "verify/cli/sharded_run.hpp"
 #include "verify/cli/solver_options.hpp"
 #include "verify/cli/sources.hpp"
 #include "verify/data/csv_dataset.hpp"
@@ -55,7 +54,6 @@ struct Arguments {
   double seconds = 0.0;
   std::uint64_t queries = 0;
   std::uint64_t seed = default_seed;
-  PieceArguments pieces;
   std::uint64_t most_findings = 20;
   std::string kind;
   std::vector<std::string> degree;
@@ -336,7 +334,7 @@ class FuzzRun {
   }
 
   /// The shapes that the command line names and the solver answers.
-  /// \throws std::invalid_argument if it answers none of a degree, 
+  /// \throws std::invalid_argument if it answers none of a degree,
   [[nodiscard]] std::vector<QueryShape> chosen_shapes() const {
     std::vector<QueryShape> result;
     for (const std::string& degree : arguments_.degrees()) {
@@ -411,23 +409,12 @@ class FuzzRun {
 
 // ---- The command line ---------------------------------------------------------------------------
 
-/// A piece for each shard, with a seed of its own.
-std::vector<jobs::Piece> pieces_of_seeds(const Arguments& arguments) {
-  std::vector<jobs::Piece> pieces;
-  for (std::size_t i = 0; i < shard_of(arguments.pieces).count; ++i) {
-    const std::string seed = std::to_string(arguments.seed + i);
-    pieces.push_back({.name = "seed " + seed, .files = {}, .arguments = {"--seed=" + seed}});
-  }
-  return pieces;
-}
-
 void add_search_options(CLI::App& command, Arguments& arguments) {
   command.option_defaults()->group("Search");
   add_option(command, "--seconds", arguments.seconds);
   add_option(command, "--queries", arguments.queries);
   add_option(command, "--seed", arguments.seed);
   add_option(command, "--degree", arguments.degree);
-  add_piece_options(command, arguments.pieces);
   add_option(command, "--most-findings", arguments.most_findings);
   add_option(command, "--only", arguments.only);
   add_option(command, "--kind", arguments.kind);
@@ -465,15 +452,6 @@ void add(CLI::App& app, Status& status) {
   command->callback([arguments, command, &status] {
     settle_solver_options(*command, true, arguments->solver);
     settle_query_limit(*command, arguments->run_seconds(), arguments->solver);
-    if (!arguments->pieces.folder.empty()) {
-      status = run_pieces(*command, arguments->pieces,
-                          {.input = "--seed",
-                           .pieces = pieces_of_seeds(*arguments),
-                           .outputs = {"--json"},
-                           .refused = {"--out", "--view"}});
-      return;
-    }
-    arguments->seed += shard_of(arguments->pieces).index;
     status = FuzzRun(*arguments).run();
   });
 }

@@ -56,14 +56,12 @@ Mesh make_mesh(std::span<const std::array<double, 3>> coordinates, std::vector<f
   return mesh;
 }
 
-std::string note_of(std::size_t polygons, std::span<const std::string> passed_over,
-                    std::size_t of_strips) {
+std::string note_of(std::size_t polygons, std::span<const std::string> passed_over) {
   static constexpr std::size_t most_named = 20;
   std::vector<std::string> notes;
   if (polygons != 0) {
     notes.push_back(fmt::format("polygons read as fans of triangles: {}", polygons));
   }
-  if (of_strips != 0) notes.push_back(fmt::format("triangles read from strips: {}", of_strips));
   if (!passed_over.empty()) {
     const auto named = passed_over.first(std::min(passed_over.size(), most_named));
     const std::size_t more = passed_over.size() - named.size();

@@ -55,9 +55,8 @@ struct Mesh {
 };
 
 /// The note of a mesh. \param polygons those with more than three vertices \param passed_over
-/// names, with their numbers if they have one \param of_strips the triangles of strips
-[[nodiscard]] std::string note_of(std::size_t polygons, std::span<const std::string> passed_over,
-                                  std::size_t of_strips = 0);
+/// names, with their numbers if they have one
+[[nodiscard]] std::string note_of(std::size_t polygons, std::span<const std::string> passed_over);
 
 /// Adds a polygon as a fan of triangles around its first vertex, and counts it if it is no
 /// triangle.

@@ -335,10 +335,9 @@ class BodyReader {
     vertex_count_ = vertices->count;
     const Element* const faces = find_element("face");
     const Element* const edges = find_element("edge");
-    const Element* const strips = find_element("tristrips");
     for (const Element& element : header_.elements) {
       const Element* const it = &element;
-      if (it != vertices && it != faces && it != edges && it != strips) pass_over(element);
+      if (it != vertices && it != faces && it != edges) pass_over(element);
     }
     for (const Element& element : header_.elements) {
       if (&element == vertices) {
@@ -347,8 +346,6 @@ class BodyReader {
         read_faces(element);
       } else if (&element == edges) {
         read_edges(element);
-      } else if (&element == strips) {
-        read_strips(element);
       } else {
         for_each(element, nothing, [] {});
       }
@@ -357,16 +354,12 @@ class BodyReader {
     if (!values_.at_end()) input_.fail("data after the last element");
     if (vertices_.empty()) input_.fail("no vertex: the header says element vertex 0");
     Mesh mesh = make_mesh(vertices_, std::move(faces_), edges_);
-    mesh.note = note_of(polygons_, passed_over_, of_strips_);
+    mesh.note = note_of(polygons_, passed_over_);
     return mesh;
   }
 
  private:
   static constexpr std::size_t nothing = std::numeric_limits<std::size_t>::max();
-  static constexpr std::int32_t end_of_strip = -1;
-
-  /// The vertices in a list.
-  enum class Corners : std::uint8_t { of_face, of_strips };
 
   /// Notes an element that is not read. One that has vertices would be missing in the mesh.
   void pass_over(const Element& element) {
@@ -431,8 +424,7 @@ class BodyReader {
   /// Calls use() for each element, with its values in row_ and those of the wanted list in
   /// corners_.
   template <class Use>
-  void for_each(const Element& element, std::size_t wanted, const Use& use,
-                Corners corners = Corners::of_face) {
+  void for_each(const Element& element, std::size_t wanted, const Use& use) {
     if (element.properties.empty()) return;
     row_.assign(element.properties.size(), 0.0);
     for (std::uint64_t i = 0; i < element.count; ++i) {
@@ -441,7 +433,7 @@ class BodyReader {
       for (std::size_t k = 0; k < row_.size(); ++k) {
         const Property& property = element.properties[k];
         if (property.length_type) {
-          read_list(property, k == wanted, corners);
+          read_list(property, k == wanted);
         } else {
           row_[k] = values_.next(property.type);
         }
@@ -451,19 +443,17 @@ class BodyReader {
     }
   }
 
-  void read_list(const Property& property, bool wanted, Corners corners) {
+  void read_list(const Property& property, bool wanted) {
     const double length = values_.next(*property.length_type);
     if (length < 0.0) input_.fail("a list of negative length");
     if (wanted) corners_.clear();
-    if (wanted && corners == Corners::of_face && length < 3.0) {
+    if (wanted && length < 3.0) {
       input_.fail("vertices: " + std::to_string(static_cast<std::int64_t>(length)) +
                   "; a face must have 3 or more");
     }
     for (std::uint64_t i = 0; i < static_cast<std::uint64_t>(length); ++i) {
       const double value = values_.next(property.type);
-      if (!wanted) continue;
-      const bool is_end = corners == Corners::of_strips && value == end_of_strip;
-      corners_.push_back(is_end ? end_of_strip : vertex(value));
+      if (wanted) corners_.push_back(vertex(value));
     }
   }
 
@@ -482,11 +472,6 @@ class BodyReader {
     for_each(element, list_of_vertices(element), [&] { add_polygon(faces_, corners_, polygons_); });
   }
 
-  void read_strips(const Element& element) {
-    for_each(
-        element, list_of_vertices(element), [&] { add_strips(); }, Corners::of_strips);
-  }
-
   /// The one property that is a list of vertices. Notes the others.
   [[nodiscard]] std::size_t list_of_vertices(const Element& element) {
     const std::size_t indices = find_property(element, "vertex_indices", true);
@@ -498,28 +483,6 @@ class BodyReader {
     need_whole(element, list);
     pass_over(element, {list});
     return list;
-  }
-
-  /// Adds the triangles of the strips in a list.
-  void add_strips() {
-    auto first = corners_.begin();
-    while (first != corners_.end()) {
-      const auto last = std::find(first, corners_.end(), end_of_strip);
-      add_strip({first, last});
-      first = last == corners_.end() ? last : last + 1;
-    }
-  }
-
-  /// Adds the triangles of three consecutive vertices, every other one turned round, so that all
-  /// face the same side. A triangle with a vertex twice only joins two strips, and is left out.
-  void add_strip(std::span<const std::int32_t> strip) {
-    for (std::size_t k = 2; k < strip.size(); ++k) {
-      fast::Face face{strip[k - 2], strip[k - 1], strip[k]};
-      if (k % 2 == 1) std::swap(face[0], face[1]);
-      if (face[0] == face[1] || face[1] == face[2] || face[2] == face[0]) continue;
-      faces_.push_back(face);
-      ++of_strips_;
-    }
   }
 
   void read_edges(const Element& element) {
@@ -549,7 +512,6 @@ class BodyReader {
   std::vector<double> row_;
   std::vector<std::int32_t> corners_;
   std::size_t polygons_ = 0;
-  std::size_t of_strips_ = 0;  // triangles
   std::vector<std::string> passed_over_;
   std::vector<std::array<double, 3>> vertices_;
   std::vector<fast::Face> faces_;

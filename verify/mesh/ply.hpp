@@ -6,11 +6,10 @@
 ///
 /// The reader uses x, y, z of `vertex` with any type, the list `vertex_indices` (or `vertex_index`)
 /// of `face`, and `vertex1` and `vertex2` of an optional `edge`. A face of more than three vertices
-/// is a fan of triangles around its first. The list of an element `tristrips` holds strips of
-/// triangles, each ended by -1. Other properties and elements are passed over by their type; other
-/// elements with such properties are an error. In text each element is a line; a `float` in text is
-/// rounded to the nearest float. Memory is proportional to the data, not to the numbers in the
-/// header.
+/// is a fan of triangles around its first. Other properties and elements are passed over by their
+/// type; other elements with such properties are an error. In text each element is a line; a
+/// `float` in text is rounded to the nearest float. Memory is proportional to the data, not to the
+/// numbers in the header.
 
 #include <filesystem>
 #include <span>

@@ -560,25 +560,4 @@ std::string to_text(const BaselineChange& change) {
          list_text("new", change.fresh) + list_text("mended", change.mended);
 }
 
-std::string badge(const jobs::MethodResult& method) {
-  const judge::Judgement& judged = method.judgement;
-  const std::string score =
-      fmt::format("{} misses, {} false alarms", judged.count(judge::Fault::false_negative),
-                  judged.count(judge::Fault::false_positive));
-  constexpr int left = 82, padding = 8;
-  const int right = 13 * static_cast<int>(score.size()) / 2 + 2 * padding;
-  const std::string_view color = judge::keeps(judged, method.promise) ? "#2a7d2e" : "#b3261e";
-  return fmt::format(
-      R"(<svg xmlns="http://www.w3.org/2000/svg" width="{0}" height="20" role="img" font-family="sans-serif" font-size="12" fill="#fff">
-<title>{1} in {2} queries, judged by Touchstone</title>
-<rect width="{0}" height="20" rx="3" fill="#444"/>
-<path d="M{3} 0h{4}a3 3 0 0 1 3 3v14a3 3 0 0 1 -3 3h-{4}z" fill="{5}"/>
-<text x="{6}" y="14" textLength="{7}">Touchstone</text>
-<text x="{8}" y="14" textLength="{9}">{1}</text>
-</svg>
-)",
-      left + right, score, judged.queries, left, right - 3, color, padding, left - 2 * padding,
-      left + padding, right - 2 * padding);
-}
-
 }  // namespace touchstone::verify::report

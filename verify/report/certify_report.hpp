@@ -65,7 +65,7 @@ namespace touchstone::verify::report {
                                     const judge::GroundTruth& truth);
 
 // A gate for changes of a solver: a baseline of its known wrong answers, so that only new ones
-// fail, and a badge with its score.
+// fail.
 
 /// A wrong answer, by its query.
 struct KnownAnswer {
@@ -101,9 +101,5 @@ struct BaselineChange {
 
 /// The change in some lines, the first answers of each sort by name.
 [[nodiscard]] std::string to_text(const BaselineChange& change);
-
-/// An SVG image with the numbers of misses and false alarms of a solver, green if it has kept its
-/// promise, else red.
-[[nodiscard]] std::string badge(const jobs::MethodResult& method);
 
 }  // namespace touchstone::verify::report

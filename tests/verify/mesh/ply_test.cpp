@@ -143,30 +143,6 @@ TEST(ReadPly, PassesOverOtherPropertiesAndElements) {
   }
 }
 
-/// Every other triangle is turned round, in each strip anew; one with a vertex twice is a joint. Of
-/// a strip of two vertices nothing is left.
-TEST(ReadPly, ReadsStripsOfTriangles) {
-  const MeshFolder folder;
-  const std::vector<int> indices{0, 1, 2, 3, -1, -1, 1, 2, -1, 3, 2, 1, 1, 0, 2};
-  const std::string header =
-      "element vertex 4\n" + xyz + "element face 1\n" + triangle +
-      "element tristrips 1\nproperty list int int vertex_indices\nend_header\n";
-  const auto expect = [](const Mesh& mesh) {
-    EXPECT_EQ(mesh.faces,
-              (std::vector<Face>{{3, 1, 0}, {0, 1, 2}, {2, 1, 3}, {3, 2, 1}, {0, 1, 2}}));
-    EXPECT_EQ(mesh.note, "triangles read from strips: 4");
-  };
-  expect(folder.mesh("a.ply", ascii + header + "0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 3 1 0\n" +
-                                  fmt::format("{} {}\n", indices.size(), fmt::join(indices, " "))));
-  for (const bool big_endian : {false, true}) {
-    Bytes bytes(big_endian);
-    for (int i = 0; i < 12; ++i) bytes.add(static_cast<double>(i));
-    bytes.add(std::uint8_t{3}).add(3).add(1).add(0).add(static_cast<int>(indices.size()));
-    for (const int index : indices) bytes.add(index);
-    expect(folder.mesh("a.ply", format(big_endian) + header + bytes.text()));
-  }
-}
-
 TEST(ReadPly, JoinsTheFilesOwnEdges) {
   const MeshFolder folder;
   const Mesh mesh = folder.mesh(

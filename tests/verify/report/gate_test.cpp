@@ -81,17 +81,5 @@ TEST(Gate, MoreAnswersThanAreKeptAreAnError) {
   EXPECT_THROW(static_cast<void>(wrong_answers_of(results)), std::runtime_error);
 }
 
-TEST(Gate, ABadgeHasTheScoreAndItsColour) {
-  const auto badge_of = [](const std::vector<std::pair<std::uint64_t, Fault>>& faults) {
-    return badge(results_of(faults)[0].methods[0]);
-  };
-  const std::string kept = badge_of({{1, Fault::false_positive}});
-  const std::string broken = badge_of({{1, Fault::false_negative}});
-  EXPECT_NE(kept.find("0 misses, 1 false alarms"), std::string::npos);
-  EXPECT_NE(kept.find("#2a7d2e"), std::string::npos);
-  EXPECT_NE(broken.find("1 misses, 0 false alarms"), std::string::npos);
-  EXPECT_EQ(broken.find("#2a7d2e"), std::string::npos);
-}
-
 }  // namespace
 }  // namespace touchstone::verify::report::gate_test
