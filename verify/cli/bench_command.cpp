@@ -24,7 +24,6 @@
 #include "verify/cli/files.hpp"
 #include "verify/cli/option_table.hpp"
 #include "verify/cli/options.hpp"
-#include "verify/cli/sharded_run.hpp"
 #include "verify/cli/solver_options.hpp"
 #include "verify/cli/sources.hpp"
 #include "verify/data/query_group.hpp"
@@ -49,7 +48,6 @@ constexpr std::string_view best_kernel = "best";
 
 struct Arguments {
   SourceArguments sources;
-  PieceArguments pieces;
   SolverArguments solvers;
   /// The two frames of a step; empty without --step.
   std::vector<fs::path> step;
@@ -269,7 +267,6 @@ void add(CLI::App& app, Status& status) {
   CLI::App* command =
       app.add_subcommand("bench", "Measure speed and error of solvers, also on whole steps");
   add_source_options(*command, arguments->sources);
-  add_piece_options(*command, arguments->pieces);
   add_solver_options(*command, arguments->solvers);
   add_bench_options(*command, *arguments);
   set_help(*command,
@@ -282,12 +279,7 @@ void add(CLI::App& app, Status& status) {
                std::string(judging_statuses));
   command->callback([arguments, command, &status] {
     settle(*command, *arguments);
-    const bool is_in_parts = !arguments->pieces.shard.empty() || !arguments->pieces.folder.empty();
-    if (is_in_parts && arguments->sources.built_in_set()) {
-      throw std::invalid_argument("bench: --shard and --resume need a PATH");
-    }
-    status = run_in_pieces(*command, arguments->pieces, arguments->sources, {.outputs = {"--json"}},
-                           [&] { return BenchRun(*arguments).run(); });
+    status = BenchRun(*arguments).run();
   });
 }
 

@@ -44,7 +44,6 @@ struct Arguments {
   bool list = false;
   /// Two patches of mesh instead of queries: cells along a side; 0: none.
   int patch_cells = 0;
-  double grading = 1.0;
   std::string json_file;
 };
 
@@ -182,8 +181,8 @@ std::vector<Written> write_families(const Arguments& arguments, Files& files) {
 
 /// FOLDER/0.ply and FOLDER/1.ply: two patches of mesh before and after a step.
 Status generate_patches(const Arguments& arguments) {
-  const mesh::MovingMesh patches = generate::moving_patches(
-      {.seed = arguments.seed, .cells = arguments.patch_cells, .grading = arguments.grading});
+  const mesh::MovingMesh patches =
+      generate::moving_patches({.seed = arguments.seed, .cells = arguments.patch_cells});
   fs::create_directories(arguments.folder);
   for (const bool is_end : {false, true}) {
     mesh::Vertices vertices(static_cast<Eigen::Index>(patches.vertices.size()), 3);
@@ -249,7 +248,6 @@ void add(CLI::App& app, Status& status) {
   add_separation_options(*command, arguments->separation);
   auto* const patches = add_option(*command, "--patches", arguments->patch_cells);
   patches->excludes(family)->excludes(degree);
-  add_option(*command, "--grading", arguments->grading)->needs(patches);
   command->option_defaults()->group("Output");
   add_option(*command, "--list", arguments->list);
   add_option(*command, "--out", arguments->folder);

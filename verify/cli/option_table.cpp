@@ -74,7 +74,6 @@ std::vector<OptionRow> make_table() {
       {"--hardness", "NAME", {}, fmt::format("Only these; repeatable: {}", fmt::join(hardness_names(), ", "))},
       {"--family", "NAME", {}, "Only these families (see --list)", "generate", list},
       {"--patches", "N", Whole{1, 20'000}, "Write two patches of mesh instead of queries, before and after a step, with N cells per side: 4 N² faces"},
-      {"--grading", "G", Real{1.0, 1e9}, "Patches: ratio of the widths of a side's last and first cell"},
       {"--index", "N", Whole{}, "Only the query at this position of a file, from 0; repeatable"},
       {"--most", "N", Whole{1, most_viewed_queries}, "Maximum number of queries"},
       {"--points", "NUMBERS", {}, "The 24 coordinates of a query, in one word: decimal, hexadecimal or fractions"},
@@ -176,7 +175,6 @@ std::vector<OptionRow> make_table() {
       {"--licence", "TEXT", {}, "Their licence, for the manifest"},
       {"--picture", "FILE.html", {}, "Write the result as an HTML page"},
       {"--from", "FILE.json", {}, "Read the --json file of an earlier run instead of measuring"},
-      {"--compare", "OLD.json", {}, "The --json file of an earlier run: the page shows the changes since"},
       {"--live", "FILE.js", {}, "Embed the solvers in WebAssembly (./run playground), so that the page decides other queries"},
       {"--emit", "FILE", {}, "Write the header of bounds (touchstone/filters/error_bounds.hpp)"},
       // clang-format on

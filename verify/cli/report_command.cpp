@@ -37,7 +37,6 @@
 #include "verify/report/experiments.hpp"
 #include "verify/report/measurement.hpp"
 #include "verify/report/report_page.hpp"
-#include "verify/solvers/answers.hpp"
 #include "verify/solvers/registry.hpp"
 #include "verify/solvers/solver.hpp"
 #include "verify/view/asked_solvers.hpp"
@@ -54,7 +53,6 @@ struct Arguments {
   SolverArguments solvers;
   bool field = false;
   std::string from_file;
-  std::string compare_file;
   std::string page_file;
   std::string json_file;
   std::string view_file;
@@ -108,10 +106,7 @@ class ReportRun {
       throw std::invalid_argument("no output: name --out, --json or --view");
     }
     files_.add_inputs(arguments.solvers.files());
-    for (const std::string& input : {arguments.from_file, arguments.compare_file}) {
-      files_.add_input(input);
-    }
-    if (!arguments.compare_file.empty()) before_ = read(arguments.compare_file);
+    files_.add_input(arguments.from_file);
   }
 
   Status run() {
@@ -155,9 +150,6 @@ class ReportRun {
     std::ranges::transform(plugins, std::back_inserter(options.plugins),
                            [](const auto& plugin) { return plugin.get(); });
     options.process = arguments_.solvers.process();
-    const std::vector<Recording> recordings = loaded_recordings();
-    std::ranges::transform(recordings, std::back_inserter(options.recorded),
-                           [](const Recording& recording) { return recording.solver.get(); });
     options.seed = arguments_.sources.seed;
     options.threads = arguments_.sources.threads;
     options.on_progress = [&bar](double fraction) { bar.update(fraction); };
@@ -173,28 +165,12 @@ class ReportRun {
 
   // ---- Solvers of the user's own ----
 
-  struct Recording {
-    std::unique_ptr<solvers::RecordedAnswers> answers;
-    std::unique_ptr<solvers::Solver> solver;
-  };
-
   [[nodiscard]] std::vector<std::unique_ptr<fast::Method>> loaded_plugins() const {
     std::vector<std::unique_ptr<fast::Method>> plugins;
     for (const fs::path& path : arguments_.solvers.plugins) {
       plugins.push_back(arguments_.solvers.load(path));
     }
     return plugins;
-  }
-
-  [[nodiscard]] std::vector<Recording> loaded_recordings() const {
-    std::vector<Recording> recordings;
-    for (const fs::path& path : arguments_.solvers.results) {
-      auto answers = std::make_unique<solvers::RecordedAnswers>(solvers::load_answers(path));
-      auto solver = solvers::recorded_solver(path.stem().string(), *answers,
-                                             solvers::changed({}, arguments_.solvers.terms));
-      recordings.push_back({.answers = std::move(answers), .solver = std::move(solver)});
-    }
-    return recordings;
   }
 
   // ---- Queries ----------------------------------------------------------------------------------
@@ -268,7 +244,7 @@ class ReportRun {
   void write(const report::Measurements& measurements) {
     // The measurements first, because all other outputs can be derived from them.
     if (json_) json_.complete(io::json_document(report::to_json(measurements)));
-    if (page_) page_.complete(report::report_page(measurements, before_ ? &*before_ : nullptr));
+    if (page_) page_.complete(report::report_page(measurements));
     wrong_.add_to(view_);
     view_.write();
     std::FILE* const out = files_.summary_stream();
@@ -305,7 +281,6 @@ class ReportRun {
   Output json_;
   ViewFile view_;
   WrongAnswers wrong_;
-  std::optional<report::Measurements> before_;
   std::set<std::string> errors_;
   std::uint64_t skipped_ = 0;
 };
@@ -317,7 +292,6 @@ void add_measuring_options(CLI::App& command, Arguments& arguments) {
   add_option(command, "--method", arguments.experiments.methods);
   add_plugin_option(command, arguments.solvers);
   add_option(command, "--field", arguments.field);
-  add_option(command, "--results", arguments.solvers.results);
   add_option(command, "--count", arguments.experiments.count);
   add_option(command, "--method-seconds", arguments.experiments.seconds);
   add_option(command, "--seconds", [&arguments](double s) { arguments.experiments.budget = s; });
@@ -330,7 +304,6 @@ void add_output_options(CLI::App& command, Arguments& arguments) {
   command.option_defaults()->group("Output");
   CLI::Option* const from = add_option(command, "--from", arguments.from_file);
   from->excludes(command.get_option("PATH"))->excludes(command.get_option("--method"));
-  add_option(command, "--compare", arguments.compare_file);
   add_option(command, "--out", arguments.page_file);
   add_option(command, "--json", arguments.json_file);
   add_option(command, "--view", arguments.view_file)->excludes(from);
@@ -347,7 +320,7 @@ void add(CLI::App& app, Status& status) {
   set_help(
       *command,
       "touchstone report data/handcrafted --out report.html --json report.json\n"
-      "touchstone report data/handcrafted --plugin mine.so --compare report.json --out new.html",
+      "touchstone report data/handcrafted --plugin mine.so --out new.html",
       "Without PATH: two patches of mesh that move through each other, and the built-in set. The "
       "page needs no network; its path is printed. Times are those of one thread.\n" +
           std::string(judging_statuses));

@@ -26,61 +26,28 @@ constexpr double perturbation = 0.2;  // of each vertex' way, on each axis
 /// Height of the bowl's rim above its bottom, in units of the patch's side.
 constexpr double bowl = 0.02;
 
-/// The beginnings and widths of the cells of a side, as multiples of the side.
-class Side {
- public:
-  explicit Side(const PatchOptions& options) : places_{-0.5} {
-    const auto cells = static_cast<double>(options.cells);
-    if (options.grading == 1.0) {
-      for (int i = 1; i <= options.cells; ++i) places_.push_back(i * (1.0 / cells) - 0.5);
-      widths_.assign(places_.size(), 1.0 / cells);
-      return;
-    }
-    // Widths grow by the same factor from cell to cell.
-    const double factor = std::pow(options.grading, 1.0 / std::max(cells - 1.0, 1.0));
-    double width = (factor - 1.0) / (std::pow(factor, cells) - 1.0);
-    for (int i = 0; i < options.cells; ++i, width *= factor) {
-      places_.push_back(places_.back() + width);
-      widths_.push_back(width);
-    }
-    widths_.push_back(widths_.back());
-  }
-
-  /// From −½ to ½.
-  [[nodiscard]] double place(int i) const { return places_[static_cast<std::size_t>(i)]; }
-  [[nodiscard]] double width(int i) const { return widths_[static_cast<std::size_t>(i)]; }
-
- private:
-  std::vector<double> places_, widths_;
-};
-
 /// One of the two patches. Its own axes are those of the lower one; the upper one is turned by a
 /// Pythagorean angle and stands on its head.
 class Patch {
  public:
-  Patch(const Side& side, bool is_upper, Random& random)
-      : side_(&side), is_upper_(is_upper), random_(&random) {}
+  /// \param cells along a side, whose length is 1
+  Patch(int cells, bool is_upper, Random& random)
+      : cell_(1.0 / cells), is_upper_(is_upper), random_(&random) {}
 
   [[nodiscard]] Eigen::Vector3d start(int i, int j) {
-    const double x = side_->place(i), y = side_->place(j), cell = width(i, j);
-    const double height = -0.5 * gap * cell - bowl * (x * x + y * y) * 2.0;
-    return placed(
-        {x + noise(jitter, cell), y + noise(jitter, cell), height + noise(roughness, cell)});
+    const double x = i * cell_ - 0.5, y = j * cell_ - 0.5;
+    const double height = -0.5 * gap * cell_ - bowl * (x * x + y * y) * 2.0;
+    return placed({x + noise(jitter), y + noise(jitter), height + noise(roughness)});
   }
 
-  [[nodiscard]] Eigen::Vector3d way(int i, int j) {
-    const double cell = width(i, j);
-    return placed({slide * cell + noise(perturbation, cell), noise(perturbation, cell),
-                   approach_way * cell + noise(perturbation, cell)});
+  [[nodiscard]] Eigen::Vector3d way() {
+    return placed({slide * cell_ + noise(perturbation), noise(perturbation),
+                   approach_way * cell_ + noise(perturbation)});
   }
 
  private:
-  [[nodiscard]] double width(int i, int j) const {
-    return std::min(side_->width(i), side_->width(j));
-  }
-
-  [[nodiscard]] double noise(double amplitude, double cell) {
-    return amplitude * cell * (2.0 * random_->unit() - 1.0);
+  [[nodiscard]] double noise(double amplitude) {
+    return amplitude * cell_ * (2.0 * random_->unit() - 1.0);
   }
 
   [[nodiscard]] Eigen::Vector3d placed(const Eigen::Vector3d& point) const {
@@ -88,7 +55,7 @@ class Patch {
     return {0.8 * point.x() - 0.6 * point.y(), -0.6 * point.x() - 0.8 * point.y(), -point.z()};
   }
 
-  const Side* side_;
+  double cell_;
   bool is_upper_;
   Random* random_;
 };
@@ -124,10 +91,6 @@ double coordinate(const EndContactOptions& options, Random& random) {
 
 mesh::MovingMesh moving_patches(const PatchOptions& options) {
   if (options.cells < 1) throw std::invalid_argument("a patch must have a cell");
-  if (!(options.grading >= 1.0 && options.grading <= 1e9)) {
-    throw std::invalid_argument("grading must be from 1 to 1e9");
-  }
-  const Side side(options);
   const int row = options.cells + 1;
   Random random(mix(options.seed ^ hash("moving patches")));
   PointRows start(2 * row * row, 3), end(2 * row * row, 3);
@@ -135,12 +98,12 @@ mesh::MovingMesh moving_patches(const PatchOptions& options) {
   int vertex = 0;
   for (const bool is_upper : {false, true}) {
     add_faces(options.cells, vertex, random, faces);
-    Patch patch(side, is_upper, random);
+    Patch patch(options.cells, is_upper, random);
     for (int i = 0; i < row; ++i) {
       io::throw_if_interrupted();
       for (int j = 0; j < row; ++j, ++vertex) {
         start.row(vertex) = patch.start(i, j);
-        end.row(vertex) = start.row(vertex) + patch.way(i, j).transpose();
+        end.row(vertex) = start.row(vertex) + patch.way().transpose();
       }
     }
   }

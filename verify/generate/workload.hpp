@@ -25,9 +25,6 @@ struct PatchOptions {
   /// Cells along a side of a patch, at least 1. The default gives well over 100,000 candidates of
   /// each kind, some per cent of which collide, with any seed.
   int cells = 60;
-  /// The ratio of the widths of the last and the first cells along a side, at least 1. All lengths
-  /// above are in units of the cell's width at a vertex.
-  double grading = 1.0;
 };
 
 /// The two patches: a function of the options, the same on every machine.

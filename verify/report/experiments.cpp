@@ -256,14 +256,6 @@ class ExperimentRun {
                  .on_wrong = options_.on_wrong,
                  .stop = options_.stop});
     std::ranges::move(measured, std::back_inserter(result_.all));
-    if (trial.experiment == Experiment::field) judge_recordings(group, truths);
-  }
-
-  void judge_recordings(const data::QueryGroup& group, judge::GroundTruthCache& truths) {
-    for (const solvers::Solver* const recorded : options_.recorded) {
-      auto judged = judge_recorded(group, truths, *recorded, options_.stop, options_.on_wrong);
-      if (judged) result_.all.push_back(std::move(*judged));
-    }
   }
 
   // ---- Filters ----------------------------------------------------------------------------------

@@ -40,8 +40,6 @@ struct ExperimentOptions {
   /// Further methods: in child processes under these options, in *field* and *stability*.
   std::vector<const fast::Method*> plugins = {};
   solvers::SolverProcessOptions process = {};
-  /// Recorded answers, in *field*, without times.
-  std::vector<const solvers::Solver*> recorded = {};
   /// Those to do; all if empty.
   std::vector<Experiment> experiments = {};
   /// The greatest number of queries of a group that are asked, an evenly spread sample; positive. A

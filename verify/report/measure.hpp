@@ -80,13 +80,4 @@ struct MeasureOptions {
     const fast::MethodOptions& options, Experiment experiment,
     const std::atomic<bool>* stop = nullptr, const OnWrong& on_wrong = nullptr);
 
-/// Judges recorded answers to those queries of the group of `truths` that they have an answer to,
-/// by the names of their sources; nothing is timed. No result if there are none, or once *stop is
-/// true (it may be null).
-[[nodiscard]] std::optional<Measurement> judge_recorded(const data::QueryGroup& group,
-                                                        judge::GroundTruthCache& truths,
-                                                        const solvers::Solver& recorded,
-                                                        const std::atomic<bool>* stop = nullptr,
-                                                        const OnWrong& on_wrong = nullptr);
-
 }  // namespace touchstone::verify::report

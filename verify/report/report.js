@@ -1,5 +1,5 @@
 "use strict";
-// The contents of a report: tables, figures, findings and changes as data, computed from measurements (the JSON of
+// The contents of a report: tables, figures and findings as data, computed from measurements (the JSON of
 // `touchstone report`) and published numbers (docs/data/published.json). report_page.js writes and draws them; docs/results.md
 // has the same tables.
 
@@ -148,39 +148,6 @@ const report = (function () {
         ...all.map((m) => countedShare(m.false_negatives, falseNegativeRate(m)))]);
     }
     return d3.sort(tables.values(), (table) => Number(table.isFamily));
-  }
-
-  // ---- Changes ----------------------------------------------------------------------------------
-
-  /// A time counts as changed if it is by more than this factor, as a multiple of the certified solver's: machines
-  /// differ, and are noisy.
-  const changedTime = 1.25;
-
-  /// The changes in the experiment "field" since an earlier report: a row for each method and place.
-  function changesBetween(before, after) {
-    const [old, now] = [before, after].map((given) => ofExperiment(given, "field"));
-    const alike = (all, m) => all.find((one) => placeOf(one) === placeOf(m) && one.method === m.method);
-    const digest = (given, m) => given.groups.find((group) => group.name === m.group && group.kind === m.kind)?.digest;
-    const countText = (was, is, count) => ((was[count] === is[count] && was.asked === is.asked) ||
-      (was[count] === 0 && is[count] === 0) ? "=" : `${was[count]} of ${was.asked} → ${is[count]} of ${is.asked}`);
-    function timeText(was, is) {
-      const [from, to] = [timeRatio(was), timeRatio(is)];
-      return to > changedTime * from || from > changedTime * to ? `${short(from)} → ${short(to)}` : "=";
-    }
-    const rows = [];
-    for (const m of now) {
-      const was = alike(old, m);
-      const cells = !was ? Array(4).fill("new") : [
-        ...["false_negatives", "false_positives", "late_tois"].map((count) => countText(was, m, count)), timeText(was, m)];
-      if (cells.every((text) => text === "=")) continue;
-      const [from, to] = [digest(before, m), digest(after, m)];
-      rows.push([m.method, ...cells, placeOf(m) + (was && from && to && from !== to ? " (other queries)" : "")]);
-    }
-    for (const m of old) {
-      if (!alike(now, m)) rows.push([m.method, ...Array(4).fill("gone"), placeOf(m)]);
-    }
-    return { title: `since ${before.date || "an earlier run"}`,
-      columns: ["method", "FN", "FP", "late", "÷ certified", "data"], rows };
   }
 
   // ---- Figures ----------------------------------------------------------------------------------
@@ -534,17 +501,12 @@ const report = (function () {
   }
 
   /// All that a page shows, in its order: the first of the figures stands at the top.
-  /// \param page `title`, `about` and `findings`; `tables` at the top; `measurements`, and `before`, those of an earlier run
+  /// \param page `title`, `about` and `findings`; `tables` at the top; `measurements`
   function contentsOf(page, published) {
     const given = page.measurements;
     const figures = figuresOf(given, published);
     const findings = [...page.findings, ...findingsOf(given, figures)];
     const top = [...page.tables, { id: "table_1", title: "Table 1: all methods", tables: fieldTables(given, published), meanings }];
-    if (page.before) {
-      const changes = changesBetween(page.before, given);
-      if (changes.rows.length === 0) findings.push(`Nothing has changed ${changes.title}.`);
-      else top.unshift({ id: "changes", title: "What has changed", tables: [changes] });
-    }
     const further = [...separationSections(given, published),
       { id: "filters", title: "What Tight-Inclusion misses with each filter", tables: filterTables(given) }]
       .map((section) => ({ ...section, meanings }));

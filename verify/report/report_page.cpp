@@ -26,14 +26,12 @@ Json json_of(const Measurements& measurements) {
   return to_json(with_printable_texts(measurements));
 }
 
-std::string page_of(const Opening& opening, const Measurements& measured,
-                    const Measurements* before) {
+std::string page_of(const Opening& opening, const Measurements& measured) {
   const Json data{{"title", opening.title},
                   {"about", opening.about},
                   {"findings", opening.findings},
                   {"tables", opening.tables},
-                  {"measurements", json_of(measured)},
-                  {"before", before == nullptr ? Json() : json_of(*before)}};
+                  {"measurements", json_of(measured)}};
   std::string page = io::html_beginning(opening.title, page_style()) +
                      "<header></header>\n<main></main>\n"
                      "<noscript><p class=\"warning\">This page is written by a script.</p>"
@@ -48,11 +46,11 @@ std::string page_of(const Opening& opening, const Measurements& measured,
 
 }  // namespace
 
-std::string report_page(const Measurements& measured, const Measurements* before) {
+std::string report_page(const Measurements& measured) {
   return page_of({.title = "Touchstone report",
                   .about = "Methods of continuous collision detection, their speed against their "
                            "error. The truth is the exact oracle’s."},
-                 measured, before);
+                 measured);
 }
 
 std::string stability_page(const StabilityResult& result, const std::string& command) {
@@ -72,16 +70,14 @@ std::string stability_page(const StabilityResult& result, const std::string& com
   }
   opening.tables.push_back(
       {{"id", "overview"}, {"title", "Overview"}, {"tables", {overview_of(result)}}});
-  return page_of(opening,
-                 {.command = command,
-                  .version = {},
-                  .machine = {},
-                  .date = {},
-                  .groups = {},
-                  .all = {},
-                  .stability = marks_of(result),
-                  .interrupted = result.total.interrupted},
-                 nullptr);
+  return page_of(opening, {.command = command,
+                           .version = {},
+                           .machine = {},
+                           .date = {},
+                           .groups = {},
+                           .all = {},
+                           .stability = marks_of(result),
+                           .interrupted = result.total.interrupted});
 }
 
 }  // namespace touchstone::verify::report

@@ -20,10 +20,8 @@
 
 namespace touchstone::verify::report {
 
-/// The page as HTML. \param before an earlier report, whose differences from this one stand below
-/// the first figure; may be null.
-[[nodiscard]] std::string report_page(const Measurements& measured,
-                                      const Measurements* before = nullptr);
+/// The page as HTML.
+[[nodiscard]] std::string report_page(const Measurements& measured);
 
 /// The map of stability as HTML: the methods that keep their promise, the worst of each hardness as
 /// a table, and as figures the worst outcome, the errors of the time of impact, time and checks of

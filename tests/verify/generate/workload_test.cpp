@@ -40,26 +40,7 @@ TEST(Workload, PatchesHaveEnoughCandidatesOfWhichSomePerCentCollideWithAnySeed) 
   }
 }
 
-TEST(Workload, GradedPatchesHaveCellsOfAllWidths) {
-  const mesh::MovingMesh mesh = moving_patches({.cells = 40, .grading = 1000.0});
-  double least = 1.0, greatest = 0.0;
-  for (const auto& [a, b] : mesh.edges) {
-    const auto place = [&](std::int32_t i) {
-      return Eigen::Vector3d(mesh.vertices[static_cast<std::size_t>(i)].start.data());
-    };
-    const double length = (place(a) - place(b)).norm();
-    least = std::min(least, length);
-    greatest = std::max(greatest, length);
-  }
-  EXPECT_GE(greatest / least, 1000.0);
-  for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
-    std::size_t collisions = 0;
-    for (const Query& query : patch_queries(mesh, kind)) {
-      collisions += exact::decide(kind, query).collides() ? 1U : 0U;
-    }
-    EXPECT_GE(collisions, 100U) << to_string(kind);
-  }
-  EXPECT_THROW((void)moving_patches({.grading = 0.5}), std::invalid_argument);
+TEST(Workload, PatchesHaveCells) {
   EXPECT_THROW((void)moving_patches({.cells = 0}), std::invalid_argument);
 }
 

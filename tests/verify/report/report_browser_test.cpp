@@ -148,32 +148,6 @@ TEST_F(Browser, OpensWithItsFindings) {
       "msrf | ✗ 2 | 1 (1.3 %) | 0.4 | 40 | 0 | 100 of 200 | 20 | 0 | – | – | 12.90 | 16 | ✗ 386");
 }
 
-/// Of counts and times; not of times within their noise.
-TEST_F(Browser, SaysWhatHasChangedSinceAnEarlierReport) {
-  Measurements before = tests::small_report();
-  before.all.push_back(tests::measured("simulation", "fprf", 30.0, 0, 2));
-  before.all.push_back(tests::measured("simulation", "rp", 30.0));
-  before.groups = {{.name = "simulation", .kind = Kind::vertex_face, .queries = 200, .digest = 1}};
-  Measurements after = before;
-  after.groups[0].digest = 2;
-  after.all[0].nanoseconds *= 1.2;
-  after.all[1].false_positives = 3;
-  after.all[1].nanoseconds *= 0.5;
-  after.all[2].method = "mine";
-  after.all.end()[-2].false_negatives = 5;
-  after.all.end()[-1].nanoseconds *= 1.44;
-  std::string dom = load(report_page(after, &before));
-  dom = dom.substr(dom.find("<section id=\"changes\""));
-  EXPECT_EQ(
-      texts(dom.substr(0, dom.find("</section>")), "tr"),
-      (Texts{"method | FN | FP | late | ÷ certified | data",
-             "tight_inclusion | = | 8 of 100 → 3 of 100 | = | 250 → 125 | handcrafted, vertex-face",
-             "mine | new | new | new | new | handcrafted, vertex-face",
-             "fprf | ✗ 2 of 100 → 5 of 100 | = | = | = | simulation, vertex-face (other queries)",
-             "rp | = | = | = | 3 → 4.32 | simulation, vertex-face (other queries)",
-             "msrf | gone | gone | gone | gone | handcrafted, vertex-face"}));
-}
-
 /// Writes what a table is as CSV and as Markdown.
 constexpr const char* written = R"(<p id="written"></p><script>
 const hostile = { columns: ["a", "b|c"], rows: [["=1+1", 'x, "y"'], ["| **y** <b>", "_a_ tight_inclusion"],
