@@ -10,7 +10,6 @@
 #include <limits>
 #include <regex>
 #include <set>
-#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
@@ -200,14 +199,6 @@ TEST_F(Browser, NoTextOfATableIsAFormulaOrMarkup) {
             "%7C%20http%5C://a%20%7C%20-1e-300%20%7C%0A");
 }
 
-/// The tolerances that a method states as achieved.
-Spread& achieved(Measurements& measurements) {
-  for (Measurement& m : measurements.all) {
-    if (m.achieved_tolerance) return *m.achieved_tolerance;
-  }
-  throw std::invalid_argument("nobody achieves a tolerance");
-}
-
 /// The heights of the marks of a drawn figure with this end of its description.
 std::vector<double> heights(const std::string& drawn, const std::string& end) {
   const std::regex mark("translate\\([0-9.]+,([0-9.]+)\\)[^>]*><title>[^<]*" + end + "</title>");
@@ -220,7 +211,9 @@ std::vector<double> heights(const std::string& drawn, const std::string& end) {
 
 TEST_F(Browser, PanelsHaveOneScaleWithWhatIsInfiniteAtTheUpperEnd) {
   Measurements measurements = tests::small_report();
-  achieved(measurements).max = std::numeric_limits<double>::infinity();
+  std::ranges::find_if(measurements.all, [](const Measurement& m) {
+    return m.achieved_tolerance.has_value();
+  })->achieved_tolerance->max = std::numeric_limits<double>::infinity();
   measurements.all.push_back(tests::measured("simulation", "certified", 10.0));
   const std::string dom = load(report_page(measurements), 1400);
   EXPECT_EQ(complaints(), "");
@@ -239,32 +232,6 @@ TEST_F(Browser, PanelsHaveOneScaleWithWhatIsInfiniteAtTheUpperEnd) {
 
 // ---- The map of stability -----------------------------------------------------------------------
 
-/// A level for each number, as the error of the time of impact, as time in nanoseconds, and as
-/// checks; every other one has a false negative.
-StabilityResult map_of(const std::vector<double>& numbers) {
-  StabilityResult result;
-  result.count = 1;
-  const generate::Hardness& hardness = generate::hardness_from_name("distance");
-  for (std::size_t i = 0; i < numbers.size(); ++i) {
-    StabilityCell cell{
-        .sort = {.hardness = &hardness,
-                 .level = hardness.levels.at(i % hardness.levels.size()),
-                 .kind = i < hardness.levels.size() ? Kind::vertex_face : Kind::edge_edge},
-        .judged = {}};
-    cell.judged.queries = cell.judged.collisions = 1;
-    jobs::MethodResult judged{.name = "planted", .timed = true, .judgement = {}};
-    judged.judgement.queries = judged.judgement.collisions = 1;
-    judged.judgement.toi_errors.add(numbers[i]);
-    judged.judgement.nanoseconds = numbers[i];
-    judged.judgement.checks = static_cast<std::uint64_t>(std::min(numbers[i], 1e15));
-    judged.judgement.faults[static_cast<std::size_t>(judge::Fault::false_negative)] = i % 2;
-    cell.judged.methods.push_back(judged);
-    result.total += cell.judged;
-    result.cells.push_back(cell);
-  }
-  return result;
-}
-
 constexpr double infinity = std::numeric_limits<double>::infinity();
 const std::vector<double> numbers_of_any_size{
     0.0,     4.9e-324, 2.3e-308, 3e-100, 3.2e-13, 0.0123, 0.999,   1.5,   99.9,    999.6,   8.88e5,
@@ -280,7 +247,7 @@ document.getElementById("wide").textContent =
 </script>)";
 
 TEST_F(Browser, NumbersOfAnySizeFitIntoTheirCells) {
-  std::string page = stability_page(map_of(numbers_of_any_size), "touchstone stability");
+  std::string page = stability_page(tests::map_of(numbers_of_any_size), "touchstone stability");
   page.insert(page.rfind("</body>"), measuring);
   for (const int width : {1200, 500}) {
     const std::string dom = load(page, width);
