@@ -3,10 +3,13 @@
 /// \file
 /// Artificial measurements for tests of reports, few and with simple numbers.
 
+#include <algorithm>
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "verify/report/measurement.hpp"
+#include "verify/report/stability.hpp"
 
 namespace touchstone::tests {
 
@@ -99,6 +102,35 @@ namespace touchstone::tests {
   mark.worst_rate = 0.4;
   report.stability.push_back(mark);
   return report;
+}
+
+/// A level for each number, as the error of the time of impact, as time in nanoseconds, and as
+/// checks; every other one has a false negative.
+[[nodiscard]] inline verify::report::StabilityResult map_of(const std::vector<double>& numbers,
+                                                            const std::string& method = "planted") {
+  using namespace verify;
+  report::StabilityResult result;
+  result.count = 1;
+  const generate::Hardness& hardness = generate::hardness_from_name("distance");
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    report::StabilityCell cell{
+        .sort = {.hardness = &hardness,
+                 .level = hardness.levels.at(i % hardness.levels.size()),
+                 .kind = i < hardness.levels.size() ? Kind::vertex_face : Kind::edge_edge},
+        .judged = {}};
+    cell.judged.queries = cell.judged.collisions = 1;
+    jobs::MethodResult judged{
+        .name = method, .promise = fast::Promise::conservative, .timed = true, .judgement = {}};
+    judged.judgement.queries = judged.judgement.collisions = 1;
+    judged.judgement.toi_errors.add(numbers[i]);
+    judged.judgement.nanoseconds = numbers[i];
+    judged.judgement.checks = static_cast<std::uint64_t>(std::min(numbers[i], 1e15));
+    judged.judgement.faults[static_cast<std::size_t>(judge::Fault::false_negative)] = i % 2;
+    cell.judged.methods.push_back(judged);
+    result.total += cell.judged;
+    result.cells.push_back(cell);
+  }
+  return result;
 }
 
 }  // namespace touchstone::tests

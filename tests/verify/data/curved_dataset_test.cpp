@@ -135,13 +135,8 @@ TEST(CurvedCsv, LosesCountAtALineThatIsNoRow) {
       "query: mend this line";
   EXPECT_EQ(error_in("a.csv", "rational,2\n1,2,3\n"),
             "a.csv:2: 3 columns, expected 4, 5, 8 or 9" + lost);
-  EXPECT_EQ(error_in("a.csv", "rational,2\n" + rows + "1,2,3\n"),
-            "a.csv:14: 3 columns, expected 4 as before" + lost);
   EXPECT_EQ(error_in("a.csv", "rational,2\n" + rows + "degree,2\n"),
             "a.csv:14: 2 columns, expected 4 as before" + lost);
-  EXPECT_EQ(error_in("a.csv", "rational,2\n" + rows + rows.substr(0, rows.find('\n') + 1)),
-            "a.csv:14: truncated query: 1 of 12 rows; if a row is missing further up, later "
-            "queries were composed of two");
 }
 
 TEST(CurvedCsv, SkipsAQueryWithAnInvalidNumberOrWeight) {
@@ -306,22 +301,6 @@ TEST(CurvedNpy, OfAnotherShapeIsRefused) {
   EXPECT_EQ(error({8, 4, 3, 5}), "a.npy: shape (8, 4, 3, 5)" + expected);
   EXPECT_EQ(error({6, 4, 4, 5}), "a.npy: shape (6, 4, 4, 5)" + expected);
   EXPECT_EQ(error({40, 4, 3}), "a.npy: shape (40, 4, 3)" + expected);
-}
-
-TEST(CurvedDatasets, HaveCompanions) {
-  const TemporaryFolder folder;
-  (void)folder.file("a_ee_mma_bool.json", "[0,1,0]");
-  (void)folder.file("a_ee_toi.csv", "query,toi\n1,0.5\n");
-  for (const auto& [name, text] :
-       {std::pair{"a_ee.npy", array_text(rational, 3)},
-        std::pair{"a_ee.csv",
-                  rational.line + "\n" + numbered_text(rational.shape, 3, true, false)}}) {
-    const auto records = read_all(*open_dataset(folder.file(name, text)));
-    expect_numbered(records, {0, 1, 2}, rational.shape);
-    EXPECT_EQ(records.at(1).collides, std::optional(true));
-    EXPECT_EQ(records.at(1).toi, std::optional(exact::Rational(1, 2)));
-    EXPECT_EQ(records.at(2).collides, std::optional(false));
-  }
 }
 
 }  // namespace

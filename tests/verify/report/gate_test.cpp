@@ -9,6 +9,7 @@
 
 #include "tests/support/folder_test.hpp"
 #include "verify/io/dataset_error.hpp"
+#include "verify/report/bench_report.hpp"
 
 namespace touchstone::verify::report::gate_test {
 namespace {
@@ -50,23 +51,9 @@ TEST(Gate, ABaselineIsReadAsItIsWritten) {
   EXPECT_THROW(static_cast<void>(read_baseline(other)), io::DatasetError);
 }
 
-TEST(Gate, NewAnswersAndMendedOnesAreToldApart) {
-  const KnownAnswers before =
-      wrong_answers_of(results_of({{1, Fault::false_negative}, {2, Fault::late_toi}}));
-  ASSERT_EQ(before.size(), 2);
-  // Allowed by the promise, hence never in a baseline.
+// New answers and mended ones, and the badge, are in tests/transcripts/certify.md.
+TEST(Gate, AnAnswerThatTheRunDidNotAskForStaysKnownAndAllowedOnesAreNone) {
   EXPECT_TRUE(wrong_answers_of(results_of({{3, Fault::false_positive}})).empty());
-
-  const auto change =
-      change_of(before, results_of({{2, Fault::late_toi}, {2, Fault::false_negative}}));
-  ASSERT_EQ(change.fresh.size(), 1);
-  EXPECT_EQ(change.fresh.begin()->fault, Fault::false_negative);
-  ASSERT_EQ(change.mended.size(), 1);
-  EXPECT_EQ(change.mended.begin()->index, 1);
-  EXPECT_EQ(change.now.size(), 2);
-}
-
-TEST(Gate, AnAnswerThatTheRunDidNotAskForStaysKnown) {
   const KnownAnswers before{{"naive", "a_ee.csv", "edge-edge", 10, Fault::crash},
                             {"naive", "b_ee.csv", "edge-edge", 1, Fault::crash},
                             {"other", "a_ee.csv", "edge-edge", 1, Fault::crash}};
@@ -81,16 +68,14 @@ TEST(Gate, MoreAnswersThanAreKeptAreAnError) {
   EXPECT_THROW(static_cast<void>(wrong_answers_of(results)), std::runtime_error);
 }
 
-TEST(Gate, ABadgeHasTheScoreAndItsColour) {
-  const auto badge_of = [](const std::vector<std::pair<std::uint64_t, Fault>>& faults) {
-    return badge(results_of(faults)[0].methods[0]);
-  };
-  const std::string kept = badge_of({{1, Fault::false_positive}});
-  const std::string broken = badge_of({{1, Fault::false_negative}});
-  EXPECT_NE(kept.find("0 misses, 1 false alarms"), std::string::npos);
-  EXPECT_NE(kept.find("#2a7d2e"), std::string::npos);
-  EXPECT_NE(broken.find("1 misses, 0 false alarms"), std::string::npos);
-  EXPECT_EQ(broken.find("#2a7d2e"), std::string::npos);
+// The rest of it is in tests/transcripts/bench.md.
+TEST(BenchReport, AnImpactThatContradictsTheCollisionsIsWrong) {
+  BenchReport report;
+  report.step.emplace().earliest.emplace();
+  EXPECT_FALSE(has_wrong_answers(report));
+  report.step->earliest_agrees = false;
+  EXPECT_TRUE(has_wrong_answers(report));
+  EXPECT_NE(to_text(report).find("NOT that of the collisions"), std::string::npos);
 }
 
 }  // namespace

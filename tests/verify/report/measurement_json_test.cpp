@@ -79,13 +79,7 @@ TEST(MeasurementJson, ComesBackWithoutLoss) {
   const nlohmann::json written = to_json(example());
   const Measurements read = measurements_from_json(nlohmann::json::parse(written.dump()));
   ASSERT_EQ(read.all.size(), 2U);
-  const Measurement& m = read.all[0];
-  EXPECT_EQ(m.separation, (Separation{.distance = 1e-100, .norm = Norm::l2}));
-  EXPECT_EQ(m.certified_nanoseconds, 1.0 / 3.0);
-  EXPECT_EQ(m.toi_error, (Spread{.count = 38, .median = 1e-300, .max = 0.7}));
-  EXPECT_EQ(m.achieved_tolerance, with_all_fields().achieved_tolerance);
-  EXPECT_EQ(written.at("measurements")[0].at("achieved_tolerance").at("max"), "Infinity");
-  EXPECT_EQ(m.collision_times, with_all_fields().collision_times);
+  EXPECT_EQ(read.all[0].achieved_tolerance, with_all_fields().achieved_tolerance);
   EXPECT_TRUE(std::isnan(read.all[1].nanoseconds));
   EXPECT_EQ(read.stability, example().stability);
   EXPECT_EQ(to_json(read), written) << "every field that is written is read";
@@ -114,16 +108,16 @@ TEST(MeasurementJson, ReadsWhatEarlierVersionsWrote) {
 }
 
 TEST(MeasurementJson, InvalidTextIsRefused) {
-  nlohmann::json other_version = to_json(example());
-  other_version["format"] = "touchstone measurements 0";
-  nlohmann::json without_asked = to_json(example());
-  without_asked["measurements"][0].erase("asked");
-  nlohmann::json unknown_kind = to_json(example());
-  unknown_kind["measurements"][0]["kind"] = "face-face";
-  for (const nlohmann::json& bad :
-       {nlohmann::json(3), nlohmann::json::object(), other_version, without_asked, unknown_kind}) {
-    EXPECT_THROW(static_cast<void>(measurements_from_json(bad)), std::runtime_error)
-        << bad.dump().substr(0, 80);
+  const nlohmann::json good = to_json(example());
+  for (const char* const patch :
+       {R"([{"op": "replace", "path": "/format", "value": "touchstone measurements 0"}])",
+        R"([{"op": "remove", "path": "/measurements/0/asked"}])",
+        R"([{"op": "replace", "path": "/measurements/0/kind", "value": "face-face"}])",
+        R"([{"op": "replace", "path": "", "value": 3}])"}) {
+    EXPECT_THROW(
+        static_cast<void>(measurements_from_json(good.patch(nlohmann::json::parse(patch)))),
+        std::runtime_error)
+        << patch;
   }
 }
 

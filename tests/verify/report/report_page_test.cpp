@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "tests/support/measurements.hpp"
+#include "verify/view/view_page.hpp"
 
 namespace touchstone::verify::report::report_page_test {
 namespace {
@@ -32,41 +33,28 @@ TEST(Page, LoadsNothingAndHoldsNoMarkupOfNames) {
 TEST(Page, HasTextsThatEndNoElementAndTheNoticeOfD3) {
   EXPECT_TRUE(d3_script().starts_with("// https://d3js.org v")) << d3_script().substr(0, 80);
   EXPECT_NE(d3_script().find("Copyright"), std::string_view::npos);
-  for (const std::string_view text : {d3_script(), report_script(), page_script(), page_style()}) {
+  for (const std::string_view text : {d3_script(), report_script(), page_script(), page_style(),
+                                      view::view_script(), view::view_style()}) {
     for (const std::string_view end : {"</script", "</style", "<!--"}) {
       EXPECT_EQ(text.find(end), std::string_view::npos) << end;
     }
   }
 }
 
-StabilityResult map_of_one_cell(const std::string& method) {
-  StabilityResult result;
-  result.seed = 77;
-  result.count = 10;
-  StabilityCell cell{.sort = {.hardness = &generate::hardness_from_name("distance"),
-                              .level = -50,
-                              .kind = Kind::edge_edge},
-                     .judged = {}};
-  cell.judged.queries = 10;
-  cell.judged.collisions = 5;
-  jobs::MethodResult judged{
-      .name = method, .promise = fast::Promise::conservative, .timed = true, .judgement = {}};
-  judged.judgement.queries = 10;
-  judged.judgement.collisions = 5;
-  judged.judgement.nanoseconds = 1000.0;
-  judged.judgement.faults[static_cast<std::size_t>(judge::Fault::false_negative)] = 1;
-  cell.judged.methods.push_back(judged);
-  result.total += cell.judged;
-  result.cells.push_back(cell);
-  return result;
-}
-
 TEST(StabilityPage, HoldsNoMarkupOfNames) {
-  const std::string page = stability_page(map_of_one_cell("</script>&\"\xE9"), "</pre>\x1b");
+  const std::string page =
+      stability_page(tests::map_of({0.0, 0.0}, "</script>&\"\xE9"), "</pre>\x1b");
   EXPECT_TRUE(contains(page, R"("\u003c/script>&\"\\xe9 (conservative): breaks its promise.")"));
   EXPECT_TRUE(contains(page, R"("command":"\u003c/pre>\\x1b")"));
-  EXPECT_TRUE(contains(page, R"(["\u003c/script>&\"\\xe9","false negative 20 %"])"));
+  EXPECT_TRUE(contains(page, R"(["\u003c/script>&\"\\xe9","false negative 50 %"])"));
   EXPECT_FALSE(contains(page, "</script>&"));
+}
+
+TEST(ViewPage, HoldsItsQueriesAndTheScriptAndNoMarkupOfNames) {
+  const std::string page = view::view_page({{{"label", "</script>"}}}, "touchstone view a<b");
+  EXPECT_TRUE(contains(page, R"(id="queries">[{"label":"\u003c/script>"}]</script>)"));
+  EXPECT_TRUE(contains(page, std::string(view::view_script())));
+  EXPECT_TRUE(contains(page, "touchstone view a&lt;b"));
 }
 
 }  // namespace

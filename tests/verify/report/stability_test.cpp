@@ -113,24 +113,6 @@ TEST(MeasureStability, CountsWhatIsWrongInEachCell) {
   }
 }
 
-/// The queries and their truth are about the requested distance.
-TEST(MeasureStability, TakesASeparation) {
-  const auto certified = solvers::solver_in_process(solvers::find_method("certified"), {});
-  StabilityOptions options{.hardnesses = {&hardness_from_name("scale")}, .count = count};
-  options.certify.separation = {.distance = 0.01, .norm = Norm::l2};
-  options.certify.solvers = {certified.get()};
-  const StabilityResult result = measure_stability(options);
-  EXPECT_FALSE(jobs::has_wrong_answers(result.total));
-  EXPECT_EQ(result.total.collisions, result.total.queries / 2);
-  EXPECT_EQ(result.total.labels, result.total.queries) << "labels are about the same separation";
-  for (const auto& [sort, judged] : result.cells) {
-    EXPECT_EQ(judged.separation,
-              separation_at(*sort.hardness, sort.level, options.certify.separation));
-  }
-  options.certify.separation.distance = 1e9;
-  EXPECT_THROW((void)measure_stability(options), std::invalid_argument);
-}
-
 TEST(MeasureStability, AStopLeavesWhatWasJudged) {
   std::atomic<bool> stop = false;
   double latest = 0.0;

@@ -53,35 +53,6 @@ OwnCurves on_curves(const std::vector<double>& heights) {
   return own;
 }
 
-/// The answer of a method, if it gives one.
-std::optional<fast::Answer> asked(const OwnCurves& curves, const std::string& method = "certified",
-                                  const Separation& separation = {}) {
-  const Replies replies =
-      ask_methods({method}, {.label = "curved", .query = curves, .separation = separation});
-  EXPECT_EQ(replies.answers.size() + replies.notes.size(), 1U);
-  if (replies.answers.empty()) return std::nullopt;
-  EXPECT_EQ(replies.answers[0].solver, method);
-  return replies.answers[0].answer;
-}
-
-TEST(Ask, TheCertifiedSolverOnCurves) {
-  OwnCurves own = on_curves({0.5, 0.5, -1.5});
-  const auto answer = asked(own);
-  ASSERT_TRUE(answer.has_value());
-  EXPECT_EQ(answer->verdict, fast::Verdict::yes);
-  EXPECT_LT(answer->toi_lower, 0.5);
-  EXPECT_GE(answer->toi_upper, 0.5);
-  EXPECT_NEAR(answer->toi_lower, answer->toi_upper, 1e-11);
-  own.curves[2].weights = {0.5};
-  EXPECT_NEAR(asked(own)->toi_upper, 0.5, 1e-11);
-  own.curves[0].weights = {1, 1, 2};
-  EXPECT_LT(asked(own)->toi_upper, 0.5);
-  own.curves[0].control[2][2] = 0.25;
-  EXPECT_EQ(asked(own)->verdict, fast::Verdict::no);
-  EXPECT_EQ(asked(own, "certified", {.distance = 0.25, .norm = Norm::l2})->verdict,
-            fast::Verdict::yes);
-}
-
 TEST(Ask, CurvesOfDegreeOneAsStraightLines) {
   OwnCurves lines = on_curves({1, -1});
   lines.curves[3] = {.control = {{0, 4, 0}}};

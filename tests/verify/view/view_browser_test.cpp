@@ -202,7 +202,7 @@ TEST_F(ViewBrowser, ShowsContactTimeAndSolvers) {
   ask(*inclusion);
   const nlohmann::json result = result_of({falling(), falling(0x1p-52)}, R"(
     const look = () => ({
-      verdict: find("sentence").textContent, names: text("#rows .name"), said: text("#rows .said"),
+      verdict: find("sentence").textContent, names: text("#rows .name"),
       marks: all("#rows .mark.toi, #rows .mark.approach").map((mark) => mark.style.left),
       subintervals: all("#rows .subinterval").map((bar) => bar.textContent + bar.title),
       cursor: document.querySelector("#rows .cursor").style.left, now: find("now").textContent,
@@ -231,8 +231,6 @@ TEST_F(ViewBrowser, ShowsContactTimeAndSolvers) {
   const nlohmann::json& second = result.at(2);
   EXPECT_EQ(second.at("verdict"), "vertex-face: free.");
   EXPECT_EQ(second.at("subintervals"), nlohmann::json::array({"face +separated by face +"}));
-  EXPECT_EQ(second.at("said").at(3).get<std::string>().substr(0, 3), "yes");
-  EXPECT_NE(second.at("said").at(3).get<std::string>().find("✗ false positive"), std::string::npos);
   EXPECT_EQ(result.at(4).get<std::string>().substr(0, 22), "Radius seen: 4.44e-16 ");
   for (const std::size_t i : std::array<std::size_t, 3>{0, 2, 3}) {
     for (const nlohmann::json& count : result.at(i).at("drawn")) EXPECT_GT(count, 500) << i;
@@ -272,11 +270,9 @@ TEST_F(ViewBrowser, DrawsWhatIsPastedWithoutAVerdict) {
     const rest = "0 0 0 4 0 0 0 4 0  1 1 -3 0 0 0 4 0 0 0 4 0";
     const results = [
       `0.1 1/3 -0x1.8p-3 ${rest}`,
-      `touchstone::Kind::edge_edge // 12 numbers, then 12\nQuery{{0x1p-1074, -1e300, 2.5, ${rest.replace(/ +/g, ", ")}}}`,
       `{"kind": "edge-edge", "coordinates": ["0x1p+0", 2, 3, ${rest.replace(/ +/g, ", ")}]}`,
       `[[1, 2, 4], ${rest.replace(/ +/g, ", ")}]`,
       `# made by a simulator\nv 1 2 5\n${rest.match(/\S+ \S+ \S+/g).map((row) => `v ${row}`).join("\n")}\n`,
-      `1,2,1,1,3,1\n${rest.match(/\S+ \S+ \S+/g).map((row) => row.replace(/ /g, ",1,") + ",1").join("\n")}`,
       `x,y,z,label\n1,2,7,0\n${rest.match(/\S+ \S+ \S+/g).map((row) => row.replace(/ /g, ",") + ",0").join("\n")}`,
     ].map((words) => [paste(words), ...start()]);
     const list = (x) => `[${Array(24).fill(x).join(",")}]`;
@@ -295,11 +291,9 @@ TEST_F(ViewBrowser, DrawsWhatIsPastedWithoutAVerdict) {
   )");
   const std::vector<std::array<std::string, 4>> expected{
       {"0x1.999999999999ap-4", "0x1.5555555555555p-2", "-0x1.8p-3", "vertex-face"},
-      {"0x0.0000000000001p-1022", "-0x1.7e43c8800759cp+996", "0x1.4p+1", "edge-edge"},
       {"0x1p+0", "0x1p+1", "0x1.8p+1", "edge-edge"},
       {"0x1p+0", "0x1p+1", "0x1p+2", "vertex-face"},
       {"0x1p+0", "0x1p+1", "0x1.4p+2", "vertex-face"},
-      {"0x1p-1", "0x1p+0", "0x1.8p+1", "vertex-face"},
       {"0x1p+0", "0x1p+1", "0x1.cp+2", "vertex-face"},
       {"-0x1p-1", "0x0p+0", "0x1.0624dd2f1a9fcp-10", "vertex-face"},
   };
@@ -365,7 +359,7 @@ TEST_F(ViewBrowser, DrawsEveryScale) {
 }
 
 /// A script that applies the rules for paper instead of those for screens, and finds the visible
-/// parts, the parts that a grey copy needs, and the parts that are cut off.
+/// parts, and those that are cut off.
 constexpr std::string_view on_paper = R"(
   for (const sheet of document.styleSheets) {
     for (const { media } of sheet.cssRules) {
@@ -376,50 +370,29 @@ constexpr std::string_view on_paper = R"(
   const unseen = (selectors) => selectors.filter((selector) => all(selector).length === 0 || !all(selector).every(isSeen));
   const controls = () => all("button, input, textarea, select").filter((it) => isSeen(it) && !it.closest("#pairs")).length;
   const cut = (selector) => all(selector).filter((it) => it.scrollHeight > it.clientHeight + 1 || it.scrollWidth > it.clientWidth + 1).length;
-  const light = (color) => {
-    const [red, green, blue] = color.match(/[\d.]+/g).slice(0, 3).map((part) => part / 255)
-      .map((part) => (part <= 0.04045 ? part / 12.92 : ((part + 0.055) / 1.055) ** 2.4));
-    return 0.2126 * red + 0.7152 * green + 0.0722 * blue;
-  };
-  const contrast = (selector) => Math.min(...all(selector).filter(isSeen).map((it) =>
-    (light(getComputedStyle(document.body).backgroundColor) + 0.05) / (light(getComputedStyle(it).color) + 0.05)));
 )";
 
 TEST_F(ViewBrowser, PrintsWhatIsShownWithoutTheControls) {
   const auto inclusion = solvers::solver_in_process(solvers::find_method("tight_inclusion"), {});
   ask(*inclusion);
-  const nlohmann::json result = result_of(
-      {falling(), falling(0x1p-52), of_any_size(Kind::edge_edge)}, std::string(on_paper) + R"(
+  const nlohmann::json result =
+      result_of({falling(0x1p-52), of_any_size(Kind::edge_edge)}, std::string(on_paper) + R"(
     choose("format", "rational");
-    const mark = (kind) => {
-      const { transform, borderRadius } = getComputedStyle(document.querySelector(`#rows .mark.${kind}`), "::after");
-      return [transform !== "none", borderRadius];
-    };
     const shown = ["h1", "#label", "#sentence", "#motion canvas", "#corners canvas", "#motion .names span", "#scale",
       "#now", "#rows .name", "#rows .said", "#rows .track", "#readout", "#points td", "footer"];
-    const first = { unseen: unseen(shown), mark: mark("toi") };
+    const first = { unseen: unseen(shown), said: text("#rows .said.wrong") };
     press("n");
-    const second = { mark: mark("approach"), said: text("#rows .said.wrong"), paper: getComputedStyle(document.body).backgroundColor,
-      contrast: contrast("#sentence *, #rows .said *, #rows .name, #readout, figcaption, #scale, #points code"),
-      names: contrast(".names span") };
-    press("n");
-    say({ first, second, controls: controls(), cut: cut("#points code, .said, #sentence"),
+    say({ ...first, controls: controls(), cut: cut("#points code, .said, #sentence"),
       wide: document.documentElement.scrollWidth <= window.innerWidth, drawn: [pixels("motion"), pixels("corners")] });
   )",
-      718);
-  EXPECT_EQ(result.at("first").at("unseen"), nlohmann::json::array());
+                718);
+  EXPECT_EQ(result.at("unseen"), nlohmann::json::array());
+  EXPECT_NE(result.at("said").at(0).get<std::string>().find("✗ false positive"), std::string::npos)
+      << "in words, for a grey copy";
   EXPECT_EQ(result.at("controls"), 0);
   EXPECT_EQ(result.at("cut"), 0) << "numbers of a thousand digits are printed whole";
   EXPECT_EQ(result.at("wide"), true);
   for (const nlohmann::json& count : result.at("drawn")) EXPECT_GT(count, 30);
-  // Shapes and words differ: a diamond is turned, a circle is round.
-  EXPECT_EQ(result.at("first").at("mark"), nlohmann::json::array({true, "0px"}));
-  const nlohmann::json& second = result.at("second");
-  EXPECT_EQ(second.at("mark"), nlohmann::json::array({false, "50%"}));
-  ASSERT_EQ(second.at("said").size(), 1);
-  EXPECT_NE(second.at("said").at(0).get<std::string>().find("✗ false positive"), std::string::npos);
-  EXPECT_GT(second.at("contrast"), 4.5);
-  EXPECT_GT(second.at("names"), 3.0);
 }
 
 // ---- A step -------------------------------------------------------------------------------------
@@ -485,11 +458,10 @@ TEST_F(ViewBrowser, ShowsWhatIntersectsAtRest) {
   const auto name = [](const fast::Intersection& one) {
     return fmt::format("pair with {} (6 7)", one.numbers[1]);
   };
-  for (const int width : {1400, 390}) {
-    const nlohmann::json result =
-        result_on(view_page({}, "touchstone intersections",
-                            resting_facts("a/" + std::string(300, 'x'), mesh, found, name)),
-                  R"(
+  const nlohmann::json result =
+      result_on(view_page({}, "touchstone intersections",
+                          resting_facts("a/" + std::string(300, 'x'), mesh, found, name)),
+                R"(
       const look = () => [text("#pairs .chosen span"), text("#mesh .names span"), find("step_now").textContent, pixels("mesh")];
       const first = look();
       all("#pairs button")[1].click();
@@ -499,21 +471,20 @@ TEST_F(ViewBrowser, ShowsWhatIntersectsAtRest) {
       say({ verdict: find("step_verdict").textContent, pairs: text("#pairs button"), first, second, all: pixels("mesh"), unseen,
         wide: document.documentElement.scrollWidth - window.innerWidth });
     )",
-                  width);
-    EXPECT_EQ(result.at("verdict"), "2 intersections.");
-    EXPECT_EQ(
-        result.at("pairs"),
-        (nlohmann::json{"pair with 1 (6 7) edge through face",
-                        fmt::format("pair with {} (6 7) edge through face", found[1].numbers[1])}));
-    EXPECT_EQ(result.at("first").at(0), nlohmann::json::array({"pair with 1 (6 7)"}));
-    EXPECT_EQ(result.at("first").at(1), nlohmann::json::array({"pair with 1"}));
-    EXPECT_EQ(result.at("first").at(2), "edge through face: 0 0 -1 to 0 0 0");
-    EXPECT_EQ(result.at("second").at(2), "edge through face: 0.25 0 0");
-    for (const char* const moment : {"first", "second"}) EXPECT_GT(result.at(moment).at(3), 200);
-    EXPECT_GT(result.at("all"), 200);
-    EXPECT_EQ(result.at("unseen"), nlohmann::json::array());
-    EXPECT_LE(result.at("wide"), 0);
-  }
+                390);
+  EXPECT_EQ(result.at("verdict"), "2 intersections.");
+  EXPECT_EQ(
+      result.at("pairs"),
+      (nlohmann::json{"pair with 1 (6 7) edge through face",
+                      fmt::format("pair with {} (6 7) edge through face", found[1].numbers[1])}));
+  EXPECT_EQ(result.at("first").at(0), nlohmann::json::array({"pair with 1 (6 7)"}));
+  EXPECT_EQ(result.at("first").at(1), nlohmann::json::array({"pair with 1"}));
+  EXPECT_EQ(result.at("first").at(2), "edge through face: 0 0 -1 to 0 0 0");
+  EXPECT_EQ(result.at("second").at(2), "edge through face: 0.25 0 0");
+  for (const char* const moment : {"first", "second"}) EXPECT_GT(result.at(moment).at(3), 200);
+  EXPECT_GT(result.at("all"), 200);
+  EXPECT_EQ(result.at("unseen"), nlohmann::json::array());
+  EXPECT_LE(result.at("wide"), 0);
 }
 
 // ---- A page that decides ------------------------------------------------------------------------
