@@ -9,7 +9,6 @@
 #include <cstdio>
 #include <limits>
 #include <optional>
-#include <ostream>
 #include <string>
 #include <utility>
 #include <vector>
@@ -154,7 +153,30 @@ TEST(Prove, NearMissesHaveACertificate) {
 /// Certificates of many queries on their way to the checker, all in one stream.
 class RoundTrip {
  public:
-  void add(const PosedQuery& posed, const Separation& separation = {}) {
+  /// The query in contact, and at some distances if asked.
+  void add(const PosedQuery& posed, bool is_at_distances) {
+    add(posed, Separation{});
+    if (!is_at_distances) return;
+    const Norm norm = random_.coin() ? Norm::linf : Norm::l2;
+    for (const double distance : {std::ldexp(random_.between(1, 7), random_.between(-100, -1)),
+                                  random_.between(1, 7) / 4.0, random_.coin() ? 1e-30 : 1e-100}) {
+      add(posed, {distance, norm});
+    }
+  }
+
+  void expect_accepted(const std::string& name) const {
+    const checker::Report report = tests::check_text(text_ + certificates_closing_line(queries()));
+    EXPECT_EQ(report.time_of_impact, collisions_) << name;
+    EXPECT_EQ(report.no_collision, misses_) << name;
+    EXPECT_EQ(report.collision, 0U);
+    for (const auto& rejected : report.rejections) ADD_FAILURE() << name << ": " << rejected.reason;
+    EXPECT_TRUE(report.all_accepted());
+  }
+
+  [[nodiscard]] std::uint64_t queries() const { return collisions_ + misses_; }
+
+ private:
+  void add(const PosedQuery& posed, const Separation& separation) {
     const Decision verdict = decide(posed.kind, posed.query, separation);
     const Certificate certificate = prove(posed.kind, posed.query, verdict);
     ASSERT_EQ(certificate.claim == Claim::time_of_impact, verdict.collides());
@@ -173,109 +195,63 @@ class RoundTrip {
     write(text_, certificate);
   }
 
-  void expect_accepted(const std::string& name) const {
-    const checker::Report report = tests::check(text_ + certificates_closing_line(queries()));
-    EXPECT_EQ(report.time_of_impact, collisions_) << name;
-    EXPECT_EQ(report.no_collision, misses_) << name;
-    EXPECT_EQ(report.collision, 0U);
-    for (const auto& rejected : report.rejections) ADD_FAILURE() << name << ": " << rejected.reason;
-    EXPECT_TRUE(report.all_accepted());
-  }
-
-  [[nodiscard]] std::uint64_t queries() const { return collisions_ + misses_; }
-
- private:
   std::string text_{certificates_header()};
   std::uint64_t collisions_ = 0;
   std::uint64_t misses_ = 0;
-};
-
-/// The separations at which a query is decided.
-using SeparationsOf = std::vector<Separation>(tests::Random&);
-
-std::vector<Separation> contact(tests::Random& /*random*/) { return {Separation{}}; }
-
-std::vector<Separation> distances(tests::Random& random) {
-  const Norm norm = random.coin() ? Norm::linf : Norm::l2;
-  return {{std::ldexp(random.between(1, 7), random.between(-100, -1)), norm},
-          {random.between(1, 7) / 4.0, norm},
-          {random.coin() ? 1e-30 : 1e-100, norm}};
-}
-
-/// Where queries come from, with how many of them.
-struct Trip {
-  std::string name;
-  SeparationsOf* separations;
-  int count, times_in_soak;
-
-  friend std::ostream& operator<<(std::ostream& out, const Trip& one) { return out << one.name; }
-};
-
-class RoundTrips : public testing::TestWithParam<Trip> {
- protected:
-  [[nodiscard]] static std::size_t count() {
-    return static_cast<std::size_t>(tests::soak_trials(GetParam().count, GetParam().times_in_soak));
-  }
-  void add(RoundTrip& trip, const PosedQuery& posed) {
-    for (const Separation& separation : GetParam().separations(random_))
-      trip.add(posed, separation);
-  }
   tests::Random random_{6};
 };
 
-TEST_P(RoundTrips, OfFamiliesAreAccepted) {
+TEST(RoundTrips, OfFamiliesAreAccepted) {
   for (const verify::generate::Family& family : verify::generate::families()) {
-    // Distances that differ from the coordinates as much as these differ among themselves make the
-    // numbers too long.
-    if (GetParam().separations == distances && family.name == "extreme-range") continue;
     for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
       if (!verify::generate::supports(family, kind)) continue;
       RoundTrip trip;
-      for (std::size_t i = 0; i < count(); ++i) {
-        add(trip, {kind, verify::generate::make_query(family, kind, 7, i).query});
+      for (std::size_t i = 0; i < tests::soak_trials(20U, 50U); ++i) {
+        // Distances that differ from the coordinates as much as these differ among themselves make
+        // the numbers too long.
+        trip.add({kind, verify::generate::make_query(family, kind, 7, i).query},
+                 i % 10 == 0 && family.name != "extreme-range");
       }
       trip.expect_accepted(std::string(family.name));
     }
   }
 }
 
-TEST_P(RoundTrips, OfRandomQueriesAreAccepted) {
+TEST(RoundTrips, OfRandomQueriesAreAccepted) {
+  tests::Random random(6);
   RoundTrip trip;
-  for (std::size_t i = 0; i < 50 * count(); ++i) {
-    const Kind kind = random_.coin() ? Kind::vertex_face : Kind::edge_edge;
-    add(trip,
-        tests::random_query(random_, kind, tests::all_families.at(i % tests::all_families.size())));
-    if (i % 16 != 0 || GetParam().separations == distances) continue;
+  for (std::size_t i = 0; i < tests::soak_trials(1000U, 50U); ++i) {
+    const Kind kind = random.coin() ? Kind::vertex_face : Kind::edge_edge;
+    trip.add(
+        tests::random_query(random, kind, tests::all_families.at(i % tests::all_families.size())),
+        i % 10 < 2);
+    if (i % 16 != 0) continue;
     PosedQuery posed{kind, {}};
-    for (double& x : posed.query.coordinates) x = random_.finite_double();
-    add(trip, posed);
+    for (double& x : posed.query.coordinates) x = random.finite_double();
+    trip.add(posed, false);
   }
   // The toi is far below the least double: the time before it is one point.
-  add(trip, over_triangle(1, 1, 0x1p-1024, -0x1p1000));
+  trip.add(over_triangle(1, 1, 0x1p-1024, -0x1p1000), false);
   trip.expect_accepted("random");
 }
 
-TEST_P(RoundTrips, OfPublicDataAreAccepted) {
+TEST(RoundTrips, OfPublicDataAreAccepted) {
   const auto files = tests::public_datasets();
   if (files.empty()) GTEST_SKIP() << "public data missing";
-  const std::size_t stride = tests::is_soak() ? 1 : 200 / count();
+  const std::size_t stride = tests::is_soak() ? 1 : 10;
   std::uint64_t queries = 0;
   for (const auto& file : files) {
     RoundTrip trip;
     const auto source = verify::data::open_dataset(file);
     while (const auto record = source->next()) {
-      if (record->index % stride == 0) add(trip, {source->kind(), record->query.straight()});
+      if (record->index % stride != 0) continue;
+      trip.add({source->kind(), record->query.straight()}, record->index % (10 * stride) == 0);
     }
     trip.expect_accepted(file.string());
     queries += trip.queries();
   }
   EXPECT_GE(queries, 9891 / stride);
 }
-
-INSTANTIATE_TEST_SUITE_P(Of, RoundTrips,
-                         testing::Values(Trip{"contact", contact, 20, 50},
-                                         Trip{"distances", distances, 2, 50}),
-                         [](const auto& tested) { return tested.param.name; });
 
 /// At the least width the interval holds one root of the conditions at most, so that the time is
 /// proved: their coefficients are below 2^100, and products of two of degree 6 have roots at least

@@ -9,14 +9,8 @@
 #include <string_view>
 #include <vector>
 
-#include "tests/support/contact_function.hpp"
-#include "touchstone/number.hpp"
-
 namespace touchstone::query_test {
 namespace {
-
-using exact::Rational;
-using Vector = std::array<Rational, 3>;
 
 constexpr std::array kinds{Kind::vertex_face, Kind::edge_edge};
 
@@ -36,24 +30,6 @@ TEST(Query, AnArrayOfDoublesIsASpanOfQueriesInTheOrderEndPointAxis) {
       }
     }
   }
-}
-
-TEST(ContactFunction, HasTheValuesComputedByHand) {
-  // Point k stands at (k, k², 1) at t=0 and moves by (4, 0, −2k).
-  Query query{};
-  for (std::size_t k = 0; k < moving_points; ++k) {
-    const auto x = static_cast<double>(k);
-    query.point(0, k) = Eigen::Vector3d(x, x * x, 1.0);
-    query.point(1, k) = Eigen::Vector3d(x + 4.0, x * x, 1.0 - 2.0 * x);
-  }
-  // At t=1/2 point k is at (k+2, k², 1−k).
-  const Rational t(1, 2), u(1, 4), v(1, 3);
-  // v = (2,0,1); the face at (5/12, 1/4, 1/3): (3,1,0)·5/12 + (4,4,−1)·1/4 + (5,9,−2)·1/3.
-  EXPECT_EQ(tests::contact_function(Kind::vertex_face, query, t, u, v),
-            (Vector{Rational(-23, 12), Rational(-53, 12), Rational(23, 12)}));
-  // ea: (2,0,1)·3/4 + (3,1,0)·1/4; eb: (4,4,−1)·2/3 + (5,9,−2)·1/3.
-  EXPECT_EQ(tests::contact_function(Kind::edge_edge, query, t, u, v),
-            (Vector{Rational(-25, 12), Rational(-65, 12), Rational(25, 12)}));
 }
 
 TEST(Kind, TextsAreThoseOfTheDatasets) {

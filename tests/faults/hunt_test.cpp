@@ -1,22 +1,17 @@
 #include "tests/faults/hunt.hpp"
 
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <cstdlib>
 #include <set>
 #include <stdexcept>
-#include <string>
 #include <string_view>
 
-#include "tests/support/built_files.hpp"
 #include "verify/fuzz/fuzz.hpp"
 #include "verify/fuzz/plainness.hpp"
 #include "verify/generate/everyday.hpp"
-#include "verify/solvers/plugin_method.hpp"
 #include "verify/solvers/registry.hpp"
 
 namespace touchstone::tests::hunt_test {
@@ -90,21 +85,6 @@ TEST(ReleasedFilter, IsFoundByAQueryOfEverydaySize) {
                               .on_finding = look_at});
     EXPECT_TRUE(found) << "seed " << seed;
   }
-}
-
-/// Found in seconds by the usual command line.
-TEST(Plugin, WithMinForMaxInItsFilterIsFound) {
-  const std::string command = std::string("\"") + tests::touchstone_program() +
-                              "\" fuzz --plugin \"" + tests::plugin_library("min_for_max") +
-                              "\" --seconds 10 --most-findings 1";
-  const int status = std::system((command + " > /dev/null").c_str());  // NOLINT(cert-env33-c)
-  ASSERT_TRUE(WIFEXITED(status));
-  EXPECT_EQ(WEXITSTATUS(status), 1);
-  const auto plugin = verify::solvers::load_plugin(tests::plugin_library("min_for_max"));
-  const verify::fuzz::FuzzResult result =
-      verify::fuzz::fuzz(*plugin, {.most_queries = 20'000, .seed = 1, .most_groups = 1});
-  ASSERT_FALSE(result.findings.empty());
-  EXPECT_TRUE(result.findings.front().original.collides);
 }
 
 }  // namespace

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import csv
-import os
 import pathlib
 import subprocess
 from fractions import Fraction
@@ -131,12 +130,6 @@ def test_curves_that_are_none_are_refused():
         touchstone.decide_curved("vertex_face", rest)
 
 
-def test_rational_times_are_recognised():
-    # A vertex that falls through a triangle, which moves sideways.
-    start = np.array([[0, 0, 1.0], [-9, -9, 0], [9, -9, 0], [0, 9, 0]])
-    assert touchstone.decide("vertex_face", np.concatenate([start, start * [1, 1, -2]])).toi == Fraction(1, 3)
-
-
 @pytest.mark.parametrize("threads", [1, 3])
 def test_batches_are_their_queries(queries, threads):
     batch = touchstone.decide("edge_edge", queries[:100], threads=threads)
@@ -198,10 +191,6 @@ def test_a_missing_library_is_explained(monkeypatch):
         touchstone.decide("edge_edge", np.zeros((8, 3)))
 
 
-# Queries of each file and family; empty: all.
-SAMPLE = os.environ.get("TOUCHSTONE_AGREEMENT_SAMPLE", "8")
-
-
 def answers_of_the_tool(tool: str, files: list[pathlib.Path], method: str, folder: pathlib.Path):
     """The answers that the command line gives, by file and index."""
     out = folder / f"{method}.csv"
@@ -214,34 +203,12 @@ def answers_of_the_tool(tool: str, files: list[pathlib.Path], method: str, folde
     return answers
 
 
-def built_in_set(tool: str, folder: pathlib.Path) -> list[pathlib.Path]:
-    command = [tool, "generate", "--npy", "--count", SAMPLE or "1000", "--out", folder]
+@pytest.fixture(scope="session")
+def datasets(tool, tmp_path_factory) -> list[pathlib.Path]:
+    folder = tmp_path_factory.mktemp("data")
+    command = [tool, "generate", "--npy", "--count", "8", "--out", folder]
     subprocess.run(command, check=True, capture_output=True)
     return sorted(folder.rglob("*.npy"))
-
-
-def public_data(tool: str, folder: pathlib.Path) -> list[pathlib.Path]:
-    """Of each public dataset as many queries, evenly spread."""
-    if "TOUCHSTONE_DATA" not in os.environ:
-        pytest.skip("TOUCHSTONE_DATA is not set")
-    root = pathlib.Path(os.environ["TOUCHSTONE_DATA"])
-    paths = []
-    for source in sorted(root.rglob("*.csv")):
-        if source.name.endswith("_toi.csv"):
-            continue
-        data = touchstone.read(source)
-        some = data.queries[:: -(-len(data) // int(SAMPLE or len(data)))]
-        name = "-".join(source.relative_to(root).with_suffix("").parts)
-        paths.append(folder / data.kind.replace("_", "-") / f"{name}.npy")
-        paths[-1].parent.mkdir(exist_ok=True)
-        np.save(paths[-1], some)
-    assert paths, f"no dataset below {root}"
-    return paths
-
-
-@pytest.fixture(scope="session", params=[built_in_set, public_data])
-def datasets(request, tool, tmp_path_factory) -> list[pathlib.Path]:
-    return request.param(tool, tmp_path_factory.mktemp("data"))
 
 
 # The command line asks these only the queries within their terms.
@@ -255,7 +222,7 @@ OTHERS += ("inversion_cubic", "inversion_additive")
 
 @pytest.mark.parametrize("method", [one.name for one in touchstone.methods() if one.name not in OTHERS])
 def test_every_method_answers_as_on_the_command_line(method, tool, datasets, tmp_path):
-    """Bit for bit. Every query instead of some: TOUCHSTONE_AGREEMENT_SAMPLE= (empty)."""
+    """Bit for bit."""
     expected = answers_of_the_tool(tool, datasets, method, tmp_path)
     words = ("no", "yes", "undecided", "error")
     assert any(expected.values())

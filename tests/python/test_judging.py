@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import dataclasses
-import io
 import json
 import math
 import os
@@ -195,11 +194,6 @@ def test_the_naive_solver_is_convicted_within_ten_seconds():
     assert "groups" in repr(report) and report._repr_html_().count("<tr>") == 3
 
 
-def test_a_right_solver_is_not_convicted():
-    report = touchstone.fuzz("certified", queries=2000)
-    assert report.findings == [] and report.queries == 2000
-
-
 @pytest.mark.parametrize("kind", ["tetrahedron", "plane_triangle"])
 def test_solvers_of_inversions_are_judged(kind):
     def of_ends(asked, query):  # an element that is upright at both ends may invert between
@@ -319,21 +313,13 @@ def test_what_is_no_dataset_is_not_written(change, text, tmp_path):
 
 @pytest.mark.parametrize(
     ("kind", "options"),
-    [("tetrahedron", {}), ("plane_triangle", {})]
-    + [
-        (kind, options)
-        for kind in ("vertex_face", "edge_edge")
-        for options in ({}, {"separation": 0.125, "norm": "linf"}, {"separation": 0.125, "norm": "l2"})
-    ],
+    [(kind, {}) for kind in ("vertex_face", "edge_edge", "tetrahedron", "plane_triangle")]
+    + [(kind, {"separation": 0.125, "norm": "l2"}) for kind in ("vertex_face", "edge_edge")],
 )
 def test_every_family_is_generated_with_its_truth(kind, options):
     """The verdicts are those of the certified solver, and it encloses the recorded times."""
-    found = touchstone.generate(kind, count=4, **options)
-    known = [one for one in found if one.collides is not None]
-    if options:  # the truth of the other families is not known
-        assert 3 < len(known) and {one.name.split("-")[0] for one in known} == {"separation"}
-    else:
-        assert 7 < len(known) == len(found) and {one.name for one in found} <= set(touchstone.families())
+    known = [one for one in touchstone.generate(kind, count=4, **options) if one.collides is not None]
+    assert len(known) > 3 and all(one.name.startswith("separation") if options else one.name in touchstone.families() for one in known)
     assert sum(len(one.toi) for one in known) > len(known)
     for one in known:
         answers = touchstone.certified(kind, one.queries, **options)
@@ -353,25 +339,11 @@ def test_recorded_truth_beside_a_dataset_is_read(where, tmp_path):
     assert data.collides.tolist() == [True, False] and data.toi == {0: Fraction(1, 4)}
 
 
-def saved(save, *arrays, **named):
-    file = io.BytesIO()
-    save(file, *arrays, **named)
-    return file.getvalue()
-
-
-QUERIES = np.arange(72.0).reshape(3, 8, 3)
-LABELS = np.array([True, False, True])
-# One file of each kind, and of refused ones; what is read and refused at large is in tests/transcripts/read.md.
+# One file that is read, and of each kind of refusal one; the rest is in tests/transcripts/read.md.
 FILES = {
     "labels.csv": (b"1,2,3,1\n" * 8, None),
-    "c.npy": (saved(np.save, QUERIES), None),
-    "none.npy": (saved(np.save, QUERIES[:0]), None),
-    "labels.npz": (saved(np.savez, queries=QUERIES, collides=LABELS), None),
-    "points.obj": (b"v 1 2 3\n" * 8, None),
     "third.csv": (b"1,3,1,1,1,1\n" * 8, ":1:1: not exactly a double (round=True takes the nearest)"),
-    "short.csv": (b"1,2,3\n" * 7, "truncated query: 7 of 8 rows"),
-    "nan.npy": (saved(np.save, QUERIES * np.nan), "query 0, point 0, x: not finite"),
-    "cut.npz": (saved(np.savez, queries=QUERIES)[:-1], "cannot open"),
+    "cut.npz": (b"PK", "cannot open"),
     "archive.zip": (b"", "unknown format"),
 }
 
@@ -381,18 +353,12 @@ def test_read_is_the_reader_of_the_command(name, tmp_path, tool):
     content, reason = FILES[name]
     path = tmp_path / f"{pathlib.Path(name).stem}_ee{pathlib.Path(name).suffix}"
     path.write_bytes(content)
-    store = tmp_path / "store"
-    done = subprocess.run([tool, "convert", path, "--out", store], capture_output=True, text=True, timeout=60)
+    done = subprocess.run([tool, "convert", path, "--out", tmp_path / "store"], capture_output=True, text=True, timeout=60)
     if reason is None:
         found = touchstone.read(path)
+        (stored,) = [touchstone.read(one) for one in (tmp_path / "store").glob("edge-edge/*.npy")]
         assert found.kind == "edge_edge" and found.name == str(path) and done.returncode == 0
-        stored = [touchstone.read(one) for one in sorted(store.glob("edge-edge/*.npy"))]
-        assert found.queries.tobytes() == b"".join(one.queries.tobytes() for one in stored)
-        labels = [one.collides for one in stored if one.collides is not None]
-        assert (found.collides is None) == (labels == [])
-        assert found.collides is None or (found.collides == np.concatenate(labels)).all()
-        if path.suffix in (".npy", ".npz") and len(found):
-            assert (found.queries == QUERIES).all()
+        assert found.queries.tobytes() == stored.queries.tobytes() and found.collides.tolist() == stored.collides.tolist()
     else:
         with pytest.raises(ValueError) as caught:
             touchstone.read(path)

@@ -6,8 +6,6 @@ std::string source_folder() { return TOUCHSTONE_SOURCE_FOLDER; }
 
 std::string touchstone_program() { return TOUCHSTONE_PROGRAM; }
 
-std::string checker_program() { return TOUCHSTONE_CHECKER_PROGRAM; }
-
 std::string plugin_library(std::string_view name) {
   return std::string(TOUCHSTONE_PLUGIN_FOLDER "/").append(name).append(".so");
 }

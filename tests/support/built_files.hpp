@@ -16,9 +16,6 @@ namespace touchstone::tests {
 /// The program `touchstone`.
 [[nodiscard]] std::string touchstone_program();
 
-/// The program `touchstone-check`.
-[[nodiscard]] std::string checker_program();
-
 /// A solver as a shared library, by the name of its target.
 [[nodiscard]] std::string plugin_library(std::string_view name);
 

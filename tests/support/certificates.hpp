@@ -9,9 +9,8 @@
 #include <sstream>
 #include <string>
 #include <string_view>
-#include <vector>
 
-#include "exact/checker/checker.hpp"
+#include "tests/support/checker_outcome.hpp"
 #include "tests/support/queries.hpp"
 #include "touchstone/certificate.hpp"
 #include "touchstone/certificate_text.hpp"
@@ -31,17 +30,9 @@ namespace touchstone::tests {
   return prove(posed, Separation{}, options);
 }
 
-/// The checker's report on a stream.
-[[nodiscard]] inline checker::Report check(const std::string& stream) {
-  std::istringstream in(stream);
-  return checker::check(in);
-}
-
 /// The reason for which the checker rejects the certificate; empty if it accepts it.
 [[nodiscard]] inline std::string rejection(const exact::Certificate& certificate) {
-  const checker::Report report = check(exact::certificate_stream(certificate));
-  if (report.all_accepted() && report.accepted() == 1) return {};
-  return report.rejections.empty() ? "nothing accepted" : report.rejections.front().reason;
+  return refusal(exact::certificate_stream(certificate));
 }
 
 /// The claim of a certificate, read from its text.

@@ -156,19 +156,6 @@ TEST(Check, RejectsAStreamOfAnotherKindAsAWhole) {
   }
 }
 
-TEST(Check, KeepsTheFirstRejections) {
-  std::string text = header;
-  for (int n = 0; n < 250; ++n) text += "query " + std::to_string(n) + "\n";
-  const Report usual = check_closed(text);
-  EXPECT_EQ(usual.rejected, 250U);
-  EXPECT_EQ(usual.rejections.size(), 100U);
-  EXPECT_EQ(usual.rejections.back().reason, "unknown word: '99'");
-  const Report two = check_closed(text, {.max_rejections = 2});
-  EXPECT_EQ(two.rejected, 250U);
-  EXPECT_EQ(rejections(two), (Texts{"2 : unknown word: '0'", "3 : unknown word: '1'"}));
-  EXPECT_EQ(check_closed(text, {.max_rejections = 0}).rejected, 250U);
-}
-
 /// Cut anywhere, a stream is not accepted, and proves at most what was complete.
 TEST(Check, AcceptsNoCutStream) {
   const std::string text = tests::closed(header + apart + colliding);

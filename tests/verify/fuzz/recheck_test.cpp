@@ -114,7 +114,7 @@ void expect_consistent(const Finding& finding, const FailingCase& failing,
   EXPECT_EQ(failing.truth, judge::to_text(judge::truth_of(0, truth)));
   EXPECT_NE(failing.detail.find(fmt::format("{}", answer.toi_lower)), std::string::npos)
       << failing.detail;
-  EXPECT_EQ(tests::check(failing.certificate).accepted(), 1U) << failing.certificate;
+  EXPECT_EQ(tests::check_text(failing.certificate).accepted(), 1U) << failing.certificate;
   const std::optional<tests::ReadClaim> claim = tests::read_claim(failing.certificate);
   ASSERT_TRUE(claim);
   EXPECT_EQ(AnyQuery(claim->posed.kind, claim->posed.query), failing.query);

@@ -73,7 +73,7 @@ TEST(Prove, WritesEveryCertificateInOrderWhateverTheThreads) {
     at = first.find("\nlabel memory:" + std::to_string(i + 10) + "\n", at);
     ASSERT_NE(at, std::string::npos) << i;
   }
-  const checker::Report report = tests::check(first + exact::certificates_closing_line(9000));
+  const checker::Report report = tests::check_text(first + exact::certificates_closing_line(9000));
   EXPECT_TRUE(report.all_accepted());
   EXPECT_EQ(report.no_collision, 6000U);
   EXPECT_EQ(report.time_of_impact, 3000U);
@@ -84,7 +84,7 @@ TEST(Prove, AnErrorOrAStopLeavesWholeCertificates) {
   broken.fail_at(2500, "row is broken");
   const ProofRun to_error = run(broken);
   EXPECT_EQ(to_error.proof.error, "row is broken");
-  EXPECT_EQ(tests::check(to_error.stream()).accepted(), 2500U);
+  EXPECT_EQ(tests::check_text(to_error.stream()).accepted(), 2500U);
 
   std::atomic<bool> stop = false;
   MemorySource source(Kind::vertex_face, falling_vertices(200000));
@@ -97,7 +97,7 @@ TEST(Prove, AnErrorOrAStopLeavesWholeCertificates) {
                                                  .stop = &stop});
   EXPECT_TRUE(stopped.interrupted);
   const checker::Report report =
-      tests::check(text + exact::certificates_closing_line(stopped.proofs.certificates()));
+      tests::check_text(text + exact::certificates_closing_line(stopped.proofs.certificates()));
   EXPECT_TRUE(report.all_accepted());
   EXPECT_EQ(report.accepted(), stopped.proofs.certificates());
   EXPECT_GT(report.accepted(), 0U);
