@@ -360,21 +360,15 @@ Proof.
   cbn [component x_of y_of z_of] in *. rewrite !plus_IZR. lra.
 Qed.
 
-Lemma at_start_in_box p : is_site p -> forall i,
-  IZR (low0 (component i (ranges p))) <= component i (times k (vertex_at (number p) 0)) <= IZR (high0 (component i (ranges p))).
+Lemma in_box p i : is_site p -> let r := component i (ranges p) in
+  IZR (low0 r) <= component i (times k (vertex_at (number p) 0)) <= IZR (high0 r) /\
+  IZR (low1 r) <= component i (times k (vertex_at (number p) E)) <= IZR (high1 r).
 Proof.
-  intros P i. pose proof P as (_ & _ & _ & H). destruct (H i) as [H0 _].
-  replace (component i (times k (vertex_at (number p) 0))) with (k * Q2R (component i (fst (moves p)))); [exact H0 |].
-  replace (component i (times k (vertex_at (number p) 0))) with (k * component i (vertex_at (number p) 0)) by (destruct i; reflexivity).
-  rewrite vertex_coordinate by exact P. ring.
-Qed.
-
-Lemma at_end_in_box p : is_site p -> forall i,
-  IZR (low1 (component i (ranges p))) <= component i (times k (vertex_at (number p) E)) <= IZR (high1 (component i (ranges p))).
-Proof.
-  intros P i. pose proof P as (_ & _ & _ & H). destruct (H i) as [_ H1].
-  replace (component i (times k (vertex_at (number p) E))) with (k * component i (vertex_at (number p) E)) by (destruct i; reflexivity).
-  rewrite vertex_coordinate by exact P. exact H1.
+  intros P. pose proof P as (_ & _ & _ & H). destruct (H i) as [H0 H1].
+  assert (V : forall t, component i (times k (vertex_at (number p) t)) =
+    k * ((1 - t) * Q2R (component i (fst (moves p))) + t * Q2R (component i (snd (moves p)))))
+    by (intros t; rewrite <- vertex_coordinate by exact P; destruct i; reflexivity).
+  cbv zeta. rewrite !V. split; [| exact H1]. rewrite Rmult_0_l, Rplus_0_r, Rminus_0_r, Rmult_1_l. exact H0.
 Qed.
 
 Definition length_1 (d : vector) : R := Rabs (x_of d) + Rabs (y_of d) + Rabs (z_of d).
@@ -404,10 +398,10 @@ Proof.
   apply andb_prop in A as [A0 A1]. apply Z.ltb_lt, IZR_lt in A0, A1. rewrite plus_IZR, mult_IZR, !plus_IZR, !abs_IZR in A0, A1.
   change (Rabs (IZR (x_of d)) + Rabs (IZR (y_of d)) + Rabs (IZR (z_of d))) with (length_1 (to_vector_of_integers d)) in *.
   apply (Rmult_lt_reg_l k); [exact Hk |].
-  pose proof (extreme_sound low0 high0 d (ranges p) _ (at_start_in_box p P)).
-  pose proof (extreme_sound low0 high0 d (ranges q) _ (at_start_in_box q Q)).
-  pose proof (extreme_sound low1 high1 d (ranges p) _ (at_end_in_box p P)).
-  pose proof (extreme_sound low1 high1 d (ranges q) _ (at_end_in_box q Q)).
+  pose proof (extreme_sound low0 high0 d (ranges p) _ (fun i => proj1 (in_box p i P))).
+  pose proof (extreme_sound low0 high0 d (ranges q) _ (fun i => proj1 (in_box q i Q))).
+  pose proof (extreme_sound low1 high1 d (ranges p) _ (fun i => proj2 (in_box p i P))).
+  pose proof (extreme_sound low1 high1 d (ranges q) _ (fun i => proj2 (in_box q i Q))).
   set (u := to_vector_of_integers d) in *.
   replace (k * (IZR r / k * length_1 u)) with (IZR r * length_1 u) by (field; lra).
   replace (k * dot u (minus (vertex_at (number p) t) (vertex_at (number q) t))) with
@@ -500,11 +494,13 @@ Qed.
 Definition never_touch (p q : element) : Prop :=
   no_contact_until (query_of s p q) (separation_between s sum p q) E.
 
-Lemma above_never_touch d ps qs : Forall is_site ps -> Forall is_site qs -> ps <> [] -> qs <> [] ->
+Definition are_sites (ps : list site) : Prop := Forall is_site ps /\ ps <> [].
+
+Lemma above_never_touch d ps qs : are_sites ps -> are_sites qs ->
   is_above (enlarged_between c ps qs) d ps qs = true \/ is_above (enlarged_between c ps qs) d qs ps = true ->
   never_touch (map number ps) (map number qs).
 Proof.
-  intros P Q Np Nq A. destruct (enlarged_between_sound ps qs P Q) as [L N].
+  intros [P Np] [Q Nq] A. destruct (enlarged_between_sound ps qs P Q) as [L N].
   assert (map number ps <> [] /\ map number qs <> []) as [Mp Mq]
     by (split; intros M; apply map_eq_nil in M; contradiction).
   destruct A as [A | A]; apply is_above_sound in A; try assumption; [| apply keeps_below in A];
@@ -520,22 +516,20 @@ Proof.
   intros P Q. unfold query_between, query_of. rewrite !M by assumption. reflexivity.
 Qed.
 
-Lemma scene_between_sound ps qs sc : Forall is_site ps -> Forall is_site qs -> ps <> [] -> qs <> [] ->
-  scene_between c ps qs = Some sc ->
+Lemma scene_between_sound ps qs sc : Forall is_site ps -> Forall is_site qs -> scene_between c ps qs = Some sc ->
   is_scene_of sc (query_of s (map number ps) (map number qs)) (separation_between s sum (map number ps) (map number qs)).
 Proof.
-  unfold scene_between. intros P Q Np Nq H.
+  unfold scene_between. intros P Q H.
   rewrite query_of_sites, distance_of_sites in H by assumption. exact (scene_of_sound _ _ _ H).
 Qed.
 
-Lemma proves_sound ps qs a : Forall is_site ps -> Forall is_site qs -> ps <> [] -> qs <> [] ->
-  proves c ps qs a = true -> never_touch (map number ps) (map number qs).
+Lemma proves_sound ps qs a : are_sites ps -> are_sites qs -> proves c ps qs a = true ->
+  never_touch (map number ps) (map number qs).
 Proof.
-  intros P Q Np Nq H. unfold proves in H. destruct a as [d | xs].
-  - exact (above_never_touch d ps qs P Q Np Nq (or_introl H)).
-  - destruct (scene_between c ps qs) as [sc |] eqn:Es; [| discriminate H].
-    apply scene_between_sound in Es; try assumption. intros t Ht.
-    apply (all_are_free_sound _ _ (separates_sound _ _ sc Es) _ _ _ H); rewrite ?Q2R_0; unfold E in *; lra.
+  intros P Q H. unfold proves in H. destruct a as [d | xs]; [exact (above_never_touch d ps qs P Q (or_introl H)) |].
+  destruct (scene_between c ps qs) as [sc |] eqn:Es; [| discriminate H].
+  apply scene_between_sound in Es; [| apply P | apply Q]. intros t Ht.
+  apply (all_are_free_sound _ _ (separates_sound _ _ sc Es) _ _ _ H); rewrite ?Q2R_0; unfold E in *; lra.
 Qed.
 
 Lemma common_vertex_sound ps qs : have_common_vertex ps qs = true ->
@@ -554,13 +548,13 @@ Proof.
   destruct (P _ Ip) as (_ & Ep & _), (Q _ Iq) as (_ & Eq & _). rewrite Ep, Eq in H. exact H.
 Qed.
 
-Definition is_item (x : item) : Prop := Forall is_site (sites x) /\ sites x <> [].
+Definition is_item (x : item) : Prop := are_sites (sites x).
 Definition element_of (x : item) : element := map number (sites x).
 
-Lemma proved_with_sound ps qs o xs : Forall is_site ps -> Forall is_site qs -> ps <> [] -> qs <> [] ->
+Lemma proved_with_sound ps qs o xs : are_sites ps -> are_sites qs ->
   proved_with c ps qs o xs = true -> never_touch (map number ps) (map number qs).
 Proof.
-  intros P Q Np Nq. induction xs as [| [l a] xs IH]; cbn [proved_with]; [discriminate |].
+  intros P Q. induction xs as [| [l a] xs IH]; cbn [proved_with]; [discriminate |].
   destruct (Z.eqb l o); [apply proves_sound; assumption | exact IH].
 Qed.
 
@@ -568,11 +562,11 @@ Definition is_settled (p q : element) : Prop := can_collide s p q -> never_touch
 
 Lemma is_proved_sound x y : is_item x -> is_item y -> is_proved c x y = true -> is_settled (element_of x) (element_of y).
 Proof.
-  intros [P Np] [Q Nq] H (_ & N & v & w & Iv & Iw & A). unfold is_proved in H. cbv zeta in H.
+  intros P Q H (_ & N & v & w & Iv & Iw & A). unfold is_proved in H. cbv zeta in H.
   rewrite !orb_true_iff in H. destruct H as [[[H | H] | H] | H].
   - apply common_vertex_sound in H as (u & I & J). destruct (N u I J).
   - eapply proved_with_sound; eassumption.
-  - destruct A. exact (held_apart_iff _ _ P Q H v w Iv Iw).
+  - destruct A. exact (held_apart_iff _ _ (proj1 P) (proj1 Q) H v w Iv Iw).
   - apply existsb_exists in H as (d & _ & H). apply orb_prop in H. eapply above_never_touch; eassumption.
 Qed.
 
@@ -752,7 +746,7 @@ Proof.
   assert (exists i, are_apart (component i a) (component i b) = true) as (i & Hi).
   { unfold are_boxes_apart in H. rewrite !orb_true_iff in H.
     destruct H as [[H | H] | H]; [exists x_axis | exists y_axis | exists z_axis]; exact H. }
-  destruct Ix as [P Np], Iy as [Q Nq]. apply above_never_touch with (unit_of i); try assumption.
+  apply above_never_touch with (unit_of i); try assumption.
   apply orb_prop in Hi as [Hi | Hi]; [right | left]; eapply below_is_above; try eassumption. lia.
 Qed.
 
@@ -942,8 +936,7 @@ Proof.
       rewrite Forall_forall in P, Q. destruct (P _ Ix) as (_ & Gx & _), (Q _ Iy) as (_ & Gy & _).
       change (the_step c) with s in Gx, Gy. unfold is_held_apart in G. rewrite <- Gx, <- Gy in G.
       apply joins_iff in G. rewrite G in A. discriminate A. }
-  split; [exact K |]. destruct K as (_ & _ & v & w & Iv & Iw & _).
-  assert (ps <> [] /\ qs <> []) as [Np Nq] by (split; intros ->; contradiction).
+  split; [exact K |].
   destruct (scene_between c ps qs) as [sc |] eqn:Es; [| discriminate H].
   apply (scene_between_sound c h) in Es; try assumption. exact (event_sound _ _ (contact_sound _ _ sc Es) _ _ _ H).
 Qed.
