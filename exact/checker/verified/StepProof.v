@@ -1,6 +1,6 @@
 (** The proof that what the checker of steps accepts is true. *)
 
-Require Import ZArith QArith Qreals Reals List Lia Lra Psatz Bool.
+Require Import ZArith QArith Qreals Reals List Lia Lra Psatz Bool FMapPositive.
 Import ListNotations.
 Require Import Verified.Problem Verified.StepProblem Verified.Geometry Verified.Checker Verified.Proof Verified.Step.
 Open Scope Z_scope.
@@ -10,28 +10,20 @@ Open Scope Z_scope.
 Lemma key_injective x y : key x = key y -> x = y.
 Proof. destruct x, y; cbn; intros E; try discriminate E; inversion E; reflexivity. Qed.
 
-Lemma find_same {A} k : forall (m : map_of A) a, find_in (add_to k a m) k = Some a.
-Proof. induction k; intros [| o l r] a; cbn; auto. Qed.
-
-Lemma find_other {A} k : forall k' (m : map_of A) a, k' <> k -> find_in (add_to k a m) k' = find_in m k'.
-Proof.
-  induction k; intros k' [| o l r] a N; destruct k'; cbn; try rewrite IHk by congruence; try reflexivity; try contradiction.
-Qed.
-
 Lemma find_added {A} (m : map_of A) x (a : A) y b :
-  find_in (add_to (key x) a m) (key y) = Some b -> y = x /\ b = a \/ find_in m (key y) = Some b.
+  find_in (add_to x a m) y = Some b -> y = x /\ b = a \/ find_in m y = Some b.
 Proof.
-  destruct (Z.eq_dec y x) as [-> | N].
-  - rewrite find_same. intros E. inversion E. auto.
-  - rewrite find_other by (intros E; apply N, key_injective, E). auto.
+  unfold find_in, add_to. destruct (Z.eq_dec y x) as [-> | N].
+  - rewrite PositiveMap.gss. intros E. inversion E. auto.
+  - rewrite PositiveMap.gso by (intros E; apply N, key_injective, E). auto.
 Qed.
 
 Lemma find_empty {A} y (b : A) : find_in empty y = Some b -> False.
-Proof. discriminate. Qed.
+Proof. unfold find_in, empty. rewrite PositiveMap.gempty. discriminate. Qed.
 
-Lemma has_find m z : has m z = true <-> exists u, find_in m (key z) = Some u.
+Lemma has_find m z : has m z = true <-> exists u, find_in m z = Some u.
 Proof.
-  unfold has. destruct (find_in m (key z)) as [u |]; [split; eauto |].
+  unfold has. destruct (find_in m z) as [u |]; [split; eauto |].
   split; [discriminate | intros [u E]; discriminate].
 Qed.
 
@@ -44,7 +36,7 @@ Lemma has_pair_added a b m x y : has_pair (with_pair a b m) x y = true ->
   x = a /\ y = b \/ has_pair m x y = true.
 Proof.
   unfold has_pair, with_pair, at_number at 1.
-  destruct (find_in (add_to _ _ _) (key x)) as [n |] eqn:E.
+  destruct (find_in (add_to _ _ _) x) as [n |] eqn:E.
   - apply find_added in E as [[-> ->] | E].
     + intros H. apply has_added in H as [-> | H]; auto.
     + intros H. right. unfold at_number. rewrite E. exact H.
@@ -54,7 +46,9 @@ Qed.
 Lemma nothing_in_empty x : has (@empty unit) x = true -> False.
 Proof. rewrite has_find. intros [u E]. exact (find_empty _ _ E). Qed.
 Lemma no_pair_in_empty x y : has_pair (@empty numbers) x y = true -> False.
-Proof. unfold has_pair, at_number. cbn [find_in]. apply nothing_in_empty. Qed.
+Proof.
+  unfold has_pair, at_number. destruct (find_in empty x) eqn:E; [destruct (find_empty _ _ E) | apply nothing_in_empty].
+Qed.
 
 (** ** Lists *)
 
@@ -138,9 +132,9 @@ Proof.
   - intros a b E. destruct (no_pair_in_empty _ _ E).
 Qed.
 
-Lemma labelled_sound p n e : find_in (labelled p) (key n) = Some e -> is_in_plan e p.
+Lemma labelled_sound p n e : find_in (labelled p) n = Some e -> is_in_plan e p.
 Proof.
-  unfold labelled. revert n e. apply (fold_plans_from (fun m => forall n e, find_in m (key n) = Some e -> is_in_plan e p)).
+  unfold labelled. revert n e. apply (fold_plans_from (fun m => forall n e, find_in m n = Some e -> is_in_plan e p)).
   - intros e l m I H n f E. apply find_added in E as [[_ ->] | E]; [exact I | eapply H, E].
   - intros n e E. destruct (find_empty _ _ E).
 Qed.
@@ -149,7 +143,7 @@ Lemma has_faces_sound p fs : forall n, has_faces (labelled p) n fs = true ->
   forall a b c, In (a, b, c) fs -> is_in_plan [a; b; c] p.
 Proof.
   induction fs as [| [[x y] z] fs IH]; cbn [has_faces]; intros n E a b c I; [contradiction |].
-  destruct (find_in (labelled p) (key n)) as [[| i [| j [| k [|]]]] |] eqn:F; try discriminate E.
+  destruct (find_in (labelled p) n) as [[| i [| j [| k [|]]]] |] eqn:F; try discriminate E.
   rewrite !andb_true_iff in E. destruct E as (((E1 & E2) & E3) & E4). apply Z.eqb_eq in E1, E2, E3. subst.
   destruct I as [I | I]; [inversion I; subst; eapply labelled_sound, F | eapply IH; eassumption].
 Qed.
@@ -299,7 +293,7 @@ Definition is_site (p : site) : Prop :=
   forall i, is_in_range k E (component i (fst (moves p))) (component i (snd (moves p))) (component i (ranges p)).
 
 Lemma add_sites_sound x p vs : forall n gs o,
-  find_in (add_sites (space c) (upper c) (reach_in s h) n vs gs o) (key x) = Some p -> find_in o (key x) = Some p \/
+  find_in (add_sites (space c) (upper c) (reach_in s h) n vs gs o) x = Some p -> find_in o x = Some p \/
   exists i v, x = (n + Z.of_nat i)%Z /\ nth_error vs i = Some v /\ number p = x /\ moves p = v /\
     group p = nth i gs 0%Z /\ reach_in s h (group p) = Some (reach_of p) /\ ranges p = box_of_motion (space c) (upper c) v.
 Proof.
@@ -314,7 +308,7 @@ Proof.
     rewrite C. destruct gs as [| g gs]; cbn [tl nth]; [destruct i; reflexivity | reflexivity].
 Qed.
 
-Lemma sites_sound x p : find_in m (key x) = Some p -> number p = x /\ is_site p.
+Lemma sites_sound x p : find_in m x = Some p -> number p = x /\ is_site p.
 Proof.
   rewrite Hm. intros F. apply add_sites_sound in F as [F | (i & v & -> & Ev & Ex & Em & Eg & Er & Eb)];
     [destruct (find_empty _ _ F) |].
@@ -328,8 +322,8 @@ Lemma find_sites_sound ps : forall q, find_sites m q = Some ps -> map number ps 
 Proof.
   induction ps as [| p ps IH]; intros [| v q] F; cbn [find_sites] in F; try discriminate F.
   - split; [reflexivity | constructor].
-  - destruct (find_in m (key v)); [destruct (find_sites m q) |]; discriminate F.
-  - destruct (find_in m (key v)) as [p' |] eqn:Ep; [| discriminate F].
+  - destruct (find_in m v); [destruct (find_sites m q) |]; discriminate F.
+  - destruct (find_in m v) as [p' |] eqn:Ep; [| discriminate F].
     destruct (find_sites m q) as [ps' |] eqn:Es; [| discriminate F]. inversion F; subst p' ps'; clear F.
     apply sites_sound in Ep as [En Ip]. destruct (IH _ Es) as [Em Is]. cbn [map].
     rewrite En, Em. split; [reflexivity | constructor; assumption].
@@ -685,10 +679,10 @@ Qed.
 Lemma reach_in_sound g r : radii s <> [] \/ distances s <> [] -> reach_in s h g = Some r -> In (g, r) (group_reaches h).
 Proof.
   unfold reach_in. intros N H.
-  assert (find_in (fold_left (fun m x => add_to (key (fst x)) (snd x) m) (group_reaches h) empty) (key g) = Some r) as F
+  assert (find_in (fold_left (fun m x => add_to (fst x) (snd x) m) (group_reaches h) empty) g = Some r) as F
     by (destruct (radii s), (distances s); first [exact H | destruct N; contradiction]).
   clear H. revert g r F.
-  apply (fold_from (fun m => forall g r, find_in m (key g) = Some r -> In (g, r) (group_reaches h))).
+  apply (fold_from (fun m => forall g r, find_in m g = Some r -> In (g, r) (group_reaches h))).
   - intros m' [a b] I H g r F. cbn [fst snd] in F. apply find_added in F as [[-> ->] | F]; [exact I | apply H, F].
   - intros g r F. destruct (find_empty _ _ F).
 Qed.
