@@ -115,11 +115,11 @@ Definition is_axis_between (distance : Z) (ps qs : list site) : bool :=
 Definition distance_of_pair (c : setting) (ps qs : list site) : Q :=
   distance_between (the_step c) (the_sum c) (map group ps) (map group qs).
 
+(** True if the distance of all is that of each pair. *)
+Definition is_thin (s : step) : bool := match radii s, distances s with [], [] => true | _, _ => false end.
+
 Definition enlarged_between (c : setting) (ps qs : list site) : Z :=
-  match radii (the_step c), distances (the_step c) with
-  | [], [] => gap c
-  | _, _ => enlarged_distance (space c) (distance_of_pair c ps qs)
-  end.
+  if is_thin (the_step c) then gap c else enlarged_distance (space c) (distance_of_pair c ps qs).
 
 Definition query_between (ps qs : list site) : query :=
   query_of_motions (map (fun p => line (moves p)) ps) (map (fun q => line (moves q)) qs).
@@ -285,21 +285,14 @@ Record hints := Hints {
   for_points : option plan; for_bare_edges : option plan; for_two_points : option plan }.
 
 Definition reach_in (s : step) (h : hints) : Z -> option Z :=
-  match radii s, distances s with
-  | [], [] => fun _ => Some 0
-  | _, _ =>
-      let m := fold_left (fun m x => add_to (fst x) (snd x) m) (group_reaches h) (@empty Z) in
-      fun g => find_in m g
-  end.
+  if is_thin s then fun _ => Some 0
+  else find_in (fold_left (fun m x => add_to (fst x) (snd x) m) (group_reaches h) (@empty Z)).
 
 Definition are_reaches (c : setting) (h : hints) : bool :=
-  match radii (the_step c), distances (the_step c) with
-  | [], [] => true
-  | _, _ =>
-      forallb (fun x => forallb (fun y =>
-        enlarged_distance (space c) (distance_between (the_step c) (the_sum c) [fst x] [fst y]) <=?
-        gap c + snd x + snd y) (group_reaches h)) (group_reaches h)
-  end.
+  is_thin (the_step c) ||
+  forallb (fun x => forallb (fun y =>
+    enlarged_distance (space c) (distance_between (the_step c) (the_sum c) [fst x] [fst y]) <=?
+    gap c + snd x + snd y) (group_reaches h)) (group_reaches h).
 
 Definition held_in (s : step) : pairs :=
   fold_left (fun m x => with_pair (fst x) (snd x) (with_pair (snd x) (fst x) m)) (apart s) (@empty numbers).

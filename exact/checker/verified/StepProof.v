@@ -294,28 +294,24 @@ Definition is_site (p : site) : Prop :=
 
 Lemma add_sites_sound x p vs : forall n gs o,
   find_in (add_sites (space c) (upper c) (reach_in s h) n vs gs o) x = Some p -> find_in o x = Some p \/
-  exists i v, x = (n + Z.of_nat i)%Z /\ nth_error vs i = Some v /\ number p = x /\ moves p = v /\
-    group p = nth i gs 0%Z /\ reach_in s h (group p) = Some (reach_of p) /\ ranges p = box_of_motion (space c) (upper c) v.
+  exists i v r, x = (n + Z.of_nat i)%Z /\ nth_error vs i = Some v /\ reach_in s h (nth i gs 0%Z) = Some r /\
+    p = Site x (nth i gs 0%Z) r v (box_of_motion (space c) (upper c) v).
 Proof.
   induction vs as [| v vs IH]; intros n gs o F; [left; exact F |]. cbn [add_sites] in F.
-  apply IH in F as [F | (i & w & -> & Ew & R)].
+  apply IH in F as [F | (i & w & r & -> & Ew & Er & ->)].
   - destruct (reach_in s h (hd 0%Z gs)) as [r |] eqn:Er; [| left; exact F].
     apply find_added in F as [[-> ->] | F]; [| left; exact F].
-    right. exists O, v. cbn [number moves group ranges reach_of nth_error Z.of_nat]. rewrite Z.add_0_r.
-    repeat split; auto. destruct gs; reflexivity.
-  - right. exists (S i), w. cbn [nth_error]. destruct R as (A & B & C & D).
-    split; [lia |]. split; [exact Ew |]. split; [exact A |]. split; [exact B |]. split; [| exact D].
-    rewrite C. destruct gs as [| g gs]; cbn [tl nth]; [destruct i; reflexivity | reflexivity].
+    right. exists O, v, r. rewrite Z.add_0_r. destruct gs; auto.
+  - right. exists (S i), w, r. replace (n + Z.of_nat (S i))%Z with (n + 1 + Z.of_nat i)%Z by lia.
+    destruct gs; [destruct i |]; auto.
 Qed.
 
 Lemma sites_sound x p : find_in m x = Some p -> number p = x /\ is_site p.
 Proof.
-  rewrite Hm. intros F. apply add_sites_sound in F as [F | (i & v & -> & Ev & Ex & Em & Eg & Er & Eb)];
-    [destruct (find_empty _ _ F) |].
-  split; [exact Ex |]. rewrite Z.add_0_l in *. unfold is_site, ends_of, group_of. rewrite Ex, Nat2Z.id, Em, Eb.
-  rewrite (nth_error_nth _ _ _ Ev). split; [reflexivity |]. split; [exact Eg |]. split; [exact Er |].
-  destruct v as [a b]. intros j. unfold box_of_motion. cbn [fst snd].
-  destruct j; cbn [component x_of y_of z_of]; apply range_of_sound.
+  rewrite Hm. intros F. apply add_sites_sound in F as [F | (i & v & r & -> & Ev & Er & ->)]; [destruct (find_empty _ _ F) |].
+  rewrite Z.add_0_l. split; [reflexivity |]. unfold is_site, ends_of, group_of. cbn [moves number group reach_of ranges].
+  rewrite Nat2Z.id, (nth_error_nth _ _ _ Ev). repeat (split; [first [reflexivity | exact Er] |]).
+  intros j. destruct v as [a b], j; apply range_of_sound.
 Qed.
 
 Lemma find_sites_sound ps : forall q, find_sites m q = Some ps -> map number ps = q /\ Forall is_site ps.
@@ -477,7 +473,8 @@ Lemma enlarged_between_sound ps qs : Forall is_site ps -> Forall is_site qs ->
 Proof.
   intros P Q. rewrite <- distance_of_sites by assumption.
   assert (k * Q2R (distance_of_pair c ps qs) <= IZR (enlarged_between c ps qs) /\ 0 <= IZR (enlarged_between c ps qs)) as [L N].
-  { unfold enlarged_between, distance_of_pair, distance_between. rewrite Hgap. destruct (radii s), (distances s); apply enlarged_distance_sound. }
+  { unfold enlarged_between, distance_of_pair, distance_between. rewrite Hgap. unfold is_thin.
+    destruct (radii s), (distances s); apply enlarged_distance_sound. }
   split; [| apply Rmult_le_pos; [exact N | left; apply Rinv_0_lt_compat; exact Hk]].
   apply (Rmult_le_reg_l k); [exact Hk |]. replace (k * (IZR (enlarged_between c ps qs) / k)) with
     (IZR (enlarged_between c ps qs)) by (field; lra). exact L.
@@ -647,23 +644,15 @@ Qed.
 
 Hypothesis Hr : are_reaches c h = true.
 
-Lemma greatest_nonnegative xs : (0 <= greatest xs)%Q.
-Proof.
-  induction xs as [| x xs IH]; cbn [greatest fold_right]; [apply Qle_refl |]. fold (greatest xs).
-  destruct (Qle_bool x (greatest xs)) eqn:L; [exact IH |].
-  apply Qlt_le_weak. eapply Qle_lt_trans; [exact IH |]. apply Qnot_le_lt. intros G. apply Qle_bool_iff in G.
-  rewrite G in L. discriminate.
-Qed.
-
 Lemma greatest_is_one xs : xs <> [] -> exists x, In x xs /\ greatest xs = greatest [x].
 Proof.
-  induction xs as [| x xs IH]; intros N; [contradiction |]. clear N. destruct xs as [| y xs]; [exists x; cbn; auto |].
+  induction xs as [| x xs IH]; intros N; [contradiction |]. destruct xs as [| y xs]; [exists x; cbn; auto |].
   destruct (IH ltac:(discriminate)) as (z & Iz & Ez). remember (y :: xs) as ys.
-  cbn [greatest fold_right]. fold (greatest ys). destruct (Qle_bool x (greatest ys)) eqn:L.
-  - exists z. split; [right; exact Iz | exact Ez].
-  - exists x. split; [left; reflexivity |]. cbn [greatest fold_right]. destruct (Qle_bool x 0) eqn:Z; [| reflexivity].
-    apply Qle_bool_iff in Z. pose proof (greatest_nonnegative ys) as G.
-    pose proof (Qle_trans _ _ _ Z G) as T. apply Qle_bool_iff in T. rewrite T in L. discriminate.
+  cbn [greatest fold_right]. fold (greatest ys). destruct (Qle_bool x (greatest ys)) eqn:L; [exists z; cbn; auto |].
+  exists x. split; [left; reflexivity |]. destruct (Qle_bool x 0) eqn:Z; [| reflexivity]. exfalso.
+  apply not_true_iff_false in L. apply L, Qle_bool_iff. apply Qle_bool_iff in Z. apply (Qle_trans _ _ _ Z). rewrite Ez.
+  cbn [greatest fold_right]. destruct (Qle_bool z 0) eqn:Q; [apply Qle_refl | apply Qlt_le_weak, Qnot_le_lt].
+  intros G. apply Qle_bool_iff in G. rewrite G in Q. discriminate Q.
 Qed.
 
 Lemma distance_of_one_pair gs hs : gs <> [] -> hs <> [] -> exists g l, In g gs /\ In l hs /\
@@ -676,12 +665,9 @@ Proof.
   exists g, l. split; [exact Ig |]. split; [exact Il |]. unfold distance_between. rewrite Ex. reflexivity.
 Qed.
 
-Lemma reach_in_sound g r : radii s <> [] \/ distances s <> [] -> reach_in s h g = Some r -> In (g, r) (group_reaches h).
+Lemma reach_in_sound g r : is_thin s = false -> reach_in s h g = Some r -> In (g, r) (group_reaches h).
 Proof.
-  unfold reach_in. intros N H.
-  assert (find_in (fold_left (fun m x => add_to (fst x) (snd x) m) (group_reaches h) empty) g = Some r) as F
-    by (destruct (radii s), (distances s); first [exact H | destruct N; contradiction]).
-  clear H. revert g r F.
+  unfold reach_in. intros ->. revert g r.
   apply (fold_from (fun m => forall g r, find_in m g = Some r -> In (g, r) (group_reaches h))).
   - intros m' [a b] I H g r F. cbn [fst snd] in F. apply find_added in F as [[-> ->] | F]; [exact I | apply H, F].
   - intros g r F. destruct (find_empty _ _ F).
@@ -690,32 +676,16 @@ Qed.
 Lemma reaches_suffice x y : is_item x -> is_item y ->
   (enlarged_between c (sites x) (sites y) <= gap c + reach_of_item x + reach_of_item y)%Z.
 Proof.
-  intros [P Np] [Q Nq]. rewrite Forall_forall in P, Q. unfold enlarged_between, are_reaches in *.
-  assert (thin : radii s = [] -> distances s = [] -> (gap c <= gap c + reach_of_item x + reach_of_item y)%Z).
-  { intros E1 E2. assert (forall p, is_site p -> reach_of p = 0%Z) as Z.
-    { intros p (_ & _ & R & _). unfold reach_in in R. rewrite E1, E2 in R. inversion R. reflexivity. }
-    destruct (sites x) as [| p ps] eqn:Ex; [contradiction |]. destruct (sites y) as [| q qs] eqn:Ey; [contradiction |].
-    assert (In p (sites x)) as Ip by (rewrite Ex; left; reflexivity).
-    assert (In q (sites y)) as Iq by (rewrite Ey; left; reflexivity).
-    pose proof (reach_is_greatest x p Ip). pose proof (reach_is_greatest y q Iq).
-    rewrite (Z p) in * by (apply P; left; reflexivity). rewrite (Z q) in * by (apply Q; left; reflexivity). lia. }
-  assert (thick : radii s <> [] \/ distances s <> [] ->
-    forallb (fun x => forallb (fun y =>
-        enlarged_distance (space c) (distance_between s sum [fst x] [fst y]) <=? gap c + snd x + snd y)%Z
-      (group_reaches h)) (group_reaches h) = true ->
-    (enlarged_distance (space c) (distance_of_pair c (sites x) (sites y)) <=
-     gap c + reach_of_item x + reach_of_item y)%Z).
-  { intros N H. unfold distance_of_pair.
-    destruct (distance_of_one_pair (map group (sites x)) (map group (sites y))) as (g & l & Ig & Il & ->);
-      try (intros M; apply map_eq_nil in M; contradiction).
-    apply in_map_iff in Ig as (p & <- & Ip). apply in_map_iff in Il as (q & <- & Iq).
-    destruct (P _ Ip) as (_ & _ & Rp & _), (Q _ Iq) as (_ & _ & Rq & _).
-    apply (reach_in_sound _ _ N) in Rp, Rq. rewrite forallb_forall in H. specialize (H _ Rp).
-    rewrite forallb_forall in H. specialize (H _ Rq). apply Z.leb_le in H. cbn [fst snd] in H.
-    pose proof (reach_is_greatest x p Ip). pose proof (reach_is_greatest y q Iq). lia. }
-  destruct (radii s), (distances s);
-    [apply thin; reflexivity | apply thick; [right; discriminate | exact Hr] |
-     apply thick; [left; discriminate | exact Hr] | apply thick; [left; discriminate | exact Hr]].
+  intros [P Np] [Q Nq]. rewrite Forall_forall in P, Q. unfold enlarged_between, distance_of_pair.
+  destruct (distance_of_one_pair (map group (sites x)) (map group (sites y))) as (g & l & Ig & Il & ->);
+    try (intros M; apply map_eq_nil in M; contradiction).
+  apply in_map_iff in Ig as (p & <- & Ip). apply in_map_iff in Il as (q & <- & Iq).
+  pose proof (reach_is_greatest x p Ip). pose proof (reach_is_greatest y q Iq).
+  destruct (P _ Ip) as (_ & _ & Rp & _), (Q _ Iq) as (_ & _ & Rq & _).
+  unfold are_reaches in Hr. destruct (is_thin s) eqn:Thin.
+  - unfold reach_in in Rp, Rq. rewrite Thin in Rp, Rq. injection Rp as Rp. injection Rq as Rq. lia.
+  - apply (reach_in_sound _ _ Thin) in Rp, Rq. cbn [orb] in Hr. rewrite forallb_forall in Hr. specialize (Hr _ Rp).
+    rewrite forallb_forall in Hr. specialize (Hr _ Rq). apply Z.leb_le in Hr. cbn [fst snd] in Hr. lia.
 Qed.
 
 Definition unit_of (i : axis) : triple Z :=
