@@ -94,21 +94,21 @@ Ltac by_coordinates :=
 Definition det (a b c : vector) : R := dot a (cross b c).
 Definition combination_of_three (k l m : R) (a b c : vector) : vector := plus (plus (times k a) (times l b)) (times m c).
 
+(** Cramer's rule. *)
+Lemma expansion a b c x :
+  combination_of_three (det x b c) (det a x c) (det a b x) a b c = times (det a b c) x.
+Proof. unfold combination_of_three, det. by_vectors. Qed.
+
 Lemma three_are_dependent a b c : det a b c = 0 ->
   exists k l m, (k <> 0 \/ l <> 0 \/ m <> 0) /\ combination_of_three k l m a b c = origin.
 Proof.
-  intros D. unfold combination_of_three. destruct a as [ax ay az], b as [bx b_y bz], c as [cx cy cz].
-  unfold det in D. unfold cross, dot in D. by_coordinates.
-  destruct (Req_dec (b_y * cz - bz * cy) 0) as [X |].
-  2: { exists (b_y * cz - bz * cy), (cy * az - cz * ay), (ay * bz - az * b_y). split; [auto |]. f_equal; lra. }
-  destruct (Req_dec (bz * cx - bx * cz) 0) as [Y |].
-  2: { exists (bz * cx - bx * cz), (cz * ax - cx * az), (az * bx - ax * bz). split; [auto |]. f_equal; lra. }
-  destruct (Req_dec (bx * cy - b_y * cx) 0) as [Z |].
-  2: { exists (bx * cy - b_y * cx), (cx * ay - cy * ax), (ax * b_y - ay * bx). split; [auto |]. f_equal; lra. }
-  destruct (Req_dec cx 0) as [-> |]; [| exists 0, cx, (- bx); split; [auto | f_equal; lra]].
-  destruct (Req_dec cy 0) as [-> |]; [| exists 0, cy, (- b_y); split; [auto | f_equal; lra]].
-  destruct (Req_dec cz 0) as [-> |]; [| exists 0, cz, (- bz); split; [auto | f_equal; lra]].
-  exists 0, 0, 1. split; [lra | f_equal; lra].
+  intros D. assert (N : forall x, dot x x = 0 -> x = origin) by (clear; intros; by_components; f_equal; nra).
+  destruct (Req_dec (dot (cross b c) (cross b c)) 0) as [X |].
+  2: { do 3 eexists. split; [left | rewrite (expansion a b c (cross b c)), D; by_vectors]. assumption. }
+  apply N in X. destruct (Req_dec (dot c c) 0) as [Y |].
+  - apply N in Y. subst c. exists 0, 0, 1. split; [lra | unfold combination_of_three; by_vectors].
+  - exists 0, (dot c c), (- dot b c). split; [auto |].
+    transitivity (cross c (cross b c)); [unfold combination_of_three; by_vectors | rewrite X; by_vectors].
 Qed.
 
 Lemma four_are_dependent a b c e :
@@ -117,36 +117,26 @@ Proof.
   destruct (Req_dec (det a b c) 0) as [D | D].
   - destruct (three_are_dependent a b c D) as (k & l & m & H & E). exists k, l, m, 0.
     split; [tauto |]. rewrite E. by_vectors.
-  - exists (det e b c), (det a e c), (det a b e), (- det a b c). split; [right; right; right; lra |].
-    unfold combination_of_three, det. by_vectors.
+  - exists (det e b c), (det a e c), (det a b e), (- det a b c). split; [lra |]. rewrite expansion. by_vectors.
 Qed.
 
-Ltac each_weight I := cbn [In] in I; repeat destruct I as [[= <- <-] | I]; try contradiction.
+Ltac for_each := repeat match goal with P : Forall _ (_ :: _) |- _ => inversion_clear P end; cbn [fst snd] in *.
 
 (** Weights w ≥ 0 that change by rates r, one of them negative: the greatest step that leaves all at least 0. *)
-Lemma greatest_step (l : list (R * R)) : (forall w r, In (w, r) l -> 0 <= w) -> (exists w r, In (w, r) l /\ r < 0) ->
-  exists h, (forall w r, In (w, r) l -> 0 <= w + h * r) /\ exists w r, In (w, r) l /\ w + h * r = 0.
+Lemma greatest_step (l : list (R * R)) : Forall (fun p => 0 <= fst p) l -> Forall (fun p => 0 <= snd p) l \/
+  exists h, 0 <= h /\ Forall (fun p => 0 <= fst p + h * snd p) l /\ Exists (fun p => fst p + h * snd p = 0) l.
 Proof.
-  intros W (w0 & r0 & I0 & R0).
-  cut ((forall w r, In (w, r) l -> 0 <= r) \/
-    exists h, 0 <= h /\ (forall w r, In (w, r) l -> 0 <= w + h * r) /\ exists w r, In (w, r) l /\ w + h * r = 0).
-  { intros [C | (h & _ & C)]; [specialize (C _ _ I0); lra | eauto]. }
-  clear w0 r0 I0 R0. induction l as [| [w r] l IH]; [left; intros ? ? [] |].
-  pose proof (W w r (or_introl eq_refl)) as Hw.
-  assert (G : r < 0 -> (forall w0 r0, In (w0, r0) l -> 0 <= w0 + w / - r * r0) ->
-    exists h, 0 <= h /\ (forall w0 r0, In (w0, r0) ((w, r) :: l) -> 0 <= w0 + h * r0) /\
-      exists w0 r0, In (w0, r0) ((w, r) :: l) /\ w0 + h * r0 = 0).
-  { intros Hr C. assert (w + w / - r * r = 0) by (field; lra). exists (w / - r).
-    repeat split; [| intros w0 r0 [[= <- <-] | I]; [lra | auto] | exists w, r; cbn; auto].
-    apply Rmult_le_pos; [| apply Rlt_le, Rinv_0_lt_compat]; lra. }
-  destruct IH as [C | (h & Hh & C & w1 & r1 & I1 & E1)]; [intros; apply (W w0 r0); right; assumption | |].
-  - destruct (Rle_lt_dec 0 r) as [Hr | Hr]; [left; intros w0 r0 [[= <- <-] | I]; eauto |].
-    right. apply G; [exact Hr |]. intros w0 r0 I. pose proof (C _ _ I). pose proof (W _ _ (or_intror I)).
-    assert (0 <= w / - r) by (apply Rmult_le_pos; [| apply Rlt_le, Rinv_0_lt_compat]; lra). nra.
-  - right. destruct (Rle_lt_dec 0 (w + h * r)) as [Hr | Hr].
-    + exists h. repeat split; [assumption | intros w0 r0 [[= <- <-] | I]; auto | exists w1, r1; cbn; auto].
-    + apply G; [nra |]. intros w0 r0 I. pose proof (C _ _ I). pose proof (W _ _ (or_intror I)).
-      assert (r < 0) by nra. assert (w / - r * - r = w) by (field; lra). assert (0 <= w / - r <= h) by nra. nra.
+  induction l as [| [w r] l IH]; intros W; [left; constructor |]. inversion_clear W as [| ? ? Hw W']. cbn [fst] in Hw.
+  set (goal := exists h, _). assert (G : r < 0 -> (forall p, In p l -> 0 <= fst p + w / - r * snd p) -> goal).
+  { intros Hr C. apply Forall_forall in C. assert (w + w / - r * r = 0) by (field; lra). exists (w / - r).
+    repeat split; [apply Rmult_le_pos; [| apply Rlt_le, Rinv_0_lt_compat]; lra | constructor; cbn; auto; lra | left; assumption]. }
+  destruct (IH W') as [C | (h & Hh & C & Z)]; rewrite Forall_forall in W'.
+  - destruct (Rle_lt_dec 0 r) as [Hr | Hr]; [left; constructor; assumption |]. right. apply G; [exact Hr |].
+    rewrite Forall_forall in C. intros p I. pose proof (C p I). pose proof (W' p I).
+    assert (0 <= w / - r) by (apply Rmult_le_pos; [| apply Rlt_le, Rinv_0_lt_compat]; lra). cbn beta in *. nra.
+  - right. destruct (Rle_lt_dec 0 (w + h * r)) as [Hr | Hr]; [exists h; auto |].
+    apply G; [nra |]. rewrite Forall_forall in C. intros p I. pose proof (C p I). pose proof (W' p I).
+    assert (r < 0) by nra. assert (w / - r * - r = w) by (field; lra). assert (0 <= w / - r <= h) by nra. cbn beta in *. nra.
 Qed.
 
 (** ** Two faces that meet: an edge of one of them meets the other *)
@@ -166,22 +156,14 @@ Proof.
   destruct (four_are_dependent (minus (y_of f) (x_of f)) (minus (z_of f) (x_of f))
     (minus (x_of g) (y_of g)) (minus (x_of g) (z_of g))) as (k & l & m & n & N & D).
   destruct (greatest_step [(u, k); (v, l); (1 - u - v, - k - l); (u', m); (v', n); (1 - u' - v', - m - n)])
-    as (h & W & w & r & I & Z).
-  - intros w r I. each_weight I; lra.
-  - destruct (Rlt_le_dec k 0); [exists u, k; cbn; auto 9 |]. destruct (Rlt_le_dec l 0); [exists v, l; cbn; auto 9 |].
-    destruct (Rlt_le_dec m 0); [exists u', m; cbn; auto 9 |]. destruct (Rlt_le_dec n 0); [exists v', n; cbn; auto 9 |].
-    destruct (Rlt_le_dec (- k - l) 0); [exists (1 - u - v), (- k - l); cbn; auto 9 |].
-    exists (1 - u' - v'), (- m - n); cbn; split; [auto 9 | lra].
-  - pose proof (W u k ltac:(cbn; auto 9)). pose proof (W v l ltac:(cbn; auto 9)).
-    pose proof (W _ (- k - l) ltac:(cbn; auto 9)). pose proof (W u' m ltac:(cbn; auto 9)).
-    pose proof (W v' n ltac:(cbn; auto 9)). pose proof (W _ (- m - n) ltac:(cbn; auto 9)).
+    as [W | (h & _ & W & Z)]; [repeat (apply Forall_cons; [cbn; lra |]); apply Forall_nil | for_each; lra |].
+  - for_each. rewrite !Exists_cons, Exists_nil in Z. cbn [fst snd] in Z.
     assert (E' : triangle_point f (u + h * k) (v + h * l) = triangle_point g (u' + h * m) (v' + h * n)).
     { unfold combination_of_three in D. by_coordinates. injection E as Ex Ey Ez. injection D as Dx Dy Dz.
       f_equal; [apply (f_equal (Rmult h)) in Dx | apply (f_equal (Rmult h)) in Dy | apply (f_equal (Rmult h)) in Dz];
         lra. }
     assert (Z' : (u + h * k = 0 \/ v + h * l = 0 \/ 1 - (u + h * k) - (v + h * l) = 0) \/
-      (u' + h * m = 0 \/ v' + h * n = 0 \/ 1 - (u' + h * m) - (v' + h * n) = 0)).
-    { each_weight I; [left | left | left | right | right | right]; lra. }
+      (u' + h * m = 0 \/ v' + h * n = 0 \/ 1 - (u' + h * m) - (v' + h * n) = 0)) by lra.
     destruct Z' as [Z' | Z']; [destruct (side_of_triangle f (u + h * k) (v + h * l)) as (a & b & Hab & S); try lra |
       destruct (side_of_triangle g (u' + h * m) (v' + h * n)) as (a & b & Hab & S); try lra];
       exists a, b; [left | right]; (split; [exact Hab |]); eexists; (split; [exact S |]).
@@ -212,20 +194,12 @@ Proof.
   intros Hs Hu Hv Hw E N.
   pose proof (fun B => N (touches_at_boundary p q f s u v Hs Hu Hv Hw E B)). split; [lra |]. intros D.
   destruct (three_are_dependent _ _ _ D) as (k & l & m & N' & C).
-  destruct (greatest_step [(s, k); (1 - s, - k); (u, l); (v, m); (1 - u - v, - l - m)]) as (h & W & w & r & I & Z).
-  - intros w r I. each_weight I; lra.
-  - destruct (Rlt_le_dec k 0); [exists s, k; cbn; auto 9 |].
-    destruct (Rlt_le_dec (- k) 0); [exists (1 - s), (- k); cbn; auto 9 |].
-    destruct (Rlt_le_dec l 0); [exists u, l; cbn; auto 9 |]. destruct (Rlt_le_dec m 0); [exists v, m; cbn; auto 9 |].
-    exists (1 - u - v), (- l - m); cbn; split; [auto 9 | lra].
-  - apply N. pose proof (W s k ltac:(cbn; auto 9)). pose proof (W _ (- k) ltac:(cbn; auto 9)).
-    pose proof (W u l ltac:(cbn; auto 9)). pose proof (W v m ltac:(cbn; auto 9)).
-    pose proof (W _ (- l - m) ltac:(cbn; auto 9)).
-    apply touches_at_boundary with (s + h * k) (u + h * l) (v + h * m); try lra.
-    + unfold combination_of_three in C. by_coordinates. injection E as Ex Ey Ez. injection C as Cx Cy Cz.
-      f_equal; [apply (f_equal (Rmult h)) in Cx | apply (f_equal (Rmult h)) in Cy | apply (f_equal (Rmult h)) in Cz];
-        lra.
-    + each_weight I; lra.
+  destruct (greatest_step [(s, k); (1 - s, - k); (u, l); (v, m); (1 - u - v, - l - m)]) as [W | (h & _ & W & Z)];
+    [repeat (apply Forall_cons; [cbn; lra |]); apply Forall_nil | for_each; lra |].
+  for_each. rewrite !Exists_cons, Exists_nil in Z. cbn [fst snd] in Z. apply N.
+  apply touches_at_boundary with (s + h * k) (u + h * l) (v + h * m); try lra.
+  unfold combination_of_three in C. by_coordinates. injection E as Ex Ey Ez. injection C as Cx Cy Cz.
+  f_equal; [apply (f_equal (Rmult h)) in Cx | apply (f_equal (Rmult h)) in Cy | apply (f_equal (Rmult h)) in Cz]; lra.
 Qed.
 
 (** ** A crossing is open in time *)
@@ -271,8 +245,9 @@ Qed.
 Lemma cramer a b c r : det a b c <> 0 ->
   combination_of_three (det r b c / det a b c) (det a r c / det a b c) (det a b r / det a b c) a b c = r.
 Proof.
-  intros D. unfold combination_of_three. set (k := det a b c) in *. unfold det in k. clear - D.
-  subst k. unfold det in *. by_components. f_equal; field; exact D.
+  intros D. transitivity (times (/ det a b c) (combination_of_three (det r b c) (det a r c) (det a b r) a b c)).
+  - unfold combination_of_three, Rdiv. generalize (/ det a b c). intros. by_vectors.
+  - rewrite expansion. clear - D. generalize dependent (det a b c). intros. by_components. f_equal; field; assumption.
 Qed.
 
 Lemma crossing_is_open (p q : path) (f : triple path) t :
@@ -404,7 +379,7 @@ Proof.
     transitivity (minus (segment_point p q s) (triangle_point (Triple a b c) u v)); [cbn [combination] | rewrite E]; by_vectors.
   - intros (weights & L & P & S & E).
     destruct weights as [| k [| l [| m [| k' [| l' [| m' [|]]]]]]]; try discriminate L. cbn [fold_right] in S.
-    repeat match goal with P : Forall _ (_ :: _) |- _ => inversion_clear P end.
+    for_each.
     exists (segment_point p q (k' + l' + m')). split; [exists (k' + l' + m'); split; [lra | reflexivity] |].
     exists (l + l'), (m + m'). split; [lra |]. assert (k = 1 - l - m - k' - l' - m') as -> by lra. clear - E.
     cbn [combination] in E. by_coordinates. injection E as Ex Ey Ez. f_equal; lra.

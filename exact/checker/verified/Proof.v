@@ -166,14 +166,13 @@ Proof.
   unfold scene_of. cbv zeta. generalize (common_multiple (distance_of s :: coordinates q)). intros m.
   destruct (_ && _ && _ && _) eqn:E; [| discriminate].
   rewrite !andb_true_iff in E. destruct E as (((Em & E) & Ew) & Ed). apply Z.ltb_lt in Em.
-  cbn [forallb] in E, Ew. rewrite !andb_true_iff in Ew. destruct Ew as (W0 & W1 & W2 & W3 & _).
-  apply andb_prop in E as [Es E]. unfold coordinates in E. cbn [flat_map] in E.
-  rewrite !forallb_app, !andb_true_iff in E. destruct E as (E0 & E1 & E2 & E3 & _).
-  cbn [map]. set (ds := distinct _). clearbody ds.
-  pose proof (fun t => over_sound m ds _ _ t (fraction_of_sound m _ t W0 E0)) as P0.
-  pose proof (fun t => over_sound m ds _ _ t (fraction_of_sound m _ t W1 E1)) as P1.
-  pose proof (fun t => over_sound m ds _ _ t (fraction_of_sound m _ t W2 E2)) as P2.
-  pose proof (fun t => over_sound m ds _ _ t (fraction_of_sound m _ t W3 E3)) as P3.
+  rewrite !forallb_forall in E, Ew. pose proof (E _ (or_introl eq_refl)) as Es. cbn [map]. set (ds := distinct _). clearbody ds.
+  assert (P : forall p, In p [point0 q; point1 q; point2 q; point3 q] ->
+    forall t, is_fraction_of (over ds (fraction_of m p)) m (position p t) t).
+  { intros p I t. apply over_sound, fraction_of_sound; [apply Ew, I |].
+    apply forallb_forall. intros x Ix. apply E. right. apply in_flat_map. exists p. split; assumption. }
+  pose proof (P (point0 q) ltac:(cbn; auto)) as P0. pose proof (P (point1 q) ltac:(cbn; auto)) as P1.
+  pose proof (P (point2 q) ltac:(cbn; auto)) as P2. pose proof (P (point3 q) ltac:(cbn; auto)) as P3. clear P E Ew.
   set (p0 := over ds _) in *. set (p1 := over ds (fraction_of m (point1 q))) in *.
   set (p2 := over ds (fraction_of m (point2 q))) in *. set (p3 := over ds (fraction_of m (point3 q))) in *.
   clearbody p0 p1 p2 p3.

@@ -5,45 +5,30 @@
     all elements, and boxes are made here. Space is enlarged by a factor, and coordinates at both ends of the step are
     enclosed by integers. Vertices move on straight lines: what is beyond a plane at both ends is beyond it on the way. *)
 
-Require Import ZArith QArith List Bool.
+Require Import ZArith QArith List Bool FMapPositive.
 Import ListNotations.
 Require Import Verified.Problem Verified.StepProblem Verified.Geometry Verified.Checker.
 Open Scope Z_scope.
 
 (** ** Maps of numbers, sets of numbers and of pairs *)
 
-Inductive map_of (A : Type) := empty | entry (o : option A) (l r : map_of A).
-Arguments empty {A}.
-Arguments entry {A}.
-
-Fixpoint find_in {A} (m : map_of A) (k : positive) : option A :=
-  match m, k with
-  | empty, _ => None
-  | entry o _ _, xH => o
-  | entry _ l _, xO k' => find_in l k'
-  | entry _ _ r, xI k' => find_in r k'
-  end.
-
-Fixpoint add_to {A} (k : positive) (a : A) (m : map_of A) : map_of A :=
-  let '(o, l, r) := match m with empty => (None, empty, empty) | entry o l r => (o, l, r) end in
-  match k with
-  | xH => entry (Some a) l r
-  | xO k' => entry o (add_to k' a l) r
-  | xI k' => entry o l (add_to k' a r)
-  end.
+Definition map_of := PositiveMap.t.
+Definition empty {A} : map_of A := PositiveMap.empty A.
 
 Definition key (z : Z) : positive :=
   match z with Z0 => 1 | Zpos p => p~1 | Zneg p => p~0 end%positive.
+Definition find_in {A} (m : map_of A) (z : Z) : option A := PositiveMap.find (key z) m.
+Definition add_to {A} (z : Z) (a : A) (m : map_of A) : map_of A := PositiveMap.add (key z) a m.
 
 Definition numbers := map_of unit.
-Definition has (m : numbers) (z : Z) : bool := match find_in m (key z) with Some _ => true | None => false end.
-Definition with_number (z : Z) (m : numbers) : numbers := add_to (key z) tt m.
+Definition has (m : numbers) (z : Z) : bool := match find_in m z with Some _ => true | None => false end.
+Definition with_number (z : Z) (m : numbers) : numbers := add_to z tt m.
 
 Definition pairs := map_of numbers.
 Definition at_number (m : pairs) (a : Z) : numbers :=
-  match find_in m (key a) with Some n => n | None => @empty unit end.
+  match find_in m a with Some n => n | None => @empty unit end.
 Definition has_pair (m : pairs) (a b : Z) : bool := has (at_number m a) b.
-Definition with_pair (a b : Z) (m : pairs) : pairs := add_to (key a) (with_number b (at_number m a)) m.
+Definition with_pair (a b : Z) (m : pairs) : pairs := add_to a (with_number b (at_number m a)) m.
 
 (** ** Sites *)
 
@@ -89,7 +74,7 @@ Fixpoint add_sites (k e : Q) (reach : Z -> option Z) (n : Z) (vs : list (triple 
       let g := hd 0 gs in
       add_sites k e reach (n + 1) vs' (tl gs)
         match reach g with
-        | Some r => add_to (key n) (Site n g r v (box_of_motion k e v)) m
+        | Some r => add_to n (Site n g r v (box_of_motion k e v)) m
         | None => m
         end
   end.
@@ -98,7 +83,7 @@ Fixpoint find_sites (m : map_of site) (e : element) : option (list site) :=
   match e with
   | [] => Some []
   | v :: e' =>
-      match find_in m (key v), find_sites m e' with
+      match find_in m v, find_sites m e' with
       | Some p, Some ps => Some (p :: ps)
       | _, _ => None
       end
@@ -130,11 +115,11 @@ Definition is_axis_between (distance : Z) (ps qs : list site) : bool :=
 Definition distance_of_pair (c : setting) (ps qs : list site) : Q :=
   distance_between (the_step c) (the_sum c) (map group ps) (map group qs).
 
+(** True if the distance of all is that of each pair. *)
+Definition is_thin (s : step) : bool := match radii s, distances s with [], [] => true | _, _ => false end.
+
 Definition enlarged_between (c : setting) (ps qs : list site) : Z :=
-  match radii (the_step c), distances (the_step c) with
-  | [], [] => gap c
-  | _, _ => enlarged_distance (space c) (distance_of_pair c ps qs)
-  end.
+  if is_thin (the_step c) then gap c else enlarged_distance (space c) (distance_of_pair c ps qs).
 
 Definition query_between (ps qs : list site) : query :=
   query_of_motions (map (fun p => line (moves p)) ps) (map (fun q => line (moves q)) qs).
@@ -257,7 +242,7 @@ Definition vertices_in (p : option plan) : numbers :=
 Definition edges_in (p : option plan) : pairs :=
   fold_plans (fun e _ m => match e with [a; b] => with_pair a b m | _ => m end) p (@empty numbers).
 Definition labelled (p : option plan) : map_of element :=
-  fold_plans (fun e l m => add_to (key l) e m) p (@empty element).
+  fold_plans (fun e l m => add_to l e m) p (@empty element).
 
 Definition has_vertices (s : step) (m : numbers) : bool :=
   forallb (fun e => has m (fst e) && has m (snd e)) (line_list s) && forallb (has m) (points s).
@@ -267,7 +252,7 @@ Fixpoint has_faces (m : map_of element) (n : Z) (fs : list (Z * Z * Z)) : bool :
   match fs with
   | [] => true
   | (a, b, c) :: rest =>
-      match find_in m (key n) with
+      match find_in m n with
       | Some [i; j; k] => (i =? a) && (j =? b) && (k =? c) && has_faces m (n + 1) rest
       | _ => false
       end
@@ -300,21 +285,14 @@ Record hints := Hints {
   for_points : option plan; for_bare_edges : option plan; for_two_points : option plan }.
 
 Definition reach_in (s : step) (h : hints) : Z -> option Z :=
-  match radii s, distances s with
-  | [], [] => fun _ => Some 0
-  | _, _ =>
-      let m := fold_left (fun m x => add_to (key (fst x)) (snd x) m) (group_reaches h) (@empty Z) in
-      fun g => find_in m (key g)
-  end.
+  if is_thin s then fun _ => Some 0
+  else find_in (fold_left (fun m x => add_to (fst x) (snd x) m) (group_reaches h) (@empty Z)).
 
 Definition are_reaches (c : setting) (h : hints) : bool :=
-  match radii (the_step c), distances (the_step c) with
-  | [], [] => true
-  | _, _ =>
-      forallb (fun x => forallb (fun y =>
-        enlarged_distance (space c) (distance_between (the_step c) (the_sum c) [fst x] [fst y]) <=?
-        gap c + snd x + snd y) (group_reaches h)) (group_reaches h)
-  end.
+  is_thin (the_step c) ||
+  forallb (fun x => forallb (fun y =>
+    enlarged_distance (space c) (distance_between (the_step c) (the_sum c) [fst x] [fst y]) <=?
+    gap c + snd x + snd y) (group_reaches h)) (group_reaches h).
 
 Definition held_in (s : step) : pairs :=
   fold_left (fun m x => with_pair (fst x) (snd x) (with_pair (snd x) (fst x) m)) (apart s) (@empty numbers).

@@ -19,8 +19,7 @@ Proof.
   - intros (u & v & D & ->). exists [1 - u - v; u; v]. split; [reflexivity |].
     split; [repeat (apply Forall_cons; [lra |]); apply Forall_nil |]. split; [cbn; ring | cbn [combination]; by_vectors].
   - intros (weights & L & P & S & <-). destruct weights as [| k [| l [| m [|]]]]; try discriminate L. cbn [fold_right] in S.
-    repeat match goal with P : Forall _ (_ :: _) |- _ => inversion_clear P end.
-    exists l, m. split; [lra |]. assert (k = 1 - l - m) as -> by lra. cbn [combination]. by_vectors.
+    for_each. exists l, m. split; [lra |]. assert (k = 1 - l - m) as -> by lra. cbn [combination]. by_vectors.
 Qed.
 
 Section Step.

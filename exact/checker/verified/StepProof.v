@@ -1,6 +1,6 @@
 (** The proof that what the checker of steps accepts is true. *)
 
-Require Import ZArith QArith Qreals Reals List Lia Lra Psatz Bool.
+Require Import ZArith QArith Qreals Reals List Lia Lra Psatz Bool FMapPositive.
 Import ListNotations.
 Require Import Verified.Problem Verified.StepProblem Verified.Geometry Verified.Checker Verified.Proof Verified.Step.
 Open Scope Z_scope.
@@ -10,28 +10,20 @@ Open Scope Z_scope.
 Lemma key_injective x y : key x = key y -> x = y.
 Proof. destruct x, y; cbn; intros E; try discriminate E; inversion E; reflexivity. Qed.
 
-Lemma find_same {A} k : forall (m : map_of A) a, find_in (add_to k a m) k = Some a.
-Proof. induction k; intros [| o l r] a; cbn; auto. Qed.
-
-Lemma find_other {A} k : forall k' (m : map_of A) a, k' <> k -> find_in (add_to k a m) k' = find_in m k'.
-Proof.
-  induction k; intros k' [| o l r] a N; destruct k'; cbn; try rewrite IHk by congruence; try reflexivity; try contradiction.
-Qed.
-
 Lemma find_added {A} (m : map_of A) x (a : A) y b :
-  find_in (add_to (key x) a m) (key y) = Some b -> y = x /\ b = a \/ find_in m (key y) = Some b.
+  find_in (add_to x a m) y = Some b -> y = x /\ b = a \/ find_in m y = Some b.
 Proof.
-  destruct (Z.eq_dec y x) as [-> | N].
-  - rewrite find_same. intros E. inversion E. auto.
-  - rewrite find_other by (intros E; apply N, key_injective, E). auto.
+  unfold find_in, add_to. destruct (Z.eq_dec y x) as [-> | N].
+  - rewrite PositiveMap.gss. intros E. inversion E. auto.
+  - rewrite PositiveMap.gso by (intros E; apply N, key_injective, E). auto.
 Qed.
 
 Lemma find_empty {A} y (b : A) : find_in empty y = Some b -> False.
-Proof. discriminate. Qed.
+Proof. unfold find_in, empty. rewrite PositiveMap.gempty. discriminate. Qed.
 
-Lemma has_find m z : has m z = true <-> exists u, find_in m (key z) = Some u.
+Lemma has_find m z : has m z = true <-> exists u, find_in m z = Some u.
 Proof.
-  unfold has. destruct (find_in m (key z)) as [u |]; [split; eauto |].
+  unfold has. destruct (find_in m z) as [u |]; [split; eauto |].
   split; [discriminate | intros [u E]; discriminate].
 Qed.
 
@@ -44,7 +36,7 @@ Lemma has_pair_added a b m x y : has_pair (with_pair a b m) x y = true ->
   x = a /\ y = b \/ has_pair m x y = true.
 Proof.
   unfold has_pair, with_pair, at_number at 1.
-  destruct (find_in (add_to _ _ _) (key x)) as [n |] eqn:E.
+  destruct (find_in (add_to _ _ _) x) as [n |] eqn:E.
   - apply find_added in E as [[-> ->] | E].
     + intros H. apply has_added in H as [-> | H]; auto.
     + intros H. right. unfold at_number. rewrite E. exact H.
@@ -54,7 +46,9 @@ Qed.
 Lemma nothing_in_empty x : has (@empty unit) x = true -> False.
 Proof. rewrite has_find. intros [u E]. exact (find_empty _ _ E). Qed.
 Lemma no_pair_in_empty x y : has_pair (@empty numbers) x y = true -> False.
-Proof. unfold has_pair, at_number. cbn [find_in]. apply nothing_in_empty. Qed.
+Proof.
+  unfold has_pair, at_number. destruct (find_in empty x) eqn:E; [destruct (find_empty _ _ E) | apply nothing_in_empty].
+Qed.
 
 (** ** Lists *)
 
@@ -138,9 +132,9 @@ Proof.
   - intros a b E. destruct (no_pair_in_empty _ _ E).
 Qed.
 
-Lemma labelled_sound p n e : find_in (labelled p) (key n) = Some e -> is_in_plan e p.
+Lemma labelled_sound p n e : find_in (labelled p) n = Some e -> is_in_plan e p.
 Proof.
-  unfold labelled. revert n e. apply (fold_plans_from (fun m => forall n e, find_in m (key n) = Some e -> is_in_plan e p)).
+  unfold labelled. revert n e. apply (fold_plans_from (fun m => forall n e, find_in m n = Some e -> is_in_plan e p)).
   - intros e l m I H n f E. apply find_added in E as [[_ ->] | E]; [exact I | eapply H, E].
   - intros n e E. destruct (find_empty _ _ E).
 Qed.
@@ -149,7 +143,7 @@ Lemma has_faces_sound p fs : forall n, has_faces (labelled p) n fs = true ->
   forall a b c, In (a, b, c) fs -> is_in_plan [a; b; c] p.
 Proof.
   induction fs as [| [[x y] z] fs IH]; cbn [has_faces]; intros n E a b c I; [contradiction |].
-  destruct (find_in (labelled p) (key n)) as [[| i [| j [| k [|]]]] |] eqn:F; try discriminate E.
+  destruct (find_in (labelled p) n) as [[| i [| j [| k [|]]]] |] eqn:F; try discriminate E.
   rewrite !andb_true_iff in E. destruct E as (((E1 & E2) & E3) & E4). apply Z.eqb_eq in E1, E2, E3. subst.
   destruct I as [I | I]; [inversion I; subst; eapply labelled_sound, F | eapply IH; eassumption].
 Qed.
@@ -299,37 +293,33 @@ Definition is_site (p : site) : Prop :=
   forall i, is_in_range k E (component i (fst (moves p))) (component i (snd (moves p))) (component i (ranges p)).
 
 Lemma add_sites_sound x p vs : forall n gs o,
-  find_in (add_sites (space c) (upper c) (reach_in s h) n vs gs o) (key x) = Some p -> find_in o (key x) = Some p \/
-  exists i v, x = (n + Z.of_nat i)%Z /\ nth_error vs i = Some v /\ number p = x /\ moves p = v /\
-    group p = nth i gs 0%Z /\ reach_in s h (group p) = Some (reach_of p) /\ ranges p = box_of_motion (space c) (upper c) v.
+  find_in (add_sites (space c) (upper c) (reach_in s h) n vs gs o) x = Some p -> find_in o x = Some p \/
+  exists i v r, x = (n + Z.of_nat i)%Z /\ nth_error vs i = Some v /\ reach_in s h (nth i gs 0%Z) = Some r /\
+    p = Site x (nth i gs 0%Z) r v (box_of_motion (space c) (upper c) v).
 Proof.
   induction vs as [| v vs IH]; intros n gs o F; [left; exact F |]. cbn [add_sites] in F.
-  apply IH in F as [F | (i & w & -> & Ew & R)].
+  apply IH in F as [F | (i & w & r & -> & Ew & Er & ->)].
   - destruct (reach_in s h (hd 0%Z gs)) as [r |] eqn:Er; [| left; exact F].
     apply find_added in F as [[-> ->] | F]; [| left; exact F].
-    right. exists O, v. cbn [number moves group ranges reach_of nth_error Z.of_nat]. rewrite Z.add_0_r.
-    repeat split; auto. destruct gs; reflexivity.
-  - right. exists (S i), w. cbn [nth_error]. destruct R as (A & B & C & D).
-    split; [lia |]. split; [exact Ew |]. split; [exact A |]. split; [exact B |]. split; [| exact D].
-    rewrite C. destruct gs as [| g gs]; cbn [tl nth]; [destruct i; reflexivity | reflexivity].
+    right. exists O, v, r. rewrite Z.add_0_r. destruct gs; auto.
+  - right. exists (S i), w, r. replace (n + Z.of_nat (S i))%Z with (n + 1 + Z.of_nat i)%Z by lia.
+    destruct gs; [destruct i |]; auto.
 Qed.
 
-Lemma sites_sound x p : find_in m (key x) = Some p -> number p = x /\ is_site p.
+Lemma sites_sound x p : find_in m x = Some p -> number p = x /\ is_site p.
 Proof.
-  rewrite Hm. intros F. apply add_sites_sound in F as [F | (i & v & -> & Ev & Ex & Em & Eg & Er & Eb)];
-    [destruct (find_empty _ _ F) |].
-  split; [exact Ex |]. rewrite Z.add_0_l in *. unfold is_site, ends_of, group_of. rewrite Ex, Nat2Z.id, Em, Eb.
-  rewrite (nth_error_nth _ _ _ Ev). split; [reflexivity |]. split; [exact Eg |]. split; [exact Er |].
-  destruct v as [a b]. intros j. unfold box_of_motion. cbn [fst snd].
-  destruct j; cbn [component x_of y_of z_of]; apply range_of_sound.
+  rewrite Hm. intros F. apply add_sites_sound in F as [F | (i & v & r & -> & Ev & Er & ->)]; [destruct (find_empty _ _ F) |].
+  rewrite Z.add_0_l. split; [reflexivity |]. unfold is_site, ends_of, group_of. cbn [moves number group reach_of ranges].
+  rewrite Nat2Z.id, (nth_error_nth _ _ _ Ev). repeat (split; [first [reflexivity | exact Er] |]).
+  intros j. destruct v as [a b], j; apply range_of_sound.
 Qed.
 
 Lemma find_sites_sound ps : forall q, find_sites m q = Some ps -> map number ps = q /\ Forall is_site ps.
 Proof.
   induction ps as [| p ps IH]; intros [| v q] F; cbn [find_sites] in F; try discriminate F.
   - split; [reflexivity | constructor].
-  - destruct (find_in m (key v)); [destruct (find_sites m q) |]; discriminate F.
-  - destruct (find_in m (key v)) as [p' |] eqn:Ep; [| discriminate F].
+  - destruct (find_in m v); [destruct (find_sites m q) |]; discriminate F.
+  - destruct (find_in m v) as [p' |] eqn:Ep; [| discriminate F].
     destruct (find_sites m q) as [ps' |] eqn:Es; [| discriminate F]. inversion F; subst p' ps'; clear F.
     apply sites_sound in Ep as [En Ip]. destruct (IH _ Es) as [Em Is]. cbn [map].
     rewrite En, Em. split; [reflexivity | constructor; assumption].
@@ -360,21 +350,15 @@ Proof.
   cbn [component x_of y_of z_of] in *. rewrite !plus_IZR. lra.
 Qed.
 
-Lemma at_start_in_box p : is_site p -> forall i,
-  IZR (low0 (component i (ranges p))) <= component i (times k (vertex_at (number p) 0)) <= IZR (high0 (component i (ranges p))).
+Lemma in_box p i : is_site p -> let r := component i (ranges p) in
+  IZR (low0 r) <= component i (times k (vertex_at (number p) 0)) <= IZR (high0 r) /\
+  IZR (low1 r) <= component i (times k (vertex_at (number p) E)) <= IZR (high1 r).
 Proof.
-  intros P i. pose proof P as (_ & _ & _ & H). destruct (H i) as [H0 _].
-  replace (component i (times k (vertex_at (number p) 0))) with (k * Q2R (component i (fst (moves p)))); [exact H0 |].
-  replace (component i (times k (vertex_at (number p) 0))) with (k * component i (vertex_at (number p) 0)) by (destruct i; reflexivity).
-  rewrite vertex_coordinate by exact P. ring.
-Qed.
-
-Lemma at_end_in_box p : is_site p -> forall i,
-  IZR (low1 (component i (ranges p))) <= component i (times k (vertex_at (number p) E)) <= IZR (high1 (component i (ranges p))).
-Proof.
-  intros P i. pose proof P as (_ & _ & _ & H). destruct (H i) as [_ H1].
-  replace (component i (times k (vertex_at (number p) E))) with (k * component i (vertex_at (number p) E)) by (destruct i; reflexivity).
-  rewrite vertex_coordinate by exact P. exact H1.
+  intros P. pose proof P as (_ & _ & _ & H). destruct (H i) as [H0 H1].
+  assert (V : forall t, component i (times k (vertex_at (number p) t)) =
+    k * ((1 - t) * Q2R (component i (fst (moves p))) + t * Q2R (component i (snd (moves p)))))
+    by (intros t; rewrite <- vertex_coordinate by exact P; destruct i; reflexivity).
+  cbv zeta. rewrite !V. split; [| exact H1]. rewrite Rmult_0_l, Rplus_0_r, Rminus_0_r, Rmult_1_l. exact H0.
 Qed.
 
 Definition length_1 (d : vector) : R := Rabs (x_of d) + Rabs (y_of d) + Rabs (z_of d).
@@ -404,10 +388,10 @@ Proof.
   apply andb_prop in A as [A0 A1]. apply Z.ltb_lt, IZR_lt in A0, A1. rewrite plus_IZR, mult_IZR, !plus_IZR, !abs_IZR in A0, A1.
   change (Rabs (IZR (x_of d)) + Rabs (IZR (y_of d)) + Rabs (IZR (z_of d))) with (length_1 (to_vector_of_integers d)) in *.
   apply (Rmult_lt_reg_l k); [exact Hk |].
-  pose proof (extreme_sound low0 high0 d (ranges p) _ (at_start_in_box p P)).
-  pose proof (extreme_sound low0 high0 d (ranges q) _ (at_start_in_box q Q)).
-  pose proof (extreme_sound low1 high1 d (ranges p) _ (at_end_in_box p P)).
-  pose proof (extreme_sound low1 high1 d (ranges q) _ (at_end_in_box q Q)).
+  pose proof (extreme_sound low0 high0 d (ranges p) _ (fun i => proj1 (in_box p i P))).
+  pose proof (extreme_sound low0 high0 d (ranges q) _ (fun i => proj1 (in_box q i Q))).
+  pose proof (extreme_sound low1 high1 d (ranges p) _ (fun i => proj2 (in_box p i P))).
+  pose proof (extreme_sound low1 high1 d (ranges q) _ (fun i => proj2 (in_box q i Q))).
   set (u := to_vector_of_integers d) in *.
   replace (k * (IZR r / k * length_1 u)) with (IZR r * length_1 u) by (field; lra).
   replace (k * dot u (minus (vertex_at (number p) t) (vertex_at (number q) t))) with
@@ -489,7 +473,8 @@ Lemma enlarged_between_sound ps qs : Forall is_site ps -> Forall is_site qs ->
 Proof.
   intros P Q. rewrite <- distance_of_sites by assumption.
   assert (k * Q2R (distance_of_pair c ps qs) <= IZR (enlarged_between c ps qs) /\ 0 <= IZR (enlarged_between c ps qs)) as [L N].
-  { unfold enlarged_between, distance_of_pair, distance_between. rewrite Hgap. destruct (radii s), (distances s); apply enlarged_distance_sound. }
+  { unfold enlarged_between, distance_of_pair, distance_between. rewrite Hgap. unfold is_thin.
+    destruct (radii s), (distances s); apply enlarged_distance_sound. }
   split; [| apply Rmult_le_pos; [exact N | left; apply Rinv_0_lt_compat; exact Hk]].
   apply (Rmult_le_reg_l k); [exact Hk |]. replace (k * (IZR (enlarged_between c ps qs) / k)) with
     (IZR (enlarged_between c ps qs)) by (field; lra). exact L.
@@ -500,11 +485,13 @@ Qed.
 Definition never_touch (p q : element) : Prop :=
   no_contact_until (query_of s p q) (separation_between s sum p q) E.
 
-Lemma above_never_touch d ps qs : Forall is_site ps -> Forall is_site qs -> ps <> [] -> qs <> [] ->
+Definition are_sites (ps : list site) : Prop := Forall is_site ps /\ ps <> [].
+
+Lemma above_never_touch d ps qs : are_sites ps -> are_sites qs ->
   is_above (enlarged_between c ps qs) d ps qs = true \/ is_above (enlarged_between c ps qs) d qs ps = true ->
   never_touch (map number ps) (map number qs).
 Proof.
-  intros P Q Np Nq A. destruct (enlarged_between_sound ps qs P Q) as [L N].
+  intros [P Np] [Q Nq] A. destruct (enlarged_between_sound ps qs P Q) as [L N].
   assert (map number ps <> [] /\ map number qs <> []) as [Mp Mq]
     by (split; intros M; apply map_eq_nil in M; contradiction).
   destruct A as [A | A]; apply is_above_sound in A; try assumption; [| apply keeps_below in A];
@@ -520,22 +507,20 @@ Proof.
   intros P Q. unfold query_between, query_of. rewrite !M by assumption. reflexivity.
 Qed.
 
-Lemma scene_between_sound ps qs sc : Forall is_site ps -> Forall is_site qs -> ps <> [] -> qs <> [] ->
-  scene_between c ps qs = Some sc ->
+Lemma scene_between_sound ps qs sc : Forall is_site ps -> Forall is_site qs -> scene_between c ps qs = Some sc ->
   is_scene_of sc (query_of s (map number ps) (map number qs)) (separation_between s sum (map number ps) (map number qs)).
 Proof.
-  unfold scene_between. intros P Q Np Nq H.
+  unfold scene_between. intros P Q H.
   rewrite query_of_sites, distance_of_sites in H by assumption. exact (scene_of_sound _ _ _ H).
 Qed.
 
-Lemma proves_sound ps qs a : Forall is_site ps -> Forall is_site qs -> ps <> [] -> qs <> [] ->
-  proves c ps qs a = true -> never_touch (map number ps) (map number qs).
+Lemma proves_sound ps qs a : are_sites ps -> are_sites qs -> proves c ps qs a = true ->
+  never_touch (map number ps) (map number qs).
 Proof.
-  intros P Q Np Nq H. unfold proves in H. destruct a as [d | xs].
-  - exact (above_never_touch d ps qs P Q Np Nq (or_introl H)).
-  - destruct (scene_between c ps qs) as [sc |] eqn:Es; [| discriminate H].
-    apply scene_between_sound in Es; try assumption. intros t Ht.
-    apply (all_are_free_sound _ _ (separates_sound _ _ sc Es) _ _ _ H); rewrite ?Q2R_0; unfold E in *; lra.
+  intros P Q H. unfold proves in H. destruct a as [d | xs]; [exact (above_never_touch d ps qs P Q (or_introl H)) |].
+  destruct (scene_between c ps qs) as [sc |] eqn:Es; [| discriminate H].
+  apply scene_between_sound in Es; [| apply P | apply Q]. intros t Ht.
+  apply (all_are_free_sound _ _ (separates_sound _ _ sc Es) _ _ _ H); rewrite ?Q2R_0; unfold E in *; lra.
 Qed.
 
 Lemma common_vertex_sound ps qs : have_common_vertex ps qs = true ->
@@ -554,13 +539,13 @@ Proof.
   destruct (P _ Ip) as (_ & Ep & _), (Q _ Iq) as (_ & Eq & _). rewrite Ep, Eq in H. exact H.
 Qed.
 
-Definition is_item (x : item) : Prop := Forall is_site (sites x) /\ sites x <> [].
+Definition is_item (x : item) : Prop := are_sites (sites x).
 Definition element_of (x : item) : element := map number (sites x).
 
-Lemma proved_with_sound ps qs o xs : Forall is_site ps -> Forall is_site qs -> ps <> [] -> qs <> [] ->
+Lemma proved_with_sound ps qs o xs : are_sites ps -> are_sites qs ->
   proved_with c ps qs o xs = true -> never_touch (map number ps) (map number qs).
 Proof.
-  intros P Q Np Nq. induction xs as [| [l a] xs IH]; cbn [proved_with]; [discriminate |].
+  intros P Q. induction xs as [| [l a] xs IH]; cbn [proved_with]; [discriminate |].
   destruct (Z.eqb l o); [apply proves_sound; assumption | exact IH].
 Qed.
 
@@ -568,11 +553,11 @@ Definition is_settled (p q : element) : Prop := can_collide s p q -> never_touch
 
 Lemma is_proved_sound x y : is_item x -> is_item y -> is_proved c x y = true -> is_settled (element_of x) (element_of y).
 Proof.
-  intros [P Np] [Q Nq] H (_ & N & v & w & Iv & Iw & A). unfold is_proved in H. cbv zeta in H.
+  intros P Q H (_ & N & v & w & Iv & Iw & A). unfold is_proved in H. cbv zeta in H.
   rewrite !orb_true_iff in H. destruct H as [[[H | H] | H] | H].
   - apply common_vertex_sound in H as (u & I & J). destruct (N u I J).
   - eapply proved_with_sound; eassumption.
-  - destruct A. exact (held_apart_iff _ _ P Q H v w Iv Iw).
+  - destruct A. exact (held_apart_iff _ _ (proj1 P) (proj1 Q) H v w Iv Iw).
   - apply existsb_exists in H as (d & _ & H). apply orb_prop in H. eapply above_never_touch; eassumption.
 Qed.
 
@@ -659,23 +644,15 @@ Qed.
 
 Hypothesis Hr : are_reaches c h = true.
 
-Lemma greatest_nonnegative xs : (0 <= greatest xs)%Q.
-Proof.
-  induction xs as [| x xs IH]; cbn [greatest fold_right]; [apply Qle_refl |]. fold (greatest xs).
-  destruct (Qle_bool x (greatest xs)) eqn:L; [exact IH |].
-  apply Qlt_le_weak. eapply Qle_lt_trans; [exact IH |]. apply Qnot_le_lt. intros G. apply Qle_bool_iff in G.
-  rewrite G in L. discriminate.
-Qed.
-
 Lemma greatest_is_one xs : xs <> [] -> exists x, In x xs /\ greatest xs = greatest [x].
 Proof.
-  induction xs as [| x xs IH]; intros N; [contradiction |]. clear N. destruct xs as [| y xs]; [exists x; cbn; auto |].
+  induction xs as [| x xs IH]; intros N; [contradiction |]. destruct xs as [| y xs]; [exists x; cbn; auto |].
   destruct (IH ltac:(discriminate)) as (z & Iz & Ez). remember (y :: xs) as ys.
-  cbn [greatest fold_right]. fold (greatest ys). destruct (Qle_bool x (greatest ys)) eqn:L.
-  - exists z. split; [right; exact Iz | exact Ez].
-  - exists x. split; [left; reflexivity |]. cbn [greatest fold_right]. destruct (Qle_bool x 0) eqn:Z; [| reflexivity].
-    apply Qle_bool_iff in Z. pose proof (greatest_nonnegative ys) as G.
-    pose proof (Qle_trans _ _ _ Z G) as T. apply Qle_bool_iff in T. rewrite T in L. discriminate.
+  cbn [greatest fold_right]. fold (greatest ys). destruct (Qle_bool x (greatest ys)) eqn:L; [exists z; cbn; auto |].
+  exists x. split; [left; reflexivity |]. destruct (Qle_bool x 0) eqn:Z; [| reflexivity]. exfalso.
+  apply not_true_iff_false in L. apply L, Qle_bool_iff. apply Qle_bool_iff in Z. apply (Qle_trans _ _ _ Z). rewrite Ez.
+  cbn [greatest fold_right]. destruct (Qle_bool z 0) eqn:Q; [apply Qle_refl | apply Qlt_le_weak, Qnot_le_lt].
+  intros G. apply Qle_bool_iff in G. rewrite G in Q. discriminate Q.
 Qed.
 
 Lemma distance_of_one_pair gs hs : gs <> [] -> hs <> [] -> exists g l, In g gs /\ In l hs /\
@@ -688,13 +665,10 @@ Proof.
   exists g, l. split; [exact Ig |]. split; [exact Il |]. unfold distance_between. rewrite Ex. reflexivity.
 Qed.
 
-Lemma reach_in_sound g r : radii s <> [] \/ distances s <> [] -> reach_in s h g = Some r -> In (g, r) (group_reaches h).
+Lemma reach_in_sound g r : is_thin s = false -> reach_in s h g = Some r -> In (g, r) (group_reaches h).
 Proof.
-  unfold reach_in. intros N H.
-  assert (find_in (fold_left (fun m x => add_to (key (fst x)) (snd x) m) (group_reaches h) empty) (key g) = Some r) as F
-    by (destruct (radii s), (distances s); first [exact H | destruct N; contradiction]).
-  clear H. revert g r F.
-  apply (fold_from (fun m => forall g r, find_in m (key g) = Some r -> In (g, r) (group_reaches h))).
+  unfold reach_in. intros ->. revert g r.
+  apply (fold_from (fun m => forall g r, find_in m g = Some r -> In (g, r) (group_reaches h))).
   - intros m' [a b] I H g r F. cbn [fst snd] in F. apply find_added in F as [[-> ->] | F]; [exact I | apply H, F].
   - intros g r F. destruct (find_empty _ _ F).
 Qed.
@@ -702,32 +676,16 @@ Qed.
 Lemma reaches_suffice x y : is_item x -> is_item y ->
   (enlarged_between c (sites x) (sites y) <= gap c + reach_of_item x + reach_of_item y)%Z.
 Proof.
-  intros [P Np] [Q Nq]. rewrite Forall_forall in P, Q. unfold enlarged_between, are_reaches in *.
-  assert (thin : radii s = [] -> distances s = [] -> (gap c <= gap c + reach_of_item x + reach_of_item y)%Z).
-  { intros E1 E2. assert (forall p, is_site p -> reach_of p = 0%Z) as Z.
-    { intros p (_ & _ & R & _). unfold reach_in in R. rewrite E1, E2 in R. inversion R. reflexivity. }
-    destruct (sites x) as [| p ps] eqn:Ex; [contradiction |]. destruct (sites y) as [| q qs] eqn:Ey; [contradiction |].
-    assert (In p (sites x)) as Ip by (rewrite Ex; left; reflexivity).
-    assert (In q (sites y)) as Iq by (rewrite Ey; left; reflexivity).
-    pose proof (reach_is_greatest x p Ip). pose proof (reach_is_greatest y q Iq).
-    rewrite (Z p) in * by (apply P; left; reflexivity). rewrite (Z q) in * by (apply Q; left; reflexivity). lia. }
-  assert (thick : radii s <> [] \/ distances s <> [] ->
-    forallb (fun x => forallb (fun y =>
-        enlarged_distance (space c) (distance_between s sum [fst x] [fst y]) <=? gap c + snd x + snd y)%Z
-      (group_reaches h)) (group_reaches h) = true ->
-    (enlarged_distance (space c) (distance_of_pair c (sites x) (sites y)) <=
-     gap c + reach_of_item x + reach_of_item y)%Z).
-  { intros N H. unfold distance_of_pair.
-    destruct (distance_of_one_pair (map group (sites x)) (map group (sites y))) as (g & l & Ig & Il & ->);
-      try (intros M; apply map_eq_nil in M; contradiction).
-    apply in_map_iff in Ig as (p & <- & Ip). apply in_map_iff in Il as (q & <- & Iq).
-    destruct (P _ Ip) as (_ & _ & Rp & _), (Q _ Iq) as (_ & _ & Rq & _).
-    apply (reach_in_sound _ _ N) in Rp, Rq. rewrite forallb_forall in H. specialize (H _ Rp).
-    rewrite forallb_forall in H. specialize (H _ Rq). apply Z.leb_le in H. cbn [fst snd] in H.
-    pose proof (reach_is_greatest x p Ip). pose proof (reach_is_greatest y q Iq). lia. }
-  destruct (radii s), (distances s);
-    [apply thin; reflexivity | apply thick; [right; discriminate | exact Hr] |
-     apply thick; [left; discriminate | exact Hr] | apply thick; [left; discriminate | exact Hr]].
+  intros [P Np] [Q Nq]. rewrite Forall_forall in P, Q. unfold enlarged_between, distance_of_pair.
+  destruct (distance_of_one_pair (map group (sites x)) (map group (sites y))) as (g & l & Ig & Il & ->);
+    try (intros M; apply map_eq_nil in M; contradiction).
+  apply in_map_iff in Ig as (p & <- & Ip). apply in_map_iff in Il as (q & <- & Iq).
+  pose proof (reach_is_greatest x p Ip). pose proof (reach_is_greatest y q Iq).
+  destruct (P _ Ip) as (_ & _ & Rp & _), (Q _ Iq) as (_ & _ & Rq & _).
+  unfold are_reaches in Hr. destruct (is_thin s) eqn:Thin.
+  - unfold reach_in in Rp, Rq. rewrite Thin in Rp, Rq. injection Rp as Rp. injection Rq as Rq. lia.
+  - apply (reach_in_sound _ _ Thin) in Rp, Rq. cbn [orb] in Hr. rewrite forallb_forall in Hr. specialize (Hr _ Rp).
+    rewrite forallb_forall in Hr. specialize (Hr _ Rq). apply Z.leb_le in Hr. cbn [fst snd] in Hr. lia.
 Qed.
 
 Definition unit_of (i : axis) : triple Z :=
@@ -752,7 +710,7 @@ Proof.
   assert (exists i, are_apart (component i a) (component i b) = true) as (i & Hi).
   { unfold are_boxes_apart in H. rewrite !orb_true_iff in H.
     destruct H as [[H | H] | H]; [exists x_axis | exists y_axis | exists z_axis]; exact H. }
-  destruct Ix as [P Np], Iy as [Q Nq]. apply above_never_touch with (unit_of i); try assumption.
+  apply above_never_touch with (unit_of i); try assumption.
   apply orb_prop in Hi as [Hi | Hi]; [right | left]; eapply below_is_above; try eassumption. lia.
 Qed.
 
@@ -942,8 +900,7 @@ Proof.
       rewrite Forall_forall in P, Q. destruct (P _ Ix) as (_ & Gx & _), (Q _ Iy) as (_ & Gy & _).
       change (the_step c) with s in Gx, Gy. unfold is_held_apart in G. rewrite <- Gx, <- Gy in G.
       apply joins_iff in G. rewrite G in A. discriminate A. }
-  split; [exact K |]. destruct K as (_ & _ & v & w & Iv & Iw & _).
-  assert (ps <> [] /\ qs <> []) as [Np Nq] by (split; intros ->; contradiction).
+  split; [exact K |].
   destruct (scene_between c ps qs) as [sc |] eqn:Es; [| discriminate H].
   apply (scene_between_sound c h) in Es; try assumption. exact (event_sound _ _ (contact_sound _ _ sc Es) _ _ _ H).
 Qed.
