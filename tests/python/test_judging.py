@@ -410,10 +410,6 @@ def test_proofs_of_steps(tmp_path):
     assert short.prove(path) == "no_contact 1/4"
     assert touchstone.check(path.read_bytes(), claim="no_contact 1/4", separation=0.125, norm="l2")
     assert not touchstone.check(path.read_bytes(), claim="free")
-    wire = np.array([[0.0, 0, 1], [-1, 0, 0], [1, 0, 0], [0, 0, 2]])
-    with_points = touchstone.Step(wire, wire * [1, 1, -1], edges=[[1, 2]], points=[0, 3])
-    assert with_points.prove(path).startswith("earliest ")
-    assert touchstone.check(path.read_bytes(), claim="earliest")
 
 
 def test_without_the_tool_the_way_out_is_said(monkeypatch, eight):

@@ -179,15 +179,9 @@ struct Score {
 
 // ---- Baselines with verdicts alone --------------------------------------------------------------
 
-/// The method's verdict on one query.
-[[nodiscard]] inline fast::Verdict verdict_of(const fast::Method& method, const PosedQuery& posed,
-                                              const fast::MethodOptions& options = {}) {
-  return answer_to(method, posed, options).verdict;
-}
-
 /// True for yes or undecided.
 [[nodiscard]] inline bool says_yes(const fast::Method& method, const PosedQuery& posed) {
-  const fast::Verdict verdict = verdict_of(method, posed);
+  const fast::Verdict verdict = answer_to(method, posed).verdict;
   return verdict == fast::Verdict::yes || verdict == fast::Verdict::undecided;
 }
 

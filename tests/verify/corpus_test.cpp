@@ -2,10 +2,9 @@
 /// The regression corpus, tests/corpus/: queries that a wrong solver once answered wrongly, each as
 /// simple as it gets, with the truth as label. No solver of ours answers one wrongly.
 ///
-/// They come from `fault_hunt --corpus tests/corpus`, which lets the fuzzer find and shrink them
-/// against solvers with planted faults (tests/faults/), and from findings kept by hand (`touchstone
-/// fuzz … --out`). `contact/` is about contact itself, `linf/` and `l2/` about the separation in
-/// their separation.json.
+/// They come from the fuzzer, which found and shrank them against solvers with planted faults
+/// (tests/faults/), and from findings kept by hand (`touchstone fuzz … --out`). `contact/` is about
+/// contact itself, `linf/` and `l2/` about the separation in their separation.json.
 
 #include <gtest/gtest.h>
 

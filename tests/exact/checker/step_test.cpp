@@ -332,6 +332,8 @@ TEST(Step, IsHeldAgainstAScene) {
       << "the same numbers in other words";
   EXPECT_NE(refusal_about(scene, text), "");
   EXPECT_EQ(refusal_about(twice + scene, text), "not all scenes are proved");
+  EXPECT_TRUE(refusal_about("", "touchstone-certificates 2\ncertificates 0\n")
+                  .starts_with("the first line is not 'touchstone-steps 2' or "));
   for (const auto& [truth, other] :
        {std::pair("0x1.8p+0", "0x1.8000000000001p+0"), std::pair("3 4 5", "3 5 4"),
         std::pair("faces 2\n0 1 2\n3 4 5", "faces 3\n0 1 2\n3 4 5\n0 1 5"),
@@ -476,26 +478,13 @@ TEST(Step, ProvesWhatIsDemandedAndNothingElse) {
        {"", "free 1", "no_contact", "earliest 1", "collision 0", "no_contact x"}) {
     EXPECT_THROW(static_cast<void>(demanded_claim(nonsense)), Rejection) << nonsense;
   }
-  EXPECT_THROW(static_cast<void>(demanded_separation("1", "l1")), Rejection);
-  EXPECT_THROW(static_cast<void>(demanded_separation("-1", "l2")), Rejection);
-  EXPECT_THROW(static_cast<void>(demanded_separation("nan", "l2")), Rejection);
-}
-
-TEST(Step, IsThereWhereItIsDemanded) {
   const std::string none = "touchstone-steps 2\nsteps 0\n";
   EXPECT_EQ(refusal(none), "");
   EXPECT_EQ(refusal(none, {.claim = demanded_claim("free")}),
             "there is no certificate of what is demanded");
-}
-
-// Who names scenes is told nothing of queries.
-TEST(Step, IsNoStreamOfQueriesWhereScenesAreNamed) {
-  std::istringstream scenes("");
-  const Report report =
-      check_text("touchstone-certificates 2\ncertificates 0\n", {.scenes = &scenes});
-  EXPECT_EQ(report.rejected, 1U);
-  EXPECT_EQ(report.rejections.at(0).reason,
-            "the first line is not 'touchstone-steps 2' or 'touchstone-meshes 1', as for scenes");
+  EXPECT_THROW(static_cast<void>(demanded_separation("1", "l1")), Rejection);
+  EXPECT_THROW(static_cast<void>(demanded_separation("-1", "l2")), Rejection);
+  EXPECT_THROW(static_cast<void>(demanded_separation("nan", "l2")), Rejection);
 }
 
 }  // namespace
