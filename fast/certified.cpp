@@ -121,18 +121,18 @@ void set(Answer& to, const CertifiedResult& result) {
 CertifiedResult solve_one(Kind kind, const Query& query, const CertifiedOptions& options) {
   const StrictFloatingPoint strict;
   CertifiedResult result = result_of_no(kind);
-  const KernelInput one{.kind = kind, .count = 1, .queries = &query};
+  const auto one = [&] { return KernelInput{.kind = kind, .count = 1, .queries = &query}; };
   const auto take = [&](std::size_t, const CertifiedResult& found) { result = found; };
   if (is_element(kind)) {
     require_element({.kind = kind}, options);
     // The widest lanes: they have registers for all vectors.
     decide_elements(
-        one, options.t_max, options, certified_kernel(chosen_kernels()),
+        one(), options.t_max, options, certified_kernel(chosen_kernels()),
         [&](std::size_t) { return to_tetrahedron(kind, query); }, take);
     return result;
   }
   const KernelOutput& output = decide_block(
-      one, options.t_max, options, certified_kernel_for_one(chosen_kernels()),
+      one(), options.t_max, options, certified_kernel_for_one(chosen_kernels()),
       [&](std::size_t) -> const Query& { return query; }, take);
   mark_stages(output, [&](std::size_t, Stage stage) { result.stage = stage; });
   return result;

@@ -233,11 +233,11 @@ TEST(CurvedSolver, HasTheSameResultsAsAnswersAndAsCollisions) {
     certified_method()->solve(some.queries, answers, {.separation = separation, .t_max = 0.75});
     std::vector<Collision> expected;
     for (std::size_t i = 0; i < results.size(); ++i) {
-      const auto& [verdict, stage, lower, upper, u, v] = results[i];
+      const auto& [verdict, stage, start, lower, upper, u, v] = results[i];
       EXPECT_EQ(answers[i].checks, static_cast<std::uint32_t>(stage) + 1);
-      ASSERT_EQ(
-          bits_of({answers[i].verdict, stage, answers[i].toi_lower, answers[i].toi_upper, u, v}),
-          bits_of(results[i]));
+      ASSERT_EQ(bits_of({answers[i].verdict, stage, start, answers[i].toi_lower,
+                         answers[i].toi_upper, u, v}),
+                bits_of(results[i]));
       if (verdict == Verdict::yes) expected.push_back({i, results[i]});
     }
     EXPECT_GT(expected.size(), 300U);
