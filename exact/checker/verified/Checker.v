@@ -292,20 +292,22 @@ Definition proves_face g (D : form) (ws : list vector_form) : bool :=
 (** A contact in linf, by a witness. The points a + u e + v f of the polygon that are within D on
     every axis are a polygon in the plane of (u,v), which has a vertex: where two lines meet of those
     of the polygon's sides and of the planes at ±D. A line is (α,β,γ): α u + β v + γ = 0. *)
+Definition is_within g (r y : form) : bool := is_not_negative_at g (sub r y) && is_not_negative_at g (add r y).
+
+Definition is_witness_at g (D : form) (is_triangle : bool) (a e f n : vector_form) : bool :=
+  let p := x_of n in
+  let q := y_of n in
+  let m := z_of n in
+  is_positive_at g m && is_not_negative_at g p && is_not_negative_at g q &&
+  (if is_triangle then is_not_negative_at g (sub m (add p q))
+   else is_not_negative_at g (sub m p) && is_not_negative_at g (sub m q)) &&
+  let x := f_plus (f_plus (f_times m a) (f_times p e)) (f_times q f) in
+  let r := mul D m in
+  is_within g r (x_of x) && is_within g r (y_of x) && is_within g r (z_of x).
+
 Definition is_witness g (D : form) (is_triangle : bool) (a e f line other : vector_form) : bool :=
   let n := f_cross line other in
-  let is_in (n : vector_form) :=
-    let p := x_of n in
-    let q := y_of n in
-    let m := z_of n in
-    is_positive_at g m && is_not_negative_at g p && is_not_negative_at g q &&
-    (if is_triangle then is_not_negative_at g (sub m (add p q))
-     else is_not_negative_at g (sub m p) && is_not_negative_at g (sub m q)) &&
-    let x := f_plus (f_plus (f_times m a) (f_times p e)) (f_times q f) in
-    let r := mul D m in
-    let is_within (y : form) := is_not_negative_at g (sub r y) && is_not_negative_at g (add r y) in
-    is_within (x_of x) && is_within (y_of x) && is_within (z_of x) in
-  is_in n || is_in (f_opposite n).
+  is_witness_at g D is_triangle a e f n || is_witness_at g D is_triangle a e f (f_opposite n).
 
 Definition lines (D : form) (is_triangle : bool) (a e f : vector_form) : list vector_form :=
   let slab (k : axis) (D : form) := Triple (component k e) (component k f) (sub (component k a) D) in

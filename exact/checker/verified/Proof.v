@@ -534,52 +534,34 @@ Proof.
   apply orb_prop in E as [E | E]; [| auto]. apply existsb_exists in E as (y & _ & E). eauto.
 Qed.
 
-Lemma within_all_axes x m : 0 < m -> norm_of s = linf ->
-  - (at_u u D * m) <= m * x_of x <= at_u u D * m -> - (at_u u D * m) <= m * y_of x <= at_u u D * m ->
-  - (at_u u D * m) <= m * z_of x <= at_u u D * m -> length_of (norm_of s) x <= at_u u D.
+Lemma within_bounds r y : is_within g r y = true -> - at_u u r <= at_u u y <= at_u u r.
 Proof.
-  intros Hm -> Ex Ey Ez. cbn [length_of].
-  repeat apply Rmax_lub; apply Rabs_le; split; apply Rmult_le_reg_l with m; lra.
+  intros E. apply andb_prop in E as [E1 E2]. apply not_negative_at in E1, E2. rewrite at_u_sub in E1. rewrite at_u_add in E2. lra.
 Qed.
 
 Lemma axes_sound : norm_of s = linf -> proves_axes g D ws = true -> is_contact_seen.
 Proof.
   intros Hn. pose proof polygon_of_forms as P. destruct ws as [| a [| b [| c rest]]]; try discriminate.
   specialize (P a b c rest eq_refl). unfold proves_axes. cbv zeta. set (is_triangle := match rest with [] => true | _ => false end).
-  set (f := match rest with [] => c | f :: _ => f end).
-  intros E. apply some_pair_sound in E as (line & other & E). unfold is_witness in E.
-  set (e := f_minus b a) in *. set (f' := f_minus f a) in *.
-  assert (exists p q m, is_positive_at g m = true /\ is_not_negative_at g p = true /\
-    is_not_negative_at g q = true /\
-    (if is_triangle then is_not_negative_at g (sub m (add p q))
-     else is_not_negative_at g (sub m p) && is_not_negative_at g (sub m q)) = true /\
-    let x := f_plus (f_plus (f_times m a) (f_times p e)) (f_times q f') in
-    forall y, In y [x_of x; y_of x; z_of x] -> is_not_negative_at g (sub (mul D m) y) = true /\
-      is_not_negative_at g (add (mul D m) y) = true) as (p & r & m & Em & Ep & Er & Et & Ex).
-  { apply orb_prop in E as [E | E]; cbv zeta in E; rewrite !andb_true_iff in E;
-      destruct E as ((((E1 & E2) & E3) & E4) & ((Ex & Ey) & Ez)); eexists _, _, _;
-      (split; [exact E1 |]; split; [exact E2 |]; split; [exact E3 |]; split; [exact E4 |]);
-      intros x y [<- | [<- | [<- | []]]]; assumption. }
-  clear E. cbv zeta in Ex. set (x := f_plus _ _) in Ex.
-  apply positive_at in Em. apply not_negative_at in Ep, Er.
-  set (point := plus (plus (vector_at u a) (times (at_u u p / at_u u m) (vector_at u e)))
-    (times (at_u u r / at_u u m) (vector_at u f'))).
-  assert (Epoint : vector_at u x = times (at_u u m) point).
+  set (f := match rest with [] => c | f :: _ => f end) in *. set (e := f_minus b a). set (f' := f_minus f a).
+  intros E. apply some_pair_sound in E as (line & other & E).
+  assert (exists n, is_witness_at g D is_triangle a e f' n = true) as (n & W) by (apply orb_prop in E as [E | E]; eauto).
+  clear E. unfold is_witness_at in W. cbv zeta in W. set (x := f_plus _ _) in W. rewrite !andb_true_iff in W.
+  destruct W as ((((Em & Ep) & Er) & Et) & (Ex & Ey) & Ez). apply positive_at in Em. apply not_negative_at in Ep, Er.
+  apply within_bounds in Ex, Ey, Ez. rewrite at_u_mul in Ex, Ey, Ez. set (m := at_u u (z_of n)) in *.
+  set (point := plus (plus (vector_at u a) (times (at_u u (x_of n) / m) (vector_at u e)))
+    (times (at_u u (y_of n) / m) (vector_at u f'))).
+  assert (Epoint : vector_at u x = times m point).
   { unfold x, point. rewrite !at_plus, !at_times. symmetry. apply point_of_quotients. exact Em. }
   exists point. split.
-  - unfold point, e, f'. rewrite !at_minus. unfold is_triangle, f in Et |- *.
-    apply (polygon_point H _ _ (vector_at u c) _ (map (vector_at u) rest)); try assumption.
-    destruct rest; cbn [map]; [| apply andb_prop in Et as [Et Et2]; apply not_negative_at in Et2; rewrite at_u_sub in Et2];
-      apply not_negative_at in Et; rewrite at_u_sub, ?at_u_add in Et; lra.
-  - assert (W : forall y, In y [x_of x; y_of x; z_of x] ->
-      - (at_u u D * at_u u m) <= at_u u y <= at_u u D * at_u u m).
-    { intros y Iy. destruct (Ex y Iy) as [E1 E2]. apply not_negative_at in E1, E2.
-      rewrite at_u_sub, at_u_mul in E1. rewrite at_u_add, at_u_mul in E2. lra. }
-    pose proof (f_equal x_of Epoint : at_u u (x_of x) = at_u u m * x_of point) as X.
-    pose proof (f_equal y_of Epoint : at_u u (y_of x) = at_u u m * y_of point) as Y.
-    pose proof (f_equal z_of Epoint : at_u u (z_of x) = at_u u m * z_of point) as Z.
-    apply within_all_axes with (at_u u m); auto; [rewrite <- X | rewrite <- Y | rewrite <- Z];
-      apply W; cbn [In]; tauto.
+  - unfold point, e, f'. rewrite !at_minus. apply (polygon_point H _ _ (vector_at u c) _ (map (vector_at u) rest)); try assumption.
+    unfold is_triangle in Et. destruct rest; cbn [map];
+      [| apply andb_prop in Et as [Et Et2]; apply not_negative_at in Et2; rewrite at_u_sub in Et2];
+      apply not_negative_at in Et; rewrite at_u_sub, ?at_u_add in Et; unfold m; lra.
+  - rewrite (f_equal x_of Epoint : at_u u (x_of x) = m * x_of point) in Ex.
+    rewrite (f_equal y_of Epoint : at_u u (y_of x) = m * y_of point) in Ey.
+    rewrite (f_equal z_of Epoint : at_u u (z_of x) = m * z_of point) in Ez. rewrite Hn.
+    repeat apply Rmax_lub; apply Rabs_le; split; apply Rmult_le_reg_l with m; lra.
 Qed.
 
 Theorem place_sound p : proves_place g sc D ws p = true -> contact q s t.

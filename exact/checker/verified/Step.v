@@ -244,8 +244,8 @@ Definition edges_in (p : option plan) : pairs :=
 Definition labelled (p : option plan) : map_of element :=
   fold_plans (fun e l m => add_to l e m) p (@empty element).
 
-Definition has_vertices (s : step) (m : numbers) : bool :=
-  forallb (fun e => has m (fst e) && has m (snd e)) (line_list s) && forallb (has m) (points s).
+Definition has_vertices (s : step) (lines : list (Z * Z)) (m : numbers) : bool :=
+  forallb (fun e => has m (fst e) && has m (snd e)) lines && forallb (has m) (points s).
 
 (** Faces have their numbers as labels. *)
 Fixpoint has_faces (m : map_of element) (n : Z) (fs : list (Z * Z * Z)) : bool :=
@@ -261,15 +261,14 @@ Fixpoint has_faces (m : map_of element) (n : Z) (fs : list (Z * Z * Z)) : bool :
 Definition is_loop (e : Z * Z) : bool := fst e =? snd e.
 Definition has_edge (m : pairs) (e : Z * Z) : bool :=
   is_loop e || has_pair m (Z.min (fst e) (snd e)) (Z.max (fst e) (snd e)).
-Definition has_edges (s : step) (m : pairs) : bool := forallb (has_edge m) (line_list s).
 
 (** Vertices without an edge are points, or the ends of an edge that is none. *)
-Definition ends (s : step) : numbers :=
-  fold_left (fun m e => if is_loop e then m else with_number (fst e) (with_number (snd e) m)) (line_list s) (@empty unit).
-Definition has_points (s : step) (m : numbers) : bool :=
+Definition ends (lines : list (Z * Z)) : numbers :=
+  fold_left (fun m e => if is_loop e then m else with_number (fst e) (with_number (snd e) m)) lines (@empty unit).
+Definition has_points (s : step) (lines : list (Z * Z)) (m : numbers) : bool :=
   let all (is_there : Z -> bool) :=
-    forallb is_there (points s) && forallb (fun e => negb (is_loop e) || is_there (fst e)) (line_list s) in
-  all (has m) || (let m' := ends s in all (fun v => has m v || has m' v)).
+    forallb is_there (points s) && forallb (fun e => negb (is_loop e) || is_there (fst e)) lines in
+  all (has m) || (let m' := ends lines in all (fun v => has m v || has m' v)).
 
 Definition sides_in (s : step) : pairs :=
   fold_left (fun m e => with_pair (Z.min (fst e) (snd e)) (Z.max (fst e) (snd e)) m) (side_list s) (@empty numbers).
@@ -319,10 +318,11 @@ Definition within (gap : Z) (m : map_of site) (is_pair_proved : item -> item -> 
 
 Definition proves_no_contact (c : setting) (m : map_of site) (h : hints) : bool :=
   let s := the_step c in
+  let lines := line_list s in
   (0 <? Qnum (space c)) && are_reaches c h &&
-  has_vertices s (vertices_in (for_vertices h)) && has_faces (labelled (for_faces h)) 0 (faces s) &&
-  has_edges s (edges_in (for_edges h)) &&
-  has_points s (vertices_in (for_points h)) && has_points s (vertices_in (for_two_points h)) &&
+  has_vertices s lines (vertices_in (for_vertices h)) && has_faces (labelled (for_faces h)) 0 (faces s) &&
+  forallb (has_edge (edges_in (for_edges h))) lines &&
+  has_points s lines (vertices_in (for_points h)) && has_points s lines (vertices_in (for_two_points h)) &&
   has_bare_edges s (edges_in (for_bare_edges h)) &&
   between (gap c) m (is_proved c) (for_vertices h) (for_faces h) &&
   within (gap c) m (is_proved_in_order c) (for_edges h) &&

@@ -74,7 +74,7 @@ Proof.
   apply IH; [intros; apply S; cbn; auto | apply S; cbn; auto].
 Qed.
 
-Lemma ends_sound s v : has (ends s) v = true ->
+Lemma ends_sound s v : has (ends (line_list s)) v = true ->
   exists a b, In (a, b) (sides s ++ edges s) /\ a <> b /\ (v = a \/ v = b).
 Proof.
   unfold ends. revert v.
@@ -150,7 +150,7 @@ Qed.
 
 (** ** All elements are there *)
 
-Lemma vertices_are_there s p e : has_vertices s (vertices_in p) = true -> is_vertex s e -> is_in_plan e p.
+Lemma vertices_are_there s p e : has_vertices s (line_list s) (vertices_in p) = true -> is_vertex s e -> is_in_plan e p.
 Proof.
   unfold has_vertices. intros E (v & -> & C). apply andb_prop in E as [E1 E2].
   apply vertices_in_sound. destruct C as [I | (a & b & I & C)].
@@ -169,7 +169,7 @@ Proof.
   replace (Z.min x y) with a in E by lia. replace (Z.max x y) with b in E by lia. exact E.
 Qed.
 
-Lemma edges_are_there s p e : has_edges s (edges_in p) = true -> is_edge s e -> is_in_plan e p.
+Lemma edges_are_there s p e : forallb (has_edge (edges_in p)) (line_list s) = true -> is_edge s e -> is_in_plan e p.
 Proof.
   intros E (a & b & -> & L & I). apply edges_in_sound.
   destruct I as [I | I]; apply (every_line _ _ E) in I.
@@ -192,7 +192,7 @@ Proof.
   cbn [In]. lia.
 Qed.
 
-Lemma points_are_there s p e : has_points s (vertices_in p) = true -> is_point s e -> is_in_plan e p.
+Lemma points_are_there s p e : has_points s (line_list s) (vertices_in p) = true -> is_point s e -> is_in_plan e p.
 Proof.
   unfold has_points. intros E P. pose proof P as [(v & -> & C) _]. apply vertices_in_sound.
   set (m := vertices_in p) in *. clearbody m.
@@ -205,7 +205,7 @@ Proof.
       + destruct C as [-> | ->]; exact H.
       + destruct (no_end_of_line s v a b P I N C). }
   apply orb_prop in E as [E | E]; [apply (A _ (fun H => H) E) |].
-  apply (A (fun v => has m v || has (ends s) v)) in E; [exact E |]. intros H. apply orb_prop in H as [H | H]; [exact H |].
+  apply (A (fun v => has m v || has (ends (line_list s)) v)) in E; [exact E |]. intros H. apply orb_prop in H as [H | H]; [exact H |].
   apply ends_sound in H as (a & b & I & N & D). destruct (no_end_of_line s v a b P I N D).
 Qed.
 
