@@ -134,14 +134,14 @@ constexpr std::string_view headers_without_test = R"(
   fast/certified/stages/: axis.hpp bisection.hpp conservative_advancement.hpp crossing.hpp determinant.hpp direction.hpp distance_enclosure.hpp inversion.hpp lanes.hpp moving_polygon.hpp moving_vectors.hpp only_zero.hpp orientation.hpp refinement.hpp single_precision.hpp
   fast/platform/: avx2_doubles.hpp avx2_floats.hpp avx512_doubles.hpp avx512_floats.hpp avx_rows.hpp neon_doubles.hpp neon_floats.hpp scalar_doubles.hpp scalar_floats.hpp floating_point_state.hpp
   fast/tight_inclusion/: box_kernel_on_lanes.hpp curved_box_kernel.hpp
-// In active_set_test.cpp, distance_test.cpp and line_search_test.cpp; mesh_test.cpp; scene_test.cpp;
-// curved_parts_test.cpp and curved_test.cpp; distance_test.cpp; and against all pairs one by one:
+// In active_set_test.cpp, distance_test.cpp and line_search_test.cpp; mesh_test.cpp; step_test.cpp;
+// curved_test.cpp; distance_test.cpp; and against all pairs one by one:
 // search_test.cpp, broad_phase_test.cpp, step_test.cpp.
   fast/: candidates.hpp contacts.hpp
   fast/certified/curves/: contact_proof.hpp control_polygon.hpp stages.hpp
   fast/distance/: exact_distance.hpp filter_kernel.hpp filter_on_lanes.hpp filtered_distance.hpp neighbouring_doubles.hpp polygon_features.hpp
   fast/broad_phase/: body_tree.hpp box_tree.hpp division_on_lanes.hpp primitive_groups.hpp search_on_lanes.hpp seeds.hpp swept_box.hpp words_one_by_one.hpp
-  fast/step/: bodies.hpp codimensional.hpp sieve.hpp
+  fast/step/: bodies.hpp codimensional.hpp scene.hpp sieve.hpp
 // Beside rational arithmetic, which judges the function: intersections_test.cpp.
   fast/intersections/: contacts.hpp filter_kernel.hpp filter_on_lanes.hpp orientation.hpp pair_filter.hpp pair_order.hpp pair_order_avx2.hpp
 // In ipc_toolkit_step_test.cpp and ccd_test.cpp.

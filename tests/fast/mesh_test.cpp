@@ -113,15 +113,6 @@ TEST(Elements, AreRefusedInOtherShapesAndOutOfRange) {
   }
 }
 
-TEST(Candidates, AreQueries) {
-  const Query vertex_face = query_of(counted(5), candidates(Kind::vertex_face, {}), {0, 1});
-  EXPECT_EQ(vertex_face, (Query{{0,   1,   2,   12,  13,  14,  9,   10,  11,  3,   4,   5,
-                                 100, 101, 102, 112, 113, 114, 109, 110, 111, 103, 104, 105}}));
-  const Query edge_edge = query_of(counted(5), candidates(Kind::edge_edge, {}), {1, 0});
-  EXPECT_EQ(edge_edge, (Query{{12,  13,  14,  6,   7,   8,   0,   1,   2,   3,   4,   5,
-                               112, 113, 114, 106, 107, 108, 100, 101, 102, 103, 104, 105}}));
-}
-
 TEST(RequireInRange, NamesTheFirstPairAndWhatIsWrongThere) {
   struct Row {
     Kind kind;
