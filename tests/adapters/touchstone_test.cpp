@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <functional>
 #include <limits>
+#include <memory>
 #include <span>
 #include <string>
 #include <string_view>
@@ -96,23 +97,12 @@ struct Scene {
 };
 
 /// A step that ends with the test.
-class StepOf {
- public:
-  explicit StepOf(const TouchstoneMesh& mesh) {
-    EXPECT_EQ(touchstone_step_new(&mesh, nullptr, &step_), TOUCHSTONE_OK)
-        << touchstone_last_error();
-  }
-  StepOf(const StepOf&) = delete;
-  StepOf& operator=(const StepOf&) = delete;
-  StepOf(StepOf&&) = delete;
-  StepOf& operator=(StepOf&&) = delete;
-  ~StepOf() { touchstone_step_free(step_); }
-
-  [[nodiscard]] TouchstoneStep* get() const { return step_; }
-
- private:
-  TouchstoneStep* step_ = nullptr;
-};
+std::unique_ptr<TouchstoneStep, decltype(&touchstone_step_free)> step_of(
+    const TouchstoneMesh& mesh) {
+  TouchstoneStep* step = nullptr;
+  EXPECT_EQ(touchstone_step_new(&mesh, nullptr, &step), TOUCHSTONE_OK) << touchstone_last_error();
+  return {step, &touchstone_step_free};
+}
 
 TEST(CInterface, MeasuresDistances) {
   const std::vector<Query> queries = random_queries(1000);
@@ -193,7 +183,7 @@ TEST(CInterface, DecidesAndMeasuresAStep) {
   for (const std::size_t points : {0U, 1U}) {
     TouchstoneMesh mesh = scene.mesh();
     mesh.points = points;
-    const StepOf owner(mesh);
+    const auto owner = step_of(mesh);
     const fast::Step step(std::span<const double>(scene.before),
                           std::span<const double>(scene.after),
                           {.faces = faces, .points = std::span(scene.points).first(points)});
@@ -283,7 +273,7 @@ TEST(CInterface, TakesRadiiAndSeparationsOfGroups) {
   mesh.separations = 1;
   mesh.separated_groups = separated.data();
   mesh.group_separations = distance.data();
-  const StepOf owner(mesh);
+  const auto owner = step_of(mesh);
   const fast::Step step(std::span<const double>(scene.before), std::span<const double>(scene.after),
                         {.faces = faces, .points = scene.points},
                         {.groups = {.of_vertices = std::span(groups).first(mesh.vertices),
@@ -294,8 +284,7 @@ TEST(CInterface, TakesRadiiAndSeparationsOfGroups) {
   ASSERT_EQ(touchstone_step_collisions(owner.get(), &collisions, &count), TOUCHSTONE_OK);
   const auto found = converted(collisions, count);
   EXPECT_EQ(found, step.collisions());
-  const TouchstoneMesh thin_mesh = scene.mesh();
-  const StepOf thin(thin_mesh);
+  const auto thin = step_of(scene.mesh());
   std::size_t of_thin = 0;
   ASSERT_EQ(touchstone_step_collisions(thin.get(), &collisions, &of_thin), TOUCHSTONE_OK);
   EXPECT_NE(found, converted(collisions, of_thin));
@@ -304,7 +293,6 @@ TEST(CInterface, TakesRadiiAndSeparationsOfGroups) {
   EXPECT_EQ(touchstone_step_new(&mesh, nullptr, &none), TOUCHSTONE_INVALID_ARGUMENT);
 }
 
-/// Groups or vertices that do not meet, and no pairs at all.
 /// A tetrahedron that turns over, one that is flat at the start, and their shadows in the plane.
 TEST(CInterface, KeepsElementsFromInverting) {
   const std::vector<double> before{0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1};
@@ -322,7 +310,7 @@ TEST(CInterface, KeepsElementsFromInverting) {
     mesh.tetrahedron_vertices = tetrahedra.front().data();
     mesh.plane_triangles = 1;
     mesh.plane_triangle_vertices = triangles.front().data();
-    const StepOf owner(mesh);
+    const auto owner = step_of(mesh);
     const fast::Step step(
         std::span<const double>(before), std::span<const double>(after),
         {.tetrahedra = std::span(tetrahedra).first(count), .plane_triangles = triangles});
@@ -357,6 +345,7 @@ TEST(CInterface, KeepsElementsFromInverting) {
   }
 }
 
+/// Groups or vertices that do not meet, and no pairs at all.
 TEST(CInterface, AnswersWhereNothingCanMeet) {
   const Scene scene;
   const std::array<std::int32_t, 9> groups{0, 0, 0, 1, 1, 1, 0, 0, 0};
@@ -374,7 +363,7 @@ TEST(CInterface, AnswersWhereNothingCanMeet) {
     return of[a] == 1 && of[b] == 1 ? 2 : 0;
   };
   for (const TouchstoneMesh* const mesh : {&of_groups, &of_edges, &of_rule}) {
-    const StepOf owner(*mesh);
+    const auto owner = step_of(*mesh);
     std::int32_t is_free = 0;
     EXPECT_EQ(touchstone_step_is_free(owner.get(), &is_free), TOUCHSTONE_OK);
     EXPECT_EQ(is_free, 1);
@@ -419,13 +408,13 @@ TEST(CInterface, SaysWhatIsWrongAndWritesNothing) {
   far.coordinates[11] = infinity;
   const Scene scene;
   const TouchstoneMesh mesh = scene.mesh();
-  const StepOf owner(mesh);
+  const auto owner = step_of(mesh);
   TouchstoneStep* const step = owner.get();
   Scene fast = scene;
   fast.before[0] = -std::numeric_limits<double>::max();
   fast.after[0] = std::numeric_limits<double>::max();
   const TouchstoneMesh fast_mesh = fast.mesh();
-  const StepOf fast_step(fast_mesh);
+  const auto fast_step = step_of(fast_mesh);
   const auto solve = [&](std::int32_t kind, const double* given, const TouchstoneOptions* options,
                          TouchstoneImpact* impacts) {
     return touchstone_solve(kind, 1, given, options, impacts);

@@ -121,22 +121,18 @@ TEST(NearestPoint, DirectionAndPointProveTheSameDistance) {
   expect_distances_of_random_polygons<Kind::edge_edge, Norm::linf>();
 }
 
-TEST(NearestPoint, ADirectionOfAShortDistanceIsUprightOnItsSide) {
-  // The side passes the origin at 1e-9; along a direction tilted by rounding its far ends would
-  // come nearer.
-  const Polygon<Kind::edge_edge> polygon{
-      {{-1.0 / 3, 1e-9, 0.1}, {2.0 / 3, 1e-9, -0.2}, {2.0 / 3, 1, -0.2}, {-1.0 / 3, 1, 0.1}}};
-  const Found found = nearest<Kind::edge_edge, Norm::l2>(polygon);
-  EXPECT_NEAR(separation<Kind::edge_edge>(polygon, found.direction), 1e-9, 1e-15);
-}
-
-TEST(NearestPoint, OfPointsAndSegmentsIsFoundToo) {
+/// Points and segments; and a side that passes the origin at 1e-9: along a direction tilted by
+/// rounding its far ends would come nearer.
+TEST(NearestPoint, OfPointsSegmentsAndShortDistancesIsFoundToo) {
   const Polygon<Kind::vertex_face> point{{{1, 2, 2}, {1, 2, 2}, {1, 2, 2}}};
   expect_distance<Kind::vertex_face, Norm::l2>(point, 1e-14);
   expect_distance<Kind::vertex_face, Norm::linf>(point, 1e-14);
   const Polygon<Kind::edge_edge> segment{{{1, 2, 3}, {2, -1, 3}, {1, 2, 3}, {0, 5, 3}}};
   expect_distance<Kind::edge_edge, Norm::l2>(segment, 1e-12);
   expect_distance<Kind::edge_edge, Norm::linf>(segment, 1e-12);
+  const Polygon<Kind::edge_edge> beside{
+      {{-1.0 / 3, 1e-9, 0.1}, {2.0 / 3, 1e-9, -0.2}, {2.0 / 3, 1, -0.2}, {-1.0 / 3, 1, 0.1}}};
+  expect_distance<Kind::edge_edge, Norm::l2>(beside, 1e-15);
 }
 
 TEST(NearestPoint, WhatIsNoDirectionSeparatesNothing) {

@@ -102,7 +102,7 @@ exact_stage::Motion<Number> integer_motion(const PosedQuery& posed, double scale
   return motion;
 }
 
-/// A part of the exact stage, where it decides, if coordinates are integers below 2^61: the case of
+/// A part of the exact stage, where it decides, if coordinates are integers up to 2^52: the case of
 /// a fixed size, with coordinates that just fit, or the general one, which other queries come to if
 /// they are large.
 template <class Number>
@@ -112,7 +112,7 @@ void solve_in(Kind kind, std::span<const Query> queries, std::span<CertifiedResu
   for (std::size_t i = 0; i < queries.size(); ++i) {
     const PosedQuery posed{kind, queries[i]};
     const bool is_small = std::ranges::all_of(queries[i].coordinates, [](double x) {
-      return std::abs(x) < 0x1p61 && std::trunc(x) == x;
+      return std::abs(x) <= 0x1p52 && std::trunc(x) == x;
     });
     results[i] = decided_exactly(kind, queries[i], options);
     if (!is_small || !is_zero(options.separation)) continue;
@@ -360,15 +360,15 @@ std::vector<ByHand> queries_by_hand(Kind kind) {
   // A time far below the least double, and one of 2^-1000 + 2^-1040.
   all.push_back({over(kind, tiniest, -1e308)});
   all.push_back({over(kind, 0x1p-500, 0x1p-500 - 0x1p500)});
-  // Whole numbers: a tiny time that is no small fraction, and times that only 2^-60 tells from it.
-  for (const double end : {-0x1p43, -0x1p43 - 1, -0x1p60}) all.push_back({over(kind, 3, end)});
-  // A vertex over the triangle's side x + y = 4, and one part in 2^52 beside it on either side.
-  for (const double x : {1.0, std::nextafter(1.0, 2.0), std::nextafter(1.0, 0.0)}) {
-    PosedQuery beside_side = tests::over_triangle(0x1p53 * x, 0x1p53 * 3, 0x1p20 + 1, -0x1p21);
+  // Whole numbers: tiny times, of which one is no small fraction.
+  for (const double end : {-0x1p43, -0x1p43 - 1, -0x1p52}) all.push_back({over(kind, 3, end)});
+  // A vertex over the triangle's side x + y = 2^52, and beside it by 1.
+  for (const double beside_side : {0.0, 1.0, -1.0}) {
+    PosedQuery posed = tests::over_triangle(0x1p50 + beside_side, 3 * 0x1p50, 0x1p20 + 1, -0x1p21);
     for (const std::size_t first : {3U, 15U}) {
-      for (double& c : std::span(beside_side.query.coordinates).subspan(first, 9)) c *= 0x1p53;
+      for (double& c : std::span(posed.query.coordinates).subspan(first, 9)) c *= 0x1p50;
     }
-    all.push_back({beside_side});
+    all.push_back({posed});
   }
   return all;
 }
@@ -407,25 +407,26 @@ Separation draw_separation(Random& random, const Query& query) {
 }
 
 /// Expects ‖F‖ at toi_upper and (u,v) to be hardly more than the separation, relative to the
-/// coordinates of each axis. F has moved on by then: corners are differences of coordinates, at
-/// most 4 of these apart.
+/// coordinates: in contact those of each axis, else all. F has moved on by then: corners are
+/// differences of coordinates, at most 4 of these apart.
 void expect_place(const PosedQuery& posed, const CertifiedResult& result,
                   const Separation& separation, const Rational& accuracy) {
   const Rational upper(result.toi_upper), moved = 4 * (upper - Rational(result.toi_lower));
   const auto f = tests::contact_function<Rational>(posed.kind, posed.query, upper,
                                                    Rational(result.u), Rational(result.v));
-  Rational square, reach(separation.distance);
+  const std::size_t stride = is_zero(separation) ? 3 : 1;
+  Rational square, slack;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     double largest = 0.0;
-    for (std::size_t i = axis; i < posed.query.coordinates.size(); i += 3) {
+    for (std::size_t i = axis % stride; i < posed.query.coordinates.size(); i += stride) {
       largest = std::max(largest, std::abs(posed.query.coordinates.at(i)));
     }
-    const Rational slack = Rational(largest) * (accuracy + moved);
+    slack = Rational(largest) * (accuracy + moved);
     EXPECT_LE(abs(f[axis]), Rational(separation.distance) + slack) << posed;
     square += f[axis] * f[axis];
-    reach += slack;
   }
-  if (separation.norm == Norm::l2) {
+  if (separation.norm == Norm::l2 && !is_zero(separation)) {
+    const Rational reach = Rational(separation.distance) + 2 * slack;
     EXPECT_LE(square, reach * reach) << posed;
   }
 }
@@ -517,7 +518,7 @@ TEST(DecidersByHand, AreRightWhereABitDecides) {
   int collisions = 0, no_collisions = 0;
   for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
     for (const auto& [posed, separation] : queries_by_hand(kind)) {
-      const exact::Decision truth = exact::decide(kind, posed.query, separation);
+      const exact::Decision truth = exact::decide(posed.kind, posed.query, separation);
       ++(truth.collides() ? collisions : no_collisions);
       for (CertifiedOptions options : options_in_turn) {
         options.separation = separation;

@@ -411,6 +411,7 @@ TEST(LeastDistance, IsThatOfAllPairs) {
     for (const double t : {0.0, 0.3}) {
       expect_least(scene, t, Norm::l2, {{.max_threads = 1}, {.max_threads = 0}});
     }
+    EXPECT_EQ(least_distance(scene.step()), least_of(scene, 0.0, Norm::l2)) << "by default";
   }
 }
 

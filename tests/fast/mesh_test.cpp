@@ -11,10 +11,8 @@
 #include <string>
 #include <vector>
 
-#include "fast/candidates.hpp"
 #include "tests/support/floating_point_modes.hpp"
 #include "tests/support/messages.hpp"
-#include "touchstone/query.hpp"
 
 namespace touchstone::fast::mesh_test {
 namespace {
@@ -28,14 +26,8 @@ Eigen::MatrixX3d places(Eigen::Index count, double offset) {
   return result;
 }
 
-MovingVertices counted(Eigen::Index count) { return {places(count, 0), places(count, 100)}; }
-
 const std::vector<Edge> some_edges{{0, 1}, {4, 2}};
 const std::vector<Face> some_faces{{0, 1, 2}, {4, 3, 1}};
-
-Candidates candidates(Kind kind, const std::vector<IndexPair>& pairs) {
-  return {.kind = kind, .pairs = pairs, .edges = some_edges, .faces = some_faces};
-}
 
 TEST(MovingVertices, HoldsWhatItIsMadeFromWhateverTheStorage) {
   const Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor> start =
@@ -106,15 +98,6 @@ TEST(Elements, AreRefusedInOtherShapesAndOutOfRange) {
     EXPECT_EQ(tests::message_of<std::out_of_range>([&] { (void)elements_from<Edge>(edges); }),
               "element 2: vertex " + std::to_string(bad) + " is not in [0, 2^31-1]");
   }
-}
-
-TEST(Candidates, AreQueries) {
-  const Query vertex_face = query_of(counted(5), candidates(Kind::vertex_face, {}), {0, 1});
-  EXPECT_EQ(vertex_face, (Query{{0,   1,   2,   12,  13,  14,  9,   10,  11,  3,   4,   5,
-                                 100, 101, 102, 112, 113, 114, 109, 110, 111, 103, 104, 105}}));
-  const Query edge_edge = query_of(counted(5), candidates(Kind::edge_edge, {}), {1, 0});
-  EXPECT_EQ(edge_edge, (Query{{12,  13,  14,  6,   7,   8,   0,   1,   2,   3,   4,   5,
-                               112, 113, 114, 106, 107, 108, 100, 101, 102, 103, 104, 105}}));
 }
 
 }  // namespace

@@ -315,45 +315,41 @@ TYPED_TEST(EveryBoundByClasses, IsProvedByGappa) {
                            mpq_class(TypeParam::bound.rounding())));
 }
 
-TYPED_TEST(EveryBoundByClasses, HoldsForMixedMagnitudes) {
-  const auto found = this->expect_within_bound_for({{-20, -20, -20}, {20, 20, 20}});
-  EXPECT_GT(found.rounded, static_cast<int>(1000 * TypeParam::Expression::coordinates));
-}
-
-TYPED_TEST(EveryBoundByClasses, HoldsFarFromTheOriginAndIsNotFarFromTheError) {
-  // Inputs of one magnitude come nearest to the bound.
-  const auto found = this->expect_within_bound_for({{0, 0, 0}, {0, 0, 0}});
-  EXPECT_GT(found.worst, TypeParam::least_part) << "a bound so much smaller would pass";
-  const auto near = this->expect_within_bound_for({{20, 20, 20}, {22, 22, 22}, -10});
-  EXPECT_EQ(near.rounded, 0) << "near each other and far from the origin: exact differences";
-}
-
-TYPED_TEST(EveryBoundByClasses, HoldsForClassesOfVeryDifferentMagnitudes) {
+TYPED_TEST(EveryBoundByClasses, HoldsForAllMagnitudesAndIsNotFarFromTheError) {
   constexpr int far = TypeParam::is_double ? 300 : 90;
-  for (const auto& sizes :
-       {Sizes{{far, 0, -far}, {far + 2, 2, 2 - far}}, Sizes{{-far, far, 0}, {2 - far, far + 2, 2}},
-        Sizes{{0, -far, far}, {2, 2 - far, far + 2}}}) {
-    EXPECT_GT(this->expect_within_bound_for(sizes).worst, TypeParam::least_part);
-  }
-}
-
-TYPED_TEST(EveryBoundByClasses, HoldsWhereNumbersAndProductsUnderflow) {
-  static_cast<void>(this->expect_within_bound_for({{-1074, -1074, -1074}, {-1020, -1020, -1020}}));
-  // Products of two underflow, of three, and of one subnormal class with a large one.
-  for (const auto& sizes : {Sizes{{-545, -545, -545}, {-480, -480, -480}},
-                            Sizes{{-370, -370, -370}, {-310, -310, -310}},
-                            Sizes{{60, -1074, -1074}, {62, -1020, -40}}}) {
-    EXPECT_GT(this->expect_within_bound_for(sizes).worst, 0.0);
-  }
-}
-
-TYPED_TEST(EveryBoundByClasses, HoldsAtTheGreatestMagnitudesOfTheSolverAndOfAll) {
   // Differences up to 2^100; the first class of orientations and gaps are directions, up to 2^204.
   constexpr bool has_direction = TypeParam::Expression::coordinates != DeterminantEnd::coordinates;
-  const int first = has_direction ? 202 : 98, all = std::ilogb(TypeParam::bound.greatest_x) - 2;
-  for (const std::array<int, 3>& size : {std::array{first, 98, 98}, std::array{all, all, all}}) {
-    EXPECT_GT(this->expect_within_bound_for({size, size}).worst, TypeParam::least_part);
+  constexpr int first = has_direction ? 202 : 98;
+  const int all = std::ilogb(TypeParam::bound.greatest_x) - 2;
+  struct Row {
+    Sizes sizes;
+    double least_part;  ///< of the bound, that errors reach: so much smaller ones would not pass
+  };
+  const double near = TypeParam::least_part;
+  for (const auto& [sizes, least_part] :
+       {// Inputs of one magnitude come nearest to the bound.
+        Row{{{0, 0, 0}, {0, 0, 0}}, near},
+        // Classes of very different magnitudes.
+        Row{{{far, 0, -far}, {far + 2, 2, 2 - far}}, near},
+        Row{{{-far, far, 0}, {2 - far, far + 2, 2}}, near},
+        Row{{{0, -far, far}, {2, 2 - far, far + 2}}, near},
+        // Products of two underflow, of three, and of one subnormal class with a large one.
+        Row{{{-545, -545, -545}, {-480, -480, -480}}, 0.0},
+        Row{{{-370, -370, -370}, {-310, -310, -310}}, 0.0},
+        Row{{{60, -1074, -1074}, {62, -1020, -40}}, 0.0},
+        // The greatest magnitudes of the solver, and of all.
+        Row{{{first, 98, 98}, {first, 98, 98}}, near},
+        Row{{{all, all, all}, {all, all, all}}, near}}) {
+    EXPECT_GT(this->expect_within_bound_for(sizes).worst, least_part);
   }
+  static_cast<void>(this->expect_within_bound_for({{-1074, -1074, -1074}, {-1020, -1020, -1020}}));
+}
+
+TYPED_TEST(EveryBoundByClasses, HoldsForRoundedDifferencesAndExactOnes) {
+  const auto mixed = this->expect_within_bound_for({{-20, -20, -20}, {20, 20, 20}});
+  EXPECT_GT(mixed.rounded, static_cast<int>(1000 * TypeParam::Expression::coordinates));
+  const auto near = this->expect_within_bound_for({{20, 20, 20}, {22, 22, 22}, -10});
+  EXPECT_EQ(near.rounded, 0) << "near each other and far from the origin";
 }
 
 }  // namespace

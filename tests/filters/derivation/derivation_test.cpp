@@ -245,17 +245,6 @@ TEST(PublishedModel, FollowsABlendByHand) {
 
 // ---- Our model ----------------------------------------------------------------------------------
 
-/// The bound on the rounding error in units of u, without second-order terms.
-template <class Expression>
-mpq_class first_order_units() {
-  const mpq_class u = double_format.unit_roundoff();
-  const mpq_class units = derive_bound(record<Expression>(), double_format).rounding() / u;
-  const mpz_class whole = units.get_num() / units.get_den();
-  // The remainder must be of second order: up to half the square of the units.
-  EXPECT_LT(units - whole, whole * whole * u);
-  return whole;
-}
-
 TEST(RoundingModel, FollowsABlendByHand) {
   for (const Format& format : {double_format, float_format}) {
     // At a vertex: a·1 is rounded (u), b·0 is 0, the sum is rounded: u + u (1 + u).
@@ -277,16 +266,6 @@ TEST(RoundingModel, FollowsDegreeTwoByHand) {
   EXPECT_EQ(bound.rounding(), 30 * u + 48 * u * u + 32 * u * u * u + 8 * u * u * u * u);
   EXPECT_EQ(bound.coefficients[1], 0);
   EXPECT_EQ(bound.coefficients[0], 2 * eta * (1 + u));
-}
-
-TEST(RoundingModel, GivesTheBoundsOfTheOrdersOfOperations) {
-  // Those that ship are in error_bounds.hpp, which is compared.
-  EXPECT_EQ(first_order_units<PaperEdgeEdge>(), 24);
-  EXPECT_EQ(first_order_units<PaperVertexFace>(), 28);
-  EXPECT_EQ(first_order_units<PaperEdgeEdgeSeparated>(), 27);
-  EXPECT_EQ(first_order_units<PaperVertexFaceSeparated>(), 33);
-  EXPECT_EQ(first_order_units<ReleasedEdgeEdge>(), 42);
-  EXPECT_EQ(first_order_units<ReleasedVertexFace>(), 49);
 }
 
 /// (a b) c of three measured coordinates.
@@ -326,12 +305,6 @@ TEST(RoundingModel, TakesMeasuredCoordinatesForRoundedOnce) {
   mpq_class five_roundings(1);
   for (int i = 0; i < 5; ++i) five_roundings *= 1 + u;
   EXPECT_EQ(bound.rounding(), five_roundings - 1);
-}
-
-TEST(RoundingModel, KeepsTheErrorsOfValuesThatCancel) {
-  // Each product has an error of u, and the difference rounds the sum of the errors, 2u.
-  const mpq_class u = double_format.unit_roundoff();
-  EXPECT_EQ(derive_bound(record<TwoErrors>(), double_format).rounding(), 2 * u + 2 * u * u);
 }
 
 /// x + x y: its error is not a multiple of a power of x.
