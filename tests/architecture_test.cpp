@@ -144,20 +144,20 @@ constexpr std::string_view headers_without_test = R"(
   fast/intersections/: contacts.hpp filter_kernel.hpp filter_on_lanes.hpp orientation.hpp pair_filter.hpp pair_order.hpp pair_order_avx2.hpp
   adapters/tight_inclusion/: config.hpp interval_root_finder.hpp logger.hpp timer.hpp
 // By the answers of the methods, baselines_test.cpp and known_defects_test.cpp (arithmetics:
-// intervals_test.cpp; signs: rpoly_test.cpp), the queries of the families, families_test.cpp and
-// separation_families_test.cpp, and of the hard ones, hardness_test.cpp; in solver_process_test.cpp
-// and solver_test.cpp.
+// intervals_test.cpp; signs: rpoly_test.cpp), the queries of the families, families_test.cpp,
+// and of the hard ones, hardness_test.cpp; in solver_process_test.cpp and solver_test.cpp.
   verify/base/: any_query.hpp cores.hpp
   verify/baselines/: bernstein.hpp closest_features.hpp error_bounded.hpp exact_number.hpp interval_search.hpp method_support.hpp moving_polynomials.hpp sign_intervals.hpp upward_interval.hpp
   verify/generate/: coordinate_sampler.hpp draws.hpp family_builder.hpp grid.hpp offset.hpp passing_planes.hpp random_stream.hpp curved_families.hpp
   verify/solvers/: child_process.hpp hang_limits.hpp
 // Through what uses them: files and child processes, the tables of all commands, number_text_test.cpp
-// and meshes; certify, solve, the step's measurements, NumPy's arrays, the fuzzer; judge_test.cpp;
-// the pages' own tests.
+// and meshes; certify, solve, the step's measurements, NumPy's arrays, the fuzzer; judge_test.cpp,
+// label_test.cpp; the pages' own tests; step_bench_test.cpp, bench_test.cpp, certify_test.cpp and
+// prove_step_test.cpp; contact_test.cpp and fuzz_test.cpp.
   verify/io/: descriptor.hpp text_table.hpp
-  verify/judge/: ground_truth.hpp
-  verify/jobs/: work_time.hpp
-  verify/fuzz/: curved_generators.hpp fuzz_report.hpp plainness.hpp
+  verify/judge/: fault.hpp ground_truth.hpp ground_truth_cache.hpp judgement.hpp separation_inference.hpp terms.hpp
+  verify/jobs/: check_step.hpp memory_pass.hpp prove.hpp prove_mesh.hpp step_places.hpp work_time.hpp
+  verify/fuzz/: aligned_roundings.hpp curved_generators.hpp fuzz_report.hpp plainness.hpp recheck.hpp
 // By tests/transcripts, and documents_test.cpp: docs/results.md and its picture are those of their data.
   verify/cli/: commands.hpp files.hpp options.hpp result_files.hpp solver_options.hpp sources.hpp
   verify/mesh/: moving_mesh.hpp
