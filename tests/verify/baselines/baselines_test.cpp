@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cfenv>
@@ -14,6 +15,7 @@
 #include <memory>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "tests/support/baselines.hpp"
 #include "verify/baselines/baselines.hpp"
@@ -159,6 +161,8 @@ TEST_P(Baselines, HeedTheOptionsThatTheyKnow) {
   EXPECT_EQ(verdict(collision, {.t_max = 0.25}), baseline.counts_up_to_t_max ? no : yes);
   const bool knows = method->info().measures_in(Norm::l2);
   EXPECT_EQ(verdict(near, {.separation = {.distance = 1.5, .norm = Norm::l2}}), knows ? yes : no);
+  EXPECT_TRUE(!method->info().measures_in(Norm::linf) ||
+              verdict(near, {.separation = {.distance = 1.5, .norm = Norm::linf}}) == yes);
 }
 
 TEST_P(Baselines, RefuseOptionsThatMeanNothing) {
@@ -174,18 +178,30 @@ TEST_P(Baselines, RefuseOptionsThatMeanNothing) {
   EXPECT_NE(verdict(over_triangle(1, 1, 1, -1), {.t_max = 0.0}), Verdict::error);
 }
 
-TEST_P(Baselines, RoundToNearestWhateverTheCallerDoes) {
-  const PosedQuery collision = over_triangle(0.1, 0.3, 0.7, -1.3);
-  const fast::Answer expected = answer_to(*method, collision);
+TEST_P(Baselines, AnswerAlikeInAnyOrderAndAnyRounding) {
+  tests::Random random(2);
+  std::vector<Query> queries{over_edge(1, 2, 0.7, -1.3).query};
+  for (int i = 0; i < 60; ++i) {
+    const auto family = i % 2 == 0 ? tests::Family::tiny_integers : tests::Family::near_contact;
+    queries.push_back(tests::random_query(random, Kind::edge_edge, family).query);
+  }
+  std::vector<fast::Answer> expected(queries.size()), found(queries.size());
+  method->solve(Queries(Kind::edge_edge, queries), expected, short_search);
+  std::ranges::reverse(queries);
   for (const int mode : {FE_UPWARD, FE_DOWNWARD, FE_TOWARDZERO, FE_TONEAREST}) {
     std::fesetround(mode);
-    const fast::Answer answer = answer_to(*method, collision);
+    method->solve(Queries(Kind::edge_edge, queries), found, short_search);
     const int after = std::fegetround();
+    const double sum = tests::one_and_a_little();
     std::fesetround(FE_TONEAREST);
     EXPECT_EQ(after, mode);
-    EXPECT_EQ(answer.verdict, yes);
-    EXPECT_EQ(std::bit_cast<std::uint64_t>(answer.toi_lower),
-              std::bit_cast<std::uint64_t>(expected.toi_lower));
+    EXPECT_EQ(sum > 1.0, mode == FE_UPWARD);
+    std::ranges::reverse(found);
+    for (std::size_t i = 0; i < found.size(); ++i) {
+      EXPECT_EQ(found[i].verdict, expected[i].verdict);
+      EXPECT_EQ(std::bit_cast<std::uint64_t>(found[i].toi_lower),
+                std::bit_cast<std::uint64_t>(expected[i].toi_lower));
+    }
   }
 }
 

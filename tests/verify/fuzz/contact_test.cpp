@@ -2,20 +2,23 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <set>
+#include <map>
 
 #include "tests/support/trials.hpp"
 #include "touchstone/number.hpp"
 #include "touchstone/oracle.hpp"
+#include "verify/fuzz/aligned_roundings.hpp"
 #include "verify/generate/family_builder.hpp"
 #include "verify/generate/random_stream.hpp"
 
 namespace touchstone::verify::fuzz::contact_test {
 namespace {
 
+using exact::Rational;
 using generate::Random;
 using Maker = Query (*)(Kind, Random&);
 
@@ -31,43 +34,31 @@ void for_each_query(Maker make, int count, const Use& use) {
   }
 }
 
-TEST(Contact, OnAGridIsContactAlways) {
-  std::set<double> tois;
-  for_each_query(grid_contact, tests::trials(2000), [&](Kind kind, const Query& query) {
-    const exact::Decision verdict = exact::decide(kind, query);
-    ASSERT_TRUE(verdict.collides());
-    tois.insert(verdict.toi->enclosure().lower);
-  });
-  // The times are eighths, and earlier contacts of some constructions.
-  for (const double eighth : {0.0, 0.125, 0.5, 0.875, 1.0}) EXPECT_TRUE(tois.contains(eighth));
-}
-
-TEST(Contact, OfCentresIsAtAnEnd) {
-  int at_start = 0, at_end = 0;
-  for_each_query(central_contact, tests::trials(400), [&](Kind kind, const Query& query) {
-    const exact::Decision verdict = exact::decide(kind, query);
-    ASSERT_TRUE(verdict.collides());
-    const double toi = verdict.toi->enclosure().lower;
-    ASSERT_TRUE(toi == 0.0 || toi == 1.0) << toi;
-    (toi == 0.0 ? at_start : at_end) += 1;
-  });
-  EXPECT_GT(at_start, tests::trials(100));
-  EXPECT_GT(at_end, tests::trials(100));
-}
-
-TEST(Contact, AtOneLevelIsContactAlwaysWithFullSignificands) {
-  int full = 0, inside = 0, at_one = 0;
-  for_each_query(level_contact, tests::trials(2000), [&](Kind kind, const Query& query) {
-    const exact::Decision verdict = exact::decide(kind, query);
-    ASSERT_TRUE(verdict.collides());
-    full += generate::uses_full_significands(query) ? 1 : 0;
-    const double toi = verdict.toi->enclosure().lower;
-    inside += toi > 0.0 && toi < 1.0 ? 1 : 0;
-    at_one += toi == 1.0 ? 1 : 0;
-  });
+/// The times on a grid are eighths, and earlier contacts of some constructions; those of centres
+/// are at an end; those at one level are anywhere, with full significands.
+TEST(Contact, IsContactAlways) {
+  const auto times_of = [](Maker make, int count, int& full) {
+    std::map<double, int> tois;
+    for_each_query(make, count, [&](Kind kind, const Query& query) {
+      const exact::Decision verdict = exact::decide(kind, query);
+      ASSERT_TRUE(verdict.collides());
+      ++tois[verdict.toi->enclosure().lower];
+      full += generate::uses_full_significands(query) ? 1 : 0;
+    });
+    return tois;
+  };
+  int full = 0;
+  const auto on_grid = times_of(grid_contact, tests::trials(2000), full);
+  for (const double eighth : {0.0, 0.125, 0.5, 0.875, 1.0}) EXPECT_TRUE(on_grid.contains(eighth));
+  auto at_ends = times_of(central_contact, tests::trials(400), full);
+  EXPECT_EQ(at_ends.size(), 2U);
+  for (const double end : {0.0, 1.0}) EXPECT_GT(at_ends[end], tests::trials(100)) << end;
+  full = 0;
+  const int count = tests::trials(2000);
+  auto anywhere = times_of(level_contact, count, full);
   EXPECT_GT(full, tests::trials(1200));
-  EXPECT_GT(inside, tests::trials(600));
-  EXPECT_GT(at_one, tests::trials(100));
+  EXPECT_GT(count - anywhere[0.0] - anywhere[1.0], tests::trials(600));
+  EXPECT_GT(anywhere[1.0], tests::trials(100));
 }
 
 /// A rounding decides, so that both verdicts are frequent.
@@ -104,6 +95,48 @@ TEST(Contact, ApartIsAboutAtTheDistance) {
       EXPECT_GT(near, collisions);
     }
   }
+}
+
+/// The error of a coordinate at time t as solvers compute it.
+Rational error_at(double t, double start, double end) {
+  const double computed = start * (1.0 - t) + end * t;
+  return Rational(computed) - (Rational(start) * (1 - Rational(t)) + Rational(end) * Rational(t));
+}
+
+/// The least error by which the computed distance of a's points from b's on that axis at that time
+/// is too large, in units of u x.
+double worst_case(const Query& query, double t, std::size_t axis) {
+  std::array<Rational, moving_points> errors;
+  double greatest = 0.0;
+  for (std::size_t point = 0; point < moving_points; ++point) {
+    const double start = query.at(0, point, axis), end = query.at(1, point, axis);
+    errors.at(point) = error_at(t, start, end);
+    greatest = std::max({greatest, std::abs(start), std::abs(end)});
+  }
+  const Rational least = std::min(errors[0], errors[1]) - std::max(errors[2], errors[3]);
+  return Rational(least / Rational(greatest * 0x1p-53)).get_d();
+}
+
+TEST(Aligned, RoundingsAddUpAtAContact) {
+  Random random(3);
+  int collisions = 0;
+  const int count = tests::trials(200);
+  for (int i = 0; i < count; ++i) {
+    const Query query = aligned_contact(random);
+    const exact::Decision verdict = exact::decide(Kind::edge_edge, query);
+    if (!verdict.collides()) continue;
+    ++collisions;
+    const double toi = verdict.toi->enclosure().lower;
+    const double c = toi < 0.5 ? 31.0 / 64 : 33.0 / 64;
+    EXPECT_NEAR(toi, c, 1e-12);
+    EXPECT_GE(toi, c);
+    double worst = 0.0;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      worst = std::max(worst, worst_case(query, c, axis));
+    }
+    EXPECT_GT(worst, 3.2);
+  }
+  EXPECT_GT(collisions, count - count / 50 - 2);
 }
 
 }  // namespace

@@ -2,28 +2,34 @@
 
 #include <gtest/gtest.h>
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <cstdlib>
 #include <functional>
+#include <optional>
 #include <set>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <thread>
 #include <utility>
 #include <vector>
 
 #include "fast/method.hpp"
+#include "tests/support/certificates.hpp"
 #include "tests/support/methods.hpp"
 #include "tests/support/queries.hpp"
 #include "tests/support/shared_counter.hpp"
 #include "tests/support/trials.hpp"
 #include "touchstone/certified.hpp"
 #include "touchstone/oracle.hpp"
-#include "touchstone/tight_inclusion.hpp"
 #include "verify/fuzz/plainness.hpp"
 #include "verify/fuzz/recheck.hpp"
+#include "verify/judge/ground_truth.hpp"
 #include "verify/solvers/registry.hpp"
 
 namespace touchstone::verify::fuzz::fuzz_test {
@@ -38,6 +44,8 @@ using namespace std::chrono_literals;
 /// The right answer, by the fast solver.
 Answer honest(Kind kind, const Query& query) { return answer_of(fast::solve(kind, query)); }
 
+fast::MethodInfo promising(Promise promise) { return {.name = "function", .promise = promise}; }
+
 constexpr std::uint64_t enough = 20'000;
 
 FuzzResult search(const FunctionMethod::Function& function, const fast::MethodInfo& info,
@@ -48,78 +56,137 @@ FuzzResult search(const FunctionMethod::Function& function, const fast::MethodIn
   return fuzz(method, options);
 }
 
-FuzzResult search(const FunctionMethod::Function& function, Promise promise,
-                  const FuzzOptions& options = {}) {
-  return search(function, {.name = "function", .promise = promise}, options);
+const std::vector<QueryShape> elements{{Kind::tetrahedron}, {Kind::plane_triangle}};
+
+std::vector<QueryShape> shapes(std::size_t degree, bool is_rational = false) {
+  return {{Kind::vertex_face, degree, is_rational}, {Kind::edge_edge, degree, is_rational}};
 }
 
-/// Expects an early finding of this fault, with true contents.
-void expect_found(judge::Fault what, const FuzzResult& result) {
-  ASSERT_FALSE(result.findings.empty()) << to_string(what);
-  const Finding& finding = result.findings.front();
-  EXPECT_EQ(to_string(finding.what), to_string(what)) << finding.original.detail;
-  EXPECT_EQ(finding.method, "function");
-  EXPECT_FALSE(finding.original.detail.empty());
-  EXPECT_FALSE(finding.generator.empty());
-  EXPECT_EQ(finding.original.collides,
-            exact::decide(finding.original.query.queries(), 0, finding.separation).collides());
-  // Simplification was not requested.
-  EXPECT_EQ(finding.simplest.query, finding.original.query);
-  EXPECT_EQ(finding.shrinking, Shrinking::not_tried);
-  EXPECT_EQ(result.queries, finding.queries);
-  EXPECT_GE(result.all_findings, 1U);
+/// The certified solver's answers to queries on curves, changed.
+FunctionMethod on_curves(const std::function<void(const Queries&, Answer&)>& change,
+                         Promise promise = Promise::exact) {
+  return {[change](const Queries& one) {
+            fast::CertifiedResult result;
+            fast::solve(one, {&result, 1}, {.max_threads = 1});
+            Answer answer = answer_of(result);
+            change(one, answer);
+            return answer;
+          },
+          {.name = "function",
+           .promise = promise,
+           .terms = {.least_degree = 1, .most_degree = greatest_degree, .rational = true}}};
 }
+
+// ---- Faults -------------------------------------------------------------------------------------
+
+using Change = std::function<void(const Query&, Answer&)>;
 
 /// A method that is right but for this change, and the fault to be found.
 struct Planted {
   const char* name;
   judge::Fault fault;
-  Promise promise;
-  std::function<void(const Query&, Answer&)> change;
+  fast::MethodInfo info;
+  Change change;
+  /// Without the oracle's share: the judge must doubt the answer.
+  FuzzOptions options = {.oracle_share = 0.0};
 };
 
 /// What is done at some queries instead of an answer.
-std::function<void(const Query&, Answer&)> at_some(const std::function<void()>& act) {
+Change at_some(const std::function<void()>& act) {
   return [act](const Query& query, Answer&) {
     if (query.at(0, 1, 1) == query.at(1, 1, 1) && query.at(0, 1, 1) != 0.0) act();
   };
 }
 
+/// Yes to all queries, and so a claim that their distance is within the tolerance.
+Change yes_within(double tolerance) {
+  return [tolerance](const Query&, Answer& answer) {
+    answer = {.verdict = Verdict::yes, .toi_lower = 0.0, .tolerance = tolerance};
+  };
+}
+
+/// No to collisions of elements of which this is true.
+Planted missed_element(const char* name, bool (*is_missed)(const Query&, const Answer&)) {
+  return {name,
+          judge::Fault::false_negative,
+          {.name = "function",
+           .promise = Promise::conservative,
+           .terms = {.kinds = {false, false, true}}},
+          [is_missed](const Query& query, Answer& answer) {
+            if (answer.verdict == Verdict::yes && is_missed(query, answer)) {
+              answer = {.verdict = Verdict::no};
+            }
+          },
+          {.shapes = {{Kind::tetrahedron}}, .oracle_share = 0.0}};
+}
+
 TEST(Fuzz, FindsEveryPlantedFault) {
   using enum judge::Fault;
+  const fast::MethodInfo nothing = promising(Promise::none), exactly = promising(Promise::exact),
+                         conservatively = promising(Promise::conservative);
+  fast::MethodInfo filtered = conservatively;
+  filtered.filter = fast::ErrorModel::derived;
+  const auto right = [](const Query&, Answer&) {};
+  const Separation linf{.distance = 0.25, .norm = Norm::linf}, l2{0.25, Norm::l2};
   const std::vector<Planted> all{
-      {"always no", false_negative, Promise::none,
+      {"always no", false_negative, nothing,
        [](const Query&, Answer& answer) { answer = {.verdict = Verdict::no}; }},
-      {"a time that is late by the least", late_toi, Promise::conservative,
+      {"a time that is late by the least", late_toi, conservatively,
        [](const Query&, Answer& answer) {
          if (answer.verdict == Verdict::yes)
            answer.toi_lower = std::nextafter(answer.toi_upper, 2.0);
          answer.toi_upper = Answer::none;
        }},
-      {"an upper bound that is early", early_toi_upper, Promise::conservative,
+      {"an upper bound that is early", early_toi_upper, conservatively,
        [](const Query&, Answer& answer) {
          answer.toi_upper = answer.toi_lower;
          answer.toi_lower = Answer::none;
        }},
-      {"an infinite time", not_finite, Promise::conservative,
+      {"an infinite time", not_finite, conservatively,
        [](const Query& query, Answer& answer) {
          if (query.at(0, 0, 0) == query.at(1, 0, 0)) answer.toi_lower = -HUGE_VAL;
        }},
-      {"a negative tolerance", not_finite, Promise::conservative,
+      {"a negative tolerance", not_finite, conservatively,
        [](const Query&, Answer& answer) {
          if (answer.toi_lower > 0.5) answer.tolerance = -1.0;
        }},
-      {"the bound of some collisions is missing", not_finite, Promise::conservative,
+      {"the bound of some collisions is missing", not_finite, conservatively,
        [](const Query& query, Answer& answer) {
          if (query.at(0, 0, 0) == 1.0 && query.at(1, 0, 0) == 1.0) answer.toi_lower = Answer::none;
        }},
-      {"an error", no_verdict, Promise::none,
+      {"an error", no_verdict, nothing,
        [](const Query&, Answer& answer) { answer = {.verdict = Verdict::error}; }},
-      {"undecided", undecided, Promise::exact, [](const Query&, Answer& answer) { answer = {}; }},
-      {"crash: SIGABRT", crash, Promise::none, at_some([] { std::abort(); })},
-      {"exit: status 3", exit, Promise::none, at_some([] { std::_Exit(3); })},
-      {"exception: thrown", exception, Promise::none,
-       at_some([] { throw std::runtime_error("thrown"); })}};
+      {"undecided", undecided, exactly, [](const Query&, Answer& answer) { answer = {}; }},
+      {"crash: SIGABRT", crash, nothing, at_some([] { std::abort(); })},
+      {"exit: status 3", exit, nothing, at_some([] { std::_Exit(3); })},
+      {"exception: thrown", exception, nothing,
+       at_some([] { throw std::runtime_error("thrown"); })},
+      {"always yes", false_positive, exactly, yes_within(Answer::none)},
+      {"always yes, asked for exactness",
+       false_positive,
+       nothing,
+       yes_within(Answer::none),
+       {.promise = Promise::exact}},
+      {"beyond tolerance and filter", beyond_tolerance, filtered, yes_within(1e-9)},
+      {"beyond contact", beyond_tolerance, conservatively, yes_within(0.0)},
+      {"beyond a separation",
+       beyond_tolerance,
+       nothing,
+       yes_within(0.0),
+       {.separation = l2, .oracle_share = 0.0}},
+      {"ignores the separation", false_negative, conservatively, right, {.separation = linf}},
+      {"ignores the separation in L2", false_negative, conservatively, right, {.separation = l2}},
+      missed_element("where a volume only touches 0",
+                     [](const Query& query, const Answer&) {
+                       Query end = query;
+                       std::copy_n(query.coordinates.begin() + 12, 12, end.coordinates.begin());
+                       return !exact::decide(Kind::tetrahedron, end).collides();
+                     }),
+      missed_element("at the end",
+                     [](const Query&, const Answer& answer) { return answer.toi_upper == 1.0; }),
+      missed_element("of an orientation", [](const Query& query, const Answer&) {
+        return query.at(0, 1, 0) < query.at(0, 0, 0) && query.at(0, 2, 0) > query.at(0, 0, 0);
+      })};
   for (const Planted& planted : all) {
     SCOPED_TRACE(planted.name);
     const auto altered = [&](Kind kind, const Query& query) {
@@ -127,51 +194,92 @@ TEST(Fuzz, FindsEveryPlantedFault) {
       planted.change(query, answer);
       return answer;
     };
-    // Without the oracle's share: the judge must doubt the answer.
-    const FuzzResult result = search(altered, planted.promise, {.oracle_share = 0.0});
-    expect_found(planted.fault, result);
-    EXPECT_TRUE(planted.fault != false_negative || result.queries < 2000U);
+    const FuzzResult result = search(altered, planted.info, planted.options);
+    ASSERT_FALSE(result.findings.empty());
+    const Finding& finding = result.findings.front();
+    EXPECT_EQ(to_string(finding.what), to_string(planted.fault)) << finding.original.detail;
+    EXPECT_EQ(finding.method, "function");
+    EXPECT_EQ(finding.separation, planted.options.separation);
+    EXPECT_FALSE(finding.original.detail.empty());
+    EXPECT_FALSE(finding.generator.empty());
+    EXPECT_EQ(finding.original.collides,
+              exact::decide(finding.original.query.queries(), 0, finding.separation).collides());
+    // Simplification was not requested.
+    EXPECT_EQ(finding.simplest.query, finding.original.query);
+    EXPECT_EQ(finding.shrinking, Shrinking::not_tried);
+    EXPECT_EQ(result.queries, finding.queries);
+    EXPECT_GE(result.all_findings, 1U);
+    EXPECT_TRUE(std::string_view(planted.name) != "always no" || result.queries < 2000U);
     if (planted.fault == crash || planted.fault == exit || planted.fault == exception) {
-      EXPECT_EQ(result.findings.at(0).original.detail, planted.name);
+      EXPECT_EQ(finding.original.detail, planted.name);
     }
   }
 }
 
-TEST(Fuzz, FindsFalsePositivesOfExactSolvers) {
-  const auto yes = [](Kind, const Query&) { return Answer{.verdict = Verdict::yes}; };
-  expect_found(judge::Fault::false_positive, search(yes, Promise::exact));
-  expect_found(judge::Fault::false_positive,
-               search(yes, Promise::none, {.promise = Promise::exact}));
-  const FuzzResult lenient =
-      search(yes, Promise::conservative, {.most_queries = tests::trials(std::uint64_t{2400})});
-  EXPECT_TRUE(lenient.findings.empty());
-  EXPECT_EQ(lenient.all_findings, 0U);
-}
-
-/// A method that says yes to all queries, and so claims that their distance is within its
-/// tolerance.
-TEST(Fuzz, FindsAYesBeyondItsTolerance) {
-  const auto yes = [](double tolerance) {
-    return [tolerance](Kind, const Query&) {
-      return Answer{.verdict = Verdict::yes, .toi_lower = 0.0, .tolerance = tolerance};
-    };
+/// Of lines, curves and elements, with a separation and without.
+TEST(Fuzz, FindsNothingWhereNothingIsWrong) {
+  struct Sound {
+    const fast::Method& method;
+    std::uint64_t queries;
+    FuzzOptions options = {};
   };
-  expect_found(judge::Fault::beyond_tolerance, search(yes(1e-9),
-                                                      {.name = "function",
-                                                       .promise = Promise::conservative,
-                                                       .filter = fast::ErrorModel::derived},
-                                                      {.oracle_share = 0.0}));
-  expect_found(judge::Fault::beyond_tolerance,
-               search(yes(0.0), Promise::conservative, {.oracle_share = 0.0}));
-  expect_found(judge::Fault::beyond_tolerance,
-               search(yes(0.0), Promise::none,
-                      {.separation = {.distance = 0.25, .norm = Norm::l2}, .oracle_share = 0.0}));
+  const auto yes = [](double tolerance) {
+    return FunctionMethod(
+        [tolerance](Kind, const Query& query) {
+          Answer answer;
+          yes_within(tolerance)(query, answer);
+          return answer;
+        },
+        promising(Promise::conservative));
+  };
+  const FunctionMethod always_yes = yes(Answer::none), always_near = yes(HUGE_VAL);
+  const FunctionMethod timeless(
+      [](Kind kind, const Query& query) -> Answer {
+        return {.verdict = honest(kind, query).verdict};
+      },
+      promising(Promise::exact));
+  const fast::Method &certified = solvers::find_method("certified"),
+                     &tight = solvers::find_method("tight_inclusion");
   const std::uint64_t some = tests::trials(std::uint64_t{2400});
-  EXPECT_EQ(search(yes(HUGE_VAL), Promise::conservative, {.most_queries = some}).all_findings, 0U);
+  std::vector<Sound> all{
+      {certified, tests::trials(std::uint64_t{6000})},
+      // The oracle takes a hundred times as long with a distance.
+      {certified, tests::trials(std::uint64_t{160}), {.separation = {1e-3, Norm::l2}}},
+      {certified, tests::trials(std::uint64_t{6000}), {.shapes = elements}},
+      {tight, some / 2, {.method = {.max_checks = 200}, .query_limit_seconds = 30.0}},
+      {tight,
+       some / 6,
+       {.method = {.max_checks = 2000}, .query_limit_seconds = 30.0, .shapes = shapes(2)}},
+      {always_yes, some},
+      {always_near, some},
+      {timeless, some}};
+  for (const Separation& separation :
+       {Separation{}, Separation{0.25, Norm::linf}, Separation{0.25, Norm::l2}}) {
+    for (const auto& [degree, is_rational] : {std::pair(2U, false), {3U, false}, {2U, true}}) {
+      // A block and some images.
+      all.push_back(
+          {certified, 300, {.separation = separation, .shapes = shapes(degree, is_rational)}});
+    }
+  }
+  for (auto& [method, queries, options] : all) {
+    options.most_queries = queries;
+    const FuzzResult result = fuzz(method, options);
+    SCOPED_TRACE(std::string(method.name()) + " " + std::to_string(queries));
+    EXPECT_EQ(result.all_findings, 0U);
+    EXPECT_TRUE(result.findings.empty());
+    EXPECT_EQ(result.queries, queries);
+    EXPECT_TRUE(result.images > 0 || queries < 256) << "within a block there are none";
+    if (&method == &certified) {
+      EXPECT_EQ(result.judged_by_oracle, result.queries);
+      EXPECT_GT(result.collisions, result.queries / 20);
+      EXPECT_LT(result.collisions, result.queries);
+    }
+    EXPECT_TRUE(&method != &tight || result.judged_by_oracle < result.queries);
+  }
 }
 
-/// A method that is wrong only if the first point is on the left: the image of a query on the
-/// right.
+/// A method that is wrong only if the first point is on the left, of lines or of curves: the image
+/// of a query on the right.
 TEST(Fuzz, FindsWhatIsWrongInAMirror) {
   const auto one_sided = [](Kind kind, const Query& query) {
     Answer answer = honest(kind, query);
@@ -179,7 +287,7 @@ TEST(Fuzz, FindsWhatIsWrongInAMirror) {
     return answer;
   };
   const FuzzOptions options{.most_queries = 2000, .most_groups = 1000};
-  const FuzzResult result = search(one_sided, Promise::exact, options);
+  const FuzzResult result = search(one_sided, promising(Promise::exact), options);
   EXPECT_GT(result.images, result.queries / 20);
   const auto is_asymmetry = [](const Finding& finding) {
     return finding.what == judge::Fault::asymmetry;
@@ -189,57 +297,14 @@ TEST(Fuzz, FindsWhatIsWrongInAMirror) {
   EXPECT_LT(found->original.query.straight().at(0, 0, 0), 0.0);
   EXPECT_NE(found->original.detail.find("exact image"), std::string::npos);
   // Without the promise exact only the wrong answer counts.
-  const FuzzResult lenient = search(one_sided, Promise::conservative, options);
+  const FuzzResult lenient = search(one_sided, promising(Promise::conservative), options);
   EXPECT_TRUE(std::ranges::none_of(lenient.findings, is_asymmetry));
   EXPECT_FALSE(lenient.findings.empty());
-}
-
-TEST(Fuzz, TakesMethodsWithoutTimes) {
-  const auto timeless = [](Kind kind, const Query& query) {
-    return Answer{.verdict = honest(kind, query).verdict};
-  };
-  EXPECT_TRUE(search(timeless, Promise::exact, {.most_queries = tests::trials(std::uint64_t{2400})})
-                  .findings.empty());
-}
-
-TEST(Fuzz, FindsNothingWhereNothingIsWrong) {
-  // The oracle takes a hundred times as long with a distance.
-  const std::vector<std::pair<Separation, std::uint64_t>> searches{
-      {{}, 6000}, {{.distance = 1e-3, .norm = Norm::l2}, 160}};
-  for (const auto& [separation, queries] : searches) {
-    const FuzzOptions options{.most_queries = tests::trials(queries), .separation = separation};
-    const FuzzResult certified = fuzz(solvers::find_method("certified"), options);
-    EXPECT_EQ(certified.all_findings, 0U);
-    EXPECT_EQ(certified.queries, options.most_queries);
-    EXPECT_EQ(certified.judged_by_oracle, certified.queries);
-    EXPECT_GT(certified.collisions, certified.queries / 20);
-  }
-}
-
-TEST(Fuzz, FindsNothingInTightInclusion) {
-  const FuzzOptions options{.most_queries = tests::trials(std::uint64_t{1200}),
-                            .method = {.max_checks = 200},
-                            .query_limit_seconds = 30.0};
-  const FuzzResult result = fuzz(solvers::find_method("tight_inclusion"), options);
-  EXPECT_EQ(result.all_findings, 0U);
-  EXPECT_LT(result.judged_by_oracle, result.queries);
-}
-
-/// A method that ignores the separation misses collisions at it.
-TEST(Fuzz, TellsTheMethodTheSeparation) {
-  const auto contact_only = [](Kind kind, const Query& query) { return honest(kind, query); };
-  for (const Norm norm : {Norm::linf, Norm::l2}) {
-    const auto result = search(contact_only, Promise::conservative,
-                               {.separation = {.distance = 0.25, .norm = norm}});
-    ASSERT_FALSE(result.findings.empty());
-    EXPECT_EQ(result.findings.front().separation.norm, norm);
-  }
-}
-
-std::vector<base::AnyQuery> queries_of(const FuzzResult& result) {
-  std::vector<base::AnyQuery> queries;
-  for (const Finding& finding : result.findings) queries.push_back(finding.original.query);
-  return queries;
+  const FunctionMethod of_curves = on_curves([](const Queries& one, Answer& answer) {
+    if (one.numbers[0] < 0.0 && one.numbers[3] >= 0.0) answer.verdict = Verdict::no;
+  });
+  const FuzzOptions curved{.most_queries = 2000, .most_groups = 1000, .shapes = shapes(2)};
+  EXPECT_TRUE(std::ranges::any_of(fuzz(of_curves, curved).findings, is_asymmetry));
 }
 
 Answer sometimes_wrong(Kind kind, const Query& query) {
@@ -248,28 +313,15 @@ Answer sometimes_wrong(Kind kind, const Query& query) {
   return answer;
 }
 
-TEST(Fuzz, IsTheSameForTheSameSeed) {
-  const FuzzOptions options{
-      .most_queries = tests::trials(std::uint64_t{2400}), .seed = 5, .most_groups = 1000};
-  const FuzzResult a = search(sometimes_wrong, Promise::none, options);
-  const FuzzResult b = search(sometimes_wrong, Promise::none, options);
-  EXPECT_GT(a.findings.size(), tests::trials(8U));
-  EXPECT_EQ(queries_of(a), queries_of(b));
-  EXPECT_EQ(a.all_findings, b.all_findings);
-  EXPECT_EQ(a.judged_by_oracle, b.judged_by_oracle);
-  FuzzOptions other = options;
-  other.seed = 6;
-  EXPECT_NE(queries_of(a), queries_of(search(sometimes_wrong, Promise::none, other)));
-}
-
 /// A bound that is too small for small coordinates is one cause, for any generator, kind and stage.
 TEST(Fuzz, PutsFindingsOfOneCauseInOneGroup) {
   const auto blind = [](Kind kind, const Query& query) {
     if (size_exponent({kind, query}) < -3) return Answer{.verdict = Verdict::no};
     return honest(kind, query);
   };
-  const FuzzResult result = search(
-      blind, Promise::none, {.most_queries = 2400, .most_groups = 1000, .shrink_seconds = 60.0});
+  const FuzzResult result =
+      search(blind, promising(Promise::none),
+             {.most_queries = 2400, .most_groups = 1000, .shrink_seconds = 60.0});
   EXPECT_GT(result.findings.size(), 10U);
   ASSERT_EQ(result.groups.size(), 1U);
   EXPECT_EQ(result.groups.front().count, result.all_findings);
@@ -294,8 +346,9 @@ TEST(Fuzz, PutsFindingsOfTwoCausesInTwoGroups) {
     if (answer.verdict == Verdict::yes && query.at(0, 0, 0) == query.at(1, 2, 1)) std::abort();
     return answer;
   };
-  const FuzzResult result = search(
-      ill, Promise::none, {.most_queries = 2400, .most_groups = 1000, .shrink_seconds = 60.0});
+  const FuzzResult result =
+      search(ill, promising(Promise::none),
+             {.most_queries = 2400, .most_groups = 1000, .shrink_seconds = 60.0});
   std::uint64_t count = 0;
   std::set<judge::Fault> kinds;
   for (const FindingGroup& group : result.groups) {
@@ -315,25 +368,18 @@ TEST(Fuzz, MutatesTheCorpus) {
     if (std::ranges::find(x, rare) != x.end()) answer.verdict = Verdict::no;
     return answer;
   };
-  FuzzOptions options{.most_queries = enough};
-  EXPECT_TRUE(search(wrong, Promise::none, {.most_queries = 2000}).findings.empty());
+  EXPECT_TRUE(search(wrong, promising(Promise::none), {.most_queries = 2000}).findings.empty());
   Query query = tests::over_triangle(1, 1, 1, -1).query;
   query.at(0, 0, 2) = rare;
-  options.corpus = {{Kind::vertex_face, query}};
-  expect_found(judge::Fault::false_negative, search(wrong, Promise::none, options));
+  const FuzzResult result =
+      search(wrong, promising(Promise::none), {.corpus = {{Kind::vertex_face, query}}});
+  ASSERT_FALSE(result.findings.empty());
+  EXPECT_EQ(result.findings.front().what, judge::Fault::false_negative);
 }
 
-// ---- Elements -----------------------------------------------------------------------------------
+// ---- Elements and curves ----------------------------------------------------------------------
 
-const std::vector<QueryShape> elements{{Kind::tetrahedron}, {Kind::plane_triangle}};
-
-TEST(FuzzOfElements, FindsTheMissesOfFormulasAndNoneOfTheCertifiedSolver) {
-  const FuzzResult certified =
-      fuzz(solvers::find_method("certified"),
-           {.most_queries = tests::trials(std::uint64_t{6000}), .shapes = elements});
-  EXPECT_EQ(certified.all_findings, 0U);
-  EXPECT_GT(certified.collisions, certified.queries / 4);
-  EXPECT_LT(certified.collisions, certified.queries / 10 * 9);
+TEST(FuzzOfElements, FindsTheMissesOfFormulas) {
   for (const char* const name : {"inversion_cubic", "inversion_additive"}) {
     for (const QueryShape& shape : elements) {
       SCOPED_TRACE(name);
@@ -353,62 +399,6 @@ TEST(FuzzOfElements, FindsTheMissesOfFormulasAndNoneOfTheCertifiedSolver) {
       EXPECT_NE(plain.certificate.find("query tetrahedron\n"), std::string::npos);
     }
   }
-}
-
-/// Right but where a volume only touches 0, where points rest, or at an orientation.
-TEST(FuzzOfElements, FindsEveryPlantedFault) {
-  using Fault = bool (*)(const Query&, const Answer&);
-  const auto touches = [](const Query& query, const Answer&) {
-    Query end = query;
-    for (std::size_t i = 0; i < 12; ++i) end.coordinates.at(i) = end.coordinates.at(i + 12);
-    return !exact::decide(Kind::tetrahedron, end).collides();
-  };
-  const auto at_end = [](const Query&, const Answer& answer) { return answer.toi_upper == 1.0; };
-  const auto turned = [](const Query& query, const Answer&) {
-    return query.at(0, 1, 0) < query.at(0, 0, 0) && query.at(0, 2, 0) > query.at(0, 0, 0);
-  };
-  for (const Fault is_missed : std::initializer_list<Fault>{touches, at_end, turned}) {
-    const auto altered = [&](Kind kind, const Query& query) {
-      Answer answer = honest(kind, query);
-      if (answer.verdict == Verdict::yes && is_missed(query, answer))
-        answer = {.verdict = Verdict::no};
-      return answer;
-    };
-    expect_found(judge::Fault::false_negative,
-                 search(altered,
-                        {.name = "function",
-                         .promise = Promise::conservative,
-                         .terms = {.kinds = {false, false, true}}},
-                        {.shapes = {{Kind::tetrahedron}}, .oracle_share = 0.0}));
-  }
-}
-
-TEST(FuzzOfElements, HaveNoSeparation) {
-  EXPECT_THROW(static_cast<void>(
-                   fuzz(solvers::find_method("certified"),
-                        {.most_queries = 1, .separation = {.distance = 1.0}, .shapes = elements})),
-               std::invalid_argument);
-}
-
-// ---- Curves -------------------------------------------------------------------------------------
-
-std::vector<QueryShape> shapes(std::size_t degree, bool is_rational = false) {
-  return {{Kind::vertex_face, degree, is_rational}, {Kind::edge_edge, degree, is_rational}};
-}
-
-/// The certified solver's answers, changed.
-FunctionMethod on_curves(const std::function<void(const Queries&, Answer&)>& change,
-                         Promise promise = Promise::exact) {
-  return {[change](const Queries& one) {
-            fast::CertifiedResult result;
-            fast::solve(one, {&result, 1}, {.max_threads = 1});
-            Answer answer = answer_of(result);
-            change(one, answer);
-            return answer;
-          },
-          {.name = "function",
-           .promise = promise,
-           .terms = {.least_degree = 1, .most_degree = greatest_degree, .rational = true}}};
 }
 
 /// Each fault is found and made simple; those that lines show end in lines.
@@ -455,40 +445,6 @@ TEST(Fuzz, FindsEveryPlantedFaultOnCurvesAndMakesItsQuerySimple) {
     EXPECT_LE(magnitudes(finding.simplest.query).size(), 3U);
     EXPECT_FALSE(finding.simplest.certificate.empty());
   }
-}
-
-TEST(Fuzz, FindsNothingOnCurvesWhereNothingIsWrong) {
-  for (const Separation& separation :
-       {Separation{}, Separation{0.25, Norm::linf}, Separation{0.25, Norm::l2}}) {
-    for (const auto& [degree, is_rational] : {std::pair(2U, false), {3U, false}, {2U, true}}) {
-      const FuzzOptions options{.most_queries = 300,  // a block and some images
-                                .separation = separation,
-                                .shapes = shapes(degree, is_rational)};
-      const FuzzResult certified = fuzz(solvers::find_method("certified"), options);
-      EXPECT_EQ(certified.all_findings, 0U);
-      EXPECT_EQ(certified.judged_by_oracle, certified.queries);
-      EXPECT_GT(certified.collisions, certified.queries / 10);
-      EXPECT_GT(certified.images, 0U);
-    }
-  }
-  const FuzzOptions options{.most_queries = tests::trials(std::uint64_t{400}),
-                            .method = {.max_checks = 2000},
-                            .query_limit_seconds = 30.0,
-                            .shapes = shapes(2)};
-  EXPECT_EQ(fuzz(solvers::find_method("tight_inclusion"), options).all_findings, 0U);
-}
-
-/// Wrong in a mirror, as on straight lines; and the same queries for the same seed.
-TEST(Fuzz, AsksImagesOfQueriesOnCurvesAndTheSameForTheSameSeed) {
-  const FunctionMethod one_sided = on_curves([](const Queries& one, Answer& answer) {
-    if (one.numbers[0] < 0.0 && one.numbers[3] >= 0.0) answer.verdict = Verdict::no;
-  });
-  const FuzzOptions options{.most_queries = 2000, .most_groups = 1000, .shapes = shapes(2)};
-  const FuzzResult result = fuzz(one_sided, options);
-  EXPECT_TRUE(std::ranges::any_of(result.findings, [](const Finding& finding) {
-    return finding.what == judge::Fault::asymmetry;
-  }));
-  EXPECT_EQ(queries_of(result), queries_of(fuzz(one_sided, options)));
 }
 
 // ---- The time -----------------------------------------------------------------------------------
@@ -577,6 +533,154 @@ TEST(Fuzz, RefusesOptionsThatMakeNoSense) {
   refused({.most_queries = 1, .shapes = {{.degree = 0}}});
   refused({.most_queries = 1, .shapes = {{.degree = 9}}});
   refused({.most_queries = 1, .oracle_share = 1.5});
+  refused({.most_queries = 1, .separation = {.distance = 1.0}, .shapes = elements});
+}
+
+// ---- One finding: asking again ------------------------------------------------------------------
+
+/// An answer that is late by a tenth of the remaining time.
+Answer late(Kind kind, const Query& query) {
+  Answer answer = honest(kind, query);
+  answer.toi_lower += 0.1 * (1.0 - answer.toi_lower);
+  answer.toi_upper = Answer::none;
+  return answer;
+}
+
+/// The first finding of this fault in a run without simplification.
+Finding find(const FunctionMethod& method, const FuzzOptions& options = {}) {
+  FuzzOptions search = options;
+  search.most_queries = 20'000;
+  search.most_groups = 1;
+  const FuzzResult result = fuzz(method, search);
+  EXPECT_FALSE(result.findings.empty());
+  return result.findings.empty() ? Finding{} : result.findings.front();
+}
+
+TEST(Recheck, AsksAgainAboutAnyQuery) {
+  const FunctionMethod method(sometimes_wrong, Promise::none);
+  const Finding finding = find(method);
+  Recheck recheck(method, finding, {});
+  EXPECT_TRUE(recheck.ask(finding.original.query));
+  // The first point is raised first, and so never below the point that the method compares it with.
+  EXPECT_FALSE(recheck.ask({Kind::vertex_face, tests::over_triangle(8, 8, 1, -1).query}));
+  AnyQuery infinite = finding.original.query;
+  infinite.numbers().front() = HUGE_VAL;
+  EXPECT_FALSE(recheck.ask(infinite));
+  EXPECT_FALSE(recheck.ask(finding.original.query, base::Deadline(0.0)));
+}
+
+TEST(Recheck, KnowsCrashesHangsAndMissingBounds) {
+  const auto ill = [](Kind kind, const Query& query) {
+    const double word = query.at(0, 0, 0);
+    if (word == 1.0) std::abort();
+    if (word == 2.0) std::this_thread::sleep_for(1h);
+    Answer answer = honest(kind, query);
+    if (word == 0.5) answer.toi_lower = Answer::none;
+    return answer;
+  };
+  const FunctionMethod method(ill, Promise::none);
+  const FuzzOptions options{.query_limit_seconds = 0.5};
+  const auto query_at = [](double x) {
+    return AnyQuery(Kind::vertex_face, tests::over_triangle(x, 0.25, 1, -1).query);
+  };
+  Finding finding;
+  finding.method = "function";
+  finding.original.query = query_at(1.0);
+  finding.original.answer = {.verdict = Verdict::yes, .toi_lower = Answer::none, .toi_upper = 0.5};
+  finding.missing.lower = true;
+  const std::array<judge::Fault, 3> kinds{judge::Fault::crash, judge::Fault::hang,
+                                          judge::Fault::not_finite};
+  const std::array<double, 3> words{1.0, 2.0, 0.5};
+  for (std::size_t i = 0; i < kinds.size(); ++i) {
+    finding.what = kinds.at(i);
+    Recheck recheck(method, finding, options);
+    for (std::size_t j = 0; j < words.size(); ++j) {
+      EXPECT_EQ(recheck.ask(query_at(words.at(j))).has_value(), i == j);
+    }
+  }
+}
+
+// ---- Making simpler -----------------------------------------------------------------------------
+
+/// Expects that all parts of the case agree with its query, by the method and the oracle.
+void expect_consistent(const Finding& finding, const FailingCase& failing,
+                       const FunctionMethod::Function& function) {
+  const Answer answer = function(finding.kind(), failing.query.straight());
+  EXPECT_EQ(failing.answer.verdict, answer.verdict);
+  EXPECT_EQ(failing.answer.toi_lower, answer.toi_lower);
+  const exact::Decision truth = exact::decide(failing.query.queries(), 0, finding.separation);
+  EXPECT_EQ(failing.collides, truth.collides());
+  EXPECT_EQ(failing.truth, judge::to_text(judge::truth_of(0, truth)));
+  EXPECT_NE(failing.detail.find(fmt::format("{}", answer.toi_lower)), std::string::npos)
+      << failing.detail;
+  EXPECT_EQ(tests::check_text(failing.certificate).accepted(), 1U) << failing.certificate;
+  const std::optional<tests::ReadClaim> claim = tests::read_claim(failing.certificate);
+  ASSERT_TRUE(claim);
+  EXPECT_EQ(AnyQuery(claim->posed.kind, claim->posed.query), failing.query);
+  EXPECT_TRUE(tests::is_true(*claim));
+}
+
+TEST(Simplify, KeepsAnswerTruthAndCertificateWithTheirQuery) {
+  const FunctionMethod method(late, Promise::conservative);
+  Finding finding = find(method);
+  EXPECT_EQ(finding.what, judge::Fault::late_toi);
+  const FailingCase original = finding.original;
+  simplify(method, {}, {}, finding);
+  EXPECT_EQ(finding.shrinking, Shrinking::complete);
+  EXPECT_NE(finding.simplest.query, original.query);
+  EXPECT_EQ(finding.original.query, original.query);
+  EXPECT_EQ(finding.original.detail, original.detail);
+  expect_consistent(finding, finding.simplest, late);
+  expect_consistent(finding, finding.original, late);
+  EXPECT_NE(finding.simplest.certificate, finding.original.certificate);
+}
+
+TEST(Simplify, SaysIfTheTimeWasTooShort) {
+  const FunctionMethod method(late, Promise::conservative);
+  const Finding found = find(method);
+  // A clock that advances at each reading.
+  for (const double step : {1.0, 0.2, 0.05}) {
+    double now = 0.0;
+    const base::Deadline deadline(1.0, [&now, step] { return now += step; });
+    Finding finding = found;
+    simplify(method, {}, deadline, finding);
+    EXPECT_EQ(finding.shrinking, Shrinking::cut_short);
+    expect_consistent(finding, finding.simplest, late);
+    EXPECT_LE(now, 1.0 + 5.0 * step);
+  }
+}
+
+TEST(Simplify, SaysIfTheMethodIsNotWrongAlone) {
+  const FunctionMethod wrong(late, Promise::conservative), right(honest, Promise::conservative);
+  Finding finding = find(wrong);
+  simplify(right, {}, {}, finding);
+  EXPECT_EQ(finding.shrinking, Shrinking::not_reproduced);
+  EXPECT_EQ(finding.simplest.query, finding.original.query);
+}
+
+/// The method was asked twice before the finding, and a repetition may cost as much as a hang.
+TEST(Simplify, DoesNotRepeatACrashOrAHangLongerThanTheTime) {
+  tests::SharedCounter asked;
+  Query crashing = tests::over_triangle(1, 1, 1, -1).query;
+  const FunctionMethod method([&](Kind kind, const Query& query) {
+    if (query == crashing) asked.add();
+    return honest(kind, query);
+  });
+  Finding finding;
+  finding.what = judge::Fault::crash;
+  finding.method = "function";
+  finding.original.query = {Kind::vertex_face, crashing};
+  finding.simplest = finding.original;
+  simplify(method, {}, {}, finding);
+  EXPECT_EQ(asked.value(), 0U);
+  EXPECT_EQ(finding.shrinking, Shrinking::complete);
+  EXPECT_EQ(finding.simplest.query, finding.original.query);
+
+  const FunctionMethod aborts([](Kind, const Query&) -> Answer { std::abort(); });
+  finding.what = judge::Fault::hang;
+  finding.shrinking = Shrinking::not_tried;
+  simplify(aborts, {.query_limit_seconds = 10.0}, base::Deadline(5.0, [] { return 0.0; }), finding);
+  EXPECT_EQ(finding.shrinking, Shrinking::not_tried);
 }
 
 }  // namespace

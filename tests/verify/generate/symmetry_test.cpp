@@ -84,21 +84,6 @@ TEST(Symmetry, DrawsEveryIngredientAndOnlyExactImages) {
   EXPECT_EQ(seen.size(), 6U);
 }
 
-/// Edges are exchanged as a whole; a face keeps its vertex.
-TEST(Symmetry, KeepsPrimitivesTogether) {
-  Random random(2);
-  bool exchanged = false;
-  for (int i = 0; i < 500; ++i) {
-    const auto points = draw_symmetry(Kind::vertex_face, counting(), {}, random).points;
-    EXPECT_EQ(points[0], 0U);
-    const auto ends = draw_symmetry(Kind::edge_edge, counting(), {}, random).points;
-    EXPECT_EQ(ends[0] / 2, ends[1] / 2);
-    EXPECT_EQ(ends[2] / 2, ends[3] / 2);
-    exchanged = exchanged || ends[0] / 2 == 1;
-  }
-  EXPECT_TRUE(exchanged);
-}
-
 void expect_same_truth(const Queries& query, const Separation& separation,
                        const Symmetry& symmetry) {
   const exact::Decision truth = exact::decide(query, 0, separation);

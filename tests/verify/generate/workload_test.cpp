@@ -44,20 +44,6 @@ TEST(Workload, PatchesHaveCells) {
   EXPECT_THROW((void)moving_patches({.cells = 0}), std::invalid_argument);
 }
 
-TEST(Workload, PatchesDependOnTheSeedAndOnNothingElse) {
-  const mesh::MovingMesh once = moving_patches({.seed = 8, .cells = 10});
-  const mesh::MovingMesh again = moving_patches({.seed = 8, .cells = 10});
-  const mesh::MovingMesh other = moving_patches({.seed = 9, .cells = 10});
-  EXPECT_EQ(once.faces, again.faces);
-  std::size_t differences = 0;
-  for (std::size_t i = 0; i < once.vertices.size(); ++i) {
-    EXPECT_EQ(once.vertices[i].start, again.vertices[i].start);
-    EXPECT_EQ(once.vertices[i].end, again.vertices[i].end);
-    differences += once.vertices[i].start != other.vertices[i].start ? 1U : 0U;
-  }
-  EXPECT_EQ(differences, once.vertices.size());
-}
-
 TEST(Workload, EndContactsAreAtTheEnd) {
   for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
     for (const double scale : {0.01, 1.0, 1000.0}) {

@@ -4,12 +4,14 @@
 
 #include <algorithm>
 #include <atomic>
+#include <bit>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <span>
 #include <stdexcept>
 #include <string>
@@ -19,6 +21,8 @@
 
 #include "tests/support/methods.hpp"
 #include "tests/support/query_groups.hpp"
+#include "tests/support/random.hpp"
+#include "verify/jobs/memory_pass.hpp"
 #include "verify/jobs/timing.hpp"
 
 namespace touchstone::verify::jobs::bench_test {
@@ -85,80 +89,60 @@ std::uint64_t all_faults(const judge::Judgement& judgement) {
 
 // ---- Error --------------------------------------------------------------------------------------
 
+/// On lines, and on curves, of which methods of lines are not asked.
 TEST(Bench, CountsWhatEachSolverGetsWrong) {
+  using enum judge::Fault;
+  struct Row {
+    Answer (*function)(Kind, const Query&);
+    Promise promise;
+    std::optional<judge::Fault> fault;
+    std::size_t count = 0;
+    bool broke_promise = false;
+  };
+  const std::vector<Row> rows{{tests::true_answer, Promise::exact, {}},
+                              {always_no, Promise::conservative, false_negative, 20, true},
+                              {always_yes, Promise::conservative, false_positive, 180},
+                              {always_yes, Promise::exact, false_positive, 180, true},
+                              {late, Promise::conservative, late_toi, 20, true},
+                              {always_no, Promise::none, false_negative, 20}};
   Field field;
-  field.add(tests::true_answer, Promise::exact, "truth");
-  field.add(always_no, Promise::conservative, "no");
-  field.add(always_yes, Promise::conservative, "yes");
-  field.add(always_yes, Promise::exact, "exactly yes");
-  field.add(late, Promise::conservative, "late");
-  field.add(always_no, Promise::none, "no promise");
+  for (const Row& row : rows) field.add(row.function, row.promise, "some");
   const BenchResult result = field.run(falling_vertices(200), quick());
-
   EXPECT_EQ(result.name, "falling");
-  EXPECT_EQ(result.kind, Kind::vertex_face);
   EXPECT_EQ(result.queries, 200U);
   EXPECT_EQ(result.judged, 200U);
   EXPECT_EQ(result.collisions, 20U);
   EXPECT_FALSE(result.interrupted);
-  ASSERT_EQ(result.solvers.size(), 6U);
-  for (const SolverResult& solver : result.solvers) {
+  ASSERT_EQ(result.solvers.size(), rows.size());
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    SCOPED_TRACE(i);
+    const SolverResult& solver = result.solvers[i];
     EXPECT_EQ(solver.queries, 200U);
     EXPECT_EQ(solver.judgement.queries, 200U);
+    EXPECT_EQ(all_faults(solver.judgement), rows[i].count);
+    if (rows[i].fault) {
+      EXPECT_EQ(solver.judgement.count(*rows[i].fault), rows[i].count);
+    }
+    EXPECT_EQ(broke_promise(solver), rows[i].broke_promise);
   }
-  const SolverResult& truth = result.solvers[0];
-  const SolverResult& no = result.solvers[1];
-  const SolverResult& yes = result.solvers[2];
-  const SolverResult& late_one = result.solvers[4];
-  EXPECT_EQ(truth.name, "truth");
-  EXPECT_EQ(all_faults(truth.judgement), 0U);
-  EXPECT_EQ(truth.judgement.toi_errors.count(), 20U);
-  EXPECT_LT(truth.judgement.toi_errors.max(), 1e-15);
-  EXPECT_EQ(no.judgement.count(judge::Fault::false_negative), 20U);
-  EXPECT_EQ(all_faults(no.judgement), 20U);
-  EXPECT_EQ(yes.judgement.count(judge::Fault::false_positive), 180U);
-  EXPECT_EQ(all_faults(yes.judgement), 180U);
-  EXPECT_EQ(late_one.judgement.count(judge::Fault::late_toi), 20U);
-  EXPECT_EQ(all_faults(late_one.judgement), 20U);
-
-  EXPECT_FALSE(broke_promise(truth));
-  EXPECT_TRUE(broke_promise(no));
-  EXPECT_FALSE(broke_promise(yes));
-  EXPECT_TRUE(broke_promise(result.solvers[3])) << "an exact method may not say yes to all";
-  EXPECT_TRUE(broke_promise(late_one));
-  EXPECT_FALSE(broke_promise(result.solvers[5])) << "it promised nothing";
+  EXPECT_EQ(result.solvers[0].judgement.toi_errors.count(), 20U);
+  EXPECT_LT(result.solvers[0].judgement.toi_errors.max(), 1e-15);
   EXPECT_TRUE(any_broke_promise({&result, 1}));
-}
 
-TEST(Bench, OnCurvesCountsTheSame) {
-  const fast::Terms curves{.straight = false, .least_degree = 2, .most_degree = 2};
-  Field field;
-  field.add(fast::certified_method());
-  field.add(solvers::certified_queries({}));
-  field.add(std::make_unique<FunctionMethod>(
-      tests::true_answer_to,
-      fast::MethodInfo{.name = "truth", .promise = Promise::exact, .terms = curves}));
-  field.add(std::make_unique<FunctionMethod>(
-      [](const Queries&) { return Answer{.verdict = Verdict::no}; },
-      fast::MethodInfo{.name = "no", .promise = Promise::conservative, .terms = curves}));
-  field.add(always_no, Promise::conservative, "lines alone");
-  const BenchResult result = field.run(tests::curved_group(Kind::vertex_face, 30), quick());
-  EXPECT_EQ(result.kind, Kind::vertex_face);
-  EXPECT_EQ(result.queries, 30U);
-  EXPECT_EQ(result.judged, 30U);
-  EXPECT_GT(result.collisions, 0U);
-  ASSERT_EQ(result.solvers.size(), 5U);
-  for (std::size_t i = 0; i < 3; ++i) {
-    const SolverResult& right = result.solvers[i];
-    EXPECT_EQ(right.judgement.queries, 30U) << right.name;
-    EXPECT_EQ(right.judgement.toi_errors.count(), result.collisions) << right.name;
+  Field on_curves;
+  on_curves.add(fast::certified_method());
+  on_curves.add(solvers::certified_queries({}));
+  on_curves.add(always_no, Promise::conservative, "lines alone");
+  const BenchResult curves = on_curves.run(tests::curved_group(Kind::vertex_face, 30), quick());
+  EXPECT_GT(curves.collisions, 0U);
+  for (std::size_t i = 0; i < 2; ++i) {
+    const SolverResult& right = curves.solvers.at(i);
+    EXPECT_EQ(right.judgement.toi_errors.count(), curves.collisions) << right.name;
     EXPECT_EQ(all_faults(right.judgement), 0U) << right.name;
     EXPECT_GT(right.times.median(), 0.0) << right.name;
   }
-  EXPECT_EQ(result.solvers[3].judgement.count(judge::Fault::false_negative), result.collisions);
-  EXPECT_TRUE(broke_promise(result.solvers[3]));
-  EXPECT_EQ(result.solvers[4].judgement.outside, 30U);
-  EXPECT_FALSE(broke_promise(result.solvers[4]));
+  EXPECT_EQ(curves.solvers.at(2).judgement.outside, 30U);
+  EXPECT_FALSE(broke_promise(curves.solvers.at(2)));
 }
 
 /// A sample of the queries, which is that of the calls too, and all that any solver calls a
@@ -289,6 +273,31 @@ TEST(Bench, WhatCanOnlyBeAskedAsAWholeIs) {
   EXPECT_EQ(log, (Burner::Log{{"whole", 1000}, {"whole", 1000}, {"whole", 1000}}));
   EXPECT_EQ(result.solvers[0].queries, 1000U);
   EXPECT_FALSE(result.solvers[0].singles);
+}
+
+// ---- The pass over the memory --------------------------------------------------------------------
+
+TEST(MemoryPass, ReadsEveryCoordinateOfAnyNumberOfQueries) {
+  for (const std::size_t count : {0U, 1U, 2U, 3U, 7U, 8U, 16U, 19U, 100'003U}) {
+    tests::Random random(count);
+    std::vector<Query> queries(count);
+    std::uint64_t all = 0;
+    for (Query& query : queries) {
+      for (double& x : query.coordinates) {
+        x = std::bit_cast<double>(random.bits());
+        all ^= std::bit_cast<std::uint64_t>(x);
+      }
+    }
+    EXPECT_EQ(memory_pass(queries), all) << count;
+  }
+}
+
+TEST(MemoryPass, FillsUpTheLastWord) {
+  EXPECT_EQ(memory_pass(std::vector<unsigned char>{}), 0U);
+  EXPECT_EQ(memory_pass(std::vector<std::uint32_t>{1, 2, 4}), (std::uint64_t{2} << 32U) ^ 5U);
+  std::vector<unsigned char> bytes(10'001);
+  bytes.back() = 3;
+  EXPECT_EQ(memory_pass(bytes), 3U) << "the last byte is the first of its word";
 }
 
 // ---- The run ------------------------------------------------------------------------------------

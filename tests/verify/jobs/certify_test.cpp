@@ -7,13 +7,16 @@
 #include <memory>
 #include <string>
 #include <thread>
+#include <tuple>
 #include <vector>
 
+#include "tests/support/certificates.hpp"
 #include "tests/support/memory_source.hpp"
 #include "tests/support/methods.hpp"
 #include "tests/support/public_data.hpp"
 #include "tests/support/queries.hpp"
 #include "tests/support/trials.hpp"
+#include "touchstone/certificate_text.hpp"
 #include "verify/data/dataset.hpp"
 #include "verify/generate/families.hpp"
 
@@ -29,84 +32,92 @@ base::AnyQuery falling_vertex(double above, double below) {
   return {Kind::vertex_face, tests::over_triangle(1, 1, above, -below).query};
 }
 
-/// Collisions at t=1/4, and none if the index is divisible by 3, all with true records.
-std::vector<data::RecordedQuery> true_records(std::uint64_t count) {
-  std::vector<data::RecordedQuery> records;
-  for (std::uint64_t i = 0; i < count; ++i) {
-    const bool collision = i % 3 != 0;
-    records.push_back({.query = collision ? falling_vertex(1, 3) : falling_vertex(1, -0.5),
-                       .index = i,
-                       .collides = collision,
-                       .toi = collision ? std::optional(Rational(1, 4)) : std::nullopt});
-  }
-  return records;
-}
-
 CertifyResult certify_records(std::vector<data::RecordedQuery> records,
                               const CertifyOptions& options = {}) {
   MemorySource source(Kind::vertex_face, std::move(records));
   return certify(source, options);
 }
 
+/// Until they differ, and at least 45 digits of a true time, however small.
 TEST(Certify, PrintsTimesOfImpactUntilTheyDiffer) {
   CertifyOptions options;
   options.toi_tolerance = 0;
   const std::string threes(45, '3');
-  std::vector<data::RecordedQuery> records{{.query = falling_vertex(1, 2),
-                                            .index = 0,
-                                            .collides = true,
-                                            .toi = exact::rational_from_decimal("0." + threes)},
-                                           {.query = falling_vertex(1, 3),
-                                            .index = 1,
-                                            .collides = true,
-                                            .toi = Rational(1, 4) + exact::power_of_two(-2000)}};
-  const CertifyResult result = certify_records(std::move(records), options);
-  ASSERT_EQ(result.mismatches.size(), 2U);
+  // The last vertex rises from 2^-1000 below the sinking face: toi = 2^-1000 / (2^-1000 + 3), not
+  // dyadic, about 3.1108…e-302.
+  const CertifyResult result =
+      certify_records({{.query = falling_vertex(1, 2),
+                        .index = 0,
+                        .collides = true,
+                        .toi = exact::rational_from_decimal("0." + threes)},
+                       {.query = falling_vertex(1, 3),
+                        .index = 1,
+                        .collides = true,
+                        .toi = Rational(1, 4) + exact::power_of_two(-2000)},
+                       {.query = falling_vertex(0x1p-1000, 3),
+                        .index = 2,
+                        .collides = true,
+                        .toi = Rational(1, 4)}},
+                      options);
+  ASSERT_EQ(result.toi_mismatches, 3U);
   EXPECT_EQ(result.mismatches[0].recorded, "3." + threes.substr(1) + "E-1");
   EXPECT_EQ(result.mismatches[0].truth, "3." + threes.substr(1) + threes + "E-1");
   EXPECT_TRUE(result.mismatches[1].recorded.starts_with("2.5000"));
   EXPECT_EQ(result.mismatches[1].truth, "2.5E-1");
+  const std::string& small = result.mismatches[2].truth;
+  EXPECT_TRUE(small.starts_with("3.1108")) << small;
+  EXPECT_LE(small.find("E-302"), 46U) << small;
 }
 
-// ---- Separations --------------------------------------------------------------------------------
+// ---- Proofs -------------------------------------------------------------------------------------
 
-TEST(Certify, ShowsFortyFiveDigitsOfATrueTimeHoweverSmall) {
-  // The vertex rises from 2^-1000 below the sinking face: toi = 2^-1000 / (2^-1000 + 3), not
-  // dyadic.
-  auto records = true_records(2);
-  records[1].query = falling_vertex(0x1p-1000, 3);
-  const CertifyResult result = certify_records(std::move(records));
-  ASSERT_EQ(result.toi_mismatches, 1U);
-  const std::string& truth = result.mismatches[0].truth;
-  const std::size_t exponent = truth.find("E-302");
-  ASSERT_NE(exponent, std::string::npos) << truth;
-  EXPECT_LE(exponent, 46U) << truth;
-  // 2^-1000 / 3 = 3.1108…e-302
-  EXPECT_EQ(truth.substr(0, 6), "3.1108") << truth;
-}
+// Errors and interrupts leave whole certificates: tests/transcripts/prove.md.
 
-TEST(Certify, TruthComesInOrderWhateverTheNumberOfThreads) {
-  for (const unsigned threads : {1U, 2U, 7U}) {
-    std::vector<judge::GroundTruth> truths;
-    double last_progress = 0.0;
-    CertifyOptions options;
-    options.threads = threads;
-    options.on_truth = [&](const judge::GroundTruth& truth) { truths.push_back(truth); };
-    options.on_progress = [&](double fraction) {
-      EXPECT_GE(fraction, last_progress);
-      last_progress = fraction;
-    };
-    EXPECT_EQ(certify_records(true_records(2000), options).queries, 2000U);
-    EXPECT_EQ(last_progress, 1.0);
-    ASSERT_EQ(truths.size(), 2000U);
-    for (std::uint64_t i = 0; i < truths.size(); ++i) {
-      ASSERT_EQ(truths[i].index, i);
-      ASSERT_EQ(truths[i].collides, i % 3 != 0);
-      ASSERT_EQ(truths[i].toi.has_value(), truths[i].collides);
-      const exact::DoubleInterval quarter{0.25, 0.25};
-      ASSERT_EQ(truths[i].toi.value_or(quarter), quarter);
-    }
+/// Queries of which every third collides, at 0, at 1/3 or at 3/4.
+std::vector<data::RecordedQuery> proved_records(std::uint64_t count) {
+  std::vector<data::RecordedQuery> records;
+  for (std::uint64_t i = 0; i < count; ++i) {
+    const double end = i % 9 == 0 ? -2 : i % 9 == 3 ? -1.0 / 3 : 0.5;
+    const double start = i % 9 == 6 ? 0 : 1;
+    const auto posed = tests::over_triangle(1, 1, start, end);
+    records.push_back(
+        {.query = {posed.kind, posed.query}, .index = i + 10, .collides = {}, .toi = {}});
   }
+  return records;
+}
+
+TEST(Prove, WritesEveryCertificateInOrderWhateverTheThreads) {
+  std::string first;
+  for (const unsigned threads : {1U, 3U}) {
+    MemorySource source(Kind::vertex_face, proved_records(9000));
+    std::string text(exact::certificates_header());
+    const CertifyResult result = certify(
+        source,
+        {.threads = threads, .on_certificates = [&](std::string_view part) { text += part; }});
+    const ProofCounts& counts = result.proofs;
+    EXPECT_EQ(counts.certificates(), 9000U);
+    EXPECT_EQ(counts.no_collision, 6000U);
+    EXPECT_EQ(counts.time_of_impact, 3000U);
+    EXPECT_EQ(counts.collision, 0U);
+    EXPECT_EQ(counts.subintervals, (std::map<std::size_t, std::uint64_t>{{0, 1000}, {1, 8000}}));
+    EXPECT_EQ(counts.bytes + exact::certificates_header().size(), text.size());
+    EXPECT_GT(counts.nanoseconds, 0.0);
+    EXPECT_GT(result.microseconds, 0.0);
+    EXPECT_TRUE(counts.beyond_limits.empty());
+    EXPECT_EQ(result.skipped, 3U);
+    EXPECT_EQ(result.rounded, 5U);
+    if (first.empty()) first = text;
+    EXPECT_EQ(text, first);
+  }
+  std::size_t at = 0;
+  for (std::uint64_t i = 0; i < 9000; ++i) {
+    at = first.find("\nlabel memory:" + std::to_string(i + 10) + "\n", at);
+    ASSERT_NE(at, std::string::npos) << i;
+  }
+  const checker::Report report = tests::check_text(first + exact::certificates_closing_line(9000));
+  EXPECT_TRUE(report.all_accepted());
+  EXPECT_EQ(report.no_collision, 6000U);
+  EXPECT_EQ(report.time_of_impact, 3000U);
 }
 
 // ---- Solvers ------------------------------------------------------------------------------------
@@ -137,6 +148,34 @@ std::uint64_t number_of(const Query& query) {
 
 std::uint64_t all_faults(const judge::Judgement& judgement) {
   return judgement.wrong_answers.size();
+}
+
+TEST(Budget, SharesWhatIsLeftOverSourcesAndSolvers) {
+  const FunctionMethod method(true_answer);
+  const auto first = solvers::solver_in_process(method, {}),
+             second = solvers::solver_in_process(method, {});
+  double now = 0.0;
+  Budget budget(100.0, {first.get(), second.get()}, 1, [&] { return now; });
+  EXPECT_EQ(budget.begin_source(4).seconds_left(), 25.0);
+  EXPECT_DOUBLE_EQ(first->allowance(), 10.0);
+  EXPECT_DOUBLE_EQ(second->allowance(), 10.0);
+  // What a solver took too much is missing for all.
+  first->allow(-10.0);
+  now = 40.0;
+  EXPECT_EQ(budget.begin_source(3).seconds_left(), 20.0);
+  EXPECT_DOUBLE_EQ(first->allowance(), 8.0);
+  EXPECT_DOUBLE_EQ(second->allowance(), 8.0);
+  now = 100.0;
+  EXPECT_TRUE(budget.is_over());
+  EXPECT_TRUE(budget.begin_source(1).is_over());
+  EXPECT_EQ(first->allowance(), 0.0);
+  // Without time queries are left out.
+  const std::vector<Query> queries(3);
+  std::vector<Answer> answers(3);
+  const auto reply = first->solve({.queries = {Kind::vertex_face, queries}}, answers);
+  ASSERT_EQ(reply.unasked.size(), 3U);
+  EXPECT_EQ(reply.unasked.front().why, judge::Unasked::left_out);
+  EXPECT_FALSE(reply.stopped);
 }
 
 TEST(CertifyMethods, FaultsAreFoundWhereverTheyAreInALongSource) {
@@ -266,26 +305,21 @@ std::vector<CertifyResult> certify_public(const std::string& folder) {
   return results;
 }
 
-TEST(PublicData, HandcraftedQueriesAgree) {
-  const auto results = certify_public("handcrafted");
-  if (results.empty()) GTEST_SKIP() << "public data missing";
-  const CertifyResult sum = total(results);
-  EXPECT_EQ(sum.queries, 4884U);
-  EXPECT_EQ(sum.labels, 4884U);
-  EXPECT_EQ(sum.label_mismatches, 0U);
-  EXPECT_EQ(sum.skipped, 0U);
-}
-
-TEST(PublicData, SimulationQueriesAndTimesOfImpactAgree) {
-  const auto results = certify_public("simulation");
-  if (results.empty()) GTEST_SKIP() << "public data missing";
-  const CertifyResult sum = total(results);
-  EXPECT_EQ(sum.queries, 4652U + 92U + 263U);
-  EXPECT_EQ(sum.labels, sum.queries);
-  EXPECT_EQ(sum.collisions, 4650U + 27U + 107U);
-  EXPECT_EQ(sum.tois, sum.collisions);
-  EXPECT_EQ(sum.label_mismatches, 0U);
-  EXPECT_EQ(sum.toi_mismatches, 0U);
+TEST(PublicData, QueriesAndTimesOfImpactAgree) {
+  for (const auto& [folder, queries, collisions] :
+       {std::tuple("handcrafted", 4884U, 0U),
+        {"simulation", 4652U + 92U + 263U, 4650U + 27U + 107U}}) {
+    const auto results = certify_public(folder);
+    if (results.empty()) GTEST_SKIP() << "public data missing";
+    const CertifyResult sum = total(results);
+    EXPECT_EQ(sum.queries, queries);
+    EXPECT_EQ(sum.labels, queries);
+    EXPECT_EQ(sum.label_mismatches + sum.toi_mismatches + sum.skipped, 0U);
+    // Those of simulations have times.
+    if (collisions == 0) continue;
+    EXPECT_EQ(sum.collisions, collisions);
+    EXPECT_EQ(sum.tois, collisions);
+  }
 }
 
 }  // namespace

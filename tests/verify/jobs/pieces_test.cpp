@@ -1,8 +1,12 @@
 #include "verify/jobs/pieces.hpp"
 
 #include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <array>
+#include <csignal>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <functional>
@@ -78,14 +82,13 @@ class Pieces : public tests::ToolTest {
     return text;
   }
 
-  [[nodiscard]] std::string in_run(const std::string& name) const { return path("run/" + name); }
-
   Plan plan_;
 };
 
+// Merged files are compared with those of one run in tests/transcripts/merge.md.
+
 TEST_F(Pieces, AreMergedInTheOrderOfThePlan) {
   const PieceFolder run = all_done();
-  EXPECT_TRUE(run.faults().empty());
   EXPECT_EQ(run.status(), 1);
   EXPECT_EQ(text_of(run), "header\nrow 0\nrow 1\nrow 2\n");
   const Json total = run.merged_json();
@@ -93,17 +96,6 @@ TEST_F(Pieces, AreMergedInTheOrderOfThePlan) {
   EXPECT_EQ(total["late"], (Json{{"greatest", 0.5}, {"beyond", {3, 3}}}));
   EXPECT_EQ(total["files"].size(), 3U);
   EXPECT_FALSE(total.contains("us_per_query"));
-  const PieceFolder again(path("run"));
-  EXPECT_EQ(again.merged_json(), total);
-}
-
-TEST_F(Pieces, ThatAreDoneAreKnownToANewProcess) {
-  const PieceFolder run = open();
-  do_piece(run, 1);
-  const PieceFolder again = open();
-  EXPECT_EQ(again.fault(0), "missing");
-  EXPECT_EQ(again.fault(1), "");
-  EXPECT_EQ(again.faults().size(), 2U);
 }
 
 TEST_F(Pieces, OfAnotherPlanAreRefused) {
@@ -114,20 +106,17 @@ TEST_F(Pieces, OfAnotherPlanAreRefused) {
     return tests::message_of<std::runtime_error>(
         [&] { const PieceFolder run(path("run"), other); });
   };
-  const std::string begin = path("run") + ": has the pieces of a run ";
-  const std::string end = "; choose another folder";
-  EXPECT_EQ(error_with([](Plan& plan) { plan.program = "2"; }),
-            begin + "of version 1, not 2" + end);
-  EXPECT_EQ(error_with([](Plan& plan) { plan.command = "solve"; }),
-            begin + "of certify, not solve" + end);
-  EXPECT_EQ(error_with([](Plan& plan) { plan.options.emplace_back("--exact"); }),
-            begin + "with the options '--method=x', not '--method=x --exact'" + end);
-  EXPECT_EQ(error_with([](Plan& plan) { plan.pieces.pop_back(); }),
-            begin + "of other inputs" + end);
-  EXPECT_EQ(error_with([](Plan& plan) { plan.outputs.erase("--truth"); }),
-            begin + "with other output files" + end);
-  EXPECT_EQ(error_with([](Plan& plan) { plan.uses["x.so"] = "0"; }),
-            begin + "with other contents of a file that an option names" + end);
+  const std::vector<std::pair<std::string, std::function<void(Plan&)>>> changes{
+      {"of version 1, not 2", [](Plan& plan) { plan.program = "2"; }},
+      {"of certify, not solve", [](Plan& plan) { plan.command = "solve"; }},
+      {"of other inputs", [](Plan& plan) { plan.pieces.pop_back(); }},
+      {"with other output files", [](Plan& plan) { plan.outputs.erase("--truth"); }},
+      {"with other contents of a file that an option names",
+       [](Plan& plan) { plan.uses["x.so"] = "0"; }}};
+  for (const auto& [difference, change] : changes) {
+    EXPECT_EQ(error_with(change),
+              path("run") + ": has the pieces of a run " + difference + "; choose another folder");
+  }
   EXPECT_EQ(error_with([](Plan&) {}), "");
 }
 
@@ -157,6 +146,14 @@ void replace(const fs::path& file, const std::string& from, const std::string& t
 /// What is done to a complete run and its inputs, and the fault that the merge then names.
 TEST_F(Pieces, ThatAreDamagedAreNamed) {
   const std::string run = path("run"), input = path("input");
+  const auto take_foreign_piece = [&](const std::function<void(Plan&)>& change) {
+    Plan other = plan_;
+    change(other);
+    fs::remove_all(path("other"));
+    do_piece({path("other"), other}, 0);
+    fs::copy_file(path("other/000000.piece"), run + "/000000.piece",
+                  fs::copy_options::overwrite_existing);
+  };
   const std::vector<std::pair<std::string, std::function<void()>>> damages{
       {"000001.piece: piece 1, input1: missing", [&] { fs::remove(run + "/000001.piece"); }},
       {"input1: piece 2 is also there under this number",
@@ -172,7 +169,11 @@ TEST_F(Pieces, ThatAreDamagedAreNamed) {
       {"piece 0, input0: its results have changed since",
        [&] { flip(results(run, 0) / "truth", 9); }},
       {"No such file or directory", [&] { fs::remove(results(run, 2) / "json"); }},
-      {"piece 2, input2: its input has changed since", [&] { flip(input + "2", 0); }}};
+      {"piece 2, input2: its input has changed since", [&] { flip(input + "2", 0); }},
+      {"input0: of another run",
+       [&] { take_foreign_piece([](Plan& plan) { plan.options.clear(); }); }},
+      {"input0: made by version \"0.9\", not 1",
+       [&] { take_foreign_piece([](Plan& plan) { plan.program = "0.9"; }); }}};
   for (const auto& [fault, act] : damages) {
     begin();
     const PieceFolder done = all_done();
@@ -180,26 +181,6 @@ TEST_F(Pieces, ThatAreDamagedAreNamed) {
     ASSERT_EQ(done.faults().size(), 1U) << fault;
     EXPECT_TRUE(tests::contains(done.faults()[0], fault)) << done.faults()[0];
   }
-}
-
-TEST_F(Pieces, OfAnotherRunOrVersionAreNamed) {
-  const PieceFolder run = all_done();
-  Plan other = plan_;
-  other.options.clear();
-  const PieceFolder foreign(path("other"), other);
-  do_piece(foreign, 0);
-  fs::copy_file(path("other/000000.piece"), in_run("000000.piece"),
-                fs::copy_options::overwrite_existing);
-  other = plan_;
-  other.program = "0.9";
-  const PieceFolder old(path("old"), other);
-  do_piece(old, 1);
-  fs::copy_file(path("old/000001.piece"), in_run("000001.piece"),
-                fs::copy_options::overwrite_existing);
-  const std::vector<std::string> faults = run.faults();
-  ASSERT_EQ(faults.size(), 2U);
-  EXPECT_TRUE(faults[0].ends_with("input0: of another run")) << faults[0];
-  EXPECT_TRUE(faults[1].ends_with("input1: made by version \"0.9\", not 1")) << faults[1];
 }
 
 /// What happens to the files of a piece in work, and why it is not done.
@@ -248,18 +229,57 @@ TEST_F(Pieces, AreNotWhatALaterChildOfAKilledProcessWrites) {
   EXPECT_EQ(text_of(run), "header\nrow 0\nrow 1\nrow 2\n");
 }
 
-TEST_F(Pieces, WithoutAResultLeaveNothing) {
-  EXPECT_EQ(do_piece(open(), 0, 2), 2);
-  EXPECT_EQ(open().fault(0), "missing");
-  EXPECT_EQ(results(path("run"), 0), "");
-}
-
 TEST_F(Pieces, ThatContradictEachOtherAreNotAdded) {
   const PieceFolder run = all_done();
   std::ofstream(results(path("run"), 2) / "json") << R"({"queries": 1, "interrupted": true})";
   const std::string error = tests::message_of<std::runtime_error>([&] { (void)run.merged_json(); });
   EXPECT_TRUE(tests::contains(error, "interrupted is true, elsewhere false")) << error;
 }
+
+// ---- The program of a piece ---------------------------------------------------------------------
+
+/// The program is this test program. (Its exit statuses are in tests/transcripts/merge.md.)
+class OwnProgram : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    // A shard of the tests is none of the child's.
+    for (const char* name : {"GTEST_TOTAL_SHARDS", "GTEST_SHARD_INDEX"}) ::unsetenv(name);
+  }
+};
+
+TEST_F(OwnProgram, SaysWhichSignalEndedIt) {
+  EXPECT_EQ(run_own_program({"x", "--gtest_filter=OwnProgram.DISABLED_Killed",
+                             "--gtest_also_run_disabled_tests"}),
+            128 + SIGKILL);
+}
+
+TEST_F(OwnProgram, DiesWithTheProcessThatRunsIt) {
+  std::array<int, 2> pipe{};
+  ASSERT_EQ(::pipe(pipe.data()), 0);
+  // The last copy of this end is that of the program, from the time at which it says so.
+  ::setenv("TOUCHSTONE_TEST_PIPE", std::to_string(pipe[1]).c_str(), 1);
+  const pid_t parent = ::fork();
+  if (parent == 0) {
+    ::_exit(run_own_program({"x", "--gtest_filter=OwnProgram.DISABLED_SaysSoAndWaits",
+                             "--gtest_also_run_disabled_tests"}));
+  }
+  ::close(pipe[1]);
+  char letter = 0;
+  ASSERT_EQ(::read(pipe[0], &letter, 1), 1);
+  ::kill(parent, SIGKILL);
+  ::waitpid(parent, nullptr, 0);
+  EXPECT_EQ(::read(pipe[0], &letter, 1), 0) << "it lives on";
+  ::close(pipe[0]);
+}
+
+TEST_F(OwnProgram, DISABLED_SaysSoAndWaits) {
+  const int pipe = std::stoi(std::getenv("TOUCHSTONE_TEST_PIPE"));
+  ASSERT_EQ(::write(pipe, "x", 1), 1);
+  ::sleep(60);
+  static_cast<void>(::write(pipe, "y", 1));
+}
+
+TEST_F(OwnProgram, DISABLED_Killed) { std::raise(SIGKILL); }
 
 }  // namespace
 }  // namespace touchstone::verify::jobs::pieces_test

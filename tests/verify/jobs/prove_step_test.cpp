@@ -2,12 +2,18 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <iterator>
 #include <optional>
+#include <set>
 #include <sstream>
 #include <stdexcept>
 #include <string>
@@ -16,16 +22,24 @@
 
 #include "exact/certificate/step_certificate_text.hpp"
 #include "exact/checker/checker.hpp"
+#include "exact/checker/places.hpp"
+#include "exact/checker/resting_mesh.hpp"
+#include "exact/contact/triangle_intersection.hpp"
 #include "tests/support/certificates.hpp"
 #include "tests/support/random.hpp"
+#include "tests/support/rows.hpp"
 #include "tests/support/scenes.hpp"
 #include "tests/support/trials.hpp"
 #include "touchstone/broad_phase.hpp"
 #include "touchstone/certificate_text.hpp"
 #include "touchstone/oracle.hpp"
+#include "verify/jobs/prove_mesh.hpp"
+#include "verify/jobs/step_places.hpp"
 
 // Proofs of steps: the checker accepts each, its claim agrees with the oracle on all pairs one by
-// one, and no proof with an omission or a later claim is accepted.
+// one, and no proof with an omission or a later claim is accepted. And proofs of which elements of
+// a mesh intersect: the checker accepts each, none from which a line is left out, and no argument
+// that contradicts rational arithmetic.
 
 namespace touchstone::verify::jobs::prove_step_test {
 namespace {
@@ -117,28 +131,17 @@ void expect_true(const Scene& scene, const fast::StepOptions& options, const Ste
   EXPECT_EQ(std::nextafter(times[0], 2.0), times[1]) << proof.claim;
 }
 
-/// Expects that the checker accepts the proof with this claim and separation demanded, and not with
-/// others.
-void expect_demand_kept(const std::string& text, const fast::StepOptions& options,
-                        const StepProof& proof) {
+/// The demand of a claim at the separation of a step.
+checker::Options demand(const std::string& claim, const Separation& separation) {
   std::ostringstream distance;
-  distance << std::hexfloat << options.separation.distance;
-  const bool is_l2 = options.separation.norm == Norm::l2;
-  const auto demand = [&](const std::string& norm) {
-    return checker::Options{.claim = checker::demanded_claim(proof.claim),
-                            .separation = checker::demanded_separation(distance.str(), norm)};
-  };
-  EXPECT_EQ(refusal(text, demand(is_l2 ? "l2" : "linf")), "");
-  if (options.separation.distance > 0.0) {
-    EXPECT_NE(refusal(text, demand(is_l2 ? "linf" : "l2")), "");
-  }
-  checker::Options other = demand(is_l2 ? "l2" : "linf");
-  other.separation = checker::demanded_separation("0x1p-1030", "l2");
-  EXPECT_NE(refusal(text, other), "");
+  distance << std::hexfloat << separation.distance;
+  return {.claim = checker::demanded_claim(claim),
+          .separation = checker::demanded_separation(distance.str(),
+                                                     separation.norm == Norm::l2 ? "l2" : "linf")};
 }
 
-// A name of any length makes a label that the checker reads.
-TEST(ProveStep, KeepsTheLimitOfALabel) {
+/// A name of any length makes a label that the checker reads.
+TEST(ProveStep, KeepsTheLimitsOfALabelAndAScene) {
   Random random(1);
   const Scene scene = with_ordered_edges(tests::random_scene(random, tests::shapes().front(), 6));
   for (const std::size_t bytes : {1U, 1'019U, 1'024U, 1'025U, 5'000U}) {
@@ -148,11 +151,6 @@ TEST(ProveStep, KeepsTheLimitOfALabel) {
     const std::size_t kept = std::min<std::size_t>(bytes, exact::label_limit);
     EXPECT_NE(text.find("\nstep " + std::string(kept, 'x') + "\nvertices "), std::string::npos);
   }
-}
-
-TEST(ProveStep, KeepsTheLimitOfAScene) {
-  Random random(1);
-  const Scene scene = with_ordered_edges(tests::random_scene(random, tests::shapes().front(), 6));
   const std::vector<std::int32_t> points(exact::step_item_limit);
   const StepProof proof =
       prove_step(scene.step({}), {.faces = scene.faces, .points = points}, StepProofOptions{});
@@ -184,11 +182,11 @@ TEST(ProveStep, ProvesWhatTheOracleSaysOfAllPairs) {
         continue;
       }
       ++proved;
-      EXPECT_EQ(refusal(text), "") << shape.name << ' ' << seed;
+      EXPECT_EQ(refusal(text, demand(proof.claim, options.separation)), "")
+          << shape.name << ' ' << seed;
       expect_true(scene, options, proof);
       inverted += text.find("\nelement ") != std::string::npos ? 1 : 0;
       free_elements += text.find("\ntetrahedron\n") != std::string::npos ? 1 : 0;
-      expect_demand_kept(text, options, proof);
       free += proof.claim.starts_with("no") ? 1 : 0;
       with_distance += options.separation.distance > 0.0 ? 1 : 0;
     }
@@ -200,35 +198,7 @@ TEST(ProveStep, ProvesWhatTheOracleSaysOfAllPairs) {
   EXPECT_GT(with_thickness, 40);
   EXPECT_GT(inverted, 10);
   EXPECT_GT(free_elements, 5);
-  RecordProperty("with_distance", with_distance);
 }
-
-/// The lines of a text, and those that begin an argument.
-struct Lines {
-  explicit Lines(const std::string& text) {
-    std::istringstream in(text);
-    for (std::string line; std::getline(in, line);) all.push_back(line);
-    bool is_argument = false;
-    for (std::size_t i = 0; i < all.size(); ++i) {
-      is_argument = is_argument || all[i] == "vertex_face";
-      if (is_argument && all[i].front() >= '0' && all[i].front() <= '9') arguments.push_back(i);
-    }
-  }
-
-  /// All lines but the argument that begins at this line.
-  [[nodiscard]] std::string without(std::size_t argument) const {
-    std::string text;
-    bool is_left_out = false;
-    for (std::size_t i = 0; i < all.size(); ++i) {
-      is_left_out = i == argument || (is_left_out && all[i].starts_with("separate"));
-      if (!is_left_out) text += all[i] + '\n';
-    }
-    return text;
-  }
-
-  std::vector<std::string> all;
-  std::vector<std::size_t> arguments;
-};
 
 TEST(ProveStep, NeedsEachOfItsArguments) {
   Random random(5);
@@ -240,20 +210,21 @@ TEST(ProveStep, NeedsEachOfItsArguments) {
     ASSERT_EQ(refusal(text), "");
     directions += proof.directions;
     certificates += proof.certificates;
-    const Lines lines(text);
-    EXPECT_EQ(lines.arguments.size(), proof.directions + proof.certificates);
-    for (const std::size_t argument : lines.arguments) {
-      EXPECT_TRUE(refusal(lines.without(argument)).starts_with("no argument for "));
+    const std::vector<std::string> lines = tests::split(text, "\n");
+    std::uint64_t arguments = 0;
+    for (auto line = std::ranges::find(lines, "vertex_face"); line != lines.end(); ++line) {
+      if (line->empty() || line->front() < '0' || line->front() > '9') continue;
+      ++arguments;
+      // The lines of an argument begin with its pair.
+      std::vector<std::string> altered(lines.begin(), line);
+      const auto is_other = [](const std::string& next) { return !next.starts_with("separate"); };
+      altered.insert(altered.end(), std::find_if(line + 1, lines.end(), is_other), lines.end());
+      EXPECT_TRUE(refusal(tests::joined(altered, "\n")).starts_with("no argument for "));
     }
+    EXPECT_EQ(arguments, proof.directions + proof.certificates);
   }
   EXPECT_GT(directions, 50U);
   EXPECT_GT(certificates, 0U);
-}
-
-std::string replaced(std::string text, const std::string& what, const std::string& by) {
-  const std::size_t place = text.find(what);
-  EXPECT_NE(place, std::string::npos) << what;
-  return text.replace(place, what.size(), by);
 }
 
 TEST(ProveStep, ClaimsNothingLater) {
@@ -267,11 +238,11 @@ TEST(ProveStep, ClaimsNothingLater) {
     std::ostringstream later;
     const std::vector<double> times = numbers_of(proof.claim);
     later << std::hexfloat << "earliest " << times[1] << ' ' << std::nextafter(times[1], 2.0);
-    EXPECT_NE(refusal(replaced(text, proof.claim, later.str())), "");
+    EXPECT_NE(refusal(tests::replaced(text, proof.claim, later.str())), "");
     std::ostringstream free;
     free << std::hexfloat << "no_contact " << times[1];
-    EXPECT_NE(refusal(replaced(text, proof.claim, free.str())), "");
-    EXPECT_NE(refusal(replaced(text, proof.claim, "no_contact 1")), "");
+    EXPECT_NE(refusal(tests::replaced(text, proof.claim, free.str())), "");
+    EXPECT_NE(refusal(tests::replaced(text, proof.claim, "no_contact 1")), "");
   }
   EXPECT_GT(tried, 10);
 }
@@ -301,7 +272,7 @@ TEST(ProveStep, IsTheSameOnAnyNumberOfThreads) {
   EXPECT_GT(one.proof.directions + one.proof.certificates, 100U);
 }
 
-TEST(ProveStep, EndsWhenStopped) {
+TEST(ProveStep, EndsWhenStoppedAndPassesOnExceptionsOfItsReader) {
   Random random(8);
   const Scene scene = with_ordered_edges(tests::soup(random, 30, 0.3));
   const std::atomic<bool> stop = true;
@@ -309,16 +280,258 @@ TEST(ProveStep, EndsWhenStopped) {
   EXPECT_TRUE(proof.interrupted);
   EXPECT_FALSE(proof.is_complete());
   EXPECT_NE(refusal(text), "");
+  const StepProofOptions options{
+      .on_text = [](std::string_view) { throw std::runtime_error("full"); }};
+  EXPECT_THROW(
+      (void)prove_step(scene.step(), {.faces = scene.faces, .points = scene.points}, options),
+      std::runtime_error);
 }
 
-TEST(ProveStep, PassesOnExceptionsOfItsReader) {
-  Random random(9);
-  const Scene scene = with_ordered_edges(tests::soup(random, 3, 0.3));
-  const fast::Step step = scene.step();
-  StepProofOptions options;
-  options.on_text = [](std::string_view) { throw std::runtime_error("full"); };
-  EXPECT_THROW((void)prove_step(step, {.faces = scene.faces, .points = scene.points}, options),
-               std::runtime_error);
+// ---- The integers of a proof, which the writer and the checker share no code for ---------------
+
+TEST(StepPlaces, AgreeWithTheCheckers) {
+  Random random(1);
+  int found = 0, needed = 0;
+  for (int trial = 0; trial < 3'000; ++trial) {
+    const double size = std::ldexp(1.0, random.between(-1070, 1020));
+    Eigen::MatrixX3d start(6, 3), end(6, 3);
+    std::vector<checker::Motion> motions(6);
+    const double drift = random.uniform(0, 3);
+    for (Eigen::Index i = 0; i < 6; ++i) {
+      for (Eigen::Index k = 0; k < 3; ++k) {
+        const double shift = i < 3 && random.coin() ? drift * size : 0.0;
+        start(i, k) = random.uniform(-size, size) + shift;
+        end(i, k) = random.uniform(-size, size) + shift;
+        checker::Motion& motion = motions[static_cast<std::size_t>(i)];
+        motion.start.at(static_cast<std::size_t>(k)) = start(i, k);
+        motion.end.at(static_cast<std::size_t>(k)) = end(i, k);
+      }
+    }
+    const fast::MovingVertices vertices(start, end);
+    const double distance = random.coin() ? 0.0 : 0.1 * size;
+    const exact::Rational until = random.coin() ? 1.0 : random.uniform(0, 1);
+    const StepPlaces places(vertices, distance, until);
+    const checker::Places checkers(motions, distance, until);
+    // (The greatest distance, or that of another pair.)
+    const double less = random.coin() ? distance : distance * random.uniform(0, 1);
+    const std::int64_t whole = checkers.enlarged(less);
+    const bool is_vertex_face = random.coin();
+    const std::array<std::int32_t, 3> a{0, 1, 0}, b{3, 4, 5}, v{2, 2, 2};
+    const auto first =
+        is_vertex_face ? StepPlaces::Vertices(v).first(1) : StepPlaces::Vertices(a).first(2);
+    const auto second = is_vertex_face ? StepPlaces::Vertices(b) : StepPlaces::Vertices(b).first(2);
+    const checker::Primitive some{0, is_vertex_face ? v : a};
+    const checker::Primitive other{0, is_vertex_face ? b : std::array{3, 4, 3}};
+    for (int n = 0; n < 4; ++n) {
+      const StepPlaces::Direction d{random.between(-3, 3), random.between(-3, 3),
+                                    random.between(-3, 3)};
+      EXPECT_EQ(places.is_above(first, second, d, less), checkers.is_above(some, other, d, whole));
+    }
+    const bool is_apart = checkers.is_axis_between(some, other, whole);
+    EXPECT_EQ(places.is_axis_between(first, second, less), is_apart);
+    const auto direction = places.direction(first, second, less);
+    EXPECT_TRUE(!direction || checkers.is_above(some, other, *direction, whole));
+    found += direction && !is_apart ? 1 : 0;
+    needed += is_apart ? 0 : 1;
+  }
+  EXPECT_GT(found, 100);
+  EXPECT_GT(needed, found);
+}
+
+// Two triangles near each other, in planes of any position, have a separating direction of small
+// integers.
+TEST(StepPlaces, FindADirectionBetweenWhatIsNear) {
+  Random random(2);
+  int found = 0;
+  for (int trial = 0; trial < 1'000; ++trial) {
+    Eigen::MatrixX3d start(4, 3);
+    for (Eigen::Index i = 0; i < 4; ++i) {
+      for (Eigen::Index k = 0; k < 3; ++k) start(i, k) = random.uniform(-1, 1);
+    }
+    const Eigen::RowVector3d normal =
+        (start.row(2) - start.row(1)).cross(start.row(3) - start.row(1));
+    start.row(0) = (start.row(1) + start.row(2) + start.row(3)) / 3 + 0.02 * normal.normalized();
+    const StepPlaces places(fast::MovingVertices(start, start), 0.0, 1);
+    const std::array<std::int32_t, 4> all{0, 1, 2, 3};
+    const StepPlaces::Vertices vertices(all);
+    found += places.direction(vertices.first(1), vertices.last(3), 0.0) ? 1 : 0;
+  }
+  EXPECT_GT(found, 950);
+}
+
+// ---- Meshes at rest -----------------------------------------------------------------------------
+
+struct ProvedMesh {
+  MeshProof proof;
+  std::size_t intersections = 0;
+  std::string text;
+};
+
+ProvedMesh prove(const mesh::Mesh& mesh, const fast::IntersectionOptions& search = {},
+                 StepProofOptions options = {}) {
+  const auto found = fast::intersections(
+      mesh.vertices, {.edges = mesh.edges, .faces = mesh.faces, .points = mesh.points}, search);
+  ProvedMesh result{
+      .proof = {}, .intersections = found.size(), .text = std::string(mesh_certificates_header)};
+  options.on_text = [&](std::string_view text) { result.text += text; };
+  result.proof = prove_mesh(mesh, search, found, options);
+  result.text += mesh_certificates_closing_line;
+  return result;
+}
+
+checker::Options demanding(std::size_t intersections, bool is_welded = false) {
+  const std::string claim = is_welded ? "welded_intersections " : "intersections ";
+  return {.claim = claim + std::to_string(intersections)};
+}
+
+/// The mesh of a scene at its start.
+mesh::Mesh mesh_of(const tests::Scene& scene) {
+  std::vector<std::array<double, 3>> coordinates;
+  for (Eigen::Index i = 0; i < scene.start.rows(); ++i) {
+    coordinates.push_back({scene.start(i, 0), scene.start(i, 1), scene.start(i, 2)});
+  }
+  mesh::Mesh result = mesh::make_mesh(coordinates, scene.faces, scene.edges);
+  result.points = scene.points;
+  std::ranges::sort(result.points);
+  return result;
+}
+
+// Any line left out, of the arguments or of the intersections; the claim follows.
+TEST(ProveMesh, WithoutALineIsRefused) {
+  Random random(1);
+  const auto [proof, found, text] = prove(mesh_of(tests::soup(random, 24, 0.4)));
+  ASSERT_GT(found, 4U);
+  ASSERT_GT(proof.arguments, 50U);
+  std::vector<std::string> lines = tests::split(text, "\n");
+  const auto claim = std::ranges::find(lines, "claim intersections " + std::to_string(found));
+  ASSERT_NE(claim, lines.end());
+  for (auto line = claim + 1; *line != "end"; ++line) {
+    if (*line == "separations") continue;
+    std::vector<std::string> altered = lines;
+    const auto place = altered.begin() + (line - lines.begin());
+    const bool is_intersection = line - claim <= static_cast<std::ptrdiff_t>(found);
+    const std::size_t said = is_intersection ? found - 1 : found;
+    altered[static_cast<std::size_t>(claim - lines.begin())] =
+        "claim intersections " + std::to_string(said);
+    altered.erase(place);
+    EXPECT_TRUE(refusal(tests::joined(altered, "\n")).starts_with("no argument for ")) << *line;
+  }
+}
+
+// Elements of all kinds in any position, most with repeated vertices, vertices at one place or on a
+// line; with groups, welded or not.
+TEST(ProveMesh, OfRandomMeshesIsAccepted) {
+  const std::uint64_t seeds = tests::is_soak() ? 2'000 : 40;
+  std::size_t pairs = 0, intersections = 0, free = 0;
+  for (const tests::Shape& shape : tests::shapes()) {
+    for (std::uint64_t seed = 0; seed < seeds; ++seed) {
+      Random random(seed);
+      const tests::Scene scene = tests::random_scene(random, shape, random.between(4, 16));
+      const mesh::Mesh mesh = mesh_of(scene);
+      fast::IntersectionOptions search{
+          .groups = {.of_vertices = scene.groups, .apart = scene.apart}, .weld = random.coin()};
+      const auto [proof, found, text] = prove(mesh, search);
+      EXPECT_EQ(proof.failure, "") << shape.name << ' ' << seed;
+      EXPECT_EQ(refusal(text, demanding(found, search.weld)), "") << shape.name << ' ' << seed;
+      pairs += proof.arguments;
+      intersections += found;
+      free += found == 0 ? 1 : 0;
+    }
+  }
+  EXPECT_GT(pairs, 500U);
+  EXPECT_GT(intersections, 100U);
+  EXPECT_GT(free, 30U);
+}
+
+using exact::RationalPoint;
+using exact::RationalTriangle;
+
+/// True if two elements intersect, by their definition.
+bool intersect(const checker::Scene& scene, const checker::Primitive& a,
+               const checker::Primitive& b) {
+  const auto hull_of = [&](const std::vector<std::int32_t>& vertices) {
+    RationalTriangle result;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const auto v = static_cast<std::size_t>(vertices[std::min(i, vertices.size() - 1)]);
+      for (std::size_t k = 0; k < 3; ++k) result[i][k] = scene.vertices[v].start[k];
+    }
+    return result;
+  };
+  const auto as_set = [](const checker::Primitive& element) {
+    return std::set<std::int32_t>(element.vertices.begin(), element.vertices.end());
+  };
+  const auto as_list = [](const checker::Primitive& element) {
+    return std::vector<std::int32_t>(element.vertices.begin(), element.vertices.end());
+  };
+  if (as_set(a) == as_set(b)) return true;
+  const auto of_a = as_set(a), of_b = as_set(b);
+  std::vector<std::int32_t> common;
+  std::ranges::set_intersection(of_a, of_b, std::back_inserter(common));
+  const auto points = exact::intersection_of(hull_of(as_list(a)), hull_of(as_list(b)));
+  return std::ranges::any_of(points, [&](const RationalPoint& x) {
+    return common.empty() || exact::intersection_of({x, x, x}, hull_of(common)).empty();
+  });
+}
+
+// Two faces of few vertices on a small grid, most of them without an area or with common vertices:
+// the truth has a proof, and no argument of small numbers that the checker accepts is false.
+TEST(ProveMesh, OfTwoFacesIsTheTruthOfRationalArithmetic) {
+  int separated = 0, on_lines = 0, common = 0;
+  for (std::uint64_t seed = 0; seed < tests::trials(4'000U); ++seed) {
+    Random random(seed);
+    checker::Scene scene;
+    const int vertices = random.between(3, 6), size = random.between(1, 3);
+    for (int i = 0; i < vertices; ++i) {
+      const auto x = [&] { return static_cast<double>(random.between(0, size)); };
+      const std::array<double, 3> place{x(), x(), random.coin() ? 0.0 : x()};
+      scene.vertices.push_back({place, place});
+    }
+    const auto vertex = [&] { return random.between(0, vertices - 1); };
+    for (int i = 0; i < 2; ++i) scene.faces.push_back({vertex(), vertex(), vertex()});
+    const checker::RestingMesh mesh(scene, false);
+    const bool truth = intersect(scene, mesh[0], mesh[1]);
+    std::vector<std::array<double, 3>> coordinates;
+    for (const checker::Motion& one : scene.vertices) coordinates.push_back(one.start);
+    EXPECT_EQ(refusal(prove(mesh::make_mesh(coordinates, scene.faces, {})).text,
+                      demanding(truth ? 1 : 0)),
+              "")
+        << seed;
+    const checker::RestingPair pair = mesh.pair(0, 1);
+    const auto expect = [&](bool is_accepted, bool claim, int& count) {
+      if (!is_accepted) return;
+      ++count;
+      EXPECT_EQ(claim, truth) << seed;
+    };
+    expect(pair.is_separated_by_first_plane(), false, separated);
+    expect(pair.are_separated_on_lines(), false, on_lines);
+    for (int n = 0; n < 20; ++n) {
+      checker::Vector d;
+      for (auto& x : d) x = random.between(-2, 2);
+      expect(mesh.is_separated_by(0, 1, d), false, separated);
+      expect(pair.is_separated_by(d), false, separated);
+      std::vector<mpz_class> of_a(3), of_b(3);
+      for (auto* weights : {&of_a, &of_b}) {
+        for (auto& weight : *weights) weight = random.between(-1, 2);
+      }
+      expect(pair.is_common_point(of_a, of_b), true, common);
+    }
+  }
+  EXPECT_GT(separated, tests::trials(2'000));
+  EXPECT_GT(on_lines, tests::trials(5));
+  EXPECT_GT(common, tests::trials(50));
+}
+
+TEST(ProveMesh, KeepsTheLimitOfAMeshAndStopsWhenItIsInterrupted) {
+  Random random(2);
+  mesh::Mesh mesh = mesh_of(tests::soup(random, 20, 0.3));
+  const std::atomic<bool> stop = true;
+  const auto [stopped, found, text] = prove(mesh, {}, {.stop = &stop});
+  EXPECT_TRUE(stopped.interrupted);
+  EXPECT_NE(refusal(text), "");
+  mesh.points.resize(exact::step_item_limit);
+  const MeshProof proof = prove_mesh(mesh, {}, {}, {});
+  EXPECT_EQ(proof.failure, "the mesh has more than 4194304 items");
+  EXPECT_EQ(proof.bytes, 0U);
 }
 
 }  // namespace

@@ -7,12 +7,14 @@
 #include <algorithm>
 #include <atomic>
 #include <cstddef>
+#include <optional>
 #include <stdexcept>
 #include <vector>
 
-#include "touchstone/broad_phase.hpp"
 #include "touchstone/oracle.hpp"
 #include "verify/generate/workload.hpp"
+#include "verify/jobs/check_step.hpp"
+#include "verify/mesh/moving_mesh.hpp"
 
 namespace touchstone::verify::jobs::step_bench_test {
 namespace {
@@ -77,23 +79,6 @@ TEST(StepBench, FindsTheCollisionsAndTheEarliestOne) {
   }
 }
 
-TEST(StepBench, AStepWithoutContactHasNoEarliestImpact) {
-  Eigen::Matrix<double, 3, 3, Eigen::RowMajor> points;
-  points << 0, 0, 0, 1, 0, 0, 0, 1, 0;
-  std::vector<fast::Face> faces{{0, 1, 2}};
-  auto edges = fast::edges_of(faces);
-  const mesh::MovingMesh mesh{.name = "alone",
-                              .vertices = fast::MovingVertices(points, points),
-                              .faces = std::move(faces),
-                              .edges = std::move(edges),
-                              .note = {}};
-  const StepResult result = bench_step(mesh);
-  EXPECT_EQ(result.vertex_face.candidates, 0U);
-  EXPECT_EQ(result.edge_edge.candidates, 0U);
-  EXPECT_FALSE(result.earliest);
-  EXPECT_TRUE(result.earliest_agrees);
-}
-
 TEST(StepBench, MeasuresMemory) {
   // At least the vertices, and the next step uses most pages again.
   const mesh::MovingMesh mesh = generate::moving_patches({.seed = 1, .cells = 150});
@@ -110,11 +95,60 @@ TEST(StepBench, AStopLeavesTheRestOut) {
   EXPECT_TRUE(result.interrupted);
   EXPECT_TRUE(result.times.empty());
   EXPECT_TRUE(result.earliest_agrees);
+  EXPECT_THROW(
+      (void)bench_step(generate::moving_patches({.seed = 1, .cells = 1}), {.repetitions = 0}),
+      std::invalid_argument);
 }
 
-TEST(StepBench, RefusesOptionsOutOfRange) {
-  const mesh::MovingMesh mesh = generate::moving_patches({.seed = 1, .cells = 1});
-  EXPECT_THROW((void)bench_step(mesh, {.repetitions = 0}), std::invalid_argument);
+// ---- Steps of frames ----------------------------------------------------------------------------
+
+/// Two patches that move through each other, as frames.
+struct Frames {
+  explicit Frames(std::uint64_t seed)
+      : moving(generate::moving_patches({.seed = seed, .cells = 8})) {
+    const auto rows = static_cast<Eigen::Index>(moving.vertices.size());
+    mesh.vertices.resize(rows, 3);
+    after.resize(rows, 3);
+    for (Eigen::Index i = 0; i < rows; ++i) {
+      const fast::MovingVertex& vertex = moving.vertices[static_cast<std::size_t>(i)];
+      for (Eigen::Index k = 0; k < 3; ++k) {
+        mesh.vertices(i, k) = vertex.start.at(static_cast<std::size_t>(k));
+        after(i, k) = vertex.end.at(static_cast<std::size_t>(k));
+      }
+    }
+    mesh.faces = moving.faces;
+    mesh.edges = moving.edges;
+  }
+
+  mesh::MovingMesh moving;
+  mesh::Mesh mesh;
+  mesh::Vertices after;
+};
+
+// The collisions are compared with the oracle in tests/fast/step_test.cpp and step_bench_test.cpp,
+// and shown in tests/transcripts/step.md.
+
+TEST(CheckStep, GivesTheSameAfterOtherStepsOfTheMesh) {
+  const Frames frames(12);
+  for (const StepQuestion question :
+       {StepQuestion::all, StepQuestion::earliest, StepQuestion::free}) {
+    for (const auto alpha : {std::optional<double>(), std::optional(0.5)}) {
+      const StepCheckOptions options{.question = question, .alpha = alpha};
+      std::optional<fast::Step> step;
+      (void)check_step(step, frames.mesh, frames.after, frames.mesh.vertices, options);
+      const StepCheck later =
+          check_step(step, frames.mesh, frames.mesh.vertices, frames.after, options);
+      step.reset();
+      const StepCheck fresh =
+          check_step(step, frames.mesh, frames.mesh.vertices, frames.after, options);
+      EXPECT_FALSE(fresh.is_free);
+      EXPECT_EQ(later.candidates, fresh.candidates);
+      EXPECT_EQ(later.is_free, fresh.is_free);
+      EXPECT_EQ(later.earliest, fresh.earliest);
+      EXPECT_EQ(later.collisions, fresh.collisions);
+      EXPECT_EQ(later.free_alpha, fresh.free_alpha);
+    }
+  }
 }
 
 }  // namespace

@@ -122,14 +122,6 @@ TEST(Stream, AnIncompleteBlockIsTheLast) {
                                                 2 * QueryBlock::most_queries}));
 }
 
-TEST(Stream, AStopEndsTheReading) {
-  std::atomic<bool> stop = true;
-  MemorySource source(Kind::edge_edge, numbered(10));
-  const Collected collected = collect(source, {.stop = &stop});
-  EXPECT_TRUE(collected.indices.empty());
-  EXPECT_TRUE(collected.result.interrupted);
-}
-
 TEST(Passes, CoverEachQueryOnceWhateverTheSpan) {
   for (const std::size_t queries : {1U, 15U, 16U, 17U, 1000U}) {
     for (const std::size_t span : {1U, 16U, 40U, 1000U, 1000000U}) {

@@ -1,11 +1,19 @@
+/// \file
+/// Single answers as rows {truth, answer, faults}, and what they add up to.
+
 #include "verify/judge/judge.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
+#include <csignal>
 #include <limits>
+#include <nlohmann/json.hpp>
 #include <optional>
+#include <set>
+#include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -13,6 +21,7 @@
 #include "tests/support/random.hpp"
 #include "touchstone/algebraic_number.hpp"
 #include "touchstone/oracle.hpp"
+#include "verify/judge/judgement.hpp"
 
 namespace touchstone::verify::judge::judge_test {
 namespace {
@@ -37,19 +46,110 @@ Answer yes(double lower, double upper, double tolerance = Answer::none) {
   return {.verdict = Verdict::yes, .toi_lower = lower, .toi_upper = upper, .tolerance = tolerance};
 }
 
-/// An estimate is judged by its error, on both sides; a time that does not count is not judged.
-TEST(JudgeVerdict, TimesAreJudgedByWhatTheyAre) {
-  const GroundTruth half = collision(0.5, 0.5);
-  const fast::Terms estimates{.times = fast::Times::estimates, .time_error = 0.125};
-  const fast::Terms none{.times = fast::Times::none};
-  EXPECT_EQ(judge_verdict(half, yes(0.625, Answer::none), estimates), Faults{});
-  EXPECT_EQ(judge_verdict(half, yes(0.75, Answer::none), estimates), Faults{Fault::late_toi});
-  EXPECT_EQ(judge_verdict(half, yes(0.375, Answer::none), estimates), Faults{});
-  EXPECT_EQ(judge_verdict(half, yes(0.25, Answer::none), estimates),
-            Faults{Fault::early_toi_upper});
-  EXPECT_EQ(judge_verdict(half, yes(Answer::none, 0.75), estimates), Faults{Fault::late_toi});
-  EXPECT_EQ(judge_verdict(half, yes(Answer::none, Answer::none), estimates), Faults{});
-  EXPECT_EQ(judge_verdict(half, yes(0.75, 0.25), none), Faults{});
+// ---- Faults and failures ------------------------------------------------------------------------
+
+TEST(Fault, HasANameOfItsOwnAndATextAndALetter) {
+  std::set<std::string_view> names, texts, phrases;
+  for (const Fault fault : all_faults) {
+    names.insert(to_string(fault));
+    texts.insert(to_text(fault));
+    phrases.insert(to_phrase(fault));
+    EXPECT_EQ(fault_from_name(to_string(fault)), fault);
+    // Tables and maps count all errors as one.
+    const std::optional<Fault> found = fault_from_text(to_text(fault));
+    EXPECT_EQ(found, is_error(fault) ? Fault::crash : fault);
+    EXPECT_EQ(letter_of(fault), letter_of(*found));
+  }
+  EXPECT_EQ(names.size(), fault_count);
+  EXPECT_EQ(phrases.size(), fault_count);
+  EXPECT_EQ(texts.size(), fault_count - 4);
+  EXPECT_EQ(fault_from_name("crashes"), std::nullopt);
+  EXPECT_EQ(fault_from_text("crash"), std::nullopt);
+}
+
+TEST(Failure, IsALineOfTextAndBack) {
+  const std::vector<std::pair<Failure, std::string>> texts{
+      {{.kind = Fault::crash, .number = SIGSEGV}, "crash: SIGSEGV"},
+      {{.kind = Fault::crash, .number = SIGXFSZ}, "crash: SIGXFSZ"},
+      {{.kind = Fault::crash}, "crash: signal 0"},
+      {{.kind = Fault::exit, .number = 3}, "exit: status 3"},
+      {{.kind = Fault::exception, .what = "a: b"}, "exception: a: b"},
+      {{.kind = Fault::no_verdict}, "no_verdict"},
+      {{.kind = Fault::not_finite, .what = "toi_lower inf"}, "not_finite: toi_lower inf"},
+      {{.kind = Fault::hang}, "hang"},
+      {{.kind = Fault::undecided}, "undecided"}};
+  for (const auto& [failure, text] : texts) {
+    EXPECT_EQ(to_text(failure), text);
+    EXPECT_EQ(failure_from_text(text), failure) << text;
+  }
+  EXPECT_EQ(failure_from_text(""), std::nullopt);
+  EXPECT_EQ(failure_from_text("nonsense: crash"), std::nullopt);
+  EXPECT_EQ(failure_from_text("false_negative"), std::nullopt) << "no failure";
+  EXPECT_EQ(failure_from_text("crash: bang"), Failure{.kind = Fault::crash});
+  EXPECT_EQ(to_text({.kind = Fault::exception, .what = "two\nlines\x1b"}),
+            "exception: two\\x0alines\\x1b");
+}
+
+// ---- Answers ------------------------------------------------------------------------------------
+
+/// Of a collision at 1/2, at a time strictly between neighbouring doubles, and never.
+TEST(JudgeVerdict, NamesEveryFault) {
+  using enum Fault;
+  const GroundTruth half = collision(0.5, 0.5), between = collision(0.1, above(0.1));
+  constexpr double none = Answer::none;
+  const Answer no{.verdict = Verdict::no}, only_yes{.verdict = Verdict::yes},
+      undecided_answer{.verdict = Verdict::undecided}, error{.verdict = Verdict::error};
+  const Failure hangs{.kind = hang}, crashes{.kind = crash};
+  // An estimate is judged by its error, on both sides; a time that does not count is not judged.
+  const fast::Terms estimates{.times = fast::Times::estimates, .time_error = 0.125},
+      timeless{.times = fast::Times::none};
+  struct Row {
+    const GroundTruth& truth;
+    Answer answer;
+    Faults faults;
+    fast::Terms terms = {};
+    const Failure* failure = nullptr;
+  };
+  const std::vector<Row> rows{{half, only_yes, {}},
+                              {no_collision, no, {}},
+                              {half, no, {false_negative}},
+                              {no_collision, only_yes, {false_positive}},
+                              {no_collision, yes(1.0, 0.0), {false_positive}},
+                              {half, yes(above(0.5), below(0.5)), {late_toi, early_toi_upper}},
+                              {half, yes(0.5, 0.5), {}},
+                              {half, yes(above(0.5), 1.0), {late_toi}},
+                              {half, yes(0.0, below(0.5)), {early_toi_upper}},
+                              {between, yes(0.1, above(0.1)), {}},
+                              {between, yes(above(0.1), above(0.1)), {late_toi}},
+                              {between, yes(0.1, 0.1), {early_toi_upper}},
+                              {half, yes(0.625, none), {}, estimates},
+                              {half, yes(0.75, none), {late_toi}, estimates},
+                              {half, yes(0.375, none), {}, estimates},
+                              {half, yes(0.25, none), {early_toi_upper}, estimates},
+                              {half, yes(none, 0.75), {late_toi}, estimates},
+                              {half, yes(none, none), {}, estimates},
+                              {half, yes(0.75, 0.25), {}, timeless},
+                              // Undecided and hang are a conservative yes.
+                              {half, undecided_answer, {undecided}},
+                              {half, undecided_answer, {hang}, {}, &hangs},
+                              {no_collision, undecided_answer, {undecided, false_positive}},
+                              {no_collision, undecided_answer, {hang, false_positive}, {}, &hangs},
+                              {no_collision, error, {crash}, {}, &crashes}};
+  for (const auto& [truth, answer, faults, terms, failure] : rows) {
+    EXPECT_EQ(judge_verdict(truth, answer, terms, failure), faults) << answer.toi_lower;
+  }
+  for (const GroundTruth& truth : {half, no_collision}) {
+    EXPECT_EQ(judge_verdict(truth, error), Faults{no_verdict});
+    for (const Answer& answer :
+         {yes(infinity, 1.0), yes(-infinity, 1.0), yes(0.0, infinity), yes(0.0, 1.0, -1.0)}) {
+      EXPECT_EQ(judge_verdict(truth, answer), Faults{not_finite});
+    }
+  }
+  // Times of other verdicts are not judged.
+  for (const Verdict verdict : {Verdict::no, Verdict::undecided, Verdict::error}) {
+    EXPECT_EQ(judge_verdict(half, {.verdict = verdict, .toi_lower = 1.0, .toi_upper = 0.0}),
+              judge_verdict(half, {.verdict = verdict}));
+  }
 }
 
 TEST(Lateness, IsInUnitsOfTheStepAndInUlps) {
@@ -83,58 +183,6 @@ TEST(Harm, IsInTheOrderOfWhatHurtsASimulation) {
   // What the promise allows comes behind all that it excludes.
   EXPECT_LT(harm_of(Fault::crash, false, fast::Promise::conservative),
             harm_of(Fault::false_positive, false, fast::Promise::conservative));
-}
-
-TEST(JudgeVerdict, NamesEveryFault) {
-  const GroundTruth half = collision(0.5, 0.5);
-  EXPECT_EQ(judge_verdict(half, {.verdict = Verdict::yes}), Faults{});
-  EXPECT_EQ(judge_verdict(no_collision, {.verdict = Verdict::no}), Faults{});
-  EXPECT_EQ(judge_verdict(half, {.verdict = Verdict::no}), Faults{Fault::false_negative});
-  EXPECT_EQ(judge_verdict(no_collision, {.verdict = Verdict::yes}), Faults{Fault::false_positive});
-  EXPECT_EQ(judge_verdict(half, yes(above(0.5), below(0.5))),
-            (Faults{Fault::late_toi, Fault::early_toi_upper}));
-  for (const GroundTruth& truth : {half, no_collision}) {
-    EXPECT_EQ(judge_verdict(truth, {.verdict = Verdict::error}), Faults{Fault::no_verdict});
-    for (const Answer& answer :
-         {yes(infinity, 1.0), yes(-infinity, 1.0), yes(0.0, infinity), yes(0.0, 1.0, -1.0)}) {
-      EXPECT_EQ(judge_verdict(truth, answer), Faults{Fault::not_finite});
-    }
-  }
-}
-
-TEST(JudgeVerdict, UndecidedAndHangAreAConservativeYes) {
-  const Failure hang{.kind = Fault::hang};
-  const Answer undecided{.verdict = Verdict::undecided};
-  EXPECT_EQ(judge_verdict(collision(0.5, 0.5), undecided), Faults{Fault::undecided});
-  EXPECT_EQ(judge_verdict(collision(0.5, 0.5), undecided, {}, &hang), Faults{Fault::hang});
-  EXPECT_EQ(judge_verdict(no_collision, undecided),
-            (Faults{Fault::undecided, Fault::false_positive}));
-  EXPECT_EQ(judge_verdict(no_collision, undecided, {}, &hang),
-            (Faults{Fault::hang, Fault::false_positive}));
-  const Failure crash{.kind = Fault::crash};
-  EXPECT_EQ(judge_verdict(no_collision, {.verdict = Verdict::error}, {}, &crash),
-            Faults{Fault::crash});
-}
-
-TEST(JudgeVerdict, ATimeIsLateByTheLastBit) {
-  // The exact time is strictly between neighbouring doubles, or is a double.
-  const GroundTruth between = collision(0.1, above(0.1)), quarter = collision(0.25, 0.25);
-  EXPECT_EQ(judge_verdict(between, yes(0.1, above(0.1))), Faults{});
-  EXPECT_EQ(judge_verdict(between, yes(above(0.1), above(0.1))), Faults{Fault::late_toi});
-  EXPECT_EQ(judge_verdict(between, yes(0.1, 0.1)), Faults{Fault::early_toi_upper});
-  EXPECT_EQ(judge_verdict(between, yes(Answer::none, Answer::none)), Faults{});
-  EXPECT_EQ(judge_verdict(quarter, yes(0.25, 0.25)), Faults{});
-  EXPECT_EQ(judge_verdict(quarter, yes(above(0.25), 1.0)), Faults{Fault::late_toi});
-  EXPECT_EQ(judge_verdict(quarter, yes(0.0, below(0.25))), Faults{Fault::early_toi_upper});
-}
-
-TEST(JudgeVerdict, TimesOfOtherVerdictsAndOfMissesAreNotJudged) {
-  for (const Verdict verdict : {Verdict::no, Verdict::undecided, Verdict::error}) {
-    const Answer answer{.verdict = verdict, .toi_lower = 1.0, .toi_upper = 0.0};
-    EXPECT_EQ(judge_verdict(collision(0.25, 0.25), answer),
-              judge_verdict(collision(0.25, 0.25), {.verdict = verdict}));
-  }
-  EXPECT_EQ(judge_verdict(no_collision, yes(1.0, 0.0)), Faults{Fault::false_positive});
 }
 
 /// Compares judgements by the enclosure with those by the algebraic number itself.
@@ -196,6 +244,115 @@ TEST(Breaks, OnlyExactnessForbidsFalsePositives) {
       EXPECT_EQ(breaks(fault, promise), !is_allowed) << to_string(fault);
     }
   }
+}
+
+// ---- Judgements ---------------------------------------------------------------------------------
+
+// Counts, texts and kinds of failures are in tests/transcripts/certify_{solvers,plugins}.md.
+
+/// Adds an answer without regard to its query. Its tolerance, if it has one, is compared with the
+/// distance of two points at one place, which never contradicts it.
+void add(Judgement& judgement, const GroundTruth& truth, const Answer& answer,
+         const Failure* failure = nullptr) {
+  const base::AnyQuery query;
+  judgement.add({query.queries()}, truth, answer, {}, failure);
+}
+
+Judgement judged(const GroundTruth& truth, const Answer& answer) {
+  Judgement judgement;
+  add(judgement, truth, answer);
+  return judgement;
+}
+
+TEST(Judgement, ToiErrorIsTheDistanceNeverUnderstated) {
+  const auto error = [](double lower, double upper, double toi_lower) {
+    return judged(collision(lower, upper), yes(toi_lower, Answer::none)).toi_errors.max();
+  };
+  EXPECT_EQ(error(0.5, 0.5, 0.125), 0.375);
+  EXPECT_EQ(error(0.5, 0.5, 0.5), 0.0);
+  EXPECT_EQ(error(0.5, 0.5, 0.75), 0.25) << "late";
+  EXPECT_EQ(error(0.5, above(0.5), 0.5), 0x1p-53);
+}
+
+TEST(ToiErrors, ComeBackFromJsonAndAddUpAsBefore) {
+  ToiErrors first, second;
+  tests::Random random(6);
+  for (int i = 0; i < 1000; ++i) {
+    (i % 3 == 0 ? first : second).add(i % 7 == 0 ? 0.0 : std::ldexp(random.uniform(), -i % 60));
+  }
+  first.add(infinity);
+  EXPECT_TRUE(to_json(ToiErrors()).is_null());
+  EXPECT_EQ(to_json(toi_errors_from_json(to_json(first))), to_json(first));
+  ToiErrors sum = toi_errors_from_json(to_json(first));
+  sum += toi_errors_from_json(to_json(second));
+  EXPECT_EQ(to_json(sum), to_json(first += second));
+}
+
+TEST(ToiErrors, QuantilesAreWithinTheirBucketAndTheMaximumIsExact) {
+  ToiErrors errors;
+  EXPECT_TRUE(std::isnan(errors.quantile(0.5)));
+  EXPECT_TRUE(std::isnan(errors.max()));
+  std::vector<double> all;
+  tests::Random random(5);
+  for (int i = 0; i < 10001; ++i) {
+    all.push_back(std::ldexp(random.uniform(), -random.between(0, 60)));
+    errors.add(all.back());
+  }
+  std::ranges::sort(all);
+  EXPECT_EQ(errors.count(), 10001U);
+  EXPECT_EQ(errors.max(), all.back());
+  EXPECT_EQ(errors.quantile(1.0), all.back());
+  for (const std::size_t rank : {1U, 100U, 5001U, 9001U, 9901U}) {
+    const double exact = all[rank - 1];
+    const double quantile = errors.quantile(static_cast<double>(rank) / 10001.0);
+    EXPECT_GE(quantile, exact);
+    EXPECT_LE(quantile, exact * (1.0 + 1.0 / 64.0)) << rank;
+  }
+  ToiErrors zeros;
+  for (int i = 0; i < 9; ++i) zeros.add(0.0);
+  zeros.add(std::numeric_limits<double>::denorm_min());
+  EXPECT_EQ(zeros.quantile(0.9), 0.0);
+  EXPECT_EQ(zeros.quantile(1.0), std::numeric_limits<double>::denorm_min());
+  zeros.add(infinity);
+  EXPECT_EQ(zeros.quantile(1.0), infinity);
+}
+
+TEST(Judgement, AddsUpInOrder) {
+  Judgement sum = judged(collision(0.5, 0.5), {.verdict = Verdict::no, .checks = 3});
+  sum.nanoseconds = 10;
+  Judgement next = judged(no_collision, {.verdict = Verdict::undecided, .checks = 4});
+  next.nanoseconds = 30;
+  next.add_unasked(Unasked::missing, 11);
+  next.add_unasked(Unasked::missing, 12);
+  next.unplaced_crashes = 2;
+  sum += next;
+  EXPECT_EQ(sum.queries, 2U);
+  EXPECT_EQ(sum.errors(), 2U) << "crashes at no query";
+  EXPECT_EQ(sum.undecided(), 1U);
+  EXPECT_EQ(sum.missing, 2U);
+  EXPECT_EQ(sum.first_missing, 11U);
+  EXPECT_EQ(sum.checks, 7U);
+  EXPECT_EQ(sum.nanoseconds_per_query(), 20.0);
+  ASSERT_EQ(sum.wrong_answers.size(), 2U);
+  EXPECT_EQ(sum.wrong_answers[0].fault, Fault::false_negative);
+  EXPECT_EQ(sum.wrong_answers[1].fault, Fault::false_positive);
+}
+
+TEST(Judgement, KeepsSoManyWrongAnswersOfAFaultAndCountsAll) {
+  Judgement sum;
+  for (int block = 0; block < 3; ++block) {
+    Judgement next;
+    for (int i = 0; i < 700; ++i) add(next, collision(0.5, 0.5), {.verdict = Verdict::no});
+    for (int i = 0; i < 10; ++i) add(next, no_collision, {.verdict = Verdict::yes});
+    sum += next;
+  }
+  EXPECT_EQ(sum.count(Fault::false_negative), 2100U);
+  EXPECT_EQ(sum.count(Fault::false_positive), 30U);
+  EXPECT_EQ(sum.wrong_answers.size(), Judgement::most_kept + 30);
+  Judgement alone;
+  for (int i = 0; i < 1500; ++i) add(alone, collision(0.5, 0.5), {.verdict = Verdict::no});
+  EXPECT_EQ(alone.count(Fault::false_negative), 1500U);
+  EXPECT_EQ(alone.wrong_answers.size(), Judgement::most_kept);
 }
 
 }  // namespace

@@ -166,25 +166,6 @@ TEST(LoadAnswers, ReadsEveryVerdict) {
   }
 }
 
-TEST(LoadAnswers, TakesRowsInAnyOrderAndKnowsNoOtherQueries) {
-  const RecordedAnswers answers = load(header +
-                                       "b,7,edge-edge,yes,0.5,,\n"
-                                       "a,3,vertex-face,yes,0.25,,\n"
-                                       "b,1,edge-edge,no,,,\n"
-                                       "b,1,vertex-face,yes,0.125,,\n"
-                                       "a,1,vertex-face,undecided,,,\n");
-  EXPECT_EQ(answers.answer_to("a", vf, 1)->answer.verdict, Verdict::undecided);
-  EXPECT_EQ(answers.answer_to("a", vf, 3)->answer.toi_lower, 0.25);
-  EXPECT_EQ(answers.answer_to("b", ee, 1)->answer.verdict, Verdict::no);
-  EXPECT_EQ(answers.answer_to("b", vf, 1)->answer.toi_lower, 0.125);
-  EXPECT_EQ(answers.answer_to("b", ee, 7)->answer.toi_lower, 0.5);
-  for (const std::uint64_t index : {0U, 2U, 4U}) {
-    EXPECT_FALSE(answers.answer_to("a", vf, index).has_value()) << index;
-  }
-  EXPECT_FALSE(answers.answer_to("a", ee, 1).has_value());
-  EXPECT_FALSE(answers.answer_to("", vf, 1).has_value());
-}
-
 TEST(LoadAnswers, TakesAFileWithoutAnswers) { EXPECT_TRUE(load(header).groups().empty()); }
 
 // ---- Requests -----------------------------------------------------------------------------------
@@ -193,14 +174,17 @@ TEST(RecordedAnswers, SayWhatWasNeverAskedFor) {
   const RecordedAnswers answers = load(header +
                                        "\"b\nc\",1,edge-edge,no,,,\n"
                                        "a,2,vertex-face,no,,,\n"
-                                       "a,0,vertex-face,no,,,\n"
-                                       "a,1,vertex-face,no,,,\n"
+                                       "a,0,vertex-face,yes,0.25,,\n"
+                                       "a,1,vertex-face,error,,,\n"
                                        "a,1,edge-edge,no,,,\n");
   EXPECT_EQ(answers.unasked(), 5U);
-  static_cast<void>(answers.answer_to("a", vf, 0));
-  static_cast<void>(answers.answer_to("a", vf, 0));
-  static_cast<void>(answers.answer_to("a", vf, 9));
-  static_cast<void>(answers.answer_to("b\nc", ee, 1));
+  for (int i = 0; i < 2; ++i) {
+    EXPECT_EQ(answers.answer_to("a", vf, 0)->answer.toi_lower, 0.25);
+    EXPECT_FALSE(answers.answer_to("a", vf, 9).has_value());
+    EXPECT_FALSE(answers.answer_to("a", ee, 0).has_value());
+    EXPECT_FALSE(answers.answer_to("", vf, 0).has_value());
+    EXPECT_EQ(answers.answer_to("b\nc", ee, 1)->answer.verdict, Verdict::no);
+  }
   EXPECT_EQ(answers.unasked(), 3U);
 
   const std::vector<RecordedAnswers::Group> groups = answers.groups();
@@ -213,7 +197,7 @@ TEST(RecordedAnswers, SayWhatWasNeverAskedFor) {
   EXPECT_EQ(text,
             "a vertex-face: 3 answers, 2 unasked from line 6; "
             "a edge-edge: 1 answers, 1 unasked from line 7; "
-            "b\nc edge-edge: 1 answers, 0 unasked from line 0; ");
+            "b\\x0ac edge-edge: 1 answers, 0 unasked from line 0; ");
 }
 
 TEST(RecordedAnswers, MayBeAskedFromSeveralThreads) {
