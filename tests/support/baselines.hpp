@@ -91,7 +91,6 @@ struct Score {
   int false_positives = 0;  ///< yes, but they do not collide
   int late = 0;             ///< toi_lower above the exact time of impact
   int denied = 0;           ///< no
-  int undecided = 0;
   int errors = 0;
 
   /// Adds the answer of a method with verdicts alone.
@@ -104,7 +103,6 @@ struct Score {
   void add(const exact::Decision& truth, const fast::Answer& answer) {
     (truth.collides() ? collisions : no_collisions) += 1;
     if (answer.verdict == fast::Verdict::error) ++errors;
-    if (answer.verdict == fast::Verdict::undecided) ++undecided;
     if (answer.verdict == fast::Verdict::no) {
       ++denied;
       false_negatives += truth.collides() ? 1 : 0;
