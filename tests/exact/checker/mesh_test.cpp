@@ -277,15 +277,6 @@ TEST(MeshCertificate, PlantedFaultsAreFound) {
   }
 }
 
-TEST(MeshCertificate, SaysWhatItProves) {
-  const Report report = tests::check_text(proved);
-  ASSERT_EQ(report.meshes.size(), 1U);
-  EXPECT_EQ(report.meshes[0],
-            "mesh a label\n4 vertices, 2 faces, 0 edges of no face, 0 points\nclaim intersections "
-            "0\n");
-  EXPECT_EQ(report.accepted(), 1U);
-}
-
 TEST(MeshCertificate, IsHeldAgainstAMesh) {
   EXPECT_EQ(refusal_about(tent, proved), "");
   EXPECT_EQ(refusal_about(altered(tent, "1 -1 1", "0x1p0 -1 3/3"), proved), "");
