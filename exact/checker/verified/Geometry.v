@@ -371,7 +371,8 @@ Definition enlarged (k : R) (q : query) (t : R) (x : vector) : Prop :=
 Lemma enlarged_is_convex k q t : convex (enlarged k q t).
 Proof.
   intros a b c i j l (x & Hx & ->) (y & Hy & ->) (z & Hz & ->) Hi Hj Hl E.
-  exists (plus (plus (times i x) (times j y)) (times l z)). split; [apply hull_is_convex; assumption |]. clear. by_components. f_equal; ring.
+  exists (plus (plus (times i x) (times j y)) (times l z)).
+  split; [apply hull_is_convex; assumption |]. clear. by_components. f_equal; ring.
 Qed.
 
 Lemma enlarged_has_corners k q t w : In w (map (times k) (corners q t)) -> enlarged k q t w.

@@ -400,7 +400,9 @@ Lemma apart_is_open (p q : path) (f : triple path) t :
   ~ meet (on_segment (p t) (q t)) (on_triangle (at_time f t)) ->
   around t (fun t' => ~ meet (on_segment (p t') (q t')) (on_triangle (at_time f t'))).
 Proof.
-  intros Cp Cq Cf N. destruct (direction_or_combination _ (differences (p t) (q t) (at_time f t)) eq_refl) as [(d & D) | O]; [| destruct (N (proj2 (meet_iff _ _ _) O))].
+  intros Cp Cq Cf N.
+  destruct (direction_or_combination _ (differences (p t) (q t) (at_time f t)) eq_refl) as [(d & D) | O];
+    [| destruct (N (proj2 (meet_iff _ _ _) O))].
   pose (between (x y : path) (t : R) := minus (x t) (y t)).
   pose (ws := [between p (x_of f); between p (y_of f); between p (z_of f);
     between q (x_of f); between q (y_of f); between q (z_of f)]).
