@@ -371,33 +371,29 @@ Proof.
   rewrite IH. cbn [length]. simpl pow. ring.
 Qed.
 
+Lemma half_is_positive f u : 0 < at_u (2 * u - 1) (half f) -> 0 < at_u u f.
+Proof.
+  unfold at_u. rewrite (proj1 (half_value _ _ _)). intros H. destruct f as [| c f]; [cbn [value] in H; lra |].
+  replace (1 - (2 * u - 1)) with (2 * (1 - u)) in H by ring.
+  replace (2 * (1 - u) + 2 * (2 * u - 1)) with (2 * u) in H by ring.
+  rewrite value_homogeneous in H. assert (0 < 2 ^ length f) by (apply pow_lt; lra). nra.
+Qed.
+
 Theorem is_positive_sound n : forall f u, is_positive n f = true -> 0 <= u <= 1 -> 0 < at_u u f.
 Proof.
-  unfold at_u.
-  induction n as [| n IH]; intros f u E Hu; cbn [is_positive] in E;
-    apply andb_prop in E as [E Hall]; apply andb_prop in E as [Hhd Hlast];
-    apply Z.ltb_lt in Hhd, Hlast; (destruct f as [| c f]; [discriminate Hhd |]); cbn [hd] in Hhd.
-  all: assert (Hplain : forallb (Z.leb 0) (c :: f) = true -> 0 < value (c :: f) (1 - u) u).
-  1,3: intros E; destruct (Req_dec u 1) as [-> | Hne];
+  induction n as [| n IH]; intros f u E Hu; cbn [is_positive] in E; rewrite !andb_true_iff, orb_true_iff in E;
+    destruct E as ((Hhd & Hlast) & Hall); apply Z.ltb_lt in Hhd, Hlast; (destruct f as [| c f]; [discriminate Hhd |]).
+  all: assert (Hplain : forallb (Z.leb 0) (c :: f) = true -> 0 < at_u u (c :: f)).
+  1,3: unfold at_u; intros E; destruct (Req_dec u 1) as [-> | Hne];
     [ replace (1 - 1) with 0 by ring; rewrite value_at_end; apply IZR_lt; exact Hlast
     | cbn [forallb] in E; apply andb_prop in E as [_ E]; cbn [value];
       pose proof (value_nonnegative (1 - u) u ltac:(lra) ltac:(lra) f E);
-      pose proof (pow_lt (1 - u) (length f) ltac:(lra)); apply IZR_lt in Hhd; nra ].
-  - rewrite orb_false_r in Hall. exact (Hplain Hall).
-  - apply orb_prop in Hall as [Hall | Hall]; [exact (Hplain Hall) |].
-    apply andb_prop in Hall as [Hup Hdown].
-    assert (Hpow : 0 < 2 ^ length f) by (apply pow_lt; lra).
-    destruct (Rle_dec (1 / 2) u) as [Hhalf | Hhalf].
-    + specialize (IH _ (2 * u - 1) Hup ltac:(lra)).
-      rewrite (proj1 (half_value _ _ _)) in IH.
-      replace (1 - (2 * u - 1)) with (2 * (1 - u)) in IH by ring.
-      replace (2 * (1 - u) + 2 * (2 * u - 1)) with (2 * u) in IH by ring.
-      rewrite value_homogeneous in IH. nra.
-    + specialize (IH _ (1 - 2 * u) Hdown ltac:(lra)).
-      rewrite (proj1 (half_value _ _ _)), value_rev in IH.
-      replace (1 - (1 - 2 * u) + 2 * (1 - 2 * u)) with (2 * (1 - u)) in IH by ring.
-      replace (1 - (1 - 2 * u)) with (2 * u) in IH by ring.
-      rewrite value_homogeneous in IH. nra.
+      pose proof (pow_lt (1 - u) (length f) ltac:(lra)); apply IZR_lt in Hhd; cbn [hd] in Hhd; nra ].
+  all: destruct Hall as [Hall | Hall]; [exact (Hplain Hall) |]; try discriminate Hall.
+  apply andb_prop in Hall as [Hup Hdown]. destruct (Rle_dec (1 / 2) u).
+  - apply half_is_positive, (IH _ _ Hup). lra.
+  - replace (at_u u (c :: f)) with (at_u (1 - u) (rev (c :: f)))
+      by (unfold at_u; rewrite value_rev; f_equal; ring). apply half_is_positive, (IH _ _ Hdown). lra.
 Qed.
 
 (** ** Zero at a root

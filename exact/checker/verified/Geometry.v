@@ -248,6 +248,20 @@ Proof.
     + rewrite E. unfold dot, origin. cbn [x_of y_of z_of]. lra.
 Qed.
 
+(** A point of the polygon, as a + (p e + q f) / m. *)
+Lemma point_of_quotients a e f m p q : 0 < m ->
+  times m (plus (plus a (times (p / m) e)) (times (q / m) f)) =
+  plus (plus (times m a) (times p e)) (times q f).
+Proof. intros Hm. by_components. f_equal; field; lra. Qed.
+
+Lemma expansion a b c x :
+  plus (plus (times (dot x (cross b c)) a) (times (dot x (cross c a)) b)) (times (dot x (cross a b)) c) =
+  times (dot a (cross b c)) x.
+Proof. by_components. f_equal; ring. Qed.
+
+Lemma square_of_times k a : dot (times k a) (times k a) = k * k * dot a a.
+Proof. by_components. ring. Qed.
+
 (** Face: the foot of the perpendicular in the polygon's plane is a + u e + v f. *)
 Lemma foot_in_plane a e f D :
   let n := cross e f in
@@ -256,23 +270,11 @@ Lemma foot_in_plane a e f D :
   0 < dot n n -> dot n a * dot n a <= D * D * dot n n ->
   let x := plus (plus a (times u e)) (times v f) in dot x x <= D * D.
 Proof.
-  intros n u v Hn Hd x.
-  assert (Ex : times (dot n n) x = times (dot n a) n).
-  { assert (Eu : dot n n * u = dot n (cross f a)) by (unfold u; field; lra).
-    assert (Ev : dot n n * v = dot n (cross a e)) by (unfold v; field; lra).
-    unfold x. clearbody u v.
-    replace (times (dot n n) (plus (plus a (times u e)) (times v f))) with
-      (plus (plus (times (dot n n) a) (times (dot n n * u) e)) (times (dot n n * v) f))
-      by (unfold plus, times; cbn [x_of y_of z_of]; f_equal; ring).
-    rewrite Eu, Ev. unfold n. clear. by_components. f_equal; ring. }
-  clearbody x. clear u v.
-  assert (dot n n * dot n n * dot x x = dot n a * dot n a * dot n n) as E.
-  { replace (dot n n * dot n n * dot x x) with (dot (times (dot n n) x) (times (dot n n) x))
-      by (generalize (dot n n); intros; clear; by_components; ring).
-    rewrite Ex. generalize (dot n a). intros. clear. generalize n. intros m. by_components. ring. }
-  apply (Rmult_le_reg_l (dot n n * dot n n)); [nra |]. rewrite E.
-  replace (dot n n * dot n n * (D * D)) with (D * D * dot n n * dot n n) by ring.
-  apply Rmult_le_compat_r; lra.
+  intros n u v Hn Hd x. assert (Ex : times (dot n n) x = times (dot a n) n).
+  { unfold x, u, v. rewrite point_of_quotients by exact Hn. exact (expansion a e f n). }
+  apply (f_equal (fun y => dot y y)) in Ex. cbv beta in Ex. rewrite !square_of_times in Ex.
+  replace (dot a n) with (dot n a) in Ex by (unfold dot; ring).
+  apply (Rmult_le_reg_l (dot n n * dot n n)); [nra |]. rewrite Ex. nra.
 Qed.
 
 Lemma quotient_in_unit x m : 0 < m -> 0 <= x <= m -> 0 <= x / m <= 1.
@@ -337,12 +339,6 @@ Proof.
   eexists. split; [| exact P]. exact (polygon_point H a b c f rest _ _ _ I Hn Hfa Hab Hr).
 Qed.
 
-(** A point of a norm of at most D in linf, as the polygon's point a + (p e + q f) / m. *)
-Lemma point_of_quotients a e f m p q : 0 < m ->
-  times m (plus (plus a (times (p / m) e)) (times (q / m) f)) =
-  plus (plus (times m a) (times p e)) (times q f).
-Proof. intros Hm. by_components. f_equal; field; lra. Qed.
-
 Lemma corners_are_polygon q t : is_polygon (corners q t).
 Proof.
   unfold corners. destruct (kind_of q); cbn [is_polygon]; [exact I |].
@@ -360,8 +356,7 @@ Lemma length_times n k a : 0 <= k -> length_of n (times k a) = k * length_of n a
 Proof.
   intros Hk. destruct n; cbn [length_of times x_of y_of z_of].
   - rewrite !Rabs_mult, (Rabs_right k) by lra. rewrite !RmaxRmult by exact Hk. reflexivity.
-  - replace (dot (times k a) (times k a)) with (k * k * dot a a) by (by_components; ring).
-    rewrite sqrt_mult; [| nra | apply square_nonnegative]. rewrite sqrt_square by exact Hk. reflexivity.
+  - rewrite square_of_times, sqrt_mult; [| nra | apply square_nonnegative]. rewrite sqrt_square by exact Hk. reflexivity.
 Qed.
 
 (** The hull, enlarged. *)
@@ -371,7 +366,8 @@ Definition enlarged (k : R) (q : query) (t : R) (x : vector) : Prop :=
 Lemma enlarged_is_convex k q t : convex (enlarged k q t).
 Proof.
   intros a b c i j l (x & Hx & ->) (y & Hy & ->) (z & Hz & ->) Hi Hj Hl E.
-  exists (plus (plus (times i x) (times j y)) (times l z)). split; [apply hull_is_convex; assumption |]. clear. by_components. f_equal; ring.
+  exists (plus (plus (times i x) (times j y)) (times l z)).
+  split; [apply hull_is_convex; assumption |]. clear. by_components. f_equal; ring.
 Qed.
 
 Lemma enlarged_has_corners k q t w : In w (map (times k) (corners q t)) -> enlarged k q t w.

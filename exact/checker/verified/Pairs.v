@@ -207,23 +207,19 @@ Qed.
 (** True if P is true at all times close to t. *)
 Definition around (t : R) (P : R -> Prop) : Prop := exists d, 0 < d /\ forall s, Rabs (s - t) < d -> P s.
 
-Lemma around_both t P Q : around t P -> around t Q -> around t (fun s => P s /\ Q s).
-Proof.
-  intros (d & Hd & HP) (e & He & HQ). exists (Rmin d e). split; [apply Rmin_pos; assumption |].
-  intros s Hs. pose proof (Rmin_l d e). pose proof (Rmin_r d e). split; [apply HP | apply HQ]; lra.
-Qed.
-
-Lemma around_close t f e : continuity_pt f t -> 0 < e -> around t (fun s => Rabs (f s - f t) < e).
-Proof.
-  intros C He. destruct (C e He) as (d & Hd & H). exists d. split; [exact Hd |]. intros s Hs.
-  destruct (Req_dec t s) as [-> | N]; [rewrite Rminus_diag_eq, Rabs_R0; auto |].
-  apply H. split; [split; [exact I | exact N] | exact Hs].
-Qed.
-
 Lemma around_positive t f : continuity_pt f t -> 0 < f t -> around t (fun s => 0 < f s).
 Proof.
-  intros C H. destruct (around_close t f (f t) C H) as (d & Hd & D). exists d. split; [exact Hd |].
-  intros s Hs. specialize (D s Hs). apply Rabs_def2 in D. lra.
+  intros C H. destruct (C (f t) H) as (d & Hd & D). exists d. split; [exact Hd |]. intros s Hs.
+  destruct (Req_dec t s) as [<- | N]; [exact H |].
+  specialize (D s (conj (conj I N) Hs)). apply Rabs_def2 in D. lra.
+Qed.
+
+Lemma around_all t (fs : list (R -> R)) : Forall (fun f => continuity_pt f t /\ 0 < f t) fs ->
+  around t (fun s => Forall (fun f => 0 < f s) fs).
+Proof.
+  induction 1 as [| f fs (C & P) _ (e & He & A)]; [exists 1; split; [lra | constructor] |].
+  destruct (around_positive t f C P) as (d & Hd & B). exists (Rmin d e). split; [apply Rmin_pos; assumption |].
+  intros s Hs. pose proof (Rmin_l d e). pose proof (Rmin_r d e). constructor; [apply B | apply A]; lra.
 Qed.
 
 Ltac continuous := cbv beta; repeat match goal with
@@ -281,16 +277,12 @@ Proof.
   pose (V := fun t => v + det (e1 t) (e2 t) (r t) / d t).
   change (continuity_pt S t) in CS. change (continuity_pt U t) in CU. change (continuity_pt V t) in CV.
   change (S t = s) in ES. change (U t = u) in EU. change (V t = v) in EV.
-  destruct (around_both _ _ _ (around_both _ _ _ (around_positive t S CS ltac:(lra))
-      (around_both _ _ _ (around_positive t U CU ltac:(lra)) (around_positive t V CV ltac:(lra))))
-    (around_both _ _ _ (around_positive t (fun t => 1 - S t) ltac:(continuous) ltac:(lra))
-      (around_both _ _ _ (around_positive t (fun t => 1 - U t - V t) ltac:(continuous) ltac:(lra))
-        (around_positive t (fun t => d t * d t) ltac:(continuous) ltac:(apply Rsqr_pos_lt; exact D)))))
-    as (e & He & A).
-  exists e. split; [exact He |]. intros t' Ht. specialize (A t' Ht) as ((? & ? & ?) & ? & ? & P).
+  destruct (around_all t [S; U; V; fun t => 1 - S t; fun t => 1 - U t - V t; fun t => d t * d t]) as (e & He & A).
+  { repeat (apply Forall_cons; [split; [continuous | first [lra | apply Rsqr_pos_lt, D]] |]). apply Forall_nil. }
+  exists e. split; [exact He |]. intros t' Ht. specialize (A t' Ht). for_each.
   exists (segment_point (p t') (q t') (S t')). split; [exists (S t'); split; [lra | reflexivity] |].
   exists (U t'), (V t'). split; [lra |].
-  assert (Dt : d t' <> 0) by (intros Z; rewrite Z in P; lra).
+  assert (Dt : d t' <> 0) by (intros Z; rewrite Z in *; lra).
   pose proof (cramer (e1 t') (e2 t') (e3 t') (r t') Dt) as K. clear - K. unfold S, U, V, d in *.
   set (k := det (r t') _ _ / _) in *. set (l := det _ (r t') _ / _) in *. set (m := det _ _ (r t') / _) in *.
   unfold combination_of_three, e1, e2, e3, r in K. clearbody k l m. by_coordinates. injection K as Kx Ky Kz. f_equal; lra.
@@ -385,35 +377,27 @@ Proof.
     cbn [combination] in E. by_coordinates. injection E as Ex Ey Ez. f_equal; lra.
 Qed.
 
-Lemma around_all t d (ws : list path) : (forall w, In w ws -> continuous_at t w /\ 0 < dot d (w t)) ->
-  around t (fun t' => forall w, In w ws -> 0 < dot d (w t')).
-Proof.
-  induction ws as [| w ws IH]; intros H; [exists 1; split; [lra | intros ? ? ? []] |].
-  destruct (H w (or_introl eq_refl)) as ((Cx & Cy & Cz) & P).
-  destruct (around_both t _ _ (around_positive t (fun t => dot d (w t)) ltac:(unfold dot; continuous) P)
-    (IH (fun v I => H v (or_intror I)))) as (e & He & A).
-  exists e. split; [exact He |]. intros s Hs. destruct (A s Hs). intros v [<- | I]; auto.
-Qed.
-
 Lemma apart_is_open (p q : path) (f : triple path) t :
   continuous_at t p -> continuous_at t q -> (forall v, vertex_of f v -> continuous_at t v) ->
   ~ meet (on_segment (p t) (q t)) (on_triangle (at_time f t)) ->
   around t (fun t' => ~ meet (on_segment (p t') (q t')) (on_triangle (at_time f t'))).
 Proof.
-  intros Cp Cq Cf N. destruct (direction_or_combination _ (differences (p t) (q t) (at_time f t)) eq_refl) as [(d & D) | O]; [| destruct (N (proj2 (meet_iff _ _ _) O))].
+  intros Cp Cq Cf N.
+  destruct (direction_or_combination _ (differences (p t) (q t) (at_time f t)) eq_refl) as [(d & D) | O];
+    [| destruct (N (proj2 (meet_iff _ _ _) O))].
   pose (between (x y : path) (t : R) := minus (x t) (y t)).
   pose (ws := [between p (x_of f); between p (y_of f); between p (z_of f);
     between q (x_of f); between q (y_of f); between q (z_of f)]).
   assert (Ew : forall t', differences (p t') (q t') (at_time f t') = map (fun w => w t') ws) by reflexivity.
-  destruct (around_all t d ws) as (e & He & A).
-  { intros w I. split; [| apply D; rewrite Ew; apply (in_map (fun w => w t) ws w I)].
+  destruct (around_all t (map (fun w t => dot d (w t)) ws)) as (e & He & A).
+  { apply Forall_map, Forall_forall. intros w I. split; [| apply D; rewrite Ew; apply (in_map (fun w => w t) ws w I)].
     destruct (Cf (x_of f) (or_introl eq_refl)) as (? & ? & ?), (Cf (y_of f) (or_intror (or_introl eq_refl))) as (? & ? & ?),
       (Cf (z_of f) (or_intror (or_intror eq_refl))) as (? & ? & ?), Cp as (? & ? & ?), Cq as (? & ? & ?).
-    cbn [In ws] in I. unfold continuous_at.
-    repeat destruct I as [<- | I]; try contradiction; unfold between, minus; cbn [x_of y_of z_of]; repeat split; continuous. }
+    cbn [In ws] in I. repeat destruct I as [<- | I]; try contradiction; unfold dot, between, minus; cbn [x_of y_of z_of]; continuous. }
   exists e. split; [exact He |]. intros t' Ht M. apply meet_iff in M as (weights & L & P & S & E). rewrite Ew in L, E.
+  specialize (A t' Ht). rewrite Forall_map, Forall_forall in A.
   destruct (combination_is_beyond d 0 (map (fun w => w t') ws)) with (weights := weights) as [_ B]; try assumption.
-  - intros w I. apply in_map_iff in I as (v & <- & I). exact (A t' Ht v I).
+  - intros w I. apply in_map_iff in I as (v & <- & I). exact (A v I).
   - rewrite S, E in B. specialize (B ltac:(lra)). unfold dot, origin in B. cbn [x_of y_of z_of] in B. lra.
 Qed.
 

@@ -11,24 +11,19 @@ Definition vector_at (u : R) (a : vector_form) : vector :=
   Triple (at_u u (x_of a)) (at_u u (y_of a)) (at_u u (z_of a)).
 
 Ltac forms := rewrite ?at_u_add, ?at_u_sub, ?at_u_mul, ?at_u_scale, ?at_u_constant.
+Ltac by_forms := unfold vector_at, f_minus, f_plus, f_times, f_opposite, f_dot, f_cross, minus, plus, times, dot, cross;
+  cbn [x_of y_of z_of]; try f_equal; forms; ring.
 
 Section AtU.
 Variable u : R.
 
-Lemma at_minus a b : vector_at u (f_minus a b) = minus (vector_at u a) (vector_at u b).
-Proof. unfold vector_at, f_minus, minus. cbn [x_of y_of z_of]. f_equal; forms; ring. Qed.
-Lemma at_plus a b : vector_at u (f_plus a b) = plus (vector_at u a) (vector_at u b).
-Proof. unfold vector_at, f_plus, plus. cbn [x_of y_of z_of]. f_equal; forms; ring. Qed.
-Lemma at_times k a : vector_at u (f_times k a) = times (at_u u k) (vector_at u a).
-Proof. unfold vector_at, f_times, times. cbn [x_of y_of z_of]. f_equal; forms; ring. Qed.
-Lemma at_opposite a : vector_at u (f_opposite a) = times (-1) (vector_at u a).
-Proof. unfold vector_at, f_opposite, times. cbn [x_of y_of z_of]. f_equal; forms; simpl; ring. Qed.
-Lemma at_dot a b : at_u u (f_dot a b) = dot (vector_at u a) (vector_at u b).
-Proof. unfold vector_at, f_dot, dot. cbn [x_of y_of z_of]. forms. ring. Qed.
-Lemma at_cross a b : vector_at u (f_cross a b) = cross (vector_at u a) (vector_at u b).
-Proof. unfold vector_at, f_cross, cross. cbn [x_of y_of z_of]. f_equal; forms; ring. Qed.
-Lemma at_component k a : at_u u (component k a) = component k (vector_at u a).
-Proof. destruct k; reflexivity. Qed.
+Lemma at_minus a b : vector_at u (f_minus a b) = minus (vector_at u a) (vector_at u b). Proof. by_forms. Qed.
+Lemma at_plus a b : vector_at u (f_plus a b) = plus (vector_at u a) (vector_at u b). Proof. by_forms. Qed.
+Lemma at_times k a : vector_at u (f_times k a) = times (at_u u k) (vector_at u a). Proof. by_forms. Qed.
+Lemma at_opposite a : vector_at u (f_opposite a) = times (-1) (vector_at u a). Proof. by_forms. Qed.
+Lemma at_dot a b : at_u u (f_dot a b) = dot (vector_at u a) (vector_at u b). Proof. by_forms. Qed.
+Lemma at_cross a b : vector_at u (f_cross a b) = cross (vector_at u a) (vector_at u b). Proof. by_forms. Qed.
+Lemma at_component k a : at_u u (component k a) = component k (vector_at u a). Proof. destruct k; reflexivity. Qed.
 End AtU.
 
 (** ** Numbers *)
@@ -197,15 +192,19 @@ Definition is_moment (ms : interval) (u k t : R) : Prop :=
   0 < k /\ at_u u (fst ms) = k * (1 - t) /\ at_u u (snd ms) = k * t /\
   fst ms <> [] /\ length (fst ms) = length (snd ms).
 
+Ltac by_common_multiple ts := let m := fresh "m" in
+  unfold moments; generalize (common_multiple ts); intros m; destruct (_ && _) eqn:E; [| discriminate];
+  cbn [forallb] in E; rewrite !andb_true_iff in E; destruct E as (Em & E); apply Z.ltb_lt, IZR_lt in Em;
+  intros H; inversion H; exists (IZR m); unfold is_moment; cbn [map fst snd];
+  rewrite ?at_u_linear, ?at_u_constant, !minus_IZR, !scaled_is_multiple by tauto;
+  repeat split; try exact Em; try discriminate; ring.
+
 Lemma moments_at_u a b ms u : moments [a; b] = Some ms ->
   exists k, is_moment ms u k ((1 - u) * Q2R a + u * Q2R b).
-Proof.
-  unfold moments. generalize (common_multiple [a; b]). intros m. destruct (_ && _) eqn:E; [| discriminate].
-  cbn [forallb] in E. rewrite !andb_true_iff in E. destruct E as (Em & Ea & Eb & _).
-  apply Z.ltb_lt, IZR_lt in Em. intros H. inversion H; subst ms; clear H.
-  exists (IZR m). unfold is_moment. cbn [map fst snd]. rewrite !at_u_linear, !minus_IZR, !scaled_is_multiple by assumption.
-  repeat split; try exact Em; try discriminate; ring.
-Qed.
+Proof. by_common_multiple [a; b]. Qed.
+
+Lemma moments_of_time a ms : moments [a] = Some ms -> exists k, is_moment ms 0 k (Q2R a).
+Proof. by_common_multiple [a]. Qed.
 
 Lemma moments_of_interval a b ms t : moments [a; b] = Some ms -> Q2R a <= t <= Q2R b ->
   exists u k, 0 <= u <= 1 /\ is_moment ms u k t.
@@ -216,15 +215,6 @@ Proof.
     exists ((t - Q2R a) / (Q2R b - Q2R a)). split; [| field; lra].
     apply quotient_in_unit; lra. }
   exists u. destruct (moments_at_u a b ms u E) as (k & M). exists k. split; assumption.
-Qed.
-
-Lemma moments_of_time a ms : moments [a] = Some ms -> exists k, is_moment ms 0 k (Q2R a).
-Proof.
-  unfold moments. generalize (common_multiple [a]). intros m. destruct (_ && _) eqn:E; [| discriminate].
-  cbn [forallb] in E. rewrite !andb_true_iff in E. destruct E as (Em & Ea & _).
-  apply Z.ltb_lt, IZR_lt in Em. intros H. inversion H; subst ms; clear H.
-  exists (IZR m). unfold is_moment. cbn [map fst snd]. rewrite !at_u_constant, !minus_IZR, !scaled_is_multiple by assumption.
-  repeat split; try exact Em; try discriminate; ring.
 Qed.
 
 (** The time of an event is a root of the form g, or the start. *)

@@ -4,7 +4,8 @@
 Require Import ZArith QArith Qreals Reals List Lia Lra.
 Import ListNotations.
 Require FunctionalExtensionality.
-Require Import Verified.Problem Verified.StepProblem Verified.Geometry Verified.Checker Verified.Proof Verified.Step Verified.StepProof Verified.Pairs.
+Require Import Verified.Problem Verified.StepProblem Verified.Geometry Verified.Checker
+  Verified.Proof Verified.Step Verified.StepProof Verified.Pairs.
 Open Scope R_scope.
 
 Lemma on_edge a b x : on_segment a b x -> is_convex_combination x [a; b].
@@ -78,7 +79,8 @@ Proof.
     refine (free_at_start _ [x_of f; y_of f; z_of f] z E _ _ Z1 Z2); [exists (x_of f), (y_of f), (z_of f); auto |].
     intros u Iu Iv. apply (M u); [| apply In3, Iv]. cbn in Iu. cbn. lia.
   - intros v w f t' (v' & w' & E & _ & I) Hf M Ht' (z & y' & <- & (u & u' & D & ->) & L').
-    refine (can_collide_here [v] [x_of f; y_of f; z_of f] _ _ _ _ t' Ht' (ex_intro _ u (ex_intro _ u' (conj D L')))); try discriminate.
+    refine (can_collide_here [v] [x_of f; y_of f; z_of f] _ _ _ _ t' Ht' (ex_intro _ u (ex_intro _ u' (conj D L'))));
+      try discriminate.
     + intros r [<- | []] Ir. apply M, In3, Ir.
     + left. split; [| exists (x_of f), (y_of f), (z_of f); auto]. exists v. split; [reflexivity |]. right.
       injection E as Ev Ew. destruct I as [I | I]; do 2 eexists; (split; [exact I | lia]).

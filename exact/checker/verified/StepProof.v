@@ -55,7 +55,8 @@ Qed.
 Lemma in_sides s e : In e (side_list s) <-> In e (sides s).
 Proof.
   unfold side_list, sides. cut (forall fs l, In e (fold_left (fun l t => let '(a, b, c) := t in
-    (a, b) :: (b, c) :: (c, a) :: l) fs l) <-> In e l \/ In e (flat_map (fun f => let '(a, b, c) := f in [(a, b); (b, c); (c, a)]) fs)).
+    (a, b) :: (b, c) :: (c, a) :: l) fs l) <->
+    In e l \/ In e (flat_map (fun f => let '(a, b, c) := f in [(a, b); (b, c); (c, a)]) fs)).
   { intros H. rewrite H. cbn. tauto. }
   induction fs as [| [[a b] c] fs IH]; intros l; cbn [fold_left flat_map app In]; [tauto |]. rewrite IH. cbn [In]. tauto.
 Qed.
@@ -205,7 +206,8 @@ Proof.
       + destruct C as [-> | ->]; exact H.
       + destruct (no_end_of_line s v a b P I N C). }
   apply orb_prop in E as [E | E]; [apply (A _ (fun H => H) E) |].
-  apply (A (fun v => has m v || has (ends (line_list s)) v)) in E; [exact E |]. intros H. apply orb_prop in H as [H | H]; [exact H |].
+  apply (A (fun v => has m v || has (ends (line_list s)) v)) in E; [exact E |].
+  intros H. apply orb_prop in H as [H | H]; [exact H |].
   apply ends_sound in H as (a & b & I & N & D). destruct (no_end_of_line s v a b P I N D).
 Qed.
 

@@ -21,7 +21,7 @@ failed_proof() {
 }
 
 cp "$sources"/*.v .
-for file in Problem StepProblem Form Geometry Checker Step Proof Pairs Inversion StepProof; do
+for file in Problem StepProblem Form Geometry Checker Step Proof Pairs Inversion StepProof StepPairs; do
   compile "$file.v" || { echo "verified_faults.sh: $file.v does not compile without a fault" >&2; cat output.txt >&2; exit 1; }
 done
 mkdir sound
