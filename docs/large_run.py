@@ -1,6 +1,6 @@
 """The large run of docs/results.md: at least sixty million recorded queries, and all steps of a simulation, in pieces.
 
-`./run results large` records what `./run simulate` asks of collision detection, converts it into a store of shards, and judges
+`./run results large` records what `./run simulate` asks of collision detection, splits it into shards, and judges
 it and the steps by the recipe for GNU parallel of examples/cluster, whose workers are killed on the way. It takes about an hour
 on two cores, and 50 GB in build/large.
 """
@@ -21,6 +21,7 @@ import cluster  # noqa: E402  (the test of the same recipes)
 SCENES = ["two-heads", "chain-of-rings", "dimpled-ball", "draped-cloth", "twisting-mat --steps 200"]
 LIMIT = 40000  # of queries of a kind in a motion
 FEWEST = 60_000_000
+SHARD = 1_000_000  # queries
 # The methods that answer all queries; the others answer as many of each shard as these seconds for all of them allow.
 ON_ALL = ["certified", "tight_inclusion", "tccd"]
 SAMPLED = ["irf", "uirf", "fprf", "rp", "rrp", "bsc", "msrf", "accd"]
@@ -75,6 +76,21 @@ def in_one_run(command, options, out):
     return json.loads(out.read_text())
 
 
+def split(file, folder):
+    """Write the arrays and labels of a file as shards into a folder. Return their sizes."""
+    import numpy  # which checking the documents does not need
+
+    queries = numpy.load(file, mmap_mode="r")
+    labels = json.loads((file.parent / "mma_bool" / f"{file.stem}_mma_bool.json").read_text())
+    (folder / "mma_bool").mkdir(parents=True, exist_ok=True)
+    starts = range(0, len(queries), SHARD)
+    for i, start in enumerate(starts):
+        name = f"{file.stem}-{i:05}"
+        (folder / "mma_bool" / f"{name}_mma_bool.json").write_text(json.dumps(labels[start:start + SHARD]))
+        numpy.save(folder / f"{name}.npy", queries[start:start + SHARD])
+    return [min(SHARD, len(queries) - start) for start in starts]
+
+
 def measure(options, run):
     """The rows of docs/data/large.json. \\param run: runs a command, and raises if it fails"""
     place = options.recorded.with_name("large")
@@ -90,26 +106,22 @@ def measure(options, run):
             run([simulator, *words, "--record", recorded, "--record-limit", str(LIMIT), "--npy", *out, "--json",
                  done.with_suffix(".part")])
             done.with_suffix(".part").rename(done)
-    if not (store / "manifest.json").exists():
-        print(f"touchstone convert {recorded} --out {store}", flush=True)
-        run([options.tool, "convert", recorded, "--out", store, "--source", "simulate " + ", ".join(SCENES), "--licence", "MIT"])
-    manifest = json.loads((store / "manifest.json").read_text())
-    if manifest["queries"] < FEWEST and not options.quick:
-        raise RuntimeError(f"only {manifest['queries']:,} queries were recorded")
+    sizes = [split(file, store / file.parent.name) for file in sorted(recorded.glob("*/*.npy"))]
+    if sum(map(sum, sizes)) < FEWEST and not options.quick:
+        raise RuntimeError(f"only {sum(map(sum, sizes)):,} queries were recorded")
     judging = ["certify", store, *(word for name in ON_ALL for word in ("--method", name))]
     sampling = ["certify", store, *(word for name in SAMPLED for word in ("--method", name)), "--seconds",
                 str(2 if options.quick else SECONDS_OF_SAMPLES)]
     stepping = ["step", frames, "--earliest"]
     runs = []
-    for name, command, pieces in (("judged", judging, len(manifest["shards"])),
+    for name, command, pieces in (("judged", judging, sum(map(len, sizes))),
                                   ("stepped", stepping, len(list(frames.glob("*.ply"))) - 1)):
         print(f"touchstone {' '.join(map(str, command))} in {pieces} pieces", flush=True)
         row = in_pieces(command, pieces, place / name, options)
         row["pieces"] = pieces
         if name == "judged":
             pieces_ = [json.loads(file.read_text()) for file in sorted((place / name).glob("[0-9]*.json"))]
-            row |= {"ns": oracle_and_methods(pieces_), "bytes": sum(file["bytes"] for shard in manifest["shards"]
-                                                                    for file in shard["files"])}
+            row |= {"ns": oracle_and_methods(pieces_), "bytes": sum(file.stat().st_size for file in store.rglob("*") if file.is_file())}
         else:
             steps = [piece["result"]["steps"][0] for piece in row.pop("result")["pieces"]]
             row["result"] = {"steps": len(steps), "colliding": sum(not step["free"] for step in steps)}

@@ -90,7 +90,7 @@ constexpr std::string_view layer_lines = R"(
   verify/report/: verify/report/ verify/base/ verify/data/ verify/generate/ verify/io/ verify/jobs/ verify/judge/ verify/mesh/ verify/solvers/ REST
   verify/view/: verify/view/ verify/base/ verify/data/ verify/io/ verify/jobs/ verify/judge/ verify/mesh/ verify/report/ verify/solvers/ REST
   verify/playground/: verify/base/ verify/judge/ verify/solvers/ verify/view/ fast/ nlohmann/ emscripten/emscripten.h
-  verify/cli/: verify/cli/ verify/base/ verify/data/ verify/fuzz/ verify/generate/ verify/io/ verify/jobs/ verify/judge/ verify/mesh/ verify/report/ verify/solvers/ verify/view/ REST
+  verify/cli/: verify/cli/ verify/data/ verify/fuzz/ verify/generate/ verify/io/ verify/jobs/ verify/judge/ verify/mesh/ verify/report/ verify/solvers/ verify/view/ REST
 )";
 
 /// Parts of a module that only lines which name them include, not one for the whole module.

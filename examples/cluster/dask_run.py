@@ -4,7 +4,7 @@
 Each shard is a process of its own, so a crash or Python's lock stops no worker. A shard that is killed runs again. With
 the address of a scheduler in DASK_SCHEDULER_ADDRESS its workers are used, otherwise processes of this machine.
 
-Example: dask_run.py run 4 touchstone certify store --json all.json
+Example: dask_run.py run 4 touchstone certify queries --json all.json
 """
 
 import os

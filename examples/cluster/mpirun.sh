@@ -2,7 +2,7 @@
 # mpirun.sh FOLDER WORKERS COMMAND…: a command of touchstone in pieces by mpirun. It ends all ranks when one fails; the
 # run then goes on with the pieces that are left. An engine that starts each part alone serves better.
 #
-# Example: mpirun.sh run 4 touchstone certify store --json all.json
+# Example: mpirun.sh run 4 touchstone certify queries --json all.json
 set -euo pipefail
 folder=$1 workers=$2
 shift 2

@@ -2,7 +2,7 @@
 # parallel.sh FOLDER WORKERS COMMAND…: a command of touchstone in pieces by GNU parallel, on this machine or, with
 # parallel's --sshloginfile, on others with the same file system. Workers that are killed are started again.
 #
-# Example: parallel.sh run 4 touchstone certify store --json all.json
+# Example: parallel.sh run 4 touchstone certify queries --json all.json
 set -euo pipefail
 folder=$1 workers=$2
 shift 2

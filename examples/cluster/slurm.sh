@@ -2,7 +2,7 @@
 # slurm.sh FOLDER WORKERS COMMAND…: a command of touchstone in pieces as an array of Slurm, of at most 1001 tasks where
 # the site has not set MaxArraySize. Tasks that fail are submitted again: only their unfinished pieces are done.
 #
-# Example: slurm.sh run 100 touchstone certify store --json all.json
+# Example: slurm.sh run 100 touchstone certify queries --json all.json
 set -euo pipefail
 folder=$1 workers=$2
 shift 2

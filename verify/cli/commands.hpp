@@ -31,7 +31,6 @@ namespace report_command { void add(CLI::App& app, Status& status); }
 namespace intersections_command { void add(CLI::App& app, Status& status); }
 namespace step_command { void add(CLI::App& app, Status& status); }
 namespace view_command { void add(CLI::App& app, Status& status); }
-namespace convert_command { void add(CLI::App& app, Status& status); }
 namespace merge_command { void add(CLI::App& app, Status& status); }
 namespace derive_command { void add(CLI::App& app, Status& status); }
 // clang-format on
@@ -41,8 +40,8 @@ inline void add_commands(CLI::App& app, Status& status) {
   for (const auto add :
        {certify_command::add, solve_command::add, prove_command::add, generate_command::add,
         step_command::add, intersections_command::add, bench_command::add, fuzz_command::add,
-        convert_command::add, merge_command::add, stability_command::add, report_command::add,
-        view_command::add, derive_command::add}) {
+        merge_command::add, stability_command::add, report_command::add, view_command::add,
+        derive_command::add}) {
     add(app, status);
   }
 }

@@ -44,7 +44,6 @@ std::vector<OptionRow> make_table() {
   return {
       // clang-format off
       // Queries: files, or the built-in set.
-      {"PATH", "", {}, "Files (.csv, .csv.zst, .npy; .npz with an array queries; .obj with eight vertices a query) or folders", "convert", required},
       {"PATH", "", {}, "Datasets (.csv, .npy), also of queries on curves, or folders of them, findings (.json of fuzz), certificates (.cert, .cert.zst), or eight lines of vertices (.obj)", "view", list},
       {"PATH", "", {}, "Dataset files (.csv, .npy) or folders; default: the built-in set", "", list},
       {"--kind", "KIND", kinds, "Only these queries; otherwise vertex-face and edge-edge", "fuzz"},
@@ -54,10 +53,8 @@ std::vector<OptionRow> make_table() {
       {"--kind", "KIND", contact, "vertex-face or edge-edge, if the path does not tell", "report"},
       {"--kind", "KIND", kinds, "vertex-face, edge-edge, or an element, if the path does not tell", "prove"},
       {"--kind", "KIND", kinds, "vertex-face, edge-edge, or an element, if the path does not tell; also: only these of the built-in set"},
-      {"--round", "", {}, "Round coordinates that are not doubles", "convert"},
       {"--round", "", {}, "Round coordinates of datasets that are not doubles", "view"},
       {"--round", "", {}, "Round coordinates that are not doubles, and count them"},
-      {"--keep-going", "", {}, "Skip invalid queries and files (exit status 2)", "convert"},
       {"--keep-going", "", {}, "Skip and count invalid queries and files (exit status 2)"},
       {"--threads", "N", Whole{0, INT_MAX}, "Cores to use (0: all)"},
       {"--seed", "N", Whole{}, "Seed of the queries", "stability"},
@@ -165,14 +162,10 @@ std::vector<OptionRow> make_table() {
       {"--out", "FILE.html", {}, "Write the page", "report"},
       {"--out", "FILE.html", {}, "Write the page", "view", required},
       {"--out", "FOLDER", {}, "Folder to write to", "generate"},
-      {"--out", "STORE", {}, "Folder to create", "convert", required},
       {"--csv", "FILE", {}, "Write a row for each pair, with its place", "intersections"},
       {"--csv", "FILE", {}, "Write a row for each collision"},
       {"--list", "", {}, "List the families with the proofs of their truth"},
       {"--npy", "", {}, "Write float64 arrays of shape (N, 8, 3), on curves (N, K+1, 4, 3) or (N, K+1, 4, 4) with weights, without the truth, instead of CSV"},
-      {"--shard-size", "N", Whole{1}, "Queries of a shard"},
-      {"--source", "TEXT", {}, "Origin of the data, for the manifest"},
-      {"--licence", "TEXT", {}, "Their licence, for the manifest"},
       {"--picture", "FILE.html", {}, "Write the result as an HTML page"},
       {"--from", "FILE.json", {}, "Read the --json file of an earlier run instead of measuring"},
       {"--live", "FILE.js", {}, "Embed the solvers in WebAssembly (./run playground), so that the page decides other queries"},

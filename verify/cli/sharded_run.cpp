@@ -19,11 +19,11 @@
 #include "verify/cli/solver_options.hpp"
 #include "verify/data/dataset.hpp"
 #include "verify/data/ground_truth_files.hpp"
-#include "verify/data/store.hpp"
 #include "verify/generate/families.hpp"
 #include "verify/io/json.hpp"
 #include "verify/io/number_text.hpp"
 #include "verify/io/printable.hpp"
+#include "verify/io/sha256.hpp"
 #include "verify/io/terminal.hpp"
 #include "verify/jobs/pieces.hpp"
 
@@ -76,7 +76,7 @@ Shard shard_of_environment() {
 std::string program() {
   std::string text(version());
   if (!text.ends_with(')') || text.ends_with("-dirty)")) {
-    text += ", SHA-256 " + data::digest_of("/proc/self/exe");
+    text += ", SHA-256 " + io::sha256_of_file("/proc/self/exe");
   }
   return text;
 }
@@ -108,7 +108,7 @@ void set_options(const CLI::App& command, const PieceRun& run, jobs::Plan& plan)
       const bool is_flag = option->get_expected_min() == 0;
       plan.options.push_back(is_flag && value == "true" ? name : fmt::format("{}={}", name, value));
       for (const fs::path& file : files_below(value)) {
-        plan.uses[file.string()] = data::digest_of(file);
+        plan.uses[file.string()] = io::sha256_of_file(file);
       }
     }
   }
@@ -250,19 +250,12 @@ std::vector<jobs::Piece> pieces_of(const SourceArguments& sources) {
   }
   std::set<fs::path> seen;
   for (const fs::path& path : sources.paths) {
-    const std::vector<fs::path> datasets = data::find_datasets({&path, 1});
-    const auto digests = fs::is_directory(path) ? data::store_digests(path, datasets)
-                                                : std::map<fs::path, std::string>();
-    for (const fs::path& file : datasets) {
+    for (const fs::path& file : data::find_datasets({&path, 1})) {
       if (!seen.insert(fs::weakly_canonical(file)).second) continue;
       jobs::Piece piece{
           .name = file.string(), .files = {file}, .arguments = {"--piece", "--", file.string()}};
       for (const fs::path& companion : data::find_ground_truth_files(file)) {
         piece.files.push_back(companion);
-      }
-      for (const fs::path& used : piece.files) {
-        const auto known = digests.find(used.lexically_normal());
-        if (known != digests.end()) piece.digests[used.string()] = known->second;
       }
       pieces.push_back(std::move(piece));
     }

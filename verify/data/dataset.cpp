@@ -15,7 +15,6 @@
 #include "verify/data/csv_dataset.hpp"
 #include "verify/data/npy_dataset.hpp"
 #include "verify/data/obj_dataset.hpp"
-#include "verify/data/store.hpp"
 #include "verify/io/output_file.hpp"
 
 namespace touchstone::verify::data {
@@ -37,7 +36,7 @@ bool is_dataset_name(const fs::path& path) {
 bool is_ground_truth_name(const fs::path& path) {
   const std::string name = path.filename().string();
   return name.ends_with("_toi.csv") || name.ends_with("_mma_bool.json") ||
-         name == "separation.json" || name == manifest_name;
+         name == "separation.json";
 }
 
 /// The search of a folder and all below it. Links to folders are followed after all other folders
@@ -127,7 +126,6 @@ std::vector<fs::path> datasets_below(const fs::path& folder, const LeftOut& on_l
     throw io::DatasetError(where, {}, "cannot read: " + error.code().message());
   }
   if (found.empty()) throw io::DatasetError(folder, {}, "no dataset (.csv, .npy) in this folder");
-  static_cast<void>(store_digests(folder, found));
   return found;
 }
 

@@ -9,13 +9,22 @@ namespace touchstone::verify::fuzz {
 namespace {
 
 /// "(0, 0.5, 1)", with a weight "(0, 0.5, 1; 2)".
-std::string tuple(std::span<const double> point, bool in_hexadecimal) {
+std::string tuple(std::span<const double> point) {
   std::string result;
   for (std::size_t i = 0; i < point.size(); ++i) {
     result += i == 0 ? "(" : i < 3 ? ", " : "; ";
-    result += in_hexadecimal ? fmt::format("{:a}", point[i]) : fmt::format("{}", point[i]);
+    result += fmt::format("{}", point[i]);
   }
   return result + ")";
+}
+
+/// "v", "f0" and so on of a vertex and a triangle, "ea0" and so on of two edges.
+std::string_view point_name(Kind kind, std::size_t point) {
+  static constexpr std::array<std::string_view, moving_points> of_face{"v", "f0", "f1", "f2"};
+  static constexpr std::array<std::string_view, moving_points> of_edges{"ea0", "ea1", "eb0", "eb1"};
+  static constexpr std::array<std::string_view, moving_points> of_element{"a", "b", "c", "d"};
+  if (is_element(kind)) return of_element.at(point);
+  return kind == Kind::vertex_face ? of_face.at(point) : of_edges.at(point);
 }
 
 }  // namespace
@@ -26,15 +35,7 @@ std::string to_text(const QueryShape& shape) {
                      shape.is_rational ? "rational, " : "", shape.degree);
 }
 
-std::string_view point_name(Kind kind, std::size_t point) {
-  static constexpr std::array<std::string_view, moving_points> of_face{"v", "f0", "f1", "f2"};
-  static constexpr std::array<std::string_view, moving_points> of_edges{"ea0", "ea1", "eb0", "eb1"};
-  static constexpr std::array<std::string_view, moving_points> of_element{"a", "b", "c", "d"};
-  if (is_element(kind)) return of_element.at(point);
-  return kind == Kind::vertex_face ? of_face.at(point) : of_edges.at(point);
-}
-
-std::string as_points(const base::AnyQuery& query, bool in_hexadecimal) {
+std::string as_points(const base::AnyQuery& query) {
   const QueryShape& shape = query.shape();
   const std::size_t size = shape.numbers_of_point();
   std::string result;
@@ -42,7 +43,7 @@ std::string as_points(const base::AnyQuery& query, bool in_hexadecimal) {
     result += fmt::format("{:<3}  ", point_name(shape.kind, point));
     for (std::size_t j = 0; j <= shape.degree; ++j) {
       const auto place = query.numbers().subspan((moving_points * j + point) * size, size);
-      result += (j == 0 ? "" : " → ") + tuple(place, in_hexadecimal);
+      result += (j == 0 ? "" : " → ") + tuple(place);
     }
     result += '\n';
   }

@@ -20,12 +20,9 @@ namespace touchstone::verify::fuzz {
 /// "vertex-face" on straight lines, "edge-edge, rational, degree 2" on curves.
 [[nodiscard]] std::string to_text(const QueryShape& shape);
 
-/// "v", "f0" and so on of a vertex and a triangle, "ea0" and so on of two edges.
-[[nodiscard]] std::string_view point_name(Kind kind, std::size_t point);
-
 /// A line a point: its name, and its places at t=0 and t=1 or its control points, each with its
-/// weight. In decimal and in hexadecimal these are the very doubles.
-[[nodiscard]] std::string as_points(const base::AnyQuery& query, bool in_hexadecimal = false);
+/// weight, in decimals that are these very doubles.
+[[nodiscard]] std::string as_points(const base::AnyQuery& query);
 
 /// A query that a solver answers wrongly, its answer, and the truth: all of the same query.
 struct FailingCase {

@@ -31,8 +31,11 @@ struct Zone {
   double high;
 };
 
-/// All of the scene.
+/// All of the scene, its middle, and the zones below and above that.
 inline constexpr Zone anywhere{-3.0, 3.0};
+inline constexpr Zone centre{-0.5, 0.5};
+inline constexpr Zone lower_zone{-3.0, -1.0};
+inline constexpr Zone upper_zone{1.0, 3.0};
 
 /// The t at which two lines are equal, exactly, if there is exactly one in [0,1].
 [[nodiscard]] std::optional<exact::Rational> meeting_time(const Line& a, const Line& b);

@@ -33,10 +33,6 @@ using exact::Rational;
 
 namespace {
 
-constexpr Zone middle_zone{-0.5, 0.5};
-constexpr Zone upper_zone{1.0, 3.0};
-constexpr Zone lower_zone{-3.0, -1.0};
-
 /// The axes that count.
 std::size_t axes_of(const Recipe& recipe) { return recipe.kind == Kind::tetrahedron ? 3 : 2; }
 
@@ -55,7 +51,7 @@ Query draw_points(Sampler& sampler) {
 
 /// A factor of the volume that stays positive, or crosses 0.
 std::array<Line, 2> draw_factor(std::size_t axis, bool crosses, Sampler& sampler) {
-  return {sampler.within(axis, middle_zone),
+  return {sampler.within(axis, centre),
           sampler.from_to(axis, upper_zone, crosses ? lower_zone : upper_zone)};
 }
 
@@ -202,7 +198,7 @@ KnownQuery grazing_volume(Recipe& recipe) {
   const int side = static_cast<int>(recipe.variant % 3) - 1;
   const std::array<std::size_t, 2> others{2, 1};
   for (std::size_t axis = 0; axis < 2; ++axis) {
-    const double start = sampler.draw(axis, middle_zone), other = sampler.draw(axis, upper_zone);
+    const double start = sampler.draw(axis, centre), other = sampler.draw(axis, upper_zone);
     const Line line{start, -start};
     set(query, 0, axis, line);
     set(query, axis + 1, axis, {other, -other});

@@ -26,7 +26,6 @@ enum class Spot : std::uint8_t { interior, edge, corner };
 enum class Offset : std::uint8_t { none, outside, inside };
 
 /// Zones, in units, of every plan.
-inline constexpr Zone centre{-0.5, 0.5};
 inline constexpr Zone right{2.0, 3.0};
 inline constexpr Zone left{-3.0, -2.0};
 

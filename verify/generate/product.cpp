@@ -28,10 +28,6 @@ using exact::Rational;
 
 namespace {
 
-constexpr Zone centre{-0.5, 0.5};
-constexpr Zone positive{1.0, 3.0};
-constexpr Zone negative{-3.0, -1.0};
-
 /// Two lines of one axis; their difference is α, β or γ.
 struct Pair {
   Line base;
@@ -42,15 +38,15 @@ using Pairs = std::array<Pair, 3>;
 /// A pair that meets once in (0,1), or not at all.
 Pair draw_pair(std::size_t axis, bool meets, Sampler& sampler) {
   const bool upward = sampler.random().coin();
-  const Zone& start = upward ? negative : positive;
-  const Zone& end = upward == meets ? positive : negative;
+  const Zone& start = upward ? lower_zone : upper_zone;
+  const Zone& end = upward == meets ? upper_zone : lower_zone;
   return {sampler.within(axis, centre), sampler.from_to(axis, start, end)};
 }
 
 /// A pair that exchanges its values: it meets at t = 1/2, whatever the doubles are.
 Pair draw_swap(std::size_t axis, Sampler& sampler) {
   const double a = sampler.draw(axis, centre);
-  const double b = sampler.draw(axis, positive);
+  const double b = sampler.draw(axis, upper_zone);
   return {{a, b}, {b, a}};
 }
 

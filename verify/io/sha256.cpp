@@ -4,6 +4,8 @@
 #include <bit>
 #include <cstring>
 
+#include "verify/io/input_file.hpp"
+
 namespace touchstone::verify::io {
 namespace {
 
@@ -81,6 +83,14 @@ std::string Sha256::hexadecimal() {
 std::string sha256(std::string_view bytes) {
   Sha256 digest;
   digest.add(bytes);
+  return digest.hexadecimal();
+}
+
+std::string sha256_of_file(const std::filesystem::path& file) {
+  InputFile input(file);
+  Sha256 digest;
+  std::string chunk(std::size_t{1} << 16U, '\0');
+  while (const std::size_t count = input.read(chunk)) digest.add({chunk.data(), count});
   return digest.hexadecimal();
 }
 

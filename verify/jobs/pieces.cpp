@@ -17,7 +17,6 @@
 #include <system_error>
 #include <utility>
 
-#include "verify/data/store.hpp"
 #include "verify/io/dataset_error.hpp"
 #include "verify/io/input_file.hpp"
 #include "verify/io/json.hpp"
@@ -41,6 +40,12 @@ void write_file(const fs::path& path, std::string_view text) {
   io::OutputFile file(path);
   file.write(text);
   file.close();
+}
+
+/// A file as plans and records have it: `file` (the given name), `bytes`, `sha256`.
+/// \throws DatasetError if it cannot be read.
+json described(const fs::path& file, const std::string& name) {
+  return {{"file", name}, {"bytes", fs::file_size(file)}, {"sha256", io::sha256_of_file(file)}};
 }
 
 /// A folder that is removed with this object unless it is to be kept.
@@ -71,10 +76,7 @@ json to_json(const Plan& plan) {
   for (const Piece& piece : plan.pieces) {
     json files = json::array();
     for (const fs::path& file : piece.files) files.push_back(file.string());
-    pieces.push_back({{"name", piece.name},
-                      {"files", files},
-                      {"arguments", piece.arguments},
-                      {"digests", piece.digests}});
+    pieces.push_back({{"name", piece.name}, {"files", files}, {"arguments", piece.arguments}});
   }
   return {{"format", plan_format},   {"program", plan.program}, {"command", plan.command},
           {"options", plan.options}, {"uses", plan.uses},       {"outputs", plan.outputs},
@@ -93,8 +95,7 @@ Plan plan_from_json(const json& source) {
     const std::vector<std::string> files = piece.at("files");
     plan.pieces.push_back({.name = piece.at("name"),
                            .files = {files.begin(), files.end()},
-                           .arguments = piece.at("arguments"),
-                           .digests = piece.at("digests")});
+                           .arguments = piece.at("arguments")});
   }
   return plan;
 }
@@ -233,26 +234,18 @@ fs::path PieceFolder::output(std::size_t piece, std::string_view option) const {
 json PieceFolder::described_inputs(std::size_t piece) const {
   json inputs = json::array();
   for (const fs::path& file : plan_.pieces[piece].files) {
-    inputs.push_back(data::described(file, file.string()));
+    inputs.push_back(described(file, file.string()));
   }
   return inputs;
 }
 
 json PieceFolder::checked_inputs(std::size_t piece) const {
   for (const auto& [file, digest] : plan_.uses) {
-    if (data::digest_of(file) != digest) {
+    if (io::sha256_of_file(file) != digest) {
       throw std::runtime_error(file + ": has changed since the run began");
     }
   }
-  json inputs = described_inputs(piece);
-  const std::map<std::string, std::string>& digests = plan_.pieces[piece].digests;
-  for (const json& input : inputs) {
-    const auto known = digests.find(input.at("file"));
-    if (known != digests.end() && known->second != input.at("sha256")) {
-      throw std::runtime_error(known->first + " is not as the manifest of its store says");
-    }
-  }
-  return inputs;
+  return described_inputs(piece);
 }
 
 int PieceFolder::finish(std::size_t piece, const Work& work) const {
@@ -274,7 +267,7 @@ int PieceFolder::finish(std::size_t piece, const Work& work) const {
   }
   record["status"] = status;
   for (const auto& [option, file] : files) {
-    record["outputs"][option] = data::described(file, file.lexically_relative(folder_).string());
+    record["outputs"][option] = described(file, file.lexically_relative(folder_).string());
   }
   record["sha256"] = io::sha256(record.dump());
   write_file(record_file(piece), io::json_document(record));
@@ -299,7 +292,7 @@ std::string PieceFolder::fault_of(const std::string& text, std::size_t piece) co
     for (const auto& [option, name] : plan_.outputs) {
       const json& output = record.at("outputs").at(option);
       const std::string file = output.at("file");
-      if (output != data::described(folder_ / file, file)) return "its results have changed since";
+      if (output != described(folder_ / file, file)) return "its results have changed since";
     }
     return {};
   } catch (const json::exception&) {

@@ -36,8 +36,6 @@ struct Piece {
   std::vector<std::filesystem::path> files;
   /// The arguments that select this input on the command line.
   std::vector<std::string> arguments;
-  /// The digests that files must have, as far as they are known before.
-  std::map<std::string, std::string> digests = {};
 };
 
 struct Plan {
@@ -72,7 +70,7 @@ class PieceFolder {
   using Work = std::function<int(const std::map<std::string, std::filesystem::path>&)>;
   /// Does the work on a piece, and writes its record if the status is 0 or 1. Returns the status.
   /// \throws std::runtime_error if an input or a file that an option names cannot be read, changes
-  /// meanwhile, or is not as the plan or the manifest of its store says.
+  /// meanwhile, or is not as the plan says.
   int finish(std::size_t piece, const Work& work) const;
 
   /// The reasons why the pieces cannot be merged, a line each that names the piece or file.
@@ -94,7 +92,7 @@ class PieceFolder {
   /// The file that the piece's record names.
   [[nodiscard]] std::filesystem::path output(std::size_t piece, std::string_view option) const;
   [[nodiscard]] nlohmann::json described_inputs(std::size_t piece) const;
-  /// The same, after a check against all known digests. \throws as finish().
+  /// The same, after a check of the files that options name. \throws as finish().
   [[nodiscard]] nlohmann::json checked_inputs(std::size_t piece) const;
   /// The fault of a record; empty if it is valid. \param text of the file
   [[nodiscard]] std::string fault_of(const std::string& text, std::size_t piece) const;

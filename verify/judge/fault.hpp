@@ -73,9 +73,6 @@ inline constexpr std::span all_failures = std::span(all_faults).subspan<4, 7>();
 /// for every error.
 [[nodiscard]] char letter_of(Fault fault, bool is_slight = false);
 
-/// The verb and object behind a solver's name: "misses a collision".
-[[nodiscard]] std::string_view to_phrase(Fault fault);
-
 /// The reason why there is no answer to a query, in detail.
 struct Failure {
   /// \pre is_failure

@@ -192,7 +192,6 @@ const report = (function () {
       `and to the left is better. Dashed: the Pareto front of the methods that miss nothing.${hollow}`, "points",
     ["group", "kind", "method", "tolerance", "ns_per_query", id, "false_negatives", "late_tois", "asked", "at_limit",
       "on_front"], { x_label: "time a query, ns", y_label: yLabel });
-    // (Recorded answers have no times.)
     const placed = (all) => all.filter((m) => !Number.isNaN(error(m)) && !Number.isNaN(m.ns_per_query));
     const addRow = (m, onFront) => made.data.rows.push([m.group, m.kind, m.method, m.tolerance, m.ns_per_query, error(m),
       m.false_negatives, m.late_tois, m.asked, m.at_limit, Number(onFront)]);

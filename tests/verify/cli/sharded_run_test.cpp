@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "tests/support/tool_test.hpp"
-#include "verify/data/store.hpp"
+#include "verify/io/sha256.hpp"
 
 // Kills of a run in pieces; the rest is in tests/transcripts/{merge,pieces}.md.
 
@@ -17,11 +17,11 @@ namespace fs = std::filesystem;
 
 class PieceRuns : public tests::ToolTest {
  protected:
-  /// The words of a run in pieces, on curves of three degrees and a store of many shards on lines.
+  /// The words of a run in pieces, on curves of three degrees and on lines.
   [[nodiscard]] std::vector<std::string> words(const std::string& name) const {
     return {"certify",
             path("curves"),
-            path("store"),
+            path("data"),
             "--resume",
             path(name),
             "--method",
@@ -45,7 +45,7 @@ TEST_F(PieceRuns, AreOfAProgramKnownByItsCommitOrItsDigest) {
   version.pop_back();
   ASSERT_EQ(run({"certify", "--count", "1", "--resume", path("one")}).status, 0);
   const bool is_commit = version.ends_with(')') && !version.ends_with("-dirty)");
-  const std::string digest = data::digest_of(tests::touchstone_program());
+  const std::string digest = io::sha256_of_file(tests::touchstone_program());
   EXPECT_EQ(json("one/plan.json")["program"],
             is_commit ? version : version + ", SHA-256 " + digest);
 }
@@ -60,11 +60,10 @@ TEST_F(PieceRuns, ThatAreKilledGoOn) {
                  "3", "--degree", "rational"})
                 .status,
             0);
-  ASSERT_EQ(run({"convert", path("data"), "--out", path("store"), "--shard-size", "8"}).status, 0);
   ASSERT_EQ(run(words("one")).status, 1);
   const std::string expected = results("one");
   const std::size_t all = json("one/plan.json")["pieces"].size();
-  ASSERT_EQ(all, 32U + 104U);
+  ASSERT_EQ(all, 8U + 104U);
   const auto done = [&] {
     std::size_t count = 0;
     if (!fs::exists(path("killed"))) return count;
