@@ -6,6 +6,8 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <cstdlib>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -29,6 +31,16 @@ Polynomial polynomial(const Quadratic& form) { return {form.begin(), form.end()}
 /// a + b t + c t² + d t³, without roots at t=0 and t=1.
 Polynomial cubic(std::int64_t a, std::int64_t b, std::int64_t c, std::int64_t d) {
   return inner_polynomial(Polynomial{a, 3 * a + b, 3 * a + 2 * b + c, a + b + c + d});
+}
+
+std::uint64_t bits_of(double x) { return std::bit_cast<std::uint64_t>(x); }
+
+/// (m − n t)(x+y), a root at m/n.
+Quadratic root_at(std::int64_t m, std::int64_t n) { return in_time(m, -n, 0); }
+
+double value(const Dyadic& t) {
+  return std::ldexp(t.numerator.approximation().significand,
+                    static_cast<int>(t.numerator.approximation().exponent - t.exponent));
 }
 
 /// The doubles around all roots, from visit_roots.
@@ -72,6 +84,47 @@ TEST(AlgebraicInstant, FindsAllRootsInOrder) {
   const BigInteger one = 1, steep = one << 70, flat = one << 35;
   expect_roots({one, BigInteger(2) - steep - flat, one - steep - flat + steep * flat},
                {0x1p-70, 0x1p-35});
+}
+
+TEST(AlgebraicInstant, KnowsSignsAndZerosOfOtherForms) {
+  // (1 − 2t²): irrational, √½ = 0.70710678…
+  Instant root(cubic(1, 0, -2, 0), {0, 0}, {1, 0});
+  EXPECT_EQ(root.sign_of(in_time(1, 0, -2)), 0);
+  EXPECT_EQ(root.sign_of(in_time(-3, 0, 6)), 0);
+  EXPECT_EQ(root.sign_of(in_time(0, 0, 0)), 0);
+  EXPECT_EQ(root.sign_of(root_at(70710678, 100000000)), -1);
+  EXPECT_EQ(root.sign_of(root_at(70710679, 100000000)), 1);
+  EXPECT_EQ(root.sign_of(root_at(33461, 47321)), 1);   // 2·33461² = 47321² + 1
+  EXPECT_EQ(root.sign_of(root_at(13860, 19601)), -1);  // 2·13860² = 19601² − 1
+  EXPECT_NEAR(root.quotient_of(in_time(0, 1, 0), in_time(1, 0, 0)), std::sqrt(0.5), 0x1p-46);
+  // f = (1−3t)(2−3t); q = (2−3t)(1+t) shares only the other root.
+  Instant first(cubic(2, -9, 9, 0), {0, 0}, {1, 1});
+  EXPECT_EQ(first.sign_of(in_time(2, -1, -3)), 1);
+  EXPECT_EQ(first.sign_of(in_time(1, -2, -3)), 0);  // (1−3t)(1+t)
+}
+
+TEST(AlgebraicInstant, KnowsADyadicRootExactly) {
+  Instant root(cubic(5, -16, 0, 0), {0, 0}, {1, 0});
+  EXPECT_FALSE(root.is_above(bits_of(0.3125)));
+  EXPECT_TRUE(root.is_above(bits_of(std::nextafter(0.3125, 0.0))));
+  EXPECT_EQ(root.sign_of(root_at(5, 16)), 0);
+  EXPECT_EQ(root.sign_of(root_at(5000001, 16000000)), 1);
+}
+
+TEST(AlgebraicInstant, SplitsBetweenTheEndsAndQuicklyTowardsThem) {
+  Dyadic lower{0, 0}, upper{1, 0};
+  int steps = 0;
+  for (; value(upper) > 0x1p-1000; ++steps) upper = split(lower, upper);
+  EXPECT_LE(steps, 12);
+  lower = {1, 1};
+  upper = {1, 0};
+  for (int i = 0; i < 60; ++i) {
+    const Dyadic middle = split(lower, upper);
+    EXPECT_LT(value(lower), value(middle));
+    EXPECT_LT(value(middle), value(upper));
+    (i % 2 == 0 ? lower : upper) = middle;
+    if (value(upper) - value(lower) < 0x1p-50) break;
+  }
 }
 
 TEST(AlgebraicInstant, TellsRootsThatAreHardlyApart) {
@@ -148,6 +201,33 @@ TEST(AlgebraicInstant, NarrowsQuicklyBesideAnyTime) {
   EXPECT_LT(length(root), -11000);
 }
 
+TEST(AlgebraicInstant, ComparesInstants) {
+  Instant a(cubic(1, 0, -2, 0), {0, 0}, {1, 0});   // √½
+  Instant b(cubic(-3, 0, 6, 0), {1, 1}, {3, 2});   // the same
+  Instant c(cubic(-7, 10, 0, 0), {0, 0}, {1, 0});  // 7/10
+  Instant d(Dyadic{3, 2});
+  EXPECT_EQ(compare(a, b), 0);
+  EXPECT_EQ(compare(a, c), 1);
+  EXPECT_EQ(compare(c, a), -1);
+  EXPECT_EQ(compare(a, d), -1);
+  EXPECT_EQ(compare(d, c), 1);
+  EXPECT_EQ(compare(d, d), 0);
+}
+
+TEST(AlgebraicInstant, FindsTheFirstRootLaterThanATime) {
+  const Quadratic f = in_time(2, -9, 9);             // roots at 1/3 and 2/3
+  Instant half(cubic(1, 0, -2, 0), {0, 0}, {1, 0});  // √½, where f > 0
+  EXPECT_FALSE(first_root_after(half, {1, 0}, f).has_value());
+  Instant start(Dyadic{0, 0});
+  auto third = first_root_after(start, {1, 0}, f);
+  ASSERT_TRUE(third.has_value());
+  EXPECT_EQ(third->sign_of(root_at(1, 3)), 0);
+  EXPECT_FALSE(first_root_after(start, {1, 2}, f).has_value());
+  auto end = first_root_after(start, {1, 2}, in_time(1, -4, 0));  // at the limit itself
+  ASSERT_TRUE(end.has_value());
+  EXPECT_EQ(compare(end->lower(), {1, 2}), 0);
+}
+
 // ---- Between doubles ----------------------------------------------------------------------------
 
 /// Finds a number α given by the smallest double that is not below it.
@@ -180,11 +260,36 @@ TEST(DoubleSearch, EnclosesWhateverTheGuess) {
 TEST(DoubleSearch, AsksLittleWhereTheGuessIsGood) {
   for (const double alpha : {0.5, 0.3, 1e-7, 1.0}) {
     int questions = 0;
-    static_cast<void>(found(std::bit_cast<std::uint64_t>(alpha), alpha, 1, questions));
+    static_cast<void>(found(bits_of(alpha), alpha, 1, questions));
     EXPECT_LE(questions, 3);
     questions = 0;
-    static_cast<void>(found(std::bit_cast<std::uint64_t>(alpha) - 3, alpha, 16, questions));
+    static_cast<void>(found(bits_of(alpha) - 3, alpha, 16, questions));
     EXPECT_LE(questions, 2);
+  }
+}
+
+TEST(DoubleSearch, TakesAnyGuessIntoTheInterval) {
+  EXPECT_EQ(unit_bits(0.25), bits_of(0.25));
+  EXPECT_EQ(unit_bits(2.0), bits_of_one);
+  EXPECT_EQ(unit_bits(std::numeric_limits<double>::infinity()), bits_of_one);
+  EXPECT_EQ(unit_bits(-0.0), bits_of_zero);
+  EXPECT_EQ(unit_bits(-1.0), bits_of_zero);
+  EXPECT_EQ(unit_bits(std::numeric_limits<double>::quiet_NaN()), bits_of_zero);
+}
+
+TEST(BinaryFraction, IsTheDouble) {
+  tests::Random random(2);
+  using Limits = std::numeric_limits<double>;
+  std::vector<double> numbers{0.0, -0.0, 1.0, -12.0, Limits::denorm_min(), -Limits::max()};
+  while (numbers.size() < 10000) numbers.push_back(random.finite_double());
+  for (const double x : numbers) {
+    const auto [numerator, exponent] = binary_fraction(x);
+    EXPECT_EQ(std::ldexp(static_cast<double>(numerator), exponent), x);
+    EXPECT_LT(std::abs(numerator), std::int64_t{1} << 53);
+    EXPECT_GE(exponent, -1074);
+    const BinaryFraction odd = odd_fraction(x);
+    EXPECT_EQ(std::ldexp(static_cast<double>(odd.numerator), odd.exponent), x);
+    EXPECT_EQ(std::abs(odd.numerator % 2), x == 0.0 ? 0 : 1);
   }
 }
 
