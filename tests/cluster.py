@@ -46,24 +46,17 @@ PartitionName=all Nodes=ALL Default=YES State=UP
 """
 
 
-def kill_worker(folder):
-    """Kill a process of a shard of the run in this folder; True if one was found."""
-    for process in pathlib.Path("/proc").glob("[0-9]*/cmdline"):
-        try:
-            words = process.read_bytes().split(b"\0")
-        except OSError:
-            continue
-        if b"--shard" in words and str(folder).encode() in words and words[0].endswith(b"touchstone"):
-            os.kill(int(process.parent.name), signal.SIGKILL)
-            return True
-    return False
-
-
 def killed_worker(folder, pieces):
-    """Kill a process of a shard as soon as some pieces are done; True if one was found."""
+    """Kill a process of a shard of the run in this folder as soon as some pieces are done; True if one was found."""
     for _ in range(6000):
-        if len(list(folder.glob("*.piece"))) >= pieces and kill_worker(folder):
-            return True
+        for process in pathlib.Path("/proc").glob("[0-9]*/cmdline") if len(list(folder.glob("*.piece"))) >= pieces else ():
+            try:
+                words = process.read_bytes().split(b"\0")
+            except OSError:
+                continue
+            if b"--shard" in words and str(folder).encode() in words and words[0].endswith(b"touchstone"):
+                os.kill(int(process.parent.name), signal.SIGKILL)
+                return True
         time.sleep(0.01)
     return False
 

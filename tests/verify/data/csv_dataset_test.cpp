@@ -2,18 +2,27 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <numeric>
+#include <span>
 #include <string>
 #include <vector>
 
+#include "tests/support/npz_files.hpp"
 #include "tests/verify/data/dataset_fixture.hpp"
+#include "verify/data/npy_dataset.hpp"
 
 namespace touchstone::verify::data::csv_dataset_test {
 namespace {
 
+using base::AnyQuery;
 using test::contents;
 using test::error_of;
 using test::expect_numbered;
 using test::joined;
+using test::numbered;
 using test::numbered_lines;
 using test::read_all;
 using test::read_survivors;
@@ -219,6 +228,280 @@ TEST(CsvWriter, WritesThe2021FormatToTheByte) {
   std::string expected = "1,2,0,1,0,1,1\n";
   for (int row = 1; row < 7; ++row) expected += "0,1,0,1,0,1,1\n";
   EXPECT_EQ(contents(folder.path() / "a.csv"), expected + "0,1,0,1,-3,1,1\n");
+}
+
+// ---- Every shape, in CSV and NumPy --------------------------------------------------------------
+
+/// A shape and the line and the extents that files have of it.
+struct ShapeCase {
+  QueryShape shape;
+  std::string line;
+  std::vector<std::uint64_t> extents;
+};
+
+const ShapeCase cubic{{Kind::edge_edge, 3, false}, "degree,3", {4, 4, 3}};
+const ShapeCase rational{{Kind::edge_edge, 2, true}, "rational,2", {3, 4, 4}};
+const ShapeCase at_rest{{Kind::edge_edge, 0, false}, "degree,0", {1, 4, 3}};
+const ShapeCase weighted_rest{{Kind::edge_edge, 0, true}, "rational,0", {1, 4, 4}};
+const ShapeCase straight{{Kind::edge_edge, 1, false}, "degree,1", {2, 4, 3}};
+const ShapeCase highest{{Kind::edge_edge, 8, true}, "rational,8", {9, 4, 4}};
+const std::array all{cubic, rational, at_rest, weighted_rest, straight, highest};
+
+/// The rows of numbered queries, as quarters or as decimals, odd queries labelled as collisions.
+std::string numbered_text(const QueryShape& shape, std::size_t count, bool fractions, bool labels) {
+  std::string text;
+  for (std::size_t index = 0; index < count; ++index) {
+    const AnyQuery query = numbered(shape, index);
+    for (std::size_t i = 0; i < query.numbers().size(); ++i) {
+      const double x = query.numbers()[i];
+      text += fractions ? std::to_string(std::lround(4 * x)) + ",4" : std::to_string(x);
+      const bool ends_row = (i + 1) % shape.numbers_of_point() == 0;
+      if (ends_row && labels) text += index % 2 == 1 ? ",1" : ",0";
+      text += ends_row ? "\n" : ",";
+    }
+  }
+  return text;
+}
+
+template <class Number = double>
+std::string array_text(const ShapeCase& of, std::size_t count, const std::string& descr = "<f8") {
+  std::vector<std::uint64_t> extents{count};
+  extents.insert(extents.end(), of.extents.begin(), of.extents.end());
+  std::vector<Number> numbers;
+  for (std::size_t index = 0; index < count; ++index) {
+    const AnyQuery query = numbered(of.shape, index);
+    numbers.insert(numbers.end(), query.numbers().begin(), query.numbers().end());
+  }
+  return tests::array(descr, extents, numbers);
+}
+
+std::vector<std::uint64_t> indices_up_to(std::size_t count) {
+  std::vector<std::uint64_t> indices(count);
+  std::iota(indices.begin(), indices.end(), 0);
+  return indices;
+}
+
+/// The first error of a file of queries.
+std::string error_in(const std::string& name, const std::string& text) {
+  const TemporaryFolder folder;
+  const auto path = folder.file(name, text);
+  return error_of(folder.path(), [&] {
+    const auto source = open_dataset(path, {.kind = Kind::edge_edge});
+    (void)read_all(*source);
+  });
+}
+
+TEST(CurvedCsv, IsReadInEveryShapeAndFormatOfNumbers) {
+  for (const ShapeCase& of : all) {
+    for (const bool fractions : {false, true}) {
+      for (const bool labels : {false, true}) {
+        const TemporaryFolder folder;
+        const std::string text = numbered_text(of.shape, 3, fractions, labels);
+        const auto source = open_dataset(folder.file("a_ee.csv", of.line + "\n" + text));
+        EXPECT_EQ(source->shape(), of.shape);
+        const auto records = read_all(*source);
+        expect_numbered(records, {0, 1, 2}, of.shape);
+        EXPECT_EQ(records.at(0).collides, labels ? std::optional(false) : std::nullopt);
+        EXPECT_EQ(records.at(1).collides, labels ? std::optional(true) : std::nullopt);
+      }
+    }
+  }
+}
+
+TEST(CurvedCsv, MayHaveBlankLinesHeadersQuotesAndItsShapeAgain) {
+  const TemporaryFolder folder;
+  const std::string rows = numbered_text(rational.shape, 1, false, true);
+  const std::string text = "\n\"rational\", 2\r\n\nx,y,z,w,label\n" + rows + "\n" +
+                           "\"rational\", 2\r\nx,y,z,w,label\n" + rows;
+  const auto source = open_dataset(folder.file("a_ee.csv", text));
+  const auto records = read_all(*source);
+  ASSERT_EQ(records.size(), 2U);
+  EXPECT_EQ(records[1].query, numbered(rational.shape, 0));
+}
+
+TEST(CurvedCsv, WithAFaultyFirstLineIsRefused) {
+  const std::string reason = ": the degree must be a whole number from 0 to 8: ";
+  EXPECT_EQ(error_in("a.csv", "degree,9\n"), "a.csv:1:2" + reason + "\"9\"");
+  EXPECT_EQ(error_in("a.csv", "\nrational,-1\n"), "a.csv:2:2" + reason + "\"-1\"");
+  EXPECT_EQ(error_in("a.csv", "degree,\n"), "a.csv:1:2" + reason + "\"\"");
+  EXPECT_EQ(error_in("a.csv", "degree,2\n"), "a.csv: no queries");
+  EXPECT_TRUE(error_in("a.csv", "degree\n1,2,3\n").starts_with("a.csv:1: 1 columns, expected 3, "));
+  EXPECT_TRUE(error_in("a.csv", "degrees,2\n").starts_with("a.csv:1: 2 columns, expected 3, "));
+}
+
+TEST(CurvedCsv, LosesCountAtALineThatIsNoRow) {
+  const std::string rows = numbered_text(rational.shape, 1, false, false);
+  const std::string lost =
+      "; the rest of the file is left out, since it is unknown from here on which 12 rows are a "
+      "query: mend this line";
+  EXPECT_EQ(error_in("a.csv", "rational,2\n1,2,3\n"),
+            "a.csv:2: 3 columns, expected 4, 5, 8 or 9" + lost);
+  EXPECT_EQ(error_in("a.csv", "rational,2\n" + rows + "degree,2\n"),
+            "a.csv:14: 2 columns, expected 4 as before" + lost);
+}
+
+TEST(CurvedCsv, SkipsAQueryWithAnInvalidNumberOrWeight) {
+  const std::string good = numbered_text(weighted_rest.shape, 1, false, false);
+  const std::string rest = "1,2,3,1\n1,2,3,1\n1,2,3,1\n";
+  for (const auto& [row, fault] :
+       {std::pair{"1,2,3,0", ":4: a weight must be positive"},
+        std::pair{"1,2,3,-1", ":4: a weight must be positive"},
+        std::pair{"1,2,3,0.1", ":4: not exactly a double (--round takes the nearest)"},
+        std::pair{"1,2,x,1", ":3: not a number: \"x\""}}) {
+    const TemporaryFolder folder;
+    const auto path = folder.file("a_ee.csv", "rational,0\n" + good + row + "\n" + rest + good);
+    const Survivors kept = read_survivors(path, folder.path());
+    EXPECT_EQ(kept.messages, std::vector<std::string>{"a_ee.csv:6" + std::string(fault)});
+    ASSERT_EQ(kept.records.size(), 2U);
+    EXPECT_EQ(kept.records[1].index, 2U);
+    EXPECT_EQ(kept.records[1].query, numbered(weighted_rest.shape, 0));
+  }
+}
+
+TEST(CurvedCsv, IsReadBackAsItWasWritten) {
+  for (const ShapeCase& of : all) {
+    const TemporaryFolder folder;
+    const auto path = folder.path() / "a_ee.csv";
+    CsvWriter writer(path);
+    for (std::size_t i = 0; i < 3; ++i) writer.write(numbered(of.shape, i), i % 2 == 1);
+    writer.close();
+    const std::string line = of.shape.is_straight() ? "" : of.line + "\n";
+    EXPECT_TRUE(contents(path).starts_with(line + "0,1,1,4,1,2,"));
+    const auto records = read_all(*open_dataset(path));
+    expect_numbered(records, {0, 1, 2}, of.shape);
+    EXPECT_EQ(records[1].collides, std::optional(true));
+    const std::string rows = csv_rows(numbered(of.shape, 0), std::nullopt);
+    EXPECT_TRUE(rows.starts_with(line));
+    expect_numbered(read_all(*open_dataset(folder.file("b_ee.csv", rows))), {0}, of.shape);
+    const auto twice = read_all(*open_dataset(folder.file("c_ee.csv", rows + rows)));
+    EXPECT_EQ(twice.size(), 2U);
+  }
+}
+
+/// More queries than a block has.
+TEST(CurvedNpy, IsReadInEveryShapeAndFromArchivesWithLabels) {
+  constexpr std::size_t count = 600;
+  std::vector<std::uint8_t> labels(count);
+  for (std::size_t i = 0; i < count; i += 3) labels[i] = 1;
+  for (const ShapeCase& of : all) {
+    const TemporaryFolder folder;
+    NpyDataset source(folder.file("a_ee.npy", array_text(of, 4)), {});
+    EXPECT_EQ(source.shape(), of.shape);
+    EXPECT_EQ(source.progress(), 0.0);
+    EXPECT_EQ(source.next().value().collides, std::nullopt);
+    EXPECT_EQ(source.progress(), 0.25);
+    expect_numbered(read_all(source), {1, 2, 3}, of.shape);
+    EXPECT_EQ(source.progress(), 1.0);
+    for (const std::string& queries :
+         {array_text(of, count), array_text<float>(of, count, "<f4")}) {
+      for (const bool is_compressed : {false, true}) {
+        const auto archived = read_all(*open_dataset(tests::archive(
+            folder.path() / "b_ee.npz",
+            {{"queries.npy", queries}, {"collides.npy", tests::array("|b1", {count}, labels)}},
+            is_compressed)));
+        expect_numbered(archived, indices_up_to(count), of.shape);
+        for (std::size_t i = 0; i < count; ++i) EXPECT_EQ(archived[i].collides, i % 3 == 0);
+      }
+    }
+  }
+  const TemporaryFolder folder;
+  EXPECT_EQ(error_of(folder.path(),
+                     [&] {
+                       (void)open_dataset(tests::archive(
+                           folder.path() / "c_ee.npz",
+                           {{"queries.npy", array_text(straight, 3)},
+                            {"collides.npy", tests::array("|b1", {count}, labels)}}));
+                     }),
+            "c_ee.npz: collides: shape (600), expected (3)");
+}
+
+TEST(CurvedNpy, IsReadBackAsItWasWritten) {
+  for (const ShapeCase& of : all) {
+    const TemporaryFolder folder;
+    const auto path = folder.path() / "a_ee.npy";
+    NpyWriter writer(path, of.shape);
+    for (std::size_t i = 0; i < 600; ++i) writer.write(numbered(of.shape, i).numbers());
+    std::vector<double> infinite(of.shape.numbers_of_query(), HUGE_VAL);
+    EXPECT_THROW(writer.write(infinite), std::invalid_argument);
+    writer.close();
+    EXPECT_EQ(NpyArray(path).shape().size(), of.shape.is_straight() ? 3U : 4U);
+    expect_numbered(read_all(*open_dataset(path)), indices_up_to(600), of.shape);
+  }
+}
+
+TEST(NpyDataset, NamesTheCoordinateThatIsNotFiniteAndSkipsItsQueryOnly) {
+  const TemporaryFolder folder;
+  for (std::size_t coordinate = 0; coordinate < 24; ++coordinate) {
+    std::vector<double> numbers;
+    for (std::size_t i = 0; i < 4; ++i) {
+      const auto query = numbered(straight.shape, i).numbers();
+      numbers.insert(numbers.end(), query.begin(), query.end());
+    }
+    numbers[48 + coordinate] = std::array{std::nan(""), HUGE_VAL, -HUGE_VAL}.at(coordinate % 3);
+    const auto path = folder.file("a_ee.npy", tests::array("<f8", {4, 8, 3}, numbers));
+    const std::string expected = "a_ee.npy: query 2, point " + std::to_string(coordinate / 3) +
+                                 ", " + "xyz"[coordinate % 3] + ": not finite";
+    EXPECT_EQ(error_of(folder.path(), [&] { (void)read_all(*open_dataset(path)); }), expected);
+    const Survivors kept = read_survivors(path, folder.path());
+    expect_numbered(kept.records, {0, 1, 3});
+    EXPECT_EQ(kept.messages, std::vector<std::string>{expected});
+  }
+}
+
+TEST(CurvedNpy, SkipsAQueryWithAnInvalidNumberOrWeight) {
+  for (const auto& [place, value, fault] :
+       {std::tuple{std::size_t{6}, HUGE_VAL, "point 1, z: not finite"},
+        std::tuple{std::size_t{3}, std::nan(""), "point 0, weight: not positive and finite"},
+        std::tuple{std::size_t{15}, 0.0, "point 3, weight: not positive and finite"},
+        std::tuple{std::size_t{15}, HUGE_VAL, "point 3, weight: not positive and finite"}}) {
+    std::vector<double> numbers(48, 1.0);
+    numbers[16 + place] = value;
+    const TemporaryFolder folder;
+    const Survivors kept = read_survivors(
+        folder.file("a_ee.npy", tests::array("<f8", {3, 1, 4, 4}, numbers)), folder.path());
+    EXPECT_EQ(kept.messages, std::vector<std::string>{std::string("a_ee.npy: query 1, ") + fault});
+    EXPECT_EQ(kept.records.size(), 2U);
+  }
+}
+
+TEST(NpyDataset, ThatBecomesShorterGivesWhatIsThereAndThenOneError) {
+  const TemporaryFolder folder;
+  const auto path = folder.path() / "a_vf.npy";
+  for (const bool keep_going : {false, true}) {
+    NpyWriter writer(path);
+    for (std::size_t i = 0; i < 3000; ++i) writer.write(test::numbered_query(i));
+    writer.close();
+    std::vector<std::string> messages;
+    NpyDataset source(path,
+                      {.keep_going = keep_going, .on_skip = [&](const io::DatasetError& fault) {
+                         messages.emplace_back(fault.reason());
+                       }});
+    std::vector<RecordedQuery> records{source.next().value()};
+    std::filesystem::resize_file(path, 128 + 192 * 2000);
+    const std::string error = error_of(folder.path(), [&] {
+      while (auto record = source.next()) records.push_back(*record);
+    });
+    expect_numbered(records, indices_up_to(1536));  // whole blocks
+    const std::string reason = "the array ends early: it has become shorter while it was read";
+    EXPECT_EQ(error, keep_going ? "no DatasetError" : "a_vf.npy: " + reason);
+    EXPECT_EQ(messages, std::vector<std::string>(keep_going ? 1 : 0, reason));
+    EXPECT_EQ(source.skipped(), keep_going ? 1U : 0U);
+    EXPECT_FALSE(source.next().has_value()) << "it has ended";
+  }
+}
+
+TEST(CurvedNpy, OfAnotherShapeIsRefused) {
+  const std::vector<double> numbers(480, 1.0);
+  const std::string expected =
+      ", expected (N, 8, 3), or (N, K+1, 4, 3) for curves of degree K up to 8, or (N, K+1, 4, 4) "
+      "with weights";
+  const auto error = [&](const std::vector<std::uint64_t>& extents) {
+    return error_in("a.npy", tests::array("<f8", extents, numbers));
+  };
+  EXPECT_EQ(error({4, 10, 4, 3}), "a.npy: shape (4, 10, 4, 3)" + expected);
+  EXPECT_EQ(error({8, 4, 3, 5}), "a.npy: shape (8, 4, 3, 5)" + expected);
+  EXPECT_EQ(error({6, 4, 4, 5}), "a.npy: shape (6, 4, 4, 5)" + expected);
+  EXPECT_EQ(error({40, 4, 3}), "a.npy: shape (40, 4, 3)" + expected);
 }
 
 }  // namespace

@@ -5,14 +5,9 @@
 
 #include <gtest/gtest.h>
 
-#include <bit>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
-#include <fstream>
-#include <random>
-#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -20,7 +15,6 @@
 #include "tests/support/folder_test.hpp"
 #include "touchstone/query.hpp"
 #include "verify/data/dataset.hpp"
-#include "verify/data/npy.hpp"
 
 namespace touchstone::verify::data::test {
 
@@ -28,14 +22,6 @@ using tests::TemporaryFolder;
 
 [[nodiscard]] inline std::string contents(const std::filesystem::path& path) {
   return tests::read_file(path);
-}
-
-/// All queries of a .npy file.
-[[nodiscard]] inline std::vector<Query> npy_queries(const std::filesystem::path& path) {
-  NpyArray array(path);
-  std::vector<Query> queries(array.shape()[0]);
-  for (Query& query : queries) array.take_numbers(query.coordinates);
-  return queries;
 }
 
 [[nodiscard]] inline std::vector<RecordedQuery> read_all(QuerySource& source) {
@@ -131,40 +117,6 @@ inline void expect_numbered(const std::vector<RecordedQuery>& records,
     shape.kind = records[i].query.kind();
     EXPECT_EQ(records[i].query, numbered(shape, indices[i]));
   }
-}
-
-/// A query of finite doubles of all exponents, with subnormals and zeros.
-[[nodiscard]] inline Query random_query(std::mt19937_64& random) {
-  Query query{};
-  for (double& x : query.coordinates) {
-    do {
-      x = std::bit_cast<double>(random());
-    } while (!std::isfinite(x));
-    if (random() % 16 == 0) x = std::bit_cast<double>(random() >> 12U);
-    if (random() % 64 == 0) x = 0.0;
-  }
-  return query;
-}
-
-/// The peak of resident bytes since the last call of reset_peak_resident().
-[[nodiscard]] inline std::size_t peak_resident() {
-  std::ifstream status("/proc/self/status");
-  for (std::string line; std::getline(status, line);) {
-    if (line.starts_with("VmHWM:")) return 1024 * std::stoull(line.substr(6));
-  }
-  throw std::runtime_error("no VmHWM in /proc/self/status");
-}
-
-inline void reset_peak_resident() { std::ofstream("/proc/self/clear_refs") << "5"; }
-
-/// The rise of the peak of resident memory above its present height, in bytes, during a call.
-/// getrusage's peak never falls, so an earlier test could hide the rise; this one is reset.
-template <class Action>
-[[nodiscard]] std::size_t resident_growth(const Action& action) {
-  reset_peak_resident();
-  const std::size_t before = peak_resident();
-  action();
-  return peak_resident() - before;
 }
 
 }  // namespace touchstone::verify::data::test

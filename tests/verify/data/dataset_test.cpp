@@ -6,15 +6,22 @@
 #include <cstdint>
 #include <cstring>
 #include <filesystem>
+#include <fstream>
 #include <limits>
+#include <optional>
 #include <random>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "tests/support/memory_source.hpp"
 #include "tests/support/public_data.hpp"
 #include "tests/verify/data/dataset_fixture.hpp"
 #include "verify/data/csv_dataset.hpp"
+#include "verify/data/dataset_source.hpp"
+#include "verify/data/npy_dataset.hpp"
+#include "verify/data/query_group.hpp"
 
 namespace touchstone::verify::data::dataset_test {
 namespace {
@@ -22,9 +29,12 @@ namespace {
 namespace fs = std::filesystem;
 using Limits = std::numeric_limits<double>;
 using test::error_of;
+using test::expect_numbered;
 using test::joined;
 using test::numbered_lines;
 using test::read_all;
+using test::read_survivors;
+using test::Survivors;
 using test::TemporaryFolder;
 
 std::vector<fs::path> found_in(const fs::path& path) {
@@ -169,6 +179,24 @@ TEST(OpenDataset, OpeningErrorsThrowEvenIfItKeepsGoing) {
                   .ends_with("pass --kind vertex-face or --kind edge-edge"));
 }
 
+/// The peak of resident bytes, of the process or since the last reset.
+std::size_t peak_resident() {
+  std::ifstream status("/proc/self/status");
+  std::string line;
+  while (std::getline(status, line) && !line.starts_with("VmHWM:")) continue;
+  return 1024 * std::stoull(line.substr(6));
+}
+
+/// The rise of the peak above its present height, in bytes, during a call. getrusage's peak never
+/// falls, so an earlier test could hide the rise; this one is reset.
+template <class Action>
+std::size_t resident_growth(const Action& action) {
+  std::ofstream("/proc/self/clear_refs") << "5";
+  const std::size_t before = peak_resident();
+  action();
+  return peak_resident() - before;
+}
+
 /// Writes this query so many times, and reads it as a stream. What is not finite is refused, and
 /// the writer stays usable.
 template <class Writer, class Write>
@@ -183,7 +211,7 @@ void expect_streamed(const fs::path& path, std::size_t count, const Write& write
   for (std::size_t i = 0; i < count; ++i) write(writer, query);
   writer.close();
   ASSERT_GT(fs::file_size(path), 40'000'000U);
-  const std::size_t streamed = test::resident_growth([&] {
+  const std::size_t streamed = resident_growth([&] {
     const auto source = open_dataset(path);
     std::size_t read = 0;
     while (source->next()) ++read;
@@ -191,7 +219,7 @@ void expect_streamed(const fs::path& path, std::size_t count, const Write& write
   });
   EXPECT_LT(streamed, 8'000'000U);
   const std::size_t whole =
-      test::resident_growth([&] { EXPECT_EQ(test::contents(path).size(), fs::file_size(path)); });
+      resident_growth([&] { EXPECT_EQ(test::contents(path).size(), fs::file_size(path)); });
   EXPECT_GT(whole, 30'000'000U) << "the measure must see a reader that keeps the file";
 }
 
@@ -220,6 +248,163 @@ TEST(PublicData, WritingAHandcraftedFileAgainGivesTheSameBytes) {
     const std::string text = test::contents(original);
     EXPECT_EQ(test::contents(copy), text + (text.ends_with('\n') ? "" : "\n")) << original;
   }
+}
+
+// ---- Queries with their labels and times --------------------------------------------------------
+
+using Messages = std::vector<std::string>;
+
+/// Three queries with the given companions ("" for none), read with keep_going.
+struct Scene {
+  std::vector<std::string> lines = numbered_lines(3, false);
+  std::string labels = {};
+  std::string tois = {};
+  TemporaryFolder folder = {};
+
+  [[nodiscard]] std::filesystem::path make() const {
+    if (!labels.empty()) (void)folder.file("s/mma_bool/7vf_mma_bool.json", labels);
+    if (!tois.empty()) (void)folder.file("s/toi/7vf_toi.csv", tois);
+    return folder.file("s/queries/7vf.csv", joined(lines));
+  }
+
+  /// The error and the survivors; the error must be the first message.
+  [[nodiscard]] Survivors read() const {
+    const auto path = make();
+    const std::string error = error_of(folder.path(), [&] { (void)read_all(*open_dataset(path)); });
+    Survivors kept = read_survivors(path, folder.path());
+    EXPECT_EQ(kept.messages.size(), kept.skipped);
+    EXPECT_EQ(error, kept.messages.empty() ? "no DatasetError" : kept.messages.front());
+    for (std::string& message : kept.messages) {
+      const std::string detour = "s/queries/../";
+      if (message.starts_with(detour)) message = message.substr(detour.size());
+    }
+    return kept;
+  }
+};
+
+TEST(DatasetSource, JoinsQueriesWithTheirCompanions) {
+  const Survivors kept =
+      Scene{.labels = "[true,false,true]", .tois = "query,toi\n0,0.5\n2,1\n"}.read();
+  expect_numbered(kept.records, {0, 1, 2});
+  EXPECT_EQ(kept.skipped, 0U);
+  EXPECT_EQ(kept.records[0].collides, std::optional(true));
+  EXPECT_EQ(kept.records[1].collides, std::optional(false));
+  EXPECT_EQ(kept.records[2].collides, std::optional(true));
+  EXPECT_EQ(kept.records[0].toi, exact::Rational(1, 2));
+  EXPECT_EQ(kept.records[1].toi, std::nullopt);
+  EXPECT_EQ(kept.records[2].toi, exact::Rational(1));
+}
+
+TEST(DatasetSource, ASkippedQueryDoesNotShiftTheTruthOfTheOthers) {
+  Scene scene{.labels = "[true,false,true]", .tois = "query,toi\n0,0.5\n1,0.25\n2,1\n"};
+  scene.lines[8] = "bad,1,1,1,1,1";
+  const Survivors kept = scene.read();
+  expect_numbered(kept.records, {0, 2});
+  EXPECT_EQ(kept.messages, Messages{"s/queries/7vf.csv:9:1: not a number: \"bad\""});
+  EXPECT_EQ(kept.records[1].collides, std::optional(true));
+  EXPECT_EQ(kept.records[1].toi, exact::Rational(1));
+}
+
+/// A bad label or time costs its query, a broken file every later one; what goes on behind the
+/// queries counts once a file.
+TEST(DatasetSource, AFaultyCompanionCostsTheQueriesWhoseTruthIsLost) {
+  struct Faulty {
+    std::string labels, tois;
+    std::vector<std::uint64_t> kept;
+    Messages messages;
+  };
+  const std::string json = "mma_bool/7vf_mma_bool.json:1:", csv = "toi/7vf_toi.csv:";
+  for (const auto& [labels, tois, kept, messages] : std::vector<Faulty>{
+           {"[true,null,true]", "", {0, 2}, {json + "7: not a boolean: \"null\""}},
+           {"", "query,toi\n1,half\n2,1\n", {0, 2}, {csv + "2:2: not a number: \"half\""}},
+           {"[true;false]", "", {0}, Messages(2, json + "6: expected ',' or ']'")},
+           {"",
+            "query,toi\n0,1\n0,1\n",
+            {0},
+            Messages(2, csv + "3:1: query numbers do not ascend")},
+           {"[true]",
+            "",
+            {0},
+            {json + "6: no label for query 1: the array has only 1",
+             json + "6: no label for query 2: the array has only 1"}},
+           {"[true,false,true,true,true]",
+            "query,toi\n3,1\n4,1\n",
+            {0, 1, 2},
+            {json + "18: more labels than the 3 queries",
+             csv + "2:1: toi of query 3, but there are 3 queries"}}}) {
+    const Survivors found = Scene{.labels = labels, .tois = tois}.read();
+    expect_numbered(found.records, kept);
+    EXPECT_EQ(found.messages, messages);
+  }
+}
+
+TEST(DatasetSource, TwoSourcesOfLabelsMustAgree) {
+  const Survivors kept = Scene{.lines = numbered_lines(3, true), .labels = "[0,0,0]"}.read();
+  expect_numbered(kept.records, {0, 2});
+  ASSERT_EQ(kept.messages.size(), 1U);
+  EXPECT_TRUE(kept.messages[0].starts_with("s/queries/7vf.csv:9:7: label differs from that in "));
+  EXPECT_TRUE(kept.messages[0].ends_with("/mma_bool/7vf_mma_bool.json"));
+  EXPECT_EQ((Scene{.lines = numbered_lines(3, true), .labels = "[0,1,0]"}.read().skipped), 0U);
+}
+
+TEST(DatasetSource, CompanionsThatCannotBeOpenedThrowEvenIfItKeepsGoing) {
+  for (const Scene& scene : {Scene{.labels = "{}"}, Scene{.tois = "toi\n"}}) {
+    const auto path = scene.make();
+    EXPECT_THROW((void)open_dataset(path, {.keep_going = true}), io::DatasetError);
+  }
+}
+
+// ---- Groups of queries --------------------------------------------------------------------------
+
+Query query_number(double number) {
+  Query query{};
+  query.coordinates[0] = number;
+  return query;
+}
+
+/// Queries with these indices, each with its index as first coordinate.
+std::vector<RecordedQuery> recorded(const std::vector<std::uint64_t>& indices) {
+  std::vector<RecordedQuery> queries;
+  queries.reserve(indices.size());
+  for (const std::uint64_t index : indices) {
+    queries.push_back(
+        {{Kind::edge_edge, query_number(static_cast<double>(index))}, index, std::nullopt, {}});
+  }
+  return queries;
+}
+
+void read(QueryGroup& group, QuerySource& source) {
+  group.read(
+      source, [](double) {}, [] { return false; });
+}
+
+TEST(QueryGroup, KnowsWhereItsQueriesComeFrom) {
+  tests::MemorySource first(Kind::edge_edge, recorded({0, 1, 4, 5}));
+  tests::MemorySource second(Kind::edge_edge, recorded({0, 7}));
+  QueryGroup group("both", Kind::edge_edge);
+  read(group, first);
+  read(group, second);
+  EXPECT_EQ(group.name(), "both");
+  EXPECT_EQ(group.kind(), Kind::edge_edge);
+  ASSERT_EQ(group.queries().size(), 6U);
+  for (std::size_t i = 0; i < 6; ++i) {
+    const QueryPlace place = group.place_of(i);
+    EXPECT_EQ(place.source, "memory");
+    EXPECT_EQ(static_cast<double>(place.index), group.queries().row(i)[0]) << i;
+  }
+}
+
+TEST(QueryGroup, HasADigestOfItsQueriesInTheirOrder) {
+  const Query zero{}, one{{1}};
+  const auto digest = [](const std::vector<Query>& queries) {
+    return QueryGroup("a", Kind::vertex_face, queries).digest();
+  };
+  // The digest of no data is the published offset basis of FNV-1a.
+  EXPECT_EQ(digest({}), 0xcbf29ce484222325U);
+  EXPECT_EQ(digest({zero, one}), digest({zero, one}));
+  EXPECT_NE(digest({zero, one}), digest({one, zero}));
+  EXPECT_NE(digest({zero}), digest({Query{{-0.0}}}));
+  EXPECT_NE(digest({zero}), digest({zero, zero}));
 }
 
 }  // namespace

@@ -18,7 +18,6 @@
 #include <utility>
 #include <vector>
 
-#include "tests/verify/data/dataset_fixture.hpp"
 #include "touchstone/number.hpp"
 #include "verify/data/ground_truth_files.hpp"
 #include "verify/data/plain_rows.hpp"
@@ -152,7 +151,9 @@ TEST(Coordinate, IsTheNearestDoubleOfRandomFractions) {
 
 TEST(Coordinate, What17DigitsGiveBackIsTheDouble) {
   std::mt19937_64 random(9);
-  for (const double x : data::test::random_query(random).coordinates) {
+  for (int i = 0; i < 50; ++i) {
+    const double x = std::bit_cast<double>(i % 16 == 0 ? random() >> 12U : random());
+    if (!std::isfinite(x)) continue;
     EXPECT_EQ(parse_coordinate(fmt::format("{:.17g}", x), "1").value, x);
     EXPECT_EQ(parse_coordinate(fmt::format("{:.1100f}", x), "1").value, x);
     EXPECT_TRUE(parse_coordinate(fmt::format("{:.1100f}", x), "1").exact);

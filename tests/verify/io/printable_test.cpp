@@ -4,6 +4,10 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+#include <cmath>
+#include <fstream>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <span>
 #include <string>
@@ -11,13 +15,18 @@
 #include <utility>
 #include <vector>
 
+#include "tests/support/folder_test.hpp"
+#include "tests/verify/data/dataset_fixture.hpp"
+#include "verify/io/csv.hpp"
 #include "verify/io/dataset_error.hpp"
 #include "verify/io/html.hpp"
+#include "verify/io/json.hpp"
 
 namespace touchstone::verify::io::printable_test {
 namespace {
 
 using namespace std::string_literals;
+using Fault = CsvSplit::Fault;
 
 TEST(Printable, KeepsTextInAnyLanguage) {
   for (const std::string_view text : {"", "a b", "µs — é 字 \xF0\x9F\x98\x80", "ა ب ﷺ",
@@ -109,35 +118,158 @@ TEST(Quote, CutsLongTextAndHidesWhatATerminalWouldObey) {
   EXPECT_EQ(quote(std::string(41, 'x')), "\"" + std::string(40, 'x') + "...\"");
 }
 
-TEST(Html, ThePolicyLetsNothingBeLoaded) {
-  const std::string page = html_beginning("A title", "p { margin: 0; }\n");
-  EXPECT_TRUE(page.starts_with("<!DOCTYPE html>\n<html lang=\"en\">\n"));
-  EXPECT_NE(page.find("content=\"default-src 'none'; script-src 'unsafe-inline'; style-src "
-                      "'unsafe-inline'; img-src data:\""),
-            std::string::npos);
-  EXPECT_NE(page.find("<title>A title</title>\n<style>\np { margin: 0; }\n</style>"),
-            std::string::npos);
-  EXPECT_TRUE(page.ends_with("<body>\n"));
+TEST(Html, JsonDoesNotEndItsElementAndIsUtf8) {
+  EXPECT_EQ(
+      json_element("data", "</script>\xff"),
+      "<script type=\"application/json\" id=\"data\">\"\\u003c/script>\xef\xbf\xbd\"</script>\n");
+  EXPECT_EQ(base64(std::as_bytes(std::span("foob", 4))), "Zm9vYg==");
 }
 
-TEST(Html, JsonDoesNotEndItsElement) {
-  EXPECT_EQ(json_element("data", {{"name", "</script><b>"}}),
-            "<script type=\"application/json\" id=\"data\">"
-            "{\"name\":\"\\u003c/script>\\u003cb>\"}</script>\n");
-  EXPECT_EQ(json_element("data", "\xff"),
-            "<script type=\"application/json\" id=\"data\">\"\xef\xbf\xbd\"</script>\n");
+// ---- CSV ----------------------------------------------------------------------------------------
+
+/// The fields of a record that has no more than four.
+std::vector<std::string> fields_of(std::string_view record) {
+  std::array<std::string, 4> fields{"old", "old", "old", "old"};
+  const CsvSplit split = split_csv(record, fields);
+  EXPECT_EQ(split.fault, Fault::none) << record;
+  EXPECT_LE(split.count, fields.size()) << record;
+  return {fields.begin(), fields.begin() + static_cast<std::ptrdiff_t>(split.count)};
 }
 
-TEST(Html, BytesInBase64) {
-  const auto encoded = [](std::string_view text) {
-    return base64(std::as_bytes(std::span(text.data(), text.size())));
+using Fields = std::vector<std::string>;
+
+/// Quoted where it must be, printable, and no formula.
+TEST(CsvField, IsOneFieldOfPrintableText) {
+  const std::vector<std::pair<std::string, std::string>> fields{
+      {"a b.csv", "a b.csv"},
+      {"", ""},
+      {"a,b", "\"a,b\""},
+      {"a\"b", "\"a\"\"b\""},
+      {"a\nb", "a\\x0ab"},
+      {"a\r,b", "\"a\\x0d,b\""},
+      {"\x1b[31m", "\\x1b[31m"},
+      {"caf\xe9", "caf\\xe9"},
+      {"\u202eabc", "\\xe2\\x80\\xaeabc"},
+      {"=1+1", "'=1+1"},
+      {"+x", "'+x"},
+      {"-x", "'-x"},
+      {"@SUM(A1)", "'@SUM(A1)"},
+      {"=HYPERLINK(\"a\",1)", "\"'=HYPERLINK(\"\"a\"\",1)\""},
+      {"'=1", "''=1"},
+      {"'a", "'a"}};
+  for (const auto& [text, field] : fields) EXPECT_EQ(csv_field(text), field);
+  for (const std::string number : {"-1", "+1.5", "-1e-300", "-inf", "-"}) {
+    EXPECT_EQ(csv_field(number), number);
+  }
+}
+
+TEST(CsvRow, JoinsFields) { EXPECT_EQ(csv_row({"a", "b,c", "", "=1"}), "a,\"b,c\",,'=1\n"); }
+
+TEST(CsvNumber, GivesTheSameDoubleAgain) {
+  EXPECT_EQ(csv_number(0.1), "0.1");
+  EXPECT_EQ(csv_number(0.10000000000000002), "0.10000000000000002");
+  EXPECT_EQ(csv_number(std::numeric_limits<double>::quiet_NaN()), "");
+}
+
+TEST(TextOfField, IsWhatTheFieldWasMadeOf) {
+  for (const std::string text :
+       {"a b", "=1+1", "'=1+1", "''-x", "'a", "-1", "-x", "a'=b", "", "'"}) {
+    const std::string field = csv_field(text);
+    EXPECT_EQ(text_of_field(field), text);
+  }
+  EXPECT_EQ(text_of_field(csv_field("a\nb")), "a\\x0ab");
+  EXPECT_EQ(text_of_field("a\nb"), "a\\x0ab") << "as others write it";
+  EXPECT_EQ(text_of_field("=1+1"), "=1+1") << "as others write it";
+}
+
+TEST(SplitCsv, SplitsAtCommasAndTakesQuotesOff) {
+  const std::vector<std::pair<std::string, Fields>> records{
+      {"a,b,c", {"a", "b", "c"}},
+      {"a", {"a"}},
+      {"", {""}},
+      {",", {"", ""}},
+      {"a,,b,", {"a", "", "b", ""}},
+      {" a ,\tb", {" a ", "\tb"}},
+      {"\"a,b\",c", {"a,b", "c"}},
+      {"\"\",c", {"", "c"}},
+      {"\"\"\"\",c", {"\"", "c"}},
+      {"c,\"a\"\"b\"", {"c", "a\"b"}},
+      {"\"a\nb\",c", {"a\nb", "c"}},
+      {"a\"b,\"c\"", {"a\"b", "c"}},
   };
-  EXPECT_EQ(encoded(""), "");
-  EXPECT_EQ(encoded("f"), "Zg==");
-  EXPECT_EQ(encoded("fo"), "Zm8=");
-  EXPECT_EQ(encoded("foo"), "Zm9v");
-  EXPECT_EQ(encoded("foob"), "Zm9vYg==");
-  EXPECT_EQ(encoded("\xff\xfe\xfb"), "//77");
+  for (const auto& [record, fields] : records) EXPECT_EQ(fields_of(record), fields) << record;
+}
+
+TEST(SplitCsv, CountsFieldsBeyondThoseAskedFor) {
+  std::array<std::string, 2> fields;
+  EXPECT_EQ(split_csv("a,b,c,\"d,e\"", fields).count, 4U);
+  EXPECT_EQ(fields, (std::array<std::string, 2>{"a", "b"}));
+}
+
+TEST(SplitCsv, NamesTheFieldAtFault) {
+  std::array<std::string, 4> fields;
+  for (const std::string_view record : {"a,\"b", "a,\"b,c\n", "a,\"", R"(a,"b"")", R"(a,""")"}) {
+    const CsvSplit split = split_csv(record, fields);
+    EXPECT_EQ(split.fault, Fault::open_quote) << record;
+    EXPECT_EQ(split.count, 2U) << record;
+  }
+  for (const std::string_view record : {"a,\"b\"c", "a,\"b\" ,c", R"(a,""b")"}) {
+    const CsvSplit split = split_csv(record, fields);
+    EXPECT_EQ(split.fault, Fault::text_after_quote) << record;
+    EXPECT_EQ(split.count, 2U) << record;
+  }
+}
+
+// ---- JSON ---------------------------------------------------------------------------------------
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+TEST(Json, HasWordsForInfiniteNumbersAndNullForMissingOnes) {
+  EXPECT_EQ(number_to_json(infinity), "Infinity");
+  EXPECT_EQ(number_to_json(-infinity), "-Infinity");
+  EXPECT_TRUE(number_to_json(nan).is_null());
+  EXPECT_TRUE(number_to_json(std::nullopt).is_null());
+  for (const double number : {0.1, -4.9e-324, infinity, -infinity}) {
+    EXPECT_EQ(number_from_json(number_to_json(number)), number);
+  }
+  EXPECT_TRUE(std::isnan(number_from_json(number_to_json(nan))));
+  EXPECT_THROW(static_cast<void>(number_from_json("infinite")), nlohmann::json::exception);
+}
+
+/// The error of reading a file with this text; empty if there is none.
+std::string json_error(const std::string& text, std::size_t most_bytes = 1U << 20U) {
+  const tests::TemporaryFolder folder;
+  const std::string error = data::test::error_of(folder.path(), [&] {
+    static_cast<void>(read_json(folder.file("a.json", text), most_bytes));
+  });
+  return error == "no DatasetError" ? "" : error;
+}
+
+TEST(JsonFile, IsReadUpToADepthAndASize) {
+  const auto nested = [](std::string_view opening, std::string_view closing, int depth) {
+    std::string text = "1";
+    for (int i = 0; i < depth; ++i) text = text + std::string(closing);
+    for (int i = 0; i < depth; ++i) text.insert(0, opening);
+    return text;
+  };
+  EXPECT_EQ(json_error(nested("[", "]", deepest_json)), "");
+  EXPECT_EQ(json_error(nested("[", "]", deepest_json + 1)), "a.json: nested more than 100 deep");
+  EXPECT_EQ(json_error(nested(R"({"a":)", "}", 20'000)), "a.json: nested more than 100 deep");
+  EXPECT_EQ(json_error("[1, 2]", 5), "a.json: has more than 5 bytes");
+  EXPECT_TRUE(json_error("[1, 2").starts_with("a.json: no JSON: "));
+}
+
+TEST(JsonFile, WithAKeyTwiceOrANumberBeyondTheRangeIsAnError) {
+  EXPECT_EQ(json_error(R"({"a": 1, "b": {"a": 1, "c": [{"a": 1}, {"a": 2}]}})"), "");
+  EXPECT_EQ(json_error(R"({"b": {"c": [{"a": 1, "a": 1}]}})"), "a.json: repeated key \"a\"");
+  EXPECT_TRUE(json_error("[-1e999]").starts_with("a.json: a number beyond the range: "));
+  EXPECT_EQ(json_error("\xEF\xBB\xBF{}"), "");
+}
+
+TEST(Json, DocumentsAreAscii) {
+  EXPECT_EQ(json_document({{"a", "\u202e\x1b"}}), "{\n  \"a\": \"\\u202e\\u001b\"\n}\n");
+  EXPECT_EQ(json_document("caf\xe9"), "\"caf\\ufffd\"\n");
 }
 
 }  // namespace

@@ -4,6 +4,9 @@
 
 #include <array>
 #include <cstdint>
+#include <filesystem>
+#include <limits>
+#include <map>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -11,16 +14,30 @@
 
 #include "tests/support/mesh_files.hpp"
 #include "tests/support/messages.hpp"
+#include "tests/support/npz_files.hpp"
+#include "tests/verify/data/dataset_fixture.hpp"
+#include "verify/data/obj_dataset.hpp"
+#include "verify/io/obj_statements.hpp"
+#include "verify/mesh/frames.hpp"
 #include "verify/mesh/groups.hpp"
 #include "verify/mesh/mesh_file.hpp"
 
 namespace touchstone::verify::mesh::obj_test {
 namespace {
 
+namespace fs = std::filesystem;
+using data::test::error_of;
+using data::test::TemporaryFolder;
 using fast::Edge;
 using fast::Face;
 using tests::coordinates;
 using tests::MeshFolder;
+using Texts = std::vector<std::string>;
+using data::test::read_all;
+using data::test::read_survivors;
+using data::test::Survivors;
+using tests::archive;
+using tests::array;
 
 const std::string four_vertices = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n";
 
@@ -191,6 +208,245 @@ TEST(ReadRadii, AndSeparationsAreThoseOfNamedGroups) {
   EXPECT_EQ(tests::message_of<std::invalid_argument>(
                 [&] { (void)read_radii(folder.file("r.csv", "ball,1\n"), groups); }),
             "no group \"ball\"; there are: \"cloth\", \"the ball\", \"a,b\"");
+}
+
+// ---- Statements ---------------------------------------------------------------------------------
+
+/// The statements as "line keyword|words", then what was passed over.
+Texts statements_of(const std::string& text) {
+  const TemporaryFolder folder;
+  io::ObjStatements statements(folder.file("a.obj", text));
+  Texts result;
+  while (const auto statement = statements.next()) {
+    result.push_back(std::to_string(statement->line) + ' ' + std::string(statement->keyword) + '|' +
+                     std::string(statement->words));
+  }
+  for (const std::string& name : statements.passed_over()) result.push_back(name);
+  return result;
+}
+
+std::string error_of_statements(const std::string& text) {
+  const TemporaryFolder folder;
+  return error_of(folder.path(), [&] {
+    io::ObjStatements statements(folder.file("a.obj", text));
+    while (statements.next()) {
+    }
+  });
+}
+
+TEST(ObjStatements, AreReturnedOrCounted) {
+  EXPECT_EQ(
+      statements_of(
+          "\xEF\xBB\xBFv 1 2 3 # a point\r\n\n# all\n\tf\t1 2#3 #\nvt 0 0\ng a #1 b\nfo 1\n"
+          "vn 0 0 1\nvt 1 1\nusemtl\n"),
+      (Texts{"1 v| 1 2 3 ", "4 f|\t1 2#3 ", "6 g| a #1 b", "7 f| 1", "usemtl 1", "vn 1", "vt 2"}));
+}
+
+TEST(ObjStatements, GoOnBehindABackslash) {
+  EXPECT_EQ(statements_of("f 1 \\\n2\\\r\n 3/4\\\n/5 \\\n\\\n6\nl 1 2 \\"),
+            (Texts{"1 f| 1 2 3/4/5 6", "7 l| 1 2 "}));
+  // A comment does not go on.
+  EXPECT_EQ(statements_of("# C:\\\nv 1 2 3 # C:\\\nv 4 5 6"), (Texts{"2 v| 1 2 3 ", "3 v| 4 5 6"}));
+  EXPECT_EQ(error_of_statements("f 1\\\n2 3"),
+            "a.obj:2: begins within a word, or with a new one: put a blank in front of the "
+            "backslash before");
+  EXPECT_EQ(error_of_statements("usemtl a\\\nv 1 2 3"),
+            "a.obj:2: begins with \"v\", but the line before goes on, as it ends in a backslash");
+  EXPECT_EQ(error_of_statements("# " + std::string(2'000'000, 'x')),
+            "a.obj:1: line longer than 1 MiB");
+  const std::string half(io::LineReader::longest_line / 2, ' ');
+  EXPECT_EQ(error_of_statements("f" + half + "\\\n" + half + "\\\n1"),
+            "a.obj:2: line longer than 1 MiB");
+}
+
+TEST(ObjStatements, AreOfKnownKeywords) {
+  for (const std::string keyword : {"V", "F", "f\u00A0", "vertices", "1,1", "t", "PK\x03"}) {
+    EXPECT_TRUE(error_of_statements("v 1 2 3\n" + keyword + " 1 2 3\n").starts_with("a.obj:2: \""))
+        << keyword;
+  }
+  EXPECT_EQ(error_of_statements("surf 0 1 0 1 1 2 3 4"),
+            "a.obj:1: \"surf\" may add to the mesh and is not read: write its faces (f)");
+}
+
+// ---- Queries ------------------------------------------------------------------------------------
+
+data::DatasetOptions edge_edge() { return {.kind = Kind::edge_edge}; }
+
+/// The vertices of a query: x is the number of the point, y that of the query.
+std::string vertices(int query) {
+  std::string text;
+  for (int i = 0; i < 8; ++i) {
+    text += "v " + std::to_string(i) + "\t" + std::to_string(query) + " -0.25 1.0\n";
+  }
+  return text;
+}
+
+TEST(ObjDataset, ReadsEightVerticesAQueryAndNothingElse) {
+  const TemporaryFolder folder;
+  const auto path = folder.file("a.obj", "\xEF\xBB\xBF# comment\no thing\nvn 0 0 1\n" +
+                                             vertices(0) + "f 1 2 3\n" + vertices(1) + "\n");
+  data::ObjDataset source(path, edge_edge());
+  const auto records = read_all(source);
+  ASSERT_EQ(records.size(), 2U);
+  for (std::size_t query = 0; query < 2; ++query) {
+    EXPECT_EQ(records[query].index, query);
+    EXPECT_FALSE(records[query].collides.has_value());
+    for (std::size_t point = 0; point < 8; ++point) {
+      const std::size_t at = 3 * point;
+      EXPECT_EQ(records[query].query.straight().coordinates.at(at), static_cast<double>(point));
+      EXPECT_EQ(records[query].query.straight().coordinates.at(at + 1), static_cast<double>(query));
+      EXPECT_EQ(records[query].query.straight().coordinates.at(at + 2), -0.25);
+    }
+  }
+}
+
+TEST(ObjDataset, LocatesFaultsAndGoesOnWithTheNextQuery) {
+  const TemporaryFolder folder;
+  const auto error_with = [&](const std::string& text) {
+    const auto path = folder.file("a.obj", text);
+    return error_of(folder.path(), [&] {
+      data::ObjDataset source(path, edge_edge());
+      (void)read_all(source);
+    });
+  };
+  std::string bad = vertices(0) + vertices(1) + vertices(2);
+  bad.replace(bad.find("v 3\t1"), 5, "v 3\tx");
+  EXPECT_EQ(error_with(bad), "a.obj:12:3: not a number: \"x\"");
+  EXPECT_EQ(error_with("v 0.1 0 0\n" + vertices(0)),
+            "a.obj:1:2: not exactly a double (--round takes the nearest)");
+  EXPECT_EQ(error_with("v 1 2\n" + vertices(0)), "a.obj:1:4: not a number: \"\"");
+  EXPECT_EQ(error_with("f 1 2 3\n"), "a.obj: no vertices");
+  EXPECT_EQ(error_with(vertices(0) + "v 1 2 3\n"), "a.obj: truncated query: 1 of 8 vertices");
+  const Survivors kept = read_survivors(folder.file("b_ee.obj", bad), folder.path(), edge_edge());
+  ASSERT_EQ(kept.records.size(), 2U);
+  EXPECT_EQ(kept.records[1].index, 2U);
+  data::ObjDataset rounded(folder.file("a.obj", "v 0.1" + vertices(0).substr(3)),
+                           {.kind = Kind::edge_edge, .round = true});
+  EXPECT_EQ(read_all(rounded).front().query.straight().coordinates.front(), 0.1);
+  EXPECT_EQ(rounded.rounded(), 1U);
+  EXPECT_EQ(kept.skipped, 1U);
+}
+
+// ---- Frames -------------------------------------------------------------------------------------
+
+std::unique_ptr<Frames> open(const std::vector<fs::path>& paths) {
+  return open_frames(frame_files(paths));
+}
+
+std::string triangle(int height) {
+  const std::string z = " " + std::to_string(height) + "\n";
+  return "v 0 0" + z + "v 1 0" + z + "v 0 1" + z + "f 1 2 3\n";
+}
+
+TEST(Frames, OfAFolderAreInTheOrderOfTheirNumbers) {
+  const MeshFolder folder;
+  for (const int i : {10, 9, 100, 1})
+    (void)folder.file("frame" + std::to_string(i) + ".obj", triangle(i));
+  (void)folder.file("notes.txt", "");
+  const auto frames = open({folder.path()});
+  ASSERT_EQ(frames->count(), 4U);
+  std::vector<double> heights;
+  std::string names;
+  for (std::size_t i = 0; i < frames->count(); ++i) {
+    heights.push_back(frames->next()(0, 2));
+    names += frames->name(i) + " ";
+  }
+  EXPECT_EQ(heights, (std::vector<double>{1, 9, 10, 100}));
+  EXPECT_EQ(names, "frame1.obj frame9.obj frame10.obj frame100.obj ");
+  const std::vector<fs::path> files = frame_files(std::vector{folder.path()});
+  EXPECT_EQ(files.size(), 4U);
+  EXPECT_EQ(files.front(), folder.path() / "frame1.obj");
+  EXPECT_EQ(frame_files(files), files);
+  std::vector<fs::path> left_out;
+  (void)frame_files(std::vector{folder.path()}, &left_out);
+  EXPECT_EQ(left_out, (std::vector{folder.path() / "notes.txt"}));
+}
+
+TEST(Frames, OfAnotherMeshAreAnError) {
+  const MeshFolder folder;
+  const std::vector<std::string> others{triangle(1) + "v 1 1 1\n", triangle(1) + "f 3 2 1\n",
+                                        triangle(1) + "p 1\n", "o x\n" + triangle(1)};
+  for (const std::string& other : others) {
+    const auto frames = open({folder.file("a.obj", triangle(0)), folder.file("b.obj", other)});
+    (void)frames->next();
+    const std::string error = folder.error_of([&] { (void)frames->next(); });
+    EXPECT_TRUE(error.starts_with("b.obj: is not the same mesh as ")) << error;
+  }
+}
+
+TEST(Frames, OfAnArchiveHaveItsElements) {
+  const MeshFolder folder;
+  for (const bool is_compressed : {false, true}) {
+    const auto frames = open({archive(
+        folder.path() / "a.npz",
+        {{"V.npy", array<float>("<f4", {2, 4, 3}, {0, 0, 0, 1, 0, 0, 0, 1, 0, 5, 5, 5,  //
+                                                   0, 0, 1, 1, 0, 1, 0, 1, 1, 6, 6, 0.1F})},
+         {"F.npy", array<std::int64_t>("<i8", {1, 3}, {0, 1, 2})},
+         {"E.npy", array<std::int32_t>("<i4", {1, 2}, {3, 0})},
+         {"P.npy", array<std::int32_t>("<i4", {2}, {3, 1})},
+         {"speed.npy", "not read"}},
+        is_compressed)});
+    ASSERT_EQ(frames->count(), 2U);
+    EXPECT_EQ(frames->mesh().faces, (std::vector<fast::Face>{{0, 1, 2}}));
+    EXPECT_EQ(frames->mesh().edges, (std::vector<fast::Edge>{{0, 1}, {0, 2}, {1, 2}, {0, 3}}));
+    EXPECT_EQ(frames->mesh().points, (std::vector<std::int32_t>{1, 3}));
+    EXPECT_EQ(frames->mesh().note, "passed over: array speed");
+    EXPECT_EQ(frames->next()(3, 2), 5.0);
+    EXPECT_EQ(frames->next()(3, 2), static_cast<double>(0.1F));
+    EXPECT_EQ(frames->name(1), "1");
+  }
+}
+
+TEST(Frames, OfALargeArchiveAreReadInParts) {
+  const MeshFolder folder;
+  constexpr std::size_t vertices = 50'000;
+  std::vector<double> numbers(2 * 3 * vertices);
+  for (std::size_t i = 0; i < numbers.size(); ++i) numbers[i] = static_cast<double>(i);
+  const auto frames = open(
+      {archive(folder.path() / "a.npz", {{"V.npy", array<double>("<f8", {2, vertices, 3}, numbers)},
+                                         {"P.npy", array<std::uint8_t>("|u1", {1}, {7})}})});
+  EXPECT_EQ(frames->next()(vertices - 1, 2), 3.0 * vertices - 1);
+  EXPECT_EQ(frames->next()(vertices - 1, 2), 6.0 * vertices - 1);
+}
+
+TEST(Frames, SayWhatIsWrongWithAnArchive) {
+  const MeshFolder folder;
+  const std::string square = array<double>("<f8", {1, 1, 3}, {0, 0, 0});
+  const auto error = [&](const std::map<std::string, std::string>& members) {
+    return folder.error_of([&] { (void)open({archive(folder.path() / "a.npz", members)}); });
+  };
+  EXPECT_EQ(error({{"x.npy", square}}), "a.npz: no array V of positions, of shape (T, n, 3)");
+  EXPECT_EQ(error({{"V.npy", array<double>("<f8", {1, 3}, {0, 0, 0})}}),
+            "a.npz: V: shape (1, 3), expected (T, n, 3)");
+  EXPECT_EQ(error({{"V.npy", array<double>("<f8", {0, 1, 3}, {})}}),
+            "a.npz: V: no frame, or no vertex");
+  EXPECT_EQ(error({{"V.npy", array<std::int32_t>("<i4", {1, 1, 3}, {0, 0, 0})}}),
+            "a.npz: V: dtype \"<i4\", expected <f4 or <f8");
+  EXPECT_EQ(error({{"V.npy", array<double>("<f8", {1, 1, 3},
+                                           {0, 0, std::numeric_limits<double>::infinity()})}}),
+            "a.npz: V: frame 0: a coordinate must be finite");
+  EXPECT_EQ(error({{"V.npy", square}, {"F.npy", array<std::int32_t>("<i4", {1, 3}, {0, 0, 1})}}),
+            "a.npz: F: row 0: vertex 1, but there are 1, counted from 0");
+  EXPECT_EQ(error({{"V.npy", square}, {"F.npy", array<std::int32_t>("<i4", {1, 3}, {0, 0, -1})}}),
+            "a.npz: F: row 0: vertex -1, but there are 1, counted from 0");
+  EXPECT_TRUE(error({{"V.npy", square}, {"F.npy", array<double>("<f8", {1, 3}, {0, 0, 0})}})
+                  .starts_with("a.npz: F: dtype \"<f8\", expected "));
+  EXPECT_EQ(error({{"V.npy", square}, {"E.npy", array<std::int32_t>("<i4", {1, 3}, {0, 0, 0})}}),
+            "a.npz: E: shape (1, 3), expected (k, 2)");
+  EXPECT_EQ(folder.error_of([&] { (void)open({folder.file("b.npz", "PK nothing")}); }),
+            "b.npz: cannot open: Not a zip archive");
+}
+
+TEST(Frames, ThatDoNotGoTogetherAreAnError) {
+  const MeshFolder folder;
+  const fs::path file = folder.file("a.obj", triangle(0));
+  EXPECT_EQ(folder.error_of([&] {
+    (void)open({file, folder.path() / "b.npz"});
+  }),
+            "b.npz: pass either one archive, one folder, or a list of files");
+  fs::create_directory(folder.path() / "empty");
+  EXPECT_EQ(folder.error_of([&] { (void)open({folder.path() / "empty"}); }),
+            "empty: no .ply or .obj file in this folder");
 }
 
 }  // namespace

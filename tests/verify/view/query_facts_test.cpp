@@ -6,22 +6,34 @@
 
 #include <array>
 #include <cmath>
+#include <fstream>
 #include <limits>
+#include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <variant>
 #include <vector>
 
+#include "tests/support/folder_test.hpp"
+#include "tests/support/methods.hpp"
 #include "tests/support/queries.hpp"
 #include "tests/support/random.hpp"
 #include "touchstone/certificate.hpp"
 #include "touchstone/certificate_text.hpp"
 #include "touchstone/number.hpp"
 #include "touchstone/oracle.hpp"
+#include "verify/data/csv_dataset.hpp"
+#include "verify/io/compressor.hpp"
+#include "verify/io/dataset_error.hpp"
+#include "verify/mesh/mesh_file.hpp"
 #include "verify/solvers/registry.hpp"
 #include "verify/view/asked_solvers.hpp"
+#include "verify/view/query_files.hpp"
+#include "verify/view/step_facts.hpp"
 #include "verify/view/viewed_query.hpp"
 
 namespace touchstone::verify::view::query_facts_test {
@@ -201,6 +213,278 @@ TEST(NearestApproach, BeyondEveryDoubleDoesNotExist) {
       tests::vertex_face({greatest, 0, 0, -greatest, 0, 0, -greatest, 1, 0, -greatest, 0, 1},
                          {greatest, 0, 0, -greatest, 0, 0, -greatest, 1, 0, -greatest, 0, 1});
   EXPECT_FALSE(nearest_approach(far.kind, far.query));
+}
+
+// ---- Who is asked -------------------------------------------------------------------------------
+
+/// A vertex in a resting triangle.
+ViewedQuery resting() {
+  const Query query = tests::over_triangle(1, 1, 0, 0).query;
+  return {.label = "a label", .query = base::AnyQuery(Kind::vertex_face, query)};
+}
+
+/// What these methods say.
+Replies ask_methods(const std::vector<std::string>& names, const ViewedQuery& query) {
+  std::vector<std::unique_ptr<solvers::Solver>> made;
+  std::vector<const solvers::Solver*> asked;
+  for (const std::string& name : names) {
+    made.push_back(solvers::solver_in_process(solvers::find_method(name), {.tolerance = 1e-3}));
+    asked.push_back(made.back().get());
+  }
+  return ask(asked, query);
+}
+
+TEST(Ask, AnswersAreThoseOfSolversWithinTheirTerms) {
+  const Replies replies = ask_methods({"certified", "accd_limited"}, resting());
+  const std::vector<judge::GivenAnswer>& answers = replies.answers;
+  ASSERT_EQ(answers.size(), 1U) << "ACCD's promise is about primitives that start apart";
+  EXPECT_EQ(answers[0].solver, "certified");
+  EXPECT_EQ(answers[0].answer.verdict, fast::Verdict::yes);
+  ASSERT_TRUE(answers[0].standard.has_value());
+  EXPECT_EQ(answers[0].standard->promise, fast::Promise::exact);
+  EXPECT_TRUE(replies.notes.empty());
+}
+
+/// A vertex falls to a triangle at rest and through it, on a curve through these heights.
+OwnCurves on_curves(const std::vector<double>& heights) {
+  OwnCurves own{.curves = {{{}, {.control = {{0, 0, 0}}}, {.control = {{4, 0, 0}}}, {}}}};
+  for (const double z : heights) own.curves[0].control.push_back({1, 1, z});
+  own.curves[3].control = {{0, 4, 0}, {0, 4, 0}, {0, 4, 0}};
+  return own;
+}
+
+TEST(Ask, CurvesOfDegreeOneAsStraightLines) {
+  OwnCurves lines = on_curves({1, -1});
+  lines.curves[3] = {.control = {{0, 4, 0}}};
+  const Replies replies =
+      ask_methods({"certified", "tight_inclusion", "accd"}, {.label = "lines", .query = lines});
+  ASSERT_EQ(replies.answers.size(), 3U);
+  for (const judge::GivenAnswer& given : replies.answers) {
+    EXPECT_EQ(given.answer.verdict, fast::Verdict::yes) << given.solver;
+  }
+}
+
+/// A method of these terms that is never asked.
+std::vector<std::string> notes_of(const fast::Terms& terms, const ViewedQuery& query) {
+  const tests::FunctionMethod method(
+      [](Kind, const Query&) { return fast::Answer{.verdict = fast::Verdict::no}; },
+      {.name = "method", .terms = terms});
+  const auto solver = solvers::solver_in_process(method, {});
+  const std::array<const solvers::Solver*, 1> asked{solver.get()};
+  const Replies replies = ask(asked, query);
+  EXPECT_TRUE(replies.answers.empty());
+  return replies.notes;
+}
+
+TEST(Ask, NotesSayWhoIsNotAskedAndWhy) {
+  struct Row {
+    std::string_view reason;  ///< empty: nothing is said
+    fast::Terms terms;
+    ViewedQuery query;
+  };
+  const fast::Terms polynomial{.straight = false, .least_degree = 1, .most_degree = 8};
+  const fast::Terms two_or_three{.least_degree = 2, .most_degree = 3, .rational = true};
+  const ViewedQuery mixed{.label = "", .query = on_curves({1, 1})};
+  ViewedQuery rational{.label = "", .query = on_curves({1, 1, 1})};
+  std::get<OwnCurves>(rational.query).curves[0].weights = {1, 1, 1};
+  const std::vector<Row> rows{
+      {"it takes straight lines alone", {}, rational},
+      {"it takes straight lines alone", {}, mixed},
+      {"it takes polynomial curves of one degree, 1 to 8", polynomial, rational},
+      {"the curves differ in degree", polynomial, mixed},
+      {"it takes curves of one degree, 2 or 3", two_or_three, mixed},
+      {"it takes no straight lines", polynomial, resting()},
+      {"the query is outside the terms of its promise", {.kinds = {false, true}}, rational},
+      {"", {.kinds = {false, true}}, resting()},
+  };
+  for (const auto& [reason, terms, query] : rows) {
+    std::vector<std::string> expected;
+    if (!reason.empty()) expected.push_back("method is not asked: " + std::string(reason) + ".");
+    EXPECT_EQ(notes_of(terms, query), expected);
+  }
+}
+
+// ---- Steps --------------------------------------------------------------------------------------
+
+/// A triangle at rest, two vertices that fall through it at t = 1/4 and t = 1/2, and an edge far
+/// away.
+mesh::Mesh scene() {
+  const std::vector<std::array<double, 3>> coordinates{{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {1, 1, 2},
+                                                       {1, 2, 1}, {9, 9, 9}, {9, 9, 8}};
+  mesh::Mesh result = mesh::make_mesh(coordinates, {{0, 1, 2}}, std::vector<fast::Edge>{{6, 5}});
+  result.points = {3, 4};
+  return result;
+}
+
+mesh::Vertices after(const mesh::Mesh& mesh) {
+  mesh::Vertices vertices = mesh.vertices;
+  vertices(3, 2) = -2;
+  vertices(4, 2) = -3;
+  return vertices;
+}
+
+/// The points of a pair are those of its query.
+TEST(StepFacts, EveryKindOfPairByItsPoints) {
+  // Edge 0-1 and point 4 pass down through edge 2-3, and point 6 through point 5.
+  const std::vector<std::array<double, 3>> coordinates{
+      {-1, 0, 1}, {1, 0, 1}, {0, -1, 0}, {0, 1, 0}, {0, 0.5, 3}, {5, 5, 5}, {5, 5, 6}};
+  mesh::Mesh mesh = mesh::make_mesh(coordinates, {}, std::vector<fast::Edge>{{0, 1}, {2, 3}});
+  mesh.points = {4, 5, 6};
+  mesh::Vertices after = mesh.vertices;
+  after(0, 2) = after(1, 2) = -1;
+  after(4, 2) = -1;
+  after(6, 2) = 4;
+  const ViewedStep found = find_collisions("kinds", mesh, mesh.vertices, after, {});
+  ASSERT_EQ(found.collisions.size(), 3U);
+  for (std::size_t i = 0; i < found.collisions.size(); ++i) {
+    for (std::size_t point = 0; point < moving_points; ++point) {
+      const Eigen::Index vertex = found.points[i].at(point);
+      EXPECT_EQ(found.queries[i].point(0, point), mesh.vertices.row(vertex).transpose()) << i;
+      EXPECT_EQ(found.queries[i].point(1, point), after.row(vertex).transpose()) << i;
+    }
+  }
+}
+
+TEST(StepFacts, OfTheStepThatIsTaken) {
+  const mesh::Mesh mesh = scene();
+  const ViewedStep taken = find_collisions("a step", mesh, mesh.vertices, after(mesh), {}, 0.25);
+  ASSERT_EQ(taken.collisions.size(), 1U) << "the other point falls through at t = 1/2";
+  EXPECT_EQ(taken.after(4, 2), 0.0);
+  EXPECT_EQ(taken.after(3, 2), 1.0);
+  EXPECT_EQ(straight_of(first_queries(taken, 1)[0])->at(1, 0, 2), 0.0);
+}
+
+TEST(StepFacts, AtASeparation) {
+  const mesh::Mesh mesh = scene();
+  const ViewedStep near = find_collisions("a step", mesh, mesh.vertices, mesh.vertices,
+                                          {.separation = {.distance = 1.0, .norm = Norm::l2}});
+  ASSERT_EQ(near.collisions.size(), 1U) << "one point is 1 above the triangle, the other 2";
+  EXPECT_EQ(near.points[0], (std::array<std::int32_t, 4>{4, 0, 1, 2}));
+  EXPECT_EQ(first_queries(near, 1)[0].separation.distance, 1.0);
+}
+
+// ---- Queries of files ---------------------------------------------------------------------------
+
+/// Queries that differ in one number.
+Query numbered(int number) { return tests::over_triangle(1, 1, 1, -0.1 * number).query; }
+
+/// A query as it is viewed.
+using AnyViewed = decltype(ViewedQuery::query);
+
+AnyViewed any(const Query& query) { return base::AnyQuery(Kind::vertex_face, query); }
+
+class QueryFiles : public tests::FolderTest {
+ protected:
+  void write(const std::string& name, const std::string& text) const {
+    std::ofstream(path(name), std::ios::binary) << text;
+  }
+  [[nodiscard]] std::vector<ViewedQuery> queries(const std::string& name,
+                                                 const QueryFileOptions& options = {}) const {
+    return read_queries(path(name), options);
+  }
+  /// The reason why the file is refused.
+  [[nodiscard]] std::string reason(const std::string& name,
+                                   const QueryFileOptions& options = {}) const {
+    try {
+      (void)queries(name, options);
+    } catch (const io::DatasetError& error) {
+      return error.reason();
+    }
+    return "none";
+  }
+};
+
+TEST_F(QueryFiles, CurvesInJsonAreThoseOfAPage) {
+  const OwnCurves curves{.kind = Kind::edge_edge,
+                         .curves = {{{.control = {{1, 1, 1}, {1, 1, -1}}, .weights = {1, 2}},
+                                     {.control = {{0, 0, 0.1}}, .weights = {1}},
+                                     {.control = {{4, 0, 0}}, .weights = {0.5}},
+                                     {.control = {{0, 4, 0}}, .weights = {1}}}}};
+  nlohmann::json facts = query_facts({.label = "of a page", .query = curves}, {});
+  const auto read_again = [&] {
+    write("curves.json", facts.dump());
+    return reason("curves.json");
+  };
+  EXPECT_EQ(read_again(), "none");
+  EXPECT_EQ(queries("curves.json").at(0).query, AnyViewed(curves));
+  facts["weights"][1][0] = -1;
+  EXPECT_EQ(read_again(), "query 0: a weight is not positive");
+  facts.erase("weights");
+  EXPECT_EQ(read_again(), "none");
+  EXPECT_TRUE(curves_of(queries("curves.json").at(0))[0].weights.empty());
+  facts["control"].push_back(facts["control"][0]);
+  EXPECT_EQ(read_again(), "query 0: a curve has a gap");
+  facts["control"] = nlohmann::json::array();
+  EXPECT_EQ(read_again(), "query 0: control must be a list for each of 1 to 9 control points");
+  facts["control"] = {{nullptr, nullptr, nullptr, nullptr}};
+  EXPECT_NE(read_again(), "none") << "each curve has a point";
+}
+
+TEST_F(QueryFiles, FaultyJson) {
+  for (const auto& [text, expected] : std::vector<std::pair<std::string, std::string>>{
+           {R"({"kind": "edge-edge", "coordinates": [1, 2]})",
+            "query 0: coordinates must be a list of 24 numbers"},
+           {R"([{"kind": "both", "coordinates": []}])",
+            "query 0: kind must be vertex-face, edge-edge, tetrahedron or plane-triangle"},
+           {R"({"coordinates": []})", "query 0: nothing says the kind; add --kind"},
+           {R"({"findings": []})", "there is no query in it"}}) {
+    write("faulty.json", text);
+    EXPECT_EQ(reason("faulty.json"), expected);
+  }
+}
+
+// A small compressed file may hold a text of any length: the memory does not follow it.
+TEST_F(QueryFiles, ACertificateIsBounded) {
+  const auto write_compressed = [this](const std::string& name, const std::string& beginning,
+                                       const std::string& block, int count) {
+    io::Compressor compressor;
+    std::ofstream file(path(name), std::ios::binary);
+    file << compressor.compress(beginning);
+    for (int n = 0; n < count; ++n) file << compressor.compress(block);
+    file << compressor.finish();
+  };
+  std::string mebibyte;
+  for (int n = 0; n < 1'024; ++n) mebibyte += '#' + std::string(1'022, ' ') + '\n';
+  const std::string header(exact::certificates_header());
+  write_compressed("endless.cert.zst", header + "query vertex_face\n", mebibyte, 17);
+  EXPECT_EQ(reason("endless.cert.zst"),
+            "a certificate of more than 16 MiB; is its line 'end' missing?");
+  write_compressed("comments.cert.zst", header, mebibyte, 17);
+  EXPECT_EQ(reason("comments.cert.zst"), "there is no query in it");
+  write("text.cert", "no certificate\n");
+  EXPECT_EQ(reason("text.cert"), "not a stream of certificates");
+  write("cut.cert.zst", read("comments.cert.zst").substr(0, 100));
+  EXPECT_EQ(reason("cut.cert.zst"), "its compressed stream is cut");
+}
+
+TEST_F(QueryFiles, LinesOfVertices) {
+  write("query.obj",
+        "# a query\nv 1 1 1\nv 0 0 0\nv 4 0 0\nv 0 4 0\nv 1 1 -0.10000000000000001\nv 0 0 0\n"
+        "v 4 0 0\nv 0 4 0\n");
+  const auto read_ones = queries("query.obj", {.kind = Kind::vertex_face});
+  ASSERT_EQ(read_ones.size(), 1U);
+  EXPECT_EQ(read_ones[0].query, any(numbered(1)));
+  EXPECT_NE(reason("query.obj"), "none") << "nothing says the kind";
+  write("few.obj", "v 1 2 3\n");
+  EXPECT_EQ(reason("few.obj", {.kind = Kind::edge_edge}), "3 numbers, not the 24 of a query");
+}
+
+TEST(ParseNumber, DecimalsHexadecimalsAndFractions) {
+  EXPECT_EQ(parse_number("0.1"), 0.1);
+  EXPECT_EQ(parse_number("-0x1.8p-3"), -0.1875);
+  EXPECT_EQ(parse_number("1/3"), 1.0 / 3.0);
+  EXPECT_EQ(parse_number("0x1p-1074"), 5e-324);
+  for (const std::string text :
+       {"", "x", "0x", "1e999", "nan", "inf", "0x1p+2000", "1/0", "1.5x"}) {
+    EXPECT_THROW((void)parse_number(text), std::invalid_argument) << text;
+  }
+}
+
+TEST(ParsePoints, AnySeparators) {
+  const Query query = parse_points(
+      "{{1, 1,1; (0 0 0) [4,0,0] 0 4 0\n1 1 -0x1.999999999999ap-4 0 0 0 4 0 0 0 4 0}}");
+  EXPECT_EQ(query, numbered(1));
+  EXPECT_THROW((void)parse_points("1 2 3"), std::invalid_argument);
 }
 
 }  // namespace
