@@ -113,15 +113,15 @@ class DirectionTest {
     const Value magnitude = differences.magnitude();
     Vector<Value> d = differences.sum_of_corners();
     bounded = (max(magnitude, distance) <= Value(limits.distance)) & is_number(d);
-    auto least = differences.least(d);
-    apart = separates(d, least.gap, magnitude, distance);
-    constexpr auto of_sum = Scalar(1) / Scalar(kind == Kind::vertex_face ? 6 : 4);
-    for (Value& x : d) x = x * Value(of_sum);
+    apart = MaskOf<Value>::none();
     for (int step = 0; step < steps; ++step) {
-      approach(d, least.corner);
-      least = differences.least(d);
+      const auto least = differences.least(d);
       apart = apart | separates(d, least.gap, magnitude, distance);
+      constexpr auto of_sum = Scalar(1) / Scalar(kind == Kind::vertex_face ? 6 : 4);
+      if (step == 0) d = {d[0] * Value(of_sum), d[1] * Value(of_sum), d[2] * Value(of_sum)};
+      approach(d, least.corner);
     }
+    apart = apart | separates(d, differences.least(d).gap, magnitude, distance);
   }
 
  private:
