@@ -28,12 +28,12 @@ struct Lanes {
   using Value = SixteenFloats;
   using Mask = SixteenMask;
 
-  static unsigned equal_bits(const std::int32_t* values, std::int32_t value) {
+  static SixteenMask equal(const std::int32_t* values, std::int32_t value) {
     const __m256i all = _mm256_set1_epi32(value);
-    const auto equal = [all](const std::int32_t* from) {
+    const auto of_eight = [all](const std::int32_t* from) {
       return EightMask{_mm256_castsi256_ps(_mm256_cmpeq_epi32(load_whole(from), all))};
     };
-    return SixteenMask{equal(values), equal(values + 8)}.bits();
+    return {of_eight(values), of_eight(values + 8)};
   }
 
   struct Words {

@@ -13,8 +13,8 @@ struct Lanes {
   using Value = Floats;
   using Mask = FloatMask;
 
-  static unsigned equal_bits(const std::int32_t* values, std::int32_t value) {
-    return _mm512_cmpeq_epi32_mask(_mm512_load_si512(values), _mm512_set1_epi32(value));
+  static FloatMask equal(const std::int32_t* values, std::int32_t value) {
+    return {_mm512_cmpeq_epi32_mask(_mm512_load_si512(values), _mm512_set1_epi32(value))};
   }
 
   static __m512i load_words(const void* from) { return _mm512_load_si512(from); }

@@ -13,10 +13,10 @@ struct Lanes : WordsOneByOne {
   using Value = Floats;
   using Mask = FloatMask;
 
-  static unsigned equal_bits(const std::int32_t* values, std::int32_t value) {
+  static FloatMask equal(const std::int32_t* values, std::int32_t value) {
     const int32x4_t all = vdupq_n_s32(value);
-    const auto equal = [&](std::size_t first) { return vceqq_s32(vld1q_s32(values + first), all); };
-    return FloatMask{equal(0), equal(4), equal(8), equal(12)}.bits();
+    const auto four = [&](std::size_t first) { return vceqq_s32(vld1q_s32(values + first), all); };
+    return {four(0), four(4), four(8), four(12)};
   }
 };
 

@@ -29,7 +29,7 @@ namespace touchstone::fast::search {
 /// - load_words(from): sixteen numbers of 32 bits at an address aligned to 64;
 /// - write(to, words, bits): writes the words that the bits select, one after the other. It may
 ///   write sixteen;
-/// - equal_bits(values, value): which of sixteen whole numbers are that value;
+/// - equal(values, value): a mask of which of sixteen whole numbers are that value;
 /// - append<is_ordered>(to, number, numbers, bits): writes the pairs of a number with those of the
 ///   sixteen numbers that the bits select, if is_ordered the smaller one first, and returns the
 ///   end. It may write sixteen pairs.
@@ -193,6 +193,7 @@ class Search {
       if (is_self) overlapping &= ~0U << (row + 1);
       if (overlapping == 0) continue;
       if (!rules_.keeps_neighbours) overlapping &= ~sharing(own, row, others);
+      if (overlapping == 0) continue;
       if (rules_.all_bodies != nullptr) overlapping = that_meet({group, row}, other, overlapping);
       if (rules_.certainty != Certainty::all)
         overlapping = confirmed(own, row, others, loaded, overlapping);
@@ -202,13 +203,13 @@ class Search {
 
   /// The primitives, of sixteen, that share a vertex with a primitive.
   static unsigned sharing(const GroupMembers& own, std::size_t row, const GroupMembers& others) {
-    unsigned result = 0;
+    Mask result = Mask::none();
     for (std::size_t i = 0; i < (of_edges ? 2U : 1U); ++i) {
       for (std::size_t k = 0; k < (of_edges ? 2U : 3U); ++k) {
-        result |= Lanes::equal_bits(others.vertices[k].data(), own.vertices[i][row]);
+        result = result | Lanes::equal(others.vertices[k].data(), own.vertices[i][row]);
       }
     }
-    return result;
+    return result.bits();
   }
 
   static Primitive primitive(const GroupMembers& group, std::size_t lane) {

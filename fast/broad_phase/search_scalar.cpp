@@ -11,8 +11,8 @@ struct Lanes : WordsOneByOne {
   using Value = Floats;
   using Mask = FloatMask;
 
-  static unsigned equal_bits(const std::int32_t* values, std::int32_t value) {
-    return each<FloatMask>([&](std::size_t i) { return values[i] == value ? -1 : 0; }).bits();
+  static FloatMask equal(const std::int32_t* values, std::int32_t value) {
+    return each<FloatMask>([&](std::size_t i) { return values[i] == value ? -1 : 0; });
   }
 };
 

@@ -64,7 +64,8 @@ struct KernelImpact {
   double v;
 };
 
-/// The results of a block. Queries that are in no list are separated on an axis.
+/// The results of a block. Queries that are in no list are separated on an axis, or have no contact
+/// up to t_limit in single precision.
 struct KernelOutput {
   template <class T>
   struct List {

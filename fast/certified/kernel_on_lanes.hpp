@@ -65,7 +65,7 @@ void run_stages(const KernelInput& input, KernelOutput& output) {
   output.rejected.count = output.impacts.count = output.undecided.count = 0;
   Indices mixed, far, undecided;
   if (input.rounded != nullptr) {
-    single_precision_stage<Lanes, separated, kind>(input, mixed, output);
+    single_precision_stage<Lanes, separated, kind>(input, mixed);
   } else {
     Indices open;
     if (input.axis_is_done) {

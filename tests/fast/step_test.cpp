@@ -800,7 +800,8 @@ TEST(Step, IsTheSameInEveryUnit) {
       EXPECT_EQ(touching(other, {.distance = distance * unit, .norm = Norm::linf}), pairs) << unit;
       const Work of_other = work_of(other, {.distance = distance * unit, .norm = Norm::l2});
       EXPECT_EQ(of_other.pairs, work.pairs) << unit;
-      EXPECT_LE(of_other.exact, work.exact + 2) << unit;
+      // Single precision, which decides a few more, is not available in all of them.
+      EXPECT_LE(of_other.exact, work.exact + 10) << unit;
     }
   }
 }

@@ -7,8 +7,11 @@
 /// corners w_i at t=0 and at t=1, where D is the minimum separation or 0, there is no contact: each
 /// d·w_i is linear in t, so it is always greater than D n.
 ///
-/// d is the sum of the corners. The computed values have to exceed the error bound of their
-/// expression (filters::ProjectedGap, filters::AdvancedGap).
+/// d is the sum of the corners. If any fixed direction separates them, so does the point nearest to
+/// the origin of the convex hull of all corners at both ends. Further directions approach it: from
+/// the mean of the corners, each goes towards the corner with the least d·w, to the nearest point
+/// on the way. The computed values have to exceed the error bound of their expression
+/// (filters::ProjectedGap, filters::AdvancedGap).
 
 #include <array>
 #include <cstddef>
@@ -63,23 +66,42 @@ struct Differences {
     return result;
   }
 
-  /// The least d·a − d·b, at both ends.
-  [[nodiscard]] Value gap(const Vector<Value>& d) const {
-    std::array<Value, 2> least;
+  /// A corner with the least d·w at both ends, and that product.
+  struct Least {
+    Value gap;
+    Vector<Value> corner;
+  };
+
+  [[nodiscard]] Least least(const Vector<Value>& d) const {
+    std::array<Least, 2> of_end;
     for (std::size_t end = 0; end < 2; ++end) {
-      Value least_a = filters::dot(d, a[0][end]);
-      for (std::size_t i = 1; i < firsts; ++i) least_a = min(least_a, filters::dot(d, a[i][end]));
-      Value greatest_b(0);
-      for (std::size_t i = 0; i < seconds; ++i) {
-        greatest_b = max(greatest_b, filters::dot(d, b[i][end]));
+      Vector<Value> first = a[0][end], second{Value(0), Value(0), Value(0)};
+      Value least_a = filters::dot(d, first), greatest_b(0);
+      for (std::size_t i = 1; i < firsts; ++i) {
+        const Value of_a = filters::dot(d, a[i][end]);
+        first = chosen(of_a < least_a, a[i][end], first);
+        least_a = min(least_a, of_a);
       }
-      least[end] = least_a - greatest_b;
+      for (std::size_t i = 0; i < seconds; ++i) {
+        const Value of_b = filters::dot(d, b[i][end]);
+        second = chosen(of_b > greatest_b, b[i][end], second);
+        greatest_b = max(greatest_b, of_b);
+      }
+      of_end[end] = {least_a - greatest_b, minus(first, second)};
     }
-    return min(least[0], least[1]);
+    return {min(of_end[0].gap, of_end[1].gap),
+            chosen(of_end[1].gap < of_end[0].gap, of_end[1].corner, of_end[0].corner)};
+  }
+
+ private:
+  static Vector<Value> chosen(const MaskOf<Value>& mask, const Vector<Value>& x,
+                              const Vector<Value>& y) {
+    return {select(mask, x[0], y[0]), select(mask, x[1], y[1]), select(mask, x[2], y[2])};
   }
 };
 
-template <class Value, bool separated, Kind kind>
+/// \tparam steps The number of further directions.
+template <class Value, bool separated, Kind kind, int steps = 0>
 class DirectionTest {
  public:
   MaskOf<Value> bounded;  ///< the query is small enough for all bounds, and finite
@@ -89,15 +111,32 @@ class DirectionTest {
   DirectionTest(const std::array<Vector<Coordinate>, query_points>& points, const Value& distance) {
     const Differences<Value, kind> differences(points);
     const Value magnitude = differences.magnitude();
-    const Vector<Value> d = differences.sum_of_corners();
+    Vector<Value> d = differences.sum_of_corners();
     bounded = (max(magnitude, distance) <= Value(limits.distance)) & is_number(d);
-    apart = separates(d, differences.gap(d), magnitude, distance);
+    apart = MaskOf<Value>::none();
+    for (int step = 0; step < steps; ++step) {
+      const auto least = differences.least(d);
+      apart = apart | separates(d, least.gap, magnitude, distance);
+      constexpr auto of_sum = Scalar(1) / Scalar(kind == Kind::vertex_face ? 6 : 4);
+      if (step == 0) d = {d[0] * Value(of_sum), d[1] * Value(of_sum), d[2] * Value(of_sum)};
+      approach(d, least.corner);
+    }
+    apart = apart | separates(d, differences.least(d).gap, magnitude, distance);
   }
 
  private:
   using Scalar = typename Value::Scalar;
   using Format = FormatOf<Value>;
   static constexpr Limits<Scalar> limits = Format::limits;
+
+  /// Moves a point to the one nearest to the origin on the way to a corner.
+  static void approach(Vector<Value>& point, const Vector<Value>& corner) {
+    const Vector<Value> way = minus(corner, point);
+    const Value square = max(filters::dot(way, way), Value(Format::least_length));
+    const Value part = (Value(0) - filters::dot(point, way)) / square;
+    const Value part_of_way = max(min(part, Value(1)), Value(0));
+    for (std::size_t k = 0; k < 3; ++k) point[k] = point[k] + part_of_way * way[k];
+  }
 
   /// \param gap The least d·w, at both ends.
   static MaskOf<Value> separates(const Vector<Value>& d, const Value& gap, const Value& magnitude,

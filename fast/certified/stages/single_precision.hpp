@@ -9,6 +9,9 @@
 /// convex combinations of corners. If the rounded query has no contact within D + ε in the maximum
 /// norm, the query has none within D in that norm, nor in the Euclidean one, which is not less.
 ///
+/// Each of three tests leaves those of the open queries that it does not exclude: directions, the
+/// determinant and the orientations on [0,1], and these on parts of it.
+///
 /// The coordinates of rounded queries are whole numbers (fast/certified/fixed_point_vertices.hpp).
 /// A difference of two is exact, and rounded once, to a float. So the stages' expressions have the
 /// error bounds that are derived for float.
@@ -48,30 +51,37 @@ struct FixedPointCoordinate {
   }
 };
 
-/// The vertices of pairs in fixed point, by their places in a query.
-template <class Lanes, std::size_t count>
-using RoundedVertices = std::array<std::array<const FixedPointVertex*, count>, moving_points>;
+/// The vertices of the open pairs in fixed point, by their places in a query. The last pair is
+/// repeated to fill the lanes.
+using RoundedVertices =
+    std::array<std::array<const FixedPointVertex*, kernel_block>, moving_points>;
 
-/// The vertices of a block. The last pair is repeated to fill the lanes.
-template <class Lanes, Kind kind>
-inline void find_rounded(const KernelInput& input, RoundedVertices<Lanes, kernel_block>& rounded) {
-  std::size_t i = 0;
-  for (; i < input.count; ++i) {
-    const auto vertices = FromPairs<Lanes, kind>::vertices(input, i);
-    for (std::size_t k = 0; k < moving_points; ++k) {
-      rounded[k][i] = input.rounded + vertices[k];
-    }
-  }
-  for (; i % single_width<Lanes> != 0; ++i) {
+template <class Lanes>
+inline void fill_lanes(RoundedVertices& rounded, std::size_t count) {
+  for (std::size_t i = count; i % single_width<Lanes> != 0; ++i) {
     for (auto& vertices : rounded) vertices[i] = vertices[i - 1];
   }
 }
 
+/// All pairs of a block.
+template <class Lanes, Kind kind>
+inline void find_rounded(const KernelInput& input, RoundedVertices& rounded, Indices& open) {
+  for (std::size_t i = 0; i < input.count; ++i) {
+    const auto vertices = FromPairs<Lanes, kind>::vertices(input, i);
+    for (std::size_t k = 0; k < moving_points; ++k) {
+      rounded[k][i] = input.rounded + vertices[k];
+      __builtin_prefetch(rounded[k][i]);
+    }
+    open.items[i] = static_cast<std::uint32_t>(i);
+  }
+  open.count = input.count;
+  fill_lanes<Lanes>(rounded, open.count);
+}
+
 /// The points of the queries that fill the lanes, from `first` on. Inlined always, because the
 /// compiler does not in large kernels, and the points then pass through memory.
-template <class Lanes, std::size_t count>
-[[gnu::always_inline]] inline auto load_rounded(const RoundedVertices<Lanes, count>& rounded,
-                                                std::size_t first) {
+template <class Lanes>
+[[gnu::always_inline]] inline auto load_rounded(const RoundedVertices& rounded, std::size_t first) {
   std::array<Vector<FixedPointCoordinate<Lanes>>, query_points> result;
   for (std::size_t k = 0; k < moving_points; ++k) {
     const FixedPointVertex* const* const vertices = rounded[k].data() + first;
@@ -83,18 +93,6 @@ template <class Lanes, std::size_t count>
     }
   }
   return result;
-}
-
-/// The same of queries that are still open. Lanes beyond the last repeat it.
-template <class Lanes>
-inline auto load_open(const RoundedVertices<Lanes, kernel_block>& rounded, const Indices& open,
-                      std::size_t first) {
-  RoundedVertices<Lanes, single_width<Lanes>> some;
-  for (std::size_t lane = 0; lane < single_width<Lanes>; ++lane) {
-    const std::size_t place = open.items[first + lane < open.count ? first + lane : open.count - 1];
-    for (std::size_t k = 0; k < moving_points; ++k) some[k][lane] = rounded[k][place];
-  }
-  return load_rounded<Lanes>(some, 0);
 }
 
 /// Examines [0,1] in this number of equal parts.
@@ -163,74 +161,55 @@ inline unsigned large_distances(const Ends<Value>& unit, const Value& distance) 
   return (distance > size_of(unit) * Value(large)).bits();
 }
 
-/// Tests the queries on parts of [0,1]. \param open The queries; then those that are not decided.
+/// Keeps the open queries that a test of their points, possible(points), does not exclude.
+template <class Lanes, class Possible>
+inline void keep(RoundedVertices& rounded, Indices& open, const Possible& possible) {
+  constexpr std::size_t width = single_width<Lanes>;
+  Marks<Lanes> kept(open.count);
+  for (std::size_t i = 0; i < open.count; i += width) {
+    const std::size_t rest = open.count - i;
+    const unsigned valid = first_lanes<Lanes>(rest < width ? rest : width);
+    kept.add(i, valid & possible(load_rounded<Lanes>(rounded, i)));
+  }
+  std::size_t count = 0;
+  kept.for_each([&](std::size_t i) {
+    for (auto& vertices : rounded) vertices[count] = vertices[i];
+    open.items[count++] = open.items[i];
+  });
+  open.count = count;
+  fill_lanes<Lanes>(rounded, count);
+}
+
+/// Directions after the sum of the corners: the most that cost less than the queries they exclude.
+inline constexpr int more_directions = 2;
+
+/// \param open The queries that are not decided; the others have no contact.
 template <class Lanes, bool separated, Kind kind>
-inline void parts_stage(const KernelInput& input,
-                        const RoundedVertices<Lanes, kernel_block>& rounded, Indices& open,
-                        KernelOutput& output) {
+inline void single_precision_stage(const KernelInput& input, Indices& open) {
   using Value = typename Lanes::Single;
-  Marks<Lanes> of_possible(open.count), of_free(open.count);
-  for (std::size_t first = 0; first < open.count; first += single_width<Lanes>) {
-    const auto points = load_open<Lanes>(rounded, open, first);
-    const unsigned valid = first_lanes<Lanes>(
-        open.count - first < single_width<Lanes> ? open.count - first : single_width<Lanes>);
-    const Value distance(input.rounded_distance);
+  RoundedVertices rounded;
+  find_rounded<Lanes, kind>(input, rounded, open);
+  const Value distance(input.rounded_distance);
+  keep<Lanes>(rounded, open, [&](const auto& points) {
+    return ~DirectionTest<Value, true, kind, more_directions>(points, distance).apart.bits();
+  });
+  keep<Lanes>(rounded, open, [&](const auto& points) {
     const Ends<Value> unit = vectors_of<kind>(points);
-    const unsigned far = separated ? valid & large_distances(unit, distance) : 0U;
-    unsigned possible = valid;
-    if (far != valid) possible &= possible_by_parts<Lanes, kind>(unit, distance);
+    return ~examine<kind>(unit, bounds_of<kind, true>(unit, distance)).has_no_contact().bits();
+  });
+  keep<Lanes>(rounded, open, [&](const auto& points) {
+    const Ends<Value> unit = vectors_of<kind>(points);
+    const unsigned far = separated ? large_distances(unit, distance) : 0U;
+    const bool are_far = far == MaskOf<Value>::all().bits();
+    unsigned possible = are_far ? far : possible_by_parts<Lanes, kind>(unit, distance);
     if constexpr (separated) {
       if ((possible & far) != 0) {
         possible &=
             possible_by_distance<Lanes, kind>(points, input.rounded_distance, input.t_limit);
       }
     }
-    of_possible.add(first, possible);
-    of_free.add(first, valid & ~possible);
-  }
-  of_free.for_each([&](std::size_t i) { append<Lanes>(output.rejected, open.items[i]); });
-  std::size_t count = 0;
-  of_possible.for_each([&](std::size_t i) { open.items[count++] = open.items[i]; });
-  open.count = count;
-}
-
-/// \param open The queries that are not decided.
-template <class Lanes, bool separated, Kind kind>
-inline void single_precision_stage(const KernelInput& input, Indices& open, KernelOutput& output) {
-  using Value = typename Lanes::Single;
-  Marks<Lanes> of_direction(input.count), of_determinant(input.count), of_orientation(input.count),
-      of_none(input.count);
-  RoundedVertices<Lanes, kernel_block> rounded;
-  find_rounded<Lanes, kind>(input, rounded);
-  const Value distance(input.rounded_distance);
-  for (std::size_t first = 0; first < input.count; first += single_width<Lanes>) {
-    for (std::size_t i = first + single_width<Lanes>;
-         i < first + 2 * single_width<Lanes> && i < input.count; ++i) {
-      for (const auto& vertices : rounded) __builtin_prefetch(vertices[i]);
-    }
-    const auto points = load_rounded<Lanes>(rounded, first);
-    const DirectionTest<Value, true, kind> direction(points, distance);
-    const Ends<Value> at = vectors_of<kind>(points);
-    const Examination<Value> found = examine<kind>(at, bounds_of<kind, true>(at, distance));
-    const unsigned valid = first_lanes<Lanes>(
-        input.count - first < single_width<Lanes> ? input.count - first : single_width<Lanes>);
-    const unsigned apart = direction.apart.bits();
-    const unsigned one_sided = found.determinant.one_sided.bits() & ~apart;
-    const unsigned opposed = found.orientation.opposed.bits() & ~apart & ~one_sided;
-    of_direction.add(first, valid & apart);
-    of_determinant.add(first, valid & one_sided);
-    of_orientation.add(first, valid & opposed);
-    of_none.add(first, valid & ~(apart | one_sided | opposed));
-  }
-  const auto append_to = [](Indices& list) {
-    return [&list](std::size_t place) { append<Lanes>(list, static_cast<std::uint32_t>(place)); };
-  };
-  of_direction.for_each(append_to(output.separated_in_direction));
-  of_determinant.for_each(append_to(output.one_sided));
-  of_orientation.for_each(append_to(output.rejected));
-  open.count = 0;
-  of_none.for_each(append_to(open));
-  parts_stage<Lanes, separated, kind>(input, rounded, open, output);
+    return possible;
+  });
 }
 
 }  // namespace touchstone::fast::kernel
