@@ -376,10 +376,10 @@ TEST(Intersections, OfAMeshAreThoseOfRationalArithmetic) {
   std::map<IntersectingPairs, std::size_t> count;
   for (int i = 0; i < tests::trials(400); ++i) {
     const Asked asked(random);
-    const auto& [vertices, faces, edges, points] = asked.mesh;
     const Found found = asked.mesh.intersections(asked.options());
     ASSERT_EQ(found, asked.truth()) << i;
-    EXPECT_EQ(has_intersections(vertices, asked.mesh.elements(), asked.options()), !found.empty());
+    EXPECT_EQ(has_intersections(asked.mesh.vertices, asked.mesh.elements(), asked.options()),
+              !found.empty());
     count[asked.pairs] += found.size();
   }
   for (const auto& [pairs, found] : count) EXPECT_GT(found, tests::trials(100U));
