@@ -225,16 +225,16 @@ TEST(HardQueries, HaveTheirLevel) {
     double low;
     std::array<double, 2> high;  // of both kinds
   };
-  for (const auto& [name, measure, low, high] : {Row{"aspect", aspect, 0.65, {1.2, 1.5}},
-                                                 {"angle", angle, 0.85, {1.2, 1.2}},
-                                                 {"speed", speed, 0.7, {1.1, 1.1}},
-                                                 {"offset", offset, 0.7, {1.9, 1.9}},
-                                                 {"scale", scale, 0.3, {3.0, 3.0}}}) {
-    for_each_query(name, 16, [&](int exponent, Kind kind, const Query& query, bool) {
-      if (measure == offset && exponent == 0) return;
-      const double found = std::ldexp(measure(kind, query), -exponent);
-      EXPECT_GE(found, low);
-      EXPECT_LE(found, high.at(kind == Kind::edge_edge ? 1 : 0));
+  for (const Row& row : {Row{"aspect", aspect, 0.65, {1.2, 1.5}},
+                         {"angle", angle, 0.85, {1.2, 1.2}},
+                         {"speed", speed, 0.7, {1.1, 1.1}},
+                         {"offset", offset, 0.7, {1.9, 1.9}},
+                         {"scale", scale, 0.3, {3.0, 3.0}}}) {
+    for_each_query(row.name, 16, [&](int exponent, Kind kind, const Query& query, bool) {
+      if (row.measure == offset && exponent == 0) return;
+      const double found = std::ldexp(row.measure(kind, query), -exponent);
+      EXPECT_GE(found, row.low);
+      EXPECT_LE(found, row.high.at(kind == Kind::edge_edge ? 1 : 0));
     });
   }
 }
