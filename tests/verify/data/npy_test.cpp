@@ -163,21 +163,6 @@ TEST(NpyWriter, WritesAHeaderThatNumpyReads) {
   EXPECT_EQ(contents(folder.path() / "a.npy"), expected + "\n" + bytes_of(two_queries()));
 }
 
-TEST(WriteIndexPairs, WritesMoreThanItsBufferHolds) {
-  std::vector<std::array<std::int32_t, 2>> pairs(50'001);
-  for (std::size_t i = 0; i < pairs.size(); ++i) {
-    pairs[i] = {static_cast<std::int32_t>(i), -static_cast<std::int32_t>(i)};
-  }
-  const TemporaryFolder folder;
-  write_index_pairs(folder.path() / "a.npy", pairs);
-  EXPECT_EQ(contents(folder.path() / "a.npy").substr(0, 127),
-            header("{'descr': '<i4', 'fortran_order': False, 'shape': (50001, 2), }", 1, 128)
-                .substr(0, 127));
-  std::vector<std::int32_t> read(2 * pairs.size());
-  NpyArray(folder.path() / "a.npy").take<std::int32_t, std::int32_t>(read, {"<i4"});
-  EXPECT_EQ(std::memcmp(read.data(), pairs.data(), 8 * pairs.size()), 0);
-}
-
 TEST(Npz, GivesItsArraysByName) {
   const TemporaryFolder folder;
   const auto path = tests::archive(
