@@ -3,7 +3,11 @@
 // appended). One thread. The methods are those that need no rounding mode, which WebAssembly has
 // not.
 
+#ifdef __EMSCRIPTEN__
 #include <emscripten/emscripten.h>
+#else  // a test of the list of sources
+#define EMSCRIPTEN_KEEPALIVE [[gnu::visibility("default")]]
+#endif
 
 #include <algorithm>
 #include <cstdint>
