@@ -113,7 +113,7 @@ constexpr std::string_view headers_without_test = R"(
   verify/data/: query_source.hpp
 // The oracle, the certificates and their checker.
   exact/algebra/: positivity.hpp
-  exact/checker/: scene.hpp
+  exact/checker/: proof.hpp scene.hpp
   exact/contact/: contact_conditions.hpp contact_oracle.hpp
   exact/distance/: separating_axes.hpp
 // The kernels, which take the same queries in the same tests; the deciders; distances, steps, and the
@@ -131,10 +131,13 @@ constexpr std::string_view headers_without_test = R"(
   adapters/tight_inclusion/: config.hpp
 // The answers of the methods; the queries of the families; files and child processes, tables, certify, solve.
   verify/base/: any_query.hpp cores.hpp
-  verify/baselines/: closest_features.hpp moving_polynomials.hpp
-  verify/generate/: coordinate_sampler.hpp curved_families.hpp draws.hpp grid.hpp passing_planes.hpp
+  verify/baselines/: closest_features.hpp exact_number.hpp interval_search.hpp method_support.hpp moving_polynomials.hpp
+  verify/fuzz/: fuzz_report.hpp
+  verify/generate/: coordinate_sampler.hpp curved_families.hpp draws.hpp grid.hpp offset.hpp passing_planes.hpp
   verify/io/: descriptor.hpp text_table.hpp
-  verify/jobs/: work_time.hpp
+  verify/jobs/: prove.hpp work_time.hpp
+  verify/judge/: fault.hpp
+  verify/solvers/: child_process.hpp
 // tests/transcripts.
   verify/cli/: files.hpp options.hpp result_files.hpp sharded_run.hpp solver_options.hpp sources.hpp
   verify/report/: judgement_report.hpp step_report.hpp
