@@ -250,6 +250,7 @@ std::vector<Collision> collisions(Kind kind, std::span<const Query> queries,
 
 std::vector<Collision> collisions(const MovingVertices& vertices, const Candidates& candidates,
                                   const CertifiedOptions& options) {
+  require_contact(candidates.kind);
   return collisions(Batch{.queries = {}, .vertices = &vertices, .candidates = candidates}, options);
 }
 

@@ -234,12 +234,13 @@ void set_corners(MotionOf<Order>& motion) {
                                      const Separation& separation = {.distance = 0.0,
                                                                      .norm = Norm::l2});
 
-/// \throws std::domain_error also if a weight is not positive; std::invalid_argument also if the
-/// query is not valid.
+/// \throws as of a Query, and std::domain_error if a weight is not positive, std::invalid_argument
+/// if the query is not valid.
 [[nodiscard]] MotionOf<Curved> scale_uniformly(Kind kind, const CurvedQuery& query,
                                                const Separation& separation);
 
-/// The same, but if the distance is 0, each axis is scaled by its own power of two.
+/// As scale_uniformly of the same query, but if the distance is 0, each axis is scaled by its own
+/// power of two.
 [[nodiscard]] Motion scale(Kind kind, const Query& query, const Separation& separation = {});
 [[nodiscard]] MotionOf<Curved> scale(Kind kind, const CurvedQuery& query,
                                      const Separation& separation = {});

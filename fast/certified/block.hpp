@@ -90,8 +90,8 @@ void report_contacts(const KernelOutput& output, const CertifiedOptions& options
   }
 }
 
-/// The output of blocks in this thread: one for all instances of decide_block, whose callers do not
-/// decide another block while they use it.
+/// The output of blocks in this thread: one for all instances of run_kernel, whose callers do not
+/// run another block while they use it.
 [[nodiscard]] inline KernelOutput& block_output() {
   thread_local KernelOutput output;
   return output;

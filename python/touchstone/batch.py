@@ -90,7 +90,7 @@ def certified(
     Parameters
     ----------
     kind : {"vertex_face", "edge_edge", "tetrahedron", "plane_triangle"}
-        The primitives of all queries; or an element on straight lines, which "collides" if it inverts (`inversions`).
+        The primitives of all queries; or an element on straight lines, which "collides" if it inverts (as `Step.inversions` says of a mesh).
     queries : array_like of shape (N, 8, 3) or (8, 3)
         Four points at t=0, then at t=1: v, f0, f1, f2 or ea0, ea1, eb0, eb1. Used without a copy if
         it is float64 and C-contiguous; anything else is converted, float32 exactly. Or of shape

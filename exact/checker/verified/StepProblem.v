@@ -1,5 +1,5 @@
 (** A step of a scene, and what a certificate claims of it: what has to be read, besides Problem.v, to
-    understand the theorem of StepProof.v. *)
+    understand the theorems of StepProof.v and StepPairs.v. *)
 
 Require Import ZArith QArith Reals Qreals List.
 Import ListNotations.

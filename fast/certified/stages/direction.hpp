@@ -7,11 +7,11 @@
 /// corners w_i at t=0 and at t=1, where D is the minimum separation or 0, there is no contact: each
 /// d·w_i is linear in t, so it is always greater than D n.
 ///
-/// d is the sum of the corners. If any fixed direction separates them, so does the point nearest to
-/// the origin of the convex hull of all corners at both ends. Further directions approach it: from
-/// the mean of the corners, each goes towards the corner with the least d·w, to the nearest point
-/// on the way. The computed values have to exceed the error bound of their expression
-/// (filters::ProjectedGap, filters::AdvancedGap).
+/// d is the sum of the corners. If any fixed direction has positive products with all corners, so
+/// has the point nearest to the origin of the convex hull of all corners at both ends. Further
+/// directions approach it: from the mean of the corners, each goes towards the corner with the
+/// least d·w, to the nearest point on the way. The computed values have to exceed the error bound
+/// of their expression (filters::ProjectedGap, filters::AdvancedGap).
 
 #include <array>
 #include <cstddef>

@@ -48,7 +48,7 @@ struct StageFormat<double> {
   static constexpr Limits<double> limits{0x1p100, 0x1p102, 0x1p210};
   /// The factor of normals that are directions.
   static constexpr double normal_scale = 1.0;
-  /// The least length by which directions are divided.
+  /// The least length, or squared length, by which directions are divided.
   static constexpr double least_length = 0x1p-1000;
   static constexpr auto projected_gap = filters::measured_projected_gap_double;
   static constexpr auto advanced_gap = filters::measured_advanced_gap_double;

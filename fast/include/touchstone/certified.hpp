@@ -90,7 +90,7 @@ inline constexpr double no_number = std::numeric_limits<double>::quiet_NaN();
 enum class Stage : std::uint8_t {
   axis,         ///< a coordinate axis separates the primitives at all times
   direction,    ///< one fixed direction separates them at all times
-  determinant,  ///< the determinant keeps its sign
+  determinant,  ///< the determinant keeps its sign; of an element also its sign at t=0
   bisection,    ///< signs on intervals of t
   exact,        ///< exact arithmetic
 };
@@ -114,16 +114,16 @@ struct CertifiedOptions {
 };
 
 struct CertifiedResult {
-  /// yes or no, always right; error if a coordinate is not finite, or a weight not positive and
-  /// finite. Never undecided.
+  /// yes or no, always right; error if a coordinate that has an effect is not finite, or a weight
+  /// not positive and finite. Never undecided.
   Verdict verdict = Verdict::error;
   Stage stage = Stage::axis;  ///< the stage that decided
-  /// Of an element: the sign of its volume at t=0, 1, 0 (flat) or −1 (inverted); 0 with error.
+  /// Of an element: the sign of its volume at t=0, 1, 0 (flat) or −1 (inverted); else 0.
   std::int8_t start = 0;
   double toi_lower = no_number;  ///< with yes: below the time of impact; 0 if that is 0
   double toi_upper = no_number;  ///< with yes: not below the time of impact; may be above t_max
   /// The parameters, with yes, in F's domain, of the contact or of the nearest points at that time.
-  /// An approximation without an error bound.
+  /// An approximation without an error bound. NaN of an element.
   double u = no_number;
   double v = no_number;
 };
