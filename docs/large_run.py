@@ -9,6 +9,7 @@ import json
 import pathlib
 import random
 import resource
+import shutil
 import subprocess
 import sys
 import threading
@@ -106,6 +107,7 @@ def measure(options, run):
             run([simulator, *words, "--record", recorded, "--record-limit", str(LIMIT), "--npy", *out, "--json",
                  done.with_suffix(".part")])
             done.with_suffix(".part").rename(done)
+    shutil.rmtree(store, ignore_errors=True)
     sizes = [split(file, store / file.parent.name) for file in sorted(recorded.glob("*/*.npy"))]
     if sum(map(sum, sizes)) < FEWEST and not options.quick:
         raise RuntimeError(f"only {sum(map(sum, sizes)):,} queries were recorded")

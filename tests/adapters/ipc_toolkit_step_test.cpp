@@ -21,7 +21,7 @@
 #include "touchstone/number.hpp"
 #include "touchstone/oracle.hpp"
 
-namespace touchstone::adapters::ipc_toolkit_test {
+namespace touchstone::adapters::ipc_toolkit_step_test {
 namespace {
 
 using Eigen::MatrixXd;
@@ -385,4 +385,4 @@ TEST(IpcStepErrors, NameWhatIsWrong) {
 }
 
 }  // namespace
-}  // namespace touchstone::adapters::ipc_toolkit_test
+}  // namespace touchstone::adapters::ipc_toolkit_step_test

@@ -336,7 +336,7 @@ class FuzzRun {
   }
 
   /// The shapes that the command line names and the solver answers.
-  /// \throws std::invalid_argument if it answers none of a degree,
+  /// \throws std::invalid_argument if it answers none of a degree.
   [[nodiscard]] std::vector<QueryShape> chosen_shapes() const {
     std::vector<QueryShape> result;
     for (const std::string& degree : arguments_.degrees()) {

@@ -53,18 +53,6 @@ bool report_unknown(const CLI::App& app, const std::string& word) {
   return true;
 }
 
-/// For one version, `curved` names the command that replaces it.
-void add_curved(CLI::App& app) {
-  CLI::App* const command = app.add_subcommand("curved")->group("");
-  command->prefix_command();
-  command->callback([] {
-    throw std::invalid_argument(
-        "curved is now certify, which decides queries on curves of every degree: touchstone "
-        "certify FILE, or --degree 2 --degree 3 --degree rational for the families, with --prove "
-        "for --proof and --method subdivision and so on for --others");
-  });
-}
-
 /// An interrupt before there was anything to keep.
 int report_interrupt() {
   touchstone::verify::cli::report_error("interrupted");
@@ -90,7 +78,6 @@ int run(int argc, char** argv) {
   app.require_subcommand(0, 1);
   Status status = Status::all_well;
   touchstone::verify::cli::add_commands(app, status);
-  add_curved(app);
   if (argc > 1 && argv[1][0] != '-' && report_unknown(app, argv[1])) {
     return static_cast<int>(Status::bad_input);
   }

@@ -49,7 +49,7 @@ using LeftOut = std::function<void(const io::DatasetError&)>;
 /// frames, and files named *_toi.csv.
 /// \param on_left_out called for everything else that is skipped, and for files in those folders
 /// that have a dataset's name
-/// \throws DatasetError for a path that does not exist or cannot be read, a folder without any
+/// \throws DatasetError for a path that does not exist or cannot be read, or a folder without any
 /// dataset.
 [[nodiscard]] std::vector<std::filesystem::path> find_datasets(
     std::span<const std::filesystem::path> paths, const LeftOut& on_left_out = nullptr);

@@ -54,8 +54,6 @@ std::string unused_name() {
 
 constexpr const char* partial_mark = ".touchstone.partial-";
 
-fs::path partial_name(const fs::path& path) { return path.string() + partial_mark + unused_name(); }
-
 bool is_partial(const fs::path& path) {
   return path.filename().string().find(partial_mark) != std::string::npos;
 }
@@ -73,7 +71,7 @@ OutputFile::OutputFile(fs::path path) : path_(std::move(path)) {
 
 void OutputFile::open_temporary() {
   path_ = behind_links(path_);
-  temporary_ = partial_name(path_);
+  temporary_ = path_.string() + partial_mark + unused_name();
   descriptor_ =
       Descriptor(::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666));
   if (descriptor_.get() < 0) temporary_.clear();

@@ -27,10 +27,7 @@ namespace touchstone::verify::io {
 /// A name that nobody else takes, on any machine: 64 random bits in hexadecimal digits.
 [[nodiscard]] std::string unused_name();
 
-/// The name, of nobody else's, for what is to be called `path` when it is complete.
-[[nodiscard]] std::filesystem::path partial_name(const std::filesystem::path& path);
-
-/// True if the name is one that partial_name() gives: such a file is no input.
+/// True if the name is that of a file that was being written: such a file is no input.
 [[nodiscard]] bool is_partial(const std::filesystem::path& path);
 
 /// A file open for writing, buffered. Without close() it is discarded.

@@ -66,7 +66,6 @@ struct LateTimes {
 
   void add(const Lateness& lateness);
   LateTimes& operator+=(const LateTimes& other);
-  [[nodiscard]] bool are_slight() const { return greatest.step <= slight_lateness; }
 };
 
 /// An answer that is not the truth.

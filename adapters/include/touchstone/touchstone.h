@@ -111,9 +111,9 @@ typedef struct TouchstoneDistance {
 } TouchstoneDistance;
 
 /// Decides `count` queries. A query of which a coordinate that has an effect is NaN or
-/// infinite has the verdict TOUCHSTONE_ERROR; the others are decided. An element collides if its volume, or area in the
-/// plane, is 0 or negative at some time; its min_separation must be 0, u and v are NaN, and
-/// toi_upper is 0 iff it is flat or inverted at t=0.
+/// infinite has the verdict TOUCHSTONE_ERROR; the others are decided. An element collides if its
+/// volume, or area in the plane, is 0 or negative at some time; its min_separation must be 0, u and
+/// v are NaN, and toi_upper is 0 iff it is flat or inverted at t=0.
 /// \param kind of all queries; a query has none of TOUCHSTONE_VERTEX_EDGE and _VERTEX_VERTEX
 /// \param coordinates 24 for each query: its four points at t=0, then the same at t=1
 /// \param options null for the default ones
