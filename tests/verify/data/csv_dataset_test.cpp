@@ -434,8 +434,8 @@ TEST(NpyDataset, NamesTheCoordinateThatIsNotFiniteAndSkipsItsQueryOnly) {
   for (std::size_t coordinate = 0; coordinate < 24; ++coordinate) {
     std::vector<double> numbers;
     for (std::size_t i = 0; i < 4; ++i) {
-      const auto query = numbered(straight.shape, i).numbers();
-      numbers.insert(numbers.end(), query.begin(), query.end());
+      const auto query = numbered(straight.shape, i);
+      numbers.insert(numbers.end(), query.numbers().begin(), query.numbers().end());
     }
     numbers[48 + coordinate] = std::array{std::nan(""), HUGE_VAL, -HUGE_VAL}.at(coordinate % 3);
     const auto path = folder.file("a_ee.npy", tests::array("<f8", {4, 8, 3}, numbers));
