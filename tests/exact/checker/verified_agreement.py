@@ -70,7 +70,9 @@ class Result:
         self.accepted, self.rejected = (int(lines[k].split()[1]) for k in (0, counts - 1))
         # Of steps none is read behind the first that is rejected.
         is_of_steps = path.read_bytes().startswith(b"touchstone-steps")
-        if is_of_steps and lines[-1].endswith(UNSEEN) and int(verified_lines[0].split()[1]) > self.accepted:
+        reached, verified_reached = (int(re.search(r"line (\d+)|$", said[-1])[1] or 0) for said in (lines, verified_lines))
+        if is_of_steps and lines[-1].endswith(UNSEEN) and (
+                int(verified_lines[0].split()[1]) > self.accepted or verified_reached > reached):
             self.unseen = 1
             return
         kept = without_unseen_axes(lines, verified_lines)
