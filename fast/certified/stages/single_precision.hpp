@@ -183,9 +183,8 @@ inline void keep(RoundedVertices& rounded, Indices& open, const Possible& possib
 /// Directions after the sum of the corners: the most that cost less than the queries they exclude.
 inline constexpr int more_directions = 2;
 
-/// \param open The queries that are not decided; the others have no contact.
 template <class Lanes, bool separated, Kind kind>
-inline void single_precision_stage(const KernelInput& input, Indices& open) {
+inline void single_precision_tests(const KernelInput& input, Indices& open) {
   using Value = typename Lanes::Single;
   RoundedVertices rounded;
   find_rounded<Lanes, kind>(input, rounded, open);
@@ -210,6 +209,23 @@ inline void single_precision_stage(const KernelInput& input, Indices& open) {
     }
     return possible;
   });
+}
+
+/// Flattened: calls would pass all vectors through memory. (Without vectors it would take minutes.)
+template <class Lanes, bool separated, Kind kind>
+[[gnu::flatten]] inline void single_precision_tests_on_vectors(const KernelInput& input,
+                                                               Indices& open) {
+  single_precision_tests<Lanes, separated, kind>(input, open);
+}
+
+/// \param open The queries that are not decided; the others have no contact.
+template <class Lanes, bool separated, Kind kind>
+inline void single_precision_stage(const KernelInput& input, Indices& open) {
+  if constexpr (Lanes::width > 1) {
+    single_precision_tests_on_vectors<Lanes, separated, kind>(input, open);
+  } else {
+    single_precision_tests<Lanes, separated, kind>(input, open);
+  }
 }
 
 }  // namespace touchstone::fast::kernel
