@@ -30,7 +30,7 @@ if(TOUCHSTONE_SANITIZE)
     -fsanitize=${TOUCHSTONE_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer
     # GCC 12 raises false alarms on std::regex under the sanitizers (its bug 105562).
     $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>)
-  target_compile_definitions(touchstone_build_options INTERFACE TOUCHSTONE_SANITIZED)
+  target_compile_definitions(touchstone_build_options INTERFACE TOUCHSTONE_SANITIZED TOUCHSTONE_INLINE_CALLS=)
   target_link_options(touchstone_build_options INTERFACE -fsanitize=${TOUCHSTONE_SANITIZE})
 endif()
 

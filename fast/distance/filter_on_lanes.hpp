@@ -46,9 +46,8 @@ class Filter {
   static constexpr std::size_t width = Lanes::width;
   static constexpr std::size_t corner_count = kind == Kind::vertex_face ? 3 : 4;
 
-  /// Flattened: calls would pass the polygon through memory.
-  [[gnu::flatten]] static void answer(const Query* queries, std::size_t count, double t,
-                                      Distance* results) {
+  TOUCHSTONE_INLINE_CALLS static void answer(const Query* queries, std::size_t count, double t,
+                                             Distance* results) {
     const Polygon p = polygon_at(queries, count, t);
     const Filter filter(p);
     const Value guess = filter.guess();

@@ -14,6 +14,12 @@
 #include <string_view>
 #include <vector>
 
+/// Inlines all calls of a kernel's function, which would pass vectors through memory. (Compilations
+/// that would take minutes define it as nothing: sanitizers, emulated vectors.)
+#ifndef TOUCHSTONE_INLINE_CALLS
+#define TOUCHSTONE_INLINE_CALLS [[gnu::flatten]]
+#endif
+
 namespace touchstone::fast {
 
 enum class InstructionSet : std::uint8_t {

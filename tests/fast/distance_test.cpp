@@ -22,7 +22,6 @@
 #include "tests/support/random.hpp"
 #include "tests/support/scenes.hpp"
 #include "tests/support/trials.hpp"
-#include "touchstone/broad_phase.hpp"
 
 namespace touchstone::fast::distance_test {
 namespace {

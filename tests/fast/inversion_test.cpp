@@ -25,7 +25,6 @@
 #include "tests/support/certified_against_oracle.hpp"
 #include "tests/support/floating_point_modes.hpp"
 #include "tests/support/inverting_elements.hpp"
-#include "tests/support/messages.hpp"
 #include "tests/support/queries.hpp"
 #include "tests/support/random.hpp"
 #include "tests/support/trials.hpp"

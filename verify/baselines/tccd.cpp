@@ -43,7 +43,6 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
-#include <functional>
 
 #include "verify/baselines/bernstein.hpp"
 #include "verify/baselines/error_bounded.hpp"

@@ -21,7 +21,6 @@
 #include <array>
 #include <cmath>
 #include <optional>
-#include <utility>
 #include <vector>
 
 #include "verify/generate/coordinate_sampler.hpp"

@@ -259,9 +259,12 @@ std::vector<ViewedQuery> read_obj(const fs::path& path, const QueryFileOptions& 
       throw io::DatasetError(path, {}, "a query has eight lines of vertices");
     }
   }
+  Selection selection(options);
+  if (!selection.wants(0)) return selection.take(path, 1);
   try {
     const Kind kind = options.kind ? *options.kind : data::kind_from_path(path);
-    return {{.label = path.string(), .query = base::AnyQuery(kind, parse_points(numbers))}};
+    selection.add({.label = path.string(), .query = base::AnyQuery(kind, parse_points(numbers))});
+    return selection.take(path, 1);
   } catch (const std::invalid_argument& error) {
     throw io::DatasetError(path, {}, error.what());
   }

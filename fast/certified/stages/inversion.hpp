@@ -184,13 +184,13 @@ inline Bounds<Value, Kind::vertex_face> of_volume(const Ends<Value>& unit, const
   return {bound * Value(kept > 0.0 ? kept_growth : 1.0), {at_start * Value(kept)}};
 }
 
-/// Examines [0,1]. (Flattened: calls would pass all vectors through memory.)
+/// Examines [0,1].
 /// \param crossings The elements whose first time is the only zero of det.
 /// \param mixed Those with a positive volume at t=0 of which nothing else is proved.
 template <class Lanes, class Source>
-[[gnu::flatten]] inline void volume_stage(const KernelInput& input, const Indices& all,
-                                          Crossings& crossings, Indices& mixed,
-                                          KernelOutput& output) {
+TOUCHSTONE_INLINE_CALLS inline void volume_stage(const KernelInput& input, const Indices& all,
+                                                 Crossings& crossings, Indices& mixed,
+                                                 KernelOutput& output) {
   using Value = typename Lanes::Value;
   using Mask = MaskOf<Value>;
   Marks<Lanes> of_inverted(all.count), of_crossings(all.count), of_mixed(all.count),

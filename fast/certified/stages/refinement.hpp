@@ -80,8 +80,7 @@ class PreciseDeterminant {
  private:
   using Precise = filters::DoubleDouble<Value>;
 
-  /// Flattened: calls would pass all vectors through memory.
-  [[nodiscard, gnu::flatten]] Precise evaluate(const Value& time) const {
+  TOUCHSTONE_INLINE_CALLS [[nodiscard]] Precise evaluate(const Value& time) const {
     const Precise end{time, Value(0.0)};
     const Precise start = filters::exact_difference(Value(1.0), time);
     return filters::DeterminantEnd::evaluate<Precise>(coordinates_,

@@ -211,13 +211,13 @@ inline void single_precision_tests(const KernelInput& input, Indices& open) {
   });
 }
 
-/// Flattened: calls would pass all vectors through memory. (Without vectors it would take minutes.)
 template <class Lanes, bool separated, Kind kind>
-[[gnu::flatten]] inline void single_precision_tests_on_vectors(const KernelInput& input,
-                                                               Indices& open) {
+TOUCHSTONE_INLINE_CALLS inline void single_precision_tests_on_vectors(const KernelInput& input,
+                                                                      Indices& open) {
   single_precision_tests<Lanes, separated, kind>(input, open);
 }
 
+/// (Calls without vectors stay: to inline them would take minutes.)
 /// \param open The queries that are not decided; the others have no contact.
 template <class Lanes, bool separated, Kind kind>
 inline void single_precision_stage(const KernelInput& input, Indices& open) {

@@ -14,7 +14,6 @@
 
 #include "tests/support/methods.hpp"
 #include "verify/generate/random_stream.hpp"
-#include "verify/solvers/registry.hpp"
 
 namespace touchstone::verify::report::stability_test {
 namespace {

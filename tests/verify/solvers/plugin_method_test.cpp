@@ -21,7 +21,6 @@
 #include "tests/support/trials.hpp"
 #include "tests/verify/data/dataset_fixture.hpp"
 #include "tests/verify/solvers/plugins/misbehaviour.hpp"
-#include "touchstone/oracle.hpp"
 #include "verify/solvers/solver_process.hpp"
 
 namespace touchstone::verify::solvers::plugin_method_test {
