@@ -260,14 +260,15 @@ std::vector<ViewedQuery> read_obj(const fs::path& path, const QueryFileOptions& 
     }
   }
   Selection selection(options);
-  if (!selection.wants(0)) return selection.take(path, 1);
   try {
-    const Kind kind = options.kind ? *options.kind : data::kind_from_path(path);
-    selection.add({.label = path.string(), .query = base::AnyQuery(kind, parse_points(numbers))});
-    return selection.take(path, 1);
+    if (selection.wants(0)) {
+      const Kind kind = options.kind ? *options.kind : data::kind_from_path(path);
+      selection.add({.label = path.string(), .query = base::AnyQuery(kind, parse_points(numbers))});
+    }
   } catch (const std::invalid_argument& error) {
     throw io::DatasetError(path, {}, error.what());
   }
+  return selection.take(path, 1);
 }
 
 double parse_hexadecimal(const std::string& text) {
