@@ -4,8 +4,10 @@
 #include <cmath>
 #include <map>
 #include <mutex>
+#include <span>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "fast/certified/block.hpp"
@@ -17,13 +19,12 @@ namespace touchstone::fast {
 namespace {
 
 /// The step from the least to the greatest corners of the boxes of control points.
-Step step_of_boxes(const CurvedVertices& vertices, const MeshElements& elements,
-                   const StepOptions& options) {
+Step step_of_boxes(const CurvedVertices& vertices, Mesh mesh, const StepOptions& options) {
   const std::size_t size = vertices.numbers_of_vertex(), stride = vertices.numbers_of_point();
   if (vertices.degree > greatest_degree) {
     throw std::invalid_argument("curved step: a degree above 8");
   }
-  if (!elements.tetrahedra.empty() || !elements.plane_triangles.empty()) {
+  if (!mesh.tetrahedra.empty() || !mesh.plane_triangles.empty()) {
     throw std::invalid_argument("curved step: volumes are known on straight lines only");
   }
   if (vertices.numbers.size() % size != 0) {
@@ -33,7 +34,7 @@ Step step_of_boxes(const CurvedVertices& vertices, const MeshElements& elements,
   const std::size_t count = vertices.numbers.size() / size;
   std::vector<double> least, greatest;
   for (std::size_t vertex = 0; vertex < count; ++vertex) {
-    const auto row = vertices.numbers.subspan(vertex * size, size);
+    const auto row = std::span(vertices.numbers).subspan(vertex * size, size);
     for (std::size_t i = 0; i < row.size(); ++i) {
       const bool is_weight = vertices.is_rational && i % stride == 3;
       if (std::isfinite(row[i]) && (!is_weight || row[i] > 0.0)) continue;
@@ -50,16 +51,14 @@ Step step_of_boxes(const CurvedVertices& vertices, const MeshElements& elements,
       greatest.push_back(high);
     }
   }
-  return {std::span<const double>(least), std::span<const double>(greatest), elements, options};
+  return {std::span<const double>(least), std::span<const double>(greatest), std::move(mesh),
+          options};
 }
 
 }  // namespace
 
-CurvedStep::CurvedStep(const CurvedVertices& vertices, const MeshElements& elements,
-                       const StepOptions& options)
-    : numbers_(vertices.numbers.begin(), vertices.numbers.end()),
-      vertices_{vertices.degree, vertices.is_rational, numbers_},
-      boxes_(step_of_boxes(vertices_, elements, options)) {}
+CurvedStep::CurvedStep(CurvedVertices vertices, Mesh mesh, const StepOptions& options)
+    : vertices_(std::move(vertices)), boxes_(step_of_boxes(vertices_, std::move(mesh), options)) {}
 
 void CurvedStep::for_each_collision(const std::atomic<double>& limit, const Take& take) const {
   const std::size_t size = vertices_.numbers_of_vertex(), stride = vertices_.numbers_of_point();
@@ -77,7 +76,7 @@ void CurvedStep::for_each_collision(const std::atomic<double>& limit, const Take
       for (std::size_t k = 0; k <= vertices_.degree; ++k) {
         for (const std::int32_t vertex : of_pair) {
           const auto place = static_cast<std::size_t>(vertex) * size + k * stride;
-          const auto point = vertices_.numbers.subspan(place, stride);
+          const auto point = std::span(vertices_.numbers).subspan(place, stride);
           numbers.insert(numbers.end(), point.begin(), point.end());
         }
       }

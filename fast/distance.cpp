@@ -159,7 +159,7 @@ class LeastDistanceSearch {
   /// The median of the lengths of a sample of edges, in L∞.
   [[nodiscard]] double usual_length() const {
     constexpr std::size_t sample_size = 1024;
-    const std::span<const Edge> edges = step_.edges();
+    const std::span<const Edge> edges = step_.mesh().edges;
     std::vector<double> lengths;
     for (std::size_t i = 0; i < edges.size(); i += edges.size() / sample_size + 1) {
       const auto& a = step_.vertices()[static_cast<std::size_t>(edges[i][0])].start;

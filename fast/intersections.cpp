@@ -58,29 +58,29 @@ std::vector<std::int32_t> first_at_place(const Positions& at,
 /// The elements of a mesh: all faces, then the edges of no face, then the vertices without an edge.
 class Elements {
  public:
-  Elements(const Positions& at, const MeshElements& given, const IntersectionOptions& options)
+  Elements(const Positions& at, const Mesh& given, const IntersectionOptions& options)
       : faces_(given.faces.size()) {
-    MeshElements all = given;
-    std::vector<Edge> edges_of_faces;
     const bool has_all_edges = options.pairs == IntersectingPairs::edges_with_faces;
+    std::vector<Edge> of_faces;
     if (given.edges.empty() && (has_all_edges || !given.points.empty())) {
-      all.edges = edges_of_faces = edges_of(given.faces);
+      of_faces = edges_of(given.faces);
     }
+    const std::vector<Edge>& edges = given.edges.empty() ? of_faces : given.edges;
     if (has_all_edges) {
-      edges_.resize(all.edges.size());
+      edges_.resize(edges.size());
       std::iota(edges_.begin(), edges_.end(), 0);
     } else {
       if (!given.edges.empty()) edges_ = edges_without_face(given);
       if (!given.points.empty()) {
         const std::size_t count = at.size();
-        points_ = codimensional(count, vertices_of(count, {.points = given.points}), all).points;
+        points_ = points_without_edge(count, vertices_of(count, {.points = given.points}), edges);
       }
     }
     require_few(faces_ + edges_.size() + points_.size());
     vertices_.reserve(faces_ + edges_.size() + points_.size());
     for (const Face& face : given.faces) add(primitive_of(face));
     for (const std::int32_t edge : edges_) {
-      add(primitive_of(all.edges[static_cast<std::size_t>(edge)]));
+      add(primitive_of(edges[static_cast<std::size_t>(edge)]));
     }
     for (const std::int32_t point : points_) add(primitive_of(point));
     if (options.weld) weld(first_at_place(at, options.groups.of_vertices));
@@ -133,12 +133,12 @@ class Search final : private PairQuestions {
  public:
   /// Uses the threads of the caller's task arena. \pre the vertices are finite and at rest, indices
   /// in range; strict floating point
-  Search(MovingVertices vertices, const MeshElements& elements, const IntersectionOptions& options)
+  Search(MovingVertices vertices, const Mesh& mesh, const IntersectionOptions& options)
       : bodies_(vertices.size(), options.groups, options.can_collide),
         bounds_(vertices),
         // The vertices take more memory than their places, and are not needed from here on.
         at_(MovingVertices(std::move(vertices))),
-        elements_(at_, elements, options),
+        elements_(at_, mesh, options),
         groups_of_boxes_(bounds_, elements_.vertices()),
         tree_(groups_of_boxes_),
         options_(options) {
@@ -277,24 +277,24 @@ class Search final : private PairQuestions {
   const IntersectionOptions& options_;
 };
 
-void require_valid(const MovingVertices& vertices, const MeshElements& elements) {
+void require_valid(const MovingVertices& vertices, const Mesh& mesh) {
   require_finite(vertices);
-  require_in_range(vertices, elements.faces);
-  require_in_range(vertices, elements.edges);
-  require_in_range(vertices, elements.points);
+  require_in_range(vertices, mesh.faces);
+  require_in_range(vertices, mesh.edges);
+  require_in_range(vertices, mesh.points);
 }
 
 /// Calls answer(search) in the threads that the options allow.
 template <class Answer>
-auto searched(MovingVertices vertices, const MeshElements& elements,
-              const IntersectionOptions& options, const Answer& answer) {
+auto searched(MovingVertices vertices, const Mesh& mesh, const IntersectionOptions& options,
+              const Answer& answer) {
   if (options.max_threads < 0) {
     throw std::invalid_argument("intersections: max_threads must not be negative");
   }
-  require_valid(vertices, elements);
+  require_valid(vertices, mesh);
   return with_threads(options.max_threads, [&] {
     const StrictFloatingPoint strict;
-    Search search(std::move(vertices), elements, options);
+    Search search(std::move(vertices), mesh, options);
     return answer(search);
   });
 }
@@ -319,25 +319,24 @@ std::string_view to_string(IntersectionKind kind) {
   return name_in(names, kind);
 }
 
-std::vector<Intersection> intersections(MovingVertices vertices, const MeshElements& elements,
+std::vector<Intersection> intersections(MovingVertices vertices, const Mesh& mesh,
                                         const IntersectionOptions& options) {
-  return searched(std::move(vertices), elements, options,
-                  [](Search& search) { return search.all(); });
+  return searched(std::move(vertices), mesh, options, [](Search& search) { return search.all(); });
 }
 
-bool has_intersections(MovingVertices vertices, const MeshElements& elements,
+bool has_intersections(MovingVertices vertices, const Mesh& mesh,
                        const IntersectionOptions& options) {
-  return searched(std::move(vertices), elements, options,
+  return searched(std::move(vertices), mesh, options,
                   [](Search& search) { return search.is_any(); });
 }
 
-MeshDefects mesh_defects(const MovingVertices& vertices, const MeshElements& elements) {
-  require_valid(vertices, elements);
+MeshDefects mesh_defects(const MovingVertices& vertices, const Mesh& mesh) {
+  require_valid(vertices, mesh);
   const StrictFloatingPoint strict;
   MeshDefects result;
   const Positions at(vertices);
-  for (std::size_t i = 0; i < elements.faces.size(); ++i) {
-    const Primitive face = meeting::in_normal_form(elements.faces[i]);
+  for (std::size_t i = 0; i < mesh.faces.size(); ++i) {
+    const Primitive face = meeting::in_normal_form(mesh.faces[i]);
     if (meeting::dimension(meeting::element_of(at, face).simplex) != 2) {
       result.degenerate_faces.push_back(static_cast<std::int32_t>(i));
     }
@@ -348,20 +347,20 @@ MeshDefects mesh_defects(const MovingVertices& vertices, const MeshElements& ele
     if (other != i) result.duplicated_vertices.push_back({i, other});
   }
   const std::vector<Edge> of_faces =
-      elements.edges.empty() ? edges_of(elements.faces) : std::vector<Edge>();
-  const std::span<const Edge> edges = elements.edges.empty() ? of_faces : elements.edges;
+      mesh.edges.empty() ? edges_of(mesh.faces) : std::vector<Edge>();
+  const std::vector<Edge>& edges = mesh.edges.empty() ? of_faces : mesh.edges;
   for (std::size_t i = 0; i < edges.size(); ++i) {
     const auto [a, b] = edges[i];
     if (first[static_cast<std::size_t>(a)] == first[static_cast<std::size_t>(b)]) {
       result.degenerate_edges.push_back(static_cast<std::int32_t>(i));
     }
   }
-  std::vector<std::int32_t> named = vertices_of(vertices.size(), elements);
+  std::vector<std::int32_t> named = vertices_of(vertices.size(), mesh);
   const auto add = [&named](const auto& element) {
     named.insert(named.end(), element.begin(), element.end());
   };
-  std::ranges::for_each(elements.tetrahedra, add);
-  std::ranges::for_each(elements.plane_triangles, add);
+  std::ranges::for_each(mesh.tetrahedra, add);
+  std::ranges::for_each(mesh.plane_triangles, add);
   std::ranges::sort(named);
   named.erase(std::unique(named.begin(), named.end()), named.end());
   for (std::int32_t i = 0, next = 0; std::cmp_less(i, vertices.size()); ++i) {

@@ -417,8 +417,8 @@ class CloseTrials {
         if (is_thin(scene_.query_of(kind, number), error)) take(kind, number);
       }
     };
-    take_thin(Kind::tetrahedron, scene_.elements().tetrahedra.size());
-    take_thin(Kind::plane_triangle, scene_.elements().plane_triangles.size());
+    take_thin(Kind::tetrahedron, scene_.mesh().tetrahedra.size());
+    take_thin(Kind::plane_triangle, scene_.mesh().plane_triangles.size());
   }
 
   /// True unless the inequality of the theorem is certain. (The computed determinant is wrong by
@@ -506,9 +506,9 @@ class StepSizeSearch {
 
 void require_in_range(const Scene& scene, PairKind kind, const IndexPair& pair) {
   const auto count_of = [&](std::size_t sort) {
-    if (sort == Sort::faces) return scene.elements().faces.size();
+    if (sort == Sort::faces) return scene.mesh().faces.size();
     const bool is_edge = sort == Sort::edges || sort == Sort::bare_edges;
-    return is_edge ? scene.elements().edges.size() : scene.vertices().size();
+    return is_edge ? scene.mesh().edges.size() : scene.vertices().size();
   };
   const PairRecord& record = record_of(kind);
   if (std::cmp_less_equal(0, pair[0]) && std::cmp_less(pair[0], count_of(record.some)) &&
@@ -525,12 +525,12 @@ void require_in_range(const Scene& scene, PairKind kind, const IndexPair& pair) 
 
 std::string_view to_string(PairKind kind) { return record_of(kind).name; }
 
-Step::Step(MovingVertices vertices, const MeshElements& elements, const StepOptions& options) {
+Step::Step(MovingVertices vertices, Mesh mesh, const StepOptions& options) {
   if (options.max_threads < 0) {
     throw std::invalid_argument("step: max_threads must not be negative");
   }
   scene_ = with_threads(options.max_threads, [&] {
-    return std::make_unique<const Scene>(std::move(vertices), elements, options);
+    return std::make_unique<const Scene>(std::move(vertices), std::move(mesh), options);
   });
 }
 
@@ -576,7 +576,7 @@ bool Step::is_free() const {
 }
 
 std::vector<Intersection> Step::intersections_at_start() const {
-  return intersections(start_of(*scene_), scene_->elements(), options_at_start(*scene_));
+  return intersections(start_of(*scene_), scene_->mesh(), options_at_start(*scene_));
 }
 
 bool Step::starts_free() const {
@@ -589,7 +589,7 @@ bool Step::starts_free() const {
         });
   });
   return is_free &&
-         !has_intersections(start_of(*scene_), scene_->elements(), options_at_start(*scene_));
+         !has_intersections(start_of(*scene_), scene_->mesh(), options_at_start(*scene_));
 }
 
 Step Step::scaled(double alpha) const {
@@ -662,9 +662,8 @@ Query Step::query_of(PairKind kind, const IndexPair& pair) const {
 }
 
 Query Step::query_of(Kind kind, std::int32_t element) const {
-  const MeshElements& elements = scene_->elements();
-  const std::size_t count = kind == Kind::tetrahedron      ? elements.tetrahedra.size()
-                            : kind == Kind::plane_triangle ? elements.plane_triangles.size()
+  const std::size_t count = kind == Kind::tetrahedron      ? mesh().tetrahedra.size()
+                            : kind == Kind::plane_triangle ? mesh().plane_triangles.size()
                                                            : 0;
   if (element < 0 || std::cmp_greater_equal(element, count)) {
     throw std::out_of_range("step: there is no " + std::string(to_string(kind)) + " " +
@@ -682,7 +681,9 @@ const MovingVertices& Step::vertices() const { return scene_->vertices(); }
 
 const CertifiedOptions& Step::options() const { return scene_->certified(); }
 
-std::span<const Edge> Step::edges() const { return scene_->elements().edges; }
+const Mesh& Step::mesh() const { return scene_->mesh(); }
+
+const CollisionGroups& Step::groups() const { return scene_->groups(); }
 
 const Scene& scene_of(const Step& step) { return *step.scene_; }
 

@@ -10,9 +10,7 @@
 #include <exception>
 #include <functional>
 #include <limits>
-#include <memory>
 #include <new>
-#include <optional>
 #include <span>
 #include <stdexcept>
 #include <string>
@@ -23,21 +21,16 @@
 #include "touchstone/contacts.hpp"
 #include "touchstone/step.hpp"
 
-// The inputs and outputs of a step.
+// A step, and what is found in it.
 struct TouchstoneStep {
-  std::vector<touchstone::fast::Edge> edges;
-  std::vector<touchstone::fast::Face> faces;
-  std::vector<std::int32_t> points;
-  std::vector<touchstone::fast::Tetrahedron> tetrahedra;
-  std::vector<touchstone::fast::Face> plane_triangles;
-  std::optional<touchstone::fast::Step> step;
+  touchstone::fast::Step step;
   // The arrays whose addresses the functions return.
-  std::vector<TouchstoneCollision> collisions;
-  std::vector<TouchstonePair> nearest;
-  std::vector<TouchstoneActiveContact> active;
-  std::vector<TouchstoneStepInversion> inversions;
-  std::vector<TouchstoneCollision> limiting;
-  std::vector<TouchstoneStepInversion> limiting_elements;
+  std::vector<TouchstoneCollision> collisions = {};
+  std::vector<TouchstonePair> nearest = {};
+  std::vector<TouchstoneActiveContact> active = {};
+  std::vector<TouchstoneStepInversion> inversions = {};
+  std::vector<TouchstoneCollision> limiting = {};
+  std::vector<TouchstoneStepInversion> limiting_elements = {};
 };
 
 namespace touchstone::adapters {
@@ -185,47 +178,50 @@ std::vector<fast::GroupSeparation> separations_of(const TouchstoneMesh& mesh) {
   return result;
 }
 
-std::unique_ptr<TouchstoneStep> step_of(const TouchstoneMesh& mesh,
-                                        const TouchstoneOptions& options) {
-  auto result = std::make_unique<TouchstoneStep>();
-  result->edges = copied<fast::Edge>(mesh.edge_vertices, mesh.edges, "edge_vertices");
-  result->faces = copied<fast::Face>(mesh.face_vertices, mesh.faces, "face_vertices");
-  result->points = copied<std::int32_t>(mesh.point_vertices, mesh.points, "point_vertices");
-  result->tetrahedra =
-      copied<fast::Tetrahedron>(mesh.tetrahedron_vertices, mesh.tetrahedra, "tetrahedron_vertices");
-  result->plane_triangles = copied<fast::Face>(mesh.plane_triangle_vertices, mesh.plane_triangles,
-                                               "plane_triangle_vertices");
-  const auto apart =
-      copied<std::array<std::int32_t, 2>>(mesh.apart_groups, mesh.apart, "apart_groups");
-  const auto before = copied<std::array<double, 3>>(mesh.before, mesh.vertices, "before");
-  const auto after = copied<std::array<double, 3>>(mesh.after, mesh.vertices, "after");
-  const auto coordinates = [](const std::vector<std::array<double, 3>>& points) {
-    return std::span<const double>(points.empty() ? nullptr : points.front().data(),
-                                   3 * points.size());
-  };
-  const auto radii = copied<double>(mesh.group_radii, mesh.radii, "group_radii");
-  const std::vector<fast::GroupSeparation> separations = separations_of(mesh);
+fast::Mesh elements_of(const TouchstoneMesh& mesh) {
+  return {.edges = copied<fast::Edge>(mesh.edge_vertices, mesh.edges, "edge_vertices"),
+          .faces = copied<fast::Face>(mesh.face_vertices, mesh.faces, "face_vertices"),
+          .points = copied<std::int32_t>(mesh.point_vertices, mesh.points, "point_vertices"),
+          .tetrahedra = copied<fast::Tetrahedron>(mesh.tetrahedron_vertices, mesh.tetrahedra,
+                                                  "tetrahedron_vertices"),
+          .plane_triangles = copied<fast::Face>(mesh.plane_triangle_vertices, mesh.plane_triangles,
+                                                "plane_triangle_vertices")};
+}
+
+fast::CollisionGroups groups_of(const TouchstoneMesh& mesh) {
   fast::CollisionGroups groups{
-      .of_vertices = {}, .apart = apart, .radii = radii, .separations = separations};
-  if (mesh.groups != nullptr) groups.of_vertices = std::span(mesh.groups, mesh.vertices);
-  std::function<bool(std::int32_t, std::int32_t)> can_collide;
-  if (mesh.can_collide != nullptr) {
-    can_collide = [rule = mesh.can_collide, context = mesh.can_collide_context](
-                      std::int32_t a, std::int32_t b) { return rule(context, a, b) != 0; };
+      .of_vertices = {},
+      .apart = copied<std::array<std::int32_t, 2>>(mesh.apart_groups, mesh.apart, "apart_groups"),
+      .radii = copied<double>(mesh.group_radii, mesh.radii, "group_radii"),
+      .separations = separations_of(mesh)};
+  if (mesh.groups != nullptr) {
+    groups.of_vertices = copied<std::int32_t>(mesh.groups, mesh.vertices, "groups");
   }
-  result->step.emplace(coordinates(before), coordinates(after),
-                       fast::MeshElements{.edges = result->edges,
-                                          .faces = result->faces,
-                                          .points = result->points,
-                                          .tetrahedra = result->tetrahedra,
-                                          .plane_triangles = result->plane_triangles},
-                       fast::StepOptions{.separation = separation_of(options),
-                                         .toi_tolerance = options.toi_tolerance,
-                                         .t_max = options.t_max,
-                                         .max_threads = options.max_threads,
-                                         .groups = groups,
-                                         .can_collide = std::move(can_collide)});
-  return result;
+  return groups;
+}
+
+std::function<bool(std::int32_t, std::int32_t)> rule_of(const TouchstoneMesh& mesh) {
+  if (mesh.can_collide == nullptr) return nullptr;
+  return [rule = mesh.can_collide, context = mesh.can_collide_context](
+             std::int32_t a, std::int32_t b) { return rule(context, a, b) != 0; };
+}
+
+fast::Step step_of(const TouchstoneMesh& mesh, const TouchstoneOptions& options) {
+  const auto coordinates = [&mesh](const double* numbers, const char* name) {
+    if (mesh.vertices == 0) return std::span<const double>();
+    if (mesh.vertices > std::numeric_limits<std::size_t>::max() / (3 * sizeof(double))) {
+      throw std::length_error(std::string(name) + ": too many");
+    }
+    return std::span(&required(numbers, name), 3 * mesh.vertices);
+  };
+  fast::Mesh elements = elements_of(mesh);
+  return {coordinates(mesh.before, "before"), coordinates(mesh.after, "after"), std::move(elements),
+          fast::StepOptions{.separation = separation_of(options),
+                            .toi_tolerance = options.toi_tolerance,
+                            .t_max = options.t_max,
+                            .max_threads = options.max_threads,
+                            .groups = groups_of(mesh),
+                            .can_collide = rule_of(mesh)}};
 }
 
 TouchstonePair pair_of(fast::PairKind kind, const fast::IndexPair& pair) {
@@ -337,7 +333,7 @@ std::int32_t touchstone_step_new(const TouchstoneMesh* mesh, const TouchstoneOpt
                                  TouchstoneStep** step) {
   return guarded([&] {
     TouchstoneStep*& written = required(step, "step");
-    written = step_of(required(mesh, "mesh"), given(options)).release();
+    written = new TouchstoneStep{.step = step_of(required(mesh, "mesh"), given(options))};
   });
 }
 
@@ -345,12 +341,12 @@ void touchstone_step_free(TouchstoneStep* step) { delete step; }
 
 std::int32_t touchstone_step_is_free(const TouchstoneStep* step, std::int32_t* is_free) {
   return guarded(
-      [&] { required(is_free, "is_free") = required(step, "step").step->is_free() ? 1 : 0; });
+      [&] { required(is_free, "is_free") = required(step, "step").step.is_free() ? 1 : 0; });
 }
 
 std::int32_t touchstone_step_earliest(const TouchstoneStep* step, TouchstoneImpact* impact) {
   return guarded([&] {
-    const auto earliest = required(step, "step").step->earliest();
+    const auto earliest = required(step, "step").step.earliest();
     TouchstoneImpact& written = required(impact, "impact");
     written = {TOUCHSTONE_NO, none, none, none, none};
     if (earliest) written = {TOUCHSTONE_YES, earliest->toi_lower, earliest->toi_upper, none, none};
@@ -364,7 +360,7 @@ std::int32_t touchstone_step_collisions(TouchstoneStep* step,
     TouchstoneStep& asked = required(step, "step");
     const TouchstoneCollision*& first = required(collisions, "collisions");
     std::size_t& number = required(count, "count");
-    refill(asked.collisions, asked.step->collisions(), collision_of);
+    refill(asked.collisions, asked.step.collisions(), collision_of);
     first = asked.collisions.data();
     number = asked.collisions.size();
   });
@@ -377,7 +373,7 @@ std::int32_t touchstone_step_inversions(TouchstoneStep* step,
     TouchstoneStep& asked = required(step, "step");
     const TouchstoneStepInversion*& first = required(inversions, "inversions");
     std::size_t& number = required(count, "count");
-    refill(asked.inversions, asked.step->inversions(), inversion_in_step);
+    refill(asked.inversions, asked.step.inversions(), inversion_in_step);
     first = asked.inversions.data();
     number = asked.inversions.size();
   });
@@ -394,14 +390,14 @@ std::int32_t touchstone_step_contacts(const TouchstoneStep* step,
     std::vector<touchstone::fast::StepCollision> converted;
     converted.reserve(count);
     for (const TouchstoneCollision& one : given) converted.push_back(collision_from(one));
-    std::ranges::transform(touchstone::fast::contacts_of(*asked.step, converted), &written,
+    std::ranges::transform(touchstone::fast::contacts_of(asked.step, converted), &written,
                            active_contact_of);
   });
 }
 
 std::int32_t touchstone_step_free_step_size(const TouchstoneStep* step, double* alpha) {
   return guarded([&] {
-    required(alpha, "alpha") = required(step, "step").step->free_step_size().value_or(-1.0);
+    required(alpha, "alpha") = required(step, "step").step.free_step_size().value_or(-1.0);
   });
 }
 
@@ -414,7 +410,7 @@ std::int32_t touchstone_step_least_distance(TouchstoneStep* step, double t, std:
     const TouchstonePair*& first = required(pairs, "pairs");
     std::size_t& number = required(count, "count");
     constexpr double infinity = std::numeric_limits<double>::infinity();
-    const auto found = touchstone::fast::least_distance(*asked.step, t, norm_of(norm))
+    const auto found = touchstone::fast::least_distance(asked.step, t, norm_of(norm))
                            .value_or(touchstone::fast::LeastDistance{{infinity, infinity}, {}});
     refill(asked.nearest, found.pairs, [](const auto& one) { return pair_of(one.kind, one.pair); });
     least = distance_of(found.distance);
@@ -431,7 +427,7 @@ std::int32_t touchstone_step_active_set(TouchstoneStep* step, double eta, std::i
     const TouchstoneActiveContact*& first = required(contacts, "contacts");
     std::size_t& number = required(count, "count");
     refill(asked.active,
-           touchstone::fast::active_set(*asked.step, {.distance = eta, .norm = norm_of(norm)}),
+           touchstone::fast::active_set(asked.step, {.distance = eta, .norm = norm_of(norm)}),
            active_contact_of);
     first = asked.active.data();
     number = asked.active.size();
@@ -449,7 +445,7 @@ std::int32_t touchstone_step_line_search_limit(TouchstoneStep* step, double p,
     TouchstoneStep& asked = required(step, "step");
     TouchstoneLineSearchLimit& written = required(limit, "limit");
     const touchstone::fast::LineSearchLimit found = touchstone::fast::line_search_limit(
-        *asked.step, p,
+        asked.step, p,
         line_search_options_of(options != nullptr ? *options
                                                   : touchstone_default_line_search_options()));
     refill(asked.limiting, found.pairs, collision_of);

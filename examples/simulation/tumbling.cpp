@@ -183,14 +183,12 @@ bool collide(Cubes& cubes, const Contact& contact) {
 
 TumblingResult tumble(const TumblingOptions& options) {
   TumblingResult result;
-  const std::vector<fast::Face> faces = cube_faces();
-  const fast::MeshElements elements{.faces = faces};
+  const fast::Mesh elements{.faces = cube_faces()};
   std::vector<std::int32_t> groups(2 * corners, 0);
   std::fill(groups.begin() + corners, groups.end(), 1);
-  static constexpr std::array<std::array<std::int32_t, 2>, 2> apart{{{0, 0}, {1, 1}}};
   // In one thread, so that the recorded queries are in the same order every time.
-  const fast::StepOptions step_options{.max_threads = 1,
-                                       .groups = {.of_vertices = groups, .apart = apart}};
+  const fast::StepOptions step_options{
+      .max_threads = 1, .groups = {.of_vertices = groups, .apart = {{0, 0}, {1, 1}}}};
   CurveRecorder vertex_face(options, Kind::vertex_face), edge_edge(options, Kind::edge_edge);
   Cubes cubes = start();
   for (int i = 0; i < options.steps; ++i) {

@@ -178,6 +178,7 @@ void World::add(const Body& body) {
   append(masses_, Eigen::VectorXd::Zero(3 * vertices));
   is_held_.insert(is_held_.end(), static_cast<std::size_t>(vertices), is_held);
   groups_.insert(groups_.end(), static_cast<std::size_t>(vertices), is_held ? 0 : 1);
+  if (is_held) obstacles_apart_ = {{0, 0}};
   for (fast::Face face : body.faces) {
     for (std::int32_t& vertex : face) vertex += first;
     faces_.push_back(face);
@@ -260,7 +261,11 @@ fast::Step World::step(const Eigen::VectorXd& x0, const Eigen::VectorXd& x1,
   const auto span = [](const Eigen::VectorXd& x) {
     return std::span<const double>(x.data(), static_cast<std::size_t>(x.size()));
   };
-  return {span(x0), span(x1), elements(), {.separation = separation, .groups = groups()}};
+  return {
+      span(x0),
+      span(x1),
+      {.faces = faces_},
+      {.separation = separation, .groups = {.of_vertices = groups_, .apart = obstacles_apart_}}};
 }
 
 }  // namespace touchstone::simulation

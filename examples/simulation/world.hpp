@@ -76,15 +76,8 @@ class World {
   /// The energy of elements and pins at positions x and a time; adds its derivatives.
   double energy(const Eigen::VectorXd& x, double time, Derivatives* derivatives = nullptr) const;
 
-  /// The elements and collision groups of a step. Collisions between obstacles are ignored.
-  [[nodiscard]] fast::MeshElements elements() const {
-    return {.edges = {}, .faces = faces_, .points = {}};
-  }
-  [[nodiscard]] fast::CollisionGroups groups() const {
-    return {.of_vertices = groups_, .apart = obstacles_apart_};
-  }
   [[nodiscard]] const std::vector<fast::Face>& faces() const { return faces_; }
-  /// The step from x0 to x1.
+  /// The step from x0 to x1. Collisions between obstacles are ignored.
   [[nodiscard]] fast::Step step(const Eigen::VectorXd& x0, const Eigen::VectorXd& x1,
                                 const Separation& separation = {}) const;
 
@@ -95,7 +88,7 @@ class World {
   Eigen::VectorXd start_, velocity_, masses_;
   std::vector<bool> is_held_;
   std::vector<std::int32_t> groups_;
-  std::vector<std::array<std::int32_t, 2>> obstacles_apart_{{0, 0}};
+  std::vector<std::array<std::int32_t, 2>> obstacles_apart_;  ///< group 0, if it has vertices
   std::vector<fast::Face> faces_;
   std::vector<Element<3>> tetrahedra_;
   std::vector<Element<2>> triangles_;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -18,6 +19,18 @@ std::array<std::int32_t, 2> ordered(const std::array<std::int32_t, 2>& groups) {
 void require_length(double x, const std::string& name) {
   if (std::isfinite(x) && x >= 0.0) return;
   throw std::invalid_argument("step: " + name + " must be finite and not negative");
+}
+
+/// \throws std::invalid_argument unless each of the groups that a rule names is that of a vertex.
+void require_vertices_in(std::set<std::int32_t> groups, std::span<const std::int32_t> of_vertices,
+                         const std::string& rule) {
+  if (of_vertices.empty()) groups.erase(0);
+  for (std::size_t i = 0; i < of_vertices.size() && !groups.empty(); ++i) {
+    groups.erase(of_vertices[i]);
+  }
+  if (groups.empty()) return;
+  throw std::invalid_argument("step: " + rule + " names group " + std::to_string(*groups.begin()) +
+                              ", but no vertex is in it");
 }
 
 }  // namespace
@@ -36,11 +49,9 @@ Bodies::Bodies(std::size_t vertices, const CollisionGroups& groups,
                                   " is negative");
     }
   }
-  for (const auto& [a, b] : groups.apart) {
-    if (std::min(a, b) >= 0) continue;
-    throw std::invalid_argument("step: a group of two that are apart is negative: " +
-                                std::to_string(std::min(a, b)));
-  }
+  std::set<std::int32_t> apart;
+  for (const auto& two : groups.apart) apart.insert(two.begin(), two.end());
+  require_vertices_in(std::move(apart), of_vertices, "apart");
   take_thickness(groups);
   if (groups.apart.empty() && !can_collide_ && !has_thickness()) return;
   of_vertices_.assign(vertices, 0);
@@ -61,16 +72,15 @@ void Bodies::take_thickness(const CollisionGroups& groups) {
   for (std::size_t i = 0; i < radii.size(); ++i) {
     require_length(radii[i], "the radius of group " + std::to_string(i));
   }
+  std::set<std::int32_t> separated;
   for (const auto& [two, distance] : groups.separations) {
     const auto [a, b] = ordered(two);
-    const std::string names = std::to_string(a) + " and " + std::to_string(b);
-    if (a < 0) {
-      throw std::invalid_argument("step: a group with a separation is negative: " +
-                                  std::to_string(a));
-    }
-    require_length(distance, "the separation of groups " + names);
+    require_length(distance,
+                   "the separation of groups " + std::to_string(a) + " and " + std::to_string(b));
     separations_.push_back({{a, b}, distance});
+    separated.insert({a, b});
   }
+  require_vertices_in(std::move(separated), groups.of_vertices, "separations");
   std::ranges::sort(separations_, {}, &GroupSeparation::groups);
   const auto again =
       std::ranges::adjacent_find(separations_, std::ranges::equal_to(), &GroupSeparation::groups);

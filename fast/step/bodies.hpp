@@ -20,17 +20,13 @@ namespace touchstone::fast {
 class Bodies {
  public:
   /// \throws std::invalid_argument unless each vertex has a group, or none has; for a negative
-  /// group, also in `apart` and `separations`; for missing radii, for radii and distances that are
-  /// negative or too large, and for two groups with two separations.
+  /// group; for a group in `apart` and `separations` that no vertex has; for missing radii, for
+  /// radii and distances that are negative or too large, and for two groups with two separations.
   Bodies(std::size_t vertices, const CollisionGroups& groups,
          std::function<bool(std::int32_t, std::int32_t)> can_collide = nullptr);
 
   /// True if all primitives meet all.
   [[nodiscard]] bool all_meet() const { return apart_.empty() && !can_collide_; }
-  /// The rules from which they were made, without the thickness. Refers to this object.
-  [[nodiscard]] CollisionGroups groups() const {
-    return {.of_vertices = of_vertices_, .apart = apart_};
-  }
   /// The body of each vertex; may be empty if all primitives meet all.
   [[nodiscard]] std::span<const std::int32_t> of_vertices() const { return of_vertices_; }
   /// True if the bodies of two primitives do not tell whether these meet.

@@ -19,13 +19,13 @@ Edge ordered(std::int32_t a, std::int32_t b) { return {std::min(a, b), std::max(
 
 }  // namespace
 
-std::vector<std::int32_t> edges_without_face(const MeshElements& elements) {
+std::vector<std::int32_t> edges_without_face(const Mesh& mesh) {
   std::size_t vertices = 0;
-  for (const Face& face : elements.faces) {
+  for (const Face& face : mesh.faces) {
     vertices = std::max(vertices, static_cast<std::size_t>(std::ranges::max(face)) + 1);
   }
   const auto for_each_side = [&](const auto& use) {
-    for (const auto& [a, b, c] : elements.faces) {
+    for (const auto& [a, b, c] : mesh.faces) {
       for (const auto& [lesser, greater] : {ordered(a, b), ordered(b, c), ordered(c, a)}) {
         use(static_cast<std::size_t>(lesser), greater);
       }
@@ -44,8 +44,8 @@ std::vector<std::int32_t> edges_without_face(const MeshElements& elements) {
   };
   for (std::size_t lesser = 0; lesser < vertices; ++lesser) std::ranges::sort(list_of(lesser));
   std::vector<std::int32_t> result;
-  for (std::size_t i = 0; i < elements.edges.size(); ++i) {
-    const auto [lesser, greater] = ordered(elements.edges[i][0], elements.edges[i][1]);
+  for (std::size_t i = 0; i < mesh.edges.size(); ++i) {
+    const auto [lesser, greater] = ordered(mesh.edges[i][0], mesh.edges[i][1]);
     const auto from = static_cast<std::size_t>(lesser);
     if (from >= vertices || !std::ranges::binary_search(list_of(from), greater)) {
       result.push_back(static_cast<std::int32_t>(i));
@@ -54,11 +54,11 @@ std::vector<std::int32_t> edges_without_face(const MeshElements& elements) {
   return result;
 }
 
-std::vector<std::int32_t> vertices_of(std::size_t vertices, const MeshElements& elements) {
+std::vector<std::int32_t> vertices_of(std::size_t vertices, const Mesh& mesh) {
   std::vector<std::uint8_t> is_named(vertices);
-  mark(is_named, elements.edges);
-  mark(is_named, elements.faces);
-  for (const std::int32_t point : elements.points) is_named[static_cast<std::size_t>(point)] = 1;
+  mark(is_named, std::span(mesh.edges));
+  mark(is_named, std::span(mesh.faces));
+  for (const std::int32_t point : mesh.points) is_named[static_cast<std::size_t>(point)] = 1;
   std::vector<std::int32_t> result;
   result.reserve(vertices);
   for (std::size_t i = 0; i < vertices; ++i) {
@@ -67,15 +67,23 @@ std::vector<std::int32_t> vertices_of(std::size_t vertices, const MeshElements& 
   return result;
 }
 
-Codimensional codimensional(std::size_t vertices, std::span<const std::int32_t> of_elements,
-                            const MeshElements& elements) {
+std::vector<std::int32_t> points_without_edge(std::size_t vertices,
+                                              std::span<const std::int32_t> some,
+                                              std::span<const Edge> edges) {
   std::vector<std::uint8_t> has_edge(vertices);
-  mark(has_edge, elements.edges);
-  Codimensional result;
-  std::ranges::copy_if(of_elements, std::back_inserter(result.points), [&](std::int32_t vertex) {
+  mark(has_edge, edges);
+  std::vector<std::int32_t> result;
+  std::ranges::copy_if(some, std::back_inserter(result), [&](std::int32_t vertex) {
     return has_edge[static_cast<std::size_t>(vertex)] == 0;
   });
-  if (!result.points.empty()) result.edges = edges_without_face(elements);
+  return result;
+}
+
+Codimensional codimensional(std::size_t vertices, std::span<const std::int32_t> of_elements,
+                            const Mesh& mesh) {
+  Codimensional result{.points = points_without_edge(vertices, of_elements, mesh.edges),
+                       .edges = {}};
+  if (!result.points.empty()) result.edges = edges_without_face(mesh);
   return result;
 }
 

@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "touchstone/mesh.hpp"
@@ -13,11 +14,15 @@
 namespace touchstone::fast {
 
 /// The vertices of all elements, each once, in order.
-[[nodiscard]] std::vector<std::int32_t> vertices_of(std::size_t vertices,
-                                                    const MeshElements& elements);
+[[nodiscard]] std::vector<std::int32_t> vertices_of(std::size_t vertices, const Mesh& mesh);
 
 /// The numbers of the edges that are not edges of faces, in order.
-[[nodiscard]] std::vector<std::int32_t> edges_without_face(const MeshElements& elements);
+[[nodiscard]] std::vector<std::int32_t> edges_without_face(const Mesh& mesh);
+
+/// Those of some vertices that have no edge, in the same order.
+[[nodiscard]] std::vector<std::int32_t> points_without_edge(std::size_t vertices,
+                                                            std::span<const std::int32_t> some,
+                                                            std::span<const Edge> edges);
 
 struct Codimensional {
   /// The vertices without an edge, in order.
@@ -28,9 +33,9 @@ struct Codimensional {
 };
 
 /// \param of_elements The result of vertices_of.
-/// \pre All indices are in range, and `elements.edges` contains the edges of the faces.
+/// \pre All indices are in range, and `mesh.edges` contains the edges of the faces.
 [[nodiscard]] Codimensional codimensional(std::size_t vertices,
                                           std::span<const std::int32_t> of_elements,
-                                          const MeshElements& elements);
+                                          const Mesh& mesh);
 
 }  // namespace touchstone::fast

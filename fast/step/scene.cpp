@@ -41,13 +41,13 @@ std::shared_ptr<const SceneMesh> checked(std::shared_ptr<const SceneMesh> mesh,
 }
 
 /// \throws as Step.
-MovingVertices checked(MovingVertices vertices, const MeshElements& elements) {
+MovingVertices checked(MovingVertices vertices, const Mesh& mesh) {
   require_finite(vertices);
-  require_in_range(vertices, elements.edges);
-  require_in_range(vertices, elements.faces);
-  require_in_range(vertices, elements.points);
-  require_in_range(vertices, elements.tetrahedra);
-  require_in_range(vertices, elements.plane_triangles);
+  require_in_range(vertices, mesh.edges);
+  require_in_range(vertices, mesh.faces);
+  require_in_range(vertices, mesh.points);
+  require_in_range(vertices, mesh.tetrahedra);
+  require_in_range(vertices, mesh.plane_triangles);
   return vertices;
 }
 
@@ -62,6 +62,12 @@ MovingVertices checked(MovingVertices vertices, const Scene& other) {
 template <class Items>
 const auto& at(const Items& items, std::int32_t index) {
   return items[static_cast<std::size_t>(index)];
+}
+
+/// The mesh with the edges of its faces, if it has no edges.
+Mesh with_edges(Mesh mesh) {
+  if (mesh.edges.empty()) mesh.edges = edges_of(mesh.faces);
+  return mesh;
 }
 
 /// Applies `make` to the item of each sort.
@@ -98,7 +104,7 @@ OfPrimitives<PrimitiveGroups> groups_of(const SceneMesh& mesh, const FloatBounds
   tbb::parallel_for(std::size_t{0}, groups.size(), [&](std::size_t sort) {
     const StrictFloatingPoint strict;
     if (sort == Sort::vertices) return make(sort, std::span(mesh.vertices));
-    if (sort == Sort::edges) return make(sort, mesh.elements.edges);
+    if (sort == Sort::edges) return make(sort, std::span(mesh.elements.edges));
     make(sort, mesh.as_faces[sort]);
   });
   return groups;
@@ -117,21 +123,16 @@ Trees<instants> trees_of(const OfPrimitives<PrimitiveGroups>& groups, const Floa
 
 // ---- The mesh -----------------------------------------------------------------------------------
 
-SceneMesh::SceneMesh(std::size_t vertex_count, const MeshElements& given,
-                     const StepOptions& options)
-    : edges_of_faces(given.edges.empty() ? edges_of(given.faces) : std::vector<Edge>()),
-      elements{.edges = given.edges.empty() ? edges_of_faces : given.edges,
-               .faces = given.faces,
-               .points = given.points,
-               .tetrahedra = given.tetrahedra,
-               .plane_triangles = given.plane_triangles},
+SceneMesh::SceneMesh(std::size_t vertex_count, Mesh given, const StepOptions& options)
+    : elements(with_edges(std::move(given))),
+      groups(options.groups),
       vertices(vertices_of(vertex_count, elements)),
       codimensional(fast::codimensional(vertex_count, vertices, elements)),
       points_as_faces(fast::as_faces(codimensional.points)),
       edges_as_faces(fast::as_faces(codimensional.edges, elements.edges)),
       numbers{{{}, {}, {}, codimensional.points, codimensional.edges}},
       as_faces{{{}, {}, elements.faces, points_as_faces, edges_as_faces}},
-      bodies(vertex_count, options.groups, options.can_collide),
+      bodies(vertex_count, groups, options.can_collide),
       reaches(bodies.reaches()) {
   if (!bodies.has_thickness()) return;
   const std::vector<double> of_vertices = reaches;
@@ -207,13 +208,13 @@ SceneGroups::SceneGroups(const SceneMesh& mesh, const FloatBounds& bounds)
 
 // ---- The scene ----------------------------------------------------------------------------------
 
-Scene::Scene(MovingVertices vertices, const MeshElements& elements, const StepOptions& options)
-    : vertices_(checked(std::move(vertices), elements)),
+Scene::Scene(MovingVertices vertices, Mesh mesh, const StepOptions& options)
+    : vertices_(checked(std::move(vertices), mesh)),
       certified_(certified_options(options)),
       stop_(options.stop),
       kernel_(certified_kernel(chosen_kernels())),
       search_(search_kernel(chosen_kernels())),
-      mesh_(checked(std::make_shared<const SceneMesh>(vertices_.size(), elements, options),
+      mesh_(checked(std::make_shared<const SceneMesh>(vertices_.size(), std::move(mesh), options),
                     certified_.separation)),
       bounds_(bounds_up_to(1.0)),
       groups_(std::make_shared<const SceneGroups>(*mesh_, bounds_)) {}
@@ -332,8 +333,8 @@ bool Scene::primitives_meet(const Primitive& a, const Primitive& b) const {
 void Scene::find_inversions(const CertifiedOptions& options, double kept_volume,
                             const std::function<double()>& limit,
                             const std::function<void(const StepInversion&)>& report) const {
-  const std::span tetrahedra = elements().tetrahedra;
-  const std::span triangles = elements().plane_triangles;
+  const std::span tetrahedra(mesh().tetrahedra);
+  const std::span triangles(mesh().plane_triangles);
   const auto find = [&](Kind kind, std::size_t size) {
     tbb::parallel_for(std::size_t{0}, (size + kernel_block - 1) / kernel_block, [&](std::size_t i) {
       if (stop_ != nullptr && stop_->load(std::memory_order_relaxed)) throw Stopped();
@@ -372,9 +373,9 @@ void Scene::find_inversions(const CertifiedOptions& options, double kept_volume,
 
 Query Scene::query_of(Kind kind, std::int32_t element) const {
   if (kind == Kind::tetrahedron) {
-    return fast::query_of(vertices_, at(elements().tetrahedra, element));
+    return fast::query_of(vertices_, at(mesh().tetrahedra, element));
   }
-  const auto [a, b, c] = at(elements().plane_triangles, element);
+  const auto [a, b, c] = at(mesh().plane_triangles, element);
   return to_tetrahedron(kind, fast::query_of(vertices_, {a, b, c, b}));
 }
 
@@ -391,7 +392,7 @@ Candidates Scene::candidates_of(PairKind kind, std::span<const IndexPair> pairs,
   const PairRecord& record = record_of(kind);
   Candidates result{.kind = record.query_kind,
                     .pairs = pairs,
-                    .edges = elements().edges,
+                    .edges = mesh().edges,
                     .faces = mesh_->as_faces[record.all]};
   const auto& numbers = mesh_->numbers[record.some];
   if (numbers.empty()) return result;
@@ -495,12 +496,12 @@ std::array<std::int32_t, moving_points> Scene::vertices_of(PairKind kind,
   const PairRecord& record = record_of(kind);
   if (record.all == Sort::points) return {first, second, second, second};
   if (record.all == Sort::faces) {
-    const auto [a, b, c] = at(elements().faces, second);
+    const auto [a, b, c] = at(mesh().faces, second);
     return {first, a, b, c};
   }
-  const auto [a, b] = at(elements().edges, second);
+  const auto [a, b] = at(mesh().edges, second);
   if (record.all == Sort::bare_edges) return {first, a, b, a};
-  const auto [c, d] = at(elements().edges, first);
+  const auto [c, d] = at(mesh().edges, first);
   return {c, d, a, b};
 }
 

@@ -115,16 +115,16 @@ struct SearchPart {
 
 /// The data that do not depend on the places of vertices: steps of one mesh share them.
 struct SceneMesh {
-  /// Keeps references to the elements. \throws as Step.
-  SceneMesh(std::size_t vertex_count, const MeshElements& given, const StepOptions& options);
+  /// \throws as Step.
+  SceneMesh(std::size_t vertex_count, Mesh given, const StepOptions& options);
   SceneMesh(const SceneMesh&) = delete;
   SceneMesh& operator=(const SceneMesh&) = delete;
   SceneMesh(SceneMesh&&) = delete;
   SceneMesh& operator=(SceneMesh&&) = delete;
   ~SceneMesh() = default;
 
-  std::vector<Edge> edges_of_faces;  ///< if no edges are given
-  MeshElements elements;
+  Mesh elements;  ///< with the edges of the faces if none are given
+  CollisionGroups groups;
   std::vector<std::int32_t> vertices;  ///< of all elements
   Codimensional codimensional;
   /// The codimensional points and edges as input of the certified solver.
@@ -159,9 +159,8 @@ void sort_by_number(std::vector<StepInversion>& inversions);
 
 class Scene final : private PairQuestions {
  public:
-  /// Uses the threads of the caller's task arena. Keeps references to the elements.
-  /// \throws as Step.
-  Scene(MovingVertices vertices, const MeshElements& elements, const StepOptions& options);
+  /// Uses the threads of the caller's task arena. \throws as Step.
+  Scene(MovingVertices vertices, Mesh mesh, const StepOptions& options);
   /// The same mesh at other places, with the same options except t_max, which is 1.
   Scene(MovingVertices vertices, const Scene& other);
   /// The same mesh at other places, with the same options except the separation.
@@ -173,12 +172,12 @@ class Scene final : private PairQuestions {
   ~Scene() = default;
 
   [[nodiscard]] const MovingVertices& vertices() const { return vertices_; }
-  [[nodiscard]] const MeshElements& elements() const { return mesh_->elements; }
+  [[nodiscard]] const Mesh& mesh() const { return mesh_->elements; }
   /// The options of the decisions on pairs without thickness.
   [[nodiscard]] const CertifiedOptions& certified() const { return certified_; }
   [[nodiscard]] bool has_groups_of(const Scene& other) const { return groups_ == other.groups_; }
   [[nodiscard]] const std::atomic<bool>* stop() const { return stop_; }
-  [[nodiscard]] CollisionGroups groups() const { return mesh_->bodies.groups(); }
+  [[nodiscard]] const CollisionGroups& groups() const { return mesh_->groups; }
   [[nodiscard]] const std::function<bool(std::int32_t, std::int32_t)>& can_collide() const {
     return mesh_->bodies.can_collide();
   }

@@ -197,89 +197,58 @@ std::vector<fast::GroupSeparation> separations_from(const Integers& groups,
   return result;
 }
 
-/// What a step refers to.
-struct Elements {
-  std::vector<fast::Edge> edges;
-  std::vector<fast::Face> faces;
-  std::vector<std::int32_t> points;
-  std::vector<std::int32_t> groups;
-  std::vector<std::array<std::int32_t, 2>> apart;
-  std::vector<fast::Tetrahedron> tetrahedra = {};
-  std::vector<fast::Face> plane_triangles = {};
-  /// Ends the searches of all steps of these elements.
-  mutable std::atomic<bool> stop = false;
-
-  [[nodiscard]] fast::MeshElements mesh() const {
-    return {.edges = edges,
-            .faces = faces,
-            .points = points,
-            .tetrahedra = tetrahedra,
-            .plane_triangles = plane_triangles};
-  }
-};
-
-Elements elements_from(const Integers& faces, const Integers& edges, const Integers& points,
-                       const Integers& groups, const Integers& apart,
-                       const std::vector<fast::Tetrahedron>& tetrahedra = {},
-                       const std::vector<fast::Face>& plane_triangles = {}) {
-  return {.edges = rows_of<fast::Edge>(edges),
-          .faces = rows_of<fast::Face>(faces),
-          .points = rows_of<std::int32_t>(points),
-          .groups = rows_of<std::int32_t>(groups),
-          .apart = rows_of<std::array<std::int32_t, 2>>(apart),
-          .tetrahedra = tetrahedra,
-          .plane_triangles = plane_triangles};
-}
-
 /// The result of work(); `progress`, unless None, is called now and then. \throws as
 /// in_background().
 template <class Work>
-auto searched(const Elements& elements, const py::object& progress, const Work& work) {
+auto searched(std::atomic<bool>& stop, const py::object& progress, const Work& work) {
   if (is_forked()) {
     // The threads of the pool that the search uses are in the parent.
     const py::gil_scoped_release unlocked;
     return work();
   }
-  return in_background(work, elements.stop, progress);
+  return in_background(work, stop, progress);
 }
 
-/// A step with the elements that it refers to.
-class OwningStep {
+/// A step, with a flag that ends its searches and those of all steps made from it.
+class StoppableStep {
   /// The result of work(step), as searched() has it.
   template <class Work>
   [[nodiscard]] auto search(const py::object& progress, const Work& work) const {
-    return searched(*elements_, progress, [&] { return work(*step_); });
+    return searched(*stop_, progress, [&] { return work(*step_); });
   }
 
  public:
-  OwningStep(const Doubles& before, const Doubles& after, const Integers& faces,
-             const Integers& edges, const Integers& points, const Integers& groups,
-             const Integers& apart, const Integers& tetrahedra, const Integers& plane_triangles,
-             const Doubles& radii, const Integers& separated, const Doubles& separations,
-             const py::object& can_collide, double separation, const std::string& norm,
-             double toi_tolerance, double t_max, int threads)
-      : elements_(new Elements(elements_from(faces, edges, points, groups, apart,
-                                             rows_of<fast::Tetrahedron>(tetrahedra),
-                                             rows_of<fast::Face>(plane_triangles)))) {
+  StoppableStep(const Doubles& before, const Doubles& after, const Integers& faces,
+                const Integers& edges, const Integers& points, const Integers& groups,
+                const Integers& apart, const Integers& tetrahedra, const Integers& plane_triangles,
+                const Doubles& radii, const Integers& separated, const Doubles& separations,
+                const py::object& can_collide, double separation, const std::string& norm,
+                double toi_tolerance, double t_max, int threads)
+      : stop_(std::make_shared<std::atomic<bool>>(false)) {
+    fast::Mesh mesh{.edges = rows_of<fast::Edge>(edges),
+                    .faces = rows_of<fast::Face>(faces),
+                    .points = rows_of<std::int32_t>(points),
+                    .tetrahedra = rows_of<fast::Tetrahedron>(tetrahedra),
+                    .plane_triangles = rows_of<fast::Face>(plane_triangles)};
     fast::MovingVertices vertices = vertices_of(before, after);
-    const std::vector<fast::GroupSeparation> of_groups = separations_from(separated, separations);
-    const fast::StepOptions options{.separation = separation_from(separation, norm),
-                                    .toi_tolerance = toi_tolerance,
-                                    .t_max = t_max,
-                                    .max_threads = is_forked() ? 1 : threads,
-                                    .groups = {.of_vertices = elements_->groups,
-                                               .apart = elements_->apart,
-                                               .radii = {radii.data(), std::size_t(radii.size())},
-                                               .separations = of_groups},
-                                    .can_collide = rule_from(can_collide),
-                                    .stop = &elements_->stop};
+    const fast::StepOptions options{
+        .separation = separation_from(separation, norm),
+        .toi_tolerance = toi_tolerance,
+        .t_max = t_max,
+        .max_threads = is_forked() ? 1 : threads,
+        .groups = {.of_vertices = rows_of<std::int32_t>(groups),
+                   .apart = rows_of<std::array<std::int32_t, 2>>(apart),
+                   .radii = {radii.data(), radii.data() + radii.size()},
+                   .separations = separations_from(separated, separations)},
+        .can_collide = rule_from(can_collide),
+        .stop = stop_.get()};
     const py::gil_scoped_release unlocked;
-    step_ = std::make_shared<const fast::Step>(std::move(vertices), elements_->mesh(), options);
+    step_ = std::make_shared<const fast::Step>(std::move(vertices), std::move(mesh), options);
   }
 
-  [[nodiscard]] OwningStep moved(const Doubles& before, const Doubles& after, double separation,
-                                 const std::string& norm) const {
-    OwningStep result = *this;
+  [[nodiscard]] StoppableStep moved(const Doubles& before, const Doubles& after, double separation,
+                                    const std::string& norm) const {
+    StoppableStep result = *this;
     fast::MovingVertices vertices = vertices_of(before, after);
     const Separation of_result = separation_from(separation, norm);
     const py::gil_scoped_release unlocked;
@@ -376,9 +345,10 @@ class OwningStep {
   }
 
   [[nodiscard]] py::array_t<std::int32_t> edges() const {
-    const auto edges = step_->edges();
+    const std::vector<fast::Edge>& edges = step_->mesh().edges;
     py::array_t<std::int32_t> array({py::ssize_t(edges.size()), py::ssize_t(2)});
-    if (!edges.empty()) std::memcpy(array.mutable_data(), edges.data(), edges.size_bytes());
+    if (!edges.empty())
+      std::memcpy(array.mutable_data(), edges.data(), edges.size() * sizeof(fast::Edge));
     return array;
   }
   [[nodiscard]] py::array_t<double> query(int kind, std::int32_t first, std::int32_t second) const {
@@ -389,7 +359,7 @@ class OwningStep {
   }
 
  private:
-  std::shared_ptr<const Elements> elements_;
+  std::shared_ptr<std::atomic<bool>> stop_;
   std::shared_ptr<const fast::Step> step_;
 };
 
@@ -409,15 +379,19 @@ py::dict intersection_layout() {
 py::array intersections(const Doubles& vertices, const Integers& faces, const Integers& edges,
                         const Integers& points, const Integers& groups, const Integers& apart,
                         bool weld, int threads, const py::object& progress) {
-  const Elements elements = elements_from(faces, edges, points, groups, apart);
+  const fast::Mesh mesh{.edges = rows_of<fast::Edge>(edges),
+                        .faces = rows_of<fast::Face>(faces),
+                        .points = rows_of<std::int32_t>(points)};
+  std::atomic<bool> stop = false;
   const fast::MovingVertices at_rest = vertices_of(vertices, vertices);
   const fast::IntersectionOptions options{
-      .groups = {.of_vertices = elements.groups, .apart = elements.apart},
+      .groups = {.of_vertices = rows_of<std::int32_t>(groups),
+                 .apart = rows_of<std::array<std::int32_t, 2>>(apart)},
       .weld = weld,
       .max_threads = is_forked() ? 1 : threads,
-      .stop = &elements.stop};
-  const auto found = searched(
-      elements, progress, [&] { return fast::intersections(at_rest, elements.mesh(), options); });
+      .stop = &stop};
+  const auto found =
+      searched(stop, progress, [&] { return fast::intersections(at_rest, mesh, options); });
   return array_of(found, intersection_layout());
 }
 
@@ -427,7 +401,7 @@ void define_step(py::module_& m) {
   using py::arg;
   watch_forks();
   // A class of the usual kind, as its stub has it.
-  py::class_<OwningStep>(m, "Step", py::metaclass(reinterpret_cast<PyObject*>(&PyType_Type)))
+  py::class_<StoppableStep>(m, "Step", py::metaclass(reinterpret_cast<PyObject*>(&PyType_Type)))
       .def(py::init<const Doubles&, const Doubles&, const Integers&, const Integers&,
                     const Integers&, const Integers&, const Integers&, const Integers&,
                     const Integers&, const Doubles&, const Integers&, const Doubles&,
@@ -438,22 +412,22 @@ void define_step(py::module_& m) {
            arg("plane_triangles").noconvert(), arg("radii").noconvert(),
            arg("separated").noconvert(), arg("separations").noconvert(), arg("can_collide"),
            arg("separation"), arg("norm"), arg("toi_tolerance"), arg("t_max"), arg("threads"))
-      .def("moved", &OwningStep::moved, arg("before").noconvert(), arg("after").noconvert(),
+      .def("moved", &StoppableStep::moved, arg("before").noconvert(), arg("after").noconvert(),
            arg("separation"), arg("norm"))
-      .def("earliest", &OwningStep::earliest, arg("progress"))
-      .def("collisions", &OwningStep::collisions, arg("progress"))
-      .def("inversions", &OwningStep::inversions, arg("progress"))
-      .def("starts_free", &OwningStep::starts_free, arg("progress"))
-      .def("is_free", &OwningStep::is_free, arg("progress"))
-      .def("free_step_size", &OwningStep::free_step_size, arg("progress"))
-      .def("contacts", &OwningStep::contacts, arg("collisions"), arg("progress"))
-      .def("active_set", &OwningStep::active_set, arg("eta"), arg("norm"), arg("progress"))
-      .def("line_search_limit", &OwningStep::line_search_limit, arg("p"), arg("norm"),
+      .def("earliest", &StoppableStep::earliest, arg("progress"))
+      .def("collisions", &StoppableStep::collisions, arg("progress"))
+      .def("inversions", &StoppableStep::inversions, arg("progress"))
+      .def("starts_free", &StoppableStep::starts_free, arg("progress"))
+      .def("is_free", &StoppableStep::is_free, arg("progress"))
+      .def("free_step_size", &StoppableStep::free_step_size, arg("progress"))
+      .def("contacts", &StoppableStep::contacts, arg("collisions"), arg("progress"))
+      .def("active_set", &StoppableStep::active_set, arg("eta"), arg("norm"), arg("progress"))
+      .def("line_search_limit", &StoppableStep::line_search_limit, arg("p"), arg("norm"),
            arg("of_pair"), arg("kept_volume"), arg("progress"))
-      .def("candidates", &OwningStep::candidates, arg("progress"))
-      .def("least_distance", &OwningStep::least_distance, arg("t"), arg("norm"), arg("progress"))
-      .def("edges", &OwningStep::edges)
-      .def("query", &OwningStep::query, arg("kind"), arg("first"), arg("second"));
+      .def("candidates", &StoppableStep::candidates, arg("progress"))
+      .def("least_distance", &StoppableStep::least_distance, arg("t"), arg("norm"), arg("progress"))
+      .def("edges", &StoppableStep::edges)
+      .def("query", &StoppableStep::query, arg("kind"), arg("first"), arg("second"));
   m.def("collision_layout", &collision_layout);
   m.def("intersections", &intersections, arg("vertices").noconvert(), arg("faces").noconvert(),
         arg("edges").noconvert(), arg("points").noconvert(), arg("groups").noconvert(),

@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file
-/// fast::Step for Python: a step that owns its mesh.
+/// fast::Step for Python.
 
 #include <pybind11/pybind11.h>
 

@@ -161,7 +161,7 @@ class Step:
     groups : array_like of int, shape (n,), optional
         The group of each vertex, from 0 on; by default all are in group 0.
     apart : array_like of int, shape (k, 2), optional
-        Pairs of groups that cannot collide; the same group twice: not within it.
+        Pairs of groups that cannot collide, each the group of a vertex; the same group twice: not within it.
     tetrahedra : array_like of int, shape (m, 4), optional
         Elements a, b, c, d whose volume, with the sign of det(b - a, c - a, d - a), is to stay positive.
         They do not collide.
@@ -173,7 +173,8 @@ class Step:
         of the radii of a vertex of one and a vertex of the other: in "l2" vertices are spheres, and
         edges capsules. Distances are those of thick primitives, too.
     separations : mapping of (int, int) to float, optional
-        Pairs of groups, in either order, with a distance in place of the sum of their radii.
+        Pairs of groups, in either order, with a distance in place of the sum of their radii; each the
+        group of a vertex.
     can_collide : callable, optional
         A rule for pairs of vertices: two primitives can collide if `can_collide(i, j)` is true for a
         vertex of one and a vertex of the other that are in groups that can collide. It must be
@@ -540,10 +541,7 @@ class Step:
             command += [word for pair in apart for word in ("--apart", *pair)]
             for option, lines in (
                 ("--radii", [f"{g},{radius!r}" for g, radius in enumerate(radii.tolist()) if g in used]),
-                (
-                    "--separations",
-                    [f"{a},{b},{d!r}" for (a, b), d in zip(separated, separations.tolist()) if {a, b} <= used],
-                ),
+                ("--separations", [f"{a},{b},{d!r}" for (a, b), d in zip(separated, separations.tolist())]),
             ):
                 if lines:
                     table = run.folder / f"{option[2:]}.csv"

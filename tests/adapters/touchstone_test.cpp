@@ -186,7 +186,7 @@ TEST(CInterface, DecidesAndMeasuresAStep) {
     const auto owner = step_of(mesh);
     const fast::Step step(std::span<const double>(scene.before),
                           std::span<const double>(scene.after),
-                          {.faces = faces, .points = std::span(scene.points).first(points)});
+                          {.faces = faces, .points = std::vector<std::int32_t>(points, 6)});
 
     std::int32_t is_free = -1;
     EXPECT_EQ(touchstone_step_is_free(owner.get(), &is_free), TOUCHSTONE_OK);
@@ -261,8 +261,8 @@ TEST(CInterface, DecidesAndMeasuresAStep) {
 TEST(CInterface, TakesRadiiAndSeparationsOfGroups) {
   const Scene scene;
   const std::vector<fast::Face> faces{{0, 1, 2}, {3, 4, 5}};
-  const std::array<std::int32_t, 9> groups{0, 0, 0, 1, 1, 1, 2, 0, 0};
-  const std::array<double, 3> radii{0.125, 0.25, 0.5};
+  const std::vector<std::int32_t> groups{0, 0, 0, 1, 1, 1, 2, 0, 0};
+  const std::vector<double> radii{0.125, 0.25, 0.5};
   const std::array<std::int32_t, 2> separated{2, 1};
   const std::array<double, 1> distance{0.0625};
   const std::vector<fast::GroupSeparation> separations{{{2, 1}, 0.0625}};
@@ -274,11 +274,10 @@ TEST(CInterface, TakesRadiiAndSeparationsOfGroups) {
   mesh.separated_groups = separated.data();
   mesh.group_separations = distance.data();
   const auto owner = step_of(mesh);
-  const fast::Step step(std::span<const double>(scene.before), std::span<const double>(scene.after),
-                        {.faces = faces, .points = scene.points},
-                        {.groups = {.of_vertices = std::span(groups).first(mesh.vertices),
-                                    .radii = radii,
-                                    .separations = separations}});
+  const fast::Step step(
+      std::span<const double>(scene.before), std::span<const double>(scene.after),
+      {.faces = faces, .points = {6}},
+      {.groups = {.of_vertices = groups, .radii = radii, .separations = separations}});
   const TouchstoneCollision* collisions = nullptr;
   std::size_t count = 0;
   ASSERT_EQ(touchstone_step_collisions(owner.get(), &collisions, &count), TOUCHSTONE_OK);
@@ -288,8 +287,14 @@ TEST(CInterface, TakesRadiiAndSeparationsOfGroups) {
   std::size_t of_thin = 0;
   ASSERT_EQ(touchstone_step_collisions(thin.get(), &collisions, &of_thin), TOUCHSTONE_OK);
   EXPECT_NE(found, converted(collisions, of_thin));
-  mesh.group_separations = nullptr;
   TouchstoneStep* none = nullptr;
+  const std::array<std::int32_t, 2> unknown{0, 3};
+  mesh.apart = 1;
+  mesh.apart_groups = unknown.data();
+  EXPECT_EQ(touchstone_step_new(&mesh, nullptr, &none), TOUCHSTONE_INVALID_ARGUMENT);
+  EXPECT_STREQ(touchstone_last_error(), "step: apart names group 3, but no vertex is in it");
+  mesh.apart = 0;
+  mesh.group_separations = nullptr;
   EXPECT_EQ(touchstone_step_new(&mesh, nullptr, &none), TOUCHSTONE_INVALID_ARGUMENT);
 }
 
@@ -299,9 +304,10 @@ TEST(CInterface, KeepsElementsFromInverting) {
   std::vector<double> after = before;
   after.back() = -3.0;
   after[3] = -2.0;
-  const std::vector<fast::Tetrahedron> tetrahedra{{0, 1, 2, 3}, {0, 1, 1, 3}};
   const std::vector<fast::Face> triangles{{0, 1, 2}};
   for (const std::size_t count : {1U, 2U}) {
+    std::vector<fast::Tetrahedron> tetrahedra{{0, 1, 2, 3}, {0, 1, 1, 3}};
+    tetrahedra.resize(count);
     TouchstoneMesh mesh{};
     mesh.vertices = 4;
     mesh.before = before.data();
@@ -311,9 +317,8 @@ TEST(CInterface, KeepsElementsFromInverting) {
     mesh.plane_triangles = 1;
     mesh.plane_triangle_vertices = triangles.front().data();
     const auto owner = step_of(mesh);
-    const fast::Step step(
-        std::span<const double>(before), std::span<const double>(after),
-        {.tetrahedra = std::span(tetrahedra).first(count), .plane_triangles = triangles});
+    const fast::Step step(std::span<const double>(before), std::span<const double>(after),
+                          {.tetrahedra = tetrahedra, .plane_triangles = triangles});
     const auto expect_same = [](const TouchstoneStepInversion* found, std::size_t size,
                                 const std::vector<fast::StepInversion>& expected) {
       ASSERT_EQ(size, expected.size());

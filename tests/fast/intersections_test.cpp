@@ -40,14 +40,14 @@ Rows rows(std::initializer_list<std::array<double, 3>> points) {
   return result;
 }
 
-/// A mesh.
+/// A mesh at rest.
 struct Mesh {
   Rows vertices;
   std::vector<Face> faces = {};
   std::vector<Edge> edges = {};
   std::vector<std::int32_t> points = {};
 
-  [[nodiscard]] MeshElements elements() const {
+  [[nodiscard]] fast::Mesh elements() const {
     return {.edges = edges, .faces = faces, .points = points};
   }
   [[nodiscard]] Found intersections(const IntersectionOptions& options = {}) const {
@@ -279,7 +279,8 @@ struct Asked {
     for (int i = random.between(0, 3); i > 0; --i) mesh.points.push_back(any());
     for (int i = 0; i < vertices; ++i) groups.push_back(random.between(0, 2));
     for (int i = random.between(0, 2); i > 0; --i) {
-      apart.push_back({random.between(0, 2), random.between(0, 2)});
+      apart.push_back(
+          {groups[static_cast<std::size_t>(any())], groups[static_cast<std::size_t>(any())]});
     }
     weld = random.between(0, 2) == 0;
     if (random.coin()) pairs = IntersectingPairs::edges_with_faces;

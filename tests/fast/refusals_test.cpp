@@ -47,9 +47,7 @@ Step step(const StepOptions& options = {}) {
   before << 0, 0, 0, 4, 0, 0, 0, 4, 0, 1, 1, 1;
   after = before;
   after(3, 2) = -1;
-  static const std::vector<Face> faces{{0, 1, 2}};
-  static const std::vector<std::int32_t> points{3};
-  return {before, after, {.faces = faces, .points = points}, options};
+  return {before, after, {.faces = {{0, 1, 2}}, .points = {3}}, options};
 }
 
 void solve_one(const CertifiedOptions& options) {
@@ -94,12 +92,12 @@ std::vector<Refusal> refusals() {
        [](double x) { (void)active_set(step(), {.distance = x}); }},
       {"separation_of_broad_phase", no_distance,
        [](double x) {
-         (void)edge_edge_candidates(step().vertices(), step().edges(),
+         (void)edge_edge_candidates(step().vertices(), step().mesh().edges,
                                     {.separation = {.distance = x}});
        }},
       {"threads_of_broad_phase", no_count,
        [](double x) {
-         (void)edge_edge_candidates(step().vertices(), step().edges(),
+         (void)edge_edge_candidates(step().vertices(), step().mesh().edges,
                                     {.max_threads = static_cast<int>(x)});
        }},
       {"time_of_contact", no_time,

@@ -68,8 +68,7 @@ using FindActive = std::vector<fast::ActiveContact>(const fast::Step&, const Sep
 using EncloseContact = fast::ContactEnclosure(Kind, const Query&, const fast::TimeEnclosure&,
                                               const fast::exact_stage::Parameters&,
                                               bool is_touching);
-using FindIntersections = std::vector<fast::Intersection>(fast::MovingVertices,
-                                                          const fast::MeshElements&,
+using FindIntersections = std::vector<fast::Intersection>(fast::MovingVertices, const fast::Mesh&,
                                                           const fast::IntersectionOptions&);
 using DecideElements = void(fast::KernelInput, double t_limit, const fast::CertifiedOptions&,
                             const fast::CertifiedKernel&, const std::function<Query(std::size_t)>&,

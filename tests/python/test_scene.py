@@ -191,6 +191,7 @@ def test_contacts_of_collisions():
         ({"edges": [[0, -1]]}, IndexError, r"edges\[0, 1\]: -1"),
         ({"points": [7]}, IndexError, "7"),
         ({"groups": [0, 1]}, ValueError, "group"),
+        ({"apart": [[0, 3]]}, ValueError, "apart names group 3, but no vertex is in it"),
         ({"radii": [[1.0]]}, ValueError, r"radii must have the shape \(g,\), not \(1, 1\)"),
         ({"radii": [-1.0]}, ValueError, "the radius of group 0 must be finite and not negative"),
         ({"separations": {(0, 0): np.inf}}, ValueError, "the separation of groups 0 and 0"),

@@ -49,7 +49,7 @@ struct Scene {
   std::vector<fast::Tetrahedron> tetrahedra = {};
   std::vector<Face> plane_triangles = {};
 
-  [[nodiscard]] fast::MeshElements elements() const {
+  [[nodiscard]] fast::Mesh elements() const {
     return {.edges = edges,
             .faces = faces,
             .points = points,
@@ -126,7 +126,8 @@ struct Shape {
   for (int i = random.between(0, vertices); i > 0; --i) scene.points.push_back(vertex());
   if (random.coin()) {
     for (int i = 0; i < vertices; ++i) scene.groups.push_back(random.between(0, 3));
-    for (int i = 0; i < 3; ++i) scene.apart.push_back({random.between(0, 3), random.between(0, 3)});
+    const auto group = [&] { return scene.groups[static_cast<std::size_t>(vertex())]; };
+    for (int i = 0; i < 3; ++i) scene.apart.push_back({group(), group()});
   }
   return scene;
 }
@@ -173,7 +174,10 @@ inline void add_thickness(Scene& scene, double length, Random& random) {
   for (int i = 0; i < 4 && which != 0; ++i) scene.radii.push_back(any());
   for (std::int32_t a = 0; a < 4 && which != 1; ++a) {
     for (std::int32_t b = a; b < 4; ++b) {
-      if (random.between(0, 2) > 0) continue;
+      const auto is_used = [&](std::int32_t group) {
+        return std::ranges::count(scene.groups, group) > 0;
+      };
+      if (random.between(0, 2) > 0 || !is_used(a) || !is_used(b)) continue;
       const auto groups = random.coin() ? std::array{a, b} : std::array{b, a};
       scene.separations.push_back({groups, any()});
     }

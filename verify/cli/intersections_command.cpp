@@ -50,7 +50,7 @@ report::RestingMesh read(Files& files, const fs::path& path) {
       .mesh = is_archive ? mesh::open_frames({path})->mesh() : mesh::read_mesh(path)};
   report_note(path, result.mesh.note);
   mesh::require_elements(result.mesh, path);
-  result.defects = fast::mesh_defects(result.mesh.vertices, result.mesh.elements());
+  result.defects = fast::mesh_defects(result.mesh.vertices, result.mesh);
   const fast::Step at_rest(result.mesh.vertices, result.mesh.vertices,
                            {.tetrahedra = result.mesh.tetrahedra});
   result.inversions = at_rest.inversions();
@@ -94,8 +94,7 @@ Status intersections(const Arguments& arguments) {
   report::IntersectionReport report{.meshes = {}, .intersections = {}, .weld = arguments.weld};
   for (const fs::path& path : arguments.meshes) report.meshes.push_back(read(files, path));
   const mesh::Mesh all = report::joined(report.meshes);
-  const CollidingGroups groups(files, arguments.groups, all);
-  const fast::IntersectionOptions search{.groups = groups.get(),
+  const fast::IntersectionOptions search{.groups = collision_groups(files, arguments.groups, all),
                                          .weld = arguments.weld,
                                          .max_threads = arguments.threads,
                                          .stop = &io::interrupted()};
@@ -103,7 +102,7 @@ Status intersections(const Arguments& arguments) {
   report.interrupted = true;
   until_interrupted([&] {
     const jobs::WorkTime time = jobs::work_time_of(
-        [&] { report.intersections = fast::intersections(all.vertices, all.elements(), search); });
+        [&] { report.intersections = fast::intersections(all.vertices, all, search); });
     report.seconds = time.wall;
     report.interrupted = false;
     if (certificate) failure = prove(certificate, all, search, report);

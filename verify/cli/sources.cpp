@@ -239,18 +239,20 @@ mesh::Groups groups_for(Files& files, const GroupArguments& arguments, const mes
 
 }  // namespace
 
-CollidingGroups::CollidingGroups(Files& files, const GroupArguments& arguments,
-                                 const mesh::Mesh& mesh)
-    : groups_(groups_for(files, arguments, mesh)),
-      apart_(mesh::numbers_of(groups_, arguments.apart)) {
+fast::CollisionGroups collision_groups(Files& files, const GroupArguments& arguments,
+                                       const mesh::Mesh& mesh) {
+  const mesh::Groups groups = groups_for(files, arguments, mesh);
+  fast::CollisionGroups result{.of_vertices = groups.of_vertex,
+                               .apart = mesh::numbers_of(groups, arguments.apart)};
   if (!arguments.radii_file.empty()) {
     files.add_input(arguments.radii_file);
-    radii_ = mesh::read_radii(arguments.radii_file, groups_);
+    result.radii = mesh::read_radii(arguments.radii_file, groups);
   }
   if (!arguments.separations_file.empty()) {
     files.add_input(arguments.separations_file);
-    separations_ = mesh::read_separations(arguments.separations_file, groups_);
+    result.separations = mesh::read_separations(arguments.separations_file, groups);
   }
+  return result;
 }
 
 void add_thickness_options(CLI::App& command, GroupArguments& arguments) {

@@ -145,25 +145,9 @@ void add_thickness_options(CLI::App& command, GroupArguments& arguments);
 void add_group_options(CLI::App& command, GroupArguments& arguments);
 
 /// The requested groups of a mesh, by their numbers.
-class CollidingGroups {
- public:
-  /// \param files records the input file
-  /// \throws std::runtime_error, std::invalid_argument or DatasetError if they cannot be used.
-  CollidingGroups(Files& files, const GroupArguments& arguments, const mesh::Mesh& mesh);
-
-  /// Refers to this object.
-  [[nodiscard]] fast::CollisionGroups get() const {
-    return {.of_vertices = groups_.of_vertex,
-            .apart = apart_,
-            .radii = radii_,
-            .separations = separations_};
-  }
-
- private:
-  mesh::Groups groups_;
-  std::vector<std::array<std::int32_t, 2>> apart_;
-  std::vector<double> radii_;
-  std::vector<fast::GroupSeparation> separations_;
-};
+/// \param files records the input files
+/// \throws std::runtime_error, std::invalid_argument or DatasetError if they cannot be used.
+[[nodiscard]] fast::CollisionGroups collision_groups(Files& files, const GroupArguments& arguments,
+                                                     const mesh::Mesh& mesh);
 
 }  // namespace touchstone::verify::cli

@@ -58,8 +58,7 @@ class StepRun {
         view_(files_, arguments.view_file),
         find_intersections_(arguments.find_intersections),
         options_(arguments.check),
-        frames_(open_frames(files_, arguments.frames)),
-        groups_(files_, arguments.groups, frames_->mesh()) {
+        frames_(open_frames(files_, arguments.frames)) {
     if (frames_->count() < 2) {
       throw std::runtime_error(arguments.frames.front().string() +
                                ": one frame only; a step needs two (touchstone intersections: does "
@@ -67,7 +66,7 @@ class StepRun {
     }
     const mesh::Mesh& mesh = frames_->mesh();
     options_.step.separation = arguments.separation.given();
-    options_.step.groups = groups_.get();
+    options_.step.groups = collision_groups(files_, arguments.groups, mesh);
     options_.step.stop = &io::interrupted();
     options_.find_contacts = json_ || csv_;
     report_ = {.separation = options_.step.separation,
@@ -115,7 +114,7 @@ class StepRun {
   [[nodiscard]] std::vector<fast::Intersection> intersections_of(
       const mesh::Vertices& vertices) const {
     const mesh::Mesh& mesh = frames_->mesh();
-    return fast::intersections(vertices, mesh.elements(),
+    return fast::intersections(vertices, mesh,
                                {.groups = options_.step.groups,
                                 .places = false,
                                 .max_threads = options_.step.max_threads,
@@ -193,7 +192,6 @@ class StepRun {
   bool find_intersections_;
   jobs::StepCheckOptions options_;
   std::unique_ptr<mesh::Frames> frames_;
-  CollidingGroups groups_;
   std::optional<fast::Step> step_;  ///< the last one
   report::StepReport report_;
 };

@@ -84,7 +84,7 @@ StepCheck check_step(std::optional<fast::Step>& step, const mesh::Mesh& mesh,
     if (step) {
       step.emplace(step->with_places(std::move(vertices), options.step.separation));
     } else {
-      step.emplace(std::move(vertices), mesh.elements(), options.step);
+      step.emplace(std::move(vertices), mesh, options.step);
     }
     if (options.alpha) part.emplace(step->scaled(*options.alpha));
     if (options.question == StepQuestion::all || options.count_candidates) {
@@ -97,12 +97,7 @@ StepCheck check_step(std::optional<fast::Step>& step, const mesh::Mesh& mesh,
         part ? *part : *step, check.collisions ? *check.collisions : check.earliest->pairs);
   }
   if (options.proof.on_text) {
-    check.proof = prove_step(part ? *part : *step,
-                             {.faces = mesh.faces,
-                              .points = mesh.points,
-                              .groups = options.step.groups,
-                              .tetrahedra = mesh.tetrahedra},
-                             options.proof);
+    check.proof = prove_step(part ? *part : *step, options.proof);
   }
   if (options.alpha) check.free_alpha = step->free_step_size();
   return check;

@@ -77,7 +77,7 @@ struct StepCheck {
 [[nodiscard]] PairCounts counts_of(const std::vector<fast::StepCollision>& collisions);
 
 /// \param step Empty, or an earlier step of the mesh with the same options, which then saves making
-/// the groups of primitives; set to this step. It keeps references to the mesh.
+/// the groups of primitives; set to this step.
 /// \param before, after the vertices at the ends of the step: as many as the mesh has
 /// \throws std::invalid_argument for options out of range.
 [[nodiscard]] StepCheck check_step(std::optional<fast::Step>& step, const mesh::Mesh& mesh,

@@ -126,8 +126,8 @@ struct PairArguments {
 
 class StepProver {
  public:
-  StepProver(const fast::Step& step, const SceneParts& parts, const StepProofOptions& options)
-      : step_(step), parts_(parts), options_(options) {}
+  StepProver(const fast::Step& step, const StepProofOptions& options)
+      : step_(step), mesh_(step.mesh()), options_(options) {}
 
   StepProof run() {
     try {
@@ -137,8 +137,8 @@ class StepProver {
       const bool is_at_zero = first && sgn(first->certificate.toi.upper) == 0;
       if (!is_at_zero) write_arguments();
       if (!is_at_zero) {
-        write_volumes(Kind::tetrahedron, parts_.tetrahedra.size());
-        write_volumes(Kind::plane_triangle, parts_.plane_triangles.size());
+        write_volumes(Kind::tetrahedron, mesh_.tetrahedra.size());
+        write_volumes(Kind::plane_triangle, mesh_.plane_triangles.size());
       }
     } catch (const exact::CertificateLimitError& error) {
       proof_.failure = error.what();
@@ -162,14 +162,14 @@ class StepProver {
   void write_scene() {
     const fast::MovingVertices& vertices = step_.vertices();
     const std::vector<fast::Edge> edges = bare_edges();
-    const fast::CollisionGroups& rules = parts_.groups;
+    const fast::CollisionGroups& rules = step_.groups();
     const bool are_needed =
         !rules.apart.empty() || !rules.radii.empty() || !rules.separations.empty();
-    const auto groups = are_needed ? rules.of_vertices : std::span<const std::int32_t>();
-    const std::size_t items = vertices.size() + parts_.faces.size() + edges.size() +
-                              parts_.points.size() + groups.size() + rules.apart.size() +
+    const auto groups = are_needed ? std::span(rules.of_vertices) : std::span<const std::int32_t>();
+    const std::size_t items = vertices.size() + mesh_.faces.size() + edges.size() +
+                              mesh_.points.size() + groups.size() + rules.apart.size() +
                               rules.radii.size() + rules.separations.size() +
-                              parts_.tetrahedra.size() + parts_.plane_triangles.size();
+                              mesh_.tetrahedra.size() + mesh_.plane_triangles.size();
     if (items > exact::step_item_limit) {
       throw exact::CertificateLimitError(
           fmt::format("the scene has more than {} items", exact::step_item_limit));
@@ -180,29 +180,29 @@ class StepProver {
       exact::write_step_vertex(text, std::span(vertices[i].start).first<3>(),
                                std::span(vertices[i].end).first<3>());
     }
-    exact::write_step_list(text, "faces", parts_.faces);
+    exact::write_step_list(text, "faces", mesh_.faces);
     exact::write_step_list(text, "edges", edges);
-    exact::write_step_list(text, "points", as_items(parts_.points));
+    exact::write_step_list(text, "points", as_items(mesh_.points));
     exact::write_step_list(text, "groups", as_items(groups));
     exact::write_step_list(text, "apart", rules.apart);
     write_thickness(text);
     const auto& [tetrahedra, plane_triangles] = exact::step_element_lists;
-    if (!parts_.tetrahedra.empty()) exact::write_step_list(text, tetrahedra, parts_.tetrahedra);
-    if (!parts_.plane_triangles.empty()) {
-      exact::write_step_list(text, plane_triangles, parts_.plane_triangles);
+    if (!mesh_.tetrahedra.empty()) exact::write_step_list(text, tetrahedra, mesh_.tetrahedra);
+    if (!mesh_.plane_triangles.empty()) {
+      exact::write_step_list(text, plane_triangles, mesh_.plane_triangles);
     }
     put(text);
   }
 
   void write_thickness(std::string& text) const {
     const auto to = std::back_inserter(text);
-    fmt::format_to(to, "radii {}\n", parts_.groups.radii.size());
-    for (const double radius : parts_.groups.radii) {
+    fmt::format_to(to, "radii {}\n", step_.groups().radii.size());
+    for (const double radius : step_.groups().radii) {
       exact::write_hexadecimal(text, radius);
       text += '\n';
     }
-    fmt::format_to(to, "separations {}\n", parts_.groups.separations.size());
-    for (const auto& [groups, distance] : parts_.groups.separations) {
+    fmt::format_to(to, "separations {}\n", step_.groups().separations.size());
+    for (const auto& [groups, distance] : step_.groups().separations) {
       fmt::format_to(to, "{} {} ", groups[0], groups[1]);
       exact::write_hexadecimal(text, distance);
       text += '\n';
@@ -217,9 +217,9 @@ class StepProver {
 
   /// The edges of no face.
   [[nodiscard]] std::vector<fast::Edge> bare_edges() const {
-    const std::vector<fast::Edge> sides = fast::edges_of(parts_.faces);
+    const std::vector<fast::Edge> sides = fast::edges_of(mesh_.faces);
     std::vector<fast::Edge> result;
-    std::ranges::set_difference(step_.edges(), sides, std::back_inserter(result),
+    std::ranges::set_difference(mesh_.edges, sides, std::back_inserter(result),
                                 [](const fast::Edge& a, const fast::Edge& b) {
                                   return std::tie(a[1], a[0]) < std::tie(b[1], b[0]);
                                 });
@@ -270,8 +270,8 @@ class StepProver {
   /// A bound of the distances at which pairs are in contact.
   [[nodiscard]] double greatest_distance() const {
     double thickness = 0.0;
-    for (const double radius : parts_.groups.radii) thickness = std::max(thickness, 2.0 * radius);
-    for (const fast::GroupSeparation& one : parts_.groups.separations) {
+    for (const double radius : step_.groups().radii) thickness = std::max(thickness, 2.0 * radius);
+    for (const fast::GroupSeparation& one : step_.groups().separations) {
       thickness = std::max(thickness, one.distance);
     }
     return step_.options().separation.distance + thickness;
@@ -403,7 +403,7 @@ class StepProver {
   }
 
   const fast::Step& step_;
-  const SceneParts& parts_;
+  const fast::Mesh& mesh_;
   const StepProofOptions& options_;
   StepProof proof_;
   /// The time up to which there is no contact.
@@ -413,9 +413,8 @@ class StepProver {
 
 }  // namespace
 
-StepProof prove_step(const fast::Step& step, const SceneParts& parts,
-                     const StepProofOptions& options) {
-  return StepProver(step, parts, options).run();
+StepProof prove_step(const fast::Step& step, const StepProofOptions& options) {
+  return StepProver(step, options).run();
 }
 
 }  // namespace touchstone::verify::jobs

@@ -13,7 +13,6 @@
 #include <atomic>
 #include <cstdint>
 #include <functional>
-#include <span>
 #include <string>
 #include <string_view>
 
@@ -47,21 +46,9 @@ struct StepProof {
   [[nodiscard]] bool is_complete() const { return failure.empty() && !interrupted; }
 };
 
-/// The elements from which the step was constructed.
-struct SceneParts {
-  std::span<const fast::Face> faces;
-  std::span<const std::int32_t> points;
-  fast::CollisionGroups groups = {};
-  /// Elements that must keep their volume.
-  std::span<const fast::Tetrahedron> tetrahedra = {};
-  std::span<const fast::Face> plane_triangles = {};
-};
-
 /// Proves that the step is free up to its t_max, or the time of its earliest contact or inversion.
-/// \param parts the faces, points and groups of the step's elements and options
 /// \pre The step has no rule `can_collide`: certificates know groups alone.
 /// \throws the exceptions of on_text.
-[[nodiscard]] StepProof prove_step(const fast::Step& step, const SceneParts& parts,
-                                   const StepProofOptions& options);
+[[nodiscard]] StepProof prove_step(const fast::Step& step, const StepProofOptions& options);
 
 }  // namespace touchstone::verify::jobs

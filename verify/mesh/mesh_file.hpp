@@ -25,7 +25,7 @@ using Point = std::array<std::int32_t, 1>;
 
 /// The groups of vertices that a file names.
 struct Groups {
-  std::vector<std::string> names;
+  std::vector<std::string> names;  ///< empty: before the first name, or of no vertex
   /// The group of each vertex, as an index of `names`; empty where the file names no group.
   std::vector<std::int32_t> of_vertex;
   /// The reason why the groups cannot be used, with the place in the file; empty if they can.
@@ -34,24 +34,15 @@ struct Groups {
 
 /// A mesh at rest. Readers ensure that it has a vertex, that indices are in range and coordinates
 /// finite.
-struct Mesh {
+///
+/// Its edges are those of the faces and those that the file names by themselves, each once: ordered
+/// and numbered as fast::edges_of does. Its points are the vertices that the file names as points
+/// by themselves, or by an edge from a vertex to itself: ascending, each once.
+struct Mesh : fast::Mesh {
   Vertices vertices;
-  std::vector<fast::Face> faces;
-  /// Those of the faces and those that the file names by themselves, each once: ordered and
-  /// numbered as fast::edges_of does.
-  std::vector<fast::Edge> edges;
-  /// The vertices that the file names as points by themselves, or by an edge from a vertex to
-  /// itself: ascending, each once.
-  std::vector<std::int32_t> points;
-  std::vector<fast::Tetrahedron> tetrahedra;
   Groups groups;
   /// A line about parts of the file that were changed or ignored; empty if none were.
   std::string note;
-
-  /// Refers to this mesh.
-  [[nodiscard]] fast::MeshElements elements() const {
-    return {.edges = edges, .faces = faces, .points = points, .tetrahedra = tetrahedra};
-  }
 };
 
 /// The note of a mesh. \param polygons those with more than three vertices \param passed_over

@@ -120,6 +120,14 @@ class ObjReader {
     for (std::size_t i = 0; i < vertices_.size(); ++i) {
       if (result.of_vertex[i] == no_group) result.of_vertex[i] = group_of_line_[i];
     }
+    // A rule cannot name a group without vertices.
+    std::vector<bool> has_vertex(result.names.size());
+    for (const std::int32_t group : result.of_vertex) {
+      has_vertex[static_cast<std::size_t>(group)] = true;
+    }
+    for (std::size_t i = 0; i < has_vertex.size(); ++i) {
+      if (!has_vertex[i]) result.names[i].clear();
+    }
     return result;
   }
 

@@ -78,7 +78,7 @@ std::vector<std::int32_t> vertices_of(const mesh::Mesh& mesh, fast::ElementKind 
 ViewedStep find_collisions(std::string label, const mesh::Mesh& mesh, mesh::Vertices before,
                            mesh::Vertices after, const fast::StepOptions& options,
                            std::optional<double> alpha) {
-  fast::Step step(before, after, mesh.elements(), options);
+  fast::Step step(before, after, mesh, options);
   if (alpha) {
     step = step.scaled(*alpha);
     after = ends_of(step.vertices());

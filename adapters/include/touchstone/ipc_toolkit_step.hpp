@@ -35,11 +35,12 @@
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <ipc/collision_mesh.hpp>
 #include <limits>
 #include <optional>
 #include <stdexcept>
-#include <vector>
+#include <utility>
 
 #include "touchstone/broad_phase.hpp"
 #include "touchstone/contacts.hpp"
@@ -55,78 +56,64 @@ class BroadPhase;
 
 namespace touchstone::adapters {
 
-/// A collision mesh as a scene, for the functions below.
-class CollisionScene {
- public:
-  /// Refers to the mesh. \throws std::invalid_argument as above.
-  explicit CollisionScene(const ipc::CollisionMesh& mesh)
-      : mesh_(mesh),
-        edges_(fast::elements_from<fast::Edge>(mesh.edges())),
-        points_(mesh.codim_vertices().begin(), mesh.codim_vertices().end()) {
-    if (!mesh.planes.empty()) {
-      throw std::invalid_argument("the planes of a collision mesh are not supported");
-    }
-    if (!is_flat()) {
-      faces_ = fast::elements_from<fast::Face>(mesh.faces());
-      return;
-    }
+/// The rule of a collision mesh, which is copied.
+[[nodiscard]] inline std::function<bool(std::int32_t, std::int32_t)> rule_of(
+    const ipc::CollisionMesh& mesh) {
+  return [rule = mesh.can_collide](std::int32_t i, std::int32_t j) {
+    return rule(static_cast<std::size_t>(i), static_cast<std::size_t>(j));
+  };
+}
+
+/// The elements of a collision mesh. \throws std::invalid_argument as above.
+[[nodiscard]] inline fast::Mesh elements_of(const ipc::CollisionMesh& mesh) {
+  if (!mesh.planes.empty()) {
+    throw std::invalid_argument("the planes of a collision mesh are not supported");
+  }
+  fast::Mesh result{.edges = fast::elements_from<fast::Edge>(mesh.edges()),
+                    .points = {mesh.codim_vertices().begin(), mesh.codim_vertices().end()}};
+  if (mesh.dim() == 3) {
+    result.faces = fast::elements_from<fast::Face>(mesh.faces());
+  } else {
     // Edges are triangles without an area (touchstone/certified.hpp).
-    for (const auto& [a, b] : edges_) faces_.push_back({a, b, a});
+    for (const auto& [a, b] : result.edges) result.faces.push_back({a, b, a});
   }
+  return result;
+}
 
-  /// True in two dimensions: then two edges are no pair of the scene.
-  [[nodiscard]] bool is_flat() const { return mesh_.dim() == 2; }
-
-  /// Refers to this scene. \throws as above.
-  [[nodiscard]] fast::Step step(Eigen::ConstRef<Eigen::MatrixXd> vertices_t0,
-                                Eigen::ConstRef<Eigen::MatrixXd> vertices_t1,
-                                double min_distance) const {
-    return fast::Step(
-        places(vertices_t0), places(vertices_t1),
-        {.edges = edges_, .faces = faces_, .points = points_},
-        {.separation = {.distance = min_distance, .norm = Norm::l2},
-         .can_collide = [this](std::int32_t i, std::int32_t j) { return can_collide(i, j); }});
+/// A row of three coordinates for each vertex. \throws std::invalid_argument as above.
+[[nodiscard]] inline Eigen::MatrixX3d places_of(const ipc::CollisionMesh& mesh,
+                                                Eigen::ConstRef<Eigen::MatrixXd> vertices) {
+  if (static_cast<std::size_t>(vertices.rows()) != mesh.num_vertices() ||
+      static_cast<std::size_t>(vertices.cols()) != mesh.dim()) {
+    throw std::invalid_argument("vertices: there must be a row of coordinates for each vertex");
   }
+  Eigen::MatrixX3d result = Eigen::MatrixX3d::Zero(vertices.rows(), 3);
+  result.leftCols(vertices.cols()) = vertices;
+  return result;
+}
 
-  /// True if an edge and a face intersect that can collide; in two dimensions, two edges.
-  /// \throws as above.
-  [[nodiscard]] bool has_intersections(Eigen::ConstRef<Eigen::MatrixXd> vertices) const {
-    return fast::has_intersections(
-        places(vertices), {.edges = edges_, .faces = faces_},
-        {.pairs = fast::IntersectingPairs::edges_with_faces,
-         .can_collide = [this](std::int32_t i, std::int32_t j) { return can_collide(i, j); }});
-  }
+/// A step of a collision mesh; in two dimensions, two edges are no pair that counts. \throws as
+/// above.
+[[nodiscard]] inline fast::Step step_of(const ipc::CollisionMesh& mesh,
+                                        Eigen::ConstRef<Eigen::MatrixXd> vertices_t0,
+                                        Eigen::ConstRef<Eigen::MatrixXd> vertices_t1,
+                                        double min_distance) {
+  fast::Mesh elements = elements_of(mesh);
+  return {
+      places_of(mesh, vertices_t0),
+      places_of(mesh, vertices_t1),
+      std::move(elements),
+      {.separation = {.distance = min_distance, .norm = Norm::l2}, .can_collide = rule_of(mesh)}};
+}
 
- private:
-  [[nodiscard]] bool can_collide(std::int32_t i, std::int32_t j) const {
-    return mesh_.can_collide(static_cast<std::size_t>(i), static_cast<std::size_t>(j));
-  }
-
-  [[nodiscard]] Eigen::MatrixX3d places(Eigen::ConstRef<Eigen::MatrixXd> vertices) const {
-    if (static_cast<std::size_t>(vertices.rows()) != mesh_.num_vertices() ||
-        static_cast<std::size_t>(vertices.cols()) != mesh_.dim()) {
-      throw std::invalid_argument("vertices: there must be a row of coordinates for each vertex");
-    }
-    Eigen::MatrixX3d result = Eigen::MatrixX3d::Zero(vertices.rows(), 3);
-    result.leftCols(vertices.cols()) = vertices;
-    return result;
-  }
-
-  const ipc::CollisionMesh& mesh_;
-  std::vector<fast::Edge> edges_;
-  std::vector<fast::Face> faces_;
-  std::vector<std::int32_t> points_;
-};
-
-/// The time at which the first pair of a step of the scene, with the separation min_distance, comes
-/// as near as it may, rounded down as in touchstone/ipc_toolkit.hpp; nullopt if none does.
-[[nodiscard]] inline std::optional<double> first_limit(const CollisionScene& scene,
-                                                       const fast::Step& step,
+/// The time at which the first pair of a step, with the separation min_distance, comes as near as
+/// it may, rounded down as in touchstone/ipc_toolkit.hpp; nullopt if none does.
+[[nodiscard]] inline std::optional<double> first_limit(const fast::Step& step, bool is_flat,
                                                        const NarrowPhaseCCD& narrow_phase,
                                                        double min_distance) {
   const double part = 1.0 - narrow_phase.conservative_rescaling;
   double until = 1.0;
-  if (!scene.is_flat()) {
+  if (!is_flat) {
     if (min_distance == 0.0 && part > 0.0 && part <= 1.0 - 0x1p-50) {
       const fast::LineSearchLimit limit =
           fast::line_search_limit(step, part, {.start_distance = fast::StartDistance::of_pair});
@@ -140,7 +127,7 @@ class CollisionScene {
   }
   std::atomic<double> first = std::numeric_limits<double>::infinity();
   step.candidates([&](const fast::StepCandidates& some) {
-    if (scene.is_flat() && some.kind == fast::PairKind::edge_edge) return;
+    if (is_flat && some.kind == fast::PairKind::edge_edge) return;
     for (const fast::IndexPair& pair : some.pairs) {
       // The margin makes the result independent of the order of the pairs.
       const double tmax = (std::min)(until, first.load() * (1.0 + 0x1p-38));
@@ -166,9 +153,8 @@ class CollisionScene {
     const ipc::BroadPhase* /*broad_phase*/ = nullptr,
     const ipc::NarrowPhaseCCD& narrow_phase_ccd = NarrowPhaseCCD()) {
   const NarrowPhaseCCD narrow_phase(narrow_phase_ccd.conservative_rescaling);
-  const CollisionScene scene(mesh);
-  const fast::Step step = scene.step(vertices_t0, vertices_t1, min_distance);
-  return first_limit(scene, step, narrow_phase, min_distance).value_or(1.0);
+  const fast::Step step = step_of(mesh, vertices_t0, vertices_t1, min_distance);
+  return first_limit(step, mesh.dim() == 2, narrow_phase, min_distance).value_or(1.0);
 }
 
 /// True if no pair comes nearer than it may in the whole step. With NarrowPhaseCCD(1.0): if no pair
@@ -179,11 +165,11 @@ class CollisionScene {
     const ipc::BroadPhase* /*broad_phase*/ = nullptr,
     const ipc::NarrowPhaseCCD& narrow_phase_ccd = NarrowPhaseCCD()) {
   const NarrowPhaseCCD narrow_phase(narrow_phase_ccd.conservative_rescaling);
-  const CollisionScene scene(mesh);
-  const fast::Step step = scene.step(vertices_t0, vertices_t1, min_distance);
+  const fast::Step step = step_of(mesh, vertices_t0, vertices_t1, min_distance);
+  const bool is_flat = mesh.dim() == 2;
   // Any collision is found sooner than the first limit.
-  if (!scene.is_flat() && !step.is_free()) return false;
-  return !first_limit(scene, step, narrow_phase, min_distance);
+  if (!is_flat && !step.is_free()) return false;
+  return !first_limit(step, is_flat, narrow_phase, min_distance);
 }
 
 /// True if an edge and a face without a common vertex that can collide have a common point; in two
@@ -191,7 +177,10 @@ class CollisionScene {
 [[nodiscard]] inline bool has_intersections(const ipc::CollisionMesh& mesh,
                                             Eigen::ConstRef<Eigen::MatrixXd> vertices,
                                             const ipc::BroadPhase* /*broad_phase*/ = nullptr) {
-  return CollisionScene(mesh).has_intersections(vertices);
+  const fast::Mesh elements = elements_of(mesh);
+  return fast::has_intersections(
+      places_of(mesh, vertices), elements,
+      {.pairs = fast::IntersectingPairs::edges_with_faces, .can_collide = rule_of(mesh)});
 }
 
 }  // namespace touchstone::adapters

@@ -146,7 +146,8 @@ typedef struct TouchstoneMesh {
   size_t points;                 ///< vertices that are part of the scene without an edge or a face
   const int32_t* point_vertices;
   const int32_t* groups;  ///< a group, from 0, for each vertex; or null: all can collide
-  /// The number of pairs of groups that cannot collide; a group twice: not within it.
+  /// The number of pairs of groups that cannot collide, each the group of a vertex; a group twice:
+  /// not within it.
   size_t apart;
   const int32_t* apart_groups;  ///< 2 · apart
   /// A rule for pairs of vertices, or null: two primitives can collide if it is not 0 for a vertex
@@ -159,7 +160,8 @@ typedef struct TouchstoneMesh {
   /// TOUCHSTONE_L2 vertices then are spheres, and edges capsules.
   size_t radii;
   const double* group_radii;  ///< not negative
-  /// The number of pairs of groups with a distance in place of the sum of their radii.
+  /// The number of pairs of groups with a distance in place of the sum of their radii, each the
+  /// group of a vertex.
   size_t separations;
   const int32_t* separated_groups;  ///< 2 · separations; each pair once, in either order
   const double* group_separations;  ///< these distances, not negative

@@ -99,7 +99,7 @@
 /// time is below two of the least doubles. There are no other tolerances or corrections: a step
 /// size of 0 always comes with a status that explains it.
 ///
-/// Elements with volumes (MeshElements) limit it, too: each keeps more than the part `kept_volume`
+/// Elements with volumes (Mesh) limit it, too: each keeps more than the part `kept_volume`
 /// of its volume at the start. V(t) − f V(0) is a cubic polynomial, whose sign is decided exactly,
 /// like that of V; f = 0 says that no element inverts.
 ///

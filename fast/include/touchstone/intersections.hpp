@@ -126,33 +126,31 @@ struct IntersectionOptions {
 
 /// All pairs of elements that intersect, ordered by the kinds of the elements, then by their
 /// numbers.
-/// \param elements As for a step. An edge that is not among the edges of the faces is an element by
+/// \param mesh As for a step. An edge that is not among the edges of the faces is an element by
 /// itself, and so is a point without an edge.
 /// \throws std::domain_error naming the first vertex with a coordinate that is NaN or infinite;
 /// std::out_of_range naming the first element with an index out of range; std::invalid_argument for
 /// invalid groups or threads; std::length_error if there are more than 2^31−1 elements; Stopped.
-[[nodiscard]] std::vector<Intersection> intersections(MovingVertices vertices,
-                                                      const MeshElements& elements,
+[[nodiscard]] std::vector<Intersection> intersections(MovingVertices vertices, const Mesh& mesh,
                                                       const IntersectionOptions& options = {});
 
 /// True if there is an intersection. Ends with the first one. (`places` has no effect.) \throws as
 /// above
-[[nodiscard]] bool has_intersections(MovingVertices vertices, const MeshElements& elements,
+[[nodiscard]] bool has_intersections(MovingVertices vertices, const Mesh& mesh,
                                      const IntersectionOptions& options = {});
 
 /// The same for a matrix of float or double, n×3, in any storage order. \throws also
 /// std::invalid_argument for another shape
 template <class Derived>
 [[nodiscard]] std::vector<Intersection> intersections(const Eigen::MatrixBase<Derived>& vertices,
-                                                      const MeshElements& elements,
+                                                      const Mesh& mesh,
                                                       const IntersectionOptions& options = {}) {
-  return intersections(MovingVertices(vertices, vertices), elements, options);
+  return intersections(MovingVertices(vertices, vertices), mesh, options);
 }
 template <class Derived>
-[[nodiscard]] bool has_intersections(const Eigen::MatrixBase<Derived>& vertices,
-                                     const MeshElements& elements,
+[[nodiscard]] bool has_intersections(const Eigen::MatrixBase<Derived>& vertices, const Mesh& mesh,
                                      const IntersectionOptions& options = {}) {
-  return has_intersections(MovingVertices(vertices, vertices), elements, options);
+  return has_intersections(MovingVertices(vertices, vertices), mesh, options);
 }
 
 /// The defects of a mesh that are no intersections. All lists are ascending.
@@ -170,12 +168,11 @@ struct MeshDefects {
 };
 
 /// \throws as intersections
-[[nodiscard]] MeshDefects mesh_defects(const MovingVertices& vertices,
-                                       const MeshElements& elements);
+[[nodiscard]] MeshDefects mesh_defects(const MovingVertices& vertices, const Mesh& mesh);
 template <class Derived>
 [[nodiscard]] MeshDefects mesh_defects(const Eigen::MatrixBase<Derived>& vertices,
-                                       const MeshElements& elements) {
-  return mesh_defects(MovingVertices(vertices, vertices), elements);
+                                       const Mesh& mesh) {
+  return mesh_defects(MovingVertices(vertices, vertices), mesh);
 }
 
 }  // namespace touchstone::fast

@@ -17,7 +17,7 @@
 ///                                 {1, 1, 1}, {2, 1, 2}, {1, 2, 2}};
 ///   Eigen::MatrixX3d after = before;
 ///   after.bottomRows<3>().col(2).array() -= 3;
-///   const std::vector<fast::Face> faces{{0, 1, 2}, {3, 4, 5}};  // must live as long as the step
+///   const std::vector<fast::Face> faces{{0, 1, 2}, {3, 4, 5}};
 ///   const fast::Step step(before, after, {.faces = faces});
 ///
 ///   if (step.is_free()) return 0;
@@ -96,8 +96,9 @@
 /// | distances, active sets, limits of line searches | yes  | no: straight lines   |
 ///
 /// Answers are as exact as the certified solver's (touchstone/certified.hpp), and the same for any
-/// number of threads and any instruction set. Functions and const member functions are thread-safe,
-/// as long as the elements that a step refers to do not change.
+/// number of threads and any instruction set. Functions and const member functions are thread-safe.
+///
+/// A step owns its places, mesh and groups; the steps made from it share the mesh and the groups.
 
 #include <Eigen/Core>
 
@@ -110,6 +111,7 @@
 #include <optional>
 #include <span>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "touchstone/broad_phase.hpp"
@@ -135,20 +137,20 @@ enum class PairKind : std::uint8_t {
 
 /// The elements of a scene, by vertex numbers. A vertex that no element names is not part of the
 /// scene.
-struct MeshElements {
+struct Mesh {
   /// All edges: those of the faces and codimensional ones. By default the edges of the faces,
   /// numbered as by edges_of (touchstone/broad_phase.hpp). An edge from a vertex to itself collides
   /// like the vertex.
-  std::span<const Edge> edges = {};
-  std::span<const Face> faces = {};
+  std::vector<Edge> edges = {};
+  std::vector<Face> faces = {};
   /// Vertices that are part of the scene in any case, with or without an edge or a face.
-  std::span<const std::int32_t> points = {};
+  std::vector<std::int32_t> points = {};
   /// Elements whose volume is to stay positive. They do not collide, and intersections at rest do
   /// not depend on them; nor are their vertices part of the scene by this.
-  std::span<const Tetrahedron> tetrahedra = {};
+  std::vector<Tetrahedron> tetrahedra = {};
   /// Elements whose area in the plane of x and y is to stay positive, likewise; the vertices' third
   /// coordinates have no effect on it.
-  std::span<const Face> plane_triangles = {};
+  std::vector<Face> plane_triangles = {};
 };
 
 /// Two groups, in either order, which may be the same, and the thickness of their pairs.
@@ -165,15 +167,17 @@ struct GroupSeparation {
 /// it.
 struct CollisionGroups {
   /// The group of each vertex, from 0 on; empty: all are in group 0.
-  std::span<const std::int32_t> of_vertices = {};
-  /// Pairs of groups that cannot collide, in either order. The same group twice: no collisions
-  /// within it, for example within an obstacle. All other pairs can collide.
-  std::span<const std::array<std::int32_t, 2>> apart = {};
+  std::vector<std::int32_t> of_vertices = {};
+  /// Pairs of groups that cannot collide, in either order, each the group of a vertex. The same
+  /// group twice: no collisions within it, for example within an obstacle. All other pairs can
+  /// collide.
+  std::vector<std::array<std::int32_t, 2>> apart = {};
   /// The radius of each group, from 0 on, up to the greatest group of a vertex or further; not
   /// negative, in units of the coordinates. Empty: all are 0. No sum is above 2^1000.
-  std::span<const double> radii = {};
-  /// Pairs of groups whose distance is in place of the sum of their radii, each once.
-  std::span<const GroupSeparation> separations = {};
+  std::vector<double> radii = {};
+  /// Pairs of groups whose distance is in place of the sum of their radii, each once, and each the
+  /// group of a vertex.
+  std::vector<GroupSeparation> separations = {};
 };
 
 struct StepOptions {
@@ -191,8 +195,9 @@ struct StepOptions {
   /// symmetric. It is kept, and called for the pairs found, in several threads at once; its
   /// exceptions end the search.
   std::function<bool(std::int32_t, std::int32_t)> can_collide = nullptr;
-  /// Null, or a flag that outlives the step and all made from it. While it is true, searches for
-  /// impacts, collisions and candidates end soon with the exception Stopped.
+  /// Null, or a flag that outlives the step and all made from it: a step reads it, and shares it
+  /// with whoever sets it. While it is true, searches for impacts, collisions and candidates end
+  /// soon with the exception Stopped.
   const std::atomic<bool>* stop = nullptr;
 };
 
@@ -244,30 +249,30 @@ struct StepImpact {
 /// A part of a step's candidates.
 struct StepCandidates {
   PairKind kind;
-  std::span<const IndexPair> pairs;  ///< at most about a thousand
+  std::span<const IndexPair> pairs;  ///< at most about a thousand, valid during the call
 };
 
 class Step {
  public:
   /// Makes a step from matrices before and after, of float or double in any storage order, a row
-  /// for each vertex, which are copied. Keeps references to the elements, not to the groups.
+  /// for each vertex.
   /// \pre If edges are given, those of all faces are among them.
   /// \throws std::invalid_argument unless both are n×3, or for invalid options; std::domain_error
   /// naming the first vertex with a coordinate that is NaN or infinite; std::out_of_range naming
   /// the first element with an index out of range; std::length_error if there are more than 2^31−1
   /// elements of a kind.
   template <class Before, class After>
-  Step(const Eigen::MatrixBase<Before>& before, const Eigen::MatrixBase<After>& after,
-       const MeshElements& elements, const StepOptions& options = {})
-      : Step(MovingVertices(before, after), elements, options) {}
+  Step(const Eigen::MatrixBase<Before>& before, const Eigen::MatrixBase<After>& after, Mesh mesh,
+       const StepOptions& options = {})
+      : Step(MovingVertices(before, after), std::move(mesh), options) {}
 
   /// Makes a step from x, y, z of each vertex in turn, float or double.
   template <class Scalar>
-  Step(std::span<const Scalar> before, std::span<const Scalar> after, const MeshElements& elements,
+  Step(std::span<const Scalar> before, std::span<const Scalar> after, Mesh mesh,
        const StepOptions& options = {})
-      : Step(rows(before), rows(after), elements, options) {}
+      : Step(rows(before), rows(after), std::move(mesh), options) {}
 
-  Step(MovingVertices vertices, const MeshElements& elements, const StepOptions& options = {});
+  Step(MovingVertices vertices, Mesh mesh, const StepOptions& options = {});
 
   ~Step();
   Step(Step&& other) noexcept;
@@ -278,7 +283,7 @@ class Step {
   /// The same mesh at other places, with the same options except the separation: the next step of a
   /// simulation, or another trial step of a line search. The steps share the data that do not
   /// depend on places, and the groups of primitives, until the places have made these much looser
-  /// than new ones. This step may be destroyed first.
+  /// than new ones.
   /// \throws std::invalid_argument for another number of vertices or an invalid separation;
   /// std::domain_error as above.
   [[nodiscard]] Step with_places(MovingVertices vertices, const Separation& separation) const;
@@ -318,7 +323,7 @@ class Step {
   ///     fl(x0 + fl(α fl(x1 − x0))),   fl: rounded to the nearest double,
   ///
   /// which in general are not on the straight line to x1. It has the same mesh and options, except
-  /// t_max, which is 1: the whole scaled step counts. It keeps no reference to this step.
+  /// t_max, which is 1: the whole scaled step counts.
   /// \throws std::invalid_argument unless 0 ≤ α ≤ 1; std::domain_error, which names the vertex, if
   /// fl(x1 − x0) overflows, for any α.
   [[nodiscard]] Step scaled(double alpha) const;
@@ -364,8 +369,9 @@ class Step {
   [[nodiscard]] const MovingVertices& vertices() const;
   /// The options of the decisions on pairs without thickness.
   [[nodiscard]] const CertifiedOptions& options() const;
-  /// All edges in the search.
-  [[nodiscard]] std::span<const Edge> edges() const;
+  /// The elements, with the edges of the faces if none were given.
+  [[nodiscard]] const Mesh& mesh() const;
+  [[nodiscard]] const CollisionGroups& groups() const;
 
  private:
   friend const Scene& scene_of(const Step& step);
@@ -387,14 +393,14 @@ class Step {
 
 // ---- Steps on curves ----------------------------------------------------------------------------
 
-/// The motion of vertices, by reference.
+/// The motion of vertices.
 struct CurvedVertices {
   std::size_t degree = 1;
   /// Weights follow the coordinates of each control point.
   bool is_rational = false;
   /// The control points of each vertex from t=0 to t=1: an array of shape (n, degree + 1, 3), or
   /// (n, degree + 1, 4) with weights.
-  std::span<const double> numbers = {};
+  std::vector<double> numbers = {};
 
   [[nodiscard]] std::size_t numbers_of_point() const { return is_rational ? 4 : 3; }
   [[nodiscard]] std::size_t numbers_of_vertex() const { return (degree + 1) * numbers_of_point(); }
@@ -402,13 +408,11 @@ struct CurvedVertices {
 
 class CurvedStep {
  public:
-  /// The vertices are copied. Keeps references to the elements.
   /// \throws std::invalid_argument for a degree above greatest_degree, numbers that are no whole
   /// vertices, elements with volumes, or invalid options; std::domain_error naming the first vertex
   /// with a coordinate that is not finite or a weight that is not positive and finite; otherwise as
   /// Step.
-  CurvedStep(const CurvedVertices& vertices, const MeshElements& elements,
-             const StepOptions& options = {});
+  CurvedStep(CurvedVertices vertices, Mesh mesh, const StepOptions& options = {});
 
   /// The earliest impact; nullopt if there is no collision.
   [[nodiscard]] std::optional<StepImpact> earliest() const;
@@ -426,8 +430,7 @@ class CurvedStep {
   /// negative.
   void for_each_collision(const std::atomic<double>& limit, const Take& take) const;
 
-  std::vector<double> numbers_;
-  CurvedVertices vertices_;  // refers to numbers_, whose memory a move keeps
+  CurvedVertices vertices_;
   Step boxes_;
 };
 

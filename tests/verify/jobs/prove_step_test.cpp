@@ -67,16 +67,7 @@ Proved prove(const Scene& scene, const fast::StepOptions& step_options,
   result.text = exact::step_certificates_header();
   options.on_text = [&](std::string_view text) { result.text += text; };
   if (options.label.empty()) options.label = "a step";
-  result.proof = prove_step(step,
-                            {.faces = scene.faces,
-                             .points = scene.points,
-                             .groups = {.of_vertices = scene.groups,
-                                        .apart = scene.apart,
-                                        .radii = scene.radii,
-                                        .separations = scene.separations},
-                             .tetrahedra = scene.tetrahedra,
-                             .plane_triangles = scene.plane_triangles},
-                            options);
+  result.proof = prove_step(step, options);
   result.text += exact::step_certificates_closing_line(1);
   return result;
 }
@@ -151,9 +142,9 @@ TEST(ProveStep, KeepsTheLimitsOfALabelAndAScene) {
     const std::size_t kept = std::min<std::size_t>(bytes, exact::label_limit);
     EXPECT_NE(text.find("\nstep " + std::string(kept, 'x') + "\nvertices "), std::string::npos);
   }
-  const std::vector<std::int32_t> points(exact::step_item_limit);
-  const StepProof proof =
-      prove_step(scene.step({}), {.faces = scene.faces, .points = points}, StepProofOptions{});
+  Scene large = scene;
+  large.points.assign(exact::step_item_limit, 0);
+  const StepProof proof = prove_step(large.step(), StepProofOptions{});
   EXPECT_EQ(proof.failure, "the scene has more than 4194304 items");
   EXPECT_EQ(proof.bytes, 0U);
 }
@@ -282,9 +273,7 @@ TEST(ProveStep, EndsWhenStoppedAndPassesOnExceptionsOfItsReader) {
   EXPECT_NE(refusal(text), "");
   const StepProofOptions options{
       .on_text = [](std::string_view) { throw std::runtime_error("full"); }};
-  EXPECT_THROW(
-      (void)prove_step(scene.step(), {.faces = scene.faces, .points = scene.points}, options),
-      std::runtime_error);
+  EXPECT_THROW((void)prove_step(scene.step(), options), std::runtime_error);
 }
 
 // ---- The integers of a proof, which the writer and the checker share no code for ---------------

@@ -93,9 +93,9 @@ TEST(ReadObj, ReadsTheGroupsOfVertices) {
   const Groups groups = folder
                             .mesh("a.obj", "v 9 9 9\no cloth \n" + four_vertices +
                                                "f 2 3 4\ng the ball\nv 5 5 5\nv 6 6 6\np 5\nl 6 7\n"
-                                               "o cloth\nv 7 7 7\n")
+                                               "o cloth\nv 7 7 7\ng of no vertex\n")
                             .groups;
-  EXPECT_EQ(groups.names, (std::vector<std::string>{"", "cloth", "the ball"}));
+  EXPECT_EQ(groups.names, (std::vector<std::string>{"", "cloth", "the ball", ""}));
   EXPECT_EQ(groups.of_vertex, (std::vector<std::int32_t>{0, 1, 1, 1, 2, 2, 2, 1}));
   EXPECT_EQ(groups.error, "");
   EXPECT_TRUE(folder.mesh("a.obj", four_vertices).groups.of_vertex.empty());
