@@ -255,9 +255,9 @@ std::string to_text(const Certificate& certificate) {
          ' ' + to_text(certificate.upper);
 }
 
-std::string to_text(const Separation& separation) {
+std::string to_text(const Separation& separation, bool is_norm_named) {
   std::string distance = to_text(separation.distance);
-  if (separation.distance == 0) return distance;
+  if (separation.distance == 0 && !is_norm_named) return distance;
   return distance + (separation.is_l2 ? " l2" : " linf");
 }
 

@@ -132,13 +132,15 @@ struct Certificate {
 };
 
 /// The claim and the separation in their only form, which a demand has too (checker.hpp). At
-/// distance 0 the norm does not matter and is not named.
+/// distance 0 the norm does not matter, and is not named unless `is_norm_named`.
 [[nodiscard]] std::string to_text(const Certificate& certificate);
-[[nodiscard]] std::string to_text(const Separation& separation);
+[[nodiscard]] std::string to_text(const Separation& separation, bool is_norm_named = false);
 
-/// \throws Rejection, with that line, unless the options demand this claim and separation, or any.
+/// \param rules of the scene, as rules_text() says them
+/// \throws Rejection, with that line, unless the options demand this claim, this separation and
+/// these rules, or any.
 void require_demanded(const Options& options, const std::string& claim,
-                      const std::string& separation, std::size_t line);
+                      const std::string& separation, const std::string& rules, std::size_t line);
 
 // ---- Reading ------------------------------------------------------------------------------------
 

@@ -11,6 +11,7 @@
 #include "exact/checker/mesh.hpp"
 #include "exact/checker/proof.hpp"
 #include "exact/checker/step.hpp"
+#include "exact/checker/summary.hpp"
 
 namespace touchstone::checker {
 namespace {
@@ -38,9 +39,9 @@ class StreamCheck {
     attempt("", [&] {
       reader_.advance();
       if (reader_.text() == steps_header) {
-        check_scenes("step", "steps", check_step, report_.steps);
+        check_scenes(Time::step, check_step, report_.steps);
       } else if (reader_.text() == meshes_header) {
-        check_scenes("mesh", "meshes", check_mesh, report_.meshes);
+        check_scenes(Time::rest, check_mesh, report_.meshes);
       } else if (options_.scenes != nullptr) {
         reject("the first line is not '" + std::string(steps_header) + "' or '" +
                    std::string(meshes_header) + "', as for scenes",
@@ -87,7 +88,7 @@ class StreamCheck {
     attempt(certificate.label, [&] {
       read_certificate(reader_, certificate);
       is_read = true;
-      require_demanded(options_, to_text(certificate), to_text(certificate.separation),
+      require_demanded(options_, to_text(certificate), to_text(certificate.separation), "",
                        certificate.line);
       std::int64_t work_bits_left = options_.max_work_bits;
       verify(certificate, work_bits_left);
@@ -109,22 +110,32 @@ class StreamCheck {
     ++(report_.*counts.at(is_tetrahedron ? 1 : 0).at(static_cast<std::size_t>(certificate.claim)));
   }
 
-  using CheckScene = std::string(Reader&, Reader*, const Options&);
+  using CheckScene = Proved(Reader&, Reader*, const Options&);
 
   /// Checks the certificates of steps or of meshes to the first that is rejected.
-  void check_scenes(std::string_view first_word, std::string_view last_word, CheckScene& check,
-                    std::vector<std::string>& proved) {
+  void check_scenes(Time time, CheckScene& check, std::vector<std::string>& texts) {
     std::optional<Reader> scenes;
     if (options_.scenes != nullptr) {
       scenes.emplace(*options_.scenes);
       scenes->advance();
     }
+    Summary summary(time);
+    std::optional<Scene> last;
     reader_.advance();
-    while (reader_.first_word() == first_word) {
-      proved.push_back(check(reader_, scenes ? &*scenes : nullptr, options_));
+    while (reader_.first_word() == (time == Time::step ? "step" : "mesh")) {
+      const std::size_t line = reader_.number();
+      Proved proved = check(reader_, scenes ? &*scenes : nullptr, options_);
+      const bool follows = !last || does_follow(*last, proved.scene);
+      if (!follows && options_.claim == "sequence") {
+        reject("the step does not begin where the last one ended", line);
+      }
+      texts.push_back(std::move(proved.text));
+      summary.add(proved.statement, follows);
+      last = std::move(proved.scene);
     }
-    check_end(last_word, proved.size());
+    check_end(time == Time::step ? "steps" : "meshes", texts.size());
     if (scenes && !scenes->at_end()) reject("not all scenes are proved");
+    report_.summary = summary.text();
   }
 
   /// Checks the closing line, with this number of certificates, and that nothing follows.
@@ -150,7 +161,7 @@ class StreamCheck {
 }  // namespace
 
 std::string demanded_claim(std::string_view words) {
-  if (words == "free") return "free";
+  if (words == "free" || words == "sequence") return std::string(words);
   struct Form {
     std::string_view name;
     std::size_t numbers;
@@ -184,21 +195,29 @@ std::string demanded_separation(std::string_view distance, std::string_view norm
   separation.distance = is_decimal ? mpq_class(decimal) : parse_number(distance);
   separation.is_l2 = norm == "l2";
   if (separation.distance < 0) reject("a distance below 0");
-  return to_text(separation);
+  return to_text(separation, true);
 }
 
 void require_demanded(const Options& options, const std::string& claim,
-                      const std::string& separation, std::size_t line) {
+                      const std::string& separation, const std::string& rules, std::size_t line) {
   const auto is_demanded = [](const std::string& demand, const std::string& text) {
     return demand.empty() || text == demand || text.starts_with(demand + ' ');
   };
-  const bool is_free = claim == "no_contact 1" || claim == "intersections 0";
-  if (options.claim == "free" ? !is_free : !is_demanded(options.claim, claim)) {
-    reject("the claim is not the one demanded: " + claim, line);
-  }
-  if (!options.separation.empty() && options.separation != separation) {
-    reject("the separation is not the one demanded: " + separation, line);
-  }
+  const bool is_sequence = options.claim == "sequence",
+             is_free = options.claim == "free" || is_sequence;
+  const bool is_claim =
+      is_free ? claim == "no_contact 1" || (claim == "intersections 0" && !is_sequence)
+              : is_demanded(options.claim, claim);
+  if (!is_claim) reject("the claim is not the one demanded: " + claim, line);
+  // Where the norm does not matter it is not named.
+  const bool is_separation = options.separation.empty() || options.separation == separation ||
+                             options.separation.starts_with(separation + ' ');
+  if (!is_separation) reject("the separation is not the one demanded: " + separation, line);
+  const bool are_rules = options.rules.empty()
+                             ? !is_free || options.scenes != nullptr || rules.empty()
+                             : options.rules == rules;
+  if (!are_rules)
+    reject("the rules are not those demanded: " + (rules.empty() ? "none" : rules), line);
 }
 
 Report check(std::istream& certificates, const Options& options) {

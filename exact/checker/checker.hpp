@@ -65,6 +65,9 @@ struct Options {
   std::string claim = {};
   /// The separation of the claim, as `demanded_separation` writes it; empty: any.
   std::string separation = {};
+  /// The rules of the scene, in the words of the report. Empty: any; but none if the claim is
+  /// `free` or `sequence` and no scenes are given.
+  std::string rules = {};
   /// The total size of all polynomials in one certificate's proof, halves included.
   std::int64_t max_work_bits = std::int64_t{1} << 28U;
   /// The additional size for the polynomials of a step, for each byte of the certificate so far.
@@ -101,6 +104,8 @@ struct Report {
   std::vector<std::string> steps;
   /// The same of meshes at rest.
   std::vector<std::string> meshes;
+  /// What all of these prove together, a sentence (summary.hpp); empty if one is rejected.
+  std::string summary;
   /// The number of rejected certificates. A stream without its header, or without its closing line,
   /// counts as one.
   std::uint64_t rejected = 0;
@@ -119,7 +124,8 @@ struct Report {
 
 /// The claim in the words of a certificate, its numbers in their only form. `time_of_impact` and
 /// `earliest` without numbers stand for all times, `intersections` and `welded_intersections` for
-/// all counts; `free` is `no_contact 1` of a step and `intersections 0` of a mesh.
+/// all counts; `free` is `no_contact 1` of a step and `intersections 0` of a mesh; `sequence` is
+/// `no_contact 1` of steps each of which begins where the last one ended.
 /// \throws Rejection if it is no claim.
 [[nodiscard]] std::string demanded_claim(std::string_view words);
 

@@ -24,8 +24,14 @@ constexpr std::string_view usage =
     "\n"
     "--claim CLAIM     Reject whatever claims anything else: no_collision, collision,\n"
     "                  'time_of_impact [LO HI]', no_inversion, inversion, 'time_of_inversion [LO\n"
-    "                  HI]'; of steps free, 'no_contact T', 'earliest [LO HI]';\n"
+    "                  HI]'; of steps free, 'no_contact T', 'earliest [LO HI]', or sequence:\n"
+    "                  free, and each begins where the last one ended;\n"
     "                  of meshes free, 'intersections [N]', 'welded_intersections [N]'\n"
+    "--rules RULES     Reject whatever has other rules, which weaken a claim, than these, in the "
+    "words\n"
+    "                  of the report: '1 pair of groups held apart'. Without it and without "
+    "SCENES\n"
+    "                  free and sequence reject all rules\n"
     "--separation D    Reject whatever is about another distance (0: contact itself)\n"
     "--norm NORM       The norm of --separation: linf (the default) or l2\n"
     "\n"
@@ -64,6 +70,8 @@ std::optional<Arguments> parsed(std::span<char*> words) {
     ++i;
     if (word == "--claim") {
       arguments.options.claim = touchstone::checker::demanded_claim(value);
+    } else if (word == "--rules") {
+      arguments.options.rules = value;
     } else if (word == "--separation") {
       separation = value;
     } else if (word == "--norm") {
@@ -101,6 +109,7 @@ void print(const touchstone::checker::Report& report) {
   }
   const auto hidden = report.rejected - report.rejections.size();
   if (hidden > 0) std::cout << "  and " << hidden << " more\n";
+  if (!report.summary.empty()) std::cout << report.summary << '\n';
 }
 
 /// Checks a file and prints the outcome. \returns true if everything was accepted.

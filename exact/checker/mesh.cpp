@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <optional>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "exact/checker/resting_mesh.hpp"
@@ -24,7 +25,7 @@ class MeshCheck {
   MeshCheck(Reader& reader, const Options& options)
       : reader_(reader), options_(options), first_byte_(reader.bytes()) {}
 
-  std::string run(Reader* scenes) {
+  Proved run(Reader* scenes) {
     text_ = "mesh " + printable(read_label(reader_, "mesh")) + '\n';
     const Scene scene = read_scene(reader_, options_, Time::rest);
     if (scenes != nullptr && read_scene(*scenes, options_, Time::rest) != scene) {
@@ -32,25 +33,31 @@ class MeshCheck {
     }
     read_claim();
     mesh_.emplace(scene, is_welded_);
-    text_ += std::to_string(scene.vertices.size()) + " vertices, " +
-             std::to_string(mesh_->faces()) + " faces, " + std::to_string(mesh_->edges()) +
-             " edges of no face, " + std::to_string(mesh_->points()) + " points\n" + claim_ + '\n';
+    const std::size_t taking_part = mesh_->vertices_of_elements();
+    statement_.rules = rules_text(scene.apart, scene.vertices.size() - taking_part);
+    require_demanded(options_, claim_.substr(claim_.find(' ') + 1), to_text(Separation{}),
+                     statement_.rules, claim_line_);
+    text_ += vertices_text(scene, taking_part) + ", " + std::to_string(mesh_->faces()) +
+             " faces, " + std::to_string(mesh_->edges()) + " edges of no face, " +
+             std::to_string(mesh_->points()) + " points\n";
+    if (!statement_.rules.empty()) text_ += "rules " + statement_.rules + '\n';
+    text_ += claim_ + '\n';
     for (std::int32_t n = 0; n < intersections_; ++n) read_intersection();
     read_separations();
     require_all_known();
     reader_.begin("end");
     reader_.end();
-    return text_;
+    return {std::move(text_), std::move(statement_), {}};
   }
 
  private:
   void read_claim() {
     claim_ = printable(reader_.text());
-    const std::size_t line = reader_.begin("claim");
+    claim_line_ = reader_.begin("claim");
     is_welded_ = reader_.one_of({"intersections", "welded_intersections"}) == 1;
     intersections_ = take_count(reader_);
+    statement_.is_free = !is_welded_ && intersections_ == 0;
     reader_.end();
-    require_demanded(options_, claim_.substr(claim_.find(' ') + 1), to_text(Separation{}), line);
   }
 
   /// Takes the numbers of a pair, and counts it as known.
@@ -124,7 +131,9 @@ class MeshCheck {
   std::int64_t first_byte_;
   /// What is proved, for a reader.
   std::string text_;
+  Statement statement_{.is_free = false, .contact = "intersect", .rules = ""};
   std::string claim_;
+  std::size_t claim_line_ = 0;
   bool is_welded_ = false;
   std::int32_t intersections_ = 0;
   std::optional<RestingMesh> mesh_;
@@ -134,7 +143,7 @@ class MeshCheck {
 
 }  // namespace
 
-std::string check_mesh(Reader& reader, Reader* scenes, const Options& options) {
+Proved check_mesh(Reader& reader, Reader* scenes, const Options& options) {
   return MeshCheck(reader, options).run(scenes);
 }
 

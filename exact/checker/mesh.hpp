@@ -17,17 +17,15 @@
 /// has one element whose vertices are some of the other's, so that all of it is shared; or has an
 /// argument that is verified. All arguments are verified, whether or not they are needed.
 
-#include <string>
-
 #include "exact/checker/certificate.hpp"
+#include "exact/checker/summary.hpp"
 
 namespace touchstone::checker {
 
 /// Reads and verifies the certificate that begins at the present line, and goes behind its `end`.
 /// \param scenes if not null, the mesh (its lines from `vertices` to `apart`) has to be the one read there
 /// \param options the limits
-/// \returns what is proved, for a reader: the label, the size of the mesh and the claim, a line each
 /// \throws Rejection if it proves nothing, std::runtime_error as Reader::advance.
-[[nodiscard]] std::string check_mesh(Reader& reader, Reader* scenes, const Options& options);
+[[nodiscard]] Proved check_mesh(Reader& reader, Reader* scenes, const Options& options);
 
 }  // namespace touchstone::checker

@@ -71,6 +71,11 @@ RestingMesh::RestingMesh(const Scene& scene, bool is_welded)
   }
   faces_ = found.faces.size();
   edges_ = found.bare_edges.size();
+  std::vector<bool> takes_part(scene.vertices.size());
+  for (const Primitive& element : elements_) {
+    for (const std::int32_t v : element.vertices) takes_part[static_cast<std::size_t>(v)] = true;
+  }
+  vertices_of_elements_ = static_cast<std::size_t>(std::ranges::count(takes_part, true));
   if (is_welded) weld();
 }
 

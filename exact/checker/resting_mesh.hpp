@@ -28,6 +28,7 @@ class RestingMesh {
   [[nodiscard]] std::size_t faces() const { return faces_; }
   [[nodiscard]] std::size_t edges() const { return edges_; }
   [[nodiscard]] std::size_t points() const { return elements_.size() - faces_ - edges_; }
+  [[nodiscard]] std::size_t vertices_of_elements() const { return vertices_of_elements_; }
   /// The number of vertices that an element is listed with.
   [[nodiscard]] std::size_t corners(std::int32_t number) const;
 
@@ -52,6 +53,8 @@ class RestingMesh {
   Primitives elements_;
   std::size_t faces_ = 0;
   std::size_t edges_ = 0;
+  /// Before they are welded.
+  std::size_t vertices_of_elements_ = 0;
 };
 
 }  // namespace touchstone::checker

@@ -161,6 +161,33 @@ Elements find_elements(const Scene& scene) {
   return elements;
 }
 
+std::string counted(std::size_t count, const char* one, const char* several) {
+  return std::to_string(count) + ' ' + (count == 1 ? one : several);
+}
+
+std::string vertices_text(const Scene& scene, std::size_t taking_part) {
+  const bool are_all = taking_part == scene.vertices.size();
+  return std::to_string(taking_part) +
+         (are_all ? "" : " of " + std::to_string(scene.vertices.size())) + " vertices";
+}
+
+std::string rules_text(std::vector<Two> apart, std::size_t left_out) {
+  for (auto& [one, other] : apart) std::tie(one, other) = std::minmax({one, other});
+  std::ranges::sort(apart);
+  apart.erase(std::ranges::unique(apart).begin(), apart.end());
+  const auto selves = static_cast<std::size_t>(
+      std::ranges::count_if(apart, [](const Two& two) { return two[0] == two[1]; }));
+  const std::size_t pairs = apart.size() - selves;
+  std::string text;
+  const auto add = [&](std::size_t count, const std::string& rule) {
+    if (count > 0) text += (text.empty() ? "" : ", ") + rule;
+  };
+  add(pairs, counted(pairs, "pair", "pairs") + " of groups held apart");
+  add(selves, counted(selves, "group held apart from itself", "groups held apart from themselves"));
+  add(left_out, counted(left_out, "vertex", "vertices") + " left out");
+  return text;
+}
+
 Groups::Groups(const Scene& scene) : of_vertices_(scene.groups) {
   for (const auto& [one, other] : scene.apart) {
     apart_.push_back({one, other});

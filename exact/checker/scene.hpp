@@ -6,6 +6,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "exact/checker/certificate.hpp"
@@ -70,6 +71,17 @@ struct Elements {
 };
 
 [[nodiscard]] Elements find_elements(const Scene& scene);
+
+/// The number and the word for so many.
+[[nodiscard]] std::string counted(std::size_t count, const char* one, const char* several);
+
+/// "6 vertices", or "6 of 7 vertices" if not all take part.
+[[nodiscard]] std::string vertices_text(const Scene& scene, std::size_t taking_part);
+
+/// The rules, which weaken the claim: "2 pairs of groups held apart, 1 group held apart from
+/// itself, 3 vertices left out", or those of the three that there are. \param apart groups that are
+/// held apart \param left_out the number of vertices that take no part
+[[nodiscard]] std::string rules_text(std::vector<Two> apart, std::size_t left_out);
 
 /// The groups of vertices, and which of them are held apart. Without groups all vertices are in
 /// group 0.

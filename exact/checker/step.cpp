@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <utility>
 #include <vector>
 
 #include "exact/checker/places.hpp"
@@ -43,7 +44,7 @@ class StepCheck {
   StepCheck(Reader& reader, const Options& options)
       : reader_(reader), options_(options), first_byte_(reader.bytes()) {}
 
-  std::string run(Reader* scenes) {
+  Proved run(Reader* scenes) {
     text_ = "step " + printable(read_label(reader_, "step")) + '\n';
     scene_ = read_scene(reader_, options_, Time::step);
     if (scenes != nullptr && read_scene(*scenes, options_, Time::step) != scene_) {
@@ -62,25 +63,28 @@ class StepCheck {
     }
     reader_.begin("end");
     reader_.end();
-    return text_;
+    return {std::move(text_), std::move(statement_), std::move(scene_)};
   }
 
  private:
   void find_what_can_collide() {
     elements_ = find_elements(scene_);
     groups_ = Groups(scene_);
-    text_ += std::to_string(elements_.vertices.size()) + " vertices, " +
-             std::to_string(elements_.edges.size()) + " edges, " +
-             std::to_string(elements_.faces.size()) + " faces\n";
-    if (count_of(0) + count_of(1) == 0) return;
-    text_ += std::to_string(count_of(0)) + " tetrahedra, " + std::to_string(count_of(1)) +
-             " plane triangles\n";
+    const std::size_t taking_part = elements_.vertices.size();
+    text_ += vertices_text(scene_, taking_part) + ", " + std::to_string(elements_.edges.size()) +
+             " edges, " + std::to_string(elements_.faces.size()) + " faces\n";
+    if (count_of(0) + count_of(1) > 0) {
+      text_ += std::to_string(count_of(0)) + " tetrahedra, " + std::to_string(count_of(1)) +
+               " plane triangles\n";
+    }
+    statement_.rules = rules_text(scene_.apart, scene_.vertices.size() - taking_part);
+    if (!statement_.rules.empty()) text_ += "rules " + statement_.rules + '\n';
   }
 
   /// Finds the separations of groups, the greatest of all, and the reach of each vertex: of the
   /// reaches of two, the sum is not below the thickness of their groups.
   void find_thickness() {
-    if (scene_.radii.empty() && scene_.separations.empty()) return;
+    if (!is_thick()) return;
     const auto groups = static_cast<std::int32_t>(scene_.radii.size());
     double greatest = 0.0;
     for (const double radius : scene_.radii) greatest = std::max(greatest, 2.0 * radius);
@@ -120,8 +124,11 @@ class StepCheck {
       claim = "no_contact " + to_text(lower_);
     }
     reader_.end();
-    const std::string separation = to_text(separation_);
-    require_demanded(options_, claim, separation, line);
+    // Of thick primitives the norm matters at 0, too.
+    const std::string separation = to_text(separation_, is_thick());
+    statement_.is_free = claim == "no_contact 1";
+    statement_.contact = contact_text(separation_, is_thick());
+    require_demanded(options_, claim, separation, statement_.rules, line);
     text_ += "separation " + separation + "\nclaim " + claim + '\n';
   }
 
@@ -207,6 +214,10 @@ class StepCheck {
     certificate.line = line;
     certificate.subintervals = read_subintervals(reader_, certificate.query);
     verify_within_limits(certificate);
+  }
+
+  [[nodiscard]] bool is_thick() const {
+    return !scene_.radii.empty() || !scene_.separations.empty();
   }
 
   [[nodiscard]] std::size_t count_of(std::size_t kind) const {
@@ -349,6 +360,7 @@ class StepCheck {
   std::int64_t first_byte_;
   /// The proved claims, as text.
   std::string text_;
+  Statement statement_;
   Scene scene_;
   Elements elements_;
   Groups groups_;
@@ -373,7 +385,7 @@ class StepCheck {
 
 }  // namespace
 
-std::string check_step(Reader& reader, Reader* scenes, const Options& options) {
+Proved check_step(Reader& reader, Reader* scenes, const Options& options) {
   return StepCheck(reader, options).run(scenes);
 }
 

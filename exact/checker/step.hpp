@@ -27,17 +27,15 @@
 /// subintervals without a gap (proof.hpp). All arguments are verified, needed or not. An element
 /// has subintervals, or is verified in all of the time as in one.
 
-#include <string>
-
 #include "exact/checker/certificate.hpp"
+#include "exact/checker/summary.hpp"
 
 namespace touchstone::checker {
 
 /// Reads and verifies the certificate that begins at the current line, to the line after its `end`.
 /// \param scenes null, or the next scene there (lines `vertices` to `separations`) must be the same
 /// \param options the limits
-/// \returns the proved claims as text: label, size of the scene, separation and claim, a line each
 /// \throws Rejection if it proves nothing, std::runtime_error as Reader::advance.
-[[nodiscard]] std::string check_step(Reader& reader, Reader* scenes, const Options& options);
+[[nodiscard]] Proved check_step(Reader& reader, Reader* scenes, const Options& options);
 
 }  // namespace touchstone::checker
