@@ -459,12 +459,13 @@ let text_of_claim is_tetrahedron claim =
       Printf.sprintf "%s %s %s" time_of_impact
         (text_of_number (of_coq lower)) (text_of_number (of_coq upper))
 
-let text_of_separation distance norm =
+(* At distance 0 the norm does not matter, and is not named unless [is_norm_named]. *)
+let text_of_separation ?(is_norm_named = false) distance norm =
   let text = text_of_number distance in
-  if Q.sign distance = 0 then text else text ^ (if norm = L2 then " l2" else " linf")
+  if Q.sign distance = 0 && not is_norm_named then text else text ^ (if norm = L2 then " l2" else " linf")
 
 let demanded_claim words =
-  if words = "free" then "no_contact 1"
+  if words = "free" || words = "sequence" then words
   else
     let parts = String.split_on_char ' ' words in
     let numbers = List.tl parts in
@@ -498,4 +499,4 @@ let demanded_separation distance norm =
   if norm <> "linf" && norm <> "l2" then reject ("not a norm: " ^ quoted norm);
   let number = match decimal distance with Some x -> x | None -> parse_number distance in
   if Q.sign number < 0 then reject "a distance below 0";
-  text_of_separation number (if norm = "l2" then L2 else Linf)
+  text_of_separation ~is_norm_named:true number (if norm = "l2" then L2 else Linf)

@@ -117,6 +117,45 @@ let find_thickness s distance =
   List.iter (fun group -> if not (Hashtbl.mem reaches group) then Hashtbl.replace reaches group (reach group)) groups;
   (greatest, Hashtbl.fold (fun group reach list -> (group, reach) :: list) reaches [])
 
+(* ---- What is said of it, in the words of ../scene.cpp and ../summary.cpp ---- *)
+
+let counted count one several = Printf.sprintf "%d %s" count (if count = 1 then one else several)
+
+(* What weakens the claim; empty if nothing does. *)
+let rules_text apart left_out =
+  let in_order (one, other) = if Z.lt other one then (other, one) else (one, other) in
+  let apart = List.sort_uniq compare (List.map in_order apart) in
+  let selves, pairs = List.partition (fun (one, other) -> Z.equal one other) apart in
+  let rule list one several = if list = 0 then [] else [ counted list one several ] in
+  String.concat ", "
+    (rule (List.length pairs) "pair of groups held apart" "pairs of groups held apart"
+     @ rule (List.length selves) "group held apart from itself" "groups held apart from themselves"
+     @ rule left_out "vertex left out" "vertices left out")
+
+(* What two do not in a step without a contact. *)
+let contact_text distance norm is_thick =
+  let is_zero = Q.sign distance = 0 in
+  if is_zero && not is_thick then "touch"
+  else
+    Printf.sprintf "come within%s%s (%s)" (if is_thick then " their thickness" else "")
+      (if is_zero then "" else (if is_thick then " + " else " ") ^ text_of_number distance)
+      (if norm = L2 then "l2" else "linf")
+
+(* What an accepted certificate proves. *)
+type proved = {
+  text : string;  (* label, size of the scene, rules, separation and claim, a line each *)
+  is_free : bool;
+  contact : string;
+  rules : string;
+  scene : step;
+}
+
+(* True if the step begins where the last one ended: its vertices at 0 are those at 1, by value, and all lists are the
+   same. *)
+let does_follow last scene =
+  let lists s = { s with vertices = []; separation_of = scene.separation_of } in
+  List.map snd last.vertices = List.map fst scene.vertices && lists last = lists scene
+
 (* ---- The certificate ---- *)
 
 (* A kind of pairs: its elements, and the arguments of each of the first ones. *)
@@ -244,7 +283,7 @@ let require_all_proved reading (hints : hints) =
   reject "the certificate is not proved"
 
 (* Reads and verifies the certificate that begins at the present line; what it proves, as text.
-   [require_demanded line claim separation] rejects what is not demanded. *)
+   [require_demanded line claim separation rules] rejects what is not demanded. *)
 let check r scenes require_demanded =
   let text = Buffer.create 200 in
   let say line = Buffer.add_string text (line ^ "\n") in
@@ -253,8 +292,13 @@ let check r scenes require_demanded =
   Option.iter (fun scenes -> if read_scene scenes <> s then reject "the scene is not the one given") scenes;
   let elements = Step_hints.elements_of s in
   let count bools = Array.fold_left (fun n b -> if b then n + 1 else n) 0 bools in
-  say (Printf.sprintf "%d vertices, %d edges, %d faces" (count elements.takes_part)
+  let all = Array.length elements.takes_part in
+  let taking_part = count elements.takes_part in
+  say (Printf.sprintf "%d%s vertices, %d edges, %d faces" taking_part
+    (if taking_part = all then "" else Printf.sprintf " of %d" all)
     (Array.length elements.edges) (Array.length elements.faces));
+  let rules = rules_text s.apart (all - taking_part) in
+  if rules <> "" then say ("rules " ^ rules);
   let s = { s with separation_of = read_separation r } in
   let distance = to_double (of_coq s.separation_of.distance_of) in
   let is_thick = s.radii <> [] || s.distances <> [] in
@@ -279,8 +323,11 @@ let check r scenes require_demanded =
     if is_earliest then "earliest " ^ text_of_number lower ^ " " ^ text_of_number upper
     else "no_contact " ^ text_of_number lower
   in
-  let separation_text = text_of_separation (of_coq s.separation_of.distance_of) s.separation_of.norm_of in
-  require_demanded line claim_text separation_text;
+  let s_distance = of_coq s.separation_of.distance_of in
+  let s_norm = s.separation_of.norm_of in
+  (* Of thick primitives the norm matters at 0, too. *)
+  let separation_text = text_of_separation ~is_norm_named:is_thick s_distance s_norm in
+  require_demanded line claim_text separation_text rules;
   say ("separation " ^ separation_text);
   say ("claim " ^ claim_text);
   let longest x (p : Checker.q triple) =
@@ -327,4 +374,5 @@ let check r scenes require_demanded =
   if not (check_step sum s claim hints contact) then require_all_proved reading hints;
   begin_keyword r "end";
   end_line r;
-  Buffer.contents text
+  { text = Buffer.contents text; is_free = claim_text = "no_contact 1"; rules; scene = s;
+    contact = contact_text s_distance s_norm is_thick }
