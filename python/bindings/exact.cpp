@@ -179,8 +179,8 @@ class StoppableText : public std::streambuf {
 
 py::dict check(const std::string& certificates, const std::optional<std::string>& scenes,
                const std::optional<std::string>& claim, const std::optional<std::string>& distance,
-               const std::string& norm) {
-  checker::Options options;
+               const std::string& norm, const std::string& rules) {
+  checker::Options options{.rules = rules};
   try {
     if (claim) options.claim = checker::demanded_claim(*claim);
     if (distance) options.separation = checker::demanded_separation(*distance, norm);
@@ -203,6 +203,7 @@ py::dict check(const std::string& certificates, const std::optional<std::string>
   result["time_of_inversion"] = report.time_of_inversion;
   result["steps"] = py::tuple(py::cast(report.steps));
   result["meshes"] = py::tuple(py::cast(report.meshes));
+  result["summary"] = report.summary;
   result["rejected"] = report.rejected;
   py::list rejections;
   for (const auto& [line, label, reason] : report.rejections) {
@@ -277,7 +278,7 @@ PYBIND11_MODULE(_exact, m) {
   m.def("prove", prove, arg("kind"), arg("queries").noconvert(), arg("separation"), arg("norm"),
         arg("claim"), arg("threads"), arg("progress"));
   m.def("check", check, arg("certificates"), arg("scenes"), arg("claim"), arg("separation"),
-        arg("norm"));
+        arg("norm"), arg("rules"));
   m.def("methods", methods);
   m.def("answer_layout", answer_layout);
   m.def("solve", solve, arg("method"), arg("kind"), arg("queries").noconvert(),

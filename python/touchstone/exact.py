@@ -312,6 +312,9 @@ class CheckReport:
         The same of tetrahedra.
     steps, meshes : tuple of str
         What accepted certificates of steps and of meshes at rest prove.
+    summary : str
+        What all of these prove together, such as "184 steps, each from where the last one ended: no two
+        primitives touch"; empty if one is rejected or there is nothing to be said of all.
     rejected : int
         The number of rejected ones.
     rejections : tuple of Rejection
@@ -326,6 +329,7 @@ class CheckReport:
     time_of_inversion: int
     steps: Tuple[str, ...]
     meshes: Tuple[str, ...]
+    summary: str
     rejected: int
     rejections: Tuple[Rejection, ...]
 
@@ -352,6 +356,7 @@ def check(
     claim: str | None = None,
     separation: float | None = None,
     norm: Norm = "l2",
+    rules: str = "",
 ) -> CheckReport:
     """Check certificates by the checker, which shares no code with the oracle.
 
@@ -364,11 +369,15 @@ def check(
     claim : str, optional
         Reject every other claim: "no_collision", "collision", "time_of_impact"; of tetrahedra
         "no_inversion", "inversion", "time_of_inversion"; of steps "free",
-        "no_contact T" or "earliest"; of meshes "free" or "intersections N".
+        "sequence" (free, and each begins where the last one ended), "no_contact T" or "earliest"; of
+        meshes "free" or "intersections N".
     separation : float, optional
         Reject what is about another distance.
     norm : {"linf", "l2"}, optional
         The norm of that distance.
+    rules : str, optional
+        Reject whatever has other rules, which weaken a claim, than these, in the words of the report:
+        "1 pair of groups held apart". Without it and without scenes "free" and "sequence" reject all.
 
     Returns
     -------
@@ -384,7 +393,7 @@ def check(
     """
     try:
         report = exact_module().check(
-            certificates, scenes, claim, None if separation is None else separation.hex(), norm
+            certificates, scenes, claim, None if separation is None else separation.hex(), norm, rules
         )
     except KeyboardInterrupt as interrupt:
         raise Interrupted() from interrupt

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 #include <limits>
+#include <span>
 #include <tuple>
 #include <utility>
 
@@ -64,6 +65,12 @@ void answer(const fast::Step& step, StepQuestion question, StepCheck& check) {
   }
 }
 
+bool end_alike(const fast::MovingVertices& some, const fast::MovingVertices& others) {
+  return std::ranges::equal(std::span(some.data(), some.size()),
+                            std::span(others.data(), others.size()), {}, &fast::MovingVertex::end,
+                            &fast::MovingVertex::end);
+}
+
 }  // namespace
 
 PairCounts counts_of(const std::vector<fast::StepCollision>& collisions) {
@@ -98,6 +105,7 @@ StepCheck check_step(std::optional<fast::Step>& step, const mesh::Mesh& mesh,
   }
   if (options.proof.on_text) {
     check.proof = prove_step(part ? *part : *step, options.proof);
+    check.proof->ends_at_frame = !part || end_alike(part->vertices(), step->vertices());
   }
   if (options.alpha) check.free_alpha = step->free_step_size();
   return check;

@@ -174,6 +174,8 @@ class StepProver {
       throw exact::CertificateLimitError(
           fmt::format("the scene has more than {} items", exact::step_item_limit));
     }
+    proof_.statement.rules = checker::rules_text({rules.apart.begin(), rules.apart.end()},
+                                                 vertices.size() - vertices_of(edges));
     std::string text;
     exact::write_step_head(text, options_.label, vertices.size());
     for (std::size_t i = 0; i < vertices.size(); ++i) {
@@ -215,6 +217,16 @@ class StepProver {
     return items;
   }
 
+  /// The number of vertices that a face, one of these edges or a point names.
+  [[nodiscard]] std::size_t vertices_of(const std::vector<fast::Edge>& edges) const {
+    std::vector<bool> is_named(step_.vertices().size());
+    const auto name = [&](std::int32_t v) { is_named[static_cast<std::size_t>(v)] = true; };
+    for (const fast::Face& face : parts_.faces) std::ranges::for_each(face, name);
+    for (const fast::Edge& edge : edges) std::ranges::for_each(edge, name);
+    std::ranges::for_each(parts_.points, name);
+    return static_cast<std::size_t>(std::ranges::count(is_named, true));
+  }
+
   /// The edges of no face.
   [[nodiscard]] std::vector<fast::Edge> bare_edges() const {
     const std::vector<fast::Edge> sides = fast::edges_of(mesh_.faces);
@@ -235,6 +247,10 @@ class StepProver {
                         .proof = *first->certificate.contact};
     }
     proof_.claim = to_text(claim);
+    proof_.statement.is_free = proof_.claim == "no_contact 1";
+    proof_.statement.contact = checker::contact_text(
+        {.distance = claim.separation.distance, .is_l2 = claim.separation.norm == Norm::l2},
+        !parts_.groups.radii.empty() || !parts_.groups.separations.empty());
     std::string text;
     exact::write_step_claim(text, claim);
     put(text);

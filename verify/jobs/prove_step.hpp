@@ -16,6 +16,7 @@
 #include <string>
 #include <string_view>
 
+#include "exact/checker/summary.hpp"
 #include "touchstone/step.hpp"
 
 namespace touchstone::verify::jobs {
@@ -36,6 +37,10 @@ struct StepProofOptions {
 struct StepProof {
   /// The claim, as in the certificate: "no_contact T" or "earliest LO HI".
   std::string claim = {};
+  /// What the checker says of it beside others (exact/checker/summary.hpp).
+  checker::Statement statement = {};
+  /// True if the certificate's scene ends at the frame with which the next step begins.
+  bool ends_at_frame = true;
   std::uint64_t directions = 0;    ///< pairs with a direction
   std::uint64_t certificates = 0;  ///< pairs and elements with subintervals
   std::uint64_t bytes = 0;

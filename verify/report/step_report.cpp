@@ -239,6 +239,18 @@ void append_proof(std::string& text, const StepReport& report, std::size_t i) {
                       proof->claim, proof->directions, proof->certificates, proof->bytes);
 }
 
+/// What touchstone-check says of all; empty if a step has no proof.
+std::string summary_of(const StepReport& report) {
+  checker::Summary summary(checker::Time::step);
+  bool does_follow = true;
+  for (const StepRecord& step : report.steps) {
+    if (!step.proof || !step.proof->is_complete()) return "";
+    summary.add(step.proof->statement, does_follow);
+    does_follow = step.proof->ends_at_frame;
+  }
+  return report.interrupted ? "" : summary.text();
+}
+
 std::string heading(const StepReport& report) {
   std::string text = fmt::format("{} vertices, {} edges, {} faces", report.vertices,
                                  report.edges.size(), report.faces.size());
@@ -341,11 +353,10 @@ nlohmann::json json_of(const StepReport& report, std::size_t i) {
       {"processor_seconds", seconds_of(step, &jobs::WorkTime::processor)}};
   if (report.alpha) json["free_alpha"] = io::number_to_json(step.free_alpha);
   if (step.proof) {
-    json["proof"] = {{"claim", step.proof->claim},
-                     {"directions", step.proof->directions},
-                     {"certificates", step.proof->certificates},
-                     {"bytes", step.proof->bytes},
-                     {"complete", step.proof->is_complete()}};
+    json["proof"] = {
+        {"claim", step.proof->claim},           {"rules", step.proof->statement.rules},
+        {"directions", step.proof->directions}, {"certificates", step.proof->certificates},
+        {"bytes", step.proof->bytes},           {"complete", step.proof->is_complete()}};
   }
   return json;
 }
@@ -367,6 +378,8 @@ std::string to_text(const StepReport& report) {
   }
   for (const FrameRecord& frame : report.frames) append_intersections(text, report, frame);
   for (std::size_t i = 0; i < report.steps.size(); ++i) append_proof(text, report, i);
+  const std::string summary = summary_of(report);
+  if (!summary.empty()) text += '\n' + summary + '\n';
   return text +
          "\nA step is the straight motion of every vertex from one frame to the next. A simulator "
          "that moved in several\nsubsteps between two frames took another path: have it write its "
@@ -388,7 +401,8 @@ nlohmann::json to_json(const StepReport& report) {
           {"tetrahedra", report.tetrahedra.size()},
           {"interrupted", report.interrupted},
           {"frames", std::move(frames)},
-          {"steps", std::move(steps)}};
+          {"steps", std::move(steps)},
+          {"proved", summary_of(report)}};
 }
 
 std::string step_csv_header() {

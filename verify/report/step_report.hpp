@@ -62,9 +62,9 @@ struct StepReport {
 /// `toi_upper` (null if nothing touches, or only freedom was asked for), `earliest` (the pairs of
 /// the earliest impact, as below), `free`, `intersecting` (how many pairs intersect in one of the
 /// two frames or both, or null), `free_alpha` (with alpha), `proof` (if a certificate was written:
-/// `claim`, `directions` and `certificates`, the pairs that are argued by each, `bytes`, and
-/// `complete`), and `seconds` and `processor_seconds`
-/// (`broad_phase`, `narrow_phase`, `total`).
+/// `claim`, `rules`, `directions` and `certificates`, the pairs that are argued by each, `bytes`,
+/// and `complete`), and `seconds` and `processor_seconds` (`broad_phase`, `narrow_phase`, `total`);
+/// and `proved`, what touchstone-check says of all certificates (empty if there is nothing).
 ///
 /// A pair of `earliest`, if contacts were asked for, has `kind`, `first`, `second` (numbers from
 /// 0), `toi_lower`, `toi_upper`, `u`, `v`, `points` (on the first primitive and on the second),
