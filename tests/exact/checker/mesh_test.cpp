@@ -312,6 +312,37 @@ TEST(MeshCertificate, ProvesWhatIsDemandedAndNothingElse) {
             "there is no certificate of what is demanded");
 }
 
+// As of steps: what is left out stands in the report, and `free` demands that it is named.
+TEST(MeshCertificate, NamesWhatItsClaimLeavesOut) {
+  const std::string free = "intersections 0/separations/", one = "1 mesh: no two elements ",
+                    can = one + "that can meet intersect; ", triangle = "0 0 0/1 0 0/0 1 0/";
+  struct Row {
+    std::string mesh, size, rules, sentence;
+  };
+  for (const auto& [of, size, rules, sentence] : std::vector<Row>{
+           {mesh(triangle, "0 1 2/"), "3", "", one + "intersect"},
+           {mesh(triangle + "5 5 5/6 6 6/", "0 1 2/"), "3 of 5", "2 vertices left out", can},
+           {mesh(triangle, "0 1 2/", "", "", "", "0 0/"), "3", "1 group held apart from itself",
+            can}}) {
+    const std::string text = stream(certificate(of, free));
+    const Report report = tests::check_text(text);
+    EXPECT_EQ(report.summary, sentence + rules);
+    EXPECT_EQ(report.meshes.at(0),
+              "mesh a label\n" + size + " vertices, 1 faces, 0 edges of no face, 0 points\n" +
+                  (rules.empty() ? "" : "rules " + rules + '\n') + "claim intersections 0\n");
+    EXPECT_EQ(refusal(text, {.claim = "free"}),
+              rules.empty() ? "" : "the rules are not those demanded: " + rules);
+    EXPECT_EQ(refusal(text, {.claim = "free", .rules = rules}), "");
+    EXPECT_EQ(refusal(text, {.claim = "sequence"}),
+              "the claim is not the one demanded: intersections 0");
+  }
+  const std::string some = certificate(mesh(triangle, "0 1 2/"), free);
+  EXPECT_EQ(tests::check_text(stream(some + some, 2)).summary,
+            "2 meshes: no two elements intersect");
+  EXPECT_EQ(tests::check_text(altered(proved, "intersections", "welded_intersections")).summary,
+            "");
+}
+
 TEST(MeshCertificate, LimitsItemsArgumentsAndComparisons) {
   const std::string many = "more than 0 arguments", items = "the scene has too many items",
                     compares = "the search for pairs takes too many comparisons";

@@ -282,8 +282,9 @@ TEST(Step, SaysWhatItProves) {
   const Report of_inversion = check_text(of_first_inversion());
   ASSERT_EQ(of_inversion.steps.size(), 1U);
   EXPECT_EQ(of_inversion.steps[0],
-            "step elements\n0 vertices, 0 edges, 0 faces\n1 tetrahedra, 1 plane triangles\n"
-            "separation 0\nclaim earliest 1/8 1/5\nelement tetrahedron 0\n");
+            "step elements\n0 of 7 vertices, 0 edges, 0 faces\n1 tetrahedra, 1 plane "
+            "triangles\nrules 7 vertices left out\nseparation 0\nclaim earliest 1/8 1/5\nelement "
+            "tetrahedron 0\n");
   EXPECT_EQ(check_text(corpus()).steps.size(), 3U);
 }
 
@@ -430,6 +431,129 @@ TEST(Step, LimitsTheWorkByItsBytes) {
   EXPECT_EQ(refusal_of(longer, 0, bits), "");
 }
 
+// ---- Rules and sequences ------------------------------------------------------------------------
+
+/// The step that follows the honest one: its triangle rests where that one ended.
+std::string next_step() {
+  return step(altered(altered(altered(scene, "1 1 2 ", "1 1 0x1.8p+0 "), "2 1 3 ", "2 1 0x1.4p+1 "),
+                      "1 2 2 ", "1 2 0x1.8p+0 "));
+}
+
+// What weakens a claim stands in the report of a certificate and in the sentence about all, and
+// `free` demands that there is nothing of the kind, unless it is named or the scene is given.
+TEST(Step, NamesWhatItsClaimLeavesOut) {
+  const auto with = [](std::string_view from, std::string_view to) {
+    return stream(altered(step(), from, to));
+  };
+  const std::string one = "1 step: no two primitives ", can = one + "that can collide ";
+  struct Row {
+    std::string text, size, rules, sentence;
+  };
+  for (const auto& [text, size, rules, sentence] : std::vector<Row>{
+           {stream(step()), "6", "", one + "touch"},
+           {with("apart 0", "apart 4\n0 0\n1 0\n0 1\n2 2"), "6",
+            "1 pair of groups held apart, 2 groups held apart from themselves", can + "touch; "},
+           {with("apart 0", "apart 3\n0 1\n0 2\n1 0"), "6", "2 pairs of groups held apart",
+            can + "touch; "},
+           // A face left out, of which one vertex and one edge take part by other lists.
+           {stream(step(
+                altered(scene, "faces 2\n0 1 2\n3 4 5\nedges 0\npoints 0",
+                        "faces 1\n0 1 2\nedges 1\n3 4\npoints 0"),
+                altered(altered(arguments, "5 0 -1 0 1\n", ""), "2 4 1 0 -1\n2 5 1 0 -1\n", ""))),
+            "5 of 6", "1 vertex left out", can + "touch; "},
+           {with("separation 0 linf", "separation 0x1p-9 l2"), "6", "",
+            one + "come within 0x1p-9 (l2)"},
+           {with("radii 0", "radii 1\n0x1p-9"), "6", "",
+            one + "come within their thickness (linf)"},
+           {altered(with("separations 0", "separations 1\n0 0 0x1p-9"), "separation 0 linf",
+                    "separation 0x1p-9 l2"),
+            "6", "", one + "come within their thickness + 0x1p-9 (l2)"}}) {
+    const Report report = check_text(text);
+    ASSERT_EQ(report.steps.size(), 1U) << report.rejections.at(0).reason;
+    EXPECT_TRUE(report.steps[0].starts_with("step a label\n" + size + " vertices, "));
+    EXPECT_NE(report.steps[0].find(rules.empty() ? " faces\n" : "\nrules " + rules + "\n"),
+              std::string::npos);
+    EXPECT_EQ(report.steps[0].find("rules") == std::string::npos, rules.empty());
+    EXPECT_EQ(report.summary, sentence + rules);
+    // `free`, by itself, with the rules named, with others, and with the scene.
+    const std::string refused = "the rules are not those demanded: ";
+    EXPECT_EQ(refusal(text, {.claim = "free"}), rules.empty() ? "" : refused + rules);
+    EXPECT_EQ(refusal(text, {.claim = "no_contact 1"}), "");
+    if (!rules.empty()) EXPECT_EQ(refusal(text, {.claim = "free", .rules = rules}), "");
+    EXPECT_EQ(refusal(text, {.claim = "free", .rules = "1 vertex"}),
+              refused + (rules.empty() ? "none" : rules));
+    const std::size_t begin = text.find("vertices"), end = text.find("separation ");
+    std::istringstream given(text.substr(begin, end - begin));
+    EXPECT_EQ(refusal(text, {.scenes = &given, .claim = "free"}), "");
+  }
+}
+
+// Steps follow one another if each begins where the last one ended, with the same lists.
+TEST(Step, SaysWhetherStepsFollowOneAnother) {
+  const std::string first = step(), next = next_step(),
+                    gap = "the step does not begin where the last one ended",
+                    by_itself = ", each by itself: no two primitives ",
+                    second = "step 2 does not begin where step 1 ended",
+                    follow = ", each from where the last one ended";
+  const auto next_with = [&](std::string_view from, std::string_view to) {
+    return altered(next, from, to);
+  };
+  const std::string in_part = altered(next, "no_contact 1\n", "no_contact 1/2\n");
+  struct Row {
+    std::vector<std::string> steps;
+    std::string sentence, refused;
+  };
+  for (const auto& [steps, sentence, refused] : std::vector<Row>{
+           {{first}, "1 step: no two primitives touch", ""},
+           {{first, next}, "2 steps" + follow + ": no two primitives touch", ""},
+           {{first, next, next}, "3 steps" + follow + ": no two primitives touch", ""},
+           // -0 is 0.
+           {{first, next_with("0 0 0 0 0 0", "-0x0p+0 0/1 0 0 0 0")},
+            "2 steps" + follow + ": no two primitives touch",
+            ""},
+           {{first, first}, "2 steps" + by_itself + "touch; " + second, gap},
+           {{next, first, first, next, first},
+            "5 steps" + by_itself + "touch; " + second + ", nor do 2 others",
+            gap},
+           {{first, next, first, next, first, first},
+            "6 steps" + by_itself +
+                "touch; step 3 does not begin where step 2 ended, nor do 2 others",
+            gap},
+           {{first, next_with("1 1 0x1.8p+0 1", "1 1 0x1.8000000000001p+0 1")},
+            "2 steps" + by_itself + "touch; " + second,
+            gap},
+           {{first, next_with("3 4 5", "4 5 3")}, "2 steps" + by_itself + "touch; " + second, gap},
+           {{first, next_with("points 0", "points 1\n0")},
+            "2 steps" + by_itself + "touch; " + second,
+            gap},
+           {{first, next_with("groups 0", "groups 6\n0\n0\n0\n0\n0\n0")},
+            "2 steps" + by_itself + "touch; " + second,
+            gap},
+           {{first, next_with("radii 0", "radii 1\n0x1p-9")},
+            "2 steps" + by_itself + "touch; " + second,
+            gap},
+           {{first, next_with("apart 0", "apart 1\n0 1")},
+            "2 steps" + by_itself + "that can collide touch; the rules differ; " + second,
+            "the rules are not those demanded: 1 pair of groups held apart"},
+           {{first, next_with("separation 0 linf", "separation 0x1p-9 l2")},
+            "2 steps" + follow + ": no two primitives touch",
+            ""},
+           {{first, in_part},
+            "2 steps" + follow,
+            "the claim is not the one demanded: no_contact 1/2"},
+           {{in_part}, "", "the claim is not the one demanded: no_contact 1/2"},
+           {{first, altered(first, "no_contact 1\n", "no_contact 1/2\n")},
+            "2 steps, each by itself; " + second,
+            "the claim is not the one demanded: no_contact 1/2"}}) {
+    const std::string text = stream(tests::joined(steps, ""), steps.size());
+    const Report report = check_text(text);
+    EXPECT_EQ(refusal(text), "");
+    EXPECT_EQ(report.summary, sentence);
+    EXPECT_EQ(refusal(text, {.claim = demanded_claim("sequence")}), refused) << sentence;
+  }
+  EXPECT_EQ(check_text(stream(first + next, 3)).summary, "") << "of a stream that is not accepted";
+}
+
 // ---- Demands ------------------------------------------------------------------------------------
 
 TEST(Step, IsPrintedInOneForm) {
@@ -474,6 +598,10 @@ TEST(Step, ProvesWhatIsDemandedAndNothingElse) {
   }
   const std::string other_separation = "the separation is not the one demanded: 0";
   EXPECT_EQ(refusal_of("", demanded_separation("1e-8", "l2")), other_separation);
+  // The norm of 0 matters where primitives are thick.
+  EXPECT_EQ(refusal(stream(spheres), {.separation = demanded_separation("0", "l2")}), "");
+  EXPECT_EQ(refusal(stream(spheres), {.separation = demanded_separation("0", "linf")}),
+            other_separation + " l2");
   for (const char* const nonsense :
        {"", "free 1", "no_contact", "earliest 1", "collision 0", "no_contact x"}) {
     EXPECT_THROW(static_cast<void>(demanded_claim(nonsense)), Rejection) << nonsense;

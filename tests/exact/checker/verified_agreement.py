@@ -22,8 +22,6 @@ import tempfile
 UNPROVED = re.compile("the (subinterval|contact) is not proved|there is no subinterval|the (last )?subinterval does not .*")
 # Which of several pairs without an argument is found first depends on the tree.
 PAIR = re.compile(r"(no argument for \w+) \d+ \d+")
-# Of steps without any contact the verified program says so in a last line.
-SUMMARY = re.compile(r"\d+ steps?: no two primitives touch")
 # The verified program proves `at axes` by a witness, and sees some contacts that the other does not see.
 UNSEEN = "an axis separates, or is not seen not to"
 SEPARATIONS = [(), ("1e-3", "linf"), ("1e-3", "l2"), ("0.5", "linf"), ("0.5", "l2")]
@@ -31,9 +29,9 @@ SEPARATIONS = [(), ("1e-3", "linf"), ("1e-3", "l2"), ("0.5", "linf"), ("0.5", "l
 BATCH = 90
 
 
-def run(program, path):
-    done = subprocess.run([program, str(path)], capture_output=True, text=True, timeout=600)
-    return done.returncode, [line for line in done.stdout.splitlines() if not SUMMARY.fullmatch(line)]
+def run(program, path, options):
+    done = subprocess.run([program, *options, str(path)], capture_output=True, text=True, timeout=600)
+    return done.returncode, done.stdout.splitlines()
 
 
 def is_same(line, verified_line):
@@ -58,8 +56,8 @@ def without_unseen_axes(lines, verified_lines):
 class Result:
     """What both programs answered to a stream."""
 
-    def __init__(self, programs, path):
-        (status, lines), (verified_status, verified_lines) = (run(program, path) for program in programs)
+    def __init__(self, programs, path, options=()):
+        (status, lines), (verified_status, verified_lines) = (run(program, path, options) for program in programs)
         self.accepted = self.rejected = self.unseen = 0
         self.difference = None
         if path.read_bytes().startswith(b"touchstone-meshes"):
@@ -361,6 +359,33 @@ def prove_step(tool, arguments, path):
         sys.exit(f"touchstone step: {done.stderr}")
 
 
+# What is demanded of mutants of steps.
+DEMANDS = [(), (), ("--claim", "free"), ("--claim", "sequence"), ("--claim", "free", "--rules", "1 pair of groups held apart"),
+           ("--rules", "1 vertex left out"), ("--separation", "0"), ("--separation", "0", "--norm", "l2"),
+           ("--separation", "0.125")]
+
+
+def at_rest(draw, body):
+    """The step behind this one in which nothing moves, or in which one number of the scene is another."""
+    body = list(body)
+    first, count = 2, int(body[1].split(" ")[1])
+    for n in range(first, first + count):
+        body[n] = " ".join(body[n].split(" ")[3:] * 2)
+    if draw.random() < .3:
+        n = draw.randrange(1, next(n for n, line in enumerate(body) if line.startswith("separation ")))
+        body[n] = " ".join([*body[n].split(" ")[:-1], changed_number(draw, body[n].split(" ")[-1])])
+    return body
+
+
+def sequence(draw, streams):
+    """A stream of one to three steps of others, some of which begin where the last one ended."""
+    bodies = [draw.choice(streams)[1:-1] for _ in range(draw.choice([1, 1, 2]))]
+    if draw.random() < .5 and sum(line.startswith("step") for line in bodies[-1]) == 1:
+        bodies.append(at_rest(draw, bodies[-1]))
+    lines = [line for body in bodies for line in body]
+    return ["touchstone-steps 2", *lines, f"steps {sum(line.split(' ')[0] == 'step' for line in lines)}"]
+
+
 def shifted_contact(programs, folder):
     """A vertex that falls onto a face: it ends one unit in the last place above it, and on it. Both programs accept the one, refuse the other."""
     for end, status in (("0x1.0000000000001p+0", 0), ("0x1p+0", 1), ("0x1.fffffffffffffp-1", 1)):
@@ -465,8 +490,9 @@ def main():
             report("public steps", results)
         results = []
         for n in range(arguments.step_mutants):
-            path.write_text("\n".join(mutant(draw, draw.choice(steps), STEP_CLAIMS)) + "\n")
-            results.append(Result(programs, path))
+            lines = sequence(draw, steps)
+            path.write_text("\n".join(mutant(draw, lines, STEP_CLAIMS) if n % 3 else lines) + "\n")
+            results.append(Result(programs, path, draw.choice(DEMANDS)))
             if results[-1].difference:
                 pathlib.Path(f"different-step-{n}.cert").write_bytes(path.read_bytes())
         report("mutants of steps", results)
