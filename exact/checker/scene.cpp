@@ -9,14 +9,14 @@
 namespace touchstone::checker {
 namespace {
 
-/// Reads a line of a keyword and a number, and as many lines: take() makes an item of each.
-template <class Item, class Take>
-std::vector<Item> read_list(Reader& reader, std::string_view keyword, std::size_t& items_left,
+/// Reads a line of a keyword and a number, which goes to count_items(), and as many lines: take()
+/// makes an item of each.
+template <class Item, class Count, class Take>
+std::vector<Item> read_list(Reader& reader, std::string_view keyword, const Count& count_items,
                             const Take& take) {
   reader.begin(keyword);
   const auto count = static_cast<std::size_t>(take_count(reader));
-  if (count > items_left) reject("the scene has too many items");
-  items_left -= count;
+  count_items(count);
   reader.end();
   std::vector<Item> list;
   for (std::size_t n = 0; n < count; ++n) {
@@ -93,9 +93,13 @@ double to_double(const mpq_class& number) {
 }
 
 Scene read_scene(Reader& reader, const Options& options, Time time) {
-  std::size_t items_left = options.max_items;
+  std::size_t items = 0;
+  const auto count_items = [&](std::size_t more) {
+    items += more;
+    require_at_most(options.max_items, items, "items in the lists of a scene");
+  };
   Scene scene;
-  scene.vertices = read_list<Motion>(reader, "vertices", items_left, [&] {
+  scene.vertices = read_list<Motion>(reader, "vertices", count_items, [&] {
     Motion motion;
     for (double& x : motion.start) x = to_double(take_number(reader));
     motion.end = motion.start;
@@ -110,23 +114,24 @@ Scene read_scene(Reader& reader, const Options& options, Time time) {
   const auto three_vertices = [&] { return Face{vertex(), vertex(), vertex()}; };
   const auto two_vertices = [&] { return Two{vertex(), vertex()}; };
   const auto two_groups = [&] { return Two{group(), group()}; };
-  scene.faces = read_list<Face>(reader, "faces", items_left, three_vertices);
-  scene.edges = read_list<Two>(reader, "edges", items_left, two_vertices);
-  scene.points = read_list<std::int32_t>(reader, "points", items_left, vertex);
-  scene.groups = read_list<std::int32_t>(reader, "groups", items_left, group);
+  scene.faces = read_list<Face>(reader, "faces", count_items, three_vertices);
+  scene.edges = read_list<Two>(reader, "edges", count_items, two_vertices);
+  scene.points = read_list<std::int32_t>(reader, "points", count_items, vertex);
+  scene.groups = read_list<std::int32_t>(reader, "groups", count_items, group);
   if (!scene.groups.empty() && scene.groups.size() != count) reject("not a group for each vertex");
-  scene.apart = read_list<Two>(reader, "apart", items_left, two_groups);
+  scene.apart = read_list<Two>(reader, "apart", count_items, two_groups);
   if (time == Time::rest) return scene;
-  scene.radii = read_list<double>(reader, "radii", items_left, [&] { return take_length(reader); });
+  scene.radii =
+      read_list<double>(reader, "radii", count_items, [&] { return take_length(reader); });
   const auto separation = [&] { return GroupSeparation{two_groups(), take_length(reader)}; };
-  scene.separations = read_list<GroupSeparation>(reader, "separations", items_left, separation);
+  scene.separations = read_list<GroupSeparation>(reader, "separations", count_items, separation);
   if (reader.first_word() == "tetrahedra") {
-    scene.tetrahedra = read_list<Tetrahedron>(reader, "tetrahedra", items_left, [&] {
+    scene.tetrahedra = read_list<Tetrahedron>(reader, "tetrahedra", count_items, [&] {
       return Tetrahedron{vertex(), vertex(), vertex(), vertex()};
     });
   }
   if (reader.first_word() == "plane_triangles") {
-    scene.plane_triangles = read_list<Face>(reader, "plane_triangles", items_left, three_vertices);
+    scene.plane_triangles = read_list<Face>(reader, "plane_triangles", count_items, three_vertices);
   }
   return scene;
 }

@@ -169,6 +169,21 @@ def test_certificates_of_meshes():
     assert report.meshes == ("mesh a\n2 vertices, 0 faces, 0 edges of no face, 2 points\nclaim intersections 1\n",)
     assert not touchstone.check(stream, claim="free")
     assert not touchstone.check(stream.replace("0 1 1 1\n", "0 1\n"))
+    apart = stream.replace("apart 0\n", "apart 1\n0 0\n").replace("intersections 1\n0 1 1 1\n", "intersections 0\n")
+    rule = "1 group held apart from itself"
+    assert touchstone.check(apart).summary == f"1 mesh: no two elements that can meet intersect; {rule}"
+    assert touchstone.check(apart, claim="free", rules=rule) and not touchstone.check(apart, claim="free")
+
+
+def test_sequences_of_steps():
+    lists = "".join(f"{name} 0\n" for name in ("faces", "edges", "points", "groups", "apart", "radii", "separations"))
+    step = f"step\nvertices 1\n0 0 1 0 0 0\n{lists}separation 0 linf\nclaim no_contact 1\nsweep x\n"
+    step = (step + "vertex_face\nedge_edge\nvertex_edge\nvertex_vertex\nend\n").replace("points 0\n", "points 1\n0\n")
+    for second, is_next in ((step.replace("0 0 1 0 0 0", "0 0 0 0 0 1"), True), (step, False)):
+        stream = f"touchstone-steps 2\n{step}{second}steps 2\n"
+        report = touchstone.check(stream)
+        assert report and ("each from where the last one ended" in report.summary) == is_next
+        assert bool(touchstone.check(stream, claim="sequence")) == is_next
 
 
 def test_errors(queries):

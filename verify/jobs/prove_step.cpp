@@ -131,8 +131,9 @@ class StepProver {
 
   StepProof run() {
     try {
-      const std::optional<FirstContact> first = first_contact(step_);
+      // First, as it may exceed the limits, and the search takes long.
       write_scene();
+      const std::optional<FirstContact> first = first_contact(step_);
       write_claim(first);
       const bool is_at_zero = first && sgn(first->certificate.toi.upper) == 0;
       if (!is_at_zero) write_arguments();

@@ -50,12 +50,12 @@ let take_point r =
   { x_of; y_of; z_of }
 
 let read_scene r =
-  let items_left = ref max_items in
+  let items = ref 0 in
   let read_list keyword take =
     begin_keyword r keyword;
     let count = take_count r in
-    if count > !items_left then reject "the scene has too many items";
-    items_left := !items_left - count;
+    items := !items + count;
+    require_at_most max_items !items "items in the lists of a scene";
     end_line r;
     let rec read left list =
       if left = 0 then List.rev list

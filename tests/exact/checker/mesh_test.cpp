@@ -344,7 +344,8 @@ TEST(MeshCertificate, NamesWhatItsClaimLeavesOut) {
 }
 
 TEST(MeshCertificate, LimitsItemsArgumentsAndComparisons) {
-  const std::string many = "more than 0 arguments", items = "the scene has too many items",
+  const std::string many = "more than 0 arguments",
+                    items = "more than 5 items in the lists of a scene",
                     compares = "the search for pairs takes too many comparisons";
   for (const auto& [limits, reason] :
        {std::pair(Options{.max_arguments = 1}, std::string()),

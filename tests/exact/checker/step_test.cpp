@@ -109,7 +109,7 @@ const std::vector<Alteration>& of_triangles() {
       {"2 3 1 0 -1", "2 3 1 0 -1 0", "the line has too many words"},
       {"vertices 6", "vertices 7", "not a number: 'faces'"},
       {"vertices 6", "vertices 99999999999", off_range},
-      {"faces 2", "faces 4194299", "the scene has too many items"},
+      {"faces 2", "faces 4194299", "more than 4194304 items in the lists of a scene"},
       {"vertices 6", "vertices 4194304", "not a number: 'faces'"},
       {"0x1.4p+1", "1/3", no_double},
       {"0x1.4p+1", "0x1p+2000", no_double},
@@ -385,7 +385,7 @@ TEST(Step, LimitsComparisonsItemsAndArguments) {
   // Bytes before the certificate are no bytes of it.
   const std::string before = "# " + std::string(10'000, ' ') + '\n';
   const std::string compares = "the search for pairs takes too many comparisons",
-                    has_items = "the scene has too many items";
+                    items = " items in the lists of a scene";
   // 6 vertices and 2 faces.
   const std::string text = stream(step()), more = altered(text, "points 0", "points 1\n0");
   struct Row {
@@ -399,9 +399,9 @@ TEST(Step, LimitsComparisonsItemsAndArguments) {
                         {{.max_comparisons_per_byte = 1}, stream(crowd), compares},
                         {{.max_comparisons_per_byte = 1}, stream(before + crowd), compares},
                         {{.max_items = 8}, text, ""},
-                        {{.max_items = 7}, text, has_items},
+                        {{.max_items = 7}, text, "more than 7" + items},
                         {{.max_items = 9}, more, ""},
-                        {{.max_items = 8}, more, has_items},
+                        {{.max_items = 8}, more, "more than 8" + items},
                         {{.max_arguments = 6}, text, ""},
                         {{.max_arguments = 5}, text, "more than 5 arguments"}}) {
     EXPECT_EQ(refusal(stream, limits), reason) << stream;

@@ -26,6 +26,7 @@
 #include "exact/checker/resting_mesh.hpp"
 #include "exact/contact/triangle_intersection.hpp"
 #include "tests/support/certificates.hpp"
+#include "tests/support/checker_outcome.hpp"
 #include "tests/support/random.hpp"
 #include "tests/support/rows.hpp"
 #include "tests/support/scenes.hpp"
@@ -45,6 +46,7 @@ namespace touchstone::verify::jobs::prove_step_test {
 namespace {
 
 using tests::Random;
+using tests::refusal;
 using tests::Scene;
 
 /// The scene with the edges of a mesh: those of the faces too, in order, each once.
@@ -70,13 +72,6 @@ Proved prove(const Scene& scene, const fast::StepOptions& step_options,
   result.proof = prove_step(step, options);
   result.text += exact::step_certificates_closing_line(1);
   return result;
-}
-
-/// The checker's reason to refuse; empty if it accepts.
-std::string refusal(const std::string& text, const checker::Options& options = {}) {
-  std::istringstream in(text);
-  const checker::Report report = checker::check(in, options);
-  return report.all_accepted() ? "" : report.rejections.at(0).reason;
 }
 
 /// The earliest contact of all pairs and elements, by the oracle.
@@ -176,6 +171,9 @@ TEST(ProveStep, ProvesWhatTheOracleSaysOfAllPairs) {
       EXPECT_EQ(refusal(text, demand(proof.claim, options.separation)), "")
           << shape.name << ' ' << seed;
       expect_true(scene, options, proof);
+      checker::Summary summary(checker::Time::step);
+      summary.add(proof.statement, true);
+      EXPECT_EQ(summary.text(), tests::check_text(text).summary);
       inverted += text.find("\nelement ") != std::string::npos ? 1 : 0;
       free_elements += text.find("\ntetrahedron\n") != std::string::npos ? 1 : 0;
       free += proof.claim.starts_with("no") ? 1 : 0;
