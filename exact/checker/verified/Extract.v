@@ -2,7 +2,7 @@
     to be believed. *)
 
 Require Import ZArith Extraction ExtrOcamlBasic.
-Require Import Verified.Checker Verified.Inversion Verified.Problem Verified.Step.
+Require Import Verified.Checker Verified.Inversion Verified.Problem Verified.Step Verified.StepSequence.
 
 Extract Inductive positive => "Integers.t"
   [ "Integers.twice_plus_1" "Integers.twice" "Integers.one" ] "Integers.match_positive".
@@ -19,4 +19,4 @@ Extract Constant Z.ltb => "Integers.lt".
 Extract Constant Z.compare =>
   "(fun a b -> let sign = Integers.compare a b in if sign = 0 then Eq else if sign < 0 then Lt else Gt)".
 
-Extraction "checker.ml" check check_inversion check_step.
+Extraction "checker.ml" check check_inversion check_step seems_followed_by.

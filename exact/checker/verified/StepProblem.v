@@ -1,5 +1,5 @@
 (** A step of a scene, and what a certificate claims of it: what has to be read, besides Problem.v, to
-    understand the theorems of StepProof.v and StepPairs.v. *)
+    understand the theorems of StepProof.v, StepPairs.v and StepSequence.v. *)
 
 Require Import ZArith QArith Reals Qreals List.
 Import ListNotations.
@@ -17,6 +17,13 @@ Record step := Step {
 (** An element is the list of its vertices: [v], an edge [a; b] with a < b, or a face [a; b; c]. *)
 Definition element := list Z.
 Definition without_common_vertex (p q : element) : Prop := forall v, In v p -> ~ In v q.
+
+(** A point of an element whose vertices are at these places at the time t. Two elements within a distance. *)
+Definition is_on (place : Z -> R -> vector) (e : element) (t : R) (x : vector) : Prop :=
+  is_convex_combination x (map (fun v => place v t) e).
+Definition are_within (d : separation) (place : Z -> R -> vector) (p q : element) (t : R) : Prop := exists x y,
+  is_on place p t x /\ is_on place q t y /\ (length_of (norm_of d) (minus x y) <= Q2R (distance_of d))%R.
+
 Inductive step_claim := no_contact (upper : Q) | earliest (lower upper : Q) (p q : element).
 
 Section Step.
@@ -82,12 +89,31 @@ Definition step_holds (c : step_claim) : Prop :=
   end.
 
 (** What follows for whole faces (StepPairs.v), where one distance is that of all. *)
-Definition is_on (e : element) (t : R) (x : vector) : Prop :=
-  is_convex_combination x (map (fun v => position (motion_of v) t) e).
-Definition touch (p q : element) (t : R) : Prop := exists x y, is_on p t x /\ is_on q t y /\
-  length_of (norm_of (separation_of s)) (minus x y) <= Q2R (distance_of (separation_of s)).
+Definition place_at (v : Z) (t : R) : vector := position (motion_of v) t.
+Definition touch : element -> element -> R -> Prop := are_within (separation_of s) place_at.
 Definition has_one_distance : Prop := radii s = [] /\ distances s = [] /\ apart s = [].
 Definition no_face_is_a_point : Prop := forall a b c, In (a, b, c) (faces s) -> ~ (a = b /\ b = c).
 Definition no_edge_meets_a_face_at_start : Prop := forall e f x, is_edge e -> is_face f -> without_common_vertex e f ->
-  is_on e 0 x -> ~ is_on f 0 x.
+  is_on place_at e 0 x -> ~ is_on place_at f 0 x.
 End Step.
+
+(** A sequence of steps: each begins at the places where the one before it ends, and the same can collide in both. *)
+Definition is_followed_by (s next : step) : Prop :=
+  map fst (vertices next) = map snd (vertices s) /\ faces next = faces s /\ edges next = edges s /\
+  points next = points s /\ groups next = groups s /\ apart next = apart s /\ radii next = radii s /\
+  distances next = distances s.
+Fixpoint is_sequence (s : step) (later : list step) : Prop :=
+  match later with [] => True | next :: later' => is_followed_by s next /\ is_sequence next later' end.
+
+(** One motion of all steps. The first one takes the time from 0 to 1, the next one from 1 to 2. *)
+Open Scope R_scope.
+Fixpoint place_in (s : step) (later : list step) (v : Z) (t : R) : vector :=
+  match later with
+  | next :: later' => if Rle_dec t 1 then place_at s v t else place_in next later' v (t - 1)
+  | [] => place_at s v t
+  end.
+
+(** From k to k+1 no two that can collide come within the distance that the step k has for them. *)
+Definition no_contact_in_sequence (sum : Q -> Q -> Q) (s : step) (later : list step) : Prop :=
+  forall k r, nth_error (s :: later) k = Some r -> forall t, INR k <= t <= INR k + 1 ->
+  forall p q, can_collide s p q -> ~ are_within (separation_between r sum p q) (place_in s later) p q t.

@@ -9,7 +9,7 @@ cp "$sources"/*.v "$sources"/*.ml .
 for file in Problem StepProblem Form Geometry Checker Step; do
   coqc -q -Q . Verified "$file.v"
 done
-for file in Proof Pairs Inversion StepProof StepPairs; do
+for file in Proof Pairs Inversion StepProof StepPairs StepSequence; do
   coqc -q -Q . Verified "$file.v"
 done | tee assumptions.txt
 # Axioms begin a line. No one is allowed that the real numbers of Coq's standard library do not have.

@@ -159,7 +159,7 @@ let check_steps report options r scenes =
     let follows =
       match !summary.last with
       | None -> true
-      | Some last -> Step_certificate.does_follow last.scene proved.scene
+      | Some last -> Checker.seems_followed_by last.scene proved.scene
     in
     if (not follows) && options.claim = "sequence" then
       reject ~line "the step does not begin where the last one ended";

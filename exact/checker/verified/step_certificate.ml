@@ -150,12 +150,6 @@ type proved = {
   scene : step;
 }
 
-(* True if the step begins where the last one ended: its vertices at 0 are those at 1, by value, and all lists are the
-   same. *)
-let does_follow last scene =
-  let lists s = { s with vertices = []; separation_of = scene.separation_of } in
-  List.map snd last.vertices = List.map fst scene.vertices && lists last = lists scene
-
 (* ---- The certificate ---- *)
 
 (* A kind of pairs: its elements, and the arguments of each of the first ones. *)

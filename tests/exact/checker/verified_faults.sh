@@ -21,7 +21,7 @@ failed_proof() {
 }
 
 cp "$sources"/*.v .
-for file in Problem StepProblem Form Geometry Checker Step Proof Pairs Inversion StepProof StepPairs; do
+for file in Problem StepProblem Form Geometry Checker Step Proof Pairs Inversion StepProof StepPairs StepSequence; do
   compile "$file.v" || { echo "verified_faults.sh: $file.v does not compile without a fault" >&2; cat output.txt >&2; exit 1; }
 done
 mkdir sound
@@ -42,7 +42,8 @@ END
   stands='' failed=''
   case $file in
     Form.v) sources_after="Form Checker Proof Inversion" ;;
-    Pairs.v | Inversion.v) sources_after=${file%.v} ;;
+    Pairs.v | Inversion.v | StepSequence.v) sources_after=${file%.v} ;;
+    StepProblem.v) sources_after="StepProblem Step StepProof StepPairs StepSequence" ;;
     Step.v) sources_after="Step StepProof" ;;
     *) sources_after="Checker Proof Inversion" ;;
   esac
