@@ -386,17 +386,41 @@ def sequence(draw, streams):
     return ["touchstone-steps 2", *lines, f"steps {sum(line.split(' ')[0] == 'step' for line in lines)}"]
 
 
+# A vertex that falls onto a face, from START to END.
+FALL = ("step\nvertices 4\n0 0 1 0 0 1\n4 0 1 4 0 1\n0 4 1 0 4 1\n1 1 START 1 1 END\nfaces 1\n0 1 2\nedges 0\npoints 1\n3\n"
+        "groups 0\napart 0\nradii 0\nseparations 0\nseparation 0 linf\nclaim no_contact 1\nsweep x\nvertex_face\n3 0\n"
+        "separate 0 1 face +\nedge_edge\nvertex_edge\nvertex_vertex\nend\n")
+
+
+def fall(start, end, text="", instead=""):
+    return FALL.replace("START", start).replace("END", end).replace(text, instead)
+
+
 def shifted_contact(programs, folder):
     """A vertex that falls onto a face: it ends one unit in the last place above it, and on it. Both programs accept the one, refuse the other."""
     for end, status in (("0x1.0000000000001p+0", 0), ("0x1p+0", 1), ("0x1.fffffffffffffp-1", 1)):
         path = folder / "shifted.cert"
-        path.write_text(f"touchstone-steps 2\nstep\nvertices 4\n0 0 1 0 0 1\n4 0 1 4 0 1\n0 4 1 0 4 1\n1 1 3 1 1 {end}\n"
-                        "faces 1\n0 1 2\nedges 0\npoints 1\n3\ngroups 0\napart 0\nradii 0\nseparations 0\n"
-                        "separation 0 linf\nclaim no_contact 1\nsweep x\nvertex_face\n3 0\nseparate 0 1 face +\n"
-                        "edge_edge\nvertex_edge\nvertex_vertex\nend\nsteps 1\n")
+        path.write_text(f"touchstone-steps 2\n{fall('3', end)}steps 1\n")
         result = Result(programs, path)
         if result.accepted != (status == 0):
             result.difference = f"end {end}: {result.accepted} accepted"
+        yield result
+
+
+def gaps(programs, folder):
+    """Two steps of the fall, the second one of which begins where the first one ends, or has another number in one of its lists."""
+    path = folder / "gaps.cert"
+    for follows, start, text, instead in (
+            (True, "2", "", ""), (True, "2", "separation 0", "separation 1/8"), (False, "0x1.0000000000001p+1", "", ""),
+            (False, "2", "4 0 1 4", "0x1.0000000000001p+2 0 1 4"),
+            (False, "2", "\n0 1 2", "\n1 2 0"), (False, "2", "edges 0", "edges 1\n0 1"), (False, "2", "points 1", "points 2\n3"),
+            (False, "2", "groups 0", "groups 4\n0\n0\n0\n0"), (False, "2", "apart 0", "apart 1\n0 1"),
+            (False, "2", "radii 0", "radii 1\n0"), (False, "2", "separations 0", "separations 1\n0 0 0")):
+        path.write_text(f"touchstone-steps 2\n{fall('3', '2')}{fall(start, '0x1.8p+0', text, instead)}steps 2\n")
+        result = Result(programs, path)
+        said = run(programs[1], path, ())[1][-1]
+        if result.accepted != 2 or not said.startswith("2 steps, each " + ("from" if follows else "by itself")):
+            result.difference = result.difference or f"{text!r}, {instead!r}: {said!r}"
         yield result
 
 
@@ -474,6 +498,7 @@ def main():
             mutants = (mutant(draw, without_label(draw.choice(some))) for _ in range(count))
             report(name, list(stream_results(programs, path, mutants)))
         report("a contact shifted in", list(shifted_contact(programs, pathlib.Path(folder))))
+        report("gaps between steps", list(gaps(programs, pathlib.Path(folder))))
         steps, results = [(cases / "corpus/steps.cert").read_text().splitlines()], [Result(programs, cases / "corpus/steps.cert")]
         for n in range(10 * arguments.count):
             prove_step(tool, [*scene(draw, pathlib.Path(folder)), draw.choice(["--free", "--earliest"])], path)
