@@ -30,9 +30,10 @@ bool contains(Keywords keywords, std::string_view keyword) {
   return std::ranges::find(keywords, keyword) != keywords.end();
 }
 
+/// A '#' behind a point is of a number that is none, as some programs write it: 1.#IND.
 std::string_view without_comment(std::string_view text) {
   std::size_t at = text.find('#');
-  while (at != std::string_view::npos && at != 0 && !is_blank(text[at - 1]))
+  while (at != std::string_view::npos && at != 0 && text[at - 1] == '.')
     at = text.find('#', at + 1);
   return text.substr(0, at);
 }

@@ -4,7 +4,7 @@
 /// The statements of Wavefront OBJ files: what readers of meshes and of queries have in common.
 ///
 /// A line is a keyword and its words, between spaces and tabs; it goes on in the next one if it
-/// ends in a backslash. A word that begins with '#' begins a comment, but not in a name. The
+/// ends in a backslash. A '#' begins a comment, but not in a name, nor in 1.#IND. The
 /// keywords are a finite list: v, f (in old files fo), l, p, g and o are returned, those that
 /// change no primitive are counted, and all else is an error, because it may stand for a primitive.
 

@@ -3,15 +3,19 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
+#include <compare>
+#include <cstdint>
 #include <limits>
 #include <optional>
+#include <string>
+#include <string_view>
 #include <system_error>
 #include <utility>
 
 #include "verify/data/npy.hpp"
 #include "verify/io/dataset_error.hpp"
+#include "verify/io/number_text.hpp"
 #include "verify/io/output_file.hpp"
 
 namespace touchstone::verify::mesh {
@@ -21,20 +25,54 @@ namespace fs = std::filesystem;
 
 // ---- Files ----
 
-/// Names in the order of the numbers in them: "2.ply" before "10.ply".
+bool is_digit(char c) { return c >= '0' && c <= '9'; }
+
+/// A number in a name: 0.d1d2… · 10^scale, without zeros at either end.
+struct NameNumber {
+  std::int64_t scale;
+  std::string digits;
+  auto operator<=>(const NameNumber&) const = default;
+};
+
+/// Takes the digits at the beginning of a text.
+std::string_view take_digits(std::string_view& text) {
+  const std::string_view digits =
+      text.substr(0, std::min(text.find_first_not_of("0123456789"), text.size()));
+  text.remove_prefix(digits.size());
+  return digits;
+}
+
+/// Takes a number, such as 12, 0.25 or 1e-3, which begins with a digit.
+NameNumber take_number(std::string_view& text) {
+  std::string digits(take_digits(text));
+  auto scale = static_cast<std::int64_t>(digits.size());
+  if (text.size() > 1 && text[0] == '.' && is_digit(text[1])) {
+    text.remove_prefix(1);
+    digits += take_digits(text);
+  }
+  if (!text.empty() && (text[0] == 'e' || text[0] == 'E')) {
+    std::string_view rest = text.substr(1);
+    const bool is_signed = !rest.empty() && (rest[0] == '-' || rest[0] == '+');
+    const bool is_negative = is_signed && rest[0] == '-';
+    if (is_signed) rest.remove_prefix(1);
+    const auto exponent = io::parse_number<std::int32_t>(take_digits(rest));
+    if (exponent) {
+      scale += is_negative ? -*exponent : *exponent;
+      text = rest;
+    }
+  }
+  const std::size_t zeros = std::min(digits.find_first_not_of('0'), digits.size());
+  digits.erase(0, zeros);
+  digits.erase(digits.find_last_not_of('0') + 1);
+  if (digits.empty()) return {.scale = std::numeric_limits<std::int64_t>::min(), .digits = {}};
+  return {.scale = scale - static_cast<std::int64_t>(zeros), .digits = std::move(digits)};
+}
+
+/// Names in the order of the numbers in them: "2.ply" before "10.ply", "0.25.ply" before "0.5.ply".
 bool is_before(std::string_view a, std::string_view b) {
-  const auto is_digit = [](char c) { return c >= '0' && c <= '9'; };
   while (!a.empty() && !b.empty()) {
     if (is_digit(a.front()) && is_digit(b.front())) {
-      const auto number = [&](std::string_view& text) {
-        const std::size_t end = std::min(text.find_first_not_of("0123456789"), text.size());
-        std::string_view digits = text.substr(0, end);
-        text.remove_prefix(end);
-        digits.remove_prefix(std::min(digits.find_first_not_of('0'), digits.size()));
-        return digits;
-      };
-      const std::string_view x = number(a), y = number(b);
-      if (x.size() != y.size()) return x.size() < y.size();
+      const NameNumber x = take_number(a), y = take_number(b);
       if (x != y) return x < y;
     } else {
       if (a.front() != b.front()) return a.front() < b.front();
@@ -60,7 +98,10 @@ std::vector<fs::path> mesh_files_in(const fs::path& folder, std::vector<fs::path
       left_out->push_back(entry.path());
     }
   }
-  if (files.empty()) throw io::DatasetError(folder, {}, "no .ply or .obj file in this folder");
+  if (files.empty()) {
+    throw io::DatasetError(folder, {},
+                           fmt::format("no .ply or .obj file in this folder; {}", way_of_others));
+  }
   std::ranges::sort(files, [](const fs::path& a, const fs::path& b) {
     const std::string x = a.filename().string(), y = b.filename().string();
     return is_before(x, y) || (!is_before(y, x) && x < y);

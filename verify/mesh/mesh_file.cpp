@@ -106,7 +106,8 @@ Mesh read_mesh(const std::filesystem::path& path) {
   const std::string extension = lower_case(path.extension().string());
   if (extension == ".ply") return read_ply(path);
   if (extension == ".obj") return read_obj(path);
-  throw io::DatasetError(path, {}, "unknown format: only .ply and .obj are meshes");
+  throw io::DatasetError(
+      path, {}, fmt::format("unknown format: only .ply and .obj are meshes; {}", way_of_others));
 }
 
 }  // namespace touchstone::verify::mesh

@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "touchstone/mesh.hpp"
@@ -63,6 +64,10 @@ void add_polygon(std::vector<fast::Face>& faces, std::span<const std::int32_t> v
 [[nodiscard]] Mesh make_mesh(std::span<const std::array<double, 3>> coordinates,
                              std::vector<fast::Face> faces, std::span<const fast::Edge> named_edges,
                              std::span<const Point> points = {});
+
+/// The way to read the files of others.
+inline constexpr std::string_view way_of_others =
+    "`python3 -m touchstone.frames` makes an archive (.npz) of .vtk, .vtu, .xdmf and others";
 
 /// True if the file's extension names a format that read_mesh knows.
 [[nodiscard]] bool is_mesh_file(const std::filesystem::path& path);

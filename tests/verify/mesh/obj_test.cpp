@@ -43,12 +43,13 @@ const std::string four_vertices = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n";
 
 TEST(ReadObj, ReadsVerticesFacesLinesAndPoints) {
   const MeshFolder folder;
-  const Mesh mesh = folder.mesh("a.obj",
-                                "# a comment\nmtllib x.mtl\no thing\n"
-                                "v 0.1 -2e-3 +3\r\n\tv 4 5 6 1.0 # weight\nv 7 8 9 0.5 0.5 0.5\n\n"
-                                "vn 0 0 1\nvt 0 0\nv 1 1 1\ns off\n"
-                                "f 1 2 3\nf 4/1 3/1 2/1\nf 1//1 2//1 4//1\nf 1/1/1 3/1/1 4/1/1\n"
-                                "l 1 2 4\np 4 2\np -1\n");
+  const Mesh mesh =
+      folder.mesh("a.obj",
+                  "# a comment\nmtllib x.mtl\no thing\n"
+                  "v 0.1 -2e-3 +3\r\n\tv 4 5 6 1.0# weight\nv 7 8 9 0.5 0.5 0.5\n\n"
+                  "vn 0 0 1\nvt 0 0\nv 1 1 1\ns off\n"
+                  "f 1 2 3\nf 4/1 3/1 2/1#a face\nf 1//1 2//1 4//1\nf 1/1/1 3/1/1 4/1/1\n"
+                  "l 1 2 4\np 4 2\np -1\n");
   EXPECT_EQ(coordinates(mesh), (std::vector<double>{0.1, -2e-3, 3, 4, 5, 6, 7, 8, 9, 1, 1, 1}));
   EXPECT_EQ(mesh.faces, (std::vector<Face>{{0, 1, 2}, {3, 2, 1}, {0, 1, 3}, {0, 2, 3}}));
   EXPECT_EQ(mesh.edges, (std::vector<Edge>{{0, 1}, {0, 2}, {1, 2}, {0, 3}, {1, 3}, {2, 3}}));
@@ -164,8 +165,10 @@ TEST(ReadMesh, GoesByTheExtensionInEitherCase) {
   EXPECT_EQ(folder.mesh("a.obj", "v 1 2 3\n").vertices.rows(), 1);
   EXPECT_EQ(folder.mesh("b.OBJ", "v 1 2 3\n").vertices.rows(), 1);
   EXPECT_EQ(folder.error("c.PLY", "v 1 2 3\n"), "c.PLY:1: not a PLY file");
-  EXPECT_EQ(folder.error("d.stl", ""), "d.stl: unknown format: only .ply and .obj are meshes");
-  EXPECT_EQ(folder.error("e", ""), "e: unknown format: only .ply and .obj are meshes");
+  EXPECT_EQ(folder.error("d.stl", ""),
+            "d.stl: unknown format: only .ply and .obj are meshes; " + std::string(way_of_others));
+  EXPECT_EQ(folder.error("e", ""),
+            "e: unknown format: only .ply and .obj are meshes; " + std::string(way_of_others));
 }
 
 TEST(ReadGroups, GivesEachVertexTheGroupOfItsLine) {
@@ -239,7 +242,7 @@ TEST(ObjStatements, AreReturnedOrCounted) {
       statements_of(
           "\xEF\xBB\xBFv 1 2 3 # a point\r\n\n# all\n\tf\t1 2#3 #\nvt 0 0\ng a #1 b\nfo 1\n"
           "vn 0 0 1\nvt 1 1\nusemtl\n"),
-      (Texts{"1 v| 1 2 3 ", "4 f|\t1 2#3 ", "6 g| a #1 b", "7 f| 1", "usemtl 1", "vn 1", "vt 2"}));
+      (Texts{"1 v| 1 2 3 ", "4 f|\t1 2", "6 g| a #1 b", "7 f| 1", "usemtl 1", "vn 1", "vt 2"}));
 }
 
 TEST(ObjStatements, GoOnBehindABackslash) {
@@ -340,19 +343,21 @@ std::string triangle(int height) {
 
 TEST(Frames, OfAFolderAreInTheOrderOfTheirNumbers) {
   const MeshFolder folder;
-  for (const int i : {10, 9, 100, 1})
-    (void)folder.file("frame" + std::to_string(i) + ".obj", triangle(i));
+  const std::map<std::string, int> heights_of{{"10", 10}, {"9", 9},    {"100", 100},
+                                              {"0.5", 2}, {"0.25", 1}, {"1e-1", 0}};
+  for (const auto& [number, height] : heights_of)
+    (void)folder.file("frame" + number + ".obj", triangle(height));
   (void)folder.file("notes.txt", "");
   const auto frames = open({folder.path()});
-  ASSERT_EQ(frames->count(), 4U);
+  ASSERT_EQ(frames->count(), heights_of.size());
   std::vector<double> heights;
   std::string names;
   for (std::size_t i = 0; i < frames->count(); ++i) {
     heights.push_back(frames->next()(0, 2));
     names += frames->name(i) + " ";
   }
-  EXPECT_EQ(heights, (std::vector<double>{1, 9, 10, 100}));
-  EXPECT_EQ(names, "frame1.obj frame9.obj frame10.obj frame100.obj ");
+  EXPECT_EQ(heights, (std::vector<double>{0, 1, 2, 9, 10, 100}));
+  EXPECT_EQ(names, "frame1e-1.obj frame0.25.obj frame0.5.obj frame9.obj frame10.obj frame100.obj ");
   const std::vector<fs::path> files = frame_files(std::vector{folder.path()});
   EXPECT_EQ(files.size(), 4U);
   EXPECT_EQ(files.front(), folder.path() / "frame1.obj");
@@ -446,7 +451,7 @@ TEST(Frames, ThatDoNotGoTogetherAreAnError) {
             "b.npz: pass either one archive, one folder, or a list of files");
   fs::create_directory(folder.path() / "empty");
   EXPECT_EQ(folder.error_of([&] { (void)open({folder.path() / "empty"}); }),
-            "empty: no .ply or .obj file in this folder");
+            "empty: no .ply or .obj file in this folder; " + std::string(way_of_others));
 }
 
 }  // namespace
