@@ -154,6 +154,11 @@ def stated(path: pathlib.Path) -> Tuple[int, int]:
         points = found(b"POINTS", b"NumberOfPoints")
         cells = found(b"CELLS|VERTICES|LINES|POLYGONS|TRIANGLE_STRIPS", b"NumberOf(?:Cells|Verts|Lines|Strips|Polys)")
         extent = found(b"DIMENSIONS", b"WholeExtent")
+        # VTK takes as many cells as the piece states, even if its lists have more.
+        ends = rb"<DataArray(?=[^>]*\"offsets\")(?=[^>]*\"ascii\")[^>]*>([^<]*)"
+        ends_of = [match[1].split() for match in re.finditer(ends, text)]
+        if ends_of and sum(map(len, ends_of)) != sum(n[0] for n in cells):
+            raise FrameError(f"{path}: it states {sum(n[0] for n in cells)} cells, but lists {sum(map(len, ends_of))}")
         # From version 5 on the first number is that of the places where cells begin, and the end of the last.
         more = 1 if re.match(rb"# vtk DataFile Version (?:[5-9]|\d\d)", text[:40]) else 0
     if not extent:
@@ -335,8 +340,8 @@ def understood(element: Any, path: pathlib.Path, attributes: str, children: str)
     return element
 
 
-def numbers_of(parent: Any, path: pathlib.Path) -> Any:
-    """Return the array of the one DataItem of an element."""
+def numbers_of(parent: Any, path: pathlib.Path, whole: bool = False) -> Any:
+    """Return the array of the one DataItem of an element; of whole numbers if they must be."""
     items = parent.findall("DataItem")
     if len(items) != 1:
         raise FrameError(f"{path}: {parent.tag} must have one DataItem, not {len(items)}")
@@ -350,8 +355,10 @@ def numbers_of(parent: Any, path: pathlib.Path) -> Any:
         with module("h5py", "h5py").File(path.parent / file, "r") as archive:
             array = archive[inside][()]
     else:
-        array = np.array(text.split(), kind[0] + item.get("Precision", "4"))
+        array = np.array(text.split(), "i8" if whole else kind[0] + item.get("Precision", "4"))
     shape = [int(n) for n in item.get("Dimensions", str(array.size)).split()]
+    if whole and array.dtype.kind not in "iu":
+        raise FrameError(f"{path}: {parent.tag} must have whole numbers, not {array.dtype}")
     if array.size != np.prod(shape):
         raise FrameError(f"{path}: a DataItem in {parent.tag} has {array.size} numbers, but states the dimensions {shape}")
     return array.reshape(shape)
@@ -362,7 +369,7 @@ def topology(element: Any, path: pathlib.Path) -> Tuple[Indices, Indices, Indice
     understood(element, path, "Name TopologyType Type NumberOfElements Dimensions NodesPerElement", "DataItem")
     kind = element.get("TopologyType", element.get("Type", "")).lower()
     kind = {"quadrilateral": "quad", "tetrahedron": "tetra"}.get(kind, kind)
-    data, blocks = numbers_of(element, path).astype(np.int64).reshape(-1), []
+    data, blocks = numbers_of(element, path, whole=True).astype(np.int64).reshape(-1), []
     if kind == "mixed":
         at = 0
         while at < len(data):
@@ -370,7 +377,7 @@ def topology(element: Any, path: pathlib.Path) -> Tuple[Indices, Indices, Indice
             at += 2 if kind in OF_ANY_SIZE else 1
             size = int(data[at - 1]) if kind in OF_ANY_SIZE else KINDS.get(kind, (0, 1))[1]
             blocks.append((kind, data[None, at : at + size]))
-            at += size
+            at += max(size, 1)
     else:
         size = int(element.get("NodesPerElement", KINDS.get(kind, (0, 1))[1]))
         at = len(data) // size * size
@@ -403,9 +410,9 @@ def steps(path: pathlib.Path) -> Iterator[Mesh]:
     """Yield the steps of an XDMF file, or its one mesh."""
     root = ElementTree.parse(path).getroot()
     domains = understood(root, path, "Version", "Domain Information").findall("Domain")
-    grids = [grid for domain in domains for grid in understood(domain, path, "Name", "Grid Information")]
+    grids = [grid for domain in domains for grid in understood(domain, path, "Name", "Grid Information").findall("Grid")]
     series = [grid for grid in grids if grid.get("CollectionType") == "Temporal"]
-    unused, times = [grid for grid in grids if grid not in series and grid.tag == "Grid"], []
+    unused, times = [grid for grid in grids if grid not in series], []
     if len(series) > 1 or (len(grids) > 1 and not series):
         raise FrameError(f"{path}: not understood: {len(series or grids)} grids that are not the steps of one series")
     if series:
