@@ -428,7 +428,7 @@ class CloseTrials {
     double reach = 0.0;
     for (const std::size_t end : {1U, 0U}) {
       for (std::size_t i = 0; i < 3; ++i) {
-        edge.at(i) = query.point(end, i + 1) - query.point(end, 0);
+        edge.at(i) = point_of(query, end, i + 1) - point_of(query, end, 0);
         reach = std::max(reach, edge.at(i).cwiseAbs().maxCoeff());
       }
     }

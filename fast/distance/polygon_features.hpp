@@ -34,6 +34,7 @@
 #include <cstddef>
 
 #include "touchstone/filters/polynomial_expressions.hpp"
+#include "touchstone/mesh.hpp"
 #include "touchstone/query.hpp"
 
 namespace touchstone::fast::polygon {
@@ -49,8 +50,8 @@ struct CornerList {
 
 [[nodiscard]] inline CornerList distinct_corners(Kind kind, const Query& query) {
   const auto same = [&](std::size_t a, std::size_t b) {
-    return a == b ||
-           (query.point(0, a) == query.point(0, b) && query.point(1, a) == query.point(1, b));
+    return a == b || (point_of(query, 0, a) == point_of(query, 0, b) &&
+                      point_of(query, 1, a) == point_of(query, 1, b));
   };
   CornerList result;
   for (const Corner& corner : corners(kind)) {

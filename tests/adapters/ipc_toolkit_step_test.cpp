@@ -18,6 +18,7 @@
 #include "tests/support/scenes.hpp"
 #include "tests/support/trials.hpp"
 #include "touchstone/ipc_toolkit.hpp"
+#include "touchstone/mesh.hpp"
 #include "touchstone/number.hpp"
 #include "touchstone/oracle.hpp"
 
@@ -41,7 +42,7 @@ struct Said {
 Said ask(const ipc::NarrowPhaseCCD& ccd, fast::PairKind kind, const Query& query,
          double min_distance = 0.0, double tmax = 1.0, Eigen::Index dim = 3) {
   const auto point = [&](std::size_t end, std::size_t i) {
-    return ipc::VectorMax3d(query.point(end, i).head(dim));
+    return ipc::VectorMax3d(point_of(query, end, i).head(dim));
   };
   std::array<ipc::VectorMax3d, 4> p, q;
   for (std::size_t i = 0; i < p.size(); ++i) p[i] = point(0, i), q[i] = point(1, i);
@@ -341,10 +342,10 @@ TEST_P(IpcStep, FindsIntersectionsWhereTheOracleDoes) {
         Query query{};
         for (const std::size_t end : {0U, 1U}) {
           for (std::size_t i = 0; i < moving_points; ++i) {
-            query.point(end, i) = scene.step.start.row(vertices[i]).transpose();
+            point_of(query, end, i) = scene.step.start.row(vertices[i]).transpose();
           }
         }
-        query.point(1, 0) = scene.step.start.row(edge[1]).transpose();
+        point_of(query, 1, 0) = scene.step.start.row(edge[1]).transpose();
         expected = expected || exact::decide(Kind::vertex_face, query).collides();
       }
     }

@@ -67,7 +67,9 @@ TEST(Elements, DecidesTrianglesInThePlane) {
     expect_truth(Kind::tetrahedron, triangle, known);
     // The rest has no effect.
     for (const std::size_t end : {0U, 1U}) {
-      triangle.point(end, 3).setConstant(std::numeric_limits<double>::infinity());
+      for (const std::size_t axis : {0U, 1U, 2U}) {
+        triangle.at(end, 3, axis) = std::numeric_limits<double>::infinity();
+      }
       for (std::size_t point = 0; point < 3; ++point) triangle.at(end, point, 2) = random.uniform();
     }
     expect_truth(Kind::plane_triangle, triangle, known);
@@ -289,7 +291,9 @@ TEST(Elements, ChangesItsSignWithTheOrientation) {
   const auto permuted = [](const Query& query, const std::array<std::size_t, 4>& order) {
     Query result{};
     for (const std::size_t end : {0U, 1U}) {
-      for (std::size_t i = 0; i < 4; ++i) result.point(end, i) = query.point(end, order.at(i));
+      for (std::size_t i = 0; i < 12; ++i) {
+        result.at(end, i / 3, i % 3) = query.at(end, order.at(i / 3), i % 3);
+      }
     }
     return result;
   };

@@ -25,7 +25,7 @@ TEST(Query, AnArrayOfDoublesIsASpanOfQueriesInTheOrderEndPointAxis) {
       for (std::size_t point = 0; point < moving_points; ++point) {
         for (std::size_t axis = 0; axis < 3; ++axis, ++expected) {
           EXPECT_EQ(query.at(end, point, axis), *expected);
-          EXPECT_EQ(query.point(end, point).data() + axis, expected);
+          EXPECT_EQ(&query.coordinates[Query::index(end, point, axis)], expected);
         }
       }
     }

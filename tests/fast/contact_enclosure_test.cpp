@@ -61,7 +61,7 @@ Truth truth_at(const ExactPair& pair, const Rational& t,
   const Vector p = pair.vector(1, t), q = pair.vector(2, t), f = pair.difference(t, u, v);
   const bool is_face = pair.posed.kind == Kind::vertex_face;
   Truth truth;
-  truth.first = is_face ? pair.point(0, t) : sum(pair.point(0, t), -u, p);
+  truth.first = is_face ? point_of(pair, 0, t) : sum(point_of(pair, 0, t), -u, p);
   truth.second = sum(truth.first, -1, f);
   const Vector product = cross(p, q);
   const bool is_flat = is_noise(product, p, q);
@@ -333,7 +333,7 @@ TEST(ContactEnclosure, IsThatOfItsImage) {
     Asked image = asked;
     for (const std::size_t end : {0U, 1U}) {
       for (std::size_t i = 0; i < moving_points; ++i) {
-        image.posed.query.point(end, i) = turned(posed.query.point(end, i));
+        point_of(image.posed.query, end, i) = turned(point_of(posed.query, end, i));
       }
     }
     ContactEnclosure expected = found;
@@ -347,10 +347,10 @@ TEST(ContactEnclosure, IsThatOfItsImage) {
       Query& to = image.posed.query;
       if (kind == Kind::vertex_face) {  // the face from another vertex
         for (std::size_t i = 1; i < moving_points; ++i)
-          to.point(end, i % 3 + 1) = from.point(end, i);
+          point_of(to, end, i % 3 + 1) = point_of(from, end, i);
       } else {  // the second edge first
         for (std::size_t i = 0; i < moving_points; ++i)
-          to.point(end, (i + 2) % 4) = from.point(end, i);
+          point_of(to, end, (i + 2) % 4) = point_of(from, end, i);
       }
     }
     if (kind == Kind::vertex_face) {

@@ -30,6 +30,7 @@
 #include "tests/support/random.hpp"
 #include "tests/support/trials.hpp"
 #include "touchstone/certified.hpp"
+#include "touchstone/mesh.hpp"
 #include "verify/data/dataset.hpp"
 #include "verify/generate/families.hpp"
 
@@ -68,7 +69,7 @@ void solve_exactly(Kind kind, std::span<const Query> queries, std::span<Certifie
 void solve_points(Kind kind, std::span<const Query> queries, std::span<CertifiedResult> results,
                   const CertifiedOptions& options) {
   for (std::size_t i = 0; i < queries.size(); ++i) {
-    const auto p = [&](std::size_t end, std::size_t k) { return queries[i].point(end, k); };
+    const auto p = [&](std::size_t end, std::size_t k) { return point_of(queries[i], end, k); };
     const auto solve = kind == Kind::vertex_face ? &solve_vertex_face : &solve_edge_edge;
     results[i] =
         solve(p(0, 0), p(0, 1), p(0, 2), p(0, 3), p(1, 0), p(1, 1), p(1, 2), p(1, 3), options);

@@ -130,8 +130,9 @@ PosedQuery degenerate(Random& random, Kind kind) {
     const bool is_middle = random.coin();
     for (const std::size_t end : {0U, 1U}) {
       if (random.between(0, 4) == 0) continue;
-      const Eigen::Vector3d a = posed.query.point(end, from), b = posed.query.point(end, third);
-      posed.query.point(end, to) = is_middle ? Eigen::Vector3d(0.5 * (a + b)) : a;
+      const Eigen::Vector3d a = point_of(posed.query, end, from),
+                            b = point_of(posed.query, end, third);
+      point_of(posed.query, end, to) = is_middle ? Eigen::Vector3d(0.5 * (a + b)) : a;
     }
   }
   return posed;

@@ -255,8 +255,8 @@ TEST(Inversion, HasTheSameBitsAnyWay) {
   for (const Query& query : all) {
     const auto first = static_cast<std::int32_t>(4 * tetrahedra.size());
     for (int point = 0; point < 4; ++point) {
-      start.row(first + point) = query.point(0, static_cast<std::size_t>(point)).transpose();
-      end.row(first + point) = query.point(1, static_cast<std::size_t>(point)).transpose();
+      start.row(first + point) = point_of(query, 0, static_cast<std::size_t>(point)).transpose();
+      end.row(first + point) = point_of(query, 1, static_cast<std::size_t>(point)).transpose();
     }
     tetrahedra.push_back({first, first + 1, first + 2, first + 3});
     faces.push_back({first, first + 1, first + 2});

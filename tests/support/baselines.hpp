@@ -18,6 +18,7 @@
 #include "tests/support/public_data.hpp"
 #include "tests/support/queries.hpp"
 #include "tests/support/random.hpp"
+#include "touchstone/mesh.hpp"
 #include "touchstone/number.hpp"
 #include "touchstone/oracle.hpp"
 #include "verify/data/dataset.hpp"
@@ -53,20 +54,20 @@ enum class Movement { independent, translation };
   const bool is_face = kind == Kind::vertex_face;
   if (motion == Movement::translation) {
     for (const std::size_t point : {is_face ? 2U : 3U, 3U}) {
-      query.point(1, point) = query.point(1, point == 3 && !is_face ? 2 : 1) +
-                              (query.point(0, point) - query.point(0, is_face ? 1 : 2));
+      point_of(query, 1, point) = point_of(query, 1, point == 3 && !is_face ? 2 : 1) +
+                                  (point_of(query, 0, point) - point_of(query, 0, is_face ? 1 : 2));
     }
   }
   const auto middle = [&](std::size_t point) -> Eigen::Vector3d {
-    return (query.point(0, point) + query.point(1, point)) / 2.0;
+    return (point_of(query, 0, point) + point_of(query, 1, point)) / 2.0;
   };
   if (is_face) {
     const Eigen::Vector3d aim = (middle(1) + middle(2) + middle(3)) / 3.0;
-    query.point(1, 0) = 2.0 * aim - query.point(0, 0);
+    point_of(query, 1, 0) = 2.0 * aim - point_of(query, 0, 0);
     return {kind, query};
   }
   const Eigen::Vector3d step = middle(2) + middle(3) - (middle(0) + middle(1));
-  for (const std::size_t point : {0U, 1U}) query.point(1, point) += step;
+  for (const std::size_t point : {0U, 1U}) point_of(query, 1, point) += step;
   return {kind, query};
 }
 

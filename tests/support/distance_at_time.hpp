@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "tests/support/queries.hpp"
+#include "touchstone/mesh.hpp"
 #include "touchstone/number.hpp"
 #include "touchstone/query.hpp"
 
@@ -48,7 +49,8 @@ struct ExactPair {
   const PosedQuery& posed;
 
   [[nodiscard]] Vector point(std::size_t i, const Rational& t) const {
-    const Vector start = rational(posed.query.point(0, i)), end = rational(posed.query.point(1, i));
+    const Vector start = rational(point_of(posed.query, 0, i)),
+                 end = rational(point_of(posed.query, 1, i));
     return sum(start, t, sum(end, -1, start));
   }
   /// r, p or q at a time.

@@ -18,6 +18,7 @@
 
 #include "tests/support/random.hpp"
 #include "touchstone/curved_query.hpp"
+#include "touchstone/mesh.hpp"
 #include "touchstone/query.hpp"
 
 namespace touchstone::tests {
@@ -144,7 +145,7 @@ inline constexpr std::array<Family, 4> all_families{
 
 /// Makes point `to` the same moving point as `from`.
 inline void share_point(Query& query, std::size_t from, std::size_t to) {
-  for (const std::size_t end : {0U, 1U}) query.point(end, to) = query.point(end, from);
+  for (const std::size_t end : {0U, 1U}) point_of(query, end, to) = point_of(query, end, from);
 }
 
 /// Moves all points in the plane in which the coordinate `axis` is 0.
@@ -156,9 +157,9 @@ inline void flatten(Query& query, std::size_t axis) {
 
 /// Moves all points by the vector of point 0, as far as the sums are exact.
 inline void move_together(Query& query) {
-  const Eigen::Vector3d step = query.point(1, 0) - query.point(0, 0);
+  const Eigen::Vector3d step = point_of(query, 1, 0) - point_of(query, 0, 0);
   for (std::size_t point = 1; point < moving_points; ++point) {
-    query.point(1, point) = query.point(0, point) + step;
+    point_of(query, 1, point) = point_of(query, 0, point) + step;
   }
 }
 
@@ -181,10 +182,10 @@ inline void degenerate(Random& random, Query& query) {
       share_point(query, point, other);
       break;
     case 4:
-      query.point(some(2), point) = query.point(0, other);
+      point_of(query, some(2), point) = point_of(query, 0, other);
       break;
     case 5:
-      query.point(1, point) = query.point(0, point);
+      point_of(query, 1, point) = point_of(query, 0, point);
       break;
     case 6:
       move_together(query);
@@ -228,13 +229,13 @@ inline void degenerate(Random& random, Query& query) {
       break;
   }
   const auto at_t = [&](std::size_t point) -> Eigen::Vector3d {
-    return (1.0 - t) * query.point(0, point) + t * query.point(1, point);
+    return (1.0 - t) * point_of(query, 0, point) + t * point_of(query, 1, point);
   };
   const Eigen::Vector3d a = at_t(1), b = at_t(2), c = at_t(3);
   const Eigen::Vector3d aim = kind == Kind::vertex_face
                                   ? Eigen::Vector3d((1.0 - u - v) * a + u * b + v * c)
                                   : Eigen::Vector3d(((1.0 - v) * b + v * c - u * a) / (1.0 - u));
-  query.point(1, 0) = (aim - (1.0 - t) * query.point(0, 0)) / t;
+  point_of(query, 1, 0) = (aim - (1.0 - t) * point_of(query, 0, 0)) / t;
   return query;
 }
 

@@ -194,8 +194,8 @@ inline void add_thickness(Scene& scene, double length, Random& random) {
   }
   Query query;
   for (std::size_t k = 0; k < points.size(); ++k) {
-    query.point(0, k) = scene.start.row(points.at(k)).transpose();
-    query.point(1, k) = scene.end.row(points.at(k)).transpose();
+    point_of(query, 0, k) = scene.start.row(points.at(k)).transpose();
+    point_of(query, 1, k) = scene.end.row(points.at(k)).transpose();
   }
   return to_tetrahedron(kind, query);
 }
@@ -291,8 +291,8 @@ class AllPairs {
     const std::vector<std::int32_t> vertices = this->vertices(pair);
     Query query;
     for (std::size_t i = 0; i < vertices.size(); ++i) {
-      query.point(0, i) = scene_.start.row(vertices[i]).transpose();
-      query.point(1, i) = scene_.end.row(vertices[i]).transpose();
+      point_of(query, 0, i) = scene_.start.row(vertices[i]).transpose();
+      point_of(query, 1, i) = scene_.end.row(vertices[i]).transpose();
     }
     return query;
   }

@@ -36,6 +36,7 @@
 #include <array>
 #include <cmath>
 
+#include "touchstone/mesh.hpp"
 #include "verify/baselines/closest_features.hpp"
 #include "verify/baselines/method_support.hpp"
 
@@ -69,7 +70,7 @@ Points centred_displacements(const Query& query) {
   Points displacement;
   Eigen::Vector3d mean = Eigen::Vector3d::Zero();
   for (std::size_t i = 0; i < moving_points; ++i) {
-    displacement[i] = query.point(1, i) - query.point(0, i);
+    displacement[i] = point_of(query, 1, i) - point_of(query, 0, i);
     mean += displacement[i] / static_cast<double>(moving_points);
   }
   for (Eigen::Vector3d& x : displacement) x -= mean;
@@ -88,7 +89,7 @@ fast::Answer advance(Kind kind, const Query& query, const fast::MethodOptions& o
                      const Rules& rules) {
   const double separation = options.separation.distance;
   Points x;
-  for (std::size_t i = 0; i < moving_points; ++i) x[i] = query.point(0, i);
+  for (std::size_t i = 0; i < moving_points; ++i) x[i] = point_of(query, 0, i);
   if (squared_distance(kind, x) <= separation * separation) {
     return {.verdict = fast::Verdict::yes, .toi_lower = 0.0};
   }

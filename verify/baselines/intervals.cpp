@@ -1,4 +1,5 @@
 #include "verify/baselines/intervals.hpp"
+#include "touchstone/mesh.hpp"
 
 #include <algorithm>
 
@@ -47,7 +48,7 @@ std::array<IntervalVector, moving_points> IntervalMotion::at(const Interval& t) 
 double greatest_displacement(const Query& query) {
   double greatest = 0.0;
   for (std::size_t point = 0; point < moving_points; ++point) {
-    greatest = std::max(greatest, (query.point(1, point) - query.point(0, point)).norm());
+    greatest = std::max(greatest, (point_of(query, 1, point) - point_of(query, 0, point)).norm());
   }
   return greatest;
 }

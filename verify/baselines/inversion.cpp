@@ -30,6 +30,7 @@
 #include <vector>
 
 #include "touchstone/element.hpp"
+#include "touchstone/mesh.hpp"
 #include "verify/baselines/method_support.hpp"
 #include "verify/baselines/moving_polynomials.hpp"
 
@@ -78,8 +79,8 @@ double volume_at(const Query& query, double t) {
 double greatest_change(const Query& query) {
   std::array<double, 3> change{}, length{};
   for (std::size_t i = 0; i < 3; ++i) {
-    const Eigen::Vector3d start = query.point(0, i + 1) - query.point(0, 0);
-    const Eigen::Vector3d end = query.point(1, i + 1) - query.point(1, 0);
+    const Eigen::Vector3d start = point_of(query, 0, i + 1) - point_of(query, 0, 0);
+    const Eigen::Vector3d end = point_of(query, 1, i + 1) - point_of(query, 1, 0);
     change.at(i) = (end - start).norm();
     length.at(i) = std::max(start.norm(), end.norm());
   }

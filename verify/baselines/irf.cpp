@@ -25,6 +25,7 @@
 #include <algorithm>
 #include <array>
 
+#include "touchstone/mesh.hpp"
 #include "verify/baselines/interval_search.hpp"
 #include "verify/baselines/intervals.hpp"
 #include "verify/baselines/method_support.hpp"
@@ -36,8 +37,8 @@ using Box = ParameterBox<3>;
 
 /// The greater of a segment's lengths at t=0 and t=1.
 double greatest_length(const Query& query, std::size_t from, std::size_t to) {
-  return std::max((query.point(0, to) - query.point(0, from)).norm(),
-                  (query.point(1, to) - query.point(1, from)).norm());
+  return std::max((point_of(query, 0, to) - point_of(query, 0, from)).norm(),
+                  (point_of(query, 1, to) - point_of(query, 1, from)).norm());
 }
 
 /// F of a query, in intervals.

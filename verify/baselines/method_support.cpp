@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "fast/platform/floating_point_state.hpp"
+#include "touchstone/mesh.hpp"
 #include "verify/baselines/closest_features.hpp"
 
 namespace touchstone::baselines {
@@ -104,7 +105,7 @@ std::uint32_t to_checks(std::int64_t steps) {
 }
 
 Eigen::Vector3d position_at(const Query& query, std::size_t point, double t) {
-  return query.point(0, point) + t * (query.point(1, point) - query.point(0, point));
+  return point_of(query, 0, point) + t * (point_of(query, 1, point) - point_of(query, 0, point));
 }
 
 double squared_distance_at(Kind kind, const Query& query, double t) {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 
+#include "touchstone/mesh.hpp"
 #include "verify/generate/draws.hpp"
 #include "verify/generate/symmetry.hpp"
 
@@ -410,13 +411,13 @@ Query tilting(Kind kind, const Separation& separation, Random& random) {
   for (const std::size_t end : {0U, 1U}) {
     const double angle = end == 0 ? turn : -turn;
     const Vector3d side_p = p + angle * a, side_q = q + angle * b;
-    query.point(end, 0) = r;
+    point_of(query, end, 0) = r;
     if (kind == Kind::vertex_face) {
-      query.point(end, 2) = side_p;
+      point_of(query, end, 2) = side_p;
     } else {
-      query.point(end, 1) = r - side_p;
+      point_of(query, end, 1) = r - side_p;
     }
-    query.point(end, 3) = side_q;
+    point_of(query, end, 3) = side_q;
   }
   const double size = std::ldexp(separation.distance, ratio);
   Query sized = query;

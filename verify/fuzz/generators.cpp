@@ -9,6 +9,7 @@
 #include <span>
 
 #include "touchstone/certified.hpp"
+#include "touchstone/mesh.hpp"
 #include "verify/fuzz/aligned_roundings.hpp"
 #include "verify/fuzz/contact.hpp"
 #include "verify/fuzz/curved_generators.hpp"
@@ -63,14 +64,14 @@ void force_degeneracy(Query& query, Random& random) {
   switch (below(random, 5)) {
     case 0:  // shared all the time
       for (const std::size_t e : {0U, 1U}) {
-        query.point(e, other) = Eigen::Vector3d(query.point(e, point));
+        point_of(query, e, other) = Eigen::Vector3d(point_of(query, e, point));
       }
       break;
     case 1:  // shared at one end
-      query.point(end, other) = Eigen::Vector3d(query.point(end, point));
+      point_of(query, end, other) = Eigen::Vector3d(point_of(query, end, point));
       break;
     case 2:  // at rest
-      query.point(1, point) = Eigen::Vector3d(query.point(0, point));
+      point_of(query, 1, point) = Eigen::Vector3d(point_of(query, 0, point));
       break;
     case 3:  // equal coordinates of two points
       for (const std::size_t e : {0U, 1U}) query.at(e, other, axis) = query.at(e, point, axis);
@@ -170,11 +171,11 @@ AnyQuery decided_soon(AnyQuery query, const GeneratorContext& context, Random& r
 Query upright(Kind kind, Query query, Random& random) {
   Query at_rest = query;
   for (std::size_t point = 0; point < moving_points; ++point) {
-    at_rest.point(1, point) = query.point(0, point);
+    point_of(at_rest, 1, point) = point_of(query, 0, point);
   }
   const bool starts_inverted = fast::solve(kind, at_rest).verdict == fast::Verdict::yes;
   if (!starts_inverted || one_in(random, 8)) return query;
-  for (const std::size_t end : {0U, 1U}) query.point(end, 1).swap(query.point(end, 2));
+  for (const std::size_t end : {0U, 1U}) point_of(query, end, 1).swap(point_of(query, end, 2));
   return query;
 }
 
@@ -575,7 +576,8 @@ void overshoot(Kind kind, Query& query, Random& random) {
       std::ldexp(random.coin() ? 1.0 : -1.0, -static_cast<int>(random.between(20, 52)));
   Query moved = query;
   for (std::size_t point = 0; point < count; ++point) {
-    moved.point(end, point) += part * (query.point(end, point) - query.point(1 - end, point));
+    point_of(moved, end, point) +=
+        part * (point_of(query, end, point) - point_of(query, 1 - end, point));
   }
   if (is_finite(moved)) query = moved;
 }

@@ -19,6 +19,7 @@
 #include "touchstone/algebraic_number.hpp"
 #include "touchstone/certificate.hpp"
 #include "touchstone/certificate_text.hpp"
+#include "touchstone/mesh.hpp"
 #include "touchstone/number.hpp"
 #include "touchstone/oracle.hpp"
 #include "verify/io/printable.hpp"
@@ -252,7 +253,8 @@ exact::Decision at_distance(Kind kind, const Query& query, std::uint64_t bits) {
 /// A first guess, which need not be close: the length of a corner at t = 0.
 double guess(Kind kind, const Query& query) {
   const Corner& corner = corners(kind).front();
-  const double length = (query.point(0, corner.plus) - query.point(0, corner.minus)).stableNorm();
+  const double length =
+      (point_of(query, 0, corner.plus) - point_of(query, 0, corner.minus)).stableNorm();
   return std::min(length, std::numeric_limits<double>::max());
 }
 

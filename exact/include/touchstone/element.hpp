@@ -30,7 +30,7 @@ namespace touchstone {
 [[nodiscard]] inline Query to_tetrahedron(Kind kind, Query query) {
   if (kind != Kind::plane_triangle) return query;
   for (const std::size_t end : {0U, 1U}) {
-    query.point(end, 3) = query.point(end, 1);
+    for (const std::size_t axis : {0U, 1U}) query.at(end, 3, axis) = query.at(end, 1, axis);
     for (std::size_t point = 0; point < moving_points; ++point) {
       query.at(end, point, 2) = point == 3 ? 1.0 : 0.0;
     }

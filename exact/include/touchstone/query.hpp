@@ -30,12 +30,11 @@
 /// scenes) throw std::domain_error, which names the vertex or query if there are several. A
 /// caller's compiler options have no effect (is_finite).
 ///
-/// All functions are thread-safe. This is the only header of exact/ that fast/ includes. It needs
-/// Eigen alone.
+/// All functions are thread-safe. The headers of the target touchstone::query, this one,
+/// curved_query.hpp and element.hpp, are the only ones of exact/ that fast/ includes; they need
+/// nothing but the standard library.
 
 #include "touchstone/cxx20.hpp"
-
-#include <Eigen/Core>
 
 #include <algorithm>
 #include <array>
@@ -86,20 +85,13 @@ struct Query {
     return coordinates[index(end, point, axis)];
   }
 
-  /// The same point as an Eigen vector that refers to this query's memory.
-  [[nodiscard]] Eigen::Map<const Eigen::Vector3d> point(std::size_t end, std::size_t point) const {
-    return Eigen::Map<const Eigen::Vector3d>(&coordinates[index(end, point, 0)]);
-  }
-  [[nodiscard]] Eigen::Map<Eigen::Vector3d> point(std::size_t end, std::size_t point) {
-    return Eigen::Map<Eigen::Vector3d>(&coordinates[index(end, point, 0)]);
+  /// The place of a coordinate in `coordinates`.
+  [[nodiscard]] static constexpr std::size_t index(std::size_t end, std::size_t point,
+                                                   std::size_t axis) {
+    return 3 * (moving_points * end + point) + axis;
   }
 
   friend bool operator==(const Query&, const Query&) = default;
-
- private:
-  static constexpr std::size_t index(std::size_t end, std::size_t point, std::size_t axis) {
-    return 3 * (moving_points * end + point) + axis;
-  }
 };
 static_assert(sizeof(Query) == 3 * query_points * sizeof(double));
 static_assert(std::is_trivially_copyable_v<Query> && std::is_standard_layout_v<Query> &&
@@ -168,6 +160,17 @@ struct Queries : QueryShape {
     return {reinterpret_cast<const Query*>(numbers.data()), size()};
   }
 };
+
+/// The same number in double, also for subnormal floats, which a conversion would lose if the
+/// caller's floating-point state takes them for 0.
+[[nodiscard]] constexpr double to_double(double x) { return x; }
+[[nodiscard]] constexpr double to_double(float x) {
+  constexpr std::uint32_t exponent = 0x7F80'0000, significand = 0x007F'FFFF;
+  const auto bits = std::bit_cast<std::uint32_t>(x);
+  if ((bits & exponent) != 0) return static_cast<double>(x);
+  const double magnitude = static_cast<double>(bits & significand) * 0x1p-149;
+  return bits > significand ? -magnitude : magnitude;
+}
 
 /// The bits of infinity; those of a number that is not finite contain them.
 inline constexpr std::uint64_t infinity_bits = 0x7FF0'0000'0000'0000;

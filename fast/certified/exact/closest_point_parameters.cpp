@@ -1,4 +1,5 @@
 #include "fast/certified/exact/closest_point_parameters.hpp"
+#include "touchstone/mesh.hpp"
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -154,8 +155,8 @@ std::array<AffineVectors, 2> scaled_vectors(Kind kind, const Query& query) {
   const auto vectors = affine_vectors(kind);
   const auto at = [&](std::size_t end) -> AffineVectors {
     const auto vector = [&](const std::array<std::size_t, 2>& points) -> Eigen::Vector3d {
-      return query.point(end, points[0]).unaryExpr(scaled) -
-             query.point(end, points[1]).unaryExpr(scaled);
+      return point_of(query, end, points[0]).unaryExpr(scaled) -
+             point_of(query, end, points[1]).unaryExpr(scaled);
     };
     return {vector(vectors[0]), vector(vectors[1]), vector(vectors[2])};
   };

@@ -56,8 +56,6 @@
 /// The caller's floating-point state (rounding mode, flushing of subnormals, traps) has no effect
 /// and is restored.
 
-#include <Eigen/Core>
-
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -67,7 +65,6 @@
 #include <string_view>
 #include <vector>
 
-#include "touchstone/mesh.hpp"
 #include "touchstone/query.hpp"
 
 namespace touchstone::fast {
@@ -166,14 +163,13 @@ struct Collision {
 struct Point {
   /// \throws std::invalid_argument unless there are three coefficients.
   template <class Derived>
-  Point(const Eigen::DenseBase<Derived>& vector) {  // NOLINT(google-explicit-constructor)
-    static_assert(Derived::SizeAtCompileTime == 3 || Derived::SizeAtCompileTime == Eigen::Dynamic,
+  requires requires(const Derived& vector) { vector.eval().coeff(0); }
+  Point(const Derived& vector) {  // NOLINT(google-explicit-constructor)
+    static_assert(Derived::SizeAtCompileTime == 3 || Derived::SizeAtCompileTime < 0,
                   "a point has three coordinates");
     if (vector.size() != 3) throw std::invalid_argument("a point must have three coordinates");
-    const auto values = vector.derived().eval();
-    for (std::size_t i = 0; i < 3; ++i) {
-      coordinates[i] = to_double(values.coeff(static_cast<Eigen::Index>(i)));
-    }
+    const auto values = vector.eval();
+    for (int i = 0; i < 3; ++i) coordinates.at(std::size_t(i)) = to_double(values.coeff(i));
   }
   Point(const double* x) : coordinates{x[0], x[1], x[2]} {}  // NOLINT(google-explicit-constructor)
   Point(const float* x)                                      // NOLINT(google-explicit-constructor)

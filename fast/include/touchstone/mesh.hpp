@@ -20,7 +20,20 @@
 
 #include "touchstone/query.hpp"
 
-namespace touchstone::fast {
+namespace touchstone {
+
+/// Point `point` (0..3) of a query at time `end` (0 or 1), as a vector that refers to the query's
+/// memory.
+[[nodiscard]] inline Eigen::Map<const Eigen::Vector3d> point_of(const Query& query, std::size_t end,
+                                                                std::size_t point) {
+  return Eigen::Map<const Eigen::Vector3d>(&query.coordinates[Query::index(end, point, 0)]);
+}
+[[nodiscard]] inline Eigen::Map<Eigen::Vector3d> point_of(Query& query, std::size_t end,
+                                                          std::size_t point) {
+  return Eigen::Map<Eigen::Vector3d>(&query.coordinates[Query::index(end, point, 0)]);
+}
+
+namespace fast {
 
 /// The two vertices of an edge.
 using Edge = std::array<std::int32_t, 2>;
@@ -65,17 +78,6 @@ struct alignas(64) MovingVertex {
   std::array<double, 4> end;    ///< x, y, z and 0
 };
 
-/// The same number in double, also for subnormal floats, which a conversion would lose if the
-/// caller's floating-point state takes them for 0.
-[[nodiscard]] constexpr double to_double(double x) { return x; }
-[[nodiscard]] constexpr double to_double(float x) {
-  constexpr std::uint32_t exponent = 0x7F80'0000, significand = 0x007F'FFFF;
-  const auto bits = std::bit_cast<std::uint32_t>(x);
-  if ((bits & exponent) != 0) return static_cast<double>(x);
-  const double magnitude = static_cast<double>(bits & significand) * 0x1p-149;
-  return bits > significand ? -magnitude : magnitude;
-}
-
 /// The vertices of a step.
 class MovingVertices {
  public:
@@ -106,4 +108,5 @@ class MovingVertices {
   std::vector<MovingVertex> vertices_;
 };
 
-}  // namespace touchstone::fast
+}  // namespace fast
+}  // namespace touchstone

@@ -20,6 +20,7 @@
 #include "tests/support/root_count.hpp"
 #include "tests/support/simulation_steps.hpp"
 #include "tests/support/trials.hpp"
+#include "touchstone/mesh.hpp"
 #include "touchstone/number.hpp"
 #include "touchstone/oracle.hpp"
 #include "touchstone/query.hpp"
@@ -285,7 +286,7 @@ Rows rows_of_rp_and_rrp() {
   for (const Eigen::Vector3d& step : {Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(1, -2, 0.5)}) {
     for (PosedQuery posed : {over_triangle(1, 1, 0, 0), over_edge(1, 2, 0, 0)}) {
       for (std::size_t point = 0; point < moving_points; ++point) {
-        posed.query.point(1, point) += step;
+        point_of(posed.query, 1, point) += step;
       }
       rows.push_back({"rrp", posed, {no}, wrong});
     }

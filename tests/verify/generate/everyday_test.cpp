@@ -8,6 +8,7 @@
 #include <tuple>
 
 #include "tests/support/trials.hpp"
+#include "touchstone/mesh.hpp"
 #include "touchstone/oracle.hpp"
 #include "verify/fuzz/plainness.hpp"
 
@@ -56,7 +57,8 @@ TEST(EverydayContact, IsContactAlways) {
     const std::size_t second = kind == Kind::vertex_face ? 1 : 2;
     for (std::size_t a = 0; a < second; ++a) {
       for (std::size_t b = second; b < moving_points; ++b) {
-        shared += query.point(0, a) == query.point(0, b) && query.point(1, a) == query.point(1, b)
+        shared += point_of(query, 0, a) == point_of(query, 0, b) &&
+                          point_of(query, 1, a) == point_of(query, 1, b)
                       ? 1
                       : 0;
       }

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "tests/support/trials.hpp"
+#include "touchstone/mesh.hpp"
 #include "touchstone/number.hpp"
 #include "touchstone/oracle.hpp"
 #include "verify/fuzz/plainness.hpp"
@@ -178,7 +179,7 @@ TEST(HardQueriesOnCurves, HaveTheirShapes) {
 /// symmetry chooses the shorter one.
 double aspect(Kind kind, const Query& query) {
   const auto side = [&](std::size_t a, std::size_t b) {
-    return Eigen::Vector3d(query.point(0, b) - query.point(0, a)).norm();
+    return Eigen::Vector3d(point_of(query, 0, b) - point_of(query, 0, a)).norm();
   };
   if (kind == Kind::edge_edge) {
     return std::min(side(0, 1), side(2, 3)) / std::max(side(0, 1), side(2, 3));
@@ -205,12 +206,12 @@ double angle(Kind kind, const Query& query) {
 /// The motion of the first primitive relative to the second one's first point.
 double speed(Kind kind, const Query& query) {
   const std::size_t other = second(kind);
-  const Eigen::Vector3d motion =
-      (query.point(1, 0) - query.point(0, 0)) - (query.point(1, other) - query.point(0, other));
+  const Eigen::Vector3d motion = (point_of(query, 1, 0) - point_of(query, 0, 0)) -
+                                 (point_of(query, 1, other) - point_of(query, 0, other));
   return motion.norm() / size;
 }
 
-double offset(Kind, const Query& query) { return query.point(0, 0).norm() / size; }
+double offset(Kind, const Query& query) { return point_of(query, 0, 0).norm() / size; }
 
 double scale(Kind, const Query& query) {
   double greatest = 0.0;

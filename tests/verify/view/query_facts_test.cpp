@@ -24,6 +24,7 @@
 #include "tests/support/random.hpp"
 #include "touchstone/certificate.hpp"
 #include "touchstone/certificate_text.hpp"
+#include "touchstone/mesh.hpp"
 #include "touchstone/number.hpp"
 #include "touchstone/oracle.hpp"
 #include "verify/data/csv_dataset.hpp"
@@ -339,8 +340,8 @@ TEST(StepFacts, EveryKindOfPairByItsPoints) {
   for (std::size_t i = 0; i < found.collisions.size(); ++i) {
     for (std::size_t point = 0; point < moving_points; ++point) {
       const Eigen::Index vertex = found.points[i].at(point);
-      EXPECT_EQ(found.queries[i].point(0, point), mesh.vertices.row(vertex).transpose()) << i;
-      EXPECT_EQ(found.queries[i].point(1, point), after.row(vertex).transpose()) << i;
+      EXPECT_EQ(point_of(found.queries[i], 0, point), mesh.vertices.row(vertex).transpose()) << i;
+      EXPECT_EQ(point_of(found.queries[i], 1, point), after.row(vertex).transpose()) << i;
     }
   }
 }

@@ -46,9 +46,8 @@ enum class CCDRootFindingMethod { DEPTH_FIRST_SEARCH, BREADTH_FIRST_SEARCH };
 namespace touchstone_adapter {
 
 inline touchstone::fast::CertifiedOptions options(Scalar ms, Scalar t_max) {
-  return {
-      .t_max = touchstone::fast::to_double(t_max),
-      .separation = {.distance = touchstone::fast::to_double(ms), .norm = touchstone::Norm::linf}};
+  return {.t_max = touchstone::to_double(t_max),
+          .separation = {.distance = touchstone::to_double(ms), .norm = touchstone::Norm::linf}};
 }
 
 template <class Number>

@@ -25,7 +25,7 @@ inline Array3 get_numerical_error(const std::vector<Vector3>& vertices, const bo
   std::array<double, 3> greatest{};
   for (const Vector3& vertex : vertices) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      const double x = touchstone::fast::to_double(vertex[static_cast<Eigen::Index>(axis)]);
+      const double x = touchstone::to_double(vertex[static_cast<Eigen::Index>(axis)]);
       greatest[axis] = (std::max)(greatest[axis], std::abs(x));
     }
   }
