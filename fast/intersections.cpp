@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <mutex>
 #include <numeric>
 #include <optional>
 #include <span>
@@ -55,35 +56,63 @@ std::vector<std::int32_t> first_at_place(const Positions& at,
 
 // ---- Elements -----------------------------------------------------------------------------------
 
-/// The elements of a mesh: all faces, then the edges of no face, then the vertices without an edge.
+/// Of edges in the order of their numbers, each once, and none from a vertex to itself.
+std::vector<std::int32_t> different_edges(std::span<const Edge> edges,
+                                          std::vector<std::int32_t> numbers) {
+  const auto key = [&](std::int32_t number) {
+    const auto [a, b] = edges[static_cast<std::size_t>(number)];
+    return std::pair(std::max(a, b), std::min(a, b));
+  };
+  std::erase_if(numbers, [&](std::int32_t number) {
+    const auto [larger, smaller] = key(number);
+    return larger == smaller;
+  });
+  // The order of edges_of.
+  if (std::ranges::adjacent_find(numbers, std::ranges::greater_equal{}, key) == numbers.end()) {
+    return numbers;
+  }
+  std::ranges::stable_sort(numbers, {}, key);
+  const auto rest = std::ranges::unique(numbers, {}, key);
+  numbers.erase(rest.begin(), rest.end());
+  std::ranges::sort(numbers);
+  return numbers;
+}
+
+/// The elements of a mesh: all faces, then the edges of no face, then the points of neither.
 class Elements {
  public:
   Elements(const Positions& at, const Mesh& given, const IntersectionOptions& options)
       : faces_(given.faces.size()) {
     const bool has_all_edges = options.pairs == IntersectingPairs::edges_with_faces;
-    std::vector<Edge> of_faces;
-    if (given.edges.empty() && (has_all_edges || !given.points.empty())) {
-      of_faces = edges_of(given.faces);
+    Mesh changed;
+    const bool lacks_edges = given.edges.empty() && has_all_edges;
+    if (lacks_edges || options.weld) {
+      changed = {.edges = lacks_edges ? edges_of(given.faces) : given.edges, .faces = given.faces};
     }
-    const std::vector<Edge>& edges = given.edges.empty() ? of_faces : given.edges;
+    const Mesh& all = lacks_edges || options.weld ? changed : given;
+    std::vector<std::int32_t> first;
+    if (options.weld) {
+      first = first_at_place(at, options.groups.of_vertices);
+      renumber(changed.edges, first);
+      renumber(changed.faces, first);
+    }
     if (has_all_edges) {
-      edges_.resize(edges.size());
+      edges_.resize(all.edges.size());
       std::iota(edges_.begin(), edges_.end(), 0);
     } else {
-      if (!given.edges.empty()) edges_ = edges_without_face(given);
-      if (!given.points.empty()) {
-        const std::size_t count = at.size();
-        points_ = points_without_edge(count, vertices_of(count, {.points = given.points}), edges);
-      }
+      edges_ = edges_without_face(all);
+      points_ = points_of(at.size(), given, all, first);
     }
+    edges_ = different_edges(all.edges, std::move(edges_));
     require_few(faces_ + edges_.size() + points_.size());
     vertices_.reserve(faces_ + edges_.size() + points_.size());
-    for (const Face& face : given.faces) add(primitive_of(face));
+    for (const Face& face : all.faces) add(primitive_of(face));
     for (const std::int32_t edge : edges_) {
-      add(primitive_of(edges[static_cast<std::size_t>(edge)]));
+      add(primitive_of(all.edges[static_cast<std::size_t>(edge)]));
     }
-    for (const std::int32_t point : points_) add(primitive_of(point));
-    if (options.weld) weld(first_at_place(at, options.groups.of_vertices));
+    for (const std::int32_t point : points_) {
+      add(primitive_of(first.empty() ? point : first[static_cast<std::size_t>(point)]));
+    }
     rows_.reserve(vertices_.size());
     for (const auto& [a, b, c] : vertices_) rows_.push_back({a, b, c, 0});
   }
@@ -108,26 +137,103 @@ class Elements {
     }
   }
 
-  void add(const Primitive& vertices) { vertices_.push_back(meeting::in_normal_form(vertices)); }
-
-  void weld(std::span<const std::int32_t> first) {
-    for (Primitive& element : vertices_) {
-      for (std::int32_t& vertex : element) vertex = first[static_cast<std::size_t>(vertex)];
-      element = meeting::in_normal_form(element);
+  template <class Item>
+  static void renumber(std::vector<Item>& items, std::span<const std::int32_t> numbers) {
+    for (Item& item : items) {
+      for (std::int32_t& vertex : item) vertex = numbers[static_cast<std::size_t>(vertex)];
     }
   }
 
+  /// The points, and the edges of no face from a vertex to itself, whose vertex has no face and no
+  /// other edge; of those that are one vertex the first. \param first Of the place of each vertex;
+  /// empty: itself
+  static std::vector<std::int32_t> points_of(std::size_t vertices, const Mesh& given,
+                                             const Mesh& all, std::span<const std::int32_t> first) {
+    std::vector<std::int32_t> points(given.points.begin(), given.points.end());
+    for (std::size_t i = 0; i < all.edges.size(); ++i) {
+      if (all.edges[i][0] == all.edges[i][1]) points.push_back(std::ranges::min(given.edges[i]));
+    }
+    if (points.empty()) return points;
+    std::ranges::sort(points);
+    std::vector<bool> is_taken(vertices);
+    for (const Face& face : all.faces) {
+      for (const std::int32_t vertex : face) is_taken[static_cast<std::size_t>(vertex)] = true;
+    }
+    for (const auto& [a, b] : all.edges) {
+      if (a == b) continue;
+      is_taken[static_cast<std::size_t>(a)] = is_taken[static_cast<std::size_t>(b)] = true;
+    }
+    std::erase_if(points, [&](std::int32_t point) {
+      const auto vertex = static_cast<std::size_t>(point);
+      const auto place = first.empty() ? vertex : static_cast<std::size_t>(first[vertex]);
+      const bool was_taken = is_taken[place];
+      is_taken[place] = true;
+      return was_taken;
+    });
+    return points;
+  }
+
+  void add(const Primitive& vertices) { vertices_.push_back(meeting::in_normal_form(vertices)); }
+
   std::size_t faces_;
   std::vector<std::int32_t> edges_;   ///< of no face, or all
-  std::vector<std::int32_t> points_;  ///< without an edge
+  std::vector<std::int32_t> points_;  ///< of no face and no edge
   std::vector<Primitive> vertices_;
   std::vector<ElementRow> rows_;
 };
 
 // ---- The search ---------------------------------------------------------------------------------
 
-/// Groups per task.
-constexpr std::size_t groups_of_part = 32;
+/// Groups per task, and pairs.
+constexpr std::size_t groups_of_part = 32, found_of_task = 256;
+
+std::uint64_t key_of(const IndexPair& pair) {
+  return static_cast<std::uint64_t>(pair[0]) << 32U | static_cast<std::uint32_t>(pair[1]);
+}
+
+struct Found {
+  IndexPair pair;
+  meeting::Meeting meeting;
+
+  /// In the order of pairs: the elements are numbered in the order of their kinds and numbers.
+  [[nodiscard]] std::uint64_t key() const { return key_of(pair); }
+};
+
+/// The first so many of what several threads find, in twice their memory.
+class FirstFound {
+ public:
+  explicit FirstFound(std::size_t most) : most_(most) {}
+
+  /// True if so many are known to come before it.
+  [[nodiscard]] bool is_beyond(const IndexPair& pair) const { return key_of(pair) >= end_; }
+  /// Takes all out of the list.
+  void take(std::vector<Found>& some) {
+    const std::scoped_lock lock(mutex_);
+    found_.insert(found_.end(), some.begin(), some.end());
+    some.clear();
+    if (found_.size() / 2 > most_) leave_out_rest();
+  }
+  [[nodiscard]] std::vector<Found> in_order() && {
+    leave_out_rest();
+    std::ranges::sort(found_, {}, &Found::key);
+    return std::move(found_);
+  }
+
+ private:
+  void leave_out_rest() {
+    if (found_.size() <= most_) return;
+    const auto rest = found_.begin() + static_cast<std::ptrdiff_t>(most_);
+    std::ranges::nth_element(found_, rest, {}, &Found::key);
+    end_ = rest->key();
+    found_.erase(rest, found_.end());
+  }
+
+  std::size_t most_;
+  std::mutex mutex_;
+  std::vector<Found> found_;
+  /// Of the first one that is left out.
+  std::atomic<std::uint64_t> end_ = std::numeric_limits<std::uint64_t>::max();
+};
 
 class Search final : private PairQuestions {
  public:
@@ -150,14 +256,16 @@ class Search final : private PairQuestions {
   }
 
   [[nodiscard]] std::vector<Intersection> all() {
-    std::vector<std::vector<Found>> of_parts(parts());
+    FirstFound first(options_.most);
     for_each_part([&](std::size_t part) {
-      find(part, options_.places, [&](const Found& found) { of_parts[part].push_back(found); });
+      std::vector<Found> some;
+      find(part, options_.places, first, [&](const Found& found) {
+        some.push_back(found);
+        if (some.size() == found_of_task) first.take(some);
+      });
+      first.take(some);
     });
-    std::vector<Found> found;
-    for (const auto& some : of_parts) found.insert(found.end(), some.begin(), some.end());
-    // The elements are numbered in the order of their kinds and numbers.
-    std::ranges::sort(found, {}, [](const Found& one) { return one.key(); });
+    const std::vector<Found> found = std::move(first).in_order();
     std::vector<Intersection> result(found.size());
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, found.size(), found_of_task),
                       [&](const tbb::blocked_range<std::size_t>& range) {
@@ -173,23 +281,12 @@ class Search final : private PairQuestions {
     std::atomic<bool> is_found = false;
     for_each_part([&](std::size_t part) {
       if (is_found) return;
-      find(part, false, [&](const Found& /*found*/) { is_found = true; });
+      find(part, false, FirstFound(1), [&](const Found& /*found*/) { is_found = true; });
     });
     return is_found;
   }
 
  private:
-  struct Found {
-    IndexPair pair;
-    meeting::Meeting meeting;
-
-    /// In the order of pairs.
-    [[nodiscard]] std::uint64_t key() const {
-      return static_cast<std::uint64_t>(pair[0]) << 32U | static_cast<std::uint32_t>(pair[1]);
-    }
-  };
-  static constexpr std::size_t found_of_task = 256;
-
   [[nodiscard]] std::size_t parts() const {
     return (tree_.members().size() + groups_of_part - 1) / groups_of_part;
   }
@@ -199,14 +296,16 @@ class Search final : private PairQuestions {
     tbb::parallel_for(std::size_t{0}, parts(), work);
   }
 
-  /// Calls take(found) for the pairs of a part that intersect. \param with_contacts False if the
-  /// contacts need not be known.
+  /// Calls take(found) for the pairs of a part that intersect, if they are not beyond the first.
+  /// \param with_contacts False if the contacts need not be known.
   template <class Take>
-  void find(std::size_t part, bool with_contacts, const Take& take) const {
+  void find(std::size_t part, bool with_contacts, const FirstFound& first_found,
+            const Take& take) const {
     const StrictFloatingPoint strict;
     meeting::PairFilter& filter = filters_.local();
     const TriangleKernel& kernel = *triangle_kernels().back();
     const auto examine = [&](const IndexPair& pair) {
+      if (first_found.is_beyond(pair)) return;
       const auto meeting = meeting::meeting_of(at_, element(pair[0]), element(pair[1]));
       if (meeting) take({pair, *meeting});
     };

@@ -208,7 +208,13 @@ void require_demanded(const Options& options, const std::string& claim,
   const bool is_claim =
       is_free ? claim == "no_contact 1" || (claim == "intersections 0" && !is_sequence)
               : is_demanded(options.claim, claim);
-  if (!is_claim) reject("the claim is not the one demanded: " + claim, line);
+  if (!is_claim) {
+    const bool is_welded = options.claim == "free" && claim.starts_with("welded_");
+    reject("the claim is not the one demanded: " + claim +
+               (is_welded ? "; --claim 'welded_intersections 0' counts vertices at one place as one"
+                          : ""),
+           line);
+  }
   // Where the norm does not matter it is not named.
   const bool is_separation = options.separation.empty() || options.separation == separation ||
                              options.separation.starts_with(separation + ' ');

@@ -56,6 +56,22 @@ bool is_seen_apart(const Places& places, const Primitive& a, const Primitive& b,
 
 }  // namespace
 
+std::vector<std::int32_t> first_at_places(const std::vector<Motion>& vertices,
+                                          const Groups& groups) {
+  std::vector<std::int32_t> order(vertices.size()), first(vertices.size());
+  std::iota(order.begin(), order.end(), 0);
+  const auto key = [&](std::int32_t v) {
+    return std::tuple(vertices[static_cast<std::size_t>(v)].start, groups.of(v));
+  };
+  std::ranges::stable_sort(order, {}, key);
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    const bool is_first = i == 0 || key(order[i]) != key(order[i - 1]);
+    const auto v = static_cast<std::size_t>(order[i]);
+    first[v] = is_first ? order[i] : first[static_cast<std::size_t>(order[i - 1])];
+  }
+  return first;
+}
+
 RestingMesh::RestingMesh(const Scene& scene, bool is_welded)
     : vertices_(scene.vertices), groups_(scene), places_(scene.vertices, 0.0, 0) {
   std::vector<bool> is_listed(scene.vertices.size());
@@ -80,17 +96,7 @@ RestingMesh::RestingMesh(const Scene& scene, bool is_welded)
 }
 
 void RestingMesh::weld() {
-  std::vector<std::int32_t> order(vertices_.size()), first(vertices_.size());
-  std::iota(order.begin(), order.end(), 0);
-  const auto key = [&](std::int32_t v) {
-    return std::tuple(vertices_[static_cast<std::size_t>(v)].start, groups_.of(v));
-  };
-  std::ranges::stable_sort(order, {}, key);
-  for (std::size_t i = 0; i < order.size(); ++i) {
-    const bool is_first = i == 0 || key(order[i]) != key(order[i - 1]);
-    const auto v = static_cast<std::size_t>(order[i]);
-    first[v] = is_first ? order[i] : first[static_cast<std::size_t>(order[i - 1])];
-  }
+  const std::vector<std::int32_t> first = first_at_places(vertices_, groups_);
   for (Primitive& element : elements_) {
     for (std::int32_t& v : element.vertices) v = first[static_cast<std::size_t>(v)];
   }

@@ -13,6 +13,10 @@
 
 namespace touchstone::checker {
 
+/// The first vertex at the place of each one, of the same group.
+[[nodiscard]] std::vector<std::int32_t> first_at_places(const std::vector<Motion>& vertices,
+                                                        const Groups& groups);
+
 /// The elements are numbered: the faces as they are listed, then the listed edges of no face by
 /// their larger vertex, then by the smaller, then the listed points without an edge by their
 /// vertex.

@@ -7,7 +7,8 @@
 //
 // where D is the determinant of the triangle and a point, or of the other edge and a point in a
 // projection: it is linear, 0 at the place, and has different signs at p and q. The numbers are
-// integers in units of the lowest bit; comparisons with doubles enclose the quotient.
+// integers in units of the lowest bit; comparisons with doubles enclose the quotient. Of two points
+// between the same doubles the quotients are compared.
 
 #include <algorithm>
 #include <cstddef>
@@ -45,20 +46,50 @@ Enclosure enclosure_of(const BigInteger& numerator, const BigInteger& denominato
   return {found->lower, found->upper};
 }
 
+/// numerators / denominator · 2^exponent; of a vertex only the enclosure, which is the point.
+struct Point {
+  PointEnclosure enclosure;
+  IntegerPoint numerators = {};
+  BigInteger denominator = BigInteger(1);
+  int exponent = 0;
+
+  /// True if it is before the other one, by x, y and z in turn.
+  [[nodiscard]] bool operator<(const Point& other) const {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      if (const int sign = compared(other, axis); sign != 0) return sign < 0;
+    }
+    return false;
+  }
+
+ private:
+  [[nodiscard]] int compared(const Point& other, std::size_t axis) const {
+    const auto doubles = [axis](const PointEnclosure& of) {
+      return std::pair(of.lower[axis], of.upper[axis]);
+    };
+    const auto own = doubles(enclosure), others = doubles(other.enclosure);
+    if (own != others) return own < others ? -1 : 1;
+    if (own.first == own.second) return 0;
+    const int shift = exponent - other.exponent;
+    const BigInteger x = numerators[axis] * other.denominator;
+    const BigInteger y = other.numerators[axis] * denominator;
+    return ((x << std::max(shift, 0)) - (y << std::max(-shift, 0))).sign();
+  }
+};
+
 /// The point of an edge pq where D is 0.
-PointEnclosure zero_on_edge(const InUnits& in, const IntegerPoint& p, const IntegerPoint& q,
-                            BigInteger of_p, BigInteger of_q) {
+Point zero_on_edge(const InUnits& in, const IntegerPoint& p, const IntegerPoint& q, BigInteger of_p,
+                   BigInteger of_q) {
   if (of_q.sign() < 0) {
     of_p = -of_p;
     of_q = -of_q;
   }
-  const BigInteger denominator = of_q - of_p;
-  PointEnclosure result;
+  Point result{.enclosure = {}, .denominator = of_q - of_p, .exponent = in.exponent};
   for (std::size_t axis = 0; axis < 3; ++axis) {
+    result.numerators[axis] = of_q * p[axis] - of_p * q[axis];
     const auto [lower, upper] =
-        enclosure_of(of_q * p[axis] - of_p * q[axis], denominator, in.exponent);
-    result.lower[axis] = lower;
-    result.upper[axis] = upper;
+        enclosure_of(result.numerators[axis], result.denominator, in.exponent);
+    result.enclosure.lower[axis] = lower;
+    result.enclosure.upper[axis] = upper;
   }
   return result;
 }
@@ -66,14 +97,14 @@ PointEnclosure zero_on_edge(const InUnits& in, const IntegerPoint& p, const Inte
 using Corners = std::span<const std::int32_t>;
 
 /// \pre the edge passes through the triangle
-PointEnclosure crossing_of_face(const Positions& at, Corners edge, Corners face) {
+Point crossing_of_face(const Positions& at, Corners edge, Corners face) {
   const InUnits in = in_units(at, {edge[0], edge[1], face[0], face[1], face[2]});
   const auto& [p, q, a, b, c] = in.points;
   return zero_on_edge(in, p, q, determinant(a, p, b, c), determinant(a, q, b, c));
 }
 
 /// \pre the edges cross in one plane
-PointEnclosure crossing_of_edge(const Positions& at, Corners edge, Corners other) {
+Point crossing_of_edge(const Positions& at, Corners edge, Corners other) {
   const InUnits in = in_units(at, {edge[0], edge[1], other[0], other[1], other[1]});
   const auto& [p, q, a, b, unused] = in.points;
   std::size_t axis = 0;
@@ -82,16 +113,15 @@ PointEnclosure crossing_of_edge(const Positions& at, Corners edge, Corners other
   return zero_on_edge(in, p, q, of_p, determinant(axis, a, b, q));
 }
 
-PointEnclosure at_vertex(const Positions& at, std::int32_t vertex) {
-  PointEnclosure result;
+Point at_vertex(const Positions& at, std::int32_t vertex) {
+  PointEnclosure place;
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    result.lower[axis] = result.upper[axis] = std::ldexp(at[vertex][axis], at.exponent());
+    place.lower[axis] = place.upper[axis] = std::ldexp(at[vertex][axis], at.exponent());
   }
-  return result;
+  return {place};
 }
 
-PointEnclosure point_of(const Positions& at, const Element& a, const Element& b,
-                        const Contact& contact) {
+Point point_of(const Positions& at, const Element& a, const Element& b, const Contact& contact) {
   std::array<std::int32_t, 2> edge_of_a{}, edge_of_b{};
   const Corners of_a = vertices_of(a.simplex, contact.a, edge_of_a);
   const Corners of_b = vertices_of(b.simplex, contact.b, edge_of_b);
@@ -106,14 +136,13 @@ PointEnclosure point_of(const Positions& at, const Element& a, const Element& b,
 
 std::array<PointEnclosure, 2> place_of(const Positions& at, const Element& a, const Element& b,
                                        Contacts contacts) {
-  std::array<PointEnclosure, 2> place;
-  place.fill(point_of(at, a, b, contacts.first()));
+  Point least = point_of(at, a, b, contacts.first()), greatest = least;
   for (;;) {
     contacts.remove(contacts.first());
-    if (contacts.count() == 0) return place;
-    const PointEnclosure point = point_of(at, a, b, contacts.first());
-    place[0] = std::min(place[0], point);
-    place[1] = std::max(place[1], point);
+    if (contacts.count() == 0) return {least.enclosure, greatest.enclosure};
+    const Point point = point_of(at, a, b, contacts.first());
+    least = std::min(least, point);
+    greatest = std::max(greatest, point);
   }
 }
 

@@ -582,13 +582,14 @@ def intersections(
         The faces by the numbers of their vertices. Vertices at the same place under two numbers are
         two vertices; see `weld`.
     edges : array_like of int, shape (e, 2), optional
-        Edges of no face take part, too.
+        Edges of no face take part, too. One that is listed twice is one edge; one from a vertex to
+        itself is a point.
     points : array_like of int, shape (p,), optional
         Vertices that are part of the mesh in any case.
     groups, apart : optional
         As for `Step`: groups of vertices, and those that are not examined.
     weld : bool, optional
-        True: vertices at the same place, of the same group, are one.
+        True: vertices at the same place, of the same group, are one, before elements are found.
     threads : int, optional
         The maximum number of threads; 0: one for each core that the process may use.
     progress : bool, optional
@@ -600,7 +601,7 @@ def intersections(
         An item for each pair, in order, with the fields `kind` (see `IntersectionKind`), `elements`
         (two of `ElementKind`), `numbers` (two, of faces, edges or points) and `place` of shape
         (2, 2, 3): for both ends of what they have in common, the same for a point, the lower and the
-        upper ends of its coordinates. Of an area it is two corners.
+        upper ends of its coordinates. Of an area it is the least and the greatest corner.
 
     Raises
     ------

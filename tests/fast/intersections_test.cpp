@@ -133,9 +133,8 @@ std::optional<std::pair<Kind, std::array<PointEnclosure, 2>>> truth_of(const Row
             hull_of(vertices, unit, {common[0], common[common.size() / 2], common.back()}), x);
       });
   if (corners.empty() || (is_common && !are_duplicates)) return std::nullopt;
-  std::vector<PointEnclosure> places;
-  for (const RationalPoint& x : corners) places.push_back(enclosure_of(x, unit));
-  const std::array place{std::ranges::min(places), std::ranges::max(places)};
+  const std::array place{enclosure_of(std::ranges::min(corners), unit),
+                         enclosure_of(std::ranges::max(corners), unit)};
   if (are_duplicates) return std::pair(Kind::duplicates, place);
   if (corners.size() > 2) {
     return std::pair(common.size() == 2 ? Kind::folded_faces : Kind::coplanar_overlap, place);
@@ -193,8 +192,9 @@ class Trial {
     const std::vector<std::int32_t> others(different.begin(), different.end());
     pair_[1] = random_element(random, 3, others);
     vertices_.resize(6, 3);
-    // A point that is named twice is one element.
-    are_faces_ = random.between(0, 3) == 0 || (pair_[0] == pair_[1] && different.size() == 1);
+    // A point or an edge that is named twice is one element.
+    different.insert(pair_[1].begin(), pair_[1].end());
+    are_faces_ = random.between(0, 3) == 0 || different.size() < 3;
     const int greatest = random.between(1, 4);
     for (double& x : vertices_.reshaped()) x = random.between(-greatest, greatest);
     if (random.between(0, 5) == 0) {
@@ -330,29 +330,35 @@ struct Asked {
     return weld ? first : vertex;
   }
 
-  /// Faces, edges of none (all edges to be asked about with faces), points without an edge.
+  /// Faces, edges of none (all edges to be asked about with faces), points of neither, of which the
+  /// first is named; an edge from a vertex to itself is its vertex.
   [[nodiscard]] std::vector<Element> elements() const {
     std::vector<Element> result;
+    std::set<Edge> edges;
+    std::set<std::int32_t> taken, points(mesh.points.begin(), mesh.points.end());
     const auto add = [&](ElementKind kind, auto number, const Corners& corners) {
-      result.push_back({kind,
-                        static_cast<std::int32_t>(number),
-                        {welded(corners[0]), welded(corners[1]), welded(corners[2])}});
+      result.push_back({kind, static_cast<std::int32_t>(number), corners});
+      taken.insert(corners.begin(), corners.end());
     };
-    std::set<Edge> sides;
-    std::set<std::int32_t> with_edge;
     for (std::size_t i = 0; i < mesh.faces.size(); ++i) {
-      add(ElementKind::face, i, mesh.faces[i]);
       const auto [a, b, c] = mesh.faces[i];
-      sides.insert({tests::ordered(a, b), tests::ordered(b, c), tests::ordered(c, a)});
+      const Corners corners{welded(a), welded(b), welded(c)};
+      add(ElementKind::face, i, corners);
+      if (pairs != IntersectingPairs::all) continue;
+      for (std::size_t k = 0; k < 3; ++k) {
+        edges.insert(tests::ordered(corners[k], corners[(k + 1) % 3]));
+      }
     }
     for (std::size_t i = 0; i < mesh.edges.size(); ++i) {
       const auto [a, b] = mesh.edges[i];
-      with_edge.insert({a, b});
-      const bool is_side = sides.contains(tests::ordered(a, b));
-      if (!is_side || pairs != IntersectingPairs::all) add(ElementKind::edge, i, {a, b, b});
+      const Edge edge = tests::ordered(welded(a), welded(b));
+      if (edge[0] == edge[1]) points.insert(std::min(a, b));
+      if (edge[0] == edge[1] || !edges.insert(edge).second) continue;
+      add(ElementKind::edge, i, {edge[0], edge[1], edge[1]});
     }
-    for (const std::int32_t i : std::set<std::int32_t>(mesh.points.begin(), mesh.points.end())) {
-      if (!with_edge.contains(i)) add(ElementKind::point, i, {i, i, i});
+    for (const std::int32_t i : points) {
+      const std::int32_t vertex = welded(i);
+      if (!taken.contains(vertex)) add(ElementKind::point, i, {vertex, vertex, vertex});
     }
     return result;
   }
@@ -382,8 +388,24 @@ TEST(Intersections, OfAMeshAreThoseOfRationalArithmetic) {
     EXPECT_EQ(has_intersections(asked.mesh.vertices, asked.mesh.elements(), asked.options()),
               !found.empty());
     count[asked.pairs] += found.size();
+    IntersectionOptions some = asked.options();
+    some.most = static_cast<std::size_t>(random.between(0, 3));
+    ASSERT_EQ(asked.mesh.intersections(some),
+              Found(found.begin(), found.begin() + std::min(some.most, found.size())))
+        << i;
   }
   for (const auto& [pairs, found] : count) EXPECT_GT(found, tests::trials(100U));
+}
+
+// Two corners are between the same doubles on the x axis: the one of the greater y is the least.
+TEST(Intersections, HaveTheCornersOfAnAreaInTheirExactOrder) {
+  const double before_1 = 1 - 0x1p-53;
+  const Mesh mesh{rows({{0, 0, 0}, {2, 0, 0}, {0, 2, 0}, {1, -1, 0}, {before_1, 2, 0}, {5, 0, 0}}),
+                  {{0, 1, 2}, {3, 4, 5}}};
+  const auto place = mesh.intersections().at(0).place;
+  EXPECT_EQ(place, truth_of(mesh.vertices, {mesh.faces[0], mesh.faces[1]})->second);
+  EXPECT_EQ(place[0].lower, (std::array{before_1, 1.0, 0.0}));
+  EXPECT_EQ(place[1].upper, (std::array{2.0, 0.0, 0.0}));
 }
 
 TEST(Intersections, OfEdgesWithFacesAreByDefaultOfTheirOwnEdges) {

@@ -84,6 +84,17 @@ void Output::close() {
   attempt([&] { file_->close(); });
 }
 
+void Output::complete_with(const std::function<std::string()>& make) {
+  attempt([&] {
+    try {
+      file_->write(make());
+    } catch (const std::bad_alloc&) {
+      throw std::runtime_error(name_ + ": not enough memory for all that it would hold");
+    }
+  });
+  close();
+}
+
 void Output::close_incomplete() {
   attempt([&] {
     static constexpr const char* ending = ".incomplete";

@@ -9,6 +9,7 @@
 
 #include <cstdio>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <optional>
 #include <set>
@@ -75,6 +76,8 @@ class Output {
     write(text);
     close();
   }
+  /// The same with the text that make() returns, which may take more memory than there is.
+  void complete_with(const std::function<std::string()>& make);
   /// Leaves the file of that name as it was; text that is written later is lost.
   void discard() { file_.reset(); }
   /// Closes an incomplete file: it gets the ending ".incomplete", an existing file of the given

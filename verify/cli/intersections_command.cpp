@@ -35,6 +35,7 @@ struct Arguments {
   std::vector<fs::path> meshes;
   GroupArguments groups;
   bool weld = false;
+  std::size_t most = report::most_intersections;
   int threads = 0;
   std::string csv_file;
   std::string json_file;
@@ -69,6 +70,10 @@ std::string names_of(const report::IntersectionReport& report) {
 std::string prove(CertificatesFile& file, const mesh::Mesh& mesh,
                   const fast::IntersectionOptions& search,
                   const report::IntersectionReport& report) {
+  if (report.is_cut) {
+    file.close_incomplete();
+    return "more pairs intersect than are told (--most N)";
+  }
   io::ProgressBar bar("prove");
   const jobs::MeshProof proof =
       jobs::prove_mesh(mesh, search, report.intersections,
@@ -91,31 +96,37 @@ Status intersections(const Arguments& arguments) {
   Output json(files, arguments.json_file), csv(files, arguments.csv_file);
   CertificatesFile certificate(files, arguments.proof_file, jobs::mesh_certificates_header);
   ViewFile view(files, arguments.view_file);
-  report::IntersectionReport report{.meshes = {}, .intersections = {}, .weld = arguments.weld};
+  report::IntersectionReport report{
+      .meshes = {}, .intersections = {}, .weld = arguments.weld, .apart = arguments.groups.apart};
   for (const fs::path& path : arguments.meshes) report.meshes.push_back(read(files, path));
   const mesh::Mesh all = report::joined(report.meshes);
-  const fast::IntersectionOptions search{.groups = collision_groups(files, arguments.groups, all),
-                                         .weld = arguments.weld,
-                                         .max_threads = arguments.threads,
-                                         .stop = &io::interrupted()};
+  const fast::IntersectionOptions search{
+      .groups = collision_groups(files, arguments.groups, all, arguments.weld),
+      .weld = arguments.weld,
+      .most = arguments.most + 1,
+      .max_threads = arguments.threads,
+      .stop = &io::interrupted()};
   std::string failure;
   report.interrupted = true;
   until_interrupted([&] {
     const jobs::WorkTime time = jobs::work_time_of(
         [&] { report.intersections = fast::intersections(all.vertices, all, search); });
     report.seconds = time.wall;
+    report.is_cut = report.intersections.size() > arguments.most;
+    if (report.is_cut) report.intersections.pop_back();
     report.interrupted = false;
     if (certificate) failure = prove(certificate, all, search, report);
   });
   if (report.interrupted) certificate.close_incomplete();
   if (view) {
+    const std::string rules = report::rules_text(report);
     view.add(view::resting_facts(
-        names_of(report), all, report.intersections,
+        names_of(report) + (rules.empty() ? "" : " (" + rules + ")"), all, report.intersections,
         [&](const fast::Intersection& one) { return report::pair_text(report.meshes, one); }));
   }
   view.write();
-  if (json) json.complete(io::json_document(report::to_json(report)));
-  if (csv) csv.complete(report::to_csv(report));
+  json.complete_with([&] { return io::json_document(report::to_json(report)); });
+  csv.complete_with([&] { return report::to_csv(report); });
   io::print(files.summary_stream(), report::to_text(report) + view.summary());
   if (!failure.empty()) report_error("no proof: " + failure);
   if (files.has_failed() || !failure.empty()) return Status::bad_input;
@@ -132,6 +143,7 @@ void add_options(CLI::App& command, Arguments& arguments) {
   add_option(command, "meshes", arguments.meshes);
   add_group_options(command, arguments.groups);
   add_option(command, "--weld", arguments.weld);
+  add_option(command, "--most", arguments.most);
   add_option(command, "--threads", arguments.threads);
   command.option_defaults()->group("Output");
   add_option(command, "--csv", arguments.csv_file);
@@ -153,7 +165,8 @@ void add(CLI::App& app, Status& status) {
            "touchstone intersections cloth.ply body.ply --apart body.ply body.ply",
            "Faces, edges of no face and points without an edge intersect if they have a common "
            "point beyond their common vertices, or are duplicates. With several meshes, each is a "
-           "group with the name of its file. Numbers begin at 0; edges are numbered by their "
+           "group with the name of its file. With --weld, elements are found after the vertices "
+           "are one. Numbers begin at 0; edges are numbered by their "
            "larger vertex, then by the smaller.\n"
            "Of an archive, the first frame is taken, and flat and inverted tetrahedra are named.\n"
            "Exit status: 0 free of intersections, 1 an intersection or such a tetrahedron, 2 bad "

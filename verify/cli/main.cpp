@@ -8,6 +8,7 @@
 #include <cstdio>
 #include <exception>
 #include <filesystem>
+#include <new>
 #include <sstream>
 #include <stdexcept>
 #include <string>
@@ -118,6 +119,9 @@ int main(int argc, char** argv) {
     return report_interrupt();
   } catch (const std::filesystem::filesystem_error& error) {
     touchstone::verify::cli::report_error(error.path1().string() + ": " + error.code().message());
+    return static_cast<int>(Status::bad_input);
+  } catch (const std::bad_alloc&) {
+    touchstone::verify::cli::report_error("not enough memory; a smaller part of the input may fit");
     return static_cast<int>(Status::bad_input);
   } catch (const std::exception& error) {
     touchstone::verify::cli::report_error(error.what());

@@ -16,6 +16,7 @@
 #include "verify/generate/hardness.hpp"
 #include "verify/io/number_text.hpp"
 #include "verify/judge/fault.hpp"
+#include "verify/report/step_report.hpp"
 #include "verify/solvers/registry.hpp"
 
 namespace touchstone::verify::cli {
@@ -81,6 +82,7 @@ std::vector<OptionRow> make_table() {
       {"--step", "FRAME FRAME", {}, "The step between two frames of a mesh (.ply, .obj) with its collisions", "view", pair},
       {"--step", "FRAME0 FRAME1", {}, "Measure a step instead of queries: meshes before and after it", "bench", pair},
       {"--groups", "FILE", {}, "Group names of the vertices, one per line (default: o, g of an OBJ)"},
+      {"--most", "N", Whole{1, 100'000'000}, fmt::format("Maximum number of pairs that are told (default {})", report::most_intersections), "intersections"},
       {"--weld", "", {}, "Vertices at the same place, of the same group, are one"},
       {"--apart", "GROUP GROUP", {}, "Ignore collisions between groups A and B (A A: within A); repeatable", "", list},
       {"--radii", "FILE", {}, "Thick groups: lines GROUP,RADIUS; in contact within the sum of two radii"},

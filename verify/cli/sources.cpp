@@ -219,15 +219,18 @@ void report_note(const fs::path& mesh, const std::string& note) {
 
 namespace {
 
-/// The groups if they are needed: empty if all can collide.
-mesh::Groups groups_for(Files& files, const GroupArguments& arguments, const mesh::Mesh& mesh) {
+/// The groups if they are needed: empty if all can collide, and vertices are not welded.
+mesh::Groups groups_for(Files& files, const GroupArguments& arguments, const mesh::Mesh& mesh,
+                        bool is_welded) {
   if (!arguments.file.empty()) {
     files.add_input(arguments.file);
     return mesh::read_groups(arguments.file, static_cast<std::size_t>(mesh.vertices.rows()));
   }
-  if (arguments.is_empty()) return {};
-  if (!mesh.groups.error.empty()) throw std::runtime_error(mesh.groups.error);
-  if (mesh.groups.names.empty()) {
+  if (arguments.is_empty() && !is_welded) return {};
+  if (!mesh.groups.error.empty()) {
+    throw std::runtime_error(mesh.groups.error + "; --groups FILE names one for each vertex");
+  }
+  if (mesh.groups.names.empty() && !arguments.is_empty()) {
     const std::string option = !arguments.apart.empty()        ? "--apart"
                                : !arguments.radii_file.empty() ? "--radii"
                                                                : "--separations";
@@ -240,8 +243,8 @@ mesh::Groups groups_for(Files& files, const GroupArguments& arguments, const mes
 }  // namespace
 
 fast::CollisionGroups collision_groups(Files& files, const GroupArguments& arguments,
-                                       const mesh::Mesh& mesh) {
-  const mesh::Groups groups = groups_for(files, arguments, mesh);
+                                       const mesh::Mesh& mesh, bool is_welded) {
+  const mesh::Groups groups = groups_for(files, arguments, mesh, is_welded);
   fast::CollisionGroups result{.of_vertices = groups.of_vertex,
                                .apart = mesh::numbers_of(groups, arguments.apart)};
   if (!arguments.radii_file.empty()) {

@@ -146,8 +146,10 @@ void add_group_options(CLI::App& command, GroupArguments& arguments);
 
 /// The requested groups of a mesh, by their numbers.
 /// \param files records the input files
+/// \param is_welded True if the mesh's own groups are needed also without these arguments.
 /// \throws std::runtime_error, std::invalid_argument or DatasetError if they cannot be used.
 [[nodiscard]] fast::CollisionGroups collision_groups(Files& files, const GroupArguments& arguments,
-                                                     const mesh::Mesh& mesh);
+                                                     const mesh::Mesh& mesh,
+                                                     bool is_welded = false);
 
 }  // namespace touchstone::verify::cli

@@ -116,6 +116,7 @@ class StepRun {
     const mesh::Mesh& mesh = frames_->mesh();
     return fast::intersections(vertices, mesh,
                                {.groups = options_.step.groups,
+                                .most = report::most_intersections + 1,
                                 .places = false,
                                 .max_threads = options_.step.max_threads,
                                 .stop = options_.step.stop});
@@ -174,7 +175,7 @@ class StepRun {
         proof_.close(exact::step_certificates_closing_line(report_.steps.size()));
       }
     }
-    if (json_) json_.complete(io::json_document(report::to_json(report_)));
+    json_.complete_with([this] { return io::json_document(report::to_json(report_)); });
     csv_.close();
     view_.write();
     io::print(files_.summary_stream(), report::to_text(report_) + view_.summary());

@@ -8,9 +8,10 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <iterator>
 #include <limits>
+#include <numeric>
 #include <optional>
+#include <set>
 #include <tuple>
 #include <vector>
 
@@ -239,6 +240,43 @@ RationalTriangle triangle_of(const checker::Scene& scene, const checker::Primiti
 
 // ---- The certificate ----------------------------------------------------------------------------
 
+/// The order of edges: by their larger vertex, then by the smaller.
+bool is_before(const fast::Edge& a, const fast::Edge& b) {
+  return std::tie(a[1], a[0]) < std::tie(b[1], b[0]);
+}
+
+/// Lists the edges and the points that are elements (touchstone/intersections.hpp).
+void list_edges_and_points(const mesh::Mesh& mesh, bool is_welded, checker::Scene& scene) {
+  std::vector<std::int32_t> first(scene.vertices.size());
+  std::iota(first.begin(), first.end(), 0);
+  if (is_welded) first = checker::first_at_places(scene.vertices, checker::Groups(scene));
+  const auto place = [&](std::int32_t v) { return first[static_cast<std::size_t>(v)]; };
+  std::vector<bool> is_taken(scene.vertices.size());
+  std::vector<fast::Face> faces = mesh.faces;
+  for (fast::Face& face : faces) {
+    for (std::int32_t& v : face) is_taken[static_cast<std::size_t>(v = place(v))] = true;
+  }
+  const std::vector<fast::Edge> sides = fast::edges_of(faces);
+  std::set<fast::Edge> listed;
+  scene.points = mesh.points;
+  for (const auto& [a, b] : mesh.edges) {
+    const fast::Edge edge{std::min(place(a), place(b)), std::max(place(a), place(b))};
+    if (edge[0] == edge[1]) {
+      scene.points.push_back(std::min(a, b));
+    } else if (!std::ranges::binary_search(sides, edge, is_before) && listed.insert(edge).second) {
+      scene.edges.push_back({a, b});
+      for (const std::int32_t v : edge) is_taken[static_cast<std::size_t>(v)] = true;
+    }
+  }
+  std::ranges::sort(scene.points);
+  std::erase_if(scene.points, [&](std::int32_t v) {
+    const auto vertex = static_cast<std::size_t>(place(v));
+    const bool was_taken = is_taken[vertex];
+    is_taken[vertex] = true;
+    return was_taken;
+  });
+}
+
 checker::Scene scene_of(const mesh::Mesh& mesh, const fast::IntersectionOptions& search) {
   checker::Scene scene;
   for (Eigen::Index i = 0; i < mesh.vertices.rows(); ++i) {
@@ -246,16 +284,11 @@ checker::Scene scene_of(const mesh::Mesh& mesh, const fast::IntersectionOptions&
     scene.vertices.push_back({place, place});
   }
   scene.faces = mesh.faces;
-  const std::vector<fast::Edge> sides = fast::edges_of(mesh.faces);
-  std::ranges::set_difference(mesh.edges, sides, std::back_inserter(scene.edges),
-                              [](const fast::Edge& a, const fast::Edge& b) {
-                                return std::tie(a[1], a[0]) < std::tie(b[1], b[0]);
-                              });
-  scene.points = mesh.points;
   if (search.weld || !search.groups.apart.empty()) {
     scene.groups.assign(search.groups.of_vertices.begin(), search.groups.of_vertices.end());
     scene.apart.assign(search.groups.apart.begin(), search.groups.apart.end());
   }
+  list_edges_and_points(mesh, search.weld, scene);
   return scene;
 }
 
@@ -267,12 +300,7 @@ class MeshProver {
         is_welded_(search.weld),
         scene_(scene_of(mesh, search)),
         elements_(scene_, search.weld),
-        options_(options) {
-    if (elements_.points() == 0) return;
-    for (const checker::Primitive& point : checker::find_elements(scene_).points) {
-      if (std::ranges::binary_search(scene_.points, point.number)) points_.push_back(point.number);
-    }
-  }
+        options_(options) {}
 
   MeshProof run(std::span<const fast::Intersection> found) {
     const std::size_t items = scene_.vertices.size() + scene_.faces.size() + scene_.edges.size() +
@@ -339,17 +367,16 @@ class MeshProver {
 
   [[nodiscard]] std::int32_t number_of(fast::ElementKind kind, std::int32_t number) const {
     if (kind == fast::ElementKind::face) return number;
-    const auto place_in = [&](const auto& list, const auto& item, auto order) {
-      return static_cast<std::size_t>(std::ranges::lower_bound(list, item, order) - list.begin());
-    };
     std::size_t place = elements_.faces();
+    const auto place_in = [](const auto& list, auto found) {
+      return static_cast<std::size_t>(found - list.begin());
+    };
     if (kind == fast::ElementKind::edge) {
-      place += place_in(scene_.edges, mesh_.edges[static_cast<std::size_t>(number)],
-                        [](const fast::Edge& a, const fast::Edge& b) {
-                          return std::tie(a[1], a[0]) < std::tie(b[1], b[0]);
-                        });
+      const fast::Edge& edge = mesh_.edges[static_cast<std::size_t>(number)];
+      place += place_in(scene_.edges, std::ranges::lower_bound(scene_.edges, edge, is_before));
     } else {
-      place += elements_.edges() + place_in(points_, number, std::ranges::less{});
+      place += elements_.edges() +
+               place_in(scene_.points, std::ranges::lower_bound(scene_.points, number));
     }
     return static_cast<std::int32_t>(place);
   }
@@ -467,8 +494,6 @@ class MeshProver {
   checker::RestingMesh elements_;
   const StepProofOptions& options_;
   MeshProof proof_;
-  /// The vertices of the elements that are points, in order.
-  std::vector<std::int32_t> points_;
   std::vector<fast::IndexPair> intersecting_;  ///< in order
   std::size_t lines_ = 0;                      ///< of all pairs
   std::size_t lines_written_ = 0;

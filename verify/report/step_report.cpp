@@ -49,6 +49,12 @@ auto pair_of(const fast::Intersection& one) {
   return std::tuple(one.elements[0], one.numbers[0], one.elements[1], one.numbers[1]);
 }
 
+/// "12", or "> 200000".
+std::string intersecting_text(std::size_t pairs) {
+  return pairs > most_intersections ? fmt::format("> {}", most_intersections)
+                                    : std::to_string(pairs);
+}
+
 /// The number of pairs that intersect in one of the two frames or both, if they were searched for.
 std::optional<std::size_t> intersecting_in(const StepReport& report, std::size_t step) {
   const auto& before = report.frames.at(step).intersections;
@@ -134,7 +140,7 @@ io::TextTable table_of(const StepReport& report) {
     if (has_inversions) row.push_back(std::to_string(step.inversions->size()));
     row.push_back(earliest_text(report, step));
     if (report.alpha) row.push_back(io::number_text(step.free_alpha, "{}"));
-    if (const auto pairs = intersecting_in(report, i)) row.push_back(std::to_string(*pairs));
+    if (const auto pairs = intersecting_in(report, i)) row.push_back(intersecting_text(*pairs));
     row.push_back(io::number_text((step.broad_phase + step.narrow_phase).wall, "{:.3f}"));
     table.add(std::move(row));
   }
@@ -218,7 +224,7 @@ std::string element_text(const StepReport& report, const fast::Intersection& one
 void append_intersections(std::string& text, const StepReport& report, const FrameRecord& frame) {
   if (!frame.intersections || frame.intersections->empty()) return;
   text += fmt::format("\n{}: the mesh intersects itself; pairs: {}\n", io::printable(frame.name),
-                      frame.intersections->size());
+                      intersecting_text(frame.intersections->size()));
   const std::size_t printed = std::min(frame.intersections->size(), most_pairs);
   for (const fast::Intersection& one : std::span(*frame.intersections).first(printed)) {
     text += fmt::format("  {}, {}: {}\n", element_text(report, one, 0),
@@ -500,8 +506,10 @@ std::string point_text(const fast::PointEnclosure& point) {
 }
 
 std::string counts_text(const IntersectionReport& report) {
+  const std::string rules = rules_text(report);
   if (report.intersections.empty()) {
-    return report.interrupted ? "interrupted\n" : "no intersections\n";
+    return (report.interrupted ? "interrupted" : "no intersections") +
+           (rules.empty() ? "" : "; " + rules) + '\n';
   }
   io::TextTable table({io::word_column("intersections", 18), {"pairs", 10}});
   const auto counts = counts_of(report);
@@ -510,7 +518,11 @@ std::string counts_text(const IntersectionReport& report) {
     table.add({std::string(name_of(kind)), std::to_string(counts[kind])});
   }
   table.add({"total", std::to_string(report.intersections.size())});
-  return table.text();
+  return table.text() +
+         (report.is_cut ? "more pairs intersect; these are the first ones (--most N; --apart, or "
+                          "fewer meshes, ask for a part)\n"
+                        : "") +
+         (rules.empty() ? "" : rules + '\n');
 }
 
 std::string pairs_text(const IntersectionReport& report) {
@@ -560,8 +572,8 @@ std::string defects_text(const IntersectionReport& report, const RestingMesh& me
                      numbers_text("inverted tetrahedra", tetrahedra_with(mesh, -1));
   if (!defects.duplicated_vertices.empty() && !report.weld) {
     text +=
-        "Elements that meet at vertices at one place intersect. With --weld these are one "
-        "vertex.\n";
+        "Elements that meet at vertices at one place intersect. With --weld those of one group "
+        "are one vertex.\n";
   }
   if (text.empty()) return text;
   return "\n" + (report.meshes.size() > 1 ? io::printable(mesh.name) + ":\n" : "") + text;
@@ -629,6 +641,16 @@ std::string pair_text(const std::vector<RestingMesh>& meshes,
          element_text(meshes, elements[1], numbers[1]);
 }
 
+std::string rules_text(const IntersectionReport& report) {
+  std::vector<std::string> pairs, rules;
+  for (const auto& [a, b] : report.apart) {
+    pairs.push_back(io::printable(a) + " with " + io::printable(b));
+  }
+  if (!pairs.empty()) rules.push_back(fmt::format("left out: {}", fmt::join(pairs, ", ")));
+  if (report.weld) rules.emplace_back("vertices at one place, of one group, are one");
+  return fmt::format("{}", fmt::join(rules, "; "));
+}
+
 std::string to_text(const IntersectionReport& report) {
   std::string text;
   for (const RestingMesh& mesh : report.meshes) {
@@ -652,6 +674,7 @@ nlohmann::json to_json(const IntersectionReport& report) {
   }
   return {{"meshes", std::move(meshes)}, {"intersections", std::move(found)},
           {"counts", std::move(counts)}, {"weld", report.weld},
+          {"apart", report.apart},       {"is_cut", report.is_cut},
           {"seconds", report.seconds},   {"interrupted", report.interrupted}};
 }
 

@@ -9,6 +9,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "fast/method.hpp"
@@ -18,10 +19,15 @@
 
 namespace touchstone::verify::report {
 
+/// As many pairs that intersect are found unless others are asked for: they may be quadratically
+/// many.
+inline constexpr std::size_t most_intersections = 200'000;
+
 /// A frame and its intersections.
 struct FrameRecord {
   std::string name;
-  /// If they were searched for; without places.
+  /// If they were searched for; without places. If there are more, one more than
+  /// `most_intersections`.
   std::optional<std::vector<fast::Intersection>> intersections;
   jobs::WorkTime time;  ///< of finding them
 };
@@ -54,7 +60,8 @@ struct StepReport {
 
 /// `separation` (as in bench_report.hpp, null for contact), `alpha` (or null), `question` (all,
 /// earliest or free), `vertices`, `edges`, `faces`, `tetrahedra`, `interrupted`; `frames`, a list
-/// of `name`, `intersecting` (how many pairs intersect) and `intersections` (lists of the kind, the
+/// of `name`, `intersecting` (how many pairs intersect; if it is beyond `most_intersections`, there
+/// may be more) and `intersections` (lists of the kind, the
 /// first element and its number, the second one and its number; both null if they were not searched
 /// for); and `steps`, a list of `frames` (two names), `candidates` and `collisions`
 /// (`vertex_face`, `edge_edge`, `vertex_edge`, `vertex_vertex`; null where they were not
@@ -100,11 +107,20 @@ struct IntersectionReport {
   std::vector<RestingMesh> meshes;
   std::vector<fast::Intersection> intersections;  ///< of the joined mesh
   bool weld = false;
+  /// Names of groups that were not searched for intersections with each other.
+  std::vector<std::pair<std::string, std::string>> apart = {};
+  /// True if more pairs intersect: these are the first.
+  bool is_cut = false;
   double seconds = 0.0;
   bool interrupted = false;
 };
 
-/// The numbers of each kind; the first ten pairs with their places; what is unusual in each mesh.
+/// What was left out of the search or seen otherwise: "left out: A with B; vertices at one place,
+/// of one group, are one". Empty if nothing was.
+[[nodiscard]] std::string rules_text(const IntersectionReport& report);
+
+/// The numbers of each kind, and the rules; the first ten pairs with their places; what is unusual
+/// in each mesh.
 [[nodiscard]] std::string to_text(const IntersectionReport& report);
 
 /// "face 0 (0 1 2), face 1 (3 4 5)", with the names of the meshes if there are several.
@@ -115,7 +131,7 @@ struct IntersectionReport {
 /// `duplicated_vertices`, `unreferenced_vertices`, `tetrahedra`, `flat_tetrahedra`,
 /// `inverted_tetrahedra`), `intersections` (`kind`, `first` and `second`:
 /// `mesh`, an index, `element`, `number`; `place`: two points of three intervals), `counts` by
-/// kind, `weld`, `seconds`, `interrupted`.
+/// kind, `weld`, `apart` (pairs of names), `is_cut`, `seconds`, `interrupted`.
 [[nodiscard]] nlohmann::json to_json(const IntersectionReport& report);
 
 /// kind,first_mesh,first_element,first,second_mesh,second_element,second,x0_lower,x0_upper,…

@@ -23,15 +23,16 @@
 /// // faces 0 and 1
 /// \endcode
 ///
-/// The *elements* are the faces, the edges of no face and the points without an edge. Each is the
-/// convex hull of its vertices. Two elements *intersect* if
+/// The *elements* are the faces, the edges of no face and the points of no face and no edge. Each
+/// is the convex hull of its vertices. An edge that is listed twice, in any direction, is one edge;
+/// one from a vertex to itself is no edge, but its vertex a point. Two elements *intersect* if
 /// - they have a common point that is not in the hull of their common vertices, or
 /// - they have the same vertices: duplicates.
 ///
 /// Neighbours that meet only in their common vertex or edge do not intersect. Common vertices have
 /// the same number, not only the same place: if every face of a file has its own vertices, faces
-/// touch along all edges. With `weld`, vertices at the same place are one. Touching counts: a step
-/// from there collides at t=0.
+/// touch along all edges. With `weld`, vertices at the same place are one, and the elements are
+/// those of the mesh that results. Touching counts: a step from there collides at t=0.
 ///
 /// The broad phase (touchstone/broad_phase.hpp) finds the pairs whose boxes overlap; signs of
 /// orientations decide these (fast/intersections/contacts.hpp, with theorem and proof). The
@@ -45,6 +46,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <string_view>
 #include <vector>
 
@@ -56,7 +58,7 @@ namespace touchstone::fast {
 enum class ElementKind : std::uint8_t {
   face,   ///< its number among the faces
   edge,   ///< an edge, mostly of no face; its number among the edges
-  point,  ///< a vertex without an edge; its own number
+  point,  ///< a vertex of no face and no edge; its own number
 };
 
 /// The kind of an intersection: the first of these that is true.
@@ -93,9 +95,8 @@ struct Intersection {
   std::array<ElementKind, 2> elements{};
   IndexPair numbers{};
   IntersectionKind kind = IntersectionKind::duplicates;
-  /// The ends of the common part, if it is a segment; twice the same point, if it is a point; the
-  /// least and the greatest corner, by x, y and z in turn, if it is an area. (All 0 without
-  /// `places`.)
+  /// The least and the greatest corner of the common part, by x, y and z in turn: the ends of a
+  /// segment, twice the same point, or two corners of an area. (All 0 without `places`.)
   std::array<PointEnclosure, 2> place{};
 
   friend bool operator==(const Intersection&, const Intersection&) = default;
@@ -114,8 +115,11 @@ struct IntersectionOptions {
   CollisionGroups groups = {};
   /// A rule for pairs of vertices, as StepOptions::can_collide.
   std::function<bool(std::int32_t, std::int32_t)> can_collide = nullptr;
-  /// True if vertices at the same place, of the same group, are one vertex.
+  /// True if vertices at the same place, of the same group, are one vertex: the elements are found
+  /// after that, and of those that are then one edge or one point the first is named.
   bool weld = false;
+  /// Only the first so many are returned, in their order; the memory is bounded by them.
+  std::size_t most = (std::numeric_limits<std::size_t>::max)();
   /// False leaves out the places; many of them take longer than all else.
   bool places = true;
   /// Maximum number of threads; 0 (all_cores): one for each core that the process may use.
@@ -126,8 +130,7 @@ struct IntersectionOptions {
 
 /// All pairs of elements that intersect, ordered by the kinds of the elements, then by their
 /// numbers.
-/// \param mesh As for a step. An edge that is not among the edges of the faces is an element by
-/// itself, and so is a point without an edge.
+/// \param mesh As for a step.
 /// \throws std::domain_error naming the first vertex with a coordinate that is NaN or infinite;
 /// std::out_of_range naming the first element with an index out of range; std::invalid_argument for
 /// invalid groups or threads; std::length_error if there are more than 2^31−1 elements; Stopped.

@@ -515,8 +515,9 @@ TEST(ProveMesh, KeepsTheLimitOfAMeshAndStopsWhenItIsInterrupted) {
   const auto [stopped, found, text] = prove(mesh, {}, {.stop = &stop});
   EXPECT_TRUE(stopped.interrupted);
   EXPECT_NE(refusal(text), "");
-  mesh.points.resize(exact::step_item_limit);
-  const MeshProof proof = prove_mesh(mesh, {}, {}, {});
+  const std::vector<std::int32_t> groups(exact::step_item_limit);
+  const MeshProof proof =
+      prove_mesh(mesh, {.groups = {.of_vertices = groups}, .weld = true}, {}, {});
   EXPECT_EQ(proof.failure, "the mesh has more than 4194304 items");
   EXPECT_EQ(proof.bytes, 0U);
 }
