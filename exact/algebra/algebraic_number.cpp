@@ -232,6 +232,8 @@ int AlgebraicNumber::sign_of(const Polynomial& q) {
 bool AlgebraicNumber::is_root_of(const Polynomial& q) const {
   if (q.is_zero()) return true;
   if (rational_) return sign_at(q, *rational_) == 0;
+  // Much faster than a remainder, whose coefficients grow.
+  if (quotient_if_exact(q, polynomial_)) return true;
   const Polynomial rest = q.degree() < polynomial_.degree() ? q : pseudo_remainder(q, polynomial_);
   if (rest.is_zero()) return true;
   const Polynomial divisor = greatest_common_divisor(polynomial_, rest);

@@ -229,19 +229,25 @@ Polynomial pseudo_remainder(const Polynomial& p, const Polynomial& q) {
   return Polynomial(std::move(rest));
 }
 
-Polynomial exact_quotient(const Polynomial& p, const Polynomial& q) {
+std::optional<Polynomial> quotient_if_exact(const Polynomial& p, const Polynomial& q) {
   if (q.is_zero()) throw std::invalid_argument("division by the zero polynomial");
   std::vector<Integer> rest = p.coefficients();
   std::vector<Integer> quotient(p.degree() < q.degree() ? 1 : p.degree() - q.degree() + 1);
   for (std::size_t shift = quotient.size(); shift-- > 0 && q.degree() + shift < rest.size();) {
     const Integer& lead = rest[q.degree() + shift];
-    if (mpz_divisible_p(lead.get_mpz_t(), q.leading().get_mpz_t()) == 0) break;
+    if (mpz_divisible_p(lead.get_mpz_t(), q.leading().get_mpz_t()) == 0) return std::nullopt;
     quotient[shift] = lead / q.leading();
     subtract_multiple(rest, quotient[shift], shift, q);
   }
   const bool divides = std::ranges::all_of(rest, [](const Integer& c) { return sgn(c) == 0; });
-  if (!divides) throw std::invalid_argument("the polynomial is not divisible");
+  if (!divides) return std::nullopt;
   return Polynomial(std::move(quotient));
+}
+
+Polynomial exact_quotient(const Polynomial& p, const Polynomial& q) {
+  std::optional<Polynomial> quotient = quotient_if_exact(p, q);
+  if (!quotient) throw std::invalid_argument("the polynomial is not divisible");
+  return *std::move(quotient);
 }
 
 }  // namespace touchstone::exact

@@ -169,12 +169,24 @@ void check_contact(const MotionOf<Order>& motion, const ContactForms<Order>& con
   if (!holds) throw std::logic_error("touchstone: the oracle found a contact where F is not zero");
 }
 
+/// A polynomial with the same roots in [0,1]: a corner is multiplied by the denominators of the
+/// other points, so that products of corners have high powers of these, which make it slow to find
+/// roots.
+template <class Order>
+Polynomial without_denominators(const MotionOf<Order>& motion, Polynomial p) {
+  for (const Polynomial& factor : motion.denominator.factors()) {
+    while (std::optional<Polynomial> rest = quotient_if_exact(p, factor)) p = *std::move(rest);
+  }
+  return p;
+}
+
 /// Candidates of motion in a common plane, in ascending order.
 template <class Order>
-std::vector<AlgebraicNumber> planar_candidates(ContainsOrigin<Order>& contains_origin) {
+std::vector<AlgebraicNumber> planar_candidates(const MotionOf<Order>& motion,
+                                               ContainsOrigin<Order>& contains_origin) {
   std::vector<Polynomial> distinct;
   for (const Polynomial& p : contains_origin.planar_polynomials()) {
-    Polynomial squarefree = squarefree_part(p);
+    Polynomial squarefree = squarefree_part(without_denominators(motion, p));
     if (std::ranges::find(distinct, squarefree) == distinct.end()) {
       distinct.push_back(std::move(squarefree));
     }
@@ -197,8 +209,8 @@ std::vector<AlgebraicNumber> candidates(const MotionOf<Order>& motion,
   const auto is_positive = [](const Integer& c) { return sgn(c) > 0; };
   const auto is_negative = [](const Integer& c) { return sgn(c) < 0; };
   if (std::ranges::all_of(det.c, is_positive) || std::ranges::all_of(det.c, is_negative)) return {};
-  if (det.is_zero()) return planar_candidates(contains_origin);
-  return roots_in_unit_interval(to_polynomial(det));
+  if (det.is_zero()) return planar_candidates(motion, contains_origin);
+  return roots_in_unit_interval(without_denominators(motion, to_polynomial(det)));
 }
 
 }  // namespace

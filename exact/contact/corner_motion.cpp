@@ -231,7 +231,11 @@ MotionOf<Curved> scaled(Kind kind, const CurvedQuery& query, const Separation& s
     }
   }
   CurvedForm& denominator = motion.denominator.value;
-  for (const CurvedForm& other : distinct) denominator = denominator * other;
+  for (const CurvedForm& other : distinct) {
+    denominator = denominator * other;
+    const Polynomial factor = primitive_part(to_polynomial(other.c));
+    if (factor.degree() > 0) motion.denominator.of_points.push_back(factor);
+  }
   denominator = raised_to(std::move(denominator), degree);
   for (auto& point : motion.points) {
     for (CurvedForm& form : point) form = raised_to(std::move(form), degree);

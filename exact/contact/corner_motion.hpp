@@ -175,6 +175,7 @@ struct Straight {
       static const Form<1> one = exact::one<1>();
       return one;
     }
+    [[nodiscard]] static std::span<const Polynomial> factors() { return {}; }
   };
 };
 
@@ -185,7 +186,10 @@ struct Curved {
   using Form = CurvedForm;
   struct Denominator {
     CurvedForm value{{Integer(1)}};
+    /// The points' own denominators that are no constants, each once. They are positive on [0,1].
+    std::vector<Polynomial> of_points = {};
     [[nodiscard]] const Form<1>& form() const { return value; }
+    [[nodiscard]] std::span<const Polynomial> factors() const { return of_points; }
   };
 };
 

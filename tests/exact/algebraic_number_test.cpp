@@ -232,6 +232,7 @@ TEST(Factors, ArePrimitivePartsDivisorsAndSquarefreePartsOfCgal) {
       EXPECT_EQ(exact_quotient(b * -divided, -divided), b);
     }
   }
+  EXPECT_EQ(quotient_if_exact(line + prime, line), std::nullopt);
   EXPECT_EQ(exact_quotient(other, polynomial({-1})), -other);
   EXPECT_TRUE(exact_quotient(zero, other).is_zero());
 }

@@ -161,6 +161,20 @@ TEST(CurvedQuery, OfDoublesOfAnySizeIsDecided) {
   EXPECT_FALSE(decide(Kind::vertex_face, over_a_face({least, least, large})).collides());
 }
 
+// The height is (1 − t)² − 2t² over its weights: the time of impact has no factor of the points'.
+TEST(CurvedQuery, TimesDoNotDependOnWeightsOfPoints) {
+  CurvedQuery query = over_a_face({1, 0, -2});
+  double weight = 0x1p-900;
+  for (Trajectory& curve : query) {
+    curve.control.resize(3, curve.control.back());
+    curve.weights = {1, weight, 1};
+    weight *= 0x1p600;
+  }
+  const Decision found = decide(Kind::vertex_face, query);
+  ASSERT_TRUE(found.collides());
+  EXPECT_EQ(found.toi->polynomial(), Polynomial(std::vector<Integer>{-1, 2, 1}));
+}
+
 TEST(CurvedQuery, ThatIsNotOneIsRefused) {
   const auto decide_with = [](const Trajectory& curve) {
     CurvedQuery query = over_a_face({1, 2, 3});

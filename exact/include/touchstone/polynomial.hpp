@@ -14,6 +14,7 @@
 #include <concepts>
 #include <cstddef>
 #include <iosfwd>
+#include <optional>
 #include <vector>
 
 #include "touchstone/number.hpp"
@@ -101,8 +102,10 @@ struct DyadicCell {
 /// Remainder of a positive multiple of p under division by q ≠ 0.
 [[nodiscard]] Polynomial pseudo_remainder(const Polynomial& p, const Polynomial& q);
 
-/// p / q, where q ≠ 0 divides p over the integers (any primitive divisor over the rationals does:
-/// Gauss). \throws std::invalid_argument if it does not.
+/// p / q if q ≠ 0 divides p over the integers (any primitive divisor over the rationals does:
+/// Gauss), else nothing.
+[[nodiscard]] std::optional<Polynomial> quotient_if_exact(const Polynomial& p, const Polynomial& q);
+/// The same. \throws std::invalid_argument if q does not divide p.
 [[nodiscard]] Polynomial exact_quotient(const Polynomial& p, const Polynomial& q);
 
 }  // namespace touchstone::exact
