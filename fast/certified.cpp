@@ -293,7 +293,6 @@ const MethodInfo& certified_info() {
   static const MethodInfo info{.name = "certified",
                                .promise = Promise::exact,
                                .terms = {.kinds = {true, true, true, true},
-                                         .least_degree = 0,
                                          .most_degree = greatest_degree,
                                          .rational = true},
                                .norms = {Norm::linf, Norm::l2},

@@ -21,9 +21,7 @@ namespace {
 /// The step from the least to the greatest corners of the boxes of control points.
 Step step_of_boxes(const CurvedVertices& vertices, Mesh mesh, const StepOptions& options) {
   const std::size_t size = vertices.numbers_of_vertex(), stride = vertices.numbers_of_point();
-  if (vertices.degree > greatest_degree) {
-    throw std::invalid_argument("curved step: a degree above 8");
-  }
+  require_degree(vertices.degree);
   if (!mesh.tetrahedra.empty() || !mesh.plane_triangles.empty()) {
     throw std::invalid_argument("curved step: volumes are known on straight lines only");
   }

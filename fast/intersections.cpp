@@ -100,7 +100,7 @@ class Elements {
       edges_.resize(all.edges.size());
       std::iota(edges_.begin(), edges_.end(), 0);
     } else {
-      edges_ = edges_without_face(all);
+      if (!all.edges.empty()) edges_ = edges_without_face(all);
       points_ = points_of(at.size(), given, all, first);
     }
     edges_ = different_edges(all.edges, std::move(edges_));

@@ -78,17 +78,14 @@ struct Terms {
   friend bool operator==(const Terms&, const Terms&) = default;
 };
 
-/// The default separation of methods and records: distance 0 in the norm of the command line, in
-/// which the claim of an answer with a tolerance is a distance, and which plugins and records name.
-inline constexpr Separation no_separation{.distance = 0.0, .norm = Norm::linf};
-
 /// The common options of methods. A method ignores the options that do not apply to it.
 struct MethodOptions {
   double tolerance = 1e-6;              ///< of tolerance-driven methods: Tight-Inclusion's δ
   std::int64_t max_checks = 1'000'000;  ///< of iterative methods: Tight-Inclusion's m_I; ≤ 0: none
   /// The distance at which primitives are in contact. A method that supports L∞ alone is
-  /// conservative for L2.
-  Separation separation = no_separation;
+  /// conservative for L2. At distance 0, too, the claim of an answer with a tolerance is a distance
+  /// in this norm.
+  Separation separation = {};
   double t_max = 1.0;  ///< only impacts up to this time count (0 to 1)
 };
 

@@ -444,18 +444,21 @@ class CloseTrials {
   std::vector<NamedElement> elements_;
 };
 
-/// Search for a double in [0,1] that is free while the next one is not.
+/// Search for a double, 0 or up to a greatest one, that is free while the next one is not.
 template <class IsFree>
 class StepSizeSearch {
  public:
-  explicit StepSizeSearch(const IsFree& is_free) : is_free_(is_free) {}
+  /// \param greatest in [0,1]
+  StepSizeSearch(const IsFree& is_free, double greatest)
+      : is_free_(is_free), greatest_(std::bit_cast<std::uint64_t>(std::abs(greatest))) {}
 
-  /// \param guess Start of the search, in [0,1].
+  /// \param guess Start of the search, from 0 to the greatest.
   [[nodiscard]] std::optional<double> run(double guess) {
-    if (is_free_(1.0)) return 1.0;
-    high_ = std::min(std::bit_cast<std::uint64_t>(guess), high_ - 1);
+    if (is_free(greatest_)) return std::bit_cast<double>(greatest_);
+    if (greatest_ == 0) return std::nullopt;
+    high_ = std::min(std::bit_cast<std::uint64_t>(guess), greatest_ - 1);
     if (is_free(high_)) {
-      low_ = std::exchange(high_, std::bit_cast<std::uint64_t>(1.0));
+      low_ = std::exchange(high_, greatest_);
       go_up();
     } else if (!go_down()) {
       return std::nullopt;
@@ -498,8 +501,7 @@ class StepSizeSearch {
   const IsFree& is_free_;
   /// The bits of nonnegative doubles, which have the doubles' order. At the end, the step is free
   /// with `low_` and not with `high_`.
-  std::uint64_t low_ = 0;
-  std::uint64_t high_ = std::bit_cast<std::uint64_t>(1.0);
+  std::uint64_t greatest_, low_ = 0, high_ = 0;
 };
 
 // ---- Pairs --------------------------------------------------------------------------------------
@@ -606,9 +608,11 @@ Step Step::scaled(double alpha) const {
 std::optional<double> Step::free_step_size() const {
   const StrictFloatingPoint strict;
   require_finite_motions(vertices());
+  const double greatest = scene_->certified().t_max;
   const std::optional<StepImpact> impact = earliest();
   if (!impact) {
-    return StepSizeSearch([this](double alpha) { return scaled(alpha).is_free(); }).run(1.0);
+    return StepSizeSearch([this](double alpha) { return scaled(alpha).is_free(); }, greatest)
+        .run(greatest);
   }
   std::optional<CloseTrials> trials;
   const auto is_free = [&](double alpha) {
@@ -622,14 +626,14 @@ std::optional<double> Step::free_step_size() const {
           return inverts_scaled(*scene_, one.kind, one.element, alpha);
         });
     if (is_hit_again) return false;
-    if (alpha < 1.0 && !trials) {
+    if (alpha < greatest && !trials) {
       // Steps that are free beyond this are rare: rounding would have to move them as far.
       const double end = std::min(1.0, impact->toi_upper * (1.0 + 0x1p-6));
       with_threads(scene_->certified().max_threads, [&] { trials.emplace(*scene_, end); });
     }
     return trials && trials->covers(alpha) ? trials->is_free(alpha) : scaled(alpha).is_free();
   };
-  return StepSizeSearch(is_free).run(impact->toi_lower);
+  return StepSizeSearch(is_free, greatest).run(impact->toi_lower);
 }
 
 void Step::candidates(const std::function<void(const StepCandidates&)>& take) const {

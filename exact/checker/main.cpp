@@ -33,7 +33,7 @@ constexpr std::string_view usage =
     "SCENES\n"
     "                  free and sequence reject all rules\n"
     "--separation D    Reject whatever is about another distance (0: contact itself)\n"
-    "--norm NORM       The norm of --separation: linf (the default) or l2\n"
+    "--norm NORM       The norm of --separation: l2 (the default) or linf\n"
     "\n"
     "Exit status: 0 all accepted and the stream complete, 1 one rejected or the stream cut, 2\n"
     "unreadable input, unwritable output or wrong usage.\n"
@@ -85,7 +85,7 @@ std::optional<Arguments> parsed(std::span<char*> words) {
   if (separation.empty() && !norm.empty()) return std::nullopt;
   if (!separation.empty()) {
     arguments.options.separation =
-        touchstone::checker::demanded_separation(separation, norm.empty() ? "linf" : norm);
+        touchstone::checker::demanded_separation(separation, norm.empty() ? "l2" : norm);
   }
   arguments.path = files[0];
   if (files.size() == 2) arguments.scenes = files[1];

@@ -66,11 +66,6 @@ using Integers = py::array_t<std::int32_t, py::array::c_style>;
     throw std::invalid_argument("curves must have the shape (N, k + 1, 4, 3) or (N, k + 1, 4, 4)");
   }
   const auto degree = std::size_t(array.shape(1)) - 1;
-  if (degree > greatest_degree) {
-    throw std::invalid_argument("the degree of a curve is at most " +
-                                std::to_string(greatest_degree) + ", not " +
-                                std::to_string(degree));
-  }
   return {{.kind = kind, .degree = degree, .is_rational = array.shape(3) == 4}, numbers};
 }
 

@@ -94,7 +94,7 @@ def certified(
     queries : array_like of shape (N, 8, 3) or (8, 3)
         Four points at t=0, then at t=1: v, f0, f1, f2 or ea0, ea1, eb0, eb1. Used without a copy if
         it is float64 and C-contiguous; anything else is converted, float32 exactly. Or of shape
-        (N, k + 1, 4, 3) or (k + 1, 4, 3): control points of Bézier curves of degree k up to 8, from
+        (N, k + 1, 4, 3) or (k + 1, 4, 3): control points of Bézier curves of degree k, 1 to 8, from
         t=0 to t=1; with 4 instead of 3 numbers, the last one a positive weight, rational curves.
     separation : float, optional
         The distance that counts as contact, in units of the coordinates.

@@ -260,8 +260,9 @@ def _common_arguments(
     arguments = ["--tolerance", tolerance, "--max-checks", max_checks, "--query-limit", query_limit]
     arguments += ["--memory-limit", memory_limit]
     if separation is not None:
-        arguments += ["--min-separation", separation.hex(), "--norm", norm]
-    return arguments
+        arguments += ["--min-separation", separation.hex()]
+    # Without one it is that of the data, whose norm is recorded; of contact, the norm of tolerances.
+    return arguments if separation is None and norm == "l2" else [*arguments, "--norm", norm]
 
 
 def _table(head: Sequence[str], rows: Iterable[Sequence[Any]]) -> str:
@@ -419,7 +420,7 @@ def certify(
     separation : float, optional
         The distance that counts as contact; by default that of the data.
     norm : {"linf", "l2"}, optional
-        Its norm.
+        Its norm, and that of tolerances that the solver claims.
     tolerance, max_checks : optional
         Passed on to the solver.
     query_limit : float, optional

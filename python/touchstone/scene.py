@@ -415,10 +415,10 @@ class Step:
         return self._search(self._step.is_free)
 
     def free_step_size(self) -> float | None:
-        """Return a maximal step size α whose rounded step is free; None if not even α = 0 is.
+        """Return a maximal step size α, up to t_max, whose rounded step is free; None if not even α = 0 is.
 
         The step of α goes from x0 to fl(x0 + fl(α fl(x1 − x0))), and that of the next double is not
-        free, unless α = 1. Both are decided exactly.
+        free, unless α is t_max. Both are decided exactly.
         """
         return self._search(self._step.free_step_size)
 
@@ -511,7 +511,8 @@ class Step:
         ------
         ValueError
             If there is no proof within the limits of the format, or the step has a rule `can_collide`, which
-            certificates cannot have, or triangles of the plane, which the command line tool does not read.
+            certificates cannot have, or triangles of the plane or radii in "linf", which the command line
+            tool does not take.
         FileNotFoundError
             Without the command line tool.
         Interrupted

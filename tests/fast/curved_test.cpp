@@ -338,7 +338,7 @@ TEST(TightInclusionOnCurves, RefusesWhatItHasNoFilterFor) {
     EXPECT_THROW(tight_inclusion({shape, rest}, found, options), std::invalid_argument)
         << shape.degree;
   };
-  for (const QueryShape& shape : {QueryShape{.degree = 0}, {.degree = 4}, {.is_rational = true}}) {
+  for (const QueryShape& shape : {QueryShape{.degree = 4}, {.is_rational = true}}) {
     refuses(shape, {});
   }
   refuses({.degree = 2}, {}, 0);
@@ -371,22 +371,26 @@ TEST(TightInclusionOnCurves, FindsContactsAtTheThirdSide) {
 }
 
 TEST(CurvedSolver, SaysWhereInputIsNone) {
-  const std::vector<double> rest(3 * moving_points, 1.0);
-  const Queries queries({.degree = 0}, rest);
+  const std::vector<double> rest(2 * 3 * moving_points, 1.0);
+  const Queries queries({.degree = 1}, rest);
   std::array<CertifiedResult, 1> one{};
   solve(queries, one);
   EXPECT_EQ(one[0].verdict, Verdict::yes);
   EXPECT_EQ(one[0].toi_upper, 0.0);
   EXPECT_EQ(tests::message_of<std::invalid_argument>([&] { solve(queries, {}); }),
             "solve: 0 results for 1 queries");
-  EXPECT_THROW(solve(Queries({.degree = 9}, {}), {}), std::invalid_argument);
-  EXPECT_THROW(solve(Queries({.degree = 1}, rest), {}), std::invalid_argument);
+  EXPECT_THROW(Queries({.degree = 9}, {}), std::invalid_argument);
+  EXPECT_EQ(
+      tests::message_of<std::invalid_argument>([&] { Queries({.degree = 0}, rest); }),
+      "the degree of curves must be from 1 to 8, not 0; repeat the control point of a point at "
+      "rest");
+  EXPECT_THROW(Queries({.degree = 2}, rest), std::invalid_argument);
   EXPECT_THROW(solve(queries, one, {.t_max = 2.0}), std::invalid_argument);
   const double infinite = std::numeric_limits<double>::infinity();
   for (const double bad : {infinite, -infinite, std::nan("")}) {
     std::vector<double> numbers = rest;
     numbers[7] = bad;
-    solve(Queries({Kind::edge_edge, 0, false}, numbers), one);
+    solve(Queries({Kind::edge_edge, 1, false}, numbers), one);
     EXPECT_EQ(one[0].verdict, Verdict::error);
   }
   for (const double bad : {0.0, -1.0, infinite, std::nan("")}) {

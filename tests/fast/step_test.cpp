@@ -647,6 +647,21 @@ TEST(FreeStepSize, IsTheLargestWhereRoundingIsMonotone) {
   EXPECT_EQ(falling_vertex(-0.5).step().free_step_size(), 1.0);
 }
 
+/// A step that is free up to its t_max has that step size, unless rounding moves it into a contact.
+TEST(FreeStepSize, IsUpToTheTimeThatCounts) {
+  const auto size = [](const Scene& scene, double t_max, bool is_free) {
+    const Step step = scene.step({.t_max = t_max});
+    EXPECT_EQ(step.is_free(), is_free) << t_max;
+    return step.free_step_size();
+  };
+  for (const double t_max : {0.0, -0.0, 0x1p-1074, 0.5, std::nextafter(0.75, 0.0)}) {
+    EXPECT_EQ(size(falling_vertex(3.0), t_max, true), t_max);
+  }
+  EXPECT_EQ(size(falling_vertex(3.0), 0.75, false), std::nextafter(0.75, 0.0));
+  EXPECT_EQ(size(falling_vertex(0.0), 0.0, false), std::nullopt);
+  EXPECT_EQ(size(falling_vertex(0x1p52 + 1.0, 0x1p52), 0.375, true), std::nextafter(0.25, 0.0));
+}
+
 TEST(FreeStepSize, KnowsPairsThatOnlyRoundingBringsTogether) {
   // A vertex moves along the plane z = x + y + 2^52 + 2 by (1, 1, 2), at a distance of 1 in z.
   // Where α is between 1/2 and 3/4, that is rounded to (1, 1, 1), and the vertex is in the plane.
@@ -1078,7 +1093,9 @@ TEST(CurvedStep, RefusesWhatIsNoMotion) {
   const Mesh elements{.points = points};
   EXPECT_NO_THROW(CurvedStep({1, true, numbers}, elements));
   EXPECT_THROW(CurvedStep({2, true, numbers}, elements), std::invalid_argument);
-  EXPECT_THROW(CurvedStep({9, false, {}}, {}), std::invalid_argument);
+  for (const std::size_t degree : {0U, 9U}) {
+    EXPECT_THROW(CurvedStep({degree, false, {}}, {}), std::invalid_argument);
+  }
   for (const double bad : {0.0, -1.0, std::numeric_limits<double>::infinity()}) {
     numbers[11] = bad;
     EXPECT_THROW(CurvedStep({1, true, numbers}, elements), std::domain_error);

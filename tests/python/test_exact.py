@@ -80,6 +80,8 @@ def test_arrays_of_curves_are_decided_like_each_query(kind, degree, numbers):
     curves[..., 3:] = random.integers(1, 4, (60, degree + 1, 1, numbers - 3))
     truth = touchstone.decide(kind, curves)
     assert 3 < truth.collides.sum() < 57
+    with pytest.raises(ValueError, match="from 1 to 8, not 0; repeat the control point"):
+        touchstone.certified(kind, curves[:, :1])
     fast = touchstone.certified(kind, curves)
     assert (fast.collides == truth.collides).all()
     hits = truth.collides

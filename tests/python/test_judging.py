@@ -123,6 +123,8 @@ def test_every_form_of_a_right_solver_is_acquitted(eight):
         assert judgement.wrong == [] and judgement.queries > 30
     near = touchstone.certify(single, eight, separation=0.5, norm="l2", promise="exact", query_limit=60.0)
     assert near.wrong == [] and near.to_dict()["separation"]["min_separation"] == 0.5
+    contact = touchstone.certify("certified", eight, norm="linf")
+    assert contact.to_dict()["separation"] == {"min_separation": 0.0, "norm": "linf"}
 
 
 def copies_itself(kind, query):

@@ -103,6 +103,8 @@ def test_spheres_and_capsules_of_different_radii(tmp_path):
     assert step.prove(tmp_path / "step.cert").startswith("earliest 0x1.1c71c71c71c7")
     thin = Step(before, after, **scene, radii=[2, 3, 0.5], separations={(1, 0): 2.75})
     assert thin.is_free() and abs(thin.moved(after, after).least_distance().lower - 0.25) == 0
+    with pytest.raises(ValueError, match="--radii are those of spheres"):
+        Step(before, after, **scene, radii=[2, 3, 0.5], norm="linf").prove(tmp_path / "cubes.cert")
     with pytest.raises(ValueError, match="groups 0 and 1 have two separations"):
         Step(before, after, **scene, separations={(0, 1): 1.0, (1, 0): 1.0})
 
@@ -152,6 +154,8 @@ def test_distances_active_sets_and_line_searches():
     assert touching.line_search_limit(0.5).status == "in_contact" and touching.free_step_size() is None
     alone = Step(triangle, triangle, faces=[[0, 1, 2]])
     assert alone.earliest() is None and alone.least_distance() is None and alone.free_step_size() == 1.0
+    short = Step(before, after, faces=[[0, 1, 2], [3, 4, 5]], t_max=0.25)
+    assert short.is_free() and short.free_step_size() == 0.25
 
 
 def test_contacts_of_collisions():

@@ -109,6 +109,7 @@ class BenchRun {
                    const Separation& separation) {
     if (group.queries().empty() || stopped()) return;
     leave_out_others(group, solvers);
+    solvers_.report_norms(separation);
     if (solvers.empty()) return fail(group.name() + ": no solver takes these queries");
     io::ProgressBar bar(fmt::format("bench {} {}", group.name(), to_string(group.kind())));
     jobs::BenchOptions options = report_.options;

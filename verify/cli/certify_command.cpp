@@ -216,6 +216,7 @@ class CertifyRun {
   void certify_source(data::QuerySource& source, const Progress& progress) {
     jobs::CertifyOptions options;
     options.separation = separation_for(arguments_.sources, source);
+    solvers_.report_norms(options.separation);
     has_contacts_ = has_contacts_ || !is_element(source.kind());
     // The truth of the families is exact.
     if (arguments_.sources.built_in_set()) options.toi_tolerance = 0;
@@ -362,7 +363,7 @@ void add(CLI::App& app, Status& status) {
   add_option(*command, "--badge", arguments->badge_file);
   set_help(*command,
            "touchstone certify data/handcrafted --json result.json\n"
-           "touchstone certify --min-separation 1e-8 --norm l2 --method tight_inclusion\n"
+           "touchstone certify --min-separation 1e-8 --norm linf --method tight_inclusion\n"
            "touchstone certify --degree 2 --degree rational --plugin ./libsolver.so",
            "By default our solvers are judged, and only on the built-in set; --method none "
            "disables this. Definitions of wrong answers: docs/testing.md.\n" +

@@ -256,6 +256,7 @@ class FuzzRun {
     options_.most_queries = arguments.queries;
     options_.seed = arguments.seed;
     options_.separation = arguments.separation.given();
+    report_norms(method_->info(), options_.separation);
     options_.method = arguments.solver.options;
     if (arguments.solver.exact) options_.promise = fast::Promise::exact;
     options_.query_limit_seconds = arguments.solver.query_limit;

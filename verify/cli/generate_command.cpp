@@ -176,6 +176,7 @@ std::vector<Written> write_families(const Arguments& arguments, Files& files) {
     }
     progress.update(static_cast<double>(i + 1) / static_cast<double>(chosen_families.size()));
   }
+  if (result.empty() && !io::interrupted()) refuse_kind(arguments.kind);
   return result;
 }
 
@@ -219,7 +220,7 @@ Status generate(const Arguments& arguments) {
     json.push_back({{"file", written.file.string()}, {"queries", written.queries}});
     json.back()["collisions"] =
         written.is_known ? nlohmann::json(written.collisions) : nlohmann::json();
-    if (!is_zero(separation)) json.back()["separation"] = judge::to_json(separation);
+    json.back()["separation"] = judge::to_json(separation);
   }
   if (json_output) json_output.complete(io::json_document(json));
   io::print(record.summary_stream(),
@@ -256,7 +257,7 @@ void add(CLI::App& app, Status& status) {
   set_help(
       *command,
       "touchstone generate --out hard --count 100 --family hourglass\n"
-      "touchstone generate --out near --min-separation 1e-8 --norm l2\n"
+      "touchstone generate --out near --min-separation 1e-8\n"
       "touchstone generate --out curves --degree 2 --degree rational\n"
       "touchstone generate --out elements --kind tetrahedron\n"
       "touchstone generate --out patches --patches 500",

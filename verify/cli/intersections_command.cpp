@@ -101,7 +101,7 @@ Status intersections(const Arguments& arguments) {
   for (const fs::path& path : arguments.meshes) report.meshes.push_back(read(files, path));
   const mesh::Mesh all = report::joined(report.meshes);
   const fast::IntersectionOptions search{
-      .groups = collision_groups(files, arguments.groups, all, arguments.weld),
+      .groups = collision_groups(files, arguments.groups, all, Norm::l2, arguments.weld).rules,
       .weld = arguments.weld,
       .most = arguments.most + 1,
       .max_threads = arguments.threads,

@@ -6,7 +6,6 @@
 #include <fstream>
 #include <stdexcept>
 
-#include "fast/method.hpp"
 #include "verify/cli/option_table.hpp"
 #include "verify/data/ground_truth_files.hpp"
 #include "verify/io/printable.hpp"
@@ -16,7 +15,7 @@
 namespace touchstone::verify::cli {
 
 Separation SeparationArguments::given() const {
-  return {.distance = distance.value_or(0.0), .norm = norm.value_or(fast::no_separation.norm)};
+  return {.distance = distance.value_or(0.0), .norm = norm.value_or(Separation{}.norm)};
 }
 
 Separation SeparationArguments::settle(const Separation& recorded) const {

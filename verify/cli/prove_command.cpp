@@ -144,7 +144,8 @@ class ProveRun {
   void print_summary() const {
     if (is_without_queries()) return;
     std::FILE* const stream = files_.summary_stream();
-    if (const auto separation = judge::common_separation(separations_)) {
+    const auto separation = judge::common_separation(separations_);
+    if (separation && !is_zero(*separation)) {
       io::print(stream, fmt::format("minimum separation {}\n", judge::to_text(*separation)));
     }
     io::print(stream, jobs::to_text(sum_.proofs));

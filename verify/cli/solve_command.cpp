@@ -122,7 +122,8 @@ class SolveRun {
   void print_summary() const {
     if (is_without_queries()) return;
     std::FILE* const stream = files_.summary_stream();
-    if (const auto separation = the_separation()) {
+    const auto separation = judge::common_separation(separations_);
+    if (separation && !is_zero(*separation)) {
       io::print(stream, fmt::format("minimum separation {}\n", judge::to_text(*separation)));
     }
     io::print(
@@ -144,6 +145,7 @@ class SolveRun {
     jobs::CertifyOptions options;
     options.separation = separation_for(arguments_.sources, source);
     separations_.push_back(options.separation);
+    solvers_.report_norms(options.separation);
     options.decides = false;
     options.threads = arguments_.sources.threads;
     options.stop = &io::interrupted();
@@ -187,13 +189,10 @@ class SolveRun {
                         {"reading_errors", reading_errors_},
                         {"interrupted", sum_.interrupted}};
     json["failures"] = report::to_json(counts_.failures);
-    if (const auto separation = the_separation()) json["separation"] = judge::to_json(*separation);
+    if (const auto separation = judge::common_separation(separations_)) {
+      json["separation"] = judge::to_json(*separation);
+    }
     return json;
-  }
-
-  /// The common separation of all sources, if there is one and its distance is positive.
-  [[nodiscard]] std::optional<Separation> the_separation() const {
-    return judge::common_separation(separations_);
   }
 
   [[nodiscard]] Status status() const {
@@ -237,7 +236,6 @@ void add(CLI::App& app, Status& status) {
   add_option(*command, "--json", arguments->json_file);
   set_help(
       *command, "touchstone solve --plugin ./libsolver.so data/handcrafted --out answers.csv",
-      "A method that supports only linf is conservative for l2.\n"
       "Exit status: 0 success, 1 the solver hangs at more than 1 % of its queries, 2 bad input "
       "or usage, or it answers nothing, 130 interrupted (results so far are written).");
   command->callback([arguments, command, &status] {

@@ -140,6 +140,14 @@ void report_output(std::string_view solver, const solvers::CapturedOutput& outpu
   }
 }
 
+void report_norms(const fast::MethodInfo& info, const Separation& separation) {
+  if (is_zero(separation) || info.norms.empty() || info.measures_in(separation.norm)) return;
+  const std::string_view own = to_string(info.norms.front());
+  report_warning(fmt::format(
+      "{} measures a separation in {} only, and is asked in {}; --norm {} asks in its own norm",
+      info.name, own, to_string(separation.norm), own));
+}
+
 void report_unplaced_crashes(std::string_view solver, std::uint64_t crashes) {
   if (crashes == 0) return;
   report_error(
@@ -222,6 +230,11 @@ std::vector<const solvers::Solver*> Solvers::all() const {
   result.reserve(solvers_.size());
   for (const auto& solver : solvers_) result.push_back(solver.get());
   return result;
+}
+
+void Solvers::report_norms(const Separation& separation) {
+  if (is_zero(separation) || std::exchange(has_reported_norms_, true)) return;
+  for (const auto& solver : solvers_) cli::report_norms(solver->info(), separation);
 }
 
 void Solvers::report_output(bool show) const {

@@ -90,6 +90,9 @@ void settle_solver_options(const CLI::App& command, bool built_in_set, SolverArg
 /// (verify/io/printable.hpp); otherwise a hint. Nothing without output.
 void report_output(std::string_view solver, const solvers::CapturedOutput& output, bool show);
 
+/// Warns of a method that measures a separation in another norm only, and names that.
+void report_norms(const fast::MethodInfo& info, const Separation& separation);
+
 /// Reports on standard error the number of times that a solver ended its process, if positive.
 void report_unplaced_crashes(std::string_view solver, std::uint64_t crashes);
 
@@ -134,6 +137,9 @@ class Solvers {
   /// Reports their output since the last call. Must not be called while one of them is solving.
   void report_output(bool show) const;
 
+  /// Reports, once, the methods that measure no separation in this norm.
+  void report_norms(const Separation& separation);
+
   /// Warnings for files with answers to queries that do not occur.
   [[nodiscard]] std::vector<std::string> warnings() const;
 
@@ -151,6 +157,7 @@ class Solvers {
   std::vector<std::unique_ptr<fast::Method>> methods_;
   std::deque<Results> results_;  // the addresses of elements are stable
   std::vector<std::unique_ptr<solvers::Solver>> solvers_;
+  bool has_reported_norms_ = false;
 };
 
 }  // namespace touchstone::verify::cli

@@ -117,16 +117,20 @@ void for_each_file(const SourceArguments& arguments, Files& record,
 
 std::vector<BuiltInSource> built_in_sources(const SourceArguments& arguments) {
   std::vector<BuiltInSource> sources;
-  const Separation separation = arguments.separation.given();
-  std::vector<generate::Family> families = generate::families(separation, arguments.degrees);
-  const auto elements = generate::element_families();
-  families.insert(families.end(), elements.begin(), elements.end());
-  for (const generate::Family& family : families) {
+  for (const generate::Family& family :
+       generate::families(arguments.separation.given(), arguments.degrees)) {
     for (const Kind kind : kinds_of(arguments.kind)) {
       if (generate::supports(family, kind)) sources.push_back({family, kind});
     }
   }
+  if (sources.empty()) refuse_kind(arguments.kind);
   return sources;
+}
+
+void refuse_kind(const std::string& kind) {
+  throw std::invalid_argument(
+      "no chosen family has " + (kind.empty() ? "vertex-face or edge-edge" : kind) +
+      " queries: name another --kind, or other families (elements are on straight lines alone)");
 }
 
 std::vector<Kind> kinds_of(const std::string& option) {
@@ -242,12 +246,17 @@ mesh::Groups groups_for(Files& files, const GroupArguments& arguments, const mes
 
 }  // namespace
 
-fast::CollisionGroups collision_groups(Files& files, const GroupArguments& arguments,
-                                       const mesh::Mesh& mesh, bool is_welded) {
-  const mesh::Groups groups = groups_for(files, arguments, mesh, is_welded);
+NamedGroups collision_groups(Files& files, const GroupArguments& arguments, const mesh::Mesh& mesh,
+                             Norm norm, bool is_welded) {
+  mesh::Groups groups = groups_for(files, arguments, mesh, is_welded);
   fast::CollisionGroups result{.of_vertices = groups.of_vertex,
                                .apart = mesh::numbers_of(groups, arguments.apart)};
   if (!arguments.radii_file.empty()) {
+    if (norm != Norm::l2) {
+      throw std::invalid_argument(
+          "--radii are those of spheres, in l2: leave --norm linf out, or name the distances of "
+          "pairs in --separations");
+    }
     files.add_input(arguments.radii_file);
     result.radii = mesh::read_radii(arguments.radii_file, groups);
   }
@@ -255,7 +264,7 @@ fast::CollisionGroups collision_groups(Files& files, const GroupArguments& argum
     files.add_input(arguments.separations_file);
     result.separations = mesh::read_separations(arguments.separations_file, groups);
   }
-  return result;
+  return {std::move(result), std::move(groups.names)};
 }
 
 void add_thickness_options(CLI::App& command, GroupArguments& arguments) {

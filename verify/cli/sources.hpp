@@ -64,7 +64,11 @@ struct BuiltInSource {
   generate::Family family;
   Kind kind;
 };
+/// \throws std::invalid_argument if there is none.
 [[nodiscard]] std::vector<BuiltInSource> built_in_sources(const SourceArguments& arguments);
+
+/// \throws std::invalid_argument, as no family of the built-in set is left for this kind.
+[[noreturn]] void refuse_kind(const std::string& kind);
 
 /// The kinds that --kind asks for: without it, those about contact.
 [[nodiscard]] std::vector<Kind> kinds_of(const std::string& option);
@@ -145,11 +149,17 @@ void add_thickness_options(CLI::App& command, GroupArguments& arguments);
 void add_group_options(CLI::App& command, GroupArguments& arguments);
 
 /// The requested groups of a mesh, by their numbers.
+struct NamedGroups {
+  fast::CollisionGroups rules;
+  std::vector<std::string> names;
+};
+
 /// \param files records the input files
+/// \param norm Of the separation: radii need l2.
 /// \param is_welded True if the mesh's own groups are needed also without these arguments.
 /// \throws std::runtime_error, std::invalid_argument or DatasetError if they cannot be used.
-[[nodiscard]] fast::CollisionGroups collision_groups(Files& files, const GroupArguments& arguments,
-                                                     const mesh::Mesh& mesh,
-                                                     bool is_welded = false);
+[[nodiscard]] NamedGroups collision_groups(Files& files, const GroupArguments& arguments,
+                                           const mesh::Mesh& mesh, Norm norm = Norm::l2,
+                                           bool is_welded = false);
 
 }  // namespace touchstone::verify::cli

@@ -78,7 +78,8 @@ report::StabilityResult measure(const Arguments& arguments, const Solvers& solve
 
 Status run(const Arguments& arguments) {
   Files files;
-  const Solvers solvers(files, judged_by(arguments));
+  Solvers solvers(files, judged_by(arguments));
+  solvers.report_norms(arguments.separation.given());
   Output json(files, arguments.json_file), picture(files, arguments.picture_file);
   const report::StabilityResult result = measure(arguments, solvers);
   for (const jobs::MethodResult& method : result.total.methods) {

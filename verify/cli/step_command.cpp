@@ -66,10 +66,14 @@ class StepRun {
     }
     const mesh::Mesh& mesh = frames_->mesh();
     options_.step.separation = arguments.separation.given();
-    options_.step.groups = collision_groups(files_, arguments.groups, mesh);
+    NamedGroups groups =
+        collision_groups(files_, arguments.groups, mesh, arguments.separation.given().norm);
+    options_.step.groups = std::move(groups.rules);
     options_.step.stop = &io::interrupted();
     options_.find_contacts = json_ || csv_;
     report_ = {.separation = options_.step.separation,
+               .group_names = std::move(groups.names),
+               .groups = options_.step.groups,
                .question = options_.question,
                .alpha = options_.alpha,
                .vertices = static_cast<std::size_t>(mesh.vertices.rows()),
@@ -234,8 +238,8 @@ void add_step_options(CLI::App& command, Arguments& arguments) {
   add_option(command, "--free", asks(jobs::StepQuestion::free))->excludes(all)->excludes(earliest);
   add_option(command, "--candidates", arguments.check.count_candidates);
   add_option(command, "--no-intersections", [&arguments] { arguments.find_intersections = false; });
-  add_option(command, "--t-max", arguments.check.step.t_max);
-  add_option(command, "--alpha", arguments.check.alpha);
+  CLI::Option* const t_max = add_option(command, "--t-max", arguments.check.step.t_max);
+  add_option(command, "--alpha", arguments.check.alpha)->excludes(t_max);
   add_option(command, "--threads", arguments.check.step.max_threads);
   command.option_defaults()->group("Output");
   add_option(command, "--csv", arguments.csv_file);

@@ -68,7 +68,9 @@ std::optional<view::ViewedStep> read_step(const Arguments& arguments, Files& fil
   }
   const auto frames = open_frames(files, arguments.step);
   if (frames->count() != 2) throw std::invalid_argument("--step needs two frames");
-  fast::CollisionGroups groups = collision_groups(files, arguments.groups, frames->mesh());
+  fast::CollisionGroups groups =
+      collision_groups(files, arguments.groups, frames->mesh(), arguments.separation.given().norm)
+          .rules;
   mesh::Vertices before = frames->next(), after = frames->next();
   return view::find_collisions(fmt::format("{} to {}", frames->name(0), frames->name(1)),
                                frames->mesh(), std::move(before), std::move(after),

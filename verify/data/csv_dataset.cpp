@@ -91,8 +91,11 @@ bool CsvDataset::take_shape(const io::Line& line, std::size_t count) {
   const bool is_rational = field(0) == "rational";
   if (count != 2 || (!is_rational && field(0) != "degree")) return false;
   const auto degree = io::number_from_text<std::size_t>(field(1));
-  if (!degree || *degree > greatest_degree) {
-    throw error(line, 2, "the degree must be a whole number from 0 to 8: " + io::quote(field(1)));
+  if (!degree) throw error(line, 2, "the degree must be a whole number: " + io::quote(field(1)));
+  try {
+    require_degree(*degree);
+  } catch (const std::invalid_argument& reason) {
+    throw error(line, 2, reason.what());
   }
   set_curves(*degree, is_rational);
   shape_line_ = line.text;

@@ -12,7 +12,7 @@
 ///     4        the same and the label
 ///
 /// Queries on curves have a first line of their shape (touchstone/query.hpp): `degree,K`, or
-/// `rational,K` for rational curves, with K from 0 to 8. A query then has 4 (K+1) rows, the four
+/// `rational,K` for rational curves, with K from 1 to 8. A query then has 4 (K+1) rows, the four
 /// points at each control point from t=0 to t=1. A row of a rational curve ends with the weight,
 /// also as a number or as numerator and denominator, before the label: 4, 5, 8 or 9 columns.
 /// Without that line it is `degree,1`.

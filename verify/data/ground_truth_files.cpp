@@ -417,7 +417,7 @@ Separation read_separation(const fs::path& path) {
 
 Separation recorded_separation(const fs::path& dataset) {
   const auto path = find_separation_file(dataset);
-  return path ? read_separation(*path) : Separation{.distance = 0.0, .norm = Norm::linf};
+  return path ? read_separation(*path) : Separation{};
 }
 
 void write_separation(const fs::path& folder, const Separation& separation) {

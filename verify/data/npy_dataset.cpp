@@ -52,13 +52,14 @@ NpyDataset::NpyDataset(const std::filesystem::path& path, const DatasetOptions& 
 void NpyDataset::set_curves_by_extents() {
   const std::vector<std::uint64_t>& extents = arrays_.queries.shape();
   if (extents.size() == 3 && extents[1] == query_points && extents[2] == 3) return;
-  const bool are_curves = extents.size() == 4 && extents[1] >= 1 &&
+  const bool are_curves = extents.size() == 4 && extents[1] >= 2 &&
                           extents[1] <= greatest_degree + 1 && extents[2] == moving_points &&
                           (extents[3] == 3 || extents[3] == 4);
   if (!are_curves) {
     arrays_.queries.fail_for_shape(
-        "(N, 8, 3), or (N, K+1, 4, 3) for curves of degree K up to 8, or (N, K+1, 4, 4) with "
-        "weights");
+        "(N, 8, 3), or (N, K+1, 4, 3) for curves of degree K from 1 to 8 (repeat the control point "
+        "of "
+        "a point at rest), or (N, K+1, 4, 4) with weights");
   }
   set_curves(extents[1] - 1, extents[3] == 4);
 }

@@ -68,7 +68,7 @@ struct ScaleRange {
 /// A fault of a solver, confirmed by the oracle.
 struct Finding {
   judge::Fault what = judge::Fault::false_negative;
-  Separation separation = fast::no_separation;
+  Separation separation = {};
   std::string method;  ///< the method that is wrong: the one asked, or "certified" if the judge is
   FailingCase original = {};  ///< as it was found
   FailingCase simplest = {};  ///< the simplest query with the same fault: the original if none was

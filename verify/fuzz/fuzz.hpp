@@ -46,7 +46,7 @@ struct FuzzOptions {
   std::uint64_t most_queries = 0;
   std::uint64_t seed = 2021;
   /// Minimum separation.
-  Separation separation = fast::no_separation;
+  Separation separation = {};
   /// Passed on to the method, with the separation of above; t_max must be 1.
   fast::MethodOptions method = {};
   /// The promise to judge the method by, if not its own.

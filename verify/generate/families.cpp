@@ -174,7 +174,9 @@ std::vector<Family> families(const Separation& separation) {
 
 std::vector<Family> families(const Separation& separation, std::span<const std::string> degrees) {
   std::vector<Family> list = families(separation);
-  list.insert(list.end(), curved_families().begin(), curved_families().end());
+  for (const auto more : {curved_families(), element_families()}) {
+    list.insert(list.end(), more.begin(), more.end());
+  }
   std::erase_if(list, [&](const Family& family) {
     return std::ranges::find(degrees, degree_text(family)) == degrees.end();
   });
@@ -209,11 +211,10 @@ KnownQuery make_query(const Family& family, Kind kind, std::uint64_t seed, std::
 std::unique_ptr<data::QuerySource> open_family(const Family& family, Kind kind, std::uint64_t seed,
                                                std::uint64_t count, const Separation& separation) {
   if (const Family* const curved = find_curved(family.name)) {
-    return open_drawn(set_of(*curved, kind, fast::no_separation), count,
-                      curved_draws(*curved, kind, seed));
+    return open_drawn(set_of(*curved, kind, {}), count, curved_draws(*curved, kind, seed));
   }
   const Definition& definition = find_definition(family, kind, separation);
-  const Separation about = is_about_separation(definition) ? separation : fast::no_separation;
+  const Separation about = is_about_separation(definition) ? separation : Separation{};
   const auto draw = [&definition, kind, seed, about](std::uint64_t index) {
     KnownQuery known = build(definition, kind, seed, index, about);
     return data::RecordedQuery{{kind, known.query}, index, known.collides, std::move(known.toi)};

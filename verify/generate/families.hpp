@@ -87,8 +87,8 @@ struct KnownQuery {
 /// the same order.
 [[nodiscard]] std::span<const Family> curved_families();
 
-/// The families whose degree_text is among `degrees`: those for a separation, then those on curves,
-/// whose truth refers to distance 0.
+/// The families whose degree_text is among `degrees`: those for a separation, those on curves,
+/// whose truth refers to distance 0, and those of elements, which are on straight lines.
 [[nodiscard]] std::vector<Family> families(const Separation& separation,
                                            std::span<const std::string> degrees);
 

@@ -34,7 +34,7 @@ struct Recipe {
   /// The query's stream of random numbers.
   Random random;
   /// Minimum separation, for families about it.
-  Separation separation = fast::no_separation;
+  Separation separation = {};
   /// Set by a builder for a query that is printed in the paper: no symmetry is applied.
   bool as_printed = false;
 
@@ -77,7 +77,7 @@ struct Definition {
 struct DrawnSet {
   std::string name;
   QueryShape shape;
-  Separation separation = fast::no_separation;  ///< of their truth
+  Separation separation = {};  ///< of their truth
 };
 
 /// The queries 0 to count−1 of a family as a stream.

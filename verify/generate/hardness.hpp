@@ -101,7 +101,7 @@ struct HardSort {
   const Hardness* hardness = nullptr;  ///< not null
   int level = 0;                       ///< one of the kind's levels
   Kind kind = Kind::vertex_face;
-  Separation separation = fast::no_separation;  ///< as requested, before separation_at()
+  Separation separation = {};  ///< as requested, before separation_at()
 };
 
 /// Query number `index`: a function of the arguments alone, the same on every machine. Even numbers

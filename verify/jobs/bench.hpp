@@ -33,7 +33,7 @@ namespace touchstone::verify::jobs {
 
 struct BenchOptions {
   /// Minimum separation, for the solvers and for the ground truth.
-  Separation separation = fast::no_separation;
+  Separation separation = {};
   /// At least 1.
   std::size_t repetitions = 5;
   /// A solver is timed on as many queries as take it about this long; positive.
@@ -83,7 +83,7 @@ struct SolverResult {
 struct BenchResult {
   std::string name;  ///< of the group
   Kind kind = Kind::vertex_face;
-  Separation separation = fast::no_separation;
+  Separation separation = {};
   std::size_t queries = 0;
   std::size_t judged = 0;      ///< queries decided by the oracle
   std::size_t collisions = 0;  ///< of these

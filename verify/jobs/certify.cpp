@@ -17,7 +17,7 @@ namespace {
 // ---- Truth --------------------------------------------------------------------------------------
 
 struct BlockTruthOptions {
-  Separation separation = fast::no_separation;
+  Separation separation = {};
   judge::LabelComparison comparison = {};
   bool times = false;         ///< true if times of impact are needed
   bool certificates = false;  ///< true if certificates are to be written

@@ -33,7 +33,7 @@ namespace touchstone::verify::jobs {
 
 struct CertifyOptions {
   /// Minimum separation.
-  Separation separation = fast::no_separation;
+  Separation separation = {};
   /// False: the solvers are asked, and nothing is decided, compared, proved or judged.
   bool decides = true;
   /// False: recorded labels and times are not compared with the truth.
@@ -93,8 +93,7 @@ struct MethodResult {
 /// The judgement on one source.
 struct CertifyResult {
   std::string name;
-  Separation separation =
-      fast::no_separation;  ///< the distance that counted as contact; not set in a total
+  Separation separation = {};  ///< the distance that counted as contact; not set in a total
   /// The recorded claims that were compared; not set in a total.
   judge::Inference compared = judge::Inference::all;
   std::optional<QueryShape> shape;  ///< empty for a total, and for a source that was not opened

@@ -23,7 +23,7 @@ struct StepBenchOptions {
   std::size_t repetitions = 5;
   /// Timed with one thread and with this number of threads; 0: all cores.
   unsigned threads = 0;
-  Separation separation = fast::no_separation;
+  Separation separation = {};
   /// Called occasionally with the completed fraction of the repetitions, from this thread.
   std::function<void(double)> on_progress = nullptr;
   /// Once true, no further repetition begins. May be null.
@@ -62,7 +62,7 @@ struct StepCounts {
 
 struct StepResult {
   std::string name;
-  Separation separation = fast::no_separation;
+  Separation separation = {};
   std::size_t vertices = 0;
   std::size_t edges = 0;
   std::size_t faces = 0;

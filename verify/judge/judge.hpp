@@ -33,7 +33,7 @@ namespace touchstone::verify::judge {
 /// A query as it was asked.
 struct Question {
   Queries query;  ///< one
-  Separation separation = fast::no_separation;
+  Separation separation = {};
 };
 
 /// The promise of a solver, by which its answers are judged.

@@ -32,10 +32,13 @@ double upper_end(std::uint32_t bucket) {
 /// True if an answer with this fault alone is wrong.
 bool is_wrong(Fault fault) { return fault != Fault::hang && fault != Fault::undecided; }
 
-std::string answer_text(Fault fault, const fast::Answer& answer) {
+/// \param norm of the distance that a tolerance claims
+std::string answer_text(Fault fault, const fast::Answer& answer, Norm norm) {
   if (fault == Fault::late_toi) return fmt::format("toi_lower {}", answer.toi_lower);
   if (fault == Fault::early_toi_upper) return fmt::format("toi_upper {}", answer.toi_upper);
-  if (fault == Fault::beyond_tolerance) return fmt::format("yes, tolerance {}", answer.tolerance);
+  if (fault == Fault::beyond_tolerance) {
+    return fmt::format("yes, tolerance {} ({})", answer.tolerance, to_string(norm));
+  }
   return std::string(to_string(answer.verdict));
 }
 
@@ -137,11 +140,14 @@ void Judgement::add(const Question& question, const GroundTruth& known, const fa
   const auto why = failure != nullptr ? std::optional(*failure) : failure_of(answer);
   const auto lateness = why ? std::nullopt : lateness_of(truth, answer, standard.terms);
   if (lateness) late.add(*lateness);
-  for (const Fault fault : judge({asked.queries(), separation}, truth, answer, standard, failure)) {
+  const Question posed{asked.queries(), separation};
+  for (const Fault fault : judge(posed, truth, answer, standard, failure)) {
     const bool is_kept = count_kept(fault, is_slight(fault, lateness));
     if (!is_kept || !is_wrong(fault)) continue;
+    const bool is_claim = fault == Fault::beyond_tolerance;
+    const Norm norm = (is_claim ? claim_of(posed, answer, standard).value() : separation).norm;
     wrong_answers.push_back(
-        {fault, truth.index, is_error(fault) ? to_text(*why) : answer_text(fault, answer),
+        {fault, truth.index, is_error(fault) ? to_text(*why) : answer_text(fault, answer, norm),
          to_text(truth), answer, why, fault == Fault::late_toi ? lateness : std::nullopt});
   }
   const double time = answer.toi_lower;

@@ -105,7 +105,7 @@ struct WrongQuery {
   std::string source;
   std::uint64_t index = 0;
   base::AnyQuery query = {};
-  Separation separation = fast::no_separation;
+  Separation separation = {};
   std::vector<std::string> faults = {};  ///< a text for each fault
   std::vector<GivenAnswer> answers = {};
 };

@@ -20,7 +20,7 @@ Inference infer(const Separation& claimed, const Separation& asked) {
 }
 
 std::optional<Separation> common_separation(std::span<const Separation> all) {
-  if (all.empty() || is_zero(all.front())) return std::nullopt;
+  if (all.empty()) return std::nullopt;
   const bool is_one = std::ranges::all_of(
       all, [&](const Separation& other) { return same_separation(other, all.front()); });
   return is_one ? std::optional(all.front()) : std::nullopt;

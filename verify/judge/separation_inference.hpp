@@ -32,7 +32,7 @@ enum class Inference : std::uint8_t {
 /// The conclusion from a claim about `claimed` about `asked`.
 [[nodiscard]] Inference infer(const Separation& claimed, const Separation& asked);
 
-/// The common separation of a list, if there is one and its distance is positive.
+/// The common separation of a list, if there is one.
 [[nodiscard]] std::optional<Separation> common_separation(std::span<const Separation> all);
 
 /// "1e-08 (l2)", with the digits that reproduce the double.

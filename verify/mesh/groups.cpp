@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <stdexcept>
 #include <string_view>
 #include <unordered_map>
@@ -51,9 +52,13 @@ class Numbers {
   std::unordered_map<std::string, std::int32_t> numbers_;
 };
 
-/// The lines of a table of names, and a number that is not negative at their ends.
+/// Calls take(numbers, number) for the lines of a table of groups, in any order but each once, and
+/// a number that is not negative at their ends.
 template <std::size_t names, class Take>
-void read_table(const std::filesystem::path& path, std::string_view form, const Take& take) {
+void read_table(const std::filesystem::path& path, const Groups& groups, std::string_view form,
+                const Take& take) {
+  const Numbers number_of(groups);
+  std::map<std::array<std::int32_t, names>, std::uint64_t> known;
   io::LineReader lines(path);
   while (const auto line = lines.next()) {
     std::array<std::string, names + 1> fields;
@@ -65,7 +70,19 @@ void read_table(const std::filesystem::path& path, std::string_view form, const 
                              fmt::format("expected {}, the last a number >= 0, found {}", form,
                                          io::quote(line->text)));
     }
-    take(fields, *number);
+    std::array<std::int32_t, names> numbers{};
+    std::transform(fields.begin(), fields.end() - 1, numbers.begin(), number_of);
+    auto key = numbers;
+    std::ranges::sort(key);
+    const auto [first, is_new] = known.try_emplace(key, line->number);
+    if (!is_new) {
+      throw io::DatasetError(
+          path, {.line = line->number},
+          fmt::format("{} in line {}, too: leave one of them out",
+                      names == 1 ? "the group has a radius" : "the two groups have a distance",
+                      first->second));
+    }
+    take(numbers, *number);
   }
 }
 
@@ -100,9 +117,8 @@ Groups read_groups(const std::filesystem::path& path, std::size_t vertices) {
 
 std::vector<double> read_radii(const std::filesystem::path& path, const Groups& groups) {
   std::vector<double> result(groups.names.size());
-  const Numbers number(groups);
-  read_table<1>(path, "GROUP,RADIUS", [&](const auto& fields, double radius) {
-    result[static_cast<std::size_t>(number(fields[0]))] = radius;
+  read_table<1>(path, groups, "GROUP,RADIUS", [&](const auto& group, double radius) {
+    result[static_cast<std::size_t>(group[0])] = radius;
   });
   return result;
 }
@@ -110,9 +126,8 @@ std::vector<double> read_radii(const std::filesystem::path& path, const Groups& 
 std::vector<fast::GroupSeparation> read_separations(const std::filesystem::path& path,
                                                     const Groups& groups) {
   std::vector<fast::GroupSeparation> result;
-  const Numbers number(groups);
-  read_table<2>(path, "GROUP,GROUP,DISTANCE", [&](const auto& fields, double distance) {
-    result.push_back({{number(fields[0]), number(fields[1])}, distance});
+  read_table<2>(path, groups, "GROUP,GROUP,DISTANCE", [&](const auto& two, double distance) {
+    result.push_back({two, distance});
   });
   return result;
 }

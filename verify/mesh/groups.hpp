@@ -22,8 +22,8 @@ namespace touchstone::verify::mesh {
 [[nodiscard]] Groups read_groups(const std::filesystem::path& path, std::size_t vertices);
 
 /// The radius of each group from a text file: a line NAME,RADIUS for each group that has one.
-/// \throws DatasetError if the file cannot be read or a line is no such one; std::invalid_argument
-/// naming a group that there is not, and those that there are.
+/// \throws DatasetError if the file cannot be read, a line is no such one, or a group has two of
+/// them; std::invalid_argument naming a group that there is not, and those that there are.
 [[nodiscard]] std::vector<double> read_radii(const std::filesystem::path& path,
                                              const Groups& groups);
 

@@ -276,8 +276,8 @@ nlohmann::json json_of(const jobs::BenchResult& group) {
                       {"collisions", group.collisions},
                       {"interrupted", group.interrupted},
                       {"memory_pass", json_of(group.memory_pass)},
-                      {"methods", std::move(methods)}};
-  if (!is_zero(group.separation)) json["separation"] = judge::to_json(group.separation);
+                      {"methods", std::move(methods)},
+                      {"separation", judge::to_json(group.separation)}};
   return json;
 }
 
@@ -324,8 +324,8 @@ nlohmann::json json_of(const std::optional<jobs::StepResult>& step) {
                       {"memory", json_of(step->memory)},
                       {"interrupted", step->interrupted},
                       {"memory_pass_s", step->memory_pass.processor},
-                      {"times", std::move(times)}};
-  if (!is_zero(step->separation)) json["separation"] = judge::to_json(step->separation);
+                      {"times", std::move(times)},
+                      {"separation", judge::to_json(step->separation)}};
   return json;
 }
 

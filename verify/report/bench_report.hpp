@@ -43,8 +43,7 @@ struct BenchReport {
 /// the stage's name), `judged`, the fields of a judgement (judgement_report.hpp), `broke_promise`,
 /// and `wrong_answers`, a list of `source`, `index`, `fault`, `answer` and `truth`.
 ///
-/// With a separation, groups and step have it as `separation`, an object of `min_separation` and
-/// `norm`.
+/// Groups and step have their separation as `separation`, an object of `min_separation` and `norm`.
 ///
 /// `step` has `name`, `vertices`, `edges`, `faces`, `vertex_face` and `edge_edge` (`candidates` and
 /// `collisions` each), `earliest` (null, or `toi_lower` and `toi_upper`), `earliest_agrees`,

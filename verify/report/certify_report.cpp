@@ -67,7 +67,7 @@ bool has_separation(const std::vector<jobs::CertifyResult>& results) {
       results, [](const jobs::CertifyResult& result) { return is_zero(result.separation); });
 }
 
-/// The separation of all sources, if it is one, and more than contact.
+/// The separation of all sources, if it is one.
 std::optional<Separation> separation_of(const std::vector<jobs::CertifyResult>& results) {
   std::vector<Separation> all;
   all.reserve(results.size());
@@ -380,10 +380,10 @@ std::string to_summary(const std::vector<jobs::CertifyResult>& results, std::siz
   const jobs::CertifyResult sum = jobs::total(results);
   std::string text =
       fmt::format("asked: {} queries, of which {} collide", sum.queries, sum.collisions);
-  if (const auto separation = separation_of(results)) {
-    text += " within " + judge::to_text(*separation);
-  } else if (has_separation(results)) {
-    text += " within the distances of their files";
+  if (has_separation(results)) {
+    const auto separation = separation_of(results);
+    text +=
+        " within " + (separation ? judge::to_text(*separation) : "the distances of their files");
   }
   text += fmt::format("\ntruth: exact, {} a query", time_text(1e3 * sum.microseconds_per_query()));
   if (sum.labels + sum.tois != 0) {
@@ -428,10 +428,8 @@ nlohmann::json to_json(const std::vector<jobs::CertifyResult>& results) {
       file["degree"] = result.shape->degree;
       file["rational"] = result.shape->is_rational;
     }
-    if (!is_zero(result.separation)) {
-      file["separation"] = judge::to_json(result.separation);
-      file["compared"] = name_of(result.compared);
-    }
+    file["separation"] = judge::to_json(result.separation);
+    file["compared"] = name_of(result.compared);
     file["methods"] = methods_of(result);
     if (result.error) file["error"] = *result.error;
     json["files"].push_back(std::move(file));

@@ -42,8 +42,8 @@ namespace touchstone::verify::report {
 /// its name as `file`, its `kind`, `degree` and `rational` if it is on curves, and `error` if one
 /// ended the reading.
 ///
-/// With a separation, the total (if it is that of all sources) and each file have it as
-/// `separation`, an object of `min_separation` and `norm`, and each file has `compared`: "all",
+/// The total (if it is that of all sources) and each file have their separation as `separation`, an
+/// object of `min_separation` and `norm`, and each file has `compared`: "all",
 /// "collisions" (recorded about another separation, so only these are compared) or "nothing".
 ///
 /// `methods`, in the total and in each file, is a list of `name`, `promise` (by which it was

@@ -92,10 +92,9 @@ struct Measurement : JudgedAnswers {
   Kind kind = Kind::vertex_face;
   std::string method;
   fast::Promise promise = fast::Promise::none;
-  double tolerance = 0.0;                       ///< MethodOptions::tolerance
-  std::int64_t max_checks = 0;                  ///< MethodOptions::max_checks
-  Separation separation = fast::no_separation;  ///< the distance that counts as contact, for the
-                                                ///< method and for the truth
+  double tolerance = 0.0;       ///< MethodOptions::tolerance
+  std::int64_t max_checks = 0;  ///< MethodOptions::max_checks
+  Separation separation = {};   ///< that counts as contact, for the method and for the truth
   /// The scale of a group that is made for one: no coordinate is greater in magnitude.
   std::optional<double> scale;
 

@@ -280,13 +280,12 @@ std::string to_text(const StabilityResult& result) {
 nlohmann::json to_json(const StabilityResult& result) {
   nlohmann::json json{{"seed", result.seed},
                       {"count", result.count},
-                      {"separation", nlohmann::json()},
+                      {"separation", judge::to_json(result.separation)},
                       {"interrupted", result.total.interrupted},
                       {"unjudged_cells", result.unjudged_cells},
                       {"disagreements", result.total.label_mismatches},
                       {"hardnesses", nlohmann::json::array()},
                       {"methods", nlohmann::json::array()}};
-  if (!is_zero(result.separation)) json["separation"] = judge::to_json(result.separation);
   const generate::Hardness* latest = nullptr;
   for (const StabilityCell& cell : result.cells) {
     if (cell.sort.hardness == latest) continue;

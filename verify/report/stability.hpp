@@ -42,7 +42,7 @@ struct StabilityCell {
 };
 
 struct StabilityResult {
-  Separation separation = fast::no_separation;
+  Separation separation = {};
   std::uint64_t seed = 0;
   std::uint64_t count = 0;
   /// Methods with what they were held to, judged on all cells.
@@ -69,7 +69,7 @@ struct StabilityResult {
 /// on which certified solver and oracle differ are named at the end.
 [[nodiscard]] std::string to_text(const StabilityResult& result);
 
-/// `seed`, `count` (queries a cell), `separation` (null, or `min_separation` and `norm`),
+/// `seed`, `count` (queries a cell), `separation` (`min_separation` and `norm`),
 /// `interrupted`, `disagreements` (queries on which certified solver and oracle differ);
 /// `hardnesses`, a list of `name`, `measure`, `reason` and `levels` (as in cells); `methods`, a
 /// list of `name`, `promise`, `keeps_promise` and `cells`.

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <iterator>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <span>
 #include <tuple>
@@ -66,7 +67,7 @@ std::optional<std::size_t> intersecting_in(const StepReport& report, std::size_t
 }
 
 /// Of a row of step_csv_rows.
-constexpr std::size_t step_csv_columns = 22;
+constexpr std::size_t step_csv_columns = 23;
 
 std::string_view name_of(jobs::StepQuestion question) {
   switch (question) {
@@ -257,15 +258,51 @@ std::string summary_of(const StepReport& report) {
   return report.interrupted ? "" : summary.text();
 }
 
+std::string name_of(const StepReport& report, std::int32_t group) {
+  return io::printable(report.group_names[static_cast<std::size_t>(group)]);
+}
+
+/// The radii that are not 0, by the names of their groups.
+std::map<std::string, double> radii_of(const StepReport& report) {
+  std::map<std::string, double> radii;
+  for (std::size_t i = 0; i < report.groups.radii.size(); ++i) {
+    if (report.groups.radii[i] == 0.0) continue;
+    radii[name_of(report, static_cast<std::int32_t>(i))] = report.groups.radii[i];
+  }
+  return radii;
+}
+
+/// The separation if there is one or a thickness: ", minimum separation 0 (l2)"; and lines of the
+/// thick groups: "radii: ball 0.5, wall 0.1", and the distances of pairs.
+std::array<std::string, 2> separation_texts(const StepReport& report) {
+  std::vector<std::string> radii, separations;
+  for (const auto& [name, radius] : radii_of(report)) {
+    radii.push_back(fmt::format("{} {}", name, radius));
+  }
+  for (const auto& [two, distance] : report.groups.separations) {
+    separations.push_back(
+        fmt::format("{} and {} {}", name_of(report, two[0]), name_of(report, two[1]), distance));
+  }
+  std::string lines;
+  for (const auto& [title, all] :
+       {std::pair("radii", &radii), std::pair("separations", &separations)}) {
+    if (all->empty()) continue;
+    const std::span shown = std::span(*all).first(std::min(most_pairs, all->size()));
+    lines += fmt::format("{}: {}{}\n", title, fmt::join(shown, ", "),
+                         shown.size() < all->size() ? ", ..." : "");
+  }
+  if (is_zero(report.separation) && lines.empty()) return {};
+  return {", minimum separation " + judge::to_text(report.separation), lines};
+}
+
 std::string heading(const StepReport& report) {
   std::string text = fmt::format("{} vertices, {} edges, {} faces", report.vertices,
                                  report.edges.size(), report.faces.size());
   if (!report.tetrahedra.empty()) text += fmt::format(", {} tetrahedra", report.tetrahedra.size());
-  if (!is_zero(report.separation)) {
-    text += ", minimum separation " + judge::to_text(report.separation);
-  }
+  const auto [separation, thickness] = separation_texts(report);
+  text += separation;
   if (report.alpha) text += fmt::format(", alpha {}", *report.alpha);
-  return text + (report.interrupted ? " (interrupted)\n" : "\n");
+  return text + (report.interrupted ? " (interrupted)\n" : "\n") + thickness;
 }
 
 // ---- JSON and CSV -------------------------------------------------------------------------------
@@ -397,8 +434,13 @@ nlohmann::json to_json(const StepReport& report) {
   for (const FrameRecord& frame : report.frames) frames.push_back(json_of(frame));
   nlohmann::json steps = nlohmann::json::array();
   for (std::size_t i = 0; i < report.steps.size(); ++i) steps.push_back(json_of(report, i));
-  return {{"separation",
-           is_zero(report.separation) ? nlohmann::json() : judge::to_json(report.separation)},
+  nlohmann::json separations = nlohmann::json::array();
+  for (const auto& [two, distance] : report.groups.separations) {
+    separations.push_back({name_of(report, two[0]), name_of(report, two[1]), distance});
+  }
+  return {{"separation", judge::to_json(report.separation)},
+          {"radii", radii_of(report)},
+          {"separations", std::move(separations)},
           {"alpha", report.alpha ? nlohmann::json(*report.alpha) : nlohmann::json()},
           {"question", name_of(report.question)},
           {"vertices", report.vertices},
@@ -416,7 +458,7 @@ std::string step_csv_header() {
                       "second",       "toi_lower", "toi_upper", "u",        "v",
                       "first_x",      "first_y",   "first_z",   "second_x", "second_y",
                       "second_z",     "normal_x",  "normal_y",  "normal_z", "point_error",
-                      "normal_error", "has_side"});
+                      "normal_error", "has_side",  "start"});
 }
 
 std::string step_csv_rows(const StepReport& report, std::size_t i) {
@@ -436,6 +478,7 @@ std::string step_csv_rows(const StepReport& report, std::size_t i) {
     add(contact.point_error);
     add(contact.normal_error);
     row.emplace_back(contact.has_side ? "1" : "0");
+    row.resize(step_csv_columns);
     rows += io::csv_row(row);
   }
   for (const fast::StepInversion& one : known_inversions(report.steps.at(i))) {
@@ -448,6 +491,7 @@ std::string step_csv_rows(const StepReport& report, std::size_t i) {
                                  io::csv_number(one.toi_lower),
                                  io::csv_number(one.toi_upper)};
     row.resize(step_csv_columns);
+    row.back() = std::to_string(one.start);
     rows += io::csv_row(row);
   }
   return rows;

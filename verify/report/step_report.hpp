@@ -37,7 +37,9 @@ using StepRecord = jobs::StepCheck;
 
 /// The results of a run of `touchstone step`. The elements are those of every frame.
 struct StepReport {
-  Separation separation = fast::no_separation;
+  Separation separation = {};
+  std::vector<std::string> group_names;
+  fast::CollisionGroups groups;  ///< whose radii and separations are told
   jobs::StepQuestion question = jobs::StepQuestion::all;
   std::optional<double> alpha = std::nullopt;
   std::size_t vertices = 0;
@@ -58,12 +60,13 @@ struct StepReport {
 /// verdict on frames.
 [[nodiscard]] std::string to_text(const StepReport& report);
 
-/// `separation` (as in bench_report.hpp, null for contact), `alpha` (or null), `question` (all,
-/// earliest or free), `vertices`, `edges`, `faces`, `tetrahedra`, `interrupted`; `frames`, a list
-/// of `name`, `intersecting` (how many pairs intersect; if it is beyond `most_intersections`, there
-/// may be more) and `intersections` (lists of the kind, the
-/// first element and its number, the second one and its number; both null if they were not searched
-/// for); and `steps`, a list of `frames` (two names), `candidates` and `collisions`
+/// `separation` (as in bench_report.hpp), `radii` (an object of the groups' names), `separations`
+/// (a list of two names and their distance), `alpha` (or null), `question` (all, earliest or free),
+/// `vertices`, `edges`, `faces`, `tetrahedra`, `interrupted`; `frames`, a list of `name`,
+/// `intersecting` (how many pairs intersect; if it is beyond `most_intersections`, there may be
+/// more) and `intersections` (lists of the kind, the first element and its number, the second one
+/// and its number; both null if they were not searched for);
+/// and `steps`, a list of `frames` (two names), `candidates` and `collisions`
 /// (`vertex_face`, `edge_edge`, `vertex_edge`, `vertex_vertex`; null where they were not
 /// counted or not all asked for), `inversions` (how many elements invert, or null), `toi_lower` and
 /// `toi_upper` (null if nothing touches, or only freedom was asked for), `earliest` (the pairs of
@@ -81,12 +84,12 @@ struct StepReport {
 [[nodiscard]] nlohmann::json to_json(const StepReport& report);
 
 /// step,frame0,frame1,kind,first,second,toi_lower,toi_upper,u,v,first_x,first_y,first_z,second_x,
-/// second_y,second_z,normal_x,normal_y,normal_z,point_error,normal_error,has_side
+/// second_y,second_z,normal_x,normal_y,normal_z,point_error,normal_error,has_side,start
 [[nodiscard]] std::string step_csv_header();
 
 /// A row for each contact of step `i`, then for each inversion, with the kind, its element as
-/// `first` and its times. `normal_error` is inf where there is no normal, or no bound; `has_side`
-/// is 0 or 1.
+/// `first`, its times and its `start`: 1, or 0 and -1 if it was flat or inverted from the start.
+/// `normal_error` is inf where there is no normal, or no bound; `has_side` is 0 or 1.
 [[nodiscard]] std::string step_csv_rows(const StepReport& report, std::size_t i);
 
 // The intersections of meshes at rest, for people (tables) and for machines (JSON, CSV).

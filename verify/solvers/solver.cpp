@@ -239,7 +239,6 @@ class InChildren final : public Solver {
 /// The terms with curves, unless numbers are to be rounded.
 fast::Terms with_curves(fast::Terms terms) {
   if (terms.float_coordinates) return terms;
-  terms.least_degree = 0;
   terms.most_degree = greatest_degree;
   terms.rational = true;
   return terms;

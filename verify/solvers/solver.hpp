@@ -32,7 +32,7 @@ namespace touchstone::verify::solvers {
 struct SolveRequest {
   Queries queries = {};
   /// Minimum separation. Methods take it from here, whatever their MethodOptions say.
-  Separation separation = fast::no_separation;
+  Separation separation = {};
   /// The key to recorded answers: the name of the source, and the queries' numbers in it.
   std::string_view source = {};
   std::span<const std::uint64_t> indices = {};

@@ -136,7 +136,7 @@ OwnCurves curves_from(const nlohmann::json& json, Kind kind) {
 
 Separation separation_of(const nlohmann::json& json) {
   const auto separation = json.find("separation");
-  if (separation == json.end() || separation->is_null()) return fast::no_separation;
+  if (separation == json.end() || separation->is_null()) return {};
   const Separation result{.distance = number_of(separation->at("min_separation")),
                           .norm = norm_from_string(separation->at("norm").get<std::string>())};
   if (!is_valid(result)) throw std::invalid_argument("the separation must not be negative");

@@ -122,6 +122,7 @@ nlohmann::json step_facts(const ViewedStep& step) {
     pairs.push_back({{"kind", to_string(fast::Step::kind_of(collision.kind))},
                      {"name", pair_text(collision)},
                      {"points", step.points[i]},
+                     {"min_separation", step.separations[i].distance},
                      {"toi", {collision.toi_lower, collision.toi_upper}},
                      {"place", {collision.u, collision.v}}});
   }

@@ -30,7 +30,7 @@ struct ViewedStep {
   mesh::Vertices before, after;
   std::vector<fast::Face> faces;
   std::vector<fast::Edge> codimensional_edges;  ///< the edges of no face
-  Separation separation = fast::no_separation;
+  Separation separation = {};
   std::vector<fast::StepCollision> collisions;  ///< in the order of toi_lower
   /// Each collision as a query, and its separation.
   std::vector<Query> queries;
@@ -57,8 +57,8 @@ inline constexpr std::size_t most_listed_pairs = 20'000;
 /// The input of a page's script: an object of `label`, `before`, `after`, `faces`, `edges` (arrays
 /// of little-endian doubles, and of 32-bit integers, in base 64), `pairs`, a list of the first
 /// most_listed_pairs of `kind` (of the query), `name`, `points` (of the query, by their numbers),
-/// `toi` (lower and upper), `place` (u and v), `total`, the number of collisions, and
-/// `min_separation` and `norm`.
+/// `min_separation`, `toi` (lower and upper), `place` (u and v), `total`, the number of collisions,
+/// and `min_separation` and `norm`.
 [[nodiscard]] nlohmann::json step_facts(const ViewedStep& step);
 
 /// The same of a mesh at rest: an object of `label`, `before`, `faces`, `edges`, `pairs`, a list of

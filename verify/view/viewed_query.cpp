@@ -8,7 +8,7 @@ namespace touchstone::verify::view {
 namespace {
 
 QueryShape common_shape(const OwnCurves& own) {
-  QueryShape shape{.kind = own.kind, .degree = 0};
+  QueryShape shape{.kind = own.kind};
   for (const Trajectory& curve : own.curves) {
     shape.degree = std::max(shape.degree, curve.degree());
     shape.is_rational = shape.is_rational || !curve.weights.empty();

@@ -31,7 +31,7 @@ struct OwnCurves {
 struct ViewedQuery {
   std::string label = {};                           ///< its origin
   std::variant<base::AnyQuery, OwnCurves> query{};  ///< finite numbers, positive weights
-  Separation separation = fast::no_separation;
+  Separation separation = {};
   std::vector<std::string> notes = {};  ///< recorded remarks, a sentence each
   std::vector<judge::GivenAnswer> answers = {};
   /// False: leaves out the nearest approach of primitives that do not collide, which takes longest.

@@ -17,7 +17,7 @@ let usage =
   \                  of the report: '1 pair of groups held apart'. Without it and without SCENES\n\
   \                  free and sequence reject all rules\n\
    --separation D    Reject whatever is about another distance (0: contact itself)\n\
-   --norm NORM       The norm of --separation: linf (the default) or l2\n\n\
+   --norm NORM       The norm of --separation: l2 (the default) or linf\n\n\
    Exit status: 0 all accepted and the stream complete, 1 one rejected or the stream cut, 2\n\
    unreadable input, unwritable output, wrong usage, or what is not covered: meshes, and thickness\n\
    of more than 200 groups or of one above 1000.\n\n\
@@ -223,7 +223,7 @@ let rec parsed words files options norm =
       | [] | "" :: _ | _ :: _ :: _ :: _ | [ _; ("-" | "") ] -> Wrong
       | _ when options.separation = "" && norm <> "" -> Wrong
       | _ ->
-          let norm = if norm = "" then "linf" else norm in
+          let norm = if norm = "" then "l2" else norm in
           let separation =
             if options.separation = "" then "" else demanded_separation options.separation norm
           in

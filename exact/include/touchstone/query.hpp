@@ -100,10 +100,18 @@ static_assert(std::is_trivially_copyable_v<Query> && std::is_standard_layout_v<Q
 /// The greatest degree of a curve.
 inline constexpr std::size_t greatest_degree = 8;
 
+/// \throws std::invalid_argument unless the degree of curves is from 1 to greatest_degree.
+inline void require_degree(std::size_t degree) {
+  if (degree > 0 && degree <= greatest_degree) return;
+  throw std::invalid_argument("the degree of curves must be from 1 to " +
+                              std::to_string(greatest_degree) + ", not " + std::to_string(degree) +
+                              (degree == 0 ? "; repeat the control point of a point at rest" : ""));
+}
+
 /// The shape of queries: their primitives, and the Bézier curves that all points move on. A point's
 /// position is x(t) = Σ_j B_j(t) b_j with the Bernstein polynomials B_j(t) = binomial(k, j)
 /// (1−t)^(k−j) t^j of degree k, or, with positive weights w_j, Σ_j B_j(t) w_j b_j / Σ_j B_j(t) w_j.
-/// A straight line is a curve of degree 1.
+/// A straight line is a curve of degree 1, the least there is.
 struct QueryShape {
   Kind kind = Kind::vertex_face;
   std::size_t degree = 1;
@@ -131,10 +139,10 @@ struct Queries : QueryShape {
       : QueryShape{.kind = kind_of_all},
         numbers(queries.empty() ? nullptr : queries.front().coordinates.data(),
                 queries.size() * 3 * query_points) {}
-  /// \throws std::invalid_argument for a degree above greatest_degree, and unless the numbers are
-  /// those of whole queries.
+  /// \throws std::invalid_argument as require_degree, and unless the numbers are those of whole
+  /// queries.
   Queries(const QueryShape& shape, std::span<const double> all) : QueryShape(shape), numbers(all) {
-    if (degree > greatest_degree) throw std::invalid_argument("queries: a degree above 8");
+    require_degree(degree);
     if (numbers.size() % numbers_of_query() != 0) {
       throw std::invalid_argument("queries: " + std::to_string(numbers.size()) +
                                   " numbers are no multiple of " +
@@ -224,7 +232,7 @@ enum class Norm : std::uint8_t { linf, l2 };
 /// and (u,v) in the closed domain; its time of impact is the smallest such t. With d = 0 this is
 /// the collision above, in either norm. ([wang2021], section 5: "minimum separation", in L∞.)
 ///
-/// The default norm is l2, here and in every function that takes a norm, in C++, C and Python.
+/// The default norm is l2, here and wherever none is named: in C++, C, Python and commands.
 struct Separation {
   double distance = 0.0;  ///< d, finite and not negative, in units of the coordinates
   Norm norm = Norm::l2;

@@ -328,9 +328,10 @@ class Step {
   /// fl(x1 − x0) overflows, for any α.
   [[nodiscard]] Step scaled(double alpha) const;
 
-  /// A maximal step size: a double α in [0,1] such that scaled(α) is free and, unless α = 1, scaled
-  /// of the next double is not. Both are decided exactly. nullopt if scaled(0), which is at rest,
-  /// is not free.
+  /// A maximal step size: a double α in [0, t_max] such that scaled(α) is free and, unless α is
+  /// t_max, scaled of the next double is not. Both are decided exactly. nullopt if scaled(0), which
+  /// is at rest, is not free. So a step with is_free() gives t_max, as far as rounding does not
+  /// move it into a contact.
   ///
   /// The search begins at the time of the earliest impact. It tries only some of the doubles from
   /// there. Because of rounding, a step with a larger α may avoid a contact of one with a smaller
@@ -408,10 +409,9 @@ struct CurvedVertices {
 
 class CurvedStep {
  public:
-  /// \throws std::invalid_argument for a degree above greatest_degree, numbers that are no whole
-  /// vertices, elements with volumes, or invalid options; std::domain_error naming the first vertex
-  /// with a coordinate that is not finite or a weight that is not positive and finite; otherwise as
-  /// Step.
+  /// \throws std::invalid_argument as require_degree, for numbers that are no whole vertices,
+  /// elements with volumes, or invalid options; std::domain_error naming the first vertex with a
+  /// coordinate that is not finite or a weight that is not positive and finite; otherwise as Step.
   CurvedStep(CurvedVertices vertices, Mesh mesh, const StepOptions& options = {});
 
   /// The earliest impact; nullopt if there is no collision.

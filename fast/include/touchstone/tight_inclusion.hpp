@@ -91,8 +91,8 @@ struct TightInclusionOptions {
   /// The maximum number of boxes in a level, of 24 bytes in each of two arrays; beyond it the
   /// search ends as beyond max_checks.
   std::size_t max_boxes = std::size_t{1} << 22U;
-  /// d: the distance, measured in L∞, at which primitives are in contact; finite, not negative. The
-  /// answer is conservative for the same distance in L2.
+  /// d: the distance at which primitives are in contact; finite, not negative. Its norm has no
+  /// effect: it is measured in L∞, which is conservative for L2, where no distance is smaller.
   Separation separation = {};
   /// Only contacts up to this time, in [0,1], count; it is rounded up to a multiple of 2^-53
   /// (2^-24 in single precision).

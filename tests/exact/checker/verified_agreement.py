@@ -166,13 +166,14 @@ def write_random_curves(draw, folder, count):
     for kind, points in starts.items():
         for form, greatest in (("degree", GREATEST_DEGREE), ("rational", 3)):
             for degree in range(greatest + 1):
-                rows = [f"{form},{degree}"]
+                rows = [f"{form},{max(degree, 1)}"]
                 for _ in range(count):
                     size = draw.choice([1, 2, 4])
                     for point in points:
                         for _ in range(degree + 1):
                             row = [x + size * draw.randint(-8, 8) / 4 for x in point]
                             rows.append(",".join(map(str, row + [draw.choice([0.5, 1, 2, 3])] * (form == "rational"))))
+                    rows += rows[-4:] if degree == 0 else []  # at rest
                 (folder / f"{form}{degree}_{kind}.csv").write_text("\n".join(rows) + "\n")
 
 

@@ -241,11 +241,10 @@ struct ShapeCase {
 
 const ShapeCase cubic{{Kind::edge_edge, 3, false}, "degree,3", {4, 4, 3}};
 const ShapeCase rational{{Kind::edge_edge, 2, true}, "rational,2", {3, 4, 4}};
-const ShapeCase at_rest{{Kind::edge_edge, 0, false}, "degree,0", {1, 4, 3}};
-const ShapeCase weighted_rest{{Kind::edge_edge, 0, true}, "rational,0", {1, 4, 4}};
+const ShapeCase weighted{{Kind::edge_edge, 1, true}, "rational,1", {2, 4, 4}};
 const ShapeCase straight{{Kind::edge_edge, 1, false}, "degree,1", {2, 4, 3}};
 const ShapeCase highest{{Kind::edge_edge, 8, true}, "rational,8", {9, 4, 4}};
-const std::array all{cubic, rational, at_rest, weighted_rest, straight, highest};
+const std::array all{cubic, rational, weighted, straight, highest};
 
 /// The rows of numbered queries, as quarters or as decimals, odd queries labelled as collisions.
 std::string numbered_text(const QueryShape& shape, std::size_t count, bool fractions, bool labels) {
@@ -320,10 +319,13 @@ TEST(CurvedCsv, MayHaveBlankLinesHeadersQuotesAndItsShapeAgain) {
 }
 
 TEST(CurvedCsv, WithAFaultyFirstLineIsRefused) {
-  const std::string reason = ": the degree must be a whole number from 0 to 8: ";
-  EXPECT_EQ(error_in("a.csv", "degree,9\n"), "a.csv:1:2" + reason + "\"9\"");
-  EXPECT_EQ(error_in("a.csv", "\nrational,-1\n"), "a.csv:2:2" + reason + "\"-1\"");
-  EXPECT_EQ(error_in("a.csv", "degree,\n"), "a.csv:1:2" + reason + "\"\"");
+  const std::string range = ": the degree of curves must be from 1 to 8, not ";
+  const std::string whole = ": the degree must be a whole number: ";
+  EXPECT_EQ(error_in("a.csv", "degree,9\n"), "a.csv:1:2" + range + "9");
+  EXPECT_EQ(error_in("a.csv", "\nrational,0\n"),
+            "a.csv:2:2" + range + "0; repeat the control point of a point at rest");
+  EXPECT_EQ(error_in("a.csv", "rational,-1\n"), "a.csv:1:2" + whole + "\"-1\"");
+  EXPECT_EQ(error_in("a.csv", "degree,\n"), "a.csv:1:2" + whole + "\"\"");
   EXPECT_EQ(error_in("a.csv", "degree,2\n"), "a.csv: no queries");
   EXPECT_TRUE(error_in("a.csv", "degree\n1,2,3\n").starts_with("a.csv:1: 1 columns, expected 3, "));
   EXPECT_TRUE(error_in("a.csv", "degrees,2\n").starts_with("a.csv:1: 2 columns, expected 3, "));
@@ -341,20 +343,21 @@ TEST(CurvedCsv, LosesCountAtALineThatIsNoRow) {
 }
 
 TEST(CurvedCsv, SkipsAQueryWithAnInvalidNumberOrWeight) {
-  const std::string good = numbered_text(weighted_rest.shape, 1, false, false);
-  const std::string rest = "1,2,3,1\n1,2,3,1\n1,2,3,1\n";
+  const std::string good = numbered_text(weighted.shape, 1, false, false);
+  std::string rest;
+  for (int i = 0; i < 7; ++i) rest += "1,2,3,1\n";
   for (const auto& [row, fault] :
        {std::pair{"1,2,3,0", ":4: a weight must be positive"},
         std::pair{"1,2,3,-1", ":4: a weight must be positive"},
         std::pair{"1,2,3,0.1", ":4: not exactly a double (--round takes the nearest)"},
         std::pair{"1,2,x,1", ":3: not a number: \"x\""}}) {
     const TemporaryFolder folder;
-    const auto path = folder.file("a_ee.csv", "rational,0\n" + good + row + "\n" + rest + good);
+    const auto path = folder.file("a_ee.csv", "rational,1\n" + good + row + "\n" + rest + good);
     const Survivors kept = read_survivors(path, folder.path());
-    EXPECT_EQ(kept.messages, std::vector<std::string>{"a_ee.csv:6" + std::string(fault)});
+    EXPECT_EQ(kept.messages, std::vector<std::string>{"a_ee.csv:10" + std::string(fault)});
     ASSERT_EQ(kept.records.size(), 2U);
     EXPECT_EQ(kept.records[1].index, 2U);
-    EXPECT_EQ(kept.records[1].query, numbered(weighted_rest.shape, 0));
+    EXPECT_EQ(kept.records[1].query, numbered(weighted.shape, 0));
   }
 }
 
@@ -493,14 +496,15 @@ TEST(NpyDataset, ThatBecomesShorterGivesWhatIsThereAndThenOneError) {
 TEST(CurvedNpy, OfAnotherShapeIsRefused) {
   const std::vector<double> numbers(480, 1.0);
   const std::string expected =
-      ", expected (N, 8, 3), or (N, K+1, 4, 3) for curves of degree K up to 8, or (N, K+1, 4, 4) "
-      "with weights";
+      ", expected (N, 8, 3), or (N, K+1, 4, 3) for curves of degree K from 1 to 8 (repeat the "
+      "control point of a point at rest), or (N, K+1, 4, 4) with weights";
   const auto error = [&](const std::vector<std::uint64_t>& extents) {
     return error_in("a.npy", tests::array("<f8", extents, numbers));
   };
   EXPECT_EQ(error({4, 10, 4, 3}), "a.npy: shape (4, 10, 4, 3)" + expected);
   EXPECT_EQ(error({8, 4, 3, 5}), "a.npy: shape (8, 4, 3, 5)" + expected);
   EXPECT_EQ(error({6, 4, 4, 5}), "a.npy: shape (6, 4, 4, 5)" + expected);
+  EXPECT_EQ(error({40, 1, 4, 3}), "a.npy: shape (40, 1, 4, 3)" + expected);
   EXPECT_EQ(error({40, 4, 3}), "a.npy: shape (40, 4, 3)" + expected);
 }
 

@@ -260,7 +260,7 @@ TEST_F(SeparationFile, GivesBackWhatWasWritten) {
 TEST_F(SeparationFile, BelongsToTheFolderAndToThoseInIt) {
   const fs::path dataset = folder() / "vertex-face" / "a.csv";
   fs::create_directories(dataset.parent_path());
-  EXPECT_EQ(recorded_separation(dataset), (Separation{.distance = 0.0, .norm = Norm::linf}));
+  EXPECT_EQ(recorded_separation(dataset), Separation{});
   write_separation(folder(), {.distance = 0.5, .norm = Norm::linf});
   EXPECT_EQ(recorded_separation(dataset).distance, 0.5);
   EXPECT_EQ(recorded_separation(folder() / "a.csv").distance, 0.5);

@@ -208,6 +208,14 @@ TEST(ReadRadii, AndSeparationsAreThoseOfNamedGroups) {
                     .starts_with("r.csv:2: expected GROUP,RADIUS, the last a number >= 0, found "))
         << line;
   }
+  EXPECT_EQ(folder.error_of([&] {
+    (void)read_radii(folder.file("r.csv", "cloth,1\nthe ball,1\n cloth,1\n"), groups);
+  }),
+            "r.csv:3: the group has a radius in line 1, too: leave one of them out");
+  EXPECT_EQ(folder.error_of([&] {
+    (void)read_separations(folder.file("s.csv", "cloth,the ball,1\nthe ball,cloth,2\n"), groups);
+  }),
+            "s.csv:2: the two groups have a distance in line 1, too: leave one of them out");
   EXPECT_EQ(tests::message_of<std::invalid_argument>(
                 [&] { (void)read_radii(folder.file("r.csv", "ball,1\n"), groups); }),
             "no group \"ball\"; there are: \"cloth\", \"the ball\", \"a,b\"");

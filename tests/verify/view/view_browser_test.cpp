@@ -528,7 +528,7 @@ TEST_F(ViewBrowser, DecidesAfterEachChange) {
     await settled();
     edits.push(seen());
     change(find("distance"), "0.5");
-    choose("asked_norm", "l2");
+    choose("asked_norm", "linf");
     choose("asked_kind", "edge-edge");
     await settled();
     edits.push(seen());
@@ -548,7 +548,7 @@ TEST_F(ViewBrowser, DecidesAfterEachChange) {
       return find("query").hidden ? find("nothing").textContent : find("verdict").textContent;
     };
     const query = (kind, end) => `#q=${kind},1,1,0.5,0,0,0,4,0,0,0,4,0,1,1,${end},0,0,0,4,0,0,0,4,0`;
-    const separated = [await go(`${query("edge_edge", "1e-3")}&d=0.25&norm=l2`), last()];
+    const separated = [await go(`${query("edge_edge", "1e-3")}&d=0.25`), last()];
     const visited = [];
     for (const hash of [query("vertex-face", "-0x1p-3"), "#q=vertex_face,1,2", "#q=face_face", `${query("vertex_face", 1)}&d=-1`,
       query("vertex_face", 1)]) visited.push(await go(hash));
@@ -581,7 +581,7 @@ TEST_F(ViewBrowser, DecidesAfterEachChange) {
   const nlohmann::json& edited = result.at("edited");
   EXPECT_EQ(edited.at("coordinates").at(14), -0.125);
   EXPECT_EQ(edited.at("separation"), 0.5);
-  EXPECT_EQ(edited.at("norm"), "l2");
+  EXPECT_EQ(edited.at("norm"), "linf");
   EXPECT_EQ(edited.at("kind"), "edge-edge");
   EXPECT_EQ(result.at("pasted"), "#q=edge_edge,0,0,1,0,0,0,1,0,0,2,0,0,0,0,3,0,0,0,1,0,0,2,0,0");
 

@@ -56,7 +56,7 @@ function fromJson(text) {
   if (!Array.isArray(list)) throw new Error("the JSON has no list “coordinates”");
   const numbers = list.flat(2);
   if (numbers.some((x) => typeof x === "object")) throw new Error("“coordinates” holds more than numbers");
-  const { min_separation: distance = 0, norm = "linf" } = one.separation || {};
+  const { min_separation: distance = 0, norm = "l2" } = one.separation || {};
   return { kind: isKind(one.kind) ? one.kind : null, coordinates: doubles(numbers.map(String)),
     ...separation(typeof distance === "object" ? "" : String(distance), norm) };
 }
@@ -76,7 +76,7 @@ export function readLink(hash) {
   const [name, ...texts] = parts.get("q").split(",");
   const kind = kindOf(name);
   if (kind === null) throw new Error("the link begins with neither vertex_face nor edge_edge");
-  return { kind, coordinates: doubles(texts), ...separation(parts.get("d") || "0", parts.get("norm") || "linf") };
+  return { kind, coordinates: doubles(texts), ...separation(parts.get("d") || "0", parts.get("norm") || "l2") };
 }
 
 /// Rows of numbers with commas: x, y, z, or numerator and denominator of each, and optionally a
@@ -103,7 +103,7 @@ export function readQuery(pasted) {
   if (pasted.length > longest) throw new Error("the text has more than a million characters");
   // The minus sign of typeset documents.
   const text = pasted.replace(/\u2212/g, "-");
-  const contact = { kind: kindOf(text), min_separation: 0, norm: "linf" };
+  const contact = { kind: kindOf(text), min_separation: 0, norm: "l2" };
   if (/^\s*[[{]\s*["[{\d-]/.test(text) && /[\]}]\s*$/.test(text)) {
     let query = null;
     try {

@@ -82,7 +82,7 @@ function editor() {
       ...radios("asked_kind", ["vertex-face", "edge-edge"], "vertex-face", (kind) => edit({ kind })),
       make("label", {}, "Minimum separation ", make("input", { id: "distance", type: "text", size: 12, inputmode: "decimal",
         onchange: changeSeparation })),
-      ...radios("asked_norm", ["linf", "l2"], "linf", changeSeparation),
+      ...radios("asked_norm", ["l2", "linf"], "l2", changeSeparation),
       make("label", {}, make("input", { type: "checkbox", id: "move" }), "Drag points in the first picture"),
       button("link", "Copy a link to this query", "", copyLink), make("output", { id: "linked" })),
     make("p", {}, "Points are dragged at t = 0 or t = 1; numbers can be typed into the table below."));

@@ -44,10 +44,10 @@ export function readStep(facts) {
 }
 
 /// A pair as a query of exact coordinates.
-export function queryOf(step, { kind, name, points }) {
+export function queryOf(step, { kind, name, points, min_separation }) {
   const coordinates = [step.before, step.after].flatMap((ends) =>
     points.flatMap((i) => [ends[3 * i], ends[3 * i + 1], ends[3 * i + 2]]));
-  return { kind, coordinates, min_separation: step.min_separation, norm: step.norm, label: `${step.label}: ${name}` };
+  return { kind, coordinates, min_separation, norm: step.norm, label: `${step.label}: ${name}` };
 }
 
 // ---- The picture --------------------------------------------------------------------------------
@@ -312,7 +312,9 @@ export class StepPart {
     const one = step.isAtRest ? "intersection" : "collision";
     const count = step.total === 1 ? `1 ${one}` : `${step.total} ${one}s`;
     const first = step.pairs.length > 0 && !step.isAtRest ? `, the first at t = ${doubleText(step.pairs[0].toi[0])}` : "";
-    const separation = step.min_separation > 0 ? ` within ${doubleText(step.min_separation)} (${step.norm})` : "";
+    const isThick = step.pairs.some((pair) => pair.min_separation > step.min_separation);
+    const separation = step.min_separation > 0 || isThick
+      ? ` within ${doubleText(step.min_separation)} (${step.norm})${isThick ? " and the thickness of groups" : ""}` : "";
     const elements = `${step.before.length / 3} vertices, ${step.faces.length / 3} faces`;
     return [
       make("h2", {}, step.label),
