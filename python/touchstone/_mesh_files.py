@@ -154,17 +154,28 @@ def stated(path: pathlib.Path) -> Tuple[int, int]:
         points = found(b"POINTS", b"NumberOfPoints")
         cells = found(b"CELLS|VERTICES|LINES|POLYGONS|TRIANGLE_STRIPS", b"NumberOf(?:Cells|Verts|Lines|Strips|Polys)")
         extent = found(b"DIMENSIONS", b"WholeExtent")
-        # VTK takes as many cells as the piece states, even if its lists have more.
-        ends = rb"<DataArray(?=[^>]*\"offsets\")(?=[^>]*\"ascii\")[^>]*>([^<]*)"
-        ends_of = [match[1].split() for match in re.finditer(ends, text)]
-        if ends_of and sum(map(len, ends_of)) != sum(n[0] for n in cells):
-            raise FrameError(f"{path}: it states {sum(n[0] for n in cells)} cells, but lists {sum(map(len, ends_of))}")
         # From version 5 on the first number is that of the places where cells begin, and the end of the last.
         more = 1 if re.match(rb"# vtk DataFile Version (?:[5-9]|\d\d)", text[:40]) else 0
+        count = sum(max(0, n[0] - more) for n in cells)
+        require_lists(text, path, count, is_legacy and more == 0)
     if not extent:
-        return sum(n[0] for n in points), sum(max(0, n[0] - more) for n in cells)
+        return sum(n[0] for n in points), count
     sides = [n - 1 for n in extent[0]] if is_legacy else [b - a for a, b in zip(extent[0][::2], extent[0][1::2])]
     return int(np.prod([n + 1 for n in sides])), int(np.prod([max(1, n) for n in sides]))
+
+
+def require_lists(text: Any, path: pathlib.Path, count: int, is_old: bool) -> None:
+    """Raise a FrameError if the lists of cells in a text have others than it states: VTK takes what is stated, and may crash."""
+    ends = rb"<DataArray(?=[^>]*\"offsets\")(?=[^>]*\"ascii\")[^>]*>([^<]*)"
+    found = sum(len(match[1].split()) for match in re.finditer(ends, text))
+    found += sum(int(match[1]) for match in re.finditer(rb"(?i)\nCELL_TYPES[ \t]+(\d+)\s", text))
+    if found not in (0, count):
+        raise FrameError(f"{path}: it states {count} cells, but lists {found}")
+    if is_old and re.match(rb"[^\n]*\n[^\n]*\nASCII", text[:512]):
+        numbers = rb"(?i)\n(?:CELLS|VERTICES|LINES|POLYGONS|TRIANGLE_STRIPS)[ \t]+\d+[ \t]+(\d+)\s+([-\d\s]*)"
+        for size, words in re.findall(numbers, text):
+            if len(words.split()) != int(size):
+                raise FrameError(f"{path}: a list of cells states {int(size)} numbers, but has {len(words.split())}")
 
 
 def vtk_data(path: pathlib.Path) -> Any:
