@@ -1,4 +1,4 @@
-# find_package(touchstone COMPONENTS fast) for simulators, exact for researchers, derivation for authors of filters;
+# find_package(touchstone COMPONENTS fast) for simulators, exact for researchers, scene_certificates for both, derivation for authors of filters;
 # each component requires only its own packages.
 include(CMakePackageConfigHelpers)
 

@@ -40,6 +40,9 @@ constexpr std::string_view layer_lines = R"(
   exact/curved_query.hpp: exact/query.hpp
   exact/element.hpp: exact/curved_query.hpp exact/query.hpp
   exact/: exact/ CGAL/ Eigen/ gmp.h gmpxx.h
+// Certificates of scenes join the searches of fast, the proofs of the oracle, and what the checker
+// says of arguments; nothing of these three includes them.
+  exact/scene/: exact/ exact/checker/ exact/scene/ fast/ Eigen/
 // The checker shares no code with anything that decides queries.
   exact/checker/: exact/checker/ gmp.h gmpxx.h
 // filters/ is two targets: what simulators include, which needs nothing, and the derivation of the
@@ -72,7 +75,7 @@ constexpr std::string_view layer_lines = R"(
   adapters/touchstone.h: stddef.h stdint.h
   verify/plugin.h: stdint.h
 // The modules, packages, and POSIX.
-  REST: exact/ exact/checker/ filters/ filters/derivation/ fast/ verify/plugin.h CLI/ Eigen/ fmt/ gmp.h gmpxx.h nlohmann/ oneapi/tbb/ zip.h zstd.h dlfcn.h fcntl.h poll.h sys/ time.h unistd.h
+  REST: exact/ exact/checker/ exact/scene/ filters/ filters/derivation/ fast/ verify/plugin.h CLI/ Eigen/ fmt/ gmp.h gmpxx.h nlohmann/ oneapi/tbb/ zip.h zstd.h dlfcn.h fcntl.h poll.h sys/ time.h unistd.h
   verify/:
   verify/base/: REST
   verify/io/: verify/io/ REST
@@ -94,7 +97,8 @@ constexpr std::string_view layer_lines = R"(
 )";
 
 /// Parts of a module that only lines which name them include, not one for the whole module.
-constexpr std::array<std::string_view, 2> closed_parts{"exact/checker/", "filters/derivation/"};
+constexpr std::array<std::string_view, 3> closed_parts{"exact/checker/", "exact/scene/",
+                                                       "filters/derivation/"};
 
 /// Headers under an extension that this project does not use: plugins and callers may be written in
 /// C, and one header has another library's name. Lines "FOLDER: NAMES".
@@ -116,6 +120,7 @@ constexpr std::string_view headers_without_test = R"(
   exact/checker/: proof.hpp scene.hpp
   exact/contact/: contact_conditions.hpp contact_oracle.hpp
   exact/distance/: separating_axes.hpp
+  exact/scene/: scene_text.hpp
 // The kernels, which take the same queries in the same tests; the deciders; distances, steps, and the
 // search for pairs, against all pairs one by one; intersections, beside rational arithmetic.
   fast/broad_phase/: body_tree.hpp box_tree.hpp division_on_lanes.hpp search_on_lanes.hpp seeds.hpp swept_box.hpp words_one_by_one.hpp
@@ -386,7 +391,7 @@ TEST(SourceTree, HasTheTypesThatCHeadersHaveInCommon) {
 /// the layers, against the order of the folders of verify, and in a folder without a line; a header
 /// of the system, another of a permitted package, one of a file's own line.
 constexpr std::string_view forbidden = R"(
-  exact/oracle.cpp: fast/solver.hpp exact/checker/checker.hpp
+  exact/oracle.cpp: fast/solver.hpp exact/checker/checker.hpp exact/scene/scene_text.hpp
   exact/query.hpp: <CGAL/Polynomial.h>
   exact/checker/proof.cpp: exact/query.hpp
   filters/bound.hpp: tests/support/random.hpp filters/derivation/a.hpp

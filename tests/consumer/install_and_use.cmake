@@ -11,6 +11,9 @@ step(${CMAKE_COMMAND} -S ${CMAKE_CURRENT_LIST_DIR} -B ${WORK}/build -G Ninja -DC
 step(${CMAKE_COMMAND} --build ${WORK}/build)
 step(${WORK}/build/researcher)
 step(${WORK}/build/simulator)
+step(${WORK}/build/prover ${WORK}/step.cert ${WORK}/mesh.cert)
+step(${WORK}/prefix/bin/touchstone-check --claim earliest --separation 0 ${WORK}/step.cert)
+step(${WORK}/prefix/bin/touchstone-check --claim free ${WORK}/mesh.cert)
 step(${WORK}/build/filter_author)
 step(${WORK}/build/ticcd_caller)
 

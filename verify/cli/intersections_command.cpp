@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "touchstone/intersections.hpp"
+#include "touchstone/scene_certificate.hpp"
 #include "touchstone/step.hpp"
 #include "verify/cli/commands.hpp"
 #include "verify/cli/files.hpp"
@@ -19,7 +20,6 @@
 #include "verify/io/json.hpp"
 #include "verify/io/printable.hpp"
 #include "verify/io/terminal.hpp"
-#include "verify/jobs/prove_mesh.hpp"
 #include "verify/jobs/work_time.hpp"
 #include "verify/mesh/frames.hpp"
 #include "verify/mesh/mesh_file.hpp"
@@ -75,16 +75,16 @@ std::string prove(CertificatesFile& file, const mesh::Mesh& mesh,
     return "more pairs intersect than are told (--most N)";
   }
   io::ProgressBar bar("prove");
-  const jobs::MeshProof proof =
-      jobs::prove_mesh(mesh, search, report.intersections,
-                       {.label = names_of(report),
-                        .threads = static_cast<unsigned>(search.max_threads),
-                        .on_text = [&file](std::string_view text) { file.write(text); },
-                        .on_progress = [&bar](double fraction) { bar.update(fraction); },
-                        .stop = search.stop});
+  const exact::SceneProof proof =
+      exact::prove_mesh(mesh.vertices, mesh, search,
+                        {.label = names_of(report),
+                         .max_threads = search.max_threads,
+                         .on_text = [&file](std::string_view text) { file.write(text); },
+                         .on_progress = [&bar](double fraction) { bar.update(fraction); },
+                         .stop = search.stop});
   bar.clear();
   if (proof.is_complete()) {
-    file.close(jobs::mesh_certificates_closing_line);
+    file.close(exact::mesh_certificates_closing_line(1));
   } else {
     file.close_incomplete();
   }
@@ -94,7 +94,7 @@ std::string prove(CertificatesFile& file, const mesh::Mesh& mesh,
 Status intersections(const Arguments& arguments) {
   Files files;
   Output json(files, arguments.json_file), csv(files, arguments.csv_file);
-  CertificatesFile certificate(files, arguments.proof_file, jobs::mesh_certificates_header);
+  CertificatesFile certificate(files, arguments.proof_file, exact::mesh_certificates_header());
   ViewFile view(files, arguments.view_file);
   report::IntersectionReport report{
       .meshes = {}, .intersections = {}, .weld = arguments.weld, .apart = arguments.groups.apart};

@@ -14,7 +14,6 @@
 #include <utility>
 #include <vector>
 
-#include "exact/certificate/step_certificate_text.hpp"
 #include "touchstone/intersections.hpp"
 #include "verify/cli/commands.hpp"
 #include "verify/cli/files.hpp"
@@ -153,7 +152,7 @@ class StepRun {
   void ask_for_proof(std::size_t i, const std::function<void(double)>& progress) {
     options_.proof = {
         .label = io::printable(frames_->name(i - 1)) + ' ' + io::printable(frames_->name(i)),
-        .threads = static_cast<unsigned>(options_.step.max_threads),
+        .max_threads = options_.step.max_threads,
         .on_text =
             [this](std::string_view text) {
               proof_.write(text);

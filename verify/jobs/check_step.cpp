@@ -104,8 +104,8 @@ StepCheck check_step(std::optional<fast::Step>& step, const mesh::Mesh& mesh,
         part ? *part : *step, check.collisions ? *check.collisions : check.earliest->pairs);
   }
   if (options.proof.on_text) {
-    check.proof = prove_step(part ? *part : *step, options.proof);
-    check.proof->ends_at_frame = !part || end_alike(part->vertices(), step->vertices());
+    check.proof = exact::prove_step(part ? *part : *step, options.proof);
+    check.ends_at_frame = !part || end_alike(part->vertices(), step->vertices());
   }
   if (options.alpha) check.free_alpha = step->free_step_size();
   return check;

@@ -14,8 +14,8 @@
 #include <vector>
 
 #include "touchstone/contacts.hpp"
+#include "touchstone/scene_certificate.hpp"
 #include "touchstone/step.hpp"
-#include "verify/jobs/prove_step.hpp"
 #include "verify/jobs/work_time.hpp"
 #include "verify/mesh/mesh_file.hpp"
 
@@ -39,7 +39,7 @@ struct StepCheckOptions {
   /// Find the places and normals of the collisions.
   bool find_contacts = false;
   /// Its on_text, if set, receives a certificate of the step.
-  StepProofOptions proof = {};
+  exact::SceneProofOptions proof = {};
 };
 
 /// The kinds of pairs, in the order of fast::PairKind.
@@ -66,7 +66,9 @@ struct StepCheck {
   /// contact at the start.
   std::optional<double> free_alpha;
   /// The proof, if requested.
-  std::optional<StepProof> proof;
+  std::optional<exact::SceneProof> proof;
+  /// True if its scene ends at the frame with which the next step begins.
+  bool ends_at_frame = true;
   /// Time of boxes and groups, and of the count of all candidates.
   WorkTime broad_phase;
   /// Time of the answer, given the trees.

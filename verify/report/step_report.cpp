@@ -252,8 +252,11 @@ std::string summary_of(const StepReport& report) {
   bool does_follow = true;
   for (const StepRecord& step : report.steps) {
     if (!step.proof || !step.proof->is_complete()) return "";
-    summary.add(step.proof->statement, does_follow);
-    does_follow = step.proof->ends_at_frame;
+    summary.add({.is_free = step.proof->claim == "no_contact 1",
+                 .contact = step.proof->contact,
+                 .rules = step.proof->rules},
+                does_follow);
+    does_follow = step.ends_at_frame;
   }
   return report.interrupted ? "" : summary.text();
 }
@@ -397,7 +400,7 @@ nlohmann::json json_of(const StepReport& report, std::size_t i) {
   if (report.alpha) json["free_alpha"] = io::number_to_json(step.free_alpha);
   if (step.proof) {
     json["proof"] = {
-        {"claim", step.proof->claim},           {"rules", step.proof->statement.rules},
+        {"claim", step.proof->claim},           {"rules", step.proof->rules},
         {"directions", step.proof->directions}, {"certificates", step.proof->certificates},
         {"bytes", step.proof->bytes},           {"complete", step.proof->is_complete()}};
   }

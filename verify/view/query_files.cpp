@@ -10,9 +10,9 @@
 #include <stdexcept>
 #include <utility>
 
-#include "exact/certificate/step_certificate_text.hpp"
 #include "fast/method.hpp"
 #include "touchstone/certificate_text.hpp"
+#include "touchstone/scene_certificate.hpp"
 #include "verify/data/dataset.hpp"
 #include "verify/io/coordinate_text.hpp"
 #include "verify/io/dataset_error.hpp"

@@ -1,4 +1,4 @@
-#include "verify/jobs/step_places.hpp"
+#include "exact/scene/step_places.hpp"
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
@@ -7,15 +7,15 @@
 #include <cmath>
 #include <cstdlib>
 
-namespace touchstone::verify::jobs {
+namespace touchstone::exact {
 namespace {
 
 constexpr int coordinate_bits = 50;
 
 /// x·2^shift rounded down.
-std::int64_t enlarged(const exact::Rational& x, int shift) {
-  const exact::Rational scaled = x * exact::power_of_two(shift);
-  exact::Integer result;
+std::int64_t enlarged(const Rational& x, int shift) {
+  const Rational scaled = x * power_of_two(shift);
+  Integer result;
   mpz_fdiv_q(result.get_mpz_t(), scaled.get_num_mpz_t(), scaled.get_den_mpz_t());
   return result.get_si();
 }
@@ -55,8 +55,7 @@ std::optional<Eigen::Vector3d> nearest(std::span<const Eigen::Vector3d> points) 
 
 }  // namespace
 
-StepPlaces::StepPlaces(const fast::MovingVertices& vertices, double greatest,
-                       const exact::Rational& end) {
+StepPlaces::StepPlaces(const fast::MovingVertices& vertices, double greatest, const Rational& end) {
   for (std::size_t i = 0; i < vertices.size(); ++i) {
     for (std::size_t k = 0; k < 3; ++k) {
       greatest = std::max({greatest, std::abs(vertices[i].start[k]), std::abs(vertices[i].end[k])});
@@ -66,12 +65,12 @@ StepPlaces::StepPlaces(const fast::MovingVertices& vertices, double greatest,
   std::frexp(greatest, &exponent);
   const int shift = shift_ = coordinate_bits - exponent;
   uncertainty_ = std::ldexp(8.0, -shift);
-  const auto rounded_up = [&](const exact::Rational& x) { return -enlarged(-x, shift); };
+  const auto rounded_up = [&](const Rational& x) { return -enlarged(-x, shift); };
   bounds_.resize(vertices.size());
   for (std::size_t i = 0; i < vertices.size(); ++i) {
     for (std::size_t k = 0; k < 3; ++k) {
-      const exact::Rational start = vertices[i].start[k];
-      const exact::Rational last = start + end * (exact::Rational(vertices[i].end[k]) - start);
+      const Rational start = vertices[i].start[k];
+      const Rational last = start + end * (Rational(vertices[i].end[k]) - start);
       bounds_[i].lower[0][k] = enlarged(start, shift);
       bounds_[i].lower[1][k] = enlarged(last, shift);
       bounds_[i].upper[0][k] = rounded_up(start);
@@ -81,7 +80,7 @@ StepPlaces::StepPlaces(const fast::MovingVertices& vertices, double greatest,
 }
 
 std::int64_t StepPlaces::enlarged_distance(double distance) const {
-  return -enlarged(-exact::Rational(distance), shift_);
+  return -enlarged(-Rational(distance), shift_);
 }
 
 bool StepPlaces::is_above(Vertices a, Vertices b, const Direction& d, std::int64_t distance) const {
@@ -159,4 +158,4 @@ std::optional<StepPlaces::Direction> StepPlaces::direction(Vertices a, Vertices 
   return std::nullopt;
 }
 
-}  // namespace touchstone::verify::jobs
+}  // namespace touchstone::exact

@@ -1,9 +1,3 @@
-#include "verify/jobs/prove_mesh.hpp"
-
-#include <fmt/format.h>
-#include <oneapi/tbb/parallel_for.h>
-#include <oneapi/tbb/task_arena.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -12,24 +6,24 @@
 #include <numeric>
 #include <optional>
 #include <set>
+#include <stdexcept>
+#include <string>
 #include <tuple>
+#include <utility>
 #include <vector>
 
-#include "exact/certificate/step_certificate_text.hpp"
+#include "exact/checker/checker.hpp"
 #include "exact/checker/resting_mesh.hpp"
 #include "exact/contact/triangle_intersection.hpp"
+#include "exact/scene/scene_text.hpp"
+#include "fast/platform/floating_point_state.hpp"
+#include "fast/platform/threads.hpp"
 #include "touchstone/certificate_text.hpp"
 #include "touchstone/number.hpp"
-#include "verify/base/cores.hpp"
-#include "verify/base/deadline.hpp"
+#include "touchstone/scene_certificate.hpp"
 
-namespace touchstone::verify::jobs {
+namespace touchstone::exact {
 namespace {
-
-using exact::Integer;
-using exact::Rational;
-using exact::RationalPoint;
-using exact::RationalTriangle;
 
 // ---- Vectors ------------------------------------------------------------------------------------
 
@@ -246,7 +240,7 @@ bool is_before(const fast::Edge& a, const fast::Edge& b) {
 }
 
 /// Lists the edges and the points that are elements (touchstone/intersections.hpp).
-void list_edges_and_points(const mesh::Mesh& mesh, bool is_welded, checker::Scene& scene) {
+void list_edges_and_points(const fast::Mesh& mesh, bool is_welded, checker::Scene& scene) {
   std::vector<std::int32_t> first(scene.vertices.size());
   std::iota(first.begin(), first.end(), 0);
   if (is_welded) first = checker::first_at_places(scene.vertices, checker::Groups(scene));
@@ -277,84 +271,58 @@ void list_edges_and_points(const mesh::Mesh& mesh, bool is_welded, checker::Scen
   });
 }
 
-checker::Scene scene_of(const mesh::Mesh& mesh, const fast::IntersectionOptions& search) {
+checker::Scene scene_of(const fast::MovingVertices& vertices, const ListedScene& listed,
+                        bool is_welded) {
   checker::Scene scene;
-  for (Eigen::Index i = 0; i < mesh.vertices.rows(); ++i) {
-    const Triple<double> place{mesh.vertices(i, 0), mesh.vertices(i, 1), mesh.vertices(i, 2)};
-    scene.vertices.push_back({place, place});
+  for (std::size_t i = 0; i < vertices.size(); ++i) {
+    const auto& [x, y, z, zero] = vertices[i].start;
+    scene.vertices.push_back({{x, y, z}, {x, y, z}});
   }
-  scene.faces = mesh.faces;
-  if (search.weld || !search.groups.apart.empty()) {
-    scene.groups.assign(search.groups.of_vertices.begin(), search.groups.of_vertices.end());
-    scene.apart.assign(search.groups.apart.begin(), search.groups.apart.end());
-  }
-  list_edges_and_points(mesh, search.weld, scene);
+  scene.faces = listed.mesh.faces;
+  scene.groups = listed.rules.of_vertices;
+  scene.apart = listed.rules.apart;
+  list_edges_and_points(listed.mesh, is_welded, scene);
   return scene;
 }
 
-class MeshProver {
+class MeshProver : private ProofWriter {
  public:
-  MeshProver(const mesh::Mesh& mesh, const fast::IntersectionOptions& search,
-             const StepProofOptions& options)
-      : mesh_(mesh),
-        is_welded_(search.weld),
-        scene_(scene_of(mesh, search)),
-        elements_(scene_, search.weld),
-        options_(options) {}
+  MeshProver(const fast::MovingVertices& vertices, const ListedScene& listed, bool is_welded,
+             const SceneProofOptions& options)
+      : ProofWriter(options),
+        listed_(listed),
+        is_welded_(is_welded),
+        scene_(scene_of(vertices, listed, is_welded)),
+        elements_(scene_, is_welded) {}
 
-  MeshProof run(std::span<const fast::Intersection> found) {
-    const std::size_t items = scene_.vertices.size() + scene_.faces.size() + scene_.edges.size() +
-                              scene_.points.size() + scene_.groups.size() + scene_.apart.size();
-    if (items > exact::step_item_limit) {
-      proof_.failure = fmt::format("the mesh has more than {} items", exact::step_item_limit);
-      return proof_;
+  SceneProof run(std::span<const fast::Intersection> found) {
+    try {
+      for (const fast::Intersection& one : found) intersecting_.push_back(pair_of(one));
+      std::ranges::sort(intersecting_);
+      proof_.claim = words(is_welded_ ? "welded_intersections" : "intersections", found.size());
+      const std::vector<fast::IndexPair> apart = pairs_to_argue();
+      lines_ = intersecting_.size() + apart.size();
+      require_few_arguments(lines_);
+      proof_.directions = apart.size();
+      write_scene();
+      write_lines(intersecting_, [&](const fast::IndexPair& pair) { return common_point(pair); });
+      put("separations\n");
+      write_lines(apart, [&](const fast::IndexPair& pair) { return argument(pair); });
+      require_few_comparisons();
+    } catch (const CertificateLimitError& error) {
+      proof_.failure = error.what();
     }
-    for (const fast::Intersection& one : found) intersecting_.push_back(pair_of(one));
-    std::ranges::sort(intersecting_);
-    const std::vector<fast::IndexPair> apart = pairs_to_argue();
-    proof_.arguments = apart.size();
-    lines_ = intersecting_.size() + apart.size();
-    if (lines_ > exact::step_argument_limit) {
-      proof_.failure =
-          fmt::format("more than {} pairs need an argument", exact::step_argument_limit);
-      return proof_;
-    }
-    write_scene();
-    put(fmt::format("claim {}intersections {}\n", is_welded_ ? "welded_" : "",
-                    intersecting_.size()));
-    write_lines(intersecting_, [&](const fast::IndexPair& pair) { return common_point(pair); });
-    put("separations\n");
-    write_lines(apart, [&](const fast::IndexPair& pair) { return argument(pair); });
-    if (proof_.is_complete()) put("end\n");
-    return std::move(proof_);
+    return finish(mesh_certificates_header(), mesh_certificates_closing_line(1));
   }
 
  private:
-  void put(std::string_view text) {
-    proof_.bytes += text.size();
-    if (options_.on_text) options_.on_text(text);
-  }
-
   void write_scene() {
-    std::string text = "mesh " + exact::label_text(options_.label) + '\n';
-    text += fmt::format("vertices {}\n", scene_.vertices.size());
-    for (const checker::Motion& vertex : scene_.vertices) {
-      for (const double x : vertex.start) {
-        exact::write_hexadecimal(text, x);
-        text += ' ';
-      }
-      text.back() = '\n';
-    }
-    const auto one_by_one = [](const std::vector<std::int32_t>& numbers) {
-      std::vector<std::array<std::int32_t, 1>> items(numbers.size());
-      for (std::size_t i = 0; i < numbers.size(); ++i) items[i] = {numbers[i]};
-      return items;
-    };
-    exact::write_step_list(text, "faces", scene_.faces);
-    exact::write_step_list(text, "edges", scene_.edges);
-    exact::write_step_list(text, "points", one_by_one(scene_.points));
-    exact::write_step_list(text, "groups", one_by_one(scene_.groups));
-    exact::write_step_list(text, "apart", scene_.apart);
+    std::string text;
+    write_line(text, "mesh", label_text(options().label));
+    write_line(text, "vertices", scene_.vertices.size());
+    for (const checker::Motion& vertex : scene_.vertices) write_doubles(text, vertex.start);
+    listed_.write(text);
+    write_line(text, "claim", proof_.claim);
     put(text);
   }
 
@@ -372,7 +340,7 @@ class MeshProver {
       return static_cast<std::size_t>(found - list.begin());
     };
     if (kind == fast::ElementKind::edge) {
-      const fast::Edge& edge = mesh_.edges[static_cast<std::size_t>(number)];
+      const fast::Edge& edge = listed_.mesh.edges[static_cast<std::size_t>(number)];
       place += place_in(scene_.edges, std::ranges::lower_bound(scene_.edges, edge, is_before));
     } else {
       place += elements_.edges() +
@@ -382,15 +350,17 @@ class MeshProver {
   }
 
   /// Those that the checker asks for; more than the limit if there are more.
-  [[nodiscard]] std::vector<fast::IndexPair> pairs_to_argue() const {
+  [[nodiscard]] std::vector<fast::IndexPair> pairs_to_argue() {
     std::vector<fast::IndexPair> pairs;
-    std::int64_t comparisons = std::numeric_limits<std::int64_t>::max();
+    static constexpr std::int64_t most = std::numeric_limits<std::int64_t>::max();
+    std::int64_t comparisons_left = most;
     const auto take = [&](const checker::Primitive& a, const checker::Primitive& b) {
       const fast::IndexPair pair{a.number, b.number};
-      if (pairs.size() > exact::step_argument_limit) return;
+      if (pairs.size() > scene_argument_limit) return;
       if (!std::ranges::binary_search(intersecting_, pair)) pairs.push_back(pair);
     };
-    elements_.find_pairs(comparisons, take);
+    elements_.find_pairs(comparisons_left, take);
+    comparisons_ = most - comparisons_left;
     std::ranges::sort(pairs);
     return pairs;
   }
@@ -399,43 +369,50 @@ class MeshProver {
   template <class Line>
   void write_lines(std::span<const fast::IndexPair> pairs, const Line& line) {
     static constexpr std::size_t block = 4'096;
-    tbb::task_arena arena(base::cores_for(options_.threads));
     for (std::size_t done = 0; done < pairs.size() && proof_.is_complete(); done += block) {
       const auto some = pairs.subspan(done, std::min(block, pairs.size() - done));
       std::vector<std::string> lines(some.size());
-      arena.execute([&] {
-        tbb::parallel_for(std::size_t{0}, some.size(), [&](std::size_t i) {
-          if (!base::is_stopped(options_.stop)) lines[i] = line(some[i]);
+      fast::with_threads(options().max_threads, [&] {
+        fast::tbb::parallel_for(std::size_t{0}, some.size(), [&](std::size_t i) {
+          const fast::StrictFloatingPoint strict;
+          if (!is_stopped()) lines[i] = line(some[i]);
         });
       });
-      proof_.interrupted = base::is_stopped(options_.stop);
+      proof_.interrupted = is_stopped();
       const auto missing = std::ranges::find(lines, "");
       if (!proof_.interrupted && missing != lines.end()) {
         const auto& [a, b] = some[static_cast<std::size_t>(missing - lines.begin())];
-        proof_.failure = fmt::format("no argument for the elements {} and {}", a, b);
+        proof_.failure = "no argument for the elements " + words(a, "and", b);
       }
       if (!proof_.is_complete()) return;
-      put(fmt::format("{}", fmt::join(lines, "")));
-      lines_written_ += some.size();
-      if (options_.on_progress) {
-        options_.on_progress(static_cast<double>(lines_written_) / static_cast<double>(lines_));
-      }
+      std::string text;
+      for (const std::string& one : lines) text += one;
+      put(text);
+      report(lines_written_ += some.size(), lines_);
     }
+  }
+
+  /// \throws CertificateLimitError if the checker would compare too many boxes for this text.
+  void require_few_comparisons() const {
+    const auto most = checker::Options{}.max_comparisons_per_byte;
+    if (comparisons_ / most <= static_cast<std::int64_t>(proof_.bytes)) return;
+    throw CertificateLimitError("the checker compares at most " + words(most, "boxes") +
+                                " for each byte, and would compare " + words(comparisons_));
   }
 
   /// The weights of a point that both have beyond what they share.
   [[nodiscard]] std::string common_point(const fast::IndexPair& numbers) const {
     const auto& [a, b] = numbers;
     const checker::RestingPair pair = elements_.pair(a, b);
-    if (pair.are_duplicates()) return fmt::format("{} {}\n", a, b);
+    if (pair.are_duplicates()) return words(a, b) + '\n';
     const RationalTriangle first = triangle_of(scene_, elements_[a]);
     const RationalTriangle second = triangle_of(scene_, elements_[b]);
-    for (const RationalPoint& x : exact::intersection_of(first, second)) {
+    for (const RationalPoint& x : intersection_of(first, second)) {
       std::vector<Integer> of_a = weights_of(x, first), of_b = weights_of(x, second);
       of_a.resize(elements_.corners(a));
       of_b.resize(elements_.corners(b));
       if (!pair.is_common_point(of_a, of_b)) continue;
-      std::string text = fmt::format("{} {}", a, b);
+      std::string text = words(a, b);
       for (const auto* weights : {&of_a, &of_b}) {
         for (const Integer& weight : *weights) text += ' ' + weight.get_str();
       }
@@ -451,20 +428,20 @@ class MeshProver {
     const bool is_edge_shared = places.common.size() > 1;
     if (!is_edge_shared) {
       if (const auto d = small_normal(numbers, places)) {
-        return fmt::format("{} {} {}\n", a, b, fmt::join(*d, " "));
+        return words(a, b, (*d)[0], (*d)[1], (*d)[2]) + '\n';
       }
     }
     const checker::RestingPair pair = elements_.pair(a, b);
-    if (pair.is_separated_by_first_plane()) return fmt::format("{} {} plane\n", a, b);
+    if (pair.is_separated_by_first_plane()) return words(a, b, "plane\n");
     if (elements_.pair(b, a).is_separated_by_first_plane()) {
-      return fmt::format("{} {} plane\n", b, a);
+      return words(b, a, "plane\n");
     }
     for (const Triple<Rational>& normal : exact_normals(places)) {
       const Triple<Integer> d = primitive_integers(normal);
       if (!pair.is_separated_by(d)) continue;
-      return fmt::format("{} {} {} {} {}\n", a, b, d[0].get_str(), d[1].get_str(), d[2].get_str());
+      return words(a, b, d[0].get_str(), d[1].get_str(), d[2].get_str()) + '\n';
     }
-    return pair.are_separated_on_lines() ? fmt::format("{} {} line\n", a, b) : "";
+    return pair.are_separated_on_lines() ? words(a, b, "line\n") : "";
   }
 
   /// A normal of small integers.
@@ -488,22 +465,37 @@ class MeshProver {
     return std::nullopt;
   }
 
-  const mesh::Mesh& mesh_;
+  const ListedScene& listed_;
   bool is_welded_;
   checker::Scene scene_;
   checker::RestingMesh elements_;
-  const StepProofOptions& options_;
-  MeshProof proof_;
   std::vector<fast::IndexPair> intersecting_;  ///< in order
+  std::int64_t comparisons_ = 0;               ///< of boxes, in the checker's search
   std::size_t lines_ = 0;                      ///< of all pairs
   std::size_t lines_written_ = 0;
 };
 
 }  // namespace
 
-MeshProof prove_mesh(const mesh::Mesh& mesh, const fast::IntersectionOptions& search,
-                     std::span<const fast::Intersection> found, const StepProofOptions& options) {
-  return MeshProver(mesh, search, options).run(found);
+SceneProof prove_mesh(const fast::MovingVertices& vertices, const fast::Mesh& mesh,
+                      const fast::IntersectionOptions& search, const SceneProofOptions& options) {
+  if (search.can_collide) {
+    throw std::invalid_argument("prove: certificates know groups alone, not a rule can_collide");
+  }
+  const ListedScene listed({.edges = mesh.edges, .faces = mesh.faces, .points = mesh.points},
+                           {.of_vertices = search.groups.of_vertices, .apart = search.groups.apart},
+                           search.weld);
+  try {
+    listed.require_within_limit(vertices.size());
+  } catch (const CertificateLimitError& error) {
+    return {.failure = error.what()};
+  }
+  fast::IntersectionOptions all = search;
+  all.pairs = fast::IntersectingPairs::all;
+  all.places = false;
+  all.most = (std::numeric_limits<std::size_t>::max)();
+  const auto found = fast::intersections(vertices, listed.mesh, all);
+  return MeshProver(vertices, listed, search.weld, options).run(found);
 }
 
-}  // namespace touchstone::verify::jobs
+}  // namespace touchstone::exact

@@ -20,7 +20,7 @@
 #include "touchstone/mesh.hpp"
 #include "touchstone/number.hpp"
 
-namespace touchstone::verify::jobs {
+namespace touchstone::exact {
 
 class StepPlaces {
  public:
@@ -32,7 +32,7 @@ class StepPlaces {
 
   /// The motion from t=0 to t=end. Refers to the vertices.
   /// \param greatest the greatest distance of a pair
-  StepPlaces(const fast::MovingVertices& vertices, double greatest, const exact::Rational& end);
+  StepPlaces(const fast::MovingVertices& vertices, double greatest, const Rational& end);
 
   /// An upper bound, in the step's coordinates, of the reduction of distances by the integers.
   [[nodiscard]] double uncertainty() const { return uncertainty_; }
@@ -70,4 +70,4 @@ class StepPlaces {
   double uncertainty_ = 0.0;
 };
 
-}  // namespace touchstone::verify::jobs
+}  // namespace touchstone::exact

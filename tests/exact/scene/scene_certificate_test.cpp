@@ -1,4 +1,4 @@
-#include "verify/jobs/prove_step.hpp"
+#include "touchstone/scene_certificate.hpp"
 
 #include <gtest/gtest.h>
 
@@ -20,11 +20,11 @@
 #include <string_view>
 #include <vector>
 
-#include "exact/certificate/step_certificate_text.hpp"
 #include "exact/checker/checker.hpp"
 #include "exact/checker/places.hpp"
 #include "exact/checker/resting_mesh.hpp"
 #include "exact/contact/triangle_intersection.hpp"
+#include "exact/scene/step_places.hpp"
 #include "tests/support/certificates.hpp"
 #include "tests/support/checker_outcome.hpp"
 #include "tests/support/random.hpp"
@@ -34,62 +34,48 @@
 #include "touchstone/broad_phase.hpp"
 #include "touchstone/certificate_text.hpp"
 #include "touchstone/oracle.hpp"
-#include "verify/jobs/prove_mesh.hpp"
-#include "verify/jobs/step_places.hpp"
 
 // Proofs of steps: the checker accepts each, its claim agrees with the oracle on all pairs one by
 // one, and no proof with an omission or a later claim is accepted. And proofs of which elements of
 // a mesh intersect: the checker accepts each, none from which a line is left out, and no argument
 // that contradicts rational arithmetic.
 
-namespace touchstone::verify::jobs::prove_step_test {
+namespace touchstone::exact::scene_certificate_test {
 namespace {
 
+using tests::Places;
 using tests::Random;
 using tests::refusal;
 using tests::Scene;
 
-/// The scene with the edges of a mesh: those of the faces too, in order, each once.
-Scene with_ordered_edges(Scene scene) {
-  std::vector<fast::Face> all = scene.faces;
-  for (const auto& [a, b] : scene.edges) all.push_back({a, b, b});
-  scene.edges = fast::edges_of(all);
+/// The scene with the sides of its faces among its edges, some of them turned, and some twice.
+Scene with_sides(Scene scene) {
+  for (const auto& [a, b] : fast::edges_of(scene.faces)) scene.edges.push_back({b, a});
+  std::ranges::reverse(scene.edges);
   return scene;
 }
 
-struct Proved {
-  StepProof proof;
-  std::string text;
-};
-
-Proved prove(const Scene& scene, const fast::StepOptions& step_options,
-             StepProofOptions options = {}) {
-  const fast::Step step = scene.step(step_options);
-  Proved result;
-  result.text = exact::step_certificates_header();
-  options.on_text = [&](std::string_view text) { result.text += text; };
+SceneProof prove(const Scene& scene, const fast::StepOptions& step_options,
+                 SceneProofOptions options = {}) {
   if (options.label.empty()) options.label = "a step";
-  result.proof = prove_step(step, options);
-  result.text += exact::step_certificates_closing_line(1);
-  return result;
+  return prove_step(scene.step(step_options), options);
 }
 
 /// The earliest contact of all pairs and elements, by the oracle.
-std::optional<exact::AlgebraicNumber> earliest(const Scene& scene,
-                                               const fast::StepOptions& options) {
-  std::optional<exact::AlgebraicNumber> first;
+std::optional<AlgebraicNumber> earliest(const Scene& scene, const fast::StepOptions& options) {
+  std::optional<AlgebraicNumber> first;
   const tests::AllPairs all(scene);
   for (const tests::NumberedPair& pair : all.pairs()) {
-    const exact::Decision verdict =
-        exact::decide(fast::Step::kind_of(pair.first), all.query(pair),
-                      {options.separation.distance + all.thickness(pair), options.separation.norm});
+    const Decision verdict =
+        decide(fast::Step::kind_of(pair.first), all.query(pair),
+               {options.separation.distance + all.thickness(pair), options.separation.norm});
     if (verdict.toi && (!first || *verdict.toi < *first)) first = verdict.toi;
   }
   tests::for_each_volume(scene, [&](Kind, std::size_t, const Query& element) {
-    const auto time = exact::decide(Kind::tetrahedron, element).toi;
+    const auto time = decide(Kind::tetrahedron, element).toi;
     if (time && (!first || *time < *first)) first = time;
   });
-  if (first && *first > exact::Rational(options.t_max)) return std::nullopt;
+  if (first && *first > Rational(options.t_max)) return std::nullopt;
   return first;
 }
 
@@ -101,7 +87,7 @@ std::vector<double> numbers_of(const std::string& claim) {
   return numbers;
 }
 
-void expect_true(const Scene& scene, const fast::StepOptions& options, const StepProof& proof) {
+void expect_true(const Scene& scene, const fast::StepOptions& options, const SceneProof& proof) {
   const auto first = earliest(scene, options);
   const std::vector<double> times = numbers_of(proof.claim);
   if (!first) {
@@ -111,9 +97,9 @@ void expect_true(const Scene& scene, const fast::StepOptions& options, const Ste
   }
   ASSERT_TRUE(proof.claim.starts_with("earliest ")) << proof.claim;
   ASSERT_EQ(times.size(), 2U);
-  EXPECT_TRUE(*first <= exact::Rational(times[1]));
+  EXPECT_TRUE(*first <= Rational(times[1]));
   if (times[1] == 0.0) return;
-  EXPECT_TRUE(*first > exact::Rational(times[0]));
+  EXPECT_TRUE(*first > Rational(times[0]));
   EXPECT_EQ(std::nextafter(times[0], 2.0), times[1]) << proof.claim;
 }
 
@@ -129,19 +115,39 @@ checker::Options demand(const std::string& claim, const Separation& separation) 
 /// A name of any length makes a label that the checker reads.
 TEST(ProveStep, KeepsTheLimitsOfALabelAndAScene) {
   Random random(1);
-  const Scene scene = with_ordered_edges(tests::random_scene(random, tests::shapes().front(), 6));
+  const Scene scene = with_sides(tests::random_scene(random, tests::shapes().front(), 6));
   for (const std::size_t bytes : {1U, 1'019U, 1'024U, 1'025U, 5'000U}) {
-    const auto [proof, text] = prove(scene, {}, {.label = std::string(bytes, 'x')});
+    const SceneProof proof = prove(scene, {}, {.label = std::string(bytes, 'x')});
     ASSERT_EQ(proof.failure, "");
-    EXPECT_EQ(refusal(text), "") << bytes;
-    const std::size_t kept = std::min<std::size_t>(bytes, exact::label_limit);
-    EXPECT_NE(text.find("\nstep " + std::string(kept, 'x') + "\nvertices "), std::string::npos);
+    EXPECT_EQ(refusal(proof.stream), "") << bytes;
+    const std::size_t kept = std::min<std::size_t>(bytes, label_limit);
+    EXPECT_NE(proof.stream.find("\nstep " + std::string(kept, 'x') + "\nvertices "),
+              std::string::npos);
   }
   Scene large = scene;
-  large.points.assign(exact::step_item_limit, 0);
-  const StepProof proof = prove_step(large.step(), StepProofOptions{});
-  EXPECT_EQ(proof.failure, "the scene has more than 4194304 items");
+  large.tetrahedra.assign(scene_item_limit, {0, 1, 2, 3});
+  const SceneProof proof = prove(large, {});
+  EXPECT_TRUE(proof.failure.starts_with("the scene has 41943") &&
+              proof.failure.ends_with(" items, more than 4194304"))
+      << proof.failure;
   EXPECT_EQ(proof.bytes, 0U);
+  EXPECT_EQ(proof.stream, "");
+}
+
+/// Vertices alone collide with nothing, which has a proof, too.
+TEST(ProveStep, ProvesThatNothingCollides) {
+  const SceneProof proof = prove({.start = Places::Zero(2, 3), .end = Places::Zero(2, 3)}, {});
+  EXPECT_EQ(proof.claim, "no_contact 1");
+  EXPECT_EQ(refusal(proof.stream), "");
+}
+
+TEST(ProveStep, KnowsNoRuleOfVertices) {
+  Random random(1);
+  Scene scene = tests::soup(random, 4, 0.2);
+  scene.can_collide = [](std::int32_t, std::int32_t) { return true; };
+  EXPECT_THROW((void)prove(scene, {}), std::invalid_argument);
+  EXPECT_THROW((void)prove_mesh(scene.start, scene.elements(), {.can_collide = scene.can_collide}),
+               std::invalid_argument);
 }
 
 TEST(ProveStep, ProvesWhatTheOracleSaysOfAllPairs) {
@@ -151,7 +157,7 @@ TEST(ProveStep, ProvesWhatTheOracleSaysOfAllPairs) {
   for (const tests::Shape& shape : tests::shapes()) {
     for (std::uint64_t seed = 0; seed < seeds; ++seed) {
       Random random(seed);
-      Scene scene = with_ordered_edges(tests::random_scene(random, shape, random.between(4, 14)));
+      Scene scene = with_sides(tests::random_scene(random, shape, random.between(4, 14)));
       if (seed % 3 == 0) {
         tests::add_thickness(scene, std::min(0.5 * shape.separation, 1e300), random);
         with_thickness += scene.radii.empty() ? 0 : 1;
@@ -161,7 +167,8 @@ TEST(ProveStep, ProvesWhatTheOracleSaysOfAllPairs) {
       options.separation.norm = random.coin() ? Norm::l2 : Norm::linf;
       if (random.coin()) options.t_max = random.coin() ? 0.25 : 0.0;
       if (seed % 2 == 0) tests::add_volumes(scene, 3, 8, random);
-      const auto [proof, text] = prove(scene, options);
+      const SceneProof proof = prove(scene, options);
+      const std::string& text = proof.stream;
       if (!proof.failure.empty()) {
         ++failed;
         EXPECT_EQ(shape.name, "all scales") << proof.failure;
@@ -193,9 +200,10 @@ TEST(ProveStep, NeedsEachOfItsArguments) {
   Random random(5);
   std::uint64_t directions = 0, certificates = 0;
   for (int trial = 0; trial < 12; ++trial) {
-    Scene scene = with_ordered_edges(tests::soup(random, 12, 0.2));
+    Scene scene = with_sides(tests::soup(random, 12, 0.2));
     if (trial % 3 == 2) tests::add_thickness(scene, 0.05, random);
-    const auto [proof, text] = prove(scene, {.t_max = trial % 2 == 0 ? 1.0 : 1e-3});
+    const SceneProof proof = prove(scene, {.t_max = trial % 2 == 0 ? 1.0 : 1e-3});
+    const std::string& text = proof.stream;
     ASSERT_EQ(refusal(text), "");
     directions += proof.directions;
     certificates += proof.certificates;
@@ -220,8 +228,9 @@ TEST(ProveStep, ClaimsNothingLater) {
   Random random(6);
   int tried = 0;
   for (int trial = 0; trial < 40; ++trial) {
-    const Scene scene = with_ordered_edges(tests::soup(random, 10, 0.3));
-    const auto [proof, text] = prove(scene, {});
+    const Scene scene = with_sides(tests::soup(random, 10, 0.3));
+    const SceneProof proof = prove(scene, {});
+    const std::string& text = proof.stream;
     if (!proof.claim.starts_with("earliest ") || proof.claim.starts_with("earliest 0 ")) continue;
     ++tried;
     std::ostringstream later;
@@ -245,7 +254,8 @@ TEST(ProveStep, DividesTheTimeOfNearlyFlatElements) {
   const std::vector<fast::Face> all{{0, 1, 2}, {0, 2, 1}};
   for (const std::size_t triangles : {0U, 1U, 2U}) {
     scene.plane_triangles.assign(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(triangles));
-    const auto [proof, text] = prove(scene, {});
+    const SceneProof proof = prove(scene, {});
+    const std::string& text = proof.stream;
     EXPECT_EQ(refusal(text), "");
     EXPECT_EQ(proof.claim, triangles == 2 ? "earliest 0 0" : "no_contact 1");
     EXPECT_EQ(proof.certificates, triangles == 2 ? 0U : 1 + triangles);
@@ -254,22 +264,28 @@ TEST(ProveStep, DividesTheTimeOfNearlyFlatElements) {
 
 TEST(ProveStep, IsTheSameOnAnyNumberOfThreads) {
   Random random(7);
-  const Scene scene = with_ordered_edges(tests::soup(random, 60, 0.3));
-  const Proved one = prove(scene, {.max_threads = 1}, {.threads = 1});
-  const Proved some = prove(scene, {.max_threads = 3}, {.threads = 3});
-  EXPECT_EQ(one.text, some.text);
-  EXPECT_GT(one.proof.directions + one.proof.certificates, 100U);
+  const Scene scene = with_sides(tests::soup(random, 60, 0.3));
+  const SceneProof one = prove(scene, {.max_threads = 1}, {.max_threads = 1});
+  const SceneProof some = prove(scene, {.max_threads = 3}, {.max_threads = 3});
+  EXPECT_EQ(one.stream, some.stream);
+  EXPECT_GT(one.directions + one.certificates, 100U);
+  std::string text;
+  const SceneProof read =
+      prove(scene, {}, {.on_text = [&text](std::string_view part) { text += part; }});
+  EXPECT_EQ(step_certificates_header().data() + text + step_certificates_closing_line(1),
+            one.stream);
+  EXPECT_EQ(read.stream, "");
 }
 
 TEST(ProveStep, EndsWhenStoppedAndPassesOnExceptionsOfItsReader) {
   Random random(8);
-  const Scene scene = with_ordered_edges(tests::soup(random, 30, 0.3));
+  const Scene scene = tests::soup(random, 30, 0.3);
   const std::atomic<bool> stop = true;
-  const auto [proof, text] = prove(scene, {.t_max = 1e-3}, {.stop = &stop});
+  const SceneProof proof = prove(scene, {.t_max = 1e-3}, {.stop = &stop});
   EXPECT_TRUE(proof.interrupted);
   EXPECT_FALSE(proof.is_complete());
-  EXPECT_NE(refusal(text), "");
-  const StepProofOptions options{
+  EXPECT_EQ(proof.stream, "");
+  const SceneProofOptions options{
       .on_text = [](std::string_view) { throw std::runtime_error("full"); }};
   EXPECT_THROW((void)prove_step(scene.step(), options), std::runtime_error);
 }
@@ -296,7 +312,7 @@ TEST(StepPlaces, AgreeWithTheCheckers) {
     }
     const fast::MovingVertices vertices(start, end);
     const double distance = random.coin() ? 0.0 : 0.1 * size;
-    const exact::Rational until = random.coin() ? 1.0 : random.uniform(0, 1);
+    const Rational until = random.coin() ? 1.0 : random.uniform(0, 1);
     const StepPlaces places(vertices, distance, until);
     const checker::Places checkers(motions, distance, until);
     // (The greatest distance, or that of another pair.)
@@ -348,22 +364,9 @@ TEST(StepPlaces, FindADirectionBetweenWhatIsNear) {
 
 // ---- Meshes at rest -----------------------------------------------------------------------------
 
-struct ProvedMesh {
-  MeshProof proof;
-  std::size_t intersections = 0;
-  std::string text;
-};
-
-ProvedMesh prove(const mesh::Mesh& mesh, const fast::IntersectionOptions& search = {},
-                 StepProofOptions options = {}) {
-  const auto found = fast::intersections(
-      mesh.vertices, {.edges = mesh.edges, .faces = mesh.faces, .points = mesh.points}, search);
-  ProvedMesh result{
-      .proof = {}, .intersections = found.size(), .text = std::string(mesh_certificates_header)};
-  options.on_text = [&](std::string_view text) { result.text += text; };
-  result.proof = prove_mesh(mesh, search, found, options);
-  result.text += mesh_certificates_closing_line;
-  return result;
+/// The number of intersections that a proof claims.
+std::size_t intersections_of(const SceneProof& proof) {
+  return std::stoul(proof.claim.substr(proof.claim.find(' ')));
 }
 
 checker::Options demanding(std::size_t intersections, bool is_welded = false) {
@@ -371,24 +374,15 @@ checker::Options demanding(std::size_t intersections, bool is_welded = false) {
   return {.claim = claim + std::to_string(intersections)};
 }
 
-/// The mesh of a scene at its start.
-mesh::Mesh mesh_of(const tests::Scene& scene) {
-  std::vector<std::array<double, 3>> coordinates;
-  for (Eigen::Index i = 0; i < scene.start.rows(); ++i) {
-    coordinates.push_back({scene.start(i, 0), scene.start(i, 1), scene.start(i, 2)});
-  }
-  mesh::Mesh result = mesh::make_mesh(coordinates, scene.faces, scene.edges);
-  result.points = scene.points;
-  std::ranges::sort(result.points);
-  return result;
-}
-
 // Any line left out, of the arguments or of the intersections; the claim follows.
 TEST(ProveMesh, WithoutALineIsRefused) {
   Random random(1);
-  const auto [proof, found, text] = prove(mesh_of(tests::soup(random, 24, 0.4)));
+  const Scene scene = tests::soup(random, 24, 0.4);
+  const SceneProof proof = prove_mesh(scene.start, scene.elements());
+  const std::string& text = proof.stream;
+  const std::size_t found = intersections_of(proof);
   ASSERT_GT(found, 4U);
-  ASSERT_GT(proof.arguments, 50U);
+  ASSERT_GT(proof.directions, 50U);
   std::vector<std::string> lines = tests::split(text, "\n");
   const auto claim = std::ranges::find(lines, "claim intersections " + std::to_string(found));
   ASSERT_NE(claim, lines.end());
@@ -414,13 +408,14 @@ TEST(ProveMesh, OfRandomMeshesIsAccepted) {
     for (std::uint64_t seed = 0; seed < seeds; ++seed) {
       Random random(seed);
       const tests::Scene scene = tests::random_scene(random, shape, random.between(4, 16));
-      const mesh::Mesh mesh = mesh_of(scene);
-      fast::IntersectionOptions search{
+      const fast::IntersectionOptions search{
           .groups = {.of_vertices = scene.groups, .apart = scene.apart}, .weld = random.coin()};
-      const auto [proof, found, text] = prove(mesh, search);
+      const SceneProof proof = prove_mesh(scene.start, scene.elements(), search);
+      const std::string& text = proof.stream;
+      const std::size_t found = intersections_of(proof);
       EXPECT_EQ(proof.failure, "") << shape.name << ' ' << seed;
       EXPECT_EQ(refusal(text, demanding(found, search.weld)), "") << shape.name << ' ' << seed;
-      pairs += proof.arguments;
+      pairs += proof.directions;
       intersections += found;
       free += found == 0 ? 1 : 0;
     }
@@ -429,9 +424,6 @@ TEST(ProveMesh, OfRandomMeshesIsAccepted) {
   EXPECT_GT(intersections, 100U);
   EXPECT_GT(free, 30U);
 }
-
-using exact::RationalPoint;
-using exact::RationalTriangle;
 
 /// True if two elements intersect, by their definition.
 bool intersect(const checker::Scene& scene, const checker::Primitive& a,
@@ -454,9 +446,9 @@ bool intersect(const checker::Scene& scene, const checker::Primitive& a,
   const auto of_a = as_set(a), of_b = as_set(b);
   std::vector<std::int32_t> common;
   std::ranges::set_intersection(of_a, of_b, std::back_inserter(common));
-  const auto points = exact::intersection_of(hull_of(as_list(a)), hull_of(as_list(b)));
+  const auto points = intersection_of(hull_of(as_list(a)), hull_of(as_list(b)));
   return std::ranges::any_of(points, [&](const RationalPoint& x) {
-    return common.empty() || exact::intersection_of({x, x, x}, hull_of(common)).empty();
+    return common.empty() || intersection_of({x, x, x}, hull_of(common)).empty();
   });
 }
 
@@ -477,10 +469,11 @@ TEST(ProveMesh, OfTwoFacesIsTheTruthOfRationalArithmetic) {
     for (int i = 0; i < 2; ++i) scene.faces.push_back({vertex(), vertex(), vertex()});
     const checker::RestingMesh mesh(scene, false);
     const bool truth = intersect(scene, mesh[0], mesh[1]);
-    std::vector<std::array<double, 3>> coordinates;
-    for (const checker::Motion& one : scene.vertices) coordinates.push_back(one.start);
-    EXPECT_EQ(refusal(prove(mesh::make_mesh(coordinates, scene.faces, {})).text,
-                      demanding(truth ? 1 : 0)),
+    tests::Places places(vertices, 3);
+    for (Eigen::Index i = 0; i < vertices; ++i) {
+      places.row(i) = Eigen::RowVector3d(scene.vertices[static_cast<std::size_t>(i)].start.data());
+    }
+    EXPECT_EQ(refusal(prove_mesh(places, {.faces = scene.faces}).stream, demanding(truth ? 1 : 0)),
               "")
         << seed;
     const checker::RestingPair pair = mesh.pair(0, 1);
@@ -508,19 +501,25 @@ TEST(ProveMesh, OfTwoFacesIsTheTruthOfRationalArithmetic) {
   EXPECT_GT(common, tests::trials(50));
 }
 
-TEST(ProveMesh, KeepsTheLimitOfAMeshAndStopsWhenItIsInterrupted) {
+TEST(ProveMesh, KeepsTheLimitsOfAMeshAndStopsWhenItIsInterrupted) {
   Random random(2);
-  mesh::Mesh mesh = mesh_of(tests::soup(random, 20, 0.3));
+  const Scene scene = tests::soup(random, 20, 0.3);
   const std::atomic<bool> stop = true;
-  const auto [stopped, found, text] = prove(mesh, {}, {.stop = &stop});
+  const SceneProof stopped = prove_mesh(scene.start, scene.elements(), {}, {.stop = &stop});
   EXPECT_TRUE(stopped.interrupted);
-  EXPECT_NE(refusal(text), "");
-  const std::vector<std::int32_t> groups(exact::step_item_limit);
-  const MeshProof proof =
-      prove_mesh(mesh, {.groups = {.of_vertices = groups}, .weld = true}, {}, {});
-  EXPECT_EQ(proof.failure, "the mesh has more than 4194304 items");
-  EXPECT_EQ(proof.bytes, 0U);
+  EXPECT_EQ(stopped.stream, "");
+  fast::IntersectionOptions search;
+  search.groups.apart.assign(scene_item_limit, {0, 0});
+  const SceneProof large = prove_mesh(scene.start, scene.elements(), search);
+  EXPECT_TRUE(large.failure.ends_with(" items, more than 4194304")) << large.failure;
+  EXPECT_EQ(large.bytes, 0U);
+  // One face many times, which need no argument, but that the checker compares with each other.
+  const fast::Mesh many{.faces = std::vector<fast::Face>(4'000, {0, 1, 2})};
+  const SceneProof slow =
+      prove_mesh(Places::Identity(3, 3).eval(), many, {.groups = {.apart = {{0, 0}}}});
+  EXPECT_TRUE(slow.failure.starts_with("the checker compares at most 256 boxes for each byte"))
+      << slow.failure;
 }
 
 }  // namespace
-}  // namespace touchstone::verify::jobs::prove_step_test
+}  // namespace touchstone::exact::scene_certificate_test

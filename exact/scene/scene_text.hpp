@@ -1,0 +1,147 @@
+#pragma once
+
+/// \file
+/// Certificates of scenes as text: exact/CERTIFICATES.md, "Steps", version 2, and "Meshes at rest".
+/// The scene and the claim; the arguments of pairs stand between the claim and the line "end", in
+/// the order of step_pair_kinds, and those of elements follow.
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <vector>
+
+#include "touchstone/certificate.hpp"
+#include "touchstone/query.hpp"
+#include "touchstone/scene_certificate.hpp"
+#include "touchstone/step.hpp"
+
+namespace touchstone::exact {
+
+/// The kinds of pairs in a step's certificate, in its order.
+inline constexpr std::array<std::string_view, 4> step_pair_kinds{"vertex_face", "edge_edge",
+                                                                 "vertex_edge", "vertex_vertex"};
+
+/// The kinds of elements, and the keywords of their lists, which are left out where they are empty.
+inline constexpr std::array<std::string_view, 2> step_element_kinds{"tetrahedron",
+                                                                    "plane_triangle"};
+inline constexpr std::array<std::string_view, 2> step_element_lists{"tetrahedra",
+                                                                    "plane_triangles"};
+
+/// Appends words and integers with blanks between them, and the end of the line.
+template <class... Words>
+void write_line(std::string& text, const Words&... all) {
+  const auto add = [&text](const auto& word) {
+    if constexpr (std::is_integral_v<std::remove_cvref_t<decltype(word)>>) {
+      text += std::to_string(word);
+    } else {
+      text += word;
+    }
+    text += ' ';
+  };
+  (add(all), ...);
+  text.back() = '\n';
+}
+
+/// Words and integers with blanks between them.
+template <class... Words>
+[[nodiscard]] std::string words(const Words&... all) {
+  std::string text;
+  write_line(text, all...);
+  text.pop_back();
+  return text;
+}
+
+/// Appends the line of doubles.
+void write_doubles(std::string& text, std::span<const double> numbers);
+
+/// Appends a list: the line "KEYWORD N", and a line for each of the N items.
+template <class Items>
+void write_list(std::string& text, std::string_view keyword, const Items& items) {
+  write_line(text, keyword, items.size());
+  for (const auto& item : items) {
+    if constexpr (std::is_integral_v<std::remove_cvref_t<decltype(item)>>) {
+      write_line(text, item);
+    } else {
+      std::apply([&text](const auto&... numbers) { write_line(text, numbers...); }, item);
+    }
+  }
+}
+
+/// A scene as certificates list it.
+struct ListedScene {
+  /// \param are_groups_needed true if groups count even without a rule about them
+  ListedScene(fast::Mesh given, fast::CollisionGroups given_rules, bool are_groups_needed = false);
+
+  /// \throws CertificateLimitError if the lists, with this many vertices, have too many items.
+  void require_within_limit(std::size_t vertices) const;
+  /// The number of vertices that a face, an edge or a point names.
+  /// \param vertices the number of all
+  [[nodiscard]] std::size_t vertices_of(std::size_t vertices) const;
+  /// Appends the lists from "faces" to "apart".
+  void write(std::string& text) const;
+
+  /// Each edge once, in the order of edges_of; the points and the vertices with an edge to
+  /// themselves in order, each once.
+  fast::Mesh mesh;
+  /// The edges of no face, which are listed.
+  std::vector<fast::Edge> bare_edges;
+  /// Without the groups of vertices if they are not needed.
+  fast::CollisionGroups rules;
+};
+
+/// The claim of a step's certificate: there is no contact up to a time; or the earliest contact is
+/// one that is named.
+struct StepClaim {
+  /// A contact in (end, upper]; at 0 if both are.
+  struct Contact {
+    Rational upper;
+    std::string name;  ///< "pair KIND I J" or "element KIND I"
+    ContactProof proof;
+  };
+
+  Separation separation = {};
+  Rational end;  ///< There is no contact before.
+  std::optional<Contact> earliest = std::nullopt;
+};
+
+/// The claim as in the certificate: "no_contact T" or "earliest LO HI".
+[[nodiscard]] std::string to_text(const StepClaim& claim);
+
+/// Appends the lines of the separation and the claim.
+void write_step_claim(std::string& text, const StepClaim& claim);
+
+/// A certificate that is written.
+class ProofWriter {
+ public:
+  ProofWriter(const ProofWriter&) = delete;
+  ProofWriter& operator=(const ProofWriter&) = delete;
+  ProofWriter(ProofWriter&&) = delete;
+  ProofWriter& operator=(ProofWriter&&) = delete;
+
+ protected:
+  /// \throws std::invalid_argument for a negative number of threads.
+  explicit ProofWriter(const SceneProofOptions& options);
+  ~ProofWriter() = default;
+
+  [[nodiscard]] const SceneProofOptions& options() const { return options_; }
+  [[nodiscard]] bool is_stopped() const { return options_.stop != nullptr && *options_.stop; }
+  void put(std::string_view text);
+  void report(std::size_t done, std::size_t all) const;
+  /// The proof, between these lines if it is complete and nobody has read it.
+  [[nodiscard]] SceneProof finish(std::string_view header, std::string_view closing_line);
+
+  SceneProof proof_;
+
+ private:
+  const SceneProofOptions& options_;
+};
+
+/// \throws CertificateLimitError if so many pairs need an argument.
+void require_few_arguments(std::size_t pairs);
+
+}  // namespace touchstone::exact
