@@ -1,13 +1,16 @@
 /// \file
-/// touchstone._data: datasets, by the readers and writers of the command line tool.
+/// touchstone._data: datasets, by the readers and writers of the command line tool, and the
+/// built-in set, by its families.
 
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <iterator>
 #include <memory>
 #include <optional>
 #include <stdexcept>
@@ -21,6 +24,7 @@
 #include "verify/data/csv_dataset.hpp"
 #include "verify/data/dataset.hpp"
 #include "verify/data/npy.hpp"
+#include "verify/generate/families.hpp"
 #include "verify/io/dataset_error.hpp"
 #include "verify/io/printable.hpp"
 
@@ -37,11 +41,9 @@ struct Dataset {
   std::vector<std::pair<std::uint64_t, exact::Rational>> times{};
 };
 
-Dataset read_until(const std::string& path, const verify::data::DatasetOptions& options,
-                   const std::atomic<bool>& stop) {
-  const auto source = verify::data::open_dataset(path, options);
-  Dataset result{.shape = source->shape()};
-  while (auto record = stop ? std::nullopt : source->next()) {
+Dataset read_until(verify::data::QuerySource& source, const std::atomic<bool>& stop) {
+  Dataset result{.shape = source.shape()};
+  while (auto record = stop ? std::nullopt : source.next()) {
     const auto numbers = record->query.numbers();
     result.numbers.insert(result.numbers.end(), numbers.begin(), numbers.end());
     if (record->collides) result.labels.push_back(*record->collides ? 1 : 0);
@@ -69,11 +71,7 @@ py::array array_of(const QueryShape& shape, std::vector<double> all) {
 
 /// The kind, the queries, their labels or None, and (query, (numerator, denominator)) for each
 /// time.
-py::tuple read(const std::string& path, const std::optional<std::string>& kind, bool round) {
-  verify::data::DatasetOptions options{.round = round};
-  if (kind) options.kind = kind_from(*kind);
-  std::atomic<bool> stop = false;
-  Dataset found = in_background([&] { return read_until(path, options, stop); }, stop);
+py::tuple parts_of(Dataset found) {
   py::object labels = py::none();
   if (!found.labels.empty()) {
     labels = py::array_t<std::uint8_t>(static_cast<py::ssize_t>(found.labels.size()),
@@ -85,6 +83,61 @@ py::tuple read(const std::string& path, const std::optional<std::string>& kind, 
   return py::make_tuple(name_of(found.shape.kind), array_of(found.shape, std::move(found.numbers)),
                         labels, times);
 }
+
+py::tuple read(const std::string& path, const std::optional<std::string>& kind, bool round) {
+  verify::data::DatasetOptions options{.round = round};
+  if (kind) options.kind = kind_from(*kind);
+  std::atomic<bool> stop = false;
+  return parts_of(in_background(
+      [&] { return read_until(*verify::data::open_dataset(path, options), stop); }, stop));
+}
+
+// ---- The built-in set ---------------------------------------------------------------------------
+
+/// The families about contact, or a separation, and about inversion.
+std::vector<verify::generate::Family> families_about(const Separation& separation) {
+  std::vector<verify::generate::Family> all = verify::generate::families(separation);
+  std::ranges::copy(verify::generate::element_families(), std::back_inserter(all));
+  return all;
+}
+
+/// The names of all, with those on curves.
+py::list families() {
+  auto all = families_about({});
+  std::ranges::copy(verify::generate::curved_families(), std::back_inserter(all));
+  py::list names;
+  for (const auto& family : all) names.append(std::string(family.name));
+  return names;
+}
+
+/// (name, what read() returns) of each family that has the kind, in the order of names. The truth
+/// is left out where it is about another separation.
+py::list generate(const std::string& kind_name, const std::optional<std::string>& name,
+                  std::uint64_t seed, std::uint64_t count, double distance,
+                  const std::string& norm) {
+  const Kind kind = kind_from(kind_name);
+  const Separation separation = separation_from(distance, norm);
+  if (!is_zero(separation)) require_contact(kind);
+  auto chosen =
+      name ? std::vector{verify::generate::family_from_name(*name)} : families_about(separation);
+  std::ranges::sort(chosen, {}, &verify::generate::Family::name);
+  std::atomic<bool> stop = false;
+  py::list result;
+  for (const auto& family : chosen) {
+    if (!verify::generate::supports(family, kind)) continue;
+    const auto source = verify::generate::open_family(family, kind, seed, count, separation);
+    Dataset found = in_background([&] { return read_until(*source, stop); }, stop);
+    const Separation recorded = source->recorded_separation();
+    if (recorded != separation && !(is_zero(recorded) && is_zero(separation))) {
+      found.labels.clear();
+      found.times.clear();
+    }
+    result.append(py::make_tuple(source->name(), parts_of(std::move(found))));
+  }
+  return result;
+}
+
+// ---- Writing ------------------------------------------------------------------------------------
 
 using Labels = py::array_t<bool, py::array::c_style>;
 
@@ -133,6 +186,9 @@ PYBIND11_MODULE(_data, m) {
       PyErr_SetString(PyExc_ValueError, verify::io::printable(error.what()).c_str());
     }
   });
+  m.def("families", families);
+  m.def("generate", generate, arg("kind"), arg("family"), arg("seed"), arg("count"),
+        arg("separation"), arg("norm"));
   m.def("read", read, arg("path"), arg("kind"), arg("round"));
   m.def("write", write, arg("path"), arg("kind"), arg("queries").noconvert(),
         arg("labels").noconvert());

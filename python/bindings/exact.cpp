@@ -23,9 +23,12 @@
 #include "python/bindings/background.hpp"
 #include "python/bindings/blocks.hpp"
 #include "python/bindings/exact_numbers.hpp"
+#include "python/bindings/mesh_arguments.hpp"
 #include "touchstone/certificate.hpp"
 #include "touchstone/certificate_text.hpp"
 #include "touchstone/oracle.hpp"
+#include "touchstone/scene_certificate.hpp"
+#include "touchstone/step.hpp"
 #include "verify/solvers/registry.hpp"
 
 namespace touchstone::python {
@@ -156,6 +159,59 @@ py::tuple prove(const std::string& kind_name, const Doubles& array, double dista
   return py::make_tuple(done, py::bytes(stream));
 }
 
+/// Calls prove(options), where they have a progress in thousandths for `progress`.
+/// \returns the claim and the stream. \throws std::runtime_error with the reason for a missing
+/// proof.
+template <class Prove>
+py::tuple scene_proof(const std::string& label, int threads, std::atomic<bool>& stop,
+                      const py::object& progress, const Prove& prove_scene) {
+  std::atomic<int> done = 0;
+  const exact::SceneProofOptions options{
+      .label = label,
+      .max_threads = threads,
+      .on_progress = [&](double part) { done = static_cast<int>(1000 * part); },
+      .stop = &stop};
+  py::object show = py::none();
+  if (!progress.is_none()) show = py::cpp_function([&] { progress(done.load()); });
+  const exact::SceneProof proof = in_background([&] { return prove_scene(options); }, stop, show);
+  if (!proof.is_complete()) throw std::runtime_error("prove: no proof: " + proof.failure);
+  return py::make_tuple(proof.claim, py::bytes(proof.stream));
+}
+
+py::tuple prove_step(const Doubles& before, const Doubles& after, const Integers& faces,
+                     const Integers& edges, const Integers& points, const Integers& groups,
+                     const Integers& apart, const Integers& tetrahedra,
+                     const Integers& plane_triangles, const Doubles& radii,
+                     const Integers& separated, const Doubles& separations, double separation,
+                     const std::string& norm, double t_max, int threads, const std::string& label,
+                     const py::object& progress) {
+  std::atomic<bool> stop = false;
+  fast::MovingVertices vertices = vertices_of(before, after);
+  fast::Mesh mesh = mesh_from(faces, edges, points, tetrahedra, plane_triangles);
+  const fast::StepOptions of_step{
+      .separation = separation_from(separation, norm),
+      .t_max = t_max,
+      .max_threads = threads,
+      .groups = groups_from(groups, apart, radii, separated, separations),
+      .stop = &stop};
+  return scene_proof(label, threads, stop, progress, [&](const auto& options) {
+    return exact::prove_step({std::move(vertices), std::move(mesh), of_step}, options);
+  });
+}
+
+py::tuple prove_mesh(const Doubles& vertices, const Integers& faces, const Integers& edges,
+                     const Integers& points, const Integers& groups, const Integers& apart,
+                     bool weld, int threads, const std::string& label, const py::object& progress) {
+  std::atomic<bool> stop = false;
+  const fast::MovingVertices at_rest = vertices_of(vertices, vertices);
+  const fast::Mesh mesh = mesh_from(faces, edges, points);
+  const fast::IntersectionOptions search{
+      .groups = groups_from(groups, apart), .weld = weld, .max_threads = threads, .stop = &stop};
+  return scene_proof(label, threads, stop, progress, [&](const auto& options) {
+    return exact::prove_mesh(at_rest, mesh, search, options);
+  });
+}
+
 /// A text as a stream that ends early at a stop.
 class StoppableText : public std::streambuf {
  public:
@@ -277,6 +333,15 @@ PYBIND11_MODULE(_exact, m) {
   m.def("decide_curved", decide_curved, arg("kind"), arg("curves"), arg("separation"), arg("norm"));
   m.def("prove", prove, arg("kind"), arg("queries").noconvert(), arg("separation"), arg("norm"),
         arg("claim"), arg("threads"), arg("progress"));
+  m.def("prove_step", prove_step, arg("before").noconvert(), arg("after").noconvert(),
+        arg("faces").noconvert(), arg("edges").noconvert(), arg("points").noconvert(),
+        arg("groups").noconvert(), arg("apart").noconvert(), arg("tetrahedra").noconvert(),
+        arg("plane_triangles").noconvert(), arg("radii").noconvert(), arg("separated").noconvert(),
+        arg("separations").noconvert(), arg("separation"), arg("norm"), arg("t_max"),
+        arg("threads"), arg("label"), arg("progress"));
+  m.def("prove_mesh", prove_mesh, arg("vertices").noconvert(), arg("faces").noconvert(),
+        arg("edges").noconvert(), arg("points").noconvert(), arg("groups").noconvert(),
+        arg("apart").noconvert(), arg("weld"), arg("threads"), arg("label"), arg("progress"));
   m.def("check", check, arg("certificates"), arg("scenes"), arg("claim"), arg("separation"),
         arg("norm"), arg("rules"));
   m.def("methods", methods);

@@ -20,6 +20,7 @@
 
 #include "python/bindings/arguments.hpp"
 #include "python/bindings/background.hpp"
+#include "python/bindings/mesh_arguments.hpp"
 #include "touchstone/contacts.hpp"
 #include "touchstone/intersections.hpp"
 #include "touchstone/step.hpp"
@@ -28,30 +29,6 @@ namespace touchstone::python {
 namespace {
 
 // ---- Arrays -------------------------------------------------------------------------------------
-
-/// The rows of an array of integers of shape (n, k), or of shape (n,) for k = 1.
-template <class Row>
-std::vector<Row> rows_of(const Integers& array) {
-  constexpr std::size_t width = sizeof(Row) / sizeof(std::int32_t);
-  const bool is_table = width > 1;
-  if (array.ndim() != (is_table ? 2 : 1) || (is_table && std::size_t(array.shape(1)) != width)) {
-    throw std::invalid_argument("an array of indices has the wrong shape");
-  }
-  std::vector<Row> rows(std::size_t(array.shape(0)));
-  if (!rows.empty()) std::memcpy(rows.data(), array.data(), rows.size() * sizeof(Row));
-  return rows;
-}
-
-/// \throws std::invalid_argument unless both are of the same shape (n, 3).
-fast::MovingVertices vertices_of(const Doubles& before, const Doubles& after) {
-  if (before.ndim() != 2 || after.ndim() != 2) {
-    throw std::invalid_argument("vertices must have the shape (n, 3)");
-  }
-  using Rows =
-      Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>;
-  return {Rows(before.data(), before.shape(0), before.shape(1)),
-          Rows(after.data(), after.shape(0), after.shape(1))};
-}
 
 /// An array of items as numpy.dtype(layout) has them.
 template <class Item>
@@ -183,20 +160,6 @@ std::function<bool(std::int32_t, std::int32_t)> rule_from(const py::object& can_
   };
 }
 
-/// \throws std::invalid_argument unless there is a distance for each pair of groups.
-std::vector<fast::GroupSeparation> separations_from(const Integers& groups,
-                                                    const Doubles& distances) {
-  const auto pairs = rows_of<std::array<std::int32_t, 2>>(groups);
-  if (distances.ndim() != 1 || std::size_t(distances.size()) != pairs.size()) {
-    throw std::invalid_argument("separations must have a distance for each pair of groups");
-  }
-  std::vector<fast::GroupSeparation> result;
-  for (std::size_t i = 0; i < pairs.size(); ++i) {
-    result.push_back({pairs[i], distances.data()[i]});
-  }
-  return result;
-}
-
 /// The result of work(); `progress`, unless None, is called now and then. \throws as
 /// in_background().
 template <class Work>
@@ -225,21 +188,14 @@ class StoppableStep {
                 const py::object& can_collide, double separation, const std::string& norm,
                 double toi_tolerance, double t_max, int threads)
       : stop_(std::make_shared<std::atomic<bool>>(false)) {
-    fast::Mesh mesh{.edges = rows_of<fast::Edge>(edges),
-                    .faces = rows_of<fast::Face>(faces),
-                    .points = rows_of<std::int32_t>(points),
-                    .tetrahedra = rows_of<fast::Tetrahedron>(tetrahedra),
-                    .plane_triangles = rows_of<fast::Face>(plane_triangles)};
+    fast::Mesh mesh = mesh_from(faces, edges, points, tetrahedra, plane_triangles);
     fast::MovingVertices vertices = vertices_of(before, after);
     const fast::StepOptions options{
         .separation = separation_from(separation, norm),
         .toi_tolerance = toi_tolerance,
         .t_max = t_max,
         .max_threads = is_forked() ? 1 : threads,
-        .groups = {.of_vertices = rows_of<std::int32_t>(groups),
-                   .apart = rows_of<std::array<std::int32_t, 2>>(apart),
-                   .radii = {radii.data(), radii.data() + radii.size()},
-                   .separations = separations_from(separated, separations)},
+        .groups = groups_from(groups, apart, radii, separated, separations),
         .can_collide = rule_from(can_collide),
         .stop = stop_.get()};
     const py::gil_scoped_release unlocked;
@@ -379,17 +335,13 @@ py::dict intersection_layout() {
 py::array intersections(const Doubles& vertices, const Integers& faces, const Integers& edges,
                         const Integers& points, const Integers& groups, const Integers& apart,
                         bool weld, int threads, const py::object& progress) {
-  const fast::Mesh mesh{.edges = rows_of<fast::Edge>(edges),
-                        .faces = rows_of<fast::Face>(faces),
-                        .points = rows_of<std::int32_t>(points)};
+  const fast::Mesh mesh = mesh_from(faces, edges, points);
   std::atomic<bool> stop = false;
   const fast::MovingVertices at_rest = vertices_of(vertices, vertices);
-  const fast::IntersectionOptions options{
-      .groups = {.of_vertices = rows_of<std::int32_t>(groups),
-                 .apart = rows_of<std::array<std::int32_t, 2>>(apart)},
-      .weld = weld,
-      .max_threads = is_forked() ? 1 : threads,
-      .stop = &stop};
+  const fast::IntersectionOptions options{.groups = groups_from(groups, apart),
+                                          .weld = weld,
+                                          .max_threads = is_forked() ? 1 : threads,
+                                          .stop = &stop};
   const auto found =
       searched(stop, progress, [&] { return fast::intersections(at_rest, mesh, options); });
   return array_of(found, intersection_layout());
@@ -428,6 +380,7 @@ void define_step(py::module_& m) {
       .def("least_distance", &StoppableStep::least_distance, arg("t"), arg("norm"), arg("progress"))
       .def("edges", &StoppableStep::edges)
       .def("query", &StoppableStep::query, arg("kind"), arg("first"), arg("second"));
+  m.def("is_forked", &is_forked);
   m.def("collision_layout", &collision_layout);
   m.def("intersections", &intersections, arg("vertices").noconvert(), arg("faces").noconvert(),
         arg("edges").noconvert(), arg("points").noconvert(), arg("groups").noconvert(),

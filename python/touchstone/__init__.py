@@ -58,9 +58,11 @@ from .scene import (
     LeastDistance,
     LineSearchLimit,
     PairKind,
+    SceneProof,
     Step,
     VolumeKind,
     intersections,
+    prove_mesh,
 )
 
 __all__ = [
@@ -84,6 +86,7 @@ __all__ = [
     "PairKind",
     "Queries",
     "Rejection",
+    "SceneProof",
     "Stage",
     "Step",
     "TightInclusionResult",
@@ -106,6 +109,7 @@ __all__ = [
     "intersections",
     "methods",
     "prove",
+    "prove_mesh",
     "read",
     "solve",
     "tight_inclusion",

@@ -1,9 +1,13 @@
 import numpy as np
 import numpy.typing as npt
 
-def read(
-    path: bytes, kind: str | None, round: bool
-) -> tuple[str, npt.NDArray[np.float64], npt.NDArray[np.uint8] | None, list[tuple[int, tuple[int, int]]]]: ...
+_Queries = tuple[str, npt.NDArray[np.float64], npt.NDArray[np.uint8] | None, list[tuple[int, tuple[int, int]]]]
+
+def families() -> list[str]: ...
+def generate(
+    kind: str, family: str | None, seed: int, count: int, separation: float, norm: str
+) -> list[tuple[str, _Queries]]: ...
+def read(path: bytes, kind: str | None, round: bool) -> _Queries: ...
 def write(
     path: bytes, kind: str, queries: npt.NDArray[np.float64], labels: npt.NDArray[np.bool_] | None
 ) -> None: ...

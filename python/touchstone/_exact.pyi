@@ -4,6 +4,7 @@ import numpy as np
 import numpy.typing as npt
 
 _Doubles = npt.NDArray[np.float64]
+_Integers = npt.NDArray[np.int32]
 _Items = npt.NDArray[np.void]
 _Progress = Callable[[int], None]
 
@@ -32,6 +33,38 @@ def prove(
     threads: int,
     progress: _Progress | None,
 ) -> tuple[int, bytes]: ...
+def prove_step(
+    before: _Doubles,
+    after: _Doubles,
+    faces: _Integers,
+    edges: _Integers,
+    points: _Integers,
+    groups: _Integers,
+    apart: _Integers,
+    tetrahedra: _Integers,
+    plane_triangles: _Integers,
+    radii: _Doubles,
+    separated: _Integers,
+    separations: _Doubles,
+    separation: float,
+    norm: str,
+    t_max: float,
+    threads: int,
+    label: str,
+    progress: _Progress | None,
+) -> tuple[str, bytes]: ...
+def prove_mesh(
+    vertices: _Doubles,
+    faces: _Integers,
+    edges: _Integers,
+    points: _Integers,
+    groups: _Integers,
+    apart: _Integers,
+    weld: bool,
+    threads: int,
+    label: str,
+    progress: _Progress | None,
+) -> tuple[str, bytes]: ...
 def check(
     certificates: bytes | str,
     scenes: bytes | str | None,

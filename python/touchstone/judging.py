@@ -9,7 +9,7 @@ import os
 import pathlib
 import pickle
 import sys
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from fractions import Fraction
 from typing import Any, Callable, Dict, Iterable, List, Literal, Sequence, Union
 
@@ -116,9 +116,13 @@ def read(path: PathLike, *, kind: Kind | None = None, round: bool = False) -> Qu
         found = _in_our_words(lambda: module.read(os.fsencode(path), kind, round))
     except KeyboardInterrupt as interrupt:
         raise Interrupted() from interrupt
-    its_kind, queries, labels, times = found
+    return _queries_from(found, str(path))
+
+
+def _queries_from(found: Any, name: str) -> Queries:
+    kind, queries, labels, times = found
     toi = {query: Fraction(*time) for query, time in times}
-    return Queries(its_kind, queries, None if labels is None else labels.astype(bool), str(path), toi)
+    return Queries(kind, queries, None if labels is None else labels.astype(bool), name, toi)
 
 
 def write(path: PathLike, queries: Queries) -> None:
@@ -147,11 +151,14 @@ def _write(path: PathLike, queries: Queries) -> None:
 
 
 def families() -> List[str]:
-    """Return the names of the families of the built-in set, about contact and about inversion."""
-    with Run() as run:
-        text, _, _ = run.call(["generate", "--list"])
-    names = [line.split()[0] for line in text.splitlines() if line[:1].strip()]
-    return names
+    """Return the names of the families of the built-in set, about contact, on curves and about inversion.
+
+    Raises
+    ------
+    ImportError
+        If this build does not have them.
+    """
+    return list(load("_data").families())
 
 
 @checked
@@ -188,16 +195,19 @@ def generate(
     Raises
     ------
     ValueError
-        For an unknown family.
+        For an unknown family, a negative number, or a separation of elements.
+    ImportError
+        If this build does not have the families.
+    Interrupted
+        At Ctrl-C.
     """
-    with Run() as run:
-        command = ["generate", "--out", run.folder / "set", "--count", count, "--seed", seed]
-        command += ["--kind", kind.replace("_", "-")]
-        if separation:
-            command += ["--min-separation", separation.hex(), "--norm", norm]
-        run.call(command + ([] if family is None else ["--family", family]))
-        files = sorted((run.folder / "set" / kind.replace("_", "-")).glob("*.csv"))
-        return [replace(read(file, kind=kind), name=file.stem) for file in files]
+    if min(count, seed) < 0:
+        raise ValueError("count and seed must not be negative")
+    try:
+        found = load("_data").generate(kind, family, seed, count, separation, norm)
+    except KeyboardInterrupt as interrupt:
+        raise Interrupted() from interrupt
+    return [_queries_from(one, name) for name, one in found]
 
 
 # ---- Solvers --------------------------------------------------------------------------------------

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 from dataclasses import dataclass
 from enum import IntEnum
 from typing import Any, Callable, Literal, Mapping, Tuple, TypeVar
@@ -12,9 +11,11 @@ import numpy.typing as npt
 
 from . import _fast
 from ._input import Doubles, Interrupted, Norm, as_doubles, as_indices, as_vertices, checked
-from ._tool import Progress, Run
+from ._tool import Progress
+from .exact import exact_module
 
 Value = TypeVar("Value")
+Indices = npt.NDArray[np.int32]
 
 
 class PairKind(IntEnum):
@@ -121,6 +122,44 @@ class LineSearchLimit:
     inversions: npt.NDArray[np.void]
 
 
+@dataclass(frozen=True)
+class SceneProof:
+    """A claim about a scene with its proof.
+
+    Attributes
+    ----------
+    claim : str
+        "no_contact T" or "earliest LO HI" of a step; "intersections N" or "welded_intersections N" of a
+        mesh at rest.
+    label : str
+        The label that was given.
+    certificate : bytes
+        A stream with this certificate, which `check` and touchstone-check read (exact/CERTIFICATES.md).
+    """
+
+    claim: str
+    label: str
+    certificate: bytes
+
+    def __repr__(self) -> str:
+        return f"SceneProof({self.claim!r}, {self.label!r}, {len(self.certificate)} bytes)"
+
+
+def _proved(
+    title: str,
+    prove: Callable[..., Tuple[str, bytes]],
+    arguments: Tuple[Any, ...],
+    threads: int,
+    label: str,
+    show: bool | None,
+) -> SceneProof:
+    if _fast.is_forked():
+        threads = 1  # the others of the pool are in the parent
+    with Progress(title, show, queries=1000) as bar:
+        claim, certificate = _ending_with_interrupts(lambda: prove(*arguments, threads, label, bar.callback))
+    return SceneProof(claim, label, certificate)
+
+
 def _ending_with_interrupts(work: Callable[[], Value]) -> Value:
     try:
         return work()
@@ -146,7 +185,7 @@ class Step:
     Two primitives collide if they have a common point at some time, or come within the separation. An
     element inverts if its volume is 0 or negative at some time.
     Answers are exact, and the same for any number of threads. Vertices alone collide with nothing: a
-    step without faces, edges and points is free, and `prove` refuses it.
+    step without faces, edges and points is free.
 
     Parameters
     ----------
@@ -494,67 +533,68 @@ class Step:
         found = self._search(lambda progress: self._step.least_distance(t, norm, progress))
         return None if found is None else LeastDistance(*found)
 
-    def prove(self, path: str | os.PathLike[str]) -> str:
-        """Write a proof: the step is free up to t_max, or the time of its earliest contact.
+    @checked
+    def prove(self, *, label: str = "") -> SceneProof:
+        """Prove that the step is free up to t_max, or the time of its earliest contact or inversion.
+
+        Edges are numbered there by their larger vertex, then by the smaller.
 
         Parameters
         ----------
-        path : path
-            The file to write, which `check` reads; compressed if its name ends in ".zst".
+        label : str, optional
+            A line of text for the certificate.
 
         Returns
         -------
-        str
-            The claim that is proved: "no_contact T" or "earliest LO HI".
+        SceneProof
+            The claim that is proved, "no_contact T" or "earliest LO HI", and its certificate.
 
         Raises
         ------
         ValueError
-            If there is no proof within the limits of the format, or the step has a rule `can_collide`, which
-            certificates cannot have, or triangles of the plane or radii in "linf", which the command line
-            tool does not take.
-        FileNotFoundError
-            Without the command line tool.
+            If the step has a rule `can_collide`, which certificates cannot have.
+        RuntimeError
+            If the certificate would exceed the limits of the format.
+        ImportError
+            If this build does not have the oracle.
         Interrupted
             At Ctrl-C.
+
+        Examples
+        --------
+        >>> import numpy as np, touchstone
+        >>> triangle = np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0]])
+        >>> before = np.concatenate([triangle, triangle + [0.125, 0.125, 1]])
+        >>> after = np.concatenate([triangle, triangle + [0.125, 0.125, 0.5]])
+        >>> proof = touchstone.Step(before, after, faces=[[0, 1, 2], [3, 4, 5]]).prove()
+        >>> proof.claim
+        'no_contact 1'
+        >>> touchstone.check(proof.certificate, claim="free")
+        CheckReport: 1 accepted, 0 rejected
         """
         if self._can_collide is not None:
             raise ValueError("prove: certificates know groups alone, not a rule can_collide")
-        faces, edges, points, groups, apart, tetrahedra, plane_triangles = self._elements
-        if len(plane_triangles):
-            raise ValueError("prove: the command line tool reads no triangles of the plane")
-        radii, separated, separations = self._thickness
-        with Run() as run:
-            frames = run.folder / "frames.npz"
-            elements = {"F": faces, **({"E": edges} if len(edges) else {}), "P": points, "T": tetrahedra}
-            np.savez(frames, V=np.stack(self._vertices), **elements)
-            separation, norm = self._separation
-            command: list[Any] = ["step", frames, "--earliest", "--prove", os.path.abspath(path)]
-            command += ["--min-separation", float(separation).hex(), "--norm", norm]
-            command += ["--t-max", repr(float(self._options[0])), "--threads", self._options[2]]
-            if len(radii) + len(separated) and not len(groups):
-                groups = np.zeros(len(self._vertices[0]), dtype=np.int32)
-            used = set(groups.tolist())
-            if len(groups):
-                names = run.folder / "groups.txt"
-                names.write_text("".join(f"{group}\n" for group in groups))
-                command += ["--groups", names]
-            command += [word for pair in apart for word in ("--apart", *pair)]
-            for option, lines in (
-                ("--radii", [f"{g},{radius!r}" for g, radius in enumerate(radii.tolist()) if g in used]),
-                ("--separations", [f"{a},{b},{d!r}" for (a, b), d in zip(separated, separations.tolist())]),
-            ):
-                if lines:
-                    table = run.folder / f"{option[2:]}.csv"
-                    table.write_text("".join(f"{line}\n" for line in lines))
-                    command += [option, table]
-            text, _, interrupted = run.call(command, title="Step.prove", show=self._progress)
-        if interrupted:
-            raise Interrupted()
-        for line in text.splitlines():
-            if ": proved: " in line:
-                return line.split(": proved: ")[1].split(";")[0]
-        raise ValueError("prove: no proof: " + text)
+        t_max, _, threads = self._options
+        arguments = (*self._vertices, *self._elements, *self._thickness, *self._separation, t_max)
+        return _proved("Step.prove", exact_module().prove_step, arguments, threads, label, self._progress)
+
+
+def _at_rest(
+    vertices: npt.ArrayLike,
+    faces: npt.ArrayLike | None,
+    edges: npt.ArrayLike | None,
+    points: npt.ArrayLike | None,
+    groups: npt.ArrayLike | None,
+    apart: npt.ArrayLike | None,
+) -> Tuple[Doubles, Indices, Indices, Indices, Indices, Indices]:
+    return (
+        as_vertices(vertices, "vertices"),
+        as_indices(faces, "faces", 3),
+        as_indices(edges, "edges", 2),
+        as_indices(points, "points", None),
+        as_indices(groups, "groups", None),
+        as_indices(apart, "apart", 2),
+    )
 
 
 @checked
@@ -619,15 +659,64 @@ def intersections(
     >>> touchstone.IntersectionKind(found[0]["kind"]).name
     'EDGE_THROUGH_FACE'
     """
-    arguments = (
-        as_vertices(vertices, "vertices"),
-        as_indices(faces, "faces", 3),
-        as_indices(edges, "edges", 2),
-        as_indices(points, "points", None),
-        as_indices(groups, "groups", None),
-        as_indices(apart, "apart", 2),
-    )
+    arguments = _at_rest(vertices, faces, edges, points, groups, apart)
     with Progress("intersections", progress) as bar:
         return _ending_with_interrupts(
             lambda: _fast.intersections(*arguments, weld, threads, bar.callback)
         )
+
+
+@checked
+def prove_mesh(
+    vertices: npt.ArrayLike,
+    faces: npt.ArrayLike | None = None,
+    *,
+    edges: npt.ArrayLike | None = None,
+    points: npt.ArrayLike | None = None,
+    groups: npt.ArrayLike | None = None,
+    apart: npt.ArrayLike | None = None,
+    weld: bool = False,
+    label: str = "",
+    threads: int = 0,
+    progress: bool | None = None,
+) -> SceneProof:
+    """Prove which elements of a mesh at rest intersect: these pairs, and no others.
+
+    Elements are numbered there: the faces as they are given, the edges of no face by their larger vertex,
+    then by the smaller, and the points without an edge by their vertex.
+
+    Parameters
+    ----------
+    vertices, faces, edges, points, groups, apart, weld, threads, progress
+        As for `intersections`.
+    label : str, optional
+        A line of text for the certificate.
+
+    Returns
+    -------
+    SceneProof
+        The claim that is proved, "intersections N" or "welded_intersections N", and its certificate.
+
+    Raises
+    ------
+    ValueError, IndexError
+        As `intersections`.
+    RuntimeError
+        If the certificate would exceed the limits of the format.
+    ImportError
+        If this build does not have the oracle.
+    Interrupted
+        At Ctrl-C.
+
+    Examples
+    --------
+    >>> import touchstone
+    >>> vertices = [[0, 0, 0], [4, 0, 0], [0, 4, 0], [1, 1, -1], [1, 1, 1], [9, 9, 0]]
+    >>> proof = touchstone.prove_mesh(vertices, [[0, 1, 2], [3, 4, 5]])
+    >>> proof.claim
+    'intersections 1'
+    >>> touchstone.check(proof.certificate)
+    CheckReport: 1 accepted, 0 rejected
+    """
+    arguments = (*_at_rest(vertices, faces, edges, points, groups, apart), weld)
+    return _proved("prove_mesh", exact_module().prove_mesh, arguments, threads, label, progress)

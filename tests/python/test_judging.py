@@ -399,22 +399,31 @@ def test_pages(eight, tmp_path):
     assert touchstone.view(eight.queries[0], "vertex_face").page.count("<script") > 0
 
 
-def test_proofs_of_steps(tmp_path):
-    triangle = np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0]])
-    before = np.concatenate([triangle, triangle + [0.125, 0.125, 1]])
-    after = np.concatenate([triangle, triangle + [0.125, 0.125, -1]])
-    step = touchstone.Step(before, after, faces=[[0, 1, 2], [3, 4, 5]], groups=[0] * 3 + [1] * 3, apart=[[0, 0]])
-    path = tmp_path / "step.cert"
-    assert step.prove(path).startswith("earliest ")
-    assert touchstone.check(path.read_bytes(), claim="earliest")
-    short = touchstone.Step(before, after, faces=[[0, 1, 2], [3, 4, 5]], t_max=0.25, separation=0.125, norm="l2")
-    assert short.prove(path) == "no_contact 1/4"
-    assert touchstone.check(path.read_bytes(), claim="no_contact 1/4", separation=0.125, norm="l2")
-    assert not touchstone.check(path.read_bytes(), claim="free")
-
-
-def test_without_the_tool_the_way_out_is_said(monkeypatch, eight):
+def test_without_the_tool_only_judging_is_missing(monkeypatch, eight):
     monkeypatch.setattr("touchstone._tool.FOLDER", pathlib.Path("/nowhere"))
     monkeypatch.setenv("PATH", "/nowhere")
     with pytest.raises(FileNotFoundError, match="./run python in the sources"):
         touchstone.certify("certified", eight)
+    hourglass = touchstone.generate("edge_edge", family="hourglass", count=3)[0]
+    assert hourglass.name in touchstone.families() and len(hourglass) == 3 and hourglass.collides is not None
+    triangle = np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0]])
+    before = np.concatenate([triangle, triangle + [0.125, 0.125, 1]])
+    after = np.concatenate([triangle, triangle + [0.125, 0.125, -1]])
+    scene = dict(faces=[[0, 1, 2], [3, 4, 5]], groups=[0] * 3 + [1] * 3, apart=[[0, 0]])
+    proof = touchstone.Step(before, after, **scene).prove(label="it falls")
+    assert proof.claim.startswith("earliest ") and touchstone.check(proof.certificate, claim="earliest")
+    assert proof.label == "it falls" and b"\nstep it falls\n" in proof.certificate
+    short = touchstone.Step(before, after, faces=scene["faces"], t_max=0.25, separation=0.125, norm="l2").prove()
+    assert short.claim == "no_contact 1/4"
+    assert touchstone.check(short.certificate, claim=short.claim, separation=0.125, norm="l2")
+    assert not touchstone.check(short.certificate, claim="free")
+    # Edges in any order and direction, some twice, one from a vertex to itself.
+    edges = [[5, 3], [1, 0], [4, 3], [2, 1], [0, 1], [5, 4], [2, 0]]
+    anyhow = touchstone.Step(before, after, edges=[*edges, [4, 4]]).prove()
+    assert anyhow == touchstone.Step(before, after, edges=sorted(sorted(e) for e in edges[:4] + edges[5:]), points=[4]).prove()
+    assert anyhow.claim.startswith("earliest ") and touchstone.check(anyhow.certificate)
+    for places, faces, claim in [(before, scene["faces"], "intersections 0"), (before * [1, 1, 0], scene["faces"], "intersections 1")]:
+        rest = touchstone.prove_mesh(places, faces, label="at rest")
+        assert rest.claim == claim and touchstone.check(rest.certificate, claim=claim)
+    with pytest.raises(RuntimeError, match="items, more than 4194304"):
+        touchstone.prove_mesh(before, scene["faces"], groups=scene["groups"], apart=np.zeros((1 << 22, 2), dtype=np.int32))

@@ -98,7 +98,7 @@ def test_an_interrupt_ends_a_step(only_released):
     before = random.normal(size=(60000, 3))  # minutes of pairs
     faces = np.arange(60000).reshape(-1, 3)
     step = touchstone.Step(before, before[::-1], faces=faces, progress=False)
-    for search in (step.collisions, step.candidates, lambda: step.active_set(0.5), step.least_distance):
+    for search in (step.collisions, step.candidates, lambda: step.active_set(0.5), step.least_distance, lambda: touchstone.prove_mesh(before, faces, progress=False)):
         assert interrupt_once_inside(search).value.result is None
     # The step is as good as before.
     apart = before + 100.0 * (np.arange(60000)[:, None] // 3)
@@ -149,7 +149,7 @@ def in_child(work, seconds: int = 120) -> int:
 def test_a_fork_after_use_works(queries, falling):
     expected = touchstone.certified("edge_edge", queries).collides.sum()
     step = touchstone.Step(**falling)
-    collisions = step.collisions()
+    collisions, proof = step.collisions(), step.prove()
 
     def work() -> None:
         assert touchstone.certified("edge_edge", queries).collides.sum() == expected
@@ -158,6 +158,7 @@ def test_a_fork_after_use_works(queries, falling):
         assert (again.collisions() == collisions).all()
         assert len(step.candidates()) == len(again.candidates()) > 0
         assert step.free_step_size() == again.free_step_size()
+        assert step.prove() == proof
 
     for _ in range(5):
         assert in_child(work) == 0

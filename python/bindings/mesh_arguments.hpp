@@ -1,0 +1,93 @@
+#pragma once
+
+/// \file
+/// Meshes of Python's arguments.
+
+#include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <stdexcept>
+#include <vector>
+
+#include "python/bindings/arguments.hpp"
+#include "touchstone/step.hpp"
+
+namespace touchstone::python {
+
+/// The rows of an array of integers of shape (n, k), or of shape (n,) for k = 1.
+template <class Row>
+[[nodiscard]] std::vector<Row> rows_of(const Integers& array) {
+  constexpr std::size_t width = sizeof(Row) / sizeof(std::int32_t);
+  const bool is_table = width > 1;
+  if (array.ndim() != (is_table ? 2 : 1) || (is_table && std::size_t(array.shape(1)) != width)) {
+    throw std::invalid_argument("an array of indices has the wrong shape");
+  }
+  std::vector<Row> rows(std::size_t(array.shape(0)));
+  if (!rows.empty()) std::memcpy(rows.data(), array.data(), rows.size() * sizeof(Row));
+  return rows;
+}
+
+/// \throws std::invalid_argument unless both are of the same shape (n, 3).
+[[nodiscard]] inline fast::MovingVertices vertices_of(const Doubles& before, const Doubles& after) {
+  if (before.ndim() != 2 || after.ndim() != 2) {
+    throw std::invalid_argument("vertices must have the shape (n, 3)");
+  }
+  using Rows =
+      Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>;
+  return {Rows(before.data(), before.shape(0), before.shape(1)),
+          Rows(after.data(), after.shape(0), after.shape(1))};
+}
+
+/// \throws std::invalid_argument unless there is a distance for each pair of groups.
+[[nodiscard]] inline std::vector<fast::GroupSeparation> separations_from(const Integers& groups,
+                                                                         const Doubles& distances) {
+  const auto pairs = rows_of<std::array<std::int32_t, 2>>(groups);
+  if (distances.ndim() != 1 || std::size_t(distances.size()) != pairs.size()) {
+    throw std::invalid_argument("separations must have a distance for each pair of groups");
+  }
+  std::vector<fast::GroupSeparation> result;
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    result.push_back({pairs[i], distances.data()[i]});
+  }
+  return result;
+}
+
+[[nodiscard]] inline fast::Mesh mesh_from(const Integers& faces, const Integers& edges,
+                                          const Integers& points) {
+  return {.edges = rows_of<fast::Edge>(edges),
+          .faces = rows_of<fast::Face>(faces),
+          .points = rows_of<std::int32_t>(points)};
+}
+
+/// The same, with elements that have a volume.
+[[nodiscard]] inline fast::Mesh mesh_from(const Integers& faces, const Integers& edges,
+                                          const Integers& points, const Integers& tetrahedra,
+                                          const Integers& plane_triangles) {
+  fast::Mesh mesh = mesh_from(faces, edges, points);
+  mesh.tetrahedra = rows_of<fast::Tetrahedron>(tetrahedra);
+  mesh.plane_triangles = rows_of<fast::Face>(plane_triangles);
+  return mesh;
+}
+
+[[nodiscard]] inline fast::CollisionGroups groups_from(const Integers& groups,
+                                                       const Integers& apart) {
+  return {.of_vertices = rows_of<std::int32_t>(groups),
+          .apart = rows_of<std::array<std::int32_t, 2>>(apart)};
+}
+
+/// The same, with the thickness of pairs.
+[[nodiscard]] inline fast::CollisionGroups groups_from(const Integers& groups,
+                                                       const Integers& apart, const Doubles& radii,
+                                                       const Integers& separated,
+                                                       const Doubles& separations) {
+  fast::CollisionGroups result = groups_from(groups, apart);
+  result.radii.assign(radii.data(), radii.data() + radii.size());
+  result.separations = separations_from(separated, separations);
+  return result;
+}
+
+}  // namespace touchstone::python
