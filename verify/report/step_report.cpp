@@ -11,6 +11,7 @@
 #include <tuple>
 #include <utility>
 
+#include "exact/checker/summary.hpp"
 #include "verify/io/csv.hpp"
 #include "verify/io/json.hpp"
 #include "verify/io/printable.hpp"
