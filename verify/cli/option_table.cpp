@@ -68,7 +68,7 @@ std::vector<OptionRow> make_table() {
       {"--degree", "D", OneOf{{"1", "2", "3", "4", "5", "6", "7", "8", "rational"}}, "Degree of the Bézier curves that points move on, 1 (straight lines, the default) to 8, or rational (of degrees 1 and 2); repeatable", "fuzz"},
       {"--degree", "D", OneOf{{"1", "2", "3", "rational"}}, "Built-in queries on curves of this degree, 1 (straight lines), 2 or 3, or rational ones; repeatable"},
       {"--min-separation", "D", Distance{}, "Contact: distance ≤ D, 0.5 or 0x1p-1 (default: separation.json, or 0)"},
-      {"--norm", "NORM", OneOf{{"linf", "l2"}}, "Norm of the distance: l2 (Euclid's, the default) or linf (greatest component)"},
+      {"--norm", "NORM", OneOf{{"linf", "l2"}}, "Norm of the distance: l2 (default) or linf (greatest component)"},
       {"--hardness", "NAME", {}, fmt::format("Only these; repeatable: {}", fmt::join(hardness_names(), ", "))},
       {"--family", "NAME", {}, "Only these families (see --list)", "generate", list},
       {"--patches", "N", Whole{1, 20'000}, "Write two patches of mesh instead of queries, before and after a step, with N cells per side: 4 N² faces"},
@@ -85,7 +85,7 @@ std::vector<OptionRow> make_table() {
       {"--most", "N", Whole{1, 100'000'000}, fmt::format("Maximum number of pairs that are told (default {})", report::most_intersections), "intersections"},
       {"--weld", "", {}, "Vertices at the same place, of the same group, are one"},
       {"--apart", "GROUP GROUP", {}, "Ignore collisions between groups A and B (A A: within A); repeatable", "", list},
-      {"--radii", "FILE", {}, "Thick groups, in l2: lines GROUP,RADIUS; in contact within the sum of two radii"},
+      {"--radii", "FILE", {}, "Lines GROUP,RADIUS: in contact within the sum of two radii, in l2"},
       {"--separations", "FILE", {}, "Lines GROUP,GROUP,DISTANCE, in place of the sum of two radii"},
 
       // Runs in pieces; the last two are for their processes.
