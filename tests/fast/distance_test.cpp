@@ -419,8 +419,7 @@ TEST(LeastDistance, IsThatOfAllPairs) {
 TEST(LeastDistance, HasTheNormThatSeparationsHaveByDefault) {
   tests::Places places(2, 3);
   places << 0, 0, 0, 0.9, 0.9, 0.9;
-  const std::vector<std::int32_t> points{0, 1};
-  const Step step(places, places, {.points = points}, {.separation = {.distance = 1.0}});
+  const Step step(places, places, {.points = {0, 1}}, {.separation = {.distance = 1.0}});
   EXPECT_GT(least_distance(step)->distance.lower, 1.0);
   EXPECT_TRUE(step.is_free());
   EXPECT_FALSE(step.with_separation({.distance = 1.0, .norm = Norm::linf}).is_free());

@@ -566,11 +566,9 @@ TEST(Intersections, OfAStepsStart) {
                   {{0, 1, 2}, {3, 4, 5}}};
   Rows lifted = mesh.vertices;
   lifted.bottomRows(3).col(2).array() += 5.0;
-  const std::vector<std::int32_t> groups{0, 0, 0, 1, 1, 1};
-  const std::vector<std::array<std::int32_t, 2>> apart{{0, 1}};
   const Step meeting(mesh.vertices, lifted, mesh.elements()), free(lifted, lifted, mesh.elements());
   const Step of_groups(mesh.vertices, lifted, mesh.elements(),
-                       {.groups = {.of_vertices = groups, .apart = apart}});
+                       {.groups = {.of_vertices = {0, 0, 0, 1, 1, 1}, .apart = {{0, 1}}}});
   EXPECT_EQ(meeting.intersections_at_start(), mesh.intersections());
   EXPECT_EQ(mesh.intersections().size(), 1U);
   EXPECT_FALSE(meeting.starts_free());
@@ -606,8 +604,7 @@ TEST(Intersections, AreNotDefects) {
   EXPECT_EQ(defects.degenerate_edges, (std::vector<std::int32_t>{}));
   EXPECT_EQ(defects.duplicated_vertices, (std::vector<IndexPair>{{5, 0}}));
   EXPECT_EQ(defects.unreferenced_vertices, (std::vector<std::int32_t>{4, 5}));
-  const std::vector<Edge> edges{{0, 1}, {0, 5}, {2, 2}};
-  EXPECT_EQ(mesh_defects(mesh.vertices, {.edges = edges}).degenerate_edges,
+  EXPECT_EQ(mesh_defects(mesh.vertices, {.edges = {{0, 1}, {0, 5}, {2, 2}}}).degenerate_edges,
             (std::vector<std::int32_t>{1, 2}));
 }
 
