@@ -457,11 +457,11 @@ TEST(CurvedNpy, SkipsAQueryWithAnInvalidNumberOrWeight) {
         std::tuple{std::size_t{3}, std::nan(""), "point 0, weight: not positive and finite"},
         std::tuple{std::size_t{15}, 0.0, "point 3, weight: not positive and finite"},
         std::tuple{std::size_t{15}, HUGE_VAL, "point 3, weight: not positive and finite"}}) {
-    std::vector<double> numbers(48, 1.0);
-    numbers[16 + place] = value;
+    std::vector<double> numbers(96, 1.0);
+    numbers[32 + place] = value;
     const TemporaryFolder folder;
     const Survivors kept = read_survivors(
-        folder.file("a_ee.npy", tests::array("<f8", {3, 1, 4, 4}, numbers)), folder.path());
+        folder.file("a_ee.npy", tests::array("<f8", {3, 2, 4, 4}, numbers)), folder.path());
     EXPECT_EQ(kept.messages, std::vector<std::string>{std::string("a_ee.npy: query 1, ") + fault});
     EXPECT_EQ(kept.records.size(), 2U);
   }
