@@ -12,7 +12,7 @@
 /// using namespace touchstone;
 ///
 /// int main() {
-///   const Eigen::Vector3d f0(0, 0, 0), f1(4, 0, 0), f2(0, 4, 0), above(1, 1, 1), below(1, 1, -2);
+///   const double f0[]{0, 0, 0}, f1[]{4, 0, 0}, f2[]{0, 4, 0}, above[]{1, 1, 1}, below[]{1, 1, -2};
 ///   const fast::CertifiedResult impact =
 ///       fast::solve_vertex_face(above, f0, f1, f2, below, f0, f1, f2);
 ///   if (impact.verdict != fast::Verdict::yes) return 1;  // exact

@@ -6,10 +6,10 @@
 /// intersect are these and no others (exact/CERTIFICATES.md, "Steps" and "Meshes at rest").
 ///
 /// \code{.cpp}
-/// // The proof that a step is free, as a file for `touchstone-check`.
+/// // The proof that a step is free.
 /// #include <touchstone/scene_certificate.hpp>
 ///
-/// #include <iostream>
+/// #include <cstdio>
 ///
 /// using namespace touchstone;
 ///
@@ -19,14 +19,13 @@
 ///                                 {1, 1, 3}, {2, 1, 4}, {1, 2, 4}};
 ///   Eigen::MatrixX3d after = before;
 ///   after.bottomRows<3>().col(2).array() -= 2;
-///   const std::vector<fast::Face> faces{{0, 1, 2}, {3, 4, 5}};
-///   const fast::Step step(before, after, {.faces = faces});
+///   const fast::Step step(before, after, {.faces = {{0, 1, 2}, {3, 4, 5}}});
 ///
-///   const exact::SceneProof proof = exact::prove_step(step, {.label = "a triangle above
-///   another"}); std::cerr << proof.claim << ' ' << proof.failure << '\n'; std::cout <<
-///   proof.stream; return proof.is_complete() ? 0 : 1;
+///   const exact::SceneProof proof = exact::prove_step(step, {.label = "one above another"});
+///   if (!proof.is_complete()) return 1;
+///   std::printf("%s\n", proof.claim.c_str());  // proof.stream is the file for touchstone-check
 /// }
-/// // claim no_contact 1
+/// // no_contact 1
 /// \endcode
 ///
 /// **A step.** The checker needs an argument for each pair that no axis separates until the time
