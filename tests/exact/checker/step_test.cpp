@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "exact/checker/checker.hpp"
+#include "exact/checker/summary.hpp"
 #include "tests/faults/planted_faults.hpp"
 #include "tests/support/built_files.hpp"
 #include "tests/support/checker_outcome.hpp"
