@@ -316,10 +316,10 @@ TEST(MeshCertificate, ProvesWhatIsDemandedAndNothingElse) {
 TEST(MeshCertificate, NamesWhatItsClaimLeavesOut) {
   const std::string free = "intersections 0/separations/", one = "1 mesh: no two elements ",
                     can = one + "that can meet intersect; ", triangle = "0 0 0/1 0 0/0 1 0/";
-  struct Row {
+  struct LeftOut {
     std::string mesh, size, rules, sentence;
   };
-  for (const auto& [of, size, rules, sentence] : std::vector<Row>{
+  for (const auto& [of, size, rules, sentence] : std::vector<LeftOut>{
            {mesh(triangle, "0 1 2/"), "3", "", one + "intersect"},
            {mesh(triangle + "5 5 5/6 6 6/", "0 1 2/"), "3 of 5", "2 vertices left out", can},
            {mesh(triangle, "0 1 2/", "", "", "", "0 0/"), "3", "1 group held apart from itself",
