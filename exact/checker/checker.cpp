@@ -142,8 +142,8 @@ class StreamCheck {
   void check_end(std::string_view word, std::uint64_t certificates) {
     const std::string expected = std::string(word) + ' ' + std::to_string(certificates);
     if (reader_.at_end()) reject("the stream is cut: it has no closing line '" + expected + "'");
-    const bool is_demanded =
-        options_.scenes != nullptr || !options_.claim.empty() || !options_.separation.empty();
+    const bool is_demanded = options_.scenes != nullptr || !options_.claim.empty() ||
+                             !options_.separation.empty() || !options_.rules.empty();
     if (certificates == 0 && is_demanded) reject("there is no certificate of what is demanded");
     reader_.begin(word);
     if (reader_.text() != expected) {

@@ -88,7 +88,8 @@ let check_one report options r =
 let check_end options r scenes word certificates =
   let expected = word ^ " " ^ string_of_int certificates in
   if r.at_end then reject ("the stream is cut: it has no closing line '" ^ expected ^ "'");
-  if certificates = 0 && (options.claim <> "" || options.separation <> "" || scenes <> None) then
+  let is_demanded = options.claim ^ options.separation ^ options.rules <> "" || scenes <> None in
+  if certificates = 0 && is_demanded then
     reject "there is no certificate of what is demanded";
   begin_keyword r word;
   if r.text <> expected then

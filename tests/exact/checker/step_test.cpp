@@ -613,8 +613,9 @@ TEST(Step, ProvesWhatIsDemandedAndNothingElse) {
   }
   const std::string none = "touchstone-steps 2\nsteps 0\n";
   EXPECT_EQ(refusal(none), "");
-  EXPECT_EQ(refusal(none, {.claim = demanded_claim("free")}),
-            "there is no certificate of what is demanded");
+  for (const Options& demand : {Options{.claim = "free"}, Options{.rules = "1 vertex left out"}}) {
+    EXPECT_EQ(refusal(none, demand), "there is no certificate of what is demanded");
+  }
   EXPECT_THROW(static_cast<void>(demanded_separation("1", "l1")), Rejection);
   EXPECT_THROW(static_cast<void>(demanded_separation("-1", "l2")), Rejection);
   EXPECT_THROW(static_cast<void>(demanded_separation("nan", "l2")), Rejection);
